@@ -1,0 +1,40 @@
+//! Turns a bitmap floor plan into the dirt that people leave in it.
+//!
+//! A crowd walks routes through the plan, every footfall leaves a shoe print on the floor, and the result is
+//! tiled floor textures for a game engine or a renderer. The stages, in the order in which the data goes:
+//!
+//! ```text
+//! plan image ─► plan ─► walls ───────────────────────┐
+//!                 │        │                          │
+//!                 └─► routes ─► crowd ─┐              │
+//!                                      ├─► motion ─► marks ─► stamps ─► sums ─► look ─► export
+//!                                                       ▲
+//!                                            patterns ──┘
+//! ```
+//!
+//! [`mod@bake`] joins them in one function; a reader who has read only that knows the program.
+//!
+//! Units are metres, seconds and radians counter-clockwise from +x unless a name says otherwise. The *plan
+//! frame* has its origin at the lower-left corner of the lower-left pixel, x right, y up.
+
+pub mod math;
+
+pub mod crowd;
+pub mod export;
+pub mod look;
+pub mod marks;
+pub mod motion;
+pub mod patterns;
+pub mod plan;
+pub mod routes;
+pub mod stamps;
+pub mod sums;
+pub mod walls;
+
+pub mod bake;
+mod error;
+mod progress;
+pub mod scenario;
+
+pub use error::Error;
+pub use progress::{Progress, Silent, Stage, Stopwatch};

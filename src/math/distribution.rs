@@ -1,0 +1,129 @@
+use rand::RngExt;
+use rand_distr::StandardNormal;
+use serde::{Deserialize, Serialize};
+
+use super::round_to_grid;
+
+/// A quantity that differs from person to person, as a scenario writes it.
+///
+/// In TOML: a number (`0.3`), a range drawn from evenly (`[0.28, 0.36]`), or a normal distribution
+/// (`{ mean = 1.34, sd = 0.26 }`), which `min` and `max` may cut off.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Distribution {
+    /// The same for everybody.
+    Constant(f64),
+    /// Evenly between the two.
+    Uniform([f64; 2]),
+    /// Normal; values beyond `min` and `max` are moved to them (no draw is rejected, so that every
+    /// person uses the same number of draws).
+    Normal {
+        /// Mean.
+        mean: f64,
+        /// Standard deviation.
+        sd: f64,
+        /// Least value; three deviations below the mean if left out.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        min: Option<f64>,
+        /// Largest value; three deviations above the mean if left out.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        max: Option<f64>,
+    },
+}
+
+/// Why a distribution cannot be drawn from.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum DistributionError {
+    /// A NaN or an infinity.
+    #[error("not a finite number")]
+    NotFinite,
+    /// The ends of a range in the wrong order.
+    #[error("the range runs from {0} down to {1}")]
+    Reversed(f64, f64),
+    /// A negative standard deviation.
+    #[error("the standard deviation {0} is negative")]
+    NegativeDeviation(f64),
+    /// A value that can be drawn lies beyond what the quantity allows.
+    #[error("it can be as {side} as {value}, allowed is {low} to {high}")]
+    OutOfRange {
+        /// "small" or "large".
+        side: &'static str,
+        /// The extreme that can be drawn.
+        value: f64,
+        /// Least value allowed.
+        low: f64,
+        /// Largest value allowed.
+        high: f64,
+    },
+}
+
+impl Distribution {
+    /// Normal, cut off at `min` and `max`.
+    pub const fn normal(mean: f64, sd: f64, min: f64, max: f64) -> Distribution {
+        Distribution::Normal { mean, sd, min: Some(min), max: Some(max) }
+    }
+
+    /// Draws one value, rounded to 1e-4 of its unit. Always takes the same amount from `rng`.
+    pub fn draw(&self, rng: &mut impl rand::Rng) -> f64 {
+        match *self {
+            Distribution::Constant(value) => value,
+            Distribution::Uniform([low, high]) => {
+                round_to_grid(low + (high - low) * rng.random::<f64>()).clamp(low, high)
+            }
+            Distribution::Normal { mean, sd, .. } => {
+                let z: f64 = rng.sample(StandardNormal);
+                let [low, high] = self.bounds();
+                round_to_grid(mean + sd * z).clamp(low, high)
+            }
+        }
+    }
+
+    /// Least and largest value that can be drawn.
+    pub fn bounds(&self) -> [f64; 2] {
+        match *self {
+            Distribution::Constant(value) => [value, value],
+            Distribution::Uniform(range) => range,
+            Distribution::Normal { mean, sd, min, max } => {
+                [min.unwrap_or(mean - 3.0 * sd), max.unwrap_or(mean + 3.0 * sd)]
+            }
+        }
+    }
+
+    /// Mean, before any cut-off.
+    pub fn mean(&self) -> f64 {
+        match *self {
+            Distribution::Constant(value) => value,
+            Distribution::Uniform([low, high]) => (low + high) / 2.0,
+            Distribution::Normal { mean, .. } => mean,
+        }
+    }
+
+    /// Checks that every value that can be drawn lies in `low..=high`.
+    ///
+    /// # Errors
+    /// Numbers that are not finite, ends in the wrong order, a negative deviation, values out of range.
+    pub fn check(&self, low: f64, high: f64) -> Result<(), DistributionError> {
+        if let Distribution::Normal { mean, sd, .. } = *self {
+            if !(mean.is_finite() && sd.is_finite()) {
+                return Err(DistributionError::NotFinite);
+            }
+            if sd < 0.0 {
+                return Err(DistributionError::NegativeDeviation(sd));
+            }
+        }
+        let [least, most] = self.bounds();
+        if !(least.is_finite() && most.is_finite()) {
+            return Err(DistributionError::NotFinite);
+        }
+        if least > most {
+            return Err(DistributionError::Reversed(least, most));
+        }
+        if least < low {
+            return Err(DistributionError::OutOfRange { side: "small", value: least, low, high });
+        }
+        if most > high {
+            return Err(DistributionError::OutOfRange { side: "large", value: most, low, high });
+        }
+        Ok(())
+    }
+}
