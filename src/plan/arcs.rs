@@ -1,0 +1,140 @@
+//! Finds quarter circles in a boundary.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use super::cracks::CrackLoop;
+use crate::math::{atan2, sin_cos};
+
+/// How much of a circle a door's arc is, radians: 60 to 112 degrees, as far as it can be followed.
+const SHORTEST_ARC: f64 = 1.05;
+const LONGEST_ARC: f64 = 1.95;
+/// How far an arc may be off a circle, share of the radius or pixels, whichever is more.
+const ROUNDNESS: f64 = 0.06;
+const ROUNDNESS_PX: f64 = 0.7;
+/// Arcs of fewer pixels cannot be told from rounded corners.
+const LEAST_RADIUS_PX: f64 = 10.0;
+/// The ends of an arc are blurred by what they meet: so much farther it may go on, radians.
+const END_MARGIN: f64 = 0.1;
+
+/// Part of a circle in the image, pixels and radians (y down).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Arc {
+    pub(super) centre: [f64; 2],
+    pub(super) radius: f64,
+    pub(super) from: f64,
+    /// Always more than `from`.
+    pub(super) to: f64,
+}
+
+impl Arc {
+    /// How far the quarter circle may go on beyond either end, radians.
+    pub(super) fn missing(&self) -> f64 {
+        (FRAC_PI_2 - (self.to - self.from)).max(0.0) * 0.5 + END_MARGIN
+    }
+
+    /// Whether a direction lies in the quarter circle, of which the ends may have been missed.
+    pub(super) fn spans(&self, angle: f64) -> bool {
+        let margin = self.missing();
+        let from = self.from - margin;
+        let beyond = (angle - from) - ((angle - from) / TAU).floor() * TAU;
+        beyond <= self.to - self.from + 2.0 * margin
+    }
+
+    pub(super) fn place(&self, radius: f64, angle: f64) -> [f64; 2] {
+        let (sine, cosine) = sin_cos(angle);
+        [self.centre[0] + radius * cosine, self.centre[1] + radius * sine]
+    }
+}
+
+/// What to look for.
+pub(super) struct Search {
+    /// Least and largest radius, pixels.
+    pub(super) radii: [f64; 2],
+    /// Distance between the points at which a boundary is looked at, pixel edges.
+    pub(super) step: usize,
+}
+
+impl Search {
+    /// Appends the parts of a boundary that are about quarter circles.
+    pub(super) fn find(&self, boundary: &CrackLoop, arcs: &mut Vec<Arc>) {
+        let [least, most] = [self.radii[0].max(LEAST_RADIUS_PX), self.radii[1]];
+        let points = smoothed(boundary, self.step);
+        let n = points.len();
+        if least > most || ((n * self.step) as f64) < least {
+            return;
+        }
+        let mut start = 0;
+        while start < n {
+            let radii = std::iter::successors(Some(least * 1.05), |r| Some(r * 1.12)).take_while(|&r| r < most);
+            match radii.filter_map(|radius| arc_at(&points, start, radius, self.step)).next() {
+                Some((arc, length)) => {
+                    let is_quarter = (SHORTEST_ARC..LONGEST_ARC).contains(&(arc.to - arc.from));
+                    if is_quarter && (least..=most).contains(&arc.radius) {
+                        arcs.push(arc);
+                    }
+                    start += length.max(1);
+                }
+                None => start += 1,
+            }
+        }
+    }
+}
+
+/// The mean of the boundary around every `step`-th pixel edge.
+fn smoothed(boundary: &CrackLoop, step: usize) -> Vec<[f64; 2]> {
+    let n = boundary.len();
+    let window = 2 * step + 1;
+    if n < window {
+        return Vec::new();
+    }
+    (0..n / step)
+        .map(|k| {
+            let around = (0..window).map(|w| boundary[(k * step + n + w - step) % n]);
+            let sum = around.fold([0i64; 2], |s, p| [s[0] + i64::from(p[0]), s[1] + i64::from(p[1])]);
+            sum.map(|s| s as f64 / window as f64)
+        })
+        .collect()
+}
+
+/// The arc of about `radius` that starts at a point, as long as it goes on, and the number of points on it.
+fn arc_at(points: &[[f64; 2]], start: usize, radius: f64, step: usize) -> Option<(Arc, usize)> {
+    let n = points.len();
+    let at = |k: usize| points[(start + k) % n];
+    let distance = |a: [f64; 2], b: [f64; 2]| ((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])).sqrt();
+    // The chord of the shortest arc; pixel edges are up to a diagonal longer than the way.
+    let chord = 2.0 * radius * sin_cos(SHORTEST_ARC * 0.5).0;
+    let longest = ((radius * LONGEST_ARC * 1.5) as usize / step).min(n - 1);
+    let end = (2..=longest).find(|&k| distance(at(0), at(k)) >= chord)?;
+    let (centre, r) = circle_through(at(0), at(end / 2), at(end))?;
+    if (r - radius).abs() > 0.1 * radius {
+        return None;
+    }
+    let is_on = |k: usize| (distance(at(k), centre) - r).abs() <= (ROUNDNESS * r).max(ROUNDNESS_PX);
+    if !(0..=end).all(is_on) {
+        return None;
+    }
+    let length = (end..n).take_while(|&k| is_on(k)).last().unwrap_or(end);
+    let angle = |k: usize| atan2(at(k)[1] - centre[1], at(k)[0] - centre[0]);
+    let first = angle(0);
+    let total = turn(first, angle(length / 2)) + turn(angle(length / 2), angle(length));
+    let (from, to) = if total >= 0.0 { (first, first + total) } else { (first + total, first) };
+    Some((Arc { centre, radius: r, from, to }, length))
+}
+
+/// The turn from one direction to another, in `[-pi, pi)`.
+fn turn(from: f64, to: f64) -> f64 {
+    let turns = (to - from + PI) / TAU;
+    (turns - turns.floor()) * TAU - PI
+}
+
+/// Centre and radius of the circle through three points; `None` if they lie in a line.
+fn circle_through(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Option<([f64; 2], f64)> {
+    let ([bx, by], [cx, cy]) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
+    let d = 2.0 * (bx * cy - by * cx);
+    if d.abs() < 1e-6 {
+        return None;
+    }
+    let (b2, c2) = (bx * bx + by * by, cx * cx + cy * cy);
+    let [x, y] = [(cy * b2 - by * c2) / d, (bx * c2 - cx * b2) / d];
+    Some(([a[0] + x, a[1] + y], (x * x + y * y).sqrt()))
+}

@@ -1,0 +1,102 @@
+//! Where a disc has room: exact erosion and dilation by discs, in time that does not grow with their radius.
+
+use rayon::prelude::*;
+
+/// Pixels of `mask` (non-zero) whose distance to every zero pixel is at least `radius` pixels, centre to centre.
+/// What lies beyond the image is no obstacle.
+pub(super) fn erode(mask: &[u8], width: usize, radius: f64) -> Vec<u8> {
+    let near = within(mask, width, radius, |pixel| pixel == 0, true);
+    near.into_iter().zip(mask).map(|(near, &m)| u8::from(near == 0 && m != 0)).collect()
+}
+
+/// Pixels whose distance to a non-zero pixel of `mask` is at most `radius` pixels, centre to centre.
+pub(super) fn dilate(mask: &[u8], width: usize, radius: f64) -> Vec<u8> {
+    within(mask, width, radius, |pixel| pixel != 0, false)
+}
+
+/// 1 where a source pixel lies within `radius`, or strictly within.
+///
+/// Down each column the distance to the nearest source above or below is swept; along each row a source at
+/// column distance g then reaches sqrt(radius^2 - g^2) to both sides, which two more sweeps carry on.
+fn within(mask: &[u8], width: usize, radius: f64, is_source: impl Fn(u8) -> bool + Sync, strictly: bool) -> Vec<u8> {
+    // Nothing needs distances beyond this; u16 holds them.
+    let far = (radius.ceil() as u16).saturating_add(1);
+    let reach = reaches(radius, far, strictly);
+    let columns = column_distances(mask, width, far, &is_source);
+    let mut near = vec![0u8; mask.len()];
+    near.par_chunks_exact_mut(width).zip(columns.par_chunks_exact(width)).for_each(|(near, columns)| {
+        let mut left = -1i32;
+        for (near, &g) in near.iter_mut().zip(columns) {
+            left = (left - 1).max(reach[usize::from(g)]);
+            *near = u8::from(left >= 0);
+        }
+        left = -1;
+        for (near, &g) in near.iter_mut().zip(columns).rev() {
+            left = (left - 1).max(reach[usize::from(g)]);
+            *near |= u8::from(left >= 0);
+        }
+    });
+    near
+}
+
+/// For each column distance: how many pixels to the side a source reaches, -1 for not even its own column.
+fn reaches(radius: f64, far: u16, strictly: bool) -> Vec<i32> {
+    let squared = radius * radius;
+    let covers = |g: u16, k: i32| {
+        let d = f64::from(g) * f64::from(g) + f64::from(k) * f64::from(k);
+        // A hair of tolerance: 0.2 m are 4 pixels of 0.05 m, whatever the rounding.
+        if strictly { d < squared - 1e-6 } else { d <= squared + 1e-6 }
+    };
+    let mut k = far as i32;
+    let mut all: Vec<i32> = Vec::with_capacity(usize::from(far) + 1);
+    for g in 0..=far {
+        while k >= 0 && !covers(g, k) {
+            k -= 1;
+        }
+        all.push(k);
+    }
+    all
+}
+
+fn column_distances(mask: &[u8], width: usize, far: u16, is_source: &impl Fn(u8) -> bool) -> Vec<u16> {
+    let mut distances: Vec<u16> = mask.iter().map(|&m| if is_source(m) { 0 } else { far }).collect();
+    let height = mask.len() / width;
+    for y in 1..height {
+        let (above, row) = distances[(y - 1) * width..].split_at_mut(width);
+        for (d, &a) in row.iter_mut().zip(above.iter()) {
+            *d = (*d).min(a + 1);
+        }
+    }
+    for y in (1..height).rev() {
+        let (row, below) = distances[(y - 1) * width..].split_at_mut(width);
+        for (d, &b) in row.iter_mut().zip(below.iter()) {
+            *d = (*d).min(b + 1);
+        }
+    }
+    distances
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn discs_agree_with_brute_force(mask in proptest::collection::vec(0u8..2, 77), radius in 0.3f64..6.0) {
+            let width = 11;
+            let squared = |a: usize, b: usize| {
+                let (dx, dy) = ((a % width) as f64 - (b % width) as f64, (a / width) as f64 - (b / width) as f64);
+                dx * dx + dy * dy
+            };
+            let eroded: Vec<u8> = (0..mask.len())
+                .map(|a| u8::from(mask[a] != 0 && (0..mask.len()).all(|b| mask[b] != 0 || squared(a, b) >= radius * radius)))
+                .collect();
+            prop_assert_eq!(erode(&mask, width, radius), eroded);
+            let dilated: Vec<u8> = (0..mask.len())
+                .map(|a| u8::from((0..mask.len()).any(|b| mask[b] != 0 && squared(a, b) <= radius * radius)))
+                .collect();
+            prop_assert_eq!(dilate(&mask, width, radius), dilated);
+        }
+    }
+}

@@ -1,0 +1,206 @@
+//! Connected pieces of a picture, as runs of pixels.
+
+use std::ops::Range;
+
+/// A horizontal run of pixels, `from..to` in row `y`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Run {
+    pub(super) y: u32,
+    pub(super) from: u32,
+    pub(super) to: u32,
+}
+
+/// A connected piece.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Component {
+    /// Number of pixels.
+    pub(super) area: usize,
+    /// Least x, least y.
+    pub(super) min: [u32; 2],
+    /// One beyond the largest x, the largest y.
+    pub(super) end: [u32; 2],
+    runs: Range<usize>,
+}
+
+impl Component {
+    /// Width and height of the rectangle around it.
+    pub(super) fn size(&self) -> [u32; 2] {
+        [self.end[0] - self.min[0], self.end[1] - self.min[1]]
+    }
+
+    pub(super) fn larger_side(&self) -> u32 {
+        let [width, height] = self.size();
+        width.max(height)
+    }
+}
+
+/// All pieces, by their first pixel in reading order.
+pub(super) struct Components {
+    runs: Vec<Run>,
+    pub(super) all: Vec<Component>,
+}
+
+/// What makes neighbours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Neighbours {
+    /// Sides.
+    Four,
+    /// Sides and corners.
+    Eight,
+}
+
+impl Components {
+    /// The pieces of the pixels that hold `value`.
+    pub(super) fn of(pixels: &[u8], width: usize, value: u8, neighbours: Neighbours) -> Components {
+        let (runs, row_starts) = find_runs(pixels, width, value);
+        let mut parents: Vec<u32> = (0..runs.len() as u32).collect();
+        let reach = u32::from(neighbours == Neighbours::Eight);
+        for rows in row_starts.windows(3) {
+            let (mut above, mut below) = (rows[0], rows[1]);
+            while above < rows[1] && below < rows[2] {
+                let (a, b) = (runs[above], runs[below]);
+                if a.from < b.to + reach && b.from < a.to + reach {
+                    join(&mut parents, above as u32, below as u32);
+                }
+                if a.to < b.to {
+                    above += 1;
+                } else {
+                    below += 1;
+                }
+            }
+        }
+        group(runs, &mut parents)
+    }
+
+    /// The runs of a piece, in reading order.
+    pub(super) fn runs(&self, component: &Component) -> &[Run] {
+        &self.runs[component.runs.clone()]
+    }
+
+    /// Writes `value` over a piece.
+    pub(super) fn paint(&self, component: &Component, pixels: &mut [u8], width: usize, value: u8) {
+        for run in self.runs(component) {
+            let row = run.y as usize * width;
+            pixels[row + run.from as usize..row + run.to as usize].fill(value);
+        }
+    }
+}
+
+/// Runs row by row, and where each row's runs start.
+fn find_runs(pixels: &[u8], width: usize, value: u8) -> (Vec<Run>, Vec<usize>) {
+    let mut runs = Vec::new();
+    let mut row_starts = vec![0];
+    for (y, row) in pixels.chunks_exact(width).enumerate() {
+        let mut x = 0;
+        while let Some(skip) = row[x..].iter().position(|&p| p == value) {
+            let from = x + skip;
+            let to = row[from..].iter().position(|&p| p != value).map_or(width, |n| from + n);
+            runs.push(Run { y: y as u32, from: from as u32, to: to as u32 });
+            x = to;
+        }
+        row_starts.push(runs.len());
+    }
+    (runs, row_starts)
+}
+
+fn root(parents: &mut [u32], mut at: u32) -> u32 {
+    while parents[at as usize] != at {
+        let up = parents[parents[at as usize] as usize];
+        parents[at as usize] = up;
+        at = up;
+    }
+    at
+}
+
+/// The smaller number becomes the root, so that pieces come out by their first run.
+fn join(parents: &mut [u32], a: u32, b: u32) {
+    let (a, b) = (root(parents, a), root(parents, b));
+    parents[a.max(b) as usize] = a.min(b);
+}
+
+fn group(runs: Vec<Run>, parents: &mut [u32]) -> Components {
+    const NONE: u32 = u32::MAX;
+    let mut number_of = vec![NONE; runs.len()];
+    let mut counts: Vec<usize> = Vec::new();
+    for k in 0..runs.len() {
+        let top = root(parents, k as u32) as usize;
+        if number_of[top] == NONE {
+            number_of[top] = counts.len() as u32;
+            counts.push(0);
+        }
+        number_of[k] = number_of[top];
+        counts[number_of[k] as usize] += 1;
+    }
+    let mut next = Vec::with_capacity(counts.len());
+    let mut all = Vec::with_capacity(counts.len());
+    let mut start = 0;
+    for count in counts {
+        next.push(start);
+        let runs = start..start + count;
+        all.push(Component { area: 0, min: [u32::MAX; 2], end: [0; 2], runs });
+        start += count;
+    }
+    let mut grouped = vec![Run { y: 0, from: 0, to: 0 }; runs.len()];
+    for (k, &run) in runs.iter().enumerate() {
+        let number = number_of[k] as usize;
+        grouped[next[number]] = run;
+        next[number] += 1;
+        let piece = &mut all[number];
+        piece.area += (run.to - run.from) as usize;
+        piece.min = [piece.min[0].min(run.from), piece.min[1].min(run.y)];
+        piece.end = [piece.end[0].max(run.to), piece.end[1].max(run.y + 1)];
+    }
+    Components { runs: grouped, all }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn areas(rows: &[&str], neighbours: Neighbours) -> Vec<usize> {
+        let pixels: Vec<u8> = rows.iter().flat_map(|r| r.bytes()).map(|b| u8::from(b == b'#')).collect();
+        Components::of(&pixels, rows[0].len(), 1, neighbours).all.iter().map(|c| c.area).collect()
+    }
+
+    #[test]
+    fn corners_join_eight_neighbours_only() {
+        let rows = ["#..#", ".##.", "#..#"];
+        assert_eq!(areas(&rows, Neighbours::Eight), [6]);
+        assert_eq!(areas(&rows, Neighbours::Four), [1, 1, 2, 1, 1]);
+    }
+
+    #[test]
+    fn arms_that_meet_late_are_one_piece() {
+        let pixels: Vec<u8> = "#.#.#.#.####".bytes().map(|b| u8::from(b == b'#')).collect();
+        let found = Components::of(&pixels, 4, 1, Neighbours::Four);
+        assert_eq!(found.all.len(), 1);
+        assert_eq!((found.all[0].min, found.all[0].end, found.all[0].area), ([0, 0], [4, 3], 8));
+    }
+
+    proptest! {
+        #[test]
+        fn pieces_agree_with_a_flood_fill(pixels in proptest::collection::vec(0u8..2, 63), eight: bool) {
+            let (width, height) = (9i32, 7i32);
+            let neighbours = if eight { Neighbours::Eight } else { Neighbours::Four };
+            let found = Components::of(&pixels, width as usize, 1, neighbours);
+            let mut left = pixels.clone();
+            let mut areas = Vec::new();
+            for first in 0..left.len() {
+                let mut stack = vec![first as i32];
+                let mut area = 0;
+                while let Some(at) = stack.pop() {
+                    if std::mem::take(&mut left[at as usize]) == 0 { continue; }
+                    area += 1;
+                    let (x, y) = (at % width, at / width);
+                    for (dx, dy) in [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)] {
+                        let within = (0..width).contains(&(x + dx)) && (0..height).contains(&(y + dy));
+                        if within && (eight || dx * dy == 0) { stack.push((y + dy) * width + x + dx); }
+                    }
+                }
+                if area > 0 { areas.push(area); }
+            }
+            prop_assert_eq!(found.all.iter().map(|c| c.area).collect::<Vec<_>>(), areas);
+        }
+    }
+}

@@ -1,0 +1,338 @@
+//! From pixels of any kind to how light they are, and which of them are wall.
+
+use image::DynamicImage;
+
+use super::colour::{Colour, is_saturated, lightness_against, luma};
+use super::ros_map::{Cell, Greys};
+use super::{PlanOptions, TransparentPolicy, UnknownPolicy};
+
+/// Lightness at which wall ends and floor begins unless a setting says otherwise.
+pub(super) const USUAL_THRESHOLD: u8 = 128;
+
+/// The grey of unknown cells and of free cells that mappers write.
+const MAP_UNKNOWN: u8 = 205;
+const MAP_FREE: u8 = 254;
+
+/// A plan image, understood pixel by pixel.
+pub(super) struct Drawing {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    /// 0 on the plan's usual wall tone, 255 on its usual floor tone.
+    pub(super) lightness: Vec<u8>,
+    /// 1 where wall is.
+    pub(super) dark: Vec<u8>,
+    /// 1 where saturated colour is; empty if nowhere.
+    pub(super) coloured: Vec<u8>,
+    /// What divided `dark` from the rest, in the image's own lightness.
+    pub(super) threshold: u8,
+    /// Whether it was measured (a map of a robot) rather than drawn: then it has no text, doors or dashes.
+    pub(super) scanned: bool,
+    /// A plain image whose greys are those of a robot's map: what was made of them.
+    pub(super) looks_like_map: bool,
+}
+
+/// Reads an image by the greys of a ROS map.
+pub(super) fn of_map(image: &DynamicImage, greys: &Greys, options: &PlanOptions) -> Drawing {
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    let policy = match options.transparent {
+        TransparentPolicy::Auto => None,
+        TransparentPolicy::Paper | TransparentPolicy::Floor => Some(Cell::Free),
+        TransparentPolicy::Wall => Some(Cell::Occupied),
+    };
+    let is_dark = |[r, g, b, a]: [u8; 4]| {
+        let grey = (f64::from(r) + f64::from(g) + f64::from(b)) / 3.0;
+        let cell = match policy {
+            Some(cell) if a < 255 => cell,
+            _ => greys.cell(grey, a == 255),
+        };
+        match cell {
+            Cell::Free => false,
+            Cell::Occupied => true,
+            Cell::Unknown => options.unknown == UnknownPolicy::Wall,
+        }
+    };
+    let dark: Vec<u8> = map_pixels(image, |pixel| u8::from(is_dark(pixel)));
+    let lightness = dark.iter().map(|&d| (1 - d) * 255).collect();
+    Drawing {
+        width,
+        height,
+        lightness,
+        dark,
+        coloured: Vec::new(),
+        threshold: USUAL_THRESHOLD,
+        scanned: true,
+        looks_like_map: false,
+    }
+}
+
+/// Reads a plain image: white is floor, black is wall, saturated colour is annotation.
+pub(super) fn of_image(image: &DynamicImage, options: &PlanOptions) -> Drawing {
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    let coloured = if image.color().has_color() {
+        map_pixels(image, |pixel| u8::from(is_annotation(pixel, options)))
+    } else {
+        Vec::new()
+    };
+    let coloured = if coloured.contains(&1) { coloured } else { Vec::new() };
+    let mut lightness = map_pixels(image, |pixel| lightness_of(pixel, options));
+    let looks_like_map = options.threshold.is_none() && coloured.is_empty() && has_map_greys(&lightness);
+    // In a robot's map everything up to the grey of unknown is no floor.
+    let usual =
+        if looks_like_map && options.unknown == UnknownPolicy::Wall { MAP_UNKNOWN + 1 } else { USUAL_THRESHOLD };
+    let threshold = options.threshold.unwrap_or(usual);
+    let mut dark: Vec<u8> = lightness.iter().map(|&l| u8::from(l < threshold)).collect();
+    if looks_like_map {
+        lightness = dark.iter().map(|&d| (1 - d) * 255).collect();
+    } else {
+        stretch(width, &mut lightness, &dark);
+        close_thin_lines(width, &lightness, &mut dark);
+    }
+    Drawing { width, height, lightness, dark, coloured, threshold, scanned: looks_like_map, looks_like_map }
+}
+
+/// One byte per pixel; grey images are not blown up to colour first.
+fn map_pixels(image: &DynamicImage, of: impl Fn([u8; 4]) -> u8) -> Vec<u8> {
+    match image {
+        DynamicImage::ImageLuma8(grey) => {
+            let table: Vec<u8> = (0..=255).map(|v| of([v, v, v, 255])).collect();
+            grey.as_raw().iter().map(|&v| table[usize::from(v)]).collect()
+        }
+        DynamicImage::ImageRgb8(rgb) => rgb.pixels().map(|p| of([p[0], p[1], p[2], 255])).collect(),
+        DynamicImage::ImageRgba8(rgba) => rgba.pixels().map(|p| of(p.0)).collect(),
+        other => other.to_rgba8().pixels().map(|p| of(p.0)).collect(),
+    }
+}
+
+/// A pixel laid on white paper.
+fn on_paper([r, g, b, a]: [u8; 4]) -> [u8; 3] {
+    let alpha = u32::from(a);
+    [r, g, b].map(|v| ((u32::from(v) * alpha + 255 * (255 - alpha) + 127) / 255) as u8)
+}
+
+fn wall_colour_lightness(pixel: [u8; 3], colours: &[Colour]) -> Option<u8> {
+    colours.iter().filter_map(|&c| lightness_against(c, pixel)).min()
+}
+
+fn is_annotation(pixel: [u8; 4], options: &PlanOptions) -> bool {
+    let pixel = on_paper(pixel);
+    is_saturated(pixel) && wall_colour_lightness(pixel, &options.wall_colours).is_none()
+}
+
+fn lightness_of(pixel: [u8; 4], options: &PlanOptions) -> u8 {
+    match options.transparent {
+        TransparentPolicy::Wall if pixel[3] < 128 => return 0,
+        TransparentPolicy::Floor if pixel[3] < 128 => return 255,
+        _ => {}
+    }
+    let pixel = on_paper(pixel);
+    if let Some(lightness) = wall_colour_lightness(pixel, &options.wall_colours) {
+        // Black is a wall whatever colours are named.
+        return if is_saturated(pixel) { lightness } else { lightness.min(luma(pixel)) };
+    }
+    if is_saturated(pixel) { 255 } else { luma(pixel) }
+}
+
+/// Whether a grey image has the greys of a robot's map: 254 for free and 205 for unknown.
+fn has_map_greys(lightness: &[u8]) -> bool {
+    let counts = histogram(lightness);
+    let light: usize = counts[128..].iter().sum();
+    let (unknown, free) = (counts[usize::from(MAP_UNKNOWN)], counts[usize::from(MAP_FREE)]);
+    let lightest_but_free = counts[206..].iter().sum::<usize>() - free;
+    unknown * 100 >= light && free * 20 >= light && free > lightest_but_free && (unknown + free) * 10 >= light * 6
+}
+
+fn histogram(values: &[u8]) -> [usize; 256] {
+    let mut counts = [0; 256];
+    for &value in values {
+        counts[usize::from(value)] += 1;
+    }
+    counts
+}
+
+/// Spreads lightness so that the plan's wall tone becomes 0 and its floor tone 255: what lies in between then
+/// tells which share of a pixel an anti-aliased edge covers.
+///
+/// The floor's tone is the commonest. The walls' is the commonest amid them, or where all lines are thin, that of
+/// the darkest twentieth.
+fn stretch(width: usize, lightness: &mut [u8], dark: &[u8]) {
+    let (mut wall, mut amid, mut floor) = ([0usize; 256], [0usize; 256], [0usize; 256]);
+    for (at, (&value, &is_dark)) in lightness.iter().zip(dark).enumerate() {
+        let tone = usize::from(value);
+        if is_dark == 0 {
+            floor[tone] += 1;
+            continue;
+        }
+        wall[tone] += 1;
+        let is_amid = at > width
+            && at + width + 1 < dark.len()
+            && [at - width - 1, at - width, at - width + 1, at - 1, at + 1, at + width - 1, at + width, at + width + 1]
+                .iter()
+                .all(|&near| dark[near] != 0);
+        amid[tone] += usize::from(is_amid);
+    }
+    let total: usize = wall.iter().sum();
+    let commonest = |counts: &[usize; 256]| (0..256).max_by_key(|&l| (counts[l], l)).unwrap_or(0);
+    let wall_tone = if amid.iter().sum::<usize>() * 20 >= total {
+        // Of equals the darkest.
+        (0..256).max_by_key(|&l| (amid[l], std::cmp::Reverse(l))).unwrap_or(0)
+    } else {
+        let mut seen = 0;
+        wall.iter()
+            .position(|&count| {
+                seen += count;
+                seen * 20 >= total && seen > 0
+            })
+            .unwrap_or(0)
+    };
+    let floor_tone = commonest(&floor);
+    if floor_tone < wall_tone + 32 {
+        return;
+    }
+    let span = floor_tone - wall_tone;
+    let table: Vec<u8> = (0..256usize)
+        .map(|l| ((l.clamp(wall_tone, floor_tone) - wall_tone) * 510 / span).div_ceil(2).min(255) as u8)
+        .collect();
+    for value in lightness {
+        *value = table[usize::from(*value)];
+    }
+}
+
+/// Closes the gaps that a threshold tears into anti-aliased lines one pixel wide.
+///
+/// Where such a line changes over from one row of pixels to the next, both pixels are half covered and neither
+/// may pass the threshold. The darker of the two becomes wall if the line goes on at both sides.
+fn close_thin_lines(width: usize, lightness: &[u8], dark: &mut [u8]) {
+    let height = lightness.len() / width;
+    let mut closed = Vec::new();
+    // Lines that are nearer to x, then those nearer to y: `at(along, across)` is a pixel.
+    torn_pairs(width, height, |x, y| y * width + x, lightness, dark, &mut closed);
+    torn_pairs(height, width, |y, x| y * width + x, lightness, dark, &mut closed);
+    for pixel in closed {
+        dark[pixel] = 1;
+    }
+}
+
+/// Finds what closes the gaps of thin lines that run along the first coordinate of `at`.
+fn torn_pairs(
+    length: usize,
+    breadth: usize,
+    at: impl Fn(usize, usize) -> usize,
+    lightness: &[u8],
+    dark: &[u8],
+    closed: &mut Vec<usize>,
+) {
+    let darkness = |a: usize, c: usize| 255 - u32::from(lightness[at(a, c)]);
+    let is_torn = |a: usize, c: usize| {
+        let (first, second) = (darkness(a, c), darkness(a, c + 1));
+        // Each partly dark, together nearly one pixel, and nothing else beside them.
+        (64..204).contains(&first)
+            && second >= 64
+            && first + second >= 204
+            && dark[at(a, c)] == 0
+            && dark[at(a, c + 1)] == 0
+            && darkness(a, c - 1) < 64
+            && darkness(a, c + 2) < 64
+    };
+    for c in 1..breadth.saturating_sub(2) {
+        let goes_on = |a: usize| (c - 1..=c + 2).any(|c| dark[at(a, c)] != 0);
+        let mut a = 0;
+        while a < length {
+            let gap = (a..length).take_while(|&a| is_torn(a, c)).count();
+            // Lines go on beyond the image.
+            let (before, after) = (a == 0 || goes_on(a - 1), a + gap == length || goes_on(a + gap));
+            if (1..length).contains(&gap) && before && after {
+                closed.extend((a..a + gap).map(|a| {
+                    let (first, second) = (at(a, c), at(a, c + 1));
+                    if lightness[second] < lightness[first] { second } else { first }
+                }));
+            }
+            a += gap + 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use image::{GrayImage, RgbImage, RgbaImage};
+
+    fn rgb(pixels: &[[u8; 3]], options: &PlanOptions) -> Vec<u8> {
+        let image = RgbImage::from_vec(pixels.len() as u32, 1, pixels.concat()).unwrap();
+        of_image(&DynamicImage::ImageRgb8(image), options).dark
+    }
+
+    #[test]
+    fn white_is_floor_black_is_wall_colour_is_annotation() {
+        let pixels = [[255, 255, 255], [0, 0, 0], [255, 0, 0], [0, 0, 140], [200, 200, 200], [109, 108, 95]];
+        assert_eq!(rgb(&pixels, &PlanOptions::default()), [0, 1, 0, 0, 0, 1]);
+    }
+
+    #[test]
+    fn a_named_colour_is_wall() {
+        let options = PlanOptions { wall_colours: vec![Colour([255, 0, 0])], ..PlanOptions::default() };
+        let pixels = [[255, 255, 255], [0, 0, 0], [250, 5, 0], [0, 0, 140], [200, 200, 200]];
+        assert_eq!(rgb(&pixels, &options), [0, 1, 1, 0, 0]);
+    }
+
+    #[test]
+    fn the_threshold_is_the_darkest_floor() {
+        let image = GrayImage::from_vec(256, 1, (0..=255).collect()).unwrap();
+        for threshold in [1, 100, 128, 255] {
+            let options = PlanOptions { threshold: Some(threshold), ..PlanOptions::default() };
+            let walls = of_image(&DynamicImage::ImageLuma8(image.clone()), &options).dark;
+            assert_eq!(walls.iter().filter(|&&d| d == 1).count(), usize::from(threshold));
+        }
+    }
+
+    #[test]
+    fn transparent_is_paper_or_what_the_setting_says() {
+        let image = RgbaImage::from_vec(3, 1, vec![0, 0, 0, 0, 0, 0, 0, 255, 255, 255, 255, 255]).unwrap();
+        let image = DynamicImage::ImageRgba8(image);
+        let dark = |transparent| of_image(&image, &PlanOptions { transparent, ..PlanOptions::default() }).dark;
+        assert_eq!(dark(TransparentPolicy::Auto), [0, 1, 0]);
+        assert_eq!(dark(TransparentPolicy::Wall), [1, 1, 0]);
+        assert_eq!(dark(TransparentPolicy::Floor), [0, 1, 0]);
+        let greys = Greys { mode: Default::default(), negate: false, occupied_at: 0.65, free_at: 0.196 };
+        assert_eq!(of_map(&image, &greys, &PlanOptions::default()).dark, [1, 1, 0]);
+    }
+
+    #[test]
+    fn sixteen_bits_are_read_as_eight() {
+        let image = image::ImageBuffer::from_vec(2, 1, vec![0x7fffu16, 0x80ff]).unwrap();
+        assert_eq!(of_image(&DynamicImage::ImageLuma16(image), &PlanOptions::default()).dark, [1, 0]);
+    }
+
+    #[test]
+    fn tones_are_stretched_to_black_and_white() {
+        // A thick wall of 110 with an anti-aliased edge of 182 on paper of 254.
+        let mut lightness = [[110, 110, 110, 182, 254, 254, 255]; 4].concat();
+        lightness[21] = 90;
+        let dark: Vec<u8> = lightness.iter().map(|&l| u8::from(l < 128)).collect();
+        stretch(7, &mut lightness, &dark);
+        assert_eq!(lightness[..7], [0, 0, 0, 128, 255, 255, 255]);
+        assert_eq!(lightness[21..], [0, 0, 0, 128, 255, 255, 255]);
+    }
+
+    #[test]
+    fn a_robots_map_without_its_yaml_is_recognised() {
+        let pixels = [vec![254; 60], vec![205; 30], vec![0; 10]].concat();
+        let image = DynamicImage::ImageLuma8(GrayImage::from_vec(100, 1, pixels).unwrap());
+        let drawing = of_image(&image, &PlanOptions::default());
+        assert!(drawing.looks_like_map);
+        assert_eq!(drawing.dark.iter().filter(|&&d| d == 1).count(), 40);
+    }
+
+    #[test]
+    fn a_thin_line_that_changes_rows_stays_whole() {
+        // Darkness of a line one pixel wide that sinks from row 1 to row 2; in the middle both are just too light.
+        let mut pixels = vec![255u8; 7 * 5];
+        for (x, share) in [0.0, 0.2, 0.35, 0.5, 0.65, 0.8, 1.0].into_iter().enumerate() {
+            pixels[7 + x] = (255.0 * share + 1.0f64).min(255.0) as u8;
+            pixels[14 + x] = (255.0 * (1.0 - share) + 1.0f64).min(255.0) as u8;
+        }
+        assert!(pixels[10] >= 128 && pixels[17] >= 128);
+        let image = DynamicImage::ImageLuma8(GrayImage::from_vec(7, 5, pixels).unwrap());
+        let dark = of_image(&image, &PlanOptions::default()).dark;
+        assert!((0..7).all(|x| dark[7 + x] + dark[14 + x] > 0));
+    }
+}

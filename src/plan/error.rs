@@ -1,0 +1,198 @@
+use std::path::PathBuf;
+
+use super::image_file::{LARGEST_AREA_PX, LARGEST_SIDE_PX};
+use super::scale::{LARGEST_M_PER_PX, LARGEST_SIDE_M, SMALLEST_M_PER_PX};
+use crate::math::Vec2;
+
+/// Why the `plan` stage cannot go on.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PlanError {
+    /// The file is not there or cannot be opened.
+    #[error("cannot read the plan {path}: {source}", path = .path.display())]
+    Open {
+        /// The plan image or map YAML.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// A file of zero bytes.
+    #[error("the plan {path} is empty (0 bytes)", path = .path.display())]
+    Empty {
+        /// The plan image or map YAML.
+        path: PathBuf,
+    },
+    /// Not an image that can be read.
+    #[error("the plan {path} is no image of a known format", path = .path.display())]
+    UnknownFormat {
+        /// The plan image.
+        path: PathBuf,
+    },
+    /// The image breaks off or its bytes make no sense.
+    #[error("the plan {path} is damaged: {reason}", path = .path.display())]
+    Damaged {
+        /// The plan image.
+        path: PathBuf,
+        /// What the decoder says.
+        reason: String,
+    },
+    /// More pixels than are read.
+    #[error(
+        "the plan {path} claims {width} x {height} pixels; at most {LARGEST_SIDE_PX} a side and \
+         {LARGEST_AREA_PX} in all are read",
+        path = .path.display()
+    )]
+    TooManyPixels {
+        /// The plan image.
+        path: PathBuf,
+        /// Pixels across, as its header says.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+    },
+    /// One pixel is no plan.
+    #[error("the plan {path} has {width} x {height} pixels: too small for a room", path = .path.display())]
+    TooFewPixels {
+        /// The plan image.
+        path: PathBuf,
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+    },
+    /// A map YAML that cannot be understood.
+    #[error("the map {path} cannot be used: {reason}", path = .path.display())]
+    Map {
+        /// The YAML.
+        path: PathBuf,
+        /// What is wrong, with line and column.
+        reason: String,
+    },
+    /// A map YAML's image is missing.
+    #[error("the map {map} names the image {image}, which does not exist", map = .map.display(), image = .image.display())]
+    MapImageMissing {
+        /// The YAML.
+        map: PathBuf,
+        /// The image, relative to the YAML resolved.
+        image: PathBuf,
+        /// An image beside it whose name is alike.
+        similar: Option<PathBuf>,
+    },
+    /// A scale that is not a number of metres.
+    #[error("{what} is {value}; metres per pixel must lie between {SMALLEST_M_PER_PX} and {LARGEST_M_PER_PX}")]
+    Scale {
+        /// Which scale it is, and where it comes from.
+        what: String,
+        /// Its value, metres per pixel.
+        value: f64,
+    },
+    /// Both a scale in metres per pixel and two points.
+    #[error("the scale is given twice: as metres per pixel and as two points")]
+    ScaleTwice,
+    /// Two points that give no scale.
+    #[error("the two points of the scale give none: {reason}")]
+    TwoPoints {
+        /// What is wrong with them.
+        reason: String,
+    },
+    /// A plan too large to walk.
+    #[error(
+        "at {metres_per_pixel} m per pixel the plan is {width_m:.0} x {height_m:.0} m; at most {LARGEST_SIDE_M} m a side are walked"
+    )]
+    TooLarge {
+        /// Scale.
+        metres_per_pixel: f64,
+        /// Width, metres.
+        width_m: f64,
+        /// Height, metres.
+        height_m: f64,
+    },
+    /// A setting beyond its range.
+    #[error("plan.{key} is {value}; it must lie between {low} and {high}")]
+    OutOfRange {
+        /// The setting's name.
+        key: &'static str,
+        /// Its value.
+        value: f64,
+        /// Least value allowed.
+        low: f64,
+        /// Largest value allowed.
+        high: f64,
+    },
+    /// Nothing white.
+    #[error("the plan has no floor: none of its {pixels} pixels is as light as the threshold, {threshold} of 255")]
+    NoFloor {
+        /// Pixels in the image.
+        pixels: usize,
+        /// Lightness at which floor begins.
+        threshold: u8,
+    },
+    /// Nothing black.
+    #[error("the plan has no walls: none of its {pixels} pixels is darker than the threshold, {threshold} of 255")]
+    NoWalls {
+        /// Pixels in the image.
+        pixels: usize,
+        /// Lightness at which floor begins.
+        threshold: u8,
+    },
+    /// White, but too narrow.
+    #[error(
+        "no place in the plan is wide enough for a person of {narrowest_m} m at {metres_per_pixel} m per pixel \
+         (the plan is {width_m:.2} x {height_m:.2} m)"
+    )]
+    NoRoom {
+        /// Width of the narrowest person, metres.
+        narrowest_m: f64,
+        /// Scale.
+        metres_per_pixel: f64,
+        /// Width of the plan, metres.
+        width_m: f64,
+        /// Height of the plan, metres.
+        height_m: f64,
+    },
+    /// A point that should be floor lies elsewhere.
+    #[error("the point ({x:.2}, {y:.2}) m that should be floor {where_}", x = .point_m.x, y = .point_m.y)]
+    SeedNotFloor {
+        /// The point, metres.
+        point_m: Vec2,
+        /// What it lies in instead.
+        where_: String,
+        /// The nearest place with room for a person, metres.
+        nearest_m: Option<Vec2>,
+    },
+}
+
+impl PlanError {
+    /// What the user can do about it.
+    pub fn hint(&self) -> Option<String> {
+        Some(match self {
+            PlanError::UnknownFormat { .. } => "use PNG, JPEG, BMP, PGM, TIFF or GIF, or the YAML of a ROS map".into(),
+            PlanError::Empty { .. } | PlanError::Damaged { .. } => "save or copy the file again".into(),
+            PlanError::TooManyPixels { .. } => "reduce the image; walls are traced more finely than pixels".into(),
+            PlanError::MapImageMissing { similar: Some(similar), .. } => {
+                format!("{} lies beside it: correct the name in the YAML", similar.display())
+            }
+            PlanError::MapImageMissing { similar: None, .. } => {
+                "the name after `image:` is relative to the YAML's folder".into()
+            }
+            PlanError::Scale { .. } => "0.05 means that a pixel is 5 cm wide".into(),
+            PlanError::ScaleTwice => "leave out plan.metres_per_pixel or plan.scale".into(),
+            PlanError::TwoPoints { .. } => {
+                "scale = { from = { px = [120, 40] }, to = { px = [480, 40] }, metres = 36.0 }".into()
+            }
+            PlanError::TooLarge { .. } | PlanError::NoRoom { .. } => {
+                "check the scale (--metres-per-pixel, plan.metres_per_pixel)".into()
+            }
+            PlanError::NoFloor { .. } => {
+                "white is floor, black is wall; lower plan.threshold if the floor is grey".into()
+            }
+            PlanError::NoWalls { .. } => {
+                "raise plan.threshold if walls are light grey; name plan.wall_colours if they are coloured".into()
+            }
+            PlanError::SeedNotFloor { nearest_m: Some(p), .. } => {
+                format!("the nearest floor is at [{:.2}, {:.2}]", p.x, p.y)
+            }
+            _ => return None,
+        })
+    }
+}

@@ -1,0 +1,198 @@
+//! Reads a plan image and decides what is floor.
+//!
+//! Takes an image (or a ROS map YAML) and a scale; gives a [`FloorPlan`]: which pixels are floor, how large a
+//! pixel is, where the floor meets the image's sides.
+
+use crate::math::Vec2;
+
+mod arcs;
+mod clearance;
+mod colour;
+mod components;
+pub(crate) mod cracks;
+mod doors;
+mod drawing;
+mod error;
+mod image_file;
+mod openings;
+mod options;
+mod read;
+mod regions;
+mod ros_map;
+mod scale;
+mod spaces;
+mod symbols;
+
+pub use colour::{Colour, ColourError};
+pub use error::PlanError;
+pub use image_file::{LARGEST_AREA_PX, LARGEST_SIDE_PX};
+pub use options::{PixelPoint, PlanOptions, PlanPoint, TransparentPolicy, TwoPoints, UnknownPolicy};
+pub use read::read;
+pub use scale::{ASSUMED_M_PER_PX, LARGEST_M_PER_PX, LARGEST_SIDE_M, SMALLEST_M_PER_PX};
+
+/// Openings narrower than this are none, metres.
+pub const NARROWEST_OPENING_M: f64 = 0.6;
+
+/// What was understood of a plan image.
+#[derive(Clone, Debug)]
+pub struct FloorPlan {
+    /// Image width in pixels.
+    pub width_px: u32,
+    /// Image height in pixels.
+    pub height_px: u32,
+    /// Side of a pixel in metres.
+    pub metres_per_pixel: f64,
+    /// One byte per pixel in image order (row 0 at the top, the largest y): 1 where people's floor is.
+    /// White that nobody can reach (outside, hollow walls, closed shafts) is 0.
+    pub floor: Vec<u8>,
+    /// How white each pixel is, 0 (wall) to 255 (floor), in image order. Between the two lie anti-aliased edges,
+    /// from which `walls` takes its sub-pixel places.
+    pub lightness: Vec<u8>,
+    /// The lightness at which wall ends and floor begins (128 unless the threshold was set).
+    pub threshold: u8,
+    /// Pose of the plan frame in the map frame; the identity unless a ROS map says otherwise.
+    pub map_from_plan: Pose,
+    /// Every connected white region, largest first, chosen or not.
+    pub regions: Vec<Region>,
+    /// Where the floor meets the image's sides.
+    pub openings: Vec<Opening>,
+    /// What a user should be told about this plan although it can be used, such as a scale that was assumed.
+    pub warnings: Vec<String>,
+}
+
+impl FloorPlan {
+    /// A plan from a ready mask in image order (row 0 at the top), 1 or any other non-zero byte where floor is.
+    ///
+    /// All of it is floor, whether anybody can reach it or not; openings and regions are found. A mask of the
+    /// wrong length is cut, or filled up with wall.
+    pub fn from_mask(width_px: u32, height_px: u32, metres_per_pixel: f64, mut floor: Vec<u8>) -> FloorPlan {
+        floor.resize(width_px as usize * height_px as usize, 0);
+        for pixel in &mut floor {
+            *pixel = u8::from(*pixel != 0);
+        }
+        let lightness = floor.iter().map(|&f| f * 255).collect();
+        let mut plan = FloorPlan {
+            width_px,
+            height_px,
+            metres_per_pixel,
+            floor,
+            lightness,
+            threshold: 128,
+            map_from_plan: Pose::default(),
+            regions: Vec::new(),
+            openings: Vec::new(),
+            warnings: Vec::new(),
+        };
+        plan.regions = regions::of_mask(&plan);
+        plan.openings = openings::find(&plan);
+        plan
+    }
+
+    /// Width in metres.
+    pub fn width_m(&self) -> f64 {
+        f64::from(self.width_px) * self.metres_per_pixel
+    }
+
+    /// Height in metres.
+    pub fn height_m(&self) -> f64 {
+        f64::from(self.height_px) * self.metres_per_pixel
+    }
+
+    /// Whether the pixel under a point of the plan frame is floor; false beyond the image.
+    pub fn is_floor(&self, p: Vec2) -> bool {
+        let [x, y] = self.m_to_px(p);
+        // Comparisons are written so that NaN lands outside.
+        let inside = x >= 0.0 && y >= 0.0 && x < f64::from(self.width_px) && y < f64::from(self.height_px);
+        inside && self.floor[y as usize * self.width_px as usize + x as usize] != 0
+    }
+
+    /// From pixels (from the top left, y down; whole numbers are pixel edges) to the plan frame.
+    pub fn px_to_m(&self, [x, y]: [f64; 2]) -> Vec2 {
+        Vec2 { x: x * self.metres_per_pixel, y: (f64::from(self.height_px) - y) * self.metres_per_pixel }
+    }
+
+    /// From the plan frame to pixels (from the top left, y down; whole numbers are pixel edges).
+    pub fn m_to_px(&self, p: Vec2) -> [f64; 2] {
+        [p.x / self.metres_per_pixel, f64::from(self.height_px) - p.y / self.metres_per_pixel]
+    }
+}
+
+/// A rigid motion: turn by `yaw_rad`, then move.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Pose {
+    /// Where the plan's origin lies in the map frame, metres.
+    pub origin_m: Vec2,
+    /// Radians counter-clockwise.
+    pub yaw_rad: f64,
+}
+
+/// A connected piece of white.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Region {
+    /// Area in square metres.
+    pub area_m2: f64,
+    /// A point in it, far from its border, metres.
+    pub inside_m: Vec2,
+    /// What it was taken for.
+    pub role: RegionRole,
+}
+
+/// What a connected white region was taken for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum RegionRole {
+    /// People walk here.
+    Floor,
+    /// The paper around the building.
+    Outside,
+    /// Too narrow for anybody, or nobody gets there.
+    Unreached,
+}
+
+/// A side of the image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[allow(missing_docs)]
+pub enum Side {
+    West,
+    South,
+    East,
+    North,
+}
+
+impl Side {
+    /// Unit vector that points out of the plan.
+    pub fn outward(self) -> Vec2 {
+        match self {
+            Side::West => Vec2 { x: -1.0, y: 0.0 },
+            Side::South => Vec2 { x: 0.0, y: -1.0 },
+            Side::East => Vec2 { x: 1.0, y: 0.0 },
+            Side::North => Vec2 { x: 0.0, y: 1.0 },
+        }
+    }
+}
+
+/// A stretch of an image side where floor goes on beyond the plan. At least 0.6 m wide.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Opening {
+    /// `west`, or `west 1`, `west 2`, ... (from the least x or y on) where a side has several.
+    pub name: String,
+    /// The side that it lies on.
+    pub side: Side,
+    /// The end of least x or y, metres.
+    pub from_m: Vec2,
+    /// The other end, metres.
+    pub to_m: Vec2,
+}
+
+impl Opening {
+    /// Width in metres.
+    pub fn width_m(&self) -> f64 {
+        self.from_m.distance(self.to_m)
+    }
+
+    /// Its middle.
+    pub fn centre_m(&self) -> Vec2 {
+        (self.from_m + self.to_m) * 0.5
+    }
+}

@@ -1,0 +1,234 @@
+//! Decides which white is floor.
+
+use super::clearance::{dilate, erode};
+use super::components::{Components, Neighbours};
+use super::spaces::{Spaces, split};
+use super::{FloorPlan, NARROWEST_OPENING_M, PlanError, Region, RegionRole};
+use crate::math::Vec2;
+
+/// A space that holds an image corner is outside if the others have at least this share of its area.
+const BUILDING_SHARE: f64 = 0.3;
+/// Doors between the building and the paper around it are narrower than this, metres.
+const WIDEST_DOOR_M: f64 = 2.0;
+/// The paper around a building takes up at least this share of the image's sides.
+const PAPER_SHARE: f64 = 0.5;
+/// It lies in at least this many of the image's corners.
+const PAPER_CORNERS: usize = 3;
+/// White that nobody can stand in is listed from this area on, square metres.
+const LEAST_LISTED_M2: f64 = 0.1;
+
+/// Fills in `floor` and `regions` of a plan whose `floor` holds all white.
+///
+/// Spaces are judged for a person of `narrowest_m`. Those that hold a point of `seeds` are floor; without
+/// seeds those that are not outside and have at least two openings, and if there is none the largest.
+pub(super) fn choose(plan: &mut FloorPlan, narrowest_m: f64, seeds: &[Vec2]) -> Result<(), PlanError> {
+    let width = plan.width_px as usize;
+    let in_px = |metres: f64| metres / plan.metres_per_pixel;
+    let (person_px, opening_px) = (in_px(narrowest_m), in_px(NARROWEST_OPENING_M));
+    let mut white = std::mem::take(&mut plan.floor);
+    let mut spaces = split(&white, width, person_px, opening_px);
+    if spaces.all.is_empty() {
+        return Err(PlanError::NoRoom {
+            narrowest_m,
+            metres_per_pixel: plan.metres_per_pixel,
+            width_m: plan.width_m(),
+            height_m: plan.height_m(),
+        });
+    }
+    let mut paper = None;
+    if let Some(cut) = paper_around(&white, &spaces, width, in_px(WIDEST_DOOR_M)) {
+        let seed_outside = seeds.iter().any(|&p| pixel_of(plan, p).is_some_and(|at| cut[at] != 0));
+        if !seed_outside {
+            for (white, &outside) in white.iter_mut().zip(&cut) {
+                *white &= 1 - outside;
+            }
+            spaces = split(&white, width, person_px, opening_px);
+            paper = Some(cut);
+        }
+    }
+    let roles = if seeds.is_empty() { roles_by_shape(&spaces) } else { roles_by_seeds(plan, &spaces, seeds)? };
+    plan.floor = spaces.label.iter().map(|&n| u8::from(n > 0 && roles[n as usize - 1] == RegionRole::Floor)).collect();
+    plan.regions = list(plan, &spaces, &roles, &white, paper.as_deref());
+    Ok(())
+}
+
+/// The 4-connected regions of a ready mask, largest first, all of them floor.
+pub(super) fn of_mask(plan: &FloorPlan) -> Vec<Region> {
+    let white = plan.floor.clone();
+    let spaces = split(&white, plan.width_px as usize, 1.0, 1.0);
+    let roles = vec![RegionRole::Floor; spaces.all.len()];
+    list(plan, &spaces, &roles, &white, None)
+}
+
+/// The pixels of the paper around a building that is joined to it by doors, if that is what the plan shows.
+///
+/// The paper is where a disc as wide as a wide door gets to from the image's corners. It must hold three corners,
+/// at least half of the image's sides, and leave a building of at least 0.3 of its area.
+fn paper_around(white: &[u8], spaces: &Spaces, width: usize, door_px: f64) -> Option<Vec<u8>> {
+    let height = white.len() / width;
+    if !spaces.all.iter().any(|s| s.corners > 0) {
+        return None;
+    }
+    let radius = (door_px * 0.5).max(1.0);
+    let wide = erode(white, width, radius);
+    let pieces = Components::of(&wide, width, 1, Neighbours::Four);
+    let mut core = vec![0u8; white.len()];
+    let corner = |x: u32, y: u32| (x == 0 || x == width as u32 - 1) && (y == 0 || y == height as u32 - 1);
+    for piece in &pieces.all {
+        let holds_corner = pieces.runs(piece).iter().any(|r| corner(r.from, r.y) || corner(r.to - 1, r.y));
+        if holds_corner {
+            pieces.paint(piece, &mut core, width, 1);
+        }
+    }
+    let mut paper = dilate(&core, width, radius);
+    for (paper, &white) in paper.iter_mut().zip(white) {
+        *paper &= white;
+    }
+    let area = paper.iter().filter(|&&p| p != 0).count();
+    let corners = [0, width - 1, (height - 1) * width, height * width - 1];
+    let on_sides = (0..paper.len()).filter(|&at| {
+        let (x, y) = (at % width, at / width);
+        paper[at] != 0 && (x == 0 || x == width - 1 || y == 0 || y == height - 1)
+    });
+    if corners.iter().filter(|&&at| paper[at] != 0).count() < PAPER_CORNERS
+        || (on_sides.count() as f64) < PAPER_SHARE * (2 * (width + height)) as f64
+    {
+        return None;
+    }
+    // The building: the largest piece that is left of the white that reaches into the paper, and what lies apart.
+    let mut touched = vec![false; spaces.all.len()];
+    for (at, &number) in spaces.label.iter().enumerate() {
+        if number > 0 && paper[at] != 0 {
+            touched[number as usize - 1] = true;
+        }
+    }
+    let is_left = |at: usize| paper[at] == 0 && spaces.label[at] > 0 && touched[spaces.label[at] as usize - 1];
+    let left: Vec<u8> = (0..white.len()).map(|at| u8::from(is_left(at))).collect();
+    let largest = Components::of(&left, width, 1, Neighbours::Four).all.iter().map(|p| p.area).max().unwrap_or(0);
+    let apart: usize =
+        spaces.all.iter().zip(&touched).filter(|(s, t)| s.corners == 0 && !**t).map(|(s, _)| s.area).sum();
+    (largest > 0 && (largest + apart) as f64 >= BUILDING_SHARE * area as f64).then_some(paper)
+}
+
+fn roles_by_shape(spaces: &Spaces) -> Vec<RegionRole> {
+    let all = &spaces.all;
+    let inner_area: usize = all.iter().filter(|s| s.corners == 0).map(|s| s.area).sum();
+    let passage = all.iter().any(|s| s.corners == 0 && s.openings >= 2);
+    let is_outside = |k: usize| {
+        all[k].corners > 0 && inner_area > 0 && (passage || inner_area as f64 >= BUILDING_SHARE * all[k].area as f64)
+    };
+    let inside: Vec<usize> = (0..all.len()).filter(|&k| !is_outside(k)).collect();
+    let passages: Vec<usize> = inside.iter().copied().filter(|&k| all[k].openings_and_corners >= 2).collect();
+    let largest = inside.iter().copied().max_by_key(|&k| (all[k].area, std::cmp::Reverse(k)));
+    let mut roles: Vec<RegionRole> =
+        (0..all.len()).map(|k| if is_outside(k) { RegionRole::Outside } else { RegionRole::Unreached }).collect();
+    for k in if passages.is_empty() { largest.into_iter().collect() } else { passages } {
+        roles[k] = RegionRole::Floor;
+    }
+    roles
+}
+
+fn roles_by_seeds(plan: &FloorPlan, spaces: &Spaces, seeds: &[Vec2]) -> Result<Vec<RegionRole>, PlanError> {
+    let mut roles = vec![RegionRole::Unreached; spaces.all.len()];
+    for &point_m in seeds {
+        let at = pixel_of(plan, point_m);
+        match at.map(|at| spaces.label[at]) {
+            Some(number) if number > 0 => roles[number as usize - 1] = RegionRole::Floor,
+            other => {
+                let where_ = match other {
+                    None => "lies beyond the image".to_owned(),
+                    Some(_) => "lies in a wall, or where nobody can stand".to_owned(),
+                };
+                return Err(PlanError::SeedNotFloor {
+                    point_m,
+                    where_,
+                    nearest_m: nearest_space(plan, spaces, point_m),
+                });
+            }
+        }
+    }
+    Ok(roles)
+}
+
+/// The pixel under a point, or `None` beyond the image.
+fn pixel_of(plan: &FloorPlan, p: Vec2) -> Option<usize> {
+    let [x, y] = plan.m_to_px(p);
+    let within = x >= 0.0 && y >= 0.0 && x < f64::from(plan.width_px) && y < f64::from(plan.height_px);
+    within.then(|| y as usize * plan.width_px as usize + x as usize)
+}
+
+/// The middle of the pixel of any space that is nearest to a point.
+fn nearest_space(plan: &FloorPlan, spaces: &Spaces, p: Vec2) -> Option<Vec2> {
+    let width = plan.width_px as usize;
+    let middle = |at: usize| plan.px_to_m([(at % width) as f64 + 0.5, (at / width) as f64 + 0.5]);
+    (0..spaces.label.len())
+        .filter(|&at| spaces.label[at] > 0)
+        .map(middle)
+        .min_by(|a, b| (*a - p).length_squared().total_cmp(&(*b - p).length_squared()))
+}
+
+/// All regions, largest first.
+fn list(plan: &FloorPlan, spaces: &Spaces, roles: &[RegionRole], white: &[u8], paper: Option<&[u8]>) -> Vec<Region> {
+    let width = plan.width_px as usize;
+    let pixel_m2 = plan.metres_per_pixel * plan.metres_per_pixel;
+    let depth = depths(white, width);
+    let region = |area: usize, inside: usize, role: RegionRole| Region {
+        area_m2: area as f64 * pixel_m2,
+        inside_m: plan.px_to_m([(inside % width) as f64 + 0.5, (inside / width) as f64 + 0.5]),
+        role,
+    };
+    let mut deepest = vec![(0u16, 0usize); spaces.all.len()];
+    for (at, &number) in spaces.label.iter().enumerate() {
+        if number > 0 && depth[at] > deepest[number as usize - 1].0 {
+            deepest[number as usize - 1] = (depth[at], at);
+        }
+    }
+    let mut regions: Vec<Region> =
+        (0..roles.len()).map(|k| region(spaces.all[k].area, deepest[k].1, roles[k])).collect();
+    // White in which nobody can stand, and the paper.
+    let rest: Vec<u8> = spaces.label.iter().zip(white).map(|(&n, &w)| u8::from(n == 0 && w != 0)).collect();
+    for (mask, role) in [(Some(rest.as_slice()), RegionRole::Unreached), (paper, RegionRole::Outside)] {
+        let Some(mask) = mask else { continue };
+        let pieces = Components::of(mask, width, 1, Neighbours::Four);
+        for piece in pieces.all.iter().filter(|p| p.area as f64 * pixel_m2 >= LEAST_LISTED_M2) {
+            let run = pieces.runs(piece)[pieces.runs(piece).len() / 2];
+            regions.push(region(piece.area, run.y as usize * width + (run.from + run.to) as usize / 2, role));
+        }
+    }
+    regions.sort_by(|a, b| b.area_m2.total_cmp(&a.area_m2));
+    regions
+}
+
+/// How far each white pixel lies from the nearest other, in fifths of a pixel (5-7 chamfer, saturating).
+fn depths(white: &[u8], width: usize) -> Vec<u16> {
+    let height = white.len() / width;
+    let mut depth: Vec<u16> = white.iter().map(|&w| if w != 0 { u16::MAX - 8 } else { 0 }).collect();
+    let pull = |depth: &mut [u16], at: usize, from: usize, step: u16| depth[at] = depth[at].min(depth[from] + step);
+    for y in 1..height {
+        for x in 0..width {
+            let at = y * width + x;
+            pull(&mut depth, at, at - width, 5);
+            if x > 0 {
+                pull(&mut depth, at, at - 1, 5);
+                pull(&mut depth, at, at - width - 1, 7);
+            }
+            if x + 1 < width {
+                pull(&mut depth, at, at - width + 1, 7);
+            }
+        }
+    }
+    for y in (0..height.saturating_sub(1)).rev() {
+        for x in (0..width).rev() {
+            let at = y * width + x;
+            pull(&mut depth, at, at + width, 5);
+            if x + 1 < width {
+                pull(&mut depth, at, at + 1, 5);
+                pull(&mut depth, at, at + width + 1, 7);
+            }
+            if x > 0 {
+                pull(&mut depth, at, at + width - 1, 7);
+            }
+        }
+    }
+    depth
+}

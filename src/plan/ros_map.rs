@@ -1,0 +1,264 @@
+//! The YAML of a ROS map (`map_server`): an image, its scale and pose, and what its greys mean.
+//!
+//! Format: <http://wiki.ros.org/map_server>, section 3.1, and the one of Nav2's map server, which agrees.
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use super::{PlanError, Pose};
+use crate::math::vec2;
+
+/// What a map says about its image.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct RosMap {
+    pub(super) image: PathBuf,
+    pub(super) metres_per_pixel: f64,
+    pub(super) pose: Pose,
+    pub(super) greys: Greys,
+}
+
+/// How a map's greys become free, occupied or unknown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Greys {
+    pub(super) mode: Mode,
+    pub(super) negate: bool,
+    pub(super) occupied_at: f64,
+    pub(super) free_at: f64,
+}
+
+/// `mode:` of a map.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Mode {
+    /// Free, occupied or unknown by two thresholds.
+    #[default]
+    Trinary,
+    /// Between the thresholds: the probability of being occupied.
+    Scale,
+    /// The pixel is the occupancy in percent; above 100 it is unknown.
+    Raw,
+}
+
+/// What is known about a cell of the map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Cell {
+    Free,
+    Occupied,
+    Unknown,
+}
+
+impl Greys {
+    /// What a pixel says; `grey` is the mean of its channels.
+    ///
+    /// With p = (255 - grey)/255, or grey/255 where `negate` is set: occupied from `occupied_thresh` on, free up to
+    /// `free_thresh`, unknown in between and wherever the pixel is not opaque. `scale` maps, whose values in
+    /// between are probabilities, are free below one half. `raw` maps hold percent themselves.
+    pub(super) fn cell(&self, grey: f64, opaque: bool) -> Cell {
+        if !opaque {
+            return Cell::Unknown;
+        }
+        let p = match (self.mode, self.negate) {
+            (Mode::Raw, false) => grey / 100.0,
+            (Mode::Raw, true) => (255.0 - grey) / 100.0,
+            (_, false) => (255.0 - grey) / 255.0,
+            (_, true) => grey / 255.0,
+        };
+        if self.mode == Mode::Raw && p > 1.0 {
+            Cell::Unknown
+        } else if p >= self.occupied_at {
+            Cell::Occupied
+        } else if p <= self.free_at {
+            Cell::Free
+        } else if self.mode == Mode::Scale {
+            let share = (p - self.free_at) / (self.occupied_at - self.free_at);
+            if share < 0.5 { Cell::Free } else { Cell::Occupied }
+        } else {
+            Cell::Unknown
+        }
+    }
+}
+
+/// Whether a path is the YAML of a map rather than an image.
+pub(super) fn is_map(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("yaml") || e.eq_ignore_ascii_case("yml"))
+}
+
+#[derive(Deserialize)]
+struct File {
+    image: String,
+    resolution: f64,
+    origin: Vec<f64>,
+    #[serde(default)]
+    negate: Negate,
+    #[serde(default = "usual_occupied")]
+    occupied_thresh: f64,
+    #[serde(default = "usual_free")]
+    free_thresh: f64,
+    #[serde(default)]
+    mode: Mode,
+}
+
+/// `negate: 0`, `negate: 1`, and what YAML writers make of it.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Negate {
+    Number(i64),
+    Flag(bool),
+}
+
+impl Default for Negate {
+    fn default() -> Negate {
+        Negate::Flag(false)
+    }
+}
+
+fn usual_occupied() -> f64 {
+    0.65
+}
+
+fn usual_free() -> f64 {
+    0.196
+}
+
+/// Reads a map's YAML. Its resolution is checked with the other scales, its image not at all.
+pub(super) fn read(path: &Path) -> Result<RosMap, PlanError> {
+    let text = std::fs::read_to_string(path).map_err(|source| PlanError::Open { path: path.to_owned(), source })?;
+    if text.trim().is_empty() {
+        return Err(PlanError::Empty { path: path.to_owned() });
+    }
+    let refuse = |reason: String| PlanError::Map { path: path.to_owned(), reason };
+    let file: File = serde_saphyr::from_str(&text).map_err(|e| refuse(e.without_snippet().to_string()))?;
+    let (x, y, yaw_rad) = match file.origin[..] {
+        [x, y] => (x, y, 0.0),
+        [x, y, yaw] => (x, y, yaw),
+        _ => return Err(refuse(format!("origin has {} numbers instead of x, y, yaw", file.origin.len()))),
+    };
+    if !(x.is_finite() && y.is_finite() && yaw_rad.is_finite()) {
+        return Err(refuse(format!("origin [{x}, {y}, {yaw_rad}] is not finite")));
+    }
+    for (key, value) in [("occupied_thresh", file.occupied_thresh), ("free_thresh", file.free_thresh)] {
+        if !(0.0..=1.0).contains(&value) {
+            return Err(refuse(format!("{key} is {value}; it must lie between 0 and 1")));
+        }
+    }
+    if file.free_thresh >= file.occupied_thresh {
+        let (free, occupied) = (file.free_thresh, file.occupied_thresh);
+        return Err(refuse(format!("free_thresh {free} is not below occupied_thresh {occupied}")));
+    }
+    let image = path.parent().unwrap_or(Path::new("")).join(&file.image);
+    if !image.is_file() {
+        let similar = similar_name(&image);
+        return Err(PlanError::MapImageMissing { map: path.to_owned(), image, similar });
+    }
+    let negate = match file.negate {
+        Negate::Number(number) => number != 0,
+        Negate::Flag(flag) => flag,
+    };
+    Ok(RosMap {
+        image,
+        metres_per_pixel: file.resolution,
+        pose: Pose { origin_m: vec2(x, y), yaw_rad },
+        greys: Greys { mode: file.mode, negate, occupied_at: file.occupied_thresh, free_at: file.free_thresh },
+    })
+}
+
+/// The image in the same folder whose name is most like that of a missing one.
+fn similar_name(missing: &Path) -> Option<PathBuf> {
+    const ENDINGS: [&str; 9] = ["pgm", "png", "jpg", "jpeg", "bmp", "tif", "tiff", "gif", "pnm"];
+    let wanted = missing.file_name()?.to_str()?.to_lowercase();
+    let mut best: Option<(f64, PathBuf)> = None;
+    for entry in std::fs::read_dir(missing.parent()?).ok()?.flatten() {
+        let path = entry.path();
+        let ending = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
+        let Some(name) = path.file_name().and_then(|n| n.to_str()).map(str::to_lowercase) else { continue };
+        if !ENDINGS.contains(&ending.as_str()) {
+            continue;
+        }
+        let likeness = strsim::jaro_winkler(&wanted, &name);
+        // Ties by name, so that the folder's order decides nothing.
+        let better = best.as_ref().is_none_or(|(most, p)| likeness > *most || (likeness == *most && path < *p));
+        if likeness > 0.7 && better {
+            best = Some((likeness, path));
+        }
+    }
+    best.map(|(_, path)| path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const USUAL: Greys = Greys { mode: Mode::Trinary, negate: false, occupied_at: 0.65, free_at: 0.196 };
+
+    #[test]
+    fn grey_205_is_unknown_or_free_by_the_free_threshold() {
+        assert_eq!(USUAL.cell(205.0, true), Cell::Unknown);
+        assert_eq!(Greys { free_at: 0.25, ..USUAL }.cell(205.0, true), Cell::Free);
+    }
+
+    #[test]
+    fn thresholds_belong_to_occupied_and_free() {
+        let greys = Greys { occupied_at: 0.6, free_at: 0.2, ..USUAL };
+        assert_eq!(greys.cell(102.0, true), Cell::Occupied);
+        assert_eq!(greys.cell(103.0, true), Cell::Unknown);
+        assert_eq!(greys.cell(203.0, true), Cell::Unknown);
+        assert_eq!(greys.cell(204.0, true), Cell::Free);
+    }
+
+    #[test]
+    fn negate_turns_black_into_floor_and_transparent_is_unknown() {
+        let negated = Greys { negate: true, ..USUAL };
+        assert_eq!(negated.cell(0.0, true), Cell::Free);
+        assert_eq!(negated.cell(255.0, true), Cell::Occupied);
+        assert_eq!(negated.cell(0.0, false), Cell::Unknown);
+    }
+
+    #[test]
+    fn scale_splits_in_the_middle_and_raw_holds_percent() {
+        let scale = Greys { mode: Mode::Scale, ..USUAL };
+        assert_eq!(scale.cell(255.0 * (1.0 - 0.40), true), Cell::Free);
+        assert_eq!(scale.cell(255.0 * (1.0 - 0.45), true), Cell::Occupied);
+        let raw = Greys { mode: Mode::Raw, ..USUAL };
+        let cells = [0.0, 19.0, 40.0, 65.0, 100.0, 101.0, 255.0].map(|grey| raw.cell(grey, true));
+        use Cell::{Free, Occupied, Unknown};
+        assert_eq!(cells, [Free, Free, Unknown, Occupied, Occupied, Unknown, Unknown]);
+    }
+
+    fn read_text(text: &str) -> Result<RosMap, PlanError> {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("empty_room.pgm"), "P5 1 1 255 x").unwrap();
+        let path = folder.path().join("map.yaml");
+        std::fs::write(&path, text).unwrap();
+        read(&path)
+    }
+
+    #[test]
+    fn a_map_is_read_with_all_its_keys() {
+        let text = "image: \"empty_room.pgm\"\nresolution: 0.1\norigin: [-2.0, -3, -1.]\nnegate: 1\n\
+                    occupied_thresh: 0.5\nfree_thresh: 0.2\nmode: scale\n";
+        let map = read_text(text).unwrap();
+        assert_eq!(map.metres_per_pixel, 0.1);
+        assert_eq!(map.pose, Pose { origin_m: vec2(-2.0, -3.0), yaw_rad: -1.0 });
+        assert_eq!(map.greys, Greys { mode: Mode::Scale, negate: true, occupied_at: 0.5, free_at: 0.2 });
+    }
+
+    #[test]
+    fn a_missing_image_is_named_with_the_one_that_may_be_meant() {
+        let error = read_text("image: empty.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n").unwrap_err();
+        assert!(error.to_string().contains("empty.pgm"), "{error}");
+        assert!(error.hint().unwrap().contains("empty_room.pgm"));
+    }
+
+    #[test]
+    fn what_is_wrong_in_a_map_is_said_with_its_line() {
+        let error = read_text("image: empty_room.pgm\nresolution: coarse\norigin: [0, 0, 0]\n").unwrap_err();
+        assert!(error.to_string().contains("line 2"), "{error}");
+        let error = read_text("image: empty_room.pgm\norigin: [0, 0, 0]\n").unwrap_err();
+        assert!(error.to_string().contains("resolution"), "{error}");
+        for wrong in ["origin: [0]", "origin: [.nan, 0, 0]", "origin: [0, 0, 0]\nfree_thresh: 0.7", "origin: 3"] {
+            let text = format!("image: empty_room.pgm\nresolution: 0.1\n{wrong}\n");
+            assert!(matches!(read_text(&text), Err(PlanError::Map { .. })), "{wrong}");
+        }
+    }
+}
