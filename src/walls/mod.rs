@@ -1,0 +1,218 @@
+//! Traces the wall faces of a plan as polylines in metres, and answers how far the nearest wall is.
+
+use crate::math::{Rect, Vec2};
+use crate::plan::{FloorPlan, cracks};
+
+mod coverage;
+mod curve;
+mod error;
+mod fit;
+mod index;
+mod line;
+mod outline;
+mod polygon;
+mod runs;
+mod stabbing;
+mod subpixel;
+
+#[cfg(test)]
+mod truth_tests;
+
+pub use error::WallsError;
+pub use outline::Outline;
+
+/// How far beyond an opening the floor goes on unseen, metres: room to appear and to vanish.
+pub const APRON_M: f64 = 3.0;
+
+/// One wall face: the floor lies on the **right** of the polyline, so that arc length grows to the right for a
+/// viewer who stands on the floor and looks at the wall.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Face {
+    /// Whether the last point joins the first (rooms, pillars). The first is not repeated.
+    pub closed: bool,
+    /// Corners and ends, metres. A closed face starts at its vertex least in (y, x).
+    #[serde(rename = "points")]
+    pub points_m: Vec<Vec2>,
+}
+
+impl Face {
+    /// Length of the polyline, metres.
+    pub fn length_m(&self) -> f64 {
+        let open: f64 = self.points_m.windows(2).map(|w| w[0].distance(w[1])).sum();
+        match (self.closed, self.points_m.first(), self.points_m.last()) {
+            (true, Some(&first), Some(&last)) => open + last.distance(first),
+            _ => open,
+        }
+    }
+}
+
+/// The place on a wall nearest to a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest {
+    /// Distance from the point to the wall, metres. Never negative; see [`Walls::is_inside`].
+    pub distance_m: f64,
+    /// The place on the wall.
+    pub point_m: Vec2,
+    /// Index into [`Walls::faces`], or `None` for the unseen walls of an apron.
+    pub face: Option<usize>,
+    /// Arc length from the face's start to the place, metres.
+    pub along_m: f64,
+}
+
+/// One straight piece of a wall, floor on its right.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// Start, metres.
+    pub a: Vec2,
+    /// End, metres.
+    pub b: Vec2,
+    /// Index into [`Walls::faces`], or `None` for the unseen walls of an apron.
+    pub face: Option<usize>,
+    /// Arc length from the face's start to `a`, metres; 0 on an apron.
+    pub along_m: f64,
+}
+
+/// How to trace walls.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct WallsOptions {
+    /// How far the traced boundary may lie from the pixels' boundary, plan pixels.
+    pub tolerance_px: f64,
+}
+
+impl Default for WallsOptions {
+    fn default() -> WallsOptions {
+        WallsOptions { tolerance_px: 0.5 }
+    }
+}
+
+/// All wall faces of a plan, indexed for quick answers.
+#[derive(Debug)]
+pub struct Walls {
+    /// Longest first, ties by start.
+    pub faces: Vec<Face>,
+    outlines: Vec<Outline>,
+    bounds: Rect,
+    index: index::Index,
+    floor_edges: coverage::Edges,
+}
+
+impl Walls {
+    /// Traces the boundary of a plan's floor.
+    ///
+    /// # Errors
+    /// A plan without floor, a tolerance that is not a number of pixels.
+    pub fn trace(plan: &FloorPlan, options: &WallsOptions) -> Result<Walls, WallsError> {
+        let loops = cracks::trace(&plan.floor, plan.width_px as usize);
+        let outlines = loops.iter().map(|l| outline::of_boundary(plan, l, options.tolerance_px / 0.5)).collect();
+        Ok(Walls::from_outlines(outlines))
+    }
+
+    /// Walls from outlines that were kept, see [`Walls::outlines`].
+    pub fn from_outlines(outlines: Vec<Outline>) -> Walls {
+        let faces = outline::faces(&outlines);
+        let segments = outline::wall_segments(&faces, &outlines);
+        let walked = outline::walked_loops(&outlines);
+        Walls {
+            bounds: outline::bounds(&outlines),
+            index: index::Index::new(segments, &walked),
+            floor_edges: coverage::Edges::new(&outlines),
+            faces,
+            outlines,
+        }
+    }
+
+    /// Closed loops around all floor, floor on the right, aprons not included. Enough to rebuild the walls.
+    pub fn outlines(&self) -> &[Outline] {
+        &self.outlines
+    }
+
+    /// The rectangle around all floor, aprons not included.
+    pub fn bounds_m(&self) -> Rect {
+        self.bounds
+    }
+
+    /// The wall nearest to `p` that is at most `within_m` away, unseen apron walls included.
+    pub fn nearest(&self, p: Vec2, within_m: f64) -> Option<Nearest> {
+        self.index.nearest(p, within_m)
+    }
+
+    /// Whether `p` lies on floor or on an apron.
+    pub fn is_inside(&self, p: Vec2) -> bool {
+        self.index.is_inside(p)
+    }
+
+    /// Whether no wall crosses the straight line between two points.
+    pub fn sight(&self, a: Vec2, b: Vec2) -> bool {
+        self.index.sight(a, b)
+    }
+
+    /// Appends every wall segment (apron walls included) that comes near `area`, each once, in a fixed order.
+    pub fn segments_near(&self, area: Rect, out: &mut Vec<Segment>) {
+        self.index.segments_near(area, out);
+    }
+
+    /// Exact share, 0 to 1, of each texel that floor covers (aprons are no floor).
+    ///
+    /// Texel (i, j) covers `[i, i+1)/t x [j, j+1)/t` metres of the plan frame; `out` is row-major and its row 0
+    /// is `j0`, the southernmost. The values do not depend on the rectangle asked for.
+    pub fn coverage(&self, texels_per_metre: f64, i0: i64, j0: i64, width: usize, height: usize, out: &mut [f32]) {
+        self.floor_edges.coverage(texels_per_metre, i0, j0, width, height, out);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::vec2;
+
+    /// A plan drawn with characters: `.` floor, anything else wall; a pixel is a metre.
+    fn plan(rows: &[&str]) -> FloorPlan {
+        let floor = rows.iter().flat_map(|r| r.bytes()).map(|b| u8::from(b == b'.')).collect();
+        FloorPlan::from_mask(rows[0].len() as u32, rows.len() as u32, 1.0, floor)
+    }
+
+    fn walls(rows: &[&str]) -> Walls {
+        Walls::trace(&plan(rows), &WallsOptions::default()).unwrap()
+    }
+
+    #[test]
+    fn a_corridor_has_two_open_faces_with_the_floor_on_their_right() {
+        let walls = walls(&["######", "......", "......", "######"]);
+        let points: Vec<_> = walls.faces.iter().map(|f| (f.closed, f.points_m.clone())).collect();
+        let south = vec![vec2(6.0, 1.0), vec2(0.0, 1.0)];
+        let north = vec![vec2(0.0, 3.0), vec2(6.0, 3.0)];
+        assert_eq!(points, [(false, south), (false, north)]);
+    }
+
+    #[test]
+    fn a_pillar_in_a_room_is_a_closed_face_that_starts_at_its_lowest_corner() {
+        let walls = walls(&["######", "#....#", "#.##.#", "#....#", "######"]);
+        assert_eq!(walls.faces.len(), 2);
+        assert!(walls.faces.iter().all(|f| f.closed));
+        assert_eq!(walls.faces[1].points_m, [vec2(2.0, 2.0), vec2(4.0, 2.0), vec2(4.0, 3.0), vec2(2.0, 3.0)]);
+        assert_eq!(walls.faces[0].points_m[..2], [vec2(1.0, 1.0), vec2(1.0, 4.0)]);
+    }
+
+    #[test]
+    fn an_apron_is_inside_and_has_walls_but_no_coverage() {
+        let walls = walls(&["###", "...", "###"]);
+        assert!(walls.is_inside(vec2(-2.9, 1.5)) && walls.is_inside(vec2(5.9, 1.5)));
+        assert!(!walls.is_inside(vec2(-3.1, 1.5)) && !walls.is_inside(vec2(-1.0, 0.9)));
+        let nearest = walls.nearest(vec2(-1.0, 1.2), 1.0).unwrap();
+        assert_eq!((nearest.face, nearest.point_m), (None, vec2(-1.0, 1.0)));
+        assert!(walls.sight(vec2(-2.0, 1.5), vec2(5.0, 1.5)));
+        assert!(!walls.sight(vec2(-2.0, 1.5), vec2(-2.0, 2.5)));
+        let mut out = [9.0; 5];
+        walls.coverage(1.0, -1, 1, 5, 1, &mut out);
+        assert_eq!(out, [0.0, 1.0, 1.0, 1.0, 0.0]);
+    }
+
+    #[test]
+    fn coverage_is_the_area_share() {
+        let walls = walls(&["####", "#..#", "####"]);
+        let mut out = [0.0; 2];
+        walls.coverage(0.25, 0, 0, 2, 1, &mut out);
+        assert_eq!(out, [2.0 / 16.0, 0.0]);
+    }
+}
