@@ -1,0 +1,203 @@
+//! Routes for plans that come without any.
+
+use super::ground::Ground;
+use super::navigation::{FieldStore, LegEnd, Plot, part_area_m2};
+use super::{Place, RoutesError, targets};
+use crate::math::vec2;
+use crate::plan::{FloorPlan, Opening};
+
+/// Default routes join this many places at most: 12 routes, there and back.
+const MOST_PLACES: usize = 4;
+/// A part of the floor must be this large for default routes, square metres.
+const LEAST_PART_M2: f64 = 1.0;
+/// Places that stand in for openings are squares of this half side, metres.
+const STAND_IN_REACH_M: f64 = 1.5;
+/// They lie this far apart at least, metres of walking ...
+const LEAST_APART_M: f64 = 2.0;
+/// ... and this share of the longest walk.
+const APART_SHARE: f64 = 0.3;
+/// Where there are several openings, only what is so many times farther from them than they are from each other.
+const BEYOND_OPENINGS: f64 = 1.5;
+/// Widths count for shares between these, metres.
+const SHARE_WIDTHS_M: [f64; 2] = [0.6, 8.0];
+
+struct Stop {
+    place: Place,
+    name: String,
+    width_m: f64,
+    part: u16,
+}
+
+/// Joins the widest openings, all pairs in both directions. Where there are fewer than two, or where they lie close
+/// together at the edge of a large floor, places far apart join them. A pair's share is the product of its widths.
+pub(super) fn plots(plan: &FloorPlan, ground: &Ground, fields: &mut FieldStore) -> Result<Vec<Plot>, RoutesError> {
+    let stops = with_far_places(plan, ground, fields, widest_openings(plan, ground))?;
+    let mut plots = Vec::new();
+    for from in &stops {
+        for to in stops.iter().filter(|to| to.part == from.part && to.place != from.place) {
+            plots.push(Plot {
+                name: format!("{} to {}", from.name, to.name),
+                place_names: vec![from.name.clone(), to.name.clone()],
+                start: from.place,
+                via: Vec::new(),
+                goal: to.place,
+                share: from.width_m * to.width_m,
+            });
+        }
+    }
+    Ok(plots)
+}
+
+/// All openings that somebody fits through.
+fn opening_stops(plan: &FloorPlan, ground: &Ground) -> Vec<Stop> {
+    let stop = |(index, opening): (usize, &Opening)| {
+        let place = Place::Opening(index);
+        let cell = *targets::cells(plan, ground, place).first()?;
+        let width_m = opening.width_m().clamp(SHARE_WIDTHS_M[0], SHARE_WIDTHS_M[1]);
+        Some(Stop { place, name: opening.name.clone(), width_m, part: ground.part(cell) })
+    };
+    plan.openings.iter().enumerate().filter_map(stop).collect()
+}
+
+/// The widest openings that have another one within walking distance.
+fn widest_openings(plan: &FloorPlan, ground: &Ground) -> Vec<Stop> {
+    let mut stops = opening_stops(plan, ground);
+    let width = |s: &Stop| match s.place {
+        Place::Opening(index) => plan.openings[index].width_m(),
+        Place::Area(_) => 0.0,
+    };
+    stops.sort_by(|a, b| width(b).total_cmp(&width(a)));
+    // Taking one away may leave its partner without any, so until nothing changes.
+    loop {
+        let lonely = |stops: &[Stop], part: u16| stops.iter().filter(|s| s.part == part).count() < 2;
+        let among = stops.len().min(MOST_PLACES);
+        match (0..among).find(|&k| lonely(&stops[..among], stops[k].part)) {
+            // Lonely among the widest only: its partner is a narrower one, not worth a place.
+            Some(k) => {
+                stops.remove(k);
+            }
+            None => break,
+        }
+    }
+    stops.truncate(MOST_PLACES);
+    stops
+}
+
+/// Adds places as far as possible by walking distance from those that there are.
+fn with_far_places(
+    plan: &FloorPlan,
+    ground: &Ground,
+    fields: &mut FieldStore,
+    mut stops: Vec<Stop>,
+) -> Result<Vec<Stop>, RoutesError> {
+    let part = match stops.first() {
+        Some(stop) => stop.part,
+        None => largest_part(ground)?,
+    };
+    if stops.iter().any(|s| s.part != part) {
+        return Ok(stops); // several floors with openings of their own
+    }
+    let cells: Vec<usize> = (0..ground.lattice.len()).filter(|&c| ground.part(c) == part).collect();
+    if stops.is_empty() {
+        stops.extend(lone_opening(plan, ground, part));
+    }
+    let openings = stops.len();
+    if openings == 0 {
+        // The end of a longest walk: the place farthest from anywhere.
+        let anywhere = targets::cells(plan, ground, stand_in(ground, cells[0]));
+        let field = super::Field::to(ground, &anywhere);
+        let far = farthest(&cells, |k| field.of_cell(cells[k]));
+        stops.push(named(stand_in(ground, far.0), 1, part));
+    }
+    let mut nearest_m = vec![f64::INFINITY; cells.len()];
+    let mut longest_m: f64 = 0.0;
+    let mut measured = 0;
+    while stops.len() < MOST_PLACES {
+        for k in measured..stops.len() {
+            let end = LegEnd { place: stops[k].place, last: true };
+            fields.fill(plan, ground, [end].into_iter());
+            let field = fields.get(end);
+            for (nearest, &cell) in nearest_m.iter_mut().zip(&cells) {
+                *nearest = nearest.min(field.of_cell(cell));
+            }
+            for other in &stops[..k] {
+                let there = targets::cells(plan, ground, other.place);
+                longest_m = there.first().map_or(longest_m, |&c| longest_m.max(field.of_cell(c)));
+            }
+        }
+        measured = stops.len();
+        let (cell, distance_m) = farthest(&cells, |k| nearest_m[k]);
+        let apart_m = match stops.len() {
+            1 => 0.0,
+            count if count == openings => BEYOND_OPENINGS * longest_m,
+            _ => LEAST_APART_M.max(APART_SHARE * longest_m),
+        };
+        let place = stand_in(ground, cell);
+        if distance_m < apart_m || stops.iter().any(|s| s.place == place) {
+            break;
+        }
+        stops.push(named(place, stops.len() + 1 - openings, part));
+    }
+    if stops.len() < 2 {
+        return Err(RoutesError::NoRoom { largest_m2: part_area_m2(ground, part) });
+    }
+    Ok(stops)
+}
+
+/// The largest connected part of the floor, if it is large enough to walk on.
+fn largest_part(ground: &Ground) -> Result<u16, RoutesError> {
+    let mut cells = vec![0usize; usize::from(u16::MAX) + 1];
+    for cell in (0..ground.lattice.len()).filter(|&c| ground.is_walkable(c)) {
+        cells[usize::from(ground.part(cell))] += 1;
+    }
+    let part = (1..cells.len()).max_by_key(|&p| (cells[p], usize::MAX - p)).unwrap_or(1) as u16;
+    let largest_m2 = part_area_m2(ground, part);
+    if largest_m2 < LEAST_PART_M2 { Err(RoutesError::NoRoom { largest_m2 }) } else { Ok(part) }
+}
+
+/// The only opening of a part of the floor.
+fn lone_opening(plan: &FloorPlan, ground: &Ground, part: u16) -> Option<Stop> {
+    opening_stops(plan, ground).into_iter().find(|stop| stop.part == part)
+}
+
+fn named(place: Place, number: usize, part: u16) -> Stop {
+    Stop { place, name: format!("place {number}"), width_m: 2.0 * STAND_IN_REACH_M, part }
+}
+
+/// The cell of the largest finite value, the first of equals, and the value.
+fn farthest(cells: &[usize], value: impl Fn(usize) -> f64) -> (usize, f64) {
+    let mut best = (cells[0], 0.0);
+    for (k, &cell) in cells.iter().enumerate() {
+        if value(k).is_finite() && value(k) > best.1 {
+            best = (cell, value(k));
+        }
+    }
+    best
+}
+
+/// A square about the place of most room within a short walk.
+fn stand_in(ground: &Ground, from: usize) -> Place {
+    let start = ground.lattice.centre(from);
+    let most_steps = (2.0 * STAND_IN_REACH_M / ground.lattice.cell_m()) as usize;
+    let mut seen = std::collections::BTreeSet::from([from]);
+    let mut border = vec![from];
+    let score = |c: usize| {
+        let away_m = ground.lattice.centre(c).distance(start);
+        ground.cell_clearance_m(c).min(STAND_IN_REACH_M) - 0.3 * away_m
+    };
+    let mut best = from;
+    for _ in 0..most_steps {
+        let mut next = Vec::new();
+        for cell in border {
+            if score(cell) > score(best) {
+                best = cell;
+            }
+            let beside = ground.lattice.around(cell).into_iter().filter(|&b| b != usize::MAX && ground.is_walkable(b));
+            next.extend(beside.filter(|&b| seen.insert(b)));
+        }
+        border = next;
+    }
+    let middle = ground.lattice.centre(best);
+    let reach = vec2(STAND_IN_REACH_M, STAND_IN_REACH_M);
+    Place::Area([middle - reach, middle + reach])
+}

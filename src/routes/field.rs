@@ -1,0 +1,213 @@
+use super::ground::Ground;
+use crate::math::{Vec2, vec2};
+
+/// Walking distance from everywhere to one place: metres, where a metre close to walls counts for more.
+///
+/// Solution of the eikonal equation `|grad d| = cost` with `d = 0` at the place, first-order upwind (Rouy and
+/// Tourin 1992, doi 10.1137/0729053), found in order of distance (Sethian 1996, doi 10.1073/pnas.93.4.1591)
+/// with buckets in place of a heap and every improvement passed on, so that the order decides nothing.
+#[derive(Debug)]
+pub(crate) struct Field {
+    distance_m: Vec<f32>,
+}
+
+/// How much more a metre along a wall costs than one in the open.
+const WALL_COST: f64 = 0.8;
+/// Clearance from which walls are of no account, metres.
+const EASE_M: f64 = 3.0;
+/// How much more it costs to squeeze through a gap that is hardly wide enough.
+const SQUEEZE_COST: f64 = 4.0;
+/// Clearance from which nobody has to squeeze, metres.
+const SQUEEZE_M: f64 = 0.25;
+
+/// Buckets in the ring.
+const RING: usize = 16;
+
+/// Cost of a metre at this clearance: `1 + 0.8 (1 - c / 3 m)^3 + 4 (1 - c / 0.25 m)`, each term 0 or more, so that
+/// ways keep off walls where that costs little, the wider of two ways is taken where they are about as long, and
+/// nobody squeezes between chairs to save a few steps.
+fn cost(clearance_m: f64) -> f64 {
+    let near = (1.0 - clearance_m / EASE_M).max(0.0);
+    let squeezed = (1.0 - clearance_m / SQUEEZE_M).max(0.0);
+    1.0 + WALL_COST * near * near * near + SQUEEZE_COST * squeezed
+}
+
+impl Field {
+    /// Distances to the nearest of `goal`'s cells.
+    pub(crate) fn to(ground: &Ground, goal: &[usize]) -> Field {
+        let lattice = &ground.lattice;
+        let cell_m = lattice.cell_m();
+        let mut distance = vec![f32::INFINITY; lattice.len()];
+        // A step adds at most `cell_m * (1 + WALL_COST + SQUEEZE_COST)`: a ring of buckets is enough.
+        let width = 0.5 * cell_m;
+        let mut buckets: [Vec<u32>; RING] = Default::default();
+        let mut waiting = 0usize;
+        for &cell in goal.iter().filter(|&&c| ground.is_walkable(c)) {
+            distance[cell] = 0.0;
+            buckets[0].push(cell as u32);
+            waiting += 1;
+        }
+        let mut now = 0usize;
+        while waiting > 0 {
+            let mut bucket = std::mem::take(&mut buckets[now % RING]);
+            let mut next = 0;
+            while let Some(&cell) = bucket.get(next) {
+                next += 1;
+                waiting -= 1;
+                let cell = cell as usize;
+                if (f64::from(distance[cell]) / width) as usize != now {
+                    continue; // reached on a shorter way meanwhile
+                }
+                for beside in lattice.around(cell) {
+                    if beside == usize::MAX || !ground.is_walkable(beside) {
+                        continue;
+                    }
+                    let step = cell_m * cost(ground.cell_clearance_m(beside));
+                    let value = upwind(&distance, lattice.around(beside), step);
+                    if value + 1e-4 * cell_m < f64::from(distance[beside]) {
+                        distance[beside] = value as f32;
+                        let at = (f64::from(distance[beside]) / width) as usize;
+                        waiting += 1;
+                        if at == now { bucket.push(beside as u32) } else { buckets[at % RING].push(beside as u32) }
+                    }
+                }
+            }
+            bucket.clear();
+            buckets[now % RING] = bucket;
+            now += 1;
+        }
+        Field { distance_m: distance }
+    }
+
+    /// Distance from a cell's middle; infinite where no way leads to the goal.
+    pub(crate) fn of_cell(&self, cell: usize) -> f64 {
+        f64::from(self.distance_m[cell])
+    }
+
+    /// Distance from `p`, interpolated between the walkable cells around; infinite where there are none.
+    #[inline]
+    pub(crate) fn at(&self, ground: &Ground, p: Vec2) -> f64 {
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for (cell, weight) in ground.lattice.stencil(p) {
+            if let Some(cell) = cell
+                && self.distance_m[cell].is_finite()
+            {
+                sum += f64::from(self.distance_m[cell]) * weight;
+                weights += weight;
+            }
+        }
+        if weights > 1e-3 {
+            return sum / weights;
+        }
+        ground.walkable_near(p, 0.5).map_or(f64::INFINITY, |cell| self.of_cell(cell))
+    }
+
+    /// The unit vector in which the distance falls fastest, or `None` at the goal and where no way leads there.
+    pub(crate) fn downhill(&self, ground: &Ground, p: Vec2) -> Option<Vec2> {
+        let lattice = &ground.lattice;
+        let h = lattice.cell_m();
+        let mut slope = Vec2::ZERO;
+        // Upwind differences of the cells around, weighted bilinearly: the same stencil as the solution's.
+        for (cell, weight) in lattice.stencil(p) {
+            let Some(cell) = cell.filter(|&c| self.distance_m[c].is_finite()) else { continue };
+            let own = self.of_cell(cell);
+            let [west, east, south, north] =
+                lattice.around(cell).map(|b| if b == usize::MAX { f64::INFINITY } else { self.of_cell(b) });
+            let axis = |low: f64, high: f64| {
+                if low.min(high) >= own {
+                    0.0
+                } else if low < high {
+                    low - own
+                } else {
+                    own - high
+                }
+            };
+            let down = vec2(axis(west, east), axis(south, north)) / h;
+            if let Some(unit) = down.normalized() {
+                slope += unit * weight;
+            }
+        }
+        if let Some(unit) = slope.normalized().filter(|_| slope.length() > 0.05) {
+            return Some(unit);
+        }
+        // Off the walkable cells or on a ridge: towards the best cell within two steps.
+        let here = ground.walkable_near(p, 0.5)?;
+        let beside = |c: usize| lattice.around(c).into_iter().filter(|&b| b != usize::MAX && ground.is_walkable(b));
+        let best = beside(here)
+            .flat_map(|c| beside(c).chain([c]))
+            .chain([here])
+            .min_by(|&a, &b| self.of_cell(a).total_cmp(&self.of_cell(b)).then(a.cmp(&b)))?;
+        (lattice.centre(best) - p).normalized()
+    }
+}
+
+/// Upwind solution in a cell whose neighbours (west, east, south, north) have these distances.
+#[inline]
+fn upwind(distance: &[f32], around: [usize; 4], step: f64) -> f64 {
+    let at = |cell: usize| if cell == usize::MAX { f64::INFINITY } else { f64::from(distance[cell]) };
+    let a = at(around[0]).min(at(around[1]));
+    let b = at(around[2]).min(at(around[3]));
+    let (low, high) = if a < b { (a, b) } else { (b, a) };
+    if high - low >= step {
+        return low + step;
+    }
+    let gap = high - low;
+    0.5 * (low + high + (2.0 * step * step - gap * gap).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::ground::Fineness;
+    use super::*;
+    use crate::plan::FloorPlan;
+    use crate::walls::{Walls, WallsOptions};
+
+    fn ground(rows: &[&str], metres_per_pixel: f64) -> Ground {
+        let floor = rows.iter().flat_map(|r| r.bytes()).map(|b| u8::from(b == b'.')).collect();
+        let plan = FloorPlan::from_mask(rows[0].len() as u32, rows.len() as u32, metres_per_pixel, floor);
+        let walls = Walls::trace(&plan, &WallsOptions::default()).expect("a plan with floor");
+        Ground::new(&plan, &walls, Fineness::attempts(&plan)[0])
+    }
+
+    #[test]
+    fn distance_in_the_open_is_the_straight_one_in_every_direction() {
+        let rows: Vec<String> =
+            (0..30).map(|y| if y == 0 || y == 29 { "#".repeat(30) } else { format!("#{}#", ".".repeat(28)) }).collect();
+        let ground = ground(&rows.iter().map(String::as_str).collect::<Vec<_>>(), 1.0);
+        let centre = vec2(15.0, 15.0);
+        // A disc as the goal: a point would add the first-order scheme's error at the source.
+        let goal: Vec<usize> =
+            (0..ground.lattice.len()).filter(|&c| ground.lattice.centre(c).distance(centre) < 2.0).collect();
+        let field = Field::to(&ground, &goal);
+        for k in 0..36 {
+            let (sin, cos) = crate::math::sin_cos(f64::from(k) * 10f64.to_radians());
+            let p = centre + vec2(cos, sin) * 10.0;
+            let d = field.at(&ground, p);
+            assert!((d - 8.0).abs() < 0.25, "towards {} degrees: {d} instead of 8", k * 10);
+            let down = field.downhill(&ground, p).expect("a way");
+            assert!(down.dot(vec2(-cos, -sin)) > 0.995, "towards {} degrees", k * 10);
+        }
+    }
+
+    #[test]
+    fn the_way_leads_round_walls_and_through_a_door() {
+        let ground = ground(&["#######", "#..#..#", "#..#..#", "#..#..#", "#.....#", "#######"], 1.0);
+        let goal = ground.lattice.cell_at(vec2(5.0, 4.5)).expect("floor");
+        let field = Field::to(&ground, &[goal]);
+        let start = vec2(2.0, 4.5);
+        let d = field.at(&ground, start);
+        assert!(d > 7.0 && d < 13.0, "{d}");
+        let mut p = start;
+        let mut walked = 0.0;
+        while p.distance(ground.lattice.centre(goal)) > 0.15 {
+            let down = field.downhill(&ground, p).expect("a way");
+            p += down * 0.05;
+            walked += 0.05;
+            assert!(ground.clearance_m(p) > 0.1, "at {p:?}");
+            assert!(walked < 14.0, "walks in circles at {p:?}");
+        }
+        let closed = self::tests::ground(&["#######", "#..#..#", "#..#..#", "#######"], 1.0);
+        let goal = closed.lattice.cell_at(vec2(5.0, 2.0)).expect("floor");
+        assert!(Field::to(&closed, &[goal]).at(&closed, vec2(2.0, 2.0)).is_infinite());
+    }
+}

@@ -1,0 +1,408 @@
+use rayon::prelude::*;
+
+use super::lattice::{BLOCK_CELLS, Lattice};
+use crate::math::{Rect, Vec2, vec2};
+use crate::plan::{FloorPlan, Opening, Side};
+use crate::walls::{APRON_M, Walls};
+
+/// Clearances beyond this are stored as this, metres.
+pub(crate) const CLEARANCE_LIMIT_M: f64 = 3.0;
+/// How finely the ground is measured, and how near to walls the narrowest person goes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fineness {
+    /// Side of a cell, metres.
+    cell_m: f64,
+    /// Least distance of a body's middle from walls on the way, metres.
+    least_clearance_m: f64,
+}
+
+/// Cells are made as fine as this count allows, within [`FINEST_M`] and [`COARSEST_M`].
+const CELLS_WANTED: f64 = 400_000.0;
+const FINEST_M: f64 = 0.1;
+const COARSEST_M: f64 = 0.25;
+/// Less than half of the narrowest body (0.2 m), so that a passage of 0.44 m still holds a row of cells.
+const LEAST_CLEARANCE_M: f64 = 0.16;
+/// Somebody who turns sideways.
+const SIDEWAYS_CLEARANCE_M: f64 = 0.12;
+
+impl Fineness {
+    /// What to try on a plan, in order, until every route leads to its goal: cells as coarse as the floor is large,
+    /// cells that see every narrow passage, and people who squeeze.
+    pub(crate) fn attempts(plan: &FloorPlan) -> Vec<Fineness> {
+        let pixel_m2 = plan.metres_per_pixel * plan.metres_per_pixel;
+        let floor_m2 = plan.floor.iter().filter(|&&f| f != 0).count() as f64 * pixel_m2;
+        let cell_m = (floor_m2 / CELLS_WANTED).sqrt().clamp(FINEST_M, COARSEST_M);
+        let mut attempts = vec![Fineness { cell_m, least_clearance_m: LEAST_CLEARANCE_M }];
+        if cell_m > FINEST_M {
+            attempts.push(Fineness { cell_m: FINEST_M, least_clearance_m: LEAST_CLEARANCE_M });
+        }
+        attempts.push(Fineness { cell_m: FINEST_M, least_clearance_m: SIDEWAYS_CLEARANCE_M });
+        attempts
+    }
+}
+
+/// The walked space (floor and aprons) as cells that know how far the nearest wall is.
+#[derive(Debug)]
+pub(crate) struct Ground {
+    pub(crate) lattice: Lattice,
+    /// Distance from the cell's middle to the nearest wall, metres, at most [`CLEARANCE_LIMIT_M`]; 0 where no
+    /// floor is.
+    clearance_m: Vec<f32>,
+    /// Connected part that a walkable cell belongs to, counted from 1; 0 where nobody can stand.
+    part: Vec<u16>,
+    /// How near a wall bodies have to be allowed here, see [`Ground::gap_limit_m`].
+    gap_limit_m: Vec<f32>,
+    /// Plan and aprons, less a margin.
+    extent: Rect,
+}
+
+/// How far around a point room is looked for when walls leave little, metres.
+const ROOM_REACH_M: f64 = 0.5;
+/// Clearance from which on nobody has to come near a wall for want of room, metres.
+const PLENTY_M: f32 = 0.9;
+/// The distance from walls that can be kept there, metres: more than the 0.5 m of the Grime paper.
+const KEPT_M: f32 = 0.55;
+
+impl Ground {
+    /// Measures a plan.
+    pub(crate) fn new(plan: &FloorPlan, walls: &Walls, fineness: Fineness) -> Ground {
+        let Fineness { cell_m, least_clearance_m } = fineness;
+        let aprons: Vec<Rect> = plan.openings.iter().map(apron).collect();
+        let area = Rect { min: Vec2::ZERO, max: vec2(plan.width_m(), plan.height_m()) }.grown(APRON_M + cell_m);
+        let lattice =
+            Lattice::new(area, cell_m, |block| aprons.iter().any(|a| a.overlaps(block)) || holds_floor(plan, block));
+        let is_inside = |p: Vec2| plan.is_floor(p) || aprons.iter().any(|a| a.contains(p));
+        let inside: Vec<bool> = (0..lattice.len()).into_par_iter().map(|c| is_inside(lattice.centre(c))).collect();
+        let clearance_m = clearances(&lattice, &inside, walls);
+        let part = parts(&lattice, &clearance_m, least_clearance_m);
+        let gap_limit_m = gap_limits(&lattice, &clearance_m);
+        let extent = Rect { min: Vec2::ZERO, max: vec2(plan.width_m(), plan.height_m()) }.grown(APRON_M - 0.1);
+        Ground { lattice, clearance_m, part, gap_limit_m, extent }
+    }
+
+    /// Whether the middle of a narrow body can be in this cell's middle.
+    #[inline]
+    pub(crate) fn is_walkable(&self, cell: usize) -> bool {
+        self.part[cell] != 0
+    }
+
+    /// Connected part that a cell belongs to, counted from 1; 0 where nobody can stand.
+    pub(crate) fn part(&self, cell: usize) -> u16 {
+        self.part[cell]
+    }
+
+    /// Distance from a cell's middle to the nearest wall, metres.
+    #[inline]
+    pub(crate) fn cell_clearance_m(&self, cell: usize) -> f64 {
+        f64::from(self.clearance_m[cell])
+    }
+
+    /// A distance that no wall comes nearer to `p` than, metres; 0 off the floor.
+    #[inline]
+    pub(crate) fn clearance_at_least_m(&self, p: Vec2) -> f64 {
+        match self.lattice.cell_at(p) {
+            // Half a diagonal, and the hundredths that passing on the nearest points costs.
+            Some(cell) => (self.cell_clearance_m(cell) - 0.75 * self.lattice.cell_m()).max(0.0),
+            None => 0.0,
+        }
+    }
+
+    /// Clearance at `p`, interpolated, metres.
+    pub(crate) fn clearance_m(&self, p: Vec2) -> f64 {
+        self.lattice
+            .stencil(p)
+            .iter()
+            .map(|(cell, weight)| cell.map_or(0.0, |c| self.cell_clearance_m(c)) * weight)
+            .sum()
+    }
+
+    /// The point nearest to `p` that lies no farther out than aprons reach.
+    #[inline]
+    pub(crate) fn within_aprons(&self, p: Vec2) -> Vec2 {
+        vec2(p.x.clamp(self.extent.min.x, self.extent.max.x), p.y.clamp(self.extent.min.y, self.extent.max.y))
+    }
+
+    /// The distance from walls that can be kept here even where they stand close on both sides, metres: large in the
+    /// open, 0.25 m in a door of 0.8 m, and everywhere less than the clearance of the nearest walkable cell.
+    #[inline]
+    pub(crate) fn gap_limit_m(&self, p: Vec2) -> f64 {
+        self.lattice.cell_at(p).map_or(0.0, |cell| f64::from(self.gap_limit_m[cell]))
+    }
+
+    /// The walkable cell nearest to `p` within this many metres.
+    pub(crate) fn walkable_near(&self, p: Vec2, within_m: f64) -> Option<usize> {
+        if let Some(cell) = self.lattice.cell_at(p)
+            && self.is_walkable(cell)
+        {
+            return Some(cell);
+        }
+        let cell_m = self.lattice.cell_m();
+        let reach = (within_m / cell_m).ceil() as i64;
+        let mut best: Option<(f64, usize)> = None;
+        for row in -reach..=reach {
+            for column in -reach..=reach {
+                let q = p + vec2(column as f64, row as f64) * cell_m;
+                if let Some(cell) = self.lattice.cell_at(q)
+                    && self.is_walkable(cell)
+                {
+                    let d = self.lattice.centre(cell).distance(p);
+                    if d <= within_m + 0.5 * cell_m && best.is_none_or(|(least, _)| d < least) {
+                        best = Some((d, cell));
+                    }
+                }
+            }
+        }
+        best.map(|b| b.1)
+    }
+
+    /// Whether nobody's straight way from `a` to `b` meets a wall; exact, but mostly answered from clearances.
+    #[inline]
+    pub(crate) fn sight(&self, walls: &Walls, a: Vec2, b: Vec2) -> bool {
+        let distance = a.distance(b);
+        if distance < 1e-9 {
+            return true;
+        }
+        let direction = (b - a) / distance;
+        let mut done = 0.0;
+        for _ in 0..24 {
+            let free = self.clearance_at_least_m(a + direction * done);
+            if done + free >= distance {
+                return true;
+            }
+            if free < 0.05 {
+                break;
+            }
+            done += free;
+        }
+        walls.sight(a + direction * done, b)
+    }
+}
+
+impl Ground {
+    /// Whether a body can walk straight from `a` to `b` without coming nearer than `margin_m` to a wall, as well as
+    /// the cells can tell; that no wall is crossed is exact.
+    pub(crate) fn is_free(&self, walls: &Walls, a: Vec2, b: Vec2, margin_m: f64) -> bool {
+        let distance = a.distance(b);
+        let direction = (b - a) / distance.max(1e-9);
+        let mut done = 0.0;
+        let mut narrow = false;
+        while done < distance {
+            let at = a + direction * done;
+            let free = self.lattice.cell_at(at).map_or(0.0, |c| self.cell_clearance_m(c)) - margin_m;
+            if free < 0.0 {
+                return false;
+            }
+            narrow |= free < 2.0 * self.lattice.cell_m();
+            done += free.max(self.lattice.cell_m());
+        }
+        !narrow || walls.sight(a, b)
+    }
+}
+
+/// The rectangle of floor beyond an opening.
+pub(crate) fn apron(opening: &Opening) -> Rect {
+    let out = opening.side.outward() * APRON_M;
+    let edge = Rect::around(opening.from_m, opening.to_m);
+    match opening.side {
+        Side::West | Side::South => Rect { min: edge.min + out, max: edge.max },
+        Side::East | Side::North => Rect { min: edge.min, max: edge.max + out },
+    }
+}
+
+/// Whether any pixel under a rectangle is floor.
+fn holds_floor(plan: &FloorPlan, area: Rect) -> bool {
+    let [x0, y1] = plan.m_to_px(area.min);
+    let [x1, y0] = plan.m_to_px(area.max);
+    let columns = x0.floor().max(0.0) as usize..(x1.ceil().max(0.0) as usize).min(plan.width_px as usize);
+    let rows = y0.floor().max(0.0) as usize..(y1.ceil().max(0.0) as usize).min(plan.height_px as usize);
+    !columns.is_empty()
+        && rows.into_iter().any(|row| {
+            let start = row * plan.width_px as usize;
+            plan.floor[start + columns.start..start + columns.end].iter().any(|&f| f != 0)
+        })
+}
+
+/// Distance to the nearest wall for every cell: exact beside walls, from there on by passing the nearest points
+/// to the cells around in order of distance.
+fn clearances(lattice: &Lattice, inside: &[bool], walls: &Walls) -> Vec<f32> {
+    let near = near_walls(lattice, walls);
+    let cell_m = lattice.cell_m();
+    let mut nearest: Vec<[f32; 2]> = vec![[f32::NAN; 2]; lattice.len()];
+    nearest.par_iter_mut().enumerate().filter(|(cell, _)| inside[*cell] && near[*cell]).for_each(|(cell, nearest)| {
+        if let Some(n) = walls.nearest(lattice.centre(cell), 3.0 * cell_m) {
+            *nearest = [n.point_m.x as f32, n.point_m.y as f32];
+        }
+    });
+    let distance = |cell: usize, [x, y]: [f32; 2]| lattice.centre(cell).distance(vec2(f64::from(x), f64::from(y)));
+    let mut clearance: Vec<f32> = inside.iter().map(|&i| if i { CLEARANCE_LIMIT_M as f32 } else { 0.0 }).collect();
+    let width = cell_m * 0.5;
+    let mut buckets: Vec<Vec<u32>> = vec![Vec::new(); (CLEARANCE_LIMIT_M / width) as usize + 2];
+    for cell in 0..lattice.len() {
+        if !nearest[cell][0].is_nan() {
+            clearance[cell] = distance(cell, nearest[cell]) as f32;
+            buckets[(f64::from(clearance[cell]) / width) as usize].push(cell as u32);
+        }
+    }
+    for bucket in 0..buckets.len() {
+        let mut next = 0;
+        while let Some(&cell) = buckets[bucket].get(next) {
+            next += 1;
+            let cell = cell as usize;
+            if (f64::from(clearance[cell]) / width) as usize != bucket {
+                continue; // found a nearer wall meanwhile
+            }
+            for beside in lattice.around(cell).into_iter().filter(|&b| b != usize::MAX && inside[b]) {
+                let d = distance(beside, nearest[cell]) as f32;
+                if d + 1e-6 < clearance[beside] {
+                    clearance[beside] = d;
+                    nearest[beside] = nearest[cell];
+                    buckets[(f64::from(d) / width) as usize].push(beside as u32);
+                }
+            }
+        }
+        buckets[bucket] = Vec::new();
+    }
+    clearance
+}
+
+/// Marks the cells that a wall passes, and those around them.
+fn near_walls(lattice: &Lattice, walls: &Walls) -> Vec<bool> {
+    let mut near = vec![false; lattice.len()];
+    let mut segments = Vec::new();
+    walls.segments_near(walls.bounds_m().grown(2.0 * APRON_M), &mut segments);
+    for s in segments {
+        let steps = (s.a.distance(s.b) / (0.5 * lattice.cell_m())).ceil().max(1.0);
+        for k in 0..=steps as usize {
+            let p = s.a.lerp(s.b, k as f64 / steps);
+            for row in -1..=1 {
+                for column in -1..=1 {
+                    let q = p + vec2(f64::from(column), f64::from(row)) * lattice.cell_m();
+                    if let Some(cell) = lattice.cell_at(q) {
+                        near[cell] = true;
+                    }
+                }
+            }
+        }
+    }
+    near
+}
+
+/// Numbers the connected parts of what can be walked, from 1, in the order of their first cells.
+fn parts(lattice: &Lattice, clearance_m: &[f32], least_clearance_m: f64) -> Vec<u16> {
+    // Cells on the two sides of a wall must not lie beside each other, so no cell nearer than half a cell.
+    let least = least_clearance_m.max(0.51 * lattice.cell_m()) as f32;
+    let mut part = vec![0u16; lattice.len()];
+    let mut count = 0u16;
+    let mut open = Vec::new();
+    for first in 0..lattice.len() {
+        if part[first] != 0 || clearance_m[first] < least {
+            continue;
+        }
+        // Slivers beyond the 65 535th share the last number; so many are never places to walk.
+        count = count.saturating_add(1);
+        part[first] = count;
+        open.push(first);
+        while let Some(cell) = open.pop() {
+            for beside in lattice.around(cell).into_iter().filter(|&b| b != usize::MAX) {
+                if part[beside] == 0 && clearance_m[beside] >= least {
+                    part[beside] = count;
+                    open.push(beside);
+                }
+            }
+        }
+    }
+    part
+}
+
+/// How near a wall bodies have to be allowed in each cell.
+///
+/// With the largest clearance R within half a metre: `0.71 R - 0.21`, which is 0.25 m in a door of 0.8 m in a thin
+/// wall; at least 0.1 m, and at most nine tenths of the clearance in the cells around, so that whatever counts as
+/// walkable can be walked. Where R is [`PLENTY_M`] or more, as along the wall of a room, [`KEPT_M`] at least.
+fn gap_limits(lattice: &Lattice, clearance_m: &[f32]) -> Vec<f32> {
+    const RING: [(f64, f64); 8] =
+        [(1.0, 0.0), (0.7, 0.7), (0.0, 1.0), (-0.7, 0.7), (-1.0, 0.0), (-0.7, -0.7), (0.0, -1.0), (0.7, -0.7)];
+    let mut limits = vec![0.0f32; clearance_m.len()];
+    limits.par_chunks_mut(BLOCK_CELLS).enumerate().for_each(|(block, limits)| {
+        for (within, limit) in limits.iter_mut().enumerate() {
+            let cell = block * BLOCK_CELLS + within;
+            let own = clearance_m[cell];
+            let (mut room, mut near) = (own, own);
+            // Where there is plenty of it, no matter how much more.
+            if own <= 1.2 {
+                let centre = lattice.centre(cell);
+                let clearance = |(x, y), reach| {
+                    lattice.cell_at(centre + vec2(x, y) * reach).map_or(0.0, |other| clearance_m[other])
+                };
+                for direction in RING {
+                    near = near.max(clearance(direction, 1.2 * lattice.cell_m()));
+                    room = room.max(clearance(direction, 0.5 * ROOM_REACH_M)).max(clearance(direction, ROOM_REACH_M));
+                }
+            }
+            *limit = if room < PLENTY_M {
+                (0.71 * room - 0.21).max(0.1).min(0.9 * near)
+            } else {
+                (0.71 * room - 0.21).max(KEPT_M)
+            };
+        }
+    });
+    limits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::walls::WallsOptions;
+
+    fn ground(rows: &[&str], metres_per_pixel: f64) -> (Ground, Walls) {
+        let floor = rows.iter().flat_map(|r| r.bytes()).map(|b| u8::from(b == b'.')).collect();
+        let plan = FloorPlan::from_mask(rows[0].len() as u32, rows.len() as u32, metres_per_pixel, floor);
+        let walls = Walls::trace(&plan, &WallsOptions::default()).expect("a plan with floor");
+        (Ground::new(&plan, &walls, Fineness::attempts(&plan)[0]), walls)
+    }
+
+    #[test]
+    fn clearances_are_distances_to_the_nearest_wall() {
+        let (ground, walls) = ground(&["########", "........", "...##...", "........", "########"], 1.0);
+        let mut checked = 0;
+        for cell in 0..ground.lattice.len() {
+            let p = ground.lattice.centre(cell);
+            let measured = ground.cell_clearance_m(cell);
+            if measured > 0.0 && p.x > -2.0 && p.x < 10.0 {
+                let exact = walls.nearest(p, 5.0).map_or(CLEARANCE_LIMIT_M, |n| n.distance_m);
+                assert!((measured - exact).abs() < 0.02, "at {p:?}: {measured} instead of {exact}");
+                checked += 1;
+            }
+        }
+        assert!(checked > 2000);
+    }
+
+    #[test]
+    fn a_thin_wall_separates_parts_and_a_narrow_gap_joins_them() {
+        let closed = ["#####", "..#..", "..#..", "..#..", "#####"];
+        let (ground, _) = ground_of(&closed);
+        let part = |x: f64| ground.part(ground.lattice.cell_at(vec2(x, 1.0)).expect("a cell"));
+        assert!(part(0.4) != 0 && part(1.8) != 0 && part(0.4) != part(1.8));
+        let open = ["#####", "..#..", ".....", "..#..", "#####"];
+        let (ground, _) = ground_of(&open);
+        let part = |x: f64| ground.part(ground.lattice.cell_at(vec2(x, 1.0)).expect("a cell"));
+        assert_eq!(part(0.4), part(1.8));
+    }
+
+    fn ground_of(rows: &[&str]) -> (Ground, Walls) {
+        ground(rows, 0.44)
+    }
+
+    #[test]
+    fn sight_agrees_with_the_walls() {
+        let (ground, walls) = ground(&["########", "........", "...##...", "........", "########"], 1.0);
+        for k in 0..400 {
+            let t = f64::from(k);
+            let a = vec2(0.3 + (t * 0.37) % 7.4, 1.2 + (t * 0.71) % 2.6);
+            let b = vec2(0.3 + (t * 1.93) % 7.4, 1.2 + (t * 0.29) % 2.6);
+            if walls.is_inside(a) && walls.is_inside(b) {
+                assert_eq!(ground.sight(&walls, a, b), walls.sight(a, b), "from {a:?} to {b:?}");
+            }
+        }
+    }
+}

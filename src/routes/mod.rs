@@ -1,0 +1,88 @@
+//! Finds the ways that people take through the plan.
+//!
+//! Takes the plan, its walls and what a scenario asks for; gives [`Route`]s: a start, gates to pass in order, a
+//! goal. Gates are segments across the way, as wide as people can use, so that a corridor is walked over its
+//! whole width. [`Navigation`] keeps what the walking itself needs: the ground measured in cells, and for every
+//! place that a route leads to the walking distance from everywhere.
+
+use crate::math::Vec2;
+
+mod defaults;
+mod error;
+mod field;
+mod gates;
+mod ground;
+mod lattice;
+mod navigation;
+mod request;
+mod ribbon;
+mod targets;
+
+pub use error::RoutesError;
+pub use navigation::{Navigation, find};
+pub use request::{PlaceRequest, RouteRequest, RoutesOptions};
+
+pub(crate) use field::Field;
+pub(crate) use ground::Ground;
+pub(crate) use lattice::Lattice;
+pub(crate) use navigation::Way;
+
+/// A segment across the way that people pass from one side to the other: not a point, so that they stay spread out.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Gate {
+    /// End on the left of those who walk the route, metres.
+    pub left_m: Vec2,
+    /// End on the right, metres.
+    pub right_m: Vec2,
+}
+
+impl Gate {
+    /// The point at this share of the way from the left end to the right one.
+    pub fn at(&self, share: f64) -> Vec2 {
+        self.left_m.lerp(self.right_m, share)
+    }
+
+    /// Width, metres.
+    pub fn width_m(&self) -> f64 {
+        self.left_m.distance(self.right_m)
+    }
+}
+
+/// Where people appear or vanish.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Place {
+    /// An opening in an image side, by its index in `FloorPlan::openings`: beyond the floor's edge.
+    Opening(usize),
+    /// Anywhere within a rectangle of floor, metres: `[min, max]`.
+    Area([Vec2; 2]),
+}
+
+/// A place between start and goal.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Via {
+    /// Where it is.
+    pub place: Place,
+    /// Index of the gate at it.
+    pub gate: usize,
+}
+
+/// A way from a start through gates to a goal.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Route {
+    /// What the scenario or the program calls it, such as `west to north`.
+    pub name: String,
+    /// Where people appear.
+    pub start: Place,
+    /// Places to pass on the way, in order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub via: Vec<Via>,
+    /// Where they vanish.
+    pub goal: Place,
+    /// Which share of all people takes it; the shares of all routes sum up to 1.
+    pub share: f64,
+    /// Gates to pass in order.
+    pub gates: Vec<Gate>,
+    /// Length of the middle line, metres.
+    pub length_m: f64,
+}

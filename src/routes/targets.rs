@@ -1,0 +1,149 @@
+//! Turns the places that a scenario names into places on the ground.
+
+use super::ground::{Ground, apron};
+use super::{Place, PlaceRequest, RoutesError};
+use crate::math::{Rect, Vec2, vec2};
+use crate::plan::FloorPlan;
+use crate::walls::APRON_M;
+
+/// Half the side of the square that a point stands for, metres.
+const POINT_REACH_M: f64 = 1.0;
+/// Distances to an opening are counted from this far beyond the floor's edge on, metres.
+const OPENING_DEPTH_M: f64 = APRON_M - 0.4;
+
+/// What a place is asked for as, for messages.
+#[derive(Clone, Copy)]
+pub(super) struct Asked<'a> {
+    pub(super) route: &'a str,
+    pub(super) role: &'static str,
+}
+
+/// Finds the place that a request means.
+pub(super) fn place(
+    plan: &FloorPlan,
+    ground: &Ground,
+    request: &PlaceRequest,
+    asked: Asked<'_>,
+) -> Result<Place, RoutesError> {
+    match request {
+        PlaceRequest::Opening(name) => opening(plan, name, asked),
+        PlaceRequest::Point(point) => {
+            let p = finite(point.to_m(plan), request, asked)?;
+            let cell = ground.walkable_near(p, 0.2).ok_or_else(|| not_on_floor(ground, p, request, asked))?;
+            let centre = ground.lattice.centre(cell);
+            // A point within the narrow band along a wall counts as the nearest place to stand.
+            let p = if ground.lattice.cell_at(p) == Some(cell) { p } else { centre };
+            let reach = vec2(POINT_REACH_M, POINT_REACH_M);
+            Ok(Place::Area([p - reach, p + reach]))
+        }
+        PlaceRequest::Area([a, b]) => {
+            let (a, b) = (finite(Vec2::from(*a), request, asked)?, finite(Vec2::from(*b), request, asked)?);
+            let area = Rect::around(a, b);
+            if area_cells(ground, area).is_empty() {
+                return Err(not_on_floor(ground, area.centre(), request, asked));
+            }
+            Ok(Place::Area([area.min, area.max]))
+        }
+    }
+}
+
+fn opening(plan: &FloorPlan, name: &str, asked: Asked<'_>) -> Result<Place, RoutesError> {
+    let wanted = name.trim();
+    if let Some(index) = plan.openings.iter().position(|o| o.name.eq_ignore_ascii_case(wanted)) {
+        return Ok(Place::Opening(index));
+    }
+    let openings: Vec<String> = plan.openings.iter().map(|o| o.name.clone()).collect();
+    let nearest = openings
+        .iter()
+        .map(|o| (strsim::damerau_levenshtein(&o.to_lowercase(), &wanted.to_lowercase()), o))
+        .min_by_key(|(distance, _)| *distance)
+        .filter(|(distance, _)| *distance <= 3)
+        .map(|(_, o)| o.clone());
+    Err(RoutesError::UnknownOpening { route: asked.route.into(), name: name.into(), nearest, openings })
+}
+
+fn finite(p: Vec2, request: &PlaceRequest, asked: Asked<'_>) -> Result<Vec2, RoutesError> {
+    // Coordinates far beyond any plan are as useless as NaN, and would overflow the grid's indices.
+    if p.is_finite() && p.x.abs() < 1e7 && p.y.abs() < 1e7 {
+        return Ok(p);
+    }
+    Err(RoutesError::NotFinite { route: asked.route.into(), role: asked.role, place: request.describe() })
+}
+
+fn not_on_floor(ground: &Ground, p: Vec2, request: &PlaceRequest, asked: Asked<'_>) -> RoutesError {
+    let nearest_m = (0..ground.lattice.len())
+        .filter(|&c| ground.is_walkable(c))
+        .map(|c| ground.lattice.centre(c))
+        .min_by(|a, b| a.distance(p).total_cmp(&b.distance(p)));
+    RoutesError::NotOnFloor { route: asked.route.into(), role: asked.role, place: request.describe(), nearest_m }
+}
+
+/// The cells that count as being there.
+pub(super) fn cells(plan: &FloorPlan, ground: &Ground, place: Place) -> Vec<usize> {
+    match place {
+        Place::Opening(index) => plan.openings.get(index).map_or(Vec::new(), |opening| {
+            let out = opening.side.outward() * OPENING_DEPTH_M;
+            let far = Rect::around(opening.from_m + out, opening.to_m + opening.side.outward() * APRON_M);
+            within(ground, far)
+        }),
+        Place::Area([min, max]) => area_cells(ground, Rect { min, max }),
+    }
+}
+
+/// The cells that routes pass at a place between start and goal: those about its middle.
+pub(super) fn middle_cells(plan: &FloorPlan, ground: &Ground, place: Place) -> Vec<usize> {
+    let all = match place {
+        Place::Opening(index) => plan.openings.get(index).map_or(Vec::new(), |o| within(ground, apron(o))),
+        Place::Area([min, max]) => area_cells(ground, Rect { min, max }),
+    };
+    let Some(middle) = middle(ground, &all) else { return all };
+    all.into_iter().filter(|&c| ground.lattice.centre(c).distance(middle) <= 0.3).collect()
+}
+
+/// The cell nearest to the middle of some cells, moved a little to where there is more room.
+pub(super) fn middle(ground: &Ground, cells: &[usize]) -> Option<Vec2> {
+    if cells.is_empty() {
+        return None;
+    }
+    let sum = cells.iter().fold(Vec2::ZERO, |sum, &c| sum + ground.lattice.centre(c));
+    let mean = sum / cells.len() as f64;
+    let score = |c: usize| ground.lattice.centre(c).distance(mean) - 0.5 * ground.cell_clearance_m(c).min(1.0);
+    cells
+        .iter()
+        .copied()
+        .min_by(|&a, &b| score(a).total_cmp(&score(b)).then(a.cmp(&b)))
+        .map(|c| ground.lattice.centre(c))
+}
+
+/// Walkable cells within a rectangle.
+fn within(ground: &Ground, area: Rect) -> Vec<usize> {
+    let mut cells = ground.lattice.cells_within(area);
+    cells.retain(|&c| ground.is_walkable(c));
+    cells
+}
+
+/// Walkable cells of a rectangle that are joined within it: those around its middle, or the most if its middle is
+/// wall. What lies behind a wall does not count.
+fn area_cells(ground: &Ground, area: Rect) -> Vec<usize> {
+    let all = within(ground, area);
+    let mut left: std::collections::BTreeSet<usize> = all.iter().copied().collect();
+    let centre = ground.lattice.cell_at(area.centre());
+    let mut best: Vec<usize> = Vec::new();
+    while let Some(first) = left.pop_first() {
+        let mut joined = vec![first];
+        let mut next = 0;
+        while let Some(&cell) = joined.get(next) {
+            next += 1;
+            joined.extend(ground.lattice.around(cell).into_iter().filter(|b| left.remove(b)));
+        }
+        if centre.is_some_and(|c| joined.contains(&c)) {
+            joined.sort_unstable();
+            return joined;
+        }
+        if joined.len() > best.len() {
+            best = joined;
+        }
+    }
+    best.sort_unstable();
+    best
+}
