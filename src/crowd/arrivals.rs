@@ -1,0 +1,91 @@
+//! Who comes when, where and on which route: decided before anybody walks.
+
+use rand::RngExt;
+
+use super::CrowdOptions;
+use crate::math::{Purpose, person_stream};
+use crate::plan::FloorPlan;
+use crate::routes::{Place, Route};
+
+/// One line of the arrival list.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arrival {
+    /// Number of the person, counted from 0 in the order of arrival.
+    pub id: u32,
+    /// When the person wants to enter, seconds from the start. Without room at the entrance it gets later.
+    pub time_s: f64,
+    /// Index of the person's route.
+    pub route: usize,
+    /// Whether the person comes in through an opening rather than starting in a room.
+    pub from_outside: bool,
+}
+
+/// Through narrow places fewer people go than the openings let in: persons per second and metre.
+const NARROW_RATE: f64 = 0.45;
+/// However many openings there are, no more people come in than this, persons per second.
+const MOST_RATE: f64 = 5.0;
+/// Ways wider than this carry whatever the openings let in, metres.
+const NARROW_M: f64 = 2.5;
+/// Gates whose middles lie within this of each other are the same place, metres.
+const SAME_PLACE_M: f64 = 1.0;
+
+/// Everybody's arrival. Person `id` enters in the `id`-th of as many equal parts of the entry time, so that the
+/// stream is even over time and everybody is a function of (seed, id) alone.
+pub(super) fn list(plan: &FloorPlan, routes: &[Route], seed: u64, options: &CrowdOptions) -> Vec<Arrival> {
+    let period_s = options.entry_seconds.unwrap_or_else(|| entry_seconds(plan, routes, options));
+    let part_s = period_s / f64::from(options.people);
+    (0..options.people)
+        .map(|id| {
+            let rng = &mut person_stream(seed, id, Purpose::Arrival);
+            let time_s = (f64::from(id) + rng.random::<f64>()) * part_s;
+            let route = pick(routes, rng.random());
+            let from_outside = matches!(routes[route].start, Place::Opening(_));
+            Arrival { id, time_s, route, from_outside }
+        })
+        .collect()
+}
+
+/// The route that a draw in `[0, 1)` falls on.
+fn pick(routes: &[Route], draw: f64) -> usize {
+    let mut sum = 0.0;
+    for (index, route) in routes.iter().enumerate() {
+        sum += route.share;
+        if draw < sum {
+            return index;
+        }
+    }
+    // Shares that sum up to a hair less than 1: the last route that anybody takes.
+    routes.iter().rposition(|r| r.share > 0.0).unwrap_or(0)
+}
+
+/// Seconds that everybody's entering takes if no opening lets in more than the entry rate, and no narrow place on
+/// the way more than it can carry.
+fn entry_seconds(plan: &FloorPlan, routes: &[Route], options: &CrowdOptions) -> f64 {
+    let people = f64::from(options.people);
+    let mut seconds: f64 = people / MOST_RATE;
+    for route in routes {
+        let share: f64 = routes.iter().filter(|r| r.start == route.start).map(|r| r.share).sum();
+        let width_m = match route.start {
+            Place::Opening(index) => plan.openings.get(index).map_or(1.0, |o| o.width_m()),
+            Place::Area([min, max]) => ((max.x - min.x) * (max.y - min.y)).max(0.25).sqrt(),
+        };
+        seconds = seconds.max(people * share / (options.entry_rate * width_m));
+    }
+    let narrow = |route: &Route| {
+        // Gates keep off the walls by about 0.15 m on either side.
+        let gates = route.gates.iter().map(|g| (g.at(0.5), g.width_m() + 0.3));
+        gates.filter(|g| g.1 < NARROW_M).collect::<Vec<_>>()
+    };
+    let narrow: Vec<_> = routes.iter().map(narrow).collect();
+    for gates in &narrow {
+        for &(place, width_m) in gates {
+            let passing = |(index, others): (usize, &Vec<_>)| {
+                let here = others.iter().any(|&(p, _): &(crate::math::Vec2, f64)| p.distance(place) < SAME_PLACE_M);
+                if here { routes[index].share } else { 0.0 }
+            };
+            let share: f64 = narrow.iter().enumerate().map(passing).sum();
+            seconds = seconds.max(people * share / (NARROW_RATE * width_m));
+        }
+    }
+    seconds
+}

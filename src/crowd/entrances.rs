@@ -1,0 +1,225 @@
+//! Lets people in: at openings from beyond the floor's edge, in rooms wherever there is space.
+
+use std::collections::VecDeque;
+
+use super::arrivals::Arrival;
+use super::simulation::{Crowd, Parts, Stuck};
+use super::state::{Body, Course, Traits};
+use super::steering::used;
+use crate::math::{Purpose, SplitMix64, Vec2, person_stream, vec2};
+use crate::routes::{Place, Route};
+
+/// Depth beyond an opening's edge between which people appear and vanish, metres.
+const APPEAR_M: [f64; 2] = [1.6, 2.7];
+const VANISH_M: [f64; 2] = [1.0, 2.3];
+/// Room that somebody who enters wants beyond the exclusion distance, metres.
+const ENTRY_ROOM_M: f32 = 0.25;
+/// Places that somebody tries in each step.
+const TRIES: usize = 4;
+/// People of one queue who try in each step.
+const HEADS: usize = 4;
+/// If nobody gets in for so many times the patience, all who wait are stuck.
+const PATIENCE_LIMIT: f64 = 5.0;
+
+/// Who waits where to come in.
+#[derive(Debug, Default)]
+pub(super) struct Entrances {
+    next_arrival: usize,
+    queues: Vec<Queue>,
+    queue_of_route: Vec<usize>,
+}
+
+#[derive(Debug)]
+struct Queue {
+    waiting: VecDeque<Waiting>,
+    last_entry_s: f64,
+}
+
+#[derive(Debug)]
+struct Waiting {
+    arrival: Arrival,
+    tries: SplitMix64,
+}
+
+impl Entrances {
+    /// Routes that begin at the same place share a queue.
+    pub(super) fn new(routes: &[Route]) -> Entrances {
+        let mut places: Vec<Place> = Vec::new();
+        let mut queue_of_route = Vec::new();
+        for route in routes {
+            let known = places.iter().position(|p| *p == route.start);
+            queue_of_route.push(known.unwrap_or(places.len()));
+            if known.is_none() {
+                places.push(route.start);
+            }
+        }
+        let queues = places.iter().map(|_| Queue { waiting: VecDeque::new(), last_entry_s: 0.0 }).collect();
+        Entrances { next_arrival: 0, queues, queue_of_route }
+    }
+
+    pub(super) fn is_empty(&self, arrivals: &[Arrival]) -> bool {
+        self.next_arrival >= arrivals.len() && self.queues.iter().all(|q| q.waiting.is_empty())
+    }
+
+    /// When the next person wants to enter, if nobody waits already.
+    pub(super) fn next_arrival_s(&self, arrivals: &[Arrival]) -> Option<f64> {
+        let nobody = self.queues.iter().all(|q| q.waiting.is_empty());
+        arrivals.get(self.next_arrival).filter(|_| nobody).map(|a| a.time_s)
+    }
+
+    /// Lets in whoever is due and finds room.
+    pub(super) fn admit(&mut self, crowd: &mut Crowd<'_>, time_s: f64) {
+        let mut parts = crowd.parts();
+        while let Some(&arrival) = parts.arrivals.get(self.next_arrival).filter(|a| a.time_s <= time_s) {
+            let rng = &mut person_stream(parts.seed, arrival.id, Purpose::Arrival);
+            rng.set_word_pos(16); // behind the draws of the arrival list
+            let queue = &mut self.queues[self.queue_of_route[arrival.route]];
+            if queue.waiting.is_empty() {
+                queue.last_entry_s = time_s;
+            }
+            queue.waiting.push_back(Waiting { arrival, tries: SplitMix64::new(rand::RngExt::random(rng)) });
+            self.next_arrival += 1;
+        }
+        let present = parts.bodies.len();
+        for queue in &mut self.queues {
+            let mut head = 0;
+            for _ in 0..HEADS.min(queue.waiting.len()) {
+                let entered = parts.try_to_enter(&mut queue.waiting[head], present, time_s);
+                if entered {
+                    queue.waiting.remove(head);
+                    queue.last_entry_s = time_s;
+                } else {
+                    head += 1;
+                }
+            }
+            let patience_s = PATIENCE_LIMIT * parts.options.patience_seconds;
+            if !queue.waiting.is_empty() && time_s - queue.last_entry_s > patience_s {
+                for waiting in queue.waiting.drain(..) {
+                    let route = waiting.arrival.route;
+                    let place_m = parts.steering.routes[route].gates.first().map_or(Vec2::ZERO, |g| g.at(0.5));
+                    parts.tally.stuck.push(Stuck { id: waiting.arrival.id, place_m, route });
+                }
+            }
+        }
+        parts.sort_newcomers(present);
+    }
+}
+
+impl Parts<'_, '_> {
+    fn try_to_enter(&mut self, waiting: &mut Waiting, present: usize, time_s: f64) -> bool {
+        let Arrival { id, route, .. } = waiting.arrival;
+        let mut traits = Traits::draw(self.seed, id, self.options);
+        for attempt in 0..TRIES {
+            let mut unit = || f64::from(waiting.tries.unit());
+            let draws = [unit(), unit()];
+            if attempt > 0 {
+                traits.lane = unit() as f32;
+            }
+            let Some(p) = self.entry_place(route, &traits, draws) else { continue };
+            if self.has_room(p, traits.exclusion_m, present) {
+                self.enter(id, route, traits, p, draws, time_s);
+                return true;
+            }
+        }
+        false
+    }
+
+    /// A place to appear at.
+    fn entry_place(&self, route: usize, traits: &Traits, draws: [f64; 2]) -> Option<Vec2> {
+        let ground = &self.steering.navigation.ground;
+        match self.steering.routes[route].start {
+            Place::Opening(index) => {
+                let opening = self.plan.openings.get(index)?;
+                let gate = self.steering.routes[route].gates.first()?;
+                let (_, _, at) = used(gate, traits);
+                let out = opening.side.outward();
+                let depth_m = APPEAR_M[0] + (APPEAR_M[1] - APPEAR_M[0]) * draws[0];
+                let edge = at - out * (at - opening.from_m).dot(out);
+                Some(edge + out * depth_m)
+            }
+            Place::Area(_) => {
+                let cells = &self.steering.navigation.ways[route].start_cells;
+                let cell = *cells.get((draws[0] * cells.len() as f64) as usize)?;
+                // Anywhere within the cell: the draw's lower digits say where.
+                let within = vec2((draws[0] * cells.len() as f64).fract(), draws[1]) - vec2(0.5, 0.5);
+                let p = ground.lattice.centre(cell) + within * ground.lattice.cell_m();
+                let limit = f64::from(traits.wall_exclusion_m).min(ground.gap_limit_m(p));
+                (ground.clearance_m(p) >= limit).then_some(p)
+            }
+        }
+    }
+
+    /// Whether nobody stands too near, newcomers of this step included.
+    fn has_room(&self, p: Vec2, exclusion_m: f32, present: usize) -> bool {
+        let (x, y) = (p.x as f32, p.y as f32);
+        let free = |body: &Body| {
+            let (dx, dy) = (self.neighbours.dx(x, body.x), body.y - y);
+            let wanted = 0.5 * exclusion_m + body.half_exclusion_m + self.entry_room_m();
+            dx * dx + dy * dy >= wanted * wanted
+        };
+        let mut room = self.bodies[present..].iter().all(&free);
+        self.neighbours.around(x, y, |range| {
+            room = room && self.neighbours.slots[range].iter().all(|&slot| free(&self.bodies[slot as usize]));
+        });
+        room
+    }
+
+    fn entry_room_m(&self) -> f32 {
+        // All at once means: as densely as bodies go.
+        if self.options.entry_seconds == Some(0.0) { 0.0 } else { ENTRY_ROOM_M }
+    }
+
+    fn enter(&mut self, id: u32, route: usize, traits: Traits, p: Vec2, draws: [f64; 2], time_s: f64) {
+        let depth_m = VANISH_M[0] + (VANISH_M[1] - VANISH_M[0]) * f64::from(traits.goal_draw);
+        let end_m = match self.steering.routes[route].goal {
+            Place::Opening(_) => vec2(depth_m, 0.0),
+            Place::Area(_) => {
+                let ground = &self.steering.navigation.ground;
+                let cells = &self.steering.navigation.ways[route].goal_cells;
+                let at = (f64::from(traits.goal_draw) * cells.len() as f64) as usize;
+                let within = vec2(draws[1], draws[0]) - vec2(0.5, 0.5);
+                ground.lattice.centre(cells[at.min(cells.len() - 1)]) + within * ground.lattice.cell_m()
+            }
+        };
+        let mut course = Course {
+            id,
+            route: route as u32,
+            gate: 0,
+            least_left_m: f32::INFINITY,
+            improved_s: time_s,
+            end_m,
+            pace: 1.0,
+            blocked_s: 0.0,
+        };
+        self.steering.advance(&mut course, p, time_s);
+        let gate = self.steering.routes[route].gates.first();
+        let ahead = gate.and_then(|g| (g.right_m - g.left_m).left().normalized()).unwrap_or(vec2(1.0, 0.0));
+        let aim = self.steering.aim(&course, &traits, p, ahead, time_s);
+        let (aim_x, aim_y) = (aim.x as f32, aim.y as f32);
+        self.bodies.push(Body {
+            x: p.x as f32,
+            y: p.y as f32,
+            vx: aim_x * traits.speed_m_s,
+            vy: aim_y * traits.speed_m_s,
+            aim_x,
+            aim_y,
+            half_exclusion_m: 0.5 * traits.exclusion_m,
+            clearance_m: self.steering.navigation.ground.clearance_at_least_m(p) as f32,
+        });
+        self.traits.push(traits);
+        self.courses.push(course);
+        self.tally.entered += 1;
+    }
+
+    /// Puts newcomers where their ids belong: somebody who waited comes in behind higher ids.
+    fn sort_newcomers(&mut self, present: usize) {
+        if self.courses[present.saturating_sub(1)..].is_sorted_by_key(|c| c.id) {
+            return;
+        }
+        let mut order: Vec<usize> = (0..self.courses.len()).collect();
+        order.sort_by_key(|&slot| self.courses[slot].id);
+        *self.bodies = order.iter().map(|&slot| self.bodies[slot]).collect();
+        *self.traits = order.iter().map(|&slot| self.traits[slot]).collect();
+        *self.courses = order.iter().map(|&slot| self.courses[slot]).collect();
+    }
+}

@@ -1,0 +1,187 @@
+use serde::{Deserialize, Serialize};
+
+use super::CrowdError;
+use crate::math::Distribution;
+use crate::motion::BodyOptions;
+
+/// More people than this are a mistake: the arrival list alone would take gigabytes.
+const MOST_PEOPLE: u32 = 5_000_000;
+
+/// How the people of a crowd walk. Speeds in metres per second, distances in metres.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct CrowdOptions {
+    /// How many people walk, 1 to 5 million.
+    pub people: u32,
+    /// Speed of a person with nobody around (Weidmann 1993: 1.34 +- 0.26).
+    pub speed: Distribution,
+    /// How speed falls with the density of people ahead.
+    pub speed_law: SpeedLaw,
+    /// Bodies' middles never come nearer to each other than this (mean of the two).
+    pub exclusion: Distribution,
+    /// People make way for others who would come nearer than this; it shrinks as density grows.
+    pub acceptable: Distribution,
+    /// A body's middle never comes nearer to a wall than this; it shrinks in gaps.
+    pub wall_exclusion: Distribution,
+    /// People keep this far off walls if they can; it shrinks in gaps.
+    pub wall_acceptable: Distribution,
+    /// The most people who enter in a second, per metre of opening.
+    pub entry_rate: f64,
+    /// Seconds over which people enter; left out, as many as [`CrowdOptions::entry_rate`] asks for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub entry_seconds: Option<f64>,
+    /// Whoever has made no way for so many seconds, while nobody else arrives either, is stuck.
+    pub patience_seconds: f64,
+    /// Time step, seconds.
+    pub time_step: f64,
+    /// Ends the walk after so many seconds, wherever people are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub end_seconds: Option<f64>,
+    /// A period in x, metres: whoever leaves there comes back at the other end. For measuring speed against
+    /// density in an endless corridor.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub period_x: Option<f64>,
+}
+
+/// How the largest speed falls with the density of the people ahead.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SpeedLaw {
+    /// `v0 (1 - rho / 4)`, the paper's "in proportion to the density".
+    Linear,
+    /// `v0 (1 - exp(-1.913 (1/rho - 1/5.4)))` (Weidmann 1993).
+    #[default]
+    Weidmann,
+}
+
+impl Default for CrowdOptions {
+    fn default() -> CrowdOptions {
+        CrowdOptions::commuters()
+    }
+}
+
+impl CrowdOptions {
+    /// People on their way through a station: free speed 1.34 +- 0.26 m/s.
+    pub fn commuters() -> CrowdOptions {
+        CrowdOptions {
+            people: 1000,
+            speed: Distribution::normal(1.34, 0.26, 0.6, 2.1),
+            speed_law: SpeedLaw::Weidmann,
+            exclusion: Distribution::Uniform([0.28, 0.36]),
+            acceptable: Distribution::Uniform([0.7, 1.1]),
+            wall_exclusion: Distribution::Uniform([0.16, 0.24]),
+            wall_acceptable: Distribution::Uniform([0.35, 0.75]),
+            entry_rate: 0.3,
+            entry_seconds: None,
+            patience_seconds: 120.0,
+            time_step: 0.1,
+            end_seconds: None,
+            period_x: None,
+        }
+    }
+
+    /// The experiment of the Grime paper (Takenaka, Tanaka, Sagawa): 2 to 3 m/s, exclusion distance 0.5 m,
+    /// acceptable distance 0.5 to 1.5 m, of walls too.
+    pub fn paper() -> CrowdOptions {
+        CrowdOptions {
+            speed: Distribution::Uniform([2.0, 3.0]),
+            speed_law: SpeedLaw::Linear,
+            exclusion: Distribution::Constant(0.5),
+            acceptable: Distribution::Uniform([0.5, 1.5]),
+            wall_exclusion: Distribution::Constant(0.5),
+            wall_acceptable: Distribution::Uniform([0.5, 1.5]),
+            ..CrowdOptions::commuters()
+        }
+    }
+
+    /// The preset of this name: `commuters` or `paper`.
+    pub fn preset(name: &str) -> Option<CrowdOptions> {
+        match name {
+            "commuters" => Some(CrowdOptions::commuters()),
+            "paper" => Some(CrowdOptions::paper()),
+            _ => None,
+        }
+    }
+
+    /// The bodies that belong to the preset of this name: the paper's people have a stride of their own around 0.7 m.
+    pub fn preset_bodies(name: &str) -> Option<BodyOptions> {
+        match name {
+            "commuters" => Some(BodyOptions::default()),
+            "paper" => Some(BodyOptions {
+                step_length: Some(Distribution::normal(0.7, 0.05, 0.55, 0.85)),
+                ..BodyOptions::default()
+            }),
+            _ => None,
+        }
+    }
+
+    /// Checks every value.
+    ///
+    /// # Errors
+    /// The first value that is not a number or out of its range.
+    pub fn check(&self) -> Result<(), CrowdError> {
+        if self.people == 0 || self.people > MOST_PEOPLE {
+            return Err(CrowdError::People { people: self.people, most: MOST_PEOPLE });
+        }
+        let distributions = [
+            ("speed", &self.speed, 0.1, 6.0),
+            ("exclusion", &self.exclusion, 0.05, 1.5),
+            ("acceptable", &self.acceptable, 0.05, 5.0),
+            ("wall_exclusion", &self.wall_exclusion, 0.0, 2.0),
+            ("wall_acceptable", &self.wall_acceptable, 0.0, 5.0),
+        ];
+        for (name, distribution, low, high) in distributions {
+            distribution.check(low, high).map_err(|source| CrowdError::Distribution { name, source })?;
+        }
+        let numbers = [
+            ("entry_rate", Some(self.entry_rate), 1e-3, 1e3),
+            ("entry_seconds", self.entry_seconds, 0.0, 1e6),
+            ("patience_seconds", Some(self.patience_seconds), 5.0, 1e5),
+            ("time_step", Some(self.time_step), 0.01, 0.2),
+            ("end_seconds", self.end_seconds, 0.1, 1e7),
+            ("period_x", self.period_x, 8.0, 1e5),
+        ];
+        for (name, value, low, high) in numbers {
+            if let Some(value) = value.filter(|v| !(low..=high).contains(v)) {
+                return Err(CrowdError::Number { name, value, low, high });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Density at which the linear law comes to rest, persons per square metre.
+const LINEAR_JAM: f64 = 4.0;
+/// Density at which Weidmann's law comes to rest, persons per square metre.
+const WEIDMANN_JAM: f64 = 5.4;
+/// Nobody gets slower than this by density alone, metres per second: an arch before a door must dissolve.
+pub(super) const LEAST_SPEED_M_S: f32 = 0.05;
+
+/// A speed law as a table over density.
+#[derive(Clone, Debug)]
+pub(super) struct SpeedTable {
+    factors: Vec<f32>,
+}
+
+impl SpeedTable {
+    const PER_UNIT: f32 = 32.0;
+
+    pub(super) fn new(law: SpeedLaw) -> SpeedTable {
+        let factor = |rho: f64| match law {
+            SpeedLaw::Linear => (1.0 - rho / LINEAR_JAM).max(0.0),
+            SpeedLaw::Weidmann if rho < 1e-3 => 1.0,
+            SpeedLaw::Weidmann => (1.0 - crate::math::exp(-1.913 * (1.0 / rho - 1.0 / WEIDMANN_JAM))).max(0.0),
+        };
+        let count = (8.0 * f64::from(SpeedTable::PER_UNIT)) as usize;
+        SpeedTable { factors: (0..=count).map(|k| factor(k as f64 / f64::from(SpeedTable::PER_UNIT)) as f32).collect() }
+    }
+
+    /// Share of the free speed that is left at a density.
+    #[inline]
+    pub(super) fn factor(&self, density: f32) -> f32 {
+        let at = (density * SpeedTable::PER_UNIT).clamp(0.0, (self.factors.len() - 2) as f32);
+        let k = at as usize;
+        let (a, b) = (self.factors[k], self.factors[k + 1]);
+        a + (b - a) * (at - k as f32)
+    }
+}

@@ -1,0 +1,127 @@
+//! How much floor lies around a place: what a count of people is divided by to give a density.
+
+use rayon::prelude::*;
+
+use crate::math::{Vec2, vec2};
+use crate::routes::{Ground, Lattice};
+use crate::walls::Walls;
+
+/// How far people count others for density, metres.
+pub(super) const SENSE_M: f64 = 2.0;
+/// Cells of this table, metres.
+const CELL_M: f64 = 0.4;
+/// Samples across a cell when its share of floor is taken.
+const SAMPLES: usize = 4;
+
+/// Moments of the floor around every place, weighted by [`kernel`]: `m0 = sum k dA`, `m = sum k d/|d| dA`.
+///
+/// A person who looks in direction `h` counts somebody at distance `r` in direction `u` with the weight
+/// `k(r) (1 + u.h) / 2`, so that the floor counts `(m0 + m.h) / 2`: walls and what lies behind them do not.
+#[derive(Debug)]
+pub(super) struct Surroundings {
+    lattice: Lattice,
+    moments: Vec<[f32; 3]>,
+}
+
+/// Weight of a place at a squared distance: `(1 - r2 / R2)^2`, 0 from [`SENSE_M`] on.
+#[inline]
+pub(super) fn kernel(squared_m2: f32) -> f32 {
+    let inside = (1.0 - squared_m2 * (1.0 / (SENSE_M * SENSE_M)) as f32).max(0.0);
+    inside * inside
+}
+
+/// The kernel's integral over open floor.
+const OPEN_M2: f32 = (std::f64::consts::PI * SENSE_M * SENSE_M / 3.0) as f32;
+
+impl Surroundings {
+    pub(super) fn new(ground: &Ground, walls: &Walls) -> Surroundings {
+        let lattice = ground.lattice.coarser(CELL_M);
+        let cells: Vec<Cell> = (0..lattice.len()).into_par_iter().map(|c| Cell::new(&lattice, ground, c)).collect();
+        let joined: Vec<[bool; 4]> = (0..lattice.len())
+            .into_par_iter()
+            .map(|c| lattice.around(c).map(|b| b != usize::MAX && cells[c].sees(&cells[b], ground, walls)))
+            .collect();
+        let moments = (0..lattice.len())
+            .into_par_iter()
+            .map_init(Vec::new, |seen, cell| moments(&lattice, &cells, &joined, cell, seen))
+            .collect();
+        Surroundings { lattice, moments }
+    }
+
+    /// Floor that a person at `p` who looks along the unit vector `heading` counts people over, square metres.
+    #[inline]
+    pub(super) fn floor_ahead_m2(&self, p: Vec2, heading: [f32; 2]) -> f32 {
+        let [m0, mx, my] = self.lattice.cell_at(p).map_or([OPEN_M2, 0.0, 0.0], |c| self.moments[c]);
+        // In a dead end there is no floor ahead, but always room for a person.
+        (0.5 * (m0 + mx * heading[0] + my * heading[1])).max(0.15)
+    }
+}
+
+/// A cell's floor.
+struct Cell {
+    /// Share of the cell that is floor.
+    share: f32,
+    /// The place of most room in it.
+    place_m: Vec2,
+    clearance_m: f64,
+}
+
+impl Cell {
+    fn new(lattice: &Lattice, ground: &Ground, cell: usize) -> Cell {
+        let corner = lattice.centre(cell) - vec2(0.5, 0.5) * CELL_M;
+        let mut best = Cell { share: 0.0, place_m: lattice.centre(cell), clearance_m: 0.0 };
+        for k in 0..SAMPLES * SAMPLES {
+            let at = vec2((k % SAMPLES) as f64 + 0.5, (k / SAMPLES) as f64 + 0.5) * (CELL_M / SAMPLES as f64);
+            let Some(fine) = ground.lattice.cell_at(corner + at) else { continue };
+            let clearance_m = ground.cell_clearance_m(fine);
+            if clearance_m > 0.0 {
+                best.share += 1.0 / (SAMPLES * SAMPLES) as f32;
+            }
+            if clearance_m > best.clearance_m {
+                best.clearance_m = clearance_m;
+                best.place_m = ground.lattice.centre(fine);
+            }
+        }
+        best
+    }
+
+    fn sees(&self, other: &Cell, ground: &Ground, walls: &Walls) -> bool {
+        self.share > 0.0 && other.share > 0.0 && ground.sight(walls, self.place_m, other.place_m)
+    }
+}
+
+/// Sums the floor that can be reached from a cell within the kernel's radius.
+fn moments(lattice: &Lattice, cells: &[Cell], joined: &[[bool; 4]], from: usize, seen: &mut Vec<usize>) -> [f32; 3] {
+    let reach_m = SENSE_M + 0.5 * CELL_M;
+    if cells[from].clearance_m > reach_m {
+        return [OPEN_M2, 0.0, 0.0];
+    }
+    if cells[from].share == 0.0 {
+        return [OPEN_M2, 0.0, 0.0];
+    }
+    let [x0, y0] = lattice.column_row(from).map(|v| v as f64);
+    let mut sums = [0.0f32; 3];
+    seen.clear();
+    seen.push(from);
+    let mut next = 0;
+    while let Some(&cell) = seen.get(next) {
+        next += 1;
+        let [x, y] = lattice.column_row(cell).map(|v| v as f64);
+        let d = vec2(x - x0, y - y0) * CELL_M;
+        let weight = kernel(d.length_squared() as f32) * cells[cell].share * (CELL_M * CELL_M) as f32;
+        sums[0] += weight;
+        if let Some(unit) = d.normalized() {
+            sums[1] += weight * unit.x as f32;
+            sums[2] += weight * unit.y as f32;
+        }
+        for (side, beside) in lattice.around(cell).into_iter().enumerate() {
+            if joined[cell][side] && !seen.contains(&beside) {
+                let [x, y] = lattice.column_row(beside).map(|v| v as f64);
+                if vec2(x - x0, y - y0).length() * CELL_M < SENSE_M {
+                    seen.push(beside);
+                }
+            }
+        }
+    }
+    sums
+}

@@ -1,0 +1,169 @@
+use rand::RngExt;
+use serde::{Deserialize, Serialize};
+
+use crate::math::{Distribution, Purpose, person_stream};
+
+/// Bodies, as a scenario describes them. Lengths in metres.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct BodyOptions {
+    /// Share of men among the grown-ups, 0 to 1.
+    pub men: f64,
+    /// Share of children among all, 0 to 1.
+    pub children: f64,
+    /// Stature of men (ANSUR II: 1.756 +- 0.069).
+    pub stature_men: Distribution,
+    /// Stature of women (ANSUR II: 1.628 +- 0.064).
+    pub stature_women: Distribution,
+    /// Stature of children.
+    pub stature_children: Distribution,
+    /// Share of people who carry a bag, 0 to 1.
+    pub bags: f64,
+    /// A stride of their own for everybody, as the paper's people have, taken from 2 m/s on and shorter below; left
+    /// out, step length follows speed and stature.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step_length: Option<Distribution>,
+    /// Distance between the lines of the left and the right foot's middles (Murray 1964: 0.08).
+    pub step_width: Distribution,
+    /// Angle of the foot outward from the way, degrees (Murray 1964: 7; Morton 1932: 5 to 10).
+    pub toe_out_deg: Distribution,
+}
+
+impl Default for BodyOptions {
+    fn default() -> BodyOptions {
+        BodyOptions {
+            men: 0.5,
+            children: 0.03,
+            stature_men: Distribution::normal(1.756, 0.069, 1.5, 2.05),
+            stature_women: Distribution::normal(1.628, 0.064, 1.4, 1.9),
+            stature_children: Distribution::Uniform([1.1, 1.45]),
+            bags: 0.6,
+            step_length: None,
+            step_width: Distribution::normal(0.08, 0.025, 0.02, 0.16),
+            toe_out_deg: Distribution::normal(6.5, 3.0, -4.0, 16.0),
+        }
+    }
+}
+
+/// A side of the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+#[allow(missing_docs)]
+pub enum CarrySide {
+    Left,
+    Right,
+    Back,
+}
+
+/// What somebody carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Bag {
+    /// Where it hangs.
+    pub side: CarrySide,
+}
+
+/// A person's body and gait: a pure function of (seed, id).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Person {
+    /// Number in the arrival list.
+    pub id: u32,
+    /// Body height, metres.
+    pub stature_m: f64,
+    /// Shoulder width, metres (ANSUR II: 0.291 of stature for men, 0.277 for women).
+    pub shoulder_width_m: f64,
+    /// Chest depth, metres (ANSUR II: 0.145 and 0.152 of stature).
+    pub chest_depth_m: f64,
+    /// Length of the shoe's sole, metres: bare foot (0.154 and 0.151 of stature) and 20 to 30 mm.
+    pub sole_length_m: f64,
+    /// Whether it is a child.
+    pub child: bool,
+    /// What is carried.
+    pub bag: Option<Bag>,
+    /// A stride of their own, metres, if the scenario sets one.
+    pub fixed_step_m: Option<f64>,
+    /// Personal factor on the step length, about 1: tall people take longer steps.
+    pub step_factor: f64,
+    /// Distance between the lines of the feet, metres.
+    pub step_width_m: f64,
+    /// Mean angle of the foot outward from the way, radians.
+    pub toe_out_rad: f64,
+    /// Uniform in `[0, 1)`: which of the patterns this person wears on the feet, by share.
+    pub shoe_draw: f64,
+}
+
+/// Mean stature that the measured step lengths belong to, metres.
+const REFERENCE_STATURE_M: f64 = 1.69;
+
+/// From this speed on, a stride of one's own is taken in full, metres per second: the slowest of the Grime paper's
+/// people, unhindered.
+pub const STRIDE_SPEED_M_S: f64 = 2.0;
+
+impl Person {
+    /// Step length at a speed, metres.
+    ///
+    /// `L = (0.247 + 0.344 v)` times the personal factor, measured on congested and free flow in the Juelich
+    /// recordings; 0.15 m at least, so that shuffling feet still move on. Somebody with a stride of their own keeps it
+    /// from [`STRIDE_SPEED_M_S`] on; below, it shrinks as the measured line does, so that whoever is held up takes
+    /// more steps over the same way.
+    pub fn step_length_m(&self, speed_m_s: f64) -> f64 {
+        let measured_m = |speed_m_s: f64| 0.247 + 0.344 * speed_m_s.clamp(0.0, 4.0);
+        let step_m = match self.fixed_step_m {
+            Some(stride_m) => stride_m * (measured_m(speed_m_s) / measured_m(STRIDE_SPEED_M_S)).min(1.0),
+            None => measured_m(speed_m_s) * self.step_factor,
+        };
+        step_m.max(0.15)
+    }
+}
+
+/// Everybody who will ever be there, made on demand.
+#[derive(Clone, Debug)]
+pub struct People {
+    seed: u64,
+    options: BodyOptions,
+}
+
+impl People {
+    /// People of these bodies under this seed.
+    pub fn new(seed: u64, options: BodyOptions) -> People {
+        People { seed, options }
+    }
+
+    /// The seed that everything personal is drawn from.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// The person of this number. The same whenever it is asked.
+    pub fn person(&self, id: u32) -> Person {
+        let rng = &mut person_stream(self.seed, id, Purpose::Traits);
+        let options = &self.options;
+        // Every draw is made for everybody, used or not, so that one option never shifts the others.
+        let child = rng.random::<f64>() < options.children;
+        let man = rng.random::<f64>() < options.men;
+        let statures = [&options.stature_men, &options.stature_women, &options.stature_children].map(|d| d.draw(rng));
+        let bag = (rng.random::<f64>() < options.bags).then_some(());
+        let side = match (rng.random::<f64>() * 10.0) as u32 {
+            0..4 => CarrySide::Right,
+            4..7 => CarrySide::Left,
+            _ => CarrySide::Back,
+        };
+        let stature_m = if child { statures[2] } else { statures[usize::from(!man)] };
+        let (shoulder, depth, foot) = if man { (0.291, 0.145, 0.154) } else { (0.277, 0.152, 0.151) };
+        let clearance_m = 0.02 + 0.01 * rng.random::<f64>();
+        let spread = Distribution::normal(1.0, 0.05, 0.85, 1.15).draw(rng);
+        Person {
+            id,
+            stature_m,
+            shoulder_width_m: shoulder * stature_m,
+            chest_depth_m: depth * stature_m,
+            sole_length_m: foot * stature_m + clearance_m,
+            child,
+            bag: bag.map(|()| Bag { side }),
+            fixed_step_m: options.step_length.as_ref().map(|d| d.draw(rng)),
+            step_factor: stature_m / REFERENCE_STATURE_M * spread,
+            step_width_m: options.step_width.draw(rng),
+            toe_out_rad: options.toe_out_deg.draw(rng).to_radians(),
+            shoe_draw: rng.random(),
+        }
+    }
+}
