@@ -1,0 +1,67 @@
+//! How fast frames become marks: people of a frame per second, on one thread.
+
+use std::hint::black_box;
+
+use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
+use trodden::marks::{Footfalls, MarksOptions, Origin};
+use trodden::math::{sin_cos, vec2};
+use trodden::motion::{BodyOptions, Frame, People, Walker};
+use trodden::patterns::PatternLibrary;
+use trodden::plan::FloorPlan;
+use trodden::walls::{Walls, WallsOptions};
+
+const PEOPLE: u32 = 1000;
+const FRAMES: u32 = 200;
+const DT_S: f64 = 0.1;
+
+/// A thousand people who weave through a hall of 60 x 60 m with pillars every 6 m.
+fn hall() -> Walls {
+    let pillar = |n: u32| n % 60 < 6;
+    let mask = (0..600 * 600).map(|at| u8::from(!(pillar(at / 600) && pillar(at % 600)))).collect();
+    let plan = FloorPlan::from_mask(600, 600, 0.1, mask);
+    Walls::trace(&plan, &WallsOptions::default()).expect("the plan has floor")
+}
+
+fn frames() -> Vec<Frame> {
+    let frame = |n: u32| {
+        let time_s = f64::from(n) * DT_S;
+        let walker = |id: u32| {
+            let weave = sin_cos(0.4 * time_s + f64::from(id)).0;
+            let along = f64::from(id % 40) + 1.0 + 1.2 * time_s;
+            Walker { id, position_m: vec2(along, 1.0 + 0.058 * f64::from(id) + weave), velocity_m_s: vec2(1.2, 0.0) }
+        };
+        Frame { time_s, walkers: (0..PEOPLE).map(walker).collect() }
+    };
+    (0..FRAMES).map(frame).collect()
+}
+
+fn marks(c: &mut Criterion) {
+    let (people, walls) = (People::new(1, BodyOptions::default()), hall());
+    let library = PatternLibrary::built_in().expect("the built-in library is tested");
+    let (options, frames) = (MarksOptions::default(), frames());
+    let mut group = c.benchmark_group("marks");
+    group.throughput(Throughput::Elements(u64::from(PEOPLE * FRAMES)));
+    group.sample_size(20);
+    group.bench_function("people of a frame", |b| {
+        let stage = || {
+            let origins = Origin::of_arrivals(vec![true; PEOPLE as usize].into_iter(), 300);
+            Footfalls::new(&people, &walls, &library, &options, origins).expect("the defaults are in range")
+        };
+        b.iter_batched(
+            stage,
+            |mut stage| {
+                let mut out = Vec::with_capacity(100_000);
+                for frame in &frames {
+                    stage.push(frame, &mut out);
+                }
+                stage.finish(&mut out);
+                black_box(out.len())
+            },
+            BatchSize::PerIteration,
+        );
+    });
+    group.finish();
+}
+
+criterion_group!(benches, marks);
+criterion_main!(benches);

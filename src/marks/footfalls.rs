@@ -1,0 +1,219 @@
+use rand::RngExt;
+use rand::rngs::ChaCha8Rng;
+
+use crate::math::{Purpose, Rect, SplitMix64, person_stream};
+use crate::motion::{Frame, People, Person, Walker};
+use crate::patterns::{Cause, PatternLibrary};
+use crate::walls::Walls;
+
+use super::gait::{Gait, Step};
+use super::heels::{self, HeelMarks};
+use super::soil::Shoes;
+use super::track::{Sample, Track};
+use super::{Mark, MarksError, MarksOptions, Origin};
+
+/// Times beyond this (30 years) are no times; the clock of the paths could not count their ticks.
+const MOST_TIME_S: f64 = 1e9;
+
+/// The stage: frames in, marks out. Holds only people who are present.
+///
+/// Marks come about two seconds of motion after the body passed, by person within a frame and by time within a
+/// person; which come in which call depends on the frames, the marks themselves do not.
+pub struct Footfalls<'a> {
+    people: &'a People,
+    walls: &'a Walls,
+    plan_m: Rect,
+    library: &'a PatternLibrary,
+    /// The sole that everybody wears, if it is one.
+    uniform: Option<u16>,
+    options: MarksOptions,
+    heel_marks: HeelMarks,
+    origins: Vec<Origin>,
+    /// By ascending id.
+    #[expect(clippy::vec_box, reason = "they are a kilobyte each and move to a new list at every frame")]
+    present: Vec<Box<Present>>,
+    count: u64,
+}
+
+/// Somebody who is present.
+struct Present {
+    person: Person,
+    track: Track,
+    gait: Gait,
+    feet: Feet,
+}
+
+/// What somebody's feet wear and leave.
+struct Feet {
+    pattern: u16,
+    /// The word of the pair's wear.
+    wear: u32,
+    shoes: Option<Shoes>,
+    rng: ChaCha8Rng,
+    heels: heels::Wear,
+    /// The foot on the floor.
+    last: Option<Step>,
+}
+
+impl<'a> Footfalls<'a> {
+    /// Prepares the stage. `origins` is by id; whoever has none is neither fresh nor from outside.
+    ///
+    /// # Errors
+    /// Options out of range, a library without soles, a `shoe` that is not in it.
+    pub fn new(
+        people: &'a People,
+        walls: &'a Walls,
+        library: &'a PatternLibrary,
+        options: &MarksOptions,
+        origins: Vec<Origin>,
+    ) -> Result<Footfalls<'a>, MarksError> {
+        options.check()?;
+        if library.pick(Cause::Sole, 0.0, None).is_none() {
+            return Err(MarksError::NoSole);
+        }
+        Ok(Footfalls {
+            people,
+            walls,
+            plan_m: walls.bounds_m(),
+            library,
+            uniform: options.shoe.as_deref().map(|name| sole_named(library, name)).transpose()?,
+            options: options.clone(),
+            heel_marks: HeelMarks::new(library, &options.heel, origins.len()),
+            origins,
+            present: Vec::new(),
+            count: 0,
+        })
+    }
+
+    /// Takes the next frame and adds the marks that are now known to `out`.
+    ///
+    /// Walkers must come by ascending id. Whoever is missing has left, and so has who is at no finite place. A frame
+    /// without a finite time is passed over.
+    pub fn push(&mut self, frame: &Frame, out: &mut Vec<Mark>) {
+        if !frame.time_s.is_finite() || frame.time_s.abs() > MOST_TIME_S {
+            return;
+        }
+        let mut before = std::mem::take(&mut self.present).into_iter().peekable();
+        let mut now = Vec::with_capacity(frame.walkers.len());
+        for walker in frame.walkers.iter().filter(|walker| walker.position_m.is_finite()) {
+            while let Some(left) = before.next_if(|present| present.person.id < walker.id) {
+                self.leave(left, out);
+            }
+            match before.next_if(|present| present.person.id == walker.id) {
+                Some(mut present) => {
+                    self.walk_on(&mut present, frame.time_s, walker, out);
+                    now.push(present);
+                }
+                None => now.push(Box::new(self.arrive(frame.time_s, walker))),
+            }
+        }
+        for left in before {
+            self.leave(left, out);
+        }
+        self.present = now;
+    }
+
+    /// Ends the motion: everybody leaves.
+    pub fn finish(&mut self, out: &mut Vec<Mark>) {
+        for left in std::mem::take(&mut self.present) {
+            self.leave(left, out);
+        }
+    }
+
+    /// Footfalls so far.
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    fn arrive(&self, time_s: f64, walker: &Walker) -> Present {
+        let person = self.people.person(walker.id);
+        let seed = self.people.seed();
+        let origin = self.origins.get(walker.id as usize).copied().unwrap_or_default();
+        let mut rng = person_stream(seed, person.id, Purpose::Marks);
+        let wear = rng.random();
+        let heels = heels::Wear::new(&mut rng);
+        let own = || self.library.pick(Cause::Sole, person.shoe_draw, Some(person.sole_length_m * 100.0));
+        let feet = Feet {
+            pattern: self.uniform.or_else(own).unwrap_or(0),
+            wear,
+            shoes: origin.fresh.then(|| Shoes::new(seed, person.id, &self.options.soil, origin.from_outside)),
+            rng,
+            heels,
+            last: None,
+        };
+        let gait = Gait::new(seed, &person);
+        Present { track: Track::new(time_s, walker.position_m), gait, feet, person }
+    }
+
+    fn walk_on(&mut self, present: &mut Present, time_s: f64, walker: &Walker, out: &mut Vec<Mark>) {
+        let Present { person, track, gait, feet } = present;
+        let mut stride = |sample: Sample| self.stride(person, gait, feet, sample, out);
+        if track.continues(time_s, walker.position_m) {
+            track.push(time_s, walker.position_m, stride);
+        } else {
+            track.finish(&mut stride);
+            gait.interrupt();
+            *track = Track::new(time_s, walker.position_m);
+        }
+    }
+
+    fn leave(&mut self, mut present: Box<Present>, out: &mut Vec<Mark>) {
+        let Present { person, track, gait, feet } = &mut *present;
+        track.finish(|sample| self.stride(person, gait, feet, sample, out));
+    }
+
+    /// One tick of a smoothed path: steps, then what heels lost on the way.
+    fn stride(&mut self, person: &Person, gait: &mut Gait, feet: &mut Feet, sample: Sample, out: &mut Vec<Mark>) {
+        let progress = gait.walk(person, sample, |step| {
+            self.count += 1;
+            let inside = self.plan_m.contains(step.place_m);
+            out.push(feet.footfall(&step, person.sole_length_m, inside));
+            feet.last = Some(step);
+        });
+        if let Some(shoes) = feet.shoes.as_mut().filter(|_| self.plan_m.contains(sample.position_m)) {
+            shoes.walk(progress.walked_m);
+        }
+        let (heels, rng, last, wear) = (&mut feet.heels, &mut feet.rng, feet.last, feet.wear);
+        self.heel_marks.walk(heels, rng, &progress, (sample.position_m, self.walls), |rng, turned_rad| {
+            let variation = rng.random();
+            let mark =
+                last.and_then(|foot| self.heel_marks.mark(&foot, person.sole_length_m, turned_rad, wear, variation));
+            out.extend(mark);
+        });
+    }
+}
+
+impl Feet {
+    /// The print of a step. Shoes lose soil from the first step inside the plan on.
+    fn footfall(&mut self, step: &Step, sole_length_m: f64, inside: bool) -> Mark {
+        let variation: u64 = self.rng.random();
+        let deviation = f64::from(SplitMix64::new(variation ^ u64::from(self.wear)).normal());
+        let soil = self.shoes.as_mut().filter(|_| inside).map_or(0.0, |shoes| shoes.step(step.left, deviation));
+        Mark {
+            cause: Cause::Sole,
+            place_m: step.place_m,
+            heading: step.heading,
+            mirrored: !step.left,
+            pattern: self.pattern,
+            length_m: sole_length_m as f32,
+            smear_m: step.smear_m as f32,
+            twist_rad: step.twist_rad as f32,
+            strength: step.pressure as f32,
+            soil: soil as f32,
+            wear: self.wear,
+            variation,
+        }
+    }
+}
+
+fn sole_named(library: &PatternLibrary, name: &str) -> Result<u16, MarksError> {
+    let soles = || library.patterns.iter().enumerate().filter(|(_, pattern)| pattern.cause == Cause::Sole);
+    let found = soles().find(|(_, pattern)| pattern.name == name).and_then(|(place, _)| u16::try_from(place).ok());
+    found.ok_or_else(|| MarksError::UnknownShoe {
+        name: name.to_owned(),
+        soles: soles().map(|(_, pattern)| pattern.name.clone()).collect(),
+    })
+}
+
+#[cfg(test)]
+mod tests;

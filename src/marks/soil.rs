@@ -1,0 +1,147 @@
+//! Soil that a pair of shoes brings in, and how it fades step by step.
+
+use rand::RngExt;
+
+use crate::math::{Purpose, exp, person_stream, round_to_grid};
+
+use super::gait::normal;
+use super::options::{SoilOptions, Weather};
+
+/// Steps of a shoe after which a dry trail has halved.
+const DRY_HALF_STEPS: f64 = 2.68;
+/// Range of the decay per step of a wet shoe.
+const WET_DECAY: [f64; 2] = [0.7, 1.4];
+/// How much more a wet shoe leaves at first.
+const WET_FACTOR: f64 = 3.0;
+/// Metres of mat that take all but 1/e of a load.
+const MAT_M: f64 = 2.0;
+/// Spread of a single print about the trail: standard deviation of the natural logarithm.
+const PRINT_SIGMA: f64 = 0.2;
+/// No shoe brings in more than this optical density.
+const MOST_DENSITY: f64 = 3.0;
+
+/// The pair of shoes of somebody whose prints can be read.
+pub(super) struct Shoes {
+    feet: [Shoe; 2],
+    weather: Weather,
+    /// Mat still to be walked, metres.
+    mat_left_m: f64,
+    mat_walked_m: f64,
+}
+
+#[derive(Clone, Copy)]
+struct Shoe {
+    /// Optical density of the first print.
+    load: f64,
+    /// Steps since then.
+    steps: f64,
+    /// Decay per step when wet.
+    decay: f64,
+}
+
+impl Shoes {
+    /// Draws the load of a pair: lognormal for the person, with a smaller spread between the feet.
+    pub fn new(seed: u64, person: u32, options: &SoilOptions, from_outside: bool) -> Shoes {
+        let rng = &mut person_stream(seed, person, Purpose::Load);
+        let weather_factor = if options.weather == Weather::Wet { WET_FACTOR } else { 1.0 };
+        let person_load = options.median_density * weather_factor * exp(options.sigma * normal(rng));
+        // Both kinds of start are drawn for everybody, so that where somebody starts shifts no other draw.
+        let entering = options.steps_before_entering.draw(rng);
+        let indoors = options.steps_before_indoors.draw(rng);
+        let feet = [0, 1].map(|_| Shoe {
+            load: (person_load * exp(options.shoe_sigma * normal(rng))).min(MOST_DENSITY),
+            steps: if from_outside { entering } else { indoors },
+            decay: round_to_grid(WET_DECAY[0] + (WET_DECAY[1] - WET_DECAY[0]) * rng.random::<f64>()),
+        });
+        let mat_left_m = if from_outside { options.mat_length_m } else { 0.0 };
+        Shoes { feet, weather: options.weather, mat_left_m, mat_walked_m: 0.0 }
+    }
+
+    /// Walks some metres within the plan: first over the mat.
+    pub fn walk(&mut self, walked_m: f64) {
+        let on_mat_m = walked_m.min(self.mat_left_m);
+        self.mat_left_m -= on_mat_m;
+        self.mat_walked_m += on_mat_m;
+    }
+
+    /// Sets a foot down. Returns the optical density that it leaves; `deviation` is a standard normal value.
+    pub fn step(&mut self, left: bool, deviation: f64) -> f64 {
+        let shoe = &mut self.feet[usize::from(left)];
+        let faded = shoe.load * fade(self.weather, shoe.steps, shoe.decay);
+        shoe.steps += 1.0;
+        faded * exp(PRINT_SIGMA * deviation - self.mat_walked_m / MAT_M)
+    }
+}
+
+/// What is left of a shoe's first print after some steps of that shoe, 1 to 0.
+fn fade(weather: Weather, steps: f64, decay: f64) -> f64 {
+    match weather {
+        Weather::Dry => DRY_HALF_STEPS / (steps + DRY_HALF_STEPS),
+        Weather::Wet => exp(-decay * steps),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{Distribution, ln};
+
+    /// First prints after no steps at all, without the spread between feet.
+    fn bare() -> SoilOptions {
+        SoilOptions { shoe_sigma: 0.0, steps_before_entering: Distribution::Constant(0.0), ..SoilOptions::default() }
+    }
+
+    #[test]
+    fn loads_are_lognormal_with_the_stated_median_and_sigma() {
+        let mut logs: Vec<f64> = (0..4000).map(|id| ln(Shoes::new(7, id, &bare(), true).step(false, 0.0))).collect();
+        logs.sort_by(f64::total_cmp);
+        let mean = logs.iter().sum::<f64>() / 4000.0;
+        let sigma = (logs.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / 4000.0).sqrt();
+        assert!((exp(logs[2000]) - 0.01).abs() < 0.001, "median {}", exp(logs[2000]));
+        assert!((sigma - 1.4).abs() < 0.06, "sigma {sigma}");
+    }
+
+    #[test]
+    fn the_feet_of_a_pair_differ() {
+        let mut shoes = Shoes::new(7, 3, &SoilOptions::default(), true);
+        assert_ne!(shoes.step(true, 0.0), shoes.step(false, 0.0));
+    }
+
+    #[test]
+    fn a_dry_trail_is_half_at_3_steps_and_a_tenth_at_24() {
+        let mut shoes = Shoes::new(7, 3, &bare(), true);
+        let trail: Vec<f64> = (0..30).map(|_| shoes.step(true, 0.0)).collect();
+        assert!((trail[3] / trail[0] - 0.5).abs() < 0.05);
+        assert!((trail[24] / trail[0] - 0.1).abs() < 0.005);
+    }
+
+    #[test]
+    fn a_wet_trail_is_gone_in_four_to_six_prints() {
+        let options = SoilOptions { weather: Weather::Wet, ..bare() };
+        for id in 0..200 {
+            let mut shoes = Shoes::new(7, id, &options, true);
+            let trail: Vec<f64> = (0..8).map(|_| shoes.step(true, 0.0)).collect();
+            assert!(trail[6] / trail[0] < 0.02, "person {id}: {}", trail[6] / trail[0]);
+            assert!(trail[2] / trail[0] > 0.06, "person {id}: {}", trail[2] / trail[0]);
+        }
+    }
+
+    #[test]
+    fn a_mat_takes_its_share_and_no_more_behind_it() {
+        let after = |mat_length_m: f64, walked_m: f64| {
+            let mut shoes = Shoes::new(7, 3, &SoilOptions { mat_length_m, ..bare() }, true);
+            shoes.walk(walked_m);
+            shoes.step(true, 0.0)
+        };
+        for (mat, taken) in [(3.0, 0.78), (4.6, 0.90), (6.0, 0.95)] {
+            assert!((1.0 - after(mat, 20.0) / after(0.0, 20.0) - taken).abs() < 0.005, "{mat} m");
+        }
+        assert!(after(6.0, 1.0) > after(6.0, 2.0));
+    }
+
+    #[test]
+    fn who_starts_indoors_brings_little() {
+        let first = |outside| (0..200).map(|id| Shoes::new(7, id, &bare(), outside).step(true, 0.0)).sum::<f64>();
+        assert!(first(false) < 0.15 * first(true));
+    }
+}
