@@ -1,0 +1,334 @@
+//! The bank: every pattern filtered for the texel density, made when first asked for.
+//!
+//! A texel shows the mean over its square. Here a pattern is filtered once, by a Gaussian of 0.45 texel, and a
+//! stamp reads it at the texels' middles. The Gaussian passes 0.7 % of what has a period of one texel, so the sum
+//! over a stamp's texels does not depend on how the raster happens to lie on the pattern, at any angle; a
+//! square that keeps to the pattern's axes would do so only unrotated. Samples are kept at four a texel, so that the
+//! nearest one is at most an eighth of a texel away.
+
+use std::sync::OnceLock;
+
+use super::StampOptions;
+use super::coat::{Coat, smooth_step};
+use super::picture::{FILTER_REACH, Picture};
+use super::print::Pose;
+use super::shadow::Extent;
+use super::sole::FARTHEST;
+use super::variation::SoleVariation;
+use crate::patterns::{Cause, Pattern, PatternLibrary};
+
+/// Deviation of the texel's filter, texels.
+const TEXEL_FILTER: f64 = 0.45;
+
+/// Samples of a plate per texel.
+const SAMPLES_PER_TEXEL: f64 = 4.0;
+
+/// Samples are never closer than this, metres: half a pattern's pixel.
+const FINEST_SAMPLE_M: f64 = 0.0005;
+
+/// A pattern has at most so many samples in a row.
+const MOST_SAMPLES: f64 = 1000.0;
+
+/// Smears are told apart in steps of about this, metres.
+const SMEAR_STEP_M: f64 = 0.004;
+
+/// The longest smear that a plate is made for, metres of the pattern: 3 cm, on a foot of half the
+/// pattern's size.
+const LONGEST_SMEAR_M: f64 = 0.06;
+
+/// A sole has few texels if they are larger than this, metres.
+const FEW_TEXELS_M: f64 = 0.0126;
+
+/// Zero samples around a plate beyond what the filter reaches, so that a row's span may be a texel too long.
+const GUARD: usize = 6;
+
+/// Coats over which the mean is taken.
+const COATS: u64 = 1024;
+
+/// How many blurs soil prints come in.
+const BLURS: usize = 3;
+
+/// A pattern ready to be read: coverage at even distances.
+#[derive(Debug)]
+pub(super) struct Plate {
+    /// Samples in a row.
+    pub(super) columns: usize,
+    /// Rows, from the outer edge of a left foot to the inner.
+    pub(super) rows: usize,
+    /// Rows, `1 << pitch_bits` apart, a power of two of them. In the plate's unit: all 8 bits are used, also where a
+    /// thin mark covers no texel in full.
+    pub(super) samples: Vec<u8>,
+    pub(super) pitch_bits: u32,
+    /// Coverage that a sample of 1 stands for.
+    pub(super) unit: f32,
+    /// Side of a sample, metres of the pattern.
+    pub(super) sample_m: f64,
+    /// Empty samples before the pattern's first.
+    pub(super) margin: usize,
+}
+
+impl Plate {
+    /// Whether the nearest sample is too far off for a texel of a print at this scale: where the finest samples are
+    /// not fine enough, and where a print has so few texels that their errors do not cancel.
+    pub(super) fn needs_smooth_reading(&self, texel_m: f64, scale: f64) -> bool {
+        self.sample_m > 0.3 * texel_m / scale || texel_m > FEW_TEXELS_M
+    }
+}
+
+/// One pattern at all its sizes, blurs and smears.
+#[derive(Debug)]
+pub(super) struct Printer {
+    pub(super) cause: Cause,
+    /// Length of the pattern, metres.
+    pub(super) length_m: f64,
+    /// Width of the pattern, metres.
+    pub(super) width_m: f64,
+    /// What a full print of the pattern's own size amounts to: the integral of its coverage, square metres.
+    pub(super) mass_m2: f64,
+    /// Middle of its coverage, soles along and across.
+    pub(super) centroid: [f64; 2],
+    /// Where its coverage lies, coarsely: for prints cut by a wall.
+    pub(super) lumps: Vec<Lump>,
+    coverage: Picture,
+    sizes: Vec<Size>,
+}
+
+/// A pattern's plates for feet of about one size: a texel covers more of the pattern of a shoe that is worn smaller.
+#[derive(Debug)]
+struct Size {
+    sample_m: f64,
+    /// How far the filter spreads, samples.
+    reach: usize,
+    /// How much gentler pressure slopes must be for that.
+    slopes_held: [f32; 2],
+    /// Samples from smear to smear.
+    smear_step: usize,
+    /// Deviations of the filter for each blur, metres of the pattern.
+    filters_m: Vec<f64>,
+    filtered: Vec<OnceLock<Picture>>,
+    plates: Vec<Vec<OnceLock<Plate>>>,
+    mean_coat: OnceLock<f32>,
+}
+
+/// Part of a pattern, as if it lay in one place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lump {
+    /// Soles along and across.
+    pub(super) place: [f64; 2],
+    /// Share of the pattern's coverage.
+    pub(super) share: f32,
+}
+
+/// Lumps of a pattern along and across.
+const LUMPS: [usize; 2] = [20, 8];
+
+/// Printers for all patterns of a library, by their number.
+pub(super) fn printers(library: &PatternLibrary, texel_m: f64, options: &StampOptions) -> Vec<Printer> {
+    library.patterns.iter().map(|pattern| Printer::new(pattern, texel_m, options)).collect()
+}
+
+/// Sizes of a foot on its pattern between which a bank changes over from one to the next: half powers of two.
+const SIZE_EDGES: [f64; 10] = [0.210, 0.297, 0.420, 0.595, 0.841, 1.189, 1.682, 2.378, 3.364, 4.757];
+
+impl Printer {
+    fn new(pattern: &Pattern, texel_m: f64, options: &StampOptions) -> Printer {
+        let coverage = Picture::of(pattern);
+        let (mass_m2, centroid) = coverage.mass_and_centroid();
+        let extent_m = [coverage.width, coverage.height].map(|count| count as f64 * coverage.pixel_m);
+        // In the middle between the edges, in proportion.
+        let scale = |size: usize| SIZE_EDGES.get(size).map_or(5.657, |edge| edge / 1.189);
+        Printer {
+            cause: pattern.cause,
+            length_m: extent_m[0],
+            width_m: extent_m[1],
+            mass_m2,
+            centroid,
+            lumps: lumps(&coverage),
+            sizes: (0..=SIZE_EDGES.len()).map(|k| Size::new(texel_m / scale(k), extent_m, centroid, options)).collect(),
+            coverage,
+        }
+    }
+
+    fn size(&self, scale: f64) -> &Size {
+        &self.sizes[SIZE_EDGES.partition_point(|&edge| edge < scale)]
+    }
+
+    /// Length of a lump, metres of the pattern.
+    pub(super) fn lump_m(&self) -> f64 {
+        self.length_m / LUMPS[0] as f64
+    }
+
+    /// Half the length and half the width of a print with what the filter spreads, metres.
+    pub(super) fn half_extent_m(&self, pose: &Pose) -> [f64; 2] {
+        let size = self.size(pose.scale_across);
+        let spread_m = size.reach as f64 * size.sample_m;
+        [(self.length_m * 0.5 + spread_m) * pose.scale_along, (self.width_m * 0.5 + spread_m) * pose.scale_across]
+    }
+
+    /// How much gentler pressure slopes along and across must be for the print's spread by the texels' filter.
+    pub(super) fn slopes_held(&self, pose: &Pose) -> [f32; 2] {
+        self.size(pose.scale_across).slopes_held
+    }
+
+    /// What a soil print leaves of its full coverage, on average over all variation.
+    pub(super) fn mean_coat(&self, pose: &Pose, options: &StampOptions) -> f32 {
+        let size = self.size(pose.scale_across);
+        *size.mean_coat.get_or_init(|| {
+            let filtered = size.filtered[0].get_or_init(|| self.filtered(size, size.filters_m[0]));
+            let (margin, [u_pitch, v_pitch]) =
+                (size.margin(), [self.length_m, self.width_m].map(|m| size.sample_m / m));
+            let place = |k: usize, pitch: f64| ((k as f64 + 0.5 - margin as f64) * pitch - 0.5) as f32;
+            // A few hundred places will do.
+            let step = ((filtered.values.len() / 300) as f64).sqrt().max(1.0) as usize;
+            let places: Vec<[f32; 3]> = (0..filtered.height * filtered.width)
+                .map(|k| (k % filtered.width, k / filtered.width))
+                .filter(|(column, row)| column % step == step / 2 && row % step == step / 2)
+                .map(|(column, row)| {
+                    let coverage = filtered.values[row * filtered.width + column] / 255.0;
+                    [coverage, place(column, u_pitch), place(row, v_pitch)]
+                })
+                .filter(|place| place[0] > 0.004)
+                .collect();
+            let full: f32 = places.iter().map(|place| place[0]).sum();
+            let left: f32 = (0..COATS)
+                .map(|word| {
+                    let variation = SoleVariation::new(word.wrapping_mul(0x9e37_79b9_7f4a_7c15), options);
+                    let coat = Coat::on_sole(&variation, word as u32);
+                    places.iter().map(|&[coverage, u, v]| coat.coated_at(coverage, u, v)).sum::<f32>()
+                })
+                .sum();
+            if full > 0.0 { left / full / COATS as f32 } else { 1.0 }
+        })
+    }
+
+    /// What a print covers, `more_m` larger on every side.
+    pub(super) fn extent(&self, pose: &Pose, more_m: f64) -> Extent {
+        let [half_along_m, half_across_m] = self.half_extent_m(pose).map(|half| half + more_m);
+        Extent { middle_m: pose.place_m, heading: pose.heading, half_along_m, half_across_m }
+    }
+
+    /// The plate for a print: `blur` is 0 to 1 from the least to the most, `smear_m` is measured on the floor.
+    pub(super) fn plate(&self, pose: &Pose, blur: f32, smear_m: f64) -> &Plate {
+        let size = self.size(pose.scale_across);
+        let blur = ((blur * size.filters_m.len() as f32) as usize).min(size.filters_m.len() - 1);
+        let step_m = size.sample_m * size.smear_step as f64;
+        let smear = (smear_m / pose.scale_along / step_m).round().max(0.0) as usize;
+        let smear = smear.min(size.plates[blur].len() - 1);
+        size.plates[blur][smear].get_or_init(|| {
+            let filtered = size.filtered[blur].get_or_init(|| self.filtered(size, size.filters_m[blur]));
+            self.smeared(filtered, size, smear * size.smear_step)
+        })
+    }
+
+    /// The pattern, filtered and sampled, with its margin.
+    fn filtered(&self, size: &Size, deviation_m: f64) -> Picture {
+        let mut image = self.coverage.reduced_for(deviation_m);
+        image = image.padded((FILTER_REACH * deviation_m / image.pixel_m).ceil() as usize + 1);
+        image.blur(deviation_m / image.pixel_m);
+        let middle = [image.width as f64 * 0.5, image.height as f64 * 0.5];
+        let count = |extent_m: f64| (extent_m / size.sample_m).ceil() as usize + 2 * size.margin();
+        let (columns, rows) = (count(self.length_m), count(self.width_m));
+        let place = |k: usize, extent_m: f64| (k as f64 + 0.5 - size.margin() as f64) * size.sample_m - extent_m * 0.5;
+        let mut values = Vec::with_capacity(columns * rows);
+        for row in 0..rows {
+            let y = middle[1] + place(row, self.width_m) / image.pixel_m;
+            for column in 0..columns {
+                let x = middle[0] + place(column, self.length_m) / image.pixel_m;
+                values.push(image.at(x, y));
+            }
+        }
+        let mut sampled = Picture { width: columns, height: rows, pixel_m: size.sample_m, values };
+        // Cutting the filter off and sampling lose a little: what a print amounts to stays exact.
+        let (mass, _) = sampled.mass_and_centroid();
+        if mass > 0.0 {
+            let factor = (self.mass_m2 / mass) as f32;
+            sampled.values.iter_mut().for_each(|v| *v *= factor);
+        }
+        sampled
+    }
+
+    /// Draws the heel out forward: each part of it leaves the mean of all places from where it was set down to
+    /// `samples` further on. Nothing is lost or added by it.
+    fn smeared(&self, image: &Picture, size: &Size, samples: usize) -> Plate {
+        let weight: Vec<f32> = (0..image.width)
+            .map(|column| {
+                let along = (column as f64 + 0.5 - size.margin() as f64) * size.sample_m / self.length_m - 0.5;
+                1.0 - smooth_step((along as f32 + 0.28) / 0.12)
+            })
+            .collect();
+        let mut values = Vec::with_capacity(image.values.len());
+        for row in image.values.chunks_exact(image.width) {
+            let heel: Vec<f32> = row.iter().zip(&weight).map(|(v, w)| v * w).collect();
+            for column in 0..image.width {
+                let rest = row[column] - heel[column];
+                let trail = &heel[column.saturating_sub(samples)..=column];
+                values.push(rest + trail.iter().sum::<f32>() / (samples + 1) as f32);
+            }
+        }
+        let peak = values.iter().fold(1e-6f32, |a, &b| a.max(b));
+        let pitch_bits = image.width.next_power_of_two().trailing_zeros();
+        let mut samples = vec![0; image.height.next_power_of_two() << pitch_bits];
+        for (row, values) in samples.chunks_exact_mut(1 << pitch_bits).zip(values.chunks_exact(image.width)) {
+            row.iter_mut().zip(values).for_each(|(sample, v)| *sample = (v / peak * 255.0 + 0.5) as u8);
+        }
+        Plate {
+            columns: image.width,
+            rows: image.height,
+            samples,
+            pitch_bits,
+            unit: peak / (255.0 * 255.0),
+            sample_m: size.sample_m,
+            margin: size.margin(),
+        }
+    }
+}
+
+impl Size {
+    /// Plates for texels that cover `texel_m` of the pattern.
+    fn new(texel_m: f64, extent_m: [f64; 2], centroid: [f64; 2], options: &StampOptions) -> Size {
+        let longest_m = extent_m[0].max(extent_m[1]);
+        let sample_m = (texel_m / SAMPLES_PER_TEXEL).max(FINEST_SAMPLE_M).max(longest_m / MOST_SAMPLES);
+        let smear_step = (SMEAR_STEP_M / sample_m).round().max(1.0) as usize;
+        let smears = (LONGEST_SMEAR_M / (sample_m * smear_step as f64)).ceil() as usize + 1;
+        // Blurs that the texel's filter hides are one.
+        let [least, most] = options.blur_m;
+        let blurs = if most < 0.6 * TEXEL_FILTER * texel_m { 1 } else { BLURS };
+        let blur_m = |k: usize| least + (most - least) * k as f64 / (BLURS - 1) as f64;
+        let filter = |blur: f64| (blur * blur + TEXEL_FILTER * TEXEL_FILTER * texel_m * texel_m).sqrt();
+        let reach = (FILTER_REACH * filter(most) / sample_m).ceil() as usize;
+        let farthest = |k: usize| 0.5 + reach as f64 * sample_m / extent_m[k] + centroid[k].abs();
+        Size {
+            sample_m,
+            reach,
+            slopes_held: [0, 1].map(|k| (f64::from(FARTHEST) / farthest(k)).min(1.0) as f32),
+            smear_step,
+            filters_m: (0..blurs).map(|k| filter(blur_m(k))).collect(),
+            filtered: (0..blurs).map(|_| OnceLock::new()).collect(),
+            plates: (0..blurs).map(|_| (0..smears).map(|_| OnceLock::new()).collect()).collect(),
+            mean_coat: OnceLock::new(),
+        }
+    }
+
+    /// Empty samples before the pattern's first.
+    fn margin(&self) -> usize {
+        self.reach + GUARD
+    }
+}
+
+/// Where a pattern's coverage lies.
+fn lumps(coverage: &Picture) -> Vec<Lump> {
+    let [columns, rows] = LUMPS;
+    let mut sums = vec![0.0f64; columns * rows];
+    for (row, line) in coverage.values.chunks_exact(coverage.width.max(1)).enumerate() {
+        for (column, &value) in line.iter().enumerate() {
+            sums[row * rows / coverage.height * columns + column * columns / coverage.width] += f64::from(value);
+        }
+    }
+    let total = sums.iter().sum::<f64>().max(1e-9);
+    let place = |k: usize, count: usize| (k as f64 + 0.5) / count as f64 - 0.5;
+    let lump = |(k, &sum): (usize, &f64)| Lump {
+        place: [place(k % columns, columns), place(k / columns, rows)],
+        share: (sum / total) as f32,
+    };
+    sums.iter().enumerate().filter(|(_, sum)| **sum > 0.0).map(lump).collect()
+}

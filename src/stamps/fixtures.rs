@@ -1,0 +1,99 @@
+//! Small worlds for the tests of stamps and sums.
+
+use super::TexelGrid;
+use crate::marks::Mark;
+use crate::math::{SplitMix64, Vec2, sin_cos, vec2};
+use crate::patterns::{Cause, Pattern, PatternLibrary};
+use crate::plan::FloorPlan;
+use crate::walls::{Walls, WallsOptions};
+
+/// A sole of two ellipses with bars across, and a heel mark.
+pub(crate) fn library() -> PatternLibrary {
+    let sole = |x: f64, y: f64| {
+        let inside = |cx: f64, rx: f64, ry: f64| {
+            let (u, v) = ((x - cx) / rx, (y - 55.0) / ry);
+            u * u + v * v < 1.0
+        };
+        let bars = if (x / 12.0).fract() < 0.6 { 255 } else { 90 };
+        if inside(190.0, 90.0, 48.0) || inside(45.0, 40.0, 32.0) { bars } else { 0 }
+    };
+    let heel = |x: f64, y: f64| {
+        let taper = 1.0 - (x / 30.0 - 1.0).abs();
+        if (y - 4.0).abs() < 1.0 + 2.5 * taper { (255.0 * taper) as u8 } else { 0 }
+    };
+    PatternLibrary {
+        patterns: vec![pattern("sole", Cause::Sole, [290, 110], sole), pattern("heel", Cause::Heel, [60, 8], heel)],
+    }
+}
+
+fn pattern(name: &str, cause: Cause, [width, height]: [u32; 2], coverage: impl Fn(f64, f64) -> u8) -> Pattern {
+    let at = |k: u32| coverage(f64::from(k % width) + 0.5, f64::from(k / width) + 0.5);
+    Pattern {
+        name: name.into(),
+        description: String::new(),
+        cause,
+        length_cm: f64::from(width) / 10.0,
+        share: 1.0,
+        lengths_cm: None,
+        width_px: width,
+        height_px: height,
+        coverage: (0..width * height).map(at).collect(),
+    }
+}
+
+/// A room of a size in metres with walls of 0.1 m all around, drawn at 10 px/m.
+pub(crate) fn room(width_m: f64, height_m: f64) -> Walls {
+    let [w, h] = [width_m, height_m].map(|m| (m * 10.0).round() as usize + 2);
+    let floor = (0..w * h).map(|k| u8::from(k % w > 0 && k % w < w - 1 && k / w > 0 && k / w < h - 1)).collect();
+    Walls::trace(&FloorPlan::from_mask(w as u32, h as u32, 0.1, floor), &WallsOptions::default()).unwrap()
+}
+
+pub(crate) fn grid(texels_per_metre: f64, width_m: f64, height_m: f64) -> TexelGrid {
+    let count = |m: f64| (m * texels_per_metre).ceil() as u32;
+    TexelGrid { texels_per_metre, width: count(width_m), height: count(height_m) }
+}
+
+/// A plain footfall of the library's sole.
+pub(crate) fn footfall(place_m: Vec2, angle_rad: f64) -> Mark {
+    let (sin, cos) = sin_cos(angle_rad);
+    Mark {
+        cause: Cause::Sole,
+        place_m,
+        heading: vec2(cos, sin),
+        mirrored: false,
+        pattern: 0,
+        length_m: 0.29,
+        smear_m: 0.0,
+        twist_rad: 0.0,
+        strength: 1.0,
+        soil: 0.0,
+        wear: 0,
+        variation: 1,
+    }
+}
+
+/// Footfalls, every third with soil, and heel marks, evenly over a rectangle and a little beyond.
+pub(crate) fn crowd(count: usize, width_m: f64, height_m: f64, seed: u64) -> Vec<Mark> {
+    let rng = &mut SplitMix64::new(seed);
+    (0..count)
+        .map(|k| {
+            let mut draw = |low: f32, high: f32| f64::from(rng.range(low, high));
+            let place = vec2(draw(-0.2, width_m as f32 + 0.2), draw(-0.2, height_m as f32 + 0.2));
+            let mut mark = footfall(place, draw(-3.2, 3.2));
+            mark.length_m = draw(0.22, 0.33) as f32;
+            mark.smear_m = draw(0.0, 0.03) as f32;
+            mark.twist_rad = (draw(-0.6, 0.6) as f32).max(0.0);
+            mark.strength = draw(0.5, 1.5) as f32;
+            mark.mirrored = k % 2 == 0;
+            mark.variation = rng.next_u64();
+            mark.wear = rng.next_u64() as u32 % 20;
+            if k % 3 == 0 {
+                mark.soil = rng.range(0.0, 0.1);
+            }
+            if k % 10 == 0 {
+                mark = Mark { cause: Cause::Heel, pattern: 1, length_m: mark.length_m * 0.25, ..mark };
+            }
+            mark
+        })
+        .collect()
+}

@@ -1,0 +1,258 @@
+//! A plate laid on the floor: which sample lies under which texel.
+
+use super::TexelGrid;
+use super::bank::{Plate, Printer};
+use super::stamper::{Bounds, floor};
+use crate::math::Vec2;
+
+/// Samples are counted in parts of this many bits.
+const FRACTION_BITS: u32 = 10;
+const FRACTION: i32 = 1 << FRACTION_BITS;
+
+/// A placed plate. Texels are counted from the one that the mark's place lies in, samples in 1/1024.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Print<'a> {
+    plate: &'a Plate,
+    u0: i32,
+    v0: i32,
+    u_per_i: i32,
+    v_per_i: i32,
+    u_per_j: i32,
+    v_per_j: i32,
+}
+
+/// Where and how a pattern is laid.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pose {
+    /// Middle of the pattern, metres.
+    pub(super) place_m: Vec2,
+    /// Unit vector along the pattern.
+    pub(super) heading: Vec2,
+    /// Size along the heading, as a factor on the pattern's.
+    pub(super) scale_along: f64,
+    /// Size across the heading, as a factor on the pattern's.
+    pub(super) scale_across: f64,
+    /// Whether left and right are swapped.
+    pub(super) mirrored: bool,
+}
+
+/// A linear function of texels, counted from the print's origin.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Linear {
+    pub(super) at_origin: f32,
+    pub(super) per_i: f32,
+    pub(super) per_j: f32,
+}
+
+impl Linear {
+    /// Its value at the start of a row.
+    #[inline]
+    pub(super) fn in_row(self, dj: i32) -> f32 {
+        self.at_origin + dj as f32 * self.per_j
+    }
+
+    /// `offset + factor * self`.
+    #[inline]
+    pub(super) fn times(self, factor: f32, offset: f32) -> Linear {
+        Linear { at_origin: self.at_origin * factor + offset, per_i: self.per_i * factor, per_j: self.per_j * factor }
+    }
+
+    #[inline]
+    pub(super) fn plus(self, other: Linear) -> Linear {
+        Linear {
+            at_origin: self.at_origin + other.at_origin,
+            per_i: self.per_i + other.per_i,
+            per_j: self.per_j + other.per_j,
+        }
+    }
+}
+
+impl Pose {
+    /// Place of a texel's middle on the pattern, metres of the pattern along and across, and its change per
+    /// texel along i and j.
+    fn along_across(&self, grid: &TexelGrid, origin: [i64; 2]) -> [[f64; 3]; 2] {
+        let texel_m = grid.texel_m();
+        let from_place = |k: i64, place_m: f64| (k as f64 + 0.5) * texel_m - place_m;
+        let (dx, dy) = (from_place(origin[0], self.place_m.x), from_place(origin[1], self.place_m.y));
+        let h = self.heading;
+        let along = 1.0 / self.scale_along;
+        // Image rows run to the right of the heading.
+        let across = if self.mirrored { -1.0 } else { 1.0 } / self.scale_across;
+        [
+            [dx * h.x + dy * h.y, h.x * texel_m, h.y * texel_m].map(|v| v * along),
+            [dx * h.y - dy * h.x, h.y * texel_m, -h.x * texel_m].map(|v| v * across),
+        ]
+    }
+
+    /// The point of the floor under a place on the pattern, given in soles along and across.
+    pub(super) fn point_m(&self, printer: &Printer, [along, across]: [f64; 2]) -> Vec2 {
+        let right = self.heading.left() * if self.mirrored { 1.0 } else { -1.0 };
+        self.place_m
+            + self.heading * (along * printer.length_m * self.scale_along)
+            + right * (across * printer.width_m * self.scale_across)
+    }
+
+    /// Texel that holds the place.
+    pub(super) fn origin(&self, grid: &TexelGrid) -> [i64; 2] {
+        [self.place_m.x, self.place_m.y].map(|m| floor(m * grid.texels_per_metre))
+    }
+
+    /// The texels that a pattern of this size, `more_m` larger on every side, can touch.
+    pub(super) fn bounds(&self, grid: &TexelGrid, printer: &Printer, more_m: f64) -> Bounds {
+        let [half_along, half_across] = printer.half_extent_m(self).map(|half| half + more_m);
+        let h = self.heading;
+        let x = half_along * h.x.abs() + half_across * h.y.abs();
+        let y = half_along * h.y.abs() + half_across * h.x.abs();
+        let t = grid.texels_per_metre;
+        Bounds {
+            i0: floor((self.place_m.x - x) * t),
+            j0: floor((self.place_m.y - y) * t),
+            i1: floor((self.place_m.x + x) * t) + 1,
+            j1: floor((self.place_m.y + y) * t) + 1,
+        }
+    }
+
+    /// Place on the sole, in soles along and across, of texels counted from the origin.
+    pub(super) fn sole_place(&self, printer: &Printer, grid: &TexelGrid) -> [Linear; 2] {
+        let [along, across] = self.along_across(grid, self.origin(grid));
+        let linear = |v: [f64; 3], extent: f64| {
+            let per_extent = 1.0 / extent;
+            let [at_origin, per_i, per_j] = v.map(|v| (v * per_extent) as f32);
+            Linear { at_origin, per_i, per_j }
+        };
+        [linear(along, printer.length_m), linear(across, printer.width_m)]
+    }
+}
+
+impl<'a> Print<'a> {
+    /// Lays a plate down; texels will be counted from `origin`.
+    pub(super) fn new(
+        printer: &Printer,
+        plate: &'a Plate,
+        pose: &Pose,
+        grid: &TexelGrid,
+        origin: [i64; 2],
+    ) -> Print<'a> {
+        let [along, across] = pose.along_across(grid, origin);
+        let samples_per_m = 1.0 / plate.sample_m;
+        let fixed = |[at_origin, per_i, per_j]: [f64; 3], extent_m: f64| {
+            let first = (at_origin + extent_m * 0.5) * samples_per_m + plate.margin as f64;
+            [first, per_i * samples_per_m, per_j * samples_per_m].map(|v| floor(v * f64::from(FRACTION) + 0.5) as i32)
+        };
+        let [u0, u_per_i, u_per_j] = fixed(along, printer.length_m);
+        let [v0, v_per_i, v_per_j] = fixed(across, printer.width_m);
+        Print { plate, u0, v0, u_per_i, v_per_i, u_per_j, v_per_j }
+    }
+
+    /// For rows from `dj` on, the texels that can lie on the plate, counted from the origin: first and one past the
+    /// last, no further out than `limits`. Empty rows end where they begin or before.
+    ///
+    /// A row may be a texel too long: the plate's guard of empty samples makes up for it.
+    #[inline]
+    pub(super) fn spans(&self, dj: i32, limits: [i32; 2], spans: &mut [[i32; 2]]) {
+        const SAMPLE: f32 = 1.0 / FRACTION as f32;
+        const ROUND: f32 = 12_582_912.0;
+        let whole = |v: f32| (v + ROUND).to_bits() as i32 - ROUND.to_bits() as i32;
+        // Where a row hardly moves over the plate, as if it moved a little.
+        let inverse = |v: i32| {
+            let v = v as f32 * SAMPLE;
+            1.0 / if v.abs() < 1e-3 { 1e-3 } else { v }
+        };
+        let (i_per_u, i_per_v) = (inverse(self.u_per_i), inverse(self.v_per_i));
+        let [u_first, v_first] = [self.u0, self.v0].map(|v| v as f32 * SAMPLE);
+        let [u_step, v_step] = [self.u_per_j, self.v_per_j].map(|v| v as f32 * SAMPLE);
+        let [u_end, v_end] = [self.plate.columns, self.plate.rows].map(|count| count as f32 - 3.0);
+        let [lowest, highest] = limits.map(|v| v as f32);
+        for (k, span) in spans.iter_mut().enumerate() {
+            let row = (dj + k as i32) as f32;
+            let (u, v) = (u_first + row * u_step, v_first + row * v_step);
+            let (ua, ub) = ((3.0 - u) * i_per_u, (u_end - u) * i_per_u);
+            let (va, vb) = ((3.0 - v) * i_per_v, (v_end - v) * i_per_v);
+            let low = ua.min(ub).max(va.min(vb)).max(lowest).min(highest);
+            let high = ua.max(ub).min(va.max(vb)).min(highest).max(lowest);
+            *span = [whole(low - 0.5), (whole(high + 0.5) + 1).min(limits[1])];
+            span[0] = span[0].max(limits[0]);
+        }
+    }
+
+    /// Coverage of the texels from `di` on in row `dj`, which lie on the plate.
+    #[inline]
+    pub(super) fn read_nearest(&self, di: i32, dj: i32, out: &mut [u8]) {
+        let Some(walk) = Walk::new(self, [0, 0], di, dj) else { return };
+        let mut at = walk.start;
+        for coverage in out {
+            *coverage = walk.samples[walk.place(at) & walk.mask];
+            at = at.wrapping_add(walk.step);
+        }
+    }
+
+    /// The same, smoothly between the samples.
+    #[inline]
+    pub(super) fn read_between(&self, di: i32, dj: i32, out: &mut [u8]) {
+        const HALF: i32 = 1 << (FRACTION_BITS - 1);
+        let Some(walk) = Walk::new(self, [HALF, HALF], di, dj) else { return };
+        let row = 1 << self.plate.pitch_bits;
+        let mut at = walk.start;
+        for coverage in out {
+            let place = walk.place(at);
+            let sample = |offset: usize| u32::from(walk.samples[(place + offset) & walk.mask]);
+            let [fu, fv] = [at as u32, (at >> (32 + self.plate.pitch_bits)) as u32].map(|v| v & (FRACTION - 1) as u32);
+            let lower = sample(0) * (FRACTION as u32 - fu) + sample(1) * fu;
+            let upper = sample(row) * (FRACTION as u32 - fu) + sample(row + 1) * fu;
+            let sum = lower * (FRACTION as u32 - fv) + upper * fv;
+            *coverage = ((sum + (1 << (2 * FRACTION_BITS - 1))) >> (2 * FRACTION_BITS)) as u8;
+            at = at.wrapping_add(walk.step);
+        }
+    }
+
+    /// Coverage under one texel, moved by `aside` samples across the pattern; anywhere, also beyond the plate.
+    #[inline]
+    pub(super) fn read_anywhere(&self, di: i32, dj: i32, aside: f32) -> u8 {
+        let u = self.u0 + di * self.u_per_i + dj * self.u_per_j;
+        let v = self.v0 + di * self.v_per_i + dj * self.v_per_j + (aside * FRACTION as f32) as i32;
+        let [u, v] = [u, v].map(|k| k as f32 * (1.0 / FRACTION as f32) - 0.5);
+        if u < 0.0 || v < 0.0 || u >= (self.plate.columns - 1) as f32 || v >= (self.plate.rows - 1) as f32 {
+            return 0;
+        }
+        let (column, row) = (u as usize, v as usize);
+        let (fu, fv) = (u - column as f32, v - row as f32);
+        let sample = |column: usize, row: usize| {
+            f32::from(self.plate.samples.get((row << self.plate.pitch_bits) + column).copied().unwrap_or(0))
+        };
+        let lower = sample(column, row) * (1.0 - fu) + sample(column + 1, row) * fu;
+        let upper = sample(column, row + 1) * (1.0 - fu) + sample(column + 1, row + 1) * fu;
+        (lower * (1.0 - fv) + upper * fv + 0.5) as u8
+    }
+}
+
+/// A walk over a plate's samples along a row of texels.
+///
+/// Both coordinates go in one word: the column, with its fraction, in the lower half, and the row, with its fraction
+/// and shifted by the pitch, in the upper.
+struct Walk<'a> {
+    samples: &'a [u8],
+    mask: usize,
+    row_mask: u64,
+    start: u64,
+    step: u64,
+}
+
+impl<'a> Walk<'a> {
+    #[inline]
+    fn new(print: &Print<'a>, before: [i32; 2], di: i32, dj: i32) -> Option<Walk<'a>> {
+        let samples = &print.plate.samples[..];
+        // There are a power of two of them, so that a mask keeps every place on the plate.
+        let mask = samples.len().checked_sub(1)?;
+        let pitch_bits = print.plate.pitch_bits;
+        let u = print.u0 + di * print.u_per_i + dj * print.u_per_j - before[0];
+        let v = print.v0 + di * print.v_per_i + dj * print.v_per_j - before[1];
+        let word = |u: i32, v: i32| ((i64::from(v) << (32 + pitch_bits)).wrapping_add(i64::from(u))) as u64;
+        let row_mask = mask as u64 & !((1 << pitch_bits) - 1);
+        Some(Walk { samples, mask, row_mask, start: word(u, v), step: word(print.u_per_i, print.v_per_i) })
+    }
+
+    #[inline]
+    fn place(&self, at: u64) -> usize {
+        ((at >> (32 + FRACTION_BITS)) & self.row_mask) as usize + (at as u32 >> FRACTION_BITS) as usize
+    }
+}

@@ -1,0 +1,187 @@
+//! What differs from print to print, expanded from the one word that a mark carries.
+//!
+//! Places on a sole are counted in soles: `along` from -0.5 at the heel's end to 0.5 at the toes, `across` from
+//! -0.5 to 0.5 in image order, so that -0.5 is the outer edge of the left foot that a pattern shows.
+
+use super::StampOptions;
+use crate::math::SplitMix64;
+
+/// Slope of a pressure never beyond this, so that pressure stays positive everywhere on the sole.
+pub(super) const STEEPEST: f32 = 0.6;
+
+/// One footfall's own.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SoleVariation {
+    /// Pressure's slope from heel to toe, shares of the mean.
+    pub(super) along: f32,
+    /// Pressure's slope from edge to edge: the roll of the foot.
+    pub(super) across: f32,
+    /// Where the noise tile starts.
+    pub(super) noise_at: [u32; 2],
+    /// Uniform in `[0, 1)`: how blurred.
+    pub(super) blur: f32,
+    /// How much more the full parts leave than the faint ones: `c (1 + contrast (c - 1))`.
+    pub(super) contrast: f32,
+    /// Which part of the sole shows.
+    pub(super) fade: Fade,
+}
+
+/// Which part of a sole shows: from `floor` to 1 along a direction, in a smooth step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Fade {
+    /// The step's progress in the middle of the sole.
+    pub(super) at_middle: f32,
+    /// The progress' slope from heel to toe.
+    pub(super) along: f32,
+    /// The progress' slope from edge to edge.
+    pub(super) across: f32,
+    /// What is left of the part that does not show.
+    pub(super) floor: f32,
+}
+
+impl Fade {
+    /// The whole sole shows.
+    const NONE: Fade = Fade { at_middle: 1.0, along: 0.0, across: 0.0, floor: 1.0 };
+}
+
+impl SoleVariation {
+    pub(super) fn new(word: u64, options: &StampOptions) -> SoleVariation {
+        let rng = &mut SplitMix64::new(word);
+        let slope = |z: f32| (z * options.pressure as f32).clamp(-STEEPEST, STEEPEST);
+        let along = slope(rng.normal());
+        let across = slope(rng.normal());
+        let at = rng.next_u64();
+        SoleVariation {
+            along,
+            across,
+            noise_at: [at as u32, (at >> 32) as u32],
+            blur: rng.unit(),
+            contrast: rng.range(-0.3, 0.7),
+            fade: fade(rng, options.partial as f32),
+        }
+    }
+}
+
+/// Forty per cent of prints are partial, in equal parts: heel only, ball only, faded to one edge.
+fn fade(rng: &mut SplitMix64, partial: f32) -> Fade {
+    let kind = rng.unit() / partial.max(1e-6) * 3.0;
+    let (place, softness, floor, side) = (rng.unit(), rng.unit(), rng.unit(), rng.unit());
+    let floor = 0.15 * floor * floor;
+    // Progress 0.5 at `edge`, 0 and 1 half a `soft` from it.
+    let step = |direction: f32, edge: f32, soft: f32| (0.5 - direction * edge / soft, direction / soft);
+    match kind as u32 {
+        0 => {
+            let (at_middle, along) = step(-1.0, -0.22 + 0.2 * place, 0.1 + 0.2 * softness);
+            Fade { at_middle, along, across: (side - 0.5) * 2.0, floor }
+        }
+        1 => {
+            let (at_middle, along) = step(1.0, -0.15 + 0.23 * place, 0.1 + 0.2 * softness);
+            Fade { at_middle, along, across: (side - 0.5) * 2.0, floor }
+        }
+        2 => {
+            let direction = if side < 0.5 { -1.0 } else { 1.0 };
+            let (at_middle, across) = step(direction, direction * (-0.3 + 0.4 * place), 0.3 + 0.5 * softness);
+            Fade { at_middle, along: (side * 2.0).fract() - 0.5, across, floor }
+        }
+        _ => Fade::NONE,
+    }
+}
+
+/// Where a pair of shoes is worn down, so that it leaves less: the outer heel and a place under the ball.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wear(pub(super) [WornSpot; 2]);
+
+/// A worn place: `1 - depth` of the print is left in its middle, all of it from its rim on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WornSpot {
+    pub(super) along: f32,
+    pub(super) across: f32,
+    /// One over the half axes.
+    pub(super) inverse_radius: [f32; 2],
+    pub(super) depth: f32,
+}
+
+impl Wear {
+    pub(super) fn new(word: u32) -> Wear {
+        let rng = &mut SplitMix64::new(u64::from(word) ^ 0x7765_6172_0000_0000);
+        let mut spot = |along: [f32; 2], across: [f32; 2], radius: [f32; 2], depth: f32| WornSpot {
+            along: rng.range(along[0], along[1]),
+            across: rng.range(across[0], across[1]),
+            inverse_radius: [1.0 / rng.range(radius[0], radius[1]), 1.0 / rng.range(0.3, 0.6)],
+            depth: depth * rng.unit(),
+        };
+        Wear([spot([-0.5, -0.4], [-0.45, -0.1], [0.1, 0.2], 0.9), spot([0.1, 0.32], [-0.25, 0.3], [0.08, 0.2], 0.7)])
+    }
+
+    /// What is left of the print at a place on the sole.
+    #[inline]
+    pub(super) fn left(&self, along: f32, across: f32) -> f32 {
+        let [heel, ball] = &self.0;
+        heel.left(along, across) * ball.left(along, across)
+    }
+}
+
+impl WornSpot {
+    #[inline]
+    fn left(&self, along: f32, across: f32) -> f32 {
+        let u = (along - self.along) * self.inverse_radius[0];
+        let v = (across - self.across) * self.inverse_radius[1];
+        1.0 - self.depth * (1.0 - u * u - v * v).max(0.0)
+    }
+}
+
+/// One heel mark's own.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HeelVariation {
+    /// Factor on the pattern's width.
+    pub(super) width: f32,
+    /// How far the ends lie beside the middle's tangent, shares of the length.
+    pub(super) bend: f32,
+    /// Share of the density that is lost from the start to the end of the drag.
+    pub(super) fade: f32,
+    /// Where the noise tile starts.
+    pub(super) noise_at: [u32; 2],
+}
+
+/// The most that the ends of a heel mark are bent aside, shares of its length.
+pub(super) const MOST_BEND: f32 = 0.3;
+
+impl HeelVariation {
+    pub(super) fn new(word: u64) -> HeelVariation {
+        let rng = &mut SplitMix64::new(word);
+        let bend = (0.1 * rng.normal()).clamp(-MOST_BEND, MOST_BEND);
+        let at = rng.next_u64();
+        HeelVariation {
+            width: rng.range(0.7, 1.3),
+            bend,
+            fade: 0.7 * rng.unit(),
+            noise_at: [at as u32, (at >> 32) as u32],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_stated_share_of_prints_is_partial() {
+        let options = StampOptions::default();
+        let partial = (0..20_000).filter(|&k| SoleVariation::new(k * 7919, &options).fade != Fade::NONE).count() as f64;
+        assert!((partial / 20_000.0 - options.partial).abs() < 0.01, "{partial} of 20000");
+        let none = StampOptions { partial: 0.0, ..options };
+        assert!((0..1000).all(|k| SoleVariation::new(k, &none).fade == Fade::NONE));
+    }
+
+    #[test]
+    fn pressure_stays_positive_and_is_one_in_the_mean() {
+        let options = StampOptions { pressure: 0.4, ..StampOptions::default() };
+        let mut mean = 0.0;
+        for k in 0..5000 {
+            let v = SoleVariation::new(k, &options);
+            assert!(1.0 - 0.75 * (v.along.abs() + v.across.abs()) > 0.0);
+            mean += (v.along + v.across) / 5000.0;
+        }
+        assert!(mean.abs() < 0.03, "{mean}");
+    }
+}
