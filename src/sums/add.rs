@@ -1,0 +1,204 @@
+//! Adding a batch of marks: coarse (marks to blocks), then fine (texels of a block).
+
+use rayon::prelude::*;
+
+use super::blocks::{Block, BlockKey, Cells};
+use super::floor::FloorMask;
+use super::{BLOCK, FloorSums, Quantity};
+use crate::marks::Mark;
+use crate::patterns::Cause;
+use crate::stamps::{Bounds, Cell, Placed, Sheet, Stamper, TexelGrid, Touched, Window};
+use crate::walls::Walls;
+
+/// Buffers that are used again from batch to batch.
+#[derive(Debug, Default)]
+pub(super) struct Batch {
+    placed: Vec<Option<Placed>>,
+    entries: Vec<Entry>,
+}
+
+/// That a mark touches a block, in one word that sorts by quantity, row, column and mark.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Entry(u64);
+
+/// Bits of an entry: the mark's number in its batch, column and row of the block.
+const MARK_BITS: u32 = 16;
+const PLACE_BITS: u32 = 23;
+
+/// Marks are taken so many at a time.
+const MARKS_AT_A_TIME: usize = 1 << MARK_BITS;
+
+/// Marks that one thread places at a time.
+const MARKS_OF_A_THREAD: usize = 1 << 12;
+
+impl Entry {
+    fn new(quantity: Quantity, [row, column]: BlockKey, mark: usize) -> Entry {
+        let place = u64::from(row) << PLACE_BITS | u64::from(column);
+        Entry(((quantity as u64) << (2 * PLACE_BITS) | place) << MARK_BITS | mark as u64)
+    }
+
+    fn quantity(self) -> usize {
+        (self.0 >> (MARK_BITS + 2 * PLACE_BITS)) as usize
+    }
+
+    fn key(self) -> BlockKey {
+        let place = |shift: u32| (self.0 >> shift) as u32 & ((1 << PLACE_BITS) - 1);
+        [place(MARK_BITS + PLACE_BITS), place(MARK_BITS)]
+    }
+
+    fn mark(self) -> usize {
+        self.0 as usize & ((1 << MARK_BITS) - 1)
+    }
+
+    fn same_block(a: &Entry, b: &Entry) -> bool {
+        a.0 >> MARK_BITS == b.0 >> MARK_BITS
+    }
+}
+
+/// A block with the marks that touch it.
+struct Task<'a> {
+    quantity: Quantity,
+    block: &'a mut Block,
+    floor: &'a FloorMask,
+    entries: &'a [Entry],
+}
+
+/// All marks of a batch with what was found out about them.
+struct Marks<'a> {
+    stamper: &'a Stamper,
+    walls: &'a Walls,
+    marks: &'a [Mark],
+    placed: &'a [Option<Placed>],
+}
+
+pub(super) fn add(sums: &mut FloorSums, stamper: &Stamper, walls: &Walls, marks: &[Mark]) {
+    let mut batch = std::mem::take(&mut sums.batch);
+    for marks in marks.chunks(MARKS_AT_A_TIME) {
+        bin(sums, stamper, walls, marks, &mut batch);
+        let of = |presence: bool| {
+            let is_wanted = move |e: &Entry| (e.quantity() == Quantity::Presence as usize) == presence;
+            batch.entries.chunk_by(Entry::same_block).map(|entries| entries[0]).filter(is_wanted).map(Entry::key)
+        };
+        sums.texel_floor.prepare(of(false), walls);
+        sums.cell_floor.prepare(of(true), walls);
+        let marks = Marks { stamper, walls, marks, placed: &batch.placed };
+        let tasks = tasks(sums, &batch.entries);
+        tasks.into_par_iter().with_max_len(1).for_each_init(Sheet::new, |sheet, task| fine(task, &marks, sheet));
+    }
+    sums.batch = batch;
+}
+
+/// Looks at every mark's surroundings and finds the blocks that it touches; entries end up sorted.
+fn bin(sums: &FloorSums, stamper: &Stamper, walls: &Walls, marks: &[Mark], batch: &mut Batch) {
+    let parts: Vec<(Vec<Option<Placed>>, Vec<Entry>)> = marks
+        .par_chunks(MARKS_OF_A_THREAD)
+        .enumerate()
+        .map(|(part, marks)| {
+            let mut entries = Vec::with_capacity(4 * marks.len());
+            let placed = marks.iter().enumerate().map(|(k, mark)| {
+                let (placed, touched) = stamper.place(mark, walls)?;
+                push_entries(sums, mark.cause, &touched, part * MARKS_OF_A_THREAD + k, &mut entries);
+                Some(placed)
+            });
+            (placed.collect(), entries)
+        })
+        .collect();
+    batch.placed.clear();
+    batch.entries.clear();
+    for (placed, entries) in parts {
+        batch.placed.extend(placed);
+        batch.entries.extend(entries);
+    }
+    batch.entries.par_sort_unstable();
+}
+
+fn push_entries(sums: &FloorSums, cause: Cause, touched: &Touched, mark: usize, entries: &mut Vec<Entry>) {
+    let mut push = |quantity: Quantity, grid: TexelGrid, bounds: Bounds| {
+        let blocks = |low: i64, high: i64, count: u32| {
+            let size = BLOCK as i64;
+            let (low, high) = (low.max(0), high.min(count.into()).min(size << PLACE_BITS));
+            if low < high { (low / size) as u32..((high - 1) / size) as u32 + 1 } else { 0..0 }
+        };
+        for row in blocks(bounds.j0, bounds.j1, grid.height) {
+            for column in blocks(bounds.i0, bounds.i1, grid.width) {
+                entries.push(Entry::new(quantity, [row, column], mark));
+            }
+        }
+    };
+    match cause {
+        Cause::Sole => {
+            push(Quantity::Passes, sums.grid, touched.texels);
+            push(Quantity::Presence, sums.presence_grid, touched.cells);
+            if touched.soil {
+                push(Quantity::Soil, sums.grid, touched.texels);
+            }
+        }
+        Cause::Heel => push(Quantity::Scuff, sums.grid, touched.texels),
+    }
+}
+
+/// Pairs blocks, made where there is floor and none yet, with their entries.
+fn tasks<'a>(sums: &'a mut FloorSums, entries: &'a [Entry]) -> Vec<Task<'a>> {
+    let (texel_floor, cell_floor) = (&sums.texel_floor, &sums.cell_floor);
+    let mut tasks = Vec::new();
+    for (quantity, plane) in Quantity::ALL.into_iter().zip(&mut sums.planes) {
+        let floor = if quantity == Quantity::Presence { cell_floor } else { texel_floor };
+        let first = entries.partition_point(|e| e.quantity() < quantity as usize);
+        let end = entries.partition_point(|e| e.quantity() <= quantity as usize);
+        let mut numbered: Vec<(usize, &[Entry])> = entries[first..end]
+            .chunk_by(Entry::same_block)
+            .filter(|entries| !floor.get(entries[0].key()).is_none())
+            .map(|entries| (plane.number(entries[0].key()), entries))
+            .collect();
+        numbered.sort_unstable_by_key(|&(number, _)| number);
+        let mut numbered = numbered.into_iter().peekable();
+        for (number, block) in plane.blocks_mut().iter_mut().enumerate() {
+            if let Some((_, entries)) = numbered.next_if(|&(n, _)| n == number) {
+                let floor = floor.get(block.key());
+                tasks.push(Task { quantity, block, floor, entries });
+            }
+        }
+    }
+    tasks
+}
+
+/// Adds all marks of a block to its texels.
+fn fine(task: Task, marks: &Marks, sheet: &mut Sheet) {
+    let Task { quantity, block, floor, entries } = task;
+    let [row, column] = block.key();
+    let window = Window { i0: i64::from(column) * BLOCK as i64, j0: i64::from(row) * BLOCK as i64 };
+    for entry in entries {
+        let mark = &marks.marks[entry.mark()];
+        let Some(placed) = &marks.placed[entry.mark()] else { continue };
+        let peak = match quantity {
+            Quantity::Passes => marks.stamper.peak_of_passes(mark),
+            Quantity::Presence => marks.stamper.peak_of_presence(placed),
+            Quantity::Soil => marks.stamper.peak_of_soil(mark),
+            Quantity::Scuff => marks.stamper.peak_of_scuff(mark),
+        };
+        match block.cells_for(peak) {
+            Cells::Narrow(cells) => stamp(quantity, mark, placed, marks, window, sheet, cells),
+            Cells::Wide(cells) => stamp(quantity, mark, placed, marks, window, sheet, cells),
+        }
+    }
+    floor.clear_outside(block.cells_mut());
+}
+
+/// Adds one mark to the cells of a block.
+fn stamp<C: Cell>(
+    quantity: Quantity,
+    mark: &Mark,
+    placed: &Placed,
+    marks: &Marks,
+    window: Window,
+    sheet: &mut Sheet,
+    cells: &mut [C],
+) {
+    let Marks { stamper, walls, .. } = *marks;
+    match quantity {
+        Quantity::Passes => stamper.add_passes(mark, placed, walls, window, sheet, cells),
+        Quantity::Presence => stamper.add_presence(mark, placed, walls, window, cells),
+        Quantity::Soil => stamper.add_soil(mark, placed, walls, window, sheet, cells),
+        Quantity::Scuff => stamper.add_scuff(mark, placed, walls, window, sheet, cells),
+    }
+}
