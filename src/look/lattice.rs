@@ -1,0 +1,193 @@
+//! Smooth fields from values on a square lattice: quadratic B-splines, evaluated row by row.
+//!
+//! A quadratic B-spline is continuous with its slope, reproduces straight ramps exactly, and takes three values
+//! per axis: no blocks, no creases, no overshoot.
+
+use crate::math::{Rect, vec2};
+
+/// A rectangle of texels of the whole floor. Texel (i, j) covers `[i, i+1)/t x [j, j+1)/t` metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Window {
+    pub texels_per_metre: f64,
+    pub i0: i64,
+    pub j0: i64,
+    pub width: usize,
+    pub height: usize,
+}
+
+impl Window {
+    pub fn texels(&self) -> usize {
+        self.width * self.height
+    }
+
+    /// The floor that it covers, metres.
+    pub fn area_m(&self) -> Rect {
+        let corner = |i: i64, j: i64| vec2(i as f64, j as f64) / self.texels_per_metre;
+        let (i1, j1) = (self.i0 + self.width as i64, self.j0 + self.height as i64);
+        Rect { min: corner(self.i0, self.j0), max: corner(i1, j1) }
+    }
+
+    /// Whether any texel of `part` is set in a mask of this window.
+    pub fn any_in(&self, part: &Window, mask: &[bool]) -> bool {
+        let clip = |first: i64, count: usize, size: usize| {
+            let low = first.clamp(0, size as i64);
+            low as usize..(first + count as i64).clamp(low, size as i64) as usize
+        };
+        let columns = clip(part.i0 - self.i0, part.width, self.width);
+        let mut rows = clip(part.j0 - self.j0, part.height, self.height);
+        rows.any(|row| mask[row * self.width..][columns.clone()].contains(&true))
+    }
+
+    /// Grown by so many texels on every side.
+    pub fn grown(&self, by: usize) -> Window {
+        Window {
+            i0: self.i0 - by as i64,
+            j0: self.j0 - by as i64,
+            width: self.width + 2 * by,
+            height: self.height + 2 * by,
+            ..*self
+        }
+    }
+}
+
+/// Where a row of texels lies on one axis of a lattice.
+///
+/// A texel's place follows from its number in the whole floor alone, so that every rectangle that holds the
+/// texel finds the same value.
+#[derive(Clone, Debug)]
+pub(super) struct Axis {
+    /// Number of the first lattice value needed.
+    pub first: i64,
+    /// How many are needed.
+    pub len: usize,
+    /// Runs of texels that take the same three values.
+    runs: Vec<Run>,
+    /// Weights of the three values, by texel.
+    weights: [Vec<f32>; 3],
+}
+
+/// Texels `start..end` take the lattice values `base..base + 3`.
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    base: u32,
+    start: u32,
+    end: u32,
+}
+
+impl Axis {
+    /// Texels `texel0..texel0 + count` over lattice values that lie at `spacing * (k + offset)` texels.
+    pub fn new(texel0: i64, count: usize, spacing: f64, offset: f64) -> Axis {
+        let place = |k: usize| ((texel0 + k as i64) as f64 + 0.5) / spacing - offset;
+        let first = (place(0) + 0.5).floor() as i64 - 1;
+        let mut runs: Vec<Run> = Vec::new();
+        let mut weights: [Vec<f32>; 3] = std::array::from_fn(|_| Vec::with_capacity(count));
+        for k in 0..count {
+            let u = place(k);
+            let middle = (u + 0.5).floor();
+            let base = (middle as i64 - 1 - first) as u32;
+            match runs.last_mut().filter(|run| run.base == base) {
+                Some(run) => run.end += 1,
+                None => runs.push(Run { base, start: k as u32, end: k as u32 + 1 }),
+            }
+            let f = (u - middle) as f32;
+            weights[0].push(0.5 * (0.5 - f) * (0.5 - f));
+            weights[1].push(0.75 - f * f);
+            weights[2].push(0.5 * (0.5 + f) * (0.5 + f));
+        }
+        let len = runs.last().map_or(0, |run| run.base as usize + 3);
+        Axis { first, len, runs, weights }
+    }
+
+    /// First of the three values that a texel takes, and their weights.
+    fn at(&self, texel: usize) -> (usize, [f32; 3]) {
+        let run = self.runs.partition_point(|run| run.end as usize <= texel);
+        (self.runs[run].base as usize, self.weights.each_ref().map(|weights| weights[texel]))
+    }
+}
+
+/// Values on a lattice, ready to be read off at texels.
+#[derive(Clone, Debug)]
+pub(super) struct Lattice {
+    pub x: Axis,
+    pub y: Axis,
+    /// Row-major, `x.len` by `y.len`.
+    values: Vec<f32>,
+    row: Vec<f32>,
+}
+
+impl Lattice {
+    /// A lattice with row-major values, `x.len` by `y.len`.
+    pub fn new(x: Axis, y: Axis, values: Vec<f32>) -> Lattice {
+        debug_assert_eq!(values.len(), x.len * y.len);
+        let row = vec![0.0; x.len];
+        Lattice { x, y, values, row }
+    }
+
+    /// Moves to a row of texels: everything that is the same along it.
+    pub fn begin_row(&mut self, row: usize) {
+        let (base, [below, middle, above]) = self.y.at(row);
+        let n = self.x.len;
+        let (first, rest) = self.values[base * n..(base + 3) * n].split_at(n);
+        let (second, third) = rest.split_at(n);
+        for (((out, a), b), c) in self.row.iter_mut().zip(first).zip(second).zip(third) {
+            *out = below * a + middle * b + above * c;
+        }
+    }
+
+    /// Adds the field at the texels `start..start + out.len()` of the row last begun.
+    pub fn add_to(&self, start: usize, out: &mut [f32]) {
+        let end = start + out.len();
+        let first = self.x.runs.partition_point(|run| run.end as usize <= start);
+        let [left, middle, right] = &self.x.weights;
+        for run in self.x.runs[first..].iter().take_while(|run| (run.start as usize) < end) {
+            let (from, to) = ((run.start as usize).max(start), (run.end as usize).min(end));
+            let values = &self.row[run.base as usize..run.base as usize + 3];
+            let (a, b, c) = (values[0], values[1], values[2]);
+            let out = &mut out[from - start..to - start];
+            let (left, middle, right) = (&left[from..to], &middle[from..to], &right[from..to]);
+            for (((out, left), middle), right) in out.iter_mut().zip(left).zip(middle).zip(right) {
+                *out += left * a + middle * b + right * c;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lattice(x: Axis, y: Axis, value: impl Fn(i64, i64) -> f32) -> Lattice {
+        let place = |n: usize| (x.first + (n % x.len) as i64, y.first + (n / x.len) as i64);
+        let values = (0..x.len * y.len).map(place).map(|(i, j)| value(i, j)).collect();
+        Lattice::new(x, y, values)
+    }
+
+    fn read(lattice: &mut Lattice, width: usize, row: usize) -> Vec<f32> {
+        let mut out = vec![0.0; width];
+        lattice.begin_row(row);
+        lattice.add_to(0, &mut out);
+        out
+    }
+
+    #[test]
+    fn a_ramp_stays_a_ramp() {
+        // Values at the middles of cells of 4 texels.
+        let axis = |from: i64, n| Axis::new(from, n, 4.0, 0.5);
+        let mut lattice = lattice(axis(-7, 30), axis(9, 5), |i, j| (3 * i - j) as f32);
+        for row in 0..5 {
+            for (k, value) in read(&mut lattice, 30, row).into_iter().enumerate() {
+                let x = (k as f64 - 7.0 + 0.5) / 4.0 - 0.5;
+                let y = (row as f64 + 9.0 + 0.5) / 4.0 - 0.5;
+                assert!((f64::from(value) - (3.0 * x - y)).abs() < 1e-4, "{k} {row}: {value}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_texel_has_the_same_value_in_every_window() {
+        let value = |i: i64, j: i64| ((i * 31 + j * 17) % 23) as f32;
+        let mut whole = lattice(Axis::new(-50, 100, 3.7, 0.2), Axis::new(0, 10, 3.7, 0.2), value);
+        let mut part = lattice(Axis::new(-3, 20, 3.7, 0.2), Axis::new(6, 2, 3.7, 0.2), value);
+        assert_eq!(read(&mut whole, 100, 7)[47..67], read(&mut part, 20, 1)[..]);
+    }
+}

@@ -1,0 +1,78 @@
+use serde::{Deserialize, Serialize};
+
+use super::settings::Srgb8;
+
+/// What a floor is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Material {
+    /// Light PVC sheet, waxed: the film shows as a grey lane, the wax is worn dull.
+    Vinyl,
+    /// Dark PVC or rubber: soil is lighter than the floor.
+    Dark,
+    /// Terrazzo and polished stone: feet polish the lane, dirt stays in the margin.
+    Terrazzo,
+    /// Bare, sealed concrete: cloudy, takes up soil, worn smooth.
+    Concrete,
+    /// Varnished planks: worn dull and grey where many walk.
+    Wood,
+    /// Carpet: wide, soft lanes, no prints, no heel marks.
+    Carpet,
+    /// Glazed tiles: nearly clean, dirt in the joints.
+    Tile,
+}
+
+/// How dirt shows on a material, as factors on the look's settings, and its own values where the look has none.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Properties {
+    pub colour: Srgb8,
+    /// Clean, and where many have walked.
+    pub roughness: [f32; 2],
+    pub film: f32,
+    pub prints: f32,
+    pub scuffs: f32,
+    pub edge: f32,
+    pub dust: f32,
+    /// Least spread of the film, metres: fibres pass dirt on to their neighbours.
+    pub least_spread_m: f64,
+    /// Whether the film keeps a trace of single passes.
+    pub shows_single_passes: bool,
+}
+
+impl Material {
+    pub(super) fn properties(self) -> Properties {
+        let plain = Properties {
+            colour: [197, 192, 182],
+            roughness: [0.35, 0.50],
+            film: 1.0,
+            prints: 1.0,
+            scuffs: 1.0,
+            edge: 1.0,
+            dust: 1.0,
+            least_spread_m: 0.0,
+            shows_single_passes: true,
+        };
+        match self {
+            Material::Vinyl => plain,
+            Material::Dark => Properties { colour: [60, 58, 56], film: 0.5, ..plain },
+            Material::Terrazzo => {
+                Properties { colour: [186, 181, 172], roughness: [0.30, 0.22], film: 0.35, scuffs: 0.7, ..plain }
+            }
+            Material::Concrete => {
+                Properties { colour: [158, 154, 147], roughness: [0.75, 0.55], prints: 0.8, scuffs: 0.8, ..plain }
+            }
+            Material::Wood => Properties { colour: [172, 132, 92], roughness: [0.40, 0.60], ..plain },
+            Material::Carpet => Properties {
+                colour: [122, 124, 130],
+                roughness: [0.95, 0.95],
+                prints: 0.0,
+                scuffs: 0.0,
+                edge: 0.6,
+                least_spread_m: 0.15,
+                shows_single_passes: false,
+                ..plain
+            },
+            Material::Tile => Properties { colour: [206, 203, 196], roughness: [0.18, 0.24], film: 0.28, ..plain },
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! Resolves sums into what a floor looks like: masks, base colour, roughness. Needs no simulation.
+//!
+//! The simulated people stand for the floor's whole history: `w = total_passes / simulated`. Their sums become
+//! optical densities of dirt, each with a colour of its own:
+//!
+//! - **film**, D = density (1 - exp(-per_pass n)) x noise. The passes n are w `presence`, plus what is left of single
+//!   prints (`passes` around `presence`) scaled by sqrt(w): the speckle of a sum of w times as many prints;
+//! - **prints** of the last people since mopping (`soil`), and **scuffs** (`scuff`);
+//! - the **edge** along the skirting, heavier in corners, and **dust** where nobody walks.
+//!
+//! Dirt lies on the floor as C = floor T + soil (1 - T) with T = exp(-sum D), soil = sum(D c) / sum(D), in linear light:
+//! the order in which it came does not matter, and it is lighter than a dark floor.
+
+mod coarse;
+mod dust;
+mod error;
+mod face;
+mod file;
+mod ground;
+mod image;
+mod lattice;
+mod material;
+mod noise;
+mod padding;
+mod paint;
+mod presets;
+mod resolve;
+mod settings;
+mod shade;
+mod skirting;
+mod tone;
+mod traffic;
+
+#[cfg(test)]
+mod tests;
+
+pub use error::{LookError, Place, RangeError};
+pub use material::Material;
+pub use presets::LOOK_PRESETS;
+pub use resolve::{Background, FloorResolver, LAYERS, Layer, ResolvedBlock};
+pub use settings::{
+    DustLook, EdgeLook, FilmLook, FloorLook, IngrainedLook, Look, NoiseLook, Octave, PrintsLook, RUBBER, SOIL_DRY,
+    SOIL_WET, ScuffsLook, Srgb8,
+};

@@ -1,0 +1,225 @@
+//! Noise in plan space: values hashed on a lattice, joined by B-splines. The same at any place for any texel
+//! density, tile or rectangle; nothing is stored.
+
+use super::lattice::{Axis, Lattice, Window};
+
+/// Sixteen well mixed bits of input make 32 of output (Wellons' `lowbias32`).
+pub(super) fn mix(mut x: u32) -> u32 {
+    x ^= x >> 16;
+    x = x.wrapping_mul(0x7feb_352d);
+    x ^= x >> 15;
+    x = x.wrapping_mul(0x846c_a68b);
+    x ^ (x >> 16)
+}
+
+/// Hash of a lattice point.
+pub(super) fn hash(key: u32, i: i32, j: i32) -> u32 {
+    mix(column_word(i) ^ row_key(key, j))
+}
+
+/// The part of [`hash`] that is the same along a row.
+pub(super) fn row_key(key: u32, j: i32) -> u32 {
+    mix((j as u32).wrapping_add(key))
+}
+
+/// The part of [`hash`] that differs along a row.
+pub(super) fn column_word(i: i32) -> u32 {
+    (i as u32).wrapping_mul(0x9e37_79b1)
+}
+
+/// Hash of a lattice point, as a number in `[-1, 1)`.
+pub(super) fn signed(key: u32, i: i32, j: i32) -> f32 {
+    hash(key, i, j) as i32 as f32 / 2_147_483_648.0
+}
+
+/// What a noise is for: each has a pattern of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
+pub(super) enum Channel {
+    Fine = 1,
+    Middle,
+    MiddleDetail,
+    Coarse,
+    CoarseDetail,
+    EdgeStretch,
+    EdgeClump,
+    EdgeStreak,
+    Ground,
+    GroundMiddle,
+    GroundCoarse,
+    GroundTint,
+    Piece,
+    Dither,
+}
+
+/// The key of one channel under one seed.
+pub(super) fn key(seed: u64, channel: Channel) -> u32 {
+    mix((seed as u32) ^ mix((seed >> 32) as u32 ^ mix(channel as u32)))
+}
+
+/// A stationary noise with mean 0.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Noise {
+    key: u32,
+    /// Lattice spacing along x and y, metres.
+    spacing_m: [f64; 2],
+    sd: f32,
+}
+
+impl Noise {
+    /// Spots of `size_m` along each axis (width at half height of the autocorrelation), standard deviation `sd`.
+    pub fn new(seed: u64, channel: Channel, size_m: [f64; 2], sd: f32) -> Noise {
+        // The autocorrelation is a quintic B-spline: 1.67 spacings wide at half its height.
+        Noise { key: key(seed, channel), spacing_m: size_m.map(|size| size / 1.67), sd }
+    }
+
+    pub fn is_flat(&self) -> bool {
+        self.sd == 0.0
+    }
+
+    /// Standard deviation of the mean over a texel: spots smaller than a texel even out in it.
+    pub fn sd_of_texels(&self, texels_per_metre: f64) -> f32 {
+        // Variances of a B-spline (1/4 spacing^2) and a box (1/12 texel^2) add, per axis.
+        let share = |spacing_m: f64| {
+            let texels = spacing_m * texels_per_metre;
+            1.0 / (1.0 + 1.0 / (3.0 * texels * texels))
+        };
+        let [x, y] = self.spacing_m.map(share);
+        self.sd * (x * y).sqrt().sqrt() as f32
+    }
+
+    /// The noise over a window.
+    pub fn over(&self, window: &Window) -> NoiseField {
+        let sd = self.sd_of_texels(window.texels_per_metre);
+        let [x, y] = self.spacing_m.map(|spacing_m| spacing_m * window.texels_per_metre);
+        if x <= 1.0 && y <= 1.0 {
+            // The difference of two uniform values has a variance of 1/6.
+            return NoiseField::Texels {
+                key: self.key,
+                gain: sd * 6.0f32.sqrt(),
+                corner: [window.i0, window.j0],
+                row: 0,
+            };
+        }
+        // Mean square of B-spline weights is 11/20 per axis, of a uniform value in [-1, 1) 1/3.
+        let gain = sd / (11.0f32 / 20.0 * (1.0f32 / 3.0).sqrt());
+        let x = Axis::new(window.i0, window.width, x.max(1.0), 0.0);
+        let y = Axis::new(window.j0, window.height, y.max(1.0), 0.0);
+        let mut values = vec![0.0; x.len * y.len];
+        for (row, values) in values.chunks_exact_mut(x.len).enumerate() {
+            let row_key = row_key(self.key, (y.first + row as i64) as i32);
+            let first = x.first as i32;
+            for (column, value) in values.iter_mut().enumerate() {
+                let word = mix(column_word(first.wrapping_add(column as i32)) ^ row_key);
+                *value = gain * (word as i32 as f32 / 2_147_483_648.0);
+            }
+        }
+        NoiseField::Lattice(Box::new(Lattice::new(x, y, values)))
+    }
+}
+
+/// A noise over a window, to be read row by row.
+#[derive(Clone, Debug)]
+pub(super) enum NoiseField {
+    /// Spots of several texels.
+    Lattice(Box<Lattice>),
+    /// Spots smaller than texels: what is left of them differs from texel to texel.
+    Texels {
+        key: u32,
+        gain: f32,
+        /// Lower-left texel of the window.
+        corner: [i64; 2],
+        row: usize,
+    },
+}
+
+impl NoiseField {
+    pub fn begin_row(&mut self, to: usize) {
+        match self {
+            NoiseField::Lattice(lattice) => lattice.begin_row(to),
+            NoiseField::Texels { row, .. } => *row = to,
+        }
+    }
+
+    /// Adds the noise at the texels `start..start + out.len()` of the row last begun.
+    pub fn add_to(&self, start: usize, out: &mut [f32]) {
+        match self {
+            NoiseField::Lattice(lattice) => lattice.add_to(start, out),
+            NoiseField::Texels { key, gain, corner: [i0, j0], row } => {
+                let row_key = row_key(*key, (j0 + *row as i64) as i32);
+                let first = (i0 + start as i64) as i32;
+                for (column, out) in out.iter_mut().enumerate() {
+                    let word = mix(column_word(first.wrapping_add(column as i32)) ^ row_key);
+                    *out += gain * ((word & 0xffff) as f32 - (word >> 16) as f32) / 65_536.0;
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn field(noise: &Noise, texels_per_metre: f64, side: usize) -> Vec<f32> {
+        let window = Window { texels_per_metre, i0: -40, j0: 17, width: side, height: side };
+        let mut lattice = noise.over(&window);
+        let mut out = vec![0.0; side * side];
+        for (row, out) in out.chunks_exact_mut(side).enumerate() {
+            lattice.begin_row(row);
+            lattice.add_to(0, out);
+        }
+        out
+    }
+
+    fn mean_and_sd(values: &[f32]) -> (f32, f32) {
+        let mean = values.iter().sum::<f32>() / values.len() as f32;
+        let variance = values.iter().map(|v| (v - mean) * (v - mean)).sum::<f32>() / values.len() as f32;
+        (mean, variance.sqrt())
+    }
+
+    #[test]
+    fn has_the_deviation_asked_for() {
+        let (mean, sd) = mean_and_sd(&field(&Noise::new(1, Channel::Middle, [0.15, 0.15], 0.12), 100.0, 600));
+        assert!(mean.abs() < 0.012, "{mean}");
+        assert!((sd - 0.12).abs() < 0.012, "{sd}");
+    }
+
+    #[test]
+    fn spots_have_the_size_asked_for() {
+        let side = 800;
+        let values = field(&Noise::new(3, Channel::Middle, [0.15, 0.15], 1.0), 100.0, side);
+        let correlation = |lag: usize| {
+            let pairs = values.chunks_exact(side).flat_map(|row| row.iter().zip(&row[lag..]));
+            pairs.map(|(a, b)| a * b).sum::<f32>() / (side * (side - lag)) as f32
+        };
+        let half = correlation(7) / correlation(0);
+        assert!((0.4..0.6).contains(&half), "correlation at half the size is {half}");
+        assert!((correlation(40) / correlation(0)).abs() < 0.1);
+    }
+
+    #[test]
+    fn coarse_texels_show_the_same_noise_evened_out() {
+        let noise = Noise::new(5, Channel::Coarse, [0.5, 0.5], 1.0);
+        let fine = field(&noise, 100.0, 400);
+        // Texel (0, 0) of a tenth of the density covers texels (0..10, 0..10).
+        let window = Window { texels_per_metre: 10.0, i0: 0, j0: 2, width: 30, height: 30 };
+        let mut lattice = noise.over(&window);
+        let mut row = vec![0.0; 30];
+        lattice.begin_row(0);
+        lattice.add_to(0, &mut row);
+        for (k, coarse) in row.iter().enumerate() {
+            let block = (0..100).map(|n| fine[(3 + n / 10) * 400 + 40 + 10 * k + n % 10]).sum::<f32>() / 100.0;
+            assert!((block - coarse).abs() < 0.12, "texel {k}: {block} against {coarse}");
+        }
+    }
+
+    #[test]
+    fn channels_and_seeds_differ() {
+        let keys =
+            [key(1, Channel::Fine), key(1, Channel::EdgeClump), key(2, Channel::Fine), key(1 << 40, Channel::Fine)];
+        for (n, a) in keys.iter().enumerate() {
+            assert!(!keys[n + 1..].contains(a));
+        }
+    }
+}

@@ -1,0 +1,67 @@
+use super::settings::{EdgeLook, FilmLook, IngrainedLook, Look, NoiseLook, Octave, PrintsLook, SOIL_WET};
+
+/// Names of the presets, in the order in which help texts list them.
+pub const LOOK_PRESETS: [&str; 4] = ["commuters", "heavy", "wet", "paper"];
+
+impl Look {
+    /// The settings behind a name of [`LOOK_PRESETS`], or `None` for any other name.
+    ///
+    /// - `commuters`: an office or a station in dry weather, mopped daily. The default.
+    /// - `heavy`: the same floor far beyond its next deep clean.
+    /// - `wet`: a rainy day; darker soil, prints that show, an uneven film.
+    /// - `paper`: prints painted over each other and nothing else, as in the experiment of Takenaka, Tanaka and
+    ///   Sagawa, *Expression of indoor grime by human walk*.
+    pub fn preset(name: &str) -> Option<Look> {
+        let look = match name {
+            "commuters" => Look::default(),
+            "heavy" => heavy(),
+            "wet" => wet(),
+            "paper" => paper(),
+            _ => return None,
+        };
+        Some(Look { preset: name.to_string(), ..look })
+    }
+}
+
+fn heavy() -> Look {
+    let look = Look::default();
+    Look {
+        total_passes: 50_000,
+        film: FilmLook { density: 0.67, colour: [98, 89, 76], ..look.film },
+        ingrained: IngrainedLook { density: 0.20, ..look.ingrained },
+        edge: EdgeLook { density: 0.45, reach_m: 0.05, ..look.edge },
+        // A film that is complete is even.
+        noise: NoiseLook {
+            fine: Octave { sd: 0.07, ..look.noise.fine },
+            middle: Octave { sd: 0.06, ..look.noise.middle },
+            coarse: Octave { sd: 0.11, ..look.noise.coarse },
+        },
+        ..look
+    }
+}
+
+fn wet() -> Look {
+    let look = Look::default();
+    Look {
+        film: FilmLook { colour: SOIL_WET, ..look.film },
+        prints: PrintsLook { soil: 4.5, colour: SOIL_WET, ..look.prints },
+        noise: NoiseLook { middle: Octave { sd: 0.14, ..look.noise.middle }, ..look.noise },
+        ..look
+    }
+}
+
+fn paper() -> Look {
+    let mut look = Look { total_passes: 1, ..Look::default() };
+    look.film.density = 0.0;
+    look.ingrained.density = 0.0;
+    look.prints.soil = 0.0;
+    look.prints.every_pass = 0.06;
+    look.scuffs.strength = 0.0;
+    look.edge.density = 0.0;
+    look.dust.density = 0.0;
+    look.floor.texture = 0.0;
+    for octave in [&mut look.noise.fine, &mut look.noise.middle, &mut look.noise.coarse] {
+        octave.sd = 0.0;
+    }
+    look
+}

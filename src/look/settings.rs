@@ -1,0 +1,332 @@
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+use super::error::{LookError, RangeError};
+use super::material::Material;
+
+/// An 8-bit sRGB colour, `[red, green, blue]`.
+pub type Srgb8 = [u8; 3];
+
+/// Dry street soil, walked out to a film.
+pub const SOIL_DRY: Srgb8 = [116, 107, 94];
+/// Soil brought in on wet shoes, and what a mop pushes against the skirting.
+pub const SOIL_WET: Srgb8 = [88, 78, 66];
+/// Black rubber, worn off heels.
+pub const RUBBER: Srgb8 = [42, 41, 40];
+
+/// How sums become a floor: every setting that `resolve` reads. None of them needs a new simulation.
+///
+/// A look file is TOML with these keys; keys that it leaves out keep the value of the preset that it names:
+///
+/// ```toml
+/// preset = "heavy"
+/// [floor]
+/// material = "dark"
+/// [film]
+/// density = 0.6
+/// ```
+///
+/// Densities are optical densities D: dirt covers the floor with opacity 1 - exp(-D).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Look {
+    /// The preset that these values started from: one of [`super::LOOK_PRESETS`].
+    pub preset: String,
+    /// Chooses the noise's pattern; independent of the crowd's seed.
+    pub seed: u64,
+    /// How many people the floor has seen since it was laid or last stripped; those simulated stand for them.
+    /// 1 to 1e9. For the presets `commuters`, `heavy` and `wet` 20 000.
+    pub total_passes: u64,
+    /// sRGB value (0 to 255) below which dirt darkens no texel: nothing lying about indoors is black.
+    pub darkest: f32,
+    /// What is under the dirt.
+    pub floor: FloorLook,
+    /// The grey film that all passes leave together: the lane.
+    pub film: FilmLook,
+    /// What darkens on where very many pass, long after the film is complete: thresholds.
+    pub ingrained: IngrainedLook,
+    /// Single prints that can be read.
+    pub prints: PrintsLook,
+    /// Black marks of heels and toes.
+    pub scuffs: ScuffsLook,
+    /// The dirty line along the skirting, where no mop reaches.
+    pub edge: EdgeLook,
+    /// Dust where nobody walks.
+    pub dust: DustLook,
+    /// Unevenness of film and dust, in plan space: it does not move when the texel density changes.
+    pub noise: NoiseLook,
+}
+
+/// The clean floor.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct FloorLook {
+    /// What the floor is made of: colour, texture, roughness, how dirt stays on it.
+    pub material: Material,
+    /// Colour of the clean floor, sRGB; the material's own if left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub colour: Option<Srgb8>,
+    /// How much the clean floor's own texture shows: 0 (dead flat) to 3, 1 as the material has it.
+    pub texture: f32,
+    /// An image of the floor, repeated from the plan's origin on, instead of the material's colour and texture.
+    /// A path relative to the look file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub image: Option<PathBuf>,
+    /// Width and height of the floor that the image shows, metres, 0.01 to 1000.
+    pub image_size_m: [f64; 2],
+    /// Roughness of the clean floor, 0 to 1; the material's own if left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub roughness: Option<f32>,
+    /// Roughness where many people have walked, 0 to 1; the material's own if left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub roughness_trodden: Option<f32>,
+    /// Side of a tile (material `tile`), metres, 0.02 to 5.
+    pub tile_m: f64,
+    /// Width of a joint (material `tile`), metres, 0 to 0.05.
+    pub joint_m: f64,
+}
+
+/// The film: D = density (1 - exp(-per_pass n)) for n passes, times noise.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct FilmLook {
+    /// Optical density where the floor takes up no more, 0 to 3.
+    pub density: f32,
+    /// Share of what is still missing that one pass adds, 0 to 1.
+    pub per_pass: f32,
+    /// How far the simulated passes are evened out (standard deviation of a Gaussian), metres, 0 to 0.5: people who
+    /// were not simulated walked beside those who were. What single passes stand out by is kept, scaled by
+    /// 1/sqrt(w).
+    pub spread_m: f64,
+    /// Colour, sRGB.
+    pub colour: Srgb8,
+}
+
+/// Dirt that has worked its way in: the same law as the film's, at a far lower rate.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct IngrainedLook {
+    /// Optical density at the end, 0 to 3.
+    pub density: f32,
+    /// Share of what is still missing that one pass adds, 0 to 1.
+    pub per_pass: f32,
+}
+
+/// Readable prints.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PrintsLook {
+    /// Factor on the soil that fresh people brought in, 0 to 20.
+    pub soil: f32,
+    /// Optical density that every simulated pass paints, fresh or not, 0 to 3: the way of the paper, 0 otherwise.
+    pub every_pass: f32,
+    /// Colour, sRGB.
+    pub colour: Srgb8,
+}
+
+/// Heel and toe marks.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ScuffsLook {
+    /// Factor on the marks' optical density, 0 to 20.
+    pub strength: f32,
+    /// Colour, sRGB.
+    pub colour: Srgb8,
+}
+
+/// The skirting line: D = density exp(-d / reach) at the distance d from the wall, broken up along the wall.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct EdgeLook {
+    /// Optical density at the wall, 0 to 3.
+    pub density: f32,
+    /// Distance in which it falls to 1/e, metres, 0.005 to 0.5.
+    pub reach_m: f32,
+    /// Relative unevenness along the wall (standard deviation of the logarithm), 0 to 1.5.
+    pub unevenness: f32,
+    /// How many times as much lies in a right-angled inner corner, 1 to 4.
+    pub corner: f32,
+    /// How far a corner is felt, metres, 0.01 to 0.5.
+    pub corner_radius_m: f32,
+    /// Colour, sRGB.
+    pub colour: Srgb8,
+}
+
+/// Dust: D = density exp(-d / reach), walked off as the film grows.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct DustLook {
+    /// Optical density at the wall, 0 to 3.
+    pub density: f32,
+    /// Distance in which it falls to 1/e, metres, 0.02 to 3.
+    pub reach_m: f32,
+    /// Colour, sRGB.
+    pub colour: Srgb8,
+}
+
+/// Lognormal unevenness at three sizes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct NoiseLook {
+    /// Grain.
+    pub fine: Octave,
+    /// Blotches.
+    pub middle: Octave,
+    /// Clouds.
+    pub coarse: Octave,
+}
+
+/// One size of unevenness.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Octave {
+    /// Typical size of a spot, metres, 0.002 to 20.
+    pub size_m: f64,
+    /// Standard deviation of the logarithm, 0 to 1.
+    pub sd: f32,
+}
+
+impl Default for Look {
+    fn default() -> Look {
+        Look {
+            preset: "commuters".to_string(),
+            seed: 1,
+            total_passes: 20_000,
+            darkest: 50.0,
+            floor: FloorLook::default(),
+            film: FilmLook::default(),
+            ingrained: IngrainedLook::default(),
+            prints: PrintsLook::default(),
+            scuffs: ScuffsLook::default(),
+            edge: EdgeLook::default(),
+            dust: DustLook::default(),
+            noise: NoiseLook::default(),
+        }
+    }
+}
+
+impl Default for FloorLook {
+    fn default() -> FloorLook {
+        FloorLook {
+            material: Material::Vinyl,
+            colour: None,
+            texture: 1.0,
+            image: None,
+            image_size_m: [2.0, 2.0],
+            roughness: None,
+            roughness_trodden: None,
+            tile_m: 0.3,
+            joint_m: 0.004,
+        }
+    }
+}
+
+impl Default for FilmLook {
+    fn default() -> FilmLook {
+        FilmLook { density: 0.46, per_pass: 0.035, spread_m: 0.0, colour: SOIL_DRY }
+    }
+}
+
+impl Default for IngrainedLook {
+    fn default() -> IngrainedLook {
+        IngrainedLook { density: 0.12, per_pass: 0.001 }
+    }
+}
+
+impl Default for PrintsLook {
+    fn default() -> PrintsLook {
+        PrintsLook { soil: 4.5, every_pass: 0.0, colour: SOIL_DRY }
+    }
+}
+
+impl Default for ScuffsLook {
+    fn default() -> ScuffsLook {
+        ScuffsLook { strength: 4.5, colour: RUBBER }
+    }
+}
+
+impl Default for EdgeLook {
+    fn default() -> EdgeLook {
+        EdgeLook {
+            density: 0.30,
+            reach_m: 0.04,
+            unevenness: 0.45,
+            corner: 1.75,
+            corner_radius_m: 0.10,
+            colour: SOIL_WET,
+        }
+    }
+}
+
+impl Default for DustLook {
+    fn default() -> DustLook {
+        DustLook { density: 0.10, reach_m: 0.30, colour: SOIL_DRY }
+    }
+}
+
+impl Default for NoiseLook {
+    fn default() -> NoiseLook {
+        NoiseLook {
+            fine: Octave { size_m: 0.02, sd: 0.10 },
+            middle: Octave { size_m: 0.15, sd: 0.12 },
+            coarse: Octave { size_m: 1.2, sd: 0.15 },
+        }
+    }
+}
+
+impl Look {
+    /// Checks every number against its range.
+    ///
+    /// # Errors
+    /// [`LookError::Range`] names the key, its value and the range allowed.
+    pub fn check(&self) -> Result<(), LookError> {
+        self.first_out_of_range().map_or(Ok(()), |range| Err(LookError::Range { range, place: None }))
+    }
+
+    pub(super) fn first_out_of_range(&self) -> Option<RangeError> {
+        let floor = &self.floor;
+        let own = |value: Option<f32>| f64::from(value.unwrap_or(0.5));
+        let octave = |name: &'static str, octave: Octave| {
+            let [size, sd] = match name {
+                "fine" => ["noise.fine.size_m", "noise.fine.sd"],
+                "middle" => ["noise.middle.size_m", "noise.middle.sd"],
+                _ => ["noise.coarse.size_m", "noise.coarse.sd"],
+            };
+            [(size, octave.size_m, 0.002, 20.0), (sd, f64::from(octave.sd), 0.0, 1.0)]
+        };
+        let checks = [
+            ("total_passes", self.total_passes as f64, 1.0, 1e9),
+            ("darkest", f64::from(self.darkest), 0.0, 255.0),
+            ("floor.texture", f64::from(floor.texture), 0.0, 3.0),
+            ("floor.image_size_m", floor.image_size_m[0], 0.01, 1000.0),
+            ("floor.image_size_m", floor.image_size_m[1], 0.01, 1000.0),
+            ("floor.roughness", own(floor.roughness), 0.0, 1.0),
+            ("floor.roughness_trodden", own(floor.roughness_trodden), 0.0, 1.0),
+            ("floor.tile_m", floor.tile_m, 0.02, 5.0),
+            ("floor.joint_m", floor.joint_m, 0.0, 0.05),
+            ("film.density", f64::from(self.film.density), 0.0, 3.0),
+            ("film.per_pass", f64::from(self.film.per_pass), 0.0, 1.0),
+            ("film.spread_m", self.film.spread_m, 0.0, 0.5),
+            ("ingrained.density", f64::from(self.ingrained.density), 0.0, 3.0),
+            ("ingrained.per_pass", f64::from(self.ingrained.per_pass), 0.0, 1.0),
+            ("prints.soil", f64::from(self.prints.soil), 0.0, 20.0),
+            ("prints.every_pass", f64::from(self.prints.every_pass), 0.0, 3.0),
+            ("scuffs.strength", f64::from(self.scuffs.strength), 0.0, 20.0),
+            ("edge.density", f64::from(self.edge.density), 0.0, 3.0),
+            ("edge.reach_m", f64::from(self.edge.reach_m), 0.005, 0.5),
+            ("edge.unevenness", f64::from(self.edge.unevenness), 0.0, 1.5),
+            ("edge.corner", f64::from(self.edge.corner), 1.0, 4.0),
+            ("edge.corner_radius_m", f64::from(self.edge.corner_radius_m), 0.01, 0.5),
+            ("dust.density", f64::from(self.dust.density), 0.0, 3.0),
+            ("dust.reach_m", f64::from(self.dust.reach_m), 0.02, 3.0),
+        ];
+        let octaves =
+            [("fine", self.noise.fine), ("middle", self.noise.middle), ("coarse", self.noise.coarse)].into_iter();
+        checks
+            .into_iter()
+            .chain(octaves.flat_map(|(name, value)| octave(name, value)))
+            // In single precision, so that a limit written as 0.005 is within; written so that NaN is out of range.
+            .find(|&(_, value, low, high)| !(value as f32 >= low as f32 && value as f32 <= high as f32))
+            .map(|(key, value, low, high)| RangeError { key, value, low, high })
+    }
+}

@@ -1,0 +1,316 @@
+//! The look's law, texel by texel: from sums and places to densities, colours and roughness.
+//!
+//! Written over runs of texels, a plane per quantity and a loop per step, so that compilers vectorise it.
+
+use super::ground::GroundRow;
+use super::material::Properties;
+use super::noise::{self, Noise};
+use super::settings::Look;
+use super::tone;
+use crate::math::exp_f32;
+
+/// Roughness of loose dirt.
+const DIRT_ROUGHNESS: f32 = 0.8;
+
+/// Film in joints, as a share of the look's: much of it lies off the lane too.
+const JOINT_FILM: f32 = 0.75;
+const JOINT_FILM_TRODDEN: f32 = 0.40;
+
+/// Everything about a look that is the same for all texels.
+#[derive(Clone, Debug)]
+pub(super) struct Law {
+    /// History stands for so many times the simulated passes.
+    weight: f32,
+    /// What single passes stand out by counts so many times.
+    residual: f32,
+    per_pass: f32,
+    film: f32,
+    ingrained_per_pass: f32,
+    ingrained: f32,
+    joint_film: f32,
+    every_pass: f32,
+    dust: f32,
+    /// Logarithm of what the lognormal noise is divided by, so that its mean is 1.
+    mean_log: f32,
+    roughness: [f32; 2],
+    colours: Colours,
+}
+
+/// Linear colours of dirt.
+#[derive(Clone, Debug)]
+struct Colours {
+    film: [f32; 3],
+    prints: [f32; 3],
+    scuffs: [f32; 3],
+    edge: [f32; 3],
+    dust: [f32; 3],
+    darkest: f32,
+}
+
+/// What is known of each texel of a run.
+#[derive(Default)]
+pub(super) struct Known {
+    pub ground: GroundRow,
+    /// Simulated passes: expected, and counted.
+    pub presence: Vec<f32>,
+    pub passes: Vec<f32>,
+    /// Sum of the noises.
+    pub uneven: Vec<f32>,
+    /// Optical densities, factors of look and material included.
+    pub soil: Vec<f32>,
+    pub scuff: Vec<f32>,
+    pub edge: Vec<f32>,
+    /// exp(-distance / reach) to the nearest wall.
+    pub dust: Vec<f32>,
+}
+
+/// What follows for each texel of a run.
+#[derive(Default)]
+pub(super) struct Shaded {
+    /// Optical densities.
+    pub film: Vec<f32>,
+    pub soil: Vec<f32>,
+    pub dust: Vec<f32>,
+    /// Passes in all of history, and exp(-per_pass n).
+    history: Vec<f32>,
+    clean: Vec<f32>,
+    /// The noise, as a factor.
+    uneven: Vec<f32>,
+    /// Light that comes through film, prints and scuffs, edge and dust.
+    through: [Vec<f32>; 3],
+    hiding: Vec<f32>,
+    roughness: Vec<f32>,
+    rgb: [Vec<f32>; 3],
+    joint: [Vec<f32>; 3],
+    rounding: Rounding,
+}
+
+/// Buffers for rounding to 8 bits.
+#[derive(Default)]
+struct Rounding {
+    words: [Vec<u32>; 2],
+    values: Vec<f32>,
+    /// Colour, mask, roughness.
+    bytes: [Vec<u8>; 8],
+}
+
+impl Known {
+    pub fn clear(&mut self, len: usize) {
+        let Known { ground: _, presence, passes, uneven, soil, scuff, edge, dust } = self;
+        for plane in [presence, passes, uneven, soil, scuff, edge, dust] {
+            plane.clear();
+            plane.resize(len, 0.0);
+        }
+    }
+}
+
+impl Law {
+    pub fn new(look: &Look, properties: &Properties, simulated_people: u32, noise: &[Noise], density: f64) -> Law {
+        let weight = (look.total_passes as f64 / f64::from(simulated_people)) as f32;
+        // With fewer passes than were simulated there is nothing to even out.
+        let residual = if properties.shows_single_passes { weight.min(weight.sqrt()) } else { 0.0 };
+        Law {
+            weight,
+            residual,
+            per_pass: look.film.per_pass,
+            film: look.film.density * properties.film,
+            ingrained_per_pass: look.ingrained.per_pass,
+            ingrained: look.ingrained.density * properties.film,
+            joint_film: look.film.density,
+            every_pass: look.prints.every_pass,
+            dust: look.dust.density * properties.dust,
+            mean_log: noise.iter().map(|noise| noise.sd_of_texels(density)).map(|sd| 0.5 * sd * sd).sum(),
+            roughness: properties.roughness,
+            colours: Colours {
+                film: tone::linear_rgb(look.film.colour),
+                prints: tone::linear_rgb(look.prints.colour),
+                scuffs: tone::linear_rgb(look.scuffs.colour),
+                edge: tone::linear_rgb(look.edge.colour),
+                dust: tone::linear_rgb(look.dust.colour),
+                darkest: tone::linear(look.darkest),
+            },
+        }
+    }
+
+    /// Works out a run. Joints, where there are any, have the colour `joint`.
+    pub fn shade(&self, known: &Known, joint: Option<[f32; 3]>, out: &mut Shaded) {
+        out.resize(known.presence.len());
+        self.densities(known, out);
+        self.roughness(out);
+        let Shaded { film, soil, dust, through, rgb, hiding, .. } = out;
+        let dirt = Dirt { film, soil, scuff: &known.scuff, edge: &known.edge, dust, through };
+        self.colour(&dirt, &known.ground.rgb, hiding, rgb);
+        if let Some(joint) = joint.filter(|_| known.ground.joint.iter().any(|&share| share > 0.0)) {
+            self.fill_joints(known, joint, out);
+        }
+    }
+
+    fn densities(&self, known: &Known, out: &mut Shaded) {
+        let Shaded { history, clean, uneven, film, soil, dust, through, .. } = out;
+        let [through_film, through_prints, through_edge] = through;
+        each2(history, &known.presence, &known.passes, |expected, counted| {
+            (self.weight * expected + self.residual * (counted - expected)).max(0.0)
+        });
+        each1(uneven, &known.uneven, |noise| exp_f32(noise - self.mean_log));
+        each1(clean, history, |passes| exp_f32(-self.per_pass * passes));
+        each3(film, history, clean, uneven, |passes, clean, uneven| {
+            let ingrained = self.ingrained * (1.0 - exp_f32(-self.ingrained_per_pass * passes));
+            (self.film * (1.0 - clean) + ingrained) * uneven
+        });
+        each2(soil, &known.soil, &known.passes, |fresh, passes| fresh + self.every_pass * passes);
+        each3(dust, &known.dust, clean, uneven, |wall, clean, uneven| self.dust * wall.max(0.0) * clean * uneven);
+        each1(through_film, film, |film| exp_f32(-film));
+        each2(through_prints, soil, &known.scuff, |soil, scuff| exp_f32(-soil - scuff));
+        each2(through_edge, &known.edge, dust, |edge, dust| exp_f32(-edge - dust));
+    }
+
+    fn roughness(&self, out: &mut Shaded) {
+        let Shaded { roughness, clean, uneven, through: [_, prints, edge], hiding: loose, .. } = out;
+        each2(loose, prints, edge, |prints, edge| 1.0 - prints * edge);
+        let [smooth, worn] = self.roughness;
+        each3(roughness, clean, uneven, loose, |clean, uneven, loose| {
+            let floor = smooth + (worn - smooth) * (1.0 - clean) * (0.7 + 0.3 * uneven.min(2.0));
+            floor + (DIRT_ROUGHNESS.max(floor) - floor) * loose
+        });
+    }
+
+    /// Dirt over a floor. `hiding` is a buffer.
+    fn colour(&self, dirt: &Dirt<'_>, floor: &[Vec<f32>; 3], hiding: &mut [f32], rgb: &mut [Vec<f32>; 3]) {
+        let [a, b, c] = dirt.through;
+        // What hides the floor, by density: (1 - T) / sum(D).
+        each3(hiding, dirt.film, dirt.soil, dirt.scuff, |film, soil, scuff| film + soil + scuff);
+        add2(hiding, dirt.edge, dirt.dust, |edge, dust| edge + dust);
+        for (((hiding, a), b), c) in hiding.iter_mut().zip(a).zip(b).zip(c) {
+            *hiding = (1.0 - a * b * c) / hiding.max(1e-6);
+        }
+        let colours = &self.colours;
+        for (n, (plane, floor)) in rgb.iter_mut().zip(floor).enumerate() {
+            let [film, soil, scuff] = [colours.film[n], colours.prints[n], colours.scuffs[n]];
+            let [edge, dust] = [colours.edge[n], colours.dust[n]];
+            each3(plane, dirt.film, dirt.soil, dirt.scuff, |f, p, s| f * film + p * soil + s * scuff);
+            add2(plane, dirt.edge, dirt.dust, |e, d| e * edge + d * dust);
+            for (((((plane, hiding), floor), a), b), c) in
+                plane.iter_mut().zip(&*hiding).zip(floor).zip(a).zip(b).zip(c)
+            {
+                // Dirt makes nothing darker than the darkest, nor a floor lighter that is darker by itself.
+                *plane = (floor * (a * b * c) + *plane * hiding).max(colours.darkest.min(*floor));
+            }
+        }
+    }
+
+    /// Lays joints, with a film of their own, over the share of each texel that they take up.
+    fn fill_joints(&self, known: &Known, joint: [f32; 3], out: &mut Shaded) {
+        let mut film = vec![0.0; known.presence.len()];
+        each2(&mut film, &out.clean, &out.uneven, |clean, uneven| {
+            self.joint_film * (JOINT_FILM + JOINT_FILM_TRODDEN * (1.0 - clean)) * uneven
+        });
+        let mut through = out.through.clone();
+        each1(&mut through[0], &film, |film| exp_f32(-film));
+        let floor = joint.map(|light| vec![light; film.len()]);
+        let dirt = Dirt {
+            film: &film,
+            soil: &out.soil,
+            scuff: &known.scuff,
+            edge: &known.edge,
+            dust: &out.dust,
+            through: &through,
+        };
+        self.colour(&dirt, &floor, &mut out.hiding, &mut out.joint);
+        for (plane, joint) in out.rgb.iter_mut().zip(&out.joint) {
+            for ((value, joint), share) in plane.iter_mut().zip(joint).zip(&known.ground.joint) {
+                *value += share * (joint - *value);
+            }
+        }
+    }
+}
+
+// Loops over few planes at a time: compilers do not vectorise those over many, which may overlap for all they know.
+
+fn each1(out: &mut [f32], a: &[f32], law: impl Fn(f32) -> f32) {
+    for (out, &a) in out.iter_mut().zip(a) {
+        *out = law(a);
+    }
+}
+
+fn each2(out: &mut [f32], a: &[f32], b: &[f32], law: impl Fn(f32, f32) -> f32) {
+    for ((out, &a), &b) in out.iter_mut().zip(a).zip(b) {
+        *out = law(a, b);
+    }
+}
+
+fn each3(out: &mut [f32], a: &[f32], b: &[f32], c: &[f32], law: impl Fn(f32, f32, f32) -> f32) {
+    for (((out, &a), &b), &c) in out.iter_mut().zip(a).zip(b).zip(c) {
+        *out = law(a, b, c);
+    }
+}
+
+fn add2(out: &mut [f32], a: &[f32], b: &[f32], law: impl Fn(f32, f32) -> f32) {
+    for ((out, &a), &b) in out.iter_mut().zip(a).zip(b) {
+        *out += law(a, b);
+    }
+}
+
+/// Planes of optical densities, and the light that comes through.
+struct Dirt<'a> {
+    film: &'a [f32],
+    soil: &'a [f32],
+    scuff: &'a [f32],
+    edge: &'a [f32],
+    dust: &'a [f32],
+    through: &'a [Vec<f32>; 3],
+}
+
+/// Where 8-bit texels go, for one run.
+pub(super) struct Bytes<'a> {
+    pub base_color: &'a mut [[u8; 3]],
+    pub mask: &'a mut [[u8; 4]],
+    pub orm: &'a mut [[u8; 3]],
+}
+
+impl Shaded {
+    fn resize(&mut self, len: usize) {
+        let Shaded { film, soil, dust, history, clean, uneven, through, hiding, roughness, rgb, joint, rounding: _ } =
+            self;
+        let single = [film, soil, dust, history, clean, uneven, hiding, roughness];
+        for plane in single.into_iter().chain(through).chain(rgb).chain(joint) {
+            plane.resize(len, 0.0);
+        }
+    }
+
+    /// Rounds a run that starts at texel (i, j) to 8 bits, dithered by a hash of each texel's place.
+    pub fn write(&mut self, dither: u32, i: i64, j: i64, out: &mut Bytes<'_>) {
+        let len = self.film.len();
+        let Rounding { words: [first, second], values, bytes } = &mut self.rounding;
+        first.clear();
+        second.clear();
+        let row = noise::row_key(dither, j as i32);
+        first.extend((0..len as i32).map(|k| noise::mix(noise::column_word((i as i32).wrapping_add(k)) ^ row)));
+        second.extend(first.iter().map(|word| noise::mix(word ^ 0x9e37_79b9)));
+        let [film, prints, edge] = &self.through;
+        let hidden = |light: &f32| 255.0 * (1.0 - light);
+        for (n, bytes) in bytes.iter_mut().enumerate() {
+            values.clear();
+            match n {
+                0..3 => values.extend(self.rgb[n].iter().map(|&light| tone::srgb(light))),
+                3 => values.extend(film.iter().map(hidden)),
+                4 => values.extend(self.clean.iter().map(hidden)),
+                5 => values.extend(prints.iter().map(hidden)),
+                6 => values.extend(edge.iter().map(hidden)),
+                _ => values.extend(self.roughness.iter().map(|roughness| 255.0 * roughness)),
+            }
+            bytes.resize(len, 0);
+            let words = if n < 4 { &*first } else { &*second };
+            tone::dither(values, words, n as u32 % 4, bytes);
+        }
+        let [red, green, blue, film, passes, prints, edge, rough] = &*bytes;
+        for (((out, r), g), b) in out.base_color.iter_mut().zip(red).zip(green).zip(blue) {
+            *out = [*r, *g, *b];
+        }
+        for ((((out, f), p), q), e) in out.mask.iter_mut().zip(film).zip(passes).zip(prints).zip(edge) {
+            *out = [*f, *p, *q, *e];
+        }
+        for (out, rough) in out.orm.iter_mut().zip(rough) {
+            *out = [255, *rough, 0];
+        }
+    }
+}
