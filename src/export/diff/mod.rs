@@ -1,0 +1,240 @@
+//! Compares two bakes, or two images, texel by texel.
+
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::{ExportError, Manifest};
+
+mod heat;
+mod rows;
+
+pub use heat::HeatMap;
+use rows::ImageRows;
+
+/// When two images count as different: three thresholds, after OpenImageIO's `idiff`.
+///
+/// Values of PNG images are 0 to 1, those of EXR as they are in the file (sums: whole numbers).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct DiffOptions {
+    /// The tolerance: a texel differs if one of its channels differs by more than this.
+    pub fail: f64,
+    /// Which share of the texels may differ, 0 to 1.
+    pub fail_share: f64,
+    /// No texel may differ by more than this.
+    pub hard_fail: f64,
+}
+
+impl Default for DiffOptions {
+    /// The same to the bit.
+    fn default() -> DiffOptions {
+        DiffOptions { fail: 0.0, fail_share: 0.0, hard_fail: f64::INFINITY }
+    }
+}
+
+/// How two images differ.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ImageDiff {
+    /// The file, relative to the bake; the second image's path if images were compared.
+    pub file: String,
+    /// Size, texels.
+    pub size_px: [usize; 2],
+    /// Largest difference of a channel.
+    pub largest: f64,
+    /// The channel of the largest difference.
+    pub largest_channel: String,
+    /// The texel of the largest difference, from the upper left.
+    pub largest_px: [usize; 2],
+    /// Mean difference over all texels and channels.
+    pub mean: f64,
+    /// Share of the texels that differ by more than the tolerance.
+    pub share_over: f64,
+    /// Whether one of the thresholds is passed.
+    pub failed: bool,
+}
+
+/// How two bakes, or two images, differ.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Comparison {
+    /// File by file.
+    pub images: Vec<ImageDiff>,
+    /// Files that only the first bake has.
+    pub only_in_a: Vec<String>,
+    /// Files that only the second bake has.
+    pub only_in_b: Vec<String>,
+    /// Where they differ; for bakes over the whole floor, all files taken together.
+    #[serde(skip)]
+    pub heat_map: HeatMap,
+}
+
+impl Comparison {
+    /// Whether they differ by more than the thresholds allow.
+    pub fn failed(&self) -> bool {
+        let missing = !self.only_in_a.is_empty() || !self.only_in_b.is_empty();
+        missing || self.images.iter().any(|image| image.failed)
+    }
+
+    /// Largest difference of a channel in any file.
+    pub fn largest(&self) -> f64 {
+        self.images.iter().map(|image| image.largest).fold(0.0, f64::max)
+    }
+}
+
+/// Compares two bakes (folders) or two images (PNG of 8 or 16 bit, EXR).
+///
+/// Of bakes, all textures and sums are compared; `preview/` is not, as it shows the same again.
+///
+/// # Errors
+/// Something that cannot be read, images of different size or channels, a folder that is no bake.
+pub fn diff(a: &Path, b: &Path, options: &DiffOptions) -> Result<Comparison, ExportError> {
+    match (a.is_dir(), b.is_dir()) {
+        (false, false) => {
+            let (image, heat_map) = diff_images(a, b, options)?;
+            Ok(Comparison { images: vec![image], only_in_a: Vec::new(), only_in_b: Vec::new(), heat_map })
+        }
+        (true, true) => diff_bakes(a, b, options),
+        (true, false) => Err(not_alike(a, b)),
+        (false, true) => Err(not_alike(b, a)),
+    }
+}
+
+fn not_alike(bake: &Path, image: &Path) -> ExportError {
+    ExportError::NotAlike { folder: bake.to_path_buf(), file: image.to_path_buf() }
+}
+
+fn diff_bakes(a: &Path, b: &Path, options: &DiffOptions) -> Result<Comparison, ExportError> {
+    let (manifest_a, manifest_b) = (Manifest::read(a)?, Manifest::read(b)?);
+    let (files_a, files_b) = (compared_files(&manifest_a), compared_files(&manifest_b));
+    let without = |these: &[String], those: &[String]| -> Vec<String> {
+        these.iter().filter(|file| !those.contains(file)).cloned().collect()
+    };
+    let both: Vec<&String> = files_a.iter().filter(|file| files_b.contains(file)).collect();
+    let diffs: Vec<(ImageDiff, HeatMap)> = both
+        .par_iter()
+        .with_max_len(1)
+        .map(|&file| {
+            let (mut image, heat) = diff_images(&a.join(file), &b.join(file), options)?;
+            image.file = file.clone();
+            Ok((image, heat))
+        })
+        .collect::<Result<_, ExportError>>()?;
+    let heat_map = floor_heat(&manifest_a, &diffs);
+    Ok(Comparison {
+        images: diffs.into_iter().map(|(image, _)| image).collect(),
+        only_in_a: without(&files_a, &files_b),
+        only_in_b: without(&files_b, &files_a),
+        heat_map,
+    })
+}
+
+fn compared_files(manifest: &Manifest) -> Vec<String> {
+    let image = |file: &&String| file.ends_with(".png") || file.ends_with(".exr");
+    manifest.files.iter().filter(image).filter(|file| !file.starts_with("preview/")).cloned().collect()
+}
+
+/// The heat of all files, each laid over the piece of floor that it shows.
+fn floor_heat(manifest: &Manifest, diffs: &[(ImageDiff, HeatMap)]) -> HeatMap {
+    let floor = &manifest.floor;
+    let (columns, rows) =
+        floor.tiles.iter().fold((1, 1), |(columns, rows), tile| (columns.max(tile.u + 1), rows.max(tile.v + 1)));
+    let [tile_width, tile_height] = floor.tile_px.map(|px| px as usize);
+    let size = [columns as usize * tile_width, rows as usize * tile_height];
+    let mut heat = HeatMap::new(size[0].max(1), size[1].max(1));
+    for (image, part) in diffs {
+        let names = |tile: &&super::TileEntry| {
+            let layers = tile.layers.as_deref().unwrap_or_default();
+            [tile.basecolor.as_str(), &tile.mask, &tile.orm, layers, &tile.sums].contains(&image.file.as_str())
+        };
+        if let Some(tile) = floor.tiles.iter().find(names) {
+            let top = (rows - 1 - tile.v) as usize * tile_height;
+            heat.lay(part, [tile.u as usize * tile_width, top], [tile_width, tile_height]);
+        } else if image.file == floor.sums.presence.file {
+            // Presence covers the floor alone, not what fills up the tiles.
+            let grid = [floor.width_px as usize, floor.height_px as usize];
+            heat.lay(part, [0, size[1].saturating_sub(grid[1])], grid);
+        } else {
+            let [width, height] = part.texels();
+            heat.lay(part, [0, 0], [width, height]);
+        }
+    }
+    heat
+}
+
+/// Compares two images row by row.
+fn diff_images(a: &Path, b: &Path, options: &DiffOptions) -> Result<(ImageDiff, HeatMap), ExportError> {
+    let (mut a, mut b) = (ImageRows::open(a)?, ImageRows::open(b)?);
+    check_alike(&a, &b)?;
+    let channels = a.channels.len().max(1);
+    let mut heat = HeatMap::new(a.width, a.height);
+    let (mut sum, mut over) = (0.0, 0u64);
+    let (mut largest, mut largest_at) = (0.0, (0, 0, 0));
+    let (mut row_a, mut row_b) = (Vec::new(), Vec::new());
+    for y in 0..a.height {
+        a.next_row(&mut row_a)?;
+        b.next_row(&mut row_b)?;
+        if row_a == row_b {
+            continue;
+        }
+        for (x, (texel_a, texel_b)) in row_a.chunks(channels).zip(row_b.chunks(channels)).enumerate() {
+            let mut texel_largest = 0.0;
+            for (channel, (&value_a, &value_b)) in texel_a.iter().zip(texel_b).enumerate() {
+                let difference = difference(value_a, value_b);
+                sum += difference;
+                if difference > texel_largest {
+                    texel_largest = difference;
+                    if difference > largest {
+                        (largest, largest_at) = (difference, (channel, x, y));
+                    }
+                }
+            }
+            if texel_largest > 0.0 {
+                over += u64::from(texel_largest > options.fail);
+                heat.note(x, y, texel_largest / options.fail.max(1e-6));
+            }
+        }
+    }
+    let texels = (a.width * a.height).max(1) as f64;
+    let share_over = over as f64 / texels;
+    let (channel, x, y) = largest_at;
+    let diff = ImageDiff {
+        file: b.path.to_string_lossy().into_owned(),
+        size_px: [a.width, a.height],
+        largest,
+        largest_channel: a.channels.get(channel).cloned().unwrap_or_default(),
+        largest_px: [x, y],
+        mean: sum / (texels * channels as f64),
+        share_over,
+        failed: share_over > options.fail_share || largest > options.hard_fail,
+    };
+    Ok((diff, heat))
+}
+
+/// Infinite where only one of the two is a number.
+fn difference(a: f64, b: f64) -> f64 {
+    match (a.is_nan(), b.is_nan()) {
+        (true, true) => 0.0,
+        (false, false) if a == b => 0.0,
+        (false, false) => (a - b).abs(),
+        _ => f64::INFINITY,
+    }
+}
+
+fn check_alike(a: &ImageRows, b: &ImageRows) -> Result<(), ExportError> {
+    let paths = || -> (PathBuf, PathBuf) { (a.path.clone(), b.path.clone()) };
+    if (a.width, a.height) != (b.width, b.height) {
+        let (path_a, path_b) = paths();
+        let size = |image: &ImageRows| [image.width as u32, image.height as u32];
+        return Err(ExportError::SizesDiffer { a: path_a, a_size: size(a), b: path_b, b_size: size(b) });
+    }
+    if a.channels != b.channels {
+        let (path_a, path_b) = paths();
+        let names = |image: &ImageRows| image.channels.join(", ");
+        return Err(ExportError::ChannelsDiffer { a: path_a, a_channels: names(a), b: path_b, b_channels: names(b) });
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,342 @@
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::{ExportError, TextureOptions};
+use crate::math::Vec2;
+use crate::plan::{FloorPlan, Opening, Pose};
+use crate::routes::Route;
+use crate::walls::{Outline, Walls};
+
+/// The manifest's name in a bake.
+pub const FILE_NAME: &str = "manifest.json";
+/// What `generator` says in every manifest of ours: by this a bake is recognised.
+pub const GENERATOR: &str = "trodden";
+/// The version of the manifest's structure. It grows when an older program could not read the new structure.
+pub const FORMAT: u32 = 1;
+
+/// What a bake consists of and where everything lies in the plan: `manifest.json`.
+///
+/// Metres of the plan frame: origin at the plan image's lower-left corner, x right, y up. The same input gives the
+/// same manifest to the byte: it knows neither times nor threads nor absolute paths.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// Always [`GENERATOR`].
+    pub generator: String,
+    /// Always [`FORMAT`] in what this version writes.
+    pub format: u32,
+    /// Version of the program.
+    pub version: String,
+    /// Seed of all chance.
+    pub seed: u64,
+    /// How many people were simulated.
+    pub people: u32,
+    /// The plan that was baked.
+    pub plan: PlanEntry,
+    /// The floor's textures.
+    pub floor: FloorEntry,
+    /// The pictures of `preview/`.
+    pub preview: Vec<PreviewEntry>,
+    /// Where floor meets the plan's sides.
+    pub openings: Vec<Opening>,
+    /// The ways that people took.
+    pub routes: Vec<Route>,
+    /// The look, with all its values.
+    pub look: serde_json::Value,
+    /// The scenario, with all its values.
+    pub settings: serde_json::Value,
+    /// Closed loops around the floor, floor on the right, from which walls are rebuilt.
+    pub outlines: Vec<Outline>,
+    /// Every file of the bake, relative to it, in alphabetical order. Filled in when the bake is published.
+    pub files: Vec<String>,
+}
+
+/// The plan image.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PlanEntry {
+    /// Width in metres.
+    pub width_m: f64,
+    /// Height in metres.
+    pub height_m: f64,
+    /// Side of a pixel in metres.
+    pub metres_per_pixel: f64,
+    /// Pose of the plan frame in the frame of the ROS map.
+    pub map_from_plan: Pose,
+}
+
+/// All textures of the floor.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FloorEntry {
+    /// Texel density.
+    pub texels_per_metre: f64,
+    /// Columns of the whole floor in texels, without what fills up the last tiles.
+    pub width_px: u32,
+    /// Rows of the whole floor in texels, without what fills up the last tiles.
+    pub height_px: u32,
+    /// Width and height of each tile's images.
+    pub tile_px: [u32; 2],
+    /// How tiles are told apart by their file names.
+    pub naming: Naming,
+    /// How far colour goes on beyond the floor's edge, texels.
+    pub padding_px: u32,
+    /// What each channel of the images holds.
+    pub channels: Vec<ChannelEntry>,
+    /// The tiles that hold floor, row by row from the lower left.
+    pub tiles: Vec<TileEntry>,
+    /// The exact sums.
+    pub sums: SumsEntry,
+}
+
+/// How the tiles of a floor are named.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Naming {
+    #[default]
+    /// `.1001.`, 1001 + u + 10 v: up to 10 x 10 tiles.
+    Udim,
+    /// `_u012_v003.`: any number.
+    Uv,
+}
+
+/// What the channels of a floor's images hold; `layers` names those of the EXR.
+pub(super) fn floor_channels(layers: &[String]) -> Vec<ChannelEntry> {
+    const DENSITY: &str = "1 - exp(-D)";
+    let entry = |image: &str, channel: &str, holds: &str, encoding: &str| ChannelEntry {
+        image: image.to_string(),
+        channel: channel.to_string(),
+        holds: holds.to_string(),
+        encoding: encoding.to_string(),
+    };
+    let mut channels = vec![
+        entry("basecolor", "RGB", "colour of the trodden floor", "sRGB"),
+        entry("mask", "R", "film: dirt of everybody who ever walked", DENSITY),
+        entry("mask", "G", "passes, D = look.film.per_pass x passes", DENSITY),
+        entry("mask", "B", "fresh prints and scuffs", DENSITY),
+        entry("mask", "A", "edge and dust: dirt where nobody walks", DENSITY),
+        entry("orm", "R", "occlusion", "linear"),
+        entry("orm", "G", "roughness", "linear"),
+        entry("orm", "B", "metallic", "linear"),
+    ];
+    channels.extend(layers.iter().map(|layer| match layer.as_str() {
+        "passes" | "presence" => entry("layers", layer, "footfalls of the simulated people", "linear"),
+        _ => entry("layers", layer, "optical density D", "linear"),
+    }));
+    channels
+}
+
+/// One channel of the images of a kind.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ChannelEntry {
+    /// The kind of image: `basecolor`, `mask`, `orm` or `layers`.
+    pub image: String,
+    /// `R`, `G`, `B`, `A`, or the layer's name.
+    pub channel: String,
+    /// What it says about the surface.
+    pub holds: String,
+    /// How the value is to be read, such as `1 - exp(-D)`.
+    pub encoding: String,
+}
+
+/// One tile: a rectangle of the floor and its images.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TileEntry {
+    /// Column u, from the left.
+    pub u: u32,
+    /// Row v, from below.
+    pub v: u32,
+    /// The UDIM number, where tiles are named so.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub udim: Option<u32>,
+    /// Lower-left corner in the plan frame, metres.
+    pub min_m: Vec2,
+    /// Upper-right corner in the plan frame, metres.
+    pub max_m: Vec2,
+    /// Base colour, 8 bit sRGB.
+    pub basecolor: String,
+    /// Packed masks, 8 bit linear.
+    pub mask: String,
+    /// Occlusion, roughness, metallic, 8 bit linear.
+    pub orm: String,
+    /// All layers, half float, linear; left out where it was not asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub layers: Option<String>,
+    /// Exact sums.
+    pub sums: String,
+}
+
+/// How the sums are to be read.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SumsEntry {
+    /// What 1 of each quantity is as an integer.
+    pub one: std::collections::BTreeMap<String, u32>,
+    /// The sum `presence`, on a grid of its own, whole.
+    pub presence: PresenceEntry,
+}
+
+/// The sum `presence`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PresenceEntry {
+    /// The file.
+    pub file: String,
+    /// Cells per metre.
+    pub texels_per_metre: f64,
+    /// Columns.
+    pub width_px: u32,
+    /// Rows.
+    pub height_px: u32,
+}
+
+/// A picture of `preview/`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PreviewEntry {
+    /// The file.
+    pub file: String,
+    /// Lower-left corner of what it shows, metres.
+    pub min_m: Vec2,
+    /// Upper-right corner of what it shows, metres.
+    pub max_m: Vec2,
+}
+
+impl Manifest {
+    /// What a manifest says of the plan and of the program; the rest is still empty.
+    pub fn of_plan(plan: &FloorPlan, walls: &Walls, routes: &[Route]) -> Manifest {
+        Manifest {
+            generator: GENERATOR.to_string(),
+            format: FORMAT,
+            version: env!("CARGO_PKG_VERSION").to_string(),
+            plan: PlanEntry {
+                width_m: plan.width_m(),
+                height_m: plan.height_m(),
+                metres_per_pixel: plan.metres_per_pixel,
+                map_from_plan: plan.map_from_plan,
+            },
+            openings: plan.openings.clone(),
+            routes: routes.to_vec(),
+            outlines: walls.outlines().to_vec(),
+            ..Manifest::default()
+        }
+    }
+
+    /// The walls of the bake, rebuilt.
+    pub fn walls(&self) -> Walls {
+        Walls::from_outlines(self.outlines.clone())
+    }
+
+    /// The manifest as indented JSON.
+    pub fn to_json(&self) -> Vec<u8> {
+        let mut json = serde_json::to_vec_pretty(self).expect("all keys are strings and memory does not fail");
+        json.push(b'\n');
+        json
+    }
+
+    /// Reads the manifest of a bake.
+    ///
+    /// # Errors
+    /// There is none, it is not ours, it is damaged, or a later version wrote it.
+    pub fn read(bake: &Path) -> Result<Manifest, ExportError> {
+        let path = bake.join(FILE_NAME);
+        let json = std::fs::read(&path).map_err(ExportError::read(&path))?;
+        let head: Head = serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))?;
+        if head.generator != GENERATOR {
+            return Err(ExportError::NotABake { path: bake.to_path_buf(), found: FILE_NAME.to_string() });
+        }
+        if head.format > FORMAT {
+            return Err(ExportError::NewerFormat { path, found: head.format, known: FORMAT });
+        }
+        serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))
+    }
+}
+
+impl FloorEntry {
+    /// Options that write the same files again.
+    pub fn options(&self) -> TextureOptions {
+        // A tile smaller than the setting is a floor smaller than a tile: its power of two is found again.
+        let [width, height] = self.tile_px;
+        TextureOptions { tile: width.max(height), layers: self.tiles.iter().any(|tile| tile.layers.is_some()) }
+    }
+}
+
+/// What every version's manifest begins with.
+#[derive(Deserialize)]
+struct Head {
+    generator: String,
+    format: u32,
+}
+
+/// Who wrote the manifest in a folder.
+pub(super) fn generator(folder: &Path) -> Result<String, ExportError> {
+    let path = folder.join(FILE_NAME);
+    let json = std::fs::read(&path).map_err(ExportError::read(&path))?;
+    let head: Head = serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))?;
+    Ok(head.generator)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::vec2;
+    use crate::plan::Side;
+    use crate::routes::{Gate, Place};
+    use crate::walls::WallsOptions;
+
+    fn manifest() -> Manifest {
+        let mut floor = vec![1; 40 * 20];
+        floor[..40].fill(0);
+        let plan = FloorPlan::from_mask(40, 20, 0.1, floor);
+        let walls = Walls::trace(&plan, &WallsOptions::default()).unwrap();
+        let route = Route {
+            name: "west to east".to_string(),
+            start: Place::Opening(0),
+            via: Vec::new(),
+            goal: Place::Area([vec2(3.0, 0.5), vec2(3.5, 1.0)]),
+            share: 1.0,
+            gates: vec![Gate { left_m: vec2(2.0, 1.9), right_m: vec2(2.0, 0.1) }],
+            length_m: 4.0 / 3.0,
+        };
+        Manifest {
+            seed: u64::MAX,
+            people: 1000,
+            look: serde_json::json!({ "total_passes": 20_000 }),
+            floor: FloorEntry {
+                texels_per_metre: 100.0,
+                channels: floor_channels(&["dust".to_string(), "passes".to_string()]),
+                ..FloorEntry::default()
+            },
+            ..Manifest::of_plan(&plan, &walls, &[route])
+        }
+    }
+
+    fn written(text: &[u8]) -> (tempfile::TempDir, Result<Manifest, ExportError>) {
+        let dir = tempfile::tempdir().unwrap();
+        std::fs::write(dir.path().join(FILE_NAME), text).unwrap();
+        let read = Manifest::read(dir.path());
+        (dir, read)
+    }
+
+    #[test]
+    fn a_manifest_comes_back_as_it_was() {
+        let manifest = manifest();
+        assert!(manifest.openings.iter().any(|opening| opening.side == Side::West));
+        assert_eq!(written(&manifest.to_json()).1.unwrap(), manifest);
+        assert_eq!(manifest.walls().faces, Walls::from_outlines(manifest.outlines.clone()).faces);
+    }
+
+    #[test]
+    fn keys_that_a_later_version_adds_do_no_harm() {
+        let mut json: serde_json::Value = serde_json::from_slice(&manifest().to_json()).unwrap();
+        json["walls"] = serde_json::json!({ "texels_per_metre": 200 });
+        assert_eq!(written(json.to_string().as_bytes()).1.unwrap(), manifest());
+    }
+
+    #[test]
+    fn what_cannot_be_used_is_named() {
+        let text = |bytes: &[u8]| written(bytes).1.unwrap_err().to_string();
+        assert!(text(b"{").contains("line 1"));
+        assert!(text(b"").contains("manifest.json"));
+        assert!(text(br#"{"generator": "trodden", "format": 2}"#).contains("format 2"));
+        assert!(text(br#"{"generator": "trodden", "format": 1}"#).contains("missing field"));
+        assert!(matches!(written(br#"{"generator": "x", "format": 1}"#).1, Err(ExportError::NotABake { .. })));
+        let nowhere = Manifest::read(Path::new("/nowhere")).unwrap_err();
+        assert!(nowhere.hint().is_some_and(|hint| hint.contains("manifest.json")));
+    }
+}

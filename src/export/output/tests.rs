@@ -1,0 +1,251 @@
+use super::*;
+
+/// A folder of our own, and the output `out` in it.
+fn place() -> (tempfile::TempDir, PathBuf) {
+    let dir = tempfile::tempdir().unwrap();
+    let out = dir.path().join("out");
+    (dir, out)
+}
+
+fn manifest() -> Manifest {
+    Manifest { generator: manifest::GENERATOR.to_string(), format: manifest::FORMAT, ..Manifest::default() }
+}
+
+/// Publishes a bake with one file of this content.
+fn bake(out: &Path, content: &str, force: bool) {
+    let folder = OutputFolder::begin(out, force).unwrap();
+    folder.write("floor/a.txt", content.as_bytes()).unwrap();
+    folder.publish(&manifest()).unwrap();
+}
+
+fn content(out: &Path) -> String {
+    fs::read_to_string(out.join("floor/a.txt")).unwrap()
+}
+
+/// Everything in a folder, hidden or not.
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_published_folder_is_whole_and_nothing_else_is_left() {
+    let (dir, out) = place();
+    bake(&out, "1", false);
+    assert_eq!(names(dir.path()), ["out"]);
+    assert_eq!(names(&out), ["floor", "manifest.json"]);
+    assert_eq!(Manifest::read(&out).unwrap().files, ["floor/a.txt", "manifest.json"]);
+    assert!(is_bake(&out));
+}
+
+#[test]
+fn nothing_is_seen_before_it_is_published_and_nothing_is_left_if_it_is_not() {
+    let (dir, out) = place();
+    let folder = OutputFolder::begin(&out, false).unwrap();
+    folder.write("floor/a.txt", b"1").unwrap();
+    assert!(!out.exists());
+    drop(folder);
+    assert!(names(dir.path()).is_empty());
+}
+
+#[test]
+fn parents_are_made_and_removed_again() {
+    let (dir, _) = place();
+    let out = dir.path().join("a/b/out");
+    drop(OutputFolder::begin(&out, false).unwrap());
+    assert!(names(dir.path()).is_empty());
+    bake(&out, "1", false);
+    assert_eq!(content(&out), "1");
+}
+
+#[test]
+fn an_earlier_bake_is_replaced_only_by_force() {
+    let (dir, out) = place();
+    bake(&out, "1", false);
+    let error = OutputFolder::begin(&out, false).unwrap_err();
+    assert!(matches!(error, ExportError::OutputExists { .. }));
+    assert!(error.hint().unwrap().contains("--force"));
+    bake(&out, "2", true);
+    assert_eq!(content(&out), "2");
+    assert_eq!(names(dir.path()), ["out"]);
+}
+
+#[test]
+fn an_unpublished_run_leaves_the_earlier_bake_as_it_was() {
+    let (dir, out) = place();
+    bake(&out, "1", false);
+    let folder = OutputFolder::begin(&out, true).unwrap();
+    folder.write("floor/a.txt", b"2").unwrap();
+    drop(folder);
+    assert_eq!(content(&out), "1");
+    assert_eq!(names(dir.path()), ["out"]);
+}
+
+#[test]
+fn an_empty_folder_may_be_the_output() {
+    let (_dir, out) = place();
+    fs::create_dir(&out).unwrap();
+    bake(&out, "1", false);
+    assert_eq!(content(&out), "1");
+}
+
+#[test]
+fn what_is_no_bake_is_never_replaced() {
+    let (dir, out) = place();
+    fs::create_dir(&out).unwrap();
+    fs::write(out.join("holiday.jpg"), "x").unwrap();
+    for other in [None, Some("{}"), Some("{\"generator\": \"else\", \"format\": 1}"), Some("trodden")] {
+        if let Some(manifest) = other {
+            fs::write(out.join("manifest.json"), manifest).unwrap();
+        }
+        for force in [false, true] {
+            let error = OutputFolder::begin(&out, force).unwrap_err();
+            assert!(error.to_string().contains("holiday.jpg"), "{error}");
+        }
+    }
+    assert_eq!(names(dir.path()), ["out"]);
+    assert_eq!(names(&out), ["holiday.jpg", "manifest.json"]);
+}
+
+#[test]
+fn a_file_is_no_output() {
+    let (_dir, out) = place();
+    fs::write(&out, "x").unwrap();
+    assert!(matches!(OutputFolder::begin(&out, true), Err(ExportError::OutputIsFile { .. })));
+    assert!(OutputFolder::begin(&out.join("inner"), true).is_err());
+    assert_eq!(fs::read_to_string(&out).unwrap(), "x");
+}
+
+#[test]
+fn a_folder_without_a_name_is_no_output() {
+    assert!(OutputFolder::begin(Path::new("/"), true).is_err());
+}
+
+#[test]
+fn a_read_only_folder_is_left_alone() {
+    let (dir, out) = place();
+    fs::create_dir(&out).unwrap();
+    let set = |readonly| {
+        let mut permissions = fs::metadata(&out).unwrap().permissions();
+        permissions.set_readonly(readonly);
+        fs::set_permissions(&out, permissions).unwrap();
+    };
+    set(true);
+    let error = OutputFolder::begin(&out, true).unwrap_err();
+    set(false);
+    assert!(matches!(error, ExportError::Folder { .. }) && error.hint().is_some(), "{error}");
+    assert_eq!(names(dir.path()), ["out"]);
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_place_that_nobody_may_write_to_is_an_error() {
+    // Where not even root makes folders.
+    let error = OutputFolder::begin(Path::new("/proc/self/out"), false).unwrap_err();
+    assert!(matches!(error, ExportError::Folder { .. }), "{error}");
+}
+
+#[test]
+fn a_run_killed_between_two_renamings_is_undone() {
+    let (dir, out) = place();
+    bake(&out, "1", false);
+    fs::rename(&out, dir.path().join(".out.old")).unwrap();
+    assert!(restore(&out).unwrap());
+    assert_eq!(content(&out), "1");
+    // The same at the start of the next bake.
+    fs::rename(&out, dir.path().join(".out.old")).unwrap();
+    assert!(matches!(OutputFolder::begin(&out, false), Err(ExportError::OutputExists { .. })));
+    assert_eq!(content(&out), "1");
+    assert!(!restore(&out).unwrap());
+}
+
+#[test]
+fn a_run_killed_before_the_old_bake_was_removed_is_finished() {
+    let (dir, out) = place();
+    bake(&out, "2", false);
+    bake(&dir.path().join("elsewhere"), "1", false);
+    fs::rename(dir.path().join("elsewhere"), dir.path().join(".out.old")).unwrap();
+    assert!(!restore(&out).unwrap());
+    assert_eq!(names(dir.path()), ["out"]);
+    assert_eq!(content(&out), "2");
+}
+
+#[test]
+fn leftovers_of_a_killed_run_are_cleaned_up() {
+    let (dir, out) = place();
+    let new = dir.path().join(".out.new");
+    for files in [&[][..], &[LOCK][..], &[LOCK, "half.png"][..]] {
+        fs::create_dir(&new).unwrap();
+        for file in files {
+            fs::write(new.join(file), "").unwrap();
+        }
+        drop(OutputFolder::begin(&out, false).unwrap());
+        assert!(names(dir.path()).is_empty());
+    }
+    // Killed just before it was renamed.
+    bake(&new, "1", false);
+    bake(&out, "2", false);
+    assert_eq!(names(dir.path()), ["out"]);
+}
+
+#[test]
+fn somebody_elses_hidden_folder_is_left_alone() {
+    let (dir, out) = place();
+    let new = dir.path().join(".out.new");
+    fs::create_dir(&new).unwrap();
+    fs::write(new.join("diary.txt"), "x").unwrap();
+    assert!(matches!(OutputFolder::begin(&out, true), Err(ExportError::InTheWay { .. })));
+    assert_eq!(names(&new), ["diary.txt"]);
+    let old = dir.path().join(".out.old");
+    fs::rename(&new, &old).unwrap();
+    bake(&out, "1", false);
+    assert_eq!(names(&old), ["diary.txt"]);
+}
+
+#[test]
+fn two_runs_do_not_write_the_same_output() {
+    let (_dir, out) = place();
+    let folder = OutputFolder::begin(&out, false).unwrap();
+    assert!(matches!(OutputFolder::begin(&out, true), Err(ExportError::OutputInUse { .. })));
+    folder.write("floor/a.txt", b"1").unwrap();
+    folder.publish(&manifest()).unwrap();
+    assert_eq!(content(&out), "1");
+}
+
+#[test]
+fn kept_files_are_those_of_the_earlier_bake() {
+    let (_dir, out) = place();
+    bake(&out, "1", false);
+    let folder = OutputFolder::begin(&out, true).unwrap();
+    folder.keep("floor/a.txt").unwrap();
+    assert!(folder.create("floor/a.txt").is_err(), "it would change the earlier bake");
+    assert!(matches!(folder.keep("floor/b.txt"), Err(ExportError::Read { .. })));
+    folder.publish(&manifest()).unwrap();
+    assert_eq!(content(&out), "1");
+}
+
+#[test]
+#[cfg(unix)]
+fn through_a_link_the_folder_behind_it_is_replaced() {
+    let (dir, out) = place();
+    let real = dir.path().join("real");
+    bake(&real, "1", false);
+    std::os::unix::fs::symlink(&real, &out).unwrap();
+    bake(&out, "2", true);
+    assert_eq!(content(&real), "2");
+    assert!(out.is_symlink());
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_is_an_error_that_names_the_file() {
+    let full = File::options().write(true).open("/dev/full").unwrap();
+    let shown = PathBuf::from("out/floor/floor_mask.1001.png");
+    let mut file = OutputFile { writer: BufWriter::new(full), shown };
+    file.write_all(&[1; 100]).unwrap();
+    let error = file.close().unwrap_err();
+    assert!(error.to_string().contains("out/floor/floor_mask.1001.png"), "{error}");
+    assert!(error.hint().unwrap().contains("full"), "{:?}", error.hint());
+}

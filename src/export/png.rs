@@ -1,0 +1,287 @@
+//! PNG files made of strips that are compressed apart from each other, by any thread.
+//!
+//! Each strip of rows becomes an `IDAT` chunk; the chunks put in a row are one zlib stream. The bytes depend on the
+//! image alone, not on who compressed what.
+
+use std::io::{self, Write};
+
+use super::deflate::{Part, ZLIB_HEADER, adler32, adler32_joined, deflate};
+
+/// Begins every PNG file.
+pub(super) struct Signature;
+
+impl Signature {
+    pub(super) const BYTES: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
+}
+
+/// What the bytes of a pixel are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Pixels {
+    /// Red, green, blue in sRGB; the file says so.
+    Srgb,
+    /// Three values that are no colour. The file says nothing about them: readers that heed a gamma would bend them.
+    Linear3,
+    /// Four values that are no colour.
+    Linear4,
+}
+
+impl Pixels {
+    pub(super) fn bytes(self) -> usize {
+        match self {
+            Pixels::Srgb | Pixels::Linear3 => 3,
+            Pixels::Linear4 => 4,
+        }
+    }
+}
+
+/// Rows of an image, compressed.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Strip {
+    chunk: Vec<u8>,
+    adler: u32,
+    bytes: u64,
+}
+
+/// Filters and compresses rows of an image, top down, one after the other.
+#[derive(Debug)]
+pub(super) struct StripEncoder {
+    pixel_bytes: usize,
+    above: Vec<u8>,
+    row: Vec<u8>,
+    filtered: Vec<u8>,
+}
+
+impl StripEncoder {
+    pub(super) fn new(pixels: Pixels, width: usize) -> StripEncoder {
+        let bytes = width * pixels.bytes();
+        StripEncoder { pixel_bytes: pixels.bytes(), above: vec![0; bytes], row: vec![0; bytes], filtered: Vec::new() }
+    }
+
+    /// Starts a strip at the image's top.
+    pub(super) fn begin_at_top(&mut self) {
+        self.begin_below(|row| row.fill(0));
+    }
+
+    /// Starts a strip below the row that `fill` writes.
+    pub(super) fn begin_below(&mut self, fill: impl FnOnce(&mut [u8])) {
+        self.filtered.clear();
+        fill(&mut self.above);
+    }
+
+    /// Adds the row that `fill` writes.
+    pub(super) fn push(&mut self, fill: impl FnOnce(&mut [u8])) {
+        fill(&mut self.row);
+        let at = self.filtered.len();
+        self.filtered.resize(at + 1 + self.row.len(), 0);
+        self.filtered[at] = AVERAGE;
+        filter_average(self.pixel_bytes, &self.above, &self.row, &mut self.filtered[at + 1..]);
+        std::mem::swap(&mut self.above, &mut self.row);
+    }
+
+    /// Compresses what was added since [`StripEncoder::begin`].
+    pub(super) fn finish(&mut self) -> Strip {
+        let mut chunk = begin_chunk(b"IDAT", self.filtered.len() / 3);
+        deflate(&self.filtered, Part::Middle, &mut chunk);
+        end_chunk(&mut chunk);
+        Strip { chunk, adler: adler32(&self.filtered), bytes: self.filtered.len() as u64 }
+    }
+}
+
+/// The rendering intent of the sRGB chunk.
+const PERCEPTUAL: u8 = 0;
+/// The filter of each row. On floors it leaves a tenth less than `Up`, `Sub` and `Paeth` do.
+const AVERAGE: u8 = 3;
+
+fn filter_average(pixel_bytes: usize, above: &[u8], row: &[u8], out: &mut [u8]) {
+    let (first, rest) = out.split_at_mut(pixel_bytes.min(row.len()));
+    for ((out, &value), &above) in first.iter_mut().zip(row).zip(above) {
+        *out = value.wrapping_sub(above / 2);
+    }
+    let (values, above) = (&row[first.len()..], &above[first.len()..]);
+    for (((out, &value), &above), &left) in rest.iter_mut().zip(values).zip(above).zip(row) {
+        *out = value.wrapping_sub(((u16::from(left) + u16::from(above)) / 2) as u8);
+    }
+}
+
+/// Puts strips together to a file.
+#[derive(Debug)]
+pub(super) struct PngWriter<W: Write> {
+    out: W,
+    adler: u32,
+}
+
+impl<W: Write> PngWriter<W> {
+    pub(super) fn begin(mut out: W, pixels: Pixels, width: u32, height: u32) -> io::Result<PngWriter<W>> {
+        let colour_type = if pixels == Pixels::Linear4 { 6 } else { 2 };
+        let mut head = Signature::BYTES.to_vec();
+        let size = [width.to_be_bytes(), height.to_be_bytes()].concat();
+        chunk(b"IHDR", &[&size[..], &[8, colour_type, 0, 0, 0]].concat(), &mut head);
+        if pixels == Pixels::Srgb {
+            chunk(b"sRGB", &[PERCEPTUAL], &mut head);
+        }
+        chunk(b"IDAT", &ZLIB_HEADER, &mut head);
+        out.write_all(&head)?;
+        Ok(PngWriter { out, adler: adler32(&[]) })
+    }
+
+    /// Appends the next strip from above.
+    pub(super) fn push(&mut self, strip: &Strip) -> io::Result<()> {
+        self.adler = adler32_joined(self.adler, strip.adler, strip.bytes);
+        self.out.write_all(&strip.chunk)
+    }
+
+    /// Ends the file and gives what it was written to, still to be flushed.
+    pub(super) fn finish(mut self) -> io::Result<W> {
+        let mut end = Vec::new();
+        deflate(&[], Part::Last, &mut end);
+        end.extend_from_slice(&self.adler.to_be_bytes());
+        let mut tail = Vec::new();
+        chunk(b"IDAT", &end, &mut tail);
+        chunk(b"IEND", &[], &mut tail);
+        self.out.write_all(&tail)?;
+        Ok(self.out)
+    }
+}
+
+/// Appends a chunk: length, name, data, check sum.
+pub(super) fn chunk(name: &[u8; 4], data: &[u8], out: &mut Vec<u8>) {
+    let mut chunk = begin_chunk(name, data.len());
+    chunk.extend_from_slice(data);
+    end_chunk(&mut chunk);
+    out.append(&mut chunk);
+}
+
+fn begin_chunk(name: &[u8; 4], room: usize) -> Vec<u8> {
+    let mut chunk = Vec::with_capacity(room + 12);
+    chunk.extend_from_slice(&[0; 4]);
+    chunk.extend_from_slice(name);
+    chunk
+}
+
+fn end_chunk(chunk: &mut Vec<u8>) {
+    let length = chunk.len() as u32 - 8;
+    chunk[..4].copy_from_slice(&length.to_be_bytes());
+    let sum = crc32(&chunk[4..]);
+    chunk.extend_from_slice(&sum.to_be_bytes());
+}
+
+/// Remainders for the check sum of PNG chunks, of a byte followed by 0 to 7 zero bytes.
+const CRC_TABLES: [[u32; 256]; 8] = crc_tables();
+
+const fn crc_tables() -> [[u32; 256]; 8] {
+    let mut tables = [[0u32; 256]; 8];
+    let mut byte = 0;
+    while byte < 256 {
+        let mut remainder = byte as u32;
+        let mut bit = 0;
+        while bit < 8 {
+            remainder = if remainder & 1 == 1 { 0xedb8_8320 ^ remainder >> 1 } else { remainder >> 1 };
+            bit += 1;
+        }
+        tables[0][byte] = remainder;
+        byte += 1;
+    }
+    let mut zeros = 1;
+    while zeros < 8 {
+        let mut byte = 0;
+        while byte < 256 {
+            let before = tables[zeros - 1][byte];
+            tables[zeros][byte] = tables[0][(before & 0xff) as usize] ^ before >> 8;
+            byte += 1;
+        }
+        zeros += 1;
+    }
+    tables
+}
+
+/// CRC-32 as PNG wants it, eight bytes at a time.
+fn crc32(data: &[u8]) -> u32 {
+    let mut sum = u32::MAX;
+    let mut eights = data.chunks_exact(8);
+    for eight in &mut eights {
+        let low = sum.to_le_bytes();
+        sum = 0;
+        for (k, &byte) in eight.iter().enumerate() {
+            let byte = if k < 4 { byte ^ low[k] } else { byte };
+            sum ^= CRC_TABLES[7 - k][usize::from(byte)];
+        }
+    }
+    for &byte in eights.remainder() {
+        sum = CRC_TABLES[0][usize::from(sum as u8 ^ byte)] ^ sum >> 8;
+    }
+    !sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn encoded(pixels: Pixels, width: usize, height: usize, rows_per_strip: usize, image: &[u8]) -> Vec<u8> {
+        let bytes = width * pixels.bytes();
+        let row = |y: usize| &image[y * bytes..(y + 1) * bytes];
+        let mut writer = PngWriter::begin(Vec::new(), pixels, width as u32, height as u32).unwrap();
+        let mut encoder = StripEncoder::new(pixels, width);
+        for top in (0..height).step_by(rows_per_strip) {
+            match top {
+                0 => encoder.begin_at_top(),
+                _ => encoder.begin_below(|out| out.copy_from_slice(row(top - 1))),
+            }
+            for y in top..height.min(top + rows_per_strip) {
+                encoder.push(|out| out.copy_from_slice(row(y)));
+            }
+            writer.push(&encoder.finish()).unwrap();
+        }
+        writer.finish().unwrap()
+    }
+
+    #[test]
+    fn another_decoder_reads_back_every_pixel_whatever_the_strips() {
+        let mut random = crate::math::SplitMix64::new(3);
+        for pixels in [Pixels::Srgb, Pixels::Linear3, Pixels::Linear4] {
+            for (width, height) in [(1, 1), (7, 33), (200, 65)] {
+                let image: Vec<u8> = (0..width * height * pixels.bytes())
+                    .map(|k| ((k / 50) as u8).wrapping_add((random.next_u64() & 3) as u8))
+                    .collect();
+                for rows in [1, 32, 100] {
+                    let file = encoded(pixels, width, height, rows, &image);
+                    let mut reader = png::Decoder::new(io::Cursor::new(file)).read_info().unwrap();
+                    let mut back = vec![0; image.len()];
+                    let info = reader.next_frame(&mut back).unwrap();
+                    assert_eq!((info.width as usize, info.height as usize), (width, height));
+                    assert_eq!(back, image, "{pixels:?} {width} x {height}, {rows} rows a strip");
+                    reader.finish().unwrap();
+                    assert_eq!(reader.info().srgb.is_some(), pixels == Pixels::Srgb);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_check_sum_is_that_of_the_standard() {
+        assert_eq!(crc32(b"123456789"), 0xcbf4_3926);
+        assert_eq!(crc32(b"IEND"), 0xae42_6082);
+    }
+
+    #[test]
+    fn a_failing_writer_is_an_error() {
+        struct Full(usize);
+        impl Write for Full {
+            fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+                if self.0 < bytes.len() {
+                    return Err(io::ErrorKind::StorageFull.into());
+                }
+                self.0 -= bytes.len();
+                Ok(bytes.len())
+            }
+            fn flush(&mut self) -> io::Result<()> {
+                Ok(())
+            }
+        }
+        assert!(PngWriter::begin(Full(10), Pixels::Srgb, 4, 4).is_err());
+        let mut writer = PngWriter::begin(Full(100), Pixels::Srgb, 400, 1).unwrap();
+        let mut encoder = StripEncoder::new(Pixels::Srgb, 400);
+        encoder.begin_at_top();
+        encoder.push(|row| row.iter_mut().enumerate().for_each(|(k, v)| *v = (k * k) as u8));
+        assert_eq!(writer.push(&encoder.finish()).unwrap_err().kind(), io::ErrorKind::StorageFull);
+    }
+}
