@@ -1,0 +1,68 @@
+//! The sample plans: drawn by the example, readable, and every scenario leads where it says.
+
+// A test that cannot go on fails.
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use trodden::plan;
+use trodden::routes;
+use trodden::scenario::{Overrides, Scenario};
+use trodden::walls::Walls;
+
+#[path = "../examples/draw_floorplans/main.rs"]
+mod draw_floorplans;
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("floorplans")
+}
+
+#[test]
+fn the_images_are_what_the_example_draws() {
+    for (name, draw) in draw_floorplans::PLANS {
+        let drawn = draw_floorplans::png_bytes(&draw()).unwrap();
+        let kept = fs::read(folder().join(name).with_extension("png")).unwrap();
+        assert!(drawn == kept, "floorplans/{name}.png differs: run `cargo run --example draw_floorplans`");
+        assert!(kept.len() < 64 << 10, "floorplans/{name}.png has {} bytes", kept.len());
+    }
+}
+
+#[test]
+fn every_image_has_a_scenario_and_none_is_left_over() {
+    let mut names: Vec<String> =
+        fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    let mut expected: Vec<String> =
+        draw_floorplans::PLANS.iter().flat_map(|(name, _)| [format!("{name}.png"), format!("{name}.toml")]).collect();
+    expected.sort();
+    assert_eq!(names, expected);
+}
+
+#[test]
+fn every_route_of_every_scenario_is_found() {
+    for (name, _) in draw_floorplans::PLANS {
+        let path = folder().join(name).with_extension("toml");
+        let scenario = Scenario::open(&path, &Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+        let plan =
+            plan::read(&scenario.image_path(), &scenario.plan_options()).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert!(plan.warnings.is_empty(), "{name}: {:?}", plan.warnings);
+        let walls = Walls::trace(&plan, &scenario.walls).unwrap();
+        let found = routes::find(&plan, &walls, &scenario.routes).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(found.len(), scenario.routes.routes.len());
+        assert!(found.iter().all(|route| route.length_m > 5.0), "{name}");
+    }
+}
+
+/// What a user gets who gives the image alone.
+#[test]
+fn every_image_alone_has_openings_and_default_routes() {
+    for (name, openings) in [("corridors", 8), ("station", 6), ("school", 2), ("museum", 2)] {
+        let path = folder().join(name).with_extension("png");
+        let scenario = Scenario::open(&path, &Overrides::default()).unwrap();
+        let plan = plan::read(&path, &scenario.plan_options()).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!(plan.openings.len(), openings, "{name}: {:?}", plan.openings);
+        let walls = Walls::trace(&plan, &scenario.walls).unwrap();
+        assert!(!routes::find(&plan, &walls, &scenario.routes).unwrap().is_empty(), "{name}");
+    }
+}
