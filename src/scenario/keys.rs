@@ -1,0 +1,194 @@
+//! Every key of a scenario: what it means, what it may be, in the order in which `trodden init` writes them.
+
+/// The sections of a scenario, in order.
+pub(super) const SECTIONS: [&str; 10] =
+    ["plan", "walls", "texture", "crowd", "bodies", "marks", "stamps", "look", "patterns", ROUTE];
+/// The section that comes once per route.
+pub(super) const ROUTE: &str = "route";
+
+/// One key.
+pub(super) struct Key {
+    /// With its section, as in `look.film.density`.
+    pub path: &'static str,
+    /// What it may be.
+    pub allowed: Allowed,
+    /// What it is: one line, without the range.
+    pub about: &'static str,
+    /// What it looks like where it has no default.
+    pub example: &'static str,
+}
+
+/// What a key's value may be, beyond its type.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Allowed {
+    /// Whatever its type takes, or what the plan, the library or the file system decide.
+    Any,
+    /// A number, or a list of numbers, from .. to, both included.
+    Number(f64, f64),
+    /// As `Number`, but less than the second.
+    Below(f64, f64),
+    /// A quantity that differs from person to person: all that can be drawn lies from .. to.
+    Spread(f64, f64),
+}
+
+impl Key {
+    /// The section, as in `look.film`.
+    pub fn section(&self) -> &'static str {
+        self.path.rsplit_once('.').map_or("", |(section, _)| section)
+    }
+
+    /// The key without its section.
+    pub fn name(&self) -> &'static str {
+        self.path.rsplit_once('.').map_or(self.path, |(_, name)| name)
+    }
+}
+
+/// The sections that have a key of this name.
+pub(super) fn sections_with(name: &str) -> Vec<&'static str> {
+    KEYS.iter().filter(|key| key.name() == name).map(Key::section).collect()
+}
+
+/// The least and the largest value of a key such as `crowd.people`, where it is a number with a range.
+pub fn allowed_range(path: &str) -> Option<[f64; 2]> {
+    match KEYS.iter().find(|key| key.path == path)?.allowed {
+        Allowed::Number(low, high) | Allowed::Below(low, high) | Allowed::Spread(low, high) => Some([low, high]),
+        Allowed::Any => None,
+    }
+}
+
+/// Whether a key takes one value even where it is written as a table.
+pub(super) fn is_one_value(path: &str) -> bool {
+    KEYS.iter().any(|key| key.path == path)
+}
+
+const fn key(path: &'static str, allowed: Allowed, about: &'static str) -> Key {
+    Key { path, allowed, about, example: "" }
+}
+
+const fn optional(path: &'static str, allowed: Allowed, about: &'static str, example: &'static str) -> Key {
+    Key { path, allowed, about, example }
+}
+
+use Allowed::{Any, Below, Number, Spread};
+
+/// Every key. [`Allowed`] narrows what a stage itself would take, never widens it.
+#[rustfmt::skip]
+pub(super) const KEYS: &[Key] = &[
+    key("plan.image", Any, "the plan: PNG, JPEG, BMP, PGM, TIFF, GIF, or the YAML of a ROS map; relative to this file"),
+    optional("plan.metres_per_pixel", Number(0.0005, 10.0), "side of a pixel [m]", "0.05"),
+    optional("plan.scale", Any, "or two points and how far apart they are",
+        "{ from = { px = [120, 40] }, to = { px = [480, 40] }, metres = 36.0 }"),
+    key("plan.wall_height", Below(2.1, 3.5), "height of the walls [m]"),
+    optional("plan.threshold", Number(1.0, 255.0), "lightness at which wall ends and floor begins", "128"),
+    key("plan.wall_colours", Any, "saturated colours that are wall, as \"#c03030\"; all others are notes on the floor"),
+    key("plan.unknown", Any, "a ROS map's unknown pixels: \"wall\" or \"floor\""),
+    key("plan.transparent", Any, "transparent pixels: \"auto\", \"paper\", \"wall\" or \"floor\""),
+    key("plan.speck_m", Number(0.0, 10.0), "smaller specks are dropped as noise [m]"),
+    key("plan.drop_annotation", Any, "whether lettering, dashed lines and the outlines of coloured dots are dropped"),
+    key("plan.floor", Any, "points in the floor, [x, y] in metres or { px = [x, y] }; empty: found"),
+    key("plan.narrowest_m", Number(0.1, 2.0), "width of the narrowest person: nobody goes where they cannot pass [m]"),
+
+    key("walls.tolerance_px", Number(0.05, 10.0), "how far traced walls may lie from the drawn ones [pixels of the plan]"),
+
+    key("texture.floor_texels_per_metre", Number(1.0, 1000.0), "texel density of the floor"),
+    key("texture.wall_texels_per_metre", Number(1.0, 1000.0), "texel density of the walls"),
+    key("texture.tile", Number(64.0, 16384.0), "largest side of a floor texture [px]"),
+    key("texture.layers", Any, "whether to write every layer on its own too, as EXR"),
+
+    key("crowd.preset", Any, "what all other keys start from: \"commuters\", \"heavy\", \"wet\" or \"paper\""),
+    key("crowd.seed", Any, "another number, another crowd"),
+    key("crowd.people", Number(1.0, 5e6), "how many people walk"),
+    key("crowd.speed", Spread(0.1, 6.0), "with nobody around [m/s]"),
+    key("crowd.speed_law", Any, "how density slows people down: \"weidmann\" or \"linear\""),
+    key("crowd.exclusion", Spread(0.05, 1.5), "bodies' middles never come nearer to each other [m]"),
+    key("crowd.acceptable", Spread(0.05, 5.0), "people make way before they come so near; shrinks with density [m]"),
+    key("crowd.wall_exclusion", Spread(0.0, 2.0), "the same for walls; shrinks in gaps [m]"),
+    key("crowd.wall_acceptable", Spread(0.0, 5.0), "people keep this far off walls if they can; shrinks in gaps [m]"),
+    key("crowd.entry_rate", Number(1e-3, 1e3), "the most who enter in a second, per metre of opening"),
+    optional("crowd.entry_seconds", Number(0.0, 1e6), "seconds over which people enter; left out: by the rate", "600.0"),
+    key("crowd.patience_seconds", Number(5.0, 1e5), "who makes no way for so long is stuck"),
+    key("crowd.time_step", Number(0.01, 0.2), "of the simulation [s]"),
+    optional("crowd.end_seconds", Number(0.1, 1e7), "ends the walk, wherever people are", "3600.0"),
+    optional("crowd.period_x", Number(8.0, 1e5), "who leaves in x comes back at the other end [m]; for measurements", "26.0"),
+
+    key("bodies.men", Number(0.0, 1.0), "share of men among the grown-ups"),
+    key("bodies.children", Number(0.0, 1.0), "share of children among all"),
+    key("bodies.stature_men", Spread(0.5, 2.5), "body height [m]"),
+    key("bodies.stature_women", Spread(0.5, 2.5), "body height [m]"),
+    key("bodies.stature_children", Spread(0.5, 2.5), "body height [m]"),
+    key("bodies.bags", Number(0.0, 1.0), "share of people who carry a bag"),
+    optional("bodies.step_length", Spread(0.15, 2.0), "a fixed step length [m]; left out: it follows speed and stature", "0.7"),
+    key("bodies.step_width", Spread(0.0, 0.5), "between the lines of the left and the right foot [m]"),
+    key("bodies.toe_out_deg", Spread(-45.0, 45.0), "how far the toes point outward [degrees]"),
+
+    key("marks.fresh_people", Any, "how many of the last people leave readable prints: those since the floor was mopped"),
+    optional("marks.shoe", Any, "the one sole that everybody wears; left out: by share", "\"leather_shoe\""),
+    key("marks.soil.weather", Any, "outside: \"dry\" or \"wet\""),
+    key("marks.soil.median_density", Number(0.0, 3.0), "optical density of a first print"),
+    key("marks.soil.sigma", Number(0.0, 3.0), "how widely people's loads differ: deviation of the logarithm"),
+    key("marks.soil.shoe_sigma", Number(0.0, 3.0), "the same between the two shoes of a person"),
+    key("marks.soil.mat_length_m", Number(0.0, 100.0), "length of the mat inside an entrance [m]"),
+    key("marks.soil.steps_before_entering", Spread(0.0, 1e6), "steps of a shoe since the soil, for who comes in"),
+    key("marks.soil.steps_before_indoors", Spread(0.0, 1e6), "the same for who starts inside"),
+    key("marks.heel.per_metre", Number(0.0, 1.0), "heel marks per metre walked"),
+    key("marks.heel.per_radian", Number(0.0, 1.0), "per radian turned"),
+    key("marks.heel.per_stop", Number(0.0, 10.0), "per stop, and per start"),
+    key("marks.heel.per_passage", Number(0.0, 10.0), "per passage of a door or another narrow place"),
+    key("marks.heel.narrow_m", Number(0.0, 5.0), "what counts as narrow [m]"),
+    key("marks.heel.median_density", Number(0.0, 3.0), "optical density of a mark"),
+    key("marks.heel.sigma", Number(0.0, 3.0), "deviation of its logarithm"),
+    key("marks.heel.people", Number(1.0, 1e9), "the number of people for which the rates hold; fewer leave more each"),
+
+    key("stamps.partial", Number(0.0, 1.0), "share of prints that show only the heel, only the ball, or fade to one side"),
+    key("stamps.pressure", Number(0.0, 0.4), "how unevenly a sole presses"),
+    key("stamps.blur_m", Number(0.0, 0.02), "least and largest blur of a print [m]"),
+    key("stamps.noise", Number(0.0, 0.6), "blotches and grain in a print"),
+    key("stamps.presence_across_m", Number(0.01, 1.0), "width of the soft trace that a footfall adds to the lane [m]"),
+    key("stamps.presence_along_m", Number(0.01, 1.0), "its length [m]"),
+
+    key("look.preset", Any, "\"commuters\", \"heavy\", \"wet\" or \"paper\": what this section's keys start from"),
+    optional("look.file", Any, "or a look file, relative to this file", "\"vinyl.toml\""),
+    key("look.seed", Any, "another number, another noise"),
+    key("look.total_passes", Number(1.0, 1e9), "how many people the floor has seen; the simulated ones stand for them"),
+    key("look.darkest", Number(0.0, 255.0), "sRGB value below which dirt darkens nothing"),
+    key("look.floor.material", Any, "what is under the dirt"),
+    optional("look.floor.colour", Any, "sRGB of the clean floor; left out: the material's", "[198, 194, 186]"),
+    key("look.floor.texture", Number(0.0, 3.0), "how much of the material's own texture shows"),
+    optional("look.floor.image", Any, "or an image of the clean floor, repeated", "\"oak.png\""),
+    key("look.floor.image_size_m", Number(0.01, 1000.0), "width and height of the floor that the image shows [m]"),
+    optional("look.floor.roughness", Number(0.0, 1.0), "of the clean floor; left out: the material's", "0.35"),
+    optional("look.floor.roughness_trodden", Number(0.0, 1.0), "where many have walked; left out: the material's", "0.5"),
+    key("look.floor.tile_m", Number(0.02, 5.0), "side of a tile, material \"tile\" [m]"),
+    key("look.floor.joint_m", Number(0.0, 0.05), "width of a joint, material \"tile\" [m]"),
+    key("look.film.density", Number(0.0, 3.0), "optical density of the lane, once complete"),
+    key("look.film.per_pass", Number(0.0, 1.0), "share of what is still missing that one pass adds"),
+    key("look.film.spread_m", Number(0.0, 0.5), "how far simulated passes are evened out, for those beside them [m]"),
+    key("look.film.colour", Any, "sRGB"),
+    key("look.ingrained.density", Number(0.0, 3.0), "what darkens on long after the film is complete"),
+    key("look.ingrained.per_pass", Number(0.0, 1.0), "share of what is still missing that one pass adds"),
+    key("look.prints.soil", Number(0.0, 20.0), "factor on the soil of fresh prints"),
+    key("look.prints.every_pass", Number(0.0, 3.0), "optical density that every print paints: the paper's way"),
+    key("look.prints.colour", Any, "sRGB"),
+    key("look.scuffs.strength", Number(0.0, 20.0), "factor on heel and toe marks"),
+    key("look.scuffs.colour", Any, "sRGB"),
+    key("look.edge.density", Number(0.0, 3.0), "optical density of the skirting line at the wall"),
+    key("look.edge.reach_m", Number(0.005, 0.5), "falls to 1/e in this distance [m]"),
+    key("look.edge.unevenness", Number(0.0, 1.5), "how broken the line is"),
+    key("look.edge.corner", Number(1.0, 4.0), "how many times as much lies in an inner corner"),
+    key("look.edge.corner_radius_m", Number(0.01, 0.5), "how far a corner is felt [m]"),
+    key("look.edge.colour", Any, "sRGB"),
+    key("look.dust.density", Number(0.0, 3.0), "optical density of dust at the wall"),
+    key("look.dust.reach_m", Number(0.02, 3.0), "falls to 1/e in this distance [m]"),
+    key("look.dust.colour", Any, "sRGB"),
+    key("look.noise.fine", Any, "grain: size of a spot [m], deviation of the logarithm"),
+    key("look.noise.middle", Any, "blotches"),
+    key("look.noise.coarse", Any, "clouds"),
+
+    optional("patterns.folder", Any, "own patterns with their patterns.toml, relative to this file; left out: built in", "\"patterns\""),
+
+    optional("route.name", Any, "what to call it", "\"west to north\""),
+    optional("route.from", Any, "an opening's name, [x, y] in metres, { px = [x, y] }, or an area [[x0, y0], [x1, y1]]", "\"west\""),
+    optional("route.to", Any, "as from", "\"north\""),
+    optional("route.via", Any, "places to pass on the way, in order, each as from", "[]"),
+    optional("route.share", Number(1e-6, 1e6), "how many take it, relative to the other routes", "1.0"),
+];

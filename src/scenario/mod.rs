@@ -1,0 +1,262 @@
+//! The scenario: everything that a bake needs to know, as a TOML file or as a plan image alone.
+//!
+//! One section per stage, each the options of that stage; a few keys belong to the scenario itself. Every key has a
+//! default, so that a plan image alone is a scenario too. A preset changes the defaults; keys that a file writes
+//! win over the preset, and [`Overrides`] (the command line) win over the file.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use crate::crowd::CrowdOptions;
+use crate::export::TextureOptions;
+use crate::look::Look;
+use crate::marks::MarksOptions;
+use crate::motion::BodyOptions;
+use crate::plan::PlanOptions;
+use crate::routes::{PlaceRequest, RouteRequest, RoutesOptions};
+use crate::stamps::StampOptions;
+use crate::walls::WallsOptions;
+
+mod check;
+mod document;
+mod error;
+mod explain;
+mod keys;
+mod preset;
+mod snippet;
+mod write;
+
+pub use error::{ScenarioError, Wrong};
+pub use keys::allowed_range;
+pub use preset::Preset;
+pub use snippet::Snippet;
+
+use document::Document;
+
+/// Everything that a bake needs to know.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenario {
+    /// The folder that the scenario's paths start from: that of its file.
+    pub folder: PathBuf,
+    /// The plan, relative to `folder`: an image or the YAML of a ROS map.
+    pub image: PathBuf,
+    /// Height of the walls in metres: at least 2.1, less than 3.5.
+    pub wall_height_m: f64,
+    /// How the plan is read.
+    pub plan: PlanOptions,
+    /// How walls are traced.
+    pub walls: WallsOptions,
+    /// Texel density of the floor, texels per metre, 1 to 1000.
+    pub floor_texels_per_metre: f64,
+    /// Texel density of the walls, texels per metre, 1 to 1000.
+    pub wall_texels_per_metre: f64,
+    /// How textures are cut and written.
+    pub texture: TextureOptions,
+    /// What the other values started from.
+    pub preset: Preset,
+    /// The number that everything random is drawn from.
+    pub seed: u64,
+    /// How many people walk, and how.
+    pub crowd: CrowdOptions,
+    /// What people's bodies are like.
+    pub bodies: BodyOptions,
+    /// What their feet leave behind.
+    pub marks: MarksOptions,
+    /// How prints differ from each other.
+    pub stamps: StampOptions,
+    /// How sums become a floor.
+    pub look: Look,
+    /// A folder with own patterns, relative to `folder`; without one the built-in library is used.
+    pub pattern_folder: Option<PathBuf>,
+    /// The ways that people take; none: found.
+    pub routes: RoutesOptions,
+}
+
+/// What the command line says; wins over what the scenario file says.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Overrides {
+    /// Another preset for the crowd and the look.
+    pub preset: Option<Preset>,
+    /// Another number of people.
+    pub people: Option<u32>,
+    /// Another seed.
+    pub seed: Option<u64>,
+    /// Another texel density of the floor.
+    pub texels_per_metre: Option<f64>,
+    /// Another scale of the plan.
+    pub metres_per_pixel: Option<f64>,
+}
+
+impl Scenario {
+    /// A scenario from a file: TOML is read as such, anything else is taken for a plan.
+    ///
+    /// # Errors
+    /// As [`Scenario::read`].
+    pub fn open(path: &Path, overrides: &Overrides) -> Result<Scenario, ScenarioError> {
+        if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
+            Scenario::read(path, overrides)
+        } else {
+            Scenario::from_plan(path, overrides)
+        }
+    }
+
+    /// A scenario of a plan alone, defaults for the rest. The plan is not opened.
+    ///
+    /// # Errors
+    /// Overrides beyond what is allowed.
+    pub fn from_plan(path: &Path, overrides: &Overrides) -> Result<Scenario, ScenarioError> {
+        let mut scenario = Scenario::of_preset(overrides.preset.unwrap_or_default());
+        scenario.folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+        scenario.image = path.file_name().map(PathBuf::from).unwrap_or_default();
+        scenario.apply(overrides);
+        scenario.check(None)?;
+        Ok(scenario)
+    }
+
+    /// Reads a scenario file.
+    ///
+    /// # Errors
+    /// Files that cannot be read; whatever is not TOML, not a key, not of the right type or beyond its range, with
+    /// line and column.
+    pub fn read(path: &Path, overrides: &Overrides) -> Result<Scenario, ScenarioError> {
+        let text = std::fs::read_to_string(path)
+            .map_err(|source| ScenarioError::Unreadable { path: path.to_path_buf(), source })?;
+        Scenario::parse(&text, path, overrides)
+    }
+
+    /// Reads a scenario from text; `path` is where it came from, for errors and for the paths in it.
+    ///
+    /// # Errors
+    /// As [`Scenario::read`].
+    pub fn parse(text: &str, path: &Path, overrides: &Overrides) -> Result<Scenario, ScenarioError> {
+        let document = &Document::parse(path, text)?;
+        let mut crowd = document.section("crowd");
+        let preset = crowd.take("preset")?;
+        let mut scenario = Scenario::of_preset(overrides.preset.or(preset).unwrap_or_default());
+        scenario.folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+        scenario.seed = crowd.take("seed")?.unwrap_or(scenario.seed);
+
+        let mut plan = document.section("plan");
+        scenario.image = plan.take("image")?.ok_or_else(|| {
+            document.wrong_value(
+                "plan.image",
+                "the scenario names no plan".to_string(),
+                Some("write [plan] image = \"plan.png\"".to_string()),
+            )
+        })?;
+        scenario.wall_height_m = plan.take("wall_height")?.unwrap_or(scenario.wall_height_m);
+        scenario.plan = plan.over(&scenario.plan)?;
+        scenario.walls = document.section("walls").over(&scenario.walls)?;
+        let mut texture = document.section("texture");
+        let floor_density = texture.take("floor_texels_per_metre")?;
+        scenario.floor_texels_per_metre = floor_density.unwrap_or(scenario.floor_texels_per_metre);
+        let wall_density = texture.take("wall_texels_per_metre")?;
+        scenario.wall_texels_per_metre = wall_density.unwrap_or(scenario.wall_texels_per_metre);
+        scenario.texture = texture.over(&scenario.texture)?;
+        scenario.crowd = crowd.over(&scenario.crowd)?;
+        scenario.bodies = document.section("bodies").over(&scenario.bodies)?;
+        scenario.marks = document.section("marks").over(&scenario.marks)?;
+        scenario.stamps = document.section("stamps").over(&scenario.stamps)?;
+        let mut patterns = document.section("patterns");
+        scenario.pattern_folder = patterns.take("folder")?;
+        patterns.into_table::<Nothing>()?;
+        scenario.look = scenario.read_look(document, overrides.preset.is_some())?;
+        scenario.routes.routes = document.list::<RouteRequest>(keys::ROUTE)?;
+        scenario.apply(overrides);
+        scenario.check(Some(document))?;
+        Ok(scenario)
+    }
+
+    /// The plan's path.
+    pub fn image_path(&self) -> PathBuf {
+        self.folder.join(&self.image)
+    }
+
+    /// How the plan is read: `plan`, with the points that routes name as points of the floor.
+    pub fn plan_options(&self) -> PlanOptions {
+        let mut options = self.plan.clone();
+        let places = self.routes.routes.iter().flat_map(|route| [&route.from, &route.to].into_iter().chain(&route.via));
+        options.floor.extend(places.filter_map(|place| match place {
+            PlaceRequest::Point(point) => Some(*point),
+            // The middle of an area may well lie in a pillar, and an opening is found once the floor is known.
+            PlaceRequest::Area(_) | PlaceRequest::Opening(_) => None,
+        }));
+        options
+    }
+
+    /// The path of the folder with own patterns, if there is one.
+    pub fn pattern_path(&self) -> Option<PathBuf> {
+        self.pattern_folder.as_ref().map(|folder| self.folder.join(folder))
+    }
+
+    /// The defaults of a preset, without a plan.
+    pub fn of_preset(preset: Preset) -> Scenario {
+        let mut scenario = Scenario {
+            folder: PathBuf::new(),
+            image: PathBuf::new(),
+            wall_height_m: 2.6,
+            plan: PlanOptions::default(),
+            walls: WallsOptions::default(),
+            floor_texels_per_metre: 100.0,
+            wall_texels_per_metre: 200.0,
+            texture: TextureOptions::default(),
+            preset,
+            seed: 1,
+            crowd: CrowdOptions::default(),
+            bodies: BodyOptions::default(),
+            marks: MarksOptions::default(),
+            stamps: StampOptions::default(),
+            look: Look::default(),
+            pattern_folder: None,
+            routes: RoutesOptions::default(),
+        };
+        preset.apply(&mut scenario);
+        scenario
+    }
+
+    fn apply(&mut self, overrides: &Overrides) {
+        self.seed = overrides.seed.unwrap_or(self.seed);
+        self.crowd.people = overrides.people.unwrap_or(self.crowd.people);
+        self.floor_texels_per_metre = overrides.texels_per_metre.unwrap_or(self.floor_texels_per_metre);
+        if overrides.metres_per_pixel.is_some() {
+            self.plan.metres_per_pixel = overrides.metres_per_pixel;
+            self.plan.scale = None;
+        }
+    }
+
+    /// The look: that of a preset or a file, with the section's own keys laid over it.
+    fn read_look(&self, document: &Document<'_>, preset_overridden: bool) -> Result<Look, ScenarioError> {
+        let mut section = document.section("look");
+        let preset: Option<Preset> = section.take("preset")?;
+        let file: Option<PathBuf> = section.take("file")?;
+        let base = match (file, preset) {
+            (Some(_), Some(_)) => {
+                let hint = "a look file names its own preset: leave one of the two out".to_string();
+                return Err(document.wrong_value(
+                    "look.file",
+                    "[look] has both a preset and a file".to_string(),
+                    Some(hint),
+                ));
+            }
+            (Some(file), None) => Look::read(&self.folder.join(file))
+                .map_err(|error| document.wrong_value("look.file", error.to_string(), error.hint()))?,
+            (None, Some(preset)) if !preset_overridden => Look::preset(preset.name()).unwrap_or_default(),
+            (None, _) => self.look.clone(),
+        };
+        let own_image = document.text_of("look.floor.image").is_some();
+        let mut look = section.over(&base)?;
+        if own_image {
+            look.floor.image = look.floor.image.map(|image| self.folder.join(image));
+        }
+        Ok(look)
+    }
+}
+
+/// A section whose keys the scenario reads for itself: nothing may be left.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Nothing {}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,53 @@
+use serde::{Deserialize, Serialize};
+
+use super::Scenario;
+use crate::crowd::CrowdOptions;
+use crate::look::Look;
+use crate::marks::{HeelOptions, Weather};
+
+/// What every key of a scenario starts from. Keys that a file writes win over it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Preset {
+    /// Grown-ups on their way through an office or a station, in dry weather.
+    #[default]
+    Commuters,
+    /// The same people on a floor far beyond its next deep clean.
+    Heavy,
+    /// The same people on a rainy day.
+    Wet,
+    /// The experiment of Takenaka, Tanaka and Sagawa, *Expression of indoor grime by human walk*: fast people with
+    /// a stride of their own, one kind of print, painted over each other.
+    Paper,
+}
+
+impl Preset {
+    /// All presets, in the order in which help texts list them.
+    pub const ALL: [Preset; 4] = [Preset::Commuters, Preset::Heavy, Preset::Wet, Preset::Paper];
+
+    /// The name, as a scenario and the command line write it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Preset::Commuters => "commuters",
+            Preset::Heavy => "heavy",
+            Preset::Wet => "wet",
+            Preset::Paper => "paper",
+        }
+    }
+
+    /// Sets what this preset changes in a default scenario.
+    pub(super) fn apply(self, scenario: &mut Scenario) {
+        scenario.preset = self;
+        scenario.look = Look::preset(self.name()).unwrap_or_default();
+        match self {
+            Preset::Commuters | Preset::Heavy => {}
+            Preset::Wet => scenario.marks.soil.weather = Weather::Wet,
+            Preset::Paper => {
+                scenario.crowd = CrowdOptions::paper();
+                scenario.bodies = CrowdOptions::preset_bodies("paper").unwrap_or_default();
+                scenario.marks.shoe = Some("leather_shoe".to_string());
+                scenario.marks.heel = HeelOptions::none();
+            }
+        }
+    }
+}

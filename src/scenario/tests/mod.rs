@@ -1,0 +1,232 @@
+use std::path::Path;
+
+use serde::de::DeserializeOwned;
+
+use super::check::value_at;
+use super::keys::{Allowed, KEYS, ROUTE, SECTIONS};
+use super::*;
+use crate::plan::PlanPoint;
+
+mod mistakes;
+
+const PLAN: &str = "[plan]\nimage = \"plan.png\"\n";
+
+fn parse(text: &str) -> Result<Scenario, ScenarioError> {
+    Scenario::parse(text, Path::new("plans/hall.toml"), &Overrides::default())
+}
+
+/// What the user reads: the message, the place, the hint.
+fn shown(text: &str) -> String {
+    let error = parse(text).unwrap_err();
+    match error.hint() {
+        Some(hint) => format!("{error}\nhint: {hint}\n"),
+        None => format!("{error}\n"),
+    }
+}
+
+#[test]
+fn a_plan_alone_is_a_scenario() {
+    let from_image = Scenario::from_plan(Path::new("plans/plan.png"), &Overrides::default()).unwrap();
+    assert_eq!(from_image, parse(PLAN).unwrap());
+    assert_eq!(from_image.image_path(), Path::new("plans/plan.png"));
+}
+
+#[test]
+fn paths_start_from_the_files_folder() {
+    let scenario =
+        parse("[plan]\nimage = \"img/a.png\"\n[patterns]\nfolder = \"../soles\"\n[look.floor]\nimage = \"oak.png\"\n");
+    let scenario = scenario.unwrap();
+    assert_eq!(scenario.image_path(), Path::new("plans/img/a.png"));
+    assert_eq!(scenario.pattern_path().unwrap(), Path::new("plans/../soles"));
+    assert_eq!(scenario.look.floor.image.unwrap(), Path::new("plans/oak.png"));
+}
+
+#[test]
+fn a_preset_changes_the_defaults_and_written_keys_win() {
+    let text = format!("{PLAN}[crowd]\npreset = \"paper\"\n[look.film]\nper_pass = 0.5\n");
+    let scenario = parse(&text).unwrap();
+    let paper = Scenario::of_preset(Preset::Paper);
+    assert_eq!(scenario.preset, Preset::Paper);
+    assert_eq!(scenario.crowd, crate::crowd::CrowdOptions::paper());
+    assert_eq!(scenario.bodies, paper.bodies);
+    assert_eq!(scenario.marks, paper.marks);
+    assert_eq!(scenario.look.film.per_pass, 0.5);
+    assert_eq!(scenario.look.prints, paper.look.prints);
+
+    let text = format!(
+        "{PLAN}[crowd]\npreset = \"paper\"\n[bodies]\nbags = 0.1\nstep_length = 0.7\n[look]\npreset = \"heavy\"\n"
+    );
+    let scenario = parse(&text).unwrap();
+    assert_eq!(scenario.bodies.bags, 0.1);
+    assert_eq!(scenario.bodies.step_length, Some(crate::math::Distribution::Constant(0.7)));
+    assert_eq!(scenario.look, Look::preset("heavy").unwrap());
+}
+
+#[test]
+fn overrides_win_over_the_file() {
+    let text = "[plan]\nimage = \"plan.png\"\nscale = { from = { px = [0, 0] }, to = { px = [9, 0] }, metres = 3 }\n\
+                [crowd]\nseed = 5\n[texture]\nfloor_texels_per_metre = 50\n[look]\npreset = \"wet\"\n";
+    let overrides = Overrides {
+        preset: Some(Preset::Heavy),
+        seed: Some(7),
+        texels_per_metre: Some(25.0),
+        metres_per_pixel: Some(0.1),
+        ..Overrides::default()
+    };
+    let scenario = Scenario::parse(text, Path::new("a.toml"), &overrides).unwrap();
+    assert_eq!(scenario.seed, 7);
+    assert_eq!(scenario.floor_texels_per_metre, 25.0);
+    assert_eq!((scenario.plan.metres_per_pixel, scenario.plan.scale), (Some(0.1), None));
+    assert_eq!(scenario.look, Look::preset("heavy").unwrap());
+}
+
+#[test]
+fn what_is_written_reads_back_the_same() {
+    for preset in Preset::ALL {
+        let mut scenario = Scenario::of_preset(preset);
+        scenario.image = "plan.png".into();
+        scenario.folder = "plans".into();
+        scenario.routes.routes = routes();
+        let text = scenario.to_toml();
+        assert_eq!(parse(&text).unwrap_or_else(|error| panic!("{error}\n{text}")), scenario, "{text}");
+    }
+}
+
+#[test]
+fn settings_name_files_but_not_where_they_lie() {
+    let text = "[plan]\nimage = \"/home/me/a.png\"\n[patterns]\nfolder = \"/home/me/soles\"\n[look.floor]\nimage = \"oak.png\"\n";
+    let settings = Scenario::parse(text, Path::new("/home/me/a.toml"), &Overrides::default()).unwrap().settings();
+    assert_eq!(settings["plan"]["image"], "a.png");
+    assert_eq!(settings["crowd"]["people"], 1000);
+    assert!(!settings.to_string().contains("/home"), "{settings}");
+}
+
+fn routes() -> Vec<RouteRequest> {
+    let opening = |name: &str| PlaceRequest::Opening(name.to_string());
+    let area = PlaceRequest::Area([[1.0, 2.0], [3.0, 4.5]]);
+    let via = vec![
+        PlaceRequest::Point(PlanPoint::Metres([5.0, 6.0])),
+        PlaceRequest::Point(PlanPoint::Pixels { px: [7.0, 8.0] }),
+    ];
+    vec![
+        RouteRequest { name: None, from: opening("west"), to: opening("north 2"), via: Vec::new(), share: 1.0 },
+        RouteRequest { name: Some("round".to_string()), from: area, to: opening("south"), via, share: 0.25 },
+    ]
+}
+
+#[test]
+fn a_written_scenario_shows_every_key() {
+    let text = Scenario::of_preset(Preset::Commuters).to_toml();
+    // What serde itself lists when it meets a key that nothing has.
+    fn keys_of<T: DeserializeOwned>() -> Vec<String> {
+        let message = toml::from_str::<T>("\"\" = 0").err().unwrap().message().to_string();
+        message.split('`').skip(3).step_by(2).map(str::to_string).collect()
+    }
+    let sections = [
+        ("plan", keys_of::<PlanOptions>()),
+        ("walls", keys_of::<WallsOptions>()),
+        ("texture", keys_of::<TextureOptions>()),
+        ("route", keys_of::<RouteRequest>()),
+        ("crowd", keys_of::<CrowdOptions>()),
+        ("marks", keys_of::<MarksOptions>()),
+        ("marks.soil", keys_of::<crate::marks::SoilOptions>()),
+        ("marks.heel", keys_of::<crate::marks::HeelOptions>()),
+        ("stamps", keys_of::<StampOptions>()),
+        ("bodies", keys_of::<BodyOptions>()),
+        ("look", keys_of::<Look>()),
+        ("look.floor", keys_of::<crate::look::FloorLook>()),
+        ("look.film", keys_of::<crate::look::FilmLook>()),
+        ("look.ingrained", keys_of::<crate::look::IngrainedLook>()),
+        ("look.prints", keys_of::<crate::look::PrintsLook>()),
+        ("look.scuffs", keys_of::<crate::look::ScuffsLook>()),
+        ("look.edge", keys_of::<crate::look::EdgeLook>()),
+        ("look.dust", keys_of::<crate::look::DustLook>()),
+        ("look.noise", keys_of::<crate::look::NoiseLook>()),
+    ];
+    for (section, keys) in sections {
+        assert!(!keys.is_empty(), "{section}");
+        for key in keys {
+            let path = format!("{section}.{key}");
+            let nested = KEYS.iter().any(|known| known.section() == path);
+            assert!(nested || KEYS.iter().any(|known| known.path == path), "{path} is not explained");
+        }
+    }
+    for key in KEYS {
+        assert!(SECTIONS.contains(&key.path.split('.').next().unwrap()), "{}", key.path);
+        assert!(text.contains(&format!("{} = ", key.name())), "{} is not written", key.path);
+        assert!(key.about.len() > 3, "{} is not explained", key.path);
+    }
+}
+
+#[test]
+fn every_example_of_a_key_without_a_default_reads() {
+    for key in KEYS.iter().filter(|key| !key.example.is_empty() && key.path != "look.file" && key.section() != ROUTE) {
+        let (section, name) = (key.section(), key.name());
+        let image = if section == "plan" { "image = \"plan.png\"\n" } else { "" };
+        let plan = if section == "plan" { "" } else { PLAN };
+        let text = format!("{plan}[{section}]\n{image}{name} = {}\n", key.example);
+        parse(&text).unwrap_or_else(|error| panic!("{error}"));
+    }
+}
+
+/// No key lets a value through that the stage refuses, and none refuses its own limits.
+#[test]
+fn limits_are_allowed_and_what_lies_beyond_is_not() {
+    let defaults = write::table_of(&Scenario::of_preset(Preset::Commuters)).unwrap();
+    for key in KEYS {
+        let (low, high, open) = match key.allowed {
+            _ if key.section() == ROUTE => continue,
+            Allowed::Any => continue,
+            Allowed::Number(low, high) | Allowed::Spread(low, high) => (low, high, false),
+            Allowed::Below(low, high) => (low, high, true),
+        };
+        let default = value_at(&defaults, key.path);
+        let whole = default.is_some_and(toml::Value::is_integer) || key.path == "plan.threshold";
+        let pair = default.is_some_and(toml::Value::is_array);
+        let text = |value: f64| {
+            let number = if whole { format!("{value}") } else { format!("{value:?}").to_lowercase() };
+            let value = if pair { format!("[{number}, {number}]") } else { number };
+            let image = if key.section() == "plan" { "image = \"plan.png\"\n" } else { "" };
+            let plan = if key.section() == "plan" { "" } else { PLAN };
+            format!("{plan}[{}]\n{image}{} = {value}\n", key.section(), key.name())
+        };
+        parse(&text(low)).unwrap_or_else(|error| panic!("{error}"));
+        let step = if whole { 1.0 } else { 1e-6 };
+        parse(&text(if open { high - step } else { high })).unwrap_or_else(|error| panic!("{error}"));
+        for beyond in
+            [low - step, if open { high } else { high * 1.001 + step }, -1e300, 1e300, f64::NAN, f64::INFINITY]
+        {
+            let message = shown(&text(beyond));
+            assert!(
+                message.contains(key.name()) && message.contains(" --> plans/hall.toml:"),
+                "{}: {message}",
+                key.path
+            );
+        }
+    }
+}
+
+mod any_text {
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Whatever stands in a file, reading it ends with a scenario or an error that names a place in the file.
+        #[test]
+        fn never_panics(text in "[ -~\n\t\u{e9}]{0,200}") {
+            let _ = super::parse(&text).map_err(|error| error.to_string());
+        }
+
+        #[test]
+        fn never_panics_on_damaged_scenarios(at in 0usize..4000, with in "[ -~\n]{0,3}", length in 0usize..20) {
+            let mut scenario = super::Scenario::of_preset(super::Preset::Commuters);
+            scenario.image = "plan.png".into();
+            let mut text = scenario.to_toml();
+            let start = at.min(text.len());
+            let end = (start + length).min(text.len());
+            text.replace_range(start..end, &with);
+            if let Err(error) = super::parse(&text) {
+                prop_assert!(error.to_string().lines().count() <= 6, "{error}");
+            }
+        }
+    }
+}

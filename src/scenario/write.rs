@@ -1,0 +1,149 @@
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use toml::{Table, Value};
+
+use super::Scenario;
+use super::check::value_at;
+use super::keys::{self, Allowed, KEYS, Key};
+
+/// Comments begin in this column where the value leaves room.
+const COMMENT_COLUMN: usize = 36;
+/// Lines are not longer than this where a comment can stand above instead.
+const WIDTH: usize = 118;
+/// Keys of a table on one line, in the order in which people say them.
+const PAIR_ORDER: [&str; 8] = ["mean", "size_m", "sd", "min", "max", "from", "to", "metres"];
+
+impl Scenario {
+    /// The scenario as a file: every key with its value and what it means, ready to be edited.
+    ///
+    /// Reading the text back gives the same scenario.
+    pub fn to_toml(&self) -> String {
+        let table = table_of(self).unwrap_or_default();
+        let mut text = String::new();
+        let mut section = "";
+        for key in KEYS.iter().filter(|key| key.section() != keys::ROUTE) {
+            if key.section() != section {
+                section = key.section();
+                let gap = if text.is_empty() { "" } else { "\n" };
+                let _ = writeln!(text, "{gap}[{section}]");
+            }
+            let line = match value_at(&table, key.path) {
+                Some(value) => format!("{} = {}", key.name(), inline(value)),
+                None => format!("# {} = {}", key.name(), key.example),
+            };
+            push_commented(&mut text, &line, &key.comment());
+        }
+        push_routes(&mut text, &table);
+        text
+    }
+}
+
+impl Scenario {
+    /// All values, for a manifest that is the same wherever the files lie: of paths only the names are left.
+    pub fn settings(&self) -> serde_json::Value {
+        let name = |path: &PathBuf| path.file_name().map(PathBuf::from).unwrap_or_default();
+        let mut scenario = self.clone();
+        scenario.image = name(&self.image);
+        scenario.pattern_folder = self.pattern_folder.as_ref().map(name);
+        scenario.look.floor.image = self.look.floor.image.as_ref().map(name);
+        // Only numbers that TOML cannot hold stop it, and those were refused when the scenario was read.
+        table_of(&scenario).ok().and_then(|table| serde_json::to_value(table).ok()).unwrap_or_default()
+    }
+}
+
+/// The routes, each in a section of its own; what their keys mean stands above the first.
+fn push_routes(text: &mut String, table: &Table) {
+    let route_keys = || KEYS.iter().filter(|key| key.section() == keys::ROUTE);
+    text.push_str(
+        "\n# Routes, each in a [[route]] of its own. Without any, routes join the widest openings:\n#\n# [[route]]\n",
+    );
+    for key in route_keys() {
+        push_commented(text, &format!("# {} = {}", key.name(), key.example), &key.comment());
+    }
+    for route in table.get(keys::ROUTE).and_then(Value::as_array).into_iter().flatten() {
+        text.push_str("\n[[route]]\n");
+        for key in route_keys() {
+            if let Some(value) = route.get(key.name()) {
+                let _ = writeln!(text, "{} = {}", key.name(), inline(value));
+            }
+        }
+    }
+}
+
+impl Key {
+    /// What it is, and what it may be.
+    fn comment(&self) -> String {
+        match self.allowed {
+            Allowed::Any => self.about.to_string(),
+            Allowed::Number(low, high) | Allowed::Spread(low, high) => format!("{}, {low} to {high}", self.about),
+            Allowed::Below(low, high) => format!("{}, {low} <= h < {high}", self.about),
+        }
+    }
+}
+
+fn push_commented(text: &mut String, line: &str, comment: &str) {
+    let column = line.chars().count().max(COMMENT_COLUMN - 2) + 2;
+    let _ = if column + 2 + comment.chars().count() <= WIDTH {
+        writeln!(text, "{line:<width$}# {comment}", width = column)
+    } else {
+        writeln!(text, "# {comment}\n{line}")
+    };
+}
+
+/// A value on one line.
+fn inline(value: &Value) -> String {
+    match value {
+        Value::Float(number) => {
+            let number = shortest(*number);
+            if number.is_finite() { format!("{number:?}") } else { number.to_string().to_lowercase() }
+        }
+        Value::Array(items) => format!("[{}]", items.iter().map(inline).collect::<Vec<_>>().join(", ")),
+        Value::Table(table) => {
+            let mut pairs: Vec<_> = table.iter().collect();
+            pairs.sort_by_key(|(key, _)| PAIR_ORDER.iter().position(|known| known == key));
+            let pairs: Vec<_> = pairs.iter().map(|(key, value)| format!("{key} = {}", inline(value))).collect();
+            format!("{{ {} }}", pairs.join(", "))
+        }
+        other => other.to_string(),
+    }
+}
+
+/// The number itself, or, where it came from single precision, the decimal that was meant: 0.38, not
+/// 0.3799999952316284.
+pub(super) fn shortest(number: f64) -> f64 {
+    let single = number as f32;
+    if f64::from(single) == number { single.to_string().parse().unwrap_or(number) } else { number }
+}
+
+/// All values as one TOML table, in sections as a file has them.
+pub(super) fn table_of(scenario: &Scenario) -> Result<Table, toml::ser::Error> {
+    let Scenario { plan, walls, texture, crowd, bodies, marks, stamps, look, .. } = scenario;
+    let mut plan = Table::try_from(plan)?;
+    plan.insert("image".to_string(), Value::try_from(&scenario.image)?);
+    plan.insert("wall_height".to_string(), Value::Float(scenario.wall_height_m));
+    let mut texture = Table::try_from(texture)?;
+    texture.insert("floor_texels_per_metre".to_string(), Value::Float(scenario.floor_texels_per_metre));
+    texture.insert("wall_texels_per_metre".to_string(), Value::Float(scenario.wall_texels_per_metre));
+    let mut crowd = Table::try_from(crowd)?;
+    crowd.insert("preset".to_string(), Value::try_from(scenario.preset)?);
+    crowd.insert("seed".to_string(), Value::try_from(scenario.seed)?);
+    let mut patterns = Table::new();
+    if let Some(folder) = &scenario.pattern_folder {
+        patterns.insert("folder".to_string(), Value::try_from(folder)?);
+    }
+    let sections = [
+        ("plan", plan),
+        ("walls", Table::try_from(walls)?),
+        ("texture", texture),
+        ("crowd", crowd),
+        ("bodies", Table::try_from(bodies)?),
+        ("marks", Table::try_from(marks)?),
+        ("stamps", Table::try_from(stamps)?),
+        ("look", Table::try_from(look)?),
+        ("patterns", patterns),
+    ];
+    let mut all: Table = sections.into_iter().map(|(name, table)| (name.to_string(), Value::Table(table))).collect();
+    all.insert(keys::ROUTE.to_string(), Value::try_from(&scenario.routes.routes)?);
+    Ok(all)
+}
