@@ -1,0 +1,62 @@
+use crate::Error;
+use crate::crowd::Crowd;
+use crate::export::preview::PathSampler;
+use crate::marks::{Footfalls, Mark};
+use crate::motion::{Frame, Motion};
+use crate::progress::{Progress, Stage, Stopwatch};
+
+/// Marks that are stamped at a time: enough that a block's marks are worth a thread, few enough that the crowd
+/// and the stamping take turns often and both cores stay busy.
+const BATCH: usize = 16_384;
+
+/// Lets the crowd walk and hands its marks out in batches: while one batch is stamped, the next is walked.
+pub(super) fn tread(
+    crowd: &mut Crowd<'_>,
+    footfalls: &mut Footfalls<'_>,
+    paths: &mut PathSampler,
+    stamp: &mut (impl FnMut(&[Mark]) + Send),
+    watch: &Stopwatch,
+    progress: &dyn Progress,
+) -> Result<(), Error> {
+    let mut walked = Walk { crowd, footfalls, paths, frame: Frame::default(), over: false };
+    let (mut batch, mut next) = (Vec::with_capacity(BATCH), Vec::with_capacity(BATCH));
+    while !walked.over {
+        let (walking, ()) =
+            rayon::join(|| walked.fill(&mut next, watch, progress), || watch.busy(Stage::Stamps, || stamp(&batch)));
+        walking?;
+        std::mem::swap(&mut batch, &mut next);
+        next.clear();
+    }
+    watch.busy(Stage::Stamps, || stamp(&batch));
+    progress.advance(Stage::Crowd, 1.0);
+    Ok(())
+}
+
+/// The stream from frames to marks.
+struct Walk<'a, 'c, 'f> {
+    crowd: &'a mut Crowd<'c>,
+    footfalls: &'a mut Footfalls<'f>,
+    paths: &'a mut PathSampler,
+    frame: Frame,
+    over: bool,
+}
+
+impl Walk<'_, '_, '_> {
+    /// Walks on until there is a batch of marks, or to the end.
+    fn fill(&mut self, marks: &mut Vec<Mark>, watch: &Stopwatch, progress: &dyn Progress) -> Result<(), Error> {
+        while marks.len() < BATCH {
+            if progress.interrupted() {
+                return Err(Error::Interrupted);
+            }
+            if !watch.busy(Stage::Crowd, || self.crowd.next_frame(&mut self.frame))? {
+                watch.busy(Stage::Marks, || self.footfalls.finish(marks));
+                self.over = true;
+                break;
+            }
+            watch.busy(Stage::Marks, || self.footfalls.push(&self.frame, marks));
+            self.paths.push(&self.frame);
+        }
+        progress.advance(Stage::Crowd, self.crowd.share_done());
+        Ok(())
+    }
+}
