@@ -1,0 +1,79 @@
+//! Arguments that several subcommands take.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+use clap::builder::TypedValueParser;
+use trodden::scenario::{Overrides, Preset, Scenario, allowed_range};
+
+/// Texel density of a quick bake, texels per metre.
+const QUICK_TEXELS_PER_METRE: f64 = 25.0;
+
+/// A scenario and what of it is overridden.
+#[derive(Args)]
+pub struct ScenarioArguments {
+    /// A scenario (TOML), or a plan alone: PNG, JPEG, BMP, PGM, TIFF, GIF, or the YAML of a ROS map
+    #[arg(value_name = "SCENARIO|PLAN")]
+    pub path: PathBuf,
+    /// Side of a pixel of the plan in metres
+    #[arg(long, help_heading = "Scenario", value_name = "M", value_parser = within("plan.metres_per_pixel"))]
+    #[arg(allow_negative_numbers = true)]
+    pub metres_per_pixel: Option<f64>,
+    /// How many people walk
+    #[arg(long, help_heading = "Scenario", value_name = "N", value_parser = people, allow_negative_numbers = true)]
+    pub people: Option<u32>,
+    /// Another number, another crowd
+    #[arg(long, help_heading = "Scenario", value_name = "N", allow_negative_numbers = true)]
+    #[arg(value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
+    pub seed: Option<u64>,
+    /// What the scenario's keys start from
+    #[arg(long, help_heading = "Scenario", value_name = "NAME", value_parser = preset())]
+    pub preset: Option<Preset>,
+    /// Texels per metre of floor, 1 to 1000 [default: 100]
+    #[arg(long, help_heading = "Scenario", value_name = "T", value_parser = within("texture.floor_texels_per_metre"))]
+    #[arg(allow_negative_numbers = true)]
+    pub texels_per_metre: Option<f64>,
+    /// A coarse floor of 25 texels per metre: a picture in about a second
+    #[arg(long, help_heading = "Scenario", conflicts_with = "texels_per_metre")]
+    pub quick: bool,
+}
+
+impl ScenarioArguments {
+    /// The scenario with the overrides applied.
+    pub fn scenario(&self) -> Result<Scenario, trodden::Error> {
+        let overrides = Overrides {
+            preset: self.preset,
+            people: self.people,
+            seed: self.seed,
+            texels_per_metre: self.texels_per_metre.or(self.quick.then_some(QUICK_TEXELS_PER_METRE)),
+            metres_per_pixel: self.metres_per_pixel,
+        };
+        Ok(Scenario::open(&self.path, &overrides)?)
+    }
+}
+
+/// Takes the name of a preset.
+pub fn preset() -> impl TypedValueParser<Value = Preset> {
+    PossibleValuesParser::new(Preset::ALL.map(Preset::name))
+        .map(|name| Preset::ALL.into_iter().find(|preset| preset.name() == name).unwrap_or_default())
+}
+
+/// Takes a number within the range of a scenario's key.
+fn within(key: &'static str) -> impl Fn(&str) -> Result<f64, String> + Clone {
+    move |text| {
+        let number: f64 = text.parse().map_err(|_| "not a number".to_string())?;
+        match allowed_range(key) {
+            // Written so that NaN is out of range.
+            Some([low, high]) if !(number >= low && number <= high) => Err(format!("allowed is {low} to {high}")),
+            _ => Ok(number),
+        }
+    }
+}
+
+fn people(text: &str) -> Result<u32, String> {
+    let [low, high] = allowed_range("crowd.people").unwrap_or([1.0, 1e6]);
+    let range = format!("allowed are whole numbers from {low} to {high}");
+    let people: u32 = text.parse().map_err(|_| range.clone())?;
+    if f64::from(people) >= low && f64::from(people) <= high { Ok(people) } else { Err(range) }
+}

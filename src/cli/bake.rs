@@ -1,0 +1,77 @@
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+use trodden::bake::{OutputOptions, bake};
+use trodden::export::Report;
+
+use super::arguments::ScenarioArguments;
+use super::progress::Watch;
+use super::{Common, print};
+
+/// Walk a crowd through a plan and write the floor that it leaves
+///
+/// Reads the plan, traces its walls, finds routes, walks people along them, stamps every footfall, and writes tiled
+/// textures, previews and a manifest to a new folder.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  trodden bake floorplans/station.toml               to out/station
+  trodden bake plan.png --metres-per-pixel 0.05 -o floor
+  trodden bake plan.toml --quick --people 300        a first look
+  trodden bake plan.toml --preset wet --force        again, over the earlier bake")]
+pub struct Bake {
+    #[command(flatten)]
+    scenario: ScenarioArguments,
+    /// The folder to make [default: out/ and the scenario's name]
+    #[arg(short, long, value_name = "FOLDER")]
+    output: Option<PathBuf>,
+    /// Replace an earlier bake; anything else is never replaced
+    #[arg(long)]
+    force: bool,
+}
+
+impl Bake {
+    pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
+        let scenario = self.scenario.scenario()?;
+        let folder = match &self.output {
+            Some(folder) => folder.clone(),
+            None => Path::new("out").join(self.scenario.path.file_stem().unwrap_or_default()),
+        };
+        let output = OutputOptions { folder: folder.clone(), force: self.force };
+        let report = bake(&scenario, &output, &Watch::new(common))?;
+        if !common.quiet {
+            let people = &report.people;
+            let (entered, arrived) = (people.entered, people.arrived);
+            print::line(format!("{entered} people walked, {arrived} arrived; {} footfalls", report.footfalls))?;
+            summary(&folder, &report, common)?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// Says how long it took and where to look first.
+pub fn summary(folder: &Path, report: &Report, common: &Common) -> anyhow::Result<()> {
+    let total = report.seconds.get("total").copied().unwrap_or_default();
+    print::line(format!("{} is done in {total:.1} s", folder.display()))?;
+    for (name, what) in [
+        ("preview/floor.png", "the floor from above"),
+        ("floor", "its textures"),
+        ("manifest.json", "where they lie, what their channels hold"),
+    ] {
+        let path = folder.join(name);
+        if path.exists() {
+            print::line(format!("  {:<36}  {what}", path.display()))?;
+        }
+    }
+    if common.verbose {
+        print::line("busy seconds, all threads together:")?;
+        for (stage, seconds) in report.seconds.iter().filter(|(stage, _)| *stage != "total") {
+            print::line(format!("  {stage:<9} {seconds:8.3}"))?;
+        }
+        if let Some(mib) = report.peak_memory_mib {
+            print::line(format!("memory: {mib:.0} MiB at most"))?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,114 @@
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::Context;
+use clap::Args;
+use trodden::math::Vec2;
+use trodden::plan::Opening;
+use trodden::routes::{Place, PlaceRequest, Route, RouteRequest};
+use trodden::scenario::Scenario;
+
+use super::arguments::ScenarioArguments;
+use super::inspect::Understood;
+use super::print::Refused;
+use super::{Common, print};
+
+/// Write a scenario for a plan, with every default written out and explained
+///
+/// The openings that were found in the plan and the routes between them are written too, so that they can be edited.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  trodden init plan.png --metres-per-pixel 0.05      to plan.toml
+  trodden init plan.png --preset paper -o paper.toml")]
+pub struct Init {
+    #[command(flatten)]
+    scenario: ScenarioArguments,
+    /// The file to write [default: the plan's name with the ending .toml, beside it]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Replace the file if it is there
+    #[arg(long)]
+    force: bool,
+}
+
+impl Init {
+    pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
+        let output = self.output.clone().unwrap_or_else(|| self.scenario.path.with_extension("toml"));
+        if output.exists() && !self.force {
+            let message = format!("{} exists already", output.display());
+            return Err(Refused { message, hint: "--force replaces it; --output chooses another file" }.into());
+        }
+        let mut scenario = self.scenario.scenario()?;
+        let understood = Understood::of(&scenario, common)?;
+        if scenario.plan.scale.is_none() && !is_ros_map(&scenario.image) {
+            scenario.plan.metres_per_pixel = Some(understood.plan.metres_per_pixel);
+        }
+        if scenario.routes.routes.is_empty() {
+            scenario.routes.routes = requests(&understood);
+        }
+        move_to(&mut scenario, output.parent().unwrap_or(Path::new("")))?;
+        let text = format!("{}{}{}", HEADER, openings(&understood), scenario.to_toml());
+        print::save(text.as_bytes(), &output)?;
+        if !common.quiet {
+            print::line(format!("wrote {}; `trodden bake {}` bakes it", output.display(), output.display()))?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+const HEADER: &str = "\
+# A scenario for trodden: what is baked, and how. Every key is written out with the value that it would have anyway;
+# delete what you do not want to change, and it follows the preset again. Metres are those of the plan frame: origin
+# at the image's lower left, y up.
+";
+
+/// The openings, as a comment: routes name them.
+fn openings(understood: &Understood) -> String {
+    let of = |opening: &Opening| format!("\"{}\" ({:.1} m wide)", opening.name, opening.width_m());
+    let names: Vec<String> = understood.plan.openings.iter().map(of).collect();
+    if names.is_empty() { "\n".to_string() } else { format!("# Openings of the plan: {}\n\n", names.join(", ")) }
+}
+
+/// The routes that were found, as a scenario asks for them.
+fn requests(understood: &Understood) -> Vec<RouteRequest> {
+    let request = |place: Place| match place {
+        Place::Opening(index) => PlaceRequest::Opening(understood.plan.openings[index].name.clone()),
+        Place::Area([from, to]) => PlaceRequest::Area([centimetres(from), centimetres(to)]),
+    };
+    let of = |route: &Route| RouteRequest {
+        name: Some(route.name.clone()),
+        from: request(route.start),
+        to: request(route.goal),
+        via: route.via.iter().map(|via| request(via.place)).collect(),
+        share: (route.share * 1000.0).round() / 1000.0,
+    };
+    understood.routes.iter().map(of).collect()
+}
+
+fn centimetres(p: Vec2) -> [f64; 2] {
+    [p.x, p.y].map(|metres| (metres * 100.0).round() / 100.0)
+}
+
+fn is_ros_map(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("yaml") || ending.eq_ignore_ascii_case("yml"))
+}
+
+/// Makes a scenario's paths start from another folder.
+fn move_to(scenario: &mut Scenario, folder: &Path) -> anyhow::Result<()> {
+    if same_folder(&scenario.folder, folder) {
+        return Ok(());
+    }
+    let absolute = |path: PathBuf| {
+        std::path::absolute(&path).with_context(|| format!("cannot make {} an absolute path", path.display()))
+    };
+    scenario.image = absolute(scenario.image_path())?;
+    scenario.pattern_folder = scenario.pattern_path().map(absolute).transpose()?;
+    scenario.folder = folder.to_path_buf();
+    Ok(())
+}
+
+fn same_folder(a: &Path, b: &Path) -> bool {
+    let real = |path: &Path| std::fs::canonicalize(if path.as_os_str().is_empty() { Path::new(".") } else { path });
+    a == b || matches!((real(a), real(b)), (Ok(a), Ok(b)) if a == b)
+}

@@ -1,0 +1,122 @@
+//! What is printed, and how.
+
+use std::fmt::Display;
+use std::io::{self, IsTerminal, Write};
+use std::path::Path;
+use std::process::ExitCode;
+
+use anyhow::Context;
+use clap::ColorChoice;
+use clap::builder::styling::{AnsiColor, Style};
+use trodden::export::preview::encode_picture;
+
+use super::Common;
+
+const ERROR: Style = AnsiColor::Red.on_default().bold();
+const WARNING: Style = AnsiColor::Yellow.on_default().bold();
+const HINT: Style = AnsiColor::Cyan.on_default().bold();
+
+/// Writes a line to standard output. A reader that has gone away is an error here, so that work stops, and none in
+/// [`failure`].
+pub fn line(text: impl Display) -> anyhow::Result<()> {
+    Ok(writeln!(io::stdout(), "{text}")?)
+}
+
+/// Prints why a command failed: what, what caused it, what to do about it.
+pub fn failure(error: &anyhow::Error, common: &Common) -> ExitCode {
+    if is_broken_pipe(error) {
+        return ExitCode::SUCCESS;
+    }
+    let colour = common.colours(&io::stderr());
+    let mut text = format!("{} {error}\n", label("error", ERROR, colour));
+    let mut last = error.to_string();
+    for cause in error.chain().skip(1).map(ToString::to_string) {
+        // Many messages end with that of their cause.
+        if !last.contains(&cause) {
+            text.push_str(&format!("  caused by: {cause}\n"));
+            last = cause;
+        }
+    }
+    let ours = error.downcast_ref::<trodden::Error>().and_then(trodden::Error::hint);
+    let refused = error.downcast_ref::<Refused>().map(|refused| refused.hint.to_string());
+    if let Some(hint) = ours.or(refused) {
+        text.push_str(&format!("{} {hint}\n", label("hint", HINT, colour)));
+    }
+    to_stderr(&text);
+    ExitCode::FAILURE
+}
+
+/// The text of a warning.
+pub fn warning(message: &str, common: &Common) -> String {
+    format!("{} {message}\n", label("warning", WARNING, common.colours(&io::stderr())))
+}
+
+/// Writes to standard error; there is nobody left to tell if that fails.
+pub fn to_stderr(text: &str) {
+    let _ = io::stderr().write_all(text.as_bytes());
+}
+
+fn label(name: &str, style: Style, colour: bool) -> String {
+    if colour { format!("{style}{name}:{style:#}") } else { format!("{name}:") }
+}
+
+/// Whether the program that read our output stopped reading, as `head` does: no failure of ours.
+fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    let kind = error.downcast_ref::<io::Error>().map(io::Error::kind);
+    kind == Some(io::ErrorKind::BrokenPipe)
+}
+
+impl Common {
+    /// Whether to colour what is written to a stream.
+    pub fn colours(&self, stream: &impl IsTerminal) -> bool {
+        match self.color {
+            ColorChoice::Always => true,
+            ColorChoice::Never => false,
+            // https://no-color.org
+            ColorChoice::Auto => {
+                let unwanted = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+                stream.is_terminal() && !unwanted
+            }
+        }
+    }
+}
+
+/// A failure of the command line itself, with its remedy.
+#[derive(Debug, thiserror::Error)]
+#[error("{message}")]
+pub struct Refused {
+    /// What cannot be done, and why.
+    pub message: String,
+    /// What to do instead.
+    pub hint: &'static str,
+}
+
+/// Writes a picture as PNG, whatever the path's ending.
+pub fn save_picture(picture: &image::RgbImage, path: &Path) -> anyhow::Result<()> {
+    save(&encode_picture(picture), path)
+}
+
+/// Writes a file whole or not at all.
+pub fn save(bytes: &[u8], path: &Path) -> anyhow::Result<()> {
+    let written = write_beside(bytes, path);
+    written.with_context(|| format!("cannot write {}", path.display()))
+}
+
+fn write_beside(bytes: &[u8], path: &Path) -> io::Result<()> {
+    let Some(name) = path.file_name() else {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it has no file name"));
+    };
+    if path.exists() && !path.is_file() {
+        // Not a place to rename to: a folder, which the system refuses, or a device, which takes what it gets.
+        return std::fs::write(path, bytes);
+    }
+    let mut hidden = std::ffi::OsString::from(".");
+    hidden.push(name);
+    hidden.push(".new");
+    let beside = path.with_file_name(hidden);
+    let written = std::fs::write(&beside, bytes).and_then(|()| std::fs::rename(&beside, path));
+    if written.is_err() {
+        let _ = std::fs::remove_file(&beside);
+    }
+    written
+}

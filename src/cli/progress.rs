@@ -1,0 +1,81 @@
+//! Progress bars on a terminal, warnings, and Ctrl-C.
+
+use std::collections::BTreeMap;
+use std::io::{self, IsTerminal};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use trodden::{Progress, Stage};
+
+use super::{Common, print};
+
+/// Parts of a whole bar.
+const PARTS: u64 = 1000;
+
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// Shows one bar for each stage that is at work; nothing where standard error is no terminal.
+pub struct Watch<'a> {
+    common: &'a Common,
+    bars: MultiProgress,
+    by_stage: Mutex<BTreeMap<Stage, ProgressBar>>,
+}
+
+impl<'a> Watch<'a> {
+    /// Begins to listen for Ctrl-C: the first asks the work to stop, the second ends the program.
+    pub fn new(common: &'a Common) -> Watch<'a> {
+        // Without a handler Ctrl-C ends the program at once, which is what there is if this fails.
+        let _ = ctrlc::set_handler(|| {
+            if INTERRUPTED.swap(true, Ordering::SeqCst) {
+                std::process::exit(1);
+            }
+        });
+        let shown = !common.quiet && io::stderr().is_terminal();
+        let target = if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        Watch { common, bars: MultiProgress::with_draw_target(target), by_stage: Mutex::default() }
+    }
+
+    fn bar(&self, stage: Stage) -> ProgressBar {
+        let coloured = if self.common.colours(&io::stderr()) { ".cyan" } else { "" };
+        let template = format!("{{prefix:>9}} {{bar:32{coloured}}} {{percent:>3}} %  {{eta}} left");
+        let style = ProgressStyle::with_template(&template).unwrap_or_else(|_| ProgressStyle::default_bar());
+        let bar = self.bars.add(ProgressBar::new(PARTS));
+        bar.set_style(style.progress_chars("━━╌"));
+        bar.set_prefix(stage.name());
+        bar
+    }
+}
+
+impl Drop for Watch<'_> {
+    /// Takes away the bars of work that was not finished.
+    fn drop(&mut self) {
+        let _ = self.bars.clear();
+    }
+}
+
+impl Progress for Watch<'_> {
+    fn advance(&self, stage: Stage, share: f64) {
+        if self.bars.is_hidden() {
+            return;
+        }
+        // A thread that panicked while it held the lock has left only a bar behind.
+        let mut by_stage = self.by_stage.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        let bar = by_stage.entry(stage).or_insert_with(|| self.bar(stage));
+        if share >= 1.0 {
+            bar.finish_and_clear();
+        } else {
+            bar.set_position((share.max(0.0) * PARTS as f64) as u64);
+        }
+    }
+
+    fn warn(&self, message: &str) {
+        if !self.common.quiet {
+            self.bars.suspend(|| print::to_stderr(&print::warning(message, self.common)));
+        }
+    }
+
+    fn interrupted(&self) -> bool {
+        INTERRUPTED.load(Ordering::Relaxed)
+    }
+}

@@ -1,0 +1,14 @@
+//! The command line as its users meet it: every case runs the program and looks at its exit code, at what it says,
+//! and at what it leaves on the disk.
+
+// A test that cannot go on fails.
+#![allow(clippy::unwrap_used)]
+
+mod bad_images;
+mod bad_numbers;
+mod bad_outputs;
+mod help;
+mod interrupt;
+mod readme;
+mod sandbox;
+mod subcommands;

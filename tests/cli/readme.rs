@@ -1,0 +1,78 @@
+//! What the README shows is what the program does.
+
+use std::fs;
+use std::path::Path;
+
+use trodden::scenario::{Overrides, Scenario};
+
+use crate::sandbox::Sandbox;
+
+fn readme() -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap()
+}
+
+/// The blocks of code in one language.
+fn blocks(language: &str) -> Vec<String> {
+    let text = readme();
+    let fence = format!("```{language}\n");
+    text.split(&fence).skip(1).map(|rest| rest.split("```").next().unwrap().to_string()).collect()
+}
+
+#[test]
+fn its_scenario_is_one() {
+    let [text] = &blocks("toml")[..] else { panic!() };
+    Scenario::parse(text, Path::new("station.toml"), &Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+}
+
+#[test]
+fn its_commands_work_one_after_the_other() {
+    let sandbox = Sandbox::new();
+    sandbox.plan();
+    let lines: Vec<String> =
+        blocks("sh").concat().lines().filter(|line| line.starts_with("trodden ")).map(str::to_string).collect();
+    assert!(lines.len() >= 5);
+    for line in lines {
+        let command = line.split('#').next().unwrap();
+        let mut arguments: Vec<&str> = command.split_whitespace().skip(1).collect();
+        // The second bake comes to the same folder as the quick one.
+        if arguments == ["bake", "plan.toml"] {
+            sandbox.run(&arguments).fails(1, &["--force"]);
+            arguments.extend(["--force", "--people", "100"]);
+        }
+        sandbox.run(&arguments).succeeds();
+    }
+    assert!(sandbox.path("understood.png").is_file());
+    assert!(sandbox.path("out/plan/preview/floor.png").is_file());
+}
+
+#[test]
+fn its_mistake_is_shown_as_it_says() {
+    let sandbox = Sandbox::new();
+    sandbox.plan();
+    sandbox.write(
+        "plan.toml",
+        "[plan]\nimage = \"plan.png\"\nmetres_per_pixel = 0.05\n\n[crowd]\nseed = 1\npeple = 1500\n",
+    );
+    let shown = sandbox.run(&["bake", "plan.toml"]).fails(1, &[]).err;
+    assert!(blocks("text").contains(&shown), "{shown}");
+}
+
+#[test]
+fn every_file_that_it_names_is_there() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for name in ["floorplans/station.toml", "docs/draw_images", "docs/scenario.toml", "examples/draw_floorplans"] {
+        assert!(readme().contains(name.trim_start_matches("examples/")), "{name}");
+        assert!(root.join(name).exists(), "{name}");
+    }
+}
+
+/// The reference of all keys: what `init` writes for the museum.
+#[test]
+fn docs_scenario_is_what_init_writes() {
+    let sandbox = Sandbox::new();
+    let plan = Path::new(env!("CARGO_MANIFEST_DIR")).join("floorplans/museum.png");
+    sandbox.write("museum.png", fs::read(plan).unwrap());
+    sandbox.run(&["init", "museum.png", "--metres-per-pixel", "0.05"]).succeeds();
+    let written = fs::read_to_string(sandbox.path("museum.toml")).unwrap();
+    snapbox::assert_data_eq!(written, snapbox::file!["../../docs/scenario.toml"].raw());
+}
