@@ -23,7 +23,10 @@ fn the_images_are_what_the_example_draws() {
     for (name, draw) in draw_floorplans::PLANS {
         let drawn = draw_floorplans::png_bytes(&draw()).unwrap();
         let kept = fs::read(folder().join(name).with_extension("png")).unwrap();
-        assert!(drawn == kept, "floorplans/{name}.png differs: run `cargo run --example draw_floorplans`");
+        // Another version of the encoder may pack the same pixels into other bytes.
+        let pixels = |png: &[u8]| image::load_from_memory(png).unwrap().into_luma8();
+        let same = pixels(&drawn) == pixels(&kept);
+        assert!(same, "floorplans/{name}.png differs: run `cargo run --example draw_floorplans`");
         assert!(kept.len() < 64 << 10, "floorplans/{name}.png has {} bytes", kept.len());
     }
 }
