@@ -1,7 +1,7 @@
 //! Routes for plans that come without any.
 
 use super::ground::Ground;
-use super::navigation::{FieldStore, LegEnd, Plot, part_area_m2};
+use super::navigation::{FieldStore, LegEnd, Plot};
 use super::{Place, RoutesError, targets};
 use crate::math::vec2;
 use crate::plan::{FloorPlan, Opening};
@@ -12,6 +12,10 @@ const MOST_PLACES: usize = 4;
 const LEAST_PART_M2: f64 = 1.0;
 /// Places that stand in for openings are squares of this half side, metres.
 const STAND_IN_REACH_M: f64 = 1.5;
+/// They lie where ways of this clearance lead, metres: through doors, but not between chairs, ...
+const ROOMY_M: f64 = 0.34;
+/// ... if that is at least this share of the floor.
+const ROOMY_SHARE: f64 = 0.3;
 /// They lie this far apart at least, metres of walking ...
 const LEAST_APART_M: f64 = 2.0;
 /// ... and this share of the longest walk.
@@ -40,6 +44,8 @@ pub(super) fn plots(plan: &FloorPlan, ground: &Ground, fields: &mut FieldStore) 
                 place_names: vec![from.name.clone(), to.name.clone()],
                 start: from.place,
                 via: Vec::new(),
+                stops: Vec::new(),
+                arrivals: None,
                 goal: to.place,
                 share: from.width_m * to.width_m,
             });
@@ -97,7 +103,7 @@ fn with_far_places(
     if stops.iter().any(|s| s.part != part) {
         return Ok(stops); // several floors with openings of their own
     }
-    let cells: Vec<usize> = (0..ground.lattice.len()).filter(|&c| ground.part(c) == part).collect();
+    let cells = roomy_cells(ground, part);
     if stops.is_empty() {
         stops.extend(lone_opening(plan, ground, part));
     }
@@ -139,9 +145,43 @@ fn with_far_places(
         stops.push(named(place, stops.len() + 1 - openings, part));
     }
     if stops.len() < 2 {
-        return Err(RoutesError::NoRoom { largest_m2: part_area_m2(ground, part) });
+        return Err(RoutesError::NoRoom { largest_m2: ground.part_area_m2(part) });
     }
     Ok(stops)
+}
+
+/// Where places for everybody may lie: what of a part of the floor can be walked to through ways of [`ROOMY_M`] to
+/// either side, or all of it if that is little.
+fn roomy_cells(ground: &Ground, part: u16) -> Vec<usize> {
+    let all: Vec<usize> = (0..ground.lattice.len()).filter(|&c| ground.part(c) == part).collect();
+    let is_roomy = |c: usize| ground.part(c) == part && ground.cell_clearance_m(c) >= ROOMY_M;
+    let mut seen = vec![false; ground.lattice.len()];
+    let mut largest = Vec::new();
+    for &first in &all {
+        if seen[first] || !is_roomy(first) {
+            continue;
+        }
+        seen[first] = true;
+        let mut joined = vec![first];
+        let mut next = 0;
+        while let Some(&cell) = joined.get(next) {
+            next += 1;
+            for beside in ground.lattice.around(cell).into_iter().filter(|&b| b != usize::MAX) {
+                if !seen[beside] && is_roomy(beside) {
+                    seen[beside] = true;
+                    joined.push(beside);
+                }
+            }
+        }
+        if joined.len() > largest.len() {
+            largest = joined;
+        }
+    }
+    if (largest.len() as f64) < ROOMY_SHARE * all.len() as f64 {
+        return all;
+    }
+    largest.sort_unstable();
+    largest
 }
 
 /// The largest connected part of the floor, if it is large enough to walk on.
@@ -151,7 +191,7 @@ fn largest_part(ground: &Ground) -> Result<u16, RoutesError> {
         cells[usize::from(ground.part(cell))] += 1;
     }
     let part = (1..cells.len()).max_by_key(|&p| (cells[p], usize::MAX - p)).unwrap_or(1) as u16;
-    let largest_m2 = part_area_m2(ground, part);
+    let largest_m2 = ground.part_area_m2(part);
     if largest_m2 < LEAST_PART_M2 { Err(RoutesError::NoRoom { largest_m2 }) } else { Ok(part) }
 }
 

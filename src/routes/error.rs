@@ -17,7 +17,7 @@ pub enum RoutesError {
         openings: Vec<String>,
     },
     /// A point or an area without a place to stand.
-    #[error("route \"{route}\": {role} {place} is not on floor{}", nearest_floor(.nearest_m))]
+    #[error("route \"{route}\": {role} {place} (px [{:.0}, {:.0}]) is not on floor{}", at_px[0], at_px[1], nearest_floor(.nearest))]
     NotOnFloor {
         /// The route that asks for it.
         route: String,
@@ -25,8 +25,10 @@ pub enum RoutesError {
         role: &'static str,
         /// The place as asked for.
         place: String,
-        /// The nearest place to stand, metres.
-        nearest_m: Option<Vec2>,
+        /// The place, or the middle of the area, in the image, pixels from the top left.
+        at_px: [f64; 2],
+        /// The nearest place to stand.
+        nearest: Option<Box<Spot>>,
     },
     /// A coordinate that is no number.
     #[error("route \"{route}\": {role} {place} holds a coordinate that is not a finite number")]
@@ -38,22 +40,77 @@ pub enum RoutesError {
         /// The place as asked for.
         place: String,
     },
-    /// No way between two places of a route.
+    /// A stop that the scenario does not have.
+    #[error("route \"{route}\": there is no stop called \"{name}\"")]
+    UnknownStop {
+        /// The route that asks for it.
+        route: String,
+        /// What was asked for.
+        name: String,
+        /// The name most like it.
+        nearest: Option<String>,
+    },
+    /// Two stops of one name.
+    #[error("there are two stops called \"{name}\"")]
+    SameStop {
+        /// The name.
+        name: String,
+    },
+    /// A value of a stop that is out of range, or does not fit its plan.
+    #[error("stop \"{stop}\": {key}: {problem}")]
+    StopValue {
+        /// The stop.
+        stop: String,
+        /// The key, as a scenario writes it.
+        key: &'static str,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A timetable that says nothing sensible.
+    #[error("route \"{route}\": arrivals: {key}: {problem}")]
+    Timetable {
+        /// The route.
+        route: String,
+        /// The key, as a scenario writes it.
+        key: &'static str,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A stop without a place to stand.
     #[error(
-        "route \"{route}\": no way leads from {from} (in a part of the floor of {from_area_m2:.1} m2) to {to} (in a part \
-         of {to_area_m2:.1} m2)"
+        "stop \"{stop}\": {key}: nobody can stand at [{:.2}, {:.2}]{}", .place_m.x, .place_m.y, nearest_place(.nearest_m)
     )]
+    StopNotOnFloor {
+        /// The stop.
+        stop: String,
+        /// `at` or `queue`.
+        key: &'static str,
+        /// Where, metres.
+        place_m: Vec2,
+        /// The nearest place to stand, metres.
+        nearest_m: Option<Vec2>,
+    },
+    /// A stop that walls enclose.
+    #[error("route \"{route}\": no way leads to the stop \"{stop}\" at [{:.2}, {:.2}]", .place_m.x, .place_m.y)]
+    StopUnreachable {
+        /// The route that asks for it.
+        route: String,
+        /// The stop.
+        stop: String,
+        /// Where, metres.
+        place_m: Vec2,
+    },
+    /// No way between two places of a route.
+    #[error("route \"{route}\": no way leads from {from} to {to}{}", narrow(.gap))]
     Unreachable {
         /// The route.
         route: String,
         /// Where the way begins.
-        from: String,
-        /// Area that can be reached from there, square metres.
-        from_area_m2: f64,
+        from: Box<Spot>,
         /// Where it should lead.
-        to: String,
-        /// Area that can be reached from there, square metres.
-        to_area_m2: f64,
+        to: Box<Spot>,
+        /// The narrowest place of the widest way between them, if only that is in the way.
+        gap: Option<Gap>,
     },
     /// Start and goal coincide, and there is nothing between.
     #[error("route \"{route}\": it ends where it begins, at {place}")]
@@ -93,27 +150,76 @@ pub enum RoutesError {
     },
 }
 
+/// A place on the floor, as messages tell of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spot {
+    /// What the scenario or the program calls it.
+    pub name: String,
+    /// Where it is, metres.
+    pub at_m: Vec2,
+    /// Where it is in the image, pixels from the top left.
+    pub at_px: [f64; 2],
+    /// Area of the part of the floor that can be walked to from there, square metres.
+    pub part_m2: f64,
+}
+
+impl std::fmt::Display for Spot {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Spot { name, at_m, at_px, part_m2 } = self;
+        if !name.is_empty() {
+            write!(f, "{name}, ")?;
+        }
+        write!(f, "[{:.2}, {:.2}] (px [{:.0}, {:.0}]), ", at_m.x, at_m.y, at_px[0], at_px[1])?;
+        write!(f, "in a part of the floor of {part_m2:.1} m2")
+    }
+}
+
+/// A place that is too narrow to pass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gap {
+    /// Where it is, metres.
+    pub at_m: Vec2,
+    /// Where it is in the image, pixels from the top left.
+    pub at_px: [f64; 2],
+    /// About how wide it is, metres.
+    pub width_m: f64,
+}
+
 impl RoutesError {
     /// What the user can do about it.
     pub fn hint(&self) -> Option<String> {
         match self {
-            RoutesError::UnknownOpening { nearest: Some(nearest), .. } => Some(format!("did you mean \"{nearest}\"?")),
+            RoutesError::UnknownOpening { nearest: Some(nearest), .. }
+            | RoutesError::UnknownStop { nearest: Some(nearest), .. } => Some(format!("did you mean \"{nearest}\"?")),
             RoutesError::UnknownOpening { .. } => {
                 Some("`trodden inspect PLAN` lists and draws the openings; a point or an area works without one".into())
             }
-            RoutesError::NotOnFloor { nearest_m: Some(p), .. } => Some(format!("use [{:.2}, {:.2}]", p.x, p.y)),
-            RoutesError::NotOnFloor { .. } | RoutesError::NotFinite { .. } => {
+            RoutesError::UnknownStop { .. } => Some("each [[stop]] has a `name`; routes name it in `via`".into()),
+            RoutesError::SameStop { .. } => Some("give each [[stop]] a name of its own".into()),
+            RoutesError::StopNotOnFloor { nearest_m: Some(p), .. } => Some(format!("use [{:.2}, {:.2}]", p.x, p.y)),
+            RoutesError::NotOnFloor { nearest: Some(spot), .. } => {
+                Some(format!("use [{:.2}, {:.2}], or px = [{:.0}, {:.0}]", spot.at_m.x, spot.at_m.y, spot.at_px[0], spot.at_px[1]))
+            }
+            RoutesError::NotOnFloor { .. } | RoutesError::NotFinite { .. } | RoutesError::StopNotOnFloor { .. } => {
                 Some("points are metres from the plan's lower-left corner, or { px = [x, y] } from the top left".into())
             }
-            RoutesError::Unreachable { .. } => Some(
-                "passages narrower than 0.4 m are closed; `trodden inspect PLAN` draws what was taken for wall and floor"
+            RoutesError::StopUnreachable { .. } => {
+                Some("`trodden inspect PLAN` draws what was taken for wall and floor; open a door to it".into())
+            }
+            RoutesError::Unreachable { gap: Some(_), .. } => Some(
+                "widen it in the image to 0.5 m or more, or check the scale (metres per pixel): nobody fits through less \
+                  than 0.4 m"
                     .into(),
             ),
+            RoutesError::Unreachable { .. } => {
+                Some("`trodden inspect PLAN` draws what was taken for wall and floor; open a door between the two".into())
+            }
             RoutesError::NoRoom { .. } => {
                 Some("check the scale (metres per pixel) and the threshold between wall and floor".into())
             }
             RoutesError::NoLength { .. } => Some("give another goal, or a place to pass with `via`".into()),
             RoutesError::Share { .. } | RoutesError::NoShares { .. } | RoutesError::TooMany { .. } => None,
+            RoutesError::StopValue { .. } | RoutesError::Timetable { .. } => None,
         }
     }
 }
@@ -125,6 +231,18 @@ fn list(openings: &[String]) -> String {
     }
 }
 
-fn nearest_floor(nearest: &Option<Vec2>) -> String {
-    nearest.map_or(String::new(), |p| format!("; the nearest floor is at [{:.2}, {:.2}]", p.x, p.y))
+/// The place to stand instead, for messages.
+fn nearest_place(nearest_m: &Option<Vec2>) -> String {
+    nearest_m.map_or_else(String::new, |p| format!("; the nearest floor is at [{:.2}, {:.2}]", p.x, p.y))
+}
+
+fn nearest_floor(nearest: &Option<Box<Spot>>) -> String {
+    nearest.as_ref().map_or(String::new(), |spot| format!("; the nearest floor is at {spot}"))
+}
+
+fn narrow(gap: &Option<Gap>) -> String {
+    gap.map_or(String::new(), |Gap { at_m, at_px, width_m }| {
+        let (x, y, px) = (at_m.x, at_m.y, at_px);
+        format!("; the way is only about {width_m:.1} m wide at [{x:.2}, {y:.2}] (px [{:.0}, {:.0}])", px[0], px[1])
+    })
 }

@@ -35,40 +35,52 @@ fn cost(clearance_m: f64) -> f64 {
 impl Field {
     /// Distances to the nearest of `goal`'s cells.
     pub(crate) fn to(ground: &Ground, goal: &[usize]) -> Field {
+        let seeds = goal.iter().map(|&cell| (cell, 0.0)).collect();
+        Field::spread(ground, seeds, |_, _| true)
+    }
+
+    /// The least of `value + distance` over cells with values of 0 or more, in those cells for which `wanted` says so.
+    pub(super) fn spread(ground: &Ground, mut seeds: Vec<(usize, f32)>, wanted: impl Fn(usize, f64) -> bool) -> Field {
         let lattice = &ground.lattice;
         let cell_m = lattice.cell_m();
         let mut distance = vec![f32::INFINITY; lattice.len()];
         // A step adds at most `cell_m * (1 + WALL_COST + SQUEEZE_COST)`: a ring of buckets is enough.
         let width = 0.5 * cell_m;
+        let bucket_of = |value: f32| (f64::from(value) / width) as usize;
         let mut buckets: [Vec<u32>; RING] = Default::default();
         let mut waiting = 0usize;
-        for &cell in goal.iter().filter(|&&c| ground.is_walkable(c)) {
-            distance[cell] = 0.0;
-            buckets[0].push(cell as u32);
-            waiting += 1;
-        }
-        let mut now = 0usize;
-        while waiting > 0 {
+        seeds.retain(|&(cell, _)| ground.is_walkable(cell));
+        seeds.sort_by(|a, b| b.1.total_cmp(&a.1).then(b.0.cmp(&a.0)));
+        let mut now = seeds.last().map_or(0, |&(_, value)| bucket_of(value));
+        while waiting > 0 || !seeds.is_empty() {
+            while let Some((cell, value)) = seeds.pop_if(|&mut (_, value)| bucket_of(value) <= now) {
+                if value < distance[cell] {
+                    distance[cell] = value;
+                    buckets[now % RING].push(cell as u32);
+                    waiting += 1;
+                }
+            }
             let mut bucket = std::mem::take(&mut buckets[now % RING]);
             let mut next = 0;
             while let Some(&cell) = bucket.get(next) {
                 next += 1;
                 waiting -= 1;
                 let cell = cell as usize;
-                if (f64::from(distance[cell]) / width) as usize != now {
+                if bucket_of(distance[cell]) != now {
                     continue; // reached on a shorter way meanwhile
                 }
                 for beside in lattice.around(cell) {
-                    if beside == usize::MAX || !ground.is_walkable(beside) {
+                    // What is as near already does not come nearer from here.
+                    if beside == usize::MAX || distance[beside] <= distance[cell] || !ground.is_walkable(beside) {
                         continue;
                     }
                     let step = cell_m * cost(ground.cell_clearance_m(beside));
                     let value = upwind(&distance, lattice.around(beside), step);
-                    if value + 1e-4 * cell_m < f64::from(distance[beside]) {
+                    if value + 1e-4 * cell_m < f64::from(distance[beside]) && wanted(beside, value) {
                         distance[beside] = value as f32;
-                        let at = (f64::from(distance[beside]) / width) as usize;
+                        let at = bucket_of(distance[beside]);
                         waiting += 1;
-                        if at == now { bucket.push(beside as u32) } else { buckets[at % RING].push(beside as u32) }
+                        if at <= now { bucket.push(beside as u32) } else { buckets[at % RING].push(beside as u32) }
                     }
                 }
             }
@@ -102,28 +114,32 @@ impl Field {
         ground.walkable_near(p, 0.5).map_or(f64::INFINITY, |cell| self.of_cell(cell))
     }
 
+    /// The unit vector in which the distance falls fastest in the middle of a cell.
+    pub(super) fn slope(&self, ground: &Ground, cell: usize) -> Option<Vec2> {
+        let own = self.of_cell(cell);
+        let [west, east, south, north] =
+            ground.lattice.around(cell).map(|b| if b == usize::MAX { f64::INFINITY } else { self.of_cell(b) });
+        // Upwind differences: the same stencil as the solution's.
+        let axis = |low: f64, high: f64| {
+            if low.min(high) >= own {
+                0.0
+            } else if low < high {
+                low - own
+            } else {
+                own - high
+            }
+        };
+        vec2(axis(west, east), axis(south, north)).normalized()
+    }
+
     /// The unit vector in which the distance falls fastest, or `None` at the goal and where no way leads there.
     pub(crate) fn downhill(&self, ground: &Ground, p: Vec2) -> Option<Vec2> {
         let lattice = &ground.lattice;
-        let h = lattice.cell_m();
         let mut slope = Vec2::ZERO;
-        // Upwind differences of the cells around, weighted bilinearly: the same stencil as the solution's.
         for (cell, weight) in lattice.stencil(p) {
-            let Some(cell) = cell.filter(|&c| self.distance_m[c].is_finite()) else { continue };
-            let own = self.of_cell(cell);
-            let [west, east, south, north] =
-                lattice.around(cell).map(|b| if b == usize::MAX { f64::INFINITY } else { self.of_cell(b) });
-            let axis = |low: f64, high: f64| {
-                if low.min(high) >= own {
-                    0.0
-                } else if low < high {
-                    low - own
-                } else {
-                    own - high
-                }
-            };
-            let down = vec2(axis(west, east), axis(south, north)) / h;
-            if let Some(unit) = down.normalized() {
+            if let Some(cell) = cell.filter(|&c| self.distance_m[c].is_finite())
+                && let Some(unit) = self.slope(ground, cell)
+            {
                 slope += unit * weight;
             }
         }

@@ -1,6 +1,8 @@
+use std::collections::BinaryHeap;
+
 use rayon::prelude::*;
 
-use super::lattice::{BLOCK_CELLS, Lattice};
+use super::lattice::Lattice;
 use crate::math::{Rect, Vec2, vec2};
 use crate::plan::{FloorPlan, Opening, Side};
 use crate::walls::{APRON_M, Walls};
@@ -22,8 +24,11 @@ const FINEST_M: f64 = 0.1;
 const COARSEST_M: f64 = 0.25;
 /// Less than half of the narrowest body (0.2 m), so that a passage of 0.44 m still holds a row of cells.
 const LEAST_CLEARANCE_M: f64 = 0.16;
-/// Somebody who turns sideways.
-const SIDEWAYS_CLEARANCE_M: f64 = 0.12;
+/// Somebody who turns sideways passes 0.4 m, but not 0.3 m; cells that can tell the two apart, metres ...
+const SIDEWAYS_CLEARANCE_M: f64 = 0.165;
+const SIDEWAYS_CELL_M: f64 = 0.06;
+/// ... on floors up to this size, square metres.
+const SIDEWAYS_FLOOR_M2: f64 = 15_000.0;
 
 impl Fineness {
     /// What to try on a plan, in order, until every route leads to its goal: cells as coarse as the floor is large,
@@ -36,7 +41,9 @@ impl Fineness {
         if cell_m > FINEST_M {
             attempts.push(Fineness { cell_m: FINEST_M, least_clearance_m: LEAST_CLEARANCE_M });
         }
-        attempts.push(Fineness { cell_m: FINEST_M, least_clearance_m: SIDEWAYS_CLEARANCE_M });
+        if floor_m2 <= SIDEWAYS_FLOOR_M2 {
+            attempts.push(Fineness { cell_m: SIDEWAYS_CELL_M, least_clearance_m: SIDEWAYS_CLEARANCE_M });
+        }
         attempts
     }
 }
@@ -56,8 +63,8 @@ pub(crate) struct Ground {
     extent: Rect,
 }
 
-/// How far around a point room is looked for when walls leave little, metres.
-const ROOM_REACH_M: f64 = 0.5;
+/// People make themselves narrow from this distance to a narrow place on, metres.
+const GAP_REACH_M: f64 = 0.7;
 /// Clearance from which on nobody has to come near a wall for want of room, metres.
 const PLENTY_M: f32 = 0.9;
 /// The distance from walls that can be kept there, metres: more than the 0.5 m of the Grime paper.
@@ -75,7 +82,7 @@ impl Ground {
         let inside: Vec<bool> = (0..lattice.len()).into_par_iter().map(|c| is_inside(lattice.centre(c))).collect();
         let clearance_m = clearances(&lattice, &inside, walls);
         let part = parts(&lattice, &clearance_m, least_clearance_m);
-        let gap_limit_m = gap_limits(&lattice, &clearance_m);
+        let gap_limit_m = gap_limits(&lattice, &clearance_m, &part);
         let extent = Rect { min: Vec2::ZERO, max: vec2(plan.width_m(), plan.height_m()) }.grown(APRON_M - 0.1);
         Ground { lattice, clearance_m, part, gap_limit_m, extent }
     }
@@ -123,7 +130,7 @@ impl Ground {
     }
 
     /// The distance from walls that can be kept here even where they stand close on both sides, metres: large in the
-    /// open, 0.25 m in a door of 0.8 m, and everywhere less than the clearance of the nearest walkable cell.
+    /// open, 0.15 m in a door of 0.8 m, and everywhere less than the clearance of the nearest walkable cell.
     #[inline]
     pub(crate) fn gap_limit_m(&self, p: Vec2) -> f64 {
         self.lattice.cell_at(p).map_or(0.0, |cell| f64::from(self.gap_limit_m[cell]))
@@ -196,6 +203,40 @@ impl Ground {
             done += free.max(self.lattice.cell_m());
         }
         !narrow || walls.sight(a, b)
+    }
+}
+
+impl Ground {
+    /// Area of a connected part, square metres.
+    pub(super) fn part_area_m2(&self, part: u16) -> f64 {
+        let cells = self.part.iter().filter(|&&p| part != 0 && p == part).count();
+        cells as f64 * self.lattice.cell_m() * self.lattice.cell_m()
+    }
+
+    /// The narrowest place of the widest way between two cells, and about its width, metres: a way so narrow that
+    /// nobody fits through, but not closed.
+    pub(super) fn narrowest_between(&self, from: usize, to: usize) -> Option<(Vec2, f64)> {
+        let clearance = |cell: usize| (self.clearance_m[cell] * 1e4) as u32;
+        let least = (0.51e4 * self.lattice.cell_m()).min(500.0) as u32;
+        // The least clearance on the widest way to each cell, and where that is.
+        let mut narrowest: Vec<Option<usize>> = vec![None; self.lattice.len()];
+        let mut open = BinaryHeap::from([(clearance(from), from, from)]);
+        while let Some((width, cell, at)) = open.pop() {
+            if narrowest[cell].is_some() {
+                continue;
+            }
+            narrowest[cell] = Some(at);
+            if cell == to {
+                return Some((self.lattice.centre(at), 2.0 * self.cell_clearance_m(at)));
+            }
+            for beside in self.lattice.around(cell).into_iter().filter(|&b| b != usize::MAX) {
+                let own = clearance(beside);
+                if own > least && narrowest[beside].is_none() {
+                    open.push(if own < width { (own, beside, beside) } else { (width, beside, at) });
+                }
+            }
+        }
+        None
     }
 }
 
@@ -314,39 +355,44 @@ fn parts(lattice: &Lattice, clearance_m: &[f32], least_clearance_m: f64) -> Vec<
     part
 }
 
-/// How near a wall bodies have to be allowed in each cell.
+/// How near a wall bodies have to be allowed in each cell: [`KEPT_M`] in the open.
 ///
-/// With the largest clearance R within half a metre: `0.71 R - 0.21`, which is 0.25 m in a door of 0.8 m in a thin
-/// wall; at least 0.1 m, and at most nine tenths of the clearance in the cells around, so that whatever counts as
-/// walkable can be walked. Where R is [`PLENTY_M`] or more, as along the wall of a room, [`KEPT_M`] at least.
-fn gap_limits(lattice: &Lattice, clearance_m: &[f32]) -> Vec<f32> {
-    const RING: [(f64, f64); 8] =
-        [(1.0, 0.0), (0.7, 0.7), (0.0, 1.0), (-0.7, 0.7), (-1.0, 0.0), (-0.7, -0.7), (0.0, -1.0), (0.7, -0.7)];
-    let mut limits = vec![0.0f32; clearance_m.len()];
-    limits.par_chunks_mut(BLOCK_CELLS).enumerate().for_each(|(block, limits)| {
-        for (within, limit) in limits.iter_mut().enumerate() {
-            let cell = block * BLOCK_CELLS + within;
-            let own = clearance_m[cell];
-            let (mut room, mut near) = (own, own);
-            // Where there is plenty of it, no matter how much more.
-            if own <= 1.2 {
-                let centre = lattice.centre(cell);
-                let clearance = |(x, y), reach| {
-                    lattice.cell_at(centre + vec2(x, y) * reach).map_or(0.0, |other| clearance_m[other])
-                };
-                for direction in RING {
-                    near = near.max(clearance(direction, 1.2 * lattice.cell_m()));
-                    room = room.max(clearance(direction, 0.5 * ROOM_REACH_M)).max(clearance(direction, ROOM_REACH_M));
-                }
-            }
-            *limit = if room < PLENTY_M {
-                (0.71 * room - 0.21).max(0.1).min(0.9 * near)
-            } else {
-                (0.71 * room - 0.21).max(KEPT_M)
-            };
-        }
-    });
-    limits
+/// Half way between two walls that are `2 c` apart, as in a door, `0.71 c - 0.13` (0.15 m in a door of 0.8 m, so that
+/// two people pass each other), at least 0.1 m, and as much on all ways to there from [`GAP_REACH_M`] on: whoever keeps
+/// half a metre off walls still comes to stand before the door, and through it. At most nine tenths of the clearance in
+/// the cells around, so that whatever counts as walkable can be walked.
+fn gap_limits(lattice: &Lattice, clearance_m: &[f32], part: &[u16]) -> Vec<f32> {
+    let cell_m = lattice.cell_m();
+    let at = |p: Vec2| lattice.cell_at(p).map_or(0.0, |other| clearance_m[other]);
+    let is_between_walls = |cell: usize| {
+        let centre = lattice.centre(cell);
+        let reach_m = (2.0 * cell_m).max(0.2);
+        // Half way may lie between two cells.
+        let less = (0.3 * reach_m) as f32;
+        let lower = |x: f64, y: f64| clearance_m[cell] - at(centre + vec2(x, y) * reach_m) >= less;
+        [(1.0, 0.0), (0.0, 1.0), (0.7, 0.7), (0.7, -0.7)].iter().any(|&(x, y)| lower(x, y) && lower(-x, -y))
+    };
+    let own = |cell: usize| {
+        let own = clearance_m[cell];
+        if part[cell] != 0 && own < PLENTY_M && is_between_walls(cell) { (0.71 * own - 0.13).max(0.1) } else { KEPT_M }
+    };
+    let mut limits: Vec<f32> = (0..clearance_m.len()).into_par_iter().map(own).collect();
+    for _ in 0..(GAP_REACH_M / cell_m).round() as usize {
+        let before = &limits;
+        let least = |cell: usize| {
+            let beside = lattice.around(cell).into_iter().filter(|&b| b != usize::MAX && part[b] != 0);
+            let least = beside.map(|b| before[b]).fold(before[cell], f32::min);
+            if part[cell] == 0 { before[cell] } else { least }
+        };
+        limits = (0..clearance_m.len()).into_par_iter().map(least).collect();
+    }
+    let allowed = |(cell, limit): (usize, &f32)| {
+        let near = lattice.around(cell).into_iter().filter(|&b| b != usize::MAX).map(|b| clearance_m[b]);
+        let near = near.fold(clearance_m[cell], f32::max);
+        // What no body reaches takes after the nearest cell that one does.
+        if near < PLENTY_M { limit.min(0.9 * near).max(0.0) } else { *limit }
+    };
+    limits.par_iter().enumerate().map(allowed).collect()
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 use crate::math::{Rect, Vec2, vec2};
 
 /// Cells along a block's side.
-const SIDE: usize = 16;
+pub(super) const SIDE: usize = 16;
 /// Cells in a block.
 pub(crate) const BLOCK_CELLS: usize = SIDE * SIDE;
 /// No block here.

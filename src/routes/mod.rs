@@ -1,33 +1,44 @@
 //! Finds the ways that people take through the plan.
 //!
-//! Takes the plan, its walls and what a scenario asks for; gives [`Route`]s: a start, gates to pass in order, a
-//! goal. Gates are segments across the way, as wide as people can use, so that a corridor is walked over its
-//! whole width. [`Navigation`] keeps what the walking itself needs: the ground measured in cells, and for every
-//! place that a route leads to the walking distance from everywhere.
+//! Takes the plan, its walls and what a scenario asks for; gives [`Route`]s: a start, places to pass, a goal, and
+//! gates across the shortest way. [`Navigation`] keeps what the walking itself needs: the ground measured in cells, for
+//! every place that a route leads to the walking distance from everywhere, and for every leg of a route how people
+//! spread over all the sensible ways (a potential flow), so that corridors are walked over their whole width, halls
+//! beside their middle too, and between pillars every gap. Nobody searches a way while walking.
 
 use crate::math::Vec2;
 
 mod defaults;
 mod error;
 mod field;
+mod flow;
 mod gates;
 mod ground;
 mod lattice;
 mod navigation;
 mod request;
 mod ribbon;
+mod sheet;
+mod solve;
+mod stop;
 mod targets;
+#[cfg(test)]
+mod tests;
+mod timetable;
 
-pub use error::RoutesError;
+pub use error::{Gap, RoutesError, Spot};
 pub use navigation::{Navigation, find};
-pub use request::{PlaceRequest, RouteRequest, RoutesOptions};
+pub use request::{PlaceRequest, RouteRequest, RoutesOptions, SharedStop, ViaRequest};
+pub use stop::{Facing, RouteStop, Stop, StopAt, StopKind, StopRequest};
+pub use timetable::{Timetable, TimetableKind};
 
 pub(crate) use field::Field;
+pub(crate) use flow::Flow;
 pub(crate) use ground::Ground;
 pub(crate) use lattice::Lattice;
-pub(crate) use navigation::Way;
+pub(crate) use navigation::{Leg, Way};
 
-/// A segment across the way that people pass from one side to the other: not a point, so that they stay spread out.
+/// A segment across the shortest way, as wide as people can use around it: not a point, because they spread out.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Gate {
     /// End on the left of those who walk the route, metres.
@@ -67,7 +78,7 @@ pub struct Via {
     pub gate: usize,
 }
 
-/// A way from a start through gates to a goal.
+/// A way from a start to a goal.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Route {
     /// What the scenario or the program calls it, such as `west to north`.
@@ -77,11 +88,17 @@ pub struct Route {
     /// Places to pass on the way, in order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub via: Vec<Via>,
+    /// Places where some of the people stop, in order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stops: Vec<RouteStop>,
+    /// When people come, if the route has a timetable of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arrivals: Option<Timetable>,
     /// Where they vanish.
     pub goal: Place,
     /// Which share of all people takes it; the shares of all routes sum up to 1.
     pub share: f64,
-    /// Gates to pass in order.
+    /// Gates across the shortest way, in order; in halls and between pillars people also pass beside them.
     pub gates: Vec<Gate>,
     /// Length of the middle line, metres.
     pub length_m: f64,

@@ -3,10 +3,15 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::field::Field;
+use super::flow::Flow;
 use super::ground::{Fineness, Ground};
 use super::ribbon::End;
+use super::stop::{RouteStop, Stop};
 use super::targets::{self, Asked};
-use super::{Place, Route, RouteRequest, RoutesError, RoutesOptions, Via, defaults, gates, ribbon};
+use super::{
+    Gap, Place, PlaceRequest, Route, RouteRequest, RoutesError, RoutesOptions, Spot, Timetable, Via, ViaRequest,
+    defaults, gates, ribbon,
+};
 use crate::math::Vec2;
 use crate::plan::FloorPlan;
 use crate::walls::Walls;
@@ -22,6 +27,7 @@ const VIA_REACH_M: f64 = 2.5;
 pub struct Navigation {
     pub(crate) ground: Arc<Ground>,
     pub(crate) fields: Vec<Arc<Field>>,
+    pub(crate) flows: Vec<Arc<Flow>>,
     /// One for each route, in order.
     pub(crate) ways: Vec<Way>,
 }
@@ -33,12 +39,17 @@ pub(crate) struct Way {
     pub(crate) start_cells: Vec<usize>,
     /// Cells that count as the goal.
     pub(crate) goal_cells: Vec<usize>,
-    /// For each leg (to the first place between, ..., to the goal) which field leads there.
-    pub(crate) legs: Vec<usize>,
-    /// For each gate the leg that it belongs to.
-    pub(crate) gate_leg: Vec<u32>,
-    /// For each gate the leg's distance from its left end, middle and right end, metres.
-    pub(crate) gate_distance_m: Vec<[f32; 3]>,
+    /// To the first place between, ..., to the goal.
+    pub(crate) legs: Vec<Leg>,
+}
+
+/// The way from one place of a route to its next.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Leg {
+    /// Which field says how far it is.
+    pub(crate) field: usize,
+    /// Which flow leads there.
+    pub(crate) flow: usize,
 }
 
 /// Finds the routes that a scenario asks for, or the default ones.
@@ -61,7 +72,7 @@ impl Navigation {
     ) -> Result<(Vec<Route>, Navigation), RoutesError> {
         first_that_works(plan, |fineness| {
             let ground = Ground::new(plan, walls, fineness);
-            let (routes, fields) = Navigation::find_on(plan, &ground, options)?;
+            let (routes, fields) = Navigation::find_on(plan, walls, &ground, options)?;
             let navigation = Navigation::of(plan, ground, &routes, fields)?;
             Ok((routes, navigation))
         })
@@ -79,6 +90,7 @@ impl Navigation {
 
     fn find_on(
         plan: &FloorPlan,
+        walls: &Walls,
         ground: &Ground,
         options: &RoutesOptions,
     ) -> Result<(Vec<Route>, FieldStore), RoutesError> {
@@ -87,16 +99,18 @@ impl Navigation {
             return Err(RoutesError::TooMany { routes: asked.len(), most: MOST_ROUTES });
         }
         let mut fields = FieldStore::default();
-        let plots = if asked.is_empty() {
+        let mut plots: Vec<Plot> = if asked.is_empty() {
             defaults::plots(plan, ground, &mut fields)?
         } else {
-            asked.iter().map(|request| plot(plan, ground, request)).collect::<Result<_, _>>()?
+            let stops = stops(plan, walls, ground, options)?;
+            asked.iter().map(|request| plot(plan, ground, request, options, &stops)).collect::<Result<_, _>>()?
         };
         let total: f64 = plots.iter().map(|p| p.share).sum();
         if total <= 0.0 {
             return Err(RoutesError::NoShares { routes: plots.len() });
         }
         fields.fill(plan, ground, plots.iter().flat_map(Plot::legs));
+        turn_gates(ground, &fields, &mut plots);
         let routes: Result<Vec<Route>, RoutesError> =
             plots.par_iter().map(|plot| lay_out(plan, ground, &fields, plot, plot.share / total)).collect();
         Ok((routes?, fields))
@@ -109,8 +123,16 @@ impl Navigation {
         mut fields: FieldStore,
     ) -> Result<Navigation, RoutesError> {
         fields.fill(plan, &ground, routes.iter().flat_map(route_legs));
-        let ways = routes.par_iter().map(|route| way(plan, &ground, &fields, route)).collect::<Result<_, _>>()?;
-        Ok(Navigation { ground: Arc::new(ground), fields: fields.fields.into_iter().map(|f| f.1).collect(), ways })
+        let mut pairs: Vec<Pair> = Vec::new();
+        let ways =
+            routes.iter().map(|route| way(plan, &ground, &fields, route, &mut pairs)).collect::<Result<_, _>>()?;
+        let flow = |pair: &Pair| {
+            let starts = pair.from.cells(plan, &ground);
+            Arc::new(Flow::new(&ground, &starts, fields.get(pair.to)))
+        };
+        let flows = pairs.par_iter().map(flow).collect();
+        let fields = fields.fields.into_iter().map(|f| f.1).collect();
+        Ok(Navigation { ground: Arc::new(ground), fields, flows, ways })
     }
 }
 
@@ -124,7 +146,11 @@ fn first_that_works<T>(
         match attempt(fineness) {
             Ok(found) => return Ok(found),
             Err(
-                error @ (RoutesError::Unreachable { .. } | RoutesError::NotOnFloor { .. } | RoutesError::NoRoom { .. }),
+                error @ (RoutesError::Unreachable { .. }
+                | RoutesError::NotOnFloor { .. }
+                | RoutesError::NoRoom { .. }
+                | RoutesError::StopNotOnFloor { .. }
+                | RoutesError::StopUnreachable { .. }),
             ) => {
                 first_error.get_or_insert(error);
             }
@@ -139,6 +165,23 @@ fn first_that_works<T>(
 pub(super) struct LegEnd {
     pub(super) place: Place,
     pub(super) last: bool,
+}
+
+impl LegEnd {
+    /// The cells that count as this end.
+    fn cells(self, plan: &FloorPlan, ground: &Ground) -> Vec<usize> {
+        match self.last {
+            true => targets::cells(plan, ground, self.place),
+            false => targets::via_cells(plan, ground, self.place),
+        }
+    }
+}
+
+/// Both ends of a leg.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Pair {
+    from: LegEnd,
+    to: LegEnd,
 }
 
 /// The fields made so far.
@@ -156,13 +199,7 @@ impl FieldStore {
                 missing.push(end);
             }
         }
-        let made = missing.into_par_iter().map(|end| {
-            let cells = match end.last {
-                true => targets::cells(plan, ground, end.place),
-                false => targets::middle_cells(plan, ground, end.place),
-            };
-            (end, Arc::new(Field::to(ground, &cells)))
-        });
+        let made = missing.into_par_iter().map(|end| (end, Arc::new(Field::to(ground, &end.cells(plan, ground)))));
         let made: Vec<_> = made.collect();
         self.fields.extend(made);
     }
@@ -184,6 +221,8 @@ pub(super) struct Plot {
     pub(super) place_names: Vec<String>,
     pub(super) start: Place,
     pub(super) via: Vec<Place>,
+    pub(super) stops: Vec<RouteStop>,
+    pub(super) arrivals: Option<Timetable>,
     pub(super) goal: Place,
     pub(super) share: f64,
 }
@@ -203,21 +242,118 @@ fn leg_ends(via: impl Iterator<Item = Place>, goal: Place) -> impl Iterator<Item
 }
 
 /// Finds the places that a request names.
-fn plot(plan: &FloorPlan, ground: &Ground, request: &RouteRequest) -> Result<Plot, RoutesError> {
-    let names: Vec<String> =
-        [&request.from].into_iter().chain(&request.via).chain([&request.to]).map(|p| p.describe()).collect();
+fn plot(
+    plan: &FloorPlan,
+    ground: &Ground,
+    request: &RouteRequest,
+    options: &RoutesOptions,
+    stops: &[Stop],
+) -> Result<Plot, RoutesError> {
+    let (passed, stopped) = split(request, options);
+    let mut names: Vec<String> =
+        [&request.from].into_iter().chain(passed.iter().copied()).chain([&request.to]).map(|p| p.describe()).collect();
     let name = request.name.clone().unwrap_or_else(|| format!("{} to {}", names[0], names[names.len() - 1]));
     if !(request.share >= 0.0 && request.share.is_finite()) {
         return Err(RoutesError::Share { route: name, share: request.share });
     }
     let place = |request, role| targets::place(plan, ground, request, Asked { route: &name, role });
     let start = place(&request.from, "from")?;
-    let via = request.via.iter().map(|p| place(p, "via")).collect::<Result<Vec<_>, _>>()?;
+    let via = passed.into_iter().map(|p| place(p, "via").map_err(|error| or_stop(error, stops)));
+    let mut via = via.collect::<Result<Vec<_>, _>>()?;
+    let part = targets::cells(plan, ground, start).first().map(|&cell| ground.part(cell));
+    let stops = stopped.into_iter().map(|(stop, share, after_via)| {
+        let stop = find_stop(stops, &name, stop)?.clone();
+        if !(0.0..=1.0).contains(&share) {
+            let problem = format!("the share {share} of route \"{name}\" is not within 0 to 1");
+            return Err(RoutesError::StopValue { stop: stop.name, key: "share", problem });
+        }
+        match stop.cells(ground).iter().find(|&&cell| Some(ground.part(cell)) != part) {
+            Some(_) => {
+                let place_m = stop.places_m[0];
+                Err(RoutesError::StopUnreachable { route: name.clone(), stop: stop.name, place_m })
+            }
+            None => Ok(RouteStop { stop, share, after_via }),
+        }
+    });
+    let stops = stops.collect::<Result<Vec<_>, _>>()?;
     let goal = place(&request.to, "to")?;
+    if start == goal
+        && via.is_empty()
+        && let Some(first) = stops.first()
+    {
+        // In, to the stop, and out again: the way leads past the stop.
+        via.push(first.stop.before(ground));
+        names.insert(1, first.stop.name.clone());
+    }
     if start == goal && via.is_empty() {
         return Err(RoutesError::NoLength { route: name, place: names[0].clone() });
     }
-    Ok(Plot { name, place_names: names, start, via, goal, share: request.share })
+    if let Some((key, problem)) = request.arrivals.as_ref().and_then(|arrivals| arrivals.check().err()) {
+        return Err(RoutesError::Timetable { route: name, key, problem });
+    }
+    let arrivals = request.arrivals.clone();
+    Ok(Plot { name, place_names: names, start, via, stops, arrivals, goal, share: request.share })
+}
+
+/// The stops that a scenario describes, on the ground.
+fn stops(plan: &FloorPlan, walls: &Walls, ground: &Ground, options: &RoutesOptions) -> Result<Vec<Stop>, RoutesError> {
+    for (index, stop) in options.stops.iter().enumerate() {
+        if options.stops[..index].iter().any(|other| other.name == stop.name) {
+            return Err(RoutesError::SameStop { name: stop.name.clone() });
+        }
+    }
+    options.stops.iter().map(|stop| stop.resolve(plan, ground, walls)).collect()
+}
+
+/// What a request passes, and where it stops: name, share, number of places passed before.
+fn split<'r>(
+    request: &'r RouteRequest,
+    options: &RoutesOptions,
+) -> (Vec<&'r PlaceRequest>, Vec<(&'r str, f64, usize)>) {
+    let (mut passed, mut stopped) = (Vec::new(), Vec::new());
+    for via in &request.via {
+        match (via.stop(&options.stops), via) {
+            (Some((stop, share)), _) => stopped.push((stop, share, passed.len())),
+            (None, ViaRequest::Place(place)) => passed.push(place),
+            (None, ViaRequest::Stop(_)) => {}
+        }
+    }
+    (passed, stopped)
+}
+
+fn find_stop<'s>(stops: &'s [Stop], route: &str, name: &str) -> Result<&'s Stop, RoutesError> {
+    stops.iter().find(|stop| stop.name == name).ok_or_else(|| {
+        let distance = |stop: &&Stop| strsim::damerau_levenshtein(&stop.name.to_lowercase(), &name.to_lowercase());
+        let nearest = stops.iter().min_by_key(distance).filter(|stop| distance(stop) <= 3);
+        let nearest = nearest.map(|stop| stop.name.clone());
+        RoutesError::UnknownStop { route: route.into(), name: name.into(), nearest }
+    })
+}
+
+/// An unknown opening may have been meant as a stop.
+fn or_stop(error: RoutesError, stops: &[Stop]) -> RoutesError {
+    if let RoutesError::UnknownOpening { route, name, nearest: None, .. } = &error
+        && let Err(unknown @ RoutesError::UnknownStop { nearest: Some(_), .. }) = find_stop(stops, route, name)
+    {
+        return unknown;
+    }
+    error
+}
+
+/// Turns ticket gates the way that the first route goes through them; all routes share them.
+fn turn_gates(ground: &Ground, fields: &FieldStore, plots: &mut [Plot]) {
+    let mut turned: Vec<Stop> = Vec::new();
+    for plot in plots {
+        let legs: Vec<LegEnd> = plot.legs().collect();
+        for on_route in &mut plot.stops {
+            if let Some(known) = turned.iter().find(|stop| stop.name == on_route.stop.name) {
+                on_route.stop = known.clone();
+                continue;
+            }
+            on_route.stop.turn_along(ground, fields.get(legs[on_route.after_via]));
+            turned.push(on_route.stop.clone());
+        }
+    }
 }
 
 /// Follows a plotted route and lays gates across its way.
@@ -229,15 +365,10 @@ fn lay_out(
     share: f64,
 ) -> Result<Route, RoutesError> {
     let unreachable = |leg: usize, from: Vec2| {
-        let area = |cell: Option<usize>| cell.map_or(0.0, |c| part_area_m2(ground, ground.part(c)));
         let to = plot.via.get(leg).copied().unwrap_or(plot.goal);
-        RoutesError::Unreachable {
-            route: plot.name.clone(),
-            from: plot.place_names[leg].clone(),
-            from_area_m2: area(ground.walkable_near(from, 1.0)),
-            to: plot.place_names[leg + 1].clone(),
-            to_area_m2: area(targets::cells(plan, ground, to).first().copied()),
-        }
+        let names = [plot.place_names[leg].as_str(), plot.place_names[leg + 1].as_str()];
+        let cells = [ground.walkable_near(from, 1.0), targets::cells(plan, ground, to).first().copied()];
+        no_way(plan, ground, &plot.name, names, cells)
     };
     let start_cells = targets::cells(plan, ground, plot.start);
     let mut at = targets::middle(ground, &start_cells).unwrap_or_default();
@@ -265,39 +396,64 @@ fn lay_out(
         .map(|(&place, turn)| Via { place, gate: at.iter().position(|k| k == turn).unwrap_or(0) })
         .collect();
     let length_m = line.windows(2).map(|w| w[0].distance(w[1])).sum();
-    Ok(Route { name: plot.name.clone(), start: plot.start, via, goal: plot.goal, share, gates, length_m })
+    Ok(Route {
+        name: plot.name.clone(),
+        start: plot.start,
+        via,
+        stops: plot.stops.clone(),
+        arrivals: plot.arrivals.clone(),
+        goal: plot.goal,
+        share,
+        gates,
+        length_m,
+    })
 }
 
-/// Area of a connected part, square metres.
-pub(super) fn part_area_m2(ground: &Ground, part: u16) -> f64 {
-    let cells = (0..ground.lattice.len()).filter(|&c| part != 0 && ground.part(c) == part).count();
-    cells as f64 * ground.lattice.cell_m() * ground.lattice.cell_m()
+/// The error that says between which places there is no way, and why.
+fn no_way(plan: &FloorPlan, ground: &Ground, route: &str, names: [&str; 2], cells: [Option<usize>; 2]) -> RoutesError {
+    let spot = |end: usize| {
+        Box::new(match cells[end] {
+            Some(cell) => targets::spot(plan, ground, cell, names[end]),
+            None => Spot { name: names[end].into(), at_m: Vec2::ZERO, at_px: [0.0; 2], part_m2: 0.0 },
+        })
+    };
+    let gap = match cells {
+        [Some(from), Some(to)] => {
+            ground.narrowest_between(from, to).map(|(at_m, width_m)| Gap { at_m, at_px: plan.m_to_px(at_m), width_m })
+        }
+        _ => None,
+    };
+    RoutesError::Unreachable { route: route.into(), from: spot(0), to: spot(1), gap }
 }
 
-/// What the crowd needs of one route.
-fn way(plan: &FloorPlan, ground: &Ground, fields: &FieldStore, route: &Route) -> Result<Way, RoutesError> {
-    let legs: Vec<usize> = route_legs(route).map(|end| fields.index(end)).collect();
-    let first_field = &fields.fields[legs[0]].1;
+/// What the crowd needs of one route; pairs of places that no flow leads between yet are appended.
+fn way(
+    plan: &FloorPlan,
+    ground: &Ground,
+    fields: &FieldStore,
+    route: &Route,
+    pairs: &mut Vec<Pair>,
+) -> Result<Way, RoutesError> {
+    // People come from anywhere in the start.
+    let mut from = LegEnd { place: route.start, last: true };
+    let mut legs = Vec::with_capacity(route.via.len() + 1);
+    for to in route_legs(route) {
+        let pair = Pair { from, to };
+        let flow = pairs.iter().position(|p| *p == pair).unwrap_or(pairs.len());
+        if flow == pairs.len() {
+            pairs.push(pair);
+        }
+        legs.push(Leg { field: fields.index(to), flow });
+        from = to;
+    }
+    let first_field = &fields.fields[legs[0].field].1;
     let start_cells: Vec<usize> =
         targets::cells(plan, ground, route.start).into_iter().filter(|&c| first_field.of_cell(c).is_finite()).collect();
     let goal_cells = targets::cells(plan, ground, route.goal);
     if start_cells.is_empty() || goal_cells.is_empty() {
-        return Err(RoutesError::Unreachable {
-            route: route.name.clone(),
-            from: "its start".into(),
-            from_area_m2: 0.0,
-            to: "its goal".into(),
-            to_area_m2: goal_cells.first().map_or(0.0, |&c| part_area_m2(ground, ground.part(c))),
-        });
+        let start = targets::cells(plan, ground, route.start).first().copied();
+        let names = ["its start", "its goal"];
+        return Err(no_way(plan, ground, &route.name, names, [start, goal_cells.first().copied()]));
     }
-    let mut gate_leg = Vec::with_capacity(route.gates.len());
-    let mut gate_distance_m = Vec::with_capacity(route.gates.len());
-    for (number, gate) in route.gates.iter().enumerate() {
-        // The gate at a place between still belongs to the leg that leads there.
-        let leg = route.via.iter().filter(|v| v.gate < number).count().min(legs.len() - 1);
-        let field = &fields.fields[legs[leg]].1;
-        gate_leg.push(leg as u32);
-        gate_distance_m.push([0.0, 0.5, 1.0].map(|share| field.at(ground, gate.at(share)) as f32));
-    }
-    Ok(Way { start_cells, goal_cells, legs, gate_leg, gate_distance_m })
+    Ok(Way { start_cells, goal_cells, legs })
 }

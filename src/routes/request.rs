@@ -1,5 +1,6 @@
 use serde::{Deserialize, Serialize};
 
+use super::{StopRequest, Timetable};
 use crate::plan::PlanPoint;
 
 /// Which ways people take. Without any request, routes run between the widest openings.
@@ -8,6 +9,8 @@ use crate::plan::PlanPoint;
 pub struct RoutesOptions {
     /// What is asked for; empty for the default routes.
     pub routes: Vec<RouteRequest>,
+    /// Places where people may stop; routes name them.
+    pub stops: Vec<StopRequest>,
 }
 
 /// A route as a scenario writes it.
@@ -21,12 +24,15 @@ pub struct RouteRequest {
     pub from: PlaceRequest,
     /// Where they go.
     pub to: PlaceRequest,
-    /// Places to pass on the way, in order.
+    /// Places to pass and stops on the way, in order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub via: Vec<PlaceRequest>,
+    pub via: Vec<ViaRequest>,
     /// How many people take it, relative to the other routes' shares.
     #[serde(default = "one")]
     pub share: f64,
+    /// When its people come; left out, as the whole crowd does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arrivals: Option<Timetable>,
 }
 
 fn one() -> f64 {
@@ -43,6 +49,49 @@ pub enum PlaceRequest {
     Point(PlanPoint),
     /// A rectangle by two opposite corners, metres.
     Area([[f64; 2]; 2]),
+}
+
+/// A place between start and goal, as a scenario writes it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "an opening's or a stop's name, a point [x, y], an area [[x0, y0], [x1, y1]], or { stop = \"name\", share = 0.2 }"
+)]
+pub enum ViaRequest {
+    /// A stop where only some of the people stop; the others do not go there.
+    Stop(SharedStop),
+    /// A place to pass, or the name of a stop where everybody stops.
+    Place(PlaceRequest),
+}
+
+/// A stop of a route, and who stops there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SharedStop {
+    /// The stop's name.
+    pub stop: String,
+    /// Share of the route's people who stop, 0 to 1.
+    #[serde(default = "one")]
+    pub share: f64,
+}
+
+impl ViaRequest {
+    /// The stop that this names among `stops`, and the share of people who stop there; `None` for a place to pass.
+    pub fn stop<'s>(&'s self, stops: &[StopRequest]) -> Option<(&'s str, f64)> {
+        match self {
+            ViaRequest::Stop(SharedStop { stop, share }) => Some((stop, *share)),
+            ViaRequest::Place(PlaceRequest::Opening(name)) if stops.iter().any(|stop| stop.name == *name) => {
+                Some((name, 1.0))
+            }
+            ViaRequest::Place(_) => None,
+        }
+    }
+}
+
+impl From<PlaceRequest> for ViaRequest {
+    fn from(place: PlaceRequest) -> ViaRequest {
+        ViaRequest::Place(place)
+    }
 }
 
 impl PlaceRequest {

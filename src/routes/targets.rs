@@ -1,7 +1,7 @@
 //! Turns the places that a scenario names into places on the ground.
 
 use super::ground::{Ground, apron};
-use super::{Place, PlaceRequest, RoutesError};
+use super::{Place, PlaceRequest, RoutesError, Spot};
 use crate::math::{Rect, Vec2, vec2};
 use crate::plan::FloorPlan;
 use crate::walls::APRON_M;
@@ -29,7 +29,7 @@ pub(super) fn place(
         PlaceRequest::Opening(name) => opening(plan, name, asked),
         PlaceRequest::Point(point) => {
             let p = finite(point.to_m(plan), request, asked)?;
-            let cell = ground.walkable_near(p, 0.2).ok_or_else(|| not_on_floor(ground, p, request, asked))?;
+            let cell = ground.walkable_near(p, 0.2).ok_or_else(|| not_on_floor(plan, ground, p, request, asked))?;
             let centre = ground.lattice.centre(cell);
             // A point within the narrow band along a wall counts as the nearest place to stand.
             let p = if ground.lattice.cell_at(p) == Some(cell) { p } else { centre };
@@ -40,7 +40,7 @@ pub(super) fn place(
             let (a, b) = (finite(Vec2::from(*a), request, asked)?, finite(Vec2::from(*b), request, asked)?);
             let area = Rect::around(a, b);
             if area_cells(ground, area).is_empty() {
-                return Err(not_on_floor(ground, area.centre(), request, asked));
+                return Err(not_on_floor(plan, ground, area.centre(), request, asked));
             }
             Ok(Place::Area([area.min, area.max]))
         }
@@ -70,12 +70,21 @@ fn finite(p: Vec2, request: &PlaceRequest, asked: Asked<'_>) -> Result<Vec2, Rou
     Err(RoutesError::NotFinite { route: asked.route.into(), role: asked.role, place: request.describe() })
 }
 
-fn not_on_floor(ground: &Ground, p: Vec2, request: &PlaceRequest, asked: Asked<'_>) -> RoutesError {
-    let nearest_m = (0..ground.lattice.len())
-        .filter(|&c| ground.is_walkable(c))
-        .map(|c| ground.lattice.centre(c))
-        .min_by(|a, b| a.distance(p).total_cmp(&b.distance(p)));
-    RoutesError::NotOnFloor { route: asked.route.into(), role: asked.role, place: request.describe(), nearest_m }
+fn not_on_floor(plan: &FloorPlan, ground: &Ground, p: Vec2, request: &PlaceRequest, asked: Asked<'_>) -> RoutesError {
+    let nearest = (0..ground.lattice.len()).filter(|&c| ground.is_walkable(c)).min_by(|&a, &b| {
+        let distance = |c| ground.lattice.centre(c).distance(p);
+        distance(a).total_cmp(&distance(b))
+    });
+    let nearest = nearest.map(|cell| Box::new(spot(plan, ground, cell, "")));
+    let at_px = plan.m_to_px(p);
+    RoutesError::NotOnFloor { route: asked.route.into(), role: asked.role, place: request.describe(), at_px, nearest }
+}
+
+/// What messages tell of a cell.
+pub(super) fn spot(plan: &FloorPlan, ground: &Ground, cell: usize, name: &str) -> Spot {
+    let at_m = ground.lattice.centre(cell);
+    let part_m2 = ground.part_area_m2(ground.part(cell));
+    Spot { name: name.into(), at_m, at_px: plan.m_to_px(at_m), part_m2 }
 }
 
 /// The cells that count as being there.
@@ -90,14 +99,13 @@ pub(super) fn cells(plan: &FloorPlan, ground: &Ground, place: Place) -> Vec<usiz
     }
 }
 
-/// The cells that routes pass at a place between start and goal: those about its middle.
-pub(super) fn middle_cells(plan: &FloorPlan, ground: &Ground, place: Place) -> Vec<usize> {
-    let all = match place {
+/// The cells that count as being at a place between start and goal: all of an area, so that people pass it over its whole
+/// width, and what lies outside an opening.
+pub(super) fn via_cells(plan: &FloorPlan, ground: &Ground, place: Place) -> Vec<usize> {
+    match place {
         Place::Opening(index) => plan.openings.get(index).map_or(Vec::new(), |o| within(ground, apron(o))),
-        Place::Area([min, max]) => area_cells(ground, Rect { min, max }),
-    };
-    let Some(middle) = middle(ground, &all) else { return all };
-    all.into_iter().filter(|&c| ground.lattice.centre(c).distance(middle) <= 0.3).collect()
+        Place::Area(_) => cells(plan, ground, place),
+    }
 }
 
 /// The cell nearest to the middle of some cells, moved a little to where there is more room.
@@ -126,22 +134,27 @@ fn within(ground: &Ground, area: Rect) -> Vec<usize> {
 /// wall. What lies behind a wall does not count.
 fn area_cells(ground: &Ground, area: Rect) -> Vec<usize> {
     let all = within(ground, area);
-    let mut left: std::collections::BTreeSet<usize> = all.iter().copied().collect();
+    let mut left = vec![false; ground.lattice.len()];
+    all.iter().for_each(|&cell| left[cell] = true);
     let centre = ground.lattice.cell_at(area.centre());
     let mut best: Vec<usize> = Vec::new();
-    while let Some(first) = left.pop_first() {
+    for first in all {
+        if !std::mem::take(&mut left[first]) {
+            continue;
+        }
         let mut joined = vec![first];
         let mut next = 0;
         while let Some(&cell) = joined.get(next) {
             next += 1;
-            joined.extend(ground.lattice.around(cell).into_iter().filter(|b| left.remove(b)));
+            let around = ground.lattice.around(cell).into_iter().filter(|&b| b != usize::MAX);
+            joined.extend(around.filter(|&b| std::mem::take(&mut left[b])));
         }
-        if centre.is_some_and(|c| joined.contains(&c)) {
-            joined.sort_unstable();
-            return joined;
-        }
-        if joined.len() > best.len() {
+        let holds_centre = centre.is_some_and(|c| joined.contains(&c));
+        if holds_centre || joined.len() > best.len() {
             best = joined;
+        }
+        if holds_centre {
+            break;
         }
     }
     best.sort_unstable();

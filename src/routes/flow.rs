@@ -1,0 +1,106 @@
+use super::field::Field;
+use super::ground::Ground;
+use super::lattice::BLOCK_CELLS;
+use super::sheet::{NONE, Sheet};
+use crate::math::{Vec2, vec2};
+
+/// Detours that hardly anybody makes: this many metres, and this share of the way ...
+const DETOUR_M: f64 = 4.0;
+const DETOUR_SHARE: f64 = 0.16;
+/// ... but no more than so many metres.
+const MOST_DETOUR_M: f64 = 24.0;
+/// Along a wall so much less room is used than in the open, from this distance to that one, metres.
+const WALL_SHARE: f64 = 0.04;
+const WALL_M: [f64; 2] = [0.15, 0.65];
+/// Nearer to a wall than this, metres, people drift away from it, by this slope right at the wall.
+const OFF_WALLS_M: f64 = 0.4;
+const OFF_WALLS: f64 = 0.5;
+/// How much the way straight down counts against the flow, per metre of a cell's side: it leads out of nooks where
+/// next to nobody passes.
+const DOWN_SHARE: f64 = 0.003;
+
+/// How people spread over all the sensible ways from one place to another: a direction for every cell on them.
+///
+/// Potential flow: people set out evenly from the start's cells and spread as a current does in a sheet,
+/// `div(s grad p) = source`, with `p = 0` at the goal. They fill a corridor evenly over its width, fan out in a hall,
+/// divide among the gaps between pillars, take a bend on all of its lanes, and no line draws all of them. The sheet
+/// conducts less the longer a detour is that leads by a place, and less along walls. A current has no dead ends: from
+/// wherever somebody stands in it, it leads to the goal.
+#[derive(Debug)]
+pub(crate) struct Flow {
+    /// Where each of the lattice's blocks begins in `ahead`, or [`NONE`].
+    first: Vec<u32>,
+    /// Unit vectors times 127; null where nobody is expected.
+    ahead: Vec<[i8; 2]>,
+}
+
+impl Flow {
+    /// The flow from some cells down a field. Nothing if no cell leads there.
+    pub(crate) fn new(ground: &Ground, starts: &[usize], to: &Field) -> Flow {
+        let seeds: Vec<usize> = starts.iter().copied().filter(|&c| to.of_cell(c).is_finite()).collect();
+        let longest_m = seeds.iter().map(|&c| to.of_cell(c)).fold(0.0, f64::max);
+        let most_m = (DETOUR_M + DETOUR_SHARE * longest_m).min(MOST_DETOUR_M);
+        // Start and goal distance together, less the distance from the start that was set out from.
+        let over_m = |cell: usize, walked_m: f64| walked_m + to.of_cell(cell) - longest_m;
+        let offsets = seeds.iter().map(|&c| (c, (longest_m - to.of_cell(c)) as f32)).collect();
+        let walked = Field::spread(ground, offsets, |cell, value| over_m(cell, value) < most_m);
+        let cells: Vec<usize> = (0..ground.lattice.len()).filter(|&c| walked.of_cell(c).is_finite()).collect();
+        let conducts = |cell: usize| {
+            let detour = (over_m(cell, walked.of_cell(cell)) / most_m).clamp(0.0, 1.0);
+            let near = 1.0 - detour;
+            let off_wall = ((ground.cell_clearance_m(cell) - WALL_M[0]) / (WALL_M[1] - WALL_M[0])).clamp(0.0, 1.0);
+            ((near * near) * (near * near)).max(1e-4) * (WALL_SHARE + (1.0 - WALL_SHARE) * off_wall)
+        };
+        let sheet = Sheet::new(&ground.lattice, cells, conducts, |cell| to.of_cell(cell) <= 0.0);
+        Flow::of_currents(ground, to, &sheet, sheet.currents(&seeds, |cell| to.of_cell(cell)))
+    }
+
+    fn of_currents(ground: &Ground, to: &Field, sheet: &Sheet, currents: Vec<Vec2>) -> Flow {
+        let lattice = &ground.lattice;
+        let mut first = vec![NONE; lattice.len() / BLOCK_CELLS];
+        let mut ahead = Vec::new();
+        for (&cell, current) in sheet.cells().iter().zip(currents) {
+            let block = &mut first[cell / BLOCK_CELLS];
+            if *block == NONE {
+                *block = ahead.len() as u32;
+                ahead.resize(ahead.len() + BLOCK_CELLS, [0, 0]);
+            }
+            let down = to.slope(ground, cell).unwrap_or_default() * (DOWN_SHARE * lattice.cell_m());
+            let along = current + down;
+            let along = along + off_walls(ground, cell) * along.length();
+            if let Some(unit) = along.normalized() {
+                let byte = |v: f64| (v * 127.0).round() as i8;
+                ahead[*block as usize + cell % BLOCK_CELLS] = [byte(unit.x), byte(unit.y)];
+            }
+        }
+        Flow { first, ahead }
+    }
+
+    /// The unit vector along the flow at `p`, if anybody is expected to pass there.
+    #[inline]
+    pub(crate) fn at(&self, ground: &Ground, p: Vec2) -> Option<Vec2> {
+        let mut sum = Vec2::ZERO;
+        for (cell, weight) in ground.lattice.stencil(p) {
+            let Some(cell) = cell else { continue };
+            let first = self.first[cell / BLOCK_CELLS];
+            if first != NONE {
+                let [x, y] = self.ahead[first as usize + cell % BLOCK_CELLS];
+                sum += vec2(f64::from(x), f64::from(y)) * weight;
+            }
+        }
+        let squared = sum.length_squared();
+        (squared > 100.0).then(|| sum / squared.sqrt())
+    }
+}
+
+/// Away from a near wall: the more the nearer it is, nothing from [`OFF_WALLS_M`] on and half way between two walls.
+fn off_walls(ground: &Ground, cell: usize) -> Vec2 {
+    let own = ground.cell_clearance_m(cell);
+    let near = (1.0 - own / OFF_WALLS_M).max(0.0);
+    if near == 0.0 {
+        return Vec2::ZERO;
+    }
+    let [west, east, south, north] =
+        ground.lattice.around(cell).map(|b| if b == usize::MAX { own } else { ground.cell_clearance_m(b) });
+    vec2(east - west, north - south) * (0.5 / ground.lattice.cell_m() * OFF_WALLS * near)
+}

@@ -1,0 +1,172 @@
+/// The residual, against the right-hand side, at which a solution is good enough for a crowd.
+const RESIDUAL: f64 = 2e-3;
+/// Rounds after which a solution is taken as it is.
+const MOST_ROUNDS: usize = 500;
+/// Share of the dropped fill-in that is put on the diagonal instead.
+const MODIFIED: f64 = 0.97;
+
+/// A symmetric system `diagonal x_i - sum values x_j = b_i`, with the sum over the neighbours j.
+#[derive(Debug, Default)]
+pub(super) struct Matrix {
+    diagonal: Vec<f64>,
+    /// For each row where its neighbours before it begin, where those behind it begin, and where they end.
+    bounds: Vec<[u32; 3]>,
+    columns: Vec<u32>,
+    values: Vec<f64>,
+}
+
+impl Matrix {
+    /// The conductances to earth, and those from row to row (each given in both directions, in any pieces).
+    pub(super) fn new(earthed: &[f64], mut edges: Vec<(u32, u32, f64)>) -> Matrix {
+        edges.sort_by_key(|&(row, column, _)| (row, column));
+        let mut matrix = Matrix { diagonal: earthed.to_vec(), ..Matrix::default() };
+        let mut edges = edges.into_iter().peekable();
+        for row in 0..earthed.len() as u32 {
+            let first = matrix.columns.len();
+            while let Some((_, column, value)) = edges.next_if(|e| e.0 == row) {
+                matrix.diagonal[row as usize] += value;
+                if matrix.columns.len() > first && matrix.columns.last() == Some(&column) {
+                    let last = matrix.values.len() - 1;
+                    matrix.values[last] += value;
+                } else {
+                    matrix.columns.push(column);
+                    matrix.values.push(value);
+                }
+            }
+            let behind = first + matrix.columns[first..].partition_point(|&c| c < row);
+            matrix.bounds.push([first as u32, behind as u32, matrix.columns.len() as u32]);
+        }
+        matrix
+    }
+
+    /// Neighbours of a row: those before it (0), those behind it (1).
+    #[inline]
+    fn neighbours(&self, row: usize, part: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let range = self.bounds[row][part] as usize..self.bounds[row][part + 1] as usize;
+        self.columns[range.clone()].iter().zip(&self.values[range]).map(|(&c, &v)| (c as usize, v))
+    }
+
+    /// Solves by conjugate gradients, preconditioned with a modified incomplete Cholesky factor (Gustafsson 1978,
+    /// doi 10.1007/BF01931691).
+    pub(super) fn solve(&self, b: &[f64], guess: Vec<f64>) -> Vec<f64> {
+        let n = b.len();
+        let mut x = guess;
+        let mut ax = vec![0.0; n];
+        self.times(&x, &mut ax);
+        let (energy, work) = (dot(&x, &ax), dot(&x, b));
+        if energy > 0.0 {
+            let scale = work / energy;
+            x.iter_mut().for_each(|v| *v *= scale);
+            ax.iter_mut().for_each(|v| *v *= scale);
+        }
+        let mut r: Vec<f64> = b.iter().zip(&ax).map(|(b, ax)| b - ax).collect();
+        let inverse = self.pivots();
+        let mut z = vec![0.0; n];
+        self.precondition(&inverse, &r, &mut z);
+        let mut p = z.clone();
+        let mut rz = dot(&r, &z);
+        let enough = RESIDUAL * RESIDUAL * dot(b, b);
+        for _ in 0..MOST_ROUNDS {
+            if dot(&r, &r) <= enough || rz <= 0.0 {
+                break;
+            }
+            self.times(&p, &mut ax);
+            let step = rz / dot(&p, &ax);
+            for k in 0..n {
+                x[k] += step * p[k];
+                r[k] -= step * ax[k];
+            }
+            self.precondition(&inverse, &r, &mut z);
+            let next = dot(&r, &z);
+            let turn = next / rz;
+            rz = next;
+            for k in 0..n {
+                p[k] = z[k] + turn * p[k];
+            }
+        }
+        x
+    }
+
+    /// Rounds of Gauss and Seidel's relaxation.
+    pub(super) fn relax(&self, b: &[f64], x: &mut [f64], rounds: usize) {
+        for _ in 0..rounds {
+            for row in 0..x.len() {
+                let around = self.neighbours(row, 0).chain(self.neighbours(row, 1));
+                x[row] = around.fold(b[row], |sum, (column, value)| sum + value * x[column]) / self.diagonal[row];
+            }
+        }
+    }
+
+    fn times(&self, x: &[f64], out: &mut [f64]) {
+        for (row, out) in out.iter_mut().enumerate() {
+            let around = self.neighbours(row, 0).chain(self.neighbours(row, 1));
+            *out = around.fold(self.diagonal[row] * x[row], |sum, (column, value)| sum - value * x[column]);
+        }
+    }
+
+    /// Inverse pivots of the incomplete factor: `d_i = a_ii - sum_j<i a_ij (a_ij + dropped_j) / d_j`, where `dropped_j`
+    /// is what row j would join row i to without there being an entry for it.
+    fn pivots(&self) -> Vec<f64> {
+        let behind: Vec<f64> =
+            (0..self.bounds.len()).map(|row| self.neighbours(row, 1).map(|(_, value)| value).sum()).collect();
+        let mut inverse: Vec<f64> = Vec::with_capacity(behind.len());
+        for (row, &diagonal) in self.diagonal.iter().enumerate() {
+            let mut pivot = diagonal;
+            for (j, value) in self.neighbours(row, 0) {
+                pivot -= value * (value + MODIFIED * (behind[j] - value)) * inverse[j];
+            }
+            inverse.push(1.0 / if pivot > 0.05 * diagonal { pivot } else { diagonal.max(1e-12) });
+        }
+        inverse
+    }
+
+    fn precondition(&self, inverse: &[f64], r: &[f64], z: &mut [f64]) {
+        for row in 0..r.len() {
+            z[row] = self.neighbours(row, 0).fold(r[row], |sum, (j, value)| sum + value * z[j]) * inverse[row];
+        }
+        for row in (0..r.len()).rev() {
+            z[row] += self.neighbours(row, 1).fold(0.0, |sum, (j, value)| sum + value * z[j]) * inverse[row];
+        }
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square grid of resistors, earthed along one side.
+    fn grid(side: usize) -> Matrix {
+        let mut edges = Vec::new();
+        for row in 0..side {
+            for column in 0..side {
+                let own = (row * side + column) as u32;
+                let conductance = |k: u32| 1.0 + f64::from(k % 7);
+                if column + 1 < side {
+                    edges.push((own, own + 1, conductance(own)));
+                    edges.push((own + 1, own, conductance(own)));
+                }
+                if row + 1 < side {
+                    edges.push((own, own + side as u32, 2.0));
+                    edges.push((own + side as u32, own, 2.0));
+                }
+            }
+        }
+        let earthed: Vec<f64> = (0..side * side).map(|k| f64::from(u8::from(k % side == 0))).collect();
+        Matrix::new(&earthed, edges)
+    }
+
+    #[test]
+    fn a_solution_solves_the_system() {
+        let matrix = grid(60);
+        let b: Vec<f64> = (0..3600).map(|k| f64::from(u8::from(k % 60 == 59)) / 60.0).collect();
+        let x = matrix.solve(&b, vec![0.0; 3600]);
+        let mut ax = vec![0.0; 3600];
+        matrix.times(&x, &mut ax);
+        let off: f64 = ax.iter().zip(&b).map(|(ax, b)| (ax - b) * (ax - b)).sum();
+        assert!(off.sqrt() <= 2.0 * RESIDUAL * dot(&b, &b).sqrt(), "{}", off.sqrt());
+    }
+}

@@ -1,0 +1,346 @@
+//! Places where people stop on their way: what a scenario asks for, and where that is on the ground.
+
+use serde::{Deserialize, Serialize};
+
+use super::field::Field;
+use super::ground::Ground;
+use super::{Place, RoutesError};
+use crate::math::{Distribution, Rect, Vec2, sin_cos, vec2};
+use crate::plan::{FloorPlan, PlanPoint};
+use crate::walls::Walls;
+
+/// A place to stand lies at most this far from where it was asked for, metres: counters stand at walls.
+const NEAREST_FLOOR_M: f64 = 0.6;
+/// Places at a counter that is given by its middle lie this far apart, metres.
+const PLACES_APART_M: f64 = 0.9;
+/// Counters, benches and pictures are looked for within this distance, metres.
+const WALL_REACH_M: f64 = 4.0;
+/// Whoever comes for a stop alone passes the floor this far before it, metres.
+const BEFORE_M: f64 = 1.5;
+/// Longest stay, seconds: a day.
+const MOST_DWELL_S: f64 = 86_400.0;
+/// Most places at one stop.
+const MOST_PLACES: u32 = 1000;
+
+/// What people do at a stop.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum StopKind {
+    /// Stand around: before a board, a painting, a shop window.
+    #[default]
+    Place,
+    /// Queue up before a counter with one or more places, which one line serves.
+    Queue,
+    /// The same before a machine: quicker.
+    Machine,
+    /// Sit down.
+    Bench,
+    /// Pass ticket gates one by one, each with a line of its own.
+    Gate,
+}
+
+/// A stop as a scenario writes it. Lengths in metres.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StopRequest {
+    /// What routes call it.
+    pub name: String,
+    /// What people do there.
+    #[serde(default)]
+    pub kind: StopKind,
+    /// Where people stand: a point, or a line along which the places lie; of a `place` two corners of its area.
+    pub at: StopAt,
+    /// A point that they face.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub facing: Option<PlanPoint>,
+    /// Or the direction that they face, degrees counter-clockwise from +x.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heading_deg: Option<f64>,
+    /// Seconds that a person stays, or is served. Left out: by the kind.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dwell: Option<Distribution>,
+    /// Counters, seats or lanes, 1 to 1000.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub places: Option<u32>,
+    /// Distance between people in the line, on a bench, or around a place, 0.4 to 5.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spacing: Option<f64>,
+    /// How far around a `place` given as a point people stand, 0.3 to 50.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reach: Option<f64>,
+    /// The line in which people queue, from the counter to its tail. Left out: straight back, and on along walls.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub queue: Vec<PlanPoint>,
+}
+
+/// Where a stop is, as a scenario writes it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged, expecting = "a point [x, y], or two of them: [[x0, y0], [x1, y1]]")]
+pub enum StopAt {
+    /// A point.
+    Point(PlanPoint),
+    /// Two ends of a line, or two corners of an area.
+    Line([PlanPoint; 2]),
+}
+
+/// What people at a stop face.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Facing {
+    /// Whatever they like.
+    Free,
+    /// This point, metres.
+    Point(Vec2),
+    /// This direction: a unit vector.
+    Direction(Vec2),
+}
+
+/// A stop on the ground. Routes that share it hold the same value. Metres of the plan frame, seconds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Stop {
+    /// What it is called; no two stops of a plan share a name.
+    pub name: String,
+    /// What people do there.
+    pub kind: StopKind,
+    /// Both ends of the line along which the places lie, or two corners of the area; the same twice for a point.
+    pub at_m: [Vec2; 2],
+    /// Where people stand, sit or are served; for a `place` only the middle.
+    pub places_m: Vec<Vec2>,
+    /// What they face.
+    pub facing: Facing,
+    /// How long each of them stays, or is served.
+    pub dwell_s: Distribution,
+    /// Distance between people.
+    pub spacing_m: f64,
+    /// How far around the point of a `place` people stand.
+    pub reach_m: f64,
+    /// The line in which people queue, from the counter on; empty: found.
+    pub queue_m: Vec<Vec2>,
+}
+
+/// A stop on a route.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RouteStop {
+    /// The stop.
+    pub stop: Stop,
+    /// Share of the route's people who stop there, 0 to 1.
+    pub share: f64,
+    /// How many of the route's places between start and goal are passed before.
+    pub after_via: usize,
+}
+
+impl StopKind {
+    /// How long people stay, where a scenario does not say, seconds.
+    fn dwell_s(self) -> Distribution {
+        match self {
+            StopKind::Place => Distribution::normal(20.0, 10.0, 5.0, 60.0),
+            StopKind::Queue => Distribution::normal(40.0, 20.0, 8.0, 150.0),
+            StopKind::Machine => Distribution::normal(25.0, 10.0, 8.0, 80.0),
+            StopKind::Bench => Distribution::normal(180.0, 90.0, 30.0, 600.0),
+            StopKind::Gate => Distribution::normal(1.8, 0.5, 1.0, 4.0),
+        }
+    }
+
+    /// How far apart people keep, where a scenario does not say, metres.
+    fn spacing_m(self) -> f64 {
+        match self {
+            StopKind::Place => 0.8,
+            StopKind::Bench => 0.6,
+            StopKind::Queue | StopKind::Machine | StopKind::Gate => 0.75,
+        }
+    }
+
+    /// Whether people wait for each other there.
+    pub fn has_line(self) -> bool {
+        matches!(self, StopKind::Queue | StopKind::Machine | StopKind::Gate)
+    }
+}
+
+impl StopRequest {
+    /// Checks every value: the key that is wrong, and what is wrong with it.
+    ///
+    /// # Errors
+    /// The first value that is no number, out of its range, or does not go with the kind.
+    pub fn check(&self) -> Result<(), (&'static str, String)> {
+        if self.name.trim().is_empty() {
+            return Err(("name", "the name is empty".into()));
+        }
+        if let Some(dwell) = &self.dwell {
+            dwell.check(0.0, MOST_DWELL_S).map_err(|problem| ("dwell", problem.to_string()))?;
+        }
+        let number = |key, value: Option<f64>, low: f64, high: f64| match value {
+            Some(value) if !(low..=high).contains(&value) => {
+                Err((key, format!("`{key}` is {value}, allowed is {low} to {high}")))
+            }
+            _ => Ok(()),
+        };
+        number("places", self.places.map(f64::from), 1.0, f64::from(MOST_PLACES))?;
+        number("spacing", self.spacing, 0.4, 5.0)?;
+        number("reach", self.reach, 0.3, 50.0)?;
+        number("heading_deg", self.heading_deg, -360.0, 360.0)?;
+        if self.facing.is_some() && self.heading_deg.is_some() {
+            return Err(("heading_deg", "the stop has both `facing` and `heading_deg`".into()));
+        }
+        if !self.queue.is_empty() && (!self.kind.has_line() || self.kind == StopKind::Gate) {
+            return Err(("queue", "only stops of the kinds \"queue\" and \"machine\" have a line of their own".into()));
+        }
+        if self.kind == StopKind::Place && self.places.is_some() {
+            return Err(("places", "a stop of the kind \"place\" has room for as many as find it".into()));
+        }
+        Ok(())
+    }
+
+    /// Finds the stop on the ground.
+    pub(super) fn resolve(&self, plan: &FloorPlan, ground: &Ground, walls: &Walls) -> Result<Stop, RoutesError> {
+        let wrong =
+            |(key, problem): (&'static str, String)| RoutesError::StopValue { stop: self.name.clone(), key, problem };
+        self.check().map_err(wrong)?;
+        let finite = |key, point: PlanPoint| {
+            let p = point.to_m(plan);
+            let fine = p.is_finite() && p.x.abs() < 1e7 && p.y.abs() < 1e7;
+            if fine { Ok(p) } else { Err(wrong((key, "a coordinate is not a finite number".into()))) }
+        };
+        let at_m = match self.at {
+            StopAt::Point(point) => [finite("at", point)?; 2],
+            StopAt::Line([from, to]) => [finite("at", from)?, finite("at", to)?],
+        };
+        let facing = match (self.facing, self.heading_deg) {
+            (Some(point), _) => Facing::Point(finite("facing", point)?),
+            (None, Some(degrees)) => {
+                let (sin, cos) = sin_cos(degrees.to_radians());
+                Facing::Direction(vec2(cos, sin))
+            }
+            (None, None) => self.usual_facing(walls, at_m),
+        };
+        let queue_m =
+            self.queue.iter().map(|&point| finite("queue", point)).collect::<Result<Vec<_>, RoutesError>>()?;
+        for &p in &queue_m {
+            ground.walkable_near(p, NEAREST_FLOOR_M).ok_or_else(|| self.not_on_floor(ground, "queue", p))?;
+        }
+        if let Some(pair) = queue_m.windows(2).find(|pair| !ground.sight(walls, pair[0], pair[1])) {
+            let problem = format!(
+                "the line crosses a wall between [{:.2}, {:.2}] and [{:.2}, {:.2}]",
+                pair[0].x, pair[0].y, pair[1].x, pair[1].y
+            );
+            return Err(wrong(("queue", problem)));
+        }
+        let mut stop = Stop {
+            name: self.name.clone(),
+            kind: self.kind,
+            at_m,
+            places_m: Vec::new(),
+            facing,
+            dwell_s: self.dwell.unwrap_or(self.kind.dwell_s()),
+            spacing_m: self.spacing.unwrap_or(self.kind.spacing_m()),
+            reach_m: self.reach.unwrap_or(1.5),
+            queue_m,
+        };
+        stop.places_m = self.places_m(&stop);
+        for &p in &stop.places_m {
+            let area = Rect::around(at_m[0], at_m[1]);
+            let near_m = if self.kind == StopKind::Place { 0.5 * area.width().max(area.height()) } else { 0.0 };
+            let found = ground.walkable_near(p, near_m + NEAREST_FLOOR_M);
+            found.ok_or_else(|| self.not_on_floor(ground, "at", p))?;
+        }
+        Ok(stop)
+    }
+
+    /// What people face who were not told: the counter, the room before the bench; gates are turned later.
+    fn usual_facing(&self, walls: &Walls, [from, to]: [Vec2; 2]) -> Facing {
+        let middle = from.lerp(to, 0.5);
+        let towards_wall =
+            walls.nearest(middle, WALL_REACH_M).and_then(|nearest| (nearest.point_m - middle).normalized());
+        // A line stands square before what it is for.
+        let square = match (towards_wall, (to - from).normalized()) {
+            (Some(wall), Some(along)) if along.left().dot(wall) < 0.0 => Some(-along.left()),
+            (_, Some(along)) => Some(along.left()),
+            (wall, None) => wall,
+        };
+        match (self.kind, square) {
+            (StopKind::Place | StopKind::Gate, _) => Facing::Free,
+            (StopKind::Bench, Some(wall)) => Facing::Direction(-wall),
+            (_, Some(wall)) => Facing::Direction(wall),
+            (_, None) => Facing::Direction(vec2(0.0, 1.0)),
+        }
+    }
+
+    fn places_m(&self, stop: &Stop) -> Vec<Vec2> {
+        let [from, to] = stop.at_m;
+        let middle = from.lerp(to, 0.5);
+        if self.kind == StopKind::Place {
+            return vec![middle];
+        }
+        let length = from.distance(to);
+        let fit = (length / stop.spacing_m + 1e-9) as u32 + 1;
+        let count = self.places.unwrap_or(if self.kind == StopKind::Bench { fit.min(MOST_PLACES) } else { 1 });
+        if count == 1 {
+            return vec![middle];
+        }
+        let ends = if length > 0.0 {
+            [from, to]
+        } else {
+            let apart = if self.kind == StopKind::Bench { stop.spacing_m } else { PLACES_APART_M };
+            let reach = stop.facing_from(middle).left() * (0.5 * apart * f64::from(count - 1));
+            [middle + reach, middle - reach]
+        };
+        (0..count).map(|k| ends[0].lerp(ends[1], f64::from(k) / f64::from(count - 1))).collect()
+    }
+
+    fn not_on_floor(&self, ground: &Ground, key: &'static str, p: Vec2) -> RoutesError {
+        let nearest_m = (0..ground.lattice.len())
+            .filter(|&c| ground.is_walkable(c))
+            .map(|c| ground.lattice.centre(c))
+            .min_by(|a, b| a.distance(p).total_cmp(&b.distance(p)));
+        RoutesError::StopNotOnFloor { stop: self.name.clone(), key, place_m: p, nearest_m }
+    }
+}
+
+impl Stop {
+    /// The unit vector in which somebody at `p` faces; where they are free to choose, up.
+    pub fn facing_from(&self, p: Vec2) -> Vec2 {
+        let otherwise = vec2(0.0, 1.0);
+        match self.facing {
+            Facing::Free => otherwise,
+            Facing::Point(point) => (point - p).normalized().unwrap_or(otherwise),
+            Facing::Direction(direction) => direction,
+        }
+    }
+
+    /// A cell to stand on at the stop, for finding the way there.
+    pub(crate) fn cells(&self, ground: &Ground) -> Vec<usize> {
+        let area = Rect::around(self.at_m[0], self.at_m[1]);
+        let reach_m =
+            if self.kind == StopKind::Place { 0.5 * area.width().max(area.height()) } else { 0.0 } + NEAREST_FLOOR_M;
+        let mut cells: Vec<usize> = self.places_m.iter().filter_map(|&p| ground.walkable_near(p, reach_m)).collect();
+        cells.sort_unstable();
+        cells.dedup();
+        cells
+    }
+
+    /// The floor before the stop, to pass on the way for whoever goes nowhere else.
+    pub(super) fn before(&self, ground: &Ground) -> Place {
+        let middle = self.at_m[0].lerp(self.at_m[1], 0.5);
+        let back = middle - self.facing_from(middle) * BEFORE_M;
+        let has_room = ground.lattice.cell_at(back).is_some_and(|cell| ground.is_walkable(cell));
+        let at = if has_room { back } else { middle };
+        let reach = vec2(0.5, 0.5);
+        Place::Area([at - reach, at + reach])
+    }
+
+    /// Turns ticket gates that face nowhere yet the way that the field leads.
+    pub(super) fn turn_along(&mut self, ground: &Ground, onward: &Field) {
+        if self.kind != StopKind::Gate || self.facing != Facing::Free {
+            return;
+        }
+        let [from, to] = self.at_m;
+        let middle = from.lerp(to, 0.5);
+        let along = (to - from).normalized();
+        let across = along.map(Vec2::left).or_else(|| onward.downhill(ground, middle)).unwrap_or(vec2(0.0, 1.0));
+        let left_m = |sign: f64| {
+            let beside = self.places_m.iter().map(|&p| onward.at(ground, p + across * (sign * 1.2)));
+            beside.filter(|d| d.is_finite()).fold(f64::INFINITY, f64::min)
+        };
+        let back = along.is_some() && left_m(-1.0) < left_m(1.0);
+        self.facing = Facing::Direction(if back { -across } else { across });
+    }
+}

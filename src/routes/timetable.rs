@@ -1,0 +1,279 @@
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+/// More people or bursts than this are a mistake.
+const MOST_PEOPLE: f64 = 5e6;
+/// Latest time, seconds.
+const LATEST_S: f64 = 1e7;
+
+/// When people come: for the whole crowd, or for one route. Seconds.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Timetable {
+    /// How they come.
+    pub kind: TimetableKind,
+    /// When the first come.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub first_s: Option<f64>,
+    /// Of a rate: how many come in a second. Left out: as many as the entrances let in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub per_second: Option<f64>,
+    /// Of bursts: time from one to the next.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub every_s: Option<f64>,
+    /// Of bursts: how many people come in one ...
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub people: Option<u32>,
+    /// ... or which share of all of them does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub share: Option<f64>,
+    /// Of bursts: how long the people of one take to come, 0 for all at once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spread_s: Option<f64>,
+    /// Of a list: times, each with how many people come then.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub times: Vec<[f64; 2]>,
+    /// Of a list: a CSV file with a time and a number of people in each line.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<PathBuf>,
+    /// What the file says.
+    #[serde(skip)]
+    pub of_file: Vec<[f64; 2]>,
+}
+
+/// How people come.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum TimetableKind {
+    /// Evenly.
+    #[default]
+    Rate,
+    /// A train every few minutes, a school bell.
+    Bursts,
+    /// At stated times.
+    List,
+}
+
+impl Timetable {
+    /// Whether it says nothing of its own.
+    pub fn is_default(&self) -> bool {
+        *self == Timetable::default()
+    }
+
+    /// The rows of a list, those of the file first.
+    pub fn rows(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.of_file.iter().chain(&self.times).copied()
+    }
+
+    /// How many people a list names; `None` for other kinds.
+    pub fn listed(&self) -> Option<u64> {
+        (self.kind == TimetableKind::List).then(|| self.rows().map(|row| row[1] as u64).sum())
+    }
+
+    /// Checks every value: the key that is wrong, and what is wrong with it.
+    ///
+    /// # Errors
+    /// The first value that is no number, out of its range, missing, or does not go with the kind.
+    pub fn check(&self) -> Result<(), (&'static str, String)> {
+        use TimetableKind::{Bursts, List, Rate};
+        let numbers = [
+            ("first_s", self.first_s, 0.0, LATEST_S, [Rate, Bursts]),
+            ("per_second", self.per_second, 1e-4, 1e3, [Rate, Rate]),
+            ("every_s", self.every_s, 1.0, LATEST_S, [Bursts, Bursts]),
+            ("people", self.people.map(f64::from), 1.0, MOST_PEOPLE, [Bursts, Bursts]),
+            ("share", self.share, 1e-6, 1.0, [Bursts, Bursts]),
+            ("spread_s", self.spread_s, 0.0, LATEST_S, [Bursts, Bursts]),
+        ];
+        for (key, value, low, high, kinds) in numbers {
+            let Some(value) = value else { continue };
+            if !(low..=high).contains(&value) {
+                return Err((key, format!("`{key}` is {value}, allowed is {low} to {high}")));
+            }
+            if !kinds.contains(&self.kind) {
+                return Err((key, format!("`{key}` does not go with the kind {}", self.kind.quoted())));
+            }
+        }
+        let has_list = !self.times.is_empty() || self.file.is_some();
+        match self.kind {
+            Bursts if self.every_s.is_none() => Err(("kind", "bursts need `every_s`: the time between them".into())),
+            Bursts if self.people.is_some() == self.share.is_some() => {
+                Err(("kind", "bursts need either `people` or `share`: how many come in one".into()))
+            }
+            List if !has_list => Err(("kind", "a list needs `times` or a `file`".into())),
+            Rate | Bursts if has_list => {
+                let key = if self.times.is_empty() { "file" } else { "times" };
+                Err((key, format!("`{key}` does not go with the kind {}", self.kind.quoted())))
+            }
+            List => self.check_rows(),
+            _ => Ok(()),
+        }
+    }
+
+    fn check_rows(&self) -> Result<(), (&'static str, String)> {
+        for [time_s, people] in self.rows() {
+            if !(0.0..=LATEST_S).contains(&time_s) {
+                return Err(("times", format!("the time {time_s} is not within 0 to {LATEST_S} seconds")));
+            }
+            let whole = (0.0..=MOST_PEOPLE).contains(&people) && people.fract() == 0.0;
+            if !whole {
+                return Err(("times", format!("{people} people are not a whole number of 0 to {MOST_PEOPLE}")));
+            }
+        }
+        // A file that has not been read yet has no rows.
+        let empty = self.listed() == Some(0) && !(self.file.is_some() && self.of_file.is_empty());
+        if empty { Err(("times", "nobody comes at any time of the list".into())) } else { Ok(()) }
+    }
+
+    /// Reads the rows of a CSV file: a time in seconds and a number of people in each line, or a time alone for one
+    /// person. Lines that begin with `#` are skipped, and so is a first line of names.
+    ///
+    /// # Errors
+    /// The line, counted from 1, that holds anything else, and what it holds.
+    pub fn rows_of_csv(text: &str) -> Result<Vec<[f64; 2]>, (usize, String)> {
+        let mut rows = Vec::new();
+        for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
+            let line = line.trim();
+            if line.is_empty() || line.starts_with('#') {
+                continue;
+            }
+            let cells: Vec<&str> = line.split([',', ';', '\t']).map(str::trim).collect();
+            let numbers: Option<Vec<f64>> = cells.iter().map(|cell| cell.parse().ok()).collect();
+            match numbers.as_deref() {
+                Some(&[time_s]) => rows.push([time_s, 1.0]),
+                Some(&[time_s, people]) => rows.push([time_s, people]),
+                // Names of columns hold no number at all.
+                None if rows.is_empty() && cells.iter().all(|cell| cell.parse::<f64>().is_err()) => {}
+                _ => return Err((index + 1, line.chars().take(60).collect())),
+            }
+        }
+        Ok(rows)
+    }
+
+    /// When each of `count` people comes, seconds, in ascending order; `draw` gives a uniform number in `[0, 1)` for
+    /// the person of this index. Without a rate of its own a rate takes `period_s` for all of them.
+    ///
+    /// A list with more or fewer people than `count` keeps its proportions.
+    pub fn times_s(&self, count: usize, period_s: f64, draw: impl Fn(usize) -> f64) -> Vec<f64> {
+        let first_s = self.first_s.unwrap_or(0.0);
+        match self.kind {
+            TimetableKind::Rate => {
+                let part_s = self.per_second.map_or(period_s / count.max(1) as f64, |rate| 1.0 / rate);
+                (0..count).map(|k| first_s + (k as f64 + draw(k)) * part_s).collect()
+            }
+            TimetableKind::Bursts => {
+                let share = self.share.unwrap_or(1.0) * count as f64;
+                let size = self.people.map_or(share.ceil() as usize, |people| people as usize).max(1);
+                let (every_s, spread_s) = (self.every_s.unwrap_or(1.0), self.spread_s.unwrap_or(0.0));
+                let time_s = |k: usize| {
+                    let (burst, within) = (k / size, k % size);
+                    let of_burst = size.min(count - burst * size);
+                    first_s + burst as f64 * every_s + (within as f64 + draw(k)) / of_burst as f64 * spread_s
+                };
+                let mut times: Vec<f64> = (0..count).map(time_s).collect();
+                // Long bursts overlap.
+                times.sort_by(f64::total_cmp);
+                times
+            }
+            TimetableKind::List => {
+                let mut rows: Vec<[f64; 2]> = self.rows().collect();
+                rows.sort_by(|a, b| a[0].total_cmp(&b[0]));
+                let total: f64 = rows.iter().map(|row| row[1]).sum();
+                let (mut row, mut before) = (0, 0.0);
+                let time_s = |k: usize| {
+                    let place = (k as f64 + 0.5) * total / count as f64;
+                    while row + 1 < rows.len() && place >= before + rows[row][1] {
+                        before += rows[row][1];
+                        row += 1;
+                    }
+                    rows.get(row).map_or(0.0, |row| row[0])
+                };
+                (0..count).map(time_s).collect()
+            }
+        }
+    }
+}
+
+impl TimetableKind {
+    fn quoted(self) -> &'static str {
+        match self {
+            TimetableKind::Rate => "\"rate\"",
+            TimetableKind::Bursts => "\"bursts\"",
+            TimetableKind::List => "\"list\"",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bursts_come_in_bursts() {
+        let timetable = Timetable {
+            kind: TimetableKind::Bursts,
+            first_s: Some(30.0),
+            every_s: Some(360.0),
+            people: Some(40),
+            spread_s: Some(20.0),
+            ..Timetable::default()
+        };
+        timetable.check().unwrap();
+        let times = timetable.times_s(100, 1.0, |k| (k % 10) as f64 / 10.0);
+        for burst in 0..3 {
+            let from = 30.0 + 360.0 * f64::from(burst);
+            let within = times.iter().filter(|t| (from..from + 20.0).contains(*t)).count();
+            assert_eq!(within, if burst < 2 { 40 } else { 20 });
+        }
+        let by_share = Timetable { people: None, share: Some(0.25), ..timetable };
+        by_share.check().unwrap();
+        let times = by_share.times_s(100, 1.0, |_| 0.5);
+        assert_eq!(times.iter().filter(|t| **t < 100.0).count(), 25);
+    }
+
+    #[test]
+    fn lists_are_exact_and_keep_their_proportions() {
+        let list = Timetable {
+            kind: TimetableKind::List,
+            times: vec![[300.0, 80.0], [60.0, 20.0], [90.0, 0.0]],
+            ..Timetable::default()
+        };
+        list.check().unwrap();
+        assert_eq!(list.listed(), Some(100));
+        let times = list.times_s(100, 1.0, |_| 0.9);
+        assert!(times[..20].iter().all(|t| *t == 60.0) && times[20..].iter().all(|t| *t == 300.0));
+        let tenth = list.times_s(10, 1.0, |_| 0.0);
+        assert_eq!(tenth.iter().filter(|t| **t == 60.0).count(), 2);
+    }
+
+    #[test]
+    fn a_csv_file_holds_times_and_numbers_of_people() {
+        let text = "\u{feff}time, people\n# a train\n60, 20\n\n300; 80\r\n400\n";
+        assert_eq!(Timetable::rows_of_csv(text), Ok(vec![[60.0, 20.0], [300.0, 80.0], [400.0, 1.0]]));
+        assert_eq!(Timetable::rows_of_csv("1,2\nx,3\n"), Err((2, "x,3".into())));
+        assert_eq!(Timetable::rows_of_csv("1,2,3\n"), Err((1, "1,2,3".into())));
+    }
+
+    #[test]
+    fn what_does_not_go_together_is_refused() {
+        let rate = Timetable::default();
+        let bursts =
+            Timetable { kind: TimetableKind::Bursts, every_s: Some(60.0), people: Some(5), ..Timetable::default() };
+        for (wrong, key) in [
+            (Timetable { every_s: Some(60.0), ..rate.clone() }, "every_s"),
+            (Timetable { times: vec![[1.0, 1.0]], ..rate.clone() }, "times"),
+            (Timetable { per_second: Some(f64::NAN), ..rate.clone() }, "per_second"),
+            (Timetable { every_s: None, ..bursts.clone() }, "kind"),
+            (Timetable { share: Some(0.5), ..bursts.clone() }, "kind"),
+            (Timetable { people: None, ..bursts.clone() }, "kind"),
+            (Timetable { people: Some(0), ..bursts.clone() }, "people"),
+            (Timetable { spread_s: Some(-1.0), ..bursts }, "spread_s"),
+            (Timetable { kind: TimetableKind::List, ..rate.clone() }, "kind"),
+            (Timetable { kind: TimetableKind::List, times: vec![[f64::NAN, 1.0]], ..rate.clone() }, "times"),
+            (Timetable { kind: TimetableKind::List, times: vec![[1.0, 1.5]], ..rate.clone() }, "times"),
+            (Timetable { kind: TimetableKind::List, times: vec![[1.0, 0.0]], ..rate }, "times"),
+        ] {
+            assert_eq!(wrong.check().unwrap_err().0, key, "{wrong:?}");
+        }
+    }
+}
