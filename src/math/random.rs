@@ -18,6 +18,8 @@ pub enum Purpose {
     Marks = 5,
     /// Soil that the shoes bring in.
     Load = 6,
+    /// At which stops to stop, and for how long.
+    Stops = 7,
 }
 
 /// The random stream of one person for one purpose: a pure function of its three arguments.

@@ -1,9 +1,16 @@
 //! The hub: a stream of frames that say where everybody is. What comes after it does not know whether the
-//! frames were simulated or recorded.
+//! frames were simulated or recorded. A [`Recorder`] writes them to a file that other programs read.
 
+mod error;
+mod mileage;
 mod person;
+mod recorder;
 
+pub use error::MotionError;
+pub use mileage::Mileage;
 pub use person::{Bag, BodyOptions, CarrySide, People, Person, STRIDE_SPEED_M_S};
+pub(crate) use recorder::Resampler;
+pub use recorder::{FRAME_RATES, RecordFormat, Recorded, RecordedWorld, Recorder};
 
 use crate::Error;
 use crate::math::Vec2;
@@ -17,6 +24,8 @@ pub struct Walker {
     pub position_m: Vec2,
     /// Velocity, metres per second.
     pub velocity_m_s: Vec2,
+    /// Unit vector in which the body faces, if the source knows: who stands and turns has no velocity to tell it by.
+    pub heading: Option<Vec2>,
 }
 
 /// Everybody at one moment.

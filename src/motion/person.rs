@@ -23,9 +23,11 @@ pub struct BodyOptions {
     /// out, step length follows speed and stature.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step_length: Option<Distribution>,
-    /// Distance between the lines of the left and the right foot's middles (Murray 1964: 0.08).
+    /// Distance between the lines of the left and the right foot's middles, of men who walk freely; women's is 0.88 of
+    /// it (Murray 1964, 1970: 0.081 and 0.071).
     pub step_width: Distribution,
-    /// Angle of the foot outward from the way, degrees (Murray 1964: 7; Morton 1932: 5 to 10).
+    /// Angle of the foot outward from the way, degrees, of men; women's is 0.86 of it (Murray 1964, 1970: 7 and 6;
+    /// Morton 1932: most feet 5 to 10).
     pub toe_out_deg: Distribution,
 }
 
@@ -39,8 +41,8 @@ impl Default for BodyOptions {
             stature_children: Distribution::Uniform([1.1, 1.45]),
             bags: 0.6,
             step_length: None,
-            step_width: Distribution::normal(0.08, 0.025, 0.02, 0.16),
-            toe_out_deg: Distribution::normal(6.5, 3.0, -4.0, 16.0),
+            step_width: Distribution::normal(0.081, 0.025, 0.02, 0.16),
+            toe_out_deg: Distribution::normal(7.0, 2.0, 0.0, 14.0),
         }
     }
 }
@@ -83,16 +85,30 @@ pub struct Person {
     pub fixed_step_m: Option<f64>,
     /// Personal factor on the step length, about 1: tall people take longer steps.
     pub step_factor: f64,
-    /// Distance between the lines of the feet, metres.
+    /// Distance between the lines of the feet when walking freely, metres.
     pub step_width_m: f64,
     /// Mean angle of the foot outward from the way, radians.
     pub toe_out_rad: f64,
+    /// Whether this person runs on the ball of the foot rather than from the heel.
+    pub runs_on_ball: bool,
     /// Uniform in `[0, 1)`: which of the patterns this person wears on the feet, by share.
     pub shoe_draw: f64,
 }
 
 /// Mean stature that the measured step lengths belong to, metres.
 const REFERENCE_STATURE_M: f64 = 1.69;
+/// Spread of step lengths among people of one stature.
+const STEP_SPREAD: f64 = 0.05;
+/// Women's step width and toe-out over men's (Murray 1964, 1970).
+const WOMENS_WIDTH: f64 = 7.1 / 8.1;
+const WOMENS_TOE_OUT: f64 = 6.0 / 7.0;
+/// Share of runners who do not land on the heel (Hasegawa, Yamauchi, Kraemer 2007, J. Strength Cond. Res. 21(3)).
+const RUN_ON_BALL: f64 = 0.25;
+
+/// Below this speed people keep their step's duration and shorten the step, metres per second.
+const SHUFFLING_M_S: f64 = 0.4;
+/// No foot is lifted for less, metres.
+const SHORTEST_STEP_M: f64 = 0.12;
 
 /// From this speed on, a stride of one's own is taken in full, metres per second: the slowest of the Grime paper's
 /// people, unhindered.
@@ -101,18 +117,25 @@ pub const STRIDE_SPEED_M_S: f64 = 2.0;
 impl Person {
     /// Step length at a speed, metres.
     ///
-    /// `L = (0.247 + 0.344 v)` times the personal factor, measured on congested and free flow in the Juelich
-    /// recordings; 0.15 m at least, so that shuffling feet still move on. Somebody with a stride of their own keeps it
-    /// from [`STRIDE_SPEED_M_S`] on; below, it shrinks as the measured line does, so that whoever is held up takes
+    /// From 0.4 m/s on `L = 0.247 + 0.344 v` times the personal factor, measured on congested and free flow in the
+    /// Juelich recordings. Below, `L` is in proportion to `v`, so that a step takes as long as at 0.4 m/s however slow
+    /// people are: in dense flow steps get shorter, not rarer (Jelic, Appert-Rolland, Lemercier, Pettre 2012,
+    /// arXiv 1207.0832); 0.12 m at least, as nobody lifts a foot for less. Somebody with a stride of their own keeps
+    /// it from [`STRIDE_SPEED_M_S`] on; below, it shrinks as the measured line does, so that whoever is held up takes
     /// more steps over the same way.
     pub fn step_length_m(&self, speed_m_s: f64) -> f64 {
-        let measured_m = |speed_m_s: f64| 0.247 + 0.344 * speed_m_s.clamp(0.0, 4.0);
         let step_m = match self.fixed_step_m {
-            Some(stride_m) => stride_m * (measured_m(speed_m_s) / measured_m(STRIDE_SPEED_M_S)).min(1.0),
-            None => measured_m(speed_m_s) * self.step_factor,
+            Some(stride_m) => stride_m * (measured_step_m(speed_m_s) / measured_step_m(STRIDE_SPEED_M_S)).min(1.0),
+            None => measured_step_m(speed_m_s) * self.step_factor,
         };
-        step_m.max(0.15)
+        step_m.max(SHORTEST_STEP_M)
     }
+}
+
+/// Mean step length of a crowd at a speed, metres.
+fn measured_step_m(speed_m_s: f64) -> f64 {
+    let line_m = |speed_m_s: f64| 0.247 + 0.344 * speed_m_s.min(4.0);
+    if speed_m_s >= SHUFFLING_M_S { line_m(speed_m_s) } else { line_m(SHUFFLING_M_S) * speed_m_s / SHUFFLING_M_S }
 }
 
 /// Everybody who will ever be there, made on demand.
@@ -150,7 +173,13 @@ impl People {
         let stature_m = if child { statures[2] } else { statures[usize::from(!man)] };
         let (shoulder, depth, foot) = if man { (0.291, 0.145, 0.154) } else { (0.277, 0.152, 0.151) };
         let clearance_m = 0.02 + 0.01 * rng.random::<f64>();
-        let spread = Distribution::normal(1.0, 0.05, 0.85, 1.15).draw(rng);
+        let spread = Distribution::normal(1.0, STEP_SPREAD, 0.85, 1.15).draw(rng);
+        let fixed_step_m = options.step_length.as_ref().map(|d| d.draw(rng));
+        let (width, toe_out) = if man { (1.0, 1.0) } else { (WOMENS_WIDTH, WOMENS_TOE_OUT) };
+        let step_width_m = width * options.step_width.draw(rng);
+        let toe_out_rad = toe_out * options.toe_out_deg.draw(rng).to_radians();
+        let shoe_draw = rng.random();
+        let runs_on_ball = rng.random::<f64>() < RUN_ON_BALL;
         Person {
             id,
             stature_m,
@@ -159,11 +188,12 @@ impl People {
             sole_length_m: foot * stature_m + clearance_m,
             child,
             bag: bag.map(|()| Bag { side }),
-            fixed_step_m: options.step_length.as_ref().map(|d| d.draw(rng)),
+            fixed_step_m,
             step_factor: stature_m / REFERENCE_STATURE_M * spread,
-            step_width_m: options.step_width.draw(rng),
-            toe_out_rad: options.toe_out_deg.draw(rng).to_radians(),
-            shoe_draw: rng.random(),
+            step_width_m,
+            toe_out_rad,
+            runs_on_ball,
+            shoe_draw,
         }
     }
 }
