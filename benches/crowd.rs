@@ -1,7 +1,9 @@
 //! How many people walk a step in a second: a square hall with pillars on a 10 m grid at 0.5 persons per square metre,
 //! half of them on their way to the right, half to the left.
 
-use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
+use std::time::Instant;
+
+use criterion::{Criterion, criterion_group};
 use trodden::crowd::{Crowd, CrowdOptions};
 use trodden::math::{Vec2, vec2};
 use trodden::motion::{BodyOptions, Frame, Motion, People};
@@ -9,8 +11,12 @@ use trodden::plan::FloorPlan;
 use trodden::routes::{Navigation, PlaceRequest, RouteRequest, RoutesOptions};
 use trodden::walls::{Walls, WallsOptions};
 
-/// Steps per measurement.
-const STEPS: u64 = 20;
+/// Persons per square metre.
+const DENSITY: f64 = 0.5;
+/// Steps before anything is measured, steps that are measured, and how often.
+const WARM_UP_STEPS: usize = 20;
+const STEPS: usize = 20;
+const TURNS: usize = 4;
 /// Distance between pillars, and their side, metres.
 const PITCH_M: f64 = 10.0;
 const PILLAR_M: f64 = 2.0;
@@ -30,50 +36,58 @@ fn hall(side_m: f64) -> FloorPlan {
 fn crossing(side_m: f64) -> RoutesOptions {
     let all = PlaceRequest::Area([[0.0, 0.0], [side_m, side_m]]);
     let strip = |x: [f64; 2]| PlaceRequest::Area([[x[0], 0.3], [x[1], side_m - 0.3]]);
-    let route = |to| RouteRequest { name: None, from: all.clone(), to, via: Vec::new(), share: 1.0 };
-    RoutesOptions { routes: vec![route(strip([side_m - 1.5, side_m - 0.3])), route(strip([0.3, 1.5]))] }
+    let route = |to| RouteRequest { name: None, from: all.clone(), to, via: Vec::new(), arrivals: None, share: 1.0 };
+    RoutesOptions {
+        routes: vec![route(strip([side_m - 1.5, side_m - 0.3])), route(strip([0.3, 1.5]))],
+        ..RoutesOptions::default()
+    }
 }
 
-fn steps(c: &mut Criterion) {
-    let mut group = c.benchmark_group("crowd");
+/// Prints how many seconds of how many people's walking a second gives, for crowds of one density, on one thread and
+/// on two: the best of several turns, as the machine may have other things to do.
+fn table() {
+    println!("people   threads  person-steps/s  person-seconds/s  against 1000 people  against 1 thread");
+    let mut first = None;
     for people in [1_000u32, 10_000, 100_000] {
-        let side_m = (f64::from(people) / 0.5).sqrt();
+        let side_m = (f64::from(people) / DENSITY).sqrt();
         let plan = hall(side_m);
         let walls = Walls::trace(&plan, &WallsOptions::default()).expect("a hall has walls");
         let (routes, navigation) = Navigation::find(&plan, &walls, &crossing(side_m)).expect("ways across");
         let options = CrowdOptions { people, entry_seconds: Some(0.0), ..CrowdOptions::commuters() };
         let everybody = People::new(1, BodyOptions::default());
+        let pools = [1, 2].map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build().expect("a pool"));
+        let mut best = [0.0f64; 2];
         let mut frame = Frame::default();
-        group.throughput(Throughput::Elements(STEPS * u64::from(people)));
-        group.sample_size(10);
-        for threads in [1, 2] {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-            group.bench_function(format!("{people} people, {threads} threads"), |b| {
-                let warmed_up = || {
-                    let mut crowd =
-                        Crowd::with_navigation(&plan, &walls, &routes, navigation.clone(), &everybody, &options)
-                            .expect("a crowd");
-                    // Everybody comes in, and gets going.
-                    for _ in 0..30 {
-                        crowd.next_frame(&mut Frame::default()).expect("a step");
+        for _ in 0..TURNS {
+            let mut crowd = Crowd::with_navigation(&plan, &walls, &routes, navigation.clone(), &everybody, &options)
+                .expect("a crowd");
+            // Everybody comes in, and gets going.
+            for _ in 0..WARM_UP_STEPS {
+                crowd.next_frame(&mut frame).expect("a step");
+            }
+            for (pool, best) in pools.iter().zip(&mut best) {
+                let start = Instant::now();
+                let mut walked = 0;
+                pool.install(|| {
+                    for _ in 0..STEPS {
+                        crowd.next_frame(&mut frame).expect("a step");
+                        walked += frame.walkers.len();
                     }
-                    crowd
-                };
-                b.iter_batched_ref(
-                    warmed_up,
-                    |crowd| {
-                        pool.install(|| {
-                            for _ in 0..STEPS {
-                                crowd.next_frame(&mut frame).expect("a step");
-                            }
-                        })
-                    },
-                    BatchSize::PerIteration,
-                );
-            });
+                });
+                *best = best.max(walked as f64 / start.elapsed().as_secs_f64());
+            }
+        }
+        let first = *first.get_or_insert(best[0]);
+        for (threads, rate) in [(1, best[0]), (2, best[1])] {
+            println!(
+                "{people:7} {threads:8} {:11.2} M {:15.0} k {:17.2} {:17.2}",
+                rate * 1e-6,
+                rate * options.time_step * 1e-3,
+                first / best[0],
+                rate / best[0]
+            );
         }
     }
-    group.finish();
 }
 
 fn default_scenario(c: &mut Criterion) {
@@ -101,5 +115,13 @@ fn default_scenario(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, steps, default_scenario);
-criterion_main!(benches);
+criterion_group!(benches, default_scenario);
+
+fn main() {
+    // Without arguments to pick a benchmark: cargo passes --bench.
+    if std::env::args().skip(1).all(|argument| argument == "--bench") {
+        table();
+    }
+    benches();
+    Criterion::default().configure_from_args().final_summary();
+}

@@ -32,6 +32,9 @@ const SAME_PLACE_M: f64 = 1.0;
 /// Everybody's arrival. Person `id` enters in the `id`-th of as many equal parts of the entry time, so that the
 /// stream is even over time and everybody is a function of (seed, id) alone.
 pub(super) fn list(plan: &FloorPlan, routes: &[Route], seed: u64, options: &CrowdOptions) -> Vec<Arrival> {
+    if !options.arrivals.is_default() || routes.iter().any(|route| route.arrivals.is_some()) {
+        return by_timetables(plan, routes, seed, options);
+    }
     let period_s = options.entry_seconds.unwrap_or_else(|| entry_seconds(plan, routes, options));
     let part_s = period_s / f64::from(options.people);
     (0..options.people)
@@ -43,6 +46,71 @@ pub(super) fn list(plan: &FloorPlan, routes: &[Route], seed: u64, options: &Crow
             Arrival { id, time_s, route, from_outside }
         })
         .collect()
+}
+
+/// Everybody's arrival where people come by timetables. Lists of routes take as many people as they name, in the
+/// order of routes; everybody else takes a route by share, and comes when its timetable or the crowd's says. Ids
+/// follow the times.
+fn by_timetables(plan: &FloorPlan, routes: &[Route], seed: u64, options: &CrowdOptions) -> Vec<Arrival> {
+    let people = options.people as usize;
+    let listed = listed(routes, people);
+    let free: Vec<usize> = (0..routes.len()).filter(|&route| listed[route].is_none()).collect();
+    let free_share: f64 = free.iter().map(|&route| routes[route].share).sum();
+    let mut of_lists = listed.iter().enumerate().flat_map(|(route, &count)| vec![route; count.unwrap_or(0)]);
+    let draws: Vec<[f64; 2]> = (0..options.people)
+        .map(|index| {
+            let rng = &mut person_stream(seed, index, Purpose::Arrival);
+            [rng.random(), rng.random()]
+        })
+        .collect();
+    // Who belongs to which route, and to which timetable: the crowd's comes behind those of the routes.
+    let mut members: Vec<Vec<usize>> = vec![Vec::new(); routes.len() + 1];
+    let mut route_of = Vec::with_capacity(people);
+    for (index, draw) in draws.iter().enumerate() {
+        let route = of_lists.next().unwrap_or_else(|| {
+            let mut sum = 0.0;
+            let by_share = free.iter().find(|&&route| {
+                sum += routes[route].share;
+                draw[1] * free_share < sum
+            });
+            by_share.or(free.last()).copied().unwrap_or(0)
+        });
+        route_of.push(route);
+        members[if routes[route].arrivals.is_some() { route } else { routes.len() }].push(index);
+    }
+    let period_s = options.entry_seconds.unwrap_or_else(|| entry_seconds(plan, routes, options));
+    let mut times: Vec<(f64, usize)> = Vec::with_capacity(people);
+    for (route, members) in members.iter().enumerate() {
+        let timetable = routes.get(route).and_then(|route| route.arrivals.as_ref()).unwrap_or(&options.arrivals);
+        let of_members = timetable.times_s(members.len(), period_s, |k| draws[members[k]][0]);
+        times.extend(of_members.into_iter().zip(members.iter().copied()));
+    }
+    times.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let arrival = |(id, (time_s, index)): (usize, (f64, usize))| {
+        let route = route_of[index];
+        Arrival { id: id as u32, time_s, route, from_outside: matches!(routes[route].start, Place::Opening(_)) }
+    };
+    times.into_iter().enumerate().map(arrival).collect()
+}
+
+/// How many people each route's list takes: as many as it names if there are so many, or all of them if nobody else
+/// is left to walk; else its part of them. `None` for routes without a list.
+fn listed(routes: &[Route], people: usize) -> Vec<Option<usize>> {
+    let named: Vec<Option<u64>> = routes.iter().map(|route| route.arrivals.as_ref()?.listed()).collect();
+    let total: u64 = named.iter().flatten().sum();
+    let others = routes.iter().zip(&named).any(|(route, named)| named.is_none() && route.share > 0.0);
+    if total == 0 || others && total <= people as u64 {
+        return named.into_iter().map(|count| count.map(|count| count as usize)).collect();
+    }
+    let (mut before, mut given) = (0u64, 0usize);
+    let part = |count: Option<u64>| {
+        before += count?;
+        let upto = (u128::from(before) * people as u128 / u128::from(total)) as usize;
+        let own = upto - given;
+        given = upto;
+        Some(own)
+    };
+    named.into_iter().map(part).collect()
 }
 
 /// The route that a draw in `[0, 1)` falls on.

@@ -3,8 +3,10 @@
 //! After Moussaid, Helbing and Theraulaz 2011 (doi 10.1073/pnas.1016507108): people choose the direction that, for
 //! what they see, brings them nearest to where they want to go. Lanes in counter flow follow from it.
 
+use wide::f32x8;
+
 use super::neighbours::Neighbours;
-use super::state::{Body, Traits};
+use super::state::Body;
 use crate::math::vec2;
 use crate::routes::Ground;
 use crate::walls::Walls;
@@ -15,40 +17,89 @@ const HORIZON_M: f32 = 4.5;
 const CENTRE_M: f32 = 2.2;
 /// Room that is wanted between two who pass each other, metres beyond their exclusion distance.
 const PASSING_M: f32 = 0.12;
+/// Whoever goes the same way at this share of the own speed need not be gone round.
+const AS_FAST: f32 = 0.9;
+/// Lanes of a vector register.
+const LANES: usize = 8;
 /// Most people who are weighed; more are not taken in at a glance.
-const MOST_WEIGHED: usize = 24;
-/// Headings that are weighed against the straight one: cosine and sine, right before left.
-const HEADINGS: [[f32; 2]; 13] = [
+const MOST_WEIGHED: usize = 48;
+/// Farther away than anything that matters, metres: where unused lanes stand.
+const NOWHERE_M: f32 = 1e3;
+/// Headings that are weighed against the straight one, from the least turn to the largest: cosine and sine.
+const HEADINGS: [[f32; 2]; 9] = [
     [1.0, 0.0],
-    [0.992_546, -0.121_869],
     [0.992_546, 0.121_869],
-    [0.970_296, -0.241_922],
     [0.970_296, 0.241_922],
-    [0.927_184, -0.374_607],
     [0.927_184, 0.374_607],
-    [0.848_048, -0.529_919],
-    [0.848_048, 0.529_919],
-    [0.731_354, -0.681_998],
-    [0.731_354, 0.681_998],
-    [0.5, -0.866_025],
-    [0.5, 0.866_025],
+    [0.857_167, 0.515_038],
+    [0.743_145, 0.669_131],
+    [0.573_576, 0.819_152],
+    [0.342_02, 0.939_693],
+    [0.087_156, 0.996_195],
 ];
+/// Of a new heading, people take this share at once, and the rest at their next looks.
+const TURNING: f32 = 0.7;
 /// Whoever makes less way than this, metres per second, ...
 const BLOCKED_M_S: f32 = 0.15;
-/// ... with somebody against them within this, metres, is blocked.
-const BLOCKING_M: f32 = 0.8;
+/// ... with somebody against them within this, metres beyond their exclusion distance, is blocked.
+const BLOCKING_M: f32 = 0.5;
 /// Extra cost of the left, and of leaving the heading taken before, as shares of the squared horizon.
 const LEFT: f32 = 0.02;
 const CHANGE: f32 = 0.15;
 
-/// Somebody who may get in the way.
-#[derive(Clone, Copy, Debug, Default)]
-struct Other {
-    dx: f32,
-    dy: f32,
-    vx: f32,
-    vy: f32,
-    radius_m: f32,
+/// The turn out of the wanted direction that brings people round others: cosine and sine, counter-clockwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Detour {
+    cos: f32,
+    sin: f32,
+    /// Whether somebody ahead comes the other way.
+    pub(super) against: bool,
+}
+
+impl Detour {
+    /// Straight on.
+    const NONE: Detour = Detour { cos: 1.0, sin: 0.0, against: false };
+
+    /// The direction that this detour from `wanted` leads in.
+    fn of(self, [x, y]: [f32; 2]) -> [f32; 2] {
+        [x * self.cos - y * self.sin, x * self.sin + y * self.cos]
+    }
+
+    /// The heading that somebody with the heading `before` takes towards this detour from `wanted`.
+    pub(super) fn turn(self, wanted: [f32; 2], before: [f32; 2]) -> [f32; 2] {
+        let new = self.of(wanted);
+        let x = before[0] + (new[0] - before[0]) * TURNING;
+        let y = before[1] + (new[1] - before[1]) * TURNING;
+        let length = (x * x + y * y).sqrt();
+        // To turn right round takes no detour over half-way headings.
+        if length > 0.5 { [x / length, y / length] } else { new }
+    }
+}
+
+/// Those whose headings agree with the wanted one at least so well (cosine) go the same way.
+const SAME_WAY: f32 = 0.7;
+/// What it is worth to go round others on the side where people go the same way, as a share of the squared horizon, with an
+/// alignment of 1 per second.
+const JOINING: f32 = 0.15;
+/// How much somebody who comes the other way makes people fall in line.
+const AGAINST: f32 = 5.0;
+
+/// A quantity of everybody who is weighed.
+type Column = [[f32; LANES]; MOST_WEIGHED / LANES];
+
+/// Those who may get in the way, relative to the one who looks.
+struct Others {
+    count: usize,
+    /// On which side those are who go the same way: -1 all on the right, 1 all on the left.
+    company: f32,
+    /// Whether somebody comes the other way.
+    against: bool,
+    dx: Column,
+    dy: Column,
+    vx: Column,
+    vy: Column,
+    /// Squared distance less the squared distance at which the two touch, square metres.
+    gap_m2: Column,
 }
 
 /// What the choice looks at.
@@ -56,39 +107,44 @@ pub(super) struct Sights<'a> {
     pub(super) neighbours: &'a Neighbours,
     pub(super) ground: &'a Ground,
     pub(super) walls: &'a Walls,
+    /// How quickly people take up the line of others, per second.
+    pub(super) alignment: f32,
 }
 
 impl Sights<'_> {
-    /// The heading to take for somebody who wants to go along the unit vector `wanted`.
-    pub(super) fn heading(&self, me: &Body, traits: &Traits, wanted: [f32; 2], before: [f32; 2]) -> [f32; 2] {
-        let mut others = [Other::default(); MOST_WEIGHED];
-        let count = self.in_the_way(me, wanted, &mut others);
-        let others = &others[..count];
-        let speed = traits.speed_m_s;
-        let free = |u: [f32; 2]| {
-            let nearest =
-                others.iter().map(|o| meeting_s(o, [u[0] * speed, u[1] * speed])).fold(f32::INFINITY, f32::min);
-            (nearest * speed).min(HORIZON_M)
-        };
-        let straight = free(wanted);
-        if straight >= HORIZON_M {
-            return wanted;
+    /// The way round others for somebody who wants to go along the unit vector `wanted` at this speed.
+    pub(super) fn detour(&self, me: &Body, speed_m_s: f32, wanted: [f32; 2]) -> Detour {
+        let others = self.in_the_way(me, speed_m_s, wanted);
+        if others.count == 0 {
+            return Detour::NONE;
         }
-        let mut best = (f32::INFINITY, wanted);
+        let before = [me.aim_x, me.aim_y];
+        let mut best = (f32::INFINITY, Detour::NONE);
         for (k, [cos, sin]) in HEADINGS.into_iter().enumerate() {
-            let u = [wanted[0] * cos - wanted[1] * sin, wanted[0] * sin + wanted[1] * cos];
-            let far = if k == 0 { straight } else { free(u) };
-            let cost = |far: f32| {
-                let mut cost = HORIZON_M * HORIZON_M + far * far - 2.0 * HORIZON_M * far * cos;
-                if sin > 0.0 {
-                    cost += LEFT * HORIZON_M * HORIZON_M;
-                }
-                cost + CHANGE * HORIZON_M * HORIZON_M * (1.0 - (u[0] * before[0] + u[1] * before[1]))
-            };
-            if cost(far) < best.0 {
-                let walled = cost(self.free_of_walls_m(me, u, far));
-                if walled < best.0 {
-                    best = (walled, u);
+            // However far this heading led, it and all that turn further would cost more than the best.
+            let least = 2.0 * (1.0 - cos) - self.alignment * JOINING * sin;
+            if least * HORIZON_M * HORIZON_M >= best.0 {
+                break;
+            }
+            for side in [-1.0, 1.0].into_iter().take(if k == 0 { 1 } else { 2 }) {
+                let sin = side * sin;
+                let detour = Detour { cos, sin, against: others.against };
+                let u = detour.of(wanted);
+                let cost = |free_m: f32| {
+                    // Squared distance from where the heading leads to where straight on would lead.
+                    let left_over = HORIZON_M * HORIZON_M + free_m * free_m - 2.0 * HORIZON_M * free_m * cos;
+                    let left = if sin > 0.0 { LEFT } else { 0.0 };
+                    let change = CHANGE * (1.0 - (u[0] * before[0] + u[1] * before[1]));
+                    let joining = self.alignment * JOINING * others.company * sin;
+                    left_over + (left + change - joining) * HORIZON_M * HORIZON_M
+                };
+                let free_m = others.free_m(u, speed_m_s);
+                // Walls are looked up only for headings that would be taken.
+                if cost(free_m) < best.0 {
+                    let cost = cost(self.free_of_walls_m(me, u, free_m));
+                    if cost < best.0 {
+                        best = (cost, detour);
+                    }
                 }
             }
         }
@@ -101,11 +157,11 @@ impl Sights<'_> {
             return false;
         }
         let mut blocked = false;
-        self.neighbours.around(me.x, me.y, |range| {
+        self.neighbours.around(me.x, me.y, |range, shift| {
             for body in &self.neighbours.bodies[range] {
-                let dx = self.neighbours.dx(me.x, body.x);
-                let dy = body.y - me.y;
-                let near = dx * dx + dy * dy < BLOCKING_M * BLOCKING_M;
+                let (dx, dy) = (body.x + shift - me.x, body.y - me.y);
+                let blocking_m = me.half_exclusion_m + body.half_exclusion_m + BLOCKING_M;
+                let near = dx * dx + dy * dy < blocking_m * blocking_m;
                 let ahead = dx * wanted[0] + dy * wanted[1] > 0.0;
                 let against = body.aim_x * wanted[0] + body.aim_y * wanted[1] < -0.3;
                 blocked |= near && ahead && against;
@@ -114,32 +170,57 @@ impl Sights<'_> {
         blocked
     }
 
-    /// Collects those ahead who are not on the same way at the same pace, the first ones found.
-    fn in_the_way(&self, me: &Body, wanted: [f32; 2], others: &mut [Other; MOST_WEIGHED]) -> usize {
-        let mut count = 0;
+    /// Collects those ahead who are not on the same way at the same pace.
+    fn in_the_way(&self, me: &Body, speed_m_s: f32, wanted: [f32; 2]) -> Others {
+        let column = [[0.0; LANES]; MOST_WEIGHED / LANES];
+        let mut others = Others {
+            count: 0,
+            company: 0.0,
+            against: false,
+            dx: column,
+            dy: column,
+            vx: column,
+            vy: column,
+            gap_m2: column,
+        };
         let (cx, cy) = (me.x + wanted[0] * CENTRE_M, me.y + wanted[1] * CENTRE_M);
-        self.neighbours.around(cx, cy, |range| {
+        let (mut left, mut company, mut against) = (0.0, 0.5, 0.0);
+        self.neighbours.around(cx, cy, |range, shift| {
             for body in &self.neighbours.bodies[range] {
-                let dx = self.neighbours.dx(me.x, body.x);
-                let dy = body.y - me.y;
-                let ahead = dx * wanted[0] + dy * wanted[1];
-                let d2 = dx * dx + dy * dy;
-                if ahead <= 0.05 || d2 > HORIZON_M * HORIZON_M || count == MOST_WEIGHED {
+                let (dx, dy) = (body.x + shift - me.x, body.y - me.y);
+                let distance_m2 = dx * dx + dy * dy;
+                let ahead = dx * wanted[0] + dy * wanted[1] > 0.05;
+                let agree = body.aim_x * wanted[0] + body.aim_y * wanted[1];
+                if ahead && agree.abs() > SAME_WAY {
+                    // By how much they are to the left, and nearer ones more.
+                    let weight = 1.0 / (1.0 + distance_m2);
+                    if agree > 0.0 {
+                        left += weight * (wanted[0] * dy - wanted[1] * dx).clamp(-1.0, 1.0);
+                        company += weight;
+                    } else {
+                        against += weight;
+                    }
+                }
+                let as_fast = body.vx * wanted[0] + body.vy * wanted[1] > AS_FAST * speed_m_s;
+                if !ahead || as_fast || distance_m2 > HORIZON_M * HORIZON_M {
                     continue;
                 }
-                let d = d2.sqrt();
-                if d > me.clearance_m + body.clearance_m {
+                let clear_m = me.clearance_m + body.clearance_m;
+                if distance_m2 > clear_m * clear_m {
                     let at = me.position();
                     if !self.ground.sight(self.walls, at, at + vec2(f64::from(dx), f64::from(dy))) {
                         continue;
                     }
                 }
-                let radius_m = me.half_exclusion_m + body.half_exclusion_m + PASSING_M;
-                others[count] = Other { dx, dy, vx: body.vx, vy: body.vy, radius_m };
-                count += 1;
+                let touching_m = me.half_exclusion_m + body.half_exclusion_m + PASSING_M;
+                others.add(dx, dy, body, distance_m2, touching_m);
             }
         });
-        count
+        // Without anybody who comes the other way there is no reason to fall in line.
+        others.company = left / company * (against * AGAINST).min(1.0);
+        others.against = against > 0.0;
+        others.fill_up();
+        others
     }
 
     /// How far the way along `u` is free of walls, at most `far`.
@@ -157,21 +238,116 @@ impl Sights<'_> {
     }
 }
 
-/// Seconds until the two touch if both keep on, infinite if they never do.
-fn meeting_s(other: &Other, velocity: [f32; 2]) -> f32 {
-    let (wx, wy) = (velocity[0] - other.vx, velocity[1] - other.vy);
-    let towards = other.dx * wx + other.dy * wy;
-    if towards <= 0.0 {
-        return f32::INFINITY;
+impl Others {
+    /// Takes in one more; when there is no room for more, in place of the farthest if that is farther.
+    fn add(&mut self, dx: f32, dy: f32, body: &Body, distance_m2: f32, touching_m: f32) {
+        let at = if self.count < MOST_WEIGHED {
+            self.count += 1;
+            self.count - 1
+        } else {
+            let squared = |k: usize| {
+                let (x, y) = (self.dx.as_flattened()[k], self.dy.as_flattened()[k]);
+                x * x + y * y
+            };
+            let farthest = (0..MOST_WEIGHED).max_by(|&a, &b| squared(a).total_cmp(&squared(b))).unwrap_or(0);
+            if squared(farthest) <= distance_m2 {
+                return;
+            }
+            farthest
+        };
+        self.set(at, dx, dy, [body.vx, body.vy], distance_m2 - touching_m * touching_m);
     }
-    let w2 = wx * wx + wy * wy;
-    let gap = other.dx * other.dx + other.dy * other.dy - other.radius_m * other.radius_m;
-    if gap <= 0.0 {
-        return 0.0;
+
+    #[inline]
+    fn set(&mut self, at: usize, dx: f32, dy: f32, [vx, vy]: [f32; 2], gap_m2: f32) {
+        let (row, lane) = (at / LANES, at % LANES);
+        self.dx[row][lane] = dx;
+        self.dy[row][lane] = dy;
+        self.vx[row][lane] = vx;
+        self.vy[row][lane] = vy;
+        self.gap_m2[row][lane] = gap_m2;
     }
-    let discriminant = towards * towards - w2 * gap;
-    if discriminant <= 0.0 {
-        return f32::INFINITY;
+
+    /// Puts somebody whom nobody ever meets into the unused lanes.
+    fn fill_up(&mut self) {
+        for at in self.count..self.count.next_multiple_of(LANES) {
+            self.set(at, NOWHERE_M, 0.0, [0.0; 2], NOWHERE_M * NOWHERE_M);
+        }
     }
-    (towards - discriminant.sqrt()) / w2
+
+    /// How far the heading `u` leads at this speed before somebody is touched, at most [`HORIZON_M`].
+    ///
+    /// Two who move on evenly touch at the first root of `|d + w t| = r`.
+    fn free_m(&self, u: [f32; 2], speed_m_s: f32) -> f32 {
+        let (ux, uy) = (f32x8::splat(u[0] * speed_m_s), f32x8::splat(u[1] * speed_m_s));
+        let never_s = f32x8::splat(HORIZON_M / speed_m_s);
+        let mut first_s = never_s;
+        for row in 0..self.count.div_ceil(LANES) {
+            let (wx, wy) = (ux - f32x8::new(self.vx[row]), uy - f32x8::new(self.vy[row]));
+            let towards = f32x8::new(self.dx[row]) * wx + f32x8::new(self.dy[row]) * wy;
+            let w2 = wx * wx + wy * wy + f32x8::splat(1e-6);
+            let gap_m2 = f32x8::new(self.gap_m2[row]).fast_max(f32x8::ZERO);
+            let discriminant = towards * towards - w2 * gap_m2;
+            let touch_s = (towards - discriminant.fast_max(f32x8::ZERO).sqrt()) / w2;
+            let touches = towards.simd_gt(f32x8::ZERO) & discriminant.simd_gt(f32x8::ZERO);
+            first_s = first_s.fast_min(touches.bitselect(touch_s, never_s));
+        }
+        let first_s = first_s.to_array().into_iter().fold(f32::INFINITY, f32::min);
+        (first_s * speed_m_s).clamp(0.0, HORIZON_M)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn others(list: &[[f32; 4]]) -> Others {
+        let column = [[0.0; LANES]; MOST_WEIGHED / LANES];
+        let mut others = Others {
+            count: 0,
+            company: 0.0,
+            against: false,
+            dx: column,
+            dy: column,
+            vx: column,
+            vy: column,
+            gap_m2: column,
+        };
+        for &[dx, dy, vx, vy] in list {
+            others.add(dx, dy, &Body { vx, vy, ..Body::default() }, dx * dx + dy * dy, 0.5);
+        }
+        others.fill_up();
+        others
+    }
+
+    #[test]
+    fn headings_have_length_one_and_turn_ever_further() {
+        assert!(HEADINGS.iter().all(|[cos, sin]| (cos * cos + sin * sin - 1.0).abs() < 1e-4));
+        assert!(HEADINGS.is_sorted_by(|a, b| a[0] > b[0]));
+    }
+
+    #[test]
+    fn somebody_who_stands_ahead_is_reached_where_the_discs_touch() {
+        let stands = others(&[[3.0, 0.0, 0.0, 0.0]]);
+        assert!((stands.free_m([1.0, 0.0], 1.5) - 2.5).abs() < 1e-3);
+        assert_eq!(stands.free_m([0.0, 1.0], 1.5), HORIZON_M);
+    }
+
+    #[test]
+    fn somebody_who_comes_is_met_half_way_and_who_leaves_is_not_met() {
+        assert!((others(&[[3.0, 0.0, -1.5, 0.0]]).free_m([1.0, 0.0], 1.5) - 1.25).abs() < 1e-3);
+        assert_eq!(others(&[[3.0, 0.0, 1.5, 0.0]]).free_m([1.0, 0.0], 1.4), HORIZON_M);
+        // Whoever is touched already leaves no way towards them, and all ways away from them.
+        let touched = others(&[[0.4, 0.0, 0.0, 0.0]]);
+        assert_eq!(touched.free_m([1.0, 0.0], 1.0), 0.0);
+        assert_eq!(touched.free_m([-1.0, 0.0], 1.0), HORIZON_M);
+    }
+
+    #[test]
+    fn with_more_people_than_are_weighed_the_nearest_count() {
+        let far: Vec<[f32; 4]> = (0..60).map(|k| [4.0, 0.05 * k as f32 - 1.5, 0.0, 0.0]).collect();
+        let mut list = far.clone();
+        list.push([1.0, 0.0, 0.0, 0.0]);
+        assert!((others(&list).free_m([1.0, 0.0], 1.0) - 0.5).abs() < 1e-3);
+    }
 }

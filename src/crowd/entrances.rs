@@ -2,10 +2,11 @@
 
 use std::collections::VecDeque;
 
+use super::Stuck;
 use super::arrivals::Arrival;
-use super::simulation::{Crowd, Parts, Stuck};
-use super::state::{Body, Course, Traits};
-use super::steering::used;
+use super::simulation::{Crowd, Parts};
+use super::state::{Body, Course, Heading, Traits};
+use super::steering::entry_place;
 use crate::math::{Purpose, SplitMix64, Vec2, person_stream, vec2};
 use crate::routes::{Place, Route};
 
@@ -18,6 +19,8 @@ const ENTRY_ROOM_M: f32 = 0.25;
 const TRIES: usize = 4;
 /// People of one queue who try in each step.
 const HEADS: usize = 4;
+/// The same where everybody starts at once: between two looks at who stands where.
+const MOST_AT_ONCE: usize = 1024;
 /// If nobody gets in for so many times the patience, all who wait are stuck.
 const PATIENCE_LIMIT: f64 = 5.0;
 
@@ -69,7 +72,7 @@ impl Entrances {
 
     /// Lets in whoever is due and finds room.
     pub(super) fn admit(&mut self, crowd: &mut Crowd<'_>, time_s: f64) {
-        let mut parts = crowd.parts();
+        let parts = crowd.parts();
         while let Some(&arrival) = parts.arrivals.get(self.next_arrival).filter(|a| a.time_s <= time_s) {
             let rng = &mut person_stream(parts.seed, arrival.id, Purpose::Arrival);
             rng.set_word_pos(16); // behind the draws of the arrival list
@@ -80,10 +83,20 @@ impl Entrances {
             queue.waiting.push_back(Waiting { arrival, tries: SplitMix64::new(rand::RngExt::random(rng)) });
             self.next_arrival += 1;
         }
+        let at_once = parts.options.entry_seconds == Some(0.0);
+        while self.admit_heads(&mut crowd.parts(), time_s) && at_once {
+            crowd.neighbours.rebuild(&crowd.bodies);
+        }
+    }
+
+    /// Lets in some of those who are at the heads of their queues; says whether somebody got in.
+    fn admit_heads(&mut self, parts: &mut Parts<'_, '_>, time_s: f64) -> bool {
         let present = parts.bodies.len();
+        let at_once = parts.options.entry_seconds == Some(0.0);
+        let heads = if at_once { (present / 4).clamp(HEADS, MOST_AT_ONCE) } else { HEADS };
         for queue in &mut self.queues {
             let mut head = 0;
-            for _ in 0..HEADS.min(queue.waiting.len()) {
+            for _ in 0..heads.min(queue.waiting.len()) {
                 let entered = parts.try_to_enter(&mut queue.waiting[head], present, time_s);
                 if entered {
                     queue.waiting.remove(head);
@@ -97,11 +110,11 @@ impl Entrances {
                 for waiting in queue.waiting.drain(..) {
                     let route = waiting.arrival.route;
                     let place_m = parts.steering.routes[route].gates.first().map_or(Vec2::ZERO, |g| g.at(0.5));
-                    parts.tally.stuck.push(Stuck { id: waiting.arrival.id, place_m, route });
+                    parts.tally.stuck.push(Stuck { id: waiting.arrival.id, place_m, route, stop: None });
                 }
             }
         }
-        parts.sort_newcomers(present);
+        parts.bodies.len() > present
     }
 }
 
@@ -130,12 +143,8 @@ impl Parts<'_, '_> {
         match self.steering.routes[route].start {
             Place::Opening(index) => {
                 let opening = self.plan.openings.get(index)?;
-                let gate = self.steering.routes[route].gates.first()?;
-                let (_, _, at) = used(gate, traits);
-                let out = opening.side.outward();
                 let depth_m = APPEAR_M[0] + (APPEAR_M[1] - APPEAR_M[0]) * draws[0];
-                let edge = at - out * (at - opening.from_m).dot(out);
-                Some(edge + out * depth_m)
+                Some(entry_place(opening, traits) + opening.side.outward() * depth_m)
             }
             Place::Area(_) => {
                 let cells = &self.steering.navigation.ways[route].start_cells;
@@ -158,7 +167,7 @@ impl Parts<'_, '_> {
             dx * dx + dy * dy >= wanted * wanted
         };
         let mut room = self.bodies[present..].iter().all(&free);
-        self.neighbours.around(x, y, |range| {
+        self.neighbours.around(x, y, |range, _| {
             room = room && self.neighbours.slots[range].iter().all(|&slot| free(&self.bodies[slot as usize]));
         });
         room
@@ -184,18 +193,27 @@ impl Parts<'_, '_> {
         let mut course = Course {
             id,
             route: route as u32,
-            gate: 0,
+            leg: 0,
             least_left_m: f32::INFINITY,
             improved_s: time_s,
             end_m,
+            wanted: [1.0, 0.0],
+            looks: 0,
             pace: 1.0,
+            heading: Heading::new(1.0, 0.0),
+            arrived: false,
+            arrived_before: 0,
+            yields_s: 0.0,
             blocked_s: 0.0,
+            errand: self.stops.enter(self.seed, id, route),
         };
         self.steering.advance(&mut course, p, time_s);
         let gate = self.steering.routes[route].gates.first();
         let ahead = gate.and_then(|g| (g.right_m - g.left_m).left().normalized()).unwrap_or(vec2(1.0, 0.0));
         let aim = self.steering.aim(&course, &traits, p, ahead, time_s);
         let (aim_x, aim_y) = (aim.x as f32, aim.y as f32);
+        course.heading = Heading::new(aim_x, aim_y);
+        course.wanted = [aim_x, aim_y];
         self.bodies.push(Body {
             x: p.x as f32,
             y: p.y as f32,
@@ -209,17 +227,5 @@ impl Parts<'_, '_> {
         self.traits.push(traits);
         self.courses.push(course);
         self.tally.entered += 1;
-    }
-
-    /// Puts newcomers where their ids belong: somebody who waited comes in behind higher ids.
-    fn sort_newcomers(&mut self, present: usize) {
-        if self.courses[present.saturating_sub(1)..].is_sorted_by_key(|c| c.id) {
-            return;
-        }
-        let mut order: Vec<usize> = (0..self.courses.len()).collect();
-        order.sort_by_key(|&slot| self.courses[slot].id);
-        *self.bodies = order.iter().map(|&slot| self.bodies[slot]).collect();
-        *self.traits = order.iter().map(|&slot| self.traits[slot]).collect();
-        *self.courses = order.iter().map(|&slot| self.courses[slot]).collect();
     }
 }

@@ -32,6 +32,14 @@ pub enum CrowdError {
         /// Largest value allowed.
         high: f64,
     },
+    /// A timetable that says nothing sensible.
+    #[error("crowd: arrivals: {key}: {problem}")]
+    Timetable {
+        /// The key, as a scenario writes it.
+        key: &'static str,
+        /// What is wrong.
+        problem: String,
+    },
     /// No routes to walk.
     #[error("crowd: there is no route to walk")]
     NoRoutes,
@@ -49,7 +57,7 @@ impl CrowdError {
                 Some("write a number, a range [0.28, 0.36], or { mean = 1.34, sd = 0.26, min = 0.6, max = 2.1 }".into())
             }
             CrowdError::Routes(e) => e.hint(),
-            CrowdError::Number { .. } | CrowdError::NoRoutes => None,
+            CrowdError::Number { .. } | CrowdError::Timetable { .. } | CrowdError::NoRoutes => None,
         }
     }
 }

@@ -4,7 +4,8 @@
 //! Takes routes and people; gives a [`Motion`](crate::motion::Motion). Each step is a pure function of the state before it, so that
 //! neither the order of people nor the number of threads matters. In a step, everybody
 //!
-//! 1. looks for the way: the straightest one through the gates ahead ([`steering`](self)),
+//! 1. looks for the way: along the flow that spreads people over all sensible ways ([`steering`](self)); whoever is at a
+//!    stop, or on the way to one, for their place there ([`stops`](self)),
 //! 2. looks around: whom they make way for (*separation*, below an acceptable distance that shrinks as density
 //!    grows), whose heading they take up (*alignment*), and how dense the floor ahead is, which limits their speed,
 //! 3. moves, is moved out of other bodies (*exclusion distance*), and last and exactly out of walls.
@@ -15,13 +16,19 @@ mod entrances;
 mod error;
 mod neighbours;
 mod options;
+mod roll;
+mod seen;
 mod simulation;
 mod state;
 mod steering;
+mod stops;
 mod surroundings;
+mod tally;
 mod walking;
 
 pub use arrivals::Arrival;
 pub use error::CrowdError;
 pub use options::{CrowdOptions, SpeedLaw};
-pub use simulation::{Crowd, Stuck, Tally};
+pub use simulation::Crowd;
+pub use stops::{StopTally, Visit};
+pub use tally::{Stuck, Tally};

@@ -1,10 +1,12 @@
 //! Who is near whom: bodies sorted into a uniform grid, rebuilt every step.
 
+use std::ops::Range;
+
 use super::state::Body;
 use crate::math::Rect;
 
 /// Bodies by grid cell. Cells run row by row, bodies in a cell by slot, so that the order is the same however the
-/// work is split.
+/// work is split; the cells of a row lie side by side, so that a neighbourhood is one stretch for each row.
 #[derive(Debug, Default)]
 pub(super) struct Neighbours {
     origin: [f32; 2],
@@ -13,14 +15,15 @@ pub(super) struct Neighbours {
     rows: usize,
     /// Whether the columns go round.
     period_x_m: Option<f32>,
+    /// Where each cell begins, and the end behind the last.
     starts: Vec<u32>,
-    counts: Vec<u32>,
-    touched: Vec<u32>,
     cell_of_slot: Vec<u32>,
     /// Bodies in the order of cells.
     pub(super) bodies: Vec<Body>,
     /// The slot that each of them has.
     pub(super) slots: Vec<u32>,
+    /// And the other way round: where among them each slot's body is.
+    pub(super) index_of_slot: Vec<u32>,
 }
 
 impl Neighbours {
@@ -41,8 +44,7 @@ impl Neighbours {
             columns,
             rows,
             period_x_m,
-            starts: vec![0; columns * rows],
-            counts: vec![0; columns * rows],
+            starts: vec![0; columns * rows + 1],
             ..Neighbours::default()
         }
     }
@@ -55,64 +57,73 @@ impl Neighbours {
 
     /// Sorts the bodies anew.
     pub(super) fn rebuild(&mut self, bodies: &[Body]) {
-        for &cell in &self.touched {
-            self.counts[cell as usize] = 0;
-        }
-        self.touched.clear();
-        self.cell_of_slot.clear();
-        for body in bodies {
+        let mut cells = std::mem::take(&mut self.cell_of_slot);
+        cells.clear();
+        cells.extend(bodies.iter().map(|body| {
             let [column, row] = self.column_row(body.x, body.y);
-            let cell = row * self.columns + column;
-            self.cell_of_slot.push(cell as u32);
-            if self.counts[cell] == 0 {
-                self.touched.push(cell as u32);
-            }
-            self.counts[cell] += 1;
+            (row * self.columns + column) as u32
+        }));
+        // Counting sort: how many there are in each cell, where each cell ends, then each body to its place.
+        self.starts.fill(0);
+        for &cell in &cells {
+            self.starts[cell as usize] += 1;
         }
-        // The order of cells matters for speed and for the order of sums.
-        self.touched.sort_unstable();
-        let mut start = 0;
-        for &cell in &self.touched {
-            self.starts[cell as usize] = start;
-            start += self.counts[cell as usize];
-            self.counts[cell as usize] = 0;
+        let mut sum = 0;
+        for start in &mut self.starts {
+            sum += *start;
+            *start = sum;
         }
         self.bodies.resize(bodies.len(), Body::default());
         self.slots.resize(bodies.len(), 0);
-        for (slot, &cell) in self.cell_of_slot.iter().enumerate() {
-            let place = (self.starts[cell as usize] + self.counts[cell as usize]) as usize;
-            self.counts[cell as usize] += 1;
+        self.index_of_slot.resize(bodies.len(), 0);
+        // Backwards, so that each cell's end walks back to its beginning and slots stay in order.
+        for (slot, &cell) in cells.iter().enumerate().rev() {
+            let start = &mut self.starts[cell as usize];
+            *start -= 1;
+            let place = *start as usize;
             self.bodies[place] = bodies[slot];
             self.slots[place] = slot as u32;
+            self.index_of_slot[slot] = place as u32;
         }
+        self.cell_of_slot = cells;
     }
 
-    /// Calls `visit` with the ranges of [`Neighbours::bodies`] in the nine cells around a place.
+    /// Calls `visit` with the stretches of [`Neighbours::bodies`] in the nine cells around a place, and what is to be
+    /// added to their x to have them where they are seen from there: a period, on its other side.
     #[inline]
-    pub(super) fn around(&self, x: f32, y: f32, mut visit: impl FnMut(std::ops::Range<usize>)) {
+    pub(super) fn around(&self, x: f32, y: f32, mut visit: impl FnMut(Range<usize>, f32)) {
+        let mut base_shift = 0.0;
+        let mut x = x;
+        if let Some(period) = self.period_x_m {
+            // A place ahead may lie beyond the end.
+            base_shift = if x >= period {
+                period
+            } else if x < 0.0 {
+                -period
+            } else {
+                0.0
+            };
+            x -= base_shift;
+        }
         let [column, row] = self.column_row(x, y);
+        let last = self.columns - 1;
         for row in row.saturating_sub(1)..=(row + 1).min(self.rows - 1) {
             let base = row * self.columns;
-            let mut cell = |column: usize| {
-                let cell = base + column;
-                let count = self.counts[cell] as usize;
-                if count > 0 {
-                    let start = self.starts[cell] as usize;
-                    visit(start..start + count);
-                }
+            let mut stretch = |from: usize, to: usize, shift: f32| {
+                let range = self.starts[base + from] as usize..self.starts[base + to + 1] as usize;
+                visit(range, base_shift + shift);
             };
-            if self.period_x_m.is_some() {
-                cell((column + self.columns - 1) % self.columns);
-                cell(column);
-                cell((column + 1) % self.columns);
-            } else {
-                if column > 0 {
-                    cell(column - 1);
+            match self.period_x_m {
+                // Round the period: the column on the other side is a stretch of its own.
+                Some(period) if column == 0 => {
+                    stretch(last, last, -period);
+                    stretch(0, 1, 0.0);
                 }
-                cell(column);
-                if column + 1 < self.columns {
-                    cell(column + 1);
+                Some(period) if column == last => {
+                    stretch(last - 1, last, 0.0);
+                    stretch(0, 0, period);
                 }
+                _ => stretch(column.saturating_sub(1), (column + 1).min(last), 0.0),
             }
         }
     }
@@ -125,6 +136,46 @@ impl Neighbours {
             Some(period) if dx > 0.5 * period => dx - period,
             Some(period) if dx < -0.5 * period => dx + period,
             _ => dx,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{Vec2, vec2};
+
+    fn body(x: f32, y: f32) -> Body {
+        Body { x, y, ..Body::default() }
+    }
+
+    #[test]
+    fn everybody_near_is_found_once_and_the_sorting_keeps_them_all() {
+        let area = Rect { min: Vec2::ZERO, max: vec2(20.0, 10.0) };
+        for period in [None, Some(20.0f32)] {
+            let mut grid = Neighbours::new(area, 2.0, period);
+            for count in [0usize, 1, 700] {
+                let bodies: Vec<Body> =
+                    (0..count).map(|k| body((k as f32 * 7.31) % 20.0, (k as f32 * 3.77) % 10.0)).collect();
+                grid.rebuild(&bodies);
+                for (slot, me) in bodies.iter().enumerate() {
+                    assert_eq!(grid.slots[grid.index_of_slot[slot] as usize] as usize, slot);
+                    assert_eq!(grid.bodies[grid.index_of_slot[slot] as usize], *me);
+                    let mut seen = vec![0; count];
+                    grid.around(me.x, me.y, |range, shift| {
+                        for index in range {
+                            seen[grid.slots[index] as usize] += 1;
+                            let dx = grid.bodies[index].x + shift - me.x;
+                            assert!((dx - grid.dx(me.x, grid.bodies[index].x)).abs() < 1e-4 || dx.abs() > 2.0);
+                        }
+                    });
+                    for (other, &times) in bodies.iter().zip(&seen) {
+                        let (dx, dy) = (grid.dx(me.x, other.x), other.y - me.y);
+                        let near = dx * dx + dy * dy < 4.0;
+                        assert!(times <= 1 && (!near || times == 1), "seen {times} times at {dx}, {dy}");
+                    }
+                }
+            }
         }
     }
 }

@@ -3,6 +3,7 @@ use serde::{Deserialize, Serialize};
 use super::CrowdError;
 use crate::math::Distribution;
 use crate::motion::BodyOptions;
+use crate::routes::Timetable;
 
 /// More people than this are a mistake: the arrival list alone would take gigabytes.
 const MOST_PEOPLE: u32 = 5_000_000;
@@ -25,11 +26,15 @@ pub struct CrowdOptions {
     pub wall_exclusion: Distribution,
     /// People keep this far off walls if they can; it shrinks in gaps.
     pub wall_acceptable: Distribution,
+    /// How quickly people take up the line of those who go the same way, per second (alignment, Reynolds 1987).
+    pub alignment: f64,
     /// The most people who enter in a second, per metre of opening.
     pub entry_rate: f64,
     /// Seconds over which people enter; left out, as many as [`CrowdOptions::entry_rate`] asks for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub entry_seconds: Option<f64>,
+    /// When people come, unless their route has a timetable of its own.
+    pub arrivals: Timetable,
     /// Whoever has made no way for so many seconds, while nobody else arrives either, is stuck.
     pub patience_seconds: f64,
     /// Time step, seconds.
@@ -70,9 +75,11 @@ impl CrowdOptions {
             exclusion: Distribution::Uniform([0.28, 0.36]),
             acceptable: Distribution::Uniform([0.7, 1.1]),
             wall_exclusion: Distribution::Uniform([0.16, 0.24]),
-            wall_acceptable: Distribution::Uniform([0.35, 0.75]),
+            wall_acceptable: Distribution::Uniform([0.3, 0.65]),
+            alignment: 0.6,
             entry_rate: 0.3,
             entry_seconds: None,
+            arrivals: Timetable::default(),
             patience_seconds: 120.0,
             time_step: 0.1,
             end_seconds: None,
@@ -123,6 +130,7 @@ impl CrowdOptions {
         if self.people == 0 || self.people > MOST_PEOPLE {
             return Err(CrowdError::People { people: self.people, most: MOST_PEOPLE });
         }
+        self.arrivals.check().map_err(|(key, problem)| CrowdError::Timetable { key, problem })?;
         let distributions = [
             ("speed", &self.speed, 0.1, 6.0),
             ("exclusion", &self.exclusion, 0.05, 1.5),
@@ -134,6 +142,7 @@ impl CrowdOptions {
             distribution.check(low, high).map_err(|source| CrowdError::Distribution { name, source })?;
         }
         let numbers = [
+            ("alignment", Some(self.alignment), 0.0, 5.0),
             ("entry_rate", Some(self.entry_rate), 1e-3, 1e3),
             ("entry_seconds", self.entry_seconds, 0.0, 1e6),
             ("patience_seconds", Some(self.patience_seconds), 5.0, 1e5),
@@ -155,7 +164,7 @@ const LINEAR_JAM: f64 = 4.0;
 /// Density at which Weidmann's law comes to rest, persons per square metre.
 const WEIDMANN_JAM: f64 = 5.4;
 /// Nobody gets slower than this by density alone, metres per second: an arch before a door must dissolve.
-pub(super) const LEAST_SPEED_M_S: f32 = 0.05;
+pub(super) const LEAST_SPEED_M_S: f32 = 0.08;
 
 /// A speed law as a table over density.
 #[derive(Clone, Debug)]

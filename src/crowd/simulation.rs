@@ -1,3 +1,6 @@
+use std::sync::atomic::AtomicBool;
+use std::sync::atomic::Ordering::Relaxed;
+
 use rayon::prelude::*;
 
 use super::arrivals::{self, Arrival};
@@ -5,11 +8,15 @@ use super::avoidance::Sights;
 use super::entrances::Entrances;
 use super::neighbours::Neighbours;
 use super::options::SpeedTable;
+use super::roll;
+use super::seen::Seen;
 use super::state::{Body, Course, Traits};
 use super::steering::Steering;
-use super::surroundings::{SENSE_M, Surroundings};
-use super::walking::{Move, Scene, Seen, off_walls};
-use super::{CrowdError, CrowdOptions};
+use super::stops::{Stops, Surface, Visit};
+use super::surroundings::{OPEN_M, SENSE_M, Surroundings};
+use super::tally::{Tally, Trail};
+use super::walking::{Move, Scene};
+use super::{CrowdError, CrowdOptions, Stuck};
 use crate::Error;
 use crate::math::{Rect, Vec2, vec2};
 use crate::motion::{Frame, Motion, People, Walker};
@@ -17,16 +24,21 @@ use crate::plan::FloorPlan;
 use crate::routes::{Navigation, Route};
 use crate::walls::{APRON_M, Walls};
 
+mod correcting;
+mod leaving;
+
 /// How often people look for their way, seconds.
-const LOOK_S: f64 = 0.4;
-/// Rounds of moving bodies apart and out of walls in each step.
-const CORRECTIONS: usize = 4;
+const LOOK_S: f64 = 0.5;
+/// With no wall nearer than this, metres, ...
+const OPEN_GROUND_M: f32 = 1.2;
+/// ... people look for their way only every so many times that they look out for others.
+const OPEN_GROUND_LOOKS: u8 = 2;
+/// Whoever met somebody who came the other way does not return to their own lane for so long, seconds.
+const YIELDS_S: f32 = 6.0;
+/// Steps after which everybody is put in the order of the grid.
+const ORDER_STEPS: u64 = 16;
 /// Bodies per piece of parallel work.
 const CHUNK: usize = 128;
-/// Without any way made for so many times the patience, somebody is stuck even while others arrive.
-const PATIENCE_LIMIT: f64 = 5.0;
-/// How often the crowd looks for stuck people, seconds.
-const STUCK_CHECK_S: f64 = 1.0;
 
 /// People walking along routes, step by step.
 pub struct Crowd<'a> {
@@ -40,7 +52,7 @@ pub struct Crowd<'a> {
     entrances: Entrances,
     speeds: SpeedTable,
     surroundings: Surroundings,
-    /// Everybody present by ascending id: bodies, traits, courses.
+    /// Everybody present: bodies, traits, courses, roughly in the order of the grid.
     pub(super) bodies: Vec<Body>,
     pub(super) traits: Vec<Traits>,
     pub(super) courses: Vec<Course>,
@@ -48,39 +60,15 @@ pub struct Crowd<'a> {
     moves: Vec<Move>,
     /// Corrected places in the order of the neighbours' grid, and the next round's.
     places: [Vec<[f32; 2]>; 2],
+    /// Slots in the order of ids, made anew for every frame.
+    by_id: Vec<u32>,
     step: u64,
-    last_arrived_s: Vec<f64>,
+    /// Whether somebody arrived in this step.
+    some_arrived: bool,
+    /// For each route, who went before.
+    trails: Vec<Trail>,
+    stops: Stops,
     tally: Tally,
-}
-
-/// What became of everybody.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Tally {
-    /// How many entered.
-    pub entered: u64,
-    /// How many reached their goal.
-    pub arrived: u64,
-    /// Who made no way any more and was taken out.
-    pub stuck: Vec<Stuck>,
-}
-
-/// Somebody who made no way any more.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct Stuck {
-    /// Who.
-    pub id: u32,
-    /// Where, metres.
-    pub place_m: Vec2,
-    /// Index of the route.
-    pub route: usize,
-}
-
-impl Stuck {
-    /// Says who and where.
-    pub fn describe(&self, routes: &[Route]) -> String {
-        let route = routes.get(self.route).map_or("unknown", |route| &route.name);
-        format!("person {} of route \"{route}\" got stuck at [{:.2}, {:.2}]", self.id, self.place_m.x, self.place_m.y)
-    }
 }
 
 impl<'a> Crowd<'a> {
@@ -117,6 +105,8 @@ impl<'a> Crowd<'a> {
             return Err(CrowdError::NoRoutes);
         }
         let seed = people.seed();
+        let surface = Surface { plan, walls, ground: &navigation.ground };
+        let keep_m = options.wall_exclusion.bounds()[1] + 0.02;
         let area = Rect { min: Vec2::ZERO, max: vec2(plan.width_m(), plan.height_m()) }.grown(APRON_M);
         Ok(Crowd {
             arrivals: arrivals::list(plan, routes, seed, options),
@@ -129,8 +119,11 @@ impl<'a> Crowd<'a> {
             courses: Vec::new(),
             moves: Vec::new(),
             places: [Vec::new(), Vec::new()],
+            by_id: Vec::new(),
             step: 0,
-            last_arrived_s: vec![0.0; routes.len()],
+            some_arrived: false,
+            trails: vec![Trail::default(); routes.len()],
+            stops: Stops::new(surface, routes, &navigation, keep_m),
             tally: Tally::default(),
             plan,
             walls,
@@ -148,7 +141,22 @@ impl<'a> Crowd<'a> {
 
     /// What became of everybody so far.
     pub fn tally(&self) -> Tally {
-        self.tally.clone()
+        Tally { stops: self.stops.tally(), ..self.tally.clone() }
+    }
+
+    /// Keeps every visit of a stop that ends from now on, for [`Crowd::visits`]: memory grows with them.
+    pub fn keep_visits(&mut self) {
+        self.stops.keep_visits();
+    }
+
+    /// Every visit of a stop that ended since [`Crowd::keep_visits`], in the order of their ends.
+    pub fn visits(&self) -> &[Visit] {
+        self.stops.visits()
+    }
+
+    /// Who has got stuck so far.
+    pub fn stuck(&self) -> &[Stuck] {
+        &self.tally.stuck
     }
 
     /// Seconds since the start.
@@ -171,6 +179,8 @@ impl<'a> Crowd<'a> {
     pub fn advance(&mut self) {
         self.skip_idle_time();
         self.neighbours.rebuild(&self.bodies);
+        self.put_in_order();
+        self.look_after_stops();
         self.look();
         self.choose_moves();
         self.correct();
@@ -189,8 +199,23 @@ impl<'a> Crowd<'a> {
         }
     }
 
-    fn steering(&self) -> Steering<'_> {
-        Steering { plan: self.plan, walls: self.walls, routes: self.routes, navigation: &self.navigation }
+    /// Now and then, puts everybody in the order of the grid, so that who is near in space is near in memory.
+    fn put_in_order(&mut self) {
+        if !self.step.is_multiple_of(ORDER_STEPS) {
+            return;
+        }
+        let slots = &self.neighbours.slots;
+        self.bodies.clone_from(&self.neighbours.bodies);
+        self.traits = slots.iter().map(|&slot| self.traits[slot as usize]).collect();
+        self.courses = slots.iter().map(|&slot| self.courses[slot as usize]).collect();
+        self.neighbours.rebuild(&self.bodies);
+    }
+
+    /// Serves whoever is at a stop.
+    fn look_after_stops(&mut self) {
+        let surface = Surface { plan: self.plan, walls: self.walls, ground: &self.navigation.ground };
+        let clock = (self.step, self.options.time_step);
+        self.stops.update(clock, surface, &self.navigation, &self.bodies, &mut self.courses);
     }
 
     /// Everybody whose turn it is looks for the way.
@@ -200,18 +225,36 @@ impl<'a> Crowd<'a> {
         let look_s = every as f32 * self.options.time_step as f32;
         let steering =
             Steering { plan: self.plan, walls: self.walls, routes: self.routes, navigation: &self.navigation };
-        let sights = Sights { neighbours: &self.neighbours, ground: &self.navigation.ground, walls: self.walls };
+        let sights = Sights {
+            neighbours: &self.neighbours,
+            ground: &self.navigation.ground,
+            walls: self.walls,
+            alignment: self.options.alignment as f32,
+        };
+        let stops = &self.stops;
         let look = |((body, course), traits): ((&mut Body, &mut Course), &Traits)| {
-            if !(u64::from(course.id) + step).is_multiple_of(every) {
+            // Who stands or queues keeps to the spot more closely than who walks to the way.
+            let halves = if course.errand.is_some() { 2 } else { 1 };
+            if !(u64::from(course.id) + step).is_multiple_of((every / halves).max(1)) {
                 return;
             }
-            let p = body.position();
-            steering.advance(course, p, time_s);
-            let last = vec2(f64::from(body.aim_x), f64::from(body.aim_y));
-            let aim = steering.aim(course, traits, p, last, time_s);
-            let wanted = [aim.x as f32, aim.y as f32];
-            [body.aim_x, body.aim_y] = sights.heading(body, traits, wanted, [body.aim_x, body.aim_y]);
-            course.pace = steering.pace(course, p);
+            if let Some(errand) = course.errand {
+                stops.steer(&errand, (body, course, traits), &sights, time_s, look_s / halves as f32);
+                return;
+            }
+            course.looks = course.looks.wrapping_add(1);
+            if body.clearance_m < OPEN_GROUND_M || course.looks.is_multiple_of(OPEN_GROUND_LOOKS) {
+                let p = body.position();
+                steering.advance(course, p, time_s);
+                let last = vec2(f64::from(body.aim_x), f64::from(body.aim_y));
+                let aim = steering.aim(course, traits, p, last, time_s);
+                course.wanted = [aim.x as f32, aim.y as f32];
+                course.pace = steering.pace(course, p);
+            }
+            let wanted = course.wanted;
+            let detour = sights.detour(body, traits.speed_m_s, wanted);
+            [body.aim_x, body.aim_y] = detour.turn(wanted, [body.aim_x, body.aim_y]);
+            course.yields_s = if detour.against { YIELDS_S } else { course.yields_s - look_s };
             let blocked_s = if sights.is_blocked(body, wanted) { look_s } else { -4.0 * look_s };
             course.blocked_s = (course.blocked_s + blocked_s).max(0.0);
             body.half_exclusion_m = 0.5 * traits.exclusion_m * course.squeeze();
@@ -232,6 +275,7 @@ impl<'a> Crowd<'a> {
             ground: &self.navigation.ground,
             walls: self.walls,
             speeds: &self.speeds,
+            alignment: self.options.alignment as f32,
             dt: self.options.time_step as f32,
         };
         let (traits, courses) = (&self.traits, &self.courses);
@@ -247,55 +291,57 @@ impl<'a> Crowd<'a> {
         });
     }
 
-    /// Moves bodies apart where they overlap, and out of walls, which have the last word.
-    fn correct(&mut self) {
-        let [now, next] = &mut self.places;
-        now.clear();
-        now.extend(self.moves.iter().map(|m| [m.x, m.y]));
-        next.resize(now.len(), [0.0; 2]);
-        let (moves, neighbours) = (&self.moves, &self.neighbours);
-        let (ground, walls) = (&self.navigation.ground, self.walls);
-        for _ in 0..CORRECTIONS {
-            let before: &[[f32; 2]] = now;
-            in_chunks(next, |start, places| {
-                for (k, place) in places.iter_mut().enumerate() {
-                    let index = start + k;
-                    let from = neighbours.bodies[index].position();
-                    let pushed = apart(index, &moves[index], before, neighbours);
-                    let to = vec2(f64::from(pushed[0]), f64::from(pushed[1]));
-                    let free = off_walls(ground, walls, from, to, f64::from(moves[index].wall_limit_m));
-                    *place = [free.x as f32, free.y as f32];
-                }
-            });
-            std::mem::swap(now, next);
-        }
-    }
-
-    /// Takes up the corrected places.
+    /// Takes up the corrected places, and notes who has arrived.
     fn take_places(&mut self) {
         let dt = self.options.time_step as f32;
+        let time_s = (self.step + 1) as f64 * self.options.time_step;
         let period = self.options.period_x.map(|p| p as f32);
+        let steering =
+            Steering { plan: self.plan, walls: self.walls, routes: self.routes, navigation: &self.navigation };
         let ground = &self.navigation.ground;
-        for (index, &slot) in self.neighbours.slots.iter().enumerate() {
-            let body = &mut self.bodies[slot as usize];
-            let [x, y] = self.places[0][index];
-            let (vx, vy) = ((x - body.x) / dt, (y - body.y) / dt);
+        let places = &self.places[0];
+        let some_arrived = AtomicBool::new(false);
+        let take = |(((body, course), traits), &index): (((&mut Body, &mut Course), &Traits), &u32)| {
+            let [x, y] = places[index as usize];
+            let (dx, dy) = (x - body.x, y - body.y);
+            let (vx, vy) = (dx / dt, dy / dt);
             // Being pushed makes nobody run.
-            let most = 1.1 * self.traits[slot as usize].speed_m_s;
+            let most = 1.1 * traits.speed_m_s;
             let speed = (vx * vx + vy * vy).sqrt();
             let ease = if speed > most { most / speed } else { 1.0 };
             (body.vx, body.vy) = (vx * ease, vy * ease);
             (body.x, body.y) = (x, y);
+            course.turn(body, dt);
             if let Some(period) = period
                 && !(0.0..period).contains(&x)
             {
                 body.x = if x < 0.0 { x + period } else { x - period };
-                let course = &mut self.courses[slot as usize];
-                course.gate = 0;
+                course.leg = 0;
                 course.least_left_m = f32::INFINITY;
+                body.clearance_m = 0.0;
             }
-            body.clearance_m = ground.clearance_at_least_m(body.position()) as f32;
+            // However it moved, no wall has come nearer than this.
+            body.clearance_m -= speed * dt + 1e-3;
+            if body.clearance_m < OPEN_M {
+                body.clearance_m = ground.clearance_at_least_m(body.position()) as f32;
+            }
+            course.arrived =
+                course.errand.is_none() && steering.has_arrived(course, body.position(), speed.min(most), time_s);
+            if course.arrived {
+                some_arrived.store(true, Relaxed);
+            }
+        };
+        let mut bodies = std::mem::take(&mut self.bodies);
+        let mut courses = std::mem::take(&mut self.courses);
+        let (traits, indices) = (&self.traits, &self.neighbours.index_of_slot);
+        if bodies.len() < 2 * CHUNK {
+            bodies.iter_mut().zip(&mut courses).zip(traits).zip(indices).for_each(take);
+        } else {
+            let people = bodies.par_iter_mut().zip(&mut courses).zip(traits).zip(indices);
+            people.with_min_len(CHUNK).for_each(take);
         }
+        (self.bodies, self.courses) = (bodies, courses);
+        self.some_arrived = some_arrived.into_inner();
     }
 
     /// Lets those enter who are due and find room.
@@ -304,46 +350,6 @@ impl<'a> Crowd<'a> {
         let mut entrances = std::mem::take(&mut self.entrances);
         entrances.admit(self, time_s);
         self.entrances = entrances;
-    }
-
-    /// Takes out those who have arrived, and those who are stuck.
-    fn let_go(&mut self) {
-        let time_s = self.time_s();
-        let patience_s = self.options.patience_seconds;
-        let check_steps = (STUCK_CHECK_S / self.options.time_step).round().max(1.0) as u64;
-        let check_stuck = self.step.is_multiple_of(check_steps);
-        let mut keep = vec![true; 0];
-        let steering = self.steering();
-        let mut arrived = Vec::new();
-        let mut stuck = Vec::new();
-        for (body, course) in self.bodies.iter().zip(&self.courses) {
-            let route = course.route as usize;
-            let speed = (body.vx * body.vx + body.vy * body.vy).sqrt();
-            let idle_s = time_s - course.improved_s;
-            let mut stays = true;
-            if steering.has_arrived(course, body.position(), speed, time_s) {
-                arrived.push(route);
-                stays = false;
-            } else if check_stuck && idle_s > patience_s {
-                let others_wait_too = time_s - self.last_arrived_s[route] > patience_s;
-                if others_wait_too || idle_s > PATIENCE_LIMIT * patience_s {
-                    stuck.push(Stuck { id: course.id, place_m: body.position(), route });
-                    stays = false;
-                }
-            }
-            keep.push(stays);
-        }
-        if arrived.is_empty() && stuck.is_empty() {
-            return;
-        }
-        for route in arrived {
-            self.tally.arrived += 1;
-            self.last_arrived_s[route] = time_s;
-        }
-        self.tally.stuck.extend(stuck);
-        retain(&mut self.bodies, &keep);
-        retain(&mut self.traits, &keep);
-        retain(&mut self.courses, &keep);
     }
 
     pub(super) fn parts(&mut self) -> Parts<'_, 'a> {
@@ -362,6 +368,7 @@ impl<'a> Crowd<'a> {
             traits: &mut self.traits,
             courses: &mut self.courses,
             neighbours: &self.neighbours,
+            stops: &mut self.stops,
             tally: &mut self.tally,
         }
     }
@@ -378,6 +385,7 @@ pub(super) struct Parts<'s, 'a> {
     pub(super) traits: &'s mut Vec<Traits>,
     pub(super) courses: &'s mut Vec<Course>,
     pub(super) neighbours: &'s Neighbours,
+    pub(super) stops: &'s mut Stops,
     pub(super) tally: &'s mut Tally,
 }
 
@@ -388,11 +396,16 @@ impl Motion for Crowd<'_> {
         }
         self.advance();
         frame.time_s = self.time_s();
+        roll::call(&self.courses, &mut self.by_id);
         frame.walkers.clear();
-        frame.walkers.extend(self.bodies.iter().zip(&self.courses).map(|(body, course)| Walker {
-            id: course.id,
-            position_m: body.position(),
-            velocity_m_s: vec2(f64::from(body.vx), f64::from(body.vy)),
+        frame.walkers.extend(self.by_id.iter().map(|&slot| {
+            let (body, course) = (&self.bodies[slot as usize], &self.courses[slot as usize]);
+            Walker {
+                id: course.id,
+                position_m: body.position(),
+                velocity_m_s: vec2(f64::from(body.vx), f64::from(body.vy)),
+                heading: Some(course.heading.into_vec()),
+            }
         }));
         Ok(true)
     }
@@ -403,36 +416,6 @@ impl Motion for Crowd<'_> {
     }
 }
 
-/// The place of a body after it and its neighbours have each given half of their overlap.
-fn apart(index: usize, own: &Move, places: &[[f32; 2]], neighbours: &Neighbours) -> [f32; 2] {
-    let [x, y] = places[index];
-    let half_m = neighbours.bodies[index].half_exclusion_m;
-    let (mut px, mut py, mut count) = (0.0f32, 0.0f32, 0.0f32);
-    for &other in &own.contacts[..own.contact_count as usize] {
-        let other = other as usize;
-        let [ox, oy] = places[other];
-        let (dx, dy) = (neighbours.dx(x, ox), oy - y);
-        let exclusion_m = half_m + neighbours.bodies[other].half_exclusion_m;
-        let d2 = dx * dx + dy * dy;
-        if d2 >= exclusion_m * exclusion_m {
-            continue;
-        }
-        let d = d2.sqrt();
-        // Two in one place part along x, the first one to the left.
-        let (nx, ny) = if d > 1e-5 { (dx / d, dy / d) } else { (if index < other { 1.0 } else { -1.0 }, 0.0) };
-        let push = 0.5 * (exclusion_m - d);
-        px -= push * nx;
-        py -= push * ny;
-        count += 1.0;
-    }
-    if count == 0.0 {
-        return [x, y];
-    }
-    // Several pushes at once overshoot: in part they say the same.
-    let ease = 1.1 / (0.6 + 0.4 * count).max(1.0);
-    [x + px * ease, y + py * ease]
-}
-
 /// Runs `work` on pieces of a slice, side by side if there are enough, with the index at which each begins.
 fn in_chunks<T: Send>(items: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
     if items.len() < 2 * CHUNK {
@@ -440,9 +423,4 @@ fn in_chunks<T: Send>(items: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
     } else {
         items.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, items)| work(chunk * CHUNK, items));
     }
-}
-
-fn retain<T>(items: &mut Vec<T>, keep: &[bool]) {
-    let mut keep = keep.iter();
-    items.retain(|_| keep.next().copied().unwrap_or(true));
 }

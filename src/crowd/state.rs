@@ -3,6 +3,7 @@
 use crate::math::{Distribution, Purpose, Vec2, person_stream, vec2};
 
 use super::CrowdOptions;
+use super::stops::Errand;
 
 /// What others see of a person.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -67,21 +68,41 @@ impl Traits {
 pub(super) struct Course {
     pub(super) id: u32,
     pub(super) route: u32,
-    /// The next gate; as many as there are gates once all are passed.
-    pub(super) gate: u32,
+    /// Which leg of the route, counted from 0.
+    pub(super) leg: u32,
     /// The least distance left so far, metres, legs behind included.
     pub(super) least_left_m: f32,
     /// When that was last improved, seconds.
     pub(super) improved_s: f64,
     /// Where in a goal area the person vanishes, metres; for openings, x is the depth beyond the edge.
     pub(super) end_m: Vec2,
+    /// Unit vector along the way, as last looked up.
+    pub(super) wanted: [f32; 2],
+    /// How often the person has looked around.
+    pub(super) looks: u8,
     /// Share of the speed that the person wants now: less when about to stop.
     pub(super) pace: f32,
+    /// Where the body faces.
+    pub(super) heading: Heading,
+    /// Whether the person has arrived, and is about to be taken out.
+    pub(super) arrived: bool,
+    /// How many of the route had arrived when this person last made way.
+    pub(super) arrived_before: u64,
+    /// For how long yet the person walks wherever those who come the other way leave room, seconds.
+    pub(super) yields_s: f32,
     /// For how long somebody who comes the other way has been in the way, seconds.
     pub(super) blocked_s: f32,
+    /// What the person does who is at a stop or on the way to one; nobody else has one.
+    pub(super) errand: Option<Errand>,
 }
 
 impl Course {
+    /// Turns the body where it goes, or where it faces while it stands or shuffles.
+    pub(super) fn turn(&mut self, body: &Body, dt: f32) {
+        let faced = self.errand.and_then(|errand| errand.faces(body.x, body.y));
+        self.heading.follow(body, faced.unwrap_or([body.aim_x, body.aim_y]), dt);
+    }
+
     /// Share of the exclusion distance that the person claims: those who block each other turn sideways after a while
     /// and squeeze past, as in a passage for one.
     pub(super) fn squeeze(&self) -> f32 {
@@ -95,3 +116,45 @@ const SQUEEZE_AFTER_S: f32 = 4.0;
 const SQUEEZE_OVER_S: f32 = 8.0;
 /// ... down to this share of their exclusion distance.
 const SQUEEZED: f32 = 0.35;
+
+/// Whoever is faster than this faces the way that they go, metres per second; whoever stands, where they want to go.
+const WALKING_M_S: f32 = 0.25;
+/// A body turns at most this fast, radians per second: half a turn takes 1.3 s.
+const FASTEST_TURN_RAD_S: f32 = 2.4;
+
+/// Where a body faces: a unit vector.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Heading {
+    x: f32,
+    y: f32,
+}
+
+impl Heading {
+    pub(super) fn new(x: f32, y: f32) -> Heading {
+        Heading { x, y }
+    }
+
+    pub(super) fn into_vec(self) -> Vec2 {
+        vec2(f64::from(self.x), f64::from(self.y))
+    }
+
+    /// Turns where the body goes, or to `faced` while it stands, as far as it gets in `dt` seconds.
+    pub(super) fn follow(&mut self, body: &Body, faced: [f32; 2], dt: f32) {
+        let speed = (body.vx * body.vx + body.vy * body.vy).sqrt();
+        let wanted = if speed > WALKING_M_S { [body.vx / speed, body.vy / speed] } else { faced };
+        let cos = self.x * wanted[0] + self.y * wanted[1];
+        let most = FASTEST_TURN_RAD_S * dt;
+        // The cosine's series: exact enough for the angle of one step.
+        let square = most * most;
+        let most_cos = 1.0 - square * (0.5 - square / 24.0);
+        if cos >= most_cos {
+            *self = Heading::new(wanted[0], wanted[1]);
+            return;
+        }
+        let side = if self.x * wanted[1] - self.y * wanted[0] < 0.0 { -1.0 } else { 1.0 };
+        let sin = side * (1.0 - most_cos * most_cos).max(0.0).sqrt();
+        let (x, y) = (self.x * most_cos - self.y * sin, self.x * sin + self.y * most_cos);
+        let length = (x * x + y * y).sqrt().max(1e-6);
+        *self = Heading::new(x / length, y / length);
+    }
+}

@@ -1,34 +1,45 @@
-//! Where people want to go: the straightest way through the gates ahead.
+//! Where people want to go: along the flow that spreads them over all sensible ways, see [`Flow`](crate::routes).
 
 use super::state::{Course, Traits};
-use crate::math::{Vec2, vec2};
-use crate::plan::FloorPlan;
-use crate::routes::{Gate, Navigation, Place, Route, Way};
+use crate::math::Vec2;
+use crate::plan::{FloorPlan, Opening};
+use crate::routes::{Field, Flow, Leg, Navigation, Place, Route, Way};
 use crate::walls::Walls;
 
-/// How far people look ahead along their way, metres and gates.
-const LOOK_AHEAD_M: f64 = 10.0;
-const GATES_AHEAD: usize = 8;
-/// How far they check that the straight way is free, metres.
-const SIGHT_M: f64 = 3.0;
-/// From its favourite place across the way a person strays by up to this share of the room on either side, to cut
-/// a corner or to walk straight. Nobody's favourite place then ends up at a wall, and lanes keep their order.
-const STRAYING: f64 = 0.45;
-/// Of a way's width at most this share on either side is left to the walls.
-const MARGIN_SHARE: f64 = 0.2;
-/// Gates are laid this far off the walls already, metres.
-const GATE_MARGIN_M: f64 = 0.16;
-/// A gate counts as passed by those who are this much nearer to the goal than it is, metres.
-const PASSED_M: f64 = 1.0;
-/// People who find themselves this much farther than the gate behind them look for their gate anew, metres.
-const LOST_M: f64 = 2.5;
+/// A place between start and goal counts as passed from this walking distance on, metres.
+const PASSED_M: f64 = 0.3;
+/// People look so far ahead along the flow, metres: it swerves into every niche, they do not ...
+const AHEAD_M: f64 = 2.4;
+/// ... in so many pieces, and in more of them where walls are near.
+const PIECES: usize = 3;
+const PIECES_AT_WALLS: usize = 6;
+/// Clearance from which on no wall is near, metres.
+const OPEN_M: f64 = 2.0;
+/// Distance kept from corners, metres.
+const CORNER_M: f64 = 0.4;
+/// People drift towards their lane so that they would reach it in this distance, metres, by at most this slope.
+const LANE_REACH_M: f64 = 6.0;
+const MOST_SLOPE: f64 = 0.2;
+/// The width of the way is measured so far before and behind a person, metres.
+const BESIDE_M: f64 = 2.5;
+/// With walls farther off than this, metres, there are no lanes.
+const WIDEST_M: f64 = 6.0;
 /// Following the distance field, people aim at the place that is this far down it, metres.
 const FIELD_AIM_M: f64 = 1.2;
-
-/// Without way made for so long, seconds, people follow the distance field.
+/// Whoever has made no way for so long, seconds, has no business elsewhere in a goal area any more.
 const AT_A_LOSS_S: f64 = 3.0;
+/// Without way made people follow the shortest way instead of the flow for the last part of each such time, seconds.
+const RETHINK_S: f64 = 15.0;
+const RETHOUGHT_S: f64 = 10.0;
+/// Those who block each other step to their right by up to this slope, reached after so many seconds.
+const MOST_ASIDE: f64 = 0.7;
+const ASIDE_S: f64 = 2.0;
+/// From this walking distance to the goal's edge people in sight of their place in it go straight there, metres.
+const HOMING_M: f64 = 2.5;
 /// From this distance on people slow down towards the place where they stop, metres.
 const EASING_M: f64 = 1.2;
+/// At most this share of a way's width on either side is left to the walls.
+const MARGIN_SHARE: f64 = 0.15;
 
 /// A plan's routes with all that leads along them.
 pub(super) struct Steering<'a> {
@@ -43,52 +54,38 @@ impl Steering<'_> {
         &self.navigation.ways[course.route as usize]
     }
 
-    fn gates(&self, course: &Course) -> &[Gate] {
-        &self.routes[course.route as usize].gates
+    fn leg(&self, course: &Course) -> Leg {
+        let legs = &self.way(course).legs;
+        legs[(course.leg as usize).min(legs.len() - 1)]
     }
 
-    /// Distance left on the leg that leads to a gate (the last leg behind the last gate), metres.
-    fn left_on_leg(&self, course: &Course, gate: usize, p: Vec2) -> f64 {
-        let way = self.way(course);
-        let leg = way.gate_leg.get(gate).map_or(way.legs.len() - 1, |&l| l as usize);
-        self.navigation.fields[way.legs[leg]].at(&self.navigation.ground, p)
+    fn field(&self, course: &Course) -> &Field {
+        &self.navigation.fields[self.leg(course).field]
     }
 
-    /// Notes the gates that were passed, and how far the person has come.
+    fn flow(&self, course: &Course) -> &Flow {
+        &self.navigation.flows[self.leg(course).flow]
+    }
+
+    fn is_on_last_leg(&self, course: &Course) -> bool {
+        course.leg as usize + 1 >= self.way(course).legs.len()
+    }
+
+    /// Walking distance to the end of the leg, metres.
+    fn left_m(&self, course: &Course, p: Vec2) -> f64 {
+        self.field(course).at(&self.navigation.ground, p)
+    }
+
+    /// Goes on to the next leg where one is done, and notes how far the person has come.
     pub(super) fn advance(&self, course: &mut Course, p: Vec2, time_s: f64) {
-        let gates = self.gates(course);
-        let way = self.way(course);
-        let mut gate = course.gate as usize;
-        let mut left = self.left_on_leg(course, gate, p);
-        while let Some(next) = gates.get(gate) {
-            let (ahead, across) = place_at(next, p);
-            let beside_m = (across - across.clamp(0.0, 1.0)).abs() * next.width_m();
-            let of_gate = gate_distance(&way.gate_distance_m[gate], across);
-            let near_goal = left < of_gate - PASSED_M;
-            if !(ahead >= 0.0 && beside_m < 1.0 && (left - of_gate).abs() < 4.0 || near_goal) {
-                break;
-            }
-            gate += 1;
-            if way.gate_leg.get(gate) != way.gate_leg.get(gate - 1) {
-                left = self.left_on_leg(course, gate, p);
-            }
+        let mut left_m = self.left_m(course, p);
+        while left_m < PASSED_M && !self.is_on_last_leg(course) {
+            course.leg += 1;
+            left_m = self.left_m(course, p);
         }
-        // Pushed or carried back behind earlier gates of this leg.
-        let leg = way.gate_leg.get(gate).or(way.gate_leg.last());
-        let behind_m = |g: usize| left - gate_distance(&way.gate_distance_m[g], place_at(&gates[g], p).1);
-        let can_go_back = |g: usize| left.is_finite() && g > 0 && way.gate_leg.get(g - 1) == leg;
-        if can_go_back(gate) && behind_m(gate - 1) > LOST_M {
-            while can_go_back(gate) && behind_m(gate - 1) > 0.3 {
-                gate -= 1;
-            }
-        }
-        if left <= 0.0 && way.gate_leg.get(gate).is_none_or(|&l| l as usize + 1 == way.legs.len()) {
-            gate = gates.len(); // there
-        }
-        course.gate = gate as u32;
-        let legs_left = way.legs.len() - 1 - way.gate_leg.get(gate).map_or(way.legs.len() - 1, |&l| l as usize);
+        let legs_left = self.way(course).legs.len() - 1 - course.leg as usize;
         // Legs ahead count for more than any plan is long, so that the sum falls at every turn.
-        let total = (left + legs_left as f64 * 1e4) as f32;
+        let total = (left_m + legs_left as f64 * 1e4) as f32;
         if total < course.least_left_m - 0.3 {
             course.least_left_m = total;
             course.improved_s = time_s;
@@ -97,31 +94,78 @@ impl Steering<'_> {
 
     /// The unit vector in which the person wants to walk.
     pub(super) fn aim(&self, course: &Course, traits: &Traits, p: Vec2, last: Vec2, time_s: f64) -> Vec2 {
-        let gates = self.gates(course);
-        let next = (course.gate as usize).min(gates.len());
-        let straight = match gates.get(next) {
-            Some(_) => straightest(&gates[next..], traits, p),
-            None => self.to_the_end(course, p, last),
-        };
-        let (direction, distance_m) = straight;
-        // Who gets no farther on the straight way tries the sure one.
-        let at_a_loss = time_s - course.improved_s > AT_A_LOSS_S && next < gates.len();
-        let checked = p + direction * distance_m.min(SIGHT_M);
-        let ground = &self.navigation.ground;
-        // As near to walls as the person may come, but those who stand nearer already may walk on.
-        let keep_m = f64::from(traits.wall_exclusion_m).min(ground.gap_limit_m(p));
-        let margin_m = (0.9 * keep_m).min(ground.clearance_at_least_m(p)).max(0.08);
-        if !at_a_loss && ground.is_free(self.walls, p, checked, margin_m) {
-            return direction;
+        if let Some(end) = self.to_the_end(course, traits, p) {
+            return end;
         }
-        self.down_the_field(course, next, p).unwrap_or(last)
+        // Who gets no farther in the flow tries the shortest way.
+        let at_a_loss = (time_s - course.improved_s) % RETHINK_S > RETHOUGHT_S;
+        let flow = if at_a_loss {
+            None
+        } else {
+            self.along_the_flow(course, p).map(|aim| self.towards_lane(course, traits, p, aim))
+        };
+        let aim = flow.or_else(|| self.down_the_field(course, p)).unwrap_or(last);
+        give_way(aim, course.blocked_s)
+    }
+
+    /// Direction of a place some way along the flow, in sight.
+    fn along_the_flow(&self, course: &Course, p: Vec2) -> Option<Vec2> {
+        let ground = &self.navigation.ground;
+        let flow = self.flow(course);
+        let open = ground.clearance_at_least_m(p) > OPEN_M;
+        let pieces = if open { PIECES } else { PIECES_AT_WALLS };
+        let step_m = AHEAD_M / pieces as f64;
+        // Nobody cuts a corner closer than that, but those who stand nearer to a wall may walk on.
+        let margin_m = CORNER_M.min(0.9 * ground.clearance_at_least_m(p)).max(0.05);
+        let first = flow.at(ground, p)?;
+        let mut at = p + first * step_m;
+        for _ in 1..pieces {
+            let Some(ahead) = flow.at(ground, at) else { break };
+            let next = at + ahead * step_m;
+            if !open && !ground.is_free(self.walls, p, next, margin_m) {
+                break;
+            }
+            at = next;
+        }
+        (at - p).normalized()
+    }
+
+    /// Lets the way lead towards the share of a corridor's width that the person likes best: after a bend people spread
+    /// again. In halls, and at crossings, there is no width to share.
+    fn towards_lane(&self, course: &Course, traits: &Traits, p: Vec2, aim: Vec2) -> Vec2 {
+        if course.yields_s > 0.0 {
+            return aim;
+        }
+        let across = aim.left();
+        // As wide as the way is before and behind: a niche is no part of it.
+        let [before, behind] = [p - aim * BESIDE_M, p + aim * BESIDE_M];
+        let room = |side| Some(self.room_m(before, side)?.min(self.room_m(behind, side)?));
+        let [Some(left_m), Some(right_m)] = [across, -across].map(room) else { return aim };
+        let width_m = left_m + right_m;
+        let margin_m = f64::from(traits.wall_acceptable_m).min(MARGIN_SHARE * width_m);
+        let liked_m = margin_m + f64::from(traits.lane) * (width_m - 2.0 * margin_m);
+        let slope = ((left_m - liked_m) / LANE_REACH_M).clamp(-MOST_SLOPE, MOST_SLOPE);
+        (aim + across * slope).normalized().unwrap_or(aim)
+    }
+
+    /// Distance of the wall in a direction, metres, if it is no farther than corridors are wide.
+    fn room_m(&self, p: Vec2, direction: Vec2) -> Option<f64> {
+        let ground = &self.navigation.ground;
+        let mut done_m = 0.0;
+        while done_m < WIDEST_M {
+            let free_m = ground.clearance_at_least_m(p + direction * done_m);
+            if free_m < 0.1 {
+                // As far as the lower bound falls short of the clearance.
+                return Some(done_m + 0.2);
+            }
+            done_m += free_m;
+        }
+        None
     }
 
     /// Direction of a place some way down the distance field, in sight.
-    fn down_the_field(&self, course: &Course, gate: usize, p: Vec2) -> Option<Vec2> {
-        let way = self.way(course);
-        let leg = way.gate_leg.get(gate).map_or(way.legs.len() - 1, |&l| l as usize);
-        let field = &self.navigation.fields[way.legs[leg]];
+    fn down_the_field(&self, course: &Course, p: Vec2) -> Option<Vec2> {
+        let field = self.field(course);
         let ground = &self.navigation.ground;
         let step = 0.15;
         let mut at = p;
@@ -137,123 +181,76 @@ impl Steering<'_> {
         aim
     }
 
-    /// Behind the last gate: out of the plan, or to the place where the person vanishes. Direction and distance.
-    fn to_the_end(&self, course: &Course, p: Vec2, last: Vec2) -> (Vec2, f64) {
+    /// Direction out of the plan for those who have reached their opening, or to the place where the person vanishes for
+    /// those who are near and see it.
+    fn to_the_end(&self, course: &Course, traits: &Traits, p: Vec2) -> Option<Vec2> {
+        if !self.is_on_last_leg(course) || f64::from(course.least_left_m) > HOMING_M + 1.0 {
+            return None;
+        }
+        let left_m = self.left_m(course, p);
         match self.routes[course.route as usize].goal {
-            Place::Opening(index) => (self.plan.openings.get(index).map_or(last, |o| o.side.outward()), 0.5),
-            Place::Area(_) => ((course.end_m - p).normalized().unwrap_or(last), course.end_m.distance(p)),
+            Place::Opening(index) if left_m <= 0.0 => self.plan.openings.get(index).map(|o| o.side.outward()),
+            Place::Area(_) if left_m <= HOMING_M => {
+                let ground = &self.navigation.ground;
+                let margin_m = f64::from(traits.wall_exclusion_m).min(ground.gap_limit_m(p));
+                let margin_m = (0.9 * margin_m).min(ground.clearance_at_least_m(p)).max(0.08);
+                let free = left_m <= 0.0 || ground.is_free(self.walls, p, course.end_m, margin_m);
+                (course.end_m - p).normalized().filter(|_| free)
+            }
+            _ => None,
         }
     }
 
     /// Share of the speed that the person wants: all of it on the way, less where the end is near.
     pub(super) fn pace(&self, course: &Course, p: Vec2) -> f32 {
-        let at_the_end = course.gate as usize >= self.gates(course).len();
         match self.routes[course.route as usize].goal {
-            Place::Area(_) if at_the_end => ((course.end_m.distance(p) / EASING_M) as f32).clamp(0.3, 1.0),
+            Place::Area(_) if self.is_on_last_leg(course) => {
+                ((course.end_m.distance(p) / EASING_M) as f32).clamp(0.3, 1.0)
+            }
             _ => 1.0,
         }
     }
 
     /// Whether the person has arrived.
     pub(super) fn has_arrived(&self, course: &Course, p: Vec2, speed_m_s: f32, time_s: f64) -> bool {
+        if !self.is_on_last_leg(course) {
+            return false;
+        }
         match self.routes[course.route as usize].goal {
             Place::Opening(index) => {
                 let Some(opening) = self.plan.openings.get(index) else { return true };
-                let way = self.way(course);
-                let on_last_leg =
-                    way.gate_leg.get(course.gate as usize).is_none_or(|&l| l as usize + 1 == way.legs.len());
                 let along = (opening.to_m - opening.from_m) / opening.width_m().max(1e-9);
                 let beside = !(0.0..=opening.width_m()).contains(&(p - opening.from_m).dot(along));
-                on_last_leg && !beside && (p - opening.from_m).dot(opening.side.outward()) > course.end_m.x
+                !beside && (p - opening.from_m).dot(opening.side.outward()) > course.end_m.x
             }
             Place::Area([min, max]) => {
-                if course.gate as usize + 1 < self.gates(course).len() {
-                    return false;
-                }
                 let inside = p.x >= min.x && p.x <= max.x && p.y >= min.y && p.y <= max.y;
                 let at_place = p.distance(course.end_m) < 0.4;
                 // Where others or a chair stand in the way, being there is enough.
                 let hindered = speed_m_s < 0.15 || time_s - course.improved_s > AT_A_LOSS_S;
-                at_place || inside && hindered
+                at_place || inside && hindered && self.left_m(course, p) < 0.3
             }
         }
     }
 }
 
-/// Where a point lies relative to a gate: metres behind it (ahead of those who come), and the share across, 0 at the
-/// left end.
-fn place_at(gate: &Gate, p: Vec2) -> (f64, f64) {
-    let across = gate.right_m - gate.left_m;
-    let squared = across.length_squared();
-    if squared < 1e-9 {
-        return (0.0, 0.5);
+/// Whoever is in the way of somebody who comes the other way keeps to the right, the more the longer it takes.
+fn give_way(aim: Vec2, blocked_s: f32) -> Vec2 {
+    if blocked_s <= 0.0 {
+        return aim;
     }
-    let ahead = across.left();
-    ((p - gate.left_m).dot(ahead) / squared.sqrt(), (p - gate.left_m).dot(across) / squared)
+    let right = -aim.left() * (MOST_ASIDE * (f64::from(blocked_s) / ASIDE_S).min(1.0));
+    (aim + right).normalized().unwrap_or(aim)
 }
 
-/// A gate's distance from the goal at a share of its width.
-fn gate_distance([left, middle, right]: &[f32; 3], across: f64) -> f64 {
-    let across = across.clamp(0.0, 1.0) as f32;
-    f64::from(if across < 0.5 {
-        left + (middle - left) * 2.0 * across
-    } else {
-        middle + (right - middle) * (2.0 * across - 1.0)
-    })
-}
-
-/// The part of a gate that a person uses: both ends, and the favourite place.
-pub(super) fn used(gate: &Gate, traits: &Traits) -> (Vec2, Vec2, Vec2) {
-    let keep_m = (f64::from(traits.wall_acceptable_m) - GATE_MARGIN_M).max(0.0);
-    let margin = (keep_m / gate.width_m().max(0.01)).min(MARGIN_SHARE);
+/// The place at an opening's edge where a person likes to enter: in the own lane, off the walls by as much as the person
+/// likes.
+pub(super) fn entry_place(opening: &Opening, traits: &Traits) -> Vec2 {
+    let width_m = opening.width_m();
+    let margin = (f64::from(traits.wall_acceptable_m) / width_m.max(0.01)).min(MARGIN_SHARE);
     let share = margin + f64::from(traits.lane) * (1.0 - 2.0 * margin);
-    let left = share - STRAYING * (share - margin);
-    let right = share + STRAYING * (1.0 - margin - share);
-    (gate.at(left), gate.at(right), gate.at(share))
-}
-
-/// Direction of the straightest way through the parts of gates that the person uses, and the distance for which it
-/// is straight.
-///
-/// The visible cone is narrowed gate by gate, as in the funnel algorithm (Lee and Preparata 1984, doi
-/// 10.1002/net.3230140304). Where the next gate lies beside the cone, the way bends at the cone's border; where
-/// none does, it leads to the favourite place at the farthest gate, as far as the cone allows.
-fn straightest(gates: &[Gate], traits: &Traits, p: Vec2) -> (Vec2, f64) {
-    let (left, right, middle) = used(&gates[0], traits);
-    let mut cone = (left - p, right - p);
-    let mut target = middle - p;
-    for gate in gates.iter().take(GATES_AHEAD).skip(1) {
-        let (left, right, middle) = used(gate, traits);
-        let (left, right) = (left - p, right - p);
-        if cone.0.cross(right) > 0.0 && cone.0.dot(right) > 0.0 {
-            return direction_to(cone.0, target);
-        }
-        if cone.1.cross(left) < 0.0 && cone.1.dot(left) > 0.0 {
-            return direction_to(cone.1, target);
-        }
-        if middle.distance(p) > LOOK_AHEAD_M || target.dot(middle - p) < 0.0 {
-            break;
-        }
-        if cone.0.cross(left) < 0.0 {
-            cone.0 = left;
-        }
-        if cone.1.cross(right) > 0.0 {
-            cone.1 = right;
-        }
-        target = middle - p;
-    }
-    if cone.0.cross(target) > 0.0 && cone.0.dot(target) > 0.0 {
-        return direction_to(cone.0, target);
-    }
-    if cone.1.cross(target) < 0.0 && cone.1.dot(target) > 0.0 {
-        return direction_to(cone.1, target);
-    }
-    direction_to(target, target)
-}
-
-fn direction_to(way: Vec2, otherwise: Vec2) -> (Vec2, f64) {
-    match way.normalized() {
-        Some(unit) if way.length() > 0.1 => (unit, way.length()),
-        _ => (otherwise.normalized().unwrap_or(vec2(1.0, 0.0)), 0.1),
-    }
+    // Lanes count from the left of those who come in.
+    let left = (-opening.side.outward()).left();
+    let from_left = (opening.to_m - opening.from_m).dot(left) < 0.0;
+    opening.from_m.lerp(opening.to_m, if from_left { share } else { 1.0 - share })
 }

@@ -25,13 +25,16 @@ pub(super) struct Surroundings {
 
 /// Weight of a place at a squared distance: `(1 - r2 / R2)^2`, 0 from [`SENSE_M`] on.
 #[inline]
-pub(super) fn kernel(squared_m2: f32) -> f32 {
+fn kernel(squared_m2: f32) -> f32 {
     let inside = (1.0 - squared_m2 * (1.0 / (SENSE_M * SENSE_M)) as f32).max(0.0);
     inside * inside
 }
 
 /// The kernel's integral over open floor.
 const OPEN_M2: f32 = (std::f64::consts::PI * SENSE_M * SENSE_M / 3.0) as f32;
+
+/// With no wall nearer than this, floor is open as far as it counts, metres.
+pub(super) const OPEN_M: f32 = (SENSE_M + CELL_M) as f32;
 
 impl Surroundings {
     pub(super) fn new(ground: &Ground, walls: &Walls) -> Surroundings {
@@ -48,9 +51,13 @@ impl Surroundings {
         Surroundings { lattice, moments }
     }
 
-    /// Floor that a person at `p` who looks along the unit vector `heading` counts people over, square metres.
+    /// Floor that a person at `p` who looks along the unit vector `heading` counts people over, square metres; no wall
+    /// is nearer than `clearance_m`.
     #[inline]
-    pub(super) fn floor_ahead_m2(&self, p: Vec2, heading: [f32; 2]) -> f32 {
+    pub(super) fn floor_ahead_m2(&self, p: Vec2, clearance_m: f32, heading: [f32; 2]) -> f32 {
+        if clearance_m > OPEN_M {
+            return 0.5 * OPEN_M2;
+        }
         let [m0, mx, my] = self.lattice.cell_at(p).map_or([OPEN_M2, 0.0, 0.0], |c| self.moments[c]);
         // In a dead end there is no floor ahead, but always room for a person.
         (0.5 * (m0 + mx * heading[0] + my * heading[1])).max(0.15)

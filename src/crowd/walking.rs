@@ -2,8 +2,9 @@
 
 use super::neighbours::Neighbours;
 use super::options::{LEAST_SPEED_M_S, SpeedTable};
+use super::seen::Seen;
 use super::state::{Body, Traits};
-use super::surroundings::{SENSE_M, Surroundings, kernel};
+use super::surroundings::Surroundings;
 use crate::math::{Vec2, vec2};
 use crate::routes::Ground;
 use crate::walls::Walls;
@@ -12,22 +13,21 @@ use crate::walls::Walls;
 pub(super) const MOST_CONTACTS: usize = 16;
 /// Time in which the desired velocity is taken up, seconds.
 const RELAXATION_S: f32 = 0.5;
-/// How far ahead in time people see others come near, seconds.
-const FORESIGHT_S: f32 = 1.2;
 /// Acceleration of making way for others, metres per second squared.
 const SEPARATION: f32 = 3.2;
-/// Rate at which sideways speed is matched to those who go the same way, per second.
-const ALIGNMENT: f32 = 0.6;
 /// Acceleration away from a wall, metres per second squared.
 const WALL_PUSH: f32 = 1.6;
 /// The largest acceleration of a walking person, metres per second squared.
 const MOST_ACCELERATION: f32 = 5.0;
-/// Density at which the acceptable distance has halved the way to the exclusion distance, persons per square metre.
-const CROWDED: f32 = 1.2;
-/// Two people never close the gap between them in less than this, seconds.
-const CLOSING_S: f32 = 0.35;
-/// Sidestep of those who meet head on, to their right, metres: somebody has to begin.
-const SIDESTEP_M: f32 = 0.08;
+/// Whoever may come nearer than this to touching in a step, metres, is moved apart if need be.
+const CONTACT_M: f32 = 0.25;
+/// A body is moved by no more than this in a step, metres: what lies farther off a wall need not be looked up.
+const MOST_MOVED_M: f32 = 0.6;
+
+/// Share of the speed that is lost in a turn by a right angle ...
+const BEND: f32 = 0.4;
+/// ... above this speed, metres per second: whoever starts may turn as they like.
+const TURNING_M_S: f32 = 0.4;
 
 /// What one step looks at.
 pub(super) struct Scene<'a> {
@@ -36,6 +36,7 @@ pub(super) struct Scene<'a> {
     pub(super) ground: &'a Ground,
     pub(super) walls: &'a Walls,
     pub(super) speeds: &'a SpeedTable,
+    pub(super) alignment: f32,
     pub(super) dt: f32,
 }
 
@@ -57,34 +58,40 @@ impl Scene<'_> {
     pub(super) fn next(&self, index: usize, traits: &Traits, pace: f32, seen: &mut Seen) -> Move {
         let me = &self.neighbours.bodies[index];
         let at = me.position();
-        let gap_limit_m = self.ground.gap_limit_m(at) as f32;
-        self.look_around(index, me, traits, seen);
-        let floor_m2 = self.surroundings.floor_ahead_m2(at, [me.aim_x, me.aim_y]);
-        let density = seen.count / floor_m2;
-        let most_speed = (traits.speed_m_s * pace * self.speeds.factor(density)).max(LEAST_SPEED_M_S);
+        seen.find(self.neighbours, index, |dx, dy| self.sees(me, dx, dy));
+        let around = seen.weigh(me);
+        let density = around.count / self.surroundings.floor_ahead_m2(at, me.clearance_m, [me.aim_x, me.aim_y]);
+        let wanted_speed = traits.speed_m_s * pace * self.bend(me);
+        // Density alone brings nobody to rest, but who wants to stand stands.
+        let most_speed = (wanted_speed * self.speeds.factor(density)).max(wanted_speed.min(LEAST_SPEED_M_S));
 
         let mut ax = (me.aim_x * most_speed - me.vx) / RELAXATION_S;
         let mut ay = (me.aim_y * most_speed - me.vy) / RELAXATION_S;
-        let separation = separate(me, traits, density, &seen.near);
+        let separation = seen.separate(me, traits, density);
         // Making way is stepping aside. Slowing down is left to the law and to not bumping into others; nobody is
         // pushed backwards.
         let back = (separation[0] * me.aim_x + separation[1] * me.aim_y).min(0.0);
-        ax += SEPARATION * (separation[0] - back * me.aim_x);
-        ay += SEPARATION * (separation[1] - back * me.aim_y);
-        if seen.alike > 0.0 {
+        // Whoever walks up to a spot to stand there heads for the spot, not for room.
+        let heed = pace.min(1.0);
+        ax += SEPARATION * heed * (separation[0] - back * me.aim_x);
+        ay += SEPARATION * heed * (separation[1] - back * me.aim_y);
+        if around.alike > 0.0 {
             // Only across the own way: overtaking stays possible.
             let across = (-me.aim_y, me.aim_x);
-            let theirs = (seen.alike_vx * across.0 + seen.alike_vy * across.1) / seen.alike;
+            let theirs = (around.alike_vx * across.0 + around.alike_vy * across.1) / around.alike;
             let own = me.vx * across.0 + me.vy * across.1;
-            let pull = ALIGNMENT * (theirs - own) * seen.alike.min(1.0);
+            let pull = self.alignment * (theirs - own) * around.alike.min(1.0);
             ax += pull * across.0;
             ay += pull * across.1;
         }
-        let wall_limit_m = traits.wall_exclusion_m.min(gap_limit_m);
-        let wall = self.keep_off_wall(me, traits, wall_limit_m, gap_limit_m);
-        if let Some((nx, ny, push)) = wall {
-            ax += push * nx;
-            ay += push * ny;
+        let mut wall_limit_m = traits.wall_exclusion_m;
+        if me.clearance_m < traits.wall_acceptable_m.max(wall_limit_m + MOST_MOVED_M) {
+            let gap_limit_m = self.ground.gap_limit_m(at) as f32;
+            wall_limit_m = wall_limit_m.min(gap_limit_m);
+            if let Some((nx, ny, push)) = self.keep_off_wall(me, traits, wall_limit_m, gap_limit_m) {
+                ax += push * heed * nx;
+                ay += push * heed * ny;
+            }
         }
         let a = (ax * ax + ay * ay).sqrt();
         let ease = if a > MOST_ACCELERATION { MOST_ACCELERATION / a } else { 1.0 };
@@ -100,51 +107,28 @@ impl Scene<'_> {
                 vy *= allowed / speed;
             }
         }
-        keep_from_bumping(me, &seen.near, &mut vx, &mut vy);
-        Move {
-            x: me.x + vx * self.dt,
-            y: me.y + vy * self.dt,
-            contacts: seen.contacts,
-            contact_count: seen.contact_count as u32,
-            wall_limit_m,
-        }
-    }
-
-    /// Finds everybody within reach who is not behind a wall, and weighs them.
-    fn look_around(&self, index: usize, me: &Body, traits: &Traits, seen: &mut Seen) {
-        seen.clear();
-        let reach2 = (SENSE_M * SENSE_M) as f32;
-        self.neighbours.around(me.x, me.y, |range| {
-            for other in range {
-                let body = &self.neighbours.bodies[other];
-                let dx = self.neighbours.dx(me.x, body.x);
-                let dy = body.y - me.y;
-                let d2 = dx * dx + dy * dy;
-                if d2 >= reach2 || other == index {
-                    continue;
-                }
-                let d = d2.sqrt();
-                if d > me.clearance_m + body.clearance_m && !self.sees(me, dx, dy) {
-                    continue;
-                }
-                let inverse = 1.0 / d.max(1e-4);
-                let ahead = (dx * me.aim_x + dy * me.aim_y) * inverse;
-                let weight = kernel(d2) * 0.5 * (1.0 + ahead);
-                seen.count += weight;
-                let alike = me.aim_x * body.aim_x + me.aim_y * body.aim_y;
-                if alike > 0.3 {
-                    seen.alike += weight;
-                    seen.alike_vx += weight * body.vx;
-                    seen.alike_vy += weight * body.vy;
-                }
-                if d < traits.exclusion_m + 0.55 && seen.contact_count < MOST_CONTACTS {
-                    seen.contacts[seen.contact_count] = other as u32;
-                    seen.contact_count += 1;
-                }
-                let half_exclusion_m = body.half_exclusion_m;
-                seen.near.push(Near { dx, dy, vx: body.vx, vy: body.vy, half_exclusion_m });
+        let mut velocity = [vx, vy];
+        seen.keep_from_bumping(me, &mut velocity);
+        let mut next =
+            Move { x: me.x + velocity[0] * self.dt, y: me.y + velocity[1] * self.dt, wall_limit_m, ..Move::default() };
+        seen.within(me, velocity, self.dt, CONTACT_M, |other| {
+            if let Some(contact) = next.contacts.get_mut(next.contact_count as usize) {
+                *contact = other;
+                next.contact_count += 1;
             }
         });
+        next
+    }
+
+    /// Share of the speed that is kept in a bend: people slow down where they turn (Hicheur et al. 2005, doi
+    /// 10.1007/s00221-004-2122-8), by how far they look into it from where they go.
+    fn bend(&self, me: &Body) -> f32 {
+        let speed = (me.vx * me.vx + me.vy * me.vy).sqrt();
+        if speed < TURNING_M_S {
+            return 1.0;
+        }
+        let cos = (me.vx * me.aim_x + me.vy * me.aim_y) / speed;
+        1.0 - BEND * (1.0 - cos.max(0.0))
     }
 
     fn sees(&self, me: &Body, dx: f32, dy: f32) -> bool {
@@ -163,91 +147,10 @@ impl Scene<'_> {
         let nearest = self.walls.nearest(at, f64::from(acceptable_m))?;
         let away = (at - nearest.point_m).normalized()?;
         let share = (nearest.distance_m as f32 - limit_m) / (acceptable_m - limit_m);
-        let push = WALL_PUSH * (1.0 - share.clamp(0.0, 1.0));
+        // Little at first: what people like to keep they give up easily.
+        let near = 1.0 - share.clamp(0.0, 1.0);
+        let push = WALL_PUSH * near * near;
         Some((away.x as f32, away.y as f32, push))
-    }
-}
-
-/// Separation: the sum of pushes away from those who come nearer than the acceptable distance, now or soon.
-fn separate(me: &Body, traits: &Traits, density: f32, others: &[Near]) -> [f32; 2] {
-    let crowded = 1.0 / (1.0 + density / CROWDED);
-    let mut push = [0.0f32; 2];
-    for near in others {
-        let exclusion_m = me.half_exclusion_m + near.half_exclusion_m;
-        let acceptable_m = exclusion_m + (traits.acceptable_m - traits.exclusion_m).max(0.05) * crowded;
-        let (wx, wy) = (near.vx - me.vx, near.vy - me.vy);
-        let w2 = wx * wx + wy * wy;
-        // When the two come nearest, within the time that people foresee.
-        let soon = (-(near.dx * wx + near.dy * wy) / (w2 + 1e-3)).clamp(0.0, FORESIGHT_S);
-        let (mut qx, mut qy) = (near.dx + wx * soon, near.dy + wy * soon);
-        let ahead = near.dx * me.aim_x + near.dy * me.aim_y;
-        if soon > 0.0 && ahead > 0.0 && near.vx * me.aim_x + near.vy * me.aim_y < 0.0 {
-            // Head on: as if the other came a little more from the left.
-            qx += -me.aim_y * SIDESTEP_M;
-            qy += me.aim_x * SIDESTEP_M;
-        }
-        let q2 = qx * qx + qy * qy;
-        if q2 >= acceptable_m * acceptable_m {
-            continue;
-        }
-        let q = q2.sqrt().max(1e-3);
-        let d = (near.dx * near.dx + near.dy * near.dy).sqrt().max(1e-3);
-        let ahead = 0.5 + 0.5 * ahead / d;
-        let strength = (1.0 - q / acceptable_m) * (1.0 - soon / FORESIGHT_S) * (0.25 + 0.75 * ahead);
-        push[0] -= qx / q * strength;
-        push[1] -= qy / q * strength;
-    }
-    push
-}
-
-/// Takes away the speed at which a gap between two bodies would close too fast; each of them takes half.
-fn keep_from_bumping(me: &Body, others: &[Near], vx: &mut f32, vy: &mut f32) {
-    for near in others {
-        let d2 = near.dx * near.dx + near.dy * near.dy;
-        let exclusion_m = me.half_exclusion_m + near.half_exclusion_m;
-        if d2 > (exclusion_m + 1.2) * (exclusion_m + 1.2) {
-            continue;
-        }
-        let d = d2.sqrt().max(1e-3);
-        let (nx, ny) = (near.dx / d, near.dy / d);
-        let closing = (*vx - near.vx) * nx + (*vy - near.vy) * ny;
-        let too_fast = closing - (d - exclusion_m).max(0.0) / CLOSING_S;
-        if too_fast > 0.0 {
-            *vx -= 0.5 * too_fast * nx;
-            *vy -= 0.5 * too_fast * ny;
-        }
-    }
-}
-
-/// Somebody in sight, relative to the one who looks.
-#[derive(Clone, Copy, Debug, Default)]
-struct Near {
-    dx: f32,
-    dy: f32,
-    vx: f32,
-    vy: f32,
-    half_exclusion_m: f32,
-}
-
-/// Everybody around a person, weighed. Reused from person to person.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Seen {
-    /// Weighted count of the people ahead.
-    count: f32,
-    /// Weighted count and velocity of those among them who go the same way.
-    alike: f32,
-    alike_vx: f32,
-    alike_vy: f32,
-    near: Vec<Near>,
-    contacts: [u32; MOST_CONTACTS],
-    contact_count: usize,
-}
-
-impl Seen {
-    fn clear(&mut self) {
-        self.near.clear();
-        self.contact_count = 0;
-        [self.count, self.alike, self.alike_vx, self.alike_vy] = [0.0; 4];
     }
 }
 

@@ -1,0 +1,245 @@
+//! A line of people, and the places that it leads to.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use super::path::{QueuePath, stands};
+use super::spots::{self, Room};
+use super::visit::Visitor;
+use super::{Round, Surface};
+use crate::math::{SplitMix64, Vec2};
+use crate::routes::{Stop, StopKind};
+
+/// Gaps in a line differ by this share from person to person.
+const UNEVEN: f64 = 0.12;
+/// People in a line stand this far beside its middle, metres.
+const BESIDE_M: f64 = 0.09;
+/// People at a counter stand this far off the place's middle, metres: across, and back.
+const OFF_PLACE_M: [f64; 2] = [0.07, 0.05];
+/// People who find no room in the line keep this far from each other, metres, ...
+const LOOSE_M: f64 = 0.75;
+/// ... and this far from the counter.
+const CLEAR_OF_PLACES_M: f64 = 1.4;
+/// Whoever is farther than the first from their turn, metres, lets somebody go first who is nearer by the second.
+const LET_GO_FIRST_M: [f64; 2] = [2.0, 1.0];
+/// How fast people walk up, metres per second, for choosing a line; who has chosen keeps to it for this advantage.
+const WALK_M_S: f64 = 1.2;
+const HABIT_S: f64 = 2.0;
+
+/// Places that are served in turn, and the line before them.
+#[derive(Clone, Debug)]
+pub(super) struct Line {
+    places: Vec<CounterPlace>,
+    path: QueuePath,
+    spacing_m: f64,
+    /// Everybody who waits, the first one first.
+    pub(super) order: VecDeque<u32>,
+    /// Where those stand for whom the line has no room.
+    loose: BTreeMap<u32, Vec2>,
+    /// How far behind the head the next one to come stands, metres.
+    tail_along_m: f64,
+    /// When somebody was last called or served, seconds.
+    pub(super) moved_s: f64,
+}
+
+/// Where one person is served at a time.
+#[derive(Clone, Copy, Debug)]
+struct CounterPlace {
+    place_m: Vec2,
+    facing: Vec2,
+    taken: Option<u32>,
+    free_since_s: f64,
+}
+
+impl Line {
+    pub(super) fn new(places: impl Iterator<Item = (Vec2, Vec2)>, spacing_m: f64) -> Line {
+        let place = |(place_m, facing)| CounterPlace { place_m, facing, taken: None, free_since_s: 0.0 };
+        Line {
+            places: places.map(place).collect(),
+            path: QueuePath::default(),
+            spacing_m,
+            order: VecDeque::new(),
+            loose: BTreeMap::new(),
+            tail_along_m: 0.0,
+            moved_s: 0.0,
+        }
+    }
+
+    /// Middles of the places and everything that the line takes up.
+    pub(super) fn footprint(&self) -> impl Iterator<Item = Vec2> {
+        self.places.iter().map(|place| place.place_m).chain(self.path.points().iter().copied())
+    }
+
+    /// Lays the line behind the places: as the stop says, or as it finds room.
+    pub(super) fn lay(&mut self, surface: Surface<'_>, stop: &Stop, taken: &[Vec2]) {
+        let count = self.places.len().max(1) as f64;
+        let middle = self.places.iter().fold(Vec2::ZERO, |sum, place| sum + place.place_m) / count;
+        let ahead = stop.facing_from(middle);
+        if stop.queue_m.is_empty() {
+            // Room to step up and to get away between several places and the line that serves them.
+            let gap_m = if self.places.len() > 1 { self.spacing_m.max(1.3) } else { self.spacing_m };
+            self.path = QueuePath::found(surface, middle - ahead * gap_m, ahead, self.spacing_m, taken);
+        } else {
+            let points = stop.queue_m.iter().map(|&point| spots::off_walls(surface, point, 0.25)).collect();
+            self.path = QueuePath::new(points, ahead);
+        }
+        self.moved_s = 0.0;
+    }
+
+    /// How many find room in the line.
+    pub(super) fn room(&self) -> usize {
+        if self.path.points().is_empty() { 0 } else { (self.path.length_m() / self.spacing_m + 1e-6) as usize + 1 }
+    }
+
+    /// How far behind the counter the line reaches now, metres.
+    pub(super) fn reach_m(&self) -> f64 {
+        self.tail_along_m.min(self.path.length_m())
+    }
+
+    /// Where somebody who joins now would stand.
+    pub(super) fn tail_m(&self, draw: u64) -> Vec2 {
+        let vacant = self.places.iter().filter(|place| place.taken.is_none()).count();
+        if self.order.is_empty() && vacant > 0 {
+            let wanted = (draw % vacant as u64) as usize;
+            let place = self.places.iter().filter(|place| place.taken.is_none()).nth(wanted);
+            return place.map_or(Vec2::ZERO, |place| place.place_m);
+        }
+        match self.path.points() {
+            [] => self.places.first().map_or(Vec2::ZERO, |place| place.place_m - place.facing * self.spacing_m),
+            _ => self.path.at(self.tail_along_m).0,
+        }
+    }
+
+    /// The place to head for on the way to the tail: itself if it is in sight, or else the last part of the line that
+    /// is. `None` if nothing is.
+    pub(super) fn seen_from(&self, surface: Surface<'_>, p: Vec2, tail_m: Vec2) -> Option<Vec2> {
+        const MARGIN_M: f64 = 0.2;
+        let free = |to: &Vec2| surface.ground.is_free(surface.walls, p, *to, MARGIN_M);
+        let step_m = 1.5;
+        let steps = (self.reach_m() / step_m) as usize;
+        let along = (0..=steps).rev().map(|k| self.path.at(k as f64 * step_m).0);
+        [tail_m].into_iter().chain(along.filter(|_| !self.path.points().is_empty())).find(free)
+    }
+
+    /// The free place that is nearest to `p`.
+    pub(super) fn free_place(&self, p: Vec2) -> Option<usize> {
+        let free = self.places.iter().enumerate().filter(|(_, place)| place.taken.is_none());
+        free.min_by(|a, b| a.1.place_m.distance(p).total_cmp(&b.1.place_m.distance(p))).map(|(index, _)| index)
+    }
+
+    /// Somebody is called to a place. Returns since when it has been free.
+    pub(super) fn take(&mut self, place: usize, id: u32, time_s: f64) -> f64 {
+        let place = &mut self.places[place];
+        place.taken = Some(id);
+        self.moved_s = time_s;
+        place.free_since_s
+    }
+
+    /// Whoever was served at a place leaves it.
+    pub(super) fn free(&mut self, place: usize, time_s: f64) {
+        let place = &mut self.places[place];
+        (place.taken, place.free_since_s) = (None, time_s);
+        self.moved_s = time_s;
+    }
+
+    /// Where exactly somebody stands at a place, and what they face.
+    pub(super) fn spot_at(&self, place: usize, stop: &Stop, draw: u64, surface: Surface<'_>) -> (Vec2, Vec2) {
+        let CounterPlace { place_m, facing, .. } = self.places[place];
+        let rng = &mut SplitMix64::new(draw);
+        let across = if stop.kind == StopKind::Gate { 0.5 } else { 1.0 } * OFF_PLACE_M[0];
+        let off = facing.left() * (across * f64::from(rng.range(-1.0, 1.0)))
+            - facing * (OFF_PLACE_M[1] * f64::from(rng.unit()));
+        let spot = if stands(surface, place_m + off, 0.2) { place_m + off } else { place_m };
+        (spot, spots::about(facing, draw))
+    }
+
+    /// Where everybody in the line stands now: slot of the person, spot, what they face.
+    pub(super) fn line_up(&mut self, round: &Round<'_>, visitors: &BTreeMap<u32, Visitor>) -> Vec<(usize, Vec2, Vec2)> {
+        let mut spots = Vec::with_capacity(self.order.len());
+        let mut along_m = 0.0;
+        let (has_path, length_m) = (!self.path.points().is_empty(), self.path.length_m());
+        for (index, id) in self.order.iter().enumerate() {
+            let Some((slot, p)) = round.place_of(*id) else { continue };
+            let draw = visitors.get(id).and_then(|visitor| visitor.plan.last()).map_or(0, |planned| planned.draw);
+            let rng = &mut SplitMix64::new(draw ^ 0x11);
+            let gap_m = self.spacing_m * (1.0 + UNEVEN * f64::from(rng.range(-1.0, 1.0)));
+            let beside_m = BESIDE_M * f64::from(rng.range(-1.0, 1.0));
+            if index > 0 {
+                along_m += gap_m;
+            }
+            if has_path && along_m <= length_m {
+                self.loose.remove(id);
+                let (middle, ahead) = self.path.at(along_m);
+                let spot = middle + ahead.left() * beside_m;
+                let spot = if stands(round.surface, spot, 0.2) { spot } else { middle };
+                spots.push((slot, spot, spots::about(ahead, draw)));
+                continue;
+            }
+            let (end, ahead) = match has_path {
+                true => self.path.at(length_m),
+                false => self.places.first().map_or((p, Vec2::ZERO), |place| (place.place_m, place.facing)),
+            };
+            if !self.loose.contains_key(id) {
+                // A crowd as wide as it is many, behind the last one in the line.
+                let reach_m = 1.2 + 0.5 * (self.loose.len() as f64).sqrt();
+                let free = |spot: Vec2, apart_m: f64| {
+                    let line = spots.iter().map(|(_, spot, _): &(usize, Vec2, Vec2)| spot);
+                    self.loose.values().chain(line).all(|other| other.distance(spot) >= apart_m)
+                        && self.places.iter().all(|place| place.place_m.distance(spot) >= CLEAR_OF_PLACES_M)
+                };
+                let room = Room::Around(end - ahead * (0.6 * reach_m), reach_m);
+                let found = spots::free_spot(round.surface, room, LOOSE_M, draw, free)
+                    .or_else(|| spots::free_spot(round.surface, Room::Around(end, 1.5 * reach_m), LOOSE_M, draw, free));
+                self.loose.insert(*id, found.unwrap_or(p));
+            }
+            let spot = self.loose[id];
+            spots.push((slot, spot, spots::about((end - spot).normalized().unwrap_or(ahead), draw)));
+        }
+        self.let_go_first(round, &spots);
+        self.tail_along_m = if self.order.is_empty() { 0.0 } else { along_m + self.spacing_m };
+        spots
+    }
+
+    /// Where a gap opens because somebody is held up on the way to their place in the line, the next one fills it.
+    fn let_go_first(&mut self, round: &Round<'_>, spots: &[(usize, Vec2, Vec2)]) {
+        if spots.len() != self.order.len() {
+            return;
+        }
+        let position = |index: usize| round.bodies[spots[index].0].position();
+        let mut index = 0;
+        while index + 1 < spots.len() {
+            let spot = spots[index].1;
+            let [own_m, next_m] = [index, index + 1].map(|k| position(k).distance(spot));
+            if own_m > LET_GO_FIRST_M[0] && next_m < own_m - LET_GO_FIRST_M[1] {
+                self.order.swap(index, index + 1);
+                index += 1;
+            }
+            index += 1;
+        }
+    }
+
+    /// Somebody is not there any more.
+    pub(super) fn forget(&mut self, id: u32) {
+        self.order.retain(|other| *other != id);
+        self.loose.remove(&id);
+        self.places.iter_mut().filter(|place| place.taken == Some(id)).for_each(|place| place.taken = None);
+    }
+
+    /// About how long somebody at `p` would take until it is their turn, seconds.
+    fn wait_s(&self, p: Vec2, mean_s: f64) -> f64 {
+        let ahead = self.order.len() + self.places.iter().filter(|place| place.taken.is_some()).count();
+        ahead as f64 * mean_s / self.places.len().max(1) as f64 + self.tail_m(0).distance(p) / WALK_M_S
+    }
+}
+
+/// The line to go to from `p`: the one that promises to be the quickest; whoever has chosen one keeps to it unless
+/// another is much better.
+pub(super) fn choose(lines: &[Line], chosen: Option<usize>, p: Vec2, mean_s: f64) -> usize {
+    let wait_s = |line: usize| lines[line].wait_s(p, mean_s) - if chosen == Some(line) { HABIT_S } else { 0.0 };
+    let mut best = 0;
+    for line in 1..lines.len() {
+        if wait_s(line) < wait_s(best) {
+            best = line;
+        }
+    }
+    best
+}

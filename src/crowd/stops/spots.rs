@@ -1,0 +1,190 @@
+//! Spots to stand on where nobody tells people exactly where.
+
+use std::collections::BTreeMap;
+
+use super::Surface;
+use super::path::stands;
+use crate::math::{Rect, SplitMix64, Vec2, vec2};
+use crate::routes::{Facing, Stop, StopKind};
+
+/// Spots that somebody considers.
+const TRIES: usize = 48;
+/// Whoever finds no room stands closer to the others, down to this share of the distance wanted ...
+const CLOSEST: f64 = 0.7;
+/// ... and then looks around so many times as far.
+const WIDER: [f64; 4] = [1.0, 1.6, 2.5, 4.0];
+/// Distance from walls, metres.
+const MARGIN_M: f64 = 0.3;
+/// How far people turn from what they face, as the sine of the angle.
+const TURN: f64 = 0.2;
+
+/// Where somebody who looks for a spot may find one.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Room {
+    /// Around a place, metres.
+    Around(Vec2, f64),
+    /// In a rectangle.
+    Within(Rect),
+}
+
+impl Room {
+    fn middle(self) -> Vec2 {
+        match self {
+            Room::Around(middle, _) => middle,
+            Room::Within(area) => area.centre(),
+        }
+    }
+
+    /// A place in the room, so many times as far from its middle, or `None` where the draw fell beside it.
+    fn draw(self, rng: &mut SplitMix64, wider: f64) -> Option<Vec2> {
+        let mut side = || 2.0 * f64::from(rng.unit()) - 1.0;
+        let [x, y] = [side(), side()];
+        match self {
+            Room::Around(middle, reach_m) => (x * x + y * y <= 1.0).then(|| middle + vec2(x, y) * (reach_m * wider)),
+            Room::Within(area) => {
+                let half = vec2(0.5 * area.width() * x, 0.5 * area.height() * y);
+                Some(area.centre() + half * wider)
+            }
+        }
+    }
+
+    /// Area, square metres.
+    fn m2(self) -> f64 {
+        match self {
+            Room::Around(_, reach_m) => std::f64::consts::PI * reach_m * reach_m,
+            Room::Within(area) => area.width() * area.height(),
+        }
+    }
+}
+
+/// A free spot in a room, at least about `apart_m` from all `others`. The same draw tries the same spots.
+pub(super) fn free_spot(
+    surface: Surface<'_>,
+    room: Room,
+    apart_m: f64,
+    draw: u64,
+    free: impl Fn(Vec2, f64) -> bool,
+) -> Option<Vec2> {
+    let rng = &mut SplitMix64::new(draw);
+    let middle = room.middle();
+    for wider in WIDER {
+        for attempt in 0..TRIES {
+            let Some(spot) = room.draw(rng, wider) else { continue };
+            let closer = 1.0 - (1.0 - CLOSEST) * attempt as f64 / TRIES as f64;
+            if stands(surface, spot, MARGIN_M)
+                && free(spot, apart_m * closer)
+                && surface.ground.sight(surface.walls, middle, spot)
+            {
+                return Some(spot);
+            }
+        }
+    }
+    None
+}
+
+/// A unit vector that is off by up to about 12 degrees.
+pub(super) fn about(facing: Vec2, draw: u64) -> Vec2 {
+    let off = TURN * (2.0 * f64::from(SplitMix64::new(draw ^ 0x5f).unit()) - 1.0);
+    (facing + facing.left() * off).normalized().unwrap_or(facing)
+}
+
+/// The spot, moved off walls that are nearer than `keep_m`, if that helps.
+pub(super) fn off_walls(surface: Surface<'_>, spot: Vec2, keep_m: f64) -> Vec2 {
+    let mut moved = spot;
+    for _ in 0..4 {
+        let Some(nearest) = surface.walls.nearest(moved, keep_m) else { return moved };
+        let Some(away) = (moved - nearest.point_m).normalized() else { return spot };
+        moved = nearest.point_m + away * (keep_m + 1e-3);
+    }
+    if surface.ground.sight(surface.walls, spot, moved) { moved } else { spot }
+}
+
+/// People who stand or sit around.
+#[derive(Clone, Debug)]
+pub(super) struct Spread {
+    room: Room,
+    /// Seats, and who sits there.
+    seats: Vec<(Vec2, Option<u32>)>,
+    /// Where everybody is.
+    spots: BTreeMap<u32, Vec2>,
+}
+
+impl Spread {
+    pub(super) fn new(surface: Surface<'_>, stop: &Stop, keep_m: f64) -> Spread {
+        let area = Rect::around(stop.at_m[0], stop.at_m[1]);
+        let middle = area.centre();
+        let is_bench = stop.kind == StopKind::Bench;
+        let room = match is_bench {
+            // Whoever finds no seat stands before the bench.
+            true => Room::Around(middle + stop.facing_from(middle) * 1.6, 1.2 + 0.5 * area.width().max(area.height())),
+            false if area.width() > 0.0 && area.height() > 0.0 => Room::Within(area),
+            false => Room::Around(middle, stop.reach_m),
+        };
+        let seats = if is_bench { stop.places_m.as_slice() } else { &[] };
+        let seats = seats.iter().map(|&seat| (off_walls(surface, seat, keep_m), None)).collect();
+        Spread { room, seats, spots: BTreeMap::new() }
+    }
+
+    /// How far around the middle people are, metres.
+    pub(super) fn reach_m(&self) -> f64 {
+        match self.room {
+            Room::Around(_, reach_m) => reach_m,
+            Room::Within(area) => 0.5 * area.width().max(area.height()),
+        }
+    }
+
+    /// How many find room as they want it: seats, or as many as spots drawn at random leave room for.
+    pub(super) fn room(&self, spacing_m: f64) -> usize {
+        if self.seats.is_empty() {
+            ((0.7 * self.room.m2() / (spacing_m * spacing_m)) as usize).max(1)
+        } else {
+            self.seats.len()
+        }
+    }
+
+    pub(super) fn taken(&self) -> usize {
+        self.spots.len()
+    }
+
+    /// A spot for somebody who comes from `p`, and what they face there.
+    pub(super) fn take(&mut self, surface: Surface<'_>, stop: &Stop, id: u32, draw: u64, p: Vec2) -> (Vec2, Vec2) {
+        let vacant = self.seats.iter().filter(|seat| seat.1.is_none()).count();
+        let spot = if vacant > 0 {
+            let wanted = (draw % vacant as u64) as usize;
+            let seat = self.seats.iter_mut().filter(|seat| seat.1.is_none()).nth(wanted);
+            seat.map_or(p, |(place_m, taken)| {
+                *taken = Some(id);
+                *place_m
+            })
+        } else {
+            let spacing_m = stop.spacing_m.max(0.7);
+            let free = |spot: Vec2, apart_m: f64| {
+                let seats = self.seats.iter().map(|seat| &seat.0);
+                self.spots.values().chain(seats).all(|other| other.distance(spot) >= apart_m)
+            };
+            free_spot(surface, self.room, spacing_m, draw, free).unwrap_or(p)
+        };
+        self.spots.insert(id, spot);
+        let facing = match stop.facing {
+            Facing::Free => any_direction(draw),
+            _ => about(stop.facing_from(spot), draw),
+        };
+        (spot, facing)
+    }
+
+    pub(super) fn leave(&mut self, id: u32) {
+        self.spots.remove(&id);
+        self.seats.iter_mut().filter(|seat| seat.1 == Some(id)).for_each(|seat| seat.1 = None);
+    }
+}
+
+fn any_direction(draw: u64) -> Vec2 {
+    let rng = &mut SplitMix64::new(draw ^ 0xa7);
+    for _ in 0..16 {
+        let v = vec2(f64::from(rng.range(-1.0, 1.0)), f64::from(rng.range(-1.0, 1.0)));
+        if (0.01..=1.0).contains(&v.length_squared()) {
+            return v.normalized().unwrap_or(vec2(1.0, 0.0));
+        }
+    }
+    vec2(1.0, 0.0)
+}

@@ -1,0 +1,14 @@
+//! The crowd against what is known of pedestrians: speed and density, walls, doors, counter flow, the RiMEA tests, and
+//! what a crowd must keep to on any plan.
+//!
+//! `cargo test --test crowd -- --nocapture` prints every measured figure beside the published one.
+
+#![allow(clippy::unwrap_used)] // a test may panic
+
+mod counter_flow;
+mod keeps;
+mod measures;
+mod rimea;
+mod scene;
+mod speed_density;
+mod walls;
