@@ -10,11 +10,12 @@ use crate::marks::{Footfalls, Origin};
 use crate::motion::People;
 use crate::patterns::PatternLibrary;
 use crate::progress::{Progress, Stage, Stopwatch};
+use crate::routes::Navigation;
 use crate::scenario::Scenario;
 use crate::stamps::{Stamper, TexelGrid};
 use crate::sums::FloorSums;
 use crate::walls::Walls;
-use crate::{Error, plan, routes};
+use crate::{Error, plan};
 
 mod tread;
 
@@ -44,12 +45,13 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let plan = watch.busy(Stage::Plan, || plan::read(&scenario.image_path(), &scenario.plan_options()))?;
     plan.warnings.iter().for_each(|warning| progress.warn(warning));
     let walls = watch.busy(Stage::Walls, || Walls::trace(&plan, &scenario.walls))?;
-    let routes = watch.busy(Stage::Routes, || routes::find(&plan, &walls, &scenario.routes))?;
+    let (routes, ways) = watch.busy(Stage::Routes, || Navigation::find(&plan, &walls, &scenario.routes))?;
     let library = watch.busy(Stage::Patterns, || PatternLibrary::open(scenario.pattern_path().as_deref()))?;
 
     // A person is a pure function of the seed and a number; who arrives when is settled before anybody walks.
     let people = People::new(scenario.seed, scenario.bodies.clone());
-    let mut crowd = watch.busy(Stage::Crowd, || Crowd::new(&plan, &walls, &routes, &people, &scenario.crowd))?;
+    let mut crowd =
+        watch.busy(Stage::Crowd, || Crowd::with_navigation(&plan, &walls, &routes, ways, &people, &scenario.crowd))?;
     let from_outside = crowd.arrivals().iter().map(|arrival| arrival.from_outside);
     let origins = Origin::of_arrivals(from_outside, scenario.marks.fresh_people);
     let mut footfalls = Footfalls::new(&people, &walls, &library, &scenario.marks, origins)?;
@@ -62,18 +64,21 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let mut stamp = |marks: &[_]| sums.add(&stamper, &walls, marks);
     tread(&mut crowd, &mut footfalls, &mut paths, &mut stamp, &watch, progress)?;
     let tally = crowd.tally();
-    tally.stuck.iter().for_each(|stuck| progress.warn(&stuck.describe(&routes)));
+    let warnings = tally.describe(&routes, Some(&output.folder.join(preview::PATHS_FILE)));
+    warnings.iter().for_each(|warning| progress.warn(warning));
 
     // Sums become what the floor looks like, block by block, as the files are written.
     let crops = preview::choose_crops(walls.bounds_m(), &plan.openings, &walls, paths.paths());
     let graded = Graded { sums: &sums, walls: &walls, look: &scenario.look, people: scenario.crowd.people };
     let (textures, pictures) = graded.write(&folder, &scenario.texture, &crops, &watch, progress)?;
     let sums_entry = watch.busy(Stage::Export, || export::write_sums(&folder, &sums, &textures, progress))?;
-    let picture = watch.busy(Stage::Export, || preview::draw_paths(&plan, &walls, &routes, paths.paths()));
+    let picture =
+        watch.busy(Stage::Export, || preview::draw_paths(&plan, &walls, &routes, paths.paths(), &tally.stuck));
     preview::write_picture(&folder, preview::PATHS_FILE, &picture)?;
 
     let report = Report {
-        people: PeopleReport { entered: tally.entered, arrived: tally.arrived, stuck: tally.stuck.len() as u64 },
+        people: PeopleReport::of(&tally, &routes),
+        warnings,
         footfalls: footfalls.count(),
         seconds: watch.seconds(),
         peak_memory_mib: export::peak_memory_mib(),

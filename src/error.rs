@@ -16,6 +16,12 @@ pub enum Error {
     /// The crowd cannot walk.
     #[error(transparent)]
     Crowd(#[from] crate::crowd::CrowdError),
+    /// A motion cannot be recorded as asked.
+    #[error(transparent)]
+    Motion(#[from] crate::motion::MotionError),
+    /// A file cannot be written.
+    #[error(transparent)]
+    File(#[from] crate::files::FileError),
     /// Feet cannot leave marks as they are asked to.
     #[error(transparent)]
     Marks(#[from] crate::marks::MarksError),
@@ -34,6 +40,9 @@ pub enum Error {
     /// The result cannot be written or an earlier one cannot be read.
     #[error(transparent)]
     Export(crate::export::ExportError),
+    /// There can be no animation as asked.
+    #[error(transparent)]
+    Animation(#[from] crate::export::preview::AnimationError),
     /// The scenario file is wrong.
     #[error(transparent)]
     Scenario(#[from] crate::scenario::ScenarioError),
@@ -50,12 +59,15 @@ impl Error {
             Error::Walls(e) => e.hint(),
             Error::Routes(e) => e.hint(),
             Error::Crowd(e) => e.hint(),
+            Error::Motion(e) => e.hint(),
+            Error::File(e) => e.hint(),
             Error::Patterns(e) => e.hint(),
             Error::Marks(e) => e.hint(),
             Error::Stamps(e) => e.hint(),
             Error::Sums(e) => e.hint(),
             Error::Look(e) => e.hint(),
             Error::Export(e) => e.hint(),
+            Error::Animation(e) => e.hint(),
             Error::Scenario(e) => e.hint(),
             Error::Interrupted => None,
         }

@@ -12,11 +12,13 @@
 //!                                            patterns ──┘
 //! ```
 //!
-//! [`mod@bake`] joins them in one function; a reader who has read only that knows the program.
+//! [`mod@bake`] joins them in one function; a reader who has read only that knows the program. [`mod@walk`] does the
+//! same up to the motion, which a [`Recorder`](motion::Recorder) writes down for other programs.
 //!
 //! Units are metres, seconds and radians counter-clockwise from +x unless a name says otherwise. The *plan
 //! frame* has its origin at the lower-left corner of the lower-left pixel, x right, y up.
 
+pub mod files;
 pub mod math;
 
 pub mod crowd;
@@ -35,6 +37,7 @@ pub mod bake;
 mod error;
 mod progress;
 pub mod scenario;
+pub mod walk;
 
 pub use error::Error;
 pub use progress::{Progress, Silent, Stage, Stopwatch};

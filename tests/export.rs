@@ -245,7 +245,7 @@ fn drawings_look_as_they_should() {
         image::imageops::resize(picture, 256, height, image::imageops::FilterType::Triangle)
     };
     assert_golden("drawing_plan", &small(&preview::draw_plan(&plan, &walls, &[])), RESAMPLED);
-    assert_golden("drawing_paths", &small(&preview::draw_paths(&plan, &walls, &[], &paths)), RESAMPLED);
+    assert_golden("drawing_paths", &small(&preview::draw_paths(&plan, &walls, &[], &paths, &[])), RESAMPLED);
 }
 
 /// A file system of a given size, where the system lets one be made (root on Linux).

@@ -80,8 +80,9 @@ fn requests(understood: &Understood) -> Vec<RouteRequest> {
         name: Some(route.name.clone()),
         from: request(route.start),
         to: request(route.goal),
-        via: route.via.iter().map(|via| request(via.place)).collect(),
+        via: route.via.iter().map(|via| request(via.place).into()).collect(),
         share: (route.share * 1000.0).round() / 1000.0,
+        arrivals: None,
     };
     understood.routes.iter().map(of).collect()
 }

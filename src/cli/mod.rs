@@ -7,6 +7,7 @@ use clap::{Args, ColorChoice, Parser, Subcommand};
 
 mod arguments;
 mod bake;
+mod crowd;
 mod diff;
 mod init;
 mod inspect;
@@ -29,6 +30,7 @@ pub struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Bake(bake::Bake),
+    Crowd(crowd::Crowd),
     Resolve(resolve::Resolve),
     Init(init::Init),
     Inspect(inspect::Inspect),
@@ -67,6 +69,7 @@ Examples:
   trodden init plan.png                              write plan.toml, with every default to edit
   trodden bake plan.toml --quick                     a coarse bake in about a second
   trodden resolve out/plan --preset heavy            another look, without simulating again
+  trodden crowd plan.toml -o paths.txt               where everybody went, for other programs
   trodden inspect plan.png --picture understood.png  what is understood of the plan
 
 `trodden COMMAND --help` says more about each.";
@@ -82,6 +85,7 @@ impl Cli {
         self.common.start_threads()?;
         match &self.command {
             Command::Bake(bake) => bake.run(&self.common),
+            Command::Crowd(crowd) => crowd.run(&self.common),
             Command::Resolve(resolve) => resolve.run(&self.common),
             Command::Init(init) => init.run(&self.common),
             Command::Inspect(inspect) => inspect.run(&self.common),

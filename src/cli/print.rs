@@ -9,6 +9,7 @@ use anyhow::Context;
 use clap::ColorChoice;
 use clap::builder::styling::{AnsiColor, Style};
 use trodden::export::preview::encode_picture;
+use trodden::files::write_whole;
 
 use super::Common;
 
@@ -62,8 +63,10 @@ fn label(name: &str, style: Style, colour: bool) -> String {
 
 /// Whether the program that read our output stopped reading, as `head` does: no failure of ours.
 fn is_broken_pipe(error: &anyhow::Error) -> bool {
-    let kind = error.downcast_ref::<io::Error>().map(io::Error::kind);
-    kind == Some(io::ErrorKind::BrokenPipe)
+    let is_one = |cause: &(dyn std::error::Error + 'static)| {
+        cause.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+    };
+    error.chain().any(is_one)
 }
 
 impl Common {
@@ -96,27 +99,13 @@ pub fn save_picture(picture: &image::RgbImage, path: &Path) -> anyhow::Result<()
     save(&encode_picture(picture), path)
 }
 
-/// Writes a file whole or not at all.
+/// Writes a file whole or not at all, over one that is there.
 pub fn save(bytes: &[u8], path: &Path) -> anyhow::Result<()> {
-    let written = write_beside(bytes, path);
-    written.with_context(|| format!("cannot write {}", path.display()))
-}
-
-fn write_beside(bytes: &[u8], path: &Path) -> io::Result<()> {
-    let Some(name) = path.file_name() else {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it has no file name"));
-    };
-    if path.exists() && !path.is_file() {
-        // Not a place to rename to: a folder, which the system refuses, or a device, which takes what it gets.
-        return std::fs::write(path, bytes);
+    let is_device = path.exists() && !path.is_file() && !path.is_dir();
+    if is_device {
+        // It takes what it gets; there is nothing to rename.
+        return std::fs::write(path, bytes).with_context(|| format!("cannot write {}", path.display()));
     }
-    let mut hidden = std::ffi::OsString::from(".");
-    hidden.push(name);
-    hidden.push(".new");
-    let beside = path.with_file_name(hidden);
-    let written = std::fs::write(&beside, bytes).and_then(|()| std::fs::rename(&beside, path));
-    if written.is_err() {
-        let _ = std::fs::remove_file(&beside);
-    }
-    written
+    write_whole(path, bytes, true).map_err(trodden::Error::from)?;
+    Ok(())
 }

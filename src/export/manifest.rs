@@ -288,6 +288,8 @@ mod tests {
             name: "west to east".to_string(),
             start: Place::Opening(0),
             via: Vec::new(),
+            stops: Vec::new(),
+            arrivals: None,
             goal: Place::Area([vec2(3.0, 0.5), vec2(3.5, 1.0)]),
             share: 1.0,
             gates: vec![Gate { left_m: vec2(2.0, 1.9), right_m: vec2(2.0, 0.1) }],

@@ -25,7 +25,7 @@ pub use manifest::{
 };
 pub use memory::peak_memory_mib;
 pub use output::{OutputFile, OutputFolder, is_bake, restore};
-pub use report::{PeopleReport, Report};
+pub use report::{PeopleReport, Report, StuckReport};
 pub use source::FloorSource;
 pub use sums::{read_sums, write_sums};
 pub use textures::{FloorTextures, TextureOptions, floor_textures};

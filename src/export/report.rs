@@ -4,12 +4,18 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::{ExportError, OutputFolder};
+use crate::crowd::{Stuck, Tally};
+use crate::math::{Vec2, vec2};
+use crate::routes::Route;
 
 /// What happened in a run: `report.json`, the one file of a bake that differs from run to run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Report {
     /// Who walked.
     pub people: PeopleReport,
+    /// What the crowd warned of, such as lines that were longer than their room, with the name of the place.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
     /// Number of footfalls.
     pub footfalls: u64,
     /// Wall-clock seconds as `total`, and the busy seconds of each stage, summed over threads, by the stage's name.
@@ -19,14 +25,49 @@ pub struct Report {
 }
 
 /// What became of the people.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PeopleReport {
     /// How many entered.
     pub entered: u64,
     /// How many reached their goal.
     pub arrived: u64,
-    /// How many were still under way when the crowd was given up.
+    /// How many made no way any more and were taken out.
     pub stuck: u64,
+    /// Who they were, in the order in which they were given up.
+    #[serde(default)]
+    pub stuck_people: Vec<StuckReport>,
+}
+
+impl PeopleReport {
+    /// What became of the people of a crowd.
+    pub fn of(tally: &Tally, routes: &[Route]) -> PeopleReport {
+        PeopleReport {
+            entered: tally.entered,
+            arrived: tally.arrived,
+            stuck: tally.stuck.len() as u64,
+            stuck_people: tally.stuck.iter().map(|stuck| StuckReport::of(stuck, routes)).collect(),
+        }
+    }
+}
+
+/// Somebody who made no way any more.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StuckReport {
+    /// Number of the person.
+    pub id: u32,
+    /// Name of the route.
+    pub route: String,
+    /// Where, metres of the plan frame, rounded to millimetres.
+    pub place_m: Vec2,
+}
+
+impl StuckReport {
+    fn of(stuck: &Stuck, routes: &[Route]) -> StuckReport {
+        let route = routes.get(stuck.route).map_or_else(String::new, |route| route.name.clone());
+        let millimetres = |metres: f64| (metres * 1e3).round() / 1e3;
+        let place_m = vec2(millimetres(stuck.place_m.x), millimetres(stuck.place_m.y));
+        StuckReport { id: stuck.id, route, place_m }
+    }
 }
 
 impl Report {

@@ -2,9 +2,11 @@ use toml::{Table, Value};
 
 use super::document::Document;
 use super::error::ScenarioError;
+use super::explain;
 use super::keys::{self, Allowed, KEYS, Key};
 use super::{Scenario, write};
 use crate::math::Distribution;
+use crate::routes::{PlaceRequest, ViaRequest};
 
 /// What a quantity that differs from person to person may be written with.
 const SPREAD_PARTS: [&str; 4] = ["mean", "sd", "min", "max"];
@@ -29,6 +31,8 @@ impl Scenario {
             let message = "[plan] has both metres_per_pixel and scale".to_string();
             return Err(wrong("plan.scale", message, Some("leave one of the two out".to_string())));
         }
+        self.check_stops().map_err(|(key, message, hint)| wrong(&key, message, hint))?;
+        self.check_timetables().map_err(|(key, message)| wrong(&key, message, None))?;
         // The stages' own checks: for what concerns more than one key.
         let crowd = self.crowd.check().map_err(|error| ("crowd", error.to_string(), error.hint()));
         let marks = self.marks.check().map_err(|error| ("marks", error.to_string(), error.hint()));
@@ -36,6 +40,72 @@ impl Scenario {
         let look = self.look.check().map_err(|error| ("look", error.to_string(), error.hint()));
         let all = crowd.and(marks).and(stamps).and(look);
         all.map_err(|(section, message, hint)| wrong(section, message, hint))
+    }
+}
+
+/// A key, what is wrong with it, and a hint.
+type Wrong = (String, String, Option<String>);
+
+impl Scenario {
+    /// Stops that are right in themselves, of different names, and routes that name them right.
+    fn check_stops(&self) -> Result<(), Wrong> {
+        let stops = &self.routes.stops;
+        for (index, stop) in stops.iter().enumerate() {
+            stop.check().map_err(|(key, problem)| (format!("stop.{index}.{key}"), problem, None))?;
+            if stops[..index].iter().any(|other| other.name == stop.name) {
+                let hint = "give each [[stop]] a name of its own".to_string();
+                let message = format!("there are two stops called \"{}\"", stop.name);
+                return Err((format!("stop.{index}.name"), message, Some(hint)));
+            }
+        }
+        for (index, route) in self.routes.routes.iter().enumerate() {
+            for (number, via) in route.via.iter().enumerate() {
+                let key = format!("route.{index}.via.{number}");
+                let unknown = match (via.stop(stops), via) {
+                    (Some((name, share)), _) => {
+                        if !(0.0..=1.0).contains(&share) {
+                            let message = format!("`share` is {share}, allowed is 0 to 1");
+                            return Err((format!("{key}.share"), message, None));
+                        }
+                        Some(name).filter(|name| stops.iter().all(|stop| stop.name != *name))
+                    }
+                    // Openings are named after the plan's sides.
+                    (None, ViaRequest::Place(PlaceRequest::Opening(name))) if !stops.is_empty() => {
+                        let side = name.split_whitespace().next().unwrap_or("").to_lowercase();
+                        let is_side = explain::nearest(&side, ["north", "south", "east", "west"].into_iter()).is_some();
+                        Some(name.as_str()).filter(|_| !is_side)
+                    }
+                    (None, _) => None,
+                };
+                if let Some(name) = unknown {
+                    return Err((key, format!("there is no stop called \"{name}\""), Some(self.stop_like(name))));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn stop_like(&self, name: &str) -> String {
+        let lower: Vec<String> = self.routes.stops.iter().map(|stop| stop.name.to_lowercase()).collect();
+        let nearest = explain::nearest(name, lower.iter().map(String::as_str));
+        let found = nearest.and_then(|nearest| lower.iter().position(|known| known == nearest));
+        let names: Vec<&str> = self.routes.stops.iter().map(|stop| stop.name.as_str()).collect();
+        match found {
+            Some(index) => format!("did you mean \"{}\"?", names[index]),
+            None if names.is_empty() => "each [[stop]] has a `name`; routes name it in `via`".to_string(),
+            None => format!("the stops are \"{}\"", names.join("\", \"")),
+        }
+    }
+
+    fn check_timetables(&self) -> Result<(), (String, String)> {
+        let at = |section: String| move |(key, problem): (&str, String)| (format!("{section}.{key}"), problem);
+        self.crowd.arrivals.check().map_err(at("crowd.arrivals".to_string()))?;
+        for (index, route) in self.routes.routes.iter().enumerate() {
+            if let Some(arrivals) = &route.arrivals {
+                arrivals.check().map_err(at(format!("route.{index}.arrivals")))?;
+            }
+        }
+        Ok(())
     }
 }
 
@@ -66,15 +136,14 @@ impl Key {
     }
 }
 
-/// All values of a key, with their places: one, none, or one per route.
+/// All values of a key, with their places: one, none, or one per route or stop.
 fn values_of<'t>(table: &'t Table, key: &Key) -> Vec<(String, &'t Value)> {
-    if key.section() != keys::ROUTE {
+    let list = key.section();
+    if !keys::LISTS.contains(&list) {
         return value_at(table, key.path).map(|value| (key.path.to_string(), value)).into_iter().collect();
     }
-    let routes = table.get(keys::ROUTE).and_then(Value::as_array).into_iter().flatten().enumerate();
-    routes
-        .filter_map(|(index, route)| Some((format!("route.{index}.{}", key.name()), route.get(key.name())?)))
-        .collect()
+    let items = table.get(list).and_then(Value::as_array).into_iter().flatten().enumerate();
+    items.filter_map(|(index, item)| Some((format!("{list}.{index}.{}", key.name()), item.get(key.name())?))).collect()
 }
 
 /// The numbers in a value: itself, or those of a list.

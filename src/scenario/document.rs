@@ -37,10 +37,10 @@ impl<'t> Document<'t> {
             if !keys::SECTIONS.contains(&name_text) {
                 return Err(document.wrong(name.span(), explain::unknown_section(name_text)));
             }
-            let wants_list = name_text == keys::ROUTE;
+            let wants_list = keys::LISTS.contains(&name_text);
             let is_list = value.get_ref().as_array().is_some_and(|a| a.iter().all(|v| v.get_ref().is_table()));
             if wants_list && !is_list {
-                return Err(document.wrong(name.span(), explain::not_a_list_of_routes()));
+                return Err(document.wrong(name.span(), explain::not_a_list(name_text)));
             }
             if !wants_list && !value.get_ref().is_table() {
                 return Err(document.wrong(name.span(), explain::not_a_section(name_text)));

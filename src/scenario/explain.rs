@@ -8,7 +8,7 @@ pub(super) type Explanation = (String, Option<String>);
 /// The text is not TOML.
 pub(super) fn syntax(message: &str) -> Explanation {
     let hint = match message {
-        "duplicate key" => "write each key and each section once; only [[route]] may come again",
+        "duplicate key" => "write each key and each section once; only [[route]] and [[stop]] may come again",
         _ => "texts stand in quotes, lists in [brackets], and a section begins with its [name]",
     };
     (format!("not valid TOML: {message}"), Some(hint.to_string()))
@@ -36,8 +36,8 @@ pub(super) fn not_a_section(name: &str) -> Explanation {
 }
 
 /// `[route]` in place of `[[route]]`.
-pub(super) fn not_a_list_of_routes() -> Explanation {
-    ("`route` is a list of sections".to_string(), Some("write [[route]] with two brackets, once per route".to_string()))
+pub(super) fn not_a_list(name: &str) -> Explanation {
+    (format!("`{name}` is a list of sections"), Some(format!("write [[{name}]] with two brackets, once per {name}")))
 }
 
 /// Serde's message on a value of a section: an unknown key, a wrong type, an unknown name. `found` is the text at
@@ -89,7 +89,7 @@ pub(super) fn nearest<'k>(found: &str, known: impl Iterator<Item = &'k str>) -> 
 }
 
 fn heading(section: &str) -> String {
-    if section == keys::ROUTE { format!("[[{section}]]") } else { format!("[{section}]") }
+    if keys::LISTS.contains(&section) { format!("[[{section}]]") } else { format!("[{section}]") }
 }
 
 /// What stands in backticks in a message of serde.

@@ -1,10 +1,14 @@
 //! Every key of a scenario: what it means, what it may be, in the order in which `trodden init` writes them.
 
 /// The sections of a scenario, in order.
-pub(super) const SECTIONS: [&str; 10] =
-    ["plan", "walls", "texture", "crowd", "bodies", "marks", "stamps", "look", "patterns", ROUTE];
+pub(super) const SECTIONS: [&str; 11] =
+    ["plan", "walls", "texture", "crowd", "bodies", "marks", "stamps", "look", "patterns", ROUTE, STOP];
 /// The section that comes once per route.
 pub(super) const ROUTE: &str = "route";
+/// The section that comes once per stop.
+pub(super) const STOP: &str = "stop";
+/// The sections that may come several times.
+pub(super) const LISTS: [&str; 2] = [ROUTE, STOP];
 
 /// One key.
 pub(super) struct Key {
@@ -104,12 +108,23 @@ pub(super) const KEYS: &[Key] = &[
     key("crowd.acceptable", Spread(0.05, 5.0), "people make way before they come so near; shrinks with density [m]"),
     key("crowd.wall_exclusion", Spread(0.0, 2.0), "the same for walls; shrinks in gaps [m]"),
     key("crowd.wall_acceptable", Spread(0.0, 5.0), "people keep this far off walls if they can; shrinks in gaps [m]"),
+    key("crowd.alignment", Number(0.0, 5.0), "how quickly people take up the line of those who go their way, per second"),
     key("crowd.entry_rate", Number(1e-3, 1e3), "the most who enter in a second, per metre of opening"),
     optional("crowd.entry_seconds", Number(0.0, 1e6), "seconds over which people enter; left out: by the rate", "600.0"),
     key("crowd.patience_seconds", Number(5.0, 1e5), "who makes no way for so long is stuck"),
     key("crowd.time_step", Number(0.01, 0.2), "of the simulation [s]"),
     optional("crowd.end_seconds", Number(0.1, 1e7), "ends the walk, wherever people are", "3600.0"),
     optional("crowd.period_x", Number(8.0, 1e5), "who leaves in x comes back at the other end [m]; for measurements", "26.0"),
+
+    key("crowd.arrivals.kind", Any, "when people come: \"rate\" (evenly), \"bursts\" (a train every few minutes) or \"list\""),
+    optional("crowd.arrivals.first_s", Number(0.0, 1e7), "of a rate and of bursts: when the first come", "30.0"),
+    optional("crowd.arrivals.per_second", Number(1e-4, 1e3), "of a rate: people per second; left out: by entry_rate", "0.5"),
+    optional("crowd.arrivals.every_s", Number(1.0, 1e7), "of bursts: from one to the next", "360.0"),
+    optional("crowd.arrivals.people", Number(1.0, 5e6), "of bursts: how many come in one", "120"),
+    optional("crowd.arrivals.share", Number(1e-6, 1.0), "of bursts: or which share of all people comes in one", "0.25"),
+    optional("crowd.arrivals.spread_s", Number(0.0, 1e7), "of bursts: how long the people of one take to come; 0: all at once", "45.0"),
+    optional("crowd.arrivals.times", Any, "of a list: times [s], each with how many come then", "[[60, 20], [300, 80]]"),
+    optional("crowd.arrivals.file", Any, "of a list: a CSV file of them, relative to this file", "\"arrivals.csv\""),
 
     key("bodies.men", Number(0.0, 1.0), "share of men among the grown-ups"),
     key("bodies.children", Number(0.0, 1.0), "share of children among all"),
@@ -118,11 +133,12 @@ pub(super) const KEYS: &[Key] = &[
     key("bodies.stature_children", Spread(0.5, 2.5), "body height [m]"),
     key("bodies.bags", Number(0.0, 1.0), "share of people who carry a bag"),
     optional("bodies.step_length", Spread(0.15, 2.0), "a fixed step length [m]; left out: it follows speed and stature", "0.7"),
-    key("bodies.step_width", Spread(0.0, 0.5), "between the lines of the left and the right foot [m]"),
-    key("bodies.toe_out_deg", Spread(-45.0, 45.0), "how far the toes point outward [degrees]"),
+    key("bodies.step_width", Spread(0.0, 0.5), "between the lines of a man's feet, walking freely; women's: 0.88 of it [m]"),
+    key("bodies.toe_out_deg", Spread(-45.0, 45.0), "how far a man's toes point outward; women's: 0.86 of it [degrees]"),
 
     key("marks.fresh_people", Any, "how many of the last people leave readable prints: those since the floor was mopped"),
     optional("marks.shoe", Any, "the one sole that everybody wears; left out: by share", "\"leather_shoe\""),
+    key("marks.shifts_per_minute", Number(0.0, 60.0), "how often somebody who stands sets a foot anew"),
     key("marks.soil.weather", Any, "outside: \"dry\" or \"wet\""),
     key("marks.soil.median_density", Number(0.0, 3.0), "optical density of a first print"),
     key("marks.soil.sigma", Number(0.0, 3.0), "how widely people's loads differ: deviation of the logarithm"),
@@ -131,8 +147,9 @@ pub(super) const KEYS: &[Key] = &[
     key("marks.soil.steps_before_entering", Spread(0.0, 1e6), "steps of a shoe since the soil, for who comes in"),
     key("marks.soil.steps_before_indoors", Spread(0.0, 1e6), "the same for who starts inside"),
     key("marks.heel.per_metre", Number(0.0, 1.0), "heel marks per metre walked"),
-    key("marks.heel.per_radian", Number(0.0, 1.0), "per radian turned"),
+    key("marks.heel.per_radian", Number(0.0, 1.0), "per radian turned at a walk"),
     key("marks.heel.per_stop", Number(0.0, 10.0), "per stop, and per start"),
+    key("marks.heel.per_second_stood", Number(0.0, 1.0), "per second stood"),
     key("marks.heel.per_passage", Number(0.0, 10.0), "per passage of a door or another narrow place"),
     key("marks.heel.narrow_m", Number(0.0, 5.0), "what counts as narrow [m]"),
     key("marks.heel.median_density", Number(0.0, 3.0), "optical density of a mark"),
@@ -189,6 +206,23 @@ pub(super) const KEYS: &[Key] = &[
     optional("route.name", Any, "what to call it", "\"west to north\""),
     optional("route.from", Any, "an opening's name, [x, y] in metres, { px = [x, y] }, or an area [[x0, y0], [x1, y1]]", "\"west\""),
     optional("route.to", Any, "as from", "\"north\""),
-    optional("route.via", Any, "places to pass on the way, in order, each as from", "[]"),
+    optional("route.via", Any, "places to pass (each as from) and stops, in order; of a stop its name, or which share stops there",
+        "[\"ticket office\", { stop = \"bench\", share = 0.2 }]"),
     optional("route.share", Number(1e-6, 1e6), "how many take it, relative to the other routes", "1.0"),
+    optional("route.arrivals", Any, "when its people come, as [crowd.arrivals]; left out: as all others",
+        "{ kind = \"bursts\", every_s = 360, people = 120, spread_s = 45 }"),
+
+    optional("stop.name", Any, "what routes call it in `via`", "\"ticket office\""),
+    optional("stop.kind", Any, "\"place\" to stand at, \"queue\" before a counter, \"machine\", \"bench\", or ticket \"gate\"", "\"queue\""),
+    optional("stop.at", Any, "where people stand: a point, or a line [[x0, y0], [x1, y1]] of places; of a \"place\" two corners",
+        "[12.0, 4.5]"),
+    optional("stop.facing", Any, "a point that they face; left out: the nearest wall, from a bench away from it", "[12.0, 3.0]"),
+    optional("stop.heading_deg", Number(-360.0, 360.0), "or the direction that they face [degrees from +x]", "-90.0"),
+    optional("stop.dwell", Spread(0.0, 86400.0), "how long one stays or is served [s]; left out: by the kind",
+        "{ mean = 30, sd = 15, min = 5, max = 120 }"),
+    optional("stop.places", Number(1.0, 1000.0), "counters, seats or lanes side by side", "2"),
+    optional("stop.spacing", Number(0.4, 5.0), "from one to the next in the line, on the bench, or around a place [m]", "0.75"),
+    optional("stop.reach", Number(0.3, 50.0), "how far around the point of a \"place\" people stand [m]", "1.5"),
+    optional("stop.queue", Any, "the line in which people queue, from the counter on; left out: straight back, along walls",
+        "[[12.0, 5.5], [12.0, 11.0]]"),
 ];

@@ -14,7 +14,7 @@ use crate::look::Look;
 use crate::marks::MarksOptions;
 use crate::motion::BodyOptions;
 use crate::plan::PlanOptions;
-use crate::routes::{PlaceRequest, RouteRequest, RoutesOptions};
+use crate::routes::{PlaceRequest, RouteRequest, RoutesOptions, StopRequest, Timetable, ViaRequest};
 use crate::stamps::StampOptions;
 use crate::walls::WallsOptions;
 
@@ -163,6 +163,8 @@ impl Scenario {
         patterns.into_table::<Nothing>()?;
         scenario.look = scenario.read_look(document, overrides.preset.is_some())?;
         scenario.routes.routes = document.list::<RouteRequest>(keys::ROUTE)?;
+        scenario.routes.stops = document.list::<StopRequest>(keys::STOP)?;
+        scenario.read_timetables(document)?;
         scenario.apply(overrides);
         scenario.check(Some(document))?;
         Ok(scenario)
@@ -176,7 +178,13 @@ impl Scenario {
     /// How the plan is read: `plan`, with the points that routes name as points of the floor.
     pub fn plan_options(&self) -> PlanOptions {
         let mut options = self.plan.clone();
-        let places = self.routes.routes.iter().flat_map(|route| [&route.from, &route.to].into_iter().chain(&route.via));
+        let places = self.routes.routes.iter().flat_map(|route| {
+            let via = route.via.iter().filter_map(|via| match via {
+                ViaRequest::Place(place) => Some(place),
+                ViaRequest::Stop(_) => None,
+            });
+            [&route.from, &route.to].into_iter().chain(via)
+        });
         options.floor.extend(places.filter_map(|place| match place {
             PlaceRequest::Point(point) => Some(*point),
             // The middle of an area may well lie in a pillar, and an opening is found once the floor is known.
@@ -213,6 +221,50 @@ impl Scenario {
         };
         preset.apply(&mut scenario);
         scenario
+    }
+
+    /// Every timetable: the crowd's and the routes' own.
+    fn timetables(&mut self) -> impl Iterator<Item = &mut Timetable> {
+        let of_routes = self.routes.routes.iter_mut().filter_map(|route| route.arrivals.as_mut());
+        [&mut self.crowd.arrivals].into_iter().chain(of_routes)
+    }
+
+    /// Reads the files of timetables; where lists name everybody and nobody says how many walk, they do.
+    fn read_timetables(&mut self, document: &Document<'_>) -> Result<(), ScenarioError> {
+        let folder = self.folder.clone();
+        let places: Vec<String> = ["crowd.arrivals.file".to_string()]
+            .into_iter()
+            .chain(
+                (0..self.routes.routes.len())
+                    .filter(|&index| self.routes.routes[index].arrivals.is_some())
+                    .map(|index| format!("route.{index}.arrivals.file")),
+            )
+            .collect();
+        for (timetable, key) in self.timetables().zip(places) {
+            let Some(file) = &timetable.file else { continue };
+            let path = folder.join(file);
+            let text = std::fs::read_to_string(&path).map_err(|error| {
+                document.wrong_value(&key, format!("cannot read the timetable {}: {error}", path.display()), None)
+            })?;
+            timetable.of_file = Timetable::rows_of_csv(&text).map_err(|(line, found)| {
+                let message = format!("{}, line {line}: \"{found}\" is no time and number of people", path.display());
+                document.wrong_value(&key, message, Some("write a line as `60, 20`: 20 people at 60 s".to_string()))
+            })?;
+            if timetable.of_file.is_empty() {
+                let message = format!("the timetable {} is empty", path.display());
+                return Err(document.wrong_value(&key, message, None));
+            }
+        }
+        let own: Vec<Option<u64>> = self.routes.routes.iter().map(|route| route.arrivals.as_ref()?.listed()).collect();
+        let listed = match self.crowd.arrivals.listed() {
+            Some(listed) if own.iter().all(Option::is_none) => Some(listed),
+            _ if !own.is_empty() => own.into_iter().sum::<Option<u64>>(),
+            _ => None,
+        };
+        if let Some(listed) = listed.filter(|_| document.text_of("crowd.people").is_none()) {
+            self.crowd.people = u32::try_from(listed).unwrap_or(u32::MAX);
+        }
+        Ok(())
     }
 
     fn apply(&mut self, overrides: &Overrides) {

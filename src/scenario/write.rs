@@ -12,7 +12,7 @@ const COMMENT_COLUMN: usize = 36;
 /// Lines are not longer than this where a comment can stand above instead.
 const WIDTH: usize = 118;
 /// Keys of a table on one line, in the order in which people say them.
-const PAIR_ORDER: [&str; 8] = ["mean", "size_m", "sd", "min", "max", "from", "to", "metres"];
+const PAIR_ORDER: [&str; 9] = ["kind", "mean", "size_m", "sd", "min", "max", "from", "to", "metres"];
 
 impl Scenario {
     /// The scenario as a file: every key with its value and what it means, ready to be edited.
@@ -22,7 +22,7 @@ impl Scenario {
         let table = table_of(self).unwrap_or_default();
         let mut text = String::new();
         let mut section = "";
-        for key in KEYS.iter().filter(|key| key.section() != keys::ROUTE) {
+        for key in KEYS.iter().filter(|key| !keys::LISTS.contains(&key.section())) {
             if key.section() != section {
                 section = key.section();
                 let gap = if text.is_empty() { "" } else { "\n" };
@@ -34,7 +34,18 @@ impl Scenario {
             };
             push_commented(&mut text, &line, &key.comment());
         }
-        push_routes(&mut text, &table);
+        push_list(
+            &mut text,
+            &table,
+            keys::ROUTE,
+            "Routes, each in a [[route]] of its own. Without any, routes join the widest openings:",
+        );
+        push_list(
+            &mut text,
+            &table,
+            keys::STOP,
+            "Places where people stop, each in a [[stop]] of its own; routes name them in `via`:",
+        );
         text
     }
 }
@@ -47,24 +58,25 @@ impl Scenario {
         scenario.image = name(&self.image);
         scenario.pattern_folder = self.pattern_folder.as_ref().map(name);
         scenario.look.floor.image = self.look.floor.image.as_ref().map(name);
+        for timetable in scenario.timetables() {
+            timetable.file = timetable.file.as_ref().map(name);
+        }
         // Only numbers that TOML cannot hold stop it, and those were refused when the scenario was read.
         table_of(&scenario).ok().and_then(|table| serde_json::to_value(table).ok()).unwrap_or_default()
     }
 }
 
-/// The routes, each in a section of its own; what their keys mean stands above the first.
-fn push_routes(text: &mut String, table: &Table) {
-    let route_keys = || KEYS.iter().filter(|key| key.section() == keys::ROUTE);
-    text.push_str(
-        "\n# Routes, each in a [[route]] of its own. Without any, routes join the widest openings:\n#\n# [[route]]\n",
-    );
-    for key in route_keys() {
+/// A list of sections, such as the routes; what their keys mean stands above the first.
+fn push_list(text: &mut String, table: &Table, list: &str, about: &str) {
+    let own_keys = || KEYS.iter().filter(|key| key.section() == list);
+    let _ = writeln!(text, "\n# {about}\n#\n# [[{list}]]");
+    for key in own_keys() {
         push_commented(text, &format!("# {} = {}", key.name(), key.example), &key.comment());
     }
-    for route in table.get(keys::ROUTE).and_then(Value::as_array).into_iter().flatten() {
-        text.push_str("\n[[route]]\n");
-        for key in route_keys() {
-            if let Some(value) = route.get(key.name()) {
+    for item in table.get(list).and_then(Value::as_array).into_iter().flatten() {
+        let _ = writeln!(text, "\n[[{list}]]");
+        for key in own_keys() {
+            if let Some(value) = item.get(key.name()) {
                 let _ = writeln!(text, "{} = {}", key.name(), inline(value));
             }
         }
@@ -145,5 +157,6 @@ pub(super) fn table_of(scenario: &Scenario) -> Result<Table, toml::ser::Error> {
     ];
     let mut all: Table = sections.into_iter().map(|(name, table)| (name.to_string(), Value::Table(table))).collect();
     all.insert(keys::ROUTE.to_string(), Value::try_from(&scenario.routes.routes)?);
+    all.insert(keys::STOP.to_string(), Value::try_from(&scenario.routes.stops)?);
     Ok(all)
 }

@@ -7,6 +7,7 @@
 mod bad_images;
 mod bad_numbers;
 mod bad_outputs;
+mod crowd;
 mod help;
 mod interrupt;
 mod readme;

@@ -16,7 +16,7 @@ pub(super) const LINE_PX: i64 = ((font::HEIGHT + 3) * DOT) as i64;
 
 /// A picture with a plan on it: the plan's lower-left corner lies `margin` pixels from the left and `below` pixels from
 /// the lower edge.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Canvas {
     pub(super) picture: RgbImage,
     pub(super) pixels_per_metre: f64,
@@ -117,18 +117,46 @@ impl Canvas {
     }
 
     /// Text with a halo of the paper's colour, its upper-left corner at a pixel.
-    pub(super) fn text(&mut self, [left, top]: [i64; 2], text: &str, colour: Colour, halo: Option<Colour>) {
+    pub(super) fn text(&mut self, at: [i64; 2], text: &str, colour: Colour, halo: Option<Colour>) {
         for (spread, colour) in [(2, halo), (0, Some(colour))] {
-            let Some(colour) = colour else { continue };
-            for (n, character) in (0..).zip(text.chars()) {
-                let left = left + n * i64::from((font::WIDTH + 1) * DOT);
-                for (row, bits) in (0..).zip(font::rows(character)) {
-                    for column in (0..font::WIDTH).filter(|column| bits >> (font::WIDTH - 1 - column) & 1 == 1) {
-                        let x = left + i64::from(column * DOT) - spread;
-                        let y = top + row * i64::from(DOT) - spread;
-                        let side = i64::from(DOT) + 2 * spread;
-                        self.fill([x, y], [side, side], colour);
-                    }
+            if let Some(colour) = colour {
+                self.letters(at, text, colour, i64::from(DOT), spread);
+            }
+        }
+    }
+
+    /// Letters whose dots have a side of `dot` pixels, and go over it by `spread` all around.
+    pub(super) fn letters(&mut self, [left, top]: [i64; 2], text: &str, colour: Colour, dot: i64, spread: i64) {
+        for (n, character) in (0..).zip(text.chars()) {
+            let left = left + n * i64::from(font::WIDTH + 1) * dot;
+            for (row, bits) in (0..).zip(font::rows(character)) {
+                for column in (0..font::WIDTH).filter(|column| bits >> (font::WIDTH - 1 - column) & 1 == 1) {
+                    let (x, y) = (left + i64::from(column) * dot - spread, top + row * dot - spread);
+                    self.fill([x, y], [dot + 2 * spread; 2], colour);
+                }
+            }
+        }
+    }
+
+    /// A filled ellipse around a pixel's place: `axes` are half its size along the unit vector `along` and across it, pixels.
+    pub(super) fn ellipse(&mut self, middle: Vec2, along: Vec2, [a, b]: [f64; 2], colour: Colour) {
+        let reach = a.max(b) + 1.0;
+        if !middle.is_finite() {
+            return;
+        }
+        let limit = |v: f64, most: u32| v.clamp(0.0, f64::from(most)) as i64;
+        let (most_x, most_y) = (self.picture.width(), self.picture.height());
+        for y in limit(middle.y - reach, most_y)..=limit(middle.y + reach, most_y) {
+            for x in limit(middle.x - reach, most_x)..=limit(middle.x + reach, most_x) {
+                let from = vec2(x as f64 + 0.5, y as f64 + 0.5) - middle;
+                let (u, v) = (from.dot(along) / a, from.cross(along) / b);
+                let radius = (u * u + v * v).sqrt();
+                // Distance from the edge: to first order, exact at the edge itself.
+                let slope = (u * u / (a * a) + v * v / (b * b)).sqrt();
+                let beyond = if slope > 0.0 { (radius - 1.0) * radius / slope } else { -reach };
+                let share = (0.5 - beyond).clamp(0.0, 1.0);
+                if share > 0.0 {
+                    self.blend(x, y, colour, share);
                 }
             }
         }
@@ -174,6 +202,22 @@ mod tests {
             let area = a.distance(b) * width;
             assert!((ink(&canvas) - area).abs() < 0.05 * area, "{b:?}: {} of {area}", ink(&canvas));
         }
+    }
+
+    #[test]
+    fn an_ellipse_takes_as_much_ink_as_its_area_in_any_direction() {
+        for (along, axes) in [(vec2(1.0, 0.0), [9.0, 4.0]), (vec2(0.6, 0.8), [3.0, 12.0]), (vec2(0.0, 1.0), [5.0, 5.0])]
+        {
+            let mut canvas = canvas();
+            canvas.ellipse(vec2(50.3, 49.8), along, axes, [0; 3]);
+            let area = std::f64::consts::PI * axes[0] * axes[1];
+            assert!((ink(&canvas) - area).abs() < 0.05 * area, "{axes:?}: {} of {area}", ink(&canvas));
+            assert!(canvas.picture.get_pixel(50, 49).0 == [0; 3]);
+        }
+        let mut canvas = canvas();
+        canvas.ellipse(vec2(1e9, -50.0), vec2(1.0, 0.0), [4.0, 4.0], [0; 3]);
+        canvas.ellipse(vec2(f64::NAN, 5.0), vec2(1.0, 0.0), [4.0, 4.0], [0; 3]);
+        assert_eq!(ink(&canvas), 0.0);
     }
 
     #[test]

@@ -2,6 +2,8 @@ use image::RgbImage;
 
 use super::canvas::{Canvas, Colour, LINE_PX, text_width};
 use super::paths::Path;
+use super::stuck::draw_stuck;
+use crate::crowd::Stuck;
 use crate::math::{Vec2, vec2};
 use crate::plan::{FloorPlan, RegionRole};
 use crate::routes::{Place, Route};
@@ -14,20 +16,22 @@ const MARGIN: usize = 110;
 /// Room below the plan for the legend.
 const LEGEND: usize = 120;
 
-const PAPER: Colour = [250, 250, 248];
+pub(super) const PAPER: Colour = [250, 250, 248];
 const FLOOR: Colour = [226, 234, 240];
-const PLAIN_FLOOR: Colour = [238, 238, 236];
-const SOLID: Colour = [70, 70, 74];
+pub(super) const PLAIN_FLOOR: Colour = [238, 238, 236];
+pub(super) const SOLID: Colour = [70, 70, 74];
 const OPEN_FACE: Colour = [20, 60, 140];
 const CLOSED_FACE: Colour = [150, 60, 20];
-const OPENING: Colour = [0, 140, 70];
+pub(super) const OPENING: Colour = [0, 140, 70];
 const GATE: Colour = [140, 60, 160];
 const UNREACHED: Colour = [214, 130, 0];
-const TEXT: Colour = [30, 30, 34];
-const ROUTES: [Colour; 6] = [[196, 40, 40], [40, 90, 200], [20, 130, 60], [150, 90, 0], [120, 40, 150], [0, 120, 140]];
+pub(super) const STUCK: Colour = [224, 20, 30];
+pub(super) const TEXT: Colour = [30, 30, 34];
+pub(super) const ROUTES: [Colour; 6] =
+    [[196, 40, 40], [40, 90, 200], [20, 130, 60], [150, 90, 0], [120, 40, 150], [0, 120, 140]];
 
 /// Speed of the upper end of the colour scale, metres per second.
-const FASTEST_M_S: f64 = 2.0;
+pub(super) const FASTEST_M_S: f64 = 2.0;
 /// Colours from standing to [`FASTEST_M_S`], alike to people who see no red or no green (Smith and van der Walt 2015,
 /// *viridis*).
 const SPEEDS: [Colour; 6] =
@@ -36,7 +40,8 @@ const SPEEDS: [Colour; 6] =
 /// Draws what was understood of a plan: floor, regions that nobody reaches (hatched), walls (blue: from side to side of
 /// the image; brown: closed), openings with their names, routes with their gates.
 pub fn draw_plan(plan: &FloorPlan, walls: &Walls, routes: &[Route]) -> RgbImage {
-    let mut canvas = draw_ground(plan, walls, FLOOR);
+    let mut canvas = sheet(plan);
+    draw_ground(&mut canvas, plan, walls, FLOOR);
     hatch_unreached(&mut canvas, plan);
     draw_walls(&mut canvas, walls, true);
     for (n, route) in routes.iter().enumerate() {
@@ -54,9 +59,11 @@ pub fn draw_plan(plan: &FloorPlan, walls: &Walls, routes: &[Route]) -> RgbImage 
     canvas.picture
 }
 
-/// Draws plan, walls, openings, gates and the ways of people, coloured by their speed.
-pub fn draw_paths(plan: &FloorPlan, walls: &Walls, routes: &[Route], paths: &[Path]) -> RgbImage {
-    let mut canvas = draw_ground(plan, walls, PLAIN_FLOOR);
+/// Draws plan, walls, openings, gates and the ways of people, coloured by their speed. Whoever got stuck is marked with a
+/// red cross and a number; the legend says who they are.
+pub fn draw_paths(plan: &FloorPlan, walls: &Walls, routes: &[Route], paths: &[Path], stuck: &[Stuck]) -> RgbImage {
+    let mut canvas = sheet(plan);
+    draw_ground(&mut canvas, plan, walls, PLAIN_FLOOR);
     for pair in paths.iter().flat_map(|path| path.samples.windows(2)) {
         let speed = 0.5 * (pair[0].speed_m_s + pair[1].speed_m_s);
         canvas.line_m(pair[0].position_m, pair[1].position_m, 1.3, speed_colour(speed), 0.7);
@@ -64,15 +71,19 @@ pub fn draw_paths(plan: &FloorPlan, walls: &Walls, routes: &[Route], paths: &[Pa
     draw_walls(&mut canvas, walls, false);
     routes.iter().for_each(|route| draw_gates(&mut canvas, route));
     draw_openings(&mut canvas, plan);
+    draw_stuck(&mut canvas, routes, stuck);
     draw_speed_scale(&mut canvas);
     draw_scale_bar(&mut canvas);
     canvas.picture
 }
 
+/// Paper for a plan with its legend.
+fn sheet(plan: &FloorPlan) -> Canvas {
+    Canvas::new(vec2(plan.width_m(), plan.height_m()), LONGEST_PX, [MARGIN, LEGEND], PAPER)
+}
+
 /// The plan's image in greys, its floor in a colour.
-fn draw_ground(plan: &FloorPlan, walls: &Walls, floor: Colour) -> Canvas {
-    let size = vec2(plan.width_m(), plan.height_m());
-    let mut canvas = Canvas::new(size, LONGEST_PX, [MARGIN, LEGEND], PAPER);
+pub(super) fn draw_ground(canvas: &mut Canvas, plan: &FloorPlan, walls: &Walls, floor: Colour) {
     let ([left, top], [width, height]) = (canvas.corner, canvas.plan_px);
     let mut share = vec![0.0f32; width];
     for y in 0..height {
@@ -87,7 +98,6 @@ fn draw_ground(plan: &FloorPlan, walls: &Walls, floor: Colour) -> Canvas {
             canvas.blend(x, y, floor, f64::from(share));
         }
     }
-    canvas
 }
 
 /// Index of the plan's pixel under a point.
@@ -139,7 +149,7 @@ fn unreached(plan: &FloorPlan) -> Vec<bool> {
     found
 }
 
-fn draw_walls(canvas: &mut Canvas, walls: &Walls, coloured: bool) {
+pub(super) fn draw_walls(canvas: &mut Canvas, walls: &Walls, coloured: bool) {
     for face in &walls.faces {
         let colour = match (coloured, face.closed) {
             (false, _) => SOLID,
@@ -191,11 +201,11 @@ fn draw_gates(canvas: &mut Canvas, route: &Route) {
 }
 
 /// Upper-left pixel of the legend.
-fn legend(canvas: &Canvas) -> [i64; 2] {
+pub(super) fn legend(canvas: &Canvas) -> [i64; 2] {
     [canvas.corner[0] as i64, (canvas.corner[1] + canvas.plan_px[1]) as i64 + 40]
 }
 
-fn speed_colour(speed_m_s: f64) -> Colour {
+pub(super) fn speed_colour(speed_m_s: f64) -> Colour {
     let steps = (SPEEDS.len() - 1) as f64;
     let at = (speed_m_s / FASTEST_M_S * steps).max(0.0).min(steps);
     let low = (at as usize).min(SPEEDS.len() - 2);
@@ -203,15 +213,17 @@ fn speed_colour(speed_m_s: f64) -> Colour {
     std::array::from_fn(|k| (f64::from(a[k]) + (f64::from(b[k]) - f64::from(a[k])) * (at - low as f64)).round() as u8)
 }
 
+/// Width of the scale of speeds, pixels.
+pub(super) const SPEED_SCALE_PX: i64 = 320;
+
 fn draw_speed_scale(canvas: &mut Canvas) {
-    const WIDTH: i64 = 320;
     let [left, top] = legend(canvas);
-    for x in 0..WIDTH {
-        let speed = FASTEST_M_S * x as f64 / WIDTH as f64;
+    for x in 0..SPEED_SCALE_PX {
+        let speed = FASTEST_M_S * x as f64 / SPEED_SCALE_PX as f64;
         canvas.fill([left + x, top], [1, 16], speed_colour(speed));
     }
     for (tick, label) in [(0.0, "0"), (0.5, "0.5"), (1.0, "1"), (1.5, "1.5"), (2.0, "2 m/s")] {
-        let x = left + (tick / FASTEST_M_S * WIDTH as f64) as i64;
+        let x = left + (tick / FASTEST_M_S * SPEED_SCALE_PX as f64) as i64;
         canvas.fill([x, top], [2, 22], TEXT);
         canvas.text([x - 5, top + 28], label, TEXT, None);
     }
@@ -219,12 +231,18 @@ fn draw_speed_scale(canvas: &mut Canvas) {
 
 /// A bar of a round number of metres, about 200 px long, at the legend's right end.
 fn draw_scale_bar(canvas: &mut Canvas) {
+    let [_, top] = legend(canvas);
+    let right = (canvas.corner[0] + canvas.plan_px[0]) as i64;
+    scale_bar(canvas, [right, top], 260.0);
+}
+
+/// A bar of a round number of metres, at most `longest_px` long, whose right end is at a pixel.
+pub(super) fn scale_bar(canvas: &mut Canvas, [right, top]: [i64; 2], longest_px: f64) {
     let per_metre = canvas.pixels_per_metre;
     let lengths = [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0];
-    let length_m = lengths.into_iter().rev().find(|m| m * per_metre <= 260.0).unwrap_or(lengths[0]);
+    let length_m = lengths.into_iter().rev().find(|m| m * per_metre <= longest_px).unwrap_or(lengths[0]);
     let width = (length_m * per_metre).round() as i64;
-    let [_, top] = legend(canvas);
-    let left = (canvas.corner[0] + canvas.plan_px[0]) as i64 - width;
+    let left = right - width;
     for (x, size) in [(left, [width, 2]), (left, [2, 10]), (left + width - 2, [2, 10])] {
         canvas.fill([x, top], size, TEXT);
     }
@@ -280,9 +298,30 @@ mod tests {
             id: 0,
             samples: [1.0, 5.0, 11.0].map(|x| PathSample { position_m: vec2(x, y), speed_m_s }).to_vec(),
         };
-        let picture = draw_paths(&plan, &walls, &[], &[way(1.5, 0.0), way(2.5, 9.0)]);
+        let picture = draw_paths(&plan, &walls, &[], &[way(1.5, 0.0), way(2.5, 9.0)], &[]);
         let (slow, fast) = (at(&picture, vec2(3.0, 1.5)), at(&picture, vec2(8.0, 2.5)));
         assert!(slow[2] > slow[1] && fast[1] > fast[2], "{slow:?} {fast:?}");
+    }
+
+    #[test]
+    fn whoever_got_stuck_is_crossed_and_named() {
+        let plan = plan();
+        let walls = Walls::trace(&plan, &WallsOptions::default()).unwrap();
+        let stuck = |id, x| Stuck { id, place_m: vec2(x, 2.0), route: 0, stop: None };
+        let clean = draw_paths(&plan, &walls, &[], &[], &[]);
+        let picture = draw_paths(&plan, &walls, &[], &[], &[stuck(17, 3.0), stuck(18, 3.1), stuck(19, 9.0)]);
+        for x in [3.0, 3.1, 9.0] {
+            assert_eq!(at(&picture, vec2(x, 2.0)), STUCK);
+        }
+        let legend = |picture: &RgbImage| {
+            let below = picture.height() - LEGEND as u32 + 20;
+            picture.enumerate_pixels().filter(|(_, y, p)| *y > below && p.0 != PAPER).count()
+        };
+        assert!(legend(&picture) > legend(&clean) + 500);
+        // Very many, and places that are none.
+        let many: Vec<Stuck> = (0..500).map(|id| stuck(id, f64::from(id) * 0.5 - 3.0)).collect();
+        draw_paths(&plan, &walls, &[], &[], &many);
+        draw_paths(&plan, &walls, &[], &[], &[stuck(1, f64::NAN)]);
     }
 
     #[test]
@@ -302,6 +341,8 @@ mod tests {
             name: "to \u{1f980}".to_string(),
             start: Place::Opening(99),
             via: Vec::new(),
+            stops: Vec::new(),
+            arrivals: None,
             goal: Place::Opening(0),
             share: 1.0,
             gates,

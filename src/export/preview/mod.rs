@@ -6,6 +6,7 @@ use super::{ExportError, FloorSource, FloorTextures, OutputFolder, PreviewEntry}
 use crate::math::{Vec2, vec2};
 use crate::walls::Walls;
 
+mod animation;
 mod birdseye;
 mod canvas;
 mod crops;
@@ -13,7 +14,12 @@ mod drawing;
 mod paths;
 mod render;
 mod srgb;
+mod stuck;
 
+pub use animation::{
+    ANIMATION_SIZES_PX, ANIMATION_SPEEDS, Animation, AnimationColour, AnimationError, AnimationFormat,
+    AnimationOptions, AnimationReport,
+};
 pub use birdseye::Birdseye;
 pub use crops::{CROP_M, Crop, choose_crops};
 pub use drawing::{draw_paths, draw_plan};

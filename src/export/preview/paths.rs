@@ -67,7 +67,8 @@ mod tests {
     use crate::motion::Walker;
 
     fn frame(time_s: f64, ids: std::ops::Range<u32>) -> Frame {
-        let walker = |id| Walker { id, position_m: vec2(time_s, f64::from(id)), velocity_m_s: vec2(3.0, 4.0) };
+        let walker =
+            |id| Walker { id, position_m: vec2(time_s, f64::from(id)), velocity_m_s: vec2(3.0, 4.0), heading: None };
         Frame { time_s, walkers: ids.map(walker).collect() }
     }
 

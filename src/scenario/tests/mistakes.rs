@@ -318,7 +318,7 @@ not valid TOML: duplicate key
   |
 3 | image = "b.png"
   | ^^^^^
-hint: write each key and each section once; only [[route]] may come again
+hint: write each key and each section once; only [[route]] and [[stop]] may come again
 
 "#]]
     );

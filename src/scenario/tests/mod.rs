@@ -3,11 +3,12 @@ use std::path::Path;
 use serde::de::DeserializeOwned;
 
 use super::check::value_at;
-use super::keys::{Allowed, KEYS, ROUTE, SECTIONS};
+use super::keys::{Allowed, KEYS, Key, LISTS, SECTIONS};
 use super::*;
 use crate::plan::PlanPoint;
 
 mod mistakes;
+mod stops;
 
 const PLAN: &str = "[plan]\nimage = \"plan.png\"\n";
 
@@ -87,6 +88,8 @@ fn what_is_written_reads_back_the_same() {
         scenario.image = "plan.png".into();
         scenario.folder = "plans".into();
         scenario.routes.routes = routes();
+        scenario.routes.stops = stops::requests();
+        scenario.crowd.arrivals = stops::bursts();
         let text = scenario.to_toml();
         assert_eq!(parse(&text).unwrap_or_else(|error| panic!("{error}\n{text}")), scenario, "{text}");
     }
@@ -105,13 +108,21 @@ fn routes() -> Vec<RouteRequest> {
     let opening = |name: &str| PlaceRequest::Opening(name.to_string());
     let area = PlaceRequest::Area([[1.0, 2.0], [3.0, 4.5]]);
     let via = vec![
-        PlaceRequest::Point(PlanPoint::Metres([5.0, 6.0])),
-        PlaceRequest::Point(PlanPoint::Pixels { px: [7.0, 8.0] }),
+        PlaceRequest::Point(PlanPoint::Metres([5.0, 6.0])).into(),
+        PlaceRequest::Point(PlanPoint::Pixels { px: [7.0, 8.0] }).into(),
+        opening("ticket office").into(),
+        ViaRequest::Stop(crate::routes::SharedStop { stop: "bench".to_string(), share: 0.2 }),
     ];
-    vec![
-        RouteRequest { name: None, from: opening("west"), to: opening("north 2"), via: Vec::new(), share: 1.0 },
-        RouteRequest { name: Some("round".to_string()), from: area, to: opening("south"), via, share: 0.25 },
-    ]
+    let first = RouteRequest {
+        name: None,
+        from: opening("west"),
+        to: opening("north 2"),
+        via: Vec::new(),
+        share: 1.0,
+        arrivals: Some(stops::list()),
+    };
+    let name = Some("round".to_string());
+    vec![first, RouteRequest { name, from: area, to: opening("south"), via, share: 0.25, arrivals: None }]
 }
 
 #[test]
@@ -127,6 +138,8 @@ fn a_written_scenario_shows_every_key() {
         ("walls", keys_of::<WallsOptions>()),
         ("texture", keys_of::<TextureOptions>()),
         ("route", keys_of::<RouteRequest>()),
+        ("stop", keys_of::<StopRequest>()),
+        ("crowd.arrivals", keys_of::<Timetable>()),
         ("crowd", keys_of::<CrowdOptions>()),
         ("marks", keys_of::<MarksOptions>()),
         ("marks.soil", keys_of::<crate::marks::SoilOptions>()),
@@ -160,11 +173,14 @@ fn a_written_scenario_shows_every_key() {
 
 #[test]
 fn every_example_of_a_key_without_a_default_reads() {
-    for key in KEYS.iter().filter(|key| !key.example.is_empty() && key.path != "look.file" && key.section() != ROUTE) {
+    let of_files = ["look.file", "crowd.arrivals.file"];
+    let read = |key: &&Key| !key.example.is_empty() && !of_files.contains(&key.path) && !LISTS.contains(&key.section());
+    for key in KEYS.iter().filter(read) {
         let (section, name) = (key.section(), key.name());
         let image = if section == "plan" { "image = \"plan.png\"\n" } else { "" };
         let plan = if section == "plan" { "" } else { PLAN };
-        let text = format!("{plan}[{section}]\n{image}{name} = {}\n", key.example);
+        let with = stops::companions(key.path);
+        let text = format!("{plan}[{section}]\n{image}{with}{name} = {}\n", key.example);
         parse(&text).unwrap_or_else(|error| panic!("{error}"));
     }
 }
@@ -175,20 +191,22 @@ fn limits_are_allowed_and_what_lies_beyond_is_not() {
     let defaults = write::table_of(&Scenario::of_preset(Preset::Commuters)).unwrap();
     for key in KEYS {
         let (low, high, open) = match key.allowed {
-            _ if key.section() == ROUTE => continue,
+            _ if LISTS.contains(&key.section()) => continue,
             Allowed::Any => continue,
             Allowed::Number(low, high) | Allowed::Spread(low, high) => (low, high, false),
             Allowed::Below(low, high) => (low, high, true),
         };
         let default = value_at(&defaults, key.path);
-        let whole = default.is_some_and(toml::Value::is_integer) || key.path == "plan.threshold";
+        let whole = default.is_some_and(toml::Value::is_integer)
+            || ["plan.threshold", "crowd.arrivals.people"].contains(&key.path);
         let pair = default.is_some_and(toml::Value::is_array);
         let text = |value: f64| {
             let number = if whole { format!("{value}") } else { format!("{value:?}").to_lowercase() };
             let value = if pair { format!("[{number}, {number}]") } else { number };
             let image = if key.section() == "plan" { "image = \"plan.png\"\n" } else { "" };
             let plan = if key.section() == "plan" { "" } else { PLAN };
-            format!("{plan}[{}]\n{image}{} = {value}\n", key.section(), key.name())
+            let with = stops::companions(key.path);
+            format!("{plan}[{}]\n{image}{with}{} = {value}\n", key.section(), key.name())
         };
         parse(&text(low)).unwrap_or_else(|error| panic!("{error}"));
         let step = if whole { 1.0 } else { 1e-6 };
