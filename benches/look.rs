@@ -40,6 +40,7 @@ fn hall() -> (Walls, FloorSums) {
             length_m: 0.28,
             smear_m: 0.01,
             twist_rad: 0.0,
+            forefoot: 0.0,
             strength: 1.0,
             soil: if n % 10 == 0 { 0.02 } else { 0.0 },
             wear: n,

@@ -1,4 +1,5 @@
-//! How fast frames become marks: people of a frame per second, on one thread.
+//! How fast frames become marks: people of a frame per second, on one thread. Once from places alone, once with where
+//! bodies face, as a crowd gives it.
 
 use std::hint::black_box;
 
@@ -22,13 +23,18 @@ fn hall() -> Walls {
     Walls::trace(&plan, &WallsOptions::default()).expect("the plan has floor")
 }
 
-fn frames() -> Vec<Frame> {
+fn frames(facing: bool) -> Vec<Frame> {
     let frame = |n: u32| {
         let time_s = f64::from(n) * DT_S;
         let walker = |id: u32| {
-            let weave = sin_cos(0.4 * time_s + f64::from(id)).0;
+            let (weave, slope) = sin_cos(0.4 * time_s + f64::from(id));
             let along = f64::from(id % 40) + 1.0 + 1.2 * time_s;
-            Walker { id, position_m: vec2(along, 1.0 + 0.058 * f64::from(id) + weave), velocity_m_s: vec2(1.2, 0.0) }
+            Walker {
+                id,
+                position_m: vec2(along, 1.0 + 0.058 * f64::from(id) + weave),
+                velocity_m_s: vec2(1.2, 0.0),
+                heading: facing.then_some(vec2(1.2, 0.4 * slope)),
+            }
         };
         Frame { time_s, walkers: (0..PEOPLE).map(walker).collect() }
     };
@@ -38,28 +44,31 @@ fn frames() -> Vec<Frame> {
 fn marks(c: &mut Criterion) {
     let (people, walls) = (People::new(1, BodyOptions::default()), hall());
     let library = PatternLibrary::built_in().expect("the built-in library is tested");
-    let (options, frames) = (MarksOptions::default(), frames());
+    let options = MarksOptions::default();
     let mut group = c.benchmark_group("marks");
     group.throughput(Throughput::Elements(u64::from(PEOPLE * FRAMES)));
     group.sample_size(20);
-    group.bench_function("people of a frame", |b| {
-        let stage = || {
-            let origins = Origin::of_arrivals(vec![true; PEOPLE as usize].into_iter(), 300);
-            Footfalls::new(&people, &walls, &library, &options, origins).expect("the defaults are in range")
-        };
-        b.iter_batched(
-            stage,
-            |mut stage| {
-                let mut out = Vec::with_capacity(100_000);
-                for frame in &frames {
-                    stage.push(frame, &mut out);
-                }
-                stage.finish(&mut out);
-                black_box(out.len())
-            },
-            BatchSize::PerIteration,
-        );
-    });
+    for (name, facing) in [("people of a frame", false), ("people of a frame who face somewhere", true)] {
+        let frames = frames(facing);
+        group.bench_function(name, |b| {
+            let stage = || {
+                let origins = Origin::of_arrivals(vec![true; PEOPLE as usize].into_iter(), 300);
+                Footfalls::new(&people, &walls, &library, &options, origins).expect("the defaults are in range")
+            };
+            b.iter_batched(
+                stage,
+                |mut stage| {
+                    let mut out = Vec::with_capacity(100_000);
+                    for frame in &frames {
+                        stage.push(frame, &mut out);
+                    }
+                    stage.finish(&mut out);
+                    black_box(out.len())
+                },
+                BatchSize::PerIteration,
+            );
+        });
+    }
     group.finish();
 }
 

@@ -1,4 +1,4 @@
-use super::settings::{EdgeLook, FilmLook, IngrainedLook, Look, NoiseLook, Octave, PrintsLook, SOIL_WET};
+use super::settings::{EdgeLook, FilmLook, IngrainedLook, Look, NoiseLook, Octave, PrintsLook, SOIL_WET, ScuffsLook};
 
 /// Names of the presets, in the order in which help texts list them.
 pub const LOOK_PRESETS: [&str; 4] = ["commuters", "heavy", "wet", "paper"];
@@ -29,6 +29,8 @@ fn heavy() -> Look {
         total_passes: 50_000,
         film: FilmLook { density: 0.67, colour: [98, 89, 76], ..look.film },
         ingrained: IngrainedLook { density: 0.20, ..look.ingrained },
+        // What lies under so much film shows less.
+        scuffs: ScuffsLook { strength: 0.9, ..look.scuffs },
         edge: EdgeLook { density: 0.45, reach_m: 0.05, ..look.edge },
         // A film that is complete is even.
         noise: NoiseLook {

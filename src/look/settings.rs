@@ -241,7 +241,7 @@ impl Default for PrintsLook {
 
 impl Default for ScuffsLook {
     fn default() -> ScuffsLook {
-        ScuffsLook { strength: 4.5, colour: RUBBER }
+        ScuffsLook { strength: 1.8, colour: RUBBER }
     }
 }
 

@@ -85,6 +85,7 @@ fn people(library: &PatternLibrary) -> Vec<Mark> {
                 length_m: 0.28,
                 smear_m: 0.01,
                 twist_rad: 0.0,
+                forefoot: 0.0,
                 strength: rng.range(0.85, 1.15),
                 soil: (load * 2.68 / (f64::from(step / 2) + 2.68)) as f32,
                 wear,
@@ -107,6 +108,7 @@ fn people(library: &PatternLibrary) -> Vec<Mark> {
             length_m: rng.range(0.02, 0.12),
             smear_m: 0.0,
             twist_rad: 0.0,
+            forefoot: 0.0,
             strength,
             soil: 0.0,
             wear: 0,
@@ -206,6 +208,8 @@ fn a_broad_lane_darkens_by_the_right_amount() {
         assert!((low..=high).contains(&lane), "{preset}: {lane}");
         let darkest = floor.lane().concat().into_iter().fold(f64::INFINITY, f64::min) - floor.clean;
         println!("{preset}: darkest {darkest:.1}");
+        // Heel marks stand out of the lane, but are no holes in it; wet prints may be darker.
+        assert!(preset == "wet" || darkest > -25.3, "{preset}: {darkest}");
     }
 }
 

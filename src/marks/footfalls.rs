@@ -6,7 +6,8 @@ use crate::motion::{Frame, People, Person, Walker};
 use crate::patterns::{Cause, PatternLibrary};
 use crate::walls::Walls;
 
-use super::gait::{Gait, Step};
+use super::feet::Step;
+use super::gait::Gait;
 use super::heels::{self, HeelMarks};
 use super::soil::Shoes;
 use super::track::{Sample, Track};
@@ -141,19 +142,19 @@ impl<'a> Footfalls<'a> {
             heels,
             last: None,
         };
-        let gait = Gait::new(seed, &person);
-        Present { track: Track::new(time_s, walker.position_m), gait, feet, person }
+        let gait = Gait::new(seed, &person, self.options.shifts_per_minute / 60.0);
+        Present { track: Track::new(time_s, walker.position_m, walker.heading), gait, feet, person }
     }
 
     fn walk_on(&mut self, present: &mut Present, time_s: f64, walker: &Walker, out: &mut Vec<Mark>) {
         let Present { person, track, gait, feet } = present;
         let mut stride = |sample: Sample| self.stride(person, gait, feet, sample, out);
         if track.continues(time_s, walker.position_m) {
-            track.push(time_s, walker.position_m, stride);
+            track.push(time_s, walker.position_m, walker.heading, stride);
         } else {
             track.finish(&mut stride);
             gait.interrupt();
-            *track = Track::new(time_s, walker.position_m);
+            *track = Track::new(time_s, walker.position_m, walker.heading);
         }
     }
 
@@ -198,6 +199,7 @@ impl Feet {
             length_m: sole_length_m as f32,
             smear_m: step.smear_m as f32,
             twist_rad: step.twist_rad as f32,
+            forefoot: step.forefoot as f32,
             strength: step.pressure as f32,
             soil: soil as f32,
             wear: self.wear,

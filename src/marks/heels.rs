@@ -1,30 +1,34 @@
 //! Heel marks: where a heel or a toe drags over the floor.
 
-use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 
-use crate::math::{SplitMix64, Vec2, exp, ln, sin_cos, vec2};
+use crate::math::{SplitMix64, Vec2, exp};
 use crate::patterns::{Cause, Pattern, PatternLibrary};
 use crate::walls::Walls;
 
 use super::Mark;
-use super::gait::{Progress, Step};
+use super::feet::{Step, turned_by};
+use super::gait::Progress;
 use super::options::HeelOptions;
+use super::rest::waiting;
+use super::track::TICK_S;
 
 /// Turns that are not more than a wiggle about the way, radians to either side, do not count.
 const WIGGLE: f64 = 0.15;
-/// Speeds between which somebody neither stops nor starts, metres per second.
-const STANDS_M_S: f64 = 0.12;
-const WALKS_M_S: f64 = 0.40;
+/// A turn pushes aside as hard as it is fast: it counts in full from this speed on, and in this share on the spot, where
+/// feet are lifted. Metres per second.
+const TURNING_M_S: f64 = 1.0;
+const ON_THE_SPOT: f64 = 0.15;
 /// Way between two looks for a narrow place, metres.
 const LOOK_M: f64 = 0.15;
 /// The rates of a small crowd are raised at most this many times.
 const MOST_SCALE: f64 = 10.0;
 /// Two walls are on both sides if they lie in directions less than this cosine from opposite.
 const OPPOSITE: f64 = 0.95;
-/// Range of a drag's length, metres, and of its density.
+/// Range of a drag's length as shares of its pattern's, and in metres; and of its density.
+const LENGTHS: [f32; 2] = [1.1, 2.2];
 const LENGTH_M: [f64; 2] = [0.02, 0.12];
-const MOST_DENSITY: f64 = 1.5;
+const MOST_DENSITY: f64 = 0.5;
 /// Sagitta over length from which a pattern counts as bent.
 const BENT: f64 = 0.03;
 
@@ -55,7 +59,6 @@ pub(super) struct Wear {
     until_next: f64,
     /// Turn within the slack of [`WIGGLE`], radians.
     slack_rad: f64,
-    walks: bool,
     narrow: bool,
     since_look_m: f64,
 }
@@ -87,9 +90,11 @@ impl HeelMarks {
             return;
         }
         let turned = wear.turn(progress.turned_rad);
-        let events = self.options.per_stop * wear.stops_or_starts(progress.speed_m_s)
+        let events = self.options.per_stop * progress.stops
+            + self.options.per_second_stood * progress.stood_s
             + self.options.per_passage * self.passages(wear, progress.walked_m, body);
-        let turning = self.options.per_radian * turned.abs();
+        let speed_m_s = progress.walked_m / TICK_S;
+        let turning = self.options.per_radian * turned.abs() * (speed_m_s / TURNING_M_S).clamp(ON_THE_SPOT, 1.0);
         let straight = self.options.per_metre * progress.walked_m + events;
         wear.until_next -= self.scale * (straight + turning);
         while wear.until_next <= 0.0 {
@@ -120,18 +125,19 @@ impl HeelMarks {
         let at_heel = draw.unit() < if turning { 0.4 } else { 0.65 };
         let along = if at_heel { -0.40 } else { 0.30 } + 0.06 * f64::from(draw.normal());
         let across_m = 0.012 * f64::from(draw.normal());
-        let (s, c) = sin_cos(if turning { 0.5 } else { 0.2 } * f64::from(draw.normal()));
-        let length_m = drag.length_m * f64::from(draw.range(0.7, 1.35));
+        let askew_rad = if turning { 0.5 } else { 0.2 } * f64::from(draw.normal());
+        let length_m = drag.length_m * f64::from(draw.range(LENGTHS[0], LENGTHS[1]));
         let density = self.options.median_density * exp(self.options.sigma * f64::from(draw.normal()));
         Some(Mark {
             cause: Cause::Heel,
             place_m: foot.place_m + foot.heading * (along * sole_length_m) + foot.heading.left() * across_m,
-            heading: foot.heading.rotated(vec2(c, s)),
+            heading: turned_by(foot.heading, askew_rad),
             mirrored,
             pattern: drag.pattern,
             length_m: length_m.clamp(LENGTH_M[0], LENGTH_M[1]) as f32,
             smear_m: 0.0,
             twist_rad: 0.0,
+            forefoot: 0.0,
             strength: density.min(MOST_DENSITY) as f32,
             soil: 0.0,
             wear,
@@ -142,7 +148,7 @@ impl HeelMarks {
 
 impl Wear {
     pub fn new(rng: &mut ChaCha8Rng) -> Wear {
-        Wear { until_next: waiting(rng), slack_rad: 0.0, walks: true, narrow: false, since_look_m: 0.0 }
+        Wear { until_next: waiting(rng), slack_rad: 0.0, narrow: false, since_look_m: 0.0 }
     }
 
     /// The part of a turn that goes beyond a wiggle.
@@ -151,17 +157,6 @@ impl Wear {
         self.slack_rad = reached.clamp(-WIGGLE, WIGGLE);
         reached - self.slack_rad
     }
-
-    /// 1 when somebody stops or starts.
-    fn stops_or_starts(&mut self, speed_m_s: f64) -> f64 {
-        let walks = if self.walks { speed_m_s > STANDS_M_S } else { speed_m_s > WALKS_M_S };
-        if std::mem::replace(&mut self.walks, walks) == walks { 0.0 } else { 1.0 }
-    }
-}
-
-/// Expected marks between two: exponential with mean 1.
-fn waiting(rng: &mut ChaCha8Rng) -> f64 {
-    (-ln(1.0 - rng.random::<f64>())).max(1e-6)
 }
 
 /// Chooses by share; `draw` is uniform in `[0, 1)`.

@@ -4,18 +4,21 @@
 //!
 //! 1. `track`: the path on a clock of its own, smoothed over a stride, so that neither the source's frame rate nor
 //!    the sway of a body decides where feet fall;
-//! 2. `gait`: a phase that grows by a step per step length walked; a foot is set down at every whole step, left and
-//!    right in turn;
+//! 2. `gait`: a phase that grows by a step per step length walked; at every whole step one of the `feet` is set down,
+//!    left and right in turn, as the body faces; who comes to `rest` draws them together, and shifts them while
+//!    standing;
 //! 3. `soil` and `heels`: what the shoe leaves there.
 //!
-//! Everything that can happen more or less often is a rate per metre walked, per radian turned or per event; the
-//! number of marks does not depend on the source's time step.
+//! Everything that can happen more or less often is a rate per metre walked, per radian turned, per second stood or per
+//! event; the number of marks does not depend on the source's time step.
 
 mod error;
+mod feet;
 mod footfalls;
 mod gait;
 mod heels;
 mod options;
+mod rest;
 mod soil;
 mod track;
 
@@ -45,6 +48,9 @@ pub struct Mark {
     pub smear_m: f32,
     /// How far the ball twists on the floor while the foot stands, radians counter-clockwise; 0 unless the person turns.
     pub twist_rad: f32,
+    /// How much of the heel's load has gone over to the ball, 0 to 1: the faster the more; 1 is somebody who runs on
+    /// the ball and hardly touches the floor with the heel.
+    pub forefoot: f32,
     /// Footfalls: pressure, about 1, added to `passes` and `presence` as a factor. Heel marks: optical density.
     pub strength: f32,
     /// Optical density of the soil that this print leaves where coverage is full; 0 unless the person is one of the fresh.

@@ -13,6 +13,8 @@ pub struct MarksOptions {
     /// Name of the one sole that everybody wears; left out, people wear soles by their share in the library.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shoe: Option<String>,
+    /// How often somebody who stands shifts the weight and sets a foot anew, per minute.
+    pub shifts_per_minute: f64,
     /// Soil that fresh people bring in.
     pub soil: SoilOptions,
     /// Rubber that heels and toes leave.
@@ -60,18 +62,20 @@ pub struct SoilOptions {
 /// Rubber that heels and toes leave. The rates hold for [`HeelOptions::people`]; they are scaled so that another
 /// number of simulated people leaves as many marks in all.
 ///
-/// A corridor that 1000 people walk 4 to 5 m wide sees 200 to 250 person-metres on each m2; `per_metre` gives 0.3 to
-/// 0.4 marks there. The other rates make the square metres of a turn, a stop, a start or a door about five times as
-/// marked.
+/// A corridor that 1000 people walk 4 to 5 m wide sees 200 to 250 person-metres on each m2; `per_metre` gives 0.4 to
+/// 0.5 marks there, and 0.2 where half of them walk. The other rates make the square metres of a turn, a door, or a
+/// place where people stop about five times as marked.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct HeelOptions {
     /// Marks per metre walked.
     pub per_metre: f64,
-    /// Marks per radian turned.
+    /// Marks per radian turned at a walk; on the spot 0.15 of it.
     pub per_radian: f64,
     /// Marks per stop, and per start.
     pub per_stop: f64,
+    /// Marks per second stood.
+    pub per_second_stood: f64,
     /// Marks per passage of a door or another place narrower than `narrow_m`.
     pub per_passage: f64,
     /// Clear width below which a place counts as a passage, metres.
@@ -86,7 +90,13 @@ pub struct HeelOptions {
 
 impl Default for MarksOptions {
     fn default() -> MarksOptions {
-        MarksOptions { fresh_people: 300, shoe: None, soil: SoilOptions::default(), heel: HeelOptions::default() }
+        MarksOptions {
+            fresh_people: 300,
+            shoe: None,
+            shifts_per_minute: 2.5,
+            soil: SoilOptions::default(),
+            heel: HeelOptions::default(),
+        }
     }
 }
 
@@ -107,9 +117,10 @@ impl Default for SoilOptions {
 impl Default for HeelOptions {
     fn default() -> HeelOptions {
         HeelOptions {
-            per_metre: 0.0015,
-            per_radian: 0.008,
-            per_stop: 0.006,
+            per_metre: 0.0022,
+            per_radian: 0.012,
+            per_stop: 0.003,
+            per_second_stood: 0.000_05,
             per_passage: 0.006,
             narrow_m: 1.6,
             median_density: 0.25,
@@ -122,7 +133,14 @@ impl Default for HeelOptions {
 impl HeelOptions {
     /// No heel marks at all.
     pub fn none() -> HeelOptions {
-        HeelOptions { per_metre: 0.0, per_radian: 0.0, per_stop: 0.0, per_passage: 0.0, ..HeelOptions::default() }
+        HeelOptions {
+            per_metre: 0.0,
+            per_radian: 0.0,
+            per_stop: 0.0,
+            per_second_stood: 0.0,
+            per_passage: 0.0,
+            ..HeelOptions::default()
+        }
     }
 }
 
@@ -134,6 +152,7 @@ impl MarksOptions {
     pub fn check(&self) -> Result<(), MarksError> {
         let (soil, heel) = (&self.soil, &self.heel);
         for (key, value, low, high) in [
+            ("shifts_per_minute", self.shifts_per_minute, 0.0, 60.0),
             ("soil.median_density", soil.median_density, 0.0, 3.0),
             ("soil.sigma", soil.sigma, 0.0, 3.0),
             ("soil.shoe_sigma", soil.shoe_sigma, 0.0, 3.0),
@@ -141,6 +160,7 @@ impl MarksOptions {
             ("heel.per_metre", heel.per_metre, 0.0, 1.0),
             ("heel.per_radian", heel.per_radian, 0.0, 1.0),
             ("heel.per_stop", heel.per_stop, 0.0, 10.0),
+            ("heel.per_second_stood", heel.per_second_stood, 0.0, 1.0),
             ("heel.per_passage", heel.per_passage, 0.0, 10.0),
             ("heel.narrow_m", heel.narrow_m, 0.0, 5.0),
             ("heel.median_density", heel.median_density, 0.0, 3.0),

@@ -4,7 +4,7 @@ use rand::RngExt;
 
 use crate::math::{Purpose, exp, person_stream, round_to_grid};
 
-use super::gait::normal;
+use super::feet::normal;
 use super::options::{SoilOptions, Weather};
 
 /// Steps of a shoe after which a dry trail has halved.

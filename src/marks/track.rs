@@ -15,11 +15,24 @@ const HELD: usize = 96;
 const GAP_S: f64 = 5.0;
 const JUMP_M_S: f64 = 12.0;
 
+/// Ticks on either side over which the body's heading is evened out: as long as the sway of a stride at 0.7 m/s, for
+/// headings that somebody took from where a swaying head went.
+const FACING_REACH: usize = 10;
+/// Whoever moves less than this in this many ticks stands; more than the sway of standing.
+const REST_M: f64 = 0.08;
+const REST_TICKS: usize = 7;
+
 /// A tick of the smoothed path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Sample {
     pub position_m: Vec2,
     pub velocity_m_s: Vec2,
+    /// Where the body faces, if the source says so.
+    pub facing: Option<Vec2>,
+    /// How far the body will have gone two seconds later.
+    pub ahead_m: Vec2,
+    /// Whether it stands by then.
+    pub comes_to_rest: bool,
 }
 
 /// One person's path: raw positions in, smoothed samples out, two seconds later.
@@ -30,10 +43,13 @@ pub(super) struct Sample {
 /// by its reflection in the end point, so that straight paths stay straight.
 pub(super) struct Track {
     points: Vec<Vec2>,
+    /// Where the body faces at each of them; null where nobody knows. Empty as long as nobody ever did.
+    facings: Vec<Vec2>,
     /// Index of the window's first point within `points`.
     start: usize,
     /// The last raw position and its time.
     last: (f64, Vec2),
+    last_facing: Option<Vec2>,
     /// The next tick of the clock.
     next_tick: f64,
     /// Whether the reflection before the start is in place.
@@ -41,16 +57,19 @@ pub(super) struct Track {
 }
 
 impl Track {
-    pub fn new(time_s: f64, position_m: Vec2) -> Track {
+    pub fn new(time_s: f64, position_m: Vec2, facing: Option<Vec2>) -> Track {
+        let facing = facing.and_then(unit);
         let mut track = Track {
             points: Vec::with_capacity(HELD),
+            facings: Vec::with_capacity(if facing.is_some() { HELD } else { 0 }),
             start: 0,
             last: (time_s, position_m),
+            last_facing: facing,
             next_tick: (time_s / TICK_S).ceil(),
             begun: false,
         };
         if track.next_tick * TICK_S == time_s {
-            track.points.push(position_m);
+            track.add(position_m, facing, &mut |_| ());
             track.next_tick += 1.0;
         }
         track
@@ -62,18 +81,24 @@ impl Track {
         elapsed <= GAP_S && position_m.distance(self.last.1) <= 0.5 + JUMP_M_S * elapsed.max(0.0)
     }
 
-    /// Takes the next raw position; gives the samples that are now known to `each`.
-    pub fn push(&mut self, time_s: f64, position_m: Vec2, mut each: impl FnMut(Sample)) {
+    /// Takes the next raw position and where the body faces; gives the samples that are now known to `each`.
+    pub fn push(&mut self, time_s: f64, position_m: Vec2, facing: Option<Vec2>, mut each: impl FnMut(Sample)) {
         let (last_s, last_m) = self.last;
         if time_s <= last_s {
             return;
         }
+        let facing = facing.and_then(unit);
         while self.next_tick * TICK_S <= time_s {
-            let share = (self.next_tick * TICK_S - last_s) / (time_s - last_s);
+            let share = ((self.next_tick * TICK_S - last_s) / (time_s - last_s)).clamp(0.0, 1.0);
             self.next_tick += 1.0;
-            self.add(last_m.lerp(position_m, share.clamp(0.0, 1.0)), &mut each);
+            let between = match (self.last_facing, facing) {
+                (Some(last), Some(next)) => unit(last.lerp(next, share)).or(facing),
+                (last, next) => next.or(last),
+            };
+            self.add(last_m.lerp(position_m, share), between, &mut each);
         }
         self.last = (time_s, position_m);
+        self.last_facing = facing;
     }
 
     /// Ends the path; gives the samples that are left to `each`.
@@ -83,32 +108,65 @@ impl Track {
         let oldest = if self.begun { self.start } else { 0 };
         let tail: Vec<Vec2> =
             (1..=REACH).map(|n| end * 2.0 - self.points[newest.saturating_sub(n).max(oldest)]).collect();
+        // Whoever leaves goes on facing the same way.
+        let facing = self.last_facing;
         for point in tail {
-            self.add(point, &mut each);
+            self.add(point, facing, &mut each);
         }
         self.points.clear();
+        self.facings.clear();
         self.start = 0;
         self.begun = false;
     }
 
-    fn add(&mut self, point: Vec2, each: &mut impl FnMut(Sample)) {
+    fn add(&mut self, point: Vec2, facing: Option<Vec2>, each: &mut impl FnMut(Sample)) {
         if self.points.len() == HELD {
-            self.points.copy_within(self.start.., 0);
-            self.points.truncate(HELD - self.start);
+            for list in [&mut self.points, &mut self.facings] {
+                list.drain(..self.start.min(list.len()));
+            }
             self.start = 0;
         }
+        if facing.is_some() && self.facings.is_empty() {
+            self.facings.resize(self.points.len(), Vec2::ZERO);
+        }
         self.points.push(point);
+        if !self.facings.is_empty() || facing.is_some() {
+            self.facings.push(facing.unwrap_or(Vec2::ZERO));
+        }
         if !self.begun && self.points.len() > REACH {
             self.begun = true;
             let first = self.points[0];
             let before: Vec<Vec2> = (1..=REACH).rev().map(|n| first * 2.0 - self.points[n]).collect();
             self.points.splice(0..0, before);
+            if let Some(&first) = self.facings.first() {
+                self.facings.splice(0..0, [first; REACH]);
+            }
         }
         if self.begun {
-            each(smooth(&self.points[self.start..self.start + WINDOW]));
+            let window = self.start..self.start + WINDOW;
+            let facing = self.facings.get(window.clone()).and_then(evened_out);
+            each(Sample { facing, ..smooth(&self.points[window]) });
             self.start += 1;
         }
     }
+}
+
+/// The unit vector along a finite vector that is not null.
+fn unit(v: Vec2) -> Option<Vec2> {
+    v.normalized().filter(|v| v.is_finite())
+}
+
+/// Where the body faces in the middle of a window, weighted as positions are.
+fn evened_out(window: &[Vec2]) -> Option<Vec2> {
+    let reach = (FACING_REACH * FACING_REACH) as f64;
+    let mut sum = window[REACH];
+    if sum == Vec2::ZERO {
+        return None;
+    }
+    for n in 1..FACING_REACH {
+        sum += (window[REACH - n] + window[REACH + n]) * (1.0 - (n * n) as f64 / reach);
+    }
+    unit(sum).or(Some(window[REACH]))
 }
 
 /// The local quadratic in the middle of a window.
@@ -130,8 +188,16 @@ fn smooth(window: &[Vec2]) -> Sample {
         even2 += (ahead + behind) * (weight * square);
         odd += (ahead - behind) * (weight * n as f64);
     }
-    let offset = (even * s4 - even2 * s2) / (s0 * s4 - s2 * s2);
-    Sample { position_m: middle + offset, velocity_m_s: odd / (s2 * TICK_S) }
+    let position_m = middle + (even * s4 - even2 * s2) / (s0 * s4 - s2 * s2);
+    let around = |n: usize| (window[n - 1] + window[n] + window[n + 1]) * (1.0 / 3.0);
+    let end_m = around(WINDOW - 2);
+    Sample {
+        position_m,
+        velocity_m_s: odd / (s2 * TICK_S),
+        facing: None,
+        ahead_m: end_m - position_m,
+        comes_to_rest: end_m.distance(around(WINDOW - 2 - REST_TICKS)) < REST_M,
+    }
 }
 
 /// Half width of the smoothing: the stride (two steps) at the speed over the two seconds around, at which the sway

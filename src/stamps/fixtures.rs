@@ -65,6 +65,7 @@ pub(crate) fn footfall(place_m: Vec2, angle_rad: f64) -> Mark {
         length_m: 0.29,
         smear_m: 0.0,
         twist_rad: 0.0,
+        forefoot: 0.0,
         strength: 1.0,
         soil: 0.0,
         wear: 0,

@@ -81,7 +81,7 @@ impl Stamper {
     fn prepare(&self, mark: &Mark, blurred: bool) -> Option<Prepared<'_>> {
         let printer = self.printer(mark)?;
         let pose = self.sole_pose(mark, printer)?;
-        let variation = SoleVariation::new(mark.variation, &self.options);
+        let variation = SoleVariation::new(mark.variation, &self.options).over_ball(mark.forefoot);
         let smear_m = f64::from(mark.smear_m.clamp(0.0, LONGEST_SLIP_M));
         let plate = printer.plate(&pose, if blurred { variation.blur } else { 0.0 }, smear_m);
         Some(Prepared { printer, pose, plate, variation, origin: pose.origin(&self.grid) })

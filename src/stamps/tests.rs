@@ -1,6 +1,7 @@
 //! Prints against the naive reference and against their patterns.
 
 use super::fixtures::{footfall, grid, library, room};
+use super::variation::HeelVariation;
 use super::*;
 use crate::marks::Mark;
 use crate::math::{SplitMix64, Vec2, vec2};
@@ -211,9 +212,10 @@ fn heel_marks_thinner_than_a_texel_keep_their_density() {
         }
         total
     });
-    let along_and_across = 0.07 / 0.06;
-    let expected =
-        0.6 * mass_m2(&library, &Mark { pattern: 1, length_m: 0.06, ..footfall(Vec2::ZERO, 0.0) }) * along_and_across;
+    // Each mark is as long as it says and as wide as its variation has it.
+    let wide = (0..40).map(|k| f64::from(HeelVariation::new(k).width)).sum::<f64>() / 40.0;
+    let drawn = mass_m2(&library, &Mark { pattern: 1, length_m: 0.06, ..footfall(Vec2::ZERO, 0.0) });
+    let expected = 0.6 * drawn * 0.07 / 0.06 * wide;
     for amount in amounts {
         assert!((amount / amounts[2] - 1.0).abs() < 0.02, "{amounts:?}");
         assert!((amount / expected - 1.0).abs() < 0.1, "{amounts:?} against {expected}");
@@ -261,8 +263,8 @@ fn marks_without_sense_leave_nothing() {
     let sums = stamped(&library, grid(100.0, 1.3, 1.3), &StampOptions::default(), &bad);
     assert!(Quantity::ALL.iter().all(|&q| all(&sums, q).iter().all(|&v| v == 0.0)));
     let odd = [
-        Mark { smear_m: f32::NAN, twist_rad: f32::NAN, soil: f32::NAN, ..good },
-        Mark { smear_m: 1e9, twist_rad: -1e9, soil: 1e9, strength: f32::INFINITY, ..good },
+        Mark { smear_m: f32::NAN, twist_rad: f32::NAN, forefoot: f32::NAN, soil: f32::NAN, ..good },
+        Mark { smear_m: 1e9, twist_rad: -1e9, forefoot: 1e9, soil: 1e9, strength: f32::INFINITY, ..good },
     ];
     let sums = stamped(&library, grid(100.0, 1.3, 1.3), &StampOptions::default(), &odd);
     assert!(all(&sums, Quantity::Passes).iter().any(|&v| v > 0.0));

@@ -1,0 +1,179 @@
+//! A pair of feet: how one is set down under a body, and where both stand.
+
+use rand::RngExt;
+use rand::rngs::ChaCha8Rng;
+use rand_distr::StandardNormal;
+
+use crate::math::{Vec2, round_to_grid, sin_cos, vec2};
+use crate::motion::Person;
+
+/// Turns of less than this per step do not twist the foot, radians.
+const LEAST_TWIST: f64 = 0.15;
+/// How much of a turn the standing foot follows by twisting on its ball, and how far at most, radians.
+const TWIST_SHARE: f64 = 0.35;
+const MOST_TWIST: f64 = 0.35;
+/// Spread of a step about its mean: across and along the way (metres), toe-out (radians), pressure.
+const SPREAD_ACROSS_M: f64 = 0.012;
+const SPREAD_ALONG_M: f64 = 0.015;
+const SPREAD_TOE_OUT: f64 = 0.045;
+const SPREAD_PRESSURE: f64 = 0.10;
+/// Difference between the feet of a person in toe-out, radians, standard deviation.
+const SPREAD_FEET: f64 = 0.025;
+/// Slip of the heel at 1.34 m/s: 12.6 +- 10.7 mm, at most 30 mm (McGorry, DiDomenico, Chang 2008, Appl. Ergon. 39).
+const SLIP_M: [f64; 2] = [0.0126, 0.0107];
+const MOST_SLIP_M: f64 = 0.03;
+const FREE_SPEED_M_S: f64 = 1.34;
+/// Slip that braking adds, metres per m/s2.
+const BRAKING_SLIP_M: f64 = 0.01;
+/// Steps get wider by this share from free walking to a standstill: the body sways 5 to 7 cm then instead of 3 ...
+const WIDER_WHEN_SLOW: f64 = 0.5;
+/// ... and by so many metres per radian turned, up to a limit.
+const WIDER_PER_RADIAN_M: f64 = 0.06;
+const WIDEST_TURN_M: f64 = 0.05;
+/// Standing, the feet's middles are this much farther apart than in free walking: 17 cm in all (McIlroy, Maki 1997,
+/// Clin. Biomech. 12).
+const STANDING_WIDER_M: f64 = 0.09;
+/// Middles of feet that stand beside each other are at least a shoe's breadth apart, less the farther one is behind the
+/// other, down to nothing at a shoe's length. Metres.
+const SHOE_BREADTH_M: f64 = 0.10;
+const SHOE_LENGTH_M: f64 = 0.28;
+/// Walking becomes running, metres per second; how much of the load has gone over to the ball by then, and after.
+const RUNS_M_S: f64 = 2.1;
+const BALL_AT_FAST_WALK: f64 = 0.35;
+const BALL_AT_RUN: f64 = 0.6;
+
+/// A foot set down.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Step {
+    pub left: bool,
+    /// Middle of the sole.
+    pub place_m: Vec2,
+    /// Where the toes point.
+    pub heading: Vec2,
+    pub pressure: f64,
+    pub smear_m: f64,
+    pub twist_rad: f64,
+    /// Share of the heel's load that the ball carries, 0 to 1.
+    pub forefoot: f64,
+}
+
+/// How a foot comes down.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Landing {
+    /// The body's place when it stands over the foot, and where it faces.
+    pub body_m: Vec2,
+    pub facing: Vec2,
+    /// Distance of the foot from the body's line, metres.
+    pub half_width_m: f64,
+    /// Turn of the foot against the body beyond its toe-out, radians counter-clockwise.
+    pub askew_rad: f64,
+    pub speed_m_s: f64,
+    pub braking_m_s2: f64,
+    /// Turn of the body since the other foot came down, radians counter-clockwise.
+    pub turn_rad: f64,
+}
+
+/// Where a foot stands.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stance {
+    pub place_m: Vec2,
+    /// Where the body faced as it was set down.
+    pub facing: Vec2,
+}
+
+/// The feet of a person: `[right, left]`.
+pub(super) struct Feet {
+    half_width_m: f64,
+    toe_out_rad: [f64; 2],
+    runs_on_ball: bool,
+    stances: [Option<Stance>; 2],
+}
+
+impl Feet {
+    pub fn new(rng: &mut ChaCha8Rng, person: &Person) -> Feet {
+        let difference = SPREAD_FEET * normal(rng);
+        Feet {
+            half_width_m: person.step_width_m / 2.0,
+            toe_out_rad: [person.toe_out_rad - difference, person.toe_out_rad + difference],
+            runs_on_ball: person.runs_on_ball,
+            stances: [None; 2],
+        }
+    }
+
+    /// Where a foot stands, once it was set down.
+    pub fn stance(&self, left: bool) -> Option<Stance> {
+        self.stances[usize::from(left)]
+    }
+
+    /// Forgets where the feet stand.
+    pub fn lift(&mut self) {
+        self.stances = [None; 2];
+    }
+
+    /// Half the step width of somebody who walks at a speed and turns by an angle per step.
+    pub fn half_width_m(&self, speed_m_s: f64, turn_rad: f64) -> f64 {
+        let slow = (1.0 - speed_m_s / FREE_SPEED_M_S).clamp(0.0, 1.0);
+        let turning_m = (WIDER_PER_RADIAN_M * turn_rad.abs()).min(WIDEST_TURN_M);
+        self.half_width_m * (1.0 + WIDER_WHEN_SLOW * slow) + 0.5 * turning_m
+    }
+
+    /// The same of somebody who stands.
+    pub fn standing_half_width_m(&self) -> f64 {
+        self.half_width_m + 0.5 * STANDING_WIDER_M
+    }
+
+    /// Sets a foot down.
+    pub fn set_down(&mut self, rng: &mut ChaCha8Rng, left: bool, landing: &Landing) -> Step {
+        let side = if left { 1.0 } else { -1.0 };
+        let [across, along, toe_out, pressure, slip] = std::array::from_fn(|_| normal(rng));
+        let across_m = side * landing.half_width_m + SPREAD_ACROSS_M * across;
+        let outward_rad = side * (self.toe_out_rad[usize::from(left)] + SPREAD_TOE_OUT * toe_out);
+        let slip_m = (SLIP_M[0] + SLIP_M[1] * slip).clamp(0.0, MOST_SLIP_M) * landing.speed_m_s / FREE_SPEED_M_S
+            + BRAKING_SLIP_M * landing.braking_m_s2.max(0.0);
+        let twists = landing.turn_rad.abs() > LEAST_TWIST;
+        let facing = landing.facing;
+        let wanted_m = landing.body_m + facing.left() * across_m + facing * (SPREAD_ALONG_M * along);
+        let place_m = self.beside_the_other(left, wanted_m, facing);
+        self.stances[usize::from(left)] = Some(Stance { place_m, facing });
+        Step {
+            left,
+            place_m,
+            heading: turned_by(facing, outward_rad + landing.askew_rad),
+            pressure: (1.0 + SPREAD_PRESSURE * pressure).clamp(0.6, 1.4),
+            smear_m: slip_m.min(MOST_SLIP_M),
+            twist_rad: if twists { (TWIST_SHARE * landing.turn_rad).clamp(-MOST_TWIST, MOST_TWIST) } else { 0.0 },
+            forefoot: self.forefoot(landing.speed_m_s),
+        }
+    }
+
+    /// A foot's place, moved aside if it lies on or beyond the other foot: nobody treads on their own feet.
+    fn beside_the_other(&self, left: bool, place_m: Vec2, facing: Vec2) -> Vec2 {
+        let Some(other) = self.stance(!left) else { return place_m };
+        let offset = place_m - other.place_m;
+        let outward = if left { facing.left() } else { -facing.left() };
+        let behind = facing.dot(offset) / SHOE_LENGTH_M;
+        let too_close_m = SHOE_BREADTH_M * (1.0 - behind * behind) - outward.dot(offset);
+        if behind.abs() >= 1.0 || too_close_m <= 0.0 { place_m } else { place_m + outward * too_close_m }
+    }
+
+    /// How much of the heel's load goes over to the ball: none in slow walking, some in fast, much in running, all
+    /// for whoever runs on the ball.
+    fn forefoot(&self, speed_m_s: f64) -> f64 {
+        if speed_m_s > RUNS_M_S {
+            return if self.runs_on_ball { 1.0 } else { BALL_AT_RUN };
+        }
+        let fast = ((speed_m_s - FREE_SPEED_M_S) / (RUNS_M_S - FREE_SPEED_M_S)).max(0.0);
+        BALL_AT_FAST_WALK * fast
+    }
+}
+
+/// A vector turned counter-clockwise.
+pub(super) fn turned_by(v: Vec2, angle_rad: f64) -> Vec2 {
+    let (s, c) = sin_cos(angle_rad);
+    v.rotated(vec2(c, s))
+}
+
+/// A standard normal value, rounded to 1e-4.
+pub(super) fn normal(rng: &mut ChaCha8Rng) -> f64 {
+    round_to_grid(rng.sample(StandardNormal))
+}
