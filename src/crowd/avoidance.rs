@@ -172,17 +172,7 @@ impl Sights<'_> {
 
     /// Collects those ahead who are not on the same way at the same pace.
     fn in_the_way(&self, me: &Body, speed_m_s: f32, wanted: [f32; 2]) -> Others {
-        let column = [[0.0; LANES]; MOST_WEIGHED / LANES];
-        let mut others = Others {
-            count: 0,
-            company: 0.0,
-            against: false,
-            dx: column,
-            dy: column,
-            vx: column,
-            vy: column,
-            gap_m2: column,
-        };
+        let mut others = Others::none();
         let (cx, cy) = (me.x + wanted[0] * CENTRE_M, me.y + wanted[1] * CENTRE_M);
         let (mut left, mut company, mut against) = (0.0, 0.5, 0.0);
         self.neighbours.around(cx, cy, |range, shift| {
@@ -239,6 +229,20 @@ impl Sights<'_> {
 }
 
 impl Others {
+    fn none() -> Others {
+        let column = [[0.0; LANES]; MOST_WEIGHED / LANES];
+        Others {
+            count: 0,
+            company: 0.0,
+            against: false,
+            dx: column,
+            dy: column,
+            vx: column,
+            vy: column,
+            gap_m2: column,
+        }
+    }
+
     /// Takes in one more; when there is no room for more, in place of the farthest if that is farther.
     fn add(&mut self, dx: f32, dy: f32, body: &Body, distance_m2: f32, touching_m: f32) {
         let at = if self.count < MOST_WEIGHED {
@@ -302,17 +306,7 @@ mod tests {
     use super::*;
 
     fn others(list: &[[f32; 4]]) -> Others {
-        let column = [[0.0; LANES]; MOST_WEIGHED / LANES];
-        let mut others = Others {
-            count: 0,
-            company: 0.0,
-            against: false,
-            dx: column,
-            dy: column,
-            vx: column,
-            vy: column,
-            gap_m2: column,
-        };
+        let mut others = Others::none();
         for &[dx, dy, vx, vy] in list {
             others.add(dx, dy, &Body { vx, vy, ..Body::default() }, dx * dx + dy * dy, 0.5);
         }
