@@ -65,7 +65,7 @@ fn counter_flow_forms_lanes_and_alignment_helps() {
 #[test]
 fn counter_flow_does_not_lock_up() {
     let scene = both_ways();
-    for (density, least_m_s) in [(0.5, 0.9), (1.0, 0.5), (1.5, 0.1)] {
+    for (density, least_m_s) in [(0.5, 1.0), (1.0, 0.8), (1.5, 0.4)] {
         let options = endless(people(density), LENGTH_M, 90.0);
         for seed in 1..=3 {
             let speed = mean_speed_m_s(&scene, &options, seed);
