@@ -6,6 +6,7 @@
 use wide::f32x8;
 
 use super::neighbours::Neighbours;
+use super::seen::{LANES, NOWHERE_M};
 use super::state::Body;
 use crate::math::vec2;
 use crate::routes::Ground;
@@ -19,12 +20,8 @@ const CENTRE_M: f32 = 2.2;
 const PASSING_M: f32 = 0.12;
 /// Whoever goes the same way at this share of the own speed need not be gone round.
 const AS_FAST: f32 = 0.9;
-/// Lanes of a vector register.
-const LANES: usize = 8;
 /// Most people who are weighed; more are not taken in at a glance.
 const MOST_WEIGHED: usize = 48;
-/// Farther away than anything that matters, metres: where unused lanes stand.
-const NOWHERE_M: f32 = 1e3;
 /// Headings that are weighed against the straight one, from the least turn to the largest: cosine and sine.
 const HEADINGS: [[f32; 2]; 9] = [
     [1.0, 0.0],

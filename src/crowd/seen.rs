@@ -7,11 +7,11 @@ use super::state::{Body, Traits};
 use super::surroundings::SENSE_M;
 
 /// Lanes of a vector register.
-const LANES: usize = 8;
+pub(super) const LANES: usize = 8;
 /// Most people within sensing distance; more do not fit there.
 const MOST_SEEN: usize = 96;
 /// Farther away than anything that matters, metres: where unused lanes stand.
-const NOWHERE_M: f32 = 1e3;
+pub(super) const NOWHERE_M: f32 = 1e3;
 /// Those whose headings agree at least so well (cosine) go the same way.
 const ALIKE: f32 = 0.3;
 /// Density at which the acceptable distance has halved the way to the exclusion distance, persons per square metre.

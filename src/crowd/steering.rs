@@ -20,7 +20,7 @@ const CORNER_M: f64 = 0.4;
 /// People drift towards their lane so that they would reach it in this distance, metres, by at most this slope.
 const LANE_REACH_M: f64 = 6.0;
 const MOST_SLOPE: f64 = 0.2;
-/// The width of the way is measured so far before and behind a person, metres.
+/// The width of the way is measured so far behind and ahead of a person, metres.
 const BESIDE_M: f64 = 2.5;
 /// With walls farther off than this, metres, there are no lanes.
 const WIDEST_M: f64 = 6.0;
@@ -137,9 +137,9 @@ impl Steering<'_> {
             return aim;
         }
         let across = aim.left();
-        // As wide as the way is before and behind: a niche is no part of it.
-        let [before, behind] = [p - aim * BESIDE_M, p + aim * BESIDE_M];
-        let room = |side| Some(self.room_m(before, side)?.min(self.room_m(behind, side)?));
+        // As wide as the way is behind and ahead: a niche is no part of it.
+        let [behind, ahead] = [p - aim * BESIDE_M, p + aim * BESIDE_M];
+        let room = |side| Some(self.room_m(behind, side)?.min(self.room_m(ahead, side)?));
         let [Some(left_m), Some(right_m)] = [across, -across].map(room) else { return aim };
         let width_m = left_m + right_m;
         let margin_m = f64::from(traits.wall_acceptable_m).min(MARGIN_SHARE * width_m);

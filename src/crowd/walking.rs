@@ -120,8 +120,8 @@ impl Scene<'_> {
         next
     }
 
-    /// Share of the speed that is kept in a bend: people slow down where they turn (Hicheur et al. 2005, doi
-    /// 10.1007/s00221-004-2122-8), by how far they look into it from where they go.
+    /// Share of the speed that is kept in a bend: people slow down where they turn (Hicheur et al. 2005,
+    /// Exp. Brain Res. 162), by how far they look into it from where they go.
     fn bend(&self, me: &Body) -> f32 {
         let speed = (me.vx * me.vx + me.vy * me.vy).sqrt();
         if speed < TURNING_M_S {
