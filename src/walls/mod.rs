@@ -10,6 +10,7 @@ mod fit;
 mod index;
 mod line;
 mod outline;
+mod places;
 mod polygon;
 mod runs;
 mod stabbing;
@@ -20,6 +21,7 @@ mod truth_tests;
 
 pub use error::WallsError;
 pub use outline::Outline;
+pub use places::{Corner, DOOR_HEAD_M, DOOR_WIDTHS_M, Doorway};
 
 /// How far beyond an opening the floor goes on unseen, metres: room to appear and to vanish.
 pub const APRON_M: f64 = 3.0;
