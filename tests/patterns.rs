@@ -1,10 +1,13 @@
 //! The pattern library as it is committed.
 
+#![allow(clippy::unwrap_used)] // a test may panic
+
 #[path = "../examples/draw_patterns/drawing/mod.rs"]
 mod drawing;
 
 use std::path::Path;
 
+use rayon::prelude::*;
 use trodden::patterns::{Cause, PatternLibrary, contact_sheet};
 
 /// The images in `patterns/` are what the program in the repository draws.
@@ -14,14 +17,14 @@ fn committed_images_are_what_the_example_draws() {
     let library = PatternLibrary::built_in().unwrap();
     let drawings = drawing::all();
     assert_eq!(drawings.len(), library.patterns.len());
-    for drawing in drawings {
+    drawings.into_par_iter().for_each(|drawing| {
         let file = folder.join(format!("{}.png", drawing.name));
         let committed = image::open(&file).unwrap().into_luma8();
         let drawn = drawing.render();
         assert_eq!(committed.dimensions(), drawn.dimensions(), "{}", drawing.name);
         let differ = committed.as_raw().iter().zip(drawn.as_raw()).filter(|(a, b)| a != b).count();
         assert_eq!(differ, 0, "{}: pixels differ; run `cargo run --release --example draw_patterns`", drawing.name);
-    }
+    });
 }
 
 /// The kinds of shoe that a public floor sees, at the size of real ones.

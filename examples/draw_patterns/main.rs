@@ -1,4 +1,4 @@
-//! Draws the sole and heel patterns in `patterns/`: `cargo run --release --example draw_patterns`.
+//! Draws the patterns of soles, heels and wall stains in `patterns/`: `cargo run --release --example draw_patterns`.
 //!
 //! Everything is drawn from signed distances and hashed noise, so running it again gives the same files. Name
 //! another folder as the only argument to have them there.
@@ -10,12 +10,16 @@ mod drawing;
 
 use std::path::PathBuf;
 
+use rayon::prelude::*;
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let built_in = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("patterns");
     let folder = std::env::args_os().nth(1).map_or(built_in, PathBuf::from);
-    for drawing in drawing::all() {
+    let draw = |drawing: drawing::Drawing| {
         let path = folder.join(format!("{}.png", drawing.name));
-        drawing.render().save(&path)?;
+        drawing.render().save(&path).map(|()| path)
+    };
+    for path in drawing::all().into_par_iter().map(draw).collect::<Result<Vec<_>, _>>()? {
         println!("{}", path.display());
     }
     Ok(())

@@ -4,14 +4,21 @@ use std::io::Cursor;
 
 use image::{ImageReader, Limits};
 
-use super::PATTERN_PX_PER_CM;
+use super::{Cause, PATTERN_PX_PER_CM};
 
 /// Longest side of an image that is read.
 const MOST_PX: u32 = 8192;
 /// Resolutions that are read, pixels per centimetre: coarser shows no tread, finer is a wrong length.
 const RESOLUTIONS: [f64; 2] = [4.0, 200.0];
-/// Breadth over length that a pattern may have.
-const ASPECTS: [f64; 2] = [0.01, 1.0];
+/// Breadth over length that a pattern may have: what is on the floor is drawn along its length; on a wall it is upright
+/// and may be higher than long.
+const FLOOR_ASPECTS: [f64; 2] = [0.01, 1.0];
+const WALL_ASPECTS: [f64; 2] = [0.01, 4.0];
+
+/// Breadth over length that a pattern of a cause may have.
+pub(super) const fn aspects(cause: Cause) -> [f64; 2] {
+    if cause.on_wall().is_some() { WALL_ASPECTS } else { FLOOR_ASPECTS }
+}
 
 /// Coverage at 10 px/cm.
 pub(super) struct Coverage {
@@ -29,9 +36,9 @@ pub(super) enum Refused {
 }
 
 /// Reads an image whose width is `length_cm`.
-pub(super) fn read(bytes: &[u8], length_cm: f64) -> Result<Coverage, Refused> {
+pub(super) fn read(bytes: &[u8], cause: Cause, length_cm: f64) -> Result<Coverage, Refused> {
     let (width, height, values) = decode(bytes)?;
-    check(width, height, &values, length_cm)?;
+    check(width, height, &values, cause, length_cm)?;
     let width_px = (length_cm * PATTERN_PX_PER_CM).round().max(1.0) as u32;
     let scale = f64::from(width_px) / f64::from(width);
     let height_px = (f64::from(height) * scale).round().max(1.0) as u32;
@@ -69,7 +76,7 @@ fn decode(bytes: &[u8]) -> Result<(u32, u32, Vec<f32>), Refused> {
     Ok((width, height, values))
 }
 
-fn check(width: u32, height: u32, values: &[f32], length_cm: f64) -> Result<(), Refused> {
+fn check(width: u32, height: u32, values: &[f32], cause: Cause, length_cm: f64) -> Result<(), Refused> {
     let unfit = |problem: String| Err(Refused::Unfit(problem));
     let resolution = f64::from(width) / length_cm;
     if !(RESOLUTIONS[0]..=RESOLUTIONS[1]).contains(&resolution) {
@@ -79,11 +86,12 @@ fn check(width: u32, height: u32, values: &[f32], length_cm: f64) -> Result<(), 
         ));
     }
     let aspect = f64::from(height) / f64::from(width);
-    if !(ASPECTS[0]..=ASPECTS[1]).contains(&aspect) {
+    let [least, most] = aspects(cause);
+    if !(least..=most).contains(&aspect) {
         return unfit(format!(
             "is {width} x {height} px; the length runs along the width, and height / width is {aspect:.2}, allowed \
-             is {} to {}",
-            ASPECTS[0], ASPECTS[1]
+             is {least} to {most} for cause = \"{}\"",
+            cause.name()
         ));
     }
     let brightest = values.iter().copied().fold(0.0, f32::max);
@@ -145,7 +153,7 @@ mod tests {
     }
 
     fn problem(bytes: &[u8], length_cm: f64) -> String {
-        match read(bytes, length_cm) {
+        match read(bytes, Cause::Sole, length_cm) {
             Ok(_) => panic!("read"),
             Err(Refused::Unreadable(reason)) => reason,
             Err(Refused::Unfit(problem)) => problem,
@@ -154,7 +162,7 @@ mod tests {
 
     #[test]
     fn a_finer_image_is_reduced_and_keeps_its_mean() {
-        let read_at = |factor: u32| read(&png(&disc(290 * factor, 105 * factor)), 29.0).ok().unwrap();
+        let read_at = |factor: u32| read(&png(&disc(290 * factor, 105 * factor)), Cause::Sole, 29.0).ok().unwrap();
         let (fine, plain) = (read_at(3), read_at(1));
         assert_eq!((fine.width_px, fine.height_px), (290, 105));
         let mean = |c: &Coverage| c.values.iter().map(|&v| f64::from(v)).sum::<f64>() / c.values.len() as f64;
@@ -164,7 +172,7 @@ mod tests {
     #[test]
     fn an_image_at_10_px_per_cm_is_taken_as_it_is() {
         let image = disc(200, 80);
-        let coverage = read(&png(&image), 20.0).ok().unwrap();
+        let coverage = read(&png(&image), Cause::Sole, 20.0).ok().unwrap();
         assert_eq!(coverage.values, image.into_raw());
     }
 
@@ -177,5 +185,12 @@ mod tests {
         assert!(problem(&png(&GrayImage::from_pixel(290, 105, Luma([255]))), 29.0).contains("border"));
         assert!(problem(&png(&disc(105, 290)), 10.5).contains("height / width is 2.76"));
         assert!(problem(&png(&disc(40, 20)), 29.0).contains("1.4 px/cm"));
+    }
+
+    #[test]
+    fn what_is_on_a_wall_may_be_higher_than_long() {
+        let hand = read(&png(&disc(100, 190)), Cause::Hand, 10.0).ok().unwrap();
+        assert_eq!((hand.width_px, hand.height_px), (100, 190));
+        assert!(read(&png(&disc(40, 190)), Cause::Hand, 4.0).is_err());
     }
 }

@@ -1,7 +1,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use super::Cause;
+use super::{Cause, ImportError};
 
 /// A place in a `patterns.toml`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -100,6 +100,9 @@ pub enum PatternsError {
         /// What is missing.
         cause: Cause,
     },
+    /// No pattern can be taken from a photograph.
+    #[error(transparent)]
+    Import(#[from] ImportError),
 }
 
 impl PatternsError {
@@ -111,14 +114,15 @@ impl PatternsError {
                  out to use the built-in library"
             }
             PatternsError::Syntax { .. } | PatternsError::NoneOf { .. } => {
-                "each pattern is a table [[pattern]] with file, cause (\"sole\" or \"heel\"), length_cm and share, and, \
-                 if you like, lengths_cm = [from, to] and description"
+                "each pattern is a table [[pattern]] with file, cause (sole, heel, hand, arm, shoulder, bag or shoe), \
+                 length_cm and share, and, if you like, form, lengths_cm = [from, to] and description"
             }
             PatternsError::Image { .. } => "file is a path relative to patterns.toml; PNG, JPEG, TIFF and BMP are read",
             PatternsError::Unfit { .. } => {
-                "a pattern is cut out to its shape: white leaves soil, black leaves none, toes to the right, a left \
-                 foot, 10 px per centimetre of length_cm (finer is reduced)"
+                "a pattern is cut out to its shape: white leaves soil, black leaves none, toes or the drag to the right, \
+                 a left foot, 10 px per centimetre of length_cm (finer is reduced)"
             }
+            PatternsError::Import(error) => return error.hint(),
             PatternsError::ListingTooLarge { .. } | PatternsError::Value { .. } | PatternsError::TooMany { .. } => {
                 return None;
             }

@@ -1,18 +1,12 @@
 //! Loads libraries and chooses from them.
 
-use std::fs::File;
-use std::io::{self, Read};
+use std::io;
 use std::path::Path;
 
 use super::decode::{self, Refused};
+use super::folder::LISTING;
 use super::listing::{self, Entry};
-use super::{Cause, Pattern, PatternLibrary, PatternsError};
-
-/// Name of the list within a library's folder.
-const LISTING: &str = "patterns.toml";
-/// Most bytes of a listing, and of an image.
-const MOST_LISTING_BYTES: u64 = 4 << 20;
-const MOST_IMAGE_BYTES: u64 = 256 << 20;
+use super::{Cause, Form, Pattern, PatternFolder, PatternLibrary, PatternsError};
 
 /// The files of `patterns/`, compiled in so that an installed program needs no folder.
 macro_rules! built_in {
@@ -41,11 +35,59 @@ const BUILT_IN: &[(&str, &[u8])] = built_in![
     "heel_pair.png",
     "heel_sweep.png",
     "heel_flick.png",
+    "hand_cloud.png",
+    "hand_push.png",
+    "hand_lean.png",
+    "hand_smudge.png",
+    "hand_heel.png",
+    "hand_print.png",
+    "hand_drag_four.png",
+    "hand_drag_three.png",
+    "hand_drag_two.png",
+    "hand_drag_palm.png",
+    "hand_drag_back.png",
+    "hand_tips_four.png",
+    "hand_tips_two.png",
+    "hand_tips_slip.png",
+    "arm_forearm.png",
+    "arm_forearm_long.png",
+    "arm_forearm_lean.png",
+    "arm_elbow.png",
+    "arm_elbow_rub.png",
+    "arm_elbow_slide.png",
+    "arm_sleeve.png",
+    "shoulder_rub.png",
+    "shoulder_pass.png",
+    "shoulder_lean.png",
+    "shoulder_seams.png",
+    "shoulder_upper_arm.png",
+    "shoulder_back.png",
+    "shoulder_brush.png",
+    "bag_edge.png",
+    "bag_edge_long.png",
+    "bag_corner.png",
+    "bag_corner_hit.png",
+    "bag_smear.png",
+    "bag_rucksack.png",
+    "bag_scrapes.png",
+    "bag_bumper.png",
+    "bag_wheel.png",
+    "bag_strap.png",
+    "shoe_toe_kick.png",
+    "shoe_toe_scuff.png",
+    "shoe_toe_swipe.png",
+    "shoe_toe_double.png",
+    "shoe_line_long.png",
+    "shoe_line_short.png",
+    "shoe_line_bow.png",
+    "shoe_sole_edge.png",
+    "shoe_sole_ball.png",
+    "shoe_sole_tread.png",
 ];
 
 impl PatternLibrary {
-    /// The library that comes with the program: ten soles and eight heel marks, drawn by
-    /// `examples/draw_patterns`.
+    /// The library that comes with the program: ten soles, eight heel marks and at least six stains of each cause
+    /// that touches walls, drawn by `examples/draw_patterns`.
     ///
     /// # Errors
     /// None in a program that passes its tests; the signature is that of [`PatternLibrary::load`].
@@ -70,39 +112,25 @@ impl PatternLibrary {
     /// ```toml
     /// [[pattern]]
     /// file = "clog.png"             # relative to the folder; white leaves soil, toes to the right, a left foot
-    /// cause = "sole"                # or "heel"
+    /// cause = "sole"                # or heel; on walls, upright: hand, arm, shoulder, bag, shoe
+    /// form = "palm"                 # hand: palm, drag, fingertips; shoe: toe, heel_line, sole; left out: none of these
     /// length_cm = 28.5              # real length of what the image shows, along its width
     /// share = 0.1                   # how often it occurs among those of its cause
     /// lengths_cm = [22.0, 27.0]     # lengths of sole that wear it; left out: all
     /// description = "a wooden clog"
     /// ```
     ///
-    /// Images of any resolution from 4 to 200 px/cm are brought to 10 px/cm by area.
+    /// Images of any resolution from 4 to 200 px/cm are brought to 10 px/cm by area. Of a wall's cause that the folder
+    /// does not list at all, the built-in patterns are taken; so are soles, and heel marks if it lists neither: see
+    /// [`PatternFolder`], which says which.
     ///
     /// # Errors
-    /// A listing that is missing, too large, not TOML, has unknown keys or values out of range; an image that is
-    /// missing, empty, too large, of another shape or resolution than `length_cm` says, or that shows nothing; no
-    /// sole at all. Messages name line and column of the listing.
+    /// A listing that is missing, too large, not TOML, has unknown keys or values out of range; a form that its cause
+    /// does not have; an image that is missing, empty, too large, of another shape or resolution than `length_cm`
+    /// says, or that shows nothing; no pattern at all. Messages name line and column of the
+    /// listing.
     pub fn load(folder: &Path) -> Result<PatternLibrary, PatternsError> {
-        let file = folder.join(LISTING);
-        let text = read_limited(&file, MOST_LISTING_BYTES).map_err(|error| match error {
-            Unread::TooLarge(bytes) => {
-                PatternsError::ListingTooLarge { file: file.clone(), bytes, most: MOST_LISTING_BYTES }
-            }
-            Unread::Io(source) => PatternsError::Listing { file: file.clone(), source },
-        })?;
-        let text = String::from_utf8(text).map_err(|_| PatternsError::Listing {
-            file: file.clone(),
-            source: io::Error::new(io::ErrorKind::InvalidData, "it is not UTF-8 text"),
-        })?;
-        read(&text, folder, |image| {
-            read_limited(&folder.join(image), MOST_IMAGE_BYTES).map_err(|error| match error {
-                Unread::TooLarge(bytes) => {
-                    io::Error::other(format!("it has {bytes} bytes, allowed are {MOST_IMAGE_BYTES}"))
-                }
-                Unread::Io(source) => source,
-            })
-        })
+        PatternFolder::read(folder).map(|read| read.library)
     }
 
     /// Chooses among the patterns of a cause by share: `draw` is uniform in `[0, 1)`. With a sole length only those
@@ -114,13 +142,27 @@ impl PatternLibrary {
             (Some(length), Some([from, to])) => (from - length).max(length - to).max(0.0),
             _ => 0.0,
         };
-        let of_cause = || self.patterns.iter().enumerate().filter(|(_, pattern)| pattern.cause == cause);
-        let least = of_cause().map(|(_, pattern)| off(pattern)).fold(f64::INFINITY, f64::min);
-        let worn = || of_cause().filter(|(_, pattern)| off(pattern) <= least);
-        let total: f64 = worn().map(|(_, pattern)| pattern.share).sum();
+        let of_cause = || self.patterns.iter().filter(|pattern| pattern.cause == cause);
+        let least = of_cause().map(off).fold(f64::INFINITY, f64::min);
+        self.pick_among(draw, |pattern| pattern.cause == cause && off(pattern) <= least)
+    }
+
+    /// Chooses among the patterns of a cause and form by share: `draw` is uniform in `[0, 1)`. Without a form, or where
+    /// no pattern of the cause has it, all of the cause count.
+    ///
+    /// Returns the pattern's place in [`PatternLibrary::patterns`], or `None` if there is none of the cause.
+    pub fn pick_form(&self, cause: Cause, form: Option<Form>, draw: f64) -> Option<u16> {
+        let of_form =
+            form.and_then(|form| self.pick_among(draw, |pattern| pattern.cause == cause && pattern.form == Some(form)));
+        of_form.or_else(|| self.pick_among(draw, |pattern| pattern.cause == cause))
+    }
+
+    fn pick_among(&self, draw: f64, counts: impl Fn(&Pattern) -> bool) -> Option<u16> {
+        let among = || self.patterns.iter().enumerate().filter(|(_, pattern)| counts(pattern));
+        let total: f64 = among().map(|(_, pattern)| pattern.share).sum();
         let mut left = draw * total;
         let mut chosen = None;
-        for (place, pattern) in worn() {
+        for (place, pattern) in among() {
             chosen = u16::try_from(place).ok();
             left -= pattern.share;
             if left < 0.0 {
@@ -132,17 +174,17 @@ impl PatternLibrary {
 }
 
 /// Makes a library of a listing's text; `open` gives the bytes of the images.
-fn read(
+pub(super) fn read(
     text: &str,
     folder: &Path,
-    open: impl Fn(&str) -> io::Result<Vec<u8>>,
+    mut open: impl FnMut(&str) -> io::Result<Vec<u8>>,
 ) -> Result<PatternLibrary, PatternsError> {
     let entries = listing::parse(text, &folder.join(LISTING))?;
     let totals = Cause::ALL.map(|cause| entries.iter().filter(|e| e.cause == cause).map(|e| e.share).sum::<f64>());
     let mut patterns = Vec::with_capacity(entries.len());
     for entry in entries {
         let total = totals[entry.cause as usize];
-        patterns.push(pattern(entry, total, folder, &open)?);
+        patterns.push(pattern(entry, total, folder, &mut open)?);
     }
     Ok(PatternLibrary { patterns })
 }
@@ -151,12 +193,12 @@ fn pattern(
     entry: Entry,
     total_share: f64,
     folder: &Path,
-    open: impl Fn(&str) -> io::Result<Vec<u8>>,
+    open: &mut impl FnMut(&str) -> io::Result<Vec<u8>>,
 ) -> Result<Pattern, PatternsError> {
     let path = folder.join(&entry.file);
     let unreadable = |reason: String| PatternsError::Image { at: entry.listed_at.clone(), image: path.clone(), reason };
     let bytes = open(&entry.file).map_err(|error| unreadable(error.to_string()))?;
-    let coverage = decode::read(&bytes, entry.length_cm).map_err(|refused| match refused {
+    let coverage = decode::read(&bytes, entry.cause, entry.length_cm).map_err(|refused| match refused {
         Refused::Unreadable(reason) => unreadable(reason),
         Refused::Unfit(problem) => PatternsError::Unfit { at: entry.listed_at.clone(), image: path.clone(), problem },
     })?;
@@ -165,6 +207,7 @@ fn pattern(
         name: stem.unwrap_or(entry.file),
         description: entry.description,
         cause: entry.cause,
+        form: entry.form,
         length_cm: entry.length_cm,
         share: entry.share / total_share,
         lengths_cm: entry.lengths_cm,
@@ -174,27 +217,10 @@ fn pattern(
     })
 }
 
-/// Why a file was not read.
-enum Unread {
-    TooLarge(u64),
-    Io(io::Error),
-}
-
-fn read_limited(path: &Path, most: u64) -> Result<Vec<u8>, Unread> {
-    let file = File::open(path).map_err(Unread::Io)?;
-    let bytes = file.metadata().map_err(Unread::Io)?.len();
-    if bytes > most {
-        return Err(Unread::TooLarge(bytes));
-    }
-    let mut content = Vec::new();
-    // The limit again: a device or a pipe has no length of its own.
-    file.take(most + 1).read_to_end(&mut content).map_err(Unread::Io)?;
-    if content.len() as u64 > most { Err(Unread::TooLarge(content.len() as u64)) } else { Ok(content) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+
     use std::fs;
 
     const ENTRY: &str = "[[pattern]]\nfile = \"boot.png\"\ncause = \"sole\"\nlength_cm = 31.0\nshare = 1.0\n";
@@ -213,10 +239,10 @@ mod tests {
     }
 
     #[test]
-    fn the_built_in_library_holds_ten_soles_and_eight_heel_marks() {
+    fn the_built_in_library_holds_patterns_of_every_cause() {
         let library = PatternLibrary::built_in().unwrap();
-        let count = |cause| library.patterns.iter().filter(|pattern| pattern.cause == cause).count();
-        assert_eq!((count(Cause::Sole), count(Cause::Heel)), (10, 8));
+        let counts = Cause::ALL.map(|cause| library.patterns.iter().filter(|pattern| pattern.cause == cause).count());
+        assert_eq!(counts, [10, 8, 14, 7, 7, 10, 10]);
         assert_eq!(library.patterns.len(), BUILT_IN.len(), "an image is compiled in but not listed");
         for pattern in &library.patterns {
             assert_eq!(f64::from(pattern.width_px), pattern.length_cm * 10.0, "{}", pattern.name);
@@ -258,6 +284,35 @@ mod tests {
     }
 
     #[test]
+    fn a_form_is_picked_by_share_and_missing_forms_fall_back_to_the_cause() {
+        let library = PatternLibrary::built_in().unwrap();
+        let draws = 10_000;
+        let mut counts = vec![0.0; library.patterns.len()];
+        for n in 0..draws {
+            let draw = (f64::from(n) + 0.5) / f64::from(draws);
+            let place = library.pick_form(Cause::Hand, Some(Form::Drag), draw).unwrap();
+            counts[usize::from(place)] += 1.0 / f64::from(draws);
+        }
+        let dragged = |pattern: &&Pattern| pattern.form == Some(Form::Drag);
+        let total: f64 = library.patterns.iter().filter(dragged).map(|pattern| pattern.share).sum();
+        for (pattern, count) in library.patterns.iter().zip(counts) {
+            let expected = if dragged(&pattern) { pattern.share / total } else { 0.0 };
+            assert!((count - expected).abs() < 2e-4, "{}: {count} instead of {expected}", pattern.name);
+        }
+        let cause = |form, draw| {
+            let place = library.pick_form(Cause::Arm, form, draw).unwrap();
+            (place, library.patterns[usize::from(place)].cause)
+        };
+        for n in 0..100 {
+            let draw = f64::from(n) / 100.0;
+            assert_eq!(cause(Some(Form::Palm), draw), cause(None, draw));
+            assert_eq!(cause(None, draw).1, Cause::Arm);
+        }
+        let soles = PatternLibrary { patterns: library.patterns[..10].to_vec() };
+        assert_eq!(soles.pick_form(Cause::Hand, Some(Form::Palm), 0.5), None);
+    }
+
+    #[test]
     fn errors_name_line_and_column() {
         let at = |listing: &str, expected: &str| {
             let message = message_of(listing);
@@ -266,7 +321,20 @@ mod tests {
         at(&ENTRY.replace("share = 1.0", "share = -1.0"), "patterns.toml:5:9: share is -1, allowed is above 0");
         at(&ENTRY.replace("share = 1.0", "share = nan"), "patterns.toml:5:9: share is NaN");
         at(&ENTRY.replace("31.0", "310.0"), "patterns.toml:4:13: length_cm is 310, allowed is 8 to 45");
-        at(&ENTRY.replace("sole", "elbow"), "patterns.toml:3:9: unknown variant `elbow`, expected `sole` or `heel`");
+        at(
+            &ENTRY.replace("sole", "elbow"),
+            "patterns.toml:3:9: unknown variant `elbow`, expected one of `sole`, `heel`, ",
+        );
+        let shoe = ENTRY.replace("sole", "shoe");
+        at(
+            &format!("{shoe}form = \"palm\"\n"),
+            "patterns.toml:6:8: form is \"palm\", allowed is \"toe\", \"heel_line\" or \"sole\" for cause = \"shoe\"",
+        );
+        at(
+            &format!("{ENTRY}form = \"sole\"\n"),
+            "patterns.toml:6:8: form is \"sole\", allowed is none for cause = \"sole\"",
+        );
+        at(&format!("{ENTRY}form = \"fist\"\n"), "patterns.toml:6:8: unknown variant `fist`");
         at(&ENTRY.replace("share", "chance"), "patterns.toml:5:1: unknown field `chance`");
         at(&ENTRY.replace("share = 1.0", ""), "missing field `share`");
         at(&format!("{ENTRY}lengths_cm = [30.0, 20.0]\n"), "patterns.toml:6:14: lengths_cm is [30, 20]");

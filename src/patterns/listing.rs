@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::{Cause, ListedAt, PatternsError};
+use super::{Cause, Form, ListedAt, PatternsError};
 
 /// Marks name a pattern by a `u16`; this is plenty and keeps a wrong file from filling memory.
 const MOST_PATTERNS: usize = 1000;
@@ -23,6 +23,7 @@ struct Listing {
 struct RawEntry {
     file: Spanned<String>,
     cause: Cause,
+    form: Option<Spanned<Form>>,
     length_cm: Spanned<f64>,
     share: Spanned<f64>,
     lengths_cm: Option<Spanned<[f64; 2]>>,
@@ -35,6 +36,7 @@ pub(super) struct Entry {
     pub file: String,
     pub listed_at: ListedAt,
     pub cause: Cause,
+    pub form: Option<Form>,
     pub length_cm: f64,
     pub share: f64,
     pub lengths_cm: Option<[f64; 2]>,
@@ -54,17 +56,23 @@ pub(super) fn parse(text: &str, file: &Path) -> Result<Vec<Entry>, PatternsError
         });
     }
     let entries = listing.pattern.into_iter().map(|raw| check(raw, at)).collect::<Result<Vec<_>, _>>()?;
-    if !entries.iter().any(|entry| entry.cause == Cause::Sole) {
+    if entries.is_empty() {
         return Err(PatternsError::NoneOf { file: file.to_owned(), cause: Cause::Sole });
     }
     Ok(entries)
 }
 
-fn check(raw: RawEntry, at: impl Fn(Option<Range<usize>>) -> ListedAt) -> Result<Entry, PatternsError> {
-    let lengths = match raw.cause {
+/// Real lengths that a pattern of a cause may have, centimetres.
+pub(super) const fn lengths_cm(cause: Cause) -> [f64; 2] {
+    match cause {
         Cause::Sole => [8.0, 45.0],
         Cause::Heel => [1.0, 30.0],
-    };
+        Cause::Hand | Cause::Arm | Cause::Shoulder | Cause::Bag | Cause::Shoe => [0.5, 150.0],
+    }
+}
+
+fn check(raw: RawEntry, at: impl Fn(Option<Range<usize>>) -> ListedAt) -> Result<Entry, PatternsError> {
+    let lengths = lengths_cm(raw.cause);
     let value = |span: Range<usize>, key, value: String, allowed: String| {
         Err(PatternsError::Value { at: at(Some(span)), key, value, allowed })
     };
@@ -83,6 +91,10 @@ fn check(raw: RawEntry, at: impl Fn(Option<Range<usize>>) -> ListedAt) -> Result
             return value(range.span(), "lengths_cm", format!("[{from}, {to}]"), allowed);
         }
     }
+    if let Some(form) = raw.form.as_ref().filter(|form| form.get_ref().cause() != raw.cause) {
+        let allowed = format!("{} for cause = \"{}\"", Form::of_cause_in_words(raw.cause), raw.cause.name());
+        return value(form.span(), "form", format!("\"{}\"", form.get_ref().name()), allowed);
+    }
     if raw.file.get_ref().is_empty() {
         return value(raw.file.span(), "file", "empty".to_owned(), "the path of an image".to_owned());
     }
@@ -90,6 +102,7 @@ fn check(raw: RawEntry, at: impl Fn(Option<Range<usize>>) -> ListedAt) -> Result
         listed_at: at(Some(raw.file.span())),
         file: raw.file.into_inner(),
         cause: raw.cause,
+        form: raw.form.map(Spanned::into_inner),
         length_cm,
         share,
         lengths_cm: raw.lengths_cm.map(Spanned::into_inner),

@@ -1,35 +1,45 @@
 //! The contact sheet: a library on one page, to scale.
 
-use image::{Rgb, RgbImage};
+use image::{GrayImage, Rgb, RgbImage};
 
 use super::{Cause, Pattern, PatternLibrary, font};
+use crate::math;
 
-/// A light floor, the soil on it, and the ink of labels.
+/// A light floor and a light wall, as sRGB.
 const FLOOR: [u8; 3] = [222, 219, 212];
-const SOIL: [u8; 3] = [70, 62, 52];
-const RUBBER: [u8; 3] = [30, 29, 28];
+pub(super) const WALL: [u8; 3] = [231, 228, 219];
 const INK: [u8; 3] = [90, 90, 90];
 /// Width of the page and space around things, pixels (10 px are a centimetre).
 const PAGE: u32 = 1500;
-const GAP: u32 = 30;
+pub(super) const GAP: u32 = 30;
 /// Dots of a label are squares of this side.
 const DOT: u32 = 2;
 /// Height of a line of a label.
-const LINE: u32 = (font::HEIGHT + 3) * DOT;
+pub(super) const LINE: u32 = (font::HEIGHT + 3) * DOT;
 
-/// Draws the library at 10 px/cm: soles as pairs that walk up the page, heel marks along their drag, each with name,
-/// size and share, and a bar of 10 cm.
+/// Draws the library at 10 px/cm, each cause under its name: soles as pairs that walk up the page, heel marks along
+/// their drag, and below, on a wall, what is left there, in the colours of skin grime, bags and rubber; each with name,
+/// form, size and share, and a bar of 10 cm.
 pub fn contact_sheet(library: &PatternLibrary) -> RgbImage {
     let mut rows: Vec<Row> = Vec::new();
     for cause in Cause::ALL {
         let cells = library.patterns.iter().filter(|pattern| pattern.cause == cause).map(Cell::new);
-        rows.extend(arrange(cells.collect()));
+        rows.extend(arrange(cause, cells.collect()));
     }
-    let height = rows.iter().map(|row| row.height + GAP).sum::<u32>() + 2 * GAP + LINE;
+    let height = rows.iter().map(Row::total_height).sum::<u32>() + 2 * GAP + LINE;
     let width = rows.iter().map(|row| row.width).fold(PAGE, u32::max);
     let mut page = RgbImage::from_pixel(width, height, Rgb(FLOOR));
     let mut top = GAP;
+    let is_on_wall = |row: &&Row| row.cells.iter().any(|cell| cell.pattern.cause.on_wall().is_some());
+    let wall_top = top + rows.iter().take_while(|row| !is_on_wall(row)).map(Row::total_height).sum::<u32>() - GAP / 2;
+    if rows.iter().any(|row| is_on_wall(&row)) {
+        fill(&mut page, [0, wall_top], [width, height - wall_top], WALL);
+    }
     for row in rows {
+        if let Some(title) = row.title {
+            write(&mut page, title, GAP, top);
+            top += LINE + GAP / 2;
+        }
         let mut left = GAP;
         for cell in row.cells {
             let base = top + row.height - cell.height;
@@ -51,12 +61,20 @@ struct Cell<'a> {
 }
 
 struct Row<'a> {
+    /// The cause that begins here.
+    title: Option<&'static str>,
     cells: Vec<Cell<'a>>,
     width: u32,
     height: u32,
 }
 
-fn arrange(cells: Vec<Cell>) -> Vec<Row> {
+impl Row<'_> {
+    fn total_height(&self) -> u32 {
+        self.height + GAP + if self.title.is_some() { LINE + GAP / 2 } else { 0 }
+    }
+}
+
+fn arrange(cause: Cause, cells: Vec<Cell>) -> Vec<Row> {
     let mut rows: Vec<Row> = Vec::new();
     for cell in cells {
         match rows.last_mut() {
@@ -65,7 +83,10 @@ fn arrange(cells: Vec<Cell>) -> Vec<Row> {
                 row.height = row.height.max(cell.height);
                 row.cells.push(cell);
             }
-            _ => rows.push(Row { width: 2 * GAP + cell.width, height: cell.height, cells: vec![cell] }),
+            last => {
+                let title = last.is_none().then(|| cause.name());
+                rows.push(Row { title, width: 2 * GAP + cell.width, height: cell.height, cells: vec![cell] });
+            }
         }
     }
     rows
@@ -73,12 +94,14 @@ fn arrange(cells: Vec<Cell>) -> Vec<Row> {
 
 impl<'a> Cell<'a> {
     fn new(pattern: &'a Pattern) -> Cell<'a> {
-        let size = format!("{:.1} x {:.1} cm  {:.0} %", pattern.length_cm, pattern.breadth_cm(), pattern.share * 100.0);
-        let labels = [pattern.name.replace('_', " "), size];
+        let share = pattern.share * 100.0;
+        let size = format!("{:.1} x {:.1} cm  {share:.0} %", pattern.length_cm, pattern.breadth_cm());
+        let name = pattern.name.replace('_', " ");
+        let labels = [name, size];
         let text = labels.iter().map(|label| text_width(label)).fold(0, u32::max);
         let (across, along) = match pattern.cause {
             Cause::Sole => (2 * pattern.height_px + GAP, pattern.width_px),
-            Cause::Heel => (pattern.width_px, pattern.height_px),
+            _ => (pattern.width_px, pattern.height_px),
         };
         Cell { pattern, labels, width: across.max(text), height: along + GAP / 2 + 2 * LINE }
     }
@@ -93,12 +116,13 @@ impl<'a> Cell<'a> {
                         let across = if right_foot { pattern.height_px - 1 - j } else { j };
                         (left + shift + across, top + pattern.width_px - 1 - i)
                     };
-                    lay(page, pattern, SOIL, at);
+                    lay(page, pattern.width_px, &pattern.coverage, grime(pattern.cause), at);
                 }
                 top + pattern.width_px
             }
-            Cause::Heel => {
-                lay(page, pattern, RUBBER, |i, j| (left + i, top + j));
+            _ => {
+                let at = |i: u32, j: u32| (left + i, top + j);
+                lay(page, pattern.width_px, &pattern.coverage, grime(pattern.cause), at);
                 top + pattern.height_px
             }
         };
@@ -108,30 +132,57 @@ impl<'a> Cell<'a> {
     }
 }
 
+/// The colour of what a cause leaves, sRGB, and its density where it covers fully: a little more than a look has, so
+/// that faint ones show.
+fn grime(cause: Cause) -> ([u8; 3], f64) {
+    match cause {
+        Cause::Sole => ([70, 62, 52], 2.5),
+        Cause::Heel => ([30, 29, 28], 3.0),
+        Cause::Hand | Cause::Arm | Cause::Shoulder => ([104, 91, 71], 1.4),
+        Cause::Bag => ([72, 72, 73], 1.5),
+        Cause::Shoe => ([42, 41, 40], 2.5),
+    }
+}
+
+/// A pattern alone on a wall (or, if a sole or heel leaves it, on a floor).
+pub(super) fn laid(coverage: &GrayImage, cause: Cause) -> RgbImage {
+    let ground = if cause.on_wall().is_some() { WALL } else { FLOOR };
+    let mut picture = RgbImage::from_pixel(coverage.width(), coverage.height(), Rgb(ground));
+    lay(&mut picture, coverage.width(), coverage.as_raw(), grime(cause), |i, j| (i, j));
+    picture
+}
+
 /// Lays a pattern on the page; `at` says where its pixel (column, row) goes.
-fn lay(page: &mut RgbImage, pattern: &Pattern, colour: [u8; 3], at: impl Fn(u32, u32) -> (u32, u32)) {
-    for (place, &coverage) in pattern.coverage.iter().enumerate() {
-        let (i, j) = (place as u32 % pattern.width_px, place as u32 / pattern.width_px);
-        let (x, y) = at(i, j);
+fn lay(
+    page: &mut RgbImage,
+    width_px: u32,
+    coverage: &[u8],
+    (colour, density): ([u8; 3], f64),
+    at: impl Fn(u32, u32) -> (u32, u32),
+) {
+    // exp(-D) of the ground shows, the rest is grime.
+    let shows: Vec<f64> = (0..256).map(|cover| math::exp(-density * f64::from(cover) / 255.0)).collect();
+    for (place, &coverage) in coverage.iter().enumerate() {
+        let (x, y) = at(place as u32 % width_px, place as u32 / width_px);
         if let Some(pixel) = page.get_pixel_mut_checked(x, y) {
+            let shows = shows[usize::from(coverage)];
             for (channel, soil) in pixel.0.iter_mut().zip(colour) {
-                let (floor, cover) = (u32::from(*channel), u32::from(coverage));
-                *channel = ((floor * (255 - cover) + u32::from(soil) * cover) / 255) as u8;
+                *channel = (f64::from(*channel) * shows + f64::from(soil) * (1.0 - shows)).round() as u8;
             }
         }
     }
 }
 
-fn text_width(text: &str) -> u32 {
+pub(super) fn text_width(text: &str) -> u32 {
     text.chars().count() as u32 * (font::WIDTH + 1) * DOT
 }
 
-fn write(page: &mut RgbImage, text: &str, left: u32, top: u32) {
+pub(super) fn write(page: &mut RgbImage, text: &str, left: u32, top: u32) {
     for (n, character) in text.chars().enumerate() {
         let left = left + n as u32 * (font::WIDTH + 1) * DOT;
         for (row, bits) in (0..).zip(font::rows(character)) {
             for column in (0..font::WIDTH).filter(|column| bits >> (font::WIDTH - 1 - column) & 1 == 1) {
-                fill(page, left + column * DOT, top + row * DOT, DOT, DOT);
+                fill(page, [left + column * DOT, top + row * DOT], [DOT, DOT], INK);
             }
         }
     }
@@ -139,17 +190,17 @@ fn write(page: &mut RgbImage, text: &str, left: u32, top: u32) {
 
 /// A bar of 10 cm with a tick at each half.
 fn scale_bar(page: &mut RgbImage, left: u32, top: u32) {
-    fill(page, left, top + 6, 100, 3);
+    fill(page, [left, top + 6], [100, 3], INK);
     for tick in [0, 50, 98] {
-        fill(page, left + tick, top, 2, 15);
+        fill(page, [left + tick, top], [2, 15], INK);
     }
     write(page, "10 cm", left + 112, top);
 }
 
-fn fill(page: &mut RgbImage, left: u32, top: u32, width: u32, height: u32) {
+fn fill(page: &mut RgbImage, [left, top]: [u32; 2], [width, height]: [u32; 2], colour: [u8; 3]) {
     for (x, y) in (left..left + width).flat_map(|x| (top..top + height).map(move |y| (x, y))) {
         if let Some(pixel) = page.get_pixel_mut_checked(x, y) {
-            *pixel = Rgb(INK);
+            *pixel = Rgb(colour);
         }
     }
 }

@@ -9,19 +9,19 @@ use super::shape::smoothstep;
 
 /// One stroke, centimetres.
 #[derive(Clone, Copy)]
-struct Stroke {
+pub struct Stroke {
     /// Start and end on the axis of the image.
-    from: f64,
-    to: f64,
+    pub from: f64,
+    pub to: f64,
     /// y of the middle line at the start, in the middle, and at the end.
-    bend: [f64; 3],
+    pub bend: [f64; 3],
     /// Full width at the start, where it is widest, and at the end.
-    widths: [f64; 3],
+    pub widths: [f64; 3],
     /// Where it is widest, as a share of its length.
-    widest: f64,
+    pub widest: f64,
     /// Share of the length at which it begins to break up.
-    holds: f64,
-    seed: u64,
+    pub holds: f64,
+    pub seed: u64,
 }
 
 /// The heel marks, in the order of `patterns.toml`.
@@ -50,11 +50,12 @@ pub fn all() -> Vec<Drawing> {
 fn drawing(name: &'static str, length: f64, breadth: f64, strokes: Vec<Stroke>) -> Drawing {
     let frame = Rect { min: vec2(0.0, -breadth / 2.0), max: vec2(length, breadth / 2.0) };
     let coverage = move |p: Vec2| strokes.iter().map(|stroke| stroke.coverage(p)).fold(0.0, f64::max);
-    Drawing { name, frame, coverage: Box::new(coverage) }
+    Drawing { name, frame, samples: 4, fills: false, coverage: Box::new(coverage) }
 }
 
 impl Stroke {
-    fn coverage(&self, p: Vec2) -> f64 {
+    /// How fully it covers a place.
+    pub fn coverage(&self, p: Vec2) -> f64 {
         let t = (p.x - self.from) / (self.to - self.from);
         if !(-0.1..=1.1).contains(&t) {
             return 0.0;

@@ -9,14 +9,15 @@ mod heel_marks;
 mod noise;
 mod shape;
 mod soles;
+mod walls;
 
-use image::{GrayImage, Luma};
+use image::GrayImage;
 use trodden::math::{Rect, Vec2, vec2};
 
 /// Pixels per centimetre of every pattern.
 const PX_PER_CM: f64 = 10.0;
-/// Samples per pixel along each side.
-const SAMPLES: u32 = 4;
+/// Of the pixels that are covered at all, one in so many is covered fully where a drawing is scaled to its fullest.
+const FULL_ONE_IN: usize = 200;
 
 /// One image to draw.
 pub struct Drawing {
@@ -24,14 +25,19 @@ pub struct Drawing {
     pub name: &'static str,
     /// What the image shows, centimetres.
     frame: Rect,
+    /// Samples per pixel along each side.
+    samples: u32,
+    /// Whether it is scaled so that its fullest places are covered fully.
+    fills: bool,
     /// Coverage, 0 to 1, at a place within the frame.
-    coverage: Box<dyn Fn(Vec2) -> f64>,
+    coverage: Box<dyn Fn(Vec2) -> f64 + Send + Sync>,
 }
 
-/// All patterns, soles first.
+/// All patterns: soles, heel marks, then what is left on walls.
 pub fn all() -> Vec<Drawing> {
     let mut drawings = soles::all();
     drawings.extend(heel_marks::all());
+    drawings.extend(walls::all());
     drawings
 }
 
@@ -40,16 +46,29 @@ impl Drawing {
     pub fn render(&self) -> GrayImage {
         let width = (self.frame.width() * PX_PER_CM).round() as u32;
         let height = (self.frame.height() * PX_PER_CM).round() as u32;
-        GrayImage::from_fn(width, height, |column, row| {
-            let mut sum = 0.0;
-            for sample in 0..SAMPLES * SAMPLES {
-                let (right, down) = (sample % SAMPLES, sample / SAMPLES);
-                let x = f64::from(column * SAMPLES + right) + 0.5;
-                let y = f64::from(row * SAMPLES + down) + 0.5;
-                let step = PX_PER_CM * f64::from(SAMPLES);
-                sum += (self.coverage)(vec2(self.frame.min.x + x / step, self.frame.max.y - y / step)).clamp(0.0, 1.0);
-            }
-            Luma([(sum / f64::from(SAMPLES * SAMPLES) * 255.0).round() as u8])
-        })
+        let means: Vec<f64> =
+            (0..height).flat_map(|row| (0..width).map(move |column| (column, row))).map(|at| self.mean(at)).collect();
+        let full = if self.fills { fullest(&means) } else { 1.0 };
+        let pixels = means.iter().map(|mean| ((mean / full).min(1.0) * 255.0).round() as u8);
+        GrayImage::from_vec(width, height, pixels.collect()).unwrap_or_default()
     }
+
+    fn mean(&self, (column, row): (u32, u32)) -> f64 {
+        let samples = self.samples;
+        let step = PX_PER_CM * f64::from(samples);
+        let at = |n: u32| {
+            let x = f64::from(column * samples + n % samples) + 0.5;
+            let y = f64::from(row * samples + n / samples) + 0.5;
+            vec2(self.frame.min.x + x / step, self.frame.max.y - y / step)
+        };
+        let sum: f64 = (0..samples * samples).map(|n| (self.coverage)(at(n)).clamp(0.0, 1.0)).sum();
+        sum / f64::from(samples * samples)
+    }
+}
+
+/// The coverage that only the fullest pixels exceed.
+fn fullest(means: &[f64]) -> f64 {
+    let mut covered: Vec<f64> = means.iter().copied().filter(|&mean| mean > 0.02).collect();
+    covered.sort_unstable_by(f64::total_cmp);
+    covered.iter().rev().nth(covered.len() / FULL_ONE_IN).copied().unwrap_or(1.0)
 }

@@ -54,7 +54,7 @@ impl Sole {
             let pressed = pressure(&site) * (self.stiffness)(&site);
             print(&site, (self.tread)(&site), pressed, worn, self.grain, self.seed)
         };
-        Drawing { name: self.name, frame, coverage: Box::new(coverage) }
+        Drawing { name: self.name, frame, samples: 4, fills: false, coverage: Box::new(coverage) }
     }
 }
 

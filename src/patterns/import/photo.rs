@@ -1,0 +1,95 @@
+//! Reads a photograph as the logarithm of the light that it shows.
+
+use std::io::Cursor;
+
+use image::{DynamicImage, ImageDecoder, ImageReader, Limits, RgbImage};
+
+use super::raster::Raster;
+use super::{ImportError, ImportOptions, PhotoScale};
+use crate::math;
+
+/// Most pixels, and least side, of a photograph and of the part that is looked at.
+const MOST_PX: u64 = 64_000_000;
+const LEAST_SIDE_PX: u32 = 32;
+/// Beyond so many pixels it is worked on at a fraction of its resolution.
+const ENOUGH_PX: u64 = 12_000_000;
+/// What a photograph cannot show darker than, linear light: half a step of 8 bits.
+const DARKEST: f64 = 0.5 / 255.0 / 12.92;
+
+/// The part of a photograph that is looked at.
+pub(super) struct Photo {
+    /// ln of linear light per channel.
+    pub logs: [Raster; 3],
+    /// Pixels of the photograph per pixel here.
+    pub factor: usize,
+    /// Upper left in the photograph.
+    pub corner_px: [u32; 2],
+    /// For the picture.
+    pub looked_at: RgbImage,
+}
+
+pub(super) fn read(bytes: &[u8], options: &ImportOptions) -> Result<Photo, ImportError> {
+    let image = decode(bytes)?;
+    let (width, height) = (image.width(), image.height());
+    let [left, top, across, down] = options.crop.unwrap_or([0, 0, width, height]);
+    let fits = |from: u32, count: u32, all: u32| from.checked_add(count).is_some_and(|end| end <= all);
+    if !fits(left, across, width) || !fits(top, down, height) || across.min(down) < LEAST_SIDE_PX {
+        let crop = [left, top, across, down];
+        return Err(ImportError::Crop { crop, width, height, least: LEAST_SIDE_PX });
+    }
+    let part = image.crop_imm(left, top, across, down);
+    drop(image);
+    let factor = factor(across, down, options.size);
+    let looked_at = part.to_rgb8();
+    let part = part.into_rgb16();
+    let log_of: Vec<f32> = (0..=u16::MAX).map(log_of).collect();
+    let logs = [0, 1, 2].map(|channel| {
+        let values = part.pixels().map(|pixel| log_of[usize::from(pixel.0[channel])]).collect();
+        Raster { width: across as usize, height: down as usize, values }.reduced(factor)
+    });
+    Ok(Photo { logs, factor, corner_px: [left, top], looked_at })
+}
+
+/// Reads an image the way up in which it was taken.
+fn decode(bytes: &[u8]) -> Result<DynamicImage, ImportError> {
+    let unreadable = |reason: String| ImportError::Unreadable { reason };
+    if bytes.is_empty() {
+        return Err(unreadable("the file is empty".to_owned()));
+    }
+    let mut reader =
+        ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|error| unreadable(error.to_string()))?;
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(MOST_PX * 16);
+    reader.limits(limits);
+    let mut decoder = reader.into_decoder().map_err(|error| unreadable(error.to_string()))?;
+    let (width, height) = decoder.dimensions();
+    if u64::from(width) * u64::from(height) > MOST_PX {
+        return Err(ImportError::Size { width, height, allowed: "64 million pixels" });
+    }
+    if width.min(height) < LEAST_SIDE_PX {
+        return Err(ImportError::Size { width, height, allowed: "at least 32 px a side" });
+    }
+    let orientation = decoder.orientation().map_err(|error| unreadable(error.to_string()))?;
+    let mut image = DynamicImage::from_decoder(decoder).map_err(|error| unreadable(error.to_string()))?;
+    image.apply_orientation(orientation);
+    Ok(image)
+}
+
+/// By how much a large photograph is reduced: never below what the pattern needs.
+fn factor(width: u32, height: u32, size: PhotoScale) -> usize {
+    let mut factor = 1;
+    while u64::from(width) * u64::from(height) / (factor * factor) > ENOUGH_PX {
+        factor += 1;
+    }
+    match size {
+        PhotoScale::PxPerCm(scale) => factor.min((scale / 10.0) as u64).max(1) as usize,
+        PhotoScale::LengthCm(_) => factor as usize,
+    }
+}
+
+/// ln of the linear light of an sRGB value (IEC 61966-2-1).
+fn log_of(value: u16) -> f32 {
+    let value = f64::from(value) / 65_535.0;
+    let linear = if value <= 0.04045 { value / 12.92 } else { math::pow((value + 0.055) / 1.055, 2.4) };
+    math::ln(linear.max(DARKEST)) as f32
+}
