@@ -35,6 +35,27 @@ pub enum MarksError {
         /// The names of the library's soles.
         soles: Vec<String>,
     },
+    /// A door or a fixture that a plan does not have.
+    #[error("{list} {}: {key}: {problem}", called(.name, *.index))]
+    Place {
+        /// `door` or `fixture`.
+        list: &'static str,
+        /// Its place in the scenario's list.
+        index: usize,
+        /// What the scenario calls it.
+        name: Option<String>,
+        /// The key, as a scenario writes it.
+        key: &'static str,
+        /// What is wrong.
+        problem: String,
+        /// What to do about it.
+        hint: Option<String>,
+    },
+}
+
+/// How messages call one of a list: by its name, or by its number.
+fn called(name: &Option<String>, index: usize) -> String {
+    name.as_ref().map_or_else(|| (index + 1).to_string(), |name| format!("\"{name}\""))
 }
 
 impl MarksError {
@@ -47,6 +68,7 @@ impl MarksError {
                 Some(format!("did you mean \"{nearest}\"? There are: {}", soles.join(", ")))
             }
             MarksError::NoSole => Some("list at least one pattern with cause = \"sole\"".to_owned()),
+            MarksError::Place { hint, .. } => hint.clone(),
             MarksError::OutOfRange { .. } | MarksError::Distribution { .. } => None,
         }
     }

@@ -6,12 +6,13 @@ use crate::motion::{Frame, People, Person, Walker};
 use crate::patterns::{Cause, PatternLibrary};
 use crate::walls::Walls;
 
+use super::contacts::{Contacts, Moment, Touches};
 use super::feet::Step;
 use super::gait::Gait;
 use super::heels::{self, HeelMarks};
 use super::soil::Shoes;
 use super::track::{Sample, Track};
-use super::{Mark, MarksError, MarksOptions, Origin};
+use super::{Contact, ContactPlaces, Mark, MarksError, MarksOptions, Origin};
 
 /// Times beyond this (30 years) are no times; the clock of the paths could not count their ticks.
 const MOST_TIME_S: f64 = 1e9;
@@ -29,6 +30,12 @@ pub struct Footfalls<'a> {
     uniform: Option<u16>,
     options: MarksOptions,
     heel_marks: HeelMarks,
+    /// Not made before the first frame: somebody may know more of the places than the walls do. None where nobody can touch
+    /// a wall.
+    contacts: Option<Option<Contacts>>,
+    /// Contacts that nobody has taken yet.
+    touched: Vec<Contact>,
+    contact_count: u64,
     origins: Vec<Origin>,
     /// By ascending id.
     #[expect(clippy::vec_box, reason = "they are a kilobyte each and move to a new list at every frame")]
@@ -42,6 +49,7 @@ struct Present {
     track: Track,
     gait: Gait,
     feet: Feet,
+    touches: Touches,
 }
 
 /// What somebody's feet wear and leave.
@@ -57,7 +65,8 @@ struct Feet {
 }
 
 impl<'a> Footfalls<'a> {
-    /// Prepares the stage. `origins` is by id; whoever has none is neither fresh nor from outside.
+    /// Prepares the stage. `origins` is by id; whoever has none is neither fresh nor from outside. Doors and corners are those
+    /// that the walls tell of, see [`Footfalls::with_contacts`].
     ///
     /// # Errors
     /// Options out of range, a library without soles, a `shoe` that is not in it.
@@ -80,10 +89,36 @@ impl<'a> Footfalls<'a> {
             uniform: options.shoe.as_deref().map(|name| sole_named(library, name)).transpose()?,
             options: options.clone(),
             heel_marks: HeelMarks::new(library, &options.heel, origins.len()),
+            contacts: None,
+            touched: Vec::new(),
+            contact_count: 0,
             origins,
             present: Vec::new(),
             count: 0,
         })
+    }
+
+    /// The same with other doors, corners and fixtures than the walls tell of.
+    pub fn with_contacts(mut self, places: ContactPlaces) -> Footfalls<'a> {
+        self.contacts =
+            Some(Contacts::new(self.walls, self.library, &self.options.contact, self.origins.len(), || places));
+        self
+    }
+
+    /// For how many people the contacts stand, see [`super::ContactOptions::people`].
+    pub fn contact_people(&self) -> u32 {
+        let crowd = self.origins.len();
+        (self.options.contact.stand_ins(crowd) * crowd as f64).round() as u32
+    }
+
+    /// Moves the contacts that are known by now to the end of `out`; in the order of marks.
+    pub fn take_contacts(&mut self, out: &mut Vec<Contact>) {
+        out.append(&mut self.touched);
+    }
+
+    /// Contacts so far.
+    pub fn contact_count(&self) -> u64 {
+        self.contact_count
     }
 
     /// Takes the next frame and adds the marks that are now known to `out`.
@@ -94,6 +129,9 @@ impl<'a> Footfalls<'a> {
         if !frame.time_s.is_finite() || frame.time_s.abs() > MOST_TIME_S {
             return;
         }
+        let (walls, library, options, crowd) = (self.walls, self.library, &self.options.contact, self.origins.len());
+        let of_walls = || Contacts::new(walls, library, options, crowd, || ContactPlaces::of_walls(walls));
+        self.contacts.get_or_insert_with(of_walls);
         let mut before = std::mem::take(&mut self.present).into_iter().peekable();
         let mut now = Vec::with_capacity(frame.walkers.len());
         for walker in frame.walkers.iter().filter(|walker| walker.position_m.is_finite()) {
@@ -143,28 +181,37 @@ impl<'a> Footfalls<'a> {
             last: None,
         };
         let gait = Gait::new(seed, &person, self.options.shifts_per_minute / 60.0);
-        Present { track: Track::new(time_s, walker.position_m, walker.heading), gait, feet, person }
+        let touches = Touches::new(seed, &person);
+        Present { track: Track::new(time_s, walker.position_m, walker.heading), gait, feet, touches, person }
     }
 
     fn walk_on(&mut self, present: &mut Present, time_s: f64, walker: &Walker, out: &mut Vec<Mark>) {
-        let Present { person, track, gait, feet } = present;
-        let mut stride = |sample: Sample| self.stride(person, gait, feet, sample, out);
+        let Present { person, track, gait, feet, touches } = present;
+        let mut stride = |sample: Sample| self.stride(person, gait, (feet, touches), sample, out);
         if track.continues(time_s, walker.position_m) {
             track.push(time_s, walker.position_m, walker.heading, stride);
         } else {
             track.finish(&mut stride);
             gait.interrupt();
+            touches.interrupt();
             *track = Track::new(time_s, walker.position_m, walker.heading);
         }
     }
 
     fn leave(&mut self, mut present: Box<Present>, out: &mut Vec<Mark>) {
-        let Present { person, track, gait, feet } = &mut *present;
-        track.finish(|sample| self.stride(person, gait, feet, sample, out));
+        let Present { person, track, gait, feet, touches } = &mut *present;
+        track.finish(|sample| self.stride(person, gait, (feet, touches), sample, out));
     }
 
-    /// One tick of a smoothed path: steps, then what heels lost on the way.
-    fn stride(&mut self, person: &Person, gait: &mut Gait, feet: &mut Feet, sample: Sample, out: &mut Vec<Mark>) {
+    /// One tick of a smoothed path: steps, then what heels lost on the way, then what was touched.
+    fn stride(
+        &mut self,
+        person: &Person,
+        gait: &mut Gait,
+        (feet, touches): (&mut Feet, &mut Touches),
+        sample: Sample,
+        out: &mut Vec<Mark>,
+    ) {
         let progress = gait.walk(person, sample, |step| {
             self.count += 1;
             let inside = self.plan_m.contains(step.place_m);
@@ -181,6 +228,18 @@ impl<'a> Footfalls<'a> {
                 last.and_then(|foot| self.heel_marks.mark(&foot, person.sole_length_m, turned_rad, wear, variation));
             out.extend(mark);
         });
+        if let Some(Some(contacts)) = &self.contacts {
+            let moment = Moment {
+                at_m: sample.position_m,
+                facing: gait.heading(),
+                velocity_m_s: sample.velocity_m_s,
+                walked_m: progress.walked_m,
+                stood_s: progress.stood_s,
+            };
+            let before = self.touched.len();
+            contacts.walk(touches, self.walls, person, &moment, &mut self.touched);
+            self.contact_count += (self.touched.len() - before) as u64;
+        }
     }
 }
 

@@ -145,6 +145,11 @@ impl Gait {
         Progress { walked_m, turned_rad, stops: stood.stops, stood_s: stood.stood_s }
     }
 
+    /// Where the body faces: a unit vector.
+    pub fn heading(&self) -> Vec2 {
+        self.heading
+    }
+
     fn begin(&mut self, sample: &Sample) {
         let walks = sample.velocity_m_s.length() > 0.2;
         let way = if walks { sample.velocity_m_s } else { sample.ahead_m };

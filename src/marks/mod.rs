@@ -1,4 +1,5 @@
-//! Turns motion into marks: where a foot was set down, where a heel scraped. Still without pixels.
+//! Turns motion into marks: where a foot was set down, where a heel scraped, where a wall was touched. Still without
+//! pixels.
 //!
 //! [`Footfalls`] takes frames one by one and keeps only the people who are present. Each of them passes through
 //!
@@ -7,11 +8,14 @@
 //! 2. `gait`: a phase that grows by a step per step length walked; at every whole step one of the `feet` is set down,
 //!    left and right in turn, as the body faces; who comes to `rest` draws them together, and shifts them while
 //!    standing;
-//! 3. `soil` and `heels`: what the shoe leaves there.
+//! 3. `soil` and `heels`: what the shoe leaves there;
+//! 4. `contacts`: what of the body touches the walls that it passes.
 //!
 //! Everything that can happen more or less often is a rate per metre walked, per radian turned, per second stood or per
 //! event; the number of marks does not depend on the source's time step.
 
+mod contact;
+mod contacts;
 mod error;
 mod feet;
 mod footfalls;
@@ -22,6 +26,10 @@ mod rest;
 mod soil;
 mod track;
 
+pub use contact::Contact;
+pub use contacts::{
+    ContactOptions, ContactPlaces, ContactRule, Door, DoorRequest, Fixture, FixtureAt, FixtureKind, FixtureRequest,
+};
 pub use error::MarksError;
 pub use footfalls::Footfalls;
 pub use options::{HeelOptions, MarksOptions, SoilOptions, Weather};

@@ -2,9 +2,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::math::Distribution;
 
-use super::MarksError;
+use super::{ContactOptions, MarksError};
 
-/// What people's feet leave behind.
+/// What people leave behind on floors and walls.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MarksOptions {
@@ -19,6 +19,8 @@ pub struct MarksOptions {
     pub soil: SoilOptions,
     /// Rubber that heels and toes leave.
     pub heel: HeelOptions,
+    /// What is left on walls.
+    pub contact: ContactOptions,
 }
 
 /// The weather outside, which decides how a trail fades.
@@ -96,6 +98,7 @@ impl Default for MarksOptions {
             shifts_per_minute: 2.5,
             soil: SoilOptions::default(),
             heel: HeelOptions::default(),
+            contact: ContactOptions::default(),
         }
     }
 }
@@ -177,7 +180,7 @@ impl MarksOptions {
         ] {
             distribution.check(0.0, 1e6).map_err(|problem| MarksError::Distribution { key, problem })?;
         }
-        Ok(())
+        self.contact.check()
     }
 }
 

@@ -14,12 +14,14 @@ pub enum Purpose {
     Walk = 3,
     /// First foot, phase, step-to-step variation.
     Gait = 4,
-    /// Heel marks, contacts and the variation word of each mark.
+    /// Heel marks and the variation word of each mark.
     Marks = 5,
     /// Soil that the shoes bring in.
     Load = 6,
     /// At which stops to stop, and for how long.
     Stops = 7,
+    /// What is touched on walls, and the variation word of each contact.
+    Contacts = 8,
 }
 
 /// The random stream of one person for one purpose: a pure function of its three arguments.

@@ -8,7 +8,7 @@ mod recorder;
 
 pub use error::MotionError;
 pub use mileage::Mileage;
-pub use person::{Bag, BodyOptions, CarrySide, People, Person, STRIDE_SPEED_M_S};
+pub use person::{Bag, BagKind, BodyOptions, CarrySide, People, Person, STRIDE_SPEED_M_S};
 pub(crate) use recorder::Resampler;
 pub use recorder::{FRAME_RATES, RecordFormat, Recorded, RecordedWorld, Recorder};
 

@@ -60,9 +60,29 @@ pub enum CarrySide {
 /// What somebody carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Bag {
-    /// Where it hangs.
+    /// Where it hangs or rolls.
     pub side: CarrySide,
+    /// What it is.
+    pub kind: BagKind,
 }
+
+/// A kind of belongings, by what it does to walls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum BagKind {
+    /// Soft, in the hand or from the shoulder.
+    Bag,
+    /// Hard, in the hand.
+    Case,
+    /// On wheels, with a bar to pull it by.
+    Trolley,
+    /// On the back.
+    Rucksack,
+}
+
+/// Shares of cases and of trolleys among what is carried on a side.
+const CASES: f64 = 0.25;
+const TROLLEYS: f64 = 0.15;
 
 /// A person's body and gait: a pure function of (seed, id).
 #[derive(Clone, Debug, PartialEq)]
@@ -180,6 +200,12 @@ impl People {
         let toe_out_rad = toe_out * options.toe_out_deg.draw(rng).to_radians();
         let shoe_draw = rng.random();
         let runs_on_ball = rng.random::<f64>() < RUN_ON_BALL;
+        let kind = match (side, rng.random::<f64>()) {
+            (CarrySide::Back, _) => BagKind::Rucksack,
+            (_, draw) if draw < CASES => BagKind::Case,
+            (_, draw) if draw < CASES + TROLLEYS => BagKind::Trolley,
+            _ => BagKind::Bag,
+        };
         Person {
             id,
             stature_m,
@@ -187,7 +213,7 @@ impl People {
             chest_depth_m: depth * stature_m,
             sole_length_m: foot * stature_m + clearance_m,
             child,
-            bag: bag.map(|()| Bag { side }),
+            bag: bag.map(|()| Bag { side, kind }),
             fixed_step_m,
             step_factor: stature_m / REFERENCE_STATURE_M * spread,
             step_width_m,

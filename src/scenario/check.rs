@@ -32,8 +32,10 @@ impl Scenario {
             return Err(wrong("plan.scale", message, Some("leave one of the two out".to_string())));
         }
         self.check_stops().map_err(|(key, message, hint)| wrong(&key, message, hint))?;
+        self.check_places().map_err(|(key, message)| wrong(&key, message, None))?;
         self.check_timetables().map_err(|(key, message)| wrong(&key, message, None))?;
         // The stages' own checks: for what concerns more than one key.
+        self.texture.check().map_err(|error| wrong("texture.tile", error.to_string(), error.hint()))?;
         let crowd = self.crowd.check().map_err(|error| ("crowd", error.to_string(), error.hint()));
         let marks = self.marks.check().map_err(|error| ("marks", error.to_string(), error.hint()));
         let stamps = self.stamps.check().map_err(|error| ("stamps", error.to_string(), error.hint()));
@@ -95,6 +97,17 @@ impl Scenario {
             None if names.is_empty() => "each [[stop]] has a `name`; routes name it in `via`".to_string(),
             None => format!("the stops are \"{}\"", names.join("\", \"")),
         }
+    }
+
+    /// Doors and fixtures that are right in themselves; whether there is a wall for them the plan tells.
+    fn check_places(&self) -> Result<(), (String, String)> {
+        for (index, door) in self.doors.iter().enumerate() {
+            door.check().map_err(|(key, problem)| (format!("door.{index}.{key}"), problem))?;
+        }
+        for (index, fixture) in self.fixtures.iter().enumerate() {
+            fixture.check().map_err(|(key, problem)| (format!("fixture.{index}.{key}"), problem))?;
+        }
+        Ok(())
     }
 
     fn check_timetables(&self) -> Result<(), (String, String)> {

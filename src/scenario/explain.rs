@@ -8,7 +8,9 @@ pub(super) type Explanation = (String, Option<String>);
 /// The text is not TOML.
 pub(super) fn syntax(message: &str) -> Explanation {
     let hint = match message {
-        "duplicate key" => "write each key and each section once; only [[route]] and [[stop]] may come again",
+        "duplicate key" => {
+            "write each key and each section once; only [[route]], [[stop]], [[door]] and [[fixture]] may come again"
+        }
         _ => "texts stand in quotes, lists in [brackets], and a section begins with its [name]",
     };
     (format!("not valid TOML: {message}"), Some(hint.to_string()))

@@ -1,14 +1,18 @@
 //! Every key of a scenario: what it means, what it may be, in the order in which `trodden init` writes them.
 
 /// The sections of a scenario, in order.
-pub(super) const SECTIONS: [&str; 11] =
-    ["plan", "walls", "texture", "crowd", "bodies", "marks", "stamps", "look", "patterns", ROUTE, STOP];
+pub(super) const SECTIONS: [&str; 13] =
+    ["plan", "walls", "texture", "crowd", "bodies", "marks", "stamps", "look", "patterns", ROUTE, STOP, DOOR, FIXTURE];
 /// The section that comes once per route.
 pub(super) const ROUTE: &str = "route";
 /// The section that comes once per stop.
 pub(super) const STOP: &str = "stop";
+/// The section that comes once per door.
+pub(super) const DOOR: &str = "door";
+/// The section that comes once per fixture.
+pub(super) const FIXTURE: &str = "fixture";
 /// The sections that may come several times.
-pub(super) const LISTS: [&str; 2] = [ROUTE, STOP];
+pub(super) const LISTS: [&str; 4] = [ROUTE, STOP, DOOR, FIXTURE];
 
 /// One key.
 pub(super) struct Key {
@@ -96,8 +100,11 @@ pub(super) const KEYS: &[Key] = &[
 
     key("texture.floor_texels_per_metre", Number(1.0, 1000.0), "texel density of the floor"),
     key("texture.wall_texels_per_metre", Number(1.0, 1000.0), "texel density of the walls"),
-    key("texture.tile", Number(64.0, 16384.0), "largest side of a floor texture [px]"),
+    key("texture.tile", Number(64.0, 16384.0), "largest side of a texture [px]; Unreal takes 8192"),
     key("texture.layers", Any, "whether to write every layer on its own too, as EXR"),
+    key("texture.target", Any, "what the files are for: \"gltf\", \"blender\", \"unreal\", \"unity\" or \"godot\""),
+    key("texture.walls", Any, "whether walls are made too, and with them the scene, stills and page"),
+    key("texture.embed", Any, "whether scene.glb carries its textures, reduced, inside"),
 
     key("crowd.preset", Any, "what all other keys start from: \"commuters\", \"heavy\", \"wet\" or \"paper\""),
     key("crowd.seed", Any, "another number, another crowd"),
@@ -155,6 +162,34 @@ pub(super) const KEYS: &[Key] = &[
     key("marks.heel.median_density", Number(0.0, 3.0), "optical density of a mark"),
     key("marks.heel.sigma", Number(0.0, 3.0), "deviation of its logarithm"),
     key("marks.heel.people", Number(1.0, 1e9), "the number of people for which the rates hold; fewer leave more each"),
+    key("marks.contact.rule", Any, "what decides where walls are touched: \"causes\", or \"distance\" alone as in the paper"),
+    key("marks.contact.people", Number(1.0, 1e9), "for how many people touches are drawn: who walks stands for up to 64; 1: for those who walk"),
+    key("marks.contact.reach_m", Number(0.1, 1.0), "how far hands and belongings reach from the body's side [m]"),
+    key("marks.contact.close_m", Number(0.0, 1.0), "how near shoulders, arms and hips come to touch [m]"),
+    key("marks.contact.narrow_m", Number(0.0, 3.0), "clear width below which shoulders brush walls [m]"),
+    key("marks.contact.hand_per_metre", Number(0.0, 10.0), "hands on a plain wall, per metre walked within reach"),
+    key("marks.contact.arm_per_metre", Number(0.0, 10.0), "elbows, arms and hips, per metre walked very close"),
+    key("marks.contact.shoulder_per_metre", Number(0.0, 10.0), "shoulders, per metre walked very close where it is narrow"),
+    key("marks.contact.bag_per_metre", Number(0.0, 10.0), "belongings, per metre within reach with some on the wall's side"),
+    key("marks.contact.shoe_per_metre", Number(0.0, 10.0), "shoes, per metre walked within reach"),
+    key("marks.contact.jamb_hand_per_passage", Number(0.0, 10.0), "hands on a door's jamb, per passage"),
+    key("marks.contact.jamb_shoulder_per_passage", Number(0.0, 10.0), "shoulders and arms on it, where the door is narrow"),
+    key("marks.contact.jamb_bag_per_passage", Number(0.0, 10.0), "belongings against it, with some on that side"),
+    key("marks.contact.jamb_shoe_per_passage", Number(0.0, 10.0), "shoes against it"),
+    key("marks.contact.corner_per_turn", Number(0.0, 10.0), "hands on the corner that one turns round, per turn"),
+    key("marks.contact.corner_bag_per_turn", Number(0.0, 10.0), "belongings against it, with some on that side"),
+    key("marks.contact.corner_shoe_per_turn", Number(0.0, 10.0), "shoes against it"),
+    key("marks.contact.lean_per_second", Number(0.0, 1.0), "whatever who stands very close leans on a wall, per second"),
+    key("marks.contact.fixture_per_passage", Number(0.0, 10.0), "touches of a fixture, per passage within reach"),
+    key("marks.contact.fixture_per_second", Number(0.0, 1.0), "touches of it, per second stood within reach"),
+    key("marks.contact.distance_close_per_metre", Number(0.0, 10.0), "rule \"distance\": touches at the wall, per metre; none from close_m on"),
+    key("marks.contact.distance_far_per_metre", Number(0.0, 10.0), "the same of hand and belongings; none from reach_m on"),
+    key("marks.contact.hand_density", Number(0.0, 3.0), "median optical density of a hand's touch"),
+    key("marks.contact.arm_density", Number(0.0, 3.0), "of an arm's"),
+    key("marks.contact.shoulder_density", Number(0.0, 3.0), "of a shoulder's"),
+    key("marks.contact.bag_density", Number(0.0, 3.0), "of a bag's"),
+    key("marks.contact.shoe_density", Number(0.0, 3.0), "of a shoe's"),
+    key("marks.contact.sigma", Number(0.0, 3.0), "deviation of their logarithm"),
 
     key("stamps.partial", Number(0.0, 1.0), "share of prints that show only the heel, only the ball, or fade to one side"),
     key("stamps.pressure", Number(0.0, 0.4), "how unevenly a sole presses"),
@@ -201,6 +236,45 @@ pub(super) const KEYS: &[Key] = &[
     key("look.noise.middle", Any, "blotches"),
     key("look.noise.coarse", Any, "clouds"),
 
+    key("look.wall.material", Any, "\"matt\" or \"gloss\" paint, or \"concrete\": colour, texture, how stains stay on it"),
+    optional("look.wall.colour", Any, "sRGB of the clean wall; left out: the material's", "[228, 227, 223]"),
+    key("look.wall.texture", Number(0.0, 3.0), "how much of the material's own texture shows; paint has none"),
+    optional("look.wall.image", Any, "or an image of the clean wall, repeated", "\"brick.png\""),
+    key("look.wall.image_size_m", Number(0.01, 1000.0), "width and height of the wall that the image shows [m]"),
+    optional("look.wall.roughness", Number(0.0, 1.0), "of the clean wall; left out: the material's", "0.85"),
+    key("look.wall.total_passes", Number(1.0, 1e9), "how many people have passed since it was painted or washed"),
+    key("look.wall.every_touch", Number(0.0, 20.0), "factor on simulated touches as they are: the paper's way"),
+    key("look.wall.skin.strength", Number(0.0, 20.0), "factor on the touches of hands"),
+    key("look.wall.skin.density", Number(0.0, 3.0), "optical density where the wall takes up no more of it"),
+    key("look.wall.skin.spread_m", Number(0.005, 0.5), "how far simulated touches are evened out, for those beside them [m]"),
+    key("look.wall.skin.colour", Any, "sRGB"),
+    key("look.wall.cloth.strength", Number(0.0, 20.0), "factor on the touches of arms and shoulders"),
+    key("look.wall.cloth.density", Number(0.0, 3.0), "optical density where the wall takes up no more of it"),
+    key("look.wall.cloth.spread_m", Number(0.005, 0.5), "how far simulated touches are evened out, for those beside them [m]"),
+    key("look.wall.cloth.colour", Any, "sRGB"),
+    key("look.wall.bag.strength", Number(0.0, 20.0), "factor on the touches of bags, cases, trolleys"),
+    key("look.wall.bag.density", Number(0.0, 3.0), "optical density where the wall takes up no more of it"),
+    key("look.wall.bag.spread_m", Number(0.005, 0.5), "how far simulated touches are evened out, for those beside them [m]"),
+    key("look.wall.bag.colour", Any, "sRGB"),
+    key("look.wall.rubber.strength", Number(0.0, 20.0), "factor on the touches of shoes"),
+    key("look.wall.rubber.density", Number(0.0, 3.0), "optical density where the wall takes up no more of it"),
+    key("look.wall.rubber.spread_m", Number(0.005, 0.5), "how far simulated touches are evened out, for those beside them [m]"),
+    key("look.wall.rubber.colour", Any, "sRGB"),
+    key("look.wall.splash.density", Number(0.0, 3.0), "optical density that mopping leaves at the foot of the wall"),
+    key("look.wall.splash.height_m", Number(0.01, 1.0), "where the splash band ends at the highest [m]"),
+    key("look.wall.splash.unevenness", Number(0.0, 1.5), "how uneven it is"),
+    key("look.wall.splash.drips_per_metre", Number(0.0, 20.0), "drips that ran down"),
+    key("look.wall.splash.colour", Any, "sRGB"),
+    key("look.wall.dust.density", Number(0.0, 3.0), "optical density of dust at the foot of the wall"),
+    key("look.wall.dust.reach_m", Number(0.02, 3.0), "falls to 1/e in this height [m]"),
+    key("look.wall.dust.hands", Number(0.0, 3.0), "optical density of a film at hand height along all walls"),
+    key("look.wall.dust.colour", Any, "sRGB"),
+    key("look.wall.skirting.height_m", Number(0.0, 0.5), "of a skirting board; 0: none [m]"),
+    key("look.wall.skirting.colour", Any, "sRGB"),
+    key("look.wall.noise.fine", Any, "unevenness of the dirt on walls: size of a spot [m], deviation of the logarithm"),
+    key("look.wall.noise.middle", Any, "blotches"),
+    key("look.wall.noise.coarse", Any, "clouds"),
+
     optional("patterns.folder", Any, "own patterns with their patterns.toml, relative to this file; left out: built in", "\"patterns\""),
 
     optional("route.name", Any, "what to call it", "\"west to north\""),
@@ -225,4 +299,17 @@ pub(super) const KEYS: &[Key] = &[
     optional("stop.reach", Number(0.3, 50.0), "how far around the point of a \"place\" people stand [m]", "1.5"),
     optional("stop.queue", Any, "the line in which people queue, from the counter on; left out: straight back, along walls",
         "[[12.0, 5.5], [12.0, 11.0]]"),
+
+    optional("door.name", Any, "what to call it", "\"office\""),
+    optional("door.at", Any, "its middle, [x, y] in metres or { px = [x, y] }; where walls leave a gap, this says more of that door", "[12.0, 4.5]"),
+    optional("door.width", Number(0.5, 6.0), "clear width [m]", "0.9"),
+    optional("door.height", Number(1.8, 3.5), "height [m]", "2.1"),
+    optional("door.hinge", Any, "a point near the jamb on which the leaf hangs: the handle is at the other; left out: either", "[12.4, 4.5]"),
+    optional("door.handle", Number(0.6, 1.5), "height of the handle [m]", "1.0"),
+
+    optional("fixture.name", Any, "what to call it", "\"light switch\""),
+    optional("fixture.kind", Any, "\"switch\", \"handle\", \"counter\", \"bench\", \"radiator\", \"bin\", \"machine\" or \"chairs\"", "\"switch\""),
+    optional("fixture.at", Any, "where it is at a wall: its middle, or its two ends [[x0, y0], [x1, y1]]", "[12.8, 4.4]"),
+    optional("fixture.facing", Any, "a point on the side from which it is reached: of a thin wall, it chooses the face", "[12.8, 6.0]"),
+    optional("fixture.width", Number(0.02, 20.0), "width along the wall [m]; left out: by the kind", "0.1"),
 ];

@@ -9,9 +9,9 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::crowd::CrowdOptions;
-use crate::export::TextureOptions;
+use crate::export::{Target, TextureOptions};
 use crate::look::Look;
-use crate::marks::MarksOptions;
+use crate::marks::{DoorRequest, FixtureRequest, MarksOptions};
 use crate::motion::BodyOptions;
 use crate::plan::PlanOptions;
 use crate::routes::{PlaceRequest, RouteRequest, RoutesOptions, StopRequest, Timetable, ViaRequest};
@@ -61,7 +61,7 @@ pub struct Scenario {
     pub crowd: CrowdOptions,
     /// What people's bodies are like.
     pub bodies: BodyOptions,
-    /// What their feet leave behind.
+    /// What they leave behind on floors and walls.
     pub marks: MarksOptions,
     /// How prints differ from each other.
     pub stamps: StampOptions,
@@ -71,6 +71,10 @@ pub struct Scenario {
     pub pattern_folder: Option<PathBuf>,
     /// The ways that people take; none: found.
     pub routes: RoutesOptions,
+    /// Doors, beyond what the plan shows of them.
+    pub doors: Vec<DoorRequest>,
+    /// What people reach for, lean on and wait at.
+    pub fixtures: Vec<FixtureRequest>,
 }
 
 /// What the command line says; wins over what the scenario file says.
@@ -86,6 +90,12 @@ pub struct Overrides {
     pub texels_per_metre: Option<f64>,
     /// Another scale of the plan.
     pub metres_per_pixel: Option<f64>,
+    /// Another program that the textures are for.
+    pub target: Option<Target>,
+    /// Whether walls are made too.
+    pub walls: Option<bool>,
+    /// Whether the model carries its textures.
+    pub embed: Option<bool>,
 }
 
 impl Scenario {
@@ -164,6 +174,8 @@ impl Scenario {
         scenario.look = scenario.read_look(document, overrides.preset.is_some())?;
         scenario.routes.routes = document.list::<RouteRequest>(keys::ROUTE)?;
         scenario.routes.stops = document.list::<StopRequest>(keys::STOP)?;
+        scenario.doors = document.list::<DoorRequest>(keys::DOOR)?;
+        scenario.fixtures = document.list::<FixtureRequest>(keys::FIXTURE)?;
         scenario.read_timetables(document)?;
         scenario.apply(overrides);
         scenario.check(Some(document))?;
@@ -218,6 +230,8 @@ impl Scenario {
             look: Look::default(),
             pattern_folder: None,
             routes: RoutesOptions::default(),
+            doors: Vec::new(),
+            fixtures: Vec::new(),
         };
         preset.apply(&mut scenario);
         scenario
@@ -271,6 +285,9 @@ impl Scenario {
         self.seed = overrides.seed.unwrap_or(self.seed);
         self.crowd.people = overrides.people.unwrap_or(self.crowd.people);
         self.floor_texels_per_metre = overrides.texels_per_metre.unwrap_or(self.floor_texels_per_metre);
+        self.texture.target = overrides.target.unwrap_or(self.texture.target);
+        self.texture.walls = overrides.walls.unwrap_or(self.texture.walls);
+        self.texture.embed = overrides.embed.unwrap_or(self.texture.embed);
         if overrides.metres_per_pixel.is_some() {
             self.plan.metres_per_pixel = overrides.metres_per_pixel;
             self.plan.scale = None;
@@ -296,10 +313,12 @@ impl Scenario {
             (None, Some(preset)) if !preset_overridden => Look::preset(preset.name()).unwrap_or_default(),
             (None, _) => self.look.clone(),
         };
-        let own_image = document.text_of("look.floor.image").is_some();
-        let mut look = section.over(&base)?;
-        if own_image {
-            look.floor.image = look.floor.image.map(|image| self.folder.join(image));
+        let own = ["look.floor.image", "look.wall.image"].map(|key| document.text_of(key).is_some());
+        let mut look: Look = section.over(&base)?;
+        for (image, own) in look.images().into_iter().zip(own) {
+            if let Some(image) = image.filter(|_| own) {
+                *image = self.folder.join(&*image);
+            }
         }
         Ok(look)
     }

@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 use super::Scenario;
 use crate::crowd::CrowdOptions;
 use crate::look::Look;
-use crate::marks::{HeelOptions, Weather};
+use crate::marks::{ContactOptions, HeelOptions, Weather};
 
 /// What every key of a scenario starts from. Keys that a file writes win over it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -47,6 +47,7 @@ impl Preset {
                 scenario.bodies = CrowdOptions::preset_bodies("paper").unwrap_or_default();
                 scenario.marks.shoe = Some("leather_shoe".to_string());
                 scenario.marks.heel = HeelOptions::none();
+                scenario.marks.contact = ContactOptions::paper();
             }
         }
     }

@@ -46,6 +46,18 @@ impl Scenario {
             keys::STOP,
             "Places where people stop, each in a [[stop]] of its own; routes name them in `via`:",
         );
+        push_list(
+            &mut text,
+            &table,
+            keys::DOOR,
+            "Doors, each in a [[door]] of its own. Gaps of 0.7 to 2.0 m in walls are found without:",
+        );
+        push_list(
+            &mut text,
+            &table,
+            keys::FIXTURE,
+            "What people touch on walls, each in a [[fixture]] of its own; counters, machines and benches of stops are found:",
+        );
         text
     }
 }
@@ -57,7 +69,9 @@ impl Scenario {
         let mut scenario = self.clone();
         scenario.image = name(&self.image);
         scenario.pattern_folder = self.pattern_folder.as_ref().map(name);
-        scenario.look.floor.image = self.look.floor.image.as_ref().map(name);
+        for image in scenario.look.images().into_iter().flatten() {
+            *image = name(image);
+        }
         for timetable in scenario.timetables() {
             timetable.file = timetable.file.as_ref().map(name);
         }
@@ -158,5 +172,7 @@ pub(super) fn table_of(scenario: &Scenario) -> Result<Table, toml::ser::Error> {
     let mut all: Table = sections.into_iter().map(|(name, table)| (name.to_string(), Value::Table(table))).collect();
     all.insert(keys::ROUTE.to_string(), Value::try_from(&scenario.routes.routes)?);
     all.insert(keys::STOP.to_string(), Value::try_from(&scenario.routes.stops)?);
+    all.insert(keys::DOOR.to_string(), Value::try_from(&scenario.doors)?);
+    all.insert(keys::FIXTURE.to_string(), Value::try_from(&scenario.fixtures)?);
     Ok(all)
 }

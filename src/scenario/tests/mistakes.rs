@@ -38,7 +38,7 @@ hint: `seed` belongs in [crowd] or [look]
   |
 4 | colour = 3
   | ^^^^^^
-hint: its keys are floor_texels_per_metre, wall_texels_per_metre, tile, layers
+hint: its keys are floor_texels_per_metre, wall_texels_per_metre, tile, layers, target, walls, embed
 
 "#]]
     );
@@ -318,7 +318,7 @@ not valid TOML: duplicate key
   |
 3 | image = "b.png"
   | ^^^^^
-hint: write each key and each section once; only [[route]] and [[stop]] may come again
+hint: write each key and each section once; only [[route]], [[stop]], [[door]] and [[fixture]] may come again
 
 "#]]
     );

@@ -8,6 +8,7 @@ use super::*;
 use crate::plan::PlanPoint;
 
 mod mistakes;
+mod places;
 mod stops;
 
 const PLAN: &str = "[plan]\nimage = \"plan.png\"\n";
@@ -90,6 +91,8 @@ fn what_is_written_reads_back_the_same() {
         scenario.routes.routes = routes();
         scenario.routes.stops = stops::requests();
         scenario.crowd.arrivals = stops::bursts();
+        scenario.doors = places::doors();
+        scenario.fixtures = places::fixtures();
         let text = scenario.to_toml();
         assert_eq!(parse(&text).unwrap_or_else(|error| panic!("{error}\n{text}")), scenario, "{text}");
     }
@@ -144,6 +147,9 @@ fn a_written_scenario_shows_every_key() {
         ("marks", keys_of::<MarksOptions>()),
         ("marks.soil", keys_of::<crate::marks::SoilOptions>()),
         ("marks.heel", keys_of::<crate::marks::HeelOptions>()),
+        ("marks.contact", keys_of::<crate::marks::ContactOptions>()),
+        ("door", keys_of::<DoorRequest>()),
+        ("fixture", keys_of::<FixtureRequest>()),
         ("stamps", keys_of::<StampOptions>()),
         ("bodies", keys_of::<BodyOptions>()),
         ("look", keys_of::<Look>()),

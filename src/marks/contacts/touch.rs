@@ -1,0 +1,387 @@
+//! What a touch leaves: where, how high, how long, and by which pattern.
+
+use std::f64::consts::PI;
+
+use crate::math::{SplitMix64, exp};
+use crate::motion::{BagKind, CarrySide, Person};
+use crate::patterns::{Cause, Form};
+use crate::walls::Walls;
+
+use super::super::Contact;
+use super::beside::Beside;
+use super::places::{ContactPlaces, direction_at};
+use super::requests::FixtureKind;
+use super::stains::{Chosen, Stains};
+use super::{ContactOptions, Look};
+
+/// Stature that the heights of hands belong to, metres, and how much of them follows it.
+const STATURE_M: f64 = 1.69;
+const BY_STATURE: f64 = 0.6;
+/// Heights over stature (ANSUR II): shoulder, middle of the upper arm, elbow, hip.
+const SHOULDER: f64 = 0.82;
+const UPPER_ARM: f64 = 0.73;
+const ELBOW: f64 = 0.629;
+const HIP: f64 = 0.515;
+/// Where hands push, where they trail along, where they hold on to a corner, metres, and their spread.
+const PUSH_M: f64 = 1.25;
+const TRAILING_M: f64 = 1.05;
+const AT_CORNER_M: f64 = 1.15;
+const HAND_SPREAD_M: f64 = 0.08;
+/// Buttons and switches, metres.
+const SWITCH_M: [f64; 2] = [1.05, 1.2];
+/// Drags are so long, metres, and hands fall so much on the way, degrees.
+const DRAG_M: [f64; 2] = [0.2, 0.8];
+const FALL_DEG: [f32; 2] = [5.0, 15.0];
+/// Patterns are stretched by so much in length and breadth.
+const STRETCH: [f32; 2] = [0.85, 1.2];
+/// Around a corner or a jamb touches are spread along the wall by this, metres.
+const ROUND_A_CORNER_M: f64 = 0.05;
+/// Heights of what touches low, metres: toes, the foot of a corner, cases, trolleys by their two ends, chair backs.
+const TOE_M: [f64; 2] = [0.02, 0.15];
+const CORNER_SHOE_M: [f64; 2] = [0.02, 0.28];
+const CASE_M: [f64; 2] = [0.2, 0.6];
+const TROLLEY_M: [[f64; 2]; 2] = [[0.15, 0.3], [0.8, 0.95]];
+const CHAIR_BACK_M: [f64; 2] = [0.75, 0.95];
+/// A sole that somebody sets against the wall behind, metres.
+const SOLE_M: [f64; 2] = [0.22, 0.5];
+/// Touches at the foot of corners and jambs are this much harder.
+const HARD: f64 = 1.5;
+/// No touch is stronger than this, optical density.
+const MOST_DENSITY: f64 = 1.0;
+
+/// What of a body touches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Part {
+    /// A hand that pushes or holds.
+    Hand,
+    /// A hand drawn along a wall.
+    Trailing,
+    Arm,
+    Shoulder,
+    Bag,
+    Shoe,
+    /// Whatever somebody who stands leans against the wall.
+    Lean,
+}
+
+/// Somebody touches something.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Touch {
+    /// The wall beside.
+    Beside { side: Beside, part: Part },
+    /// A jamb of a door that is passed along its `through`, or against it.
+    Jamb { door: u32, jamb: usize, onward: bool, part: Part },
+    /// A corner that one turns round.
+    Corner { corner: u32, part: Part },
+    /// A fixture.
+    Fixture { fixture: u32 },
+}
+
+/// A stain before its pattern is chosen.
+struct Stain {
+    cause: Cause,
+    form: Option<Form>,
+    face: usize,
+    along_m: f64,
+    height_m: f64,
+    /// Which way along the face the body goes, 1 or -1, if it draws the stain along.
+    way: Option<f64>,
+    /// Factor on the median density.
+    hard: f64,
+}
+
+/// The random numbers of one touch.
+struct Draw(SplitMix64);
+
+impl Draw {
+    fn unit(&mut self) -> f64 {
+        f64::from(self.0.unit())
+    }
+
+    fn within(&mut self, [low, high]: [f64; 2]) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    fn normal(&mut self, mean: f64, spread: f64) -> f64 {
+        mean + spread * f64::from(self.0.normal())
+    }
+}
+
+/// How often somebody who passes touches a kind of fixture, and somebody who stands there per second: factors on
+/// [`ContactOptions::fixture_per_passage`] and [`ContactOptions::fixture_per_second`].
+pub(super) fn fixture_rates(kind: FixtureKind) -> (f64, f64) {
+    match kind {
+        FixtureKind::Switch => (1.0, 0.3),
+        FixtureKind::Handle => (1.5, 0.5),
+        FixtureKind::Counter => (0.3, 1.0),
+        FixtureKind::Bench | FixtureKind::Chairs => (0.2, 1.0),
+        FixtureKind::Radiator => (0.3, 1.0),
+        FixtureKind::Bin => (1.0, 0.3),
+        FixtureKind::Machine => (0.2, 1.5),
+    }
+}
+
+/// The contact that a touch is; none if the wall is no face or the library lacks the cause.
+pub(super) fn contact(
+    options: &ContactOptions,
+    stains: &Stains,
+    places: &ContactPlaces,
+    walls: &Walls,
+    look: &Look,
+    touch: &Touch,
+    word: u64,
+) -> Option<Contact> {
+    let draw = &mut Draw(SplitMix64::new(word));
+    let stain = match *touch {
+        Touch::Beside { side, part } => beside(look, &side, part, draw)?,
+        Touch::Jamb { door, jamb, onward, part } => {
+            let door = &places.doors()[door as usize];
+            let (face, along_m) = door.doorway.on_faces[jamb];
+            // Most take hold of the edge that they come to, some of the one that they leave behind.
+            let behind = draw.unit() < 0.3;
+            let sign = if (onward != behind) == door.onward[jamb] { -1.0 } else { 1.0 };
+            let edge_m = draw.normal(0.5 * door.doorway.depth_m, ROUND_A_CORNER_M);
+            let (mut stain, handle) = (at_edge(look.person, part, PUSH_M, draw), draw.unit());
+            let is_latch = door.latch.is_none_or(|latch| latch == jamb);
+            let share = if door.latch.is_some() { 0.5 } else { 0.25 };
+            if part == Part::Hand && door.handle_m.is_some() && is_latch && handle < share {
+                stain.height_m = draw.normal(door.handle_height_m(), HAND_SPREAD_M);
+                stain.form = Some(if draw.unit() < 0.6 { Form::Fingertips } else { Form::Palm });
+            }
+            Stain { face, along_m: along_m + sign * edge_m, ..stain }
+        }
+        Touch::Corner { corner, part } => {
+            let corner = &places.corners()[corner as usize];
+            let stain = at_edge(look.person, part, AT_CORNER_M, draw);
+            Stain { face: corner.face, along_m: draw.normal(corner.along_m, ROUND_A_CORNER_M), ..stain }
+        }
+        Touch::Fixture { fixture } => {
+            let fixture = &places.fixtures()[fixture as usize];
+            let direction = direction_at(walls, fixture.face, fixture.along_m);
+            let half_m = 0.5 * fixture.width_m;
+            let before_m = (look.at_m - fixture.point_m).dot(direction).clamp(-half_m, half_m);
+            let stain = at_fixture(look.person, fixture.kind, draw);
+            let spread_m = 0.07 + 0.1 * fixture.width_m.min(1.0);
+            Stain { face: fixture.face, along_m: fixture.along_m + draw.normal(before_m, spread_m), ..stain }
+        }
+    };
+    let chosen = stains.choose(stain.cause, stain.form, draw.unit())?;
+    let length_m = walls.faces.get(stain.face)?.length_m();
+    laid(options, &stain, chosen, (length_m, walls.faces[stain.face].closed), draw)
+}
+
+/// A hand's height: by stature in part, for a hand raised to a height chosen by what is there.
+fn hand_m(person: &Person, mean_m: f64, draw: &mut Draw) -> f64 {
+    let stature = 1.0 - BY_STATURE + BY_STATURE * person.stature_m / STATURE_M;
+    draw.normal(mean_m, HAND_SPREAD_M) * stature
+}
+
+fn stain(cause: Cause, form: Option<Form>, height_m: f64) -> Stain {
+    Stain { cause, form, face: 0, along_m: 0.0, height_m, way: None, hard: 1.0 }
+}
+
+/// A wall beside the body.
+fn beside(look: &Look, side: &Beside, part: Part, draw: &mut Draw) -> Option<Stain> {
+    let person = look.person;
+    let onward = look.way.dot(side.direction());
+    let way = (look.walked_m > 0.0 && onward != 0.0).then(|| onward.signum());
+    let found = match part {
+        Part::Trailing | Part::Hand => {
+            let form = if draw.unit() < 0.55 { Form::Drag } else { Form::Fingertips };
+            let height_m = hand_m(person, TRAILING_M, draw);
+            Stain { way, ..stain(Cause::Hand, Some(form), height_m) }
+        }
+        Part::Arm => Stain { way, ..arm(person, draw) },
+        Part::Shoulder => Stain { way, ..shoulder(person, draw) },
+        Part::Bag => Stain { way, ..bag(person, draw) },
+        Part::Shoe => {
+            let form = if draw.unit() < 0.7 { Form::Toe } else { Form::HeelLine };
+            Stain { way, ..stain(Cause::Shoe, Some(form), draw.within(TOE_M)) }
+        }
+        Part::Lean => leaning(person, side, draw),
+    };
+    Some(Stain { face: side.face?, along_m: draw.normal(side.along_m, 0.06), ..found })
+}
+
+fn shoulder(person: &Person, draw: &mut Draw) -> Stain {
+    stain(Cause::Shoulder, None, draw.normal(SHOULDER * person.stature_m, 0.025))
+}
+
+fn arm(person: &Person, draw: &mut Draw) -> Stain {
+    let height = match draw.unit() {
+        u if u < 0.55 => ELBOW,
+        u if u < 0.8 => UPPER_ARM,
+        _ => HIP,
+    };
+    stain(Cause::Arm, None, draw.normal(height * person.stature_m, 0.04))
+}
+
+fn bag(person: &Person, draw: &mut Draw) -> Stain {
+    let kind = person.bag.map_or(BagKind::Bag, |bag| bag.kind);
+    let height_m = match kind {
+        BagKind::Bag | BagKind::Case => draw.within(CASE_M),
+        BagKind::Trolley => {
+            let end = usize::from(draw.unit() < 0.4);
+            draw.within(TROLLEY_M[end])
+        }
+        BagKind::Rucksack => draw.normal(0.72 * person.stature_m, 0.07),
+    };
+    stain(Cause::Bag, None, height_m)
+}
+
+/// What somebody who stands leans on a wall: by where it is.
+fn leaning(person: &Person, side: &Beside, draw: &mut Draw) -> Stain {
+    let u = draw.unit();
+    if side.is_at_side() {
+        return match u {
+            u if u < 0.5 => shoulder(person, draw),
+            u if u < 0.7 => arm(person, draw),
+            u if u < 0.9 => stain(Cause::Hand, Some(Form::Palm), hand_m(person, PUSH_M, draw)),
+            _ => stain(Cause::Shoe, Some(Form::Toe), draw.within(TOE_M)),
+        };
+    }
+    if side.ahead > 0.0 {
+        return match u {
+            u if u < 0.7 => stain(Cause::Hand, Some(Form::Palm), hand_m(person, PUSH_M, draw)),
+            _ => stain(Cause::Shoe, Some(Form::Toe), draw.within(TOE_M)),
+        };
+    }
+    let rucksack = person.bag.is_some_and(|bag| bag.side == CarrySide::Back);
+    match u {
+        u if u < 0.5 && rucksack => bag(person, draw),
+        u if u < 0.5 => stain(Cause::Shoulder, None, draw.normal(SHOULDER * person.stature_m, 0.04)),
+        u if u < 0.85 => stain(Cause::Shoe, Some(Form::Sole), draw.within(SOLE_M)),
+        _ => stain(Cause::Hand, Some(Form::Palm), draw.normal(0.5 * person.stature_m, 0.07)),
+    }
+}
+
+/// The edge of a jamb or a corner.
+fn at_edge(person: &Person, part: Part, hand_height_m: f64, draw: &mut Draw) -> Stain {
+    match part {
+        Part::Bag => bag(person, draw),
+        Part::Shoe => {
+            let form = if draw.unit() < 0.65 { Form::Toe } else { Form::HeelLine };
+            Stain { hard: HARD, ..stain(Cause::Shoe, Some(form), draw.within(CORNER_SHOE_M)) }
+        }
+        Part::Shoulder => {
+            if draw.unit() < 0.6 {
+                shoulder(person, draw)
+            } else {
+                arm(person, draw)
+            }
+        }
+        Part::Arm => arm(person, draw),
+        Part::Hand | Part::Trailing | Part::Lean => {
+            let form = if draw.unit() < 0.75 { Form::Palm } else { Form::Fingertips };
+            stain(Cause::Hand, Some(form), hand_m(person, hand_height_m, draw))
+        }
+    }
+}
+
+/// What people leave at a fixture.
+fn at_fixture(person: &Person, kind: FixtureKind, draw: &mut Draw) -> Stain {
+    let u = draw.unit();
+    let palm = |height_m: f64| stain(Cause::Hand, Some(Form::Palm), height_m);
+    let tips = |height_m: f64| stain(Cause::Hand, Some(Form::Fingertips), height_m);
+    let toe = |height_m: f64| stain(Cause::Shoe, Some(Form::Toe), height_m);
+    match kind {
+        FixtureKind::Switch => {
+            let at_m = draw.within(SWITCH_M);
+            let height_m = draw.normal(at_m, HAND_SPREAD_M);
+            if u < 0.7 { tips(height_m) } else { palm(height_m) }
+        }
+        FixtureKind::Handle => palm(draw.normal(1.0, 0.1)),
+        FixtureKind::Counter => match u {
+            u if u < 0.45 => palm(draw.normal(1.0, 0.07)),
+            u if u < 0.7 => stain(Cause::Bag, None, draw.within(CASE_M)),
+            _ => toe(draw.within(TOE_M)),
+        },
+        FixtureKind::Bench => match u {
+            u if u < 0.35 => stain(Cause::Shoulder, None, draw.normal(0.6 * person.stature_m, 0.06)),
+            u if u < 0.6 => stain(Cause::Bag, None, draw.within(CHAIR_BACK_M)),
+            u if u < 0.85 => toe(draw.within([0.04, 0.25])),
+            _ => palm(draw.normal(0.65, 0.1)),
+        },
+        FixtureKind::Radiator => match u {
+            u if u < 0.5 => palm(draw.normal(0.95, HAND_SPREAD_M)),
+            u if u < 0.8 => stain(Cause::Arm, None, draw.normal(HIP * person.stature_m, 0.05)),
+            _ => toe(draw.within(TOE_M)),
+        },
+        FixtureKind::Bin => match u {
+            u if u < 0.3 => tips(draw.normal(0.9, 0.1)),
+            u if u < 0.65 => stain(Cause::Bag, None, draw.normal(0.75, 0.12)),
+            _ => toe(draw.within([0.03, 0.25])),
+        },
+        FixtureKind::Machine => match u {
+            u if u < 0.5 => tips(draw.normal(1.25, 0.1)),
+            u if u < 0.8 => palm(draw.normal(1.2, 0.12)),
+            _ => toe(draw.within([0.03, 0.25])),
+        },
+        FixtureKind::Chairs => match u {
+            u if u < 0.75 => stain(Cause::Bag, None, draw.within(CHAIR_BACK_M)),
+            _ => toe(draw.within([0.04, 0.25])),
+        },
+    }
+}
+
+/// Lays a pattern on a face of a length, closed or not.
+fn laid(
+    options: &ContactOptions,
+    stain: &Stain,
+    chosen: Chosen,
+    (face_m, closed): (f64, bool),
+    draw: &mut Draw,
+) -> Option<Contact> {
+    let stretch = |draw: &mut Draw| f64::from(draw.0.range(STRETCH[0], STRETCH[1]));
+    let is_drag = stain.way.is_some() && stain.form != Some(Form::Fingertips) && stain.form != Some(Form::Toe);
+    let breadth_m = chosen.breadth_m * stretch(draw);
+    let drawn_m = DRAG_M[0] + (DRAG_M[1] - DRAG_M[0]) * draw.unit() * draw.unit();
+    let length_m = match stain.cause {
+        // Rubber leaves thin lines of its own length, and so does what only touches.
+        Cause::Shoe => chosen.length_m * stretch(draw) * if is_drag { 1.3 } else { 1.0 },
+        _ if is_drag => drawn_m,
+        _ => chosen.length_m * stretch(draw),
+    };
+    let falls = matches!(stain.cause, Cause::Hand) && stain.way.is_some();
+    let fall_rad = f64::from(if falls {
+        draw.0.range(FALL_DEG[0], FALL_DEG[1])
+    } else if is_drag {
+        draw.0.range(-2.0, 5.0)
+    } else {
+        10.0 * draw.0.normal()
+    })
+    .to_radians();
+    // A stain that goes to the left is turned by half a turn and mirrored: what was up stays up.
+    let either = if draw.unit() < 0.5 { 1.0 } else { -1.0 };
+    let sign = stain.way.unwrap_or(either);
+    let (direction_rad, mirrored) = if sign > 0.0 { (-fall_rad, false) } else { (fall_rad - PI, true) };
+    let (sin, cos) = crate::math::sin_cos(fall_rad);
+    let (ahead_m, down_m) = if is_drag { (0.5 * length_m * cos, 0.5 * length_m * sin) } else { (0.0, 0.0) };
+    let along_m = stain.along_m + sign * ahead_m;
+    // Beyond the ends of an open face goes on what nobody sees; a stain that begins before the end shows in part.
+    if !closed && (along_m < -0.5 * length_m || along_m > face_m + 0.5 * length_m) {
+        return None;
+    }
+    let along_m = if closed { along_m.rem_euclid(face_m.max(1e-9)) } else { along_m };
+    let median = match stain.cause {
+        Cause::Hand => options.hand_density,
+        Cause::Arm => options.arm_density,
+        Cause::Shoulder => options.shoulder_density,
+        Cause::Bag => options.bag_density,
+        _ => options.shoe_density,
+    };
+    let density = median * stain.hard * exp(options.sigma * f64::from(draw.0.normal()));
+    Some(Contact {
+        cause: stain.cause,
+        face: u32::try_from(stain.face).ok()?,
+        along_m,
+        height_m: (stain.height_m - down_m).max(0.01),
+        direction_rad: direction_rad as f32,
+        pattern: chosen.pattern,
+        mirrored,
+        length_m: length_m as f32,
+        breadth_m: breadth_m as f32,
+        strength: density.min(MOST_DENSITY) as f32,
+        variation: draw.0.next_u64(),
+    })
+}
