@@ -1,15 +1,15 @@
-//! How fast sums resolve: texels per second on one thread, in the middle of a lane and along walls.
+//! How fast sums resolve: texels per second on one thread, in the middle of a lane, along walls, and on them.
 
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use trodden::look::{FloorLook, FloorResolver, Look, Material};
+use trodden::look::{FloorLook, FloorResolver, Look, Material, ResolvedBlock, WallMaterial, WallResolver};
 use trodden::marks::Mark;
 use trodden::math::{SplitMix64, vec2};
 use trodden::patterns::{Cause, PatternLibrary};
 use trodden::plan::FloorPlan;
-use trodden::stamps::{StampOptions, Stamper, TexelGrid};
-use trodden::sums::FloorSums;
+use trodden::stamps::{StampOptions, Stamper, TexelGrid, WallGrid};
+use trodden::sums::{FloorSums, WallSums};
 use trodden::walls::{Walls, WallsOptions};
 
 const DENSITY: f64 = 100.0;
@@ -68,5 +68,55 @@ fn look(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, look);
+/// The walls of a corridor of 20 m, both sides together 40 m, 2.6 m high: a touch of every cause every half metre.
+fn corridor() -> (Walls, WallSums) {
+    let floor = (0..200 * 30).map(|n| u8::from((5..25).contains(&(n / 200)))).collect();
+    let plan = FloorPlan::from_mask(200, 30, 0.1, floor);
+    let walls = Walls::trace(&plan, &WallsOptions::default()).expect("the plan has floor");
+    let grid = WallGrid::covering(&walls, 2.6, 200.0).expect("the walls are small");
+    let mut sums = WallSums::new(grid);
+    let touch: Vec<u32> = (0..24 * 24).map(|n| 200 - 15 * (n as u32 % 24).abs_diff(12)).collect();
+    for face in 0..walls.faces.len() {
+        for n in 0..40 {
+            for (cause, row) in Cause::WALL.into_iter().zip([230, 220, 280, 80, 20]) {
+                sums.add_block(cause, face, 100 * n + 7 * row % 60, row, [24, 24], &touch);
+            }
+        }
+    }
+    (walls, sums)
+}
+
+fn walls(c: &mut Criterion) {
+    let (walls, sums) = corridor();
+    let clean = WallSums::new(sums.grid().clone());
+    let mut group = c.benchmark_group("look of walls");
+    group.throughput(Throughput::Elements(2 * 20 * 200 * 520));
+    group.sample_size(10);
+    for material in [WallMaterial::Matt, WallMaterial::Gloss, WallMaterial::Concrete] {
+        let mut look = Look::default();
+        look.wall.material = material;
+        for (name, sums) in [("touched", &sums), ("clean", &clean)] {
+            let resolver = WallResolver::new(sums, &walls, &look, 1000).expect("the look is in range");
+            let mut block = ResolvedBlock::default();
+            let name = format!("{material:?}, {name}, 40 m x 2.6 m").to_lowercase();
+            group.bench_function(name, |b| {
+                b.iter(|| {
+                    for (face, j0, i0) in blocks() {
+                        let (width, height) = ((4000 - i0).min(SIDE), (520 - j0).min(SIDE));
+                        resolver.resolve_into(face, i0 as i64, j0 as i64, width, height, black_box(&mut block));
+                    }
+                });
+            });
+        }
+    }
+    group.finish();
+}
+
+/// Faces, rows and columns of all blocks of the corridor's walls.
+fn blocks() -> impl Iterator<Item = (usize, usize, usize)> {
+    let columns = |(face, j0)| (0..4000).step_by(SIDE).map(move |i0| (face, j0, i0));
+    (0..2).flat_map(|face| (0..520).step_by(SIDE).map(move |j0| (face, j0))).flat_map(columns)
+}
+
+criterion_group!(benches, look, walls);
 criterion_main!(benches);

@@ -7,12 +7,12 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use trodden::marks::Mark;
+use trodden::marks::{Contact, Mark};
 use trodden::math::{SplitMix64, sin_cos, vec2};
 use trodden::patterns::{Cause, PatternLibrary};
 use trodden::plan::FloorPlan;
-use trodden::stamps::{StampOptions, Stamper, TexelGrid, stamp_reference};
-use trodden::sums::FloorSums;
+use trodden::stamps::{FaceSpan, StampOptions, Stamper, TexelGrid, WallGrid, WallStamper, stamp_reference};
+use trodden::sums::{FloorSums, WallSums};
 use trodden::walls::{Walls, WallsOptions};
 
 const SIDE_M: f64 = 8.0;
@@ -96,6 +96,57 @@ fn add_naively(library: &PatternLibrary, mark: &Mark, grid: TexelGrid, passes: &
     }
 }
 
+/// Touches, drags and scuffs of the built-in wall patterns, evenly over 100 m of wall.
+fn contacts(library: &PatternLibrary, count: usize) -> Vec<Contact> {
+    let rng = &mut SplitMix64::new(2);
+    (0..count)
+        .map(|_| {
+            let cause = Cause::WALL[(rng.next_u64() % 5) as usize];
+            let number = library.pick(cause, f64::from(rng.unit()), None).expect("it has wall patterns");
+            let pattern = &library.patterns[usize::from(number)];
+            let stretch = rng.range(0.7, 1.4);
+            Contact {
+                cause,
+                face: 0,
+                along_m: f64::from(rng.range(0.0, 100.0)),
+                height_m: f64::from(rng.range(0.1, 1.5)),
+                direction_rad: rng.range(-3.2, 3.2),
+                pattern: number,
+                mirrored: rng.unit() < 0.5,
+                length_m: stretch * pattern.length_cm as f32 / 100.0,
+                breadth_m: pattern.breadth_cm() as f32 / 100.0,
+                strength: rng.range(0.02, 0.3),
+                variation: rng.next_u64(),
+            }
+        })
+        .collect()
+}
+
+/// 100 m of wall, 2.6 m high.
+fn wall_grid(texels_per_metre: f64) -> WallGrid {
+    let texels = |metres: f64| (metres * texels_per_metre) as u32;
+    let face = FaceSpan { width: texels(100.0), length_m: 100.0, closed: false };
+    WallGrid { texels_per_metre, height_m: 2.6, height: texels(2.6), faces: vec![face] }
+}
+
+fn stains(c: &mut Criterion) {
+    let library = PatternLibrary::built_in().expect("the built-in library is sound");
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread can be started");
+    let mut group = c.benchmark_group("walls");
+    group.sample_size(10).warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3));
+    for (density, count) in [(50.0, 10_000), (200.0, 10_000), (1000.0, 500)] {
+        let grid = wall_grid(density);
+        let stamper = WallStamper::new(&library, &grid, &StampOptions::default());
+        let contacts = contacts(&library, count);
+        let mut sums = WallSums::new(grid);
+        group.throughput(Throughput::Elements(count as u64));
+        group.bench_function(BenchmarkId::new("contacts", format!("{density} texels/m")), |b| {
+            b.iter(|| pool.install(|| sums.add(&stamper, &contacts)));
+        });
+    }
+    group.finish();
+}
+
 fn making(c: &mut Criterion) {
     let library = PatternLibrary::built_in().expect("the built-in library is sound");
     let mut group = c.benchmark_group("new");
@@ -104,9 +155,13 @@ fn making(c: &mut Criterion) {
         group.bench_function(BenchmarkId::new("stamper", format!("{density} texels/m")), |b| {
             b.iter(|| Stamper::new(&library, grid(density), &StampOptions::default()));
         });
+        let walls = wall_grid(density);
+        group.bench_function(BenchmarkId::new("wall stamper", format!("{density} texels/m")), |b| {
+            b.iter(|| WallStamper::new(&library, &walls, &StampOptions::default()));
+        });
     }
     group.finish();
 }
 
-criterion_group!(benches, stamps, making);
+criterion_group!(benches, stamps, stains, making);
 criterion_main!(benches);

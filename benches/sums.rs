@@ -1,15 +1,15 @@
 //! Whole batches of marks added to the sums of a floor of corridors: passes, presence, soil of three persons in ten,
-//! heel marks. One footfall is one element.
+//! heel marks. One footfall is one element. And contacts added to the sums of the corridors' walls.
 
 use std::time::Duration;
 
 use criterion::{BatchSize, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use trodden::marks::Mark;
+use trodden::marks::{Contact, Mark};
 use trodden::math::{SplitMix64, exp, sin_cos, vec2};
 use trodden::patterns::{Cause, PatternLibrary};
 use trodden::plan::FloorPlan;
-use trodden::stamps::{StampOptions, Stamper, TexelGrid};
-use trodden::sums::FloorSums;
+use trodden::stamps::{StampOptions, Stamper, TexelGrid, WallGrid, WallStamper};
+use trodden::sums::{FloorSums, WallSums};
 use trodden::walls::{Walls, WallsOptions};
 
 const SIDE_M: f64 = 80.0;
@@ -124,5 +124,57 @@ fn adding(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, adding);
+/// Touches of hands round the walls, a third of them at ten places.
+fn contacts(library: &PatternLibrary, grid: &WallGrid, count: usize) -> Vec<Contact> {
+    let rng = &mut SplitMix64::new(3);
+    (0..count)
+        .map(|k| {
+            let face = (rng.next_u64() % grid.faces.len() as u64) as u32;
+            let length_m = grid.faces[face as usize].length_m;
+            let share = if k % 3 == 0 { (k % 10) as f64 / 10.0 } else { f64::from(rng.unit()) };
+            let number = library.pick(Cause::Hand, f64::from(rng.unit()), None).expect("it has hands");
+            let pattern = &library.patterns[usize::from(number)];
+            Contact {
+                cause: Cause::Hand,
+                face,
+                along_m: share * length_m,
+                height_m: 1.15 + 0.1 * f64::from(rng.normal()),
+                direction_rad: rng.range(-3.2, 3.2),
+                pattern: number,
+                mirrored: rng.unit() < 0.5,
+                length_m: pattern.length_cm as f32 / 100.0,
+                breadth_m: pattern.breadth_cm() as f32 / 100.0,
+                strength: rng.range(0.02, 0.2),
+                variation: rng.next_u64(),
+            }
+        })
+        .collect()
+}
+
+fn adding_to_walls(c: &mut Criterion) {
+    let library = PatternLibrary::built_in().expect("the built-in library is sound");
+    let walls = walls();
+    let mut group = c.benchmark_group("add to walls");
+    group.sample_size(10).warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(5));
+    let grid = WallGrid::covering(&walls, 2.6, 200.0).expect("the walls have a height");
+    let stamper = WallStamper::new(&library, &grid, &StampOptions::default());
+    let contacts = contacts(&library, &grid, 20_000);
+    group.throughput(Throughput::Elements(contacts.len() as u64));
+    for threads in [1, 2] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started");
+        group.bench_function(BenchmarkId::new("fresh sums, 200 texels/m", format!("{threads} threads")), |b| {
+            b.iter_batched(
+                || WallSums::new(grid.clone()),
+                |mut sums| {
+                    pool.install(|| sums.add(&stamper, &contacts));
+                    sums
+                },
+                BatchSize::PerIteration,
+            );
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, adding, adding_to_walls);
 criterion_main!(benches);

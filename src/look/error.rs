@@ -39,13 +39,21 @@ pub enum LookError {
         /// Where, if it came from a file.
         place: Option<Place>,
     },
-    /// The repeated floor image cannot be used.
-    #[error("cannot use the floor image {path}: {message}", path = .path.display())]
-    FloorImage {
+    /// The repeated image of a floor or a wall cannot be used.
+    #[error("cannot use the image {path}: {message}", path = .path.display())]
+    Image {
         /// The image.
         path: PathBuf,
         /// What is wrong with it.
         message: String,
+    },
+    /// Sums that were made for other walls.
+    #[error("the sums are those of {summed} wall faces, but the plan has {faces}")]
+    OtherWalls {
+        /// Faces of the plan.
+        faces: usize,
+        /// Faces of the sums.
+        summed: usize,
     },
     /// Sums of nobody stand for no history.
     #[error("the sums hold no simulated people; a history of {total_passes} passes needs at least one")]
@@ -104,11 +112,12 @@ impl LookError {
                 let nearest = LOOK_PRESETS.iter().min_by_key(|known| strsim::levenshtein(known, name))?;
                 (strsim::levenshtein(nearest, name) <= 3).then(|| format!("did you mean {nearest:?}?"))
             }
-            LookError::FloorImage { .. } => Some(
+            LookError::Image { .. } => Some(
                 "give a PNG, JPEG, BMP, PGM, TIFF or GIF, at most 16384 px a side, as a path relative to the look file"
                     .to_string(),
             ),
             LookError::Syntax { .. } => Some("keys that are left out keep the preset's value".to_string()),
+            LookError::OtherWalls { .. } => Some("bake the plan again".to_string()),
             LookError::Nobody { .. } => Some("bake with --people 1 or more".to_string()),
             LookError::Unreadable { .. } | LookError::Range { .. } => None,
         }

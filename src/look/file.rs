@@ -7,7 +7,7 @@ use super::settings::Look;
 
 impl Look {
     /// Reads a look file: TOML with the keys of [`Look`]. What it leaves out comes from the preset that its key
-    /// `preset` names (`commuters` if it names none). A floor image's path is taken relative to the file.
+    /// `preset` names (`commuters` if it names none). Paths of images are taken relative to the file.
     ///
     /// # Errors
     /// Unreadable files; syntax, unknown keys, wrong types, unknown presets and values out of range, each with
@@ -18,7 +18,7 @@ impl Look {
         Look::parse(&text, path)
     }
 
-    /// Reads a look from `text`; `path` is the file that it came from, for errors and for a floor image's path.
+    /// Reads a look from `text`; `path` is the file that it came from, for errors and for paths of images.
     ///
     /// # Errors
     /// As [`Look::read`].
@@ -42,8 +42,10 @@ impl Look {
             let place = place_of(range.key);
             return Err(LookError::Range { range, place });
         }
-        if let (Some(image), Some(folder)) = (&look.floor.image, path.parent()) {
-            look.floor.image = Some(folder.join(image));
+        if let Some(folder) = path.parent() {
+            for image in look.images().into_iter().flatten() {
+                *image = folder.join(&*image);
+            }
         }
         Ok(look)
     }
@@ -159,6 +161,24 @@ mod tests {
     fn a_floor_image_is_relative_to_the_look_file() {
         let look = parse("[floor]\nimage = \"oak.png\"\n").unwrap();
         assert_eq!(look.floor.image.unwrap(), Path::new("looks/oak.png"));
+    }
+
+    #[test]
+    fn walls_have_sections_of_their_own() {
+        let look = parse("[wall]\nmaterial = \"gloss\"\nimage = \"brick.png\"\n[wall.skin]\nstrength = 2\n").unwrap();
+        assert_eq!((look.wall.material, look.wall.skin.strength), (super::super::WallMaterial::Gloss, 2.0));
+        assert_eq!(look.wall.skin.density, Look::default().wall.skin.density);
+        assert_eq!(look.wall.image.unwrap(), Path::new("looks/brick.png"));
+        assert_eq!(
+            message("[wall.rubber]\nspread_m = 3\n"),
+            "looks/mine.toml:2:12: wall.rubber.spread_m is 3, allowed is 0.005 to 0.5"
+        );
+        assert_eq!(
+            message("[wall.noise]\nfine = { size_m = nan, sd = 0.1 }\n"),
+            "looks/mine.toml:2:19: wall.noise.fine.size_m is NaN, allowed is 0.002 to 20"
+        );
+        assert!(message("[wall]\nskirt = 3\n").starts_with("looks/mine.toml:2:1: unknown field `skirt`"));
+        assert!(message("[wall]\nmaterial = \"silk\"\n").contains("expected one of `matt`, `gloss`, `concrete`"));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! A floor image of the artist's, repeated, at the texels' size.
+//! An image of a floor or a wall, the artist's, repeated, at the texels' size.
 
 use std::path::Path;
 
@@ -26,7 +26,7 @@ pub(super) struct RepeatedImage {
 
 impl RepeatedImage {
     pub fn open(path: &Path, size_m: [f64; 2], texels_per_metre: f64) -> Result<RepeatedImage, LookError> {
-        let wrong = |message: String| LookError::FloorImage { path: path.to_path_buf(), message };
+        let wrong = |message: String| LookError::Image { path: path.to_path_buf(), message };
         let reader = image::ImageReader::open(path).map_err(|e| wrong(e.to_string()))?;
         let mut reader = reader.with_guessed_format().map_err(|e| wrong(e.to_string()))?;
         let mut limits = image::Limits::default();

@@ -1,4 +1,4 @@
-//! Resolves sums into what a floor looks like: masks, base colour, roughness. Needs no simulation.
+//! Resolves sums into what floors and walls look like: masks, base colour, roughness. Needs no simulation.
 //!
 //! The simulated people stand for the floor's whole history: `w = total_passes / simulated`. Their sums become
 //! optical densities of dirt, each with a colour of its own:
@@ -9,8 +9,11 @@
 //! - the **edge** along the skirting, heavier in corners, and **dust** where nobody walks.
 //!
 //! Dirt lies on the floor as C = floor T + soil (1 - T) with T = exp(-sum D), soil = sum(D c) / sum(D), in linear light:
-//! the order in which it came does not matter, and it is lighter than a dark floor.
+//! the order in which it came does not matter, and it is lighter than a dark floor. Walls follow the same law with dirt of
+//! their own, see [`WallLook`].
 
+mod block;
+mod bytes;
 mod coarse;
 mod dust;
 mod error;
@@ -23,6 +26,7 @@ mod material;
 mod noise;
 mod padding;
 mod paint;
+mod planes;
 mod presets;
 mod resolve;
 mod settings;
@@ -30,15 +34,21 @@ mod shade;
 mod skirting;
 mod tone;
 mod traffic;
+mod wall;
 
 #[cfg(test)]
 mod tests;
 
+pub use block::{Background, Layer, ResolvedBlock};
 pub use error::{LookError, Place, RangeError};
 pub use material::Material;
 pub use presets::LOOK_PRESETS;
-pub use resolve::{Background, FloorResolver, LAYERS, Layer, ResolvedBlock};
+pub use resolve::{FloorResolver, LAYERS};
 pub use settings::{
     DustLook, EdgeLook, FilmLook, FloorLook, IngrainedLook, Look, NoiseLook, Octave, PrintsLook, RUBBER, SOIL_DRY,
     SOIL_WET, ScuffsLook, Srgb8,
+};
+pub use wall::{
+    BAG, CLOTH, SKIN, SkirtingLook, SplashLook, StainLook, WALL_LAYERS, WallDustLook, WallLook, WallMaterial,
+    WallResolver,
 };

@@ -50,6 +50,23 @@ pub(super) enum Channel {
     GroundTint,
     Piece,
     Dither,
+    WallFine,
+    WallMiddle,
+    WallCoarse,
+    WallGround,
+    WallGroundMiddle,
+    WallGroundCoarse,
+    WallGroundTint,
+    WallPiece,
+    WallPore,
+    SplashStretch,
+    SplashStroke,
+    SplashWave,
+    SplashRipple,
+    SplashStreak,
+    SplashDrop,
+    Drip,
+    WallDither,
 }
 
 /// The key of one channel under one seed.
@@ -90,16 +107,29 @@ impl Noise {
 
     /// The noise over a window.
     pub fn over(&self, window: &Window) -> NoiseField {
-        let sd = self.sd_of_texels(window.texels_per_metre);
         let [x, y] = self.spacing_m.map(|spacing_m| spacing_m * window.texels_per_metre);
+        self.laid_out(window, self.key, [x, y], None)
+    }
+
+    /// The noise over a window of a strip that has a pattern of its own, by `salt`. If it is `closed`, `width` texels
+    /// around, its end goes on at its start: spots are stretched a little so that a whole number goes round.
+    pub fn over_strip(&self, window: &Window, salt: u32, width: u32, closed: bool) -> NoiseField {
+        let [mut x, y] = self.spacing_m.map(|spacing_m| spacing_m * window.texels_per_metre);
+        let mut period = None;
+        if closed {
+            let around = (f64::from(width) / x.max(1.0)).round().max(1.0);
+            x = f64::from(width) / around;
+            period = Some(around as i64);
+        }
+        self.laid_out(window, self.key ^ salt, [x, y], period)
+    }
+
+    /// Spacings in texels; `period` is after how many of them the noise comes again along x.
+    fn laid_out(&self, window: &Window, key: u32, [x, y]: [f64; 2], period: Option<i64>) -> NoiseField {
+        let sd = self.sd_of_texels(window.texels_per_metre);
         if x <= 1.0 && y <= 1.0 {
             // The difference of two uniform values has a variance of 1/6.
-            return NoiseField::Texels {
-                key: self.key,
-                gain: sd * 6.0f32.sqrt(),
-                corner: [window.i0, window.j0],
-                row: 0,
-            };
+            return NoiseField::Texels { key, gain: sd * 6.0f32.sqrt(), corner: [window.i0, window.j0], row: 0 };
         }
         // Mean square of B-spline weights is 11/20 per axis, of a uniform value in [-1, 1) 1/3.
         let gain = sd / (11.0f32 / 20.0 * (1.0f32 / 3.0).sqrt());
@@ -107,10 +137,10 @@ impl Noise {
         let y = Axis::new(window.j0, window.height, y.max(1.0), 0.0);
         let mut values = vec![0.0; x.len * y.len];
         for (row, values) in values.chunks_exact_mut(x.len).enumerate() {
-            let row_key = row_key(self.key, (y.first + row as i64) as i32);
-            let first = x.first as i32;
-            for (column, value) in values.iter_mut().enumerate() {
-                let word = mix(column_word(first.wrapping_add(column as i32)) ^ row_key);
+            let row_key = row_key(key, (y.first + row as i64) as i32);
+            for (column, value) in (x.first..).zip(values) {
+                let column = period.map_or(column, |period| column.rem_euclid(period));
+                let word = mix(column_word(column as i32) ^ row_key);
                 *value = gain * (word as i32 as f32 / 2_147_483_648.0);
             }
         }

@@ -2,12 +2,14 @@
 
 use std::cell::RefCell;
 
+use super::block::ResolvedBlock;
+use super::bytes::Bytes;
 use super::dust;
 use super::ground::GroundWindow;
 use super::lattice::{Lattice, Window};
 use super::noise::NoiseField;
-use super::resolve::{FloorResolver, ResolvedBlock};
-use super::shade::{Bytes, Known, Shaded};
+use super::resolve::FloorResolver;
+use super::shade::{Known, Shaded};
 use super::traffic::{self, Traffic};
 use crate::sums::Quantity;
 

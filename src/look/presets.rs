@@ -1,4 +1,5 @@
 use super::settings::{EdgeLook, FilmLook, IngrainedLook, Look, NoiseLook, Octave, PrintsLook, SOIL_WET, ScuffsLook};
+use super::wall::{SplashLook, StainLook, WallDustLook, WallLook};
 
 /// Names of the presets, in the order in which help texts list them.
 pub const LOOK_PRESETS: [&str; 4] = ["commuters", "heavy", "wet", "paper"];
@@ -7,7 +8,7 @@ impl Look {
     /// The settings behind a name of [`LOOK_PRESETS`], or `None` for any other name.
     ///
     /// - `commuters`: an office or a station in dry weather, mopped daily. The default.
-    /// - `heavy`: the same floor far beyond its next deep clean.
+    /// - `heavy`: the same floor far beyond its next deep clean, walls far beyond their next coat.
     /// - `wet`: a rainy day; darker soil, prints that show, an uneven film.
     /// - `paper`: prints painted over each other and nothing else, as in the experiment of Takenaka, Tanaka and
     ///   Sagawa, *Expression of indoor grime by human walk*.
@@ -32,6 +33,7 @@ fn heavy() -> Look {
         // What lies under so much film shows less.
         scuffs: ScuffsLook { strength: 0.9, ..look.scuffs },
         edge: EdgeLook { density: 0.45, reach_m: 0.05, ..look.edge },
+        wall: heavy_wall(look.wall),
         // A film that is complete is even.
         noise: NoiseLook {
             fine: Octave { sd: 0.07, ..look.noise.fine },
@@ -48,6 +50,8 @@ fn wet() -> Look {
         film: FilmLook { colour: SOIL_WET, ..look.film },
         prints: PrintsLook { soil: 4.5, colour: SOIL_WET, ..look.prints },
         noise: NoiseLook { middle: Octave { sd: 0.14, ..look.noise.middle }, ..look.noise },
+        // Wet floors are mopped more often.
+        wall: WallLook { splash: SplashLook { density: 0.30, drips_per_metre: 0.5, ..look.wall.splash }, ..look.wall },
         ..look
     }
 }
@@ -65,5 +69,20 @@ fn paper() -> Look {
     for octave in [&mut look.noise.fine, &mut look.noise.middle, &mut look.noise.coarse] {
         octave.sd = 0.0;
     }
+    look.wall = WallLook { every_touch: 1.0, texture: 0.0, ..look.wall.clean() };
     look
+}
+
+fn heavy_wall(wall: WallLook) -> WallLook {
+    let denser = |stain: StainLook, by: f32| StainLook { density: by * stain.density, ..stain };
+    WallLook {
+        total_passes: 100_000,
+        skin: denser(wall.skin, 1.3),
+        cloth: denser(wall.cloth, 1.3),
+        bag: denser(wall.bag, 1.25),
+        rubber: denser(wall.rubber, 1.2),
+        splash: SplashLook { density: 0.34, drips_per_metre: 0.6, ..wall.splash },
+        dust: WallDustLook { density: 0.09, ..wall.dust },
+        ..wall
+    }
 }

@@ -1,6 +1,6 @@
 use std::cell::RefCell;
-use std::ops::Range;
 
+use super::block::{Background, ResolvedBlock};
 use super::coarse::{CoarseFloor, CoarseShare};
 use super::error::LookError;
 use super::ground::Ground;
@@ -36,41 +36,6 @@ pub struct FloorResolver<'a> {
     pub(super) dither: u32,
     background: Background,
     coarse: CoarseFloor,
-}
-
-/// What texels show that are neither floor nor padding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Background {
-    /// The clean floor's mean colour, sRGB.
-    pub base_color: [u8; 3],
-    /// Nothing.
-    pub mask: [u8; 4],
-    /// Unoccluded, as rough as the clean floor, no metal.
-    pub orm: [u8; 3],
-}
-
-/// A resolved rectangle, row-major; row 0 is the southernmost.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ResolvedBlock {
-    /// Whether there is neither floor nor padding: all [`Background`], and all vectors are empty.
-    pub empty: bool,
-    /// 8-bit sRGB, dithered.
-    pub base_color: Vec<[u8; 3]>,
-    /// 1 - exp(-D) of film, passes (D = per_pass n), fresh prints and scuffs, edge and dust; linear, dithered.
-    pub mask: Vec<[u8; 4]>,
-    /// Occlusion, roughness, metallic; linear, roughness dithered.
-    pub orm: Vec<[u8; 3]>,
-    /// Linear float layers, those of [`LAYERS`].
-    pub layers: Vec<Layer>,
-}
-
-/// One float channel of a block.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Layer {
-    /// One of [`LAYERS`].
-    pub name: &'static str,
-    /// A value per texel.
-    pub values: Vec<f32>,
 }
 
 impl<'a> FloorResolver<'a> {
@@ -135,7 +100,7 @@ impl<'a> FloorResolver<'a> {
         match self.coarse.of_window(&rect) {
             CoarseShare::Nothing => block.become_empty(),
             CoarseShare::All => {
-                block.resize(rect.texels());
+                block.resize(rect.texels(), &LAYERS);
                 paint(self, rect, None, block);
             }
             CoarseShare::Some => self.with_padding(rect, block),
@@ -163,9 +128,9 @@ impl<'a> FloorResolver<'a> {
             wanted[place_of(place)] = true;
         }
         PAINTED.with_borrow_mut(|painted| {
-            painted.resize(window.texels());
+            painted.resize(window.texels(), &LAYERS);
             paint(self, window, Some(&wanted), painted);
-            block.resize(rect.texels());
+            block.resize(rect.texels(), &LAYERS);
             let mut n = 0;
             while n < shown.len() {
                 // Neighbours mostly show neighbours.
@@ -225,48 +190,4 @@ fn bounds(shown: &[Option<[u32; 2]>], around: &Window) -> Option<Window> {
         height: (high[1] - low[1]) as usize,
         ..*around
     })
-}
-
-impl ResolvedBlock {
-    fn resize(&mut self, texels: usize) {
-        self.empty = false;
-        self.base_color.resize(texels, [0; 3]);
-        self.mask.resize(texels, [0; 4]);
-        self.orm.resize(texels, [0; 3]);
-        if self.layers.is_empty() {
-            self.layers.extend(LAYERS.map(|name| Layer { name, values: Vec::new() }));
-        }
-        for layer in &mut self.layers {
-            layer.values.resize(texels, 0.0);
-        }
-    }
-
-    /// Keeps the memory for the next block.
-    fn become_empty(&mut self) {
-        self.empty = true;
-        self.base_color.clear();
-        self.mask.clear();
-        self.orm.clear();
-        for layer in &mut self.layers {
-            layer.values.clear();
-        }
-    }
-
-    fn copy(&mut self, to: usize, other: &ResolvedBlock, from: usize, len: usize) {
-        self.base_color[to..to + len].copy_from_slice(&other.base_color[from..from + len]);
-        self.mask[to..to + len].copy_from_slice(&other.mask[from..from + len]);
-        self.orm[to..to + len].copy_from_slice(&other.orm[from..from + len]);
-        for (layer, other) in self.layers.iter_mut().zip(&other.layers) {
-            layer.values[to..to + len].copy_from_slice(&other.values[from..from + len]);
-        }
-    }
-
-    fn clear(&mut self, texels: Range<usize>, background: Background) {
-        self.base_color[texels.clone()].fill(background.base_color);
-        self.mask[texels.clone()].fill(background.mask);
-        self.orm[texels.clone()].fill(background.orm);
-        for layer in &mut self.layers {
-            layer.values[texels.clone()].fill(0.0);
-        }
-    }
 }

@@ -3,6 +3,7 @@ use std::path::PathBuf;
 
 use super::error::{LookError, RangeError};
 use super::material::Material;
+use super::wall::WallLook;
 
 /// An 8-bit sRGB colour, `[red, green, blue]`.
 pub type Srgb8 = [u8; 3];
@@ -55,6 +56,8 @@ pub struct Look {
     pub dust: DustLook,
     /// Unevenness of film and dust, in plan space: it does not move when the texel density changes.
     pub noise: NoiseLook,
+    /// The walls: all of the above but `seed` and `darkest` is about the floor.
+    pub wall: WallLook,
 }
 
 /// The clean floor.
@@ -201,6 +204,7 @@ impl Default for Look {
             edge: EdgeLook::default(),
             dust: DustLook::default(),
             noise: NoiseLook::default(),
+            wall: WallLook::default(),
         }
     }
 }
@@ -275,6 +279,26 @@ impl Default for NoiseLook {
 }
 
 impl Look {
+    /// The same floor and walls without any dirt: for pairs of pictures, clean and dirty.
+    pub fn clean(&self) -> Look {
+        let mut look = Look { wall: self.wall.clean(), ..self.clone() };
+        look.film.density = 0.0;
+        // Nor is it worn.
+        look.film.per_pass = 0.0;
+        look.ingrained.density = 0.0;
+        look.prints.soil = 0.0;
+        look.prints.every_pass = 0.0;
+        look.scuffs.strength = 0.0;
+        look.edge.density = 0.0;
+        look.dust.density = 0.0;
+        look
+    }
+
+    /// The paths of the images that it uses: of the floor, of the wall.
+    pub fn images(&mut self) -> [Option<&mut PathBuf>; 2] {
+        [self.floor.image.as_mut(), self.wall.image.as_mut()]
+    }
+
     /// Checks every number against its range.
     ///
     /// # Errors
@@ -325,6 +349,7 @@ impl Look {
         checks
             .into_iter()
             .chain(octaves.flat_map(|(name, value)| octave(name, value)))
+            .chain(self.wall.ranges())
             // In single precision, so that a limit written as 0.005 is within; written so that NaN is out of range.
             .find(|&(_, value, low, high)| !(value as f32 >= low as f32 && value as f32 <= high as f32))
             .map(|(key, value, low, high)| RangeError { key, value, low, high })

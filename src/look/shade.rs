@@ -2,9 +2,11 @@
 //!
 //! Written over runs of texels, a plane per quantity and a loop per step, so that compilers vectorise it.
 
+use super::bytes::{Bytes, Rounding, Shown};
 use super::ground::GroundRow;
 use super::material::Properties;
-use super::noise::{self, Noise};
+use super::noise::Noise;
+use super::planes::{add2, each1, each2, each3};
 use super::settings::Look;
 use super::tone;
 use crate::math::exp_f32;
@@ -83,15 +85,6 @@ pub(super) struct Shaded {
     rgb: [Vec<f32>; 3],
     joint: [Vec<f32>; 3],
     rounding: Rounding,
-}
-
-/// Buffers for rounding to 8 bits.
-#[derive(Default)]
-struct Rounding {
-    words: [Vec<u32>; 2],
-    values: Vec<f32>,
-    /// Colour, mask, roughness.
-    bytes: [Vec<u8>; 8],
 }
 
 impl Known {
@@ -224,32 +217,6 @@ impl Law {
     }
 }
 
-// Loops over few planes at a time: compilers do not vectorise those over many, which may overlap for all they know.
-
-fn each1(out: &mut [f32], a: &[f32], law: impl Fn(f32) -> f32) {
-    for (out, &a) in out.iter_mut().zip(a) {
-        *out = law(a);
-    }
-}
-
-fn each2(out: &mut [f32], a: &[f32], b: &[f32], law: impl Fn(f32, f32) -> f32) {
-    for ((out, &a), &b) in out.iter_mut().zip(a).zip(b) {
-        *out = law(a, b);
-    }
-}
-
-fn each3(out: &mut [f32], a: &[f32], b: &[f32], c: &[f32], law: impl Fn(f32, f32, f32) -> f32) {
-    for (((out, &a), &b), &c) in out.iter_mut().zip(a).zip(b).zip(c) {
-        *out = law(a, b, c);
-    }
-}
-
-fn add2(out: &mut [f32], a: &[f32], b: &[f32], law: impl Fn(f32, f32) -> f32) {
-    for ((out, &a), &b) in out.iter_mut().zip(a).zip(b) {
-        *out += law(a, b);
-    }
-}
-
 /// Planes of optical densities, and the light that comes through.
 struct Dirt<'a> {
     film: &'a [f32],
@@ -258,13 +225,6 @@ struct Dirt<'a> {
     edge: &'a [f32],
     dust: &'a [f32],
     through: &'a [Vec<f32>; 3],
-}
-
-/// Where 8-bit texels go, for one run.
-pub(super) struct Bytes<'a> {
-    pub base_color: &'a mut [[u8; 3]],
-    pub mask: &'a mut [[u8; 4]],
-    pub orm: &'a mut [[u8; 3]],
 }
 
 impl Shaded {
@@ -277,40 +237,10 @@ impl Shaded {
         }
     }
 
-    /// Rounds a run that starts at texel (i, j) to 8 bits, dithered by a hash of each texel's place.
+    /// Rounds a run that starts at texel (i, j) to 8 bits.
     pub fn write(&mut self, dither: u32, i: i64, j: i64, out: &mut Bytes<'_>) {
-        let len = self.film.len();
-        let Rounding { words: [first, second], values, bytes } = &mut self.rounding;
-        first.clear();
-        second.clear();
-        let row = noise::row_key(dither, j as i32);
-        first.extend((0..len as i32).map(|k| noise::mix(noise::column_word((i as i32).wrapping_add(k)) ^ row)));
-        second.extend(first.iter().map(|word| noise::mix(word ^ 0x9e37_79b9)));
         let [film, prints, edge] = &self.through;
-        let hidden = |light: &f32| 255.0 * (1.0 - light);
-        for (n, bytes) in bytes.iter_mut().enumerate() {
-            values.clear();
-            match n {
-                0..3 => values.extend(self.rgb[n].iter().map(|&light| tone::srgb(light))),
-                3 => values.extend(film.iter().map(hidden)),
-                4 => values.extend(self.clean.iter().map(hidden)),
-                5 => values.extend(prints.iter().map(hidden)),
-                6 => values.extend(edge.iter().map(hidden)),
-                _ => values.extend(self.roughness.iter().map(|roughness| 255.0 * roughness)),
-            }
-            bytes.resize(len, 0);
-            let words = if n < 4 { &*first } else { &*second };
-            tone::dither(values, words, n as u32 % 4, bytes);
-        }
-        let [red, green, blue, film, passes, prints, edge, rough] = &*bytes;
-        for (((out, r), g), b) in out.base_color.iter_mut().zip(red).zip(green).zip(blue) {
-            *out = [*r, *g, *b];
-        }
-        for ((((out, f), p), q), e) in out.mask.iter_mut().zip(film).zip(passes).zip(prints).zip(edge) {
-            *out = [*f, *p, *q, *e];
-        }
-        for (out, rough) in out.orm.iter_mut().zip(rough) {
-            *out = [255, *rough, 0];
-        }
+        let shown = Shown { rgb: &self.rgb, through: [film, &self.clean, prints, edge], roughness: &self.roughness };
+        self.rounding.write(dither, i, j, &shown, out);
     }
 }

@@ -103,7 +103,7 @@ pub(super) fn read(sums: &FloorSums, quantity: Quantity, window: &Window, values
 }
 
 /// The middle and one side of a Gaussian of deviation `sd` cells whose whole adds up to 1; `[1.0]` for none.
-fn half_gaussian(sd: f64) -> Vec<f32> {
+pub(super) fn half_gaussian(sd: f64) -> Vec<f32> {
     if sd <= 0.0 {
         return vec![1.0];
     }
@@ -114,7 +114,7 @@ fn half_gaussian(sd: f64) -> Vec<f32> {
 }
 
 /// Blurred along both axes; the window shrinks by the kernel's reach on every side.
-fn blurred(values: &[f32], window: &Window, half_kernel: &[f32]) -> Vec<f32> {
+pub(super) fn blurred(values: &[f32], window: &Window, half_kernel: &[f32]) -> Vec<f32> {
     let reach = half_kernel.len() - 1;
     let (width, height) = (window.width - 2 * reach, window.height - 2 * reach);
     let mut across = vec![0.0; width * window.height];

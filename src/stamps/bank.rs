@@ -122,9 +122,11 @@ pub(super) struct Lump {
 /// Lumps of a pattern along and across.
 const LUMPS: [usize; 2] = [20, 8];
 
-/// Printers for all patterns of a library, by their number.
-pub(super) fn printers(library: &PatternLibrary, texel_m: f64, options: &StampOptions) -> Vec<Printer> {
-    library.patterns.iter().map(|pattern| Printer::new(pattern, texel_m, options)).collect()
+/// Printers for all patterns of a library that marks on a floor use, by their number.
+pub(super) fn printers(library: &PatternLibrary, texel_m: f64, options: &StampOptions) -> Vec<Option<Printer>> {
+    let of_floor = |pattern: &Pattern| pattern.cause.on_wall().is_none();
+    let printer = |pattern| of_floor(pattern).then(|| Printer::new(pattern, texel_m, options));
+    library.patterns.iter().map(printer).collect()
 }
 
 /// Sizes of a foot on its pattern between which a bank changes over from one to the next: half powers of two.

@@ -16,6 +16,29 @@ pub enum StampsError {
         /// What was asked for.
         texels_per_metre: f64,
     },
+    /// A texel density of walls beyond its range.
+    #[error("the walls' texel density is {texels_per_metre} texels/m, allowed is 1 to 1000")]
+    WallDensity {
+        /// What was asked for.
+        texels_per_metre: f64,
+    },
+    /// Walls of no sensible height.
+    #[error("walls are {height_m} m high, allowed is more than 0, and at most {most} m", most = super::wall_grid::HIGHEST_M)]
+    WallHeight {
+        /// What was asked for, metres.
+        height_m: f64,
+    },
+    /// A wall face with more texels than can be counted.
+    #[error(
+        "a wall of {length_m:.1} m at {texels_per_metre} texels/m is more than {most} texels",
+        most = super::wall_grid::MOST_COLUMNS
+    )]
+    FaceTooLong {
+        /// Length of the face, metres.
+        length_m: f64,
+        /// What was asked for.
+        texels_per_metre: f64,
+    },
     /// An option beyond its range.
     #[error("stamps.{name} is {value}, allowed is {low} to {high}")]
     OutOfRange {
@@ -35,7 +58,9 @@ impl StampsError {
     pub fn hint(&self) -> Option<String> {
         match self {
             StampsError::Density { .. } => Some("100 is one texel a centimetre".into()),
-            StampsError::TooManyTexels { .. } => {
+            StampsError::WallDensity { .. } => Some("200 is half a centimetre a texel".into()),
+            StampsError::WallHeight { .. } => Some("rooms are 2.1 to 3.5 m high".into()),
+            StampsError::TooManyTexels { .. } | StampsError::FaceTooLong { .. } => {
                 Some("lower the texel density, or check the plan's metres per pixel".into())
             }
             StampsError::OutOfRange { name, .. } => Some(format!("leave `{name}` out to get its default")),

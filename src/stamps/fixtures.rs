@@ -1,7 +1,7 @@
 //! Small worlds for the tests of stamps and sums.
 
-use super::TexelGrid;
-use crate::marks::Mark;
+use super::{FaceSpan, TexelGrid, WallGrid};
+use crate::marks::{Contact, Mark};
 use crate::math::{SplitMix64, Vec2, sin_cos, vec2};
 use crate::patterns::{Cause, Pattern, PatternLibrary};
 use crate::plan::FloorPlan;
@@ -32,6 +32,7 @@ fn pattern(name: &str, cause: Cause, [width, height]: [u32; 2], coverage: impl F
         name: name.into(),
         description: String::new(),
         cause,
+        form: None,
         length_cm: f64::from(width) / 10.0,
         share: 1.0,
         lengths_cm: None,
@@ -97,4 +98,81 @@ pub(crate) fn crowd(count: usize, width_m: f64, height_m: f64, seed: u64) -> Vec
             mark
         })
         .collect()
+}
+
+/// The number of each pattern of [`wall_library`].
+pub(crate) const CLOUD: u16 = 0;
+pub(crate) const DRAG: u16 = 1;
+pub(crate) const SCUFF: u16 = 2;
+
+/// A hand's soft cloud that is fuller on its right, a hand's drag that fades, a shoe's thin line, and a sole.
+pub(crate) fn wall_library() -> PatternLibrary {
+    let soft = |x: f64| (1.0 - x).clamp(0.0, 1.0);
+    let cloud = |x: f64, y: f64| {
+        let (u, v) = ((x - 100.0) / 92.0, (y - 60.0) / 52.0);
+        (255.0 * soft(u * u + v * v) * (0.6 + 0.4 * u)) as u8
+    };
+    let drag = |x: f64, y: f64| {
+        let finger = soft(((y / 20.0).fract() - 0.5).abs() * 3.0);
+        let ends = (x / 30.0).min((400.0 - x) / 300.0).clamp(0.0, 1.0);
+        (255.0 * finger * ends * soft(((y - 40.0) / 40.0).abs() - 0.2)) as u8
+    };
+    let scuff = |x: f64, y: f64| if (y - 5.0).abs() < 2.0 && (x - 40.0).abs() < 35.0 { 255 } else { 0 };
+    PatternLibrary {
+        patterns: vec![
+            pattern("cloud", Cause::Hand, [200, 120], cloud),
+            pattern("drag", Cause::Hand, [400, 80], drag),
+            pattern("scuff", Cause::Shoe, [80, 10], scuff),
+            library().patterns.swap_remove(0),
+        ],
+    }
+}
+
+/// Walls of these lengths in metres, each closed or open, 2.6 m high.
+pub(crate) fn wall_grid(texels_per_metre: f64, faces: &[(f64, bool)]) -> WallGrid {
+    let texels = |metres: f64| (metres * texels_per_metre - 1e-6).ceil() as u32;
+    let span = |&(length_m, closed): &(f64, bool)| FaceSpan { width: texels(length_m), length_m, closed };
+    WallGrid { texels_per_metre, height_m: 2.6, height: texels(2.6), faces: faces.iter().map(span).collect() }
+}
+
+/// A cloud of the size of its pattern in the middle of a face.
+pub(crate) fn touch(along_m: f64, height_m: f64) -> Contact {
+    Contact {
+        cause: Cause::Hand,
+        face: 0,
+        along_m,
+        height_m,
+        direction_rad: 0.0,
+        pattern: CLOUD,
+        mirrored: false,
+        length_m: 0.2,
+        breadth_m: 0.12,
+        strength: 0.5,
+        variation: 1,
+    }
+}
+
+/// Contacts of all kinds, evenly over the faces of a grid and a little beyond.
+pub(crate) fn touches(count: usize, grid: &WallGrid, seed: u64) -> Vec<Contact> {
+    let rng = &mut SplitMix64::new(seed);
+    let mut one = |k: usize| {
+        let face = rng.next_u64() % grid.faces.len() as u64;
+        let mut draw = |low: f32, high: f32| f64::from(rng.range(low, high));
+        let length_m = grid.faces[face as usize].length_m as f32;
+        let base = Contact {
+            face: face as u32,
+            direction_rad: draw(-3.2, 3.2) as f32,
+            mirrored: k.is_multiple_of(2),
+            strength: draw(0.02, 0.6) as f32,
+            ..touch(draw(-0.2, length_m + 0.2), draw(-0.1, 2.7))
+        };
+        let (long, broad) = (draw(0.1, 0.3) as f32, draw(0.05, 0.15) as f32);
+        let base = Contact { variation: rng.next_u64(), length_m: long, breadth_m: broad, ..base };
+        match k % 3 {
+            0 => base,
+            1 => Contact { pattern: DRAG, length_m: 2.0 * long, ..base },
+            _ => Contact { cause: Cause::Shoe, pattern: SCUFF, breadth_m: 0.1 * broad, ..base },
+        }
+    };
+    (0..count).map(&mut one).collect()
 }

@@ -12,6 +12,10 @@
 //! Everything about a stamp is a pure function of the mark, its pattern and the grid. Texels are counted from
 //! the mark's own texel, so that a stamp that is cut by a block's border gives the same integers on both sides
 //! as one that is not.
+//!
+//! Contacts become stains on walls, which are unrolled face by face ([`WallGrid`]). A stain stretches its pattern along
+//! and across, blurs, blots and bends it, and lets drags fade; the wall's own grain breaks it up, always in the
+//! same places ([`WallStamper`]).
 
 use crate::math::Vec2;
 
@@ -34,6 +38,10 @@ mod stamper;
 #[cfg(test)]
 mod tests;
 mod variation;
+mod wall_grid;
+mod wall_plate;
+mod wall_stamper;
+mod wall_variation;
 
 pub use error::StampsError;
 pub(crate) use lanes::Cell;
@@ -41,6 +49,9 @@ pub use reference::{ReferenceImage, stamp_reference};
 pub(crate) use sheet::Sheet;
 pub use stamper::Stamper;
 pub(crate) use stamper::{Bounds, Placed, Touched, WINDOW, Window};
+pub use wall_grid::{FaceSpan, WallGrid};
+pub(crate) use wall_stamper::Stain;
+pub use wall_stamper::WallStamper;
 
 use serde::{Deserialize, Serialize};
 
@@ -50,7 +61,7 @@ pub const PASSES_ONE: f32 = 256.0;
 /// What 1 is in sums of `presence`, in the same unit as passes.
 pub const PRESENCE_ONE: f32 = 1024.0;
 
-/// What an optical density of 1 is in sums of `soil` and `scuff`.
+/// What an optical density of 1 is in sums of `soil` and `scuff`, and in those of walls.
 pub const DENSITY_ONE: f32 = 4096.0;
 
 /// The most texels along a side of a floor: 2 km at 1000 texels per metre.
@@ -121,13 +132,14 @@ const PRESENCE_CELL_M: f64 = 0.04;
 pub struct StampOptions {
     /// Share of soil prints that show only the heel, only the ball or fade to one side, 0 to 1.
     pub partial: f64,
-    /// Standard deviation of the pressure's slope over a sole, from heel to toe and from edge to edge, as a share
-    /// of the mean pressure; 0 to 0.4.
+    /// Standard deviation of the pressure's slope over a sole, from heel to toe and from edge to edge, and over a stain
+    /// on a wall, as a share of the mean pressure; 0 to 0.4.
     pub pressure: f64,
-    /// Least and largest blur of a soil print (standard deviation), metres; 0 to 0.02. The texel's own filter
-    /// comes on top.
+    /// Least and largest blur of a soil print or a stain on a wall (standard deviation), metres; 0 to 0.02. Skin and
+    /// cloth blur by 2.5 times as much. The texel's own filter comes on top.
     pub blur_m: [f64; 2],
-    /// Standard deviation of the blotches and grain in a soil print, as a share of its density; 0 to 0.6.
+    /// Standard deviation of the blotches and grain in a soil print, as a share of its density; 0 to 0.6. Stains on
+    /// walls have blotches of 1.2 times as much, and grain of 0.8 times.
     pub noise: f64,
     /// Standard deviation of the presence kernel across the heading, metres; 0.01 to 1.
     pub presence_across_m: f64,

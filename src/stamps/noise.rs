@@ -16,6 +16,41 @@ pub(super) struct NoiseTile {
     lanes: Vec<Lanes<u16>>,
 }
 
+/// A tile that is read texel by texel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Raster<'a> {
+    values: &'a [u16],
+    bits: u32,
+    mask: u32,
+}
+
+impl Raster<'_> {
+    /// The place of a column and a row, counted without end, among the tile's values.
+    #[inline]
+    pub(super) fn place(&self, i: u32, j: u32) -> u32 {
+        (j & self.mask) << self.bits | i & self.mask
+    }
+
+    /// The value at a place; raw, as [`NoiseTile::row`] gives it.
+    #[inline]
+    pub(super) fn at(&self, place: u32) -> u16 {
+        self.values.get(place as usize).copied().unwrap_or(0)
+    }
+
+    /// Copies a row from a column on.
+    #[inline]
+    pub(super) fn copy_row(&self, i: u32, j: u32, mut out: &mut [u16]) {
+        let row = &self.values[self.place(0, j) as usize..][..=self.mask as usize];
+        let mut from = (i & self.mask) as usize;
+        while !out.is_empty() {
+            let count = out.len().min(row.len() - from);
+            let (now, later) = out.split_at_mut(count);
+            now.copy_from_slice(&row[from..from + count]);
+            (out, from) = (later, 0);
+        }
+    }
+}
+
 /// A row of a tile.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NoiseRow<'a> {
@@ -27,14 +62,24 @@ pub(super) struct NoiseRow<'a> {
 const SEED: u64 = 0x6e6f_6973_6521;
 
 impl NoiseTile {
-    /// Blotches and grain about 1 with the given deviation, cut off at 2.5 deviations.
-    ///
-    /// Three octaves (25, 8 and 2 mm, equal variances) as blurred white noise; what is smaller than a texel
-    /// averages out as it does over a real texel.
+    /// Blotches and grain of 25, 8 and 2 mm, about a sole's length a side.
     pub(super) fn grain(texels_per_metre: f64, deviation: f64, seed: u64) -> NoiseTile {
-        let size = tile_size(texels_per_metre);
+        NoiseTile::of_scales(tile_size(texels_per_metre), texels_per_metre, &[0.025, 0.008, 0.002], deviation, seed)
+    }
+
+    /// Noise about 1 with the given deviation, cut off at 2.5 deviations; `size` is a power of two of texels a side.
+    ///
+    /// An octave for each scale in metres, all of equal variance, as blurred white noise; what is smaller than a texel
+    /// averages out as it does over a real texel.
+    pub(super) fn of_scales(
+        size: usize,
+        texels_per_metre: f64,
+        scales_m: &[f64],
+        deviation: f64,
+        seed: u64,
+    ) -> NoiseTile {
         let mut sum = vec![0.0; size * size];
-        for (octave, scale_m) in [0.025, 0.008, 0.002].into_iter().enumerate() {
+        for (octave, scale_m) in scales_m.iter().enumerate() {
             let scale = scale_m * texels_per_metre;
             let mut white = white(size, seed.wrapping_add(octave as u64));
             let share = if scale < 1.0 {
@@ -43,7 +88,7 @@ impl NoiseTile {
                 blur_periodic(&mut white, size, scale * 0.5);
                 1.0
             };
-            let factor = share / (deviation_of(&white) * 3.0f64.sqrt());
+            let factor = share / (deviation_of(&white) * (scales_m.len() as f64).sqrt());
             for (total, value) in sum.iter_mut().zip(&white) {
                 *total += *value * factor;
             }
@@ -67,6 +112,11 @@ impl NoiseTile {
     fn new(size: usize, values: &[f64]) -> NoiseTile {
         let lanes = values.chunks_exact(LANES).map(|v| std::array::from_fn(|k| v[k].round() as u16)).collect();
         NoiseTile { size, lanes }
+    }
+
+    /// The values of the tile, row by row, and a mask for columns and rows that are counted without end.
+    pub(super) fn raster(&self) -> Raster<'_> {
+        Raster { values: self.lanes.as_flattened(), bits: self.size.trailing_zeros(), mask: self.size as u32 - 1 }
     }
 
     /// Row `j` of the whole floor, from the lanes on that begin at texel `LANES * lanes`, for a print whose noise

@@ -66,11 +66,13 @@ impl Picture {
 
     /// Gaussian blur of a picture whose margin is as wide as the filter.
     pub(super) fn blur(&mut self, deviation: f64) {
-        let radius = (FILTER_REACH * deviation).ceil() as usize;
-        let weight = |k: usize| exp(-0.5 * (k * k) as f64 / (deviation * deviation).max(1e-12));
-        let sum = weight(0) + 2.0 * (1..=radius).map(weight).sum::<f64>();
-        let kernel: Vec<f32> = (0..=radius).map(|k| (weight(k) / sum) as f32).collect();
+        self.blur_axes([deviation; 2]);
+    }
+
+    /// The same with a deviation along the rows and another along the columns, pixels.
+    pub(super) fn blur_axes(&mut self, deviations: [f64; 2]) {
         let (width, height) = (self.width, self.height);
+        let kernel = gaussian(deviations[0]);
         let mut blurred = vec![0.0f32; width * height];
         for (out, line) in blurred.chunks_exact_mut(width).zip(self.values.chunks_exact(width)) {
             for (k, &weight) in kernel.iter().enumerate() {
@@ -81,6 +83,7 @@ impl Picture {
             }
         }
         self.values.fill(0.0);
+        let kernel = gaussian(deviations[1]);
         for row in 0..height {
             let line = &blurred[row * width..][..width];
             for (k, &weight) in kernel.iter().enumerate() {
@@ -110,6 +113,14 @@ impl Picture {
         let middle = [x_sum / mass / self.width as f64 - 0.5, y_sum / mass / self.height as f64 - 0.5];
         (mass * self.pixel_m * self.pixel_m, middle)
     }
+}
+
+/// Half a Gaussian from its middle on, that sums up to 1 with its other half.
+fn gaussian(deviation: f64) -> Vec<f32> {
+    let radius = (FILTER_REACH * deviation).ceil() as usize;
+    let weight = |k: usize| exp(-0.5 * (k * k) as f64 / (deviation * deviation).max(1e-12));
+    let sum = weight(0) + 2.0 * (1..=radius).map(weight).sum::<f64>();
+    (0..=radius).map(|k| (weight(k) / sum) as f32).collect()
 }
 
 fn add_scaled(out: &mut [f32], line: &[f32], weight: f32) {

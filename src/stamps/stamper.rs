@@ -47,7 +47,8 @@ pub struct Stamper {
     /// Side of a presence cell, metres.
     cell_m: f64,
     pub(super) options: StampOptions,
-    pub(super) printers: Vec<Printer>,
+    /// By the pattern's number; none for what walls take.
+    pub(super) printers: Vec<Option<Printer>>,
     pub(super) kernels: Kernels,
     /// Noise of `passes`: faint, for prints that are seen only as a sum.
     pub(super) faint: NoiseTile,
@@ -136,11 +137,12 @@ impl Stamper {
         match mark.cause {
             Cause::Sole => self.place_sole(mark, printer, walls),
             Cause::Heel => self.place_heel(mark, printer, walls),
+            Cause::Hand | Cause::Arm | Cause::Shoulder | Cause::Bag | Cause::Shoe => None,
         }
     }
 
     pub(super) fn printer(&self, mark: &Mark) -> Option<&Printer> {
-        self.printers.get(usize::from(mark.pattern)).filter(|p| p.cause == mark.cause && p.mass_m2 > 0.0)
+        self.printers.get(usize::from(mark.pattern))?.as_ref().filter(|p| p.cause == mark.cause && p.mass_m2 > 0.0)
     }
 
     fn place_sole(&self, mark: &Mark, printer: &Printer, walls: &Walls) -> Option<(Placed, Touched)> {

@@ -8,6 +8,8 @@ use crate::math::{SplitMix64, Vec2, vec2};
 use crate::patterns::{Cause, PatternLibrary};
 use crate::sums::{FloorSums, Quantity};
 
+mod wall;
+
 /// Prints that only differ by where they lie.
 fn plain() -> StampOptions {
     StampOptions { partial: 0.0, pressure: 0.0, blur_m: [0.0, 0.0], noise: 0.0, ..StampOptions::default() }

@@ -134,6 +134,7 @@ fn push_entries(sums: &FloorSums, cause: Cause, touched: &Touched, mark: usize, 
             }
         }
         Cause::Heel => push(Quantity::Scuff, sums.grid, touched.texels),
+        Cause::Hand | Cause::Arm | Cause::Shoulder | Cause::Bag | Cause::Shoe => {}
     }
 }
 
@@ -145,19 +146,14 @@ fn tasks<'a>(sums: &'a mut FloorSums, entries: &'a [Entry]) -> Vec<Task<'a>> {
         let floor = if quantity == Quantity::Presence { cell_floor } else { texel_floor };
         let first = entries.partition_point(|e| e.quantity() < quantity as usize);
         let end = entries.partition_point(|e| e.quantity() <= quantity as usize);
-        let mut numbered: Vec<(usize, &[Entry])> = entries[first..end]
+        let of_blocks = entries[first..end]
             .chunk_by(Entry::same_block)
-            .filter(|entries| !floor.get(entries[0].key()).is_none())
-            .map(|entries| (plane.number(entries[0].key()), entries))
-            .collect();
-        numbered.sort_unstable_by_key(|&(number, _)| number);
-        let mut numbered = numbered.into_iter().peekable();
-        for (number, block) in plane.blocks_mut().iter_mut().enumerate() {
-            if let Some((_, entries)) = numbered.next_if(|&(n, _)| n == number) {
-                let floor = floor.get(block.key());
-                tasks.push(Task { quantity, block, floor, entries });
-            }
-        }
+            .map(|entries| (entries[0].key(), entries))
+            .filter(|(key, _)| !floor.get(*key).is_none());
+        tasks.extend(plane.blocks_at(of_blocks).into_iter().map(|(block, entries)| {
+            let floor = floor.get(block.key());
+            Task { quantity, block, floor, entries }
+        }));
     }
     tasks
 }

@@ -111,15 +111,20 @@ impl Plane {
     }
 
     /// Number of the block at a place, made if it is not there.
-    pub(super) fn number(&mut self, key: BlockKey) -> usize {
+    fn number(&mut self, key: BlockKey) -> usize {
         *self.numbers.entry(key).or_insert_with(|| {
             self.blocks.push(Block::new(key));
             self.blocks.len() - 1
         })
     }
 
-    pub(super) fn blocks_mut(&mut self) -> &mut [Block] {
-        &mut self.blocks
+    /// The blocks of places, all different, made where they are not there; each with what its place came with.
+    pub(super) fn blocks_at<T>(&mut self, places: impl Iterator<Item = (BlockKey, T)>) -> Vec<(&mut Block, T)> {
+        let mut numbered: Vec<(usize, T)> = places.map(|(key, with)| (self.number(key), with)).collect();
+        numbered.sort_unstable_by_key(|&(number, _)| number);
+        let mut numbered = numbered.into_iter().peekable();
+        let blocks = self.blocks.iter_mut().enumerate();
+        blocks.filter_map(|(k, block)| Some((block, numbered.next_if(|&(number, _)| number == k)?.1))).collect()
     }
 
     pub(super) fn origins(&self) -> Vec<[u32; 2]> {

@@ -1,4 +1,4 @@
-use crate::stamps::TexelGrid;
+use crate::stamps::{TexelGrid, WallGrid};
 
 /// Why sums cannot be put together.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -16,13 +16,69 @@ pub enum SumsError {
         /// The grid of what was to be added.
         theirs: TexelGrid,
     },
+    /// Two bakes whose walls differ in density, height or number.
+    #[error("sums of {theirs} cannot be added to {ours}")]
+    WallGridsDiffer {
+        /// The walls added to.
+        ours: WallsOfSums,
+        /// The walls of what was to be added.
+        theirs: WallsOfSums,
+    },
+    /// Two bakes with a wall face that is not the same in both.
+    #[error("wall face {face} is {theirs_m} m long in the sums to add, and {ours_m} m in those that they are added to")]
+    WallFacesDiffer {
+        /// The first face that differs.
+        face: usize,
+        /// Its length in the sums added to, metres.
+        ours_m: f64,
+        /// Its length in the sums to add, metres.
+        theirs_m: f64,
+    },
+}
+
+/// What there is to say of the walls that sums are of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WallsOfSums {
+    /// Number of faces.
+    pub faces: usize,
+    /// Height, metres.
+    pub height_m: f64,
+    /// Texel density.
+    pub texels_per_metre: f64,
+}
+
+impl std::fmt::Display for WallsOfSums {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} wall faces, {} m high, at {} texels/m", self.faces, self.height_m, self.texels_per_metre)
+    }
 }
 
 impl SumsError {
+    /// The error that says in what two grids of walls, which are not the same, differ.
+    pub(super) fn walls_differ(ours: &WallGrid, theirs: &WallGrid) -> SumsError {
+        let walls = |grid: &WallGrid| WallsOfSums {
+            faces: grid.faces.len(),
+            height_m: grid.height_m,
+            texels_per_metre: grid.texels_per_metre,
+        };
+        let differs = ours.faces.iter().zip(&theirs.faces).position(|(a, b)| a != b);
+        match differs {
+            Some(face) if walls(ours) == walls(theirs) => SumsError::WallFacesDiffer {
+                face,
+                ours_m: ours.faces[face].length_m,
+                theirs_m: theirs.faces[face].length_m,
+            },
+            _ => SumsError::WallGridsDiffer { ours: walls(ours), theirs: walls(theirs) },
+        }
+    }
+
     /// What the user can do about it.
     pub fn hint(&self) -> Option<String> {
         match self {
             SumsError::GridsDiffer { .. } => Some("bake both from the same plan at the same texels per metre".into()),
+            SumsError::WallGridsDiffer { .. } | SumsError::WallFacesDiffer { .. } => {
+                Some("bake both from the same plan at the same wall height and texels per metre".into())
+            }
         }
     }
 }

@@ -3,20 +3,24 @@
 //! A batch of marks is first binned to the blocks that it touches (coarse), then every block takes its marks in
 //! turn (fine), blocks in parallel. Each stamp adds integers that depend on nothing but the mark, its
 //! pattern, the walls around it and the grid; the sum of integers does not depend on their order. Blocks are allocated when first
-//! touched and hold 16 bits a texel until a texel needs more: memory grows with the floor that people touch.
+//! touched and hold 16 bits a texel until a texel needs more: memory grows with the floor and the walls that people
+//! touch.
 
 use crate::marks::Mark;
 use crate::stamps::{DENSITY_ONE, PASSES_ONE, PRESENCE_ONE, Stamper, TexelGrid, WINDOW};
 use crate::walls::Walls;
 
 mod add;
+mod add_wall;
 mod blocks;
 mod error;
 mod floor;
 #[cfg(test)]
 mod tests;
+mod wall;
 
-pub use error::SumsError;
+pub use error::{SumsError, WallsOfSums};
+pub use wall::WallSums;
 
 use add::Batch;
 use blocks::Plane;

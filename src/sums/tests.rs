@@ -9,6 +9,8 @@ use crate::stamps::StampOptions;
 use crate::stamps::fixtures::{crowd, footfall, grid, library, room};
 use crate::walls::WallsOptions;
 
+mod wall;
+
 fn all(sums: &FloorSums, quantity: Quantity) -> Vec<u32> {
     let grid = sums.grid_of(quantity);
     let mut out = vec![0; grid.width as usize * grid.height as usize];

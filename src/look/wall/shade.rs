@@ -1,0 +1,317 @@
+//! The wall's law, texel by texel: from touches and places to densities, colours and roughness.
+//!
+//! Causes that left nothing in a window are skipped: most of a wall is clean.
+
+use super::material::WallProperties;
+use super::plaster::PlasterRow;
+use super::settings::{StainLook, WallLook};
+use crate::look::bytes::{Bytes, Rounding, Shown};
+use crate::look::noise::Noise;
+use crate::look::planes::{add2, each1, each2, each3};
+use crate::look::settings::Look;
+use crate::look::tone;
+use crate::math::exp_f32;
+
+/// Kinds of dirt, in the order of [`super::WALL_LAYERS`]: five causes, splash, dust.
+pub(super) const KINDS: usize = 7;
+pub(super) const SPLASH: usize = 5;
+pub(super) const DUST: usize = 6;
+/// Which channel of the mask shows each kind: skin, rub, scuff, splash and dust.
+const CHANNEL: [usize; KINDS] = [0, 1, 1, 1, 2, 3, 3];
+/// Which of the material's factors on touches holds for each cause: skin, cloth, bag, rubber.
+const STAIN: [usize; 5] = [0, 1, 1, 2, 3];
+
+/// Less than this optical density changes no 8-bit step: none, so that clean wall stays even.
+const LEAST: f32 = 0.002;
+/// What one touch leaves is scaled by at most so much.
+const MOST_SINGLE: f32 = 8.0;
+/// Skin grime that hides this share of the wall has changed its roughness in full.
+const FULL_GRIME: f32 = 0.30;
+/// Roughness of rubber, and of loose dirt.
+const RUBBER_ROUGHNESS: f32 = 0.60;
+const DIRT_ROUGHNESS: f32 = 0.88;
+/// Roughness of a skirting board.
+const BOARD_ROUGHNESS: f32 = 0.40;
+/// Factor on skin and cloth on a skirting board, which is smooth and wiped with the floor.
+const BOARD_TOUCH: f32 = 0.6;
+
+/// Dust ends at so many times its reach.
+const DUST_END: f32 = 3.0;
+/// The film at hand height: its middle, and its standard deviation up and down, metres.
+const HANDS_M: f32 = 1.15;
+const HANDS_SD_M: f32 = 0.22;
+
+/// Everything about a look that is the same for all texels.
+#[derive(Clone, Debug)]
+pub(super) struct WallLaw {
+    /// History stands for so many times the simulated touches; what single ones stand out by counts so many times.
+    weight: f32,
+    residual: f32,
+    every_touch: f32,
+    /// By cause: factor on touches, and the density where no more is taken up.
+    strength: [f32; 5],
+    density: [f32; 5],
+    pub splash: f32,
+    /// Dust: density at the floor and reach, hands.
+    dust: [f32; 3],
+    colours: [[f32; 3]; KINDS],
+    darkest: f32,
+    mean_log: f32,
+    roughness: f32,
+    grime_roughness: f32,
+    rub_roughness: f32,
+}
+
+/// What is known of each texel of a row.
+#[derive(Default)]
+pub(super) struct WallKnown {
+    pub plaster: PlasterRow,
+    /// By cause: simulated touches, and their mean around. Empty where there are none.
+    pub single: [Vec<f32>; 5],
+    pub expected: [Vec<f32>; 5],
+    /// Sum of the noises; empty where there are none.
+    pub uneven: Vec<f32>,
+    /// Optical density, factors included; empty where there is none.
+    pub splash: Vec<f32>,
+    /// Middle of the row above the floor, metres.
+    pub height_m: f32,
+}
+
+/// What follows for each texel of a row.
+#[derive(Default)]
+pub(super) struct WallShaded {
+    /// Optical densities by kind; empty where there is none.
+    pub density: [Vec<f32>; KINDS],
+    uneven: Vec<f32>,
+    /// By channel of the mask: density, then light that comes through.
+    through: [Vec<f32>; 4],
+    pub total: Vec<f32>,
+    /// Share of the wall that is hidden, by density.
+    hiding: Vec<f32>,
+    roughness: Vec<f32>,
+    rgb: [Vec<f32>; 3],
+    rounding: Rounding,
+}
+
+impl WallKnown {
+    /// Whether nothing lies on any texel.
+    fn is_clean(&self, dust: f32) -> bool {
+        self.single.iter().all(Vec::is_empty) && self.splash.is_empty() && dust == 0.0
+    }
+
+    /// The row's clean wall where it is even: colour and orm.
+    pub fn even_bytes(&self, law: &WallLaw) -> ([u8; 3], [u8; 3]) {
+        let colour = self.plaster.rgb.each_ref().map(|plane| tone::srgb(plane[0]).round() as u8);
+        (colour, [255, (255.0 * law.roughness_with(self.plaster.board)).round() as u8, 0])
+    }
+}
+
+impl WallLaw {
+    pub fn new(look: &Look, properties: &WallProperties, simulated_people: u32, noise: &[Noise], density: f64) -> Self {
+        let wall = &look.wall;
+        let weight = properties.history * (wall.total_passes as f64 / f64::from(simulated_people)) as f32;
+        let stains = stains(wall);
+        WallLaw {
+            weight,
+            // With fewer passes than were simulated there is nothing to even out.
+            residual: weight.min(weight.sqrt()).min(MOST_SINGLE),
+            every_touch: wall.every_touch,
+            strength: std::array::from_fn(|n| stains[n].strength * properties.touches[STAIN[n]]),
+            density: stains.map(|stain| stain.density),
+            splash: properties.splash,
+            dust: [wall.dust.density * properties.dust, wall.dust.reach_m, wall.dust.hands * properties.dust],
+            colours: std::array::from_fn(|kind| {
+                tone::linear_rgb(match kind {
+                    SPLASH => wall.splash.colour,
+                    DUST => wall.dust.colour,
+                    cause => stains[cause].colour,
+                })
+            }),
+            darkest: tone::linear(look.darkest),
+            mean_log: noise.iter().map(|noise| noise.sd_of_texels(density)).map(|sd| 0.5 * sd * sd).sum(),
+            roughness: wall.roughness.unwrap_or(properties.roughness),
+            grime_roughness: properties.grime_roughness,
+            rub_roughness: properties.rub_roughness,
+        }
+    }
+
+    /// Whether touches are evened out: where history is no longer than what was drawn, there is nothing to even out.
+    pub fn evens_out(&self) -> bool {
+        self.residual < self.weight
+    }
+
+    /// Whether a cause can leave anything.
+    pub fn takes(&self, cause: usize) -> bool {
+        self.strength[cause] > 0.0 && self.density[cause] > 0.0 || self.every_touch > 0.0
+    }
+
+    /// Roughness of the clean wall.
+    pub fn clean_roughness(&self) -> f32 {
+        self.roughness
+    }
+
+    /// Whether there may be dust from a height on upward.
+    pub fn dust_from(&self, height_m: f32) -> bool {
+        let [density, reach_m, hands] = self.dust;
+        density > 0.0 && height_m < DUST_END * reach_m || hands > 0.0 && height_m < HANDS_M + 3.0 * HANDS_SD_M
+    }
+
+    /// Dust at a height, before noise.
+    pub fn dust_at(&self, height_m: f32) -> f32 {
+        let [density, reach_m, hands] = self.dust;
+        let end = DUST_END * reach_m;
+        let low = if height_m < end { density * (exp_f32(-height_m / reach_m) - exp_f32(-DUST_END)) } else { 0.0 };
+        let from_hands = (height_m - HANDS_M) / HANDS_SD_M;
+        let high = if from_hands.abs() < 3.0 { hands * exp_f32(-0.5 * from_hands * from_hands) } else { 0.0 };
+        low + high
+    }
+
+    /// Works out a row; `false` where it is clean.
+    pub fn shade(&self, known: &WallKnown, out: &mut WallShaded) -> bool {
+        let len = known.plaster.rgb[0].len();
+        let dust = self.dust_at(known.height_m);
+        out.clear();
+        if known.is_clean(dust) {
+            for (plane, wall) in out.rgb.iter_mut().zip(&known.plaster.rgb) {
+                plane.clear();
+                plane.extend_from_slice(wall);
+            }
+            out.roughness.clear();
+            out.roughness.resize(len, self.roughness_with(known.plaster.board));
+            out.total.clear();
+            out.total.resize(len, 0.0);
+            return false;
+        }
+        out.resize(len);
+        self.densities(known, dust, out);
+        self.colour(&known.plaster.rgb, out);
+        self.roughness(known.plaster.board, out);
+        true
+    }
+
+    /// Roughness of the clean wall where a share is skirting board.
+    fn roughness_with(&self, board: f32) -> f32 {
+        self.roughness + board * (BOARD_ROUGHNESS - self.roughness)
+    }
+
+    fn densities(&self, known: &WallKnown, dust: f32, out: &mut WallShaded) {
+        let len = known.plaster.rgb[0].len();
+        let WallShaded { density, uneven, .. } = out;
+        if known.uneven.is_empty() {
+            uneven.fill(1.0);
+        } else {
+            each1(uneven, &known.uneven, |noise| exp_f32(noise - self.mean_log));
+        }
+        for (cause, density) in density[..5].iter_mut().enumerate() {
+            let (single, expected) = (&known.single[cause], &known.expected[cause]);
+            if single.is_empty() {
+                continue;
+            }
+            let board = if STAIN[cause] < 2 { 1.0 - known.plaster.board * (1.0 - BOARD_TOUCH) } else { 1.0 };
+            let (strength, most) = (self.strength[cause] * board, self.density[cause].max(1e-6));
+            density.resize(len, 0.0);
+            each3(density, single, expected, uneven, |single, expected, uneven| {
+                let touches = self.weight * expected + self.residual * (single - expected);
+                let n = (strength * uneven * touches).max(0.0);
+                seen(most * n / (most + n) + self.every_touch * single)
+            });
+        }
+        if !known.splash.is_empty() {
+            density[SPLASH].resize(len, 0.0);
+            each2(&mut density[SPLASH], &known.splash, uneven, |splash, uneven| seen(splash * uneven));
+        }
+        if dust > 0.0 {
+            density[DUST].resize(len, 0.0);
+            each1(&mut density[DUST], uneven, |uneven| seen(dust * uneven));
+        }
+    }
+
+    /// Dirt over the wall, and the light that comes through it.
+    fn colour(&self, wall: &[Vec<f32>; 3], out: &mut WallShaded) {
+        let WallShaded { density, through, total, hiding, rgb, .. } = out;
+        for plane in rgb.iter_mut().chain([&mut *total]) {
+            plane.fill(0.0);
+        }
+        for (kind, density) in density.iter().enumerate().filter(|(_, density)| !density.is_empty()) {
+            let through = &mut through[CHANNEL[kind]];
+            through.resize(density.len(), 0.0);
+            for ((through, total), density) in through.iter_mut().zip(&mut *total).zip(density) {
+                *through += density;
+                *total += density;
+            }
+            for (plane, colour) in rgb.iter_mut().zip(self.colours[kind]) {
+                for (value, density) in plane.iter_mut().zip(density) {
+                    *value += colour * density;
+                }
+            }
+        }
+        for through in through {
+            for value in through {
+                *value = exp_f32(-*value);
+            }
+        }
+        // What hides the wall, by density: (1 - T) / sum(D).
+        each1(hiding, total, |total| (1.0 - exp_f32(-total)) / total.max(1e-6));
+        let darkest = self.darkest;
+        for (plane, wall) in rgb.iter_mut().zip(wall) {
+            for (((value, hiding), total), wall) in plane.iter_mut().zip(&*hiding).zip(&*total).zip(wall) {
+                let shown = wall * (1.0 - hiding * total) + *value * hiding;
+                // Dirt makes nothing darker than the darkest, nor a wall lighter that is darker by itself.
+                *value = shown.max(darkest.min(*wall));
+            }
+        }
+    }
+
+    fn roughness(&self, board: f32, out: &mut WallShaded) {
+        let WallShaded { through: [skin, rub, scuff, splash], roughness, .. } = out;
+        roughness.fill(self.roughness_with(board));
+        if !skin.is_empty() {
+            add2(roughness, skin, skin, |skin, _| self.grime_roughness * ((1.0 - skin) / FULL_GRIME).min(1.0));
+        }
+        if !rub.is_empty() {
+            add2(roughness, rub, rub, |rub, _| self.rub_roughness * ((1.0 - rub) / FULL_GRIME).min(1.0));
+        }
+        if !scuff.is_empty() {
+            for (value, scuff) in roughness.iter_mut().zip(&*scuff) {
+                *value += (RUBBER_ROUGHNESS - *value) * (1.0 - scuff);
+            }
+        }
+        if !splash.is_empty() {
+            for (value, splash) in roughness.iter_mut().zip(&*splash) {
+                *value += (DIRT_ROUGHNESS.max(*value) - *value) * (1.0 - splash);
+            }
+        }
+    }
+}
+
+/// A density, or nothing where it is too little to be seen.
+fn seen(density: f32) -> f32 {
+    if density < LEAST { 0.0 } else { density }
+}
+
+/// By cause: hand, arm, shoulder, bag, shoe.
+pub(super) fn stains(wall: &WallLook) -> [StainLook; 5] {
+    [wall.skin, wall.cloth, wall.cloth, wall.bag, wall.rubber]
+}
+
+impl WallShaded {
+    fn clear(&mut self) {
+        for plane in self.density.iter_mut().chain(&mut self.through) {
+            plane.clear();
+        }
+    }
+
+    fn resize(&mut self, len: usize) {
+        let WallShaded { uneven, total, hiding, roughness, rgb, .. } = self;
+        for plane in [uneven, total, hiding, roughness].into_iter().chain(rgb) {
+            plane.resize(len, 0.0);
+        }
+    }
+
+    /// Rounds a row that starts at texel (i, j) to 8 bits.
+    pub fn write(&mut self, dither: u32, i: i64, j: i64, out: &mut Bytes<'_>) {
+        let [skin, rub, scuff, splash] = &self.through;
+        let shown = Shown { rgb: &self.rgb, through: [skin, rub, scuff, splash], roughness: &self.roughness };
+        self.rounding.write(dither, i, j, &shown, out);
+    }
+}

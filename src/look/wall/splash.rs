@@ -1,0 +1,271 @@
+//! The splash band: what the mop smears and throws against the foot of a wall, and what runs down from there.
+
+use super::dots::{Dots, Spread, poisson, splat};
+use super::settings::SplashLook;
+use super::strip::Strip;
+use crate::look::lattice::Window;
+use crate::look::noise::{self, Channel, Noise, NoiseField};
+use crate::math::{SplitMix64, exp_f32};
+
+/// Dirty water stands and dries at the very foot: falls to 1/e in this height, metres, and its share of the density.
+const FOOT_M: f32 = 0.012;
+const FOOT_SHARE: f32 = 0.65;
+/// The smear below the band's upper edge, and the line that dries along it: shares of the density, and the line's half
+/// width, metres.
+const SMEAR_SHARE: f32 = 0.55;
+const TIDE_SHARE: f32 = 0.12;
+const TIDE_M: f32 = 0.0035;
+/// Where the band ends on average, as a share of its largest height.
+const MEAN_EDGE: f32 = 0.42;
+/// Droplets end at so many times the band's largest height.
+const DROPS_END: f32 = 1.5;
+/// Drips begin at most so high, metres, and are drawn for stretches of the wall of this length.
+const DRIP_TOP_M: f64 = 0.34;
+const STRETCH_M: f64 = 1.0;
+/// How far from each other the drips of one splash run, metres.
+const CLUSTER_M: f32 = 0.07;
+
+/// The splash band of one look.
+pub(super) struct Splash {
+    look: SplashLook,
+    /// How dirty the water was, along the wall; ups and downs of the edge in strokes of the mop and smaller.
+    stretch: Noise,
+    strokes: Noise,
+    waves: Noise,
+    ripples: Noise,
+    /// What the mop's strings drew.
+    streaks: Noise,
+    drops: Dots,
+    drip_key: u32,
+}
+
+/// The band over one window.
+pub(super) struct SplashWindow {
+    window: Window,
+    look: SplashLook,
+    /// By column: factor on the density, and where the band ends, metres.
+    amount: Vec<f32>,
+    edge_m: Vec<f32>,
+    streaks: NoiseField,
+    streak: Vec<f32>,
+    /// Droplets and drips, by texel.
+    single: Vec<f32>,
+    row: usize,
+}
+
+impl Splash {
+    pub fn new(look: SplashLook, seed: u64) -> Splash {
+        let along = |channel, size_m| Noise::new(seed, channel, [size_m, 1.0], 1.0);
+        Splash {
+            look,
+            stretch: along(Channel::SplashStretch, 1.1),
+            strokes: along(Channel::SplashStroke, 0.62),
+            waves: along(Channel::SplashWave, 0.20),
+            ripples: along(Channel::SplashRipple, 0.035),
+            streaks: Noise::new(seed, Channel::SplashStreak, [0.12, 0.014], 1.0),
+            drops: Dots::new(
+                noise::key(seed, Channel::SplashDrop),
+                Spread { per_m2: 420.0, radius_m: [0.0006, 0.0032], depth: [0.25, 1.0] },
+            ),
+            drip_key: noise::key(seed, Channel::Drip),
+        }
+    }
+
+    /// `None` where the window lies above all splashes.
+    pub fn over(&self, window: &Window, strip: &Strip) -> Option<SplashWindow> {
+        let drips = self.look.drips_per_metre > 0.0;
+        let band = self.look.density > 0.0;
+        let top_m = f64::from(if band { DROPS_END * self.look.height_m } else { 0.0 });
+        let top_m = if drips { top_m.max(DRIP_TOP_M) } else { top_m };
+        if window.j0 as f64 >= top_m * window.texels_per_metre {
+            return None;
+        }
+        let line = Window { j0: 0, height: 1, ..*window };
+        let along = |noise: &Noise| {
+            let mut field = noise.over_strip(&line, strip.salt, strip.width, strip.closed);
+            let mut values = vec![0.0; window.width];
+            field.begin_row(0);
+            field.add_to(0, &mut values);
+            values
+        };
+        let (stretch, strokes) = (along(&self.stretch), along(&self.strokes));
+        let (waves, ripples) = (along(&self.waves), along(&self.ripples));
+        let sd = self.look.unevenness;
+        let amount = stretch.iter().zip(&waves).map(|(s, w)| exp_f32(sd * (0.85 * s + 0.35 * w) - 0.42 * sd * sd));
+        let edge_m = strokes.iter().zip(&waves).zip(&ripples).zip(&stretch).map(|(((s, w), r), a)| {
+            let ups = sd * (0.30 * s + 0.17 * w + 0.13 * r + 0.12 * a);
+            self.look.height_m * (MEAN_EDGE + ups).clamp(0.06, 1.0)
+        });
+        let mut shown = SplashWindow {
+            window: *window,
+            look: self.look,
+            amount: amount.collect(),
+            edge_m: edge_m.collect(),
+            streaks: self.streaks.over_strip(window, strip.salt, strip.width, strip.closed),
+            streak: vec![0.0; window.width],
+            single: Vec::new(),
+            row: 0,
+        };
+        if band {
+            shown.single = self.drops.over(window, strip);
+            shown.thin_out_drops();
+        } else {
+            shown.single.resize(window.texels(), 0.0);
+        }
+        if drips {
+            for drip in self.drips(window, strip) {
+                drip.paint(window, strip.texels_per_metre, &mut shown.single);
+            }
+        }
+        Some(shown)
+    }
+
+    /// The drips that may reach a window. Splashes are thrown anywhere along the wall (a Poisson process); each leaves one
+    /// drip, or a few close to each other.
+    fn drips(&self, window: &Window, strip: &Strip) -> Vec<Drip> {
+        let density = strip.texels_per_metre;
+        let around = (f64::from(strip.width) / (STRETCH_M * density)).round().max(1.0);
+        let side = f64::from(strip.width) / around;
+        let margin = (f64::from(CLUSTER_M) + 0.02) * density;
+        let first = ((window.i0 as f64 - margin) / side).floor() as i64;
+        let last = (((window.i0 + window.width as i64) as f64 + margin) / side).floor() as i64;
+        // Two drips a splash, on average.
+        let mean = 0.5 * f64::from(self.look.drips_per_metre) * side / density;
+        let mut drips = Vec::new();
+        for stretch in first..=last {
+            let drawn = if strip.closed { stretch.rem_euclid(around as i64) } else { stretch };
+            let mut rng = SplitMix64::new(u64::from(noise::hash(self.drip_key ^ strip.salt, drawn as i32, 0)));
+            for _ in 0..poisson(mean, &mut rng) {
+                let middle = (stretch as f64 + f64::from(rng.unit())) * side;
+                for _ in 0..=poisson(1.0, &mut rng).min(4) {
+                    let place = middle + f64::from(CLUSTER_M * (rng.unit() + rng.unit() - 1.0)) * density;
+                    drips.push(Drip::draw(place, density, &mut rng));
+                }
+            }
+        }
+        drips
+    }
+
+    /// Where the drips are that may reach a window, texels along the strip.
+    #[cfg(test)]
+    pub fn places_of_drips(&self, window: &Window, strip: &Strip) -> Vec<f64> {
+        self.drips(window, strip).into_iter().map(|drip| drip.place).collect()
+    }
+}
+
+/// What ran down.
+struct Drip {
+    /// Texels along the strip.
+    place: f64,
+    /// Metres above the floor.
+    top_m: f32,
+    end_m: f32,
+    /// Texels.
+    radius: f32,
+    depth: f32,
+    key: u32,
+}
+
+impl Drip {
+    fn draw(place: f64, density: f64, rng: &mut SplitMix64) -> Drip {
+        let high = rng.unit();
+        let top_m = 0.07 + (DRIP_TOP_M as f32 - 0.09) * high * high;
+        let end_m = (top_m - rng.range(0.03, 0.26)).max(0.0);
+        let radius = rng.range(0.0020, 0.0042) * density as f32;
+        Drip { place, top_m, end_m, radius, depth: rng.range(0.05, 0.20), key: rng.next_u64() as u32 }
+    }
+
+    /// Adds the drip to a window: thin and straight but for a little wander, paler upward, a bead where it stopped.
+    fn paint(&self, window: &Window, density: f64, out: &mut [f32]) {
+        // Variance of the run and of a texel.
+        let variance = self.radius * self.radius / 4.0 + 1.0 / 12.0;
+        let depth = self.depth * self.radius / 2.0 / variance.sqrt();
+        let reach = f64::from(3.0 * variance.sqrt());
+        for row in 0..window.height {
+            let height_m = ((window.j0 + row as i64) as f64 + 0.5) / density;
+            let way = (self.top_m - height_m as f32) / (self.top_m - self.end_m).max(1e-3);
+            if !(0.0..=1.0).contains(&way) {
+                continue;
+            }
+            let place = self.place + self.wander_m(height_m) * density;
+            let within = |texel: f64| texel.clamp(window.i0 as f64, (window.i0 + window.width as i64) as f64) as i64;
+            for i in within((place - reach).floor())..within((place + reach).ceil()) {
+                let dx = (i as f64 + 0.5 - place) as f32;
+                let value = depth * (0.35 + 0.65 * way) * (3.0 * way).min(1.0) * exp_f32(-0.5 * dx * dx / variance);
+                let out = &mut out[row * window.width + (i - window.i0) as usize];
+                *out = out.max(value);
+            }
+        }
+        if self.end_m > 0.0 {
+            let end = f64::from(self.end_m);
+            let place = [self.place + self.wander_m(end) * density, end * density];
+            splat(out, window, place, 1.5 * self.radius, 1.25 * self.depth);
+        }
+    }
+
+    /// How far the run is off its line, metres: knots every 3 cm.
+    fn wander_m(&self, height_m: f64) -> f64 {
+        let knot = (height_m / 0.03).floor();
+        let f = height_m / 0.03 - knot;
+        let at = |knot: f64| f64::from(noise::signed(self.key, knot as i32, 0));
+        let smooth = f * f * (3.0 - 2.0 * f);
+        0.0022 * (at(knot) + (at(knot + 1.0) - at(knot)) * smooth)
+    }
+}
+
+impl SplashWindow {
+    /// Droplets lie thickest in the band and get rare above it.
+    fn thin_out_drops(&mut self) {
+        for row in 0..self.window.height {
+            let height_m = self.height_m(row);
+            let line = &mut self.single[row * self.window.width..][..self.window.width];
+            for ((value, edge), amount) in line.iter_mut().zip(&self.edge_m).zip(&self.amount) {
+                let above = ((height_m - edge) / (0.25 * self.look.height_m)).max(0.0);
+                let ends = (2.0 * (DROPS_END - height_m / self.look.height_m)).clamp(0.0, 1.0);
+                *value *= self.look.density * amount.min(2.0) * exp_f32(-above) * ends;
+            }
+        }
+    }
+
+    /// Middle of a row, metres above the floor.
+    fn height_m(&self, row: usize) -> f32 {
+        ((self.window.j0 + row as i64) as f64 + 0.5) as f32 / self.window.texels_per_metre as f32
+    }
+
+    pub fn begin_row(&mut self, row: usize) {
+        self.row = row;
+        self.streak.fill(0.0);
+        if self.height_m(row) < 1.2 * self.look.height_m {
+            self.streaks.begin_row(row);
+            self.streaks.add_to(0, &mut self.streak);
+        }
+    }
+
+    /// Optical density of the row last begun, times `factor`.
+    pub fn read(&self, factor: f32, out: &mut [f32]) {
+        let texel_m = (1.0 / self.window.texels_per_metre) as f32;
+        let height_m = self.height_m(self.row);
+        let single = &self.single[self.row * self.window.width..][..out.len()];
+        if height_m - texel_m > 1.05 * self.look.height_m || self.look.density == 0.0 {
+            for (out, single) in out.iter_mut().zip(single) {
+                *out = factor * single;
+            }
+            return;
+        }
+        // Means over a texel: the foot may be thinner than that.
+        let (low, high) = ((height_m - 0.5 * texel_m) / FOOT_M, (height_m + 0.5 * texel_m) / FOOT_M);
+        let foot = FOOT_SHARE * (exp_f32(-low) - exp_f32(-high)) / (high - low);
+        let tide_m = (TIDE_M * TIDE_M + texel_m * texel_m / 6.0).sqrt();
+        let soft_m = 0.010 + texel_m;
+        let columns = self.amount.iter().zip(&self.edge_m).zip(&self.streak);
+        for ((out, ((amount, edge), streak)), single) in out.iter_mut().zip(columns).zip(single) {
+            let below = ((edge - height_m) / soft_m + 0.5).clamp(0.0, 1.0);
+            let depth = (1.0 - height_m / edge).max(0.0);
+            let smear = SMEAR_SHARE * below * (0.30 + 0.70 * depth) * (1.0 + 0.28 * streak).max(0.1);
+            let off = (height_m - edge) / tide_m;
+            let tide = TIDE_SHARE * TIDE_M / tide_m * exp_f32(-off * off);
+            let band = self.look.density * amount * (foot * (1.0 + 0.2 * streak) + smear + tide);
+            *out = factor * (band + single);
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! One face, unrolled.
+
+use std::ops::Range;
+
+use crate::look::lattice::Window;
+use crate::look::noise;
+use crate::stamps::WallGrid;
+
+/// What is the same all over a face.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Strip {
+    pub face: usize,
+    pub texels_per_metre: f64,
+    /// Columns and rows.
+    pub width: u32,
+    pub height: u32,
+    /// Whether the last column joins the first.
+    pub closed: bool,
+    /// Gives each face patterns of its own.
+    pub salt: u32,
+}
+
+/// A rectangle of texels on a strip, and where its columns and rows are shown.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Shown {
+    pub columns: Range<u32>,
+    /// First column of the block that shows them.
+    pub at: usize,
+}
+
+impl Strip {
+    pub fn of(grid: &WallGrid, face: usize) -> Option<Strip> {
+        let span = grid.faces.get(face)?;
+        Some(Strip {
+            face,
+            texels_per_metre: grid.texels_per_metre,
+            width: span.width.max(1),
+            height: grid.height.max(1),
+            closed: span.closed,
+            salt: noise::mix(face as u32 + 1),
+        })
+    }
+
+    pub fn window(&self, columns: &Range<u32>, rows: &Range<u32>) -> Window {
+        Window {
+            texels_per_metre: self.texels_per_metre,
+            i0: i64::from(columns.start),
+            j0: i64::from(rows.start),
+            width: columns.len(),
+            height: rows.len(),
+        }
+    }
+
+    /// The columns of the strip that a block of columns `i0..i0 + width` shows: round a closed face as often as need be;
+    /// on an open one the part within the strip, at least its first or last column.
+    pub fn columns(&self, i0: i64, width: usize) -> Vec<Shown> {
+        if !self.closed {
+            return vec![Shown { columns: clamped(i0, width, self.width), at: 0 }];
+        }
+        let (mut runs, mut at) = (Vec::new(), 0);
+        while at < width {
+            let first = (i0 + at as i64).rem_euclid(i64::from(self.width)) as u32;
+            let len = (width - at).min((self.width - first) as usize);
+            runs.push(Shown { columns: first..first + len as u32, at });
+            at += len;
+        }
+        runs
+    }
+
+    /// The rows of the strip that a block of rows `j0..j0 + height` shows.
+    pub fn rows(&self, j0: i64, height: usize) -> Range<u32> {
+        clamped(j0, height, self.height)
+    }
+}
+
+/// The part of `first..first + count` within `0..size`; the end nearest to it if there is none.
+fn clamped(first: i64, count: usize, size: u32) -> Range<u32> {
+    let last = i64::from(size) - 1;
+    let from = first.clamp(0, last);
+    let to = (first.saturating_add(count as i64) - 1).clamp(from, last);
+    from as u32..to as u32 + 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn strip(closed: bool) -> Strip {
+        Strip { face: 0, texels_per_metre: 100.0, width: 50, height: 20, closed, salt: 1 }
+    }
+
+    #[test]
+    fn an_open_strip_ends_in_its_edge() {
+        let open = strip(false);
+        assert_eq!(open.columns(-8, 20), [Shown { columns: 0..12, at: 0 }]);
+        assert_eq!(open.columns(-20, 10), [Shown { columns: 0..1, at: 0 }]);
+        assert_eq!(open.columns(60, 10), [Shown { columns: 49..50, at: 0 }]);
+        assert_eq!((open.rows(-3, 5), open.rows(18, 9), open.rows(40, 2)), (0..2, 18..20, 19..20));
+    }
+
+    #[test]
+    fn a_closed_strip_goes_round() {
+        let runs = strip(true).columns(-8, 120);
+        let shown = |columns, at| Shown { columns, at };
+        assert_eq!(runs, [shown(42..50, 0), shown(0..50, 8), shown(0..50, 58), shown(0..12, 108)]);
+    }
+}

@@ -1,0 +1,173 @@
+//! What the simulated people's touches tell of all those for whom they stand.
+
+use super::strip::Strip;
+use crate::look::lattice::{Axis, Lattice, Window};
+use crate::look::traffic::{blurred, half_gaussian};
+use crate::patterns::Cause;
+use crate::stamps::DENSITY_ONE;
+use crate::sums::WallSums;
+
+/// Touches of one cause over a window of a strip.
+pub(super) struct Touches {
+    /// Sums as they are, texel by texel.
+    pub single: Vec<u32>,
+    /// Their mean around; `None` where it is not asked for.
+    mean: Option<Lattice>,
+}
+
+/// A strip's texels in groups along one axis.
+#[derive(Clone, Copy)]
+struct Cells {
+    texels: u32,
+    count: i64,
+    closed: bool,
+}
+
+impl Cells {
+    fn new(texels: u32, wanted: f64, closed: bool) -> Cells {
+        let count = (f64::from(texels) / wanted).round().max(1.0) as i64;
+        Cells { texels, count, closed }
+    }
+
+    /// Texels per cell; cells differ by less than one.
+    fn spacing(&self) -> f64 {
+        f64::from(self.texels) / self.count as f64
+    }
+
+    /// First texel of a cell.
+    fn start(&self, cell: i64) -> u32 {
+        (cell * i64::from(self.texels) / self.count) as u32
+    }
+
+    /// The cell of the strip that a cell is, which may lie beyond its ends.
+    fn on_strip(&self, cell: i64) -> Option<i64> {
+        let inside = (0..self.count).contains(&cell);
+        if inside { Some(cell) } else { self.closed.then(|| cell.rem_euclid(self.count)) }
+    }
+
+    /// Neighbouring cells of the strip among `first..first + len`: where each run starts in that range, its first cell,
+    /// and how many there are.
+    fn runs(&self, first: i64, len: usize) -> Vec<(usize, i64, usize)> {
+        let mut runs: Vec<(usize, i64, usize)> = Vec::new();
+        for at in 0..len {
+            let Some(cell) = self.on_strip(first + at as i64) else { continue };
+            match runs.last_mut().filter(|(start, from, len)| (start + *len, from + *len as i64) == (at, cell)) {
+                Some((_, _, len)) => *len += 1,
+                None => runs.push((at, cell, 1)),
+            }
+        }
+        runs
+    }
+}
+
+impl Touches {
+    /// `None` where nobody has touched the wall in the window, nor near it if touches are evened out over `spread_m`.
+    pub fn over(
+        window: &Window,
+        strip: &Strip,
+        sums: &WallSums,
+        cause: Cause,
+        spread_m: Option<f64>,
+    ) -> Option<Touches> {
+        let Some(spread_m) = spread_m else { return Touches::alone(window, strip, sums, cause) };
+        let spread = spread_m * strip.texels_per_metre;
+        let cell = (spread / 3.0).floor().max(1.0);
+        let across = Cells::new(strip.width, cell, strip.closed);
+        let up = Cells::new(strip.height, cell, false);
+        let x = Axis::new(window.i0, window.width, across.spacing(), 0.5);
+        let y = Axis::new(window.j0, window.height, up.spacing(), 0.5);
+        let kernel = half_gaussian(spread / cell);
+        let cells = Window { texels_per_metre: 1.0, i0: x.first, j0: y.first, width: x.len, height: y.len };
+        let around = cells.grown(kernel.len() - 1);
+
+        let mut values = vec![0.0; around.texels()];
+        let mut share = vec![0.0; around.texels()];
+        let mut any = false;
+        for (row, j, rows) in up.runs(around.j0, around.height) {
+            for (column, i, columns) in across.runs(around.i0, around.width) {
+                let place = Place { cause, strip, across, up, cells: [i, j], count: [columns, rows] };
+                any |= place.read(sums, &mut values, row * around.width + column, around.width);
+                for line in share[row * around.width + column..].chunks_mut(around.width).take(rows) {
+                    line[..columns].fill(1.0);
+                }
+            }
+        }
+        if !any {
+            return None;
+        }
+        // Beyond the strip nothing is known, so only wall counts in the mean.
+        let (mut mean, share) = (blurred(&values, &around, &kernel), blurred(&share, &around, &kernel));
+        for (mean, share) in mean.iter_mut().zip(share) {
+            *mean /= share.max(1e-3);
+        }
+        let single = singles(window, strip, sums, cause);
+        Some(Touches { single, mean: Some(Lattice::new(x, y, mean)) })
+    }
+
+    /// Without a mean around.
+    fn alone(window: &Window, strip: &Strip, sums: &WallSums, cause: Cause) -> Option<Touches> {
+        let touched = sums.touched(cause, strip.face, window.i0 as u32, window.j0 as u32, window.width, window.height);
+        touched.then(|| Touches { single: singles(window, strip, sums, cause), mean: None })
+    }
+
+    pub fn begin_row(&mut self, row: usize) {
+        if let Some(mean) = &mut self.mean {
+            mean.begin_row(row);
+        }
+    }
+
+    /// Mean density around, of the row last begun; 0 where it was not asked for.
+    pub fn expected(&self, out: &mut [f32]) {
+        out.fill(0.0);
+        if let Some(mean) = &self.mean {
+            mean.add_to(0, out);
+        }
+    }
+}
+
+/// Sums of a window as they are.
+fn singles(window: &Window, strip: &Strip, sums: &WallSums, cause: Cause) -> Vec<u32> {
+    let mut single = vec![0; window.texels()];
+    let Window { i0, j0, width, height, .. } = *window;
+    sums.read(cause, strip.face, i0 as u32, j0 as u32, width, height, &mut single);
+    single
+}
+
+/// A rectangle of cells on a strip.
+struct Place<'a> {
+    cause: Cause,
+    strip: &'a Strip,
+    across: Cells,
+    up: Cells,
+    cells: [i64; 2],
+    count: [usize; 2],
+}
+
+impl Place<'_> {
+    /// Writes each cell's mean density from `out[at]` on, in rows of `stride`; `false` where there is nothing.
+    fn read(&self, sums: &WallSums, out: &mut [f32], at: usize, stride: usize) -> bool {
+        let Place { cause, strip, across, up, cells: [i, j], count: [columns, rows] } = self;
+        let (i0, i1) = (across.start(*i), across.start(i + *columns as i64));
+        let (j0, j1) = (up.start(*j), up.start(j + *rows as i64));
+        let (width, height) = ((i1 - i0) as usize, (j1 - j0) as usize);
+        if !sums.touched(*cause, strip.face, i0, j0, width, height) {
+            return false;
+        }
+        let mut texels = vec![0; width * height];
+        sums.read(*cause, strip.face, i0, j0, width, height, &mut texels);
+        for (row, out) in out[at..].chunks_mut(stride).take(*rows).enumerate() {
+            let (from, to) = (up.start(j + row as i64) - j0, up.start(j + row as i64 + 1) - j0);
+            for (column, out) in out[..*columns].iter_mut().enumerate() {
+                let (left, right) = (across.start(i + column as i64) - i0, across.start(i + column as i64 + 1) - i0);
+                let cell = (from..to).flat_map(|row| {
+                    let line = &texels[row as usize * width..];
+                    &line[left as usize..right as usize]
+                });
+                let sum: f64 = cell.map(|&sum| f64::from(sum)).sum();
+                let area = f64::from((to - from) * (right - left)).max(1.0);
+                *out = (sum / area / f64::from(DENSITY_ONE)) as f32;
+            }
+        }
+        true
+    }
+}
