@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use trodden::Silent;
-use trodden::export::{FloorSource, OutputFolder, TextureOptions, floor_textures, write_sums};
+use trodden::export::{OutputFolder, TextureOptions, TextureSource, floor_textures, write_sums};
 use trodden::look::{Background, LAYERS, Layer, ResolvedBlock};
 use trodden::math::SplitMix64;
 use trodden::stamps::TexelGrid;
@@ -77,7 +77,7 @@ fn cut<T: Copy>(piece: &[T], outside: T, [i0, j0]: [i64; 2], width: usize, heigh
     values
 }
 
-impl FloorSource for Corridors {
+impl TextureSource for Corridors {
     fn layers(&self) -> &[&'static str] {
         &LAYERS
     }

@@ -4,22 +4,27 @@ use std::path::{Path, PathBuf};
 
 use crate::crowd::Crowd;
 use crate::export::preview::{self, Crop, PathSampler};
-use crate::export::{self, FloorTextures, Manifest, OutputFolder, PeopleReport, PreviewEntry, Report, TextureOptions};
-use crate::look::{FloorResolver, Look};
-use crate::marks::{Footfalls, Origin};
+use crate::export::{self, Manifest, OutputFolder, PeopleReport, Report, Target, TargetEntry};
+use crate::look::Look;
+use crate::marks::{ContactPlaces, Footfalls, Origin};
 use crate::motion::People;
 use crate::patterns::PatternLibrary;
 use crate::progress::{Progress, Stage, Stopwatch};
-use crate::routes::Navigation;
+use crate::routes::{Navigation, Stop};
 use crate::scenario::Scenario;
-use crate::stamps::{Stamper, TexelGrid};
-use crate::sums::FloorSums;
+use crate::stamps::{Stamper, TexelGrid, WallGrid, WallStamper};
+use crate::sums::{FloorSums, WallSums};
 use crate::walls::Walls;
 use crate::{Error, plan};
 
+mod graded;
 mod tread;
+mod view;
 
-use tread::tread;
+pub use view::{View, view};
+
+use graded::{Graded, Sums, look_entry, title};
+use tread::{Marks, tread};
 
 /// Where a bake goes.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,24 +59,51 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
         watch.busy(Stage::Crowd, || Crowd::with_navigation(&plan, &walls, &routes, ways, &people, &scenario.crowd))?;
     let from_outside = crowd.arrivals().iter().map(|arrival| arrival.from_outside);
     let origins = Origin::of_arrivals(from_outside, scenario.marks.fresh_people);
-    let mut footfalls = Footfalls::new(&people, &walls, &library, &scenario.marks, origins)?;
+    let places = ContactPlaces::of_walls(&walls)
+        .with_doors(&plan, &walls, &scenario.doors)?
+        .with_fixtures(&plan, &walls, &scenario.fixtures)?
+        .with_stops(&walls, Stop::each(&routes));
+    let doorways = places.doorways();
+    let mut footfalls = Footfalls::new(&people, &walls, &library, &scenario.marks, origins)?.with_contacts(places);
 
     // Frames become marks, marks become stamps, stamps are summed up: a stream of which only the sums are kept.
     let grid = TexelGrid::covering(plan.width_m(), plan.height_m(), scenario.floor_texels_per_metre)?;
+    let wall_grid = WallGrid::covering(&walls, scenario.wall_height_m, scenario.wall_texels_per_metre)?;
     let stamper = watch.busy(Stage::Stamps, || Stamper::new(&library, grid, &scenario.stamps));
-    let mut sums = FloorSums::new(grid);
+    let wall_stamper = watch.busy(Stage::Stamps, || WallStamper::new(&library, &wall_grid, &scenario.stamps));
+    let mut sums =
+        Sums { floor: FloorSums::new(grid), walls: scenario.texture.walls.then(|| WallSums::new(wall_grid)) };
     let mut paths = PathSampler::new(scenario.crowd.people);
-    let mut stamp = |marks: &[_]| sums.add(&stamper, &walls, marks);
+    let mut stamp = |marks: &Marks| {
+        sums.floor.add(&stamper, &walls, &marks.footfalls);
+        if let Some(sums) = &mut sums.walls {
+            sums.add(&wall_stamper, &marks.contacts);
+        }
+    };
     tread(&mut crowd, &mut footfalls, &mut paths, &mut stamp, &watch, progress)?;
     let tally = crowd.tally();
     let warnings = tally.describe(&routes, Some(&output.folder.join(preview::PATHS_FILE)));
     warnings.iter().for_each(|warning| progress.warn(warning));
 
-    // Sums become what the floor looks like, block by block, as the files are written.
+    // Sums become what floor and walls look like, block by block, as the files are written.
     let crops = preview::choose_crops(walls.bounds_m(), &plan.openings, &walls, paths.paths());
-    let graded = Graded { sums: &sums, walls: &walls, look: &scenario.look, people: scenario.crowd.people };
-    let (textures, pictures) = graded.write(&folder, &scenario.texture, &crops, &watch, progress)?;
-    let sums_entry = watch.busy(Stage::Export, || export::write_sums(&folder, &sums, &textures, progress))?;
+    let graded = Graded {
+        sums: &sums,
+        walls: &walls,
+        doorways: &doorways,
+        look: &scenario.look,
+        people: scenario.crowd.people,
+        wall_people: footfalls.contact_people(),
+        title: title(&scenario.image),
+        seed: scenario.seed,
+        atlas: None,
+    };
+    let written = graded.write(&folder, &scenario.texture, &crops, &watch, progress)?;
+    let sums_entry =
+        watch.busy(Stage::Export, || export::write_sums(&folder, &sums.floor, &written.floor, progress))?;
+    if let (Some(sums), Some(textures)) = (&sums.walls, &written.walls) {
+        watch.busy(Stage::Export, || export::write_wall_sums(&folder, sums, textures, progress))?;
+    }
     let picture =
         watch.busy(Stage::Export, || preview::draw_paths(&plan, &walls, &routes, paths.paths(), &tally.stuck));
     preview::write_picture(&folder, preview::PATHS_FILE, &picture)?;
@@ -80,83 +112,89 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
         people: PeopleReport::of(&tally, &routes),
         warnings,
         footfalls: footfalls.count(),
+        contacts: footfalls.contact_count(),
         seconds: watch.seconds(),
         peak_memory_mib: export::peak_memory_mib(),
     };
     report.write(&folder)?;
-    folder.publish(&Manifest {
+    let manifest = Manifest {
         seed: scenario.seed,
         people: scenario.crowd.people,
-        floor: textures.entry(sums_entry),
-        preview: pictures,
+        target: TargetEntry::of(scenario.texture.target),
+        floor: written.floor.entry(sums_entry),
+        walls: written.walls.map(|textures| textures.entry(&walls, footfalls.contact_people())),
+        preview: written.pictures,
+        stills: written.stills,
         look: look_entry(&scenario.look),
+        doors: Some(doorways),
         settings: scenario.settings(),
         ..Manifest::of_plan(&plan, &walls, &routes)
-    })?;
+    };
+    export::write_target_files(&folder, &manifest)?;
+    folder.publish(&manifest)?;
     Ok(report)
 }
 
-/// Grades a finished bake with another look: its exact sums are resolved to textures and previews once more, without
-/// simulating. Sums and everything else stay as they were.
+/// What is made anew of a finished bake. What is left out stays as it was.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ResolveOptions {
+    /// Another look.
+    pub look: Option<Look>,
+    /// Another program that the textures are for.
+    pub target: Option<Target>,
+    /// Whether the model carries its textures.
+    pub embed: Option<bool>,
+}
+
+/// Grades a finished bake with another look, or writes it for another target: its exact sums are resolved to textures
+/// and previews once more, without simulating. Sums and everything else stay as they were.
 ///
 /// # Errors
-/// A folder that is not a bake or is damaged; a look out of range; files that cannot be written;
-/// [`Error::Interrupted`]. In all these cases the bake stays as it was.
-pub fn resolve(bake: &Path, look: &Look, progress: &dyn Progress) -> Result<Report, Error> {
+/// A folder that is not a bake or is damaged; a look out of range; textures larger than the target takes; files that
+/// cannot be written; [`Error::Interrupted`]. In all these cases the bake stays as it was.
+pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -> Result<Report, Error> {
     let watch = Stopwatch::start();
     export::restore(bake)?;
     let manifest = Manifest::read(bake)?;
+    let look = &options.look.clone().map_or_else(|| manifest.look(bake), Ok)?;
+    let mut textures = manifest.texture_options();
+    textures.target = options.target.unwrap_or(textures.target);
+    textures.embed = options.embed.unwrap_or(textures.embed);
     let earlier = Report::read(bake)?;
-    let sums = watch.busy(Stage::Sums, || export::read_sums(bake, &manifest))?;
+    let floor = watch.busy(Stage::Sums, || export::read_sums(bake, &manifest))?;
     let walls = watch.busy(Stage::Walls, || manifest.walls());
+    let sums = Sums { floor, walls: watch.busy(Stage::Sums, || export::read_wall_sums(bake, &manifest))? };
 
     let folder = OutputFolder::begin(bake, true)?;
-    let graded = Graded { sums: &sums, walls: &walls, look, people: manifest.people };
+    let graded = Graded {
+        sums: &sums,
+        walls: &walls,
+        doorways: &manifest.doorways(),
+        look,
+        people: manifest.people,
+        wall_people: manifest.wall_people(),
+        title: manifest.settings["plan"]["image"].as_str().map_or_else(String::new, |image| title(Path::new(image))),
+        seed: manifest.seed,
+        atlas: manifest.walls.as_ref().map(|walls| walls.atlas()),
+    };
     let crops = Crop::of_manifest(&manifest);
-    let (textures, pictures) = graded.write(&folder, &manifest.floor.options(), &crops, &watch, progress)?;
+    let written = graded.write(&folder, &textures, &crops, &watch, progress)?;
     for file in manifest.files.iter().filter(|file| file.starts_with("sums/") || *file == preview::PATHS_FILE) {
         folder.keep(file)?;
     }
 
     let report = Report { seconds: watch.seconds(), peak_memory_mib: export::peak_memory_mib(), ..earlier };
     report.write(&folder)?;
-    let floor = textures.entry(manifest.floor.sums.clone());
-    folder.publish(&Manifest { floor, preview: pictures, look: look_entry(look), ..manifest })?;
+    let manifest = Manifest {
+        target: TargetEntry::of(textures.target),
+        floor: written.floor.entry(manifest.floor.sums.clone()),
+        walls: written.walls.map(|textures| textures.entry(&walls, graded.wall_people)),
+        preview: written.pictures,
+        stills: written.stills,
+        look: look_entry(look),
+        ..manifest
+    };
+    export::write_target_files(&folder, &manifest)?;
+    folder.publish(&manifest)?;
     Ok(report)
-}
-
-/// A floor's sums with what turns them into a picture.
-struct Graded<'a> {
-    sums: &'a FloorSums,
-    walls: &'a Walls,
-    look: &'a Look,
-    people: u32,
-}
-
-impl Graded<'_> {
-    /// Writes the textures and the pictures of them.
-    fn write(
-        &self,
-        folder: &OutputFolder,
-        options: &TextureOptions,
-        crops: &[Crop],
-        watch: &Stopwatch,
-        progress: &dyn Progress,
-    ) -> Result<(FloorTextures, Vec<PreviewEntry>), Error> {
-        let grid = self.sums.grid();
-        let floor = FloorResolver::new(self.sums, self.walls, self.look, self.people)?;
-        let textures = export::floor_textures(folder, grid, &floor, options, progress)?;
-        watch.add(Stage::Look, textures.look_busy_s);
-        watch.add(Stage::Export, textures.export_busy_s);
-        let pictures =
-            watch.busy(Stage::Export, || preview::write_previews(folder, &textures, &floor, self.walls, crops))?;
-        Ok((textures, pictures))
-    }
-}
-
-/// A look as the manifest keeps it: without the folder of its floor image, so that it says nothing of the machine.
-fn look_entry(look: &Look) -> serde_json::Value {
-    let mut look = look.clone();
-    look.floor.image = look.floor.image.and_then(|image| image.file_name().map(PathBuf::from));
-    serde_json::to_value(&look).expect("a look is plain values with keys that are strings")
 }

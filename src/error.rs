@@ -43,6 +43,9 @@ pub enum Error {
     /// There can be no animation as asked.
     #[error(transparent)]
     Animation(#[from] crate::export::preview::AnimationError),
+    /// There can be no still as asked.
+    #[error(transparent)]
+    Still(#[from] crate::export::preview::still::StillError),
     /// The scenario file is wrong.
     #[error(transparent)]
     Scenario(#[from] crate::scenario::ScenarioError),
@@ -68,6 +71,7 @@ impl Error {
             Error::Look(e) => e.hint(),
             Error::Export(e) => e.hint(),
             Error::Animation(e) => e.hint(),
+            Error::Still(e) => e.hint(),
             Error::Scenario(e) => e.hint(),
             Error::Interrupted => None,
         }

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use trodden::Silent;
-use trodden::bake::{OutputOptions, bake, resolve};
+use trodden::bake::{OutputOptions, ResolveOptions, bake, resolve};
 use trodden::crowd::Crowd;
 use trodden::export::Report;
 use trodden::look::Look;
@@ -83,10 +83,13 @@ fn resolving_with_the_same_look_changes_nothing_and_with_another_only_the_look()
     let scenario = scenario(&plan_path("museum", "toml"), 60, 20.0);
     bake_on(2, &scenario, folder.clone());
     let before = files(&folder);
-    resolve(&folder, &scenario.look, &Silent).unwrap();
+    let with = |look: Look| ResolveOptions { look: Some(look), ..ResolveOptions::default() };
+    resolve(&folder, &with(scenario.look.clone()), &Silent).unwrap();
+    assert_same(&before, &files(&folder));
+    resolve(&folder, &ResolveOptions::default(), &Silent).unwrap();
     assert_same(&before, &files(&folder));
 
-    resolve(&folder, &Look::preset("heavy").unwrap(), &Silent).unwrap();
+    resolve(&folder, &with(Look::preset("heavy").unwrap()), &Silent).unwrap();
     let after = files(&folder);
     let changed = |name: &str| before[Path::new(name)] != after[Path::new(name)];
     assert!(changed("floor/floor_basecolor.1001.png") && changed("preview/floor.png"));

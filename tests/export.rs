@@ -9,7 +9,8 @@ use image::RgbImage;
 use trodden::Silent;
 use trodden::export::preview::{self, Crop, PathSample};
 use trodden::export::{
-    ExportError, FloorSource, Manifest, OutputFolder, TextureOptions, TileEntry, floor_textures, read_sums, write_sums,
+    ExportError, Manifest, OutputFolder, TextureOptions, TextureSource, TileEntry, floor_textures, read_sums,
+    write_sums,
 };
 use trodden::look::{Background, FloorResolver, Look, ResolvedBlock};
 use trodden::math::{SplitMix64, vec2};
@@ -199,7 +200,7 @@ fn base_colour_says_that_it_is_srgb_and_the_others_say_nothing() {
 /// A floor of coloured squares of 0.5 m, so that previews do not change with the look.
 struct Squares;
 
-impl FloorSource for Squares {
+impl TextureSource for Squares {
     fn layers(&self) -> &[&'static str] {
         &[]
     }
@@ -225,7 +226,7 @@ fn previews_show_the_floor_where_it_lies_and_walls_dark() {
     let walls = walls();
     let folder = OutputFolder::begin(&dir.path().join("out"), false).unwrap();
     let grid = TexelGrid::covering(9.0, 7.0, 24.0).unwrap();
-    let options = TextureOptions { tile: 128, layers: false };
+    let options = TextureOptions { tile: 128, layers: false, ..TextureOptions::default() };
     let textures = floor_textures(&folder, grid, &Squares, &options, &Silent).unwrap();
     let crop = Crop { name: "narrow".to_string(), min_m: vec2(2.0, 2.0), max_m: vec2(8.0, 6.0) };
     assert_golden("preview_floor", &preview::render_floor(&textures.birdseye, &walls), EXACT);

@@ -1,7 +1,7 @@
 use crate::Error;
 use crate::crowd::Crowd;
 use crate::export::preview::PathSampler;
-use crate::marks::{Footfalls, Mark};
+use crate::marks::{Contact, Footfalls, Mark};
 use crate::motion::{Frame, Motion};
 use crate::progress::{Progress, Stage, Stopwatch};
 
@@ -9,23 +9,33 @@ use crate::progress::{Progress, Stage, Stopwatch};
 /// and the stamping take turns often and both cores stay busy.
 const BATCH: usize = 16_384;
 
+/// A batch of what people leave.
+#[derive(Default)]
+pub(super) struct Marks {
+    /// Footfalls and scuffs on the floor.
+    pub footfalls: Vec<Mark>,
+    /// Touches of walls.
+    pub contacts: Vec<Contact>,
+}
+
 /// Lets the crowd walk and hands its marks out in batches: while one batch is stamped, the next is walked.
 pub(super) fn tread(
     crowd: &mut Crowd<'_>,
     footfalls: &mut Footfalls<'_>,
     paths: &mut PathSampler,
-    stamp: &mut (impl FnMut(&[Mark]) + Send),
+    stamp: &mut (impl FnMut(&Marks) + Send),
     watch: &Stopwatch,
     progress: &dyn Progress,
 ) -> Result<(), Error> {
     let mut walked = Walk { crowd, footfalls, paths, frame: Frame::default(), over: false };
-    let (mut batch, mut next) = (Vec::with_capacity(BATCH), Vec::with_capacity(BATCH));
+    let (mut batch, mut next) = (Marks::default(), Marks::default());
     while !walked.over {
         let (walking, ()) =
             rayon::join(|| walked.fill(&mut next, watch, progress), || watch.busy(Stage::Stamps, || stamp(&batch)));
         walking?;
         std::mem::swap(&mut batch, &mut next);
-        next.clear();
+        next.footfalls.clear();
+        next.contacts.clear();
     }
     watch.busy(Stage::Stamps, || stamp(&batch));
     progress.advance(Stage::Crowd, 1.0);
@@ -43,19 +53,20 @@ struct Walk<'a, 'c, 'f> {
 
 impl Walk<'_, '_, '_> {
     /// Walks on until there is a batch of marks, or to the end.
-    fn fill(&mut self, marks: &mut Vec<Mark>, watch: &Stopwatch, progress: &dyn Progress) -> Result<(), Error> {
-        while marks.len() < BATCH {
+    fn fill(&mut self, marks: &mut Marks, watch: &Stopwatch, progress: &dyn Progress) -> Result<(), Error> {
+        while marks.footfalls.len() < BATCH {
             if progress.interrupted() {
                 return Err(Error::Interrupted);
             }
             if !watch.busy(Stage::Crowd, || self.crowd.next_frame(&mut self.frame))? {
-                watch.busy(Stage::Marks, || self.footfalls.finish(marks));
+                watch.busy(Stage::Marks, || self.footfalls.finish(&mut marks.footfalls));
                 self.over = true;
                 break;
             }
-            watch.busy(Stage::Marks, || self.footfalls.push(&self.frame, marks));
+            watch.busy(Stage::Marks, || self.footfalls.push(&self.frame, &mut marks.footfalls));
             self.paths.push(&self.frame);
         }
+        self.footfalls.take_contacts(&mut marks.contacts);
         progress.advance(Stage::Crowd, self.crowd.share_done());
         Ok(())
     }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use clap::builder::TypedValueParser;
+use trodden::export::Target;
 use trodden::scenario::{Overrides, Preset, Scenario, allowed_range};
 
 /// Texel density of a quick bake, texels per metre.
@@ -42,15 +43,26 @@ pub struct ScenarioArguments {
 impl ScenarioArguments {
     /// The scenario with the overrides applied.
     pub fn scenario(&self) -> Result<Scenario, trodden::Error> {
-        let overrides = Overrides {
+        Ok(Scenario::open(&self.path, &self.overrides())?)
+    }
+
+    /// What of the scenario is overridden.
+    pub fn overrides(&self) -> Overrides {
+        Overrides {
             preset: self.preset,
             people: self.people,
             seed: self.seed,
             texels_per_metre: self.texels_per_metre.or(self.quick.then_some(QUICK_TEXELS_PER_METRE)),
             metres_per_pixel: self.metres_per_pixel,
-        };
-        Ok(Scenario::open(&self.path, &overrides)?)
+            ..Overrides::default()
+        }
     }
+}
+
+/// Takes the name of a program that textures are for.
+pub fn target() -> impl TypedValueParser<Value = Target> {
+    PossibleValuesParser::new(Target::ALL.map(Target::name))
+        .map(|name| Target::ALL.into_iter().find(|target| target.name() == name).unwrap_or_default())
 }
 
 /// Takes the name of a preset.

@@ -2,10 +2,12 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
+use trodden::Error;
 use trodden::bake::{OutputOptions, bake};
-use trodden::export::Report;
+use trodden::export::{Report, Target};
+use trodden::scenario::{Overrides, Scenario};
 
-use super::arguments::ScenarioArguments;
+use super::arguments::{self, ScenarioArguments};
 use super::progress::Watch;
 use super::{Common, print};
 
@@ -19,6 +21,7 @@ Examples:
   trodden bake floorplans/station.toml               to out/station
   trodden bake plan.png --metres-per-pixel 0.05 -o floor
   trodden bake plan.toml --quick --people 300        a first look
+  trodden bake plan.toml --target unreal             names, packing and shaders for Unreal Engine
   trodden bake plan.toml --preset wet --force        again, over the earlier bake")]
 pub struct Bake {
     #[command(flatten)]
@@ -26,6 +29,15 @@ pub struct Bake {
     /// The folder to make [default: out/ and the scenario's name]
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
+    /// The program that the textures are for: names, packing, axes, shaders [default: gltf]
+    #[arg(long, value_name = "NAME", value_parser = arguments::target())]
+    target: Option<Target>,
+    /// Make the floor alone: no walls, no scene, no stills, no page
+    #[arg(long)]
+    floor_only: bool,
+    /// Put the textures, reduced, into scene.glb
+    #[arg(long)]
+    embed: bool,
     /// Replace an earlier bake; anything else is never replaced
     #[arg(long)]
     force: bool,
@@ -33,7 +45,13 @@ pub struct Bake {
 
 impl Bake {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
-        let scenario = self.scenario.scenario()?;
+        let overrides = Overrides {
+            target: self.target,
+            walls: self.floor_only.then_some(false),
+            embed: self.embed.then_some(true),
+            ..self.scenario.overrides()
+        };
+        let scenario = Scenario::open(&self.scenario.path, &overrides).map_err(Error::from)?;
         let folder = match &self.output {
             Some(folder) => folder.clone(),
             None => Path::new("out").join(self.scenario.path.file_stem().unwrap_or_default()),
@@ -43,7 +61,10 @@ impl Bake {
         if !common.quiet {
             let people = &report.people;
             let (entered, arrived) = (people.entered, people.arrived);
-            print::line(format!("{entered} people walked, {arrived} arrived; {} footfalls", report.footfalls))?;
+            print::line(format!(
+                "{entered} people walked, {arrived} arrived; {} footfalls, {} touches of walls",
+                report.footfalls, report.contacts
+            ))?;
             summary(&folder, &report, common)?;
         }
         Ok(ExitCode::SUCCESS)

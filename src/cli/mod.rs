@@ -9,12 +9,14 @@ mod arguments;
 mod bake;
 mod crowd;
 mod diff;
+mod import_pattern;
 mod init;
 mod inspect;
 mod patterns;
 mod print;
 mod progress;
 mod resolve;
+mod view;
 
 /// Turns a bitmap floor plan into the dirt that people leave in it.
 #[derive(Parser)]
@@ -32,6 +34,7 @@ enum Command {
     Bake(bake::Bake),
     Crowd(crowd::Crowd),
     Resolve(resolve::Resolve),
+    View(view::ViewCommand),
     Init(init::Init),
     Inspect(inspect::Inspect),
     Patterns(patterns::Patterns),
@@ -87,6 +90,7 @@ impl Cli {
             Command::Bake(bake) => bake.run(&self.common),
             Command::Crowd(crowd) => crowd.run(&self.common),
             Command::Resolve(resolve) => resolve.run(&self.common),
+            Command::View(view) => view.run(&self.common),
             Command::Init(init) => init.run(&self.common),
             Command::Inspect(inspect) => inspect.run(&self.common),
             Command::Patterns(patterns) => patterns.run(&self.common),

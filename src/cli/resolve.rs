@@ -3,14 +3,15 @@ use std::process::ExitCode;
 
 use clap::Args;
 use trodden::Error;
-use trodden::bake::resolve;
+use trodden::bake::{ResolveOptions, resolve};
+use trodden::export::Target;
 use trodden::look::Look;
 use trodden::scenario::Preset;
 
 use super::progress::Watch;
 use super::{Common, arguments, bake};
 
-/// Grade a finished bake again with another look, without simulating
+/// Grade a finished bake again with another look, or write it for another program, without simulating
 ///
 /// The exact sums that a bake keeps are resolved to textures once more. The textures and previews of the bake are
 /// replaced when all new ones are there; sums stay as they are, so that nothing is lost.
@@ -18,26 +19,34 @@ use super::{Common, arguments, bake};
 #[command(after_help = "\
 Examples:
   trodden resolve out/station --look vinyl.toml
-  trodden resolve out/station --preset wet")]
+  trodden resolve out/station --preset wet
+  trodden resolve out/station --target unity")]
 pub struct Resolve {
     /// The folder that a bake left
     #[arg(value_name = "BAKE")]
     bake: PathBuf,
     /// A look file: TOML with the keys of a scenario's [look]
-    #[arg(long, value_name = "FILE", required_unless_present = "preset")]
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["preset", "target", "embed"])]
     look: Option<PathBuf>,
     /// Or the look of a preset
     #[arg(long, value_name = "NAME", value_parser = arguments::preset(), conflicts_with = "look")]
     preset: Option<Preset>,
+    /// The program that the textures are for: names, packing, axes, shaders [default: as before]
+    #[arg(long, value_name = "NAME", value_parser = arguments::target())]
+    target: Option<Target>,
+    /// Put the textures, reduced, into scene.glb
+    #[arg(long)]
+    embed: bool,
 }
 
 impl Resolve {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
-        let look = match &self.look {
-            Some(file) => Look::read(file).map_err(Error::from)?,
-            None => Look::preset(self.preset.unwrap_or_default().name()).unwrap_or_default(),
+        let look = match (&self.look, self.preset) {
+            (Some(file), _) => Some(Look::read(file).map_err(Error::from)?),
+            (None, preset) => preset.and_then(|preset| Look::preset(preset.name())),
         };
-        let report = resolve(&self.bake, &look, &Watch::new(common))?;
+        let options = ResolveOptions { look, target: self.target, embed: self.embed.then_some(true) };
+        let report = resolve(&self.bake, &options, &Watch::new(common))?;
         if !common.quiet {
             bake::summary(&self.bake, &report, common)?;
         }

@@ -11,44 +11,47 @@ use super::exr_tiles::{ExrWriter, Samples, TileEncoder};
 use super::layout::BLOCK;
 use super::output::OutputFile;
 use super::png::{Pixels, PngWriter, Strip, StripEncoder};
+use super::reduced::ReducedBlock;
 use crate::look::{Background, ResolvedBlock};
 
 /// Rows that are compressed together: few enough to stay in the cache, and for eight threads to have work.
 const STRIP: usize = 32;
 
-/// The three images that every tile has.
+/// An image of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Image {
+    /// Colour.
     BaseColor,
+    /// Packed masks of dirt.
     Mask,
+    /// Occlusion, roughness, metallic.
     Orm,
+    /// Metallic, occlusion, detail, smoothness.
+    MaskMap,
 }
 
 impl Image {
-    pub(super) const ALL: [Image; 3] = [Image::BaseColor, Image::Mask, Image::Orm];
-
-    /// What file names and the manifest call it.
-    pub(super) fn kind(self) -> &'static str {
-        match self {
-            Image::BaseColor => "basecolor",
-            Image::Mask => "mask",
-            Image::Orm => "orm",
-        }
-    }
-
     pub(super) fn pixels(self) -> Pixels {
         match self {
             Image::BaseColor => Pixels::Srgb,
-            Image::Mask => Pixels::Linear4,
+            Image::Mask | Image::MaskMap => Pixels::Linear4,
             Image::Orm => Pixels::Linear3,
         }
     }
 
-    fn bytes(self, block: &ResolvedBlock) -> &[u8] {
+    /// The pixels of texels `from..` of a block, as many as `out` holds.
+    fn copy(self, block: &ResolvedBlock, from: usize, out: &mut [u8]) {
+        let bytes = self.pixels().bytes();
+        let copy = |all: &[u8], out: &mut [u8]| out.copy_from_slice(&all[from * bytes..from * bytes + out.len()]);
         match self {
-            Image::BaseColor => block.base_color.as_flattened(),
-            Image::Mask => block.mask.as_flattened(),
-            Image::Orm => block.orm.as_flattened(),
+            Image::BaseColor => copy(block.base_color.as_flattened(), out),
+            Image::Mask => copy(block.mask.as_flattened(), out),
+            Image::Orm => copy(block.orm.as_flattened(), out),
+            Image::MaskMap => {
+                for (pixel, &orm) in out.as_chunks_mut().0.iter_mut().zip(&block.orm[from..]) {
+                    *pixel = mask_map(orm);
+                }
+            }
         }
     }
 
@@ -58,8 +61,14 @@ impl Image {
             Image::BaseColor => background.base_color.repeat(BLOCK),
             Image::Mask => background.mask.repeat(BLOCK),
             Image::Orm => background.orm.repeat(BLOCK),
+            Image::MaskMap => mask_map(background.orm).repeat(BLOCK),
         }
     }
+}
+
+/// Metallic, occlusion, detail (all of it) and smoothness.
+fn mask_map([occlusion, roughness, metallic]: [u8; 3]) -> [u8; 4] {
+    [metallic, occlusion, u8::MAX, u8::MAX - roughness]
 }
 
 /// Up to [`BLOCK`] rows across a tile, in blocks from the left.
@@ -75,8 +84,10 @@ pub(super) struct Band {
 pub(super) struct BandBlock {
     /// The images; the layers were taken out.
     pub(super) texels: ResolvedBlock,
-    /// The layers as a tile of the EXR file.
-    pub(super) layers: Vec<u8>,
+    /// The layers as a tile of each EXR file.
+    pub(super) layers: Vec<Vec<u8>>,
+    /// The images made small, if that is wanted.
+    pub(super) reduced: Option<ReducedBlock>,
 }
 
 impl Band {
@@ -90,7 +101,7 @@ impl Band {
         });
     }
 
-    /// Whether no block of it holds floor.
+    /// Whether no block of it holds anything.
     pub(super) fn is_empty(&self) -> bool {
         self.blocks.iter().all(|block| block.texels.empty)
     }
@@ -101,8 +112,8 @@ impl Band {
             if block.texels.empty {
                 out.copy_from_slice(&background[..out.len()]);
             } else {
-                let row = self.height - 1 - y;
-                out.copy_from_slice(&image.bytes(&block.texels)[row * out.len()..(row + 1) * out.len()]);
+                let width = out.len() / image.pixels().bytes();
+                image.copy(&block.texels, (self.height - 1 - y) * width, out);
             }
         }
     }
@@ -129,90 +140,137 @@ impl<T> Pool<T> {
     }
 }
 
+/// Which layers an EXR file holds, and what its channels are called.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct LayerFile {
+    /// Channel names, sorted as the format wants it, with the place of each among the blocks' layers; none for a
+    /// channel that is there only because readers want it.
+    channels: Vec<(String, Option<usize>)>,
+}
+
+impl LayerFile {
+    /// All layers in one file, each under its name.
+    pub(super) fn by_name(layers: &[&'static str]) -> Vec<LayerFile> {
+        let mut channels: Vec<_> = layers.iter().enumerate().map(|(k, name)| (name.to_string(), Some(k))).collect();
+        channels.sort();
+        vec![LayerFile { channels }]
+    }
+
+    /// Four layers a file, as R, G, B, A; at least R, G and B, which is the least that some readers take.
+    pub(super) fn by_colour(layers: &[&'static str]) -> Vec<LayerFile> {
+        let indices: Vec<usize> = (0..layers.len()).collect();
+        let file = |layers: &[usize]| {
+            let named = |(k, name): (usize, &str)| (name.to_string(), layers.get(k).copied());
+            let mut channels: Vec<_> =
+                ["R", "G", "B", "A"].into_iter().enumerate().take(layers.len().max(3)).map(named).collect();
+            channels.sort();
+            LayerFile { channels }
+        };
+        indices.chunks(4).map(file).collect()
+    }
+
+    /// Each channel's name with its place among the blocks' layers.
+    pub(super) fn channels(&self) -> &[(String, Option<usize>)] {
+        &self.channels
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.channels.iter().map(|(name, _)| name.clone()).collect()
+    }
+}
+
 /// Compresses the layers of blocks.
 #[derive(Debug)]
 pub(super) struct LayerEncoder {
-    /// Where each of the file's channels, which are sorted by name, lies among the blocks' layers.
-    order: Vec<usize>,
-    names: Vec<String>,
+    files: Vec<LayerFile>,
     pool: Pool<TileEncoder>,
-    /// The tile of an empty block of full size.
-    blank: Vec<u8>,
+    /// The tile of an empty block of full size, file by file.
+    blank: Vec<Vec<u8>>,
 }
 
 impl LayerEncoder {
-    /// An encoder for blocks with these layers.
-    pub(super) fn new(layers: &[&'static str]) -> LayerEncoder {
-        let mut order: Vec<usize> = (0..layers.len()).collect();
-        order.sort_by_key(|&k| layers[k]);
-        let names = order.iter().map(|&k| layers[k].to_string()).collect();
-        let mut encoder = LayerEncoder { order, names, pool: Pool::default(), blank: Vec::new() };
+    /// An encoder for blocks with the layers of these files.
+    pub(super) fn new(files: Vec<LayerFile>) -> LayerEncoder {
+        let mut encoder = LayerEncoder { files, pool: Pool::default(), blank: Vec::new() };
         encoder.blank = encoder.zeros(BLOCK, BLOCK);
         encoder
     }
 
-    /// Names of the file's channels.
-    pub(super) fn names(&self) -> &[String] {
-        &self.names
+    /// The files.
+    pub(super) fn files(&self) -> &[LayerFile] {
+        &self.files
     }
 
-    /// A block as a tile of the file.
-    pub(super) fn encode(&self, block: &ResolvedBlock, width: usize, height: usize) -> Vec<u8> {
+    /// A block as a tile of each file.
+    pub(super) fn encode(&self, block: &ResolvedBlock, width: usize, height: usize) -> Vec<Vec<u8>> {
         if block.empty {
             return if (width, height) == (BLOCK, BLOCK) { self.blank.clone() } else { self.zeros(width, height) };
         }
-        let layers: Vec<&[f32]> = self.order.iter().map(|&k| block.layers[k].values.as_slice()).collect();
-        self.pool.with(TileEncoder::default, |encoder| encoder.half(&layers, width))
+        let zeros = vec![0.0; width * height];
+        let values =
+            |(_, layer): &(String, Option<usize>)| layer.map_or(&zeros, |k| &block.layers[k].values).as_slice();
+        let encode = |file: &LayerFile| {
+            let layers: Vec<&[f32]> = file.channels.iter().map(values).collect();
+            self.pool.with(TileEncoder::default, |encoder| encoder.half(&layers, width))
+        };
+        self.files.iter().map(encode).collect()
     }
 
-    fn zeros(&self, width: usize, height: usize) -> Vec<u8> {
+    fn zeros(&self, width: usize, height: usize) -> Vec<Vec<u8>> {
         let zeros = vec![0.0; width * height];
-        TileEncoder::default().half(&vec![zeros.as_slice(); self.order.len()], width)
+        let tile = |file: &LayerFile| TileEncoder::default().half(&vec![zeros.as_slice(); file.channels.len()], width);
+        self.files.iter().map(tile).collect()
     }
 }
 
 /// Compresses the images of a tile's bands, from above.
 #[derive(Debug)]
 pub(super) struct ImageEncoder {
+    images: Vec<Image>,
     /// A row of an empty block, image by image.
-    background: [Vec<u8>; 3],
+    background: Vec<Vec<u8>>,
     /// The lowest row of the band before, image by image; none at the top of the tile.
-    above: Option<[Vec<u8>; 3]>,
+    above: Option<Vec<Vec<u8>>>,
     /// Whether that row belongs to an empty band.
     above_empty: bool,
-    pools: [Pool<StripEncoder>; 3],
+    pools: Vec<Pool<StripEncoder>>,
 }
 
 impl ImageEncoder {
-    pub(super) fn new(background: Background) -> ImageEncoder {
+    pub(super) fn new(images: Vec<Image>, background: Background) -> ImageEncoder {
         ImageEncoder {
-            background: Image::ALL.map(|image| image.background(&background)),
+            background: images.iter().map(|image| image.background(&background)).collect(),
+            pools: images.iter().map(|_| Pool::default()).collect(),
+            images,
             above: None,
             above_empty: false,
-            pools: Default::default(),
         }
     }
 
-    /// Compresses the next band: its strips from above, for each of [`Image::ALL`].
-    pub(super) fn encode(&mut self, band: &Band, busy: &BusyTime) -> [Vec<Strip>; 3] {
+    /// Compresses the next band: its strips from above, image by image.
+    pub(super) fn encode(&mut self, band: &Band, busy: &BusyTime) -> Vec<Vec<Strip>> {
         let empty = band.is_empty();
         // Below an empty row all strips of an empty band are alike.
         let alike = empty && self.above_empty && band.height.is_multiple_of(STRIP);
         let height = if alike { STRIP } else { band.height };
         // Those of the widest pixels first: the last tasks should be small ones.
+        let mut widest: Vec<usize> = (0..self.images.len()).collect();
+        widest.sort_by_key(|&image| std::cmp::Reverse(self.images[image].pixels().bytes()));
         let tasks: Vec<(usize, usize)> =
-            [1, 0, 2].into_iter().flat_map(|image| (0..height).step_by(STRIP).map(move |top| (image, top))).collect();
+            widest.into_iter().flat_map(|image| (0..height).step_by(STRIP).map(move |top| (image, top))).collect();
         let strips: Vec<Strip> = tasks
             .par_iter()
             .with_max_len(1)
             .map(|&(image, top)| busy.measure(|| self.strip(image, top, band)))
             .collect();
-        let mut images: [Vec<Strip>; 3] = Default::default();
+        let mut images: Vec<Vec<Strip>> = vec![Vec::new(); self.images.len()];
         for ((image, _), strip) in tasks.into_iter().zip(strips) {
             images[image].push(strip);
         }
         if alike {
-            images = images.map(|strips| strips.iter().cycle().take(band.height / STRIP).cloned().collect());
+            for strips in &mut images {
+                *strips = strips.iter().cycle().take(band.height / STRIP).cloned().collect();
+            }
         }
         self.keep_lowest_row(band);
         self.above_empty = empty;
@@ -220,7 +278,7 @@ impl ImageEncoder {
     }
 
     fn strip(&self, index: usize, top: usize, band: &Band) -> Strip {
-        let image = Image::ALL[index];
+        let image = self.images[index];
         let make = || StripEncoder::new(image.pixels(), band.width);
         let row = |y: usize, row: &mut [u8]| band.row(image, &self.background[index], y, row);
         self.pools[index].with(make, |encoder| {
@@ -237,50 +295,67 @@ impl ImageEncoder {
     }
 
     fn keep_lowest_row(&mut self, band: &Band) {
-        let rows = || Image::ALL.map(|image| vec![0; band.width * image.pixels().bytes()]);
-        let above = self.above.get_or_insert_with(rows);
-        for ((image, row), background) in Image::ALL.into_iter().zip(above).zip(&self.background) {
-            band.row(image, background, band.height - 1, row);
+        let row = |image: &Image| vec![0; band.width * image.pixels().bytes()];
+        let above = self.above.get_or_insert_with(|| self.images.iter().map(row).collect());
+        for ((image, row), background) in self.images.iter().zip(above).zip(&self.background) {
+            band.row(*image, background, band.height - 1, row);
         }
     }
 }
 
-/// The files of a tile.
+/// The files of a texture, relative to the bake.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct TextureFiles {
+    /// One for each image.
+    pub(super) images: Vec<(Image, String)>,
+    /// One for each of the encoder's files.
+    pub(super) layers: Vec<String>,
+}
+
+impl TextureFiles {
+    /// The file of an image; none if the texture has no such image.
+    pub(super) fn image(&self, wanted: Image) -> Option<String> {
+        self.images.iter().find(|(image, _)| *image == wanted).map(|(_, name)| name.clone())
+    }
+}
+
+/// The files of a texture that is being written.
 #[derive(Debug)]
 pub(super) struct TileWriter<W: Write + Seek> {
-    images: [PngWriter<W>; 3],
-    layers: Option<ExrWriter<W>>,
+    images: Vec<PngWriter<W>>,
+    layers: Vec<ExrWriter<W>>,
 }
 
 impl<W: Write + Seek> TileWriter<W> {
-    /// Begins the files of a tile; `create` makes the one for an image, or for the layers if it is given `None`.
+    /// Begins the files of a texture.
     pub(super) fn begin(
         [width, height]: [usize; 2],
+        files: &TextureFiles,
         layers: Option<&LayerEncoder>,
-        mut create: impl FnMut(Option<Image>) -> Result<W, ExportError>,
+        create: impl Fn(&str) -> Result<W, ExportError>,
     ) -> Result<TileWriter<W>, ExportError> {
-        let mut image = |image: Image| {
-            let file = create(Some(image))?;
-            PngWriter::begin(file, image.pixels(), width as u32, height as u32).map_err(OutputFile::explain)
-        };
-        let images = [image(Image::BaseColor)?, image(Image::Mask)?, image(Image::Orm)?];
-        let mut exr = |layers: &LayerEncoder| {
-            let file = create(None)?;
-            ExrWriter::begin(file, Samples::Half, width, height, layers.names()).map_err(OutputFile::explain)
-        };
-        Ok(TileWriter { images, layers: layers.map(&mut exr).transpose()? })
+        let mut writer = TileWriter { images: Vec::new(), layers: Vec::new() };
+        for (image, name) in &files.images {
+            let begun = PngWriter::begin(create(name)?, image.pixels(), width as u32, height as u32);
+            writer.images.push(begun.map_err(OutputFile::explain)?);
+        }
+        for (file, name) in layers.map_or(&[][..], LayerEncoder::files).iter().zip(&files.layers) {
+            let begun = ExrWriter::begin(create(name)?, Samples::Half, width, height, &file.names());
+            writer.layers.push(begun.map_err(OutputFile::explain)?);
+        }
+        Ok(writer)
     }
 
     /// Appends a band.
-    pub(super) fn push(&mut self, band: &Band, strips: &[Vec<Strip>; 3]) -> io::Result<()> {
+    pub(super) fn push(&mut self, band: &Band, strips: &[Vec<Strip>]) -> io::Result<()> {
         for (image, strips) in self.images.iter_mut().zip(strips) {
             for strip in strips {
                 image.push(strip)?;
             }
         }
-        if let Some(layers) = &mut self.layers {
-            for block in &band.blocks {
-                layers.push(&block.layers)?;
+        for block in &band.blocks {
+            for (file, tile) in self.layers.iter_mut().zip(&block.layers) {
+                file.push(tile)?;
             }
         }
         Ok(())
@@ -292,7 +367,7 @@ impl<W: Write + Seek> TileWriter<W> {
         for image in self.images {
             files.push(image.finish()?);
         }
-        if let Some(layers) = self.layers {
+        for layers in self.layers {
             files.push(layers.finish()?);
         }
         Ok(files)

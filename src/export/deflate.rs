@@ -25,9 +25,21 @@ pub(super) fn zlib(input: &[u8], out: &mut Vec<u8>) {
     out.extend_from_slice(&adler32(input).to_be_bytes());
 }
 
+/// A zlib stream of nothing but zeros, as small as it gets: for what is written again and again.
+pub(super) fn zlib_zeros(count: usize) -> Vec<u8> {
+    let (zeros, mut out) = (vec![0; count], ZLIB_HEADER.to_vec());
+    deflate_at(Compression::best(), &zeros, Part::Last, &mut out);
+    out.extend_from_slice(&adler32(&zeros).to_be_bytes());
+    out
+}
+
 /// Appends `input` as whole deflate blocks.
 pub(super) fn deflate(input: &[u8], part: Part, out: &mut Vec<u8>) {
-    let mut compress = Compress::new(Compression::new(LEVEL), false);
+    deflate_at(Compression::new(LEVEL), input, part, out);
+}
+
+fn deflate_at(level: Compression, input: &[u8], part: Part, out: &mut Vec<u8>) {
+    let mut compress = Compress::new(level, false);
     let flush = if part == Part::Last { FlushCompress::Finish } else { FlushCompress::Sync };
     loop {
         // Room for what does not get smaller: a stored block of 64 KiB has a head of five bytes.

@@ -95,6 +95,31 @@ pub enum ExportError {
         /// The greatest size.
         max: u32,
     },
+    /// A tile size beyond what the target takes.
+    #[error("the tile size is {tile} px; {target} takes textures of at most {max} px")]
+    TileTooLargeFor {
+        /// What was asked for.
+        tile: u32,
+        /// The target.
+        target: &'static str,
+        /// The greatest size that it takes.
+        max: u32,
+    },
+    /// A sheet in which not even one strip of wall fits.
+    #[error(
+        "a wall of {height_m} m at {texels_per_metre} texels per metre needs textures of {needed} px with its padding; \
+         they are {sheet} px"
+    )]
+    WallTooHigh {
+        /// Height of the walls, metres.
+        height_m: f64,
+        /// Their texel density.
+        texels_per_metre: f64,
+        /// Height of a strip with its padding, texels.
+        needed: u32,
+        /// Side of the sheets, texels.
+        sheet: u32,
+    },
     /// Two images of different size were to be compared.
     #[error("{} is {} x {} px, {} is {} x {} px", a.display(), a_size[0], a_size[1], b.display(), b_size[0], b_size[1])]
     SizesDiffer {
@@ -154,6 +179,11 @@ impl ExportError {
             ExportError::NewerFormat { .. } => Some("bake again, or use the newer version of trodden".to_string()),
             ExportError::Damaged { .. } => Some("bake again".to_string()),
             ExportError::TileSize { .. } => Some("engines want powers of two, such as 4096 or 8192".to_string()),
+            ExportError::TileTooLargeFor { max, .. } => Some(format!("set texture.tile to {max} or less")),
+            ExportError::WallTooHigh { needed, .. } => Some(format!(
+                "set texture.tile to {} or more, or lower texture.wall_texels_per_metre",
+                needed.checked_next_power_of_two().unwrap_or(*needed)
+            )),
             ExportError::SizesDiffer { .. } | ExportError::ChannelsDiffer { .. } => {
                 Some("only bakes of the same plan, texel density and tile size can be compared".to_string())
             }

@@ -12,7 +12,7 @@ use exr::prelude::{ChannelDescription, Compression, SampleType, SmallVec, TileDe
 use half::f16;
 use half::slice::HalfFloatSliceExt;
 
-use super::deflate::zlib;
+use super::deflate::{zlib, zlib_zeros};
 use super::layout::BLOCK;
 
 /// What the samples of an image's channels are.
@@ -110,6 +110,14 @@ fn io_error(error: exr::error::Error) -> io::Error {
         exr::error::Error::Io(error) => error,
         other => io::Error::other(other.to_string()),
     }
+}
+
+/// A tile of whole numbers that are all zero.
+pub(super) fn zero_tile(channels: usize, [width, height]: [usize; 2]) -> Vec<u8> {
+    let count = 4 * channels * width * height;
+    let tile = zlib_zeros(count);
+    // What compression does not make smaller is stored as it is.
+    if tile.len() < count { tile } else { vec![0; count] }
 }
 
 /// Compresses tiles; keeps its buffers from one to the next.

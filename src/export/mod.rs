@@ -1,5 +1,6 @@
 //! Writes the result: textures, sums, previews, manifest, report.
 
+mod atlas;
 mod band;
 mod busy;
 mod deflate;
@@ -10,22 +11,29 @@ mod layout;
 mod manifest;
 mod memory;
 mod output;
+pub mod page;
 mod png;
 pub mod preview;
+mod reduced;
 mod report;
+pub mod scene;
 mod source;
 mod sums;
+mod targets;
 mod textures;
 
+pub use atlas::{Atlas, Sheet, Strip};
 pub use error::ExportError;
 pub use layout::{BLOCK, Tile, TileLayout};
 pub use manifest::{
-    ChannelEntry, FORMAT, FloorEntry, GENERATOR, Manifest, Naming, PlanEntry, PresenceEntry, PreviewEntry, SumsEntry,
-    TileEntry,
+    ChannelEntry, FORMAT, FloorEntry, GENERATOR, Manifest, Naming, PlanEntry, PresenceEntry, PreviewEntry, SheetEntry,
+    StripEntry, SumsEntry, TileEntry, WallsEntry,
 };
 pub use memory::peak_memory_mib;
 pub use output::{OutputFile, OutputFolder, is_bake, restore};
+pub use reduced::Reduced;
 pub use report::{PeopleReport, Report, StuckReport};
-pub use source::FloorSource;
-pub use sums::{read_sums, write_sums};
-pub use textures::{FloorTextures, TextureOptions, floor_textures};
+pub use source::{SheetSource, TextureSource, WallSource};
+pub use sums::{read_sums, read_wall_sums, write_sums, write_wall_sums};
+pub use targets::{Target, TargetEntry, WorldEntry, write_target_files};
+pub use textures::{FloorTextures, PADDING_PX, TextureOptions, WallTextures, floor_textures, wall_textures};

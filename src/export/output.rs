@@ -236,7 +236,18 @@ pub fn restore(path: &Path) -> Result<bool, ExportError> {
 }
 
 /// All that a bake holds at its top.
-const BAKED: [&str; 5] = ["floor", "sums", "preview", manifest::FILE_NAME, Report::FILE_NAME];
+const BAKED: [&str; 10] = [
+    "floor",
+    "walls",
+    "sums",
+    "preview",
+    "shaders",
+    "scene.glb",
+    "scene",
+    "index.html",
+    manifest::FILE_NAME,
+    Report::FILE_NAME,
+];
 
 /// Whether the folder holds a bake of ours, as its manifest's `generator` says.
 pub fn is_bake(folder: &Path) -> bool {

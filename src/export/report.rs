@@ -18,6 +18,9 @@ pub struct Report {
     pub warnings: Vec<String>,
     /// Number of footfalls.
     pub footfalls: u64,
+    /// Touches of walls.
+    #[serde(default)]
+    pub contacts: u64,
     /// Wall-clock seconds as `total`, and the busy seconds of each stage, summed over threads, by the stage's name.
     pub seconds: BTreeMap<String, f64>,
     /// The most memory held at once, MiB; `null` where the system does not tell.

@@ -1,19 +1,34 @@
-use crate::look::{Background, FloorResolver, LAYERS, ResolvedBlock};
+use super::atlas::{Sheet, Strip};
+use crate::look::{Background, FloorResolver, LAYERS, Layer, ResolvedBlock, WALL_LAYERS, WallResolver};
 
-/// What gives a floor's texels: pure, so that any thread may ask for any rectangle in any order.
-pub trait FloorSource: Sync {
+/// What gives a floor's or a sheet's texels: pure, so that any thread may ask for any rectangle in any order.
+pub trait TextureSource: Sync {
     /// Names of the layers that blocks have, in the blocks' order.
     fn layers(&self) -> &[&'static str];
 
     /// What all texels of an empty block show.
     fn background(&self) -> Background;
 
-    /// Resolves a rectangle of `width` x `height` texels with the lower-left texel (i0, j0) of the whole floor, also
-    /// beyond the floor's edges.
+    /// Resolves a rectangle of `width` x `height` texels with the lower-left texel (i0, j0) of the whole floor or the
+    /// sheet, also beyond its edges.
     fn resolve(&self, i0: i64, j0: i64, width: usize, height: usize) -> ResolvedBlock;
 }
 
-impl FloorSource for FloorResolver<'_> {
+/// What gives walls' texels, face by face: pure, as [`TextureSource`].
+pub trait WallSource: Sync {
+    /// Names of the layers that blocks have, in the blocks' order.
+    fn layers(&self) -> &[&'static str];
+
+    /// What all texels of an empty block show.
+    fn background(&self) -> Background;
+
+    /// Resolves a rectangle of `width` x `height` texels of a face with the lower-left texel (i0, j0) into `block`,
+    /// row 0 lowest, columns along the face. Beyond the face's ends, below and above the wall, the edge's texels go on;
+    /// on a closed face columns wrap.
+    fn resolve_into(&self, face: usize, i0: i64, j0: i64, width: usize, height: usize, block: &mut ResolvedBlock);
+}
+
+impl TextureSource for FloorResolver<'_> {
     fn layers(&self) -> &[&'static str] {
         &LAYERS
     }
@@ -24,5 +39,148 @@ impl FloorSource for FloorResolver<'_> {
 
     fn resolve(&self, i0: i64, j0: i64, width: usize, height: usize) -> ResolvedBlock {
         FloorResolver::resolve(self, i0, j0, width, height)
+    }
+}
+
+impl WallSource for WallResolver<'_> {
+    fn layers(&self) -> &[&'static str] {
+        &WALL_LAYERS
+    }
+
+    fn background(&self) -> Background {
+        WallResolver::background(self)
+    }
+
+    fn resolve_into(&self, face: usize, i0: i64, j0: i64, width: usize, height: usize, block: &mut ResolvedBlock) {
+        WallResolver::resolve_into(self, face, i0, j0, width, height, block);
+    }
+}
+
+/// A sheet of walls, put together from its strips; padding is what lies beyond a strip's edges.
+#[derive(Debug)]
+pub struct SheetSource<'a, S> {
+    walls: &'a S,
+    sheet: &'a Sheet,
+    padding_px: u32,
+}
+
+impl<'a, S: WallSource> SheetSource<'a, S> {
+    /// The texels of one sheet, each strip going on for `padding_px` texels around it.
+    pub fn new(walls: &'a S, sheet: &'a Sheet, padding_px: u32) -> SheetSource<'a, S> {
+        SheetSource { walls, sheet, padding_px }
+    }
+}
+
+impl<S: WallSource> TextureSource for SheetSource<'_, S> {
+    fn layers(&self) -> &[&'static str] {
+        self.walls.layers()
+    }
+
+    fn background(&self) -> Background {
+        self.walls.background()
+    }
+
+    fn resolve(&self, i0: i64, j0: i64, width: usize, height: usize) -> ResolvedBlock {
+        let whole = Rect { i0, j0, width, height };
+        let mut block = ResolvedBlock { empty: true, ..ResolvedBlock::default() };
+        let mut part = ResolvedBlock::default();
+        for strip in &self.sheet.strips {
+            let Some(seen) = padded(strip, self.padding_px).common(&whole) else { continue };
+            let of_face = on_face(strip, &seen);
+            self.walls.resolve_into(strip.face, of_face.i0, of_face.j0, of_face.width, of_face.height, &mut part);
+            if part.empty {
+                continue;
+            }
+            if strip.turned {
+                turn(&mut part, of_face.width);
+            }
+            if seen == whole {
+                return part;
+            }
+            if block.empty {
+                block = blank(width * height, self.walls.background(), self.walls.layers());
+            }
+            paste(&part, &seen, &mut block, &whole);
+        }
+        block
+    }
+}
+
+/// A rectangle of texels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Rect {
+    i0: i64,
+    j0: i64,
+    width: usize,
+    height: usize,
+}
+
+impl Rect {
+    fn common(&self, other: &Rect) -> Option<Rect> {
+        let (i0, j0) = (self.i0.max(other.i0), self.j0.max(other.j0));
+        let i1 = (self.i0 + self.width as i64).min(other.i0 + other.width as i64);
+        let j1 = (self.j0 + self.height as i64).min(other.j0 + other.height as i64);
+        (i0 < i1 && j0 < j1).then(|| Rect { i0, j0, width: (i1 - i0) as usize, height: (j1 - j0) as usize })
+    }
+}
+
+/// A strip's rectangle in the sheet with its padding.
+fn padded(strip: &Strip, padding_px: u32) -> Rect {
+    let padding = i64::from(padding_px);
+    let [width, height] = strip.size().map(|side| (side + 2 * padding_px) as usize);
+    Rect { i0: i64::from(strip.x) - padding, j0: i64::from(strip.y) - padding, width, height }
+}
+
+/// The columns and rows of the face that a rectangle of the sheet shows.
+fn on_face(strip: &Strip, seen: &Rect) -> Rect {
+    let (right, up) = (seen.i0 - i64::from(strip.x), seen.j0 - i64::from(strip.y));
+    let first = i64::from(strip.i0);
+    if strip.turned {
+        // Height grows to the left.
+        let low = i64::from(strip.height) - right - seen.width as i64;
+        Rect { i0: first + up, j0: low, width: seen.height, height: seen.width }
+    } else {
+        Rect { i0: first + right, j0: up, width: seen.width, height: seen.height }
+    }
+}
+
+/// Turns a block, `width` texels wide, by a quarter counter-clockwise.
+fn turn(block: &mut ResolvedBlock, width: usize) {
+    fn turned<T: Copy>(texels: &mut Vec<T>, width: usize) {
+        let height = texels.len() / width;
+        // The new row is the old column, from the old top to the left of the new block.
+        *texels = (0..width).flat_map(|i| (0..height).rev().map(move |j| j * width + i)).map(|k| texels[k]).collect();
+    }
+    turned(&mut block.base_color, width);
+    turned(&mut block.mask, width);
+    turned(&mut block.orm, width);
+    for layer in &mut block.layers {
+        turned(&mut layer.values, width);
+    }
+}
+
+fn blank(texels: usize, background: Background, layers: &[&'static str]) -> ResolvedBlock {
+    ResolvedBlock {
+        empty: false,
+        base_color: vec![background.base_color; texels],
+        mask: vec![background.mask; texels],
+        orm: vec![background.orm; texels],
+        layers: layers.iter().map(|&name| Layer { name, values: vec![0.0; texels] }).collect(),
+    }
+}
+
+/// Copies a part that shows the rectangle `seen` into a block that shows `whole`.
+fn paste(part: &ResolvedBlock, seen: &Rect, block: &mut ResolvedBlock, whole: &Rect) {
+    let (left, low) = ((seen.i0 - whole.i0) as usize, (seen.j0 - whole.j0) as usize);
+    for row in 0..seen.height {
+        let from = row * seen.width..(row + 1) * seen.width;
+        let at = (low + row) * whole.width + left;
+        let to = at..at + seen.width;
+        block.base_color[to.clone()].copy_from_slice(&part.base_color[from.clone()]);
+        block.mask[to.clone()].copy_from_slice(&part.mask[from.clone()]);
+        block.orm[to.clone()].copy_from_slice(&part.orm[from.clone()]);
+        for (layer, part) in block.layers.iter_mut().zip(&part.layers) {
+            layer.values[to.clone()].copy_from_slice(&part.values[from.clone()]);
+        }
     }
 }

@@ -15,6 +15,7 @@ fn every_help_text_is_as_it_is_kept() {
         (vec!["init", "--help"], file!["help/init.txt"]),
         (vec!["inspect", "--help"], file!["help/inspect.txt"]),
         (vec!["patterns", "--help"], file!["help/patterns.txt"]),
+        (vec!["patterns", "import", "--help"], file!["help/patterns_import.txt"]),
         (vec!["diff", "--help"], file!["help/diff.txt"]),
     ] {
         assert_data_eq!(sandbox.run(&arguments).succeeds().out, kept.raw());

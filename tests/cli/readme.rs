@@ -20,8 +20,10 @@ fn blocks(language: &str) -> Vec<String> {
 
 #[test]
 fn its_scenario_is_one() {
-    let [text] = &blocks("toml")[..] else { panic!() };
-    Scenario::parse(text, Path::new("station.toml"), &Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    // The second shows what may be added to the first.
+    let text = blocks("toml").concat();
+    assert_eq!(blocks("toml").len(), 2);
+    Scenario::parse(&text, Path::new("station.toml"), &Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
 }
 
 #[test]

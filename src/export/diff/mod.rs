@@ -144,8 +144,8 @@ fn floor_heat(manifest: &Manifest, diffs: &[(ImageDiff, HeatMap)]) -> HeatMap {
     let mut heat = HeatMap::new(size[0].max(1), size[1].max(1));
     for (image, part) in diffs {
         let names = |tile: &&super::TileEntry| {
-            let layers = tile.layers.as_deref().unwrap_or_default();
-            [tile.basecolor.as_str(), &tile.mask, &tile.orm, layers, &tile.sums].contains(&image.file.as_str())
+            let files = [&tile.basecolor, &tile.mask, &tile.orm, &tile.sums];
+            files.into_iter().chain(&tile.layers).chain(&tile.mask_map).any(|file| *file == image.file)
         };
         if let Some(tile) = floor.tiles.iter().find(names) {
             let top = (rows - 1 - tile.v) as usize * tile_height;

@@ -133,18 +133,7 @@ fn bakes_are_compared_file_by_file() {
         if extra {
             written.write("floor/extra.png", &image).unwrap();
         }
-        let tile = |v: u32| TileEntry {
-            u: 0,
-            v,
-            udim: Some(1001 + 10 * v),
-            min_m: crate::math::Vec2::ZERO,
-            max_m: crate::math::Vec2::ZERO,
-            basecolor: String::new(),
-            mask: file(v),
-            orm: String::new(),
-            layers: None,
-            sums: String::new(),
-        };
+        let tile = |v: u32| TileEntry { u: 0, v, udim: Some(1001 + 10 * v), mask: file(v), ..TileEntry::default() };
         let floor = FloorEntry { tile_px: [10, 5], tiles: vec![tile(0), tile(1)], ..FloorEntry::default() };
         let manifest = Manifest { generator: "trodden".to_string(), format: 1, floor, ..Manifest::default() };
         written.publish(&manifest).unwrap();

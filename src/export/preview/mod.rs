@@ -2,7 +2,7 @@
 
 use image::{ImageEncoder, RgbImage};
 
-use super::{ExportError, FloorSource, FloorTextures, OutputFolder, PreviewEntry};
+use super::{ExportError, FloorTextures, OutputFolder, PreviewEntry, TextureSource};
 use crate::math::{Vec2, vec2};
 use crate::walls::Walls;
 
@@ -13,7 +13,8 @@ mod crops;
 mod drawing;
 mod paths;
 mod render;
-mod srgb;
+pub(super) mod srgb;
+pub mod still;
 mod stuck;
 
 pub use animation::{
@@ -39,7 +40,7 @@ pub const PATHS_FILE: &str = "preview/paths.png";
 pub fn write_previews(
     folder: &OutputFolder,
     textures: &FloorTextures,
-    source: &impl FloorSource,
+    source: &impl TextureSource,
     walls: &Walls,
     crops: &[Crop],
 ) -> Result<Vec<PreviewEntry>, ExportError> {

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use super::crops::Crop;
 use super::srgb::{from_linear, to_linear};
 use super::{Birdseye, WALL};
-use crate::export::FloorSource;
+use crate::export::TextureSource;
 use crate::stamps::TexelGrid;
 use crate::walls::Walls;
 
@@ -19,7 +19,7 @@ pub fn render_floor(birdseye: &Birdseye, walls: &Walls) -> RgbImage {
 }
 
 /// A piece of the floor at its own texel density, walls and outside dark.
-pub fn render_crop(source: &impl FloorSource, walls: &Walls, grid: TexelGrid, crop: &Crop) -> RgbImage {
+pub fn render_crop(source: &impl TextureSource, walls: &Walls, grid: TexelGrid, crop: &Crop) -> RgbImage {
     let t = grid.texels_per_metre;
     let texel = |metres: f64| (metres * t).round() as i64;
     let [i0, j0] = [texel(crop.min_m.x), texel(crop.min_m.y)];

@@ -14,15 +14,22 @@ static LINEAR: LazyLock<[u16; 256]> = LazyLock::new(|| {
 });
 
 /// Linear light of an sRGB byte, 0 to 65 535.
-pub(super) fn to_linear(byte: u8) -> u16 {
+pub(in crate::export) fn to_linear(byte: u8) -> u16 {
     LINEAR[usize::from(byte)]
 }
 
-/// The sRGB byte nearest to a linear light of 0 to 65 535.
-pub(super) fn from_linear(linear: u16) -> u8 {
+/// The sRGB byte nearest to each linear light.
+static NEAREST: LazyLock<Vec<u8>> = LazyLock::new(|| (0..=u16::MAX).map(nearest).collect());
+
+fn nearest(linear: u16) -> u8 {
     let above = LINEAR.partition_point(|&l| l < linear).min(255);
     let below = above.saturating_sub(1);
     if LINEAR[above] - linear.min(LINEAR[above]) <= linear.abs_diff(LINEAR[below]) { above as u8 } else { below as u8 }
+}
+
+/// The sRGB byte nearest to a linear light of 0 to 65 535.
+pub(in crate::export) fn from_linear(linear: u16) -> u8 {
+    NEAREST[usize::from(linear)]
 }
 
 #[cfg(test)]

@@ -2,11 +2,19 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::preview::still::StillEntry;
+use super::targets::{TargetEntry, WorldEntry};
 use super::{ExportError, TextureOptions};
+use crate::look::Look;
 use crate::math::Vec2;
 use crate::plan::{FloorPlan, Opening, Pose};
 use crate::routes::Route;
-use crate::walls::{Outline, Walls};
+use crate::walls::{Doorway, Outline, Walls};
+
+mod one_or_many;
+mod walls;
+
+pub use walls::{SheetEntry, StripEntry, WallsEntry};
 
 /// The manifest's name in a bake.
 pub const FILE_NAME: &str = "manifest.json";
@@ -33,12 +41,24 @@ pub struct Manifest {
     pub people: u32,
     /// The plan that was baked.
     pub plan: PlanEntry,
+    /// What the files were made for, and how the plan lies in its world.
+    #[serde(default)]
+    pub target: TargetEntry,
     /// The floor's textures.
     pub floor: FloorEntry,
+    /// The walls' textures.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub walls: Option<WallsEntry>,
     /// The pictures of `preview/`.
     pub preview: Vec<PreviewEntry>,
+    /// The stills of `preview/`, and where they were taken from.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stills: Vec<StillEntry>,
     /// Where floor meets the plan's sides.
     pub openings: Vec<Opening>,
+    /// Doors: those that were found in the plan and those that the scenario tells of.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub doors: Option<Vec<Doorway>>,
     /// The ways that people took.
     pub routes: Vec<Route>,
     /// The look, with all its values.
@@ -98,36 +118,10 @@ pub enum Naming {
     Uv,
 }
 
-/// What the channels of a floor's images hold; `layers` names those of the EXR.
-pub(super) fn floor_channels(layers: &[String]) -> Vec<ChannelEntry> {
-    const DENSITY: &str = "1 - exp(-D)";
-    let entry = |image: &str, channel: &str, holds: &str, encoding: &str| ChannelEntry {
-        image: image.to_string(),
-        channel: channel.to_string(),
-        holds: holds.to_string(),
-        encoding: encoding.to_string(),
-    };
-    let mut channels = vec![
-        entry("basecolor", "RGB", "colour of the trodden floor", "sRGB"),
-        entry("mask", "R", "film: dirt of everybody who ever walked", DENSITY),
-        entry("mask", "G", "passes, D = look.film.per_pass x passes", DENSITY),
-        entry("mask", "B", "fresh prints and scuffs", DENSITY),
-        entry("mask", "A", "edge and dust: dirt where nobody walks", DENSITY),
-        entry("orm", "R", "occlusion", "linear"),
-        entry("orm", "G", "roughness", "linear"),
-        entry("orm", "B", "metallic", "linear"),
-    ];
-    channels.extend(layers.iter().map(|layer| match layer.as_str() {
-        "passes" | "presence" => entry("layers", layer, "footfalls of the simulated people", "linear"),
-        _ => entry("layers", layer, "optical density D", "linear"),
-    }));
-    channels
-}
-
 /// One channel of the images of a kind.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ChannelEntry {
-    /// The kind of image: `basecolor`, `mask`, `orm` or `layers`.
+    /// The kind of image: `basecolor`, `mask`, `orm`, `mask_map` or `layers`; `layers1`, `layers2`, ... where there are several.
     pub image: String,
     /// `R`, `G`, `B`, `A`, or the layer's name.
     pub channel: String,
@@ -138,7 +132,7 @@ pub struct ChannelEntry {
 }
 
 /// One tile: a rectangle of the floor and its images.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TileEntry {
     /// Column u, from the left.
     pub u: u32,
@@ -151,15 +145,21 @@ pub struct TileEntry {
     pub min_m: Vec2,
     /// Upper-right corner in the plan frame, metres.
     pub max_m: Vec2,
+    /// Where it lies in the target's world.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub world: Option<WorldEntry>,
     /// Base colour, 8 bit sRGB.
     pub basecolor: String,
     /// Packed masks, 8 bit linear.
     pub mask: String,
     /// Occlusion, roughness, metallic, 8 bit linear.
     pub orm: String,
-    /// All layers, half float, linear; left out where it was not asked for.
+    /// The same as Unity's mask map, for that target: metallic, occlusion, detail, smoothness.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub layers: Option<String>,
+    pub mask_map: Option<String>,
+    /// All layers, half float, linear: a file, or a list of files; left out where they were not asked for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty", with = "one_or_many")]
+    pub layers: Vec<String>,
     /// Exact sums.
     pub sums: String,
 }
@@ -217,9 +217,41 @@ impl Manifest {
         }
     }
 
+    /// The doors of the bake; an earlier version's are found in its walls.
+    pub fn doorways(&self) -> Vec<Doorway> {
+        self.doors.clone().unwrap_or_else(|| self.walls().doorways())
+    }
+
+    /// For how many people the touches of walls stand.
+    pub fn wall_people(&self) -> u32 {
+        self.walls.as_ref().map_or(self.people, |walls| walls.people)
+    }
+
     /// The walls of the bake, rebuilt.
     pub fn walls(&self) -> Walls {
         Walls::from_outlines(self.outlines.clone())
+    }
+
+    /// The look of the bake in the folder that the manifest was read from. Images of it are sought by their names in the
+    /// working directory: a manifest knows no folders.
+    ///
+    /// # Errors
+    /// It cannot be read as a look.
+    pub fn look(&self, bake: &Path) -> Result<Look, ExportError> {
+        serde_json::from_value(self.look.clone()).map_err(|e| ExportError::damaged(&bake.join(FILE_NAME), e))
+    }
+
+    /// Options that write the same textures again. Sheets of walls are not laid anew: see [`WallsEntry::atlas`].
+    pub fn texture_options(&self) -> TextureOptions {
+        // A tile smaller than the setting is a floor smaller than a tile: its power of two is found again.
+        let [width, height] = self.floor.tile_px;
+        TextureOptions {
+            tile: width.max(height),
+            layers: self.floor.tiles.iter().any(|tile| !tile.layers.is_empty()),
+            target: self.target.name,
+            embed: self.settings["texture"]["embed"].as_bool().unwrap_or_default(),
+            ..TextureOptions::default()
+        }
     }
 
     /// The manifest as indented JSON.
@@ -247,15 +279,6 @@ impl Manifest {
     }
 }
 
-impl FloorEntry {
-    /// Options that write the same files again.
-    pub fn options(&self) -> TextureOptions {
-        // A tile smaller than the setting is a floor smaller than a tile: its power of two is found again.
-        let [width, height] = self.tile_px;
-        TextureOptions { tile: width.max(height), layers: self.tiles.iter().any(|tile| tile.layers.is_some()) }
-    }
-}
-
 /// What every version's manifest begins with.
 #[derive(Deserialize)]
 struct Head {
@@ -274,6 +297,7 @@ pub(super) fn generator(folder: &Path) -> Result<String, ExportError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::export::Target;
     use crate::math::vec2;
     use crate::plan::Side;
     use crate::routes::{Gate, Place};
@@ -301,7 +325,7 @@ mod tests {
             look: serde_json::json!({ "total_passes": 20_000 }),
             floor: FloorEntry {
                 texels_per_metre: 100.0,
-                channels: floor_channels(&["dust".to_string(), "passes".to_string()]),
+                channels: Target::Gltf.channels("floor", ["film"; 4], &["passes", "dust"], |_| "optical density D"),
                 ..FloorEntry::default()
             },
             ..Manifest::of_plan(&plan, &walls, &[route])
@@ -324,9 +348,41 @@ mod tests {
     }
 
     #[test]
+    fn a_manifest_of_before_there_were_walls_and_targets_still_reads() {
+        let mut manifest = manifest();
+        let tile = TileEntry { layers: vec!["floor/floor_layers.1001.exr".to_string()], ..TileEntry::default() };
+        manifest.floor.tiles = vec![tile];
+        let mut json: serde_json::Value = serde_json::from_slice(&manifest.to_json()).unwrap();
+        assert_eq!(json["floor"]["tiles"][0]["layers"], "floor/floor_layers.1001.exr", "as it was written then");
+        json.as_object_mut().unwrap().remove("target").unwrap();
+        let read = written(json.to_string().as_bytes()).1.unwrap();
+        assert_eq!(read, manifest);
+        assert_eq!((read.target.name, read.walls.is_none()), (Target::Gltf, true));
+        assert!(read.texture_options().layers);
+    }
+
+    #[test]
+    fn several_files_of_layers_are_a_list() {
+        let layers = vec!["a.exr".to_string(), "b.exr".to_string()];
+        let tile = TileEntry { layers: layers.clone(), ..TileEntry::default() };
+        let json = serde_json::to_value(&tile).unwrap();
+        assert_eq!(json["layers"], serde_json::json!(layers));
+        assert_eq!(serde_json::from_value::<TileEntry>(json).unwrap(), tile);
+    }
+
+    #[test]
+    fn the_look_is_read_back() {
+        let look = Look::preset("wet").unwrap();
+        let manifest = Manifest { look: serde_json::to_value(&look).unwrap(), ..Manifest::default() };
+        assert_eq!(manifest.look(Path::new("out")).unwrap(), look);
+        let damaged = Manifest { look: serde_json::json!({ "film": 3 }), ..Manifest::default() };
+        assert!(damaged.look(Path::new("out")).unwrap_err().to_string().contains("manifest.json"));
+    }
+
+    #[test]
     fn keys_that_a_later_version_adds_do_no_harm() {
         let mut json: serde_json::Value = serde_json::from_slice(&manifest().to_json()).unwrap();
-        json["walls"] = serde_json::json!({ "texels_per_metre": 200 });
+        json["ceiling"] = serde_json::json!({ "texels_per_metre": 200 });
         assert_eq!(written(json.to_string().as_bytes()).1.unwrap(), manifest());
     }
 

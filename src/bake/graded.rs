@@ -1,0 +1,259 @@
+use std::io::Write;
+use std::path::PathBuf;
+
+use crate::Error;
+use crate::export::page::{Covering, Dirt, Page, PageOptions, Viewpoint};
+use crate::export::preview::still::{
+    Camera, Coat, FarWalls, STILL_SIZE_PX, StillEntry, Studio, WallCoat, write_stills,
+};
+use crate::export::preview::{self, Crop};
+use crate::export::scene::{
+    self, GlbImage, GlbOptions, PlainMaterial, Scene, SceneOptions, SurfaceImages, WallStrip, write_glb,
+};
+use crate::export::{
+    self, Atlas, FloorTextures, OutputFile, OutputFolder, PADDING_PX, PreviewEntry, TextureOptions, WallTextures,
+};
+use crate::look::{Background, FloorResolver, Look, WallResolver};
+use crate::math::Rect;
+use crate::progress::{Progress, Stage, Stopwatch};
+use crate::sums::{FloorSums, WallSums};
+use crate::walls::{Doorway, Walls};
+
+/// Greatest side of the small images that the page and a model with its textures inside carry, pixels.
+const REDUCED_PX: u32 = 2048;
+
+/// All that people left.
+pub(super) struct Sums {
+    pub floor: FloorSums,
+    /// Left out where only the floor was asked for.
+    pub walls: Option<WallSums>,
+}
+
+/// A finished walk's sums with what turns them into pictures.
+pub(super) struct Graded<'a> {
+    pub sums: &'a Sums,
+    pub walls: &'a Walls,
+    pub doorways: &'a [Doorway],
+    pub look: &'a Look,
+    /// How many people were simulated.
+    pub people: u32,
+    /// For how many people the touches of walls stand.
+    pub wall_people: u32,
+    /// What the plan is called.
+    pub title: String,
+    pub seed: u64,
+    /// How the walls were laid into sheets before, where that is known.
+    pub atlas: Option<Atlas>,
+}
+
+/// What was written of it.
+pub(super) struct Written {
+    pub floor: FloorTextures,
+    pub walls: Option<WallTextures>,
+    pub pictures: Vec<PreviewEntry>,
+    pub stills: Vec<StillEntry>,
+}
+
+impl Graded<'_> {
+    /// Writes the textures of floor and walls, pictures of them, and all that shows them in 3D.
+    pub fn write(
+        &self,
+        folder: &OutputFolder,
+        options: &TextureOptions,
+        crops: &[Crop],
+        watch: &Stopwatch,
+        progress: &dyn Progress,
+    ) -> Result<Written, Error> {
+        let options =
+            &TextureOptions { reduced_px: self.sums.walls.is_some().then_some(REDUCED_PX), ..options.clone() };
+        let floor = FloorResolver::new(&self.sums.floor, self.walls, self.look, self.people)?;
+        let textures = export::floor_textures(folder, self.sums.floor.grid(), &floor, options, progress)?;
+        watch.add(Stage::Look, textures.look_busy_s);
+        watch.add(Stage::Export, textures.export_busy_s);
+        let pictures =
+            watch.busy(Stage::Export, || preview::write_previews(folder, &textures, &floor, self.walls, crops))?;
+        let (walls, stills) = match &self.sums.walls {
+            Some(sums) => {
+                let (walls, stills) = self.write_walls(sums, (&textures, &floor), folder, options, watch, progress)?;
+                (Some(walls), stills)
+            }
+            None => (None, Vec::new()),
+        };
+        Ok(Written { floor: textures, walls, pictures, stills })
+    }
+
+    fn write_walls(
+        &self,
+        sums: &WallSums,
+        (floor_textures, floor): (&FloorTextures, &FloorResolver<'_>),
+        folder: &OutputFolder,
+        options: &TextureOptions,
+        watch: &Stopwatch,
+        progress: &dyn Progress,
+    ) -> Result<(WallTextures, Vec<StillEntry>), Error> {
+        let wall = WallResolver::new(sums, self.walls, self.look, self.wall_people)?;
+        let atlas = match &self.atlas {
+            Some(atlas) => atlas.clone(),
+            None => Atlas::pack(sums.grid(), &self.walls.corners(), options.tile, PADDING_PX)?,
+        };
+        let textures = export::wall_textures(folder, &atlas, &wall, options, progress)?;
+        watch.add(Stage::Look, textures.look_busy_s);
+        watch.add(Stage::Export, textures.export_busy_s);
+        let stills = watch.busy(Stage::Export, || {
+            let model = Model { graded: self, floor: floor_textures, walls: &textures };
+            let scene = model.scene(sums.grid().height_m);
+            model.write_glb(&scene, wall.background(), options.embed, folder)?;
+            let studio = Studio::new(self.walls, self.doorways, sums.grid().height_m);
+            let cameras = [studio.birds_eye(STILL_SIZE_PX), studio.eye_level(&self.sums.floor)];
+            let (stills, page) = rayon::join(
+                || model.write_stills((floor, &wall), sums, (&studio, cameras), folder, progress),
+                || model.write_page(&scene, floor.background(), wall.background(), &cameras[1], folder),
+            );
+            page.and(stills)
+        })?;
+        Ok((textures, stills))
+    }
+}
+
+/// A bake in three dimensions.
+struct Model<'a> {
+    graded: &'a Graded<'a>,
+    floor: &'a FloorTextures,
+    walls: &'a WallTextures,
+}
+
+impl Model<'_> {
+    fn scene(&self, wall_height_m: f64) -> Scene {
+        let atlas = &self.walls.atlas;
+        let tiles: Vec<Rect> = self.floor.tiles.iter().map(|tile| Rect { min: tile.min_m, max: tile.max_m }).collect();
+        let strip = |(sheet, strip): (usize, &export::Strip)| WallStrip {
+            face: strip.face,
+            sheet,
+            along_m: [strip.from_m, strip.to_m],
+            uv: [(strip.from_m, 0.0), (strip.to_m, 0.0), (strip.from_m, atlas.height_m)]
+                .map(|(along_m, height_m)| atlas.uv(sheet, strip, along_m, height_m)),
+        };
+        let strips: Vec<WallStrip> = atlas.strips().map(strip).collect();
+        let options = SceneOptions { wall_height_m, ..SceneOptions::default() };
+        scene::build(self.graded.walls, &tiles, &strips, self.graded.doorways, &options)
+    }
+
+    fn write_glb(
+        &self,
+        scene: &Scene,
+        clean: Background,
+        embed: bool,
+        folder: &OutputFolder,
+    ) -> Result<(), export::ExportError> {
+        fn images<'a>(
+            name: String,
+            files: [&'a str; 2],
+            reduced: Option<&'a export::Reduced>,
+            embed: bool,
+        ) -> SurfaceImages<'a> {
+            let [base_color, orm] = match reduced.filter(|_| embed) {
+                Some(reduced) => [GlbImage::Embedded(&reduced.base_color), GlbImage::Embedded(&reduced.orm)],
+                None => files.map(GlbImage::File),
+            };
+            SurfaceImages { name, base_color, orm }
+        }
+        let floor = self.floor.tiles.iter().enumerate().map(|(k, tile)| {
+            let name = format!("floor_{}_{}", tile.u, tile.v);
+            images(name, [&tile.basecolor, &tile.orm], self.floor.reduced.get(k), embed)
+        });
+        let walls = self.walls.sheets.iter().enumerate().map(|(k, sheet)| {
+            images(format!("walls_{k}"), [&sheet.basecolor, &sheet.orm], self.walls.reduced.get(k), embed)
+        });
+        let clean_wall = PlainMaterial { colour: clean.base_color, roughness: f32::from(clean.orm[1]) / 255.0 };
+        let options = GlbOptions {
+            name: self.graded.title.clone(),
+            seed: self.graded.seed,
+            floor: floor.collect(),
+            walls: walls.collect(),
+            clean_wall,
+            ..GlbOptions::default()
+        };
+        let mut file = folder.create("scene.glb")?;
+        write_glb(&mut file, scene, &options).and_then(|()| file.flush()).map_err(OutputFile::explain)?;
+        file.close()
+    }
+
+    fn write_stills(
+        &self,
+        (floor, wall): (&FloorResolver<'_>, &WallResolver<'_>),
+        wall_sums: &WallSums,
+        (studio, cameras): (&Studio, [Camera; 2]),
+        folder: &OutputFolder,
+        progress: &dyn Progress,
+    ) -> Result<Vec<StillEntry>, Error> {
+        let Graded { sums, walls, look, people, wall_people, .. } = *self.graded;
+        let look = look.clean();
+        let clean = FloorResolver::new(&sums.floor, walls, &look, people)?;
+        let clean_wall = WallResolver::new(wall_sums, walls, &look, wall_people)?;
+        let floor_texels_per_metre = sums.floor.grid().texels_per_metre;
+        let texels_per_metre = wall_sums.grid().texels_per_metre;
+        let on_walls = |source, far| Some(WallCoat { source, texels_per_metre, far });
+        let coats = [
+            Coat {
+                floor,
+                floor_texels_per_metre,
+                small: Some(&self.floor.birdseye),
+                walls: on_walls(wall, FarWalls::Textures(self.walls)),
+            },
+            Coat { floor: &clean, floor_texels_per_metre, small: None, walls: on_walls(&clean_wall, FarWalls::Plain) },
+        ];
+        write_stills(folder, studio, cameras, coats, progress)
+    }
+
+    fn write_page(
+        &self,
+        scene: &Scene,
+        clean_floor: Background,
+        clean_wall: Background,
+        eyes: &Camera,
+        folder: &OutputFolder,
+    ) -> Result<(), Error> {
+        let look = self.graded.look;
+        let start = Viewpoint {
+            at_m: eyes.place_m(),
+            heading_rad: eyes.heading_deg.to_radians(),
+            pitch_rad: eyes.pitch_deg.to_radians(),
+        };
+        let dirt = |name, channel, colour| Dirt { name, channel, colour };
+        let page = Page {
+            title: &self.graded.title,
+            scene,
+            walls: self.graded.walls,
+            wall_height_m: self.walls.atlas.height_m,
+            floor: Covering::floor(&self.floor.reduced, look, clean_floor),
+            wall: Covering {
+                images: &self.walls.reduced,
+                clean: clean_wall.base_color,
+                roughness: f32::from(clean_wall.orm[1]) / 255.0,
+                dirt: vec![
+                    dirt("Hands", 0, look.wall.skin.colour),
+                    dirt("Clothes and bags", 1, look.wall.bag.colour),
+                    dirt("Shoe scuffs", 2, look.wall.rubber.colour),
+                    dirt("Splashes", 3, look.wall.splash.colour),
+                ],
+            },
+            start,
+            options: PageOptions::default(),
+        };
+        Ok(export::page::write_page(folder, &page)?)
+    }
+}
+
+/// A look as the manifest keeps it: without the folders of its images, so that it says nothing of the machine.
+pub(super) fn look_entry(look: &Look) -> serde_json::Value {
+    let mut look = look.clone();
+    for image in look.images().into_iter().flatten() {
+        *image = image.file_name().map(PathBuf::from).unwrap_or_default();
+    }
+    serde_json::to_value(&look).expect("a look is plain values with keys that are strings")
+}
+
+/// What a plan is called: its image's name without ending.
+pub(super) fn title(image: &std::path::Path) -> String {
+    image.file_stem().map_or_else(|| "plan".to_string(), |stem| stem.to_string_lossy().into_owned())
+}

@@ -1,0 +1,117 @@
+//! Where the walls lie in textures: geometry only, no pixels.
+
+use crate::stamps::WallGrid;
+use crate::walls::Corner;
+
+use super::ExportError;
+
+mod pack;
+
+#[cfg(test)]
+mod tests;
+
+/// All walls of a plan, unrolled into strips of wall height and laid into sheets.
+///
+/// Strips lie in rows, or, where rows of wall height leave much of a sheet free, also turned by a quarter in the rest
+/// above the rows. Every strip has room for padding around it. The strips of a face hold each of its columns exactly
+/// once. The same walls give the same atlas.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Atlas {
+    /// Texel density, texels per metre.
+    pub texels_per_metre: f64,
+    /// Height of the walls, metres.
+    pub height_m: f64,
+    /// Texels around each strip that belong to nothing else.
+    pub padding_px: u32,
+    /// All sheets. All but the last are of full size.
+    pub sheets: Vec<Sheet>,
+}
+
+/// One texture of walls.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sheet {
+    /// Width, texels.
+    pub width: u32,
+    /// Height, texels.
+    pub height: u32,
+    /// What it holds: row by row from below, in rows from the left.
+    pub strips: Vec<Strip>,
+}
+
+/// A stretch of one wall face in a sheet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Strip {
+    /// Index into [`crate::walls::Walls::faces`].
+    pub face: usize,
+    /// Arc length at which it begins, metres. At a corner of the face it is the corner's to the last digit, up to half
+    /// a texel from column `i0`'s left side.
+    pub from_m: f64,
+    /// Arc length at which it ends, metres.
+    pub to_m: f64,
+    /// First column of the face in it.
+    pub i0: u32,
+    /// Columns of the face in it.
+    pub width: u32,
+    /// Rows: those of [`WallGrid::height`].
+    pub height: u32,
+    /// Column of the sheet at the rectangle's left.
+    pub x: u32,
+    /// Row of the sheet, counted upward from its lowest, at the rectangle's lower side.
+    pub y: u32,
+    /// Whether it is turned by a quarter counter-clockwise: arc length grows upward, height to the left.
+    pub turned: bool,
+}
+
+impl Atlas {
+    /// Lays all faces into sheets of at most `sheet_px` x `sheet_px` texels with `padding_px` texels around each strip.
+    ///
+    /// Longest first, ties by start, each into the row that it fills best. A face stays in one piece if it fits in a
+    /// row; a longer one ends at its last corner near the row's end, or else at the row's end. A sheet that is filled
+    /// by less than 85 % that way is filled again with more faces broken at corners of theirs, and, if even that is
+    /// not enough, anywhere. The last sheet is as small as powers of two let it be.
+    ///
+    /// # Errors
+    /// A sheet too small for one strip; a size out of range.
+    pub fn pack(grid: &WallGrid, corners: &[Corner], sheet_px: u32, padding_px: u32) -> Result<Atlas, ExportError> {
+        let sheets = pack::sheets(grid, corners, sheet_px, padding_px)?;
+        Ok(Atlas { texels_per_metre: grid.texels_per_metre, height_m: grid.height_m, padding_px, sheets })
+    }
+
+    /// All strips, each with the index of its sheet.
+    pub fn strips(&self) -> impl Iterator<Item = (usize, &Strip)> {
+        self.sheets.iter().enumerate().flat_map(|(sheet, s)| s.strips.iter().map(move |strip| (sheet, strip)))
+    }
+
+    /// Texture coordinates, from the upper left of the sheet and downward, of a place on a strip: its arc length along
+    /// the face and its height above the floor, metres.
+    pub fn uv(&self, sheet: usize, strip: &Strip, along_m: f64, height_m: f64) -> [f64; 2] {
+        let (column, row) = (along_m * self.texels_per_metre - f64::from(strip.i0), height_m * self.texels_per_metre);
+        let (x, y) = match strip.turned {
+            false => (f64::from(strip.x) + column, f64::from(strip.y) + row),
+            true => (f64::from(strip.x + strip.height) - row, f64::from(strip.y) + column),
+        };
+        let [width, height] = self.sheets.get(sheet).map_or([1.0; 2], |s| [s.width, s.height].map(f64::from));
+        [x / width, 1.0 - y / height]
+    }
+}
+
+impl Sheet {
+    /// The share of it that strips with their padding take, 0 to 1.
+    pub fn filled(&self, padding_px: u32) -> f64 {
+        let area = |[width, height]: [u32; 2]| f64::from(width + 2 * padding_px) * f64::from(height + 2 * padding_px);
+        let taken: f64 = self.strips.iter().map(|strip| area(strip.size())).sum();
+        taken / (f64::from(self.width) * f64::from(self.height))
+    }
+}
+
+impl Strip {
+    /// Width and height of its rectangle in the sheet, texels, without padding.
+    pub fn size(&self) -> [u32; 2] {
+        if self.turned { [self.height, self.width] } else { [self.width, self.height] }
+    }
+
+    /// Column and row (upward) of the sheet that show the strip's column `i`, counted from its first, in row `j`.
+    pub fn texel(&self, i: u32, j: u32) -> [u32; 2] {
+        if self.turned { [self.x + self.height - 1 - j, self.y + i] } else { [self.x + i, self.y + j] }
+    }
+}

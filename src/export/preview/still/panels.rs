@@ -1,0 +1,127 @@
+//! The lamps in the ceiling: bright panels on a raster of tiles, wherever there is room for one.
+
+use rayon::prelude::*;
+
+use super::space::Space;
+use crate::math::{Vec2, vec2};
+
+/// Side of a ceiling tile, metres.
+pub(super) const TILE_M: f64 = 0.6;
+/// Each square of so many tiles has a panel, if it fits.
+const SQUARE_TILES: i64 = 4;
+/// Side of such a square, metres.
+pub(super) const SQUARE_M: f64 = TILE_M * SQUARE_TILES as f64;
+/// A frame around the light, metres.
+const FRAME_M: f64 = 0.03;
+/// Distance from walls that is enough, metres.
+const CLEAR_M: f64 = 0.9;
+
+/// A lamp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Panel {
+    pub centre: Vec2,
+    /// Half its size in x and y, metres.
+    pub half: Vec2,
+}
+
+impl Panel {
+    /// Area, square metres.
+    pub fn area(&self) -> f64 {
+        4.0 * self.half.x * self.half.y
+    }
+}
+
+/// All lamps, by square.
+#[derive(Debug)]
+pub(super) struct Panels {
+    origin: [i64; 2],
+    columns: i64,
+    rows: i64,
+    squares: Vec<Option<Panel>>,
+}
+
+impl Panels {
+    pub fn over(space: &Space) -> Panels {
+        let square = |m: f64| (m / SQUARE_M).floor() as i64;
+        let origin = [square(space.block.min.x), square(space.block.min.y)];
+        let columns = square(space.block.max.x) - origin[0] + 1;
+        let rows = square(space.block.max.y) - origin[1] + 1;
+        let squares = (0..columns * rows)
+            .into_par_iter()
+            .map(|k| best_panel(space, [origin[0] + k % columns, origin[1] + k / columns]))
+            .collect();
+        Panels { origin, columns, rows, squares }
+    }
+
+    /// The panel of the square that holds a place, or of one `dx`, `dy` squares beside it.
+    pub fn near(&self, p: Vec2, [dx, dy]: [i64; 2]) -> Option<Panel> {
+        let x = (p.x / SQUARE_M).floor() as i64 + dx - self.origin[0];
+        let y = (p.y / SQUARE_M).floor() as i64 + dy - self.origin[1];
+        let inside = x >= 0 && y >= 0 && x < self.columns && y < self.rows;
+        inside.then(|| self.squares[(y * self.columns + x) as usize]).flatten()
+    }
+}
+
+/// The panel in a square that is farthest from walls, the most central of those that are far enough.
+fn best_panel(space: &Space, [x, y]: [i64; 2]) -> Option<Panel> {
+    let mut best: Option<(f64, Panel)> = None;
+    for [i, j, across, up] in places() {
+        let corner = vec2((x * SQUARE_TILES + i) as f64, (y * SQUARE_TILES + j) as f64) * TILE_M;
+        let half = vec2(across as f64, up as f64) * (0.5 * TILE_M);
+        let centre = corner + half;
+        let Some(clear) = clearance(space, centre, half) else { continue };
+        let clear = clear.min(CLEAR_M);
+        if clear > 0.04 && best.is_none_or(|(most, _)| clear > most + 1e-6) {
+            best = Some((clear, Panel { centre, half: half - vec2(FRAME_M, FRAME_M) }));
+        }
+    }
+    best.map(|(_, panel)| panel)
+}
+
+/// Places of a panel in a square: column, row, width and height in tiles, the most central first.
+fn places() -> impl Iterator<Item = [i64; 4]> {
+    [
+        [1, 1],
+        [2, 1],
+        [1, 2],
+        [0, 1],
+        [1, 0],
+        [2, 0],
+        [0, 2],
+        [2, 2],
+        [0, 0],
+        [3, 1],
+        [3, 0],
+        [3, 2],
+        [1, 3],
+        [0, 3],
+        [2, 3],
+    ]
+    .into_iter()
+    .flat_map(|[i, j]| [[i, j, 1, 2], [i, j, 2, 1]])
+    .filter(|[i, j, across, up]| i + across <= SQUARE_TILES && j + up <= SQUARE_TILES)
+}
+
+/// Distance from a rectangle to the nearest wall, roughly; none if it is not all over floor.
+fn clearance(space: &Space, centre: Vec2, half: Vec2) -> Option<f64> {
+    if !space.is_floor(centre) {
+        return None;
+    }
+    let solid = |_: &super::space::Piece, _: f64| true;
+    let mut clear = CLEAR_M;
+    for (toward, reach) in [
+        (vec2(1.0, 0.0), half.x),
+        (vec2(-1.0, 0.0), half.x),
+        (vec2(0.0, 1.0), half.y),
+        (vec2(0.0, -1.0), half.y),
+        (vec2(0.6, 0.8), half.length()),
+        (vec2(-0.8, 0.6), half.length()),
+        (vec2(-0.6, -0.8), half.length()),
+        (vec2(0.8, -0.6), half.length()),
+    ] {
+        if let Some(met) = space.cast(centre, toward, reach + CLEAR_M, solid) {
+            clear = clear.min(met.way_m - reach);
+        }
+    }
+    Some(clear)
+}

@@ -1,0 +1,431 @@
+//! Texels at all scales, in blocks that are made when they are needed.
+
+use std::collections::{BTreeSet, HashMap};
+use std::hash::{BuildHasherDefault, Hasher};
+
+use rayon::prelude::*;
+
+use super::texels::{Block, SIDE, Texel, Texels};
+
+/// Coarsest level: 2^LEVELS texels a side are one.
+const LEVELS: u32 = 12;
+/// Most places at which a stretched footprint is looked up.
+const MOST_PROBES: f32 = 12.0;
+
+/// A block's place: level, layer, column, row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) struct Key {
+    level: u8,
+    layer: u32,
+    x: i32,
+    y: i32,
+}
+
+/// Blocks by their place. Their order is never looked at.
+type Blocks = HashMap<Key, Block, BuildHasherDefault<Mixer>>;
+
+/// A quick hash: keys are places, not what an enemy chose.
+#[derive(Default)]
+pub(super) struct Mixer(u64);
+
+impl Hasher for Mixer {
+    fn finish(&self) -> u64 {
+        self.0 ^ self.0 >> 32
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|&byte| self.write_u64(byte.into()));
+    }
+
+    fn write_u64(&mut self, value: u64) {
+        self.0 = (self.0.rotate_left(23) ^ value).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
+
+    fn write_u8(&mut self, value: u8) {
+        self.write_u64(value.into());
+    }
+
+    fn write_u32(&mut self, value: u32) {
+        self.write_u64(value.into());
+    }
+
+    fn write_i32(&mut self, value: i32) {
+        self.write_u64(value as u32 as u64);
+    }
+}
+
+/// A texture of which what is seen is held, each place as finely as it is seen.
+pub(super) struct Pyramid<'a> {
+    source: &'a dyn Texels,
+    blocks: Blocks,
+}
+
+/// What is seen of a texture by a pixel: an ellipse, as a row of discs.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Footprint {
+    pub layer: u32,
+    /// Middle, metres.
+    pub middle: [f32; 2],
+    /// From the middle to the end of the longer axis, metres.
+    pub axis: [f32; 2],
+    /// Width across, metres.
+    pub width: f32,
+}
+
+/// A footprint in texels.
+struct Probes {
+    level: u32,
+    /// Share of the next coarser level.
+    coarser: f32,
+    count: u32,
+    first: [f32; 2],
+    step: [f32; 2],
+    /// Texels are much larger than pixels.
+    enlarged: bool,
+}
+
+impl<'a> Pyramid<'a> {
+    pub fn new(source: &'a dyn Texels) -> Pyramid<'a> {
+        Pyramid { source, blocks: Blocks::default() }
+    }
+
+    /// Texels per metre.
+    pub fn density(&self) -> f64 {
+        self.source.density()
+    }
+
+    /// Names the blocks that a footprint needs.
+    pub fn needs(&self, footprint: &Footprint, bias: f32, needed: &mut Needed) {
+        let probes = self.probes(footprint, bias);
+        let last = probes.count.saturating_sub(1) as f32;
+        for level in probes.level..=(probes.level + 1).min(LEVELS) {
+            let scale = 1.0 / (1u32 << level) as f32;
+            for at in [0.0, last] {
+                let [x, y] = [0, 1].map(|k| (probes.first[k] + probes.step[k] * at) * scale);
+                for [dx, dy] in [[-1.5, -1.5], [1.5, -1.5], [-1.5, 1.5], [1.5, 1.5]] {
+                    needed.add(Key {
+                        level: level as u8,
+                        layer: footprint.layer,
+                        x: block_of(x + dx),
+                        y: block_of(y + dy),
+                    });
+                }
+            }
+        }
+    }
+
+    /// Makes what is needed and drops the rest. Fine blocks first: coarser ones are made of them.
+    pub fn hold(&mut self, needed: &BTreeSet<Key>) {
+        let mut from = needed.iter().copied().peekable();
+        let mut fresh = Blocks::default();
+        while let Some(level) = from.peek().map(|key| key.level) {
+            let mut wanted = Vec::new();
+            while let Some(key) = from.next_if(|key| key.level == level) {
+                wanted.push(key);
+            }
+            let made: Vec<(Key, Block)> = wanted
+                .par_iter()
+                .filter(|key| !self.blocks.contains_key(key))
+                .map(|&key| (key, self.make(key, &fresh)))
+                .collect();
+            for key in &wanted {
+                if let Some(block) = self.blocks.remove(key) {
+                    fresh.insert(*key, block);
+                }
+            }
+            fresh.extend(made);
+        }
+        self.blocks = fresh;
+    }
+
+    fn make(&self, key: Key, fresh: &Blocks) -> Block {
+        if key.level == 0 {
+            return self.source.read(
+                key.layer as usize,
+                i64::from(key.x) * SIDE as i64,
+                i64::from(key.y) * SIDE as i64,
+            );
+        }
+        let child = |dx: i32, dy: i32| {
+            let key = Key { level: key.level - 1, x: key.x * 2 + dx, y: key.y * 2 + dy, ..key };
+            match fresh.get(&key).or_else(|| self.blocks.get(&key)) {
+                Some(block) => block.clone(),
+                None => self.make(key, fresh),
+            }
+        };
+        halved(&[child(0, 0), child(1, 0), child(0, 1), child(1, 1)])
+    }
+
+    fn probes(&self, footprint: &Footprint, bias: f32) -> Probes {
+        let density = self.density() as f32;
+        let [ax, ay] = footprint.axis.map(|c| c * density);
+        let half = (ax * ax + ay * ay).sqrt();
+        // At least the width of a pixel across, and no longer than the probes reach.
+        let width = (footprint.width * density * bias).max(2.0 * half / MOST_PROBES).max(1e-4);
+        let count = (2.0 * half / width).ceil().clamp(1.0, MOST_PROBES);
+        let (level, coarser) = level_of(width);
+        let step = [2.0 * ax / count, 2.0 * ay / count];
+        let [x, y] = footprint.middle.map(|c| c * density);
+        let back = 0.5 * (count - 1.0);
+        Probes {
+            level,
+            coarser,
+            count: count as u32,
+            first: [x - step[0] * back, y - step[1] * back],
+            step,
+            enlarged: width < 0.7,
+        }
+    }
+
+    /// The mean over a footprint, each value 0 to 1.
+    pub fn sample(&self, footprint: &Footprint, bias: f32) -> [f32; 4] {
+        let probes = self.probes(footprint, bias);
+        let mut sum = [0.0f32; 4];
+        let mut reader = Reader { pyramid: self, layer: footprint.layer, last: None };
+        for k in 0..probes.count {
+            let at = [0, 1].map(|c| probes.first[c] + probes.step[c] * k as f32);
+            let texel = if probes.enlarged {
+                reader.cubic(at)
+            } else if probes.coarser <= 0.0 {
+                reader.linear(probes.level, at)
+            } else {
+                let (fine, coarse) = (reader.linear(probes.level, at), reader.linear(probes.level + 1, at));
+                std::array::from_fn(|c| fine[c] + (coarse[c] - fine[c]) * probes.coarser)
+            };
+            (0..4).for_each(|c| sum[c] += texel[c]);
+        }
+        let scale = 1.0 / (probes.count as f32 * 65_535.0);
+        sum.map(|c| c * scale)
+    }
+}
+
+/// The level whose texels are at most as wide, and the share of the next one. The logarithm is taken as straight
+/// between powers of two, which is even smoother.
+fn level_of(width: f32) -> (u32, f32) {
+    if width <= 1.0 {
+        return (0, 0.0);
+    }
+    let level = (width.to_bits() >> 23) - 127;
+    if level >= LEVELS {
+        return (LEVELS, 0.0);
+    }
+    (level, width / (1u32 << level) as f32 - 1.0)
+}
+
+fn block_of(texel: f32) -> i32 {
+    down(texel).div_euclid(SIDE as i32)
+}
+
+/// Rounded down; faster than by the machine's library.
+fn down(value: f32) -> i32 {
+    let whole = value as i32;
+    whole - i32::from(value < whole as f32)
+}
+
+/// Four blocks as one of the next level.
+fn halved(children: &[Block; 4]) -> Block {
+    if let [Block::Flat(a), Block::Flat(b), Block::Flat(c), Block::Flat(d)] = children
+        && a == b
+        && b == c
+        && c == d
+    {
+        return Block::Flat(*a);
+    }
+    const HALF: usize = SIDE / 2;
+    let texel = |k: usize| -> Texel {
+        let (x, y) = (k % SIDE, k / SIDE);
+        match &children[y / HALF * 2 + x / HALF] {
+            Block::Flat(texel) => *texel,
+            Block::Full(texels) => {
+                let at = (y % HALF * 2) * SIDE + x % HALF * 2;
+                let four = [texels[at], texels[at + 1], texels[at + SIDE], texels[at + SIDE + 1]];
+                std::array::from_fn(|c| (four.iter().map(|t| u32::from(t[c])).sum::<u32>().div_ceil(4)) as u16)
+            }
+        }
+    };
+    Block::Full((0..SIDE * SIDE).map(texel).collect())
+}
+
+/// Reads texels; knows the block that it read last.
+struct Reader<'a> {
+    pyramid: &'a Pyramid<'a>,
+    layer: u32,
+    last: Option<(Key, &'a Block)>,
+}
+
+impl<'a> Reader<'a> {
+    fn block(&mut self, level: u32, x: i32, y: i32) -> Option<&'a Block> {
+        let key = Key { level: level as u8, layer: self.layer, x, y };
+        if let Some((last, block)) = self.last
+            && last == key
+        {
+            return Some(block);
+        }
+        let block = self.pyramid.blocks.get(&key)?;
+        self.last = Some((key, block));
+        Some(block)
+    }
+
+    fn texel(&mut self, level: u32, i: i32, j: i32) -> Texel {
+        let (mut i, mut j) = (i, j);
+        for level in level..=LEVELS {
+            const S: i32 = SIDE as i32;
+            match self.block(level, i.div_euclid(S), j.div_euclid(S)) {
+                Some(Block::Flat(texel)) => return *texel,
+                Some(Block::Full(texels)) => return texels[(j.rem_euclid(S) * S + i.rem_euclid(S)) as usize],
+                // Few pixels at edges see what their neighbours did not ask for: a coarser one will do.
+                None => (i, j) = (i.div_euclid(2), j.div_euclid(2)),
+            }
+        }
+        [32_768, 32_768, 32_768, 32_768]
+    }
+
+    /// Straight between the four texels around a place in texels of level 0.
+    fn linear(&mut self, level: u32, at: [f32; 2]) -> [f32; 4] {
+        let scale = 1.0 / (1u32 << level) as f32;
+        let [x, y] = at.map(|c| c * scale - 0.5);
+        let (i, j) = (down(x), down(y));
+        let (u, v) = (x - i as f32, y - j as f32);
+        let four = self.four(level, i, j);
+        let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v];
+        std::array::from_fn(|c| (0..4).map(|n| f32::from(four[n][c]) * weights[n]).sum())
+    }
+
+    fn four(&mut self, level: u32, i: i32, j: i32) -> [Texel; 4] {
+        const S: i32 = SIDE as i32;
+        let (within_i, within_j) = (i.rem_euclid(S), j.rem_euclid(S));
+        if within_i < S - 1 && within_j < S - 1 {
+            match self.block(level, i.div_euclid(S), j.div_euclid(S)) {
+                Some(Block::Flat(texel)) => return [*texel; 4],
+                Some(Block::Full(texels)) => {
+                    let at = (within_j * S + within_i) as usize;
+                    return [texels[at], texels[at + 1], texels[at + SIDE], texels[at + SIDE + 1]];
+                }
+                None => {}
+            }
+        }
+        [[i, j], [i + 1, j], [i, j + 1], [i + 1, j + 1]].map(|[i, j]| self.texel(level, i, j))
+    }
+
+    /// Smooth between the sixteen texels around a place: Mitchell and Netravali's filter with B = C = 1/3 (Computer
+    /// Graphics 22(4), 1988).
+    fn cubic(&mut self, at: [f32; 2]) -> [f32; 4] {
+        let [x, y] = at.map(|c| c - 0.5);
+        let (i, j) = (down(x), down(y));
+        let (across, up) = (cubic_weights(x - i as f32), cubic_weights(y - j as f32));
+        let mut sum = [0.0f32; 4];
+        for (row, weight_y) in (0..).zip(up) {
+            for (column, weight_x) in (0..).zip(across) {
+                let texel = self.texel(0, i - 1 + column, j - 1 + row);
+                (0..4).for_each(|c| sum[c] += f32::from(texel[c]) * weight_x * weight_y);
+            }
+        }
+        sum.map(|c| c.clamp(0.0, 65_535.0))
+    }
+}
+
+fn cubic_weights(t: f32) -> [f32; 4] {
+    let near = |t: f32| (7.0 * t * t * t - 12.0 * t * t + 16.0 / 3.0) / 6.0;
+    let far = |t: f32| (-7.0 / 3.0 * t * t * t + 12.0 * t * t - 20.0 * t + 32.0 / 3.0) / 6.0;
+    [far(1.0 + t), near(t), near(1.0 - t), far(2.0 - t)]
+}
+
+/// Blocks that were asked for.
+#[derive(Debug, Default)]
+pub(super) struct Needed {
+    keys: BTreeSet<Key>,
+    /// The last few, which most are again.
+    last: [Option<Key>; 8],
+    next: usize,
+}
+
+impl Needed {
+    fn add(&mut self, key: Key) {
+        if !self.last.contains(&Some(key)) {
+            self.last[self.next % 8] = Some(key);
+            self.next += 1;
+            self.keys.insert(key);
+        }
+    }
+
+    /// All of both.
+    pub fn and(mut self, mut other: Needed) -> Needed {
+        self.keys.append(&mut other.keys);
+        self
+    }
+
+    pub fn keys(&self) -> &BTreeSet<Key> {
+        &self.keys
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A board of squares of one texel, black and white; noise on the right half.
+    struct Board;
+
+    impl Texels for Board {
+        fn density(&self) -> f64 {
+            100.0
+        }
+
+        fn read(&self, _: usize, i0: i64, j0: i64) -> Block {
+            let value = |k: usize| if (i0 + j0 + (k % SIDE + k / SIDE) as i64) % 2 == 0 { 65_535 } else { 0 };
+            Block::Full((0..SIDE * SIDE).map(|k| [value(k); 4]).collect())
+        }
+    }
+
+    fn sampled(footprint: &Footprint) -> [f32; 4] {
+        let mut pyramid = Pyramid::new(&Board);
+        let mut needed = Needed::default();
+        pyramid.needs(footprint, 1.0, &mut needed);
+        pyramid.hold(needed.keys());
+        pyramid.sample(footprint, 1.0)
+    }
+
+    #[test]
+    fn a_wide_footprint_sees_the_mean_wherever_it_lies() {
+        for k in 0..200 {
+            let at = k as f32 * 0.0371;
+            for width in [0.02, 0.05, 0.31] {
+                let footprint = Footprint { layer: 0, middle: [at, 3.0 * at], axis: [0.0, width], width };
+                let [value, ..] = sampled(&footprint);
+                assert!((value - 0.5).abs() < 0.003, "{value} at {at}, {width} wide");
+            }
+        }
+    }
+
+    #[test]
+    fn a_narrow_footprint_sees_single_texels() {
+        let at = |i: f32, j: f32| {
+            let footprint = Footprint { layer: 0, middle: [i / 100.0, j / 100.0], axis: [0.0; 2], width: 0.01 };
+            sampled(&footprint)[0]
+        };
+        assert!(at(4.5, 6.5) > 0.999 && at(5.5, 6.5) < 0.001);
+        assert!((at(5.0, 6.5) - 0.5).abs() < 1e-3);
+    }
+
+    #[test]
+    fn cubic_weights_sum_to_one() {
+        for k in 0..=20 {
+            let weights = cubic_weights(k as f32 / 20.0);
+            assert!((weights.iter().sum::<f32>() - 1.0).abs() < 1e-5, "{weights:?}");
+        }
+    }
+
+    #[test]
+    fn a_coarse_block_is_the_same_whether_finer_ones_are_held_or_not() {
+        let key = |level, x, y| Key { level, layer: 0, x, y };
+        let (mut with, mut without) = (Pyramid::new(&Board), Pyramid::new(&Board));
+        with.hold(&[key(0, 0, 0), key(0, 1, 1), key(1, 0, 0), key(2, 0, 0)].into());
+        without.hold(&[key(2, 0, 0)].into());
+        let texels = |pyramid: &Pyramid| match &pyramid.blocks[&key(2, 0, 0)] {
+            Block::Full(texels) => texels.to_vec(),
+            Block::Flat(texel) => vec![*texel],
+        };
+        assert_eq!(texels(&with), texels(&without));
+        assert_eq!(with.blocks.len(), 4);
+    }
+}

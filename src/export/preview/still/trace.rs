@@ -1,0 +1,190 @@
+//! Which surface a ray from the camera meets.
+
+use super::space::{Space, What};
+use crate::math::{Vec2, vec2};
+
+/// Way beyond an opening at which nothing but light is seen, metres.
+const OUTSIDE_M: f64 = 14.0;
+
+/// What is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Surface {
+    Floor,
+    Ceiling,
+    /// Place in [`Space::pieces`].
+    Wall(u32),
+    Lintel(u32),
+    /// The underside of a lintel.
+    Soffit(u32),
+    /// What rooms are cut into, from above.
+    Top,
+    /// The same from the side.
+    Side,
+    /// What the model stands on.
+    Table,
+    /// Light, far beyond an opening.
+    Outside,
+    Sky,
+}
+
+/// Where a ray ends.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hit {
+    pub surface: Surface,
+    /// x, y in the plan frame and height, metres. Beyond openings the plan goes on as its mirror image.
+    pub point: [f32; 3],
+    /// Unit vector of the ray as it ends.
+    pub toward: [f32; 3],
+    /// Way from the camera, metres.
+    pub way_m: f32,
+    /// Part of it that lies beyond an opening, metres.
+    pub beyond_m: f32,
+}
+
+/// A ray as its shadow on the floor and its height.
+#[derive(Clone, Copy, Debug)]
+struct Ray {
+    from: Vec2,
+    z: f64,
+    /// Unit vector.
+    toward: Vec2,
+    /// Metres upward per metre of the shadow.
+    slope: f64,
+    /// Metres of the ray per metre of the shadow.
+    stretch: f64,
+    /// Metres of the shadow before `from`, and how many of them are beyond an opening.
+    before: f64,
+    beyond: f64,
+}
+
+impl Ray {
+    fn new(position: [f64; 3], way: [f64; 3]) -> Ray {
+        // A ray straight down has a shadow too, if a short one.
+        let across = (way[0] * way[0] + way[1] * way[1]).sqrt().max(1e-9);
+        let toward = vec2(way[0], way[1]).normalized().unwrap_or(vec2(1.0, 0.0));
+        Ray {
+            from: vec2(position[0], position[1]),
+            z: position[2],
+            toward,
+            slope: way[2] / across,
+            stretch: (1.0 + way[2] * way[2] / (across * across)).sqrt(),
+            before: 0.0,
+            beyond: 0.0,
+        }
+    }
+
+    fn at(&self, way: f64) -> Vec2 {
+        self.from + self.toward * way
+    }
+
+    fn height(&self, way: f64) -> f64 {
+        self.z + self.slope * way
+    }
+
+    fn hit(&self, surface: Surface, way: f64) -> Hit {
+        let p = self.at(way);
+        let scale = 1.0 / self.stretch;
+        let beyond = if self.beyond > 0.0 { self.beyond + way } else { 0.0 };
+        Hit {
+            surface,
+            point: [p.x as f32, p.y as f32, self.height(way) as f32],
+            toward: [self.toward.x * scale, self.toward.y * scale, self.slope * scale].map(|c| c as f32),
+            way_m: ((self.before + way) * self.stretch) as f32,
+            beyond_m: (beyond * self.stretch) as f32,
+        }
+    }
+}
+
+impl Space {
+    /// What a ray meets from within the rooms, below the ceiling.
+    pub fn trace_inside(&self, position: [f64; 3], way: [f64; 3]) -> Hit {
+        let mut ray = Ray::new(position, way);
+        loop {
+            let (level, end) = if ray.slope < 0.0 {
+                (Surface::Floor, -ray.z / ray.slope)
+            } else if ray.slope > 0.0 {
+                (Surface::Ceiling, (self.height_m - ray.z) / ray.slope)
+            } else {
+                (Surface::Outside, 1e6)
+            };
+            let end = end.clamp(0.0, 1e6);
+            let solid = |piece: &super::space::Piece, way: f64| match piece.what {
+                What::Lintel(number) => self.under_lintel(&ray, number, way).is_some(),
+                _ => true,
+            };
+            let Some(met) = self.cast(ray.from, ray.toward, end, solid) else { return ray.hit(level, end) };
+            let piece = &self.pieces[met.piece];
+            match piece.what {
+                What::Wall(_) => return ray.hit(Surface::Wall(met.piece as u32), met.way_m),
+                What::Lintel(number) => {
+                    let way = self.under_lintel(&ray, number, met.way_m).unwrap_or(met.way_m);
+                    let face = way <= met.way_m;
+                    let surface = if face { Surface::Lintel(met.piece as u32) } else { Surface::Soffit(number) };
+                    return ray.hit(surface, way);
+                }
+                What::Opening => {
+                    let walked = met.way_m.max(0.0);
+                    let beyond = if ray.beyond > 0.0 { ray.beyond + walked } else { 1e-6 };
+                    if beyond > OUTSIDE_M {
+                        return ray.hit(Surface::Outside, walked);
+                    }
+                    let normal = piece.normal();
+                    let toward = ray.toward - normal * (2.0 * ray.toward.dot(normal));
+                    let (from, z, before) = (ray.at(walked), ray.height(walked), ray.before + walked);
+                    ray = Ray { from, z, toward, before, beyond, ..ray };
+                }
+            }
+        }
+    }
+
+    /// Where a ray that comes to a gap at `way` meets its lintel, if it does: at the face or at the underside.
+    fn under_lintel(&self, ray: &Ray, number: u32, way: f64) -> Option<f64> {
+        let lintel = &self.lintels[number as usize];
+        if ray.height(way) >= lintel.low_m {
+            return Some(way);
+        }
+        let leaves = way + lintel.leaves(ray.at(way), ray.toward);
+        (ray.height(leaves) > lintel.low_m).then(|| (lintel.low_m - ray.z) / ray.slope)
+    }
+
+    /// What a ray meets from above the walls: the rooms lie open, cut into a block on a table.
+    pub fn trace_above(&self, position: [f64; 3], way: [f64; 3]) -> Hit {
+        let ray = Ray::new(position, way);
+        if ray.slope >= -1e-9 {
+            return ray.hit(Surface::Sky, 1.0);
+        }
+        let ground = -ray.z / ray.slope;
+        let top = (self.height_m - ray.z) / ray.slope;
+        let Some((enter, leave)) = self.block_span(&ray) else { return ray.hit(Surface::Table, ground) };
+        let way = top.max(enter);
+        if way >= leave || way >= ground {
+            return ray.hit(Surface::Table, ground);
+        }
+        // A hair further, so that it lies within the block.
+        let inside = ray.at(way + 1e-6);
+        if !self.is_floor(inside) {
+            return ray.hit(if enter > top { Surface::Side } else { Surface::Top }, way);
+        }
+        let walls = |piece: &super::space::Piece, _: f64| !matches!(piece.what, What::Lintel(_));
+        match self.cast(inside, ray.toward, ground - way, walls) {
+            None => ray.hit(Surface::Floor, ground),
+            Some(met) if self.pieces[met.piece].what == What::Opening => ray.hit(Surface::Table, ground),
+            Some(met) => ray.hit(Surface::Wall(met.piece as u32), way + met.way_m.max(0.0)),
+        }
+    }
+
+    /// Between which ways the shadow of a ray crosses the block.
+    fn block_span(&self, ray: &Ray) -> Option<(f64, f64)> {
+        let span = |from: f64, toward: f64, low: f64, high: f64| {
+            if toward.abs() < 1e-12 {
+                return if from >= low && from <= high { (0.0, f64::INFINITY) } else { (1.0, 0.0) };
+            }
+            let (a, b) = ((low - from) / toward, (high - from) / toward);
+            (a.min(b), a.max(b))
+        };
+        let (x0, x1) = span(ray.from.x, ray.toward.x, self.block.min.x, self.block.max.x);
+        let (y0, y1) = span(ray.from.y, ray.toward.y, self.block.min.y, self.block.max.y);
+        let (enter, leave) = (x0.max(y0).max(0.0), x1.min(y1));
+        (enter < leave).then_some((enter, leave))
+    }
+}

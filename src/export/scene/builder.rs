@@ -1,0 +1,106 @@
+//! Collects triangles into parts; corners that agree in everything are one vertex.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::{Part, Scene, Surface};
+
+/// A scene that is being built: a part per surface.
+#[derive(Debug, Default)]
+pub(super) struct SceneBuilder {
+    parts: BTreeMap<Surface, PartBuilder>,
+}
+
+impl SceneBuilder {
+    /// The part with this surface.
+    pub fn part(&mut self, surface: Surface) -> &mut PartBuilder {
+        self.parts.entry(surface).or_insert_with(|| PartBuilder::new(surface))
+    }
+
+    /// All parts that have triangles, by surface.
+    pub fn finish(self) -> Scene {
+        Scene { parts: self.parts.into_values().filter_map(PartBuilder::finish).collect() }
+    }
+}
+
+/// A corner of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Vertex {
+    /// Plan frame and height, metres.
+    pub position_m: [f64; 3],
+    pub normal: [f64; 3],
+    /// Ignored by surfaces without a texture.
+    pub uv: [f64; 2],
+}
+
+/// A part that is being built.
+#[derive(Debug)]
+pub(super) struct PartBuilder {
+    part: Part,
+    textured: bool,
+    /// By the bits of all its numbers.
+    known: HashMap<[u32; 8], u32>,
+}
+
+impl PartBuilder {
+    fn new(surface: Surface) -> PartBuilder {
+        let textured = matches!(surface, Surface::FloorTile(_) | Surface::WallSheet(_));
+        let part = Part { surface, positions_m: Vec::new(), normals: Vec::new(), uvs: Vec::new(), indices: Vec::new() };
+        PartBuilder { part, textured, known: HashMap::new() }
+    }
+
+    /// Adds a triangle, counter-clockwise for who sees its front, unless it has no area in single precision.
+    pub fn triangle(&mut self, corners: [Vertex; 3]) {
+        let positions = corners.map(|c| single(c.position_m));
+        if !has_area(positions) {
+            return;
+        }
+        for corner in corners {
+            let index = self.vertex(&corner);
+            self.part.indices.push(index);
+        }
+    }
+
+    /// Adds a convex polygon, counter-clockwise for who sees its front.
+    pub fn polygon(&mut self, corners: &[Vertex]) {
+        for k in 2..corners.len() {
+            self.triangle([corners[0], corners[k - 1], corners[k]]);
+        }
+    }
+
+    fn vertex(&mut self, vertex: &Vertex) -> u32 {
+        let position = single(vertex.position_m);
+        let normal = single(vertex.normal);
+        let uv = if self.textured { single(vertex.uv) } else { [0.0; 2] };
+        let [x, y, z] = position.map(f32::to_bits);
+        let [nx, ny, nz] = normal.map(f32::to_bits);
+        let [u, v] = uv.map(f32::to_bits);
+        let part = &mut self.part;
+        *self.known.entry([x, y, z, nx, ny, nz, u, v]).or_insert_with(|| {
+            part.positions_m.push(position);
+            part.normals.push(normal);
+            if self.textured {
+                part.uvs.push(uv);
+            }
+            (part.positions_m.len() - 1) as u32
+        })
+    }
+
+    /// The part, or nothing if it has no triangle.
+    fn finish(self) -> Option<Part> {
+        (!self.part.indices.is_empty()).then_some(self.part)
+    }
+}
+
+/// To single precision, with one zero only.
+fn single<const N: usize>(values: [f64; N]) -> [f32; N] {
+    values.map(|v| v as f32 + 0.0)
+}
+
+/// Whether three corners are finite and no two sides lie on each other.
+fn has_area([a, b, c]: [[f32; 3]; 3]) -> bool {
+    let side = |p: [f32; 3], q: [f32; 3]| [0, 1, 2].map(|k| f64::from(q[k]) - f64::from(p[k]));
+    let (u, v) = (side(a, b), side(a, c));
+    let cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    let squared: f64 = cross.iter().map(|v| v * v).sum();
+    squared.is_finite() && squared > 0.0
+}

@@ -1,0 +1,8 @@
+//! Exact sums as files that come back to the bit.
+
+mod file;
+mod floor;
+mod walls;
+
+pub use floor::{read_sums, write_sums};
+pub use walls::{read_wall_sums, write_wall_sums};

@@ -1,0 +1,181 @@
+//! What the files are made for: names, packing, axes, and what each program needs to use them.
+
+use serde::{Deserialize, Serialize};
+
+use super::ExportError;
+use super::band::{Image, LayerFile};
+use super::layout::TileLayout;
+use super::manifest::ChannelEntry;
+
+mod frame;
+mod scripts;
+
+#[cfg(test)]
+mod tests;
+
+pub use frame::{TargetEntry, WorldEntry};
+pub use scripts::write_target_files;
+
+/// The program that the textures are for. It decides on names, packing and axes; texels are the same for all.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Target {
+    /// Anything that reads glTF; film tools: EXR channels have names of their own.
+    #[default]
+    Gltf,
+    /// Blender.
+    Blender,
+    /// Unreal Engine 5.
+    Unreal,
+    /// Unity, High Definition or Universal Render Pipeline.
+    Unity,
+    /// Godot 4.
+    Godot,
+}
+
+/// What is on textures: the first part of their names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Covered {
+    Floor,
+    Wall,
+}
+
+/// The number in the name of a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Number {
+    Udim(u32),
+    /// Column and row.
+    Uv(u32, u32),
+}
+
+impl Target {
+    /// All of them.
+    pub const ALL: [Target; 5] = [Target::Gltf, Target::Blender, Target::Unreal, Target::Unity, Target::Godot];
+
+    /// What the command line and the scenario call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Target::Gltf => "gltf",
+            Target::Blender => "blender",
+            Target::Unreal => "unreal",
+            Target::Unity => "unity",
+            Target::Godot => "godot",
+        }
+    }
+
+    /// The largest side of a texture that it takes, texels.
+    ///
+    /// Unreal streams up to 14 mip levels, 8192 texels; the others go as far as Direct3D 11 and Vulkan do.
+    pub fn largest_px(self) -> u32 {
+        match self {
+            Target::Unreal => 8192,
+            _ => TileLayout::MAX_TILE,
+        }
+    }
+
+    /// Checks a side of a texture, texels.
+    pub(super) fn check_size(self, tile: u32) -> Result<(), ExportError> {
+        let (target, max) = (self.name(), self.largest_px());
+        if tile > max { Err(ExportError::TileTooLargeFor { tile, target, max }) } else { Ok(()) }
+    }
+
+    /// The images of a texture.
+    pub(super) fn images(self) -> impl Iterator<Item = Image> {
+        let all = [Image::BaseColor, Image::Mask, Image::Orm, Image::MaskMap];
+        all.into_iter().filter(move |image| *image != Image::MaskMap || self == Target::Unity)
+    }
+
+    /// The EXR files of a texture: engines refuse channels of other names than R, G, B and A.
+    pub(super) fn layer_files(self, layers: &[&'static str]) -> Vec<LayerFile> {
+        match self {
+            Target::Gltf | Target::Blender => LayerFile::by_name(layers),
+            Target::Unreal | Target::Unity | Target::Godot => LayerFile::by_colour(layers),
+        }
+    }
+
+    /// The name of an image, without its folder.
+    pub(super) fn image_name(self, covered: Covered, image: Image, number: Number) -> String {
+        let kind = match (self, image) {
+            (Target::Unreal, Image::BaseColor) => "BaseColor",
+            (Target::Unreal, Image::Mask) => "Mask",
+            (Target::Unreal | Target::Unity, Image::Orm) => "ORM",
+            (Target::Unity, Image::BaseColor) => "BaseMap",
+            // Unity's own mask map is something else.
+            (Target::Unity, Image::Mask) => "DirtMask",
+            (Target::Unity, Image::MaskMap) => "MaskMap",
+            (Target::Godot, Image::BaseColor) => "albedo",
+            (_, Image::BaseColor) => "basecolor",
+            (_, Image::Mask) => "mask",
+            (_, Image::Orm) => "orm",
+            (_, Image::MaskMap) => "maskmap",
+        };
+        self.file_name(covered, kind, number, "png")
+    }
+
+    /// The name of the `index`-th EXR file, without its folder.
+    pub(super) fn layers_name(self, covered: Covered, index: usize, number: Number) -> String {
+        let kind = match self {
+            Target::Gltf | Target::Blender => "layers".to_string(),
+            Target::Unreal | Target::Unity => format!("Layers{}", index + 1),
+            Target::Godot => format!("layers{}", index + 1),
+        };
+        self.file_name(covered, &kind, number, "exr")
+    }
+
+    fn file_name(self, covered: Covered, kind: &str, number: Number, extension: &str) -> String {
+        let (lower, upper) = match covered {
+            Covered::Floor => ("floor", "Floor"),
+            Covered::Wall => ("wall", "Wall"),
+        };
+        let number = match (self, number) {
+            // Blender and Unreal find the other tiles by this.
+            (Target::Gltf | Target::Blender | Target::Unreal, Number::Udim(udim)) => format!(".{udim}"),
+            (Target::Unity | Target::Godot, Number::Udim(udim)) => format!("_{udim}"),
+            (_, Number::Uv(u, v)) => format!("_u{u:03}_v{v:03}"),
+        };
+        match self {
+            Target::Gltf | Target::Blender | Target::Godot => format!("{lower}_{kind}{number}.{extension}"),
+            Target::Unreal => format!("T_{upper}_{kind}{number}.{extension}"),
+            Target::Unity => format!("{upper}_{kind}{number}.{extension}"),
+        }
+    }
+
+    /// What the channels of all images hold. `masks` says what the four of the mask are, `of_layer` what a layer is.
+    pub(super) fn channels(
+        self,
+        colour: &str,
+        masks: [&str; 4],
+        layers: &[&'static str],
+        of_layer: impl Fn(&str) -> &'static str,
+    ) -> Vec<ChannelEntry> {
+        let entry = |image: &str, channel: &str, holds: &str, encoding: &str| ChannelEntry {
+            image: image.to_string(),
+            channel: channel.to_string(),
+            holds: holds.to_string(),
+            encoding: encoding.to_string(),
+        };
+        let mut channels = vec![entry("basecolor", "RGB", colour, "sRGB")];
+        let rgba = ["R", "G", "B", "A"];
+        channels.extend(rgba.into_iter().zip(masks).map(|(name, mask)| entry("mask", name, mask, "1 - exp(-D)")));
+        let packed = ["occlusion", "roughness", "metallic"];
+        channels.extend(rgba.into_iter().zip(packed).map(|(name, holds)| entry("orm", name, holds, "linear")));
+        if self.images().any(|image| image == Image::MaskMap) {
+            let packed = ["metallic", "occlusion", "detail: 1 everywhere", "smoothness: 1 - roughness"];
+            let map = rgba.into_iter().zip(packed).map(|(name, holds)| entry("mask_map", name, holds, "linear"));
+            channels.extend(map);
+        }
+        let files = self.layer_files(layers);
+        for (k, file) in files.iter().enumerate() {
+            let image = if files.len() == 1 { "layers".to_string() } else { format!("layers{}", k + 1) };
+            for (name, layer) in file.channels() {
+                let holds = match layer.and_then(|k| layers.get(k)) {
+                    Some(layer) if layer == name => of_layer(layer).to_string(),
+                    Some(layer) => format!("{layer}: {}", of_layer(layer)),
+                    None => "nothing".to_string(),
+                };
+                channels.push(entry(&image, name, &holds, "linear"));
+            }
+        }
+        channels
+    }
+}

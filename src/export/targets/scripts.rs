@@ -1,0 +1,87 @@
+use super::Target;
+use crate::export::manifest::Manifest;
+use crate::export::{ExportError, OutputFolder};
+
+/// A file of `shaders/` and what it holds.
+type Script = (&'static str, &'static str);
+
+impl Target {
+    /// What lays the masks over an artist's own floor in this program, and what sets the textures' flags.
+    fn scripts(self) -> &'static [Script] {
+        match self {
+            Target::Gltf => &[("trodden_masks.glsl", include_str!("files/trodden_masks.glsl"))],
+            Target::Blender => &[("trodden_blender.py", include_str!("files/trodden_blender.py"))],
+            Target::Unreal => &[
+                ("trodden_dirt.hlsl", include_str!("files/trodden_dirt.hlsl")),
+                ("trodden_mix.hlsl", include_str!("files/trodden_mix.hlsl")),
+                ("trodden_unreal.py", include_str!("files/trodden_unreal.py")),
+            ],
+            Target::Unity => &[
+                ("TroddenDirt.hlsl", include_str!("files/TroddenDirt.hlsl")),
+                // Unity compiles what lies in a folder of this name for the editor only.
+                ("Editor/TroddenImporter.cs", include_str!("files/TroddenImporter.cs")),
+            ],
+            Target::Godot => &[
+                ("trodden_floor.gdshader", include_str!("files/trodden_floor.gdshader")),
+                ("trodden_setup.gd", include_str!("files/trodden_setup.gd")),
+            ],
+        }
+    }
+}
+
+/// Writes what the manifest's target needs to use the textures into `shaders/`: shaders that lay the masks over a floor
+/// of one's own in world space, scripts that set the textures' flags. For Godot also the import settings beside each
+/// image. They read the rest from the manifest.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn write_target_files(folder: &OutputFolder, manifest: &Manifest) -> Result<(), ExportError> {
+    let target = manifest.target.name;
+    for (name, text) in target.scripts() {
+        folder.write(&format!("shaders/{name}"), text.as_bytes())?;
+    }
+    if target == Target::Godot {
+        for (file, settings) in godot_imports(manifest) {
+            folder.write(&format!("{file}.import"), settings.as_bytes())?;
+        }
+    }
+    Ok(())
+}
+
+/// Every image of a bake with its import settings for Godot 4.
+fn godot_imports(manifest: &Manifest) -> Vec<(&str, String)> {
+    let tiles = manifest.floor.tiles.iter().map(|tile| (&tile.basecolor, &tile.mask, &tile.orm, &tile.layers));
+    let sheets = manifest.walls.iter().flat_map(|walls| &walls.sheets);
+    let sheets = sheets.map(|sheet| (&sheet.basecolor, &sheet.mask, &sheet.orm, &sheet.layers));
+    let mut imports = Vec::new();
+    for (basecolor, mask, orm, layers) in tiles.chain(sheets) {
+        for image in [basecolor, mask, orm] {
+            imports.push((image.as_str(), godot_import(GodotCompression::Vram)));
+        }
+        imports.extend(layers.iter().map(|file| (file.as_str(), godot_import(GodotCompression::None))));
+    }
+    imports
+}
+
+#[derive(Clone, Copy)]
+enum GodotCompression {
+    /// BC7 or ASTC.
+    Vram,
+    /// As it is: block compression of half floats has no alpha.
+    None,
+}
+
+/// Full size, mip-maps, alpha as it is; whether numbers are colours is decided by the sampler's hint in a shader.
+fn godot_import(compression: GodotCompression) -> String {
+    let mode = match compression {
+        GodotCompression::Vram => 2,
+        GodotCompression::None => 3,
+    };
+    format!(
+        "[remap]\n\nimporter=\"texture\"\ntype=\"CompressedTexture2D\"\n\n[params]\n\n\
+         compress/mode={mode}\ncompress/high_quality=true\ncompress/normal_map=2\ncompress/channel_pack=0\n\
+         mipmaps/generate=true\nmipmaps/limit=-1\nroughness/mode=1\nprocess/fix_alpha_border=false\n\
+         process/premult_alpha=false\nprocess/hdr_as_srgb=false\nprocess/hdr_clamp_exposure=false\n\
+         process/size_limit=0\ndetect_3d/compress_to=0\n"
+    )
+}

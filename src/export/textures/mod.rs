@@ -1,0 +1,186 @@
+//! The textures of floor and walls, as files.
+
+use serde::{Deserialize, Serialize};
+
+use super::band::Image;
+use super::layout::TileLayout;
+use super::manifest::{FloorEntry, Naming, SumsEntry, TileEntry};
+use super::preview::Birdseye;
+use super::source::TextureSource;
+use super::targets::{Covered, Number, Target, WorldEntry};
+use super::{ExportError, OutputFolder, Reduced};
+use crate::progress::Progress;
+use crate::stamps::TexelGrid;
+
+mod walls;
+mod writer;
+
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+mod wall_tests;
+
+pub use walls::{WallTextures, wall_textures};
+use writer::{Canvas, TextureWriter};
+
+/// How far the look goes on beyond the floor's edge and around strips of wall, texels.
+pub const PADDING_PX: u32 = 16;
+
+/// How textures are written.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct TextureOptions {
+    /// Greatest width and height of a texture, texels: 64 to 16384.
+    pub tile: u32,
+    /// Whether to write the layers as EXR too.
+    pub layers: bool,
+    /// The program that they are for.
+    pub target: Target,
+    /// Whether walls are made too, and with them the scene, stills and page; the floor alone otherwise.
+    pub walls: bool,
+    /// Whether `scene.glb` carries its textures, reduced, inside.
+    pub embed: bool,
+    /// The greatest width and height of the small images that are kept of each texture; none are without it.
+    #[serde(skip)]
+    pub reduced_px: Option<u32>,
+}
+
+impl Default for TextureOptions {
+    fn default() -> TextureOptions {
+        TextureOptions {
+            tile: 8192,
+            layers: true,
+            target: Target::default(),
+            walls: true,
+            embed: false,
+            reduced_px: None,
+        }
+    }
+}
+
+impl TextureOptions {
+    /// Checks the size against what the target takes.
+    ///
+    /// # Errors
+    /// A tile size out of range.
+    pub fn check(&self) -> Result<(), ExportError> {
+        let (tile, min, max) = (self.tile, TileLayout::MIN_TILE, TileLayout::MAX_TILE);
+        if !(min..=max).contains(&tile) {
+            return Err(ExportError::TileSize { tile, min, max });
+        }
+        self.target.check_size(tile)
+    }
+}
+
+/// What was written of a floor.
+#[derive(Debug)]
+pub struct FloorTextures {
+    /// How the floor was cut.
+    pub layout: TileLayout,
+    /// The tiles that hold floor; there are no files of the others.
+    pub tiles: Vec<TileEntry>,
+    /// The program that they are for.
+    pub target: Target,
+    /// Names of the layers that were written.
+    pub layers: Vec<&'static str>,
+    /// Small images of each of `tiles`, if they were asked for.
+    pub reduced: Vec<Reduced>,
+    /// The floor from above.
+    pub birdseye: Birdseye,
+    /// Seconds that threads spent on resolving.
+    pub look_busy_s: f64,
+    /// Seconds that threads spent on compressing and writing.
+    pub export_busy_s: f64,
+}
+
+impl FloorTextures {
+    /// The manifest's entry.
+    pub fn entry(&self, sums: SumsEntry) -> FloorEntry {
+        let grid = self.layout.grid;
+        let masks = [
+            "film: dirt of everybody who ever walked",
+            "passes, D = look.film.per_pass x passes",
+            "fresh prints and scuffs",
+            "edge and dust: dirt where nobody walks",
+        ];
+        let of_layer = |layer: &str| match layer {
+            "passes" | "presence" => "footfalls of the simulated people",
+            _ => "optical density D",
+        };
+        FloorEntry {
+            texels_per_metre: grid.texels_per_metre,
+            width_px: grid.width,
+            height_px: grid.height,
+            tile_px: [self.layout.width, self.layout.height],
+            naming: self.layout.naming(),
+            padding_px: PADDING_PX,
+            channels: self.target.channels("colour of the trodden floor", masks, &self.layers, of_layer),
+            tiles: self.tiles.clone(),
+            sums,
+        }
+    }
+}
+
+/// Resolves a floor and writes its textures into `floor/`, a band of blocks at a time from above, on the rayon pool
+/// that it is called in: while one band is compressed and written, the next one is resolved.
+///
+/// Needs memory for the images of two bands of 256 rows, whatever the size of the floor, and for the reduced images.
+///
+/// # Errors
+/// A tile size out of range or beyond what the target takes, a file that cannot be written, an interruption.
+pub fn floor_textures(
+    folder: &OutputFolder,
+    grid: TexelGrid,
+    source: &impl TextureSource,
+    options: &TextureOptions,
+    progress: &dyn Progress,
+) -> Result<FloorTextures, ExportError> {
+    options.check()?;
+    let layout = TileLayout::new(grid, options.tile)?;
+    let writer = TextureWriter::new(folder, source.layers(), options, progress);
+    let birdseye = Birdseye::new(grid);
+    let (mut tiles, mut reduced) = (Vec::new(), Vec::new());
+    let count = f64::from(layout.columns() * layout.rows());
+    for (index, tile) in layout.tiles().enumerate() {
+        let number = match layout.naming() {
+            Naming::Udim => Number::Udim(tile.udim()),
+            Naming::Uv => Number::Uv(tile.u, tile.v),
+        };
+        let canvas = Canvas {
+            corner: [i64::from(tile.i0), i64::from(tile.j0)],
+            size: [tile.width, tile.height],
+            files: writer.files(Covered::Floor, number),
+            even_if_empty: false,
+            part: [index as f64 / count, (index + 1) as f64 / count],
+        };
+        let seen = |corner, size, block: &_| birdseye.add(corner, size, block);
+        let Some(written) = writer.write(source, &canvas, &seen)? else { continue };
+        reduced.extend(written.reduced);
+        let place = layout.place_m(&tile);
+        let file = |image| canvas.files.image(image).unwrap_or_default();
+        tiles.push(TileEntry {
+            u: tile.u,
+            v: tile.v,
+            udim: (layout.naming() == Naming::Udim).then(|| tile.udim()),
+            min_m: place.min,
+            max_m: place.max,
+            world: Some(WorldEntry::of(options.target, place)),
+            basecolor: file(Image::BaseColor),
+            mask: file(Image::Mask),
+            orm: file(Image::Orm),
+            mask_map: canvas.files.image(Image::MaskMap),
+            layers: canvas.files.layers,
+            sums: format!("sums/{}", layout.file_name(&tile, "sums", "exr")),
+        });
+    }
+    Ok(FloorTextures {
+        layout,
+        tiles,
+        target: options.target,
+        layers: if options.layers { source.layers().to_vec() } else { Vec::new() },
+        reduced,
+        look_busy_s: writer.look_busy.seconds(),
+        export_busy_s: writer.export_busy.seconds(),
+        birdseye,
+    })
+}

@@ -1,0 +1,149 @@
+"""Loads the scene of a bake with trimesh, as a tool of somebody else's would, and holds it against the manifest.
+
+    load.py BAKE...
+
+Exits with 1 and says what differs.
+"""
+
+import json
+import pathlib
+import sys
+
+import numpy as np
+import trimesh
+from PIL import Image
+
+
+class Check:
+    def __init__(self):
+        self.failures = 0
+
+    def near(self, what, found, wanted, tolerance):
+        """`tolerance` is a share of what is wanted."""
+        self.right(f"{what:<36} {found:12.4f}   {wanted:12.4f} wanted", abs(found - wanted) <= tolerance * abs(wanted))
+
+    def right(self, what, right):
+        self.failures += not right
+        print(f"{'ok ' if right else 'BAD'}  {what}")
+
+
+def shoelace(points):
+    """Area on the right of a loop."""
+    x, y = np.array(points).T
+    return 0.5 * np.sum(np.roll(x, -1) * y - x * np.roll(y, -1))
+
+
+def length(outline):
+    """Length of a loop without its openings."""
+    points = np.array(outline["points"])
+    edges = np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1)
+    edges[[edge for edge, _ in outline["openings"]]] = 0.0
+    return edges.sum()
+
+
+def parts(scene, kind):
+    """Meshes by the start of their node's name, in the plan's frame: x, y, height."""
+    found = {}
+    for node in sorted(scene.graph.nodes_geometry):
+        transform, name = scene.graph[node]
+        if node.startswith(kind):
+            mesh = scene.geometry[name].copy().apply_transform(transform)
+            x, height, minus_y = mesh.vertices.T
+            mesh.vertices = np.column_stack([x, -minus_y, height])
+            found[node] = mesh
+    return found
+
+
+def floor(check, tiles, manifest):
+    wanted = sum(shoelace(outline["points"]) for outline in manifest["outlines"])
+    check.near("floor, m2", sum(mesh.area for mesh in tiles.values()), wanted, 1e-5)
+    check.right("floor lies level and looks up", all(np.all(mesh.face_normals[:, 2] > 0.999) for mesh in tiles.values()))
+    entries = manifest["floor"]["tiles"]
+    check.right(f"{len(tiles)} tiles", len(tiles) == len(entries))
+    places = []
+    for mesh in tiles.values():
+        # trimesh has v upward.
+        uv = mesh.visual.uv
+        errors = []
+        for entry in entries:
+            low, high = np.array(entry["min_m"]), np.array(entry["max_m"])
+            errors.append(np.abs(low + uv * (high - low) - mesh.vertices[:, :2]).max())
+        places.append(min(errors))
+    check.right(f"coordinates say where in its tile a corner lies, to {max(places):.1e} m", max(places) < 0.1)
+
+
+def walls(check, sheets, manifest):
+    entry = manifest["walls"]
+    wanted = sum(length(outline) for outline in manifest["outlines"]) * entry["height_m"]
+    check.near("walls, m2", sum(mesh.area for mesh in sheets.values()), wanted, 1e-4)
+    check.right(f"{len(sheets)} sheets", len(sheets) == len(entry["sheets"]))
+    upright = all(np.abs(mesh.face_normals[:, 2]).max() < 1e-3 for mesh in sheets.values())
+    check.right("walls stand upright", upright)
+    worst = 0.0
+    # Their names count upward, in the manifest's order.
+    in_order = sorted(sheets, key=lambda node: (len(node), node))
+    for sheet, node in zip(entry["sheets"], in_order):
+        # How large a triangle is on the sheet follows from its size in metres.
+        size = np.array([sheet["width_px"], sheet["height_px"]])
+        mesh = sheets[node]
+        worst = max(worst, outside(mesh, sheet))
+        texels = (mesh.visual.uv * size)[mesh.faces]
+        a, b = texels[:, 1] - texels[:, 0], texels[:, 2] - texels[:, 0]
+        area = 0.5 * np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+        off = np.abs(area / entry["texels_per_metre"] ** 2 - mesh.area_faces)
+        check.right(f"texels of sheet {sheet['basecolor']} are as large as they should be", off.max() < 0.02)
+    check.right(f"walls lie on their strips, to {worst:.2f} texels", worst < 0.6)
+
+
+def outside(mesh, sheet):
+    """How far corners lie outside of all strips of a sheet, texels."""
+    size = np.array([sheet["width_px"], sheet["height_px"]])
+    texels = mesh.visual.uv * [1, -1] * size + [0, sheet["height_px"]]
+    beyond = np.full(len(texels), np.inf)
+    for strip in sheet["strips"]:
+        left, top, width, height = strip["rect_px"]
+        low, high = np.array([left, top]), np.array([left + width, top + height])
+        beyond = np.minimum(beyond, np.maximum(low - texels, texels - high).max(axis=1))
+    return max(beyond.max(), 0.0)
+
+
+def images(check, meshes, bake, manifest, embedded):
+    """Base colour and ORM of every part are there; those beside the scene are files that the manifest names."""
+    entries = manifest["floor"]["tiles"] + manifest["walls"]["sheets"]
+    files = {entry["basecolor"]: Image.open(bake / entry["basecolor"]) for entry in entries}
+    for node, mesh in meshes.items():
+        material = mesh.visual.material
+        colour, orm = material.baseColorTexture, material.metallicRoughnessTexture
+        there = colour is not None and orm is not None and min(colour.size) > 1 and min(orm.size) > 1
+        if there and embedded:
+            there = max(colour.size) <= 2048 and max(orm.size) <= 2048
+        elif there:
+            there = any(image.size == colour.size and image.tobytes() == colour.convert(image.mode).tobytes()
+                        for image in files.values())
+        check.right(f"{node} has its images, {colour.size if colour else None}", there)
+
+
+def main(bakes):
+    check = Check()
+    for bake in map(pathlib.Path, bakes):
+        print(bake.name)
+        manifest = json.loads((bake / "manifest.json").read_text())
+        scene = trimesh.load_scene(bake / "scene.glb", process=False)
+        height = manifest["walls"]["height_m"]
+        least, greatest = scene.bounds
+        check.near("height, m", greatest[1], height, 1e-5)
+        check.right("the floor is at 0", least[1] == 0.0)
+        # Outer walls may stand a little beyond the plan.
+        low, high = np.array([least[0], -greatest[2]]), np.array([greatest[0], -least[2]])
+        size = np.array([manifest["plan"]["width_m"], manifest["plan"]["height_m"]])
+        check.right(f"it lies where the plan does: {low} to {high} m", np.all(low > -0.5) and np.all(high < size + 0.5))
+        tiles, sheets = parts(scene, "floor"), parts(scene, "wall")
+        sheets = {node: mesh for node, mesh in sheets.items() if getattr(mesh.visual, "uv", None) is not None}
+        floor(check, tiles, manifest)
+        walls(check, sheets, manifest)
+        images(check, tiles | sheets, bake, manifest, embedded=bake.name == "embedded")
+    return check.failures
+
+
+if __name__ == "__main__":
+    sys.exit(1 if main(sys.argv[1:]) else 0)
