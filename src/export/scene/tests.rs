@@ -143,7 +143,8 @@ fn check(scene: &Scene) {
     assert!(scene.parts.windows(2).all(|w| w[0].surface < w[1].surface), "each surface once, in order");
 }
 
-/// Length of all edges of floor triangles that no two of them share, metres: the outline, and every crack.
+/// Length of all edges of floor triangles that no two of them share, metres: the outline, and every crack wider than
+/// 10 micrometres. Slivers without an area in single precision are left out of a scene: what lay on their two sides meets.
 fn open_length_m(scene: &Scene) -> f64 {
     let mut edges: HashMap<[[u32; 2]; 2], i32> = HashMap::new();
     for part in floors(scene) {
@@ -160,7 +161,23 @@ fn open_length_m(scene: &Scene) -> f64 {
         }
     }
     let point = |p: [u32; 2]| vec2(f64::from(f32::from_bits(p[0])), f64::from(f32::from_bits(p[1])));
-    edges.iter().map(|([a, b], count)| f64::from(count.abs()) * point(*a).distance(point(*b))).sum()
+    let open: Vec<(Vec2, Vec2, f64)> = edges
+        .iter()
+        .filter(|(_, count)| **count != 0)
+        .map(|([a, b], count)| match *count > 0 {
+            true => (point(*a), point(*b), f64::from(*count)),
+            false => (point(*b), point(*a), f64::from(-count)),
+        })
+        .collect();
+    let is_met = |a: Vec2, b: Vec2| {
+        let middle = a.lerp(b, 0.5);
+        open.iter().any(|&(c, d, _)| {
+            let way = d - c;
+            let share = (middle - c).dot(way) / way.dot(way);
+            (0.0..=1.0).contains(&share) && (c + way * share).distance(middle) < 1e-5 && way.dot(b - a) < 0.0
+        })
+    };
+    open.iter().filter(|(a, b, _)| !is_met(*a, *b)).map(|(a, b, count)| count * a.distance(*b)).sum()
 }
 
 #[test]

@@ -37,7 +37,7 @@ pub use error::StillError;
 use render::Renderer;
 use skin::Skin;
 use space::Space;
-use texels::{FloorTexels, PlainWalls, SmallFloor, SmallWalls, Texels, WallTexels};
+use texels::{FloorTexels, PlainWalls, SmallFloor, SmallWalls, Texel, Texels, WallTexels};
 use traffic::Traffic;
 
 /// Width and height of a bake's stills, pixels.
@@ -155,6 +155,7 @@ struct Sheets<'a, S> {
     floor: FloorTexels<'a, S>,
     small: Option<SmallFloor>,
     walls: Box<dyn Texels + 'a>,
+    plain_wall: Texel,
     far_walls: Option<Box<dyn Texels + 'a>>,
 }
 
@@ -176,6 +177,7 @@ impl<'a, S: TextureSource> Sheets<'a, S> {
                 }
                 None => plain(unknown, 100.0),
             },
+            plain_wall: PlainWalls::of(coat.walls.map_or(unknown, |walls| walls.source.background()), 1.0).texel,
             far_walls: coat.walls.and_then(|walls| {
                 let background = walls.source.background();
                 match walls.far {
@@ -191,7 +193,7 @@ impl<'a, S: TextureSource> Sheets<'a, S> {
 
     fn skin(&self) -> Skin<'_> {
         let small = self.small.as_ref().map(|small| small as &dyn Texels);
-        Skin::new([&self.floor, &*self.walls], [small, self.far_walls.as_deref()])
+        Skin::new([&self.floor, &*self.walls], [small, self.far_walls.as_deref()], self.plain_wall)
     }
 }
 

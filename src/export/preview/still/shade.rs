@@ -20,23 +20,14 @@ const CEILING: Colour = [0.78, 0.775, 0.76];
 const TOP: Colour = [0.052, 0.052, 0.058];
 /// What the model stands on.
 const TABLE: Colour = [0.56, 0.555, 0.54];
-/// Plain walls where nothing else is known: lintels, reflections.
+/// Walls as floors mirror them.
 const PLAIN: Colour = [0.66, 0.64, 0.60];
 /// Share of light that smooth surfaces throw back at a right angle.
 const F0: f32 = 0.04;
 /// Farthest wall that is looked for in the floor, metres.
 const MIRROR_REACH_M: f64 = 90.0;
-/// Way to the mirrored ceiling up to which one ray will do, metres.
-const NARROW_M: f64 = 4.0;
-/// Cosine and sine of the angle to one side, and weight.
-const SPREAD_1: [[f64; 3]; 1] = [[1.0, 0.0, 1.0]];
-const SPREAD_5: [[f64; 3]; 5] = [
-    [0.989_2, -0.146_6, 0.12],
-    [0.997_6, -0.069_2, 0.23],
-    [1.0, 0.0, 0.30],
-    [0.997_6, 0.069_2, 0.23],
-    [0.989_2, 0.146_6, 0.12],
-];
+/// Half of what a usual floor mirrors comes from within this slope to either side.
+const LOBE: f64 = 0.11;
 
 /// All that a picture is made of.
 pub(super) struct Shader<'a> {
@@ -54,7 +45,7 @@ struct Mirror {
     wall_z: f64,
     stretch: f64,
     slope: f64,
-    /// Share of the rays around it that see daylight.
+    /// Share of daylight in it, 0 to 1.
     daylight: f32,
     ceiling: Vec2,
     toward: Vec2,
@@ -66,6 +57,7 @@ impl Shader<'_> {
         match hit.surface {
             Surface::Floor => self.floor(hit, skins, out),
             Surface::Wall(piece) => self.wall(hit, piece, skins, out),
+            Surface::Lintel(_) | Surface::Soffit(_) => self.lintel(hit, skins, out),
             other => out.fill(self.plain(hit, other)),
         }
         if hit.beyond_m > 0.0 {
@@ -105,15 +97,19 @@ impl Shader<'_> {
         }
     }
 
+    /// The clean wall over a door.
+    fn lintel(&self, hit: &Hit, skins: &[Skin], out: &mut [Colour]) {
+        let height = (hit.point[2] / self.space.height_m as f32).clamp(0.0, 1.0);
+        let light = if matches!(hit.surface, Surface::Soffit(_)) { 0.55 } else { 0.98 - 0.16 * height };
+        for (skin, out) in skins.iter().zip(out) {
+            *out = scaled(skin.plain, light);
+        }
+    }
+
     fn plain(&self, hit: &Hit, surface: Surface) -> Colour {
-        let [x, y, z] = hit.point;
+        let [x, y, _] = hit.point;
         match surface {
             Surface::Ceiling => self.ceiling(hit),
-            Surface::Lintel(_) => {
-                let height = (z / self.space.height_m as f32).clamp(0.0, 1.0);
-                scaled(PLAIN, 0.78 - 0.12 * height)
-            }
-            Surface::Soffit(_) => scaled(PLAIN, 0.5),
             Surface::Top => TOP,
             Surface::Side => scaled(TOP, 0.75),
             Surface::Table => self.table(x, y, hit.way_m),
@@ -171,26 +167,62 @@ impl Shader<'_> {
         let from = vec2(f64::from(hit.point[0]), f64::from(hit.point[1]));
         let ceiling_m = self.space.height_m / slope;
         let reach = (1.6 * ceiling_m + 0.5).min(MIRROR_REACH_M);
-        // A rough floor sees some way to both sides; right in front of one's feet that changes nothing.
-        let spread: &[[f64; 3]] = if ceiling_m > NARROW_M { &SPREAD_5 } else { &SPREAD_1 };
         let solid = |piece: &Piece, _: f64| !matches!(piece.what, What::Lintel(_));
-        let (mut wall_m, mut daylight) = (0.0, 0.0);
-        for &[cosine, sine, weight] in spread {
-            let met = self.space.cast(from, toward.rotated(vec2(cosine, sine)), reach, solid);
-            wall_m += weight * met.map_or(reach, |met| met.way_m.max(0.0));
-            let opening = met.is_some_and(|met| self.space.pieces[met.piece].what == What::Opening);
-            daylight += if opening { weight as f32 } else { 0.0 };
-        }
+        let wall_m = self.space.cast(from, toward, reach, solid).map_or(reach, |met| met.way_m.max(0.0));
         Mirror {
             wall_m,
             ceiling_m,
             wall_z: wall_m * slope,
             stretch: (1.0 + slope * slope).sqrt(),
             slope,
-            daylight,
+            daylight: self.daylight(from, toward, slope),
             ceiling: from + toward * ceiling_m.min(wall_m),
             toward,
         }
+    }
+
+    /// Share of what a rough floor mirrors from around a direction that is daylight: each opening as a bright rectangle
+    /// that is blurred to both sides and upward.
+    fn daylight(&self, from: Vec2, toward: Vec2, slope: f64) -> f32 {
+        let mut sum = 0.0;
+        for &[a, b] in &self.space.openings {
+            let [a, b] = [a - from, b - from].map(|way| vec2(way.dot(toward), toward.cross(way)));
+            // What lies beside or behind is not in the lobe.
+            if a.x < 0.3 || b.x < 0.3 {
+                continue;
+            }
+            let (left, right) = if a.y * b.x < b.y * a.x { (a, b) } else { (b, a) };
+            let across = rise(right.y / right.x / LOBE) - rise(left.y / left.x / LOBE);
+            if across < 0.01 {
+                continue;
+            }
+            // The part that matters: what of it is within the lobe.
+            let at = |t: f64| left + (right - left) * t;
+            let share_at = |side: f64| {
+                let wanted = side * LOBE;
+                let along = right - left;
+                let t = (wanted * left.x - left.y) / (along.y - wanted * along.x);
+                if t.is_finite() { t.clamp(0.02, 0.98) } else { 0.5 }
+            };
+            let ends = [share_at(-1.0), share_at(1.0)];
+            let seen = [0.05, 0.35, 0.65, 0.95].into_iter().filter(|k| {
+                let place = at(ends[0] + (ends[1] - ends[0]) * k);
+                let way = toward * place.x + toward.left() * place.y;
+                self.sees(from, way)
+            });
+            let distance = at(0.5 * (ends[0] + ends[1])).length();
+            let blur = 0.5 * self.space.height_m + LOBE * distance;
+            let below = 1.0 - rise((distance * slope - self.space.height_m) / blur);
+            sum += across * below * seen.count() as f64 / 4.0;
+        }
+        sum.min(1.0) as f32
+    }
+
+    /// Whether nothing stands between a place and where a way from it leads.
+    fn sees(&self, from: Vec2, way: Vec2) -> bool {
+        let distance = way.length();
+        let walls = |piece: &Piece, _: f64| matches!(piece.what, What::Wall(_));
+        self.space.cast(from, way / distance.max(1e-9), distance - 0.02, walls).is_none()
     }
 
     /// The mirrored room, as blurred as the floor is rough.
@@ -201,7 +233,7 @@ impl Shader<'_> {
         let blur_wall = alpha * mirror.wall_m * mirror.stretch + 0.02;
         let over = rise((mirror.wall_z - height) / blur_wall) as f32;
         let share = (mirror.wall_z / height).clamp(0.0, 1.0) as f32;
-        let wall = mix(scaled(PLAIN, 0.60 + 0.16 * share), DAYLIGHT, mirror.daylight);
+        let wall = scaled(PLAIN, 0.60 + 0.16 * share);
         let distance = mirror.ceiling_m.min(mirror.wall_m) * mirror.stretch;
         // The lobe is cut by the ceiling at a flat angle: long the way that one looks.
         let across = 0.7 * alpha * distance;
@@ -222,7 +254,7 @@ impl Shader<'_> {
             }
         }
         let ceiling = mix(scaled(CEILING, 0.6), LAMP, (lamps as f32).min(1.0));
-        mix(wall, ceiling, over)
+        mix(mix(wall, ceiling, over), DAYLIGHT, mirror.daylight)
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::pyramid::{Footprint, Key, Needed, Pyramid};
 use super::space::{Piece, Space, What};
-use super::texels::Texels;
+use super::texels::{Texel, Texels};
 use super::trace::{Hit, Surface};
 
 /// Pixels see a little less than their own width: pictures look soft otherwise.
@@ -18,6 +18,8 @@ pub(super) struct Skin<'a> {
     small: Option<Pyramid<'a>>,
     walls: Pyramid<'a>,
     small_walls: Option<Pyramid<'a>>,
+    /// The clean wall, where nothing lies on it.
+    pub plain: [f32; 3],
 }
 
 /// Blocks of a skin.
@@ -53,12 +55,17 @@ pub(super) struct Paint {
 
 impl<'a> Skin<'a> {
     /// Floor and walls at their own texel density, and both made small, where they are.
-    pub fn new([floor, walls]: [&'a dyn Texels; 2], [small, small_walls]: [Option<&'a dyn Texels>; 2]) -> Skin<'a> {
+    pub fn new(
+        [floor, walls]: [&'a dyn Texels; 2],
+        [small, small_walls]: [Option<&'a dyn Texels>; 2],
+        plain: Texel,
+    ) -> Skin<'a> {
         Skin {
             fine: Pyramid::new(floor),
             small: small.map(Pyramid::new),
             walls: Pyramid::new(walls),
             small_walls: small_walls.map(Pyramid::new),
+            plain: [plain[0], plain[1], plain[2]].map(|value| f32::from(value) / 65_535.0),
         }
     }
 

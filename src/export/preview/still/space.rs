@@ -117,6 +117,8 @@ enum Ground {
 pub(super) struct Space {
     pub pieces: Vec<Piece>,
     pub lintels: Vec<Lintel>,
+    /// Both ends of each opening.
+    pub openings: Vec<[Vec2; 2]>,
     pub height_m: f64,
     /// The block that the rooms are cut into.
     pub block: Rect,
@@ -146,6 +148,7 @@ impl Space {
         let count = |metres: f64| (metres / cell_m) as usize + 1;
         let (columns, rows) = (count(area.width()), count(area.height()));
         let mut space = Space {
+            openings: opening_pieces(walls).map(|piece| [piece.a, piece.b()]).collect(),
             pieces,
             lintels,
             height_m,
