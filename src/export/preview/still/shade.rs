@@ -100,7 +100,7 @@ impl Shader<'_> {
     /// The clean wall over a door.
     fn lintel(&self, hit: &Hit, skins: &[Skin], out: &mut [Colour]) {
         let height = (hit.point[2] / self.space.height_m as f32).clamp(0.0, 1.0);
-        let light = if matches!(hit.surface, Surface::Soffit(_)) { 0.55 } else { 0.98 - 0.16 * height };
+        let light = if matches!(hit.surface, Surface::Soffit(_)) { 0.5 } else { 0.84 - 0.14 * height };
         for (skin, out) in skins.iter().zip(out) {
             *out = scaled(skin.plain, light);
         }
