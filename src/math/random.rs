@@ -22,6 +22,8 @@ pub enum Purpose {
     Stops = 7,
     /// What is touched on walls, and the variation word of each contact.
     Contacts = 8,
+    /// With how many others somebody walks.
+    Groups = 9,
 }
 
 /// The random stream of one person for one purpose: a pure function of its three arguments.

@@ -139,7 +139,7 @@ impl Div<f64> for Vec2 {
 }
 
 /// An axis-aligned rectangle in the plan frame, metres; `min` is the lower-left corner.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Rect {
     /// Lower-left corner.
     pub min: Vec2,

@@ -1,8 +1,12 @@
 use std::path::PathBuf;
 
+use super::features::FeaturesError;
+use super::formation::FormationError;
 use super::recorder::RecordFormat;
+use super::recording::RecordingError;
+use super::units::UnitsError;
 
-/// Why a motion cannot be recorded.
+/// Why a motion cannot be recorded, read or made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MotionError {
@@ -22,6 +26,32 @@ pub enum MotionError {
         /// Most allowed.
         high: f64,
     },
+    /// Nobody is there throughout a time.
+    #[error("nobody is present throughout, from {from_s:.2} to {to_s:.2} s")]
+    NobodyThroughout {
+        /// Start of the time, seconds.
+        from_s: f64,
+        /// Its end, seconds.
+        to_s: f64,
+    },
+    /// More than can be worked on as a whole.
+    #[error("the motion has more than {most} places, people times moments")]
+    TooLong {
+        /// The most that are allowed.
+        most: usize,
+    },
+    /// A recording cannot be read.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
+    /// Formations cannot be interpolated.
+    #[error(transparent)]
+    Formation(#[from] FormationError),
+    /// Features cannot be worked on.
+    #[error(transparent)]
+    Features(#[from] FeaturesError),
+    /// Units cannot be cut or used.
+    #[error(transparent)]
+    Units(#[from] UnitsError),
 }
 
 impl MotionError {
@@ -32,6 +62,12 @@ impl MotionError {
                 Some("paths.txt is Juelich text, paths.sqlite a JuPedSim database".to_string())
             }
             MotionError::FrameRate { .. } => Some("10 is the crowd's own rate".to_string()),
+            MotionError::NobodyThroughout { .. } => Some("choose a shorter time with --from and --to".to_string()),
+            MotionError::TooLong { .. } => Some("choose a shorter time, or fewer frames per second".to_string()),
+            MotionError::Recording(error) => error.hint(),
+            MotionError::Formation(error) => error.hint(),
+            MotionError::Features(error) => error.hint(),
+            MotionError::Units(error) => error.hint(),
         }
     }
 }

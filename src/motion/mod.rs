@@ -1,16 +1,24 @@
 //! The hub: a stream of frames that say where everybody is. What comes after it does not know whether the
-//! frames were simulated or recorded. A [`Recorder`] writes them to a file that other programs read.
+//! frames were simulated, recorded, interpolated or spliced. A [`Recorder`] writes them to a file that other programs
+//! read, a [`Recording`] reads such files.
 
+mod ensemble;
 mod error;
+pub mod features;
+pub mod formation;
 mod mileage;
 mod person;
 mod recorder;
+mod recording;
+pub mod units;
 
+pub use ensemble::{Ensemble, EnsembleMotion, MOST_PLACES};
 pub use error::MotionError;
 pub use mileage::Mileage;
 pub use person::{Bag, BagKind, BodyOptions, CarrySide, People, Person, STRIDE_SPEED_M_S};
 pub(crate) use recorder::Resampler;
 pub use recorder::{FRAME_RATES, RecordFormat, Recorded, RecordedWorld, Recorder};
+pub use recording::{LengthUnit, Recording, RecordingError, RecordingFormat, RecordingOptions, Survey};
 
 use crate::Error;
 use crate::math::Vec2;

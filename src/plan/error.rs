@@ -107,6 +107,16 @@ pub enum PlanError {
         /// Height, metres.
         height_m: f64,
     },
+    /// Paths that reach too far for a floor around them.
+    #[error(
+        "without a plan the floor around the paths would be {width_m:.0} x {height_m:.0} m; at most {LARGEST_SIDE_M} m a side are walked"
+    )]
+    PathsTooWide {
+        /// Width, metres.
+        width_m: f64,
+        /// Height, metres.
+        height_m: f64,
+    },
     /// A setting beyond its range.
     #[error("plan.{key} is {value}; it must lie between {low} and {high}")]
     OutOfRange {
@@ -183,6 +193,7 @@ impl PlanError {
             PlanError::TooLarge { .. } | PlanError::NoRoom { .. } => {
                 "check the scale (--metres-per-pixel, plan.metres_per_pixel)".into()
             }
+            PlanError::PathsTooWide { .. } => "check the recording's unit (--unit, motion.unit)".into(),
             PlanError::NoFloor { .. } => {
                 "white is floor, black is wall; lower plan.threshold if the floor is grey".into()
             }

@@ -14,6 +14,7 @@ mod doors;
 mod drawing;
 mod error;
 mod image_file;
+mod open_ground;
 mod openings;
 mod options;
 mod read;

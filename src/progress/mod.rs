@@ -13,6 +13,7 @@ pub enum Stage {
     Walls,
     Routes,
     Patterns,
+    Motion,
     Crowd,
     Marks,
     Stamps,
@@ -23,11 +24,12 @@ pub enum Stage {
 
 impl Stage {
     /// All stages, in the order in which the data goes.
-    pub const ALL: [Stage; 10] = [
+    pub const ALL: [Stage; 11] = [
         Stage::Plan,
         Stage::Walls,
         Stage::Routes,
         Stage::Patterns,
+        Stage::Motion,
         Stage::Crowd,
         Stage::Marks,
         Stage::Stamps,
@@ -43,6 +45,7 @@ impl Stage {
             Stage::Walls => "walls",
             Stage::Routes => "routes",
             Stage::Patterns => "patterns",
+            Stage::Motion => "motion",
             Stage::Crowd => "crowd",
             Stage::Marks => "marks",
             Stage::Stamps => "stamps",

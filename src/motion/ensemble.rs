@@ -1,0 +1,218 @@
+use super::{Frame, Motion, MotionError, Resampler, Walker};
+use crate::Error;
+use crate::math::{Rect, Vec2, vec2};
+
+/// The most places that an ensemble holds: people times moments.
+pub const MOST_PLACES: usize = 100_000_000;
+
+/// The same people at the same, evenly spaced moments: what examples are worked on as.
+///
+/// Somebody's path over time is a column, everybody's places at a moment a row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ensemble {
+    /// Moments per second.
+    pub fps: f64,
+    /// Time of the first moment, seconds.
+    pub start_s: f64,
+    /// Who they are, ascending.
+    pub ids: Vec<u32>,
+    /// Places in metres, moment by moment, in each as many as there are ids, in their order.
+    places_m: Vec<Vec2>,
+}
+
+impl Ensemble {
+    /// An ensemble of places at hand: moment by moment, in each those of all ids in their order.
+    ///
+    /// # Panics
+    /// Places that do not fill whole moments.
+    pub fn new(fps: f64, start_s: f64, ids: Vec<u32>, places_m: Vec<Vec2>) -> Ensemble {
+        let whole = if ids.is_empty() { places_m.is_empty() } else { places_m.len().is_multiple_of(ids.len()) };
+        assert!(whole, "{} places are no whole number of moments of {} people", places_m.len(), ids.len());
+        Ensemble { fps, start_s, ids, places_m }
+    }
+
+    /// Those people of a motion who are present from the first to the last moment of `[from_s, to_s]`, at `fps` moments
+    /// per second; a motion that ends earlier ends the ensemble.
+    ///
+    /// # Errors
+    /// What stops the motion; nobody who is present throughout; more than [`MOST_PLACES`].
+    pub fn of_motion(motion: &mut dyn Motion, fps: f64, [from_s, to_s]: [f64; 2]) -> Result<Ensemble, Error> {
+        let mut resampler = Resampler::new(fps);
+        let mut frame = Frame::default();
+        let mut moments: Vec<Vec<Walker>> = Vec::new();
+        let mut start_s = None;
+        let mut places = 0;
+        while motion.next_frame(&mut frame)? {
+            resampler.push(&frame);
+            while let Some((number, walkers)) = resampler.next() {
+                let time_s = number as f64 / fps;
+                // Nobody is there before the first frame.
+                if time_s < from_s || time_s > to_s || (start_s.is_none() && walkers.is_empty()) {
+                    continue;
+                }
+                start_s.get_or_insert(time_s);
+                places += walkers.len();
+                if places > MOST_PLACES {
+                    return Err(MotionError::TooLong { most: MOST_PLACES }.into());
+                }
+                moments.push(walkers);
+            }
+            if frame.time_s > to_s {
+                break;
+            }
+        }
+        let ids = present_throughout(&moments);
+        let (Some(start_s), false) = (start_s, ids.is_empty()) else {
+            return Err(MotionError::NobodyThroughout { from_s, to_s: to_s.min(frame.time_s) }.into());
+        };
+        let chosen = |walkers: &Vec<Walker>| -> Vec<Vec2> {
+            let place = |id: &u32| walkers.binary_search_by_key(id, |w| w.id).map(|at| walkers[at].position_m);
+            ids.iter().filter_map(|id| place(id).ok()).collect()
+        };
+        let places_m = moments.iter().flat_map(chosen).collect();
+        Ok(Ensemble { fps, start_s, ids, places_m })
+    }
+
+    /// Number of people.
+    pub fn people(&self) -> usize {
+        self.ids.len()
+    }
+
+    /// Number of moments.
+    pub fn moments(&self) -> usize {
+        self.places_m.len().checked_div(self.ids.len()).unwrap_or(0)
+    }
+
+    /// Everybody's places at a moment.
+    pub fn places_at(&self, moment: usize) -> &[Vec2] {
+        let people = self.people();
+        &self.places_m[moment * people..(moment + 1) * people]
+    }
+
+    /// The same, to change them.
+    pub fn places_at_mut(&mut self, moment: usize) -> &mut [Vec2] {
+        let people = self.people();
+        &mut self.places_m[moment * people..(moment + 1) * people]
+    }
+
+    /// Time of a moment, seconds.
+    pub fn time_s(&self, moment: usize) -> f64 {
+        self.start_s + moment as f64 / self.fps
+    }
+
+    /// Middle of everybody at a moment.
+    pub fn centroid_m(&self, moment: usize) -> Vec2 {
+        let places = self.places_at(moment);
+        places.iter().fold(Vec2::ZERO, |sum, &place| sum + place) / places.len() as f64
+    }
+
+    /// The rectangle around all places, metres.
+    pub fn bounds_m(&self) -> Rect {
+        let point = |&p: &Vec2| Rect { min: p, max: p };
+        let both = |a: Rect, b: Rect| Rect {
+            min: vec2(a.min.x.min(b.min.x), a.min.y.min(b.min.y)),
+            max: vec2(a.max.x.max(b.max.x), a.max.y.max(b.max.y)),
+        };
+        self.places_m.iter().map(point).reduce(both).unwrap_or(Rect { min: Vec2::ZERO, max: Vec2::ZERO })
+    }
+
+    /// The ensemble as a motion; velocities are central differences.
+    pub fn motion(&self) -> EnsembleMotion<'_> {
+        EnsembleMotion { ensemble: self, next: 0 }
+    }
+}
+
+/// Who is there in every moment.
+fn present_throughout(moments: &[Vec<Walker>]) -> Vec<u32> {
+    let mut ids: Vec<u32> = moments.first().map_or_else(Vec::new, |first| first.iter().map(|w| w.id).collect());
+    for walkers in moments {
+        ids.retain(|id| walkers.binary_search_by_key(id, |w| w.id).is_ok());
+    }
+    ids
+}
+
+/// An [`Ensemble`] as a motion.
+#[derive(Clone, Debug)]
+pub struct EnsembleMotion<'a> {
+    ensemble: &'a Ensemble,
+    next: usize,
+}
+
+impl Motion for EnsembleMotion<'_> {
+    fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, Error> {
+        let Ensemble { fps, ids, .. } = self.ensemble;
+        let (now, moments) = (self.next, self.ensemble.moments());
+        if now >= moments {
+            return Ok(false);
+        }
+        self.next += 1;
+        let (before, after) = (now.saturating_sub(1), (now + 1).min(moments - 1));
+        let span_s = (after - before) as f64 / fps;
+        let [before, here, after] = [before, now, after].map(|moment| self.ensemble.places_at(moment));
+        frame.time_s = self.ensemble.time_s(now);
+        frame.walkers.clear();
+        frame.walkers.extend(ids.iter().enumerate().map(|(k, &id)| Walker {
+            id,
+            position_m: here[k],
+            velocity_m_s: if span_s > 0.0 { (after[k] - before[k]) / span_s } else { vec2(0.0, 0.0) },
+            heading: None,
+        }));
+        Ok(true)
+    }
+
+    fn share_done(&self) -> f64 {
+        self.next as f64 / self.ensemble.moments().max(1) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn two() -> Ensemble {
+        let places = (0..5).flat_map(|k| [vec2(0.5 * f64::from(k), 0.0), vec2(0.0, f64::from(k))]).collect();
+        Ensemble::new(2.0, 1.0, vec![3, 8], places)
+    }
+
+    #[test]
+    fn an_ensemble_played_and_taken_again_is_the_same() {
+        let again = Ensemble::of_motion(&mut two().motion(), 2.0, [0.0, 100.0]).unwrap();
+        assert_eq!(again, two());
+        let part = Ensemble::of_motion(&mut two().motion(), 2.0, [1.5, 2.5]).unwrap();
+        assert_eq!((part.start_s, part.moments()), (1.5, 3));
+    }
+
+    #[test]
+    fn velocities_are_differences() {
+        let two = two();
+        let (mut motion, mut frame) = (two.motion(), Frame::default());
+        while motion.next_frame(&mut frame).unwrap() {
+            assert_eq!(frame.walkers[0].velocity_m_s, vec2(1.0, 0.0));
+            assert_eq!(frame.walkers[1].velocity_m_s, vec2(0.0, 2.0));
+        }
+        assert_eq!(frame.time_s, 3.0);
+        assert_eq!(motion.share_done(), 1.0);
+    }
+
+    #[test]
+    fn only_those_count_who_are_there_throughout() {
+        struct Comings(u32);
+        impl Motion for Comings {
+            fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, Error> {
+                let walker = |id| Walker { id, position_m: vec2(0.0, 0.0), velocity_m_s: Vec2::ZERO, heading: None };
+                frame.time_s = f64::from(self.0);
+                frame.walkers = if self.0 == 3 { vec![walker(2)] } else { vec![walker(1), walker(2)] };
+                self.0 += 1;
+                Ok(self.0 < 8)
+            }
+            fn share_done(&self) -> f64 {
+                0.0
+            }
+        }
+        let ids = |from_s, to_s| Ensemble::of_motion(&mut Comings(0), 1.0, [from_s, to_s]).map(|e| e.ids);
+        assert_eq!(ids(0.0, 2.0).unwrap(), [1, 2]);
+        assert_eq!(ids(0.0, 5.0).unwrap(), [2]);
+        let error = ids(50.0, 60.0).unwrap_err();
+        assert!(matches!(error, Error::Motion(MotionError::NobodyThroughout { .. })), "{error}");
+    }
+}

@@ -1,0 +1,66 @@
+use super::super::hierarchy::Who;
+use super::super::request::AvoidRequest;
+use super::USUAL_DISTANCE_M;
+use crate::math::Vec2;
+
+/// What keeps clear of others as one: a person, or people who keep together.
+#[derive(Clone, Debug)]
+pub(in super::super) struct Body {
+    /// Its middle, moment by moment, metres.
+    pub places: Vec<Vec2>,
+    /// Everybody who belongs to it, in the order of ids.
+    pub people: Vec<Person>,
+    reach: Reach,
+}
+
+/// Somebody who belongs to a body.
+#[derive(Clone, Debug)]
+pub(in super::super) struct Person {
+    /// Where they are from its middle, moment by moment; empty for in its middle.
+    pub offsets: Vec<Vec2>,
+    pub who: Who,
+}
+
+/// How far from its middle a body keeps others.
+#[derive(Clone, Debug)]
+enum Reach {
+    Always(f64),
+    ByMoment(Vec<f64>),
+}
+
+impl Body {
+    /// A body of one person.
+    pub fn person(places: Vec<Vec2>, who: Who, avoid: &AvoidRequest) -> Body {
+        let reach_m = avoid.distance_m.unwrap_or(USUAL_DISTANCE_M) / 2.0;
+        Body { places, people: vec![Person { offsets: Vec::new(), who }], reach: Reach::Always(reach_m) }
+    }
+
+    /// A body of several, whose places are from its middle; it goes along a track.
+    pub fn of_all(bodies: Vec<Body>, track: Vec<Vec2>) -> Body {
+        let moments = track.len();
+        let reach = |moment: usize| {
+            bodies.iter().map(|body| body.places[moment].length() + body.reach_m(moment)).fold(0.0, f64::max)
+        };
+        let reach = Reach::ByMoment((0..moments).map(reach).collect());
+        let mut people = Vec::new();
+        for body in bodies {
+            for Person { offsets, who } in body.people {
+                let offsets = if offsets.is_empty() {
+                    body.places.clone()
+                } else {
+                    offsets.into_iter().zip(&body.places).map(|(offset, &middle)| offset + middle).collect()
+                };
+                people.push(Person { offsets, who });
+            }
+        }
+        Body { places: track, people, reach }
+    }
+
+    /// How far from its middle it keeps others at a moment, metres.
+    pub fn reach_m(&self, moment: usize) -> f64 {
+        match &self.reach {
+            Reach::Always(reach_m) => *reach_m,
+            Reach::ByMoment(reaches_m) => reaches_m[moment],
+        }
+    }
+}

@@ -1,0 +1,134 @@
+use nalgebra::DMatrix;
+
+use super::basis::{as_columns, relative_to_centroid};
+use super::matching::{Nearest, gap, match_in_order, mirrors};
+use super::{Basis, FormationError};
+use crate::math::{Vec2, exp};
+
+/// Steps of the iteration for the nearest orthogonal matrix before the singular value decomposition takes over.
+const POLAR_STEPS: usize = 30;
+/// Steps in time, as a share of `following_s`, below which a step is too small to mirror anything.
+const SMALL_STEP: f64 = 0.2;
+
+/// A basis that goes with the example's eigenvectors through time: orthonormal, without jumps.
+///
+/// Eigenvectors of a recording are no good as they come. Their signs are arbitrary, and those of equal eigenvalues are
+/// arbitrary altogether; but even with all that matched from one moment to the next, two eigenvalues that come near each
+/// other do not cross: within a step or two their vectors swap roles, a quarter turn. The coefficients swap with them,
+/// metres within a tenth of a second. In the example itself that changes nothing, since basis and coefficients belong together;
+/// but what is carried over to another basis are the coefficients alone, and there it is a lurch of the whole crowd that nobody
+/// in the example made. (25 people walking on a grid: 27 times the energy of their quick motion, where 1 was to be kept.)
+///
+/// So the basis `E` follows the eigenvectors `V` with a delay. From one decomposition to the next, `dt` later,
+///
+/// ```text
+/// E' = V polar(W . (V^T E)),   W_ab = exp(-(dt / following) g^2 / (1 + g^2)),
+/// ```
+///
+/// with `g` the distance of the eigenvalues a and b in units of `nearness` times their mean. `W = 1` everywhere would leave `E`
+/// as it is; a small `W` turns each vector of `E` to its eigenvector. So shapes that the formation tells apart are followed within
+/// about `following` seconds, and those that it hardly tells apart are left alone; a swap takes as long as people take to
+/// change a formation. After a true crossing the order by eigenvalue returns in the same time.
+///
+/// With `following` 0 it is at the eigenvectors at once, `W_ab = exp(-g^2 / 2)`: those of the paper, with signs and clusters
+/// matched.
+#[derive(Clone, Debug)]
+pub struct Follower {
+    vectors: DMatrix<f64>,
+    nearness: f64,
+    following_s: f64,
+}
+
+impl Follower {
+    /// Starts with the eigenvectors at the first moment, matched to a target where there is one.
+    ///
+    /// # Errors
+    /// [`FormationError::NoConvergence`].
+    pub fn start(
+        first: &Basis,
+        target: Option<&DMatrix<f64>>,
+        nearness: f64,
+        following_s: f64,
+    ) -> Result<Follower, FormationError> {
+        let vectors = match target {
+            Some(target) => match_in_order(first, target, nearness)?,
+            None => first.vectors.clone(),
+        };
+        Ok(Follower { vectors, nearness, following_s })
+    }
+
+    /// Where it is: a vector per column, the first is constant.
+    pub fn vectors(&self) -> &DMatrix<f64> {
+        &self.vectors
+    }
+
+    /// Goes on to the eigenvectors `step_s` later. The result is orthonormal to about `within`.
+    ///
+    /// # Errors
+    /// [`FormationError::NoConvergence`].
+    pub fn advance(&mut self, basis: &Basis, step_s: f64, within: f64) -> Result<(), FormationError> {
+        let n = basis.people();
+        let step = if self.following_s > 0.0 { step_s / self.following_s } else { f64::INFINITY };
+        let mut weakened = basis.vectors.transpose() * &self.vectors;
+        for b in 1..n {
+            for a in 1..b {
+                let weight = freedom(gap(&basis.values, a, b, self.nearness), step);
+                weakened[(a, b)] *= weight;
+                weakened[(b, a)] *= weight;
+            }
+        }
+        let mut turned = &basis.vectors * polar(weakened, within)?;
+        if step > SMALL_STEP && mirrors(&turned, &self.vectors) {
+            // What of the result agrees least with where it comes from is turned over.
+            turned = &turned * Nearest::to(turned.transpose() * &self.vectors + identity(n))?.mirror();
+        }
+        self.vectors = turned;
+        Ok(())
+    }
+
+    /// Coefficients of a formation in this basis: `E^T X`, x and y as two columns.
+    ///
+    /// One step towards the inverse makes up for what [`Follower::advance`] leaves of `within`.
+    pub fn coefficients(&self, places_m: &[Vec2]) -> DMatrix<f64> {
+        let relative = as_columns(&relative_to_centroid(places_m));
+        let once = self.vectors.tr_mul(&relative);
+        let again = self.vectors.tr_mul(&(&self.vectors * &once));
+        once * 1.5 - again * 0.5
+    }
+}
+
+/// How much of its own way is left to a pair of vectors whose eigenvalues are `gap` apart.
+fn freedom(gap: f64, step: f64) -> f64 {
+    let squared = gap * gap;
+    if step.is_finite() { exp(-step * squared / (1.0 + squared)) } else { exp(-0.5 * squared) }
+}
+
+/// The orthogonal matrix nearest to one that is not far from it: Newton and Schulz's iteration
+/// `P <- P (3 - P^T P) / 2` (Higham 2008, Functions of Matrices, doi 10.1137/1.9780898717778, section 8.3).
+pub(super) fn polar(mut matrix: DMatrix<f64>, within: f64) -> Result<DMatrix<f64>, FormationError> {
+    let n = matrix.nrows();
+    for _ in 0..POLAR_STEPS {
+        let mut gram = matrix.transpose() * &matrix;
+        let off = (0..n).fold(0.0, |sum: f64, k| {
+            gram[(k, k)] -= 1.0;
+            sum.max(gram.column(k).norm_squared())
+        });
+        if !off.is_finite() {
+            break;
+        }
+        gram *= -0.5;
+        for k in 0..n {
+            gram[(k, k)] += 1.0;
+        }
+        matrix = &matrix * &gram;
+        // The error of the step just made is 3/4 of the square of the one before.
+        if off <= within {
+            return Ok(matrix);
+        }
+    }
+    Ok(Nearest::by_svd(matrix)?.into_orthogonal())
+}
+
+fn identity(n: usize) -> DMatrix<f64> {
+    DMatrix::identity(n, n)
+}

@@ -1,0 +1,59 @@
+use crate::math::{Vec2, vec2};
+
+/// How far behind itself a body drags what gives its heading, metres: it turns round within about so much of its way.
+const DRAWBAR_M: f64 = 0.8;
+/// Shortest way that says where somebody is heading, metres.
+const SHORTEST_M: f64 = 0.05;
+
+/// The direction in which somebody heads at each moment: that of a drawbar behind which an axle is dragged along the way.
+///
+/// It does not turn with those who stand, turns evenly around corners, and backs up for a while before it turns round.
+pub(super) fn headings(places: &[Vec2]) -> Vec<Vec2> {
+    let first = places.first().copied().unwrap_or_default();
+    let start = places.iter().map(|&place| place - first).find(|way| way.length() > SHORTEST_M);
+    let mut heading = start.and_then(Vec2::normalized).unwrap_or(vec2(0.0, 1.0));
+    let mut axle = first - heading * DRAWBAR_M;
+    places
+        .iter()
+        .map(|&place| {
+            heading = (place - axle).normalized().unwrap_or(heading);
+            axle = place - heading * DRAWBAR_M;
+            heading
+        })
+        .collect()
+}
+
+/// A place of a formation, whose up is forward, turned to a heading.
+pub(super) fn turned_to(place: Vec2, heading: Vec2) -> Vec2 {
+    // Up becomes the heading: turned by the heading's angle less a quarter.
+    place.rotated(-heading.left())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn up_becomes_forward() {
+        for (heading, tip) in [([0.0, 1.0], [0.0, 2.0]), ([1.0, 0.0], [2.0, 0.0]), ([-1.0, 0.0], [-2.0, 0.0])] {
+            let turned = turned_to(vec2(0.0, 2.0), heading.into());
+            assert!(turned.distance(tip.into()) < 1e-12, "{heading:?}: {turned:?}");
+        }
+        // And right stays right.
+        assert!(turned_to(vec2(1.0, 0.0), vec2(1.0, 0.0)).distance(vec2(0.0, -1.0)) < 1e-12);
+    }
+
+    #[test]
+    fn a_heading_follows_the_way_and_stays_where_nobody_moves() {
+        let mut places: Vec<Vec2> = (0..50).map(|k| vec2(0.1 * f64::from(k), 0.0)).collect();
+        places.extend((0..50).map(|k| vec2(4.9, 0.1 * f64::from(k))));
+        places.extend([vec2(4.9, 4.9); 20]);
+        let headings = headings(&places);
+        assert_eq!(headings[0], vec2(1.0, 0.0));
+        assert!(headings[99].distance(vec2(0.0, 1.0)) < 0.02);
+        assert_eq!(headings[119], headings[100]);
+        assert!(headings.windows(2).all(|pair| pair[0].distance(pair[1]) < 0.2));
+        assert_eq!(super::headings(&[vec2(1.0, 1.0); 3]), vec![vec2(0.0, 1.0); 3]);
+        assert!(super::headings(&[]).is_empty());
+    }
+}

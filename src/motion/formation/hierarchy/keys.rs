@@ -1,0 +1,202 @@
+//! From what a key formation is written as to a place for everybody.
+
+use std::path::Path;
+
+use super::super::assignment::assign;
+use super::super::picture::{is_picture, read_picture, read_points};
+use super::super::places::{
+    Outline, centred, centroid, disc, grid, grid_of, line, outline, polygon, ranks_of_triangle, rings, spread, star,
+    strokes, turned, wedge,
+};
+use super::super::request::{Assign, KeyRequest, RequestError, Shape};
+use crate::math::{Vec2, vec2};
+
+/// Side of a pixel of a picture, where nothing else is said, metres.
+const USUAL_M_PER_PX: f64 = 0.1;
+/// Samples for each person where people are spread over lines or areas.
+const SAMPLES: usize = 60;
+
+/// Where people may stand in a key formation, before it is known how many there are.
+pub(super) enum Layout {
+    /// Wherever the example has them.
+    Example,
+    /// A place for each, and what they are called.
+    Places(Vec<Vec2>, String),
+    /// Anywhere in what these samples show, evenly.
+    Area(Vec<Vec2>),
+    /// Along these lines, evenly; of the first the height of its letters is set by the spacing where it is not given.
+    Lines(Outline, Option<f64>),
+    /// A shape for any number.
+    Shape(Shape),
+}
+
+impl Layout {
+    /// Reads what a key formation names.
+    pub fn of(request: &KeyRequest, folder: &Path) -> Result<Layout, RequestError> {
+        if let Some(points) = &request.points {
+            return Ok(Layout::Places(points.clone(), "points".to_string()));
+        }
+        if let Some(text) = &request.text {
+            let lines = strokes(text, request.height_m.unwrap_or(1.0));
+            return Ok(Layout::Lines(lines, request.height_m));
+        }
+        let Some(file) = &request.file else {
+            return Ok(Layout::Shape(request.shape.unwrap_or(Shape::Grid)).resolved());
+        };
+        let path = folder.join(file);
+        if !is_picture(&path) {
+            let points = read_points(&path)?;
+            return Ok(Layout::Places(points, format!("points in {}", file.display())));
+        }
+        let drawn = read_picture(&path)?;
+        let metres = request.metres_per_pixel.unwrap_or(USUAL_M_PER_PX);
+        let scaled = |places: Vec<Vec2>| places.into_iter().map(|place| place * metres).collect();
+        Ok(if request.filled.unwrap_or(false) {
+            Layout::Area(scaled(drawn.area_px))
+        } else {
+            Layout::Places(scaled(drawn.dots_px), format!("dots in {}", file.display()))
+        })
+    }
+
+    fn resolved(self) -> Layout {
+        if let Layout::Shape(Shape::Example) = self { Layout::Example } else { self }
+    }
+
+    /// How many people it is for, if it says.
+    pub fn people(&self) -> Option<usize> {
+        if let Layout::Places(places, _) = self { Some(places.len()) } else { None }
+    }
+}
+
+/// What is known when people are given their places.
+pub(super) struct Cast<'c> {
+    /// How many there are.
+    pub people: usize,
+    /// Where the example has them at that time.
+    pub example: &'c [Vec2],
+    /// Where they were in the formation before, for who goes where.
+    pub before: &'c [Vec2],
+    /// How far the whole has been wheeled since that, radians.
+    pub wheel_rad: f64,
+    /// Whether the middle of the example's own places counts.
+    pub free: bool,
+    /// Who goes where, unless the formation says so itself.
+    pub assign: Assign,
+}
+
+/// A place for everybody, in the order of people.
+pub(super) fn places(
+    request: &KeyRequest,
+    layout: &Layout,
+    cast: &Cast<'_>,
+    key: &str,
+) -> Result<Vec<Vec2>, RequestError> {
+    let own = matches!(layout, Layout::Example);
+    let drawn = drawn(request, layout, cast, key)?;
+    let scale = request.scale.unwrap_or(1.0);
+    // A point that is drawn stays where it is drawn; everything else is around its middle.
+    let middle = if own { centroid(&drawn) } else { Vec2::ZERO };
+    let at = request.at.unwrap_or(if own && cast.free { middle } else { Vec2::ZERO });
+    let around: Vec<Vec2> = drawn.iter().map(|&place| (place - middle) * scale).collect();
+    let placed: Vec<Vec2> =
+        turned(&around, request.turn_deg.to_radians()).into_iter().map(|place| place + at).collect();
+    if own || request.assign.unwrap_or(cast.assign) == Assign::Order {
+        return Ok(placed);
+    }
+    // Seen from the middle, and with the whole that wheels.
+    let to = turned(&centred(&placed), -cast.wheel_rad);
+    Ok(assign(&centred(cast.before), &to).into_iter().map(|place| placed[place]).collect())
+}
+
+/// Places in the formation's own frame, up forward.
+fn drawn(request: &KeyRequest, layout: &Layout, cast: &Cast<'_>, key: &str) -> Result<Vec<Vec2>, RequestError> {
+    let people = cast.people;
+    let spacing_m = request.spacing_m.unwrap_or(1.0);
+    Ok(match layout {
+        Layout::Example => cast.example.to_vec(),
+        Layout::Places(places, what) => {
+            if places.len() != people {
+                let (key, what) = (key.to_string(), what.clone());
+                return Err(RequestError::Count { key, people, places: places.len(), what });
+            }
+            places.clone()
+        }
+        Layout::Area(samples) => spread(samples, people),
+        Layout::Lines(lines, Some(_)) => spread(&samples_along(lines, people), people),
+        Layout::Lines(lines, None) => {
+            let length_m: f64 =
+                lines.iter().flat_map(|line| line.windows(2)).map(|side| side[0].distance(side[1])).sum();
+            let scale = if length_m > 0.0 { spacing_m * people as f64 / length_m } else { 1.0 };
+            let lines: Outline = lines.iter().map(|line| line.iter().map(|&point| point * scale).collect()).collect();
+            spread(&samples_along(&lines, people), people)
+        }
+        Layout::Shape(shape) => centred(&shaped(*shape, request, people, spacing_m)),
+    })
+}
+
+fn shaped(shape: Shape, request: &KeyRequest, people: usize, spacing_m: f64) -> Vec<Vec2> {
+    let radius_m = request.radius_m;
+    let closed = |corners: &dyn Fn(f64) -> Vec<Vec2>, filled: bool| {
+        // Without a radius: neighbours so far apart along the outline, or an area of a square of that for each.
+        if !filled {
+            let spacing_m = radius_m.is_none().then_some(spacing_m);
+            return outline(people, &corners(radius_m.unwrap_or(1.0)), spacing_m);
+        }
+        let unit = corners(1.0);
+        let area: f64 = unit.windows(2).map(|side| side[0].cross(side[1])).sum::<f64>().abs() / 2.0;
+        let radius_m = radius_m.unwrap_or_else(|| spacing_m * (people as f64 / area).sqrt());
+        spread(&samples_within(&corners(radius_m), people), people)
+    };
+    match shape {
+        Shape::Example => Vec::new(),
+        Shape::Grid => {
+            let columns = request.columns.map_or_else(|| grid_of(people)[0], |columns| columns as usize);
+            grid(people, columns, spacing_m)
+        }
+        Shape::Line => line(people, spacing_m),
+        Shape::Ring => rings(people, request.rings.unwrap_or(1) as usize, spacing_m, radius_m),
+        Shape::Disc => disc(people, spacing_m, radius_m),
+        Shape::Triangle if request.filled.unwrap_or(true) && radius_m.is_none() => ranks_of_triangle(people, spacing_m),
+        Shape::Triangle => closed(&|radius_m| polygon(3, radius_m), request.filled.unwrap_or(true)),
+        Shape::Polygon => {
+            let corners = request.corners.unwrap_or(6) as usize;
+            closed(&|radius_m| polygon(corners, radius_m), request.filled.unwrap_or(false))
+        }
+        Shape::Star => {
+            let (points, inner) = (request.corners.unwrap_or(5) as usize, request.inner.unwrap_or(0.45));
+            closed(&|radius_m| star(points, inner, radius_m), request.filled.unwrap_or(false))
+        }
+        Shape::Wedge => wedge(people, spacing_m, request.angle_deg.unwrap_or(80.0).to_radians()),
+    }
+}
+
+/// Many points along lines, evenly.
+fn samples_along(lines: &Outline, people: usize) -> Vec<Vec2> {
+    let sides = || lines.iter().flat_map(|line| line.windows(2));
+    let length_m: f64 = sides().map(|side| side[0].distance(side[1])).sum();
+    let count = (people * SAMPLES).max(200) as f64;
+    let mut samples = Vec::new();
+    for side in sides() {
+        let steps = (side[0].distance(side[1]) / length_m.max(1e-12) * count).ceil().max(1.0) as usize;
+        samples.extend((0..steps).map(|step| side[0].lerp(side[1], (step as f64 + 0.5) / steps as f64)));
+    }
+    samples
+}
+
+/// Many points within a closed line, evenly.
+fn samples_within(corners: &[Vec2], people: usize) -> Vec<Vec2> {
+    let reach_m = corners.iter().map(|corner| corner.length()).fold(0.0, f64::max);
+    let side = (((people * SAMPLES).max(400) as f64).sqrt() * 1.6).ceil() as usize;
+    let at = |k: usize| ((k as f64 + 0.5) / side as f64 * 2.0 - 1.0) * reach_m;
+    let all = (0..side * side).map(|k| vec2(at(k % side), at(k / side)));
+    all.filter(|&point| is_within(point, corners)).collect()
+}
+
+/// Whether a point lies within a closed line: whether a ray to the right crosses it an odd number of times.
+fn is_within(point: Vec2, corners: &[Vec2]) -> bool {
+    let crosses = |side: &&[Vec2]| {
+        let (a, b) = (side[0], side[1]);
+        (a.y > point.y) != (b.y > point.y) && point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x)
+    };
+    corners.windows(2).filter(crosses).count() % 2 == 1
+}

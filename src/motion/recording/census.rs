@@ -1,0 +1,191 @@
+//! What a pass over the rows of a recording finds, in the file's own numbers.
+
+use super::histogram::Histogram;
+use super::rows::{ById, Row};
+use crate::math::{Rect, Vec2};
+
+/// Rows of one person over which a speed is taken, so that noise and sway count little.
+const STRIDE: u32 = 5;
+/// Two places of one person at one moment are the same if they are this close, in the file's unit.
+pub(super) const SAME: f64 = 1e-3;
+
+/// What was counted.
+#[derive(Debug, Default)]
+pub(super) struct Census {
+    people: ById<Seen>,
+    pub first_time: f64,
+    pub last_time: f64,
+    /// Number of different moments.
+    pub moments: usize,
+    pub places: usize,
+    pub largest_id: u32,
+    /// Around all places, turned.
+    pub bounds: Option<Rect>,
+    turn: Option<Vec2>,
+    /// Times between somebody's places.
+    pub intervals: Histogram,
+    /// Times between moments.
+    pub moment_intervals: Histogram,
+    /// Speeds over [`STRIDE`] rows; those of 0 apart.
+    pub speeds: Histogram,
+    pub standing: u64,
+    /// Displacement by time and by the file's own velocity: seconds in a unit of time, if that is right.
+    pub own_speeds: Histogram,
+    /// Way and time over which speeds were taken.
+    pub way: f64,
+    pub time: f64,
+    /// Rows that repeat another one.
+    pub repeated: usize,
+    /// Whether rows say when and where a step ends.
+    pub steps: bool,
+}
+
+#[derive(Debug)]
+struct Seen {
+    time: f64,
+    at: Vec2,
+    velocity: Option<Vec2>,
+    /// Whether the place is where a step will end.
+    ahead: bool,
+    anchor: (f64, Vec2),
+    rows: u32,
+}
+
+/// What stands in the way of counting on.
+#[derive(Debug)]
+pub(super) enum Objection {
+    /// Rows are not in the order of time.
+    Disorder,
+    /// The person is at this other place too.
+    Twice(Vec2),
+}
+
+impl Census {
+    /// Nothing yet; bounds will be those of places turned by this, cosine and sine.
+    pub fn new(turn: Option<Vec2>) -> Census {
+        Census { turn, ..Census::default() }
+    }
+
+    fn reach(&mut self, at: Vec2) {
+        let p = self.turn.map_or(at, |by| at.rotated(by));
+        let Rect { min, max } = self.bounds.unwrap_or(Rect { min: p, max: p });
+        self.bounds = Some(Rect {
+            min: Vec2 { x: min.x.min(p.x), y: min.y.min(p.y) },
+            max: Vec2 { x: max.x.max(p.x), y: max.y.max(p.y) },
+        });
+    }
+
+    /// Number of people.
+    pub fn people(&self) -> usize {
+        self.people.len()
+    }
+
+    /// How long all are present together, gaps up to this included.
+    pub fn present(&mut self, longest_gap: f64) -> f64 {
+        self.intervals.sum_up_to(longest_gap * (1.0 + 1e-9))
+    }
+
+    /// Counts a row; rows come in the order of time.
+    pub fn add(&mut self, row: &Row) -> Result<(), Objection> {
+        if self.moments == 0 {
+            self.first_time = row.time;
+            self.moments = 1;
+        } else if row.time > self.last_time {
+            self.moment_intervals.add(row.time - self.last_time);
+            self.moments += 1;
+        } else if row.time < self.last_time {
+            return Err(Objection::Disorder);
+        }
+        self.last_time = row.time;
+        if !self.place(row.id, row.time, row.at, row.velocity, false)? {
+            self.repeated += 1;
+            return Ok(());
+        }
+        self.places += 1;
+        self.largest_id = self.largest_id.max(row.id);
+        self.reach(row.at);
+        if let Some((time, at)) = row.until {
+            self.steps = true;
+            self.place(row.id, time, at, None, true)?;
+            self.reach(at);
+        }
+        Ok(())
+    }
+
+    /// Takes somebody's next place; says whether it is a new one.
+    fn place(&mut self, id: u32, time: f64, at: Vec2, velocity: Option<Vec2>, ahead: bool) -> Result<bool, Objection> {
+        let seen = match self.people.entry(id) {
+            std::collections::hash_map::Entry::Occupied(seen) => seen.into_mut(),
+            std::collections::hash_map::Entry::Vacant(new) => {
+                new.insert(Seen { time, at, velocity, ahead, anchor: (time, at), rows: 0 });
+                return Ok(true);
+            }
+        };
+        if time <= seen.time {
+            let twice = time == seen.time && !seen.ahead && !ahead && !same(seen.at, at);
+            return if twice { Err(Objection::Twice(seen.at)) } else { Ok(seen.ahead && !ahead) };
+        }
+        let elapsed = time - seen.time;
+        self.intervals.add(elapsed);
+        let moved = at.distance(seen.at);
+        if let (Some(before), Some(now)) = (seen.velocity, velocity) {
+            let speed = ((before + now) * 0.5).length();
+            if speed > 0.0 {
+                self.own_speeds.add(moved / elapsed / speed);
+            }
+        }
+        (seen.time, seen.at, seen.velocity, seen.ahead) = (time, at, velocity, ahead);
+        seen.rows += 1;
+        if seen.rows == STRIDE {
+            let (from, anchor) = seen.anchor;
+            let (way, lasted) = (at.distance(anchor), time - from);
+            (seen.rows, seen.anchor) = (0, (time, at));
+            self.speed(way, lasted);
+        }
+        Ok(true)
+    }
+
+    fn speed(&mut self, way: f64, lasted: f64) {
+        self.way += way;
+        self.time += lasted;
+        self.speeds.add(way / lasted);
+        self.standing += u64::from(way == 0.0);
+    }
+
+    /// Ends the count: whoever was seen only a few times counts too.
+    pub fn finish(&mut self) {
+        if self.time > 0.0 {
+            return;
+        }
+        let mut short: Vec<(f64, f64)> = (self.people.values())
+            .filter(|seen| seen.rows > 0)
+            .map(|seen| (seen.at.distance(seen.anchor.1), seen.time - seen.anchor.0))
+            .collect();
+        // The order of a sum decides its last bit.
+        short.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        for (way, lasted) in short {
+            self.speed(way, lasted);
+        }
+    }
+
+    /// The speed that half of all are below, those who stand included.
+    pub fn median_speed(&mut self) -> Option<f64> {
+        self.speed_quantile(0.5)
+    }
+
+    /// The speed that this share of all are below.
+    pub fn speed_quantile(&mut self, share: f64) -> Option<f64> {
+        let moving = self.speeds.count_above(0.0) as f64;
+        let all = moving + self.standing as f64;
+        if all == 0.0 {
+            return None;
+        }
+        let among = (share * all - self.standing as f64) / moving;
+        if among > 0.0 { self.speeds.quantile(among) } else { Some(0.0) }
+    }
+}
+
+/// Whether two places are the same.
+pub(super) fn same(a: Vec2, b: Vec2) -> bool {
+    (a.x - b.x).abs() <= SAME && (a.y - b.y).abs() <= SAME
+}

@@ -1,0 +1,363 @@
+//! What columns mean, by their names.
+
+use super::LengthUnit;
+
+/// What a column holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Role {
+    /// Who it is.
+    Id,
+    /// A count of frames.
+    Frame,
+    /// A time.
+    Time,
+    X,
+    Y,
+    /// Height.
+    Z,
+    VelocityX,
+    VelocityY,
+    HeadingX,
+    HeadingY,
+    /// When and where a step ends that begins at time, x, y.
+    EndTime,
+    EndX,
+    EndY,
+    /// Of no use.
+    Unused,
+}
+
+/// What a column is measured in, if its name says so.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Unit {
+    Length(LengthUnit),
+    /// Seconds in one.
+    Time(f64),
+}
+
+/// A column as its name tells it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Column {
+    pub role: Role,
+    pub unit: Option<Unit>,
+    /// Counted the other way round.
+    pub flipped: bool,
+}
+
+impl Column {
+    pub const UNUSED: Column = Column { role: Role::Unused, unit: None, flipped: false };
+}
+
+/// Words that stand for a role, by rank: the first in a list is the one to believe where a file has several.
+const NAMES: [(Role, &[&str]); 13] = [
+    (
+        Role::Id,
+        &[
+            "pedestrianid",
+            "pedid",
+            "persid",
+            "personid",
+            "agentid",
+            "playerid",
+            "userid",
+            "trackid",
+            "actorid",
+            "entityid",
+            "clientid",
+            "characterid",
+            "objectid",
+            "participantid",
+            "subjectid",
+            "visitorid",
+            "steamid",
+            "id",
+            "pid",
+            "uid",
+            "uuid",
+            "guid",
+            "no",
+            "nr",
+            "number",
+            "pedestrian",
+            "person",
+            "ped",
+            "agent",
+            "player",
+            "user",
+            "actor",
+            "entity",
+            "track",
+            "client",
+            "character",
+            "object",
+            "participant",
+            "subject",
+            "visitor",
+            "playername",
+            "username",
+            "name",
+            "bot",
+        ],
+    ),
+    (
+        Role::Time,
+        &[
+            "time",
+            "t",
+            "simtime",
+            "simsec",
+            "seconds",
+            "sec",
+            "secs",
+            "s",
+            "elapsed",
+            "elapsedtime",
+            "gametime",
+            "worldtime",
+            "sessiontime",
+            "matchtime",
+            "realtime",
+            "timestamp",
+            "ts",
+            "ms",
+            "msec",
+            "millis",
+            "milliseconds",
+            "datetime",
+            "clock",
+        ],
+    ),
+    (
+        Role::Frame,
+        &[
+            "frame",
+            "fr",
+            "framenumber",
+            "frameid",
+            "frameno",
+            "framenr",
+            "frameindex",
+            "framecount",
+            "framenum",
+            "tick",
+            "ticks",
+            "tickcount",
+            "gametick",
+            "timestep",
+            "step",
+        ],
+    ),
+    (
+        Role::X,
+        &[
+            "x",
+            "posx",
+            "xpos",
+            "positionx",
+            "xposition",
+            "px",
+            "coordx",
+            "coordcentx",
+            "startx",
+            "xcoord",
+            "xcoordinate",
+            "worldx",
+            "locationx",
+            "locx",
+            "xloc",
+            "centerx",
+            "centrex",
+        ],
+    ),
+    (
+        Role::Y,
+        &[
+            "y",
+            "posy",
+            "ypos",
+            "positiony",
+            "yposition",
+            "py",
+            "coordy",
+            "coordcenty",
+            "starty",
+            "ycoord",
+            "ycoordinate",
+            "worldy",
+            "locationy",
+            "locy",
+            "yloc",
+            "centery",
+            "centrey",
+        ],
+    ),
+    (
+        Role::Z,
+        &[
+            "z",
+            "posz",
+            "zpos",
+            "positionz",
+            "zposition",
+            "pz",
+            "coordz",
+            "coordcentz",
+            "zcoord",
+            "zcoordinate",
+            "worldz",
+            "locationz",
+            "locz",
+            "zloc",
+            "height",
+        ],
+    ),
+    (Role::VelocityX, &["vx", "velx", "xvel", "velocityx", "xvelocity", "speedx"]),
+    (Role::VelocityY, &["vy", "vely", "yvel", "velocityy", "yvelocity", "speedy"]),
+    (Role::HeadingX, &["orix", "headingx", "facingx", "directionx", "dirx", "forwardx", "lookx", "hx", "orientationx"]),
+    (Role::HeadingY, &["oriy", "headingy", "facingy", "directiony", "diry", "forwardy", "looky", "hy", "orientationy"]),
+    (Role::EndTime, &["endtime"]),
+    (Role::EndX, &["endx"]),
+    (Role::EndY, &["endy"]),
+];
+
+/// The column that a name tells of, and how far down the list of names it stands. Case, blanks and punctuation do not
+/// matter, a unit may follow: `x/m`, `pos_x [cm]`, `time_ms`.
+pub(super) fn column_named(name: &str) -> Option<(Column, usize)> {
+    let name = name.trim().trim_matches('"').trim();
+    if name == "-" {
+        return Some((Column::UNUSED, 0));
+    }
+    let (flipped, name) = match name.strip_prefix(['-', '!']) {
+        Some(name) => (true, name),
+        None => (false, name),
+    };
+    let lower = name.to_ascii_lowercase();
+    // Vadere marks the columns of a processor: `startX-PID1`.
+    let lower = match lower.rfind("-pid") {
+        Some(at) if at > 0 && lower[at + 4..].bytes().all(|b| b.is_ascii_digit()) => lower[..at].to_owned(),
+        _ => lower,
+    };
+    let (base, unit) = split_unit(&lower);
+    let word: String = base.chars().filter(char::is_ascii_alphanumeric).collect();
+    let exact = NAMES.iter().find_map(|(role, names)| names.iter().position(|n| *n == word).map(|rank| (*role, rank)));
+    // Telemetry names parts of its objects: `transform.position.x`.
+    let (role, rank) = exact.or_else(|| {
+        let ends = |ending: &str| word.ends_with(ending);
+        let of = |axis: char| ["position", "pos", "location"].iter().any(|part| ends(&format!("{part}{axis}")));
+        [('x', Role::X), ('y', Role::Y), ('z', Role::Z)]
+            .into_iter()
+            .find(|(axis, _)| of(*axis))
+            .map(|(_, role)| (role, 99))
+    })?;
+    let unit = match (unit, word.as_str()) {
+        (None, "ms" | "msec" | "millis" | "milliseconds") => Some(Unit::Time(1e-3)),
+        (None, "simsec" | "simtime" | "seconds" | "sec" | "secs" | "s") => Some(Unit::Time(1.0)),
+        (unit, _) => unit,
+    };
+    Some((Column { role, unit, flipped }, rank))
+}
+
+/// Splits a name into what it names and the unit behind it.
+fn split_unit(name: &str) -> (&str, Option<Unit>) {
+    for (open, close) in [('[', "]"), ('(', ")"), ('/', "")] {
+        if let Some((base, unit)) = name.split_once(open) {
+            let unit = unit_named(unit.trim().trim_end_matches(close));
+            return (base, unit);
+        }
+    }
+    for between in ["_in_", " in ", "_", " "] {
+        if let Some((base, word)) = name.rsplit_once(between)
+            && let (false, Some(unit)) = (base.is_empty(), unit_named(word))
+        {
+            return (base, Some(unit));
+        }
+    }
+    (name, None)
+}
+
+/// The unit that a word stands for.
+pub(super) fn unit_named(word: &str) -> Option<Unit> {
+    Some(match word.trim().to_ascii_lowercase().as_str() {
+        "m" | "meter" | "meters" | "metre" | "metres" => Unit::Length(LengthUnit::Metre),
+        "cm" | "centimeter" | "centimeters" | "centimetre" | "centimetres" => Unit::Length(LengthUnit::Centimetre),
+        "mm" | "millimeter" | "millimeters" | "millimetre" | "millimetres" => Unit::Length(LengthUnit::Millimetre),
+        "ft" | "foot" | "feet" => Unit::Length(LengthUnit::Foot),
+        "s" | "sec" | "secs" | "second" | "seconds" => Unit::Time(1.0),
+        "ms" | "msec" | "millis" | "milliseconds" => Unit::Time(1e-3),
+        "us" | "usec" | "micros" | "microseconds" => Unit::Time(1e-6),
+        "ns" | "nanoseconds" => Unit::Time(1e-9),
+        _ => return None,
+    })
+}
+
+/// Gives every column of a header its role, each role once: of several that could have it, the one whose name is more
+/// to be believed; `varies` says of a column of ids whether it only numbers the rows.
+pub(super) fn assign(names: &[&str], numbers_rows: impl Fn(usize) -> bool) -> Vec<Column> {
+    let known: Vec<Option<(Column, usize)>> = names.iter().map(|name| column_named(name)).collect();
+    let mut columns = vec![Column::UNUSED; names.len()];
+    for (role, _) in NAMES {
+        let rank = |at: usize| known[at].filter(|(column, _)| column.role == role).map(|(_, rank)| rank);
+        let mut candidates: Vec<usize> = (0..names.len()).filter(|&at| rank(at).is_some()).collect();
+        candidates.sort_by_key(|&at| rank(at));
+        let best = candidates.iter().find(|&&at| role != Role::Id || !numbers_rows(at)).or(candidates.first());
+        if let Some(&at) = best
+            && let Some((column, _)) = known[at]
+        {
+            columns[at] = column;
+        }
+    }
+    columns
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn role(name: &str) -> Option<Role> {
+        column_named(name).map(|(column, _)| column.role)
+    }
+
+    #[test]
+    fn names_are_known_in_many_spellings() {
+        for (names, expected) in [
+            (&["id", "ID", "PersID", "pedID", "Player Name", "\"player_id\"", "NO", "agent"][..], Role::Id),
+            (&["t", "Time", "time_ms", "SIMSEC", "timestamp [ms]", "gameTime(s)"], Role::Time),
+            (&["Frame", "FR", "tick", "frame_number"], Role::Frame),
+            (&["X", "x/m", "pos_x", "posX", "x (cm)", "startX-PID1", "COORDCENTX", "Transform.Position.X"], Role::X),
+            (&["y", "Y/cm", "location_y", "PosY", "y_m", "-y"], Role::Y),
+            (&["v_x", "vx", "velocity x", "vel_x/m"], Role::VelocityX),
+            (&["endTime-PID1", "end_time"], Role::EndTime),
+            (&["-"], Role::Unused),
+        ] {
+            for name in names {
+                assert_eq!(role(name), Some(expected), "{name}");
+            }
+        }
+        for name in ["", "health", "rho", "velocity", "M", "xyz", "é", "-pid1"] {
+            assert_eq!(role(name), None, "{name}");
+        }
+    }
+
+    #[test]
+    fn units_are_taken_from_names() {
+        let unit = |name| column_named(name).and_then(|(column, _)| column.unit);
+        for name in ["x/cm", "x [cm]", "x_cm", "x (cm)", "x in cm"] {
+            assert_eq!(unit(name), Some(Unit::Length(LengthUnit::Centimetre)), "{name}");
+        }
+        assert_eq!(unit("t/s"), Some(Unit::Time(1.0)));
+        assert_eq!(unit("time_ms"), Some(Unit::Time(1e-3)));
+        assert_eq!(unit("milliseconds"), Some(Unit::Time(1e-3)));
+        assert_eq!((unit("x"), unit("pos_x")), (None, None));
+    }
+
+    #[test]
+    fn of_several_the_best_name_wins() {
+        let roles = |names: &[&str]| assign(names, |_| false).iter().map(|c| c.role).collect::<Vec<_>>();
+        assert_eq!(
+            roles(&["name", "id", "t", "x", "y", "y"])[..5],
+            [Role::Unused, Role::Id, Role::Time, Role::X, Role::Y]
+        );
+        let with_row_numbers = assign(&["id", "player", "time", "x", "y"], |at| at == 0);
+        assert_eq!((with_row_numbers[0].role, with_row_numbers[1].role), (Role::Unused, Role::Id));
+    }
+}

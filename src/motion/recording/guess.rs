@@ -1,0 +1,157 @@
+//! What the numbers themselves tell where no names do.
+
+use std::collections::{HashMap, HashSet};
+
+use super::RecordingFormat;
+use super::columns::{Column, Role};
+use super::detect::Refusal;
+use super::layout::{Layout, Separator, shown};
+use super::number::{number, stamp};
+
+/// Rows looked at.
+const ROWS: usize = 20_000;
+
+/// Whether a column only numbers the rows: every row has another value, and they grow.
+pub(super) fn numbers_rows(rows: &[&[u8]], separator: Separator, at: usize) -> bool {
+    let values = || rows.iter().take(ROWS).filter_map(|row| separator.split(row).get(at).copied());
+    let distinct: HashSet<&[u8]> = values().collect();
+    rows.len() > 2 && distinct.len() == rows.len().min(ROWS)
+}
+
+/// The columns of rows that nothing names.
+pub(super) fn columns(
+    rows: &[&[u8]],
+    separator: Separator,
+    format: Option<RecordingFormat>,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<Column>, Refusal> {
+    use Role::{Frame, Id, Time, Unused, VelocityX, VelocityY, X, Y, Z};
+    let first = rows.first().copied().unwrap_or_default();
+    let fields = separator.split(first);
+    let width = fields.len();
+    let hint = "--columns id,frame,x,y says what each column holds, - for one that is of no use".to_owned();
+    if width < 4 {
+        let found = if width == 1 { "a line with 1 column".to_owned() } else { format!("a line with {width} columns") };
+        let found = format!("{found} where who, when, x and y are needed");
+        return Err(Refusal::Unknown { found, hint });
+    }
+    let is_number = |at: usize| number(fields[at]).is_some();
+    let when = |at: usize| number(fields[at]).or_else(|| stamp(fields[at])).is_some();
+    if !(when(1) && is_number(2) && is_number(3)) {
+        let bad = (1..4).find(|&at| !is_number(at)).map_or("", |at| std::str::from_utf8(fields[at]).unwrap_or(""));
+        let found = format!("no header names the columns, and {} is no number", shown(bad.as_bytes()));
+        return Err(Refusal::Unknown { found, hint });
+    }
+    let table: Vec<Vec<f64>> = rows.iter().take(ROWS).filter_map(|row| numbers(row, separator)).collect();
+    let roles = match format {
+        Some(RecordingFormat::Obsmat) if width >= 8 => vec![Frame, Id, X, Z, Y, VelocityX, Unused, VelocityY],
+        Some(RecordingFormat::Obsmat) => vec![Frame, Id, X, Y],
+        Some(RecordingFormat::Juelich) => vec![Id, Frame, X, Y, Z],
+        Some(
+            RecordingFormat::Vadere | RecordingFormat::Crowdit | RecordingFormat::Viswalk | RecordingFormat::Pathfinder,
+        ) => vec![Id, Time, X, Y],
+        _ => {
+            let whole = |at: usize| table.iter().all(|row| row[at] == row[at].trunc());
+            let still = |at: usize| table.iter().all(|row| row[at] == table[0][at]);
+            let named = !is_number(0);
+            match (named || whole(0), whole(1)) {
+                (true, true) if named => vec![Id, Frame, X, Y, Z],
+                (true, true) if width == 8 && still(3) && still(6) && frame_first(&table, [2, 4]) => {
+                    vec![Frame, Id, X, Z, Y, VelocityX, Unused, VelocityY]
+                }
+                (true, true) if frame_first(&table, [2, 3]) => vec![Frame, Id, X, Y],
+                (true, true) => vec![Id, Frame, X, Y, Z],
+                (false, true) => vec![Time, Id, X, Y],
+                _ => vec![Id, Time, X, Y, Z],
+            }
+        }
+    };
+    if separator != Separator::Blanks {
+        let word = |role: &Role| match role {
+            Id => "id",
+            Frame => "frame",
+            Time => "time",
+            X => "x",
+            Y => "y",
+            _ => "-",
+        };
+        let words: Vec<&str> = roles.iter().take(width).map(word).collect();
+        warnings.push(format!("no header names the columns: they are taken for {}", words.join(",")));
+    }
+    let mut columns: Vec<Column> = roles.into_iter().map(|role| Column { role, ..Column::UNUSED }).collect();
+    columns.truncate(width);
+    Ok(columns)
+}
+
+/// The first eight columns of a row, NaN where there are no numbers; `None` without a place.
+fn numbers(row: &[u8], separator: Separator) -> Option<Vec<f64>> {
+    let mut numbers: Vec<f64> =
+        separator.split(row).into_iter().take(8).map(|field| number(field).unwrap_or(f64::NAN)).collect();
+    let placed = numbers.len() >= 4 && numbers[2..4].iter().all(|value| value.is_finite());
+    numbers.resize(8, f64::NAN);
+    placed.then_some(numbers)
+}
+
+/// Whether the first column counts frames and the second people, rather than the other way round: taken so, people
+/// move less from one of their places to the next.
+fn frame_first(table: &[Vec<f64>], place: [usize; 2]) -> bool {
+    match (median_step(table, 1, 0, place), median_step(table, 0, 1, place)) {
+        (Some(frame_first), Some(id_first)) => frame_first < 0.5 * id_first,
+        (frame_first, None) => frame_first.is_some(),
+        (None, _) => false,
+    }
+}
+
+/// How far people usually move per unit of time if these columns say who, when and where.
+fn median_step(table: &[Vec<f64>], who: usize, when: usize, [x, y]: [usize; 2]) -> Option<f64> {
+    let mut last: HashMap<u64, &Vec<f64>> = HashMap::new();
+    let mut steps = Vec::new();
+    for row in table {
+        let Some(before) = last.insert(row[who].to_bits(), row) else { continue };
+        let (dx, dy, dt) = (row[x] - before[x], row[y] - before[y], row[when] - before[when]);
+        if dt != 0.0 {
+            steps.push((dx * dx + dy * dy).sqrt() / dt.abs());
+        }
+    }
+    let middle = steps.len() / 2;
+    (!steps.is_empty()).then(|| *steps.select_nth_unstable_by(middle, f64::total_cmp).1)
+}
+
+/// Games often count y upward: if what is named y hardly changes while z does, z is the other axis of the floor.
+pub(super) fn upright_axis(layout: &mut Layout, rows: &[&[u8]], asked: bool) {
+    let game = matches!(layout.format, RecordingFormat::Csv | RecordingFormat::Pathfinder);
+    let (Some(x), Some(y), Some(z)) = (layout.column(Role::X), layout.column(Role::Y), layout.column(Role::Z)) else {
+        return;
+    };
+    if asked || !game {
+        return;
+    }
+    let value = |row: &[u8], at: usize| layout.separator.split(row).get(at).and_then(|field| number(field));
+    let extent = |at: usize| {
+        let values = || rows.iter().take(ROWS).filter_map(|row| value(row, at)).filter(|v| v.is_finite());
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    let (wide, tall, deep) = (extent(x), extent(y), extent(z));
+    if tall.is_finite() && tall < 0.1 * deep && tall < 0.1 * wide {
+        layout.columns[z].role = Role::Y;
+        layout.columns[y].role = Role::Z;
+        let told = "y hardly changes and is taken for the height, z for the floor's second axis; --columns says \
+                    otherwise, with -z named -y where z points towards the viewer";
+        layout.warnings.push(told.to_owned());
+    }
+}
+
+/// The unit that heights of heads tell: people are 1 to 2.3 m tall.
+pub(super) fn unit_of_heights(layout: &Layout, rows: &[&[u8]]) -> Option<super::LengthUnit> {
+    use super::LengthUnit::{Centimetre, Metre, Millimetre};
+    let at = layout.column(Role::Z)?;
+    let value = |row: &&[u8]| number(layout.separator.split(row).get(at)?).filter(|z| z.is_finite());
+    let mut heights: Vec<f64> = rows.iter().take(ROWS).filter_map(value).collect();
+    let middle = heights.len() / 2;
+    if heights.is_empty() {
+        return None;
+    }
+    let height = *heights.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let units = [(Metre, 1.0), (Centimetre, 100.0), (Millimetre, 1000.0)];
+    units.into_iter().find(|(_, per_metre)| (1.0..2.3).contains(&(height / per_metre))).map(|(unit, _)| unit)
+}

@@ -1,0 +1,279 @@
+//! How a text is laid out, and its lines read by that.
+
+use super::columns::{Column, Role};
+use super::number::{number, stamp};
+use super::{LengthUnit, RecordingFormat};
+
+/// Numbers beyond this are no places, frames or times: 1e9 m is farther than the moon.
+pub(super) const LARGEST: f64 = 1e15;
+/// Characters of a value that an error shows.
+const SHOWN: usize = 40;
+
+/// What stands between columns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Separator {
+    /// Any number of blanks and tabs.
+    Blanks,
+    /// One such byte.
+    Byte(u8),
+}
+
+/// What the column of moments counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Clock {
+    Frames,
+    /// Times in units of so many seconds; `None` if nothing tells.
+    Times(Option<f64>),
+}
+
+/// How a text is laid out.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Layout {
+    pub format: RecordingFormat,
+    pub separator: Separator,
+    pub decimal_comma: bool,
+    pub columns: Vec<Column>,
+    pub clock: Clock,
+    /// Lines before the first with a place.
+    pub head_lines: u64,
+    /// The line that names the columns, where there is one among the data.
+    pub header: Option<Vec<u8>>,
+    /// Frames per second, if the file says so.
+    pub fps: Option<f64>,
+    /// Unit of its lengths, if the file says so.
+    pub unit: Option<LengthUnit>,
+    /// What a user should be told.
+    pub warnings: Vec<String>,
+}
+
+/// What a line says of somebody, in the file's own numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Line<'a> {
+    pub id: &'a [u8],
+    pub time: f64,
+    /// The numbers by [`slot`]; NaN where there is none.
+    pub values: [f64; SLOTS],
+}
+
+pub(super) const SLOTS: usize = 10;
+
+/// Where a role's number is kept.
+pub(super) const fn slot(role: Role) -> usize {
+    match role {
+        Role::X => 0,
+        Role::Y => 1,
+        Role::VelocityX => 2,
+        Role::VelocityY => 3,
+        Role::HeadingX => 4,
+        Role::HeadingY => 5,
+        Role::EndTime => 6,
+        Role::EndX => 7,
+        Role::EndY => 8,
+        Role::Z | Role::Id | Role::Frame | Role::Time | Role::Unused => 9,
+    }
+}
+
+/// Why a line cannot be read.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct LineProblem {
+    pub text: String,
+    pub hint: &'static str,
+    /// Whether the line may merely have been cut off.
+    pub short: bool,
+}
+
+impl Layout {
+    /// Where a column with this role is.
+    pub fn column(&self, role: Role) -> Option<usize> {
+        self.columns.iter().position(|column| column.role == role)
+    }
+
+    /// Whether columns with these roles are all there.
+    pub fn has(&self, roles: &[Role]) -> bool {
+        roles.iter().all(|&role| self.column(role).is_some())
+    }
+
+    /// Heights and what stands behind the last useful column need not be read any more.
+    pub fn without_heights(mut self) -> Layout {
+        let heights = self.columns.iter_mut().filter(|column| column.role == Role::Z);
+        heights.for_each(|column| *column = Column::UNUSED);
+        let useful = self.columns.iter().rposition(|column| column.role != Role::Unused).map_or(0, |last| last + 1);
+        self.columns.truncate(useful);
+        self
+    }
+
+    /// Reads a line; columns may be missing only behind the last useful one.
+    pub fn read<'a>(&self, line: &'a [u8]) -> Result<Line<'a>, LineProblem> {
+        let mut read = Line { id: b"1", time: f64::NAN, values: [f64::NAN; SLOTS] };
+        let mut rest = line;
+        for (at, column) in self.columns.iter().enumerate() {
+            let field = self.separator.next(&mut rest).or_else(|| self.empty_last(line, at));
+            let Some(field) = field else { return Err(self.too_short(line, at)) };
+            match column.role {
+                Role::Unused => {}
+                Role::Id => read.id = field,
+                Role::Frame | Role::Time => read.time = self.moment(field)?,
+                role => {
+                    let value = self.number(field).ok_or_else(|| not_a_number(role, field))?;
+                    if value.abs() > LARGEST {
+                        return Err(too_large(role, field));
+                    }
+                    read.values[slot(role)] = if column.flipped { -value } else { value };
+                }
+            }
+        }
+        if read.id.is_empty() {
+            return Err(LineProblem { text: "nobody's id".into(), hint: "", short: true });
+        }
+        Ok(read)
+    }
+
+    /// The empty field behind a separator at the end of a line.
+    #[cold]
+    fn empty_last<'a>(&self, line: &'a [u8], at: usize) -> Option<&'a [u8]> {
+        let Separator::Byte(byte) = self.separator else { return None };
+        let line = line.trim_ascii();
+        (line.last() == Some(&byte) && self.separator.split(line).len() == at).then_some(&[])
+    }
+
+    fn number(&self, field: &[u8]) -> Option<f64> {
+        if !self.decimal_comma || !field.contains(&b',') {
+            return number(field);
+        }
+        let with_point: Vec<u8> = field.iter().map(|&byte| if byte == b',' { b'.' } else { byte }).collect();
+        number(&with_point)
+    }
+
+    fn moment(&self, field: &[u8]) -> Result<f64, LineProblem> {
+        let frames = self.clock == Clock::Frames;
+        let role = if frames { Role::Frame } else { Role::Time };
+        let value = self.number(field).or_else(|| stamp(field).filter(|_| !frames));
+        let value = value.ok_or_else(|| not_a_number(role, field))?;
+        if value.is_nan() {
+            return Err(not_a_number(role, field));
+        }
+        if value.abs() > if frames { LARGEST } else { 1e4 * LARGEST } {
+            return Err(too_large(role, field));
+        }
+        if frames && value != value.trunc() {
+            let text = format!("the frame is {}: frames are whole numbers", shown(field));
+            let hint = "if the column holds seconds, call it time: --columns id,time,x,y";
+            return Err(LineProblem { text, hint, short: false });
+        }
+        Ok(value)
+    }
+
+    fn too_short(&self, line: &[u8], found: usize) -> LineProblem {
+        let text = format!("{found} columns instead of at least {}: {}", self.columns.len(), shown(line));
+        LineProblem { text, hint: "--columns says what each column holds", short: true }
+    }
+}
+
+impl Separator {
+    /// Takes the next field off a line, without blanks and quotes around it; `None` where the line is at its end.
+    #[inline]
+    pub fn next<'a>(self, rest: &mut &'a [u8]) -> Option<&'a [u8]> {
+        match self {
+            Separator::Blanks => {
+                let from = rest.iter().position(|&byte| !is_blank(byte))?;
+                let field = &rest[from..];
+                let length = field.iter().position(|&byte| is_blank(byte)).unwrap_or(field.len());
+                *rest = &field[length..];
+                Some(unquoted(&field[..length]))
+            }
+            Separator::Byte(byte) => {
+                if rest.is_empty() {
+                    return None;
+                }
+                let quoted = rest.iter().position(|&b| !is_blank(b)).filter(|&at| rest[at] == b'"');
+                let closed = quoted.and_then(|at| rest[at + 1..].iter().position(|&b| b == b'"').map(|n| at + n + 2));
+                let from = closed.unwrap_or(0);
+                let end = rest[from..].iter().position(|&b| b == byte).map(|n| from + n);
+                let (field, after) = match end {
+                    Some(end) => (&rest[..end], &rest[end + 1..]),
+                    None => (*rest, &rest[rest.len()..]),
+                };
+                *rest = after;
+                Some(unquoted(field.trim_ascii()))
+            }
+        }
+    }
+
+    /// All fields of a line.
+    pub fn split(self, line: &[u8]) -> Vec<&[u8]> {
+        let mut rest = line;
+        std::iter::from_fn(|| self.next(&mut rest)).collect()
+    }
+}
+
+#[inline]
+fn is_blank(byte: u8) -> bool {
+    byte == b' ' || byte == b'\t' || byte == b'\r'
+}
+
+#[inline]
+fn unquoted(field: &[u8]) -> &[u8] {
+    match field {
+        [b'"', inner @ .., b'"'] => inner,
+        _ => field,
+    }
+}
+
+fn not_a_number(role: Role, field: &[u8]) -> LineProblem {
+    let text = format!("{} is {}, which is no number", named(role), shown(field));
+    LineProblem { text, hint: "--columns says what each column holds", short: true }
+}
+
+fn too_large(role: Role, field: &[u8]) -> LineProblem {
+    let text = format!("{} is {}; allowed is up to {LARGEST:e}", named(role), shown(field));
+    LineProblem { text, hint: "", short: false }
+}
+
+fn named(role: Role) -> &'static str {
+    match role {
+        Role::Id => "the id",
+        Role::Frame => "the frame",
+        Role::Time => "the time",
+        Role::X => "x",
+        Role::Y => "y",
+        Role::Z => "z",
+        Role::VelocityX | Role::VelocityY => "the velocity",
+        Role::HeadingX | Role::HeadingY => "the heading",
+        Role::EndTime => "the end time",
+        Role::EndX | Role::EndY => "the end",
+        Role::Unused => "the column",
+    }
+}
+
+/// A value as an error shows it: quoted, shortened, without control characters.
+pub(super) fn shown(field: &[u8]) -> String {
+    let text = String::from_utf8_lossy(&field[..field.len().min(4 * SHOWN)]);
+    let text = text.trim();
+    let short: String =
+        text.chars().take(SHOWN).map(|c| if c.is_control() && c != '\t' { '\u{fffd}' } else { c }).collect();
+    if short.len() < text.len() { format!("`{short}...`") } else { format!("`{short}`") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fields(separator: Separator, line: &str) -> Vec<String> {
+        separator.split(line.as_bytes()).iter().map(|f| String::from_utf8_lossy(f).into_owned()).collect()
+    }
+
+    #[test]
+    fn lines_are_split_at_blanks_or_at_a_byte() {
+        assert_eq!(fields(Separator::Blanks, "  1\t 2 3.5\r"), ["1", "2", "3.5"]);
+        assert_eq!(fields(Separator::Byte(b','), "1, 2,,x\r"), ["1", "2", "", "x"]);
+        assert_eq!(fields(Separator::Byte(b','), "\"One, Two\", 3"), ["One, Two", "3"]);
+        assert_eq!(fields(Separator::Byte(b';'), "\"open;2"), ["\"open", "2"]);
+        assert!(fields(Separator::Blanks, " \r").is_empty() && fields(Separator::Byte(b','), "").is_empty());
+    }
+
+    #[test]
+    fn values_in_errors_are_short_and_clean() {
+        assert_eq!(shown(b" abc\x00d "), "`abc\u{fffd}d`");
+        assert_eq!(shown("ä".repeat(100).as_bytes()), format!("`{}...`", "ä".repeat(40)));
+    }
+}

@@ -1,0 +1,89 @@
+//! Rows held in memory in the order of time: for files that are not.
+
+use std::sync::Arc;
+
+use super::RecordingError;
+use super::rows::{Row, Rows, Stop};
+use crate::math::{Vec2, vec2};
+
+/// Rows by time, then id, then their order in the file.
+#[derive(Debug)]
+pub(super) struct Sorted {
+    rows: Vec<Compact>,
+    /// Lines by the rows' order in the file.
+    lines: Vec<u32>,
+    /// What some files have beyond places, by the rows' order in the file; empty where none has.
+    extras: Vec<Extra>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Compact {
+    time: f64,
+    x: f64,
+    y: f64,
+    id: u32,
+    order: u32,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Extra {
+    velocity: Option<Vec2>,
+    heading: Option<Vec2>,
+    until: Option<(f64, Vec2)>,
+}
+
+impl Sorted {
+    /// Reads all rows; `check` looks now and then whether to stop.
+    pub fn read(rows: &mut Rows, check: impl Fn(&Rows) -> Result<(), RecordingError>) -> Result<Sorted, Stop> {
+        let mut sorted = Sorted { rows: Vec::new(), lines: Vec::new(), extras: Vec::new() };
+        while let Some(row) = rows.next()? {
+            let Ok(order) = u32::try_from(sorted.rows.len()) else {
+                let problem = "more than 4 billion rows that are not in the order of time: sort them first";
+                return Err(RecordingError::Unreadable { path: Default::default(), problem: problem.to_owned() }.into());
+            };
+            if order.is_multiple_of(1 << 16) {
+                check(rows)?;
+            }
+            let Row { id, line, time, at, velocity, heading, until } = row;
+            let extra = velocity.is_some() || heading.is_some() || until.is_some();
+            if extra || !sorted.extras.is_empty() {
+                sorted.extras.resize(order as usize, Extra::default());
+                sorted.extras.push(Extra { velocity, heading, until });
+            }
+            sorted.lines.push(u32::try_from(line).unwrap_or(u32::MAX));
+            sorted.rows.push(Compact { time, x: at.x, y: at.y, id, order });
+        }
+        sorted.rows.sort_unstable_by(|a, b| a.time.total_cmp(&b.time).then((a.id, a.order).cmp(&(b.id, b.order))));
+        Ok(sorted)
+    }
+
+    fn row(&self, at: usize) -> Option<Row> {
+        let &Compact { time, x, y, id, order } = self.rows.get(at)?;
+        let Extra { velocity, heading, until } = self.extras.get(order as usize).copied().unwrap_or_default();
+        let line = u64::from(self.lines[order as usize]);
+        Some(Row { id, line, time, at: vec2(x, y), velocity, heading, until })
+    }
+}
+
+/// The rows, one by one.
+pub(super) struct MemoryRows {
+    sorted: Arc<Sorted>,
+    next: usize,
+}
+
+impl MemoryRows {
+    pub fn new(sorted: &Arc<Sorted>) -> MemoryRows {
+        MemoryRows { sorted: Arc::clone(sorted), next: 0 }
+    }
+
+    #[inline]
+    pub fn next(&mut self) -> Option<Row> {
+        let row = self.sorted.row(self.next)?;
+        self.next += 1;
+        Some(row)
+    }
+
+    pub fn share_done(&self) -> f64 {
+        self.next as f64 / self.sorted.rows.len().max(1) as f64
+    }
+}

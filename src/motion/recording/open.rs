@@ -1,0 +1,321 @@
+//! Opens a recording: what it is, what it holds, what its numbers mean.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::census::{Census, Objection};
+use super::database::{self, DatabaseRows};
+use super::detect::{self, Refusal};
+use super::guess;
+use super::input::Lines;
+use super::layout::{Clock, Layout, shown};
+use super::memory::{MemoryRows, Sorted};
+use super::rows::{Numbering, Passed, Row, Rows, Stop, TextRows, moment, unreadable, who};
+use super::scale::{Alignment, Scale, Stated, TimeScale, rotation};
+use super::{Content, Recording, RecordingError, RecordingFormat, RecordingOptions, Survey};
+use crate::math::{Rect, Vec2};
+use crate::{Progress, Stage};
+
+/// Where rows come from, as often as they are wanted.
+#[derive(Clone, Debug)]
+pub(super) enum Source {
+    Text(Arc<Layout>, Numbering),
+    Database,
+    Memory(Arc<Sorted>),
+}
+
+impl Source {
+    pub fn rows(&self, path: &Path) -> Result<Rows, RecordingError> {
+        Ok(match self {
+            Source::Text(layout, numbering) => Rows::Text(Box::new(TextRows::open(path, layout, *numbering)?)),
+            Source::Database => Rows::Database(Box::new(DatabaseRows::open(path)?)),
+            Source::Memory(sorted) => Rows::Memory(MemoryRows::new(sorted)),
+        })
+    }
+}
+
+pub(super) fn open(
+    path: &Path,
+    options: &RecordingOptions,
+    progress: &dyn Progress,
+) -> Result<Recording, RecordingError> {
+    check(options)?;
+    let (source, stated, mut warnings) = if is_database(path, options)? {
+        let about = DatabaseRows::open(path)?.about();
+        let stated = Stated {
+            format: RecordingFormat::Jupedsim,
+            clock: Clock::Frames,
+            fps: about.fps,
+            unit: Some(super::LengthUnit::Metre),
+            unit_of_heights: None,
+            bare: false,
+        };
+        (Source::Database, stated, Vec::new())
+    } else {
+        let (layout, stated) = read_head(path, options)?;
+        let warnings = layout.warnings.clone();
+        (Source::Text(Arc::new(layout), Numbering::Own), stated, warnings)
+    };
+    let frames = stated.clock == Clock::Frames;
+    let way = Way { path, frames, turn: rotation(options.rotation_deg), progress };
+    let Counted { source, mut census, passed, in_order } = count(source, way)?;
+    let Some(bounds) = census.bounds else {
+        let what = if passed.nowhere > 0 { "nobody has a place" } else { "there is a header, but nothing behind it" };
+        return Err(RecordingError::Empty { path: path.to_path_buf(), what });
+    };
+    warn_of_rows(&census, passed, &mut warnings);
+    let scale = Scale::find(&mut census, &stated, options, &mut warnings)
+        .map_err(|_| RecordingError::UnknownRate { path: path.to_path_buf() })?;
+    let alignment = Alignment::new(scale.unit, options);
+    let survey = survey(&mut census, &stated, &scale, &alignment, bounds, in_order, warnings);
+    let content = Content { path: path.to_path_buf(), first_time: census.first_time, survey, source, scale, alignment };
+    Ok(Recording { content: Arc::new(content) })
+}
+
+fn check(options: &RecordingOptions) -> Result<(), RecordingError> {
+    let option = |option: &'static str, value: String, allowed: &str| {
+        Err(RecordingError::Option { option, value, allowed: allowed.to_owned() })
+    };
+    if let Some(fps) = options.fps.filter(|fps| !(1e-3..=1e4).contains(fps)) {
+        return option("fps", fps.to_string(), "allowed is 0.001 to 10000 frames per second");
+    }
+    for (name, [x, y]) in [("origin", options.origin), ("shift", options.shift)] {
+        if ![x, y].iter().all(|metres| (-1e9..=1e9).contains(metres)) {
+            return option(name, format!("[{x}, {y}]"), "allowed are metres up to 1e9");
+        }
+    }
+    if !(-1e6..=1e6).contains(&options.rotation_deg) {
+        return option("rotation", options.rotation_deg.to_string(), "allowed are degrees up to 1e6");
+    }
+    Ok(())
+}
+
+fn is_database(path: &Path, options: &RecordingOptions) -> Result<bool, RecordingError> {
+    let mut magic = [0; 16];
+    let mut file = File::open(path).map_err(|error| unreadable(path, &error))?;
+    let length = file.read(&mut magic).map_err(|error| unreadable(path, &error))?;
+    let found = length == magic.len() && magic == *database::MAGIC;
+    let asked = options.format.is_some_and(|format| format == RecordingFormat::Jupedsim);
+    let unknown = |found: &str, hint: &str| {
+        Err(RecordingError::Unknown { path: path.to_path_buf(), found: found.to_owned(), hint: hint.to_owned() })
+    };
+    match (found, options.format) {
+        (false, _) if asked => unknown("it is no SQLite database", "leave --format out: the format is found"),
+        (true, Some(_)) if !asked => unknown("it is an SQLite database", "leave --format out: the format is found"),
+        (true, _) if options.columns.is_some() => {
+            unknown("it is a database, whose columns have names", "leave --columns out")
+        }
+        _ => Ok(found),
+    }
+}
+
+/// Finds out how a text is laid out.
+fn read_head(path: &Path, options: &RecordingOptions) -> Result<(Layout, Stated), RecordingError> {
+    let lines = Lines::open(path).map_err(|error| unreadable(path, &error))?;
+    let (head, whole) = lines.head();
+    if head.starts_with(database::MAGIC) {
+        let (found, hint) = ("it is a compressed database".to_owned(), "unpack it first: gunzip FILE".to_owned());
+        return Err(RecordingError::Unknown { path: path.to_path_buf(), found, hint });
+    }
+    let layout = detect::detect(head, whole, options).map_err(|refusal| refused(path, options, refusal))?;
+    let rows: Vec<&[u8]> = head.split(|&byte| byte == b'\n').skip(layout.head_lines as usize).collect();
+    let stated = Stated {
+        format: layout.format,
+        clock: layout.clock,
+        fps: layout.fps,
+        unit: layout.unit,
+        unit_of_heights: guess::unit_of_heights(&layout, &rows),
+        bare: layout.head_lines == 0,
+    };
+    Ok((layout.without_heights(), stated))
+}
+
+fn refused(path: &Path, options: &RecordingOptions, refusal: Refusal) -> RecordingError {
+    let path = path.to_path_buf();
+    match refusal {
+        Refusal::Empty(what) => RecordingError::Empty { path, what },
+        Refusal::Unknown { found, hint } => RecordingError::Unknown { path, found, hint },
+        Refusal::Line { line, problem, hint } => RecordingError::Line { path, line, problem, hint },
+        Refusal::Columns(allowed) => {
+            let asked = options.columns.clone().unwrap_or_default();
+            RecordingError::Option { option: "columns", value: shown(asked.as_bytes()), allowed }
+        }
+    }
+}
+
+/// Rows between two looks at whether to stop.
+const OFTEN: u64 = 1 << 16;
+
+/// How rows are counted.
+#[derive(Clone, Copy)]
+struct Way<'a> {
+    path: &'a Path,
+    /// Whether moments are frames.
+    frames: bool,
+    /// By how much places are turned, for the rectangle around them.
+    turn: Option<Vec2>,
+    progress: &'a dyn Progress,
+}
+
+impl Way<'_> {
+    /// Whether to stop here.
+    fn check(&self, rows: &Rows) -> Result<(), RecordingError> {
+        if self.progress.interrupted() {
+            return Err(RecordingError::Interrupted { path: self.path.to_path_buf() });
+        }
+        // The motion itself will fill the bar again.
+        self.progress.advance(Stage::Motion, rows.share_done().min(0.999));
+        Ok(())
+    }
+}
+
+/// What counting gave.
+struct Counted {
+    source: Source,
+    census: Census,
+    passed: Passed,
+    in_order: bool,
+}
+
+/// Counts all rows: as they come; if they are not in the order of time, sorted. If an id is no number, people are
+/// numbered.
+fn count(mut source: Source, way: Way<'_>) -> Result<Counted, RecordingError> {
+    let path = way.path;
+    loop {
+        let mut rows = source.rows(path)?;
+        let again = match census_of(&mut rows, &source, way) {
+            Ok(census) => {
+                return Ok(Counted { passed: rows.passed(), source, census, in_order: true });
+            }
+            Err(Obstacle::Error(error)) => return Err(error),
+            Err(Obstacle::Name) => None,
+            Err(Obstacle::Disorder) => Some(()),
+        };
+        if again.is_none() {
+            source = numbered(source);
+            continue;
+        }
+        let mut rows = source.rows(path)?;
+        match Sorted::read(&mut rows, |rows| way.check(rows)) {
+            Ok(sorted) => {
+                let passed = rows.passed();
+                let sorted = Source::Memory(Arc::new(sorted));
+                let mut rows = sorted.rows(path)?;
+                return match census_of(&mut rows, &source, way) {
+                    Ok(census) => Ok(Counted { passed, source: sorted, census, in_order: false }),
+                    Err(Obstacle::Error(error)) => Err(error),
+                    Err(Obstacle::Name | Obstacle::Disorder) => {
+                        Err(RecordingError::Empty { path: path.to_path_buf(), what: "its times have no order" })
+                    }
+                };
+            }
+            Err(Stop::Error(RecordingError::Unreadable { problem, .. })) => {
+                return Err(RecordingError::Unreadable { path: path.to_path_buf(), problem });
+            }
+            Err(Stop::Error(error)) => return Err(error),
+            Err(Stop::Name) => source = numbered(source),
+        }
+    }
+}
+
+fn numbered(source: Source) -> Source {
+    match source {
+        Source::Text(layout, _) => Source::Text(layout, Numbering::Appearance),
+        source => source,
+    }
+}
+
+/// What stops a count.
+enum Obstacle {
+    Name,
+    Disorder,
+    Error(RecordingError),
+}
+
+fn census_of(rows: &mut Rows, source: &Source, way: Way<'_>) -> Result<Census, Obstacle> {
+    let numbering = match source {
+        Source::Text(_, numbering) => *numbering,
+        Source::Database | Source::Memory(_) => Numbering::Own,
+    };
+    let mut census = Census::new(way.turn);
+    for count in 0u64.. {
+        if count % OFTEN == 0 {
+            way.check(rows).map_err(Obstacle::Error)?;
+        }
+        let row = match rows.next() {
+            Ok(Some(row)) => row,
+            Ok(None) => break,
+            Err(Stop::Name) => return Err(Obstacle::Name),
+            Err(Stop::Error(error)) => return Err(Obstacle::Error(error)),
+        };
+        match census.add(&row) {
+            Ok(()) => {}
+            Err(Objection::Disorder) => return Err(Obstacle::Disorder),
+            Err(Objection::Twice(other)) => {
+                return Err(Obstacle::Error(twice(way.path, &row, other, numbering, way.frames)));
+            }
+        }
+    }
+    census.finish();
+    Ok(census)
+}
+
+fn twice(path: &Path, row: &Row, other: Vec2, numbering: Numbering, frames: bool) -> RecordingError {
+    RecordingError::Twice {
+        path: path.to_path_buf(),
+        line: row.line,
+        who: who(row.id, numbering),
+        moment: moment(row.time, frames),
+        places: [[other.x, other.y], [row.at.x, row.at.y]],
+    }
+}
+
+fn warn_of_rows(census: &Census, passed: Passed, warnings: &mut Vec<String>) {
+    if passed.nowhere > 0 {
+        warnings.push(format!(
+            "{} rows have no place, the first in line {}: those people are taken for missing there",
+            passed.nowhere, passed.first_nowhere
+        ));
+    }
+    if census.repeated > 0 {
+        warnings.push(format!("{} rows repeat others and are passed over", census.repeated));
+    }
+    if let Some(line) = passed.broken {
+        warnings.push(format!("the file breaks off in line {line}, which is left out"));
+    }
+}
+
+fn survey(
+    census: &mut Census,
+    stated: &Stated,
+    scale: &Scale,
+    alignment: &Alignment,
+    bounds: Rect,
+    in_order: bool,
+    warnings: Vec<String>,
+) -> Survey {
+    let second = match scale.time {
+        TimeScale::Frames(fps) => fps,
+        TimeScale::Times(seconds) => 1.0 / seconds,
+    };
+    let speed = if census.time > 0.0 { census.way / census.time * second * scale.unit.metres() } else { 0.0 };
+    let longest_gap = scale.stand_s.unwrap_or(scale.gap_s) * second;
+    Survey {
+        format: stated.format,
+        unit: scale.unit,
+        fps: scale.fps,
+        people: census.people(),
+        largest_id: census.largest_id,
+        returns: census.intervals.count_above(longest_gap * (1.0 + 1e-9)),
+        frames: census.moments,
+        places: census.places,
+        span_s: [0.0, scale.time.seconds(census.last_time - census.first_time)],
+        person_seconds: scale.time.seconds(census.present(longest_gap)),
+        mean_speed_m_s: speed,
+        bounds_m: alignment.bounds(bounds),
+        in_order,
+        warnings,
+    }
+}

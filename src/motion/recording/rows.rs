@@ -1,0 +1,282 @@
+//! Rows of a recording, one by one, from wherever they are.
+
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::RecordingError;
+use super::columns::Role;
+use super::database::DatabaseRows;
+use super::input::Lines;
+use super::layout::{Layout, Line, shown, slot};
+use super::memory::MemoryRows;
+use super::number::number;
+use crate::math::{Vec2, vec2};
+
+/// Ids of files are kept where they are whole numbers below this.
+pub(super) const ID_LIMIT: f64 = 1e7;
+
+/// Somebody's place as the file tells it, in its own numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Row {
+    pub id: u32,
+    /// Line, from 1; in a database the row's number.
+    pub line: u64,
+    pub time: f64,
+    pub at: Vec2,
+    pub velocity: Option<Vec2>,
+    pub heading: Option<Vec2>,
+    /// When and where a step ends that begins here.
+    pub until: Option<(f64, Vec2)>,
+}
+
+/// How people are numbered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Numbering {
+    /// As in the file.
+    Own,
+    /// From 1, as they first appear.
+    Appearance,
+}
+
+/// What was passed over.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Passed {
+    /// Rows without a place, and the line of the first.
+    pub nowhere: u64,
+    pub first_nowhere: u64,
+    /// The last line if it breaks off.
+    pub broken: Option<u64>,
+}
+
+/// What stops rows from coming.
+#[derive(Debug)]
+pub(super) enum Stop {
+    /// An id that is no whole number below [`ID_LIMIT`]: people have to be numbered.
+    Name,
+    Error(RecordingError),
+}
+
+impl From<RecordingError> for Stop {
+    fn from(error: RecordingError) -> Stop {
+        Stop::Error(error)
+    }
+}
+
+/// Where rows come from.
+pub(super) enum Rows {
+    Text(Box<TextRows>),
+    Database(Box<DatabaseRows>),
+    Memory(MemoryRows),
+}
+
+impl Rows {
+    #[inline]
+    pub fn next(&mut self) -> Result<Option<Row>, Stop> {
+        match self {
+            Rows::Text(rows) => rows.next(),
+            Rows::Database(rows) => Ok(rows.next()?),
+            Rows::Memory(rows) => Ok(rows.next()),
+        }
+    }
+
+    pub fn share_done(&self) -> f64 {
+        match self {
+            Rows::Text(rows) => rows.lines.share_read(),
+            Rows::Database(rows) => rows.share_done(),
+            Rows::Memory(rows) => rows.share_done(),
+        }
+    }
+
+    pub fn passed(&self) -> Passed {
+        match self {
+            Rows::Text(rows) => rows.passed,
+            Rows::Database(rows) => rows.passed(),
+            Rows::Memory(_) => Passed::default(),
+        }
+    }
+}
+
+/// The rows of a text.
+pub(super) struct TextRows {
+    path: PathBuf,
+    lines: Lines,
+    layout: Arc<Layout>,
+    numbering: Numbering,
+    numbers: HashMap<Box<[u8]>, u32>,
+    passed: Passed,
+    extras: Extras,
+}
+
+/// Which columns there are beyond the necessary.
+struct Extras {
+    velocity: bool,
+    heading: bool,
+    until: bool,
+}
+
+impl TextRows {
+    pub fn open(path: &Path, layout: &Arc<Layout>, numbering: Numbering) -> Result<TextRows, RecordingError> {
+        let lines = Lines::open(path).map_err(|error| unreadable(path, &error))?;
+        let extras = Extras {
+            velocity: layout.has(&[Role::VelocityX, Role::VelocityY]),
+            heading: layout.has(&[Role::HeadingX, Role::HeadingY]),
+            until: layout.has(&[Role::EndTime, Role::EndX, Role::EndY]),
+        };
+        let mut rows = TextRows {
+            path: path.to_path_buf(),
+            lines,
+            layout: Arc::clone(layout),
+            numbering,
+            numbers: HashMap::new(),
+            passed: Passed::default(),
+            extras,
+        };
+        for _ in 0..layout.head_lines {
+            rows.lines.next().map_err(|error| unreadable(path, &error))?;
+        }
+        Ok(rows)
+    }
+
+    fn next(&mut self) -> Result<Option<Row>, Stop> {
+        loop {
+            let range = self.lines.next().map_err(|error| self.broken(&error))?;
+            let Some(range) = range else { return Ok(None) };
+            let text = self.lines.text(range.clone()).trim_ascii_end();
+            let line = match self.layout.read(text) {
+                Ok(line) => line,
+                Err(problem) => {
+                    if self.may_be_skipped(text) {
+                        continue;
+                    }
+                    if text.first() == Some(&b'$') {
+                        // The next table of a Viswalk file.
+                        return Ok(None);
+                    }
+                    let number = self.lines.number();
+                    if problem.short && self.lines.breaks_off() {
+                        self.passed.broken = Some(number);
+                        return Ok(None);
+                    }
+                    let error = RecordingError::Line {
+                        path: self.path.clone(),
+                        line: number,
+                        problem: problem.text,
+                        hint: problem.hint.to_owned(),
+                    };
+                    return Err(error.into());
+                }
+            };
+            let [x, y] = [Role::X, Role::Y].map(|role| line.values[slot(role)]);
+            if x.is_nan() || y.is_nan() {
+                self.passed.nowhere += 1;
+                if self.passed.nowhere == 1 {
+                    self.passed.first_nowhere = self.lines.number();
+                }
+                continue;
+            }
+            let id = match self.numbering {
+                Numbering::Own => whole(line.id).ok_or(Stop::Name)?,
+                Numbering::Appearance => {
+                    let next = self.numbers.len() as u32 + 1;
+                    match self.numbers.get(line.id) {
+                        Some(&id) => id,
+                        None => *self.numbers.entry(line.id.into()).or_insert(next),
+                    }
+                }
+            };
+            return Ok(Some(self.row(id, &line)));
+        }
+    }
+
+    fn row(&self, id: u32, line: &Line<'_>) -> Row {
+        let pair = |x: Role, y: Role| {
+            let pair = vec2(line.values[slot(x)], line.values[slot(y)]);
+            pair.is_finite().then_some(pair)
+        };
+        let Extras { velocity, heading, until } = self.extras;
+        let end_time = line.values[slot(Role::EndTime)];
+        Row {
+            id,
+            line: self.lines.number(),
+            time: line.time,
+            at: vec2(line.values[slot(Role::X)], line.values[slot(Role::Y)]),
+            velocity: if velocity { pair(Role::VelocityX, Role::VelocityY) } else { None },
+            heading: if heading { pair(Role::HeadingX, Role::HeadingY).and_then(Vec2::normalized) } else { None },
+            until: if until && end_time > line.time {
+                pair(Role::EndX, Role::EndY).map(|end| (end_time, end))
+            } else {
+                None
+            },
+        }
+    }
+
+    /// Comments, empty lines, and the header where files were joined.
+    #[cold]
+    fn may_be_skipped(&self, text: &[u8]) -> bool {
+        let text = text.trim_ascii_start();
+        text.is_empty() || matches!(text[0], b'#' | b'*') || self.layout.header.as_deref() == Some(text)
+    }
+
+    /// What the system says, with the line up to which all was well.
+    fn broken(&self, error: &std::io::Error) -> RecordingError {
+        let problem = match error.kind() {
+            std::io::ErrorKind::UnexpectedEof => "the compressed file breaks off".to_owned(),
+            _ => error.to_string(),
+        };
+        let problem = format!("{problem} (after line {})", self.lines.number());
+        RecordingError::Unreadable { path: self.path.clone(), problem }
+    }
+}
+
+pub(super) fn unreadable(path: &Path, error: &std::io::Error) -> RecordingError {
+    RecordingError::Unreadable { path: path.to_path_buf(), problem: error.to_string() }
+}
+
+/// An id that is a whole number in the range that is kept.
+#[inline]
+fn whole(id: &[u8]) -> Option<u32> {
+    let value = number(id)?;
+    ((0.0..ID_LIMIT).contains(&value) && value == value.trunc()).then_some(value as u32)
+}
+
+/// Who a row is about, for messages.
+pub(super) fn who(id: u32, numbering: Numbering) -> String {
+    match numbering {
+        Numbering::Own => format!("person {id}"),
+        Numbering::Appearance => format!("the person who appears as number {id}"),
+    }
+}
+
+/// A value of the file for messages.
+pub(super) fn moment(time: f64, frames: bool) -> String {
+    if frames {
+        format!("frame {time}")
+    } else {
+        format!("time {}", shown(time.to_string().as_bytes()).trim_matches('`'))
+    }
+}
+
+/// Spreads ids over a table of people; they are small whole numbers, mostly in a row.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct IdHasher(u64);
+
+impl Hasher for IdHasher {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|&byte| self.write_u32(u32::from(byte)));
+    }
+
+    fn write_u32(&mut self, id: u32) {
+        // The golden ratio's bits; the table uses the upper ones too.
+        let mixed = (self.0 ^ u64::from(id)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        self.0 = mixed ^ (mixed >> 32);
+    }
+}
+
+/// Something for each person.
+pub(super) type ById<T> = HashMap<u32, T, BuildHasherDefault<IdHasher>>;

@@ -1,0 +1,10 @@
+//! Formations that change into each other: what the method promises, on crowds made for it.
+#![allow(clippy::unwrap_used)] // a test may panic
+
+mod bases;
+mod crowds;
+mod keys;
+mod mistakes;
+mod motion;
+mod rotations;
+mod sphere;
