@@ -7,7 +7,7 @@ use super::arrivals::Arrival;
 use super::simulation::{Crowd, Parts};
 use super::state::{Body, Course, Heading, Traits};
 use super::steering::entry_place;
-use crate::math::{Purpose, SplitMix64, Vec2, person_stream, vec2};
+use crate::math::{Purpose, SplitMix64, Vec2, person_stream, sin_cos, vec2};
 use crate::routes::{Place, Route};
 
 /// Depth beyond an opening's edge between which people appear and vanish, metres.
@@ -17,6 +17,12 @@ const VANISH_M: [f64; 2] = [1.0, 2.3];
 const ENTRY_ROOM_M: f32 = 0.25;
 /// Places that somebody tries in each step.
 const TRIES: usize = 4;
+/// Members of a group who come in one after the other keep this near to each other, metres ...
+const COMPANY_M: [f64; 2] = [0.7, 0.95];
+/// ... in one of so many directions.
+const COMPANY_WAYS: usize = 8;
+/// Whoever finds no room beside their group for so long comes in anywhere, seconds.
+const COMPANY_S: f64 = 5.0;
 /// People of one queue who try in each step.
 const HEADS: usize = 4;
 /// The same where everybody starts at once: between two looks at who stands where.
@@ -121,7 +127,20 @@ impl Entrances {
 impl Parts<'_, '_> {
     fn try_to_enter(&mut self, waiting: &mut Waiting, present: usize, time_s: f64) -> bool {
         let Arrival { id, route, .. } = waiting.arrival;
-        let mut traits = Traits::draw(self.seed, id, self.options);
+        let mut traits = self.traits_of(id);
+        if let Some(companion) = self.companion(id) {
+            let late = time_s - waiting.arrival.time_s > COMPANY_S || self.options.entry_seconds == Some(0.0);
+            let draw = f64::from(waiting.tries.unit());
+            let beside = self.places_beside(companion, route, &traits, draw);
+            let free = beside.into_iter().flatten().find(|&p| self.has_room(p, traits.exclusion_m, present));
+            if let Some(p) = free {
+                self.enter(id, route, traits, p, [draw, f64::from(waiting.tries.unit())], time_s);
+                return true;
+            }
+            if !late {
+                return false;
+            }
+        }
         for attempt in 0..TRIES {
             let mut unit = || f64::from(waiting.tries.unit());
             let draws = [unit(), unit()];
@@ -135,6 +154,60 @@ impl Parts<'_, '_> {
             }
         }
         false
+    }
+
+    /// What somebody is like; members of a group walk at one speed, and towards one place.
+    fn traits_of(&self, id: u32) -> Traits {
+        let mut traits = Traits::draw(self.seed, id, self.options);
+        let others = self.groups.members(id).len().saturating_sub(1);
+        if others > 0 {
+            let first = Traits::draw(self.seed, self.groups.first(id), self.options);
+            let slower_m_s = self.options.groups.slowdown as f32 * others as f32;
+            traits.speed_m_s = (first.speed_m_s - slower_m_s).max(0.5 * first.speed_m_s);
+            traits.lane = first.lane;
+            traits.goal_draw = first.goal_draw;
+        }
+        traits
+    }
+
+    /// The slot of the member of somebody's group who came in last.
+    fn companion(&self, id: u32) -> Option<usize> {
+        let members = self.groups.members(id);
+        let is_member = |course: &Course| members.contains(&course.id);
+        if members.len() < 2 { None } else { self.courses.iter().rposition(is_member) }
+    }
+
+    /// Places around a companion, in turn from the direction that a draw in `[0, 1)` gives, that can be seen from there
+    /// and, for who comes through an opening, lie as far beyond it as everybody's.
+    fn places_beside(
+        &self,
+        companion: usize,
+        route: usize,
+        traits: &Traits,
+        draw: f64,
+    ) -> [Option<Vec2>; COMPANY_WAYS] {
+        let navigation = self.steering.navigation;
+        let ground = &navigation.ground;
+        let at = self.bodies[companion].position();
+        let distance_m = COMPANY_M[0] + (COMPANY_M[1] - COMPANY_M[0]) * draw;
+        std::array::from_fn(|way| {
+            let turn = (draw + way as f64 / COMPANY_WAYS as f64) * std::f64::consts::TAU;
+            let (sin, cos) = sin_cos(turn);
+            let p = at + vec2(cos, sin) * distance_m;
+            let limit_m = f64::from(traits.wall_exclusion_m).min(ground.gap_limit_m(p));
+            let outside = match self.steering.routes[route].start {
+                Place::Opening(index) => self.plan.openings.get(index).is_some_and(|opening| {
+                    let depth_m = (p - opening.from_m).dot(opening.side.outward());
+                    depth_m > APPEAR_M[0] - 1.0 && depth_m < APPEAR_M[1]
+                }),
+                Place::Area(_) => true,
+            };
+            // Nor behind the wall of a narrow opening, where there may be a gap too.
+            let walkable = ground.lattice.cell_at(p).is_some_and(|cell| ground.is_walkable(cell));
+            let free =
+                outside && walkable && ground.clearance_m(p) >= limit_m && ground.sight(self.steering.walls, at, p);
+            free.then_some(p)
+        })
     }
 
     /// A place to appear at.
@@ -205,7 +278,8 @@ impl Parts<'_, '_> {
             arrived_before: 0,
             yields_s: 0.0,
             blocked_s: 0.0,
-            errand: self.stops.enter(self.seed, id, route),
+            errand: self.stops.enter(self.seed, [id, self.groups.first(id)], route),
+            led: false,
         };
         self.steering.advance(&mut course, p, time_s);
         let gate = self.steering.routes[route].gates.first();

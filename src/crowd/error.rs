@@ -43,6 +43,23 @@ pub enum CrowdError {
     /// No routes to walk.
     #[error("crowd: there is no route to walk")]
     NoRoutes,
+    /// A spot at which units are to be played, where nobody can stand.
+    #[error("crowd: {spot} at [{x:.2}, {y:.2}] {problem}")]
+    Spot {
+        /// What the spot is called.
+        spot: String,
+        /// Where it is, metres.
+        x: f64,
+        /// Where it is, metres.
+        y: f64,
+        /// What is wrong.
+        problem: String,
+        /// What to do about it.
+        hint: String,
+    },
+    /// Units that cannot be used.
+    #[error(transparent)]
+    Motion(Box<crate::motion::MotionError>),
     /// Routes that do not fit the plan.
     #[error(transparent)]
     Routes(#[from] crate::routes::RoutesError),
@@ -56,6 +73,8 @@ impl CrowdError {
             CrowdError::Distribution { .. } => {
                 Some("write a number, a range [0.28, 0.36], or { mean = 1.34, sd = 0.26, min = 0.6, max = 2.1 }".into())
             }
+            CrowdError::Spot { hint, .. } => Some(hint.clone()),
+            CrowdError::Motion(e) => e.hint(),
             CrowdError::Routes(e) => e.hint(),
             CrowdError::Number { .. } | CrowdError::Timetable { .. } | CrowdError::NoRoutes => None,
         }

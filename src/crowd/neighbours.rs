@@ -128,6 +128,31 @@ impl Neighbours {
         }
     }
 
+    /// The same with the stretches in all cells that come nearer than `reach_m`. Round a period some are seen on either
+    /// side: of these, one at most lies within half a period.
+    #[inline]
+    pub(super) fn within(&self, x: f32, y: f32, reach_m: f32, mut visit: impl FnMut(Range<usize>, f32)) {
+        let across = (reach_m * self.cells_per_m).ceil().max(1.0) as usize;
+        let [column, row] = self.column_row(x, y);
+        for row in row.saturating_sub(across)..=(row + across).min(self.rows - 1) {
+            let base = row * self.columns;
+            let mut stretch = |from: usize, to: usize, shift: f32| {
+                let range = self.starts[base + from] as usize..self.starts[base + to] as usize;
+                if !range.is_empty() {
+                    visit(range, shift);
+                }
+            };
+            let (from, to) = (column.saturating_sub(across), (column + across + 1).min(self.columns));
+            stretch(from, to, 0.0);
+            if let Some(period) = self.period_x_m {
+                let before = across.saturating_sub(column).min(self.columns);
+                stretch(self.columns - before, self.columns, -period);
+                let behind = (column + across + 1).saturating_sub(self.columns).min(self.columns);
+                stretch(0, behind, period);
+            }
+        }
+    }
+
     /// The shortest way in x from `a` to `b`, round the period if there is one.
     #[inline]
     pub(super) fn dx(&self, a: f32, b: f32) -> f32 {

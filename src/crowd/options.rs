@@ -1,6 +1,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::CrowdError;
+use super::social_force::{CrowdModel, GroupOptions, SocialForceOptions};
 use crate::math::Distribution;
 use crate::motion::BodyOptions;
 use crate::routes::Timetable;
@@ -12,6 +13,8 @@ const MOST_PEOPLE: u32 = 5_000_000;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct CrowdOptions {
+    /// Which model moves people.
+    pub model: CrowdModel,
     /// How many people walk, 1 to 5 million.
     pub people: u32,
     /// Speed of a person with nobody around (Weidmann 1993: 1.34 +- 0.26).
@@ -46,6 +49,10 @@ pub struct CrowdOptions {
     /// density in an endless corridor.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub period_x: Option<f64>,
+    /// Who walks with whom, under social forces.
+    pub groups: GroupOptions,
+    /// How people push each other, under social forces.
+    pub social_force: SocialForceOptions,
 }
 
 /// How the largest speed falls with the density of the people ahead.
@@ -69,6 +76,7 @@ impl CrowdOptions {
     /// People on their way through a station: free speed 1.34 +- 0.26 m/s.
     pub fn commuters() -> CrowdOptions {
         CrowdOptions {
+            model: CrowdModel::Boids,
             people: 1000,
             speed: Distribution::normal(1.34, 0.26, 0.6, 2.1),
             speed_law: SpeedLaw::Weidmann,
@@ -84,6 +92,8 @@ impl CrowdOptions {
             time_step: 0.1,
             end_seconds: None,
             period_x: None,
+            groups: GroupOptions::default(),
+            social_force: SocialForceOptions::default(),
         }
     }
 
@@ -155,7 +165,8 @@ impl CrowdOptions {
                 return Err(CrowdError::Number { name, value, low, high });
             }
         }
-        Ok(())
+        self.groups.check()?;
+        self.social_force.check()
     }
 }
 

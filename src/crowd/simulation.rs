@@ -10,6 +10,7 @@ use super::neighbours::Neighbours;
 use super::options::SpeedTable;
 use super::roll;
 use super::seen::Seen;
+use super::social_force::Groups;
 use super::state::{Body, Course, Traits};
 use super::steering::Steering;
 use super::stops::{Stops, Surface, Visit};
@@ -37,38 +38,44 @@ const OPEN_GROUND_LOOKS: u8 = 2;
 const YIELDS_S: f32 = 6.0;
 /// Steps after which everybody is put in the order of the grid.
 const ORDER_STEPS: u64 = 16;
+/// Nobody is moved faster than so many times their own speed.
+const MOST_SPEED: f32 = 1.1;
 /// Bodies per piece of parallel work.
-const CHUNK: usize = 128;
+pub(super) const CHUNK: usize = 128;
 
 /// People walking along routes, step by step.
 pub struct Crowd<'a> {
-    plan: &'a FloorPlan,
-    walls: &'a Walls,
-    routes: &'a [Route],
-    navigation: Navigation,
-    options: CrowdOptions,
-    seed: u64,
-    arrivals: Vec<Arrival>,
-    entrances: Entrances,
-    speeds: SpeedTable,
-    surroundings: Surroundings,
+    pub(super) plan: &'a FloorPlan,
+    pub(super) walls: &'a Walls,
+    pub(super) routes: &'a [Route],
+    pub(super) navigation: Navigation,
+    pub(super) options: CrowdOptions,
+    pub(super) seed: u64,
+    pub(super) arrivals: Vec<Arrival>,
+    pub(super) entrances: Entrances,
+    pub(super) speeds: SpeedTable,
+    pub(super) surroundings: Surroundings,
     /// Everybody present: bodies, traits, courses, roughly in the order of the grid.
     pub(super) bodies: Vec<Body>,
     pub(super) traits: Vec<Traits>,
     pub(super) courses: Vec<Course>,
     pub(super) neighbours: Neighbours,
-    moves: Vec<Move>,
+    pub(super) moves: Vec<Move>,
     /// Corrected places in the order of the neighbours' grid, and the next round's.
-    places: [Vec<[f32; 2]>; 2],
+    pub(super) places: [Vec<[f32; 2]>; 2],
     /// Slots in the order of ids, made anew for every frame.
-    by_id: Vec<u32>,
-    step: u64,
+    pub(super) by_id: Vec<u32>,
+    pub(super) step: u64,
     /// Whether somebody arrived in this step.
-    some_arrived: bool,
+    pub(super) some_arrived: bool,
     /// For each route, who went before.
-    trails: Vec<Trail>,
-    stops: Stops,
-    tally: Tally,
+    pub(super) trails: Vec<Trail>,
+    pub(super) stops: Stops,
+    pub(super) tally: Tally,
+    /// Who walks with whom.
+    pub(super) groups: Groups,
+    /// Being pushed moves nobody faster than so many times their own speed.
+    pub(super) most_speed: f32,
 }
 
 impl<'a> Crowd<'a> {
@@ -125,6 +132,8 @@ impl<'a> Crowd<'a> {
             trails: vec![Trail::default(); routes.len()],
             stops: Stops::new(surface, routes, &navigation, keep_m),
             tally: Tally::default(),
+            groups: Groups::default(),
+            most_speed: MOST_SPEED,
             plan,
             walls,
             routes,
@@ -200,7 +209,7 @@ impl<'a> Crowd<'a> {
     }
 
     /// Now and then, puts everybody in the order of the grid, so that who is near in space is near in memory.
-    fn put_in_order(&mut self) {
+    pub(super) fn put_in_order(&mut self) {
         if !self.step.is_multiple_of(ORDER_STEPS) {
             return;
         }
@@ -212,7 +221,7 @@ impl<'a> Crowd<'a> {
     }
 
     /// Serves whoever is at a stop.
-    fn look_after_stops(&mut self) {
+    pub(super) fn look_after_stops(&mut self) {
         let surface = Surface { plan: self.plan, walls: self.walls, ground: &self.navigation.ground };
         let clock = (self.step, self.options.time_step);
         self.stops.update(clock, surface, &self.navigation, &self.bodies, &mut self.courses);
@@ -292,10 +301,11 @@ impl<'a> Crowd<'a> {
     }
 
     /// Takes up the corrected places, and notes who has arrived.
-    fn take_places(&mut self) {
+    pub(super) fn take_places(&mut self) {
         let dt = self.options.time_step as f32;
         let time_s = (self.step + 1) as f64 * self.options.time_step;
         let period = self.options.period_x.map(|p| p as f32);
+        let most_speed = self.most_speed;
         let steering =
             Steering { plan: self.plan, walls: self.walls, routes: self.routes, navigation: &self.navigation };
         let ground = &self.navigation.ground;
@@ -306,7 +316,7 @@ impl<'a> Crowd<'a> {
             let (dx, dy) = (x - body.x, y - body.y);
             let (vx, vy) = (dx / dt, dy / dt);
             // Being pushed makes nobody run.
-            let most = 1.1 * traits.speed_m_s;
+            let most = most_speed * traits.speed_m_s;
             let speed = (vx * vx + vy * vy).sqrt();
             let ease = if speed > most { most / speed } else { 1.0 };
             (body.vx, body.vy) = (vx * ease, vy * ease);
@@ -325,8 +335,9 @@ impl<'a> Crowd<'a> {
             if body.clearance_m < OPEN_M {
                 body.clearance_m = ground.clearance_at_least_m(body.position()) as f32;
             }
-            course.arrived =
-                course.errand.is_none() && steering.has_arrived(course, body.position(), speed.min(most), time_s);
+            course.arrived = !course.led
+                && course.errand.is_none()
+                && steering.has_arrived(course, body.position(), speed.min(most), time_s);
             if course.arrived {
                 some_arrived.store(true, Relaxed);
             }
@@ -345,7 +356,7 @@ impl<'a> Crowd<'a> {
     }
 
     /// Lets those enter who are due and find room.
-    fn admit(&mut self) {
+    pub(super) fn admit(&mut self) {
         let time_s = self.time_s();
         let mut entrances = std::mem::take(&mut self.entrances);
         entrances.admit(self, time_s);
@@ -370,6 +381,7 @@ impl<'a> Crowd<'a> {
             neighbours: &self.neighbours,
             stops: &mut self.stops,
             tally: &mut self.tally,
+            groups: &self.groups,
         }
     }
 }
@@ -387,6 +399,7 @@ pub(super) struct Parts<'s, 'a> {
     pub(super) neighbours: &'s Neighbours,
     pub(super) stops: &'s mut Stops,
     pub(super) tally: &'s mut Tally,
+    pub(super) groups: &'s Groups,
 }
 
 impl Motion for Crowd<'_> {
@@ -417,7 +430,7 @@ impl Motion for Crowd<'_> {
 }
 
 /// Runs `work` on pieces of a slice, side by side if there are enough, with the index at which each begins.
-fn in_chunks<T: Send>(items: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
+pub(super) fn in_chunks<T: Send>(items: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
     if items.len() < 2 * CHUNK {
         work(0, items);
     } else {

@@ -1,5 +1,7 @@
 //! What the crowd knows of everybody present.
 
+use rand::RngExt;
+
 use crate::math::{Distribution, Purpose, Vec2, person_stream, vec2};
 
 use super::CrowdOptions;
@@ -41,6 +43,8 @@ pub(super) struct Traits {
     pub(super) lane: f32,
     /// Uniform in `[0, 1)`: where the person vanishes.
     pub(super) goal_draw: f32,
+    /// What the unevenness of the person's walk is drawn from, under social forces.
+    pub(super) wander: u64,
 }
 
 impl Traits {
@@ -59,6 +63,7 @@ impl Traits {
             wall_acceptable_m: draw(&options.wall_acceptable).max(wall_exclusion_m),
             lane: draw(&unit),
             goal_draw: draw(&unit),
+            wander: rng.random(),
         }
     }
 }
@@ -94,9 +99,33 @@ pub(super) struct Course {
     pub(super) blocked_s: f32,
     /// What the person does who is at a stop or on the way to one; nobody else has one.
     pub(super) errand: Option<Errand>,
+    /// Whether somebody outside of the crowd says where the person goes.
+    pub(super) led: bool,
 }
 
 impl Course {
+    /// Somebody who walks no route.
+    pub(super) fn onlooker(id: u32, heading: Heading) -> Course {
+        Course {
+            id,
+            route: 0,
+            leg: 0,
+            least_left_m: f32::INFINITY,
+            improved_s: 0.0,
+            end_m: Vec2::ZERO,
+            wanted: [1.0, 0.0],
+            looks: 0,
+            pace: 0.0,
+            heading,
+            arrived: false,
+            arrived_before: 0,
+            yields_s: 0.0,
+            blocked_s: 0.0,
+            errand: None,
+            led: true,
+        }
+    }
+
     /// Turns the body where it goes, or where it faces while it stands or shuffles.
     pub(super) fn turn(&mut self, body: &Body, dt: f32) {
         let faced = self.errand.and_then(|errand| errand.faces(body.x, body.y));

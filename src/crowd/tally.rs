@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::spots::SpotReport;
 use super::stops::StopTally;
 use crate::math::Vec2;
 use crate::routes::Route;
@@ -27,6 +28,8 @@ pub struct Tally {
     pub stuck: Vec<Stuck>,
     /// What happened at each stop, in the order in which routes first name them.
     pub stops: Vec<StopTally>,
+    /// How units were played at each spot.
+    pub spots: Vec<SpotReport>,
 }
 
 impl Tally {
@@ -40,6 +43,7 @@ impl Tally {
             lines.push(format!("{others}{place} marks the places where people got stuck"));
         }
         lines.extend(self.stops.iter().filter_map(StopTally::warning));
+        lines.extend(self.spots.iter().filter_map(SpotReport::warning));
         lines
     }
 }

@@ -51,6 +51,8 @@ pub(super) struct Move {
     pub(super) contact_count: u32,
     /// How near a wall this body may come here, metres.
     pub(super) wall_limit_m: f32,
+    /// Whether this body gives way to nothing.
+    pub(super) fixed: bool,
 }
 
 impl Scene<'_> {

@@ -10,7 +10,7 @@ const CORRECTIONS: usize = 4;
 
 impl Crowd<'_> {
     /// Moves bodies apart where they overlap, and out of walls, which have the last word.
-    pub(super) fn correct(&mut self) {
+    pub(in crate::crowd) fn correct(&mut self) {
         let [now, next] = &mut self.places;
         now.clear();
         now.extend(self.moves.iter().map(|m| [m.x, m.y]));
@@ -23,12 +23,12 @@ impl Crowd<'_> {
                 for (k, place) in places.iter_mut().enumerate() {
                     let index = start + k;
                     let own = &moves[index];
-                    if own.contact_count == 0 && round > 0 {
+                    if own.fixed || own.contact_count == 0 && round > 0 {
                         *place = before[index];
                         continue;
                     }
                     let body = &neighbours.bodies[index];
-                    let pushed = apart(index, own, before, neighbours);
+                    let pushed = apart(index, moves, before, neighbours);
                     let (dx, dy) = (pushed[0] - body.x, pushed[1] - body.y);
                     let clear_m = body.clearance_m - own.wall_limit_m;
                     *place = if clear_m > 0.0 && dx * dx + dy * dy < clear_m * clear_m {
@@ -45,9 +45,11 @@ impl Crowd<'_> {
     }
 }
 
-/// The place of a body after it and its neighbours have each given half of their overlap.
-fn apart(index: usize, own: &Move, places: &[[f32; 2]], neighbours: &Neighbours) -> [f32; 2] {
+/// The place of a body after it and its neighbours have each given half of their overlap; to those who give nothing it
+/// leaves all of it.
+fn apart(index: usize, moves: &[Move], places: &[[f32; 2]], neighbours: &Neighbours) -> [f32; 2] {
     let [x, y] = places[index];
+    let own = &moves[index];
     let half_m = neighbours.bodies[index].half_exclusion_m;
     let (mut px, mut py, mut count) = (0.0f32, 0.0f32, 0.0f32);
     for &other in &own.contacts[..own.contact_count as usize] {
@@ -62,7 +64,8 @@ fn apart(index: usize, own: &Move, places: &[[f32; 2]], neighbours: &Neighbours)
         let d = d2.sqrt();
         // Two in one place part along x, the first one to the left.
         let (nx, ny) = if d > 1e-5 { (dx / d, dy / d) } else { (if index < other { 1.0 } else { -1.0 }, 0.0) };
-        let push = 0.5 * (exclusion_m - d);
+        let share = if moves[other].fixed { 1.0 } else { 0.5 };
+        let push = share * (exclusion_m - d);
         px -= push * nx;
         py -= push * ny;
         count += 1.0;

@@ -10,7 +10,7 @@ const STUCK_CHECK_S: f64 = 1.0;
 
 impl Crowd<'_> {
     /// Takes out those who have arrived, and those who are stuck.
-    pub(super) fn let_go(&mut self) {
+    pub(in crate::crowd) fn let_go(&mut self) {
         let check_steps = (STUCK_CHECK_S / self.options.time_step).round().max(1.0) as u64;
         let stuck = if self.step.is_multiple_of(check_steps) { self.find_stuck() } else { Vec::new() };
         if !self.some_arrived && stuck.is_empty() {

@@ -100,10 +100,11 @@ impl Stops {
         stops
     }
 
-    /// Somebody comes in: decides where they will stop, and gives the errand to begin with.
-    pub(super) fn enter(&mut self, seed: u64, id: u32, route: usize) -> Option<Errand> {
+    /// Somebody comes in: decides where they will stop, together with the first of their group, and gives the errand to
+    /// begin with.
+    pub(super) fn enter(&mut self, seed: u64, [id, first]: [u32; 2], route: usize) -> Option<Errand> {
         let stops = self.of_route.get(route).filter(|stops| !stops.is_empty())?;
-        let visitor = Visitor::new(seed, id, route, stops, &self.posts)?;
+        let visitor = Visitor::new(seed, [id, first], route, stops, &self.posts)?;
         let first = visitor.plan.last().map(|next| stops[next.stop]);
         self.visitors.insert(id, visitor);
         first.filter(|stop| stop.after_via == 0).map(|stop| Errand::come(stop.post))

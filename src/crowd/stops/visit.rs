@@ -105,9 +105,16 @@ pub(super) enum State {
 }
 
 impl Visitor {
-    /// Draws where somebody stops, and for how long: a function of (seed, id). `None` for who stops nowhere.
-    pub(super) fn new(seed: u64, id: u32, route: usize, stops: &[OnRoute], posts: &[Post]) -> Option<Visitor> {
-        let rng = &mut person_stream(seed, id, Purpose::Stops);
+    /// Draws where somebody stops, and for how long: a function of the seed and of the first of their group. `None` for
+    /// who stops nowhere.
+    pub(super) fn new(
+        seed: u64,
+        [id, first]: [u32; 2],
+        route: usize,
+        stops: &[OnRoute],
+        posts: &[Post],
+    ) -> Option<Visitor> {
+        let rng = &mut person_stream(seed, first, Purpose::Stops);
         let mut plan = Vec::new();
         for (stop, on_route) in stops.iter().enumerate() {
             // Drawn for everybody, so that a share changes nothing but who stops.

@@ -1,0 +1,223 @@
+//! The forces: pure functions of what somebody sees, see [`SocialForceOptions`] and [`GroupOptions`].
+
+use super::{GroupOptions, SocialForceOptions};
+use crate::math::{SplitMix64, atan2, exp_f32};
+
+/// Weaker interactions than this share of the strongest are none: natural logarithm of 0.001.
+const LEAST_SHARE_LN: f32 = -6.907_755;
+/// How long people wander one way, seconds.
+const FLUCTUATION_S: f64 = 1.0;
+/// Sets the draws of one time apart from those of the next; an odd number.
+const KNOT: u64 = 0xd1b5_4a32_d192_ed03;
+/// The wish to be with the group grows from nothing to all of it over this distance, metres: a step would make people
+/// tremble.
+const SOFT_M: f32 = 0.1;
+
+/// The model's numbers, as the step uses them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Forces {
+    pub(super) relaxation_s: f32,
+    strength: f32,
+    range_m: f32,
+    foresight_s: f32,
+    aside_width: f32,
+    slowing_width: f32,
+    behind: f32,
+    wall_strength: f32,
+    wall_range_m: f32,
+    fluctuation: f32,
+    gaze: f32,
+    cohesion: f32,
+    repulsion: f32,
+    distance_m: f32,
+    view_rad: f32,
+    reach_m: f32,
+}
+
+impl Forces {
+    pub(super) fn new(options: &SocialForceOptions, groups: &GroupOptions) -> Forces {
+        Forces {
+            relaxation_s: options.relaxation as f32,
+            strength: options.strength as f32,
+            range_m: options.range as f32,
+            foresight_s: options.foresight as f32,
+            aside_width: options.aside_width as f32,
+            slowing_width: options.slowing_width as f32,
+            behind: options.behind as f32,
+            wall_strength: options.wall_strength as f32,
+            wall_range_m: options.wall_range as f32,
+            fluctuation: options.fluctuation as f32,
+            gaze: groups.gaze as f32,
+            cohesion: groups.cohesion as f32,
+            repulsion: groups.repulsion as f32,
+            distance_m: groups.distance as f32,
+            view_rad: groups.view_deg.to_radians() as f32,
+            reach_m: groups.reach as f32,
+        }
+    }
+
+    /// Acceleration by somebody at `d`, as seen from the person, who moves at the velocity `w` against the person's own;
+    /// `aim` is the unit vector of where the person wants to go.
+    pub(super) fn by_person(&self, d: [f32; 2], w: [f32; 2], aim: [f32; 2]) -> [f32; 2] {
+        let distance_m = (d[0] * d[0] + d[1] * d[1]).sqrt().max(1e-3);
+        let e = [d[0] / distance_m, d[1] / distance_m];
+        let interaction = [e[0] - self.foresight_s * w[0], e[1] - self.foresight_s * w[1]];
+        let length = (interaction[0] * interaction[0] + interaction[1] * interaction[1]).sqrt();
+        let range_m = self.range_m * length;
+        if distance_m > -LEAST_SHARE_LN * range_m {
+            return [0.0; 2];
+        }
+        let t = [interaction[0] / length, interaction[1] / length];
+        let n = [-t[1], t[0]];
+        let sin = t[0] * e[1] - t[1] * e[0];
+        let theta = angle(sin, t[0] * e[0] + t[1] * e[1]);
+        let slowing = self.slowing_width * range_m * theta;
+        let aside = self.aside_width * range_m * theta;
+        let along = exp_f32(-distance_m / range_m - slowing * slowing);
+        let across = self.side(theta, range_m) * exp_f32(-distance_m / range_m - aside * aside);
+        let ahead = 0.5 * (1.0 + e[0] * aim[0] + e[1] * aim[1]);
+        let strength = -self.strength * (self.behind + (1.0 - self.behind) * ahead);
+        [strength * (along * t[0] + across * n[0]), strength * (along * t[1] + across * n[1])]
+    }
+
+    /// Which side somebody is on: 1 on the left, -1 on the right.
+    fn side(&self, theta: f32, range_m: f32) -> f32 {
+        let comes = (range_m - self.range_m).max(0.0);
+        ((theta + LEFT_RAD_M * comes) / STRAIGHT_RAD).clamp(-1.0, 1.0)
+    }
+
+    /// The random acceleration of somebody at a time: drawn anew every [`FLUCTUATION_S`], in between on a straight line, so
+    /// that it is the same for any time step.
+    pub(super) fn by_chance(&self, wander: u64, time_s: f64) -> [f32; 2] {
+        if self.fluctuation == 0.0 {
+            return [0.0; 2];
+        }
+        let at = time_s / FLUCTUATION_S;
+        let (knot, share) = (at as u64, at.fract() as f32);
+        let [before, after] = [knot, knot + 1].map(|knot| {
+            let mut draws = SplitMix64::new(wander.wrapping_add(knot.wrapping_mul(KNOT)));
+            [draws.range(-1.0, 1.0), draws.range(-1.0, 1.0)]
+        });
+        // Uniform in [-1, 1] deviates by 1 / sqrt(3).
+        let scale = self.fluctuation * 1.732_050_8;
+        [0, 1].map(|axis| scale * (before[axis] + (after[axis] - before[axis]) * share))
+    }
+
+    /// Acceleration away from a wall that the body's edge is so far from, metres per second squared.
+    pub(super) fn by_wall(&self, gap_m: f32) -> f32 {
+        self.wall_strength * exp_f32(-gap_m.max(0.0) / self.wall_range_m)
+    }
+
+    /// Beyond this distance from the body's edge a wall pushes nobody, metres.
+    pub(super) fn wall_reach_m(&self) -> f32 {
+        -LEAST_SHARE_LN * self.wall_range_m
+    }
+
+    /// Acceleration that keeps somebody with their group: the others at `mates`, as seen from the person, who walks at
+    /// `velocity`.
+    ///
+    /// ```text
+    /// -beta1 alpha v                 alpha: the head's turn beyond the field of view that shows the others' middle
+    /// +beta2 U   if |U'| > r (N - 1) U: towards the middle of all N
+    /// -beta3 W   if |W'| < d0        W: towards each other member
+    /// ```
+    pub(super) fn by_group(&self, mates: &[[f32; 2]], velocity: [f32; 2]) -> [f32; 2] {
+        let others = mates.len() as f32;
+        let [mut ax, mut ay] = [0.0; 2];
+        let [mut cx, mut cy] = [0.0; 2];
+        for &[dx, dy] in mates {
+            cx += dx;
+            cy += dy;
+            let distance_m = (dx * dx + dy * dy).sqrt().max(1e-3);
+            let near = self.repulsion * ((self.distance_m - distance_m) / SOFT_M).clamp(0.0, 1.0);
+            ax -= near * dx / distance_m;
+            ay -= near * dy / distance_m;
+        }
+        // What they look at is the middle of the others; the group's own middle is nearer by their own place in it.
+        let middle_m = (cx * cx + cy * cy).sqrt() / (others + 1.0);
+        if middle_m < 1e-3 {
+            return [ax, ay];
+        }
+        let [ux, uy] = [cx / (middle_m * (others + 1.0)), cy / (middle_m * (others + 1.0))];
+        let far = self.cohesion * ((middle_m - self.reach_m * others) / SOFT_M).clamp(0.0, 1.0);
+        let [vx, vy] = velocity;
+        let turned = angle(vx * uy - vy * ux, vx * ux + vy * uy).abs();
+        let gaze = self.gaze * (turned - self.view_rad).max(0.0);
+        [ax + far * ux - gaze * vx, ay + far * uy - gaze * vy]
+    }
+}
+
+/// The angle whose sine and cosine are in this proportion, radians.
+fn angle(sin: f32, cos: f32) -> f32 {
+    atan2(f64::from(sin), f64::from(cos)) as f32
+}
+
+/// Those who come count as so much farther to the left for each metre of the interaction's range, radians: whoever meets
+/// somebody head on steps to the right. The paper has such a bias too.
+const LEFT_RAD_M: f32 = 0.01;
+/// Beyond this angle from straight ahead, radians, somebody is on one side or the other; below, one side goes over into
+/// the other: a step would make those who follow each other swerve.
+const STRAIGHT_RAD: f32 = 0.02;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn forces() -> Forces {
+        Forces::new(&SocialForceOptions::default(), &GroupOptions::default())
+    }
+
+    fn naive(d: [f64; 2], w: [f64; 2]) -> [f64; 2] {
+        let (a, gamma, n, n_prime, lambda) = (4.5f64, 0.35f64, 2.0f64, 3.0f64, 2.0f64);
+        let distance = (d[0] * d[0] + d[1] * d[1]).sqrt();
+        let e = [d[0] / distance, d[1] / distance];
+        let big_d = [e[0] - lambda * w[0], e[1] - lambda * w[1]];
+        let length = (big_d[0] * big_d[0] + big_d[1] * big_d[1]).sqrt();
+        let t = [big_d[0] / length, big_d[1] / length];
+        let theta = libm::atan2(t[0] * e[1] - t[1] * e[0], t[0] * e[0] + t[1] * e[1]);
+        let b = gamma * length;
+        let f_v = -a * libm::exp(-distance / b - (n_prime * b * theta) * (n_prime * b * theta));
+        let f_theta = -a * theta.signum() * libm::exp(-distance / b - (n * b * theta) * (n * b * theta));
+        [f_v * t[0] - f_theta * t[1], f_v * t[1] + f_theta * t[0]]
+    }
+
+    #[test]
+    fn the_interaction_is_the_published_one() {
+        let all_round = Forces { behind: 1.0, ..forces() };
+        for (d, w) in [([1.0, 0.4], [-1.5, 0.2]), ([2.5, -0.5], [-2.6, 0.0]), ([0.3, 0.4], [0.2, 0.1])] {
+            let found = all_round.by_person(d, w, [1.0, 0.0]);
+            let published = naive(d.map(f64::from), w.map(f64::from));
+            for axis in 0..2 {
+                assert!((f64::from(found[axis]) - published[axis]).abs() < 1e-4, "{found:?} {published:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn who_comes_head_on_is_passed_on_the_right_and_who_is_behind_hardly_counts() {
+        let forces = forces();
+        let [ax, ay] = forces.by_person([2.0, 0.0], [-2.6, 0.0], [1.0, 0.0]);
+        assert!(ax < -0.5 && ay < -0.5, "{ax} {ay}");
+        let [ahead, _] = forces.by_person([0.8, 0.0], [0.0, 0.0], [1.0, 0.0]);
+        let [behind, _] = forces.by_person([-0.8, 0.0], [0.0, 0.0], [1.0, 0.0]);
+        assert!((behind / -ahead - 0.06).abs() < 1e-3, "{behind} {ahead}");
+    }
+
+    #[test]
+    fn a_group_waits_for_who_is_behind_and_pulls_in_who_is_far() {
+        let forces = forces();
+        // The other a little behind: brake. A little ahead: go on.
+        // What pulls both together is the same in both cases, mirrored.
+        let [behind, _] = forces.by_group(&[[-0.3, 0.85]], [1.2, 0.0]);
+        let [ahead, _] = forces.by_group(&[[0.3, 0.85]], [1.2, 0.0]);
+        assert!(behind < -0.5 && ahead >= 0.0 && behind + ahead < -0.5, "{behind} {ahead}");
+        let [_, far] = forces.by_group(&[[0.0, 1.4]], [1.2, 0.0]);
+        let [_, near] = forces.by_group(&[[0.0, 0.5]], [1.2, 0.0]);
+        assert!((far - 3.0).abs() < 1e-5 && (near + 1.0).abs() < 1e-5, "{far} {near}");
+        // The outer ones of three may be farther from the middle.
+        assert_eq!(forces.by_group(&[[0.0, 0.81], [0.0, 1.55]], [1.2, 0.0]), [0.0, 0.0]);
+        // Nobody to be with, and all in one place.
+        assert_eq!(forces.by_group(&[], [1.2, 0.0]), [0.0, 0.0]);
+        assert!(forces.by_group(&[[0.0, 0.0]], [0.0, 0.0]).iter().all(|a| a.is_finite()));
+    }
+}

@@ -1,0 +1,87 @@
+use super::super::{Present, SocialCrowd};
+use super::report::SpotReport;
+use super::way::Way;
+use crate::math::Vec2;
+use crate::motion::units::{SpotFrame, Unit};
+
+/// Others are kept off who plays; whoever still overlaps by more than this, wedged in somewhere, breaks a part off, metres.
+const WEDGED_M: f64 = 0.03;
+
+/// A unit that is being played.
+#[derive(Clone, Debug)]
+pub(super) struct Play {
+    pub(super) unit: usize,
+    pub(super) began_s: f64,
+    pub(super) parts: Vec<Part>,
+}
+
+/// Somebody who plays a part.
+#[derive(Clone, Debug)]
+pub(super) struct Part {
+    pub(super) id: u32,
+    pub(super) group: u32,
+    pub(super) way: Way,
+    /// Where the body faces, plan frame.
+    pub(super) facing: Vec2,
+}
+
+impl Play {
+    /// Tells everybody who plays where they are after the next step; lets those go who are at the end, and those in whose
+    /// way somebody came, with their group. Says whether anybody is left.
+    pub(super) fn go_on(
+        &mut self,
+        (time_s, step_s): (f64, f64),
+        unit: &Unit,
+        spot: &SpotFrame,
+        crowd: &mut SocialCrowd<'_>,
+        people: &[Present],
+        report: &mut SpotReport,
+    ) -> bool {
+        let next_s = time_s + step_s - self.began_s;
+        let over = next_s > unit.duration_s + 1e-9;
+        let gone: Vec<u32> = match over {
+            true => self.parts.iter().map(|part| part.group).collect(),
+            false => self.wedged(people),
+        };
+        self.parts.retain(|part| {
+            let goes = gone.contains(&part.group);
+            if goes {
+                crowd.release(part.id);
+                report.broken_off += u64::from(!over);
+            }
+            !goes
+        });
+        self.parts.retain_mut(|part| {
+            let (to_m, velocity_m_s) = part.way.on_plan(unit, next_s, spot);
+            let facing = part.way.heading(unit, next_s, spot.turn_of_plan(part.facing), step_s);
+            part.facing = spot.turn_to_plan(facing);
+            let from_m = find(people, part.id).map_or(to_m, |person| person.position_m);
+            report.led_s += step_s;
+            report.led_m += from_m.distance(to_m);
+            crowd.lead(part.id, to_m, velocity_m_s, Some(part.facing))
+        });
+        !self.parts.is_empty()
+    }
+
+    /// Groups of which somebody overlaps somebody who plays no part here.
+    fn wedged(&self, people: &[Present]) -> Vec<u32> {
+        let mut groups = Vec::new();
+        for part in &self.parts {
+            let Some(me) = find(people, part.id) else { continue };
+            let meets = people.iter().any(|other| {
+                let least_m = me.radius_m + other.radius_m - WEDGED_M;
+                let near = other.position_m.distance(me.position_m) < least_m;
+                near && self.parts.iter().all(|part| part.id != other.id)
+            });
+            if meets && !groups.contains(&part.group) {
+                groups.push(part.group);
+            }
+        }
+        groups
+    }
+}
+
+/// Somebody in a list that is sorted by id.
+pub(super) fn find(people: &[Present], id: u32) -> Option<&Present> {
+    people.binary_search_by_key(&id, |present| present.id).ok().map(|at| &people[at])
+}
