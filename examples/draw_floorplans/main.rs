@@ -11,6 +11,7 @@ use std::path::Path;
 
 mod corridors;
 mod museum;
+mod plaza;
 mod school;
 mod sheet;
 mod station;
@@ -19,8 +20,13 @@ mod station;
 pub type Draw = fn() -> sheet::Sheet;
 
 /// The sample plans: name of the file without ending, and who draws it.
-pub const PLANS: [(&str, Draw); 4] =
-    [("corridors", corridors::draw), ("station", station::draw), ("school", school::draw), ("museum", museum::draw)];
+pub const PLANS: [(&str, Draw); 5] = [
+    ("corridors", corridors::draw),
+    ("station", station::draw),
+    ("school", school::draw),
+    ("museum", museum::draw),
+    ("plaza", plaza::draw),
+];
 
 /// One plan as the bytes of a PNG file.
 pub fn png_bytes(sheet: &sheet::Sheet) -> io::Result<Vec<u8>> {

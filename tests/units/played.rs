@@ -1,0 +1,141 @@
+use std::sync::OnceLock;
+
+use trodden::crowd::{SpotReport, SpotRequest};
+
+use super::scene::{Scene, Seen};
+
+/// Time step of the sample, seconds.
+const STEP_S: f64 = 0.1;
+/// The hardest that anybody speeds up, brakes or turns who plays: what units allow themselves and what moving over may
+/// add, metres per second squared.
+const HARDEST_M_S2: f64 = 3.4;
+
+type Run = (Vec<Vec<Seen>>, SpotReport);
+
+/// Both minutes with units.
+fn with() -> &'static Run {
+    static RUN: OnceLock<Run> = OnceLock::new();
+    RUN.get_or_init(|| {
+        let scene = Scene::plaza();
+        scene.run(scene.spot(), 120.0)
+    })
+}
+
+/// The same without.
+fn without() -> &'static Run {
+    static RUN: OnceLock<Run> = OnceLock::new();
+    RUN.get_or_init(|| {
+        let scene = Scene::plaza();
+        scene.run(SpotRequest { play: false, ..scene.spot() }, 120.0)
+    })
+}
+
+fn find(moment: &[Seen], id: u32) -> Option<&Seen> {
+    moment.binary_search_by_key(&id, |seen| seen.id).ok().map(|at| &moment[at])
+}
+
+/// Everybody's successive moments of which in one they are led.
+fn led_steps(moments: &[Vec<Seen>]) -> impl Iterator<Item = (usize, &Seen, &Seen)> {
+    moments.windows(2).enumerate().flat_map(|(k, pair)| {
+        let steps = pair[0].iter().filter_map(|before| Some((before, find(&pair[1], before.id)?)));
+        steps.filter(|(before, after)| before.led || after.led).map(move |(before, after)| (k, before, after))
+    })
+}
+
+#[test]
+fn units_are_spliced_in_without_a_jump_and_left_without_one() {
+    let (moments, _) = with();
+    let mut steps = 0;
+    for (k, before, after) in led_steps(moments) {
+        steps += 1;
+        let harder = after.velocity_m_s.distance(before.velocity_m_s) / STEP_S;
+        assert!(harder < HARDEST_M_S2, "person {} at step {k}: {harder:.2} m/s2", before.id);
+        let way = after.place_m - before.place_m;
+        let off_m = way.distance((before.velocity_m_s + after.velocity_m_s) * (0.5 * STEP_S));
+        assert!(off_m < 0.005, "person {} at step {k} leaps by {off_m:.3} m", before.id);
+        let turn = after.heading.distance(before.heading) / STEP_S;
+        assert!(turn < 2.5, "person {} at step {k} turns by {turn:.2} rad/s", before.id);
+    }
+    assert!(steps > 600, "{steps}");
+}
+
+#[test]
+fn nobody_who_plays_overlaps_anybody_or_enters_a_wall() {
+    let scene = Scene::plaza();
+    let viewer = scene.spot().at.to_m(&scene.plan);
+    for moment in &with().0 {
+        for one in moment.iter().filter(|seen| seen.led) {
+            for other in moment.iter().filter(|seen| seen.id != one.id) {
+                let gap_m = one.place_m.distance(other.place_m) - one.radius_m - other.radius_m;
+                assert!(gap_m > -0.005, "{} and {} overlap by {gap_m:.3} m", one.id, other.id);
+            }
+            assert!(one.place_m.distance(viewer) > 0.25 + one.radius_m);
+            let clearance_m = scene.walls.nearest(one.place_m, 1.0).map_or(1.0, |nearest| nearest.distance_m);
+            assert!(scene.walls.is_inside(one.place_m) && clearance_m > 0.2, "{clearance_m}");
+        }
+    }
+}
+
+#[test]
+fn whoever_has_played_walks_on_by_the_model() {
+    let (moments, report) = with();
+    let mut ended = 0;
+    for (k, before, after) in led_steps(moments) {
+        if !before.led || after.led {
+            continue;
+        }
+        ended += 1;
+        // They are on their way again, wherever it turns.
+        let places = moments[k + 1..].iter().take(31).filter_map(|moment| find(moment, after.id));
+        let places: Vec<&Seen> = places.take_while(|seen| !seen.led).collect();
+        if places.len() < 31 {
+            continue;
+        }
+        let way_m: f64 = places.windows(2).map(|pair| pair[0].place_m.distance(pair[1].place_m)).sum();
+        assert!(way_m > 1.0, "person {} has walked {way_m:.2} m in 3 s", after.id);
+    }
+    assert!(ended as u64 >= report.people - 3 && ended > 8, "{ended} of {}", report.people);
+}
+
+#[test]
+fn the_report_says_what_was_played_and_how_far_off_it_began() {
+    let (moments, report) = with();
+    assert!(report.splices >= 8 && report.by_unit.len() >= 5, "{report:?}");
+    assert_eq!(report.by_unit.values().sum::<u64>(), report.splices);
+    assert!(report.people > report.splices && report.position_error_m.count == report.people);
+    assert!(report.position_error_m.mean > 0.05 && report.position_error_m.largest <= 1.6, "{report:?}");
+    assert!(report.heading_error_deg.mean > 0.5 && report.heading_error_deg.largest <= 60.01, "{report:?}");
+    assert!(report.move_over_s.mean > 0.8 && report.move_over_s.largest <= 4.4);
+    // Those who lead the way in the frames are those of the report.
+    let led = moments.iter().flatten().filter(|seen| seen.led).count() as f64 * STEP_S;
+    assert!((led - report.led_s).abs() < 0.2 * report.led_s, "{led} {}", report.led_s);
+    assert!(report.led_m > 0.3 * report.led_s && report.led_m < 1.5 * report.led_s);
+    assert_eq!(report.unmatched + report.too_far + report.in_the_way + report.not_free, report.moments);
+    assert!(report.fitting[0] >= 40 && report.warning().is_none());
+    let (moments, without) = without();
+    assert_eq!((without.splices, without.led_s, without.fitting), (0, 0.0, [0, 0]));
+    assert!(moments.iter().flatten().all(|seen| !seen.led));
+}
+
+/// What the paper claims: with units, motion near the viewer is not uniform.
+#[test]
+fn speeds_and_headings_near_the_viewer_differ_more_with_units() {
+    let (with, without) = (with().1.diversity, without().1.diversity);
+    assert!(with.speed_bits > without.speed_bits + 0.05, "{with:?} {without:?}");
+    assert!(with.heading_bits > without.heading_bits + 0.02, "{with:?} {without:?}");
+    assert!(without.samples > 3000 && with.samples > 3000);
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same() {
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let scene = Scene::plaza();
+            scene.run(scene.spot(), 30.0)
+        })
+    };
+    let (one, four) = (run(1), run(4));
+    assert!(one.1.splices > 0);
+    assert!(one == four);
+}

@@ -1,0 +1,78 @@
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::OnceLock;
+
+use trodden::crowd::{CrowdError, Present, SpotReport, SpotRequest, Spots};
+use trodden::math::Vec2;
+use trodden::motion::{Frame, Motion, People};
+use trodden::plan::{self, FloorPlan};
+use trodden::routes::{Navigation, Route};
+use trodden::scenario::{Overrides, Scenario};
+use trodden::walls::Walls;
+
+/// The sample scenario on its plan.
+pub struct Scene {
+    pub scenario: Scenario,
+    pub plan: FloorPlan,
+    pub walls: Walls,
+    routes: Vec<Route>,
+}
+
+/// Somebody at one moment of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen {
+    pub id: u32,
+    pub place_m: Vec2,
+    pub velocity_m_s: Vec2,
+    pub heading: Vec2,
+    pub radius_m: f64,
+    pub led: bool,
+}
+
+impl Scene {
+    pub fn plaza() -> &'static Scene {
+        static SCENE: OnceLock<Scene> = OnceLock::new();
+        SCENE.get_or_init(Scene::open)
+    }
+
+    fn open() -> Scene {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("floorplans/plaza.toml");
+        let scenario = Scenario::open(&path, &Overrides::default()).unwrap();
+        let plan = plan::read(&scenario.image_path().unwrap(), &scenario.plan_options()).unwrap();
+        let walls = Walls::trace(&plan, &scenario.walls).unwrap();
+        let (routes, _) = Navigation::find(&plan, &walls, &scenario.routes).unwrap();
+        Scene { scenario, plan, walls, routes }
+    }
+
+    /// The sample's only spot.
+    pub fn spot(&self) -> SpotRequest {
+        self.scenario.spots()[0].clone()
+    }
+
+    pub fn begin(&self, spot: SpotRequest) -> Result<Spots<'_>, CrowdError> {
+        let navigation = Navigation::new(&self.plan, &self.walls, &self.routes).unwrap();
+        let people = People::new(self.scenario.seed, self.scenario.bodies.clone());
+        Spots::new(&self.plan, &self.walls, &self.routes, navigation, &people, &self.scenario.crowd, &[spot])
+    }
+
+    /// Lets the crowd walk for so many seconds: everybody at every moment, and the report.
+    pub fn run(&self, spot: SpotRequest, seconds: f64) -> (Vec<Vec<Seen>>, SpotReport) {
+        let mut crowd = self.begin(spot).unwrap();
+        let (mut frame, mut moments) = (Frame::default(), Vec::new());
+        while frame.time_s < seconds && crowd.next_frame(&mut frame).unwrap() {
+            let known: BTreeMap<u32, Present> =
+                crowd.crowd().everybody().map(|present| (present.id, present)).collect();
+            let seen = frame.walkers.iter().map(|walker| Seen {
+                id: walker.id,
+                place_m: walker.position_m,
+                velocity_m_s: walker.velocity_m_s,
+                heading: walker.heading.unwrap(),
+                radius_m: known[&walker.id].radius_m,
+                led: known[&walker.id].led,
+            });
+            moments.push(seen.collect());
+        }
+        let report = crowd.reports().remove(0);
+        (moments, report)
+    }
+}
