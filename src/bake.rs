@@ -2,20 +2,20 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::crowd::Crowd;
+use crate::Error;
+use crate::crowd::simulate;
 use crate::export::preview::{self, Crop, PathSampler};
-use crate::export::{self, Manifest, OutputFolder, PeopleReport, Report, Target, TargetEntry};
+use crate::export::{self, Manifest, OutputFolder, Report, Target, TargetEntry};
 use crate::look::Look;
-use crate::marks::{ContactPlaces, Footfalls, Origin};
+use crate::marks::{ContactPlaces, Footfalls};
 use crate::motion::People;
 use crate::patterns::PatternLibrary;
 use crate::progress::{Progress, Stage, Stopwatch};
 use crate::routes::{Navigation, Stop};
 use crate::scenario::Scenario;
+use crate::source::{Given, Ground, Source};
 use crate::stamps::{Stamper, TexelGrid, WallGrid, WallStamper};
 use crate::sums::{FloorSums, WallSums};
-use crate::walls::Walls;
-use crate::{Error, plan};
 
 mod graded;
 mod tread;
@@ -47,54 +47,65 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let watch = Stopwatch::start();
     let folder = OutputFolder::begin(&output.folder, output.force)?;
 
-    let plan = watch.busy(Stage::Plan, || plan::read(&scenario.image_path(), &scenario.plan_options()))?;
-    plan.warnings.iter().for_each(|warning| progress.warn(warning));
-    let walls = watch.busy(Stage::Walls, || Walls::trace(&plan, &scenario.walls))?;
-    let (routes, ways) = watch.busy(Stage::Routes, || Navigation::find(&plan, &walls, &scenario.routes))?;
+    // A motion may be given: then nobody has to be walked, and without a plan the floor is open ground around it.
+    let given = Given::of_scenario(scenario, &watch, progress)?.map(Given::on_foot);
+    let ground = Ground::of_scenario(scenario, given.as_ref(), &watch, progress)?;
+    let (plan, walls) = (&ground.plan, &ground.walls);
     let library = watch.busy(Stage::Patterns, || PatternLibrary::open(scenario.pattern_path().as_deref()))?;
 
     // A person is a pure function of the seed and a number; who arrives when is settled before anybody walks.
     let people = People::new(scenario.seed, scenario.bodies.clone());
-    let mut crowd =
-        watch.busy(Stage::Crowd, || Crowd::with_navigation(&plan, &walls, &routes, ways, &people, &scenario.crowd))?;
-    let from_outside = crowd.arrivals().iter().map(|arrival| arrival.from_outside);
-    let origins = Origin::of_arrivals(from_outside, scenario.marks.fresh_people);
-    let places = ContactPlaces::of_walls(&walls)
-        .with_doors(&plan, &walls, &scenario.doors)?
-        .with_fixtures(&plan, &walls, &scenario.fixtures)?
-        .with_stops(&walls, Stop::each(&routes));
+    let routes;
+    let mut source = match &given {
+        Some(given) => {
+            routes = Vec::new();
+            Source::of_given(given, &ground)?.numbered()
+        }
+        None => {
+            let (found, ways) = watch.busy(Stage::Routes, || Navigation::find(plan, walls, &scenario.routes))?;
+            routes = found;
+            let simulated = || simulate(plan, walls, &routes, ways, &people, &scenario.crowd, &scenario.spots());
+            Source::of_crowd(watch.busy(Stage::Crowd, simulated)?, &routes)
+        }
+    };
+    let origins = source.origins(scenario.marks.fresh_people);
+    let places = ContactPlaces::of_walls(walls)
+        .with_doors(plan, walls, &scenario.doors)?
+        .with_fixtures(plan, walls, &scenario.fixtures)?
+        .with_stops(walls, Stop::each(&routes));
     let doorways = places.doorways();
-    let mut footfalls = Footfalls::new(&people, &walls, &library, &scenario.marks, origins)?.with_contacts(places);
+    let mut footfalls = Footfalls::new(&people, walls, &library, &scenario.marks, origins)?.with_contacts(places);
 
     // Frames become marks, marks become stamps, stamps are summed up: a stream of which only the sums are kept.
     let grid = TexelGrid::covering(plan.width_m(), plan.height_m(), scenario.floor_texels_per_metre)?;
-    let wall_grid = WallGrid::covering(&walls, scenario.wall_height_m, scenario.wall_texels_per_metre)?;
+    let wall_grid = WallGrid::covering(walls, scenario.wall_height_m, scenario.wall_texels_per_metre)?;
+    let with_walls = scenario.texture.walls && !walls.faces.is_empty();
     let stamper = watch.busy(Stage::Stamps, || Stamper::new(&library, grid, &scenario.stamps));
     let wall_stamper = watch.busy(Stage::Stamps, || WallStamper::new(&library, &wall_grid, &scenario.stamps));
-    let mut sums =
-        Sums { floor: FloorSums::new(grid), walls: scenario.texture.walls.then(|| WallSums::new(wall_grid)) };
-    let mut paths = PathSampler::new(scenario.crowd.people);
+    let mut sums = Sums { floor: FloorSums::new(grid), walls: with_walls.then(|| WallSums::new(wall_grid)) };
+    let mut paths = PathSampler::new(source.people());
     let mut stamp = |marks: &Marks| {
-        sums.floor.add(&stamper, &walls, &marks.footfalls);
+        sums.floor.add(&stamper, walls, &marks.footfalls);
         if let Some(sums) = &mut sums.walls {
             sums.add(&wall_stamper, &marks.contacts);
         }
     };
-    tread(&mut crowd, &mut footfalls, &mut paths, &mut stamp, &watch, progress)?;
-    let tally = crowd.tally();
-    let warnings = tally.describe(&routes, Some(&output.folder.join(preview::PATHS_FILE)));
+    tread(&mut source, &mut footfalls, &mut paths, &mut stamp, &watch, progress)?;
+    let tally = source.tally();
+    let mut warnings = tally.describe(&routes, Some(&output.folder.join(preview::PATHS_FILE)));
+    warnings.extend(source.warning());
     warnings.iter().for_each(|warning| progress.warn(warning));
 
     // Sums become what floor and walls look like, block by block, as the files are written.
-    let crops = preview::choose_crops(walls.bounds_m(), &plan.openings, &walls, paths.paths());
+    let crops = preview::choose_crops(walls.bounds_m(), &plan.openings, walls, paths.paths());
     let graded = Graded {
         sums: &sums,
-        walls: &walls,
+        walls,
         doorways: &doorways,
         look: &scenario.look,
-        people: scenario.crowd.people,
+        people: source.people(),
         wall_people: footfalls.contact_people(),
-        title: title(&scenario.image),
+        title: title(&scenario.name()),
         seed: scenario.seed,
         atlas: None,
     };
@@ -104,12 +115,11 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     if let (Some(sums), Some(textures)) = (&sums.walls, &written.walls) {
         watch.busy(Stage::Export, || export::write_wall_sums(&folder, sums, textures, progress))?;
     }
-    let picture =
-        watch.busy(Stage::Export, || preview::draw_paths(&plan, &walls, &routes, paths.paths(), &tally.stuck));
+    let picture = watch.busy(Stage::Export, || preview::draw_paths(plan, walls, &routes, paths.paths(), &tally.stuck));
     preview::write_picture(&folder, preview::PATHS_FILE, &picture)?;
 
     let report = Report {
-        people: PeopleReport::of(&tally, &routes),
+        people: source.people_report(&routes),
         warnings,
         footfalls: footfalls.count(),
         contacts: footfalls.contact_count(),
@@ -122,13 +132,13 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
         people: scenario.crowd.people,
         target: TargetEntry::of(scenario.texture.target),
         floor: written.floor.entry(sums_entry),
-        walls: written.walls.map(|textures| textures.entry(&walls, footfalls.contact_people())),
+        walls: written.walls.map(|textures| textures.entry(walls, footfalls.contact_people())),
         preview: written.pictures,
         stills: written.stills,
         look: look_entry(&scenario.look),
         doors: Some(doorways),
         settings: scenario.settings(),
-        ..Manifest::of_plan(&plan, &walls, &routes)
+        ..Manifest::of_plan(plan, walls, &routes)
     };
     export::write_target_files(&folder, &manifest)?;
     folder.publish(&manifest)?;

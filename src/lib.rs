@@ -37,6 +37,7 @@ pub mod bake;
 mod error;
 mod progress;
 pub mod scenario;
+pub mod source;
 pub mod walk;
 
 pub use error::Error;

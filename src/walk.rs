@@ -1,11 +1,13 @@
-//! The pipeline up to the motion, in one function: [`walk`] lets a crowd walk and writes down where everybody went.
+//! The pipeline up to the motion: [`walk`] lets a crowd walk and writes down where everybody went; [`show`] does the
+//! same for a motion that is given.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use crate::crowd::{Arrival, Crowd, Stuck};
+use crate::Error;
+use crate::crowd::{Stuck, simulate};
 use crate::export::preview::{
     self, Animation, AnimationFormat, AnimationOptions, AnimationReport, PathSampler, encode_picture,
 };
@@ -15,8 +17,7 @@ use crate::motion::{Frame, Mileage, Motion, People, Recorded, RecordedWorld, Rec
 use crate::progress::{Progress, Stage, Stopwatch};
 use crate::routes::{Navigation, Route};
 use crate::scenario::Scenario;
-use crate::walls::Walls;
-use crate::{Error, plan};
+use crate::source::{Given, Ground, Source};
 
 /// What a walk leaves behind. Nothing is a choice too: then only the report says how it went.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -69,8 +70,9 @@ pub struct WalkReport {
     pub peak_memory_mib: Option<f64>,
 }
 
-/// Lets a scenario's crowd walk, and writes its motion, an animation and a picture of its paths, on the rayon pool that
-/// it is called in. Memory is bounded by the people present, whatever is written.
+/// Lets a scenario's crowd walk, or plays the motion that takes its place, and writes the motion, an animation and a
+/// picture of its paths, on the rayon pool that it is called in. Memory is bounded by the people present, whatever is
+/// written.
 ///
 /// The same scenario gives the same bytes in every file, on any number of threads.
 ///
@@ -79,92 +81,144 @@ pub struct WalkReport {
 /// [`Error::Interrupted`]. In all these cases no file is left behind and earlier ones stay as they were.
 pub fn walk(scenario: &Scenario, outputs: &WalkOutputs, progress: &dyn Progress) -> Result<WalkReport, Error> {
     let watch = Stopwatch::start();
-    let drawn = outputs.animation.as_ref().map(|(path, _)| AnimationFormat::of(path)).transpose()?;
-    let begin = |path: &PathBuf| WholeFile::begin(path, outputs.force);
-    let animation_file = outputs.animation.as_ref().map(|(path, _)| begin(path)).transpose()?;
-    let paths_file = outputs.paths.as_ref().map(begin).transpose()?;
-
-    let plan = watch.busy(Stage::Plan, || plan::read(&scenario.image_path(), &scenario.plan_options()))?;
-    plan.warnings.iter().for_each(|warning| progress.warn(warning));
-    let walls = watch.busy(Stage::Walls, || Walls::trace(&plan, &scenario.walls))?;
-    let world =
-        RecordedWorld { plan: &plan, walls: &walls, people: &People::new(scenario.seed, scenario.bodies.clone()) };
-    let recorder = begin_recording(outputs, scenario, world)?;
-    let (routes, navigation) = watch.busy(Stage::Routes, || Navigation::find(&plan, &walls, &scenario.routes))?;
-    let mut crowd = watch.busy(Stage::Crowd, || {
-        Crowd::with_navigation(&plan, &walls, &routes, navigation, world.people, &scenario.crowd)
-    })?;
-
-    let arrivals = crowd.arrivals().to_vec();
-    let expected_s = expected_s(&arrivals, &routes);
-    let animation = outputs.animation.as_ref();
-    let animation = animation.map(|(_, options)| Animation::new(&plan, &walls, &arrivals, expected_s, options));
-    let mut onlookers = Onlookers {
-        recorder,
-        animation: animation.transpose()?,
-        paths: outputs.paths.as_ref().map(|_| PathSampler::new(scenario.crowd.people)),
-        mileage: Mileage::default(),
-    };
-    let duration_s = watch_crowd(&mut crowd, &mut onlookers, &watch, progress)?;
-    let tally = crowd.tally();
-    tally.describe(&routes, outputs.paths.as_deref()).iter().for_each(|warning| progress.warn(warning));
-
-    let Onlookers { recorder, animation, paths, mileage } = onlookers;
-    if let Some(speed) = animation.as_ref().and_then(Animation::speed_refused) {
-        progress.warn(&format!("at {speed} times the speed the animation would last more than 10 min: it is faster"));
+    let files = Files::begin(outputs)?;
+    let given = Given::of_scenario(scenario, &watch, progress)?;
+    let ground = Ground::of_scenario(scenario, given.as_ref(), &watch, progress)?;
+    let people = People::new(scenario.seed, scenario.bodies.clone());
+    if let Some(given) = &given {
+        let source = Source::of_given(given, &ground)?;
+        return Walk { source, ground: &ground, routes: &[], people: &people }.record(
+            outputs,
+            given.fps(),
+            files,
+            &watch,
+            progress,
+        );
     }
-    let animation = match (&animation, &animation_file, drawn) {
-        (Some(animation), Some(file), Some(format)) => {
-            let written =
-                watch.busy(Stage::Export, || animation.write(file.create()?, format).map_err(|e| file.failed(e)));
-            Some(written?)
-        }
-        _ => None,
-    };
-    if let (Some(paths), Some(file)) = (&paths, &paths_file) {
-        let picture = preview::draw_paths(&plan, &walls, &routes, paths.paths(), &tally.stuck);
-        std::fs::write(file.path(), encode_picture(&picture)).map_err(|source| file.failed(source))?;
-    }
-    // All that can fail has been done: now the files appear.
-    let motion = watch.busy(Stage::Export, || recorder.map(Recorder::finish).transpose())?;
-    for file in [animation_file, paths_file].into_iter().flatten() {
-        file.publish()?;
-    }
-    Ok(WalkReport {
-        walking: tally.entered - tally.arrived - tally.stuck.len() as u64,
-        people: PeopleReport::of(&tally, &routes),
-        duration_s,
-        metres: mileage.metres(),
-        person_seconds: mileage.person_seconds(),
-        mean_speed_m_s: mileage.mean_speed_m_s(),
-        motion,
-        animation,
-        seconds: watch.seconds(),
-        peak_memory_mib: export::peak_memory_mib(),
-    })
+    let (plan, walls) = (&ground.plan, &ground.walls);
+    let (routes, ways) = watch.busy(Stage::Routes, || Navigation::find(plan, walls, &scenario.routes))?;
+    let crowd = watch
+        .busy(Stage::Crowd, || simulate(plan, walls, &routes, ways, &people, &scenario.crowd, &scenario.spots()))?;
+    let source = Source::of_crowd(crowd, &routes);
+    let fps = 1.0 / scenario.crowd.time_step;
+    Walk { source, ground: &ground, routes: &routes, people: &people }.record(outputs, fps, files, &watch, progress)
 }
 
-/// How long a crowd will walk if nothing holds it up, seconds.
-fn expected_s(arrivals: &[Arrival], routes: &[Route]) -> f64 {
-    const USUAL_M_S: f64 = 1.2;
-    let last_s = arrivals.last().map_or(0.0, |arrival| arrival.time_s);
-    last_s + routes.iter().map(|route| route.length_m).fold(0.0, f64::max) / USUAL_M_S
-}
-
-fn begin_recording<'a>(
+/// Plays a given motion on its ground, and writes it, an animation and a picture of its paths.
+///
+/// # Errors
+/// As [`walk`].
+pub fn show(
+    given: &Given,
+    ground: &Ground,
+    people: &People,
     outputs: &WalkOutputs,
-    scenario: &Scenario,
-    world: RecordedWorld<'a>,
-) -> Result<Option<Recorder<'a>>, Error> {
-    let fps = outputs.fps.unwrap_or(1.0 / scenario.crowd.time_step);
-    match &outputs.motion {
-        None => Ok(None),
-        Some(MotionOutput::File(path)) => Recorder::create(path, outputs.force, fps, world).map(Some),
-        Some(MotionOutput::StandardOutput) => Recorder::to_writer(io::stdout(), fps, world).map(Some),
+    progress: &dyn Progress,
+) -> Result<WalkReport, Error> {
+    let watch = Stopwatch::start();
+    let files = Files::begin(outputs)?;
+    let source = Source::of_given(given, ground)?;
+    Walk { source, ground, routes: &[], people }.record(outputs, given.fps(), files, &watch, progress)
+}
+
+/// The files in the making, but for the motion's own.
+struct Files {
+    animation: Option<(WholeFile, AnimationFormat)>,
+    paths: Option<WholeFile>,
+}
+
+impl Files {
+    fn begin(outputs: &WalkOutputs) -> Result<Files, Error> {
+        let begin = |path: &PathBuf| WholeFile::begin(path, outputs.force);
+        let animation = match &outputs.animation {
+            Some((path, _)) => {
+                let format = AnimationFormat::of(path)?;
+                Some((begin(path)?, format))
+            }
+            None => None,
+        };
+        Ok(Files { animation, paths: outputs.paths.as_ref().map(begin).transpose()? })
     }
 }
 
-/// Who looks on while the crowd walks.
+/// A motion about to be played.
+struct Walk<'a> {
+    source: Source<'a>,
+    ground: &'a Ground,
+    routes: &'a [Route],
+    people: &'a People,
+}
+
+impl Walk<'_> {
+    fn record(
+        self,
+        outputs: &WalkOutputs,
+        own_fps: f64,
+        files: Files,
+        watch: &Stopwatch,
+        progress: &dyn Progress,
+    ) -> Result<WalkReport, Error> {
+        let Walk { mut source, ground: Ground { plan, walls, .. }, routes, people } = self;
+        let world = RecordedWorld { plan, walls, people };
+        let fps = outputs.fps.unwrap_or(own_fps);
+        let recorder = match &outputs.motion {
+            None => None,
+            Some(MotionOutput::File(path)) => Some(Recorder::create(path, outputs.force, fps, world)?),
+            Some(MotionOutput::StandardOutput) => Some(Recorder::to_writer(io::stdout(), fps, world)?),
+        };
+        let arrivals = source.arrivals().to_vec();
+        let animation = outputs.animation.as_ref();
+        let animation =
+            animation.map(|(_, options)| Animation::new(plan, walls, &arrivals, source.expected_s(), options));
+        let mut onlookers = Onlookers {
+            recorder,
+            animation: animation.transpose()?,
+            paths: outputs.paths.as_ref().map(|_| PathSampler::new(source.people())),
+            mileage: Mileage::default(),
+        };
+        let duration_s = onlookers.watch(&mut source, watch, progress)?;
+        let tally = source.tally();
+        tally.describe(routes, outputs.paths.as_deref()).iter().for_each(|warning| progress.warn(warning));
+        source.warning().iter().for_each(|warning| progress.warn(warning));
+
+        let Onlookers { recorder, animation, paths, mileage } = onlookers;
+        if let Some(speed) = animation.as_ref().and_then(Animation::speed_refused) {
+            progress
+                .warn(&format!("at {speed} times the speed the animation would last more than 10 min: it is faster"));
+        }
+        let animation = match (&animation, &files.animation) {
+            (Some(animation), Some((file, format))) => {
+                let written =
+                    watch.busy(Stage::Export, || animation.write(file.create()?, *format).map_err(|e| file.failed(e)));
+                Some(written?)
+            }
+            _ => None,
+        };
+        if let (Some(paths), Some(file)) = (&paths, &files.paths) {
+            let picture = preview::draw_paths(plan, walls, routes, paths.paths(), &tally.stuck);
+            std::fs::write(file.path(), encode_picture(&picture)).map_err(|source| file.failed(source))?;
+        }
+        // All that can fail has been done: now the files appear.
+        let motion = watch.busy(Stage::Export, || recorder.map(Recorder::finish).transpose())?;
+        for file in [files.animation.map(|(file, _)| file), files.paths].into_iter().flatten() {
+            file.publish()?;
+        }
+        Ok(WalkReport {
+            walking: tally.entered - tally.arrived - tally.stuck.len() as u64,
+            people: source.people_report(routes),
+            duration_s,
+            metres: mileage.metres(),
+            person_seconds: mileage.person_seconds(),
+            mean_speed_m_s: mileage.mean_speed_m_s(),
+            motion,
+            animation,
+            seconds: watch.seconds(),
+            peak_memory_mib: export::peak_memory_mib(),
+        })
+    }
+}
+
+/// Who looks on while people walk.
 struct Onlookers<'a> {
     recorder: Option<Recorder<'a>>,
     animation: Option<Animation<'a>>,
@@ -186,36 +240,34 @@ impl Onlookers<'_> {
         }
         Ok(())
     }
-}
 
-/// Lets the crowd walk to the end: while onlookers take one step in, the next is walked. Gives the time of the last step.
-fn watch_crowd(
-    crowd: &mut Crowd<'_>,
-    onlookers: &mut Onlookers<'_>,
-    watch: &Stopwatch,
-    progress: &dyn Progress,
-) -> Result<f64, Error> {
-    let (mut frame, mut ahead) = (Frame::default(), Frame::default());
-    let mut stuck: Vec<Stuck> = Vec::new();
-    loop {
-        if progress.interrupted() {
-            return Err(Error::Interrupted);
+    /// Lets people walk to the end: while onlookers take one step in, the next is walked. Gives the time of the last step.
+    fn watch(&mut self, source: &mut Source<'_>, watch: &Stopwatch, progress: &dyn Progress) -> Result<f64, Error> {
+        let (mut frame, mut ahead) = (Frame::default(), Frame::default());
+        let mut stuck: Vec<Stuck> = Vec::new();
+        // Before a crowd's first step nobody is there; a given motion begins with its own first frame, which may be at 0.
+        let mut begun = source.stage() == Stage::Crowd;
+        loop {
+            if progress.interrupted() {
+                return Err(Error::Interrupted);
+            }
+            let (goes_on, looked) = rayon::join(
+                || watch.busy(source.stage(), || source.next_frame(&mut ahead)),
+                || if begun { watch.busy(Stage::Export, || self.look(&frame, &stuck)) } else { Ok(()) },
+            );
+            begun = true;
+            looked?;
+            if !goes_on? {
+                progress.advance(source.stage(), 1.0);
+                return Ok(frame.time_s);
+            }
+            std::mem::swap(&mut frame, &mut ahead);
+            let newly = source.stuck();
+            if newly.len() > stuck.len() {
+                stuck.extend_from_slice(&newly[stuck.len()..]);
+            }
+            progress.advance(source.stage(), source.share_done());
         }
-        let (goes_on, looked) = rayon::join(
-            || watch.busy(Stage::Crowd, || crowd.next_frame(&mut ahead)),
-            || watch.busy(Stage::Export, || onlookers.look(&frame, &stuck)),
-        );
-        looked?;
-        if !goes_on? {
-            progress.advance(Stage::Crowd, 1.0);
-            return Ok(frame.time_s);
-        }
-        std::mem::swap(&mut frame, &mut ahead);
-        let newly = crowd.stuck();
-        if newly.len() > stuck.len() {
-            stuck.extend_from_slice(&newly[stuck.len()..]);
-        }
-        progress.advance(Stage::Crowd, crowd.share_done());
     }
 }
 

@@ -8,9 +8,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Every module in the order in which the data goes. A module may use those before it.
-const ORDER: [&str; 17] = [
+const ORDER: [&str; 18] = [
     "files", "math", "plan", "walls", "routes", "motion", "crowd", "patterns", "marks", "stamps", "sums", "look",
-    "export", "scenario", "bake", "walk", "cli",
+    "export", "scenario", "source", "bake", "walk", "cli",
 ];
 /// What everybody may use: the error and the progress that a whole run shares.
 const SHARED: [&str; 6] = ["Error", "Progress", "Silent", "Stage", "Stopwatch", "progress"];

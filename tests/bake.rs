@@ -103,7 +103,7 @@ fn people_arrive_and_nobody_is_ever_inside_a_wall() {
     for name in PLANS {
         for ending in ["toml", "png"] {
             let scenario = scenario(&plan_path(name, ending), 300, 25.0);
-            let plan = plan::read(&scenario.image_path(), &scenario.plan_options()).unwrap();
+            let plan = plan::read(&scenario.plan_path().unwrap(), &scenario.plan_options()).unwrap();
             let walls = Walls::trace(&plan, &scenario.walls).unwrap();
             let routes = routes::find(&plan, &walls, &scenario.routes).unwrap();
             let people = People::new(scenario.seed, scenario.bodies.clone());

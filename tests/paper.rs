@@ -79,7 +79,7 @@ fn walk(people: u32) -> Walked {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("floorplans/corridors.toml");
     let overrides = Overrides { preset: Some(Preset::Paper), people: Some(people), ..Overrides::default() };
     let scenario = Scenario::open(&path, &overrides).unwrap();
-    let plan = plan::read(&scenario.image_path(), &scenario.plan_options()).unwrap();
+    let plan = plan::read(&scenario.plan_path().unwrap(), &scenario.plan_options()).unwrap();
     let walls = Walls::trace(&plan, &scenario.walls).unwrap();
     let routes = routes::find(&plan, &walls, &scenario.routes).unwrap();
     let library = PatternLibrary::built_in().unwrap();

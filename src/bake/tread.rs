@@ -1,9 +1,9 @@
 use crate::Error;
-use crate::crowd::Crowd;
 use crate::export::preview::PathSampler;
 use crate::marks::{Contact, Footfalls, Mark};
 use crate::motion::{Frame, Motion};
 use crate::progress::{Progress, Stage, Stopwatch};
+use crate::source::Source;
 
 /// Marks that are stamped at a time: enough that a block's marks are worth a thread, few enough that the crowd
 /// and the stamping take turns often and both cores stay busy.
@@ -18,16 +18,16 @@ pub(super) struct Marks {
     pub contacts: Vec<Contact>,
 }
 
-/// Lets the crowd walk and hands its marks out in batches: while one batch is stamped, the next is walked.
+/// Lets people walk and hands their marks out in batches: while one batch is stamped, the next is walked.
 pub(super) fn tread(
-    crowd: &mut Crowd<'_>,
+    source: &mut Source<'_>,
     footfalls: &mut Footfalls<'_>,
     paths: &mut PathSampler,
     stamp: &mut (impl FnMut(&Marks) + Send),
     watch: &Stopwatch,
     progress: &dyn Progress,
 ) -> Result<(), Error> {
-    let mut walked = Walk { crowd, footfalls, paths, frame: Frame::default(), over: false };
+    let mut walked = Walk { source, footfalls, paths, frame: Frame::default(), over: false };
     let (mut batch, mut next) = (Marks::default(), Marks::default());
     while !walked.over {
         let (walking, ()) =
@@ -38,13 +38,13 @@ pub(super) fn tread(
         next.contacts.clear();
     }
     watch.busy(Stage::Stamps, || stamp(&batch));
-    progress.advance(Stage::Crowd, 1.0);
+    progress.advance(source.stage(), 1.0);
     Ok(())
 }
 
 /// The stream from frames to marks.
 struct Walk<'a, 'c, 'f> {
-    crowd: &'a mut Crowd<'c>,
+    source: &'a mut Source<'c>,
     footfalls: &'a mut Footfalls<'f>,
     paths: &'a mut PathSampler,
     frame: Frame,
@@ -58,7 +58,7 @@ impl Walk<'_, '_, '_> {
             if progress.interrupted() {
                 return Err(Error::Interrupted);
             }
-            if !watch.busy(Stage::Crowd, || self.crowd.next_frame(&mut self.frame))? {
+            if !watch.busy(self.source.stage(), || self.source.next_frame(&mut self.frame))? {
                 watch.busy(Stage::Marks, || self.footfalls.finish(&mut marks.footfalls));
                 self.over = true;
                 break;
@@ -67,7 +67,7 @@ impl Walk<'_, '_, '_> {
             self.paths.push(&self.frame);
         }
         self.footfalls.take_contacts(&mut marks.contacts);
-        progress.advance(Stage::Crowd, self.crowd.share_done());
+        progress.advance(self.source.stage(), self.source.share_done());
         Ok(())
     }
 }

@@ -2,12 +2,12 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use trodden::Error;
 use trodden::bake::{OutputOptions, bake};
 use trodden::export::{Report, Target};
-use trodden::scenario::{Overrides, Scenario};
+use trodden::scenario::Overrides;
 
 use super::arguments::{self, ScenarioArguments};
+use super::motion::{Alignment, Reading};
 use super::progress::Watch;
 use super::{Common, print};
 
@@ -22,10 +22,20 @@ Examples:
   trodden bake plan.png --metres-per-pixel 0.05 -o floor
   trodden bake plan.toml --quick --people 300        a first look
   trodden bake plan.toml --target unreal             names, packing and shaders for Unreal Engine
-  trodden bake plan.toml --preset wet --force        again, over the earlier bake")]
+  trodden bake plan.toml --preset wet --force        again, over the earlier bake
+  trodden bake plan.toml --motion paths.txt          recorded people instead of a crowd
+  trodden bake --motion paths.txt                    the same on open ground")]
+#[command(mut_arg("path", |argument| argument.required(false).required_unless_present("motion")))]
 pub struct Bake {
     #[command(flatten)]
     scenario: ScenarioArguments,
+    /// Recorded people instead of a crowd; without a plan, on open ground: `trodden motion info` says what is found
+    #[arg(long, value_name = "FILE", help_heading = "Recording")]
+    motion: Option<PathBuf>,
+    #[command(flatten)]
+    reading: Reading,
+    #[command(flatten)]
+    alignment: Alignment,
     /// The folder to make [default: out/ and the scenario's name]
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
@@ -44,17 +54,23 @@ pub struct Bake {
 }
 
 impl Bake {
+    fn named_after(&self) -> Option<&Path> {
+        self.scenario.path.as_deref().or(self.motion.as_deref())
+    }
+
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
         let overrides = Overrides {
             target: self.target,
             walls: self.floor_only.then_some(false),
             embed: self.embed.then_some(true),
+            motion_file: self.motion.clone(),
+            recording: self.alignment.over(self.reading.options()),
             ..self.scenario.overrides()
         };
-        let scenario = Scenario::open(&self.scenario.path, &overrides).map_err(Error::from)?;
+        let scenario = self.scenario.with(&overrides)?;
         let folder = match &self.output {
             Some(folder) => folder.clone(),
-            None => Path::new("out").join(self.scenario.path.file_stem().unwrap_or_default()),
+            None => Path::new("out").join(self.named_after().and_then(Path::file_stem).unwrap_or_default()),
         };
         let output = OutputOptions { folder: folder.clone(), force: self.force };
         let report = bake(&scenario, &output, &Watch::new(common))?;

@@ -1,18 +1,11 @@
-use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::error::ErrorKind;
-use clap::{Args, CommandFactory};
-use trodden::export::preview::{
-    ANIMATION_SIZES_PX, ANIMATION_SPEEDS, AnimationColour, AnimationFormat, AnimationOptions,
-};
-use trodden::motion::{FRAME_RATES, RecordFormat};
-use trodden::walk::{MotionOutput, WalkOutputs, WalkReport, same_file, walk};
+use clap::Args;
+use trodden::walk::{WalkOutputs, walk};
 
-use super::arguments::ScenarioArguments;
+use super::Common;
+use super::arguments::{MotionFiles, ScenarioArguments, frame_rate};
 use super::progress::Watch;
-use super::{Cli, Common, print};
 
 /// Walk a crowd through a plan and write where everybody went, for PedPy, JuPedSim and your own tools
 ///
@@ -33,178 +26,23 @@ People come and go up to 3 m beyond the image's sides. Frame k shows the moment 
 pub struct Crowd {
     #[command(flatten)]
     scenario: ScenarioArguments,
-    /// Write the motion: .txt is Juelich text, .sqlite, .sqlite3 and .db a JuPedSim database; - prints the text
-    #[arg(short, long, value_name = "FILE", value_parser = motion_file)]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    files: MotionFiles,
     /// Frames per second of the motion; between steps, places are interpolated [default: one per step, 10]
     #[arg(long, value_name = "N", requires = "output", value_parser = frame_rate, allow_negative_numbers = true)]
     fps: Option<f64>,
-    /// Draw the crowd from above, moving: .gif, or .png and .apng for an animated PNG
-    #[arg(long, value_name = "FILE", value_parser = animation_file)]
-    animation: Option<PathBuf>,
-    /// How many times as fast as in life [default: such that it takes at most 20 s]
-    #[arg(long, value_name = "X", requires = "animation", value_parser = speed, allow_negative_numbers = true)]
-    animation_speed: Option<f64>,
-    /// Longer side of the animation in pixels, 200 to 2000 [default: 960]
-    #[arg(long, value_name = "PX", requires = "animation", allow_negative_numbers = true)]
-    #[arg(value_parser = clap::value_parser!(u32).range(ANIMATION_SIZES_PX[0] as i64..=ANIMATION_SIZES_PX[1] as i64))]
-    animation_size: Option<u32>,
-    /// What people's colours say [default: speed]
-    #[arg(long, value_name = "WHAT", requires = "animation", value_parser = colour())]
-    animation_colour: Option<AnimationColour>,
-    /// Draw the ways that people took, and where they got stuck, as a PNG
-    #[arg(long, value_name = "FILE")]
-    paths: Option<PathBuf>,
     /// Print the summary as JSON
     #[arg(long)]
     json: bool,
-    /// Replace files that are there
-    #[arg(long)]
-    force: bool,
 }
 
 impl Crowd {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
-        self.check();
+        self.files.check(&["crowd"], self.json);
         let scenario = self.scenario.scenario()?;
-        let report = walk(&scenario, &self.outputs(), &Watch::new(common))?;
-        if self.json {
-            self.say(serde_json::to_string_pretty(&report)?)?;
-        } else if !common.quiet {
-            self.tell(&report, common)?;
-        }
+        let outputs = WalkOutputs { fps: self.fps, ..self.files.outputs() };
+        let report = walk(&scenario, &outputs, &Watch::new(common))?;
+        self.files.tell(&report, self.json, common)?;
         Ok(ExitCode::SUCCESS)
     }
-
-    /// Ends the program where options contradict each other.
-    fn check(&self) {
-        if self.prints_motion() && self.json {
-            refuse("the motion and the JSON summary cannot both go to standard output: name a file with --output");
-        }
-        if let (Some(animation), Some(paths)) = (&self.animation, &self.paths)
-            && same_file(animation, paths)
-        {
-            refuse("--animation and --paths name the same file");
-        }
-    }
-
-    fn prints_motion(&self) -> bool {
-        self.output.as_deref() == Some(Path::new(STANDARD_OUTPUT))
-    }
-
-    fn outputs(&self) -> WalkOutputs {
-        let default = AnimationOptions::default();
-        let options = AnimationOptions {
-            speed: self.animation_speed,
-            size_px: self.animation_size.unwrap_or(default.size_px),
-            colour: self.animation_colour.unwrap_or(default.colour),
-        };
-        WalkOutputs {
-            motion: self.output.as_ref().map(|path| match self.prints_motion() {
-                true => MotionOutput::StandardOutput,
-                false => MotionOutput::File(path.clone()),
-            }),
-            fps: self.fps,
-            animation: self.animation.clone().map(|path| (path, options)),
-            paths: self.paths.clone(),
-            force: self.force,
-        }
-    }
-
-    fn tell(&self, report: &WalkReport, common: &Common) -> anyhow::Result<()> {
-        let people = &report.people;
-        let mut text = format!("{} people walked, {} arrived", people.entered, people.arrived);
-        for (count, what) in [(people.stuck, "got stuck"), (report.walking, "were still on their way at the end")] {
-            if count > 0 {
-                text.push_str(&format!(", {count} {what}"));
-            }
-        }
-        let speed = report.mean_speed_m_s;
-        text.push_str(&format!("; {} in all, {speed:.2} m/s in the mean", duration(report.duration_s)));
-        self.say(text)?;
-        if let (Some(path), Some(motion)) = (&self.output, &report.motion) {
-            let name = if self.prints_motion() { "the motion".to_string() } else { path.display().to_string() };
-            let (fps, size) = (motion.fps, size(motion.bytes));
-            self.say(format!("  {name:<28}  {} frames, {fps} in a second, {size}", motion.frames))?;
-        }
-        if let (Some(path), Some(animation)) = (&self.animation, &report.animation) {
-            let bytes = std::fs::metadata(path).map_or(0, |file| file.len());
-            let (seconds, speed, size) = (animation.seconds, animation.speed, size(bytes));
-            self.say(format!("  {:<28}  {seconds:.1} s at {speed} times the speed, {size}", path.display()))?;
-        }
-        if let Some(path) = &self.paths {
-            self.say(format!("  {:<28}  the ways that people took", path.display()))?;
-        }
-        let total = report.seconds.get("total").copied().unwrap_or_default();
-        let memory = match report.peak_memory_mib {
-            Some(mib) if common.verbose => format!(", {mib:.0} MiB"),
-            _ => String::new(),
-        };
-        self.say(format!("done in {total:.1} s{memory}"))
-    }
-
-    /// Prints a line where the motion does not go.
-    fn say(&self, text: String) -> anyhow::Result<()> {
-        if self.prints_motion() {
-            print::to_stderr(&format!("{text}\n"));
-            return Ok(());
-        }
-        print::line(text)
-    }
-}
-
-/// The file name that means standard output.
-const STANDARD_OUTPUT: &str = "-";
-
-fn refuse(message: &str) {
-    let mut cli = Cli::command();
-    let command = cli.find_subcommand_mut("crowd").map(|crowd| crowd.error(ErrorKind::ArgumentConflict, message));
-    if let Some(error) = command {
-        error.exit();
-    }
-}
-
-/// Minutes and seconds.
-fn duration(seconds: f64) -> String {
-    let whole = seconds.round() as u64;
-    if whole < 60 { format!("{whole} s") } else { format!("{} min {} s", whole / 60, whole % 60) }
-}
-
-fn size(bytes: u64) -> String {
-    let kilobytes = bytes as f64 / 1e3;
-    if kilobytes < 1000.0 { format!("{kilobytes:.0} kB") } else { format!("{:.1} MB", kilobytes / 1e3) }
-}
-
-fn motion_file(text: &str) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    if text == STANDARD_OUTPUT || RecordFormat::of(&path).is_ok() {
-        return Ok(path);
-    }
-    Err(format!("known endings are {}", RecordFormat::endings()))
-}
-
-fn animation_file(text: &str) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    AnimationFormat::of(&path).map(|_| path).map_err(|_| "known endings are .gif, .png or .apng".to_string())
-}
-
-fn frame_rate(text: &str) -> Result<f64, String> {
-    number_within(text, FRAME_RATES)
-}
-
-fn speed(text: &str) -> Result<f64, String> {
-    number_within(text, ANIMATION_SPEEDS)
-}
-
-fn number_within(text: &str, [low, high]: [f64; 2]) -> Result<f64, String> {
-    // Written so that NaN is out of range.
-    let allowed = |number: &f64| *number >= low && *number <= high;
-    text.parse().ok().filter(allowed).ok_or_else(|| format!("allowed is {low} to {high}"))
-}
-
-fn colour() -> impl TypedValueParser<Value = AnimationColour> {
-    PossibleValuesParser::new(["speed", "route"]).map(|name| match name.as_str() {
-        "route" => AnimationColour::Route,
-        _ => AnimationColour::Speed,
-    })
 }

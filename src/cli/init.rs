@@ -34,14 +34,17 @@ pub struct Init {
 
 impl Init {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
-        let output = self.output.clone().unwrap_or_else(|| self.scenario.path.with_extension("toml"));
+        let output = self
+            .output
+            .clone()
+            .unwrap_or_else(|| self.scenario.path.clone().unwrap_or_default().with_extension("toml"));
         if output.exists() && !self.force {
             let message = format!("{} exists already", output.display());
             return Err(Refused { message, hint: "--force replaces it; --output chooses another file" }.into());
         }
         let mut scenario = self.scenario.scenario()?;
         let understood = Understood::of(&scenario, common)?;
-        if scenario.plan.scale.is_none() && !is_ros_map(&scenario.image) {
+        if scenario.plan.scale.is_none() && !is_ros_map(&scenario.plan_path()?) {
             scenario.plan.metres_per_pixel = Some(understood.plan.metres_per_pixel);
         }
         if scenario.routes.routes.is_empty() {
@@ -103,7 +106,8 @@ fn move_to(scenario: &mut Scenario, folder: &Path) -> anyhow::Result<()> {
     let absolute = |path: PathBuf| {
         std::path::absolute(&path).with_context(|| format!("cannot make {} an absolute path", path.display()))
     };
-    scenario.image = absolute(scenario.image_path())?;
+    scenario.image = scenario.image_path().map(absolute).transpose()?;
+    scenario.motion_file = scenario.given_recording().map(|(file, _)| absolute(file)).transpose()?;
     scenario.pattern_folder = scenario.pattern_path().map(absolute).transpose()?;
     scenario.folder = folder.to_path_buf();
     Ok(())

@@ -57,7 +57,7 @@ struct Json<'a> {
 impl Understood {
     /// Reads the plan, traces its walls, finds the routes.
     pub fn of(scenario: &Scenario, common: &Common) -> Result<Understood, Error> {
-        let plan = plan::read(&scenario.image_path(), &scenario.plan_options())?;
+        let plan = plan::read(&scenario.plan_path()?, &scenario.plan_options())?;
         if !common.quiet {
             for warning in &plan.warnings {
                 print::to_stderr(&print::warning(warning, common));

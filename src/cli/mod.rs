@@ -12,6 +12,7 @@ mod diff;
 mod import_pattern;
 mod init;
 mod inspect;
+mod motion;
 mod patterns;
 mod print;
 mod progress;
@@ -33,6 +34,7 @@ pub struct Cli {
 enum Command {
     Bake(bake::Bake),
     Crowd(crowd::Crowd),
+    Motion(motion::Motion),
     Resolve(resolve::Resolve),
     View(view::ViewCommand),
     Init(init::Init),
@@ -89,6 +91,7 @@ impl Cli {
         match &self.command {
             Command::Bake(bake) => bake.run(&self.common),
             Command::Crowd(crowd) => crowd.run(&self.common),
+            Command::Motion(motion) => motion.run(&self.common),
             Command::Resolve(resolve) => resolve.run(&self.common),
             Command::View(view) => view.run(&self.common),
             Command::Init(init) => init.run(&self.common),

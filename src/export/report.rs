@@ -4,7 +4,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::{ExportError, OutputFolder};
-use crate::crowd::{Stuck, Tally};
+use crate::crowd::{SpotReport, Stuck, Tally};
 use crate::math::{Vec2, vec2};
 use crate::routes::Route;
 
@@ -39,6 +39,9 @@ pub struct PeopleReport {
     /// Who they were, in the order in which they were given up.
     #[serde(default)]
     pub stuck_people: Vec<StuckReport>,
+    /// How units were played at each spot.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub spots: Vec<SpotReport>,
 }
 
 impl PeopleReport {
@@ -49,6 +52,7 @@ impl PeopleReport {
             arrived: tally.arrived,
             stuck: tally.stuck.len() as u64,
             stuck_people: tally.stuck.iter().map(|stuck| StuckReport::of(stuck, routes)).collect(),
+            spots: tally.spots.clone(),
         }
     }
 }

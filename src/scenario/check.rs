@@ -5,7 +5,9 @@ use super::error::ScenarioError;
 use super::explain;
 use super::keys::{self, Allowed, KEYS, Key};
 use super::{Scenario, write};
+use crate::crowd::CrowdModel;
 use crate::math::Distribution;
+use crate::motion::formation::{FormationRequest, RequestError};
 use crate::routes::{PlaceRequest, ViaRequest};
 
 /// What a quantity that differs from person to person may be written with.
@@ -27,12 +29,33 @@ impl Scenario {
                 }
             }
         }
+        if self.image.is_none() && self.motion_file.is_none() && self.formation.is_none() {
+            let message = "the scenario names no plan".to_string();
+            let hint = "write [plan] image = \"plan.png\"; only a given motion needs no plan".to_string();
+            return Err(wrong("plan.image", message, Some(hint)));
+        }
         if self.plan.metres_per_pixel.is_some() && self.plan.scale.is_some() {
             let message = "[plan] has both metres_per_pixel and scale".to_string();
             return Err(wrong("plan.scale", message, Some("leave one of the two out".to_string())));
         }
+        if self.motion_file.is_some() && self.formation.is_some() {
+            let message = "the scenario has both a recording, in [motion], and a [formation]".to_string();
+            let hint = "leave one of the two out; a recording can be the formation's example".to_string();
+            return Err(wrong("formation", message, Some(hint)));
+        }
+        if let Some(Err(RequestError::Value { key, problem, hint })) =
+            self.formation.as_ref().map(FormationRequest::check)
+        {
+            return Err(wrong(&key, problem, hint));
+        }
         self.check_stops().map_err(|(key, message, hint)| wrong(&key, message, hint))?;
         self.check_places().map_err(|(key, message)| wrong(&key, message, None))?;
+        if !self.units.is_empty() && self.crowd.model != CrowdModel::SocialForce {
+            let hint = "write model = \"social-force\", or leave it out".to_string();
+            let message =
+                "a scenario with [[unit]] needs the social force model, whose people walk in groups".to_string();
+            return Err(wrong("crowd.model", message, Some(hint)));
+        }
         self.check_timetables().map_err(|(key, message)| wrong(&key, message, None))?;
         // The stages' own checks: for what concerns more than one key.
         self.texture.check().map_err(|error| wrong("texture.tile", error.to_string(), error.hint()))?;
@@ -99,13 +122,16 @@ impl Scenario {
         }
     }
 
-    /// Doors and fixtures that are right in themselves; whether there is a wall for them the plan tells.
+    /// Doors, fixtures and spots that are right in themselves; whether there is a wall for them the plan tells.
     fn check_places(&self) -> Result<(), (String, String)> {
         for (index, door) in self.doors.iter().enumerate() {
             door.check().map_err(|(key, problem)| (format!("door.{index}.{key}"), problem))?;
         }
         for (index, fixture) in self.fixtures.iter().enumerate() {
             fixture.check().map_err(|(key, problem)| (format!("fixture.{index}.{key}"), problem))?;
+        }
+        for (index, spot) in self.units.iter().enumerate() {
+            spot.check().map_err(|(key, problem)| (format!("unit.{index}.{key}"), problem))?;
         }
         Ok(())
     }
@@ -152,6 +178,10 @@ impl Key {
 /// All values of a key, with their places: one, none, or one per route or stop.
 fn values_of<'t>(table: &'t Table, key: &Key) -> Vec<(String, &'t Value)> {
     let list = key.section();
+    // Formations check themselves: they stand within each other.
+    if keys::FORMATION_SECTIONS.contains(&list) {
+        return Vec::new();
+    }
     if !keys::LISTS.contains(&list) {
         return value_at(table, key.path).map(|value| (key.path.to_string(), value)).into_iter().collect();
     }

@@ -49,6 +49,11 @@ impl<'t> Document<'t> {
         Ok(document)
     }
 
+    /// Whether the file has a section.
+    pub fn has(&self, name: &str) -> bool {
+        find(&self.root, name).is_some()
+    }
+
     /// A section, empty if the file does not have it.
     pub fn section(&self, name: &'static str) -> Section<'_, 't> {
         let found = self.root.iter().find(|(key, _)| key.get_ref() == name);
@@ -113,12 +118,15 @@ impl<'t> Document<'t> {
                 if name.span() == *key {
                     return Some(path.to_string());
                 }
-                let inner = value.get_ref().as_table()?;
-                search(
-                    inner,
-                    key,
-                    &if path.is_empty() { name.get_ref().to_string() } else { format!("{path}.{}", name.get_ref()) },
-                )
+                let path =
+                    if path.is_empty() { name.get_ref().to_string() } else { format!("{path}.{}", name.get_ref()) };
+                match value.get_ref() {
+                    DeValue::Table(inner) => search(inner, key, &path),
+                    DeValue::Array(items) => {
+                        items.iter().find_map(|item| search(item.get_ref().as_table()?, key, &path))
+                    }
+                    _ => None,
+                }
             })
         }
         search(&self.root, key, "").filter(|path| !path.is_empty())
@@ -183,6 +191,12 @@ impl Section<'_, '_> {
         T::deserialize(rest(self.table.clone()))
             .and_then(|_| toml::Table::deserialize(rest(self.table.clone())))
             .map_err(|error| self.document.of_value(&error, self.name, &self.taken))
+    }
+
+    /// What is left, for options that start from nothing.
+    pub fn into_options<T: DeserializeOwned>(self) -> Result<T, ScenarioError> {
+        let value = ValueDeserializer::from(Spanned::new(self.span.clone(), DeValue::Table(self.table)));
+        T::deserialize(value).map_err(|error| self.document.of_value(&error, self.name, &self.taken))
     }
 
     /// Lays what is left over `base`: keys that the file does not write keep their values.

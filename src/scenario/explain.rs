@@ -9,7 +9,7 @@ pub(super) type Explanation = (String, Option<String>);
 pub(super) fn syntax(message: &str) -> Explanation {
     let hint = match message {
         "duplicate key" => {
-            "write each key and each section once; only [[route]], [[stop]], [[door]] and [[fixture]] may come again"
+            "write each key and each section once; only [[route]], [[stop]], [[door]], [[fixture]] and [[unit]] may come again"
         }
         _ => "texts stand in quotes, lists in [brackets], and a section begins with its [name]",
     };
@@ -91,7 +91,11 @@ pub(super) fn nearest<'k>(found: &str, known: impl Iterator<Item = &'k str>) -> 
 }
 
 fn heading(section: &str) -> String {
-    if keys::LISTS.contains(&section) { format!("[[{section}]]") } else { format!("[{section}]") }
+    if keys::LISTS.contains(&section) || section.ends_with(".key") || section.ends_with(".crowd") {
+        format!("[[{section}]]")
+    } else {
+        format!("[{section}]")
+    }
 }
 
 /// What stands in backticks in a message of serde.
@@ -102,6 +106,8 @@ fn in_backticks(message: &str) -> impl Iterator<Item = &str> {
 /// What an enum without tags can be written as.
 fn alternatives(name: &str) -> &'static str {
     match name {
+        "Members" => "\"all\", a list of individuals from 0 on, or { every = 2, from = 0 }",
+        "Choice" => "a list of people from 0 on, or a list of such lists",
         "Distribution" => "a number, a range [low, high], or { mean = .., sd = .. }",
         "PlanPoint" => "[x, y] in metres or { px = [x, y] } in pixels",
         _ => "something else",

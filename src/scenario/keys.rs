@@ -1,8 +1,14 @@
 //! Every key of a scenario: what it means, what it may be, in the order in which `trodden init` writes them.
 
 /// The sections of a scenario, in order.
-pub(super) const SECTIONS: [&str; 13] =
-    ["plan", "walls", "texture", "crowd", "bodies", "marks", "stamps", "look", "patterns", ROUTE, STOP, DOOR, FIXTURE];
+pub(super) const SECTIONS: [&str; 16] = [
+    "plan", "walls", "texture", "crowd", "motion", "bodies", "marks", "stamps", "look", "patterns", ROUTE, STOP, DOOR,
+    FIXTURE, UNIT, FORMATION,
+];
+/// The section that makes a crowd change from formation to formation, and the lists of sections within it.
+pub(super) const FORMATION: &str = "formation";
+pub(super) const FORMATION_SECTIONS: [&str; 6] =
+    [FORMATION, "formation.example", "formation.way", "formation.avoid", "formation.key", "formation.crowd"];
 /// The section that comes once per route.
 pub(super) const ROUTE: &str = "route";
 /// The section that comes once per stop.
@@ -11,8 +17,10 @@ pub(super) const STOP: &str = "stop";
 pub(super) const DOOR: &str = "door";
 /// The section that comes once per fixture.
 pub(super) const FIXTURE: &str = "fixture";
+/// The section that comes once per spot at which units are played.
+pub(super) const UNIT: &str = "unit";
 /// The sections that may come several times.
-pub(super) const LISTS: [&str; 4] = [ROUTE, STOP, DOOR, FIXTURE];
+pub(super) const LISTS: [&str; 5] = [ROUTE, STOP, DOOR, FIXTURE, UNIT];
 
 /// One key.
 pub(super) struct Key {
@@ -82,7 +90,7 @@ use Allowed::{Any, Below, Number, Spread};
 /// Every key. [`Allowed`] narrows what a stage itself would take, never widens it.
 #[rustfmt::skip]
 pub(super) const KEYS: &[Key] = &[
-    key("plan.image", Any, "the plan: PNG, JPEG, BMP, PGM, TIFF, GIF, or the YAML of a ROS map; relative to this file"),
+    optional("plan.image", Any, "the plan: PNG, JPEG, BMP, PGM, TIFF, GIF, or the YAML of a ROS map; relative to this file", "\"plan.png\""),
     optional("plan.metres_per_pixel", Number(0.0005, 10.0), "side of a pixel [m]", "0.05"),
     optional("plan.scale", Any, "or two points and how far apart they are",
         "{ from = { px = [120, 40] }, to = { px = [480, 40] }, metres = 36.0 }"),
@@ -107,6 +115,7 @@ pub(super) const KEYS: &[Key] = &[
     key("texture.embed", Any, "whether scene.glb carries its textures, reduced, inside"),
 
     key("crowd.preset", Any, "what all other keys start from: \"commuters\", \"heavy\", \"wet\" or \"paper\""),
+    key("crowd.model", Any, "what moves people: \"boids\", or \"social-force\" with groups of up to four"),
     key("crowd.seed", Any, "another number, another crowd"),
     key("crowd.people", Number(1.0, 5e6), "how many people walk"),
     key("crowd.speed", Spread(0.1, 6.0), "with nobody around [m/s]"),
@@ -132,6 +141,37 @@ pub(super) const KEYS: &[Key] = &[
     optional("crowd.arrivals.spread_s", Number(0.0, 1e7), "of bursts: how long the people of one take to come; 0: all at once", "45.0"),
     optional("crowd.arrivals.times", Any, "of a list: times [s], each with how many come then", "[[60, 20], [300, 80]]"),
     optional("crowd.arrivals.file", Any, "of a list: a CSV file of them, relative to this file", "\"arrivals.csv\""),
+
+    key("crowd.groups.shares", Number(0.0, 1e6), "social-force: of all groups, which share has 1, 2, 3 and 4 people"),
+    key("crowd.groups.slowdown", Number(0.0, 0.5), "how much more slowly each further member wants to walk [m/s]"),
+    key("crowd.groups.gaze", Number(0.0, 20.0), "strength of the wish to have the others in view [per s and radian]"),
+    key("crowd.groups.cohesion", Number(0.0, 20.0), "pull towards the group's middle for who is far from it [m/s2]"),
+    key("crowd.groups.repulsion", Number(0.0, 20.0), "push away from members who are too near [m/s2]"),
+    key("crowd.groups.distance", Number(0.2, 3.0), "what is too near [m]"),
+    key("crowd.groups.view_deg", Number(10.0, 180.0), "how far to either side people see with the head straight [degrees]"),
+    key("crowd.groups.reach", Number(0.1, 3.0), "what is far from the middle, per further member [m]"),
+
+    key("crowd.social_force.relaxation", Number(0.1, 5.0), "social-force: how long it takes to walk as one wants [s]"),
+    key("crowd.social_force.strength", Number(0.0, 50.0), "how hard others push [m/s2]"),
+    key("crowd.social_force.range", Number(0.05, 2.0), "how far, for those who keep their distance [m]"),
+    key("crowd.social_force.foresight", Number(0.0, 10.0), "how much more those count who come nearer [s]"),
+    key("crowd.social_force.aside_width", Number(0.0, 20.0), "how narrowly ahead others make one step aside [per m and radian]"),
+    key("crowd.social_force.slowing_width", Number(0.0, 20.0), "how narrowly ahead others slow one down [per m and radian]"),
+    key("crowd.social_force.behind", Number(0.0, 1.0), "what somebody behind counts against somebody ahead"),
+    key("crowd.social_force.wall_strength", Number(0.0, 50.0), "how hard a wall pushes that is touched [m/s2]"),
+    key("crowd.social_force.wall_range", Number(0.01, 2.0), "over which distance that falls to 1/e [m]"),
+    key("crowd.social_force.fluctuation", Number(0.0, 3.0), "how unevenly people walk of themselves: deviation [m/s2]"),
+    key("crowd.social_force.most_speed", Number(1.0, 2.0), "nobody walks faster than so many times their own speed"),
+
+    optional("motion.file", Any, "a recording that takes the crowd's place; relative to this file; without a plan the floor is open ground",
+        "\"paths.txt\""),
+    optional("motion.format", Any, "how it is written; left out: found", "\"juelich\""),
+    optional("motion.unit", Any, "of its lengths, \"m\", \"cm\", \"mm\" or \"ft\"; left out: found", "\"cm\""),
+    optional("motion.fps", Number(0.01, 1000.0), "frames per second, where it counts frames; left out: found", "25"),
+    optional("motion.columns", Any, "what its columns mean, in order; - for one of no use", "\"id,frame,x,y,-\""),
+    key("motion.origin", Any, "the point that stays where it is when the recording is turned [m]"),
+    key("motion.shift", Any, "how far the recording is moved [m]"),
+    key("motion.rotation_deg", Number(-360.0, 360.0), "how far it is turned, counter-clockwise [degrees]"),
 
     key("bodies.men", Number(0.0, 1.0), "share of men among the grown-ups"),
     key("bodies.children", Number(0.0, 1.0), "share of children among all"),
@@ -312,4 +352,89 @@ pub(super) const KEYS: &[Key] = &[
     optional("fixture.at", Any, "where it is at a wall: its middle, or its two ends [[x0, y0], [x1, y1]]", "[12.8, 4.4]"),
     optional("fixture.facing", Any, "a point on the side from which it is reached: of a thin wall, it chooses the face", "[12.8, 6.0]"),
     optional("fixture.width", Number(0.02, 20.0), "width along the wall [m]; left out: by the kind", "0.1"),
+
+    optional("unit.name", Any, "what the report calls the spot", "\"kiosk\""),
+    optional("unit.at", Any, "where the viewer stands: [x, y] in metres or { px = [x, y] }", "[12.0, 4.5]"),
+    optional("unit.facing", Any, "a point that the viewer looks at", "[12.0, 9.0]"),
+    optional("unit.heading_deg", Number(-360.0, 360.0), "or the direction [degrees counter-clockwise from +x]", "90.0"),
+    optional("unit.folder", Any, "a folder with own units, relative to this file; left out: the built-in ones", "\"units\""),
+    optional("unit.every", Number(0.05, 60.0), "how often the people there are looked at [s]", "0.2"),
+    optional("unit.pause", Number(0.0, 3600.0), "from the end of a unit to the next at least [s]", "1.0"),
+    optional("unit.front", Number(0.5, 20.0), "width and depth of the area in front in which people are counted [m]", "[3.0, 3.0]"),
+    optional("unit.rear", Number(0.0, 20.0), "the same behind the viewer [m]", "[3.0, 3.0]"),
+    optional("unit.area", Number(1.0, 40.0), "width and depth of the area in front in which units are played [m]", "[3.0, 7.0]"),
+    optional("unit.radius", Number(0.0, 2.0), "of the viewer's body, which people walk around [m]; 0: nobody stands there", "0.25"),
+    optional("unit.play", Any, "whether units are played; if not, people there are only measured", "true"),
+
+    optional("formation.duration_s", Number(0.1, 36000.0), "how long it lasts [s]; left out: to the last key formation", "60.0"),
+    optional("formation.fps", Number(0.1, 1000.0), "frames per second; left out: 10", "10.0"),
+    optional("formation.fluctuation", Number(0.0, 10.0), "how strongly the example's own way of moving is kept; left out: 1", "1.0"),
+    optional("formation.stays_with", Any, "what that stays with: \"shapes\" that the formation is made of, or \"people\"", "\"people\""),
+    optional("formation.sigma_m", Number(1e-3, 1e4), "how far neighbours feel each other [m]; left out: from how far apart they are", "1.2"),
+    optional("formation.together", Any, "who keeps together wherever they are; people count from 0 in the order of the example", "[[0, 1, 3]]"),
+    optional("formation.adjacency", Any, "or how near they feel, from 0, strangers, to 1, as if in one place", "[{ members = [0, 1], weight = 0.2 }]"),
+    optional("formation.assign", Any, "who goes where in a key formation: \"shortest\" ways for all together, or by \"order\" (always in the first of those who only stand)", "\"shortest\""),
+    optional("formation.pace", Any, "from key to key: \"gentle\" starts and stops, or \"even\"", "\"gentle\""),
+    optional("formation.example.kind", Any, "what the example does: \"still\", \"sway\", \"ranks\" that march, or \"wander\"", "\"ranks\""),
+    optional("formation.example.file", Any, "or a recording, relative to this file", "\"march.txt\""),
+    optional("formation.example.recording", Any, "how the recording is read, as [motion]", "{ unit = \"cm\", fps = 16 }"),
+    optional("formation.example.from_s", Number(0.0, 1e7), "where in it to begin [s]", "2.0"),
+    optional("formation.example.to_s", Number(0.0, 1e7), "where to end [s]; left out: at its end", "20.0"),
+    optional("formation.example.repeat", Any, "how it goes on if it is too short: \"to-and-fro\" or \"loop\"", "\"loop\""),
+    optional("formation.example.choose", Any, "which of its people; of small crowds a list for each", "[[0, 1, 3], [4, 5, 7]]"),
+    optional("formation.example.people", Number(1.0, 2000.0), "how many are made; left out: by rows and columns, or as a key formation has points", "9"),
+    optional("formation.example.rows", Number(1.0, 2000.0), "rows one behind the other", "3"),
+    optional("formation.example.columns", Number(1.0, 2000.0), "people side by side", "3"),
+    optional("formation.example.spacing_m", Number(0.05, 1e3), "from one to the next [m]", "1.0"),
+    optional("formation.example.speed_m_s", Number(0.0, 10.0), "how fast they walk [m/s]; left out: ranks 1.2, who wanders 0.9", "1.2"),
+    optional("formation.example.heading_deg", Number(-360.0, 360.0), "where ranks go [degrees from +x]", "90.0"),
+    optional("formation.example.stray_m", Number(0.0, 10.0), "how far everybody strays from their place in the ranks [m]", "0.12"),
+    optional("formation.example.radius_m", Number(0.1, 1e4), "how far from their middle people wander [m]; left out: by the spacing", "6.0"),
+    optional("formation.example.seed", Any, "another number, another example", "1"),
+    optional("formation.way.from", Any, "where the middle of all begins [m]; key formations are placed relative to it", "[0.0, 0.0]"),
+    optional("formation.way.to", Any, "where it ends [m]", "[20.0, 0.0]"),
+    optional("formation.way.path", Any, "points on the way [m], on a smooth curve", "[[5.0, 3.0], [12.0, -3.0]]"),
+    optional("formation.way.from_s", Number(0.0, 36000.0), "when it begins [s]", "5.0"),
+    optional("formation.way.to_s", Number(0.0, 36000.0), "when it ends [s]; left out: at the end of all", "50.0"),
+    optional("formation.way.follow_heading", Any, "whether all turn along it: what is up in a formation points forward", "true"),
+    optional("formation.avoid.on", Any, "whether people keep clear of each other", "true"),
+    optional("formation.avoid.distance_m", Number(0.0, 10.0), "bodies' middles never come nearer to each other [m]; left out: 0.36", "0.36"),
+    optional("formation.avoid.push", Number(0.0, 1.0), "how strongly neighbours push each other; left out: 0.02", "0.02"),
+    optional("formation.avoid.seconds", Number(0.1, 10.0), "how long before and after people step aside [s]; left out: 0.8", "0.8"),
+    optional("formation.key.time_s", Number(0.0, 36000.0), "when people stand so [s]", "20.0"),
+    optional("formation.key.hold_s", Number(0.0, 36000.0), "how long they stay in it [s]", "3.0"),
+    optional("formation.key.shape", Any, "\"example\" (as there), \"grid\", \"line\", \"ring\", \"disc\", \"triangle\", \"polygon\", \"star\" or \"wedge\"; up is forward", "\"star\""),
+    optional("formation.key.text", Any, "or letters that people stand along", "\"HELLO\""),
+    optional("formation.key.points", Any, "or a place for each [m]", "[[0.0, 0.0], [1.0, 0.0], [0.5, 0.9]]"),
+    optional("formation.key.file", Any, "or a picture of dots, or a text of points; relative to this file", "\"dots.png\""),
+    optional("formation.key.metres_per_pixel", Number(0.0005, 10.0), "of the picture [m]; left out: 0.1", "0.1"),
+    optional("formation.key.filled", Any, "whether people fill what is drawn, a polygon or a star evenly", "true"),
+    optional("formation.key.columns", Number(1.0, 2000.0), "people side by side in a grid", "6"),
+    optional("formation.key.rings", Number(1.0, 100.0), "rings one in the other", "2"),
+    optional("formation.key.corners", Number(3.0, 100.0), "of a polygon; points of a star", "5"),
+    optional("formation.key.inner", Number(0.05, 1.0), "inner radius of a star over its outer", "0.45"),
+    optional("formation.key.angle_deg", Number(0.0, 360.0), "between the two lines of a wedge [degrees]", "80.0"),
+    optional("formation.key.spacing_m", Number(0.05, 1e3), "from one to the next [m]", "1.0"),
+    optional("formation.key.radius_m", Number(0.01, 1e4), "of rings, discs, polygons, stars [m]; left out: by the spacing", "4.0"),
+    optional("formation.key.height_m", Number(0.1, 1e4), "of letters [m]; left out: by the spacing", "5.0"),
+    optional("formation.key.at", Any, "where its middle is [m]", "[10.0, 0.0]"),
+    optional("formation.key.turn_deg", Number(-3600.0, 3600.0), "how far it is turned, counter-clockwise [degrees]", "45.0"),
+    optional("formation.key.wheel_deg", Number(-3600.0, 3600.0), "how far all wheel as one body on the way to it [degrees]", "180.0"),
+    optional("formation.key.scale", Number(1e-3, 1e3), "how many times as large", "1.5"),
+    optional("formation.key.assign", Any, "who goes where in this one, as above", "\"order\""),
+    optional("formation.crowd.members", Any, "in whose places small crowds stand: \"all\", a list, or { every = 2, from = 0 }", "[0, 2, 4]"),
+    optional("formation.crowd.rider", Any, "whether one more is carried in the middle of each", "true"),
+    optional("formation.crowd.as_one", Any, "whether each keeps clear of others as one body; left out: with a rider", "true"),
+    optional("formation.crowd.follow_heading", Any, "whether each turns to where it goes", "true"),
+    optional("formation.crowd.example", Any, "how its people move, as [formation.example]", "{ kind = \"sway\", people = 3 }"),
+    optional("formation.crowd.fluctuation", Number(0.0, 10.0), "as in [formation]", "1.0"),
+    optional("formation.crowd.stays_with", Any, "as in [formation]", "\"people\""),
+    optional("formation.crowd.sigma_m", Number(1e-3, 1e4), "as in [formation]", "0.8"),
+    optional("formation.crowd.together", Any, "as in [formation]", "[[0, 1]]"),
+    optional("formation.crowd.adjacency", Any, "as in [formation]", "[{ members = [0, 1], weight = 0.2 }]"),
+    optional("formation.crowd.assign", Any, "as in [formation]", "\"order\""),
+    optional("formation.crowd.pace", Any, "as in [formation]", "\"even\""),
+    optional("formation.crowd.avoid", Any, "as [formation.avoid]; what is left out is as in the larger crowd", "{ distance_m = 0.3 }"),
+    optional("formation.crowd.key", Any, "its formations, each in a [[formation.crowd.key]]", "[{ time_s = 0, shape = \"triangle\" }]"),
+    optional("formation.crowd.crowd", Any, "smaller crowds within, each in a [[formation.crowd.crowd]]", "[]"),
 ];

@@ -8,11 +8,12 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use crate::crowd::CrowdOptions;
+use crate::crowd::{CrowdModel, CrowdOptions, SpotRequest};
 use crate::export::{Target, TextureOptions};
 use crate::look::Look;
 use crate::marks::{DoorRequest, FixtureRequest, MarksOptions};
-use crate::motion::BodyOptions;
+use crate::motion::formation::FormationRequest;
+use crate::motion::{BodyOptions, RecordingOptions};
 use crate::plan::PlanOptions;
 use crate::routes::{PlaceRequest, RouteRequest, RoutesOptions, StopRequest, Timetable, ViaRequest};
 use crate::stamps::StampOptions;
@@ -39,8 +40,9 @@ use document::Document;
 pub struct Scenario {
     /// The folder that the scenario's paths start from: that of its file.
     pub folder: PathBuf,
-    /// The plan, relative to `folder`: an image or the YAML of a ROS map.
-    pub image: PathBuf,
+    /// The plan, relative to `folder`: an image or the YAML of a ROS map. Only a motion that is given needs none: the
+    /// floor is open ground then.
+    pub image: Option<PathBuf>,
     /// Height of the walls in metres: at least 2.1, less than 3.5.
     pub wall_height_m: f64,
     /// How the plan is read.
@@ -61,6 +63,12 @@ pub struct Scenario {
     pub crowd: CrowdOptions,
     /// What people's bodies are like.
     pub bodies: BodyOptions,
+    /// A recording that takes the crowd's place, relative to `folder`.
+    pub motion_file: Option<PathBuf>,
+    /// How the recording is read.
+    pub recording: RecordingOptions,
+    /// Formations that take the crowd's place.
+    pub formation: Option<FormationRequest>,
     /// What they leave behind on floors and walls.
     pub marks: MarksOptions,
     /// How prints differ from each other.
@@ -75,6 +83,8 @@ pub struct Scenario {
     pub doors: Vec<DoorRequest>,
     /// What people reach for, lean on and wait at.
     pub fixtures: Vec<FixtureRequest>,
+    /// Spots that are looked at closely: people near them play units.
+    pub units: Vec<SpotRequest>,
 }
 
 /// What the command line says; wins over what the scenario file says.
@@ -96,6 +106,10 @@ pub struct Overrides {
     pub walls: Option<bool>,
     /// Whether the model carries its textures.
     pub embed: Option<bool>,
+    /// A recording that takes the crowd's place, relative to the working directory.
+    pub motion_file: Option<PathBuf>,
+    /// How it is read; keys that differ from the defaults win.
+    pub recording: RecordingOptions,
 }
 
 impl Scenario {
@@ -118,7 +132,18 @@ impl Scenario {
     pub fn from_plan(path: &Path, overrides: &Overrides) -> Result<Scenario, ScenarioError> {
         let mut scenario = Scenario::of_preset(overrides.preset.unwrap_or_default());
         scenario.folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
-        scenario.image = path.file_name().map(PathBuf::from).unwrap_or_default();
+        scenario.image = path.file_name().map(PathBuf::from);
+        scenario.apply(overrides);
+        scenario.check(None)?;
+        Ok(scenario)
+    }
+
+    /// A scenario of a given motion alone, on open ground.
+    ///
+    /// # Errors
+    /// Overrides that name no motion, or are beyond what is allowed.
+    pub fn of_motion(overrides: &Overrides) -> Result<Scenario, ScenarioError> {
+        let mut scenario = Scenario::of_preset(overrides.preset.unwrap_or_default());
         scenario.apply(overrides);
         scenario.check(None)?;
         Ok(scenario)
@@ -148,13 +173,7 @@ impl Scenario {
         scenario.seed = crowd.take("seed")?.unwrap_or(scenario.seed);
 
         let mut plan = document.section("plan");
-        scenario.image = plan.take("image")?.ok_or_else(|| {
-            document.wrong_value(
-                "plan.image",
-                "the scenario names no plan".to_string(),
-                Some("write [plan] image = \"plan.png\"".to_string()),
-            )
-        })?;
+        scenario.image = plan.take("image")?;
         scenario.wall_height_m = plan.take("wall_height")?.unwrap_or(scenario.wall_height_m);
         scenario.plan = plan.over(&scenario.plan)?;
         scenario.walls = document.section("walls").over(&scenario.walls)?;
@@ -165,6 +184,12 @@ impl Scenario {
         scenario.wall_texels_per_metre = wall_density.unwrap_or(scenario.wall_texels_per_metre);
         scenario.texture = texture.over(&scenario.texture)?;
         scenario.crowd = crowd.over(&scenario.crowd)?;
+        let mut motion = document.section("motion");
+        scenario.motion_file = motion.take("file")?;
+        scenario.recording = motion.over(&scenario.recording)?;
+        if document.has(keys::FORMATION) {
+            scenario.formation = Some(document.section(keys::FORMATION).into_options()?);
+        }
         scenario.bodies = document.section("bodies").over(&scenario.bodies)?;
         scenario.marks = document.section("marks").over(&scenario.marks)?;
         scenario.stamps = document.section("stamps").over(&scenario.stamps)?;
@@ -176,15 +201,40 @@ impl Scenario {
         scenario.routes.stops = document.list::<StopRequest>(keys::STOP)?;
         scenario.doors = document.list::<DoorRequest>(keys::DOOR)?;
         scenario.fixtures = document.list::<FixtureRequest>(keys::FIXTURE)?;
+        scenario.units = document.list::<SpotRequest>(keys::UNIT)?;
+        if !scenario.units.is_empty() && document.text_of("crowd.model").is_none() {
+            scenario.crowd.model = CrowdModel::SocialForce;
+        }
         scenario.read_timetables(document)?;
         scenario.apply(overrides);
         scenario.check(Some(document))?;
         Ok(scenario)
     }
 
-    /// The plan's path.
-    pub fn image_path(&self) -> PathBuf {
-        self.folder.join(&self.image)
+    /// The plan's path, if there is one.
+    pub fn image_path(&self) -> Option<PathBuf> {
+        self.image.as_ref().map(|image| self.folder.join(image))
+    }
+
+    /// The plan's path where the work is about the plan.
+    ///
+    /// # Errors
+    /// A scenario without a plan.
+    pub fn plan_path(&self) -> Result<PathBuf, ScenarioError> {
+        self.image_path().ok_or_else(|| ScenarioError::Value {
+            message: "the scenario names no plan".to_string(),
+            hint: Some("write [plan] image = \"plan.png\"".to_string()),
+        })
+    }
+
+    /// What the scenario is about: the name of its plan, or of the motion that needs none.
+    pub fn name(&self) -> PathBuf {
+        self.image.clone().or_else(|| self.motion_file.clone()).unwrap_or_default()
+    }
+
+    /// The recording that takes the crowd's place, if there is one, and how it is read.
+    pub fn given_recording(&self) -> Option<(PathBuf, &RecordingOptions)> {
+        self.motion_file.as_ref().map(|file| (self.folder.join(file), &self.recording))
     }
 
     /// How the plan is read: `plan`, with the points that routes name as points of the floor.
@@ -210,11 +260,20 @@ impl Scenario {
         self.pattern_folder.as_ref().map(|folder| self.folder.join(folder))
     }
 
+    /// The spots at which units are played, with their folders as they lie on the disk.
+    pub fn spots(&self) -> Vec<SpotRequest> {
+        let joined = |spot: &SpotRequest| SpotRequest {
+            folder: spot.folder.as_ref().map(|folder| self.folder.join(folder)),
+            ..spot.clone()
+        };
+        self.units.iter().map(joined).collect()
+    }
+
     /// The defaults of a preset, without a plan.
     pub fn of_preset(preset: Preset) -> Scenario {
         let mut scenario = Scenario {
             folder: PathBuf::new(),
-            image: PathBuf::new(),
+            image: None,
             wall_height_m: 2.6,
             plan: PlanOptions::default(),
             walls: WallsOptions::default(),
@@ -225,6 +284,9 @@ impl Scenario {
             seed: 1,
             crowd: CrowdOptions::default(),
             bodies: BodyOptions::default(),
+            motion_file: None,
+            recording: RecordingOptions::default(),
+            formation: None,
             marks: MarksOptions::default(),
             stamps: StampOptions::default(),
             look: Look::default(),
@@ -232,6 +294,7 @@ impl Scenario {
             routes: RoutesOptions::default(),
             doors: Vec::new(),
             fixtures: Vec::new(),
+            units: Vec::new(),
         };
         preset.apply(&mut scenario);
         scenario
@@ -288,6 +351,11 @@ impl Scenario {
         self.texture.target = overrides.target.unwrap_or(self.texture.target);
         self.texture.walls = overrides.walls.unwrap_or(self.texture.walls);
         self.texture.embed = overrides.embed.unwrap_or(self.texture.embed);
+        if let Some(file) = &overrides.motion_file {
+            // Paths of the command line start from the working directory, those of the scenario from its folder.
+            self.motion_file = Some(std::path::absolute(file).unwrap_or_else(|_| file.clone()));
+        }
+        self.recording = self.recording.overridden_by(&overrides.recording);
         if overrides.metres_per_pixel.is_some() {
             self.plan.metres_per_pixel = overrides.metres_per_pixel;
             self.plan.scale = None;

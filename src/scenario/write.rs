@@ -22,7 +22,8 @@ impl Scenario {
         let table = table_of(self).unwrap_or_default();
         let mut text = String::new();
         let mut section = "";
-        for key in KEYS.iter().filter(|key| !keys::LISTS.contains(&key.section())) {
+        let of_scenario = |key: &&Key| !keys::LISTS.contains(&key.section()) && !of_formation(key);
+        for key in KEYS.iter().filter(of_scenario) {
             if key.section() != section {
                 section = key.section();
                 let gap = if text.is_empty() { "" } else { "\n" };
@@ -34,6 +35,7 @@ impl Scenario {
             };
             push_commented(&mut text, &line, &key.comment());
         }
+        push_formation(&mut text, &table);
         push_list(
             &mut text,
             &table,
@@ -58,6 +60,12 @@ impl Scenario {
             keys::FIXTURE,
             "What people touch on walls, each in a [[fixture]] of its own; counters, machines and benches of stops are found:",
         );
+        push_list(
+            &mut text,
+            &table,
+            keys::UNIT,
+            "Spots that are looked at closely, each in a [[unit]] of its own: people near them play crowd units:",
+        );
         text
     }
 }
@@ -67,7 +75,8 @@ impl Scenario {
     pub fn settings(&self) -> serde_json::Value {
         let name = |path: &PathBuf| path.file_name().map(PathBuf::from).unwrap_or_default();
         let mut scenario = self.clone();
-        scenario.image = name(&self.image);
+        scenario.image = self.image.as_ref().map(name);
+        scenario.motion_file = self.motion_file.as_ref().map(name);
         scenario.pattern_folder = self.pattern_folder.as_ref().map(name);
         for image in scenario.look.images().into_iter().flatten() {
             *image = name(image);
@@ -75,8 +84,35 @@ impl Scenario {
         for timetable in scenario.timetables() {
             timetable.file = timetable.file.as_ref().map(name);
         }
+        for spot in &mut scenario.units {
+            spot.folder = spot.folder.as_ref().map(name);
+        }
         // Only numbers that TOML cannot hold stop it, and those were refused when the scenario was read.
         table_of(&scenario).ok().and_then(|table| serde_json::to_value(table).ok()).unwrap_or_default()
+    }
+}
+
+/// Whether a key belongs to formations, which stand within each other.
+fn of_formation(key: &Key) -> bool {
+    keys::FORMATION_SECTIONS.contains(&key.section())
+}
+
+/// Formations: what their keys mean, then what is asked for, as TOML writes it.
+fn push_formation(text: &mut String, table: &Table) {
+    text.push_str("\n# Formations that a crowd takes up one after another, in the place of one that walks. Key formations stand\n");
+    text.push_str(
+        "# each in a [[formation.key]], small crowds in the places of individuals each in a [[formation.crowd]]:\n",
+    );
+    for section in keys::FORMATION_SECTIONS {
+        let list = section.ends_with(".key") || section.ends_with(".crowd");
+        let _ = if list { writeln!(text, "#\n# [[{section}]]") } else { writeln!(text, "#\n# [{section}]") };
+        for key in KEYS.iter().filter(|key| key.section() == section) {
+            push_commented(text, &format!("# {} = {}", key.name(), key.example), &key.comment());
+        }
+    }
+    if let Some(formation) = table.get(keys::FORMATION) {
+        let whole = Table::from_iter([(keys::FORMATION.to_string(), formation.clone())]);
+        let _ = write!(text, "\n{}", toml::to_string(&whole).unwrap_or_default());
     }
 }
 
@@ -146,7 +182,9 @@ pub(super) fn shortest(number: f64) -> f64 {
 pub(super) fn table_of(scenario: &Scenario) -> Result<Table, toml::ser::Error> {
     let Scenario { plan, walls, texture, crowd, bodies, marks, stamps, look, .. } = scenario;
     let mut plan = Table::try_from(plan)?;
-    plan.insert("image".to_string(), Value::try_from(&scenario.image)?);
+    if let Some(image) = &scenario.image {
+        plan.insert("image".to_string(), Value::try_from(image)?);
+    }
     plan.insert("wall_height".to_string(), Value::Float(scenario.wall_height_m));
     let mut texture = Table::try_from(texture)?;
     texture.insert("floor_texels_per_metre".to_string(), Value::Float(scenario.floor_texels_per_metre));
@@ -158,11 +196,16 @@ pub(super) fn table_of(scenario: &Scenario) -> Result<Table, toml::ser::Error> {
     if let Some(folder) = &scenario.pattern_folder {
         patterns.insert("folder".to_string(), Value::try_from(folder)?);
     }
+    let mut motion = Table::try_from(&scenario.recording)?;
+    if let Some(file) = &scenario.motion_file {
+        motion.insert("file".to_string(), Value::try_from(file)?);
+    }
     let sections = [
         ("plan", plan),
         ("walls", Table::try_from(walls)?),
         ("texture", texture),
         ("crowd", crowd),
+        ("motion", motion),
         ("bodies", Table::try_from(bodies)?),
         ("marks", Table::try_from(marks)?),
         ("stamps", Table::try_from(stamps)?),
@@ -170,9 +213,13 @@ pub(super) fn table_of(scenario: &Scenario) -> Result<Table, toml::ser::Error> {
         ("patterns", patterns),
     ];
     let mut all: Table = sections.into_iter().map(|(name, table)| (name.to_string(), Value::Table(table))).collect();
+    if let Some(formation) = &scenario.formation {
+        all.insert(keys::FORMATION.to_string(), Value::try_from(formation)?);
+    }
     all.insert(keys::ROUTE.to_string(), Value::try_from(&scenario.routes.routes)?);
     all.insert(keys::STOP.to_string(), Value::try_from(&scenario.routes.stops)?);
     all.insert(keys::DOOR.to_string(), Value::try_from(&scenario.doors)?);
     all.insert(keys::FIXTURE.to_string(), Value::try_from(&scenario.fixtures)?);
+    all.insert(keys::UNIT.to_string(), Value::try_from(&scenario.units)?);
     Ok(all)
 }

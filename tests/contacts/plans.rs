@@ -57,7 +57,7 @@ fn of_plan(name: &str, people: u32) -> f64 {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("floorplans").join(name);
     let overrides = Overrides { people: Some(people), ..Overrides::default() };
     let scenario = Scenario::open(&file, &overrides).unwrap_or_else(|error| panic!("{error}"));
-    let plan = plan::read(&scenario.image_path(), &scenario.plan_options()).unwrap();
+    let plan = plan::read(&scenario.plan_path().unwrap(), &scenario.plan_options()).unwrap();
     let walls = Walls::trace(&plan, &scenario.walls).unwrap();
     let (routes, ways) = Navigation::find(&plan, &walls, &scenario.routes).unwrap();
     let people = People::new(scenario.seed, scenario.bodies.clone());

@@ -16,6 +16,7 @@ mod render;
 pub(super) mod srgb;
 pub mod still;
 mod stuck;
+mod units;
 
 pub use animation::{
     ANIMATION_SIZES_PX, ANIMATION_SPEEDS, Animation, AnimationColour, AnimationError, AnimationFormat,
@@ -26,6 +27,7 @@ pub use crops::{CROP_M, Crop, choose_crops};
 pub use drawing::{draw_paths, draw_plan};
 pub use paths::{Path, PathSample, PathSampler};
 pub use render::{render_crop, render_floor};
+pub use units::draw_unit;
 
 /// What walls and the outside look like in pictures of the floor, sRGB.
 const WALL: [u8; 3] = [58, 58, 62];

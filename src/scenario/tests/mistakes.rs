@@ -26,7 +26,7 @@ hint: did you mean `wall_height`?
   |
 4 | seed = 3
   | ^^^^
-hint: `seed` belongs in [crowd] or [look]
+hint: `seed` belongs in [crowd] or [look] or [formation.example]
 
 "#]]
     );
@@ -318,7 +318,7 @@ not valid TOML: duplicate key
   |
 3 | image = "b.png"
   | ^^^^^
-hint: write each key and each section once; only [[route]], [[stop]], [[door]] and [[fixture]] may come again
+hint: write each key and each section once; only [[route]], [[stop]], [[door]], [[fixture]] and [[unit]] may come again
 
 "#]]
     );
@@ -330,7 +330,7 @@ fn what_contradicts_itself_is_refused() {
         shown("[crowd]\nseed = 3\n"),
         str![[r#"
 plans/hall.toml: the scenario names no plan
-hint: write [plan] image = "plan.png"
+hint: write [plan] image = "plan.png"; only a given motion needs no plan
 
 "#]]
     );

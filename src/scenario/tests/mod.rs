@@ -7,6 +7,7 @@ use super::keys::{Allowed, KEYS, Key, LISTS, SECTIONS};
 use super::*;
 use crate::plan::PlanPoint;
 
+mod formations;
 mod mistakes;
 mod places;
 mod stops;
@@ -30,7 +31,7 @@ fn shown(text: &str) -> String {
 fn a_plan_alone_is_a_scenario() {
     let from_image = Scenario::from_plan(Path::new("plans/plan.png"), &Overrides::default()).unwrap();
     assert_eq!(from_image, parse(PLAN).unwrap());
-    assert_eq!(from_image.image_path(), Path::new("plans/plan.png"));
+    assert_eq!(from_image.plan_path().unwrap(), Path::new("plans/plan.png"));
 }
 
 #[test]
@@ -38,7 +39,7 @@ fn paths_start_from_the_files_folder() {
     let scenario =
         parse("[plan]\nimage = \"img/a.png\"\n[patterns]\nfolder = \"../soles\"\n[look.floor]\nimage = \"oak.png\"\n");
     let scenario = scenario.unwrap();
-    assert_eq!(scenario.image_path(), Path::new("plans/img/a.png"));
+    assert_eq!(scenario.plan_path().unwrap(), Path::new("plans/img/a.png"));
     assert_eq!(scenario.pattern_path().unwrap(), Path::new("plans/../soles"));
     assert_eq!(scenario.look.floor.image.unwrap(), Path::new("plans/oak.png"));
 }
@@ -86,7 +87,7 @@ fn overrides_win_over_the_file() {
 fn what_is_written_reads_back_the_same() {
     for preset in Preset::ALL {
         let mut scenario = Scenario::of_preset(preset);
-        scenario.image = "plan.png".into();
+        scenario.image = Some("plan.png".into());
         scenario.folder = "plans".into();
         scenario.routes.routes = routes();
         scenario.routes.stops = stops::requests();
@@ -180,10 +181,15 @@ fn a_written_scenario_shows_every_key() {
 #[test]
 fn every_example_of_a_key_without_a_default_reads() {
     let of_files = ["look.file", "crowd.arrivals.file"];
-    let read = |key: &&Key| !key.example.is_empty() && !of_files.contains(&key.path) && !LISTS.contains(&key.section());
+    let read = |key: &&Key| {
+        !key.example.is_empty()
+            && !of_files.contains(&key.path)
+            && !LISTS.contains(&key.section())
+            && !key.path.starts_with("formation.")
+    };
     for key in KEYS.iter().filter(read) {
         let (section, name) = (key.section(), key.name());
-        let image = if section == "plan" { "image = \"plan.png\"\n" } else { "" };
+        let image = if section == "plan" && name != "image" { "image = \"plan.png\"\n" } else { "" };
         let plan = if section == "plan" { "" } else { PLAN };
         let with = stops::companions(key.path);
         let text = format!("{plan}[{section}]\n{image}{with}{name} = {}\n", key.example);
@@ -197,7 +203,9 @@ fn limits_are_allowed_and_what_lies_beyond_is_not() {
     let defaults = write::table_of(&Scenario::of_preset(Preset::Commuters)).unwrap();
     for key in KEYS {
         let (low, high, open) = match key.allowed {
-            _ if LISTS.contains(&key.section()) => continue,
+            _ if LISTS.contains(&key.section()) || key.path.starts_with("formation.") => continue,
+            // Each may be 0, not all of them.
+            _ if key.path == "crowd.groups.shares" => continue,
             Allowed::Any => continue,
             Allowed::Number(low, high) | Allowed::Spread(low, high) => (low, high, false),
             Allowed::Below(low, high) => (low, high, true),
@@ -205,10 +213,10 @@ fn limits_are_allowed_and_what_lies_beyond_is_not() {
         let default = value_at(&defaults, key.path);
         let whole = default.is_some_and(toml::Value::is_integer)
             || ["plan.threshold", "crowd.arrivals.people"].contains(&key.path);
-        let pair = default.is_some_and(toml::Value::is_array);
+        let list = default.and_then(toml::Value::as_array).map(Vec::len);
         let text = |value: f64| {
             let number = if whole { format!("{value}") } else { format!("{value:?}").to_lowercase() };
-            let value = if pair { format!("[{number}, {number}]") } else { number };
+            let value = list.map_or(number.clone(), |count| format!("[{}]", vec![number.as_str(); count].join(", ")));
             let image = if key.section() == "plan" { "image = \"plan.png\"\n" } else { "" };
             let plan = if key.section() == "plan" { "" } else { PLAN };
             let with = stops::companions(key.path);
@@ -243,7 +251,7 @@ mod any_text {
         #[test]
         fn never_panics_on_damaged_scenarios(at in 0usize..4000, with in "[ -~\n]{0,3}", length in 0usize..20) {
             let mut scenario = super::Scenario::of_preset(super::Preset::Commuters);
-            scenario.image = "plan.png".into();
+            scenario.image = Some("plan.png".into());
             let mut text = scenario.to_toml();
             let start = at.min(text.len());
             let end = (start + length).min(text.len());

@@ -132,13 +132,17 @@ impl<'a> SmallWalls<'a> {
         Some(SmallWalls { textures, strips, factor: f64::from(factor), background })
     }
 
-    fn at(&self, layer: usize, along_m: f64, height_m: f64) -> Texel {
-        let strips = self.strips.get(layer).map_or(&[][..], Vec::as_slice);
+    /// The column of a wall at a place along it: its sheet, and the texture coordinates of its foot and of its top.
+    fn column(&self, layer: usize, along_m: f64) -> Option<(usize, [[f64; 2]; 2])> {
+        let strips = self.strips.get(layer)?;
         let next = strips.partition_point(|(_, strip)| strip.from_m <= along_m);
-        let Some(&(sheet, strip)) = strips.get(next.saturating_sub(1)) else { return self.background };
+        let &(sheet, strip) = strips.get(next.saturating_sub(1))?;
         let atlas = &self.textures.atlas;
         let along_m = along_m.clamp(strip.from_m, strip.to_m);
-        let [u, v] = atlas.uv(sheet, strip, along_m, height_m.clamp(0.0, atlas.height_m));
+        Some((sheet, [0.0, atlas.height_m].map(|height_m| atlas.uv(sheet, strip, along_m, height_m))))
+    }
+
+    fn pixel(&self, sheet: usize, [u, v]: [f64; 2]) -> Texel {
         let Some(small) = self.textures.reduced.get(sheet) else { return self.background };
         let pixel = |share: f64, size: u32| ((share * f64::from(size)).max(0.0) as u32).min(size - 1);
         let (x, y) = (pixel(u, small.base_color.width()), pixel(v, small.base_color.height()));
@@ -157,8 +161,17 @@ impl Texels for SmallWalls<'_> {
         if j0 >= rows + 2 {
             return Block::Flat(self.background);
         }
-        let at = |k: usize| self.at(layer, metre(i0 + (k % SIDE) as i64), metre(j0 + (k / SIDE) as i64));
-        Block::Full((0..SIDE * SIDE).map(at).collect())
+        let mut texels = vec![self.background; SIDE * SIDE];
+        for i in 0..SIDE {
+            let Some((sheet, [foot, top])) = self.column(layer, metre(i0 + i as i64)) else { continue };
+            for j in 0..SIDE {
+                // Along a column texture coordinates are linear; beyond its ends it goes on as it ends.
+                let share = (metre(j0 + j as i64) / self.textures.atlas.height_m).clamp(0.0, 1.0);
+                let along = |k: usize| foot[k] + (top[k] - foot[k]) * share;
+                texels[j * SIDE + i] = self.pixel(sheet, [along(0), along(1)]);
+            }
+        }
+        Block::Full(texels.into_boxed_slice())
     }
 }
 

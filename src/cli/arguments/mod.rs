@@ -8,6 +8,10 @@ use clap::builder::TypedValueParser;
 use trodden::export::Target;
 use trodden::scenario::{Overrides, Preset, Scenario, allowed_range};
 
+mod motion_files;
+
+pub use motion_files::{MotionFiles, frame_rate};
+
 /// Texel density of a quick bake, texels per metre.
 const QUICK_TEXELS_PER_METRE: f64 = 25.0;
 
@@ -15,8 +19,8 @@ const QUICK_TEXELS_PER_METRE: f64 = 25.0;
 #[derive(Args)]
 pub struct ScenarioArguments {
     /// A scenario (TOML), or a plan alone: PNG, JPEG, BMP, PGM, TIFF, GIF, or the YAML of a ROS map
-    #[arg(value_name = "SCENARIO|PLAN")]
-    pub path: PathBuf,
+    #[arg(value_name = "SCENARIO|PLAN", required = true)]
+    pub path: Option<PathBuf>,
     /// Side of a pixel of the plan in metres
     #[arg(long, help_heading = "Scenario", value_name = "M", value_parser = within("plan.metres_per_pixel"))]
     #[arg(allow_negative_numbers = true)]
@@ -43,7 +47,15 @@ pub struct ScenarioArguments {
 impl ScenarioArguments {
     /// The scenario with the overrides applied.
     pub fn scenario(&self) -> Result<Scenario, trodden::Error> {
-        Ok(Scenario::open(&self.path, &self.overrides())?)
+        self.with(&self.overrides())
+    }
+
+    /// The scenario with these overrides applied; without a file, that of a given motion on open ground.
+    pub fn with(&self, overrides: &Overrides) -> Result<Scenario, trodden::Error> {
+        Ok(match &self.path {
+            Some(path) => Scenario::open(path, overrides)?,
+            None => Scenario::of_motion(overrides)?,
+        })
     }
 
     /// What of the scenario is overridden.

@@ -1,0 +1,201 @@
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+use trodden::Stopwatch;
+use trodden::motion::People;
+use trodden::motion::formation::{
+    Assign, AvoidRequest, ExampleRequest, FormationRequest, KeyRequest, form, is_picture,
+};
+use trodden::scenario::{Overrides, Scenario, allowed_range};
+use trodden::source::{Given, Ground};
+use trodden::walk::show;
+
+use super::super::progress::Watch;
+use super::Common;
+use super::input::{Alignment, Reading};
+use super::output::Outputs;
+
+/// Lead a crowd from formation to formation, while everybody keeps moving as in an example
+///
+/// What is wanted stands in the [formation] of a scenario, or is given by options: an example's motion, and formations at
+/// chosen times, each a text of points, `x y` in metres, or a picture of dots.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  trodden motion formation floorplans/cavalry.toml --animation battle.gif
+  trodden motion formation floorplans/swimming.toml -o routine.txt --paths ways.png
+  trodden motion formation --example march.txt --first triangle.txt --last ring.png -o out.txt
+  trodden motion formation --example march.txt --key 12.5=star.png --metres-per-pixel 0.05 --animation star.gif")]
+pub struct Formation {
+    /// A scenario with a [formation]
+    #[arg(value_name = "SCENARIO", required_unless_present = "example", conflicts_with = "example")]
+    scenario: Option<PathBuf>,
+    #[command(flatten)]
+    parts: Parts,
+    #[command(flatten)]
+    reading: Reading,
+    #[command(flatten)]
+    alignment: Alignment,
+    #[command(flatten)]
+    outputs: Outputs,
+}
+
+/// A formation without a scenario.
+#[derive(Args)]
+#[command(next_help_heading = "Without a scenario")]
+struct Parts {
+    /// The recording whose people are led; those who are there throughout
+    #[arg(long, value_name = "FILE")]
+    example: Option<PathBuf>,
+    /// The part of it that is used, seconds
+    #[arg(long, value_name = "FROM,TO", requires = "example", value_parser = span)]
+    span: Option<[f64; 2]>,
+    /// The formation at the start [default: the example's own]
+    #[arg(long, value_name = "FILE", requires = "example")]
+    first: Option<PathBuf>,
+    /// The formation at the end [default: the example's own]
+    #[arg(long, value_name = "FILE", requires = "example")]
+    last: Option<PathBuf>,
+    /// A formation at a time in seconds from the start; may come again
+    #[arg(long, value_name = "TIME=FILE", requires = "example", value_parser = key)]
+    key: Vec<(f64, PathBuf)>,
+    /// Side of a picture's pixel in metres [default: 0.1]
+    #[arg(long, value_name = "M", requires = "example", value_parser = within("formation.key.metres_per_pixel"))]
+    #[arg(allow_negative_numbers = true)]
+    metres_per_pixel: Option<f64>,
+    /// Pictures show shapes that people fill evenly, not a dot for each
+    #[arg(long, requires = "example")]
+    filled: bool,
+    /// The first goes to the first place and so on, instead of the shortest ways for all together
+    #[arg(long, requires = "example")]
+    in_order: bool,
+    /// How far neighbours feel each other, metres [default: from how far apart they are]
+    #[arg(long, value_name = "M", requires = "example", value_parser = within("formation.sigma_m"))]
+    #[arg(allow_negative_numbers = true)]
+    sigma: Option<f64>,
+    /// How strongly the example's own way of moving is kept, 0 to 10 [default: 1]
+    #[arg(long, value_name = "FACTOR", requires = "example", value_parser = within("formation.fluctuation"))]
+    #[arg(allow_negative_numbers = true)]
+    fluctuation: Option<f64>,
+    /// How long it lasts, seconds; a shorter example is played to and fro [default: as long as the example]
+    #[arg(long, value_name = "S", requires = "example", value_parser = within("formation.duration_s"))]
+    #[arg(allow_negative_numbers = true)]
+    duration: Option<f64>,
+    /// Frames per second of the formation [default: 10]
+    #[arg(long, value_name = "N", requires = "example", value_parser = within("formation.fps"))]
+    #[arg(allow_negative_numbers = true)]
+    rate: Option<f64>,
+    /// Bodies' middles never come nearer to each other, metres; 0: they may [default: 0.36]
+    #[arg(long, value_name = "M", requires = "example", value_parser = within("formation.avoid.distance_m"))]
+    #[arg(allow_negative_numbers = true)]
+    distance: Option<f64>,
+}
+
+impl Formation {
+    pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
+        self.outputs.files.check(&["motion", "formation"], self.outputs.json);
+        let watch = Watch::new(common);
+        let report = match &self.scenario {
+            Some(path) => self.of_scenario(path, &watch)?,
+            None => {
+                let formed = form(&self.request(&watch)?, Path::new(""), &watch)?;
+                self.outputs.write(&Given::formation(formed), &watch)?
+            }
+        };
+        self.outputs.files.tell(&report, self.outputs.json, common)?;
+        Ok(ExitCode::SUCCESS)
+    }
+
+    fn of_scenario(&self, path: &Path, watch: &Watch) -> anyhow::Result<trodden::walk::WalkReport> {
+        let scenario = Scenario::open(path, &Overrides::default())?;
+        let Some(request) = &scenario.formation else {
+            anyhow::bail!("{}: the scenario has no [formation]", path.display());
+        };
+        let given = Given::formation(form(request, &scenario.folder, watch)?);
+        if scenario.image.is_none() || self.outputs.plan.is_some() {
+            return Ok(self.outputs.write(&given, watch)?);
+        }
+        let ground = Ground::of_scenario(&scenario, Some(&given), &Stopwatch::start(), watch)?;
+        let people = People::new(scenario.seed, scenario.bodies.clone());
+        Ok(show(&given, &ground, &people, &self.outputs.outputs(), watch)?)
+    }
+
+    /// What the options ask for.
+    fn request(&self, watch: &Watch) -> anyhow::Result<FormationRequest> {
+        let parts = &self.parts;
+        let file = parts.example.clone().unwrap_or_default();
+        let recording = self.alignment.over(self.reading.options());
+        let [from_s, to_s] = parts.span.unwrap_or([0.0, f64::INFINITY]);
+        let example = ExampleRequest {
+            from_s,
+            to_s: to_s.is_finite().then_some(to_s),
+            recording: recording.clone(),
+            file: Some(file.clone()),
+            ..ExampleRequest::default()
+        };
+        let mut request = FormationRequest {
+            duration_s: parts.duration,
+            fps: parts.rate,
+            example,
+            sigma_m: parts.sigma,
+            fluctuation: parts.fluctuation,
+            assign: parts.in_order.then_some(Assign::Order),
+            avoid: AvoidRequest { distance_m: parts.distance, ..AvoidRequest::default() },
+            ..FormationRequest::default()
+        };
+        // Without a duration it is the example's, not that of the last formation.
+        if request.duration_s.is_none() {
+            let survey = super::input::open(&file, &recording, watch)?;
+            let [start_s, end_s] = survey.survey().span_s;
+            request.duration_s = Some((to_s.min(end_s) - from_s.max(start_s)).max(0.1));
+        }
+        let end_s = request.duration_s.unwrap_or_default();
+        let first = parts.first.iter().map(|file| (0.0, file));
+        let last = parts.last.iter().map(|file| (end_s, file));
+        let mut keys: Vec<(f64, &PathBuf)> =
+            first.chain(parts.key.iter().map(|(time_s, file)| (*time_s, file))).chain(last).collect();
+        keys.sort_by(|a, b| a.0.total_cmp(&b.0));
+        request.key = keys.into_iter().map(|(time_s, file)| self.key_request(time_s, file)).collect();
+        Ok(request)
+    }
+
+    fn key_request(&self, time_s: f64, file: &Path) -> KeyRequest {
+        let picture = is_picture(file);
+        KeyRequest {
+            time_s,
+            file: Some(file.to_path_buf()),
+            metres_per_pixel: self.parts.metres_per_pixel.filter(|_| picture),
+            filled: (self.parts.filled && picture).then_some(true),
+            ..KeyRequest::default()
+        }
+    }
+}
+
+fn key(text: &str) -> Result<(f64, PathBuf), String> {
+    let wanted = || "write a time and a file, as 12.5=ring.png".to_string();
+    let (time, file) = text.split_once('=').ok_or_else(wanted)?;
+    let time_s: f64 = time.trim().parse().map_err(|_| wanted())?;
+    if time_s.is_finite() && time_s >= 0.0 && !file.is_empty() {
+        Ok((time_s, PathBuf::from(file)))
+    } else {
+        Err(wanted())
+    }
+}
+
+fn span(text: &str) -> Result<[f64; 2], String> {
+    let [from_s, to_s] = super::input::point(text).map_err(|_| "write two times in seconds, as 2,20".to_string())?;
+    if from_s >= 0.0 && to_s > from_s { Ok([from_s, to_s]) } else { Err("the end comes after the start".to_string()) }
+}
+
+/// Takes a number within the range of a scenario's key.
+fn within(key: &'static str) -> impl Fn(&str) -> Result<f64, String> + Clone {
+    move |text| {
+        let number: f64 = text.parse().map_err(|_| "not a number".to_string())?;
+        match allowed_range(key) {
+            // Written so that NaN is out of range.
+            Some([low, high]) if !(number >= low && number <= high) => Err(format!("allowed is {low} to {high}")),
+            _ => Ok(number),
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! What all motion tools take: a recording, and how it is read.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use trodden::motion::{LengthUnit, Recording, RecordingFormat, RecordingOptions};
+use trodden::{Error, Progress};
+
+/// A recording and how it is read.
+#[derive(Args)]
+pub struct RecordingInput {
+    /// The motion: Juelich text, JuPedSim database, Vadere, crowd:it, Viswalk, Pathfinder, obsmat, or CSV with names
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    #[command(flatten)]
+    pub reading: Reading,
+    #[command(flatten)]
+    pub alignment: Alignment,
+}
+
+impl RecordingInput {
+    /// Looks through the file, and says what a user should know of it.
+    pub fn open(&self, progress: &dyn Progress) -> Result<Recording, Error> {
+        open(&self.file, &self.alignment.over(self.reading.options()), progress)
+    }
+}
+
+/// Looks through a recording, and says what a user should know of it.
+pub fn open(file: &std::path::Path, options: &RecordingOptions, progress: &dyn Progress) -> Result<Recording, Error> {
+    let recording = Recording::open_watched(file, options, progress)?;
+    recording.survey().warnings.iter().for_each(|warning| progress.warn(warning));
+    Ok(recording)
+}
+
+/// How a recording is read; what is left out is found in the file.
+#[derive(Args)]
+#[command(next_help_heading = "Recording")]
+pub struct Reading {
+    /// How the recording is written [default: found]
+    #[arg(long, value_name = "NAME", value_parser = format())]
+    pub format: Option<RecordingFormat>,
+    /// Unit of its lengths [default: found]
+    #[arg(long, value_name = "UNIT", value_parser = unit())]
+    pub unit: Option<LengthUnit>,
+    /// Its frames per second, where it counts frames [default: found]
+    #[arg(long, value_name = "N", value_parser = rate, allow_negative_numbers = true)]
+    pub fps: Option<f64>,
+    /// What its columns mean, in order, as id,frame,x,y; - for one of no use [default: found]
+    #[arg(long, value_name = "NAMES")]
+    pub columns: Option<String>,
+}
+
+impl Reading {
+    /// What the library takes.
+    pub fn options(&self) -> RecordingOptions {
+        RecordingOptions {
+            format: self.format,
+            unit: self.unit,
+            fps: self.fps,
+            columns: self.columns.clone(),
+            ..RecordingOptions::default()
+        }
+    }
+}
+
+/// Where a recording lies on the plan.
+#[derive(Args)]
+#[command(next_help_heading = "Recording")]
+pub struct Alignment {
+    /// Point of the recording that stays where it is when it is turned, metres [default: 0,0]
+    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
+    pub origin: Option<[f64; 2]>,
+    /// How far the recording is moved, metres
+    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
+    pub shift: Option<[f64; 2]>,
+    /// How far it is turned, degrees counter-clockwise
+    #[arg(long, value_name = "DEGREES", value_parser = angle, allow_negative_numbers = true)]
+    pub rotation: Option<f64>,
+}
+
+impl Alignment {
+    /// The same options with this alignment.
+    pub fn over(&self, options: RecordingOptions) -> RecordingOptions {
+        RecordingOptions {
+            origin: self.origin.unwrap_or(options.origin),
+            shift: self.shift.unwrap_or(options.shift),
+            rotation_deg: self.rotation.unwrap_or(options.rotation_deg),
+            ..options
+        }
+    }
+}
+
+/// A point written as `x,y`.
+pub fn point(text: &str) -> Result<[f64; 2], String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x, y]) if x.is_finite() && y.is_finite() => Ok([x, y]),
+        _ => Err("write two numbers of metres, as 12.5,-3".to_string()),
+    }
+}
+
+fn angle(text: &str) -> Result<f64, String> {
+    let allowed = |degrees: &f64| (-360.0..=360.0).contains(degrees);
+    text.parse().ok().filter(allowed).ok_or_else(|| "allowed is -360 to 360".to_string())
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    let allowed = |rate: &f64| (0.01..=1000.0).contains(rate);
+    text.parse().ok().filter(allowed).ok_or_else(|| "allowed is 0.01 to 1000".to_string())
+}
+
+fn format() -> impl TypedValueParser<Value = RecordingFormat> {
+    PossibleValuesParser::new(RecordingFormat::ALL.map(RecordingFormat::name)).map(|name| {
+        let found = RecordingFormat::ALL.into_iter().find(|format| format.name() == name);
+        found.unwrap_or(RecordingFormat::Juelich)
+    })
+}
+
+fn unit() -> impl TypedValueParser<Value = LengthUnit> {
+    PossibleValuesParser::new(LengthUnit::ALL.map(LengthUnit::name)).map(|name| {
+        let found = LengthUnit::ALL.into_iter().find(|unit| unit.name() == name);
+        found.unwrap_or(LengthUnit::Metre)
+    })
+}

@@ -1,0 +1,51 @@
+//! What all motion tools write: the motion, an animation, a picture of the paths.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use trodden::motion::People;
+use trodden::scenario::{Overrides, Scenario};
+use trodden::source::{Given, Ground};
+use trodden::walk::{WalkOutputs, WalkReport, show};
+use trodden::{Error, Progress, Stopwatch};
+
+use super::super::arguments::MotionFiles;
+
+/// The files that a motion is written to.
+#[derive(Args)]
+pub struct Outputs {
+    #[command(flatten)]
+    pub files: MotionFiles,
+    /// Frames per second that are written; places are interpolated [default: the motion's own]
+    #[arg(long, value_name = "N", requires = "output", value_parser = super::super::arguments::frame_rate)]
+    #[arg(allow_negative_numbers = true)]
+    pub output_fps: Option<f64>,
+    /// Draw over this plan (a scenario or a plan alone) instead of open ground
+    #[arg(long, value_name = "SCENARIO|PLAN")]
+    pub plan: Option<PathBuf>,
+    /// Print the summary as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl Outputs {
+    /// Writes a motion to all files that were asked for.
+    pub fn write(&self, given: &Given, progress: &dyn Progress) -> Result<WalkReport, Error> {
+        let overrides = Overrides::default();
+        let scenario = self.plan.as_ref().map(|plan| Scenario::open(plan, &overrides)).transpose()?;
+        let ground = match &scenario {
+            Some(scenario) => Ground::of_scenario(scenario, None, &Stopwatch::start(), progress)?,
+            None => Ground::around(given)?,
+        };
+        let people = match &scenario {
+            Some(scenario) => People::new(scenario.seed, scenario.bodies.clone()),
+            None => People::new(1, Default::default()),
+        };
+        show(given, &ground, &people, &self.outputs(), progress)
+    }
+
+    /// What the library takes.
+    pub fn outputs(&self) -> WalkOutputs {
+        WalkOutputs { fps: self.output_fps, ..self.files.outputs() }
+    }
+}

@@ -1,0 +1,392 @@
+//! Where a motion comes from, and the ground that it goes over: a crowd that is simulated on a plan, or a motion that is
+//! given (a recording, formations), on a plan or on open ground.
+
+use crate::crowd::{Arrival, Simulation, Stuck, Tally};
+use crate::marks::Origin;
+use crate::math::{Rect, Vec2, sin_cos, vec2};
+use crate::motion::formation::{self, Formed};
+use crate::motion::{Ensemble, Frame, Motion, Recording, Walker};
+use crate::plan::{self, FloorPlan, Pose};
+use crate::progress::{Progress, Stage, Stopwatch};
+use crate::routes::Route;
+use crate::scenario::Scenario;
+use crate::walls::{Walls, WallsOptions};
+use crate::{Error, export::PeopleReport};
+
+/// If more than this share of a given motion's places lies beyond the floor, it is probably not aligned.
+const MOST_BEYOND: f64 = 0.05;
+
+/// What a motion goes over.
+#[derive(Debug)]
+pub struct Ground {
+    /// The floor.
+    pub plan: FloorPlan,
+    /// What stands around it.
+    pub walls: Walls,
+    /// Whether it is open ground, with no plan to measure from: all places are in the map frame then.
+    pub open: bool,
+}
+
+impl Ground {
+    /// The plan of a scenario; where it has none, open ground around a given motion.
+    ///
+    /// # Errors
+    /// A plan that cannot be read or has no floor; a motion that spans more than a plan may.
+    pub fn of_scenario(
+        scenario: &Scenario,
+        given: Option<&Given>,
+        watch: &Stopwatch,
+        progress: &dyn Progress,
+    ) -> Result<Ground, Error> {
+        let image = match (scenario.image_path(), given) {
+            (None, Some(given)) => return Ground::around(given),
+            (image, _) => image.unwrap_or_default(),
+        };
+        let plan = watch.busy(Stage::Plan, || plan::read(&image, &scenario.plan_options()))?;
+        plan.warnings.iter().for_each(|warning| progress.warn(warning));
+        let walls = watch.busy(Stage::Walls, || Walls::trace(&plan, &scenario.walls))?;
+        Ok(Ground { plan, walls, open: false })
+    }
+
+    /// Open ground without walls around a given motion, in the motion's own frame as the map frame.
+    ///
+    /// # Errors
+    /// A motion that spans more than a plan may.
+    pub fn around(given: &Given) -> Result<Ground, Error> {
+        let mut plan = FloorPlan::open_ground(given.bounds_m())?;
+        let walls = Walls::trace(&plan, &WallsOptions::default())?;
+        // Open on all sides, but no way leads out.
+        plan.openings.clear();
+        Ok(Ground { plan, walls, open: true })
+    }
+}
+
+/// A motion that is not simulated.
+#[derive(Clone, Debug)]
+pub struct Given {
+    content: Content,
+    frame: CoordinateFrame,
+}
+
+#[derive(Clone, Debug)]
+enum Content {
+    Recording(Recording),
+    Ensemble(Ensemble),
+    Formed(Formed),
+}
+
+/// What the places of a motion are measured from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CoordinateFrame {
+    /// The map's origin: that of the ROS map where the plan is one, elsewhere the plan's.
+    Map,
+    /// The plan's lower left corner.
+    Plan,
+}
+
+impl Given {
+    /// A recording; its places are in the map frame.
+    pub fn recording(recording: Recording) -> Given {
+        Given { content: Content::Recording(recording), frame: CoordinateFrame::Map }
+    }
+
+    /// The same people throughout.
+    pub fn ensemble(ensemble: Ensemble, frame: CoordinateFrame) -> Given {
+        Given { content: Content::Ensemble(ensemble), frame }
+    }
+
+    /// A crowd that changes from formation to formation; its places are in the plan frame.
+    pub fn formation(formed: Formed) -> Given {
+        Given { content: Content::Formed(formed), frame: CoordinateFrame::Plan }
+    }
+
+    /// Those who touch the floor: without riders, who are carried.
+    pub fn on_foot(self) -> Given {
+        match self.content {
+            Content::Formed(formed) if formed.riders() > 0 => Given::ensemble(formed.on_foot(), self.frame),
+            content => Given { content, ..self },
+        }
+    }
+
+    /// What a scenario gives instead of a crowd, if anything.
+    ///
+    /// # Errors
+    /// A recording that cannot be read, formations that cannot be made; [`Error::Interrupted`].
+    pub fn of_scenario(
+        scenario: &Scenario,
+        watch: &Stopwatch,
+        progress: &dyn Progress,
+    ) -> Result<Option<Given>, Error> {
+        if let Some(request) = &scenario.formation {
+            let formed = watch.busy(Stage::Motion, || formation::form(request, &scenario.folder, progress))?;
+            return Ok(Some(Given::formation(formed)));
+        }
+        let Some((path, options)) = scenario.given_recording() else { return Ok(None) };
+        let recording = watch.busy(Stage::Motion, || Recording::open_watched(&path, options, progress))?;
+        recording.survey().warnings.iter().for_each(|warning| progress.warn(warning));
+        Ok(Some(Given::recording(recording)))
+    }
+
+    /// The rectangle around all places, metres.
+    pub fn bounds_m(&self) -> Rect {
+        match &self.content {
+            Content::Recording(recording) => recording.survey().bounds_m,
+            Content::Ensemble(ensemble) | Content::Formed(Formed { ensemble, .. }) => ensemble.bounds_m(),
+        }
+    }
+
+    /// How many people there are.
+    pub fn people(&self) -> u32 {
+        let people = match &self.content {
+            // Whoever comes back after a long gap is somebody else.
+            Content::Recording(recording) => recording.survey().people + recording.survey().returns as usize,
+            Content::Ensemble(ensemble) | Content::Formed(Formed { ensemble, .. }) => ensemble.people(),
+        };
+        people.min(u32::MAX as usize) as u32
+    }
+
+    /// Frames per second.
+    pub fn fps(&self) -> f64 {
+        match &self.content {
+            Content::Recording(recording) => recording.survey().fps,
+            Content::Ensemble(ensemble) | Content::Formed(Formed { ensemble, .. }) => ensemble.fps,
+        }
+    }
+
+    /// When the last frame is, seconds.
+    pub fn end_s(&self) -> f64 {
+        match &self.content {
+            Content::Recording(recording) => recording.survey().span_s[1],
+            Content::Ensemble(ensemble) | Content::Formed(Formed { ensemble, .. }) => {
+                ensemble.time_s(ensemble.moments().saturating_sub(1))
+            }
+        }
+    }
+
+    /// The motion from its start, in its own frame.
+    ///
+    /// # Errors
+    /// The recording cannot be read any more.
+    pub fn motion(&self) -> Result<Box<dyn Motion + Send + '_>, Error> {
+        match &self.content {
+            Content::Recording(recording) => recording.motion(),
+            Content::Ensemble(ensemble) | Content::Formed(Formed { ensemble, .. }) => Ok(Box::new(ensemble.motion())),
+        }
+    }
+}
+
+/// A motion on its ground, in the plan frame.
+pub struct Source<'a> {
+    mover: Mover<'a>,
+    people: u32,
+    expected_s: f64,
+}
+
+enum Mover<'a> {
+    Crowd(Box<dyn Simulation + 'a>),
+    Given(Box<Placed<'a>>),
+}
+
+impl<'a> Source<'a> {
+    /// A crowd that will walk these routes.
+    pub fn of_crowd(crowd: Box<dyn Simulation + 'a>, routes: &[Route]) -> Source<'a> {
+        let (people, expected_s) = (crowd.arrivals().len() as u32, expected_s(crowd.arrivals(), routes));
+        Source { mover: Mover::Crowd(crowd), people, expected_s }
+    }
+
+    /// A given motion on its ground.
+    ///
+    /// # Errors
+    /// The recording cannot be read any more.
+    pub fn of_given(given: &'a Given, ground: &'a Ground) -> Result<Source<'a>, Error> {
+        let pose = match given.frame {
+            CoordinateFrame::Plan if !ground.open => Pose::default(),
+            CoordinateFrame::Plan | CoordinateFrame::Map => ground.plan.map_from_plan,
+        };
+        let placed = Placed::new(given.motion()?, pose, ground);
+        Ok(Source { mover: Mover::Given(Box::new(placed)), people: given.people(), expected_s: given.end_s() })
+    }
+
+    /// The same with people numbered from 0 on in the order in which they appear, as those of a crowd are.
+    pub fn numbered(mut self) -> Source<'a> {
+        if let Mover::Given(placed) = &mut self.mover {
+            placed.numbers = Some(Numbers::default());
+        }
+        self
+    }
+
+    /// The stage that is at work: what progress is shown for.
+    pub fn stage(&self) -> Stage {
+        match &self.mover {
+            Mover::Crowd(_) => Stage::Crowd,
+            Mover::Given(_) => Stage::Motion,
+        }
+    }
+
+    /// How many people there will be.
+    pub fn people(&self) -> u32 {
+        self.people
+    }
+
+    /// How long it will last if nothing holds it up, seconds.
+    pub fn expected_s(&self) -> f64 {
+        self.expected_s
+    }
+
+    /// Who comes when; nothing is known of a given motion.
+    pub fn arrivals(&self) -> &[Arrival] {
+        match &self.mover {
+            Mover::Crowd(crowd) => crowd.arrivals(),
+            Mover::Given(_) => &[],
+        }
+    }
+
+    /// Where people's soles were before, by number; see [`Source::numbered`]. Those of a given motion come from outside.
+    pub fn origins(&self, fresh_people: u32) -> Vec<Origin> {
+        match &self.mover {
+            Mover::Crowd(crowd) => {
+                Origin::of_arrivals(crowd.arrivals().iter().map(|arrival| arrival.from_outside), fresh_people)
+            }
+            Mover::Given(_) => Origin::of_arrivals((0..self.people as usize).map(|_| true), fresh_people),
+        }
+    }
+
+    /// Who has got stuck so far.
+    pub fn stuck(&self) -> &[Stuck] {
+        match &self.mover {
+            Mover::Crowd(crowd) => crowd.stuck(),
+            Mover::Given(_) => &[],
+        }
+    }
+
+    /// What became of everybody so far. Of a given motion, whoever is not there any more has arrived.
+    pub fn tally(&self) -> Tally {
+        match &self.mover {
+            Mover::Crowd(crowd) => crowd.tally(),
+            Mover::Given(placed) => Tally {
+                entered: placed.entered,
+                arrived: placed.entered - placed.present.len() as u64,
+                ..Tally::default()
+            },
+        }
+    }
+
+    /// The same as it is reported.
+    pub fn people_report(&self, routes: &[Route]) -> PeopleReport {
+        PeopleReport::of(&self.tally(), routes)
+    }
+
+    /// What a user should know of the motion once it is over.
+    pub fn warning(&self) -> Option<String> {
+        let Mover::Given(placed) = &self.mover else { return None };
+        let share = placed.beyond as f64 / placed.places.max(1) as f64;
+        (share > MOST_BEYOND).then(|| {
+            let percent = 100.0 * share;
+            format!("{percent:.0} % of the motion's places lie beyond the plan's floor: align it by origin, shift and rotation")
+        })
+    }
+}
+
+impl Motion for Source<'_> {
+    fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, Error> {
+        match &mut self.mover {
+            Mover::Crowd(crowd) => crowd.next_frame(frame),
+            Mover::Given(placed) => placed.next_frame(frame),
+        }
+    }
+
+    fn share_done(&self) -> f64 {
+        match &self.mover {
+            Mover::Crowd(crowd) => crowd.share_done(),
+            Mover::Given(placed) => placed.motion.share_done(),
+        }
+    }
+}
+
+/// How long a crowd will walk if nothing holds it up, seconds.
+fn expected_s(arrivals: &[Arrival], routes: &[Route]) -> f64 {
+    const USUAL_M_S: f64 = 1.2;
+    let last_s = arrivals.last().map_or(0.0, |arrival| arrival.time_s);
+    last_s + routes.iter().map(|route| route.length_m).fold(0.0, f64::max) / USUAL_M_S
+}
+
+/// A given motion, brought to the plan frame.
+struct Placed<'a> {
+    motion: Box<dyn Motion + Send + 'a>,
+    plan: &'a FloorPlan,
+    origin_m: Vec2,
+    /// Cosine and sine of the turn from the map to the plan.
+    turn: Vec2,
+    numbers: Option<Numbers>,
+    /// Who is present, ascending.
+    present: Vec<u32>,
+    entered: u64,
+    places: u64,
+    beyond: u64,
+}
+
+impl<'a> Placed<'a> {
+    fn new(motion: Box<dyn Motion + Send + 'a>, pose: Pose, ground: &'a Ground) -> Placed<'a> {
+        let (sin, cos) = sin_cos(-pose.yaw_rad);
+        Placed {
+            motion,
+            plan: &ground.plan,
+            origin_m: pose.origin_m,
+            turn: vec2(cos, sin),
+            numbers: None,
+            present: Vec::new(),
+            entered: 0,
+            places: 0,
+            beyond: 0,
+        }
+    }
+
+    fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, Error> {
+        if !self.motion.next_frame(frame)? {
+            // Then everybody has left.
+            self.present.clear();
+            return Ok(false);
+        }
+        for walker in &mut frame.walkers {
+            walker.position_m = (walker.position_m - self.origin_m).rotated(self.turn);
+            walker.velocity_m_s = walker.velocity_m_s.rotated(self.turn);
+            walker.heading = walker.heading.map(|heading| heading.rotated(self.turn));
+            self.beyond += u64::from(!self.plan.is_floor(walker.position_m));
+        }
+        self.places += frame.walkers.len() as u64;
+        let newcomers = frame.walkers.iter().filter(|walker| self.present.binary_search(&walker.id).is_err()).count();
+        self.entered += newcomers as u64;
+        self.present.clear();
+        self.present.extend(frame.walkers.iter().map(|walker| walker.id));
+        if let Some(numbers) = &mut self.numbers {
+            numbers.give(&mut frame.walkers);
+        }
+        Ok(true)
+    }
+}
+
+/// Numbers from 0 on in the order in which people appear.
+#[derive(Debug, Default)]
+struct Numbers {
+    /// Who is present, ascending, and their numbers.
+    given: Vec<(u32, u32)>,
+    next: u32,
+}
+
+impl Numbers {
+    fn give(&mut self, walkers: &mut [Walker]) {
+        let before = std::mem::take(&mut self.given);
+        for walker in walkers.iter_mut() {
+            let number = match before.binary_search_by_key(&walker.id, |pair| pair.0) {
+                Ok(at) => before[at].1,
+                Err(_) => {
+                    self.next += 1;
+                    self.next - 1
+                }
+            };
+            self.given.push((walker.id, number));
+            walker.id = number;
+        }
+        walkers.sort_unstable_by_key(|walker| walker.id);
+    }
+}
