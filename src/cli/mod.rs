@@ -34,7 +34,7 @@ pub struct Cli {
 enum Command {
     Bake(bake::Bake),
     Crowd(crowd::Crowd),
-    Motion(motion::Motion),
+    Motion(Box<motion::Motion>),
     Resolve(resolve::Resolve),
     View(view::ViewCommand),
     Init(init::Init),
