@@ -1,6 +1,7 @@
 //! Draws what formation interpolation works on, for three people: their eigenvectors on the unit sphere as recorded and as a
 //! rotation has them (`sphere.png`), the coefficients of the recording over time with the line between their ends
-//! (`recorded.png`), and those that a new pair of key formations gets (`interpolated.png`).
+//! (`recorded.png`), and those that a new pair of key formations gets (`interpolated.png`). And ranks of nine that come from a
+//! triangle, go into a ring, or both (`changes.png`).
 //!
 //! ```text
 //! cargo run --example draw_formation -- FOLDER [RECORDING [FRAMES-PER-SECOND]]
@@ -16,6 +17,7 @@ use trodden::math::{Vec2, sin_cos, vec2};
 use trodden::motion::Ensemble;
 use trodden::motion::formation::{Basis, SphereTracks, default_sigma_m, sphere_tracks};
 
+mod changes;
 mod chart;
 mod neighbours;
 
@@ -43,6 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     draw_sphere(&tracks).save(&folder.join("sphere.png"))?;
     draw_coefficients(&tracks.coefficients_m).save(&folder.join("recorded.png"))?;
     draw_coefficients(&interpolated(&example, &tracks)?).save(&folder.join("interpolated.png"))?;
+    changes::draw()?.save(&folder.join("changes.png"))?;
     Ok(())
 }
 
