@@ -79,7 +79,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     // Frames become marks, marks become stamps, stamps are summed up: a stream of which only the sums are kept.
     let grid = TexelGrid::covering(plan.width_m(), plan.height_m(), scenario.floor_texels_per_metre)?;
     let wall_grid = WallGrid::covering(walls, scenario.wall_height_m, scenario.wall_texels_per_metre)?;
-    let with_walls = scenario.texture.walls && !walls.faces.is_empty();
+    let with_walls = scenario.texture.walls;
     let stamper = watch.busy(Stage::Stamps, || Stamper::new(&library, grid, &scenario.stamps));
     let wall_stamper = watch.busy(Stage::Stamps, || WallStamper::new(&library, &wall_grid, &scenario.stamps));
     let mut sums = Sums { floor: FloorSums::new(grid), walls: with_walls.then(|| WallSums::new(wall_grid)) };
@@ -98,6 +98,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
 
     // Sums become what floor and walls look like, block by block, as the files are written.
     let crops = preview::choose_crops(walls.bounds_m(), &plan.openings, walls, paths.paths());
+    let settings = scenario.settings();
     let graded = Graded {
         sums: &sums,
         walls,
@@ -105,7 +106,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
         look: &scenario.look,
         people: source.people(),
         wall_people: footfalls.contact_people(),
-        title: title(&scenario.name()),
+        title: title(&settings),
         seed: scenario.seed,
         atlas: None,
     };
@@ -129,7 +130,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     report.write(&folder)?;
     let manifest = Manifest {
         seed: scenario.seed,
-        people: scenario.crowd.people,
+        people: source.people(),
         target: TargetEntry::of(scenario.texture.target),
         floor: written.floor.entry(sums_entry),
         walls: written.walls.map(|textures| textures.entry(walls, footfalls.contact_people())),
@@ -137,7 +138,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
         stills: written.stills,
         look: look_entry(&scenario.look),
         doors: Some(doorways),
-        settings: scenario.settings(),
+        settings,
         ..Manifest::of_plan(plan, walls, &routes)
     };
     export::write_target_files(&folder, &manifest)?;
@@ -183,7 +184,7 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
         look,
         people: manifest.people,
         wall_people: manifest.wall_people(),
-        title: manifest.settings["plan"]["image"].as_str().map_or_else(String::new, |image| title(Path::new(image))),
+        title: title(&manifest.settings),
         seed: manifest.seed,
         atlas: manifest.walls.as_ref().map(|walls| walls.atlas()),
     };

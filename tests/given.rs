@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-use trodden::bake::{OutputOptions, bake};
+use trodden::bake::{OutputOptions, ResolveOptions, bake, resolve};
 use trodden::export::{self, Manifest, Report};
 use trodden::math::{Rect, Vec2, vec2};
 use trodden::motion::RecordingOptions;
@@ -190,4 +190,50 @@ fn a_given_motion_bakes_to_the_same_bytes_on_any_number_of_threads() {
         fs::read(folder.join("floor/floor_basecolor.1001.png")).unwrap()
     };
     assert!(floor(1) == floor(3));
+}
+
+#[test]
+fn a_bake_of_given_people_resolves_to_the_same_textures_again() {
+    let dir = tempfile::tempdir().unwrap();
+    let paths = recording(dir.path(), &[[vec2(0.0, 0.0), vec2(8.0, 0.0)], [vec2(8.0, 1.5), vec2(0.0, 1.5)]]);
+    let scenario = Scenario::of_motion(&given(&paths, RecordingOptions::default())).unwrap();
+    let folder = dir.path().join("out");
+    baked(&scenario, &folder, &Silent);
+    assert_eq!(Manifest::read(&folder).unwrap().people, 2);
+    let textures = || {
+        let files = fs::read_dir(folder.join("floor")).unwrap().map(|entry| entry.unwrap().path());
+        let mut textures: Vec<_> = files.map(|path| (fs::read(&path).unwrap(), path)).collect();
+        textures.sort_by(|a, b| a.1.cmp(&b.1));
+        textures
+    };
+    let before = textures();
+    resolve(&folder, &ResolveOptions::default(), &Silent).unwrap();
+    for ((a, path), (b, _)) in before.iter().zip(&textures()) {
+        assert!(a == b, "{} differs", path.display());
+    }
+}
+
+#[test]
+fn open_ground_is_seen_in_three_dimensions_under_the_sky() {
+    let dir = tempfile::tempdir().unwrap();
+    let paths = recording(dir.path(), &[[vec2(0.0, 0.0), vec2(8.0, 0.0)], [vec2(8.0, 1.0), vec2(0.0, 1.0)]]);
+    let overrides = Overrides { walls: Some(true), ..given(&paths, RecordingOptions::default()) };
+    let folder = dir.path().join("out");
+    baked(&Scenario::of_motion(&overrides).unwrap(), &folder, &Silent);
+    assert!(folder.join("scene.glb").exists() && folder.join("index.html").exists());
+    assert!(!folder.join("walls").exists(), "there are no walls");
+    let picture = |name: &str| image::open(folder.join("preview").join(name)).unwrap().to_rgb8();
+    let (trodden, clean) = (picture("eye_level.png"), picture("eye_level_clean.png"));
+    // Sky above, floor in front of the feet, in its own colour.
+    let mean = |picture: &image::RgbImage, rows: std::ops::Range<u32>| {
+        let values = rows.flat_map(|y| (0..picture.width()).map(move |x| f64::from(picture.get_pixel(x, y)[1])));
+        values.sum::<f64>() / f64::from(picture.width() * 100)
+    };
+    let (sky, floor) = (mean(&clean, 0..100), mean(&clean, 620..720));
+    assert!((60.0..250.0).contains(&floor) && (sky - floor).abs() > 5.0, "sky {sky}, floor {floor}");
+    assert_eq!(mean(&trodden, 0..100), sky);
+    assert!(mean(&trodden, 620..720) < floor - 1.0 || mean(&trodden, 400..500) < mean(&clean, 400..500) - 1.0);
+    let above = picture("birds_eye.png");
+    let [middle, corner] = [[640, 360], [2, 2]].map(|[x, y]| above.get_pixel(x, y).0);
+    assert_ne!(middle, corner, "the floor is not the table");
 }

@@ -253,7 +253,8 @@ pub(super) fn look_entry(look: &Look) -> serde_json::Value {
     serde_json::to_value(&look).expect("a look is plain values with keys that are strings")
 }
 
-/// What a plan is called: its image's name without ending.
-pub(super) fn title(image: &std::path::Path) -> String {
-    image.file_stem().map_or_else(|| "plan".to_string(), |stem| stem.to_string_lossy().into_owned())
+/// What a bake with these settings is called: its plan's image without ending, or the motion's file where there is no plan.
+pub(super) fn title(settings: &serde_json::Value) -> String {
+    let name = settings["plan"]["image"].as_str().or_else(|| settings["motion"]["file"].as_str()).unwrap_or("plan");
+    std::path::Path::new(name).file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }

@@ -37,7 +37,7 @@ pub struct Manifest {
     pub version: String,
     /// Seed of all chance.
     pub seed: u64,
-    /// How many people were simulated.
+    /// How many people walked: simulated, or of the motion that was given.
     pub people: u32,
     /// The plan that was baked.
     pub plan: PlanEntry,

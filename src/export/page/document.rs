@@ -243,5 +243,7 @@ fn surroundings(page: &Page<'_>, data: &mut Value, blocks: &mut Vec<(String, Vec
     data["light"] = raster(&light.raster);
     data["light"]["most"] = json!(light::MOST);
     data["light"]["heights"] = json!(light::WALL_HEIGHTS);
+    // Open ground lies under the sky.
+    data["roofed"] = json!(!page.walls.faces.is_empty());
     data["lamps"] = json!(lamps.iter().map(|lamp| light::corners(lamp).map(point)).collect::<Vec<_>>());
 }

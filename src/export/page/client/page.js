@@ -25,7 +25,7 @@ function frame(now) {
 function draw() {
   if (!drawing || drawing.gl.isContextLost()) return;
   const amounts = (surface) => state.kinds[surface].map((on) => (on ? state.amount : 0));
-  drawing.draw(seenNow(), { floor: amounts('floor'), wall: amounts('wall'), inside: state.inside, lit: state.lit });
+  drawing.draw(seenNow(), { floor: amounts('floor'), wall: amounts('wall'), inside: state.inside && data.roofed, lit: state.lit });
   drawSmall();
   frames++;
 }

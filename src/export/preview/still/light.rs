@@ -180,6 +180,9 @@ impl<'a> LightMap<'a> {
     fn sunlit(&self, p: Vec2, sun: Vec2, height_m: f64) -> f64 {
         /// Metres upward per metre toward the light's middle.
         const SLOPE: f64 = 1.25;
+        if self.space.is_open() {
+            return 1.0;
+        }
         let reach = height_m / SLOPE * 2.0;
         let share = SPREAD_7.iter().map(|&[x, y]| {
             let way = self.way(p, sun.rotated(vec2(x, y)), reach);

@@ -96,9 +96,11 @@ pub struct StillEntry {
 }
 
 impl Studio {
-    /// Makes rooms of a plan's walls, `wall_height_m` high, with lintels over its doorways.
+    /// Makes rooms of a plan's walls, `wall_height_m` high, with lintels over its doorways. Without any walls it is a floor
+    /// under the sky.
     pub fn new(walls: &Walls, doorways: &[Doorway], wall_height_m: f64) -> Studio {
-        Studio { space: Space::new(walls, doorways, wall_height_m) }
+        let height_m = if walls.faces.is_empty() { 0.0 } else { wall_height_m };
+        Studio { space: Space::new(walls, doorways, height_m) }
     }
 
     /// The camera from above that has the whole plan in a picture of a size in pixels.

@@ -14,6 +14,8 @@ const EYES_M: f64 = 1.7;
 const CLEAR_M: f64 = 0.5;
 /// Downward from level, degrees: floor fills not quite half of the picture, its detail begins 4 m away.
 const EYE_PITCH_DEG: f64 = -4.5;
+/// The same on open ground, where nothing is to be seen above the horizon.
+const OPEN_PITCH_DEG: f64 = -20.0;
 /// Headings that are tried.
 const HEADINGS: usize = 24;
 /// Most places that are tried.
@@ -52,11 +54,11 @@ impl Space {
         let start = (f64::NEG_INFINITY, self.block.centre(), 0.0);
         let (_, place, heading_deg) =
             judged.into_iter().fold(start, |best, view| if view.0 > best.0 { view } else { best });
-        let height_m = EYES_M.min(self.height_m - 0.2);
+        let height_m = if self.is_open() { EYES_M } else { EYES_M.min(self.height_m - 0.2) };
         Camera {
             position_m: [place.x, place.y, height_m],
             heading_deg,
-            pitch_deg: EYE_PITCH_DEG,
+            pitch_deg: if self.is_open() { OPEN_PITCH_DEG } else { EYE_PITCH_DEG },
             fov_deg: DEFAULT_FOV_DEG,
         }
     }

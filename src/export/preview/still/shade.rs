@@ -137,6 +137,10 @@ impl Shader<'_> {
 
     fn table(&self, x: f32, y: f32, way_m: f32) -> Colour {
         let p = vec2(f64::from(x), f64::from(y));
+        // A floor without walls lies flat, and the table under it goes on to the horizon.
+        if self.space.is_open() {
+            return scaled(TABLE, 0.95);
+        }
         let height = self.space.height_m;
         let near = exp_f32(-(self.beside_block(p) / (1.1 * height)) as f32);
         let shadow = match self.light.lighting() {

@@ -119,6 +119,7 @@ pub(super) struct Space {
     pub lintels: Vec<Lintel>,
     /// Both ends of each opening.
     pub openings: Vec<[Vec2; 2]>,
+    /// Of walls and ceiling; 0: there are none.
     pub height_m: f64,
     /// The block that the rooms are cut into.
     pub block: Rect,
@@ -172,6 +173,11 @@ impl Space {
             .collect();
         space.empty_rings = rings(&space.starts, columns, rows);
         space
+    }
+
+    /// Whether there are no rooms, only a floor under the sky.
+    pub fn is_open(&self) -> bool {
+        self.height_m <= 0.0
     }
 
     /// Whether there is floor; beyond the openings there is none.

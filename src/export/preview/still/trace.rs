@@ -154,6 +154,10 @@ impl Space {
             return ray.hit(Surface::Sky, 1.0);
         }
         let ground = -ray.z / ray.slope;
+        if self.is_open() {
+            let surface = if self.is_floor(ray.at(ground)) { Surface::Floor } else { Surface::Table };
+            return ray.hit(surface, ground);
+        }
         let top = (self.height_m - ray.z) / ray.slope;
         let Some((enter, leave)) = self.block_span(&ray) else { return ray.hit(Surface::Table, ground) };
         let way = top.max(enter);
