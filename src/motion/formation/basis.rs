@@ -1,11 +1,9 @@
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::DMatrix;
 
 use super::error::check_people;
+use super::symmetric::eigenvectors;
 use super::{AdjacencyEdit, FormationError, kirchhoff};
 use crate::math::{Vec2, vec2};
-
-/// Steps in which eigenvectors of a symmetric matrix are found, per row; three do.
-const STEPS_PER_ROW: usize = 100;
 
 /// The eigenvectors of a formation's Kirchhoff matrix: from the coarse shape of the crowd to the fine.
 ///
@@ -102,25 +100,4 @@ pub(super) fn as_columns(values: &[Vec2]) -> DMatrix<f64> {
 /// The rows of two columns of a matrix, from `column` on, as coordinates.
 pub(super) fn as_vectors(matrix: &DMatrix<f64>, column: usize) -> impl Iterator<Item = Vec2> + '_ {
     (0..matrix.nrows()).map(move |k| vec2(matrix[(k, column)], matrix[(k, column + 1)]))
-}
-
-/// Eigenvectors (columns) and eigenvalues of a symmetric matrix, ascending.
-///
-/// # Errors
-/// [`FormationError::NoConvergence`], also for numbers that are not finite.
-pub(super) fn eigenvectors(matrix: DMatrix<f64>) -> Result<(DMatrix<f64>, Vec<f64>), FormationError> {
-    let n = matrix.nrows();
-    if n == 0 {
-        return Ok((matrix, Vec::new()));
-    }
-    let iterations = STEPS_PER_ROW * n.max(10);
-    let failed = FormationError::NoConvergence { size: n, iterations };
-    if !matrix.iter().all(|entry| entry.is_finite()) {
-        return Err(FormationError::NoConvergence { size: n, iterations: 0 });
-    }
-    let eigen = SymmetricEigen::try_new(matrix, f64::EPSILON, iterations).ok_or(failed)?;
-    let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
-    let values = order.iter().map(|&at| eigen.eigenvalues[at]).collect();
-    Ok((eigen.eigenvectors.select_columns(&order), values))
 }

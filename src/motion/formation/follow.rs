@@ -9,6 +9,12 @@ use crate::math::{Vec2, exp};
 const POLAR_STEPS: usize = 30;
 /// Steps in time, as a share of `following_s`, below which a step is too small to mirror anything.
 const SMALL_STEP: f64 = 0.2;
+/// The same, below which it is taken along the tangent.
+const TANGENT_STEP: f64 = 0.05;
+/// Whoever asks for more than this gets it after each such step.
+const EXACT: f64 = 1e-4;
+/// How far the squared lengths of all vectors may be off in sum before they are made orthonormal again after such steps.
+const TANGENT_WITHIN: f64 = 1e-4;
 
 /// A basis that goes with the example's eigenvectors through time: orthonormal, without jumps.
 ///
@@ -29,6 +35,9 @@ const SMALL_STEP: f64 = 0.2;
 /// as it is; a small `W` turns each vector of `E` to its eigenvector. So shapes that the formation tells apart are followed within
 /// about `following` seconds, and those that it hardly tells apart are left alone; a swap takes as long as people take to
 /// change a formation. After a true crossing the order by eigenvalue returns in the same time.
+///
+/// A step far shorter than `following` needs no `polar`: with `M = V^T E` and `A` the antisymmetric part of
+/// `M^T ((W - 1) . M)`, `E' = E exp(A)` is the same to second order in it, and `1 + A + A^2 / 2` will do for `exp(A)`.
 ///
 /// With `following` 0 it is at the eigenvectors at once, `W_ab = exp(-g^2 / 2)`: those of the paper, with signs and clusters
 /// matched.
@@ -69,6 +78,9 @@ impl Follower {
     pub fn advance(&mut self, basis: &Basis, step_s: f64, within: f64) -> Result<(), FormationError> {
         let n = basis.people();
         let step = if self.following_s > 0.0 { step_s / self.following_s } else { f64::INFINITY };
+        if step <= TANGENT_STEP {
+            return self.advance_along(basis, step, within);
+        }
         let mut weakened = basis.vectors.transpose() * &self.vectors;
         for b in 1..n {
             for a in 1..b {
@@ -83,6 +95,34 @@ impl Follower {
             turned = &turned * Nearest::to(turned.transpose() * &self.vectors + identity(n))?.mirror();
         }
         self.vectors = turned;
+        Ok(())
+    }
+
+    /// A small step, along the tangent of the rotations.
+    fn advance_along(&mut self, basis: &Basis, step: f64, within: f64) -> Result<(), FormationError> {
+        let n = basis.people();
+        let overlap = basis.vectors.transpose() * &self.vectors;
+        let mut pull = overlap.clone();
+        pull[(0, 0)] = 0.0;
+        for b in 1..n {
+            (pull[(0, b)], pull[(b, 0)], pull[(b, b)]) = (0.0, 0.0, 0.0);
+            for a in 1..b {
+                let weight = freedom(gap(&basis.values, a, b, self.nearness), step) - 1.0;
+                pull[(a, b)] *= weight;
+                pull[(b, a)] *= weight;
+            }
+        }
+        let turn = overlap.transpose() * pull;
+        let turn = (&turn - turn.transpose()) * 0.5;
+        let once = &self.vectors * &turn;
+        self.vectors += &once;
+        self.vectors.gemm(0.5, &once, &turn, 1.0);
+        // What is missing makes every vector longer, none shorter: the sum tells.
+        let longer = self.vectors.norm_squared() - n as f64;
+        if within < EXACT || longer.is_nan() || longer > TANGENT_WITHIN {
+            let vectors = std::mem::replace(&mut self.vectors, DMatrix::zeros(0, 0));
+            self.vectors = polar(vectors, within)?;
+        }
         Ok(())
     }
 

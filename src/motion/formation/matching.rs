@@ -4,8 +4,8 @@ use nalgebra::{DMatrix, DVector, SVD};
 use pathfinding::kuhn_munkres::kuhn_munkres;
 use pathfinding::matrix::Matrix;
 
-use super::basis::eigenvectors;
 use super::follow::polar;
+use super::symmetric::eigenvectors;
 use super::{Basis, FormationError};
 
 /// Eigenvalues are compared relative to their size, and to this share of the largest one if they are smaller still.

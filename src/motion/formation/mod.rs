@@ -72,6 +72,7 @@ mod planes;
 mod request;
 mod rotation;
 mod sphere;
+mod symmetric;
 
 pub use avoidance::USUAL_DISTANCE_M;
 pub use basis::Basis;
