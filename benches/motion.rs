@@ -1,5 +1,7 @@
 //! How fast recordings are read: bytes per second of Juelich text, on one thread. Once in the order of frames, which
-//! streams; once by person, which is sorted in memory; and the look through a file that comes before either.
+//! streams; once by person, which is sorted in memory; and the look through a file that comes before either. And how fast
+//! formations are interpolated, by how often the example is decomposed: 120 people in 60 moments, a size that a bench can
+//! repeat; `cargo run --release --example measure_formation -- 500 1000` has the full one.
 
 use std::fmt::Write;
 use std::hint::black_box;
@@ -58,5 +60,32 @@ fn motion(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, motion);
+/// People who drift about a grid, each on a way of their own, and two formations: a grid, and a row.
+fn crowd(people: usize, moments: usize) -> (Ensemble, [KeyFormation; 2]) {
+    let grid: Vec<Vec2> = (0..people).map(|k| vec2((k % 10) as f64, (k / 10) as f64)).collect();
+    let place = |moment: usize, k: usize| {
+        let wave = |per_s: f64, phase: usize| sin_cos(per_s * moment as f64 / 10.0 + phase as f64).0;
+        grid[k] + vec2(0.4 * wave(1.1, 7 * k), 0.4 * wave(1.3, 5 * k))
+    };
+    let places_m = (0..moments).flat_map(|moment| (0..people).map(move |k| (moment, k))).map(|(m, k)| place(m, k));
+    let example = Ensemble::new(10.0, 0.0, (0..people as u32).collect(), places_m.collect());
+    let row = (0..people).map(|k| vec2(k as f64, 0.0)).collect();
+    let end_s = (moments - 1) as f64 / 10.0;
+    (example, [(0.0, grid.clone()), (end_s, row)].map(|(time_s, places_m)| KeyFormation { time_s, places_m }))
+}
+
+fn formation(c: &mut Criterion) {
+    let (example, keys) = crowd(120, 60);
+    let mut group = c.benchmark_group("formation");
+    group.throughput(Throughput::Elements(example.moments() as u64));
+    group.sample_size(10);
+    for (name, decompositions) in [("at the keys", None), ("at ten moments", Some(10)), ("at all moments", Some(60))] {
+        let options = FormationOptions { decompositions, ..FormationOptions::default() };
+        let led = || interpolate(&example, &keys, &options, &Silent).expect("the keys fit the example");
+        group.bench_function(format!("decomposed {name}"), |b| b.iter(|| black_box(led())));
+    }
+    group.finish();
+}
+
+criterion_group!(benches, motion, formation);
 criterion_main!(benches);

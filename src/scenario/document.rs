@@ -111,25 +111,27 @@ impl<'t> Document<'t> {
         self.wrong(span, explain::value(error.message(), &section, key.as_deref(), found, own_keys))
     }
 
-    /// Path of the table that has a key written at a place, as in `look.film`.
-    fn table_with(&self, key: &Range<usize>) -> Option<String> {
-        fn search(table: &DeTable<'_>, key: &Range<usize>, path: &str) -> Option<String> {
+    /// Path of the table that stands at a place or has a key written there, as in `look.film`: what is wrong with a key is
+    /// told at its name, a key that is missing at its table.
+    fn table_with(&self, place: &Range<usize>) -> Option<String> {
+        fn search(table: &DeTable<'_>, place: &Range<usize>, path: &str) -> Option<String> {
             table.iter().find_map(|(name, value)| {
-                if name.span() == *key {
+                if name.span() == *place {
                     return Some(path.to_string());
                 }
                 let path =
                     if path.is_empty() { name.get_ref().to_string() } else { format!("{path}.{}", name.get_ref()) };
+                let within = |value: &Spanned<DeValue<'_>>| {
+                    let table = value.get_ref().as_table()?;
+                    search(table, place, &path).or_else(|| (value.span() == *place).then(|| path.clone()))
+                };
                 match value.get_ref() {
-                    DeValue::Table(inner) => search(inner, key, &path),
-                    DeValue::Array(items) => {
-                        items.iter().find_map(|item| search(item.get_ref().as_table()?, key, &path))
-                    }
-                    _ => None,
+                    DeValue::Array(items) => items.iter().find_map(within),
+                    _ => within(value),
                 }
             })
         }
-        search(&self.root, key, "").filter(|path| !path.is_empty())
+        search(&self.root, place, "").filter(|path| !path.is_empty())
     }
 
     /// Name of the innermost key whose value covers a place.

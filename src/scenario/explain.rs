@@ -91,7 +91,8 @@ pub(super) fn nearest<'k>(found: &str, known: impl Iterator<Item = &'k str>) -> 
 }
 
 fn heading(section: &str) -> String {
-    if keys::LISTS.contains(&section) || section.ends_with(".key") || section.ends_with(".crowd") {
+    let is_list = |name: &str| ["key", "crowd", "adjacency"].contains(&name);
+    if keys::LISTS.contains(&section) || section.rsplit_once('.').is_some_and(|(_, name)| is_list(name)) {
         format!("[[{section}]]")
     } else {
         format!("[{section}]")

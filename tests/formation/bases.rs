@@ -120,6 +120,21 @@ fn a_follower_stays_orthonormal_and_moves_as_fast_as_it_may() {
 }
 
 #[test]
+fn a_small_step_along_the_tangent_is_the_step() {
+    let places = [scattered(30, 1), scattered(30, 2)];
+    let [first, then] = places.each_ref().map(|places_m| basis(places_m));
+    let after = |step_s: f64| {
+        let mut follower = Follower::start(&first, None, 0.1, 10.0).unwrap();
+        follower.advance(&then, step_s, 1e-12).unwrap();
+        follower.vectors().clone()
+    };
+    // Up to 0.5 s, a twentieth of the time of following, it is taken along the tangent.
+    let (tangent, whole) = (after(0.4999), after(0.5001));
+    let moved = (&whole - &first.vectors).norm();
+    assert!((&tangent - &whole).norm() < 0.05 * moved, "{} of {moved}", (&tangent - &whole).norm());
+}
+
+#[test]
 fn an_example_is_told_whole_by_its_coefficients() {
     let example = walking(&grid(9, 3, 1.0), 12.5, 6.0, 5);
     for (decompositions, following_s) in

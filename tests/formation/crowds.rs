@@ -97,3 +97,27 @@ pub fn walking_between(formation: impl Fn(f64) -> Vec<Vec2>, fps: f64, seconds: 
 pub fn farthest_m(a: &[Vec2], b: &[Vec2]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
 }
+
+/// People who stroll about within a round place, each turning as they like.
+pub fn strolling(people: usize, fps: f64, seconds: f64, seed: u64) -> Ensemble {
+    let mut dice = Dice::new(seed);
+    let radius_m = (people as f64).sqrt() * 0.9;
+    let mut places = scattered(people, seed);
+    let mut headings: Vec<f64> = places.iter().map(|_| dice.next() * 3.2).collect();
+    let mut turns = vec![0.0; people];
+    let moments = (fps * seconds).round() as usize + 1;
+    let mut places_m = Vec::with_capacity(people * moments);
+    for _ in 0..moments {
+        places_m.extend_from_slice(&places);
+        for ((place, heading), turn) in places.iter_mut().zip(&mut headings).zip(&mut turns) {
+            *turn += (1.4 * dice.next() - 0.6 * *turn) / fps.sqrt() / 2.0;
+            *heading += *turn / fps;
+            let (sine, cosine) = sin_cos(*heading);
+            if place.length() > radius_m && vec2(cosine, sine).dot(*place) > 0.0 {
+                *heading += 3.0 / fps;
+            }
+            *place += vec2(cosine, sine) * (0.9 / fps);
+        }
+    }
+    Ensemble::new(fps, 2.0, (0..people as u32).collect(), places_m)
+}

@@ -5,7 +5,7 @@ use trodden::math::Vec2;
 use trodden::motion::Ensemble;
 use trodden::motion::formation::{AdjacencyEdit, Carry, Ease, FormationOptions, KeyFormation, interpolate};
 
-use crate::crowds::{grid, ring, scattered, triangle, walking, walking_between};
+use crate::crowds::{grid, ring, scattered, strolling, triangle, walking, walking_between};
 
 fn key(time_s: f64, places_m: &[Vec2]) -> KeyFormation {
     KeyFormation { time_s, places_m: places_m.to_vec() }
@@ -101,6 +101,33 @@ fn the_fluctuation_keeps_its_energy() {
         });
         let [full, bare] = both(&example, &three_keys(people), &raw);
         assert!(energy_between(&full, &bare) > 10.0 * expected);
+    }
+}
+
+#[test]
+fn however_often_the_example_is_decomposed_its_basis_follows_so_slowly_that_the_energy_stays() {
+    let [first, middle, last] = [grid(25, 5, 1.0), ring(25, 1.0, 0), triangle(25, 1.0)];
+    let keys = [key(2.0, &first), key(32.0, &middle), key(62.0, &last)];
+    for (crowd, example) in [("on a grid", walking(&first, 10.0, 60.0, 3)), ("strolling", strolling(25, 10.0, 60.0, 5))]
+    {
+        let expected = energy_between(&example, &lines(&example, &[0, 300, 600]));
+        let kept = |decompositions: usize, change: &dyn Fn(&mut FormationOptions)| {
+            let options = with(|o| {
+                o.decompositions = Some(decompositions);
+                change(o);
+            });
+            let [full, bare] = both(&example, &keys, &options);
+            let quick = (quick_energy(&full) - quick_energy(&bare)) / quick_energy(&example);
+            [energy_between(&full, &bare) / expected, quick]
+        };
+        for decompositions in [10, 100, usize::MAX] {
+            let [energy, quick] = kept(decompositions, &|_| ());
+            assert!((energy - 1.0).abs() < 0.05, "{crowd}, {decompositions}: {energy}");
+            assert!((quick - 1.0).abs() < 0.08, "{crowd}, {decompositions}: {quick} of the steps");
+        }
+        // That is what the default is for: faster is too much.
+        let [energy, quick] = kept(usize::MAX, &|o| o.following_s = 2.0);
+        assert!((energy - 1.0).abs().max((quick - 1.0).abs()) > 0.2, "{crowd}: {energy}, {quick}");
     }
 }
 

@@ -1,16 +1,15 @@
 //! From key formation to key formation, in a crowd of any size.
 
 use super::hierarchy::angles;
-use super::request::{Pace, Section, Stays};
+use super::request::{ExampleKind, Pace, Section, Stays};
 use super::{AdjacencyEdit, Carry, Ease, FormationOptions, KeyFormation, interpolate};
 use crate::math::{Vec2, sin_cos, vec2};
 use crate::motion::Ensemble;
 use crate::{Error, Progress};
 
-/// Moments that an example is decomposed at where it has more: those between are led over smoothly.
-const MOST_DECOMPOSITIONS: usize = 400;
-/// From so many people on, an example is not decomposed at every moment.
-const MANY_PEOPLE: usize = 60;
+/// At how many moments an example is decomposed whose people change places among themselves. Where they keep a formation,
+/// those of the keys are better still; see [`FormationOptions::following_s`].
+const DECOMPOSITIONS: usize = 100;
 
 /// Everybody's places at a moment, and how far the whole has been wheeled until then.
 #[derive(Clone, Debug)]
@@ -41,7 +40,7 @@ pub(super) fn between(
         .collect();
     let mut tracks = match example.people() {
         1 => alone(example, &formations, section),
-        _ => interpolate(example, &formations, &options(example, section), progress)?,
+        _ => interpolate(example, &formations, &options(section), progress)?,
     };
     if wheels {
         let given: Vec<(usize, f64)> = keys.iter().map(|key| (key.moment, key.wheel_rad)).collect();
@@ -67,16 +66,16 @@ fn ease(section: Section<'_>) -> Ease {
     }
 }
 
-fn options(example: &Ensemble, section: Section<'_>) -> FormationOptions {
+fn options(section: Section<'_>) -> FormationOptions {
     let members = |members: &[u32]| members.iter().map(|&member| member as usize).collect();
     let together = section.together.iter().map(|group| AdjacencyEdit { members: members(group), weight: 1.0 });
     let edits =
         section.adjacency.iter().map(|edit| AdjacencyEdit { members: members(&edit.members), weight: edit.weight });
-    let many = example.people() > MANY_PEOPLE && example.moments() > MOST_DECOMPOSITIONS;
+    let changes = section.example.file.is_some() || section.example.kind == Some(ExampleKind::Wander);
     FormationOptions {
         sigma_m: section.sigma_m,
         adjacency: together.chain(edits).collect(),
-        decompositions: many.then_some(MOST_DECOMPOSITIONS),
+        decompositions: changes.then_some(DECOMPOSITIONS),
         fluctuation: section.fluctuation.unwrap_or(1.0),
         carry: match section.stays_with.unwrap_or_default() {
             Stays::Shapes => Carry::Shapes,

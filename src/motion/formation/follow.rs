@@ -5,8 +5,8 @@ use super::matching::{Nearest, gap, match_in_order, mirrors};
 use super::{Basis, FormationError};
 use crate::math::{Vec2, exp};
 
-/// Steps of the iteration for the nearest orthogonal matrix before the singular value decomposition takes over.
-const POLAR_STEPS: usize = 30;
+/// Steps of the iteration for the nearest orthogonal matrix before eigenvectors take over: they cost as much as seven.
+const POLAR_STEPS: usize = 8;
 /// Steps in time, as a share of `following_s`, below which a step is too small to mirror anything.
 const SMALL_STEP: f64 = 0.2;
 /// The same, below which it is taken along the tangent.
@@ -37,7 +37,7 @@ const TANGENT_WITHIN: f64 = 1e-4;
 /// change a formation. After a true crossing the order by eigenvalue returns in the same time.
 ///
 /// A step far shorter than `following` needs no `polar`: with `M = V^T E` and `A` the antisymmetric part of
-/// `M^T ((W - 1) . M)`, `E' = E exp(A)` is the same to second order in it, and `1 + A + A^2 / 2` will do for `exp(A)`.
+/// `M^T ((W - 1) . M)`, `E' = E exp(A)` is the same to first order in it, and `1 + A + A^2 / 2` will do for `exp(A)`.
 ///
 /// With `following` 0 it is at the eigenvectors at once, `W_ab = exp(-g^2 / 2)`: those of the paper, with signs and clusters
 /// matched.
@@ -143,9 +143,14 @@ fn freedom(gap: f64, step: f64) -> f64 {
     if step.is_finite() { exp(-step * squared / (1.0 + squared)) } else { exp(-0.5 * squared) }
 }
 
-/// The orthogonal matrix nearest to one that is not far from it: Newton and Schulz's iteration
-/// `P <- P (3 - P^T P) / 2` (Higham 2008, Functions of Matrices, doi 10.1137/1.9780898717778, section 8.3).
-pub(super) fn polar(mut matrix: DMatrix<f64>, within: f64) -> Result<DMatrix<f64>, FormationError> {
+/// The orthogonal matrix nearest to one that is not far from it: by [`newton_schulz`], or from eigenvectors if it is far.
+fn polar(matrix: DMatrix<f64>, within: f64) -> Result<DMatrix<f64>, FormationError> {
+    newton_schulz(matrix, within).or_else(|matrix| Ok(Nearest::to(matrix)?.into_orthogonal()))
+}
+
+/// Newton and Schulz's iteration `P <- P (3 - P^T P) / 2` (Higham 2008, Functions of Matrices, doi
+/// 10.1137/1.9780898717778, section 8.3) for the nearest orthogonal matrix; the error is where it has got to.
+pub(super) fn newton_schulz(mut matrix: DMatrix<f64>, within: f64) -> Result<DMatrix<f64>, DMatrix<f64>> {
     let n = matrix.nrows();
     for _ in 0..POLAR_STEPS {
         let mut gram = matrix.transpose() * &matrix;
@@ -166,7 +171,7 @@ pub(super) fn polar(mut matrix: DMatrix<f64>, within: f64) -> Result<DMatrix<f64
             return Ok(matrix);
         }
     }
-    Ok(Nearest::by_svd(matrix)?.into_orthogonal())
+    Err(matrix)
 }
 
 fn identity(n: usize) -> DMatrix<f64> {

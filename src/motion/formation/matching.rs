@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector, SVD};
 use pathfinding::kuhn_munkres::kuhn_munkres;
 use pathfinding::matrix::Matrix;
 
-use super::follow::polar;
+use super::follow::newton_schulz;
 use super::symmetric::eigenvectors;
 use super::{Basis, FormationError};
 
@@ -179,7 +179,10 @@ impl Nearest {
             column /= square.sqrt();
         }
         let weakest = vectors.column(0).into_owned();
-        Ok(Nearest { orthogonal: polar(scaled * vectors.transpose(), POLAR_WITHIN)?, least, weakest })
+        match newton_schulz(scaled * vectors.transpose(), POLAR_WITHIN) {
+            Ok(orthogonal) => Ok(Nearest { orthogonal, least, weakest }),
+            Err(matrix) => Nearest::by_svd(matrix),
+        }
     }
 
     /// The same for any matrix.

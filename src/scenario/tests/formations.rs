@@ -65,3 +65,28 @@ fn mistakes_are_shown_where_they_stand() {
     let message = shown("[[formation.key]]\nshape = \"ring\"\n");
     assert!(message.contains("`time_s` is missing") && message.contains("hall.toml:1:"), "{message}");
 }
+
+#[test]
+fn what_is_wrong_in_a_list_is_said_of_that_list() {
+    for (from, to, line, says) in [
+        ("time_s = 10\n", "", 6, "`time_s` is missing in [[formation.key]]"),
+        ("shape = \"star\"", "shap = \"star\"", 8, "[[formation.key]] has no key `shap`"),
+        ("rider = true", "ridr = true", 12, "[[formation.crowd]] has no key `ridr`"),
+        ("time_s = 0\n", "", 14, "`time_s` is missing in [[formation.crowd.key]]"),
+        ("time_s = 0\n", "time_s = \"0\"\n", 15, "`time_s` takes a number"),
+        ("shape = \"triangle\"", "shpe = \"triangle\"", 16, "[[formation.crowd.key]] has no key `shpe`"),
+        ("people = 3", "peple = 3", 19, "[formation.crowd.crowd.example] has no key `peple`"),
+        ("example = { kind = \"sway\", people = 3 }", "rder = true", 19, "[[formation.crowd.crowd]] has no key `rder`"),
+    ] {
+        let text = BATTLE.replacen(from, to, 1);
+        assert_ne!(text, BATTLE);
+        let message = shown(&text);
+        let place = format!(" --> plans/hall.toml:{line}:");
+        assert!(message.contains(says) && message.contains(&place), "{from}:\n{message}");
+    }
+    let message = shown("[formation]\nadjacency = [{ weight = 1 }]\n");
+    assert!(
+        message.contains("`members` is missing in [[formation.adjacency]]") && message.contains(":2:"),
+        "{message}"
+    );
+}
