@@ -4,6 +4,7 @@ mod body;
 mod encounters;
 mod nearby;
 mod relax;
+mod settle;
 mod smooth;
 
 pub(super) use body::{Body, Person};
@@ -30,7 +31,9 @@ const USUAL_SECONDS: f64 = 0.8;
 /// ```
 ///
 /// by the alternating direction method of multipliers (Boyd et al. 2011, doi 10.1561/2200000016): in turn everybody's best
-/// way over time, and every moment's nearest places at which nobody overlaps.
+/// way over time, and every moment's nearest places at which nobody overlaps. Where that finds no way, as in dense crowds
+/// that go through each other, everybody is led on step by step without the spring, early and gently. Nobody is moved more
+/// suddenly than people stagger: where there is no other way, they overlap, and a warning says where and when.
 #[derive(Clone, Debug)]
 pub(super) struct Avoidance {
     on: bool,

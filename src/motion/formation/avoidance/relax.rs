@@ -2,6 +2,7 @@ use rayon::prelude::*;
 
 use super::encounters::first_offsets;
 use super::nearby::{Moment, Pair, pairs_within};
+use super::settle::settle;
 use super::smooth::Smoother;
 use super::{Avoidance, Body};
 use crate::math::{Vec2, sin_cos, vec2};
@@ -11,7 +12,7 @@ use crate::{Error, Progress};
 const PUSH_REACH: f64 = 2.5;
 /// Rounds of the search: room beyond what is needed that it aims at, as a share of the distance kept, and the weight of
 /// accelerations. Where many are in each other's way, gentle ways are not to be had.
-const ROUNDS: [[f64; 2]; 3] = [[0.04, 1.0], [0.08, 0.15], [0.12, 0.02]];
+const ROUNDS: [[f64; 2]; 2] = [[0.04, 1.0], [0.08, 0.15]];
 /// Steps of the search in each round.
 const STEPS: usize = 40;
 /// Least steps of a round.
@@ -22,15 +23,9 @@ const TIE: f64 = 3.0;
 const KEY_HOLD: f64 = 8.0;
 const KEY_HOLD_S: f64 = 0.6;
 /// Sweeps over too near pairs in a step.
-const SWEEPS: usize = 4;
-/// Sweeps that make sure in the end.
-const LAST_SWEEPS: usize = 2000;
+pub(super) const SWEEPS: usize = 4;
 /// How far bodies may move until neighbours are looked for anew, metres.
 const SKIN_M: f64 = 0.3;
-/// How long a remedy of the end takes to fade, seconds.
-const FADE_S: f64 = 0.4;
-/// What makes sure in the end leaves so much more, share.
-const LAST_MARGIN: f64 = 1e-6;
 
 /// Bodies over time, moment by moment.
 pub(super) struct Crowd<'b> {
@@ -63,7 +58,7 @@ impl<'b> Crowd<'b> {
         at(a) + at(b)
     }
 
-    fn moment(&self, moment: usize) -> Moment<'_> {
+    pub fn moment(&self, moment: usize) -> Moment<'_> {
         let range = moment * self.bodies..(moment + 1) * self.bodies;
         Moment { places: &self.places[range.clone()], reaches_m: &self.reaches_m[range] }
     }
@@ -98,7 +93,7 @@ pub(super) fn relax(avoidance: &Avoidance, bodies: &mut [Body], progress: &dyn P
             break;
         }
     }
-    let offsets = search.made_sure(avoidance.fps);
+    let offsets = settle(&crowd, search.ways, avoidance, progress)?;
     let width = bodies.len();
     for (k, body) in bodies.iter_mut().enumerate() {
         body.places.iter_mut().enumerate().for_each(|(moment, place)| *place += offsets[moment * width + k]);
@@ -265,32 +260,6 @@ impl<'c> Search<'c> {
             })
         })
     }
-
-    /// The ways found, and where they still overlap every moment's own remedy, which fades away over the moments after it.
-    fn made_sure(self, fps: f64) -> Vec<Vec2> {
-        let Search { crowd, mut ways, .. } = self;
-        let width = crowd.bodies;
-        let keep = (1.0 - 1.0 / (FADE_S * fps)).max(0.0);
-        let mut remedy = vec![Vec2::ZERO; width];
-        for (moment, ways) in ways.chunks_mut(width).enumerate() {
-            let here = crowd.moment(moment);
-            let own = here.places.iter().zip(&*ways).zip(&remedy);
-            let mut places: Vec<Vec2> = own.map(|((&place, &way), &remedy)| place + way + remedy * keep).collect();
-            for _ in 0..LAST_SWEEPS {
-                let near = pairs_within(Moment { places: &places, reaches_m: here.reaches_m }, 0.0);
-                if near.is_empty() {
-                    break;
-                }
-                part(&mut places, here.reaches_m, &near, LAST_MARGIN, SWEEPS);
-            }
-            for k in 0..width {
-                let offset = places[k] - here.places[k];
-                remedy[k] = offset - ways[k];
-                ways[k] = offset;
-            }
-        }
-        ways
-    }
 }
 
 /// A pair that keeps apart in a direction: the half plane beside which bodies overlap.
@@ -329,32 +298,8 @@ impl Side {
     }
 }
 
-/// Moves pairs apart that are nearer to each other than they keep and a margin, sweep by sweep.
-fn part(places: &mut [Vec2], reaches_m: &[f64], near: &[Pair], margin: f64, sweeps: usize) {
-    for _ in 0..sweeps {
-        let mut moved = false;
-        for &[a, b] in near {
-            let [first, second] = [a as usize, b as usize];
-            let keep_m = (reaches_m[first] + reaches_m[second]) * (1.0 + margin);
-            let apart = places[first] - places[second];
-            let length_m = apart.length();
-            if length_m >= keep_m {
-                continue;
-            }
-            moved = true;
-            let direction = if length_m > 1e-9 { apart / length_m } else { any_direction(a, b) };
-            let by = direction * ((keep_m - length_m) / 2.0);
-            places[first] += by;
-            places[second] -= by;
-        }
-        if !moved {
-            break;
-        }
-    }
-}
-
 /// Where to, of two who stand in one place: always the same for the same two, another for others.
-fn any_direction(a: u32, b: u32) -> Vec2 {
+pub(super) fn any_direction(a: u32, b: u32) -> Vec2 {
     const GOLDEN_ANGLE_RAD: f64 = 2.399_963_229_728_653;
     let (sin, cos) = sin_cos(GOLDEN_ANGLE_RAD * (f64::from(a) * 7.0 + f64::from(b)));
     vec2(cos, sin)

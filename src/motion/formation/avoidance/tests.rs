@@ -1,7 +1,7 @@
 use super::super::hierarchy::Who;
 use super::*;
 use crate::Silent;
-use crate::math::{SplitMix64, Vec2, vec2};
+use crate::math::{SplitMix64, Vec2, sin_cos, vec2};
 
 fn person(track: Vec<Vec2>) -> Body {
     Body::person(track, Who { address: vec![0], rides: false }, &AvoidRequest::default())
@@ -71,6 +71,83 @@ fn all_on_one_point_are_parted() {
     let tracks = vec![vec![vec2(2.0, 3.0); 20]; 30];
     let clear = cleared(tracks, 10.0);
     assert!(nearest_m(&clear) >= 0.36 - 1e-9, "{}", nearest_m(&clear));
+}
+
+/// From one place to another and there at rest, as formations go.
+fn gently(from: [f64; 2], to: [f64; 2], moments: usize) -> Vec<Vec2> {
+    let (from, to) = (Vec2::from(from), Vec2::from(to));
+    let share = |k: usize| k as f64 / (moments - 1) as f64;
+    (0..moments).map(|k| from.lerp(to, share(k) * share(k) * (3.0 - 2.0 * share(k)))).collect()
+}
+
+#[test]
+fn however_crowded_it_is_nobody_overlaps_or_jumps() {
+    for fps in [10.0, 25.0] {
+        let moments = |seconds: f64| (seconds * fps) as usize + 1;
+        let through_a_point = (0..60).map(|k| {
+            let (sin, cos) = sin_cos(k as f64 * std::f64::consts::TAU / 60.0);
+            gently([5.0 * cos, 5.0 * sin], [-5.0 * cos, -5.0 * sin], moments(8.0))
+        });
+        let grids = (0..72).map(|k| {
+            let (x, y, side) = ((k % 6) as f64 * 0.4, (k / 6 % 6) as f64 * 0.4, if k < 36 { 5.0 } else { -5.0 });
+            gently([x - side, y], [x + side, y + 0.02 * side], moments(8.0))
+        });
+        let squeezed = (0..30).map(|k| {
+            let mut track = gently([k as f64 * 0.6, 0.0], [k as f64 * 0.2, 0.0], moments(5.0));
+            track.extend([vec2(k as f64 * 0.2, 0.0); 30]);
+            track
+        });
+        for (crowd, tracks) in [
+            ("through a point", through_a_point.collect::<Vec<_>>()),
+            ("grids through each other", grids.collect()),
+            ("a line squeezed", squeezed.collect()),
+        ] {
+            let clear = cleared(tracks, fps);
+            assert!(nearest_m(&clear) >= 0.36 - 1e-9, "{crowd}, {fps}: {}", nearest_m(&clear));
+            let hardest = hardest_m_s2(&clear, fps);
+            assert!(hardest < 21.0, "{crowd}, {fps}: {hardest} m/s2");
+        }
+    }
+}
+
+/// Keeps what it is warned of.
+#[derive(Default)]
+struct Warned(std::sync::Mutex<Vec<String>>);
+
+impl Progress for Warned {
+    fn advance(&self, _stage: crate::Stage, _share: f64) {}
+    fn warn(&self, message: &str) {
+        self.0.lock().unwrap().push(message.to_string());
+    }
+}
+
+#[test]
+fn where_there_is_no_time_to_make_room_it_says_where_and_when_instead_of_jumping() {
+    // People who wait far from each other are all in one place for a tenth of a second.
+    let tracks: Vec<Vec<Vec2>> = (0..100)
+        .map(|k| {
+            let mut track = vec![vec2(3.0 * f64::from(k), 0.0); 81];
+            track[40] = vec2(150.0, 1.0);
+            track
+        })
+        .collect();
+    let mut bodies: Vec<Body> = tracks.iter().cloned().map(person).collect();
+    let warned = Warned::default();
+    Avoidance::new(&AvoidRequest::default(), 10.0, &[]).keep_clear(&mut bodies, &warned).unwrap();
+    let offsets: Vec<Vec<Vec2>> = bodies
+        .iter()
+        .zip(&tracks)
+        .map(|(body, track)| body.places.iter().zip(track).map(|(&place, &asked)| place - asked).collect())
+        .collect();
+    assert!(hardest_m_s2(&offsets, 10.0) < 25.0, "{}", hardest_m_s2(&offsets, 10.0));
+    let warned = warned.0.into_inner().unwrap();
+    let says = |part: &str| warned.iter().any(|warning| warning.contains(part));
+    assert!(warned.len() == 1 && says("at 4.0 s near [150"), "{warned:?}");
+    // Nobody is warned of a crowd that has room.
+    let mut bodies: Vec<Body> = tracks.iter().map(|track| person(track[..40].to_vec())).collect();
+    let silent = Warned::default();
+    Avoidance::new(&AvoidRequest::default(), 10.0, &[]).keep_clear(&mut bodies, &silent).unwrap();
+    assert!(silent.0.into_inner().unwrap().is_empty());
 }
 
 #[test]

@@ -7,10 +7,13 @@ const SHORTEST_M: f64 = 0.05;
 
 /// The direction in which somebody heads at each moment: that of a drawbar behind which an axle is dragged along the way.
 ///
-/// It does not turn with those who stand, turns evenly around corners, and backs up for a while before it turns round.
+/// It does not turn with those who stand, turns evenly around corners, and backs up for a while before it turns round. Who
+/// stands at the start, however much they sway, faces where they will go.
 pub(super) fn headings(places: &[Vec2]) -> Vec<Vec2> {
     let first = places.first().copied().unwrap_or_default();
-    let start = places.iter().map(|&place| place - first).find(|way| way.length() > SHORTEST_M);
+    let ways = || places.iter().map(|&place| place - first);
+    let farthest = || ways().max_by(|a, b| a.length().total_cmp(&b.length())).filter(|way| way.length() > SHORTEST_M);
+    let start = ways().find(|way| way.length() > DRAWBAR_M).or_else(farthest);
     let mut heading = start.and_then(Vec2::normalized).unwrap_or(vec2(0.0, 1.0));
     let mut axle = first - heading * DRAWBAR_M;
     places
@@ -53,6 +56,9 @@ mod tests {
         assert!(headings[99].distance(vec2(0.0, 1.0)) < 0.02);
         assert_eq!(headings[119], headings[100]);
         assert!(headings.windows(2).all(|pair| pair[0].distance(pair[1]) < 0.2));
+        // Who sways to the left before setting out to the right faces to the right all the while.
+        let sways: Vec<Vec2> = (0..20).map(|k| vec2(-0.01 * f64::from(k), 0.0)).chain(places.clone()).collect();
+        assert_eq!(super::headings(&sways)[0], vec2(1.0, 0.0));
         assert_eq!(super::headings(&[vec2(1.0, 1.0); 3]), vec![vec2(0.0, 1.0); 3]);
         assert!(super::headings(&[]).is_empty());
     }
