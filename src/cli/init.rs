@@ -40,7 +40,8 @@ impl Init {
             .unwrap_or_else(|| self.scenario.path.clone().unwrap_or_default().with_extension("toml"));
         if output.exists() && !self.force {
             let message = format!("{} exists already", output.display());
-            return Err(Refused { message, hint: "--force replaces it; --output chooses another file" }.into());
+            let hint = Some("--force replaces it; --output chooses another file".into());
+            return Err(Refused { message, hint }.into());
         }
         let mut scenario = self.scenario.scenario()?;
         let understood = Understood::of(&scenario, common)?;

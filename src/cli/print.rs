@@ -1,5 +1,6 @@
 //! What is printed, and how.
 
+use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
@@ -39,7 +40,7 @@ pub fn failure(error: &anyhow::Error, common: &Common) -> ExitCode {
         }
     }
     let ours = error.downcast_ref::<trodden::Error>().and_then(trodden::Error::hint);
-    let refused = error.downcast_ref::<Refused>().map(|refused| refused.hint.to_string());
+    let refused = error.downcast_ref::<Refused>().and_then(|refused| refused.hint.as_ref()).map(ToString::to_string);
     if let Some(hint) = ours.or(refused) {
         text.push_str(&format!("{} {hint}\n", label("hint", HINT, colour)));
     }
@@ -90,8 +91,8 @@ impl Common {
 pub struct Refused {
     /// What cannot be done, and why.
     pub message: String,
-    /// What to do instead.
-    pub hint: &'static str,
+    /// What to do instead, where there is something.
+    pub hint: Option<Cow<'static, str>>,
 }
 
 /// Writes a picture as PNG, whatever the path's ending.

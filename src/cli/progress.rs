@@ -61,10 +61,13 @@ impl Progress for Watch<'_> {
         }
         // A thread that panicked while it held the lock has left only a bar behind.
         let mut by_stage = self.by_stage.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-        let bar = by_stage.entry(stage).or_insert_with(|| self.bar(stage));
         if share >= 1.0 {
-            bar.finish_and_clear();
+            // The stage may be at work again: then it gets a new bar.
+            if let Some(bar) = by_stage.remove(&stage) {
+                bar.finish_and_clear();
+            }
         } else {
+            let bar = by_stage.entry(stage).or_insert_with(|| self.bar(stage));
             bar.set_position((share.max(0.0) * PARTS as f64) as u64);
         }
     }

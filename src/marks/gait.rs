@@ -164,8 +164,7 @@ impl Gait {
         let speed_m_s = (speeds[0] + speeds[1]) / 2.0;
         let ahead = self.heading.dot(way.direction);
         let step_m = self.step_m(person, way, speed_m_s) * shortened(ahead);
-        // Whoever turns on the spot steps around; whoever walks a bend turns within the steps.
-        let steps = (way.walked_m / step_m).max(way.turned_rad.abs() / TURN_PER_STEP);
+        let steps = (way.walked_m / step_m).max(self.steps_around(way));
         // Who stops within the step sets the foot down where the body will stand.
         let stops = way.to.comes_to_rest && way.to.ahead_m.length() < 0.5 * step_m;
         let to_go_m = if stops { way.to.ahead_m } else { Vec2::ZERO };
@@ -192,6 +191,18 @@ impl Gait {
         }
         self.turned_since_step_rad += way.turned_rad;
         self.phase = end - end.floor();
+    }
+
+    /// Steps that a turn takes. Where the source says where the body faces, the legs follow the turn at its own pace. Where
+    /// that is drawn from the way alone, it swings with the sway of whoever is slow or squeezed through; whoever walks
+    /// takes such turns along within the steps, and only one that goes on farther than a step reaches needs a step of its
+    /// own.
+    fn steps_around(&self, way: &Way) -> f64 {
+        if way.to.facing.is_some() {
+            return way.turned_rad.abs() / TURN_PER_STEP;
+        }
+        let since_step_rad = self.turned_since_step_rad + way.turned_rad;
+        if since_step_rad.abs() >= TURN_PER_STEP { 1.0 - self.phase } else { 0.0 }
     }
 
     /// Length of a step ahead: by the speed, but for a few steps between one stand and the next by their way.

@@ -32,18 +32,19 @@ impl Ensemble {
     }
 
     /// Those people of a motion who are present from the first to the last moment of `[from_s, to_s]`, at `fps` moments
-    /// per second; a motion that ends earlier ends the ensemble.
+    /// per second; a motion that ends earlier ends the ensemble. Of everybody else no more is held than until they leave.
     ///
     /// # Errors
     /// What stops the motion; nobody who is present throughout; more than [`MOST_PLACES`].
     pub fn of_motion(motion: &mut dyn Motion, fps: f64, [from_s, to_s]: [f64; 2]) -> Result<Ensemble, Error> {
         let mut resampler = Resampler::new(fps);
         let mut frame = Frame::default();
-        let mut moments: Vec<Vec<Walker>> = Vec::new();
+        let mut stayers = Stayers::default();
         let mut start_s = None;
-        let mut places = 0;
+        let nobody = |until_s: f64| MotionError::NobodyThroughout { from_s, to_s: to_s.min(until_s) };
         while motion.next_frame(&mut frame)? {
             resampler.push(&frame);
+            resampler.pass_over_absence();
             while let Some((number, walkers)) = resampler.next() {
                 let time_s = number as f64 / fps;
                 // Nobody is there before the first frame.
@@ -51,26 +52,22 @@ impl Ensemble {
                     continue;
                 }
                 start_s.get_or_insert(time_s);
-                places += walkers.len();
-                if places > MOST_PLACES {
+                stayers.push(&walkers);
+                if stayers.ids.is_empty() {
+                    return Err(nobody(time_s).into());
+                }
+                if stayers.places() > MOST_PLACES {
                     return Err(MotionError::TooLong { most: MOST_PLACES }.into());
                 }
-                moments.push(walkers);
             }
             if frame.time_s > to_s {
                 break;
             }
         }
-        let ids = present_throughout(&moments);
-        let (Some(start_s), false) = (start_s, ids.is_empty()) else {
-            return Err(MotionError::NobodyThroughout { from_s, to_s: to_s.min(frame.time_s) }.into());
-        };
-        let chosen = |walkers: &Vec<Walker>| -> Vec<Vec2> {
-            let place = |id: &u32| walkers.binary_search_by_key(id, |w| w.id).map(|at| walkers[at].position_m);
-            ids.iter().filter_map(|id| place(id).ok()).collect()
-        };
-        let places_m = moments.iter().flat_map(chosen).collect();
-        Ok(Ensemble { fps, start_s, ids, places_m })
+        let Some(start_s) = start_s else { return Err(nobody(frame.time_s).into()) };
+        let moments = stayers.moments;
+        let places_m = (0..moments).flat_map(|moment| stayers.columns_m.iter().map(move |column| column[moment])).collect();
+        Ok(Ensemble { fps, start_s, ids: stayers.ids, places_m })
     }
 
     /// Number of people.
@@ -122,13 +119,36 @@ impl Ensemble {
     }
 }
 
-/// Who is there in every moment.
-fn present_throughout(moments: &[Vec<Walker>]) -> Vec<u32> {
-    let mut ids: Vec<u32> = moments.first().map_or_else(Vec::new, |first| first.iter().map(|w| w.id).collect());
-    for walkers in moments {
-        ids.retain(|id| walkers.binary_search_by_key(id, |w| w.id).is_ok());
+/// Those who have been there in every moment so far.
+#[derive(Default)]
+struct Stayers {
+    ids: Vec<u32>,
+    /// A column of places for each of them.
+    columns_m: Vec<Vec<Vec2>>,
+    moments: usize,
+}
+
+impl Stayers {
+    /// Takes the next moment's walkers, by ascending id.
+    fn push(&mut self, walkers: &[Walker]) {
+        if self.moments == 0 {
+            self.ids = walkers.iter().map(|walker| walker.id).collect();
+            self.columns_m = vec![Vec::new(); walkers.len()];
+        }
+        self.moments += 1;
+        let mut columns = std::mem::take(&mut self.columns_m).into_iter();
+        self.ids.retain(|id| {
+            let Some(mut column) = columns.next() else { return false };
+            let Ok(at) = walkers.binary_search_by_key(id, |walker| walker.id) else { return false };
+            column.push(walkers[at].position_m);
+            self.columns_m.push(column);
+            true
+        });
     }
-    ids
+
+    fn places(&self) -> usize {
+        self.ids.len() * self.moments
+    }
 }
 
 /// An [`Ensemble`] as a motion.

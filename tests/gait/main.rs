@@ -6,7 +6,9 @@
 mod crowd;
 mod measure;
 mod queue;
+mod recorded;
 mod scuffs;
+mod strides;
 
 use measure::{Floor, Path, Step, by_speed, measured_step_m, spread, steps};
 use trodden::marks::Mark;

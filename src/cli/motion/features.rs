@@ -1,14 +1,13 @@
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use serde::Serialize;
 use trodden::motion::features::{
-    self, Component, FeaturesOptions, Method, Middle, Mix, MixOptions, Modulation, NEIGHBOUR_DISTANCES_M, Rule,
-    TogetherSpan, Whose,
+    self, Component, FeaturesOptions, Method, Mix, MixOptions, Modulation, NEIGHBOUR_DISTANCES_M, Rule, TogetherSpan,
+    Whose,
 };
-use trodden::motion::{Ensemble, Recording, RecordingOptions};
+use trodden::motion::{Ensemble, Recording};
 use trodden::source::{CoordinateFrame, Given};
 use trodden::walk::WalkReport;
 use trodden::{Error, Progress};
@@ -16,7 +15,8 @@ use trodden::{Error, Progress};
 use super::super::arguments::frame_rate;
 use super::super::progress::Watch;
 use super::Common;
-use super::input::{self, RecordingInput};
+use super::input::{RecordingInput, seconds};
+use super::mixing::{self, Mixing};
 use super::output::Outputs;
 
 /// Most rows of the table.
@@ -78,24 +78,6 @@ pub struct Features {
     mixing: Mixing,
     #[command(flatten)]
     outputs: Outputs,
-}
-
-/// Another crowd whose features are added.
-#[derive(Args)]
-#[command(next_help_heading = "Mixing")]
-struct Mixing {
-    /// Add the features of this crowd: both crowds' components take turns, the most important first
-    #[arg(long, value_name = "OTHER")]
-    mix: Option<PathBuf>,
-    /// Begin here in the other recording, seconds
-    #[arg(long, value_name = "S", value_parser = seconds, requires = "mix", allow_negative_numbers = true)]
-    mix_from: Option<f64>,
-    /// End here in the other recording, seconds
-    #[arg(long, value_name = "S", value_parser = seconds, requires = "mix", allow_negative_numbers = true)]
-    mix_to: Option<f64>,
-    /// Where the middle of the crowd goes
-    #[arg(long, value_name = "WHOSE", value_parser = middle(), requires = "mix", default_value = "first")]
-    middle: Middle,
 }
 
 /// What was found, as JSON.
@@ -170,16 +152,17 @@ impl Features {
         self.components.is_some() || !self.scale.is_empty() || !self.set.is_empty() || self.mixing.mix.is_some()
     }
 
-    fn make(&self, watch: &dyn Progress) -> Result<(Summary, Ensemble), Error> {
+    fn make(&self, watch: &dyn Progress) -> anyhow::Result<(Summary, Ensemble)> {
         let recording = self.input.open(watch)?;
         let (ensemble, span) = self.people(&recording, [self.from, self.to], watch)?;
         let rules = self.scale.iter().chain(&self.set).cloned().collect();
         let modulation = Modulation { rules };
-        let Some(other) = &self.mixing.mix else { return self.decompose(&ensemble, span, &modulation, watch) };
-        // How the first recording is read says nothing of the other.
-        let other = input::open(other, &RecordingOptions::default(), watch)?;
-        let (other, other_span) = self.people(&other, [self.mixing.mix_from, self.mixing.mix_to], watch)?;
-        self.mix([&ensemble, &other], [span, other_span], &modulation, watch)
+        let Some(other) = self.mixing.open(watch)? else {
+            return Ok(self.decompose(&ensemble, span, &modulation, watch)?);
+        };
+        let of_other = self.people(&other, [self.mixing.mix_from, self.mixing.mix_to], watch);
+        let (other, other_span) = of_other.map_err(mixing::of_other)?;
+        Ok(self.mix([&ensemble, &other], [span, other_span], &modulation, watch)?)
     }
 
     /// Who is there throughout, and a warning that says how many are not.
@@ -189,7 +172,7 @@ impl Features {
         within: [Option<f64>; 2],
         watch: &dyn Progress,
     ) -> Result<(Ensemble, TogetherSpan), Error> {
-        let (ensemble, span) = features::together(recording, self.rate, within)?;
+        let (ensemble, span) = features::together(recording, self.rate, within, watch)?;
         let missing = recording.survey().people.saturating_sub(span.people);
         if missing > 0 {
             let (people, from_s, to_s) = (span.people, span.from_s, span.to_s);
@@ -327,20 +310,10 @@ fn method() -> impl TypedValueParser<Value = Method> {
         .map(|name| Method::ALL.into_iter().find(|method| method.name() == name).unwrap_or_default())
 }
 
-fn middle() -> impl TypedValueParser<Value = Middle> {
-    PossibleValuesParser::new(Middle::ALL.map(Middle::name))
-        .map(|name| Middle::ALL.into_iter().find(|middle| middle.name() == name).unwrap_or_default())
-}
-
 fn neighbour_distance(text: &str) -> Result<f64, String> {
     let [low, high] = NEIGHBOUR_DISTANCES_M;
     let allowed = |metres: &f64| (low..=high).contains(metres);
     text.parse().ok().filter(allowed).ok_or_else(|| format!("allowed is {low} to {high}"))
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    let allowed = |seconds: &f64| (0.0..=1e9).contains(seconds);
-    text.parse().ok().filter(allowed).ok_or_else(|| "seconds from 0 on".to_string())
 }
 
 fn scale(text: &str) -> Result<Rule, String> {

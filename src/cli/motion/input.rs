@@ -100,26 +100,36 @@ pub fn point(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
-fn angle(text: &str) -> Result<f64, String> {
+/// Degrees.
+pub fn angle(text: &str) -> Result<f64, String> {
     let allowed = |degrees: &f64| (-360.0..=360.0).contains(degrees);
     text.parse().ok().filter(allowed).ok_or_else(|| "allowed is -360 to 360".to_string())
 }
 
-fn rate(text: &str) -> Result<f64, String> {
+/// Frames per second.
+pub fn rate(text: &str) -> Result<f64, String> {
     let allowed = |rate: &f64| (0.01..=1000.0).contains(rate);
     text.parse().ok().filter(allowed).ok_or_else(|| "allowed is 0.01 to 1000".to_string())
 }
 
-fn format() -> impl TypedValueParser<Value = RecordingFormat> {
+/// A format by its name.
+pub fn format() -> impl TypedValueParser<Value = RecordingFormat> {
     PossibleValuesParser::new(RecordingFormat::ALL.map(RecordingFormat::name)).map(|name| {
         let found = RecordingFormat::ALL.into_iter().find(|format| format.name() == name);
         found.unwrap_or(RecordingFormat::Juelich)
     })
 }
 
-fn unit() -> impl TypedValueParser<Value = LengthUnit> {
+/// A unit by its name.
+pub fn unit() -> impl TypedValueParser<Value = LengthUnit> {
     PossibleValuesParser::new(LengthUnit::ALL.map(LengthUnit::name)).map(|name| {
         let found = LengthUnit::ALL.into_iter().find(|unit| unit.name() == name);
         found.unwrap_or(LengthUnit::Metre)
     })
+}
+
+/// A moment, seconds.
+pub fn seconds(text: &str) -> Result<f64, String> {
+    let allowed = |seconds: &f64| (0.0..=1e9).contains(seconds);
+    text.parse().ok().filter(allowed).ok_or_else(|| "seconds from 0 on".to_string())
 }

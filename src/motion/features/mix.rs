@@ -83,7 +83,7 @@ impl Mix {
     ///
     /// # Errors
     /// What [`Features::find`] says of either; crowds that overlap in fewer than 2 people or moments, or that are too
-    /// large to be matched.
+    /// large to be matched; [`Error::Interrupted`].
     pub fn find(
         first: &Ensemble,
         other: &Ensemble,
@@ -100,8 +100,7 @@ impl Mix {
         if moments < 2 {
             return Err(FeaturesError::Mix("the other is shorter than two moments of the first").into());
         }
-        let pairs = nearest_pairs(&apart.formation_m, &other_apart.formation_m);
-        part.advance(0.1);
+        let pairs = nearest_pairs(&apart.formation_m, &other_apart.formation_m, &part.part(0.0, 0.1))?;
         let left_out = [first, other].map(|ensemble| ensemble.people() - pairs.len());
         let ids: Vec<u32> = pairs.iter().map(|pair| first.ids[pair[0]]).collect();
         let taken = |ensemble: &Ensemble, which: usize| {

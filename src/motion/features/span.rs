@@ -1,8 +1,9 @@
 use serde::Serialize;
 
-use super::FeaturesError;
+use super::{FeaturesError, MOST_FEATURE_PLACES};
 use crate::Error;
 use crate::motion::{Ensemble, Frame, Motion, Recording, Resampler};
+use crate::progress::{Progress, Stage};
 
 /// Somebody's stay: moments without a gap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +48,7 @@ impl Presence {
         let mut stays = Vec::new();
         while motion.next_frame(&mut frame)? {
             resampler.push(&frame);
+            resampler.pass_over_absence();
             while let Some((number, walkers)) = resampler.next() {
                 let time_s = number as f64 / fps;
                 if time_s < from_s || time_s > to_s {
@@ -133,16 +135,18 @@ impl Presence {
 /// [`Presence::longest`]. `fps` moments a second are looked at: by default as many as the recording has.
 ///
 /// # Errors
-/// The recording cannot be read any more; no two people are there at two moments of the time.
+/// The recording cannot be read any more; no two people are there at two moments of the time; more places than
+/// [`MOST_FEATURE_PLACES`]; [`Error::Interrupted`].
 pub fn together(
     recording: &Recording,
     fps: Option<f64>,
     [from_s, to_s]: [Option<f64>; 2],
+    progress: &dyn Progress,
 ) -> Result<(Ensemble, TogetherSpan), Error> {
     let fps = fps.unwrap_or(recording.survey().fps);
     // A moment that is due at the end belongs to it, whatever rounding says.
     let within = |margin_s: f64| [from_s.unwrap_or(0.0) - margin_s, to_s.unwrap_or(f64::INFINITY) + margin_s];
-    let presence = Presence::of(&mut *recording.motion()?, fps, within(1e-6))?;
+    let presence = Presence::of(&mut Watched { motion: recording.motion()?, progress }, fps, within(1e-6))?;
     let longest = presence.longest();
     let exact = from_s.is_some() && to_s.is_some();
     let span = if exact { presence.whole() } else { longest };
@@ -152,9 +156,34 @@ pub fn together(
         let longest_s = longest.map(|span| [span.from_s, span.to_s]);
         return Err(FeaturesError::NotTogether { from_s, to_s, people, longest_s }.into());
     };
+    let TogetherSpan { people, moments, .. } = span;
+    if people.saturating_mul(moments) > MOST_FEATURE_PLACES {
+        // Before they are all held.
+        return Err(FeaturesError::TooMany { people, moments, most: MOST_FEATURE_PLACES }.into());
+    }
     let margin_s = 0.25 / fps;
     let of = [span.from_s - margin_s, span.to_s + margin_s];
-    Ok((Ensemble::of_motion(&mut *recording.motion()?, fps, of)?, span))
+    Ok((Ensemble::of_motion(&mut Watched { motion: recording.motion()?, progress }, fps, of)?, span))
+}
+
+/// A motion that is read while somebody looks on, who may stop it.
+struct Watched<'a> {
+    motion: Box<dyn Motion + Send + 'a>,
+    progress: &'a dyn Progress,
+}
+
+impl Motion for Watched<'_> {
+    fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, Error> {
+        if self.progress.interrupted() {
+            return Err(Error::Interrupted);
+        }
+        self.progress.advance(Stage::Motion, self.share_done());
+        self.motion.next_frame(frame)
+    }
+
+    fn share_done(&self) -> f64 {
+        self.motion.share_done()
+    }
 }
 
 #[cfg(test)]

@@ -45,6 +45,20 @@ impl Resampler {
         Some((self.next - 1, walkers))
     }
 
+    /// Passes over the moments before the next frame at which nobody is there, but for the last of them: a recording may
+    /// rest for years. For those who ask when people are there.
+    pub(crate) fn pass_over_absence(&mut self) {
+        let mut after = self.now.walkers.iter().peekable();
+        let stays = |walker: &Walker| {
+            while after.next_if(|other| other.id < walker.id).is_some() {}
+            after.peek().is_some_and(|other| other.id == walker.id)
+        };
+        if !self.before.walkers.iter().any(stays) && self.now.time_s > self.before.time_s {
+            let last_before = (self.now.time_s * self.fps).floor() - 1.0;
+            self.next = self.next.max(last_before as u64);
+        }
+    }
+
     /// From now on shows every other moment only, numbered anew.
     pub(crate) fn halve(&mut self) {
         self.fps *= 0.5;

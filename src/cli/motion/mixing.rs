@@ -1,0 +1,103 @@
+//! The other recording of `trodden motion features --mix`, and how it is read.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use trodden::motion::features::Middle;
+use trodden::motion::{LengthUnit, Recording, RecordingFormat, RecordingOptions};
+use trodden::{Error, Progress, Stage};
+
+use super::super::print::Refused;
+use super::input;
+
+/// Options of the first recording that the other has too, as `--mix-NAME`.
+const OPTIONS: [&str; 6] = ["format", "unit", "fps", "columns", "from", "to"];
+
+/// Another crowd whose features are added.
+#[derive(Args)]
+#[command(next_help_heading = "Mixing")]
+pub struct Mixing {
+    /// Add the features of this crowd: both crowds' components take turns, the most important first
+    #[arg(long, value_name = "OTHER")]
+    pub mix: Option<PathBuf>,
+    /// Begin here in the other recording, seconds
+    #[arg(long, value_name = "S", value_parser = input::seconds, requires = "mix", allow_negative_numbers = true)]
+    pub mix_from: Option<f64>,
+    /// End here in the other recording, seconds
+    #[arg(long, value_name = "S", value_parser = input::seconds, requires = "mix", allow_negative_numbers = true)]
+    pub mix_to: Option<f64>,
+    /// Where the middle of the crowd goes
+    #[arg(long, value_name = "WHOSE", value_parser = middle(), requires = "mix", default_value = "first")]
+    pub middle: Middle,
+    /// How the other recording is written [default: found, as is all that follows; --format, --unit, --fps, --columns and
+    /// --rotation are about the first alone]
+    #[arg(long, value_name = "NAME", value_parser = input::format(), requires = "mix")]
+    mix_format: Option<RecordingFormat>,
+    /// Unit of its lengths
+    #[arg(long, value_name = "UNIT", value_parser = input::unit(), requires = "mix")]
+    mix_unit: Option<LengthUnit>,
+    /// Its frames per second, where it counts frames
+    #[arg(long, value_name = "N", value_parser = input::rate, requires = "mix", allow_negative_numbers = true)]
+    mix_fps: Option<f64>,
+    /// What its columns mean, in order
+    #[arg(long, value_name = "NAMES", requires = "mix")]
+    mix_columns: Option<String>,
+    /// How far it is turned, degrees counter-clockwise: as if its people went that way [default: 0]
+    #[arg(long, value_name = "DEGREES", value_parser = input::angle, requires = "mix", allow_negative_numbers = true)]
+    mix_rotation: Option<f64>,
+}
+
+impl Mixing {
+    /// Looks through the other recording, if there is one; what is said of it names the options that are about it.
+    pub fn open(&self, progress: &dyn Progress) -> anyhow::Result<Option<Recording>> {
+        let Some(file) = &self.mix else { return Ok(None) };
+        let options = RecordingOptions {
+            format: self.mix_format,
+            unit: self.mix_unit,
+            fps: self.mix_fps,
+            columns: self.mix_columns.clone(),
+            rotation_deg: self.mix_rotation.unwrap_or(0.0),
+            ..RecordingOptions::default()
+        };
+        input::open(file, &options, &OfOther(progress)).map(Some).map_err(of_other)
+    }
+}
+
+/// A watcher who hears of the other recording's options.
+struct OfOther<'a>(&'a dyn Progress);
+
+impl Progress for OfOther<'_> {
+    fn advance(&self, stage: Stage, share: f64) {
+        self.0.advance(stage, share);
+    }
+
+    fn warn(&self, message: &str) {
+        self.0.warn(&renamed(message));
+    }
+
+    fn interrupted(&self) -> bool {
+        self.0.interrupted()
+    }
+}
+
+/// What went wrong with the other recording, with the names of the options that are about it.
+pub fn of_other(error: Error) -> anyhow::Error {
+    match error {
+        Error::Interrupted => Error::Interrupted.into(),
+        error => {
+            let hint = error.hint().map(|hint| renamed(&hint).into());
+            Refused { message: renamed(&error.to_string()), hint }.into()
+        }
+    }
+}
+
+fn renamed(message: &str) -> String {
+    let rename = |message: String, name: &&str| message.replace(&format!("--{name}"), &format!("--mix-{name}"));
+    OPTIONS.iter().fold(message.to_string(), rename)
+}
+
+fn middle() -> impl TypedValueParser<Value = Middle> {
+    PossibleValuesParser::new(Middle::ALL.map(Middle::name))
+        .map(|name| Middle::ALL.into_iter().find(|middle| middle.name() == name).unwrap_or_default())
+}
