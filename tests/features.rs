@@ -136,6 +136,54 @@ fn two_recordings_are_mixed() {
 }
 
 #[test]
+fn the_other_recording_is_read_as_its_own_options_say() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    dance(&path("dance.txt"));
+    // The same crowd in another guise: centimetres, other columns, no header, and turned by a quarter.
+    let mut text = String::new();
+    for line in fs::read_to_string(path("dance.txt")).unwrap().lines().filter(|line| !line.starts_with('#')) {
+        let numbers: Vec<f64> = line.split(' ').map(|number| number.parse().unwrap()).collect();
+        let [id, frame, x, y] = numbers[..] else { panic!("{line}") };
+        writeln!(text, "{:.2} {:.2} {frame} {id}", 100.0 * y, -100.0 * x).unwrap();
+    }
+    fs::write(path("guise.txt"), text).unwrap();
+    let reading = [
+        "--mix-unit",
+        "cm",
+        "--mix-fps",
+        "10",
+        "--mix-columns",
+        "x,y,frame,id",
+        "--mix-format",
+        "juelich",
+        "--mix-rotation",
+        "90",
+    ];
+    let with = |other: &str, out: &str, reading: &[&str]| {
+        let arguments = [&["dance.txt", "--fps", "10", "--unit", "m", "--mix", other, "-o", out], reading].concat();
+        let (_, said) = done(folder.path(), &arguments);
+        assert_eq!(said.matches("warning").count(), 0, "{said}");
+        read(&path(out))
+    };
+    let (plain, guised) = (with("dance.txt", "plain.txt", &[]), with("guise.txt", "guised.txt", &reading));
+    for moment in 0..plain.moments() {
+        let both = plain.places_at(moment).iter().zip(guised.places_at(moment));
+        assert!(both.fold(0.0, |most: f64, (a, b)| most.max(a.distance(*b))) < 1e-3);
+    }
+    // What is said of it names the options that are about it.
+    let (_, said) =
+        done(folder.path(), &["dance.txt", "--mix", "guise.txt", "--mix-columns", "x,y,frame,id", "--mix-fps", "10"]);
+    assert!(said.contains("--mix-unit says otherwise") && !said.contains("--unit"), "{said}");
+    let (_, said) = refused(folder.path(), &["dance.txt", "--mix", "guise.txt", "--mix-columns", "who"]);
+    assert!(said.contains("hint:") && said.contains("--mix-columns id,frame,x,y"), "{said}");
+    let (_, said) = refused(folder.path(), &["dance.txt", "--mix", "dance.txt", "--mix-from", "90", "--mix-to", "95"]);
+    assert!(said.contains("leave out --mix-from and --mix-to"), "{said}");
+    let (code, said) = refused(folder.path(), &["dance.txt", "--mix-unit", "cm"]);
+    assert!(code == 2 && said.contains("--mix <OTHER>"), "{said}");
+}
+
+#[test]
 fn a_table_alone_writes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     dance(&folder.path().join("dance.txt"));

@@ -66,7 +66,8 @@ impl Ensemble {
         }
         let Some(start_s) = start_s else { return Err(nobody(frame.time_s).into()) };
         let moments = stayers.moments;
-        let places_m = (0..moments).flat_map(|moment| stayers.columns_m.iter().map(move |column| column[moment])).collect();
+        let places_m =
+            (0..moments).flat_map(|moment| stayers.columns_m.iter().map(move |column| column[moment])).collect();
         Ok(Ensemble { fps, start_s, ids: stayers.ids, places_m })
     }
 

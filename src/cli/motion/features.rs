@@ -19,6 +19,7 @@ use super::input::{RecordingInput, seconds};
 use super::mixing::{self, Mixing};
 use super::output::Outputs;
 
+const FEATURES: &str = "Features";
 /// Most rows of the table.
 const MOST_ROWS: usize = 20;
 /// The table ends where components make so much of the motion.
@@ -38,6 +39,7 @@ Examples:
   trodden motion features paths.txt --scale '1=sin(2*pi*t/5)' -o to-and-fro.txt
   trodden motion features paths.txt --scale 1=2 --scale 2..5=0.5 --scale 6..=0 -o mine.txt
   trodden motion features across.txt --mix inward.txt --components 6 -o both.txt --paths both.png
+  trodden motion features a.txt --unit cm --fps 16 --mix b.txt --mix-unit cm --mix-fps 16 --mix-rotation 90 -o both.txt
 
 Expressions know + - * / % ^, brackets, sin cos tan asin acos atan sinh cosh tanh exp ln sqrt abs sign floor ceil round
 min max clamp, the constants pi tau e, and
@@ -51,32 +53,32 @@ pub struct Features {
     #[command(flatten)]
     input: RecordingInput,
     /// What components are: principal components of all coordinates, or eigenvectors of who comes near whom
-    #[arg(long, value_name = "NAME", default_value = "pca", value_parser = method())]
+    #[arg(long, help_heading = FEATURES, value_name = "NAME", default_value = "pca", value_parser = method())]
     method: Method,
     /// People are neighbours within this distance, metres; for --method laplacian [default: 2]
-    #[arg(long, value_name = "M", value_parser = neighbour_distance, allow_negative_numbers = true)]
+    #[arg(long, help_heading = FEATURES, value_name = "M", value_parser = neighbour_distance, allow_negative_numbers = true)]
     neighbour_distance: Option<f64>,
     /// Build the motion of the first K components alone [default: all]
-    #[arg(short = 'k', long, value_name = "K")]
+    #[arg(short = 'k', long, help_heading = FEATURES, value_name = "K")]
     components: Option<usize>,
     /// Multiply coefficients: all=2.0, 1=sin(2*pi*t/5), 2..5=0 (both included); the last that names a component counts
-    #[arg(long, value_name = "WHICH=FACTOR", value_parser = scale)]
+    #[arg(long, help_heading = FEATURES, value_name = "WHICH=FACTOR", value_parser = scale)]
     scale: Vec<Rule>,
     /// Replace coefficients, metres: 1=sd*sqrt(2)*sin(2*pi*t/5)
-    #[arg(long, value_name = "WHICH=METRES", value_parser = set)]
+    #[arg(long, help_heading = FEATURES, value_name = "WHICH=METRES", value_parser = set)]
     set: Vec<Rule>,
     /// Begin here, seconds [default: such that most people are there for longest]
-    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    #[arg(long, help_heading = FEATURES, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     from: Option<f64>,
     /// End here, seconds
-    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    #[arg(long, help_heading = FEATURES, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     to: Option<f64>,
     /// Moments per second that are worked on [default: the recording's own]
-    #[arg(long, value_name = "N", value_parser = frame_rate, allow_negative_numbers = true)]
+    #[arg(long, help_heading = FEATURES, value_name = "N", value_parser = frame_rate, allow_negative_numbers = true)]
     rate: Option<f64>,
     #[command(flatten)]
     mixing: Mixing,
-    #[command(flatten)]
+    #[command(flatten, next_help_heading = "Output")]
     outputs: Outputs,
 }
 

@@ -30,20 +30,19 @@ pub struct Mixing {
     /// Where the middle of the crowd goes
     #[arg(long, value_name = "WHOSE", value_parser = middle(), requires = "mix", default_value = "first")]
     pub middle: Middle,
-    /// How the other recording is written [default: found, as is all that follows; --format, --unit, --fps, --columns and
-    /// --rotation are about the first alone]
+    /// How the other recording is written; --format, --unit, --fps and --columns are about the first alone [default: found]
     #[arg(long, value_name = "NAME", value_parser = input::format(), requires = "mix")]
     mix_format: Option<RecordingFormat>,
-    /// Unit of its lengths
+    /// Unit of its lengths [default: found]
     #[arg(long, value_name = "UNIT", value_parser = input::unit(), requires = "mix")]
     mix_unit: Option<LengthUnit>,
-    /// Its frames per second, where it counts frames
+    /// Its frames per second, where it counts frames [default: found]
     #[arg(long, value_name = "N", value_parser = input::rate, requires = "mix", allow_negative_numbers = true)]
     mix_fps: Option<f64>,
-    /// What its columns mean, in order
+    /// What its columns mean, in order [default: found]
     #[arg(long, value_name = "NAMES", requires = "mix")]
     mix_columns: Option<String>,
-    /// How far it is turned, degrees counter-clockwise: as if its people went that way [default: 0]
+    /// How far the other crowd's motion is turned, degrees counter-clockwise [default: 0]
     #[arg(long, value_name = "DEGREES", value_parser = input::angle, requires = "mix", allow_negative_numbers = true)]
     mix_rotation: Option<f64>,
 }
