@@ -13,7 +13,7 @@ use crate::export::preview::{
 };
 use crate::export::{self, PeopleReport};
 use crate::files::WholeFile;
-use crate::motion::{Frame, Mileage, Motion, People, Recorded, RecordedWorld, Recorder};
+use crate::motion::{Frame, Mileage, Motion, People, RecordForm, Recorded, RecordedWorld, Recorder, RecordingFormat};
 use crate::progress::{Progress, Stage, Stopwatch};
 use crate::routes::{Navigation, Route};
 use crate::scenario::Scenario;
@@ -24,6 +24,8 @@ use crate::source::{Given, Ground, Source};
 pub struct WalkOutputs {
     /// Everybody's places over time.
     pub motion: Option<MotionOutput>,
+    /// How the motion is written; left out: as the file's name says, Juelich text to standard output.
+    pub format: Option<RecordingFormat>,
     /// Frames per second of the motion; left out: those of the simulation.
     pub fps: Option<f64>,
     /// A moving picture (GIF or animated PNG, by its name) and how it looks.
@@ -37,9 +39,9 @@ pub struct WalkOutputs {
 /// Where a motion is written to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotionOutput {
-    /// A file whose name says its format, see [`RecordFormat`](crate::motion::RecordFormat).
+    /// A file whose name says its format, see [`RecordForm`].
     File(PathBuf),
-    /// Juelich text to standard output.
+    /// Text to standard output.
     StandardOutput,
 }
 
@@ -163,8 +165,14 @@ impl Walk<'_> {
         let fps = outputs.fps.unwrap_or(own_fps);
         let recorder = match &outputs.motion {
             None => None,
-            Some(MotionOutput::File(path)) => Some(Recorder::create(path, outputs.force, fps, world)?),
-            Some(MotionOutput::StandardOutput) => Some(Recorder::to_writer(io::stdout(), fps, world)?),
+            Some(MotionOutput::File(path)) => {
+                let form = RecordForm::of(path, outputs.format)?;
+                Some(Recorder::create_as(form, path, outputs.force, fps, world)?)
+            }
+            Some(MotionOutput::StandardOutput) => {
+                let format = outputs.format.unwrap_or(RecordingFormat::Juelich);
+                Some(Recorder::to_writer(io::stdout(), format, fps, world)?)
+            }
         };
         let arrivals = source.arrivals().to_vec();
         let animation = outputs.animation.as_ref();

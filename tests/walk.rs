@@ -28,6 +28,7 @@ fn the_same_bytes_on_any_number_of_threads() {
         let outputs = |motion: &str, animation: &str| WalkOutputs {
             motion: Some(MotionOutput::File(dir.path().join(motion))),
             fps: Some(8.0),
+            format: None,
             animation: Some((
                 dir.path().join(animation),
                 AnimationOptions { size_px: 300, ..AnimationOptions::default() },

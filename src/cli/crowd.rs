@@ -16,6 +16,7 @@ use super::progress::Watch;
 Examples:
   trodden crowd floorplans/station.toml -o paths.txt
   trodden crowd plan.toml -o paths.sqlite --fps 25      for JuPedSim and PedPy
+  trodden crowd plan.toml -o paths.csv --fps 30         for a game engine
   trodden crowd plan.toml --animation crowd.gif         to see it
   trodden crowd plan.toml --people 5000 --paths ways.png
   trodden crowd plan.png --json -q | jq .mean_speed_m_s

@@ -2,8 +2,8 @@ use std::path::PathBuf;
 
 use super::features::FeaturesError;
 use super::formation::FormationError;
-use super::recorder::RecordFormat;
-use super::recording::RecordingError;
+use super::recorder::RecordForm;
+use super::recording::{RecordingError, RecordingFormat};
 use super::units::UnitsError;
 
 /// Why a motion cannot be recorded, read or made.
@@ -11,10 +11,16 @@ use super::units::UnitsError;
 #[non_exhaustive]
 pub enum MotionError {
     /// The file's name says nothing of its format.
-    #[error("{}: a motion is written to a file whose name ends in {}", path.display(), RecordFormat::endings())]
+    #[error("{}: a motion is written to a file whose name ends in {}", path.display(), RecordForm::endings())]
     UnknownEnding {
         /// The file.
         path: PathBuf,
+    },
+    /// The format is no text: it can neither be packed nor printed.
+    #[error("a {} can neither be packed by gzip nor printed", format.title())]
+    NoText {
+        /// The format.
+        format: RecordingFormat,
     },
     /// Frames per second out of range.
     #[error("{fps} frames per second; allowed is {low} to {high}")]
@@ -59,8 +65,11 @@ impl MotionError {
     pub fn hint(&self) -> Option<String> {
         match self {
             MotionError::UnknownEnding { .. } => {
-                Some("paths.txt is Juelich text, paths.sqlite a JuPedSim database".to_string())
+                let known = "paths.txt is Juelich text, paths.csv a CSV with named columns, paths.traj Vadere's, \
+                             paths.sqlite a JuPedSim database";
+                Some(known.to_string())
             }
+            MotionError::NoText { .. } => Some("name a file such as paths.sqlite".to_string()),
             MotionError::FrameRate { .. } => Some("10 is the crowd's own rate".to_string()),
             MotionError::NobodyThroughout { .. } => Some("choose a shorter time with --from and --to".to_string()),
             MotionError::TooLong { .. } => Some("choose a shorter time, or fewer frames per second".to_string()),

@@ -17,7 +17,7 @@ pub use error::MotionError;
 pub use mileage::Mileage;
 pub use person::{Bag, BagKind, BodyOptions, CarrySide, People, Person, STRIDE_SPEED_M_S};
 pub(crate) use recorder::Resampler;
-pub use recorder::{FRAME_RATES, RecordFormat, Recorded, RecordedWorld, Recorder};
+pub use recorder::{FRAME_RATES, RecordForm, Recorded, RecordedWorld, Recorder};
 pub use recording::{LengthUnit, Recording, RecordingError, RecordingFormat, RecordingOptions, Survey};
 
 use crate::Error;

@@ -87,8 +87,8 @@ fn a_dash_prints_the_motion_and_the_summary_goes_elsewhere() {
 #[test]
 fn unknown_endings_are_refused_before_anybody_walks() {
     let sandbox = sandbox();
-    for name in ["paths", "paths.csv", "paths.txt.gz", ".txt"] {
-        run(&sandbox, &["-o", name]).fails(2, &["--output", ".txt, .sqlite, .sqlite3 or .db"]);
+    for name in ["paths", "paths.cvs", "paths.sqlite.gz", "paths.gz", ".txt"] {
+        run(&sandbox, &["-o", name]).fails(2, &["--output", ".txt, .csv, .traj, .sqlite, .sqlite3 or .db"]);
     }
     for name in ["walk", "walk.mp4"] {
         run(&sandbox, &["--animation", name]).fails(2, &["--animation", ".gif, .png or .apng"]);

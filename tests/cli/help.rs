@@ -17,6 +17,9 @@ fn every_help_text_is_as_it_is_kept() {
         (vec!["patterns", "--help"], file!["help/patterns.txt"]),
         (vec!["patterns", "import", "--help"], file!["help/patterns_import.txt"]),
         (vec!["diff", "--help"], file!["help/diff.txt"]),
+        (vec!["motion", "--help"], file!["help/motion.txt"]),
+        (vec!["motion", "info", "--help"], file!["help/motion_info.txt"]),
+        (vec!["motion", "convert", "--help"], file!["help/motion_convert.txt"]),
     ] {
         assert_data_eq!(sandbox.run(&arguments).succeeds().out, kept.raw());
     }

@@ -10,7 +10,7 @@ use trodden::scenario::{Overrides, Preset, Scenario, allowed_range};
 
 mod motion_files;
 
-pub use motion_files::{MotionFiles, frame_rate};
+pub use motion_files::{MotionFiles, frame_rate, recording_format};
 
 /// Texel density of a quick bake, texels per metre.
 const QUICK_TEXELS_PER_METRE: f64 = 25.0;

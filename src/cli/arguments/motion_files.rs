@@ -8,7 +8,7 @@ use clap::{Args, CommandFactory};
 use trodden::export::preview::{
     ANIMATION_SIZES_PX, ANIMATION_SPEEDS, AnimationColour, AnimationFormat, AnimationOptions,
 };
-use trodden::motion::{FRAME_RATES, RecordFormat};
+use trodden::motion::{FRAME_RATES, RecordForm, RecordingFormat};
 use trodden::walk::{MotionOutput, WalkOutputs, WalkReport, same_file};
 
 use super::super::{Cli, Common, print};
@@ -16,9 +16,13 @@ use super::super::{Cli, Common, print};
 /// Where a motion and pictures of it are written.
 #[derive(Args)]
 pub struct MotionFiles {
-    /// Write the motion: .txt is Juelich text, .sqlite, .sqlite3 and .db a JuPedSim database; - prints the text
-    #[arg(short, long, value_name = "FILE", value_parser = motion_file)]
+    /// Write the motion: .txt is Juelich text, .csv a CSV with named columns, .traj Vadere's steps, each also in .gz;
+    /// .sqlite, .sqlite3 and .db are a JuPedSim database; - prints text
+    #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// How the motion is written, where the file's name does not say
+    #[arg(id = "as", long = "as", value_name = "NAME", requires = "output", value_parser = recording_format())]
+    format: Option<RecordingFormat>,
     /// Draw the crowd from above, moving: .gif, or .png and .apng for an animated PNG
     #[arg(long, value_name = "FILE", value_parser = animation_file)]
     animation: Option<PathBuf>,
@@ -43,16 +47,36 @@ pub struct MotionFiles {
 impl MotionFiles {
     /// Ends the program where options contradict each other.
     pub fn check(&self, command: &[&str], json: bool) {
+        if let Err(problem) = self.form() {
+            let path = self.output.as_deref().unwrap_or(Path::new("")).display();
+            let message = format!("invalid value '{path}' for '--output <FILE>': {problem}");
+            refuse(command, ErrorKind::ValueValidation, &message);
+        }
         if self.prints_motion() && json {
             refuse(
                 command,
+                ErrorKind::ArgumentConflict,
                 "the motion and the JSON summary cannot both go to standard output: name a file with --output",
             );
         }
         if let (Some(animation), Some(paths)) = (&self.animation, &self.paths)
             && same_file(animation, paths)
         {
-            refuse(command, "--animation and --paths name the same file");
+            refuse(command, ErrorKind::ArgumentConflict, "--animation and --paths name the same file");
+        }
+    }
+
+    /// Whether the motion can be written to the file.
+    fn form(&self) -> Result<(), String> {
+        let Some(path) = &self.output else { return Ok(()) };
+        if self.prints_motion() {
+            let text = self.format.is_none_or(RecordingFormat::is_text);
+            return if text { Ok(()) } else { Err("a database cannot be printed: name a file".to_string()) };
+        }
+        match (RecordForm::of(path, self.format), self.format) {
+            (Ok(_), _) => Ok(()),
+            (Err(_), None) => Err(format!("known endings are {}; --as says it for others", RecordForm::endings())),
+            (Err(error), Some(_)) => Err(error.to_string()),
         }
     }
 
@@ -73,6 +97,7 @@ impl MotionFiles {
                 true => MotionOutput::StandardOutput,
                 false => MotionOutput::File(path.clone()),
             }),
+            format: self.format,
             fps: None,
             animation: self.animation.clone().map(|path| (path, options)),
             paths: self.paths.clone(),
@@ -137,14 +162,14 @@ impl MotionFiles {
 /// The file name that means standard output.
 const STANDARD_OUTPUT: &str = "-";
 
-fn refuse(command: &[&str], message: &str) {
+fn refuse(command: &[&str], kind: ErrorKind, message: &str) {
     let mut cli = Cli::command();
     let mut found = &mut cli;
     for name in command {
         let Some(next) = found.find_subcommand_mut(name) else { return };
         found = next;
     }
-    found.error(ErrorKind::ArgumentConflict, message).exit();
+    found.error(kind, message).exit();
 }
 
 /// Minutes and seconds.
@@ -158,17 +183,17 @@ fn size(bytes: u64) -> String {
     if kilobytes < 1000.0 { format!("{kilobytes:.0} kB") } else { format!("{:.1} MB", kilobytes / 1e3) }
 }
 
-fn motion_file(text: &str) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    if text == STANDARD_OUTPUT || RecordFormat::of(&path).is_ok() {
-        return Ok(path);
-    }
-    Err(format!("known endings are {}", RecordFormat::endings()))
-}
-
 fn animation_file(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     AnimationFormat::of(&path).map(|_| path).map_err(|_| "known endings are .gif, .png or .apng".to_string())
+}
+
+/// Takes the name of a format.
+pub fn recording_format() -> impl TypedValueParser<Value = RecordingFormat> {
+    PossibleValuesParser::new(RecordingFormat::ALL.map(RecordingFormat::name)).map(|name| {
+        let found = RecordingFormat::ALL.into_iter().find(|format| format.name() == name);
+        found.unwrap_or(RecordingFormat::Juelich)
+    })
 }
 
 /// Takes frames per second.

@@ -13,6 +13,9 @@ use super::output::Outputs;
 #[command(after_help = "\
 Examples:
   trodden motion convert paths.sqlite -o paths.txt
+  trodden motion convert paths.txt -o paths.csv.gz        named columns, for engines and pandas
+  trodden motion convert paths.txt -o postvis.traj        for Vadere
+  trodden motion convert paths.txt -o - --as csv | head
   trodden motion convert telemetry.csv --animation play.gif
   trodden motion convert paths.txt --rotation 90 --shift 12,0 --plan plan.toml --paths ways.png")]
 pub struct Convert {

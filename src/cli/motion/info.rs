@@ -25,13 +25,13 @@ pub struct Info {
     #[command(flatten)]
     input: RecordingInput,
     /// Draw the ways that people took as a PNG
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, help_heading = "Output", value_name = "FILE")]
     paths: Option<PathBuf>,
     /// Replace a file that is there
-    #[arg(long, requires = "paths")]
+    #[arg(long, help_heading = "Output", requires = "paths")]
     force: bool,
     /// Print as JSON
-    #[arg(long)]
+    #[arg(long, help_heading = "Output")]
     json: bool,
 }
 

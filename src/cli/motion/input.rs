@@ -7,6 +7,8 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use trodden::motion::{LengthUnit, Recording, RecordingFormat, RecordingOptions};
 use trodden::{Error, Progress};
 
+use super::super::arguments::recording_format;
+
 /// A recording and how it is read.
 #[derive(Args)]
 pub struct RecordingInput {
@@ -38,7 +40,7 @@ pub fn open(file: &std::path::Path, options: &RecordingOptions, progress: &dyn P
 #[command(next_help_heading = "Recording")]
 pub struct Reading {
     /// How the recording is written [default: found]
-    #[arg(long, value_name = "NAME", value_parser = format())]
+    #[arg(long, value_name = "NAME", value_parser = recording_format())]
     pub format: Option<RecordingFormat>,
     /// Unit of its lengths [default: found]
     #[arg(long, value_name = "UNIT", value_parser = unit())]
@@ -110,14 +112,6 @@ pub fn angle(text: &str) -> Result<f64, String> {
 pub fn rate(text: &str) -> Result<f64, String> {
     let allowed = |rate: &f64| (0.01..=1000.0).contains(rate);
     text.parse().ok().filter(allowed).ok_or_else(|| "allowed is 0.01 to 1000".to_string())
-}
-
-/// A format by its name.
-pub fn format() -> impl TypedValueParser<Value = RecordingFormat> {
-    PossibleValuesParser::new(RecordingFormat::ALL.map(RecordingFormat::name)).map(|name| {
-        let found = RecordingFormat::ALL.into_iter().find(|format| format.name() == name);
-        found.unwrap_or(RecordingFormat::Juelich)
-    })
 }
 
 /// A unit by its name.

@@ -8,6 +8,7 @@ use trodden::motion::features::Middle;
 use trodden::motion::{LengthUnit, Recording, RecordingFormat, RecordingOptions};
 use trodden::{Error, Progress, Stage};
 
+use super::super::arguments::recording_format;
 use super::super::print::Refused;
 use super::input;
 
@@ -31,7 +32,7 @@ pub struct Mixing {
     #[arg(long, value_name = "WHOSE", value_parser = middle(), requires = "mix", default_value = "first")]
     pub middle: Middle,
     /// How the other recording is written; --format, --unit, --fps and --columns are about the first alone [default: found]
-    #[arg(long, value_name = "NAME", value_parser = input::format(), requires = "mix")]
+    #[arg(long, value_name = "NAME", value_parser = recording_format(), requires = "mix")]
     mix_format: Option<RecordingFormat>,
     /// Unit of its lengths [default: found]
     #[arg(long, value_name = "UNIT", value_parser = input::unit(), requires = "mix")]

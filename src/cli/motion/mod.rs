@@ -20,7 +20,7 @@ pub use input::{Alignment, Reading};
 /// Read, convert and make motions: recordings, formations, features, units
 ///
 /// All these tools read and write the same files, so that the result of one can be the input of another, and of
-/// `trodden bake --motion`.
+/// `trodden bake --motion`. docs/recordings.md describes the formats.
 #[derive(Args)]
 pub struct Motion {
     #[command(subcommand)]

@@ -13,6 +13,7 @@ use super::super::arguments::MotionFiles;
 
 /// The files that a motion is written to.
 #[derive(Args)]
+#[command(next_help_heading = "Output")]
 pub struct Outputs {
     #[command(flatten)]
     pub files: MotionFiles,

@@ -1,67 +1,37 @@
-//! Writes a motion to a file that other programs read: PedPy, JuPedSim, JPSvis.
+//! Writes a motion to a file that other programs read: PedPy, JuPedSim, JPSvis, Vadere, game engines.
+//!
+//! `resampler` shows the motion at the file's moments; `form` tells the format by the file's name; `text` writes lines,
+//! as `rows` (most formats) or `vadere` lay them out, `jupedsim` a database.
 
 use std::io::{self, Write};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Frame, MotionError, People, Walker};
+use super::{Frame, MotionError, People, RecordingFormat, Walker};
 use crate::Error;
 use crate::files::{FileError, WholeFile};
 use crate::math::{Vec2, sin_cos, vec2};
 use crate::plan::{FloorPlan, Pose};
 use crate::walls::Walls;
 
-mod juelich;
+mod form;
 mod jupedsim;
 mod resampler;
+mod rows;
+mod text;
+mod vadere;
 mod wkt;
 
-use juelich::JuelichText;
+pub use form::RecordForm;
 use jupedsim::JupedsimDatabase;
 pub(crate) use resampler::Resampler;
+use rows::Rows;
+use text::{Layout, Out, Text};
+use vadere::Steps;
 
 /// Least and most frames per second of a recording.
 pub const FRAME_RATES: [f64; 2] = [0.1, 1000.0];
-
-/// How a motion is written down.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum RecordFormat {
-    /// Text after the Juelich data archive: `id frame x/m y/m z/m`, z the person's height.
-    Juelich,
-    /// A JuPedSim database, version 2 (SQLite), with the floor that people can walk on as well known text.
-    Jupedsim,
-}
-
-impl RecordFormat {
-    /// The endings of file names, with the format that each stands for.
-    pub const ENDINGS: [(&str, RecordFormat); 4] = [
-        ("txt", RecordFormat::Juelich),
-        ("sqlite", RecordFormat::Jupedsim),
-        ("sqlite3", RecordFormat::Jupedsim),
-        ("db", RecordFormat::Jupedsim),
-    ];
-
-    /// The format that a file's name asks for.
-    ///
-    /// # Errors
-    /// A name with another ending, or none.
-    pub fn of(path: &Path) -> Result<RecordFormat, MotionError> {
-        let found = path.extension().and_then(|ending| {
-            let known = |&&(name, _): &&(&str, RecordFormat)| ending.eq_ignore_ascii_case(name);
-            RecordFormat::ENDINGS.iter().find(known).map(|&(_, format)| format)
-        });
-        found.ok_or_else(|| MotionError::UnknownEnding { path: path.to_path_buf() })
-    }
-
-    /// All known endings, for messages: `.txt, .sqlite, .sqlite3 or .db`.
-    pub fn endings() -> String {
-        let names: Vec<String> = RecordFormat::ENDINGS.iter().map(|(ending, _)| format!(".{ending}")).collect();
-        let (last, others) = names.split_last().expect("there are endings");
-        format!("{} or {last}", others.join(", "))
-    }
-}
 
 /// What a recording says of the world that people walk in. Places are written in the map frame: that of the ROS map
 /// where the plan is one, and the plan frame elsewhere.
@@ -79,7 +49,7 @@ pub struct RecordedWorld<'a> {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Recorded {
     /// How it was written.
-    pub format: RecordFormat,
+    pub format: RecordingFormat,
     /// Frames per second.
     pub fps: f64,
     /// Number of frames, those without anybody included. Frame `k` shows the moment `k / fps` seconds.
@@ -96,6 +66,8 @@ struct Place {
     id: u32,
     /// Map frame, metres, rounded to 0.1 mm.
     at: Vec2,
+    /// Metres per second, map frame.
+    velocity_m_s: Vec2,
     /// Body height, metres.
     height_m: f64,
     /// Unit vector in which the body faces, map frame.
@@ -127,20 +99,39 @@ pub struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    /// Begins a file whose name says its format, see [`RecordFormat::ENDINGS`].
+    /// Begins a file whose name says its format, see [`RecordForm::ENDINGS`].
     ///
     /// # Errors
     /// An unknown ending, a frame rate out of [`FRAME_RATES`], a file that exists unless `force` is set, or that cannot
     /// be written.
     pub fn create(path: &Path, force: bool, fps: f64, world: RecordedWorld<'a>) -> Result<Recorder<'a>, Error> {
-        let format = RecordFormat::of(path)?;
+        Recorder::create_as(RecordForm::of(path, None)?, path, force, fps, world)
+    }
+
+    /// Begins a file in a form of one's own choice, whatever its name.
+    ///
+    /// # Errors
+    /// As [`Recorder::create`], but for the ending; a database that would have to be packed.
+    pub fn create_as(
+        form: RecordForm,
+        path: &Path,
+        force: bool,
+        fps: f64,
+        world: RecordedWorld<'a>,
+    ) -> Result<Recorder<'a>, Error> {
         check(fps)?;
+        let RecordForm { format, packed } = form;
+        if packed && !format.is_text() {
+            return Err(MotionError::NoText { format }.into());
+        }
         let file = WholeFile::begin(path, force)?;
-        let sheet: Box<dyn Sheet> = match format {
-            RecordFormat::Juelich => {
-                Box::new(JuelichText::begin(file.create()?, fps).map_err(|source| file.failed(source))?)
+        let sheet: Box<dyn Sheet> = match layout(format, fps) {
+            Some(layout) => {
+                let out = file.create()?;
+                let out = if packed { Out::packed(out) } else { Out::Plain(out) };
+                Box::new(Text::begin(out, layout).map_err(|source| file.failed(source))?)
             }
-            RecordFormat::Jupedsim => {
+            None => {
                 let begun = JupedsimDatabase::begin(file.path(), fps, &world);
                 Box::new(begun.map_err(|source| file.failed(source))?)
             }
@@ -148,20 +139,27 @@ impl<'a> Recorder<'a> {
         Ok(Recorder::new(world, fps, format, sheet, Some(file)))
     }
 
-    /// Writes Juelich text to wherever `out` leads.
+    /// Writes text to wherever `out` leads.
     ///
     /// # Errors
-    /// A frame rate out of [`FRAME_RATES`]; `out` cannot be written to.
-    pub fn to_writer(out: impl Write + Send + 'a, fps: f64, world: RecordedWorld<'a>) -> Result<Recorder<'a>, Error> {
+    /// A frame rate out of [`FRAME_RATES`]; a format that is no text; `out` cannot be written to.
+    pub fn to_writer(
+        out: impl Write + Send + 'a,
+        format: RecordingFormat,
+        fps: f64,
+        world: RecordedWorld<'a>,
+    ) -> Result<Recorder<'a>, Error> {
         check(fps)?;
-        let text = JuelichText::begin(io::BufWriter::with_capacity(1 << 16, out), fps).map_err(unnamed)?;
-        Ok(Recorder::new(world, fps, RecordFormat::Juelich, Box::new(text), None))
+        let Some(layout) = layout(format, fps) else { return Err(MotionError::NoText { format }.into()) };
+        let out = Out::Plain(io::BufWriter::with_capacity(1 << 16, out));
+        let text = Text::begin(out, layout).map_err(unnamed)?;
+        Ok(Recorder::new(world, fps, format, Box::new(text), None))
     }
 
     fn new(
         world: RecordedWorld<'a>,
         fps: f64,
-        format: RecordFormat,
+        format: RecordingFormat,
         sheet: Box<dyn Sheet + 'a>,
         file: Option<WholeFile>,
     ) -> Recorder<'a> {
@@ -205,6 +203,14 @@ impl<'a> Recorder<'a> {
             written.bytes = file.publish()?;
         }
         Ok(written)
+    }
+}
+
+/// How a format's text looks; none for the database.
+fn layout(format: RecordingFormat, fps: f64) -> Option<Box<dyn Layout>> {
+    match format {
+        RecordingFormat::Vadere => Some(Box::new(Steps::new(fps))),
+        format => Rows::of(format, fps).map(|rows| Box::new(rows) as Box<dyn Layout>),
     }
 }
 
@@ -260,7 +266,13 @@ impl MapFrame {
 
     fn place(&self, walker: &Walker, height_m: f64) -> Place {
         let facing = walker.heading.or_else(|| walker.velocity_m_s.normalized()).unwrap_or(vec2(1.0, 0.0));
-        Place { id: walker.id, at: self.point(walker.position_m), height_m, facing: rounded(facing.rotated(self.turn)) }
+        Place {
+            id: walker.id,
+            at: self.point(walker.position_m),
+            velocity_m_s: walker.velocity_m_s.rotated(self.turn),
+            height_m,
+            facing: rounded(facing.rotated(self.turn)),
+        }
     }
 }
 

@@ -3,7 +3,7 @@ use crate::motion::{Frame, Walker};
 /// Moments closer together than this are one, seconds.
 const SAME_S: f64 = 1e-6;
 /// Who moves faster than this between two frames has been put elsewhere, as in a corridor without ends, metres per second.
-const FASTEST_M_S: f64 = 20.0;
+pub(super) const FASTEST_M_S: f64 = 20.0;
 
 /// Shows a motion at moments that are evenly spaced from 0 on, whatever its own frames are.
 ///

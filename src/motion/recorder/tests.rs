@@ -58,7 +58,7 @@ fn at_the_motions_own_rate_every_frame_is_written_as_it_is() {
     let expected = [(4, 1, 4.2), (4, 2, 4.4), (9, 2, 9.4), (4, 3, 4.6), (9, 3, 9.6), (4, 4, 4.8)];
     assert_eq!(places(&text), expected);
     let bytes = text.len() as u64;
-    assert_eq!(recorded, Recorded { format: RecordFormat::Juelich, fps: 10.0, frames: 6, places: 6, bytes });
+    assert_eq!(recorded, Recorded { format: RecordingFormat::Juelich, fps: 10.0, frames: 6, places: 6, bytes });
     assert!(text.contains("\n# framerate: 10.00\n# id frame x/m y/m z/m\n"), "{text}");
     let height: f64 = text.lines().last().unwrap().rsplit(' ').next().unwrap().parse().unwrap();
     assert!((height - world().2.person(4).stature_m).abs() < 1e-4);
@@ -127,9 +127,9 @@ fn unknown_endings_and_absurd_rates_are_refused_and_leave_nothing() {
     let (plan, walls, people) = world();
     let world = RecordedWorld { plan: &plan, walls: &walls, people: &people };
     let dir = tempfile::tempdir().unwrap();
-    for name in ["paths", "paths.csv", ".txt"] {
+    for name in ["paths", "paths.cvs", ".txt", "paths.sqlite.gz"] {
         let Err(error) = Recorder::create(&dir.path().join(name), false, 10.0, world) else { panic!("{name}") };
-        assert!(error.to_string().contains(".txt, .sqlite, .sqlite3 or .db"), "{error}");
+        assert!(error.to_string().contains(".txt, .csv, .traj, .sqlite, .sqlite3 or .db"), "{error}");
     }
     for fps in [0.0, -1.0, 1001.0, f64::NAN, f64::INFINITY] {
         assert!(Recorder::create(&dir.path().join("a.txt"), false, fps, world).is_err(), "{fps}");

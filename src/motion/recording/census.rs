@@ -31,6 +31,9 @@ pub(super) struct Census {
     pub standing: u64,
     /// Displacement by time and by the file's own velocity: seconds in a unit of time, if that is right.
     pub own_speeds: Histogram,
+    /// How far people walked where they faced, and how far all who faced anywhere did.
+    pub forward: f64,
+    pub faced: f64,
     /// Way and time over which speeds were taken.
     pub way: f64,
     pub time: f64,
@@ -97,7 +100,7 @@ impl Census {
             return Err(Objection::Disorder);
         }
         self.last_time = row.time;
-        if !self.place(row.id, row.time, row.at, row.velocity, false)? {
+        if !self.place(row.id, (row.time, row.at), row.velocity, row.heading, false)? {
             self.repeated += 1;
             return Ok(());
         }
@@ -106,14 +109,21 @@ impl Census {
         self.reach(row.at);
         if let Some((time, at)) = row.until {
             self.steps = true;
-            self.place(row.id, time, at, None, true)?;
+            self.place(row.id, (time, at), None, row.heading, true)?;
             self.reach(at);
         }
         Ok(())
     }
 
     /// Takes somebody's next place; says whether it is a new one.
-    fn place(&mut self, id: u32, time: f64, at: Vec2, velocity: Option<Vec2>, ahead: bool) -> Result<bool, Objection> {
+    fn place(
+        &mut self,
+        id: u32,
+        (time, at): (f64, Vec2),
+        velocity: Option<Vec2>,
+        heading: Option<Vec2>,
+        ahead: bool,
+    ) -> Result<bool, Objection> {
         let seen = match self.people.entry(id) {
             std::collections::hash_map::Entry::Occupied(seen) => seen.into_mut(),
             std::collections::hash_map::Entry::Vacant(new) => {
@@ -140,6 +150,10 @@ impl Census {
             let (from, anchor) = seen.anchor;
             let (way, lasted) = (at.distance(anchor), time - from);
             (seen.rows, seen.anchor) = (0, (time, at));
+            if let Some(heading) = heading {
+                self.forward += heading.dot(at - anchor);
+                self.faced += way;
+            }
             self.speed(way, lasted);
         }
         Ok(true)

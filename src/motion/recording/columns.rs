@@ -13,12 +13,16 @@ pub(super) enum Role {
     Time,
     X,
     Y,
-    /// Height.
+    /// The third axis: a height, or the floor's second axis where y points upward.
     Z,
+    /// How tall somebody is.
+    Height,
     VelocityX,
     VelocityY,
     HeadingX,
     HeadingY,
+    /// An angle, counter-clockwise from +x.
+    HeadingAngle,
     /// When and where a step ends that begins at time, x, y.
     EndTime,
     EndX,
@@ -33,6 +37,8 @@ pub(super) enum Unit {
     Length(LengthUnit),
     /// Seconds in one.
     Time(f64),
+    /// Radians in one.
+    Angle(f64),
 }
 
 /// A column as its name tells it.
@@ -49,7 +55,7 @@ impl Column {
 }
 
 /// Words that stand for a role, by rank: the first in a list is the one to believe where a file has several.
-const NAMES: [(Role, &[&str]); 13] = [
+const NAMES: [(Role, &[&str]); 15] = [
     (
         Role::Id,
         &[
@@ -208,13 +214,14 @@ const NAMES: [(Role, &[&str]); 13] = [
             "locationz",
             "locz",
             "zloc",
-            "height",
         ],
     ),
+    (Role::Height, &["height", "bodyheight", "stature"]),
     (Role::VelocityX, &["vx", "velx", "xvel", "velocityx", "xvelocity", "speedx"]),
     (Role::VelocityY, &["vy", "vely", "yvel", "velocityy", "yvelocity", "speedy"]),
     (Role::HeadingX, &["orix", "headingx", "facingx", "directionx", "dirx", "forwardx", "lookx", "hx", "orientationx"]),
     (Role::HeadingY, &["oriy", "headingy", "facingy", "directiony", "diry", "forwardy", "looky", "hy", "orientationy"]),
+    (Role::HeadingAngle, &["heading", "facing", "yaw", "orientation"]),
     (Role::EndTime, &["endtime"]),
     (Role::EndX, &["endx"]),
     (Role::EndY, &["endy"]),
@@ -254,6 +261,10 @@ pub(super) fn column_named(name: &str) -> Option<(Column, usize)> {
         (None, "simsec" | "simtime" | "seconds" | "sec" | "secs" | "s") => Some(Unit::Time(1.0)),
         (unit, _) => unit,
     };
+    // Without a unit it may be anything.
+    if role == Role::HeadingAngle && !matches!(unit, Some(Unit::Angle(_))) {
+        return None;
+    }
     Some((Column { role, unit, flipped }, rank))
 }
 
@@ -286,6 +297,8 @@ pub(super) fn unit_named(word: &str) -> Option<Unit> {
         "ms" | "msec" | "millis" | "milliseconds" => Unit::Time(1e-3),
         "us" | "usec" | "micros" | "microseconds" => Unit::Time(1e-6),
         "ns" | "nanoseconds" => Unit::Time(1e-9),
+        "deg" | "degree" | "degrees" => Unit::Angle(std::f64::consts::PI / 180.0),
+        "rad" | "radian" | "radians" => Unit::Angle(1.0),
         _ => return None,
     })
 }
@@ -327,13 +340,15 @@ mod tests {
             (&["y", "Y/cm", "location_y", "PosY", "y_m", "-y"], Role::Y),
             (&["v_x", "vx", "velocity x", "vel_x/m"], Role::VelocityX),
             (&["endTime-PID1", "end_time"], Role::EndTime),
+            (&["heading_deg", "Yaw [rad]", "facing (degrees)"], Role::HeadingAngle),
+            (&["height_m", "Height"], Role::Height),
             (&["-"], Role::Unused),
         ] {
             for name in names {
                 assert_eq!(role(name), Some(expected), "{name}");
             }
         }
-        for name in ["", "health", "rho", "velocity", "M", "xyz", "é", "-pid1"] {
+        for name in ["", "health", "rho", "velocity", "M", "xyz", "é", "-pid1", "heading", "yaw_m", "speed_m_s"] {
             assert_eq!(role(name), None, "{name}");
         }
     }

@@ -55,7 +55,7 @@ pub(super) struct Line<'a> {
     pub values: [f64; SLOTS],
 }
 
-pub(super) const SLOTS: usize = 10;
+pub(super) const SLOTS: usize = 11;
 
 /// Where a role's number is kept.
 pub(super) const fn slot(role: Role) -> usize {
@@ -69,7 +69,8 @@ pub(super) const fn slot(role: Role) -> usize {
         Role::EndTime => 6,
         Role::EndX => 7,
         Role::EndY => 8,
-        Role::Z | Role::Id | Role::Frame | Role::Time | Role::Unused => 9,
+        Role::HeadingAngle => 9,
+        Role::Z | Role::Height | Role::Id | Role::Frame | Role::Time | Role::Unused => 10,
     }
 }
 
@@ -95,7 +96,7 @@ impl Layout {
 
     /// Heights and what stands behind the last useful column need not be read any more.
     pub fn without_heights(mut self) -> Layout {
-        let heights = self.columns.iter_mut().filter(|column| column.role == Role::Z);
+        let heights = self.columns.iter_mut().filter(|column| matches!(column.role, Role::Z | Role::Height));
         heights.for_each(|column| *column = Column::UNUSED);
         let useful = self.columns.iter().rposition(|column| column.role != Role::Unused).map_or(0, |last| last + 1);
         self.columns.truncate(useful);
@@ -237,8 +238,9 @@ fn named(role: Role) -> &'static str {
         Role::X => "x",
         Role::Y => "y",
         Role::Z => "z",
+        Role::Height => "the height",
         Role::VelocityX | Role::VelocityY => "the velocity",
-        Role::HeadingX | Role::HeadingY => "the heading",
+        Role::HeadingX | Role::HeadingY | Role::HeadingAngle => "the heading",
         Role::EndTime => "the end time",
         Role::EndX | Role::EndY => "the end",
         Role::Unused => "the column",

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::census::{Census, Objection};
+use super::columns::Role;
 use super::database::{self, DatabaseRows};
 use super::detect::{self, Refusal};
 use super::guess;
@@ -51,6 +52,7 @@ pub(super) fn open(
             unit: Some(super::LengthUnit::Metre),
             unit_of_heights: None,
             bare: false,
+            angles: false,
         };
         (Source::Database, stated, Vec::new())
     } else {
@@ -128,6 +130,7 @@ fn read_head(path: &Path, options: &RecordingOptions) -> Result<(Layout, Stated)
         unit: layout.unit,
         unit_of_heights: guess::unit_of_heights(&layout, &rows),
         bare: layout.head_lines == 0,
+        angles: layout.column(Role::HeadingAngle).is_some(),
     };
     Ok((layout.without_heights(), stated))
 }

@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::RecordingError;
-use super::columns::Role;
+use super::columns::{Role, Unit};
 use super::database::DatabaseRows;
 use super::input::Lines;
 use super::layout::{Layout, Line, shown, slot};
 use super::memory::MemoryRows;
 use super::number::number;
-use crate::math::{Vec2, vec2};
+use crate::math::{Vec2, sin_cos, vec2};
 
 /// Ids of files are kept where they are whole numbers below this.
 pub(super) const ID_LIMIT: f64 = 1e7;
@@ -113,6 +113,8 @@ pub(super) struct TextRows {
 struct Extras {
     velocity: bool,
     heading: bool,
+    /// Radians in the unit of an angle.
+    angle: Option<f64>,
     until: bool,
 }
 
@@ -122,6 +124,10 @@ impl TextRows {
         let extras = Extras {
             velocity: layout.has(&[Role::VelocityX, Role::VelocityY]),
             heading: layout.has(&[Role::HeadingX, Role::HeadingY]),
+            angle: layout.column(Role::HeadingAngle).and_then(|at| match layout.columns[at].unit {
+                Some(Unit::Angle(radians)) => Some(radians),
+                _ => None,
+            }),
             until: layout.has(&[Role::EndTime, Role::EndX, Role::EndY]),
         };
         let mut rows = TextRows {
@@ -195,7 +201,7 @@ impl TextRows {
             let pair = vec2(line.values[slot(x)], line.values[slot(y)]);
             pair.is_finite().then_some(pair)
         };
-        let Extras { velocity, heading, until } = self.extras;
+        let Extras { velocity, heading, angle, until } = self.extras;
         let end_time = line.values[slot(Role::EndTime)];
         Row {
             id,
@@ -203,7 +209,11 @@ impl TextRows {
             time: line.time,
             at: vec2(line.values[slot(Role::X)], line.values[slot(Role::Y)]),
             velocity: if velocity { pair(Role::VelocityX, Role::VelocityY) } else { None },
-            heading: if heading { pair(Role::HeadingX, Role::HeadingY).and_then(Vec2::normalized) } else { None },
+            heading: match (heading, angle) {
+                (true, _) => pair(Role::HeadingX, Role::HeadingY).and_then(Vec2::normalized),
+                (false, Some(radians)) => direction(radians * line.values[slot(Role::HeadingAngle)]),
+                (false, None) => None,
+            },
             until: if until && end_time > line.time {
                 pair(Role::EndX, Role::EndY).map(|end| (end_time, end))
             } else {
@@ -228,6 +238,12 @@ impl TextRows {
         let problem = format!("{problem} (after line {})", self.lines.number());
         RecordingError::Unreadable { path: self.path.clone(), problem }
     }
+}
+
+/// The unit vector at an angle.
+fn direction(angle_rad: f64) -> Option<Vec2> {
+    let (sin, cos) = sin_cos(angle_rad);
+    Some(vec2(cos, sin)).filter(|direction| direction.is_finite())
 }
 
 pub(super) fn unreadable(path: &Path, error: &std::io::Error) -> RecordingError {

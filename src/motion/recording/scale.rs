@@ -37,6 +37,11 @@ const STAND_S: f64 = 10.0;
 /// Rates at which people are shown who are not seen at common moments.
 const OWN_CLOCK_HZ: [f64; 2] = [10.0, 60.0];
 
+/// People walk at least this share of their way where they face, if their angles are counted as ours are.
+const LEAST_FORWARD: f64 = 0.5;
+/// Moments are evenly spaced if nine of ten intervals differ by no more than this share.
+const EVEN: f64 = 0.02;
+
 /// What the file says of its numbers, or its format.
 #[derive(Clone, Debug)]
 pub(super) struct Stated {
@@ -48,6 +53,8 @@ pub(super) struct Stated {
     pub unit_of_heights: Option<LengthUnit>,
     /// Whether nothing names its columns.
     pub bare: bool,
+    /// Whether people face at angles, which some count from north or clockwise.
+    pub angles: bool,
 }
 
 /// How the file's numbers become seconds.
@@ -84,6 +91,8 @@ pub(super) struct Scale {
     pub stand_s: Option<f64>,
     /// Whether the file's own velocities are believed.
     pub velocities: bool,
+    /// Whether its headings are.
+    pub headings: bool,
 }
 
 /// Nobody knows how many frames make a second.
@@ -127,7 +136,9 @@ impl Scale {
             TimeScale::Frames(fps) => fps,
             TimeScale::Times(_) => OWN_CLOCK_HZ[0],
         };
-        let fps = if own_clock {
+        // Steps that all take from one moment to the next, as of a simulation with a fixed time step.
+        let common = !own_clock || census.steps && evenly_stepped(census);
+        let fps = if !common {
             let [low, high] = OWN_CLOCK_HZ;
             of_people.map_or(low, |interval| (1.0 / interval).round().clamp(low, high))
         } else {
@@ -136,8 +147,22 @@ impl Scale {
         let gap_s = (GAP_INTERVALS * of_people.unwrap_or(0.0)).clamp(GAP_S, LONGEST_GAP_S);
         warn_of_speeds(census, time, unit, warnings);
         let stand_s = census.steps.then_some(STAND_S.max(gap_s));
-        Ok(Scale { time, unit, fps, own_clock, gap_s, stand_s, velocities })
+        let headings = !stated.angles || census.forward >= LEAST_FORWARD * census.faced;
+        if !headings {
+            let told = "the recording's headings are not used: they are not where people walk; read are angles \
+                        counter-clockwise from +x";
+            warnings.push(told.to_owned());
+        }
+        Ok(Scale { time, unit, fps, own_clock, gap_s, stand_s, velocities, headings })
     }
+}
+
+/// Whether everybody steps from each moment to the next, and the moments are evenly spaced.
+fn evenly_stepped(census: &mut Census) -> bool {
+    let [low, high] = [0.05, 0.95].map(|share| census.moment_intervals.quantile(share));
+    let step = census.intervals.quantile(0.5);
+    matches!((low, high, step), (Some(low), Some(high), Some(step))
+        if high <= low * (1.0 + EVEN) && (step / low - 1.0).abs() <= EVEN)
 }
 
 /// A rate without the noise of differences.

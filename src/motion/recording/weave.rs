@@ -142,7 +142,7 @@ impl Weaver {
             }
         }
         let velocity = row.velocity.filter(|_| self.scale.velocities).map(|v| self.align.velocity(v));
-        let heading = row.heading.map(|heading| self.align.direction(heading));
+        let heading = row.heading.filter(|_| self.scale.headings).map(|heading| self.align.direction(heading));
         self.place(row.id, self.newest_s, row.at, velocity, heading, false);
         if let Some((time, at)) = row.until {
             self.place(row.id, self.seconds(time), at, None, heading, true);

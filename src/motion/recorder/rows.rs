@@ -1,0 +1,120 @@
+//! Formats with a line for everybody in every frame.
+
+use super::super::RecordingFormat;
+use super::Place;
+use super::text::{Clock, Layout, Line};
+use crate::math::atan2;
+
+/// Such a format.
+pub(super) struct Rows {
+    head: String,
+    row: fn(&mut Line, Moment, &Place),
+    clock: Clock,
+}
+
+/// A frame as it is numbered and timed.
+#[derive(Clone, Copy)]
+struct Moment {
+    number: u64,
+    clock: Clock,
+}
+
+impl Layout for Rows {
+    fn head(&self) -> String {
+        self.head.clone()
+    }
+
+    fn frame(&mut self, number: u64, places: &[Place], lines: &mut Line) {
+        let moment = Moment { number, clock: self.clock };
+        for place in places {
+            (self.row)(lines, moment, place);
+            lines.text("\n");
+        }
+    }
+}
+
+impl Rows {
+    /// The layout of a format; none for those that are no such text.
+    pub fn of(format: RecordingFormat, fps: f64) -> Option<Rows> {
+        let (head, row): (String, fn(&mut Line, Moment, &Place)) = match format {
+            RecordingFormat::Juelich => (juelich_head(fps), juelich),
+            RecordingFormat::Csv => ("id,time_s,x_m,y_m,heading_deg,speed_m_s,height_m\n".to_owned(), csv),
+            RecordingFormat::Crowdit => ("time,pedID,posX,posY\n".to_owned(), crowdit),
+            RecordingFormat::Viswalk => (VISWALK.to_owned(), viswalk),
+            RecordingFormat::Pathfinder => ("id,t,x,y\n,s,m,m\n".to_owned(), pathfinder),
+            RecordingFormat::Obsmat => (obsmat_head(fps), obsmat),
+            RecordingFormat::Jupedsim | RecordingFormat::Vadere => return None,
+        };
+        Some(Rows { head, row, clock: Clock::new(fps) })
+    }
+}
+
+/// The names and units of the columns stand in a form by which PedPy knows that places are in metres.
+fn juelich_head(fps: f64) -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    let rate = rate(fps);
+    format!(
+        "# trodden {version}: middles of bodies; z is the person's height\n# framerate: {rate}\n# id frame x/m y/m z/m\n"
+    )
+}
+
+/// A frame rate with two decimals as is the custom, with more where it needs them.
+fn rate(fps: f64) -> String {
+    let short = format!("{fps:.2}");
+    if short.parse() == Ok(fps) { short } else { fps.to_string() }
+}
+
+fn juelich(line: &mut Line, moment: Moment, place: &Place) {
+    line.whole(place.id).text(" ").whole(moment.number);
+    for value in [place.at.x, place.at.y, place.height_m] {
+        line.text(" ").metres(value);
+    }
+}
+
+fn csv(line: &mut Line, moment: Moment, place: &Place) {
+    line.whole(place.id).text(",").seconds(moment.clock, moment.number);
+    line.text(",").metres(place.at.x).text(",").metres(place.at.y);
+    line.text(",").degrees(atan2(place.facing.y, place.facing.x).to_degrees());
+    line.text(",").metres(place.velocity_m_s.length()).text(",").metres(place.height_m);
+}
+
+fn crowdit(line: &mut Line, moment: Moment, place: &Place) {
+    line.seconds(moment.clock, moment.number).text(",").whole(place.id);
+    line.text(",").metres(place.at.x).text(",").metres(place.at.y);
+}
+
+/// The table's name and columns stand behind `$`, as in all of PTV's files.
+const VISWALK: &str = "$VISION\n* Pedestrians\n$PEDESTRIAN:NO;SIMSEC;COORDCENTX;COORDCENTY\n";
+
+fn viswalk(line: &mut Line, moment: Moment, place: &Place) {
+    line.whole(place.id).text(";").seconds(moment.clock, moment.number);
+    line.text(";").metres(place.at.x).text(";").metres(place.at.y);
+}
+
+fn pathfinder(line: &mut Line, moment: Moment, place: &Place) {
+    line.whole(place.id).text(",").seconds(moment.clock, moment.number);
+    line.text(",").metres(place.at.x).text(",").metres(place.at.y);
+}
+
+/// Its readers pass over comments, and have to be told the rate.
+fn obsmat_head(fps: f64) -> String {
+    format!("# framerate: {}\n# frame id x z y vx vz vy\n", rate(fps))
+}
+
+fn obsmat(line: &mut Line, moment: Moment, place: &Place) {
+    line.whole(moment.number).text(" ").whole(place.id);
+    let velocity = place.velocity_m_s;
+    for value in [place.at.x, 0.0, place.at.y, velocity.x, 0.0, velocity.y] {
+        line.text(" ").metres(value);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_have_two_decimals_or_as_many_as_they_need() {
+        assert_eq!([10.0, 12.5, 1.0 / 0.03].map(rate), ["10.00", "12.50", "33.333333333333336"]);
+    }
+}

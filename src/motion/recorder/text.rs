@@ -1,0 +1,192 @@
+//! Motions as text: the file, its frames' moments, its numbers.
+
+use std::io::{self, Write};
+
+use flate2::Compression;
+use flate2::write::GzEncoder;
+
+use super::{PER_UNIT, Place, Sheet};
+
+/// How the text of a format looks.
+pub(super) trait Layout: Send {
+    /// What stands before the first place.
+    fn head(&self) -> String;
+
+    /// The lines that can be written when a frame has come, of which there is none before this one that was not given.
+    fn frame(&mut self, number: u64, places: &[Place], lines: &mut Line);
+
+    /// The lines that are left when all frames have come.
+    fn rest(&mut self, _lines: &mut Line) {}
+}
+
+/// A text in the making.
+pub(super) struct Text<W: Write> {
+    out: Out<W>,
+    layout: Box<dyn Layout>,
+    lines: Line,
+    bytes: u64,
+}
+
+impl<W: Write> Text<W> {
+    pub fn begin(out: Out<W>, layout: Box<dyn Layout>) -> io::Result<Text<W>> {
+        let mut text = Text { out, layout, lines: Line::default(), bytes: 0 };
+        text.lines.0.extend_from_slice(text.layout.head().as_bytes());
+        text.write()?;
+        Ok(text)
+    }
+
+    fn write(&mut self) -> io::Result<()> {
+        self.bytes += self.lines.0.len() as u64;
+        self.out.write_all(&self.lines.0)?;
+        self.lines.0.clear();
+        Ok(())
+    }
+}
+
+impl<W: Write + Send> Sheet for Text<W> {
+    fn frame(&mut self, number: u64, places: &[Place]) -> io::Result<()> {
+        self.layout.frame(number, places, &mut self.lines);
+        self.write()
+    }
+
+    fn close(mut self: Box<Self>) -> io::Result<u64> {
+        self.layout.rest(&mut self.lines);
+        self.write()?;
+        self.out.close()?;
+        Ok(self.bytes)
+    }
+}
+
+/// Where a text goes.
+pub(super) enum Out<W: Write> {
+    Plain(W),
+    Packed(GzEncoder<W>),
+}
+
+impl<W: Write> Out<W> {
+    /// Packed by gzip, with neither name nor time in its head: the same text gives the same bytes.
+    pub fn packed(out: W) -> Out<W> {
+        Out::Packed(GzEncoder::new(out, Compression::default()))
+    }
+
+    fn write_all(&mut self, bytes: &[u8]) -> io::Result<()> {
+        match self {
+            Out::Plain(out) => out.write_all(bytes),
+            Out::Packed(out) => out.write_all(bytes),
+        }
+    }
+
+    fn close(self) -> io::Result<()> {
+        match self {
+            Out::Plain(mut out) => out.flush(),
+            Out::Packed(out) => out.finish()?.flush(),
+        }
+    }
+}
+
+/// Numbers frames by time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Clock {
+    fps: f64,
+    /// Decimals of a second that are written.
+    decimals: usize,
+}
+
+/// Most decimals of a second.
+const MICROSECONDS: usize = 6;
+
+impl Clock {
+    /// Times have as many decimals as they need to be exact, up to microseconds.
+    pub fn new(fps: f64) -> Clock {
+        let exact = |decimals: &usize| {
+            let parts = TENS[*decimals] / fps;
+            (parts - parts.round()).abs() < 1e-9
+        };
+        Clock { fps, decimals: (2..MICROSECONDS).find(exact).unwrap_or(MICROSECONDS) }
+    }
+
+    fn seconds(self, number: u64) -> f64 {
+        number as f64 / self.fps
+    }
+}
+
+/// Powers of ten.
+const TENS: [f64; 7] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
+/// Numbers below this, in the smallest unit that is written, are written as whole numbers with a point inside.
+const EXACT: f64 = 9e15;
+
+/// Lines of text.
+#[derive(Debug, Default)]
+pub(super) struct Line(Vec<u8>);
+
+impl Line {
+    pub fn text(&mut self, text: &str) -> &mut Line {
+        self.0.extend_from_slice(text.as_bytes());
+        self
+    }
+
+    pub fn whole(&mut self, value: impl Into<u64>) -> &mut Line {
+        // Writing to memory cannot fail.
+        let _ = write!(self.0, "{}", value.into());
+        self
+    }
+
+    /// A length, speed or share with four decimals.
+    pub fn metres(&mut self, value: f64) -> &mut Line {
+        self.decimal(value, PER_UNIT, 4)
+    }
+
+    /// The time of a frame in seconds.
+    pub fn seconds(&mut self, clock: Clock, number: u64) -> &mut Line {
+        self.decimal(clock.seconds(number), TENS[clock.decimals], clock.decimals)
+    }
+
+    /// An angle in degrees with two decimals.
+    pub fn degrees(&mut self, value: f64) -> &mut Line {
+        self.decimal(value, TENS[2], 2)
+    }
+
+    /// Zero has no sign.
+    fn decimal(&mut self, value: f64, per_unit: f64, decimals: usize) -> &mut Line {
+        let parts = (value * per_unit).round();
+        let _ = if parts.abs() < EXACT {
+            let (parts, per_unit) = (parts as i64, per_unit as u64);
+            let sign = if parts < 0 { "-" } else { "" };
+            let parts = parts.unsigned_abs();
+            write!(self.0, "{sign}{}.{:0decimals$}", parts / per_unit, parts % per_unit)
+        } else {
+            write!(self.0, "{value:.decimals$}")
+        };
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn written(write: impl Fn(&mut Line) -> &mut Line) -> String {
+        let mut line = Line::default();
+        write(&mut line);
+        String::from_utf8(line.0).unwrap()
+    }
+
+    #[test]
+    fn numbers_have_four_decimals_and_zero_no_sign() {
+        let metres = |value: f64| written(|line| line.metres(value));
+        assert_eq!([12.34567, -0.00004, -0.5, 3.0].map(metres), ["12.3457", "0.0000", "-0.5000", "3.0000"]);
+        assert_eq!([1e15, -1e15].map(metres), ["1000000000000000.0000", "-1000000000000000.0000"]);
+        assert_eq!(written(|line| line.degrees(-90.0)), "-90.00");
+    }
+
+    #[test]
+    fn times_have_the_decimals_that_they_need() {
+        let third = |fps: f64| written(|line| line.seconds(Clock::new(fps), 3));
+        assert_eq!(
+            [10.0, 25.0, 16.0, 8.0, 30.0, 29.97, 1000.0, 0.1].map(third),
+            ["0.30", "0.12", "0.1875", "0.375", "0.100000", "0.100100", "0.003", "30.00"]
+        );
+        let late = written(|line| line.seconds(Clock::new(30.0), 10_000_000_001));
+        assert_eq!(late, "333333333.366667");
+    }
+}
