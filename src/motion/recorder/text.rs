@@ -60,13 +60,13 @@ impl<W: Write + Send> Sheet for Text<W> {
 /// Where a text goes.
 pub(super) enum Out<W: Write> {
     Plain(W),
-    Packed(GzEncoder<W>),
+    Packed(Box<GzEncoder<W>>),
 }
 
 impl<W: Write> Out<W> {
     /// Packed by gzip, with neither name nor time in its head: the same text gives the same bytes.
     pub fn packed(out: W) -> Out<W> {
-        Out::Packed(GzEncoder::new(out, Compression::default()))
+        Out::Packed(Box::new(GzEncoder::new(out, Compression::default())))
     }
 
     fn write_all(&mut self, bytes: &[u8]) -> io::Result<()> {
