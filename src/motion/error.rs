@@ -71,7 +71,9 @@ impl MotionError {
             }
             MotionError::NoText { .. } => Some("name a file such as paths.sqlite".to_string()),
             MotionError::FrameRate { .. } => Some("10 is the crowd's own rate".to_string()),
-            MotionError::NobodyThroughout { .. } => Some("choose a shorter time with --from and --to".to_string()),
+            MotionError::NobodyThroughout { .. } => {
+                Some("choose another or a shorter time, with --from and --to, or --span".to_string())
+            }
             MotionError::TooLong { .. } => Some("choose a shorter time, or fewer frames per second".to_string()),
             MotionError::Recording(error) => error.hint(),
             MotionError::Formation(error) => error.hint(),

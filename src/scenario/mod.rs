@@ -353,7 +353,8 @@ impl Scenario {
         self.texture.embed = overrides.embed.unwrap_or(self.texture.embed);
         if let Some(file) = &overrides.motion_file {
             // Paths of the command line start from the working directory, those of the scenario from its folder.
-            self.motion_file = Some(std::path::absolute(file).unwrap_or_else(|_| file.clone()));
+            let absolute = std::path::absolute(file).ok().filter(|_| !self.folder.as_os_str().is_empty());
+            self.motion_file = Some(absolute.unwrap_or_else(|| file.clone()));
         }
         self.recording = self.recording.overridden_by(&overrides.recording);
         if overrides.metres_per_pixel.is_some() {

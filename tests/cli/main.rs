@@ -10,6 +10,8 @@ mod bad_outputs;
 mod crowd;
 mod help;
 mod interrupt;
+mod motion;
+mod motion_mistakes;
 mod patterns;
 mod readme;
 mod sandbox;

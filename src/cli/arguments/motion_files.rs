@@ -114,7 +114,8 @@ impl MotionFiles {
             return Ok(());
         }
         let people = &report.people;
-        let mut text = format!("{} people walked, {} arrived", people.entered, people.arrived);
+        let one = if people.entered == 1 { "person" } else { "people" };
+        let mut text = format!("{} {one} walked, {} arrived", people.entered, people.arrived);
         for (count, what) in [(people.stuck, "got stuck"), (report.walking, "were still on their way at the end")] {
             if count > 0 {
                 text.push_str(&format!(", {count} {what}"));
@@ -164,6 +165,8 @@ const STANDARD_OUTPUT: &str = "-";
 
 fn refuse(command: &[&str], kind: ErrorKind, message: &str) {
     let mut cli = Cli::command();
+    // So that the usage is that of the whole command.
+    cli.build();
     let mut found = &mut cli;
     for name in command {
         let Some(next) = found.find_subcommand_mut(name) else { return };

@@ -15,6 +15,8 @@ pub(super) struct Census {
     people: ById<Seen>,
     pub first_time: f64,
     pub last_time: f64,
+    /// When the last step ends, if that is later.
+    pub end_time: f64,
     /// Number of different moments.
     pub moments: usize,
     pub places: usize,
@@ -100,6 +102,7 @@ impl Census {
             return Err(Objection::Disorder);
         }
         self.last_time = row.time;
+        self.end_time = if self.moments == 1 { row.time } else { self.end_time.max(row.time) };
         if !self.place(row.id, (row.time, row.at), row.velocity, row.heading, false)? {
             self.repeated += 1;
             return Ok(());
@@ -109,6 +112,7 @@ impl Census {
         self.reach(row.at);
         if let Some((time, at)) = row.until {
             self.steps = true;
+            self.end_time = self.end_time.max(time);
             self.place(row.id, (time, at), None, row.heading, true)?;
             self.reach(at);
         }

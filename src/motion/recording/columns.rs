@@ -268,6 +268,17 @@ pub(super) fn column_named(name: &str) -> Option<(Column, usize)> {
     Some((Column { role, unit, flipped }, rank))
 }
 
+/// The unit behind the name of a place's column that is none of those that are known, as `px` in `x [px]`.
+pub(super) fn strange_unit(name: &str) -> Option<&str> {
+    let (column, _) = column_named(name)?;
+    if !matches!(column.role, Role::X | Role::Y) || column.unit.is_some() {
+        return None;
+    }
+    let (_, unit) = name.split_once(['[', '(', '/'])?;
+    let unit = unit.trim_end_matches([']', ')', '"', ' ']).trim();
+    (!unit.is_empty()).then_some(unit)
+}
+
 /// Splits a name into what it names and the unit behind it.
 fn split_unit(name: &str) -> (&str, Option<Unit>) {
     for (open, close) in [('[', "]"), ('(', ")"), ('/', "")] {
@@ -363,6 +374,10 @@ mod tests {
         assert_eq!(unit("time_ms"), Some(Unit::Time(1e-3)));
         assert_eq!(unit("milliseconds"), Some(Unit::Time(1e-3)));
         assert_eq!((unit("x"), unit("pos_x")), (None, None));
+        assert_eq!(
+            ["x [px]", "y/furlong", "x/m", "x", "rho/x"].map(strange_unit),
+            [Some("px"), Some("furlong"), None, None, None]
+        );
     }
 
     #[test]

@@ -7,6 +7,7 @@ use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OpenFlags, params};
 
 use super::RecordingError;
+use super::detect::HIGHEST_RATE;
 use super::layout::LARGEST;
 use super::rows::{ID_LIMIT, Passed, Row};
 use crate::math::{Vec2, vec2};
@@ -17,9 +18,11 @@ pub(super) const MAGIC: &[u8; 16] = b"SQLite format 3\0";
 const PAGE: i64 = 8192;
 
 /// What a database says of itself.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct About {
     pub fps: Option<f64>,
+    /// What stands where a rate should.
+    pub bad_fps: Option<String>,
     pub orientations: bool,
     /// Largest number of a row.
     last: i64,
@@ -56,18 +59,17 @@ impl DatabaseRows {
             "SELECT rowid, frame, id, pos_x, pos_y, {facing} FROM trajectory_data WHERE rowid > ? ORDER BY rowid LIMIT {PAGE}"
         );
         let fps = stated_fps(&database).map_err(|error| damaged(path, &error))?;
-        let fps = match fps {
-            Some(text) => match text.trim().parse::<f64>().ok().filter(|fps| *fps > 0.0 && *fps <= 10_000.0) {
-                Some(fps) => Some(fps),
-                None => return Err(problem(format!("its metadata say `{text}` frames per second"))),
-            },
-            None => None,
+        let rate = |text: &String| text.trim().parse().ok().filter(|fps| *fps > 0.0 && *fps <= HIGHEST_RATE);
+        let (fps, bad_fps) = match fps.as_ref().map(rate) {
+            Some(Some(rate)) => (Some(rate), None),
+            Some(None) => (None, fps),
+            None => (None, None),
         };
         let last = database
             .query_row("SELECT max(rowid) FROM trajectory_data", [], |row| row.get::<_, Option<i64>>(0))
             .map_err(|error| damaged(path, &error))?
             .unwrap_or(0);
-        let about = About { fps, orientations, last };
+        let about = About { fps, bad_fps, orientations, last };
         Ok(DatabaseRows {
             path: path.to_path_buf(),
             database,
@@ -79,8 +81,8 @@ impl DatabaseRows {
         })
     }
 
-    pub fn about(&self) -> About {
-        self.about
+    pub fn about(&self) -> &About {
+        &self.about
     }
 
     pub fn passed(&self) -> Passed {

@@ -1,10 +1,14 @@
 //! Finds out from a text's beginning how it is laid out.
 
-use super::columns::{Column, Role, Unit, assign, column_named, unit_named};
+use super::columns::{Column, Role, Unit, assign, column_named, strange_unit, unit_named};
 use super::guess;
 use super::layout::{Clock, Layout, Separator, shown};
 use super::number::number;
+use super::rows::LINES;
 use super::{LengthUnit, RecordingFormat, RecordingOptions};
+
+/// The most frames per second that a file may say.
+pub(super) const HIGHEST_RATE: f64 = 10_000.0;
 
 /// Why a text is no recording.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,7 +47,7 @@ pub(super) fn detect(head: &[u8], whole: bool, options: &RecordingOptions) -> Re
         lines.pop();
     }
     let lines: Vec<Numbered> = lines.into_iter().map(|(n, line)| (n, line.trim_ascii())).collect();
-    let comments = read_comments(&lines)?;
+    let comments = read_comments(&lines, options.fps)?;
     let data: Vec<Numbered> = lines.iter().copied().filter(|(_, line)| !line.is_empty() && line[0] != b'#').collect();
     let Some(&first) = data.first() else {
         return Err(Refusal::Empty("there is nothing but comments"));
@@ -54,6 +58,10 @@ pub(super) fn detect(head: &[u8], whole: bool, options: &RecordingOptions) -> Re
         None => (None, &data[..]),
     };
     let Some(&(first_number, first_line)) = data.first() else {
+        if let (false, Some(((line, _), _))) = (whole, header) {
+            let problem = "the line does not end".to_owned();
+            return Err(Refusal::Line { line: line + 1, problem, hint: LINES.to_owned() });
+        }
         return Err(Refusal::Empty("there is a header, but nothing behind it"));
     };
 
@@ -70,12 +78,21 @@ pub(super) fn detect(head: &[u8], whole: bool, options: &RecordingOptions) -> Re
         decimal_comma: separator != Separator::Byte(b','),
         clock: clock_of(&columns, options),
         columns,
+        width: separator.split(first_line).len(),
         head_lines: first_number - 1,
         header: header.map(|((_, line), _)| line.to_vec()),
         fps: comments.fps,
         unit: None,
         warnings,
     };
+    let named = names.as_ref().or(comments.columns.as_ref()).filter(|_| options.columns.is_none());
+    let strange = named.and_then(|names| names.iter().find_map(|name| strange_unit(name)));
+    if let Some(unit) = strange.filter(|_| options.unit.is_none()) {
+        layout.warnings.push(format!(
+            "nothing is known of the unit {}: --unit says which it is, m, cm, mm or ft",
+            shown(unit.as_bytes())
+        ));
+    }
     let units = layout.columns.iter().filter(|column| matches!(column.role, Role::X | Role::Y));
     layout.unit = units.filter_map(|column| length_unit(column.unit)).next().or(comments.unit);
     drop_second_clock(&mut layout);
@@ -124,17 +141,19 @@ fn refuse_what_is_no_text(head: &[u8]) -> Result<(), Refusal> {
     }
 }
 
-fn read_comments<'a>(lines: &[Numbered<'a>]) -> Result<Comments<'a>, Refusal> {
+/// What comments say; a rate that is none does no harm where another one is asked for.
+fn read_comments<'a>(lines: &[Numbered<'a>], asked: Option<f64>) -> Result<Comments<'a>, Refusal> {
     let mut comments = Comments::default();
     for &(number, line) in lines.iter().filter(|(_, line)| line.first() == Some(&b'#')) {
         let Ok(text) = std::str::from_utf8(&line[1..]) else { continue };
         let lower = text.to_ascii_lowercase();
         if let Some(rate) = stated_rate(&lower) {
             match rate {
-                Ok(fps) if fps > 0.0 && fps <= 10_000.0 => comments.fps = Some(fps),
-                Ok(fps) => return Err(bad_rate(number, &format!("the frame rate is {fps}"))),
+                Ok(fps) if fps > 0.0 && fps <= HIGHEST_RATE => comments.fps = Some(fps),
+                _ if asked.is_some() => {}
+                Ok(fps) => return Err(bad_rate(number, &fps.to_string())),
                 Err("") => {}
-                Err(value) => return Err(bad_rate(number, &format!("the frame rate is {}", shown(value.as_bytes())))),
+                Err(value) => return Err(bad_rate(number, &shown(value.as_bytes()))),
             }
         }
         for (words, unit) in [
@@ -153,9 +172,10 @@ fn read_comments<'a>(lines: &[Numbered<'a>]) -> Result<Comments<'a>, Refusal> {
     Ok(comments)
 }
 
-fn bad_rate(line: u64, problem: &str) -> Refusal {
-    let hint = "a rate is a number of frames per second above 0; --fps overrides the file's".to_owned();
-    Refusal::Line { line, problem: problem.to_owned(), hint }
+fn bad_rate(line: u64, rate: &str) -> Refusal {
+    let problem = format!("the frame rate is {rate}; allowed is above 0, up to {HIGHEST_RATE}");
+    let hint = "give the recording's frames per second with --fps".to_owned();
+    Refusal::Line { line, problem, hint }
 }
 
 /// The number behind `framerate`, as `#framerate: 16`, `framerate = 25 fps`; `Err` is what stands there instead.

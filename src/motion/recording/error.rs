@@ -5,12 +5,14 @@ use std::path::PathBuf;
 #[non_exhaustive]
 pub enum RecordingError {
     /// The file cannot be read.
-    #[error("{}: {problem}", path.display())]
+    #[error("cannot read {}: {problem}", path.display())]
     Unreadable {
         /// The file.
         path: PathBuf,
         /// What the system says.
         problem: String,
+        /// What to do about that.
+        hint: &'static str,
     },
     /// Nobody is in it.
     #[error("{}: the recording is empty: {what}", path.display())]
@@ -109,9 +111,8 @@ impl RecordingError {
                 "as --columns id,frame,x,y: a word for each column in turn, - for one that is of no use"
             }
             RecordingError::Empty { .. } => "a recording has a line for everybody in every frame: who, when, x, y",
-            RecordingError::Unreadable { .. } | RecordingError::Interrupted { .. } | RecordingError::Option { .. } => {
-                return None;
-            }
+            RecordingError::Unreadable { hint, .. } => hint,
+            RecordingError::Interrupted { .. } | RecordingError::Option { .. } => return None,
         };
         (!text.is_empty()).then(|| text.to_owned())
     }

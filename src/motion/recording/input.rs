@@ -12,11 +12,30 @@ use flate2::bufread::MultiGzDecoder;
 /// Bytes read at once.
 const CHUNK: usize = 1 << 18;
 /// No line is longer than this, bytes.
-const LONGEST_LINE: usize = 1 << 20;
+pub(super) const LONGEST_LINE: usize = 1 << 20;
 /// How a gzip file begins.
 pub(super) const GZIP: [u8; 2] = [0x1f, 0x8b];
 /// The mark with which some programs begin UTF-8.
 const BOM: [u8; 3] = [0xef, 0xbb, 0xbf];
+
+/// Why there are no more lines.
+#[derive(Debug)]
+pub(super) enum Trouble {
+    /// What the system says.
+    System(io::Error),
+    /// The packed file ends too early.
+    BreaksOff,
+    /// The packed file is damaged.
+    Damaged,
+    /// The next line does not end.
+    LongLine,
+}
+
+impl From<io::Error> for Trouble {
+    fn from(error: io::Error) -> Trouble {
+        Trouble::System(error)
+    }
+}
 
 /// A file that counts what was read of it.
 struct Counted {
@@ -35,6 +54,7 @@ impl Read for Counted {
 /// The lines of a text file, one by one, in a buffer that holds whole lines.
 pub(super) struct Lines {
     input: Box<dyn Read + Send>,
+    packed: bool,
     buffer: Vec<u8>,
     /// Where in the buffer the lines begin that were not given yet, and where its content ends.
     rest: Range<usize>,
@@ -45,7 +65,7 @@ pub(super) struct Lines {
 }
 
 impl Lines {
-    pub fn open(path: &Path) -> io::Result<Lines> {
+    pub fn open(path: &Path) -> Result<Lines, Trouble> {
         let mut magic = [0; 2];
         let packed = fill(&mut File::open(path)?, &mut magic)? == 2 && magic == GZIP;
         let file = File::open(path)?;
@@ -57,7 +77,8 @@ impl Lines {
         } else {
             Box::new(counted)
         };
-        let mut lines = Lines { input, buffer: vec![0; 2 * CHUNK], rest: 0..0, ended: false, number: 0, read, length };
+        let buffer = vec![0; 2 * CHUNK];
+        let mut lines = Lines { input, packed, buffer, rest: 0..0, ended: false, number: 0, read, length };
         lines.fill()?;
         if lines.buffer[lines.rest.clone()].starts_with(&BOM) {
             lines.rest.start += BOM.len();
@@ -71,7 +92,7 @@ impl Lines {
     }
 
     /// The next line without its end, as a place in [`Lines::text`].
-    pub fn next(&mut self) -> io::Result<Option<Range<usize>>> {
+    pub fn next(&mut self) -> Result<Option<Range<usize>>, Trouble> {
         loop {
             let unread = &self.buffer[self.rest.clone()];
             if let Some(length) = memchr::memchr(b'\n', unread) {
@@ -90,8 +111,7 @@ impl Lines {
                 return Ok(Some(line));
             }
             if unread.len() > LONGEST_LINE {
-                let problem = format!("line {} is longer than {LONGEST_LINE} bytes", self.number + 1);
-                return Err(io::Error::new(io::ErrorKind::InvalidData, problem));
+                return Err(Trouble::LongLine);
             }
             self.fill()?;
         }
@@ -119,13 +139,18 @@ impl Lines {
     }
 
     /// Moves what is left to the front and reads on.
-    fn fill(&mut self) -> io::Result<()> {
+    fn fill(&mut self) -> Result<(), Trouble> {
         self.buffer.copy_within(self.rest.clone(), 0);
         self.rest = 0..self.rest.len();
         if self.buffer.len() < self.rest.end + CHUNK {
             self.buffer.resize(self.rest.end + CHUNK, 0);
         }
-        let bytes = fill(&mut self.input, &mut self.buffer[self.rest.end..])?;
+        let packed = self.packed;
+        let bytes = fill(&mut self.input, &mut self.buffer[self.rest.end..]).map_err(|error| match error.kind() {
+            io::ErrorKind::UnexpectedEof if packed => Trouble::BreaksOff,
+            io::ErrorKind::InvalidInput | io::ErrorKind::InvalidData if packed => Trouble::Damaged,
+            _ => Trouble::System(error),
+        })?;
         self.ended = bytes < self.buffer.len() - self.rest.end;
         self.rest.end += bytes;
         Ok(())
@@ -152,7 +177,7 @@ mod tests {
 
     use super::*;
 
-    fn lines_of(bytes: &[u8]) -> io::Result<Vec<Vec<u8>>> {
+    fn lines_of(bytes: &[u8]) -> Result<Vec<Vec<u8>>, Trouble> {
         let mut file = tempfile::NamedTempFile::new().unwrap();
         file.write_all(bytes).unwrap();
         let mut lines = Lines::open(file.path())?;
@@ -182,11 +207,16 @@ mod tests {
         packed.write_all(b"one\ntwo\n").unwrap();
         let packed = packed.finish().unwrap();
         assert_eq!(lines_of(&packed).unwrap(), [b"one", b"two"]);
-        assert_eq!(lines_of(&packed[..packed.len() - 9]).unwrap_err().kind(), io::ErrorKind::UnexpectedEof);
+        for cut in [1, 9, packed.len() - 11] {
+            assert!(matches!(lines_of(&packed[..packed.len() - cut]), Err(Trouble::BreaksOff)), "{cut}");
+        }
+        let mut damaged = packed.clone();
+        damaged[10] = 0xff;
+        assert!(matches!(lines_of(&damaged), Err(Trouble::Damaged)));
     }
 
     #[test]
     fn a_line_without_end_is_an_error() {
-        assert!(lines_of(&vec![b'1'; 3 << 20]).unwrap_err().to_string().contains("longer"));
+        assert!(matches!(lines_of(&vec![b'1'; 3 << 20]), Err(Trouble::LongLine)));
     }
 }

@@ -34,6 +34,8 @@ pub(super) struct Layout {
     pub decimal_comma: bool,
     pub columns: Vec<Column>,
     pub clock: Clock,
+    /// Number of columns of the first row, useful or not.
+    pub width: usize,
     /// Lines before the first with a place.
     pub head_lines: u64,
     /// The line that names the columns, where there is one among the data.
@@ -227,7 +229,11 @@ fn not_a_number(role: Role, field: &[u8]) -> LineProblem {
 
 fn too_large(role: Role, field: &[u8]) -> LineProblem {
     let text = format!("{} is {}; allowed is up to {LARGEST:e}", named(role), shown(field));
-    LineProblem { text, hint: "", short: false }
+    let hint = match role {
+        Role::Time | Role::Frame => "--columns says what each column holds",
+        _ => "a row without a place, where somebody is missing, has `nan` or an empty field",
+    };
+    LineProblem { text, hint, short: false }
 }
 
 fn named(role: Role) -> &'static str {

@@ -1,5 +1,6 @@
 //! Rows held in memory in the order of time: for files that are not.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use super::RecordingError;
@@ -34,12 +35,17 @@ struct Extra {
 
 impl Sorted {
     /// Reads all rows; `check` looks now and then whether to stop.
-    pub fn read(rows: &mut Rows, check: impl Fn(&Rows) -> Result<(), RecordingError>) -> Result<Sorted, Stop> {
+    pub fn read(
+        rows: &mut Rows,
+        path: &Path,
+        check: impl Fn(&Rows) -> Result<(), RecordingError>,
+    ) -> Result<Sorted, Stop> {
         let mut sorted = Sorted { rows: Vec::new(), lines: Vec::new(), extras: Vec::new() };
         while let Some(row) = rows.next()? {
             let Ok(order) = u32::try_from(sorted.rows.len()) else {
-                let problem = "more than 4 billion rows that are not in the order of time: sort them first";
-                return Err(RecordingError::Unreadable { path: Default::default(), problem: problem.to_owned() }.into());
+                let (path, hint) = (path.to_path_buf(), "sort it by time first");
+                let problem = "more than 4 billion rows that are not in the order of time".to_owned();
+                return Err(RecordingError::Unreadable { path, problem, hint }.into());
             };
             if order.is_multiple_of(1 << 16) {
                 check(rows)?;

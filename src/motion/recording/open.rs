@@ -44,7 +44,12 @@ pub(super) fn open(
 ) -> Result<Recording, RecordingError> {
     check(options)?;
     let (source, stated, mut warnings) = if is_database(path, options)? {
-        let about = DatabaseRows::open(path)?.about();
+        let database = DatabaseRows::open(path)?;
+        let about = database.about();
+        if let (Some(said), None) = (&about.bad_fps, options.fps) {
+            let problem = format!("its metadata say {} frames per second", shown(said.as_bytes()));
+            return Err(RecordingError::Database { path: path.to_path_buf(), problem });
+        }
         let stated = Stated {
             format: RecordingFormat::Jupedsim,
             clock: Clock::Frames,
@@ -96,8 +101,8 @@ fn check(options: &RecordingOptions) -> Result<(), RecordingError> {
 
 fn is_database(path: &Path, options: &RecordingOptions) -> Result<bool, RecordingError> {
     let mut magic = [0; 16];
-    let mut file = File::open(path).map_err(|error| unreadable(path, &error))?;
-    let length = file.read(&mut magic).map_err(|error| unreadable(path, &error))?;
+    let opened = File::open(path).and_then(|mut file| file.read(&mut magic));
+    let length = opened.map_err(|error| unreadable(path, error.into(), 0))?;
     let found = length == magic.len() && magic == *database::MAGIC;
     let asked = options.format.is_some_and(|format| format == RecordingFormat::Jupedsim);
     let unknown = |found: &str, hint: &str| {
@@ -115,7 +120,7 @@ fn is_database(path: &Path, options: &RecordingOptions) -> Result<bool, Recordin
 
 /// Finds out how a text is laid out.
 fn read_head(path: &Path, options: &RecordingOptions) -> Result<(Layout, Stated), RecordingError> {
-    let lines = Lines::open(path).map_err(|error| unreadable(path, &error))?;
+    let lines = Lines::open(path).map_err(|trouble| unreadable(path, trouble, 0))?;
     let (head, whole) = lines.head();
     if head.starts_with(database::MAGIC) {
         let (found, hint) = ("it is a compressed database".to_owned(), "unpack it first: gunzip FILE".to_owned());
@@ -201,7 +206,7 @@ fn count(mut source: Source, way: Way<'_>) -> Result<Counted, RecordingError> {
             continue;
         }
         let mut rows = source.rows(path)?;
-        match Sorted::read(&mut rows, |rows| way.check(rows)) {
+        match Sorted::read(&mut rows, path, |rows| way.check(rows)) {
             Ok(sorted) => {
                 let passed = rows.passed();
                 let sorted = Source::Memory(Arc::new(sorted));
@@ -213,9 +218,6 @@ fn count(mut source: Source, way: Way<'_>) -> Result<Counted, RecordingError> {
                         Err(RecordingError::Empty { path: path.to_path_buf(), what: "its times have no order" })
                     }
                 };
-            }
-            Err(Stop::Error(RecordingError::Unreadable { problem, .. })) => {
-                return Err(RecordingError::Unreadable { path: path.to_path_buf(), problem });
             }
             Err(Stop::Error(error)) => return Err(error),
             Err(Stop::Name) => source = numbered(source),
@@ -277,13 +279,19 @@ fn twice(path: &Path, row: &Row, other: Vec2, numbering: Numbering, frames: bool
 
 fn warn_of_rows(census: &Census, passed: Passed, warnings: &mut Vec<String>) {
     if passed.nowhere > 0 {
-        warnings.push(format!(
-            "{} rows have no place, the first in line {}: those people are taken for missing there",
-            passed.nowhere, passed.first_nowhere
-        ));
+        let line = passed.first_nowhere;
+        warnings.push(match passed.nowhere {
+            1 => format!("the row in line {line} has no place: that person is taken for missing there"),
+            many => {
+                format!("{many} rows have no place, the first in line {line}: those people are taken for missing there")
+            }
+        });
     }
     if census.repeated > 0 {
-        warnings.push(format!("{} rows repeat others and are passed over", census.repeated));
+        warnings.push(match census.repeated {
+            1 => "1 row repeats another and is passed over".to_owned(),
+            many => format!("{many} rows repeat others and are passed over"),
+        });
     }
     if let Some(line) = passed.broken {
         warnings.push(format!("the file breaks off in line {line}, which is left out"));
@@ -314,7 +322,7 @@ fn survey(
         returns: census.intervals.count_above(longest_gap * (1.0 + 1e-9)),
         frames: census.moments,
         places: census.places,
-        span_s: [0.0, scale.time.seconds(census.last_time - census.first_time)],
+        span_s: [0.0, scale.time.seconds(census.end_time - census.first_time)],
         person_seconds: scale.time.seconds(census.present(longest_gap)),
         mean_speed_m_s: speed,
         bounds_m: alignment.bounds(bounds),

@@ -2,13 +2,14 @@
 
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::RecordingError;
 use super::columns::{Role, Unit};
 use super::database::DatabaseRows;
-use super::input::Lines;
+use super::input::{LONGEST_LINE, Lines, Trouble};
 use super::layout::{Layout, Line, shown, slot};
 use super::memory::MemoryRows;
 use super::number::number;
@@ -120,7 +121,7 @@ struct Extras {
 
 impl TextRows {
     pub fn open(path: &Path, layout: &Arc<Layout>, numbering: Numbering) -> Result<TextRows, RecordingError> {
-        let lines = Lines::open(path).map_err(|error| unreadable(path, &error))?;
+        let lines = Lines::open(path).map_err(|trouble| unreadable(path, trouble, 0))?;
         let extras = Extras {
             velocity: layout.has(&[Role::VelocityX, Role::VelocityY]),
             heading: layout.has(&[Role::HeadingX, Role::HeadingY]),
@@ -140,17 +141,21 @@ impl TextRows {
             extras,
         };
         for _ in 0..layout.head_lines {
-            rows.lines.next().map_err(|error| unreadable(path, &error))?;
+            rows.lines.next().map_err(|trouble| unreadable(path, trouble, rows.lines.number()))?;
         }
         Ok(rows)
     }
 
     fn next(&mut self) -> Result<Option<Row>, Stop> {
         loop {
-            let range = self.lines.next().map_err(|error| self.broken(&error))?;
+            let range = self.lines.next().map_err(|trouble| unreadable(&self.path, trouble, self.lines.number()))?;
             let Some(range) = range else { return Ok(None) };
             let text = self.lines.text(range.clone()).trim_ascii_end();
             let line = match self.layout.read(text) {
+                Ok(_) if self.lines.breaks_off() && self.is_cut_off(text) => {
+                    self.passed.broken = Some(self.lines.number());
+                    return Ok(None);
+                }
                 Ok(line) => line,
                 Err(problem) => {
                     if self.may_be_skipped(text) {
@@ -229,14 +234,10 @@ impl TextRows {
         text.is_empty() || matches!(text[0], b'#' | b'*') || self.layout.header.as_deref() == Some(text)
     }
 
-    /// What the system says, with the line up to which all was well.
-    fn broken(&self, error: &std::io::Error) -> RecordingError {
-        let problem = match error.kind() {
-            std::io::ErrorKind::UnexpectedEof => "the compressed file breaks off".to_owned(),
-            _ => error.to_string(),
-        };
-        let problem = format!("{problem} (after line {})", self.lines.number());
-        RecordingError::Unreadable { path: self.path.clone(), problem }
+    /// Whether this is the last line, and has fewer columns than others: then it was cut off.
+    #[cold]
+    fn is_cut_off(&self, text: &[u8]) -> bool {
+        self.layout.separator.split(text).len() < self.layout.width
     }
 }
 
@@ -246,8 +247,34 @@ fn direction(angle_rad: f64) -> Option<Vec2> {
     Some(vec2(cos, sin)).filter(|direction| direction.is_finite())
 }
 
-pub(super) fn unreadable(path: &Path, error: &std::io::Error) -> RecordingError {
-    RecordingError::Unreadable { path: path.to_path_buf(), problem: error.to_string() }
+/// What is wrong with a file, of which so many lines were read.
+pub(super) fn unreadable(path: &Path, trouble: Trouble, lines: u64) -> RecordingError {
+    let after = if lines > 0 { format!(" (after line {lines})") } else { String::new() };
+    let (problem, hint) = match trouble {
+        Trouble::System(error) => (format!("{error}{after}"), hint_of(&error)),
+        Trouble::BreaksOff => (
+            format!("the compressed file breaks off{after}"),
+            "get it again, or unpack what there is: gzip -dc FILE > part.txt",
+        ),
+        Trouble::Damaged => (format!("the compressed file is damaged{after}"), "get it again"),
+        Trouble::LongLine => {
+            let problem = format!("the line is longer than {LONGEST_LINE} bytes");
+            return RecordingError::Line { path: path.to_path_buf(), line: lines + 1, problem, hint: LINES.to_owned() };
+        }
+    };
+    RecordingError::Unreadable { path: path.to_path_buf(), problem, hint }
+}
+
+/// What recordings look like.
+pub(super) const LINES: &str = "a recording has a line for everybody in every frame: who, when, x, y";
+
+fn hint_of(error: &io::Error) -> &'static str {
+    match error.kind() {
+        io::ErrorKind::NotFound => "paths start from the folder that you are in",
+        io::ErrorKind::IsADirectory => "it is a folder: name a file in it",
+        io::ErrorKind::PermissionDenied => "you may not read it: ask whoever owns it, or copy it",
+        _ => "try again, or copy the file to another disk",
+    }
 }
 
 /// An id that is a whole number in the range that is kept.

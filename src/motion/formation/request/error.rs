@@ -95,7 +95,9 @@ impl RequestError {
     pub fn hint(&self) -> Option<String> {
         match self {
             RequestError::Value { hint, .. } => hint.clone(),
-            RequestError::File { .. } => None,
+            RequestError::File { .. } => {
+                Some("a formation is a text of points, `x y` in metres, or a picture of dots".to_string())
+            }
             RequestError::Line { .. } => Some("write a line for each person, as `2.5 -1`".to_string()),
             RequestError::Count { people, places, .. } => Some(if people > places {
                 "draw as many as there are people, take fewer with `choose` or `people`, or fill a shape with `filled = true`"

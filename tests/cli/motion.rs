@@ -1,0 +1,134 @@
+//! `trodden motion`: what goes in, what comes out, and that one tool's file is the next one's input.
+
+use std::fs;
+use std::process::Stdio;
+
+use crate::sandbox::Sandbox;
+
+/// Five people who walk side by side along x at 1.3 m/s, 2 m apart, with some sway, for 6 s.
+pub fn walk() -> String {
+    let mut text = "# framerate: 10\n# id frame x/m y/m z/m\n".to_string();
+    for frame in 0..60 {
+        for id in 1..=5 {
+            let (x, sway) = (0.13 * f64::from(frame), 0.05 * f64::from((frame * id) % 7));
+            text += &format!("{id} {frame} {x:.3} {:.3} 1.7\n", 2.0 * f64::from(id) + sway);
+        }
+    }
+    text
+}
+
+fn sandbox() -> Sandbox {
+    let sandbox = Sandbox::new();
+    sandbox.write("walk.txt", walk());
+    sandbox
+}
+
+#[test]
+fn a_motion_goes_from_format_to_format_and_back() {
+    let sandbox = sandbox();
+    let mut from = "walk.txt";
+    for to in ["a.csv", "a.traj.gz", "a.sqlite", "a.csv.gz", "a.traj", "a.txt.gz", "back.txt"] {
+        let ran = sandbox.run(&["motion", "convert", from, "-o", to]).succeeds();
+        assert_eq!((ran.made().len(), ran.err.as_str()), (1, ""));
+        let lines: Vec<&str> = ran.out.lines().collect();
+        assert!(lines[0].starts_with("5 people walked, 5 arrived; 6 s in all, "), "{}", ran.out);
+        assert!(
+            lines[1].starts_with(&format!("  {to} ")) && lines[1].contains(" 60 frames, 10 in a second"),
+            "{}",
+            ran.out
+        );
+        let info = sandbox.run(&["motion", "info", to]).succeeds();
+        // Vadere's lines are steps, one fewer than places.
+        let places = if to.contains("traj") { "295" } else { "300" };
+        assert!(info.out.contains(&format!("people     5, {places} places\n")), "{}", info.out);
+        assert!(
+            info.out.contains("time       5.90 s, ") && info.out.contains(", 10 frames per second\n"),
+            "{}",
+            info.out
+        );
+        from = to;
+    }
+    let [before, after] = ["walk.txt", "back.txt"].map(|name| {
+        let text = fs::read_to_string(sandbox.path(name)).unwrap();
+        let rows = text.lines().filter(|line| !line.starts_with('#'));
+        rows.map(|row| row.split(' ').map(|field| field.parse().unwrap()).collect::<Vec<f64>>()).collect::<Vec<_>>()
+    });
+    assert_eq!(before.len(), after.len());
+    for (a, b) in before.iter().zip(&after) {
+        assert_eq!(a[..2], b[..2]);
+        assert!((a[2] - b[2]).abs() < 1e-4 && (a[3] - b[3]).abs() < 1e-4, "{a:?} {b:?}");
+    }
+}
+
+#[test]
+fn the_format_can_be_named_and_printed() {
+    let sandbox = sandbox();
+    for (name, begins) in [
+        ("juelich", "# trodden "),
+        ("csv", "id,time_s,x_m,y_m,heading_deg,speed_m_s,height_m\n1,0.00,0.0000,2.0000,"),
+        ("vadere", "pedestrianId simTime endTime-PID1 "),
+        ("crowdit", "time,pedID,posX,posY\n0.00,1,"),
+        ("pathfinder", "id,t,x,y\n,s,m,m\n1,0.00,"),
+        ("viswalk", "$VISION\n"),
+        ("obsmat", "# framerate: 10.00\n"),
+    ] {
+        let ran = sandbox.run(&["motion", "convert", "walk.txt", "-o", "-", "--as", name]).succeeds();
+        assert!(ran.made().is_empty() && ran.out.starts_with(begins), "{name}: {}", &ran.out[..200]);
+        assert!(ran.err.starts_with("5 people walked"), "{}", ran.err);
+        let file = format!("{name}.file");
+        sandbox.run(&["motion", "convert", "walk.txt", "-o", &file, "--as", name, "-q"]).succeeds();
+        assert_eq!(fs::read_to_string(sandbox.path(&file)).unwrap(), ran.out);
+        let info = sandbox.run(&["motion", "info", &file, "--json"]).succeeds();
+        let json: serde_json::Value = serde_json::from_str(&info.out).unwrap();
+        let places = if name == "vadere" { 295 } else { 300 };
+        assert_eq!((json["format"].as_str(), json["places"].as_u64()), (Some(name), Some(places)));
+    }
+    for (more, problem) in [
+        (&["-o", "a.gz", "--as", "jupedsim"][..], "can neither be packed by gzip nor printed"),
+        (&["-o", "-", "--as", "jupedsim"], "cannot be printed"),
+        (&["-o", "a.xml"], ".txt, .csv, .traj, .sqlite, .sqlite3 or .db, texts also in .gz; --as"),
+        (&["-o", "a.txt", "--as", "xml"], "[possible values: juelich, "),
+        (&["--as", "csv"], "--output <FILE>"),
+    ] {
+        let arguments = [&["motion", "convert", "walk.txt"][..], more].concat();
+        sandbox.run(&arguments).fails(2, &[problem]);
+    }
+    let refused = sandbox.run(&["motion", "convert", "walk.txt", "-o", "a.xml"]).fails(2, &[]).err;
+    assert!(refused.contains("Usage: trodden motion convert"), "{refused}");
+    // `| head` closes the pipe early.
+    let mut command = sandbox.command(&["motion", "convert", "walk.txt", "-o", "-", "--as", "csv"]);
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success(), "{output:?}");
+}
+
+/// The result of one tool is the next one's input, down to the floor.
+#[test]
+fn tools_chain_by_files() {
+    let sandbox = sandbox();
+    sandbox.write("ring.txt", "0 0\n2 0\n2 2\n0 2\n1 3\n");
+    let formation = ["motion", "formation", "--example", "walk.txt", "--last", "ring.txt", "-q"];
+    sandbox.run(&[&formation[..], &["-o", "formed.csv.gz"]].concat()).succeeds();
+    let features = ["motion", "features", "formed.csv.gz", "-k", "2", "-q", "-o", "plain.traj"];
+    sandbox.run(&features).succeeds();
+    let turned = ["motion", "convert", "plain.traj", "--rotation", "180", "--shift", "20,10", "-q", "-o", "turned.db"];
+    sandbox.run(&turned).succeeds();
+    let units = ["motion", "units", "turned.db", "--at", "16,4", "--heading-deg", "90", "--apart", "0", "-o", "cut"];
+    let cut = sandbox.run(&units);
+    assert!(matches!(cut.code, Some(0 | 1)), "{}", cut.err);
+    let bake = ["bake", "--motion", "turned.db", "--texels-per-metre", "10", "-q", "-o", "baked"];
+    sandbox.run(&bake).succeeds();
+    assert!(sandbox.path("baked/floor").is_dir());
+}
+
+#[test]
+fn half_a_turn_is_exact() {
+    let sandbox = sandbox();
+    sandbox.run(&["motion", "convert", "walk.txt", "--rotation", "180", "-o", "once.csv", "-q"]).succeeds();
+    sandbox.run(&["motion", "convert", "once.csv", "--rotation", "-180", "-o", "twice.csv", "-q"]).succeeds();
+    sandbox.run(&["motion", "convert", "walk.txt", "-o", "never.csv", "-q"]).succeeds();
+    let text = |name: &str| fs::read_to_string(sandbox.path(name)).unwrap();
+    assert_eq!(text("twice.csv"), text("never.csv"));
+    assert!(text("once.csv").contains("\n1,0.00,0.0000,-2.0000,"), "{}", &text("once.csv")[..200]);
+}
