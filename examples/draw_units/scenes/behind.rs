@@ -10,8 +10,16 @@ pub fn scenes(front: &[Scene]) -> Vec<Scene> {
         pair_leaves(),
         two_come(),
         comes_and_leaves(),
+        slows_down(),
+        hurries_past(),
+        drifts_across(),
+        three_come(),
+        three_leave(),
+        four_come(),
+        pair_and_one_come(),
+        pair_leaves_and_one_comes(),
+        pairs_meet_behind(),
     ];
-    let comes = |group: u32| vec![comes(group, 0.9)];
     let leaves = |group: u32| vec![leaves(group, 0.3)];
     let both = |group: u32| vec![comes_left(group, -1.15), leaves_at(group + 1, 0.4)];
     for scene in front {
@@ -53,7 +61,6 @@ pub fn scenes(front: &[Scene]) -> Vec<Scene> {
             _ => {}
         }
     }
-    let _ = comes;
     scenes
 }
 
@@ -187,5 +194,154 @@ fn comes_and_leaves() -> Scene {
         "behind the viewer somebody comes and another leaves",
         6.0,
         vec![comes(0, 0.9), leaves_at(1, -0.6)],
+    )
+}
+
+fn slows_down() -> Scene {
+    let actor = Actor::new(0, [0.8, -1.9], AWAY)
+        .to([0.95, 0.3], 1.2)
+        .to([1.0, 1.5], 0.6)
+        .faces(60.0)
+        .to([0.7, 2.9], 0.45)
+        .stays(0.3)
+        .to([0.3, 7.5], 1.4);
+    Scene::new(
+        "slows_down",
+        "slows down in front",
+        "somebody comes from behind, slows down over a message, and hurries on",
+        9.0,
+        vec![actor],
+    )
+}
+
+fn hurries_past() -> Scene {
+    let actor = Actor::new(0, [-0.5, -2.2], AWAY)
+        .to([-0.9, -0.6], 1.4)
+        .to([-0.85, 1.0], 1.9)
+        .to([0.5, 3.6], 2.2)
+        .to([0.8, 9.0], 2.2);
+    Scene::new("hurries_past", "hurries past", "somebody from behind breaks into a run", 5.2, vec![actor])
+}
+
+fn drifts_across() -> Scene {
+    let actor = Actor::new(0, [-0.8, -1.7], AWAY)
+        .to([-0.95, 0.4], 1.15)
+        .to([-0.7, 1.3], 0.8)
+        .to([0.9, 2.2], 0.9)
+        .to([1.4, 3.0], 0.7)
+        .stays(0.8)
+        .faces(160.0)
+        .stays(1.0)
+        .faces(AWAY)
+        .stays(0.2)
+        .to([1.0, 7.0], 1.2);
+    Scene::new(
+        "drifts_across",
+        "drifts across",
+        "somebody from behind drifts across in front of the viewer, stops and looks back",
+        10.4,
+        vec![actor],
+    )
+}
+
+fn three_come() -> Scene {
+    let at = |x: f64, side: f64, late: f64| {
+        Actor::new(0, [x, -1.7 - late], AWAY)
+            .to([side, -0.5 - late * 0.5], 1.15)
+            .to([side * 0.98, 0.7], 1.0)
+            .to([x, 3.2], 1.2)
+            .to([x, 8.6], WALK)
+    };
+    Scene::new(
+        "three_come",
+        "three come round the viewer",
+        "three from behind pass the viewer, one on the left, two on the right",
+        7.4,
+        vec![at(-0.7, -0.85, 0.0), at(0.05, 0.7, 0.3), at(0.8, 1.3, 0.05)],
+    )
+}
+
+fn three_leave() -> Scene {
+    let at = |x: f64, speed: f64, out: f64| {
+        Actor::new(0, [x, -1.2], TOWARDS).to([x, -2.4], 1.1).to([out, -4.2], speed).to([out, -9.0], 1.15)
+    };
+    let looks = Actor::new(0, [0.0, -1.5], TOWARDS)
+        .to([0.0, -2.5], 1.1)
+        .faces(0.0)
+        .stays(0.3)
+        .faces(60.0)
+        .stays(1.0)
+        .faces(TOWARDS)
+        .stays(0.3)
+        .to([0.0, -8.0], 1.5);
+    Scene::new(
+        "three_leave",
+        "one of three looks back",
+        "three who have passed slow down, the one in the middle looks back",
+        5.4,
+        vec![at(-0.75, 0.75, -0.6), looks, at(0.75, 0.8, 0.65)],
+    )
+}
+
+fn four_come() -> Scene {
+    let at = |x: f64, y: f64, side: f64| {
+        Actor::new(0, [x, y], AWAY)
+            .to([side, -0.45 + 0.4 * (y + 1.5)], 1.15)
+            .to([side * 0.98, 0.9], 1.0)
+            .to([x, 3.4], 1.2)
+            .to([x, 9.0], WALK)
+    };
+    Scene::new(
+        "four_come",
+        "four come round the viewer",
+        "four from behind part around the viewer, two to each side",
+        7.6,
+        vec![at(-0.8, -1.4, -1.25), at(-0.25, -2.2, -0.7), at(0.35, -2.1, 0.7), at(0.9, -1.3, 1.25)],
+    )
+}
+
+fn pair_and_one_come() -> Scene {
+    let pair = |x: f64, side: f64| {
+        Actor::new(0, [x, -1.4], AWAY).to([side, -0.3], 1.05).to([side, 1.2], 0.9).to([x, 7.5], 1.15)
+    };
+    let quick = Actor::new(1, [-0.3, -2.4], AWAY)
+        .to([-0.85, -0.7], 1.35)
+        .to([-0.85, 0.9], 1.5)
+        .to([0.1, 3.4], 1.6)
+        .to([0.2, 10.0], 1.5);
+    Scene::new(
+        "pair_and_one",
+        "overtakes a pair from behind",
+        "two from behind stroll past the viewer, a third hurries by on the other side",
+        6.6,
+        vec![pair(0.3, 0.65), pair(1.05, 1.4), quick],
+    )
+}
+
+fn pair_leaves_and_one_comes() -> Scene {
+    let pair =
+        |x: f64| Actor::new(0, [x, -1.3], TOWARDS).to([x, -2.6], 1.0).to([x * 0.9, -4.2], 0.8).to([x, -9.0], 1.1);
+    Scene::new(
+        "pair_met",
+        "a pair strolls off, and one comes",
+        "two who have passed stroll off, another comes the other way",
+        6.0,
+        vec![pair(0.35), pair(1.1), comes_left(1, -0.85)],
+    )
+}
+
+fn pairs_meet_behind() -> Scene {
+    let comes = |x: f64, y: f64, side: f64| {
+        Actor::new(0, [x, y], AWAY).to([side, -0.4], 1.1).to([side, 0.9], 0.95).to([x, 8.0], 1.2)
+    };
+    let leaves = |x: f64, out: f64| {
+        Actor::new(1, [x, -1.1], TOWARDS).to([x, -1.9], 1.05).to([out, -3.4], 0.8).to([out, -9.0], 1.15)
+    };
+    Scene::new(
+        "pairs_pass",
+        "two pairs pass behind",
+        "behind the viewer one pair comes and another leaves",
+        6.0,
+        vec![comes(-1.35, -2.0, -1.4), comes(-0.6, -2.1, -0.7), leaves(0.4, 0.45), leaves(1.1, 1.2)],
     )
 }

@@ -12,6 +12,7 @@ pub fn scenes() -> Vec<Scene> {
         three_part(),
         three_look_at_a_map(),
         family(),
+        four_stroll(),
     ]
 }
 
@@ -202,7 +203,7 @@ fn three_look_at_a_map() -> Scene {
     )
 }
 
-fn family() -> Scene {
+pub fn family() -> Scene {
     let mother = Actor::new(0, [-0.6, 2.4], TOWARDS).to([-0.8, 1.2], 1.0).to([-0.95, 0.0], 0.9).to([-0.6, -3.4], 1.1);
     let child = Actor::new(0, [-0.1, 2.0], TOWARDS)
         .to([-0.1, 1.6], 1.0)
@@ -231,5 +232,33 @@ fn family() -> Scene {
         "a child stops to stare at the viewer, the family waits and goes round on both sides",
         6.6,
         vec![mother, child, father, second],
+    )
+}
+
+/// Four who walk away, two and two; those behind fall back and catch up.
+fn four_stroll() -> Scene {
+    let ahead = |x: f64| Actor::new(0, [x, 1.7], AWAY).to([x, 2.6], 1.1).to([x * 1.2, 4.6], 1.0).to([x, 8.4], 1.2);
+    let left = Actor::new(0, [-0.4, 0.7], AWAY)
+        .to([-0.45, 1.5], 1.1)
+        .stays(0.4)
+        .faces(45.0)
+        .stays(1.3)
+        .faces(AWAY)
+        .to([-0.5, 3.2], 1.2)
+        .to([-0.4, 7.4], 1.5);
+    let right = Actor::new(0, [0.4, 0.7], AWAY)
+        .to([0.45, 1.3], 1.0)
+        .faces(150.0)
+        .stays(0.3)
+        .stays(1.8)
+        .faces(AWAY)
+        .to([0.5, 3.0], 1.2)
+        .to([0.45, 7.2], 1.5);
+    Scene::new(
+        "four_stroll",
+        "two of four fall back",
+        "four walk away two and two, the second pair stops to talk and hurries after the first",
+        6.4,
+        vec![ahead(-0.4), ahead(0.4), left, right],
     )
 }

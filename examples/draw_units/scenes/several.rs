@@ -40,7 +40,8 @@ pub fn scenes() -> Vec<Scene> {
         ),
     ];
     scenes.extend(extra);
-    scenes.extend([two_pairs(), pair_and_two(), three_and_one(), three_meet_one(), all_towards(), crowd_of_six()]);
+    scenes.extend([two_pairs(), pair_and_two(), three_and_one(), three_meet_one(), all_towards()]);
+    scenes.extend([two_pairs_and_one(), family_and_one(), crowd_of_six()]);
     scenes
 }
 
@@ -335,6 +336,18 @@ fn all_towards() -> Scene {
         6.4,
         vec![first, second, third],
     )
+}
+
+/// Five people: two pairs, and somebody who walks by.
+fn two_pairs_and_one() -> Scene {
+    let comes = Actor::new(3, [1.4, 2.9], TOWARDS).to([1.45, 2.0], 1.0).to([1.5, 0.8], 0.8).to([1.1, -4.0], 1.25);
+    two_pairs().with("and_one", "and one comes by", "one comes by on the right", vec![comes])
+}
+
+/// Five people: a family, and somebody who goes the other way.
+fn family_and_one() -> Scene {
+    let goes = Actor::new(9, [-1.3, 0.5], AWAY).to([-1.42, 1.4], 1.0).to([-1.45, 2.4], 0.85).to([-0.9, 7.5], 1.25);
+    super::groups::family().with("met", "and one goes by", "one who goes keeps to the side", vec![goes])
 }
 
 fn crowd_of_six() -> Scene {

@@ -3,11 +3,13 @@
 //!
 //! While the crowd walks, the people in the areas before and behind the viewer are counted. A unit of as many people in the
 //! same groups is placed so that its viewer stands where the viewer does; people move over to its beginning, play it, and
-//! walk on by the crowd's model. The crowd's other people see them and make way.
+//! walk on by the crowd's model. The crowd's other people see them and make way. Whoever plays is not counted: those who
+//! come meanwhile may begin another unit, if all keep clear of each other.
 
 mod play;
 mod report;
 mod request;
+mod room;
 mod spot;
 mod way;
 
@@ -20,7 +22,7 @@ use crate::motion::{Frame, Motion, People};
 use crate::plan::FloorPlan;
 use crate::routes::{Navigation, Route};
 use crate::walls::Walls;
-use spot::Spot;
+use spot::{Now, Spot};
 
 /// A crowd under social forces with spots at which units are played.
 pub struct Spots<'a> {
@@ -68,15 +70,26 @@ impl<'a> Spots<'a> {
         &self.crowd
     }
 
-    /// Says for the next step where everybody goes who plays, and looks for units that can be begun.
-    fn play(&mut self, frame: &Frame) {
+    fn note_people(&mut self) {
         self.people.clear();
         self.people.extend(self.crowd.everybody());
         self.people.sort_unstable_by_key(|present| present.id);
+    }
+
+    /// Says for the next step where everybody goes who plays, and looks for units that can be begun.
+    fn play(&mut self, frame: &Frame) {
+        self.note_people();
+        let now = Now { time_s: frame.time_s, step_s: self.step_s };
         for spot in &mut self.spots {
             spot.diversity.push(frame);
-            spot.go_on(frame.time_s, self.step_s, &mut self.crowd, &self.people);
-            spot.look(frame.time_s, self.step_s, &mut self.crowd, &mut self.people, self.walls);
+            spot.go_on(now, &mut self.crowd, &self.people);
+        }
+        for index in 0..self.spots.len() {
+            // Whoever began a unit at one spot is not free for the next.
+            if index > 0 {
+                self.note_people();
+            }
+            self.spots[index].look(now, &mut self.crowd, &self.people, self.walls);
         }
     }
 }

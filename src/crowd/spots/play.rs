@@ -1,5 +1,6 @@
 use super::super::{Present, SocialCrowd};
 use super::report::SpotReport;
+use super::spot::Now;
 use super::way::Way;
 use crate::math::Vec2;
 use crate::motion::units::{SpotFrame, Unit};
@@ -27,40 +28,58 @@ pub(super) struct Part {
 
 impl Play {
     /// Tells everybody who plays where they are after the next step; lets those go who are at the end, and those in whose
-    /// way somebody came, with their group. Says whether anybody is left.
+    /// way somebody came, with their group. Gives those who no longer play.
     pub(super) fn go_on(
         &mut self,
-        (time_s, step_s): (f64, f64),
+        now: Now,
         unit: &Unit,
         spot: &SpotFrame,
         crowd: &mut SocialCrowd<'_>,
         people: &[Present],
         report: &mut SpotReport,
-    ) -> bool {
-        let next_s = time_s + step_s - self.began_s;
-        let over = next_s > unit.duration_s + 1e-9;
-        let gone: Vec<u32> = match over {
+    ) -> Vec<u32> {
+        let gone = self.let_go(now, unit, crowd, people, report);
+        let next_s = self.next_s(now);
+        self.parts.retain_mut(|part| {
+            let (to_m, velocity_m_s) = part.way.on_plan(unit, next_s, spot);
+            let facing = part.way.heading(unit, next_s, spot.turn_of_plan(part.facing), now.step_s);
+            part.facing = spot.turn_to_plan(facing);
+            let from_m = find(people, part.id).map_or(to_m, |person| person.position_m);
+            let is_there = crowd.lead(part.id, to_m, velocity_m_s, Some(part.facing));
+            if is_there {
+                report.led_s += now.step_s;
+                report.led_m += from_m.distance(to_m);
+            }
+            is_there
+        });
+        gone
+    }
+
+    /// The unit's time after the next step, seconds.
+    fn next_s(&self, now: Now) -> f64 {
+        now.time_s + now.step_s - self.began_s
+    }
+
+    fn let_go(
+        &mut self,
+        now: Now,
+        unit: &Unit,
+        crowd: &mut SocialCrowd<'_>,
+        people: &[Present],
+        report: &mut SpotReport,
+    ) -> Vec<u32> {
+        let over = self.next_s(now) > unit.duration_s + 1e-9;
+        let groups: Vec<u32> = match over {
             true => self.parts.iter().map(|part| part.group).collect(),
             false => self.wedged(people),
         };
-        self.parts.retain(|part| {
-            let goes = gone.contains(&part.group);
-            if goes {
-                crowd.release(part.id);
-                report.broken_off += u64::from(!over);
-            }
-            !goes
-        });
-        self.parts.retain_mut(|part| {
-            let (to_m, velocity_m_s) = part.way.on_plan(unit, next_s, spot);
-            let facing = part.way.heading(unit, next_s, spot.turn_of_plan(part.facing), step_s);
-            part.facing = spot.turn_to_plan(facing);
-            let from_m = find(people, part.id).map_or(to_m, |person| person.position_m);
-            report.led_s += step_s;
-            report.led_m += from_m.distance(to_m);
-            crowd.lead(part.id, to_m, velocity_m_s, Some(part.facing))
-        });
-        !self.parts.is_empty()
+        let gone: Vec<u32> =
+            self.parts.extract_if(.., |part| groups.contains(&part.group)).map(|part| part.id).collect();
+        for &id in &gone {
+            crowd.release(id);
+            report.broken_off += u64::from(!over);
+        }
+        gone
     }
 
     /// Groups of which somebody overlaps somebody who plays no part here.

@@ -33,7 +33,13 @@ pub struct SpotReport {
     pub led_m: f64,
     /// How many people left their part early, since somebody else came into their way.
     pub broken_off: u64,
-    /// How often somebody was there when no unit was played.
+    /// Seconds that anybody was in the front or rear area, whatever they did.
+    #[serde(default)]
+    pub there_s: f64,
+    /// Seconds that a unit, or several, was being played.
+    #[serde(default)]
+    pub played_s: f64,
+    /// How often people were there who could have played, and no unit was begun.
     pub moments: u64,
     /// Of these: no unit has as many people in the same groups.
     pub unmatched: u64,
@@ -41,7 +47,7 @@ pub struct SpotReport {
     pub too_far: u64,
     /// Of these: walls or others are in the way.
     pub in_the_way: u64,
-    /// Of these: somebody stood at a stop or played elsewhere.
+    /// Of these: somebody of them stood at a stop.
     pub not_free: u64,
     /// For which people there was no unit: sizes of groups in front and behind, with how often.
     pub missing: BTreeMap<String, u64>,
@@ -82,7 +88,7 @@ impl SpotReport {
         let begin = format!("{name} at [{x:.2}, {y:.2}]: no unit was played");
         if fitting == 0 {
             return Some(format!(
-                "{begin}: walls are in the way of each of the {units} units; turn the viewer or move the spot"
+                "{begin}: walls or the viewer are in the way of each of the {units} units; turn the viewer or move the spot"
             ));
         }
         if self.moments == 0 {

@@ -2,30 +2,34 @@ use super::super::{CrowdError, Present, SocialCrowd};
 use super::play::{Part, Play, find};
 use super::report::SpotReport;
 use super::request::SpotRequest;
-use super::way::{LOOK_S, Way};
+use super::room::{self, Room};
+use super::way::Way;
 use crate::math::{Vec2, atan2};
 use crate::motion::MotionError;
 use crate::motion::units::{
-    Areas, Candidate, Diversity, LEAST_APART_M, MatchOptions, Moment, Party, Side, SpotFrame, Unit, UnitLibrary, rank,
+    Areas, Candidate, Diversity, MatchOptions, Moment, Party, Side, SpotFrame, Unit, UnitLibrary, rank,
 };
 use crate::plan::FloorPlan;
 use crate::routes::Ground;
 use crate::walls::Walls;
 
-/// People who play keep this far from walls at least, metres.
-const WALL_M: f64 = 0.22;
-/// They come no nearer to the viewer than the viewer's radius and this, metres.
-const BODY_M: f64 = 0.2;
-/// How far ahead others are foreseen, seconds, ...
-const FORESEEN_S: f64 = 1.2;
-/// ... and how far off they have to be then, metres.
-const FORESEEN_M: f64 = 0.42;
 /// Members of a group who are farther from its middle than this count on their own, metres.
 const TOGETHER_M: f64 = 2.5;
+/// Nobody farther from the viewer than this matters, metres: a unit's area is at most 40 m deep, people's ways end within.
+const NEAR_M: f64 = 50.0;
 /// Of so many units that were played last it is remembered when.
-const REMEMBERED: usize = 6;
+const REMEMBERED: usize = 12;
 
-/// A spot with its viewer, and the unit that is being played there.
+/// The moment at which spots are looked at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Now {
+    /// Seconds since the start.
+    pub(super) time_s: f64,
+    /// Seconds to the next moment.
+    pub(super) step_s: f64,
+}
+
+/// A spot with its viewer, and the units that are being played there.
 pub(super) struct Spot {
     pub(super) frame: SpotFrame,
     pub(super) radius_m: f64,
@@ -36,7 +40,9 @@ pub(super) struct Spot {
     /// The units that fit the floor, unmirrored or mirrored.
     units: Vec<Unit>,
     options: MatchOptions,
-    playing: Option<Play>,
+    playing: Vec<Play>,
+    /// Who has just played, and until when they are left alone, seconds.
+    resting: Vec<(u32, f64)>,
     /// When the people there are looked at again.
     next_s: f64,
     /// What was played last, the latest first.
@@ -68,8 +74,8 @@ impl Spot {
         let count = library.units.len();
         let areas = request.areas();
         let options = MatchOptions::default();
-        let free = |unit: &Unit| [false, true].iter().any(|&mirrored| is_free(unit, mirrored, &frame, walls));
-        let units: Vec<Unit> = library.units.into_iter().filter(free).collect();
+        let fits = |unit: &Unit| room::fits(unit, &frame, request.radius, walls);
+        let units: Vec<Unit> = library.units.into_iter().filter(fits).collect();
         let report = SpotReport {
             name: request.title(index),
             place_m: frame.at_m,
@@ -85,7 +91,8 @@ impl Spot {
             pause_s: request.pause,
             units,
             options,
-            playing: None,
+            playing: Vec::new(),
+            resting: Vec::new(),
             next_s: 0.0,
             recent: Vec::new(),
             report,
@@ -96,33 +103,31 @@ impl Spot {
         SpotReport { diversity: self.diversity.report(), ..self.report.clone() }
     }
 
-    /// Goes on with the unit that is being played.
-    pub(super) fn go_on(&mut self, time_s: f64, step_s: f64, crowd: &mut SocialCrowd<'_>, people: &[Present]) {
-        let Some(play) = &mut self.playing else { return };
-        let unit = &self.units[play.unit];
-        if !play.go_on((time_s, step_s), unit, &self.frame, crowd, people, &mut self.report) {
-            self.playing = None;
-            self.next_s = time_s + self.pause_s.max(step_s);
-        }
+    /// Goes on with the units that are being played.
+    pub(super) fn go_on(&mut self, now: Now, crowd: &mut SocialCrowd<'_>, people: &[Present]) {
+        let judged = |person: &Present| self.areas.side_of(self.frame.of_plan(person.position_m)).is_some();
+        self.report.there_s += if people.iter().any(judged) { now.step_s } else { 0.0 };
+        self.report.played_s += if self.playing.is_empty() { 0.0 } else { now.step_s };
+        self.resting.retain(|&(_, until_s)| until_s > now.time_s + 1e-9);
+        let Spot { playing, units, frame, report, resting, pause_s, .. } = self;
+        playing.retain_mut(|play| {
+            let gone = play.go_on(now, &units[play.unit], frame, crowd, people, report);
+            resting.extend(gone.into_iter().map(|id| (id, now.time_s + *pause_s)));
+            !play.parts.is_empty()
+        });
     }
 
     /// Looks whether a unit can be begun, and begins it.
-    pub(super) fn look(
-        &mut self,
-        time_s: f64,
-        step_s: f64,
-        crowd: &mut SocialCrowd<'_>,
-        people: &mut [Present],
-        walls: &Walls,
-    ) {
-        if self.playing.is_some() || self.units.is_empty() || time_s < self.next_s - 1e-9 {
+    pub(super) fn look(&mut self, now: Now, crowd: &mut SocialCrowd<'_>, people: &[Present], walls: &Walls) {
+        if self.units.is_empty() || now.time_s < self.next_s - 1e-9 {
             return;
         }
-        self.next_s = time_s + self.every_s;
-        match self.choose(crowd, people, walls) {
+        self.next_s = now.time_s + self.every_s;
+        match self.choose(now, crowd, people, walls) {
             Ok((candidate, ways)) => {
-                self.begin(time_s, &candidate, ways, people);
-                self.go_on(time_s, step_s, crowd, people);
+                let mut play = self.begin(now, &candidate, ways, people);
+                play.go_on(now, &self.units[play.unit], &self.frame, crowd, people, &mut self.report);
+                self.playing.push(play);
             }
             Err(missed) => self.count(missed),
         }
@@ -146,6 +151,7 @@ impl Spot {
     /// The best unit for the people who are there, and everybody's way into it.
     fn choose(
         &self,
+        now: Now,
         crowd: &SocialCrowd<'_>,
         people: &[Present],
         walls: &Walls,
@@ -154,8 +160,8 @@ impl Spot {
         if present.is_empty() {
             return Err(Missed::Nobody);
         }
-        let judged = |id: u32| find(people, id).is_none_or(|person| person.at_stop || person.led);
-        if present.iter().flat_map(|group| &group.people).any(|&(id, _)| judged(id)) {
+        let waits = |id: u32| find(people, id).is_none_or(|person| person.at_stop);
+        if present.iter().flat_map(|group| &group.people).any(|&(id, _)| waits(id)) {
             return Err(Missed::NotFree);
         }
         let recent = |unit: usize| self.recent.iter().position(|&played| played == unit).map(|ago| ago + 1);
@@ -163,9 +169,16 @@ impl Spot {
         if ranked.alike == 0 {
             return Err(Missed::NoneAlike(in_words(&present)));
         }
+        let room = Room {
+            frame: &self.frame,
+            radius_m: self.radius_m,
+            walls,
+            playing: self.playing.iter().map(|play| (play, &self.units[play.unit])).collect(),
+            time_s: now.time_s,
+        };
         let mut missed = Missed::TooFar;
         for candidate in ranked.candidates {
-            match self.ways(&candidate, people, walls) {
+            match self.ways(&candidate, people, &room) {
                 Ok(ways) => return Ok((candidate, ways)),
                 Err(reason) => missed = reason,
             }
@@ -173,7 +186,8 @@ impl Spot {
         Err(missed)
     }
 
-    /// The groups in the front and rear areas, in the order of their first ids.
+    /// The groups in the front and rear areas that could play, in the order of their first ids: whoever plays already, or
+    /// has just done so, is none of them.
     fn present(&self, crowd: &SocialCrowd<'_>, people: &[Present]) -> Vec<Party> {
         let mut parties = Vec::new();
         let mut at = 0;
@@ -183,9 +197,11 @@ impl Spot {
             let count = people[at..].iter().take_while(|p| p.id == first.id || ids.contains(&p.id)).count();
             let group = &people[at..at + count];
             at += count;
-            let near = |p: &Present| self.frame.of_plan(p.position_m).length() < 20.0;
+            let near = |p: &Present| p.position_m.distance(self.frame.at_m) < NEAR_M;
             if group.iter().any(near) {
-                self.gather(group, &mut parties);
+                let rests = |p: &Present| self.resting.iter().any(|&(id, _)| id == p.id);
+                let free: Vec<Present> = group.iter().filter(|p| !p.led && !rests(p)).copied().collect();
+                self.gather(&free, &mut parties);
             }
         }
         parties
@@ -193,71 +209,35 @@ impl Spot {
 
     fn gather(&self, group: &[Present], parties: &mut Vec<Party>) {
         let middle = group.iter().fold(Vec2::ZERO, |sum, p| sum + p.position_m) / group.len().max(1) as f64;
-        let moment = |person: &Present| {
-            let place_m = self.frame.of_plan(person.position_m);
-            let velocity_m_s = self.frame.turn_of_plan(person.velocity_m_s);
-            (person.id, Moment { place_m, velocity_m_s, heading: self.frame.turn_of_plan(person.heading) })
-        };
-        if group.iter().all(|person| person.position_m.distance(middle) < TOGETHER_M) {
-            parties.extend(Party::of(&self.areas, group.iter().map(moment).collect()));
-        } else {
-            parties.extend(group.iter().filter_map(|person| Party::of(&self.areas, vec![moment(person)])));
+        let together = group.iter().all(|person| person.position_m.distance(middle) < TOGETHER_M);
+        for people in group.chunks(if together { group.len().max(1) } else { 1 }) {
+            let moments = people.iter().map(|person| (person.id, self.moment(person))).collect();
+            parties.extend(Party::of(&self.areas, moments));
         }
     }
 
-    /// Everybody's way into a unit, if all of them are free.
-    fn ways(&self, candidate: &Candidate, people: &[Present], walls: &Walls) -> Result<Vec<(u32, Way)>, Missed> {
+    /// Somebody as the viewer sees them.
+    fn moment(&self, person: &Present) -> Moment {
+        Moment {
+            place_m: self.frame.of_plan(person.position_m),
+            velocity_m_s: self.frame.turn_of_plan(person.velocity_m_s),
+            heading: self.frame.turn_of_plan(person.heading),
+        }
+    }
+
+    /// Everybody's way into a unit, if there is room for it.
+    fn ways(&self, candidate: &Candidate, people: &[Present], room: &Room<'_>) -> Result<Vec<(u32, Way)>, Missed> {
         let unit = &self.units[candidate.unit];
         let mut ways = Vec::with_capacity(candidate.parts.len());
         for (member, &id) in candidate.parts.iter().enumerate() {
             let person = find(people, id).ok_or(Missed::TooFar)?;
-            let from = Moment {
-                place_m: self.frame.of_plan(person.position_m),
-                velocity_m_s: self.frame.turn_of_plan(person.velocity_m_s),
-                heading: self.frame.turn_of_plan(person.heading),
-            };
-            let way = Way::find(unit, member, candidate.mirrored, &from).ok_or(Missed::TooFar)?;
+            let way = Way::find(unit, member, candidate.mirrored, &self.moment(person)).ok_or(Missed::TooFar)?;
             ways.push((id, way));
         }
-        let free =
-            self.are_apart(unit, &ways) && self.keep_off(unit, &ways, people) && self.cross_nothing(unit, &ways, walls);
-        if free { Ok(ways) } else { Err(Missed::InTheWay) }
+        if room.has(unit, &ways, people) { Ok(ways) } else { Err(Missed::InTheWay) }
     }
 
-    /// Whether nobody runs into another or the viewer while they move over.
-    fn are_apart(&self, unit: &Unit, ways: &[(u32, Way)]) -> bool {
-        let over_s = ways.iter().map(|(_, way)| way.over_s).fold(0.0, f64::max);
-        let viewer_m = if self.radius_m > 0.0 { self.radius_m + BODY_M } else { 0.0 };
-        (1..=(over_s / LOOK_S).ceil() as usize).all(|k| {
-            let time_s = k as f64 * LOOK_S;
-            let places: Vec<Vec2> = ways.iter().map(|(_, way)| way.at(unit, time_s).place_m).collect();
-            places.iter().enumerate().all(|(k, place)| {
-                place.length() >= viewer_m && places[..k].iter().all(|other| other.distance(*place) >= LEAST_APART_M)
-            })
-        })
-    }
-
-    /// Whether nobody else is about to come into their way.
-    fn keep_off(&self, unit: &Unit, ways: &[(u32, Way)], people: &[Present]) -> bool {
-        let plays = |id: u32| ways.iter().any(|(other, _)| *other == id);
-        let near = |p: &&Present| p.position_m.distance(self.frame.at_m) < 20.0;
-        let others: Vec<&Present> = people.iter().filter(near).filter(|person| !plays(person.id)).collect();
-        (1..=(FORESEEN_S / LOOK_S) as usize).all(|k| {
-            let time_s = k as f64 * LOOK_S;
-            ways.iter().all(|(_, way)| {
-                let (place_m, _) = way.on_plan(unit, time_s, &self.frame);
-                let there = |other: &&Present| other.position_m + other.velocity_m_s * time_s;
-                others.iter().all(|other| there(other).distance(place_m) >= FORESEEN_M)
-            })
-        })
-    }
-
-    /// Whether no way comes near a wall, to the unit's end.
-    fn cross_nothing(&self, unit: &Unit, ways: &[(u32, Way)], walls: &Walls) -> bool {
-        ways.iter().all(|(_, way)| is_clear(|time_s| way.on_plan(unit, time_s, &self.frame).0, unit.duration_s, walls))
-    }
-
-    fn begin(&mut self, time_s: f64, candidate: &Candidate, ways: Vec<(u32, Way)>, people: &[Present]) {
+    fn begin(&mut self, now: Now, candidate: &Candidate, ways: Vec<(u32, Way)>, people: &[Present]) -> Play {
         let unit = &self.units[candidate.unit];
         let report = &mut self.report;
         report.splices += 1;
@@ -276,28 +256,8 @@ impl Spot {
         }
         self.recent.insert(0, candidate.unit);
         self.recent.truncate(REMEMBERED);
-        self.playing = Some(Play { unit: candidate.unit, began_s: time_s, parts });
+        Play { unit: candidate.unit, began_s: now.time_s, parts }
     }
-}
-
-/// Whether a unit's own ways keep off walls, placed at a spot.
-fn is_free(unit: &Unit, mirrored: bool, frame: &SpotFrame, walls: &Walls) -> bool {
-    (0..unit.members.len()).all(|member| {
-        is_clear(|time_s| frame.to_plan(unit.moment(member, time_s, mirrored).place_m), unit.duration_s, walls)
-    })
-}
-
-/// Whether a way keeps off walls and crosses none.
-fn is_clear(at: impl Fn(f64) -> Vec2, duration_s: f64, walls: &Walls) -> bool {
-    let mut before = at(0.0);
-    (0..=(duration_s / LOOK_S) as usize).all(|k| {
-        let place_m = at(k as f64 * LOOK_S);
-        // Who stands close to a wall already may walk away from it.
-        let near = k > 0 && walls.nearest(place_m, WALL_M).is_some();
-        let free = !near && walls.is_inside(place_m) && walls.sight(before, place_m);
-        before = place_m;
-        free
-    })
 }
 
 fn in_words(present: &[Party]) -> String {
