@@ -359,7 +359,7 @@ pub(super) const KEYS: &[Key] = &[
     optional("unit.heading_deg", Number(-360.0, 360.0), "or the direction [degrees counter-clockwise from +x]", "90.0"),
     optional("unit.folder", Any, "a folder with own units, relative to this file; left out: the built-in ones", "\"units\""),
     optional("unit.every", Number(0.05, 60.0), "how often the people there are looked at [s]", "0.2"),
-    optional("unit.pause", Number(0.0, 3600.0), "from the end of a unit to the next at least [s]", "1.0"),
+    optional("unit.pause", Number(0.0, 3600.0), "how long those who have played are left alone [s]", "1.0"),
     optional("unit.front", Number(0.5, 20.0), "width and depth of the area in front in which people are counted [m]", "[3.0, 3.0]"),
     optional("unit.rear", Number(0.0, 20.0), "the same behind the viewer [m]", "[3.0, 3.0]"),
     optional("unit.area", Number(1.0, 40.0), "width and depth of the area in front in which units are played [m]", "[3.0, 7.0]"),

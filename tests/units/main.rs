@@ -6,3 +6,4 @@ mod drawn;
 mod played;
 mod refused;
 mod scene;
+mod spliced;

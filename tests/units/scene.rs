@@ -16,6 +16,7 @@ pub struct Scene {
     pub plan: FloorPlan,
     pub walls: Walls,
     routes: Vec<Route>,
+    navigation: Navigation,
 }
 
 /// Somebody at one moment of a run.
@@ -27,6 +28,8 @@ pub struct Seen {
     pub heading: Vec2,
     pub radius_m: f64,
     pub led: bool,
+    /// The first of the person's group.
+    pub group: u32,
 }
 
 impl Scene {
@@ -40,8 +43,8 @@ impl Scene {
         let scenario = Scenario::open(&path, &Overrides::default()).unwrap();
         let plan = plan::read(&scenario.image_path().unwrap(), &scenario.plan_options()).unwrap();
         let walls = Walls::trace(&plan, &scenario.walls).unwrap();
-        let (routes, _) = Navigation::find(&plan, &walls, &scenario.routes).unwrap();
-        Scene { scenario, plan, walls, routes }
+        let (routes, navigation) = Navigation::find(&plan, &walls, &scenario.routes).unwrap();
+        Scene { scenario, plan, walls, routes, navigation }
     }
 
     /// The sample's only spot.
@@ -50,14 +53,23 @@ impl Scene {
     }
 
     pub fn begin(&self, spot: SpotRequest) -> Result<Spots<'_>, CrowdError> {
-        let navigation = Navigation::new(&self.plan, &self.walls, &self.routes).unwrap();
-        let people = People::new(self.scenario.seed, self.scenario.bodies.clone());
+        self.begin_with(spot, self.scenario.seed)
+    }
+
+    fn begin_with(&self, spot: SpotRequest, seed: u64) -> Result<Spots<'_>, CrowdError> {
+        let navigation = self.navigation.clone();
+        let people = People::new(seed, self.scenario.bodies.clone());
         Spots::new(&self.plan, &self.walls, &self.routes, navigation, &people, &self.scenario.crowd, &[spot])
     }
 
     /// Lets the crowd walk for so many seconds: everybody at every moment, and the report.
     pub fn run(&self, spot: SpotRequest, seconds: f64) -> (Vec<Vec<Seen>>, SpotReport) {
-        let mut crowd = self.begin(spot).unwrap();
+        self.run_with(spot, seconds, self.scenario.seed)
+    }
+
+    /// The same with another crowd.
+    pub fn run_with(&self, spot: SpotRequest, seconds: f64, seed: u64) -> (Vec<Vec<Seen>>, SpotReport) {
+        let mut crowd = self.begin_with(spot, seed).unwrap();
         let (mut frame, mut moments) = (Frame::default(), Vec::new());
         while frame.time_s < seconds && crowd.next_frame(&mut frame).unwrap() {
             let known: BTreeMap<u32, Present> =
@@ -69,6 +81,7 @@ impl Scene {
                 heading: walker.heading.unwrap(),
                 radius_m: known[&walker.id].radius_m,
                 led: known[&walker.id].led,
+                group: crowd.crowd().group_of(walker.id).start,
             });
             moments.push(seen.collect());
         }

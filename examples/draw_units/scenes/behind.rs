@@ -268,11 +268,12 @@ fn three_leave() -> Scene {
     let looks = Actor::new(0, [0.0, -1.5], TOWARDS)
         .to([0.0, -2.5], 1.1)
         .faces(0.0)
-        .stays(0.3)
+        .stays(0.8)
         .faces(60.0)
         .stays(1.0)
+        .faces(0.0)
+        .stays(0.7)
         .faces(TOWARDS)
-        .stays(0.3)
         .to([0.0, -8.0], 1.5);
     Scene::new(
         "three_leave",

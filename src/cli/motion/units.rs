@@ -1,3 +1,4 @@
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -153,7 +154,7 @@ impl Units {
         let library = UnitLibrary::open(folder).map_err(|error| Error::Motion(error.into()))?;
         let rows: Vec<Row> = library.units.iter().map(|unit| Row::of(unit, None)).collect();
         self.tell(&rows, None)?;
-        Ok(library.units.into_iter().map(|unit| (file_name(&unit.name), unit)).collect())
+        Ok(named(library.units))
     }
 
     fn cut(&self, common: &Common) -> anyhow::Result<Vec<(String, Unit)>> {
@@ -168,8 +169,7 @@ impl Units {
         drop(watch);
         let rows: Vec<Row> = found.cuts.iter().map(|cut| Row::of(&cut.unit, Some(cut))).collect();
         self.tell(&rows, Some(found.diversity))?;
-        let files: Vec<(String, Unit)> =
-            found.cuts.into_iter().map(|cut| (file_name(&cut.unit.name), cut.unit)).collect();
+        let files = named(found.cuts.into_iter().map(|cut| cut.unit).collect());
         if let Some(folder) = &self.output {
             make_folder(folder)?;
             for (file, unit) in &files {
@@ -239,13 +239,41 @@ impl Row {
     }
 }
 
+/// Units with names of files for them, without ending: no two are alike, on systems that know no capitals neither.
+fn named(units: Vec<Unit>) -> Vec<(String, Unit)> {
+    let mut taken = BTreeSet::new();
+    let name = |unit: Unit| {
+        let plain = file_name(&unit.name);
+        let numbered = (2..).map(|number| format!("{plain}_{number}"));
+        let mut names = std::iter::once(plain.clone()).chain(numbered);
+        let name = names.find(|name| taken.insert(name.to_lowercase())).unwrap_or(plain);
+        (name, unit)
+    };
+    units.into_iter().map(name).collect()
+}
+
 /// A unit's name as that of a file, without ending.
 fn file_name(name: &str) -> String {
     let plain: String = name.chars().map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' }).collect();
-    plain.trim_matches('_').to_string()
+    let plain = plain.trim_matches('_');
+    if plain.is_empty() { "unit".to_string() } else { plain.to_string() }
 }
 
 fn make_folder(folder: &Path) -> Result<(), Error> {
     std::fs::create_dir_all(folder)
         .map_err(|source| trodden::files::FileError::Write { path: folder.to_path_buf(), source }.into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_unit_gets_a_file_of_its_own() {
+        let unit = UnitLibrary::built_in().unwrap().units.remove(0);
+        let called = |name: &str| Unit { name: name.to_string(), ..unit.clone() };
+        let names: Vec<String> =
+            named(["a b", "a_b", "A b", "?!", ""].map(called).to_vec()).into_iter().map(|(file, _)| file).collect();
+        assert_eq!(names, ["a_b", "a_b_2", "A_b_3", "unit", "unit_2"]);
+    }
 }

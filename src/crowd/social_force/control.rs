@@ -5,6 +5,15 @@ use crate::crowd::state::{Body, Course, Heading, Traits};
 use crate::crowd::walking::Move;
 use crate::math::{Vec2, vec2};
 
+/// Nobody can be farther from the origin than this, metres, or faster than as many metres per second: places are kept
+/// in single precision.
+const FARTHEST_M: f64 = 1e6;
+
+/// Whether this is a place or a velocity that somebody can have; written so that NaN is none.
+fn is_possible(v: Vec2) -> bool {
+    v.length() <= FARTHEST_M
+}
+
 /// Somebody who is present, as others may know them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Present {
@@ -82,11 +91,11 @@ impl SocialCrowd<'_> {
     /// [released](SocialCrowd::release). Others see them and make way; walls and the bodies of others are the caller's
     /// business. Somebody who is led does not arrive, does not get stuck, and is not served at stops.
     ///
-    /// Says whether the person is present, and every number one.
+    /// Says whether the person is present, and every number one that somebody can have: within 1000 km of the origin.
     pub fn lead(&mut self, id: u32, position_m: Vec2, velocity_m_s: Vec2, heading: Option<Vec2>) -> bool {
-        let finite = position_m.is_finite() && velocity_m_s.is_finite() && heading.is_none_or(|h| h.is_finite());
+        let possible = is_possible(position_m) && is_possible(velocity_m_s) && heading.is_none_or(is_possible);
         let found = (0..self.base.courses.len()).find(|&slot| self.base.courses[slot].id == id);
-        let Some(slot) = found.filter(|_| finite) else { return false };
+        let Some(slot) = found.filter(|_| possible) else { return false };
         self.base.courses[slot].led = true;
         let heading = heading.and_then(Vec2::normalized);
         let from_m = self.base.bodies[slot].position();
@@ -116,7 +125,7 @@ impl SocialCrowd<'_> {
     /// this radius in metres. They are in no frame and no tally. Gives an id by which they can be
     /// [led](SocialCrowd::lead); `None` for what is no place or no radius from 0.05 to 5 m.
     pub fn stand(&mut self, position_m: Vec2, radius_m: f64) -> Option<u32> {
-        if !position_m.is_finite() || !(0.05..=5.0).contains(&radius_m) {
+        if !is_possible(position_m) || !(0.05..=5.0).contains(&radius_m) {
             return None;
         }
         let id = self.base.arrivals.len() as u32 + self.onlookers;

@@ -153,7 +153,8 @@ fn angle(sin: f32, cos: f32) -> f32 {
 }
 
 /// Those who come count as so much farther to the left for each metre of the interaction's range, radians: whoever meets
-/// somebody head on steps to the right. The paper has such a bias too.
+/// somebody head on steps to the right. Ours; Moussaid et al. 2009 have such a bias too, for everybody: `theta + epsilon B`,
+/// epsilon about 0.005.
 const LEFT_RAD_M: f32 = 0.01;
 /// Beyond this angle from straight ahead, radians, somebody is on one side or the other; below, one side goes over into
 /// the other: a step would make those who follow each other swerve.

@@ -38,11 +38,11 @@ pub struct GroupOptions {
 impl Default for GroupOptions {
     /// Moussaid, Perozo, Garnier, Helbing, Theraulaz 2010 (doi 10.1371/journal.pone.0010047).
     ///
-    /// Fig. 4: beta 1 = 4, beta 2 = 3, beta 3 = 1, d0 = 0.8 m, phi = 90 degrees. Fig. 1: group sizes follow a Poisson
-    /// distribution without its zero; the shares here are that with the parameter 0.83, as on a working day, cut off behind
-    /// four. The paper's reach is 0.5 m; with 0.4 m, half of d0, pairs walk 0.8 m apart, as they were observed to. Waiting
-    /// for each other makes groups as slow as in fig. 2 (`1.26 - 0.04 n` m/s for `n` people at low density), so that they
-    /// need no slowdown of their own.
+    /// Published (fig. 4, calibrated there): beta 1 = 4, beta 2 = 3, beta 3 = 1, d0 = 0.8 m, phi = 90 degrees. Published
+    /// (fig. 1): group sizes follow a Poisson distribution without its zero; the shares here are that with the parameter
+    /// 0.83, to be treated as approximate, cut off behind four. Ours: the reach. The paper's is about 0.5 m; with 0.4 m,
+    /// half of d0, pairs walk 0.8 m apart, as they were observed to. Ours: no slowdown. Waiting for each other makes groups
+    /// about as slow as in fig. 2 (published: `1.26 - 0.04 n` m/s for `n` people at low density).
     fn default() -> GroupOptions {
         GroupOptions {
             shares: [0.642, 0.266, 0.074, 0.015],
@@ -66,7 +66,13 @@ impl Default for GroupOptions {
 /// ```text
 /// f_v     = -A exp(-d / B - (n' B theta)^2)                 along t: slowing down
 /// f_theta = -A sign(theta) exp(-d / B - (n B theta)^2)      along n: stepping aside
+/// f_wall  =  a exp(-d_wall / b)                             away from the nearest wall
 /// ```
+///
+/// Published there: A = 4.5 m/s², gamma = 0.35, lambda = 2, n = 2, n' = 3, tau = 0.54 s. The same paper's for walls, to be
+/// treated as approximate: a = 3 m/s², b = 0.1 m. That nobody walks faster than 1.3 times their own speed is of Helbing and
+/// Molnar 1995 (doi 10.1103/PhysRevE.51.4282). Ours: `behind`, which takes the paper's two people who face each other to
+/// crowds, and `fluctuation`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SocialForceOptions {

@@ -22,7 +22,7 @@ use crate::motion::{Frame, Motion, People};
 use crate::plan::FloorPlan;
 use crate::routes::{Navigation, Route};
 use crate::walls::Walls;
-use spot::{Now, Spot};
+use spot::{Now, Spot, There};
 
 /// A crowd under social forces with spots at which units are played.
 pub struct Spots<'a> {
@@ -33,6 +33,8 @@ pub struct Spots<'a> {
     step_s: f64,
     /// Everybody present, by ascending id.
     people: Vec<Present>,
+    /// The same a step ago.
+    before: Vec<Present>,
 }
 
 impl<'a> Spots<'a> {
@@ -57,7 +59,7 @@ impl<'a> Spots<'a> {
         for spot in spots.iter().filter(|spot| spot.radius_m > 0.0) {
             crowd.stand(spot.frame.at_m, spot.radius_m.max(0.05));
         }
-        Ok(Spots { crowd, walls, spots, step_s: options.time_step, people: Vec::new() })
+        Ok(Spots { crowd, walls, spots, step_s: options.time_step, people: Vec::new(), before: Vec::new() })
     }
 
     /// How units were played so far, spot by spot.
@@ -78,6 +80,7 @@ impl<'a> Spots<'a> {
 
     /// Says for the next step where everybody goes who plays, and looks for units that can be begun.
     fn play(&mut self, frame: &Frame) {
+        std::mem::swap(&mut self.people, &mut self.before);
         self.note_people();
         let now = Now { time_s: frame.time_s, step_s: self.step_s };
         for spot in &mut self.spots {
@@ -89,7 +92,8 @@ impl<'a> Spots<'a> {
             if index > 0 {
                 self.note_people();
             }
-            self.spots[index].look(now, &mut self.crowd, &self.people, self.walls);
+            let there = There { people: &self.people, before: &self.before, walls: self.walls };
+            self.spots[index].look(now, &mut self.crowd, &there);
         }
     }
 }

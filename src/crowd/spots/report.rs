@@ -47,7 +47,7 @@ pub struct SpotReport {
     pub too_far: u64,
     /// Of these: walls or others are in the way.
     pub in_the_way: u64,
-    /// Of these: somebody of them stood at a stop.
+    /// Of these: somebody of them stood at a stop, or was just making way for somebody.
     pub not_free: u64,
     /// For which people there was no unit: sizes of groups in front and behind, with how often.
     pub missing: BTreeMap<String, u64>,

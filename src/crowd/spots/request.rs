@@ -36,7 +36,7 @@ pub struct SpotRequest {
     /// How often the people there are looked at, 0.05 to 60.
     #[serde(default = "every")]
     pub every: f64,
-    /// From the end of a unit to the next at least, 0 to 3600.
+    /// How long those who have played a unit are left alone, 0 to 3600.
     #[serde(default = "pause")]
     pub pause: f64,
     /// Width and depth of the area in front in which people are counted.

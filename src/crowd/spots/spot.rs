@@ -3,7 +3,7 @@ use super::play::{Part, Play, find};
 use super::report::SpotReport;
 use super::request::SpotRequest;
 use super::room::{self, Room};
-use super::way::Way;
+use super::way::{MOST_M_S2, Way};
 use crate::math::{Vec2, atan2};
 use crate::motion::MotionError;
 use crate::motion::units::{
@@ -27,6 +27,25 @@ pub(super) struct Now {
     pub(super) time_s: f64,
     /// Seconds to the next moment.
     pub(super) step_s: f64,
+}
+
+/// What a spot looks at.
+#[derive(Clone, Copy)]
+pub(super) struct There<'a> {
+    /// Everybody present, by ascending id.
+    pub(super) people: &'a [Present],
+    /// The same a step ago.
+    pub(super) before: &'a [Present],
+    pub(super) walls: &'a Walls,
+}
+
+impl There<'_> {
+    /// Whether somebody just speeds up, brakes or turns harder than people do who move over to a part: they make way for
+    /// somebody, and go on with it first.
+    fn dodges(&self, person: &Present, step_s: f64) -> bool {
+        let before = find(self.before, person.id);
+        before.is_some_and(|before| before.velocity_m_s.distance(person.velocity_m_s) > MOST_M_S2 * step_s)
+    }
 }
 
 /// A spot with its viewer, and the units that are being played there.
@@ -118,15 +137,15 @@ impl Spot {
     }
 
     /// Looks whether a unit can be begun, and begins it.
-    pub(super) fn look(&mut self, now: Now, crowd: &mut SocialCrowd<'_>, people: &[Present], walls: &Walls) {
+    pub(super) fn look(&mut self, now: Now, crowd: &mut SocialCrowd<'_>, there: &There<'_>) {
         if self.units.is_empty() || now.time_s < self.next_s - 1e-9 {
             return;
         }
         self.next_s = now.time_s + self.every_s;
-        match self.choose(now, crowd, people, walls) {
+        match self.choose(now, crowd, there) {
             Ok((candidate, ways)) => {
-                let mut play = self.begin(now, &candidate, ways, people);
-                play.go_on(now, &self.units[play.unit], &self.frame, crowd, people, &mut self.report);
+                let mut play = self.begin(now, &candidate, ways, there.people);
+                play.go_on(now, &self.units[play.unit], &self.frame, crowd, there.people, &mut self.report);
                 self.playing.push(play);
             }
             Err(missed) => self.count(missed),
@@ -153,15 +172,15 @@ impl Spot {
         &self,
         now: Now,
         crowd: &SocialCrowd<'_>,
-        people: &[Present],
-        walls: &Walls,
+        there: &There<'_>,
     ) -> Result<(Candidate, Vec<(u32, Way)>), Missed> {
-        let present = self.present(crowd, people);
+        let present = self.present(crowd, there.people);
         if present.is_empty() {
             return Err(Missed::Nobody);
         }
-        let waits = |id: u32| find(people, id).is_none_or(|person| person.at_stop);
-        if present.iter().flat_map(|group| &group.people).any(|&(id, _)| waits(id)) {
+        let busy = |person: &Present| person.at_stop || there.dodges(person, now.step_s);
+        let is_busy = |id: u32| find(there.people, id).is_none_or(busy);
+        if present.iter().flat_map(|group| &group.people).any(|&(id, _)| is_busy(id)) {
             return Err(Missed::NotFree);
         }
         let recent = |unit: usize| self.recent.iter().position(|&played| played == unit).map(|ago| ago + 1);
@@ -172,13 +191,13 @@ impl Spot {
         let room = Room {
             frame: &self.frame,
             radius_m: self.radius_m,
-            walls,
+            walls: there.walls,
             playing: self.playing.iter().map(|play| (play, &self.units[play.unit])).collect(),
             time_s: now.time_s,
         };
         let mut missed = Missed::TooFar;
         for candidate in ranked.candidates {
-            match self.ways(&candidate, people, &room) {
+            match self.ways(&candidate, there.people, &room) {
                 Ok(ways) => return Ok((candidate, ways)),
                 Err(reason) => missed = reason,
             }
