@@ -16,7 +16,7 @@ use super::steering::Steering;
 use super::stops::{Stops, Surface, Visit};
 use super::surroundings::{OPEN_M, SENSE_M, Surroundings};
 use super::tally::{Tally, Trail};
-use super::walking::{Move, Scene};
+use super::walking::{CALMS_DOWN_M_S2, Move, Scene};
 use super::{CrowdError, CrowdOptions, Stuck};
 use crate::Error;
 use crate::math::{Rect, Vec2, vec2};
@@ -316,7 +316,8 @@ impl<'a> Crowd<'a> {
             let (dx, dy) = (x - body.x, y - body.y);
             let (vx, vy) = (dx / dt, dy / dt);
             // Being pushed makes nobody run.
-            let most = most_speed * traits.speed_m_s;
+            let own_speed = (body.vx * body.vx + body.vy * body.vy).sqrt();
+            let most = (most_speed * traits.speed_m_s).max(own_speed - CALMS_DOWN_M_S2 * dt);
             let speed = (vx * vx + vy * vy).sqrt();
             let ease = if speed > most { most / speed } else { 1.0 };
             (body.vx, body.vy) = (vx * ease, vy * ease);

@@ -18,7 +18,9 @@ const SEPARATION: f32 = 3.2;
 /// Acceleration away from a wall, metres per second squared.
 const WALL_PUSH: f32 = 1.6;
 /// The largest acceleration of a walking person, metres per second squared.
-const MOST_ACCELERATION: f32 = 5.0;
+pub(super) const MOST_ACCELERATION: f32 = 5.0;
+/// Whoever was led faster than they walk themselves slows down to that so hard, metres per second squared.
+pub(super) const CALMS_DOWN_M_S2: f32 = 2.5;
 /// Whoever may come nearer than this to touching in a step, metres, is moved apart if need be.
 const CONTACT_M: f32 = 0.25;
 /// A body is moved by no more than this in a step, metres: what lies farther off a wall need not be looked up.

@@ -1,17 +1,15 @@
 use std::sync::OnceLock;
 
-use trodden::crowd::{SpotReport, SpotRequest};
+use trodden::crowd::SpotRequest;
 use trodden::motion::units::DiversityReport;
 
-use super::scene::{Scene, Seen};
+use super::scene::{Run, Scene, Seen};
 
 /// Time step of the sample, seconds.
 const STEP_S: f64 = 0.1;
 /// The hardest that anybody speeds up, brakes or turns who plays: what units allow themselves and what moving over may
 /// add, metres per second squared.
 const HARDEST_M_S2: f64 = 3.4;
-
-type Run = (Vec<Vec<Seen>>, SpotReport);
 
 /// Both minutes with units.
 fn with() -> &'static Run {
@@ -70,30 +68,42 @@ fn units_are_spliced_in_without_a_jump_and_left_without_one() {
     assert!(steps > 2000, "{steps}");
 }
 
-/// The first second by the model, after a part: no harder than the model moves anybody.
+/// How much room there is between somebody and who is nearest, metres.
+fn gap_m(moment: &[Seen], me: &Seen) -> f64 {
+    let others = moment.iter().filter(|other| other.id != me.id);
+    others.map(|other| me.place_m.distance(other.place_m) - me.radius_m - other.radius_m).fold(f64::INFINITY, f64::min)
+}
+
+/// In the first second by the model, after a part, nobody is moved harder than the model moves anybody, which is rarely as
+/// hard, unless they bump into somebody; that too is rare.
 #[test]
 fn people_walk_on_from_the_place_and_the_velocity_that_they_have() {
-    const HARDEST_BY_THE_MODEL_M_S2: f64 = 5.2;
-    let (mut ended, mut hardest) = (0, 0.0f64);
+    const HARDEST_M_S2: f64 = 5.1;
+    let (mut ended, mut bumps, mut sum, mut count) = (0, 0, 0.0, 0.0);
     let others = others().iter().map(|runs| &runs[0].0);
     for moments in std::iter::once(&with().0).chain(others) {
         for (k, last, first) in led_steps(moments).filter(|(_, before, after)| before.led && !after.led) {
             ended += 1;
-            let after = moments[k + 2..].iter().take(10).map_while(|moment| find(moment, last.id));
             let mut before = first;
-            for now in after.take_while(|seen| !seen.led) {
+            for moment in moments[k + 2..].iter().take(10) {
+                let Some(now) = find(moment, last.id).filter(|seen| !seen.led) else { break };
                 let harder = now.velocity_m_s.distance(before.velocity_m_s) / STEP_S;
-                hardest = hardest.max(harder);
                 let way = now.place_m - before.place_m;
                 let off_m = way.distance((before.velocity_m_s + now.velocity_m_s) * (0.5 * STEP_S));
-                assert!(harder < HARDEST_BY_THE_MODEL_M_S2, "person {} after step {k}: {harder:.2} m/s2", now.id);
-                assert!(off_m < 0.02, "person {} leaps by {off_m:.3} m after step {k}", now.id);
+                (sum, count) = (sum + harder, count + 1.0);
+                if gap_m(moment, now) < 0.06 {
+                    bumps += u32::from(harder > HARDEST_M_S2);
+                } else {
+                    assert!(harder < HARDEST_M_S2, "person {} after step {k}: {harder:.2} m/s2", now.id);
+                    assert!(off_m < 0.03, "person {} leaps by {off_m:.3} m after step {k}", now.id);
+                }
                 before = now;
             }
         }
     }
-    println!("{ended} parts ended; at the hardest {hardest:.2} m/s2 in the second after");
-    assert!(ended > 100, "{ended}");
+    let mean = sum / count;
+    println!("{ended} parts ended; {mean:.2} m/s2 in the mean in the second after, {bumps} bumps");
+    assert!(ended > 100 && bumps * 20 < ended && mean < 1.0, "{ended} {bumps} {mean}");
 }
 
 /// Nobody goes farther in a step than people walk, runners among them; nor do those who have just played stand in others.
@@ -218,10 +228,13 @@ fn any_number_of_threads_gives_the_same() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let scene = Scene::plaza();
-            scene.run(scene.spot(), 30.0)
+            let crowded = scene.run_many(scene.spot(), 20.0, 1, 320);
+            [scene.run(scene.spot(), 30.0), crowded]
         })
     };
     let (one, four) = (run(1), run(4));
-    assert!(one.1.splices > 0);
+    // So many are moved by several threads.
+    assert!(one[1].0.last().unwrap().len() > 300);
+    assert!(one[0].1.splices > 0 && one[1].1.there_s > 10.0);
     assert!(one == four);
 }

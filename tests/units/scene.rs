@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::OnceLock;
 
-use trodden::crowd::{CrowdError, Present, SpotReport, SpotRequest, Spots};
+use trodden::crowd::{CrowdError, CrowdOptions, Present, SpotReport, SpotRequest, Spots};
 use trodden::math::Vec2;
 use trodden::motion::{Frame, Motion, People};
 use trodden::plan::{self, FloorPlan};
@@ -32,6 +32,9 @@ pub struct Seen {
     pub group: u32,
 }
 
+/// Everybody at every moment, and the spot's report.
+pub type Run = (Vec<Vec<Seen>>, SpotReport);
+
 impl Scene {
     pub fn plaza() -> &'static Scene {
         static SCENE: OnceLock<Scene> = OnceLock::new();
@@ -53,23 +56,29 @@ impl Scene {
     }
 
     pub fn begin(&self, spot: SpotRequest) -> Result<Spots<'_>, CrowdError> {
-        self.begin_with(spot, self.scenario.seed)
+        self.begin_with(spot, self.scenario.seed, self.scenario.crowd.people)
     }
 
-    fn begin_with(&self, spot: SpotRequest, seed: u64) -> Result<Spots<'_>, CrowdError> {
+    fn begin_with(&self, spot: SpotRequest, seed: u64, people: u32) -> Result<Spots<'_>, CrowdError> {
         let navigation = self.navigation.clone();
+        let options = CrowdOptions { people, ..self.scenario.crowd.clone() };
         let people = People::new(seed, self.scenario.bodies.clone());
-        Spots::new(&self.plan, &self.walls, &self.routes, navigation, &people, &self.scenario.crowd, &[spot])
+        Spots::new(&self.plan, &self.walls, &self.routes, navigation, &people, &options, &[spot])
     }
 
     /// Lets the crowd walk for so many seconds: everybody at every moment, and the report.
-    pub fn run(&self, spot: SpotRequest, seconds: f64) -> (Vec<Vec<Seen>>, SpotReport) {
+    pub fn run(&self, spot: SpotRequest, seconds: f64) -> Run {
         self.run_with(spot, seconds, self.scenario.seed)
     }
 
     /// The same with another crowd.
-    pub fn run_with(&self, spot: SpotRequest, seconds: f64, seed: u64) -> (Vec<Vec<Seen>>, SpotReport) {
-        let mut crowd = self.begin_with(spot, seed).unwrap();
+    pub fn run_with(&self, spot: SpotRequest, seconds: f64, seed: u64) -> Run {
+        self.run_many(spot, seconds, seed, self.scenario.crowd.people)
+    }
+
+    /// The same with more or fewer people.
+    pub fn run_many(&self, spot: SpotRequest, seconds: f64, seed: u64, people: u32) -> Run {
+        let mut crowd = self.begin_with(spot, seed, people).unwrap();
         let (mut frame, mut moments) = (Frame::default(), Vec::new());
         while frame.time_s < seconds && crowd.next_frame(&mut frame).unwrap() {
             let known: BTreeMap<u32, Present> =

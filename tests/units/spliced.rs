@@ -3,16 +3,16 @@
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-use trodden::crowd::{CrowdModel, SpotReport};
+use trodden::crowd::CrowdModel;
 use trodden::math::{Vec2, sin_cos, vec2};
 use trodden::motion::units::{Areas, Side, SpotFrame, Unit, UnitLibrary};
 
-use super::scene::{Scene, Seen};
+use super::scene::{Run, Scene, Seen};
 
 const STEP_S: f64 = 0.1;
 
-fn run() -> &'static (Vec<Vec<Seen>>, SpotReport) {
-    static RUN: OnceLock<(Vec<Vec<Seen>>, SpotReport)> = OnceLock::new();
+fn run() -> &'static Run {
+    static RUN: OnceLock<Run> = OnceLock::new();
     RUN.get_or_init(|| {
         let scene = Scene::plaza();
         scene.run_with(scene.spot(), 120.0, 5)

@@ -3,7 +3,7 @@
 use super::forces::Forces;
 use crate::crowd::neighbours::Neighbours;
 use crate::crowd::state::{Body, Traits};
-use crate::crowd::walking::Move;
+use crate::crowd::walking::{CALMS_DOWN_M_S2, MOST_ACCELERATION, Move};
 use crate::math::vec2;
 use crate::routes::Ground;
 use crate::walls::Walls;
@@ -12,8 +12,6 @@ use crate::walls::Walls;
 pub(super) const REACH_M: f32 = 4.0;
 /// ... and all of them within this; farther away only those who come nearer.
 const NEAR_M: f32 = 2.0;
-/// The largest acceleration of a walking person, metres per second squared.
-const MOST_ACCELERATION: f32 = 5.0;
 /// Whoever is nearer than this to touching may be bumped into in a step, metres.
 const CONTACT_M: f32 = 0.3;
 /// A body is moved by no more than this in a step, metres: what lies farther off a wall need not be looked up.
@@ -61,7 +59,8 @@ impl Scene<'_> {
             vy += short * aim[1];
         }
         let speed = (vx * vx + vy * vy).sqrt();
-        let most = self.most_speed * traits.speed_m_s;
+        let own_speed = (me.vx * me.vx + me.vy * me.vy).sqrt();
+        let most = (self.most_speed * traits.speed_m_s).max(own_speed - CALMS_DOWN_M_S2 * self.dt);
         if speed > most {
             vx *= most / speed;
             vy *= most / speed;

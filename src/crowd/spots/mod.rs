@@ -92,7 +92,7 @@ impl<'a> Spots<'a> {
             if index > 0 {
                 self.note_people();
             }
-            let there = There { people: &self.people, before: &self.before, walls: self.walls };
+            let there = There { people: &self.people, before: &self.before, step_s: self.step_s, walls: self.walls };
             self.spots[index].look(now, &mut self.crowd, &there);
         }
     }

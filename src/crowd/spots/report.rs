@@ -36,7 +36,7 @@ pub struct SpotReport {
     /// Seconds that anybody was in the front or rear area, whatever they did.
     #[serde(default)]
     pub there_s: f64,
-    /// Seconds that a unit, or several, was being played.
+    /// Of these: a unit, or several, was being played.
     #[serde(default)]
     pub played_s: f64,
     /// How often people were there who could have played, and no unit was begun.
@@ -114,11 +114,12 @@ impl SpotReport {
     pub fn describe(&self) -> String {
         let DiversityReport { speed_bits, heading_bits, .. } = self.diversity;
         format!(
-            "{}: {} units played by {} people, {} left early; taken over {:.2} m and {:.0} degrees off (at most {:.2} m, \
+            "{}: {} units played by {} people, {:.0} % of the time that anybody was there, {} left early; taken over {:.2} m and {:.0} degrees off (at most {:.2} m, \
              {:.0} degrees), moved over in {:.1} s; speeds differ by {speed_bits:.2} bits, headings by {heading_bits:.2}",
             self.name,
             self.splices,
             self.people,
+            100.0 * self.played_s / self.there_s.max(1e-9),
             self.broken_off,
             self.position_error_m.mean,
             self.heading_error_deg.mean,

@@ -17,6 +17,8 @@ use crate::walls::Walls;
 const TOGETHER_M: f64 = 2.5;
 /// Nobody farther from the viewer than this matters, metres: a unit's area is at most 40 m deep, people's ways end within.
 const NEAR_M: f64 = 50.0;
+/// Whoever is this far from where their velocity leads in a step was pushed, metres.
+const PUSHED_M: f64 = 0.004;
 /// Of so many units that were played last it is remembered when.
 const REMEMBERED: usize = 12;
 
@@ -36,15 +38,19 @@ pub(super) struct There<'a> {
     pub(super) people: &'a [Present],
     /// The same a step ago.
     pub(super) before: &'a [Present],
+    /// Seconds since then.
+    pub(super) step_s: f64,
     pub(super) walls: &'a Walls,
 }
 
 impl There<'_> {
-    /// Whether somebody just speeds up, brakes or turns harder than people do who move over to a part: they make way for
-    /// somebody, and go on with it first.
-    fn dodges(&self, person: &Present, step_s: f64) -> bool {
-        let before = find(self.before, person.id);
-        before.is_some_and(|before| before.velocity_m_s.distance(person.velocity_m_s) > MOST_M_S2 * step_s)
+    /// Whether somebody just speeds up, brakes or turns harder than people do who move over to a part, or is being pushed:
+    /// they make way for somebody, and go on with that first.
+    fn dodges(&self, person: &Present) -> bool {
+        let Some(before) = find(self.before, person.id) else { return false };
+        let [was, is] = [before.velocity_m_s, person.velocity_m_s];
+        let expected_m = before.position_m + (was + is) * (0.5 * self.step_s);
+        was.distance(is) > MOST_M_S2 * self.step_s || expected_m.distance(person.position_m) > PUSHED_M
     }
 }
 
@@ -125,8 +131,10 @@ impl Spot {
     /// Goes on with the units that are being played.
     pub(super) fn go_on(&mut self, now: Now, crowd: &mut SocialCrowd<'_>, people: &[Present]) {
         let judged = |person: &Present| self.areas.side_of(self.frame.of_plan(person.position_m)).is_some();
-        self.report.there_s += if people.iter().any(judged) { now.step_s } else { 0.0 };
-        self.report.played_s += if self.playing.is_empty() { 0.0 } else { now.step_s };
+        if people.iter().any(judged) {
+            self.report.there_s += now.step_s;
+            self.report.played_s += if self.playing.is_empty() { 0.0 } else { now.step_s };
+        }
         self.resting.retain(|&(_, until_s)| until_s > now.time_s + 1e-9);
         let Spot { playing, units, frame, report, resting, pause_s, .. } = self;
         playing.retain_mut(|play| {
@@ -178,9 +186,8 @@ impl Spot {
         if present.is_empty() {
             return Err(Missed::Nobody);
         }
-        let busy = |person: &Present| person.at_stop || there.dodges(person, now.step_s);
-        let is_busy = |id: u32| find(there.people, id).is_none_or(busy);
-        if present.iter().flat_map(|group| &group.people).any(|&(id, _)| is_busy(id)) {
+        let waits = |id: u32| find(there.people, id).is_none_or(|person| person.at_stop);
+        if present.iter().flat_map(|group| &group.people).any(|&(id, _)| waits(id)) {
             return Err(Missed::NotFree);
         }
         let recent = |unit: usize| self.recent.iter().position(|&played| played == unit).map(|ago| ago + 1);
@@ -197,7 +204,7 @@ impl Spot {
         };
         let mut missed = Missed::TooFar;
         for candidate in ranked.candidates {
-            match self.ways(&candidate, there.people, &room) {
+            match self.ways(&candidate, there, &room) {
                 Ok(ways) => return Ok((candidate, ways)),
                 Err(reason) => missed = reason,
             }
@@ -244,16 +251,19 @@ impl Spot {
         }
     }
 
-    /// Everybody's way into a unit, if there is room for it.
-    fn ways(&self, candidate: &Candidate, people: &[Present], room: &Room<'_>) -> Result<Vec<(u32, Way)>, Missed> {
+    /// Everybody's way into a unit, if they are free to take it and there is room for it.
+    fn ways(&self, candidate: &Candidate, there: &There<'_>, room: &Room<'_>) -> Result<Vec<(u32, Way)>, Missed> {
         let unit = &self.units[candidate.unit];
         let mut ways = Vec::with_capacity(candidate.parts.len());
         for (member, &id) in candidate.parts.iter().enumerate() {
-            let person = find(people, id).ok_or(Missed::TooFar)?;
+            let person = find(there.people, id).ok_or(Missed::TooFar)?;
+            if there.dodges(person) {
+                return Err(Missed::NotFree);
+            }
             let way = Way::find(unit, member, candidate.mirrored, &self.moment(person)).ok_or(Missed::TooFar)?;
             ways.push((id, way));
         }
-        if room.has(unit, &ways, people) { Ok(ways) } else { Err(Missed::InTheWay) }
+        if room.has(unit, &ways, there.people) { Ok(ways) } else { Err(Missed::InTheWay) }
     }
 
     fn begin(&mut self, now: Now, candidate: &Candidate, ways: Vec<(u32, Way)>, people: &[Present]) -> Play {
