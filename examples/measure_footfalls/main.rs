@@ -9,18 +9,16 @@
 //! it is than on the line `L = 0.247 + 0.344 v`, which holds from 0.4 m/s on. `cargo test --test gait` holds footfalls to
 //! the same.
 
-// A measurement that cannot be made ends the program.
-#![allow(clippy::unwrap_used)]
-
 use std::collections::BTreeMap;
 
+use trodden::Error;
 use trodden::motion::{Frame, Recording, RecordingOptions, Walker};
 
 #[path = "../../tests/gait/measure.rs"]
-#[allow(dead_code, reason = "shared with the tests of gait")]
+#[allow(dead_code, clippy::unwrap_used, reason = "shared with the tests of gait")]
 mod measure;
 #[path = "../../tests/gait/strides.rs"]
-#[allow(dead_code, reason = "shared with the tests of gait")]
+#[allow(dead_code, clippy::unwrap_used, reason = "shared with the tests of gait")]
 mod strides;
 
 use measure::{Floor, Path};
@@ -31,10 +29,10 @@ const RATES: [f64; 4] = [2.5, 5.0, 10.0, 60.0];
 /// Fewer steps say little.
 const LEAST_STEPS: usize = 20;
 
-fn main() {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     for file in std::env::args_os().skip(1) {
-        let recording = Recording::open(file.as_ref(), &RecordingOptions::default()).unwrap();
-        let paths = paths(&recording);
+        let recording = Recording::open(file.as_ref(), &RecordingOptions::default())?;
+        let paths = paths(&recording)?;
         let fps = recording.survey().fps;
         println!(
             "{}: {} people at {fps} Hz; {} Hz",
@@ -44,20 +42,21 @@ fn main() {
         );
         measure(&paths);
     }
+    Ok(())
 }
 
 /// Everybody's path, numbered from 0 on.
-fn paths(recording: &Recording) -> Vec<Path> {
+fn paths(recording: &Recording) -> Result<Vec<Path>, Error> {
     let mut paths: BTreeMap<u32, Path> = BTreeMap::new();
-    let (mut motion, mut frame) = (recording.motion().unwrap(), Frame::default());
-    while motion.next_frame(&mut frame).unwrap() {
+    let (mut motion, mut frame) = (recording.motion()?, Frame::default());
+    while motion.next_frame(&mut frame)? {
         for &walker in &frame.walkers {
             let number = paths.len() as u32;
             let path = paths.entry(walker.id).or_insert_with(|| Path { id: number, at: Vec::new() });
             path.at.push((frame.time_s, walker));
         }
     }
-    paths.into_values().collect()
+    Ok(paths.into_values().collect())
 }
 
 fn measure(paths: &[Path]) {

@@ -1,5 +1,6 @@
-//! Eigenvectors of symmetric matrices, several times as fast as by nalgebra where they are large: as LAPACK's `dsyevd` does
-//! it, with nearly all work in products of matrices.
+//! Eigenvectors of symmetric matrices as LAPACK's `dsyevd` finds them, with nearly all work in products of matrices: several
+//! times as fast as nalgebra's where they are large. An example of 500 people that is decomposed at each of 1000 moments
+//! takes half the time as a whole (`examples/measure_formation`: 64 s instead of 127 s of all processors).
 
 mod divide;
 mod secular;
