@@ -8,7 +8,10 @@ use std::hint::black_box;
 use std::path::PathBuf;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use trodden::motion::{Frame, Recording, RecordingOptions};
+use trodden::Silent;
+use trodden::math::{Vec2, sin_cos, vec2};
+use trodden::motion::formation::{FormationOptions, KeyFormation, interpolate};
+use trodden::motion::{Ensemble, Frame, Recording, RecordingOptions};
 
 const PEOPLE: u32 = 500;
 const FRAMES: u32 = 1500;
