@@ -19,6 +19,13 @@ const OFF_WALLS: f64 = 0.5;
 /// next to nobody passes.
 const DOWN_SHARE: f64 = 0.003;
 
+/// Slack places are left aside: where the flow falls less steeply than this share of the mean around, next to none of
+/// what the sheet conducts there is left, from the second share on all of it.
+const SLACK: [f64; 2] = [0.65, 0.95];
+const SLACK_LEAVES: f64 = 0.02;
+/// What counts as around: about 1.5 tiles of about this side, metres.
+const AROUND_M: f64 = 1.0;
+
 /// How people spread over all the sensible ways from one place to another: a direction for every cell on them.
 ///
 /// Potential flow: people set out evenly from the start's cells and spread as a current does in a sheet,
@@ -26,6 +33,9 @@ const DOWN_SHARE: f64 = 0.003;
 /// divide among the gaps between pillars, take a bend on all of its lanes, and no line draws all of them. The sheet
 /// conducts less the longer a detour is that leads by a place, and less along walls. A current has no dead ends: from
 /// wherever somebody stands in it, it leads to the goal.
+///
+/// A current also swells into niches and the mouths of side ways, where people walk straight on. So it is solved twice:
+/// where it is slack the first time, the sheet conducts little the second time.
 #[derive(Debug)]
 pub(crate) struct Flow {
     /// Where each of the lattice's blocks begins in `ahead`, or [`NONE`].
@@ -51,8 +61,13 @@ impl Flow {
             let off_wall = ((ground.cell_clearance_m(cell) - WALL_M[0]) / (WALL_M[1] - WALL_M[0])).clamp(0.0, 1.0);
             ((near * near) * (near * near)).max(1e-4) * (WALL_SHARE + (1.0 - WALL_SHARE) * off_wall)
         };
-        let sheet = Sheet::new(&ground.lattice, cells, conducts, |cell| to.of_cell(cell) <= 0.0);
-        Flow::of_currents(ground, to, &sheet, sheet.currents(&seeds, |cell| to.of_cell(cell)))
+        let even: Vec<f64> = cells.iter().map(|&cell| conducts(cell)).collect();
+        let guess = cells.iter().map(|&cell| to.of_cell(cell)).collect();
+        let mut sheet = Sheet::new(&ground.lattice, cells, &even, |cell| to.of_cell(cell) <= 0.0);
+        let first = sheet.potential(&seeds, guess);
+        sheet.conduct(&tightened(&sheet, &even, &first, ground.lattice.cell_m()));
+        let potential = sheet.potential(&seeds, first);
+        Flow::of_currents(ground, to, &sheet, sheet.currents(&potential))
     }
 
     fn of_currents(ground: &Ground, to: &Field, sheet: &Sheet, currents: Vec<Vec2>) -> Flow {
@@ -91,6 +106,20 @@ impl Flow {
         let squared = sum.length_squared();
         (squared > 100.0).then(|| sum / squared.sqrt())
     }
+}
+
+/// What a sheet conducts that conducted `even`, with slack places left aside.
+fn tightened(sheet: &Sheet, even: &[f64], potential: &[f64], cell_m: f64) -> Vec<f64> {
+    let slopes = sheet.slopes(potential);
+    let currents: Vec<f64> = slopes.iter().zip(even).map(|(slope, conducts)| slope * conducts).collect();
+    let side =
+        [1, 2, 4, 8, 16].into_iter().rfind(|&side| f64::from(side) * cell_m < std::f64::consts::SQRT_2 * AROUND_M);
+    let means = sheet.means_around(&slopes, &currents, side.unwrap_or(1) as usize);
+    let left = |slope: f64, mean: f64| {
+        let share = if mean > 0.0 { slope / mean } else { 1.0 };
+        ((share - SLACK[0]) / (SLACK[1] - SLACK[0])).clamp(SLACK_LEAVES, 1.0)
+    };
+    even.iter().zip(slopes.iter().zip(means)).map(|(conducts, (&slope, mean))| conducts * left(slope, mean)).collect()
 }
 
 /// Away from a near wall: the more the nearer it is, nothing from [`OFF_WALLS_M`] on and half way between two walls.

@@ -8,6 +8,8 @@ const MOST_TILES: usize = 8_000;
 const LARGEST_TILE: usize = 8;
 /// Rounds of smoothing each time that tiles are divided: enough for what is new at that size.
 const SWEEPS: usize = 8;
+/// How many tiles are gone over to their neighbours for a mean: by chance they would get 1.5 tiles far.
+const STEPS_AROUND: usize = 6;
 /// Nothing there.
 pub(super) const NONE: u32 = u32::MAX;
 /// The tile of all cells that are earthed.
@@ -51,22 +53,27 @@ impl Tiles {
 }
 
 impl Sheet {
-    /// Joins cells (ascending) that conduct so well.
+    /// Joins cells (ascending) that conduct as well as given, in their order.
     pub(super) fn new(
         lattice: &Lattice,
         cells: Vec<usize>,
-        conducts: impl Fn(usize) -> f64,
+        conducts: &[f64],
         is_earthed: impl Fn(usize) -> bool,
     ) -> Sheet {
         let mut place = vec![NONE; lattice.len()];
         cells.iter().enumerate().for_each(|(k, &cell)| place[cell] = k as u32);
         let beside_of = |&c: &usize| lattice.around(c).map(|b| if b == usize::MAX { NONE } else { place[b] });
         let beside: Vec<[u32; 4]> = cells.iter().map(beside_of).collect();
-        let own: Vec<f32> = cells.iter().map(|&c| conducts(c) as f32).collect();
-        let to = |a: f32, b: u32| own.get(b as usize).map_or(0.0, |&b| 2.0 * a * b / (a + b));
-        let conductance = beside.iter().zip(&own).map(|(beside, &a)| beside.map(|b| to(a, b))).collect();
         let is_earthed = cells.iter().map(|&c| is_earthed(c)).collect();
-        Sheet { cells, beside, conductance, is_earthed }
+        let mut sheet = Sheet { cells, beside, conductance: Vec::new(), is_earthed };
+        sheet.conduct(conducts);
+        sheet
+    }
+
+    /// The same cells conduct as given from now on.
+    pub(super) fn conduct(&mut self, conducts: &[f64]) {
+        let to = |a: f64, b: u32| conducts.get(b as usize).map_or(0.0, |&b| 2.0 * a * b / (a + b)) as f32;
+        self.conductance = self.beside.iter().zip(conducts).map(|(beside, &a)| beside.map(|b| to(a, b))).collect();
     }
 
     /// The lattice's cells, ascending.
@@ -74,31 +81,86 @@ impl Sheet {
         &self.cells
     }
 
-    /// The current through each cell, in the order of the cells: a unit current enters, divided evenly among `starts`.
+    /// The potential of each cell: a unit current enters, divided evenly among `starts`.
     ///
-    /// `guess` is about proportional to the potential.
-    pub(super) fn currents(&self, starts: &[usize], guess: impl Fn(usize) -> f64) -> Vec<Vec2> {
+    /// `guess` is about proportional to it.
+    pub(super) fn potential(&self, starts: &[usize], guess: Vec<f64>) -> Vec<f64> {
         let mut source = vec![0.0; self.cells.len()];
         for start in starts {
             if let Ok(k) = self.cells.binary_search(start) {
                 source[k] = 1.0 / starts.len() as f64;
             }
         }
-        let guess = self.cells.iter().map(|&cell| guess(cell)).collect();
-        let potential = self.potential(&source, guess);
-        (0..self.cells.len())
-            .map(|cell| {
-                let out = |side: usize| match self.beside[cell][side] {
-                    NONE => 0.0,
-                    b => f64::from(self.conductance[cell][side]) * (potential[cell] - potential[b as usize]),
-                };
-                vec2(out(1) - out(0), out(3) - out(2)) * 0.5
-            })
-            .collect()
+        self.solve(&source, guess)
+    }
+
+    /// The current through each cell at a potential.
+    pub(super) fn currents(&self, potential: &[f64]) -> Vec<Vec2> {
+        let current = |cell: usize| {
+            let out = |side: usize| match self.beside[cell][side] {
+                NONE => 0.0,
+                b => f64::from(self.conductance[cell][side]) * (potential[cell] - potential[b as usize]),
+            };
+            vec2(out(1) - out(0), out(3) - out(2)) * 0.5
+        };
+        (0..self.cells.len()).map(current).collect()
+    }
+
+    /// How steeply a potential falls at each cell, per cell's side.
+    pub(super) fn slopes(&self, potential: &[f64]) -> Vec<f64> {
+        let slope = |cell: usize| {
+            let along = |[back, ahead]: [usize; 2]| {
+                let other = |side: usize| potential.get(self.beside[cell][side] as usize);
+                match (other(back), other(ahead)) {
+                    (Some(back), Some(ahead)) => (back - ahead) * 0.5,
+                    (Some(one), None) | (None, Some(one)) => potential[cell] - one,
+                    (None, None) => 0.0,
+                }
+            };
+            vec2(along([0, 1]), along([2, 3])).length()
+        };
+        (0..self.cells.len()).map(slope).collect()
+    }
+
+    /// For each cell the weighted mean of the values around it, as far as one gets within the sheet in some steps over tiles
+    /// of so many cells a side: within about 1.5 tiles, as a bell curve weighs it.
+    pub(super) fn means_around(&self, values: &[f64], weights: &[f64], side: usize) -> Vec<f64> {
+        let tiles = self.joined(side);
+        let mut sums = vec![[0.0; 2]; tiles.count];
+        for (k, &tile) in tiles.of.iter().enumerate() {
+            if let Some([sum, weight]) = sums.get_mut(tile as usize) {
+                *sum += values[k] * weights[k];
+                *weight += weights[k];
+            }
+        }
+        let matrix = self.matrix(&tiles, |_, _| 1.0 / side as f64);
+        for _ in 0..STEPS_AROUND {
+            sums = (0..tiles.count)
+                .map(|tile| {
+                    let add = |a: [f64; 2], (b, share): (usize, f64)| [0, 1].map(|k| a[k] + share * sums[b][k]);
+                    matrix.around(tile).fold(sums[tile], add)
+                })
+                .collect();
+        }
+        let mean = |(k, &tile): (usize, &u32)| match sums.get(tile as usize) {
+            Some([sum, weight]) if *weight > 0.0 => sum / weight,
+            _ => values[k],
+        };
+        let mut means: Vec<f64> = tiles.of.iter().enumerate().map(mean).collect();
+        // Tiles have edges that nobody should see.
+        for _ in 0..side {
+            means = (0..means.len())
+                .map(|k| {
+                    let around = self.beside[k].iter().map(|&b| means.get(b as usize).copied().unwrap_or(means[k]));
+                    (means[k] + around.sum::<f64>()) / 5.0
+                })
+                .collect();
+        }
+        means
     }
 
     /// Solves from large tiles to single cells.
-    fn potential(&self, source: &[f64], mut potential: Vec<f64>) -> Vec<f64> {
+    fn solve(&self, source: &[f64], mut potential: Vec<f64>) -> Vec<f64> {
         let mut side = 1;
         while self.cells.len() > MOST_TILES * side * side && side < LARGEST_TILE {
             side *= 2;
@@ -106,7 +168,7 @@ impl Sheet {
         let mut solved = false;
         while side > 1 || !solved {
             let tiles = self.joined(side);
-            let matrix = self.matrix(&tiles);
+            let matrix = self.matrix(&tiles, |cell, side| f64::from(self.conductance[cell][side]));
             let mut sums = vec![0.0; tiles.count];
             for (value, &tile) in source.iter().zip(&tiles.of) {
                 if let Some(sum) = sums.get_mut(tile as usize) {
@@ -184,14 +246,15 @@ impl Sheet {
         Tiles { of, count: count as usize }
     }
 
-    fn matrix(&self, tiles: &Tiles) -> Matrix {
+    /// The tiles with what the sides between their cells conduct.
+    fn matrix(&self, tiles: &Tiles, conductance: impl Fn(usize, usize) -> f64) -> Matrix {
         let mut edges: Vec<(u32, u32, f64)> = Vec::new();
         let mut earthed = vec![0.0; tiles.count];
         for (cell, &own) in tiles.of.iter().enumerate().filter(|t| *t.1 != EARTH) {
-            for (&beside, &conductance) in self.beside[cell].iter().zip(&self.conductance[cell]) {
+            for (side, &beside) in self.beside[cell].iter().enumerate() {
                 match tiles.of.get(beside as usize) {
-                    Some(&EARTH) => earthed[own as usize] += f64::from(conductance),
-                    Some(&other) if other != own => edges.push((own, other, f64::from(conductance))),
+                    Some(&EARTH) => earthed[own as usize] += conductance(cell, side),
+                    Some(&other) if other != own => edges.push((own, other, conductance(cell, side))),
                     _ => {}
                 }
             }

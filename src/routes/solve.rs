@@ -46,6 +46,11 @@ impl Matrix {
         self.columns[range.clone()].iter().zip(&self.values[range]).map(|(&c, &v)| (c as usize, v))
     }
 
+    /// All neighbours of a row.
+    pub(super) fn around(&self, row: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.neighbours(row, 0).chain(self.neighbours(row, 1))
+    }
+
     /// Solves by conjugate gradients, preconditioned with a modified incomplete Cholesky factor (Gustafsson 1978,
     /// doi 10.1007/BF01931691).
     pub(super) fn solve(&self, b: &[f64], guess: Vec<f64>) -> Vec<f64> {
@@ -91,16 +96,15 @@ impl Matrix {
     pub(super) fn relax(&self, b: &[f64], x: &mut [f64], rounds: usize) {
         for _ in 0..rounds {
             for row in 0..x.len() {
-                let around = self.neighbours(row, 0).chain(self.neighbours(row, 1));
-                x[row] = around.fold(b[row], |sum, (column, value)| sum + value * x[column]) / self.diagonal[row];
+                x[row] =
+                    self.around(row).fold(b[row], |sum, (column, value)| sum + value * x[column]) / self.diagonal[row];
             }
         }
     }
 
     fn times(&self, x: &[f64], out: &mut [f64]) {
         for (row, out) in out.iter_mut().enumerate() {
-            let around = self.neighbours(row, 0).chain(self.neighbours(row, 1));
-            *out = around.fold(self.diagonal[row] * x[row], |sum, (column, value)| sum - value * x[column]);
+            *out = self.around(row).fold(self.diagonal[row] * x[row], |sum, (column, value)| sum - value * x[column]);
         }
     }
 

@@ -54,6 +54,22 @@ fn ids_follow_arrivals_and_frames_list_them_in_order() {
 }
 
 #[test]
+fn who_goes_along_a_corridor_stays_out_of_its_niche() {
+    // 4 m wide, with a niche 4 m wide and 3 m deep on one side, and a side way without end on the other.
+    let floor = |p: Vec2| (8.0..12.0).contains(&p.y) || (18.0..22.0).contains(&p.x) && (0.0..15.0).contains(&p.y);
+    let scene = Scene::new([40.0, 20.0], floor, vec![route(opening("west"), opening("east"))]);
+    let (mut beside, mut inside) = (0, 0);
+    scene.walk(&commuters(200), 1, |frame| {
+        for walker in frame.walkers.iter().filter(|walker| (18.0..22.0).contains(&walker.position_m.x)) {
+            beside += 1;
+            inside += u32::from(!(8.0..12.0).contains(&walker.position_m.y));
+        }
+    });
+    assert!(beside > 3000, "{beside}");
+    assert!(inside * 200 < beside, "{inside} of {beside} are in the niche");
+}
+
+#[test]
 fn bodies_overlap_by_less_than_a_tenth_after_each_step() {
     // 2 and 3.5 persons per square metre, all the same exclusion distance so that it can be checked.
     let everywhere = PlaceRequest::Area([[0.0, 0.0], [26.0, 2.4]]);
