@@ -61,11 +61,11 @@ impl Flow {
             let off_wall = ((ground.cell_clearance_m(cell) - WALL_M[0]) / (WALL_M[1] - WALL_M[0])).clamp(0.0, 1.0);
             ((near * near) * (near * near)).max(1e-4) * (WALL_SHARE + (1.0 - WALL_SHARE) * off_wall)
         };
-        let even: Vec<f64> = cells.iter().map(|&cell| conducts(cell)).collect();
+        let loose: Vec<f64> = cells.iter().map(|&cell| conducts(cell)).collect();
         let guess = cells.iter().map(|&cell| to.of_cell(cell)).collect();
-        let mut sheet = Sheet::new(&ground.lattice, cells, &even, |cell| to.of_cell(cell) <= 0.0);
+        let mut sheet = Sheet::new(&ground.lattice, cells, &loose, |cell| to.of_cell(cell) <= 0.0);
         let first = sheet.potential(&seeds, guess);
-        sheet.conduct(&tightened(&sheet, &even, &first, ground.lattice.cell_m()));
+        sheet.conduct(&tightened(&sheet, &loose, &first, ground.lattice.cell_m()));
         let potential = sheet.potential(&seeds, first);
         Flow::of_currents(ground, to, &sheet, sheet.currents(&potential))
     }
@@ -108,10 +108,10 @@ impl Flow {
     }
 }
 
-/// What a sheet conducts that conducted `even`, with slack places left aside.
-fn tightened(sheet: &Sheet, even: &[f64], potential: &[f64], cell_m: f64) -> Vec<f64> {
+/// What a sheet conducts that conducted `loose`, with slack places left aside.
+fn tightened(sheet: &Sheet, loose: &[f64], potential: &[f64], cell_m: f64) -> Vec<f64> {
     let slopes = sheet.slopes(potential);
-    let currents: Vec<f64> = slopes.iter().zip(even).map(|(slope, conducts)| slope * conducts).collect();
+    let currents: Vec<f64> = slopes.iter().zip(loose).map(|(slope, conducts)| slope * conducts).collect();
     let side =
         [1, 2, 4, 8, 16].into_iter().rfind(|&side| f64::from(side) * cell_m < std::f64::consts::SQRT_2 * AROUND_M);
     let means = sheet.means_around(&slopes, &currents, side.unwrap_or(1) as usize);
@@ -119,7 +119,7 @@ fn tightened(sheet: &Sheet, even: &[f64], potential: &[f64], cell_m: f64) -> Vec
         let share = if mean > 0.0 { slope / mean } else { 1.0 };
         ((share - SLACK[0]) / (SLACK[1] - SLACK[0])).clamp(SLACK_LEAVES, 1.0)
     };
-    even.iter().zip(slopes.iter().zip(means)).map(|(conducts, (&slope, mean))| conducts * left(slope, mean)).collect()
+    loose.iter().zip(slopes.iter().zip(means)).map(|(conducts, (&slope, mean))| conducts * left(slope, mean)).collect()
 }
 
 /// Away from a near wall: the more the nearer it is, nothing from [`OFF_WALLS_M`] on and half way between two walls.

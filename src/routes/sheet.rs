@@ -29,6 +29,8 @@ pub(super) struct Sheet {
     /// Conductance to each of them.
     conductance: Vec<[f32; 4]>,
     is_earthed: Vec<bool>,
+    /// Tilings by which it is solved, the largest tiles first, with their sides in cells.
+    tilings: Vec<(usize, Tiles)>,
 }
 
 /// Cells joined within squares.
@@ -52,6 +54,15 @@ impl Tiles {
     }
 }
 
+/// The sides of the tiles by which so many cells are solved, in cells, from the largest down to 2; or 1 if they are few.
+fn sides(cells: usize) -> impl Iterator<Item = usize> {
+    let mut largest = 1;
+    while cells > MOST_TILES * largest * largest && largest < LARGEST_TILE {
+        largest *= 2;
+    }
+    std::iter::successors(Some(largest), |side| Some(side / 2)).take_while(move |&side| side > 1 || side == largest)
+}
+
 impl Sheet {
     /// Joins cells (ascending) that conduct as well as given, in their order.
     pub(super) fn new(
@@ -65,8 +76,9 @@ impl Sheet {
         let beside_of = |&c: &usize| lattice.around(c).map(|b| if b == usize::MAX { NONE } else { place[b] });
         let beside: Vec<[u32; 4]> = cells.iter().map(beside_of).collect();
         let is_earthed = cells.iter().map(|&c| is_earthed(c)).collect();
-        let mut sheet = Sheet { cells, beside, conductance: Vec::new(), is_earthed };
+        let mut sheet = Sheet { cells, beside, conductance: Vec::new(), is_earthed, tilings: Vec::new() };
         sheet.conduct(conducts);
+        sheet.tilings = sides(sheet.cells.len()).map(|side| (side, sheet.joined(side))).collect();
         sheet
     }
 
@@ -125,7 +137,14 @@ impl Sheet {
     /// For each cell the weighted mean of the values around it, as far as one gets within the sheet in some steps over tiles
     /// of so many cells a side: within about 1.5 tiles, as a bell curve weighs it.
     pub(super) fn means_around(&self, values: &[f64], weights: &[f64], side: usize) -> Vec<f64> {
-        let tiles = self.joined(side);
+        let own;
+        let tiles = match self.tilings.iter().find(|tiling| tiling.0 == side) {
+            Some((_, tiles)) => tiles,
+            None => {
+                own = self.joined(side);
+                &own
+            }
+        };
         let mut sums = vec![[0.0; 2]; tiles.count];
         for (k, &tile) in tiles.of.iter().enumerate() {
             if let Some([sum, weight]) = sums.get_mut(tile as usize) {
@@ -133,7 +152,7 @@ impl Sheet {
                 *weight += weights[k];
             }
         }
-        let matrix = self.matrix(&tiles, |_, _| 1.0 / side as f64);
+        let matrix = self.matrix(tiles, |_, _| 1.0 / side as f64);
         for _ in 0..STEPS_AROUND {
             sums = (0..tiles.count)
                 .map(|tile| {
@@ -161,14 +180,8 @@ impl Sheet {
 
     /// Solves from large tiles to single cells.
     fn solve(&self, source: &[f64], mut potential: Vec<f64>) -> Vec<f64> {
-        let mut side = 1;
-        while self.cells.len() > MOST_TILES * side * side && side < LARGEST_TILE {
-            side *= 2;
-        }
-        let mut solved = false;
-        while side > 1 || !solved {
-            let tiles = self.joined(side);
-            let matrix = self.matrix(&tiles, |cell, side| f64::from(self.conductance[cell][side]));
+        for (number, (side, tiles)) in self.tilings.iter().enumerate() {
+            let matrix = self.matrix(tiles, |cell, side| f64::from(self.conductance[cell][side]));
             let mut sums = vec![0.0; tiles.count];
             for (value, &tile) in source.iter().zip(&tiles.of) {
                 if let Some(sum) = sums.get_mut(tile as usize) {
@@ -176,21 +189,19 @@ impl Sheet {
                 }
             }
             let mut values = tiles.means(&potential);
-            if solved {
-                matrix.relax(&sums, &mut values, SWEEPS);
-            } else {
+            if number == 0 {
                 values = matrix.solve(&sums, values);
-                solved = true;
+            } else {
+                matrix.relax(&sums, &mut values, SWEEPS);
             }
             // Tiles of twice the side conduct twice as well between each other as they should.
-            let scale = if side > 1 { 2.0 } else { 1.0 };
+            let scale = if *side > 1 { 2.0 } else { 1.0 };
             for (value, &tile) in potential.iter_mut().zip(&tiles.of) {
                 *value = values.get(tile as usize).map_or(0.0, |v| v * scale);
             }
-            if side == 1 {
+            if *side == 1 {
                 return potential;
             }
-            side /= 2;
         }
         self.relax(source, &mut potential);
         potential
@@ -259,6 +270,6 @@ impl Sheet {
                 }
             }
         }
-        Matrix::new(&earthed, edges)
+        Matrix::new(&earthed, &edges)
     }
 }

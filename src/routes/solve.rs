@@ -17,14 +17,25 @@ pub(super) struct Matrix {
 
 impl Matrix {
     /// The conductances to earth, and those from row to row (each given in both directions, in any pieces).
-    pub(super) fn new(earthed: &[f64], mut edges: Vec<(u32, u32, f64)>) -> Matrix {
-        edges.sort_by_key(|&(row, column, _)| (row, column));
+    pub(super) fn new(earthed: &[f64], edges: &[(u32, u32, f64)]) -> Matrix {
+        let rows = earthed.len();
         let mut matrix = Matrix { diagonal: earthed.to_vec(), ..Matrix::default() };
-        let mut edges = edges.into_iter().peekable();
-        for row in 0..earthed.len() as u32 {
+        // Each row's edges together, in the order in which they came: sums are the same then whatever sorts them.
+        let mut starts = vec![0; rows + 1];
+        edges.iter().for_each(|edge| starts[edge.0 as usize + 1] += 1);
+        (0..rows).for_each(|row| starts[row + 1] += starts[row]);
+        let mut next = starts.clone();
+        let mut sorted = vec![(0, 0.0); edges.len()];
+        for &(row, column, value) in edges {
+            sorted[next[row as usize]] = (column, value);
+            next[row as usize] += 1;
+        }
+        for row in 0..rows {
+            let own = &mut sorted[starts[row]..starts[row + 1]];
+            own.sort_by_key(|edge| edge.0);
             let first = matrix.columns.len();
-            while let Some((_, column, value)) = edges.next_if(|e| e.0 == row) {
-                matrix.diagonal[row as usize] += value;
+            for &(column, value) in &*own {
+                matrix.diagonal[row] += value;
                 if matrix.columns.len() > first && matrix.columns.last() == Some(&column) {
                     let last = matrix.values.len() - 1;
                     matrix.values[last] += value;
@@ -33,7 +44,7 @@ impl Matrix {
                     matrix.values.push(value);
                 }
             }
-            let behind = first + matrix.columns[first..].partition_point(|&c| c < row);
+            let behind = first + matrix.columns[first..].partition_point(|&c| (c as usize) < row);
             matrix.bounds.push([first as u32, behind as u32, matrix.columns.len() as u32]);
         }
         matrix
@@ -160,7 +171,7 @@ mod tests {
             }
         }
         let earthed: Vec<f64> = (0..side * side).map(|k| f64::from(u8::from(k % side == 0))).collect();
-        Matrix::new(&earthed, edges)
+        Matrix::new(&earthed, &edges)
     }
 
     #[test]
