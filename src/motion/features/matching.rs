@@ -105,7 +105,7 @@ mod tests {
             }
             fn warn(&self, _: &str) {}
             fn interrupted(&self) -> bool {
-                self.0.lock().unwrap().len() >= 1
+                !self.0.lock().unwrap().is_empty()
             }
         }
         // A smaller crowd is sought more than once.
