@@ -68,21 +68,9 @@ pub struct FormationOptions {
     /// How slowly the example's basis follows its eigenvectors if it is decomposed between keys, seconds, 0 to 1e6; 0 is
     /// at once. See [`Follower`](super::Follower).
     ///
-    /// The default, 30 s, is the quickest at which the energy of the fluctuation stays within 5 %. Energy over that of the example,
-    /// and in brackets that of steps alone, for 25 people in 60 s from a grid over a ring to a triangle
-    /// (`cargo run --release --example measure_formation -- 25 601`):
-    ///
-    /// | decomposed | 0 s | 2 s | 10 s | 30 s |
-    /// |---|---|---|---|---|
-    /// | walk on a grid, 10 times | 2.10 (1.00) | 3.31 (1.00) | 1.10 (1.00) | 0.97 (1.00) |
-    /// | 100 times | 2.81 (1.00) | 1.46 (0.97) | 0.97 (0.99) | 0.98 (1.00) |
-    /// | at all 601 moments | 13.9 (1.73) | 1.52 (0.94) | 1.01 (0.99) | 0.99 (0.99) |
-    /// | wandering, 10 times | 1.00 (2.6) | 1.12 (1.7) | 0.99 (1.03) | 1.00 (1.02) |
-    /// | 100 times | 1.18 (359) | 1.29 (2.7) | 1.00 (1.05) | 1.00 (1.02) |
-    /// | at all 601 moments | 1.32 (2440) | 1.27 (2.2) | 1.00 (1.05) | 1.00 (1.02) |
-    ///
-    /// At the keys alone it is 1.00 (1.00) for the walk and 0.99 (1.06) for those who wander; other numbers of people and seconds have 0.91
-    /// to 1.27 there for those who wander, whose formation is another all the time, and at 30 s 0.98 to 1.01.
+    /// The default, 30 s, is the quickest at which the energy of the fluctuation stays within 5 % of the example's, for people
+    /// who walk on a grid and for people who wander about; at once, swapping eigenvectors make it up to 14 times as much.
+    /// `cargo run --release --example measure_formation -- 25 601` measures it; `docs/motion.md` has the table.
     pub following_s: f64,
 }
 
