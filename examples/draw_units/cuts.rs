@@ -1,13 +1,8 @@
-use std::path::Path;
-
-use trodden::crowd::{SpotRequest, simulate};
+use trodden::Silent;
 use trodden::math::vec2;
-use trodden::motion::People;
 use trodden::motion::units::{CutOptions, SpotFrame, Unit, cut};
-use trodden::routes::Navigation;
-use trodden::scenario::{Overrides, Scenario};
-use trodden::walls::Walls;
-use trodden::{Silent, plan};
+
+use super::plaza::Plaza;
 
 /// Pieces are cut out of so many crowds, ...
 const SEEDS: u64 = 4;
@@ -18,18 +13,11 @@ const MOST_PEOPLE: usize = 4;
 
 /// Pieces of what people do on the sample plaza around somebody who stands there, with the names of their files.
 pub fn all() -> Result<Vec<(String, Unit)>, trodden::Error> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("floorplans/plaza.toml");
     let mut units: Vec<(String, Unit)> = Vec::new();
     for seed in 101..=100 + SEEDS {
-        let scenario = Scenario::open(&path, &Overrides { seed: Some(seed), ..Overrides::default() })?;
-        let floor = plan::read(&scenario.image_path().unwrap_or_default(), &scenario.plan_options())?;
-        let walls = Walls::trace(&floor, &scenario.walls)?;
-        let (routes, ways) = Navigation::find(&floor, &walls, &scenario.routes)?;
-        let people = People::new(seed, scenario.bodies.clone());
-        let spots: Vec<SpotRequest> =
-            scenario.spots().into_iter().map(|spot| SpotRequest { play: false, ..spot }).collect();
-        let mut crowd = simulate(&floor, &walls, &routes, ways, &people, &scenario.crowd, &spots)?;
-        let spot = SpotFrame { at_m: spots[0].at.to_m(&floor), ahead: vec2(0.0, 1.0) };
+        let plaza = Plaza::open(seed)?;
+        let spot = SpotFrame { at_m: plaza.spots(false)[0].at.to_m(&plaza.plan), ahead: vec2(0.0, 1.0) };
+        let mut crowd = plaza.crowd(false)?;
         let options = CutOptions { most: 60, apart_m: 0.5, least_s: 4.0, ..CutOptions::default() };
         let found = cut(&mut *crowd, "walked", spot, &options, &Silent)?;
         let fits = |unit: &Unit| {

@@ -13,6 +13,7 @@ use trodden::motion::units::{Moment, Unit};
 
 mod actor;
 mod cuts;
+mod plaza;
 mod scenes;
 
 /// The drawn units: name of the file without ending, and its text.

@@ -4,28 +4,19 @@
 //! cargo run --release --example measure_units
 //! ```
 
-use std::path::Path;
+use trodden::crowd::SpotReport;
+use trodden::motion::Frame;
 
-use trodden::crowd::{SpotReport, SpotRequest, simulate};
-use trodden::motion::{Frame, People};
-use trodden::plan;
-use trodden::routes::Navigation;
-use trodden::scenario::{Overrides, Scenario};
-use trodden::walls::Walls;
+#[path = "../draw_units/plaza.rs"]
+mod plaza;
 
 /// The crowds that are measured.
 const SEEDS: std::ops::RangeInclusive<u64> = 1..=4;
 
 /// What came of the sample's spot with one seed.
 fn measured(seed: u64, play: bool) -> Result<SpotReport, Box<dyn std::error::Error>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("floorplans/plaza.toml");
-    let scenario = Scenario::open(&path, &Overrides { seed: Some(seed), ..Overrides::default() })?;
-    let floor = plan::read(&scenario.image_path().unwrap_or_default(), &scenario.plan_options())?;
-    let walls = Walls::trace(&floor, &scenario.walls)?;
-    let (routes, ways) = Navigation::find(&floor, &walls, &scenario.routes)?;
-    let people = People::new(seed, scenario.bodies.clone());
-    let spots: Vec<SpotRequest> = scenario.spots().into_iter().map(|spot| SpotRequest { play, ..spot }).collect();
-    let mut crowd = simulate(&floor, &walls, &routes, ways, &people, &scenario.crowd, &spots)?;
+    let plaza = plaza::Plaza::open(seed)?;
+    let mut crowd = plaza.crowd(play)?;
     let mut frame = Frame::default();
     while crowd.next_frame(&mut frame)? {}
     crowd.tally().spots.into_iter().next().ok_or_else(|| "the sample has no spot".into())

@@ -5,6 +5,7 @@ use clap::Args;
 use trodden::Error;
 use trodden::export::diff::{Comparison, DiffOptions, ImageDiff, diff};
 
+use super::arguments::number_within;
 use super::{Common, print};
 
 /// Compare two bakes, or two images, texel by texel; exit with 1 where they differ
@@ -97,5 +98,5 @@ fn not_negative(text: &str) -> Result<f64, String> {
 }
 
 fn share(text: &str) -> Result<f64, String> {
-    not_negative(text).ok().filter(|share| *share <= 1.0).ok_or_else(|| "allowed is 0 to 1".to_string())
+    number_within(text, [0.0, 1.0])
 }

@@ -7,6 +7,7 @@ use trodden::export::preview::still::{Camera, FOV_DEG, STILL_SIZES_PX};
 use trodden::look::Look;
 use trodden::{Error, Progress, Stage};
 
+use super::arguments::number_within;
 use super::progress::Watch;
 use super::{Common, print};
 
@@ -86,10 +87,7 @@ fn beside(bake: &Path) -> PathBuf {
 }
 
 fn fov(text: &str) -> Result<f64, String> {
-    let [low, high] = FOV_DEG;
-    // Written so that NaN is out of range.
-    let allowed = |number: &f64| *number >= low && *number <= high;
-    text.parse().ok().filter(allowed).ok_or_else(|| format!("allowed is {low} to {high}"))
+    number_within(text, FOV_DEG)
 }
 
 fn size(text: &str) -> Result<[u32; 2], String> {

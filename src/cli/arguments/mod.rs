@@ -3,14 +3,15 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use clap::builder::PossibleValuesParser;
 use clap::builder::TypedValueParser;
 use trodden::export::Target;
 use trodden::scenario::{Overrides, Preset, Scenario, allowed_range};
 
 mod motion_files;
+mod values;
 
 pub use motion_files::{MotionFiles, frame_rate, recording_format};
+pub use values::{number_within, one_of, within};
 
 /// Texel density of a quick bake, texels per metre.
 const QUICK_TEXELS_PER_METRE: f64 = 25.0;
@@ -73,26 +74,12 @@ impl ScenarioArguments {
 
 /// Takes the name of a program that textures are for.
 pub fn target() -> impl TypedValueParser<Value = Target> {
-    PossibleValuesParser::new(Target::ALL.map(Target::name))
-        .map(|name| Target::ALL.into_iter().find(|target| target.name() == name).unwrap_or_default())
+    one_of(Target::ALL, Target::name)
 }
 
 /// Takes the name of a preset.
 pub fn preset() -> impl TypedValueParser<Value = Preset> {
-    PossibleValuesParser::new(Preset::ALL.map(Preset::name))
-        .map(|name| Preset::ALL.into_iter().find(|preset| preset.name() == name).unwrap_or_default())
-}
-
-/// Takes a number within the range of a scenario's key.
-fn within(key: &'static str) -> impl Fn(&str) -> Result<f64, String> + Clone {
-    move |text| {
-        let number: f64 = text.parse().map_err(|_| "not a number".to_string())?;
-        match allowed_range(key) {
-            // Written so that NaN is out of range.
-            Some([low, high]) if !(number >= low && number <= high) => Err(format!("allowed is {low} to {high}")),
-            _ => Ok(number),
-        }
-    }
+    one_of(Preset::ALL, Preset::name)
 }
 
 fn people(text: &str) -> Result<u32, String> {

@@ -12,6 +12,7 @@ use trodden::motion::{FRAME_RATES, RecordForm, RecordingFormat};
 use trodden::walk::{MotionOutput, WalkOutputs, WalkReport, same_file};
 
 use super::super::{Cli, Common, print};
+use super::{number_within, one_of};
 
 /// Where a motion and pictures of it are written.
 #[derive(Args)]
@@ -193,10 +194,7 @@ fn animation_file(text: &str) -> Result<PathBuf, String> {
 
 /// Takes the name of a format.
 pub fn recording_format() -> impl TypedValueParser<Value = RecordingFormat> {
-    PossibleValuesParser::new(RecordingFormat::ALL.map(RecordingFormat::name)).map(|name| {
-        let found = RecordingFormat::ALL.into_iter().find(|format| format.name() == name);
-        found.unwrap_or(RecordingFormat::Juelich)
-    })
+    one_of(RecordingFormat::ALL, RecordingFormat::name)
 }
 
 /// Takes frames per second.
@@ -206,12 +204,6 @@ pub fn frame_rate(text: &str) -> Result<f64, String> {
 
 fn speed(text: &str) -> Result<f64, String> {
     number_within(text, ANIMATION_SPEEDS)
-}
-
-fn number_within(text: &str, [low, high]: [f64; 2]) -> Result<f64, String> {
-    // Written so that NaN is out of range.
-    let allowed = |number: &f64| *number >= low && *number <= high;
-    text.parse().ok().filter(allowed).ok_or_else(|| format!("allowed is {low} to {high}"))
 }
 
 fn colour() -> impl TypedValueParser<Value = AnimationColour> {

@@ -1,7 +1,7 @@
 use std::process::ExitCode;
 
 use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::TypedValueParser;
 use serde::Serialize;
 use trodden::motion::features::{
     self, Component, FeaturesOptions, Method, Mix, MixOptions, Modulation, NEIGHBOUR_DISTANCES_M, Rule, TogetherSpan,
@@ -12,7 +12,7 @@ use trodden::source::{CoordinateFrame, Given};
 use trodden::walk::WalkReport;
 use trodden::{Error, Progress};
 
-use super::super::arguments::frame_rate;
+use super::super::arguments::{frame_rate, number_within, one_of};
 use super::super::progress::Watch;
 use super::Common;
 use super::input::{RecordingInput, seconds};
@@ -308,14 +308,11 @@ impl Features {
 }
 
 fn method() -> impl TypedValueParser<Value = Method> {
-    PossibleValuesParser::new(Method::ALL.map(Method::name))
-        .map(|name| Method::ALL.into_iter().find(|method| method.name() == name).unwrap_or_default())
+    one_of(Method::ALL, Method::name)
 }
 
 fn neighbour_distance(text: &str) -> Result<f64, String> {
-    let [low, high] = NEIGHBOUR_DISTANCES_M;
-    let allowed = |metres: &f64| (low..=high).contains(metres);
-    text.parse().ok().filter(allowed).ok_or_else(|| format!("allowed is {low} to {high}"))
+    number_within(text, NEIGHBOUR_DISTANCES_M)
 }
 
 fn scale(text: &str) -> Result<Rule, String> {

@@ -7,10 +7,11 @@ use trodden::motion::People;
 use trodden::motion::formation::{
     Assign, AvoidRequest, ExampleRequest, FormationRequest, KeyRequest, form, is_picture,
 };
-use trodden::scenario::{Overrides, Scenario, allowed_range};
+use trodden::scenario::{Overrides, Scenario};
 use trodden::source::{Given, Ground};
 use trodden::walk::show;
 
+use super::super::arguments::within;
 use super::super::progress::Watch;
 use super::Common;
 use super::input::{Alignment, Reading};
@@ -186,16 +187,4 @@ fn key(text: &str) -> Result<(f64, PathBuf), String> {
 fn span(text: &str) -> Result<[f64; 2], String> {
     let [from_s, to_s] = super::input::point(text).map_err(|_| "write two times in seconds, as 2,20".to_string())?;
     if from_s >= 0.0 && to_s > from_s { Ok([from_s, to_s]) } else { Err("the end comes after the start".to_string()) }
-}
-
-/// Takes a number within the range of a scenario's key.
-fn within(key: &'static str) -> impl Fn(&str) -> Result<f64, String> + Clone {
-    move |text| {
-        let number: f64 = text.parse().map_err(|_| "not a number".to_string())?;
-        match allowed_range(key) {
-            // Written so that NaN is out of range.
-            Some([low, high]) if !(number >= low && number <= high) => Err(format!("allowed is {low} to {high}")),
-            _ => Ok(number),
-        }
-    }
 }

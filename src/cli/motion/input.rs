@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::TypedValueParser;
 use trodden::motion::{LengthUnit, Recording, RecordingFormat, RecordingOptions};
 use trodden::{Error, Progress};
 
-use super::super::arguments::recording_format;
+use super::super::arguments::{number_within, one_of, recording_format};
 
 /// A recording and how it is read.
 #[derive(Args)]
@@ -104,22 +104,17 @@ pub fn point(text: &str) -> Result<[f64; 2], String> {
 
 /// Degrees.
 pub fn angle(text: &str) -> Result<f64, String> {
-    let allowed = |degrees: &f64| (-360.0..=360.0).contains(degrees);
-    text.parse().ok().filter(allowed).ok_or_else(|| "allowed is -360 to 360".to_string())
+    number_within(text, [-360.0, 360.0])
 }
 
 /// Frames per second.
 pub fn rate(text: &str) -> Result<f64, String> {
-    let allowed = |rate: &f64| (0.01..=1000.0).contains(rate);
-    text.parse().ok().filter(allowed).ok_or_else(|| "allowed is 0.01 to 1000".to_string())
+    number_within(text, [0.01, 1000.0])
 }
 
 /// A unit by its name.
 pub fn unit() -> impl TypedValueParser<Value = LengthUnit> {
-    PossibleValuesParser::new(LengthUnit::ALL.map(LengthUnit::name)).map(|name| {
-        let found = LengthUnit::ALL.into_iter().find(|unit| unit.name() == name);
-        found.unwrap_or(LengthUnit::Metre)
-    })
+    one_of(LengthUnit::ALL, LengthUnit::name)
 }
 
 /// A moment, seconds.

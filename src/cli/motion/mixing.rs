@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::TypedValueParser;
 use trodden::motion::features::Middle;
 use trodden::motion::{LengthUnit, Recording, RecordingFormat, RecordingOptions};
 use trodden::{Error, Progress, Stage};
 
-use super::super::arguments::recording_format;
+use super::super::arguments::{one_of, recording_format};
 use super::super::print::Refused;
 use super::input;
 
@@ -98,6 +98,5 @@ fn renamed(message: &str) -> String {
 }
 
 fn middle() -> impl TypedValueParser<Value = Middle> {
-    PossibleValuesParser::new(Middle::ALL.map(Middle::name))
-        .map(|name| Middle::ALL.into_iter().find(|middle| middle.name() == name).unwrap_or_default())
+    one_of(Middle::ALL, Middle::name)
 }

@@ -3,13 +3,13 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use clap::builder::TypedValueParser;
 use trodden::Error;
 use trodden::export::preview::{draw_unit, encode_picture};
 use trodden::files::write_whole;
 use trodden::math::{Vec2, sin_cos, vec2};
 use trodden::motion::units::{Areas, Cut, CutOptions, DiversityReport, SpotFrame, Unit, UnitLibrary, cut};
 
+use super::super::arguments::number_within;
 use super::super::print;
 use super::super::progress::Watch;
 use super::Common;
@@ -125,11 +125,8 @@ impl SpotArguments {
     }
 }
 
-fn within(low: f64, high: f64) -> impl TypedValueParser<Value = f64> {
-    clap::builder::StringValueParser::new().try_map(move |text| {
-        let number = text.parse().ok().filter(|number| (low..=high).contains(number));
-        number.ok_or_else(|| format!("allowed is {low} to {high}"))
-    })
+fn within(low: f64, high: f64) -> impl Fn(&str) -> Result<f64, String> + Clone {
+    move |text| number_within(text, [low, high])
 }
 
 impl Units {

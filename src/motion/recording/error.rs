@@ -1,5 +1,7 @@
 use std::path::PathBuf;
 
+use super::rows::LINES;
+
 /// Why a recording cannot be read.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -110,7 +112,7 @@ impl RecordingError {
             RecordingError::Option { option: "columns", .. } => {
                 "as --columns id,frame,x,y: a word for each column in turn, - for one that is of no use"
             }
-            RecordingError::Empty { .. } => "a recording has a line for everybody in every frame: who, when, x, y",
+            RecordingError::Empty { .. } => LINES,
             RecordingError::Unreadable { hint, .. } => hint,
             RecordingError::Interrupted { .. } | RecordingError::Option { .. } => return None,
         };

@@ -62,6 +62,7 @@ impl RecordingFormat {
             RecordingFormat::Csv => "CSV",
         }
     }
+
     /// Whether it is text, line by line.
     pub const fn is_text(self) -> bool {
         !matches!(self, RecordingFormat::Jupedsim)

@@ -63,13 +63,17 @@ impl<'b> Crowd<'b> {
         Moment { places: &self.places[range.clone()], reaches_m: &self.reaches_m[range] }
     }
 
+    /// Everybody's places at a moment, with everybody's offsets at all moments.
+    pub fn moved(&self, moment: usize, offsets: &[Vec2]) -> Vec<Vec2> {
+        let offsets = &offsets[moment * self.bodies..(moment + 1) * self.bodies];
+        self.moment(moment).places.iter().zip(offsets).map(|(&place, &offset)| place + offset).collect()
+    }
+
     /// Pairs nearer to each other than a gap, edge to edge, with offsets to places, moment by moment.
     fn pairs(&self, offsets: &[Vec2], gap_m: f64) -> Vec<Vec<Pair>> {
         let of = |moment: usize| {
-            let here = self.moment(moment);
-            let offsets = &offsets[moment * self.bodies..(moment + 1) * self.bodies];
-            let moved: Vec<Vec2> = here.places.iter().zip(offsets).map(|(&place, &offset)| place + offset).collect();
-            pairs_within(Moment { places: &moved, reaches_m: here.reaches_m }, gap_m)
+            let places = self.moved(moment, offsets);
+            pairs_within(Moment { places: &places, reaches_m: self.moment(moment).reaches_m }, gap_m)
         };
         (0..self.moments()).into_par_iter().map(of).collect()
     }

@@ -69,9 +69,9 @@ fn smoother(count: usize, moments: f64) -> Smoother {
 fn remedies(crowd: &Crowd<'_>, ways: &[Vec2]) -> Vec<Vec2> {
     let width = crowd.bodies;
     let mut remedies = vec![Vec2::ZERO; ways.len()];
-    remedies.par_chunks_mut(width).zip(ways.par_chunks(width)).enumerate().for_each(|(moment, (remedies, ways))| {
+    remedies.par_chunks_mut(width).enumerate().for_each(|(moment, remedies)| {
         let here = crowd.moment(moment);
-        let own: Vec<Vec2> = here.places.iter().zip(ways).map(|(&place, &way)| place + way).collect();
+        let own = crowd.moved(moment, ways);
         if pairs_within(Moment { places: &own, reaches_m: here.reaches_m }, 0.0).is_empty() {
             return;
         }
@@ -175,16 +175,12 @@ fn crowding(crowd: &Crowd<'_>, offsets: &[Vec2], fps: f64) -> Option<String> {
 fn nearest(crowd: &Crowd<'_>, offsets: &[Vec2]) -> Option<(usize, [f64; 2], Vec2)> {
     /// Nearer by less than this share of the distance is rounding.
     const ROUNDING: f64 = 1e-5;
-    let width = crowd.bodies;
     let worst_at = |moment: usize| {
-        let here = crowd.moment(moment);
-        let offsets = &offsets[moment * width..(moment + 1) * width];
-        let places: Vec<Vec2> = here.places.iter().zip(offsets).map(|(&place, &offset)| place + offset).collect();
-        let near = pairs_within(Moment { places: &places, reaches_m: here.reaches_m }, 0.0);
-        let pair = |[a, b]: Pair| {
-            let [a, b] = [a as usize, b as usize];
-            let distances_m = [places[a].distance(places[b]), here.reaches_m[a] + here.reaches_m[b]];
-            (moment, distances_m, (places[a] + places[b]) / 2.0)
+        let places = crowd.moved(moment, offsets);
+        let near = pairs_within(Moment { places: &places, reaches_m: crowd.moment(moment).reaches_m }, 0.0);
+        let pair = |pair: Pair| {
+            let [a, b] = pair.map(|body| places[body as usize]);
+            (moment, [a.distance(b), crowd.keep_m(moment, pair)], (a + b) / 2.0)
         };
         let close = near.into_iter().map(pair).filter(|&(_, [apart_m, kept_m], _)| apart_m < kept_m * (1.0 - ROUNDING));
         close.min_by(|a, b| missing_m(b.1).total_cmp(&missing_m(a.1)))
