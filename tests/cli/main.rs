@@ -14,6 +14,7 @@ mod motion;
 mod motion_mistakes;
 mod patterns;
 mod readme;
+#[path = "../support/sandbox.rs"]
 mod sandbox;
 mod subcommands;
 mod view;

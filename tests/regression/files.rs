@@ -1,0 +1,1 @@
+//! Files of the user are never lost, and results appear whole or not at all.

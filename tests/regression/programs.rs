@@ -1,0 +1,1 @@
+//! What is written opens right in the programs that read it.
