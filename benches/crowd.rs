@@ -51,7 +51,7 @@ fn table() {
     for people in [1_000u32, 10_000, 100_000] {
         let side_m = (f64::from(people) / DENSITY).sqrt();
         let plan = hall(side_m);
-        let walls = Walls::trace(&plan, &WallsOptions::default()).expect("a hall has walls");
+        let walls = Walls::trace(&plan, &WallsOptions::default());
         let (routes, navigation) = Navigation::find(&plan, &walls, &crossing(side_m)).expect("ways across");
         let options = CrowdOptions { people, entry_seconds: Some(0.0), ..CrowdOptions::commuters() };
         let everybody = People::new(1, BodyOptions::default());
@@ -97,7 +97,7 @@ fn default_scenario(c: &mut Criterion) {
         .map(|i| u8::from(floor(vec2(f64::from(i % 600) + 0.5, 450.0 - f64::from(i / 600) - 0.5) * 0.1)))
         .collect();
     let plan = FloorPlan::from_mask(600, 450, 0.1, mask);
-    let walls = Walls::trace(&plan, &WallsOptions::default()).expect("corridors have walls");
+    let walls = Walls::trace(&plan, &WallsOptions::default());
     let (routes, navigation) = Navigation::find(&plan, &walls, &RoutesOptions::default()).expect("default routes");
     let people = People::new(1, BodyOptions::default());
     let mut group = c.benchmark_group("crowd");

@@ -24,7 +24,7 @@ fn hall() -> (Walls, FloorSums) {
     };
     let floor = (0..side * side).map(|n| u8::from(is_floor(n % side, n / side))).collect();
     let plan = FloorPlan::from_mask(side as u32, side as u32, 0.1, floor);
-    let walls = Walls::trace(&plan, &WallsOptions::default()).expect("the plan has floor");
+    let walls = Walls::trace(&plan, &WallsOptions::default());
     let texels = (side as f64 * 0.1 * DENSITY) as u32;
     let grid = TexelGrid { texels_per_metre: DENSITY, width: texels, height: texels };
     let library = PatternLibrary::built_in().expect("the built-in library is tested");
@@ -72,7 +72,7 @@ fn look(c: &mut Criterion) {
 fn corridor() -> (Walls, WallSums) {
     let floor = (0..200 * 30).map(|n| u8::from((5..25).contains(&(n / 200)))).collect();
     let plan = FloorPlan::from_mask(200, 30, 0.1, floor);
-    let walls = Walls::trace(&plan, &WallsOptions::default()).expect("the plan has floor");
+    let walls = Walls::trace(&plan, &WallsOptions::default());
     let grid = WallGrid::covering(&walls, 2.6, 200.0).expect("the walls are small");
     let mut sums = WallSums::new(grid);
     let touch: Vec<u32> = (0..24 * 24).map(|n| 200 - 15 * (n as u32 % 24).abs_diff(12)).collect();

@@ -20,14 +20,14 @@ fn hall() -> Walls {
     let pillar = |n: u32| n % 60 < 6;
     let mask = (0..600 * 600).map(|at| u8::from(!(pillar(at / 600) && pillar(at % 600)))).collect();
     let plan = FloorPlan::from_mask(600, 600, 0.1, mask);
-    Walls::trace(&plan, &WallsOptions::default()).expect("the plan has floor")
+    Walls::trace(&plan, &WallsOptions::default())
 }
 
 /// Corridors of 2.4 m, one above the other.
 fn corridors() -> Walls {
     let mask = (0..600 * 600).map(|at| u8::from(at / 600 % 27 < 24)).collect();
     let plan = FloorPlan::from_mask(600, 600, 0.1, mask);
-    Walls::trace(&plan, &WallsOptions::default()).expect("the plan has floor")
+    Walls::trace(&plan, &WallsOptions::default())
 }
 
 /// People who weave along; `across_m` says about which line.

@@ -9,9 +9,10 @@ use std::path::PathBuf;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use trodden::Silent;
+use trodden::formation::{FormationOptions, KeyFormation, interpolate};
 use trodden::math::{Vec2, sin_cos, vec2};
-use trodden::motion::formation::{FormationOptions, KeyFormation, interpolate};
-use trodden::motion::{Ensemble, Frame, Recording, RecordingOptions};
+use trodden::motion::{Ensemble, Frame};
+use trodden::recordings::{Recording, RecordingOptions};
 
 const PEOPLE: u32 = 500;
 const FRAMES: u32 = 1500;

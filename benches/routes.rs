@@ -17,7 +17,7 @@ fn find(c: &mut Criterion) {
     group.sample_size(10);
     for side_m in [80, 300] {
         let plan = grid_of_corridors(side_m);
-        let walls = Walls::trace(&plan, &WallsOptions::default()).expect("corridors have walls");
+        let walls = Walls::trace(&plan, &WallsOptions::default());
         group.bench_function(format!("default routes through {side_m} m of corridors"), |b| {
             b.iter(|| Navigation::find(&plan, &walls, &RoutesOptions::default()).expect("default routes").0.len())
         });

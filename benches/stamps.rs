@@ -23,7 +23,7 @@ fn walls() -> Walls {
     let inside = |k: usize| amid(k % side) && amid(k / side);
     let floor = (0..side * side).map(|k| u8::from(inside(k))).collect();
     let plan = FloorPlan::from_mask(side as u32, side as u32, 0.1, floor);
-    Walls::trace(&plan, &WallsOptions::default()).expect("the plan has floor")
+    Walls::trace(&plan, &WallsOptions::default())
 }
 
 /// Footfalls of all soles, evenly over the room, in all directions.

@@ -31,7 +31,7 @@ fn walls() -> Walls {
     };
     let floor = (0..side_px * side_px).map(|k| u8::from(inside(k))).collect();
     let plan = FloorPlan::from_mask(side_px as u32, side_px as u32, 0.1, floor);
-    Walls::trace(&plan, &WallsOptions::default()).expect("the plan has floor")
+    Walls::trace(&plan, &WallsOptions::default())
 }
 
 /// Footfalls of people who each walk one corridor from end to end, until there are `count`.

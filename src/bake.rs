@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use crate::Error;
 use crate::crowd::simulate;
-use crate::export::preview::{self, Crop, PathSampler};
 use crate::export::{self, Manifest, OutputFolder, Report, Target, TargetEntry};
 use crate::look::Look;
 use crate::marks::{ContactPlaces, Footfalls};
@@ -13,6 +12,7 @@ use crate::patterns::PatternLibrary;
 use crate::progress::{Progress, Stage, Stopwatch};
 use crate::routes::{Navigation, Stop};
 use crate::scenario::Scenario;
+use crate::show::{self, Crop, PathSampler};
 use crate::source::{Given, Ground, Source};
 use crate::stamps::{Stamper, TexelGrid, WallGrid, WallStamper};
 use crate::sums::{FloorSums, WallSums};
@@ -92,12 +92,12 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     };
     tread(&mut source, &mut footfalls, &mut paths, &mut stamp, &watch, progress)?;
     let tally = source.tally();
-    let mut warnings = tally.describe(&routes, Some(&output.folder.join(preview::PATHS_FILE)));
+    let mut warnings = tally.describe(&routes, Some(&output.folder.join(show::PATHS_FILE)));
     warnings.extend(source.warning());
     warnings.iter().for_each(|warning| progress.warn(warning));
 
     // Sums become what floor and walls look like, block by block, as the files are written.
-    let crops = preview::choose_crops(walls.bounds_m(), &plan.openings, walls, paths.paths());
+    let crops = show::choose_crops(walls.bounds_m(), &plan.openings, walls, paths.paths());
     let settings = scenario.settings();
     let graded = Graded {
         sums: &sums,
@@ -116,8 +116,8 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     if let (Some(sums), Some(textures)) = (&sums.walls, &written.walls) {
         watch.busy(Stage::Export, || export::write_wall_sums(&folder, sums, textures, progress))?;
     }
-    let picture = watch.busy(Stage::Export, || preview::draw_paths(plan, walls, &routes, paths.paths(), &tally.stuck));
-    preview::write_picture(&folder, preview::PATHS_FILE, &picture)?;
+    let picture = watch.busy(Stage::Export, || show::draw_paths(plan, walls, &routes, paths.paths(), &tally.stuck));
+    show::write_picture(&folder, show::PATHS_FILE, &picture)?;
 
     let report = Report {
         people: source.people_report(&routes),
@@ -190,7 +190,7 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
     };
     let crops = Crop::of_manifest(&manifest);
     let written = graded.write(&folder, &textures, &crops, &watch, progress)?;
-    for file in manifest.files.iter().filter(|file| file.starts_with("sums/") || *file == preview::PATHS_FILE) {
+    for file in manifest.files.iter().filter(|file| file.starts_with("sums/") || *file == show::PATHS_FILE) {
         folder.keep(file)?;
     }
 

@@ -1,88 +1,82 @@
-/// Anything that stops a bake, by the stage that found it.
-///
-/// Every message says what, where and which value; [`Error::hint`] says what to do about it.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum Error {
-    /// The plan image or its scale cannot be used.
-    #[error(transparent)]
-    Plan(#[from] crate::plan::PlanError),
-    /// No walls can be made of the plan.
-    #[error(transparent)]
-    Walls(#[from] crate::walls::WallsError),
-    /// A route leads nowhere.
-    #[error(transparent)]
-    Routes(#[from] crate::routes::RoutesError),
-    /// The crowd cannot walk.
-    #[error(transparent)]
-    Crowd(#[from] crate::crowd::CrowdError),
-    /// A motion cannot be recorded as asked.
-    #[error(transparent)]
-    Motion(#[from] crate::motion::MotionError),
+use crate::progress::Interrupted;
+use crate::{
+    crowd, export, features, files, formation, look, marks, motion, patterns, plan, recordings, routes, scenario, show,
+    stamps, sums, units,
+};
+
+/// Declares [`Error`] from one list of stages, in the order of the data.
+macro_rules! stages {
+    ($($(#[$meaning:meta])* $Stage:ident($Error:ty) $({ $interrupted:pat })?;)*) => {
+        /// Why a bake stops, by the stage that found it.
+        ///
+        /// Every message says what, where and which value; [`Error::hint`] says what to do about it.
+        #[derive(Debug, thiserror::Error)]
+        #[non_exhaustive]
+        pub enum Error {
+            $($(#[$meaning])* #[error(transparent)] $Stage($Error),)*
+            /// The user stopped the work.
+            #[error(transparent)]
+            Interrupted(#[from] Interrupted),
+        }
+
+        impl Error {
+            /// What the user can do about it, where there is something.
+            pub fn hint(&self) -> Option<String> {
+                match self {
+                    $(Error::$Stage(error) => error.hint(),)*
+                    Error::Interrupted(_) => None,
+                }
+            }
+        }
+
+        $(impl From<$Error> for Error {
+            fn from(error: $Error) -> Error {
+                match error {
+                    $($interrupted => Error::Interrupted(Interrupted),)?
+                    error => Error::$Stage(error),
+                }
+            }
+        })*
+    };
+}
+
+stages! {
     /// A file cannot be written.
-    #[error(transparent)]
-    File(#[from] crate::files::FileError),
-    /// Feet cannot leave marks as they are asked to.
-    #[error(transparent)]
-    Marks(#[from] crate::marks::MarksError),
-    /// The floor cannot be divided into texels as asked, or a stamp's settings are wrong.
-    #[error(transparent)]
-    Stamps(#[from] crate::stamps::StampsError),
-    /// Sums do not fit together.
-    #[error(transparent)]
-    Sums(#[from] crate::sums::SumsError),
+    File(files::FileError);
+    /// The plan image or its scale cannot be used.
+    Plan(plan::PlanError);
+    /// A route leads nowhere.
+    Routes(routes::RoutesError);
+    /// A motion cannot go on, or cannot be held.
+    Motion(motion::MotionError) { motion::MotionError::Interrupted(_) };
+    /// A recording cannot be read or written.
+    Recording(recordings::RecordingError) { recordings::RecordingError::Interrupted { .. } };
+    /// Formations cannot be interpolated.
+    Formation(formation::FormationError) { formation::FormationError::Interrupted(_) };
+    /// Features cannot be worked on.
+    Features(features::FeaturesError) { features::FeaturesError::Interrupted(_) };
+    /// Units cannot be cut or used.
+    Units(units::UnitsError) { units::UnitsError::Interrupted(_) };
+    /// The crowd cannot walk.
+    Crowd(crowd::CrowdError);
     /// The pattern library is missing or wrong.
-    #[error(transparent)]
-    Patterns(#[from] crate::patterns::PatternsError),
+    Patterns(patterns::PatternsError);
+    /// Feet cannot leave marks with these options.
+    Marks(marks::MarksError);
+    /// The floor cannot be divided into texels, or a stamp's settings are wrong.
+    Stamps(stamps::StampsError);
+    /// Sums do not fit together.
+    Sums(sums::SumsError);
     /// A look file is wrong.
-    #[error(transparent)]
-    Look(#[from] crate::look::LookError),
+    Look(look::LookError);
     /// The result cannot be written or an earlier one cannot be read.
-    #[error(transparent)]
-    Export(crate::export::ExportError),
-    /// There can be no animation as asked.
-    #[error(transparent)]
-    Animation(#[from] crate::export::preview::AnimationError),
-    /// There can be no still as asked.
-    #[error(transparent)]
-    Still(#[from] crate::export::preview::still::StillError),
+    Export(export::ExportError) { export::ExportError::Interrupted(_) };
+    /// A camera cannot be used.
+    Camera(export::CameraError);
+    /// An animation cannot be made with these options.
+    Animation(show::AnimationError);
+    /// A still cannot be taken with these options.
+    Still(show::still::StillError) { show::still::StillError::Export(export::ExportError::Interrupted(_)) };
     /// The scenario file is wrong.
-    #[error(transparent)]
-    Scenario(#[from] crate::scenario::ScenarioError),
-    /// Stopped by the user.
-    #[error("interrupted; nothing was written")]
-    Interrupted,
-}
-
-impl Error {
-    /// What the user can do about it, where there is something.
-    pub fn hint(&self) -> Option<String> {
-        match self {
-            Error::Plan(e) => e.hint(),
-            Error::Walls(e) => e.hint(),
-            Error::Routes(e) => e.hint(),
-            Error::Crowd(e) => e.hint(),
-            Error::Motion(e) => e.hint(),
-            Error::File(e) => e.hint(),
-            Error::Patterns(e) => e.hint(),
-            Error::Marks(e) => e.hint(),
-            Error::Stamps(e) => e.hint(),
-            Error::Sums(e) => e.hint(),
-            Error::Look(e) => e.hint(),
-            Error::Export(e) => e.hint(),
-            Error::Animation(e) => e.hint(),
-            Error::Still(e) => e.hint(),
-            Error::Scenario(e) => e.hint(),
-            Error::Interrupted => None,
-        }
-    }
-}
-
-impl From<crate::export::ExportError> for Error {
-    fn from(error: crate::export::ExportError) -> Error {
-        match error {
-            crate::export::ExportError::Interrupted => Error::Interrupted,
-            error => Error::Export(error),
-        }
-    }
+    Scenario(scenario::ScenarioError);
 }

@@ -17,28 +17,31 @@
 //!
 //! Units are metres, seconds and radians counter-clockwise from +x unless a name says otherwise. The *plan
 //! frame* has its origin at the lower-left corner of the lower-left pixel, x right, y up.
-
 pub mod files;
 pub mod math;
 
+pub mod bake;
 pub mod crowd;
+mod error;
 pub mod export;
+pub mod features;
+pub mod formation;
 pub mod look;
 pub mod marks;
 pub mod motion;
 pub mod patterns;
 pub mod plan;
+mod progress;
+pub mod recordings;
 pub mod routes;
+pub mod scenario;
+pub mod show;
+pub mod source;
 pub mod stamps;
 pub mod sums;
+pub mod units;
+pub mod walk;
 pub mod walls;
 
-pub mod bake;
-mod error;
-mod progress;
-pub mod scenario;
-pub mod source;
-pub mod walk;
-
 pub use error::Error;
-pub use progress::{Progress, Silent, Stage, Stopwatch};
+pub use progress::{Interrupted, Progress, Silent, Stage, Stopwatch};

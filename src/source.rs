@@ -2,12 +2,13 @@
 //! given (a recording, formations), on a plan or on open ground.
 
 use crate::crowd::{Arrival, Simulation, Stuck, Tally};
+use crate::formation::{self, Formed};
 use crate::marks::Origin;
 use crate::math::{Rect, Vec2, sin_cos, vec2};
-use crate::motion::formation::{self, Formed};
-use crate::motion::{Ensemble, Frame, Motion, Recording, Walker};
+use crate::motion::{Ensemble, Frame, Motion, MotionError, Walker};
 use crate::plan::{self, FloorPlan, Pose};
 use crate::progress::{Progress, Stage, Stopwatch};
+use crate::recordings::Recording;
 use crate::routes::Route;
 use crate::scenario::Scenario;
 use crate::walls::{Walls, WallsOptions};
@@ -44,7 +45,7 @@ impl Ground {
         };
         let plan = watch.busy(Stage::Plan, || plan::read(&image, &scenario.plan_options()))?;
         plan.warnings.iter().for_each(|warning| progress.warn(warning));
-        let walls = watch.busy(Stage::Walls, || Walls::trace(&plan, &scenario.walls))?;
+        let walls = watch.busy(Stage::Walls, || Walls::trace(&plan, &scenario.walls));
         Ok(Ground { plan, walls, open: false })
     }
 
@@ -54,7 +55,7 @@ impl Ground {
     /// A motion that spans more than a plan may.
     pub fn around(given: &Given) -> Result<Ground, Error> {
         let mut plan = FloorPlan::open_ground(given.bounds_m())?;
-        let walls = Walls::trace(&plan, &WallsOptions::default())?;
+        let walls = Walls::trace(&plan, &WallsOptions::default());
         // Open on all sides, but no way leads out.
         plan.openings.clear();
         Ok(Ground { plan, walls, open: true })
@@ -167,7 +168,7 @@ impl Given {
     ///
     /// # Errors
     /// The recording cannot be read any more.
-    pub fn motion(&self) -> Result<Box<dyn Motion + Send + '_>, Error> {
+    pub fn motion(&self) -> Result<Box<dyn Motion + Send + '_>, MotionError> {
         match &self.content {
             Content::Recording(recording) => recording.motion(),
             Content::Ensemble(ensemble) | Content::Formed(Formed { ensemble, .. }) => Ok(Box::new(ensemble.motion())),
@@ -288,7 +289,7 @@ impl<'a> Source<'a> {
 }
 
 impl Motion for Source<'_> {
-    fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, Error> {
+    fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, MotionError> {
         match &mut self.mover {
             Mover::Crowd(crowd) => crowd.next_frame(frame),
             Mover::Given(placed) => placed.next_frame(frame),
@@ -341,7 +342,7 @@ impl<'a> Placed<'a> {
         }
     }
 
-    fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, Error> {
+    fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, MotionError> {
         if !self.motion.next_frame(frame)? {
             // Then everybody has left.
             self.present.clear();

@@ -8,15 +8,14 @@ use serde::Serialize;
 
 use crate::Error;
 use crate::crowd::{Stuck, simulate};
-use crate::export::preview::{
-    self, Animation, AnimationFormat, AnimationOptions, AnimationReport, PathSampler, encode_picture,
-};
 use crate::export::{self, PeopleReport};
 use crate::files::WholeFile;
-use crate::motion::{Frame, Mileage, Motion, People, RecordForm, Recorded, RecordedWorld, Recorder, RecordingFormat};
+use crate::motion::{Frame, Mileage, Motion, People};
 use crate::progress::{Progress, Stage, Stopwatch};
+use crate::recordings::{RecordForm, Recorded, RecordedWorld, Recorder, RecordingFormat};
 use crate::routes::{Navigation, Route};
 use crate::scenario::Scenario;
+use crate::show::{self, Animation, AnimationFormat, AnimationOptions, AnimationReport, PathSampler, encode_picture};
 use crate::source::{Given, Ground, Source};
 
 /// What a walk leaves behind. Nothing is a choice too: then only the report says how it went.
@@ -203,7 +202,7 @@ impl Walk<'_> {
             _ => None,
         };
         if let (Some(paths), Some(file)) = (&paths, &files.paths) {
-            let picture = preview::draw_paths(plan, walls, routes, paths.paths(), &tally.stuck);
+            let picture = show::draw_paths(plan, walls, routes, paths.paths(), &tally.stuck);
             std::fs::write(file.path(), encode_picture(&picture)).map_err(|source| file.failed(source))?;
         }
         // All that can fail has been done: now the files appear.
@@ -256,9 +255,7 @@ impl Onlookers<'_> {
         // Before a crowd's first step nobody is there; a given motion begins with its own first frame, which may be at 0.
         let mut begun = source.stage() == Stage::Crowd;
         loop {
-            if progress.interrupted() {
-                return Err(Error::Interrupted);
-            }
+            progress.keep_on()?;
             let (goes_on, looked) = rayon::join(
                 || watch.busy(source.stage(), || source.next_frame(&mut ahead)),
                 || if begun { watch.busy(Stage::Export, || self.look(&frame, &stuck)) } else { Ok(()) },

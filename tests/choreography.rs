@@ -6,7 +6,7 @@
 use std::path::Path;
 
 use trodden::Silent;
-use trodden::motion::formation::{Formed, form};
+use trodden::formation::{Formed, form};
 use trodden::scenario::{Overrides, Scenario};
 
 fn sample(name: &str) -> Formed {

@@ -20,7 +20,7 @@ fn traced(side_px: usize, floor: impl Fn(usize, usize) -> bool) -> Walls {
     let mask = (0..side_px * side_px).map(|k| (k % side_px, k / side_px));
     let mask = mask.map(|(x, y)| u8::from(amid(x) && amid(y) && floor(x, y))).collect();
     let plan = FloorPlan::from_mask(side_px as u32, side_px as u32, 0.1, mask);
-    Walls::trace(&plan, &WallsOptions::default()).unwrap()
+    Walls::trace(&plan, &WallsOptions::default())
 }
 
 /// Some pattern of a hand: a square of a centimetre.

@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 
 use image::RgbImage;
 use trodden::Silent;
-use trodden::export::preview::{self, Crop, PathSample};
 use trodden::export::{
     ExportError, Manifest, OutputFolder, TextureOptions, TextureSource, TileEntry, floor_textures, read_sums,
     write_sums,
@@ -15,6 +14,7 @@ use trodden::export::{
 use trodden::look::{Background, FloorResolver, Look, ResolvedBlock};
 use trodden::math::{SplitMix64, vec2};
 use trodden::plan::FloorPlan;
+use trodden::show::{self, Crop, PathSample};
 use trodden::stamps::TexelGrid;
 use trodden::sums::{FloorSums, Quantity};
 use trodden::walls::{Walls, WallsOptions};
@@ -39,7 +39,7 @@ fn plan() -> FloorPlan {
 }
 
 fn walls() -> Walls {
-    Walls::trace(&plan(), &WallsOptions::default()).unwrap()
+    Walls::trace(&plan(), &WallsOptions::default())
 }
 
 /// Sums of a lane through the corridor with some noise, on floor only.
@@ -71,7 +71,7 @@ fn bake(out: &Path, walls: &Walls, sums: &FloorSums, tile: u32) -> Manifest {
     let textures = floor_textures(&folder, sums.grid(), &floor, &options, &Silent).unwrap();
     let written = write_sums(&folder, sums, &textures, &Silent).unwrap();
     let crops = [Crop { name: "narrow".to_string(), min_m: vec2(2.0, 2.0), max_m: vec2(8.0, 6.0) }];
-    let preview = preview::write_previews(&folder, &textures, &floor, walls, &crops).unwrap();
+    let preview = show::write_previews(&folder, &textures, &floor, walls, &crops).unwrap();
     let manifest = Manifest { floor: textures.entry(written), preview, ..Manifest::of_plan(&plan(), walls, &[]) };
     folder.publish(&manifest).unwrap();
     Manifest::read(out).unwrap()
@@ -229,8 +229,8 @@ fn previews_show_the_floor_where_it_lies_and_walls_dark() {
     let options = TextureOptions { tile: 128, layers: false, ..TextureOptions::default() };
     let textures = floor_textures(&folder, grid, &Squares, &options, &Silent).unwrap();
     let crop = Crop { name: "narrow".to_string(), min_m: vec2(2.0, 2.0), max_m: vec2(8.0, 6.0) };
-    assert_golden("preview_floor", &preview::render_floor(&textures.birdseye, &walls), EXACT);
-    assert_golden("preview_crop", &preview::render_crop(&Squares, &walls, grid, &crop), EXACT);
+    assert_golden("preview_floor", &show::render_floor(&textures.birdseye, &walls), EXACT);
+    assert_golden("preview_crop", &show::render_crop(&Squares, &walls, grid, &crop), EXACT);
 }
 
 #[test]
@@ -239,14 +239,14 @@ fn drawings_look_as_they_should() {
     let samples = |speed_m_s: f64, y: f64| {
         [0.5, 3.0, 6.0, 8.5].map(|x| PathSample { position_m: vec2(x, y + 0.1 * x), speed_m_s }).to_vec()
     };
-    let path = |id, speed_m_s, y| preview::Path { id, samples: samples(speed_m_s, y) };
+    let path = |id, speed_m_s, y| show::Path { id, samples: samples(speed_m_s, y) };
     let paths = [path(0, 0.3, 0.8), path(1, 1.0, 1.2), path(2, 1.9, 1.6)];
     let small = |picture: &RgbImage| {
         let height = 256 * picture.height() / picture.width();
         image::imageops::resize(picture, 256, height, image::imageops::FilterType::Triangle)
     };
-    assert_golden("drawing_plan", &small(&preview::draw_plan(&plan, &walls, &[])), RESAMPLED);
-    assert_golden("drawing_paths", &small(&preview::draw_paths(&plan, &walls, &[], &paths, &[])), RESAMPLED);
+    assert_golden("drawing_plan", &small(&show::draw_plan(&plan, &walls, &[])), RESAMPLED);
+    assert_golden("drawing_paths", &small(&show::draw_paths(&plan, &walls, &[], &paths, &[])), RESAMPLED);
 }
 
 /// A file system of a given size, where the system lets one be made (root on Linux).

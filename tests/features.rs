@@ -8,7 +8,8 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use trodden::math::{Vec2, sin_cos, vec2};
-use trodden::motion::{Ensemble, Recording, RecordingOptions};
+use trodden::motion::Ensemble;
+use trodden::recordings::{Recording, RecordingOptions};
 
 fn run(folder: &Path, arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_trodden"));

@@ -9,7 +9,7 @@ use std::sync::Mutex;
 use trodden::bake::{OutputOptions, ResolveOptions, bake, resolve};
 use trodden::export::{self, Manifest, Report};
 use trodden::math::{Rect, Vec2, vec2};
-use trodden::motion::RecordingOptions;
+use trodden::recordings::RecordingOptions;
 use trodden::scenario::{Overrides, Scenario};
 use trodden::sums::{FloorSums, Quantity};
 use trodden::walk::{MotionOutput, WalkOutputs, walk};

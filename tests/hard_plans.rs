@@ -42,7 +42,7 @@ impl Scene {
         let middle = |i: u32| vec2(f64::from(i % width) + 0.5, f64::from(height - 1 - i / width) + 0.5) * PIXEL_M;
         let mask = (0..width * height).map(|i| u8::from(is_floor(middle(i)))).collect();
         let plan = FloorPlan::from_mask(width, height, PIXEL_M, mask);
-        let walls = Walls::trace(&plan, &WallsOptions::default()).unwrap();
+        let walls = Walls::trace(&plan, &WallsOptions::default());
         let (routes, navigation) =
             Navigation::find(&plan, &walls, &RoutesOptions { routes, ..RoutesOptions::default() }).unwrap();
         Scene { plan, walls, routes, navigation }

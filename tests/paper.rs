@@ -80,7 +80,7 @@ fn walk(people: u32) -> Walked {
     let overrides = Overrides { preset: Some(Preset::Paper), people: Some(people), ..Overrides::default() };
     let scenario = Scenario::open(&path, &overrides).unwrap();
     let plan = plan::read(&scenario.plan_path().unwrap(), &scenario.plan_options()).unwrap();
-    let walls = Walls::trace(&plan, &scenario.walls).unwrap();
+    let walls = Walls::trace(&plan, &scenario.walls);
     let routes = routes::find(&plan, &walls, &scenario.routes).unwrap();
     let library = PatternLibrary::built_in().unwrap();
     let persons = People::new(scenario.seed, scenario.bodies.clone());

@@ -71,7 +71,7 @@ struct Walked {
 
 impl Walk {
     fn new(plan: FloorPlan, stops: Vec<StopRequest>, routes: Vec<RouteRequest>, options: CrowdOptions) -> Walk {
-        let walls = Walls::trace(&plan, &WallsOptions::default()).unwrap();
+        let walls = Walls::trace(&plan, &WallsOptions::default());
         let routes = routes::find(&plan, &walls, &RoutesOptions { routes, stops }).unwrap_or_else(|e| panic!("{e}"));
         Walk { plan, walls, routes, options }
     }
@@ -413,7 +413,7 @@ fn a_stop_that_nobody_can_reach_ends_by_itself_and_says_who_and_where() {
     });
     let mut walk = at_the_counter(counter(Distribution::Constant(5.0)), 10, 10.0);
     walk.plan = plan;
-    walk.walls = Walls::trace(&walk.plan, &WallsOptions::default()).unwrap();
+    walk.walls = Walls::trace(&walk.plan, &WallsOptions::default());
     let routes = vec![route("west", "east", Vec::new())];
     let mut found = routes::find(&walk.plan, &walk.walls, &RoutesOptions { routes, stops: Vec::new() }).unwrap();
     found[0].stops = walk.routes[0].stops.clone();
@@ -431,7 +431,7 @@ fn a_stop_that_nobody_can_reach_ends_by_itself_and_says_who_and_where() {
 }
 
 fn refused(plan: &FloorPlan, stops: Vec<StopRequest>, via: Vec<ViaRequest>) -> (String, String) {
-    let walls = Walls::trace(plan, &WallsOptions::default()).unwrap();
+    let walls = Walls::trace(plan, &WallsOptions::default());
     let options = RoutesOptions { routes: vec![route("west", "east", via)], stops };
     let error: RoutesError = routes::find(plan, &walls, &options).unwrap_err();
     (error.to_string(), error.hint().unwrap_or_default())

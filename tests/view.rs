@@ -5,10 +5,11 @@
 use image::RgbImage;
 use trodden::Silent;
 use trodden::export::TextureSource;
-use trodden::export::preview::still::{Camera, Coat, StillError, Studio};
+use trodden::export::{Camera, CameraError};
 use trodden::look::{Background, ResolvedBlock};
 use trodden::math::vec2;
 use trodden::plan::FloorPlan;
+use trodden::show::still::{Coat, StillError, Studio};
 use trodden::sums::FloorSums;
 use trodden::walls::{Walls, WallsOptions};
 
@@ -50,7 +51,7 @@ fn corridor() -> Walls {
         u8::from(x < 120 && (10..40).contains(&y) && !pillar)
     };
     let plan = FloorPlan::from_mask(width as u32, height as u32, 0.1, (0..width * height).map(floor).collect());
-    Walls::trace(&plan, &WallsOptions::default()).unwrap()
+    Walls::trace(&plan, &WallsOptions::default())
 }
 
 fn camera(text: &str) -> Camera {
@@ -184,9 +185,9 @@ fn the_birds_eye_frames_the_plan() {
 #[test]
 fn absurd_cameras_and_sizes_are_errors() {
     let parse = |text: &str| text.parse::<Camera>().unwrap_err();
-    assert!(matches!(parse("1,2,3"), StillError::CameraParts { found: 3, .. }));
-    assert!(matches!(parse(""), StillError::CameraParts { .. }));
-    assert!(matches!(parse("1,2,x,0,0"), StillError::NotANumber { name: "z", .. }));
+    assert!(matches!(parse("1,2,3"), CameraError::Parts { found: 3, .. }));
+    assert!(matches!(parse(""), CameraError::Parts { .. }));
+    assert!(matches!(parse("1,2,x,0,0"), CameraError::NotANumber { name: "z", .. }));
     for (text, name) in [
         ("1,2,0,0,0", "z"),
         ("1,2,-1,0,0", "z"),
@@ -196,12 +197,12 @@ fn absurd_cameras_and_sizes_are_errors() {
         ("1,inf,1.7,0,0", "y"),
     ] {
         let error = parse(text);
-        assert!(matches!(error, StillError::Number { name: found, .. } if found == name), "{text}: {error}");
+        assert!(matches!(error, CameraError::Number { name: found, .. } if found == name), "{text}: {error}");
     }
     let studio = Studio::new(&corridor(), &[], 2.6);
     assert!(matches!(
         studio.check(&camera("3,2,1.7,0,0").with_fov(f64::NAN)),
-        Err(StillError::Number { name: "fov", .. })
+        Err(StillError::Camera(CameraError::Number { name: "fov", .. }))
     ));
     let coat = Painted(board);
     let coat = Coat { floor: &coat, floor_texels_per_metre: DENSITY, small: None, walls: None };

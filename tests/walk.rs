@@ -6,8 +6,8 @@ use std::fs;
 use std::path::Path;
 
 use trodden::Silent;
-use trodden::export::preview::AnimationOptions;
 use trodden::scenario::{Overrides, Scenario};
+use trodden::show::AnimationOptions;
 use trodden::walk::{MotionOutput, WalkOutputs, WalkReport, walk};
 
 fn school(people: u32) -> Scenario {

@@ -12,8 +12,8 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 use trodden::Silent;
+use trodden::features::{Features, FeaturesOptions, Method, Mix, MixOptions, Modulation, Rule};
 use trodden::motion::Ensemble;
-use trodden::motion::features::{Features, FeaturesOptions, Method, Mix, MixOptions, Modulation, Rule};
 
 mod crowds;
 mod picture;

@@ -3,9 +3,9 @@
 use std::error::Error;
 
 use trodden::Silent;
+use trodden::formation::{FormationOptions, KeyFormation, interpolate};
 use trodden::math::{Vec2, sin_cos, vec2};
 use trodden::motion::Ensemble;
-use trodden::motion::formation::{FormationOptions, KeyFormation, interpolate};
 
 use super::chart::{BLUE, Chart, GREEN, LIGHT, RED};
 

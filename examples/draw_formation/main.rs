@@ -13,9 +13,9 @@
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
+use trodden::formation::{Basis, SphereTracks, default_sigma_m, sphere_tracks};
 use trodden::math::{Vec2, sin_cos, vec2};
 use trodden::motion::Ensemble;
-use trodden::motion::formation::{Basis, SphereTracks, default_sigma_m, sphere_tracks};
 
 mod changes;
 mod chart;

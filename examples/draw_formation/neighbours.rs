@@ -5,8 +5,9 @@ use std::error::Error;
 use std::ops::Range;
 use std::path::Path;
 
-use trodden::motion::formation::{default_sigma_m, one_pattern, sphere_tracks};
-use trodden::motion::{Ensemble, Recording, RecordingOptions};
+use trodden::formation::{default_sigma_m, one_pattern, sphere_tracks};
+use trodden::motion::Ensemble;
+use trodden::recordings::{Recording, RecordingOptions};
 
 /// Neighbours are looked for in every so many seconds, and kept from so many on.
 const WINDOW_S: f64 = 5.0;

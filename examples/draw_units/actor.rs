@@ -1,5 +1,5 @@
 use trodden::math::{Vec2, atan2, sin_cos, vec2};
-use trodden::motion::units::{Member, Sample, Track, Unit};
+use trodden::units::{Member, Sample, Track, Unit};
 
 /// Samples per second of a drawn unit.
 const FPS: f64 = 5.0;

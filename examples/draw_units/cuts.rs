@@ -1,6 +1,6 @@
 use trodden::Silent;
 use trodden::math::vec2;
-use trodden::motion::units::{CutOptions, SpotFrame, Unit, cut};
+use trodden::units::{CutOptions, SpotFrame, Unit, cut};
 
 use super::plaza::Plaza;
 

@@ -9,7 +9,7 @@
 
 use std::path::Path;
 
-use trodden::motion::units::{Moment, Unit};
+use trodden::units::{Moment, Unit};
 
 mod actor;
 mod cuts;

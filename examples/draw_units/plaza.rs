@@ -22,7 +22,7 @@ impl Plaza {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("floorplans/plaza.toml");
         let scenario = Scenario::open(&path, &Overrides { seed: Some(seed), ..Overrides::default() })?;
         let plan = plan::read(&scenario.image_path().unwrap_or_default(), &scenario.plan_options())?;
-        let walls = Walls::trace(&plan, &scenario.walls)?;
+        let walls = Walls::trace(&plan, &scenario.walls);
         let (routes, navigation) = Navigation::find(&plan, &walls, &scenario.routes)?;
         Ok(Plaza { plan, scenario, walls, routes, navigation })
     }

@@ -12,7 +12,8 @@
 use std::collections::BTreeMap;
 
 use trodden::Error;
-use trodden::motion::{Frame, Recording, RecordingOptions, Walker};
+use trodden::motion::{Frame, Walker};
+use trodden::recordings::{Recording, RecordingOptions};
 
 #[path = "../../tests/gait/measure.rs"]
 #[allow(dead_code, clippy::unwrap_used, reason = "shared with the tests of gait")]

@@ -1,8 +1,8 @@
 //! How much of an example's fluctuation is there in what was made of it.
 
+use trodden::formation::KeyFormation;
 use trodden::math::Vec2;
 use trodden::motion::Ensemble;
-use trodden::motion::formation::KeyFormation;
 
 /// How far apart the places are whose second difference tells steps from ways, seconds.
 const STEP_S: f64 = 0.2;

@@ -15,10 +15,10 @@ use std::path::Path;
 use std::time::Instant;
 
 use trodden::Silent;
-use trodden::motion::Ensemble;
-use trodden::motion::formation::{
+use trodden::formation::{
     AvoidRequest, ExampleKind, ExampleRequest, FormationOptions, FormationRequest, form, interpolate,
 };
+use trodden::motion::Ensemble;
 
 mod energy;
 mod shapes;

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use trodden::formation::KeyFormation;
 use trodden::math::{SplitMix64, Vec2, sin_cos, vec2};
 use trodden::motion::Ensemble;
-use trodden::motion::formation::KeyFormation;
 
 use super::FPS;
 

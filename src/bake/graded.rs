@@ -2,20 +2,19 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use crate::Error;
-use crate::export::page::{Covering, Dirt, Page, PageOptions, Viewpoint};
-use crate::export::preview::still::{
-    Camera, Coat, FarWalls, STILL_SIZE_PX, StillEntry, Studio, WallCoat, write_stills,
-};
-use crate::export::preview::{self, Crop};
-use crate::export::scene::{
-    self, GlbImage, GlbOptions, PlainMaterial, Scene, SceneOptions, SurfaceImages, WallStrip, write_glb,
-};
 use crate::export::{
-    self, Atlas, FloorTextures, OutputFile, OutputFolder, PADDING_PX, PreviewEntry, TextureOptions, WallTextures,
+    self, Atlas, Camera, FloorTextures, OutputFile, OutputFolder, PADDING_PX, PreviewEntry, StillEntry, TextureOptions,
+    WallTextures,
 };
 use crate::look::{Background, FloorResolver, Look, WallResolver};
 use crate::math::Rect;
 use crate::progress::{Progress, Stage, Stopwatch};
+use crate::show::page::{Covering, Dirt, Page, PageOptions, Viewpoint};
+use crate::show::scene::{
+    self, GlbImage, GlbOptions, PlainMaterial, Scene, SceneOptions, SurfaceImages, WallStrip, write_glb,
+};
+use crate::show::still::{Coat, FarWalls, STILL_SIZE_PX, Studio, WallCoat, write_stills};
+use crate::show::{self, Crop};
 use crate::sums::{FloorSums, WallSums};
 use crate::walls::{Doorway, Walls};
 
@@ -71,7 +70,7 @@ impl Graded<'_> {
         watch.add(Stage::Look, textures.look_busy_s);
         watch.add(Stage::Export, textures.export_busy_s);
         let pictures =
-            watch.busy(Stage::Export, || preview::write_previews(folder, &textures, &floor, self.walls, crops))?;
+            watch.busy(Stage::Export, || show::write_previews(folder, &textures, &floor, self.walls, crops))?;
         let (walls, stills) = match &self.sums.walls {
             Some(sums) => {
                 let (walls, stills) = self.write_walls(sums, (&textures, &floor), folder, options, watch, progress)?;
@@ -202,7 +201,7 @@ impl Model<'_> {
             },
             Coat { floor: &clean, floor_texels_per_metre, small: None, walls: on_walls(&clean_wall, FarWalls::Plain) },
         ];
-        write_stills(folder, studio, cameras, coats, progress)
+        Ok(write_stills(folder, studio, cameras, coats, progress)?)
     }
 
     fn write_page(
@@ -240,7 +239,7 @@ impl Model<'_> {
             start,
             options: PageOptions::default(),
         };
-        Ok(export::page::write_page(folder, &page)?)
+        Ok(show::page::write_page(folder, &page)?)
     }
 }
 

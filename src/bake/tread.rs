@@ -1,8 +1,8 @@
 use crate::Error;
-use crate::export::preview::PathSampler;
 use crate::marks::{Contact, Footfalls, Mark};
 use crate::motion::{Frame, Motion};
 use crate::progress::{Progress, Stage, Stopwatch};
+use crate::show::PathSampler;
 use crate::source::Source;
 
 /// Marks that are stamped at a time: enough that a block's marks are worth a thread, few enough that the crowd
@@ -55,9 +55,7 @@ impl Walk<'_, '_, '_> {
     /// Walks on until there is a batch of marks, or to the end.
     fn fill(&mut self, marks: &mut Marks, watch: &Stopwatch, progress: &dyn Progress) -> Result<(), Error> {
         while marks.footfalls.len() < BATCH {
-            if progress.interrupted() {
-                return Err(Error::Interrupted);
-            }
+            progress.keep_on()?;
             if !watch.busy(self.source.stage(), || self.source.next_frame(&mut self.frame))? {
                 watch.busy(Stage::Marks, || self.footfalls.finish(&mut marks.footfalls));
                 self.over = true;

@@ -3,10 +3,11 @@ use std::path::Path;
 use image::RgbImage;
 
 use crate::Error;
-use crate::export::preview::still::{Camera, Coat, FarWalls, Studio, WallCoat, check_size};
+use crate::export::Camera;
 use crate::export::{self, Manifest};
 use crate::look::{FloorResolver, Look, WallResolver};
 use crate::progress::Progress;
+use crate::show::still::{Coat, FarWalls, Studio, WallCoat, check_size};
 
 /// How to look at a finished bake.
 #[derive(Clone, Debug, PartialEq)]

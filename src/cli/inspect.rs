@@ -4,10 +4,10 @@ use std::process::ExitCode;
 use clap::Args;
 use serde::Serialize;
 use trodden::Error;
-use trodden::export::preview::draw_plan;
 use trodden::plan::{self, FloorPlan, Opening, Region, RegionRole};
 use trodden::routes::{self, Route};
 use trodden::scenario::Scenario;
+use trodden::show::draw_plan;
 use trodden::walls::{Face, Walls};
 
 use super::arguments::ScenarioArguments;
@@ -63,7 +63,7 @@ impl Understood {
                 print::to_stderr(&print::warning(warning, common));
             }
         }
-        let walls = Walls::trace(&plan, &scenario.walls)?;
+        let walls = Walls::trace(&plan, &scenario.walls);
         let routes = routes::find(&plan, &walls, &scenario.routes)?;
         Ok(Understood { plan, walls, routes })
     }

@@ -9,8 +9,8 @@ use std::process::ExitCode;
 use anyhow::Context;
 use clap::ColorChoice;
 use clap::builder::styling::{AnsiColor, Style};
-use trodden::export::preview::encode_picture;
 use trodden::files::write_whole;
+use trodden::show::encode_picture;
 
 use super::Common;
 

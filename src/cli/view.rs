@@ -3,8 +3,9 @@ use std::process::ExitCode;
 
 use clap::Args;
 use trodden::bake::{View, view};
-use trodden::export::preview::still::{Camera, FOV_DEG, STILL_SIZES_PX};
+use trodden::export::{Camera, FOV_DEG};
 use trodden::look::Look;
+use trodden::show::still::STILL_SIZES_PX;
 use trodden::{Error, Progress, Stage};
 
 use super::arguments::number_within;

@@ -1,7 +1,7 @@
 use crate::math::DistributionError;
 
 /// Why the `crowd` stage cannot go on.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CrowdError {
     /// Nobody, or more people than the list can hold.
@@ -59,7 +59,7 @@ pub enum CrowdError {
     },
     /// Units that cannot be used.
     #[error(transparent)]
-    Motion(Box<crate::motion::MotionError>),
+    Units(#[from] crate::units::UnitsError),
     /// Routes that do not fit the plan.
     #[error(transparent)]
     Routes(#[from] crate::routes::RoutesError),
@@ -74,7 +74,7 @@ impl CrowdError {
                 Some("write a number, a range [0.28, 0.36], or { mean = 1.34, sd = 0.26, min = 0.6, max = 2.1 }".into())
             }
             CrowdError::Spot { hint, .. } => Some(hint.clone()),
-            CrowdError::Motion(e) => e.hint(),
+            CrowdError::Units(e) => e.hint(),
             CrowdError::Routes(e) => e.hint(),
             CrowdError::Number { .. } | CrowdError::Timetable { .. } | CrowdError::NoRoutes => None,
         }

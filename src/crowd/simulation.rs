@@ -18,9 +18,8 @@ use super::surroundings::{OPEN_M, SENSE_M, Surroundings};
 use super::tally::{Tally, Trail};
 use super::walking::{CALMS_DOWN_M_S2, Move, Scene};
 use super::{CrowdError, CrowdOptions, Stuck};
-use crate::Error;
 use crate::math::{Rect, Vec2, vec2};
-use crate::motion::{Frame, Motion, People, Walker};
+use crate::motion::{Frame, Motion, MotionError, People, Walker};
 use crate::plan::FloorPlan;
 use crate::routes::{Navigation, Route};
 use crate::walls::{APRON_M, Walls};
@@ -404,7 +403,7 @@ pub(super) struct Parts<'s, 'a> {
 }
 
 impl Motion for Crowd<'_> {
-    fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, Error> {
+    fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, MotionError> {
         if self.is_over() {
             return Ok(false);
         }

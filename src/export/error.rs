@@ -1,6 +1,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::progress::Interrupted;
+
 /// Why the `export` stage cannot go on.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -152,9 +154,9 @@ pub enum ExportError {
         /// The file.
         file: PathBuf,
     },
-    /// Stopped by the user.
-    #[error("interrupted")]
-    Interrupted,
+    /// The user stopped the work.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
 }
 
 impl ExportError {

@@ -2,7 +2,9 @@
 
 mod atlas;
 mod band;
+mod birdseye;
 mod busy;
+mod camera;
 mod deflate;
 pub mod diff;
 mod error;
@@ -11,18 +13,17 @@ mod layout;
 mod manifest;
 mod memory;
 mod output;
-pub mod page;
 mod png;
-pub mod preview;
 mod reduced;
 mod report;
-pub mod scene;
 mod source;
 mod sums;
 mod targets;
 mod textures;
 
 pub use atlas::{Atlas, Sheet, Strip};
+pub use birdseye::Birdseye;
+pub use camera::{Camera, CameraError, DEFAULT_FOV_DEG, FOV_DEG, StillEntry};
 pub use error::ExportError;
 pub use layout::{BLOCK, Tile, TileLayout};
 pub use manifest::{

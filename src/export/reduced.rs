@@ -1,8 +1,8 @@
 use image::{Rgb, RgbImage, Rgba, RgbaImage};
 
 use super::layout::BLOCK;
-use super::preview::srgb::{from_linear, to_linear};
 use crate::look::{Background, ResolvedBlock};
+use crate::math::srgb::{from_linear, to_linear};
 
 /// A tile's or a sheet's images, made small while its blocks go by: for pages and models that carry their textures.
 #[derive(Clone, Debug, PartialEq)]

@@ -77,7 +77,7 @@ mod tests {
     fn falls_off_from_the_wall() {
         // A room of 6 x 6 m, wall below y = 1.
         let floor = (0..64).map(|n| u8::from((1..7).contains(&(n % 8)) && (1..7).contains(&(n / 8)))).collect();
-        let walls = Walls::trace(&FloorPlan::from_mask(8, 8, 1.0, floor), &WallsOptions::default()).unwrap();
+        let walls = Walls::trace(&FloorPlan::from_mask(8, 8, 1.0, floor), &WallsOptions::default());
         let window = Window { texels_per_metre: 100.0, i0: 400, j0: 100, width: 1, height: 300 };
         let dust = DustLook { density: 0.1, reach_m: 0.3, ..DustLook::default() };
         let mut lattice = over(&window, &walls, &dust).unwrap();

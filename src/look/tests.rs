@@ -54,7 +54,7 @@ fn walls(width_m: f64, height_m: f64, is_floor: impl Fn(Vec2) -> bool) -> Walls 
         u8::from(is_floor(vec2(column as f64 + 0.5, row as f64 + 0.5) * pixel_m))
     });
     let plan = FloorPlan::from_mask(columns as u32, rows as u32, pixel_m, floor.collect());
-    Walls::trace(&plan, &WallsOptions::default()).unwrap()
+    Walls::trace(&plan, &WallsOptions::default())
 }
 
 /// Footfalls of people who walk straight, either way, mostly in the middle, none within 28 cm of a wall; and some

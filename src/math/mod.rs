@@ -6,6 +6,7 @@
 
 mod distribution;
 mod random;
+pub mod srgb;
 mod vector;
 
 pub use distribution::{Distribution, DistributionError};

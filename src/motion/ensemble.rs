@@ -1,5 +1,4 @@
 use super::{Frame, Motion, MotionError, Resampler, Walker};
-use crate::Error;
 use crate::math::{Rect, Vec2, vec2};
 
 /// The most places that an ensemble holds: people times moments.
@@ -36,7 +35,7 @@ impl Ensemble {
     ///
     /// # Errors
     /// What stops the motion; nobody who is present throughout; more than [`MOST_PLACES`].
-    pub fn of_motion(motion: &mut dyn Motion, fps: f64, [from_s, to_s]: [f64; 2]) -> Result<Ensemble, Error> {
+    pub fn of_motion(motion: &mut dyn Motion, fps: f64, [from_s, to_s]: [f64; 2]) -> Result<Ensemble, MotionError> {
         let mut resampler = Resampler::new(fps);
         let mut frame = Frame::default();
         let mut stayers = Stayers::default();
@@ -57,7 +56,7 @@ impl Ensemble {
                     return Err(nobody(time_s).into());
                 }
                 if stayers.places() > MOST_PLACES {
-                    return Err(MotionError::TooLong { most: MOST_PLACES }.into());
+                    return Err(MotionError::TooLong { most: MOST_PLACES });
                 }
             }
             if frame.time_s > to_s {
@@ -160,7 +159,7 @@ pub struct EnsembleMotion<'a> {
 }
 
 impl Motion for EnsembleMotion<'_> {
-    fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, Error> {
+    fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, MotionError> {
         let Ensemble { fps, ids, .. } = self.ensemble;
         let (now, moments) = (self.next, self.ensemble.moments());
         if now >= moments {
@@ -219,7 +218,7 @@ mod tests {
     fn only_those_count_who_are_there_throughout() {
         struct Comings(u32);
         impl Motion for Comings {
-            fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, Error> {
+            fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, MotionError> {
                 let walker = |id| Walker { id, position_m: vec2(0.0, 0.0), velocity_m_s: Vec2::ZERO, heading: None };
                 frame.time_s = f64::from(self.0);
                 frame.walkers = if self.0 == 3 { vec![walker(2)] } else { vec![walker(1), walker(2)] };
@@ -234,6 +233,6 @@ mod tests {
         assert_eq!(ids(0.0, 2.0).unwrap(), [1, 2]);
         assert_eq!(ids(0.0, 5.0).unwrap(), [2]);
         let error = ids(50.0, 60.0).unwrap_err();
-        assert!(matches!(error, Error::Motion(MotionError::NobodyThroughout { .. })), "{error}");
+        assert!(matches!(error, MotionError::NobodyThroughout { .. }), "{error}");
     }
 }

@@ -4,23 +4,16 @@
 
 mod ensemble;
 mod error;
-pub mod features;
-pub mod formation;
 mod mileage;
 mod person;
-mod recorder;
-mod recording;
-pub mod units;
+mod resampler;
 
 pub use ensemble::{Ensemble, EnsembleMotion, MOST_PLACES};
-pub use error::MotionError;
+pub use error::{MotionError, SourceError};
 pub use mileage::Mileage;
 pub use person::{Bag, BagKind, BodyOptions, CarrySide, People, Person, STRIDE_SPEED_M_S};
-pub(crate) use recorder::Resampler;
-pub use recorder::{FRAME_RATES, RecordForm, Recorded, RecordedWorld, Recorder};
-pub use recording::{LengthUnit, Recording, RecordingError, RecordingFormat, RecordingOptions, Survey};
+pub(crate) use resampler::{FASTEST_M_S, Resampler};
 
-use crate::Error;
 use crate::math::Vec2;
 
 /// One person at one moment.
@@ -52,8 +45,8 @@ pub trait Motion {
     /// A person who is missing from a frame has left for good.
     ///
     /// # Errors
-    /// Whatever stops the source: a recording that cannot be read, a crowd that cannot walk.
-    fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, Error>;
+    /// [`MotionError`]: whatever stops the source: a recording that cannot be read, a crowd that cannot walk.
+    fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, MotionError>;
 
     /// Share of the whole that has been given out, 0 to 1, as well as the source can tell.
     fn share_done(&self) -> f64;

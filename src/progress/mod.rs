@@ -68,6 +68,14 @@ pub trait Progress: Sync {
     fn interrupted(&self) -> bool {
         false
     }
+
+    /// Gives up once the user wants the work to stop.
+    ///
+    /// # Errors
+    /// [`Interrupted`].
+    fn keep_on(&self) -> Result<(), Interrupted> {
+        if self.interrupted() { Err(Interrupted) } else { Ok(()) }
+    }
 }
 
 /// Watches nothing: for pipes, tests and library users.
@@ -78,3 +86,8 @@ impl Progress for Silent {
     fn advance(&self, _stage: Stage, _share: f64) {}
     fn warn(&self, _message: &str) {}
 }
+
+/// The user stopped the work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("interrupted; nothing was written")]
+pub struct Interrupted;

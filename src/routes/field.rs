@@ -181,7 +181,7 @@ mod tests {
     fn ground(rows: &[&str], metres_per_pixel: f64) -> Ground {
         let floor = rows.iter().flat_map(|r| r.bytes()).map(|b| u8::from(b == b'.')).collect();
         let plan = FloorPlan::from_mask(rows[0].len() as u32, rows.len() as u32, metres_per_pixel, floor);
-        let walls = Walls::trace(&plan, &WallsOptions::default()).expect("a plan with floor");
+        let walls = Walls::trace(&plan, &WallsOptions::default());
         Ground::new(&plan, &walls, Fineness::attempts(&plan)[0])
     }
 

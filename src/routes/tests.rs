@@ -15,7 +15,7 @@ fn plan(rows: &[&str]) -> FloorPlan {
 
 fn found(rows: &[&str], routes: Vec<RouteRequest>) -> Result<Vec<Route>, RoutesError> {
     let plan = plan(rows);
-    let walls = Walls::trace(&plan, &WallsOptions::default()).expect("a plan with floor");
+    let walls = Walls::trace(&plan, &WallsOptions::default());
     find(&plan, &walls, &RoutesOptions { routes, ..RoutesOptions::default() })
 }
 
@@ -128,7 +128,7 @@ fn a_goal_that_walls_enclose_names_the_route_and_both_places() {
     let enclosed =
         ["#########", ".........", ".........", "..#####..", "..#...#..", "..#...#..", "..#####..", "........."];
     let plan = plan(&enclosed);
-    let walls = Walls::trace(&plan, &WallsOptions::default()).expect("a plan with floor");
+    let walls = Walls::trace(&plan, &WallsOptions::default());
     let routes = vec![route(opening("west"), point(4.5, 3.0))];
     let error =
         find(&plan, &walls, &RoutesOptions { routes, ..RoutesOptions::default() }).expect_err("walls all around");
@@ -147,7 +147,7 @@ fn a_door_of_30_cm_is_named_as_what_is_too_narrow() {
     };
     let mask = (0..width * height).map(|i| u8::from(is_floor(i % width, i / width))).collect();
     let plan = FloorPlan::from_mask(width as u32, height as u32, 0.1, mask);
-    let walls = Walls::trace(&plan, &WallsOptions::default()).expect("a plan with floor");
+    let walls = Walls::trace(&plan, &WallsOptions::default());
     let routes = vec![route(opening("west"), opening("east"))];
     let error =
         find(&plan, &walls, &RoutesOptions { routes, ..RoutesOptions::default() }).expect_err("nobody fits through");
@@ -192,7 +192,7 @@ fn a_large_floor_with_a_narrow_door_is_measured_more_finely() {
     };
     let floor = (0..pixels * pixels).map(|i| u8::from(!wall(i % pixels, i / pixels))).collect();
     let plan = FloorPlan::from_mask(pixels as u32, pixels as u32, metres_per_pixel, floor);
-    let walls = Walls::trace(&plan, &WallsOptions::default()).expect("a plan with floor");
+    let walls = Walls::trace(&plan, &WallsOptions::default());
     let options = RoutesOptions { routes: vec![route(opening("west"), opening("east"))], ..RoutesOptions::default() };
     let routes = find(&plan, &walls, &options).expect("a way through the door");
     assert!(Navigation::new(&plan, &walls, &routes).is_ok());

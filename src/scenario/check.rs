@@ -6,8 +6,8 @@ use super::explain;
 use super::keys::{self, Allowed, KEYS, Key};
 use super::{Scenario, write};
 use crate::crowd::CrowdModel;
+use crate::formation::{FormationRequest, RequestError};
 use crate::math::Distribution;
-use crate::motion::formation::{FormationRequest, RequestError};
 use crate::routes::{PlaceRequest, ViaRequest};
 
 /// What a quantity that differs from person to person may be written with.

@@ -10,11 +10,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::crowd::{CrowdModel, CrowdOptions, SpotRequest};
 use crate::export::{Target, TextureOptions};
+use crate::formation::FormationRequest;
 use crate::look::Look;
 use crate::marks::{DoorRequest, FixtureRequest, MarksOptions};
-use crate::motion::formation::FormationRequest;
-use crate::motion::{BodyOptions, RecordingOptions};
+use crate::motion::BodyOptions;
 use crate::plan::PlanOptions;
+use crate::recordings::RecordingOptions;
 use crate::routes::{PlaceRequest, RouteRequest, RoutesOptions, StopRequest, Timetable, ViaRequest};
 use crate::stamps::StampOptions;
 use crate::walls::WallsOptions;

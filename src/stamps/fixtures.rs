@@ -46,7 +46,7 @@ fn pattern(name: &str, cause: Cause, [width, height]: [u32; 2], coverage: impl F
 pub(crate) fn room(width_m: f64, height_m: f64) -> Walls {
     let [w, h] = [width_m, height_m].map(|m| (m * 10.0).round() as usize + 2);
     let floor = (0..w * h).map(|k| u8::from(k % w > 0 && k % w < w - 1 && k / w > 0 && k / w < h - 1)).collect();
-    Walls::trace(&FloorPlan::from_mask(w as u32, h as u32, 0.1, floor), &WallsOptions::default()).unwrap()
+    Walls::trace(&FloorPlan::from_mask(w as u32, h as u32, 0.1, floor), &WallsOptions::default())
 }
 
 pub(crate) fn grid(texels_per_metre: f64, width_m: f64, height_m: f64) -> TexelGrid {

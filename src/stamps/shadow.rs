@@ -159,7 +159,7 @@ mod tests {
                 u8::from(!rim && (x != 21 || y < 10))
             })
             .collect();
-        Walls::trace(&FloorPlan::from_mask(width as u32, height as u32, 0.1, floor), &WallsOptions::default()).unwrap()
+        Walls::trace(&FloorPlan::from_mask(width as u32, height as u32, 0.1, floor), &WallsOptions::default())
     }
 
     fn around(middle_m: Vec2, half_m: f64) -> Extent {

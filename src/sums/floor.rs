@@ -185,7 +185,7 @@ mod tests {
             })
             .collect();
         let plan = FloorPlan::from_mask(width as u32, height as u32, 0.1, floor);
-        let walls = Walls::trace(&plan, &WallsOptions::default()).unwrap();
+        let walls = Walls::trace(&plan, &WallsOptions::default());
         for density in [60.0, 100.0, 331.0] {
             let size = |m: f64| (m * density) as u32;
             let grid = TexelGrid { texels_per_metre: density, width: size(9.0), height: size(7.0) };

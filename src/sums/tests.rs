@@ -124,7 +124,7 @@ fn two_rooms() -> Walls {
         })
         .collect();
     let plan = FloorPlan::from_mask(width as u32, height as u32, 0.02, floor);
-    Walls::trace(&plan, &WallsOptions::default()).unwrap()
+    Walls::trace(&plan, &WallsOptions::default())
 }
 
 #[test]

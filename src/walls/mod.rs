@@ -5,7 +5,6 @@ use crate::plan::{FloorPlan, cracks};
 
 mod coverage;
 mod curve;
-mod error;
 mod fit;
 mod index;
 mod line;
@@ -19,7 +18,6 @@ mod subpixel;
 #[cfg(test)]
 mod truth_tests;
 
-pub use error::WallsError;
 pub use outline::Outline;
 pub use places::{Corner, DOOR_HEAD_M, DOOR_WIDTHS_M, Doorway};
 
@@ -101,13 +99,10 @@ pub struct Walls {
 
 impl Walls {
     /// Traces the boundary of a plan's floor.
-    ///
-    /// # Errors
-    /// A plan without floor, a tolerance that is not a number of pixels.
-    pub fn trace(plan: &FloorPlan, options: &WallsOptions) -> Result<Walls, WallsError> {
+    pub fn trace(plan: &FloorPlan, options: &WallsOptions) -> Walls {
         let loops = cracks::trace(&plan.floor, plan.width_px as usize);
         let outlines = loops.iter().map(|l| outline::of_boundary(plan, l, options.tolerance_px / 0.5)).collect();
-        Ok(Walls::from_outlines(outlines))
+        Walls::from_outlines(outlines)
     }
 
     /// Walls from outlines that were kept, see [`Walls::outlines`].
@@ -175,7 +170,7 @@ mod tests {
     }
 
     fn walls(rows: &[&str]) -> Walls {
-        Walls::trace(&plan(rows), &WallsOptions::default()).unwrap()
+        Walls::trace(&plan(rows), &WallsOptions::default())
     }
 
     #[test]

@@ -28,7 +28,7 @@ fn draw(width: usize, height: usize, fine: usize, is_wall: impl Fn(f64, f64) -> 
 }
 
 fn trace(plan: &FloorPlan) -> Walls {
-    Walls::trace(plan, &WallsOptions::default()).unwrap()
+    Walls::trace(plan, &WallsOptions::default())
 }
 
 /// The one shape in a drawing that is white around.

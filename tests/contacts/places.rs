@@ -157,7 +157,7 @@ fn a_hundred_thousand_tiny_walls_are_walked_through() {
     let side = 951usize;
     let mask = (0..side * side).map(|at| u8::from(!(at / side % 3 == 1 && at % side % 3 == 1))).collect();
     let plan = FloorPlan::from_mask(side as u32, side as u32, 0.2, mask);
-    let walls = Walls::trace(&plan, &WallsOptions::default()).unwrap();
+    let walls = Walls::trace(&plan, &WallsOptions::default());
     assert!(walls.faces.len() > 99_000);
     let (people, library) = (People::new(1, BodyOptions::default()), PatternLibrary::built_in().unwrap());
     let marks = MarksOptions { contact: rates_times(40.0), ..MarksOptions::default() };

@@ -58,7 +58,7 @@ fn of_plan(name: &str, people: u32) -> f64 {
     let overrides = Overrides { people: Some(people), ..Overrides::default() };
     let scenario = Scenario::open(&file, &overrides).unwrap_or_else(|error| panic!("{error}"));
     let plan = plan::read(&scenario.plan_path().unwrap(), &scenario.plan_options()).unwrap();
-    let walls = Walls::trace(&plan, &scenario.walls).unwrap();
+    let walls = Walls::trace(&plan, &scenario.walls);
     let (routes, ways) = Navigation::find(&plan, &walls, &scenario.routes).unwrap();
     let people = People::new(scenario.seed, scenario.bodies.clone());
     let mut crowd = Crowd::with_navigation(&plan, &walls, &routes, ways, &people, &scenario.crowd).unwrap();

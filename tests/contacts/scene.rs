@@ -62,7 +62,7 @@ pub fn scene() -> &'static Scene {
     static SCENE: OnceLock<Scene> = OnceLock::new();
     SCENE.get_or_init(|| {
         let plan = plan_of([TURN_M + 4.0, 14.0], is_floor);
-        let walls = Walls::trace(&plan, &WallsOptions::default()).unwrap();
+        let walls = Walls::trace(&plan, &WallsOptions::default());
         let people = People::new(4, BodyOptions::default());
         let frames = walked(&plan, &walls, &people, CROWD, [[0.5, 5.2], [TURN_M + 1.2, 13.5]]);
         Scene { plan, walls, people, library: PatternLibrary::built_in().unwrap(), frames }

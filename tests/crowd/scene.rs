@@ -22,7 +22,7 @@ impl Scene {
         let middle = |i: u32| vec2(f64::from(i % width) + 0.5, f64::from(height - 1 - i / width) + 0.5) * 0.1;
         let mask = (0..width * height).map(|i| u8::from(floor(middle(i)))).collect();
         let plan = FloorPlan::from_mask(width, height, 0.1, mask);
-        let walls = Walls::trace(&plan, &WallsOptions::default()).expect("a plan with floor");
+        let walls = Walls::trace(&plan, &WallsOptions::default());
         let (routes, navigation) =
             Navigation::find(&plan, &walls, &RoutesOptions { routes, ..RoutesOptions::default() }).expect("routes");
         Scene { plan, walls, routes, navigation }

@@ -2,10 +2,10 @@
 
 use nalgebra::DMatrix;
 use trodden::Silent;
-use trodden::math::{Vec2, vec2};
-use trodden::motion::formation::{
+use trodden::formation::{
     Basis, Follower, FormationOptions, Rotation, default_sigma_m, example_coefficients, match_basis,
 };
+use trodden::math::{Vec2, vec2};
 
 use crate::crowds::{farthest_m, grid, ring, scattered, triangle, walking};
 

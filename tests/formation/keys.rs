@@ -1,8 +1,8 @@
 //! Key formations come back, and nothing jumps between them.
 
 use trodden::Silent;
+use trodden::formation::{Carry, Ease, FormationOptions, KeyFormation, interpolate};
 use trodden::math::{Vec2, vec2};
-use trodden::motion::formation::{Carry, Ease, FormationOptions, KeyFormation, interpolate};
 
 use crate::crowds::{farthest_m, grid, line, ring, scattered, triangle, walking};
 

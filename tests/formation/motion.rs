@@ -1,9 +1,9 @@
 //! What of the example stays.
 
 use trodden::Silent;
+use trodden::formation::{AdjacencyEdit, Carry, Ease, FormationOptions, KeyFormation, interpolate};
 use trodden::math::Vec2;
 use trodden::motion::Ensemble;
-use trodden::motion::formation::{AdjacencyEdit, Carry, Ease, FormationOptions, KeyFormation, interpolate};
 
 use crate::crowds::{grid, ring, scattered, strolling, triangle, walking, walking_between};
 

@@ -2,7 +2,7 @@
 
 use crate::crowds::Dice;
 use nalgebra::DMatrix;
-use trodden::motion::formation::Rotation;
+use trodden::formation::Rotation;
 
 /// How far the parts are from making up the whole.
 fn residual(matrix: &DMatrix<f64>) -> f64 {

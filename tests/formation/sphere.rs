@@ -1,8 +1,8 @@
 //! Three people: eigenvectors as recorded, and as a rotation from the first to the last has them.
 
+use trodden::formation::{one_pattern, sphere_tracks};
 use trodden::math::{Vec2, vec2};
 use trodden::motion::Ensemble;
-use trodden::motion::formation::{one_pattern, sphere_tracks};
 
 use crate::crowds::walking_between;
 

@@ -19,7 +19,7 @@ fn congested(time_step: f64) -> (Floor, Vec<Path>) {
     let floor = |x: u32, y: u32| (2..46).contains(&y) && (!(440..444).contains(&x) || (15..33).contains(&y));
     let mask = (0..width * height).map(|at| u8::from(floor(at % width, at / width))).collect();
     let plan = FloorPlan::from_mask(width, height, 0.05, mask);
-    let walls = Walls::trace(&plan, &WallsOptions::default()).unwrap();
+    let walls = Walls::trace(&plan, &WallsOptions::default());
     let people = People::new(3, BodyOptions::default());
     let options = CrowdOptions { people: 160, entry_seconds: Some(70.0), time_step, ..CrowdOptions::default() };
     let mut found = routes::find(&plan, &walls, &RoutesOptions::default()).unwrap();

@@ -70,7 +70,7 @@ impl Floor {
         let plan = FloorPlan::from_mask(200, 200, 1.0, vec![1; 200 * 200]);
         Floor {
             people: People::new(7, BodyOptions::default()),
-            walls: Walls::trace(&plan, &WallsOptions::default()).unwrap(),
+            walls: Walls::trace(&plan, &WallsOptions::default()),
             library: PatternLibrary::built_in().unwrap(),
             options: MarksOptions::default(),
             crowd: 1000,

@@ -4,7 +4,8 @@
 use std::fmt::Write;
 
 use trodden::math::{SplitMix64, Vec2, sin_cos, vec2};
-use trodden::motion::{Frame, Recording, RecordingOptions, Walker};
+use trodden::motion::{Frame, Walker};
+use trodden::recordings::{Recording, RecordingOptions};
 
 use crate::TAU;
 use crate::measure::{Floor, Path};

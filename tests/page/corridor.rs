@@ -2,11 +2,11 @@
 
 use image::{Rgb, RgbImage, Rgba, RgbaImage};
 use trodden::export::Reduced;
-use trodden::export::page::{Covering, Dirt, Page, PageOptions, Viewpoint};
-use trodden::export::scene::{Part, Scene, Surface};
 use trodden::look::Srgb8;
 use trodden::math::{self, SplitMix64, Vec2, vec2};
 use trodden::plan::FloorPlan;
+use trodden::show::page::{Covering, Dirt, Page, PageOptions, Viewpoint};
+use trodden::show::scene::{Part, Scene, Surface};
 use trodden::walls::{Walls, WallsOptions};
 
 /// Half a metre per character, `.` floor.
@@ -54,7 +54,7 @@ pub fn corridor(clean: Srgb8) -> Corridor {
     let clean = [clean, [232, 230, 224]];
     let floor = PLAN.iter().flat_map(|row| row.bytes()).map(|c| u8::from(c == b'.')).collect();
     let plan = FloorPlan::from_mask(PLAN[0].len() as u32, PLAN.len() as u32, PX_M, floor);
-    let walls = Walls::trace(&plan, &WallsOptions::default()).unwrap();
+    let walls = Walls::trace(&plan, &WallsOptions::default());
     let mut scene = Scene::default();
     let tiles = 2;
     scene.parts.extend((0..tiles).map(|n| floor_part(&plan, n)));

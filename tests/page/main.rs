@@ -9,8 +9,8 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use corridor::{Corridor, covered};
-use trodden::export::page::{PageOptions, page_html};
-use trodden::export::scene::{Part, Scene};
+use trodden::show::page::{PageOptions, page_html};
+use trodden::show::scene::{Part, Scene};
 
 const LIGHT: [u8; 3] = [197, 192, 182];
 const DARK: [u8; 3] = [60, 58, 56];
@@ -114,7 +114,7 @@ fn the_same_page_whatever_the_threads() {
 fn images_are_halved_until_they_fit() {
     let html = |image_bytes: usize, largest_px: u32| {
         let options = PageOptions { image_bytes, largest_px };
-        page_html(&trodden::export::page::Page { options, ..LIGHT_CORRIDOR.page("Corridor") })
+        page_html(&trodden::show::page::Page { options, ..LIGHT_CORRIDOR.page("Corridor") })
     };
     let (whole, small) = (html(usize::MAX, 4096), html(30_000, 4096));
     assert!(small.len() < whole.len(), "{} of {} bytes", small.len(), whole.len());

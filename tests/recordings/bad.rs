@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use rusqlite::Connection;
-use trodden::motion::{Recording, RecordingError, RecordingFormat, RecordingOptions};
+use trodden::recordings::{Recording, RecordingError, RecordingFormat, RecordingOptions};
 
 use super::{given, open_with, options};
 

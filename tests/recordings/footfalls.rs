@@ -84,7 +84,7 @@ fn step_lengths_m(frames: &[Frame]) -> Vec<f64> {
         trodden::math::vec2(20.0, 75.0),
     ))
     .unwrap();
-    let walls = Walls::trace(&plan, &WallsOptions::default()).unwrap();
+    let walls = Walls::trace(&plan, &WallsOptions::default());
     let people = People::new(1, BodyOptions::default());
     let library = PatternLibrary::built_in().unwrap();
     let mut lengths: BTreeMap<u32, Vec<f64>> = BTreeMap::new();

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use trodden::math::vec2;
-use trodden::motion::{LengthUnit, RecordingFormat, RecordingOptions};
+use trodden::recordings::{LengthUnit, RecordingFormat, RecordingOptions};
 
 use super::{frames, open_with, options, places};
 

@@ -109,7 +109,7 @@ fn repeated_rows_and_rows_in_disorder_do_no_harm() {
 #[test]
 fn frames_may_begin_below_zero_and_files_may_be_joined() {
     let text = "id,frame,x,y\n1,-2,0,0\n1,-1,0.1,0\nid,frame,x,y\n1,0,0.2,0\n";
-    let (_, frames) = frames(text, &trodden::motion::RecordingOptions { fps: Some(10.0), ..options() });
+    let (_, frames) = frames(text, &trodden::recordings::RecordingOptions { fps: Some(10.0), ..options() });
     assert_eq!(places(&frames), [(0.0, 1, 0.0, 0.0), (0.1, 1, 0.1, 0.0), (0.2, 1, 0.2, 0.0)]);
 }
 

@@ -4,8 +4,8 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::Mutex;
 
-use trodden::motion::Recording;
-use trodden::{Error, Progress, Stage};
+use trodden::recordings::{Recording, RecordingError};
+use trodden::{Progress, Stage};
 
 use super::{given, options};
 
@@ -99,7 +99,7 @@ fn looking_through_a_large_file_can_be_interrupted() {
     let file = given(format!("id,frame,x,y\n{by_person}"));
     for looks in [1, 2, 4, 6] {
         let stopped = Recording::open_watched(&file.path, &options(), &Impatient(Mutex::new(looks)));
-        assert!(matches!(stopped, Err(Error::Interrupted)), "{looks}");
+        assert!(matches!(stopped, Err(RecordingError::Interrupted { .. })), "{looks}");
     }
     Recording::open_watched(&file.path, &options(), &Impatient(Mutex::new(1000))).unwrap();
 }

@@ -4,7 +4,8 @@
 use std::path::PathBuf;
 
 use tempfile::TempDir;
-use trodden::motion::{Frame, Recording, RecordingError, RecordingOptions};
+use trodden::motion::Frame;
+use trodden::recordings::{Recording, RecordingError, RecordingOptions};
 
 mod bad;
 mod footfalls;

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use proptest::prelude::*;
 use trodden::math::vec2;
-use trodden::motion::{Frame, Recording, RecordingOptions};
+use trodden::motion::Frame;
+use trodden::recordings::{Recording, RecordingOptions};
 
 use super::{frames, given, options, places};
 

@@ -3,11 +3,9 @@
 use std::path::Path;
 
 use trodden::math::{sin_cos, vec2};
-use trodden::motion::{
-    BodyOptions, Frame, People, RecordForm, RecordedWorld, Recorder, Recording, RecordingFormat, RecordingOptions,
-    Walker,
-};
+use trodden::motion::{BodyOptions, Frame, People, Walker};
 use trodden::plan::FloorPlan;
+use trodden::recordings::{RecordForm, RecordedWorld, Recorder, Recording, RecordingFormat, RecordingOptions};
 use trodden::walls::{Walls, WallsOptions};
 
 use super::frames_of;
@@ -38,7 +36,7 @@ fn motion(fps: f64) -> Vec<Frame> {
 
 fn written(path: &Path, format: Option<RecordingFormat>, fps: f64) -> Vec<Frame> {
     let plan = FloorPlan::from_mask(20, 20, 1.0, vec![1; 400]);
-    let walls = Walls::trace(&plan, &WallsOptions::default()).unwrap();
+    let walls = Walls::trace(&plan, &WallsOptions::default());
     let people = People::new(1, BodyOptions::default());
     let world = RecordedWorld { plan: &plan, walls: &walls, people: &people };
     let form = RecordForm::of(path, format).unwrap();

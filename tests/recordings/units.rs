@@ -1,6 +1,6 @@
 //! What is assumed where files do not say, and what is told of it.
 
-use trodden::motion::{LengthUnit, RecordingOptions, Survey};
+use trodden::recordings::{LengthUnit, RecordingOptions, Survey};
 
 use super::{frames, open_with, options};
 

@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use trodden::motion::units::{Areas, Unit, UnitLibrary};
+use trodden::units::{Areas, Unit, UnitLibrary};
 
 #[path = "../../examples/draw_units/main.rs"]
 mod draw_units;

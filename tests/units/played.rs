@@ -1,7 +1,7 @@
 use std::sync::OnceLock;
 
 use trodden::crowd::SpotRequest;
-use trodden::motion::units::DiversityReport;
+use trodden::units::DiversityReport;
 
 use super::scene::{Run, Scene, Seen};
 

@@ -2,9 +2,9 @@ use std::fs;
 use std::path::Path;
 
 use trodden::crowd::{CrowdError, CrowdModel, SpotRequest};
-use trodden::motion::units::UnitLibrary;
 use trodden::plan::PlanPoint;
 use trodden::scenario::{Overrides, Scenario};
+use trodden::units::UnitLibrary;
 
 use super::scene::Scene;
 

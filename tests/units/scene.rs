@@ -45,7 +45,7 @@ impl Scene {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("floorplans/plaza.toml");
         let scenario = Scenario::open(&path, &Overrides::default()).unwrap();
         let plan = plan::read(&scenario.image_path().unwrap(), &scenario.plan_options()).unwrap();
-        let walls = Walls::trace(&plan, &scenario.walls).unwrap();
+        let walls = Walls::trace(&plan, &scenario.walls);
         let (routes, navigation) = Navigation::find(&plan, &walls, &scenario.routes).unwrap();
         Scene { scenario, plan, walls, routes, navigation }
     }

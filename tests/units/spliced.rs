@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use trodden::crowd::CrowdModel;
 use trodden::math::{Vec2, sin_cos, vec2};
-use trodden::motion::units::{Areas, Side, SpotFrame, Unit, UnitLibrary};
+use trodden::units::{Areas, Side, SpotFrame, Unit, UnitLibrary};
 
 use super::scene::{Run, Scene, Seen};
 

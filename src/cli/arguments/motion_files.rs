@@ -5,10 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory};
-use trodden::export::preview::{
-    ANIMATION_SIZES_PX, ANIMATION_SPEEDS, AnimationColour, AnimationFormat, AnimationOptions,
-};
-use trodden::motion::{FRAME_RATES, RecordForm, RecordingFormat};
+use trodden::recordings::{FRAME_RATES, RecordForm, RecordingFormat};
+use trodden::show::{ANIMATION_SIZES_PX, ANIMATION_SPEEDS, AnimationColour, AnimationFormat, AnimationOptions};
 use trodden::walk::{MotionOutput, WalkOutputs, WalkReport, same_file};
 
 use super::super::{Cli, Common, print};

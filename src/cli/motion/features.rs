@@ -3,11 +3,12 @@ use std::process::ExitCode;
 use clap::Args;
 use clap::builder::TypedValueParser;
 use serde::Serialize;
-use trodden::motion::features::{
+use trodden::features::{
     self, Component, FeaturesOptions, Method, Mix, MixOptions, Modulation, NEIGHBOUR_DISTANCES_M, Rule, TogetherSpan,
     Whose,
 };
-use trodden::motion::{Ensemble, Recording};
+use trodden::motion::Ensemble;
+use trodden::recordings::Recording;
 use trodden::source::{CoordinateFrame, Given};
 use trodden::walk::WalkReport;
 use trodden::{Error, Progress};

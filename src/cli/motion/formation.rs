@@ -3,10 +3,8 @@ use std::process::ExitCode;
 
 use clap::Args;
 use trodden::Stopwatch;
+use trodden::formation::{Assign, AvoidRequest, ExampleRequest, FormationRequest, KeyRequest, form, is_picture};
 use trodden::motion::People;
-use trodden::motion::formation::{
-    Assign, AvoidRequest, ExampleRequest, FormationRequest, KeyRequest, form, is_picture,
-};
 use trodden::scenario::{Overrides, Scenario};
 use trodden::source::{Given, Ground};
 use trodden::walk::show;

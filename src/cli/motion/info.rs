@@ -2,7 +2,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use trodden::motion::{People, Survey};
+use trodden::motion::People;
+use trodden::recordings::Survey;
 use trodden::source::{Given, Ground};
 use trodden::walk::{WalkOutputs, show};
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::TypedValueParser;
-use trodden::motion::{LengthUnit, Recording, RecordingFormat, RecordingOptions};
+use trodden::recordings::{LengthUnit, Recording, RecordingFormat, RecordingOptions};
 use trodden::{Error, Progress};
 
 use super::super::arguments::{number_within, one_of, recording_format};

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::TypedValueParser;
-use trodden::motion::features::Middle;
-use trodden::motion::{LengthUnit, Recording, RecordingFormat, RecordingOptions};
+use trodden::features::Middle;
+use trodden::recordings::{LengthUnit, Recording, RecordingFormat, RecordingOptions};
 use trodden::{Error, Progress, Stage};
 
 use super::super::arguments::{one_of, recording_format};
@@ -84,7 +84,7 @@ impl Progress for OfOther<'_> {
 /// What went wrong with the other recording, with the names of the options that are about it.
 pub fn of_other(error: Error) -> anyhow::Error {
     match error {
-        Error::Interrupted => Error::Interrupted.into(),
+        Error::Interrupted(_) => error.into(),
         error => {
             let hint = error.hint().map(|hint| renamed(&hint).into());
             Refused { message: renamed(&error.to_string()), hint }.into()

@@ -4,10 +4,10 @@ use std::process::ExitCode;
 
 use clap::Args;
 use trodden::Error;
-use trodden::export::preview::{draw_unit, encode_picture};
 use trodden::files::write_whole;
 use trodden::math::{Vec2, sin_cos, vec2};
-use trodden::motion::units::{Areas, Cut, CutOptions, DiversityReport, SpotFrame, Unit, UnitLibrary, cut};
+use trodden::show::{draw_unit, encode_picture};
+use trodden::units::{Areas, Cut, CutOptions, DiversityReport, SpotFrame, Unit, UnitLibrary, cut};
 
 use super::super::arguments::number_within;
 use super::super::print;
@@ -148,7 +148,7 @@ impl Units {
 
     /// Lists a folder, or what is built in.
     fn listed(&self, folder: Option<&Path>) -> anyhow::Result<Vec<(String, Unit)>> {
-        let library = UnitLibrary::open(folder).map_err(|error| Error::Motion(error.into()))?;
+        let library = UnitLibrary::open(folder).map_err(Error::from)?;
         let rows: Vec<Row> = library.units.iter().map(|unit| Row::of(unit, None)).collect();
         self.tell(&rows, None)?;
         Ok(named(library.units))

@@ -28,9 +28,8 @@ use super::state::{Body, Course, Traits};
 use super::steering::Steering;
 use super::walking::Move;
 use super::{Arrival, CrowdError, CrowdOptions, Simulation, Stuck, Tally, Visit};
-use crate::Error;
 use crate::math::vec2;
-use crate::motion::{Frame, Motion, People, Walker};
+use crate::motion::{Frame, Motion, MotionError, People, Walker};
 use crate::plan::FloorPlan;
 use crate::routes::{Navigation, Route};
 use crate::walls::Walls;
@@ -315,7 +314,7 @@ fn meets(sights: &Sights<'_>, me: &Body) -> bool {
 }
 
 impl Motion for SocialCrowd<'_> {
-    fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, Error> {
+    fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, MotionError> {
         if self.is_over() {
             return Ok(false);
         }

@@ -1,4 +1,4 @@
-//! Spots that are looked at closely: near them, people of the crowd play [units](crate::motion::units), as the paper of
+//! Spots that are looked at closely: near them, people of the crowd play [units](crate::units), as the paper of
 //! Matsumoto, Mori and Toyama describes (*Example-based Composition of Crowd Movement in VR*).
 //!
 //! While the crowd walks, the people in the areas before and behind the viewer are counted. A unit of as many people in the
@@ -17,8 +17,7 @@ pub use report::{SpotReport, Spread};
 pub use request::SpotRequest;
 
 use super::{Arrival, CrowdError, CrowdOptions, Present, Simulation, SocialCrowd, Stuck, Tally};
-use crate::Error;
-use crate::motion::{Frame, Motion, People};
+use crate::motion::{Frame, Motion, MotionError, People};
 use crate::plan::FloorPlan;
 use crate::routes::{Navigation, Route};
 use crate::walls::Walls;
@@ -99,7 +98,7 @@ impl<'a> Spots<'a> {
 }
 
 impl Motion for Spots<'_> {
-    fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, Error> {
+    fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, MotionError> {
         if !self.crowd.next_frame(frame)? {
             return Ok(false);
         }

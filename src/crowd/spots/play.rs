@@ -3,7 +3,7 @@ use super::report::SpotReport;
 use super::spot::Now;
 use super::way::Way;
 use crate::math::Vec2;
-use crate::motion::units::{SpotFrame, Unit};
+use crate::units::{SpotFrame, Unit};
 
 /// Others are kept off who plays; whoever still overlaps by more than this, wedged in somewhere, breaks a part off, metres.
 const WEDGED_M: f64 = 0.03;

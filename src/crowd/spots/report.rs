@@ -3,7 +3,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::math::Vec2;
-use crate::motion::units::DiversityReport;
+use crate::units::DiversityReport;
 
 /// So many sorts of people for whom there is no unit are named.
 const NAMED: usize = 4;

@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::super::CrowdError;
 use crate::math::{Vec2, sin_cos, vec2};
-use crate::motion::units::{Areas, SpotFrame};
 use crate::plan::{FloorPlan, PlanPoint};
 use crate::routes::Ground;
+use crate::units::{Areas, SpotFrame};
 use crate::walls::Walls;
 
 /// Nobody stands nearer to a wall than this, metres.

@@ -4,7 +4,7 @@ use super::super::Present;
 use super::play::Play;
 use super::way::{LOOK_S, Way};
 use crate::math::Vec2;
-use crate::motion::units::{LEAST_APART_M, SpotFrame, Unit};
+use crate::units::{LEAST_APART_M, SpotFrame, Unit};
 use crate::walls::Walls;
 
 /// People who play keep this far from walls at least, metres.

@@ -5,12 +5,11 @@ use super::request::SpotRequest;
 use super::room::{self, Room};
 use super::way::{MOST_M_S2, Way};
 use crate::math::{Vec2, atan2};
-use crate::motion::MotionError;
-use crate::motion::units::{
-    Areas, Candidate, Diversity, MatchOptions, Moment, Party, Side, SpotFrame, Unit, UnitLibrary, rank,
-};
 use crate::plan::FloorPlan;
 use crate::routes::Ground;
+use crate::units::{
+    Areas, Candidate, Diversity, MatchOptions, Moment, Party, Side, SpotFrame, Unit, UnitLibrary, rank,
+};
 use crate::walls::Walls;
 
 /// Members of a group who are farther from its middle than this count on their own, metres.
@@ -91,9 +90,8 @@ impl Spot {
         (plan, walls, ground): (&FloorPlan, &Walls, &Ground),
     ) -> Result<Spot, CrowdError> {
         let frame = request.resolve(index, (plan, walls, ground))?;
-        let wrong = |error| CrowdError::Motion(Box::new(MotionError::Units(error)));
         let library = match request.play {
-            true => UnitLibrary::open(request.folder.as_deref()).map_err(wrong)?,
+            true => UnitLibrary::open(request.folder.as_deref())?,
             false => UnitLibrary::default(),
         };
         let count = library.units.len();

@@ -1,5 +1,5 @@
 use crate::math::Vec2;
-use crate::motion::units::{Moment, SpotFrame, Unit};
+use crate::units::{Moment, SpotFrame, Unit};
 
 /// Least and most time to move over to a part, seconds, and the steps in between.
 const MOVE_OVER_S: [f64; 3] = [0.8, 4.4, 0.3];
@@ -115,7 +115,7 @@ fn turn_towards(from: Vec2, to: Vec2, most_rad: f64) -> Vec2 {
 mod tests {
     use super::*;
     use crate::math::vec2;
-    use crate::motion::units::UnitLibrary;
+    use crate::units::UnitLibrary;
 
     #[test]
     fn a_way_begins_where_somebody_is_and_ends_on_the_part() {

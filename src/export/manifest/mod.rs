@@ -2,7 +2,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::preview::still::StillEntry;
+use super::camera::StillEntry;
 use super::targets::{TargetEntry, WorldEntry};
 use super::{ExportError, TextureOptions};
 use crate::look::Look;
@@ -307,7 +307,7 @@ mod tests {
         let mut floor = vec![1; 40 * 20];
         floor[..40].fill(0);
         let plan = FloorPlan::from_mask(40, 20, 0.1, floor);
-        let walls = Walls::trace(&plan, &WallsOptions::default()).unwrap();
+        let walls = Walls::trace(&plan, &WallsOptions::default());
         let route = Route {
             name: "west to east".to_string(),
             start: Place::Opening(0),

@@ -48,9 +48,7 @@ pub(super) fn write_image(
     let blank = zero_tile(names.len(), [BLOCK, BLOCK]);
     let pool = Pool::default();
     for top in (0..height).step_by(BLOCK) {
-        if progress.interrupted() {
-            return Err(ExportError::Interrupted);
-        }
+        progress.keep_on()?;
         let lefts: Vec<usize> = (0..width).step_by(BLOCK).collect();
         let encode = |&left: &usize| {
             let (at, size) = block(image.size(), left, top);

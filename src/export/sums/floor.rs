@@ -140,7 +140,7 @@ fn read_area(path: &Path, sums: &mut FloorSums, area: Area) -> Result<(), Export
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::export::preview::Birdseye;
+    use crate::export::Birdseye;
     use crate::math::SplitMix64;
     use crate::progress::Silent;
 

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::band::Image;
+use super::birdseye::Birdseye;
 use super::layout::TileLayout;
 use super::manifest::{FloorEntry, Naming, SumsEntry, TileEntry};
-use super::preview::Birdseye;
 use super::source::TextureSource;
 use super::targets::{Covered, Number, Target, WorldEntry};
 use super::{ExportError, OutputFolder, Reduced};

@@ -164,7 +164,7 @@ fn an_interruption_ends_it() {
     let folder = OutputFolder::begin(&dir.path().join("out"), false).unwrap();
     let disc = Disc { centre: [0, 0], radius: 50 };
     let result = floor_textures(&folder, grid(100, 100), &disc, &TextureOptions::default(), &Stop);
-    assert!(matches!(result, Err(ExportError::Interrupted)));
+    assert!(matches!(result, Err(ExportError::Interrupted(_))));
     drop(folder);
     assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 0);
 }

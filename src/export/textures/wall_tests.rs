@@ -73,7 +73,7 @@ fn walls() -> Walls {
     let pillar = |x: u32, y: u32| (10..60).contains(&x) && (10..40).contains(&y) && x % 12 < 1 + x / 12 && y % 20 < 9;
     let wall = |x: u32, y: u32| x < 2 || y < 2 || x >= 68 || y >= 48 || pillar(x, y);
     let mask = (0..50u32).flat_map(|y| (0..70u32).map(move |x| u8::from(!wall(x, y)))).collect();
-    Walls::trace(&FloorPlan::from_mask(70, 50, 0.1, mask), &WallsOptions::default()).unwrap()
+    Walls::trace(&FloorPlan::from_mask(70, 50, 0.1, mask), &WallsOptions::default())
 }
 
 /// Every vertex, as if each were a corner.

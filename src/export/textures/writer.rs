@@ -95,9 +95,7 @@ impl<'a> TextureWriter<'a> {
         let bands = canvas.bands();
         resolve(0, &mut front);
         for index in 0..bands {
-            if self.progress.interrupted() {
-                return Err(ExportError::Interrupted);
-            }
+            self.progress.keep_on()?;
             let next = || {
                 if index + 1 < bands {
                     resolve(index + 1, &mut back);

@@ -57,7 +57,7 @@ fn room(texels_per_metre: f64) -> Scene {
 fn scene(columns: usize, rows: usize, texels_per_metre: f64, is_floor: impl Fn(usize, usize) -> bool) -> Scene {
     let floor = (0..columns * rows).map(|n| u8::from(is_floor(n % columns, n / columns))).collect();
     let plan = FloorPlan::from_mask(columns as u32, rows as u32, 0.1, floor);
-    let walls = Walls::trace(&plan, &WallsOptions::default()).unwrap();
+    let walls = Walls::trace(&plan, &WallsOptions::default());
     let grid = WallGrid::covering(&walls, HEIGHT_M, texels_per_metre).unwrap();
     Scene { sums: WallSums::new(grid), walls }
 }

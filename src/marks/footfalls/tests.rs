@@ -17,7 +17,7 @@ fn walls_of(width: u32, height: u32, metres_per_pixel: f64, floor: impl Fn(f64, 
     let pixels = (0..height).rev().flat_map(|row| (0..width).map(move |column| (middle(column), middle(row))));
     let mask = pixels.map(|(x, y)| u8::from(floor(x, y))).collect();
     let plan = FloorPlan::from_mask(width, height, metres_per_pixel, mask);
-    Walls::trace(&plan, &WallsOptions::default()).unwrap()
+    Walls::trace(&plan, &WallsOptions::default())
 }
 
 /// Everybody the same: no spread in what a test measures.

@@ -1,7 +1,7 @@
 //! `[formation]` in a scenario: read, checked, written.
 
 use super::{parse, shown};
-use crate::motion::formation::{ExampleKind, Members, Shape};
+use crate::formation::{ExampleKind, Members, Shape};
 
 const BATTLE: &str = r#"
 [formation]

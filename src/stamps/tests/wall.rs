@@ -179,7 +179,7 @@ fn stains_are_cut_off_at_floor_and_ceiling_and_at_the_ends_of_open_faces() {
 fn a_stain_runs_on_round_a_corner() {
     let floor = |k: usize| u8::from((1..29).contains(&(k % 30)) && (1..19).contains(&(k / 30)));
     let plan = crate::plan::FloorPlan::from_mask(30, 20, 0.1, (0..600).map(floor).collect());
-    let walls = crate::walls::Walls::trace(&plan, &crate::walls::WallsOptions::default()).unwrap();
+    let walls = crate::walls::Walls::trace(&plan, &crate::walls::WallsOptions::default());
     let grid = WallGrid::covering(&walls, 2.6, 200.0).unwrap();
     assert!(walls.faces[0].closed && walls.faces[0].points_m.len() == 4);
     let side_m = walls.faces[0].points_m[0].distance(walls.faces[0].points_m[1]);

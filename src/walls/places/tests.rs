@@ -17,7 +17,7 @@ fn drawn(size_m: [f64; 2], is_wall: impl Fn(Vec2) -> bool) -> Walls {
         }
     }
     let plan = FloorPlan::from_mask(width as u32, height as u32, PX_M, floor);
-    Walls::trace(&plan, &WallsOptions::default()).unwrap()
+    Walls::trace(&plan, &WallsOptions::default())
 }
 
 fn within(p: Vec2, min: [f64; 2], max: [f64; 2]) -> bool {
@@ -199,7 +199,7 @@ fn a_hundred_thousand_tiny_walls_take_no_time() {
     let side = 951usize;
     let mask = (0..side * side).map(|at| u8::from(!(at / side % 3 == 1 && at % side % 3 == 1))).collect();
     let plan = FloorPlan::from_mask(side as u32, side as u32, 0.35, mask);
-    let walls = Walls::trace(&plan, &WallsOptions::default()).unwrap();
+    let walls = Walls::trace(&plan, &WallsOptions::default());
     assert!(walls.faces.len() > 99_000);
     let start = std::time::Instant::now();
     assert_eq!(walls.doorways().len(), 0);

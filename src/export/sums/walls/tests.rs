@@ -14,7 +14,7 @@ fn plan() -> (FloorPlan, Walls) {
         u8::from(amid && !pillar)
     });
     let plan = FloorPlan::from_mask(60, 40, 0.1, floor.collect());
-    let walls = Walls::trace(&plan, &WallsOptions::default()).unwrap();
+    let walls = Walls::trace(&plan, &WallsOptions::default());
     (plan, walls)
 }
 

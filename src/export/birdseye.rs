@@ -1,0 +1,131 @@
+use std::sync::{Mutex, PoisonError};
+
+use image::{Rgb, RgbImage};
+
+use crate::look::ResolvedBlock;
+use crate::math::srgb::{from_linear, to_linear};
+use crate::stamps::TexelGrid;
+
+/// Greatest width and height of the picture, pixels.
+const LARGEST: u32 = 2048;
+
+/// A floor from above, made small while its blocks go by: mean light of the texels under each pixel.
+#[derive(Debug)]
+pub struct Birdseye {
+    grid: TexelGrid,
+    /// Texels under a pixel, each way.
+    factor: usize,
+    width: usize,
+    height: usize,
+    /// Red, green, blue, number of texels; row 0 is the southernmost. Whole numbers: any order of adding gives the same.
+    sums: Mutex<Vec<[u32; 4]>>,
+}
+
+impl Birdseye {
+    /// Nothing seen yet.
+    pub fn new(grid: TexelGrid) -> Birdseye {
+        // 256 x 256 texels of the lightest white are the most that a sum holds.
+        let factor = grid.width.max(grid.height).div_ceil(LARGEST).clamp(1, 256) as usize;
+        let (width, height) = ((grid.width as usize).div_ceil(factor), (grid.height as usize).div_ceil(factor));
+        Birdseye { grid, factor, width, height, sums: Mutex::new(vec![[0; 4]; width * height]) }
+    }
+
+    /// Adds a block whose lower-left texel is (i0, j0) of the whole floor. Empty blocks and texels beyond the floor's
+    /// grid do not count.
+    pub fn add(&self, [i0, j0]: [i64; 2], [width, height]: [usize; 2], block: &ResolvedBlock) {
+        let (Ok(i0), Ok(j0)) = (usize::try_from(i0), usize::try_from(j0)) else { return };
+        let columns = width.min((self.grid.width as usize).saturating_sub(i0));
+        let rows = height.min((self.grid.height as usize).saturating_sub(j0));
+        if block.empty || columns == 0 || rows == 0 {
+            return;
+        }
+        let (left, below) = (i0 / self.factor, j0 / self.factor);
+        let cells_across = (i0 + columns - 1) / self.factor - left + 1;
+        let cells_up = (j0 + rows - 1) / self.factor - below + 1;
+        let mut cells = vec![[0u32; 4]; cells_across * cells_up];
+        for (y, row) in block.base_color.chunks(width).enumerate().take(rows) {
+            let cells = &mut cells[((j0 + y) / self.factor - below) * cells_across..][..cells_across];
+            let mut x = 0;
+            for (k, cell) in cells.iter_mut().enumerate() {
+                let end = ((left + k + 1) * self.factor - i0).min(columns);
+                for colour in &row[x..end] {
+                    for (sum, &value) in cell.iter_mut().zip(colour) {
+                        *sum += u32::from(to_linear(value));
+                    }
+                }
+                cell[3] += (end - x) as u32;
+                x = end;
+            }
+        }
+        let mut sums = self.sums.lock().unwrap_or_else(PoisonError::into_inner);
+        for (y, row) in cells.chunks(cells_across).enumerate() {
+            let sums = &mut sums[(below + y) * self.width + left..][..cells_across];
+            for (sum, cell) in sums.iter_mut().zip(row) {
+                *sum = std::array::from_fn(|k| sum[k] + cell[k]);
+            }
+        }
+    }
+
+    /// Texels per metre of the picture.
+    pub fn pixels_per_metre(&self) -> f64 {
+        self.grid.texels_per_metre / self.factor as f64
+    }
+
+    /// The picture, its upper row the largest y. Where nothing was seen it has the colour `nothing`.
+    pub fn picture(&self, nothing: [u8; 3]) -> RgbImage {
+        let sums = self.sums.lock().unwrap_or_else(PoisonError::into_inner);
+        RgbImage::from_fn(self.width as u32, self.height as u32, |x, y| {
+            let [red, green, blue, count] = sums[(self.height - 1 - y as usize) * self.width + x as usize];
+            let mean = |sum: u32| from_linear(((sum + count / 2) / count) as u16);
+            Rgb(if count == 0 { nothing } else { [red, green, blue].map(mean) })
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn block(width: usize, height: usize, colour: impl Fn(usize, usize) -> u8) -> ResolvedBlock {
+        let base_color = (0..width * height).map(|k| [colour(k % width, k / width); 3]).collect();
+        ResolvedBlock { base_color, ..ResolvedBlock::default() }
+    }
+
+    #[test]
+    fn light_is_averaged_not_numbers() {
+        let birdseye = Birdseye::new(TexelGrid { texels_per_metre: 100.0, width: 4096, height: 2 });
+        birdseye.add([0, 0], [4096, 2], &block(4096, 2, |x, y| if (x + y) % 2 == 0 { 255 } else { 0 }));
+        let picture = birdseye.picture([1, 2, 3]);
+        assert_eq!(picture.dimensions(), (2048, 1));
+        assert!(picture.pixels().all(|p| p.0 == [188; 3]));
+    }
+
+    #[test]
+    fn blocks_that_do_not_fit_the_pixels_add_up() {
+        // Three texels to a pixel, blocks of 100.
+        let grid = TexelGrid { texels_per_metre: 100.0, width: 6000, height: 7 };
+        let colour = |x: usize, y: usize| (x / 24 + y) as u8;
+        let (whole, parts) = (Birdseye::new(grid), Birdseye::new(grid));
+        whole.add([0, 0], [6000, 7], &block(6000, 7, colour));
+        for left in (0..6000).step_by(100) {
+            // The last block reaches beyond the floor.
+            parts.add([left as i64, 0], [100, 4], &block(100, 4, |x, y| colour(left + x, y)));
+            parts.add([left as i64, 4], [100, 9], &block(100, 9, |x, y| colour(left + x, y.min(2) + 4)));
+        }
+        assert_eq!(whole.picture([0; 3]), parts.picture([0; 3]));
+        assert_eq!(whole.picture([0; 3]).dimensions(), (2000, 3));
+    }
+
+    #[test]
+    fn row_0_is_the_largest_y() {
+        let birdseye = Birdseye::new(TexelGrid { texels_per_metre: 1.0, width: 1, height: 2 });
+        birdseye.add([0, 0], [1, 2], &block(1, 2, |_, y| y as u8 * 100));
+        assert_eq!(birdseye.picture([9; 3]).get_pixel(0, 0).0, [100; 3]);
+    }
+
+    #[test]
+    fn nothing_seen_is_drawn_as_such() {
+        let birdseye = Birdseye::new(TexelGrid { texels_per_metre: 1.0, width: 3, height: 2 });
+        assert!(birdseye.picture([7, 8, 9]).pixels().all(|p| p.0 == [7, 8, 9]));
+    }
+}

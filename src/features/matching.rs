@@ -1,0 +1,119 @@
+use pathfinding::kuhn_munkres::kuhn_munkres_min;
+use pathfinding::matrix::Matrix;
+
+use super::part::Part;
+use crate::features::FeaturesError;
+use crate::math::Vec2;
+
+/// What squares of distances are counted in: the largest is so many units, and a million of them still fit.
+const UNITS: f64 = (1u64 << 40) as f64;
+/// How often the smaller crowd's middle is looked for anew in the larger one.
+const TRIES: usize = 5;
+
+/// Pairs the people of two crowds so that the squares of the distances between their places add up to the least: each of
+/// the smaller crowd with one of the other. Gives the pairs by ascending number in the first crowd.
+///
+/// Squares are used because the pairs of two crowds of one size then do not depend on where their middles are put. Where
+/// one is larger, the middle of those who have a partner is put on that of the others, and pairs are sought again, until
+/// they stay. Squares are rounded to 2^-40 of the largest, so that nothing hangs on the order of sums.
+///
+/// # Errors
+/// [`FeaturesError::Interrupted`].
+pub(super) fn nearest_pairs(
+    first_m: &[Vec2],
+    other_m: &[Vec2],
+    part: &Part<'_>,
+) -> Result<Vec<[usize; 2]>, FeaturesError> {
+    let swapped = first_m.len() > other_m.len();
+    let (few, many) = if swapped { (other_m, first_m) } else { (first_m, other_m) };
+    if few.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut shift_m = Vec2::ZERO;
+    let mut chosen = Vec::new();
+    let tries = if few.len() == many.len() { 1 } else { TRIES };
+    for number in 0..tries {
+        part.keep_on()?;
+        part.advance(number as f64 / tries as f64);
+        let (_, found) = kuhn_munkres_min(&squares(few, many, shift_m));
+        if found == chosen {
+            break;
+        }
+        chosen = found;
+        let apart = few.iter().zip(&chosen).fold(Vec2::ZERO, |sum, (&place, &other)| sum + (many[other] - place));
+        shift_m = apart / few.len() as f64;
+    }
+    part.advance(1.0);
+    let pair = |(few, many)| if swapped { [many, few] } else { [few, many] };
+    let mut pairs: Vec<[usize; 2]> = chosen.into_iter().enumerate().map(pair).collect();
+    pairs.sort_unstable();
+    Ok(pairs)
+}
+
+/// Squares of the distances between the people of two crowds, the smaller moved a little, a row for each of these.
+fn squares(few: &[Vec2], many: &[Vec2], shift_m: Vec2) -> Matrix<i64> {
+    let square_m2 = |(row, column): (usize, usize)| (many[column] - few[row] - shift_m).length_squared();
+    let squares_m2 = Matrix::from_fn(few.len(), many.len(), square_m2);
+    let largest_m2 = squares_m2.values().copied().fold(f64::MIN_POSITIVE, f64::max);
+    squares_m2.map(|square_m2| (square_m2 / largest_m2 * UNITS).round() as i64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::vec2;
+    use crate::progress::{Progress, Silent};
+
+    fn nearest_pairs(first_m: &[Vec2], other_m: &[Vec2]) -> Vec<[usize; 2]> {
+        super::nearest_pairs(first_m, other_m, &Part::whole(&Silent)).unwrap()
+    }
+
+    fn line(xs: &[f64]) -> Vec<Vec2> {
+        xs.iter().map(|&x| vec2(x, 0.0)).collect()
+    }
+
+    #[test]
+    fn pairs_lie_as_near_as_can_be() {
+        let (a, b) = (line(&[0.0, 10.0, 20.0]), line(&[21.0, 1.0, 9.0, 500.0]));
+        assert_eq!(nearest_pairs(&a, &b), [[0, 1], [1, 2], [2, 0]]);
+        assert_eq!(nearest_pairs(&b, &a), [[0, 2], [1, 0], [2, 1]]);
+        assert!(nearest_pairs(&a, &[]).is_empty());
+        // The nearest for one would cost another more.
+        assert_eq!(nearest_pairs(&line(&[0.0, 1.0]), &line(&[1.1, 5.0])), [[0, 0], [1, 1]]);
+    }
+
+    #[test]
+    fn people_are_found_in_a_larger_crowd_with_another_middle() {
+        let ring = [(3.0, 1.0), (-2.0, 4.0), (-3.0, -3.0), (1.0, -5.0), (0.0, 0.5)].map(|(x, y)| vec2(x, y));
+        let mut crowd = vec![vec2(-300.0, 0.0), vec2(250.0, 10.0)];
+        crowd.extend(ring.iter().rev().map(|&place| place + vec2(40.0, -30.0)));
+        assert_eq!(nearest_pairs(&ring, &crowd), [[0, 6], [1, 5], [2, 4], [3, 3], [4, 2]]);
+    }
+
+    #[test]
+    fn crowds_on_one_point_or_far_away_are_paired_too() {
+        assert_eq!(nearest_pairs(&[Vec2::ZERO; 3], &[Vec2::ZERO; 3]).len(), 3);
+        assert_eq!(nearest_pairs(&line(&[1e8, -1e8]), &line(&[-1e8, 0.0, 1e8])), [[0, 2], [1, 0]]);
+    }
+
+    #[test]
+    fn matching_shows_progress_and_can_be_interrupted() {
+        /// Stops at the second look.
+        #[derive(Default)]
+        struct Stop(std::sync::Mutex<Vec<f64>>);
+        impl Progress for Stop {
+            fn advance(&self, _: crate::Stage, share: f64) {
+                self.0.lock().unwrap().push(share);
+            }
+            fn warn(&self, _: &str) {}
+            fn interrupted(&self) -> bool {
+                !self.0.lock().unwrap().is_empty()
+            }
+        }
+        // A smaller crowd is sought more than once.
+        let (few, many, stop) = (line(&[0.0, 1.0]), line(&[-8.0, 5.0, 6.0, 7.0]), Stop::default());
+        let error = super::nearest_pairs(&few, &many, &Part::whole(&stop)).unwrap_err();
+        assert!(matches!(error, FeaturesError::Interrupted(_)));
+        assert_eq!(*stop.0.lock().unwrap(), [0.0]);
+    }
+}

@@ -1,0 +1,309 @@
+use rayon::prelude::*;
+
+use super::encounters::first_offsets;
+use super::nearby::{Moment, Pair, pairs_within};
+use super::settle::settle;
+use super::smooth::Smoother;
+use super::{Avoidance, Body};
+use crate::formation::FormationError;
+use crate::math::{Vec2, sin_cos, vec2};
+use crate::progress::Progress;
+
+/// Up to how many times the distance at which bodies would overlap neighbours push each other.
+const PUSH_REACH: f64 = 2.5;
+/// Rounds of the search: room beyond what is needed that it aims at, as a share of the distance kept, and the weight of
+/// accelerations. Where many are in each other's way, gentle ways are not to be had.
+const ROUNDS: [[f64; 2]; 2] = [[0.04, 1.0], [0.08, 0.15]];
+/// Steps of the search in each round.
+const STEPS: usize = 40;
+/// Least steps of a round.
+const LEAST_STEPS: usize = 16;
+/// How strongly everybody's way and every moment's places are tied to each other, over the spring.
+const TIE: f64 = 3.0;
+/// How much more firmly the spring holds at a key formation, and for how long around it, seconds.
+const KEY_HOLD: f64 = 8.0;
+const KEY_HOLD_S: f64 = 0.6;
+/// Sweeps over too near pairs in a step.
+pub(super) const SWEEPS: usize = 4;
+/// How far bodies may move until neighbours are looked for anew, metres.
+const SKIN_M: f64 = 0.3;
+
+/// Bodies over time, moment by moment.
+pub(super) struct Crowd<'b> {
+    pub bodies: usize,
+    pub places: Vec<Vec2>,
+    pub reaches_m: Vec<f64>,
+    all: &'b [Body],
+}
+
+impl<'b> Crowd<'b> {
+    fn of(all: &'b [Body]) -> Crowd<'b> {
+        let moments = all.first().map_or(0, |body| body.places.len());
+        let each = || (0..moments).flat_map(|moment| all.iter().map(move |body| (moment, body)));
+        let places = each().map(|(moment, body)| body.places[moment]).collect();
+        let reaches_m = each().map(|(moment, body)| body.reach_m(moment)).collect();
+        Crowd { bodies: all.len(), places, reaches_m, all }
+    }
+
+    pub fn moments(&self) -> usize {
+        self.all.first().map_or(0, |body| body.places.len())
+    }
+
+    pub fn at(&self, moment: usize, body: u32) -> Vec2 {
+        self.places[moment * self.bodies + body as usize]
+    }
+
+    /// How far apart the middles of two bodies are kept.
+    pub fn keep_m(&self, moment: usize, [a, b]: Pair) -> f64 {
+        let at = |body: u32| self.reaches_m[moment * self.bodies + body as usize];
+        at(a) + at(b)
+    }
+
+    pub fn moment(&self, moment: usize) -> Moment<'_> {
+        let range = moment * self.bodies..(moment + 1) * self.bodies;
+        Moment { places: &self.places[range.clone()], reaches_m: &self.reaches_m[range] }
+    }
+
+    /// Everybody's places at a moment, with everybody's offsets at all moments.
+    pub fn moved(&self, moment: usize, offsets: &[Vec2]) -> Vec<Vec2> {
+        let offsets = &offsets[moment * self.bodies..(moment + 1) * self.bodies];
+        self.moment(moment).places.iter().zip(offsets).map(|(&place, &offset)| place + offset).collect()
+    }
+
+    /// Pairs nearer to each other than a gap, edge to edge, with offsets to places, moment by moment.
+    fn pairs(&self, offsets: &[Vec2], gap_m: f64) -> Vec<Vec<Pair>> {
+        let of = |moment: usize| {
+            let places = self.moved(moment, offsets);
+            pairs_within(Moment { places: &places, reaches_m: self.moment(moment).reaches_m }, gap_m)
+        };
+        (0..self.moments()).into_par_iter().map(of).collect()
+    }
+}
+
+/// Moves bodies clear of each other, see [`Avoidance`].
+pub(super) fn relax(avoidance: &Avoidance, bodies: &mut [Body], progress: &dyn Progress) -> Result<(), FormationError> {
+    let crowd = Crowd::of(bodies);
+    let none = vec![Vec2::ZERO; crowd.places.len()];
+    let too_near = crowd.pairs(&none, 0.0);
+    let nobody_is_near = too_near.iter().all(Vec::is_empty);
+    if nobody_is_near && (avoidance.push <= 0.0 || crowd.pairs(&none, push_gap_m(&crowd)).iter().all(Vec::is_empty)) {
+        return Ok(());
+    }
+    let start = first_offsets(&crowd, &too_near, avoidance.fps, avoidance.seconds);
+    drop((none, too_near));
+    let mut search = Search::new(avoidance, &crowd, start);
+    for [margin, stiffness] in ROUNDS {
+        search.begin(stiffness);
+        if search.run(margin, progress)? {
+            break;
+        }
+    }
+    let offsets = settle(&crowd, search.ways, avoidance, progress)?;
+    let width = bodies.len();
+    for (k, body) in bodies.iter_mut().enumerate() {
+        body.places.iter_mut().enumerate().for_each(|(moment, place)| *place += offsets[moment * width + k]);
+    }
+    Ok(())
+}
+
+/// The gap, edge to edge, over which the widest bodies push each other.
+fn push_gap_m(crowd: &Crowd<'_>) -> f64 {
+    // Bodies of many keep a person's distance around themselves: what counts is the smallest.
+    let smallest_m = crowd.reaches_m.iter().copied().fold(f64::INFINITY, f64::min);
+    (PUSH_REACH - 1.0) * 2.0 * smallest_m
+}
+
+/// The search for offsets.
+struct Search<'c> {
+    crowd: &'c Crowd<'c>,
+    push: f64,
+    /// Gap over which neighbours push each other, and the distance that it stands for, metres.
+    push_gap_m: f64,
+    /// What holds everybody at each moment, and keeps accelerations small.
+    hold: Vec<f64>,
+    bend: f64,
+    smoother: Smoother,
+    /// Everybody's best way.
+    ways: Vec<Vec2>,
+    /// Every moment's places at which nobody overlaps.
+    clear: Vec<Vec2>,
+    /// How far the two have been apart, summed up.
+    strain: Vec<Vec2>,
+    /// Pairs that may come near, moment by moment, and the offsets at which they were looked for.
+    near: Vec<Vec<Pair>>,
+    looked_at: Vec<Vec2>,
+}
+
+impl<'c> Search<'c> {
+    fn new(avoidance: &Avoidance, crowd: &'c Crowd<'c>, start: Vec<Vec2>) -> Search<'c> {
+        let hold: Vec<f64> = (0..crowd.moments())
+            .map(|moment| {
+                let from_key = |&key: &usize| (moment as f64 - key as f64).abs() / avoidance.fps / KEY_HOLD_S;
+                let nearest = avoidance.keys.iter().map(from_key).fold(f64::INFINITY, f64::min);
+                let near = (1.0 - nearest * nearest).max(0.0);
+                1.0 + KEY_HOLD * near * near + TIE
+            })
+            .collect();
+        // Half the time of stepping aside is where the answer to a single push has fallen to a third.
+        let moments = avoidance.seconds / 2.0 * avoidance.fps;
+        let bend = (1.0 + TIE) * moments * moments * moments * moments;
+        let smoother = Smoother::new(&hold, bend);
+        let near = crowd.pairs(&start, push_gap_m(crowd) + SKIN_M);
+        Search {
+            crowd,
+            push: avoidance.push,
+            push_gap_m: push_gap_m(crowd),
+            hold,
+            bend,
+            smoother,
+            clear: start.clone(),
+            strain: vec![Vec2::ZERO; start.len()],
+            looked_at: start.clone(),
+            ways: start,
+            near,
+        }
+    }
+
+    /// Goes on from the ways that were found, with another share of the weight of accelerations.
+    fn begin(&mut self, stiffness: f64) {
+        self.smoother = Smoother::new(&self.hold, self.bend * stiffness);
+        self.strain.fill(Vec2::ZERO);
+    }
+
+    /// Searches until nobody overlaps; says whether that was reached.
+    fn run(&mut self, margin: f64, progress: &dyn Progress) -> Result<bool, FormationError> {
+        for step in 0..STEPS {
+            progress.keep_on()?;
+            self.find_clear_places(margin);
+            self.find_ways();
+            self.look_around();
+            // Until then pushes and springs are hardly in balance.
+            if step >= LEAST_STEPS && self.is_clear() {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// For every moment: the nearest places to everybody's ways (and what is left of earlier strain) at which nobody
+    /// overlaps.
+    fn find_clear_places(&mut self, margin: f64) {
+        let Search { crowd, ways, clear, strain, near, .. } = self;
+        let width = crowd.bodies;
+        let each = clear.par_chunks_mut(width).zip(strain.par_chunks_mut(width)).zip(&*near).enumerate();
+        each.for_each(|(moment, ((clear, strain), near))| {
+            let here = crowd.moment(moment);
+            let ways = &ways[moment * width..(moment + 1) * width];
+            for k in 0..width {
+                clear[k] = ways[k] + strain[k];
+            }
+            let sides = sides(here, ways, near, margin);
+            for _ in 0..SWEEPS {
+                let moved = sides.iter().filter(|side| side.part(clear)).count();
+                if moved == 0 {
+                    break;
+                }
+            }
+            for k in 0..width {
+                strain[k] += ways[k] - clear[k];
+            }
+        });
+    }
+
+    /// Everybody's best way to be near those places, held by the spring and pushed by neighbours.
+    fn find_ways(&mut self) {
+        let Search { crowd, ways, clear, strain, near, push, push_gap_m, smoother, .. } = self;
+        let width = crowd.bodies;
+        let each = ways.par_chunks_mut(width).zip(&*near).enumerate();
+        each.for_each(|(moment, (ways, near))| {
+            let here = crowd.moment(moment);
+            let range = moment * width..(moment + 1) * width;
+            let (clear, strain) = (&clear[range.clone()], &strain[range]);
+            let mut forces = vec![Vec2::ZERO; width];
+            for &[a, b] in near {
+                let [a, b] = [a as usize, b as usize];
+                let apart = here.places[a] + ways[a] - here.places[b] - ways[b];
+                let length_m = apart.length();
+                let gap_m = length_m - here.reaches_m[a] - here.reaches_m[b];
+                if gap_m < *push_gap_m && length_m > 1e-9 {
+                    // As between two people whose bodies have this gap between them.
+                    let own_m = *push_gap_m / (PUSH_REACH - 1.0);
+                    let distance_m = (own_m + gap_m).max(own_m / 2.0);
+                    let force = *push * (1.0 / distance_m - 1.0 / (own_m * PUSH_REACH));
+                    forces[a] += apart * (force / length_m);
+                    forces[b] -= apart * (force / length_m);
+                }
+            }
+            for k in 0..width {
+                ways[k] = (clear[k] - strain[k]) * TIE + forces[k];
+            }
+        });
+        smoother.solve(ways, width);
+    }
+
+    /// Looks for neighbours anew where somebody has moved far.
+    fn look_around(&mut self) {
+        let moved = self.ways.iter().zip(&self.looked_at);
+        let farthest = moved.map(|(way, before)| (*way - *before).length_squared()).fold(0.0, f64::max);
+        if farthest > SKIN_M * SKIN_M / 4.0 {
+            self.near = self.crowd.pairs(&self.ways, self.push_gap_m + SKIN_M);
+            self.looked_at.clone_from(&self.ways);
+        }
+    }
+
+    fn is_clear(&self) -> bool {
+        let crowd = self.crowd;
+        self.near.par_iter().enumerate().all(|(moment, near)| {
+            let here = crowd.moment(moment);
+            let ways = &self.ways[moment * crowd.bodies..(moment + 1) * crowd.bodies];
+            near.iter().all(|&[a, b]| {
+                let apart = here.places[a as usize] + ways[a as usize] - here.places[b as usize] - ways[b as usize];
+                let keep_m = here.reaches_m[a as usize] + here.reaches_m[b as usize];
+                apart.length_squared() >= keep_m * keep_m
+            })
+        })
+    }
+}
+
+/// A pair that keeps apart in a direction: the half plane beside which bodies overlap.
+struct Side {
+    pair: [usize; 2],
+    direction: Vec2,
+    /// How far apart in that direction offsets must at least be.
+    least_m: f64,
+}
+
+/// The sides on which pairs are of each other with these offsets. They stay there: were everybody moved the shortest way,
+/// two who are led past each other would change sides again and again.
+fn sides(here: Moment<'_>, ways: &[Vec2], near: &[Pair], margin: f64) -> Vec<Side> {
+    let side = |&[a, b]: &Pair| {
+        let pair = [a as usize, b as usize];
+        let own = here.places[pair[0]] - here.places[pair[1]];
+        let apart = own + ways[pair[0]] - ways[pair[1]];
+        let keep_m = (here.reaches_m[pair[0]] + here.reaches_m[pair[1]]) * (1.0 + margin);
+        let direction = if apart.length() > 1e-9 { apart / apart.length() } else { any_direction(a, b) };
+        Side { pair, direction, least_m: keep_m - own.dot(direction) }
+    };
+    near.iter().map(side).collect()
+}
+
+impl Side {
+    /// Moves offsets apart, both by the same; says whether that was needed.
+    fn part(&self, offsets: &mut [Vec2]) -> bool {
+        let [a, b] = self.pair;
+        let missing_m = self.least_m - (offsets[a] - offsets[b]).dot(self.direction);
+        if missing_m <= 0.0 {
+            return false;
+        }
+        offsets[a] += self.direction * (missing_m / 2.0);
+        offsets[b] -= self.direction * (missing_m / 2.0);
+        true
+    }
+}
+
+/// Where to, of two who stand in one place: always the same for the same two, another for others.
+pub(super) fn any_direction(a: u32, b: u32) -> Vec2 {
+    const GOLDEN_ANGLE_RAD: f64 = 2.399_963_229_728_653;
+    let (sin, cos) = sin_cos(GOLDEN_ANGLE_RAD * (f64::from(a) * 7.0 + f64::from(b)));
+    vec2(cos, sin)
+}

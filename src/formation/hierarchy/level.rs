@@ -1,0 +1,341 @@
+use std::path::Path;
+
+use super::generated::{MOST_WANDERERS, Wanted};
+use super::heading::{headings, turned_to};
+use super::keys::{self, Cast, Layout};
+use super::{Who, asked, check_size, example, way};
+use crate::formation::FormationError;
+use crate::formation::MOST_PEOPLE;
+use crate::formation::avoidance::{Avoidance, Body, Person};
+use crate::formation::blend::{self, Key};
+use crate::formation::places::{centroid, grid_of};
+use crate::formation::request::{
+    Assign, AvoidRequest, CrowdRequest, ExampleKind, ExampleRequest, FormationRequest, Members, RequestError, Section,
+};
+use crate::math::{SplitMix64, Vec2, sin_cos, vec2};
+use crate::motion::Ensemble;
+use crate::progress::Progress;
+use crate::recordings::Recording;
+
+/// The most people of all crowds together.
+pub const MOST_IN_ALL: usize = 1_000_000;
+
+/// Makes crowds, level by level.
+pub(super) struct Maker<'m> {
+    folder: &'m Path,
+    fps: f64,
+    /// How many moments the whole has.
+    pub moments: usize,
+    progress: &'m dyn Progress,
+    /// Recordings that were read before, for crowds of one kind.
+    read: Vec<(ExampleRequest, Ensemble)>,
+    /// People so far.
+    people: usize,
+}
+
+/// Which crowd it is.
+#[derive(Clone)]
+struct Spot {
+    /// Its section, for errors: `formation.crowd.0`.
+    key: String,
+    /// Which individual it stands for.
+    address: Vec<u32>,
+    /// Which one of its kind it is.
+    number: usize,
+    /// Whether its middle is free to go where the example's does.
+    free: bool,
+    /// Where its middle is, moment by moment.
+    base: Vec<Vec2>,
+    /// Where what is up in its formations points; empty where that stays up.
+    up: Vec<Vec2>,
+}
+
+impl<'m> Maker<'m> {
+    pub fn new(folder: &'m Path, fps: f64, progress: &'m dyn Progress) -> Maker<'m> {
+        Maker { folder, fps, moments: 0, progress, read: Vec::new(), people: 0 }
+    }
+
+    /// How long the example of the whole is, if that says it: a recording, or a part of an example.
+    pub fn example_duration_s(&mut self, request: &FormationRequest) -> Result<Option<f64>, FormationError> {
+        let example = &request.example;
+        if example.file.is_some() {
+            let read = self.recorded(example)?;
+            return Ok(Some(read.moments().saturating_sub(1) as f64 / self.fps));
+        }
+        Ok(example.to_s.map(|to_s| to_s - example.from_s))
+    }
+
+    /// The whole crowd, on its way and clear of each other.
+    pub fn whole(&mut self, request: &FormationRequest) -> Result<Vec<Body>, FormationError> {
+        let base = way::places(request.way.as_ref(), self.fps, self.moments);
+        let turns = request.way.as_ref().is_some_and(|way| way.follow_heading);
+        let spot = Spot {
+            key: "formation".to_string(),
+            address: Vec::new(),
+            number: 0,
+            free: request.way.is_none(),
+            up: if turns { headings(&base) } else { Vec::new() },
+            base,
+        };
+        let (mut bodies, keys) = self.section(request.section(), &spot, &request.avoid)?;
+        Avoidance::new(&request.avoid, self.fps, &keys).keep_clear(&mut bodies, self.progress)?;
+        Ok(bodies)
+    }
+
+    /// The individuals of a crowd, small crowds in the places of those who are that; and the moments of its key formations.
+    fn section(
+        &mut self,
+        section: Section<'_>,
+        spot: &Spot,
+        avoid: &AvoidRequest,
+    ) -> Result<(Vec<Body>, Vec<usize>), FormationError> {
+        self.progress.keep_on()?;
+        let layouts: Vec<Layout> =
+            section.key.iter().map(|key| Layout::of(key, self.folder)).collect::<Result<_, _>>().map_err(asked)?;
+        let example = self.example(section.example, spot, &layouts)?;
+        let keys = self.keys(section, &layouts, &example, spot)?;
+        let moments: Vec<usize> = keys.iter().map(|key| key.moment).collect();
+        let mut tracks = blend::between(&example, &keys, section, self.progress)?;
+        if !spot.address.is_empty() {
+            for moment in 0..tracks.moments() {
+                let middle = tracks.centroid_m(moment);
+                tracks.places_at_mut(moment).iter_mut().for_each(|place| *place -= middle);
+            }
+        }
+        self.known(section.crowd, example.people(), spot)?;
+        let mut bodies = Vec::new();
+        let mut numbers = vec![0; section.crowd.len()];
+        for individual in 0..example.people() {
+            let place = |moment: usize| {
+                let own = tracks.places_at(moment)[individual];
+                spot.base[moment] + spot.up.get(moment).map_or(own, |&up| turned_to(own, up))
+            };
+            let track: Vec<Vec2> = (0..self.moments).map(place).collect();
+            let address = [spot.address.as_slice(), &[individual as u32]].concat();
+            match section.crowd.iter().position(|crowd| crowd.members.contains(individual)) {
+                None => {
+                    self.people += 1;
+                    self.check_people(spot)?;
+                    bodies.push(Body::person(track, Who { address, rides: false }, avoid));
+                }
+                Some(kind) => {
+                    let key = format!("{}.crowd.{kind}", spot.key);
+                    let follows = section.crowd[kind].follow_heading;
+                    let up = if follows { headings(&track) } else { spot.up.clone() };
+                    let inner = Spot { key, address, number: numbers[kind], free: false, base: track, up };
+                    numbers[kind] += 1;
+                    bodies.extend(self.small_crowd(&section.crowd[kind], inner, avoid)?);
+                }
+            }
+        }
+        Ok((bodies, moments))
+    }
+
+    /// A small crowd in the place of an individual.
+    fn small_crowd(
+        &mut self,
+        request: &CrowdRequest,
+        spot: Spot,
+        larger: &AvoidRequest,
+    ) -> Result<Vec<Body>, FormationError> {
+        let avoid = request.avoid.over(larger);
+        let (mut bodies, keys) = self.section(request.section(), &spot, &avoid)?;
+        if !request.is_as_one() {
+            return Ok(bodies);
+        }
+        let rider = request.rider.then(|| {
+            let carriers = spot.address.iter().copied().chain([bodies.len() as u32]);
+            Person { offsets: Vec::new(), who: Who { address: carriers.collect(), rides: true } }
+        });
+        self.people += usize::from(request.rider);
+        for body in &mut bodies {
+            body.places.iter_mut().zip(&spot.base).for_each(|(place, &middle)| *place -= middle);
+        }
+        Avoidance::new(&avoid, self.fps, &keys).keep_clear(&mut bodies, self.progress)?;
+        let mut whole = Body::of_all(bodies, spot.base);
+        whole.people.extend(rider);
+        Ok(vec![whole])
+    }
+
+    fn check_people(&self, spot: &Spot) -> Result<(), FormationError> {
+        check_size(self.people, self.moments)?;
+        if self.people > MOST_IN_ALL {
+            return Err(asked(RequestError::TooMany { key: spot.key.clone(), people: self.people }));
+        }
+        Ok(())
+    }
+
+    /// Everybody whom a section names is there.
+    fn known(&self, crowds: &[CrowdRequest], people: usize, spot: &Spot) -> Result<(), FormationError> {
+        for (kind, crowd) in crowds.iter().enumerate() {
+            let Members::List(list) = &crowd.members else { continue };
+            if let Some(&person) = list.iter().find(|&&person| person as usize >= people) {
+                let key = format!("{}.crowd.{kind}.members", spot.key);
+                return Err(asked(RequestError::NoSuchPerson { key, person, people }));
+            }
+        }
+        Ok(())
+    }
+
+    /// The example of a section, as long as the whole.
+    fn example(
+        &mut self,
+        request: &ExampleRequest,
+        spot: &Spot,
+        layouts: &[Layout],
+    ) -> Result<Ensemble, FormationError> {
+        let key = format!("{}.example", spot.key);
+        let whole = if request.file.is_some() {
+            self.recorded(request)?
+        } else {
+            let (people, columns) =
+                how_many(request, layouts, spot).ok_or_else(|| asked(RequestError::HowMany { key: key.clone() }))?;
+            let long_s = request.to_s.map(|to_s| to_s - request.from_s);
+            let own = long_s.map_or(self.moments, |long_s| ((long_s * self.fps) as usize).saturating_add(1));
+            let moments = own.min(self.moments);
+            self.check_example(&key, people, moments)?;
+            let kind = request.kind.unwrap_or(ExampleKind::Still);
+            if kind == ExampleKind::Wander && people > MOST_WANDERERS {
+                return Err(asked(RequestError::Value {
+                    key,
+                    problem: format!("{people} people wander; allowed are {MOST_WANDERERS} at most"),
+                    hint: Some("make crowds of crowds with [[formation.crowd]]".to_string()),
+                }));
+            }
+            let seed = spot.address.iter().fold(request.seed, |seed, &k| {
+                SplitMix64::new(seed.wrapping_add(u64::from(k)).wrapping_add(1)).next_u64()
+            });
+            Wanted { request, kind, people, columns, seed, fps: self.fps, moments }.make(self.progress)?
+        };
+        let chosen = match &request.choose {
+            Some(choice) => chosen(&whole, choice.of_crowd(spot.number), &key).map_err(asked)?,
+            None => whole,
+        };
+        self.check_example(&key, chosen.people(), self.moments)?;
+        Ok(example::lengthened(&chosen, self.moments, request.repeat))
+    }
+
+    fn check_example(&self, key: &str, people: usize, moments: usize) -> Result<(), FormationError> {
+        if people == 0 || people > MOST_PEOPLE {
+            return Err(asked(RequestError::TooMany { key: key.to_string(), people }));
+        }
+        check_size(people, moments)
+    }
+
+    /// A recording, read once.
+    fn recorded(&mut self, request: &ExampleRequest) -> Result<Ensemble, FormationError> {
+        let same = |other: &ExampleRequest| {
+            (&other.file, &other.recording, other.from_s, other.to_s)
+                == (&request.file, &request.recording, request.from_s, request.to_s)
+        };
+        if let Some((_, ensemble)) = self.read.iter().find(|(other, _)| same(other)) {
+            return Ok(ensemble.clone());
+        }
+        let path = self.folder.join(request.file.as_deref().unwrap_or(Path::new("")));
+        let recording = Recording::open(&path, &request.recording)?;
+        recording.survey().warnings.iter().for_each(|warning| self.progress.warn(warning));
+        let span_s = [request.from_s, request.to_s.unwrap_or(f64::INFINITY)];
+        let mut ensemble = recording.ensemble(Some(self.fps), span_s)?;
+        ensemble.start_s = 0.0;
+        self.read.push((request.clone(), ensemble.clone()));
+        Ok(ensemble)
+    }
+
+    /// Where everybody is in each key formation.
+    fn keys(
+        &self,
+        section: Section<'_>,
+        layouts: &[Layout],
+        example: &Ensemble,
+        spot: &Spot,
+    ) -> Result<Vec<Key>, FormationError> {
+        let last = self.moments - 1;
+        let at = |time_s: f64| ((time_s * self.fps).round().max(0.0) as usize).min(last);
+        let mut keys: Vec<Key> = Vec::new();
+        let mut before = example.places_at(0).to_vec();
+        let mut wheel_rad = 0.0;
+        let still = has_no_formation(section.example);
+        for (index, (request, layout)) in section.key.iter().zip(layouts).enumerate() {
+            let moment = at(request.time_s);
+            wheel_rad += request.wheel_deg.to_radians();
+            let cast = Cast {
+                people: example.people(),
+                example: example.places_at(moment),
+                before: &before,
+                wheel_rad,
+                free: spot.free,
+                // Who has not stood anywhere yet goes where the first formation says.
+                assign: if index == 0 && still { Assign::Order } else { section.assign.unwrap_or_default() },
+            };
+            let key = format!("{}.key.{index}", spot.key);
+            let places_m = keys::places(request, layout, &cast, &key).map_err(asked)?;
+            let middle = centroid(&places_m);
+            let (sin, cos) = sin_cos(-wheel_rad);
+            before = places_m.iter().map(|&place| (place - middle).rotated(vec2(cos, sin))).collect();
+            let end = at(request.time_s + request.hold_s);
+            keys.push(Key { moment, places_m: places_m.clone(), wheel_rad });
+            if end > moment {
+                keys.push(Key { moment: end, places_m, wheel_rad });
+            }
+        }
+        // At high speed two key formations may fall into one moment: the later one holds.
+        keys.reverse();
+        keys.dedup_by_key(|key| key.moment);
+        keys.reverse();
+        self.complete(&mut keys, section.example, example, spot.free);
+        Ok(keys)
+    }
+
+    /// The formations at the start and the end, where nothing is said of them: the example's own, of an example that has
+    /// none those beside it.
+    fn complete(&self, keys: &mut Vec<Key>, request: &ExampleRequest, example: &Ensemble, free: bool) {
+        let last = self.moments - 1;
+        let still = has_no_formation(request);
+        let own = |moment: usize, wheel_rad: f64| {
+            let places = example.places_at(moment);
+            let middle = centroid(places);
+            let (sin, cos) = sin_cos(wheel_rad);
+            let turned = places.iter().map(|&place| (place - middle).rotated(vec2(cos, sin)));
+            let at = if free { middle } else { Vec2::ZERO };
+            Key { moment, places_m: turned.map(|place| place + at).collect(), wheel_rad }
+        };
+        let Some((first, end)) = keys.first().cloned().zip(keys.last().cloned()) else { return };
+        if first.moment > 0 {
+            keys.insert(0, if still { Key { moment: 0, ..first } } else { own(0, 0.0) });
+        }
+        if end.moment < last {
+            keys.push(if still { Key { moment: last, ..end } } else { own(last, end.wheel_rad) });
+        }
+    }
+}
+
+/// Whether an example's people have no formation of their own: they stand or sway wherever they are put.
+fn has_no_formation(request: &ExampleRequest) -> bool {
+    request.file.is_none() && matches!(request.kind, None | Some(ExampleKind::Still | ExampleKind::Sway))
+}
+
+/// How many people are made, and in rows of how many.
+fn how_many(request: &ExampleRequest, layouts: &[Layout], spot: &Spot) -> Option<(usize, usize)> {
+    let [people, rows, columns] =
+        [request.people, request.rows, request.columns].map(|count| count.map(|n| n as usize));
+    let chosen = request.choose.as_ref().map(|choice| choice.of_crowd(spot.number));
+    let of_keys = || match chosen {
+        Some(chosen) => chosen.iter().max().map(|&last| last as usize + 1),
+        None => layouts.iter().find_map(Layout::people),
+    };
+    let people = people.or_else(|| Some(rows? * columns?)).or_else(of_keys)?;
+    let columns = columns.or_else(|| Some(people.div_ceil(rows?))).unwrap_or_else(|| grid_of(people)[0]);
+    Some((people, columns.max(1)))
+}
+
+/// Some of an example's people.
+fn chosen(example: &Ensemble, people: &[u32], key: &str) -> Result<Ensemble, RequestError> {
+    if let Some(&person) = people.iter().find(|&&person| person as usize >= example.people()) {
+        let key = format!("{key}.choose");
+        return Err(RequestError::NoSuchPerson { key, person, people: example.people() });
+    }
+    let moments = 0..example.moments();
+    let places =
+        moments.flat_map(|moment| people.iter().map(move |&person| example.places_at(moment)[person as usize]));
+    Ok(Ensemble::new(example.fps, example.start_s, (0..people.len() as u32).collect(), places.collect()))
+}

@@ -1,0 +1,193 @@
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+
+use super::basis::{as_columns, as_vectors, relative_to_centroid};
+use super::example::{ExampleCoefficients, Part, check_example, decompose, turn_evenly};
+use super::keys::{Key, decompose_keys, key_moments, match_keys, match_keys_to};
+use super::kirchhoff::check_edits;
+use super::{Carry, FormationError, FormationOptions, KeyFormation, Rotation};
+use crate::math::Vec2;
+use crate::motion::Ensemble;
+use crate::progress::{Progress, Stage};
+
+/// Moments that are put together at once.
+const MOMENTS_AT_ONCE: usize = 32;
+/// Share of the progress that decomposing the example takes.
+const DECOMPOSING: f64 = 0.9;
+
+/// Takes a crowd from one key formation to the next, while everybody keeps moving as in the example.
+///
+/// The result has the example's people, and its moments from that of the first key to that of the last. At each key, everybody
+/// stands where it says. See the [module](super) for how it goes between them.
+///
+/// Degenerate formations need no care: on one point, in a line, on a grid or ring, in groups so far apart that their weights
+/// vanish, all work.
+///
+/// # Errors
+/// [`FormationError`] below [`MotionError::Formation`]: fewer than two people or more than
+/// [`MOST_PEOPLE`](super::MOST_PEOPLE); fewer than two keys; a key with another number of places than there are people, out of
+/// order, at the same moment as another, or before the example begins or after it ends; numbers that are not finite; options out of
+/// range. [`FormationError::Interrupted`].
+pub fn interpolate(
+    example: &Ensemble,
+    keys: &[KeyFormation],
+    options: &FormationOptions,
+    progress: &dyn Progress,
+) -> Result<Ensemble, FormationError> {
+    check_example(example)?;
+    options.check()?;
+    check_edits(&options.adjacency, example.people())?;
+    let moments = key_moments(example, keys)?;
+    let span = [moments[0], moments[moments.len() - 1]];
+    let mut keys = decompose_keys(keys, &moments, options, progress)?;
+    let fluctuation = match (options.carry, options.decompositions) {
+        (Carry::Shapes, None) => Some(turned_with(&mut keys, example, options, progress)?),
+        (Carry::Shapes, Some(_)) => {
+            match_alone(&mut keys, options, progress)?;
+            let part = Part { example, span, target: Some(&keys[0].vectors), wanted: &moments, options };
+            let done = |share| progress.advance(Stage::Motion, DECOMPOSING * share);
+            let seen = decompose(&part, &done, progress)?;
+            let partners: Vec<DMatrix<f64>> =
+                moments.iter().filter_map(|moment| seen.bases.get(moment).cloned()).collect();
+            match_keys_to(&mut keys, &partners, options.nearness, progress)?;
+            Some(seen)
+        }
+        (Carry::People, _) => {
+            match_alone(&mut keys, options, progress)?;
+            None
+        }
+    };
+    let people = example.people();
+    let mut places_m = vec![Vec2::ZERO; people * (span[1] - span[0] + 1)];
+    for (number, pair) in keys.windows(2).enumerate() {
+        progress.keep_on()?;
+        let way = Way::between(&pair[0], &pair[1])?;
+        let (from, to) = (pair[0].moment - span[0], pair[1].moment - span[0]);
+        let crowd = Crowd { example, options, first: span[0], fluctuation: fluctuation.as_ref() };
+        // The key between two stretches belongs to the later one, the last key to the last.
+        let end = if number + 2 == keys.len() { to + 1 } else { to };
+        places_m[from * people..end * people].par_chunks_mut(MOMENTS_AT_ONCE * people).enumerate().try_for_each(
+            |(chunk, places_m)| {
+                progress.keep_on()?;
+                crowd.fill(&way, from + chunk * MOMENTS_AT_ONCE, places_m);
+                Ok::<_, FormationError>(())
+            },
+        )?;
+        let share = (number + 1) as f64 / (keys.len() - 1) as f64;
+        progress.advance(Stage::Motion, DECOMPOSING + (1.0 - DECOMPOSING) * share);
+    }
+    Ok(Ensemble::new(example.fps, example.time_s(span[0]), example.ids.clone(), places_m))
+}
+
+/// Matches keys to each other alone.
+fn match_alone(keys: &mut [Key], options: &FormationOptions, progress: &dyn Progress) -> Result<(), FormationError> {
+    let mut partners: Vec<Key> = keys.to_vec();
+    match_keys(keys, &mut partners, options.nearness, progress)
+}
+
+/// Matches keys to each other and to the example at their moments, and gives its coefficients in a basis that turns evenly
+/// from one to the next as the keys' does.
+fn turned_with(
+    keys: &mut [Key],
+    example: &Ensemble,
+    options: &FormationOptions,
+    progress: &dyn Progress,
+) -> Result<ExampleCoefficients, FormationError> {
+    let moments: Vec<usize> = keys.iter().map(|key| key.moment).collect();
+    let own: Vec<KeyFormation> = moments
+        .iter()
+        .map(|&moment| KeyFormation { time_s: 0.0, places_m: example.places_at(moment).to_vec() })
+        .collect();
+    let mut partners = decompose_keys(&own, &moments, options, progress)?;
+    match_keys(keys, &mut partners, options.nearness, progress)?;
+    let bases = partners.into_iter().map(|key| (key.moment, key.vectors)).collect();
+    let done = |share| progress.advance(Stage::Motion, DECOMPOSING * share);
+    turn_evenly(example, bases, &done, progress)
+}
+
+/// The way from one key formation to the next.
+struct Way<'a> {
+    keys: [&'a Key; 2],
+    rotation: Rotation,
+    /// The first key's basis, seen along the planes of the rotation.
+    basis: DMatrix<f64>,
+    /// Coefficients of both keys.
+    coefficients: [DMatrix<f64>; 2],
+}
+
+impl<'a> Way<'a> {
+    fn between(from: &'a Key, to: &'a Key) -> Result<Way<'a>, FormationError> {
+        let rotation = Rotation::of(&(&to.vectors * from.vectors.transpose()))?;
+        let basis = rotation.into_planes(&from.vectors);
+        Ok(Way { keys: [from, to], rotation, basis, coefficients: [from.coefficients(), to.coefficients()] })
+    }
+}
+
+/// What is carried over from the example.
+struct Crowd<'a> {
+    example: &'a Ensemble,
+    options: &'a FormationOptions,
+    /// The first moment of the result in the example.
+    first: usize,
+    fluctuation: Option<&'a ExampleCoefficients>,
+}
+
+impl Crowd<'_> {
+    /// Puts the crowd to its places in the moments from `start` on, counted in the result.
+    fn fill(&self, way: &Way, start: usize, places_m: &mut [Vec2]) {
+        let people = self.example.people();
+        let moments = places_m.len() / people;
+        let mut coefficients = DMatrix::zeros(people, 2 * moments);
+        for k in 0..moments {
+            let share = self.share(way, start + k);
+            let mut now = &way.coefficients[0] * (1.0 - share) + &way.coefficients[1] * share;
+            if let Some(seen) = self.fluctuation {
+                now += self.deviation(way, start + k, |moment| as_columns(seen.at(moment)));
+            }
+            coefficients.columns_mut(2 * k, 2).copy_from(&now);
+        }
+        let mut within = &way.basis * coefficients;
+        for k in 0..moments {
+            let share = self.share(way, start + k);
+            way.rotation.turn(&mut within, 2 * k..2 * k + 2, share);
+        }
+        let mut relative = way.rotation.out_of_planes(&within);
+        for (k, places_m) in places_m.chunks_mut(people).enumerate() {
+            if self.fluctuation.is_none() {
+                let own =
+                    |moment: usize| as_columns(&relative_to_centroid(self.example.places_at(moment + self.first)));
+                let mut columns = relative.columns_mut(2 * k, 2);
+                columns += self.deviation(way, start + k, own);
+            }
+            let middle = self.middle(way, start + k);
+            for (place, relative) in places_m.iter_mut().zip(as_vectors(&relative, 2 * k)) {
+                *place = middle + relative;
+            }
+        }
+    }
+
+    /// Share of the way between the keys at a moment of the result.
+    fn share(&self, way: &Way, moment: usize) -> f64 {
+        let [from, to] = way.keys.map(|key| key.moment - self.first);
+        let time = (moment - from) as f64 / (to - from) as f64;
+        self.options.ease.share(time)
+    }
+
+    /// How far something of the example is from the line between its values at the two keys.
+    fn deviation(&self, way: &Way, moment: usize, of: impl Fn(usize) -> DMatrix<f64>) -> DMatrix<f64> {
+        let [from, to] = way.keys.map(|key| key.moment - self.first);
+        // At the pace of the formation: where that rests, at the keys, everybody has the example's own velocity.
+        let share = self.share(way, moment);
+        let line = of(from) * (1.0 - share) + of(to) * share;
+        (of(moment) - line) * self.options.fluctuation
+    }
+
+    /// The middle of the crowd: on the line between the keys' middles, plus the deviation of the example's own.
+    fn middle(&self, way: &Way, moment: usize) -> Vec2 {
+        let [from, to] = way.keys;
+        let share = self.share(way, moment);
+        let own = |moment: usize| self.example.centroid_m(moment);
+        let deviation = own(moment + self.first) - own(from.moment).lerp(own(to.moment), share);
+        from.centroid_m.lerp(to.centroid_m, share) + deviation * self.options.fluctuation
+    }
+}

@@ -1,0 +1,299 @@
+use super::{
+    CrowdRequest, DEEPEST, ExampleRequest, FARTHEST_M, FormationRequest, KeyRequest, MOST_PEOPLE, Members,
+    RequestError, Section, Shape,
+};
+use crate::math::Vec2;
+use crate::recordings::FRAME_RATES;
+
+/// Longest motion, seconds.
+const LONGEST_S: f64 = 36_000.0;
+
+/// What is wrong: the key, the problem, a hint.
+type Wrong = (String, String, Option<String>);
+
+fn wrong(key: &str, problem: impl Into<String>, hint: impl Into<Option<&'static str>>) -> Wrong {
+    (key.to_string(), problem.into(), hint.into().map(str::to_string))
+}
+
+impl FormationRequest {
+    /// Checks every value, and that they fit each other as far as can be said without reading files.
+    ///
+    /// # Errors
+    /// The first that is out of range or does not fit: its key, as `formation.key.2.time_s`.
+    pub fn check(&self) -> Result<(), RequestError> {
+        self.problem().map_or(Ok(()), |(key, problem, hint)| Err(RequestError::Value { key, problem, hint }))
+    }
+
+    fn problem(&self) -> Option<Wrong> {
+        self.check_values().err()
+    }
+
+    fn check_values(&self) -> Result<(), Wrong> {
+        let path = "formation";
+        number(path, "duration_s", self.duration_s, 0.1, LONGEST_S)?;
+        let [low, high] = FRAME_RATES;
+        number(path, "fps", self.fps, low, high)?;
+        if let Some(way) = &self.way {
+            let path = "formation.way";
+            let points = way.from.iter().chain(&way.to).chain(&way.path);
+            if points.clone().count() == 0 {
+                return Err(wrong(path, "the way has no points", "write `from` and `to`, or a `path`"));
+            }
+            points.into_iter().try_for_each(|&point| place(path, "path", point))?;
+            number(path, "from_s", Some(way.from_s), 0.0, LONGEST_S)?;
+            number(path, "to_s", way.to_s, 0.0, LONGEST_S)?;
+            if way.to_s.is_some_and(|to_s| to_s <= way.from_s) {
+                return Err(wrong(&format!("{path}.to_s"), "the way ends before it begins", None));
+            }
+        }
+        self.section().check(path, 0, self.duration_s)
+    }
+}
+
+impl Section<'_> {
+    fn check(&self, path: &str, depth: usize, duration_s: Option<f64>) -> Result<(), Wrong> {
+        self.example.check(&format!("{path}.example"))?;
+        number(path, "fluctuation", self.fluctuation, 0.0, 10.0)?;
+        number(path, "sigma_m", self.sigma_m, 1e-3, 1e4)?;
+        for (index, group) in self.together.iter().enumerate() {
+            members(&format!("{path}.together.{index}"), group, 2)?;
+        }
+        for (index, edit) in self.adjacency.iter().enumerate() {
+            let path = format!("{path}.adjacency.{index}");
+            members(&format!("{path}.members"), &edit.members, 2)?;
+            number(&path, "weight", Some(edit.weight), 0.0, 1.0)?;
+        }
+        let avoid = format!("{path}.avoid");
+        number(&avoid, "distance_m", self.avoid.distance_m, 0.0, 10.0)?;
+        number(&avoid, "push", self.avoid.push, 0.0, 1.0)?;
+        number(&avoid, "seconds", self.avoid.seconds, 0.1, 10.0)?;
+        let mut ends_s = None;
+        for (index, key) in self.key.iter().enumerate() {
+            let path = format!("{path}.key.{index}");
+            key.check(&path, depth > 0)?;
+            if let Some(before) = ends_s.filter(|&before| key.time_s <= before) {
+                let problem =
+                    format!("{} s is not after the key formation before it, which ends at {before} s", key.time_s);
+                return Err(wrong(
+                    &format!("{path}.time_s"),
+                    problem,
+                    "write key formations in the order of their times",
+                ));
+            }
+            let end_s = key.time_s + key.hold_s;
+            if let Some(duration_s) = duration_s.filter(|&duration_s| end_s > duration_s) {
+                let problem = format!("the key formation ends at {end_s} s, after the whole, {duration_s} s");
+                return Err(wrong(&format!("{path}.time_s"), problem, "give the whole a longer `duration_s`"));
+            }
+            ends_s = Some(end_s);
+        }
+        for (index, crowd) in self.crowd.iter().enumerate() {
+            crowd.check(&format!("{path}.crowd.{index}"), depth + 1, duration_s)?;
+        }
+        Ok(())
+    }
+}
+
+impl CrowdRequest {
+    fn check(&self, path: &str, depth: usize, duration_s: Option<f64>) -> Result<(), Wrong> {
+        if depth > DEEPEST {
+            return Err(wrong(path, format!("small crowds stand {DEEPEST} deep in each other at most"), None));
+        }
+        match &self.members {
+            Members::Word(_) => {}
+            Members::List(list) => members(&format!("{path}.members"), list, 1)?,
+            Members::Every { every: 0, .. } => {
+                return Err(wrong(&format!("{path}.members"), "`every` is 0, allowed is 1 or more", None));
+            }
+            Members::Every { .. } => {}
+        }
+        if self.rider && self.as_one == Some(false) {
+            let problem = "a rider needs carriers who keep together";
+            return Err(wrong(&format!("{path}.as_one"), problem, "leave `as_one` out, or the rider"));
+        }
+        self.section().check(path, depth, duration_s)
+    }
+}
+
+impl ExampleRequest {
+    fn check(&self, path: &str) -> Result<(), Wrong> {
+        if let (Some(_), Some(_)) = (&self.file, self.kind) {
+            let hint = "a recording moves as it does: leave one of the two out";
+            return Err(wrong(&format!("{path}.kind"), "the example has both a file and a kind", hint));
+        }
+        number(path, "from_s", Some(self.from_s), 0.0, 1e7)?;
+        number(path, "to_s", self.to_s, 0.0, 1e7)?;
+        if self.to_s.is_some_and(|to_s| to_s <= self.from_s) {
+            let problem = format!("the example ends before it begins, at {} s", self.from_s);
+            return Err(wrong(&format!("{path}.to_s"), problem, None));
+        }
+        let counts = [("people", self.people), ("rows", self.rows), ("columns", self.columns)];
+        for (name, count) in counts {
+            number(path, name, count.map(f64::from), 1.0, MOST_PEOPLE as f64)?;
+        }
+        if let (Some(rows), Some(columns)) = (self.rows, self.columns) {
+            let product = u64::from(rows) * u64::from(columns);
+            if product > MOST_PEOPLE as u64 {
+                let problem = format!("{rows} rows of {columns} are {product} people, allowed are {MOST_PEOPLE}");
+                return Err(wrong(&format!("{path}.rows"), problem, None));
+            }
+            if let Some(people) = self.people.filter(|&people| u64::from(people) > product) {
+                let problem = format!("{people} people do not stand in {rows} rows of {columns}");
+                return Err(wrong(&format!("{path}.people"), problem, "leave `people` or `rows` out"));
+            }
+        }
+        let numbers = [
+            ("spacing_m", Some(self.spacing_m), 0.05, 1e3),
+            ("speed_m_s", self.speed_m_s, 0.0, 10.0),
+            ("heading_deg", Some(self.heading_deg), -360.0, 360.0),
+            ("stray_m", Some(self.stray_m), 0.0, 10.0),
+            ("radius_m", self.radius_m, 0.1, 1e4),
+        ];
+        numbers.into_iter().try_for_each(|(name, value, low, high)| number(path, name, value, low, high))?;
+        for (index, list) in self.choose.iter().flat_map(|choice| choice.lists()).enumerate() {
+            let key = format!("{path}.choose");
+            let key = if matches!(self.choose, Some(super::Choice::Each(_))) { format!("{key}.{index}") } else { key };
+            members(&key, list, 1)?;
+        }
+        if self.choose.as_ref().is_some_and(|choice| choice.lists().is_empty()) {
+            return Err(wrong(&format!("{path}.choose"), "nobody is chosen", None));
+        }
+        Ok(())
+    }
+}
+
+impl KeyRequest {
+    fn check(&self, path: &str, in_crowd: bool) -> Result<(), Wrong> {
+        let sources = [
+            ("shape", self.shape.is_some()),
+            ("text", self.text.is_some()),
+            ("points", self.points.is_some()),
+            ("file", self.file.is_some()),
+        ];
+        let mut given = sources.iter().filter(|source| source.1).map(|source| source.0);
+        match (given.next(), given.next()) {
+            (None, _) => {
+                let hint = "write a `shape`, a `text`, `points` or a `file`";
+                return Err(wrong(path, "the key formation says nothing of where people stand", hint));
+            }
+            (Some(first), Some(second)) => {
+                let problem = format!("the key formation has both `{first}` and `{second}`");
+                return Err(wrong(&format!("{path}.{second}"), problem, "leave one of the two out"));
+            }
+            _ => {}
+        }
+        self.check_numbers(path)?;
+        self.check_fit(path)?;
+        if let Some(letters) = self.text.as_deref() {
+            let unknown = super::super::places::unknown_letters(letters);
+            if !unknown.is_empty() {
+                let hint = "people form A to Z, 0 to 9, blanks and - + . : ! ? / '";
+                return Err(wrong(&format!("{path}.text"), format!("nobody can form \"{unknown}\""), hint));
+            }
+            if letters.trim().is_empty() || letters.chars().count() > 200 {
+                let problem = format!("`text` has {} letters, allowed are 1 to 200", letters.chars().count());
+                return Err(wrong(&format!("{path}.text"), problem, None));
+            }
+        }
+        if in_crowd && self.at.is_some() {
+            let hint = "leave `at` out: a small crowd is where the individual is whose place it takes";
+            return Err(wrong(&format!("{path}.at"), "a small crowd has no place of its own", hint));
+        }
+        for (index, &point) in self.points.iter().flatten().enumerate() {
+            place(&format!("{path}.points"), &index.to_string(), point)?;
+        }
+        self.at.map_or(Ok(()), |at| place(path, "at", at))
+    }
+
+    fn check_numbers(&self, path: &str) -> Result<(), Wrong> {
+        let numbers = [
+            ("time_s", Some(self.time_s), 0.0, LONGEST_S),
+            ("hold_s", Some(self.hold_s), 0.0, LONGEST_S),
+            ("metres_per_pixel", self.metres_per_pixel, 0.0005, 10.0),
+            ("columns", self.columns.map(f64::from), 1.0, MOST_PEOPLE as f64),
+            ("rings", self.rings.map(f64::from), 1.0, 100.0),
+            ("corners", self.corners.map(f64::from), 3.0, 100.0),
+            ("inner", self.inner, 0.05, 1.0),
+            ("angle_deg", self.angle_deg, 0.0, 360.0),
+            ("spacing_m", self.spacing_m, 0.05, 1e3),
+            ("radius_m", self.radius_m, 0.01, 1e4),
+            ("height_m", self.height_m, 0.1, 1e4),
+            ("turn_deg", Some(self.turn_deg), -3600.0, 3600.0),
+            ("wheel_deg", Some(self.wheel_deg), -3600.0, 3600.0),
+            ("scale", self.scale, 1e-3, 1e3),
+        ];
+        numbers.into_iter().try_for_each(|(name, value, low, high)| number(path, name, value, low, high))
+    }
+
+    /// Keys that say something only of one kind of formation stand with that kind.
+    fn check_fit(&self, path: &str) -> Result<(), Wrong> {
+        let is = |shapes: &[Shape]| self.shape.is_some_and(|shape| shapes.contains(&shape));
+        let fits = [
+            ("columns", self.columns.is_some(), is(&[Shape::Grid]), "a grid"),
+            ("rings", self.rings.is_some(), is(&[Shape::Ring]), "a ring"),
+            ("corners", self.corners.is_some(), is(&[Shape::Polygon, Shape::Star]), "a polygon or a star"),
+            ("inner", self.inner.is_some(), is(&[Shape::Star]), "a star"),
+            ("angle_deg", self.angle_deg.is_some(), is(&[Shape::Wedge]), "a wedge"),
+            ("height_m", self.height_m.is_some(), self.text.is_some(), "a text"),
+            ("metres_per_pixel", self.metres_per_pixel.is_some(), self.file.is_some(), "a file"),
+            (
+                "radius_m",
+                self.radius_m.is_some(),
+                is(&[Shape::Ring, Shape::Disc, Shape::Polygon, Shape::Star, Shape::Triangle]),
+                "a ring, disc, polygon, star or triangle",
+            ),
+            (
+                "filled",
+                self.filled.is_some(),
+                self.file.is_some() || is(&[Shape::Polygon, Shape::Star, Shape::Triangle]),
+                "a file, a polygon, a star or a triangle",
+            ),
+            (
+                "spacing_m",
+                self.spacing_m.is_some(),
+                self.points.is_none() && self.file.is_none() && !is(&[Shape::Example]),
+                "a shape or a text",
+            ),
+        ];
+        for (name, given, fit, kind) in fits {
+            if given && !fit {
+                return Err(wrong(&format!("{path}.{name}"), format!("`{name}` says something of {kind} only"), None));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn number(path: &str, name: &str, value: Option<f64>, low: f64, high: f64) -> Result<(), Wrong> {
+    match value {
+        // Written so that NaN is out of range.
+        Some(value) if !(value >= low && value <= high) => {
+            Err(wrong(&format!("{path}.{name}"), format!("`{name}` is {value}, allowed is {low} to {high}"), None))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn place(path: &str, name: &str, at: Vec2) -> Result<(), Wrong> {
+    let beyond = [at.x, at.y].into_iter().find(|number| !(-FARTHEST_M..=FARTHEST_M).contains(number));
+    match beyond {
+        Some(number) => {
+            let problem = format!("{number} m is out of range, allowed is -{FARTHEST_M} to {FARTHEST_M}");
+            Err(wrong(&format!("{path}.{name}"), problem, None))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Individuals who are named: enough of them, and nobody twice.
+fn members(key: &str, list: &[u32], least: usize) -> Result<(), Wrong> {
+    if list.len() < least {
+        return Err(wrong(key, format!("{} named, at least {least} are needed", list.len()), None));
+    }
+    let mut sorted = list.to_vec();
+    sorted.sort_unstable();
+    match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
+        Some(pair) => Err(wrong(key, format!("{} is named twice", pair[0]), None)),
+        None => Ok(()),
+    }
+}

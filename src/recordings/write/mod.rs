@@ -1,0 +1,292 @@
+//! Writes a motion to a file that other programs read: PedPy, JuPedSim, JPSvis, Vadere, game engines.
+//!
+//! `form` tells the format by the file's name; `text` writes lines,
+//! as `rows` (most formats) or `vadere` lay them out, `jupedsim` a database.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::files::{FileError, WholeFile};
+use crate::math::{Vec2, sin_cos, vec2};
+use crate::motion::{Frame, People, Resampler, Walker};
+use crate::plan::{FloorPlan, Pose};
+use crate::recordings::{RecordingError, RecordingFormat};
+use crate::walls::Walls;
+
+mod form;
+mod jupedsim;
+mod rows;
+mod text;
+mod vadere;
+mod wkt;
+
+pub use form::RecordForm;
+use jupedsim::JupedsimDatabase;
+use rows::Rows;
+use text::{Layout, Out, Text};
+use vadere::Steps;
+
+/// Least and most frames per second of a recording.
+pub const FRAME_RATES: [f64; 2] = [0.1, 1000.0];
+
+/// What a recording says of the world that people walk in. Places are written in the map frame: that of the ROS map
+/// where the plan is one, and the plan frame elsewhere.
+#[derive(Clone, Copy, Debug)]
+pub struct RecordedWorld<'a> {
+    /// Where the plan lies on the map.
+    pub plan: &'a FloorPlan,
+    /// The floor that people can walk on, aprons included.
+    pub walls: &'a Walls,
+    /// How tall people are.
+    pub people: &'a People,
+}
+
+/// What was recorded.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Recorded {
+    /// How it was written.
+    pub format: RecordingFormat,
+    /// Frames per second.
+    pub fps: f64,
+    /// Number of frames, those without anybody included. Frame `k` shows the moment `k / fps` seconds.
+    pub frames: u64,
+    /// Number of places written: people times the frames in which they are present.
+    pub places: u64,
+    /// Size of the file.
+    pub bytes: u64,
+}
+
+/// Somebody's place as it is written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Place {
+    id: u32,
+    /// Map frame, metres, rounded to 0.1 mm.
+    at: Vec2,
+    /// Metres per second, map frame.
+    velocity_m_s: Vec2,
+    /// Body height, metres.
+    height_m: f64,
+    /// Unit vector in which the body faces, map frame.
+    facing: Vec2,
+}
+
+/// A file in the making.
+trait Sheet: Send {
+    fn frame(&mut self, number: u64, places: &[Place]) -> io::Result<()>;
+
+    /// Writes what is left; gives the number of bytes written if it was counted.
+    fn close(self: Box<Self>) -> io::Result<u64>;
+}
+
+/// Records a motion at a frame rate of its own: between the motion's frames, places are interpolated.
+///
+/// Holds only the people present, however long the motion is. The file appears under its name when
+/// [`Recorder::finish`] has put it there, complete; dropped before that, nothing is left of it. The same motion gives
+/// the same bytes.
+pub struct Recorder<'a> {
+    world: RecordedWorld<'a>,
+    frame_of_map: MapFrame,
+    resampler: Resampler,
+    sheet: Box<dyn Sheet + 'a>,
+    file: Option<WholeFile>,
+    written: Recorded,
+    /// Who was present in the last frame, and how tall they are.
+    heights: Vec<(u32, f64)>,
+}
+
+impl<'a> Recorder<'a> {
+    /// Begins a file whose name says its format, see [`RecordForm::ENDINGS`].
+    ///
+    /// # Errors
+    /// An unknown ending, a frame rate out of [`FRAME_RATES`], a file that exists unless `force` is set, or that cannot
+    /// be written.
+    pub fn create(
+        path: &Path,
+        force: bool,
+        fps: f64,
+        world: RecordedWorld<'a>,
+    ) -> Result<Recorder<'a>, RecordingError> {
+        Recorder::create_as(RecordForm::of(path, None)?, path, force, fps, world)
+    }
+
+    /// Begins a file in a form of one's own choice, whatever its name.
+    ///
+    /// # Errors
+    /// As [`Recorder::create`], but for the ending; a database that would have to be packed.
+    pub fn create_as(
+        form: RecordForm,
+        path: &Path,
+        force: bool,
+        fps: f64,
+        world: RecordedWorld<'a>,
+    ) -> Result<Recorder<'a>, RecordingError> {
+        check(fps)?;
+        let RecordForm { format, packed } = form;
+        if packed && !format.is_text() {
+            return Err(RecordingError::NoText { format }.into());
+        }
+        let file = WholeFile::begin(path, force)?;
+        let sheet: Box<dyn Sheet> = match layout(format, fps) {
+            Some(layout) => {
+                let out = file.create()?;
+                let out = if packed { Out::packed(out) } else { Out::Plain(out) };
+                Box::new(Text::begin(out, layout).map_err(|source| file.failed(source))?)
+            }
+            None => {
+                let begun = JupedsimDatabase::begin(file.path(), fps, &world);
+                Box::new(begun.map_err(|source| file.failed(source))?)
+            }
+        };
+        Ok(Recorder::new(world, fps, format, sheet, Some(file)))
+    }
+
+    /// Writes text to wherever `out` leads.
+    ///
+    /// # Errors
+    /// A frame rate out of [`FRAME_RATES`]; a format that is no text; `out` cannot be written to.
+    pub fn to_writer(
+        out: impl Write + Send + 'a,
+        format: RecordingFormat,
+        fps: f64,
+        world: RecordedWorld<'a>,
+    ) -> Result<Recorder<'a>, RecordingError> {
+        check(fps)?;
+        let Some(layout) = layout(format, fps) else { return Err(RecordingError::NoText { format }.into()) };
+        let out = Out::Plain(io::BufWriter::with_capacity(1 << 16, out));
+        let text = Text::begin(out, layout).map_err(unnamed)?;
+        Ok(Recorder::new(world, fps, format, Box::new(text), None))
+    }
+
+    fn new(
+        world: RecordedWorld<'a>,
+        fps: f64,
+        format: RecordingFormat,
+        sheet: Box<dyn Sheet + 'a>,
+        file: Option<WholeFile>,
+    ) -> Recorder<'a> {
+        Recorder {
+            frame_of_map: MapFrame::of(&world.plan.map_from_plan),
+            world,
+            resampler: Resampler::new(fps),
+            sheet,
+            file,
+            written: Recorded { format, fps, frames: 0, places: 0, bytes: 0 },
+            heights: Vec::new(),
+        }
+    }
+
+    /// Takes the motion's next frame.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn push(&mut self, frame: &Frame) -> Result<(), RecordingError> {
+        self.resampler.push(frame);
+        while let Some((number, walkers)) = self.resampler.next() {
+            measure_heights(&mut self.heights, &walkers, self.world.people);
+            let places: Vec<Place> = (walkers.iter().zip(&self.heights))
+                .map(|(walker, &(_, height_m))| self.frame_of_map.place(walker, height_m))
+                .collect();
+            self.sheet.frame(number, &places).map_err(|source| failed(&self.file, source))?;
+            self.written.frames = number + 1;
+            self.written.places += places.len() as u64;
+        }
+        Ok(())
+    }
+
+    /// Puts the finished file in its place.
+    ///
+    /// # Errors
+    /// The rest cannot be written.
+    pub fn finish(self) -> Result<Recorded, RecordingError> {
+        let Recorder { sheet, file, mut written, .. } = self;
+        written.bytes = sheet.close().map_err(|source| failed(&file, source))?;
+        if let Some(file) = file {
+            written.bytes = file.publish()?;
+        }
+        Ok(written)
+    }
+}
+
+/// How a format's text looks; none for the database.
+fn layout(format: RecordingFormat, fps: f64) -> Option<Box<dyn Layout>> {
+    match format {
+        RecordingFormat::Vadere => Some(Box::new(Steps::new(fps))),
+        format => Rows::of(format, fps).map(|rows| Box::new(rows) as Box<dyn Layout>),
+    }
+}
+
+fn check(fps: f64) -> Result<(), RecordingError> {
+    let [low, high] = FRAME_RATES;
+    // Written so that NaN is out of range.
+    if fps >= low && fps <= high { Ok(()) } else { Err(RecordingError::FrameRate { fps, low, high }) }
+}
+
+fn failed(file: &Option<WholeFile>, source: io::Error) -> RecordingError {
+    match file {
+        Some(file) => file.failed(source).into(),
+        None => unnamed(source),
+    }
+}
+
+fn unnamed(source: io::Error) -> RecordingError {
+    FileError::Write { path: "the motion".into(), source }.into()
+}
+
+/// Brings the list of heights up to those who are present now; both are in ascending order of ids.
+fn measure_heights(heights: &mut Vec<(u32, f64)>, walkers: &[Walker], people: &People) {
+    let before = std::mem::take(heights);
+    let mut known = before.iter().peekable();
+    heights.reserve(walkers.len());
+    for walker in walkers {
+        while known.next_if(|&&(id, _)| id < walker.id).is_some() {}
+        let height_m = match known.next_if(|&&(id, _)| id == walker.id) {
+            Some(&(_, height_m)) => height_m,
+            None => people.person(walker.id).stature_m,
+        };
+        heights.push((walker.id, height_m));
+    }
+}
+
+/// From the plan frame to the map frame.
+#[derive(Clone, Copy, Debug)]
+struct MapFrame {
+    origin_m: Vec2,
+    /// Cosine and sine of the turn.
+    turn: Vec2,
+}
+
+impl MapFrame {
+    fn of(pose: &Pose) -> MapFrame {
+        let (sin, cos) = sin_cos(pose.yaw_rad);
+        MapFrame { origin_m: pose.origin_m, turn: vec2(cos, sin) }
+    }
+
+    fn point(&self, p: Vec2) -> Vec2 {
+        rounded(self.origin_m + p.rotated(self.turn))
+    }
+
+    fn place(&self, walker: &Walker, height_m: f64) -> Place {
+        let facing = walker.heading.or_else(|| walker.velocity_m_s.normalized()).unwrap_or(vec2(1.0, 0.0));
+        Place {
+            id: walker.id,
+            at: self.point(walker.position_m),
+            velocity_m_s: walker.velocity_m_s.rotated(self.turn),
+            height_m,
+            facing: rounded(facing.rotated(self.turn)),
+        }
+    }
+}
+
+/// Decimals of what is written: tenths of a millimetre.
+const PER_UNIT: f64 = 1e4;
+
+fn rounded(p: Vec2) -> Vec2 {
+    // Zero is never written with a sign.
+    let round = |v: f64| (v * PER_UNIT).round() / PER_UNIT + 0.0;
+    vec2(round(p.x), round(p.y))
+}
+
+#[cfg(test)]
+mod tests;

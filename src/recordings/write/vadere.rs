@@ -1,0 +1,70 @@
+use super::Place;
+use super::text::{Clock, Layout, Line};
+use crate::motion::FASTEST_M_S;
+
+/// The columns that Vadere's post-visualisation needs, with the numbers of the processors that write them.
+const HEAD: &str = "pedestrianId simTime endTime-PID1 startX-PID1 startY-PID1 endX-PID1 endY-PID1\n";
+
+/// Vadere's steps: each line leads somebody from one frame to the next.
+///
+/// Whoever is there in one frame only stands until the middle between it and the next: a step without length in time
+/// would be none.
+pub(super) struct Steps {
+    fps: f64,
+    /// Of half frames.
+    clock: Clock,
+    number: u64,
+    /// Those in the last frame, and whether a step has led them there.
+    before: Vec<(Place, bool)>,
+}
+
+impl Steps {
+    pub fn new(fps: f64) -> Steps {
+        Steps { fps, clock: Clock::new(2.0 * fps), number: 0, before: Vec::new() }
+    }
+
+    fn step(&self, from: &Place, to: &Place, half_frames: u64, lines: &mut Line) {
+        lines.whole(from.id).text(" ").seconds(self.clock, 2 * self.number);
+        lines.text(" ").seconds(self.clock, 2 * self.number + half_frames);
+        for value in [from.at.x, from.at.y, to.at.x, to.at.y] {
+            lines.text(" ").metres(value);
+        }
+        lines.text("\n");
+    }
+}
+
+impl Layout for Steps {
+    fn head(&self) -> String {
+        HEAD.to_owned()
+    }
+
+    fn frame(&mut self, number: u64, places: &[Place], lines: &mut Line) {
+        // Both are in ascending order of ids.
+        let mut after = places.iter().peekable();
+        let mut arrived = Vec::new();
+        let before = std::mem::take(&mut self.before);
+        for (from, stepped) in &before {
+            while after.next_if(|place| place.id < from.id).is_some() {}
+            // Who is too far away was put there, as in a corridor without ends.
+            let near = |to: &&Place| from.at.distance(to.at) * self.fps <= FASTEST_M_S;
+            match after.next_if(|place| place.id == from.id).filter(near) {
+                Some(to) => {
+                    self.step(from, to, 2, lines);
+                    arrived.push(to.id);
+                }
+                None if !stepped => self.step(from, from, 1, lines),
+                None => {}
+            }
+        }
+        self.number = number;
+        self.before.extend(places.iter().map(|place| (*place, arrived.binary_search(&place.id).is_ok())));
+    }
+
+    fn rest(&mut self, lines: &mut Line) {
+        for (place, stepped) in &self.before {
+            if !stepped {
+                self.step(place, place, 1, lines);
+            }
+        }
+    }
+}

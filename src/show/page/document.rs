@@ -1,0 +1,249 @@
+//! Puts the page together: one text that holds program, shaders, triangles and images.
+
+use image::ExtendedColorType;
+use serde_json::{Value, json};
+
+use super::field::{self, Field, Raster};
+use super::images::{self, Crop, Files, KINDS};
+use super::law;
+use super::{Covering, Page, PageOptions, geometry, lamps, light};
+use crate::export::Reduced;
+use crate::math::Vec2;
+use crate::show::scene::{Part, Surface};
+
+/// The page without what it shows.
+const TEMPLATE: &str = include_str!("page.html");
+const STYLE: &str = include_str!("page.css");
+/// In the order in which they stand in the page: one program.
+const PROGRAM: [&str; 8] = [
+    include_str!("client/start.js"),
+    include_str!("client/vectors.js"),
+    include_str!("client/data.js"),
+    include_str!("client/textures.js"),
+    include_str!("client/drawing.js"),
+    include_str!("client/views.js"),
+    include_str!("client/controls.js"),
+    include_str!("client/page.js"),
+];
+const SHADERS: [(&str, &str); 4] = [
+    ("surface-vertex", include_str!("client/surface.vert")),
+    ("surface-fragment", include_str!("client/surface.frag")),
+    ("plain-vertex", include_str!("client/plain.vert")),
+    ("plain-fragment", include_str!("client/plain.frag")),
+];
+
+/// The page's text.
+pub(super) fn html(page: &Page<'_>) -> String {
+    let mut blocks = Vec::new();
+    let mut data = json!({
+        "title": page.title,
+        "height": page.wall_height_m,
+        "start": start(page),
+        "outlines": page.walls.outlines().iter().map(outline).collect::<Vec<_>>(),
+        "surfaces": { "floor": covering(&page.floor), "wall": covering(&page.wall) },
+        "parts": parts(page, &mut blocks),
+    });
+    surroundings(page, &mut data, &mut blocks);
+    let shaders: String = SHADERS.map(|(name, text)| element("x-shader/x-glsl", name, text)).concat();
+    let blocks: String =
+        blocks.iter().map(|(name, bytes)| element("application/base64", name, &base64(bytes))).collect();
+    let data = element("application/json", "data", &data.to_string().replace('<', "\\u003c"));
+    fill(
+        TEMPLATE,
+        &[
+            ("title", &escaped(page.title)),
+            ("style", STYLE),
+            ("data", &[data, shaders, blocks].concat()),
+            ("program", &PROGRAM.concat()),
+        ],
+    )
+}
+
+fn element(kind: &str, name: &str, text: &str) -> String {
+    format!("<script type=\"{kind}\" id=\"{name}\">{text}</script>\n")
+}
+
+/// Puts texts in the places `{{name}}` of a template; what they hold themselves is left alone.
+fn fill(template: &str, texts: &[(&str, &str)]) -> String {
+    let mut filled = String::with_capacity(template.len() + texts.iter().map(|(_, text)| text.len()).sum::<usize>());
+    let mut rest = template;
+    while let Some((before, after)) = rest.split_once("{{") {
+        filled.push_str(before);
+        let (name, after) = after.split_once("}}").unwrap_or((after, ""));
+        filled.push_str(texts.iter().find(|(known, _)| *known == name).map_or("", |(_, text)| text));
+        rest = after;
+    }
+    filled.push_str(rest);
+    filled
+}
+
+/// Text as HTML shows it.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+/// Bytes as text (RFC 4648, with padding).
+fn base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for three in bytes.chunks(3) {
+        let word = three.iter().zip([16, 8, 0]).map(|(&byte, shift)| u32::from(byte) << shift).sum::<u32>();
+        for (n, shift) in [18, 12, 6, 0].into_iter().enumerate() {
+            let digit = DIGITS[(word >> shift) as usize & 63];
+            text.push(if n <= three.len() { char::from(digit) } else { '=' });
+        }
+    }
+    text
+}
+
+/// Metres to a tenth of a millimetre: what JSON needs to say.
+fn metres(value: f64) -> f64 {
+    (value * 1e4).round() / 1e4
+}
+
+fn point(p: Vec2) -> [f64; 2] {
+    [metres(p.x), metres(p.y)]
+}
+
+fn start(page: &Page<'_>) -> Value {
+    let start = &page.start;
+    let [x, y] = point(start.at_m);
+    json!({ "x": x, "y": y, "heading": metres(start.heading_rad), "pitch": metres(start.pitch_rad) })
+}
+
+fn outline(outline: &crate::walls::Outline) -> Value {
+    let points: Vec<[f64; 2]> = outline.points_m.iter().map(|&p| point(p)).collect();
+    json!({ "points": points, "openings": outline.openings.iter().map(|(edge, _)| edge).collect::<Vec<_>>() })
+}
+
+fn covering(covering: &Covering<'_>) -> Value {
+    let kinds = &covering.dirt[..covering.dirt.len().min(KINDS)];
+    let kinds: Vec<Value> = kinds
+        .iter()
+        .map(|dirt| json!({ "name": dirt.name, "colour": law::linear_rgb(dirt.colour), "srgb": dirt.colour }))
+        .collect();
+    json!({ "clean": law::linear_rgb(covering.clean), "roughness": covering.roughness, "kinds": kinds })
+}
+
+/// The image of a part, and which of it.
+struct Picture {
+    crop: Crop,
+    size: [u32; 2],
+    image: Reduced,
+}
+
+fn picture(page: &Page<'_>, part: &Part) -> Option<Picture> {
+    let images = match part.surface {
+        Surface::FloorTile(n) => page.floor.images.get(n),
+        Surface::WallSheet(n) => page.wall.images.get(n),
+        Surface::WallTop | Surface::Lintel => None,
+    }?;
+    let (width, height) = images.base_color.dimensions();
+    let fits = images.mask.dimensions() == (width, height) && images.orm.dimensions() == (width, height);
+    if !fits || width == 0 || height == 0 {
+        return None;
+    }
+    let crop = geometry::shown(part, width, height);
+    Some(Picture { crop, size: [width, height], image: images::cropped(images, crop) })
+}
+
+/// Describes the parts and appends their bytes.
+fn parts(page: &Page<'_>, blocks: &mut Vec<(String, Vec<u8>)>) -> Vec<Value> {
+    let parts: Vec<&Part> = page.scene.parts.iter().filter(|part| geometry::usable(part)).collect();
+    let pictures: Vec<Option<Picture>> = parts.iter().map(|part| picture(page, part)).collect();
+    let files = within_bounds(page, &parts, &pictures);
+    let mut described = Vec::new();
+    let (mut vertices, mut indices) = (Vec::new(), Vec::new());
+    for (n, ((part, picture), files)) in parts.iter().zip(&pictures).zip(files).enumerate() {
+        let starts = [vertices.len() / geometry::VERTEX_BYTES, indices.len() / 4];
+        geometry::vertices(part, picture.as_ref().map(|picture| (picture.crop, picture.size)), &mut vertices);
+        geometry::indices(part, &mut indices);
+        let image = files.map(|files| {
+            let Files { width, height, dirt, clean, rough } = files;
+            for (kind, bytes) in [("dirt", dirt), ("clean", clean), ("rough", rough)] {
+                blocks.push((format!("{kind}-{n}"), bytes));
+            }
+            json!({ "id": n, "width": width, "height": height })
+        });
+        let kind = match part.surface {
+            Surface::FloorTile(_) => "floor",
+            Surface::WallSheet(_) => "wall",
+            Surface::WallTop => "top",
+            Surface::Lintel => "lintel",
+        };
+        described.push(json!({
+            "surface": kind,
+            "image": image,
+            "vertices": [starts[0], part.positions_m.len()],
+            "indices": [starts[1], part.indices.len()],
+        }));
+    }
+    blocks.push(("vertices".to_string(), vertices));
+    blocks.push(("indices".to_string(), indices));
+    described
+}
+
+/// Compressed images, halved as often as it takes to keep to the options.
+fn within_bounds(page: &Page<'_>, parts: &[&Part], pictures: &[Option<Picture>]) -> Vec<Option<Files>> {
+    let PageOptions { largest_px, image_bytes } = page.options;
+    let largest_px = largest_px.max(256);
+    let mut images: Vec<Option<Reduced>> = pictures
+        .iter()
+        .map(|picture| {
+            let mut image = picture.as_ref()?.image.clone();
+            while image.base_color.width().max(image.base_color.height()) > largest_px {
+                image = images::halved(&image);
+            }
+            Some(image)
+        })
+        .collect();
+    loop {
+        let encode = |(part, image): (&&Part, &Option<Reduced>)| {
+            let covering = if matches!(part.surface, Surface::FloorTile(_)) { &page.floor } else { &page.wall };
+            image.as_ref().map(|image| images::encode(&images::layers(covering, image)))
+        };
+        let files: Vec<Option<Files>> = parts.iter().zip(&images).map(encode).collect();
+        let bytes: usize = files.iter().flatten().map(Files::bytes).sum();
+        let small = |image: &Reduced| image.base_color.width().max(image.base_color.height()) <= 256;
+        if bytes <= image_bytes || images.iter().flatten().all(small) {
+            return files;
+        }
+        for image in images.iter_mut().flatten().filter(|image| !small(image)) {
+            *image = images::halved(image);
+        }
+    }
+}
+
+fn raster(raster: &Raster) -> Value {
+    let origin = point(raster.origin_m);
+    json!({ "origin": origin, "cell": raster.cell_m, "width": raster.width, "height": raster.height })
+}
+
+/// Distances, lamps and their light.
+fn surroundings(page: &Page<'_>, data: &mut Value, blocks: &mut Vec<(String, Vec<u8>)>) {
+    let field = Field::of(page.walls);
+    let lamps = lamps::hang(page.walls, &field);
+    let light = light::Light::of(page.walls, &lamps, page.wall_height_m);
+    let image = field.image();
+    blocks.push(("field".to_string(), images::png(&image, image.width(), image.height(), ExtendedColorType::L8)));
+    let image = light.image();
+    blocks.push(("light".to_string(), images::png(&image, image.width(), image.height(), ExtendedColorType::Rgba8)));
+    data["field"] = raster(&field.raster);
+    data["field"]["range"] = json!(field::RANGE_M);
+    data["light"] = raster(&light.raster);
+    data["light"]["most"] = json!(light::MOST);
+    data["light"]["heights"] = json!(light::WALL_HEIGHTS);
+    // Open ground lies under the sky.
+    data["roofed"] = json!(!page.walls.faces.is_empty());
+    data["lamps"] = json!(lamps.iter().map(|lamp| light::corners(lamp).map(point)).collect::<Vec<_>>());
+}

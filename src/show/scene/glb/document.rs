@@ -1,0 +1,244 @@
+//! What the file says of its binary chunk, and the chunk.
+
+use std::io::{self, Write};
+
+use serde_json::{Value, json};
+
+use super::picture::{self, Picture};
+use super::{Cover, GlbImage, GlbOptions, PlainMaterial, has_short_indices, y_up};
+use crate::export::GENERATOR;
+use crate::show::scene::{Part, Scene};
+
+// Numbers that glTF 2.0 has for them.
+const FLOAT: u32 = 5126;
+const UNSIGNED_SHORT: u32 = 5123;
+const UNSIGNED_INT: u32 = 5125;
+const ARRAY_BUFFER: u32 = 34962;
+const ELEMENT_ARRAY_BUFFER: u32 = 34963;
+const LINEAR: u32 = 9729;
+const LINEAR_MIPMAP_LINEAR: u32 = 9987;
+const CLAMP_TO_EDGE: u32 = 33071;
+
+/// The whole file but for its framing. What the binary chunk holds is written part by part, never held whole.
+pub(super) struct Document<'a> {
+    parts: Vec<&'a Part>,
+    pictures: Vec<Vec<u8>>,
+    root: Value,
+    length: usize,
+}
+
+/// The lists of a document, as they grow.
+#[derive(Default)]
+struct Lists {
+    accessors: Vec<Value>,
+    buffer_views: Vec<Value>,
+    images: Vec<Value>,
+    materials: Vec<Value>,
+    meshes: Vec<Value>,
+    nodes: Vec<Value>,
+    textures: Vec<Value>,
+    pictures: Vec<Vec<u8>>,
+    /// Bytes of the binary chunk so far; a multiple of 4.
+    length: usize,
+}
+
+impl<'a> Document<'a> {
+    pub fn new(scene: &'a Scene, options: &GlbOptions) -> io::Result<Document<'a>> {
+        let parts: Vec<&Part> = scene.parts.iter().filter(|part| !part.indices.is_empty()).collect();
+        let mut lists = Lists::default();
+        for part in &parts {
+            lists.add_part(part, &Cover::of(part.surface, options));
+        }
+        // Images follow the parts in the binary chunk.
+        for (index, part) in parts.iter().enumerate() {
+            lists.add_material(index, &Cover::of(part.surface, options))?;
+        }
+        let extras = json!({ "generator": GENERATOR, "version": env!("CARGO_PKG_VERSION"), "seed": options.seed });
+        let mut whole = json!({ "name": options.name, "extras": extras });
+        if !lists.nodes.is_empty() {
+            whole["children"] = (0..lists.nodes.len()).collect();
+        }
+        lists.nodes.push(whole);
+        let root = json!({
+            "asset": { "version": "2.0", "generator": concat!("trodden ", env!("CARGO_PKG_VERSION")) },
+            "scene": 0,
+            "scenes": [{ "name": options.name, "nodes": [lists.nodes.len() - 1] }],
+        });
+        let (length, pictures) = (lists.length, std::mem::take(&mut lists.pictures));
+        Ok(Document { parts, pictures, root: lists.into_root(root), length })
+    }
+
+    /// The JSON chunk's bytes.
+    pub fn json(&self) -> Vec<u8> {
+        self.root.to_string().into_bytes()
+    }
+
+    pub fn binary_length(&self) -> usize {
+        self.length
+    }
+
+    /// Writes what the lists describe, in the same order.
+    pub fn write_binary(&self, out: &mut impl Write) -> io::Result<()> {
+        for part in &self.parts {
+            if has_short_indices(part) {
+                let bytes: Vec<u8> = part.indices.iter().flat_map(|&i| (i as u16).to_le_bytes()).collect();
+                write_padded(out, &bytes)?;
+            } else {
+                write_padded(out, &part.indices.iter().flat_map(|i| i.to_le_bytes()).collect::<Vec<u8>>())?;
+            }
+            write_floats(out, part.positions_m.iter().copied().map(y_up))?;
+            write_floats(out, part.normals.iter().copied().map(y_up))?;
+            write_floats(out, part.uvs.iter().copied())?;
+        }
+        self.pictures.iter().try_for_each(|picture| write_padded(out, picture))
+    }
+}
+
+fn write_padded(out: &mut impl Write, bytes: &[u8]) -> io::Result<()> {
+    out.write_all(bytes)?;
+    out.write_all(&[0; 3][..bytes.len().next_multiple_of(4) - bytes.len()])
+}
+
+fn write_floats<const N: usize>(out: &mut impl Write, values: impl Iterator<Item = [f32; N]>) -> io::Result<()> {
+    let bytes: Vec<u8> = values.flatten().flat_map(f32::to_le_bytes).collect();
+    out.write_all(&bytes)
+}
+
+impl Lists {
+    /// A view of the next bytes of the binary chunk.
+    fn view(&mut self, bytes: usize, target: Option<u32>) -> usize {
+        let mut view = json!({ "buffer": 0, "byteOffset": self.length, "byteLength": bytes });
+        if let Some(target) = target {
+            view["target"] = target.into();
+        }
+        self.buffer_views.push(view);
+        self.length += bytes.next_multiple_of(4);
+        self.buffer_views.len() - 1
+    }
+
+    fn accessor(&mut self, accessor: Value) -> usize {
+        self.accessors.push(accessor);
+        self.accessors.len() - 1
+    }
+
+    fn floats<const N: usize>(&mut self, count: usize, bounds: Option<[[f32; N]; 2]>) -> usize {
+        let view = self.view(count * N * 4, Some(ARRAY_BUFFER));
+        let kind = if N == 2 { "VEC2" } else { "VEC3" };
+        let mut accessor = json!({ "bufferView": view, "componentType": FLOAT, "count": count, "type": kind });
+        if let Some([least, greatest]) = bounds {
+            accessor["min"] = least.to_vec().into();
+            accessor["max"] = greatest.to_vec().into();
+        }
+        self.accessor(accessor)
+    }
+
+    /// Node and mesh of a part; its material has the part's number.
+    fn add_part(&mut self, part: &Part, cover: &Cover) {
+        let short = has_short_indices(part);
+        let (kind, size) = if short { (UNSIGNED_SHORT, 2) } else { (UNSIGNED_INT, 4) };
+        let view = self.view(part.indices.len() * size, Some(ELEMENT_ARRAY_BUFFER));
+        let indices = self.accessor(
+            json!({ "bufferView": view, "componentType": kind, "count": part.indices.len(), "type": "SCALAR" }),
+        );
+        let count = part.positions_m.len();
+        let position = self.floats(count, bounds(part.positions_m.iter().copied().map(y_up)));
+        let normal = self.floats::<3>(count, None);
+        let mut attributes = json!({ "POSITION": position, "NORMAL": normal });
+        if !part.uvs.is_empty() {
+            attributes["TEXCOORD_0"] = self.floats::<2>(count, None).into();
+        }
+        let primitive = json!({ "attributes": attributes, "indices": indices, "material": self.meshes.len() });
+        self.nodes.push(json!({ "name": cover.name(), "mesh": self.meshes.len() }));
+        self.meshes.push(json!({ "name": cover.name(), "primitives": [primitive] }));
+    }
+
+    fn add_material(&mut self, part: usize, cover: &Cover) -> io::Result<()> {
+        debug_assert_eq!(part, self.materials.len());
+        let material = match cover {
+            Cover::Textured(images) => {
+                let base_color = self.texture(&images.name, "basecolor", Picture::Colour, images.base_color)?;
+                let orm = self.texture(&images.name, "orm", Picture::Data, images.orm)?;
+                json!({
+                    "name": images.name,
+                    "pbrMetallicRoughness": {
+                        "baseColorTexture": { "index": base_color },
+                        "metallicRoughnessTexture": { "index": orm },
+                        "metallicFactor": 1.0,
+                        "roughnessFactor": 1.0,
+                    },
+                    "occlusionTexture": { "index": orm },
+                })
+            }
+            Cover::Plain(name, plain) => plain_material(name, *plain),
+        };
+        self.materials.push(material);
+        Ok(())
+    }
+
+    fn texture(&mut self, name: &str, kind: &str, picture: Picture, image: GlbImage) -> io::Result<usize> {
+        let image = match image {
+            GlbImage::File(path) => json!({ "name": format!("{name}_{kind}"), "uri": picture::uri(path) }),
+            GlbImage::Embedded(image) => {
+                let (mime, bytes) = picture.encode(image)?;
+                let view = self.view(bytes.len(), None);
+                self.pictures.push(bytes);
+                json!({ "name": format!("{name}_{kind}"), "bufferView": view, "mimeType": mime })
+            }
+        };
+        self.images.push(image);
+        self.textures.push(json!({ "sampler": 0, "source": self.images.len() - 1 }));
+        Ok(self.textures.len() - 1)
+    }
+
+    /// Adds the lists to the root; glTF allows no empty ones.
+    fn into_root(self, mut root: Value) -> Value {
+        if self.length > 0 {
+            root["buffers"] = json!([{ "byteLength": self.length }]);
+        }
+        if !self.textures.is_empty() {
+            root["samplers"] = json!([{
+                "magFilter": LINEAR,
+                "minFilter": LINEAR_MIPMAP_LINEAR,
+                "wrapS": CLAMP_TO_EDGE,
+                "wrapT": CLAMP_TO_EDGE,
+            }]);
+        }
+        let lists = [
+            ("accessors", self.accessors),
+            ("bufferViews", self.buffer_views),
+            ("images", self.images),
+            ("materials", self.materials),
+            ("meshes", self.meshes),
+            ("nodes", self.nodes),
+            ("textures", self.textures),
+        ];
+        for (name, list) in lists.into_iter().filter(|(_, list)| !list.is_empty()) {
+            root[name] = list.into();
+        }
+        root
+    }
+}
+
+fn plain_material(name: &str, plain: PlainMaterial) -> Value {
+    let [red, green, blue] = plain.colour.map(picture::linear);
+    let roughness = if plain.roughness.is_finite() { plain.roughness.clamp(0.0, 1.0) } else { 1.0 };
+    json!({
+        "name": name,
+        "pbrMetallicRoughness": {
+            "baseColorFactor": [red, green, blue, 1.0],
+            "metallicFactor": 0.0,
+            "roughnessFactor": roughness,
+        },
+    })
+}
+
+fn bounds(points: impl Iterator<Item = [f32; 3]>) -> Option<[[f32; 3]; 2]> {
+    points.fold(None, |bounds, p| {
+        let [mut least, mut greatest] = bounds.unwrap_or([p, p]);
+        for k in 0..3 {
+            least[k] = least[k].min(p[k]);
+            greatest[k] = greatest[k].max(p[k]);
+        }
+        Some([least, greatest])
+    })
+}

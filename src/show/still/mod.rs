@@ -1,0 +1,233 @@
+//! Stills of a bake in perspective: the whole plan from above, its rooms from the height of eyes, any other view.
+//!
+//! The plan is taken as it is: upright walls on a level floor. A ray from the camera is followed through a grid of wall
+//! pieces to what it meets; what it meets is lit by lamps in the ceiling (from above: by a soft sky and a large lamp at
+//! one side), darker in corners, and smooth floors mirror lamps and daylight as blurred as they are rough. Nothing is
+//! drawn by chance and nothing depends on threads: the same picture on every machine.
+
+use image::RgbImage;
+
+use crate::export::{Birdseye, Camera, ExportError, OutputFolder, StillEntry, TextureSource, WallSource, WallTextures};
+use crate::look::Background;
+use crate::math::Vec2;
+use crate::progress::{Progress, Stage};
+use crate::show::write_picture;
+use crate::sums::FloorSums;
+use crate::walls::{Doorway, Walls};
+
+mod error;
+mod lens;
+mod light;
+mod panels;
+mod places;
+mod pyramid;
+mod render;
+mod shade;
+mod skin;
+mod space;
+mod texels;
+mod tone;
+mod trace;
+mod traffic;
+
+pub use error::StillError;
+
+use render::Renderer;
+use skin::Skin;
+use space::Space;
+use texels::{FloorTexels, PlainWalls, SmallFloor, SmallWalls, Texel, Texels, WallTexels};
+use traffic::Traffic;
+
+/// Width and height of a bake's stills, pixels.
+pub const STILL_SIZE_PX: [u32; 2] = [1280, 720];
+/// Least and greatest width or height of a still, pixels.
+pub const STILL_SIZES_PX: [u32; 2] = [16, 8192];
+
+/// The plan as stills show it.
+#[derive(Debug)]
+pub struct Studio {
+    space: Space,
+}
+
+/// What lies on floor and walls.
+#[derive(Clone, Copy)]
+pub struct Coat<'a, S> {
+    /// The floor at its own texel density.
+    pub floor: &'a S,
+    /// Texels per metre of the floor.
+    pub floor_texels_per_metre: f64,
+    /// The floor made small, for what is far away; without it, all that is seen is resolved.
+    pub small: Option<&'a Birdseye>,
+    /// The walls; without them, all are plain.
+    pub walls: Option<WallCoat<'a>>,
+}
+
+/// What lies on walls.
+#[derive(Clone, Copy)]
+pub struct WallCoat<'a> {
+    /// The walls at their own texel density.
+    pub source: &'a dyn WallSource,
+    /// Texels per metre of the walls.
+    pub texels_per_metre: f64,
+    /// What is shown of walls that are far away.
+    pub far: FarWalls<'a>,
+}
+
+/// What is shown of walls that are far away.
+#[derive(Clone, Copy)]
+pub enum FarWalls<'a> {
+    /// The walls themselves, resolved as far as one sees.
+    Resolved,
+    /// Their textures, made small.
+    Textures(&'a WallTextures),
+    /// The clean wall's mean colour.
+    Plain,
+}
+
+impl Studio {
+    /// Makes rooms of a plan's walls, `wall_height_m` high, with lintels over its doorways. Without any walls it is a floor
+    /// under the sky.
+    pub fn new(walls: &Walls, doorways: &[Doorway], wall_height_m: f64) -> Studio {
+        let height_m = if walls.faces.is_empty() { 0.0 } else { wall_height_m };
+        Studio { space: Space::new(walls, doorways, height_m) }
+    }
+
+    /// The camera from above that has the whole plan in a picture of a size in pixels.
+    pub fn birds_eye(&self, size_px: [u32; 2]) -> Camera {
+        self.space.birds_eye(size_px)
+    }
+
+    /// The camera 1.7 m above the floor where there is most to see.
+    pub fn eye_level(&self, sums: &FloorSums) -> Camera {
+        self.space.eye_level(&Traffic::of(sums))
+    }
+
+    /// Checks that a camera stands where something is seen: below the walls' height, on the floor.
+    ///
+    /// # Errors
+    /// A number out of range; a camera inside a wall or beyond the plan.
+    pub fn check(&self, camera: &Camera) -> Result<(), StillError> {
+        camera.check()?;
+        let place = camera.place_m();
+        if camera.position_m[2] >= self.space.height_m || self.space.is_floor(place) {
+            return Ok(());
+        }
+        let nearest = self.space.nearest_floor(place);
+        Err(StillError::NotOnFloor {
+            place_m: place.into(),
+            beyond: !self.space.block.contains(place),
+            nearest_m: hundredths(nearest).into(),
+            wall_height_m: self.space.height_m,
+        })
+    }
+
+    /// What a camera sees, once with each coat, in the rayon pool that it is called in.
+    ///
+    /// # Errors
+    /// As [`Studio::check`]; a size out of [`STILL_SIZES_PX`]; an interruption.
+    pub fn draw<S: TextureSource>(
+        &self,
+        camera: &Camera,
+        size_px: [u32; 2],
+        coats: &[Coat<S>],
+        progress: &dyn Progress,
+    ) -> Result<Vec<RgbImage>, StillError> {
+        self.check(camera)?;
+        check_size(size_px)?;
+        let sheets: Vec<Sheets<S>> = coats.iter().map(|coat| Sheets::of(coat, self.space.height_m)).collect();
+        let mut skins: Vec<Skin> = sheets.iter().map(Sheets::skin).collect();
+        let done = |share: f64| progress.advance(Stage::Export, share);
+        Ok(Renderer::new(&self.space, camera, size_px).draw(&mut skins, progress, done)?)
+    }
+}
+
+/// A coat's sources.
+struct Sheets<'a, S> {
+    floor: FloorTexels<'a, S>,
+    small: Option<SmallFloor>,
+    walls: Box<dyn Texels + 'a>,
+    plain_wall: Texel,
+    far_walls: Option<Box<dyn Texels + 'a>>,
+}
+
+impl<'a, S: TextureSource> Sheets<'a, S> {
+    fn of(coat: &Coat<'a, S>, height_m: f64) -> Sheets<'a, S> {
+        let background = coat.floor.background();
+        let plain = |background: Background, density: f64| Box::new(PlainWalls::of(background, density));
+        let unknown = Background { base_color: [226, 222, 212], mask: [0; 4], orm: [255, 160, 0] };
+        Sheets {
+            floor: FloorTexels { source: coat.floor, texels_per_metre: coat.floor_texels_per_metre },
+            small: coat.small.map(|small| SmallFloor {
+                picture: small.picture(background.base_color),
+                pixels_per_metre: small.pixels_per_metre(),
+                roughness: background.orm[1],
+            }),
+            walls: match coat.walls {
+                Some(WallCoat { source, texels_per_metre, .. }) => {
+                    Box::new(WallTexels { source, texels_per_metre, height_m })
+                }
+                None => plain(unknown, 100.0),
+            },
+            plain_wall: PlainWalls::of(coat.walls.map_or(unknown, |walls| walls.source.background()), 1.0).texel,
+            far_walls: coat.walls.and_then(|walls| {
+                let background = walls.source.background();
+                match walls.far {
+                    FarWalls::Resolved => None,
+                    FarWalls::Textures(textures) => {
+                        SmallWalls::of(textures, background).map(|small| Box::new(small) as Box<dyn Texels>)
+                    }
+                    FarWalls::Plain => Some(plain(background, walls.texels_per_metre * 0.25) as Box<dyn Texels>),
+                }
+            }),
+        }
+    }
+
+    fn skin(&self) -> Skin<'_> {
+        let small = self.small.as_ref().map(|small| small as &dyn Texels);
+        Skin::new([&self.floor, &*self.walls], [small, self.far_walls.as_deref()], self.plain_wall)
+    }
+}
+
+/// Checks a picture's size.
+///
+/// # Errors
+/// [`StillError::Size`].
+pub fn check_size([width, height]: [u32; 2]) -> Result<(), StillError> {
+    let [low, high] = STILL_SIZES_PX;
+    let fits = [width, height].iter().all(|side| (low..=high).contains(side));
+    fits.then_some(()).ok_or(StillError::Size { width, height, low, high })
+}
+
+/// Writes the stills of a bake into `preview/`: `birds_eye.png` from the first camera, `eye_level.png` and
+/// `eye_level_clean.png` from the second.
+///
+/// # Errors
+/// A file cannot be written; an interruption.
+pub fn write_stills<S: TextureSource>(
+    folder: &OutputFolder,
+    studio: &Studio,
+    [above, inside]: [Camera; 2],
+    [trodden, clean]: [Coat<S>; 2],
+    progress: &dyn Progress,
+) -> Result<Vec<StillEntry>, StillError> {
+    let size = STILL_SIZE_PX;
+    let from_above = studio.draw(&above, size, &[Coat { ..trodden }], progress)?;
+    let from_inside = studio.draw(&inside, size, &[trodden, clean], progress)?;
+    let names = ["birds_eye", "eye_level", "eye_level_clean"];
+    let cameras = [above, inside, inside];
+    let entries: Vec<StillEntry> = names
+        .iter()
+        .zip(cameras)
+        .map(|(name, camera)| StillEntry { file: format!("preview/{name}.png"), camera })
+        .collect();
+    let pictures: Vec<RgbImage> = from_above.into_iter().chain(from_inside).collect();
+    let write = |(entry, picture): (&StillEntry, &RgbImage)| write_picture(folder, &entry.file, picture);
+    use rayon::prelude::*;
+    entries.par_iter().zip(&pictures).map(write).collect::<Result<(), ExportError>>()?;
+    Ok(entries)
+}
+
+/// To the centimetre, which is what people type.
+fn hundredths(p: Vec2) -> Vec2 {
+    Vec2 { x: (p.x * 100.0).round() / 100.0, y: (p.y * 100.0).round() / 100.0 }
+}

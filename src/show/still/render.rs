@@ -1,0 +1,237 @@
+//! A picture, band by band from below.
+
+use std::collections::BTreeSet;
+
+use image::RgbImage;
+use rayon::prelude::*;
+
+use super::lens::Lens;
+use super::light::{LightKey, LightMap, Lighting, over_the_shoulder};
+use super::panels::Panels;
+use super::shade::{Colour, Shader};
+use super::skin::{Skin, SkinNeeds, along_m};
+use super::space::Space;
+use super::tone::Tone;
+use super::trace::{Hit, Surface};
+use crate::export::Camera;
+use crate::export::ExportError;
+use crate::progress::Progress;
+
+/// Rows that are worked on at a time.
+const BAND: usize = 144;
+/// Rays through pixels in which surfaces meet.
+const RAYS: usize = 8;
+/// Where they go through: no two in a row or a column.
+const PLACES: [[f64; 2]; RAYS] = [
+    [0.0625, 0.4375],
+    [0.1875, 0.9375],
+    [0.3125, 0.1875],
+    [0.4375, 0.6875],
+    [0.5625, 0.3125],
+    [0.6875, 0.8125],
+    [0.8125, 0.0625],
+    [0.9375, 0.5625],
+];
+
+/// A row of a picture before it is shaded.
+#[derive(Default)]
+struct Row {
+    hits: Vec<Hit>,
+    /// Columns in which surfaces meet, and what their rays hit.
+    edges: Vec<(u32, [Hit; RAYS])>,
+}
+
+/// What a band needs.
+#[derive(Default)]
+struct Needs {
+    skins: Vec<SkinNeeds>,
+    light: BTreeSet<LightKey>,
+    last_light: Option<LightKey>,
+}
+
+impl Needs {
+    fn of(skins: usize) -> Needs {
+        Needs { skins: (0..skins).map(|_| SkinNeeds::default()).collect(), ..Needs::default() }
+    }
+
+    fn and(mut self, mut other: Needs) -> Needs {
+        self.light.append(&mut other.light);
+        let skins = self.skins.into_iter().zip(other.skins).map(|(a, b)| a.and(b)).collect();
+        Needs { skins, light: self.light, last_light: None }
+    }
+
+    fn add(&mut self, key: LightKey) {
+        if self.last_light != Some(key) {
+            self.last_light = Some(key);
+            self.light.insert(key);
+        }
+    }
+}
+
+/// Draws what a camera sees, once in each skin.
+pub(super) struct Renderer<'a> {
+    space: &'a Space,
+    lens: Lens,
+    size: [u32; 2],
+    above: bool,
+    light: LightMap<'a>,
+    tone: Tone,
+}
+
+impl<'a> Renderer<'a> {
+    pub fn new(space: &'a Space, camera: &Camera, size: [u32; 2]) -> Renderer<'a> {
+        let above = camera.position_m[2] >= space.height_m;
+        let lighting = match above {
+            true => Lighting::Above(over_the_shoulder(camera.heading_deg)),
+            false => Lighting::Inside(Panels::over(space)),
+        };
+        let light = LightMap::new(space, lighting);
+        Renderer {
+            space,
+            lens: Lens::of(&camera, size),
+            size,
+            above,
+            light,
+            tone: Tone::new(if above { 1.12 } else { 1.17 }),
+        }
+    }
+
+    /// The pictures, one per skin.
+    ///
+    /// # Errors
+    /// [`ExportError::Interrupted`].
+    pub fn draw(
+        &mut self,
+        skins: &mut [Skin],
+        progress: &dyn Progress,
+        done: impl Fn(f64),
+    ) -> Result<Vec<RgbImage>, ExportError> {
+        let [width, height] = self.size;
+        let mut pictures = vec![RgbImage::new(width, height); skins.len()];
+        for top in (0..height as usize).step_by(BAND).rev() {
+            progress.keep_on()?;
+            let rows = self.trace_band(top, BAND.min(height as usize - top));
+            self.hold(&rows, skins);
+            let shaded = self.shade_band(&rows, top, skins);
+            for (k, row) in shaded.into_iter().enumerate() {
+                for (picture, bytes) in pictures.iter_mut().zip(row) {
+                    let at = (top + k) * width as usize * 3;
+                    picture.as_flat_samples_mut().samples[at..at + bytes.len()].copy_from_slice(&bytes);
+                }
+            }
+            done(1.0 - top as f64 / f64::from(height));
+        }
+        Ok(pictures)
+    }
+
+    fn trace(&self, x: f64, y: f64) -> Hit {
+        let way = self.lens.ray(x, y);
+        if self.above {
+            self.space.trace_above(self.lens.position, way)
+        } else {
+            self.space.trace_inside(self.lens.position, way)
+        }
+    }
+
+    fn trace_band(&self, top: usize, count: usize) -> Vec<Row> {
+        let width = self.size[0] as usize;
+        let rows: Vec<Vec<Hit>> = (0..count + 2)
+            .into_par_iter()
+            .map(|k| {
+                // One row more on either side: edges are found by neighbours.
+                let y = (top + k) as f64 - 0.5;
+                (0..width).map(|x| self.trace(x as f64 + 0.5, y)).collect()
+            })
+            .collect();
+        let edges: Vec<Vec<(u32, [Hit; RAYS])>> = (1..=count)
+            .into_par_iter()
+            .map(|k| {
+                let y = (top + k - 1) as f64;
+                let meets = |x: &usize| {
+                    let here = &rows[k][*x];
+                    let beside = |other: &Hit| meets(here, other);
+                    beside(&rows[k - 1][*x])
+                        || beside(&rows[k + 1][*x])
+                        || (*x > 0 && beside(&rows[k][*x - 1]))
+                        || (*x + 1 < width && beside(&rows[k][*x + 1]))
+                };
+                let rays = |x: usize| PLACES.map(|[dx, dy]| self.trace(x as f64 + dx, y + dy));
+                (0..width).filter(meets).map(|x| (x as u32, rays(x))).collect()
+            })
+            .collect();
+        let inner = rows.into_iter().skip(1).zip(edges);
+        inner.map(|(hits, edges)| Row { hits, edges }).collect()
+    }
+
+    fn hold(&mut self, rows: &[Row], skins: &mut [Skin]) {
+        let pixel = self.lens.pixel as f32;
+        let gather = |row: &Row| {
+            let mut needs = Needs::of(skins.len());
+            for hit in row.hits.iter().chain(row.edges.iter().flat_map(|(_, hits)| hits)) {
+                for (skin, needs) in skins.iter().zip(&mut needs.skins) {
+                    skin.needs(self.space, hit, pixel, needs);
+                }
+                let [x, y, _] = hit.point;
+                match hit.surface {
+                    Surface::Floor | Surface::Ceiling => needs.add(self.light.floor_key(x, y)),
+                    Surface::Wall(piece) => {
+                        let along = along_m(&self.space.pieces[piece as usize], hit);
+                        needs.add(self.light.wall_key(piece, along));
+                    }
+                    _ => {}
+                }
+            }
+            needs
+        };
+        let needs = rows.par_iter().map(gather).reduce(|| Needs::of(skins.len()), Needs::and);
+        self.light.hold(&needs.light);
+        for (skin, needs) in skins.iter_mut().zip(&needs.skins) {
+            skin.hold(needs);
+        }
+    }
+
+    /// Bytes by row and skin.
+    fn shade_band(&self, rows: &[Row], top: usize, skins: &[Skin]) -> Vec<Vec<Vec<u8>>> {
+        let shader = Shader { space: self.space, light: &self.light, pixel: self.lens.pixel as f32 };
+        let shade = |(k, row): (usize, &Row)| {
+            let width = row.hits.len();
+            let mut lit = vec![vec![[0.0f32; 3]; width]; skins.len()];
+            let mut colours = vec![[0.0f32; 3]; skins.len()];
+            let mut edges = row.edges.iter().peekable();
+            for (x, hit) in row.hits.iter().enumerate() {
+                if let Some((_, hits)) = edges.next_if(|(column, _)| *column as usize == x) {
+                    for hit in hits {
+                        shader.shade(hit, skins, &mut colours);
+                        for (lit, colour) in lit.iter_mut().zip(&colours) {
+                            add_share(&mut lit[x], *colour);
+                        }
+                    }
+                } else {
+                    shader.shade(hit, skins, &mut colours);
+                    for (lit, colour) in lit.iter_mut().zip(&colours) {
+                        lit[x] = *colour;
+                    }
+                }
+            }
+            let bytes = |row: Vec<Colour>| {
+                let mut bytes = vec![0; width * 3];
+                self.tone.row(&row, (top + k) as u32, self.size, &mut bytes);
+                bytes
+            };
+            lit.into_iter().map(bytes).collect()
+        };
+        rows.par_iter().enumerate().map(shade).collect()
+    }
+}
+
+/// Adds one of [`RAYS`] to a pixel. Lamps count as white: their edges would be rough otherwise.
+fn add_share(sum: &mut Colour, colour: Colour) {
+    for (sum, value) in sum.iter_mut().zip(colour) {
+        *sum += value.min(1.6) / RAYS as f32;
+    }
+}
+
+/// Whether two neighbouring pixels see different things.
+fn meets(a: &Hit, b: &Hit) -> bool {
+    a.surface != b.surface || (a.beyond_m > 0.0) != (b.beyond_m > 0.0)
+}

@@ -1,0 +1,199 @@
+//! Where surfaces get their texels from.
+
+use image::RgbImage;
+
+use crate::export::{Strip, TextureSource, WallSource, WallTextures};
+use crate::look::{Background, ResolvedBlock};
+use crate::math::srgb::to_linear;
+
+/// Red, green, blue as linear light and roughness, each 0 to 65 535.
+pub(super) type Texel = [u16; 4];
+
+/// Side of a block, texels.
+pub(super) const SIDE: usize = 128;
+
+/// A square of texels.
+#[derive(Clone, Debug)]
+pub(super) enum Block {
+    /// All the same.
+    Flat(Texel),
+    /// Row by row, row 0 lowest.
+    Full(Box<[Texel]>),
+}
+
+/// A surface's texels, as squares of [`SIDE`]: pure, so that any thread may ask for any of them in any order.
+pub(super) trait Texels: Sync {
+    /// Texels per metre.
+    fn density(&self) -> f64;
+
+    /// The block whose lower-left texel is `(i0, j0)`. `layer` is a wall's face, 0 for the floor.
+    fn read(&self, layer: usize, i0: i64, j0: i64) -> Block;
+}
+
+/// A floor at its own texel density.
+pub(super) struct FloorTexels<'a, S> {
+    pub source: &'a S,
+    pub texels_per_metre: f64,
+}
+
+impl<S: TextureSource> Texels for FloorTexels<'_, S> {
+    fn density(&self) -> f64 {
+        self.texels_per_metre
+    }
+
+    fn read(&self, _: usize, i0: i64, j0: i64) -> Block {
+        let block = self.source.resolve(i0, j0, SIDE, SIDE);
+        if block.empty {
+            let background = self.source.background();
+            return Block::Flat(texel(background.base_color, background.orm));
+        }
+        of_resolved(&block)
+    }
+}
+
+fn of_resolved(block: &ResolvedBlock) -> Block {
+    Block::Full(block.base_color.iter().zip(&block.orm).map(|(&colour, &orm)| texel(colour, orm)).collect())
+}
+
+fn texel(colour: [u8; 3], orm: [u8; 3]) -> Texel {
+    let [red, green, blue] = colour.map(to_linear);
+    [red, green, blue, u16::from(orm[1]) * 257]
+}
+
+/// A floor that was made small: row 0 of the picture is the upper one.
+pub(super) struct SmallFloor {
+    pub picture: RgbImage,
+    pub pixels_per_metre: f64,
+    /// Roughness of all of it, 0 to 255, where nothing else is known.
+    pub roughness: u8,
+}
+
+impl Texels for SmallFloor {
+    fn density(&self) -> f64 {
+        self.pixels_per_metre
+    }
+
+    fn read(&self, _: usize, i0: i64, j0: i64) -> Block {
+        let (width, height) = (i64::from(self.picture.width()), i64::from(self.picture.height()));
+        let pixel = |k: usize| {
+            let x = (i0 + (k % SIDE) as i64).clamp(0, width - 1);
+            let y = height - 1 - (j0 + (k / SIDE) as i64).clamp(0, height - 1);
+            texel(self.picture.get_pixel(x as u32, y as u32).0, [255, self.roughness, 0])
+        };
+        Block::Full((0..SIDE * SIDE).map(pixel).collect())
+    }
+}
+
+/// Walls at their own texel density; layers are faces.
+pub(super) struct WallTexels<'a> {
+    pub source: &'a dyn WallSource,
+    pub texels_per_metre: f64,
+    pub height_m: f64,
+}
+
+impl Texels for WallTexels<'_> {
+    fn density(&self) -> f64 {
+        self.texels_per_metre
+    }
+
+    fn read(&self, layer: usize, i0: i64, j0: i64) -> Block {
+        let background = self.source.background();
+        let rows = (self.height_m * self.texels_per_metre).ceil() as i64;
+        // What is above the ceiling or below the floor is never seen itself.
+        if j0 >= rows + 2 || j0 + (SIDE as i64) < -2 {
+            return Block::Flat(texel(background.base_color, background.orm));
+        }
+        let mut block = ResolvedBlock::default();
+        self.source.resolve_into(layer, i0, j0, SIDE, SIDE, &mut block);
+        if block.empty { Block::Flat(texel(background.base_color, background.orm)) } else { of_resolved(&block) }
+    }
+}
+
+/// Walls that were made small on their sheets.
+pub(super) struct SmallWalls<'a> {
+    textures: &'a WallTextures,
+    /// By face: sheet and strip, in the order along the face.
+    strips: Vec<Vec<(usize, &'a Strip)>>,
+    factor: f64,
+    background: Texel,
+}
+
+impl<'a> SmallWalls<'a> {
+    /// None if there are no small images of them.
+    pub fn of(textures: &'a WallTextures, background: Background) -> Option<SmallWalls<'a>> {
+        let factor = textures.reduced.iter().map(|reduced| reduced.factor).max()?;
+        let faces = textures.atlas.strips().map(|(_, strip)| strip.face + 1).max().unwrap_or(0);
+        let mut strips = vec![Vec::new(); faces];
+        for (sheet, strip) in textures.atlas.strips() {
+            strips[strip.face].push((sheet, strip));
+        }
+        strips.iter_mut().for_each(|strips| strips.sort_by(|a, b| a.1.from_m.total_cmp(&b.1.from_m)));
+        let background = texel(background.base_color, background.orm);
+        Some(SmallWalls { textures, strips, factor: f64::from(factor), background })
+    }
+
+    /// The column of a wall at a place along it: its sheet, and the texture coordinates of its foot and of its top.
+    fn column(&self, layer: usize, along_m: f64) -> Option<(usize, [[f64; 2]; 2])> {
+        let strips = self.strips.get(layer)?;
+        let next = strips.partition_point(|(_, strip)| strip.from_m <= along_m);
+        let &(sheet, strip) = strips.get(next.saturating_sub(1))?;
+        let atlas = &self.textures.atlas;
+        let along_m = along_m.clamp(strip.from_m, strip.to_m);
+        Some((sheet, [0.0, atlas.height_m].map(|height_m| atlas.uv(sheet, strip, along_m, height_m))))
+    }
+
+    fn pixel(&self, sheet: usize, [u, v]: [f64; 2]) -> Texel {
+        let Some(small) = self.textures.reduced.get(sheet) else { return self.background };
+        let pixel = |share: f64, size: u32| ((share * f64::from(size)).max(0.0) as u32).min(size - 1);
+        let (x, y) = (pixel(u, small.base_color.width()), pixel(v, small.base_color.height()));
+        texel(small.base_color.get_pixel(x, y).0, small.orm.get_pixel(x, y).0)
+    }
+}
+
+impl Texels for SmallWalls<'_> {
+    fn density(&self) -> f64 {
+        self.textures.atlas.texels_per_metre / self.factor
+    }
+
+    fn read(&self, layer: usize, i0: i64, j0: i64) -> Block {
+        let metre = |texel: i64| (texel as f64 + 0.5) / self.density();
+        let rows = (self.textures.atlas.height_m * self.density()).ceil() as i64;
+        if j0 >= rows + 2 {
+            return Block::Flat(self.background);
+        }
+        let mut texels = vec![self.background; SIDE * SIDE];
+        for i in 0..SIDE {
+            let Some((sheet, [foot, top])) = self.column(layer, metre(i0 + i as i64)) else { continue };
+            for j in 0..SIDE {
+                // Along a column texture coordinates are linear; beyond its ends it goes on as it ends.
+                let share = (metre(j0 + j as i64) / self.textures.atlas.height_m).clamp(0.0, 1.0);
+                let along = |k: usize| foot[k] + (top[k] - foot[k]) * share;
+                texels[j * SIDE + i] = self.pixel(sheet, [along(0), along(1)]);
+            }
+        }
+        Block::Full(texels.into_boxed_slice())
+    }
+}
+
+/// Walls of one colour.
+pub(super) struct PlainWalls {
+    pub density: f64,
+    pub texel: Texel,
+}
+
+impl PlainWalls {
+    /// What nobody knows more of.
+    pub fn of(background: Background, density: f64) -> PlainWalls {
+        PlainWalls { density, texel: texel(background.base_color, background.orm) }
+    }
+}
+
+impl Texels for PlainWalls {
+    fn density(&self) -> f64 {
+        self.density
+    }
+
+    fn read(&self, _: usize, _: i64, _: i64) -> Block {
+        Block::Flat(self.texel)
+    }
+}
