@@ -1,21 +1,210 @@
-//! Keeps the shape of the source: a stage knows the stages before it and `math`, never a later one, and no file
-//! grows beyond what a reader can hold.
+//! Keeps the shape of the source: a stage knows the stages before it, no file imports a file that imports it, and no
+//! file grows beyond what a reader can hold.
 
 // A test that cannot go on fails.
 #![allow(clippy::unwrap_used)]
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Every module in the order in which the data goes. A module may use those before it.
-const ORDER: [&str; 18] = [
-    "files", "math", "plan", "walls", "routes", "motion", "crowd", "patterns", "marks", "stamps", "sums", "look",
-    "export", "scenario", "source", "bake", "walk", "cli",
+use syn::visit::Visit;
+
+/// Every module in the order of the data. A module may use those before it.
+const ORDER: [&str; 24] = [
+    "progress",
+    "files",
+    "math",
+    "plan",
+    "walls",
+    "routes",
+    "motion",
+    "recordings",
+    "formation",
+    "features",
+    "units",
+    "crowd",
+    "patterns",
+    "marks",
+    "stamps",
+    "sums",
+    "look",
+    "export",
+    "show",
+    "scenario",
+    "error",
+    "source",
+    "walk",
+    "bake",
 ];
-/// What everybody may use: the error and the progress that a whole run shares.
-const SHARED: [&str; 6] = ["Error", "Progress", "Silent", "Stage", "Stopwatch", "progress"];
 /// Longest file, lines.
 const LONGEST: usize = 600;
+
+/// A path of names, as `["walls", "Face"]`.
+type Names = Vec<String>;
+
+/// What a source file says about itself.
+#[derive(Default)]
+struct Module {
+    file: PathBuf,
+    /// Names of functions, types, constants and macros that it defines.
+    defined: BTreeSet<String>,
+    /// Names that `use` brings in, with the path that each stands for; `pub` ones are handed on.
+    imported: BTreeMap<String, Names>,
+    /// Paths that it names in code, `pub use` left out: a module that only hands a name on does not need it.
+    named: Vec<Names>,
+}
+
+impl Module {
+    fn parse(file: &Path) -> Module {
+        let text = fs::read_to_string(file).unwrap();
+        let syntax = syn::parse_file(&text).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
+        let mut module = Module { file: file.to_path_buf(), ..Module::default() };
+        module.visit_file(&syntax);
+        module
+    }
+
+    fn import(&mut self, tree: &syn::UseTree, before: &[String], handed_on: bool) {
+        let with = |name: &syn::Ident| [before, &[name.to_string()]].concat();
+        match tree {
+            syn::UseTree::Path(path) => self.import(&path.tree, &with(&path.ident), handed_on),
+            syn::UseTree::Group(group) => group.items.iter().for_each(|tree| self.import(tree, before, handed_on)),
+            syn::UseTree::Name(name) if name.ident == "self" => self.import_as(before.to_vec(), None, handed_on),
+            syn::UseTree::Name(name) => self.import_as(with(&name.ident), None, handed_on),
+            syn::UseTree::Rename(rename) => {
+                self.import_as(with(&rename.ident), Some(rename.rename.to_string()), handed_on);
+            }
+            syn::UseTree::Glob(_) => {
+                self.import_as(before.to_vec(), Some(format!("{}::*", before.join("::"))), handed_on)
+            }
+        }
+    }
+
+    fn import_as(&mut self, path: Names, name: Option<String>, handed_on: bool) {
+        self.imported.insert(name.unwrap_or_else(|| path.last().unwrap().clone()), path.clone());
+        if !handed_on {
+            self.named.push(path);
+        }
+    }
+
+    fn define(&mut self, name: &syn::Ident) {
+        self.defined.insert(name.to_string());
+    }
+}
+
+fn is_test(attributes: &[syn::Attribute]) -> bool {
+    let cfg = |a: &syn::Attribute| a.path().is_ident("cfg") && a.parse_args::<syn::Ident>().is_ok_and(|i| i == "test");
+    attributes.iter().any(cfg)
+}
+
+impl<'a> Visit<'a> for Module {
+    fn visit_item(&mut self, item: &'a syn::Item) {
+        match item {
+            syn::Item::Mod(module) if is_test(&module.attrs) => return,
+            syn::Item::Fn(f) if is_test(&f.attrs) => return,
+            syn::Item::Use(import) => {
+                if !is_test(&import.attrs) {
+                    let handed_on = !matches!(import.vis, syn::Visibility::Inherited);
+                    self.import(&import.tree, &[], handed_on);
+                }
+                return;
+            }
+            syn::Item::Fn(item) => self.define(&item.sig.ident),
+            syn::Item::Struct(item) => self.define(&item.ident),
+            syn::Item::Enum(item) => self.define(&item.ident),
+            syn::Item::Trait(item) => self.define(&item.ident),
+            syn::Item::Type(item) => self.define(&item.ident),
+            syn::Item::Const(item) => self.define(&item.ident),
+            syn::Item::Static(item) => self.define(&item.ident),
+            syn::Item::Macro(item) => item.ident.iter().for_each(|name| self.define(name)),
+            _ => {}
+        }
+        syn::visit::visit_item(self, item);
+    }
+
+    fn visit_path(&mut self, path: &'a syn::Path) {
+        if path.segments.len() > 1 {
+            self.named.push(path.segments.iter().map(|segment| segment.ident.to_string()).collect());
+        }
+        syn::visit::visit_path(self, path);
+    }
+}
+
+/// All modules of the crate, by their path.
+struct Source(BTreeMap<Names, Module>);
+
+impl Source {
+    fn read() -> Source {
+        let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        let modules = files_in("src").into_iter().filter_map(|file| {
+            let inside = file.strip_prefix(&src).unwrap().with_extension("");
+            let mut names: Names = inside.iter().map(|part| part.to_str().unwrap().to_string()).collect();
+            if names.iter().any(|name| name == "tests" || name.ends_with("_tests")) {
+                return None;
+            }
+            if ["mod", "lib"].contains(&names.last().unwrap().as_str()) {
+                names.pop();
+            }
+            Some((names, Module::parse(&file)))
+        });
+        Source(modules.collect())
+    }
+
+    /// The module that defines what a path in `from` names; `None` for what other crates define.
+    fn find(&self, from: &[String], path: &[String], depth: usize) -> Option<Names> {
+        let (first, rest) = path.split_first()?;
+        match first.as_str() {
+            "crate" | "trodden" => self.find_in(Vec::new(), rest, depth),
+            "self" => self.find_in(from.to_vec(), rest, depth),
+            "super" => self.find_super(&from[..from.len().saturating_sub(1)], rest, depth),
+            _ if self.0.contains_key(&[from, std::slice::from_ref(first)].concat()) => {
+                self.find_in(from.to_vec(), path, depth)
+            }
+            _ => {
+                let import = self.0.get(from)?.imported.get(first)?;
+                (depth < 20).then(|| self.find(from, &[import, rest].concat(), depth + 1)).flatten()
+            }
+        }
+    }
+
+    fn find_super(&self, from: &[String], path: &[String], depth: usize) -> Option<Names> {
+        match path.split_first() {
+            Some((first, rest)) if first == "super" => {
+                self.find_super(&from[..from.len().saturating_sub(1)], rest, depth)
+            }
+            _ => self.find_in(from.to_vec(), path, depth),
+        }
+    }
+
+    fn find_in(&self, module: Names, path: &[String], depth: usize) -> Option<Names> {
+        let Some((first, rest)) = path.split_first() else { return Some(module) };
+        let child = [module.as_slice(), std::slice::from_ref(first)].concat();
+        if self.0.contains_key(&child) {
+            return self.find_in(child, rest, depth);
+        }
+        let here = self.0.get(&module)?;
+        if here.defined.contains(first) {
+            return Some(module);
+        }
+        if depth > 20 {
+            return None;
+        }
+        if let Some(import) = here.imported.get(first) {
+            return self.find(&module, &[import.as_slice(), rest].concat(), depth + 1);
+        }
+        let globs = here.imported.iter().filter(|(name, _)| name.ends_with('*'));
+        globs.filter_map(|(_, import)| self.find(&module, &[import.as_slice(), path].concat(), depth + 1)).next()
+    }
+
+    /// Which modules each module needs.
+    fn needs(&self) -> BTreeMap<&Names, BTreeSet<Names>> {
+        let of = |(names, module): (&Names, &Module)| -> BTreeSet<Names> {
+            let found = module.named.iter().filter_map(|path| self.find(names, path, 0));
+            found.filter(|found| found != names && !found.is_empty()).collect()
+        };
+        self.0.iter().map(|(names, module)| (names, of((names, module)))).collect()
+    }
+}
 
 fn rust_files(folder: &Path, out: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
@@ -36,83 +225,72 @@ fn files_in(folder: &str) -> Vec<PathBuf> {
     files
 }
 
-/// The modules and items that follow `crate::` (in the binary `trodden::`) in code, comments left out.
-fn uses(text: &str) -> Vec<String> {
-    let code: String = text.lines().map(|line| line.split("//").next().unwrap_or("")).collect::<Vec<_>>().join("\n");
-    let mut found = Vec::new();
-    for prefix in ["crate::", "trodden::"] {
-        for (at, _) in code.match_indices(prefix) {
-            if code[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_') {
-                continue;
-            }
-            let rest = &code[at + prefix.len()..];
-            match rest.strip_prefix('{') {
-                Some(list) => {
-                    let mut depth = 0;
-                    let mut name = String::new();
-                    for c in list.chars() {
-                        match c {
-                            '}' if depth == 0 => break,
-                            '{' => depth += 1,
-                            '}' => depth -= 1,
-                            ',' if depth == 0 => found.push(std::mem::take(&mut name)),
-                            c if depth == 0 => name.push(c),
-                            _ => {}
-                        }
-                    }
-                    found.push(name);
-                }
-                None => found.push(rest.to_string()),
-            }
-        }
-    }
-    let first_name = |path: &String| path.trim().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
-    found.iter().map(first_name).filter(|name: &String| !name.is_empty()).collect()
-}
-
 #[test]
 fn a_stage_uses_earlier_stages_only() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let source = Source::read();
     let mut mistakes = Vec::new();
-    for file in files_in("src") {
-        let inside = file.strip_prefix(&src).unwrap();
-        let module = inside.components().next().unwrap().as_os_str().to_str().unwrap().trim_end_matches(".rs");
-        let Some(rank) = ORDER.iter().position(|known| *known == module) else {
-            assert!(["lib", "main", "error", "progress"].contains(&module), "{module} has no place in ORDER");
-            continue;
-        };
-        // Tests may go ahead: they look at what becomes of a stage's work.
-        if inside.components().any(|part| part.as_os_str() == "tests" || part.as_os_str() == "tests.rs") {
-            continue;
-        }
-        let text = fs::read_to_string(&file).unwrap();
-        for used in uses(text.split("#[cfg(test)]\nmod ").next().unwrap_or("")) {
-            match ORDER.iter().position(|known| *known == used) {
-                Some(other) if other > rank => mistakes.push(format!("{}: uses {used}", inside.display())),
-                None if !SHARED.contains(&used.as_str()) => {
-                    mistakes.push(format!("{}: uses crate::{used}, which has no place in ORDER", inside.display()));
-                }
-                _ => {}
-            }
+    for (module, needs) in source.needs() {
+        let rank = |names: &Names| ORDER.iter().position(|known| *known == names[0]);
+        let Some(first) = module.first().filter(|first| !["main", "cli"].contains(&first.as_str())) else { continue };
+        let own = rank(module).unwrap_or_else(|| panic!("{first} has no place in ORDER"));
+        for other in needs.iter().filter(|other| rank(other).is_none_or(|other| other > own)) {
+            mistakes.push(format!("{} uses {}", module.join("::"), other.join("::")));
         }
     }
     assert!(mistakes.is_empty(), "{}", mistakes.join("\n"));
 }
 
+/// Files that reach each other are a ring: none of them can be read, tested or moved without the others.
 #[test]
-fn the_scan_sees_what_it_is_meant_to_see() {
-    let text = "use crate::math::Vec2;\nuse crate::{plan, walls::{Face, Walls}, Error};\n// use crate::look::X;\n\
-                fn f() { crate::sums::add(); my_crate::other(); }\nuse trodden::export::Report;";
-    assert_eq!(uses(text), ["math", "plan", "walls", "Error", "sums", "export"]);
+fn no_file_imports_a_file_that_imports_it() {
+    let source = Source::read();
+    let needs = source.needs();
+    let mut reached: BTreeMap<&Names, BTreeSet<&Names>> = BTreeMap::new();
+    for module in needs.keys().copied() {
+        let mut found: BTreeSet<&Names> = BTreeSet::new();
+        let mut open = vec![module];
+        while let Some(next) = open.pop() {
+            for other in needs.get(next).into_iter().flatten() {
+                if found.insert(other) {
+                    open.push(other);
+                }
+            }
+        }
+        reached.insert(module, found);
+    }
+    let mut rings: BTreeSet<BTreeSet<String>> = BTreeSet::new();
+    let mut ties = Vec::new();
+    for (&module, found) in reached.iter().filter(|(module, found)| found.contains(*module)) {
+        let ring: Vec<_> = found.iter().filter(|other| reached[**other].contains(module)).collect();
+        for other in ring.iter().filter(|other| needs[module].contains(***other)) {
+            ties.push(format!("{} -> {}", module.join("::"), other.join("::")));
+        }
+        rings.insert(ring.iter().map(|names| names.join("::")).collect());
+    }
+    let shown: Vec<String> =
+        rings.iter().map(|ring| format!("ring: {}", Vec::from_iter(ring.clone()).join(", "))).collect();
+    assert!(rings.is_empty(), "{} rings\n{}\n{}", rings.len(), shown.join("\n"), ties.join("\n"));
+}
+
+#[test]
+fn the_scan_finds_what_code_names() {
+    let source = Source::read();
+    let find = |from: &[&str], path: &[&str]| {
+        let owned = |names: &[&str]| names.iter().map(|name| name.to_string()).collect::<Names>();
+        source.find(&owned(from), &owned(path), 0).map(|names| names.join("::"))
+    };
+    assert_eq!(find(&["bake"], &["crate", "math", "Vec2"]).as_deref(), Some("math::vector"));
+    assert_eq!(find(&["math", "vector"], &["super", "SplitMix64", "new"]).as_deref(), Some("math::random"));
+    assert_eq!(find(&["bake"], &["std", "fs"]), None);
+    let needs = source.needs();
+    let of = |name: &str| &needs[&Names::from([name.to_string()])];
+    assert!(of("bake").iter().any(|names| names[0] == "show") && of("error").iter().any(|names| names[0] == "plan"));
 }
 
 #[test]
 fn no_file_is_too_long() {
     let mut long = Vec::new();
     for folder in ["src", "tests", "examples", "benches"] {
-        if !Path::new(env!("CARGO_MANIFEST_DIR")).join(folder).exists() {
-            continue;
-        }
         for file in files_in(folder) {
             let lines = fs::read_to_string(&file).unwrap().lines().count();
             if lines > LONGEST {
