@@ -2,7 +2,7 @@
 //! given (a recording, formations), on a plan or on open ground.
 
 use crate::crowd::{Arrival, Simulation, Stuck, Tally};
-use crate::formation::{self, Formed};
+use crate::formation::{self, FormedCrowd};
 use crate::marks::Origin;
 use crate::math::{Rect, Vec2, sin_cos, vec2};
 use crate::motion::{Ensemble, Frame, Motion, MotionError, Walker};
@@ -73,7 +73,7 @@ pub struct Given {
 enum Content {
     Recording(Recording),
     Ensemble(Ensemble),
-    Formed(Formed),
+    FormedCrowd(FormedCrowd),
 }
 
 /// What the places of a motion are measured from.
@@ -97,14 +97,14 @@ impl Given {
     }
 
     /// A crowd that changes from formation to formation; its places are in the plan frame.
-    pub fn formation(formed: Formed) -> Given {
-        Given { content: Content::Formed(formed), frame: CoordinateFrame::Plan }
+    pub fn formation(formed: FormedCrowd) -> Given {
+        Given { content: Content::FormedCrowd(formed), frame: CoordinateFrame::Plan }
     }
 
     /// Those who touch the floor: without riders, who are carried.
     pub fn on_foot(self) -> Given {
         match self.content {
-            Content::Formed(formed) if formed.riders() > 0 => Given::ensemble(formed.on_foot(), self.frame),
+            Content::FormedCrowd(formed) if formed.riders() > 0 => Given::ensemble(formed.on_foot(), self.frame),
             content => Given { content, ..self },
         }
     }
@@ -132,7 +132,7 @@ impl Given {
     pub fn bounds_m(&self) -> Rect {
         match &self.content {
             Content::Recording(recording) => recording.survey().bounds_m,
-            Content::Ensemble(ensemble) | Content::Formed(Formed { ensemble, .. }) => ensemble.bounds_m(),
+            Content::Ensemble(ensemble) | Content::FormedCrowd(FormedCrowd { ensemble, .. }) => ensemble.bounds_m(),
         }
     }
 
@@ -141,7 +141,7 @@ impl Given {
         let people = match &self.content {
             // Whoever comes back after a long gap is somebody else.
             Content::Recording(recording) => recording.survey().people + recording.survey().returns as usize,
-            Content::Ensemble(ensemble) | Content::Formed(Formed { ensemble, .. }) => ensemble.people(),
+            Content::Ensemble(ensemble) | Content::FormedCrowd(FormedCrowd { ensemble, .. }) => ensemble.people(),
         };
         people.min(u32::MAX as usize) as u32
     }
@@ -150,7 +150,7 @@ impl Given {
     pub fn fps(&self) -> f64 {
         match &self.content {
             Content::Recording(recording) => recording.survey().fps,
-            Content::Ensemble(ensemble) | Content::Formed(Formed { ensemble, .. }) => ensemble.fps,
+            Content::Ensemble(ensemble) | Content::FormedCrowd(FormedCrowd { ensemble, .. }) => ensemble.fps,
         }
     }
 
@@ -158,7 +158,7 @@ impl Given {
     pub fn end_s(&self) -> f64 {
         match &self.content {
             Content::Recording(recording) => recording.survey().span_s[1],
-            Content::Ensemble(ensemble) | Content::Formed(Formed { ensemble, .. }) => {
+            Content::Ensemble(ensemble) | Content::FormedCrowd(FormedCrowd { ensemble, .. }) => {
                 ensemble.time_s(ensemble.moments().saturating_sub(1))
             }
         }
@@ -171,7 +171,9 @@ impl Given {
     pub fn motion(&self) -> Result<Box<dyn Motion + Send + '_>, MotionError> {
         match &self.content {
             Content::Recording(recording) => recording.motion(),
-            Content::Ensemble(ensemble) | Content::Formed(Formed { ensemble, .. }) => Ok(Box::new(ensemble.motion())),
+            Content::Ensemble(ensemble) | Content::FormedCrowd(FormedCrowd { ensemble, .. }) => {
+                Ok(Box::new(ensemble.motion()))
+            }
         }
     }
 }

@@ -2,7 +2,7 @@ use nalgebra::DMatrix;
 use serde::Serialize;
 
 use super::displacement::{Displacement, column_squares, columns_of};
-use super::modulation::{Chosen, Modulation};
+use super::modulation::{Modulation, SelectedComponent, check_components};
 use super::neighbours::KirchhoffSums;
 use super::part::Part;
 use super::{FeaturesError, FeaturesOptions, Method, laplacian, principal};
@@ -178,13 +178,18 @@ impl Features {
     pub fn modulated(&self, components: usize, modulation: &Modulation) -> Result<Ensemble, FeaturesError> {
         check_components(components, self.components.len())?;
         modulation.check(components)?;
-        let chosen: Vec<Chosen> = (0..components).map(|own| Chosen { number: own + 1, own }).collect();
+        let chosen: Vec<SelectedComponent> =
+            (0..components).map(|own| SelectedComponent { number: own + 1, own }).collect();
         let moved = self.moved(&chosen, modulation)?;
         Ok(self.displacement.ensemble(&moved, self.options.method))
     }
 
     /// The displacements that some of the components make with changed coefficients.
-    pub(super) fn moved(&self, chosen: &[Chosen], modulation: &Modulation) -> Result<DMatrix<f64>, FeaturesError> {
+    pub(super) fn moved(
+        &self,
+        chosen: &[SelectedComponent],
+        modulation: &Modulation,
+    ) -> Result<DMatrix<f64>, FeaturesError> {
         let own: Vec<usize> = chosen.iter().map(|chosen| chosen.own).collect();
         let mut coefficients = columns_of(&self.coefficients, &own);
         let (moments, fps) = (self.moments(), self.displacement.fps);
@@ -196,9 +201,4 @@ impl Features {
         }
         Ok(coefficients * columns_of(&self.vectors, &own).transpose())
     }
-}
-
-/// Whether there are as many components.
-pub(super) fn check_components(asked: usize, most: usize) -> Result<(), FeaturesError> {
-    if (1..=most).contains(&asked) { Ok(()) } else { Err(FeaturesError::Components { asked, most }) }
 }

@@ -1,5 +1,5 @@
+use super::component_range::ComponentsError;
 use super::expression::{Expression, ExpressionError};
-use super::modulation::ComponentsError;
 use crate::motion::MotionError;
 use crate::progress::Interrupted;
 

@@ -1,9 +1,6 @@
-use pathfinding::kuhn_munkres::kuhn_munkres_min;
-use pathfinding::matrix::Matrix;
-
 use super::part::Part;
 use crate::features::FeaturesError;
-use crate::math::Vec2;
+use crate::math::{Vec2, assign};
 
 /// What squares of distances are counted in: the largest is so many units, and a million of them still fit.
 const UNITS: f64 = (1u64 << 40) as f64;
@@ -35,7 +32,7 @@ pub(super) fn nearest_pairs(
     for number in 0..tries {
         part.keep_on()?;
         part.advance(number as f64 / tries as f64);
-        let (_, found) = kuhn_munkres_min(&squares(few, many, shift_m));
+        let found = nearest_columns(few, many, shift_m);
         if found == chosen {
             break;
         }
@@ -50,12 +47,12 @@ pub(super) fn nearest_pairs(
     Ok(pairs)
 }
 
-/// Squares of the distances between the people of two crowds, the smaller moved a little, a row for each of these.
-fn squares(few: &[Vec2], many: &[Vec2], shift_m: Vec2) -> Matrix<i64> {
-    let square_m2 = |(row, column): (usize, usize)| (many[column] - few[row] - shift_m).length_squared();
-    let squares_m2 = Matrix::from_fn(few.len(), many.len(), square_m2);
-    let largest_m2 = squares_m2.values().copied().fold(f64::MIN_POSITIVE, f64::max);
-    squares_m2.map(|square_m2| (square_m2 / largest_m2 * UNITS).round() as i64)
+/// Assigns each place of the smaller crowd, shifted, one of the larger crowd with the least sum of squared distances.
+fn nearest_columns(few: &[Vec2], many: &[Vec2], shift_m: Vec2) -> Vec<usize> {
+    let square_m2 = |row: usize, column: usize| (many[column] - few[row] - shift_m).length_squared();
+    let rows = (0..few.len()).flat_map(|row| (0..many.len()).map(move |column| (row, column)));
+    let largest_m2 = rows.map(|(row, column)| square_m2(row, column)).fold(f64::MIN_POSITIVE, f64::max);
+    assign(few.len(), many.len(), |row, column| (square_m2(row, column) / largest_m2 * UNITS).round() as i64).1
 }
 
 #[cfg(test)]

@@ -1,9 +1,8 @@
 use serde::{Deserialize, Serialize};
 
-use super::decomposition::check_components;
 use super::displacement::Displacement;
 use super::matching::nearest_pairs;
-use super::modulation::Chosen;
+use super::modulation::{SelectedComponent, check_components};
 use super::part::Part;
 use super::{Component, Features, FeaturesError, FeaturesOptions, Modulation};
 use crate::math::Vec2;
@@ -149,9 +148,12 @@ impl Mix {
     pub fn modulated(&self, components: usize, modulation: &Modulation) -> Result<Ensemble, FeaturesError> {
         check_components(components, self.order.len())?;
         modulation.check(components)?;
-        let chosen = |whose: Whose| -> Vec<Chosen> {
+        let chosen = |whose: Whose| -> Vec<SelectedComponent> {
             let numbered = (1..).zip(&self.order[..components]);
-            numbered.filter(|(_, of)| of.0 == whose).map(|(number, &(_, own))| Chosen { number, own }).collect()
+            numbered
+                .filter(|(_, of)| of.0 == whose)
+                .map(|(number, &(_, own))| SelectedComponent { number, own })
+                .collect()
         };
         let [first, other] = [Whose::First, Whose::Other].map(|whose| (self.features(whose), chosen(whose)));
         let moved = first.0.moved(&first.1, modulation)? + other.0.moved(&other.1, modulation)?;

@@ -29,6 +29,7 @@
 //! The same input gives the same result on any number of threads; between machines the last digits may differ, for
 //! matrix products and eigenvectors come from `nalgebra`.
 
+mod component_range;
 mod decomposition;
 mod displacement;
 mod eigen;
@@ -44,6 +45,7 @@ mod part;
 mod principal;
 mod span;
 
+pub use component_range::{ComponentRange, ComponentsError};
 pub use decomposition::{Component, Features};
 pub use displacement::MOST_FEATURE_PLACES;
 pub use eigen::MOST_ROWS;
@@ -51,7 +53,7 @@ pub use error::FeaturesError;
 pub use expression::{Expression, ExpressionError, LONGEST_EXPRESSION, Mistake, Variables};
 pub use method::{FeaturesOptions, Method, NEIGHBOUR_DISTANCES_M};
 pub use mix::{Middle, Mix, MixOptions, Whose};
-pub use modulation::{Change, ComponentRange, ComponentsError, Modulation, Rule};
+pub use modulation::{Change, Modulation, Rule};
 pub use span::{Presence, TogetherSpan, together};
 
 #[cfg(test)]

@@ -1,7 +1,4 @@
-use pathfinding::kuhn_munkres::kuhn_munkres_min;
-use pathfinding::matrix::Matrix;
-
-use crate::math::Vec2;
+use crate::math::{Vec2, assign};
 
 /// By how much the square of a way counts beside its length, both as shares of the longest.
 const SQUARES: f64 = 1.0 / (1u64 << 26) as f64;
@@ -13,18 +10,18 @@ const MOST: u64 = 1 << 60;
 /// `from` and `to` are as many, in metres. Of several equal ways that one is taken whose squares are least, so that
 /// nobody overtakes anybody on a line (Kuhn 1955, Munkres 1957). Costs are whole numbers, so that the result is the same on
 /// every machine.
-pub(super) fn assign(from: &[Vec2], to: &[Vec2]) -> Vec<usize> {
+pub(super) fn assign_places(from: &[Vec2], to: &[Vec2]) -> Vec<usize> {
     let people = from.len().min(to.len());
     let largest_m = from.iter().flat_map(|&a| to.iter().map(move |&b| a.distance(b))).fold(0.0, f64::max);
     if people == 0 || !largest_m.is_finite() || largest_m <= 0.0 {
         return (0..people).collect();
     }
     let units = (MOST / people.next_power_of_two() as u64) as f64;
-    let cost = |(person, place): (usize, usize)| {
+    let cost = |person: usize, place: usize| {
         let share = from[person].distance(to[place]) / largest_m;
         ((share + SQUARES * share * share) * units).round() as i64
     };
-    kuhn_munkres_min(&Matrix::from_fn(people, people, cost)).1
+    assign(people, people, cost).1
 }
 
 #[cfg(test)]
@@ -73,7 +70,7 @@ mod tests {
             let round = |v: Vec2| if coarse { vec2((v.x / 10.0).round(), (v.y / 10.0).round()) } else { v };
             let from: Vec<Vec2> = scattered(n, seed).into_iter().map(round).collect();
             let to: Vec<Vec2> = scattered(n, !seed).into_iter().map(round).collect();
-            let places = assign(&from, &to);
+            let places = assign_places(&from, &to);
             prop_assert!(is_permutation(&places));
             let (found, least) = (length(&from, &to, &places), brute_force(&from, &to));
             prop_assert!((found - least).abs() < 1e-6, "{found} m, but {least} m will do");
@@ -84,17 +81,17 @@ mod tests {
     fn nobody_overtakes_on_a_line() {
         let from: Vec<Vec2> = (0..40).map(|k| vec2(f64::from(k), 0.0)).collect();
         let to: Vec<Vec2> = from.iter().rev().map(|&place| place + vec2(100.0, 0.0)).collect();
-        assert_eq!(assign(&from, &to), (0..40).rev().collect::<Vec<_>>());
+        assert_eq!(assign_places(&from, &to), (0..40).rev().collect::<Vec<_>>());
     }
 
     #[test]
     fn nobody_and_everybody_on_one_point_are_given_places() {
-        assert!(assign(&[], &[]).is_empty());
+        assert!(assign_places(&[], &[]).is_empty());
         let one = vec![vec2(3.0, 3.0); 9];
-        assert!(is_permutation(&assign(&one, &one)));
-        assert!(is_permutation(&assign(&one, &scattered(9, 1))));
-        assert!(is_permutation(&assign(&[vec2(f64::NAN, 0.0); 4], &scattered(4, 1))));
-        assert!(is_permutation(&assign(&[vec2(1e300, 0.0); 4], &scattered(4, 1))));
+        assert!(is_permutation(&assign_places(&one, &one)));
+        assert!(is_permutation(&assign_places(&one, &scattered(9, 1))));
+        assert!(is_permutation(&assign_places(&[vec2(f64::NAN, 0.0); 4], &scattered(4, 1))));
+        assert!(is_permutation(&assign_places(&[vec2(1e300, 0.0); 4], &scattered(4, 1))));
     }
 
     #[test]
@@ -104,7 +101,7 @@ mod tests {
         let ring = |k: i32| crate::math::sin_cos(f64::from(k) * std::f64::consts::TAU / 1000.0);
         let ring: Vec<Vec2> = (0..1000).map(|k| vec2(20.0 + 30.0 * ring(k).1, 12.0 + 30.0 * ring(k).0)).collect();
         let start = std::time::Instant::now();
-        assert!(is_permutation(&assign(&ranks, &ring)));
+        assert!(is_permutation(&assign_places(&ranks, &ring)));
         assert!(start.elapsed().as_secs_f64() < 20.0, "{:?}", start.elapsed());
     }
 }

@@ -1,7 +1,7 @@
 //! From key formation to key formation, in a crowd of any size.
 
 use super::hierarchy::angles;
-use super::request::{ExampleKind, Pace, Section, Stays};
+use super::request::{CrowdSection, ExampleKind, Pace, Stays};
 use super::{AdjacencyEdit, Carry, Ease, FormationOptions, KeyFormation, interpolate};
 use crate::formation::FormationError;
 use crate::math::{Vec2, sin_cos, vec2};
@@ -25,7 +25,7 @@ pub(super) struct Key {
 pub(super) fn between(
     example: &Ensemble,
     keys: &[Key],
-    section: Section<'_>,
+    section: CrowdSection<'_>,
     progress: &dyn Progress,
 ) -> Result<Ensemble, FormationError> {
     if keys.len() < 2 {
@@ -60,14 +60,14 @@ fn wheeled(places_m: &[Vec2], angle_rad: f64) -> Vec<Vec2> {
     places_m.iter().map(|&place| middle + (place - middle).rotated(vec2(cos, sin))).collect()
 }
 
-fn ease(section: Section<'_>) -> Ease {
+fn ease(section: CrowdSection<'_>) -> Ease {
     match section.pace.unwrap_or_default() {
         Pace::Gentle => Ease::Rest,
         Pace::Even => Ease::Even,
     }
 }
 
-fn options(section: Section<'_>) -> FormationOptions {
+fn options(section: CrowdSection<'_>) -> FormationOptions {
     let members = |members: &[u32]| members.iter().map(|&member| member as usize).collect();
     let together = section.together.iter().map(|group| AdjacencyEdit { members: members(group), weight: 1.0 });
     let edits =
@@ -88,7 +88,7 @@ fn options(section: Section<'_>) -> FormationOptions {
 }
 
 /// Somebody alone has no neighbours: from place to place, with the example's deviations from its own line.
-fn alone(example: &Ensemble, keys: &[KeyFormation], section: Section<'_>) -> Ensemble {
+fn alone(example: &Ensemble, keys: &[KeyFormation], section: CrowdSection<'_>) -> Ensemble {
     let (ease, keep) = (ease(section), section.fluctuation.unwrap_or(1.0));
     let mut track = example.clone();
     for pair in keys.windows(2) {

@@ -6,7 +6,8 @@ use rayon::prelude::*;
 
 use super::basis::{as_columns, as_vectors, relative_to_centroid};
 use super::kirchhoff::check_edits;
-use super::{Basis, Follower, FormationError, FormationOptions, MOST_NUMBER, Rotation, default_sigma_m};
+use super::limits::MOST_NUMBER;
+use super::{Basis, Follower, FormationError, FormationOptions, Rotation, default_sigma_m};
 use crate::math::Vec2;
 use crate::motion::Ensemble;
 use crate::progress::{Progress, Stage};

@@ -1,12 +1,11 @@
 use nalgebra::DMatrix;
 
 use super::basis::{as_columns, relative_to_centroid};
-use super::matching::{Nearest, gap, match_in_order, mirrors};
+use super::matching::{gap, match_in_order, mirrors};
+use super::polar::{Polar, nearest_orthogonal};
 use super::{Basis, FormationError};
 use crate::math::{Vec2, exp};
 
-/// Steps of the iteration for the nearest orthogonal matrix before eigenvectors take over: they cost as much as seven.
-const POLAR_STEPS: usize = 8;
 /// Steps in time, as a share of `following_s`, below which a step is too small to mirror anything.
 const SMALL_STEP: f64 = 0.2;
 /// The same, below which it is taken along the tangent.
@@ -89,10 +88,10 @@ impl Follower {
                 weakened[(b, a)] *= weight;
             }
         }
-        let mut turned = &basis.vectors * polar(weakened, within)?;
+        let mut turned = &basis.vectors * nearest_orthogonal(weakened, within)?;
         if step > SMALL_STEP && mirrors(&turned, &self.vectors) {
             // What of the result agrees least with where it comes from is turned over.
-            turned = &turned * Nearest::to(turned.transpose() * &self.vectors + identity(n))?.mirror();
+            turned = &turned * Polar::of(turned.transpose() * &self.vectors + identity(n))?.mirror();
         }
         self.vectors = turned;
         Ok(())
@@ -121,7 +120,7 @@ impl Follower {
         let longer = self.vectors.norm_squared() - n as f64;
         if within < EXACT || longer.is_nan() || longer > TANGENT_WITHIN {
             let vectors = std::mem::replace(&mut self.vectors, DMatrix::zeros(0, 0));
-            self.vectors = polar(vectors, within)?;
+            self.vectors = nearest_orthogonal(vectors, within)?;
         }
         Ok(())
     }
@@ -141,37 +140,6 @@ impl Follower {
 fn freedom(gap: f64, step: f64) -> f64 {
     let squared = gap * gap;
     if step.is_finite() { exp(-step * squared / (1.0 + squared)) } else { exp(-0.5 * squared) }
-}
-
-/// The orthogonal matrix nearest to one that is not far from it: by [`newton_schulz`], or from eigenvectors if it is far.
-fn polar(matrix: DMatrix<f64>, within: f64) -> Result<DMatrix<f64>, FormationError> {
-    newton_schulz(matrix, within).or_else(|matrix| Ok(Nearest::to(matrix)?.into_orthogonal()))
-}
-
-/// Newton and Schulz's iteration `P <- P (3 - P^T P) / 2` (Higham 2008, Functions of Matrices, doi
-/// 10.1137/1.9780898717778, section 8.3) for the nearest orthogonal matrix; the error is where it has got to.
-pub(super) fn newton_schulz(mut matrix: DMatrix<f64>, within: f64) -> Result<DMatrix<f64>, DMatrix<f64>> {
-    let n = matrix.nrows();
-    for _ in 0..POLAR_STEPS {
-        let mut gram = matrix.transpose() * &matrix;
-        let off = (0..n).fold(0.0, |sum: f64, k| {
-            gram[(k, k)] -= 1.0;
-            sum.max(gram.column(k).norm_squared())
-        });
-        if !off.is_finite() {
-            break;
-        }
-        gram *= -0.5;
-        for k in 0..n {
-            gram[(k, k)] += 1.0;
-        }
-        matrix = &matrix * &gram;
-        // The error of the step just made is 3/4 of the square of the one before.
-        if off <= within {
-            return Ok(matrix);
-        }
-    }
-    Err(matrix)
 }
 
 fn identity(n: usize) -> DMatrix<f64> {

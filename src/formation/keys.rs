@@ -2,7 +2,8 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::basis::{centroid, relative_to_centroid};
-use super::{Basis, FormationError, FormationOptions, KeyFormation, MOST_NUMBER, default_sigma_m, match_basis};
+use super::limits::MOST_NUMBER;
+use super::{Basis, FormationError, FormationOptions, KeyFormation, default_sigma_m, match_basis};
 use crate::math::Vec2;
 use crate::motion::Ensemble;
 use crate::progress::Progress;

@@ -1,22 +1,16 @@
 use std::ops::Range;
 
-use nalgebra::{DMatrix, DVector, SVD};
-use pathfinding::kuhn_munkres::kuhn_munkres;
-use pathfinding::matrix::Matrix;
+use nalgebra::DMatrix;
 
-use super::follow::newton_schulz;
-use super::symmetric::eigenvectors;
+use super::polar::Polar;
 use super::{Basis, FormationError};
+use crate::math::assign;
 
 /// Eigenvalues are compared relative to their size, and to this share of the largest one if they are smaller still.
 const SMALLEST_SCALE: f64 = 1e-6;
 /// What it costs to leave one's place in the order, as a share of the overlap: a shape that is found again whole may have moved
 /// by a third of the spectrum; between formations that have nothing to do with each other, overlaps by chance move hardly any.
 const MOVING: f64 = 3.0;
-/// A least singular value below this share of the largest takes the thorough way to the nearest orthogonal matrix.
-const NEARLY_SINGULAR: f64 = 1e-5;
-/// How near to orthogonal it is then: the square of what is off before the last step.
-const POLAR_WITHIN: f64 = 1e-12;
 /// Steps per unit of what is assigned in whole numbers.
 const UNIT: f64 = 1e6;
 
@@ -90,18 +84,18 @@ fn columns_of(basis: &Basis, target: &DMatrix<f64>, nearness: f64) -> Vec<(Range
     let clusters = clusters(&basis.values, nearness);
     let overlap = basis.vectors.transpose() * target;
     let norms: Vec<f64> = (0..n).map(|j| target.column(j).norm_squared().max(f64::MIN_POSITIVE)).collect();
-    let mut gains = Matrix::new(n - 1, n - 1, 0i64);
+    let mut costs = vec![0i64; (n - 1) * (n - 1)];
     for own in &clusters {
         for j in 1..n {
             let inside = own.clone().map(|a| overlap[(a, j)] * overlap[(a, j)]).sum::<f64>() / norms[j];
             let moved = own.start.saturating_sub(j).max((j + 1).saturating_sub(own.end));
             let gain = inside - own.len() as f64 / n as f64 - MOVING * moved as f64 / n as f64;
             for a in own.clone() {
-                gains[(a - 1, j - 1)] = (gain * UNIT).round() as i64;
+                costs[(a - 1) * (n - 1) + j - 1] = -((gain * UNIT).round() as i64);
             }
         }
     }
-    let (_, assigned) = kuhn_munkres(&gains);
+    let (_, assigned) = assign(n - 1, n - 1, |row, column| costs[row * (n - 1) + column]);
     let columns = |own: Range<usize>| {
         let mut columns: Vec<usize> = assigned[own.start - 1..own.end - 1].iter().map(|j| j + 1).collect();
         columns.sort_unstable();
@@ -118,10 +112,10 @@ fn match_clusters(
     oriented: Option<&DMatrix<f64>>,
 ) -> Result<DMatrix<f64>, FormationError> {
     let mut matched = basis.vectors.clone();
-    let mut weakest: Option<(f64, &Range<usize>, &[usize], Nearest)> = None;
+    let mut weakest: Option<(f64, &Range<usize>, &[usize], Polar)> = None;
     for (own, columns) in clusters {
         let vectors = basis.vectors.columns(own.start, own.len());
-        let nearest = Nearest::to(vectors.transpose() * target.select_columns(columns))?;
+        let nearest = Polar::of(vectors.transpose() * target.select_columns(columns))?;
         put(&mut matched, columns, &(vectors * nearest.orthogonal()));
         if weakest.as_ref().is_none_or(|(least, ..)| nearest.least() < *least) {
             weakest = Some((nearest.least(), own, columns, nearest));
@@ -146,117 +140,4 @@ fn put(matrix: &mut DMatrix<f64>, columns: &[usize], from: &DMatrix<f64>) {
 /// Whether two orthonormal bases have different orientation.
 pub(super) fn mirrors(a: &DMatrix<f64>, b: &DMatrix<f64>) -> bool {
     (a.transpose() * b).determinant() < 0.0
-}
-
-/// The orthogonal matrix nearest to another one, `U V^T` of its singular value decomposition `U S V^T`.
-pub(super) struct Nearest {
-    orthogonal: DMatrix<f64>,
-    /// The least singular value, and its column of `V`.
-    least: f64,
-    weakest: DVector<f64>,
-}
-
-impl Nearest {
-    /// `U V^T = M (M^T M)^(-1/2)` from the eigenvectors of `M^T M`, which are found several times as fast as a singular value
-    /// decomposition; that is left for matrices which are nearly singular.
-    ///
-    /// # Errors
-    /// [`FormationError::NoConvergence`].
-    pub fn to(matrix: DMatrix<f64>) -> Result<Nearest, FormationError> {
-        let n = matrix.nrows();
-        if n == 1 && matrix[(0, 0)].is_finite() {
-            let value = matrix[(0, 0)];
-            let orthogonal = DMatrix::from_element(1, 1, if value < 0.0 { -1.0 } else { 1.0 });
-            return Ok(Nearest { orthogonal, least: value.abs(), weakest: DVector::from_element(1, 1.0) });
-        }
-        let (vectors, squares) = eigenvectors(matrix.transpose() * &matrix)?;
-        let least = squares[0].max(0.0).sqrt();
-        if least <= NEARLY_SINGULAR * squares[n - 1].max(0.0).sqrt() {
-            return Nearest::by_svd(matrix);
-        }
-        let mut scaled = &matrix * &vectors;
-        for (mut column, square) in scaled.column_iter_mut().zip(&squares) {
-            column /= square.sqrt();
-        }
-        let weakest = vectors.column(0).into_owned();
-        match newton_schulz(scaled * vectors.transpose(), POLAR_WITHIN) {
-            Ok(orthogonal) => Ok(Nearest { orthogonal, least, weakest }),
-            Err(matrix) => Nearest::by_svd(matrix),
-        }
-    }
-
-    /// The same for any matrix.
-    ///
-    /// # Errors
-    /// [`FormationError::NoConvergence`].
-    pub fn by_svd(matrix: DMatrix<f64>) -> Result<Nearest, FormationError> {
-        let n = matrix.nrows();
-        let iterations = 100 * n.max(10);
-        let failed = || FormationError::NoConvergence { size: n, iterations };
-        if !matrix.iter().all(|entry| entry.is_finite()) {
-            return Err(FormationError::NoConvergence { size: n, iterations: 0 });
-        }
-        let svd = SVD::try_new(matrix, true, true, f64::EPSILON, iterations).ok_or_else(failed)?;
-        let (Some(u), Some(v_t)) = (svd.u, svd.v_t) else { return Err(failed()) };
-        let values = svd.singular_values.iter().copied().enumerate();
-        let (at, least) = values.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0));
-        Ok(Nearest { orthogonal: u * &v_t, least, weakest: v_t.row(at).transpose() })
-    }
-
-    /// How much holds the direction that fits worst.
-    pub fn least(&self) -> f64 {
-        self.least
-    }
-
-    /// The matrix.
-    pub fn orthogonal(&self) -> &DMatrix<f64> {
-        &self.orthogonal
-    }
-
-    /// The matrix, to keep.
-    pub fn into_orthogonal(self) -> DMatrix<f64> {
-        self.orthogonal
-    }
-
-    /// The nearest one of the other orientation: the direction that fits worst is turned over.
-    pub fn mirrored(&self) -> DMatrix<f64> {
-        let image = &self.orthogonal * &self.weakest;
-        &self.orthogonal - image * self.weakest.transpose() * 2.0
-    }
-
-    /// The nearest one that mirrors.
-    pub fn mirror(self) -> DMatrix<f64> {
-        if self.orthogonal.determinant() < 0.0 { self.orthogonal } else { self.mirrored() }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn both_ways_to_the_nearest_orthogonal_matrix_agree() {
-        let mut dice = crate::math::SplitMix64::new(5);
-        for n in [1, 2, 3, 8, 20] {
-            let matrix = DMatrix::from_fn(n, n, |_, _| f64::from(dice.range(-1.0, 1.0)));
-            let (quick, thorough) = (Nearest::to(matrix.clone()).unwrap(), Nearest::by_svd(matrix.clone()).unwrap());
-            assert!((quick.orthogonal() - thorough.orthogonal()).amax() < 1e-9);
-            assert!((quick.mirrored() - thorough.mirrored()).amax() < 1e-6);
-            assert!((quick.least() - thorough.least()).abs() < 1e-9);
-            let (direct, over) = (quick.orthogonal().determinant(), quick.mirrored().determinant());
-            assert!((direct + over).abs() < 1e-9 && (direct.abs() - 1.0).abs() < 1e-9);
-            assert!((quick.mirror().determinant() + 1.0).abs() < 1e-9);
-        }
-    }
-
-    #[test]
-    fn a_singular_matrix_has_a_nearest_one_too() {
-        for n in [1, 2, 5] {
-            let nearest = Nearest::to(DMatrix::zeros(n, n)).unwrap();
-            let gram = nearest.orthogonal().transpose() * nearest.orthogonal();
-            assert!((gram - DMatrix::identity(n, n)).amax() < 1e-12);
-        }
-        assert!(Nearest::to(DMatrix::from_element(2, 2, f64::NAN)).is_err());
-        assert!(Nearest::to(DMatrix::from_element(1, 1, f64::NAN)).is_err());
-    }
 }

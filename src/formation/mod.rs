@@ -60,28 +60,32 @@ mod blend;
 mod error;
 mod example;
 mod follow;
+mod formed;
 mod hierarchy;
 mod interpolate;
 mod keys;
 mod kirchhoff;
+mod limits;
 mod matching;
 mod options;
 mod picture;
 mod places;
 mod planes;
+mod polar;
 mod request;
 mod rotation;
 mod sphere;
 mod symmetric;
 
-pub use avoidance::USUAL_DISTANCE_M;
 pub use basis::Basis;
 pub use error::FormationError;
 pub use example::{ExampleCoefficients, example_coefficients};
 pub use follow::Follower;
-pub use hierarchy::{Formed, MOST_IN_ALL, Who, form};
+pub use formed::{FormedCrowd, FormedPerson};
+pub use hierarchy::form;
 pub use interpolate::interpolate;
 pub use kirchhoff::{AdjacencyEdit, default_sigma_m, kirchhoff};
+pub use limits::{LEAST_PEOPLE, MOST_PEOPLE};
 pub use matching::match_basis;
 pub use options::{Carry, Ease, FormationOptions, KeyFormation};
 pub use picture::is_picture;
@@ -91,10 +95,3 @@ pub use request::{
 };
 pub use rotation::Rotation;
 pub use sphere::{SphereTracks, one_pattern, sphere_tracks};
-
-/// The fewest people that are a formation.
-pub const LEAST_PEOPLE: usize = 2;
-/// The most people that one formation is made of: its matrices hold a number for each pair.
-pub const MOST_PEOPLE: usize = 2000;
-/// Largest coordinate or time that is taken for one, metres or seconds.
-const MOST_NUMBER: f64 = 1e7;

@@ -4,11 +4,13 @@
 //! Everything here gives the same bits on every machine: the `libm` crate instead of the platform's
 //! libm, no fused multiply-add, values drawn from `rand_distr` rounded to a coarse grid.
 
+mod assignment;
 mod distribution;
 mod random;
 pub mod srgb;
 mod vector;
 
+pub(crate) use assignment::assign;
 pub use distribution::{Distribution, DistributionError};
 pub use random::{Purpose, SplitMix64, person_stream, round_to_grid};
 pub use vector::{Rect, Vec2, vec2};

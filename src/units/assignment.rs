@@ -1,24 +1,20 @@
-use pathfinding::kuhn_munkres::kuhn_munkres_min;
-use pathfinding::matrix::Matrix;
+use crate::math::assign;
 
 /// Costs are compared in whole millionths, so that no machine rounds them otherwise.
 const PER_UNIT: f64 = 1e6;
-/// What must not be; more than any sum of real costs.
-const NEVER: i64 = 1 << 50;
+/// Cost of a forbidden pair: more than any sum of real costs.
+const FORBIDDEN: i64 = 1 << 50;
 
-/// Assigns every row a column of its own so that the sum of `cost(row, column)` is least (Kuhn 1955, Munkres 1957). `None`
-/// stands for a pair that must not be. Gives the sum and each row's column; `None` where there is no way.
-pub(super) fn assign(count: usize, cost: impl Fn(usize, usize) -> Option<f64>) -> Option<(f64, Vec<usize>)> {
-    if count == 0 {
-        return Some((0.0, Vec::new()));
-    }
-    let whole = |(row, column)| match cost(row, column) {
-        Some(cost) => ((cost * PER_UNIT).round() as i64).clamp(0, NEVER),
-        None => NEVER,
+/// Assigns every row a column of its own so that the sum of `cost(row, column)` is least; a cost of `None` forbids a pair.
+///
+/// Returns the sum and each row's column; `None` if every assignment has a forbidden pair.
+pub(super) fn assign_allowed(count: usize, cost: impl Fn(usize, usize) -> Option<f64>) -> Option<(f64, Vec<usize>)> {
+    let whole = |row, column| match cost(row, column) {
+        Some(cost) => ((cost * PER_UNIT).round() as i64).clamp(0, FORBIDDEN),
+        None => FORBIDDEN,
     };
-    let costs = Matrix::from_fn(count, count, whole);
-    let (sum, columns) = kuhn_munkres_min(&costs);
-    (sum < NEVER).then(|| (sum as f64 / PER_UNIT, columns))
+    let (sum, columns) = assign(count, count, whole);
+    (sum < FORBIDDEN).then(|| (sum as f64 / PER_UNIT, columns))
 }
 
 #[cfg(test)]
@@ -28,10 +24,10 @@ mod tests {
     #[test]
     fn the_sum_is_least_and_forbidden_pairs_are_left() {
         let costs = [[4.0, 1.0, 3.0], [2.0, 0.0, 5.0], [3.0, 2.0, 2.0]];
-        assert_eq!(assign(3, |r, c| Some(costs[r][c])), Some((5.0, vec![1, 0, 2])));
-        let (sum, columns) = assign(3, |r, c| (r != 0 || c == 2).then_some(costs[r][c])).unwrap();
+        assert_eq!(assign_allowed(3, |r, c| Some(costs[r][c])), Some((5.0, vec![1, 0, 2])));
+        let (sum, columns) = assign_allowed(3, |r, c| (r != 0 || c == 2).then_some(costs[r][c])).unwrap();
         assert_eq!((sum, columns), (6.0, vec![2, 1, 0]));
-        assert_eq!(assign(3, |r, c| (c == 0 || r == 2).then_some(costs[r][c])), None);
-        assert_eq!(assign(0, |_, _| None), Some((0.0, vec![])));
+        assert_eq!(assign_allowed(3, |r, c| (c == 0 || r == 2).then_some(costs[r][c])), None);
+        assert_eq!(assign_allowed(0, |_, _| None), Some((0.0, vec![])));
     }
 }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::areas::{Areas, Side};
-use super::assignment::assign;
+use super::assignment::assign_allowed;
 use super::error::UnitsError;
 use super::track::Moment;
 use super::unit::Unit;
@@ -190,12 +190,13 @@ fn cast(unit: &Unit, mirrored: bool, present: &[Party], options: &MatchOptions) 
         if group.len() != there.people.len() || unit.side_of(group) != there.side {
             return None;
         }
-        assign(group.len(), |k, l| part_cost(&there.people[l].1, &ends[group[k]], options))
+        assign_allowed(group.len(), |k, l| part_cost(&there.people[l].1, &ends[group[k]], options))
     };
     // Few groups: every pair is worked out once.
     let table: Vec<Vec<_>> =
         (0..groups.len()).map(|row| (0..present.len()).map(|column| inner(row, column)).collect()).collect();
-    let (sum, columns) = assign(groups.len(), |row, column| table[row][column].as_ref().map(|(cost, _)| *cost))?;
+    let (sum, columns) =
+        assign_allowed(groups.len(), |row, column| table[row][column].as_ref().map(|(cost, _)| *cost))?;
     let mut parts = vec![0; unit.members.len()];
     for (row, &column) in columns.iter().enumerate() {
         let (_, people) = table[row][column].as_ref()?;

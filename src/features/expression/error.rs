@@ -1,62 +1,64 @@
 use std::fmt;
 
 use super::function::FUNCTIONS;
-use super::{CONSTANTS, LONGEST_EXPRESSION, Variable};
+use super::variables::{CONSTANTS, Variable};
 
+/// Longest expression, bytes.
+pub const LONGEST_EXPRESSION: usize = 1000;
 /// Longest piece of an expression that is shown, characters.
 const SHOWN: usize = 80;
 
-/// Why a text is no expression, and where.
+/// A syntax error in an expression, with its column.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{mistake}\n{}", excerpt(text, *column))]
 pub struct ExpressionError {
-    /// The text.
+    /// The expression as written.
     pub text: String,
-    /// Column of what is wrong in characters, from 1 on.
+    /// Column of the error, in characters from 1.
     pub column: usize,
-    /// What is wrong.
+    /// The kind of error.
     pub mistake: Mistake,
 }
 
-/// What is wrong with an expression.
+/// The kinds of syntax errors.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Mistake {
-    /// Nothing at all.
+    /// An empty expression.
     #[error("the expression is empty")]
     Empty,
-    /// A text beyond all measure.
+    /// An expression longer than [`LONGEST_EXPRESSION`].
     #[error("the expression is longer than {LONGEST_EXPRESSION} characters")]
     TooLong,
-    /// Too many brackets in brackets.
-    #[error("too many brackets, signs or powers within each other")]
+    /// Brackets, signs or powers nested too deeply.
+    #[error("brackets, signs or powers are nested too deeply")]
     TooDeep,
-    /// A character that has no meaning.
-    #[error("{character:?} means nothing here")]
+    /// An unexpected character.
+    #[error("{character:?} is not expected here")]
     Character {
         /// The character.
         character: char,
     },
-    /// A number that is none.
-    #[error("{text} is no number")]
+    /// A malformed number.
+    #[error("{text} is not a number")]
     Number {
-        /// What is written.
+        /// The text of the number.
         text: String,
     },
-    /// A name that is none of ours.
-    #[error("{name} is not known")]
+    /// An unknown name.
+    #[error("{name} is not a known name")]
     Name {
-        /// What is written.
+        /// The name.
         name: String,
     },
-    /// A function without its brackets.
-    #[error("{name} is a function: its argument in brackets is missing")]
+    /// A function without its arguments.
+    #[error("{name} is a function: its arguments in brackets are missing")]
     NoArguments {
         /// The function.
         name: &'static str,
     },
-    /// Brackets after what is no function.
-    #[error("{name} is no function: an operator is missing before the bracket")]
+    /// Brackets after a name that is not a function.
+    #[error("{name} is not a function: an operator is missing before the bracket")]
     NotAFunction {
         /// The name before the bracket.
         name: String,
@@ -66,27 +68,27 @@ pub enum Mistake {
     Arguments {
         /// The function.
         name: &'static str,
-        /// How many it takes, in words.
+        /// The number of arguments that it takes, in words.
         takes: &'static str,
-        /// How many there are.
+        /// The number of arguments given.
         given: usize,
     },
-    /// Something where a value should be.
-    #[error("{found} where a value should be")]
+    /// Another token where a value is expected.
+    #[error("expected a value, found {found}")]
     NoValue {
-        /// What stands there.
+        /// The token found.
         found: String,
     },
-    /// Two values side by side.
+    /// Two values without an operator between them.
     #[error("an operator is missing before {found}")]
     NoOperator {
-        /// What stands there.
+        /// The token found.
         found: String,
     },
-    /// A bracket that is never closed.
+    /// A bracket without its closing one.
     #[error("this bracket is not closed")]
     NotClosed,
-    /// A bracket that was never opened.
+    /// A closing bracket without its opening one.
     #[error("this bracket was not opened")]
     NotOpened,
 }
@@ -103,22 +105,22 @@ impl ExpressionError {
     }
 }
 
-/// The known name that is nearest, or all of them.
+/// Suggests the known name nearest to this one, or lists all known names.
 fn hint_for(name: &str) -> String {
     let names = || {
         let variables = Variable::ALL.iter().map(|(name, _)| *name);
         variables.chain(CONSTANTS.iter().map(|(name, _)| *name)).chain(FUNCTIONS.iter().map(|known| known.name))
     };
     let edits = |known: &&str| strsim::damerau_levenshtein(&name.to_lowercase(), known);
-    // Of equals the shortest.
+    // Among equally near names, the shortest.
     let near = names().map(|known| (edits(&known), known.len(), known)).min();
     match near {
         Some((..=1, 2.., known)) => format!("did you mean {known}?"),
-        _ => format!("known are {}", names().collect::<Vec<_>>().join(" ")),
+        _ => format!("the known names are {}", names().collect::<Vec<_>>().join(" ")),
     }
 }
 
-/// The text, or a part of it, with a caret below the column.
+/// The expression, or a part of it, with a caret below the column.
 fn excerpt(text: &str, column: usize) -> impl fmt::Display {
     let from = if column > SHOWN { column - SHOWN / 2 } else { 0 };
     let shown: String = text.chars().skip(from).take(SHOWN).map(|c| if c.is_control() { ' ' } else { c }).collect();

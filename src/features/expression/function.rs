@@ -20,51 +20,51 @@ pub(super) enum Function {
     Floor,
     Ceil,
     Round,
-    /// The least of so many.
+    /// The least of this number of arguments.
     Min(usize),
-    /// The largest of so many.
+    /// The largest of this number of arguments.
     Max(usize),
     Clamp,
 }
 
-/// A function by its name, and how many arguments it takes: a number, or two and more.
+/// A function with its name.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Known {
+pub(super) struct NamedFunction {
     pub(super) name: &'static str,
     function: Function,
 }
 
-const fn known(name: &'static str, function: Function) -> Known {
-    Known { name, function }
+const fn named(name: &'static str, function: Function) -> NamedFunction {
+    NamedFunction { name, function }
 }
 
 /// All functions.
-pub(super) const FUNCTIONS: [Known; 20] = [
-    known("sin", Function::Sin),
-    known("cos", Function::Cos),
-    known("tan", Function::Tan),
-    known("asin", Function::Asin),
-    known("acos", Function::Acos),
-    known("atan", Function::Atan),
-    known("sinh", Function::Sinh),
-    known("cosh", Function::Cosh),
-    known("tanh", Function::Tanh),
-    known("exp", Function::Exp),
-    known("ln", Function::Ln),
-    known("sqrt", Function::Sqrt),
-    known("abs", Function::Abs),
-    known("sign", Function::Sign),
-    known("floor", Function::Floor),
-    known("ceil", Function::Ceil),
-    known("round", Function::Round),
-    known("min", Function::Min(2)),
-    known("max", Function::Max(2)),
-    known("clamp", Function::Clamp),
+pub(super) const FUNCTIONS: [NamedFunction; 20] = [
+    named("sin", Function::Sin),
+    named("cos", Function::Cos),
+    named("tan", Function::Tan),
+    named("asin", Function::Asin),
+    named("acos", Function::Acos),
+    named("atan", Function::Atan),
+    named("sinh", Function::Sinh),
+    named("cosh", Function::Cosh),
+    named("tanh", Function::Tanh),
+    named("exp", Function::Exp),
+    named("ln", Function::Ln),
+    named("sqrt", Function::Sqrt),
+    named("abs", Function::Abs),
+    named("sign", Function::Sign),
+    named("floor", Function::Floor),
+    named("ceil", Function::Ceil),
+    named("round", Function::Round),
+    named("min", Function::Min(2)),
+    named("max", Function::Max(2)),
+    named("clamp", Function::Clamp),
 ];
 
-impl Known {
-    /// The function for so many arguments, if it takes as many.
-    pub(super) fn with(self, arguments: usize) -> Option<Function> {
+impl NamedFunction {
+    /// The function with this number of arguments; `None` if it takes another number.
+    pub(super) fn with_arguments(self, arguments: usize) -> Option<Function> {
         match self.function {
             Function::Min(least) => (arguments >= least).then_some(Function::Min(arguments)),
             Function::Max(least) => (arguments >= least).then_some(Function::Max(arguments)),
@@ -72,7 +72,7 @@ impl Known {
         }
     }
 
-    /// How many it takes, for messages.
+    /// The number of arguments that it takes, as error messages say it.
     pub(super) fn takes(self) -> &'static str {
         match self.function {
             Function::Min(_) | Function::Max(_) => "two arguments or more",
@@ -91,7 +91,7 @@ impl Function {
         }
     }
 
-    /// Its value; of too few arguments NaN.
+    /// Evaluates the function; NaN for too few arguments.
     pub(super) fn of(self, arguments: &[f64]) -> f64 {
         let &[x, ..] = arguments else { return f64::NAN };
         match self {
@@ -113,7 +113,7 @@ impl Function {
             Function::Floor => x.floor(),
             Function::Ceil => x.ceil(),
             Function::Round => x.round(),
-            // NaN is not passed over: it has to be reported.
+            // NaN is kept, so that it is reported.
             Function::Min(_) => arguments.iter().fold(x, |a, &b| if b.is_nan() || b < a { b } else { a }),
             Function::Max(_) => arguments.iter().fold(x, |a, &b| if b.is_nan() || b > a { b } else { a }),
             Function::Clamp => match *arguments {

@@ -1,22 +1,24 @@
+use super::error::{ExpressionError, Mistake};
 use super::function::FUNCTIONS;
-use super::tokens::{Token, Word, tokens};
-use super::{Binary, CONSTANTS, ExpressionError, Mistake, Step, Variable};
+use super::instruction::{Binary, Instruction};
+use super::tokens::{Token, TokenKind, tokens};
+use super::variables::{CONSTANTS, Variable};
 
-/// How deep brackets, signs and powers may lie in each other: the parser calls itself for each.
+/// Greatest nesting of brackets, signs and powers: the parser recurses for each.
 const DEEPEST: usize = 60;
 
-/// The steps that an expression's evaluation takes, see [`Expression`](super::Expression) for its grammar.
-pub(super) fn steps(text: &str) -> Result<Vec<Step>, ExpressionError> {
-    let mut parser = Parser { text, tokens: tokens(text)?, next: 0, depth: 0, steps: Vec::new() };
-    if parser.peek().word == Word::End {
+/// Compiles an expression, see [`Expression`](super::Expression) for its grammar.
+pub(super) fn instructions(text: &str) -> Result<Vec<Instruction>, ExpressionError> {
+    let mut parser = Parser { text, tokens: tokens(text)?, next: 0, depth: 0, instructions: Vec::new() };
+    if parser.peek().kind == TokenKind::End {
         return Err(parser.wrong(1, Mistake::Empty));
     }
     parser.sum()?;
     let rest = parser.peek();
-    match &rest.word {
-        Word::End => Ok(parser.steps),
-        Word::Sign(')') => Err(parser.wrong(rest.column, Mistake::NotOpened)),
-        Word::Sign(sign @ ',') => Err(parser.wrong(rest.column, Mistake::Character { character: *sign })),
+    match &rest.kind {
+        TokenKind::End => Ok(parser.instructions),
+        TokenKind::Sign(')') => Err(parser.wrong(rest.column, Mistake::NotOpened)),
+        TokenKind::Sign(sign @ ',') => Err(parser.wrong(rest.column, Mistake::Character { character: *sign })),
         _ => Err(parser.wrong(rest.column, Mistake::NoOperator { found: rest.found() })),
     }
 }
@@ -26,7 +28,7 @@ struct Parser<'a> {
     tokens: Vec<Token>,
     next: usize,
     depth: usize,
-    steps: Vec<Step>,
+    instructions: Vec<Instruction>,
 }
 
 impl Parser<'_> {
@@ -34,7 +36,7 @@ impl Parser<'_> {
         ExpressionError { text: self.text.to_string(), column, mistake }
     }
 
-    /// The next word; at the end, the end.
+    /// The next token; [`TokenKind::End`] at the end.
     fn peek(&self) -> &Token {
         &self.tokens[self.next.min(self.tokens.len() - 1)]
     }
@@ -45,47 +47,47 @@ impl Parser<'_> {
         token
     }
 
-    /// Takes the next word if it is this sign.
+    /// Takes the next token if it is this sign.
     fn accept(&mut self, sign: char) -> bool {
-        let is = self.peek().word == Word::Sign(sign);
+        let is = self.peek().kind == TokenKind::Sign(sign);
         self.next += usize::from(is);
         is
     }
 
-    /// One of the operators if it comes next.
+    /// Takes the next token if it is one of the operators.
     fn accept_any(&mut self, operators: &[(char, Binary)]) -> Option<Binary> {
         operators.iter().find(|(sign, _)| self.accept(*sign)).map(|&(_, binary)| binary)
     }
 
-    /// Products with `+` and `-` between them.
+    /// Parses products with `+` and `-` between them.
     fn sum(&mut self) -> Result<(), ExpressionError> {
         self.product()?;
         while let Some(binary) = self.accept_any(&[('+', Binary::Add), ('-', Binary::Subtract)]) {
             self.product()?;
-            self.steps.push(Step::Binary(binary));
+            self.instructions.push(Instruction::Binary(binary));
         }
         Ok(())
     }
 
-    /// Signed powers with `*`, `/` and `%` between them.
+    /// Parses signed powers with `*`, `/` and `%` between them.
     fn product(&mut self) -> Result<(), ExpressionError> {
         self.signed()?;
         let operators = [('*', Binary::Multiply), ('/', Binary::Divide), ('%', Binary::Remainder)];
         while let Some(binary) = self.accept_any(&operators) {
             self.signed()?;
-            self.steps.push(Step::Binary(binary));
+            self.instructions.push(Instruction::Binary(binary));
         }
         Ok(())
     }
 
-    /// A power with signs before it. All nesting goes through here.
+    /// Parses a power with signs before it. All nesting goes through here.
     fn signed(&mut self) -> Result<(), ExpressionError> {
         if self.depth >= DEEPEST {
             return Err(self.wrong(self.peek().column, Mistake::TooDeep));
         }
         self.depth += 1;
         let result = if self.accept('-') {
-            self.signed().map(|()| self.steps.push(Step::Negate))
+            self.signed().map(|()| self.instructions.push(Instruction::Negate))
         } else if self.accept('+') {
             self.signed()
         } else {
@@ -99,17 +101,17 @@ impl Parser<'_> {
         self.value()?;
         if self.accept('^') {
             self.signed()?;
-            self.steps.push(Step::Binary(Binary::Power));
+            self.instructions.push(Instruction::Binary(Binary::Power));
         }
         Ok(())
     }
 
     fn value(&mut self) -> Result<(), ExpressionError> {
         let token = self.take();
-        match &token.word {
-            Word::Number(number) => self.steps.push(Step::Number(*number)),
-            Word::Name(name) => self.name(name, token.column)?,
-            Word::Sign('(') => {
+        match &token.kind {
+            TokenKind::Number(number) => self.instructions.push(Instruction::Number(*number)),
+            TokenKind::Name(name) => self.name(name, token.column)?,
+            TokenKind::Sign('(') => {
                 self.sum()?;
                 self.close(token.column)?;
             }
@@ -118,44 +120,45 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// The bracket that closes the one in a column.
+    /// Expects the bracket that closes the one in a column.
     fn close(&mut self, opened: usize) -> Result<(), ExpressionError> {
         if self.accept(')') {
             return Ok(());
         }
         let next = self.peek();
-        Err(match next.word {
-            Word::End => self.wrong(opened, Mistake::NotClosed),
-            Word::Sign(character) => self.wrong(next.column, Mistake::Character { character }),
+        Err(match next.kind {
+            TokenKind::End => self.wrong(opened, Mistake::NotClosed),
+            TokenKind::Sign(character) => self.wrong(next.column, Mistake::Character { character }),
             _ => self.wrong(next.column, Mistake::NoOperator { found: next.found() }),
         })
     }
 
     fn name(&mut self, name: &str, column: usize) -> Result<(), ExpressionError> {
-        let called = self.peek().word == Word::Sign('(');
+        let called = self.peek().kind == TokenKind::Sign('(');
         if let Some(known) = FUNCTIONS.iter().find(|known| known.name == name) {
             if !called {
                 return Err(self.wrong(column, Mistake::NoArguments { name: known.name }));
             }
             let given = self.arguments()?;
             let mistake = || Mistake::Arguments { name: known.name, takes: known.takes(), given };
-            let function = known.with(given).ok_or_else(|| self.wrong(column, mistake()))?;
-            self.steps.push(Step::Call(function));
+            let function = known.with_arguments(given).ok_or_else(|| self.wrong(column, mistake()))?;
+            self.instructions.push(Instruction::Call(function));
             return Ok(());
         }
-        let variable = Variable::ALL.iter().find(|(known, _)| *known == name).map(|&(_, v)| Step::Variable(v));
-        let constant = CONSTANTS.iter().find(|(known, _)| *known == name).map(|&(_, number)| Step::Number(number));
+        let variable = Variable::ALL.iter().find(|(known, _)| *known == name).map(|&(_, v)| Instruction::Variable(v));
+        let constant =
+            CONSTANTS.iter().find(|(known, _)| *known == name).map(|&(_, number)| Instruction::Number(number));
         match variable.or(constant) {
             Some(_) if called => Err(self.wrong(column, Mistake::NotAFunction { name: name.to_string() })),
             Some(step) => {
-                self.steps.push(step);
+                self.instructions.push(step);
                 Ok(())
             }
             None => Err(self.wrong(column, Mistake::Name { name: name.to_string() })),
         }
     }
 
-    /// The arguments in brackets; gives their number.
+    /// Parses the arguments in brackets and returns their number.
     fn arguments(&mut self) -> Result<usize, ExpressionError> {
         let opened = self.take().column;
         if self.accept(')') {

@@ -58,7 +58,7 @@ fn mistakes_are_shown_where_they_are() {
     for (text, column, expected) in [
         ("", 1, Mistake::Empty),
         ("  ", 1, Mistake::Empty),
-        ("2*", 3, Mistake::NoValue { found: found("the expression ends") }),
+        ("2*", 3, Mistake::NoValue { found: found("the end of the expression") }),
         ("2*/3", 3, Mistake::NoValue { found: found("/") }),
         ("2t", 2, Mistake::NoOperator { found: found("t") }),
         ("2 3", 3, Mistake::NoOperator { found: found("3") }),
@@ -86,10 +86,10 @@ fn mistakes_are_shown_where_they_are() {
 #[test]
 fn a_mistake_is_pointed_at_with_a_caret_and_a_hint() {
     let error = Expression::parse("2 * sinn(t)").unwrap_err();
-    assert_eq!(error.to_string(), "sinn is not known\n  2 * sinn(t)\n      ^ column 5");
+    assert_eq!(error.to_string(), "sinn is not a known name\n  2 * sinn(t)\n      ^ column 5");
     assert_eq!(error.hint().unwrap(), "did you mean sin?");
     let unknown = Expression::parse("velocity").unwrap_err().hint().unwrap();
-    assert!(unknown.starts_with("known are t duration i c sd pi tau e sin"), "{unknown}");
+    assert!(unknown.starts_with("the known names are t duration i c sd pi tau e sin"), "{unknown}");
     let far = format!("{} + $", vec!["1"; 200].join("+"));
     let shown = Expression::parse(&far).unwrap_err().to_string();
     assert!(shown.lines().all(|line| line.chars().count() < 100), "{shown}");

@@ -1,8 +1,8 @@
-use super::{ExpressionError, LONGEST_EXPRESSION, Mistake};
+use super::error::{ExpressionError, LONGEST_EXPRESSION, Mistake};
 
-/// A word of an expression.
+/// The kinds of tokens.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Word {
+pub(super) enum TokenKind {
     Number(f64),
     Name(String),
     /// One of `+ - * / % ^ ( ) ,`.
@@ -10,26 +10,26 @@ pub(super) enum Word {
     End,
 }
 
-/// A word and the column where it begins, in characters from 1 on.
+/// A token and the column where it begins, in characters from 1.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Token {
-    pub(super) word: Word,
+    pub(super) kind: TokenKind,
     pub(super) column: usize,
 }
 
 impl Token {
-    /// What stands here, for messages.
+    /// The token as error messages show it.
     pub(super) fn found(&self) -> String {
-        match &self.word {
-            Word::Number(number) => number.to_string(),
-            Word::Name(name) => name.clone(),
-            Word::Sign(sign) => sign.to_string(),
-            Word::End => "the expression ends".to_string(),
+        match &self.kind {
+            TokenKind::Number(number) => number.to_string(),
+            TokenKind::Name(name) => name.clone(),
+            TokenKind::Sign(sign) => sign.to_string(),
+            TokenKind::End => "the end of the expression".to_string(),
         }
     }
 }
 
-/// Cuts an expression into words; the last is [`Word::End`].
+/// Splits an expression into tokens; the last is [`TokenKind::End`].
 pub(super) fn tokens(text: &str) -> Result<Vec<Token>, ExpressionError> {
     let wrong = |column: usize, mistake| ExpressionError { text: text.to_string(), column, mistake };
     if text.len() > LONGEST_EXPRESSION {
@@ -54,23 +54,23 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, ExpressionError> {
             _ => 1,
         };
         let written: String = characters[at..at + length].iter().collect();
-        let word = match character {
+        let kind = match character {
             '0'..='9' | '.' => match written.parse::<f64>() {
-                Ok(number) if number.is_finite() => Word::Number(number),
+                Ok(number) if number.is_finite() => TokenKind::Number(number),
                 _ => return Err(wrong(column, Mistake::Number { text: written })),
             },
-            'a'..='z' | 'A'..='Z' | '_' => Word::Name(written),
-            '+' | '-' | '*' | '/' | '%' | '^' | '(' | ')' | ',' => Word::Sign(character),
+            'a'..='z' | 'A'..='Z' | '_' => TokenKind::Name(written),
+            '+' | '-' | '*' | '/' | '%' | '^' | '(' | ')' | ',' => TokenKind::Sign(character),
             character => return Err(wrong(column, Mistake::Character { character })),
         };
-        found.push(Token { word, column });
+        found.push(Token { kind, column });
         at += length;
     }
-    found.push(Token { word: Word::End, column: characters.len() + 1 });
+    found.push(Token { kind: TokenKind::End, column: characters.len() + 1 });
     Ok(found)
 }
 
-/// Characters of a number: digits and points, and an exponent where digits follow it (`2e` is `2` and a name).
+/// Number of characters of a number: digits and points, and an exponent if it has digits (`2e` is `2` and a name).
 fn number_length(rest: &[char]) -> usize {
     let digits = |from: usize, point: bool| {
         rest[from..].iter().take_while(|c| c.is_ascii_digit() || (point && **c == '.')).count()

@@ -1,7 +1,9 @@
-use super::super::hierarchy::Who;
-use super::super::request::AvoidRequest;
-use super::USUAL_DISTANCE_M;
+use crate::formation::formed::FormedPerson;
+use crate::formation::request::AvoidRequest;
 use crate::math::Vec2;
+
+/// Bodies' middles never come nearer to each other, where nothing else is said, metres: body depth, people turn.
+const USUAL_DISTANCE_M: f64 = 0.36;
 
 /// What keeps clear of others as one: a person, or people who keep together.
 #[derive(Clone, Debug)]
@@ -18,7 +20,7 @@ pub(in super::super) struct Body {
 pub(in super::super) struct Person {
     /// Where they are from its middle, moment by moment; empty for in its middle.
     pub offsets: Vec<Vec2>,
-    pub who: Who,
+    pub who: FormedPerson,
 }
 
 /// How far from its middle a body keeps others.
@@ -30,7 +32,7 @@ enum Reach {
 
 impl Body {
     /// A body of one person.
-    pub fn person(places: Vec<Vec2>, who: Who, avoid: &AvoidRequest) -> Body {
+    pub fn person(places: Vec<Vec2>, who: FormedPerson, avoid: &AvoidRequest) -> Body {
         let reach_m = avoid.distance_m.unwrap_or(USUAL_DISTANCE_M) / 2.0;
         Body { places, people: vec![Person { offsets: Vec::new(), who }], reach: Reach::Always(reach_m) }
     }

@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 
 use super::nearby::Pair;
-use super::relax::Crowd;
+use super::tracks::BodyTracks;
 use crate::math::{Vec2, vec2};
 
 /// Slower than this towards each other, bodies do not pass each other, metres per second.
@@ -13,7 +13,7 @@ const UNDECIDED: f64 = 0.01;
 
 /// First offsets for everybody: bodies that would walk through each other are led past, each on the side on which they are,
 /// head on both to their right. Without them a moment's nearest places would jump from before to behind.
-pub(super) fn first_offsets(crowd: &Crowd<'_>, too_near: &[Vec<Pair>], fps: f64, seconds: f64) -> Vec<Vec2> {
+pub(super) fn first_offsets(crowd: &BodyTracks<'_>, too_near: &[Vec<Pair>], fps: f64, seconds: f64) -> Vec<Vec2> {
     let mut offsets = vec![Vec2::ZERO; crowd.places.len()];
     for (pair, moments) in by_pair(too_near) {
         // Stretches of moments without a gap: one encounter each.
@@ -45,7 +45,7 @@ fn by_pair(too_near: &[Vec<Pair>]) -> BTreeMap<Pair, Vec<usize>> {
 
 /// When the two pass each other, in moments, and how far the first must step aside (the second to the other side), if
 /// they do.
-fn step_aside(crowd: &Crowd<'_>, [a, b]: Pair, encounter: &[usize], fps: f64) -> Option<(f64, Vec2)> {
+fn step_aside(crowd: &BodyTracks<'_>, [a, b]: Pair, encounter: &[usize], fps: f64) -> Option<(f64, Vec2)> {
     let apart = |moment: usize| crowd.at(moment, a) - crowd.at(moment, b);
     let nearest = encounter.iter().copied().min_by(|&m, &n| apart(m).length().total_cmp(&apart(n).length()))?;
     let (before, after) = (nearest.saturating_sub(1), (nearest + 1).min(crowd.moments() - 1));

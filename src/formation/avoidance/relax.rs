@@ -1,12 +1,14 @@
 use rayon::prelude::*;
 
+use super::body::Body;
 use super::encounters::first_offsets;
-use super::nearby::{Moment, Pair, pairs_within};
+use super::nearby::{Moment, Pair};
+use super::settings::AvoidanceSettings;
 use super::settle::settle;
 use super::smooth::Smoother;
-use super::{Avoidance, Body};
+use super::tracks::{BodyTracks, SWEEPS, any_direction};
 use crate::formation::FormationError;
-use crate::math::{Vec2, sin_cos, vec2};
+use crate::math::Vec2;
 use crate::progress::Progress;
 
 /// Up to how many times the distance at which bodies would overlap neighbours push each other.
@@ -23,66 +25,36 @@ const TIE: f64 = 3.0;
 /// How much more firmly the spring holds at a key formation, and for how long around it, seconds.
 const KEY_HOLD: f64 = 8.0;
 const KEY_HOLD_S: f64 = 0.6;
-/// Sweeps over too near pairs in a step.
-pub(super) const SWEEPS: usize = 4;
 /// How far bodies may move until neighbours are looked for anew, metres.
 const SKIN_M: f64 = 0.3;
 
-/// Bodies over time, moment by moment.
-pub(super) struct Crowd<'b> {
-    pub bodies: usize,
-    pub places: Vec<Vec2>,
-    pub reaches_m: Vec<f64>,
-    all: &'b [Body],
-}
-
-impl<'b> Crowd<'b> {
-    fn of(all: &'b [Body]) -> Crowd<'b> {
-        let moments = all.first().map_or(0, |body| body.places.len());
-        let each = || (0..moments).flat_map(|moment| all.iter().map(move |body| (moment, body)));
-        let places = each().map(|(moment, body)| body.places[moment]).collect();
-        let reaches_m = each().map(|(moment, body)| body.reach_m(moment)).collect();
-        Crowd { bodies: all.len(), places, reaches_m, all }
+/// Moves bodies so that they do not overlap at any moment.
+///
+/// Everybody is held by a spring to where they would be without the others, the more firmly the nearer a key formation is
+/// in time. Neighbours push each other with a force in inverse proportion to their distance (Kamphuis, Overmars 2004,
+/// *Finding paths for coherent groups using clearance*), which ends at 2.5 times the distance at which bodies would
+/// overlap. Offsets are weighed over the whole time together, so that accelerations are small:
+///
+/// ```text
+/// minimise  sum over t of  s(t) |x|^2 / 2 - f(t) . x + a |x''|^2 / 2   where no two bodies overlap
+/// ```
+///
+/// by the alternating direction method of multipliers (Boyd et al. 2011, doi 10.1561/2200000016): in turn everybody's best
+/// way over time, and every moment's nearest places at which nobody overlaps. Where that finds no way, as in dense crowds
+/// that go through each other, everybody is led on step by step without the spring, early and gently. Nobody is moved more
+/// suddenly than people stagger: where there is no other way, they overlap, and a warning says where and when.
+///
+/// # Errors
+/// [`FormationError::Interrupted`].
+pub(in super::super) fn keep_clear(
+    avoidance: &AvoidanceSettings,
+    bodies: &mut [Body],
+    progress: &dyn Progress,
+) -> Result<(), FormationError> {
+    if !avoidance.on || bodies.len() < 2 {
+        return Ok(());
     }
-
-    pub fn moments(&self) -> usize {
-        self.all.first().map_or(0, |body| body.places.len())
-    }
-
-    pub fn at(&self, moment: usize, body: u32) -> Vec2 {
-        self.places[moment * self.bodies + body as usize]
-    }
-
-    /// How far apart the middles of two bodies are kept.
-    pub fn keep_m(&self, moment: usize, [a, b]: Pair) -> f64 {
-        let at = |body: u32| self.reaches_m[moment * self.bodies + body as usize];
-        at(a) + at(b)
-    }
-
-    pub fn moment(&self, moment: usize) -> Moment<'_> {
-        let range = moment * self.bodies..(moment + 1) * self.bodies;
-        Moment { places: &self.places[range.clone()], reaches_m: &self.reaches_m[range] }
-    }
-
-    /// Everybody's places at a moment, with everybody's offsets at all moments.
-    pub fn moved(&self, moment: usize, offsets: &[Vec2]) -> Vec<Vec2> {
-        let offsets = &offsets[moment * self.bodies..(moment + 1) * self.bodies];
-        self.moment(moment).places.iter().zip(offsets).map(|(&place, &offset)| place + offset).collect()
-    }
-
-    /// Pairs nearer to each other than a gap, edge to edge, with offsets to places, moment by moment.
-    fn pairs(&self, offsets: &[Vec2], gap_m: f64) -> Vec<Vec<Pair>> {
-        let of = |moment: usize| {
-            let places = self.moved(moment, offsets);
-            pairs_within(Moment { places: &places, reaches_m: self.moment(moment).reaches_m }, gap_m)
-        };
-        (0..self.moments()).into_par_iter().map(of).collect()
-    }
-}
-
-/// Moves bodies clear of each other, see [`Avoidance`].
-pub(super) fn relax(avoidance: &Avoidance, bodies: &mut [Body], progress: &dyn Progress) -> Result<(), FormationError> {
-    let crowd = Crowd::of(bodies);
+    let crowd = BodyTracks::of(bodies);
     let none = vec![Vec2::ZERO; crowd.places.len()];
     let too_near = crowd.pairs(&none, 0.0);
     let nobody_is_near = too_near.iter().all(Vec::is_empty);
@@ -107,7 +79,7 @@ pub(super) fn relax(avoidance: &Avoidance, bodies: &mut [Body], progress: &dyn P
 }
 
 /// The gap, edge to edge, over which the widest bodies push each other.
-fn push_gap_m(crowd: &Crowd<'_>) -> f64 {
+fn push_gap_m(crowd: &BodyTracks<'_>) -> f64 {
     // Bodies of many keep a person's distance around themselves: what counts is the smallest.
     let smallest_m = crowd.reaches_m.iter().copied().fold(f64::INFINITY, f64::min);
     (PUSH_REACH - 1.0) * 2.0 * smallest_m
@@ -115,7 +87,7 @@ fn push_gap_m(crowd: &Crowd<'_>) -> f64 {
 
 /// The search for offsets.
 struct Search<'c> {
-    crowd: &'c Crowd<'c>,
+    crowd: &'c BodyTracks<'c>,
     push: f64,
     /// Gap over which neighbours push each other, and the distance that it stands for, metres.
     push_gap_m: f64,
@@ -135,7 +107,7 @@ struct Search<'c> {
 }
 
 impl<'c> Search<'c> {
-    fn new(avoidance: &Avoidance, crowd: &'c Crowd<'c>, start: Vec<Vec2>) -> Search<'c> {
+    fn new(avoidance: &AvoidanceSettings, crowd: &'c BodyTracks<'c>, start: Vec<Vec2>) -> Search<'c> {
         let hold: Vec<f64> = (0..crowd.moments())
             .map(|moment| {
                 let from_key = |&key: &usize| (moment as f64 - key as f64).abs() / avoidance.fps / KEY_HOLD_S;
@@ -299,11 +271,4 @@ impl Side {
         offsets[b] -= self.direction * (missing_m / 2.0);
         true
     }
-}
-
-/// Where to, of two who stand in one place: always the same for the same two, another for others.
-pub(super) fn any_direction(a: u32, b: u32) -> Vec2 {
-    const GOLDEN_ANGLE_RAD: f64 = 2.399_963_229_728_653;
-    let (sin, cos) = sin_cos(GOLDEN_ANGLE_RAD * (f64::from(a) * 7.0 + f64::from(b)));
-    vec2(cos, sin)
 }

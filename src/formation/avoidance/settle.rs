@@ -1,9 +1,9 @@
 use rayon::prelude::*;
 
-use super::Avoidance;
 use super::nearby::{Moment, Pair, pairs_within};
-use super::relax::{Crowd, SWEEPS, any_direction};
+use super::settings::AvoidanceSettings;
 use super::smooth::Smoother;
+use super::tracks::{BodyTracks, SWEEPS, any_direction};
 use crate::formation::FormationError;
 use crate::math::Vec2;
 use crate::progress::Progress;
@@ -36,9 +36,9 @@ const SMOOTHED_S: f64 = 0.1;
 /// moment by moment. Where that would be too sudden for anybody, it is too crowded, and people overlap rather than jump; a
 /// warning says where and when.
 pub(super) fn settle(
-    crowd: &Crowd<'_>,
+    crowd: &BodyTracks<'_>,
     mut ways: Vec<Vec2>,
-    avoidance: &Avoidance,
+    avoidance: &AvoidanceSettings,
     progress: &dyn Progress,
 ) -> Result<Vec<Vec2>, FormationError> {
     for step in 0..STEPS {
@@ -65,7 +65,7 @@ fn smoother(count: usize, moments: f64) -> Smoother {
 }
 
 /// How everybody would have to move in each moment by itself, 0 where nobody overlaps.
-fn remedies(crowd: &Crowd<'_>, ways: &[Vec2]) -> Vec<Vec2> {
+fn remedies(crowd: &BodyTracks<'_>, ways: &[Vec2]) -> Vec<Vec2> {
     let width = crowd.bodies;
     let mut remedies = vec![Vec2::ZERO; ways.len()];
     remedies.par_chunks_mut(width).enumerate().for_each(|(moment, remedies)| {
@@ -88,7 +88,7 @@ fn remedies(crowd: &Crowd<'_>, ways: &[Vec2]) -> Vec<Vec2> {
 }
 
 /// The ways, and where they still overlap every moment's own remedy, which fades away over the moments after it.
-fn made_sure(crowd: &Crowd<'_>, ways: &[Vec2], fps: f64) -> Vec<Vec2> {
+fn made_sure(crowd: &BodyTracks<'_>, ways: &[Vec2], fps: f64) -> Vec<Vec2> {
     let width = crowd.bodies;
     let keep = (1.0 - 1.0 / (FADE_S * fps)).max(0.0);
     let mut sure = ways.to_vec();
@@ -114,7 +114,7 @@ fn made_sure(crowd: &Crowd<'_>, ways: &[Vec2], fps: f64) -> Vec<Vec2> {
 }
 
 /// What makes sure, smoothed for those whom it would move too suddenly.
-fn softened(crowd: &Crowd<'_>, ways: &[Vec2], mut sure: Vec<Vec2>, fps: f64) -> Vec<Vec2> {
+fn softened(crowd: &BodyTracks<'_>, ways: &[Vec2], mut sure: Vec<Vec2>, fps: f64) -> Vec<Vec2> {
     let (width, moments) = (crowd.bodies, crowd.moments());
     let mut span_s = SMOOTHED_S;
     for _ in 0..SMOOTHINGS {
@@ -148,7 +148,7 @@ fn hardest_m_s2(offsets: &[Vec2], body: usize, width: usize, fps: f64) -> f64 {
 }
 
 /// Says where and when it was too crowded, if it was.
-fn crowding(crowd: &Crowd<'_>, offsets: &[Vec2], fps: f64) -> Option<String> {
+fn crowding(crowd: &BodyTracks<'_>, offsets: &[Vec2], fps: f64) -> Option<String> {
     const HINT: &str = "spread the key formations, leave more time between them, or set a smaller `avoid.distance_m`";
     let at =
         |moment: usize, place: Vec2| format!("at {:.1} s near [{:.1}, {:.1}] m", moment as f64 / fps, place.x, place.y);
@@ -171,7 +171,7 @@ fn crowding(crowd: &Crowd<'_>, offsets: &[Vec2], fps: f64) -> Option<String> {
 
 /// Which two come nearest to each other, for the distance that they should keep, if they come nearer than that: when, how far
 /// they are apart and should be, and where.
-fn nearest(crowd: &Crowd<'_>, offsets: &[Vec2]) -> Option<(usize, [f64; 2], Vec2)> {
+fn nearest(crowd: &BodyTracks<'_>, offsets: &[Vec2]) -> Option<(usize, [f64; 2], Vec2)> {
     /// Nearer by less than this share of the distance is rounding.
     const ROUNDING: f64 = 1e-5;
     let worst_at = |moment: usize| {

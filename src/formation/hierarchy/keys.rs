@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::super::assignment::assign;
+use super::super::assignment::assign_places;
 use super::super::picture::{is_picture, read_picture, read_points};
 use super::super::places::{
     Outline, centred, centroid, disc, grid, grid_of, line, outline, polygon, ranks_of_triangle, rings, spread, star,
@@ -105,7 +105,7 @@ pub(super) fn places(
     }
     // Seen from the middle, and with the whole that wheels.
     let to = turned(&centred(&placed), -cast.wheel_rad);
-    Ok(assign(&centred(cast.before), &to).into_iter().map(|place| placed[place]).collect())
+    Ok(assign_places(&centred(cast.before), &to).into_iter().map(|place| placed[place]).collect())
 }
 
 /// Places in the formation's own frame, up forward.

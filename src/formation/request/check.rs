@@ -1,6 +1,6 @@
 use super::{
-    CrowdRequest, DEEPEST, ExampleRequest, FARTHEST_M, FormationRequest, KeyRequest, MOST_PEOPLE, Members,
-    RequestError, Section, Shape,
+    CrowdRequest, CrowdSection, DEEPEST, ExampleRequest, FARTHEST_M, FormationRequest, KeyRequest, MOST_PEOPLE,
+    Members, RequestError, Shape,
 };
 use crate::math::Vec2;
 use crate::recordings::FRAME_RATES;
@@ -50,7 +50,7 @@ impl FormationRequest {
     }
 }
 
-impl Section<'_> {
+impl CrowdSection<'_> {
     fn check(&self, path: &str, depth: usize, duration_s: Option<f64>) -> Result<(), Wrong> {
         self.example.check(&format!("{path}.example"))?;
         number(path, "fluctuation", self.fluctuation, 0.0, 10.0)?;

@@ -119,7 +119,7 @@ pub struct CrowdRequest {
 /// What a crowd and the small crowds within it have in common.
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs)] // as in FormationRequest
-pub(super) struct Section<'r> {
+pub(super) struct CrowdSection<'r> {
     pub example: &'r ExampleRequest,
     pub fluctuation: Option<f64>,
     pub stays_with: Option<Stays>,
@@ -135,7 +135,7 @@ pub(super) struct Section<'r> {
 
 macro_rules! section {
     ($request:expr) => {
-        Section {
+        CrowdSection {
             example: &$request.example,
             fluctuation: $request.fluctuation,
             stays_with: $request.stays_with,
@@ -152,13 +152,13 @@ macro_rules! section {
 }
 
 impl FormationRequest {
-    pub(super) fn section(&self) -> Section<'_> {
+    pub(super) fn section(&self) -> CrowdSection<'_> {
         section!(self)
     }
 }
 
 impl CrowdRequest {
-    pub(super) fn section(&self) -> Section<'_> {
+    pub(super) fn section(&self) -> CrowdSection<'_> {
         section!(self)
     }
 

@@ -1,8 +1,8 @@
 use nalgebra::DMatrix;
 
-use super::FormationError;
-use super::by_rotations;
+use super::qr::eigenvectors_by_qr;
 use super::secular::rank_one;
+use crate::formation::FormationError;
 
 /// Up to so many rows it is not divided any more.
 const SMALL: usize = 32;
@@ -20,7 +20,7 @@ pub(super) fn conquer(diagonal: &[f64], beside: &[f64]) -> Result<(DMatrix<f64>,
                 matrix[(k, k + 1)] = beside[k];
             }
         }
-        return by_rotations(matrix);
+        return eigenvectors_by_qr(matrix);
     }
     let half = n / 2;
     let torn = beside[half - 1];
@@ -33,7 +33,7 @@ pub(super) fn conquer(diagonal: &[f64], beside: &[f64]) -> Result<(DMatrix<f64>,
 
 /// Where a column has entries that are not zero: in the upper half, in both, in the lower.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Part {
+enum Half {
     Upper,
     Both,
     Lower,
@@ -43,7 +43,7 @@ enum Part {
 struct Merge {
     half: usize,
     vectors: DMatrix<f64>,
-    parts: Vec<Part>,
+    parts: Vec<Half>,
     d: Vec<f64>,
     z: Vec<f64>,
     rho: f64,
@@ -67,11 +67,11 @@ impl Merge {
             let mut column = merge.vectors.column_mut(to);
             if from < half {
                 column.rows_mut(0, half).copy_from(&first.column(from));
-                merge.parts.push(Part::Upper);
+                merge.parts.push(Half::Upper);
                 merge.z.push(first[(half - 1, from)] * std::f64::consts::FRAC_1_SQRT_2);
             } else {
                 column.rows_mut(half, n - half).copy_from(&second.column(from - half));
-                merge.parts.push(Part::Lower);
+                merge.parts.push(Half::Lower);
                 let sign = if torn < 0.0 { -1.0 } else { 1.0 };
                 merge.z.push(sign * second[(0, from - half)] * std::f64::consts::FRAC_1_SQRT_2);
             }
@@ -114,7 +114,7 @@ impl Merge {
             (*x, *y) = (cosine * *x + sine * *y, cosine * *y - sine * *x);
         }
         if self.parts[before] != self.parts[now] {
-            (self.parts[before], self.parts[now]) = (Part::Both, Part::Both);
+            (self.parts[before], self.parts[now]) = (Half::Both, Half::Both);
         }
     }
 
@@ -125,8 +125,8 @@ impl Merge {
         if !concerned.is_empty() {
             let of = |values: &[f64]| -> Vec<f64> { concerned.iter().map(|&k| values[k]).collect() };
             let (inner, found) = rank_one(&of(&self.d), &of(&self.z), self.rho);
-            let products = [(Part::Upper, 0..self.half), (Part::Lower, self.half..n)].map(|(part, rows)| {
-                let own = |&k: &usize| self.parts[concerned[k]] == part || self.parts[concerned[k]] == Part::Both;
+            let products = [(Half::Upper, 0..self.half), (Half::Lower, self.half..n)].map(|(part, rows)| {
+                let own = |&k: &usize| self.parts[concerned[k]] == part || self.parts[concerned[k]] == Half::Both;
                 let inner_rows: Vec<usize> = (0..concerned.len()).filter(own).collect();
                 let columns: Vec<usize> = inner_rows.iter().map(|&k| concerned[k]).collect();
                 let vectors = self.vectors.rows(rows.start, rows.len()).select_columns(&columns);

@@ -3,17 +3,17 @@
 //! takes half the time as a whole (`examples/measure_formation`: 64 s instead of 127 s of all processors).
 
 mod divide;
+mod qr;
 mod secular;
 mod tridiagonal;
 
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::DMatrix;
 
 use super::FormationError;
-use tridiagonal::Reduced;
+use qr::eigenvectors_by_qr;
+use tridiagonal::Tridiagonal;
 
-/// Steps in which eigenvectors of a symmetric matrix are found, per row; three do.
-const STEPS_PER_ROW: usize = 100;
-/// From so many rows on, taking the matrix apart by blocks is faster.
+/// Rows from which divide and conquer is faster than QR iterations.
 const LARGE: usize = 48;
 
 /// Eigenvectors (columns) and eigenvalues of a symmetric matrix, ascending.
@@ -30,25 +30,13 @@ pub(super) fn eigenvectors(matrix: DMatrix<f64>) -> Result<(DMatrix<f64>, Vec<f6
     }
     let largest = matrix.amax();
     if n < LARGE || largest == 0.0 || !(1.0 / largest).is_finite() {
-        return by_rotations(matrix);
+        return eigenvectors_by_qr(matrix);
     }
     // Numbers about 1: squares neither vanish nor overflow.
-    let reduced = Reduced::of(matrix / largest);
+    let reduced = Tridiagonal::of(matrix / largest);
     let (vectors, mut values) = divide::conquer(&reduced.diagonal, &reduced.beside)?;
     values.iter_mut().for_each(|value| *value *= largest);
     Ok((reduced.carry_back(vectors), values))
-}
-
-/// The same by rotations of neighbours, for small matrices.
-fn by_rotations(matrix: DMatrix<f64>) -> Result<(DMatrix<f64>, Vec<f64>), FormationError> {
-    let n = matrix.nrows();
-    let iterations = STEPS_PER_ROW * n.max(10);
-    let failed = FormationError::NoConvergence { size: n, iterations };
-    let eigen = SymmetricEigen::try_new(matrix, f64::EPSILON, iterations).ok_or(failed)?;
-    let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
-    let values = order.iter().map(|&at| eigen.eigenvalues[at]).collect();
-    Ok((eigen.eigenvectors.select_columns(&order), values))
 }
 
 #[cfg(test)]

@@ -42,7 +42,7 @@ pub(super) fn rank_one(d: &[f64], z: &[f64], rho: f64) -> (DMatrix<f64>, Vec<f64
 }
 
 /// A function's value and slope, those of poles up to one and those beyond apart.
-struct Seen {
+struct SecularValue {
     value: f64,
     size: f64,
     slope_below: f64,
@@ -59,8 +59,8 @@ fn root(d: &[f64], z: &[f64], rho: f64, i: usize) -> (usize, f64) {
     let all = rho * z.iter().map(|z| z * z).sum::<f64>();
     // Poles that the function is told by: those on both sides, for the last root the last two.
     let (left, right) = if last { (n - 2, n - 1) } else { (i, i + 1) };
-    let look = |origin: usize, at: f64| -> Seen {
-        let mut seen = Seen { value: 1.0, size: 1.0, slope_below: 0.0, slope_above: 0.0 };
+    let look = |origin: usize, at: f64| -> SecularValue {
+        let mut seen = SecularValue { value: 1.0, size: 1.0, slope_below: 0.0, slope_above: 0.0 };
         for (j, (&pole, &z)) in d.iter().zip(z).enumerate() {
             let share = z / ((pole - d[origin]) - at);
             let term = rho * z * share;

@@ -7,7 +7,7 @@ const BLOCK: usize = 32;
 ///
 /// Blocked as in Dongarra, Hammarling, Sorensen 1989 (doi 10.1016/0377-0427(89)90367-1): half of the work are products
 /// of matrices.
-pub(super) struct Reduced {
+pub(super) struct Tridiagonal {
     /// Of `T`.
     pub diagonal: Vec<f64>,
     /// Beside the diagonal of `T`.
@@ -18,11 +18,11 @@ pub(super) struct Reduced {
     scales: Vec<f64>,
 }
 
-impl Reduced {
+impl Tridiagonal {
     /// Reduces a symmetric matrix of at least two rows; only what is on and below the diagonal counts at first.
-    pub fn of(mut matrix: DMatrix<f64>) -> Reduced {
+    pub fn of(mut matrix: DMatrix<f64>) -> Tridiagonal {
         let n = matrix.nrows();
-        let mut reduced = Reduced {
+        let mut reduced = Tridiagonal {
             diagonal: vec![0.0; n],
             beside: vec![0.0; n - 1],
             reflections: DMatrix::zeros(n, n - 1),

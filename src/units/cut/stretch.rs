@@ -2,7 +2,7 @@ use super::super::areas::Areas;
 use super::super::matching::Party;
 use super::super::track::{Moment, Sample, Track};
 use super::super::unit::{AREA_DEPTHS_M, LEAST_APART_M, MOST_MEMBERS, Member, Unit};
-use super::CutOptions;
+use super::options::CutOptions;
 use super::walks::{FPS, Walks};
 use crate::math::{Vec2, vec2};
 

@@ -1,7 +1,8 @@
 use super::*;
 use crate::Silent;
-use crate::math::vec2;
+use crate::math::{Vec2, vec2};
 use crate::motion::Ensemble;
+use crate::units::SpotFrame;
 
 /// People who walk past a spot at [10, 10] whose viewer looks to the east: two side by side towards the viewer, one who
 /// comes later from the north and stops there, and one who walks by far off.

@@ -3,25 +3,27 @@ use std::path::Path;
 use super::generated::{MOST_WANDERERS, Wanted};
 use super::heading::{headings, turned_to};
 use super::keys::{self, Cast, Layout};
-use super::{Who, asked, check_size, example, way};
+use super::{example, path};
 use crate::formation::FormationError;
 use crate::formation::MOST_PEOPLE;
-use crate::formation::avoidance::{Avoidance, Body, Person};
+use crate::formation::avoidance::{AvoidanceSettings, Body, Person, keep_clear};
 use crate::formation::blend::{self, Key};
+use crate::formation::formed::FormedPerson;
 use crate::formation::places::{centroid, grid_of};
 use crate::formation::request::{
-    Assign, AvoidRequest, CrowdRequest, ExampleKind, ExampleRequest, FormationRequest, Members, RequestError, Section,
+    Assign, AvoidRequest, CrowdRequest, CrowdSection, ExampleKind, ExampleRequest, FormationRequest, Members,
+    RequestError,
 };
 use crate::math::{SplitMix64, Vec2, sin_cos, vec2};
-use crate::motion::Ensemble;
+use crate::motion::{Ensemble, MOST_PLACES};
 use crate::progress::Progress;
 use crate::recordings::Recording;
 
 /// The most people of all crowds together.
-pub const MOST_IN_ALL: usize = 1_000_000;
+const MOST_IN_ALL: usize = 1_000_000;
 
 /// Makes crowds, level by level.
-pub(super) struct Maker<'m> {
+pub(super) struct CrowdBuilder<'m> {
     folder: &'m Path,
     fps: f64,
     /// How many moments the whole has.
@@ -35,7 +37,7 @@ pub(super) struct Maker<'m> {
 
 /// Which crowd it is.
 #[derive(Clone)]
-struct Spot {
+struct CrowdContext {
     /// Its section, for errors: `formation.crowd.0`.
     key: String,
     /// Which individual it stands for.
@@ -50,9 +52,9 @@ struct Spot {
     up: Vec<Vec2>,
 }
 
-impl<'m> Maker<'m> {
-    pub fn new(folder: &'m Path, fps: f64, progress: &'m dyn Progress) -> Maker<'m> {
-        Maker { folder, fps, moments: 0, progress, read: Vec::new(), people: 0 }
+impl<'m> CrowdBuilder<'m> {
+    pub fn new(folder: &'m Path, fps: f64, progress: &'m dyn Progress) -> CrowdBuilder<'m> {
+        CrowdBuilder { folder, fps, moments: 0, progress, read: Vec::new(), people: 0 }
     }
 
     /// How long the example of the whole is, if that says it: a recording, or a part of an example.
@@ -67,9 +69,9 @@ impl<'m> Maker<'m> {
 
     /// The whole crowd, on its way and clear of each other.
     pub fn whole(&mut self, request: &FormationRequest) -> Result<Vec<Body>, FormationError> {
-        let base = way::places(request.way.as_ref(), self.fps, self.moments);
+        let base = path::places(request.way.as_ref(), self.fps, self.moments);
         let turns = request.way.as_ref().is_some_and(|way| way.follow_heading);
-        let spot = Spot {
+        let spot = CrowdContext {
             key: "formation".to_string(),
             address: Vec::new(),
             number: 0,
@@ -78,20 +80,20 @@ impl<'m> Maker<'m> {
             base,
         };
         let (mut bodies, keys) = self.section(request.section(), &spot, &request.avoid)?;
-        Avoidance::new(&request.avoid, self.fps, &keys).keep_clear(&mut bodies, self.progress)?;
+        keep_clear(&AvoidanceSettings::new(&request.avoid, self.fps, &keys), &mut bodies, self.progress)?;
         Ok(bodies)
     }
 
     /// The individuals of a crowd, small crowds in the places of those who are that; and the moments of its key formations.
     fn section(
         &mut self,
-        section: Section<'_>,
-        spot: &Spot,
+        section: CrowdSection<'_>,
+        spot: &CrowdContext,
         avoid: &AvoidRequest,
     ) -> Result<(Vec<Body>, Vec<usize>), FormationError> {
         self.progress.keep_on()?;
         let layouts: Vec<Layout> =
-            section.key.iter().map(|key| Layout::of(key, self.folder)).collect::<Result<_, _>>().map_err(asked)?;
+            section.key.iter().map(|key| Layout::of(key, self.folder)).collect::<Result<_, _>>()?;
         let example = self.example(section.example, spot, &layouts)?;
         let keys = self.keys(section, &layouts, &example, spot)?;
         let moments: Vec<usize> = keys.iter().map(|key| key.moment).collect();
@@ -116,13 +118,13 @@ impl<'m> Maker<'m> {
                 None => {
                     self.people += 1;
                     self.check_people(spot)?;
-                    bodies.push(Body::person(track, Who { address, rides: false }, avoid));
+                    bodies.push(Body::person(track, FormedPerson { address, rides: false }, avoid));
                 }
                 Some(kind) => {
                     let key = format!("{}.crowd.{kind}", spot.key);
                     let follows = section.crowd[kind].follow_heading;
                     let up = if follows { headings(&track) } else { spot.up.clone() };
-                    let inner = Spot { key, address, number: numbers[kind], free: false, base: track, up };
+                    let inner = CrowdContext { key, address, number: numbers[kind], free: false, base: track, up };
                     numbers[kind] += 1;
                     bodies.extend(self.small_crowd(&section.crowd[kind], inner, avoid)?);
                 }
@@ -135,7 +137,7 @@ impl<'m> Maker<'m> {
     fn small_crowd(
         &mut self,
         request: &CrowdRequest,
-        spot: Spot,
+        spot: CrowdContext,
         larger: &AvoidRequest,
     ) -> Result<Vec<Body>, FormationError> {
         let avoid = request.avoid.over(larger);
@@ -145,33 +147,33 @@ impl<'m> Maker<'m> {
         }
         let rider = request.rider.then(|| {
             let carriers = spot.address.iter().copied().chain([bodies.len() as u32]);
-            Person { offsets: Vec::new(), who: Who { address: carriers.collect(), rides: true } }
+            Person { offsets: Vec::new(), who: FormedPerson { address: carriers.collect(), rides: true } }
         });
         self.people += usize::from(request.rider);
         for body in &mut bodies {
             body.places.iter_mut().zip(&spot.base).for_each(|(place, &middle)| *place -= middle);
         }
-        Avoidance::new(&avoid, self.fps, &keys).keep_clear(&mut bodies, self.progress)?;
+        keep_clear(&AvoidanceSettings::new(&avoid, self.fps, &keys), &mut bodies, self.progress)?;
         let mut whole = Body::of_all(bodies, spot.base);
         whole.people.extend(rider);
         Ok(vec![whole])
     }
 
-    fn check_people(&self, spot: &Spot) -> Result<(), FormationError> {
+    fn check_people(&self, spot: &CrowdContext) -> Result<(), FormationError> {
         check_size(self.people, self.moments)?;
         if self.people > MOST_IN_ALL {
-            return Err(asked(RequestError::TooMany { key: spot.key.clone(), people: self.people }));
+            return Err(RequestError::TooMany { key: spot.key.clone(), people: self.people }.into());
         }
         Ok(())
     }
 
     /// Everybody whom a section names is there.
-    fn known(&self, crowds: &[CrowdRequest], people: usize, spot: &Spot) -> Result<(), FormationError> {
+    fn known(&self, crowds: &[CrowdRequest], people: usize, spot: &CrowdContext) -> Result<(), FormationError> {
         for (kind, crowd) in crowds.iter().enumerate() {
             let Members::List(list) = &crowd.members else { continue };
             if let Some(&person) = list.iter().find(|&&person| person as usize >= people) {
                 let key = format!("{}.crowd.{kind}.members", spot.key);
-                return Err(asked(RequestError::NoSuchPerson { key, person, people }));
+                return Err(RequestError::NoSuchPerson { key, person, people }.into());
             }
         }
         Ok(())
@@ -181,7 +183,7 @@ impl<'m> Maker<'m> {
     fn example(
         &mut self,
         request: &ExampleRequest,
-        spot: &Spot,
+        spot: &CrowdContext,
         layouts: &[Layout],
     ) -> Result<Ensemble, FormationError> {
         let key = format!("{}.example", spot.key);
@@ -189,18 +191,19 @@ impl<'m> Maker<'m> {
             self.recorded(request)?
         } else {
             let (people, columns) =
-                how_many(request, layouts, spot).ok_or_else(|| asked(RequestError::HowMany { key: key.clone() }))?;
+                how_many(request, layouts, spot).ok_or_else(|| RequestError::HowMany { key: key.clone() })?;
             let long_s = request.to_s.map(|to_s| to_s - request.from_s);
             let own = long_s.map_or(self.moments, |long_s| ((long_s * self.fps) as usize).saturating_add(1));
             let moments = own.min(self.moments);
             self.check_example(&key, people, moments)?;
             let kind = request.kind.unwrap_or(ExampleKind::Still);
             if kind == ExampleKind::Wander && people > MOST_WANDERERS {
-                return Err(asked(RequestError::Value {
+                return Err(RequestError::Value {
                     key,
                     problem: format!("{people} people wander; allowed are {MOST_WANDERERS} at most"),
                     hint: Some("make crowds of crowds with [[formation.crowd]]".to_string()),
-                }));
+                }
+                .into());
             }
             let seed = spot.address.iter().fold(request.seed, |seed, &k| {
                 SplitMix64::new(seed.wrapping_add(u64::from(k)).wrapping_add(1)).next_u64()
@@ -208,7 +211,7 @@ impl<'m> Maker<'m> {
             Wanted { request, kind, people, columns, seed, fps: self.fps, moments }.make(self.progress)?
         };
         let chosen = match &request.choose {
-            Some(choice) => chosen(&whole, choice.of_crowd(spot.number), &key).map_err(asked)?,
+            Some(choice) => chosen(&whole, choice.of_crowd(spot.number), &key)?,
             None => whole,
         };
         self.check_example(&key, chosen.people(), self.moments)?;
@@ -217,7 +220,7 @@ impl<'m> Maker<'m> {
 
     fn check_example(&self, key: &str, people: usize, moments: usize) -> Result<(), FormationError> {
         if people == 0 || people > MOST_PEOPLE {
-            return Err(asked(RequestError::TooMany { key: key.to_string(), people }));
+            return Err(RequestError::TooMany { key: key.to_string(), people }.into());
         }
         check_size(people, moments)
     }
@@ -244,10 +247,10 @@ impl<'m> Maker<'m> {
     /// Where everybody is in each key formation.
     fn keys(
         &self,
-        section: Section<'_>,
+        section: CrowdSection<'_>,
         layouts: &[Layout],
         example: &Ensemble,
-        spot: &Spot,
+        spot: &CrowdContext,
     ) -> Result<Vec<Key>, FormationError> {
         let last = self.moments - 1;
         let at = |time_s: f64| ((time_s * self.fps).round().max(0.0) as usize).min(last);
@@ -268,7 +271,7 @@ impl<'m> Maker<'m> {
                 assign: if index == 0 && still { Assign::Order } else { section.assign.unwrap_or_default() },
             };
             let key = format!("{}.key.{index}", spot.key);
-            let places_m = keys::places(request, layout, &cast, &key).map_err(asked)?;
+            let places_m = keys::places(request, layout, &cast, &key)?;
             let middle = centroid(&places_m);
             let (sin, cos) = sin_cos(-wheel_rad);
             before = places_m.iter().map(|&place| (place - middle).rotated(vec2(cos, sin))).collect();
@@ -315,7 +318,7 @@ fn has_no_formation(request: &ExampleRequest) -> bool {
 }
 
 /// How many people are made, and in rows of how many.
-fn how_many(request: &ExampleRequest, layouts: &[Layout], spot: &Spot) -> Option<(usize, usize)> {
+fn how_many(request: &ExampleRequest, layouts: &[Layout], spot: &CrowdContext) -> Option<(usize, usize)> {
     let [people, rows, columns] =
         [request.people, request.rows, request.columns].map(|count| count.map(|n| n as usize));
     let chosen = request.choose.as_ref().map(|choice| choice.of_crowd(spot.number));
@@ -338,4 +341,12 @@ fn chosen(example: &Ensemble, people: &[u32], key: &str) -> Result<Ensemble, Req
     let places =
         moments.flat_map(|moment| people.iter().map(move |&person| example.places_at(moment)[person as usize]));
     Ok(Ensemble::new(example.fps, example.start_s, (0..people.len() as u32).collect(), places.collect()))
+}
+
+/// Refuses more places than can be held.
+fn check_size(people: usize, moments: usize) -> Result<(), FormationError> {
+    match people.checked_mul(moments) {
+        Some(places) if places <= MOST_PLACES => Ok(()),
+        _ => Err(RequestError::TooLong { people, moments, most: MOST_PLACES }.into()),
+    }
 }

@@ -1,0 +1,67 @@
+use rayon::prelude::*;
+
+use super::body::Body;
+use super::nearby::{Moment, Pair, pairs_within};
+use crate::math::{Vec2, sin_cos, vec2};
+
+/// Sweeps over overlapping pairs in a step.
+pub(super) const SWEEPS: usize = 4;
+
+/// Bodies over time, moment by moment.
+pub(super) struct BodyTracks<'b> {
+    pub bodies: usize,
+    pub places: Vec<Vec2>,
+    pub reaches_m: Vec<f64>,
+    all: &'b [Body],
+}
+
+impl<'b> BodyTracks<'b> {
+    pub fn of(all: &'b [Body]) -> BodyTracks<'b> {
+        let moments = all.first().map_or(0, |body| body.places.len());
+        let each = || (0..moments).flat_map(|moment| all.iter().map(move |body| (moment, body)));
+        let places = each().map(|(moment, body)| body.places[moment]).collect();
+        let reaches_m = each().map(|(moment, body)| body.reach_m(moment)).collect();
+        BodyTracks { bodies: all.len(), places, reaches_m, all }
+    }
+
+    pub fn moments(&self) -> usize {
+        self.all.first().map_or(0, |body| body.places.len())
+    }
+
+    pub fn at(&self, moment: usize, body: u32) -> Vec2 {
+        self.places[moment * self.bodies + body as usize]
+    }
+
+    /// How far apart the middles of two bodies are kept.
+    pub fn keep_m(&self, moment: usize, [a, b]: Pair) -> f64 {
+        let at = |body: u32| self.reaches_m[moment * self.bodies + body as usize];
+        at(a) + at(b)
+    }
+
+    pub fn moment(&self, moment: usize) -> Moment<'_> {
+        let range = moment * self.bodies..(moment + 1) * self.bodies;
+        Moment { places: &self.places[range.clone()], reaches_m: &self.reaches_m[range] }
+    }
+
+    /// Everybody's places at a moment, with everybody's offsets at all moments.
+    pub fn moved(&self, moment: usize, offsets: &[Vec2]) -> Vec<Vec2> {
+        let offsets = &offsets[moment * self.bodies..(moment + 1) * self.bodies];
+        self.moment(moment).places.iter().zip(offsets).map(|(&place, &offset)| place + offset).collect()
+    }
+
+    /// Pairs nearer to each other than a gap, edge to edge, with offsets to places, moment by moment.
+    pub fn pairs(&self, offsets: &[Vec2], gap_m: f64) -> Vec<Vec<Pair>> {
+        let of = |moment: usize| {
+            let places = self.moved(moment, offsets);
+            pairs_within(Moment { places: &places, reaches_m: self.moment(moment).reaches_m }, gap_m)
+        };
+        (0..self.moments()).into_par_iter().map(of).collect()
+    }
+}
+
+/// Where to, of two who stand in one place: always the same for the same two, another for others.
+pub(super) fn any_direction(a: u32, b: u32) -> Vec2 {
+    const GOLDEN_ANGLE_RAD: f64 = 2.399_963_229_728_653;
+    let (sin, cos) = sin_cos(GOLDEN_ANGLE_RAD * (f64::from(a) * 7.0 + f64::from(b)));
+    vec2(cos, sin)
+}

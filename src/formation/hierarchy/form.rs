@@ -1,0 +1,59 @@
+use std::path::Path;
+
+use super::builder::CrowdBuilder;
+use crate::formation::FormationError;
+use crate::formation::formed::FormedCrowd;
+use crate::formation::request::{CrowdSection, FormationRequest};
+use crate::math::Vec2;
+use crate::motion::Ensemble;
+use crate::progress::{Progress, Stage};
+
+/// Frames per second where nothing else is asked for: those of the crowd's own simulation.
+const USUAL_FPS: f64 = 10.0;
+/// How long a formation lasts where nothing says it, seconds.
+const USUAL_S: f64 = 60.0;
+
+/// Makes the crowd that a request describes; paths in it start from `folder`.
+///
+/// # Errors
+/// Values out of range or that do not fit each other; files that cannot be read; formations with places for others than
+/// there are; more people or frames than can be held; [`FormationError::Interrupted`].
+pub fn form(request: &FormationRequest, folder: &Path, progress: &dyn Progress) -> Result<FormedCrowd, FormationError> {
+    request.check()?;
+    let fps = request.fps.unwrap_or(USUAL_FPS);
+    let mut builder = CrowdBuilder::new(folder, fps, progress);
+    let duration_s = match (request.duration_s, last_key_s(request)) {
+        (Some(duration_s), _) => duration_s,
+        (None, Some(last_s)) if last_s > 0.0 => last_s,
+        (None, _) => builder.example_duration_s(request)?.unwrap_or(USUAL_S),
+    };
+    // Rounding down leaves no moment after the end; a duration of a whole number of frames keeps its last.
+    builder.moments = ((duration_s * fps + 1e-6).floor() as usize).max(1) + 1;
+    let bodies = builder.whole(request)?;
+    progress.advance(Stage::Motion, 1.0);
+
+    let people = bodies.iter().map(|body| body.people.len()).sum::<usize>();
+    let mut places_m = vec![Vec2::ZERO; people * builder.moments];
+    let mut all = Vec::with_capacity(people);
+    for body in bodies {
+        for person in body.people {
+            let k = all.len();
+            for moment in 0..builder.moments {
+                let offset = person.offsets.get(moment).copied().unwrap_or_default();
+                places_m[moment * people + k] = body.places[moment] + offset;
+            }
+            all.push(person.who);
+        }
+    }
+    let ids = (0..people as u32).collect();
+    Ok(FormedCrowd { ensemble: Ensemble::new(fps, 0.0, ids, places_m), people: all })
+}
+
+/// When the last key formation of all ends, seconds.
+fn last_key_s(request: &FormationRequest) -> Option<f64> {
+    fn of(section: CrowdSection<'_>) -> Option<f64> {
+        let own = section.key.last().map(|key| key.time_s + key.hold_s);
+        section.crowd.iter().filter_map(|crowd| of(crowd.section())).chain(own).reduce(f64::max)
+    }
+    of(request.section())
+}

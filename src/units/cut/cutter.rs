@@ -1,0 +1,109 @@
+use super::groups::groups;
+use super::options::CutOptions;
+use super::stretch::{Stretch, stretch_from};
+use super::walks::{FPS, Walks};
+use crate::math::Vec2;
+use crate::motion::Motion;
+use crate::progress::Progress;
+use crate::units::{Diversity, DiversityReport, SpotFrame, Unit, UnitsError};
+
+/// Starts are tried this often, frames.
+const EVERY_FRAMES: u64 = 5;
+/// Of two units with somebody in common, the less interesting is dropped if they share more than this of the shorter.
+const MOST_SHARED: f64 = 0.3;
+
+/// The viewer's own frame.
+const VIEWER: SpotFrame = SpotFrame { at_m: Vec2::ZERO, ahead: Vec2 { x: 0.0, y: 1.0 } };
+
+/// What was cut at a spot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cuts {
+    /// The units, those of most interest first.
+    pub cuts: Vec<Cut>,
+    /// How much speeds and headings differ in the area in front, all the time.
+    pub diversity: DiversityReport,
+}
+
+/// A unit that was cut, and where it came from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cut {
+    /// The unit.
+    pub unit: Unit,
+    /// When it began in the motion, seconds.
+    pub start_s: f64,
+    /// Who its members are, in their order.
+    pub ids: Vec<u32>,
+    /// How far from uniform it is: entropies of its speeds and headings, bits, see [`Diversity`].
+    pub interest_bits: f64,
+}
+
+/// Cuts the most interesting units out of a motion, as somebody at a spot sees it.
+///
+/// Every half second those are taken who are in the front and rear area with all of their group; the stretch lasts while
+/// all of them are there, until all have left the areas, until somebody else comes near, or until it is long enough. Those
+/// belong together who keep near each other at the same velocity for seconds. The sway of heads is smoothed away. Of
+/// stretches that overlap, the one of most interest is kept; names begin with `name`.
+///
+/// # Errors
+/// What stops the motion, options out of range, a spot where there is nothing to cut, [`UnitsError::Interrupted`].
+pub fn cut(
+    motion: &mut dyn Motion,
+    name: &str,
+    spot: SpotFrame,
+    options: &CutOptions,
+    progress: &dyn Progress,
+) -> Result<Cuts, UnitsError> {
+    options.check()?;
+    let nothing =
+        |reason: &str| UnitsError::NothingToCut { x: spot.at_m.x, y: spot.at_m.y, reason: reason.to_string() };
+    let walks = Walks::read(motion, &spot, progress)?;
+    let Some([first, last]) = walks.span() else { return Err(nothing("nobody comes near")) };
+    let together = groups(&walks);
+    let mut found: Vec<(f64, Stretch)> = Vec::new();
+    let mut frame = first;
+    while frame <= last {
+        progress.keep_on()?;
+        if let Some(stretch) = stretch_from(&walks, &together, frame, options) {
+            found.push((interest_bits(&walks, &stretch, options), stretch));
+        }
+        frame += EVERY_FRAMES;
+    }
+    // The earlier of two that are as interesting.
+    found.sort_by(|(a, s), (b, t)| b.total_cmp(a).then(s.from.cmp(&t.from)));
+    let mut cuts: Vec<(Cut, Stretch)> = Vec::new();
+    for (interest_bits, stretch) in found {
+        if cuts.len() == options.most {
+            break;
+        }
+        if cuts.iter().any(|(_, kept)| stretch.shares(kept) > MOST_SHARED) {
+            continue;
+        }
+        let start_s = stretch.from as f64 / FPS;
+        let unit = stretch.unit(&walks, &together, format!("{name} {start_s:.1} s"), options);
+        // What a file could not hold, such as somebody who leaps, is no unit.
+        let Ok(unit) = Unit::parse(&unit.to_toml(), std::path::Path::new("cut")) else { continue };
+        let ids = stretch.members.iter().map(|&walk| walks.all[walk].id).collect();
+        cuts.push((Cut { unit, start_s, ids, interest_bits }, stretch));
+    }
+    if cuts.is_empty() {
+        return Err(nothing("nobody stays in the areas long enough, apart from others"));
+    }
+    let mut diversity = Diversity::new(VIEWER, options.areas);
+    for moment in (first..=last).flat_map(|frame| walks.present(frame)).map(|(_, moment)| moment) {
+        diversity.count_within(moment);
+    }
+    Ok(Cuts { cuts: cuts.into_iter().map(|(cut, _)| cut).collect(), diversity: diversity.report() })
+}
+
+fn interest_bits(walks: &Walks, stretch: &Stretch, options: &CutOptions) -> f64 {
+    let mut diversity = Diversity::new(VIEWER, options.areas);
+    for &walk in &stretch.members {
+        for frame in stretch.from..=stretch.to {
+            if let Some(moment) = walks.all[walk].at(frame) {
+                diversity.count(moment.velocity_m_s.length(), Some(moment.heading));
+            }
+        }
+    }
+    let report = diversity.report();
+    report.speed_bits + report.heading_bits
+}
