@@ -1,7 +1,7 @@
 //! What a pass over the rows of a recording finds, in the file's own numbers.
 
 use super::histogram::Histogram;
-use super::rows::{ById, Row};
+use super::row::{ById, Row};
 use crate::math::{Rect, Vec2};
 
 /// Rows of one person over which a speed is taken, so that noise and sway count little.

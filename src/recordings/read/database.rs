@@ -7,9 +7,8 @@ use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OpenFlags, params};
 
 use super::RecordingError;
-use super::detect::HIGHEST_RATE;
-use super::layout::LARGEST;
-use super::rows::{ID_LIMIT, Passed, Row};
+use super::layout::{HIGHEST_RATE, LARGEST};
+use super::row::{ID_LIMIT, Passed, Row};
 use crate::math::{Vec2, vec2};
 
 /// How an SQLite file begins.

@@ -1,27 +1,12 @@
 //! Finds out from a text's beginning how it is laid out.
 
 use super::columns::{Column, Role, Unit, assign, column_named, strange_unit, unit_named};
+use super::error::LINES;
 use super::guess;
-use super::layout::{Clock, Layout, Separator, shown};
+use super::layout::{Clock, HIGHEST_RATE, Layout, Separator, shown};
 use super::number::number;
-use super::rows::LINES;
+use super::refusal::Refusal;
 use super::{LengthUnit, RecordingFormat, RecordingOptions};
-
-/// The most frames per second that a file may say.
-pub(super) const HIGHEST_RATE: f64 = 10_000.0;
-
-/// Why a text is no recording.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Refusal {
-    /// There is nothing, or nothing but a header.
-    Empty(&'static str),
-    /// It is something else.
-    Unknown { found: String, hint: String },
-    /// A line makes no sense.
-    Line { line: u64, problem: String, hint: String },
-    /// `--columns` makes no sense.
-    Columns(String),
-}
 
 /// A line with its number, from 1.
 type Numbered<'a> = (u64, &'a [u8]);

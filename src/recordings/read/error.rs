@@ -1,9 +1,11 @@
 use std::path::PathBuf;
 
 use super::format::RecordingFormat;
-use super::rows::LINES;
 use crate::files::FileError;
 use crate::motion::SourceError;
+
+/// What recordings look like.
+pub(super) const LINES: &str = "a recording has a line for everybody in every frame: who, when, x, y";
 
 /// Why a recording cannot be read or written.
 #[derive(Debug, thiserror::Error)]

@@ -4,9 +4,9 @@ use std::collections::{HashMap, HashSet};
 
 use super::RecordingFormat;
 use super::columns::{Column, Role};
-use super::detect::Refusal;
 use super::layout::{Layout, Separator, shown};
 use super::number::{number, stamp};
+use super::refusal::Refusal;
 
 /// Rows looked at.
 const ROWS: usize = 20_000;

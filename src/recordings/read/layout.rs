@@ -6,6 +6,8 @@ use super::{LengthUnit, RecordingFormat};
 
 /// Numbers beyond this are no places, frames or times: 1e9 m is farther than the moon.
 pub(super) const LARGEST: f64 = 1e15;
+/// The most frames per second that a file may say.
+pub(super) const HIGHEST_RATE: f64 = 10_000.0;
 /// Characters of a value that an error shows.
 const SHOWN: usize = 40;
 

@@ -4,11 +4,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::RecordingError;
-use super::rows::{Row, Rows, Stop};
+use super::row::Row;
 use crate::math::{Vec2, vec2};
 
 /// Rows by time, then id, then their order in the file.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Sorted {
     rows: Vec<Compact>,
     /// Lines by the rows' order in the file.
@@ -34,33 +34,30 @@ struct Extra {
 }
 
 impl Sorted {
-    /// Reads all rows; `check` looks now and then whether to stop.
-    pub fn read(
-        rows: &mut Rows,
-        path: &Path,
-        check: impl Fn(&Rows) -> Result<(), RecordingError>,
-    ) -> Result<Sorted, Stop> {
-        let mut sorted = Sorted { rows: Vec::new(), lines: Vec::new(), extras: Vec::new() };
-        while let Some(row) = rows.next()? {
-            let Ok(order) = u32::try_from(sorted.rows.len()) else {
-                let (path, hint) = (path.to_path_buf(), "sort it by time first");
-                let problem = "more than 4 billion rows that are not in the order of time".to_owned();
-                return Err(RecordingError::Unreadable { path, problem, hint }.into());
-            };
-            if order.is_multiple_of(1 << 16) {
-                check(rows)?;
-            }
-            let Row { id, line, time, at, velocity, heading, until } = row;
-            let extra = velocity.is_some() || heading.is_some() || until.is_some();
-            if extra || !sorted.extras.is_empty() {
-                sorted.extras.resize(order as usize, Extra::default());
-                sorted.extras.push(Extra { velocity, heading, until });
-            }
-            sorted.lines.push(u32::try_from(line).unwrap_or(u32::MAX));
-            sorted.rows.push(Compact { time, x: at.x, y: at.y, id, order });
+    /// Adds a row.
+    ///
+    /// # Errors
+    /// More rows than can be counted.
+    pub fn push(&mut self, row: Row, path: &Path) -> Result<(), RecordingError> {
+        let Ok(order) = u32::try_from(self.rows.len()) else {
+            let (path, hint) = (path.to_path_buf(), "sort it by time first");
+            let problem = "more than 4 billion rows that are not in the order of time".to_owned();
+            return Err(RecordingError::Unreadable { path, problem, hint });
+        };
+        let Row { id, line, time, at, velocity, heading, until } = row;
+        let extra = velocity.is_some() || heading.is_some() || until.is_some();
+        if extra || !self.extras.is_empty() {
+            self.extras.resize(order as usize, Extra::default());
+            self.extras.push(Extra { velocity, heading, until });
         }
-        sorted.rows.sort_unstable_by(|a, b| a.time.total_cmp(&b.time).then((a.id, a.order).cmp(&(b.id, b.order))));
-        Ok(sorted)
+        self.lines.push(u32::try_from(line).unwrap_or(u32::MAX));
+        self.rows.push(Compact { time, x: at.x, y: at.y, id, order });
+        Ok(())
+    }
+
+    /// Sorts all rows by time, then id, then their order in the file.
+    pub fn sort(&mut self) {
+        self.rows.sort_unstable_by(|a, b| a.time.total_cmp(&b.time).then((a.id, a.order).cmp(&(b.id, b.order))));
     }
 
     fn row(&self, at: usize) -> Option<Row> {

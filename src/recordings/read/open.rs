@@ -7,41 +7,27 @@ use std::sync::Arc;
 
 use super::census::{Census, Objection};
 use super::columns::Role;
+use super::content::{RecordingContent, RowSource};
 use super::database::{self, DatabaseRows};
-use super::detect::{self, Refusal};
+use super::detect;
 use super::guess;
 use super::input::Lines;
 use super::layout::{Clock, Layout, shown};
-use super::memory::{MemoryRows, Sorted};
-use super::rows::{Numbering, Passed, Row, Rows, Stop, TextRows, moment, unreadable, who};
+use super::memory::Sorted;
+use super::refusal::Refusal;
+use super::row::{Numbering, Passed, Row, Stop, moment, who};
+use super::rows::Rows;
 use super::scale::{Alignment, Scale, Stated, TimeScale, rotation};
-use super::{Content, Recording, RecordingError, RecordingFormat, RecordingOptions, Survey};
+use super::text_rows::unreadable;
+use super::{LengthUnit, RecordingError, RecordingFormat, RecordingOptions, Survey};
 use crate::math::{Rect, Vec2};
 use crate::{Progress, Stage};
-
-/// Where rows come from, as often as they are wanted.
-#[derive(Clone, Debug)]
-pub(super) enum Source {
-    Text(Arc<Layout>, Numbering),
-    Database,
-    Memory(Arc<Sorted>),
-}
-
-impl Source {
-    pub fn rows(&self, path: &Path) -> Result<Rows, RecordingError> {
-        Ok(match self {
-            Source::Text(layout, numbering) => Rows::Text(Box::new(TextRows::open(path, layout, *numbering)?)),
-            Source::Database => Rows::Database(Box::new(DatabaseRows::open(path)?)),
-            Source::Memory(sorted) => Rows::Memory(MemoryRows::new(sorted)),
-        })
-    }
-}
 
 pub(super) fn open(
     path: &Path,
     options: &RecordingOptions,
     progress: &dyn Progress,
-) -> Result<Recording, RecordingError> {
+) -> Result<RecordingContent, RecordingError> {
     check(options)?;
     let (source, stated, mut warnings) = if is_database(path, options)? {
         let database = DatabaseRows::open(path)?;
@@ -54,20 +40,20 @@ pub(super) fn open(
             format: RecordingFormat::Jupedsim,
             clock: Clock::Frames,
             fps: about.fps,
-            unit: Some(super::LengthUnit::Metre),
+            unit: Some(LengthUnit::Metre),
             unit_of_heights: None,
             bare: false,
             angles: false,
         };
-        (Source::Database, stated, Vec::new())
+        (RowSource::Database, stated, Vec::new())
     } else {
         let (layout, stated) = read_head(path, options)?;
         let warnings = layout.warnings.clone();
-        (Source::Text(Arc::new(layout), Numbering::Own), stated, warnings)
+        (RowSource::Text(Arc::new(layout), Numbering::Own), stated, warnings)
     };
     let frames = stated.clock == Clock::Frames;
-    let way = Way { path, frames, turn: rotation(options.rotation_deg), progress };
-    let Counted { source, mut census, passed, in_order } = count(source, way)?;
+    let way = CensusTask { path, frames, turn: rotation(options.rotation_deg), progress };
+    let Counting { source, mut census, passed, in_order } = count(source, way)?;
     let Some(bounds) = census.bounds else {
         let what = if passed.nowhere > 0 { "nobody has a place" } else { "there is a header, but nothing behind it" };
         return Err(RecordingError::Empty { path: path.to_path_buf(), what });
@@ -77,8 +63,8 @@ pub(super) fn open(
         .map_err(|_| RecordingError::UnknownRate { path: path.to_path_buf() })?;
     let alignment = Alignment::new(scale.unit, options);
     let survey = survey(&mut census, &stated, &scale, &alignment, bounds, in_order, warnings);
-    let content = Content { path: path.to_path_buf(), first_time: census.first_time, survey, source, scale, alignment };
-    Ok(Recording { content: Arc::new(content) })
+    let (path, first_time) = (path.to_path_buf(), census.first_time);
+    Ok(RecordingContent { path, survey, source, scale, alignment, first_time })
 }
 
 fn check(options: &RecordingOptions) -> Result<(), RecordingError> {
@@ -158,7 +144,7 @@ const OFTEN: u64 = 1 << 16;
 
 /// How rows are counted.
 #[derive(Clone, Copy)]
-struct Way<'a> {
+struct CensusTask<'a> {
     path: &'a Path,
     /// Whether moments are frames.
     frames: bool,
@@ -167,7 +153,7 @@ struct Way<'a> {
     progress: &'a dyn Progress,
 }
 
-impl Way<'_> {
+impl CensusTask<'_> {
     /// Whether to stop here.
     fn check(&self, rows: &Rows) -> Result<(), RecordingError> {
         if self.progress.interrupted() {
@@ -180,8 +166,8 @@ impl Way<'_> {
 }
 
 /// What counting gave.
-struct Counted {
-    source: Source,
+struct Counting {
+    source: RowSource,
     census: Census,
     passed: Passed,
     in_order: bool,
@@ -189,13 +175,13 @@ struct Counted {
 
 /// Counts all rows: as they come; if they are not in the order of time, sorted. If an id is no number, people are
 /// numbered.
-fn count(mut source: Source, way: Way<'_>) -> Result<Counted, RecordingError> {
+fn count(mut source: RowSource, way: CensusTask<'_>) -> Result<Counting, RecordingError> {
     let path = way.path;
     loop {
         let mut rows = source.rows(path)?;
         let again = match census_of(&mut rows, &source, way) {
             Ok(census) => {
-                return Ok(Counted { passed: rows.passed(), source, census, in_order: true });
+                return Ok(Counting { passed: rows.passed(), source, census, in_order: true });
             }
             Err(Obstacle::Error(error)) => return Err(error),
             Err(Obstacle::Name) => None,
@@ -206,13 +192,13 @@ fn count(mut source: Source, way: Way<'_>) -> Result<Counted, RecordingError> {
             continue;
         }
         let mut rows = source.rows(path)?;
-        match Sorted::read(&mut rows, path, |rows| way.check(rows)) {
+        match sorted(&mut rows, way) {
             Ok(sorted) => {
                 let passed = rows.passed();
-                let sorted = Source::Memory(Arc::new(sorted));
+                let sorted = RowSource::Memory(Arc::new(sorted));
                 let mut rows = sorted.rows(path)?;
                 return match census_of(&mut rows, &source, way) {
-                    Ok(census) => Ok(Counted { passed, source: sorted, census, in_order: false }),
+                    Ok(census) => Ok(Counting { passed, source: sorted, census, in_order: false }),
                     Err(Obstacle::Error(error)) => Err(error),
                     Err(Obstacle::Name | Obstacle::Disorder) => {
                         Err(RecordingError::Empty { path: path.to_path_buf(), what: "its times have no order" })
@@ -225,9 +211,23 @@ fn count(mut source: Source, way: Way<'_>) -> Result<Counted, RecordingError> {
     }
 }
 
-fn numbered(source: Source) -> Source {
+/// Reads all rows into memory, in the order of time.
+fn sorted(rows: &mut Rows, way: CensusTask<'_>) -> Result<Sorted, Stop> {
+    let mut sorted = Sorted::default();
+    for count in 0u64.. {
+        let Some(row) = rows.next()? else { break };
+        if count % OFTEN == 0 {
+            way.check(rows)?;
+        }
+        sorted.push(row, way.path)?;
+    }
+    sorted.sort();
+    Ok(sorted)
+}
+
+fn numbered(source: RowSource) -> RowSource {
     match source {
-        Source::Text(layout, _) => Source::Text(layout, Numbering::Appearance),
+        RowSource::Text(layout, _) => RowSource::Text(layout, Numbering::Appearance),
         source => source,
     }
 }
@@ -239,10 +239,10 @@ enum Obstacle {
     Error(RecordingError),
 }
 
-fn census_of(rows: &mut Rows, source: &Source, way: Way<'_>) -> Result<Census, Obstacle> {
+fn census_of(rows: &mut Rows, source: &RowSource, way: CensusTask<'_>) -> Result<Census, Obstacle> {
     let numbering = match source {
-        Source::Text(_, numbering) => *numbering,
-        Source::Database | Source::Memory(_) => Numbering::Own,
+        RowSource::Text(_, numbering) => *numbering,
+        RowSource::Database | RowSource::Memory(_) => Numbering::Own,
     };
     let mut census = Census::new(way.turn);
     for count in 0u64.. {

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::RecordingError;
-use super::rows::{ById, Row, Rows, Stop};
+use super::row::{ById, Row, Stop};
+use super::rows::Rows;
 use super::scale::{Alignment, Scale};
 use crate::math::Vec2;
 use crate::motion::{Frame, Motion, MotionError, Walker};

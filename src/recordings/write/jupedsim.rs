@@ -3,7 +3,10 @@ use std::path::Path;
 
 use rusqlite::{Connection, ErrorCode, params};
 
-use super::{MapFrame, Place, RecordedWorld, Sheet, wkt};
+use super::place::{MapFrame, Place};
+use super::sheet::Sheet;
+use super::wkt;
+use super::world::RecordedWorld;
 use crate::math::Rect;
 
 /// The tables of a JuPedSim database, version 2, as its `sqlite_serialization.py` makes them.

@@ -9,39 +9,30 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::files::{FileError, WholeFile};
-use crate::math::{Vec2, sin_cos, vec2};
 use crate::motion::{Frame, People, Resampler, Walker};
-use crate::plan::{FloorPlan, Pose};
 use crate::recordings::{RecordingError, RecordingFormat};
-use crate::walls::Walls;
 
 mod form;
 mod jupedsim;
+mod place;
 mod rows;
+mod sheet;
 mod text;
 mod vadere;
 mod wkt;
+mod world;
 
 pub use form::RecordForm;
 use jupedsim::JupedsimDatabase;
+use place::{MapFrame, Place};
 use rows::Rows;
+use sheet::Sheet;
 use text::{Layout, Out, Text};
 use vadere::Steps;
+pub use world::RecordedWorld;
 
 /// Least and most frames per second of a recording.
 pub const FRAME_RATES: [f64; 2] = [0.1, 1000.0];
-
-/// What a recording says of the world that people walk in. Places are written in the map frame: that of the ROS map
-/// where the plan is one, and the plan frame elsewhere.
-#[derive(Clone, Copy, Debug)]
-pub struct RecordedWorld<'a> {
-    /// Where the plan lies on the map.
-    pub plan: &'a FloorPlan,
-    /// The floor that people can walk on, aprons included.
-    pub walls: &'a Walls,
-    /// How tall people are.
-    pub people: &'a People,
-}
 
 /// What was recorded.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -56,28 +47,6 @@ pub struct Recorded {
     pub places: u64,
     /// Size of the file.
     pub bytes: u64,
-}
-
-/// Somebody's place as it is written.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Place {
-    id: u32,
-    /// Map frame, metres, rounded to 0.1 mm.
-    at: Vec2,
-    /// Metres per second, map frame.
-    velocity_m_s: Vec2,
-    /// Body height, metres.
-    height_m: f64,
-    /// Unit vector in which the body faces, map frame.
-    facing: Vec2,
-}
-
-/// A file in the making.
-trait Sheet: Send {
-    fn frame(&mut self, number: u64, places: &[Place]) -> io::Result<()>;
-
-    /// Writes what is left; gives the number of bytes written if it was counted.
-    fn close(self: Box<Self>) -> io::Result<u64>;
 }
 
 /// Records a motion at a frame rate of its own: between the motion's frames, places are interpolated.
@@ -247,45 +216,6 @@ fn measure_heights(heights: &mut Vec<(u32, f64)>, walkers: &[Walker], people: &P
         };
         heights.push((walker.id, height_m));
     }
-}
-
-/// From the plan frame to the map frame.
-#[derive(Clone, Copy, Debug)]
-struct MapFrame {
-    origin_m: Vec2,
-    /// Cosine and sine of the turn.
-    turn: Vec2,
-}
-
-impl MapFrame {
-    fn of(pose: &Pose) -> MapFrame {
-        let (sin, cos) = sin_cos(pose.yaw_rad);
-        MapFrame { origin_m: pose.origin_m, turn: vec2(cos, sin) }
-    }
-
-    fn point(&self, p: Vec2) -> Vec2 {
-        rounded(self.origin_m + p.rotated(self.turn))
-    }
-
-    fn place(&self, walker: &Walker, height_m: f64) -> Place {
-        let facing = walker.heading.or_else(|| walker.velocity_m_s.normalized()).unwrap_or(vec2(1.0, 0.0));
-        Place {
-            id: walker.id,
-            at: self.point(walker.position_m),
-            velocity_m_s: walker.velocity_m_s.rotated(self.turn),
-            height_m,
-            facing: rounded(facing.rotated(self.turn)),
-        }
-    }
-}
-
-/// Decimals of what is written: tenths of a millimetre.
-const PER_UNIT: f64 = 1e4;
-
-fn rounded(p: Vec2) -> Vec2 {
-    // Zero is never written with a sign.
-    let round = |v: f64| (v * PER_UNIT).round() / PER_UNIT + 0.0;
-    vec2(round(p.x), round(p.y))
 }
 
 #[cfg(test)]

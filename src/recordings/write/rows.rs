@@ -1,7 +1,7 @@
 //! Formats with a line for everybody in every frame.
 
 use super::super::RecordingFormat;
-use super::Place;
+use super::place::Place;
 use super::text::{Clock, Layout, Line};
 use crate::math::atan2;
 

@@ -5,7 +5,8 @@ use std::io::{self, Write};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 
-use super::{PER_UNIT, Place, Sheet};
+use super::place::{PER_UNIT, Place};
+use super::sheet::Sheet;
 
 /// How the text of a format looks.
 pub(super) trait Layout: Send {

@@ -1,4 +1,4 @@
-use super::Place;
+use super::place::Place;
 use super::text::{Clock, Layout, Line};
 use crate::motion::FASTEST_M_S;
 

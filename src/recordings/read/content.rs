@@ -1,0 +1,40 @@
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::database::DatabaseRows;
+use super::layout::Layout;
+use super::memory::{MemoryRows, Sorted};
+use super::row::Numbering;
+use super::rows::Rows;
+use super::scale::{Alignment, Scale};
+use super::text_rows::TextRows;
+use super::{RecordingError, Survey};
+
+/// A surveyed recording: all that is needed to read its rows again.
+#[derive(Debug)]
+pub(super) struct RecordingContent {
+    pub path: PathBuf,
+    pub survey: Survey,
+    pub source: RowSource,
+    pub scale: Scale,
+    pub alignment: Alignment,
+    pub first_time: f64,
+}
+
+/// Where rows come from, as often as they are wanted.
+#[derive(Clone, Debug)]
+pub(super) enum RowSource {
+    Text(Arc<Layout>, Numbering),
+    Database,
+    Memory(Arc<Sorted>),
+}
+
+impl RowSource {
+    pub fn rows(&self, path: &Path) -> Result<Rows, RecordingError> {
+        Ok(match self {
+            RowSource::Text(layout, numbering) => Rows::Text(Box::new(TextRows::open(path, layout, *numbering)?)),
+            RowSource::Database => Rows::Database(Box::new(DatabaseRows::open(path)?)),
+            RowSource::Memory(sorted) => Rows::Memory(MemoryRows::new(sorted)),
+        })
+    }
+}

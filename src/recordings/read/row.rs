@@ -1,0 +1,98 @@
+//! Rows of a recording.
+
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
+
+use super::RecordingError;
+use super::layout::shown;
+use crate::math::Vec2;
+
+/// Ids of files are kept where they are whole numbers below this.
+pub(super) const ID_LIMIT: f64 = 1e7;
+
+/// Somebody's place as the file tells it, in its own numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Row {
+    pub id: u32,
+    /// Line, from 1; in a database the row's number.
+    pub line: u64,
+    pub time: f64,
+    pub at: Vec2,
+    pub velocity: Option<Vec2>,
+    pub heading: Option<Vec2>,
+    /// When and where a step ends that begins here.
+    pub until: Option<(f64, Vec2)>,
+}
+
+/// How people are numbered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Numbering {
+    /// As in the file.
+    Own,
+    /// From 1, as they first appear.
+    Appearance,
+}
+
+/// What was passed over.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Passed {
+    /// Rows without a place, and the line of the first.
+    pub nowhere: u64,
+    pub first_nowhere: u64,
+    /// The last line if it breaks off.
+    pub broken: Option<u64>,
+}
+
+/// What stops rows from coming.
+#[derive(Debug)]
+pub(super) enum Stop {
+    /// An id that is no whole number below [`ID_LIMIT`]: people have to be numbered.
+    Name,
+    Error(RecordingError),
+}
+
+impl From<RecordingError> for Stop {
+    fn from(error: RecordingError) -> Stop {
+        Stop::Error(error)
+    }
+}
+
+/// Who a row is about, for messages.
+pub(super) fn who(id: u32, numbering: Numbering) -> String {
+    match numbering {
+        Numbering::Own => format!("person {id}"),
+        Numbering::Appearance => format!("the person who appears as number {id}"),
+    }
+}
+
+/// A value of the file for messages.
+pub(super) fn moment(time: f64, frames: bool) -> String {
+    if frames {
+        format!("frame {time}")
+    } else {
+        format!("time {}", shown(time.to_string().as_bytes()).trim_matches('`'))
+    }
+}
+
+/// Spreads ids over a table of people; they are small whole numbers, mostly in a row.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct IdHasher(u64);
+
+impl Hasher for IdHasher {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|&byte| self.write_u32(u32::from(byte)));
+    }
+
+    fn write_u32(&mut self, id: u32) {
+        // The golden ratio's bits; the table uses the upper ones too.
+        let mixed = (self.0 ^ u64::from(id)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        self.0 = mixed ^ (mixed >> 32);
+    }
+}
+
+/// Something for each person.
+pub(super) type ById<T> = HashMap<u32, T, BuildHasherDefault<IdHasher>>;
