@@ -6,17 +6,17 @@
 use std::path::Path;
 
 use trodden::Silent;
-use trodden::formation::{Formed, form};
+use trodden::formation::{FormedCrowd, form};
 use trodden::scenario::{Overrides, Scenario};
 
-fn sample(name: &str) -> Formed {
+fn sample(name: &str) -> FormedCrowd {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("floorplans").join(name);
     let scenario = Scenario::open(&path, &Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
     form(&scenario.formation.unwrap(), &scenario.folder, &Silent).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The least distance between two who touch the floor, metres.
-fn nearest_m(formed: &Formed) -> f64 {
+fn nearest_m(formed: &FormedCrowd) -> f64 {
     let on_foot = formed.on_foot();
     let mut nearest_m = f64::MAX;
     for moment in 0..on_foot.moments() {
@@ -29,7 +29,7 @@ fn nearest_m(formed: &Formed) -> f64 {
 }
 
 /// The fastest that anybody goes, m/s, and the hardest that anybody changes velocity, m/s2.
-fn extremes(formed: &Formed) -> [f64; 2] {
+fn extremes(formed: &FormedCrowd) -> [f64; 2] {
     let ensemble = &formed.ensemble;
     let fps = ensemble.fps;
     let (mut fastest, mut hardest) = (0.0_f64, 0.0_f64);

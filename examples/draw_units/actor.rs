@@ -1,5 +1,5 @@
 use trodden::math::{Vec2, atan2, sin_cos, vec2};
-use trodden::units::{Member, Sample, Track, Unit};
+use trodden::units::{Member, TrackSample, Unit, UnitTrack};
 
 /// Samples per second of a drawn unit.
 const FPS: f64 = 5.0;
@@ -114,10 +114,10 @@ impl Actor {
                 weights = [weights[0] + way, weights[1] + turn];
             }
             let (sin, cos) = sin_cos(angle / weights[1]);
-            Sample { time_s, place_m: place / weights[0], heading: vec2(cos, sin) }
+            TrackSample { time_s, place_m: place / weights[0], heading: vec2(cos, sin) }
         };
         let count = (duration_s * FPS).round() as u32;
-        Member { group: self.group, track: Track::new((0..=count).map(sample).collect()) }
+        Member { group: self.group, track: UnitTrack::new((0..=count).map(sample).collect()) }
     }
 }
 
@@ -156,7 +156,7 @@ impl Scene {
         Unit {
             name: self.name.clone(),
             description: self.description.clone(),
-            viewer: Track::new(vec![Sample { time_s: 0.0, place_m: Vec2::ZERO, heading: vec2(0.0, 1.0) }]),
+            viewer: UnitTrack::new(vec![TrackSample { time_s: 0.0, place_m: Vec2::ZERO, heading: vec2(0.0, 1.0) }]),
             area_m: [3.0, depth_m.clamp(3.5, 7.0)],
             duration_s: self.duration_s,
             members,

@@ -9,7 +9,7 @@
 
 use std::path::Path;
 
-use trodden::units::{Moment, Unit};
+use trodden::units::{TrackState, Unit};
 
 mod actor;
 mod cuts;
@@ -29,7 +29,7 @@ pub fn problems(unit: &Unit) -> Vec<String> {
     let mut when = [(0.0, 0, 0); 5];
     for k in 0..=looks {
         let time_s = k as f64 * 0.1;
-        let now: Vec<Moment> = (0..unit.members.len()).map(|m| unit.moment(m, time_s, false)).collect();
+        let now: Vec<TrackState> = (0..unit.members.len()).map(|m| unit.moment(m, time_s, false)).collect();
         let mut note = |which: usize, value: f64, a: usize, b: usize| {
             let worse = if which < 2 { value < worst[which] } else { value > worst[which] };
             if worse {

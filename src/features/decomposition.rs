@@ -4,7 +4,7 @@ use serde::Serialize;
 use super::displacement::{Displacement, column_squares, columns_of};
 use super::modulation::{Modulation, SelectedComponent, check_components};
 use super::neighbours::KirchhoffSums;
-use super::part::Part;
+use super::progress_range::ProgressRange;
 use super::{FeaturesError, FeaturesOptions, Method, laplacian, principal};
 use crate::motion::Ensemble;
 use crate::progress::Progress;
@@ -17,7 +17,7 @@ const STILL_M: f64 = 1e-9;
 pub struct Features {
     options: FeaturesOptions,
     pub(super) displacement: Displacement,
-    components: Vec<Component>,
+    components: Vec<FeatureComponent>,
     /// A column per component: for principal components everybody's x and then everybody's y, for the Laplacian a number
     /// per person.
     vectors: DMatrix<f64>,
@@ -29,7 +29,7 @@ pub struct Features {
 
 /// How much of a motion a component is.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Component {
+pub struct FeatureComponent {
     /// The eigenvalue by which components are ordered: of principal components the variance in square metres, of the
     /// Laplacian the variance of the neighbourhoods, in neighbours squared.
     pub eigenvalue: f64,
@@ -54,13 +54,13 @@ impl Features {
         options: &FeaturesOptions,
         progress: &dyn Progress,
     ) -> Result<Features, FeaturesError> {
-        Features::find_part(ensemble, options, &Part::whole(progress))
+        Features::find_part(ensemble, options, &ProgressRange::whole(progress))
     }
 
     pub(super) fn find_part(
         ensemble: &Ensemble,
         options: &FeaturesOptions,
-        part: &Part<'_>,
+        part: &ProgressRange<'_>,
     ) -> Result<Features, FeaturesError> {
         options.check()?;
         part.advance(0.0);
@@ -96,7 +96,7 @@ impl Features {
             // The eigenvalue is the variance; measured along the vectors it is exact where it is small.
             order.sort_by(|&a, &b| variances[b].total_cmp(&variances[a]));
         }
-        let component = |&at: &usize| Component {
+        let component = |&at: &usize| FeatureComponent {
             eigenvalue: values.as_ref().map_or(variances[at], |values| values[at]),
             variance_m2: variances[at],
             share: variances[at] / total_m2,
@@ -130,7 +130,7 @@ impl Features {
 
     /// The components in their order. Principal components along which nobody moves are left out; there are at most
     /// 2n - 2 for n people, for the middle is kept apart. The Laplacian has always n.
-    pub fn components(&self) -> &[Component] {
+    pub fn components(&self) -> &[FeatureComponent] {
         &self.components
     }
 

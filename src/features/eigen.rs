@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::FeaturesError;
 use super::displacement::columns_of;
-use super::part::Part;
+use super::progress_range::ProgressRange;
 
 /// Largest matrix whose eigenvectors are sought: about half a minute, and 0.5 GB with what goes with it.
 pub const MOST_ROWS: usize = 4000;
@@ -29,7 +29,7 @@ pub(super) struct Eigenpairs {
 ///
 /// # Errors
 /// A matrix of more than [`MOST_ROWS`] rows; eigenvectors that are not found; [`FeaturesError::Interrupted`].
-pub(super) fn eigenpairs(matrix: DMatrix<f64>, part: &Part<'_>) -> Result<Eigenpairs, FeaturesError> {
+pub(super) fn eigenpairs(matrix: DMatrix<f64>, part: &ProgressRange<'_>) -> Result<Eigenpairs, FeaturesError> {
     let size = matrix.nrows();
     if size > MOST_ROWS {
         return Err(FeaturesError::TooLarge { size, most: MOST_ROWS }.into());
@@ -51,7 +51,7 @@ fn decompose(matrix: DMatrix<f64>) -> Option<Eigenpairs> {
     Some(Eigenpairs { values: order.iter().map(|&at| eigenvalues[at]).collect(), vectors })
 }
 
-fn decompose_aside(matrix: DMatrix<f64>, part: &Part<'_>) -> Result<Option<Eigenpairs>, FeaturesError> {
+fn decompose_aside(matrix: DMatrix<f64>, part: &ProgressRange<'_>) -> Result<Option<Eigenpairs>, FeaturesError> {
     let size = matrix.nrows() as f64;
     let (sender, receiver) = mpsc::channel();
     // Measured: 0.6 s for 1000 rows, and with the cube of the rows. It serves the bar alone.
@@ -96,7 +96,7 @@ mod tests {
     use crate::progress::{Progress, Silent};
 
     fn found(matrix: &DMatrix<f64>) -> Eigenpairs {
-        eigenpairs(matrix.clone(), &Part::whole(&Silent)).unwrap()
+        eigenpairs(matrix.clone(), &ProgressRange::whole(&Silent)).unwrap()
     }
 
     fn check(matrix: &DMatrix<f64>, found: &Eigenpairs) {
@@ -138,7 +138,7 @@ mod tests {
         let matrix = DMatrix::from_fn(size, size, |r, c| 1.0 / (r + c + 1) as f64);
         check(&matrix, &found(&matrix));
         let large = DMatrix::from_fn(700, 700, |r, c| if r == c { r as f64 } else { 0.1 });
-        let error = eigenpairs(large, &Part::whole(&Stop)).unwrap_err();
+        let error = eigenpairs(large, &ProgressRange::whole(&Stop)).unwrap_err();
         assert!(matches!(error, FeaturesError::Interrupted(_)));
     }
 
@@ -153,6 +153,6 @@ mod tests {
     #[test]
     fn too_large_a_matrix_is_refused() {
         let matrix = DMatrix::zeros(MOST_ROWS + 1, MOST_ROWS + 1);
-        assert!(eigenpairs(matrix, &Part::whole(&Silent)).is_err());
+        assert!(eigenpairs(matrix, &ProgressRange::whole(&Silent)).is_err());
     }
 }

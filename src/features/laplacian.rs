@@ -2,7 +2,7 @@ use nalgebra::DMatrix;
 
 use super::eigen::{eigenpairs, fix_signs};
 use super::neighbours::KirchhoffSums;
-use super::part::Part;
+use super::progress_range::ProgressRange;
 use crate::features::FeaturesError;
 
 /// Eigenvalues closer together than this share of the largest are equal but for rounding.
@@ -29,7 +29,7 @@ pub(super) struct Neighbourhoods {
 pub(super) fn components(
     sums: &KirchhoffSums,
     displacements: &DMatrix<f64>,
-    part: &Part<'_>,
+    part: &ProgressRange<'_>,
 ) -> Result<Neighbourhoods, FeaturesError> {
     let found = eigenpairs(sums.covariance(), &part.part(0.0, 0.5))?;
     let (mut values, mut vectors) = (found.values, found.vectors);

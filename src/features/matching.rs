@@ -1,4 +1,4 @@
-use super::part::Part;
+use super::progress_range::ProgressRange;
 use crate::features::FeaturesError;
 use crate::math::{Vec2, assign};
 
@@ -19,7 +19,7 @@ const TRIES: usize = 5;
 pub(super) fn nearest_pairs(
     first_m: &[Vec2],
     other_m: &[Vec2],
-    part: &Part<'_>,
+    part: &ProgressRange<'_>,
 ) -> Result<Vec<[usize; 2]>, FeaturesError> {
     let swapped = first_m.len() > other_m.len();
     let (few, many) = if swapped { (other_m, first_m) } else { (first_m, other_m) };
@@ -62,7 +62,7 @@ mod tests {
     use crate::progress::{Progress, Silent};
 
     fn nearest_pairs(first_m: &[Vec2], other_m: &[Vec2]) -> Vec<[usize; 2]> {
-        super::nearest_pairs(first_m, other_m, &Part::whole(&Silent)).unwrap()
+        super::nearest_pairs(first_m, other_m, &ProgressRange::whole(&Silent)).unwrap()
     }
 
     fn line(xs: &[f64]) -> Vec<Vec2> {
@@ -109,7 +109,7 @@ mod tests {
         }
         // A smaller crowd is sought more than once.
         let (few, many, stop) = (line(&[0.0, 1.0]), line(&[-8.0, 5.0, 6.0, 7.0]), Stop::default());
-        let error = super::nearest_pairs(&few, &many, &Part::whole(&stop)).unwrap_err();
+        let error = super::nearest_pairs(&few, &many, &ProgressRange::whole(&stop)).unwrap_err();
         assert!(matches!(error, FeaturesError::Interrupted(_)));
         assert_eq!(*stop.0.lock().unwrap(), [0.0]);
     }

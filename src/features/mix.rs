@@ -3,8 +3,8 @@ use serde::{Deserialize, Serialize};
 use super::displacement::Displacement;
 use super::matching::nearest_pairs;
 use super::modulation::{SelectedComponent, check_components};
-use super::part::Part;
-use super::{Component, Features, FeaturesError, FeaturesOptions, Modulation};
+use super::progress_range::ProgressRange;
+use super::{FeatureComponent, Features, FeaturesError, FeaturesOptions, Modulation};
 use crate::math::Vec2;
 use crate::motion::Ensemble;
 use crate::progress::Progress;
@@ -15,7 +15,7 @@ const MOST_MATCHED: usize = 1000;
 /// One of two crowds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Whose {
+pub enum MixSource {
     /// The one that is changed.
     First,
     /// The one whose features it gets.
@@ -25,7 +25,7 @@ pub enum Whose {
 /// Where the middle of a mixed crowd goes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Middle {
+pub enum CentroidPath {
     /// As that of the first crowd.
     #[default]
     First,
@@ -35,16 +35,16 @@ pub enum Middle {
     Both,
 }
 
-impl Middle {
+impl CentroidPath {
     /// All of them.
-    pub const ALL: [Middle; 3] = [Middle::First, Middle::Other, Middle::Both];
+    pub const ALL: [CentroidPath; 3] = [CentroidPath::First, CentroidPath::Other, CentroidPath::Both];
 
     /// Its name, as users write it.
     pub const fn name(self) -> &'static str {
         match self {
-            Middle::First => "first",
-            Middle::Other => "other",
-            Middle::Both => "both",
+            CentroidPath::First => "first",
+            CentroidPath::Other => "other",
+            CentroidPath::Both => "both",
         }
     }
 }
@@ -53,7 +53,7 @@ impl Middle {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MixOptions {
     /// Where the middle goes.
-    pub middle: Middle,
+    pub middle: CentroidPath,
 }
 
 /// One crowd with the features of another besides its own.
@@ -71,7 +71,7 @@ pub struct MixOptions {
 #[derive(Clone, Debug)]
 pub struct Mix {
     features: [Features; 2],
-    order: Vec<(Whose, usize)>,
+    order: Vec<(MixSource, usize)>,
     base: Displacement,
     left_out: [usize; 2],
 }
@@ -89,7 +89,7 @@ impl Mix {
         mix: MixOptions,
         progress: &dyn Progress,
     ) -> Result<Mix, FeaturesError> {
-        let part = Part::whole(progress);
+        let part = ProgressRange::whole(progress);
         let (apart, other_apart) = (Displacement::of(first)?, Displacement::of(other)?);
         if apart.people().max(other_apart.people()) > MOST_MATCHED {
             return Err(FeaturesError::Mix("one has more than 1000 people").into());
@@ -119,12 +119,12 @@ impl Mix {
     }
 
     /// The features of the two crowds, of the people and moments that they have in common.
-    pub fn features(&self, whose: Whose) -> &Features {
+    pub fn features(&self, whose: MixSource) -> &Features {
         &self.features[whose as usize]
     }
 
     /// The interleaved components: whose, and which of them.
-    pub fn components(&self) -> impl ExactSizeIterator<Item = (Whose, Component)> {
+    pub fn components(&self) -> impl ExactSizeIterator<Item = (MixSource, FeatureComponent)> {
         self.order.iter().map(|&(whose, own)| (whose, self.features(whose).components()[own]))
     }
 
@@ -148,38 +148,38 @@ impl Mix {
     pub fn modulated(&self, components: usize, modulation: &Modulation) -> Result<Ensemble, FeaturesError> {
         check_components(components, self.order.len())?;
         modulation.check(components)?;
-        let chosen = |whose: Whose| -> Vec<SelectedComponent> {
+        let chosen = |whose: MixSource| -> Vec<SelectedComponent> {
             let numbered = (1..).zip(&self.order[..components]);
             numbered
                 .filter(|(_, of)| of.0 == whose)
                 .map(|(number, &(_, own))| SelectedComponent { number, own })
                 .collect()
         };
-        let [first, other] = [Whose::First, Whose::Other].map(|whose| (self.features(whose), chosen(whose)));
+        let [first, other] = [MixSource::First, MixSource::Other].map(|whose| (self.features(whose), chosen(whose)));
         let moved = first.0.moved(&first.1, modulation)? + other.0.moved(&other.1, modulation)?;
         Ok(self.base.ensemble(&moved, first.0.options().method))
     }
 }
 
 /// The first crowd's formation around the middle that is asked for.
-fn base(features: &[Features; 2], middle: Middle) -> Displacement {
+fn base(features: &[Features; 2], middle: CentroidPath) -> Displacement {
     let [first, other] = [0, 1].map(|which| &features[which].displacement);
     let begin = |displacement: &Displacement| displacement.centroids_m.first().copied().unwrap_or(Vec2::ZERO);
     let (from, from_other) = (begin(first), begin(other));
     let both = first.centroids_m.iter().zip(&other.centroids_m);
     let centroids_m = match middle {
-        Middle::First => first.centroids_m.clone(),
-        Middle::Other => both.map(|(_, &other)| from + (other - from_other)).collect(),
-        Middle::Both => both.map(|(&first, &other)| first + (other - from_other)).collect(),
+        CentroidPath::First => first.centroids_m.clone(),
+        CentroidPath::Other => both.map(|(_, &other)| from + (other - from_other)).collect(),
+        CentroidPath::Both => both.map(|(&first, &other)| first + (other - from_other)).collect(),
     };
     Displacement { centroids_m, ..first.clone() }
 }
 
 /// Two lists of components as one, by the share that each eigenvalue has of its list's sum; of equals, the first's first.
-fn interleaved(components: [&[Component]; 2]) -> Vec<(Whose, usize)> {
+fn interleaved(components: [&[FeatureComponent]; 2]) -> Vec<(MixSource, usize)> {
     let [first, other] = components.map(|components| {
         let sum: f64 = components.iter().map(|component| component.eigenvalue).sum();
-        let share = move |component: &Component| if sum > 0.0 { component.eigenvalue / sum } else { 0.0 };
+        let share = move |component: &FeatureComponent| if sum > 0.0 { component.eigenvalue / sum } else { 0.0 };
         components.iter().map(share).collect::<Vec<f64>>()
     });
     let mut order = Vec::with_capacity(first.len() + other.len());
@@ -192,10 +192,10 @@ fn interleaved(components: [&[Component]; 2]) -> Vec<(Whose, usize)> {
             (one, _) => one.is_some(),
         };
         if takes_first {
-            order.push((Whose::First, a));
+            order.push((MixSource::First, a));
             a += 1;
         } else {
-            order.push((Whose::Other, b));
+            order.push((MixSource::Other, b));
             b += 1;
         }
     }

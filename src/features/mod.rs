@@ -41,20 +41,20 @@ mod method;
 mod mix;
 mod modulation;
 mod neighbours;
-mod part;
+mod progress_range;
 mod principal;
-mod span;
+mod presence;
 
 pub use component_range::{ComponentRange, ComponentsError};
-pub use decomposition::{Component, Features};
+pub use decomposition::{FeatureComponent, Features};
 pub use displacement::MOST_FEATURE_PLACES;
 pub use eigen::MOST_ROWS;
 pub use error::FeaturesError;
 pub use expression::{Expression, ExpressionError, LONGEST_EXPRESSION, Mistake, Variables};
 pub use method::{FeaturesOptions, Method, NEIGHBOUR_DISTANCES_M};
-pub use mix::{Middle, Mix, MixOptions, Whose};
-pub use modulation::{Change, Modulation, Rule};
-pub use span::{Presence, TogetherSpan, together};
+pub use mix::{CentroidPath, Mix, MixOptions, MixSource};
+pub use modulation::{CoefficientChange, Modulation, Rule};
+pub use presence::{Presence, PresenceSpan, present_throughout};
 
 #[cfg(test)]
 mod tests;

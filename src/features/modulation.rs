@@ -7,7 +7,7 @@ const MOST_COEFFICIENT_M: f64 = 1e6;
 
 /// The change of a coefficient.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Change {
+pub enum CoefficientChange {
     /// Multiplies it by the expression's value.
     Scale(Expression),
     /// Replaces it by the expression's value, metres.
@@ -20,7 +20,7 @@ pub struct Rule {
     /// The components.
     pub which: ComponentRange,
     /// The change of their coefficients.
-    pub change: Change,
+    pub change: CoefficientChange,
 }
 
 /// The changes of a motion's coefficients.
@@ -39,7 +39,7 @@ impl Rule {
     /// [`FeaturesError::Which`], [`FeaturesError::Expression`].
     pub fn scale(text: &str) -> Result<Rule, FeaturesError> {
         let (which, expression) = parse_rule(text)?;
-        Ok(Rule { which, change: Change::Scale(expression) })
+        Ok(Rule { which, change: CoefficientChange::Scale(expression) })
     }
 
     /// Parses `COMPONENTS=METRES`, as `1=sd*sqrt(2)*sin(2*pi*t/5)`.
@@ -48,7 +48,7 @@ impl Rule {
     /// [`FeaturesError::Which`], [`FeaturesError::Expression`].
     pub fn set(text: &str) -> Result<Rule, FeaturesError> {
         let (which, expression) = parse_rule(text)?;
-        Ok(Rule { which, change: Change::Set(expression) })
+        Ok(Rule { which, change: CoefficientChange::Set(expression) })
     }
 }
 
@@ -95,8 +95,10 @@ impl Modulation {
             variables.t = moment as f64 / fps;
             variables.c = *coefficient;
             let (expression, value) = match &rule.change {
-                Change::Scale(expression) => (expression, *coefficient * expression.value_with(&variables, &mut stack)),
-                Change::Set(expression) => (expression, expression.value_with(&variables, &mut stack)),
+                CoefficientChange::Scale(expression) => {
+                    (expression, *coefficient * expression.value_with(&variables, &mut stack))
+                }
+                CoefficientChange::Set(expression) => (expression, expression.value_with(&variables, &mut stack)),
             };
             // Written so that NaN is out of range.
             let allowed = value.abs() <= MOST_COEFFICIENT_M;

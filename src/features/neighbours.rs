@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::part::Part;
+use super::progress_range::ProgressRange;
 use crate::features::FeaturesError;
 use crate::math::Vec2;
 use crate::motion::Ensemble;
@@ -30,7 +30,11 @@ impl KirchhoffSums {
     ///
     /// # Errors
     /// [`FeaturesError::Interrupted`].
-    pub(super) fn of(ensemble: &Ensemble, distance_m: f64, part: &Part<'_>) -> Result<KirchhoffSums, FeaturesError> {
+    pub(super) fn of(
+        ensemble: &Ensemble,
+        distance_m: f64,
+        part: &ProgressRange<'_>,
+    ) -> Result<KirchhoffSums, FeaturesError> {
         let (people, moments) = (ensemble.people(), ensemble.moments());
         let mut sums =
             KirchhoffSums { people, moments, sum: vec![0; people * people], squares: vec![0; people * people] };
@@ -203,7 +207,7 @@ mod tests {
             [(5, 9, 2.0, 1.0), (70, 150, 12.0, 1.5), (70, 20, 4.0, 2.5), (66, 5, 1.0, 99.0), (9, 9, 900.0, 0.1)]
         {
             let ensemble = crowd(people, moments, spread_m);
-            let sums = KirchhoffSums::of(&ensemble, distance_m, &Part::whole(&Silent)).unwrap();
+            let sums = KirchhoffSums::of(&ensemble, distance_m, &ProgressRange::whole(&Silent)).unwrap();
             let expected = reference(&ensemble, distance_m);
             assert!((sums.covariance() - &expected).amax() < 1e-9, "{people} {moments} {spread_m} {distance_m}");
         }
@@ -213,7 +217,7 @@ mod tests {
     fn neighbours_are_counted() {
         let places = [0.0, 1.0, 2.0, 9.0].map(|x| vec2(x, 0.0)).to_vec();
         let ensemble = Ensemble::new(1.0, 0.0, vec![1, 2, 3, 4], [places.clone(), places].concat());
-        let sums = KirchhoffSums::of(&ensemble, 1.0, &Part::whole(&Silent)).unwrap();
+        let sums = KirchhoffSums::of(&ensemble, 1.0, &ProgressRange::whole(&Silent)).unwrap();
         assert_eq!(sums.mean_neighbours(), 1.0);
         // Nothing changes, and that is exact.
         assert_eq!(sums.covariance(), DMatrix::zeros(4, 4));
@@ -224,7 +228,7 @@ mod tests {
         let ensemble = crowd(40, 100, 6.0);
         let with = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| KirchhoffSums::of(&ensemble, 1.5, &Part::whole(&Silent)).unwrap())
+            pool.install(|| KirchhoffSums::of(&ensemble, 1.5, &ProgressRange::whole(&Silent)).unwrap())
         };
         assert_eq!(with(1), with(5));
     }

@@ -2,7 +2,7 @@ use nalgebra::DMatrix;
 
 use super::displacement::column_squares;
 use super::eigen::{eigenpairs, fix_signs};
-use super::part::Part;
+use super::progress_range::ProgressRange;
 use crate::features::FeaturesError;
 
 /// Variances smaller than this share of the largest are found again without it.
@@ -23,7 +23,7 @@ const NOTHING: f64 = 1e-22;
 pub(super) fn components(
     displacements: &DMatrix<f64>,
     rounding_m: f64,
-    part: &Part<'_>,
+    part: &ProgressRange<'_>,
 ) -> Result<DMatrix<f64>, FeaturesError> {
     let (moments, coordinates) = displacements.shape();
     let per_moment = 1.0 / moments as f64;
@@ -51,7 +51,7 @@ fn refine(
     matrix: &DMatrix<f64>,
     mut components: DMatrix<f64>,
     [per_moment, least_m2]: [f64; 2],
-    part: &Part<'_>,
+    part: &ProgressRange<'_>,
 ) -> Result<DMatrix<f64>, FeaturesError> {
     let mut first = 0;
     let mut nothing = least_m2;
@@ -88,7 +88,7 @@ mod tests {
     }
 
     fn check(d: &DMatrix<f64>, rank: usize) {
-        let components = components(d, 1e-14, &Part::whole(&Silent)).unwrap();
+        let components = components(d, 1e-14, &ProgressRange::whole(&Silent)).unwrap();
         let kept = components.ncols();
         assert_eq!(kept, rank.min(d.nrows()).min(d.ncols()), "{:?}", d.shape());
         let unit = components.transpose() * &components;
@@ -114,9 +114,9 @@ mod tests {
             let (r, c) = (r as f64, c as f64);
             (r * 0.3).min(3.0) * c.sqrt() + 0.3 * ((r * 1.7) % 1.0) * (c * 0.7 % 1.0)
         });
-        let tall = components(&d, 1e-14, &Part::whole(&Silent)).unwrap();
+        let tall = components(&d, 1e-14, &ProgressRange::whole(&Silent)).unwrap();
         let wide = {
-            let whole = Part::whole(&Silent);
+            let whole = ProgressRange::whole(&Silent);
             let vectors = eigenpairs(&d * d.transpose() / 20.0, &whole).unwrap().vectors;
             let mut found = (d.transpose() * refine(&d.transpose(), vectors, [0.05, 1e-26], &whole).unwrap()).qr().q();
             fix_signs(&mut found);

@@ -14,7 +14,7 @@ const DECOMPOSITIONS: usize = 100;
 
 /// Everybody's places at a moment, and how far the whole has been wheeled until then.
 #[derive(Clone, Debug)]
-pub(super) struct Key {
+pub(super) struct KeyPlaces {
     pub moment: usize,
     pub places_m: Vec<Vec2>,
     pub wheel_rad: f64,
@@ -24,7 +24,7 @@ pub(super) struct Key {
 /// the first moment, the last at the last; without any, the example is left as it is.
 pub(super) fn between(
     example: &Ensemble,
-    keys: &[Key],
+    keys: &[KeyPlaces],
     section: CrowdSection<'_>,
     progress: &dyn Progress,
 ) -> Result<Ensemble, FormationError> {

@@ -44,7 +44,7 @@ impl ExampleCoefficients {
 }
 
 /// Which part of an example is decomposed, and how.
-pub(super) struct Part<'a> {
+pub(super) struct Excerpt<'a> {
     pub example: &'a Ensemble,
     /// First and last moment.
     pub span: [usize; 2],
@@ -73,7 +73,7 @@ pub fn example_coefficients(
     check_example(example)?;
     options.check()?;
     check_edits(&options.adjacency, example.people())?;
-    let part = Part { example, span: [0, example.moments() - 1], target: None, wanted, options };
+    let part = Excerpt { example, span: [0, example.moments() - 1], target: None, wanted, options };
     decompose(&part, &|share| progress.advance(Stage::Motion, share), progress)
 }
 
@@ -97,11 +97,11 @@ pub(super) fn check_example(example: &Ensemble) -> Result<(), FormationError> {
 
 /// [`example_coefficients`] of a part of an example that has been checked.
 pub(super) fn decompose(
-    part: &Part,
+    part: &Excerpt,
     done: &dyn Fn(f64),
     progress: &dyn Progress,
 ) -> Result<ExampleCoefficients, FormationError> {
-    let &Part { example, span: [first, last], options, .. } = part;
+    let &Excerpt { example, span: [first, last], options, .. } = part;
     let people = example.people();
     let sigma_m = options.sigma_m.unwrap_or_else(|| example_sigma_m(example, [first, last]));
     let moments = decomposed_moments([first, last], options.decompositions, part.wanted);
@@ -121,7 +121,7 @@ pub(super) fn decompose(
     let mut chunks = moments.chunks(chunk);
     let mut now: &[usize] = chunks.next().unwrap_or(&[]);
     let mut bases = bases_of(now)?;
-    let mut walk = Walk { part, follower: None, before: first, out: &mut out };
+    let mut walk = BasisTracking { part, follower: None, before: first, out: &mut out };
     loop {
         let next = chunks.next().unwrap_or(&[]);
         // One thread follows while the others decompose what comes next.
@@ -161,8 +161,8 @@ pub(super) fn example_sigma_m(example: &Ensemble, [first, last]: [usize; 2]) -> 
 }
 
 /// The follower on its way through the example.
-struct Walk<'a, 'b> {
-    part: &'b Part<'a>,
+struct BasisTracking<'a, 'b> {
+    part: &'b Excerpt<'a>,
     follower: Option<Follower>,
     /// The moment where it is.
     before: usize,
@@ -170,18 +170,18 @@ struct Walk<'a, 'b> {
 }
 
 /// Moments after one decomposition, up to and with the next, with the bases of both.
-struct Stretch {
+struct BasisSegment {
     moments: [usize; 2],
     from: DMatrix<f64>,
     to: DMatrix<f64>,
 }
 
-impl Walk<'_, '_> {
+impl BasisTracking<'_, '_> {
     /// Goes through the decompositions of some moments and writes the coefficients of all moments up to the last of them.
     fn follow(&mut self, moments: &[usize], bases: &[Basis]) -> Result<(), FormationError> {
-        let Part { example, span: [first, _], target, wanted, options } = *self.part;
+        let Excerpt { example, span: [first, _], target, wanted, options } = *self.part;
         let people = example.people();
-        let mut stretches: Vec<Stretch> = Vec::new();
+        let mut stretches: Vec<BasisSegment> = Vec::new();
         for (&moment, basis) in moments.iter().zip(bases) {
             let from = self.follower.take();
             let mut follower = match &from {
@@ -200,7 +200,7 @@ impl Walk<'_, '_> {
                 Some(from) if moment > self.before + 1 => {
                     let moments = [self.before, moment];
                     let (from, to) = (from.vectors().clone(), follower.vectors().clone());
-                    stretches.push(Stretch { moments, from, to });
+                    stretches.push(BasisSegment { moments, from, to });
                 }
                 _ => {
                     let coefficients = follower.coefficients(example.places_at(moment));
@@ -221,7 +221,7 @@ impl Walk<'_, '_> {
     }
 }
 
-impl Stretch {
+impl BasisSegment {
     /// Coefficients of all its moments but the first: the short way where turns are small.
     fn coefficients(&self, example: &Ensemble) -> Result<Vec<Vec2>, FormationError> {
         // The sum of 2 (1 - cos) over all turns, without finding them.
@@ -301,7 +301,7 @@ pub(super) fn turn_evenly(
         progress.keep_on()?;
         match before {
             Some((start, from)) => {
-                let stretch = Stretch { moments: [start, moment], from: from.clone(), to: basis.clone() };
+                let stretch = BasisSegment { moments: [start, moment], from: from.clone(), to: basis.clone() };
                 coefficients_m.extend(stretch.turned(example)?);
             }
             None => {

@@ -2,8 +2,8 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::basis::{as_columns, as_vectors, relative_to_centroid};
-use super::example::{ExampleCoefficients, Part, check_example, decompose, turn_evenly};
-use super::keys::{Key, decompose_keys, key_moments, match_keys, match_keys_to};
+use super::example::{ExampleCoefficients, Excerpt, check_example, decompose, turn_evenly};
+use super::keys::{KeyBasis, decompose_keys, key_moments, match_keys, match_keys_to};
 use super::kirchhoff::check_edits;
 use super::{Carry, FormationError, FormationOptions, KeyFormation, Rotation};
 use crate::math::Vec2;
@@ -44,7 +44,7 @@ pub fn interpolate(
         (Carry::Shapes, None) => Some(turned_with(&mut keys, example, options, progress)?),
         (Carry::Shapes, Some(_)) => {
             match_alone(&mut keys, options, progress)?;
-            let part = Part { example, span, target: Some(&keys[0].vectors), wanted: &moments, options };
+            let part = Excerpt { example, span, target: Some(&keys[0].vectors), wanted: &moments, options };
             let done = |share| progress.advance(Stage::Motion, DECOMPOSING * share);
             let seen = decompose(&part, &done, progress)?;
             let partners: Vec<DMatrix<f64>> =
@@ -61,15 +61,15 @@ pub fn interpolate(
     let mut places_m = vec![Vec2::ZERO; people * (span[1] - span[0] + 1)];
     for (number, pair) in keys.windows(2).enumerate() {
         progress.keep_on()?;
-        let way = Way::between(&pair[0], &pair[1])?;
+        let transition = KeyTransition::between(&pair[0], &pair[1])?;
         let (from, to) = (pair[0].moment - span[0], pair[1].moment - span[0]);
-        let crowd = Crowd { example, options, first: span[0], fluctuation: fluctuation.as_ref() };
+        let crowd = Interpolator { example, options, first: span[0], fluctuation: fluctuation.as_ref() };
         // The key between two stretches belongs to the later one, the last key to the last.
         let end = if number + 2 == keys.len() { to + 1 } else { to };
         places_m[from * people..end * people].par_chunks_mut(MOMENTS_AT_ONCE * people).enumerate().try_for_each(
             |(chunk, places_m)| {
                 progress.keep_on()?;
-                crowd.fill(&way, from + chunk * MOMENTS_AT_ONCE, places_m);
+                crowd.fill(&transition, from + chunk * MOMENTS_AT_ONCE, places_m);
                 Ok::<_, FormationError>(())
             },
         )?;
@@ -80,15 +80,19 @@ pub fn interpolate(
 }
 
 /// Matches keys to each other alone.
-fn match_alone(keys: &mut [Key], options: &FormationOptions, progress: &dyn Progress) -> Result<(), FormationError> {
-    let mut partners: Vec<Key> = keys.to_vec();
+fn match_alone(
+    keys: &mut [KeyBasis],
+    options: &FormationOptions,
+    progress: &dyn Progress,
+) -> Result<(), FormationError> {
+    let mut partners: Vec<KeyBasis> = keys.to_vec();
     match_keys(keys, &mut partners, options.nearness, progress)
 }
 
 /// Matches keys to each other and to the example at their moments, and gives its coefficients in a basis that turns evenly
 /// from one to the next as the keys' does.
 fn turned_with(
-    keys: &mut [Key],
+    keys: &mut [KeyBasis],
     example: &Ensemble,
     options: &FormationOptions,
     progress: &dyn Progress,
@@ -105,9 +109,9 @@ fn turned_with(
     turn_evenly(example, bases, &done, progress)
 }
 
-/// The way from one key formation to the next.
-struct Way<'a> {
-    keys: [&'a Key; 2],
+/// The transition from one key formation to the next.
+struct KeyTransition<'a> {
+    keys: [&'a KeyBasis; 2],
     rotation: Rotation,
     /// The first key's basis, seen along the planes of the rotation.
     basis: DMatrix<f64>,
@@ -115,16 +119,16 @@ struct Way<'a> {
     coefficients: [DMatrix<f64>; 2],
 }
 
-impl<'a> Way<'a> {
-    fn between(from: &'a Key, to: &'a Key) -> Result<Way<'a>, FormationError> {
+impl<'a> KeyTransition<'a> {
+    fn between(from: &'a KeyBasis, to: &'a KeyBasis) -> Result<KeyTransition<'a>, FormationError> {
         let rotation = Rotation::of(&(&to.vectors * from.vectors.transpose()))?;
         let basis = rotation.into_planes(&from.vectors);
-        Ok(Way { keys: [from, to], rotation, basis, coefficients: [from.coefficients(), to.coefficients()] })
+        Ok(KeyTransition { keys: [from, to], rotation, basis, coefficients: [from.coefficients(), to.coefficients()] })
     }
 }
 
 /// What is carried over from the example.
-struct Crowd<'a> {
+struct Interpolator<'a> {
     example: &'a Ensemble,
     options: &'a FormationOptions,
     /// The first moment of the result in the example.
@@ -132,60 +136,60 @@ struct Crowd<'a> {
     fluctuation: Option<&'a ExampleCoefficients>,
 }
 
-impl Crowd<'_> {
+impl Interpolator<'_> {
     /// Puts the crowd to its places in the moments from `start` on, counted in the result.
-    fn fill(&self, way: &Way, start: usize, places_m: &mut [Vec2]) {
+    fn fill(&self, transition: &KeyTransition, start: usize, places_m: &mut [Vec2]) {
         let people = self.example.people();
         let moments = places_m.len() / people;
         let mut coefficients = DMatrix::zeros(people, 2 * moments);
         for k in 0..moments {
-            let share = self.share(way, start + k);
-            let mut now = &way.coefficients[0] * (1.0 - share) + &way.coefficients[1] * share;
+            let share = self.share(transition, start + k);
+            let mut now = &transition.coefficients[0] * (1.0 - share) + &transition.coefficients[1] * share;
             if let Some(seen) = self.fluctuation {
-                now += self.deviation(way, start + k, |moment| as_columns(seen.at(moment)));
+                now += self.deviation(transition, start + k, |moment| as_columns(seen.at(moment)));
             }
             coefficients.columns_mut(2 * k, 2).copy_from(&now);
         }
-        let mut within = &way.basis * coefficients;
+        let mut within = &transition.basis * coefficients;
         for k in 0..moments {
-            let share = self.share(way, start + k);
-            way.rotation.turn(&mut within, 2 * k..2 * k + 2, share);
+            let share = self.share(transition, start + k);
+            transition.rotation.turn(&mut within, 2 * k..2 * k + 2, share);
         }
-        let mut relative = way.rotation.out_of_planes(&within);
+        let mut relative = transition.rotation.out_of_planes(&within);
         for (k, places_m) in places_m.chunks_mut(people).enumerate() {
             if self.fluctuation.is_none() {
                 let own =
                     |moment: usize| as_columns(&relative_to_centroid(self.example.places_at(moment + self.first)));
                 let mut columns = relative.columns_mut(2 * k, 2);
-                columns += self.deviation(way, start + k, own);
+                columns += self.deviation(transition, start + k, own);
             }
-            let middle = self.middle(way, start + k);
+            let middle = self.middle(transition, start + k);
             for (place, relative) in places_m.iter_mut().zip(as_vectors(&relative, 2 * k)) {
                 *place = middle + relative;
             }
         }
     }
 
-    /// Share of the way between the keys at a moment of the result.
-    fn share(&self, way: &Way, moment: usize) -> f64 {
-        let [from, to] = way.keys.map(|key| key.moment - self.first);
+    /// Share of the transition between the keys at a moment of the result.
+    fn share(&self, transition: &KeyTransition, moment: usize) -> f64 {
+        let [from, to] = transition.keys.map(|key| key.moment - self.first);
         let time = (moment - from) as f64 / (to - from) as f64;
         self.options.ease.share(time)
     }
 
     /// How far something of the example is from the line between its values at the two keys.
-    fn deviation(&self, way: &Way, moment: usize, of: impl Fn(usize) -> DMatrix<f64>) -> DMatrix<f64> {
-        let [from, to] = way.keys.map(|key| key.moment - self.first);
+    fn deviation(&self, transition: &KeyTransition, moment: usize, of: impl Fn(usize) -> DMatrix<f64>) -> DMatrix<f64> {
+        let [from, to] = transition.keys.map(|key| key.moment - self.first);
         // At the pace of the formation: where that rests, at the keys, everybody has the example's own velocity.
-        let share = self.share(way, moment);
+        let share = self.share(transition, moment);
         let line = of(from) * (1.0 - share) + of(to) * share;
         (of(moment) - line) * self.options.fluctuation
     }
 
     /// The middle of the crowd: on the line between the keys' middles, plus the deviation of the example's own.
-    fn middle(&self, way: &Way, moment: usize) -> Vec2 {
-        let [from, to] = way.keys;
-        let share = self.share(way, moment);
+    fn middle(&self, transition: &KeyTransition, moment: usize) -> Vec2 {
+        let [from, to] = transition.keys;
+        let share = self.share(transition, moment);
         let own = |moment: usize| self.example.centroid_m(moment);
         let deviation = own(moment + self.first) - own(from.moment).lerp(own(to.moment), share);
         from.centroid_m.lerp(to.centroid_m, share) + deviation * self.options.fluctuation

@@ -13,7 +13,7 @@ const SWEEPS: usize = 2;
 
 /// A key formation, checked, with its basis.
 #[derive(Clone)]
-pub(super) struct Key {
+pub(super) struct KeyBasis {
     /// Its moment in the example.
     pub moment: usize,
     /// Its middle.
@@ -26,7 +26,7 @@ pub(super) struct Key {
     pub vectors: DMatrix<f64>,
 }
 
-impl Key {
+impl KeyBasis {
     /// Coefficients in the matched basis.
     pub fn coefficients(&self) -> DMatrix<f64> {
         self.vectors.tr_mul(&super::basis::as_columns(&self.relative_m))
@@ -90,14 +90,14 @@ pub(super) fn decompose_keys(
     moments: &[usize],
     options: &FormationOptions,
     progress: &dyn Progress,
-) -> Result<Vec<Key>, FormationError> {
+) -> Result<Vec<KeyBasis>, FormationError> {
     let key = |(key, &moment): (&KeyFormation, &usize)| {
         progress.keep_on()?;
         let sigma_m = options.sigma_m.unwrap_or_else(|| default_sigma_m(&key.places_m));
         let basis = Basis::of(&key.places_m, sigma_m, &options.adjacency)?;
         let vectors = basis.vectors.clone();
         let centroid_m = centroid(&key.places_m);
-        Ok(Key { moment, centroid_m, relative_m: relative_to_centroid(&key.places_m), basis, vectors })
+        Ok(KeyBasis { moment, centroid_m, relative_m: relative_to_centroid(&key.places_m), basis, vectors })
     };
     keys.par_iter().zip(moments).map(key).collect()
 }
@@ -110,14 +110,14 @@ pub(super) fn decompose_keys(
 /// from each key to the next is a rotation. A key and its partner are matched at the same time: if they are the same
 /// formation, they get the same basis.
 pub(super) fn match_keys(
-    keys: &mut [Key],
-    partners: &mut [Key],
+    keys: &mut [KeyBasis],
+    partners: &mut [KeyBasis],
     nearness: f64,
     progress: &dyn Progress,
 ) -> Result<(), FormationError> {
     // Nothing holds the first; the others line up with it to begin with.
     partners[0].vectors = match_basis(&partners[0].basis, &keys[0].vectors, nearness, None)?;
-    let line_up = |chain: &mut [Key]| {
+    let line_up = |chain: &mut [KeyBasis]| {
         (1..chain.len()).try_for_each(|k| {
             progress.keep_on()?;
             let vectors = match_basis(&chain[k].basis, &chain[k - 1].vectors, nearness, None);
@@ -141,7 +141,7 @@ pub(super) fn match_keys(
 
 /// The same for partners whose bases are what they are.
 pub(super) fn match_keys_to(
-    keys: &mut [Key],
+    keys: &mut [KeyBasis],
     partners: &[DMatrix<f64>],
     nearness: f64,
     progress: &dyn Progress,
@@ -161,7 +161,7 @@ fn sweeps(keys: usize) -> impl Iterator<Item = (usize, bool)> {
 
 /// A key's basis, matched to its neighbours' and its partner's; with `oriented`, such that the one before turns to it.
 fn matched(
-    chain: &[Key],
+    chain: &[KeyBasis],
     k: usize,
     partner: &DMatrix<f64>,
     nearness: f64,

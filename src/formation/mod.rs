@@ -91,7 +91,7 @@ pub use options::{Carry, Ease, FormationOptions, KeyFormation};
 pub use picture::is_picture;
 pub use request::{
     AdjacencyRequest, Assign, AvoidRequest, Choice, CrowdRequest, ExampleKind, ExampleRequest, FormationRequest,
-    KeyRequest, Members, MembersWord, Pace, Repeat, RequestError, Shape, Stays, WayRequest,
+    FormationShape, KeyRequest, Members, MembersWord, Pace, PathRequest, Repeat, RequestError, Stays,
 };
 pub use rotation::Rotation;
 pub use sphere::{SphereTracks, one_pattern, sphere_tracks};

@@ -15,7 +15,7 @@ const LARGEST_TEXT: u64 = 64 << 20;
 
 /// What a picture shows: its middle is the formation's, up is forward.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Drawn {
+pub(super) struct FormationPicture {
     /// Middle of each dot, from the top left, in pixels.
     pub dots_px: Vec<Vec2>,
     /// Middle of each pixel of what is drawn, in pixels.
@@ -31,7 +31,7 @@ pub fn is_picture(path: &Path) -> bool {
 
 /// Reads a picture of dots or of a shape: dark on light or light on dark, whichever is more; transparent pixels are
 /// background.
-pub(super) fn read_picture(path: &Path) -> Result<Drawn, RequestError> {
+pub(super) fn read_picture(path: &Path) -> Result<FormationPicture, RequestError> {
     let failed = |problem: String| RequestError::File { path: path.to_path_buf(), problem };
     let bytes = std::fs::read(path).map_err(|error| failed(error.to_string()))?;
     let mut reader = ImageReader::new(Cursor::new(bytes.as_slice()))
@@ -73,11 +73,11 @@ fn ink(values: &[(u8, bool)]) -> Vec<bool> {
 }
 
 /// Dots are what hangs together, diagonals included.
-fn of_ink(ink: &[bool], width: usize, height: usize) -> Drawn {
+fn of_ink(ink: &[bool], width: usize, height: usize) -> FormationPicture {
     let middle = vec2(width as f64, height as f64) / 2.0;
     let place = |k: usize| vec2((k % width) as f64 + 0.5 - middle.x, middle.y - (k / width) as f64 - 0.5);
     let mut seen = vec![false; ink.len()];
-    let mut drawn = Drawn { dots_px: Vec::new(), area_px: Vec::new() };
+    let mut drawn = FormationPicture { dots_px: Vec::new(), area_px: Vec::new() };
     let mut open = Vec::new();
     for start in 0..ink.len() {
         if !ink[start] || seen[start] {

@@ -19,7 +19,7 @@ const SMALL_TURNS: f64 = 0.5;
 const NO_SINE: f64 = 1e-13;
 
 /// What each pair of columns does.
-pub(super) struct Pairs {
+pub(super) struct PlaneTurns {
     /// Cosine and sine of the turn of each pair.
     pub turns: Vec<(f64, f64)>,
     /// Whether one direction is mirrored and has no partner.
@@ -27,11 +27,11 @@ pub(super) struct Pairs {
 }
 
 /// Finds the vectors: first two for each plane, then those that stay as they are.
-pub(super) fn invariant_planes(matrix: &DMatrix<f64>) -> Result<(DMatrix<f64>, Pairs), FormationError> {
+pub(super) fn invariant_planes(matrix: &DMatrix<f64>) -> Result<(DMatrix<f64>, PlaneTurns), FormationError> {
     let n = matrix.nrows();
     let transposed = matrix.transpose();
     let sines = (matrix - &transposed) * 0.5;
-    let mut found = Found::default();
+    let mut found = PlaneCollector::default();
     if 2.0 * (n as f64 - matrix.trace()) < SMALL_TURNS {
         found.add_space(matrix, &sines, DMatrix::identity(n, n).columns(0, n), 1.0)?;
         return Ok(found.finish(n));
@@ -50,7 +50,7 @@ pub(super) fn invariant_planes(matrix: &DMatrix<f64>) -> Result<(DMatrix<f64>, P
 }
 
 #[derive(Default)]
-struct Found {
+struct PlaneCollector {
     /// Two vectors for each plane, with cosine and sine.
     planes: Vec<([DVector<f64>; 2], f64, f64)>,
     /// Directions that stay.
@@ -59,7 +59,7 @@ struct Found {
     mirrored: Vec<DVector<f64>>,
 }
 
-impl Found {
+impl PlaneCollector {
     /// Splits a space of near-equal cosines into planes and single directions.
     fn add_space(
         &mut self,
@@ -100,7 +100,7 @@ impl Found {
     }
 
     /// Pairs what is mirrored into turns by half a circle, and puts the columns in order.
-    fn finish(mut self, n: usize) -> (DMatrix<f64>, Pairs) {
+    fn finish(mut self, n: usize) -> (DMatrix<f64>, PlaneTurns) {
         let mut mirrored = self.mirrored.into_iter();
         let mut unpaired = None;
         while let Some(a) = mirrored.next() {
@@ -110,7 +110,7 @@ impl Found {
             }
         }
         let turns = self.planes.iter().map(|&(_, cosine, sine)| (cosine, sine)).collect();
-        let pairs = Pairs { turns, unpaired_mirrored: unpaired.is_some() };
+        let pairs = PlaneTurns { turns, unpaired_mirrored: unpaired.is_some() };
         let columns = self.planes.into_iter().flat_map(|(pair, ..)| pair).chain(self.still).chain(unpaired);
         let mut vectors = DMatrix::zeros(n, n);
         for (mut to, from) in vectors.column_iter_mut().zip(columns) {

@@ -26,7 +26,7 @@ impl Default for Areas {
 /// Where somebody is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Side {
+pub enum AreaSide {
     /// In the area before the viewer.
     Front,
     /// In the area behind.
@@ -35,11 +35,11 @@ pub enum Side {
 
 impl Areas {
     /// In which of the two a place lies, viewer's frame.
-    pub fn side_of(&self, place_m: Vec2) -> Option<Side> {
+    pub fn side_of(&self, place_m: Vec2) -> Option<AreaSide> {
         let within = |[width, depth]: [f64; 2], ahead: f64| place_m.x.abs() <= 0.5 * width && ahead <= depth;
         match place_m.y >= 0.0 {
-            true => within(self.front_m, place_m.y).then_some(Side::Front),
-            false => within(self.rear_m, -place_m.y).then_some(Side::Rear),
+            true => within(self.front_m, place_m.y).then_some(AreaSide::Front),
+            false => within(self.rear_m, -place_m.y).then_some(AreaSide::Rear),
         }
     }
 
@@ -102,7 +102,7 @@ mod tests {
     fn areas_are_before_and_behind() {
         let areas = Areas::default();
         let at = |x, y| areas.side_of(vec2(x, y));
-        assert_eq!((at(1.4, 2.9), at(-1.4, -2.9)), (Some(Side::Front), Some(Side::Rear)));
+        assert_eq!((at(1.4, 2.9), at(-1.4, -2.9)), (Some(AreaSide::Front), Some(AreaSide::Rear)));
         assert_eq!((at(1.6, 1.0), at(0.0, 3.1), at(0.0, -3.1)), (None, None, None));
         assert!(areas.is_played(vec2(0.0, 6.9)) && !areas.is_played(vec2(0.0, -0.1)));
     }

@@ -1,7 +1,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::areas::{Areas, SpotFrame};
-use super::track::Moment;
+use super::track::TrackState;
 use crate::math::{Vec2, ln};
 use crate::motion::Frame;
 
@@ -65,7 +65,7 @@ impl Diversity {
     }
 
     /// Counts somebody, viewer's frame, if they are within the area before the viewer.
-    pub(super) fn count_within(&mut self, moment: &Moment) {
+    pub(super) fn count_within(&mut self, moment: &TrackState) {
         if self.areas.is_played(moment.place_m) {
             self.count(moment.velocity_m_s.length(), Some(moment.heading));
         }

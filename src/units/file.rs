@@ -7,7 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::error::{UnitAt, UnitsError};
-use super::track::{Sample, Track};
+use super::track::{TrackSample, UnitTrack};
 use super::unit::{
     AREA_DEPTHS_M, AREA_WIDTHS_M, FASTEST_M_S, HARDEST_M_S2, LEAST_APART_M, LONGEST_S, MOST_MEMBERS, Member, Unit,
 };
@@ -44,12 +44,12 @@ struct RawMember {
 }
 
 /// Where things are in a file's text.
-struct Source<'t> {
+struct UnitText<'t> {
     text: &'t str,
     file: &'t Path,
 }
 
-impl Source<'_> {
+impl UnitText<'_> {
     fn at(&self, span: Option<Range<usize>>) -> UnitAt {
         let start = span.map_or(0, |span| span.start).min(self.text.len());
         let before = String::from_utf8_lossy(&self.text.as_bytes()[..start]);
@@ -96,7 +96,7 @@ impl Unit {
     /// What is not TOML, unknown keys, wrong types, numbers out of range, times that do not ascend or do not last from
     /// 0 to the end, members who overlap, who are quicker or turn harder than people are: with line and column.
     pub fn parse(text: &str, file: &Path) -> Result<Unit, UnitsError> {
-        let source = Source { text, file };
+        let source = UnitText { text, file };
         let raw: RawUnit = toml::from_str(text).map_err(|error| UnitsError::Syntax {
             at: source.at(error.span()),
             message: error.message().trim().replace('\n', "; "),
@@ -134,33 +134,33 @@ impl Unit {
     }
 }
 
-fn viewer(source: &Source<'_>, rows: &[Spanned<Vec<f64>>]) -> Result<Track, UnitsError> {
-    let mut samples: Vec<Sample> = Vec::new();
+fn viewer(source: &UnitText<'_>, rows: &[Spanned<Vec<f64>>]) -> Result<UnitTrack, UnitsError> {
+    let mut samples: Vec<TrackSample> = Vec::new();
     for row in rows {
         let [time_s, x, y] = row.get_ref()[..] else {
             let problem = format!("a row of the viewer is [t, x, y], not {} numbers", row.get_ref().len());
             return Err(source.wrong(row.span(), problem));
         };
-        samples.push(Sample { time_s, place_m: place(source, row.span(), [x, y])?, heading: vec2(0.0, 1.0) });
+        samples.push(TrackSample { time_s, place_m: place(source, row.span(), [x, y])?, heading: vec2(0.0, 1.0) });
         ascends(source, row.span(), &samples)?;
     }
     if samples.is_empty() {
-        samples.push(Sample { time_s: 0.0, place_m: Vec2::ZERO, heading: vec2(0.0, 1.0) });
+        samples.push(TrackSample { time_s: 0.0, place_m: Vec2::ZERO, heading: vec2(0.0, 1.0) });
     }
     if samples[0].time_s != 0.0 || samples[0].place_m != Vec2::ZERO {
         let problem = "the viewer starts at [0, 0] at second 0".to_string();
         return Err(source.wrong(rows[0].span(), problem));
     }
-    Ok(Track::new(samples))
+    Ok(UnitTrack::new(samples))
 }
 
 fn read_member(
-    source: &Source<'_>,
+    source: &UnitText<'_>,
     raw: &RawMember,
     (index, duration_s): (usize, f64),
     names: &mut Vec<String>,
 ) -> Result<Member, UnitsError> {
-    let mut samples: Vec<Sample> = Vec::new();
+    let mut samples: Vec<TrackSample> = Vec::new();
     for row in raw.path.get_ref() {
         let [time_s, x, y, heading_deg] = row.get_ref()[..] else {
             let problem = format!("a row of a path is [t, x, y, heading], not {} numbers", row.get_ref().len());
@@ -168,7 +168,7 @@ fn read_member(
         };
         source.within(row.span(), "the heading", heading_deg, [-720.0, 720.0])?;
         let (sin, cos) = sin_cos(heading_deg.to_radians());
-        samples.push(Sample { time_s, place_m: place(source, row.span(), [x, y])?, heading: vec2(cos, sin) });
+        samples.push(TrackSample { time_s, place_m: place(source, row.span(), [x, y])?, heading: vec2(cos, sin) });
         ascends(source, row.span(), &samples)?;
     }
     let (first, last) = (samples.first().map_or(f64::NAN, |s| s.time_s), samples.last().map_or(0.0, |s| s.time_s));
@@ -182,17 +182,17 @@ fn read_member(
         names.push(name);
         names.len() - 1
     });
-    Ok(Member { group: group as u32, track: Track::new(samples) })
+    Ok(Member { group: group as u32, track: UnitTrack::new(samples) })
 }
 
-fn place(source: &Source<'_>, span: Range<usize>, [x, y]: [f64; 2]) -> Result<Vec2, UnitsError> {
+fn place(source: &UnitText<'_>, span: Range<usize>, [x, y]: [f64; 2]) -> Result<Vec2, UnitsError> {
     for value in [x, y] {
         source.within(span.clone(), "a place", value, [-FARTHEST_M, FARTHEST_M])?;
     }
     Ok(vec2(x, y))
 }
 
-fn ascends(source: &Source<'_>, span: Range<usize>, samples: &[Sample]) -> Result<(), UnitsError> {
+fn ascends(source: &UnitText<'_>, span: Range<usize>, samples: &[TrackSample]) -> Result<(), UnitsError> {
     let [.., before, now] = samples else {
         let first_s = samples.first().map_or(0.0, |sample| sample.time_s);
         return source.within(span, "the first time", first_s, [0.0, 0.0]);
@@ -206,7 +206,7 @@ fn ascends(source: &Source<'_>, span: Range<usize>, samples: &[Sample]) -> Resul
 }
 
 /// People who move as people can, and keep off each other.
-fn check_ways(source: &Source<'_>, unit: &Unit, spans: &[Range<usize>]) -> Result<(), UnitsError> {
+fn check_ways(source: &UnitText<'_>, unit: &Unit, spans: &[Range<usize>]) -> Result<(), UnitsError> {
     let looks = (unit.duration_s / LOOK_S) as usize;
     let mut before: Vec<Vec2> = Vec::new();
     for k in 0..=looks {

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::areas::{Areas, Side};
+use super::areas::{AreaSide, Areas};
 use super::assignment::assign_allowed;
 use super::error::UnitsError;
-use super::track::Moment;
+use super::track::TrackState;
 use super::unit::Unit;
 use crate::math::Vec2;
 
@@ -87,14 +87,14 @@ impl MatchOptions {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Party {
     /// Where they are.
-    pub side: Side,
+    pub side: AreaSide,
     /// Each of them: the id, and how the person moves.
-    pub people: Vec<(u32, Moment)>,
+    pub people: Vec<(u32, TrackState)>,
 }
 
 impl Party {
     /// A group whose side is where its middle is; `None` if that lies in neither area.
-    pub fn of(areas: &Areas, people: Vec<(u32, Moment)>) -> Option<Party> {
+    pub fn of(areas: &Areas, people: Vec<(u32, TrackState)>) -> Option<Party> {
         let sum = people.iter().fold(Vec2::ZERO, |sum, (_, moment)| sum + moment.place_m);
         let side = areas.side_of(sum / people.len().max(1) as f64)?;
         Some(Party { side, people })
@@ -116,7 +116,7 @@ pub struct Candidate {
 
 /// What came of a search.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Ranked {
+pub struct Ranking {
     /// Those that fit, the best first.
     pub candidates: Vec<Candidate>,
     /// How many units have as many people in the same groups, mirrored ones not counted.
@@ -146,15 +146,15 @@ pub fn rank(
     areas: &Areas,
     options: &MatchOptions,
     recent: impl Fn(usize) -> Option<usize>,
-) -> Ranked {
-    let mut ranked = Ranked::default();
+) -> Ranking {
+    let mut ranked = Ranking::default();
     if present.is_empty() {
         return ranked;
     }
     let there = composition(present);
-    let front: Vec<Party> = present.iter().filter(|party| party.side == Side::Front).cloned().collect();
+    let front: Vec<Party> = present.iter().filter(|party| party.side == AreaSide::Front).cloned().collect();
     let comes_on = |party: &Party| party.people.iter().map(|(_, moment)| moment.velocity_m_s.y.max(0.0)).sum::<f64>();
-    let left = options.left * present.iter().filter(|party| party.side == Side::Rear).map(comes_on).sum::<f64>();
+    let left = options.left * present.iter().filter(|party| party.side == AreaSide::Rear).map(comes_on).sum::<f64>();
     for (index, unit) in units.iter().enumerate() {
         let fits = unit.area_m.iter().zip(areas.played_m).all(|(has, room)| *has <= room + 1e-9);
         let [in_front, behind] = unit.composition();
@@ -182,7 +182,7 @@ pub fn rank(
 /// Gives everybody a part: groups to groups of the same size on the same side, and within them people to members.
 fn cast(unit: &Unit, mirrored: bool, present: &[Party], options: &MatchOptions) -> Option<(f64, Vec<u32>)> {
     let groups = unit.groups();
-    let ends: Vec<[Moment; 2]> = (0..unit.members.len())
+    let ends: Vec<[TrackState; 2]> = (0..unit.members.len())
         .map(|member| [0.0, unit.duration_s].map(|time_s| unit.moment(member, time_s, mirrored)))
         .collect();
     let inner = |row: usize, column: usize| {
@@ -208,7 +208,7 @@ fn cast(unit: &Unit, mirrored: bool, present: &[Party], options: &MatchOptions) 
 }
 
 /// What it costs that somebody takes a part; `None` if it starts too far off.
-fn part_cost(person: &Moment, [start, end]: &[Moment; 2], options: &MatchOptions) -> Option<f64> {
+fn part_cost(person: &TrackState, [start, end]: &[TrackState; 2], options: &MatchOptions) -> Option<f64> {
     let away = person.place_m.distance(start.place_m);
     let agree = person.heading.dot(start.heading);
     let least_agree = crate::math::sin_cos(options.most_turn_deg.to_radians()).1;

@@ -17,11 +17,11 @@ mod track;
 mod unit;
 mod write;
 
-pub use areas::{Areas, Side, SpotFrame};
-pub use cut::{Cut, CutOptions, Cuts, cut};
+pub use areas::{AreaSide, Areas, SpotFrame};
+pub use cut::{CutOptions, UnitCut, UnitCuts, cut};
 pub use diversity::{Diversity, DiversityReport};
 pub use error::{UnitAt, UnitsError};
 pub use library::UnitLibrary;
-pub use matching::{Candidate, MatchOptions, Party, Ranked, rank};
-pub use track::{Moment, Sample, Track};
+pub use matching::{Candidate, MatchOptions, Party, Ranking, rank};
+pub use track::{TrackSample, TrackState, UnitTrack};
 pub use unit::{AREA_DEPTHS_M, AREA_WIDTHS_M, LEAST_APART_M, LONGEST_S, MOST_MEMBERS, Member, Unit};

@@ -5,7 +5,7 @@ const STANDING_M_S: f64 = 0.02;
 
 /// Somebody's place and facing at one time of a unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
+pub struct TrackSample {
     /// Seconds since the unit's start.
     pub time_s: f64,
     /// Metres in the unit's frame.
@@ -16,7 +16,7 @@ pub struct Sample {
 
 /// What a track says of one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Moment {
+pub struct TrackState {
     /// Metres.
     pub place_m: Vec2,
     /// Metres per second.
@@ -31,14 +31,14 @@ pub struct Moment {
 /// zero beside a stretch where somebody stands. Before the first sample and after the last one the way goes on straight.
 /// Headings turn evenly in between.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Track {
-    samples: Vec<Sample>,
+pub struct UnitTrack {
+    samples: Vec<TrackSample>,
     velocities: Vec<Vec2>,
 }
 
-impl Track {
+impl UnitTrack {
     /// A track through samples whose times ascend.
-    pub fn new(samples: Vec<Sample>) -> Track {
+    pub fn new(samples: Vec<TrackSample>) -> UnitTrack {
         let slope = |k: usize| {
             let (a, b) = (samples[k], samples[k + 1]);
             (b.place_m - a.place_m) / (b.time_s - a.time_s).max(1e-9)
@@ -59,11 +59,11 @@ impl Track {
             }
         };
         let velocities = (0..samples.len()).map(velocity).collect();
-        Track { samples, velocities }
+        UnitTrack { samples, velocities }
     }
 
     /// The samples.
-    pub fn samples(&self) -> &[Sample] {
+    pub fn samples(&self) -> &[TrackSample] {
         &self.samples
     }
 
@@ -73,22 +73,22 @@ impl Track {
     }
 
     /// Place, velocity and heading at a time; of an empty track the origin.
-    pub fn at(&self, time_s: f64) -> Moment {
+    pub fn at(&self, time_s: f64) -> TrackState {
         let after = self.samples.partition_point(|sample| sample.time_s <= time_s);
         let edge = |k: usize| {
             let (sample, velocity_m_s) = (self.samples[k], self.velocities[k]);
             let place_m = sample.place_m + velocity_m_s * (time_s - sample.time_s);
-            Moment { place_m, velocity_m_s, heading: sample.heading }
+            TrackState { place_m, velocity_m_s, heading: sample.heading }
         };
         match (after, self.samples.len()) {
-            (_, 0) => Moment { place_m: Vec2::ZERO, velocity_m_s: Vec2::ZERO, heading: vec2(0.0, 1.0) },
+            (_, 0) => TrackState { place_m: Vec2::ZERO, velocity_m_s: Vec2::ZERO, heading: vec2(0.0, 1.0) },
             (0, _) => edge(0),
             (after, count) if after == count => edge(count - 1),
             (after, _) => self.between(after - 1, time_s),
         }
     }
 
-    fn between(&self, k: usize, time_s: f64) -> Moment {
+    fn between(&self, k: usize, time_s: f64) -> TrackState {
         let (a, b) = (self.samples[k], self.samples[k + 1]);
         let span_s = b.time_s - a.time_s;
         let s = (time_s - a.time_s) / span_s;
@@ -99,7 +99,7 @@ impl Track {
         let place_m = a.place_m + way * (3.0 * s2 - 2.0 * s3) + m0 * (s3 - 2.0 * s2 + s) + m1 * (s3 - s2);
         let rate = way * (6.0 * s - 6.0 * s2) + m0 * (3.0 * s2 - 4.0 * s + 1.0) + m1 * (3.0 * s2 - 2.0 * s);
         let heading = turned(a.heading, b.heading, s);
-        Moment { place_m, velocity_m_s: rate / span_s, heading }
+        TrackState { place_m, velocity_m_s: rate / span_s, heading }
     }
 }
 
@@ -119,9 +119,9 @@ pub(super) fn turned(a: Vec2, b: Vec2, s: f64) -> Vec2 {
 mod tests {
     use super::*;
 
-    fn track(rows: &[[f64; 3]]) -> Track {
-        let sample = |&[time_s, x, y]: &[f64; 3]| Sample { time_s, place_m: vec2(x, y), heading: vec2(1.0, 0.0) };
-        Track::new(rows.iter().map(sample).collect())
+    fn track(rows: &[[f64; 3]]) -> UnitTrack {
+        let sample = |&[time_s, x, y]: &[f64; 3]| TrackSample { time_s, place_m: vec2(x, y), heading: vec2(1.0, 0.0) };
+        UnitTrack::new(rows.iter().map(sample).collect())
     }
 
     #[test]

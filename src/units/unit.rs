@@ -1,5 +1,5 @@
-use super::areas::{Areas, Side};
-use super::track::{Moment, Track};
+use super::areas::{AreaSide, Areas};
+use super::track::{TrackState, UnitTrack};
 use crate::math::{Vec2, vec2};
 
 /// Most people in a unit.
@@ -23,7 +23,7 @@ pub struct Member {
     /// Whom the person belongs to: members of one number walk together.
     pub group: u32,
     /// The person's way `c_j(t)`, in the unit's frame.
-    pub track: Track,
+    pub track: UnitTrack,
 }
 
 /// A piece of crowd motion around a viewer: `u = { p(t), a, T, c_j(t), g_k }`.
@@ -36,7 +36,7 @@ pub struct Unit {
     /// What happens, in words.
     pub description: String,
     /// The viewer's way `p(t)`; of one who stands, a single sample.
-    pub viewer: Track,
+    pub viewer: UnitTrack,
     /// Width and depth of the area `a` before the viewer.
     pub area_m: [f64; 2],
     /// How long it lasts, `T`.
@@ -59,20 +59,24 @@ impl Unit {
     }
 
     /// A member at a time of the unit, with left and right exchanged if `mirrored`.
-    pub fn moment(&self, member: usize, time_s: f64, mirrored: bool) -> Moment {
+    pub fn moment(&self, member: usize, time_s: f64, mirrored: bool) -> TrackState {
         let moment = self.members[member].track.at(time_s);
         if !mirrored {
             return moment;
         }
         let flip = |v: Vec2| vec2(-v.x, v.y);
-        Moment { place_m: flip(moment.place_m), velocity_m_s: flip(moment.velocity_m_s), heading: flip(moment.heading) }
+        TrackState {
+            place_m: flip(moment.place_m),
+            velocity_m_s: flip(moment.velocity_m_s),
+            heading: flip(moment.heading),
+        }
     }
 
     /// On which side a group starts: where its middle is. A unit judges its own people by the sign of y alone, since it
     /// may begin beyond the areas.
-    pub fn side_of(&self, group: &[usize]) -> Side {
+    pub fn side_of(&self, group: &[usize]) -> AreaSide {
         let sum: f64 = group.iter().map(|&member| self.members[member].track.at(0.0).place_m.y).sum();
-        if sum >= 0.0 { Side::Front } else { Side::Rear }
+        if sum >= 0.0 { AreaSide::Front } else { AreaSide::Rear }
     }
 
     /// Sizes of the groups that start in front and behind, each ascending: what must agree with the people present.
@@ -107,19 +111,19 @@ fn in_words([front, rear]: &[Vec<usize>; 2]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::track::Sample;
+    use super::super::track::TrackSample;
     use super::*;
 
     #[test]
     fn composition_counts_groups_by_side() {
         let member = |group, y| Member {
             group,
-            track: Track::new(vec![Sample { time_s: 0.0, place_m: vec2(0.3, y), heading: vec2(0.0, 1.0) }]),
+            track: UnitTrack::new(vec![TrackSample { time_s: 0.0, place_m: vec2(0.3, y), heading: vec2(0.0, 1.0) }]),
         };
         let unit = Unit {
             name: "a".into(),
             description: String::new(),
-            viewer: Track::default(),
+            viewer: UnitTrack::default(),
             area_m: [3.0, 5.0],
             duration_s: 4.0,
             members: vec![member(4, 2.0), member(1, 1.0), member(4, 2.5), member(7, -1.0)],

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::track::Sample;
+use super::track::TrackSample;
 use super::unit::Unit;
 use crate::math::atan2;
 
@@ -37,7 +37,7 @@ impl Unit {
 
     fn viewer_rows(&self) -> String {
         let row =
-            |s: &Sample| format!("[{}, {}, {}]", float(s.time_s, 3), float(s.place_m.x, 3), float(s.place_m.y, 3));
+            |s: &TrackSample| format!("[{}, {}, {}]", float(s.time_s, 3), float(s.place_m.x, 3), float(s.place_m.y, 3));
         self.viewer.samples().iter().map(row).collect::<Vec<_>>().join(", ")
     }
 }
@@ -48,7 +48,7 @@ fn letters(group: u32) -> String {
     if rest == 0 { letter.to_string() } else { format!("{}{letter}", letters(rest)) }
 }
 
-fn row(sample: &Sample) -> String {
+fn row(sample: &TrackSample) -> String {
     let heading_deg = atan2(sample.heading.y, sample.heading.x).to_degrees();
     let values =
         [float(sample.time_s, 3), float(sample.place_m.x, 3), float(sample.place_m.y, 3), float(heading_deg, 1)];

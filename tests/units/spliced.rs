@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use trodden::crowd::CrowdModel;
 use trodden::math::{Vec2, sin_cos, vec2};
-use trodden::units::{Areas, Side, SpotFrame, Unit, UnitLibrary};
+use trodden::units::{AreaSide, Areas, SpotFrame, Unit, UnitLibrary};
 
 use super::scene::{Run, Scene, Seen};
 
@@ -89,8 +89,8 @@ fn those_who_are_in_front_are_those_who_play() {
             }
             counted += 1;
             match side {
-                Some(Side::Front) => assert_eq!(taken, group.len(), "at {} s {group:?}", splice.at),
-                Some(Side::Rear) => assert!(taken == 0 || taken == group.len(), "at {} s {group:?}", splice.at),
+                Some(AreaSide::Front) => assert_eq!(taken, group.len(), "at {} s {group:?}", splice.at),
+                Some(AreaSide::Rear) => assert!(taken == 0 || taken == group.len(), "at {} s {group:?}", splice.at),
                 None => assert_eq!(taken, 0, "at {} s {group:?}", splice.at),
             }
         }

@@ -4,8 +4,8 @@ use clap::Args;
 use clap::builder::TypedValueParser;
 use serde::Serialize;
 use trodden::features::{
-    self, Component, FeaturesOptions, Method, Mix, MixOptions, Modulation, NEIGHBOUR_DISTANCES_M, Rule, TogetherSpan,
-    Whose,
+    self, FeatureComponent, FeaturesOptions, Method, Mix, MixOptions, MixSource, Modulation, NEIGHBOUR_DISTANCES_M,
+    PresenceSpan, Rule,
 };
 use trodden::motion::Ensemble;
 use trodden::recordings::Recording;
@@ -87,9 +87,9 @@ pub struct Features {
 #[derive(Serialize)]
 struct Summary {
     method: Method,
-    span: TogetherSpan,
+    span: PresenceSpan,
     #[serde(skip_serializing_if = "Option::is_none")]
-    other_span: Option<TogetherSpan>,
+    other_span: Option<PresenceSpan>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     mean_neighbours: Vec<f64>,
     kept: usize,
@@ -103,9 +103,9 @@ struct Summary {
 #[derive(Serialize)]
 struct Row {
     #[serde(skip_serializing_if = "Option::is_none")]
-    whose: Option<Whose>,
+    whose: Option<MixSource>,
     #[serde(flatten)]
-    component: Component,
+    component: FeatureComponent,
     /// The share of its crowd's motion that it makes together with those before it.
     cumulated: f64,
     /// What is missed of its crowd's motion with those up to it, metres.
@@ -174,8 +174,8 @@ impl Features {
         recording: &Recording,
         within: [Option<f64>; 2],
         watch: &dyn Progress,
-    ) -> Result<(Ensemble, TogetherSpan), Error> {
-        let (ensemble, span) = features::together(recording, self.rate, within, watch)?;
+    ) -> Result<(Ensemble, PresenceSpan), Error> {
+        let (ensemble, span) = features::present_throughout(recording, self.rate, within, watch)?;
         let missing = recording.survey().people.saturating_sub(span.people);
         if missing > 0 {
             let (people, from_s, to_s) = (span.people, span.from_s, span.to_s);
@@ -198,7 +198,7 @@ impl Features {
     fn decompose(
         &self,
         ensemble: &Ensemble,
-        span: TogetherSpan,
+        span: PresenceSpan,
         modulation: &Modulation,
         watch: &dyn Progress,
     ) -> Result<(Summary, Ensemble), Error> {
@@ -229,7 +229,7 @@ impl Features {
     fn mix(
         &self,
         [first, other]: [&Ensemble; 2],
-        [span, other_span]: [TogetherSpan; 2],
+        [span, other_span]: [PresenceSpan; 2],
         modulation: &Modulation,
         watch: &dyn Progress,
     ) -> Result<(Summary, Ensemble), Error> {
@@ -239,7 +239,7 @@ impl Features {
                 watch.warn(&format!("{left_out} people of the {name} crowd have no counterpart and are left out"));
             }
         }
-        let features = [Whose::First, Whose::Other].map(|whose| mixed.features(whose));
+        let features = [MixSource::First, MixSource::Other].map(|whose| mixed.features(whose));
         let kept = self.components.unwrap_or(mixed.components().len());
         let made = mixed.modulated(kept, modulation)?;
         let mut sums = [(0, 0.0); 2];
@@ -253,7 +253,7 @@ impl Features {
         let summary = Summary {
             method: self.method,
             components: rows.collect(),
-            span: TogetherSpan { people: made.people(), moments: made.moments(), ..span },
+            span: PresenceSpan { people: made.people(), moments: made.moments(), ..span },
             other_span: Some(other_span),
             mean_neighbours: features.iter().filter_map(|features| features.mean_neighbours()).collect(),
             kept,
@@ -281,8 +281,8 @@ impl Features {
         )];
         let whose = |row: &Row| match row.whose {
             None => "",
-            Some(Whose::First) => "  first",
-            Some(Whose::Other) => "  other",
+            Some(MixSource::First) => "  first",
+            Some(MixSource::Other) => "  other",
         };
         let heading = if self.mixing.mix.is_some() { "  crowd" } else { "" };
         lines.push(format!("component{heading}    share   in all   left over"));

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::TypedValueParser;
-use trodden::features::Middle;
+use trodden::features::CentroidPath;
 use trodden::recordings::{LengthUnit, Recording, RecordingFormat, RecordingOptions};
 use trodden::{Error, Progress, Stage};
 
@@ -30,7 +30,7 @@ pub struct Mixing {
     pub mix_to: Option<f64>,
     /// Where the middle of the crowd goes
     #[arg(long, value_name = "WHOSE", value_parser = middle(), requires = "mix", default_value = "first")]
-    pub middle: Middle,
+    pub middle: CentroidPath,
     /// How the other recording is written; --format, --unit, --fps and --columns are about the first alone [default: found]
     #[arg(long, value_name = "NAME", value_parser = recording_format(), requires = "mix")]
     mix_format: Option<RecordingFormat>,
@@ -97,6 +97,6 @@ fn renamed(message: &str) -> String {
     OPTIONS.iter().fold(message.to_string(), rename)
 }
 
-fn middle() -> impl TypedValueParser<Value = Middle> {
-    one_of(Middle::ALL, Middle::name)
+fn middle() -> impl TypedValueParser<Value = CentroidPath> {
+    one_of(CentroidPath::ALL, CentroidPath::name)
 }

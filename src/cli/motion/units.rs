@@ -7,7 +7,7 @@ use trodden::Error;
 use trodden::files::write_whole;
 use trodden::math::{Vec2, sin_cos, vec2};
 use trodden::show::{draw_unit, encode_picture};
-use trodden::units::{Areas, Cut, CutOptions, DiversityReport, SpotFrame, Unit, UnitLibrary, cut};
+use trodden::units::{Areas, CutOptions, DiversityReport, SpotFrame, Unit, UnitCut, UnitLibrary, cut};
 
 use super::super::arguments::number_within;
 use super::super::print;
@@ -222,7 +222,7 @@ struct Row {
 }
 
 impl Row {
-    fn of(unit: &Unit, cut: Option<&Cut>) -> Row {
+    fn of(unit: &Unit, cut: Option<&UnitCut>) -> Row {
         Row {
             name: unit.name.clone(),
             description: unit.description.clone(),

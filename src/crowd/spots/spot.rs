@@ -8,7 +8,7 @@ use crate::math::{Vec2, atan2};
 use crate::plan::FloorPlan;
 use crate::routes::Ground;
 use crate::units::{
-    Areas, Candidate, Diversity, MatchOptions, Moment, Party, Side, SpotFrame, Unit, UnitLibrary, rank,
+    AreaSide, Areas, Candidate, Diversity, MatchOptions, Party, SpotFrame, TrackState, Unit, UnitLibrary, rank,
 };
 use crate::walls::Walls;
 
@@ -241,8 +241,8 @@ impl Spot {
     }
 
     /// Somebody as the viewer sees them.
-    fn moment(&self, person: &Present) -> Moment {
-        Moment {
+    fn moment(&self, person: &Present) -> TrackState {
+        TrackState {
             place_m: self.frame.of_plan(person.position_m),
             velocity_m_s: self.frame.turn_of_plan(person.velocity_m_s),
             heading: self.frame.turn_of_plan(person.heading),
@@ -288,11 +288,11 @@ impl Spot {
 }
 
 fn in_words(present: &[Party]) -> String {
-    let side = |side: Side| {
+    let side = |side: AreaSide| {
         let mut sizes: Vec<usize> = present.iter().filter(|p| p.side == side).map(|p| p.people.len()).collect();
         sizes.sort_unstable();
         let words: Vec<String> = sizes.iter().map(usize::to_string).collect();
         if words.is_empty() { "-".to_string() } else { words.join("+") }
     };
-    format!("{} | {}", side(Side::Front), side(Side::Rear))
+    format!("{} | {}", side(AreaSide::Front), side(AreaSide::Rear))
 }

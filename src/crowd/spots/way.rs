@@ -1,5 +1,5 @@
 use crate::math::Vec2;
-use crate::units::{Moment, SpotFrame, Unit};
+use crate::units::{SpotFrame, TrackState, Unit};
 
 /// Least and most time to move over to a part, seconds, and the steps in between.
 const MOVE_OVER_S: [f64; 3] = [0.8, 4.4, 0.3];
@@ -36,7 +36,7 @@ pub(super) struct Way {
 
 impl Way {
     /// The quickest way over to a part that a human body manages; `None` if there is none. `from` is the viewer's frame.
-    pub(super) fn find(unit: &Unit, member: usize, mirrored: bool, from: &Moment) -> Option<Way> {
+    pub(super) fn find(unit: &Unit, member: usize, mirrored: bool, from: &TrackState) -> Option<Way> {
         let start = unit.moment(member, 0.0, mirrored);
         let (off_m, off_m_s) = (from.place_m - start.place_m, from.velocity_m_s - start.velocity_m_s);
         let [least, most, step] = MOVE_OVER_S;
@@ -46,7 +46,7 @@ impl Way {
     }
 
     /// Place and velocity at a time of the unit, viewer's frame.
-    pub(super) fn at(&self, unit: &Unit, time_s: f64) -> Moment {
+    pub(super) fn at(&self, unit: &Unit, time_s: f64) -> TrackState {
         let mut moment = unit.moment(self.member, time_s, self.mirrored);
         let s = time_s / self.over_s;
         if s < 1.0 {
@@ -77,7 +77,7 @@ impl Way {
     }
 
     /// Whether moving over asks no more than people do.
-    fn is_human(&self, unit: &Unit, from: &Moment) -> bool {
+    fn is_human(&self, unit: &Unit, from: &TrackState) -> bool {
         let (mut before, mut facing) = (*from, from.heading);
         let steps = (self.over_s / LOOK_S).ceil() as usize + 1;
         (1..=steps).all(|k| {
@@ -124,7 +124,7 @@ mod tests {
         for unit in &library.units {
             for member in 0..unit.members.len() {
                 let start = unit.moment(member, 0.0, true);
-                let off = Moment {
+                let off = TrackState {
                     place_m: start.place_m + vec2(0.3, -0.2),
                     velocity_m_s: start.velocity_m_s + vec2(0.2, 0.1),
                     heading: start.heading.rotated(vec2(0.8, 0.6)),
@@ -157,10 +157,10 @@ mod tests {
         let library = UnitLibrary::built_in().unwrap();
         let unit = &library.units[0];
         let start = unit.moment(0, 0.0, false);
-        let far = Moment { place_m: start.place_m + vec2(9.0, 0.0), ..start };
+        let far = TrackState { place_m: start.place_m + vec2(9.0, 0.0), ..start };
         assert_eq!(Way::find(unit, 0, false, &far), None);
         let ahead = start.heading * 2.5;
-        let beyond = Moment { place_m: start.place_m + ahead, velocity_m_s: Vec2::ZERO, ..start };
+        let beyond = TrackState { place_m: start.place_m + ahead, velocity_m_s: Vec2::ZERO, ..start };
         assert!(Way::find(unit, 0, false, &beyond).is_none_or(|way| way.over_s > 1.5));
     }
 }

@@ -73,9 +73,9 @@ fn components_take_turns_by_eigenvalue() {
     for (method, other) in [(Method::Pca, &large), (Method::Laplacian, &to_the_centre(12))] {
         let mixed = mix(&small, other, method);
         let order: Vec<_> = mixed.components().collect();
-        let sums = [Whose::First, Whose::Other]
+        let sums = [MixSource::First, MixSource::Other]
             .map(|whose| order.iter().filter(|of| of.0 == whose).map(|of| of.1.eigenvalue).sum::<f64>());
-        for whose in [Whose::First, Whose::Other] {
+        for whose in [MixSource::First, MixSource::Other] {
             let own: Vec<f64> = order.iter().filter(|of| of.0 == whose).map(|of| of.1.eigenvalue).collect();
             assert_eq!(own.len(), mixed.features(whose).components().len());
             assert!(own.windows(2).all(|pair| pair[0] >= pair[1]));
@@ -105,7 +105,7 @@ fn people_are_matched_and_moments_are_shared() {
     let other = Ensemble::new(20.0, 77.0, (0..14).collect(), places);
     let mixed = mix(&first, &other, Method::Pca);
     assert_eq!(mixed.left_out(), [0, 4]);
-    assert_eq!(mixed.features(Whose::Other).moments(), 101);
+    assert_eq!(mixed.features(MixSource::Other).moments(), 101);
     let all = mixed.components().len();
     let features = find(&first, Method::Pca);
     let twice =
@@ -113,20 +113,22 @@ fn people_are_matched_and_moments_are_shared() {
     assert!(apart(&mixed.rebuild(all).unwrap(), &twice) < 1e-9);
     // The other way round, those without a partner are left out, and it ends with the shorter.
     let turned = mix(&other, &sideways(10), Method::Pca);
-    assert_eq!((turned.left_out(), turned.features(Whose::First).moments()), ([4, 0], 201));
+    assert_eq!((turned.left_out(), turned.features(MixSource::First).moments()), ([4, 0], 201));
     assert_eq!(turned.rebuild(1).unwrap().ids, (3..13).collect::<Vec<_>>());
 }
 
 #[test]
 fn the_middle_goes_where_it_is_asked_to() {
     let (a, b) = (sideways(10), wild(10, 101));
-    let path = |middle: Middle| {
+    let path = |middle: CentroidPath| {
         let options = FeaturesOptions::default();
         let mixed = Mix::find(&a, &b, &options, MixOptions { middle }, &Silent).unwrap().rebuild(3).unwrap();
         mixed.centroid_m(100) - mixed.centroid_m(0)
     };
     let [of_a, of_b] = [&a, &b].map(|crowd| crowd.centroid_m(100) - crowd.centroid_m(0));
-    for (middle, expected) in [(Middle::First, of_a), (Middle::Other, of_b), (Middle::Both, of_a + of_b)] {
+    for (middle, expected) in
+        [(CentroidPath::First, of_a), (CentroidPath::Other, of_b), (CentroidPath::Both, of_a + of_b)]
+    {
         assert!(path(middle).distance(expected) < 1e-9, "{middle:?}");
     }
 }

@@ -7,17 +7,17 @@ const USUAL_DISTANCE_M: f64 = 0.36;
 
 /// What keeps clear of others as one: a person, or people who keep together.
 #[derive(Clone, Debug)]
-pub(in super::super) struct Body {
+pub(in super::super) struct FormationBody {
     /// Its middle, moment by moment, metres.
     pub places: Vec<Vec2>,
     /// Everybody who belongs to it, in the order of ids.
-    pub people: Vec<Person>,
+    pub people: Vec<BodyMember>,
     reach: Reach,
 }
 
 /// Somebody who belongs to a body.
 #[derive(Clone, Debug)]
-pub(in super::super) struct Person {
+pub(in super::super) struct BodyMember {
     /// Where they are from its middle, moment by moment; empty for in its middle.
     pub offsets: Vec<Vec2>,
     pub who: FormedPerson,
@@ -30,15 +30,15 @@ enum Reach {
     ByMoment(Vec<f64>),
 }
 
-impl Body {
+impl FormationBody {
     /// A body of one person.
-    pub fn person(places: Vec<Vec2>, who: FormedPerson, avoid: &AvoidRequest) -> Body {
+    pub fn person(places: Vec<Vec2>, who: FormedPerson, avoid: &AvoidRequest) -> FormationBody {
         let reach_m = avoid.distance_m.unwrap_or(USUAL_DISTANCE_M) / 2.0;
-        Body { places, people: vec![Person { offsets: Vec::new(), who }], reach: Reach::Always(reach_m) }
+        FormationBody { places, people: vec![BodyMember { offsets: Vec::new(), who }], reach: Reach::Always(reach_m) }
     }
 
     /// A body of several, whose places are from its middle; it goes along a track.
-    pub fn of_all(bodies: Vec<Body>, track: Vec<Vec2>) -> Body {
+    pub fn of_all(bodies: Vec<FormationBody>, track: Vec<Vec2>) -> FormationBody {
         let moments = track.len();
         let reach = |moment: usize| {
             bodies.iter().map(|body| body.places[moment].length() + body.reach_m(moment)).fold(0.0, f64::max)
@@ -46,16 +46,16 @@ impl Body {
         let reach = Reach::ByMoment((0..moments).map(reach).collect());
         let mut people = Vec::new();
         for body in bodies {
-            for Person { offsets, who } in body.people {
+            for BodyMember { offsets, who } in body.people {
                 let offsets = if offsets.is_empty() {
                     body.places.clone()
                 } else {
                     offsets.into_iter().zip(&body.places).map(|(offset, &middle)| offset + middle).collect()
                 };
-                people.push(Person { offsets, who });
+                people.push(BodyMember { offsets, who });
             }
         }
-        Body { places: track, people, reach }
+        FormationBody { places: track, people, reach }
     }
 
     /// How far from its middle it keeps others at a moment, metres.

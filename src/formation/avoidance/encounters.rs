@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 
-use super::nearby::Pair;
+use super::nearby::BodyPair;
 use super::tracks::BodyTracks;
 use crate::math::{Vec2, vec2};
 
@@ -13,7 +13,7 @@ const UNDECIDED: f64 = 0.01;
 
 /// First offsets for everybody: bodies that would walk through each other are led past, each on the side on which they are,
 /// head on both to their right. Without them a moment's nearest places would jump from before to behind.
-pub(super) fn first_offsets(crowd: &BodyTracks<'_>, too_near: &[Vec<Pair>], fps: f64, seconds: f64) -> Vec<Vec2> {
+pub(super) fn first_offsets(crowd: &BodyTracks<'_>, too_near: &[Vec<BodyPair>], fps: f64, seconds: f64) -> Vec<Vec2> {
     let mut offsets = vec![Vec2::ZERO; crowd.places.len()];
     for (pair, moments) in by_pair(too_near) {
         // Stretches of moments without a gap: one encounter each.
@@ -35,8 +35,8 @@ pub(super) fn first_offsets(crowd: &BodyTracks<'_>, too_near: &[Vec<Pair>], fps:
 }
 
 /// The moments at which each pair is too near.
-fn by_pair(too_near: &[Vec<Pair>]) -> BTreeMap<Pair, Vec<usize>> {
-    let mut moments: BTreeMap<Pair, Vec<usize>> = BTreeMap::new();
+fn by_pair(too_near: &[Vec<BodyPair>]) -> BTreeMap<BodyPair, Vec<usize>> {
+    let mut moments: BTreeMap<BodyPair, Vec<usize>> = BTreeMap::new();
     for (moment, pairs) in too_near.iter().enumerate() {
         pairs.iter().for_each(|&pair| moments.entry(pair).or_default().push(moment));
     }
@@ -45,7 +45,7 @@ fn by_pair(too_near: &[Vec<Pair>]) -> BTreeMap<Pair, Vec<usize>> {
 
 /// When the two pass each other, in moments, and how far the first must step aside (the second to the other side), if
 /// they do.
-fn step_aside(crowd: &BodyTracks<'_>, [a, b]: Pair, encounter: &[usize], fps: f64) -> Option<(f64, Vec2)> {
+fn step_aside(crowd: &BodyTracks<'_>, [a, b]: BodyPair, encounter: &[usize], fps: f64) -> Option<(f64, Vec2)> {
     let apart = |moment: usize| crowd.at(moment, a) - crowd.at(moment, b);
     let nearest = encounter.iter().copied().min_by(|&m, &n| apart(m).length().total_cmp(&apart(n).length()))?;
     let (before, after) = (nearest.saturating_sub(1), (nearest + 1).min(crowd.moments() - 1));

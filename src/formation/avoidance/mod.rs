@@ -9,7 +9,7 @@ mod settle;
 mod smooth;
 mod tracks;
 
-pub(super) use body::{Body, Person};
+pub(super) use body::{BodyMember, FormationBody};
 pub(super) use relax::keep_clear;
 pub(super) use settings::AvoidanceSettings;
 

@@ -2,17 +2,17 @@ use crate::math::Vec2;
 
 /// Bodies and how far from its middle each keeps others, at one moment.
 #[derive(Clone, Copy)]
-pub(super) struct Moment<'m> {
+pub(super) struct BodiesAtMoment<'m> {
     pub places: &'m [Vec2],
     pub reaches_m: &'m [f64],
 }
 
 /// Two bodies, the first of which has the lower number.
-pub(super) type Pair = [u32; 2];
+pub(super) type BodyPair = [u32; 2];
 
 /// Pairs of bodies that come nearer to each other than `gap_m`, edge to edge, in the order of their numbers.
-pub(super) fn pairs_within(moment: Moment<'_>, gap_m: f64) -> Vec<Pair> {
-    let Moment { places, reaches_m } = moment;
+pub(super) fn pairs_within(moment: BodiesAtMoment<'_>, gap_m: f64) -> Vec<BodyPair> {
+    let BodiesAtMoment { places, reaches_m } = moment;
     let largest_m = reaches_m.iter().copied().fold(0.0, f64::max);
     let cell_m = (2.0 * largest_m + gap_m).max(1e-6);
     // Numbers of cells stay exact, and bodies that are not finite fall into some cell.
@@ -60,14 +60,14 @@ mod tests {
                     }
                 }
             }
-            assert_eq!(pairs_within(Moment { places: &places, reaches_m: &reaches_m }, 0.4), slow);
+            assert_eq!(pairs_within(BodiesAtMoment { places: &places, reaches_m: &reaches_m }, 0.4), slow);
         }
     }
 
     #[test]
     fn everybody_on_one_point_and_far_away_is_found() {
         let places = [vec2(1e9, -1e9), vec2(1e9, -1e9), vec2(f64::NAN, 0.0)];
-        let pairs = pairs_within(Moment { places: &places, reaches_m: &[0.2; 3] }, 0.0);
+        let pairs = pairs_within(BodiesAtMoment { places: &places, reaches_m: &[0.2; 3] }, 0.0);
         assert_eq!(pairs, [[0, 1]]);
     }
 }

@@ -1,8 +1,8 @@
 use rayon::prelude::*;
 
-use super::body::Body;
+use super::body::FormationBody;
 use super::encounters::first_offsets;
-use super::nearby::{Moment, Pair};
+use super::nearby::{BodiesAtMoment, BodyPair};
 use super::settings::AvoidanceSettings;
 use super::settle::settle;
 use super::smooth::Smoother;
@@ -48,7 +48,7 @@ const SKIN_M: f64 = 0.3;
 /// [`FormationError::Interrupted`].
 pub(in super::super) fn keep_clear(
     avoidance: &AvoidanceSettings,
-    bodies: &mut [Body],
+    bodies: &mut [FormationBody],
     progress: &dyn Progress,
 ) -> Result<(), FormationError> {
     if !avoidance.on || bodies.len() < 2 {
@@ -63,7 +63,7 @@ pub(in super::super) fn keep_clear(
     }
     let start = first_offsets(&crowd, &too_near, avoidance.fps, avoidance.seconds);
     drop((none, too_near));
-    let mut search = Search::new(avoidance, &crowd, start);
+    let mut search = OffsetSearch::new(avoidance, &crowd, start);
     for [margin, stiffness] in ROUNDS {
         search.begin(stiffness);
         if search.run(margin, progress)? {
@@ -86,7 +86,7 @@ fn push_gap_m(crowd: &BodyTracks<'_>) -> f64 {
 }
 
 /// The search for offsets.
-struct Search<'c> {
+struct OffsetSearch<'c> {
     crowd: &'c BodyTracks<'c>,
     push: f64,
     /// Gap over which neighbours push each other, and the distance that it stands for, metres.
@@ -102,12 +102,12 @@ struct Search<'c> {
     /// How far the two have been apart, summed up.
     strain: Vec<Vec2>,
     /// Pairs that may come near, moment by moment, and the offsets at which they were looked for.
-    near: Vec<Vec<Pair>>,
+    near: Vec<Vec<BodyPair>>,
     looked_at: Vec<Vec2>,
 }
 
-impl<'c> Search<'c> {
-    fn new(avoidance: &AvoidanceSettings, crowd: &'c BodyTracks<'c>, start: Vec<Vec2>) -> Search<'c> {
+impl<'c> OffsetSearch<'c> {
+    fn new(avoidance: &AvoidanceSettings, crowd: &'c BodyTracks<'c>, start: Vec<Vec2>) -> OffsetSearch<'c> {
         let hold: Vec<f64> = (0..crowd.moments())
             .map(|moment| {
                 let from_key = |&key: &usize| (moment as f64 - key as f64).abs() / avoidance.fps / KEY_HOLD_S;
@@ -121,7 +121,7 @@ impl<'c> Search<'c> {
         let bend = (1.0 + TIE) * moments * moments * moments * moments;
         let smoother = Smoother::new(&hold, bend);
         let near = crowd.pairs(&start, push_gap_m(crowd) + SKIN_M);
-        Search {
+        OffsetSearch {
             crowd,
             push: avoidance.push,
             push_gap_m: push_gap_m(crowd),
@@ -160,7 +160,7 @@ impl<'c> Search<'c> {
     /// For every moment: the nearest places to everybody's ways (and what is left of earlier strain) at which nobody
     /// overlaps.
     fn find_clear_places(&mut self, margin: f64) {
-        let Search { crowd, ways, clear, strain, near, .. } = self;
+        let OffsetSearch { crowd, ways, clear, strain, near, .. } = self;
         let width = crowd.bodies;
         let each = clear.par_chunks_mut(width).zip(strain.par_chunks_mut(width)).zip(&*near).enumerate();
         each.for_each(|(moment, ((clear, strain), near))| {
@@ -184,7 +184,7 @@ impl<'c> Search<'c> {
 
     /// Everybody's best way to be near those places, held by the spring and pushed by neighbours.
     fn find_ways(&mut self) {
-        let Search { crowd, ways, clear, strain, near, push, push_gap_m, smoother, .. } = self;
+        let OffsetSearch { crowd, ways, clear, strain, near, push, push_gap_m, smoother, .. } = self;
         let width = crowd.bodies;
         let each = ways.par_chunks_mut(width).zip(&*near).enumerate();
         each.for_each(|(moment, (ways, near))| {
@@ -238,7 +238,7 @@ impl<'c> Search<'c> {
 }
 
 /// A pair that keeps apart in a direction: the half plane beside which bodies overlap.
-struct Side {
+struct SeparatingLine {
     pair: [usize; 2],
     direction: Vec2,
     /// How far apart in that direction offsets must at least be.
@@ -247,19 +247,19 @@ struct Side {
 
 /// The sides on which pairs are of each other with these offsets. They stay there: were everybody moved the shortest way,
 /// two who are led past each other would change sides again and again.
-fn sides(here: Moment<'_>, ways: &[Vec2], near: &[Pair], margin: f64) -> Vec<Side> {
-    let side = |&[a, b]: &Pair| {
+fn sides(here: BodiesAtMoment<'_>, ways: &[Vec2], near: &[BodyPair], margin: f64) -> Vec<SeparatingLine> {
+    let side = |&[a, b]: &BodyPair| {
         let pair = [a as usize, b as usize];
         let own = here.places[pair[0]] - here.places[pair[1]];
         let apart = own + ways[pair[0]] - ways[pair[1]];
         let keep_m = (here.reaches_m[pair[0]] + here.reaches_m[pair[1]]) * (1.0 + margin);
         let direction = if apart.length() > 1e-9 { apart / apart.length() } else { any_direction(a, b) };
-        Side { pair, direction, least_m: keep_m - own.dot(direction) }
+        SeparatingLine { pair, direction, least_m: keep_m - own.dot(direction) }
     };
     near.iter().map(side).collect()
 }
 
-impl Side {
+impl SeparatingLine {
     /// Moves offsets apart, both by the same; says whether that was needed.
     fn part(&self, offsets: &mut [Vec2]) -> bool {
         let [a, b] = self.pair;

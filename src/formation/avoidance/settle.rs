@@ -1,6 +1,6 @@
 use rayon::prelude::*;
 
-use super::nearby::{Moment, Pair, pairs_within};
+use super::nearby::{BodiesAtMoment, BodyPair, pairs_within};
 use super::settings::AvoidanceSettings;
 use super::smooth::Smoother;
 use super::tracks::{BodyTracks, SWEEPS, any_direction};
@@ -71,13 +71,13 @@ fn remedies(crowd: &BodyTracks<'_>, ways: &[Vec2]) -> Vec<Vec2> {
     remedies.par_chunks_mut(width).enumerate().for_each(|(moment, remedies)| {
         let here = crowd.moment(moment);
         let own = crowd.moved(moment, ways);
-        if pairs_within(Moment { places: &own, reaches_m: here.reaches_m }, 0.0).is_empty() {
+        if pairs_within(BodiesAtMoment { places: &own, reaches_m: here.reaches_m }, 0.0).is_empty() {
             return;
         }
         let margin_m = 2.0 * MARGIN * here.reaches_m.iter().copied().fold(0.0, f64::max);
         let mut places = own.clone();
         for _ in 0..ROUNDS {
-            let near = pairs_within(Moment { places: &places, reaches_m: here.reaches_m }, margin_m);
+            let near = pairs_within(BodiesAtMoment { places: &places, reaches_m: here.reaches_m }, margin_m);
             if !part(&mut places, here.reaches_m, &near, MARGIN, 2 * SWEEPS) {
                 break;
             }
@@ -98,7 +98,7 @@ fn made_sure(crowd: &BodyTracks<'_>, ways: &[Vec2], fps: f64) -> Vec<Vec2> {
         let own = here.places.iter().zip(&*ways).zip(&remedy);
         let mut places: Vec<Vec2> = own.map(|((&place, &way), &remedy)| place + way + remedy * keep).collect();
         for _ in 0..LAST_SWEEPS {
-            let near = pairs_within(Moment { places: &places, reaches_m: here.reaches_m }, 0.0);
+            let near = pairs_within(BodiesAtMoment { places: &places, reaches_m: here.reaches_m }, 0.0);
             if near.is_empty() {
                 break;
             }
@@ -176,8 +176,8 @@ fn nearest(crowd: &BodyTracks<'_>, offsets: &[Vec2]) -> Option<(usize, [f64; 2],
     const ROUNDING: f64 = 1e-5;
     let worst_at = |moment: usize| {
         let places = crowd.moved(moment, offsets);
-        let near = pairs_within(Moment { places: &places, reaches_m: crowd.moment(moment).reaches_m }, 0.0);
-        let pair = |pair: Pair| {
+        let near = pairs_within(BodiesAtMoment { places: &places, reaches_m: crowd.moment(moment).reaches_m }, 0.0);
+        let pair = |pair: BodyPair| {
             let [a, b] = pair.map(|body| places[body as usize]);
             (moment, [a.distance(b), crowd.keep_m(moment, pair)], (a + b) / 2.0)
         };
@@ -194,7 +194,7 @@ fn missing_m([apart_m, kept_m]: [f64; 2]) -> f64 {
 
 /// Moves pairs apart that are nearer to each other than they keep and a margin, sweep by sweep; says whether some may still
 /// be so.
-fn part(places: &mut [Vec2], reaches_m: &[f64], near: &[Pair], margin: f64, sweeps: usize) -> bool {
+fn part(places: &mut [Vec2], reaches_m: &[f64], near: &[BodyPair], margin: f64, sweeps: usize) -> bool {
     for _ in 0..sweeps {
         let mut moved = false;
         for &[a, b] in near {

@@ -4,12 +4,12 @@ use crate::formation::formed::FormedPerson;
 use crate::formation::request::AvoidRequest;
 use crate::math::{SplitMix64, Vec2, sin_cos, vec2};
 
-fn person(track: Vec<Vec2>) -> Body {
-    Body::person(track, FormedPerson { address: vec![0], rides: false }, &AvoidRequest::default())
+fn person(track: Vec<Vec2>) -> FormationBody {
+    FormationBody::person(track, FormedPerson { address: vec![0], rides: false }, &AvoidRequest::default())
 }
 
 fn cleared(tracks: Vec<Vec<Vec2>>, fps: f64) -> Vec<Vec<Vec2>> {
-    let mut bodies: Vec<Body> = tracks.into_iter().map(person).collect();
+    let mut bodies: Vec<FormationBody> = tracks.into_iter().map(person).collect();
     let last = bodies[0].places.len() - 1;
     keep_clear(&AvoidanceSettings::new(&AvoidRequest::default(), fps, &[0, last]), &mut bodies, &Silent).unwrap();
     bodies.into_iter().map(|body| body.places).collect()
@@ -132,7 +132,7 @@ fn where_there_is_no_time_to_make_room_it_says_where_and_when_instead_of_jumping
             track
         })
         .collect();
-    let mut bodies: Vec<Body> = tracks.iter().cloned().map(person).collect();
+    let mut bodies: Vec<FormationBody> = tracks.iter().cloned().map(person).collect();
     let warned = Warned::default();
     keep_clear(&AvoidanceSettings::new(&AvoidRequest::default(), 10.0, &[]), &mut bodies, &warned).unwrap();
     let offsets: Vec<Vec<Vec2>> = bodies
@@ -145,7 +145,7 @@ fn where_there_is_no_time_to_make_room_it_says_where_and_when_instead_of_jumping
     let says = |part: &str| warned.iter().any(|warning| warning.contains(part));
     assert!(warned.len() == 1 && says("at 4.0 s near [150"), "{warned:?}");
     // Nobody is warned of a crowd that has room.
-    let mut bodies: Vec<Body> = tracks.iter().map(|track| person(track[..40].to_vec())).collect();
+    let mut bodies: Vec<FormationBody> = tracks.iter().map(|track| person(track[..40].to_vec())).collect();
     let silent = Warned::default();
     keep_clear(&AvoidanceSettings::new(&AvoidRequest::default(), 10.0, &[]), &mut bodies, &silent).unwrap();
     assert!(silent.0.into_inner().unwrap().is_empty());
@@ -156,7 +156,7 @@ fn nobody_moves_who_has_room_and_nobody_at_all_where_it_is_off() {
     let tracks = vec![line([0.0, 0.0], [5.0, 0.0], 31), line([0.0, 3.0], [5.0, 3.0], 31)];
     assert_eq!(cleared(tracks.clone(), 10.0), tracks);
     let through = vec![line([0.0, 0.0], [5.0, 0.0], 31), line([5.0, 0.0], [0.0, 0.0], 31)];
-    let mut bodies: Vec<Body> = through.iter().cloned().map(person).collect();
+    let mut bodies: Vec<FormationBody> = through.iter().cloned().map(person).collect();
     let off = AvoidRequest { on: Some(false), ..AvoidRequest::default() };
     keep_clear(&AvoidanceSettings::new(&off, 10.0, &[]), &mut bodies, &Silent).unwrap();
     assert!(bodies.iter().zip(&through).all(|(body, track)| body.places == *track));
@@ -178,10 +178,10 @@ fn neighbours_push_in_inverse_proportion_and_less_at_a_key_formation() {
 fn those_who_keep_together_are_led_past_others_as_one() {
     let avoid = AvoidRequest::default();
     let who = || FormedPerson { address: vec![0], rides: false };
-    let still = |x: f64, y: f64| Body::person(vec![vec2(x, y); 101], who(), &avoid);
+    let still = |x: f64, y: f64| FormationBody::person(vec![vec2(x, y); 101], who(), &avoid);
     let trio = vec![still(0.0, 0.4), still(-0.35, -0.2), still(0.35, -0.2)];
     let walk = line([-6.0, 0.1], [6.0, 0.1], 101);
-    let mut bodies = vec![Body::of_all(trio, walk), still(0.0, 0.0)];
+    let mut bodies = vec![FormationBody::of_all(trio, walk), still(0.0, 0.0)];
     keep_clear(&AvoidanceSettings::new(&avoid, 10.0, &[]), &mut bodies, &Silent).unwrap();
     assert!(bodies[0].people.len() == 3 && bodies[0].people[0].offsets == vec![vec2(0.0, 0.4); 101]);
     for moment in 0..101 {

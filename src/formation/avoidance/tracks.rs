@@ -1,7 +1,7 @@
 use rayon::prelude::*;
 
-use super::body::Body;
-use super::nearby::{Moment, Pair, pairs_within};
+use super::body::FormationBody;
+use super::nearby::{BodiesAtMoment, BodyPair, pairs_within};
 use crate::math::{Vec2, sin_cos, vec2};
 
 /// Sweeps over overlapping pairs in a step.
@@ -12,11 +12,11 @@ pub(super) struct BodyTracks<'b> {
     pub bodies: usize,
     pub places: Vec<Vec2>,
     pub reaches_m: Vec<f64>,
-    all: &'b [Body],
+    all: &'b [FormationBody],
 }
 
 impl<'b> BodyTracks<'b> {
-    pub fn of(all: &'b [Body]) -> BodyTracks<'b> {
+    pub fn of(all: &'b [FormationBody]) -> BodyTracks<'b> {
         let moments = all.first().map_or(0, |body| body.places.len());
         let each = || (0..moments).flat_map(|moment| all.iter().map(move |body| (moment, body)));
         let places = each().map(|(moment, body)| body.places[moment]).collect();
@@ -33,14 +33,14 @@ impl<'b> BodyTracks<'b> {
     }
 
     /// How far apart the middles of two bodies are kept.
-    pub fn keep_m(&self, moment: usize, [a, b]: Pair) -> f64 {
+    pub fn keep_m(&self, moment: usize, [a, b]: BodyPair) -> f64 {
         let at = |body: u32| self.reaches_m[moment * self.bodies + body as usize];
         at(a) + at(b)
     }
 
-    pub fn moment(&self, moment: usize) -> Moment<'_> {
+    pub fn moment(&self, moment: usize) -> BodiesAtMoment<'_> {
         let range = moment * self.bodies..(moment + 1) * self.bodies;
-        Moment { places: &self.places[range.clone()], reaches_m: &self.reaches_m[range] }
+        BodiesAtMoment { places: &self.places[range.clone()], reaches_m: &self.reaches_m[range] }
     }
 
     /// Everybody's places at a moment, with everybody's offsets at all moments.
@@ -50,10 +50,10 @@ impl<'b> BodyTracks<'b> {
     }
 
     /// Pairs nearer to each other than a gap, edge to edge, with offsets to places, moment by moment.
-    pub fn pairs(&self, offsets: &[Vec2], gap_m: f64) -> Vec<Vec<Pair>> {
+    pub fn pairs(&self, offsets: &[Vec2], gap_m: f64) -> Vec<Vec<BodyPair>> {
         let of = |moment: usize| {
             let places = self.moved(moment, offsets);
-            pairs_within(Moment { places: &places, reaches_m: self.moment(moment).reaches_m }, gap_m)
+            pairs_within(BodiesAtMoment { places: &places, reaches_m: self.moment(moment).reaches_m }, gap_m)
         };
         (0..self.moments()).into_par_iter().map(of).collect()
     }

@@ -1,13 +1,13 @@
 use std::path::Path;
 
-use super::generated::{MOST_WANDERERS, Wanted};
+use super::generated::{GeneratedExample, MOST_WANDERERS};
 use super::heading::{headings, turned_to};
-use super::keys::{self, Cast, Layout};
+use super::keys::{self, FormationLayout, PlacementInput};
 use super::{example, path};
 use crate::formation::FormationError;
 use crate::formation::MOST_PEOPLE;
-use crate::formation::avoidance::{AvoidanceSettings, Body, Person, keep_clear};
-use crate::formation::blend::{self, Key};
+use crate::formation::avoidance::{AvoidanceSettings, BodyMember, FormationBody, keep_clear};
+use crate::formation::blend::{self, KeyPlaces};
 use crate::formation::formed::FormedPerson;
 use crate::formation::places::{centroid, grid_of};
 use crate::formation::request::{
@@ -68,7 +68,7 @@ impl<'m> CrowdBuilder<'m> {
     }
 
     /// The whole crowd, on its way and clear of each other.
-    pub fn whole(&mut self, request: &FormationRequest) -> Result<Vec<Body>, FormationError> {
+    pub fn whole(&mut self, request: &FormationRequest) -> Result<Vec<FormationBody>, FormationError> {
         let base = path::places(request.way.as_ref(), self.fps, self.moments);
         let turns = request.way.as_ref().is_some_and(|way| way.follow_heading);
         let spot = CrowdContext {
@@ -90,10 +90,10 @@ impl<'m> CrowdBuilder<'m> {
         section: CrowdSection<'_>,
         spot: &CrowdContext,
         avoid: &AvoidRequest,
-    ) -> Result<(Vec<Body>, Vec<usize>), FormationError> {
+    ) -> Result<(Vec<FormationBody>, Vec<usize>), FormationError> {
         self.progress.keep_on()?;
-        let layouts: Vec<Layout> =
-            section.key.iter().map(|key| Layout::of(key, self.folder)).collect::<Result<_, _>>()?;
+        let layouts: Vec<FormationLayout> =
+            section.key.iter().map(|key| FormationLayout::of(key, self.folder)).collect::<Result<_, _>>()?;
         let example = self.example(section.example, spot, &layouts)?;
         let keys = self.keys(section, &layouts, &example, spot)?;
         let moments: Vec<usize> = keys.iter().map(|key| key.moment).collect();
@@ -118,7 +118,7 @@ impl<'m> CrowdBuilder<'m> {
                 None => {
                     self.people += 1;
                     self.check_people(spot)?;
-                    bodies.push(Body::person(track, FormedPerson { address, rides: false }, avoid));
+                    bodies.push(FormationBody::person(track, FormedPerson { address, rides: false }, avoid));
                 }
                 Some(kind) => {
                     let key = format!("{}.crowd.{kind}", spot.key);
@@ -139,7 +139,7 @@ impl<'m> CrowdBuilder<'m> {
         request: &CrowdRequest,
         spot: CrowdContext,
         larger: &AvoidRequest,
-    ) -> Result<Vec<Body>, FormationError> {
+    ) -> Result<Vec<FormationBody>, FormationError> {
         let avoid = request.avoid.over(larger);
         let (mut bodies, keys) = self.section(request.section(), &spot, &avoid)?;
         if !request.is_as_one() {
@@ -147,14 +147,14 @@ impl<'m> CrowdBuilder<'m> {
         }
         let rider = request.rider.then(|| {
             let carriers = spot.address.iter().copied().chain([bodies.len() as u32]);
-            Person { offsets: Vec::new(), who: FormedPerson { address: carriers.collect(), rides: true } }
+            BodyMember { offsets: Vec::new(), who: FormedPerson { address: carriers.collect(), rides: true } }
         });
         self.people += usize::from(request.rider);
         for body in &mut bodies {
             body.places.iter_mut().zip(&spot.base).for_each(|(place, &middle)| *place -= middle);
         }
         keep_clear(&AvoidanceSettings::new(&avoid, self.fps, &keys), &mut bodies, self.progress)?;
-        let mut whole = Body::of_all(bodies, spot.base);
+        let mut whole = FormationBody::of_all(bodies, spot.base);
         whole.people.extend(rider);
         Ok(vec![whole])
     }
@@ -184,7 +184,7 @@ impl<'m> CrowdBuilder<'m> {
         &mut self,
         request: &ExampleRequest,
         spot: &CrowdContext,
-        layouts: &[Layout],
+        layouts: &[FormationLayout],
     ) -> Result<Ensemble, FormationError> {
         let key = format!("{}.example", spot.key);
         let whole = if request.file.is_some() {
@@ -208,7 +208,7 @@ impl<'m> CrowdBuilder<'m> {
             let seed = spot.address.iter().fold(request.seed, |seed, &k| {
                 SplitMix64::new(seed.wrapping_add(u64::from(k)).wrapping_add(1)).next_u64()
             });
-            Wanted { request, kind, people, columns, seed, fps: self.fps, moments }.make(self.progress)?
+            GeneratedExample { request, kind, people, columns, seed, fps: self.fps, moments }.make(self.progress)?
         };
         let chosen = match &request.choose {
             Some(choice) => chosen(&whole, choice.of_crowd(spot.number), &key)?,
@@ -248,20 +248,20 @@ impl<'m> CrowdBuilder<'m> {
     fn keys(
         &self,
         section: CrowdSection<'_>,
-        layouts: &[Layout],
+        layouts: &[FormationLayout],
         example: &Ensemble,
         spot: &CrowdContext,
-    ) -> Result<Vec<Key>, FormationError> {
+    ) -> Result<Vec<KeyPlaces>, FormationError> {
         let last = self.moments - 1;
         let at = |time_s: f64| ((time_s * self.fps).round().max(0.0) as usize).min(last);
-        let mut keys: Vec<Key> = Vec::new();
+        let mut keys: Vec<KeyPlaces> = Vec::new();
         let mut before = example.places_at(0).to_vec();
         let mut wheel_rad = 0.0;
         let still = has_no_formation(section.example);
         for (index, (request, layout)) in section.key.iter().zip(layouts).enumerate() {
             let moment = at(request.time_s);
             wheel_rad += request.wheel_deg.to_radians();
-            let cast = Cast {
+            let cast = PlacementInput {
                 people: example.people(),
                 example: example.places_at(moment),
                 before: &before,
@@ -276,9 +276,9 @@ impl<'m> CrowdBuilder<'m> {
             let (sin, cos) = sin_cos(-wheel_rad);
             before = places_m.iter().map(|&place| (place - middle).rotated(vec2(cos, sin))).collect();
             let end = at(request.time_s + request.hold_s);
-            keys.push(Key { moment, places_m: places_m.clone(), wheel_rad });
+            keys.push(KeyPlaces { moment, places_m: places_m.clone(), wheel_rad });
             if end > moment {
-                keys.push(Key { moment: end, places_m, wheel_rad });
+                keys.push(KeyPlaces { moment: end, places_m, wheel_rad });
             }
         }
         // At high speed two key formations may fall into one moment: the later one holds.
@@ -291,7 +291,7 @@ impl<'m> CrowdBuilder<'m> {
 
     /// The formations at the start and the end, where nothing is said of them: the example's own, of an example that has
     /// none those beside it.
-    fn complete(&self, keys: &mut Vec<Key>, request: &ExampleRequest, example: &Ensemble, free: bool) {
+    fn complete(&self, keys: &mut Vec<KeyPlaces>, request: &ExampleRequest, example: &Ensemble, free: bool) {
         let last = self.moments - 1;
         let still = has_no_formation(request);
         let own = |moment: usize, wheel_rad: f64| {
@@ -300,14 +300,14 @@ impl<'m> CrowdBuilder<'m> {
             let (sin, cos) = sin_cos(wheel_rad);
             let turned = places.iter().map(|&place| (place - middle).rotated(vec2(cos, sin)));
             let at = if free { middle } else { Vec2::ZERO };
-            Key { moment, places_m: turned.map(|place| place + at).collect(), wheel_rad }
+            KeyPlaces { moment, places_m: turned.map(|place| place + at).collect(), wheel_rad }
         };
         let Some((first, end)) = keys.first().cloned().zip(keys.last().cloned()) else { return };
         if first.moment > 0 {
-            keys.insert(0, if still { Key { moment: 0, ..first } } else { own(0, 0.0) });
+            keys.insert(0, if still { KeyPlaces { moment: 0, ..first } } else { own(0, 0.0) });
         }
         if end.moment < last {
-            keys.push(if still { Key { moment: last, ..end } } else { own(last, end.wheel_rad) });
+            keys.push(if still { KeyPlaces { moment: last, ..end } } else { own(last, end.wheel_rad) });
         }
     }
 }
@@ -318,13 +318,13 @@ fn has_no_formation(request: &ExampleRequest) -> bool {
 }
 
 /// How many people are made, and in rows of how many.
-fn how_many(request: &ExampleRequest, layouts: &[Layout], spot: &CrowdContext) -> Option<(usize, usize)> {
+fn how_many(request: &ExampleRequest, layouts: &[FormationLayout], spot: &CrowdContext) -> Option<(usize, usize)> {
     let [people, rows, columns] =
         [request.people, request.rows, request.columns].map(|count| count.map(|n| n as usize));
     let chosen = request.choose.as_ref().map(|choice| choice.of_crowd(spot.number));
     let of_keys = || match chosen {
         Some(chosen) => chosen.iter().max().map(|&last| last as usize + 1),
-        None => layouts.iter().find_map(Layout::people),
+        None => layouts.iter().find_map(FormationLayout::people),
     };
     let people = people.or_else(|| Some(rows? * columns?)).or_else(of_keys)?;
     let columns = columns.or_else(|| Some(people.div_ceil(rows?))).unwrap_or_else(|| grid_of(people)[0]);

@@ -26,7 +26,7 @@ pub(super) const MOST_WANDERERS: usize = 1_000;
 const STEP_S: f64 = 0.05;
 
 /// What is made: so many people in so many rows, from a moment on.
-pub(super) struct Wanted<'r> {
+pub(super) struct GeneratedExample<'r> {
     pub request: &'r ExampleRequest,
     pub kind: ExampleKind,
     pub people: usize,
@@ -37,7 +37,7 @@ pub(super) struct Wanted<'r> {
     pub moments: usize,
 }
 
-impl Wanted<'_> {
+impl GeneratedExample<'_> {
     /// Makes the example.
     pub fn make(&self, progress: &dyn Progress) -> Result<Ensemble, FormationError> {
         let places_m = match self.kind {
@@ -75,12 +75,12 @@ impl Wanted<'_> {
     /// Everybody around their place in the ranks, which goes along with a common motion and strays from it.
     fn around(&self, common: impl Fn(f64) -> Vec2, speed_m_s: f64, stray_m: f64) -> Vec<Vec2> {
         let (places, heading) = self.ranks();
-        let gaits: Vec<Gait> = (0..self.people).map(|person| Gait::of(self.seed, person as u32)).collect();
+        let gaits: Vec<RankGait> = (0..self.people).map(|person| RankGait::of(self.seed, person as u32)).collect();
         let moments = (0..self.moments).map(|moment| self.time_s(moment));
         let place = |time_s: f64| {
             let middle = common(time_s);
-            let step = |gait: &Gait| turned_to(gait.step(time_s, speed_m_s), heading);
-            let stray = |gait: &Gait| gait.stray(time_s) * stray_m;
+            let step = |gait: &RankGait| turned_to(gait.step(time_s, speed_m_s), heading);
+            let stray = |gait: &RankGait| gait.stray(time_s) * stray_m;
             let all = places.iter().zip(&gaits);
             all.map(|(&place, gait)| middle + place + stray(gait) + step(gait)).collect::<Vec<_>>()
         };
@@ -120,32 +120,32 @@ impl Wanted<'_> {
 }
 
 /// How somebody moves around their place in the ranks.
-struct Gait {
+struct RankGait {
     /// Rate, rad/s, and phase, of slow drifts to the sides and along.
     drifts: [[(f64, f64); 3]; 2],
     step_phase_rad: f64,
 }
 
-impl Gait {
+impl RankGait {
     /// What the three drifts add up with, and how long they take.
     const SHARES: [f64; 3] = [0.6, 0.45, 0.3];
     const PERIODS_S: [[f64; 2]; 3] = [[9.0, 16.0], [5.0, 8.0], [2.8, 4.5]];
 
-    fn of(seed: u64, person: u32) -> Gait {
+    fn of(seed: u64, person: u32) -> RankGait {
         let rng = &mut person_stream(seed, person, Purpose::Gait);
         let mut drift = || {
-            Gait::PERIODS_S.map(|[short_s, long_s]| {
+            RankGait::PERIODS_S.map(|[short_s, long_s]| {
                 let period_s = short_s + (long_s - short_s) * rng.random::<f64>();
                 (TAU / period_s, TAU * rng.random::<f64>())
             })
         };
         let drifts = [drift(), drift()];
-        Gait { drifts, step_phase_rad: OUT_OF_STEP_RAD * (rng.random::<f64>() - 0.5) }
+        RankGait { drifts, step_phase_rad: OUT_OF_STEP_RAD * (rng.random::<f64>() - 0.5) }
     }
 
     fn stray(&self, time_s: f64) -> Vec2 {
         let [x, y] = self.drifts.map(|drifts| {
-            let waves = drifts.iter().zip(Gait::SHARES);
+            let waves = drifts.iter().zip(RankGait::SHARES);
             waves.map(|((rate, phase), share)| share * sin_cos(rate * time_s + phase).0).sum()
         });
         vec2(x, y)
@@ -227,7 +227,7 @@ mod tests {
 
     fn made(kind: ExampleKind, people: usize, moments: usize) -> Ensemble {
         let request = ExampleRequest::default();
-        let wanted = Wanted { request: &request, kind, people, columns: 3, seed: 1, fps: 10.0, moments };
+        let wanted = GeneratedExample { request: &request, kind, people, columns: 3, seed: 1, fps: 10.0, moments };
         wanted.make(&Silent).unwrap()
     }
 
@@ -266,7 +266,15 @@ mod tests {
     fn another_seed_is_another_example_and_the_same_is_the_same() {
         for kind in [ExampleKind::Ranks, ExampleKind::Wander, ExampleKind::Sway] {
             let request = ExampleRequest::default();
-            let of = |seed| Wanted { request: &request, kind, people: 4, columns: 2, seed, fps: 10.0, moments: 20 };
+            let of = |seed| GeneratedExample {
+                request: &request,
+                kind,
+                people: 4,
+                columns: 2,
+                seed,
+                fps: 10.0,
+                moments: 20,
+            };
             let make = |seed| of(seed).make(&Silent).unwrap();
             assert_eq!(make(1), make(1));
             assert_ne!(make(1), make(2));

@@ -5,10 +5,10 @@ use std::path::Path;
 use super::super::assignment::assign_places;
 use super::super::picture::{is_picture, read_picture, read_points};
 use super::super::places::{
-    Outline, centred, centroid, disc, grid, grid_of, line, outline, polygon, ranks_of_triangle, rings, spread, star,
+    Strokes, centred, centroid, disc, grid, grid_of, line, outline, polygon, ranks_of_triangle, rings, spread, star,
     strokes, turned, wedge,
 };
-use super::super::request::{Assign, KeyRequest, RequestError, Shape};
+use super::super::request::{Assign, FormationShape, KeyRequest, RequestError};
 use crate::math::{Vec2, vec2};
 
 /// Side of a pixel of a picture, where nothing else is said, metres.
@@ -17,7 +17,7 @@ const USUAL_M_PER_PX: f64 = 0.1;
 const SAMPLES: usize = 60;
 
 /// Where people may stand in a key formation, before it is known how many there are.
-pub(super) enum Layout {
+pub(super) enum FormationLayout {
     /// Wherever the example has them.
     Example,
     /// A place for each, and what they are called.
@@ -25,51 +25,51 @@ pub(super) enum Layout {
     /// Anywhere in what these samples show, evenly.
     Area(Vec<Vec2>),
     /// Along these lines, evenly; of the first the height of its letters is set by the spacing where it is not given.
-    Lines(Outline, Option<f64>),
+    Lines(Strokes, Option<f64>),
     /// A shape for any number.
-    Shape(Shape),
+    Shape(FormationShape),
 }
 
-impl Layout {
+impl FormationLayout {
     /// Reads what a key formation names.
-    pub fn of(request: &KeyRequest, folder: &Path) -> Result<Layout, RequestError> {
+    pub fn of(request: &KeyRequest, folder: &Path) -> Result<FormationLayout, RequestError> {
         if let Some(points) = &request.points {
-            return Ok(Layout::Places(points.clone(), "points".to_string()));
+            return Ok(FormationLayout::Places(points.clone(), "points".to_string()));
         }
         if let Some(text) = &request.text {
             let lines = strokes(text, request.height_m.unwrap_or(1.0));
-            return Ok(Layout::Lines(lines, request.height_m));
+            return Ok(FormationLayout::Lines(lines, request.height_m));
         }
         let Some(file) = &request.file else {
-            return Ok(Layout::Shape(request.shape.unwrap_or(Shape::Grid)).resolved());
+            return Ok(FormationLayout::Shape(request.shape.unwrap_or(FormationShape::Grid)).resolved());
         };
         let path = folder.join(file);
         if !is_picture(&path) {
             let points = read_points(&path)?;
-            return Ok(Layout::Places(points, format!("points in {}", file.display())));
+            return Ok(FormationLayout::Places(points, format!("points in {}", file.display())));
         }
         let drawn = read_picture(&path)?;
         let metres = request.metres_per_pixel.unwrap_or(USUAL_M_PER_PX);
         let scaled = |places: Vec<Vec2>| places.into_iter().map(|place| place * metres).collect();
         Ok(if request.filled.unwrap_or(false) {
-            Layout::Area(scaled(drawn.area_px))
+            FormationLayout::Area(scaled(drawn.area_px))
         } else {
-            Layout::Places(scaled(drawn.dots_px), format!("dots in {}", file.display()))
+            FormationLayout::Places(scaled(drawn.dots_px), format!("dots in {}", file.display()))
         })
     }
 
-    fn resolved(self) -> Layout {
-        if let Layout::Shape(Shape::Example) = self { Layout::Example } else { self }
+    fn resolved(self) -> FormationLayout {
+        if let FormationLayout::Shape(FormationShape::Example) = self { FormationLayout::Example } else { self }
     }
 
     /// How many people it is for, if it says.
     pub fn people(&self) -> Option<usize> {
-        if let Layout::Places(places, _) = self { Some(places.len()) } else { None }
+        if let FormationLayout::Places(places, _) = self { Some(places.len()) } else { None }
     }
 }
 
 /// What is known when people are given their places.
-pub(super) struct Cast<'c> {
+pub(super) struct PlacementInput<'c> {
     /// How many there are.
     pub people: usize,
     /// Where the example has them at that time.
@@ -87,11 +87,11 @@ pub(super) struct Cast<'c> {
 /// A place for everybody, in the order of people.
 pub(super) fn places(
     request: &KeyRequest,
-    layout: &Layout,
-    cast: &Cast<'_>,
+    layout: &FormationLayout,
+    cast: &PlacementInput<'_>,
     key: &str,
 ) -> Result<Vec<Vec2>, RequestError> {
-    let own = matches!(layout, Layout::Example);
+    let own = matches!(layout, FormationLayout::Example);
     let drawn = drawn(request, layout, cast, key)?;
     let scale = request.scale.unwrap_or(1.0);
     // A point that is drawn stays where it is drawn; everything else is around its middle.
@@ -109,32 +109,37 @@ pub(super) fn places(
 }
 
 /// Places in the formation's own frame, up forward.
-fn drawn(request: &KeyRequest, layout: &Layout, cast: &Cast<'_>, key: &str) -> Result<Vec<Vec2>, RequestError> {
+fn drawn(
+    request: &KeyRequest,
+    layout: &FormationLayout,
+    cast: &PlacementInput<'_>,
+    key: &str,
+) -> Result<Vec<Vec2>, RequestError> {
     let people = cast.people;
     let spacing_m = request.spacing_m.unwrap_or(1.0);
     Ok(match layout {
-        Layout::Example => cast.example.to_vec(),
-        Layout::Places(places, what) => {
+        FormationLayout::Example => cast.example.to_vec(),
+        FormationLayout::Places(places, what) => {
             if places.len() != people {
                 let (key, what) = (key.to_string(), what.clone());
                 return Err(RequestError::Count { key, people, places: places.len(), what });
             }
             places.clone()
         }
-        Layout::Area(samples) => spread(samples, people),
-        Layout::Lines(lines, Some(_)) => spread(&samples_along(lines, people), people),
-        Layout::Lines(lines, None) => {
+        FormationLayout::Area(samples) => spread(samples, people),
+        FormationLayout::Lines(lines, Some(_)) => spread(&samples_along(lines, people), people),
+        FormationLayout::Lines(lines, None) => {
             let length_m: f64 =
                 lines.iter().flat_map(|line| line.windows(2)).map(|side| side[0].distance(side[1])).sum();
             let scale = if length_m > 0.0 { spacing_m * people as f64 / length_m } else { 1.0 };
-            let lines: Outline = lines.iter().map(|line| line.iter().map(|&point| point * scale).collect()).collect();
+            let lines: Strokes = lines.iter().map(|line| line.iter().map(|&point| point * scale).collect()).collect();
             spread(&samples_along(&lines, people), people)
         }
-        Layout::Shape(shape) => centred(&shaped(*shape, request, people, spacing_m)),
+        FormationLayout::Shape(shape) => centred(&shaped(*shape, request, people, spacing_m)),
     })
 }
 
-fn shaped(shape: Shape, request: &KeyRequest, people: usize, spacing_m: f64) -> Vec<Vec2> {
+fn shaped(shape: FormationShape, request: &KeyRequest, people: usize, spacing_m: f64) -> Vec<Vec2> {
     let radius_m = request.radius_m;
     let closed = |corners: &dyn Fn(f64) -> Vec<Vec2>, filled: bool| {
         // Without a radius: neighbours so far apart along the outline, or an area of a square of that for each.
@@ -148,30 +153,32 @@ fn shaped(shape: Shape, request: &KeyRequest, people: usize, spacing_m: f64) -> 
         spread(&samples_within(&corners(radius_m), people), people)
     };
     match shape {
-        Shape::Example => Vec::new(),
-        Shape::Grid => {
+        FormationShape::Example => Vec::new(),
+        FormationShape::Grid => {
             let columns = request.columns.map_or_else(|| grid_of(people)[0], |columns| columns as usize);
             grid(people, columns, spacing_m)
         }
-        Shape::Line => line(people, spacing_m),
-        Shape::Ring => rings(people, request.rings.unwrap_or(1) as usize, spacing_m, radius_m),
-        Shape::Disc => disc(people, spacing_m, radius_m),
-        Shape::Triangle if request.filled.unwrap_or(true) && radius_m.is_none() => ranks_of_triangle(people, spacing_m),
-        Shape::Triangle => closed(&|radius_m| polygon(3, radius_m), request.filled.unwrap_or(true)),
-        Shape::Polygon => {
+        FormationShape::Line => line(people, spacing_m),
+        FormationShape::Ring => rings(people, request.rings.unwrap_or(1) as usize, spacing_m, radius_m),
+        FormationShape::Disc => disc(people, spacing_m, radius_m),
+        FormationShape::Triangle if request.filled.unwrap_or(true) && radius_m.is_none() => {
+            ranks_of_triangle(people, spacing_m)
+        }
+        FormationShape::Triangle => closed(&|radius_m| polygon(3, radius_m), request.filled.unwrap_or(true)),
+        FormationShape::Polygon => {
             let corners = request.corners.unwrap_or(6) as usize;
             closed(&|radius_m| polygon(corners, radius_m), request.filled.unwrap_or(false))
         }
-        Shape::Star => {
+        FormationShape::Star => {
             let (points, inner) = (request.corners.unwrap_or(5) as usize, request.inner.unwrap_or(0.45));
             closed(&|radius_m| star(points, inner, radius_m), request.filled.unwrap_or(false))
         }
-        Shape::Wedge => wedge(people, spacing_m, request.angle_deg.unwrap_or(80.0).to_radians()),
+        FormationShape::Wedge => wedge(people, spacing_m, request.angle_deg.unwrap_or(80.0).to_radians()),
     }
 }
 
 /// Many points along lines, evenly.
-fn samples_along(lines: &Outline, people: usize) -> Vec<Vec2> {
+fn samples_along(lines: &Strokes, people: usize) -> Vec<Vec2> {
     let sides = || lines.iter().flat_map(|line| line.windows(2));
     let length_m: f64 = sides().map(|side| side[0].distance(side[1])).sum();
     let count = (people * SAMPLES).max(200) as f64;

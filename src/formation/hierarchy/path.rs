@@ -1,4 +1,4 @@
-use super::super::request::WayRequest;
+use super::super::request::PathRequest;
 use super::example::eased;
 use crate::math::{Vec2, vec2};
 
@@ -8,7 +8,7 @@ const STEPS: usize = 32;
 const START_SHARE: f64 = 0.15;
 
 /// Where the middle of the whole is at each moment; the origin where no way is given.
-pub(super) fn places(way: Option<&WayRequest>, fps: f64, moments: usize) -> Vec<Vec2> {
+pub(super) fn places(way: Option<&PathRequest>, fps: f64, moments: usize) -> Vec<Vec2> {
     let Some(way) = way else { return vec![Vec2::ZERO; moments] };
     let curve = Curve::through(&way.from.iter().chain(&way.path).chain(&way.to).copied().collect::<Vec<_>>());
     let to_s = way.to_s.unwrap_or(moments.saturating_sub(1) as f64 / fps).max(way.from_s + 1e-9);
@@ -100,7 +100,7 @@ mod tests {
 
     #[test]
     fn a_way_begins_and_ends_where_it_is_said_and_gently() {
-        let way = WayRequest {
+        let way = PathRequest {
             from: Some(vec2(1.0, 1.0)),
             path: vec![vec2(5.0, 4.0), vec2(9.0, 1.0)],
             to: Some(vec2(12.0, 8.0)),
@@ -122,9 +122,9 @@ mod tests {
     #[test]
     fn ways_without_length_stay() {
         assert_eq!(places(None, 10.0, 2), [Vec2::ZERO; 2]);
-        let here = WayRequest { path: vec![vec2(3.0, 3.0); 3], ..WayRequest::default() };
+        let here = PathRequest { path: vec![vec2(3.0, 3.0); 3], ..PathRequest::default() };
         assert_eq!(places(Some(&here), 10.0, 2), [vec2(3.0, 3.0); 2]);
-        assert_eq!(places(Some(&WayRequest { path: vec![vec2(1.0, 2.0)], ..here }), 10.0, 1), [vec2(1.0, 2.0)]);
+        assert_eq!(places(Some(&PathRequest { path: vec![vec2(1.0, 2.0)], ..here }), 10.0, 1), [vec2(1.0, 2.0)]);
     }
 
     #[test]

@@ -326,8 +326,8 @@ fn a_recording_is_an_example() {
     assert!(form(&missing, folder.path(), &Silent).unwrap_err().to_string().contains("none.txt"));
 }
 
-fn shape() -> impl Strategy<Value = Shape> {
-    use Shape::*;
+fn shape() -> impl Strategy<Value = FormationShape> {
+    use FormationShape::*;
     prop::sample::select(vec![Example, Grid, Line, Ring, Disc, Triangle, Polygon, Star, Wedge])
 }
 
@@ -337,11 +337,11 @@ prop_compose! {
         wheel_deg in prop::sample::select(vec![0.0, 180.0, -90.0, 33.0]), scale in prop::option::of(0.001..3.0f64),
         at in prop::option::of([-1e5..1e5f64, -5.0..5.0f64]), order in any::<bool>(), spacing in 0.05..3.0f64,
     ) -> KeyRequest {
-        let fills = matches!(shape, Shape::Polygon | Shape::Star | Shape::Triangle);
+        let fills = matches!(shape, FormationShape::Polygon | FormationShape::Star | FormationShape::Triangle);
         KeyRequest {
             shape: Some(shape), hold_s, filled: filled.filter(|_| fills), turn_deg, wheel_deg, scale,
             at: at.map(Vec2::from), assign: order.then_some(Assign::Order),
-            spacing_m: (shape != Shape::Example).then_some(spacing), ..KeyRequest::default()
+            spacing_m: (shape != FormationShape::Example).then_some(spacing), ..KeyRequest::default()
         }
     }
 }

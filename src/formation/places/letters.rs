@@ -1,6 +1,6 @@
 //! Letters as strokes that people stand along.
 
-use super::Outline;
+use super::Strokes;
 use crate::math::{Vec2, vec2};
 
 /// Width and height of a letter in its own grid, and the gap to the next.
@@ -66,9 +66,9 @@ pub(in super::super) fn unknown_letters(text: &str) -> String {
 }
 
 /// The lines of a text `height_m` high, around its middle; letters that are not known are left out.
-pub(in super::super) fn strokes(text: &str, height_m: f64) -> Outline {
+pub(in super::super) fn strokes(text: &str, height_m: f64) -> Strokes {
     let scale = height_m / HEIGHT;
-    let mut lines: Outline = Vec::new();
+    let mut lines: Strokes = Vec::new();
     for (k, letter) in text.chars().enumerate() {
         let left = k as f64 * (WIDTH + GAP);
         let point = |pair: &str| -> Option<Vec2> {

@@ -6,7 +6,7 @@ mod shapes;
 mod spread;
 
 pub(super) use letters::{strokes, unknown_letters};
-pub(super) use shapes::{Outline, disc, grid, grid_of, line, outline, polygon, ranks_of_triangle, rings, star, wedge};
+pub(super) use shapes::{Strokes, disc, grid, grid_of, line, outline, polygon, ranks_of_triangle, rings, star, wedge};
 pub(super) use spread::spread;
 
 use crate::math::{Vec2, vec2};

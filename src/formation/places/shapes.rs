@@ -4,7 +4,7 @@ use super::centred;
 use crate::math::{Vec2, sin_cos, vec2};
 
 /// Lines that people stand along: polylines, metres.
-pub(in super::super) type Outline = Vec<Vec<Vec2>>;
+pub(in super::super) type Strokes = Vec<Vec<Vec2>>;
 
 /// Columns and rows of a block of so many people, about as wide as it is deep.
 pub(in super::super) fn grid_of(people: usize) -> [usize; 2] {

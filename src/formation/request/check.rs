@@ -1,6 +1,6 @@
 use super::{
-    CrowdRequest, CrowdSection, DEEPEST, ExampleRequest, FARTHEST_M, FormationRequest, KeyRequest, MOST_PEOPLE,
-    Members, RequestError, Shape,
+    CrowdRequest, CrowdSection, DEEPEST, ExampleRequest, FARTHEST_M, FormationRequest, FormationShape, KeyRequest,
+    MOST_PEOPLE, Members, RequestError,
 };
 use crate::math::Vec2;
 use crate::recordings::FRAME_RATES;
@@ -9,9 +9,9 @@ use crate::recordings::FRAME_RATES;
 const LONGEST_S: f64 = 36_000.0;
 
 /// What is wrong: the key, the problem, a hint.
-type Wrong = (String, String, Option<String>);
+type Problem = (String, String, Option<String>);
 
-fn wrong(key: &str, problem: impl Into<String>, hint: impl Into<Option<&'static str>>) -> Wrong {
+fn wrong(key: &str, problem: impl Into<String>, hint: impl Into<Option<&'static str>>) -> Problem {
     (key.to_string(), problem.into(), hint.into().map(str::to_string))
 }
 
@@ -24,11 +24,11 @@ impl FormationRequest {
         self.problem().map_or(Ok(()), |(key, problem, hint)| Err(RequestError::Value { key, problem, hint }))
     }
 
-    fn problem(&self) -> Option<Wrong> {
+    fn problem(&self) -> Option<Problem> {
         self.check_values().err()
     }
 
-    fn check_values(&self) -> Result<(), Wrong> {
+    fn check_values(&self) -> Result<(), Problem> {
         let path = "formation";
         number(path, "duration_s", self.duration_s, 0.1, LONGEST_S)?;
         let [low, high] = FRAME_RATES;
@@ -51,7 +51,7 @@ impl FormationRequest {
 }
 
 impl CrowdSection<'_> {
-    fn check(&self, path: &str, depth: usize, duration_s: Option<f64>) -> Result<(), Wrong> {
+    fn check(&self, path: &str, depth: usize, duration_s: Option<f64>) -> Result<(), Problem> {
         self.example.check(&format!("{path}.example"))?;
         number(path, "fluctuation", self.fluctuation, 0.0, 10.0)?;
         number(path, "sigma_m", self.sigma_m, 1e-3, 1e4)?;
@@ -95,7 +95,7 @@ impl CrowdSection<'_> {
 }
 
 impl CrowdRequest {
-    fn check(&self, path: &str, depth: usize, duration_s: Option<f64>) -> Result<(), Wrong> {
+    fn check(&self, path: &str, depth: usize, duration_s: Option<f64>) -> Result<(), Problem> {
         if depth > DEEPEST {
             return Err(wrong(path, format!("small crowds stand {DEEPEST} deep in each other at most"), None));
         }
@@ -116,7 +116,7 @@ impl CrowdRequest {
 }
 
 impl ExampleRequest {
-    fn check(&self, path: &str) -> Result<(), Wrong> {
+    fn check(&self, path: &str) -> Result<(), Problem> {
         if let (Some(_), Some(_)) = (&self.file, self.kind) {
             let hint = "a recording moves as it does: leave one of the two out";
             return Err(wrong(&format!("{path}.kind"), "the example has both a file and a kind", hint));
@@ -163,7 +163,7 @@ impl ExampleRequest {
 }
 
 impl KeyRequest {
-    fn check(&self, path: &str, in_crowd: bool) -> Result<(), Wrong> {
+    fn check(&self, path: &str, in_crowd: bool) -> Result<(), Problem> {
         let sources = [
             ("shape", self.shape.is_some()),
             ("text", self.text.is_some()),
@@ -205,7 +205,7 @@ impl KeyRequest {
         self.at.map_or(Ok(()), |at| place(path, "at", at))
     }
 
-    fn check_numbers(&self, path: &str) -> Result<(), Wrong> {
+    fn check_numbers(&self, path: &str) -> Result<(), Problem> {
         let numbers = [
             ("time_s", Some(self.time_s), 0.0, LONGEST_S),
             ("hold_s", Some(self.hold_s), 0.0, LONGEST_S),
@@ -226,32 +226,43 @@ impl KeyRequest {
     }
 
     /// Keys that say something only of one kind of formation stand with that kind.
-    fn check_fit(&self, path: &str) -> Result<(), Wrong> {
-        let is = |shapes: &[Shape]| self.shape.is_some_and(|shape| shapes.contains(&shape));
+    fn check_fit(&self, path: &str) -> Result<(), Problem> {
+        let is = |shapes: &[FormationShape]| self.shape.is_some_and(|shape| shapes.contains(&shape));
         let fits = [
-            ("columns", self.columns.is_some(), is(&[Shape::Grid]), "a grid"),
-            ("rings", self.rings.is_some(), is(&[Shape::Ring]), "a ring"),
-            ("corners", self.corners.is_some(), is(&[Shape::Polygon, Shape::Star]), "a polygon or a star"),
-            ("inner", self.inner.is_some(), is(&[Shape::Star]), "a star"),
-            ("angle_deg", self.angle_deg.is_some(), is(&[Shape::Wedge]), "a wedge"),
+            ("columns", self.columns.is_some(), is(&[FormationShape::Grid]), "a grid"),
+            ("rings", self.rings.is_some(), is(&[FormationShape::Ring]), "a ring"),
+            (
+                "corners",
+                self.corners.is_some(),
+                is(&[FormationShape::Polygon, FormationShape::Star]),
+                "a polygon or a star",
+            ),
+            ("inner", self.inner.is_some(), is(&[FormationShape::Star]), "a star"),
+            ("angle_deg", self.angle_deg.is_some(), is(&[FormationShape::Wedge]), "a wedge"),
             ("height_m", self.height_m.is_some(), self.text.is_some(), "a text"),
             ("metres_per_pixel", self.metres_per_pixel.is_some(), self.file.is_some(), "a file"),
             (
                 "radius_m",
                 self.radius_m.is_some(),
-                is(&[Shape::Ring, Shape::Disc, Shape::Polygon, Shape::Star, Shape::Triangle]),
+                is(&[
+                    FormationShape::Ring,
+                    FormationShape::Disc,
+                    FormationShape::Polygon,
+                    FormationShape::Star,
+                    FormationShape::Triangle,
+                ]),
                 "a ring, disc, polygon, star or triangle",
             ),
             (
                 "filled",
                 self.filled.is_some(),
-                self.file.is_some() || is(&[Shape::Polygon, Shape::Star, Shape::Triangle]),
+                self.file.is_some() || is(&[FormationShape::Polygon, FormationShape::Star, FormationShape::Triangle]),
                 "a file, a polygon, a star or a triangle",
             ),
             (
                 "spacing_m",
                 self.spacing_m.is_some(),
-                self.points.is_none() && self.file.is_none() && !is(&[Shape::Example]),
+                self.points.is_none() && self.file.is_none() && !is(&[FormationShape::Example]),
                 "a shape or a text",
             ),
         ];
@@ -264,7 +275,7 @@ impl KeyRequest {
     }
 }
 
-fn number(path: &str, name: &str, value: Option<f64>, low: f64, high: f64) -> Result<(), Wrong> {
+fn number(path: &str, name: &str, value: Option<f64>, low: f64, high: f64) -> Result<(), Problem> {
     match value {
         // Written so that NaN is out of range.
         Some(value) if !(value >= low && value <= high) => {
@@ -274,7 +285,7 @@ fn number(path: &str, name: &str, value: Option<f64>, low: f64, high: f64) -> Re
     }
 }
 
-fn place(path: &str, name: &str, at: Vec2) -> Result<(), Wrong> {
+fn place(path: &str, name: &str, at: Vec2) -> Result<(), Problem> {
     let beyond = [at.x, at.y].into_iter().find(|number| !(-FARTHEST_M..=FARTHEST_M).contains(number));
     match beyond {
         Some(number) => {
@@ -286,7 +297,7 @@ fn place(path: &str, name: &str, at: Vec2) -> Result<(), Wrong> {
 }
 
 /// Individuals who are named: enough of them, and nobody twice.
-fn members(key: &str, list: &[u32], least: usize) -> Result<(), Wrong> {
+fn members(key: &str, list: &[u32], least: usize) -> Result<(), Problem> {
     if list.len() < least {
         return Err(wrong(key, format!("{} named, at least {least} are needed", list.len()), None));
     }

@@ -16,7 +16,7 @@ pub struct KeyRequest {
     pub hold_s: f64,
     /// A named shape; left out where a text, points or a file say it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub shape: Option<Shape>,
+    pub shape: Option<FormationShape>,
     /// Letters that people stand along.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub text: Option<String>,
@@ -82,7 +82,7 @@ fn is_zero(number: &f64) -> bool {
 /// A named formation. Up is forward.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Shape {
+pub enum FormationShape {
     /// As the example has it at that time.
     Example,
     /// Rows one behind the other.

@@ -9,7 +9,7 @@ mod key;
 
 pub use error::RequestError;
 pub use example::{Choice, ExampleKind, ExampleRequest, Repeat};
-pub use key::{KeyRequest, Shape};
+pub use key::{FormationShape, KeyRequest};
 
 use super::MOST_PEOPLE;
 use crate::math::Vec2;
@@ -55,7 +55,7 @@ pub struct FormationRequest {
     pub pace: Option<Pace>,
     /// Where the whole goes.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub way: Option<WayRequest>,
+    pub way: Option<PathRequest>,
     /// How people keep clear of each other.
     #[serde(skip_serializing_if = "AvoidRequest::is_default")]
     pub avoid: AvoidRequest,
@@ -261,7 +261,7 @@ pub enum Pace {
 /// Where the middle of the whole goes. Key formations are placed relative to it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct WayRequest {
+pub struct PathRequest {
     /// Where it begins, metres; left out: the first point of the path.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub from: Option<Vec2>,

@@ -1,7 +1,7 @@
 //! What a pass over the rows of a recording finds, in the file's own numbers.
 
 use super::histogram::Histogram;
-use super::row::{ById, Row};
+use super::row::{ById, TrajectoryRow};
 use crate::math::{Rect, Vec2};
 
 /// Rows of one person over which a speed is taken, so that noise and sway count little.
@@ -12,7 +12,7 @@ pub(super) const SAME: f64 = 1e-3;
 /// What was counted.
 #[derive(Debug, Default)]
 pub(super) struct Census {
-    people: ById<Seen>,
+    people: ById<PersonRecord>,
     pub first_time: f64,
     pub last_time: f64,
     /// When the last step ends, if that is later.
@@ -46,7 +46,7 @@ pub(super) struct Census {
 }
 
 #[derive(Debug)]
-struct Seen {
+struct PersonRecord {
     time: f64,
     at: Vec2,
     velocity: Option<Vec2>,
@@ -91,7 +91,7 @@ impl Census {
     }
 
     /// Counts a row; rows come in the order of time.
-    pub fn add(&mut self, row: &Row) -> Result<(), Objection> {
+    pub fn add(&mut self, row: &TrajectoryRow) -> Result<(), Objection> {
         if self.moments == 0 {
             self.first_time = row.time;
             self.moments = 1;
@@ -131,7 +131,7 @@ impl Census {
         let seen = match self.people.entry(id) {
             std::collections::hash_map::Entry::Occupied(seen) => seen.into_mut(),
             std::collections::hash_map::Entry::Vacant(new) => {
-                new.insert(Seen { time, at, velocity, ahead, anchor: (time, at), rows: 0 });
+                new.insert(PersonRecord { time, at, velocity, ahead, anchor: (time, at), rows: 0 });
                 return Ok(true);
             }
         };

@@ -33,7 +33,7 @@ pub(super) enum Role {
 
 /// What a column is measured in, if its name says so.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Unit {
+pub(super) enum ColumnUnit {
     Length(LengthUnit),
     /// Seconds in one.
     Time(f64),
@@ -43,15 +43,15 @@ pub(super) enum Unit {
 
 /// A column as its name tells it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Column {
+pub(super) struct TextColumn {
     pub role: Role,
-    pub unit: Option<Unit>,
+    pub unit: Option<ColumnUnit>,
     /// Counted the other way round.
     pub flipped: bool,
 }
 
-impl Column {
-    pub const UNUSED: Column = Column { role: Role::Unused, unit: None, flipped: false };
+impl TextColumn {
+    pub const UNUSED: TextColumn = TextColumn { role: Role::Unused, unit: None, flipped: false };
 }
 
 /// Words that stand for a role, by rank: the first in a list is the one to believe where a file has several.
@@ -229,10 +229,10 @@ const NAMES: [(Role, &[&str]); 15] = [
 
 /// The column that a name tells of, and how far down the list of names it stands. Case, blanks and punctuation do not
 /// matter, a unit may follow: `x/m`, `pos_x [cm]`, `time_ms`.
-pub(super) fn column_named(name: &str) -> Option<(Column, usize)> {
+pub(super) fn column_named(name: &str) -> Option<(TextColumn, usize)> {
     let name = name.trim().trim_matches('"').trim();
     if name == "-" {
-        return Some((Column::UNUSED, 0));
+        return Some((TextColumn::UNUSED, 0));
     }
     let (flipped, name) = match name.strip_prefix(['-', '!']) {
         Some(name) => (true, name),
@@ -257,15 +257,15 @@ pub(super) fn column_named(name: &str) -> Option<(Column, usize)> {
             .map(|(_, role)| (role, 99))
     })?;
     let unit = match (unit, word.as_str()) {
-        (None, "ms" | "msec" | "millis" | "milliseconds") => Some(Unit::Time(1e-3)),
-        (None, "simsec" | "simtime" | "seconds" | "sec" | "secs" | "s") => Some(Unit::Time(1.0)),
+        (None, "ms" | "msec" | "millis" | "milliseconds") => Some(ColumnUnit::Time(1e-3)),
+        (None, "simsec" | "simtime" | "seconds" | "sec" | "secs" | "s") => Some(ColumnUnit::Time(1.0)),
         (unit, _) => unit,
     };
     // Without a unit it may be anything.
-    if role == Role::HeadingAngle && !matches!(unit, Some(Unit::Angle(_))) {
+    if role == Role::HeadingAngle && !matches!(unit, Some(ColumnUnit::Angle(_))) {
         return None;
     }
-    Some((Column { role, unit, flipped }, rank))
+    Some((TextColumn { role, unit, flipped }, rank))
 }
 
 /// The unit behind the name of a place's column that is none of those that are known, as `px` in `x [px]`.
@@ -280,7 +280,7 @@ pub(super) fn strange_unit(name: &str) -> Option<&str> {
 }
 
 /// Splits a name into what it names and the unit behind it.
-fn split_unit(name: &str) -> (&str, Option<Unit>) {
+fn split_unit(name: &str) -> (&str, Option<ColumnUnit>) {
     for (open, close) in [('[', "]"), ('(', ")"), ('/', "")] {
         if let Some((base, unit)) = name.split_once(open) {
             let unit = unit_named(unit.trim().trim_end_matches(close));
@@ -298,27 +298,31 @@ fn split_unit(name: &str) -> (&str, Option<Unit>) {
 }
 
 /// The unit that a word stands for.
-pub(super) fn unit_named(word: &str) -> Option<Unit> {
+pub(super) fn unit_named(word: &str) -> Option<ColumnUnit> {
     Some(match word.trim().to_ascii_lowercase().as_str() {
-        "m" | "meter" | "meters" | "metre" | "metres" => Unit::Length(LengthUnit::Metre),
-        "cm" | "centimeter" | "centimeters" | "centimetre" | "centimetres" => Unit::Length(LengthUnit::Centimetre),
-        "mm" | "millimeter" | "millimeters" | "millimetre" | "millimetres" => Unit::Length(LengthUnit::Millimetre),
-        "ft" | "foot" | "feet" => Unit::Length(LengthUnit::Foot),
-        "s" | "sec" | "secs" | "second" | "seconds" => Unit::Time(1.0),
-        "ms" | "msec" | "millis" | "milliseconds" => Unit::Time(1e-3),
-        "us" | "usec" | "micros" | "microseconds" => Unit::Time(1e-6),
-        "ns" | "nanoseconds" => Unit::Time(1e-9),
-        "deg" | "degree" | "degrees" => Unit::Angle(std::f64::consts::PI / 180.0),
-        "rad" | "radian" | "radians" => Unit::Angle(1.0),
+        "m" | "meter" | "meters" | "metre" | "metres" => ColumnUnit::Length(LengthUnit::Metre),
+        "cm" | "centimeter" | "centimeters" | "centimetre" | "centimetres" => {
+            ColumnUnit::Length(LengthUnit::Centimetre)
+        }
+        "mm" | "millimeter" | "millimeters" | "millimetre" | "millimetres" => {
+            ColumnUnit::Length(LengthUnit::Millimetre)
+        }
+        "ft" | "foot" | "feet" => ColumnUnit::Length(LengthUnit::Foot),
+        "s" | "sec" | "secs" | "second" | "seconds" => ColumnUnit::Time(1.0),
+        "ms" | "msec" | "millis" | "milliseconds" => ColumnUnit::Time(1e-3),
+        "us" | "usec" | "micros" | "microseconds" => ColumnUnit::Time(1e-6),
+        "ns" | "nanoseconds" => ColumnUnit::Time(1e-9),
+        "deg" | "degree" | "degrees" => ColumnUnit::Angle(std::f64::consts::PI / 180.0),
+        "rad" | "radian" | "radians" => ColumnUnit::Angle(1.0),
         _ => return None,
     })
 }
 
 /// Gives every column of a header its role, each role once: of several that could have it, the one whose name is more
 /// to be believed; `varies` says of a column of ids whether it only numbers the rows.
-pub(super) fn assign(names: &[&str], numbers_rows: impl Fn(usize) -> bool) -> Vec<Column> {
-    let known: Vec<Option<(Column, usize)>> = names.iter().map(|name| column_named(name)).collect();
-    let mut columns = vec![Column::UNUSED; names.len()];
+pub(super) fn assign(names: &[&str], numbers_rows: impl Fn(usize) -> bool) -> Vec<TextColumn> {
+    let known: Vec<Option<(TextColumn, usize)>> = names.iter().map(|name| column_named(name)).collect();
+    let mut columns = vec![TextColumn::UNUSED; names.len()];
     for (role, _) in NAMES {
         let rank = |at: usize| known[at].filter(|(column, _)| column.role == role).map(|(_, rank)| rank);
         let mut candidates: Vec<usize> = (0..names.len()).filter(|&at| rank(at).is_some()).collect();
@@ -368,11 +372,11 @@ mod tests {
     fn units_are_taken_from_names() {
         let unit = |name| column_named(name).and_then(|(column, _)| column.unit);
         for name in ["x/cm", "x [cm]", "x_cm", "x (cm)", "x in cm"] {
-            assert_eq!(unit(name), Some(Unit::Length(LengthUnit::Centimetre)), "{name}");
+            assert_eq!(unit(name), Some(ColumnUnit::Length(LengthUnit::Centimetre)), "{name}");
         }
-        assert_eq!(unit("t/s"), Some(Unit::Time(1.0)));
-        assert_eq!(unit("time_ms"), Some(Unit::Time(1e-3)));
-        assert_eq!(unit("milliseconds"), Some(Unit::Time(1e-3)));
+        assert_eq!(unit("t/s"), Some(ColumnUnit::Time(1.0)));
+        assert_eq!(unit("time_ms"), Some(ColumnUnit::Time(1e-3)));
+        assert_eq!(unit("milliseconds"), Some(ColumnUnit::Time(1e-3)));
         assert_eq!((unit("x"), unit("pos_x")), (None, None));
         assert_eq!(
             ["x [px]", "y/furlong", "x/m", "x", "rho/x"].map(strange_unit),

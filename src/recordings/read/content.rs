@@ -2,10 +2,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::database::DatabaseRows;
-use super::layout::Layout;
+use super::layout::TextLayout;
 use super::memory::{MemoryRows, Sorted};
 use super::row::Numbering;
-use super::rows::Rows;
+use super::rows::TrajectoryRows;
 use super::scale::{Alignment, Scale};
 use super::text_rows::TextRows;
 use super::{RecordingError, Survey};
@@ -24,17 +24,19 @@ pub(super) struct RecordingContent {
 /// Where rows come from, as often as they are wanted.
 #[derive(Clone, Debug)]
 pub(super) enum RowSource {
-    Text(Arc<Layout>, Numbering),
+    Text(Arc<TextLayout>, Numbering),
     Database,
     Memory(Arc<Sorted>),
 }
 
 impl RowSource {
-    pub fn rows(&self, path: &Path) -> Result<Rows, RecordingError> {
+    pub fn rows(&self, path: &Path) -> Result<TrajectoryRows, RecordingError> {
         Ok(match self {
-            RowSource::Text(layout, numbering) => Rows::Text(Box::new(TextRows::open(path, layout, *numbering)?)),
-            RowSource::Database => Rows::Database(Box::new(DatabaseRows::open(path)?)),
-            RowSource::Memory(sorted) => Rows::Memory(MemoryRows::new(sorted)),
+            RowSource::Text(layout, numbering) => {
+                TrajectoryRows::Text(Box::new(TextRows::open(path, layout, *numbering)?))
+            }
+            RowSource::Database => TrajectoryRows::Database(Box::new(DatabaseRows::open(path)?)),
+            RowSource::Memory(sorted) => TrajectoryRows::Memory(MemoryRows::new(sorted)),
         })
     }
 }

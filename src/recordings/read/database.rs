@@ -8,7 +8,7 @@ use rusqlite::{Connection, OpenFlags, params};
 
 use super::RecordingError;
 use super::layout::{HIGHEST_RATE, LARGEST};
-use super::row::{ID_LIMIT, Passed, Row};
+use super::row::{ID_LIMIT, Passed, TrajectoryRow};
 use crate::math::{Vec2, vec2};
 
 /// How an SQLite file begins.
@@ -32,7 +32,7 @@ pub(super) struct DatabaseRows {
     path: PathBuf,
     database: Connection,
     query: String,
-    page: vec::IntoIter<Row>,
+    page: vec::IntoIter<TrajectoryRow>,
     /// The last row's number.
     last: i64,
     about: About,
@@ -92,7 +92,7 @@ impl DatabaseRows {
         (self.last as f64 / self.about.last.max(1) as f64).clamp(0.0, 1.0)
     }
 
-    pub fn next(&mut self) -> Result<Option<Row>, RecordingError> {
+    pub fn next(&mut self) -> Result<Option<TrajectoryRow>, RecordingError> {
         loop {
             if let Some(row) = self.page.next() {
                 if row.at.x.is_nan() || row.at.y.is_nan() {
@@ -112,7 +112,7 @@ impl DatabaseRows {
         }
     }
 
-    fn read_page(&mut self) -> Result<Vec<Row>, RecordingError> {
+    fn read_page(&mut self) -> Result<Vec<TrajectoryRow>, RecordingError> {
         let mut page = Vec::with_capacity(PAGE as usize);
         let failed = |error: rusqlite::Error| damaged(&self.path, &error);
         let mut statement = self.database.prepare_cached(&self.query).map_err(failed)?;
@@ -149,7 +149,7 @@ impl DatabaseRows {
             }
             let facing = vec2(real(5, "ori_x")?, real(6, "ori_y")?);
             self.last = number;
-            page.push(Row {
+            page.push(TrajectoryRow {
                 id,
                 line: number.max(0) as u64,
                 time: frame,

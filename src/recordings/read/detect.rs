@@ -1,9 +1,9 @@
 //! Finds out from a text's beginning how it is laid out.
 
-use super::columns::{Column, Role, Unit, assign, column_named, strange_unit, unit_named};
+use super::columns::{ColumnUnit, Role, TextColumn, assign, column_named, strange_unit, unit_named};
 use super::error::LINES;
 use super::guess;
-use super::layout::{Clock, HIGHEST_RATE, Layout, Separator, shown};
+use super::layout::{HIGHEST_RATE, Separator, TextLayout, TimeColumn, shown};
 use super::number::number;
 use super::refusal::Refusal;
 use super::{LengthUnit, RecordingFormat, RecordingOptions};
@@ -21,7 +21,7 @@ struct Comments<'a> {
 }
 
 /// How a text is laid out that begins so; `whole` if that is all of it.
-pub(super) fn detect(head: &[u8], whole: bool, options: &RecordingOptions) -> Result<Layout, Refusal> {
+pub(super) fn detect(head: &[u8], whole: bool, options: &RecordingOptions) -> Result<TextLayout, Refusal> {
     if head.is_empty() {
         return Err(Refusal::Empty("the file has no content"));
     }
@@ -57,7 +57,7 @@ pub(super) fn detect(head: &[u8], whole: bool, options: &RecordingOptions) -> Re
     let columns = columns_of(options, names.as_deref(), &comments, separator, &rows, &mut warnings)
         .map_err(|refusal| place(refusal, header.map_or((first_number, first_line), |(line, _)| line)))?;
     let by_columns = |format: RecordingFormat| options.format.unwrap_or(format);
-    let mut layout = Layout {
+    let mut layout = TextLayout {
         format: by_columns(format_of(names.as_deref(), separator, &columns)),
         separator,
         decimal_comma: separator != Separator::Byte(b','),
@@ -236,14 +236,14 @@ fn columns_of(
     separator: Separator,
     rows: &[&[u8]],
     warnings: &mut Vec<String>,
-) -> Result<Vec<Column>, Refusal> {
+) -> Result<Vec<TextColumn>, Refusal> {
     if let Some(asked) = &options.columns {
         return asked_columns(asked);
     }
     let numbers_rows = |at: usize| guess::numbers_rows(rows, separator, at);
     let named = names.map(|names| assign(names, numbers_rows));
     let commented = || comments.columns.as_ref().map(|names| assign(names, numbers_rows));
-    let complete = |columns: &Vec<Column>| missing(columns).is_none();
+    let complete = |columns: &Vec<TextColumn>| missing(columns).is_none();
     if let Some(columns) = named {
         return match missing(&columns) {
             None => Ok(columns),
@@ -262,8 +262,8 @@ fn columns_of(
 }
 
 /// The columns of `--columns`.
-fn asked_columns(asked: &str) -> Result<Vec<Column>, Refusal> {
-    let mut columns: Vec<Column> = Vec::new();
+fn asked_columns(asked: &str) -> Result<Vec<TextColumn>, Refusal> {
+    let mut columns: Vec<TextColumn> = Vec::new();
     for word in asked.split(',').map(str::trim) {
         let Some((column, _)) = column_named(word) else {
             return Err(Refusal::Columns(format!("`{word}` is none of id, frame, time, x, y, z, vx, vy, -")));
@@ -280,7 +280,7 @@ fn asked_columns(asked: &str) -> Result<Vec<Column>, Refusal> {
 }
 
 /// What of when and where no column tells.
-fn missing(columns: &[Column]) -> Option<&'static str> {
+fn missing(columns: &[TextColumn]) -> Option<&'static str> {
     let has = |role| columns.iter().any(|column| column.role == role);
     if !has(Role::X) {
         Some("x")
@@ -293,7 +293,7 @@ fn missing(columns: &[Column]) -> Option<&'static str> {
     }
 }
 
-fn format_of(names: Option<&[&str]>, separator: Separator, columns: &[Column]) -> RecordingFormat {
+fn format_of(names: Option<&[&str]>, separator: Separator, columns: &[TextColumn]) -> RecordingFormat {
     let Some(names) = names else {
         let first = columns.iter().find(|column| matches!(column.role, Role::Id | Role::Frame | Role::Time));
         return match separator {
@@ -320,28 +320,28 @@ fn format_of(names: Option<&[&str]>, separator: Separator, columns: &[Column]) -
 }
 
 /// Times are believed before frames, unless somebody says how long a frame is.
-fn clock_of(columns: &[Column], options: &RecordingOptions) -> Clock {
+fn clock_of(columns: &[TextColumn], options: &RecordingOptions) -> TimeColumn {
     let of = |role| columns.iter().find(|column| column.role == role);
     match (of(Role::Time), of(Role::Frame)) {
-        (Some(_), Some(_)) if options.fps.is_some() => Clock::Frames,
-        (Some(time), _) => Clock::Times(match time.unit {
-            Some(Unit::Time(seconds)) => Some(seconds),
+        (Some(_), Some(_)) if options.fps.is_some() => TimeColumn::Frames,
+        (Some(time), _) => TimeColumn::Times(match time.unit {
+            Some(ColumnUnit::Time(seconds)) => Some(seconds),
             _ => None,
         }),
-        _ => Clock::Frames,
+        _ => TimeColumn::Frames,
     }
 }
 
 /// Of two columns that say when, the one that is not believed is of no use.
-fn drop_second_clock(layout: &mut Layout) {
-    let other = if layout.clock == Clock::Frames { Role::Time } else { Role::Frame };
+fn drop_second_clock(layout: &mut TextLayout) {
+    let other = if layout.clock == TimeColumn::Frames { Role::Time } else { Role::Frame };
     if let Some(at) = layout.column(other) {
-        layout.columns[at] = Column::UNUSED;
+        layout.columns[at] = TextColumn::UNUSED;
     }
 }
 
 /// Pathfinder writes the units below the names.
-fn take_row_of_units(layout: &mut Layout, line: &[u8]) {
+fn take_row_of_units(layout: &mut TextLayout, line: &[u8]) {
     let fields = layout.separator.split(line);
     let unit = |role: Role| {
         let field = layout.column(role).and_then(|at| fields.get(at))?;
@@ -352,15 +352,15 @@ fn take_row_of_units(layout: &mut Layout, line: &[u8]) {
         return;
     }
     layout.unit = length_unit(x).or(layout.unit);
-    if let (Some(Unit::Time(seconds)), Clock::Times(_)) = (time, layout.clock) {
-        layout.clock = Clock::Times(Some(seconds));
+    if let (Some(ColumnUnit::Time(seconds)), TimeColumn::Times(_)) = (time, layout.clock) {
+        layout.clock = TimeColumn::Times(Some(seconds));
     }
     layout.head_lines += 1;
 }
 
-fn length_unit(unit: Option<Unit>) -> Option<LengthUnit> {
+fn length_unit(unit: Option<ColumnUnit>) -> Option<LengthUnit> {
     match unit {
-        Some(Unit::Length(unit)) => Some(unit),
+        Some(ColumnUnit::Length(unit)) => Some(unit),
         _ => None,
     }
 }

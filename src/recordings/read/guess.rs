@@ -3,8 +3,8 @@
 use std::collections::{HashMap, HashSet};
 
 use super::RecordingFormat;
-use super::columns::{Column, Role};
-use super::layout::{Layout, Separator, shown};
+use super::columns::{Role, TextColumn};
+use super::layout::{Separator, TextLayout, shown};
 use super::number::{number, stamp};
 use super::refusal::Refusal;
 
@@ -24,7 +24,7 @@ pub(super) fn columns(
     separator: Separator,
     format: Option<RecordingFormat>,
     warnings: &mut Vec<String>,
-) -> Result<Vec<Column>, Refusal> {
+) -> Result<Vec<TextColumn>, Refusal> {
     use Role::{Frame, Id, Time, Unused, VelocityX, VelocityY, X, Y, Z};
     let first = rows.first().copied().unwrap_or_default();
     let fields = separator.split(first);
@@ -78,7 +78,8 @@ pub(super) fn columns(
         let words: Vec<&str> = roles.iter().take(width).map(word).collect();
         warnings.push(format!("no header names the columns: they are taken for {}", words.join(",")));
     }
-    let mut columns: Vec<Column> = roles.into_iter().map(|role| Column { role, ..Column::UNUSED }).collect();
+    let mut columns: Vec<TextColumn> =
+        roles.into_iter().map(|role| TextColumn { role, ..TextColumn::UNUSED }).collect();
     columns.truncate(width);
     Ok(columns)
 }
@@ -118,7 +119,7 @@ fn median_step(table: &[Vec<f64>], who: usize, when: usize, [x, y]: [usize; 2]) 
 }
 
 /// Games often count y upward: if what is named y hardly changes while z does, z is the other axis of the floor.
-pub(super) fn upright_axis(layout: &mut Layout, rows: &[&[u8]], asked: bool) {
+pub(super) fn upright_axis(layout: &mut TextLayout, rows: &[&[u8]], asked: bool) {
     let game = matches!(layout.format, RecordingFormat::Csv | RecordingFormat::Pathfinder);
     let (Some(x), Some(y), Some(z)) = (layout.column(Role::X), layout.column(Role::Y), layout.column(Role::Z)) else {
         return;
@@ -142,7 +143,7 @@ pub(super) fn upright_axis(layout: &mut Layout, rows: &[&[u8]], asked: bool) {
 }
 
 /// The unit that heights of heads tell: people are 1 to 2.3 m tall.
-pub(super) fn unit_of_heights(layout: &Layout, rows: &[&[u8]]) -> Option<super::LengthUnit> {
+pub(super) fn unit_of_heights(layout: &TextLayout, rows: &[&[u8]]) -> Option<super::LengthUnit> {
     use super::LengthUnit::{Centimetre, Metre, Millimetre};
     let at = layout.column(Role::Height).or_else(|| layout.column(Role::Z))?;
     let value = |row: &&[u8]| number(layout.separator.split(row).get(at)?).filter(|z| z.is_finite());

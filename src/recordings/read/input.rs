@@ -52,7 +52,7 @@ impl Read for Counted {
 }
 
 /// The lines of a text file, one by one, in a buffer that holds whole lines.
-pub(super) struct Lines {
+pub(super) struct LineReader {
     input: Box<dyn Read + Send>,
     packed: bool,
     buffer: Vec<u8>,
@@ -64,8 +64,8 @@ pub(super) struct Lines {
     length: u64,
 }
 
-impl Lines {
-    pub fn open(path: &Path) -> Result<Lines, Trouble> {
+impl LineReader {
+    pub fn open(path: &Path) -> Result<LineReader, Trouble> {
         let mut magic = [0; 2];
         let packed = fill(&mut File::open(path)?, &mut magic)? == 2 && magic == GZIP;
         let file = File::open(path)?;
@@ -78,7 +78,7 @@ impl Lines {
             Box::new(counted)
         };
         let buffer = vec![0; 2 * CHUNK];
-        let mut lines = Lines { input, packed, buffer, rest: 0..0, ended: false, number: 0, read, length };
+        let mut lines = LineReader { input, packed, buffer, rest: 0..0, ended: false, number: 0, read, length };
         lines.fill()?;
         if lines.buffer[lines.rest.clone()].starts_with(&BOM) {
             lines.rest.start += BOM.len();
@@ -91,7 +91,7 @@ impl Lines {
         (&self.buffer[self.rest.clone()], self.ended)
     }
 
-    /// The next line without its end, as a place in [`Lines::text`].
+    /// The next line without its end, as a place in [`LineReader::text`].
     pub fn next(&mut self) -> Result<Option<Range<usize>>, Trouble> {
         loop {
             let unread = &self.buffer[self.rest.clone()];
@@ -180,7 +180,7 @@ mod tests {
     fn lines_of(bytes: &[u8]) -> Result<Vec<Vec<u8>>, Trouble> {
         let mut file = tempfile::NamedTempFile::new().unwrap();
         file.write_all(bytes).unwrap();
-        let mut lines = Lines::open(file.path())?;
+        let mut lines = LineReader::open(file.path())?;
         let mut found = Vec::new();
         while let Some(line) = lines.next()? {
             found.push(lines.text(line).to_vec());

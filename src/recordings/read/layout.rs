@@ -1,6 +1,6 @@
 //! How a text is laid out, and its lines read by that.
 
-use super::columns::{Column, Role};
+use super::columns::{Role, TextColumn};
 use super::number::{number, stamp};
 use super::{LengthUnit, RecordingFormat};
 
@@ -22,7 +22,7 @@ pub(super) enum Separator {
 
 /// What the column of moments counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Clock {
+pub(super) enum TimeColumn {
     Frames,
     /// Times in units of so many seconds; `None` if nothing tells.
     Times(Option<f64>),
@@ -30,12 +30,12 @@ pub(super) enum Clock {
 
 /// How a text is laid out.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Layout {
+pub(super) struct TextLayout {
     pub format: RecordingFormat,
     pub separator: Separator,
     pub decimal_comma: bool,
-    pub columns: Vec<Column>,
-    pub clock: Clock,
+    pub columns: Vec<TextColumn>,
+    pub clock: TimeColumn,
     /// Number of columns of the first row, useful or not.
     pub width: usize,
     /// Lines before the first with a place.
@@ -52,7 +52,7 @@ pub(super) struct Layout {
 
 /// What a line says of somebody, in the file's own numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Line<'a> {
+pub(super) struct TextLine<'a> {
     pub id: &'a [u8],
     pub time: f64,
     /// The numbers by [`slot`]; NaN where there is none.
@@ -87,7 +87,7 @@ pub(super) struct LineProblem {
     pub short: bool,
 }
 
-impl Layout {
+impl TextLayout {
     /// Where a column with this role is.
     pub fn column(&self, role: Role) -> Option<usize> {
         self.columns.iter().position(|column| column.role == role)
@@ -99,17 +99,17 @@ impl Layout {
     }
 
     /// Heights and what stands behind the last useful column need not be read any more.
-    pub fn without_heights(mut self) -> Layout {
+    pub fn without_heights(mut self) -> TextLayout {
         let heights = self.columns.iter_mut().filter(|column| matches!(column.role, Role::Z | Role::Height));
-        heights.for_each(|column| *column = Column::UNUSED);
+        heights.for_each(|column| *column = TextColumn::UNUSED);
         let useful = self.columns.iter().rposition(|column| column.role != Role::Unused).map_or(0, |last| last + 1);
         self.columns.truncate(useful);
         self
     }
 
     /// Reads a line; columns may be missing only behind the last useful one.
-    pub fn read<'a>(&self, line: &'a [u8]) -> Result<Line<'a>, LineProblem> {
-        let mut read = Line { id: b"1", time: f64::NAN, values: [f64::NAN; SLOTS] };
+    pub fn read<'a>(&self, line: &'a [u8]) -> Result<TextLine<'a>, LineProblem> {
+        let mut read = TextLine { id: b"1", time: f64::NAN, values: [f64::NAN; SLOTS] };
         let mut rest = line;
         for (at, column) in self.columns.iter().enumerate() {
             let field = self.separator.next(&mut rest).or_else(|| self.empty_last(line, at));
@@ -150,7 +150,7 @@ impl Layout {
     }
 
     fn moment(&self, field: &[u8]) -> Result<f64, LineProblem> {
-        let frames = self.clock == Clock::Frames;
+        let frames = self.clock == TimeColumn::Frames;
         let role = if frames { Role::Frame } else { Role::Time };
         let value = self.number(field).or_else(|| stamp(field).filter(|_| !frames));
         let value = value.ok_or_else(|| not_a_number(role, field))?;

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::RecordingError;
-use super::row::Row;
+use super::row::TrajectoryRow;
 use crate::math::{Vec2, vec2};
 
 /// Rows by time, then id, then their order in the file.
@@ -38,13 +38,13 @@ impl Sorted {
     ///
     /// # Errors
     /// More rows than can be counted.
-    pub fn push(&mut self, row: Row, path: &Path) -> Result<(), RecordingError> {
+    pub fn push(&mut self, row: TrajectoryRow, path: &Path) -> Result<(), RecordingError> {
         let Ok(order) = u32::try_from(self.rows.len()) else {
             let (path, hint) = (path.to_path_buf(), "sort it by time first");
             let problem = "more than 4 billion rows that are not in the order of time".to_owned();
             return Err(RecordingError::Unreadable { path, problem, hint });
         };
-        let Row { id, line, time, at, velocity, heading, until } = row;
+        let TrajectoryRow { id, line, time, at, velocity, heading, until } = row;
         let extra = velocity.is_some() || heading.is_some() || until.is_some();
         if extra || !self.extras.is_empty() {
             self.extras.resize(order as usize, Extra::default());
@@ -60,11 +60,11 @@ impl Sorted {
         self.rows.sort_unstable_by(|a, b| a.time.total_cmp(&b.time).then((a.id, a.order).cmp(&(b.id, b.order))));
     }
 
-    fn row(&self, at: usize) -> Option<Row> {
+    fn row(&self, at: usize) -> Option<TrajectoryRow> {
         let &Compact { time, x, y, id, order } = self.rows.get(at)?;
         let Extra { velocity, heading, until } = self.extras.get(order as usize).copied().unwrap_or_default();
         let line = u64::from(self.lines[order as usize]);
-        Some(Row { id, line, time, at: vec2(x, y), velocity, heading, until })
+        Some(TrajectoryRow { id, line, time, at: vec2(x, y), velocity, heading, until })
     }
 }
 
@@ -80,7 +80,7 @@ impl MemoryRows {
     }
 
     #[inline]
-    pub fn next(&mut self) -> Option<Row> {
+    pub fn next(&mut self) -> Option<TrajectoryRow> {
         let row = self.sorted.row(self.next)?;
         self.next += 1;
         Some(row)

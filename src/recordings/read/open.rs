@@ -11,12 +11,12 @@ use super::content::{RecordingContent, RowSource};
 use super::database::{self, DatabaseRows};
 use super::detect;
 use super::guess;
-use super::input::Lines;
-use super::layout::{Clock, Layout, shown};
+use super::input::LineReader;
+use super::layout::{TextLayout, TimeColumn, shown};
 use super::memory::Sorted;
 use super::refusal::Refusal;
-use super::row::{Numbering, Passed, Row, Stop, moment, who};
-use super::rows::Rows;
+use super::row::{Numbering, Passed, ReadStop, TrajectoryRow, moment, who};
+use super::rows::TrajectoryRows;
 use super::scale::{Alignment, Scale, Stated, TimeScale, rotation};
 use super::text_rows::unreadable;
 use super::{LengthUnit, RecordingError, RecordingFormat, RecordingOptions, Survey};
@@ -38,7 +38,7 @@ pub(super) fn open(
         }
         let stated = Stated {
             format: RecordingFormat::Jupedsim,
-            clock: Clock::Frames,
+            clock: TimeColumn::Frames,
             fps: about.fps,
             unit: Some(LengthUnit::Metre),
             unit_of_heights: None,
@@ -51,7 +51,7 @@ pub(super) fn open(
         let warnings = layout.warnings.clone();
         (RowSource::Text(Arc::new(layout), Numbering::Own), stated, warnings)
     };
-    let frames = stated.clock == Clock::Frames;
+    let frames = stated.clock == TimeColumn::Frames;
     let way = CensusTask { path, frames, turn: rotation(options.rotation_deg), progress };
     let Counting { source, mut census, passed, in_order } = count(source, way)?;
     let Some(bounds) = census.bounds else {
@@ -105,8 +105,8 @@ fn is_database(path: &Path, options: &RecordingOptions) -> Result<bool, Recordin
 }
 
 /// Finds out how a text is laid out.
-fn read_head(path: &Path, options: &RecordingOptions) -> Result<(Layout, Stated), RecordingError> {
-    let lines = Lines::open(path).map_err(|trouble| unreadable(path, trouble, 0))?;
+fn read_head(path: &Path, options: &RecordingOptions) -> Result<(TextLayout, Stated), RecordingError> {
+    let lines = LineReader::open(path).map_err(|trouble| unreadable(path, trouble, 0))?;
     let (head, whole) = lines.head();
     if head.starts_with(database::MAGIC) {
         let (found, hint) = ("it is a compressed database".to_owned(), "unpack it first: gunzip FILE".to_owned());
@@ -155,7 +155,7 @@ struct CensusTask<'a> {
 
 impl CensusTask<'_> {
     /// Whether to stop here.
-    fn check(&self, rows: &Rows) -> Result<(), RecordingError> {
+    fn check(&self, rows: &TrajectoryRows) -> Result<(), RecordingError> {
         if self.progress.interrupted() {
             return Err(RecordingError::Interrupted { path: self.path.to_path_buf() });
         }
@@ -205,14 +205,14 @@ fn count(mut source: RowSource, way: CensusTask<'_>) -> Result<Counting, Recordi
                     }
                 };
             }
-            Err(Stop::Error(error)) => return Err(error),
-            Err(Stop::Name) => source = numbered(source),
+            Err(ReadStop::Error(error)) => return Err(error),
+            Err(ReadStop::Name) => source = numbered(source),
         }
     }
 }
 
 /// Reads all rows into memory, in the order of time.
-fn sorted(rows: &mut Rows, way: CensusTask<'_>) -> Result<Sorted, Stop> {
+fn sorted(rows: &mut TrajectoryRows, way: CensusTask<'_>) -> Result<Sorted, ReadStop> {
     let mut sorted = Sorted::default();
     for count in 0u64.. {
         let Some(row) = rows.next()? else { break };
@@ -239,7 +239,7 @@ enum Obstacle {
     Error(RecordingError),
 }
 
-fn census_of(rows: &mut Rows, source: &RowSource, way: CensusTask<'_>) -> Result<Census, Obstacle> {
+fn census_of(rows: &mut TrajectoryRows, source: &RowSource, way: CensusTask<'_>) -> Result<Census, Obstacle> {
     let numbering = match source {
         RowSource::Text(_, numbering) => *numbering,
         RowSource::Database | RowSource::Memory(_) => Numbering::Own,
@@ -252,8 +252,8 @@ fn census_of(rows: &mut Rows, source: &RowSource, way: CensusTask<'_>) -> Result
         let row = match rows.next() {
             Ok(Some(row)) => row,
             Ok(None) => break,
-            Err(Stop::Name) => return Err(Obstacle::Name),
-            Err(Stop::Error(error)) => return Err(Obstacle::Error(error)),
+            Err(ReadStop::Name) => return Err(Obstacle::Name),
+            Err(ReadStop::Error(error)) => return Err(Obstacle::Error(error)),
         };
         match census.add(&row) {
             Ok(()) => {}
@@ -267,7 +267,7 @@ fn census_of(rows: &mut Rows, source: &RowSource, way: CensusTask<'_>) -> Result
     Ok(census)
 }
 
-fn twice(path: &Path, row: &Row, other: Vec2, numbering: Numbering, frames: bool) -> RecordingError {
+fn twice(path: &Path, row: &TrajectoryRow, other: Vec2, numbering: Numbering, frames: bool) -> RecordingError {
     RecordingError::Twice {
         path: path.to_path_buf(),
         line: row.line,

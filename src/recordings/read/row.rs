@@ -12,7 +12,7 @@ pub(super) const ID_LIMIT: f64 = 1e7;
 
 /// Somebody's place as the file tells it, in its own numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Row {
+pub(super) struct TrajectoryRow {
     pub id: u32,
     /// Line, from 1; in a database the row's number.
     pub line: u64,
@@ -45,15 +45,15 @@ pub(super) struct Passed {
 
 /// What stops rows from coming.
 #[derive(Debug)]
-pub(super) enum Stop {
+pub(super) enum ReadStop {
     /// An id that is no whole number below [`ID_LIMIT`]: people have to be numbered.
     Name,
     Error(RecordingError),
 }
 
-impl From<RecordingError> for Stop {
-    fn from(error: RecordingError) -> Stop {
-        Stop::Error(error)
+impl From<RecordingError> for ReadStop {
+    fn from(error: RecordingError) -> ReadStop {
+        ReadStop::Error(error)
     }
 }
 

@@ -2,39 +2,39 @@
 
 use super::database::DatabaseRows;
 use super::memory::MemoryRows;
-use super::row::{Passed, Row, Stop};
+use super::row::{Passed, ReadStop, TrajectoryRow};
 use super::text_rows::TextRows;
 
 /// Where rows come from.
-pub(super) enum Rows {
+pub(super) enum TrajectoryRows {
     Text(Box<TextRows>),
     Database(Box<DatabaseRows>),
     Memory(MemoryRows),
 }
 
-impl Rows {
+impl TrajectoryRows {
     #[inline]
-    pub fn next(&mut self) -> Result<Option<Row>, Stop> {
+    pub fn next(&mut self) -> Result<Option<TrajectoryRow>, ReadStop> {
         match self {
-            Rows::Text(rows) => rows.next(),
-            Rows::Database(rows) => Ok(rows.next()?),
-            Rows::Memory(rows) => Ok(rows.next()),
+            TrajectoryRows::Text(rows) => rows.next(),
+            TrajectoryRows::Database(rows) => Ok(rows.next()?),
+            TrajectoryRows::Memory(rows) => Ok(rows.next()),
         }
     }
 
     pub fn share_done(&self) -> f64 {
         match self {
-            Rows::Text(rows) => rows.share_done(),
-            Rows::Database(rows) => rows.share_done(),
-            Rows::Memory(rows) => rows.share_done(),
+            TrajectoryRows::Text(rows) => rows.share_done(),
+            TrajectoryRows::Database(rows) => rows.share_done(),
+            TrajectoryRows::Memory(rows) => rows.share_done(),
         }
     }
 
     pub fn passed(&self) -> Passed {
         match self {
-            Rows::Text(rows) => rows.passed(),
-            Rows::Database(rows) => rows.passed(),
-            Rows::Memory(_) => Passed::default(),
+            TrajectoryRows::Text(rows) => rows.passed(),
+            TrajectoryRows::Database(rows) => rows.passed(),
+            TrajectoryRows::Memory(_) => Passed::default(),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! From the file's numbers to metres and seconds, where need be by what walking people can do.
 
 use super::census::Census;
-use super::layout::Clock;
+use super::layout::TimeColumn;
 use super::{LengthUnit, RecordingFormat, RecordingOptions};
 use crate::math::{Rect, Vec2, sin_cos, vec2};
 
@@ -46,7 +46,7 @@ const EVEN: f64 = 0.02;
 #[derive(Clone, Debug)]
 pub(super) struct Stated {
     pub format: RecordingFormat,
-    pub clock: Clock,
+    pub clock: TimeColumn,
     pub fps: Option<f64>,
     pub unit: Option<LengthUnit>,
     /// By how tall people are in it.
@@ -109,8 +109,8 @@ impl Scale {
         let own = census.own_speeds.quantile(0.5);
         let unit = unit(census, stated, options, warnings);
         let time = match stated.clock {
-            Clock::Frames => TimeScale::Frames(rate(census, stated, options, unit, own, warnings)?),
-            Clock::Times(seconds) => {
+            TimeColumn::Frames => TimeScale::Frames(rate(census, stated, options, unit, own, warnings)?),
+            TimeColumn::Times(seconds) => {
                 if options.fps.is_some() {
                     warnings.push("the recording tells times: --fps is of no use".to_owned());
                 }
@@ -183,8 +183,8 @@ fn unit(census: &mut Census, stated: &Stated, options: &RecordingOptions, warnin
         Some(unit) => (unit, "by the people's heights"),
         None => {
             let second = match stated.clock {
-                Clock::Frames => 1.0 / options.fps.or(stated.fps).unwrap_or(SLOWEST_CAMERA),
-                Clock::Times(seconds) => seconds.unwrap_or(1.0),
+                TimeColumn::Frames => 1.0 / options.fps.or(stated.fps).unwrap_or(SLOWEST_CAMERA),
+                TimeColumn::Times(seconds) => seconds.unwrap_or(1.0),
             };
             let speed = census.speed_quantile(0.75).unwrap_or(0.0) / second;
             let units = [LengthUnit::Metre, LengthUnit::Centimetre, LengthUnit::Millimetre];

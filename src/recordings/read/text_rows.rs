@@ -3,19 +3,19 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::columns::{Role, Unit};
+use super::columns::{ColumnUnit, Role};
 use super::error::{LINES, RecordingError};
-use super::input::{LONGEST_LINE, Lines, Trouble};
-use super::layout::{Layout, Line, slot};
+use super::input::{LONGEST_LINE, LineReader, Trouble};
+use super::layout::{TextLayout, TextLine, slot};
 use super::number::number;
-use super::row::{ID_LIMIT, Numbering, Passed, Row, Stop};
+use super::row::{ID_LIMIT, Numbering, Passed, ReadStop, TrajectoryRow};
 use crate::math::{Vec2, sin_cos, vec2};
 
 /// The rows of a text.
 pub(super) struct TextRows {
     path: PathBuf,
-    lines: Lines,
-    layout: Arc<Layout>,
+    lines: LineReader,
+    layout: Arc<TextLayout>,
     numbering: Numbering,
     numbers: HashMap<Box<[u8]>, u32>,
     passed: Passed,
@@ -32,13 +32,13 @@ struct Extras {
 }
 
 impl TextRows {
-    pub fn open(path: &Path, layout: &Arc<Layout>, numbering: Numbering) -> Result<TextRows, RecordingError> {
-        let lines = Lines::open(path).map_err(|trouble| unreadable(path, trouble, 0))?;
+    pub fn open(path: &Path, layout: &Arc<TextLayout>, numbering: Numbering) -> Result<TextRows, RecordingError> {
+        let lines = LineReader::open(path).map_err(|trouble| unreadable(path, trouble, 0))?;
         let extras = Extras {
             velocity: layout.has(&[Role::VelocityX, Role::VelocityY]),
             heading: layout.has(&[Role::HeadingX, Role::HeadingY]),
             angle: layout.column(Role::HeadingAngle).and_then(|at| match layout.columns[at].unit {
-                Some(Unit::Angle(radians)) => Some(radians),
+                Some(ColumnUnit::Angle(radians)) => Some(radians),
                 _ => None,
             }),
             until: layout.has(&[Role::EndTime, Role::EndX, Role::EndY]),
@@ -66,7 +66,7 @@ impl TextRows {
         self.lines.share_read()
     }
 
-    pub fn next(&mut self) -> Result<Option<Row>, Stop> {
+    pub fn next(&mut self) -> Result<Option<TrajectoryRow>, ReadStop> {
         loop {
             let range = self.lines.next().map_err(|trouble| unreadable(&self.path, trouble, self.lines.number()))?;
             let Some(range) = range else { return Ok(None) };
@@ -108,7 +108,7 @@ impl TextRows {
                 continue;
             }
             let id = match self.numbering {
-                Numbering::Own => whole(line.id).ok_or(Stop::Name)?,
+                Numbering::Own => whole(line.id).ok_or(ReadStop::Name)?,
                 Numbering::Appearance => {
                     let next = self.numbers.len() as u32 + 1;
                     match self.numbers.get(line.id) {
@@ -121,14 +121,14 @@ impl TextRows {
         }
     }
 
-    fn row(&self, id: u32, line: &Line<'_>) -> Row {
+    fn row(&self, id: u32, line: &TextLine<'_>) -> TrajectoryRow {
         let pair = |x: Role, y: Role| {
             let pair = vec2(line.values[slot(x)], line.values[slot(y)]);
             pair.is_finite().then_some(pair)
         };
         let Extras { velocity, heading, angle, until } = self.extras;
         let end_time = line.values[slot(Role::EndTime)];
-        Row {
+        TrajectoryRow {
             id,
             line: self.lines.number(),
             time: line.time,

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::RecordingError;
-use super::row::{ById, Row, Stop};
-use super::rows::Rows;
+use super::row::{ById, ReadStop, TrajectoryRow};
+use super::rows::TrajectoryRows;
 use super::scale::{Alignment, Scale};
 use crate::math::Vec2;
 use crate::motion::{Frame, Motion, MotionError, Walker};
@@ -21,34 +21,34 @@ const SAME_S: f64 = 1e-6;
 /// A recording as a motion. Frames are given out when whoever is missing from them can have come back: about a second
 /// after they were read; more is not held, however long the recording is.
 pub(super) struct Weaver {
-    rows: Rows,
+    rows: TrajectoryRows,
     scale: Scale,
     align: Alignment,
     first_time: f64,
     /// Whether all rows were read.
     read: bool,
     /// Where everybody was last.
-    tracks: ById<Track>,
+    tracks: ById<LastPlace>,
     /// Tracks are looked through when there are so many.
     most_tracks: usize,
     /// The moments that were not given out yet, by number; without a common clock, the newest stands apart.
-    pending: BTreeMap<u64, Moment>,
-    latest: Moment,
+    pending: BTreeMap<u64, PendingFrame>,
+    latest: PendingFrame,
     /// The newest moment's number and time.
     newest: u64,
     newest_s: f64,
     newest_raw: f64,
     /// Ids that were given.
-    known: Known,
+    known: IdSet,
     next_id: u32,
     /// The moment that was given out last.
-    before: Moment,
+    before: PendingFrame,
     /// Room for people that is free again.
     spare: Vec<(Walker, bool)>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Track {
+struct LastPlace {
     /// The id in the motion.
     id: u32,
     number: u64,
@@ -60,12 +60,12 @@ struct Track {
 }
 
 #[derive(Clone, Debug, Default)]
-struct Moment {
+struct PendingFrame {
     time_s: f64,
     people: Vec<(Walker, bool)>,
 }
 
-impl Moment {
+impl PendingFrame {
     fn add(&mut self, id: u32, position_m: Vec2, velocity: Option<Vec2>, heading: Option<Vec2>) {
         let velocity_m_s = velocity.unwrap_or(Vec2::ZERO);
         self.people.push((Walker { id, position_m, velocity_m_s, heading }, velocity.is_some()));
@@ -80,9 +80,9 @@ impl Moment {
 
 /// The ids that were given, a bit for each.
 #[derive(Default)]
-struct Known(Vec<u64>);
+struct IdSet(Vec<u64>);
 
-impl Known {
+impl IdSet {
     /// Notes an id; says whether it is a new one.
     fn insert(&mut self, id: u32) -> bool {
         let (word, bit) = (id as usize / 64, 1 << (id % 64));
@@ -96,7 +96,7 @@ impl Known {
 }
 
 impl Weaver {
-    pub fn new(rows: Rows, scale: Scale, align: Alignment, first_time: f64, largest_id: u32) -> Weaver {
+    pub fn new(rows: TrajectoryRows, scale: Scale, align: Alignment, first_time: f64, largest_id: u32) -> Weaver {
         Weaver {
             rows,
             scale,
@@ -106,13 +106,13 @@ impl Weaver {
             tracks: ById::default(),
             most_tracks: 1024,
             pending: BTreeMap::new(),
-            latest: Moment::default(),
+            latest: PendingFrame::default(),
             newest: 0,
             newest_s: f64::NEG_INFINITY,
             newest_raw: f64::NAN,
-            known: Known::default(),
+            known: IdSet::default(),
             next_id: largest_id.saturating_add(1),
-            before: Moment::default(),
+            before: PendingFrame::default(),
             spare: Vec::new(),
         }
     }
@@ -127,7 +127,7 @@ impl Weaver {
         self.scale.time.seconds(raw - self.first_time)
     }
 
-    fn take(&mut self, row: &Row) {
+    fn take(&mut self, row: &TrajectoryRow) {
         if row.time != self.newest_raw {
             let time_s = self.seconds(row.time);
             self.newest_raw = row.time;
@@ -152,7 +152,7 @@ impl Weaver {
     /// Puts the newest moment with those before it.
     fn settle_latest(&mut self) {
         if self.newest > 0 && !self.latest.people.is_empty() {
-            let spare = Moment { time_s: 0.0, people: std::mem::take(&mut self.spare) };
+            let spare = PendingFrame { time_s: 0.0, people: std::mem::take(&mut self.spare) };
             let latest = std::mem::replace(&mut self.latest, spare);
             self.pending.insert(self.newest, latest);
         }
@@ -169,7 +169,7 @@ impl Weaver {
         ahead: bool,
     ) {
         let at = self.align.place(raw);
-        let mut now = Track { id: own_id, number: self.newest, time_s, at, heading, ahead };
+        let mut now = LastPlace { id: own_id, number: self.newest, time_s, at, heading, ahead };
         let Some(track) = self.tracks.get_mut(&own_id) else {
             self.begin(now, velocity);
             return;
@@ -207,7 +207,7 @@ impl Weaver {
     }
 
     /// Somebody comes, or comes back as somebody else.
-    fn begin(&mut self, mut now: Track, velocity: Option<Vec2>) {
+    fn begin(&mut self, mut now: LastPlace, velocity: Option<Vec2>) {
         let own_id = now.id;
         if !self.known.insert(own_id) {
             now.id = self.next_id;
@@ -228,13 +228,13 @@ impl Weaver {
         self.latest.add(id, at, velocity, heading);
     }
 
-    fn moment_at(&mut self, tick: u64) -> &mut Moment {
+    fn moment_at(&mut self, tick: u64) -> &mut PendingFrame {
         let time_s = tick as f64 / self.scale.fps;
-        self.pending.entry(tick).or_insert_with(|| Moment { time_s, people: Vec::new() })
+        self.pending.entry(tick).or_insert_with(|| PendingFrame { time_s, people: Vec::new() })
     }
 
     /// Shows somebody at the ticks of the clock after one place and up to the next.
-    fn show_between(&mut self, last: &Track, now: &Track) {
+    fn show_between(&mut self, last: &LastPlace, now: &LastPlace) {
         let fps = self.scale.fps;
         let mut tick = ((last.time_s + SAME_S) * fps).floor() as u64 + 1;
         loop {
@@ -270,9 +270,9 @@ impl Weaver {
             }
             match self.rows.next() {
                 Ok(Some(row)) => self.take(&row),
-                Err(Stop::Error(error)) => return Err(error),
+                Err(ReadStop::Error(error)) => return Err(error),
                 // The survey saw no id that is a name: if one comes, the file was changed since, and ends here.
-                Ok(None) | Err(Stop::Name) => {
+                Ok(None) | Err(ReadStop::Name) => {
                     self.settle_latest();
                     self.read = true;
                 }
@@ -290,7 +290,7 @@ impl Motion for Weaver {
         if let Some(mut next) = self.pending.first_entry() {
             next.get_mut().sort();
         }
-        let empty = Moment::default();
+        let empty = PendingFrame::default();
         let next = self.pending.first_key_value().map_or(&empty, |(_, next)| next);
         frame.time_s = now.time_s;
         frame.walkers.clear();

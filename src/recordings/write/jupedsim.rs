@@ -3,8 +3,8 @@ use std::path::Path;
 
 use rusqlite::{Connection, ErrorCode, params};
 
-use super::place::{MapFrame, Place};
-use super::sheet::Sheet;
+use super::place::{MapFrame, RecordedPlace};
+use super::sheet::MotionSink;
 use super::wkt;
 use super::world::RecordedWorld;
 use crate::math::Rect;
@@ -63,8 +63,8 @@ impl JupedsimDatabase {
     }
 }
 
-impl Sheet for JupedsimDatabase {
-    fn frame(&mut self, number: u64, places: &[Place]) -> io::Result<()> {
+impl MotionSink for JupedsimDatabase {
+    fn frame(&mut self, number: u64, places: &[RecordedPlace]) -> io::Result<()> {
         // SQLite's whole numbers have a sign.
         let number = number as i64;
         let insert = || {

@@ -24,11 +24,11 @@ mod world;
 
 pub use form::RecordForm;
 use jupedsim::JupedsimDatabase;
-use place::{MapFrame, Place};
-use rows::Rows;
-use sheet::Sheet;
-use text::{Layout, Out, Text};
-use vadere::Steps;
+use place::{MapFrame, RecordedPlace};
+use rows::RowFormat;
+use sheet::MotionSink;
+use text::{LineFormat, Out, Text};
+use vadere::StepFormat;
 pub use world::RecordedWorld;
 
 /// Least and most frames per second of a recording.
@@ -58,7 +58,7 @@ pub struct Recorder<'a> {
     world: RecordedWorld<'a>,
     frame_of_map: MapFrame,
     resampler: Resampler,
-    sheet: Box<dyn Sheet + 'a>,
+    sheet: Box<dyn MotionSink + 'a>,
     file: Option<WholeFile>,
     written: Recorded,
     /// Who was present in the last frame, and how tall they are.
@@ -97,7 +97,7 @@ impl<'a> Recorder<'a> {
             return Err(RecordingError::NoText { format }.into());
         }
         let file = WholeFile::begin(path, force)?;
-        let sheet: Box<dyn Sheet> = match layout(format, fps) {
+        let sheet: Box<dyn MotionSink> = match layout(format, fps) {
             Some(layout) => {
                 let out = file.create()?;
                 let out = if packed { Out::packed(out) } else { Out::Plain(out) };
@@ -132,7 +132,7 @@ impl<'a> Recorder<'a> {
         world: RecordedWorld<'a>,
         fps: f64,
         format: RecordingFormat,
-        sheet: Box<dyn Sheet + 'a>,
+        sheet: Box<dyn MotionSink + 'a>,
         file: Option<WholeFile>,
     ) -> Recorder<'a> {
         Recorder {
@@ -154,7 +154,7 @@ impl<'a> Recorder<'a> {
         self.resampler.push(frame);
         while let Some((number, walkers)) = self.resampler.next() {
             measure_heights(&mut self.heights, &walkers, self.world.people);
-            let places: Vec<Place> = (walkers.iter().zip(&self.heights))
+            let places: Vec<RecordedPlace> = (walkers.iter().zip(&self.heights))
                 .map(|(walker, &(_, height_m))| self.frame_of_map.place(walker, height_m))
                 .collect();
             self.sheet.frame(number, &places).map_err(|source| failed(&self.file, source))?;
@@ -179,10 +179,10 @@ impl<'a> Recorder<'a> {
 }
 
 /// How a format's text looks; none for the database.
-fn layout(format: RecordingFormat, fps: f64) -> Option<Box<dyn Layout>> {
+fn layout(format: RecordingFormat, fps: f64) -> Option<Box<dyn LineFormat>> {
     match format {
-        RecordingFormat::Vadere => Some(Box::new(Steps::new(fps))),
-        format => Rows::of(format, fps).map(|rows| Box::new(rows) as Box<dyn Layout>),
+        RecordingFormat::Vadere => Some(Box::new(StepFormat::new(fps))),
+        format => RowFormat::of(format, fps).map(|rows| Box::new(rows) as Box<dyn LineFormat>),
     }
 }
 

@@ -4,7 +4,7 @@ use crate::plan::Pose;
 
 /// Somebody's place as it is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Place {
+pub(super) struct RecordedPlace {
     pub id: u32,
     /// Map frame, metres, rounded to 0.1 mm.
     pub at: Vec2,
@@ -34,9 +34,9 @@ impl MapFrame {
         rounded(self.origin_m + p.rotated(self.turn))
     }
 
-    pub fn place(&self, walker: &Walker, height_m: f64) -> Place {
+    pub fn place(&self, walker: &Walker, height_m: f64) -> RecordedPlace {
         let facing = walker.heading.or_else(|| walker.velocity_m_s.normalized()).unwrap_or(vec2(1.0, 0.0));
-        Place {
+        RecordedPlace {
             id: walker.id,
             at: self.point(walker.position_m),
             velocity_m_s: walker.velocity_m_s.rotated(self.turn),

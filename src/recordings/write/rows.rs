@@ -1,31 +1,31 @@
 //! Formats with a line for everybody in every frame.
 
 use super::super::RecordingFormat;
-use super::place::Place;
-use super::text::{Clock, Layout, Line};
+use super::place::RecordedPlace;
+use super::text::{FrameClock, LineBuffer, LineFormat};
 use crate::math::atan2;
 
 /// Such a format.
-pub(super) struct Rows {
+pub(super) struct RowFormat {
     head: String,
-    row: fn(&mut Line, Moment, &Place),
-    clock: Clock,
+    row: fn(&mut LineBuffer, FrameStamp, &RecordedPlace),
+    clock: FrameClock,
 }
 
 /// A frame as it is numbered and timed.
 #[derive(Clone, Copy)]
-struct Moment {
+struct FrameStamp {
     number: u64,
-    clock: Clock,
+    clock: FrameClock,
 }
 
-impl Layout for Rows {
+impl LineFormat for RowFormat {
     fn head(&self) -> String {
         self.head.clone()
     }
 
-    fn frame(&mut self, number: u64, places: &[Place], lines: &mut Line) {
-        let moment = Moment { number, clock: self.clock };
+    fn frame(&mut self, number: u64, places: &[RecordedPlace], lines: &mut LineBuffer) {
+        let moment = FrameStamp { number, clock: self.clock };
         for place in places {
             (self.row)(lines, moment, place);
             lines.text("\n");
@@ -33,10 +33,10 @@ impl Layout for Rows {
     }
 }
 
-impl Rows {
+impl RowFormat {
     /// The layout of a format; none for those that are no such text.
-    pub fn of(format: RecordingFormat, fps: f64) -> Option<Rows> {
-        let (head, row): (String, fn(&mut Line, Moment, &Place)) = match format {
+    pub fn of(format: RecordingFormat, fps: f64) -> Option<RowFormat> {
+        let (head, row): (String, fn(&mut LineBuffer, FrameStamp, &RecordedPlace)) = match format {
             RecordingFormat::Juelich => (juelich_head(fps), juelich),
             RecordingFormat::Csv => ("id,time_s,x_m,y_m,heading_deg,speed_m_s,height_m\n".to_owned(), csv),
             RecordingFormat::Crowdit => ("time,pedID,posX,posY\n".to_owned(), crowdit),
@@ -45,7 +45,7 @@ impl Rows {
             RecordingFormat::Obsmat => (obsmat_head(fps), obsmat),
             RecordingFormat::Jupedsim | RecordingFormat::Vadere => return None,
         };
-        Some(Rows { head, row, clock: Clock::new(fps) })
+        Some(RowFormat { head, row, clock: FrameClock::new(fps) })
     }
 }
 
@@ -64,21 +64,21 @@ fn rate(fps: f64) -> String {
     if short.parse() == Ok(fps) { short } else { fps.to_string() }
 }
 
-fn juelich(line: &mut Line, moment: Moment, place: &Place) {
+fn juelich(line: &mut LineBuffer, moment: FrameStamp, place: &RecordedPlace) {
     line.whole(place.id).text(" ").whole(moment.number);
     for value in [place.at.x, place.at.y, place.height_m] {
         line.text(" ").metres(value);
     }
 }
 
-fn csv(line: &mut Line, moment: Moment, place: &Place) {
+fn csv(line: &mut LineBuffer, moment: FrameStamp, place: &RecordedPlace) {
     line.whole(place.id).text(",").seconds(moment.clock, moment.number);
     line.text(",").metres(place.at.x).text(",").metres(place.at.y);
     line.text(",").degrees(atan2(place.facing.y, place.facing.x).to_degrees());
     line.text(",").metres(place.velocity_m_s.length()).text(",").metres(place.height_m);
 }
 
-fn crowdit(line: &mut Line, moment: Moment, place: &Place) {
+fn crowdit(line: &mut LineBuffer, moment: FrameStamp, place: &RecordedPlace) {
     line.seconds(moment.clock, moment.number).text(",").whole(place.id);
     line.text(",").metres(place.at.x).text(",").metres(place.at.y);
 }
@@ -86,12 +86,12 @@ fn crowdit(line: &mut Line, moment: Moment, place: &Place) {
 /// The table's name and columns stand behind `$`, as in all of PTV's files.
 const VISWALK: &str = "$VISION\n* Pedestrians\n$PEDESTRIAN:NO;SIMSEC;COORDCENTX;COORDCENTY\n";
 
-fn viswalk(line: &mut Line, moment: Moment, place: &Place) {
+fn viswalk(line: &mut LineBuffer, moment: FrameStamp, place: &RecordedPlace) {
     line.whole(place.id).text(";").seconds(moment.clock, moment.number);
     line.text(";").metres(place.at.x).text(";").metres(place.at.y);
 }
 
-fn pathfinder(line: &mut Line, moment: Moment, place: &Place) {
+fn pathfinder(line: &mut LineBuffer, moment: FrameStamp, place: &RecordedPlace) {
     line.whole(place.id).text(",").seconds(moment.clock, moment.number);
     line.text(",").metres(place.at.x).text(",").metres(place.at.y);
 }
@@ -101,7 +101,7 @@ fn obsmat_head(fps: f64) -> String {
     format!("# framerate: {}\n# frame id x z y vx vz vy\n", rate(fps))
 }
 
-fn obsmat(line: &mut Line, moment: Moment, place: &Place) {
+fn obsmat(line: &mut LineBuffer, moment: FrameStamp, place: &RecordedPlace) {
     line.whole(moment.number).text(" ").whole(place.id);
     let velocity = place.velocity_m_s;
     for value in [place.at.x, 0.0, place.at.y, velocity.x, 0.0, velocity.y] {

@@ -5,32 +5,32 @@ use std::io::{self, Write};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 
-use super::place::{PER_UNIT, Place};
-use super::sheet::Sheet;
+use super::place::{PER_UNIT, RecordedPlace};
+use super::sheet::MotionSink;
 
 /// How the text of a format looks.
-pub(super) trait Layout: Send {
+pub(super) trait LineFormat: Send {
     /// What stands before the first place.
     fn head(&self) -> String;
 
     /// The lines that can be written when a frame has come, of which there is none before this one that was not given.
-    fn frame(&mut self, number: u64, places: &[Place], lines: &mut Line);
+    fn frame(&mut self, number: u64, places: &[RecordedPlace], lines: &mut LineBuffer);
 
     /// The lines that are left when all frames have come.
-    fn rest(&mut self, _lines: &mut Line) {}
+    fn rest(&mut self, _lines: &mut LineBuffer) {}
 }
 
 /// A text in the making.
 pub(super) struct Text<W: Write> {
     out: Out<W>,
-    layout: Box<dyn Layout>,
-    lines: Line,
+    layout: Box<dyn LineFormat>,
+    lines: LineBuffer,
     bytes: u64,
 }
 
 impl<W: Write> Text<W> {
-    pub fn begin(out: Out<W>, layout: Box<dyn Layout>) -> io::Result<Text<W>> {
-        let mut text = Text { out, layout, lines: Line::default(), bytes: 0 };
+    pub fn begin(out: Out<W>, layout: Box<dyn LineFormat>) -> io::Result<Text<W>> {
+        let mut text = Text { out, layout, lines: LineBuffer::default(), bytes: 0 };
         text.lines.0.extend_from_slice(text.layout.head().as_bytes());
         text.write()?;
         Ok(text)
@@ -44,8 +44,8 @@ impl<W: Write> Text<W> {
     }
 }
 
-impl<W: Write + Send> Sheet for Text<W> {
-    fn frame(&mut self, number: u64, places: &[Place]) -> io::Result<()> {
+impl<W: Write + Send> MotionSink for Text<W> {
+    fn frame(&mut self, number: u64, places: &[RecordedPlace]) -> io::Result<()> {
         self.layout.frame(number, places, &mut self.lines);
         self.write()
     }
@@ -87,7 +87,7 @@ impl<W: Write> Out<W> {
 
 /// Numbers frames by time.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Clock {
+pub(super) struct FrameClock {
     fps: f64,
     /// Decimals of a second that are written.
     decimals: usize,
@@ -96,14 +96,14 @@ pub(super) struct Clock {
 /// Most decimals of a second.
 const MICROSECONDS: usize = 6;
 
-impl Clock {
+impl FrameClock {
     /// Times have as many decimals as they need to be exact, up to microseconds.
-    pub fn new(fps: f64) -> Clock {
+    pub fn new(fps: f64) -> FrameClock {
         let exact = |decimals: &usize| {
             let parts = TENS[*decimals] / fps;
             (parts - parts.round()).abs() < 1e-9
         };
-        Clock { fps, decimals: (2..MICROSECONDS).find(exact).unwrap_or(MICROSECONDS) }
+        FrameClock { fps, decimals: (2..MICROSECONDS).find(exact).unwrap_or(MICROSECONDS) }
     }
 
     fn seconds(self, number: u64) -> f64 {
@@ -118,37 +118,37 @@ const EXACT: f64 = 9e15;
 
 /// Lines of text.
 #[derive(Debug, Default)]
-pub(super) struct Line(Vec<u8>);
+pub(super) struct LineBuffer(Vec<u8>);
 
-impl Line {
-    pub fn text(&mut self, text: &str) -> &mut Line {
+impl LineBuffer {
+    pub fn text(&mut self, text: &str) -> &mut LineBuffer {
         self.0.extend_from_slice(text.as_bytes());
         self
     }
 
-    pub fn whole(&mut self, value: impl Into<u64>) -> &mut Line {
+    pub fn whole(&mut self, value: impl Into<u64>) -> &mut LineBuffer {
         // Writing to memory cannot fail.
         let _ = write!(self.0, "{}", value.into());
         self
     }
 
     /// A length, speed or share with four decimals.
-    pub fn metres(&mut self, value: f64) -> &mut Line {
+    pub fn metres(&mut self, value: f64) -> &mut LineBuffer {
         self.decimal(value, PER_UNIT, 4)
     }
 
     /// The time of a frame in seconds.
-    pub fn seconds(&mut self, clock: Clock, number: u64) -> &mut Line {
+    pub fn seconds(&mut self, clock: FrameClock, number: u64) -> &mut LineBuffer {
         self.decimal(clock.seconds(number), TENS[clock.decimals], clock.decimals)
     }
 
     /// An angle in degrees with two decimals.
-    pub fn degrees(&mut self, value: f64) -> &mut Line {
+    pub fn degrees(&mut self, value: f64) -> &mut LineBuffer {
         self.decimal(value, TENS[2], 2)
     }
 
     /// Zero has no sign.
-    fn decimal(&mut self, value: f64, per_unit: f64, decimals: usize) -> &mut Line {
+    fn decimal(&mut self, value: f64, per_unit: f64, decimals: usize) -> &mut LineBuffer {
         let parts = (value * per_unit).round();
         let _ = if parts.abs() < EXACT {
             let (parts, per_unit) = (parts as i64, per_unit as u64);
@@ -166,8 +166,8 @@ impl Line {
 mod tests {
     use super::*;
 
-    fn written(write: impl Fn(&mut Line) -> &mut Line) -> String {
-        let mut line = Line::default();
+    fn written(write: impl Fn(&mut LineBuffer) -> &mut LineBuffer) -> String {
+        let mut line = LineBuffer::default();
         write(&mut line);
         String::from_utf8(line.0).unwrap()
     }
@@ -182,12 +182,12 @@ mod tests {
 
     #[test]
     fn times_have_the_decimals_that_they_need() {
-        let third = |fps: f64| written(|line| line.seconds(Clock::new(fps), 3));
+        let third = |fps: f64| written(|line| line.seconds(FrameClock::new(fps), 3));
         assert_eq!(
             [10.0, 25.0, 16.0, 8.0, 30.0, 29.97, 1000.0, 0.1].map(third),
             ["0.30", "0.12", "0.1875", "0.375", "0.100000", "0.100100", "0.003", "30.00"]
         );
-        let late = written(|line| line.seconds(Clock::new(30.0), 10_000_000_001));
+        let late = written(|line| line.seconds(FrameClock::new(30.0), 10_000_000_001));
         assert_eq!(late, "333333333.366667");
     }
 }

@@ -1,5 +1,5 @@
-use super::place::Place;
-use super::text::{Clock, Layout, Line};
+use super::place::RecordedPlace;
+use super::text::{FrameClock, LineBuffer, LineFormat};
 use crate::motion::FASTEST_M_S;
 
 /// The columns that Vadere's post-visualisation needs, with the numbers of the processors that write them.
@@ -9,21 +9,21 @@ const HEAD: &str = "pedestrianId simTime endTime-PID1 startX-PID1 startY-PID1 en
 ///
 /// Whoever is there in one frame only stands until the middle between it and the next: a step without length in time
 /// would be none.
-pub(super) struct Steps {
+pub(super) struct StepFormat {
     fps: f64,
     /// Of half frames.
-    clock: Clock,
+    clock: FrameClock,
     number: u64,
     /// Those in the last frame, and whether a step has led them there.
-    before: Vec<(Place, bool)>,
+    before: Vec<(RecordedPlace, bool)>,
 }
 
-impl Steps {
-    pub fn new(fps: f64) -> Steps {
-        Steps { fps, clock: Clock::new(2.0 * fps), number: 0, before: Vec::new() }
+impl StepFormat {
+    pub fn new(fps: f64) -> StepFormat {
+        StepFormat { fps, clock: FrameClock::new(2.0 * fps), number: 0, before: Vec::new() }
     }
 
-    fn step(&self, from: &Place, to: &Place, half_frames: u64, lines: &mut Line) {
+    fn step(&self, from: &RecordedPlace, to: &RecordedPlace, half_frames: u64, lines: &mut LineBuffer) {
         lines.whole(from.id).text(" ").seconds(self.clock, 2 * self.number);
         lines.text(" ").seconds(self.clock, 2 * self.number + half_frames);
         for value in [from.at.x, from.at.y, to.at.x, to.at.y] {
@@ -33,12 +33,12 @@ impl Steps {
     }
 }
 
-impl Layout for Steps {
+impl LineFormat for StepFormat {
     fn head(&self) -> String {
         HEAD.to_owned()
     }
 
-    fn frame(&mut self, number: u64, places: &[Place], lines: &mut Line) {
+    fn frame(&mut self, number: u64, places: &[RecordedPlace], lines: &mut LineBuffer) {
         // Both are in ascending order of ids.
         let mut after = places.iter().peekable();
         let mut arrived = Vec::new();
@@ -46,7 +46,7 @@ impl Layout for Steps {
         for (from, stepped) in &before {
             while after.next_if(|place| place.id < from.id).is_some() {}
             // Who is too far away was put there, as in a corridor without ends.
-            let near = |to: &&Place| from.at.distance(to.at) * self.fps <= FASTEST_M_S;
+            let near = |to: &&RecordedPlace| from.at.distance(to.at) * self.fps <= FASTEST_M_S;
             match after.next_if(|place| place.id == from.id).filter(near) {
                 Some(to) => {
                     self.step(from, to, 2, lines);
@@ -60,7 +60,7 @@ impl Layout for Steps {
         self.before.extend(places.iter().map(|place| (*place, arrived.binary_search(&place.id).is_ok())));
     }
 
-    fn rest(&mut self, lines: &mut Line) {
+    fn rest(&mut self, lines: &mut LineBuffer) {
         for (place, stepped) in &self.before {
             if !stepped {
                 self.step(place, place, 1, lines);

@@ -1,7 +1,7 @@
 //! `[formation]` in a scenario: read, checked, written.
 
 use super::{parse, shown};
-use crate::formation::{ExampleKind, Members, Shape};
+use crate::formation::{ExampleKind, FormationShape, Members};
 
 const BATTLE: &str = r#"
 [formation]
@@ -29,7 +29,7 @@ fn a_formation_needs_no_plan_and_stands_in_itself() {
     let scenario = parse(BATTLE).unwrap_or_else(|error| panic!("{error}"));
     let formation = scenario.formation.clone().unwrap();
     assert_eq!(formation.example.kind, Some(ExampleKind::Ranks));
-    assert_eq!(formation.key[0].shape, Some(Shape::Star));
+    assert_eq!(formation.key[0].shape, Some(FormationShape::Star));
     assert_eq!(formation.crowd[0].members, Members::List(vec![0, 4]));
     assert_eq!(formation.crowd[0].crowd[0].example.people, Some(3));
     let text = scenario.to_toml();

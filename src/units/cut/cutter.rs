@@ -1,7 +1,7 @@
 use super::groups::groups;
 use super::options::CutOptions;
-use super::stretch::{Stretch, stretch_from};
-use super::walks::{FPS, Walks};
+use super::stretch::{UnitInterval, stretch_from};
+use super::walks::{FPS, SpotTracks};
 use crate::math::Vec2;
 use crate::motion::Motion;
 use crate::progress::Progress;
@@ -17,16 +17,16 @@ const VIEWER: SpotFrame = SpotFrame { at_m: Vec2::ZERO, ahead: Vec2 { x: 0.0, y:
 
 /// What was cut at a spot.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Cuts {
+pub struct UnitCuts {
     /// The units, those of most interest first.
-    pub cuts: Vec<Cut>,
+    pub cuts: Vec<UnitCut>,
     /// How much speeds and headings differ in the area in front, all the time.
     pub diversity: DiversityReport,
 }
 
 /// A unit that was cut, and where it came from.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Cut {
+pub struct UnitCut {
     /// The unit.
     pub unit: Unit,
     /// When it began in the motion, seconds.
@@ -52,14 +52,14 @@ pub fn cut(
     spot: SpotFrame,
     options: &CutOptions,
     progress: &dyn Progress,
-) -> Result<Cuts, UnitsError> {
+) -> Result<UnitCuts, UnitsError> {
     options.check()?;
     let nothing =
         |reason: &str| UnitsError::NothingToCut { x: spot.at_m.x, y: spot.at_m.y, reason: reason.to_string() };
-    let walks = Walks::read(motion, &spot, progress)?;
+    let walks = SpotTracks::read(motion, &spot, progress)?;
     let Some([first, last]) = walks.span() else { return Err(nothing("nobody comes near")) };
     let together = groups(&walks);
-    let mut found: Vec<(f64, Stretch)> = Vec::new();
+    let mut found: Vec<(f64, UnitInterval)> = Vec::new();
     let mut frame = first;
     while frame <= last {
         progress.keep_on()?;
@@ -70,7 +70,7 @@ pub fn cut(
     }
     // The earlier of two that are as interesting.
     found.sort_by(|(a, s), (b, t)| b.total_cmp(a).then(s.from.cmp(&t.from)));
-    let mut cuts: Vec<(Cut, Stretch)> = Vec::new();
+    let mut cuts: Vec<(UnitCut, UnitInterval)> = Vec::new();
     for (interest_bits, stretch) in found {
         if cuts.len() == options.most {
             break;
@@ -83,7 +83,7 @@ pub fn cut(
         // What a file could not hold, such as somebody who leaps, is no unit.
         let Ok(unit) = Unit::parse(&unit.to_toml(), std::path::Path::new("cut")) else { continue };
         let ids = stretch.members.iter().map(|&walk| walks.all[walk].id).collect();
-        cuts.push((Cut { unit, start_s, ids, interest_bits }, stretch));
+        cuts.push((UnitCut { unit, start_s, ids, interest_bits }, stretch));
     }
     if cuts.is_empty() {
         return Err(nothing("nobody stays in the areas long enough, apart from others"));
@@ -92,10 +92,10 @@ pub fn cut(
     for moment in (first..=last).flat_map(|frame| walks.present(frame)).map(|(_, moment)| moment) {
         diversity.count_within(moment);
     }
-    Ok(Cuts { cuts: cuts.into_iter().map(|(cut, _)| cut).collect(), diversity: diversity.report() })
+    Ok(UnitCuts { cuts: cuts.into_iter().map(|(cut, _)| cut).collect(), diversity: diversity.report() })
 }
 
-fn interest_bits(walks: &Walks, stretch: &Stretch, options: &CutOptions) -> f64 {
+fn interest_bits(walks: &SpotTracks, stretch: &UnitInterval, options: &CutOptions) -> f64 {
     let mut diversity = Diversity::new(VIEWER, options.areas);
     for &walk in &stretch.members {
         for frame in stretch.from..=stretch.to {

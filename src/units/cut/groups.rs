@@ -1,4 +1,4 @@
-use super::walks::{FPS, Walk, Walks};
+use super::walks::{FPS, SpotTrack, SpotTracks};
 
 /// Those who belong together are mostly this near, metres, ...
 const NEAR_M: f64 = 1.6;
@@ -15,7 +15,7 @@ const FARTHEST_M: f64 = 4.0;
 ///
 /// Two people are linked who are mostly near each other at the same velocity while both are seen, as Moussaid et al. 2010
 /// (doi 10.1371/journal.pone.0010047) describe groups: side by side, about 0.8 m apart, at one speed.
-pub(super) fn groups(walks: &Walks) -> Vec<u32> {
+pub(super) fn groups(walks: &SpotTracks) -> Vec<u32> {
     let count = walks.all.len();
     let mut leader: Vec<usize> = (0..count).collect();
     // Sorted by the first frame: who comes after the last one's end meets nobody.
@@ -40,7 +40,7 @@ fn root(leader: &[usize], mut walk: usize) -> usize {
     walk
 }
 
-fn together(a: &Walk, b: &Walk) -> bool {
+fn together(a: &SpotTrack, b: &SpotTrack) -> bool {
     let (from, to) = (a.first.max(b.first), a.last().min(b.last()));
     let (mut seen, mut near) = (0u32, 0u32);
     for frame in from..=to {

@@ -6,7 +6,7 @@ mod options;
 mod stretch;
 mod walks;
 
-pub use cutter::{Cut, Cuts, cut};
+pub use cutter::{UnitCut, UnitCuts, cut};
 pub use options::CutOptions;
 
 #[cfg(test)]

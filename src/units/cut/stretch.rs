@@ -1,9 +1,9 @@
 use super::super::areas::Areas;
 use super::super::matching::Party;
-use super::super::track::{Moment, Sample, Track};
+use super::super::track::{TrackSample, TrackState, UnitTrack};
 use super::super::unit::{AREA_DEPTHS_M, LEAST_APART_M, MOST_MEMBERS, Member, Unit};
 use super::options::CutOptions;
-use super::walks::{FPS, Walks};
+use super::walks::{FPS, SpotTracks};
 use crate::math::{Vec2, vec2};
 
 /// Whoever is this far beyond the areas has left, metres.
@@ -13,7 +13,7 @@ const VIEWER_M: f64 = 0.5;
 
 /// A piece of a motion that may become a unit.
 #[derive(Clone, Debug)]
-pub(super) struct Stretch {
+pub(super) struct UnitInterval {
     pub(super) from: u64,
     pub(super) to: u64,
     /// Places in the list of walks, ascending.
@@ -21,7 +21,12 @@ pub(super) struct Stretch {
 }
 
 /// The stretch that begins with those who are judged at a frame, if it is long enough.
-pub(super) fn stretch_from(walks: &Walks, groups: &[u32], from: u64, options: &CutOptions) -> Option<Stretch> {
+pub(super) fn stretch_from(
+    walks: &SpotTracks,
+    groups: &[u32],
+    from: u64,
+    options: &CutOptions,
+) -> Option<UnitInterval> {
     let members = judged(walks, groups, from, &options.areas);
     if members.is_empty() || members.len() > MOST_MEMBERS {
         return None;
@@ -34,7 +39,7 @@ pub(super) fn stretch_from(walks: &Walks, groups: &[u32], from: u64, options: &C
     // The frame before the one that ended it, in whole samples.
     let every = every(options);
     let to = from + (to - from).saturating_sub(u64::from(to < longest)) / every * every;
-    ((to - from) as f64 >= options.least_s * FPS).then_some(Stretch { from, to, members })
+    ((to - from) as f64 >= options.least_s * FPS).then_some(UnitInterval { from, to, members })
 }
 
 /// Frames from one sample to the next.
@@ -43,8 +48,8 @@ fn every(options: &CutOptions) -> u64 {
 }
 
 /// Whoever is in the front or rear area by the middle of the group.
-fn judged(walks: &Walks, groups: &[u32], frame: u64, areas: &Areas) -> Vec<usize> {
-    let mut there: Vec<(u32, usize, Moment)> = walks.present(frame).map(|(k, m)| (groups[k], k, *m)).collect();
+fn judged(walks: &SpotTracks, groups: &[u32], frame: u64, areas: &Areas) -> Vec<usize> {
+    let mut there: Vec<(u32, usize, TrackState)> = walks.present(frame).map(|(k, m)| (groups[k], k, *m)).collect();
     there.sort_by_key(|&(group, walk, _)| (group, walk));
     let mut members: Vec<usize> = Vec::new();
     for group in there.chunk_by(|a, b| a.0 == b.0) {
@@ -59,8 +64,8 @@ fn judged(walks: &Walks, groups: &[u32], frame: u64, areas: &Areas) -> Vec<usize
 
 /// Whether a stretch goes on at a frame: everybody is seen, somebody is still in the areas, nobody else comes near, and
 /// nobody touches the viewer.
-fn goes_on(walks: &Walks, members: &[usize], frame: u64, options: &CutOptions) -> bool {
-    let mut moments: Vec<Moment> = Vec::with_capacity(members.len());
+fn goes_on(walks: &SpotTracks, members: &[usize], frame: u64, options: &CutOptions) -> bool {
+    let mut moments: Vec<TrackState> = Vec::with_capacity(members.len());
     for &walk in members {
         let Some(moment) = walks.all[walk].at(frame) else { return false };
         moments.push(*moment);
@@ -82,9 +87,9 @@ fn is_within(areas: &Areas, place_m: Vec2) -> bool {
     place_m.x.abs() <= half && place_m.y <= depth + BEYOND_M && place_m.y >= -rear_depth - BEYOND_M
 }
 
-impl Stretch {
+impl UnitInterval {
     /// Which share of the shorter of the two they have in common, with somebody who is in both.
-    pub(super) fn shares(&self, other: &Stretch) -> f64 {
+    pub(super) fn shares(&self, other: &UnitInterval) -> f64 {
         if !self.members.iter().any(|walk| other.members.contains(walk)) {
             return 0.0;
         }
@@ -93,21 +98,21 @@ impl Stretch {
     }
 
     /// The stretch as a unit.
-    pub(super) fn unit(&self, walks: &Walks, groups: &[u32], name: String, options: &CutOptions) -> Unit {
+    pub(super) fn unit(&self, walks: &SpotTracks, groups: &[u32], name: String, options: &CutOptions) -> Unit {
         let every = every(options);
         let mut deepest_m = 0.0f64;
         let mut members = Vec::new();
         for &walk in &self.members {
             let frames = (self.from..=self.to).step_by(every as usize);
-            let samples: Vec<Sample> = frames
+            let samples: Vec<TrackSample> = frames
                 .filter_map(|frame| {
                     let moment = walks.all[walk].at(frame)?;
                     let time_s = (frame - self.from) as f64 / FPS;
-                    Some(Sample { time_s, place_m: moment.place_m, heading: moment.heading })
+                    Some(TrackSample { time_s, place_m: moment.place_m, heading: moment.heading })
                 })
                 .collect();
             deepest_m = samples.iter().map(|sample| sample.place_m.y).fold(deepest_m, f64::max);
-            members.push(Member { group: groups[walk], track: Track::new(samples) });
+            members.push(Member { group: groups[walk], track: UnitTrack::new(samples) });
         }
         let [width_m, most_m] = options.areas.played_m;
         let depth_m = ((deepest_m * 2.0).ceil() * 0.5).clamp(AREA_DEPTHS_M[0].max(3.5).min(most_m), most_m);
@@ -115,7 +120,7 @@ impl Stretch {
         Unit {
             name,
             description: format!("cut out of a motion at {start_s:.1} s"),
-            viewer: Track::new(vec![Sample { time_s: 0.0, place_m: Vec2::ZERO, heading: vec2(0.0, 1.0) }]),
+            viewer: UnitTrack::new(vec![TrackSample { time_s: 0.0, place_m: Vec2::ZERO, heading: vec2(0.0, 1.0) }]),
             area_m: [width_m, depth_m],
             duration_s: (self.to - self.from) as f64 / FPS,
             members,

@@ -1,5 +1,5 @@
 use super::super::areas::SpotFrame;
-use super::super::track::Moment;
+use super::super::track::TrackState;
 use crate::math::{Vec2, vec2};
 use crate::motion::{Frame, MOST_PLACES, Motion, MotionError, Resampler};
 use crate::progress::{Progress, Stage};
@@ -16,22 +16,22 @@ const FACING_M_S: f64 = 0.25;
 
 /// Somebody's stay near the spot, in the viewer's frame.
 #[derive(Clone, Debug)]
-pub(super) struct Walk {
+pub(super) struct SpotTrack {
     pub(super) id: u32,
     /// The first frame.
     pub(super) first: u64,
     places: Vec<Vec2>,
     headings: Vec<Option<Vec2>>,
-    moments: Vec<Moment>,
+    moments: Vec<TrackState>,
 }
 
-impl Walk {
+impl SpotTrack {
     /// The last frame.
     pub(super) fn last(&self) -> u64 {
         self.first + self.moments.len() as u64 - 1
     }
 
-    pub(super) fn at(&self, frame: u64) -> Option<&Moment> {
+    pub(super) fn at(&self, frame: u64) -> Option<&TrackState> {
         self.moments.get(usize::try_from(frame.checked_sub(self.first)?).ok()?)
     }
 
@@ -52,7 +52,7 @@ impl Walk {
         self.moments = (0..=last)
             .map(|k| {
                 facing = told(k).unwrap_or(facing);
-                Moment { place_m: smooth[k], velocity_m_s: velocities[k], heading: facing }
+                TrackState { place_m: smooth[k], velocity_m_s: velocities[k], heading: facing }
             })
             .collect();
         (self.places, self.headings) = (Vec::new(), Vec::new());
@@ -71,19 +71,19 @@ fn smoothed(places: &[Vec2], k: usize) -> Vec2 {
 
 /// Everybody's stays near the spot, by their first frame and id.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Walks {
-    pub(super) all: Vec<Walk>,
+pub(super) struct SpotTracks {
+    pub(super) all: Vec<SpotTrack>,
 }
 
-impl Walks {
+impl SpotTracks {
     pub(super) fn read(
         motion: &mut dyn Motion,
         spot: &SpotFrame,
         progress: &dyn Progress,
-    ) -> Result<Walks, UnitsError> {
+    ) -> Result<SpotTracks, UnitsError> {
         let mut resampler = Resampler::new(FPS);
         let mut frame = Frame::default();
-        let mut open: Vec<Walk> = Vec::new();
+        let mut open: Vec<SpotTrack> = Vec::new();
         let (mut done, mut kept) = (Vec::new(), 0);
         while motion.next_frame(&mut frame)? {
             progress.keep_on()?;
@@ -99,7 +99,7 @@ impl Walks {
                     let heading = walker.heading.map(|heading| spot.turn_of_plan(heading));
                     let at = open.binary_search_by_key(&walker.id, |walk| walk.id).unwrap_or_else(|at| {
                         let (places, headings, moments) = (Vec::new(), Vec::new(), Vec::new());
-                        open.insert(at, Walk { id: walker.id, first: number, places, headings, moments });
+                        open.insert(at, SpotTrack { id: walker.id, first: number, places, headings, moments });
                         at
                     });
                     open[at].places.push(place_m);
@@ -115,17 +115,17 @@ impl Walks {
         }
         done.extend(open);
         done.sort_by_key(|walk| (walk.first, walk.id));
-        done.iter_mut().for_each(Walk::finish);
-        Ok(Walks { all: done })
+        done.iter_mut().for_each(SpotTrack::finish);
+        Ok(SpotTracks { all: done })
     }
 
     /// The first and the last frame with anybody.
     pub(super) fn span(&self) -> Option<[u64; 2]> {
-        Some([self.all.first()?.first, self.all.iter().map(Walk::last).max()?])
+        Some([self.all.first()?.first, self.all.iter().map(SpotTrack::last).max()?])
     }
 
-    /// Who is there at a frame: places in [`Walks::all`].
-    pub(super) fn present(&self, frame: u64) -> impl Iterator<Item = (usize, &Moment)> {
+    /// Who is there at a frame: places in [`SpotTracks::all`].
+    pub(super) fn present(&self, frame: u64) -> impl Iterator<Item = (usize, &TrackState)> {
         let begun = self.all.partition_point(|walk| walk.first <= frame);
         self.all[..begun].iter().enumerate().filter_map(move |(index, walk)| Some((index, walk.at(frame)?)))
     }

@@ -1,4 +1,4 @@
-use super::super::track::{Sample, Track};
+use super::super::track::{TrackSample, UnitTrack};
 use super::super::unit::Member;
 use super::*;
 use crate::math::vec2;
@@ -9,13 +9,13 @@ const TOWARDS: Vec2 = vec2(0.0, -1.0);
 /// A unit whose people walk straight on at 1 m/s for 2 s: group, start, direction of each.
 fn unit(name: &str, people: &[(u32, Vec2, Vec2)]) -> Unit {
     let member = |&(group, place_m, heading): &(u32, Vec2, Vec2)| {
-        let sample = |k: u32| Sample { time_s: f64::from(k), place_m: place_m + heading * f64::from(k), heading };
-        Member { group, track: Track::new((0..=2).map(sample).collect()) }
+        let sample = |k: u32| TrackSample { time_s: f64::from(k), place_m: place_m + heading * f64::from(k), heading };
+        Member { group, track: UnitTrack::new((0..=2).map(sample).collect()) }
     };
     Unit {
         name: name.into(),
         description: String::new(),
-        viewer: Track::default(),
+        viewer: UnitTrack::default(),
         area_m: [3.0, 5.0],
         duration_s: 2.0,
         members: people.iter().map(member).collect(),
@@ -24,11 +24,12 @@ fn unit(name: &str, people: &[(u32, Vec2, Vec2)]) -> Unit {
 
 /// People of one group who walk at 1 m/s.
 fn group(people: &[(u32, Vec2, Vec2)]) -> Party {
-    let moment = |&(id, place_m, heading): &(u32, Vec2, Vec2)| (id, Moment { place_m, velocity_m_s: heading, heading });
+    let moment =
+        |&(id, place_m, heading): &(u32, Vec2, Vec2)| (id, TrackState { place_m, velocity_m_s: heading, heading });
     Party::of(&Areas::default(), people.iter().map(moment).collect()).unwrap()
 }
 
-fn found(units: &[Unit], present: &[Party]) -> Ranked {
+fn found(units: &[Unit], present: &[Party]) -> Ranking {
     rank(units, present, &Areas::default(), &MatchOptions::default(), |_| None)
 }
 
@@ -63,7 +64,7 @@ fn candidates_have_the_same_count_and_the_same_groups_in_front_and_behind() {
     assert_eq!(names(&[behind]), [""; 0]);
     assert_eq!(names(&[group(&[left]), group(&[right]), group(&[(1, at(1.0, 2.0), TOWARDS)])]), [""; 0]);
     assert_eq!(names(&[]), [""; 0]);
-    assert_eq!(found(&units, &[group(&[(9, at(1.4, 2.9), AWAY)])]), Ranked { candidates: vec![], alike: 1 });
+    assert_eq!(found(&units, &[group(&[(9, at(1.4, 2.9), AWAY)])]), Ranking { candidates: vec![], alike: 1 });
 }
 
 #[test]

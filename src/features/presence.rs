@@ -22,7 +22,7 @@ pub struct Presence {
 
 /// A time, and who is there.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct TogetherSpan {
+pub struct PresenceSpan {
     /// The first moment, seconds.
     pub from_s: f64,
     /// The last moment, seconds.
@@ -76,7 +76,7 @@ impl Presence {
     }
 
     /// From the first to the last moment at which anybody is there; nothing where nobody is.
-    pub fn whole(&self) -> Option<TogetherSpan> {
+    pub fn whole(&self) -> Option<PresenceSpan> {
         let first = self.stays.first()?.first;
         let last = self.stays.iter().map(|stay| stay.last).max()?;
         Some(self.span(first, last))
@@ -86,7 +86,7 @@ impl Presence {
     /// be, of at least 2 people and 2 moments. It is the whole where everybody is there throughout. Of equals the earliest.
     ///
     /// Takes time with the number of people times that of people who are there at once.
-    pub fn longest(&self) -> Option<TogetherSpan> {
+    pub fn longest(&self) -> Option<PresenceSpan> {
         // The best time begins when somebody comes, and ends when somebody goes.
         let mut best: Option<(u64, [u64; 2])> = None;
         let mut ends: Vec<u64> = Vec::new();
@@ -113,13 +113,13 @@ impl Presence {
         best.map(|(_, [first, last])| self.span(first, last))
     }
 
-    fn span(&self, first: u64, last: u64) -> TogetherSpan {
+    fn span(&self, first: u64, last: u64) -> PresenceSpan {
         let within = self.stays.iter().filter(|stay| stay.first <= last && stay.last >= first);
         let mut ids: Vec<u32> = within.clone().map(|stay| stay.id).collect();
         ids.sort_unstable();
         ids.dedup();
         let people = within.filter(|stay| stay.first <= first && stay.last >= last).count();
-        TogetherSpan {
+        PresenceSpan {
             from_s: first as f64 / self.fps,
             to_s: last as f64 / self.fps,
             people,
@@ -137,16 +137,16 @@ impl Presence {
 /// # Errors
 /// The recording cannot be read any more; no two people are there at two moments of the time; more places than
 /// [`MOST_FEATURE_PLACES`]; [`FeaturesError::Interrupted`].
-pub fn together(
+pub fn present_throughout(
     recording: &Recording,
     fps: Option<f64>,
     [from_s, to_s]: [Option<f64>; 2],
     progress: &dyn Progress,
-) -> Result<(Ensemble, TogetherSpan), FeaturesError> {
+) -> Result<(Ensemble, PresenceSpan), FeaturesError> {
     let fps = fps.unwrap_or(recording.survey().fps);
     // A moment that is due at the end belongs to it, whatever rounding says.
     let within = |margin_s: f64| [from_s.unwrap_or(0.0) - margin_s, to_s.unwrap_or(f64::INFINITY) + margin_s];
-    let presence = Presence::of(&mut Watched { motion: recording.motion()?, progress }, fps, within(1e-6))?;
+    let presence = Presence::of(&mut WatchedMotion { motion: recording.motion()?, progress }, fps, within(1e-6))?;
     let longest = presence.longest();
     let exact = from_s.is_some() && to_s.is_some();
     let span = if exact { presence.whole() } else { longest };
@@ -156,23 +156,23 @@ pub fn together(
         let longest_s = longest.map(|span| [span.from_s, span.to_s]);
         return Err(FeaturesError::NotTogether { from_s, to_s, people, longest_s }.into());
     };
-    let TogetherSpan { people, moments, .. } = span;
+    let PresenceSpan { people, moments, .. } = span;
     if people.saturating_mul(moments) > MOST_FEATURE_PLACES {
         // Before they are all held.
         return Err(FeaturesError::TooMany { people, moments, most: MOST_FEATURE_PLACES }.into());
     }
     let margin_s = 0.25 / fps;
     let of = [span.from_s - margin_s, span.to_s + margin_s];
-    Ok((Ensemble::of_motion(&mut Watched { motion: recording.motion()?, progress }, fps, of)?, span))
+    Ok((Ensemble::of_motion(&mut WatchedMotion { motion: recording.motion()?, progress }, fps, of)?, span))
 }
 
 /// A motion that is read while somebody looks on, who may stop it.
-struct Watched<'a> {
+struct WatchedMotion<'a> {
     motion: Box<dyn Motion + Send + 'a>,
     progress: &'a dyn Progress,
 }
 
-impl Motion for Watched<'_> {
+impl Motion for WatchedMotion<'_> {
     fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, MotionError> {
         self.progress.keep_on()?;
         self.progress.advance(Stage::Motion, self.share_done());
@@ -222,7 +222,7 @@ mod tests {
     #[test]
     fn everybody_throughout_is_the_whole() {
         let all = presence(&[(1, 0, 20), (2, 0, 20), (5, 0, 20)]);
-        let span = TogetherSpan { from_s: 0.0, to_s: 2.0, people: 3, left_out: 0, moments: 21 };
+        let span = PresenceSpan { from_s: 0.0, to_s: 2.0, people: 3, left_out: 0, moments: 21 };
         assert_eq!((all.longest(), all.whole()), (Some(span), Some(span)));
     }
 
@@ -230,9 +230,9 @@ mod tests {
     fn the_time_with_the_most_places_is_found() {
         // Three together for 6 moments are 18 places, two for 8 are 16, and one alone does not count.
         let some = presence(&[(1, 0, 9), (2, 2, 11), (3, 4, 60), (4, 70, 90), (4, 95, 99)]);
-        let span = TogetherSpan { from_s: 0.4, to_s: 0.9, people: 3, left_out: 0, moments: 6 };
+        let span = PresenceSpan { from_s: 0.4, to_s: 0.9, people: 3, left_out: 0, moments: 6 };
         assert_eq!(some.longest(), Some(span));
-        let whole = TogetherSpan { from_s: 0.0, to_s: 9.9, people: 0, left_out: 4, moments: 100 };
+        let whole = PresenceSpan { from_s: 0.0, to_s: 9.9, people: 0, left_out: 4, moments: 100 };
         assert_eq!(some.whole(), Some(whole));
     }
 
