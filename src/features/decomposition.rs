@@ -9,46 +9,48 @@ use super::{FeaturesError, FeaturesOptions, Method, laplacian, principal};
 use crate::motion::Ensemble;
 use crate::progress::Progress;
 
-/// A crowd whose people keep this close to their places in the mean stands still, metres.
+/// Mean displacement up to which a crowd stands still, metres.
 const STILL_M: f64 = 1e-9;
 
-/// What a crowd moves like: its motion in a basis of components, see [the module](super).
+/// A crowd's motion in a basis of components, see [the module](super).
 #[derive(Clone, Debug)]
 pub struct Features {
     options: FeaturesOptions,
     pub(super) displacement: Displacement,
     components: Vec<FeatureComponent>,
-    /// A column per component: for principal components everybody's x and then everybody's y, for the Laplacian a number
+    /// A column per component: for principal components the x of all people and then their y, for the Laplacian a number
     /// per person.
     vectors: DMatrix<f64>,
-    /// A column per component: for principal components a number per moment, for the Laplacian one per moment for x, and
-    /// then one per moment for y.
+    /// A column per component: for principal components a number per frame, for the Laplacian one per frame for x, then
+    /// one per frame for y.
     coefficients: DMatrix<f64>,
     mean_neighbours: Option<f64>,
 }
 
-/// How much of a motion a component is.
+/// The weight of a component in a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FeatureComponent {
-    /// The eigenvalue by which components are ordered: of principal components the variance in square metres, of the
-    /// Laplacian the variance of the neighbourhoods, in neighbours squared.
+    /// Eigenvalue by which components are ordered.
+    ///
+    /// For principal components the variance in square metres, for the Laplacian the variance of the neighbourhoods, in
+    /// neighbours squared.
     pub eigenvalue: f64,
-    /// Mean square of the component's coefficients: of all people's displacements together, square metres.
+    /// Mean square of the component's coefficients over time, square metres, summed over people.
     pub variance_m2: f64,
-    /// The share of the motion's whole variance.
+    /// Share of the motion's total variance, 0 to 1.
     pub share: f64,
 }
 
 impl Features {
     /// Finds the components of a motion.
     ///
-    /// Takes memory of a few copies of the places, and time with the cube of the smaller of moments and coordinates
-    /// (principal components) or of people (Laplacian); 500 people at 2000 moments take about a second.
+    /// Memory: a few copies of the positions. Time: the cube of the number of frames or coordinates, whichever is smaller
+    /// (principal components), or of people (Laplacian); 500 people in 2000 frames take about a second.
     ///
     /// # Errors
-    /// Fewer than 2 people or 2 moments, more places than [`MOST_FEATURE_PLACES`](super::MOST_FEATURE_PLACES) or rows
-    /// than [`MOST_ROWS`](super::MOST_ROWS), places that are none; a crowd in which nobody moves relative to the middle;
-    /// a distance of neighbours out of range; [`FeaturesError::Interrupted`].
+    /// Fewer than 2 people or 2 frames; more positions than [`MOST_FEATURE_PLACES`](super::MOST_FEATURE_PLACES) or rows
+    /// than [`MOST_ROWS`](super::MOST_ROWS); positions out of range; people who do not move relative to their centroid; a
+    /// neighbour distance out of range; [`FeaturesError::Interrupted`].
     pub fn find(
         ensemble: &Ensemble,
         options: &FeaturesOptions,
@@ -60,10 +62,10 @@ impl Features {
     pub(super) fn find_part(
         ensemble: &Ensemble,
         options: &FeaturesOptions,
-        part: &ProgressRange<'_>,
+        progress: &ProgressRange<'_>,
     ) -> Result<Features, FeaturesError> {
         options.check()?;
-        part.advance(0.0);
+        progress.advance(0.0);
         let displacement = Displacement::of(ensemble)?;
         let displacements = displacement.matrix(ensemble, options.method);
         let (people, moments) = (displacement.people() as f64, displacement.moments() as f64);
@@ -72,28 +74,24 @@ impl Features {
         if total_m2 <= people * still_m * still_m {
             return Err(FeaturesError::Still.into());
         }
-        part.advance(0.1);
+        progress.advance(0.1);
         let (values, vectors, mean_neighbours) = match options.method {
-            Method::Pca => (
-                None,
-                {
-                    let rounding_m = displacement.rounding_m();
-                    principal::components(&displacements, rounding_m, &part.part(0.1, 0.9))?
-                },
-                None,
-            ),
+            Method::Pca => {
+                let rounding_m = displacement.rounding_m();
+                (None, principal::components(&displacements, rounding_m, &progress.range(0.1, 0.9))?, None)
+            }
             Method::Laplacian => {
-                let sums = KirchhoffSums::of(ensemble, options.neighbour_distance_m, &part.part(0.1, 0.5))?;
-                let found = laplacian::components(&sums, &displacements, &part.part(0.5, 0.9))?;
+                let sums = KirchhoffSums::of(ensemble, options.neighbour_distance_m, &progress.range(0.1, 0.5))?;
+                let found = laplacian::components(&sums, &displacements, &progress.range(0.5, 0.9))?;
                 (Some(found.values), found.vectors, Some(sums.mean_neighbours()))
             }
         };
-        part.keep_on()?;
+        progress.keep_on()?;
         let coefficients = &displacements * &vectors;
         let variances: Vec<f64> = column_squares(&coefficients).iter().map(|sum| sum / moments).collect();
         let mut order: Vec<usize> = (0..variances.len()).collect();
         if options.method == Method::Pca {
-            // The eigenvalue is the variance; measured along the vectors it is exact where it is small.
+            // The eigenvalue is the variance; measured along the vectors, small ones are exact.
             order.sort_by(|&a, &b| variances[b].total_cmp(&variances[a]));
         }
         let component = |&at: &usize| FeatureComponent {
@@ -109,11 +107,11 @@ impl Features {
             coefficients: columns_of(&coefficients, &order),
             mean_neighbours,
         };
-        part.advance(1.0);
+        progress.advance(1.0);
         Ok(found)
     }
 
-    /// How they were found.
+    /// The options with which the components were found.
     pub fn options(&self) -> &FeaturesOptions {
         &self.options
     }
@@ -123,58 +121,62 @@ impl Features {
         self.displacement.people()
     }
 
-    /// Number of moments.
+    /// Number of frames.
     pub fn moments(&self) -> usize {
         self.displacement.moments()
     }
 
-    /// The components in their order. Principal components along which nobody moves are left out; there are at most
-    /// 2n - 2 for n people, for the middle is kept apart. The Laplacian has always n.
+    /// The components, by descending eigenvalue.
+    ///
+    /// Principal components without motion are left out; there are at most 2n - 2 for n people, because the centroid is
+    /// kept apart. The Laplacian always has n.
     pub fn components(&self) -> &[FeatureComponent] {
         &self.components
     }
 
-    /// For the Laplacian, how many neighbours people have in the mean.
+    /// Mean number of neighbours of a person; `None` for principal components.
     pub fn mean_neighbours(&self) -> Option<f64> {
         self.mean_neighbours
     }
 
-    /// A component's unit vector (from 0 on): for principal components everybody's x and then everybody's y, in the order
-    /// of ids, for the Laplacian a number per person.
+    /// The unit vector of a component, numbered from 0.
+    ///
+    /// For principal components the x of all people and then their y, in the order of ids; for the Laplacian a number per
+    /// person.
     pub fn vector(&self, component: usize) -> Vec<f64> {
         self.vectors.column(component).iter().copied().collect()
     }
 
-    /// A component's coefficients in metres (from 0 on): for principal components one per moment, for the Laplacian one
-    /// per moment for x, and then one per moment for y.
+    /// The coefficients of a component, numbered from 0, metres.
+    ///
+    /// For principal components one per frame; for the Laplacian one per frame for x, then one per frame for y.
     pub fn coefficients(&self, component: usize) -> Vec<f64> {
         self.coefficients.column(component).iter().copied().collect()
     }
 
-    /// The motion made of the first components, around the middle as it goes. With all of them it is the motion itself.
+    /// Rebuilds the motion from the first `components` components; all of them give the motion itself.
     ///
     /// # Errors
-    /// No component, or more than there are.
+    /// [`FeaturesError::Components`].
     pub fn rebuild(&self, components: usize) -> Result<Ensemble, FeaturesError> {
         self.modulated(components, &Modulation::default())
     }
 
-    /// The root of the mean square distance by which [`Features::rebuild`] misses somebody's place, metres. It falls with
-    /// every component.
+    /// Root mean square error of the positions of [`Features::rebuild`], metres; it falls with every component.
     pub fn rebuild_error_m(&self, components: usize) -> f64 {
         let missing: f64 = self.components.iter().skip(components).map(|component| component.variance_m2).sum();
         // The sum of nothing is a negative zero.
         ((missing + 0.0) / self.people() as f64).sqrt()
     }
 
-    /// The motion made of the first components with changed coefficients.
+    /// Rebuilds the motion from the first components with changed coefficients.
     ///
-    /// The formation and the path of the middle stay as they are: what changes is how people move around their mean
-    /// places. Coefficients times 2 double all velocities relative to the middle.
+    /// The formation and the path of the centroid are kept; only the displacements from the mean positions change.
+    /// Coefficients times 2 double all velocities relative to the centroid.
     ///
     /// # Errors
-    /// No component, or more than there are, also in a rule of the modulation; a coefficient that becomes NaN, infinite
-    /// or larger than 1000 km.
+    /// [`FeaturesError::Components`], also for the rules of the modulation; [`FeaturesError::Coefficient`] for a
+    /// coefficient that becomes NaN, infinite or larger than 1000 km.
     pub fn modulated(&self, components: usize, modulation: &Modulation) -> Result<Ensemble, FeaturesError> {
         check_components(components, self.components.len())?;
         modulation.check(components)?;
@@ -184,7 +186,7 @@ impl Features {
         Ok(self.displacement.ensemble(&moved, self.options.method))
     }
 
-    /// The displacements that some of the components make with changed coefficients.
+    /// Computes the displacements of some components with changed coefficients.
     pub(super) fn moved(
         &self,
         chosen: &[SelectedComponent],
@@ -194,7 +196,7 @@ impl Features {
         let mut coefficients = columns_of(&self.coefficients, &own);
         let (moments, fps) = (self.moments(), self.displacement.fps);
         for (mut column, chosen) in coefficients.column_iter_mut().zip(chosen) {
-            // An axis after the other.
+            // One axis after the other.
             for axis in column.as_mut_slice().chunks_mut(moments) {
                 modulation.apply(chosen.number, axis, fps)?;
             }

@@ -1,35 +1,35 @@
 use nalgebra::{DMatrix, Dyn, Matrix, VecStorage};
 
-use super::{FeaturesError, Method};
+use super::error::FeaturesError;
+use super::method::Method;
 use crate::math::{Vec2, vec2};
 use crate::motion::Ensemble;
 
-/// The most places, people times moments, whose features are found: memory grows by about 100 bytes a place.
+/// Largest number of positions, people times frames, that are decomposed: about 100 bytes of memory each.
 pub const MOST_FEATURE_PLACES: usize = 10_000_000;
 
-/// The largest coordinate of a place, metres: beyond all map frames, and squares of it are still exact to 1 m.
+/// Largest coordinate of a position, metres: beyond all map frames, and its square is still exact to 1 m.
 const FARTHEST_M: f64 = 1e8;
 
-/// A crowd's motion, taken apart: where its middle goes, where people are around it in the mean, and how they move
-/// around these places.
+/// A crowd's motion split into the centroid's path, mean positions and displacements from them.
 #[derive(Clone, Debug)]
 pub(super) struct Displacement {
     pub(super) fps: f64,
     pub(super) start_s: f64,
     pub(super) ids: Vec<u32>,
-    /// Somebody's first place, which all others are reckoned from: on a map whose origin is far away, no digits are lost.
+    /// Origin of all positions: a person's first one, so that no digits are lost on a map whose origin is far away.
     pub(super) origin_m: Vec2,
-    /// The middle of everybody, moment by moment, metres from `origin_m`.
+    /// The centroid of each frame, metres from `origin_m`.
     pub(super) centroids_m: Vec<Vec2>,
-    /// Everybody's mean place relative to the middle, metres.
+    /// Each person's mean position relative to the centroid, metres.
     pub(super) formation_m: Vec<Vec2>,
 }
 
 impl Displacement {
-    /// Takes a motion apart.
+    /// Splits a motion.
     ///
     /// # Errors
-    /// Fewer than 2 people or moments, too many places, places that are none.
+    /// Fewer than 2 people or frames, too many positions, positions out of range.
     pub(super) fn of(ensemble: &Ensemble) -> Result<Displacement, FeaturesError> {
         let (people, moments) = (ensemble.people(), ensemble.moments());
         if people < 2 {
@@ -65,17 +65,16 @@ impl Displacement {
         self.centroids_m.len()
     }
 
-    /// How far rounding alone displaces somebody, metres.
+    /// Displacement of a person by rounding alone, metres.
     pub(super) fn rounding_m(&self) -> f64 {
         let largest = |places: &[Vec2]| places.iter().fold(0.0, |most: f64, p| most.max(p.x.abs()).max(p.y.abs()));
         8.0 * f64::EPSILON * (largest(&self.centroids_m) + largest(&self.formation_m))
     }
 
-    /// Everybody's places minus the middle and minus their own mean, as the method sees them.
+    /// The displacements from the mean positions, as a matrix for the method.
     ///
-    /// Principal components see all coordinates of a moment as one point: a row per moment, a column for everybody's x
-    /// and then for everybody's y. The Laplacian sees each axis for itself: a row per moment with everybody's x, and
-    /// below them a row per moment with everybody's y, a column per person.
+    /// For principal components a row per frame, with a column for each person's x and then for each person's y. For the
+    /// Laplacian a row per frame with the x, and below them a row per frame with the y, and a column per person.
     pub(super) fn matrix(&self, ensemble: &Ensemble, method: Method) -> DMatrix<f64> {
         let (people, moments) = (self.people(), self.moments());
         let [rows, columns] = method.shape(people, moments);
@@ -92,7 +91,7 @@ impl Displacement {
         matrix
     }
 
-    /// The motion whose displacements are these, around the middle as it goes.
+    /// Puts the motion together again from displacements.
     pub(super) fn ensemble(&self, displacements: &DMatrix<f64>, method: Method) -> Ensemble {
         let (people, moments) = (self.people(), self.moments());
         let mut places_m = Vec::with_capacity(people * moments);
@@ -115,7 +114,7 @@ impl Method {
         }
     }
 
-    /// Row and column of somebody's coordinate (axis 0 is x, 1 is y) at a moment.
+    /// Row and column of a person's coordinate (axis 0 is x, 1 is y) in a frame.
     pub(super) fn cell(
         self,
         axis: usize,
@@ -131,7 +130,7 @@ impl Method {
     }
 }
 
-/// Squares of what a matrix holds, column by column.
+/// Sums of squares of a matrix's columns.
 pub(super) fn column_squares<S>(matrix: &Matrix<f64, Dyn, Dyn, S>) -> Vec<f64>
 where
     S: nalgebra::Storage<f64, Dyn, Dyn>,
@@ -139,7 +138,7 @@ where
     matrix.column_iter().map(|column| column.iter().map(|v| v * v).sum()).collect()
 }
 
-/// The columns of a matrix in another order, or some of them.
+/// Selects columns of a matrix, in the given order.
 pub(super) fn columns_of(matrix: &DMatrix<f64>, order: &[usize]) -> DMatrix<f64> {
     let rows = matrix.nrows();
     let data: Vec<f64> =
@@ -150,8 +149,8 @@ pub(super) fn columns_of(matrix: &DMatrix<f64>, order: &[usize]) -> DMatrix<f64>
 fn check_places(ensemble: &Ensemble) -> Result<(), FeaturesError> {
     for moment in 0..ensemble.moments() {
         // Written so that NaN is out of range.
-        let is_none = |p: &Vec2| !(p.x.abs() <= FARTHEST_M && p.y.abs() <= FARTHEST_M);
-        if let Some(person) = ensemble.places_at(moment).iter().position(is_none) {
+        let is_beyond = |p: &Vec2| !(p.x.abs() <= FARTHEST_M && p.y.abs() <= FARTHEST_M);
+        if let Some(person) = ensemble.places_at(moment).iter().position(is_beyond) {
             let Vec2 { x, y } = ensemble.places_at(moment)[person];
             let (id, time_s) = (ensemble.ids[person], ensemble.time_s(moment));
             return Err(FeaturesError::NoPlace { id, time_s, x, y, most_m: FARTHEST_M });

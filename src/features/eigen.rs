@@ -3,17 +3,17 @@ use std::time::{Duration, Instant};
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::FeaturesError;
 use super::displacement::columns_of;
+use super::error::FeaturesError;
 use super::progress_range::ProgressRange;
 
-/// Largest matrix whose eigenvectors are sought: about half a minute, and 0.5 GB with what goes with it.
+/// Largest number of rows of a matrix that is decomposed: about half a minute and 0.5 GB.
 pub const MOST_ROWS: usize = 4000;
 
-/// Smaller ones are decomposed at once, without anybody who looks on.
+/// Number of rows up to which a matrix is decomposed without reporting progress.
 const QUICK: usize = 300;
-/// How often the one who waits looks up.
-const LOOK: Duration = Duration::from_millis(50);
+/// Interval at which progress is reported.
+const REPORT_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Eigenvalues in descending order, and their unit eigenvectors as columns.
 #[derive(Clone, Debug)]
@@ -22,26 +22,26 @@ pub(super) struct Eigenpairs {
     pub(super) vectors: DMatrix<f64>,
 }
 
-/// All eigenpairs of a symmetric matrix; only its lower triangle is read. Signs are those of [`is_turned`].
+/// Finds all eigenpairs of a symmetric matrix; only its lower triangle is read. Signs are those of [`is_turned`].
 ///
-/// A large decomposition runs on a thread of its own, so that progress is shown and an interruption heard; one that was
-/// interrupted is left to itself and comes to its end unheard.
+/// A large decomposition runs on a thread of its own, so that progress is reported and the user can interrupt it; after
+/// an interruption the thread runs to its end and its result is dropped.
 ///
 /// # Errors
 /// A matrix of more than [`MOST_ROWS`] rows; eigenvectors that are not found; [`FeaturesError::Interrupted`].
-pub(super) fn eigenpairs(matrix: DMatrix<f64>, part: &ProgressRange<'_>) -> Result<Eigenpairs, FeaturesError> {
+pub(super) fn eigenpairs(matrix: DMatrix<f64>, progress: &ProgressRange<'_>) -> Result<Eigenpairs, FeaturesError> {
     let size = matrix.nrows();
     if size > MOST_ROWS {
-        return Err(FeaturesError::TooLarge { size, most: MOST_ROWS }.into());
+        return Err(FeaturesError::TooLarge { size, most: MOST_ROWS });
     }
-    let found = if size <= QUICK { decompose(matrix) } else { decompose_aside(matrix, part)? };
-    part.advance(1.0);
-    found.ok_or_else(|| FeaturesError::NotConverged { size }.into())
+    let found = if size <= QUICK { decompose(matrix) } else { decompose_on_thread(matrix, progress)? };
+    progress.advance(1.0);
+    found.ok_or_else(|| FeaturesError::NotConverged { size })
 }
 
 fn decompose(matrix: DMatrix<f64>) -> Option<Eigenpairs> {
     let size = matrix.nrows();
-    // A few iterations a row are usual; the limit is there so that nothing goes on for ever.
+    // A few iterations per row are usual; the limit ensures that the loop ends.
     let SymmetricEigen { eigenvalues, eigenvectors } =
         SymmetricEigen::try_new(matrix, f64::EPSILON, 100 * size + 1000)?;
     let mut order: Vec<usize> = (0..size).collect();
@@ -51,30 +51,33 @@ fn decompose(matrix: DMatrix<f64>) -> Option<Eigenpairs> {
     Some(Eigenpairs { values: order.iter().map(|&at| eigenvalues[at]).collect(), vectors })
 }
 
-fn decompose_aside(matrix: DMatrix<f64>, part: &ProgressRange<'_>) -> Result<Option<Eigenpairs>, FeaturesError> {
+fn decompose_on_thread(
+    matrix: DMatrix<f64>,
+    progress: &ProgressRange<'_>,
+) -> Result<Option<Eigenpairs>, FeaturesError> {
     let size = matrix.nrows() as f64;
     let (sender, receiver) = mpsc::channel();
-    // Measured: 0.6 s for 1000 rows, and with the cube of the rows. It serves the bar alone.
+    // Measured: 0.6 s for 1000 rows, growing with the cube of the rows. Only the progress bar uses it.
     let expected_s = 0.6e-9 * size * size * size;
     let start = Instant::now();
     std::thread::spawn(move || {
-        // Nobody listens any more after an interruption.
+        // After an interruption there is no receiver any more.
         let _ = sender.send(decompose(matrix));
     });
     loop {
-        match receiver.recv_timeout(LOOK) {
+        match receiver.recv_timeout(REPORT_INTERVAL) {
             Ok(found) => return Ok(found),
             Err(RecvTimeoutError::Disconnected) => return Ok(None),
             Err(RecvTimeoutError::Timeout) => {
-                part.keep_on()?;
+                progress.keep_on()?;
                 let passed = start.elapsed().as_secs_f64() / expected_s;
-                part.advance(passed / (0.3 + passed));
+                progress.advance(passed / (0.3 + passed));
             }
         }
     }
 }
 
-/// Gives every column its sign, see [`is_turned`].
+/// Sets the sign of every column, see [`is_turned`].
 pub(super) fn fix_signs(vectors: &mut DMatrix<f64>) {
     for mut column in vectors.column_iter_mut() {
         if is_turned(column.as_slice()) {
@@ -83,8 +86,9 @@ pub(super) fn fix_signs(vectors: &mut DMatrix<f64>) {
     }
 }
 
-/// An eigenvector's sign is free; ours is such that its largest entry is positive. Where several are as large but for
-/// rounding, the first of them counts. Says whether the vector has to be turned round.
+/// Whether an eigenvector has to be negated: its largest entry shall be positive.
+///
+/// If several entries are equally large but for rounding, the first of them counts.
 fn is_turned(vector: &[f64]) -> bool {
     let largest = vector.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
     vector.iter().find(|v| v.abs() >= largest * (1.0 - 1e-6)).is_some_and(|&v| v < 0.0)
@@ -111,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn eigenpairs_make_the_matrix_again_and_descend() {
+    fn eigenpairs_rebuild_the_matrix_and_descend() {
         let wild = DMatrix::from_fn(40, 40, |r, c| ((r * 7 + c * 13) % 11) as f64 - 5.0);
         for matrix in [
             &wild * wild.transpose(),
@@ -125,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn a_large_one_is_found_aside_and_can_be_interrupted() {
+    fn a_large_matrix_is_decomposed_on_a_thread_and_can_be_interrupted() {
         struct Stop;
         impl Progress for Stop {
             fn advance(&self, _: crate::Stage, _: f64) {}
@@ -143,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn signs_do_not_hang_on_rounding() {
+    fn signs_do_not_depend_on_rounding() {
         assert!(is_turned(&[-0.5, 0.5]));
         assert!(is_turned(&[-0.5, 0.5 + 1e-12]));
         assert!(!is_turned(&[0.1, 0.9, -0.2]));

@@ -3,148 +3,144 @@ use super::expression::{Expression, ExpressionError};
 use crate::motion::MotionError;
 use crate::progress::Interrupted;
 
-/// Why features cannot be worked on.
+/// Errors of motion features.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FeaturesError {
     /// Too few people.
     #[error("{people} people are too few; at least {least} are needed")]
     TooFew {
-        /// How many there are.
+        /// People present.
         people: usize,
-        /// How many are needed.
+        /// Least number needed.
         least: usize,
     },
-    /// No motion in a single moment.
-    #[error("a single moment has no motion; at least 2 are needed")]
+    /// A motion of a single frame.
+    #[error("a single frame has no motion; at least 2 are needed")]
     SingleMoment,
-    /// A time throughout which no two people are there.
+    /// A time span without two people who are present throughout.
     #[error(
-        "{people} of the people are there throughout, from {from_s:.2} to {to_s:.2} s; at least 2 are needed, at 2 moments"
+        "{people} people are present throughout, from {from_s:.2} to {to_s:.2} s; at least 2 are needed, in 2 frames"
     )]
     NotTogether {
-        /// Start of the time, seconds.
+        /// Start of the time span, seconds.
         from_s: f64,
-        /// Its end, seconds.
+        /// End of the time span, seconds.
         to_s: f64,
-        /// How many are there throughout.
+        /// People present throughout.
         people: usize,
-        /// The time within it when most are together for longest.
+        /// The time span within it with the most positions, seconds.
         longest_s: Option<[f64; 2]>,
     },
-    /// More than can be decomposed in sensible time and memory.
-    #[error("{people} people at {moments} moments are too many places; allowed are {most}")]
+    /// More positions than can be decomposed.
+    #[error("{people} people in {moments} frames are too many positions; allowed are {most}")]
     TooMany {
-        /// How many people.
+        /// Number of people.
         people: usize,
-        /// How many moments.
+        /// Number of frames.
         moments: usize,
-        /// The most places, people times moments.
+        /// Largest number of positions, people times frames.
         most: usize,
     },
-    /// A matrix too large to decompose.
+    /// A matrix that is too large to decompose.
     #[error("the matrix to decompose has {size} rows, allowed are {most}")]
     TooLarge {
-        /// Its rows.
+        /// Rows of the matrix.
         size: usize,
-        /// The most.
+        /// Largest number of rows.
         most: usize,
     },
-    /// A place that is none.
-    #[error(
-        "person {id} is at {x} {y} m at {time_s:.2} s, which is no place; allowed is up to {most_m} m from the origin"
-    )]
+    /// A position out of range.
+    #[error("person {id} is at ({x}, {y}) m at {time_s:.2} s; coordinates up to {most_m} m are allowed")]
     NoPlace {
-        /// Who.
+        /// The person's id.
         id: u32,
-        /// When, seconds.
+        /// Time of the frame, seconds.
         time_s: f64,
-        /// Where, metres.
+        /// The coordinate x, metres.
         x: f64,
-        /// Where, metres.
+        /// The coordinate y, metres.
         y: f64,
         /// The largest coordinate, metres.
         most_m: f64,
     },
-    /// Nobody moves relative to the middle.
-    #[error("nobody moves relative to the middle of the crowd, so there are no features")]
+    /// A crowd whose people do not move relative to its centroid.
+    #[error("the people do not move relative to the centroid of the crowd, so there are no features")]
     Still,
-    /// A distance out of range.
-    #[error("people within {distance_m} m of each other as neighbours; allowed is {low} to {high} m")]
+    /// A neighbour distance out of range.
+    #[error("the neighbour distance is {distance_m} m; allowed is {low} to {high} m")]
     NeighbourDistance {
-        /// What was asked for, metres.
+        /// The distance, metres.
         distance_m: f64,
-        /// Least allowed.
+        /// Least distance, metres.
         low: f64,
-        /// Most allowed.
+        /// Largest distance, metres.
         high: f64,
     },
-    /// More components than there are.
+    /// A number of components out of range.
     #[error("{asked} components; there are 1 to {most}")]
     Components {
-        /// How many were asked for.
+        /// The number given.
         asked: usize,
-        /// How many there are.
+        /// Number of components found.
         most: usize,
     },
-    /// Which components are to change cannot be understood.
+    /// A malformed range of components.
     #[error(transparent)]
     Which(#[from] ComponentsError),
-    /// What is to become of them cannot be understood.
+    /// A malformed expression.
     #[error(transparent)]
     Expression(#[from] ExpressionError),
-    /// An expression gives no number that a coefficient could have.
+    /// A coefficient that an expression sets out of range.
     #[error(
         "{expression} gives component {component} the coefficient {value} at t = {t_s:.3} s; allowed is up to {most_m} m"
     )]
     Coefficient {
         /// The expression.
         expression: Box<Expression>,
-        /// The component, from 1 on.
+        /// Number of the component, from 1.
         component: usize,
-        /// When, seconds from the start.
+        /// Time since the start, seconds.
         t_s: f64,
-        /// What became of the coefficient, metres.
+        /// The coefficient, metres.
         value: f64,
-        /// The largest allowed, metres.
+        /// Largest coefficient, metres.
         most_m: f64,
     },
-    /// Two crowds that have nothing in common.
+    /// Two crowds that cannot be mixed.
     #[error("the two crowds cannot be mixed: {0}")]
     Mix(&'static str),
-    /// Eigenvectors that cannot be found.
-    #[error("the eigenvectors of a matrix of {size} rows cannot be found")]
+    /// An eigenvector iteration that does not converge.
+    #[error("the eigenvectors of a matrix of {size} rows were not found")]
     NotConverged {
-        /// Its rows.
+        /// Rows of the matrix.
         size: usize,
     },
-    /// The motion cannot go on, or cannot be held.
+    /// An error of the motion.
     #[error(transparent)]
     Motion(#[from] MotionError),
-    /// The user stopped the work.
+    /// The user stopped the calculation.
     #[error(transparent)]
     Interrupted(#[from] Interrupted),
 }
 
 impl FeaturesError {
-    /// What the user can do about it.
+    /// A remedy that the user can try.
     pub fn hint(&self) -> Option<String> {
         match self {
             FeaturesError::Motion(error) => error.hint(),
-            FeaturesError::TooFew { .. } | FeaturesError::SingleMoment => {
-                Some("choose another time with --from and --to".to_string())
-            }
+            FeaturesError::TooFew { .. } | FeaturesError::SingleMoment => Some("choose another time span".to_string()),
             FeaturesError::NotTogether { longest_s: Some([from_s, to_s]), .. } => {
-                Some(format!("--from {from_s:.2} --to {to_s:.2} has the most people for longest"))
+                Some(format!("from {from_s:.2} to {to_s:.2} s the most people are present for longest"))
             }
-            FeaturesError::NotTogether { .. } => Some("choose a longer time, or leave out --from and --to".to_string()),
-            FeaturesError::TooMany { .. } => {
-                Some("choose a shorter time, or fewer moments per second with --rate".to_string())
+            FeaturesError::NotTogether { .. } => {
+                Some("choose a longer time span, or leave out its start and end".to_string())
             }
-            FeaturesError::TooLarge { .. } => {
-                Some("choose a time when fewer people are there, or fewer moments".to_string())
+            FeaturesError::TooMany { .. } => Some("choose a shorter time span, or fewer frames per second".to_string()),
+            FeaturesError::TooLarge { .. } => Some("choose a time span with fewer people, or fewer frames".to_string()),
+            FeaturesError::Still => {
+                Some("people who walk side by side at one speed only move the centroid".to_string())
             }
-            FeaturesError::Still => Some("people who walk side by side at one speed only move the middle".to_string()),
             FeaturesError::Which(error) => error.hint(),
             FeaturesError::Expression(error) => error.hint(),
             FeaturesError::Coefficient { .. } => Some(

@@ -1,11 +1,11 @@
 use nalgebra::DMatrix;
 
 use super::eigen::{eigenpairs, fix_signs};
+use super::error::FeaturesError;
 use super::neighbours::KirchhoffSums;
 use super::progress_range::ProgressRange;
-use crate::features::FeaturesError;
 
-/// Eigenvalues closer together than this share of the largest are equal but for rounding.
+/// Eigenvalues closer to each other than this share of the largest are equal but for rounding.
 const EQUAL: f64 = 1e-10;
 
 /// Eigenvectors of a crowd's changing neighbourhoods.
@@ -17,21 +17,21 @@ pub(super) struct Neighbourhoods {
     pub(super) vectors: DMatrix<f64>,
 }
 
-/// Eigenvectors, by descending eigenvalue, of `S = 1/m sum_j (K_j - Kbar)^T (K_j - Kbar)`, the covariance of the
-/// Kirchhoff matrices: who changes neighbours most comes first.
+/// Eigenvectors of the covariance of the Kirchhoff matrices, by descending eigenvalue.
 ///
-/// Eigenvectors of equal eigenvalues are free to turn among themselves, and there are many: all that concerns people
-/// whose neighbours never change has eigenvalue 0. Among these, those come first along which there is most motion, the
-/// principal components of the displacements within their span.
+/// The covariance is `S = 1/m sum_j (K_j - Kbar)^T (K_j - Kbar)`: people who change neighbours most come first.
+/// Eigenvectors of equal eigenvalues are determined up to a rotation among themselves, and there are many: people whose
+/// neighbours never change have eigenvalue 0. Within such a span, the principal components of the displacements are
+/// taken, by descending variance.
 ///
 /// # Errors
 /// More than [`MOST_ROWS`](super::MOST_ROWS) people; eigenvectors that are not found; [`FeaturesError::Interrupted`].
 pub(super) fn components(
     sums: &KirchhoffSums,
     displacements: &DMatrix<f64>,
-    part: &ProgressRange<'_>,
+    progress: &ProgressRange<'_>,
 ) -> Result<Neighbourhoods, FeaturesError> {
-    let found = eigenpairs(sums.covariance(), &part.part(0.0, 0.5))?;
+    let found = eigenpairs(sums.covariance(), &progress.range(0.0, 0.5))?;
     let (mut values, mut vectors) = (found.values, found.vectors);
     let largest = values.first().copied().unwrap_or(0.0).max(0.0);
     let mut first = 0;
@@ -41,13 +41,13 @@ pub(super) fn components(
         if end - first > 1 {
             let span = vectors.columns(first, end - first).clone_owned();
             let moved = displacements * &span;
-            let turn = eigenpairs(moved.transpose() * &moved, &part.part(0.5, 1.0))?;
+            let turn = eigenpairs(moved.transpose() * &moved, &progress.range(0.5, 1.0))?;
             vectors.columns_mut(first, end - first).copy_from(&(span * turn.vectors));
         }
         first = end;
     }
     fix_signs(&mut vectors);
-    // What rounding makes of a zero.
+    // Zeros but for rounding.
     values.iter_mut().filter(|value| **value <= EQUAL * largest).for_each(|value| *value = 0.0);
     Ok(Neighbourhoods { values, vectors })
 }

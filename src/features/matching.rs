@@ -1,25 +1,24 @@
+use super::error::FeaturesError;
 use super::progress_range::ProgressRange;
-use crate::features::FeaturesError;
 use crate::math::{Vec2, assign};
 
-/// What squares of distances are counted in: the largest is so many units, and a million of them still fit.
+/// Cost of the largest squared distance; the sum of a million of them still fits.
 const UNITS: f64 = (1u64 << 40) as f64;
-/// How often the smaller crowd's middle is looked for anew in the larger one.
+/// Most rounds of aligning the smaller crowd's centroid with its partners'.
 const TRIES: usize = 5;
 
-/// Pairs the people of two crowds so that the squares of the distances between their places add up to the least: each of
-/// the smaller crowd with one of the other. Gives the pairs by ascending number in the first crowd.
+/// Pairs the people of two crowds with the least sum of squared distances, ascending in the first crowd.
 ///
-/// Squares are used because the pairs of two crowds of one size then do not depend on where their middles are put. Where
-/// one is larger, the middle of those who have a partner is put on that of the others, and pairs are sought again, until
-/// they stay. Squares are rounded to 2^-40 of the largest, so that nothing hangs on the order of sums.
+/// Each person of the smaller crowd gets a partner. With squares, the pairs of crowds of one size do not depend on where
+/// the crowds are. If one is larger, the smaller crowd is moved onto the centroid of its partners and paired again, until
+/// the pairs stay the same. Squares are rounded to 2^-40 of the largest, so that the order of sums does not matter.
 ///
 /// # Errors
 /// [`FeaturesError::Interrupted`].
 pub(super) fn nearest_pairs(
     first_m: &[Vec2],
     other_m: &[Vec2],
-    part: &ProgressRange<'_>,
+    progress: &ProgressRange<'_>,
 ) -> Result<Vec<[usize; 2]>, FeaturesError> {
     let swapped = first_m.len() > other_m.len();
     let (few, many) = if swapped { (other_m, first_m) } else { (first_m, other_m) };
@@ -30,8 +29,8 @@ pub(super) fn nearest_pairs(
     let mut chosen = Vec::new();
     let tries = if few.len() == many.len() { 1 } else { TRIES };
     for number in 0..tries {
-        part.keep_on()?;
-        part.advance(number as f64 / tries as f64);
+        progress.keep_on()?;
+        progress.advance(number as f64 / tries as f64);
         let found = nearest_columns(few, many, shift_m);
         if found == chosen {
             break;
@@ -40,7 +39,7 @@ pub(super) fn nearest_pairs(
         let apart = few.iter().zip(&chosen).fold(Vec2::ZERO, |sum, (&place, &other)| sum + (many[other] - place));
         shift_m = apart / few.len() as f64;
     }
-    part.advance(1.0);
+    progress.advance(1.0);
     let pair = |(few, many)| if swapped { [many, few] } else { [few, many] };
     let mut pairs: Vec<[usize; 2]> = chosen.into_iter().enumerate().map(pair).collect();
     pairs.sort_unstable();

@@ -1,18 +1,18 @@
 use serde::{Deserialize, Serialize};
 
-use super::FeaturesError;
+use super::error::FeaturesError;
 
-/// Least and largest distance of neighbours, metres.
+/// Least and largest neighbour distance, metres.
 pub const NEIGHBOUR_DISTANCES_M: [f64; 2] = [0.05, 10_000.0];
 
-/// In what basis displacements are written.
+/// The basis in which displacements are expressed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
-    /// Principal components of everybody's coordinates.
+    /// Principal components of all coordinates.
     #[default]
     Pca,
-    /// Eigenvectors of who comes near whom.
+    /// Eigenvectors of the Laplacian (Kirchhoff) matrices of neighbours.
     Laplacian,
 }
 
@@ -20,7 +20,7 @@ impl Method {
     /// All methods.
     pub const ALL: [Method; 2] = [Method::Pca, Method::Laplacian];
 
-    /// Its name, as users write it.
+    /// The method's name in options and reports.
     pub const fn name(self) -> &'static str {
         match self {
             Method::Pca => "pca",
@@ -29,13 +29,13 @@ impl Method {
     }
 }
 
-/// How features are found.
+/// Options of [`Features::find`](super::Features::find).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct FeaturesOptions {
-    /// In what basis.
+    /// The basis.
     pub method: Method,
-    /// For the Laplacian, people are neighbours within this distance, metres: 0.05 to 10 000.
+    /// Distance up to which two people are neighbours, metres, 0.05 to 10 000; used by the Laplacian only.
     pub neighbour_distance_m: f64,
 }
 

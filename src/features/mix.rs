@@ -9,37 +9,37 @@ use crate::math::Vec2;
 use crate::motion::Ensemble;
 use crate::progress::Progress;
 
-/// The most people whose crowds are matched: the time grows with the cube of their number.
+/// Largest number of people of a crowd that is matched: the time grows with its cube.
 const MOST_MATCHED: usize = 1000;
 
-/// One of two crowds.
+/// The crowd that a component of a mix comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum MixSource {
-    /// The one that is changed.
+    /// The crowd that is changed.
     First,
-    /// The one whose features it gets.
+    /// The crowd whose features are added.
     Other,
 }
 
-/// Where the middle of a mixed crowd goes.
+/// The path of a mixed crowd's centroid.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum CentroidPath {
-    /// As that of the first crowd.
+    /// The first crowd's.
     #[default]
     First,
-    /// As that of the other crowd, from where the first begins.
+    /// The other crowd's, moved to where the first one's begins.
     Other,
-    /// As both together: from where the first begins, it goes the way of either.
+    /// The sum of both crowds' paths, from where the first one's begins.
     Both,
 }
 
 impl CentroidPath {
-    /// All of them.
+    /// All choices.
     pub const ALL: [CentroidPath; 3] = [CentroidPath::First, CentroidPath::Other, CentroidPath::Both];
 
-    /// Its name, as users write it.
+    /// The name in options and reports.
     pub const fn name(self) -> &'static str {
         match self {
             CentroidPath::First => "first",
@@ -49,25 +49,25 @@ impl CentroidPath {
     }
 }
 
-/// How two crowds are mixed.
+/// Options of [`Mix::find`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MixOptions {
-    /// Where the middle goes.
-    pub middle: CentroidPath,
+    /// The path of the centroid.
+    pub centroid: CentroidPath,
 }
 
-/// One crowd with the features of another besides its own.
+/// A crowd that moves with the features of another crowd besides its own.
 ///
-/// The two bases are interleaved by eigenvalue, each as a share of its own crowd's sum, so that a crowd that moves twice
-/// as far does not come first with all of its components. Either's vectors keep their own coefficients: with all
-/// components everybody moves as in the first crowd and, on top of it, as the one in the other crowd whom they are matched
-/// with. (The vectors of both together are not at right angles. Making them so would take from the second what it has in
-/// common with the first, and so the feature that both share.)
+/// The components of both bases are interleaved by eigenvalue, each as a share of its own crowd's sum, so that a crowd
+/// that moves twice as far does not come first with all of its components. Vectors keep their own coefficients: with all
+/// components, each person moves as in the first crowd and, added to that, as the matched person of the other crowd.
+/// (The vectors of both crowds are not orthogonal. Orthogonalising them would remove from the second crowd the features
+/// that both share.)
 ///
-/// A basis needs the same people and moments: people are matched so that the distances between their mean places around
-/// the middle add up to the least, and who is left over in the larger crowd is left out. The other crowd is looked at in
-/// the moments of the first, both from their beginnings, until the shorter ends. Formation, people and place are the
-/// first crowd's.
+/// A basis needs the same people and frames. People are matched so that the squared distances between their mean
+/// positions relative to the centroid have the least sum; unmatched people of the larger crowd are left out. The other
+/// crowd is resampled at the first crowd's frames, both from their start, until the shorter one ends. Formation, people
+/// and position are the first crowd's.
 #[derive(Clone, Debug)]
 pub struct Mix {
     features: [Features; 2],
@@ -80,8 +80,7 @@ impl Mix {
     /// Matches two crowds, finds the components of both, and interleaves them.
     ///
     /// # Errors
-    /// What [`Features::find`] says of either; crowds that overlap in fewer than 2 people or moments, or that are too
-    /// large to be matched; [`FeaturesError::Interrupted`].
+    /// The errors of [`Features::find`]; crowds with fewer than 2 people or frames in common; crowds too large to match; [`FeaturesError::Interrupted`].
     pub fn find(
         first: &Ensemble,
         other: &Ensemble,
@@ -89,16 +88,16 @@ impl Mix {
         mix: MixOptions,
         progress: &dyn Progress,
     ) -> Result<Mix, FeaturesError> {
-        let part = ProgressRange::whole(progress);
+        let progress = ProgressRange::whole(progress);
         let (apart, other_apart) = (Displacement::of(first)?, Displacement::of(other)?);
         if apart.people().max(other_apart.people()) > MOST_MATCHED {
-            return Err(FeaturesError::Mix("one has more than 1000 people").into());
+            return Err(FeaturesError::Mix("one has more than 1000 people"));
         }
         let moments = first.moments().min(moments_at(other, first.fps));
         if moments < 2 {
-            return Err(FeaturesError::Mix("the other is shorter than two moments of the first").into());
+            return Err(FeaturesError::Mix("the other is shorter than two frames of the first"));
         }
-        let pairs = nearest_pairs(&apart.formation_m, &other_apart.formation_m, &part.part(0.0, 0.1))?;
+        let pairs = nearest_pairs(&apart.formation_m, &other_apart.formation_m, &progress.range(0.0, 0.1))?;
         let left_out = [first, other].map(|ensemble| ensemble.people() - pairs.len());
         let ids: Vec<u32> = pairs.iter().map(|pair| first.ids[pair[0]]).collect();
         let taken = |ensemble: &Ensemble, which: usize| {
@@ -110,38 +109,38 @@ impl Mix {
         };
         let [first, other] = [taken(first, 0), taken(other, 1)];
         let features = [
-            Features::find_part(&first, options, &part.part(0.1, 0.5))?,
-            Features::find_part(&other, options, &part.part(0.5, 1.0))?,
+            Features::find_part(&first, options, &progress.range(0.1, 0.5))?,
+            Features::find_part(&other, options, &progress.range(0.5, 1.0))?,
         ];
-        let base = base(&features, mix.middle);
+        let base = base(&features, mix.centroid);
         let order = interleaved([features[0].components(), features[1].components()]);
         Ok(Mix { features, order, base, left_out })
     }
 
-    /// The features of the two crowds, of the people and moments that they have in common.
+    /// The features of one crowd, for the people and frames that both have in common.
     pub fn features(&self, whose: MixSource) -> &Features {
         &self.features[whose as usize]
     }
 
-    /// The interleaved components: whose, and which of them.
+    /// The interleaved components, each with the crowd it comes from.
     pub fn components(&self) -> impl ExactSizeIterator<Item = (MixSource, FeatureComponent)> {
         self.order.iter().map(|&(whose, own)| (whose, self.features(whose).components()[own]))
     }
 
-    /// How many people of the first and of the other crowd have nobody to be matched with.
+    /// Number of unmatched people of the first and of the other crowd.
     pub fn left_out(&self) -> [usize; 2] {
         self.left_out
     }
 
-    /// The motion made of the first of the interleaved components.
+    /// Rebuilds the motion from the first `components` interleaved components.
     ///
     /// # Errors
-    /// No component, or more than there are.
+    /// [`FeaturesError::Components`].
     pub fn rebuild(&self, components: usize) -> Result<Ensemble, FeaturesError> {
         self.modulated(components, &Modulation::default())
     }
 
-    /// The same with changed coefficients; the rules' numbers are those of the interleaved components.
+    /// Rebuilds the motion with changed coefficients; rules count the interleaved components.
     ///
     /// # Errors
     /// As [`Features::modulated`].
@@ -161,13 +160,13 @@ impl Mix {
     }
 }
 
-/// The first crowd's formation around the middle that is asked for.
-fn base(features: &[Features; 2], middle: CentroidPath) -> Displacement {
+/// The first crowd's formation around the chosen centroid.
+fn base(features: &[Features; 2], path: CentroidPath) -> Displacement {
     let [first, other] = [0, 1].map(|which| &features[which].displacement);
     let begin = |displacement: &Displacement| displacement.centroids_m.first().copied().unwrap_or(Vec2::ZERO);
     let (from, from_other) = (begin(first), begin(other));
     let both = first.centroids_m.iter().zip(&other.centroids_m);
-    let centroids_m = match middle {
+    let centroids_m = match path {
         CentroidPath::First => first.centroids_m.clone(),
         CentroidPath::Other => both.map(|(_, &other)| from + (other - from_other)).collect(),
         CentroidPath::Both => both.map(|(&first, &other)| first + (other - from_other)).collect(),
@@ -175,7 +174,7 @@ fn base(features: &[Features; 2], middle: CentroidPath) -> Displacement {
     Displacement { centroids_m, ..first.clone() }
 }
 
-/// Two lists of components as one, by the share that each eigenvalue has of its list's sum; of equals, the first's first.
+/// Merges two lists of components by each eigenvalue's share of its list's sum; the first crowd's come first if equal.
 fn interleaved(components: [&[FeatureComponent]; 2]) -> Vec<(MixSource, usize)> {
     let [first, other] = components.map(|components| {
         let sum: f64 = components.iter().map(|component| component.eigenvalue).sum();
@@ -185,7 +184,7 @@ fn interleaved(components: [&[FeatureComponent]; 2]) -> Vec<(MixSource, usize)> 
     let mut order = Vec::with_capacity(first.len() + other.len());
     let (mut a, mut b) = (0, 0);
     while a < first.len() || b < other.len() {
-        // Where eigenvalues are equal, as the many zeros of a Laplacian are, neither waits for all of the other's.
+        // Equal eigenvalues, as the many zeros of a Laplacian, alternate.
         let takes_first = match (first.get(a), other.get(b)) {
             (Some(x), Some(y)) if x == y => a <= b,
             (Some(x), Some(y)) => x > y,
@@ -202,14 +201,14 @@ fn interleaved(components: [&[FeatureComponent]; 2]) -> Vec<(MixSource, usize)> 
     order
 }
 
-/// How many moments a crowd has at another rate.
+/// Number of frames of a motion at another frame rate.
 fn moments_at(ensemble: &Ensemble, fps: f64) -> usize {
     let duration_s = ensemble.moments().saturating_sub(1) as f64 / ensemble.fps;
-    // What rounding takes from a last moment it gets back.
+    // A last frame lost to rounding is added back.
     ((duration_s * fps + 1e-6) as usize).saturating_add(1)
 }
 
-/// Somebody's place at a moment, of which there are parts too.
+/// A person's position at a fractional frame number, interpolated.
 fn place_between(ensemble: &Ensemble, moment: f64, person: usize) -> Vec2 {
     let last = ensemble.moments() - 1;
     let before = (moment as usize).min(last);

@@ -1,20 +1,21 @@
-//! Who is near whom, as Kirchhoff matrices over time, in whole numbers: sums are exact, in whatever order they are made.
+//! Sums of the neighbours' Kirchhoff matrices over time, in whole numbers: exact in any order.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
+use super::error::FeaturesError;
 use super::progress_range::ProgressRange;
-use crate::features::FeaturesError;
 use crate::math::Vec2;
 use crate::motion::Ensemble;
 
-/// Moments that are worked on together.
+/// Number of frames in a batch.
 const BATCH: usize = 64;
-/// Bits of a word.
+/// Bits per word.
 const BITS: usize = u64::BITS as usize;
 
-/// What the Kirchhoff matrices `K_j = B_j - A_j` of all moments add up to. `A_j` has a 1 where two people are within a
-/// distance of each other, `B_j` everybody's number of neighbours on its diagonal.
+/// Sums of the Kirchhoff matrices `K_j = B_j - A_j` of all frames and of their squares.
+///
+/// `A_j` has a 1 for two people within the neighbour distance, `B_j` each person's number of neighbours on its diagonal.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct KirchhoffSums {
     people: usize,
@@ -26,27 +27,27 @@ pub(super) struct KirchhoffSums {
 }
 
 impl KirchhoffSums {
-    /// Adds up a motion's matrices; people exactly at the distance are neighbours.
+    /// Sums the matrices of a motion; people exactly at the distance are neighbours.
     ///
     /// # Errors
     /// [`FeaturesError::Interrupted`].
     pub(super) fn of(
         ensemble: &Ensemble,
         distance_m: f64,
-        part: &ProgressRange<'_>,
+        progress: &ProgressRange<'_>,
     ) -> Result<KirchhoffSums, FeaturesError> {
         let (people, moments) = (ensemble.people(), ensemble.moments());
         let mut sums =
             KirchhoffSums { people, moments, sum: vec![0; people * people], squares: vec![0; people * people] };
         for first in (0..moments).step_by(BATCH) {
-            part.keep_on()?;
-            part.advance(first as f64 / moments as f64);
+            progress.keep_on()?;
+            progress.advance(first as f64 / moments as f64);
             let last = (first + BATCH).min(moments);
             let batch: Vec<Adjacency> =
                 (first..last).into_par_iter().map(|at| Adjacency::of(ensemble.places_at(at), distance_m)).collect();
             sums.add(&merged(batch));
         }
-        part.advance(1.0);
+        progress.advance(1.0);
         Ok(sums)
     }
 
@@ -76,7 +77,7 @@ impl KirchhoffSums {
     }
 }
 
-/// Runs of the same adjacency as one, with their length.
+/// Merges runs of equal adjacency, with their lengths.
 fn merged(batch: Vec<Adjacency>) -> Vec<(Adjacency, i64)> {
     let mut runs: Vec<(Adjacency, i64)> = Vec::new();
     for adjacency in batch {
@@ -88,14 +89,14 @@ fn merged(batch: Vec<Adjacency>) -> Vec<(Adjacency, i64)> {
     runs
 }
 
-/// Who is near whom at a moment.
+/// The adjacency matrix of a frame, as bits.
 #[derive(Clone, Debug, PartialEq)]
 struct Adjacency {
-    /// Words of a row.
+    /// Words per row.
     words: usize,
-    /// A row of bits for everybody, padded to whole words.
+    /// A row of bits per person, padded to whole words.
     bits: Vec<u64>,
-    /// Everybody's number of neighbours.
+    /// Number of neighbours of each person.
     degrees: Vec<i64>,
 }
 
@@ -125,7 +126,7 @@ impl Adjacency {
         self.row(person).iter().enumerate().flat_map(|(at, &word)| Ones(word).map(move |bit| at * BITS + bit))
     }
 
-    /// Adds a person's row of `K`, and of `K K`, so many times.
+    /// Adds a person's row of `K` and of `K K`, `times` times.
     ///
     /// With `d` the numbers of neighbours: `(K K)_kl` is `d_k d_k` on the diagonal, minus `d_k + d_l` for neighbours, plus
     /// the number of neighbours that `k` and `l` have in common.
@@ -152,7 +153,7 @@ impl Adjacency {
     }
 }
 
-/// The numbers of the bits that are set, ascending.
+/// Iterator over the set bits of a word, ascending.
 struct Ones(u64);
 
 impl Iterator for Ones {
@@ -160,7 +161,7 @@ impl Iterator for Ones {
 
     fn next(&mut self) -> Option<usize> {
         let bit = self.0.trailing_zeros() as usize;
-        // Takes the lowest bit away; of none, none.
+        // Clears the lowest set bit.
         self.0 &= self.0.wrapping_sub(1);
         (bit < BITS).then_some(bit)
     }

@@ -1,11 +1,12 @@
 use serde::Serialize;
 
-use super::{FeaturesError, MOST_FEATURE_PLACES};
+use super::displacement::MOST_FEATURE_PLACES;
+use super::error::FeaturesError;
 use crate::motion::{Ensemble, Frame, Motion, MotionError, Resampler};
 use crate::progress::{Progress, Stage};
 use crate::recordings::Recording;
 
-/// Somebody's stay: moments without a gap.
+/// An interval of frames in which a person is present without a gap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Stay {
     id: u32,
@@ -13,35 +14,36 @@ struct Stay {
     last: u64,
 }
 
-/// When who is there, in evenly spaced moments: what there is to know before a motion is worked on as a whole.
+/// The intervals in which people are present, in evenly spaced frames.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Presence {
+struct Presence {
     fps: f64,
     stays: Vec<Stay>,
 }
 
-/// A time, and who is there.
+/// A time span with the number of people present.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PresenceSpan {
-    /// The first moment, seconds.
+    /// Time of the first frame, seconds.
     pub from_s: f64,
-    /// The last moment, seconds.
+    /// Time of the last frame, seconds.
     pub to_s: f64,
-    /// How many are there throughout.
+    /// Number of people present throughout.
     pub people: usize,
-    /// How many are there for a part of it only.
+    /// Number of people present for a part of it only.
     pub left_out: usize,
-    /// Number of moments.
+    /// Number of frames.
     pub moments: usize,
 }
 
 impl Presence {
-    /// Looks through a motion at `fps` moments per second, from `from_s` to `to_s`. Memory grows with the number of
-    /// people, not with time.
+    /// Records who is present in a motion, at `fps` frames per second from `from_s` to `to_s`.
+    ///
+    /// Memory grows with the number of people, not with time.
     ///
     /// # Errors
-    /// What stops the motion.
-    pub fn of(motion: &mut dyn Motion, fps: f64, [from_s, to_s]: [f64; 2]) -> Result<Presence, FeaturesError> {
+    /// [`FeaturesError::Motion`].
+    fn of(motion: &mut dyn Motion, fps: f64, [from_s, to_s]: [f64; 2]) -> Result<Presence, FeaturesError> {
         let mut resampler = Resampler::new(fps);
         let mut frame = Frame::default();
         let mut present: Vec<Stay> = Vec::new();
@@ -75,19 +77,19 @@ impl Presence {
         Ok(Presence { fps, stays })
     }
 
-    /// From the first to the last moment at which anybody is there; nothing where nobody is.
-    pub fn whole(&self) -> Option<PresenceSpan> {
+    /// The span from the first to the last frame with people; `None` without people.
+    fn whole(&self) -> Option<PresenceSpan> {
         let first = self.stays.first()?.first;
         let last = self.stays.iter().map(|stay| stay.last).max()?;
         Some(self.span(first, last))
     }
 
-    /// The time that holds the most places of people who are there throughout: as many people times as many moments as can
-    /// be, of at least 2 people and 2 moments. It is the whole where everybody is there throughout. Of equals the earliest.
+    /// The span with the most positions (people present throughout times frames), the earliest if several are equal.
     ///
-    /// Takes time with the number of people times that of people who are there at once.
-    pub fn longest(&self) -> Option<PresenceSpan> {
-        // The best time begins when somebody comes, and ends when somebody goes.
+    /// It has at least 2 people and 2 frames. Time grows with the number of people times the number of people present at
+    /// once.
+    fn longest(&self) -> Option<PresenceSpan> {
+        // The best span begins when a person appears, and ends when a person leaves.
         let mut best: Option<(u64, [u64; 2])> = None;
         let mut ends: Vec<u64> = Vec::new();
         let mut next = 0;
@@ -129,13 +131,13 @@ impl Presence {
     }
 }
 
-/// The people of a recording who are there throughout a time, and that time.
+/// Reads the people of a recording who are present throughout a time span, and the span.
 ///
-/// Where both ends are given it is that time; else the one with the most places within what is given, see
-/// [`Presence::longest`]. `fps` moments a second are looked at: by default as many as the recording has.
+/// If both ends are given, the span is theirs; else it is the one with the most positions within the given end, see
+/// `Presence::longest`. Frames per second are the recording's own by default.
 ///
 /// # Errors
-/// The recording cannot be read any more; no two people are there at two moments of the time; more places than
+/// The recording cannot be read any more; fewer than two people in two frames; more positions than
 /// [`MOST_FEATURE_PLACES`]; [`FeaturesError::Interrupted`].
 pub fn present_throughout(
     recording: &Recording,
@@ -144,7 +146,7 @@ pub fn present_throughout(
     progress: &dyn Progress,
 ) -> Result<(Ensemble, PresenceSpan), FeaturesError> {
     let fps = fps.unwrap_or(recording.survey().fps);
-    // A moment that is due at the end belongs to it, whatever rounding says.
+    // A frame at the end of the span belongs to it, despite rounding.
     let within = |margin_s: f64| [from_s.unwrap_or(0.0) - margin_s, to_s.unwrap_or(f64::INFINITY) + margin_s];
     let presence = Presence::of(&mut WatchedMotion { motion: recording.motion()?, progress }, fps, within(1e-6))?;
     let longest = presence.longest();
@@ -154,19 +156,18 @@ pub fn present_throughout(
         let [from_s, to_s] = within(0.0);
         let people = span.map_or(0, |span| span.people);
         let longest_s = longest.map(|span| [span.from_s, span.to_s]);
-        return Err(FeaturesError::NotTogether { from_s, to_s, people, longest_s }.into());
+        return Err(FeaturesError::NotTogether { from_s, to_s, people, longest_s });
     };
     let PresenceSpan { people, moments, .. } = span;
     if people.saturating_mul(moments) > MOST_FEATURE_PLACES {
-        // Before they are all held.
-        return Err(FeaturesError::TooMany { people, moments, most: MOST_FEATURE_PLACES }.into());
+        return Err(FeaturesError::TooMany { people, moments, most: MOST_FEATURE_PLACES });
     }
     let margin_s = 0.25 / fps;
     let of = [span.from_s - margin_s, span.to_s + margin_s];
     Ok((Ensemble::of_motion(&mut WatchedMotion { motion: recording.motion()?, progress }, fps, of)?, span))
 }
 
-/// A motion that is read while somebody looks on, who may stop it.
+/// A motion that reports progress and can be interrupted.
 struct WatchedMotion<'a> {
     motion: Box<dyn Motion + Send + 'a>,
     progress: &'a dyn Progress,

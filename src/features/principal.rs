@@ -2,74 +2,76 @@ use nalgebra::DMatrix;
 
 use super::displacement::column_squares;
 use super::eigen::{eigenpairs, fix_signs};
+use super::error::FeaturesError;
 use super::progress_range::ProgressRange;
-use crate::features::FeaturesError;
 
-/// Variances smaller than this share of the largest are found again without it.
+/// Variances below this share of the largest are refined without the larger components.
 const SMALL: f64 = 1e-8;
-/// Variances smaller than this share of the largest are lost in its rounding: a hundred billionth of the way.
-const NOTHING: f64 = 1e-22;
+/// Variances below this share of the largest are lost in its rounding: 1e-11 of its amplitude.
+const NEGLIGIBLE: f64 = 1e-22;
 
-/// The principal components of displacements `D` (a row per moment): unit eigenvectors of the covariance
-/// `V = D^T D / m` by descending eigenvalue, as columns. Those along which people move by no more than `rounding_m` in the
-/// mean are left out, for they are but that.
+/// Principal components of displacements `D` (a row per frame), as columns, by descending variance.
 ///
-/// `V` has a row per coordinate. Where there are fewer moments than coordinates, those of `D D^T / m` are found instead:
+/// They are the unit eigenvectors of the covariance `V = D^T D / m`. Components along which people move by no more than
+/// `rounding_m` in the mean are left out, since they are rounding.
+///
+/// `V` has a row per coordinate. With fewer frames than coordinates, the eigenvectors of `D D^T / m` are found instead:
 /// if `u` is one of them, `D^T u` is an eigenvector of `V` with the same eigenvalue.
 ///
 /// # Errors
-/// More than [`MOST_ROWS`](super::MOST_ROWS) moments and coordinates; eigenvectors that are not found;
+/// More than [`MOST_ROWS`](super::MOST_ROWS) frames and coordinates; eigenvectors that are not found;
 /// [`FeaturesError::Interrupted`].
 pub(super) fn components(
     displacements: &DMatrix<f64>,
     rounding_m: f64,
-    part: &ProgressRange<'_>,
+    progress: &ProgressRange<'_>,
 ) -> Result<DMatrix<f64>, FeaturesError> {
     let (moments, coordinates) = displacements.shape();
-    let per_moment = 1.0 / moments as f64;
+    let per_frame = 1.0 / moments as f64;
     let least_m2 = rounding_m * rounding_m * coordinates as f64;
-    // A copied transpose costs less than the products gain by it.
+    // The products gain more by a copied transpose than it costs.
     let transposed = displacements.transpose();
-    let [found, refined] = [part.part(0.0, 0.5), part.part(0.5, 1.0)];
+    let [found, refined] = [progress.range(0.0, 0.5), progress.range(0.5, 1.0)];
     let mut components = if coordinates <= moments {
-        let covariance = &transposed * displacements * per_moment;
-        refine(displacements, eigenpairs(covariance, &found)?.vectors, [per_moment, least_m2], &refined)?
+        let covariance = &transposed * displacements * per_frame;
+        refine(displacements, eigenpairs(covariance, &found)?.vectors, [per_frame, least_m2], &refined)?
     } else {
-        let by_moments = displacements * &transposed * per_moment;
+        let by_moments = displacements * &transposed * per_frame;
         let vectors = eigenpairs(by_moments, &found)?.vectors;
-        // They are at right angles but for rounding, which the shorter ones have more of.
-        (&transposed * refine(&transposed, vectors, [per_moment, least_m2], &refined)?).qr().q()
+        // QR restores orthogonality, which rounding disturbs in the shorter ones.
+        (&transposed * refine(&transposed, vectors, [per_frame, least_m2], &refined)?).qr().q()
     };
     fix_signs(&mut components);
     Ok(components)
 }
 
-/// Finds the small ones of a matrix's components again among themselves: beside one whose variance is 1e16 times as large
-/// they are lost in its rounding. Those whose variance, `per_moment` of the sum of squares, is not more than the least are
-/// left out; the others come by descending variance.
+/// Recomputes the small components among themselves, by descending variance.
+///
+/// Next to a component whose variance is 1e16 times as large they are lost in its rounding. Components whose variance,
+/// `per_frame` times the sum of squares, is at most the least variance are left out.
 fn refine(
     matrix: &DMatrix<f64>,
     mut components: DMatrix<f64>,
-    [per_moment, least_m2]: [f64; 2],
-    part: &ProgressRange<'_>,
+    [per_frame, least_m2]: [f64; 2],
+    progress: &ProgressRange<'_>,
 ) -> Result<DMatrix<f64>, FeaturesError> {
     let mut first = 0;
-    let mut nothing = least_m2;
+    let mut negligible_m2 = least_m2;
     loop {
         let rest = components.columns(first, components.ncols() - first);
-        let variances: Vec<f64> = column_squares(&(matrix * rest)).iter().map(|sum| sum * per_moment).collect();
+        let variances: Vec<f64> = column_squares(&(matrix * rest)).iter().map(|sum| sum * per_frame).collect();
         let most = variances.iter().fold(0.0, |most: f64, &variance| most.max(variance));
         let small = first + variances.iter().take_while(|&&variance| variance > SMALL * most).count();
         if first == 0 {
-            nothing = nothing.max(NOTHING * most);
+            negligible_m2 = negligible_m2.max(NEGLIGIBLE * most);
         }
-        if most <= nothing || small == components.ncols() {
-            let kept = first + variances.iter().take_while(|&&variance| variance > nothing).count();
+        if most <= negligible_m2 || small == components.ncols() {
+            let kept = first + variances.iter().take_while(|&&variance| variance > negligible_m2).count();
             return Ok(components.resize_horizontally(kept, 0.0));
         }
         let rest = components.columns(small, components.ncols() - small).clone_owned();
         let along = matrix * &rest;
-        let turn = eigenpairs(along.transpose() * &along * per_moment, part)?;
+        let turn = eigenpairs(along.transpose() * &along * per_frame, progress)?;
         components.columns_mut(small, rest.ncols()).copy_from(&(rest * turn.vectors));
         first = small;
     }

@@ -1,6 +1,6 @@
 use crate::progress::{Interrupted, Progress, Stage};
 
-/// A part of some longer work: its shares are shares of the whole's part.
+/// A range of the progress bar: shares of a step are mapped into it.
 #[derive(Clone, Copy)]
 pub(super) struct ProgressRange<'a> {
     progress: &'a dyn Progress,
@@ -9,23 +9,23 @@ pub(super) struct ProgressRange<'a> {
 }
 
 impl<'a> ProgressRange<'a> {
-    /// All of the work.
+    /// The whole progress bar.
     pub(super) fn whole(progress: &'a dyn Progress) -> ProgressRange<'a> {
         ProgressRange { progress, from: 0.0, to: 1.0 }
     }
 
-    /// A part of this part.
-    pub(super) fn part(&self, from: f64, to: f64) -> ProgressRange<'a> {
+    /// A range within this range, from and to as shares of it.
+    pub(super) fn range(&self, from: f64, to: f64) -> ProgressRange<'a> {
         let at = |share: f64| self.from + (self.to - self.from) * share;
         ProgressRange { progress: self.progress, from: at(from), to: at(to) }
     }
 
-    /// So much of the part is done.
+    /// Reports the share of the step that is done, 0 to 1.
     pub(super) fn advance(&self, share: f64) {
         self.progress.advance(Stage::Motion, self.from + (self.to - self.from) * share);
     }
 
-    /// Gives up once the user wants the work to stop.
+    /// Returns an error once the user stops the calculation.
     pub(super) fn keep_on(&self) -> Result<(), Interrupted> {
         self.progress.keep_on()
     }

@@ -233,7 +233,7 @@ impl Features {
         modulation: &Modulation,
         watch: &dyn Progress,
     ) -> Result<(Summary, Ensemble), Error> {
-        let mixed = Mix::find(first, other, &self.options(), MixOptions { middle: self.mixing.middle }, watch)?;
+        let mixed = Mix::find(first, other, &self.options(), MixOptions { centroid: self.mixing.middle }, watch)?;
         for (left_out, name) in mixed.left_out().into_iter().zip(["first", "other"]) {
             if left_out > 0 {
                 watch.warn(&format!("{left_out} people of the {name} crowd have no counterpart and are left out"));

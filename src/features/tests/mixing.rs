@@ -122,7 +122,7 @@ fn the_middle_goes_where_it_is_asked_to() {
     let (a, b) = (sideways(10), wild(10, 101));
     let path = |middle: CentroidPath| {
         let options = FeaturesOptions::default();
-        let mixed = Mix::find(&a, &b, &options, MixOptions { middle }, &Silent).unwrap().rebuild(3).unwrap();
+        let mixed = Mix::find(&a, &b, &options, MixOptions { centroid: middle }, &Silent).unwrap().rebuild(3).unwrap();
         mixed.centroid_m(100) - mixed.centroid_m(0)
     };
     let [of_a, of_b] = [&a, &b].map(|crowd| crowd.centroid_m(100) - crowd.centroid_m(0));
@@ -143,5 +143,5 @@ fn crowds_with_nothing_in_common_are_refused() {
     assert!(refused(&sideways(5), &wild(1, 50)).contains("too few"));
     assert!(refused(&wild(1001, 2), &wild(5, 9)).contains("1000 people"));
     let still = Ensemble::new(10.0, 0.0, vec![1, 2], [vec2(0.0, 0.0), vec2(1.0, 0.0)].repeat(50));
-    assert!(refused(&sideways(5), &still).contains("nobody moves"));
+    assert!(refused(&sideways(5), &still).contains("do not move"));
 }

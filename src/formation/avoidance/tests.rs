@@ -3,6 +3,7 @@ use crate::Silent;
 use crate::formation::formed::FormedPerson;
 use crate::formation::request::AvoidRequest;
 use crate::math::{SplitMix64, Vec2, sin_cos, vec2};
+use crate::progress::Progress;
 
 fn person(track: Vec<Vec2>) -> FormationBody {
     FormationBody::person(track, FormedPerson { address: vec![0], rides: false }, &AvoidRequest::default())

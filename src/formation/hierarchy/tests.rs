@@ -1,4 +1,4 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use image::{GrayImage, Luma};
 use proptest::prelude::*;
@@ -6,13 +6,14 @@ use proptest::prelude::*;
 use super::super::request::*;
 use super::*;
 use crate::Silent;
-use crate::math::vec2;
+use crate::formation::formed::FormedCrowd;
+use crate::math::{Vec2, vec2};
 
 fn request(text: &str) -> FormationRequest {
     toml::from_str(text).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
-fn formed(text: &str) -> Formed {
+fn formed(text: &str) -> FormedCrowd {
     form(&request(text), Path::new(""), &Silent).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 

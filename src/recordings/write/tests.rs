@@ -5,6 +5,8 @@ use rusqlite::Connection;
 use super::*;
 use crate::math::vec2;
 use crate::motion::BodyOptions;
+use crate::plan::{FloorPlan, Pose};
+use crate::walls::Walls;
 use crate::walls::WallsOptions;
 
 /// A corridor of 6 x 2 m, turned on its map.
