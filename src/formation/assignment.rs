@@ -1,15 +1,14 @@
 use crate::math::{Vec2, assign};
 
-/// By how much the square of a way counts beside its length, both as shares of the longest.
+/// Weight of the squared distance relative to the distance, both as shares of the longest.
 const SQUARES: f64 = 1.0 / (1u64 << 26) as f64;
-/// What all costs together may be at most.
+/// Upper bound of the sum of costs.
 const MOST: u64 = 1 << 60;
 
-/// Who goes to which place so that all together have the shortest way, to a millionth: `result[person]` is a place.
+/// Assigns people to places with the least sum of distances, to a millionth: `result[person]` is a place.
 ///
-/// `from` and `to` are as many, in metres. Of several equal ways that one is taken whose squares are least, so that
-/// nobody overtakes anybody on a line (Kuhn 1955, Munkres 1957). Costs are whole numbers, so that the result is the same on
-/// every machine.
+/// `from` and `to` have the same length; metres. Of equal sums the one with the least squares is taken, so that people on
+/// a line do not overtake each other.
 pub(super) fn assign_places(from: &[Vec2], to: &[Vec2]) -> Vec<usize> {
     let people = from.len().min(to.len());
     let largest_m = from.iter().flat_map(|&a| to.iter().map(move |&b| a.distance(b))).fold(0.0, f64::max);

@@ -5,7 +5,7 @@ use super::symmetric::eigenvectors;
 use super::{AdjacencyEdit, FormationError, kirchhoff};
 use crate::math::{Vec2, vec2};
 
-/// The eigenvectors of a formation's Kirchhoff matrix: from the coarse shape of the crowd to the fine.
+/// The eigenvectors of a formation's Kirchhoff matrix, from the crowd's coarse shape to the fine.
 ///
 /// The first, `e_0`, is constant: every entry `1 / sqrt(n)`. Each is of length one, the first non-zero entry is positive.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +31,7 @@ impl Basis {
         Basis::of_kirchhoff(kirchhoff(places_m, sigma_m, edits))
     }
 
-    /// The same from a Kirchhoff matrix at hand.
+    /// Decomposes a given Kirchhoff matrix.
     ///
     /// # Errors
     /// As [`Basis::of`].

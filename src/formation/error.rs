@@ -3,175 +3,178 @@ use crate::motion::MotionError;
 use crate::progress::Interrupted;
 use crate::recordings::RecordingError;
 
-/// Why formations cannot be interpolated.
+/// Errors of formations.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FormationError {
-    /// A formation cannot be made as it is asked for.
+    /// An invalid request.
     #[error(transparent)]
     Request(#[from] super::RequestError),
     /// Too few people.
     #[error("{people} people are too few for a formation; at least {least} are needed")]
     TooFew {
-        /// How many there are.
+        /// Number of people.
         people: usize,
-        /// How many are needed.
+        /// Least number of people.
         least: usize,
     },
-    /// More people than a matrix of all pairs is made for.
+    /// Too many people for a matrix of all pairs.
     #[error("{people} people are too many for one formation; at most {most} are allowed")]
     TooMany {
-        /// How many there are.
+        /// Number of people.
         people: usize,
-        /// How many are allowed.
+        /// Largest number of people.
         most: usize,
     },
-    /// Nothing to interpolate between.
+    /// Fewer than two key formations.
     #[error("{keys} key formations are too few; at least 2 are needed, a first and a last one")]
     TooFewKeys {
-        /// How many there are.
+        /// Number of key formations.
         keys: usize,
     },
-    /// A key formation with more or fewer places than there are people.
-    #[error("key formation {key} at {time_s} s has {places} places for the {people} people of the example")]
+    /// A key formation whose number of positions differs from the number of people.
+    #[error("key formation {key} at {time_s} s has {places} positions for the {people} people of the example")]
     Places {
-        /// Which one, from 1.
+        /// Number of the key formation, from 1.
         key: usize,
-        /// Its time, seconds.
+        /// Time of the key formation, seconds.
         time_s: f64,
-        /// How many places it has.
+        /// Number of positions.
         places: usize,
-        /// How many people the example has.
+        /// Number of people in the example.
         people: usize,
     },
-    /// A place or time of a key formation that is no usable number.
+    /// A position or time of a key formation out of range.
     #[error("key formation {key}: {what} is {value}; allowed is -1e7 to 1e7")]
     KeyNumber {
-        /// Which one, from 1.
+        /// Number of the key formation, from 1.
         key: usize,
-        /// Which number of it.
+        /// Name of the value.
         what: String,
-        /// Its value.
+        /// The value.
         value: f64,
     },
-    /// A place of the example that is no usable number.
+    /// A position of the example out of range.
     #[error("the example has person {id} at ({x}, {y}) m at {time_s} s; allowed is -1e7 to 1e7 m")]
     ExampleNumber {
-        /// Who.
+        /// The person's id.
         id: u32,
-        /// When, seconds.
+        /// Time of the frame, seconds.
         time_s: f64,
-        /// Where, metres.
+        /// The coordinate x, metres.
         x: f64,
-        /// Where, metres.
+        /// The coordinate y, metres.
         y: f64,
     },
-    /// Moments per second of the example that are no usable number.
-    #[error("the example has {fps} moments per second and starts at {start_s} s")]
+    /// A frame rate or start time of the example out of range.
+    #[error("the example has {fps} frames per second and starts at {start_s} s")]
     ExampleTime {
-        /// Moments per second.
+        /// Frames per second.
         fps: f64,
-        /// Time of the first moment, seconds.
+        /// Time of the first frame, seconds.
         start_s: f64,
     },
-    /// Key formations that do not follow each other.
+    /// Key formations that are not in the order of time.
     #[error("key formation {key} at {time_s} s does not come after the one before it, at {before_s} s")]
     KeyOrder {
-        /// The later one of the two, from 1.
+        /// Number of the later one, from 1.
         key: usize,
-        /// Its time, seconds.
+        /// Time of the key formation, seconds.
         time_s: f64,
-        /// Time of the one before, seconds.
+        /// Time of the one before it, seconds.
         before_s: f64,
     },
-    /// Two key formations at one moment of the example.
-    #[error("key formations {} and {key}, at {before_s} and {time_s} s, fall into one moment of the example, which has {fps} per second", key - 1)]
+    /// Two key formations in one frame of the example.
+    #[error("key formations {} and {key}, at {before_s} and {time_s} s, fall into one frame of the example, which has {fps} frames per second", key - 1)]
     SameMoment {
-        /// The later one of the two, from 1.
+        /// Number of the later one, from 1.
         key: usize,
-        /// Its time, seconds.
+        /// Time of the key formation, seconds.
         time_s: f64,
-        /// Time of the one before, seconds.
+        /// Time of the one before it, seconds.
         before_s: f64,
-        /// Moments per second of the example.
+        /// Frames per second of the example.
         fps: f64,
     },
     /// A key formation before the example begins or after it ends.
     #[error("key formation {key} is at {time_s} s, but the example lasts from {from_s:.3} to {to_s:.3} s")]
     BeyondExample {
-        /// Which one, from 1.
+        /// Number of the key formation, from 1.
         key: usize,
-        /// Its time, seconds.
+        /// Time of the key formation, seconds.
         time_s: f64,
-        /// When the example begins, seconds.
+        /// Start of the example, seconds.
         from_s: f64,
-        /// When it ends, seconds.
+        /// End of the example, seconds.
         to_s: f64,
     },
-    /// An adjacency that names somebody twice, nobody, or somebody who is not there.
+    /// An adjacency with repeated, too few or unknown members.
     #[error("adjacency {edit}: {problem}")]
     Members {
-        /// Which one, from 1.
+        /// Number of the adjacency, from 1.
         edit: usize,
-        /// What is wrong.
+        /// The problem.
         problem: String,
     },
     /// An option out of range.
     #[error("{option} is {value}; allowed is {low} to {high}")]
     Option {
-        /// Which.
+        /// Name of the option.
         option: &'static str,
-        /// Its value.
+        /// The value.
         value: f64,
-        /// Least allowed.
+        /// Least value.
         low: f64,
-        /// Most allowed.
+        /// Largest value.
         high: f64,
     },
-    /// A matrix that does not turn without mirroring.
-    #[error("the matrix is no rotation: {problem}")]
+    /// A matrix that is not a rotation.
+    #[error("the matrix is not a rotation: {problem}")]
     NoRotation {
-        /// What is wrong.
+        /// The problem.
         problem: String,
     },
-    /// Eigenvectors that are not found.
-    #[error("the eigenvectors of {size} x {size} numbers were not found in {iterations} steps")]
+    /// An eigenvector iteration that does not converge.
+    #[error("the eigenvectors of {size} x {size} numbers were not found in {iterations} iterations")]
     NoConvergence {
         /// Rows of the matrix.
         size: usize,
-        /// Steps taken.
+        /// Number of iterations.
         iterations: usize,
     },
-    /// A recording that is asked for cannot be read.
+    /// An error of a recording.
     #[error(transparent)]
     Recording(#[from] RecordingError),
-    /// The motion cannot go on, or cannot be held.
+    /// An error of the motion.
     #[error(transparent)]
     Motion(#[from] MotionError),
-    /// The user stopped the work.
+    /// The user stopped the calculation.
     #[error(transparent)]
     Interrupted(#[from] Interrupted),
 }
 
 impl FormationError {
-    /// What the user can do about it.
+    /// A remedy that the user can try.
     pub fn hint(&self) -> Option<String> {
         let hint = match self {
             FormationError::Request(error) => return error.hint(),
             FormationError::Recording(error) => return error.hint(),
             FormationError::Motion(error) => return error.hint(),
             FormationError::Interrupted(_) => return None,
-            FormationError::TooFew { .. } => "take an example in which more people are present throughout".to_string(),
+            FormationError::TooFew { .. } => "take an example with more people who are present throughout".to_string(),
             FormationError::TooMany { .. } => {
-                "make small crowds of a few people each, and a large crowd in which each of them is one".to_string()
+                "make small crowds of a few people each, and a large crowd of which each of them is one individual"
+                    .to_string()
             }
             FormationError::TooFewKeys { .. } => {
-                "the example's own first and last places will do as key formations".to_string()
+                "the example's own first and last positions can serve as key formations".to_string()
             }
-            FormationError::Places { .. } => "a key formation has one place for everybody in the example".to_string(),
-            FormationError::KeyOrder { .. } => "sort key formations by time; no two have the same".to_string(),
+            FormationError::Places { .. } => {
+                "a key formation has one position for each person in the example".to_string()
+            }
+            FormationError::KeyOrder { .. } => "sort key formations by time; times must differ".to_string(),
             FormationError::SameMoment { fps, .. } => {
-                format!("keep key formations at least {:.3} s apart, or take more moments per second", 1.0 / fps)
+                format!("keep key formations at least {:.3} s apart, or take more frames per second", 1.0 / fps)
             }
             FormationError::BeyondExample { from_s, to_s, .. } => {
                 format!("move it to {from_s:.3} to {to_s:.3} s, or take a longer example")
@@ -188,10 +191,10 @@ impl FormationError {
     }
 }
 
-/// Whether so many people can be a formation.
+/// Checks the number of people in a formation.
 ///
 /// # Errors
-/// Too few, too many.
+/// [`FormationError::TooFew`], [`FormationError::TooMany`].
 pub(super) fn check_people(people: usize) -> Result<(), FormationError> {
     if people < LEAST_PEOPLE {
         return Err(FormationError::TooFew { people, least: LEAST_PEOPLE });

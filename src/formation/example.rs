@@ -12,54 +12,54 @@ use crate::math::Vec2;
 use crate::motion::Ensemble;
 use crate::progress::{Progress, Stage};
 
-/// Bytes of bases that are worked on together, and the most of them.
+/// Largest size of a chunk of bases, bytes, and their largest number.
 const CHUNK_BYTES: usize = 1 << 26;
 const CHUNK_BASES: usize = 16;
-/// How exactly orthonormal bases are between which others are interpolated, and those that are used as they are.
+/// Orthonormality of bases that others are interpolated between, and of bases used directly.
 const ANCHORS_WITHIN: f64 = 1e-10;
 const EACH_WITHIN: f64 = 1e-3;
-/// Moments whose coefficients are worked out at once.
+/// Frames whose coefficients are computed at once.
 const MOMENTS_AT_ONCE: usize = 32;
-/// The sum of `2 (1 - cos)` over all turns from one basis to the next below which what lies between is blended.
+/// Sum of `2 (1 - cos)` over all turns from one basis to the next below which bases are blended.
 const SMALL_TURNS: f64 = 0.5;
-/// At how many moments the example's own sigma is looked for.
+/// Number of frames from which the example's own sigma is computed.
 const SIGMA_MOMENTS: usize = 64;
 
-/// An example, seen as coefficients of a basis that follows its eigenvectors: what figure 4 of the paper draws.
+/// An example's coefficients in a basis that follows its eigenvectors (figure 4 of the paper).
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExampleCoefficients {
-    /// How many people, which is also the number of coefficients.
+    /// Number of people, which is the number of coefficients.
     pub people: usize,
-    /// `c_i` and `d_i` as x and y, moment by moment.
+    /// `c_i` and `d_i` as x and y, frame by frame, metres.
     pub coefficients_m: Vec<Vec2>,
-    /// The basis at those moments for which it was asked, by moment.
+    /// The basis in the wanted frames, by frame.
     pub bases: BTreeMap<usize, DMatrix<f64>>,
 }
 
 impl ExampleCoefficients {
-    /// All coefficients at a moment, counted from the first that was decomposed.
+    /// All coefficients in a frame, counted from the first decomposed one.
     pub fn at(&self, moment: usize) -> &[Vec2] {
         &self.coefficients_m[moment * self.people..(moment + 1) * self.people]
     }
 }
 
-/// Which part of an example is decomposed, and how.
+/// The part of an example to decompose, with options.
 pub(super) struct Excerpt<'a> {
     pub example: &'a Ensemble,
-    /// First and last moment.
+    /// First and last frame.
     pub span: [usize; 2],
-    /// What the first basis is matched to.
+    /// The vectors that the first basis is matched to.
     pub target: Option<&'a DMatrix<f64>>,
-    /// Moments whose bases are wanted.
+    /// Frames whose bases are kept.
     pub wanted: &'a [usize],
     pub options: &'a FormationOptions,
 }
 
-/// Decomposes an example: the coefficients of every moment in the basis of a [`Follower`], at
-/// [`FormationOptions::decompositions`] moments (the first, the last and those of `wanted` always among them). Between these, the
-/// basis turns evenly from one to the next ([`Rotation`]).
+/// Decomposes an example into the coefficients of every frame in the basis of a [`Follower`].
 ///
-/// `wanted` are the moments whose bases are kept besides; all of them would need much memory.
+/// The example is decomposed in [`FormationOptions::decompositions`] frames, always including the first, the last and those
+/// of `wanted`. In between, the basis turns evenly from one to the next ([`Rotation`]). The bases of the frames in `wanted`
+/// are kept; all of them would need much memory.
 ///
 /// # Errors
 /// Fewer than two people, more than [`MOST_PEOPLE`](super::MOST_PEOPLE), numbers that are not finite, options out of range;
@@ -77,7 +77,7 @@ pub fn example_coefficients(
     decompose(&part, &|share| progress.advance(Stage::Motion, share), progress)
 }
 
-/// Whether an example can be worked on.
+/// Checks the number of people, the times and the positions of an example.
 pub(super) fn check_example(example: &Ensemble) -> Result<(), FormationError> {
     super::error::check_people(example.people())?;
     if !(example.fps > 0.0 && example.fps.is_finite() && example.start_s.abs() <= MOST_NUMBER) || example.moments() == 0
@@ -160,16 +160,16 @@ pub(super) fn example_sigma_m(example: &Ensemble, [first, last]: [usize; 2]) -> 
     sigmas[sigmas.len() / 2]
 }
 
-/// The follower on its way through the example.
+/// The state of following an example's eigenvectors.
 struct BasisTracking<'a, 'b> {
     part: &'b Excerpt<'a>,
     follower: Option<Follower>,
-    /// The moment where it is.
+    /// The current frame.
     before: usize,
     out: &'b mut ExampleCoefficients,
 }
 
-/// Moments after one decomposition, up to and with the next, with the bases of both.
+/// The frames after one decomposition up to the next, with the bases of both.
 struct BasisSegment {
     moments: [usize; 2],
     from: DMatrix<f64>,
@@ -222,7 +222,7 @@ impl BasisTracking<'_, '_> {
 }
 
 impl BasisSegment {
-    /// Coefficients of all its moments but the first: the short way where turns are small.
+    /// Coefficients of all its frames but the first; blended if the bases are near each other.
     fn coefficients(&self, example: &Ensemble) -> Result<Vec<Vec2>, FormationError> {
         // The sum of 2 (1 - cos) over all turns, without finding them.
         if 2.0 * (example.people() as f64 - self.from.dot(&self.to)) < SMALL_TURNS {

@@ -10,15 +10,15 @@ use crate::math::{Vec2, exp};
 const SMALL_STEP: f64 = 0.2;
 /// The same, below which it is taken along the tangent.
 const TANGENT_STEP: f64 = 0.05;
-/// Whoever asks for more than this gets it after each such step.
+/// Accuracy above which vectors are orthonormalised after each such step.
 const EXACT: f64 = 1e-4;
-/// How far the squared lengths of all vectors may be off in sum before they are made orthonormal again after such steps.
+/// Sum of the errors of squared lengths from which vectors are orthonormalised after such steps.
 const TANGENT_WITHIN: f64 = 1e-4;
 
-/// A basis that goes with the example's eigenvectors through time: orthonormal, without jumps.
+/// An orthonormal basis that follows the example's eigenvectors through time without jumps.
 ///
-/// Eigenvectors of a recording are no good as they come. Their signs are arbitrary, and those of equal eigenvalues are
-/// arbitrary altogether; but even with all that matched from one moment to the next, two eigenvalues that come near each
+/// The eigenvectors of a recording jump. Their signs are arbitrary, and those of equal eigenvalues are arbitrary up to a
+/// rotation; but even with all that matched from one frame to the next, two eigenvalues that come near each
 /// other do not cross: within a step or two their vectors swap roles, a quarter turn. The coefficients swap with them,
 /// metres within a tenth of a second. In the example itself that changes nothing, since basis and coefficients belong together;
 /// but what is carried over to another basis are the coefficients alone, and there it is a lurch of the whole crowd that nobody
@@ -65,12 +65,12 @@ impl Follower {
         Ok(Follower { vectors, nearness, following_s })
     }
 
-    /// Where it is: a vector per column, the first is constant.
+    /// The basis vectors, one per column; the first is constant.
     pub fn vectors(&self) -> &DMatrix<f64> {
         &self.vectors
     }
 
-    /// Goes on to the eigenvectors `step_s` later. The result is orthonormal to about `within`.
+    /// Follows to the eigenvectors `step_s` later. The result is orthonormal to about `within`.
     ///
     /// # Errors
     /// [`FormationError::NoConvergence`].
@@ -90,14 +90,14 @@ impl Follower {
         }
         let mut turned = &basis.vectors * nearest_orthogonal(weakened, within)?;
         if step > SMALL_STEP && mirrors(&turned, &self.vectors) {
-            // What of the result agrees least with where it comes from is turned over.
+            // The direction that agrees least with the previous basis is mirrored.
             turned = &turned * Polar::of(turned.transpose() * &self.vectors + identity(n))?.mirror();
         }
         self.vectors = turned;
         Ok(())
     }
 
-    /// A small step, along the tangent of the rotations.
+    /// Takes a small step along the tangent of the rotations.
     fn advance_along(&mut self, basis: &Basis, step: f64, within: f64) -> Result<(), FormationError> {
         let n = basis.people();
         let overlap = basis.vectors.transpose() * &self.vectors;
@@ -116,7 +116,7 @@ impl Follower {
         let once = &self.vectors * &turn;
         self.vectors += &once;
         self.vectors.gemm(0.5, &once, &turn, 1.0);
-        // What is missing makes every vector longer, none shorter: the sum tells.
+        // The truncated series only lengthens vectors, so the sum measures the error.
         let longer = self.vectors.norm_squared() - n as f64;
         if within < EXACT || longer.is_nan() || longer > TANGENT_WITHIN {
             let vectors = std::mem::replace(&mut self.vectors, DMatrix::zeros(0, 0));
@@ -127,7 +127,7 @@ impl Follower {
 
     /// Coefficients of a formation in this basis: `E^T X`, x and y as two columns.
     ///
-    /// One step towards the inverse makes up for what [`Follower::advance`] leaves of `within`.
+    /// One step towards the inverse corrects the error that [`Follower::advance`] leaves.
     pub fn coefficients(&self, places_m: &[Vec2]) -> DMatrix<f64> {
         let relative = as_columns(&relative_to_centroid(places_m));
         let once = self.vectors.tr_mul(&relative);
@@ -136,7 +136,7 @@ impl Follower {
     }
 }
 
-/// How much of its own way is left to a pair of vectors whose eigenvalues are `gap` apart.
+/// Weight with which a pair of vectors keeps its direction if their eigenvalues are `gap` apart.
 fn freedom(gap: f64, step: f64) -> f64 {
     let squared = gap * gap;
     if step.is_finite() { exp(-step * squared / (1.0 + squared)) } else { exp(-0.5 * squared) }

@@ -10,24 +10,21 @@ use crate::math::Vec2;
 use crate::motion::Ensemble;
 use crate::progress::{Progress, Stage};
 
-/// Moments that are put together at once.
+/// Frames that are composed at once.
 const MOMENTS_AT_ONCE: usize = 32;
-/// Share of the progress that decomposing the example takes.
+/// Share of the progress for decomposing the example.
 const DECOMPOSING: f64 = 0.9;
 
-/// Takes a crowd from one key formation to the next, while everybody keeps moving as in the example.
+/// Interpolates key formations, while people keep moving as in the example.
 ///
-/// The result has the example's people, and its moments from that of the first key to that of the last. At each key, everybody
-/// stands where it says. See the [module](super) for how it goes between them.
-///
-/// Degenerate formations need no care: on one point, in a line, on a grid or ring, in groups so far apart that their weights
-/// vanish, all work.
+/// The result has the example's people and its frames from the first key's to the last key's. At each key people are in its
+/// positions; see the [module](super) for the motion in between. Degenerate formations are allowed: people at one point, in
+/// a line, on a grid or ring, in groups so far apart that their weights vanish.
 ///
 /// # Errors
-/// [`FormationError`] below [`MotionError::Formation`]: fewer than two people or more than
-/// [`MOST_PEOPLE`](super::MOST_PEOPLE); fewer than two keys; a key with another number of places than there are people, out of
-/// order, at the same moment as another, or before the example begins or after it ends; numbers that are not finite; options out of
-/// range. [`FormationError::Interrupted`].
+/// Fewer than two people or more than [`MOST_PEOPLE`](super::MOST_PEOPLE); fewer than two keys; a key whose number of
+/// positions is not the number of people, that is out of order, in the same frame as another, or outside the example; numbers
+/// that are not finite; options out of range; [`FormationError::Interrupted`].
 pub fn interpolate(
     example: &Ensemble,
     keys: &[KeyFormation],
@@ -79,7 +76,7 @@ pub fn interpolate(
     Ok(Ensemble::new(example.fps, example.time_s(span[0]), example.ids.clone(), places_m))
 }
 
-/// Matches keys to each other alone.
+/// Matches keys to each other, without the example.
 fn match_alone(
     keys: &mut [KeyBasis],
     options: &FormationOptions,
@@ -113,7 +110,7 @@ fn turned_with(
 struct KeyTransition<'a> {
     keys: [&'a KeyBasis; 2],
     rotation: Rotation,
-    /// The first key's basis, seen along the planes of the rotation.
+    /// The first key's basis in the planes of the rotation.
     basis: DMatrix<f64>,
     /// Coefficients of both keys.
     coefficients: [DMatrix<f64>; 2],
@@ -127,17 +124,17 @@ impl<'a> KeyTransition<'a> {
     }
 }
 
-/// What is carried over from the example.
+/// Composes the frames between two keys.
 struct Interpolator<'a> {
     example: &'a Ensemble,
     options: &'a FormationOptions,
-    /// The first moment of the result in the example.
+    /// The first frame of the result in the example.
     first: usize,
     fluctuation: Option<&'a ExampleCoefficients>,
 }
 
 impl Interpolator<'_> {
-    /// Puts the crowd to its places in the moments from `start` on, counted in the result.
+    /// Fills the positions of the frames from `start` on, counted in the result.
     fn fill(&self, transition: &KeyTransition, start: usize, places_m: &mut [Vec2]) {
         let people = self.example.people();
         let moments = places_m.len() / people;
@@ -177,7 +174,7 @@ impl Interpolator<'_> {
         self.options.ease.share(time)
     }
 
-    /// How far something of the example is from the line between its values at the two keys.
+    /// Deviation of the example's values from the line between those at the two keys.
     fn deviation(&self, transition: &KeyTransition, moment: usize, of: impl Fn(usize) -> DMatrix<f64>) -> DMatrix<f64> {
         let [from, to] = transition.keys.map(|key| key.moment - self.first);
         // At the pace of the formation: where that rests, at the keys, everybody has the example's own velocity.
@@ -186,7 +183,7 @@ impl Interpolator<'_> {
         (of(moment) - line) * self.options.fluctuation
     }
 
-    /// The middle of the crowd: on the line between the keys' middles, plus the deviation of the example's own.
+    /// The crowd's centroid: on the line between the keys' centroids, plus the deviation of the example's.
     fn middle(&self, transition: &KeyTransition, moment: usize) -> Vec2 {
         let [from, to] = transition.keys;
         let share = self.share(transition, moment);

@@ -8,21 +8,21 @@ use crate::math::Vec2;
 use crate::motion::Ensemble;
 use crate::progress::Progress;
 
-/// How often the bases of all keys are matched to their neighbours', backwards and forwards in turn; forwards at last.
+/// Number of sweeps that match all keys' bases to their neighbours', backwards and forwards in turn.
 const SWEEPS: usize = 2;
 
-/// A key formation, checked, with its basis.
+/// A checked key formation with its basis.
 #[derive(Clone)]
 pub(super) struct KeyBasis {
-    /// Its moment in the example.
+    /// Its frame in the example.
     pub moment: usize,
-    /// Its middle.
+    /// Its centroid, metres.
     pub centroid_m: Vec2,
-    /// Places relative to the middle.
+    /// Positions relative to the centroid, metres.
     pub relative_m: Vec<Vec2>,
     /// Its eigenvectors.
     pub basis: Basis,
-    /// The same, matched to those of the other keys.
+    /// The eigenvectors matched to those of the other keys.
     pub vectors: DMatrix<f64>,
 }
 
@@ -33,7 +33,7 @@ impl KeyBasis {
     }
 }
 
-/// The moments of key formations in an example, each the nearest to its time.
+/// The frames of key formations in an example, each nearest to its time.
 ///
 /// # Errors
 /// Fewer than two keys; keys that do not fit the example, do not follow each other, or hold numbers that are not finite.
@@ -63,7 +63,7 @@ pub(super) fn key_moments(example: &Ensemble, keys: &[KeyFormation]) -> Result<V
     Ok(moments)
 }
 
-/// Whether a key formation by itself can be used.
+/// Checks a key formation by itself.
 fn check_key(number: usize, key: &KeyFormation, people: usize) -> Result<(), FormationError> {
     let usable = |value: f64| value.abs() <= MOST_NUMBER;
     let wrong = |what: String, value| Err(FormationError::KeyNumber { key: number, what, value });
@@ -84,7 +84,7 @@ fn check_key(number: usize, key: &KeyFormation, people: usize) -> Result<(), For
     Ok(())
 }
 
-/// Decomposes key formations; their bases are not matched yet.
+/// Decomposes key formations, without matching their bases.
 pub(super) fn decompose_keys(
     keys: &[KeyFormation],
     moments: &[usize],

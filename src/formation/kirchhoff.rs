@@ -3,18 +3,18 @@ use nalgebra::DMatrix;
 use super::FormationError;
 use crate::math::{Vec2, exp};
 
-/// Weight that an [`AdjacencyEdit`] may give at most.
+/// Largest weight of an [`AdjacencyEdit`].
 const MOST_WEIGHT: f64 = 1e6;
 
-/// People whom the user makes adjacent: each pair of them gets this weight, whatever the distance between them.
+/// A weight of adjacency that the user sets for each pair of some people, regardless of distance.
 ///
 /// Three people who are adjacent with a weight well above 1 (say 10) stay a triangle while the others change places around
 /// them. A weight of 0 parts people who stand close together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdjacencyEdit {
-    /// Whom: numbers in the example's order, from 0.
+    /// The people, by index in the example's order, from 0.
     pub members: Vec<usize>,
-    /// Weight of each pair, 0 to 1e6; neighbours one `sigma` apart have 0.61 by themselves.
+    /// Weight of each pair, 0 to 1e6; neighbours one `sigma` apart have 0.61 without an edit.
     pub weight: f64,
 }
 
@@ -26,7 +26,7 @@ pub(super) fn check_edits(edits: &[AdjacencyEdit], people: usize) -> Result<(), 
     for (number, edit) in edits.iter().enumerate() {
         let wrong = |problem| Err(FormationError::Members { edit: number + 1, problem });
         if edit.members.len() < 2 {
-            return wrong(format!("{} members make no pair", edit.members.len()));
+            return wrong(format!("{} members are too few for a pair", edit.members.len()));
         }
         if let Some(&member) = edit.members.iter().find(|&&member| member >= people) {
             return wrong(format!("person {member} is named, but the last of the {people} people is {}", people - 1));
@@ -52,7 +52,7 @@ pub(super) fn check_edits(edits: &[AdjacencyEdit], people: usize) -> Result<(), 
 ///
 /// `A` holds the adjacency of each pair, `w_kl = exp(-d_kl^2 / (2 sigma^2))` with their distance `d_kl`, 0 on the diagonal;
 /// `B` is diagonal and holds the row sums of `A`. `K` is symmetric, positive semidefinite, and takes the constant vector
-/// to 0. Edits are applied in their order, the last one wins; members out of range are passed over.
+/// to 0. Edits are applied in order, the last one counts; members out of range are skipped.
 /// Source: Niikura, Takahashi, Shin, equation (3).
 pub fn kirchhoff(places_m: &[Vec2], sigma_m: f64, edits: &[AdjacencyEdit]) -> DMatrix<f64> {
     let people = places_m.len();
@@ -81,11 +81,10 @@ pub fn kirchhoff(places_m: &[Vec2], sigma_m: f64, edits: &[AdjacencyEdit]) -> DM
     matrix
 }
 
-/// How far adjacency reaches in a formation if nobody says: the median over all people of the distance to the nearest
-/// other one, metres.
+/// Default range of adjacency: the median distance of a person to the nearest other one, metres.
 ///
 /// At this distance the Gaussian has its point of inflection, so that neighbours in ranks (weight 0.61), across the diagonal
-/// (0.37) and two places apart (0.14) are told apart best. 1 m where the median is 0, as when all stand on one point.
+/// (0.37) and two places apart (0.14) differ most. 1 m if the median is 0, as when all people are at one point.
 pub fn default_sigma_m(places_m: &[Vec2]) -> f64 {
     let nearest = |k: usize| {
         let others = places_m.iter().enumerate().filter(|&(l, _)| l != k);
@@ -117,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn edits_set_pairs_and_rows_still_sum_to_nothing() {
+    fn edits_set_pairs_and_rows_still_sum_to_zero() {
         let row: Vec<Vec2> = (0..5).map(|k| vec2(f64::from(k), 0.0)).collect();
         let edit = |members: &[usize], weight| AdjacencyEdit { members: members.to_vec(), weight };
         let k = kirchhoff(&row, 1.0, &[edit(&[0, 2, 4], 3.0), edit(&[4, 0], 0.5)]);

@@ -8,21 +8,23 @@ use crate::math::assign;
 
 /// Eigenvalues are compared relative to their size, and to this share of the largest one if they are smaller still.
 const SMALLEST_SCALE: f64 = 1e-6;
-/// What it costs to leave one's place in the order, as a share of the overlap: a shape that is found again whole may have moved
-/// by a third of the spectrum; between formations that have nothing to do with each other, overlaps by chance move hardly any.
+/// Cost of moving in the order of eigenvalues, as a share of the overlap.
+///
+/// A shape with full overlap may move by a third of the spectrum; chance overlaps between unrelated formations hardly move
+/// any shape.
 const MOVING: f64 = 3.0;
-/// Steps per unit of what is assigned in whole numbers.
+/// Whole-number cost per unit of overlap.
 const UNIT: f64 = 1e6;
 
-/// How alike two eigenvalues are, as the distance between them over a share `nearness` of their mean: 1 and more is
-/// different.
+/// Distance of two eigenvalues over the share `nearness` of their mean; they differ from 1 on.
 pub(super) fn gap(values: &[f64], a: usize, b: usize, nearness: f64) -> f64 {
     let scale = (0.5 * (values[a] + values[b])).max(SMALLEST_SCALE * values[values.len() - 1]).max(f64::MIN_POSITIVE);
     (values[a] - values[b]).abs() / (nearness * scale)
 }
 
-/// Turns a formation's eigenvectors among those of (nearly) equal eigenvalue so that they lie as near as they can to
-/// `target`, column by column, and gives the turned vectors, still orthonormal.
+/// Rotates a formation's eigenvectors within clusters of nearly equal eigenvalues to match `target`.
+///
+/// Returns the rotated vectors, which are orthonormal and as near as possible to the target's columns.
 ///
 /// Eigenvectors are given by the formation up to their sign only, those of equal eigenvalues up to any rotation and mirroring
 /// among themselves, and equal eigenvalues are the normal case: grids, rings and triangles have them. So there is a choice,
@@ -31,9 +33,9 @@ pub(super) fn gap(values: &[f64], a: usize, b: usize, nearness: f64) -> f64 {
 /// vectors `V` and its columns of the target, the nearest ones are `V polar(V^T target)`. A cluster of one has its sign
 /// chosen.
 ///
-/// Which columns are whose? The coarse shape goes to the coarse shape, the fine to the fine, that is by the order of the
-/// eigenvalues. But where a formation is only stretched, the same shapes come in another order (across a wide crowd is coarser
-/// than along it), and then each goes to itself. Clusters are assigned to columns such that the overlap, the squared length of a
+/// In general the coarse shape goes to the coarse shape and the fine to the fine, in the order of the eigenvalues. But if
+/// a formation is only stretched, the same shapes come in another order (across a wide crowd is coarser than along it), and
+/// then each shape goes to itself. Clusters are assigned to columns such that the overlap, the squared length of a
 /// column's part within the cluster, less a cost for each place that it moves in the order, is greatest in sum (Kuhn and Munkres).
 ///
 /// `target` need not be orthonormal; the sum of several bases makes the sum of the squared distances from them least.
@@ -54,7 +56,7 @@ pub fn match_basis(
     match_clusters(basis, target, &columns_of(basis, target, nearness), oriented)
 }
 
-/// [`match_basis`] for those who keep to the order of the eigenvalues.
+/// [`match_basis`] in the order of the eigenvalues.
 pub(super) fn match_in_order(
     basis: &Basis,
     target: &DMatrix<f64>,
@@ -65,7 +67,7 @@ pub(super) fn match_in_order(
     match_clusters(basis, target, &columns, None)
 }
 
-/// Vectors of nearly equal eigenvalue; the constant one is what it is, and stays out of it.
+/// Clusters of vectors of nearly equal eigenvalue, without the constant vector.
 fn clusters(values: &[f64], nearness: f64) -> Vec<Range<usize>> {
     let mut clusters = Vec::new();
     let mut start = 1;
@@ -78,7 +80,7 @@ fn clusters(values: &[f64], nearness: f64) -> Vec<Range<usize>> {
     clusters
 }
 
-/// For each cluster, the columns of the target that it goes to, ascending.
+/// The columns of the target that each cluster is assigned to, ascending.
 fn columns_of(basis: &Basis, target: &DMatrix<f64>, nearness: f64) -> Vec<(Range<usize>, Vec<usize>)> {
     let n = basis.people();
     let clusters = clusters(&basis.values, nearness);
@@ -104,7 +106,7 @@ fn columns_of(basis: &Basis, target: &DMatrix<f64>, nearness: f64) -> Vec<(Range
     clusters.into_iter().map(columns).collect()
 }
 
-/// Procrustes for each cluster and the columns that it goes to.
+/// Solves the Procrustes problem for each cluster and its columns.
 fn match_clusters(
     basis: &Basis,
     target: &DMatrix<f64>,

@@ -1,27 +1,27 @@
 use super::{AdjacencyEdit, FormationError};
 use crate::math::Vec2;
 
-/// A formation that the crowd takes up at a time.
+/// A key formation: the positions of all people at a time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeyFormation {
-    /// When, seconds on the example's clock; it is moved to the nearest moment of the example.
+    /// Time on the example's clock, seconds; rounded to the nearest frame of the example.
     pub time_s: f64,
-    /// Places in metres, one for each person, in the order of the example's people.
+    /// Position of each person in the order of the example's people, metres.
     pub places_m: Vec<Vec2>,
 }
 
-/// How the crowd goes from one key formation to the next.
+/// Easing of the transition from one key formation to the next.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Ease {
-    /// Evenly, as in the paper; at a key formation, the direction and the speed change at once.
+    /// Linear, as in the paper: direction and speed change abruptly at a key formation.
     #[default]
     Even,
-    /// Slowly out of one and slowly into the next (`3 u^2 - 2 u^3`): at a key formation everybody moves as in the example only.
+    /// Smoothstep (`3 u^2 - 2 u^3`): at a key formation people move as in the example only.
     Rest,
 }
 
 impl Ease {
-    /// The share of the way for a share of the time.
+    /// Share of the transition for a share of its time, both 0 to 1.
     pub fn share(self, time: f64) -> f64 {
         match self {
             Ease::Even => time,
@@ -30,46 +30,48 @@ impl Ease {
     }
 }
 
-/// What becomes of the example's fluctuation, each person's own motion beside that of the formation.
+/// How the example's fluctuation, the motion besides that of the formation, is carried over.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Carry {
-    /// It stays with the basis vectors, as in the paper: swinging of the example's coarse shape becomes swinging of the new
-    /// coarse shape. Its energy stays; who has it may change where formations differ much.
+    /// With the basis vectors, as in the paper: the swinging of the example's coarse shape becomes that of the new one.
+    ///
+    /// Its energy is kept, but may move to other people if formations differ much.
     #[default]
     Shapes,
-    /// It stays with the people: everybody deviates from the way between the key formations as from the way between their
-    /// own places in the example.
+    /// With the people: each deviates from the line between the key formations as from the line between their own
+    /// positions in the example.
     People,
 }
 
-/// How formations are interpolated.
+/// Options of [`interpolate`](super::interpolate).
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormationOptions {
-    /// How far adjacency reaches, metres, 1e-3 to 1e6; `None`: for each formation its own
+    /// Range of adjacency (standard deviation of the Gaussian), metres, 1e-3 to 1e6; `None`: for each formation its own
     /// [`default_sigma_m`](super::default_sigma_m).
     pub sigma_m: Option<f64>,
-    /// Who is adjacent, whatever the distance.
+    /// Weights of adjacency that replace those of the distance.
     pub adjacency: Vec<AdjacencyEdit>,
-    /// At how many moments, evenly spaced, the example is decomposed; at least 2. `None`: where the keys are, and
-    /// between them its basis turns as evenly as that of the new crowd. Then key formations that are the example's own give the
-    /// example back, and its quick motion keeps its energy best. More moments take changes of the example's formation between keys
-    /// out of what is carried over, as far as a [`Follower`](super::Follower) sees them. As many as there are moments
-    /// (`usize::MAX` will do) and `following_s` 0 is the paper to the letter.
+    /// Number of evenly spaced frames in which the example is decomposed, at least 2.
+    ///
+    /// `None`: at the keys only, and in between its basis turns as evenly as that of the new crowd. Then key formations that
+    /// are the example's own reproduce the example, and its quick motion keeps its energy best. More frames remove changes of
+    /// the example's formation between keys from the fluctuation, as far as a [`Follower`](super::Follower) follows them. All
+    /// frames (`usize::MAX`) with `following_s` 0 is the method of the paper.
     pub decompositions: Option<usize>,
-    /// Factor on the example's fluctuation, 0 to 100; 1 leaves it as it is.
+    /// Factor on the example's fluctuation, 0 to 100; 1 keeps it.
     pub fluctuation: f64,
-    /// What the fluctuation stays with.
+    /// How the fluctuation is carried over.
     pub carry: Carry,
-    /// How the crowd goes from key to key.
+    /// Easing from key to key.
     pub ease: Ease,
     /// Eigenvalues that differ by less than this share of their mean count as nearly equal, 1e-9 to 1; see
     /// [`match_basis`](super::match_basis).
     pub nearness: f64,
-    /// How slowly the example's basis follows its eigenvectors if it is decomposed between keys, seconds, 0 to 1e6; 0 is
-    /// at once. See [`Follower`](super::Follower).
+    /// Time constant with which the example's basis follows its eigenvectors between keys, seconds, 0 to 1e6.
     ///
-    /// The default, 30 s, is the quickest at which the energy of the fluctuation stays within 5 % of the example's, for people
-    /// who walk on a grid and for people who wander about; at once, swapping eigenvectors make it up to 14 times as much.
+    /// 0 follows at once. See [`Follower`](super::Follower). The default, 30 s, is the shortest for which the energy of the
+    /// fluctuation stays within 5 % of the example's, for people who walk on a grid and for people who wander about; at 0,
+    /// swapping eigenvectors make it up to 14 times as large.
     /// `cargo run --release --example measure_formation -- 25 601` measures it; `docs/motion.md` has the table.
     pub following_s: f64,
 }

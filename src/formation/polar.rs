@@ -5,11 +5,11 @@ use nalgebra::{DMatrix, DVector, SVD};
 use super::FormationError;
 use super::symmetric::eigenvectors;
 
-/// A least singular value below this share of the largest takes the thorough way to the nearest orthogonal matrix.
+/// Share of the largest singular value below which the least one requires a singular value decomposition.
 const NEARLY_SINGULAR: f64 = 1e-5;
-/// How near to orthogonal it is then: the square of what is off before the last step.
+/// Square of the orthogonality error before the last step of the iteration.
 const POLAR_WITHIN: f64 = 1e-12;
-/// Steps of the iteration for the nearest orthogonal matrix before eigenvectors take over: they cost as much as seven.
+/// Most steps of the iteration before eigenvectors are used, which cost as much as seven.
 const POLAR_STEPS: usize = 8;
 
 /// The orthogonal matrix nearest to another one, `U V^T` of its singular value decomposition `U S V^T`.
@@ -49,7 +49,7 @@ impl Polar {
         }
     }
 
-    /// The same for any matrix.
+    /// The polar factor of any matrix, by singular value decomposition.
     ///
     /// # Errors
     /// [`FormationError::NoConvergence`].
@@ -67,34 +67,34 @@ impl Polar {
         Ok(Polar { orthogonal: u * &v_t, least, weakest: v_t.row(at).transpose() })
     }
 
-    /// How much holds the direction that fits worst.
+    /// The least singular value: that of the direction that fits worst.
     pub fn least(&self) -> f64 {
         self.least
     }
 
-    /// The matrix.
+    /// The orthogonal matrix.
     pub fn orthogonal(&self) -> &DMatrix<f64> {
         &self.orthogonal
     }
 
-    /// The matrix, to keep.
+    /// The orthogonal matrix, owned.
     pub fn into_orthogonal(self) -> DMatrix<f64> {
         self.orthogonal
     }
 
-    /// The nearest one of the other orientation: the direction that fits worst is turned over.
+    /// The nearest orthogonal matrix of the other orientation: the direction that fits worst is mirrored.
     pub fn mirrored(&self) -> DMatrix<f64> {
         let image = &self.orthogonal * &self.weakest;
         &self.orthogonal - image * self.weakest.transpose() * 2.0
     }
 
-    /// The nearest one that mirrors.
+    /// The nearest orthogonal matrix with determinant -1.
     pub fn mirror(self) -> DMatrix<f64> {
         if self.orthogonal.determinant() < 0.0 { self.orthogonal } else { self.mirrored() }
     }
 }
 
-/// The orthogonal matrix nearest to one that is not far from it: by [`newton_schulz`], or from eigenvectors if it is far.
+/// The orthogonal matrix nearest to one that is nearly orthogonal: by [`newton_schulz`], else from eigenvectors.
 pub(super) fn nearest_orthogonal(matrix: DMatrix<f64>, within: f64) -> Result<DMatrix<f64>, FormationError> {
     newton_schulz(matrix, within).or_else(|matrix| Ok(Polar::of(matrix)?.into_orthogonal()))
 }
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn a_singular_matrix_has_a_nearest_one_too() {
+    fn a_singular_matrix_has_a_nearest_orthogonal_matrix_too() {
         for n in [1, 2, 5] {
             let nearest = Polar::of(DMatrix::zeros(n, n)).unwrap();
             let gram = nearest.orthogonal().transpose() * nearest.orthogonal();

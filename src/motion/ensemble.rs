@@ -1,40 +1,41 @@
 use super::{Frame, Motion, MotionError, Resampler, Walker};
 use crate::math::{Rect, Vec2, vec2};
 
-/// The most places that an ensemble holds: people times moments.
+/// Largest number of positions in an ensemble, people times frames.
 pub const MOST_PLACES: usize = 100_000_000;
 
-/// The same people at the same, evenly spaced moments: what examples are worked on as.
+/// A motion held as a matrix of positions: the same people in evenly spaced frames.
 ///
-/// Somebody's path over time is a column, everybody's places at a moment a row.
+/// A row holds the positions of a frame, a column the path of a person.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ensemble {
-    /// Moments per second.
+    /// Frames per second.
     pub fps: f64,
-    /// Time of the first moment, seconds.
+    /// Time of the first frame, seconds.
     pub start_s: f64,
-    /// Who they are, ascending.
+    /// Ids of the people, ascending.
     pub ids: Vec<u32>,
-    /// Places in metres, moment by moment, in each as many as there are ids, in their order.
+    /// Positions in metres, frame by frame, in the order of ids.
     places_m: Vec<Vec2>,
 }
 
 impl Ensemble {
-    /// An ensemble of places at hand: moment by moment, in each those of all ids in their order.
+    /// Makes an ensemble of positions, frame by frame, in the order of ids.
     ///
     /// # Panics
-    /// Places that do not fill whole moments.
+    /// If the positions do not fill whole frames.
     pub fn new(fps: f64, start_s: f64, ids: Vec<u32>, places_m: Vec<Vec2>) -> Ensemble {
         let whole = if ids.is_empty() { places_m.is_empty() } else { places_m.len().is_multiple_of(ids.len()) };
-        assert!(whole, "{} places are no whole number of moments of {} people", places_m.len(), ids.len());
+        assert!(whole, "{} positions do not fill whole frames of {} people", places_m.len(), ids.len());
         Ensemble { fps, start_s, ids, places_m }
     }
 
-    /// Those people of a motion who are present from the first to the last moment of `[from_s, to_s]`, at `fps` moments
-    /// per second; a motion that ends earlier ends the ensemble. Of everybody else no more is held than until they leave.
+    /// Reads the people of a motion who are present throughout `[from_s, to_s]`, at `fps` frames per second.
+    ///
+    /// A motion that ends earlier ends the ensemble. Positions of other people are dropped once they leave.
     ///
     /// # Errors
-    /// What stops the motion; nobody who is present throughout; more than [`MOST_PLACES`].
+    /// Errors of the motion; [`MotionError::NobodyThroughout`]; [`MotionError::TooLong`] beyond [`MOST_PLACES`].
     pub fn of_motion(motion: &mut dyn Motion, fps: f64, [from_s, to_s]: [f64; 2]) -> Result<Ensemble, MotionError> {
         let mut resampler = Resampler::new(fps);
         let mut frame = Frame::default();
@@ -46,14 +47,14 @@ impl Ensemble {
             resampler.pass_over_absence();
             while let Some((number, walkers)) = resampler.next() {
                 let time_s = number as f64 / fps;
-                // Nobody is there before the first frame.
+                // Before the first frame there are no people.
                 if time_s < from_s || time_s > to_s || (start_s.is_none() && walkers.is_empty()) {
                     continue;
                 }
                 start_s.get_or_insert(time_s);
                 stayers.push(&walkers);
                 if stayers.ids.is_empty() {
-                    return Err(nobody(time_s).into());
+                    return Err(nobody(time_s));
                 }
                 if stayers.places() > MOST_PLACES {
                     return Err(MotionError::TooLong { most: MOST_PLACES });
@@ -63,7 +64,7 @@ impl Ensemble {
                 break;
             }
         }
-        let Some(start_s) = start_s else { return Err(nobody(frame.time_s).into()) };
+        let Some(start_s) = start_s else { return Err(nobody(frame.time_s)) };
         let moments = stayers.moments;
         let places_m =
             (0..moments).flat_map(|moment| stayers.columns_m.iter().map(move |column| column[moment])).collect();
@@ -75,35 +76,35 @@ impl Ensemble {
         self.ids.len()
     }
 
-    /// Number of moments.
+    /// Number of frames.
     pub fn moments(&self) -> usize {
         self.places_m.len().checked_div(self.ids.len()).unwrap_or(0)
     }
 
-    /// Everybody's places at a moment.
+    /// The positions in a frame, in the order of ids, metres.
     pub fn places_at(&self, moment: usize) -> &[Vec2] {
         let people = self.people();
         &self.places_m[moment * people..(moment + 1) * people]
     }
 
-    /// The same, to change them.
+    /// The positions in a frame, mutable.
     pub fn places_at_mut(&mut self, moment: usize) -> &mut [Vec2] {
         let people = self.people();
         &mut self.places_m[moment * people..(moment + 1) * people]
     }
 
-    /// Time of a moment, seconds.
+    /// Time of a frame, seconds.
     pub fn time_s(&self, moment: usize) -> f64 {
         self.start_s + moment as f64 / self.fps
     }
 
-    /// Middle of everybody at a moment.
+    /// Centroid of the people in a frame, metres.
     pub fn centroid_m(&self, moment: usize) -> Vec2 {
         let places = self.places_at(moment);
         places.iter().fold(Vec2::ZERO, |sum, &place| sum + place) / places.len() as f64
     }
 
-    /// The rectangle around all places, metres.
+    /// Bounding rectangle of all positions, metres.
     pub fn bounds_m(&self) -> Rect {
         let point = |&p: &Vec2| Rect { min: p, max: p };
         let both = |a: Rect, b: Rect| Rect {
@@ -119,17 +120,17 @@ impl Ensemble {
     }
 }
 
-/// Those who have been there in every moment so far.
+/// The people present in every frame so far.
 #[derive(Default)]
 struct Stayers {
     ids: Vec<u32>,
-    /// A column of places for each of them.
+    /// The path of each of them.
     columns_m: Vec<Vec<Vec2>>,
     moments: usize,
 }
 
 impl Stayers {
-    /// Takes the next moment's walkers, by ascending id.
+    /// Takes the walkers of the next frame, by ascending id.
     fn push(&mut self, walkers: &[Walker]) {
         if self.moments == 0 {
             self.ids = walkers.iter().map(|walker| walker.id).collect();

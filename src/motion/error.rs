@@ -1,34 +1,34 @@
 use crate::progress::Interrupted;
 
-/// Why a motion cannot go on, or cannot be held.
+/// Errors of a motion.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MotionError {
-    /// Nobody is there throughout a time.
-    #[error("nobody is present throughout, from {from_s:.2} to {to_s:.2} s")]
+    /// A time span without a person who is present throughout.
+    #[error("no person is present throughout, from {from_s:.2} to {to_s:.2} s")]
     NobodyThroughout {
-        /// Start of the time, seconds.
+        /// Start of the time span, seconds.
         from_s: f64,
-        /// Its end, seconds.
+        /// End of the time span, seconds.
         to_s: f64,
     },
-    /// More than can be worked on as a whole.
-    #[error("the motion has more than {most} places, people times moments")]
+    /// More positions than an ensemble holds.
+    #[error("the motion has more than {most} positions, people times frames")]
     TooLong {
-        /// The most that are allowed.
+        /// Largest number of positions, people times frames.
         most: usize,
     },
-    /// The recording or the crowd that the motion comes from cannot go on.
+    /// An error of the recording or the crowd that the motion comes from.
     #[error("{0}")]
     Source(Box<dyn SourceError>),
-    /// The user stopped the work.
+    /// The user stopped the calculation.
     #[error(transparent)]
     Interrupted(#[from] Interrupted),
 }
 
 /// The error of a stage that a motion comes from.
 pub trait SourceError: std::error::Error + Send + Sync + 'static {
-    /// What the user can do about it.
+    /// A remedy that the user can try.
     fn hint(&self) -> Option<String>;
 }
 
@@ -38,11 +38,11 @@ impl MotionError {
         MotionError::Source(Box::new(error))
     }
 
-    /// What the user can do about it.
+    /// A remedy that the user can try.
     pub fn hint(&self) -> Option<String> {
         match self {
-            MotionError::NobodyThroughout { .. } => Some("choose another or a shorter time".to_string()),
-            MotionError::TooLong { .. } => Some("choose a shorter time, or fewer frames per second".to_string()),
+            MotionError::NobodyThroughout { .. } => Some("choose another time span, or a shorter one".to_string()),
+            MotionError::TooLong { .. } => Some("choose a shorter time span, or fewer frames per second".to_string()),
             MotionError::Source(error) => error.hint(),
             MotionError::Interrupted(_) => None,
         }

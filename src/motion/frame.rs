@@ -1,38 +1,38 @@
 use super::error::MotionError;
 use crate::math::Vec2;
 
-/// One person at one moment.
+/// A person in a frame: position, velocity and heading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Walker {
-    /// Who it is: the person's number in the arrival list.
+    /// The person's number in the arrival list.
     pub id: u32,
-    /// Middle of the body, plan frame, metres. May lie beyond the plan's edge.
+    /// Centre of the body, plan frame, metres; may lie beyond the plan's edge.
     pub position_m: Vec2,
     /// Velocity, metres per second.
     pub velocity_m_s: Vec2,
-    /// Unit vector in which the body faces, if the source knows: who stands and turns has no velocity to tell it by.
+    /// Unit vector in which the body faces, if the source knows it; a standing person has no velocity to derive it from.
     pub heading: Option<Vec2>,
 }
 
-/// Everybody at one moment.
+/// All people present at a time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
     /// Seconds since the start.
     pub time_s: f64,
-    /// Everybody who is present, by ascending id.
+    /// The people present, by ascending id.
     pub walkers: Vec<Walker>,
 }
 
 /// A stream of frames in ascending time.
 pub trait Motion {
-    /// Fills `frame` with the next one and says whether there was one.
+    /// Fills `frame` with the next frame; returns `false` at the end.
     ///
     /// A person who is missing from a frame has left for good.
     ///
     /// # Errors
-    /// [`MotionError`]: whatever stops the source: a recording that cannot be read, a crowd that cannot walk.
+    /// [`MotionError::Source`] from the source of the motion: a recording that cannot be read, a crowd that cannot walk.
     fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, MotionError>;
 
-    /// Share of the whole that has been given out, 0 to 1, as well as the source can tell.
+    /// Share of the motion that has been read, 0 to 1; an estimate if the source does not know its length.
     fn share_done(&self) -> f64;
 }

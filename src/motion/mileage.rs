@@ -1,9 +1,7 @@
 use super::Frame;
+use super::resampler::FASTEST_M_S;
 
-/// Who moves faster than this between two frames has been put elsewhere, as in a corridor without ends, metres per second.
-const FASTEST_M_S: f64 = 20.0;
-
-/// How far people walk, and how long it takes them.
+/// Total walking distance and presence of all people.
 #[derive(Clone, Debug, Default)]
 pub struct Mileage {
     metres: f64,
@@ -19,9 +17,9 @@ impl Mileage {
         for walker in &frame.walkers {
             while before.next_if(|other| other.id < walker.id).is_some() {}
             let Some(earlier) = before.next_if(|other| other.id == walker.id) else { continue };
-            let way_m = walker.position_m.distance(earlier.position_m);
-            if way_m <= FASTEST_M_S * step_s {
-                self.metres += way_m;
+            let step_m = walker.position_m.distance(earlier.position_m);
+            if step_m <= FASTEST_M_S * step_s {
+                self.metres += step_m;
                 self.person_seconds += step_s;
             }
         }
@@ -29,17 +27,17 @@ impl Mileage {
         self.last.walkers.clone_from(&frame.walkers);
     }
 
-    /// Metres that all have walked together.
+    /// Total walking distance, metres.
     pub fn metres(&self) -> f64 {
         self.metres
     }
 
-    /// Seconds that all have been present together.
+    /// Total presence, person-seconds.
     pub fn person_seconds(&self) -> f64 {
         self.person_seconds
     }
 
-    /// Metres walked in a second of somebody's presence; 0 where nobody was.
+    /// Mean walking speed, metres per person-second; 0 without people.
     pub fn mean_speed_m_s(&self) -> f64 {
         if self.person_seconds > 0.0 { self.metres / self.person_seconds } else { 0.0 }
     }

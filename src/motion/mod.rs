@@ -1,4 +1,4 @@
-//! The hub: a stream of frames that say where everybody is. What comes after it does not know whether the
+//! The hub: a motion as a stream of frames with the position of each person. Later stages do not know whether the
 //! frames were simulated, recorded, interpolated or spliced. A [`Recorder`] writes them to a file that other programs
 //! read, a [`Recording`] reads such files.
 

@@ -3,13 +3,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::math::{Distribution, Purpose, person_stream};
 
-/// Bodies, as a scenario describes them. Lengths in metres.
+/// Distribution of bodies and gaits in a crowd; lengths in metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct BodyOptions {
-    /// Share of men among the grown-ups, 0 to 1.
+    /// Share of men among adults, 0 to 1.
     pub men: f64,
-    /// Share of children among all, 0 to 1.
+    /// Share of children in the crowd, 0 to 1.
     pub children: f64,
     /// Stature of men (ANSUR II: 1.756 +- 0.069).
     pub stature_men: Distribution,
@@ -19,14 +19,15 @@ pub struct BodyOptions {
     pub stature_children: Distribution,
     /// Share of people who carry a bag, 0 to 1.
     pub bags: f64,
-    /// A stride of their own for everybody, as the paper's people have, taken from 2 m/s on and shorter below; left
-    /// out, step length follows speed and stature.
+    /// Individual step length, as in the paper: taken in full from 2 m/s, shorter below.
+    ///
+    /// `None`: step length follows speed and stature.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step_length: Option<Distribution>,
     /// Distance between the lines of the left and the right foot's middles, of men who walk freely; women's is 0.88 of
     /// it (Murray 1964, 1970: 0.081 and 0.071).
     pub step_width: Distribution,
-    /// Angle of the foot outward from the way, degrees, of men; women's is 0.86 of it (Murray 1964, 1970: 7 and 6;
+    /// Angle of the foot outward from the walking direction, degrees, of men; women's is 0.86 of it (Murray 1964, 1970: 7 and 6;
     /// Morton 1932: most feet 5 to 10).
     pub toe_out_deg: Distribution,
 }
@@ -47,7 +48,7 @@ impl Default for BodyOptions {
     }
 }
 
-/// A side of the body.
+/// The side of the body on which a bag is carried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 #[allow(missing_docs)]
@@ -57,16 +58,16 @@ pub enum CarrySide {
     Back,
 }
 
-/// What somebody carries.
+/// A bag that a person carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Bag {
-    /// Where it hangs or rolls.
+    /// The side on which it hangs or rolls.
     pub side: CarrySide,
-    /// What it is.
+    /// The kind of bag.
     pub kind: BagKind,
 }
 
-/// A kind of belongings, by what it does to walls.
+/// Kinds of bags, by the marks that they leave on walls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BagKind {
@@ -80,7 +81,7 @@ pub enum BagKind {
     Rucksack,
 }
 
-/// Shares of cases and of trolleys among what is carried on a side.
+/// Shares of cases and of trolleys among bags carried on a side.
 const CASES: f64 = 0.25;
 const TROLLEYS: f64 = 0.15;
 
@@ -97,21 +98,21 @@ pub struct Person {
     pub chest_depth_m: f64,
     /// Length of the shoe's sole, metres: bare foot (0.154 and 0.151 of stature) and 20 to 30 mm.
     pub sole_length_m: f64,
-    /// Whether it is a child.
+    /// Whether the person is a child.
     pub child: bool,
-    /// What is carried.
+    /// The bag, if one is carried.
     pub bag: Option<Bag>,
-    /// A stride of their own, metres, if the scenario sets one.
+    /// Individual step length, metres, if the scenario sets one.
     pub fixed_step_m: Option<f64>,
     /// Personal factor on the step length, about 1: tall people take longer steps.
     pub step_factor: f64,
     /// Distance between the lines of the feet when walking freely, metres.
     pub step_width_m: f64,
-    /// Mean angle of the foot outward from the way, radians.
+    /// Mean angle of the foot outward from the walking direction, radians.
     pub toe_out_rad: f64,
-    /// Whether this person runs on the ball of the foot rather than from the heel.
+    /// Whether the person runs on the ball of the foot rather than from the heel.
     pub runs_on_ball: bool,
-    /// Uniform in `[0, 1)`: which of the patterns this person wears on the feet, by share.
+    /// Uniform draw in `[0, 1)` that selects the shoe pattern by share.
     pub shoe_draw: f64,
 }
 
@@ -127,22 +128,22 @@ const RUN_ON_BALL: f64 = 0.25;
 
 /// Below this speed people keep their step's duration and shorten the step, metres per second.
 const SHUFFLING_M_S: f64 = 0.4;
-/// No foot is lifted for less, metres.
+/// Shortest step, metres.
 const SHORTEST_STEP_M: f64 = 0.12;
 
-/// From this speed on, a stride of one's own is taken in full, metres per second: the slowest of the Grime paper's
-/// people, unhindered.
+/// Speed from which an individual step length is taken in full, metres per second.
+///
+/// It is the slowest free speed in the Grime paper.
 pub const STRIDE_SPEED_M_S: f64 = 2.0;
 
 impl Person {
     /// Step length at a speed, metres.
     ///
-    /// From 0.4 m/s on `L = 0.247 + 0.344 v` times the personal factor, measured on congested and free flow in the
-    /// Juelich recordings. Below, `L` is in proportion to `v`, so that a step takes as long as at 0.4 m/s however slow
-    /// people are: in dense flow steps get shorter, not rarer (Jelic, Appert-Rolland, Lemercier, Pettre 2012,
-    /// arXiv 1207.0832); 0.12 m at least, as nobody lifts a foot for less. Somebody with a stride of their own keeps
-    /// it from [`STRIDE_SPEED_M_S`] on; below, it shrinks as the measured line does, so that whoever is held up takes
-    /// more steps over the same way.
+    /// From 0.4 m/s, `L = 0.247 + 0.344 v` times the personal factor, measured on congested and free flow in the Juelich
+    /// recordings. Below, `L` is proportional to `v`, so that a step takes as long as at 0.4 m/s: in dense flow steps get
+    /// shorter, not rarer (Jelic, Appert-Rolland, Lemercier, Pettre 2012, arXiv 1207.0832); at least 0.12 m. An individual
+    /// step length is taken in full from [`STRIDE_SPEED_M_S`]; below, it shrinks in proportion to the measured line, so
+    /// that hindered people take more steps over the same distance.
     pub fn step_length_m(&self, speed_m_s: f64) -> f64 {
         let step_m = match self.fixed_step_m {
             Some(stride_m) => stride_m * (measured_step_m(speed_m_s) / measured_step_m(STRIDE_SPEED_M_S)).min(1.0),
@@ -158,7 +159,7 @@ fn measured_step_m(speed_m_s: f64) -> f64 {
     if speed_m_s >= SHUFFLING_M_S { line_m(speed_m_s) } else { line_m(SHUFFLING_M_S) * speed_m_s / SHUFFLING_M_S }
 }
 
-/// Everybody who will ever be there, made on demand.
+/// The people of a crowd, generated on demand from a seed.
 #[derive(Clone, Debug)]
 pub struct People {
     seed: u64,
@@ -166,21 +167,21 @@ pub struct People {
 }
 
 impl People {
-    /// People of these bodies under this seed.
+    /// Makes people with these bodies from a seed.
     pub fn new(seed: u64, options: BodyOptions) -> People {
         People { seed, options }
     }
 
-    /// The seed that everything personal is drawn from.
+    /// The seed from which all personal traits are drawn.
     pub fn seed(&self) -> u64 {
         self.seed
     }
 
-    /// The person of this number. The same whenever it is asked.
+    /// The person with an id; the same for every call.
     pub fn person(&self, id: u32) -> Person {
         let rng = &mut person_stream(self.seed, id, Purpose::Traits);
         let options = &self.options;
-        // Every draw is made for everybody, used or not, so that one option never shifts the others.
+        // Every trait is drawn for every person, used or not, so that one option never shifts the others.
         let child = rng.random::<f64>() < options.children;
         let man = rng.random::<f64>() < options.men;
         let statures = [&options.stature_men, &options.stature_women, &options.stature_children].map(|d| d.draw(rng));

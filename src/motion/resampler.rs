@@ -1,13 +1,13 @@
 use crate::motion::{Frame, Walker};
 
-/// Moments closer together than this are one, seconds.
+/// Times closer to each other than this are equal, seconds.
 const SAME_S: f64 = 1e-6;
-/// Who moves faster than this between two frames has been put elsewhere, as in a corridor without ends, metres per second.
+/// Speed above which a person was moved elsewhere, as in a periodic corridor, metres per second.
 pub(crate) const FASTEST_M_S: f64 = 20.0;
 
-/// Shows a motion at moments that are evenly spaced from 0 on, whatever its own frames are.
+/// Resamples a motion to evenly spaced frames from time 0.
 ///
-/// Between two frames, those who are present in both walk straight on.
+/// Between two frames of the motion, people who are present in both move on a straight line.
 #[derive(Clone, Debug)]
 pub(crate) struct Resampler {
     fps: f64,
@@ -21,14 +21,14 @@ impl Resampler {
         Resampler { fps, next: 0, before: Frame::default(), now: Frame::default() }
     }
 
-    /// Takes the motion's next frame. What is due before it has to be taken first.
+    /// Takes the motion's next frame; call it when [`Resampler::next`] returns `None`.
     pub(crate) fn push(&mut self, frame: &Frame) {
         std::mem::swap(&mut self.before, &mut self.now);
         self.now.time_s = frame.time_s;
         self.now.walkers.clone_from(&frame.walkers);
     }
 
-    /// The next moment's number, and who is present, if that moment has come.
+    /// The number and the walkers of the next resampled frame; `None` if it lies after the frames pushed so far.
     pub(crate) fn next(&mut self) -> Option<(u64, Vec<Walker>)> {
         let time_s = self.next as f64 / self.fps;
         if time_s > self.now.time_s + SAME_S {
@@ -45,8 +45,9 @@ impl Resampler {
         Some((self.next - 1, walkers))
     }
 
-    /// Passes over the moments before the next frame at which nobody is there, but for the last of them: a recording may
-    /// rest for years. For those who ask when people are there.
+    /// Skips the empty frames before the next frame of the motion, except the last of them.
+    ///
+    /// A recording may pause for years.
     pub(crate) fn pass_over_absence(&mut self) {
         let mut after = self.now.walkers.iter().peekable();
         let stays = |walker: &Walker| {
@@ -59,7 +60,7 @@ impl Resampler {
         }
     }
 
-    /// From now on shows every other moment only, numbered anew.
+    /// Halves the frame rate; frames are renumbered.
     pub(crate) fn halve(&mut self) {
         self.fps *= 0.5;
         self.next = self.next.div_ceil(2);
@@ -84,7 +85,7 @@ fn between(walker: &Walker, later: &Walker, share: f64, step_s: f64) -> Walker {
         return if share < 0.5 { *walker } else { *later };
     }
     let heading = match (walker.heading, later.heading) {
-        // Half a turn has no direction in between.
+        // Opposite headings have no direction in between.
         (Some(a), Some(b)) => a.lerp(b, share).normalized().or(Some(b)),
         (a, b) => b.or(a),
     };

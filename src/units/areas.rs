@@ -2,17 +2,17 @@ use serde::{Deserialize, Serialize};
 
 use crate::math::{Vec2, vec2};
 
-/// Where people are judged and units are played, seen by the viewer. Width and depth, metres.
+/// The areas in front of and behind the viewer; width and depth, metres.
 ///
 /// The viewer stands at the origin and looks along +y; +x is to the right. The front area spans `y` from 0 to its depth,
 /// the rear one from 0 to minus its depth, both half of their width to either side.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Areas {
-    /// Those in front who are counted.
+    /// Area in which people in front are matched with units.
     pub front_m: [f64; 2],
-    /// Those behind who are counted.
+    /// Area in which people behind are matched with units.
     pub rear_m: [f64; 2],
-    /// In front: where units are played.
+    /// Area in front in which units are played.
     pub played_m: [f64; 2],
 }
 
@@ -23,18 +23,18 @@ impl Default for Areas {
     }
 }
 
-/// Where somebody is judged.
+/// The area in which a person is matched with units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum AreaSide {
-    /// In the area before the viewer.
+    /// The area in front of the viewer.
     Front,
-    /// In the area behind.
+    /// The area behind the viewer.
     Rear,
 }
 
 impl Areas {
-    /// In which of the two a place lies, viewer's frame.
+    /// The area in which a position lies, viewer's frame; `None` outside both.
     pub fn side_of(&self, place_m: Vec2) -> Option<AreaSide> {
         let within = |[width, depth]: [f64; 2], ahead: f64| place_m.x.abs() <= 0.5 * width && ahead <= depth;
         match place_m.y >= 0.0 {
@@ -43,14 +43,14 @@ impl Areas {
         }
     }
 
-    /// Whether a place lies where units are played.
+    /// Whether a position lies in the area in which units are played.
     pub fn is_played(&self, place_m: Vec2) -> bool {
         let [width, depth] = self.played_m;
         place_m.x.abs() <= 0.5 * width && (0.0..=depth).contains(&place_m.y)
     }
 }
 
-/// Where the viewer is and looks: joins the viewer's frame and the plan frame.
+/// The viewer's frame: transforms between it and the plan frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpotFrame {
     /// The viewer's place, plan frame, metres.
@@ -65,22 +65,22 @@ impl SpotFrame {
         -self.ahead.left()
     }
 
-    /// From the viewer's frame to the plan.
+    /// Transforms a position from the viewer's frame to the plan frame.
     pub fn to_plan(&self, place_m: Vec2) -> Vec2 {
         self.at_m + self.turn_to_plan(place_m)
     }
 
-    /// A direction or velocity, from the viewer's frame to the plan.
+    /// Rotates a direction or velocity from the viewer's frame to the plan frame.
     pub fn turn_to_plan(&self, v: Vec2) -> Vec2 {
         self.right() * v.x + self.ahead * v.y
     }
 
-    /// From the plan to the viewer's frame.
+    /// Transforms a position from the plan frame to the viewer's frame.
     pub fn of_plan(&self, place_m: Vec2) -> Vec2 {
         self.turn_of_plan(place_m - self.at_m)
     }
 
-    /// A direction or velocity, from the plan to the viewer's frame.
+    /// Rotates a direction or velocity from the plan frame to the viewer's frame.
     pub fn turn_of_plan(&self, v: Vec2) -> Vec2 {
         vec2(v.dot(self.right()), v.dot(self.ahead))
     }

@@ -5,17 +5,17 @@ use super::track::TrackState;
 use crate::math::{Vec2, ln};
 use crate::motion::Frame;
 
-/// Width of a class of speeds, metres per second.
+/// Width of a speed class, metres per second.
 const SPEED_CLASS_M_S: f64 = 0.2;
-/// Number of classes of speeds; the last takes all that is faster.
+/// Number of speed classes; the last holds all higher speeds.
 const SPEED_CLASSES: usize = 11;
-/// Number of classes of headings, 30 degrees each.
+/// Number of heading classes, 30 degrees each.
 const HEADING_CLASSES: usize = 12;
 
-/// How much people's speeds and headings differ within the area before a spot: entropies of their histograms.
+/// Diversity of speeds and headings in the area in front of a spot: entropies of their histograms.
 ///
-/// `H = - sum p log2 p` over classes of 0.2 m/s and of 30 degrees, every frame and everybody in it counted once: 0 bits
-/// where all are alike, log2 11 = 3.46 and log2 12 = 3.58 bits where all classes occur alike.
+/// `H = - sum p log2 p` over classes of 0.2 m/s and of 30 degrees, each person counted once per frame: 0 bits if all are
+/// in one class, log2 11 = 3.46 and log2 12 = 3.58 bits if all classes are equally frequent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diversity {
     frame: SpotFrame,
@@ -26,19 +26,19 @@ pub struct Diversity {
     middles: Vec<Vec2>,
 }
 
-/// What was measured.
+/// Measured diversity of speeds and headings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DiversityReport {
     /// Entropy of speeds, bits.
     pub speed_bits: f64,
     /// Entropy of headings, bits.
     pub heading_bits: f64,
-    /// How many times somebody was counted.
+    /// Number of samples, people times frames.
     pub samples: u64,
 }
 
 impl Diversity {
-    /// Nothing measured yet, at a spot.
+    /// Starts measuring at a spot.
     pub fn new(frame: SpotFrame, areas: Areas) -> Diversity {
         let middle = |k: usize| {
             let (sin, cos) = crate::math::sin_cos((k as f64 + 0.5) * std::f64::consts::TAU / HEADING_CLASSES as f64);
@@ -53,7 +53,7 @@ impl Diversity {
         }
     }
 
-    /// Counts everybody within the area before the viewer.
+    /// Counts the people of a frame in the area in front of the viewer.
     pub fn push(&mut self, frame: &Frame) {
         for walker in &frame.walkers {
             if !self.areas.is_played(self.frame.of_plan(walker.position_m)) {
@@ -64,7 +64,7 @@ impl Diversity {
         }
     }
 
-    /// Counts somebody, viewer's frame, if they are within the area before the viewer.
+    /// Counts a person, viewer's frame, if in the area in front of the viewer.
     pub(super) fn count_within(&mut self, moment: &TrackState) {
         if self.areas.is_played(moment.place_m) {
             self.count(moment.velocity_m_s.length(), Some(moment.heading));
@@ -83,7 +83,7 @@ impl Diversity {
         self.headings[nearest] += 1;
     }
 
-    /// What was measured so far.
+    /// The diversity measured so far.
     pub fn report(&self) -> DiversityReport {
         DiversityReport {
             speed_bits: entropy_bits(&self.speeds),
@@ -97,7 +97,7 @@ fn entropy_bits(counts: &[u64]) -> f64 {
     let total = counts.iter().sum::<u64>() as f64;
     let share = |&count: &u64| count as f64 / total;
     let bits = counts.iter().filter(|&&count| count > 0).map(share).map(|p| -p * ln(p)).sum::<f64>();
-    // Nothing at all sums up to a zero with a sign.
+    // An empty sum is a negative zero.
     bits / std::f64::consts::LN_2 + 0.0
 }
 

@@ -1,9 +1,10 @@
-use crate::motion::MotionError;
-use crate::progress::Interrupted;
 use std::fmt;
 use std::path::PathBuf;
 
-/// A place in a unit's file.
+use crate::motion::MotionError;
+use crate::progress::Interrupted;
+
+/// A location in a unit file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnitAt {
     /// The file.
@@ -20,7 +21,7 @@ impl fmt::Display for UnitAt {
     }
 }
 
-/// Why units cannot be cut or used.
+/// Errors of crowd units.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum UnitsError {
@@ -29,7 +30,7 @@ pub enum UnitsError {
     Unreadable {
         /// The file or folder.
         path: PathBuf,
-        /// What the system says.
+        /// The system's message.
         problem: String,
     },
     /// A folder without any unit.
@@ -41,17 +42,17 @@ pub enum UnitsError {
     /// Not TOML, a key that does not exist, or a value of the wrong type.
     #[error("{at}: {message}")]
     Syntax {
-        /// Where.
+        /// The location.
         at: UnitAt,
-        /// What the parser says.
+        /// The parser's message.
         message: String,
     },
-    /// Something that nobody can do, or that a unit cannot hold.
+    /// A value out of range, or a motion that people cannot make.
     #[error("{at}: {problem}")]
     Value {
-        /// Where.
+        /// The location.
         at: UnitAt,
-        /// What is wrong, with the value and what is allowed.
+        /// The problem, with the value and the allowed range.
         problem: String,
     },
     /// Two units of one name.
@@ -59,9 +60,9 @@ pub enum UnitsError {
     SameName {
         /// The name.
         name: String,
-        /// A file.
+        /// The first file.
         first: PathBuf,
-        /// The other file.
+        /// The second file.
         second: PathBuf,
     },
     /// An option out of its range.
@@ -79,28 +80,28 @@ pub enum UnitsError {
     /// Nothing to cut at a spot.
     #[error("no unit found at [{x:.2}, {y:.2}]: {reason}")]
     NothingToCut {
-        /// The spot, metres.
+        /// The spot's x, metres.
         x: f64,
-        /// The spot, metres.
+        /// The spot's y, metres.
         y: f64,
-        /// Why.
+        /// The reason.
         reason: String,
     },
-    /// The motion cannot go on, or cannot be held.
+    /// An error of the motion.
     #[error(transparent)]
     Motion(#[from] MotionError),
-    /// The user stopped the work.
+    /// The user stopped the calculation.
     #[error(transparent)]
     Interrupted(#[from] Interrupted),
 }
 
 impl UnitsError {
-    /// What the user can do about it.
+    /// A remedy that the user can try.
     pub fn hint(&self) -> Option<String> {
         let hint = match self {
             UnitsError::Unreadable { .. } | UnitsError::NoUnits { .. } => {
-                "name a folder with unit files; `trodden motion units RECORDING --at x,y --towards x,y -o FOLDER` makes \
-                 one; without a folder the built-in units are used"
+                "name a folder with unit files, as cutting units out of a recording makes one; without a folder the built-in \
+                 units are used"
             }
             UnitsError::Syntax { .. } => {
                 "a unit has name, area = [width, depth], duration, and a [[member]] per person with path = [[t, x, y, \
@@ -111,7 +112,7 @@ impl UnitsError {
             }
             UnitsError::SameName { .. } => "give one of them another name",
             UnitsError::NothingToCut { .. } => {
-                "choose a spot that people pass, a shorter --least-seconds, or a smaller --apart"
+                "choose a spot that people pass, a shorter least duration, or a smaller distance to others"
             }
             UnitsError::Motion(error) => return error.hint(),
             UnitsError::Number { .. } | UnitsError::Interrupted(_) => return None,

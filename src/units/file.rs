@@ -13,11 +13,11 @@ use super::unit::{
 };
 use crate::math::{Vec2, sin_cos, vec2};
 
-/// A unit's file is not larger than this, bytes.
+/// Largest size of a unit file, bytes.
 pub(super) const LARGEST_BYTES: u64 = 4 << 20;
-/// People of a unit stay within this distance of the viewer, metres.
+/// Largest coordinate of a position, metres.
 const FARTHEST_M: f64 = 100.0;
-/// The way of a member is looked at this often, seconds.
+/// Interval at which paths are checked, seconds.
 const LOOK_S: f64 = 0.1;
 /// The shortest unit, seconds.
 const SHORTEST_S: f64 = 1.0;
@@ -43,7 +43,7 @@ struct RawMember {
     path: Spanned<Vec<Spanned<Vec<f64>>>>,
 }
 
-/// Where things are in a file's text.
+/// A unit file's text, with the locations of its values.
 struct UnitText<'t> {
     text: &'t str,
     file: &'t Path,
@@ -65,7 +65,7 @@ impl UnitText<'_> {
         UnitsError::Value { at: self.at(Some(span)), problem }
     }
 
-    /// Checks numbers against a range; written so that NaN is out of it.
+    /// Checks a number against a range; NaN is out of it.
     fn within(&self, span: Range<usize>, name: &str, value: f64, [low, high]: [f64; 2]) -> Result<(), UnitsError> {
         match value >= low && value <= high {
             true => Ok(()),
@@ -75,7 +75,7 @@ impl UnitText<'_> {
 }
 
 impl Unit {
-    /// Reads a unit from the text of its file; `file` is only for messages.
+    /// Parses the text of a unit file; `file` is only used in error messages.
     ///
     /// ```toml
     /// name = "stops at the phone"       # what the report calls it
@@ -93,8 +93,8 @@ impl Unit {
     /// ```
     ///
     /// # Errors
-    /// What is not TOML, unknown keys, wrong types, numbers out of range, times that do not ascend or do not last from
-    /// 0 to the end, members who overlap, who are quicker or turn harder than people are: with line and column.
+    /// Invalid TOML, unknown keys, wrong types, numbers out of range, times that do not ascend or do not span the unit,
+    /// members who overlap or who move faster than people can: with line and column.
     pub fn parse(text: &str, file: &Path) -> Result<Unit, UnitsError> {
         let source = UnitText { text, file };
         let raw: RawUnit = toml::from_str(text).map_err(|error| UnitsError::Syntax {
@@ -129,7 +129,7 @@ impl Unit {
             members,
         };
         let spans: Vec<Range<usize>> = raw.member.iter().map(|member| member.get_ref().path.span()).collect();
-        check_ways(&source, &unit, &spans)?;
+        check_paths(&source, &unit, &spans)?;
         Ok(unit)
     }
 }
@@ -176,7 +176,7 @@ fn read_member(
         let problem = format!("a path lasts from second 0 to the end of the unit, {duration_s}");
         return Err(source.wrong(raw.path.span(), problem));
     }
-    // Who names no group is one of their own.
+    // A member without a group is a group of one.
     let name = raw.group.clone().unwrap_or_else(|| format!("\0{index}"));
     let group = names.iter().position(|known| *known == name).unwrap_or_else(|| {
         names.push(name);
@@ -205,8 +205,8 @@ fn ascends(source: &UnitText<'_>, span: Range<usize>, samples: &[TrackSample]) -
     Err(source.wrong(span, problem))
 }
 
-/// People who move as people can, and keep off each other.
-fn check_ways(source: &UnitText<'_>, unit: &Unit, spans: &[Range<usize>]) -> Result<(), UnitsError> {
+/// Checks speeds, accelerations and distances of all members.
+fn check_paths(source: &UnitText<'_>, unit: &Unit, spans: &[Range<usize>]) -> Result<(), UnitsError> {
     let looks = (unit.duration_s / LOOK_S) as usize;
     let mut before: Vec<Vec2> = Vec::new();
     for k in 0..=looks {

@@ -97,7 +97,7 @@ const BUILT_IN: &[(&str, &str)] = built_in![
     "yields.toml",
 ];
 
-/// Units to choose from, in the order of their names.
+/// A collection of units, in the order of their names.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UnitLibrary {
     /// All units.
@@ -105,7 +105,7 @@ pub struct UnitLibrary {
 }
 
 impl UnitLibrary {
-    /// The units that come with the program: drawn scenes and pieces of simulated motion, made by `examples/draw_units`.
+    /// The built-in units: drawn scenes and clips of simulated motion, made by `examples/draw_units`.
     ///
     /// # Errors
     /// None in a program that passes its tests; the signature is that of [`UnitLibrary::load`].
@@ -113,7 +113,7 @@ impl UnitLibrary {
         UnitLibrary::of_files(BUILT_IN.iter().map(|(name, text)| (PathBuf::from("built-in units").join(name), *text)))
     }
 
-    /// Names and texts of the files that come with the program, to begin own units from.
+    /// Names and texts of the built-in unit files, as a starting point for new units.
     pub fn built_in_files() -> &'static [(&'static str, &'static str)] {
         BUILT_IN
     }

@@ -1,4 +1,4 @@
-//! Finds units that fit the people who are there (U3 of the paper's steps: count and groups, then heading and places).
+//! Finds units that fit the people present (step U3 of the paper: number and groups, then headings and positions).
 
 use serde::{Deserialize, Serialize};
 
@@ -9,37 +9,38 @@ use super::track::TrackState;
 use super::unit::Unit;
 use crate::math::Vec2;
 
-/// How candidates are ranked.
+/// Weights and limits by which units are ranked.
 ///
-/// A person at `x` with velocity `v` and heading `h` who takes a member's part, which starts at `x'`, `v'`, `h'`, costs
+/// A person at `x` with velocity `v` and heading `h`, cast for a member who starts at `x'`, `v'`, `h'`, costs
 ///
 /// ```text
 /// c = place |x - x'|^2 + speed |v - v'|^2 + heading (1 - h.h') + end (1 - h.h'(T))
 /// ```
 ///
-/// and a unit the mean of its people's costs, people being given the parts with the least sum, plus `again` divided by how
-/// many units ago it was last played, plus `left` for everybody behind the viewer who is left out.
+/// A unit costs the mean over its people, cast with the least sum, plus `again` divided by the number of units since it
+/// was last played, plus `left` for each person behind the viewer who is left out.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MatchOptions {
-    /// Cost of a place that is a metre off.
+    /// Cost of a position that is 1 m off.
     pub place: f64,
     /// Cost of a velocity that is 1 m/s off.
     pub speed: f64,
     /// Cost of a heading that is a quarter turn off; half a turn costs double.
     pub heading: f64,
-    /// The same for the heading at the unit's end: where the person wants to go on to.
+    /// Cost of a heading at the unit's end that is a quarter turn off.
     pub end: f64,
-    /// Cost of a unit that was just played.
+    /// Cost of repeating the unit that was played last.
     pub again: f64,
-    /// Cost of leaving out somebody behind who comes on, at 1 m/s; who goes away costs nothing. Only units that have nobody
-    /// behind leave those out who are there.
+    /// Cost of leaving out a person behind who approaches at 1 m/s; people who walk away cost nothing.
+    ///
+    /// Only units without people behind leave people out.
     pub left: f64,
-    /// Nobody takes a part that starts farther off, metres.
+    /// Largest distance from a person to the member's start, metres.
     pub most_place_m: f64,
-    /// Nobody takes a part that starts turned by more, degrees.
+    /// Largest angle between a person's heading and the member's, degrees.
     pub most_turn_deg: f64,
-    /// No unit is played that costs more.
+    /// Largest cost of a unit that is played.
     pub most: f64,
 }
 
@@ -83,17 +84,17 @@ impl MatchOptions {
     }
 }
 
-/// People who belong together and are judged, in the viewer's frame.
+/// A group of people present, in the viewer's frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Party {
-    /// Where they are.
+    /// The side on which the group's centroid is.
     pub side: AreaSide,
-    /// Each of them: the id, and how the person moves.
+    /// Id and state of each person.
     pub people: Vec<(u32, TrackState)>,
 }
 
 impl Party {
-    /// A group whose side is where its middle is; `None` if that lies in neither area.
+    /// Makes a group; `None` if its centroid lies in neither area.
     pub fn of(areas: &Areas, people: Vec<(u32, TrackState)>) -> Option<Party> {
         let sum = people.iter().fold(Vec2::ZERO, |sum, (_, moment)| sum + moment.place_m);
         let side = areas.side_of(sum / people.len().max(1) as f64)?;
@@ -101,25 +102,25 @@ impl Party {
     }
 }
 
-/// A unit that fits.
+/// A unit that fits the people present.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Candidate {
-    /// Which unit, counted as it was given.
+    /// Index of the unit in the list given.
     pub unit: usize,
     /// Whether left and right are exchanged.
     pub mirrored: bool,
-    /// What it costs, see [`MatchOptions`].
+    /// Cost, see [`MatchOptions`].
     pub cost: f64,
-    /// Who takes which member's part: ids in the order of members.
+    /// Ids of the people cast for the members, in the order of members.
     pub parts: Vec<u32>,
 }
 
-/// What came of a search.
+/// The units that fit, ranked by cost.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ranking {
-    /// Those that fit, the best first.
+    /// The candidates, by ascending cost.
     pub candidates: Vec<Candidate>,
-    /// How many units have as many people in the same groups, mirrored ones not counted.
+    /// Number of units with the same groups, not counting mirrored ones.
     pub alike: usize,
 }
 
@@ -133,13 +134,13 @@ pub(super) fn composition(present: &[Party]) -> [Vec<usize>; 2] {
     sizes
 }
 
-/// Finds the units whose count and groups are those of the people present, in front as behind, and ranks them.
+/// Finds the units whose groups are those of the people present, in front and behind, and ranks them.
 ///
-/// Units are played in front. One that has nobody behind therefore also serves if its people are those in front, and goes
-/// behind those that have everybody: whoever is behind the viewer walks on and stays out of its way.
+/// Units are played in front. A unit without people behind also fits if its people are those in front; it ranks after
+/// units that include everybody, because people behind the viewer walk on.
 ///
-/// `recent` says how many units ago one was played, 1 for the last. Units whose area is larger than the one that units
-/// are played on are left out.
+/// `recent` gives the number of units since a unit was played, 1 for the last one. Units whose area is larger than
+/// [`Areas::played_m`] are skipped.
 pub fn rank(
     units: &[Unit],
     present: &[Party],
@@ -179,7 +180,7 @@ pub fn rank(
     ranked
 }
 
-/// Gives everybody a part: groups to groups of the same size on the same side, and within them people to members.
+/// Casts people for members: groups for groups of the same size on the same side, and people for members within them.
 fn cast(unit: &Unit, mirrored: bool, present: &[Party], options: &MatchOptions) -> Option<(f64, Vec<u32>)> {
     let groups = unit.groups();
     let ends: Vec<[TrackState; 2]> = (0..unit.members.len())
@@ -190,9 +191,9 @@ fn cast(unit: &Unit, mirrored: bool, present: &[Party], options: &MatchOptions) 
         if group.len() != there.people.len() || unit.side_of(group) != there.side {
             return None;
         }
-        assign_allowed(group.len(), |k, l| part_cost(&there.people[l].1, &ends[group[k]], options))
+        assign_allowed(group.len(), |k, l| member_cost(&there.people[l].1, &ends[group[k]], options))
     };
-    // Few groups: every pair is worked out once.
+    // Each pair of groups is computed once.
     let table: Vec<Vec<_>> =
         (0..groups.len()).map(|row| (0..present.len()).map(|column| inner(row, column)).collect()).collect();
     let (sum, columns) =
@@ -207,8 +208,8 @@ fn cast(unit: &Unit, mirrored: bool, present: &[Party], options: &MatchOptions) 
     Some((sum, parts))
 }
 
-/// What it costs that somebody takes a part; `None` if it starts too far off.
-fn part_cost(person: &TrackState, [start, end]: &[TrackState; 2], options: &MatchOptions) -> Option<f64> {
+/// Cost of casting a person for a member; `None` beyond the limits.
+fn member_cost(person: &TrackState, [start, end]: &[TrackState; 2], options: &MatchOptions) -> Option<f64> {
     let away = person.place_m.distance(start.place_m);
     let agree = person.heading.dot(start.heading);
     let least_agree = crate::math::sin_cos(options.most_turn_deg.to_radians()).1;

@@ -1,9 +1,9 @@
-//! Crowd units: short pieces of what a few people do around somebody who looks on, to be played at a spot that is looked
-//! at closely (Matsumoto, Mori, Toyama: *Example-based Composition of Crowd Movement in VR*).
+//! Crowd units: short clips of a few people around a viewer, played at a spot that is looked at closely.
 //!
-//! A [`Unit`] is `u = { p(t), a, T, c_j(t), g_k }`: the way of the viewer, the area, how long it lasts, everybody's
-//! motion, and who belongs together. A [`UnitLibrary`] holds many of them, [`rank`] finds those that fit the people who
-//! happen to be there, [`cut`] takes new ones out of any motion.
+//! After Matsumoto, Mori, Toyama: *Example-based Composition of Crowd Movement in VR*. A [`Unit`] is
+//! `u = { p(t), a, T, c_j(t), g_k }`: the viewer's path, the area, the duration, the members' paths and their groups. A
+//! [`UnitLibrary`] holds many units, [`rank`] finds those that fit the people present, [`cut`] cuts new ones out of any
+//! motion.
 
 mod areas;
 mod assignment;

@@ -1,35 +1,35 @@
 use crate::math::{Vec2, vec2};
 
-/// Slower than this between two samples is standing, metres per second: no tangent leads out of it.
+/// Speed below which a member stands between two samples, metres per second.
 const STANDING_M_S: f64 = 0.02;
 
-/// Somebody's place and facing at one time of a unit.
+/// Position and heading of a person at a time of a unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrackSample {
     /// Seconds since the unit's start.
     pub time_s: f64,
-    /// Metres in the unit's frame.
+    /// Position in the unit's frame, metres.
     pub place_m: Vec2,
     /// Unit vector in which the body faces.
     pub heading: Vec2,
 }
 
-/// What a track says of one moment.
+/// Position, velocity and heading of a person on a track.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrackState {
-    /// Metres.
+    /// Position, metres.
     pub place_m: Vec2,
-    /// Metres per second.
+    /// Velocity, metres per second.
     pub velocity_m_s: Vec2,
     /// Unit vector in which the body faces.
     pub heading: Vec2,
 }
 
-/// A way through samples at ascending times: cubic pieces, so that place and velocity are continuous.
+/// A path through samples at ascending times: cubic Hermite splines with continuous position and velocity.
 ///
-/// Velocities at samples are those of the parabola through the sample and its two neighbours (Bessel's tangents), and
-/// zero beside a stretch where somebody stands. Before the first sample and after the last one the way goes on straight.
-/// Headings turn evenly in between.
+/// Velocities at samples are those of the parabola through the sample and its two neighbours (Bessel tangents), and zero
+/// next to an interval in which the person stands. Before the first sample and after the last one the path is a straight
+/// line. Headings turn evenly in between.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UnitTrack {
     samples: Vec<TrackSample>,
@@ -37,7 +37,7 @@ pub struct UnitTrack {
 }
 
 impl UnitTrack {
-    /// A track through samples whose times ascend.
+    /// Makes a track through samples at ascending times.
     pub fn new(samples: Vec<TrackSample>) -> UnitTrack {
         let slope = |k: usize| {
             let (a, b) = (samples[k], samples[k + 1]);
@@ -72,7 +72,7 @@ impl UnitTrack {
         self.samples.last().map_or(0.0, |sample| sample.time_s)
     }
 
-    /// Place, velocity and heading at a time; of an empty track the origin.
+    /// Position, velocity and heading at a time; the origin for an empty track.
     pub fn at(&self, time_s: f64) -> TrackState {
         let after = self.samples.partition_point(|sample| sample.time_s <= time_s);
         let edge = |k: usize| {
@@ -94,7 +94,7 @@ impl UnitTrack {
         let s = (time_s - a.time_s) / span_s;
         let (m0, m1) = (self.velocities[k] * span_s, self.velocities[k + 1] * span_s);
         let way = b.place_m - a.place_m;
-        // Hermite's cubic from `a` with the way split off: p = a + way h01 + m0 h10 + m1 h11.
+        // Hermite cubic relative to `a`: p = a + way h01 + m0 h10 + m1 h11.
         let (s2, s3) = (s * s, s * s * s);
         let place_m = a.place_m + way * (3.0 * s2 - 2.0 * s3) + m0 * (s3 - 2.0 * s2 + s) + m1 * (s3 - s2);
         let rate = way * (6.0 * s - 6.0 * s2) + m0 * (3.0 * s2 - 4.0 * s + 1.0) + m1 * (3.0 * s2 - 2.0 * s);
@@ -103,13 +103,14 @@ impl UnitTrack {
     }
 }
 
-/// The unit vector at the share `s` of the turn from `a` to `b`, by the shorter side; close to even for turns up to a
-/// quarter, and by the left for half a turn.
+/// The unit vector at the share `s` of the turn from `a` to `b`, on the shorter side; on the left for half a turn.
+///
+/// The turn is close to even for up to a quarter turn.
 pub(super) fn turned(a: Vec2, b: Vec2, s: f64) -> Vec2 {
     if a.dot(b) > -0.5 {
         return a.lerp(b, s).normalized().unwrap_or(b);
     }
-    // By way of the direction half way, where the straight line between the two would pass the middle.
+    // Via the direction halfway, since the straight line between the two passes near the origin.
     let side = if a.cross(b) < 0.0 { -1.0 } else { 1.0 };
     let half = (a.left() * side + (a + b)).normalized().unwrap_or(b);
     if s < 0.5 { turned(a, half, 2.0 * s) } else { turned(half, b, 2.0 * s - 1.0) }

@@ -2,51 +2,51 @@ use super::areas::{AreaSide, Areas};
 use super::track::{TrackState, UnitTrack};
 use crate::math::{Vec2, vec2};
 
-/// Most people in a unit.
+/// Largest number of people in a unit.
 pub const MOST_MEMBERS: usize = 12;
-/// Longest unit, seconds.
+/// Longest duration of a unit, seconds.
 pub const LONGEST_S: f64 = 120.0;
-/// Widths that a unit's area may have, metres.
+/// Least and largest width of a unit's area, metres.
 pub const AREA_WIDTHS_M: [f64; 2] = [1.0, 20.0];
-/// Depths that a unit's area may have, metres.
+/// Least and largest depth of a unit's area, metres.
 pub const AREA_DEPTHS_M: [f64; 2] = [1.0, 40.0];
-/// Two members of a unit never come nearer to each other than this, metres: about the depth of two bodies.
+/// Least distance between the centres of two members of a unit, metres: about the depth of two bodies.
 pub const LEAST_APART_M: f64 = 0.36;
-/// Nobody in a unit is faster than this, metres per second: a sprint.
+/// Largest speed of a member, metres per second: a sprint.
 pub(super) const FASTEST_M_S: f64 = 7.0;
-/// Nobody in a unit speeds up, brakes or turns harder than this, metres per second squared.
+/// Largest acceleration of a member, metres per second squared.
 pub(super) const HARDEST_M_S2: f64 = 6.0;
 
-/// One of a unit's people.
+/// A person in a unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Member {
-    /// Whom the person belongs to: members of one number walk together.
+    /// Number of the member's group: members of one group walk together.
     pub group: u32,
-    /// The person's way `c_j(t)`, in the unit's frame.
+    /// The member's path `c_j(t)`, in the unit's frame.
     pub track: UnitTrack,
 }
 
-/// A piece of crowd motion around a viewer: `u = { p(t), a, T, c_j(t), g_k }`.
+/// A clip of crowd motion around a viewer: `u = { p(t), a, T, c_j(t), g_k }`.
 ///
 /// In the unit's frame the viewer starts at the origin and looks along +y, +x is to the right. Metres, seconds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unit {
-    /// What it is called.
+    /// The unit's name.
     pub name: String,
-    /// What happens, in words.
+    /// The scene, in words.
     pub description: String,
-    /// The viewer's way `p(t)`; of one who stands, a single sample.
+    /// The viewer's path `p(t)`; a single sample for a standing viewer.
     pub viewer: UnitTrack,
-    /// Width and depth of the area `a` before the viewer.
+    /// Width and depth of the area `a` in front of the viewer, metres.
     pub area_m: [f64; 2],
-    /// How long it lasts, `T`.
+    /// Duration `T`, seconds.
     pub duration_s: f64,
-    /// Everybody else.
+    /// The people besides the viewer.
     pub members: Vec<Member>,
 }
 
 impl Unit {
-    /// Members of each group, both in the order of the file.
+    /// Indices of each group's members; groups and members in the order of the file.
     pub fn groups(&self) -> Vec<Vec<usize>> {
         let mut groups: Vec<(u32, Vec<usize>)> = Vec::new();
         for (index, member) in self.members.iter().enumerate() {
@@ -58,7 +58,7 @@ impl Unit {
         groups.into_iter().map(|(_, members)| members).collect()
     }
 
-    /// A member at a time of the unit, with left and right exchanged if `mirrored`.
+    /// A member's state at a time of the unit, with left and right exchanged if `mirrored`.
     pub fn moment(&self, member: usize, time_s: f64, mirrored: bool) -> TrackState {
         let moment = self.members[member].track.at(time_s);
         if !mirrored {
@@ -72,14 +72,13 @@ impl Unit {
         }
     }
 
-    /// On which side a group starts: where its middle is. A unit judges its own people by the sign of y alone, since it
-    /// may begin beyond the areas.
+    /// The side on which a group starts, by the sign of its mean y: a unit may begin beyond the areas.
     pub fn side_of(&self, group: &[usize]) -> AreaSide {
         let sum: f64 = group.iter().map(|&member| self.members[member].track.at(0.0).place_m.y).sum();
         if sum >= 0.0 { AreaSide::Front } else { AreaSide::Rear }
     }
 
-    /// Sizes of the groups that start in front and behind, each ascending: what must agree with the people present.
+    /// Sizes of the groups that start in front and behind, each ascending; they must agree with the people present.
     pub fn composition(&self) -> [Vec<usize>; 2] {
         let mut sizes = [Vec::new(), Vec::new()];
         for group in self.groups() {
@@ -94,7 +93,7 @@ impl Unit {
         in_words(&self.composition())
     }
 
-    /// Whether every member starts where people are judged.
+    /// Whether every member starts in the front or rear area.
     pub fn starts_within(&self, areas: &Areas) -> bool {
         self.members.iter().all(|member| areas.side_of(member.track.at(0.0).place_m).is_some())
     }

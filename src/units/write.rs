@@ -7,8 +7,9 @@ use super::unit::Unit;
 use crate::math::atan2;
 
 impl Unit {
-    /// The unit as the text of a file, which [`Unit::parse`] reads: places to a millimetre, headings to a tenth of a
-    /// degree.
+    /// The unit as the text of a unit file, which [`Unit::parse`] reads.
+    ///
+    /// Positions are rounded to a millimetre, headings to a tenth of a degree.
     pub fn to_toml(&self) -> String {
         let mut text = String::new();
         let quoted = |text: &str| toml::Value::String(text.to_string()).to_string();

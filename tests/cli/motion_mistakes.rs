@@ -216,7 +216,7 @@ fn formations_that_cannot_be() {
     }
     formation(&["--key", "99=points.txt"]).fails(1, &["99 s, after the whole, 5.9 s", "hint: "]);
     formation(&["--key", "2=points.txt", "--key", "2=points.txt"]).fails(1, &["2 s is not after", "hint: "]);
-    formation(&["--span", "100,200", "--last", "points.txt"]).fails(1, &["nobody is present", "hint: "]);
+    formation(&["--span", "100,200", "--last", "points.txt"]).fails(1, &["no person is present", "hint: "]);
     formation(&["--key", "x=points.txt"]).fails(2, &["--key"]);
     formation(&["--span", "5,1"]).fails(2, &["--span"]);
     // All on one point is a formation too, and half a turn of a line.

@@ -31,14 +31,14 @@ fn keys_that_do_not_fit() {
     let says = |message: String, part: &str| assert!(message.contains(part), "{message}");
     says(case(&|keys| keys.truncate(1)), "1 key formations are too few");
     says(case(&|keys| keys.clear()), "0 key formations are too few");
-    says(case(&|keys| keys[1].places_m.push(Vec2::ZERO)), "key formation 2 at 4 s has 5 places for the 4 people");
+    says(case(&|keys| keys[1].places_m.push(Vec2::ZERO)), "key formation 2 at 4 s has 5 positions for the 4 people");
     says(case(&|keys| keys[0].places_m.clear()), "key formation 1 at 2 s has 0 places");
     says(case(&|keys| keys[1].places_m[3].y = f64::NAN), "key formation 2: y of place 3 is NaN");
     says(case(&|keys| keys[0].places_m[0].x = 1e300), "key formation 1: x of place 0 is 1");
     says(case(&|keys| keys[1].time_s = f64::INFINITY), "key formation 2: its time is inf");
     says(case(&|keys| keys.swap(0, 1)), "key formation 2 at 2 s does not come after the one before it, at 4 s");
     says(case(&|keys| keys[1].time_s = 2.0), "key formation 2 at 2 s does not come after");
-    says(case(&|keys| keys[1].time_s = 2.05), "fall into one moment of the example, which has 5 per second");
+    says(case(&|keys| keys[1].time_s = 2.05), "fall into one frame of the example, which has 5 frames per second");
     says(
         case(&|keys| keys[1].time_s = 4.2),
         "key formation 2 is at 4.2 s, but the example lasts from 2.000 to 4.000 s",

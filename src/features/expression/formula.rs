@@ -58,11 +58,6 @@ impl Expression {
         }
         stack.pop().unwrap_or(f64::NAN)
     }
-
-    /// Whether the expression names no variable.
-    pub fn is_constant(&self) -> bool {
-        !self.instructions.iter().any(|instruction| matches!(instruction, Instruction::Variable(_)))
-    }
 }
 
 impl fmt::Display for Expression {

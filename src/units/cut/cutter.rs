@@ -7,45 +7,45 @@ use crate::motion::Motion;
 use crate::progress::Progress;
 use crate::units::{Diversity, DiversityReport, SpotFrame, Unit, UnitsError};
 
-/// Starts are tried this often, frames.
+/// Interval between the starts that are tried, frames.
 const EVERY_FRAMES: u64 = 5;
-/// Of two units with somebody in common, the less interesting is dropped if they share more than this of the shorter.
+/// Share of the shorter unit above which two units with a person in common overlap; the less interesting is dropped.
 const MOST_SHARED: f64 = 0.3;
 
 /// The viewer's own frame.
 const VIEWER: SpotFrame = SpotFrame { at_m: Vec2::ZERO, ahead: Vec2 { x: 0.0, y: 1.0 } };
 
-/// What was cut at a spot.
+/// The units cut at a spot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitCuts {
-    /// The units, those of most interest first.
+    /// The units, by descending interest.
     pub cuts: Vec<UnitCut>,
-    /// How much speeds and headings differ in the area in front, all the time.
+    /// Diversity of speeds and headings in the area in front, over the whole motion.
     pub diversity: DiversityReport,
 }
 
-/// A unit that was cut, and where it came from.
+/// A unit with its origin in the motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitCut {
     /// The unit.
     pub unit: Unit,
-    /// When it began in the motion, seconds.
+    /// Start in the motion, seconds.
     pub start_s: f64,
-    /// Who its members are, in their order.
+    /// Ids of its members, in their order.
     pub ids: Vec<u32>,
-    /// How far from uniform it is: entropies of its speeds and headings, bits, see [`Diversity`].
+    /// Interest of the unit: sum of the entropies of its speeds and headings, bits, see [`Diversity`].
     pub interest_bits: f64,
 }
 
-/// Cuts the most interesting units out of a motion, as somebody at a spot sees it.
+/// Cuts the most interesting units out of a motion, as seen by a viewer at a spot.
 ///
-/// Every half second those are taken who are in the front and rear area with all of their group; the stretch lasts while
-/// all of them are there, until all have left the areas, until somebody else comes near, or until it is long enough. Those
-/// belong together who keep near each other at the same velocity for seconds. The sway of heads is smoothed away. Of
-/// stretches that overlap, the one of most interest is kept; names begin with `name`.
+/// Every half second a unit may start with the groups in the front and rear area. It ends when a member disappears, all
+/// members have left the areas, another person comes near, or it reaches the largest duration. People who stay near each
+/// other at the same velocity for seconds form a group. The sway of heads is smoothed. Of units that overlap, the most
+/// interesting one is kept. Names begin with `name`.
 ///
 /// # Errors
-/// What stops the motion, options out of range, a spot where there is nothing to cut, [`UnitsError::Interrupted`].
+/// Errors of the motion, options out of range, [`UnitsError::NothingToCut`], [`UnitsError::Interrupted`].
 pub fn cut(
     motion: &mut dyn Motion,
     name: &str,
@@ -68,7 +68,7 @@ pub fn cut(
         }
         frame += EVERY_FRAMES;
     }
-    // The earlier of two that are as interesting.
+    // Of equally interesting ones, the earlier first.
     found.sort_by(|(a, s), (b, t)| b.total_cmp(a).then(s.from.cmp(&t.from)));
     let mut cuts: Vec<(UnitCut, UnitInterval)> = Vec::new();
     for (interest_bits, stretch) in found {
@@ -80,7 +80,7 @@ pub fn cut(
         }
         let start_s = stretch.from as f64 / FPS;
         let unit = stretch.unit(&walks, &together, format!("{name} {start_s:.1} s"), options);
-        // What a file could not hold, such as somebody who leaps, is no unit.
+        // A unit that its file could not hold, such as one in which a person leaps, is skipped.
         let Ok(unit) = Unit::parse(&unit.to_toml(), std::path::Path::new("cut")) else { continue };
         let ids = stretch.members.iter().map(|&walk| walks.all[walk].id).collect();
         cuts.push((UnitCut { unit, start_s, ids, interest_bits }, stretch));

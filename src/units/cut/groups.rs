@@ -1,6 +1,6 @@
 use super::walks::{FPS, SpotTrack, SpotTracks};
 
-/// Those who belong together are mostly this near, metres, ...
+/// Members of a group are mostly this near, metres, ...
 const NEAR_M: f64 = 1.6;
 /// ... at velocities that differ by less, metres per second, ...
 const ALIKE_M_S: f64 = 0.45;
@@ -11,9 +11,9 @@ const LEAST_S: f64 = 3.0;
 /// ... and never farther apart, metres.
 const FARTHEST_M: f64 = 4.0;
 
-/// A number for each walk's group: those who are linked, directly or by way of others, share one.
+/// The group number of each track: people who are linked, directly or through others, share one.
 ///
-/// Two people are linked who are mostly near each other at the same velocity while both are seen, as Moussaid et al. 2010
+/// Two people are linked if they are mostly near each other at the same velocity while both are seen, as Moussaid et al. 2010
 /// (doi 10.1371/journal.pone.0010047) describe groups: side by side, about 0.8 m apart, at one speed.
 pub(super) fn groups(walks: &SpotTracks) -> Vec<u32> {
     let count = walks.all.len();

@@ -3,21 +3,21 @@ use serde::{Deserialize, Serialize};
 use super::walks::FPS;
 use crate::units::{Areas, LONGEST_S, UnitsError};
 
-/// How units are cut.
+/// Options of [`cut`](super::cut).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct CutOptions {
-    /// Where people are judged and units are played.
+    /// The areas in which people are matched and units are played.
     pub areas: Areas,
-    /// Shorter stretches are no units, seconds, 1 to 60.
+    /// Least duration of a unit, seconds, 1 to 60.
     pub least_s: f64,
-    /// Longer ones are cut off, seconds, 1 to 120.
+    /// Largest duration of a unit, seconds, 1 to 120.
     pub most_s: f64,
-    /// Whoever else comes nearer than this to one of the unit's people ends it, metres, 0 to 10.
+    /// Distance at which another person who comes near a member ends the unit, metres, 0 to 10.
     pub apart_m: f64,
-    /// The most units, those of most interest.
+    /// Largest number of units, those of most interest.
     pub most: usize,
-    /// Samples per second that a unit keeps: 10, or a part of it.
+    /// Samples per second of a unit, 1 to 10.
     pub fps: f64,
 }
 

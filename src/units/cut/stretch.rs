@@ -6,28 +6,28 @@ use super::options::CutOptions;
 use super::walks::{FPS, SpotTracks};
 use crate::math::{Vec2, vec2};
 
-/// Whoever is this far beyond the areas has left, metres.
+/// Distance beyond the areas at which a person has left them, metres.
 const BEYOND_M: f64 = 0.5;
-/// Nobody comes nearer to the viewer than this, metres: the viewer is a person too.
+/// Least distance from the viewer to a member, metres.
 const VIEWER_M: f64 = 0.5;
 
-/// A piece of a motion that may become a unit.
+/// An interval of a motion that may become a unit.
 #[derive(Clone, Debug)]
 pub(super) struct UnitInterval {
     pub(super) from: u64,
     pub(super) to: u64,
-    /// Places in the list of walks, ascending.
+    /// Indices in the list of tracks, ascending.
     pub(super) members: Vec<usize>,
 }
 
-/// The stretch that begins with those who are judged at a frame, if it is long enough.
+/// The interval that starts at a frame, with the groups in the areas; `None` if too short.
 pub(super) fn stretch_from(
     walks: &SpotTracks,
     groups: &[u32],
     from: u64,
     options: &CutOptions,
 ) -> Option<UnitInterval> {
-    let members = judged(walks, groups, from, &options.areas);
+    let members = members_at(walks, groups, from, &options.areas);
     if members.is_empty() || members.len() > MOST_MEMBERS {
         return None;
     }
@@ -47,8 +47,8 @@ fn every(options: &CutOptions) -> u64 {
     ((FPS / options.fps).round() as u64).max(1)
 }
 
-/// Whoever is in the front or rear area by the middle of the group.
-fn judged(walks: &SpotTracks, groups: &[u32], frame: u64, areas: &Areas) -> Vec<usize> {
+/// The members of the groups whose centroid is in the front or rear area.
+fn members_at(walks: &SpotTracks, groups: &[u32], frame: u64, areas: &Areas) -> Vec<usize> {
     let mut there: Vec<(u32, usize, TrackState)> = walks.present(frame).map(|(k, m)| (groups[k], k, *m)).collect();
     there.sort_by_key(|&(group, walk, _)| (group, walk));
     let mut members: Vec<usize> = Vec::new();
@@ -62,8 +62,9 @@ fn judged(walks: &SpotTracks, groups: &[u32], frame: u64, areas: &Areas) -> Vec<
     members
 }
 
-/// Whether a stretch goes on at a frame: everybody is seen, somebody is still in the areas, nobody else comes near, and
-/// nobody touches the viewer.
+/// Whether an interval continues at a frame.
+///
+/// All members are seen, at least one is in the areas, no other person is near, and the viewer is not touched.
 fn goes_on(walks: &SpotTracks, members: &[usize], frame: u64, options: &CutOptions) -> bool {
     let mut moments: Vec<TrackState> = Vec::with_capacity(members.len());
     for &walk in members {
@@ -88,7 +89,7 @@ fn is_within(areas: &Areas, place_m: Vec2) -> bool {
 }
 
 impl UnitInterval {
-    /// Which share of the shorter of the two they have in common, with somebody who is in both.
+    /// Overlap as a share of the shorter of two intervals; 0 without a member in both.
     pub(super) fn shares(&self, other: &UnitInterval) -> f64 {
         if !self.members.iter().any(|walk| other.members.contains(walk)) {
             return 0.0;
@@ -97,7 +98,7 @@ impl UnitInterval {
         common as f64 / (self.to - self.from).min(other.to - other.from).max(1) as f64
     }
 
-    /// The stretch as a unit.
+    /// Makes a unit of the interval.
     pub(super) fn unit(&self, walks: &SpotTracks, groups: &[u32], name: String, options: &CutOptions) -> Unit {
         let every = every(options);
         let mut deepest_m = 0.0f64;

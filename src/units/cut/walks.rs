@@ -5,16 +5,16 @@ use crate::motion::{Frame, MOST_PLACES, Motion, MotionError, Resampler};
 use crate::progress::{Progress, Stage};
 use crate::units::UnitsError;
 
-/// Moments per second at which a motion is looked at.
+/// Frames per second at which a motion is sampled.
 pub(super) const FPS: f64 = 10.0;
-/// Nobody farther from the spot than this is kept, metres.
+/// Distance from the spot up to which people are kept, metres.
 const NEAR_M: f64 = 15.0;
-/// Half width of the triangle that smooths places, frames: heads sway once in two steps, about a second.
+/// Half width of the triangular filter of positions, frames: heads sway once in two steps, about a second.
 const SMOOTH_FRAMES: usize = 4;
-/// Slower people face where they faced before, metres per second.
+/// Speed below which people keep their last heading, metres per second.
 const FACING_M_S: f64 = 0.25;
 
-/// Somebody's stay near the spot, in the viewer's frame.
+/// The path of a person near the spot, in the viewer's frame.
 #[derive(Clone, Debug)]
 pub(super) struct SpotTrack {
     pub(super) id: u32,
@@ -35,7 +35,7 @@ impl SpotTrack {
         self.moments.get(usize::try_from(frame.checked_sub(self.first)?).ok()?)
     }
 
-    /// Smooths places, and works out velocities and headings.
+    /// Smooths positions and computes velocities and headings.
     fn finish(&mut self) {
         let smooth: Vec<Vec2> = (0..self.places.len()).map(|k| smoothed(&self.places, k)).collect();
         let last = smooth.len() - 1;
@@ -59,7 +59,7 @@ impl SpotTrack {
     }
 }
 
-/// Mean over a triangle around a frame that is as wide on both sides, narrower at the ends.
+/// Triangular mean around a frame, narrower at the ends.
 fn smoothed(places: &[Vec2], k: usize) -> Vec2 {
     let half = SMOOTH_FRAMES.min(k).min(places.len() - 1 - k);
     let mut sum = places[k] * (half + 1) as f64;
@@ -69,7 +69,7 @@ fn smoothed(places: &[Vec2], k: usize) -> Vec2 {
     sum / ((half + 1) * (half + 1)) as f64
 }
 
-/// Everybody's stays near the spot, by their first frame and id.
+/// All tracks near the spot, by first frame and id.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SpotTracks {
     pub(super) all: Vec<SpotTrack>,
@@ -105,7 +105,7 @@ impl SpotTracks {
                     open[at].places.push(place_m);
                     open[at].headings.push(heading);
                 }
-                // Whoever was not seen in this frame has left.
+                // A person missing from a frame has left.
                 let ended = open.extract_if(.., |walk| walk.first + walk.places.len() as u64 <= number);
                 done.extend(ended);
             }
@@ -119,12 +119,12 @@ impl SpotTracks {
         Ok(SpotTracks { all: done })
     }
 
-    /// The first and the last frame with anybody.
+    /// The first and the last frame with people.
     pub(super) fn span(&self) -> Option<[u64; 2]> {
         Some([self.all.first()?.first, self.all.iter().map(SpotTrack::last).max()?])
     }
 
-    /// Who is there at a frame: places in [`SpotTracks::all`].
+    /// The people present in a frame, with their index in [`SpotTracks::all`].
     pub(super) fn present(&self, frame: u64) -> impl Iterator<Item = (usize, &TrackState)> {
         let begun = self.all.partition_point(|walk| walk.first <= frame);
         self.all[..begun].iter().enumerate().filter_map(move |(index, walk)| Some((index, walk.at(frame)?)))
