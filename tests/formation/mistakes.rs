@@ -32,7 +32,7 @@ fn keys_that_do_not_fit() {
     says(case(&|keys| keys.truncate(1)), "1 key formations are too few");
     says(case(&|keys| keys.clear()), "0 key formations are too few");
     says(case(&|keys| keys[1].places_m.push(Vec2::ZERO)), "key formation 2 at 4 s has 5 positions for the 4 people");
-    says(case(&|keys| keys[0].places_m.clear()), "key formation 1 at 2 s has 0 places");
+    says(case(&|keys| keys[0].places_m.clear()), "key formation 1 at 2 s has 0 positions");
     says(case(&|keys| keys[1].places_m[3].y = f64::NAN), "key formation 2: y of place 3 is NaN");
     says(case(&|keys| keys[0].places_m[0].x = 1e300), "key formation 1: x of place 0 is 1");
     says(case(&|keys| keys[1].time_s = f64::INFINITY), "key formation 2: its time is inf");

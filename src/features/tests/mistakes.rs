@@ -104,7 +104,7 @@ fn too_much_is_refused() {
     let found = mistake(
         super::super::eigen::eigenpairs(
             nalgebra::DMatrix::zeros(size, size),
-            &super::super::part::ProgressRange::whole(&Silent),
+            &super::super::progress_range::ProgressRange::whole(&Silent),
         )
         .map(|_| unreachable!()),
     );

@@ -2,28 +2,28 @@ use crate::formation::formed::FormedPerson;
 use crate::formation::request::AvoidRequest;
 use crate::math::Vec2;
 
-/// Bodies' middles never come nearer to each other, where nothing else is said, metres: body depth, people turn.
+/// Default least distance between the centres of two people, metres: body depth, since people turn.
 const USUAL_DISTANCE_M: f64 = 0.36;
 
-/// What keeps clear of others as one: a person, or people who keep together.
+/// A body that keeps clear of others: a person, or people who move as one.
 #[derive(Clone, Debug)]
 pub(in super::super) struct FormationBody {
-    /// Its middle, moment by moment, metres.
+    /// Its centre in each frame, metres.
     pub places: Vec<Vec2>,
-    /// Everybody who belongs to it, in the order of ids.
+    /// The people of the body, in the order of ids.
     pub people: Vec<BodyMember>,
     reach: Reach,
 }
 
-/// Somebody who belongs to a body.
+/// A person of a body.
 #[derive(Clone, Debug)]
 pub(in super::super) struct BodyMember {
-    /// Where they are from its middle, moment by moment; empty for in its middle.
+    /// Offset from the body's centre in each frame, metres; empty if always at the centre.
     pub offsets: Vec<Vec2>,
     pub who: FormedPerson,
 }
 
-/// How far from its middle a body keeps others.
+/// The radius within which a body keeps others away.
 #[derive(Clone, Debug)]
 enum Reach {
     Always(f64),
@@ -31,13 +31,13 @@ enum Reach {
 }
 
 impl FormationBody {
-    /// A body of one person.
+    /// Makes a body of one person.
     pub fn person(places: Vec<Vec2>, who: FormedPerson, avoid: &AvoidRequest) -> FormationBody {
         let reach_m = avoid.distance_m.unwrap_or(USUAL_DISTANCE_M) / 2.0;
         FormationBody { places, people: vec![BodyMember { offsets: Vec::new(), who }], reach: Reach::Always(reach_m) }
     }
 
-    /// A body of several, whose places are from its middle; it goes along a track.
+    /// Makes one body of several, whose positions are relative to its centre; the centre moves along a track.
     pub fn of_all(bodies: Vec<FormationBody>, track: Vec<Vec2>) -> FormationBody {
         let moments = track.len();
         let reach = |moment: usize| {
@@ -58,7 +58,7 @@ impl FormationBody {
         FormationBody { places: track, people, reach }
     }
 
-    /// How far from its middle it keeps others at a moment, metres.
+    /// Radius within which the body keeps others away in a frame, metres.
     pub fn reach_m(&self, moment: usize) -> f64 {
         match &self.reach {
             Reach::Always(reach_m) => *reach_m,

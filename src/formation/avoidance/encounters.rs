@@ -4,19 +4,20 @@ use super::nearby::BodyPair;
 use super::tracks::BodyTracks;
 use crate::math::{Vec2, vec2};
 
-/// Slower than this towards each other, bodies do not pass each other, metres per second.
+/// Relative speed below which bodies do not pass each other, metres per second.
 const SLOWEST_M_S: f64 = 0.1;
-/// Bodies that pass each other at less than this share of the distance they keep are led past each other on one side.
+/// Share of the kept distance below which a passing is head-on, and bodies are led past each other on one side.
 const HEAD_ON: f64 = 0.7;
-/// Below this share nothing says which side, and both keep to the right.
+/// Share below which the side is undecided, and both bodies keep to the right.
 const UNDECIDED: f64 = 0.01;
 
-/// First offsets for everybody: bodies that would walk through each other are led past, each on the side on which they are,
-/// head on both to their right. Without them a moment's nearest places would jump from before to behind.
+/// Initial offsets: bodies that would walk through each other are led past on their own side, head-on to the right.
+///
+/// Without them the nearest clear positions of a frame would jump from in front of the other body to behind it.
 pub(super) fn first_offsets(crowd: &BodyTracks<'_>, too_near: &[Vec<BodyPair>], fps: f64, seconds: f64) -> Vec<Vec2> {
     let mut offsets = vec![Vec2::ZERO; crowd.places.len()];
     for (pair, moments) in by_pair(too_near) {
-        // Stretches of moments without a gap: one encounter each.
+        // Each run of frames without a gap is one encounter.
         for encounter in moments.chunk_by(|a, b| b - a == 1) {
             if let Some((at, aside)) = step_aside(crowd, pair, encounter, fps) {
                 let half = (encounter.len() as f64 / 2.0).max(seconds * fps);
@@ -34,7 +35,7 @@ pub(super) fn first_offsets(crowd: &BodyTracks<'_>, too_near: &[Vec<BodyPair>], 
     offsets
 }
 
-/// The moments at which each pair is too near.
+/// The frames in which each pair overlaps.
 fn by_pair(too_near: &[Vec<BodyPair>]) -> BTreeMap<BodyPair, Vec<usize>> {
     let mut moments: BTreeMap<BodyPair, Vec<usize>> = BTreeMap::new();
     for (moment, pairs) in too_near.iter().enumerate() {
@@ -43,15 +44,16 @@ fn by_pair(too_near: &[Vec<BodyPair>]) -> BTreeMap<BodyPair, Vec<usize>> {
     moments
 }
 
-/// When the two pass each other, in moments, and how far the first must step aside (the second to the other side), if
-/// they do.
+/// The frame (with fraction) in which two bodies pass each other head-on, and the offset of the first one.
+///
+/// The second one steps to the other side. `None` if they do not pass head-on.
 fn step_aside(crowd: &BodyTracks<'_>, [a, b]: BodyPair, encounter: &[usize], fps: f64) -> Option<(f64, Vec2)> {
     let apart = |moment: usize| crowd.at(moment, a) - crowd.at(moment, b);
     let nearest = encounter.iter().copied().min_by(|&m, &n| apart(m).length().total_cmp(&apart(n).length()))?;
     let (before, after) = (nearest.saturating_sub(1), (nearest + 1).min(crowd.moments() - 1));
     let closing = (apart(after) - apart(before)) / (after - before).max(1) as f64;
     let direction = closing.normalized().filter(|_| closing.length() * fps > SLOWEST_M_S)?;
-    // Between moments they are nearest where what parts them is square to how it changes.
+    // Between frames they are nearest where their difference is orthogonal to its change.
     let ahead = (-apart(nearest).dot(closing) / closing.length_squared()).clamp(-1.0, 1.0);
     let nearest_apart = apart(nearest) + closing * ahead;
     let keep_m = crowd.keep_m(nearest, [a, b]);

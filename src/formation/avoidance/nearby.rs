@@ -1,21 +1,21 @@
 use crate::math::Vec2;
 
-/// Bodies and how far from its middle each keeps others, at one moment.
+/// Positions and radii of all bodies in a frame, metres.
 #[derive(Clone, Copy)]
 pub(super) struct BodiesAtMoment<'m> {
     pub places: &'m [Vec2],
     pub reaches_m: &'m [f64],
 }
 
-/// Two bodies, the first of which has the lower number.
+/// The numbers of two bodies, the lower one first.
 pub(super) type BodyPair = [u32; 2];
 
-/// Pairs of bodies that come nearer to each other than `gap_m`, edge to edge, in the order of their numbers.
+/// Finds the pairs of bodies within `gap_m` of each other, edge to edge, in the order of their numbers.
 pub(super) fn pairs_within(moment: BodiesAtMoment<'_>, gap_m: f64) -> Vec<BodyPair> {
     let BodiesAtMoment { places, reaches_m } = moment;
     let largest_m = reaches_m.iter().copied().fold(0.0, f64::max);
     let cell_m = (2.0 * largest_m + gap_m).max(1e-6);
-    // Numbers of cells stay exact, and bodies that are not finite fall into some cell.
+    // Cell numbers are exact; bodies at positions that are not finite fall into some cell.
     let cell = |place: Vec2| [(place.x / cell_m).floor() as i64, (place.y / cell_m).floor() as i64];
     let mut sorted: Vec<([i64; 2], u32)> =
         places.iter().enumerate().map(|(body, &place)| (cell(place), body as u32)).collect();

@@ -11,38 +11,38 @@ use crate::formation::FormationError;
 use crate::math::Vec2;
 use crate::progress::Progress;
 
-/// Up to how many times the distance at which bodies would overlap neighbours push each other.
+/// Range of the push, as a multiple of the distance at which bodies overlap.
 const PUSH_REACH: f64 = 2.5;
-/// Rounds of the search: room beyond what is needed that it aims at, as a share of the distance kept, and the weight of
-/// accelerations. Where many are in each other's way, gentle ways are not to be had.
+/// Rounds of the search: the extra room, as a share of the kept distance, and the weight of accelerations.
+///
+/// The second round allows harder accelerations, which dense crowds need.
 const ROUNDS: [[f64; 2]; 2] = [[0.04, 1.0], [0.08, 0.15]];
 /// Steps of the search in each round.
 const STEPS: usize = 40;
 /// Least steps of a round.
 const LEAST_STEPS: usize = 16;
-/// How strongly everybody's way and every moment's places are tied to each other, over the spring.
+/// Penalty weight that ties paths to clear positions, relative to the spring.
 const TIE: f64 = 3.0;
-/// How much more firmly the spring holds at a key formation, and for how long around it, seconds.
+/// Extra weight of the spring at a key formation, and the time around it for which it acts, seconds.
 const KEY_HOLD: f64 = 8.0;
 const KEY_HOLD_S: f64 = 0.6;
-/// How far bodies may move until neighbours are looked for anew, metres.
+/// Distance that bodies may move until neighbours are searched again, metres.
 const SKIN_M: f64 = 0.3;
 
 /// Moves bodies so that they do not overlap at any moment.
 ///
-/// Everybody is held by a spring to where they would be without the others, the more firmly the nearer a key formation is
-/// in time. Neighbours push each other with a force in inverse proportion to their distance (Kamphuis, Overmars 2004,
+/// A spring holds each body to its position without the others, the more firmly the nearer a key formation is in time. Neighbours push each other with a force in inverse proportion to their distance (Kamphuis, Overmars 2004,
 /// *Finding paths for coherent groups using clearance*), which ends at 2.5 times the distance at which bodies would
-/// overlap. Offsets are weighed over the whole time together, so that accelerations are small:
+/// overlap. Offsets are optimised over the whole time together, so that accelerations are small:
 ///
 /// ```text
 /// minimise  sum over t of  s(t) |x|^2 / 2 - f(t) . x + a |x''|^2 / 2   where no two bodies overlap
 /// ```
 ///
-/// by the alternating direction method of multipliers (Boyd et al. 2011, doi 10.1561/2200000016): in turn everybody's best
-/// way over time, and every moment's nearest places at which nobody overlaps. Where that finds no way, as in dense crowds
-/// that go through each other, everybody is led on step by step without the spring, early and gently. Nobody is moved more
-/// suddenly than people stagger: where there is no other way, they overlap, and a warning says where and when.
+/// by the alternating direction method of multipliers (Boyd et al. 2011, doi 10.1561/2200000016): in turn each body's best
+/// path over time, and each frame's nearest positions without overlap. If that fails, as in dense crowds that pass through
+/// each other, bodies are led apart step by step without the spring, early and gently. Bodies are never moved more suddenly
+/// than people stagger: they overlap instead, and a warning says where and when.
 ///
 /// # Errors
 /// [`FormationError::Interrupted`].
@@ -78,30 +78,30 @@ pub(in super::super) fn keep_clear(
     Ok(())
 }
 
-/// The gap, edge to edge, over which the widest bodies push each other.
+/// Largest gap, edge to edge, over which bodies push each other, metres.
 fn push_gap_m(crowd: &BodyTracks<'_>) -> f64 {
-    // Bodies of many keep a person's distance around themselves: what counts is the smallest.
+    // Bodies of several people keep a person's distance around themselves, so the smallest one counts.
     let smallest_m = crowd.reaches_m.iter().copied().fold(f64::INFINITY, f64::min);
     (PUSH_REACH - 1.0) * 2.0 * smallest_m
 }
 
-/// The search for offsets.
+/// The state of the search for offsets.
 struct OffsetSearch<'c> {
     crowd: &'c BodyTracks<'c>,
     push: f64,
     /// Gap over which neighbours push each other, and the distance that it stands for, metres.
     push_gap_m: f64,
-    /// What holds everybody at each moment, and keeps accelerations small.
+    /// Weight of the spring in each frame, and of accelerations.
     hold: Vec<f64>,
     bend: f64,
     smoother: Smoother,
-    /// Everybody's best way.
+    /// Best offsets over time.
     ways: Vec<Vec2>,
-    /// Every moment's places at which nobody overlaps.
+    /// Offsets without overlap, frame by frame.
     clear: Vec<Vec2>,
-    /// How far the two have been apart, summed up.
+    /// Accumulated difference of the two (scaled dual variable).
     strain: Vec<Vec2>,
-    /// Pairs that may come near, moment by moment, and the offsets at which they were looked for.
+    /// Pairs that may come near, frame by frame, and the offsets for which they were searched.
     near: Vec<Vec<BodyPair>>,
     looked_at: Vec<Vec2>,
 }
@@ -116,7 +116,7 @@ impl<'c> OffsetSearch<'c> {
                 1.0 + KEY_HOLD * near * near + TIE
             })
             .collect();
-        // Half the time of stepping aside is where the answer to a single push has fallen to a third.
+        // The response to a single push falls to a third within half the time of stepping aside.
         let moments = avoidance.seconds / 2.0 * avoidance.fps;
         let bend = (1.0 + TIE) * moments * moments * moments * moments;
         let smoother = Smoother::new(&hold, bend);
@@ -136,20 +136,20 @@ impl<'c> OffsetSearch<'c> {
         }
     }
 
-    /// Goes on from the ways that were found, with another share of the weight of accelerations.
+    /// Starts a round with a share of the weight of accelerations, from the offsets found so far.
     fn begin(&mut self, stiffness: f64) {
         self.smoother = Smoother::new(&self.hold, self.bend * stiffness);
         self.strain.fill(Vec2::ZERO);
     }
 
-    /// Searches until nobody overlaps; says whether that was reached.
+    /// Searches until bodies do not overlap; returns whether that was reached.
     fn run(&mut self, margin: f64, progress: &dyn Progress) -> Result<bool, FormationError> {
         for step in 0..STEPS {
             progress.keep_on()?;
             self.find_clear_places(margin);
             self.find_ways();
             self.look_around();
-            // Until then pushes and springs are hardly in balance.
+            // Before that, pushes and springs are hardly in balance.
             if step >= LEAST_STEPS && self.is_clear() {
                 return Ok(true);
             }
@@ -157,8 +157,7 @@ impl<'c> OffsetSearch<'c> {
         Ok(false)
     }
 
-    /// For every moment: the nearest places to everybody's ways (and what is left of earlier strain) at which nobody
-    /// overlaps.
+    /// Finds the offsets without overlap nearest to the best offsets and the dual variable, in each frame.
     fn find_clear_places(&mut self, margin: f64) {
         let OffsetSearch { crowd, ways, clear, strain, near, .. } = self;
         let width = crowd.bodies;
@@ -182,7 +181,7 @@ impl<'c> OffsetSearch<'c> {
         });
     }
 
-    /// Everybody's best way to be near those places, held by the spring and pushed by neighbours.
+    /// Finds the best offsets near the clear ones, held by the spring and pushed by neighbours.
     fn find_ways(&mut self) {
         let OffsetSearch { crowd, ways, clear, strain, near, push, push_gap_m, smoother, .. } = self;
         let width = crowd.bodies;
@@ -198,7 +197,7 @@ impl<'c> OffsetSearch<'c> {
                 let length_m = apart.length();
                 let gap_m = length_m - here.reaches_m[a] - here.reaches_m[b];
                 if gap_m < *push_gap_m && length_m > 1e-9 {
-                    // As between two people whose bodies have this gap between them.
+                    // The force between two people with this gap between their bodies.
                     let own_m = *push_gap_m / (PUSH_REACH - 1.0);
                     let distance_m = (own_m + gap_m).max(own_m / 2.0);
                     let force = *push * (1.0 / distance_m - 1.0 / (own_m * PUSH_REACH));
@@ -213,7 +212,7 @@ impl<'c> OffsetSearch<'c> {
         smoother.solve(ways, width);
     }
 
-    /// Looks for neighbours anew where somebody has moved far.
+    /// Searches neighbours again if a body has moved far.
     fn look_around(&mut self) {
         let moved = self.ways.iter().zip(&self.looked_at);
         let farthest = moved.map(|(way, before)| (*way - *before).length_squared()).fold(0.0, f64::max);
@@ -237,16 +236,17 @@ impl<'c> OffsetSearch<'c> {
     }
 }
 
-/// A pair that keeps apart in a direction: the half plane beside which bodies overlap.
+/// The half plane in which a pair of bodies does not overlap.
 struct SeparatingLine {
     pair: [usize; 2],
     direction: Vec2,
-    /// How far apart in that direction offsets must at least be.
+    /// Least difference of the offsets in that direction, metres.
     least_m: f64,
 }
 
-/// The sides on which pairs are of each other with these offsets. They stay there: were everybody moved the shortest way,
-/// two who are led past each other would change sides again and again.
+/// The half planes of pairs with these offsets.
+///
+/// Pairs stay on their side: moved the shortest way, two bodies that are led past each other would keep changing sides.
 fn sides(here: BodiesAtMoment<'_>, ways: &[Vec2], near: &[BodyPair], margin: f64) -> Vec<SeparatingLine> {
     let side = |&[a, b]: &BodyPair| {
         let pair = [a as usize, b as usize];
@@ -260,7 +260,7 @@ fn sides(here: BodiesAtMoment<'_>, ways: &[Vec2], near: &[BodyPair], margin: f64
 }
 
 impl SeparatingLine {
-    /// Moves offsets apart, both by the same; says whether that was needed.
+    /// Moves the offsets of both bodies apart by the same amount; returns whether that was needed.
     fn part(&self, offsets: &mut [Vec2]) -> bool {
         let [a, b] = self.pair;
         let missing_m = self.least_m - (offsets[a] - offsets[b]).dot(self.direction);

@@ -1,8 +1,8 @@
 use crate::formation::request::AvoidRequest;
 
-/// How strongly neighbours push each other where nothing else is said, see [`AvoidRequest::push`].
+/// Default strength of the push between neighbours, see [`AvoidRequest::push`].
 const USUAL_PUSH: f64 = 0.02;
-/// How long before and after an encounter people step aside where nothing else is said, seconds.
+/// Default time for which people step aside before and after an encounter, seconds.
 const USUAL_SECONDS: f64 = 0.8;
 
 /// Settings of collision avoidance within a formation.

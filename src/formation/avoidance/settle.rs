@@ -8,33 +8,34 @@ use crate::formation::FormationError;
 use crate::math::Vec2;
 use crate::progress::Progress;
 
-/// Steps in which ways that still overlap are led apart.
+/// Most steps in which overlapping paths are led apart.
 const STEPS: usize = 240;
-/// Room beyond what is needed that these steps aim at, as a share of the distance kept.
+/// Extra room at which these steps aim, as a share of the kept distance.
 const MARGIN: f64 = 0.03;
-/// How long before and after they do so, seconds: first early and gently, later only who is still in the way.
+/// Smoothing time of the steps, seconds: first early and gently, later only close to the overlap.
 const EARLY_S: [f64; 4] = [0.5, 0.35, 0.2, 0.12];
-/// How often neighbours are looked for anew in a step.
+/// Number of neighbour searches in a step.
 const ROUNDS: usize = 12;
-/// By how much a step goes on beyond what would part two at once: neighbouring moments share in it.
+/// Over-relaxation of a step, since smoothing spreads it over neighbouring frames.
 const BEYOND: f64 = 1.6;
-/// Sweeps that make sure in the end.
+/// Most sweeps of the final separation in each frame.
 const LAST_SWEEPS: usize = 2000;
-/// How long a remedy of the end takes to fade, seconds.
+/// Time in which a correction of the final separation fades, seconds.
 const FADE_S: f64 = 0.4;
-/// What makes sure in the end leaves so much more, share.
+/// Extra room of the final separation, as a share of the kept distance.
 const LAST_MARGIN: f64 = 1e-6;
-/// How suddenly anybody is moved aside at most, metres per second squared: who is jostled staggers so.
+/// Largest acceleration of a body that is moved aside, metres per second squared: that of staggering.
 const HARDEST_M_S2: f64 = 20.0;
-/// Whoever is moved aside by more than this many times the distance kept has no room where they are wanted.
+/// Offset, as a multiple of the kept distance, above which a body has no room at its target.
 const FAR: f64 = 4.0;
-/// How often a remedy is smoothed until it is no more sudden than that, from how long on, seconds, each time longer by half.
+/// Most smoothings of corrections that are too sudden, and the first smoothing time, seconds; each is longer by half.
 const SMOOTHINGS: usize = 12;
 const SMOOTHED_S: f64 = 0.1;
 
-/// Makes sure of ways that were found: where they still overlap, everybody is led farther apart, and what is left is parted
-/// moment by moment. Where that would be too sudden for anybody, it is too crowded, and people overlap rather than jump; a
-/// warning says where and when.
+/// Removes the remaining overlaps of the paths found.
+///
+/// Overlapping bodies are led farther apart over time, and at last separated frame by frame. If that is too sudden for a
+/// body, the crowd is too dense, and people overlap rather than jump; a warning says where and when.
 pub(super) fn settle(
     crowd: &BodyTracks<'_>,
     mut ways: Vec<Vec2>,
@@ -51,7 +52,7 @@ pub(super) fn settle(
         smoother(crowd.moments(), early_s * avoidance.fps).solve(&mut remedy, crowd.bodies);
         ways.iter_mut().zip(&remedy).for_each(|(way, &remedy)| *way += remedy * BEYOND);
     }
-    let sure = made_sure(crowd, &ways, avoidance.fps);
+    let sure = separated(crowd, &ways, avoidance.fps);
     let settled = softened(crowd, &ways, sure, avoidance.fps);
     if let Some(warning) = crowding(crowd, &settled, avoidance.fps) {
         progress.warn(&warning);
@@ -59,12 +60,12 @@ pub(super) fn settle(
     Ok(settled)
 }
 
-/// Weighs nearness to what is asked for against accelerations over so many moments.
+/// A smoother with a time constant in frames, for `count` frames.
 fn smoother(count: usize, moments: f64) -> Smoother {
     Smoother::new(&vec![1.0; count], moments * moments * moments * moments)
 }
 
-/// How everybody would have to move in each moment by itself, 0 where nobody overlaps.
+/// The corrections that separate overlapping bodies in each frame by itself; 0 without overlap.
 fn remedies(crowd: &BodyTracks<'_>, ways: &[Vec2]) -> Vec<Vec2> {
     let width = crowd.bodies;
     let mut remedies = vec![Vec2::ZERO; ways.len()];
@@ -78,7 +79,7 @@ fn remedies(crowd: &BodyTracks<'_>, ways: &[Vec2]) -> Vec<Vec2> {
         let mut places = own.clone();
         for _ in 0..ROUNDS {
             let near = pairs_within(BodiesAtMoment { places: &places, reaches_m: here.reaches_m }, margin_m);
-            if !part(&mut places, here.reaches_m, &near, MARGIN, 2 * SWEEPS) {
+            if !separate(&mut places, here.reaches_m, &near, MARGIN, 2 * SWEEPS) {
                 break;
             }
         }
@@ -87,8 +88,8 @@ fn remedies(crowd: &BodyTracks<'_>, ways: &[Vec2]) -> Vec<Vec2> {
     remedies
 }
 
-/// The ways, and where they still overlap every moment's own remedy, which fades away over the moments after it.
-fn made_sure(crowd: &BodyTracks<'_>, ways: &[Vec2], fps: f64) -> Vec<Vec2> {
+/// The offsets with each frame's own correction of overlaps, which fades over the following frames.
+fn separated(crowd: &BodyTracks<'_>, ways: &[Vec2], fps: f64) -> Vec<Vec2> {
     let width = crowd.bodies;
     let keep = (1.0 - 1.0 / (FADE_S * fps)).max(0.0);
     let mut sure = ways.to_vec();
@@ -102,7 +103,7 @@ fn made_sure(crowd: &BodyTracks<'_>, ways: &[Vec2], fps: f64) -> Vec<Vec2> {
             if near.is_empty() {
                 break;
             }
-            part(&mut places, here.reaches_m, &near, LAST_MARGIN, SWEEPS);
+            separate(&mut places, here.reaches_m, &near, LAST_MARGIN, SWEEPS);
         }
         for k in 0..width {
             let offset = places[k] - here.places[k];
@@ -113,7 +114,7 @@ fn made_sure(crowd: &BodyTracks<'_>, ways: &[Vec2], fps: f64) -> Vec<Vec2> {
     sure
 }
 
-/// What makes sure, smoothed for those whom it would move too suddenly.
+/// The corrections, smoothed for bodies that they would move too suddenly.
 fn softened(crowd: &BodyTracks<'_>, ways: &[Vec2], mut sure: Vec<Vec2>, fps: f64) -> Vec<Vec2> {
     let (width, moments) = (crowd.bodies, crowd.moments());
     let mut span_s = SMOOTHED_S;
@@ -140,14 +141,14 @@ fn softened(crowd: &BodyTracks<'_>, ways: &[Vec2], mut sure: Vec<Vec2>, fps: f64
     sure
 }
 
-/// The most suddenly that somebody is moved aside, metres per second squared.
+/// Largest acceleration of a body's offsets, metres per second squared.
 fn hardest_m_s2(offsets: &[Vec2], body: usize, width: usize, fps: f64) -> f64 {
     let at = |moment: usize| offsets[moment * width + body];
     let inner = 1..(offsets.len() / width).saturating_sub(1);
     inner.map(|k| (at(k - 1) - at(k) * 2.0 + at(k + 1)).length() * fps * fps).fold(0.0, f64::max)
 }
 
-/// Says where and when it was too crowded, if it was.
+/// The warning that a crowd was too dense, with place and time; `None` if it was not.
 fn crowding(crowd: &BodyTracks<'_>, offsets: &[Vec2], fps: f64) -> Option<String> {
     const HINT: &str = "spread the key formations, leave more time between them, or set a smaller `avoid.distance_m`";
     let at =
@@ -155,7 +156,7 @@ fn crowding(crowd: &BodyTracks<'_>, offsets: &[Vec2], fps: f64) -> Option<String
     if let Some((moment, [apart_m, kept_m], place)) = nearest(crowd, offsets) {
         let where_and_when = at(moment, place);
         return Some(format!(
-            "too many people want to the same place: {where_and_when}, two come within {apart_m:.2} m of each other instead of \
+            "the crowd is too dense: {where_and_when}, two people come within {apart_m:.2} m of each other instead of \
              {kept_m:.2} m; {HINT}"
         ));
     }
@@ -164,13 +165,12 @@ fn crowding(crowd: &BodyTracks<'_>, offsets: &[Vec2], fps: f64) -> Option<String
     let most = (0..offsets.len()).filter(|&k| far(k) > FAR).max_by(|&a, &b| far(a).total_cmp(&far(b)))?;
     let where_and_when = at(most / width, crowd.places[most]);
     Some(format!(
-        "too many people want to the same place: {where_and_when}, somebody has to keep {:.1} m off; {HINT}",
+        "the crowd is too dense: {where_and_when}, a person has to stay {:.1} m away; {HINT}",
         offsets[most].length()
     ))
 }
 
-/// Which two come nearest to each other, for the distance that they should keep, if they come nearer than that: when, how far
-/// they are apart and should be, and where.
+/// The pair with the largest overlap: its frame, its distance and the distance to keep, and the place; `None` without one.
 fn nearest(crowd: &BodyTracks<'_>, offsets: &[Vec2]) -> Option<(usize, [f64; 2], Vec2)> {
     /// Nearer by less than this share of the distance is rounding.
     const ROUNDING: f64 = 1e-5;
@@ -192,9 +192,8 @@ fn missing_m([apart_m, kept_m]: [f64; 2]) -> f64 {
     kept_m - apart_m
 }
 
-/// Moves pairs apart that are nearer to each other than they keep and a margin, sweep by sweep; says whether some may still
-/// be so.
-fn part(places: &mut [Vec2], reaches_m: &[f64], near: &[BodyPair], margin: f64, sweeps: usize) -> bool {
+/// Separates pairs nearer than the kept distance and a margin, sweep by sweep; returns whether some may be left.
+fn separate(places: &mut [Vec2], reaches_m: &[f64], near: &[BodyPair], margin: f64, sweeps: usize) -> bool {
     for _ in 0..sweeps {
         let mut moved = false;
         for &[a, b] in near {

@@ -1,7 +1,9 @@
 use crate::math::Vec2;
 
-/// Solves for offsets that weigh nearness to what is asked for against accelerations, for everybody at once:
-/// `(diag(hold) + bend D'D) x = b` with `D` the second difference over moments. Symmetric, positive, five diagonals.
+/// Solver for offsets that balance accuracy against accelerations, for all bodies at once.
+///
+/// It solves `(diag(hold) + bend D'D) x = b` with `D` the second difference over frames: symmetric, positive definite, five
+/// diagonals.
 pub(super) struct Smoother {
     /// `L D L'` of the matrix: the diagonal, and the two below it.
     diagonal: Vec<f64>,
@@ -10,7 +12,7 @@ pub(super) struct Smoother {
 }
 
 impl Smoother {
-    /// For these weights, one for each moment, and this weight of second differences.
+    /// Factorises the matrix for a weight per frame and a weight of second differences.
     pub fn new(hold: &[f64], bend: f64) -> Smoother {
         let n = hold.len();
         let mut bands = [hold.to_vec(), vec![0.0; n], vec![0.0; n]];
@@ -38,7 +40,7 @@ impl Smoother {
         Smoother { diagonal, first, second }
     }
 
-    /// Solves in place: `values` holds `width` right sides side by side, moment by moment.
+    /// Solves in place: `values` holds `width` right-hand sides, frame by frame.
     pub fn solve(&self, values: &mut [Vec2], width: usize) {
         let n = self.diagonal.len();
         for k in 0..n {
@@ -72,7 +74,7 @@ mod tests {
     use crate::math::{SplitMix64, vec2};
 
     #[test]
-    fn what_is_solved_solves() {
+    fn the_solution_solves_the_system() {
         for n in [1, 2, 3, 4, 9, 40] {
             let mut words = SplitMix64::new(n as u64);
             let hold: Vec<f64> = (0..n).map(|_| f64::from(words.range(0.5, 4.0))).collect();

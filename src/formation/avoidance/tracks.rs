@@ -7,7 +7,7 @@ use crate::math::{Vec2, sin_cos, vec2};
 /// Sweeps over overlapping pairs in a step.
 pub(super) const SWEEPS: usize = 4;
 
-/// Bodies over time, moment by moment.
+/// Positions and radii of all bodies over time, frame by frame.
 pub(super) struct BodyTracks<'b> {
     pub bodies: usize,
     pub places: Vec<Vec2>,
@@ -32,7 +32,7 @@ impl<'b> BodyTracks<'b> {
         self.places[moment * self.bodies + body as usize]
     }
 
-    /// How far apart the middles of two bodies are kept.
+    /// Distance at which the centres of two bodies are kept, metres.
     pub fn keep_m(&self, moment: usize, [a, b]: BodyPair) -> f64 {
         let at = |body: u32| self.reaches_m[moment * self.bodies + body as usize];
         at(a) + at(b)
@@ -43,13 +43,13 @@ impl<'b> BodyTracks<'b> {
         BodiesAtMoment { places: &self.places[range.clone()], reaches_m: &self.reaches_m[range] }
     }
 
-    /// Everybody's places at a moment, with everybody's offsets at all moments.
+    /// Positions in a frame moved by offsets, which are given for all frames.
     pub fn moved(&self, moment: usize, offsets: &[Vec2]) -> Vec<Vec2> {
         let offsets = &offsets[moment * self.bodies..(moment + 1) * self.bodies];
         self.moment(moment).places.iter().zip(offsets).map(|(&place, &offset)| place + offset).collect()
     }
 
-    /// Pairs nearer to each other than a gap, edge to edge, with offsets to places, moment by moment.
+    /// Pairs of moved bodies within a gap, edge to edge, frame by frame.
     pub fn pairs(&self, offsets: &[Vec2], gap_m: f64) -> Vec<Vec<BodyPair>> {
         let of = |moment: usize| {
             let places = self.moved(moment, offsets);
@@ -59,7 +59,7 @@ impl<'b> BodyTracks<'b> {
     }
 }
 
-/// Where to, of two who stand in one place: always the same for the same two, another for others.
+/// Direction in which two bodies at one position part: a fixed one for each pair.
 pub(super) fn any_direction(a: u32, b: u32) -> Vec2 {
     const GOLDEN_ANGLE_RAD: f64 = 2.399_963_229_728_653;
     let (sin, cos) = sin_cos(GOLDEN_ANGLE_RAD * (f64::from(a) * 7.0 + f64::from(b)));

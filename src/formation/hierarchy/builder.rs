@@ -19,36 +19,36 @@ use crate::motion::{Ensemble, MOST_PLACES};
 use crate::progress::Progress;
 use crate::recordings::Recording;
 
-/// The most people of all crowds together.
+/// Largest number of people of all crowds together.
 const MOST_IN_ALL: usize = 1_000_000;
 
-/// Makes crowds, level by level.
+/// Builder of a crowd and the small crowds within it, level by level.
 pub(super) struct CrowdBuilder<'m> {
     folder: &'m Path,
     fps: f64,
-    /// How many moments the whole has.
+    /// Number of frames.
     pub moments: usize,
     progress: &'m dyn Progress,
-    /// Recordings that were read before, for crowds of one kind.
+    /// Recordings read so far, for crowds of one kind.
     read: Vec<(ExampleRequest, Ensemble)>,
-    /// People so far.
+    /// Number of people so far.
     people: usize,
 }
 
-/// Which crowd it is.
+/// The position of a crowd in the hierarchy.
 #[derive(Clone)]
 struct CrowdContext {
     /// Its section, for errors: `formation.crowd.0`.
     key: String,
-    /// Which individual it stands for.
+    /// Address of the individual that it replaces.
     address: Vec<u32>,
-    /// Which one of its kind it is.
+    /// Its number among the crowds of its kind, from 0.
     number: usize,
-    /// Whether its middle is free to go where the example's does.
+    /// Whether its centroid moves with the example's.
     free: bool,
-    /// Where its middle is, moment by moment.
+    /// Its centroid in each frame, metres.
     base: Vec<Vec2>,
-    /// Where what is up in its formations points; empty where that stays up.
+    /// Direction of its formations' up in each frame; empty if it stays up.
     up: Vec<Vec2>,
 }
 
@@ -57,7 +57,7 @@ impl<'m> CrowdBuilder<'m> {
         CrowdBuilder { folder, fps, moments: 0, progress, read: Vec::new(), people: 0 }
     }
 
-    /// How long the example of the whole is, if that says it: a recording, or a part of an example.
+    /// Duration of the whole crowd's example, seconds; `None` if neither a recording nor an end is given.
     pub fn example_duration_s(&mut self, request: &FormationRequest) -> Result<Option<f64>, FormationError> {
         let example = &request.example;
         if example.file.is_some() {
@@ -67,7 +67,7 @@ impl<'m> CrowdBuilder<'m> {
         Ok(example.to_s.map(|to_s| to_s - example.from_s))
     }
 
-    /// The whole crowd, on its way and clear of each other.
+    /// Builds the whole crowd along its path, without overlaps.
     pub fn whole(&mut self, request: &FormationRequest) -> Result<Vec<FormationBody>, FormationError> {
         let base = path::places(request.way.as_ref(), self.fps, self.moments);
         let turns = request.way.as_ref().is_some_and(|way| way.follow_heading);
@@ -84,7 +84,7 @@ impl<'m> CrowdBuilder<'m> {
         Ok(bodies)
     }
 
-    /// The individuals of a crowd, small crowds in the places of those who are that; and the moments of its key formations.
+    /// Builds the bodies of a crowd, with small crowds in the places of individuals, and the frames of its keys.
     fn section(
         &mut self,
         section: CrowdSection<'_>,
@@ -133,7 +133,7 @@ impl<'m> CrowdBuilder<'m> {
         Ok((bodies, moments))
     }
 
-    /// A small crowd in the place of an individual.
+    /// Builds a small crowd in the place of an individual.
     fn small_crowd(
         &mut self,
         request: &CrowdRequest,
@@ -167,7 +167,7 @@ impl<'m> CrowdBuilder<'m> {
         Ok(())
     }
 
-    /// Everybody whom a section names is there.
+    /// Checks that the members that a section names exist.
     fn known(&self, crowds: &[CrowdRequest], people: usize, spot: &CrowdContext) -> Result<(), FormationError> {
         for (kind, crowd) in crowds.iter().enumerate() {
             let Members::List(list) = &crowd.members else { continue };
@@ -179,7 +179,7 @@ impl<'m> CrowdBuilder<'m> {
         Ok(())
     }
 
-    /// The example of a section, as long as the whole.
+    /// The example of a section, with the duration of the whole.
     fn example(
         &mut self,
         request: &ExampleRequest,
@@ -225,7 +225,7 @@ impl<'m> CrowdBuilder<'m> {
         check_size(people, moments)
     }
 
-    /// A recording, read once.
+    /// The ensemble of a recording, read once.
     fn recorded(&mut self, request: &ExampleRequest) -> Result<Ensemble, FormationError> {
         let same = |other: &ExampleRequest| {
             (&other.file, &other.recording, other.from_s, other.to_s)
@@ -244,7 +244,7 @@ impl<'m> CrowdBuilder<'m> {
         Ok(ensemble)
     }
 
-    /// Where everybody is in each key formation.
+    /// The positions of each key formation.
     fn keys(
         &self,
         section: CrowdSection<'_>,
@@ -261,17 +261,17 @@ impl<'m> CrowdBuilder<'m> {
         for (index, (request, layout)) in section.key.iter().zip(layouts).enumerate() {
             let moment = at(request.time_s);
             wheel_rad += request.wheel_deg.to_radians();
-            let cast = PlacementInput {
+            let input = PlacementInput {
                 people: example.people(),
                 example: example.places_at(moment),
                 before: &before,
                 wheel_rad,
                 free: spot.free,
-                // Who has not stood anywhere yet goes where the first formation says.
+                // Without positions before it, the first formation is taken in order.
                 assign: if index == 0 && still { Assign::Order } else { section.assign.unwrap_or_default() },
             };
             let key = format!("{}.key.{index}", spot.key);
-            let places_m = keys::places(request, layout, &cast, &key)?;
+            let places_m = keys::places(request, layout, &input, &key)?;
             let middle = centroid(&places_m);
             let (sin, cos) = sin_cos(-wheel_rad);
             before = places_m.iter().map(|&place| (place - middle).rotated(vec2(cos, sin))).collect();
@@ -281,7 +281,7 @@ impl<'m> CrowdBuilder<'m> {
                 keys.push(KeyPlaces { moment: end, places_m, wheel_rad });
             }
         }
-        // At high speed two key formations may fall into one moment: the later one holds.
+        // Two key formations may fall into one frame: the later one counts.
         keys.reverse();
         keys.dedup_by_key(|key| key.moment);
         keys.reverse();
@@ -289,8 +289,7 @@ impl<'m> CrowdBuilder<'m> {
         Ok(keys)
     }
 
-    /// The formations at the start and the end, where nothing is said of them: the example's own, of an example that has
-    /// none those beside it.
+    /// Adds formations at the start and the end if missing: the example's own, else the nearest key formation.
     fn complete(&self, keys: &mut Vec<KeyPlaces>, request: &ExampleRequest, example: &Ensemble, free: bool) {
         let last = self.moments - 1;
         let still = has_no_formation(request);
@@ -312,12 +311,12 @@ impl<'m> CrowdBuilder<'m> {
     }
 }
 
-/// Whether an example's people have no formation of their own: they stand or sway wherever they are put.
+/// Whether an example has no formation of its own: its people stand or sway wherever they are.
 fn has_no_formation(request: &ExampleRequest) -> bool {
     request.file.is_none() && matches!(request.kind, None | Some(ExampleKind::Still | ExampleKind::Sway))
 }
 
-/// How many people are made, and in rows of how many.
+/// The number of people to generate and the number in a row; `None` if not given.
 fn how_many(request: &ExampleRequest, layouts: &[FormationLayout], spot: &CrowdContext) -> Option<(usize, usize)> {
     let [people, rows, columns] =
         [request.people, request.rows, request.columns].map(|count| count.map(|n| n as usize));
@@ -331,7 +330,7 @@ fn how_many(request: &ExampleRequest, layouts: &[FormationLayout], spot: &CrowdC
     Some((people, columns.max(1)))
 }
 
-/// Some of an example's people.
+/// Selects people of an example.
 fn chosen(example: &Ensemble, people: &[u32], key: &str) -> Result<Ensemble, RequestError> {
     if let Some(&person) = people.iter().find(|&&person| person as usize >= example.people()) {
         let key = format!("{key}.choose");
@@ -343,7 +342,7 @@ fn chosen(example: &Ensemble, people: &[u32], key: &str) -> Result<Ensemble, Req
     Ok(Ensemble::new(example.fps, example.start_s, (0..people.len() as u32).collect(), places.collect()))
 }
 
-/// Refuses more places than can be held.
+/// Checks that all positions can be held.
 fn check_size(people: usize, moments: usize) -> Result<(), FormationError> {
     match people.checked_mul(moments) {
         Some(places) if places <= MOST_PLACES => Ok(()),

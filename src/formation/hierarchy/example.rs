@@ -3,12 +3,12 @@ use super::super::request::Repeat;
 use crate::math::Vec2;
 use crate::motion::Ensemble;
 
-/// How long it takes to turn back where an example is played to and fro, seconds before and after the end.
+/// Time for turning back in a to-and-fro repetition, seconds before and after the end.
 const TURN_S: f64 = 0.5;
-/// How long a passage is faded into the next where an example is played again and again, seconds.
+/// Cross-fade between passages of a loop, seconds.
 const FADE_S: f64 = 1.0;
 
-/// An example as long as it is needed: cut, or repeated. Speeds stay continuous throughout.
+/// Cuts or repeats an example to a number of frames, with continuous speeds.
 pub(super) fn lengthened(example: &Ensemble, moments: usize, repeat: Repeat) -> Ensemble {
     let (fps, ids) = (example.fps, example.ids.clone());
     let length_s = (example.moments().saturating_sub(1)) as f64 / fps;
@@ -37,7 +37,7 @@ fn turn_s(length_s: f64) -> f64 {
     TURN_S.min(length_s / 4.0)
 }
 
-/// Where in an example of this length one is, who goes through it forwards and backwards.
+/// Time within an example that is played forwards and backwards.
 fn to_and_fro_s(time_s: f64, length_s: f64) -> f64 {
     if length_s <= 0.0 {
         return 0.0;
@@ -61,8 +61,7 @@ fn to_and_fro_s(time_s: f64, length_s: f64) -> f64 {
     }
 }
 
-/// Everybody's places in an example that begins again and again, where its middle has got to; a passage is faded into the
-/// next.
+/// Positions in a looped example; each passage starts at the centroid of the last one and is cross-faded with it.
 fn looped(example: &Ensemble, time_s: f64, length_s: f64) -> Vec<Vec2> {
     let fade_s = FADE_S.min(length_s / 4.0);
     let period_s = length_s - fade_s;
@@ -81,13 +80,13 @@ fn looped(example: &Ensemble, time_s: f64, length_s: f64) -> Vec<Vec2> {
     before.zip(here).map(|(before, here)| before.lerp(here, share)).collect()
 }
 
-/// From 0 to 1 with gentle ends: 3 s^2 - 2 s^3.
+/// Smoothstep from 0 to 1: 3 s^2 - 2 s^3.
 pub(super) fn eased(share: f64) -> f64 {
     let share = share.clamp(0.0, 1.0);
     share * share * (3.0 - 2.0 * share)
 }
 
-/// Places at a time between moments, on curves through them (Catmull-Rom).
+/// Positions at a time between frames (Catmull-Rom interpolation).
 fn sampled(example: &Ensemble, time_s: f64) -> Vec<Vec2> {
     let last = example.moments().saturating_sub(1);
     let at = (time_s * example.fps).clamp(0.0, last as f64);

@@ -8,16 +8,16 @@ use crate::math::Vec2;
 use crate::motion::Ensemble;
 use crate::progress::{Progress, Stage};
 
-/// Frames per second where nothing else is asked for: those of the crowd's own simulation.
+/// Default frame rate, frames per second: that of the crowd simulation.
 const USUAL_FPS: f64 = 10.0;
-/// How long a formation lasts where nothing says it, seconds.
+/// Default duration of a formation, seconds.
 const USUAL_S: f64 = 60.0;
 
-/// Makes the crowd that a request describes; paths in it start from `folder`.
+/// Builds the crowd that a request describes; file paths are relative to `folder`.
 ///
 /// # Errors
-/// Values out of range or that do not fit each other; files that cannot be read; formations with places for others than
-/// there are; more people or frames than can be held; [`FormationError::Interrupted`].
+/// [`FormationError::Request`] for values out of range or in conflict, unreadable files, and formations whose number of
+/// positions is not the number of people; recordings that cannot be read; more people or frames than can be held; [`FormationError::Interrupted`].
 pub fn form(request: &FormationRequest, folder: &Path, progress: &dyn Progress) -> Result<FormedCrowd, FormationError> {
     request.check()?;
     let fps = request.fps.unwrap_or(USUAL_FPS);
@@ -27,7 +27,7 @@ pub fn form(request: &FormationRequest, folder: &Path, progress: &dyn Progress) 
         (None, Some(last_s)) if last_s > 0.0 => last_s,
         (None, _) => builder.example_duration_s(request)?.unwrap_or(USUAL_S),
     };
-    // Rounding down leaves no moment after the end; a duration of a whole number of frames keeps its last.
+    // Rounded down, so that no frame lies after the end; a duration of whole frames keeps its last one.
     builder.moments = ((duration_s * fps + 1e-6).floor() as usize).max(1) + 1;
     let bodies = builder.whole(request)?;
     progress.advance(Stage::Motion, 1.0);
@@ -49,7 +49,7 @@ pub fn form(request: &FormationRequest, folder: &Path, progress: &dyn Progress) 
     Ok(FormedCrowd { ensemble: Ensemble::new(fps, 0.0, ids, places_m), people: all })
 }
 
-/// When the last key formation of all ends, seconds.
+/// End of the last key formation of all crowds, seconds.
 fn last_key_s(request: &FormationRequest) -> Option<f64> {
     fn of(section: CrowdSection<'_>) -> Option<f64> {
         let own = section.key.last().map(|key| key.time_s + key.hold_s);

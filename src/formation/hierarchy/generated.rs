@@ -1,4 +1,4 @@
-//! Examples that are made here: ranks that march, people who wander or sway about.
+//! Generated examples: marching ranks, people who wander or sway.
 
 use std::f64::consts::TAU;
 
@@ -12,33 +12,33 @@ use crate::math::{Purpose, Vec2, person_stream, sin_cos, vec2};
 use crate::motion::Ensemble;
 use crate::progress::Progress;
 
-/// Speeds where nothing else is asked for, metres per second: of ranks, of those who wander.
+/// Default speeds of ranks and of wanderers, metres per second.
 const MARCH_M_S: f64 = 1.2;
 const STROLL_M_S: f64 = 0.9;
-/// How far a body sways to the sides with each pair of steps, and goes faster and slower with each step, metres.
+/// Amplitudes of sway to the sides per stride and along the path per step, metres.
 const SIDEWAYS_M: f64 = 0.03;
 const ALONG_M: f64 = 0.015;
-/// How far people are out of step with each other, radians.
+/// Range of step phases among people, radians.
 const OUT_OF_STEP_RAD: f64 = 0.5;
-/// The most who wander: each looks at each other one in every step.
+/// Largest number of wanderers: each step compares all pairs.
 pub(super) const MOST_WANDERERS: usize = 1_000;
-/// Time step of those who wander, seconds.
+/// Time step of wanderers, seconds.
 const STEP_S: f64 = 0.05;
 
-/// What is made: so many people in so many rows, from a moment on.
+/// Description of an example to generate.
 pub(super) struct GeneratedExample<'r> {
     pub request: &'r ExampleRequest,
     pub kind: ExampleKind,
     pub people: usize,
     pub columns: usize,
-    /// Another number for another of several crowds of one kind.
+    /// Seed, different for each crowd of a kind.
     pub seed: u64,
     pub fps: f64,
     pub moments: usize,
 }
 
 impl GeneratedExample<'_> {
-    /// Makes the example.
+    /// Generates the example.
     pub fn make(&self, progress: &dyn Progress) -> Result<Ensemble, FormationError> {
         let places_m = match self.kind {
             ExampleKind::Still => self.still(),
@@ -59,7 +59,7 @@ impl GeneratedExample<'_> {
         self.request.from_s + moment as f64 / self.fps
     }
 
-    /// Ranks as they stand, up pointing where they head.
+    /// The positions of the ranks, and their heading.
     fn ranks(&self) -> (Vec<Vec2>, Vec2) {
         let (sin, cos) = sin_cos(self.request.heading_deg.to_radians());
         let heading = vec2(cos, sin);
@@ -72,7 +72,7 @@ impl GeneratedExample<'_> {
         (0..self.moments).flat_map(|_| places.iter().copied()).collect()
     }
 
-    /// Everybody around their place in the ranks, which goes along with a common motion and strays from it.
+    /// Positions of people who stray around their place in ranks that move together.
     fn around(&self, common: impl Fn(f64) -> Vec2, speed_m_s: f64, stray_m: f64) -> Vec<Vec2> {
         let (places, heading) = self.ranks();
         let gaits: Vec<RankGait> = (0..self.people).map(|person| RankGait::of(self.seed, person as u32)).collect();
@@ -87,8 +87,7 @@ impl GeneratedExample<'_> {
         moments.flat_map(place).collect()
     }
 
-    /// A crowd that strolls about: everybody's direction drifts, turns back at the edge of a round place, and away from
-    /// others.
+    /// Positions of wanderers, whose directions drift, turn back at the edge of a disc, and away from others.
     fn wander(&self, progress: &dyn Progress) -> Result<Vec<Vec2>, FormationError> {
         let spacing_m = self.request.spacing_m;
         let radius_m = self.request.radius_m.unwrap_or_else(|| spacing_m * (6.0 * self.people as f64 / TAU).sqrt());
@@ -119,15 +118,15 @@ impl GeneratedExample<'_> {
     }
 }
 
-/// How somebody moves around their place in the ranks.
+/// A person's motion around a place in the ranks.
 struct RankGait {
-    /// Rate, rad/s, and phase, of slow drifts to the sides and along.
+    /// Rates, rad/s, and phases of slow drifts in x and y.
     drifts: [[(f64, f64); 3]; 2],
     step_phase_rad: f64,
 }
 
 impl RankGait {
-    /// What the three drifts add up with, and how long they take.
+    /// Amplitudes and periods of the three drifts.
     const SHARES: [f64; 3] = [0.6, 0.45, 0.3];
     const PERIODS_S: [[f64; 2]; 3] = [[9.0, 16.0], [5.0, 8.0], [2.8, 4.5]];
 
@@ -151,9 +150,9 @@ impl RankGait {
         vec2(x, y)
     }
 
-    /// What the steps of a march add: to the side of the foot that stands, and faster where it pushes off.
+    /// Sway of marching steps: towards the standing foot, and faster at push-off.
     fn step(&self, time_s: f64, speed_m_s: f64) -> Vec2 {
-        // Nobody marches so slowly that steps show.
+        // Steps of slower people do not show.
         if speed_m_s < 0.2 {
             return Vec2::ZERO;
         }
@@ -164,22 +163,22 @@ impl RankGait {
     }
 }
 
-/// Somebody who strolls about.
+/// A person who wanders about.
 struct Wanderer {
     place: Vec2,
     velocity: Vec2,
     direction: Vec2,
-    /// How fast the direction turns, rad/s.
+    /// Turning rate, rad/s.
     turn: f64,
     speed_m_s: f64,
     rng: rand::rngs::ChaCha8Rng,
 }
 
 impl Wanderer {
-    /// How long a turn lasts, and how strong it is, rad/s.
+    /// Correlation time of the turning rate, seconds, and its deviation, rad/s.
     const TURN_S: f64 = 1.6;
     const TURN_RAD_S: f64 = 0.7;
-    /// How long it takes to take up another velocity, seconds.
+    /// Reaction time for velocity changes, seconds.
     const REACTION_S: f64 = 0.6;
 
     fn new(seed: u64, person: u32, place: Vec2, speed_m_s: Option<f64>) -> Wanderer {
@@ -245,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn who_wanders_goes_everywhere_and_stays_inside_and_clear_of_others() {
+    fn wanderers_cover_the_disc_and_keep_clear_of_each_other() {
         let crowd = made(ExampleKind::Wander, 9, 600);
         let radius_m = (6.0 * 9.0 / TAU).sqrt();
         let (mut way_m, mut nearest_m) = (0.0, f64::INFINITY);
@@ -263,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn another_seed_is_another_example_and_the_same_is_the_same() {
+    fn different_seeds_give_different_examples() {
         for kind in [ExampleKind::Ranks, ExampleKind::Wander, ExampleKind::Sway] {
             let request = ExampleRequest::default();
             let of = |seed| GeneratedExample {

@@ -1,14 +1,14 @@
 use crate::math::{Vec2, vec2};
 
-/// How far behind itself a body drags what gives its heading, metres: it turns round within about so much of its way.
+/// Length of the drawbar that gives a heading, metres: a body turns round within about this distance.
 const DRAWBAR_M: f64 = 0.8;
-/// Shortest way that says where somebody is heading, metres.
+/// Shortest displacement that defines a heading, metres.
 const SHORTEST_M: f64 = 0.05;
 
-/// The direction in which somebody heads at each moment: that of a drawbar behind which an axle is dragged along the way.
+/// The heading of a body in each frame: that of a drawbar with an axle that is dragged along its path.
 ///
-/// It does not turn with those who stand, turns evenly around corners, and backs up for a while before it turns round. Who
-/// stands at the start, however much they sway, faces where they will go.
+/// It stays while the body stands, turns evenly around corners, and backs up before it turns round. A body that stands or
+/// sways at the start faces the direction in which it will go.
 pub(super) fn headings(places: &[Vec2]) -> Vec<Vec2> {
     let first = places.first().copied().unwrap_or_default();
     let ways = || places.iter().map(|&place| place - first);
@@ -26,7 +26,7 @@ pub(super) fn headings(places: &[Vec2]) -> Vec<Vec2> {
         .collect()
 }
 
-/// A place of a formation, whose up is forward, turned to a heading.
+/// Rotates a position of a formation, whose up is forward, to a heading.
 pub(super) fn turned_to(place: Vec2, heading: Vec2) -> Vec2 {
     // Up becomes the heading: turned by the heading's angle less a quarter.
     place.rotated(-heading.left())

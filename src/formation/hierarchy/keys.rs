@@ -1,4 +1,4 @@
-//! From what a key formation is written as to a place for everybody.
+//! Positions of all people in a key formation.
 
 use std::path::Path;
 
@@ -11,27 +11,27 @@ use super::super::places::{
 use super::super::request::{Assign, FormationShape, KeyRequest, RequestError};
 use crate::math::{Vec2, vec2};
 
-/// Side of a pixel of a picture, where nothing else is said, metres.
+/// Default side of a picture's pixel, metres.
 const USUAL_M_PER_PX: f64 = 0.1;
-/// Samples for each person where people are spread over lines or areas.
+/// Samples per person for spreading people over lines or areas.
 const SAMPLES: usize = 60;
 
-/// Where people may stand in a key formation, before it is known how many there are.
+/// The positions of a key formation, independent of the number of people.
 pub(super) enum FormationLayout {
-    /// Wherever the example has them.
+    /// The example's own positions.
     Example,
-    /// A place for each, and what they are called.
+    /// A position per person, and their description for errors.
     Places(Vec<Vec2>, String),
-    /// Anywhere in what these samples show, evenly.
+    /// Evenly within an area, given by samples.
     Area(Vec<Vec2>),
-    /// Along these lines, evenly; of the first the height of its letters is set by the spacing where it is not given.
+    /// Evenly along lines; with the height of letters, or `None` if the spacing sets it.
     Lines(Strokes, Option<f64>),
-    /// A shape for any number.
+    /// A shape for any number of people.
     Shape(FormationShape),
 }
 
 impl FormationLayout {
-    /// Reads what a key formation names.
+    /// Reads the positions that a key formation names.
     pub fn of(request: &KeyRequest, folder: &Path) -> Result<FormationLayout, RequestError> {
         if let Some(points) = &request.points {
             return Ok(FormationLayout::Places(points.clone(), "points".to_string()));
@@ -62,63 +62,63 @@ impl FormationLayout {
         if let FormationLayout::Shape(FormationShape::Example) = self { FormationLayout::Example } else { self }
     }
 
-    /// How many people it is for, if it says.
+    /// Number of people, if the formation fixes it.
     pub fn people(&self) -> Option<usize> {
         if let FormationLayout::Places(places, _) = self { Some(places.len()) } else { None }
     }
 }
 
-/// What is known when people are given their places.
+/// Input of the assignment of people to positions.
 pub(super) struct PlacementInput<'c> {
-    /// How many there are.
+    /// Number of people.
     pub people: usize,
-    /// Where the example has them at that time.
+    /// The example's positions in that frame.
     pub example: &'c [Vec2],
-    /// Where they were in the formation before, for who goes where.
+    /// Positions in the formation before.
     pub before: &'c [Vec2],
-    /// How far the whole has been wheeled since that, radians.
+    /// Angle by which the crowd has wheeled since, radians.
     pub wheel_rad: f64,
-    /// Whether the middle of the example's own places counts.
+    /// Whether the centroid of the example's own positions is kept.
     pub free: bool,
-    /// Who goes where, unless the formation says so itself.
+    /// Default assignment of people to positions.
     pub assign: Assign,
 }
 
-/// A place for everybody, in the order of people.
+/// The position of each person, in the order of people.
 pub(super) fn places(
     request: &KeyRequest,
     layout: &FormationLayout,
-    cast: &PlacementInput<'_>,
+    input: &PlacementInput<'_>,
     key: &str,
 ) -> Result<Vec<Vec2>, RequestError> {
     let own = matches!(layout, FormationLayout::Example);
-    let drawn = drawn(request, layout, cast, key)?;
+    let drawn = drawn(request, layout, input, key)?;
     let scale = request.scale.unwrap_or(1.0);
     // A point that is drawn stays where it is drawn; everything else is around its middle.
     let middle = if own { centroid(&drawn) } else { Vec2::ZERO };
-    let at = request.at.unwrap_or(if own && cast.free { middle } else { Vec2::ZERO });
+    let at = request.at.unwrap_or(if own && input.free { middle } else { Vec2::ZERO });
     let around: Vec<Vec2> = drawn.iter().map(|&place| (place - middle) * scale).collect();
     let placed: Vec<Vec2> =
         turned(&around, request.turn_deg.to_radians()).into_iter().map(|place| place + at).collect();
-    if own || request.assign.unwrap_or(cast.assign) == Assign::Order {
+    if own || request.assign.unwrap_or(input.assign) == Assign::Order {
         return Ok(placed);
     }
     // Seen from the middle, and with the whole that wheels.
-    let to = turned(&centred(&placed), -cast.wheel_rad);
-    Ok(assign_places(&centred(cast.before), &to).into_iter().map(|place| placed[place]).collect())
+    let to = turned(&centred(&placed), -input.wheel_rad);
+    Ok(assign_places(&centred(input.before), &to).into_iter().map(|place| placed[place]).collect())
 }
 
-/// Places in the formation's own frame, up forward.
+/// Positions in the formation's own frame, up forward.
 fn drawn(
     request: &KeyRequest,
     layout: &FormationLayout,
-    cast: &PlacementInput<'_>,
+    input: &PlacementInput<'_>,
     key: &str,
 ) -> Result<Vec<Vec2>, RequestError> {
-    let people = cast.people;
+    let people = input.people;
     let spacing_m = request.spacing_m.unwrap_or(1.0);
     Ok(match layout {
-        FormationLayout::Example => cast.example.to_vec(),
+        FormationLayout::Example => input.example.to_vec(),
         FormationLayout::Places(places, what) => {
             if places.len() != people {
                 let (key, what) = (key.to_string(), what.clone());
@@ -177,7 +177,7 @@ fn shaped(shape: FormationShape, request: &KeyRequest, people: usize, spacing_m:
     }
 }
 
-/// Many points along lines, evenly.
+/// Samples along lines, evenly spaced.
 fn samples_along(lines: &Strokes, people: usize) -> Vec<Vec2> {
     let sides = || lines.iter().flat_map(|line| line.windows(2));
     let length_m: f64 = sides().map(|side| side[0].distance(side[1])).sum();
@@ -190,7 +190,7 @@ fn samples_along(lines: &Strokes, people: usize) -> Vec<Vec2> {
     samples
 }
 
-/// Many points within a closed line, evenly.
+/// Samples within a closed line, evenly spaced.
 fn samples_within(corners: &[Vec2], people: usize) -> Vec<Vec2> {
     let reach_m = corners.iter().map(|corner| corner.length()).fold(0.0, f64::max);
     let side = (((people * SAMPLES).max(400) as f64).sqrt() * 1.6).ceil() as usize;
@@ -199,7 +199,7 @@ fn samples_within(corners: &[Vec2], people: usize) -> Vec<Vec2> {
     all.filter(|&point| is_within(point, corners)).collect()
 }
 
-/// Whether a point lies within a closed line: whether a ray to the right crosses it an odd number of times.
+/// Whether a point lies within a closed line (even-odd rule).
 fn is_within(point: Vec2, corners: &[Vec2]) -> bool {
     let crosses = |side: &&[Vec2]| {
         let (a, b) = (side[0], side[1]);

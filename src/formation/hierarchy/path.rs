@@ -2,12 +2,12 @@ use super::super::request::PathRequest;
 use super::example::eased;
 use crate::math::{Vec2, vec2};
 
-/// Points of the curve between two given ones.
+/// Points of the curve between two given points.
 const STEPS: usize = 32;
-/// Share of the way's time in which it is set out, and again in which it comes to rest.
+/// Share of the path's time for speeding up, and again for slowing down.
 const START_SHARE: f64 = 0.15;
 
-/// Where the middle of the whole is at each moment; the origin where no way is given.
+/// The crowd's centroid in each frame, metres; the origin without a path.
 pub(super) fn places(way: Option<&PathRequest>, fps: f64, moments: usize) -> Vec<Vec2> {
     let Some(way) = way else { return vec![Vec2::ZERO; moments] };
     let curve = Curve::through(&way.from.iter().chain(&way.path).chain(&way.to).copied().collect::<Vec<_>>());
@@ -19,7 +19,7 @@ pub(super) fn places(way: Option<&PathRequest>, fps: f64, moments: usize) -> Vec
     (0..moments).map(place).collect()
 }
 
-/// Share of a way after a share of its time: at a steady pace, set out and brought to rest gently.
+/// Share of a path after a share of its time: at constant speed, with smooth start and end.
 fn gentle(share: f64) -> f64 {
     let share = share.clamp(0.0, 1.0);
     // The speed rises as `eased` does, whose mean is a half.
@@ -32,16 +32,15 @@ fn gentle(share: f64) -> f64 {
     if share <= 0.5 { set_out(share) } else { 1.0 - set_out(1.0 - share) }
 }
 
-/// A smooth curve, by the length along it.
+/// A smooth curve, parametrised by length.
 struct Curve {
     points: Vec<Vec2>,
-    /// How far along the curve each point is.
+    /// Length along the curve to each point, metres.
     lengths_m: Vec<f64>,
 }
 
 impl Curve {
-    /// Through points: two make a line, more a curve whose direction at each is that between its neighbours
-    /// (Catmull-Rom).
+    /// Makes a curve through points (Catmull-Rom); through two, a line.
     fn through(given: &[Vec2]) -> Curve {
         let last = given.len().saturating_sub(1);
         let mut points = vec![given.first().copied().unwrap_or_default()];
@@ -78,8 +77,7 @@ impl Curve {
     }
 }
 
-/// Angle at each moment, radians, that goes gently from one given one to the next; before the first and after the last it
-/// stays.
+/// Angle in each frame, radians: smoothstep between given ones, constant before the first and after the last.
 pub(in super::super) fn angles(given: &[(usize, f64)], moments: usize) -> Vec<f64> {
     let angle = |moment: usize| {
         let after = given.partition_point(|key| key.0 <= moment);

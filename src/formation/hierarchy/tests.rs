@@ -54,7 +54,7 @@ fn key_formations_are_taken_up_at_their_times() {
     // While a formation is held, the example's motion goes on.
     assert!(apart_m(at(210), at(200)) > 0.01);
     // Nobody goes farther than they must: the way along all three is below that by order.
-    let way = |formed: &Formed| -> f64 {
+    let way = |formed: &FormedCrowd| -> f64 {
         let places = [0, 100, 200].map(|moment| formed.ensemble.places_at(moment).to_vec());
         let leg = |a: &[Vec2], b: &[Vec2]| a.iter().zip(b).map(|(a, b)| a.distance(*b)).sum::<f64>();
         leg(&places[0], &places[1]) + leg(&places[1], &places[2])
@@ -246,7 +246,7 @@ fn nobody_overlaps_and_nobody_jumps() {
                 [[key]]\ntime_s = 24\nhold_s = 2\nassign = \"order\"\nshape = \"grid\"\ncolumns = 4\nspacing_m = 0.9\nturn_deg = 60\n";
     let text = format!("example = {{ kind = \"sway\", people = 24 }}\n{keys}");
     let (clear, through) = (formed(&text), formed(&format!("{OFF}{text}")));
-    let nearest_m = |formed: &Formed| {
+    let nearest_m = |formed: &FormedCrowd| {
         let moments = 0..formed.ensemble.moments();
         let at = moments.flat_map(|moment| {
             let here = formed.ensemble.places_at(moment);
@@ -256,7 +256,7 @@ fn nobody_overlaps_and_nobody_jumps() {
     };
     assert!(nearest_m(&through) < 0.2, "{} m", nearest_m(&through));
     assert!(nearest_m(&clear) >= 0.36 - 1e-9, "{} m", nearest_m(&clear));
-    let hardest_m_s2 = |formed: &Formed| {
+    let hardest_m_s2 = |formed: &FormedCrowd| {
         let ensemble = &formed.ensemble;
         let at = |moment: usize, k: usize| ensemble.places_at(moment)[k];
         let all = (1..ensemble.moments() - 1).flat_map(|m| (0..24).map(move |k| (m, k)));
