@@ -62,7 +62,8 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
             Source::of_given(given, &ground)?.numbered()
         }
         None => {
-            let (found, ways) = watch.busy(Stage::Routes, || Navigation::find(plan, walls, &scenario.routes))?;
+            let (found, ways) =
+                watch.busy(Stage::Routes, || Navigation::find_watched(plan, walls, &scenario.routes, progress))?;
             routes = found;
             let simulated = || simulate(plan, walls, &routes, ways, &people, &scenario.crowd, &scenario.spots());
             Source::of_crowd(watch.busy(Stage::Crowd, simulated)?, &routes)

@@ -12,7 +12,7 @@ pub enum Error {
     Walls(#[from] crate::walls::WallsError),
     /// A route leads nowhere.
     #[error(transparent)]
-    Routes(#[from] crate::routes::RoutesError),
+    Routes(crate::routes::RoutesError),
     /// The crowd cannot walk.
     #[error(transparent)]
     Crowd(#[from] crate::crowd::CrowdError),
@@ -74,6 +74,15 @@ impl Error {
             Error::Still(e) => e.hint(),
             Error::Scenario(e) => e.hint(),
             Error::Interrupted => None,
+        }
+    }
+}
+
+impl From<crate::routes::RoutesError> for Error {
+    fn from(error: crate::routes::RoutesError) -> Error {
+        match error {
+            crate::routes::RoutesError::Interrupted => Error::Interrupted,
+            error => Error::Routes(error),
         }
     }
 }

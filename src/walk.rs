@@ -98,7 +98,8 @@ pub fn walk(scenario: &Scenario, outputs: &WalkOutputs, progress: &dyn Progress)
         );
     }
     let (plan, walls) = (&ground.plan, &ground.walls);
-    let (routes, ways) = watch.busy(Stage::Routes, || Navigation::find(plan, walls, &scenario.routes))?;
+    let (routes, ways) =
+        watch.busy(Stage::Routes, || Navigation::find_watched(plan, walls, &scenario.routes, progress))?;
     let crowd = watch
         .busy(Stage::Crowd, || simulate(plan, walls, &routes, ways, &people, &scenario.crowd, &scenario.spots()))?;
     let source = Source::of_crowd(crowd, &routes);

@@ -4,6 +4,9 @@ use crate::math::Vec2;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RoutesError {
+    /// Stopped by the user.
+    #[error("interrupted")]
+    Interrupted,
     /// A name that no opening bears.
     #[error("route \"{route}\": the plan has no opening called \"{name}\"{}", list(.openings))]
     UnknownOpening {
@@ -219,7 +222,7 @@ impl RoutesError {
             }
             RoutesError::NoLength { .. } => Some("give another goal, or a place to pass with `via`".into()),
             RoutesError::Share { .. } | RoutesError::NoShares { .. } | RoutesError::TooMany { .. } => None,
-            RoutesError::StopValue { .. } | RoutesError::Timetable { .. } => None,
+            RoutesError::StopValue { .. } | RoutesError::Timetable { .. } | RoutesError::Interrupted => None,
         }
     }
 }

@@ -1,12 +1,18 @@
 //! Traces the wall faces of a plan as polylines in metres, and answers how far the nearest wall is.
 
+use rayon::prelude::*;
+
+use boundary::Boundary;
+
 use crate::math::{Rect, Vec2};
 use crate::plan::{FloorPlan, cracks};
 
+mod boundary;
 mod coverage;
 mod curve;
 mod error;
 mod fit;
+mod grid;
 mod index;
 mod line;
 mod outline;
@@ -15,6 +21,7 @@ mod polygon;
 mod runs;
 mod stabbing;
 mod subpixel;
+mod untangle;
 
 #[cfg(test)]
 mod truth_tests;
@@ -106,8 +113,10 @@ impl Walls {
     /// A plan without floor, a tolerance that is not a number of pixels.
     pub fn trace(plan: &FloorPlan, options: &WallsOptions) -> Result<Walls, WallsError> {
         let loops = cracks::trace(&plan.floor, plan.width_px as usize);
-        let outlines = loops.iter().map(|l| outline::of_boundary(plan, l, options.tolerance_px / 0.5)).collect();
-        Ok(Walls::from_outlines(outlines))
+        let fit = |l| Boundary::fit(plan, l, options.tolerance_px / 0.5);
+        let mut boundaries: Vec<Boundary> = loops.par_iter().map(fit).collect();
+        untangle::untangle(&mut boundaries);
+        Ok(Walls::from_outlines(boundaries.iter().map(|boundary| boundary.outline(plan)).collect()))
     }
 
     /// Walls from outlines that were kept, see [`Walls::outlines`].
