@@ -22,7 +22,7 @@ const DENSITIES: [f64; 2] = [1.0, 1000.0];
 /// Range of the height of walls and of door heads, metres.
 const HEIGHTS_M: [f64; 2] = [1e-3, 100.0];
 /// Largest number in the parts that are only copied: gates, cameras, texture coordinates.
-const LARGEST_COPIED: f64 = 1e7;
+const LARGEST_COPIED: f64 = 1e12;
 /// Places that follow from others may differ by this, metres.
 const SAME_M: f64 = 1e-6;
 

@@ -310,6 +310,37 @@ pub(super) fn generator(folder: &Path) -> Result<String, ExportError> {
 }
 
 #[cfg(test)]
+impl Manifest {
+    /// The manifest of a bake of nothing, on a plan of this size at a texel a metre.
+    pub(in crate::export) fn blank([width_m, height_m]: [f64; 2]) -> Manifest {
+        let grid = crate::stamps::TexelGrid::covering(width_m, height_m, 1.0).expect("the plan is small");
+        let layout = TileLayout::new(grid, TileLayout::MIN_TILE).expect("the tile size is in range");
+        let presence = grid.presence_grid();
+        let presence = PresenceEntry {
+            texels_per_metre: presence.texels_per_metre,
+            width_px: presence.width,
+            height_px: presence.height,
+            ..PresenceEntry::default()
+        };
+        Manifest {
+            generator: GENERATOR.to_string(),
+            format: FORMAT,
+            plan: PlanEntry { width_m, height_m, metres_per_pixel: 0.1, ..PlanEntry::default() },
+            floor: FloorEntry {
+                texels_per_metre: 1.0,
+                width_px: grid.width,
+                height_px: grid.height,
+                tile_px: [layout.width, layout.height],
+                naming: layout.naming(),
+                sums: SumsEntry { presence, ..SumsEntry::default() },
+                ..FloorEntry::default()
+            },
+            ..Manifest::default()
+        }
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::export::Target;
