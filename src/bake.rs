@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::Error;
 use crate::crowd::simulate;
 use crate::export::preview::{self, Crop, PathSampler};
-use crate::export::{self, Manifest, OutputFolder, Report, Target, TargetEntry};
+use crate::export::{self, Estimate, Manifest, OutputFolder, Report, Target, TargetEntry};
 use crate::look::Look;
 use crate::marks::{ContactPlaces, Footfalls};
 use crate::motion::People;
@@ -51,6 +51,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let given = Given::of_scenario(scenario, &watch, progress)?.map(Given::on_foot);
     let ground = Ground::of_scenario(scenario, given.as_ref(), &watch, progress)?;
     let (plan, walls) = (&ground.plan, &ground.walls);
+    check_size(scenario, &ground, &folder, progress)?;
     let library = watch.busy(Stage::Patterns, || PatternLibrary::open(scenario.pattern_path().as_deref()))?;
 
     // A person is a pure function of the seed and a number; who arrives when is settled before anybody walks.
@@ -147,6 +148,23 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     Ok(report)
 }
 
+/// Refuses, before anything long is done, a bake that would be very large.
+fn check_size(
+    scenario: &Scenario,
+    ground: &Ground,
+    folder: &OutputFolder,
+    progress: &dyn Progress,
+) -> Result<(), Error> {
+    let Ground { plan, walls, .. } = ground;
+    let floor = TexelGrid::covering(plan.width_m(), plan.height_m(), scenario.floor_texels_per_metre)?;
+    let walls = WallGrid::covering(walls, scenario.wall_height_m, scenario.wall_texels_per_metre)?;
+    let walls = scenario.texture.walls.then_some(&walls);
+    let estimate = Estimate::of(plan, floor, walls, &scenario.texture)?;
+    let told = estimate.check(folder.path(), folder.shown(), scenario.texture.any_size)?;
+    told.iter().for_each(|told| progress.warn(told));
+    Ok(())
+}
+
 /// What is made anew of a finished bake. What is left out stays as it was.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ResolveOptions {
@@ -174,7 +192,7 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
     textures.embed = options.embed.unwrap_or(textures.embed);
     let earlier = Report::read(bake)?;
     let floor = watch.busy(Stage::Sums, || export::read_sums(bake, &manifest))?;
-    let walls = watch.busy(Stage::Walls, || manifest.walls());
+    let walls = watch.busy(Stage::Walls, || manifest.walls())?;
     let sums = Sums { floor, walls: watch.busy(Stage::Sums, || export::read_wall_sums(bake, &manifest))? };
 
     let folder = OutputFolder::begin(bake, true)?;

@@ -5,6 +5,12 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+mod absolute;
+mod input;
+
+pub use absolute::absolute;
+pub use input::{LARGEST_IMAGE_BYTES, LARGEST_TEXT_BYTES, open_input, open_input_up_to, read_input, read_text};
+
 /// Why a file cannot be written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]

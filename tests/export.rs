@@ -176,7 +176,7 @@ fn a_bake_can_be_resolved_again_from_its_files_alone() {
     let sums = sums(&walls, 50.0);
     let manifest = bake(&out, &walls, &sums, 256);
     let again = read_sums(&out, &manifest).unwrap();
-    bake(&dir.path().join("again"), &manifest.walls(), &again, 256);
+    bake(&dir.path().join("again"), &manifest.walls().unwrap(), &again, 256);
     let (first, second) = (files(&out), files(&dir.path().join("again")));
     for (name, bytes) in &first {
         assert!(second[name] == *bytes, "{}", name.display());

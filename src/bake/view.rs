@@ -36,7 +36,7 @@ pub fn view(bake: &Path, view: &View, progress: &dyn Progress) -> Result<(RgbIma
     check_size(view.size_px)?;
     export::restore(bake)?;
     let manifest = Manifest::read(bake)?;
-    let walls = manifest.walls();
+    let walls = manifest.walls()?;
     let studio = Studio::new(&walls, &manifest.doorways(), wall_height_m(&manifest));
     // A camera that cannot be is told of before anything long is done.
     if let Some(camera) = &view.camera {

@@ -2,12 +2,14 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
+use trodden::Error;
 use trodden::bake::{OutputOptions, bake};
-use trodden::export::{Report, Target};
+use trodden::export::{ExportError, Report, Target};
 use trodden::scenario::Overrides;
 
 use super::arguments::{self, ScenarioArguments};
 use super::motion::{Alignment, Reading};
+use super::print::Refused;
 use super::progress::Watch;
 use super::{Common, print};
 
@@ -48,6 +50,9 @@ pub struct Bake {
     /// Put the textures, reduced, into scene.glb
     #[arg(long)]
     embed: bool,
+    /// Bake even if the files will take more than 20 GB, or more than is free on the disk
+    #[arg(long)]
+    yes: bool,
     /// Replace an earlier bake; anything else is never replaced
     #[arg(long)]
     force: bool,
@@ -63,6 +68,7 @@ impl Bake {
             target: self.target,
             walls: self.floor_only.then_some(false),
             embed: self.embed.then_some(true),
+            any_size: self.yes,
             motion_file: self.motion.clone(),
             recording: self.alignment.over(self.reading.options()),
             ..self.scenario.overrides()
@@ -73,7 +79,7 @@ impl Bake {
             None => Path::new("out").join(self.named_after().and_then(Path::file_stem).unwrap_or_default()),
         };
         let output = OutputOptions { folder: folder.clone(), force: self.force };
-        let report = bake(&scenario, &output, &Watch::new(common))?;
+        let report = bake(&scenario, &output, &Watch::new(common)).map_err(with_remedy)?;
         if !common.quiet {
             let people = &report.people;
             let (entered, arrived) = (people.entered, people.arrived);
@@ -84,6 +90,17 @@ impl Bake {
             summary(&folder, &report, common)?;
         }
         Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// Names the option that bakes it all the same.
+fn with_remedy(error: Error) -> anyhow::Error {
+    match error {
+        Error::Export(ExportError::TooMuch { .. }) => {
+            let hint = Some("lower --texels-per-metre and texture.wall_texels_per_metre, or say --yes".into());
+            Refused { message: error.to_string(), hint }.into()
+        }
+        error => error.into(),
     }
 }
 

@@ -1,9 +1,9 @@
-use std::fs;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{ArgGroup, Args};
 use trodden::Error;
+use trodden::files::{LARGEST_IMAGE_BYTES, read_input};
 use trodden::patterns::{
     Cause, Form, Import as Imported, ImportEntry, ImportError, ImportOptions, Listed, PatternsError, PhotoScale,
     import_picture, name_of_photo,
@@ -75,7 +75,7 @@ impl Import {
         };
         let options =
             ImportOptions { cause: self.cause, form: self.form, size, crop: self.crop, rotate_deg: self.rotate };
-        let bytes = fs::read(&self.photo).map_err(|error| {
+        let bytes = read_input(&self.photo, LARGEST_IMAGE_BYTES).map_err(|error| {
             ours(ImportError::Unreadable { reason: format!("{}: {error}", self.photo.display()) }.into())
         })?;
         let import = Imported::from_photo(&bytes, &options).map_err(|error| ours(error.into()))?;

@@ -53,9 +53,9 @@ pub struct Common {
     /// Say more: seconds of each stage, memory
     #[arg(short, long, global = true)]
     verbose: bool,
-    /// How many threads work; all results are the same for any number [default: all cores]
+    /// How many threads work, 1 to 256; all results are the same for any number [default: all cores]
     #[arg(long, global = true, value_name = "N", allow_negative_numbers = true)]
-    #[arg(value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
     /// When to colour messages
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]

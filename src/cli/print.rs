@@ -21,7 +21,7 @@ const HINT: Style = AnsiColor::Cyan.on_default().bold();
 /// Writes a line to standard output. A reader that has gone away is an error here, so that work stops, and none in
 /// [`failure`].
 pub fn line(text: impl Display) -> anyhow::Result<()> {
-    Ok(writeln!(io::stdout(), "{text}")?)
+    Ok(writeln!(io::stdout(), "{}", plain(&text.to_string()))?)
 }
 
 /// Prints why a command failed: what, what caused it, what to do about it.
@@ -30,19 +30,19 @@ pub fn failure(error: &anyhow::Error, common: &Common) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let colour = common.colours(&io::stderr());
-    let mut text = format!("{} {error}\n", label("error", ERROR, colour));
+    let mut text = format!("{} {}\n", label("error", ERROR, colour), plain(&error.to_string()));
     let mut last = error.to_string();
     for cause in error.chain().skip(1).map(ToString::to_string) {
         // Many messages end with that of their cause.
         if !last.contains(&cause) {
-            text.push_str(&format!("  caused by: {cause}\n"));
+            text.push_str(&format!("  caused by: {}\n", plain(&cause)));
             last = cause;
         }
     }
     let ours = error.downcast_ref::<trodden::Error>().and_then(trodden::Error::hint);
     let refused = error.downcast_ref::<Refused>().and_then(|refused| refused.hint.as_ref()).map(ToString::to_string);
     if let Some(hint) = ours.or(refused) {
-        text.push_str(&format!("{} {hint}\n", label("hint", HINT, colour)));
+        text.push_str(&format!("{} {}\n", label("hint", HINT, colour), plain(&hint)));
     }
     to_stderr(&text);
     ExitCode::FAILURE
@@ -50,12 +50,27 @@ pub fn failure(error: &anyhow::Error, common: &Common) -> ExitCode {
 
 /// The text of a warning.
 pub fn warning(message: &str, common: &Common) -> String {
-    format!("{} {message}\n", label("warning", WARNING, common.colours(&io::stderr())))
+    format!("{} {}\n", label("warning", WARNING, common.colours(&io::stderr())), plain(message))
 }
 
 /// Writes to standard error; there is nobody left to tell if that fails.
 pub fn to_stderr(text: &str) {
     let _ = io::stderr().write_all(text.as_bytes());
+}
+
+/// Text that leaves the terminal as it is: control characters and those that turn the direction of writing are shown
+/// as escapes, but for ends of lines. Names of files, routes and stops may hold any.
+fn plain(text: &str) -> Cow<'_, str> {
+    let turns = |c: char| matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let is_unsafe = |c: char| c != '\n' && (c.is_control() || turns(c));
+    if !text.contains(is_unsafe) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len() + 16);
+    for c in text.chars() {
+        if is_unsafe(c) { shown.extend(c.escape_unicode()) } else { shown.push(c) }
+    }
+    Cow::Owned(shown)
 }
 
 fn label(name: &str, style: Style, colour: bool) -> String {

@@ -120,6 +120,16 @@ pub enum ExportError {
         /// Side of the sheets, texels.
         sheet: u32,
     },
+    /// A bake that is large, or larger than the disk has room for.
+    #[error("a bake to {} would write {}", path.display(), estimate.describe(*free))]
+    TooMuch {
+        /// The output as the user gave it.
+        path: PathBuf,
+        /// What it would write.
+        estimate: super::Estimate,
+        /// Bytes that are free on its disk, where the system tells.
+        free: Option<u64>,
+    },
     /// Two images of different size were to be compared.
     #[error("{} is {} x {} px, {} is {} x {} px", a.display(), a_size[0], a_size[1], b.display(), b_size[0], b_size[1])]
     SizesDiffer {
@@ -184,6 +194,7 @@ impl ExportError {
                 "set texture.tile to {} or more, or lower texture.wall_texels_per_metre",
                 needed.checked_next_power_of_two().unwrap_or(*needed)
             )),
+            ExportError::TooMuch { .. } => Some("lower the texel density of floor and walls".to_string()),
             ExportError::SizesDiffer { .. } | ExportError::ChannelsDiffer { .. } => {
                 Some("only bakes of the same plan, texel density and tile size can be compared".to_string())
             }

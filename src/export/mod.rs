@@ -6,6 +6,7 @@ mod busy;
 mod deflate;
 pub mod diff;
 mod error;
+mod estimate;
 mod exr_tiles;
 mod layout;
 mod manifest;
@@ -24,10 +25,11 @@ mod textures;
 
 pub use atlas::{Atlas, Sheet, Strip};
 pub use error::ExportError;
+pub use estimate::{Estimate, LARGE_BYTES};
 pub use layout::{BLOCK, Tile, TileLayout};
 pub use manifest::{
-    ChannelEntry, FORMAT, FloorEntry, GENERATOR, Manifest, Naming, PlanEntry, PresenceEntry, PreviewEntry, SheetEntry,
-    StripEntry, SumsEntry, TileEntry, WallsEntry,
+    ChannelEntry, FORMAT, FloorEntry, GENERATOR, Manifest, ManifestError, Naming, PlanEntry, PresenceEntry,
+    PreviewEntry, SheetEntry, StripEntry, SumsEntry, TileEntry, WallsEntry,
 };
 pub use memory::peak_memory_mib;
 pub use output::{OutputFile, OutputFolder, is_bake, restore};

@@ -6,6 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use super::manifest::{self, Manifest};
 use super::{ExportError, Report};
+use crate::files::absolute;
 
 /// Held under an exclusive lock by the run that writes the folder, so that the leftovers of a killed run can be told
 /// from the work of a living one.
@@ -42,7 +43,7 @@ impl Places {
     fn of(shown: &Path) -> Result<Places, ExportError> {
         let folder = |source| ExportError::Folder { path: shown.to_path_buf(), source };
         // Through a link, the folder that it leads to is replaced, not the link.
-        let output = if shown.is_symlink() { fs::canonicalize(shown) } else { std::path::absolute(shown) };
+        let output = if shown.is_symlink() { fs::canonicalize(shown) } else { absolute(shown) };
         let output = output.map_err(folder)?;
         let (Some(parent), Some(name)) = (output.parent(), output.file_name()) else {
             return Err(ExportError::OutputHasNoName { path: shown.to_path_buf() });

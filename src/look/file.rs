@@ -4,6 +4,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::error::{LookError, Place};
 use super::settings::Look;
+use crate::files::read_text;
 
 impl Look {
     /// Reads a look file: TOML with the keys of [`Look`]. What it leaves out comes from the preset that its key
@@ -13,8 +14,7 @@ impl Look {
     /// Unreadable files; syntax, unknown keys, wrong types, unknown presets and values out of range, each with
     /// line and column.
     pub fn read(path: &Path) -> Result<Look, LookError> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|source| LookError::Unreadable { path: path.to_path_buf(), source })?;
+        let text = read_text(path).map_err(|source| LookError::Unreadable { path: path.to_path_buf(), source })?;
         Look::parse(&text, path)
     }
 

@@ -49,16 +49,20 @@ fn understand(
     symbols::drop_specks(&mut drawing, metres_per_pixel, options.speck_m);
     if options.drop_annotation && !drawing.scanned {
         symbols::drop_annotation(&mut drawing, metres_per_pixel);
+        drawing.coloured = Vec::new();
         doors::drop_doors(&mut drawing, metres_per_pixel);
     }
     if !drawing.dark.contains(&1) {
         return Err(PlanError::NoWalls { pixels, threshold });
     }
+    // In place: large plans are most of the memory.
+    let mut floor = drawing.dark;
+    floor.iter_mut().for_each(|pixel| *pixel = 1 - *pixel);
     let mut plan = FloorPlan {
         width_px: drawing.width as u32,
         height_px: drawing.height as u32,
         metres_per_pixel,
-        floor: drawing.dark.iter().map(|&d| 1 - d).collect(),
+        floor,
         lightness: drawing.lightness,
         threshold,
         map_from_plan,

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::crowd::{CrowdModel, CrowdOptions, SpotRequest};
 use crate::export::{Target, TextureOptions};
+use crate::files::read_text;
 use crate::look::Look;
 use crate::marks::{DoorRequest, FixtureRequest, MarksOptions};
 use crate::motion::formation::FormationRequest;
@@ -106,6 +107,8 @@ pub struct Overrides {
     pub walls: Option<bool>,
     /// Whether the model carries its textures.
     pub embed: Option<bool>,
+    /// Whether a bake of any size is made: see [`TextureOptions::any_size`].
+    pub any_size: bool,
     /// A recording that takes the crowd's place, relative to the working directory.
     pub motion_file: Option<PathBuf>,
     /// How it is read; keys that differ from the defaults win.
@@ -155,8 +158,7 @@ impl Scenario {
     /// Files that cannot be read; whatever is not TOML, not a key, not of the right type or beyond its range, with
     /// line and column.
     pub fn read(path: &Path, overrides: &Overrides) -> Result<Scenario, ScenarioError> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|source| ScenarioError::Unreadable { path: path.to_path_buf(), source })?;
+        let text = read_text(path).map_err(|source| ScenarioError::Unreadable { path: path.to_path_buf(), source })?;
         Scenario::parse(&text, path, overrides)
     }
 
@@ -320,16 +322,18 @@ impl Scenario {
         for (timetable, key) in self.timetables().zip(places) {
             let Some(file) = &timetable.file else { continue };
             let path = folder.join(file);
-            let text = std::fs::read_to_string(&path).map_err(|error| {
+            let text = read_text(&path).map_err(|error| {
                 document.wrong_value(&key, format!("cannot read the timetable {}: {error}", path.display()), None)
             })?;
-            timetable.of_file = Timetable::rows_of_csv(&text).map_err(|(line, found)| {
-                let message = format!("{}, line {line}: \"{found}\" is no time and number of people", path.display());
+            timetable.of_file = Timetable::rows_of_csv(&text).map_err(|(line, problem)| {
+                let message = format!("the timetable {}, line {line}: {problem}", path.display());
                 document.wrong_value(&key, message, Some("write a line as `60, 20`: 20 people at 60 s".to_string()))
             })?;
             if timetable.of_file.is_empty() {
-                let message = format!("the timetable {} is empty", path.display());
-                return Err(document.wrong_value(&key, message, None));
+                let problem = if text.trim().is_empty() { "is empty" } else { "has no line with a time" };
+                let message = format!("the timetable {} {problem}", path.display());
+                let hint = "write a line as `60, 20`: 20 people at 60 s".to_string();
+                return Err(document.wrong_value(&key, message, Some(hint)));
             }
         }
         let own: Vec<Option<u64>> = self.routes.routes.iter().map(|route| route.arrivals.as_ref()?.listed()).collect();
@@ -351,6 +355,7 @@ impl Scenario {
         self.texture.target = overrides.target.unwrap_or(self.texture.target);
         self.texture.walls = overrides.walls.unwrap_or(self.texture.walls);
         self.texture.embed = overrides.embed.unwrap_or(self.texture.embed);
+        self.texture.any_size |= overrides.any_size;
         if let Some(file) = &overrides.motion_file {
             // Paths of the command line start from the working directory, those of the scenario from its folder.
             let absolute = std::path::absolute(file).ok().filter(|_| !self.folder.as_os_str().is_empty());

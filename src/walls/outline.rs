@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{APRON_M, Face, Segment};
+use super::{APRON_M, FEWEST_POINTS, Face, LARGEST_EXTENT_M, LONGEST_M, Segment, WallsError};
 use crate::math::{Rect, Vec2, vec2};
 use crate::plan::Side;
 
@@ -26,6 +26,35 @@ impl Outline {
     pub fn opening(&self, k: usize) -> Option<Side> {
         self.openings.binary_search_by_key(&k, |&(edge, _)| edge).ok().map(|i| self.openings[i].1)
     }
+}
+
+/// Checks outlines that were not traced here.
+pub(crate) fn check(outlines: &[Outline]) -> Result<(), WallsError> {
+    for (index, outline) in outlines.iter().enumerate() {
+        let points = outline.points_m.len();
+        if points < FEWEST_POINTS {
+            return Err(WallsError::TooFewPoints { outline: index, points });
+        }
+        let ascends = outline.openings.is_sorted_by(|a, b| a.0 < b.0);
+        let beyond = outline.openings.iter().find(|(edge, _)| *edge >= points || !ascends);
+        if let Some(&(edge, _)) = beyond {
+            return Err(WallsError::Opening { outline: index, edge, points });
+        }
+    }
+    let all = || outlines.iter().flat_map(|outline| outline.points_m.iter());
+    // Minimum and maximum pass over NaN.
+    if let Some(nan) = all().map(|p| p.x + p.y).find(|sum| sum.is_nan()) {
+        return Err(WallsError::TooFar { extent_m: nan });
+    }
+    let bounds = bounds(outlines);
+    let extent_m = bounds.width().max(bounds.height());
+    let farthest_m = all().map(|p| p.x.abs().max(p.y.abs())).fold(extent_m, f64::max);
+    if extent_m > LARGEST_EXTENT_M || farthest_m > LARGEST_EXTENT_M {
+        return Err(WallsError::TooFar { extent_m: farthest_m });
+    }
+    let edges = outlines.iter().flat_map(|outline| (0..outline.points_m.len()).map(|k| outline.edge(k)));
+    let length_m: f64 = edges.map(|[a, b]| a.distance(b)).sum();
+    if length_m > LONGEST_M { Err(WallsError::TooLong { length_m }) } else { Ok(()) }
 }
 
 /// Wall faces: closed loops as they are, others cut at their openings. Longest first, ties by start.

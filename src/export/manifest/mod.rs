@@ -2,22 +2,30 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::layout::TileLayout;
 use super::preview::still::StillEntry;
 use super::targets::{TargetEntry, WorldEntry};
 use super::{ExportError, TextureOptions};
+use crate::files::read_input;
 use crate::look::Look;
 use crate::math::Vec2;
 use crate::plan::{FloorPlan, Opening, Pose};
 use crate::routes::Route;
-use crate::walls::{Doorway, Outline, Walls};
+use crate::walls::{Doorway, Outline, Walls, WallsError};
 
+mod check;
 mod one_or_many;
 mod walls;
 
+pub use check::ManifestError;
 pub use walls::{SheetEntry, StripEntry, WallsEntry};
 
 /// The manifest's name in a bake.
 pub const FILE_NAME: &str = "manifest.json";
+/// The floor from above.
+const FLOOR_PICTURE: &str = "preview/floor.png";
+/// Largest manifest that is read, bytes.
+const LARGEST_BYTES: u64 = 512 << 20;
 /// What `generator` says in every manifest of ours: by this a bake is recognised.
 pub const GENERATOR: &str = "trodden";
 /// The version of the manifest's structure. It grows when an older program could not read the new structure.
@@ -219,7 +227,8 @@ impl Manifest {
 
     /// The doors of the bake; an earlier version's are found in its walls.
     pub fn doorways(&self) -> Vec<Doorway> {
-        self.doors.clone().unwrap_or_else(|| self.walls().doorways())
+        let found = || self.walls().map_or_else(|_| Vec::new(), |walls| walls.doorways());
+        self.doors.clone().unwrap_or_else(found)
     }
 
     /// For how many people the touches of walls stand.
@@ -228,7 +237,10 @@ impl Manifest {
     }
 
     /// The walls of the bake, rebuilt.
-    pub fn walls(&self) -> Walls {
+    ///
+    /// # Errors
+    /// Outlines that are none; never of a manifest that was read.
+    pub fn walls(&self) -> Result<Walls, WallsError> {
         Walls::from_outlines(self.outlines.clone())
     }
 
@@ -246,7 +258,7 @@ impl Manifest {
         // A tile smaller than the setting is a floor smaller than a tile: its power of two is found again.
         let [width, height] = self.floor.tile_px;
         TextureOptions {
-            tile: width.max(height),
+            tile: width.max(height).max(TileLayout::MIN_TILE),
             layers: self.floor.tiles.iter().any(|tile| !tile.layers.is_empty()),
             target: self.target.name,
             embed: self.settings["texture"]["embed"].as_bool().unwrap_or_default(),
@@ -264,10 +276,11 @@ impl Manifest {
     /// Reads the manifest of a bake.
     ///
     /// # Errors
-    /// There is none, it is not ours, it is damaged, or a later version wrote it.
+    /// There is none, it is not ours, it is damaged, a value is out of its range or does not fit the others, or a later
+    /// version wrote it.
     pub fn read(bake: &Path) -> Result<Manifest, ExportError> {
         let path = bake.join(FILE_NAME);
-        let json = std::fs::read(&path).map_err(ExportError::read(&path))?;
+        let json = read_input(&path, LARGEST_BYTES).map_err(ExportError::read(&path))?;
         let head: Head = serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))?;
         if head.generator != GENERATOR {
             return Err(ExportError::NotABake { path: bake.to_path_buf(), found: FILE_NAME.to_string() });
@@ -275,7 +288,9 @@ impl Manifest {
         if head.format > FORMAT {
             return Err(ExportError::NewerFormat { path, found: head.format, known: FORMAT });
         }
-        serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))
+        let manifest: Manifest = serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))?;
+        manifest.check().map_err(|wrong| ExportError::damaged(&path, wrong))?;
+        Ok(manifest)
     }
 }
 
@@ -289,9 +304,40 @@ struct Head {
 /// Who wrote the manifest in a folder.
 pub(super) fn generator(folder: &Path) -> Result<String, ExportError> {
     let path = folder.join(FILE_NAME);
-    let json = std::fs::read(&path).map_err(ExportError::read(&path))?;
+    let json = read_input(&path, LARGEST_BYTES).map_err(ExportError::read(&path))?;
     let head: Head = serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))?;
     Ok(head.generator)
+}
+
+#[cfg(test)]
+impl Manifest {
+    /// The manifest of a bake of nothing, on a plan of this size at a texel a metre.
+    pub(in crate::export) fn blank([width_m, height_m]: [f64; 2]) -> Manifest {
+        let grid = crate::stamps::TexelGrid::covering(width_m, height_m, 1.0).expect("the plan is small");
+        let layout = TileLayout::new(grid, TileLayout::MIN_TILE).expect("the tile size is in range");
+        let presence = grid.presence_grid();
+        let presence = PresenceEntry {
+            texels_per_metre: presence.texels_per_metre,
+            width_px: presence.width,
+            height_px: presence.height,
+            ..PresenceEntry::default()
+        };
+        Manifest {
+            generator: GENERATOR.to_string(),
+            format: FORMAT,
+            plan: PlanEntry { width_m, height_m, metres_per_pixel: 0.1, ..PlanEntry::default() },
+            floor: FloorEntry {
+                texels_per_metre: 1.0,
+                width_px: grid.width,
+                height_px: grid.height,
+                tile_px: [layout.width, layout.height],
+                naming: layout.naming(),
+                sums: SumsEntry { presence, ..SumsEntry::default() },
+                ..FloorEntry::default()
+            },
+            ..Manifest::default()
+        }
+    }
 }
 
 #[cfg(test)]
@@ -325,6 +371,18 @@ mod tests {
             look: serde_json::json!({ "total_passes": 20_000 }),
             floor: FloorEntry {
                 texels_per_metre: 100.0,
+                width_px: 400,
+                height_px: 200,
+                tile_px: [512, 256],
+                sums: SumsEntry {
+                    presence: PresenceEntry {
+                        texels_per_metre: 25.0,
+                        width_px: 100,
+                        height_px: 50,
+                        ..PresenceEntry::default()
+                    },
+                    ..SumsEntry::default()
+                },
                 channels: Target::Gltf.channels("floor", ["film"; 4], &["passes", "dust"], |_| "optical density D"),
                 ..FloorEntry::default()
             },
@@ -344,13 +402,14 @@ mod tests {
         let manifest = manifest();
         assert!(manifest.openings.iter().any(|opening| opening.side == Side::West));
         assert_eq!(written(&manifest.to_json()).1.unwrap(), manifest);
-        assert_eq!(manifest.walls().faces, Walls::from_outlines(manifest.outlines.clone()).faces);
+        assert_eq!(manifest.walls().unwrap().faces, Walls::from_outlines(manifest.outlines.clone()).unwrap().faces);
     }
 
     #[test]
     fn a_manifest_of_before_there_were_walls_and_targets_still_reads() {
         let mut manifest = manifest();
-        let tile = TileEntry { layers: vec!["floor/floor_layers.1001.exr".to_string()], ..TileEntry::default() };
+        let layers = vec!["floor/floor_layers.1001.exr".to_string()];
+        let tile = TileEntry { max_m: vec2(5.12, 2.56), layers, ..TileEntry::default() };
         manifest.floor.tiles = vec![tile];
         let mut json: serde_json::Value = serde_json::from_slice(&manifest.to_json()).unwrap();
         assert_eq!(json["floor"]["tiles"][0]["layers"], "floor/floor_layers.1001.exr", "as it was written then");

@@ -8,7 +8,7 @@ fn place() -> (tempfile::TempDir, PathBuf) {
 }
 
 fn manifest() -> Manifest {
-    Manifest { generator: manifest::GENERATOR.to_string(), format: manifest::FORMAT, ..Manifest::default() }
+    Manifest::blank([10.0, 10.0])
 }
 
 /// Publishes a bake with one file of this content.

@@ -105,8 +105,9 @@ pub fn read_sums(bake: &Path, manifest: &Manifest) -> Result<FloorSums, ExportEr
             return Err(in_manifest(&format!("`floor.sums.one.{}` is not {}", quantity.name(), quantity.one())));
         }
     }
-    if !grid.texels_per_metre.is_finite() || grid.texels_per_metre <= 0.0 {
-        return Err(in_manifest("`floor.texels_per_metre` is no texel density"));
+    let density = grid.texels_per_metre;
+    if !(1.0..=1000.0).contains(&density) {
+        return Err(in_manifest(&format!("`floor.texels_per_metre` is {density}, allowed is 1 to 1000")));
     }
     let mut sums = FloorSums::new(grid);
     let [width, height] = floor.tile_px;

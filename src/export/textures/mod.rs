@@ -43,6 +43,9 @@ pub struct TextureOptions {
     /// The greatest width and height of the small images that are kept of each texture; none are without it.
     #[serde(skip)]
     pub reduced_px: Option<u32>,
+    /// Whether a bake is made even if it is larger than [`crate::export::LARGE_BYTES`] or than the disk has room for.
+    #[serde(skip)]
+    pub any_size: bool,
 }
 
 impl Default for TextureOptions {
@@ -54,6 +57,7 @@ impl Default for TextureOptions {
             walls: true,
             embed: false,
             reduced_px: None,
+            any_size: false,
         }
     }
 }

@@ -104,11 +104,9 @@ fn bake(texels_per_metre: f64, options: &TextureOptions) -> Baked {
     let folder = OutputFolder::begin(&out.path().join("out"), false).unwrap();
     let textures = wall_textures(&folder, &atlas, &Told(&grid), options, &Silent).unwrap();
     let manifest = Manifest {
-        generator: "trodden".to_string(),
-        format: 1,
         target: crate::export::TargetEntry::of(options.target),
         walls: Some(textures.entry(&walls, 1000)),
-        ..Manifest::default()
+        ..Manifest::blank([50.0, 50.0])
     };
     folder.publish(&manifest).unwrap();
     let read = Manifest::read(&out.path().join("out")).unwrap();

@@ -112,7 +112,8 @@ fn entry(index: usize, count: usize, canvas: &Canvas) -> SheetEntry {
 impl WallTextures {
     /// The manifest's entry; `walls` are those that the atlas was made for, `people` those for whom the sums stand.
     pub fn entry(&self, walls: &Walls, people: u32) -> WallsEntry {
-        let masks = ["skin: touches of hands, arms and shoulders", "rub: bags", "scuff: shoes", "edge and splash"];
+        let masks =
+            ["skin: touches of hands", "rub: arms, shoulders and bags", "scuff: shoes", "edge: splashes and dust"];
         let atlas = &self.atlas;
         let with_strips = |(index, entry): (usize, &SheetEntry)| {
             let strips = atlas.sheets[index].strips.iter();

@@ -30,6 +30,9 @@ use rows::Rows;
 use text::{Layout, Out, Text};
 use vadere::Steps;
 
+/// An absence of everybody for longer is passed over, seconds: its frames are not written one by one.
+const LONG_ABSENCE_S: f64 = 3600.0;
+
 /// Least and most frames per second of a recording.
 pub const FRAME_RATES: [f64; 2] = [0.1, 1000.0];
 
@@ -179,7 +182,11 @@ impl<'a> Recorder<'a> {
     /// # Errors
     /// The file cannot be written.
     pub fn push(&mut self, frame: &Frame) -> Result<(), Error> {
-        self.resampler.push(frame);
+        let absent_s = self.resampler.push(frame);
+        // A short absence is written as it is: databases list its frames.
+        if absent_s > LONG_ABSENCE_S {
+            self.resampler.pass_over_absence();
+        }
         while let Some((number, walkers)) = self.resampler.next() {
             measure_heights(&mut self.heights, &walkers, self.world.people);
             let places: Vec<Place> = (walkers.iter().zip(&self.heights))

@@ -106,10 +106,10 @@ pub(super) fn detect(head: &[u8], whole: bool, options: &RecordingOptions) -> Re
     Ok(layout)
 }
 
-/// Says where a refusal without a place belongs.
-fn place(refusal: Refusal, (line, text): Numbered) -> Refusal {
+/// Says where a refusal without a place belongs. The line is not repeated: the file may be a wrong one.
+fn place(refusal: Refusal, (line, _): Numbered) -> Refusal {
     match refusal {
-        Refusal::Unknown { found, hint } => Refusal::Line { line, problem: format!("{found}: {}", shown(text)), hint },
+        Refusal::Unknown { found, hint } => Refusal::Line { line, problem: found, hint },
         refusal => refusal,
     }
 }

@@ -111,7 +111,7 @@ impl Layout {
         let mut rest = line;
         for (at, column) in self.columns.iter().enumerate() {
             let field = self.separator.next(&mut rest).or_else(|| self.empty_last(line, at));
-            let Some(field) = field else { return Err(self.too_short(line, at)) };
+            let Some(field) = field else { return Err(self.too_short(at)) };
             match column.role {
                 Role::Unused => {}
                 Role::Id => read.id = field,
@@ -166,8 +166,8 @@ impl Layout {
         Ok(value)
     }
 
-    fn too_short(&self, line: &[u8], found: usize) -> LineProblem {
-        let text = format!("{found} columns instead of at least {}: {}", self.columns.len(), shown(line));
+    fn too_short(&self, found: usize) -> LineProblem {
+        let text = format!("{found} columns instead of at least {}", self.columns.len());
         LineProblem { text, hint: "--columns says what each column holds", short: true }
     }
 }

@@ -1,6 +1,5 @@
 //! Opens a recording: what it is, what it holds, what its numbers mean.
 
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
@@ -16,6 +15,7 @@ use super::memory::{MemoryRows, Sorted};
 use super::rows::{Numbering, Passed, Row, Rows, Stop, TextRows, moment, unreadable, who};
 use super::scale::{Alignment, Scale, Stated, TimeScale, rotation};
 use super::{Content, Recording, RecordingError, RecordingFormat, RecordingOptions, Survey};
+use crate::files::open_input;
 use crate::math::{Rect, Vec2};
 use crate::{Progress, Stage};
 
@@ -101,7 +101,7 @@ fn check(options: &RecordingOptions) -> Result<(), RecordingError> {
 
 fn is_database(path: &Path, options: &RecordingOptions) -> Result<bool, RecordingError> {
     let mut magic = [0; 16];
-    let opened = File::open(path).and_then(|mut file| file.read(&mut magic));
+    let opened = open_input(path).and_then(|mut file| file.read(&mut magic));
     let length = opened.map_err(|error| unreadable(path, error.into(), 0))?;
     let found = length == magic.len() && magic == *database::MAGIC;
     let asked = options.format.is_some_and(|format| format == RecordingFormat::Jupedsim);
