@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::preview::still::StillEntry;
 use super::targets::{TargetEntry, WorldEntry};
-use super::{ExportError, TextureOptions};
+use super::{ExportError, TextureOptions, TileLayout};
 use crate::look::Look;
 use crate::math::Vec2;
 use crate::plan::{FloorPlan, Opening, Pose};
@@ -150,8 +150,11 @@ pub struct TileEntry {
     pub world: Option<WorldEntry>,
     /// Base colour, 8 bit sRGB.
     pub basecolor: String,
-    /// Packed masks, 8 bit linear.
+    /// Packed masks, 8 bit linear: film, prints and scuffs, edge.
     pub mask: String,
+    /// The mask of passes, 8 bit linear, grey. Empty in bakes of before the mask had three channels.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub passes: String,
     /// Occlusion, roughness, metallic, 8 bit linear.
     pub orm: String,
     /// The same as Unity's mask map, for that target: metallic, occlusion, detail, smoothness.
@@ -245,9 +248,12 @@ impl Manifest {
     pub fn texture_options(&self) -> TextureOptions {
         // A tile smaller than the setting is a floor smaller than a tile: its power of two is found again.
         let [width, height] = self.floor.tile_px;
+        let written = self.floor.tiles.iter().any(|tile| !tile.layers.is_empty());
+        // What is usual for the target was left to it, and is left to another one as well.
+        let unusual = (written != self.target.name.wants_layers()).then_some(written);
         TextureOptions {
-            tile: width.max(height),
-            layers: self.floor.tiles.iter().any(|tile| !tile.layers.is_empty()),
+            tile: width.max(height).max(TileLayout::MIN_TILE),
+            layers: self.settings["texture"]["layers"].as_bool().or(unusual),
             target: self.target.name,
             embed: self.settings["texture"]["embed"].as_bool().unwrap_or_default(),
             ..TextureOptions::default()
@@ -298,6 +304,7 @@ pub(super) fn generator(folder: &Path) -> Result<String, ExportError> {
 mod tests {
     use super::*;
     use crate::export::Target;
+    use crate::export::targets::Covered;
     use crate::math::vec2;
     use crate::plan::Side;
     use crate::routes::{Gate, Place};
@@ -325,7 +332,13 @@ mod tests {
             look: serde_json::json!({ "total_passes": 20_000 }),
             floor: FloorEntry {
                 texels_per_metre: 100.0,
-                channels: Target::Gltf.channels("floor", ["film"; 4], &["passes", "dust"], |_| "optical density D"),
+                channels: Target::Gltf.channels(
+                    Covered::Floor,
+                    "floor",
+                    ["film"; 4],
+                    &["passes", "dust"],
+                    |_| "optical density D",
+                ),
                 ..FloorEntry::default()
             },
             ..Manifest::of_plan(&plan, &walls, &[route])
@@ -358,7 +371,7 @@ mod tests {
         let read = written(json.to_string().as_bytes()).1.unwrap();
         assert_eq!(read, manifest);
         assert_eq!((read.target.name, read.walls.is_none()), (Target::Gltf, true));
-        assert!(read.texture_options().layers);
+        assert!(read.texture_options().writes_layers());
     }
 
     #[test]
