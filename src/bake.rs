@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::Error;
 use crate::crowd::simulate;
 use crate::export::preview::{self, Crop, PathSampler};
-use crate::export::{self, Estimate, Manifest, OutputFolder, Report, Target, TargetEntry};
+use crate::export::{self, Atlas, Estimate, Manifest, OutputFolder, PADDING_PX, Report, Target, TargetEntry};
 use crate::look::Look;
 use crate::marks::{ContactPlaces, Footfalls};
 use crate::motion::People;
@@ -45,13 +45,23 @@ pub struct OutputOptions {
 /// [`Error::Interrupted`]. In all these cases nothing is left behind and an earlier result stays as it was.
 pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress) -> Result<Report, Error> {
     let watch = Stopwatch::start();
+    // What is known to be wrong is told before anybody walks.
+    scenario.look.check_images()?;
+    scenario.texture.check()?;
     let folder = OutputFolder::begin(&output.folder, output.force)?;
 
     // A motion may be given: then nobody has to be walked, and without a plan the floor is open ground around it.
     let given = Given::of_scenario(scenario, &watch, progress)?.map(Given::on_foot);
     let ground = Ground::of_scenario(scenario, given.as_ref(), &watch, progress)?;
     let (plan, walls) = (&ground.plan, &ground.walls);
-    check_size(scenario, &ground, &folder, progress)?;
+    let grid = TexelGrid::covering(plan.width_m(), plan.height_m(), scenario.floor_texels_per_metre)?;
+    let wall_grid = WallGrid::covering(walls, scenario.wall_height_m, scenario.wall_texels_per_metre)?;
+    let with_walls = scenario.texture.walls;
+    let estimate = Estimate::of(plan, grid, with_walls.then_some(&wall_grid), &scenario.texture)?;
+    let told = estimate.check(folder.path(), folder.shown(), scenario.texture.any_size)?;
+    told.iter().for_each(|told| progress.warn(told));
+    let pack = || Atlas::pack(&wall_grid, &walls.corners(), scenario.texture.tile, PADDING_PX);
+    let atlas = watch.busy(Stage::Export, || with_walls.then(pack).transpose())?;
     let library = watch.busy(Stage::Patterns, || PatternLibrary::open(scenario.pattern_path().as_deref()))?;
 
     // A person is a pure function of the seed and a number; who arrives when is settled before anybody walks.
@@ -79,9 +89,6 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let mut footfalls = Footfalls::new(&people, walls, &library, &scenario.marks, origins)?.with_contacts(places);
 
     // Frames become marks, marks become stamps, stamps are summed up: a stream of which only the sums are kept.
-    let grid = TexelGrid::covering(plan.width_m(), plan.height_m(), scenario.floor_texels_per_metre)?;
-    let wall_grid = WallGrid::covering(walls, scenario.wall_height_m, scenario.wall_texels_per_metre)?;
-    let with_walls = scenario.texture.walls;
     let stamper = watch.busy(Stage::Stamps, || Stamper::new(&library, grid, &scenario.stamps));
     let wall_stamper = watch.busy(Stage::Stamps, || WallStamper::new(&library, &wall_grid, &scenario.stamps));
     let mut sums = Sums { floor: FloorSums::new(grid), walls: with_walls.then(|| WallSums::new(wall_grid)) };
@@ -110,7 +117,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
         wall_people: footfalls.contact_people(),
         title: title(&settings),
         seed: scenario.seed,
-        atlas: None,
+        atlas,
     };
     let written = graded.write(&folder, &scenario.texture, &crops, &watch, progress)?;
     let sums_entry =
@@ -148,24 +155,13 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     Ok(report)
 }
 
-/// Refuses, before anything long is done, a bake that would be very large.
-fn check_size(
-    scenario: &Scenario,
-    ground: &Ground,
-    folder: &OutputFolder,
-    progress: &dyn Progress,
-) -> Result<(), Error> {
-    let Ground { plan, walls, .. } = ground;
-    let floor = TexelGrid::covering(plan.width_m(), plan.height_m(), scenario.floor_texels_per_metre)?;
-    let walls = WallGrid::covering(walls, scenario.wall_height_m, scenario.wall_texels_per_metre)?;
-    let walls = scenario.texture.walls.then_some(&walls);
-    let estimate = Estimate::of(plan, floor, walls, &scenario.texture)?;
-    let told = estimate.check(folder.path(), folder.shown(), scenario.texture.any_size)?;
-    told.iter().for_each(|told| progress.warn(told));
-    Ok(())
+/// Whether `resolve` takes a file of the bake over as it is.
+fn is_kept(file: &str) -> bool {
+    let sums = file.starts_with("sums/") && file.ends_with(".exr");
+    sums || file == preview::PATHS_FILE
 }
 
-/// What is made anew of a finished bake. What is left out stays as it was.
+/// Which outputs `resolve` rewrites of a finished bake. What is left out stays as it was.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ResolveOptions {
     /// Another look.
@@ -174,6 +170,8 @@ pub struct ResolveOptions {
     pub target: Option<Target>,
     /// Whether the model carries its textures.
     pub embed: Option<bool>,
+    /// Whether every layer is written on its own too.
+    pub layers: Option<bool>,
 }
 
 /// Grades a finished bake with another look, or writes it for another target: its exact sums are resolved to textures
@@ -187,15 +185,21 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
     export::restore(bake)?;
     let manifest = Manifest::read(bake)?;
     let look = &options.look.clone().map_or_else(|| manifest.look(bake), Ok)?;
+    look.check()?;
+    look.check_images()?;
     let mut textures = manifest.texture_options();
     textures.target = options.target.unwrap_or(textures.target);
     textures.embed = options.embed.unwrap_or(textures.embed);
+    textures.layers = options.layers.or(textures.layers);
+    textures.check()?;
+    let atlas = manifest.walls.as_ref().map(|walls| walls.atlas());
+    atlas.iter().try_for_each(|atlas| atlas.check(textures.target))?;
     let earlier = Report::read(bake)?;
+    let folder = OutputFolder::begin(bake, true)?;
     let floor = watch.busy(Stage::Sums, || export::read_sums(bake, &manifest))?;
     let walls = watch.busy(Stage::Walls, || manifest.walls())?;
     let sums = Sums { floor, walls: watch.busy(Stage::Sums, || export::read_wall_sums(bake, &manifest))? };
 
-    let folder = OutputFolder::begin(bake, true)?;
     let graded = Graded {
         sums: &sums,
         walls: &walls,
@@ -205,11 +209,11 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
         wall_people: manifest.wall_people(),
         title: title(&manifest.settings),
         seed: manifest.seed,
-        atlas: manifest.walls.as_ref().map(|walls| walls.atlas()),
+        atlas,
     };
     let crops = Crop::of_manifest(&manifest);
     let written = graded.write(&folder, &textures, &crops, &watch, progress)?;
-    for file in manifest.files.iter().filter(|file| file.starts_with("sums/") || *file == preview::PATHS_FILE) {
+    for file in manifest.files.iter().filter(|file| is_kept(file)) {
         folder.keep(file)?;
     }
 

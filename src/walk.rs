@@ -13,7 +13,9 @@ use crate::export::preview::{
 };
 use crate::export::{self, PeopleReport};
 use crate::files::WholeFile;
-use crate::motion::{Frame, Mileage, Motion, People, RecordForm, Recorded, RecordedWorld, Recorder, RecordingFormat};
+use crate::motion::{
+    Frame, Mileage, Motion, People, RecordForm, Recorded, RecordedWorld, Recorder, RecordingFormat, Statures,
+};
 use crate::progress::{Progress, Stage, Stopwatch};
 use crate::routes::{Navigation, Route};
 use crate::scenario::Scenario;
@@ -89,7 +91,7 @@ pub fn walk(scenario: &Scenario, outputs: &WalkOutputs, progress: &dyn Progress)
     let people = People::new(scenario.seed, scenario.bodies.clone());
     if let Some(given) = &given {
         let source = Source::of_given(given, &ground)?;
-        return Walk { source, ground: &ground, routes: &[], people: &people }.record(
+        return Walk { source, ground: &ground, routes: &[], people: &people, statures: given.statures() }.record(
             outputs,
             given.fps(),
             files,
@@ -104,7 +106,8 @@ pub fn walk(scenario: &Scenario, outputs: &WalkOutputs, progress: &dyn Progress)
         .busy(Stage::Crowd, || simulate(plan, walls, &routes, ways, &people, &scenario.crowd, &scenario.spots()))?;
     let source = Source::of_crowd(crowd, &routes);
     let fps = 1.0 / scenario.crowd.time_step;
-    Walk { source, ground: &ground, routes: &routes, people: &people }.record(outputs, fps, files, &watch, progress)
+    let walk = Walk { source, ground: &ground, routes: &routes, people: &people, statures: Statures::default() };
+    walk.record(outputs, fps, files, &watch, progress)
 }
 
 /// Plays a given motion on its ground, and writes it, an animation and a picture of its paths.
@@ -121,18 +124,37 @@ pub fn show(
     let watch = Stopwatch::start();
     let files = Files::begin(outputs)?;
     let source = Source::of_given(given, ground)?;
-    Walk { source, ground, routes: &[], people }.record(outputs, given.fps(), files, &watch, progress)
+    let walk = Walk { source, ground, routes: &[], people, statures: given.statures() };
+    walk.record(outputs, given.fps(), files, &watch, progress)
 }
 
-/// The files in the making, but for the motion's own.
+/// The files in the making.
 struct Files {
+    motion: Option<Sheet>,
     animation: Option<(WholeFile, AnimationFormat)>,
     paths: Option<WholeFile>,
 }
 
+/// Where the motion goes, and how it is written.
+enum Sheet {
+    File(RecordForm, WholeFile),
+    StandardOutput(RecordingFormat),
+}
+
 impl Files {
+    /// Makes sure that all files can be written, before anybody walks.
     fn begin(outputs: &WalkOutputs) -> Result<Files, Error> {
         let begin = |path: &PathBuf| WholeFile::begin(path, outputs.force);
+        let motion = match &outputs.motion {
+            None => None,
+            Some(MotionOutput::File(path)) => {
+                let form = RecordForm::of(path, outputs.format)?;
+                Some(Sheet::File(form, begin(path)?))
+            }
+            Some(MotionOutput::StandardOutput) => {
+                Some(Sheet::StandardOutput(outputs.format.unwrap_or(RecordingFormat::Juelich)))
+            }
+        };
         let animation = match &outputs.animation {
             Some((path, _)) => {
                 let format = AnimationFormat::of(path)?;
@@ -140,7 +162,7 @@ impl Files {
             }
             None => None,
         };
-        Ok(Files { animation, paths: outputs.paths.as_ref().map(begin).transpose()? })
+        Ok(Files { motion, animation, paths: outputs.paths.as_ref().map(begin).transpose()? })
     }
 }
 
@@ -150,6 +172,8 @@ struct Walk<'a> {
     ground: &'a Ground,
     routes: &'a [Route],
     people: &'a People,
+    /// Of those whose body height is known from elsewhere.
+    statures: Statures,
 }
 
 impl Walk<'_> {
@@ -161,20 +185,15 @@ impl Walk<'_> {
         watch: &Stopwatch,
         progress: &dyn Progress,
     ) -> Result<WalkReport, Error> {
-        let Walk { mut source, ground: Ground { plan, walls, .. }, routes, people } = self;
+        let Walk { mut source, ground: Ground { plan, walls, .. }, routes, people, statures } = self;
         let world = RecordedWorld { plan, walls, people };
         let fps = outputs.fps.unwrap_or(own_fps);
-        let recorder = match &outputs.motion {
+        let recorder = match files.motion {
             None => None,
-            Some(MotionOutput::File(path)) => {
-                let form = RecordForm::of(path, outputs.format)?;
-                Some(Recorder::create_as(form, path, outputs.force, fps, world)?)
-            }
-            Some(MotionOutput::StandardOutput) => {
-                let format = outputs.format.unwrap_or(RecordingFormat::Juelich);
-                Some(Recorder::to_writer(io::stdout(), format, fps, world)?)
-            }
+            Some(Sheet::File(form, file)) => Some(Recorder::into_file(form, file, fps, world)?),
+            Some(Sheet::StandardOutput(format)) => Some(Recorder::to_writer(io::stdout(), format, fps, world)?),
         };
+        let recorder = recorder.map(|recorder| recorder.with_statures(statures));
         let arrivals = source.arrivals().to_vec();
         let animation = outputs.animation.as_ref();
         let animation =

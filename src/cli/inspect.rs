@@ -71,7 +71,9 @@ impl Understood {
 
 impl Inspect {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
-        let understood = Understood::of(&self.scenario.scenario()?, common)?;
+        let picture = self.picture.as_deref().map(print::Output::begin).transpose()?;
+        let scenario = self.scenario.scenario()?;
+        let understood = Understood::of(&scenario, common).map_err(|error| self.scenario.explain(error))?;
         let Understood { plan, walls, routes } = &understood;
         if self.json {
             print::line(serde_json::to_string_pretty(&Json {
@@ -89,8 +91,8 @@ impl Inspect {
         } else if !common.quiet {
             self.tell(&understood)?;
         }
-        if let Some(path) = &self.picture {
-            print::save_picture(&draw_plan(plan, walls, routes), path)?;
+        if let (Some(path), Some(picture)) = (&self.picture, picture) {
+            picture.save_picture(&draw_plan(plan, walls, routes))?;
             if !self.json && !common.quiet {
                 print::line(format!("picture   {}", path.display()))?;
             }

@@ -17,6 +17,7 @@ mod patterns;
 mod print;
 mod progress;
 mod resolve;
+mod standard_input;
 mod view;
 
 /// Turns a bitmap floor plan into the dirt that people leave in it.

@@ -3,14 +3,14 @@
 use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Context;
 use clap::ColorChoice;
 use clap::builder::styling::{AnsiColor, Style};
 use trodden::export::preview::encode_picture;
-use trodden::files::write_whole;
+use trodden::files::WholeFile;
 
 use super::Common;
 
@@ -22,6 +22,11 @@ const HINT: Style = AnsiColor::Cyan.on_default().bold();
 /// [`failure`].
 pub fn line(text: impl Display) -> anyhow::Result<()> {
     Ok(writeln!(io::stdout(), "{}", plain(&text.to_string()))?)
+}
+
+/// Writes text to standard output as it is.
+pub fn text(text: &str) -> anyhow::Result<()> {
+    Ok(io::stdout().write_all(text.as_bytes())?)
 }
 
 /// Prints why a command failed: what, what caused it, what to do about it.
@@ -78,7 +83,7 @@ fn label(name: &str, style: Style, colour: bool) -> String {
 }
 
 /// Whether the program that read our output stopped reading, as `head` does: no failure of ours.
-fn is_broken_pipe(error: &anyhow::Error) -> bool {
+pub fn is_broken_pipe(error: &anyhow::Error) -> bool {
     let is_one = |cause: &(dyn std::error::Error + 'static)| {
         cause.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
     };
@@ -110,18 +115,45 @@ pub struct Refused {
     pub hint: Option<Cow<'static, str>>,
 }
 
-/// Writes a picture as PNG, whatever the path's ending.
-pub fn save_picture(picture: &image::RgbImage, path: &Path) -> anyhow::Result<()> {
-    save(&encode_picture(picture), path)
+/// A file that will be written whole or not at all, over one that is there.
+pub enum Output {
+    /// It takes what it gets; there is nothing to rename.
+    Device(PathBuf),
+    /// Any other file.
+    File(WholeFile),
 }
 
-/// Writes a file whole or not at all, over one that is there.
-pub fn save(bytes: &[u8], path: &Path) -> anyhow::Result<()> {
-    let is_device = path.exists() && !path.is_file() && !path.is_dir();
-    if is_device {
-        // It takes what it gets; there is nothing to rename.
-        return std::fs::write(path, bytes).with_context(|| format!("cannot write {}", path.display()));
+impl Output {
+    /// Makes sure that the file can be written, before the work that it is for.
+    pub fn begin(path: &Path) -> anyhow::Result<Output> {
+        let is_device = path.exists() && !path.is_file() && !path.is_dir();
+        Ok(match is_device {
+            true => Output::Device(path.to_path_buf()),
+            false => Output::File(WholeFile::begin(path, true).map_err(trodden::Error::from)?),
+        })
     }
-    write_whole(path, bytes, true).map_err(trodden::Error::from)?;
-    Ok(())
+
+    /// Writes the file.
+    pub fn save(self, bytes: &[u8]) -> anyhow::Result<()> {
+        match self {
+            Output::Device(path) => {
+                std::fs::write(&path, bytes).with_context(|| format!("cannot write {}", path.display()))
+            }
+            Output::File(file) => {
+                let written = std::fs::write(file.path(), bytes).map_err(|source| file.failed(source));
+                written.and_then(|()| file.publish()).map_err(trodden::Error::from)?;
+                Ok(())
+            }
+        }
+    }
+
+    /// Writes a picture as PNG, whatever the path's ending.
+    pub fn save_picture(self, picture: &image::RgbImage) -> anyhow::Result<()> {
+        self.save(&encode_picture(picture))
+    }
+}
+
+/// Writes a picture as PNG, whatever the path's ending, over one that is there.
+pub fn save_picture(picture: &image::RgbImage, path: &Path) -> anyhow::Result<()> {
+    Output::begin(path)?.save_picture(picture)
 }

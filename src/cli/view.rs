@@ -63,10 +63,11 @@ impl ViewCommand {
             look: self.look.as_deref().map(Look::read).transpose().map_err(Error::from)?,
         };
         let output = self.output.clone().unwrap_or_else(|| beside(&self.bake));
+        let file = print::Output::begin(&output)?;
         let watch = Watch::new(common);
         let (picture, camera) = view(&self.bake, &view_from, &watch)?;
         watch.advance(Stage::Export, 1.0);
-        print::save_picture(&picture, &output)?;
+        file.save_picture(&picture)?;
         if !common.quiet {
             tell(&output, &camera)?;
         }

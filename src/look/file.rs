@@ -3,6 +3,7 @@ use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{LookError, Place};
+use super::image::decode;
 use super::settings::Look;
 use crate::files::read_text;
 
@@ -48,6 +49,14 @@ impl Look {
             }
         }
         Ok(look)
+    }
+
+    /// Checks that the images of floor and walls can be read, before any work that they would spoil at its end.
+    ///
+    /// # Errors
+    /// An image that is missing, damaged, too large or of an unknown format.
+    pub fn check_images(&self) -> Result<(), LookError> {
+        [&self.floor.image, &self.wall.image].into_iter().flatten().try_for_each(|path| decode(path).map(drop))
     }
 
     /// These settings with those of a TOML table laid over them.

@@ -15,6 +15,24 @@ const LARGEST: usize = 4096;
 /// Largest side read, pixels.
 const LARGEST_READ: u32 = 16_384;
 
+/// Reads an image of a known format, at least a pixel large.
+pub(super) fn decode(path: &Path) -> Result<image::RgbImage, LookError> {
+    let wrong = |message: String| LookError::Image { path: path.to_path_buf(), message };
+    let file = open_input_up_to(path, LARGEST_IMAGE_BYTES).map_err(|e| wrong(e.to_string()))?;
+    let reader = image::ImageReader::new(std::io::BufReader::new(file));
+    let mut reader = reader.with_guessed_format().map_err(|e| wrong(e.to_string()))?;
+    let mut limits = image::Limits::default();
+    limits.max_image_width = Some(LARGEST_READ);
+    limits.max_image_height = Some(LARGEST_READ);
+    limits.max_alloc = Some(LARGEST_IMAGE_BYTES);
+    reader.limits(limits);
+    let image = reader.decode().map_err(|e| wrong(e.to_string()))?.to_rgb8();
+    if image.width() == 0 || image.height() == 0 {
+        return Err(wrong("it has no pixels".to_string()));
+    }
+    Ok(image)
+}
+
 /// A repeated image whose mean over any rectangle takes four look-ups.
 pub(super) struct RepeatedImage {
     width: usize,
@@ -27,20 +45,8 @@ pub(super) struct RepeatedImage {
 
 impl RepeatedImage {
     pub fn open(path: &Path, size_m: [f64; 2], texels_per_metre: f64) -> Result<RepeatedImage, LookError> {
-        let wrong = |message: String| LookError::Image { path: path.to_path_buf(), message };
-        let file = open_input_up_to(path, LARGEST_IMAGE_BYTES).map_err(|e| wrong(e.to_string()))?;
-        let reader = image::ImageReader::new(std::io::BufReader::new(file));
-        let mut reader = reader.with_guessed_format().map_err(|e| wrong(e.to_string()))?;
-        let mut limits = image::Limits::default();
-        limits.max_image_width = Some(LARGEST_READ);
-        limits.max_image_height = Some(LARGEST_READ);
-        limits.max_alloc = Some(LARGEST_IMAGE_BYTES);
-        reader.limits(limits);
-        let image = reader.decode().map_err(|e| wrong(e.to_string()))?.to_rgb8();
+        let image = decode(path)?;
         let (width, height) = (image.width() as usize, image.height() as usize);
-        if width == 0 || height == 0 {
-            return Err(wrong("it has no pixels".to_string()));
-        }
         let table: Vec<f32> = (0..=255u8).map(|value| tone::linear(f32::from(value))).collect();
         let rows = image.rows().map(|row| row.map(|p| p.0.map(|c| table[usize::from(c)])).collect());
         Ok(RepeatedImage::new(rows, [width, height], size_m, texels_per_metre))

@@ -10,6 +10,7 @@ mod mileage;
 mod person;
 mod recorder;
 mod recording;
+mod statures;
 pub mod units;
 
 pub use ensemble::{Ensemble, EnsembleMotion, MOST_PLACES};
@@ -19,6 +20,7 @@ pub use person::{Bag, BagKind, BodyOptions, CarrySide, People, Person, STRIDE_SP
 pub(crate) use recorder::Resampler;
 pub use recorder::{FRAME_RATES, RecordForm, Recorded, RecordedWorld, Recorder};
 pub use recording::{LengthUnit, Recording, RecordingError, RecordingFormat, RecordingOptions, Survey};
+pub use statures::Statures;
 
 use crate::Error;
 use crate::math::Vec2;

@@ -109,6 +109,8 @@ pub struct Overrides {
     pub embed: Option<bool>,
     /// Whether a bake of any size is made: see [`TextureOptions::any_size`].
     pub any_size: bool,
+    /// Whether every layer is written on its own too.
+    pub layers: Option<bool>,
     /// A recording that takes the crowd's place, relative to the working directory.
     pub motion_file: Option<PathBuf>,
     /// How it is read; keys that differ from the defaults win.
@@ -356,6 +358,7 @@ impl Scenario {
         self.texture.walls = overrides.walls.unwrap_or(self.texture.walls);
         self.texture.embed = overrides.embed.unwrap_or(self.texture.embed);
         self.texture.any_size |= overrides.any_size;
+        self.texture.layers = overrides.layers.or(self.texture.layers);
         if let Some(file) = &overrides.motion_file {
             // Paths of the command line start from the working directory, those of the scenario from its folder.
             let absolute = std::path::absolute(file).ok().filter(|_| !self.folder.as_os_str().is_empty());

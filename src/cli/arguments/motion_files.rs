@@ -8,6 +8,7 @@ use clap::{Args, CommandFactory};
 use trodden::export::preview::{
     ANIMATION_SIZES_PX, ANIMATION_SPEEDS, AnimationColour, AnimationFormat, AnimationOptions,
 };
+use trodden::files::WholeFile;
 use trodden::motion::{FRAME_RATES, RecordForm, RecordingFormat};
 use trodden::walk::{MotionOutput, WalkOutputs, WalkReport, same_file};
 
@@ -65,6 +66,15 @@ impl MotionFiles {
         {
             refuse(command, ErrorKind::ArgumentConflict, "--animation and --paths name the same file");
         }
+    }
+
+    /// Makes sure that all files can be written, before the work that they are for.
+    pub fn probe(&self) -> Result<(), trodden::Error> {
+        let motion = self.output.as_ref().filter(|_| !self.prints_motion());
+        for path in [motion, self.animation.as_ref(), self.paths.as_ref()].into_iter().flatten() {
+            WholeFile::begin(path, self.force)?;
+        }
+        Ok(())
     }
 
     /// Whether the motion can be written to the file.
@@ -162,7 +172,7 @@ impl MotionFiles {
 }
 
 /// The file name that means standard output.
-const STANDARD_OUTPUT: &str = "-";
+pub const STANDARD_OUTPUT: &str = "-";
 
 fn refuse(command: &[&str], kind: ErrorKind, message: &str) {
     let mut cli = Cli::command();

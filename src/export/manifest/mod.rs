@@ -158,8 +158,11 @@ pub struct TileEntry {
     pub world: Option<WorldEntry>,
     /// Base colour, 8 bit sRGB.
     pub basecolor: String,
-    /// Packed masks, 8 bit linear.
+    /// Packed masks, 8 bit linear: film, prints and scuffs, edge.
     pub mask: String,
+    /// The mask of passes, 8 bit linear, grey. Empty in bakes of before the mask had three channels.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub passes: String,
     /// Occlusion, roughness, metallic, 8 bit linear.
     pub orm: String,
     /// The same as Unity's mask map, for that target: metallic, occlusion, detail, smoothness.
@@ -257,9 +260,12 @@ impl Manifest {
     pub fn texture_options(&self) -> TextureOptions {
         // A tile smaller than the setting is a floor smaller than a tile: its power of two is found again.
         let [width, height] = self.floor.tile_px;
+        let written = self.floor.tiles.iter().any(|tile| !tile.layers.is_empty());
+        // What is usual for the target was left to it, and is left to another one as well.
+        let unusual = (written != self.target.name.wants_layers()).then_some(written);
         TextureOptions {
             tile: width.max(height).max(TileLayout::MIN_TILE),
-            layers: self.floor.tiles.iter().any(|tile| !tile.layers.is_empty()),
+            layers: self.settings["texture"]["layers"].as_bool().or(unusual),
             target: self.target.name,
             embed: self.settings["texture"]["embed"].as_bool().unwrap_or_default(),
             ..TextureOptions::default()
@@ -344,6 +350,7 @@ impl Manifest {
 mod tests {
     use super::*;
     use crate::export::Target;
+    use crate::export::targets::Covered;
     use crate::math::vec2;
     use crate::plan::Side;
     use crate::routes::{Gate, Place};
@@ -383,7 +390,13 @@ mod tests {
                     },
                     ..SumsEntry::default()
                 },
-                channels: Target::Gltf.channels("floor", ["film"; 4], &["passes", "dust"], |_| "optical density D"),
+                channels: Target::Gltf.channels(
+                    Covered::Floor,
+                    "floor",
+                    ["film"; 4],
+                    &["passes", "dust"],
+                    |_| "optical density D",
+                ),
                 ..FloorEntry::default()
             },
             ..Manifest::of_plan(&plan, &walls, &[route])
@@ -417,7 +430,7 @@ mod tests {
         let read = written(json.to_string().as_bytes()).1.unwrap();
         assert_eq!(read, manifest);
         assert_eq!((read.target.name, read.walls.is_none()), (Target::Gltf, true));
-        assert!(read.texture_options().layers);
+        assert!(read.texture_options().writes_layers());
     }
 
     #[test]

@@ -39,8 +39,11 @@ pub struct SheetEntry {
     pub height_px: u32,
     /// Base colour, 8 bit sRGB.
     pub basecolor: String,
-    /// Packed masks, 8 bit linear.
+    /// Packed masks, 8 bit linear: skin, rub, scuff.
     pub mask: String,
+    /// The mask of splashes, 8 bit linear, grey. Empty in bakes of before the mask had three channels.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub splash: String,
     /// Occlusion, roughness, metallic, 8 bit linear.
     pub orm: String,
     /// The same as Unity's mask map, for that target: metallic, occlusion, detail, smoothness.

@@ -47,8 +47,7 @@ pub fn wall_textures(
     progress: &dyn Progress,
 ) -> Result<WallTextures, ExportError> {
     options.check()?;
-    let largest = atlas.sheets.iter().map(|sheet| sheet.width.max(sheet.height)).max().unwrap_or(1);
-    options.target.check_size(largest)?;
+    atlas.check(options.target)?;
     let writer = TextureWriter::new(folder, source.layers(), options, progress);
     let (mut sheets, mut reduced) = (Vec::new(), Vec::new());
     let count = atlas.sheets.len();
@@ -70,7 +69,7 @@ pub fn wall_textures(
         atlas: atlas.clone(),
         sheets,
         target: options.target,
-        layers: if options.layers { source.layers().to_vec() } else { Vec::new() },
+        layers: if options.writes_layers() { source.layers().to_vec() } else { Vec::new() },
         reduced,
         look_busy_s: seconds(&writer.look_busy),
         export_busy_s: seconds(&writer.export_busy),
@@ -100,7 +99,8 @@ fn entry(index: usize, count: usize, canvas: &Canvas) -> SheetEntry {
         width_px: canvas.size[0],
         height_px: canvas.size[1],
         basecolor: file(Image::BaseColor),
-        mask: file(Image::Mask),
+        mask: file(Image::Mask(Covered::Wall)),
+        splash: file(Image::LoneMask(Covered::Wall)),
         orm: file(Image::Orm),
         mask_map: canvas.files.image(Image::MaskMap),
         layers: canvas.files.layers.clone(),
@@ -130,7 +130,13 @@ impl WallTextures {
             padding_px: atlas.padding_px,
             naming: naming(atlas.sheets.len()),
             sums_one: DENSITY_ONE as u32,
-            channels: self.target.channels("colour of the touched wall", masks, &self.layers, |_| "optical density D"),
+            channels: self.target.channels(
+                Covered::Wall,
+                "colour of the touched wall",
+                masks,
+                &self.layers,
+                |_| "optical density D",
+            ),
             sheets: self.sheets.iter().enumerate().map(with_strips).collect(),
         }
     }

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Frame, MotionError, People, RecordingFormat, Walker};
+use super::{Frame, MotionError, People, RecordingFormat, Statures, Walker};
 use crate::Error;
 use crate::files::{FileError, WholeFile};
 use crate::math::{Vec2, sin_cos, vec2};
@@ -99,6 +99,7 @@ pub struct Recorder<'a> {
     written: Recorded,
     /// Who was present in the last frame, and how tall they are.
     heights: Vec<(u32, f64)>,
+    statures: Statures,
 }
 
 impl<'a> Recorder<'a> {
@@ -122,12 +123,24 @@ impl<'a> Recorder<'a> {
         fps: f64,
         world: RecordedWorld<'a>,
     ) -> Result<Recorder<'a>, Error> {
+        Recorder::into_file(form, WholeFile::begin(path, force)?, fps, world)
+    }
+
+    /// Begins a file whose place is reserved already.
+    ///
+    /// # Errors
+    /// As [`Recorder::create_as`], but for the place.
+    pub fn into_file(
+        form: RecordForm,
+        file: WholeFile,
+        fps: f64,
+        world: RecordedWorld<'a>,
+    ) -> Result<Recorder<'a>, Error> {
         check(fps)?;
         let RecordForm { format, packed } = form;
         if packed && !format.is_text() {
             return Err(MotionError::NoText { format }.into());
         }
-        let file = WholeFile::begin(path, force)?;
         let sheet: Box<dyn Sheet> = match layout(format, fps) {
             Some(layout) => {
                 let out = file.create()?;
@@ -174,7 +187,13 @@ impl<'a> Recorder<'a> {
             file,
             written: Recorded { format, fps, frames: 0, places: 0, bytes: 0 },
             heights: Vec::new(),
+            statures: Statures::default(),
         }
+    }
+
+    /// The same with body heights that are known from elsewhere; those of the others are the world's people's.
+    pub fn with_statures(self, statures: Statures) -> Recorder<'a> {
+        Recorder { statures, ..self }
     }
 
     /// Takes the motion's next frame.
@@ -188,7 +207,10 @@ impl<'a> Recorder<'a> {
             self.resampler.pass_over_absence();
         }
         while let Some((number, walkers)) = self.resampler.next() {
-            measure_heights(&mut self.heights, &walkers, self.world.people);
+            let (statures, people) = (&self.statures, self.world.people);
+            measure_heights(&mut self.heights, &walkers, |id| {
+                statures.of(id).unwrap_or_else(|| people.person(id).stature_m)
+            });
             let places: Vec<Place> = (walkers.iter().zip(&self.heights))
                 .map(|(walker, &(_, height_m))| self.frame_of_map.place(walker, height_m))
                 .collect();
@@ -239,7 +261,7 @@ fn unnamed(source: io::Error) -> Error {
 }
 
 /// Brings the list of heights up to those who are present now; both are in ascending order of ids.
-fn measure_heights(heights: &mut Vec<(u32, f64)>, walkers: &[Walker], people: &People) {
+fn measure_heights(heights: &mut Vec<(u32, f64)>, walkers: &[Walker], height_m_of: impl Fn(u32) -> f64) {
     let before = std::mem::take(heights);
     let mut known = before.iter().peekable();
     heights.reserve(walkers.len());
@@ -247,7 +269,7 @@ fn measure_heights(heights: &mut Vec<(u32, f64)>, walkers: &[Walker], people: &P
         while known.next_if(|&&(id, _)| id < walker.id).is_some() {}
         let height_m = match known.next_if(|&&(id, _)| id == walker.id) {
             Some(&(_, height_m)) => height_m,
-            None => people.person(walker.id).stature_m,
+            None => height_m_of(walker.id),
         };
         heights.push((walker.id, height_m));
     }

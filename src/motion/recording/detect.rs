@@ -83,6 +83,7 @@ pub(super) fn detect(head: &[u8], whole: bool, options: &RecordingOptions) -> Re
         header: header.map(|((_, line), _)| line.to_vec()),
         fps: comments.fps,
         unit: None,
+        heights: None,
         warnings,
     };
     let named = names.as_ref().or(comments.columns.as_ref()).filter(|_| options.columns.is_none());

@@ -144,7 +144,7 @@ pub(super) fn upright_axis(layout: &mut Layout, rows: &[&[u8]], asked: bool) {
 /// The unit that heights of heads tell: people are 1 to 2.3 m tall.
 pub(super) fn unit_of_heights(layout: &Layout, rows: &[&[u8]]) -> Option<super::LengthUnit> {
     use super::LengthUnit::{Centimetre, Metre, Millimetre};
-    let at = layout.column(Role::Height).or_else(|| layout.column(Role::Z))?;
+    let at = layout.heights_column()?;
     let value = |row: &&[u8]| number(layout.separator.split(row).get(at)?).filter(|z| z.is_finite());
     let mut heights: Vec<f64> = rows.iter().take(ROWS).filter_map(value).collect();
     let middle = heights.len() / 2;
