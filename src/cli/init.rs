@@ -10,7 +10,6 @@ use trodden::scenario::Scenario;
 
 use super::arguments::ScenarioArguments;
 use super::inspect::Understood;
-use super::print::Refused;
 use super::{Common, print};
 
 /// Write a scenario for a plan, with every default written out and explained
@@ -38,12 +37,8 @@ impl Init {
             .output
             .clone()
             .unwrap_or_else(|| self.scenario.path.clone().unwrap_or_default().with_extension("toml"));
-        if output.exists() && !self.force {
-            let message = format!("{} exists already", output.display());
-            let hint = Some("--force replaces it; --output chooses another file".into());
-            return Err(Refused { message, hint }.into());
-        }
         let mut scenario = self.scenario.scenario()?;
+        let file = print::begin_file(&output, self.force, &scenario.input_files())?;
         let understood = Understood::of(&scenario, common)?;
         if scenario.plan.scale.is_none() && !is_ros_map(&scenario.plan_path()?) {
             scenario.plan.metres_per_pixel = Some(understood.plan.metres_per_pixel);
@@ -53,7 +48,7 @@ impl Init {
         }
         move_to(&mut scenario, output.parent().unwrap_or(Path::new("")))?;
         let text = format!("{}{}{}", HEADER, openings(&understood), scenario.to_toml());
-        print::save(text.as_bytes(), &output)?;
+        print::save(text.as_bytes(), file)?;
         if !common.quiet {
             print::line(format!("wrote {}; `trodden bake {}` bakes it", output.display(), output.display()))?;
         }

@@ -3,14 +3,14 @@
 use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use anyhow::Context;
 use clap::ColorChoice;
 use clap::builder::styling::{AnsiColor, Style};
+use trodden::export::Manifest;
 use trodden::export::preview::encode_picture;
-use trodden::files::write_whole;
+use trodden::files::{WholeFile, check_not_input};
 
 use super::Common;
 
@@ -95,18 +95,28 @@ pub struct Refused {
     pub hint: Option<Cow<'static, str>>,
 }
 
-/// Writes a picture as PNG, whatever the path's ending.
-pub fn save_picture(picture: &image::RgbImage, path: &Path) -> anyhow::Result<()> {
-    save(&encode_picture(picture), path)
+/// Begins a file that a command writes, before its work is done. A file that exists is refused without `force`, and one
+/// that the command reads always.
+pub fn begin_file(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<WholeFile, trodden::Error> {
+    check_not_input(path, inputs)?;
+    Ok(WholeFile::begin(path, force)?)
 }
 
-/// Writes a file whole or not at all, over one that is there.
-pub fn save(bytes: &[u8], path: &Path) -> anyhow::Result<()> {
-    let is_device = path.exists() && !path.is_file() && !path.is_dir();
-    if is_device {
-        // It takes what it gets; there is nothing to rename.
-        return std::fs::write(path, bytes).with_context(|| format!("cannot write {}", path.display()));
-    }
-    write_whole(path, bytes, true).map_err(trodden::Error::from)?;
+/// Writes a picture as PNG, whatever the file's ending.
+pub fn save_picture(picture: &image::RgbImage, file: WholeFile) -> Result<(), trodden::Error> {
+    save(&encode_picture(picture), file)
+}
+
+/// Writes the content of a file that was begun.
+pub fn save(bytes: &[u8], file: WholeFile) -> Result<(), trodden::Error> {
+    file.write(bytes)?;
+    file.publish()?;
     Ok(())
+}
+
+/// The files that are read of a bake, or of an image alone.
+pub fn files_of(bake: &Path) -> Vec<PathBuf> {
+    let listed = Manifest::read(bake).map(|manifest| manifest.files).unwrap_or_default();
+    let image = Some(bake.to_path_buf()).filter(|path| path.is_file());
+    listed.iter().map(|file| bake.join(file)).chain(image).collect()
 }

@@ -26,11 +26,11 @@ pub use atlas::{Atlas, Sheet, Strip};
 pub use error::ExportError;
 pub use layout::{BLOCK, Tile, TileLayout};
 pub use manifest::{
-    ChannelEntry, FORMAT, FloorEntry, GENERATOR, Manifest, Naming, PlanEntry, PresenceEntry, PreviewEntry, SheetEntry,
-    StripEntry, SumsEntry, TileEntry, WallsEntry,
+    BakePath, ChannelEntry, FORMAT, FloorEntry, GENERATOR, Manifest, Naming, NotInside, PlanEntry, PresenceEntry,
+    PreviewEntry, SheetEntry, StripEntry, SumsEntry, TileEntry, WallsEntry,
 };
 pub use memory::peak_memory_mib;
-pub use output::{OutputFile, OutputFolder, is_bake, restore};
+pub use output::{OutputFile, OutputFolder, is_bake, restore, settled};
 pub use reduced::Reduced;
 pub use report::{PeopleReport, Report, StuckReport};
 pub use source::{SheetSource, TextureSource, WallSource};

@@ -28,7 +28,7 @@ pub use colour::{Colour, ColourError};
 pub use error::PlanError;
 pub use image_file::{LARGEST_AREA_PX, LARGEST_SIDE_PX};
 pub use options::{PixelPoint, PlanOptions, PlanPoint, TransparentPolicy, TwoPoints, UnknownPolicy};
-pub use read::read;
+pub use read::{files, read};
 pub use scale::{ASSUMED_M_PER_PX, LARGEST_M_PER_PX, LARGEST_SIDE_M, SMALLEST_M_PER_PX};
 
 /// Openings narrower than this are none, metres.

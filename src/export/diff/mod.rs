@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::{ExportError, Manifest};
+use super::{BakePath, ExportError, Manifest, settled};
 
 mod heat;
 mod rows;
@@ -94,7 +94,7 @@ pub fn diff(a: &Path, b: &Path, options: &DiffOptions) -> Result<Comparison, Exp
             let (image, heat_map) = diff_images(a, b, options)?;
             Ok(Comparison { images: vec![image], only_in_a: Vec::new(), only_in_b: Vec::new(), heat_map })
         }
-        (true, true) => diff_bakes(a, b, options),
+        (true, true) => settled(&[a, b], || diff_bakes(a, b, options)),
         (true, false) => Err(not_alike(a, b)),
         (false, true) => Err(not_alike(b, a)),
     }
@@ -107,16 +107,16 @@ fn not_alike(bake: &Path, image: &Path) -> ExportError {
 fn diff_bakes(a: &Path, b: &Path, options: &DiffOptions) -> Result<Comparison, ExportError> {
     let (manifest_a, manifest_b) = (Manifest::read(a)?, Manifest::read(b)?);
     let (files_a, files_b) = (compared_files(&manifest_a), compared_files(&manifest_b));
-    let without = |these: &[String], those: &[String]| -> Vec<String> {
-        these.iter().filter(|file| !those.contains(file)).cloned().collect()
+    let without = |these: &[BakePath], those: &[BakePath]| -> Vec<String> {
+        these.iter().filter(|file| !those.contains(file)).map(|file| file.to_string()).collect()
     };
-    let both: Vec<&String> = files_a.iter().filter(|file| files_b.contains(file)).collect();
+    let both: Vec<&BakePath> = files_a.iter().filter(|file| files_b.contains(file)).collect();
     let diffs: Vec<(ImageDiff, HeatMap)> = both
         .par_iter()
         .with_max_len(1)
         .map(|&file| {
-            let (mut image, heat) = diff_images(&a.join(file), &b.join(file), options)?;
-            image.file = file.clone();
+            let (mut image, heat) = diff_images(&file.within(a)?, &file.within(b)?, options)?;
+            image.file = file.to_string();
             Ok((image, heat))
         })
         .collect::<Result<_, ExportError>>()?;
@@ -129,8 +129,8 @@ fn diff_bakes(a: &Path, b: &Path, options: &DiffOptions) -> Result<Comparison, E
     })
 }
 
-fn compared_files(manifest: &Manifest) -> Vec<String> {
-    let image = |file: &&String| file.ends_with(".png") || file.ends_with(".exr");
+fn compared_files(manifest: &Manifest) -> Vec<BakePath> {
+    let image = |file: &&BakePath| file.ends_with(".png") || file.ends_with(".exr");
     manifest.files.iter().filter(image).filter(|file| !file.starts_with("preview/")).cloned().collect()
 }
 
@@ -144,13 +144,14 @@ fn floor_heat(manifest: &Manifest, diffs: &[(ImageDiff, HeatMap)]) -> HeatMap {
     let mut heat = HeatMap::new(size[0].max(1), size[1].max(1));
     for (image, part) in diffs {
         let names = |tile: &&super::TileEntry| {
-            let files = [&tile.basecolor, &tile.mask, &tile.orm, &tile.sums];
-            files.into_iter().chain(&tile.layers).chain(&tile.mask_map).any(|file| *file == image.file)
+            let files = [&tile.basecolor, &tile.mask, &tile.orm];
+            let mut files = files.into_iter().chain(&tile.layers).chain(&tile.mask_map);
+            *tile.sums == *image.file || files.any(|file| *file == image.file)
         };
         if let Some(tile) = floor.tiles.iter().find(names) {
             let top = (rows - 1 - tile.v) as usize * tile_height;
             heat.lay(part, [tile.u as usize * tile_width, top], [tile_width, tile_height]);
-        } else if image.file == floor.sums.presence.file {
+        } else if *image.file == *floor.sums.presence.file {
             // Presence covers the floor alone, not what fills up the tiles.
             let grid = [floor.width_px as usize, floor.height_px as usize];
             heat.lay(part, [0, size[1].saturating_sub(grid[1])], grid);
