@@ -26,12 +26,19 @@ pub use view::{View, view};
 use graded::{Graded, Sums, look_entry, title};
 use tread::{Marks, tread};
 
+/// Files that every bake makes, whatever its plan.
+const ALWAYS_MADE: [&str; 5] =
+    ["manifest.json", Report::FILE_NAME, "preview/floor.png", preview::PATHS_FILE, "sums/floor_presence.exr"];
+/// Files that a bake makes besides where it makes walls.
+const MADE_WITH_WALLS: [&str; 5] =
+    ["scene.glb", "index.html", "preview/birds_eye.png", "preview/eye_level.png", "preview/eye_level_clean.png"];
+
 /// Where a bake goes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutputOptions {
     /// The folder to make.
     pub folder: PathBuf,
-    /// Whether an earlier bake there is replaced. Anything else is never replaced.
+    /// Whether the files of an earlier bake there are replaced. Anything else is never replaced.
     pub force: bool,
 }
 
@@ -49,6 +56,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     scenario.look.check_images()?;
     scenario.texture.check()?;
     let folder = OutputFolder::begin(&output.folder, output.force)?;
+    check_free(&folder, scenario.texture.walls)?;
 
     // A motion may be given: then nobody has to be walked, and without a plan the floor is open ground around it.
     let given = Given::of_scenario(scenario, &watch, progress)?.map(Given::on_foot);
@@ -182,8 +190,11 @@ pub struct ResolveOptions {
 /// cannot be written; [`Error::Interrupted`]. In all these cases the bake stays as it was.
 pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -> Result<Report, Error> {
     let watch = Stopwatch::start();
-    export::restore(bake)?;
+    export::settled(&[bake], || Manifest::read(bake))?;
+    // From here on no other run replaces the bake.
+    let folder = OutputFolder::begin(bake, true)?;
     let manifest = Manifest::read(bake)?;
+    check_free(&folder, manifest.walls.is_some())?;
     let look = &options.look.clone().map_or_else(|| manifest.look(bake), Ok)?;
     look.check()?;
     look.check_images()?;
@@ -231,4 +242,10 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
     export::write_target_files(&folder, &manifest)?;
     folder.publish(&manifest)?;
     Ok(report)
+}
+
+/// Refuses, before any work is done, names that files of the user have.
+fn check_free(folder: &OutputFolder, with_walls: bool) -> Result<(), export::ExportError> {
+    folder.check_free(&ALWAYS_MADE)?;
+    if with_walls { folder.check_free(&MADE_WITH_WALLS) } else { Ok(()) }
 }

@@ -2,7 +2,7 @@
 //! same for a motion that is given.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde::Serialize;
 
@@ -12,7 +12,7 @@ use crate::export::preview::{
     self, Animation, AnimationFormat, AnimationOptions, AnimationReport, PathSampler, encode_picture,
 };
 use crate::export::{self, PeopleReport};
-use crate::files::WholeFile;
+use crate::files::{FileError, WholeFile, check_not_input};
 use crate::motion::{
     Frame, Mileage, Motion, People, RecordForm, Recorded, RecordedWorld, Recorder, RecordingFormat, Statures,
 };
@@ -36,6 +36,21 @@ pub struct WalkOutputs {
     pub paths: Option<PathBuf>,
     /// Whether files that exist are replaced.
     pub force: bool,
+}
+
+impl WalkOutputs {
+    /// Makes sure that no file is to be written that the run reads.
+    ///
+    /// # Errors
+    /// [`FileError::IsInput`].
+    pub fn check_not_inputs(&self, inputs: &[PathBuf]) -> Result<(), FileError> {
+        let motion = self.motion.iter().filter_map(|motion| match motion {
+            MotionOutput::File(path) => Some(path),
+            MotionOutput::StandardOutput => None,
+        });
+        let mut files = motion.chain(self.animation.iter().map(|(path, _)| path)).chain(&self.paths);
+        files.try_for_each(|file| check_not_input(file, inputs))
+    }
 }
 
 /// Where a motion is written to.
@@ -85,6 +100,7 @@ pub struct WalkReport {
 /// [`Error::Interrupted`]. In all these cases no file is left behind and earlier ones stay as they were.
 pub fn walk(scenario: &Scenario, outputs: &WalkOutputs, progress: &dyn Progress) -> Result<WalkReport, Error> {
     let watch = Stopwatch::start();
+    outputs.check_not_inputs(&scenario.input_files())?;
     let files = Files::begin(outputs)?;
     let given = Given::of_scenario(scenario, &watch, progress)?;
     let ground = Ground::of_scenario(scenario, given.as_ref(), &watch, progress)?;
@@ -110,7 +126,8 @@ pub fn walk(scenario: &Scenario, outputs: &WalkOutputs, progress: &dyn Progress)
     walk.record(outputs, fps, files, &watch, progress)
 }
 
-/// Plays a given motion on its ground, and writes it, an animation and a picture of its paths.
+/// Plays a given motion on its ground, and writes it, an animation and a picture of its paths. The files that the motion
+/// was read from are not known here: see [`WalkOutputs::check_not_inputs`].
 ///
 /// # Errors
 /// As [`walk`].
@@ -224,7 +241,7 @@ impl Walk<'_> {
         };
         if let (Some(paths), Some(file)) = (&paths, &files.paths) {
             let picture = preview::draw_paths(plan, walls, routes, paths.paths(), &tally.stuck);
-            std::fs::write(file.path(), encode_picture(&picture)).map_err(|source| file.failed(source))?;
+            file.write(&encode_picture(&picture))?;
         }
         // All that can fail has been done: now the files appear.
         let motion = watch.busy(Stage::Export, || recorder.map(Recorder::finish).transpose())?;
@@ -297,10 +314,4 @@ impl Onlookers<'_> {
             progress.advance(source.stage(), source.share_done());
         }
     }
-}
-
-/// Whether two outputs are the same file.
-pub fn same_file(a: &Path, b: &Path) -> bool {
-    let real = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
-    real(a) == real(b)
 }

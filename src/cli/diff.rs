@@ -42,6 +42,9 @@ pub struct Diff {
     /// Draw a heat map of where they differ, as a PNG
     #[arg(long, value_name = "FILE")]
     picture: Option<PathBuf>,
+    /// Replace the picture if it is there
+    #[arg(long, requires = "picture")]
+    force: bool,
 }
 
 impl Diff {
@@ -59,20 +62,21 @@ impl Diff {
 
     /// Whether the two differ.
     fn compare(&self, common: &Common) -> anyhow::Result<bool> {
-        let picture = self.picture.as_deref().map(print::Output::begin).transpose()?;
         let options = DiffOptions {
             fail: self.tolerance,
             fail_share: self.share,
             hard_fail: self.most.unwrap_or(DiffOptions::default().hard_fail),
         };
+        let inputs = [&self.a, &self.b].map(|compared| print::files_of(compared)).concat();
+        let picture = self.picture.as_ref().map(|path| print::begin_file(path, self.force, &inputs)).transpose()?;
         let comparison = diff(&self.a, &self.b, &options).map_err(Error::from)?;
         if self.json {
             print::line(serde_json::to_string_pretty(&comparison)?)?;
         } else if !common.quiet {
             self.tell(&comparison)?;
         }
-        if let Some(picture) = picture {
-            picture.save_picture(&comparison.heat_map.picture())?;
+        if let Some(file) = picture {
+            print::save_picture(&comparison.heat_map.picture(), file)?;
         }
         Ok(comparison.failed())
     }

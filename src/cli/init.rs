@@ -35,12 +35,13 @@ pub struct Init {
 impl Init {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
         let output = self.file();
-        let file = output.as_deref().map(|path| self.begin(path)).transpose()?;
         let mut scenario = self.scenario.scenario()?;
         if self.scenario.is_standard_input() && scenario.folder != Path::new("") {
             let message = "a scenario has to name its plan, and standard input has no name".to_string();
             return Err(Refused { message, hint: Some("save the plan to a file first".into()) }.into());
         }
+        let begin = |path: &PathBuf| print::begin_file(path, self.force, &scenario.input_files());
+        let file = output.as_ref().map(begin).transpose()?;
         let understood = Understood::of(&scenario, common).map_err(|error| self.scenario.explain(error))?;
         if scenario.plan.scale.is_none() && !is_ros_map(&scenario.plan_path()?) {
             scenario.plan.metres_per_pixel = Some(understood.plan.metres_per_pixel);
@@ -54,7 +55,7 @@ impl Init {
             print::text(&text)?;
             return Ok(ExitCode::SUCCESS);
         };
-        file.save(text.as_bytes())?;
+        print::save(text.as_bytes(), file)?;
         if !common.quiet {
             print::line(format!("wrote {}; `trodden bake {}` bakes it", output.display(), output.display()))?;
         }
@@ -68,16 +69,6 @@ impl Init {
             false => self.scenario.path.clone().unwrap_or_default().with_extension("toml"),
         };
         Some(self.output.clone().unwrap_or_else(beside_plan)).filter(|path| path != Path::new(STANDARD_OUTPUT))
-    }
-
-    /// Makes sure that the file may be written.
-    fn begin(&self, path: &Path) -> anyhow::Result<print::Output> {
-        if path.exists() && !self.force {
-            let message = format!("{} exists already", path.display());
-            let hint = Some("--force replaces it; --output chooses another file".into());
-            return Err(Refused { message, hint }.into());
-        }
-        print::Output::begin(path)
     }
 }
 

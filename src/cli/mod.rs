@@ -17,6 +17,7 @@ mod patterns;
 mod print;
 mod progress;
 mod resolve;
+mod signals;
 mod standard_input;
 mod view;
 
@@ -88,6 +89,7 @@ pub fn parse() -> Cli {
 impl Cli {
     /// Does what the command line says.
     pub fn run(&self) -> anyhow::Result<ExitCode> {
+        signals::survive_size_limit();
         self.common.start_threads()?;
         match &self.command {
             Command::Bake(bake) => bake.run(&self.common),
@@ -102,9 +104,11 @@ impl Cli {
         }
     }
 
-    /// Prints why it could not be done; gives the exit code.
+    /// Prints why it could not be done; gives the exit code. Ends by a signal where one was caught.
     pub fn fail(&self, error: &anyhow::Error) -> ExitCode {
-        print::failure(error, &self.common)
+        let code = print::failure(error, &self.common);
+        signals::end();
+        code
     }
 }
 

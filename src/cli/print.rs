@@ -6,11 +6,11 @@ use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use anyhow::Context;
 use clap::ColorChoice;
 use clap::builder::styling::{AnsiColor, Style};
+use trodden::export::Manifest;
 use trodden::export::preview::encode_picture;
-use trodden::files::WholeFile;
+use trodden::files::{WholeFile, check_not_input};
 
 use super::Common;
 
@@ -115,45 +115,28 @@ pub struct Refused {
     pub hint: Option<Cow<'static, str>>,
 }
 
-/// A file that will be written whole or not at all, over one that is there.
-pub enum Output {
-    /// It takes what it gets; there is nothing to rename.
-    Device(PathBuf),
-    /// Any other file.
-    File(WholeFile),
+/// Begins a file that a command writes, before its work is done. A file that exists is refused without `force`, and one
+/// that the command reads always.
+pub fn begin_file(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<WholeFile, trodden::Error> {
+    check_not_input(path, inputs)?;
+    Ok(WholeFile::begin(path, force)?)
 }
 
-impl Output {
-    /// Makes sure that the file can be written, before the work that it is for.
-    pub fn begin(path: &Path) -> anyhow::Result<Output> {
-        let is_device = path.exists() && !path.is_file() && !path.is_dir();
-        Ok(match is_device {
-            true => Output::Device(path.to_path_buf()),
-            false => Output::File(WholeFile::begin(path, true).map_err(trodden::Error::from)?),
-        })
-    }
-
-    /// Writes the file.
-    pub fn save(self, bytes: &[u8]) -> anyhow::Result<()> {
-        match self {
-            Output::Device(path) => {
-                std::fs::write(&path, bytes).with_context(|| format!("cannot write {}", path.display()))
-            }
-            Output::File(file) => {
-                let written = std::fs::write(file.path(), bytes).map_err(|source| file.failed(source));
-                written.and_then(|()| file.publish()).map_err(trodden::Error::from)?;
-                Ok(())
-            }
-        }
-    }
-
-    /// Writes a picture as PNG, whatever the path's ending.
-    pub fn save_picture(self, picture: &image::RgbImage) -> anyhow::Result<()> {
-        self.save(&encode_picture(picture))
-    }
+/// Writes a picture as PNG, whatever the file's ending.
+pub fn save_picture(picture: &image::RgbImage, file: WholeFile) -> Result<(), trodden::Error> {
+    save(&encode_picture(picture), file)
 }
 
-/// Writes a picture as PNG, whatever the path's ending, over one that is there.
-pub fn save_picture(picture: &image::RgbImage, path: &Path) -> anyhow::Result<()> {
-    Output::begin(path)?.save_picture(picture)
+/// Writes the content of a file that was begun.
+pub fn save(bytes: &[u8], file: WholeFile) -> Result<(), trodden::Error> {
+    file.write(bytes)?;
+    file.publish()?;
+    Ok(())
+}
+
+/// The files that are read of a bake, or of an image alone.
+pub fn files_of(bake: &Path) -> Vec<PathBuf> {
+    let listed = Manifest::read(bake).map(|manifest| manifest.files).unwrap_or_default();
+    let image = Some(bake.to_path_buf()).filter(|path| path.is_file());
+    listed.iter().map(|file| bake.join(file)).chain(image).collect()
 }

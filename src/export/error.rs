@@ -1,6 +1,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::manifest::NotInside;
+
 /// Why the `export` stage cannot go on.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -38,11 +40,20 @@ pub enum ExportError {
         path: PathBuf,
     },
     /// The folder beside the output, in which results are collected, is taken by something else.
-    #[error("{} is in the way: it is not an unfinished bake of trodden", path.display())]
+    #[error("{} is in the way: trodden needs this name, and it did not make it", path.display())]
     InTheWay {
         /// The folder.
         path: PathBuf,
     },
+    /// A file that no bake made has the name of one that the bake makes.
+    #[error("{} would be written, but a file of that name is there that no bake has made", path.display())]
+    UserFile {
+        /// The file that is there.
+        path: PathBuf,
+    },
+    /// A path leads out of the output folder.
+    #[error(transparent)]
+    NotInside(#[from] NotInside),
     /// The output folder cannot be made or replaced.
     #[error("cannot write the output folder {}: {source}", path.display())]
     Folder {
@@ -181,13 +192,14 @@ impl ExportError {
                 Some("--force replaces it; --output chooses another folder".to_string())
             }
             ExportError::OutputInUse { .. } => Some("wait for it, or choose another folder with --output".to_string()),
+            ExportError::UserFile { .. } => Some("move it away, or choose another folder".to_string()),
             ExportError::InTheWay { path } => Some(format!("move {} away", path.display())),
             ExportError::Folder { source, .. } | ExportError::Write { source, .. } => write_hint(source),
             ExportError::Read { source, .. } if source.kind() == io::ErrorKind::NotFound => {
                 Some("a bake is a folder with a manifest.json in it".to_string())
             }
             ExportError::NewerFormat { .. } => Some("bake again, or use the newer version of trodden".to_string()),
-            ExportError::Damaged { .. } => Some("bake again".to_string()),
+            ExportError::Damaged { .. } => Some("bake again, into a new folder".to_string()),
             ExportError::TileSize { .. } => Some("engines want powers of two, such as 4096 or 8192".to_string()),
             ExportError::TileTooLargeFor { max, .. } => Some(format!("set texture.tile to {max} or less")),
             ExportError::WallTooHigh { needed, .. } => Some(format!(

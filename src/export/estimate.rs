@@ -48,7 +48,7 @@ impl Estimate {
         let wall_texels = walls.map_or(0.0, |grid| {
             grid.faces.iter().map(|face| f64::from(face.width)).sum::<f64>() * f64::from(grid.height)
         });
-        let factor = if options.layers { WITH_LAYERS } else { 1.0 };
+        let factor = if options.writes_layers() { WITH_LAYERS } else { 1.0 };
         Ok(Estimate {
             tiles: u64::from(layout.columns()) * u64::from(layout.rows()),
             sheets: (wall_texels / (f64::from(options.tile) * f64::from(options.tile))).ceil() as u64,

@@ -28,11 +28,11 @@ pub use error::ExportError;
 pub use estimate::{Estimate, LARGE_BYTES};
 pub use layout::{BLOCK, Tile, TileLayout};
 pub use manifest::{
-    ChannelEntry, FORMAT, FloorEntry, GENERATOR, Manifest, ManifestError, Naming, PlanEntry, PresenceEntry,
-    PreviewEntry, SheetEntry, StripEntry, SumsEntry, TileEntry, WallsEntry,
+    BakePath, ChannelEntry, FORMAT, FloorEntry, GENERATOR, Manifest, ManifestError, Naming, NotInside, PlanEntry,
+    PresenceEntry, PreviewEntry, SheetEntry, StripEntry, SumsEntry, TileEntry, WallsEntry,
 };
 pub use memory::peak_memory_mib;
-pub use output::{OutputFile, OutputFolder, is_bake, restore};
+pub use output::{OutputFile, OutputFolder, is_bake, restore, settled};
 pub use reduced::Reduced;
 pub use report::{PeopleReport, Report, StuckReport};
 pub use source::{SheetSource, TextureSource, WallSource};

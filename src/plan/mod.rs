@@ -33,7 +33,7 @@ pub use image_file::{LARGEST_AREA_PX, LARGEST_SIDE_PX};
 pub use options::{
     LARGEST_COORDINATE, PixelPoint, PlanOptions, PlanPoint, TransparentPolicy, TwoPoints, UnknownPolicy,
 };
-pub use read::read;
+pub use read::{files, read};
 pub use ros_map::LARGEST_ORIGIN_M;
 pub use scale::{ASSUMED_M_PER_PX, LARGEST_M_PER_PX, LARGEST_SIDE_M, SMALLEST_M_PER_PX};
 

@@ -1,6 +1,6 @@
 //! From a path to a [`FloorPlan`].
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::drawing::{self, Drawing};
 use super::{FloorPlan, PlanError, PlanOptions, Pose, doors, image_file, openings, regions, ros_map, scale, symbols};
@@ -33,6 +33,12 @@ pub fn read(path: &Path, options: &PlanOptions) -> Result<FloorPlan, PlanError> 
     }
     let map_from_plan = map.map_or(Pose::default(), |m| m.pose);
     understand(drawing, metres_per_pixel, options, map_from_plan, warnings)
+}
+
+/// The files that [`read`] opens for a path: a ROS map names its image.
+pub fn files(path: &Path) -> Vec<PathBuf> {
+    let image = if ros_map::is_map(path) { ros_map::read(path).ok().map(|map| map.image) } else { None };
+    [path.to_owned()].into_iter().chain(image).collect()
 }
 
 fn understand(

@@ -24,6 +24,7 @@ mod check;
 mod document;
 mod error;
 mod explain;
+mod inputs;
 mod keys;
 mod preset;
 mod snippet;
@@ -41,6 +42,8 @@ use document::Document;
 pub struct Scenario {
     /// The folder that the scenario's paths start from: that of its file.
     pub folder: PathBuf,
+    /// The files that it was read from: its own and that of its look, where it has them.
+    pub read_from: Vec<PathBuf>,
     /// The plan, relative to `folder`: an image or the YAML of a ROS map. Only a motion that is given needs none: the
     /// floor is open ground then.
     pub image: Option<PathBuf>,
@@ -161,7 +164,9 @@ impl Scenario {
     /// line and column.
     pub fn read(path: &Path, overrides: &Overrides) -> Result<Scenario, ScenarioError> {
         let text = read_text(path).map_err(|source| ScenarioError::Unreadable { path: path.to_path_buf(), source })?;
-        Scenario::parse(&text, path, overrides)
+        let mut scenario = Scenario::parse(&text, path, overrides)?;
+        scenario.read_from.push(path.to_path_buf());
+        Ok(scenario)
     }
 
     /// Reads a scenario from text; `path` is where it came from, for errors and for the paths in it.
@@ -277,6 +282,7 @@ impl Scenario {
     pub fn of_preset(preset: Preset) -> Scenario {
         let mut scenario = Scenario {
             folder: PathBuf::new(),
+            read_from: Vec::new(),
             image: None,
             wall_height_m: 2.6,
             plan: PlanOptions::default(),
@@ -372,7 +378,7 @@ impl Scenario {
     }
 
     /// The look: that of a preset or a file, with the section's own keys laid over it.
-    fn read_look(&self, document: &Document<'_>, preset_overridden: bool) -> Result<Look, ScenarioError> {
+    fn read_look(&mut self, document: &Document<'_>, preset_overridden: bool) -> Result<Look, ScenarioError> {
         let mut section = document.section("look");
         let preset: Option<Preset> = section.take("preset")?;
         let file: Option<PathBuf> = section.take("file")?;
@@ -385,8 +391,12 @@ impl Scenario {
                     Some(hint),
                 ));
             }
-            (Some(file), None) => Look::read(&self.folder.join(file))
-                .map_err(|error| document.wrong_value("look.file", error.to_string(), error.hint()))?,
+            (Some(file), None) => {
+                let file = self.folder.join(file);
+                let look = Look::read(&file);
+                self.read_from.push(file);
+                look.map_err(|error| document.wrong_value("look.file", error.to_string(), error.hint()))?
+            }
             (None, Some(preset)) if !preset_overridden => Look::preset(preset.name()).unwrap_or_default(),
             (None, _) => self.look.clone(),
         };

@@ -8,9 +8,9 @@ use clap::{Args, CommandFactory};
 use trodden::export::preview::{
     ANIMATION_SIZES_PX, ANIMATION_SPEEDS, AnimationColour, AnimationFormat, AnimationOptions,
 };
-use trodden::files::WholeFile;
+use trodden::files::{WholeFile, same_file};
 use trodden::motion::{FRAME_RATES, RecordForm, RecordingFormat};
-use trodden::walk::{MotionOutput, WalkOutputs, WalkReport, same_file};
+use trodden::walk::{MotionOutput, WalkOutputs, WalkReport};
 
 use super::super::{Cli, Common, print};
 use super::{number_within, one_of};
@@ -61,10 +61,17 @@ impl MotionFiles {
                 "the motion and the JSON summary cannot both go to standard output: name a file with --output",
             );
         }
-        if let (Some(animation), Some(paths)) = (&self.animation, &self.paths)
-            && same_file(animation, paths)
-        {
-            refuse(command, ErrorKind::ArgumentConflict, "--animation and --paths name the same file");
+        let output = self.output.as_ref().filter(|_| !self.prints_motion());
+        let files = [("--output", output), ("--animation", self.animation.as_ref()), ("--paths", self.paths.as_ref())];
+        for (number, (option, file)) in files.iter().enumerate() {
+            for (other_option, other) in &files[number + 1..] {
+                if let (Some(file), Some(other)) = (file, other)
+                    && same_file(file, other)
+                {
+                    let message = format!("{option} and {other_option} name the same file");
+                    refuse(command, ErrorKind::ArgumentConflict, &message);
+                }
+            }
         }
     }
 

@@ -32,7 +32,7 @@ impl Convert {
         self.outputs.files.probe()?;
         let watch = Watch::new(common);
         let given = Given::recording(self.input.open(&watch)?);
-        let report = self.outputs.write(&given, &watch)?;
+        let report = self.outputs.write(&given, std::slice::from_ref(&self.input.file), &watch)?;
         self.outputs.files.tell(&report, self.outputs.json, common)?;
         Ok(ExitCode::SUCCESS)
     }

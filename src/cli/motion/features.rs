@@ -1,3 +1,4 @@
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
@@ -132,7 +133,8 @@ impl Features {
         }
         let report = if files.any() {
             let given = Given::ensemble(made, CoordinateFrame::Map);
-            Some(self.outputs.write(&given, &watch)?)
+            let inputs: Vec<PathBuf> = self.mixing.mix.iter().chain([&self.input.file]).cloned().collect();
+            Some(self.outputs.write(&given, &inputs, &watch)?)
         } else {
             None
         };

@@ -2,7 +2,6 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use trodden::Stopwatch;
 use trodden::motion::People;
 use trodden::motion::formation::{
     Assign, AvoidRequest, ExampleRequest, FormationRequest, KeyRequest, form, is_picture,
@@ -10,6 +9,7 @@ use trodden::motion::formation::{
 use trodden::scenario::{Overrides, Scenario};
 use trodden::source::{Given, Ground};
 use trodden::walk::show;
+use trodden::{Error, Stopwatch};
 
 use super::super::arguments::within;
 use super::super::progress::Watch;
@@ -101,8 +101,11 @@ impl Formation {
         let report = match &self.scenario {
             Some(path) => self.of_scenario(path, &watch)?,
             None => {
-                let formed = form(&self.request(&watch)?, Path::new(""), &watch)?;
-                self.outputs.write(&Given::formation(formed), &watch)?
+                let request = self.request(&watch)?;
+                let keys = request.key.iter().filter_map(|key| key.file.clone());
+                let inputs: Vec<PathBuf> = keys.chain(request.example.file.clone()).collect();
+                let formed = form(&request, Path::new(""), &watch)?;
+                self.outputs.write(&Given::formation(formed), &inputs, &watch)?
             }
         };
         self.outputs.files.tell(&report, self.outputs.json, common)?;
@@ -116,8 +119,9 @@ impl Formation {
         };
         let given = Given::formation(form(request, &scenario.folder, watch)?);
         if scenario.image.is_none() || self.outputs.plan.is_some() {
-            return Ok(self.outputs.write(&given, watch)?);
+            return Ok(self.outputs.write(&given, &scenario.input_files(), watch)?);
         }
+        self.outputs.outputs().check_not_inputs(&scenario.input_files()).map_err(Error::from)?;
         let ground = Ground::of_scenario(&scenario, Some(&given), &Stopwatch::start(), watch)?;
         let people = People::new(scenario.seed, scenario.bodies.clone());
         Ok(show(&given, &ground, &people, &self.outputs.outputs(), watch)?)

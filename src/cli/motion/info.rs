@@ -2,6 +2,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
+use trodden::Error;
 use trodden::motion::{People, Survey};
 use trodden::source::{Given, Ground};
 use trodden::walk::{WalkOutputs, show};
@@ -43,6 +44,7 @@ impl Info {
             let given = Given::recording(recording.clone());
             let ground = Ground::around(&given)?;
             let outputs = WalkOutputs { paths: self.paths.clone(), force: self.force, ..WalkOutputs::default() };
+            outputs.check_not_inputs(std::slice::from_ref(&self.input.file)).map_err(Error::from)?;
             show(&given, &ground, &People::new(1, Default::default()), &outputs, &watch)?;
         }
         drop(watch);

@@ -34,10 +34,12 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// Writes a motion to all files that were asked for.
-    pub fn write(&self, given: &Given, progress: &dyn Progress) -> Result<WalkReport, Error> {
+    /// Writes a motion to all files that were asked for. The files that it was made of, `inputs`, are never replaced.
+    pub fn write(&self, given: &Given, inputs: &[PathBuf], progress: &dyn Progress) -> Result<WalkReport, Error> {
         let overrides = Overrides { metres_per_pixel: self.metres_per_pixel, ..Overrides::default() };
         let scenario = self.plan.as_ref().map(|plan| Scenario::open(plan, &overrides)).transpose()?;
+        let of_plan = scenario.iter().flat_map(Scenario::input_files);
+        self.outputs().check_not_inputs(&inputs.iter().cloned().chain(of_plan).collect::<Vec<_>>())?;
         let ground = match &scenario {
             Some(scenario) => Ground::of_scenario(scenario, None, &Stopwatch::start(), progress)?,
             None => Ground::around(given)?,

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::{ExportError, Manifest, Report};
+use super::{ExportError, Manifest, Report, settled};
 
 mod heat;
 mod rows;
@@ -124,7 +124,7 @@ pub fn diff(a: &Path, b: &Path, options: &DiffOptions) -> Result<Comparison, Exp
                 heat_map,
             })
         }
-        (true, true) => diff_bakes(a, b, options),
+        (true, true) => settled(&[a, b], || diff_bakes(a, b, options)),
         (true, false) => Err(not_alike(a, b)),
         (false, true) => Err(not_alike(b, a)),
     }
@@ -137,9 +137,8 @@ fn not_alike(bake: &Path, image: &Path) -> ExportError {
 fn diff_bakes(a: &Path, b: &Path, options: &DiffOptions) -> Result<Comparison, ExportError> {
     let manifests = [Manifest::read(a)?, Manifest::read(b)?];
     let (files_a, files_b) = (files_in(a)?, files_in(b)?);
-    let listed = manifests.iter().flat_map(|manifest| &manifest.files);
-    let nowhere = |file: &&String| !files_a.contains(*file) && !files_b.contains(*file);
-    let missing: BTreeSet<String> = listed.filter(nowhere).cloned().collect();
+    let listed = manifests.iter().flat_map(|manifest| &manifest.files).map(ToString::to_string);
+    let missing: BTreeSet<String> = listed.filter(|file| !files_a.contains(file) && !files_b.contains(file)).collect();
     let both: Vec<&String> = files_a.intersection(&files_b).filter(|file| *file != Report::FILE_NAME).collect();
     let found: Vec<Found> = both
         .par_iter()
@@ -240,13 +239,14 @@ fn floor_heat(manifest: &Manifest, diffs: &[(ImageDiff, Option<HeatMap>)]) -> He
     let of_floor = diffs.iter().filter(|(image, _)| !image.file.starts_with("preview/"));
     for (image, part) in of_floor.filter_map(|(image, part)| Some((image, part.as_ref()?))) {
         let names = |tile: &&super::TileEntry| {
-            let files = [&tile.basecolor, &tile.mask, &tile.passes, &tile.orm, &tile.sums];
-            files.into_iter().chain(&tile.layers).chain(&tile.mask_map).any(|file| *file == image.file)
+            let files = [&tile.basecolor, &tile.mask, &tile.passes, &tile.orm];
+            let mut files = files.into_iter().chain(&tile.layers).chain(&tile.mask_map);
+            *tile.sums == *image.file || files.any(|file| *file == image.file)
         };
         if let Some(tile) = floor.tiles.iter().find(names) {
             let top = (rows - 1 - tile.v) as usize * tile_height;
             heat.lay(part, [tile.u as usize * tile_width, top], [tile_width, tile_height]);
-        } else if image.file == floor.sums.presence.file {
+        } else if *image.file == *floor.sums.presence.file {
             // Presence covers the floor alone, not what fills up the tiles.
             let grid = [floor.width_px as usize, floor.height_px as usize];
             heat.lay(part, [0, size[1].saturating_sub(grid[1])], grid);

@@ -13,10 +13,12 @@ use crate::plan::{FloorPlan, Opening, Pose};
 use crate::routes::Route;
 use crate::walls::{Doorway, Outline, Walls, WallsError};
 
+mod bake_path;
 mod check;
 mod one_or_many;
 mod walls;
 
+pub use bake_path::{BakePath, NotInside};
 pub use check::ManifestError;
 pub use walls::{SheetEntry, StripEntry, WallsEntry};
 
@@ -76,7 +78,7 @@ pub struct Manifest {
     /// Closed loops around the floor, floor on the right, from which walls are rebuilt.
     pub outlines: Vec<Outline>,
     /// Every file of the bake, relative to it, in alphabetical order. Filled in when the bake is published.
-    pub files: Vec<String>,
+    pub files: Vec<BakePath>,
 }
 
 /// The plan image.
@@ -172,7 +174,7 @@ pub struct TileEntry {
     #[serde(default, skip_serializing_if = "Vec::is_empty", with = "one_or_many")]
     pub layers: Vec<String>,
     /// Exact sums.
-    pub sums: String,
+    pub sums: BakePath,
 }
 
 /// How the sums are to be read.
@@ -188,7 +190,7 @@ pub struct SumsEntry {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PresenceEntry {
     /// The file.
-    pub file: String,
+    pub file: BakePath,
     /// Cells per metre.
     pub texels_per_metre: f64,
     /// Columns.
@@ -307,12 +309,36 @@ struct Head {
     format: u32,
 }
 
-/// Who wrote the manifest in a folder.
+/// The files that the manifest in a folder lists, whatever version of this program wrote it.
+///
+/// # Errors
+/// There is no manifest, it is not ours, or a path in it leads out of the folder.
+pub(super) fn listed_files(folder: &Path) -> Result<Vec<BakePath>, ExportError> {
+    #[derive(Deserialize)]
+    struct List {
+        generator: String,
+        files: Vec<BakePath>,
+    }
+    let path = folder.join(FILE_NAME);
+    let json = read_input(&path, LARGEST_BYTES).map_err(ExportError::read(&path))?;
+    let list: List = serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))?;
+    if list.generator != GENERATOR {
+        return Err(ExportError::NotABake { path: folder.to_path_buf(), found: FILE_NAME.to_string() });
+    }
+    Ok(list.files)
+}
+
+/// The program that wrote the manifest in a folder.
 pub(super) fn generator(folder: &Path) -> Result<String, ExportError> {
     let path = folder.join(FILE_NAME);
     let json = read_input(&path, LARGEST_BYTES).map_err(ExportError::read(&path))?;
-    let head: Head = serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))?;
+    let head: Generator = serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))?;
     Ok(head.generator)
+}
+
+#[derive(Deserialize)]
+struct Generator {
+    generator: String,
 }
 
 #[cfg(test)]

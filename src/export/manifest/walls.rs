@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::{ChannelEntry, Naming};
+use super::{BakePath, ChannelEntry, Naming};
 use crate::export::atlas::{Atlas, Sheet, Strip};
 use crate::math::Vec2;
 
@@ -53,7 +53,7 @@ pub struct SheetEntry {
     #[serde(default, skip_serializing_if = "Vec::is_empty", with = "super::one_or_many")]
     pub layers: Vec<String>,
     /// Exact sums.
-    pub sums: String,
+    pub sums: BakePath,
     /// What it shows.
     pub strips: Vec<StripEntry>,
 }

@@ -43,8 +43,8 @@ pub fn read_wall_sums(bake: &Path, manifest: &Manifest) -> Result<Option<WallSum
         .map_err(|error| in_manifest(format!("`walls`: {error}")))?;
     check(entry, &grid).map_err(in_manifest)?;
     let mut sums = WallSums::new(grid);
-    for (sheet, file) in entry.atlas().sheets.iter().zip(entry.sheets.iter().map(|sheet| bake.join(&sheet.sums))) {
-        read_sheet(&file, sheet, &mut sums)?;
+    for (sheet, entry) in entry.atlas().sheets.iter().zip(&entry.sheets) {
+        read_sheet(&entry.sums.within(bake)?, sheet, &mut sums)?;
     }
     Ok(Some(sums))
 }

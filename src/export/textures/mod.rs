@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::band::Image;
 use super::layout::TileLayout;
-use super::manifest::{FloorEntry, Naming, SumsEntry, TileEntry};
+use super::manifest::{BakePath, FloorEntry, Naming, SumsEntry, TileEntry};
 use super::preview::Birdseye;
 use super::source::TextureSource;
 use super::targets::{Covered, Number, Target, WorldEntry};
@@ -187,7 +187,7 @@ pub fn floor_textures(
             orm: file(Image::Orm),
             mask_map: canvas.files.image(Image::MaskMap),
             layers: canvas.files.layers,
-            sums: format!("sums/{}", layout.file_name(&tile, "sums", "exr")),
+            sums: BakePath::new(format!("sums/{}", layout.file_name(&tile, "sums", "exr")))?,
         });
     }
     Ok(FloorTextures {

@@ -3,7 +3,7 @@ use super::writer::{Canvas, TextureWriter};
 use crate::export::atlas::{Atlas, Strip};
 use crate::export::band::Image;
 use crate::export::busy::BusyTime;
-use crate::export::manifest::{Naming, SheetEntry, StripEntry, WallsEntry};
+use crate::export::manifest::{BakePath, Naming, SheetEntry, StripEntry, WallsEntry};
 use crate::export::source::SheetSource;
 use crate::export::targets::{Covered, Number, Target};
 use crate::export::{ExportError, OutputFolder, Reduced, WallSource};
@@ -62,7 +62,7 @@ pub fn wall_textures(
         };
         let texels = SheetSource::new(source, sheet, atlas.padding_px);
         reduced.extend(writer.write(&texels, &canvas, &|_, _, _: &_| ())?.and_then(|written| written.reduced));
-        sheets.push(entry(index, count, &canvas));
+        sheets.push(entry(index, count, &canvas)?);
     }
     let seconds = BusyTime::seconds;
     Ok(WallTextures {
@@ -88,13 +88,13 @@ fn naming(count: usize) -> Naming {
 }
 
 /// A sheet's entry without its strips.
-fn entry(index: usize, count: usize, canvas: &Canvas) -> SheetEntry {
+fn entry(index: usize, count: usize, canvas: &Canvas) -> Result<SheetEntry, ExportError> {
     let file = |image| canvas.files.image(image).unwrap_or_default();
     let (udim, name) = match number(index, count) {
         Number::Udim(udim) => (Some(udim), format!(".{udim}")),
         Number::Uv(u, v) => (None, format!("_u{u:03}_v{v:03}")),
     };
-    SheetEntry {
+    Ok(SheetEntry {
         udim,
         width_px: canvas.size[0],
         height_px: canvas.size[1],
@@ -104,9 +104,9 @@ fn entry(index: usize, count: usize, canvas: &Canvas) -> SheetEntry {
         orm: file(Image::Orm),
         mask_map: canvas.files.image(Image::MaskMap),
         layers: canvas.files.layers.clone(),
-        sums: format!("sums/wall_sums{name}.exr"),
+        sums: BakePath::new(format!("sums/wall_sums{name}.exr"))?,
         strips: Vec::new(),
-    }
+    })
 }
 
 impl WallTextures {

@@ -141,6 +141,9 @@ impl<'a> Recorder<'a> {
         if packed && !format.is_text() {
             return Err(MotionError::NoText { format }.into());
         }
+        if file.is_stream() && !format.is_text() {
+            return Err(MotionError::NoText { format }.into());
+        }
         let sheet: Box<dyn Sheet> = match layout(format, fps) {
             Some(layout) => {
                 let out = file.create()?;
@@ -229,7 +232,10 @@ impl<'a> Recorder<'a> {
         let Recorder { sheet, file, mut written, .. } = self;
         written.bytes = sheet.close().map_err(|source| failed(&file, source))?;
         if let Some(file) = file {
-            written.bytes = file.publish()?;
+            // Of a stream, only what was counted on the way is known.
+            let is_stream = file.is_stream();
+            let size = file.publish()?;
+            written.bytes = if is_stream { written.bytes } else { size };
         }
         Ok(written)
     }

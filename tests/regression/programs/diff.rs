@@ -20,7 +20,7 @@ fn copy(from: &Path, to: &Path) {
     for entry in fs::read_dir(from).unwrap() {
         let path = entry.unwrap().path();
         let target = to.join(path.file_name().unwrap());
-        if path.is_dir() { copy(&path, &target) } else { drop(fs::copy(&path, &target).unwrap()) }
+        if path.is_dir() { copy(&path, &target) } else { fs::copy(&path, &target).map(drop).unwrap() }
     }
 }
 
@@ -35,7 +35,7 @@ fn diff_looks_at_every_file_of_a_bake() {
     };
     sandbox.write("b/report.json", "{}");
     diff(0, "the same");
-    let put_back = |file: &str| drop(fs::copy(sandbox.path("a").join(file), sandbox.path("b").join(file)).unwrap());
+    let put_back = |file: &str| fs::copy(sandbox.path("a").join(file), sandbox.path("b").join(file)).map(drop).unwrap();
     for file in ["index.html", "shaders/trodden_masks.glsl", "preview/floor.png"] {
         fs::remove_file(sandbox.path("b").join(file)).unwrap();
         diff(1, &format!("{file}: only in a"));
