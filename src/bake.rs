@@ -57,6 +57,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     scenario.texture.check()?;
     let folder = OutputFolder::begin(&output.folder, output.force)?;
     check_free(&folder, scenario.texture.walls)?;
+    folder.check_not_inputs(&scenario.input_files())?;
 
     // A motion may be given: then nobody has to be walked, and without a plan the floor is open ground around it.
     let given = Given::of_scenario(scenario, &watch, progress)?.map(Given::on_foot);

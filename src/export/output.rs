@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use super::ExportError;
 use super::manifest::{self, BakePath, Manifest};
-use crate::files::{LockError, NameLock};
+use crate::files::{FileError, LockError, NameLock};
 
 mod places;
 mod settled;
@@ -129,6 +129,21 @@ impl OutputFolder {
             Some(found) => Err(ExportError::UserFile { path: self.shown.join(found) }),
             None => Ok(()),
         }
+    }
+
+    /// Makes sure that the run reads no file of the earlier bake, which goes when the new one has its place.
+    ///
+    /// # Errors
+    /// [`FileError::IsInput`].
+    pub fn check_not_inputs(&self, inputs: &[PathBuf]) -> Result<(), FileError> {
+        let Ok(output) = fs::canonicalize(&self.places.output) else { return Ok(()) };
+        for input in inputs.iter().filter(|input| input.is_file()) {
+            let real = fs::canonicalize(input).unwrap_or_else(|_| input.clone());
+            if real.strip_prefix(&output).is_ok_and(|relative| self.users.in_the_way(relative).is_none()) {
+                return Err(FileError::IsInput { path: input.clone() });
+            }
+        }
+        Ok(())
     }
 
     /// Makes a file (and the folder that it lies in). `relative` has `/` between its parts.

@@ -169,6 +169,22 @@ fn a_file_of_the_user_with_a_name_that_the_bake_needs_is_refused_at_once() {
         .fails(1, &["out/floor/floor_mask.1001.png", "no bake has made"]);
 }
 
+/// A bake of a plan that lies in the folder of an earlier one.
+#[test]
+fn a_bake_does_not_replace_its_own_plan() {
+    let sandbox = baked();
+    let into_out = |plan: &'static str| {
+        let mut arguments = quick(&["out", "--floor-only", "--force"]);
+        arguments[2] = plan;
+        sandbox.run(&arguments)
+    };
+    into_out("out/preview/paths.png").fails(1, &["out/preview/paths.png", "the same run reads it"]);
+    // A file of the user stays anyway.
+    fs::copy(sandbox.path("plan.png"), sandbox.path("out/plan.png")).unwrap();
+    into_out("out/plan.png").succeeds();
+    assert!(sandbox.path("out/plan.png").is_file());
+}
+
 /// Files with the names of hidden helpers were emptied or deleted.
 #[test]
 fn hidden_files_beside_a_bake_stay() {
