@@ -139,7 +139,7 @@ fn export(c: &mut Criterion) {
     };
     let mut group = c.benchmark_group("export 8192 x 8192");
     group.sample_size(10).measurement_time(Duration::from_secs(10));
-    let images = TextureOptions { layers: false, ..TextureOptions::default() };
+    let images = TextureOptions { layers: Some(false), ..TextureOptions::default() };
     group.bench_function("images", |b| b.iter(|| black_box(textures(&images).1.export_busy_s)));
     group.bench_function("images and layers", |b| {
         b.iter(|| black_box(textures(&TextureOptions::default()).1.export_busy_s));

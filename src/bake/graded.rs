@@ -41,7 +41,7 @@ pub(super) struct Graded<'a> {
     /// What the plan is called.
     pub title: String,
     pub seed: u64,
-    /// How the walls were laid into sheets before, where that is known.
+    /// How the walls are laid into sheets, where there are walls.
     pub atlas: Option<Atlas>,
 }
 

@@ -35,20 +35,23 @@ pub struct View {
 /// out of range; [`Error::Interrupted`].
 pub fn view(bake: &Path, view: &View, progress: &dyn Progress) -> Result<(RgbImage, Camera), Error> {
     check_size(view.size_px)?;
-    export::restore(bake)?;
-    let manifest = Manifest::read(bake)?;
-    let walls = manifest.walls();
-    let studio = Studio::new(&walls, &manifest.doorways(), wall_height_m(&manifest));
-    // A camera that cannot be is told of before anything long is done.
-    if let Some(camera) = &view.camera {
-        studio.check(&with_fov(*camera, view))?;
-    }
-    let look = match &view.look {
-        Some(look) => look.clone(),
-        None => manifest.look(bake)?,
+    let read = || -> Result<_, Error> {
+        let manifest = Manifest::read(bake)?;
+        let walls = manifest.walls()?;
+        let studio = Studio::new(&walls, &manifest.doorways(), wall_height_m(&manifest));
+        // A camera that cannot be is told of before anything long is done.
+        if let Some(camera) = &view.camera {
+            studio.check(&with_fov(*camera, view))?;
+        }
+        let look = match &view.look {
+            Some(look) => look.clone(),
+            None => manifest.look(bake)?,
+        };
+        let (sums, wall_sums) = (export::read_sums(bake, &manifest)?, export::read_wall_sums(bake, &manifest)?);
+        Ok((manifest, walls, studio, look, sums, wall_sums))
     };
+    let (manifest, walls, studio, look, sums, wall_sums) = export::settled(&[bake], read)?;
     let look = if view.clean { look.clean() } else { look };
-    let sums = export::read_sums(bake, &manifest)?;
     let camera = match view.camera {
         Some(camera) => camera,
         None if view.birds_eye => studio.birds_eye(view.size_px),
@@ -56,7 +59,6 @@ pub fn view(bake: &Path, view: &View, progress: &dyn Progress) -> Result<(RgbIma
     };
     let camera = with_fov(camera, view);
     let floor = FloorResolver::new(&sums, &walls, &look, manifest.people)?;
-    let wall_sums = export::read_wall_sums(bake, &manifest)?;
     let wall =
         wall_sums.as_ref().map(|sums| WallResolver::new(sums, &walls, &look, manifest.wall_people())).transpose()?;
     let on_walls = wall_sums.as_ref().zip(wall.as_ref()).map(|(sums, source)| WallCoat {

@@ -79,7 +79,7 @@ pub use basis::Basis;
 pub use error::FormationError;
 pub use example::{ExampleCoefficients, example_coefficients};
 pub use follow::Follower;
-pub use hierarchy::{Formed, MOST_IN_ALL, Who, form};
+pub use hierarchy::{Formed, MOST_FORMED_PLACES, MOST_IN_ALL, MOST_KEY_PAIRS, Who, form};
 pub use interpolate::interpolate;
 pub use kirchhoff::{AdjacencyEdit, default_sigma_m, kirchhoff};
 pub use matching::match_basis;

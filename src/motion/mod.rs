@@ -7,12 +7,14 @@ mod error;
 mod mileage;
 mod person;
 mod resampler;
+mod statures;
 
 pub use ensemble::{Ensemble, EnsembleMotion, MOST_PLACES};
 pub use error::{MotionError, SourceError};
 pub use mileage::Mileage;
 pub use person::{Bag, BagKind, BodyOptions, CarrySide, People, Person, STRIDE_SPEED_M_S};
 pub(crate) use resampler::{FASTEST_M_S, Resampler};
+pub use statures::Statures;
 
 use crate::math::Vec2;
 

@@ -21,11 +21,13 @@ impl Resampler {
         Resampler { fps, next: 0, before: Frame::default(), now: Frame::default() }
     }
 
-    /// Takes the motion's next frame. What is due before it has to be taken first.
-    pub(crate) fn push(&mut self, frame: &Frame) {
+    /// Takes the motion's next frame; gives the time since the frame before it, seconds. What is due before it has to be
+    /// taken first.
+    pub(crate) fn push(&mut self, frame: &Frame) -> f64 {
         std::mem::swap(&mut self.before, &mut self.now);
         self.now.time_s = frame.time_s;
         self.now.walkers.clone_from(&frame.walkers);
+        self.now.time_s - self.before.time_s
     }
 
     /// The next moment's number, and who is present, if that moment has come.

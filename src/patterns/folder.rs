@@ -1,11 +1,12 @@
 //! Reads a library from a folder of one's own.
 
 use std::collections::BTreeSet;
-use std::fs::{self, File};
+use std::fs;
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 
 use super::{Cause, PatternLibrary, PatternsError, library};
+use crate::files::open_input;
 
 /// Name of the list within a library's folder.
 pub(super) const LISTING: &str = "patterns.toml";
@@ -113,13 +114,13 @@ enum Unread {
 }
 
 fn read_limited(path: &Path, most: u64) -> Result<Vec<u8>, Unread> {
-    let file = File::open(path).map_err(Unread::Io)?;
+    let file = open_input(path).map_err(Unread::Io)?;
     let bytes = file.metadata().map_err(Unread::Io)?.len();
     if bytes > most {
         return Err(Unread::TooLarge(bytes));
     }
     let mut content = Vec::new();
-    // The limit again: a device or a pipe has no length of its own.
+    // The limit again: some files of the system have no length of their own.
     file.take(most + 1).read_to_end(&mut content).map_err(Unread::Io)?;
     if content.len() as u64 > most { Err(Unread::TooLarge(content.len() as u64)) } else { Ok(content) }
 }

@@ -36,6 +36,43 @@ pub enum PlanError {
         /// What the decoder says.
         reason: String,
     },
+    /// A kind of image that is not read.
+    #[error("the plan {path} cannot be read: {what} is not supported", path = .path.display())]
+    Unsupported {
+        /// The plan image.
+        path: PathBuf,
+        /// What it is.
+        what: String,
+    },
+    /// Pixels that take more bytes than are read.
+    #[error(
+        "the plan {path} claims {width} x {height} pixels that take {bytes} bytes; at most {most} are read",
+        path = .path.display()
+    )]
+    TooManyBytes {
+        /// The plan image.
+        path: PathBuf,
+        /// Pixels across, as its header says.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// Bytes of the decoded image.
+        bytes: u64,
+        /// The most that are read.
+        most: u64,
+    },
+    /// Not enough memory for an image.
+    #[error("there is no memory for the {width} x {height} pixels of the plan {path}: they take up to {needed} bytes", path = .path.display())]
+    NoMemory {
+        /// The plan image.
+        path: PathBuf,
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// Bytes that are needed.
+        needed: u64,
+    },
     /// More pixels than are read.
     #[error(
         "the plan {path} claims {width} x {height} pixels; at most {LARGEST_SIDE_PX} a side and \
@@ -178,6 +215,12 @@ impl PlanError {
         Some(match self {
             PlanError::UnknownFormat { .. } => "use PNG, JPEG, BMP, PGM, TIFF or GIF, or the YAML of a ROS map".into(),
             PlanError::Empty { .. } | PlanError::Damaged { .. } => "save or copy the file again".into(),
+            PlanError::Open { path, source } if source.kind() == std::io::ErrorKind::NotFound => {
+                format!("did you mean {}?", super::similar::similar_file(path)?.display())
+            }
+            PlanError::Unsupported { .. } => "save it as PNG, or as TIFF with 8 bits of grey or colour".into(),
+            PlanError::TooManyBytes { .. } => "save it with 8 bits of grey a pixel, or reduce it".into(),
+            PlanError::NoMemory { .. } => "reduce the image; walls are traced more finely than pixels".into(),
             PlanError::TooManyPixels { .. } => "reduce the image; walls are traced more finely than pixels".into(),
             PlanError::MapImageMissing { similar: Some(similar), .. } => {
                 format!("{} lies beside it: correct the name in the YAML", similar.display())

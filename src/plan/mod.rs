@@ -10,6 +10,7 @@ mod clearance;
 mod colour;
 mod components;
 pub(crate) mod cracks;
+mod depths;
 mod doors;
 mod drawing;
 mod error;
@@ -17,18 +18,23 @@ mod image_file;
 mod open_ground;
 mod openings;
 mod options;
+mod palette;
 mod read;
 mod regions;
 mod ros_map;
 mod scale;
+mod similar;
 mod spaces;
 mod symbols;
 
 pub use colour::{Colour, ColourError};
 pub use error::PlanError;
 pub use image_file::{LARGEST_AREA_PX, LARGEST_SIDE_PX};
-pub use options::{PixelPoint, PlanOptions, PlanPoint, TransparentPolicy, TwoPoints, UnknownPolicy};
-pub use read::read;
+pub use options::{
+    LARGEST_COORDINATE, PixelPoint, PlanOptions, PlanPoint, TransparentPolicy, TwoPoints, UnknownPolicy,
+};
+pub use read::{files, read};
+pub use ros_map::LARGEST_ORIGIN_M;
 pub use scale::{ASSUMED_M_PER_PX, LARGEST_M_PER_PX, LARGEST_SIDE_M, SMALLEST_M_PER_PX};
 
 /// Openings narrower than this are none, metres.

@@ -16,6 +16,7 @@ const FEWEST_SAMPLES: usize = 3;
 const LEAST_SAGITTA: f64 = 0.05;
 
 /// Where a boundary is curved, and points on the curve in place of the corners of its straight pieces.
+#[derive(Debug)]
 pub(super) struct Curves {
     joints: Vec<Option<[f64; 2]>>,
     middles: Vec<Option<[f64; 2]>>,

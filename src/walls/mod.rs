@@ -1,11 +1,18 @@
 //! Traces the wall faces of a plan as polylines in metres, and answers how far the nearest wall is.
 
+use rayon::prelude::*;
+
+use boundary::Boundary;
+
 use crate::math::{Rect, Vec2};
 use crate::plan::{FloorPlan, cracks};
 
+mod boundary;
 mod coverage;
 mod curve;
+mod error;
 mod fit;
+mod grid;
 mod index;
 mod line;
 mod outline;
@@ -14,15 +21,26 @@ mod polygon;
 mod runs;
 mod stabbing;
 mod subpixel;
+mod untangle;
 
 #[cfg(test)]
 mod truth_tests;
 
+pub(crate) use outline::check as check_outlines;
+
+pub use error::WallsError;
 pub use outline::Outline;
 pub use places::{Corner, DOOR_HEAD_M, DOOR_WIDTHS_M, Doorway};
 
 /// How far beyond an opening the floor goes on unseen, metres: room to appear and to vanish.
 pub const APRON_M: f64 = 3.0;
+
+/// Fewest points of an outline.
+const FEWEST_POINTS: usize = 3;
+/// Largest distance that outlines reach over along x or y, metres: a plan's longest side with its walls and aprons.
+const LARGEST_EXTENT_M: f64 = crate::plan::LARGEST_SIDE_M + 500.0;
+/// Longest length of all outlines together, metres.
+const LONGEST_M: f64 = 2e7;
 
 /// One wall face: the floor lies on the **right** of the polyline, so that arc length grows to the right for a
 /// viewer who stands on the floor and looks at the wall.
@@ -101,12 +119,23 @@ impl Walls {
     /// Traces the boundary of a plan's floor.
     pub fn trace(plan: &FloorPlan, options: &WallsOptions) -> Walls {
         let loops = cracks::trace(&plan.floor, plan.width_px as usize);
-        let outlines = loops.iter().map(|l| outline::of_boundary(plan, l, options.tolerance_px / 0.5)).collect();
-        Walls::from_outlines(outlines)
+        let fit = |l| Boundary::fit(plan, l, options.tolerance_px / 0.5);
+        let mut boundaries: Vec<Boundary> = loops.par_iter().map(fit).collect();
+        untangle::untangle(&mut boundaries);
+        Walls::of(boundaries.iter().map(|boundary| boundary.outline(plan)).collect())
     }
 
-    /// Walls from outlines that were kept, see [`Walls::outlines`].
-    pub fn from_outlines(outlines: Vec<Outline>) -> Walls {
+    /// Rebuilds walls from their [`Walls::outlines`].
+    ///
+    /// # Errors
+    /// Outlines of fewer than three points, with openings at edges that they do not have, that reach farther than any
+    /// plan, or that are longer than all walls of any plan.
+    pub fn from_outlines(outlines: Vec<Outline>) -> Result<Walls, WallsError> {
+        check_outlines(&outlines)?;
+        Ok(Walls::of(outlines))
+    }
+
+    fn of(outlines: Vec<Outline>) -> Walls {
         let faces = outline::faces(&outlines);
         let segments = outline::wall_segments(&faces, &outlines);
         let walked = outline::walked_loops(&outlines);

@@ -132,7 +132,7 @@ fn any_tile_size_gives_the_same_texels_without_a_seam() {
         let manifest = bake(&out, &walls, &sums, tile);
         (out, manifest)
     });
-    let kinds: [fn(&TileEntry) -> &str; 3] = [|t| &t.basecolor, |t| &t.mask, |t| &t.orm];
+    let kinds: [fn(&TileEntry) -> &str; 4] = [|t| &t.basecolor, |t| &t.mask, |t| &t.passes, |t| &t.orm];
     for kind in kinds {
         let [a, b, c] = bakes.each_ref().map(|(out, manifest)| whole(out, manifest, kind));
         // Tiles without floor are left out: there, only the one large tile has texels.
@@ -157,7 +157,7 @@ fn the_same_bytes_on_any_number_of_threads() {
         files(&out)
     };
     let one = baked(1);
-    assert_eq!(one.len(), 4 * 5 + 4);
+    assert_eq!(one.len(), 4 * 6 + 4);
     for threads in [2, 16] {
         for (name, bytes) in baked(threads) {
             assert!(one[&name] == bytes, "{} on {threads} threads", name.display());
@@ -172,7 +172,7 @@ fn a_bake_can_be_resolved_again_from_its_files_alone() {
     let sums = sums(&walls, 50.0);
     let manifest = bake(&out, &walls, &sums, 256);
     let again = read_sums(&out, &manifest).unwrap();
-    bake(&dir.path().join("again"), &manifest.walls(), &again, 256);
+    bake(&dir.path().join("again"), &manifest.walls().unwrap(), &again, 256);
     let (first, second) = (files(&out), files(&dir.path().join("again")));
     for (name, bytes) in &first {
         assert!(second[name] == *bytes, "{}", name.display());
@@ -184,7 +184,7 @@ fn base_colour_says_that_it_is_srgb_and_the_others_say_nothing() {
     let dir = tempfile::tempdir().unwrap();
     let (out, walls) = (dir.path().join("out"), walls());
     bake(&out, &walls, &sums(&walls, 25.0), 256);
-    for (kind, srgb, bytes) in [("basecolor", true, 3), ("mask", false, 4), ("orm", false, 3)] {
+    for (kind, srgb, bytes) in [("basecolor", true, 3), ("mask", false, 3), ("passes", false, 1), ("orm", false, 3)] {
         let file = std::fs::File::open(out.join(format!("floor/floor_{kind}.1001.png"))).unwrap();
         let reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
         let info = reader.info();
@@ -222,7 +222,7 @@ fn previews_show_the_floor_where_it_lies_and_walls_dark() {
     let walls = walls();
     let folder = OutputFolder::begin(&dir.path().join("out"), false).unwrap();
     let grid = TexelGrid::covering(9.0, 7.0, 24.0).unwrap();
-    let options = TextureOptions { tile: 128, layers: false, ..TextureOptions::default() };
+    let options = TextureOptions { tile: 128, layers: Some(false), ..TextureOptions::default() };
     let textures = floor_textures(&folder, grid, &Squares, &options, &Silent).unwrap();
     let crop = Crop { name: "narrow".to_string(), min_m: vec2(2.0, 2.0), max_m: vec2(8.0, 6.0) };
     assert_golden("preview_floor", &show::render_floor(&textures.birdseye, &walls), EXACT);

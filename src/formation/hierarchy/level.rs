@@ -20,6 +20,20 @@ use crate::recordings::Recording;
 /// The most people of all crowds together.
 pub const MOST_IN_ALL: usize = 1_000_000;
 
+/// The most pairs of people in all key formations of a crowd together: each has matrices with a number for each pair.
+pub const MOST_KEY_PAIRS: usize = 64_000_000;
+
+/// Refuses more key formations than memory holds.
+fn check_keys(keys: usize, people: usize, crowd: &str) -> Result<(), FormationError> {
+    let most = MOST_KEY_PAIRS / (people * people).max(1);
+    if keys <= most {
+        return Ok(());
+    }
+    let problem = format!("{keys} key formations of {people} people, allowed are {most} for so many people");
+    let hint = Some("make crowds of crowds with [[formation.crowd]]".to_string());
+    Err(asked(RequestError::Value { key: format!("{crowd}.key"), problem, hint }))
+}
+
 /// Makes crowds, level by level.
 pub(super) struct Maker<'m> {
     folder: &'m Path,
@@ -93,6 +107,7 @@ impl<'m> Maker<'m> {
         let layouts: Vec<Layout> =
             section.key.iter().map(|key| Layout::of(key, self.folder)).collect::<Result<_, _>>().map_err(asked)?;
         let example = self.example(section.example, spot, &layouts)?;
+        check_keys(section.key.len(), example.people(), &spot.key)?;
         let keys = self.keys(section, &layouts, &example, spot)?;
         let moments: Vec<usize> = keys.iter().map(|key| key.moment).collect();
         let mut tracks = blend::between(&example, &keys, section, self.progress)?;

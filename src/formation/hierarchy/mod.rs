@@ -9,7 +9,7 @@ mod way;
 
 use std::path::Path;
 
-pub use level::MOST_IN_ALL;
+pub use level::{MOST_IN_ALL, MOST_KEY_PAIRS};
 
 use level::Maker;
 
@@ -18,11 +18,13 @@ pub(super) use way::angles;
 use super::request::{FormationRequest, RequestError};
 use crate::formation::FormationError;
 use crate::math::Vec2;
-use crate::motion::{Ensemble, MOST_PLACES};
+use crate::motion::Ensemble;
 use crate::progress::{Progress, Stage};
 
 /// Frames per second where nothing else is asked for: those of the crowd's own simulation.
 pub(super) const USUAL_FPS: f64 = 10.0;
+/// The most places of a formation, people times moments: several of its steps hold all of them at once.
+pub const MOST_FORMED_PLACES: usize = 20_000_000;
 /// How long a formation lasts where nothing says it, seconds.
 const USUAL_S: f64 = 60.0;
 
@@ -80,6 +82,8 @@ pub fn form(request: &FormationRequest, folder: &Path, progress: &dyn Progress) 
     };
     // Rounding down leaves no moment after the end; a duration of a whole number of frames keeps its last.
     maker.moments = ((duration_s * fps + 1e-6).floor() as usize).max(1) + 1;
+    // Before anything is made for each moment.
+    check_size(1, maker.moments)?;
     let bodies = maker.whole(request)?;
     progress.advance(Stage::Motion, 1.0);
 
@@ -117,8 +121,8 @@ fn asked(error: RequestError) -> FormationError {
 /// Refuses more places than can be held.
 fn check_size(people: usize, moments: usize) -> Result<(), FormationError> {
     match people.checked_mul(moments) {
-        Some(places) if places <= MOST_PLACES => Ok(()),
-        _ => Err(asked(RequestError::TooLong { people, moments, most: MOST_PLACES })),
+        Some(places) if places <= MOST_FORMED_PLACES => Ok(()),
+        _ => Err(asked(RequestError::TooLong { people, moments, most: MOST_FORMED_PLACES })),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::plan::PlanPoint;
+use crate::plan::{LARGEST_COORDINATE, PlanPoint};
 
 /// Range of a door's clear width in a scenario, metres.
 pub(super) const WIDTHS_M: [f64; 2] = [0.5, 6.0];
@@ -179,7 +179,7 @@ fn check_point(key: &'static str, point: PlanPoint) -> Result<(), Problem> {
     let [x, y] = match point {
         PlanPoint::Metres(at) | PlanPoint::Pixels { px: at } => at,
     };
-    // Written so that NaN is none.
-    let fine = |c: f64| c.abs() < 1e7;
-    if fine(x) && fine(y) { Ok(()) } else { Err((key, format!("`{key}` holds a coordinate that is no finite number"))) }
+    [x, y]
+        .into_iter()
+        .try_for_each(|coordinate| check_number(key, coordinate, [-LARGEST_COORDINATE, LARGEST_COORDINATE]))
 }

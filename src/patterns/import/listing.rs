@@ -1,7 +1,7 @@
 //! Writes an imported pattern into a folder: its image, and its entry in `patterns.toml`.
 
 use std::fs;
-use std::io::{Cursor, Write};
+use std::io::Cursor;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -12,7 +12,7 @@ use toml::Spanned;
 use super::super::folder::{LISTING, listing_text};
 use super::super::{Cause, Form, PatternsError, listing};
 use super::{Import, ImportError};
-use crate::files::{FileError, WholeFile};
+use crate::files::WholeFile;
 
 /// Longest name of a pattern.
 const LONGEST_NAME: usize = 60;
@@ -183,10 +183,7 @@ fn check_name(name: &str) -> Result<(), ImportError> {
 /// A file that is complete but does not have its name yet.
 fn written(path: &Path, bytes: &[u8], force: bool) -> Result<WholeFile, ImportError> {
     let file = WholeFile::begin(path, force)?;
-    let failed = |source| -> FileError { file.failed(source) };
-    let mut open = file.create()?;
-    open.write_all(bytes).and_then(|()| open.flush()).map_err(failed)?;
-    drop(open);
+    file.write(bytes)?;
     Ok(file)
 }
 

@@ -1,6 +1,5 @@
 //! Opens a recording: what it is, what it holds, what its numbers mean.
 
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
@@ -16,7 +15,9 @@ use super::memory::{MemoryRows, Sorted};
 use super::rows::{Numbering, Passed, Row, Rows, Stop, TextRows, moment, unreadable, who};
 use super::scale::{Alignment, Scale, Stated, TimeScale, rotation};
 use super::{Content, Recording, RecordingError, RecordingFormat, RecordingOptions, Survey};
+use crate::files::open_input;
 use crate::math::{Rect, Vec2};
+use crate::motion::Statures;
 use crate::{Progress, Stage};
 
 /// Where rows come from, as often as they are wanted.
@@ -67,7 +68,7 @@ pub(super) fn open(
     };
     let frames = stated.clock == Clock::Frames;
     let way = Way { path, frames, turn: rotation(options.rotation_deg), progress };
-    let Counted { source, mut census, passed, in_order } = count(source, way)?;
+    let Counted { source, mut census, passed, statures, in_order } = count(source, way)?;
     let Some(bounds) = census.bounds else {
         let what = if passed.nowhere > 0 { "nobody has a place" } else { "there is a header, but nothing behind it" };
         return Err(RecordingError::Empty { path: path.to_path_buf(), what });
@@ -77,7 +78,8 @@ pub(super) fn open(
         .map_err(|_| RecordingError::UnknownRate { path: path.to_path_buf() })?;
     let alignment = Alignment::new(scale.unit, options);
     let survey = survey(&mut census, &stated, &scale, &alignment, bounds, in_order, warnings);
-    let content = Content { path: path.to_path_buf(), first_time: census.first_time, survey, source, scale, alignment };
+    let first_time = census.first_time;
+    let content = Content { path: path.to_path_buf(), first_time, survey, statures, source, scale, alignment };
     Ok(Recording { content: Arc::new(content) })
 }
 
@@ -101,7 +103,7 @@ fn check(options: &RecordingOptions) -> Result<(), RecordingError> {
 
 fn is_database(path: &Path, options: &RecordingOptions) -> Result<bool, RecordingError> {
     let mut magic = [0; 16];
-    let opened = File::open(path).and_then(|mut file| file.read(&mut magic));
+    let opened = open_input(path).and_then(|mut file| file.read(&mut magic));
     let length = opened.map_err(|error| unreadable(path, error.into(), 0))?;
     let found = length == magic.len() && magic == *database::MAGIC;
     let asked = options.format.is_some_and(|format| format == RecordingFormat::Jupedsim);
@@ -128,16 +130,17 @@ fn read_head(path: &Path, options: &RecordingOptions) -> Result<(Layout, Stated)
     }
     let layout = detect::detect(head, whole, options).map_err(|refusal| refused(path, options, refusal))?;
     let rows: Vec<&[u8]> = head.split(|&byte| byte == b'\n').skip(layout.head_lines as usize).collect();
+    let unit_of_heights = guess::unit_of_heights(&layout, &rows);
     let stated = Stated {
         format: layout.format,
         clock: layout.clock,
         fps: layout.fps,
         unit: layout.unit,
-        unit_of_heights: guess::unit_of_heights(&layout, &rows),
+        unit_of_heights,
         bare: layout.head_lines == 0,
         angles: layout.column(Role::HeadingAngle).is_some(),
     };
-    Ok((layout.without_heights(), stated))
+    Ok((layout.with_heights_in(unit_of_heights), stated))
 }
 
 fn refused(path: &Path, options: &RecordingOptions, refusal: Refusal) -> RecordingError {
@@ -184,6 +187,7 @@ struct Counted {
     source: Source,
     census: Census,
     passed: Passed,
+    statures: Statures,
     in_order: bool,
 }
 
@@ -193,9 +197,11 @@ fn count(mut source: Source, way: Way<'_>) -> Result<Counted, RecordingError> {
     let path = way.path;
     loop {
         let mut rows = source.rows(path)?;
+        rows.note_statures();
         let again = match census_of(&mut rows, &source, way) {
             Ok(census) => {
-                return Ok(Counted { passed: rows.passed(), source, census, in_order: true });
+                let (passed, statures) = (rows.passed(), rows.statures());
+                return Ok(Counted { passed, statures, source, census, in_order: true });
             }
             Err(Obstacle::Error(error)) => return Err(error),
             Err(Obstacle::Name) => None,
@@ -206,13 +212,14 @@ fn count(mut source: Source, way: Way<'_>) -> Result<Counted, RecordingError> {
             continue;
         }
         let mut rows = source.rows(path)?;
+        rows.note_statures();
         match Sorted::read(&mut rows, path, |rows| way.check(rows)) {
             Ok(sorted) => {
-                let passed = rows.passed();
+                let (passed, statures) = (rows.passed(), rows.statures());
                 let sorted = Source::Memory(Arc::new(sorted));
                 let mut rows = sorted.rows(path)?;
                 return match census_of(&mut rows, &source, way) {
-                    Ok(census) => Ok(Counted { passed, source: sorted, census, in_order: false }),
+                    Ok(census) => Ok(Counted { passed, statures, source: sorted, census, in_order: false }),
                     Err(Obstacle::Error(error)) => Err(error),
                     Err(Obstacle::Name | Obstacle::Disorder) => {
                         Err(RecordingError::Empty { path: path.to_path_buf(), what: "its times have no order" })

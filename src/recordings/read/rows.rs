@@ -14,6 +14,7 @@ use super::layout::{Layout, Line, shown, slot};
 use super::memory::MemoryRows;
 use super::number::number;
 use crate::math::{Vec2, sin_cos, vec2};
+use crate::motion::Statures;
 
 /// Ids of files are kept where they are whole numbers below this.
 pub(super) const ID_LIMIT: f64 = 1e7;
@@ -90,6 +91,24 @@ impl Rows {
         }
     }
 
+    /// From now on, notes people's heights as their rows are read.
+    pub fn note_statures(&mut self) {
+        if let Rows::Text(rows) = self
+            && let Some(unit) = rows.layout.heights
+        {
+            rows.heights_in_m = Some(unit.metres());
+        }
+    }
+
+    /// The heights that were noted; a database has them in a table of their own.
+    pub fn statures(&self) -> Statures {
+        match self {
+            Rows::Text(rows) => rows.statures.clone(),
+            Rows::Database(rows) => rows.statures(),
+            Rows::Memory(_) => Statures::default(),
+        }
+    }
+
     pub fn passed(&self) -> Passed {
         match self {
             Rows::Text(rows) => rows.passed,
@@ -108,6 +127,9 @@ pub(super) struct TextRows {
     numbers: HashMap<Box<[u8]>, u32>,
     passed: Passed,
     extras: Extras,
+    /// Metres in the unit of heights, where they are noted.
+    heights_in_m: Option<f64>,
+    statures: Statures,
 }
 
 /// Which columns there are beyond the necessary.
@@ -139,6 +161,8 @@ impl TextRows {
             numbers: HashMap::new(),
             passed: Passed::default(),
             extras,
+            heights_in_m: None,
+            statures: Statures::default(),
         };
         for _ in 0..layout.head_lines {
             rows.lines.next().map_err(|trouble| unreadable(path, trouble, rows.lines.number()))?;
@@ -197,6 +221,9 @@ impl TextRows {
                     }
                 }
             };
+            if let Some(metres) = self.heights_in_m {
+                self.statures.note(id, line.values[slot(Role::Height)] * metres);
+            }
             return Ok(Some(self.row(id, &line)));
         }
     }

@@ -1,11 +1,9 @@
 use super::paths::Path;
-use crate::export::Manifest;
+use crate::export::{CROP_M, Manifest};
 use crate::math::{Rect, Vec2, atan2, sin_cos, vec2};
 use crate::plan::Opening;
 use crate::walls::Walls;
 
-/// Width and height of a crop, metres.
-pub const CROP_M: [f64; 2] = [6.0, 4.0];
 
 /// Side of the cells in which traffic is counted, metres.
 const CELL_M: f64 = 0.5;

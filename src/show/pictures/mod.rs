@@ -14,7 +14,7 @@ mod render;
 pub(super) mod stuck;
 mod units;
 
-pub use crops::{CROP_M, Crop, choose_crops};
+pub use crops::{Crop, choose_crops};
 pub use drawing::{draw_paths, draw_plan};
 pub use paths::{Path, PathSample, PathSampler};
 pub use render::{render_crop, render_floor};

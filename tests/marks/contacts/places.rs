@@ -72,7 +72,7 @@ fn a_door_without_jambs_is_an_error_with_a_hint() {
     let (shown, _) = message(door(500.0, 5.0));
     assert_eq!(shown, "door \"front\": at: [500.00, 5.00] is not on the floor");
     let (shown, _) = message(DoorRequest { name: None, ..door(f64::NAN, 5.0) });
-    assert_eq!(shown, "door 1: at: `at` holds a coordinate that is no finite number");
+    assert_eq!(shown, "door 1: at: `at` is NaN, allowed is -10000000 to 10000000");
     let (shown, _) = message(DoorRequest { width: f64::INFINITY, ..door(8.0, MIDDLE_M) });
     assert_eq!(shown, "door \"front\": width: `width` is inf, allowed is 0.5 to 6");
 }
@@ -111,9 +111,9 @@ fn a_fixture_without_a_wall_is_an_error_with_a_hint() {
     assert_eq!(far.to_string(), "fixture 1: at: no wall stands within 1.5 m of [-40.00, 5.00]");
     assert!(far.hint().unwrap().contains("wall"));
     let nan = wrong(fixture(FixtureKind::Bin, FixtureAt::Line([metres(1.0, 2.0), metres(f64::NAN, 2.0)])));
-    assert_eq!(nan.to_string(), "fixture 1: at: `at` holds a coordinate that is no finite number");
+    assert_eq!(nan.to_string(), "fixture 1: at: `at` is NaN, allowed is -10000000 to 10000000");
     let pixels = fixture(FixtureKind::Bin, FixtureAt::Point(PlanPoint::Pixels { px: [f64::INFINITY, 0.0] }));
-    assert!(wrong(pixels).to_string().contains("no finite number"));
+    assert!(wrong(pixels).to_string().contains("allowed is -10000000"));
     let wide = FixtureRequest { width: Some(-1.0), ..fixture(FixtureKind::Bin, FixtureAt::Point(metres(1.0, 4.0))) };
     assert_eq!(wrong(wide).to_string(), "fixture 1: width: `width` is -1, allowed is 0.02 to 20");
 }
