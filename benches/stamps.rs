@@ -58,7 +58,7 @@ fn grid(texels_per_metre: f64) -> TexelGrid {
 }
 
 fn stamps(c: &mut Criterion) {
-    let library = PatternLibrary::built_in().expect("the built-in library is sound");
+    let library = PatternLibrary::built_in();
     let walls = walls();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread can be started");
     let mut group = c.benchmark_group("stamps");
@@ -130,7 +130,7 @@ fn wall_grid(texels_per_metre: f64) -> WallGrid {
 }
 
 fn stains(c: &mut Criterion) {
-    let library = PatternLibrary::built_in().expect("the built-in library is sound");
+    let library = PatternLibrary::built_in();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread can be started");
     let mut group = c.benchmark_group("walls");
     group.sample_size(10).warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3));
@@ -148,7 +148,7 @@ fn stains(c: &mut Criterion) {
 }
 
 fn making(c: &mut Criterion) {
-    let library = PatternLibrary::built_in().expect("the built-in library is sound");
+    let library = PatternLibrary::built_in();
     let mut group = c.benchmark_group("new");
     group.sample_size(10).warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(2));
     for density in [100.0, 400.0] {

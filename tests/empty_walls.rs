@@ -25,7 +25,7 @@ fn traced(side_px: usize, floor: impl Fn(usize, usize) -> bool) -> Walls {
 
 /// Some pattern of a hand: a square of a centimetre.
 fn library() -> PatternLibrary {
-    let mut library = PatternLibrary::built_in().unwrap();
+    let mut library = PatternLibrary::built_in();
     let mut hand = library.patterns[0].clone();
     (hand.cause, hand.length_cm, hand.width_px, hand.height_px) = (Cause::Hand, 1.0, 10, 10);
     hand.coverage = vec![255; 100];

@@ -82,7 +82,7 @@ fn walk(people: u32) -> Walked {
     let plan = plan::read(&scenario.plan_path().unwrap(), &scenario.plan_options()).unwrap();
     let walls = Walls::trace(&plan, &scenario.walls);
     let routes = routes::find(&plan, &walls, &scenario.routes).unwrap();
-    let library = PatternLibrary::built_in().unwrap();
+    let library = PatternLibrary::built_in();
     let persons = People::new(scenario.seed, scenario.bodies.clone());
     let mut crowd = Crowd::new(&plan, &walls, &routes, &persons, &scenario.crowd).unwrap();
     let origins = Origin::of_arrivals(crowd.arrivals().iter().map(|a| a.from_outside), 0);

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use clap::{ArgGroup, Args};
 use trodden::Error;
 use trodden::patterns::{
-    Cause, Form, Import as Imported, ImportEntry, ImportError, ImportOptions, Listed, PatternsError, PhotoScale,
+    Cause, Form, ImportEntry, ImportError, ImportOptions, ImportedPattern, PatternsError, PhotoScale, SavedPattern,
     import_picture, name_of_photo,
 };
 
@@ -78,7 +78,7 @@ impl Import {
         let bytes = fs::read(&self.photo).map_err(|error| {
             ours(ImportError::Unreadable { reason: format!("{}: {error}", self.photo.display()) }.into())
         })?;
-        let import = Imported::from_photo(&bytes, &options).map_err(|error| ours(error.into()))?;
+        let import = ImportedPattern::from_photo(&bytes, &options).map_err(|error| ours(error.into()))?;
         // Drawn first: it shows what was found even if the folder has the name already.
         if let Some(path) = &self.picture {
             print::save_picture(&import_picture(&import), path)?;
@@ -96,7 +96,7 @@ impl Import {
         Ok(ExitCode::SUCCESS)
     }
 
-    fn report(&self, import: &Imported, listed: &Listed) -> anyhow::Result<()> {
+    fn report(&self, import: &ImportedPattern, listed: &SavedPattern) -> anyhow::Result<()> {
         let [length_cm, breadth_cm] = import.stain_cm;
         let lighter = if import.lighter { ", lighter than the wall" } else { "" };
         print::line(format!(

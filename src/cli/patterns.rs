@@ -39,7 +39,7 @@ impl Patterns {
             return import.run(common);
         }
         let library = match &self.folder {
-            None => PatternLibrary::built_in().map_err(Error::from)?,
+            None => PatternLibrary::built_in(),
             Some(folder) => own(folder, common)?,
         };
         if !common.quiet {

@@ -73,7 +73,7 @@ fn odd_footfalls(count: usize) -> Vec<Mark> {
 
 #[test]
 fn prints_lie_where_the_reference_puts_them() {
-    let library = PatternLibrary::built_in().unwrap();
+    let library = PatternLibrary::built_in();
     for (density, least) in [(100.0, 0.95), (400.0, 0.95), (1000.0, 0.97)] {
         let grid = grid(density, 1.3, 1.3);
         let stamper = Stamper::new(&library, grid, &plain());
@@ -90,7 +90,7 @@ fn prints_lie_where_the_reference_puts_them() {
 
 #[test]
 fn a_print_at_400_texels_per_metre_shows_its_pattern() {
-    let library = PatternLibrary::built_in().unwrap();
+    let library = PatternLibrary::built_in();
     let soles: Vec<usize> = (0..library.patterns.len()).filter(|&k| library.patterns[k].cause == Cause::Sole).collect();
     let grid = grid(400.0, 1.3, 1.3);
     let stamper = Stamper::new(&library, grid, &plain());

@@ -1,6 +1,6 @@
 //! What cannot be imported is refused with a reason and a remedy, and nothing panics.
 
-use trodden::patterns::{Cause, Form, Import, ImportError, ImportOptions, PhotoScale};
+use trodden::patterns::{Cause, Form, ImportError, ImportOptions, ImportedPattern, PhotoScale};
 
 use crate::photograph::{Scene, blot, drawn};
 
@@ -9,7 +9,7 @@ fn plain() -> ImportOptions {
 }
 
 fn refused(bytes: &[u8], options: &ImportOptions) -> ImportError {
-    Import::from_photo(bytes, options).map(|import| import.stain_cm).unwrap_err()
+    ImportedPattern::from_photo(bytes, options).map(|import| import.stain_cm).unwrap_err()
 }
 
 #[test]
@@ -60,11 +60,11 @@ fn what_is_no_photograph() {
     let photo = Scene { jpeg: Some(85), ..Scene::of(blot()) }.photograph();
     for length in (0..photo.len()).step_by(photo.len() / 23 + 1) {
         // A JPEG that was cut off may still show enough; none may bring the program down.
-        let _ = Import::from_photo(&photo[..length], &plain());
+        let _ = ImportedPattern::from_photo(&photo[..length], &plain());
     }
     let photo = Scene::of(blot()).photograph();
     for length in (0..photo.len()).step_by(photo.len() / 23 + 1) {
-        assert!(Import::from_photo(&photo[..length], &plain()).is_err());
+        assert!(ImportedPattern::from_photo(&photo[..length], &plain()).is_err());
     }
 }
 
