@@ -48,7 +48,11 @@ fn hall() -> (Walls, FloorSums) {
         })
         .collect();
     let mut sums = FloorSums::new(grid);
-    sums.add(&Stamper::new(&library, grid, &StampOptions::default()), &walls, &marks);
+    sums.add(
+        &Stamper::new(&library, grid, &StampOptions::default()).expect("the default options are in range"),
+        &walls,
+        &marks,
+    );
     (walls, sums)
 }
 

@@ -80,8 +80,8 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let grid = TexelGrid::covering(plan.width_m(), plan.height_m(), scenario.floor_texels_per_metre)?;
     let wall_grid = WallGrid::covering(walls, scenario.wall_height_m, scenario.wall_texels_per_metre)?;
     let with_walls = scenario.texture.walls;
-    let stamper = watch.busy(Stage::Stamps, || Stamper::new(&library, grid, &scenario.stamps));
-    let wall_stamper = watch.busy(Stage::Stamps, || WallStamper::new(&library, &wall_grid, &scenario.stamps));
+    let stamper = watch.busy(Stage::Stamps, || Stamper::new(&library, grid, &scenario.stamps))?;
+    let wall_stamper = watch.busy(Stage::Stamps, || WallStamper::new(&library, &wall_grid, &scenario.stamps))?;
     let mut sums = Sums { floor: FloorSums::new(grid), walls: with_walls.then(|| WallSums::new(wall_grid)) };
     let mut paths = PathSampler::new(source.people());
     let mut stamp = |marks: &Marks| {

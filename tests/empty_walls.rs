@@ -66,7 +66,7 @@ fn ten_kilometres() {
         assert!(metres > 9_500.0, "{metres} m");
         let grid = WallGrid::covering(&walls, 2.6, density).unwrap();
         let mut sums = WallSums::new(grid.clone());
-        let stamper = WallStamper::new(&library, &grid, &StampOptions::default());
+        let stamper = WallStamper::new(&library, &grid, &StampOptions::default()).unwrap();
         let held = before.zip(held_bytes()).map_or(0, |(before, now)| now.saturating_sub(before));
         println!("{metres:.0} m of walls at {density} texels/m: {:.1} MiB", held as f64 / 1_048_576.0);
         assert!(held < 50 << 20, "{held} bytes for {metres} m");
@@ -80,7 +80,7 @@ fn a_hundred_thousand_pillars() {
     let walls = traced(651, |x, y| x % 2 == 0 || y % 2 == 0);
     assert!(walls.faces.len() > 100_000, "{}", walls.faces.len());
     let grid = WallGrid::covering(&walls, 2.6, 200.0).unwrap();
-    let stamper = WallStamper::new(&library(), &grid, &StampOptions::default());
+    let stamper = WallStamper::new(&library(), &grid, &StampOptions::default()).unwrap();
     let mut sums = WallSums::new(grid);
     // Face 0 is the hall's own wall.
     let contacts: Vec<Contact> = (1..=500).map(|k| touch(k * 200, 0.1 * f64::from(k % 4))).collect();

@@ -88,7 +88,7 @@ fn walk(people: u32) -> Walked {
     let origins = Origin::of_arrivals(crowd.arrivals().iter().map(|a| a.from_outside), 0);
     let mut footfalls = Footfalls::new(&persons, &walls, &library, &scenario.marks, origins).unwrap();
     let grid = TexelGrid::covering(plan.width_m(), plan.height_m(), 50.0).unwrap();
-    let stamper = Stamper::new(&library, grid, &scenario.stamps);
+    let stamper = Stamper::new(&library, grid, &scenario.stamps).unwrap();
 
     let parts = straight_parts();
     let junctions: Vec<Part> = junctions().into_iter().map(|(junction, _)| junction).collect();

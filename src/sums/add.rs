@@ -7,13 +7,13 @@ use super::floor::FloorMask;
 use super::{BLOCK, FloorSums, Quantity};
 use crate::marks::Mark;
 use crate::patterns::Cause;
-use crate::stamps::{Bounds, Cell, Placed, Sheet, Stamper, TexelGrid, Touched, Window};
+use crate::stamps::{MarkBounds, PlacedMark, PrintCoverage, Stamper, SumCell, TexelBounds, TexelGrid, TexelWindow};
 use crate::walls::Walls;
 
 /// Buffers that are used again from batch to batch.
 #[derive(Debug, Default)]
 pub(super) struct Batch {
-    placed: Vec<Option<Placed>>,
+    placed: Vec<Option<PlacedMark>>,
     entries: Vec<Entry>,
 }
 
@@ -68,7 +68,7 @@ struct Marks<'a> {
     stamper: &'a Stamper,
     walls: &'a Walls,
     marks: &'a [Mark],
-    placed: &'a [Option<Placed>],
+    placed: &'a [Option<PlacedMark>],
 }
 
 pub(super) fn add(sums: &mut FloorSums, stamper: &Stamper, walls: &Walls, marks: &[Mark]) {
@@ -83,14 +83,17 @@ pub(super) fn add(sums: &mut FloorSums, stamper: &Stamper, walls: &Walls, marks:
         sums.cell_floor.prepare(of(true), walls);
         let marks = Marks { stamper, walls, marks, placed: &batch.placed };
         let tasks = tasks(sums, &batch.entries);
-        tasks.into_par_iter().with_max_len(1).for_each_init(Sheet::new, |sheet, task| fine(task, &marks, sheet));
+        tasks
+            .into_par_iter()
+            .with_max_len(1)
+            .for_each_init(PrintCoverage::new, |sheet, task| fine(task, &marks, sheet));
     }
     sums.batch = batch;
 }
 
 /// Looks at every mark's surroundings and finds the blocks that it touches; entries end up sorted.
 fn bin(sums: &FloorSums, stamper: &Stamper, walls: &Walls, marks: &[Mark], batch: &mut Batch) {
-    let parts: Vec<(Vec<Option<Placed>>, Vec<Entry>)> = marks
+    let parts: Vec<(Vec<Option<PlacedMark>>, Vec<Entry>)> = marks
         .par_chunks(MARKS_OF_A_THREAD)
         .enumerate()
         .map(|(part, marks)| {
@@ -112,8 +115,8 @@ fn bin(sums: &FloorSums, stamper: &Stamper, walls: &Walls, marks: &[Mark], batch
     batch.entries.par_sort_unstable();
 }
 
-fn push_entries(sums: &FloorSums, cause: Cause, touched: &Touched, mark: usize, entries: &mut Vec<Entry>) {
-    let mut push = |quantity: Quantity, grid: TexelGrid, bounds: Bounds| {
+fn push_entries(sums: &FloorSums, cause: Cause, touched: &MarkBounds, mark: usize, entries: &mut Vec<Entry>) {
+    let mut push = |quantity: Quantity, grid: TexelGrid, bounds: TexelBounds| {
         let blocks = |low: i64, high: i64, count: u32| {
             let size = BLOCK as i64;
             let (low, high) = (low.max(0), high.min(count.into()).min(size << PLACE_BITS));
@@ -159,10 +162,10 @@ fn tasks<'a>(sums: &'a mut FloorSums, entries: &'a [Entry]) -> Vec<Task<'a>> {
 }
 
 /// Adds all marks of a block to its texels.
-fn fine(task: Task, marks: &Marks, sheet: &mut Sheet) {
+fn fine(task: Task, marks: &Marks, sheet: &mut PrintCoverage) {
     let Task { quantity, block, floor, entries } = task;
     let [row, column] = block.key();
-    let window = Window { i0: i64::from(column) * BLOCK as i64, j0: i64::from(row) * BLOCK as i64 };
+    let window = TexelWindow { i0: i64::from(column) * BLOCK as i64, j0: i64::from(row) * BLOCK as i64 };
     for entry in entries {
         let mark = &marks.marks[entry.mark()];
         let Some(placed) = &marks.placed[entry.mark()] else { continue };
@@ -181,13 +184,13 @@ fn fine(task: Task, marks: &Marks, sheet: &mut Sheet) {
 }
 
 /// Adds one mark to the cells of a block.
-fn stamp<C: Cell>(
+fn stamp<C: SumCell>(
     quantity: Quantity,
     mark: &Mark,
-    placed: &Placed,
+    placed: &PlacedMark,
     marks: &Marks,
-    window: Window,
-    sheet: &mut Sheet,
+    window: TexelWindow,
+    sheet: &mut PrintCoverage,
     cells: &mut [C],
 ) {
     let Marks { stamper, walls, .. } = *marks;

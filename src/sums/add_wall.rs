@@ -6,7 +6,7 @@ use super::blocks::{Block, BlockKey, Cells};
 use super::wall::StripKey;
 use super::{BLOCK, WallSums};
 use crate::marks::Contact;
-use crate::stamps::{Stain, WallStamper, Window};
+use crate::stamps::{PlacedStain, TexelWindow, WallStamper};
 
 /// Contacts are taken so many at a time, so that their stains take little memory.
 const CONTACTS_AT_A_TIME: usize = 1 << 14;
@@ -24,7 +24,7 @@ pub(super) fn add(sums: &mut WallSums, stamper: &WallStamper, contacts: &[Contac
         return;
     }
     for contacts in contacts.chunks(CONTACTS_AT_A_TIME) {
-        let stains: Vec<Stain> = contacts.par_iter().flat_map_iter(|contact| stamper.place(contact)).collect();
+        let stains: Vec<PlacedStain> = contacts.par_iter().flat_map_iter(|contact| stamper.place(contact)).collect();
         let mut entries: Vec<Entry> = stains.iter().enumerate().flat_map(|(k, stain)| entries_of(stain, k)).collect();
         entries.par_sort_unstable();
         tasks(sums, &entries).into_par_iter().with_max_len(1).for_each(|(block, entries)| {
@@ -34,7 +34,7 @@ pub(super) fn add(sums: &mut WallSums, stamper: &WallStamper, contacts: &[Contac
 }
 
 /// The blocks that a stain touches.
-fn entries_of(stain: &Stain, number: usize) -> impl Iterator<Item = Entry> + use<> {
+fn entries_of(stain: &PlacedStain, number: usize) -> impl Iterator<Item = Entry> + use<> {
     let strip = (stain.cause.on_wall().unwrap_or(0), stain.face);
     let blocks = |low: i64, high: i64| (low / BLOCK as i64) as u32..(high as u64).div_ceil(BLOCK as u64) as u32;
     let (rows, columns) = (blocks(stain.bounds.j0, stain.bounds.j1), blocks(stain.bounds.i0, stain.bounds.i1));
@@ -58,9 +58,9 @@ fn tasks<'a>(sums: &'a mut WallSums, entries: &'a [Entry]) -> Vec<(&'a mut Block
 }
 
 /// Adds a stain to a block.
-fn stamp(stamper: &WallStamper, stain: &Stain, block: &mut Block) {
+fn stamp(stamper: &WallStamper, stain: &PlacedStain, block: &mut Block) {
     let [row, column] = block.key();
-    let window = Window { i0: i64::from(column) * BLOCK as i64, j0: i64::from(row) * BLOCK as i64 };
+    let window = TexelWindow { i0: i64::from(column) * BLOCK as i64, j0: i64::from(row) * BLOCK as i64 };
     match block.cells_for(stain.peak.into()) {
         Cells::Narrow(cells) => stamper.add(stain, window, cells),
         Cells::Wide(cells) => stamper.add(stain, window, cells),

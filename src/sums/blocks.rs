@@ -8,7 +8,7 @@ use crate::stamps::TexelGrid;
 /// Place of a block: row and column of blocks, so that keys ascend with rows.
 pub(super) type BlockKey = [u32; 2];
 
-/// Texels of a block, narrow until one of them needs more.
+/// TexelRow of a block, narrow until one of them needs more.
 #[derive(Debug)]
 pub(super) enum Cells {
     Narrow(Box<[u16]>),
