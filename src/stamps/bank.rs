@@ -39,7 +39,7 @@ const SMEAR_STEP_M: f64 = 0.004;
 /// pattern's size.
 const LONGEST_SMEAR_M: f64 = 0.06;
 
-/// TexelRow larger than this count as few per sole, metres.
+/// Texels larger than this count as few per sole, metres.
 const FEW_TEXELS_M: f64 = 0.0126;
 
 /// Zero samples around a plate beyond the filter's reach: a row's span may be a texel too long.
@@ -208,7 +208,7 @@ impl Printer {
         })
     }
 
-    /// StampExtent of a print, `more_m` larger on every side.
+    /// Extent of a print, `more_m` larger on every side.
     pub(super) fn extent(&self, pose: &PrintPose, more_m: f64) -> StampExtent {
         let [half_along_m, half_across_m] = self.half_extent_m(pose).map(|half| half + more_m);
         StampExtent { middle_m: pose.place_m, heading: pose.heading, half_along_m, half_across_m }
@@ -222,7 +222,7 @@ impl Printer {
             + right * (across * self.width_m * pose.scale_across)
     }
 
-    /// TexelRow that a print can touch, `more_m` larger on every side.
+    /// Texels that a print can touch, `more_m` larger on every side.
     pub(super) fn bounds(&self, pose: &PrintPose, grid: &TexelGrid, more_m: f64) -> TexelBounds {
         let [half_along, half_across] = self.half_extent_m(pose).map(|half| half + more_m);
         let h = pose.heading;

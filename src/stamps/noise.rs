@@ -12,7 +12,7 @@ pub(super) const NOISE_ONE: f32 = 16_384.0;
 /// A periodic square of noise. Prints shift it by whole [`Lanes`], in step with the texels of a window.
 #[derive(Debug)]
 pub(super) struct NoiseTile {
-    /// TexelRow a side, a power of two.
+    /// Texels a side, a power of two.
     size: usize,
     lanes: Vec<Lanes<u16>>,
 }

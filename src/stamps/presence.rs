@@ -80,7 +80,7 @@ impl Kernels {
         bank
     }
 
-    /// StampExtent of a kernel: a little more than its ellipse, for the rounding of the heading.
+    /// Extent of a kernel: a little more than its ellipse, for the rounding of the heading.
     pub(super) fn extent(&self, middle_m: Vec2, heading: Vec2) -> StampExtent {
         let turned_aside_m = self.half_along_m * (0.5 * std::f64::consts::PI / HEADINGS as f64);
         StampExtent {

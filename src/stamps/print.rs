@@ -9,7 +9,7 @@ use super::window::floor;
 const FRACTION_BITS: u32 = 10;
 const FRACTION: i32 = 1 << FRACTION_BITS;
 
-/// A placed plate. TexelRow are counted from the one that the mark's place lies in, samples in 1/1024.
+/// A placed plate. Texels are counted from the one that the mark's place lies in, samples in 1/1024.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Print<'a> {
     plate: &'a Plate,
@@ -43,7 +43,7 @@ impl<'a> Print<'a> {
 
     /// Finds the texels on the plate for rows from `dj` on: first and one past the last, within `limits`.
     ///
-    /// TexelRow are counted from the origin. An empty row ends at or before its start. A row may be a texel too long; the
+    /// Texels are counted from the origin. An empty row ends at or before its start. A row may be a texel too long; the
     /// plate's guard of empty samples covers it.
     #[inline]
     pub(super) fn spans(&self, dj: i32, limits: [i32; 2], spans: &mut [[i32; 2]]) {

@@ -5,7 +5,7 @@ use crate::marks::Mark;
 use crate::math::vec2;
 use crate::patterns::Pattern;
 
-/// TexelRow around a print, from the reference.
+/// Texels around a print, from the reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReferenceImage {
     /// First column on the grid.

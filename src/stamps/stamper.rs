@@ -61,7 +61,7 @@ pub(crate) struct PlacedMark {
 /// The texels and cells that a mark can touch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MarkBounds {
-    /// TexelRow of the print.
+    /// Texels of the print.
     pub(crate) texels: TexelBounds,
     /// Cells of the presence grid; unused for heel marks.
     pub(crate) cells: TexelBounds,

@@ -19,7 +19,7 @@ pub struct WallGrid {
     pub faces: Vec<FaceSpan>,
 }
 
-/// StampExtent of a face on its strip.
+/// Extent of a face on its strip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceSpan {
     /// Columns: the length, rounded up to whole texels. The last one may be covered in part.

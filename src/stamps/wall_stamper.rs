@@ -71,7 +71,7 @@ pub struct WallStamper {
 pub(crate) struct PlacedStain<'a> {
     pub(crate) cause: Cause,
     pub(crate) face: u32,
-    /// TexelRow of the strip that the stain can touch.
+    /// Texels of the strip that the stain can touch.
     pub(crate) bounds: TexelBounds,
     /// Upper bound on what a texel gets.
     pub(crate) peak: u16,
@@ -102,7 +102,7 @@ struct StainAxis {
     half: f64,
 }
 
-/// StainBend of a stain: sideways shift as a cubic of the position along, both in samples.
+/// Bend of a stain: sideways shift as a cubic of the position along, both in samples.
 #[derive(Clone, Copy, Debug)]
 struct StainBend {
     middle: f32,

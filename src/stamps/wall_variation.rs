@@ -11,7 +11,7 @@ pub(super) struct ContactVariation {
     pub(super) along: f32,
     /// Pressure slope across the stain.
     pub(super) across: f32,
-    /// StainBend of the stain: aside by `bow (u^2 - 1/12) + wave u (4 u^2 - 1)`, shares of the length.
+    /// Bend of the stain: aside by `bow (u^2 - 1/12) + wave u (4 u^2 - 1)`, shares of the length.
     pub(super) bow: f32,
     /// See `bow`.
     pub(super) wave: f32,
