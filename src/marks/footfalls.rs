@@ -6,7 +6,7 @@ use crate::motion::{Frame, People, Person, Walker};
 use crate::patterns::{Cause, PatternLibrary};
 use crate::walls::Walls;
 
-use super::contacts::{Contacts, Moment, Touches};
+use super::contacts::{ContactState, ContactTick, Contacts};
 use super::feet::Step;
 use super::gait::Gait;
 use super::heels::{self, HeelMarks};
@@ -49,7 +49,7 @@ struct Present {
     track: Track,
     gait: Gait,
     feet: Feet,
-    touches: Touches,
+    contact_state: ContactState,
 }
 
 /// What somebody's feet wear and leave.
@@ -181,26 +181,26 @@ impl<'a> Footfalls<'a> {
             last: None,
         };
         let gait = Gait::new(seed, &person, self.options.shifts_per_minute / 60.0);
-        let touches = Touches::new(seed, &person);
-        Present { track: Track::new(time_s, walker.position_m, walker.heading), gait, feet, touches, person }
+        let contact_state = ContactState::new(seed, &person);
+        Present { track: Track::new(time_s, walker.position_m, walker.heading), gait, feet, contact_state, person }
     }
 
     fn walk_on(&mut self, present: &mut Present, time_s: f64, walker: &Walker, out: &mut Vec<Mark>) {
-        let Present { person, track, gait, feet, touches } = present;
-        let mut stride = |sample: Sample| self.stride(person, gait, (feet, touches), sample, out);
+        let Present { person, track, gait, feet, contact_state } = present;
+        let mut stride = |sample: Sample| self.stride(person, gait, (feet, contact_state), sample, out);
         if track.continues(time_s, walker.position_m) {
             track.push(time_s, walker.position_m, walker.heading, stride);
         } else {
             track.finish(&mut stride);
             gait.interrupt();
-            touches.interrupt();
+            contact_state.interrupt();
             *track = Track::new(time_s, walker.position_m, walker.heading);
         }
     }
 
     fn leave(&mut self, mut present: Box<Present>, out: &mut Vec<Mark>) {
-        let Present { person, track, gait, feet, touches } = &mut *present;
-        track.finish(|sample| self.stride(person, gait, (feet, touches), sample, out));
+        let Present { person, track, gait, feet, contact_state } = &mut *present;
+        track.finish(|sample| self.stride(person, gait, (feet, contact_state), sample, out));
     }
 
     /// One tick of a smoothed path: steps, then what heels lost on the way, then what was touched.
@@ -208,7 +208,7 @@ impl<'a> Footfalls<'a> {
         &mut self,
         person: &Person,
         gait: &mut Gait,
-        (feet, touches): (&mut Feet, &mut Touches),
+        (feet, contact_state): (&mut Feet, &mut ContactState),
         sample: Sample,
         out: &mut Vec<Mark>,
     ) {
@@ -229,7 +229,7 @@ impl<'a> Footfalls<'a> {
             out.extend(mark);
         });
         if let Some(Some(contacts)) = &self.contacts {
-            let moment = Moment {
+            let tick = ContactTick {
                 at_m: sample.position_m,
                 facing: gait.heading(),
                 velocity_m_s: sample.velocity_m_s,
@@ -237,7 +237,7 @@ impl<'a> Footfalls<'a> {
                 stood_s: progress.stood_s,
             };
             let before = self.touched.len();
-            contacts.walk(touches, self.walls, person, &moment, &mut self.touched);
+            contacts.walk(contact_state, self.walls, person, &tick, &mut self.touched);
             self.contact_count += (self.touched.len() - before) as u64;
         }
     }
