@@ -5,12 +5,7 @@ use std::path::Path;
 
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 
-use super::PlanError;
-
-/// Longest side of an image that is read, pixels.
-pub const LARGEST_SIDE_PX: u32 = 20_000;
-/// Most pixels of an image that is read.
-pub const LARGEST_AREA_PX: u64 = 268_435_456;
+use super::{LARGEST_AREA_PX, LARGEST_SIDE_PX, PlanError};
 
 /// Reads an image of any known format, whatever its name ends in.
 pub(super) fn decode(path: &Path) -> Result<DynamicImage, PlanError> {

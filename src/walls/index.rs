@@ -1,6 +1,6 @@
 //! Answers about places: the nearest wall, inside or not, what can be seen.
 
-use super::{Nearest, Segment};
+use super::face::{Nearest, Segment};
 use crate::math::{Rect, Vec2, vec2};
 
 /// Side of a cell, metres.

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::face::{APRON_M, Face, Segment};
 use super::fit::{self, SideLine};
 use super::runs::{Runs, Sample};
 use super::subpixel;
-use super::{APRON_M, Face, Segment};
 use crate::math::{Rect, Vec2, vec2};
 use crate::plan::cracks::CrackLoop;
 use crate::plan::{FloorPlan, Side};
