@@ -3,11 +3,12 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::marks::Mark;
 use crate::math::{SplitMix64, vec2};
 use crate::plan::FloorPlan;
-use crate::stamps::StampOptions;
 use crate::stamps::fixtures::{crowd, footfall, grid, library, room};
-use crate::walls::WallsOptions;
+use crate::stamps::{StampOptions, Stamper, TexelGrid};
+use crate::walls::{Walls, WallsOptions};
 
 mod wall;
 

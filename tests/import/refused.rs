@@ -20,7 +20,7 @@ fn a_photograph_without_a_stain() {
             let scene = Scene { texture, jpeg, vignette: 0.3, slope: [0.4, 0.2], noise: 2.0, ..Scene::of(bare) };
             let error = refused(&scene.photograph(), &plain());
             assert!(matches!(error, ImportError::NoStain { .. }), "{texture} {jpeg:?}: {error}");
-            assert!(error.to_string().contains("no stain") && error.hint().unwrap().contains("--crop"));
+            assert!(error.to_string().contains("no stain") && error.hint().unwrap().contains("crop"));
         }
     }
     let grey = image::GrayImage::from_pixel(300, 200, image::Luma([128]));
@@ -37,7 +37,7 @@ fn a_stain_that_fills_the_photograph() {
     let error = refused(&scene.photograph(), &plain());
     // With hardly any wall to be seen, either all of it is stain or none.
     assert!(matches!(error, ImportError::FillsPhoto { .. } | ImportError::NoStain { .. }), "{error}");
-    assert!(error.hint().unwrap().contains("--crop"));
+    assert!(error.hint().unwrap().contains("crop"));
 }
 
 #[test]
@@ -110,8 +110,8 @@ fn numbers_out_of_range() {
         "no form \"toe\", allowed is \"palm\", \"drag\" or \"fingertips\"",
     );
     let arm = ImportOptions { cause: Cause::Arm, form: Some(Form::Palm), ..plain() };
-    assert!(at(arm, "allowed is none").hint().unwrap().contains("leave --form out"));
+    assert!(at(arm, "allowed is none").hint().unwrap().contains("leave the form out"));
     // A drop of 12 cm is no heel mark when it is taller than long, and too short for a sole at 20 px/cm.
     let sole = ImportOptions { cause: Cause::Sole, size: PhotoScale::PxPerCm(20.0), ..plain() };
-    assert!(at(sole, "is 8 to 45 cm long").hint().unwrap().contains("--rotate"));
+    assert!(at(sole, "is 8 to 45 cm long").hint().unwrap().contains("rotate"));
 }

@@ -36,7 +36,7 @@ const LEANS: f64 = 2.0;
 pub(crate) struct Contacts {
     options: ContactOptions,
     /// Factor on each person's rates, see [`ContactOptions::people`].
-    stand_ins: f64,
+    rate_factor: f64,
     wall_patterns: WallPatterns,
     places: ContactPlaces,
     place_index: PlaceIndex,
@@ -59,7 +59,7 @@ impl Contacts {
         let place_index = PlaceIndex::new(walls, &places);
         Some(Contacts {
             options: options.clone(),
-            stand_ins: options.stand_ins(crowd),
+            rate_factor: options.rate_factor(crowd),
             wall_patterns,
             places,
             place_index,
@@ -134,7 +134,7 @@ impl Contacts {
     /// Advances the contact clock and draws the contacts that are due.
     fn happen(&self, step: &ContactStep, walls: &Walls, state: &mut ContactState, out: &mut Vec<Contact>) {
         let expected: f64 = state.chances.iter().map(|chance| chance.0).sum();
-        state.until_next -= self.stand_ins * expected;
+        state.until_next -= self.rate_factor * expected;
         while state.until_next <= 0.0 {
             state.until_next += waiting(&mut state.rng);
             let mut left = state.rng.random::<f64>() * expected;
