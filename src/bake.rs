@@ -98,8 +98,8 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let mut footfalls = Footfalls::new(&people, walls, &library, &scenario.marks, origins)?.with_contacts(places);
 
     // Frames become marks, marks become stamps, stamps are summed up: a stream of which only the sums are kept.
-    let stamper = watch.busy(Stage::Stamps, || Stamper::new(&library, grid, &scenario.stamps));
-    let wall_stamper = watch.busy(Stage::Stamps, || WallStamper::new(&library, &wall_grid, &scenario.stamps));
+    let stamper = watch.busy(Stage::Stamps, || Stamper::new(&library, grid, &scenario.stamps))?;
+    let wall_stamper = watch.busy(Stage::Stamps, || WallStamper::new(&library, &wall_grid, &scenario.stamps))?;
     let mut sums = Sums { floor: FloorSums::new(grid), walls: with_walls.then(|| WallSums::new(wall_grid)) };
     let mut paths = PathSampler::new(source.people());
     let mut stamp = |marks: &Marks| {

@@ -5,7 +5,7 @@ use clap::{ArgGroup, Args};
 use trodden::Error;
 use trodden::files::{LARGEST_IMAGE_BYTES, check_not_input, files_in, read_input};
 use trodden::patterns::{
-    Cause, Form, Import as Imported, ImportEntry, ImportError, ImportOptions, Listed, PatternsError, PhotoScale,
+    Cause, Form, ImportEntry, ImportError, ImportOptions, ImportedPattern, PatternsError, PhotoScale, SavedPattern,
     import_picture, name_of_photo,
 };
 
@@ -84,7 +84,7 @@ impl Import {
         let bytes = read_input(&self.photo, LARGEST_IMAGE_BYTES).map_err(|error| {
             ours(ImportError::Unreadable { reason: format!("{}: {error}", self.photo.display()) }.into())
         })?;
-        let import = Imported::from_photo(&bytes, &options).map_err(|error| ours(error.into()))?;
+        let import = ImportedPattern::from_photo(&bytes, &options).map_err(|error| ours(error.into()))?;
         // Drawn first: it shows what was found even if the folder has the name already.
         if let Some(file) = picture {
             print::save_picture(&import_picture(&import), file)?;
@@ -97,7 +97,7 @@ impl Import {
         Ok(ExitCode::SUCCESS)
     }
 
-    fn report(&self, import: &Imported, listed: &Listed) -> anyhow::Result<()> {
+    fn report(&self, import: &ImportedPattern, listed: &SavedPattern) -> anyhow::Result<()> {
         let [length_cm, breadth_cm] = import.stain_cm;
         let lighter = if import.lighter { ", lighter than the wall" } else { "" };
         print::line(format!(

@@ -29,8 +29,8 @@ struct Scene {
 static CORRIDOR: LazyLock<Scene> = LazyLock::new(|| {
     let walls = walls(LENGTH_M, WIDTH_M + 2.0 * WALL_M, |p| p.y > WALL_M && p.y < WALL_M + WIDTH_M);
     let grid = grid(LENGTH_M, WIDTH_M + 2.0 * WALL_M);
-    let library = PatternLibrary::built_in().unwrap();
-    let stamper = Stamper::new(&library, grid, &StampOptions::default());
+    let library = PatternLibrary::built_in();
+    let stamper = Stamper::new(&library, grid, &StampOptions::default()).unwrap();
     let mut sums = FloorSums::new(grid);
     sums.add(&stamper, &walls, &people(&library));
     Scene { walls, sums }

@@ -1,7 +1,6 @@
 use std::path::PathBuf;
 
-use super::image_file::{LARGEST_AREA_PX, LARGEST_SIDE_PX};
-use super::scale::{LARGEST_M_PER_PX, LARGEST_SIDE_M, SMALLEST_M_PER_PX};
+use super::limits::{LARGEST_AREA_PX, LARGEST_M_PER_PX, LARGEST_SIDE_M, LARGEST_SIDE_PX, SMALLEST_M_PER_PX};
 use crate::math::Vec2;
 
 /// Why the `plan` stage cannot go on.
@@ -233,10 +232,8 @@ impl PlanError {
             PlanError::TwoPoints { .. } => {
                 "scale = { from = { px = [120, 40] }, to = { px = [480, 40] }, metres = 36.0 }".into()
             }
-            PlanError::TooLarge { .. } | PlanError::NoRoom { .. } => {
-                "check the scale (--metres-per-pixel, plan.metres_per_pixel)".into()
-            }
-            PlanError::PathsTooWide { .. } => "check the recording's unit (--unit, motion.unit)".into(),
+            PlanError::TooLarge { .. } | PlanError::NoRoom { .. } => "check the scale in metres per pixel".into(),
+            PlanError::PathsTooWide { .. } => "check the unit of the recording, such as metres or centimetres".into(),
             PlanError::NoFloor { .. } => {
                 "white is floor, black is wall; lower plan.threshold if the floor is grey".into()
             }

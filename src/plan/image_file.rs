@@ -6,13 +6,9 @@ use std::path::Path;
 
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 
-use super::{PlanError, palette};
+use super::{LARGEST_AREA_PX, LARGEST_SIDE_PX, PlanError, palette};
 use crate::files::{LARGEST_IMAGE_BYTES, open_input_up_to};
 
-/// Longest side of an image that is read, pixels.
-pub const LARGEST_SIDE_PX: u32 = 20_000;
-/// Most pixels of an image that is read: those of 16384 x 16384.
-pub const LARGEST_AREA_PX: u64 = 268_435_456;
 /// Most bytes of an image's decoded pixels: four for each of [`LARGEST_AREA_PX`].
 const LARGEST_DECODED_BYTES: u64 = 4 * LARGEST_AREA_PX;
 /// Bytes for each pixel that understanding a plan takes at most, beyond the image.

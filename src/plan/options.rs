@@ -72,9 +72,6 @@ pub enum UnknownPolicy {
     Floor,
 }
 
-/// Largest coordinate of a place that somebody names, metres or pixels: far beyond any plan.
-pub const LARGEST_COORDINATE: f64 = 1e7;
-
 /// How to read a plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]

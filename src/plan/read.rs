@@ -86,7 +86,7 @@ fn assumed_scale(path: &Path, metres_per_pixel: f64) -> String {
     let map = path.with_extension("yaml");
     let advice = match map.file_name() {
         Some(name) if map.is_file() => format!("give {} instead if it is this image's map", name.display()),
-        _ => "say otherwise with --metres-per-pixel".to_owned(),
+        _ => "give the scale in metres per pixel if it is another".to_owned(),
     };
     format!("no scale was given: a pixel was taken for {metres_per_pixel} m; {advice}")
 }

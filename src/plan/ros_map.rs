@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use super::similar::similar_file;
-use super::{PlanError, Pose};
+use super::{LARGEST_ORIGIN_M, PlanError, Pose};
 use crate::files::read_text;
 use crate::math::vec2;
 
@@ -19,9 +19,6 @@ pub(super) struct RosMap {
     pub(super) pose: Pose,
     pub(super) greys: Greys,
 }
-
-/// Largest number in a map's origin: x and y in metres, yaw in radians.
-pub const LARGEST_ORIGIN_M: f64 = 1e9;
 
 /// How a map's greys become free, occupied or unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! Tells curves from corners, so that a drawn circle is not traced with the corners of its straight pieces.
 
-use super::fit::{Joint, Piece};
+use super::piece::{Joint, Piece};
 use super::runs::{Runs, Sample};
 
 /// A curve turns by at most this much from one piece to the next: cosine of 100 degrees.

@@ -1,9 +1,16 @@
+/// Fewest points of an outline.
+pub(super) const FEWEST_POINTS: usize = 3;
+/// Largest distance that outlines reach over along x or y, metres: a plan's longest side with its walls and aprons.
+pub(super) const LARGEST_EXTENT_M: f64 = crate::plan::LARGEST_SIDE_M + 500.0;
+/// Longest length of all outlines together, metres.
+pub(super) const LONGEST_M: f64 = 2e7;
+
 /// Why the `walls` stage cannot go on.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum WallsError {
     /// An outline without an area.
-    #[error("outline {outline} has {points} points, allowed are {} or more", super::FEWEST_POINTS)]
+    #[error("outline {outline} has {points} points, allowed are {} or more", FEWEST_POINTS)]
     TooFewPoints {
         /// Index of the outline.
         outline: usize,
@@ -21,13 +28,13 @@ pub enum WallsError {
         points: usize,
     },
     /// Outlines that reach farther than a plan.
-    #[error("the outlines reach over {extent_m} m, allowed are up to {} m", super::LARGEST_EXTENT_M)]
+    #[error("the outlines reach over {extent_m} m, allowed are up to {} m", LARGEST_EXTENT_M)]
     TooFar {
         /// The largest distance along x or y, metres; NaN where a coordinate is.
         extent_m: f64,
     },
     /// More wall than a plan can have.
-    #[error("the outlines are {length_m:.0} m long together, allowed are up to {} m", super::LONGEST_M)]
+    #[error("the outlines are {length_m:.0} m long together, allowed are up to {} m", LONGEST_M)]
     TooLong {
         /// Their length, metres.
         length_m: f64,
@@ -61,10 +68,10 @@ impl WallsError {
     /// What is allowed in its place.
     pub(crate) fn allowed(&self) -> String {
         match self {
-            WallsError::TooFewPoints { .. } => format!("{} points or more", super::FEWEST_POINTS),
+            WallsError::TooFewPoints { .. } => format!("{} points or more", FEWEST_POINTS),
             WallsError::Opening { points, .. } => format!("ascending edges below {points}"),
-            WallsError::TooFar { .. } => format!("up to {} m", super::LARGEST_EXTENT_M),
-            WallsError::TooLong { .. } => format!("up to {} m", super::LONGEST_M),
+            WallsError::TooFar { .. } => format!("up to {} m", LARGEST_EXTENT_M),
+            WallsError::TooLong { .. } => format!("up to {} m", LONGEST_M),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Answers about places: the nearest wall, inside or not, what can be seen.
 
+use super::face::{Nearest, Segment};
 use super::grid::Grid;
-use super::{Nearest, Segment};
 use crate::math::{Rect, Vec2, vec2};
 
 /// Side of a cell, metres.

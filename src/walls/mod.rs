@@ -11,11 +11,13 @@ mod boundary;
 mod coverage;
 mod curve;
 mod error;
+mod face;
 mod fit;
 mod grid;
 mod index;
 mod line;
 mod outline;
+mod piece;
 mod places;
 mod polygon;
 mod runs;
@@ -26,69 +28,11 @@ mod untangle;
 #[cfg(test)]
 mod truth_tests;
 
-pub(crate) use outline::check as check_outlines;
-
 pub use error::WallsError;
+pub use face::{APRON_M, Face, Nearest, Segment};
+pub(crate) use outline::check as check_outlines;
 pub use outline::Outline;
 pub use places::{Corner, DOOR_HEAD_M, DOOR_WIDTHS_M, Doorway};
-
-/// How far beyond an opening the floor goes on unseen, metres: room to appear and to vanish.
-pub const APRON_M: f64 = 3.0;
-
-/// Fewest points of an outline.
-const FEWEST_POINTS: usize = 3;
-/// Largest distance that outlines reach over along x or y, metres: a plan's longest side with its walls and aprons.
-const LARGEST_EXTENT_M: f64 = crate::plan::LARGEST_SIDE_M + 500.0;
-/// Longest length of all outlines together, metres.
-const LONGEST_M: f64 = 2e7;
-
-/// One wall face: the floor lies on the **right** of the polyline, so that arc length grows to the right for a
-/// viewer who stands on the floor and looks at the wall.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct Face {
-    /// Whether the last point joins the first (rooms, pillars). The first is not repeated.
-    pub closed: bool,
-    /// Corners and ends, metres. A closed face starts at its vertex least in (y, x).
-    #[serde(rename = "points")]
-    pub points_m: Vec<Vec2>,
-}
-
-impl Face {
-    /// Length of the polyline, metres.
-    pub fn length_m(&self) -> f64 {
-        let open: f64 = self.points_m.windows(2).map(|w| w[0].distance(w[1])).sum();
-        match (self.closed, self.points_m.first(), self.points_m.last()) {
-            (true, Some(&first), Some(&last)) => open + last.distance(first),
-            _ => open,
-        }
-    }
-}
-
-/// The place on a wall nearest to a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Nearest {
-    /// Distance from the point to the wall, metres. Never negative; see [`Walls::is_inside`].
-    pub distance_m: f64,
-    /// The place on the wall.
-    pub point_m: Vec2,
-    /// Index into [`Walls::faces`], or `None` for the unseen walls of an apron.
-    pub face: Option<usize>,
-    /// Arc length from the face's start to the place, metres.
-    pub along_m: f64,
-}
-
-/// One straight piece of a wall, floor on its right.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Segment {
-    /// Start, metres.
-    pub a: Vec2,
-    /// End, metres.
-    pub b: Vec2,
-    /// Index into [`Walls::faces`], or `None` for the unseen walls of an apron.
-    pub face: Option<usize>,
-    /// Arc length from the face's start to `a`, metres; 0 on an apron.
-    pub along_m: f64,
-}
 
 /// How to trace walls.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{APRON_M, FEWEST_POINTS, Face, LARGEST_EXTENT_M, LONGEST_M, Segment, WallsError};
+use super::error::{FEWEST_POINTS, LARGEST_EXTENT_M, LONGEST_M, WallsError};
+use super::face::{APRON_M, Face, Segment};
 use crate::math::{Rect, Vec2, vec2};
 use crate::plan::Side;
 

@@ -80,13 +80,13 @@ fn walk(people: u32) -> Walked {
     let plan = plan::read(&scenario.plan_path().unwrap(), &scenario.plan_options()).unwrap();
     let walls = Walls::trace(&plan, &scenario.walls);
     let routes = routes::find(&plan, &walls, &scenario.routes).unwrap();
-    let library = PatternLibrary::built_in().unwrap();
+    let library = PatternLibrary::built_in();
     let persons = People::new(scenario.seed, scenario.bodies.clone());
     let mut crowd = Crowd::new(&plan, &walls, &routes, &persons, &scenario.crowd).unwrap();
     let origins = Origin::of_arrivals(crowd.arrivals().iter().map(|a| a.from_outside), 0);
     let mut footfalls = Footfalls::new(&persons, &walls, &library, &scenario.marks, origins).unwrap();
     let grid = TexelGrid::covering(plan.width_m(), plan.height_m(), 50.0).unwrap();
-    let stamper = Stamper::new(&library, grid, &scenario.stamps);
+    let stamper = Stamper::new(&library, grid, &scenario.stamps).unwrap();
 
     let parts = straight_parts();
     let junctions: Vec<Part> = junctions().into_iter().map(|(junction, _)| junction).collect();

@@ -12,7 +12,7 @@ use trodden::patterns::{Cause, PatternLibrary, contact_sheet};
 #[test]
 fn committed_images_are_what_the_example_draws() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("patterns");
-    let library = PatternLibrary::built_in().unwrap();
+    let library = PatternLibrary::built_in();
     let drawings = drawing::all();
     assert_eq!(drawings.len(), library.patterns.len());
     drawings.into_par_iter().for_each(|drawing| {
@@ -28,7 +28,7 @@ fn committed_images_are_what_the_example_draws() {
 /// The kinds of shoe that a public floor sees, at the size of real ones.
 #[test]
 fn soles_have_the_size_and_the_uneven_pressure_of_real_ones() {
-    let library = PatternLibrary::built_in().unwrap();
+    let library = PatternLibrary::built_in();
     for sole in library.patterns.iter().filter(|pattern| pattern.cause == Cause::Sole) {
         let aspect = sole.breadth_cm() / sole.length_cm;
         assert!((0.3..0.42).contains(&aspect), "{}: breadth over length {aspect:.2}", sole.name);
@@ -49,7 +49,7 @@ fn soles_have_the_size_and_the_uneven_pressure_of_real_ones() {
 
 #[test]
 fn no_two_heel_marks_are_alike_and_all_are_thin() {
-    let library = PatternLibrary::built_in().unwrap();
+    let library = PatternLibrary::built_in();
     let marks: Vec<_> = library.patterns.iter().filter(|pattern| pattern.cause == Cause::Heel).collect();
     assert!(marks.len() >= 6);
     for (n, mark) in marks.iter().enumerate() {
@@ -67,7 +67,7 @@ fn no_two_heel_marks_are_alike_and_all_are_thin() {
 
 #[test]
 fn the_contact_sheet_shows_every_pattern() {
-    let library = PatternLibrary::built_in().unwrap();
+    let library = PatternLibrary::built_in();
     let sheet = contact_sheet(&library);
     assert!(sheet.width() >= 1000 && sheet.height() >= 500, "{:?}", sheet.dimensions());
     let blank = *sheet.get_pixel(0, 0);

@@ -23,7 +23,7 @@ fn traced(side_px: usize, floor: impl Fn(usize, usize) -> bool) -> Walls {
 
 /// Some pattern of a hand: a square of a centimetre.
 fn library() -> PatternLibrary {
-    let mut library = PatternLibrary::built_in().unwrap();
+    let mut library = PatternLibrary::built_in();
     let mut hand = library.patterns[0].clone();
     (hand.cause, hand.length_cm, hand.width_px, hand.height_px) = (Cause::Hand, 1.0, 10, 10);
     hand.coverage = vec![255; 100];
@@ -64,7 +64,7 @@ fn ten_kilometres() {
         assert!(metres > 9_500.0, "{metres} m");
         let grid = WallGrid::covering(&walls, 2.6, density).unwrap();
         let mut sums = WallSums::new(grid.clone());
-        let stamper = WallStamper::new(&library, &grid, &StampOptions::default());
+        let stamper = WallStamper::new(&library, &grid, &StampOptions::default()).unwrap();
         let held = before.zip(held_bytes()).map_or(0, |(before, now)| now.saturating_sub(before));
         println!("{metres:.0} m of walls at {density} texels/m: {:.1} MiB", held as f64 / 1_048_576.0);
         assert!(held < 50 << 20, "{held} bytes for {metres} m");
@@ -78,7 +78,7 @@ fn a_hundred_thousand_pillars() {
     let walls = traced(651, |x, y| x % 2 == 0 || y % 2 == 0);
     assert!(walls.faces.len() > 100_000, "{}", walls.faces.len());
     let grid = WallGrid::covering(&walls, 2.6, 200.0).unwrap();
-    let stamper = WallStamper::new(&library(), &grid, &StampOptions::default());
+    let stamper = WallStamper::new(&library(), &grid, &StampOptions::default()).unwrap();
     let mut sums = WallSums::new(grid);
     // Face 0 is the hall's own wall.
     let contacts: Vec<Contact> = (1..=500).map(|k| touch(k * 200, 0.1 * f64::from(k % 4))).collect();

@@ -159,7 +159,7 @@ fn a_hundred_thousand_tiny_walls_are_walked_through() {
     let plan = FloorPlan::from_mask(side as u32, side as u32, 0.2, mask);
     let walls = Walls::trace(&plan, &WallsOptions::default());
     assert!(walls.faces.len() > 99_000);
-    let (people, library) = (People::new(1, BodyOptions::default()), PatternLibrary::built_in().unwrap());
+    let (people, library) = (People::new(1, BodyOptions::default()), PatternLibrary::built_in());
     let marks = MarksOptions { contact: rates_times(40.0), ..MarksOptions::default() };
     let start = std::time::Instant::now();
     let mut footfalls = Footfalls::new(&people, &walls, &library, &marks, Vec::new()).unwrap();

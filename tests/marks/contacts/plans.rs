@@ -62,7 +62,7 @@ fn of_plan(name: &str, people: u32) -> f64 {
     let (routes, ways) = Navigation::find(&plan, &walls, &scenario.routes).unwrap();
     let people = People::new(scenario.seed, scenario.bodies.clone());
     let mut crowd = Crowd::with_navigation(&plan, &walls, &routes, ways, &people, &scenario.crowd).unwrap();
-    let library = PatternLibrary::built_in().unwrap();
+    let library = PatternLibrary::built_in();
     // Of those who pass by: whoever stands at a painting leans on its wall, and whoever squeezes through a gap brushes both
     // of its sides.
     let contact =

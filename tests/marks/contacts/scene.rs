@@ -65,7 +65,7 @@ pub fn scene() -> &'static Scene {
         let walls = Walls::trace(&plan, &WallsOptions::default());
         let people = People::new(4, BodyOptions::default());
         let frames = walked(&plan, &walls, &people, CROWD, [[0.5, 5.2], [TURN_M + 1.2, 13.5]]);
-        Scene { plan, walls, people, library: PatternLibrary::built_in().unwrap(), frames }
+        Scene { plan, walls, people, library: PatternLibrary::built_in(), frames }
     })
 }
 

@@ -33,7 +33,7 @@ fn congested(time_step: f64) -> (Floor, Vec<Path>) {
             path.at.push((frame.time_s, *walker));
         }
     }
-    let library = PatternLibrary::built_in().unwrap();
+    let library = PatternLibrary::built_in();
     let floor = Floor { people, walls, library, options: MarksOptions::default(), crowd: 160 };
     (floor, paths.into_values().filter(|path| path.at.len() > 10).collect())
 }

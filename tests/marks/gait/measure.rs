@@ -71,7 +71,7 @@ impl Floor {
         Floor {
             people: People::new(7, BodyOptions::default()),
             walls: Walls::trace(&plan, &WallsOptions::default()),
-            library: PatternLibrary::built_in().unwrap(),
+            library: PatternLibrary::built_in(),
             options: MarksOptions::default(),
             crowd: 1000,
         }

@@ -5,7 +5,7 @@ use std::io::Cursor;
 use image::codecs::jpeg::JpegEncoder;
 use image::{GrayImage, ImageFormat, Luma, RgbImage};
 use trodden::math::{SplitMix64, exp, pow};
-use trodden::patterns::{Import, PatternLibrary};
+use trodden::patterns::{ImportedPattern, PatternLibrary};
 
 /// A wall, the light on it, a camera, and a stain.
 #[derive(Clone)]
@@ -130,7 +130,7 @@ impl Scene {
     }
 
     /// Correlation of what was imported with the stain as it is, over all that either of them covers.
-    pub fn correlation(&self, import: &Import) -> f64 {
+    pub fn correlation(&self, import: &ImportedPattern) -> f64 {
         let reach = |truth: u32, found: u32, off: f64| f64::from(truth.max(found)) / 2.0 + off.abs() + 2.0;
         let (s, c) = trodden::math::sin_cos(self.turned_deg.to_radians());
         let [dx, dy] = [0, 1].map(|axis| (import.middle_px[axis] - self.middle[axis]) / self.px_per_cm * 10.0);
@@ -182,7 +182,7 @@ fn srgb(linear: f64) -> f64 {
 
 /// A pattern of the built-in library as a stain.
 pub fn built_in(name: &str) -> GrayImage {
-    let library = PatternLibrary::built_in().unwrap();
+    let library = PatternLibrary::built_in();
     let pattern = library.patterns.into_iter().find(|pattern| pattern.name == name).unwrap();
     GrayImage::from_vec(pattern.width_px, pattern.height_px, pattern.coverage).unwrap()
 }

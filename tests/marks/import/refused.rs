@@ -1,6 +1,6 @@
 //! What cannot be imported is refused with a reason and a remedy, and nothing panics.
 
-use trodden::patterns::{Cause, Form, Import, ImportError, ImportOptions, PhotoScale};
+use trodden::patterns::{Cause, Form, ImportError, ImportOptions, ImportedPattern, PhotoScale};
 
 use super::photograph::{Scene, blot, drawn};
 
@@ -9,7 +9,7 @@ fn plain() -> ImportOptions {
 }
 
 fn refused(bytes: &[u8], options: &ImportOptions) -> ImportError {
-    Import::from_photo(bytes, options).map(|import| import.stain_cm).unwrap_err()
+    ImportedPattern::from_photo(bytes, options).map(|import| import.stain_cm).unwrap_err()
 }
 
 #[test]
@@ -20,7 +20,7 @@ fn a_photograph_without_a_stain() {
             let scene = Scene { texture, jpeg, vignette: 0.3, slope: [0.4, 0.2], noise: 2.0, ..Scene::of(bare) };
             let error = refused(&scene.photograph(), &plain());
             assert!(matches!(error, ImportError::NoStain { .. }), "{texture} {jpeg:?}: {error}");
-            assert!(error.to_string().contains("no stain") && error.hint().unwrap().contains("--crop"));
+            assert!(error.to_string().contains("no stain") && error.hint().unwrap().contains("crop"));
         }
     }
     let grey = image::GrayImage::from_pixel(300, 200, image::Luma([128]));
@@ -37,7 +37,7 @@ fn a_stain_that_fills_the_photograph() {
     let error = refused(&scene.photograph(), &plain());
     // With hardly any wall to be seen, either all of it is stain or none.
     assert!(matches!(error, ImportError::FillsPhoto { .. } | ImportError::NoStain { .. }), "{error}");
-    assert!(error.hint().unwrap().contains("--crop"));
+    assert!(error.hint().unwrap().contains("crop"));
 }
 
 #[test]
@@ -60,11 +60,11 @@ fn what_is_no_photograph() {
     let photo = Scene { jpeg: Some(85), ..Scene::of(blot()) }.photograph();
     for length in (0..photo.len()).step_by(photo.len() / 23 + 1) {
         // A JPEG that was cut off may still show enough; none may bring the program down.
-        let _ = Import::from_photo(&photo[..length], &plain());
+        let _ = ImportedPattern::from_photo(&photo[..length], &plain());
     }
     let photo = Scene::of(blot()).photograph();
     for length in (0..photo.len()).step_by(photo.len() / 23 + 1) {
-        assert!(Import::from_photo(&photo[..length], &plain()).is_err());
+        assert!(ImportedPattern::from_photo(&photo[..length], &plain()).is_err());
     }
 }
 
@@ -110,8 +110,8 @@ fn numbers_out_of_range() {
         "no form \"toe\", allowed is \"palm\", \"drag\" or \"fingertips\"",
     );
     let arm = ImportOptions { cause: Cause::Arm, form: Some(Form::Palm), ..plain() };
-    assert!(at(arm, "allowed is none").hint().unwrap().contains("leave --form out"));
+    assert!(at(arm, "allowed is none").hint().unwrap().contains("leave the form out"));
     // A drop of 12 cm is no heel mark when it is taller than long, and too short for a sole at 20 px/cm.
     let sole = ImportOptions { cause: Cause::Sole, size: PhotoScale::PxPerCm(20.0), ..plain() };
-    assert!(at(sole, "is 8 to 45 cm long").hint().unwrap().contains("--rotate"));
+    assert!(at(sole, "is 8 to 45 cm long").hint().unwrap().contains("rotate"));
 }

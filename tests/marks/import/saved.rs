@@ -4,15 +4,15 @@ use std::fs;
 use std::path::Path;
 
 use trodden::patterns::{
-    Cause, Form, Import, ImportEntry, ImportOptions, PatternFolder, PatternLibrary, PhotoScale, name_of_photo,
+    Cause, Form, ImportEntry, ImportOptions, ImportedPattern, PatternFolder, PatternLibrary, PhotoScale, name_of_photo,
 };
 
 use super::photograph::{Scene, blot, ring};
 
-fn imported(cause: Cause, form: Option<Form>) -> Import {
+fn imported(cause: Cause, form: Option<Form>) -> ImportedPattern {
     let scene = Scene { turned_deg: 0.0, ..Scene::of(blot()).hard() };
     let options = ImportOptions { cause, form, size: PhotoScale::PxPerCm(10.0), crop: None, rotate_deg: 0.0 };
-    Import::from_photo(&scene.photograph(), &options).unwrap()
+    ImportedPattern::from_photo(&scene.photograph(), &options).unwrap()
 }
 
 fn entry(name: &str) -> ImportEntry {
@@ -86,7 +86,7 @@ fn a_name_is_replaced_only_by_force_and_where_it_stands() {
     let scene = Scene::of(ring());
     let options =
         ImportOptions { cause: Cause::Arm, form: None, size: PhotoScale::PxPerCm(10.0), crop: None, rotate_deg: 0.0 };
-    let other = Import::from_photo(&scene.photograph(), &options).unwrap();
+    let other = ImportedPattern::from_photo(&scene.photograph(), &options).unwrap();
     let force = |share| ImportEntry { share, force: true, ..entry("a") };
     other.save(folder, &force(Some(0.5))).unwrap();
     let first = &PatternLibrary::load(folder).unwrap().patterns[0];

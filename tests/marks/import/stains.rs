@@ -2,7 +2,7 @@
 
 use image::GrayImage;
 use rayon::prelude::*;
-use trodden::patterns::{Cause, Import, ImportOptions, PhotoScale, import_picture};
+use trodden::patterns::{Cause, ImportOptions, ImportedPattern, PhotoScale, import_picture};
 
 use super::photograph::{Scene, blot, built_in, ring, streaks};
 
@@ -25,7 +25,7 @@ fn options(scene: &Scene) -> ImportOptions {
 
 /// Imports a scene; what is wrong with it, in words.
 fn problems(name: &str, case: &str, scene: &Scene, options: &ImportOptions) -> Option<String> {
-    let import = match Import::from_photo(&scene.photograph(), options) {
+    let import = match ImportedPattern::from_photo(&scene.photograph(), options) {
         Ok(import) => import,
         Err(error) => return Some(format!("{name}, {case}: {error}")),
     };
@@ -125,10 +125,10 @@ fn a_turned_photograph_is_turned_back() {
 #[test]
 fn the_length_of_the_stain_gives_the_scale() {
     let scene = Scene::of(built_in("hand_drag_two")).at(17.0).hard();
-    let by_scale = Import::from_photo(&scene.photograph(), &options(&scene)).unwrap();
+    let by_scale = ImportedPattern::from_photo(&scene.photograph(), &options(&scene)).unwrap();
     let length_cm = by_scale.stain_cm[0];
     let by_length = ImportOptions { size: PhotoScale::LengthCm(length_cm), ..options(&scene) };
-    let import = Import::from_photo(&scene.photograph(), &by_length).unwrap();
+    let import = ImportedPattern::from_photo(&scene.photograph(), &by_length).unwrap();
     assert!((import.px_per_cm / 17.0 - 1.0).abs() < 0.06, "{} px/cm", import.px_per_cm);
     assert!((import.stain_cm[0] / length_cm - 1.0).abs() < 0.08, "{:?} for {length_cm}", import.stain_cm);
 }
@@ -146,7 +146,7 @@ fn a_crop_leaves_out_what_is_beside_the_stain() {
     let mut bytes = std::io::Cursor::new(Vec::new());
     picture.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
     let options = ImportOptions { crop: Some([10, 20, width - 20, height - 240]), ..options(&scene) };
-    let import = Import::from_photo(bytes.get_ref(), &options).unwrap();
+    let import = ImportedPattern::from_photo(bytes.get_ref(), &options).unwrap();
     assert!(scene.correlation(&import) >= CORRELATION);
     let picture = import_picture(&import);
     assert!(picture.width() > import.coverage.width() + 300, "{:?}", picture.dimensions());
@@ -156,7 +156,7 @@ fn a_crop_leaves_out_what_is_beside_the_stain() {
 #[test]
 fn the_wall_leaves_nothing() {
     let scene = Scene::of(blot()).at(20.0).hard();
-    let import = Import::from_photo(&scene.photograph(), &options(&scene)).unwrap();
+    let import = ImportedPattern::from_photo(&scene.photograph(), &options(&scene)).unwrap();
     let (width, height) = import.coverage.dimensions();
     for (x, y, value) in import.coverage.enumerate_pixels() {
         if x == 0 || y == 0 || x + 1 == width || y + 1 == height {

@@ -86,7 +86,7 @@ fn step_lengths_m(frames: &[Frame]) -> Vec<f64> {
     .unwrap();
     let walls = Walls::trace(&plan, &WallsOptions::default());
     let people = People::new(1, BodyOptions::default());
-    let library = PatternLibrary::built_in().unwrap();
+    let library = PatternLibrary::built_in();
     let mut lengths: BTreeMap<u32, Vec<f64>> = BTreeMap::new();
     for id in 0..20 {
         let mut footfalls = Footfalls::new(&people, &walls, &library, &MarksOptions::default(), Vec::new()).unwrap();

@@ -1,14 +1,14 @@
-//! The coverage of one print in one window, read from its plate before it is laid down.
+//! The coverage of one print in one window, read from its plate.
 
 use std::ops::Range;
 
 use super::lanes::{LANES, Lanes};
 use super::shadow::Shadow;
-use super::stamper::{Bounds, WINDOW, Window};
+use super::window::{TexelBounds, TexelWindow, WINDOW};
 
-/// Rows of coverage, in step with a window's texels. Made once for a thread and used for all its prints.
+/// Rows of a print's coverage in a window. A buffer that a thread reuses for all its prints.
 #[derive(Debug)]
-pub(crate) struct Sheet {
+pub(crate) struct PrintCoverage {
     spans: Vec<[i32; 2]>,
     coverage: Vec<u8>,
     filled: Vec<FilledRow>,
@@ -22,8 +22,8 @@ struct FilledRow {
     lanes: Range<usize>,
 }
 
-/// A row of coverage, as it is laid down.
-pub(super) struct SheetRow<'a> {
+/// A row of coverage with its position.
+pub(super) struct CoverageRow<'a> {
     /// Row on the whole floor.
     pub(super) j: i64,
     /// First texel and row, counted from the print's origin.
@@ -36,21 +36,25 @@ pub(super) struct SheetRow<'a> {
     pub(super) cells: Range<usize>,
 }
 
-impl Sheet {
-    pub(crate) fn new() -> Sheet {
-        Sheet { spans: vec![[0; 2]; WINDOW], coverage: vec![0; WINDOW * WINDOW], filled: Vec::with_capacity(WINDOW) }
+impl PrintCoverage {
+    pub(crate) fn new() -> PrintCoverage {
+        PrintCoverage {
+            spans: vec![[0; 2]; WINDOW],
+            coverage: vec![0; WINDOW * WINDOW],
+            filled: Vec::with_capacity(WINDOW),
+        }
     }
 
-    /// Reads a print that counts its texels from `origin` where it meets a window.
+    /// Reads the part of a print in a window; the print counts its texels from `origin`.
     ///
-    /// `spans` finds, for rows from the given one on, the texels to read within the given limits; `read` takes a row's
-    /// first texel and the row.
+    /// `spans` finds the texels to read for rows from the given one on, within the given limits; `read` takes the first
+    /// texel of a row and the row.
     #[inline]
     pub(super) fn fill(
         &mut self,
         origin: [i64; 2],
-        bounds: Bounds,
-        window: Window,
+        bounds: TexelBounds,
+        window: TexelWindow,
         spans: impl FnOnce(i32, [i32; 2], &mut [[i32; 2]]),
         read: impl Fn(i32, i32, &mut [u8]),
     ) {
@@ -77,8 +81,8 @@ impl Sheet {
         }
     }
 
-    /// Takes away what lies behind walls.
-    pub(super) fn hide(&mut self, shadow: &Shadow, window: Window) {
+    /// Clears the coverage behind walls.
+    pub(super) fn hide(&mut self, shadow: &Shadow, window: TexelWindow) {
         for FilledRow { row, lanes } in &self.filled {
             let columns = lanes.start * LANES..lanes.end * LANES;
             let square = [window.i0 + columns.start as i64, window.j0 + *row as i64];
@@ -88,13 +92,13 @@ impl Sheet {
 
     /// The rows that were filled.
     #[inline]
-    pub(super) fn rows(&self, origin: [i64; 2], window: Window) -> impl Iterator<Item = SheetRow<'_>> {
+    pub(super) fn rows(&self, origin: [i64; 2], window: TexelWindow) -> impl Iterator<Item = CoverageRow<'_>> {
         self.filled.iter().map(move |FilledRow { row, lanes }| {
             let i = window.i0 + (lanes.start * LANES) as i64;
             let j = window.j0 + *row as i64;
             let (coverage, _) = self.coverage.as_chunks::<LANES>();
             let cells = row * (WINDOW / LANES) + lanes.start..row * (WINDOW / LANES) + lanes.end;
-            SheetRow {
+            CoverageRow {
                 j,
                 di: (i - origin[0]) as i32,
                 dj: (j - origin[1]) as i32,

@@ -1,37 +1,39 @@
-//! The contact sheet: a library on one page, to scale.
+//! The contact sheet: all patterns of a library on one page, to scale.
 
 use image::{GrayImage, Rgb, RgbImage};
 
 use super::{Cause, Pattern, PatternLibrary, font};
 use crate::math;
 
-/// A light floor and a light wall, as sRGB.
+/// Colours of a light floor and a light wall, sRGB.
 const FLOOR: [u8; 3] = [222, 219, 212];
 pub(super) const WALL: [u8; 3] = [231, 228, 219];
 const INK: [u8; 3] = [90, 90, 90];
-/// Width of the page and space around things, pixels (10 px are a centimetre).
+/// Width of the page and gap between patterns, pixels (10 px are 1 cm).
 const PAGE: u32 = 1500;
 pub(super) const GAP: u32 = 30;
-/// Dots of a label are squares of this side.
+/// Side of a dot of a label, pixels.
 const DOT: u32 = 2;
-/// Height of a line of a label.
+/// Height of a line of a label, pixels.
 pub(super) const LINE: u32 = (font::HEIGHT + 3) * DOT;
 
-/// Draws the library at 10 px/cm, each cause under its name: soles as pairs that walk up the page, heel marks along
-/// their drag, and below, on a wall, what is left there, in the colours of skin grime, bags and rubber; each with name,
-/// form, size and share, and a bar of 10 cm.
+/// Draws the contact sheet of a library at 10 px/cm: every pattern with name, size and share.
+///
+/// Soles stand as pairs that walk up the page, heel marks lie along their drag, and wall patterns follow on a wall
+/// colour. Causes have titles; a bar shows 10 cm.
 pub fn contact_sheet(library: &PatternLibrary) -> RgbImage {
-    let mut rows: Vec<Row> = Vec::new();
+    let mut rows: Vec<PatternRow> = Vec::new();
     for cause in Cause::ALL {
-        let cells = library.patterns.iter().filter(|pattern| pattern.cause == cause).map(Cell::new);
+        let cells = library.patterns.iter().filter(|pattern| pattern.cause == cause).map(LabelledPattern::new);
         rows.extend(arrange(cause, cells.collect()));
     }
-    let height = rows.iter().map(Row::total_height).sum::<u32>() + 2 * GAP + LINE;
+    let height = rows.iter().map(PatternRow::total_height).sum::<u32>() + 2 * GAP + LINE;
     let width = rows.iter().map(|row| row.width).fold(PAGE, u32::max);
     let mut page = RgbImage::from_pixel(width, height, Rgb(FLOOR));
     let mut top = GAP;
-    let is_on_wall = |row: &&Row| row.cells.iter().any(|cell| cell.pattern.cause.on_wall().is_some());
-    let wall_top = top + rows.iter().take_while(|row| !is_on_wall(row)).map(Row::total_height).sum::<u32>() - GAP / 2;
+    let is_on_wall = |row: &&PatternRow| row.cells.iter().any(|cell| cell.pattern.cause.on_wall().is_some());
+    let wall_top =
+        top + rows.iter().take_while(|row| !is_on_wall(row)).map(PatternRow::total_height).sum::<u32>() - GAP / 2;
     if rows.iter().any(|row| is_on_wall(&row)) {
         fill(&mut page, [0, wall_top], [width, height - wall_top], WALL);
     }
@@ -53,29 +55,29 @@ pub fn contact_sheet(library: &PatternLibrary) -> RgbImage {
 }
 
 /// One pattern with its label below.
-struct Cell<'a> {
+struct LabelledPattern<'a> {
     pattern: &'a Pattern,
     labels: [String; 2],
     width: u32,
     height: u32,
 }
 
-struct Row<'a> {
-    /// The cause that begins here.
+struct PatternRow<'a> {
+    /// Name of the cause that begins with this row.
     title: Option<&'static str>,
-    cells: Vec<Cell<'a>>,
+    cells: Vec<LabelledPattern<'a>>,
     width: u32,
     height: u32,
 }
 
-impl Row<'_> {
+impl PatternRow<'_> {
     fn total_height(&self) -> u32 {
         self.height + GAP + if self.title.is_some() { LINE + GAP / 2 } else { 0 }
     }
 }
 
-fn arrange(cause: Cause, cells: Vec<Cell>) -> Vec<Row> {
-    let mut rows: Vec<Row> = Vec::new();
+fn arrange(cause: Cause, cells: Vec<LabelledPattern>) -> Vec<PatternRow> {
+    let mut rows: Vec<PatternRow> = Vec::new();
     for cell in cells {
         match rows.last_mut() {
             Some(row) if row.width + cell.width + GAP <= PAGE => {
@@ -85,15 +87,15 @@ fn arrange(cause: Cause, cells: Vec<Cell>) -> Vec<Row> {
             }
             last => {
                 let title = last.is_none().then(|| cause.name());
-                rows.push(Row { title, width: 2 * GAP + cell.width, height: cell.height, cells: vec![cell] });
+                rows.push(PatternRow { title, width: 2 * GAP + cell.width, height: cell.height, cells: vec![cell] });
             }
         }
     }
     rows
 }
 
-impl<'a> Cell<'a> {
-    fn new(pattern: &'a Pattern) -> Cell<'a> {
+impl<'a> LabelledPattern<'a> {
+    fn new(pattern: &'a Pattern) -> LabelledPattern<'a> {
         let share = pattern.share * 100.0;
         let size = format!("{:.1} x {:.1} cm  {share:.0} %", pattern.length_cm, pattern.breadth_cm());
         let name = pattern.name.replace('_', " ");
@@ -103,7 +105,7 @@ impl<'a> Cell<'a> {
             Cause::Sole => (2 * pattern.height_px + GAP, pattern.width_px),
             _ => (pattern.width_px, pattern.height_px),
         };
-        Cell { pattern, labels, width: across.max(text), height: along + GAP / 2 + 2 * LINE }
+        LabelledPattern { pattern, labels, width: across.max(text), height: along + GAP / 2 + 2 * LINE }
     }
 
     fn draw(&self, page: &mut RgbImage, left: u32, top: u32) {
@@ -116,13 +118,13 @@ impl<'a> Cell<'a> {
                         let across = if right_foot { pattern.height_px - 1 - j } else { j };
                         (left + shift + across, top + pattern.width_px - 1 - i)
                     };
-                    lay(page, pattern.width_px, &pattern.coverage, grime(pattern.cause), at);
+                    blend(page, pattern.width_px, &pattern.coverage, grime(pattern.cause), at);
                 }
                 top + pattern.width_px
             }
             _ => {
                 let at = |i: u32, j: u32| (left + i, top + j);
-                lay(page, pattern.width_px, &pattern.coverage, grime(pattern.cause), at);
+                blend(page, pattern.width_px, &pattern.coverage, grime(pattern.cause), at);
                 top + pattern.height_px
             }
         };
@@ -132,8 +134,7 @@ impl<'a> Cell<'a> {
     }
 }
 
-/// The colour of what a cause leaves, sRGB, and its density where it covers fully: a little more than a look has, so
-/// that faint ones show.
+/// Colour (sRGB) and optical density at full coverage of the grime of a cause, a little denser than in a bake.
 fn grime(cause: Cause) -> ([u8; 3], f64) {
     match cause {
         Cause::Sole => ([70, 62, 52], 2.5),
@@ -144,23 +145,23 @@ fn grime(cause: Cause) -> ([u8; 3], f64) {
     }
 }
 
-/// A pattern alone on a wall (or, if a sole or heel leaves it, on a floor).
-pub(super) fn laid(coverage: &GrayImage, cause: Cause) -> RgbImage {
+/// Draws a pattern alone on the floor or the wall that its cause marks.
+pub(super) fn on_ground(coverage: &GrayImage, cause: Cause) -> RgbImage {
     let ground = if cause.on_wall().is_some() { WALL } else { FLOOR };
     let mut picture = RgbImage::from_pixel(coverage.width(), coverage.height(), Rgb(ground));
-    lay(&mut picture, coverage.width(), coverage.as_raw(), grime(cause), |i, j| (i, j));
+    blend(&mut picture, coverage.width(), coverage.as_raw(), grime(cause), |i, j| (i, j));
     picture
 }
 
-/// Lays a pattern on the page; `at` says where its pixel (column, row) goes.
-fn lay(
+/// Blends a pattern into the page; `at` maps its pixel (column, row) to the page.
+fn blend(
     page: &mut RgbImage,
     width_px: u32,
     coverage: &[u8],
     (colour, density): ([u8; 3], f64),
     at: impl Fn(u32, u32) -> (u32, u32),
 ) {
-    // exp(-D) of the ground shows, the rest is grime.
+    // Share exp(-D) of the ground shows; the rest is grime.
     let shows: Vec<f64> = (0..256).map(|cover| math::exp(-density * f64::from(cover) / 255.0)).collect();
     for (place, &coverage) in coverage.iter().enumerate() {
         let (x, y) = at(place as u32 % width_px, place as u32 / width_px);

@@ -1,51 +1,51 @@
-//! How soil comes off a sole: which part shows, how full parts compare with faint ones, where the pair is worn.
+//! The soil coat of a sole: its partial fade, contrast and worn spots.
 
-use super::lanes::{Cell, Lanes};
+use super::lanes::{Lanes, SumCell};
+use super::linear::Linear;
 use super::noise::{NOISE_ONE, NoiseRow};
-use super::print::Linear;
-use super::sheet::SheetRow;
-use super::stamper::WINDOW;
-use super::variation::{SoleVariation, Wear};
+use super::print_coverage::CoverageRow;
+use super::variation::{SoleVariation, WornSpots};
+use super::window::WINDOW;
 
-/// How ragged noise makes the rim of what shows, steps of the fade.
+/// Strength of the noise on the rim of a partial print, steps of the fade.
 const RAGGED: f32 = 0.4;
 
-/// The coat of soil on one sole.
-pub(super) struct Coat {
+/// The soil coat of one sole.
+pub(super) struct SoilCoat {
     along: Linear,
     across: Linear,
     fade: Linear,
     fade_floor: f32,
     contrast: f32,
-    wear: Wear,
+    wear: WornSpots,
 }
 
-impl Coat {
-    /// `sole` gives the place on the sole, in soles along and across.
-    pub(super) fn new(variation: &SoleVariation, wear: u32, [along, across]: [Linear; 2]) -> Coat {
+impl SoilCoat {
+    /// The coat of a print; the last argument gives the position on the sole, in soles along and across.
+    pub(super) fn new(variation: &SoleVariation, wear: u32, [along, across]: [Linear; 2]) -> SoilCoat {
         let fade = variation.fade;
-        Coat {
+        SoilCoat {
             along,
             across,
             fade: along.times(fade.along, fade.at_middle).plus(across.times(fade.across, 0.0)),
             fade_floor: fade.floor,
             contrast: variation.contrast,
-            wear: Wear::new(wear),
+            wear: WornSpots::new(wear),
         }
     }
 
-    /// The same where texels are soles: i counts along, j across.
-    pub(super) fn on_sole(variation: &SoleVariation, wear: u32) -> Coat {
+    /// The coat where texel coordinates are positions on the sole: i along, j across.
+    pub(super) fn on_sole(variation: &SoleVariation, wear: u32) -> SoilCoat {
         let along = Linear { at_origin: 0.0, per_i: 1.0, per_j: 0.0 };
         let across = Linear { at_origin: 0.0, per_i: 0.0, per_j: 1.0 };
-        Coat::new(variation, wear, [along, across])
+        SoilCoat::new(variation, wear, [along, across])
     }
 
-    /// Adds a row of soil to cells: coverage times `unit`, coated, times pressure, times noise. Rounded by dither.
+    /// Adds a row of soil to cells: coated coverage (in `unit`) times pressure times noise, rounded with dither.
     #[inline]
-    pub(super) fn lay<C: Cell>(
+    pub(super) fn add<C: SumCell>(
         &self,
-        row: &SheetRow,
+        row: &CoverageRow,
         unit: f32,
         pressure: Linear,
         noise: NoiseRow,
@@ -73,7 +73,7 @@ impl Coat {
         }
     }
 
-    /// What is left of coverage at a place on the sole, where the fade has come so far.
+    /// Coverage after contrast, fade and wear at a position on the sole; `progress` is that of the fade.
     #[inline]
     fn coated(&self, coverage: f32, along: f32, across: f32, progress: f32) -> f32 {
         let contrasted = coverage + coverage * self.contrast * (coverage - 1.0);
@@ -81,14 +81,14 @@ impl Coat {
         contrasted * shown * self.wear.left(along, across)
     }
 
-    /// The same at a place given in soles, for a coat made by [`Coat::on_sole`]; without noise.
+    /// Coated coverage without noise at a position in soles, for a coat from [`SoilCoat::on_sole`].
     pub(super) fn coated_at(&self, coverage: f32, along: f32, across: f32) -> f32 {
         let progress = self.fade.at_origin + self.fade.per_i * along + self.fade.per_j * across;
         self.coated(coverage, along, across, progress)
     }
 }
 
-/// From 0 at 0 to 1 at 1, level at both.
+/// Smooth step from 0 at 0 to 1 at 1, with zero slope at both ends.
 #[inline]
 pub(super) fn smooth_step(x: f32) -> f32 {
     let x = x.clamp(0.0, 1.0);

@@ -1,14 +1,14 @@
-//! Pictures in floating point: what a pattern goes through before it becomes a plate.
+//! Floating-point images of patterns: reduction, padding and Gaussian blur.
 
 use crate::math::exp;
 use crate::patterns::Pattern;
 
-/// Where filters are cut off, deviations.
+/// Truncation of filters, standard deviations.
 pub(super) const FILTER_REACH: f64 = 2.5;
 
-/// A picture in floating point with square pixels.
+/// A floating-point image with square pixels.
 #[derive(Clone, Debug)]
-pub(super) struct Picture {
+pub(super) struct FloatImage {
     pub(super) width: usize,
     pub(super) height: usize,
     /// Side of a pixel, metres.
@@ -16,15 +16,15 @@ pub(super) struct Picture {
     pub(super) values: Vec<f32>,
 }
 
-impl Picture {
-    pub(super) fn of(pattern: &Pattern) -> Picture {
+impl FloatImage {
+    pub(super) fn of(pattern: &Pattern) -> FloatImage {
         let (width, height) = (pattern.width_px as usize, pattern.height_px as usize);
         let mut values: Vec<f32> = pattern.coverage.iter().map(|&c| f32::from(c)).collect();
         values.resize(width * height, 0.0);
-        Picture { width, height, pixel_m: pattern.length_cm / 100.0 / width.max(1) as f64, values }
+        FloatImage { width, height, pixel_m: pattern.length_cm / 100.0 / width.max(1) as f64, values }
     }
 
-    /// Value between pixels, whose middles lie at halves; 0 beyond.
+    /// Bilinear sample; pixel centres lie at halves; 0 beyond the image.
     pub(super) fn at(&self, x: f64, y: f64) -> f32 {
         let (x, y) = (x - 0.5, y - 0.5);
         let (column, row) = (x.floor(), y.floor());
@@ -39,11 +39,11 @@ impl Picture {
         lower * (1.0 - fy) + upper * fy
     }
 
-    /// Means over squares of pixels, as large as a blur that follows leaves no trace of.
-    pub(super) fn reduced_for(&self, deviation_m: f64) -> Picture {
+    /// Reduces to means over squares of pixels that the blur which follows hides.
+    pub(super) fn reduced_for(&self, deviation_m: f64) -> FloatImage {
         let factor = ((deviation_m / self.pixel_m / 2.0) as usize).max(1);
         let (width, height) = (self.width.div_ceil(factor), self.height.div_ceil(factor));
-        // The middle stays the middle: what is missing to whole squares is split evenly.
+        // Padding to whole squares is split evenly, so that the middle stays.
         let (left, top) = ((width * factor - self.width) / 2, (height * factor - self.height) / 2);
         let mut values = vec![0.0; width * height];
         for (row, line) in self.values.chunks_exact(self.width.max(1)).enumerate() {
@@ -51,25 +51,25 @@ impl Picture {
                 values[(row + top) / factor * width + (column + left) / factor] += value / (factor * factor) as f32;
             }
         }
-        Picture { width, height, pixel_m: self.pixel_m * factor as f64, values }
+        FloatImage { width, height, pixel_m: self.pixel_m * factor as f64, values }
     }
 
-    pub(super) fn padded(&self, margin: usize) -> Picture {
+    pub(super) fn padded(&self, margin: usize) -> FloatImage {
         let (width, height) = (self.width + 2 * margin, self.height + 2 * margin);
         let mut values = vec![0.0; width * height];
         for (row, line) in self.values.chunks_exact(self.width.max(1)).enumerate() {
             let start = (row + margin) * width + margin;
             values[start..start + self.width].copy_from_slice(line);
         }
-        Picture { width, height, pixel_m: self.pixel_m, values }
+        FloatImage { width, height, pixel_m: self.pixel_m, values }
     }
 
-    /// Gaussian blur of a picture whose margin is as wide as the filter.
+    /// Gaussian blur of an image whose margin is as wide as the filter; the deviation is in pixels.
     pub(super) fn blur(&mut self, deviation: f64) {
         self.blur_axes([deviation; 2]);
     }
 
-    /// The same with a deviation along the rows and another along the columns, pixels.
+    /// Gaussian blur with a standard deviation along rows and one along columns, pixels.
     pub(super) fn blur_axes(&mut self, deviations: [f64; 2]) {
         let (width, height) = (self.width, self.height);
         let kernel = gaussian(deviations[0]);
@@ -96,7 +96,7 @@ impl Picture {
         }
     }
 
-    /// Integral of the coverage in square metres, and its middle in shares of length and width from the centre.
+    /// Integral of the coverage, square metres, and its centroid in shares of length and width from the centre.
     pub(super) fn mass_and_centroid(&self) -> (f64, [f64; 2]) {
         let (mut mass, mut x_sum, mut y_sum) = (0.0, 0.0, 0.0);
         for (row, line) in self.values.chunks_exact(self.width.max(1)).enumerate() {
@@ -115,7 +115,7 @@ impl Picture {
     }
 }
 
-/// Half a Gaussian from its middle on, that sums up to 1 with its other half.
+/// Right half of a Gaussian kernel with sum 1.
 fn gaussian(deviation: f64) -> Vec<f32> {
     let radius = (FILTER_REACH * deviation).ceil() as usize;
     let weight = |k: usize| exp(-0.5 * (k * k) as f64 / (deviation * deviation).max(1e-12));

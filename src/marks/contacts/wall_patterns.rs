@@ -1,43 +1,41 @@
-//! The patterns of a library that walls take.
+//! The wall patterns of a library, by cause and form.
 
 use crate::patterns::{Cause, Form, Pattern, PatternLibrary};
 
-/// Patterns of one cause and, maybe, one form.
+/// Candidates of one cause and, optionally, one form.
 #[derive(Default)]
-struct Choices {
+struct PatternChoices {
     cause: Option<(Cause, Option<Form>)>,
-    patterns: Vec<Chosen>,
+    patterns: Vec<SizedPattern>,
     total: f64,
 }
 
-/// A pattern in its natural size.
+/// A pattern with its natural size.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Chosen {
-    /// Its place in the library.
+pub(super) struct SizedPattern {
+    /// Index in the library.
     pub pattern: u16,
     pub length_m: f64,
     pub breadth_m: f64,
     share: f64,
 }
 
-/// All patterns for walls, ready to be chosen from.
-pub(super) struct Stains {
-    lists: Vec<Choices>,
+/// The wall patterns of a library, for random choice.
+pub(super) struct WallPatterns {
+    lists: Vec<PatternChoices>,
 }
 
-const FORMS: [Form; 6] = [Form::Palm, Form::Drag, Form::Fingertips, Form::Toe, Form::HeelLine, Form::Sole];
-
-impl Stains {
-    pub fn new(library: &PatternLibrary) -> Stains {
+impl WallPatterns {
+    pub fn new(library: &PatternLibrary) -> WallPatterns {
         let wanted = Cause::WALL
             .into_iter()
-            .flat_map(|cause| FORMS.into_iter().map(Some).chain([None]).map(move |form| (cause, form)));
+            .flat_map(|cause| Form::ALL.into_iter().map(Some).chain([None]).map(move |form| (cause, form)));
         let list = |(cause, form): (Cause, Option<Form>)| {
             let counts = |pattern: &Pattern| pattern.cause == cause && (form.is_none() || pattern.form == form);
-            let patterns: Vec<Chosen> = (library.patterns.iter().enumerate())
+            let patterns: Vec<SizedPattern> = (library.patterns.iter().enumerate())
                 .filter(|(_, pattern)| counts(pattern))
                 .filter_map(|(place, pattern)| {
-                    Some(Chosen {
+                    Some(SizedPattern {
                         pattern: u16::try_from(place).ok()?,
                         length_m: pattern.length_cm / 100.0,
                         breadth_m: pattern.breadth_cm() / 100.0,
@@ -46,19 +44,20 @@ impl Stains {
                 })
                 .collect();
             let total = patterns.iter().map(|chosen| chosen.share).sum();
-            Choices { cause: Some((cause, form)), patterns, total }
+            PatternChoices { cause: Some((cause, form)), patterns, total }
         };
-        Stains { lists: wanted.map(list).filter(|list| !list.patterns.is_empty()).collect() }
+        WallPatterns { lists: wanted.map(list).filter(|list| !list.patterns.is_empty()).collect() }
     }
 
-    /// Whether no wall takes any of them.
+    /// Whether the library has no wall pattern.
     pub fn is_empty(&self) -> bool {
         self.lists.is_empty()
     }
 
-    /// Chooses by share: `draw` is uniform in `[0, 1)`. Where none has the form, all of the cause count; `None` if there is
-    /// none of the cause.
-    pub fn choose(&self, cause: Cause, form: Option<Form>, draw: f64) -> Option<Chosen> {
+    /// Chooses a pattern by share; `draw` is uniform in `[0, 1)`.
+    ///
+    /// Falls back to all patterns of the cause where none has the form; `None` without a pattern of the cause.
+    pub fn choose(&self, cause: Cause, form: Option<Form>, draw: f64) -> Option<SizedPattern> {
         let of = |form: Option<Form>| self.lists.iter().find(|list| list.cause == Some((cause, form)));
         let list = of(form).or_else(|| of(None))?;
         let mut left = draw * list.total;

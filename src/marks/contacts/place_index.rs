@@ -1,4 +1,4 @@
-//! Finds the places that are near somebody.
+//! A spatial index of doors, corners and fixtures.
 
 use std::ops::RangeInclusive;
 
@@ -7,46 +7,44 @@ use crate::walls::Walls;
 
 use super::places::{ContactPlaces, direction_at};
 
-/// Nothing farther from the middle of the body is touched, metres.
-pub(super) const NEAR_M: f64 = 1.2;
 /// Side of a cell, metres.
 const CELL_M: f64 = 2.0;
-/// Most cells that one place is entered in, each way: wider ones would not fit the memory.
+/// Limit on the cells of one place along each axis; bounds the memory.
 const MOST_CELLS: i32 = 64;
 
-/// The numbers of doors, corners and fixtures by where they are.
-pub(super) struct Nearby {
-    pub doors: Cells,
-    pub corners: Cells,
-    pub fixtures: Cells,
+/// The spatial index of a plan's contact places.
+pub(super) struct PlaceIndex {
+    pub doors: PlaceCells,
+    pub corners: PlaceCells,
+    pub fixtures: PlaceCells,
     /// Both ends of each fixture on its wall, metres.
     pub ends_m: Vec<[Vec2; 2]>,
 }
 
-/// Numbers of places by cell: `(row, column, number)`, ascending.
-pub(super) struct Cells {
+/// Places by grid cell: `(row, column, index of the place)`, ascending.
+pub(super) struct PlaceCells {
     entries: Vec<(i32, i32, u32)>,
 }
 
-impl Nearby {
-    pub fn new(walls: &Walls, places: &ContactPlaces) -> Nearby {
+impl PlaceIndex {
+    pub fn new(walls: &Walls, places: &ContactPlaces) -> PlaceIndex {
         let ends = |k: usize| {
             let fixture = &places.fixtures()[k];
             let half = direction_at(walls, fixture.face, fixture.along_m) * (0.5 * fixture.width_m);
             [fixture.point_m - half, fixture.point_m + half]
         };
         let ends_m: Vec<[Vec2; 2]> = (0..places.fixtures().len()).map(ends).collect();
-        Nearby {
-            doors: Cells::new(places.doors().iter().map(|door| door.doorway.jambs_m)),
-            corners: Cells::new(places.corners().iter().map(|corner| [corner.point_m; 2])),
-            fixtures: Cells::new(ends_m.iter().copied()),
+        PlaceIndex {
+            doors: PlaceCells::new(places.doors().iter().map(|door| door.doorway.jambs_m)),
+            corners: PlaceCells::new(places.corners().iter().map(|corner| [corner.point_m; 2])),
+            fixtures: PlaceCells::new(ends_m.iter().copied()),
             ends_m,
         }
     }
 }
 
-impl Cells {
-    fn new(spans: impl Iterator<Item = [Vec2; 2]>) -> Cells {
+impl PlaceCells {
+    fn new(spans: impl Iterator<Item = [Vec2; 2]>) -> PlaceCells {
         let mut entries = Vec::new();
         for ([a, b], number) in spans.zip(0u32..) {
             let (rows, columns) = cells_of(Rect::around(a, b));
@@ -55,10 +53,10 @@ impl Cells {
             }
         }
         entries.sort_unstable();
-        Cells { entries }
+        PlaceCells { entries }
     }
 
-    /// Lists what may lie within so many metres of a place, each once, ascending.
+    /// Lists the indices of places that may lie within a distance of a point, each once, ascending.
     pub fn around(&self, at_m: Vec2, within_m: f64, out: &mut Vec<u32>) {
         out.clear();
         if self.entries.is_empty() {
@@ -76,7 +74,7 @@ impl Cells {
 }
 
 fn cells_of(area: Rect) -> (RangeInclusive<i32>, RangeInclusive<i32>) {
-    // Casting stops at the largest number, so that nothing overflows far outside.
+    // Casting saturates, so that points far outside do not overflow.
     let cell = |metres: f64| (metres / CELL_M).floor() as i32;
     (cell(area.min.y)..=cell(area.max.y), cell(area.min.x)..=cell(area.max.x))
 }
@@ -88,7 +86,7 @@ pub(super) fn closest_on([a, b]: [Vec2; 2], p: Vec2) -> Vec2 {
     if squared <= 0.0 { a } else { a + along * ((p - a).dot(along) / squared).clamp(0.0, 1.0) }
 }
 
-/// Where the way from one place to another crosses a segment.
+/// The point where a path from one point to another crosses a segment.
 pub(super) fn crossing(from: Vec2, to: Vec2, [a, b]: [Vec2; 2]) -> Option<Vec2> {
     let (way, across) = (to - from, b - a);
     let turn = way.cross(across);
@@ -97,7 +95,7 @@ pub(super) fn crossing(from: Vec2, to: Vec2, [a, b]: [Vec2; 2]) -> Option<Vec2> 
     }
     let share = (a - from).cross(across) / turn;
     let along = (a - from).cross(way) / turn;
-    // A step that ends on the line crosses it once: here, not with the next step.
+    // A path that ends on the segment crosses it here, not with the next step.
     let crosses = share > 0.0 && share <= 1.0 && (0.0..=1.0).contains(&along);
     crosses.then(|| from + vec2(way.x * share, way.y * share))
 }

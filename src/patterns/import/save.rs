@@ -9,41 +9,43 @@ use image::ImageFormat;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::super::folder::{LISTING, listing_text};
-use super::super::{Cause, Form, PatternsError, listing};
-use super::{Import, ImportError};
+use super::{ImportError, ImportedPattern};
 use crate::files::WholeFile;
+use crate::patterns::folder::listing_text;
+use crate::patterns::listing::{self, LISTING};
+use crate::patterns::{Cause, Form, PatternsError};
 
-/// Longest name of a pattern.
+/// Limit on the length of a pattern's name, characters.
 const LONGEST_NAME: usize = 60;
 
-/// How an imported pattern is to be listed.
+/// The entry of an imported pattern in `patterns.toml`.
 #[derive(Clone, Debug)]
 pub struct ImportEntry {
-    /// Name of its image without ending: letters, digits, `-` and `_`.
+    /// Name of the image without extension: letters, digits, `-` and `_`.
     pub name: String,
-    /// How often it occurs among those of its cause; `None` is as often as the others on average, or as it was.
+    /// Share among the patterns of its cause, above 0; `None` for the mean of the others, or the share of a replaced
+    /// entry.
     pub share: Option<f64>,
-    /// What it is, in words.
+    /// Description in words.
     pub description: String,
-    /// Whether a pattern of this name is replaced. Its entry keeps its place, its comments and its description.
+    /// Whether to replace a pattern of this name. Its entry keeps its place, comments and description.
     pub force: bool,
 }
 
-/// What was written.
+/// Files and share written by [`ImportedPattern::save`].
 #[derive(Clone, Debug)]
-pub struct Listed {
-    /// The image.
+pub struct SavedPattern {
+    /// Path of the image.
     pub image: PathBuf,
-    /// The list.
+    /// Path of the listing.
     pub listing: PathBuf,
-    /// The share that was written.
+    /// Share in the listing.
     pub share: f64,
-    /// How many patterns of the cause the folder lists now.
+    /// Number of patterns of the cause in the listing.
     pub of_cause: usize,
 }
 
-/// A pattern's name made of that of a photograph: `IMG 2031.jpeg` becomes `img_2031`.
+/// Derives a pattern's name from a photograph's: `IMG 2031.jpeg` becomes `img_2031`.
 pub fn name_of_photo(photo: &Path) -> String {
     let stem = photo.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()).unwrap_or_default();
     let name: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' }).collect();
@@ -51,14 +53,15 @@ pub fn name_of_photo(photo: &Path) -> String {
     if name.is_empty() { "stain".to_owned() } else { name }
 }
 
-impl Import {
-    /// Writes the image and lists it; makes the folder and its `patterns.toml` if there are none. What the list says
-    /// otherwise stays as it is, comments and all.
+impl ImportedPattern {
+    /// Writes the image into a folder and adds it to the folder's `patterns.toml`.
+    ///
+    /// Creates both if missing. The rest of the listing, with its comments, stays unchanged.
     ///
     /// # Errors
-    /// A name that is none, or that the folder has already, unless `force` is set; a share out of range; a
-    /// `patterns.toml` that is wrong; no right to write.
-    pub fn save(&self, folder: &Path, entry: &ImportEntry) -> Result<Listed, PatternsError> {
+    /// The name is invalid, or already listed and `force` is not set; the share is out of range; the `patterns.toml`
+    /// is invalid; a file cannot be written.
+    pub fn save(&self, folder: &Path, entry: &ImportEntry) -> Result<SavedPattern, PatternsError> {
         check_name(&entry.name)?;
         if let Some(share) = entry.share.filter(|share| !(*share > 0.0 && *share <= 1e6)) {
             return Err(ImportError::Share { share }.into());
@@ -74,17 +77,17 @@ impl Import {
         self.coverage
             .write_to(&mut png, ImageFormat::Png)
             .map_err(|error| ImportError::Unreadable { reason: error.to_string() })?;
-        // Both are ready before either appears.
+        // Both files are complete before either gets its name.
         let image_path = folder.join(format!("{}.png", entry.name));
         let image = written(&image_path, png.get_ref(), entry.force)?;
         let list = written(&file, text.as_bytes(), !is_new)?;
         image.publish().map_err(ImportError::from)?;
         list.publish().map_err(ImportError::from)?;
         let of_cause = entries.iter().filter(|entry| entry.cause == self.cause).count();
-        Ok(Listed { image: image_path, listing: file, share, of_cause })
+        Ok(SavedPattern { image: image_path, listing: file, share, of_cause })
     }
 
-    /// The text of the listing with this pattern in it, and its share.
+    /// Returns the text of the listing with this pattern in it, and its share.
     fn listed(
         &self,
         text: String,
@@ -97,8 +100,8 @@ impl Import {
             let share = entry.share.unwrap_or(1.0);
             return Ok((text + &self.table(&image, share, &entry.description), share));
         }
-        // A list that lists nothing yet, as an editor leaves it, is as good as none.
-        let raw: RawListing = toml::from_str(&text).unwrap_or_default();
+        // A listing without patterns is extended like a missing one.
+        let raw: KeptListing = toml::from_str(&text).unwrap_or_default();
         if !raw.pattern.is_empty() {
             listing::parse(&text, file)?;
         }
@@ -112,7 +115,7 @@ impl Import {
         let shares = raw.pattern.iter().filter(|there| *there.cause.get_ref() == self.cause);
         let shares: Vec<f64> = shares.map(|there| *there.share.get_ref()).collect();
         let mean = if shares.is_empty() { 1.0 } else { shares.iter().sum::<f64>() / shares.len() as f64 };
-        // What is written is read again: no more digits than a person would write.
+        // Four digits, as a person would write.
         let share = entry.share.unwrap_or((mean * 1e4).round().max(1.0) / 1e4);
         let gap = if text.is_empty() || text.ends_with("\n\n") {
             ""
@@ -137,8 +140,8 @@ impl Import {
         )
     }
 
-    /// The entry's values changed where they stand.
-    fn replaced(&self, text: String, there: &RawEntry, share: f64) -> String {
+    /// Replaces the values of an entry in the text.
+    fn replaced(&self, text: String, there: &KeptEntry, share: f64) -> String {
         let mut edits: Vec<(Range<usize>, String)> = vec![
             (there.cause.span(), format!("\"{}\"", self.cause.name())),
             (there.length_cm.span(), format!("{:.1}", self.length_cm())),
@@ -155,7 +158,7 @@ impl Import {
             }
             _ => {}
         }
-        // From the back, so that what comes before stays where it is.
+        // From the back, so that earlier spans stay valid.
         edits.sort_by_key(|(span, _)| std::cmp::Reverse((span.start, span.end)));
         let mut text = text;
         for (span, value) in edits {
@@ -165,7 +168,7 @@ impl Import {
     }
 }
 
-/// The whole line in which a value stands.
+/// Byte range of the line that holds a value.
 fn line_of(text: &str, span: &Range<usize>) -> Range<usize> {
     let start = text[..span.start].rfind('\n').map_or(0, |newline| newline + 1);
     let end = text[span.end..].find('\n').map_or(text.len(), |newline| span.end + newline + 1);
@@ -180,13 +183,14 @@ fn check_name(name: &str) -> Result<(), ImportError> {
     }
 }
 
-/// A file that is complete but does not have its name yet.
+/// Writes a complete file that does not have its name yet.
 fn written(path: &Path, bytes: &[u8], force: bool) -> Result<WholeFile, ImportError> {
     let file = WholeFile::begin(path, force)?;
     file.write(bytes)?;
     Ok(file)
 }
 
+/// Start of a listing created by an import.
 const NEW_LISTING: &str = "\
 # Patterns: images of single stains, white where they leave soil, 10 px/cm. `trodden patterns` with this folder checks and
 # draws them; [patterns] folder in a scenario uses them. Causes that are not listed here are those of the built-in library.
@@ -194,13 +198,13 @@ const NEW_LISTING: &str = "\
 ";
 
 #[derive(Default, Deserialize)]
-struct RawListing {
+struct KeptListing {
     #[serde(default)]
-    pattern: Vec<RawEntry>,
+    pattern: Vec<KeptEntry>,
 }
 
 #[derive(Deserialize)]
-struct RawEntry {
+struct KeptEntry {
     file: Spanned<String>,
     cause: Spanned<Cause>,
     form: Option<Spanned<Form>>,
