@@ -5,8 +5,8 @@ use super::image::RepeatedImage;
 use super::lattice::Window;
 use super::material::Material;
 use super::noise::{self, Channel, Noise, NoiseField};
-use super::settings::{FloorLook, Srgb8};
-use super::tone;
+use super::settings::FloorLook;
+use crate::math::srgb::{self, Srgb8};
 
 /// The clean floor of one look.
 pub(super) struct Ground {
@@ -51,8 +51,8 @@ impl Ground {
             return Ok(Ground { base, surface: Surface::Image(Box::new(image)), joint: None });
         }
         let texture = Texture::of(floor, seed);
-        let joint = texture.pieces.as_ref().map(|_| tone::linear_rgb(joint_colour(floor.material)));
-        Ok(Ground { base: tone::linear_rgb(colour), surface: Surface::Texture(texture), joint })
+        let joint = texture.pieces.as_ref().map(|_| srgb::light_of(joint_colour(floor.material)));
+        Ok(Ground { base: srgb::light_of(colour), surface: Surface::Texture(texture), joint })
     }
 
     /// Mean colour of the clean floor, linear.

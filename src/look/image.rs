@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::error::LookError;
-use super::tone;
+use crate::math::srgb;
 
 /// Pixels kept per texel and axis: more would only cost memory, since a texel shows their mean.
 const PIXELS_PER_TEXEL: f64 = 3.0;
@@ -38,8 +38,7 @@ impl RepeatedImage {
         if width == 0 || height == 0 {
             return Err(wrong("it has no pixels".to_string()));
         }
-        let table: Vec<f32> = (0..=255u8).map(|value| tone::linear(f32::from(value))).collect();
-        let pixels: Vec<[f32; 3]> = image.pixels().map(|p| p.0.map(|c| table[usize::from(c)])).collect();
+        let pixels: Vec<[f32; 3]> = image.pixels().map(|p| srgb::light_of(p.0)).collect();
         Ok(RepeatedImage::new(&pixels, [width, height], size_m, texels_per_metre))
     }
 

@@ -15,6 +15,7 @@
 mod block;
 mod bytes;
 mod coarse;
+mod colours;
 mod dust;
 mod error;
 mod face;
@@ -24,31 +25,28 @@ mod image;
 mod lattice;
 mod material;
 mod noise;
+mod octaves;
 mod padding;
 mod paint;
 mod planes;
 mod presets;
+mod ranges;
 mod resolve;
 mod settings;
 mod shade;
 mod skirting;
-mod tone;
 mod traffic;
 mod wall;
 
 #[cfg(test)]
 mod tests;
 
+pub use crate::math::srgb::Srgb8;
 pub use block::{Background, Layer, ResolvedBlock};
 pub use error::{LookError, Place, RangeError};
 pub use material::Material;
+pub use octaves::{NoiseLook, Octave};
 pub use presets::LOOK_PRESETS;
 pub use resolve::{FloorResolver, LAYERS};
-pub use settings::{
-    DustLook, EdgeLook, FilmLook, FloorLook, IngrainedLook, Look, NoiseLook, Octave, PrintsLook, RUBBER, SOIL_DRY,
-    SOIL_WET, ScuffsLook, Srgb8,
-};
-pub use wall::{
-    BAG, CLOTH, SKIN, SkirtingLook, SplashLook, StainLook, WALL_LAYERS, WallDustLook, WallLook, WallMaterial,
-    WallResolver,
-};
+pub use settings::{DustLook, EdgeLook, FilmLook, FloorLook, IngrainedLook, Look, PrintsLook, ScuffsLook};
+pub use wall::{SkirtingLook, SplashLook, StainLook, WALL_LAYERS, WallDustLook, WallLook, WallMaterial, WallResolver};

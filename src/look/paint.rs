@@ -1,17 +1,23 @@
-//! Paints the texels of a window: lays everything out over it, then works through it row by row.
+//! Shades the texels of a window of the floor, row by row.
 
 use std::cell::RefCell;
 
-use super::block::ResolvedBlock;
+use super::block::{Background, ResolvedBlock};
 use super::bytes::Bytes;
 use super::dust;
-use super::ground::GroundWindow;
+use super::error::LookError;
+use super::ground::{Ground, GroundWindow};
 use super::lattice::{Lattice, Window};
-use super::noise::NoiseField;
-use super::resolve::FloorResolver;
-use super::shade::{Known, Shaded};
+use super::material::Properties;
+use super::noise::{self, Channel, Noise, NoiseField};
+use super::octaves::{NoiseLook, Octave};
+use super::settings::Look;
+use super::shade::{Known, Law, Shaded};
+use super::skirting::Skirting;
 use super::traffic::{self, Traffic};
-use crate::sums::Quantity;
+use crate::math::srgb;
+use crate::sums::{FloorSums, Quantity};
+use crate::walls::Walls;
 
 /// Buffers that a thread uses again from window to window: touching fresh memory costs as much as painting.
 #[derive(Default)]
@@ -45,29 +51,97 @@ struct Run {
     len: usize,
 }
 
-/// Paints the texels of a window, all of them or at least those that are `wanted`. `block` has the window's size.
-pub(super) fn paint(resolver: &FloorResolver<'_>, window: Window, wanted: Option<&[bool]>, block: &mut ResolvedBlock) {
-    BUFFERS.with_borrow_mut(|buffers| {
-        let FloorResolver { sums, walls, look, .. } = resolver;
+/// A floor with its sums and the look that turns them into texels.
+pub(super) struct FloorPainter<'a> {
+    pub sums: &'a FloorSums,
+    pub walls: &'a Walls,
+    pub background: Background,
+    look: Look,
+    properties: Properties,
+    ground: Ground,
+    skirting: Skirting<'a>,
+    /// Unevenness of film and dust.
+    noise: Vec<Noise>,
+    spread_m: f64,
+    law: Law,
+    dither: u32,
+}
+
+impl<'a> FloorPainter<'a> {
+    pub fn new(
+        sums: &'a FloorSums,
+        walls: &'a Walls,
+        look: &Look,
+        simulated_people: u32,
+    ) -> Result<FloorPainter<'a>, LookError> {
+        let texels_per_metre = sums.grid().texels_per_metre;
+        let mut properties = look.floor.material.properties();
+        let [clean, trodden] = &mut properties.roughness;
+        *clean = look.floor.roughness.unwrap_or(*clean);
+        *trodden = look.floor.roughness_trodden.unwrap_or(*trodden);
+        let ground = Ground::new(&look.floor, look.seed, texels_per_metre)?;
+        let noise = film_noise(look);
+        Ok(FloorPainter {
+            sums,
+            walls,
+            law: Law::new(look, &properties, simulated_people, &noise, texels_per_metre),
+            noise,
+            spread_m: look.film.spread_m.max(properties.least_spread_m),
+            background: Background {
+                base_color: ground.mean().map(|light| srgb::encode_f32(light).round() as u8),
+                mask: [0; 4],
+                orm: [255, (255.0 * properties.roughness[0]).round() as u8, 0],
+            },
+            dither: noise::key(look.seed, Channel::Dither),
+            skirting: Skirting::new(walls, look.edge.clone(), look.seed),
+            look: look.clone(),
+            properties,
+            ground,
+        })
+    }
+
+    /// Shades the texels of a window, all of them or at least those that are `wanted`, into a block of its size.
+    pub fn paint(&self, window: Window, wanted: Option<&[bool]>, block: &mut ResolvedBlock) {
+        BUFFERS.with_borrow_mut(|buffers| self.paint_with(buffers, window, wanted, block));
+    }
+
+    fn paint_with(&self, buffers: &mut Buffers, window: Window, wanted: Option<&[bool]>, block: &mut ResolvedBlock) {
         let mut layout = Layout {
-            traffic: Traffic::over(&window, sums, walls, resolver.spread_m),
-            noise: resolver.noise.iter().map(|noise| noise.over(&window)).collect(),
-            ground: resolver.ground.over(&window),
-            dust: dust::over(&window, walls, &look.dust),
+            traffic: Traffic::over(&window, self.sums, self.walls, self.spread_m),
+            noise: self.noise.iter().map(|noise| noise.over(&window)).collect(),
+            ground: self.ground.over(&window),
+            dust: dust::over(&window, self.walls, &self.look.dust),
         };
-        resolver.skirting.lay_out(&window, wanted, &mut buffers.edge);
-        traffic::read(sums, Quantity::Passes, &window, &mut buffers.passes);
-        traffic::read(sums, Quantity::Soil, &window, &mut buffers.soil);
-        traffic::read(sums, Quantity::Scuff, &window, &mut buffers.scuff);
+        self.skirting.lay_out(&window, wanted, &mut buffers.edge);
+        traffic::read(self.sums, Quantity::Passes, &window, &mut buffers.passes);
+        traffic::read(self.sums, Quantity::Soil, &window, &mut buffers.soil);
+        traffic::read(self.sums, Quantity::Scuff, &window, &mut buffers.scuff);
         for row in 0..window.height {
             let Some((start, len)) = run_of(row, &window, wanted) else { continue };
             let run = Run { row, start, len };
             layout.begin_row(row);
-            layout.gather(resolver, &window, run, buffers);
-            resolver.law.shade(&buffers.known, resolver.ground.joint, &mut buffers.shaded);
-            write(resolver, &window, run, buffers, block);
+            layout.gather(self, &window, run, buffers);
+            self.law.shade(&buffers.known, self.ground.joint, &mut buffers.shaded);
+            write(self.dither, &window, run, buffers, block);
         }
-    });
+    }
+}
+
+/// The noises that add up to the look's three octaves. Clouds and blotches have detail of their own: a third of their
+/// variance is in spots 0.4 times as large.
+fn film_noise(look: &Look) -> Vec<Noise> {
+    let noise = |channel, octave: Octave, size: f64, variance: f32| {
+        Noise::new(look.seed, channel, [size * octave.size_m; 2], variance.sqrt() * octave.sd)
+    };
+    let NoiseLook { fine, middle, coarse } = look.noise;
+    let all = [
+        noise(Channel::Fine, fine, 1.0, 1.0),
+        noise(Channel::Middle, middle, 1.0, 2.0 / 3.0),
+        noise(Channel::MiddleDetail, middle, 0.4, 1.0 / 3.0),
+        noise(Channel::Coarse, coarse, 1.0, 2.0 / 3.0),
+        noise(Channel::CoarseDetail, coarse, 0.4, 1.0 / 3.0),
+    ];
+    all.into_iter().filter(|noise| !noise.is_flat()).collect()
 }
 
 /// From the first to the last texel of a row that is wanted.
@@ -92,8 +166,8 @@ impl Layout<'_> {
     }
 
     /// Everything that the law needs to know of a run of the row last begun.
-    fn gather(&self, resolver: &FloorResolver<'_>, window: &Window, run: Run, buffers: &mut Buffers) {
-        let FloorResolver { look, properties, .. } = resolver;
+    fn gather(&self, painter: &FloorPainter<'_>, window: &Window, run: Run, buffers: &mut Buffers) {
+        let FloorPainter { look, properties, .. } = painter;
         let Buffers { edge, passes, soil, scuff, known, row, .. } = buffers;
         known.clear(run.len);
         let from = run.row * window.width + run.start;
@@ -121,7 +195,7 @@ impl Layout<'_> {
     }
 }
 
-fn write(resolver: &FloorResolver<'_>, window: &Window, run: Run, buffers: &mut Buffers, block: &mut ResolvedBlock) {
+fn write(dither: u32, window: &Window, run: Run, buffers: &mut Buffers, block: &mut ResolvedBlock) {
     let Buffers { known, shaded, .. } = buffers;
     let from = run.row * window.width + run.start;
     let texels = from..from + run.len;
@@ -131,7 +205,7 @@ fn write(resolver: &FloorResolver<'_>, window: &Window, run: Run, buffers: &mut 
         mask: &mut block.mask[texels.clone()],
         orm: &mut block.orm[texels.clone()],
     };
-    shaded.write(resolver.dither, i, j, &mut bytes);
+    shaded.write(dither, i, j, &mut bytes);
     let planes = [&known.passes, &known.presence, &shaded.film, &shaded.soil, &known.scuff, &known.edge, &shaded.dust];
     for (layer, plane) in block.layers.iter_mut().zip(planes) {
         layer.values[texels.clone()].copy_from_slice(plane);

@@ -8,8 +8,7 @@ use super::material::Properties;
 use super::noise::Noise;
 use super::planes::{add2, each1, each2, each3};
 use super::settings::Look;
-use super::tone;
-use crate::math::exp_f32;
+use crate::math::{exp_f32, srgb};
 
 /// Roughness of loose dirt.
 const DIRT_ROUGHNESS: f32 = 0.8;
@@ -115,12 +114,12 @@ impl Law {
             mean_log: noise.iter().map(|noise| noise.sd_of_texels(density)).map(|sd| 0.5 * sd * sd).sum(),
             roughness: properties.roughness,
             colours: Colours {
-                film: tone::linear_rgb(look.film.colour),
-                prints: tone::linear_rgb(look.prints.colour),
-                scuffs: tone::linear_rgb(look.scuffs.colour),
-                edge: tone::linear_rgb(look.edge.colour),
-                dust: tone::linear_rgb(look.dust.colour),
-                darkest: tone::linear(look.darkest),
+                film: srgb::light_of(look.film.colour),
+                prints: srgb::light_of(look.prints.colour),
+                scuffs: srgb::light_of(look.scuffs.colour),
+                edge: srgb::light_of(look.edge.colour),
+                dust: srgb::light_of(look.dust.colour),
+                darkest: srgb::decode(f64::from(look.darkest) / 255.0) as f32,
             },
         }
     }

@@ -8,8 +8,7 @@ use crate::look::error::LookError;
 use crate::look::image::RepeatedImage;
 use crate::look::lattice::Window;
 use crate::look::noise::{self, Channel, Noise, NoiseField};
-use crate::look::tone;
-use crate::math::exp_f32;
+use crate::math::{exp_f32, srgb};
 
 /// Formwork panels of concrete: width along the wall and height, metres.
 const PANEL_M: [f64; 2] = [1.25, 1.30];
@@ -72,7 +71,7 @@ impl Plaster {
             Some(path) => Some(Box::new(RepeatedImage::open(path, wall.image_size_m, texels_per_metre)?)),
             None => None,
         };
-        let own = tone::linear_rgb(wall.colour.unwrap_or(wall.material.properties().colour));
+        let own = srgb::light_of(wall.colour.unwrap_or(wall.material.properties().colour));
         let noise = |channel, [x, y, sd]: [f64; 3]| Noise::new(seed, channel, [x, y], sd as f32 * wall.texture);
         // Length along the wall and height of spots, metres; deviation. The last is of the tint. Paint is even: the stipple
         // of a roller is finer than texels.
@@ -99,7 +98,7 @@ impl Plaster {
             tint: noise(Channel::WallGroundTint, tint),
             panels,
             board_m: wall.skirting.height_m,
-            board: tone::linear_rgb(wall.skirting.colour),
+            board: srgb::light_of(wall.skirting.colour),
         })
     }
 

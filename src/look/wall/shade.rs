@@ -9,8 +9,7 @@ use crate::look::bytes::{Bytes, Rounding, Shown};
 use crate::look::noise::Noise;
 use crate::look::planes::{add2, each1, each2, each3};
 use crate::look::settings::Look;
-use crate::look::tone;
-use crate::math::exp_f32;
+use crate::math::{exp_f32, srgb};
 
 /// Kinds of dirt, in the order of [`super::WALL_LAYERS`]: five causes, splash, dust.
 pub(super) const KINDS: usize = 7;
@@ -101,7 +100,7 @@ impl WallKnown {
 
     /// The row's clean wall where it is even: colour and orm.
     pub fn even_bytes(&self, law: &WallLaw) -> ([u8; 3], [u8; 3]) {
-        let colour = self.plaster.rgb.each_ref().map(|plane| tone::srgb(plane[0]).round() as u8);
+        let colour = self.plaster.rgb.each_ref().map(|plane| srgb::encode_f32(plane[0]).round() as u8);
         (colour, [255, (255.0 * law.roughness_with(self.plaster.board)).round() as u8, 0])
     }
 }
@@ -121,13 +120,13 @@ impl WallLaw {
             splash: properties.splash,
             dust: [wall.dust.density * properties.dust, wall.dust.reach_m, wall.dust.hands * properties.dust],
             colours: std::array::from_fn(|kind| {
-                tone::linear_rgb(match kind {
+                srgb::light_of(match kind {
                     SPLASH => wall.splash.colour,
                     DUST => wall.dust.colour,
                     cause => stains[cause].colour,
                 })
             }),
-            darkest: tone::linear(look.darkest),
+            darkest: srgb::decode(f64::from(look.darkest) / 255.0) as f32,
             mean_log: noise.iter().map(|noise| noise.sd_of_texels(density)).map(|sd| 0.5 * sd * sd).sum(),
             roughness: wall.roughness.unwrap_or(properties.roughness),
             grime_roughness: properties.grime_roughness,

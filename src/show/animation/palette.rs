@@ -4,7 +4,7 @@ use image::RgbImage;
 
 use super::scene::OUTLINE;
 use crate::show::pictures::canvas::Colour;
-use crate::show::pictures::drawing::{FASTEST_M_S, PAPER, PLAIN_FLOOR, ROUTES, SOLID, STUCK, TEXT, speed_colour};
+use crate::show::pictures::style::{FASTEST_M_S, PAPER, PLAIN_FLOOR, ROUTES, SOLID, STUCK, TEXT, speed_colour};
 
 /// The colour of a pixel that stays as it was.
 pub(super) const SAME: u8 = 255;

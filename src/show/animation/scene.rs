@@ -1,15 +1,15 @@
 use image::{Rgb, RgbImage};
 
-use super::{AnimationColour, AnimationOptions, Tails};
+use super::options::{AnimationColour, AnimationOptions};
+use super::tails::Tails;
 use crate::crowd::Arrival;
 use crate::math::{Vec2, vec2};
 use crate::motion::Walker;
 use crate::plan::FloorPlan;
 use crate::show::pictures::canvas::{Canvas, Colour, text_width};
-use crate::show::pictures::drawing::{
-    FASTEST_M_S, PAPER, PLAIN_FLOOR, ROUTES, TEXT, draw_ground, draw_walls, scale_bar, speed_colour,
-};
+use crate::show::pictures::drawing::{draw_ground, draw_walls};
 use crate::show::pictures::stuck::draw_cross;
+use crate::show::pictures::style::{FASTEST_M_S, PAPER, PLAIN_FLOOR, ROUTES, TEXT, scale_bar, speed_colour};
 use crate::walls::Walls;
 
 /// Room around the plan, pixels.

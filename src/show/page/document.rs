@@ -3,13 +3,17 @@
 use image::ExtendedColorType;
 use serde_json::{Value, json};
 
+use super::content::{Covering, Page, PageOptions};
 use super::field::{self, Field, Raster};
 use super::images::{self, Crop, Files, KINDS};
 use super::law;
-use super::{Covering, Page, PageOptions, geometry, lamps, light};
-use crate::export::Reduced;
+use super::{geometry, lamps, light};
+use crate::export::{ExportError, OutputFolder, Reduced};
 use crate::math::Vec2;
 use crate::show::scene::{Part, Surface};
+
+/// Name of the page in a bake's folder.
+pub const PAGE_FILE: &str = "index.html";
 
 /// The page without what it shows.
 const TEMPLATE: &str = include_str!("page.html");
@@ -32,8 +36,16 @@ const SHADERS: [(&str, &str); 4] = [
     ("plain-fragment", include_str!("client/plain.frag")),
 ];
 
-/// The page's text.
-pub(super) fn html(page: &Page<'_>) -> String {
+/// Writes the page to a bake's folder.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_page(folder: &OutputFolder, page: &Page<'_>) -> Result<(), ExportError> {
+    folder.write(PAGE_FILE, page_html(page).as_bytes())
+}
+
+/// The page's text. The same page gives the same bytes.
+pub fn page_html(page: &Page<'_>) -> String {
     let mut blocks = Vec::new();
     let mut data = json!({
         "title": page.title,

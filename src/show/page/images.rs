@@ -3,7 +3,7 @@
 use image::{ExtendedColorType, GrayImage, ImageEncoder, Luma, Rgb, RgbImage, Rgba, RgbaImage};
 use rayon::prelude::*;
 
-use super::Covering;
+use super::content::Covering;
 use super::law::{self, Layer};
 use crate::export::Reduced;
 

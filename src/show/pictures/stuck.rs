@@ -1,7 +1,7 @@
 //! Marks the places where people got stuck.
 
 use super::canvas::{Canvas, LINE_PX};
-use super::drawing::{PAPER, SPEED_SCALE_PX, STUCK, TEXT, legend};
+use super::style::{PAPER, SPEED_SCALE_PX, STUCK, TEXT, legend};
 use crate::crowd::Stuck;
 use crate::math::{Vec2, vec2};
 use crate::routes::Route;

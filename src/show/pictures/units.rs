@@ -1,7 +1,7 @@
 use image::RgbImage;
 
 use super::canvas::{Canvas, Colour, text_width};
-use super::drawing::{PAPER, PLAIN_FLOOR, ROUTES, TEXT, speed_colour};
+use super::style::{PAPER, PLAIN_FLOOR, ROUTES, TEXT, speed_colour};
 use crate::math::{Vec2, vec2};
 use crate::units::{Areas, Unit};
 

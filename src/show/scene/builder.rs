@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::{Part, Scene, Surface};
+use super::model::{Part, Scene, Surface};
 
 /// A scene that is being built: a part per surface.
 #[derive(Debug, Default)]

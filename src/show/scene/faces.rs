@@ -1,9 +1,9 @@
 //! Wall faces as upright quads, one part per wall sheet.
 
 use super::builder::{SceneBuilder, Vertex};
+use super::model::{Surface, WallStrip};
 use super::region::snap;
 use super::tiles::TileCuts;
-use super::{Surface, WallStrip};
 use crate::math::Vec2;
 use crate::walls::Face;
 

@@ -1,7 +1,7 @@
 //! The floor's real outline as triangles, one part per tile.
 
-use super::Surface;
 use super::builder::{SceneBuilder, Vertex};
+use super::model::Surface;
 use super::region::Region;
 use super::tiles::TileCuts;
 use crate::math::{Rect, Vec2};

@@ -1,7 +1,7 @@
 //! What is above doors.
 
-use super::Surface;
 use super::builder::{SceneBuilder, Vertex};
+use super::model::Surface;
 use super::region::Region;
 use super::tops::{add_level, add_upright};
 use crate::math::Vec2;

@@ -1,7 +1,7 @@
 //! From linear light to the picture's bytes.
 
 use super::shade::Colour;
-use crate::math::{SplitMix64, exp, pow};
+use crate::math::{SplitMix64, exp, srgb};
 
 /// Up to here light is kept as it is; above, it comes ever closer to white.
 const STRAIGHT: f64 = 0.62;
@@ -27,8 +27,7 @@ impl Tone {
             let rest = 1.0 - STRAIGHT;
             let shown =
                 if light <= STRAIGHT { light } else { STRAIGHT + rest * (1.0 - exp(-(light - STRAIGHT) / rest)) };
-            let s = if shown <= 0.003_130_8 { shown * 12.92 } else { 1.055 * pow(shown, 1.0 / 2.4) - 0.055 };
-            (s * 255.0) as f32
+            (srgb::encode(shown) * 255.0) as f32
         };
         Tone { table: (0..STEPS).map(byte).collect(), exposure }
     }

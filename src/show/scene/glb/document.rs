@@ -4,10 +4,11 @@ use std::io::{self, Write};
 
 use serde_json::{Value, json};
 
+use super::options::{GlbImage, GlbOptions, PlainMaterial, SurfaceImages};
 use super::picture::{self, Picture};
-use super::{Cover, GlbImage, GlbOptions, PlainMaterial, has_short_indices, y_up};
 use crate::export::GENERATOR;
-use crate::show::scene::{Part, Scene};
+use crate::math::srgb;
+use crate::show::scene::model::{Part, Scene, Surface};
 
 // Numbers that glTF 2.0 has for them.
 const FLOAT: u32 = 5126;
@@ -220,7 +221,7 @@ impl Lists {
 }
 
 fn plain_material(name: &str, plain: PlainMaterial) -> Value {
-    let [red, green, blue] = plain.colour.map(picture::linear);
+    let [red, green, blue] = srgb::light_of(plain.colour);
     let roughness = if plain.roughness.is_finite() { plain.roughness.clamp(0.0, 1.0) } else { 1.0 };
     json!({
         "name": name,
@@ -241,4 +242,46 @@ fn bounds(points: impl Iterator<Item = [f32; 3]>) -> Option<[[f32; 3]; 2]> {
         }
         Some([least, greatest])
     })
+}
+
+/// Plan frame to glTF's.
+fn y_up([x, y, height]: [f32; 3]) -> [f32; 3] {
+    // Adding zero turns -0 into 0.
+    [x, height, -y + 0.0]
+}
+
+/// Whether 16 bits are enough for a part's indices; 65535 has a meaning of its own.
+fn has_short_indices(part: &Part) -> bool {
+    part.positions_m.len() <= usize::from(u16::MAX)
+}
+
+/// What stands for a surface in the file.
+enum Cover<'a> {
+    Textured(&'a SurfaceImages<'a>),
+    Plain(&'static str, PlainMaterial),
+}
+
+impl<'a> Cover<'a> {
+    fn of(surface: Surface, options: &'a GlbOptions<'a>) -> Cover<'a> {
+        let textured = match surface {
+            Surface::FloorTile(tile) => options.floor.get(tile),
+            Surface::WallSheet(sheet) => options.walls.get(sheet),
+            Surface::WallTop | Surface::Lintel => None,
+        };
+        let name = match surface {
+            Surface::FloorTile(_) => "floor",
+            Surface::WallSheet(_) => "wall",
+            Surface::WallTop => "wall_tops",
+            Surface::Lintel => "clean_wall",
+        };
+        let plain = if surface == Surface::WallTop { options.wall_top } else { options.clean_wall };
+        textured.map_or(Cover::Plain(name, plain), Cover::Textured)
+    }
+
+    fn name(&self) -> &str {
+        match self {
+            Cover::Textured(images) => &images.name,
+            Cover::Plain(name, _) => name,
+        }
+    }
 }

@@ -5,8 +5,8 @@ use std::io::{self, Cursor};
 use image::codecs::jpeg::JpegEncoder;
 use image::{ImageFormat, RgbImage};
 
-use super::MOST_EMBEDDED_PX;
-use crate::math;
+use super::options::MOST_EMBEDDED_PX;
+use crate::math::srgb;
 
 /// Quality of base colour within the scene, 1 to 100.
 const JPEG_QUALITY: u8 = 92;
@@ -52,7 +52,7 @@ impl Picture {
     fn halved(self, image: &RgbImage) -> RgbImage {
         let (width, height) = image.dimensions();
         let table: Vec<f32> =
-            (0..=255).map(|v| if self == Picture::Colour { linear(v) } else { f32::from(v) }).collect();
+            (0..=255).map(|v| if self == Picture::Colour { srgb::light(v) } else { f32::from(v) }).collect();
         RgbImage::from_fn(width.div_ceil(2), height.div_ceil(2), |x, y| {
             let at = |dx: u32, dy: u32| image.get_pixel((2 * x + dx).min(width - 1), (2 * y + dy).min(height - 1)).0;
             let four = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
@@ -65,13 +65,6 @@ impl Picture {
             }))
         })
     }
-}
-
-/// The light of an sRGB value, 0 to 1, rounded to what 8 bits resolve and more (IEC 61966-2-1).
-pub(super) fn linear(srgb: u8) -> f32 {
-    let v = f64::from(srgb) / 255.0;
-    let light = if v <= 0.04045 { v / 12.92 } else { math::pow((v + 0.055) / 1.055, 2.4) };
-    light as f32
 }
 
 /// A relative path as a URI reference: everything but letters, digits and `-._~/` escaped (RFC 3986).

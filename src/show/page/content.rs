@@ -1,0 +1,118 @@
+use super::law;
+use crate::export::Reduced;
+use crate::look::{Background, Look};
+use crate::math::Vec2;
+use crate::math::srgb::Srgb8;
+use crate::show::scene::Scene;
+use crate::walls::Walls;
+
+/// What a page shows.
+#[derive(Clone, Debug)]
+pub struct Page<'a> {
+    /// What the plan is called: the page's title.
+    pub title: &'a str,
+    /// The triangles.
+    pub scene: &'a Scene,
+    /// The plan: for the small map, for light and shade, and so that nobody walks through walls.
+    pub walls: &'a Walls,
+    /// Height of the ceiling, metres.
+    pub wall_height_m: f64,
+    /// What floor tiles show.
+    pub floor: Covering<'a>,
+    /// What wall sheets show.
+    pub wall: Covering<'a>,
+    /// Where a reader stands at first.
+    pub start: Viewpoint,
+    /// How much the page may carry.
+    pub options: PageOptions,
+}
+
+/// Where somebody stands and looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Viewpoint {
+    /// Feet, in the plan frame.
+    pub at_m: Vec2,
+    /// Direction of sight, radians counter-clockwise from +x.
+    pub heading_rad: f64,
+    /// Upward is positive, radians.
+    pub pitch_rad: f64,
+}
+
+/// How much a page may carry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PageOptions {
+    /// Longest side of an image, pixels: what graphics cards take. At least 256.
+    pub largest_px: u32,
+    /// Images are halved until all together take at most so many bytes before they are written as text.
+    pub image_bytes: usize,
+}
+
+impl Default for PageOptions {
+    fn default() -> PageOptions {
+        PageOptions { largest_px: 4096, image_bytes: 14 << 20 }
+    }
+}
+
+/// How tiles or sheets look, clean and dirty.
+#[derive(Clone, Debug)]
+pub struct Covering<'a> {
+    /// The images, by the number that [`Surface`](super::scene::Surface) gives.
+    pub images: &'a [Reduced],
+    /// Colour without dirt, on average.
+    pub clean: Srgb8,
+    /// Roughness without dirt, 0 to 1.
+    pub roughness: f32,
+    /// What lies on it: at most four kinds.
+    pub dirt: Vec<Dirt>,
+}
+
+/// A kind of dirt that the page can show or leave out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Dirt {
+    /// What its switch says.
+    pub name: &'static str,
+    /// Channel of the packed masks that holds it. Two kinds may share one: what the base colour shows tells them
+    /// apart.
+    pub channel: usize,
+    /// Colour, sRGB.
+    pub colour: Srgb8,
+}
+
+impl<'a> Covering<'a> {
+    /// A floor in the colours of `look`. `background` is the clean floor as its resolver gives it.
+    pub fn floor(images: &'a [Reduced], look: &Look, background: Background) -> Covering<'a> {
+        // Edge and dust share a channel and nearly the colour: one of them is in the skirting, the other before it.
+        let edge = law::mixed(look.edge.colour, look.dust.colour, 0.4);
+        Covering {
+            images,
+            clean: background.base_color,
+            roughness: f32::from(background.orm[1]) / 255.0,
+            dirt: vec![
+                Dirt { name: "Trodden film", channel: 0, colour: look.film.colour },
+                Dirt { name: "Shoe prints", channel: 2, colour: look.prints.colour },
+                Dirt { name: "Heel marks", channel: 2, colour: look.scuffs.colour },
+                Dirt { name: "Edges and dust", channel: 3, colour: edge },
+            ],
+        }
+    }
+
+    /// Walls in the colours of `look`. `background` is the clean wall as its resolver gives it.
+    pub fn wall(images: &'a [Reduced], look: &Look, background: Background) -> Covering<'a> {
+        let wall = &look.wall;
+        Covering {
+            images,
+            clean: background.base_color,
+            roughness: f32::from(background.orm[1]) / 255.0,
+            dirt: vec![
+                Dirt { name: "Hands", channel: 0, colour: wall.skin.colour },
+                Dirt {
+                    name: "Clothes and bags",
+                    channel: 1,
+                    colour: law::mixed(wall.cloth.colour, wall.bag.colour, 0.5),
+                },
+                Dirt { name: "Shoe scuffs", channel: 2, colour: wall.rubber.colour },
+                Dirt { name: "Splashes and dust", channel: 3, colour: wall.splash.colour },
+            ],
+        }
+    }
+}
