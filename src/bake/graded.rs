@@ -9,7 +9,7 @@ use crate::export::{
 use crate::look::{Background, FloorResolver, Look, WallResolver};
 use crate::math::Rect;
 use crate::progress::{Progress, Stage, Stopwatch};
-use crate::show::page::{Covering, Dirt, Page, PageOptions, Viewpoint};
+use crate::show::page::{Covering, Page, PageOptions, Viewpoint};
 use crate::show::scene::{
     self, GlbImage, GlbOptions, PlainMaterial, Scene, SceneOptions, SurfaceImages, WallStrip, write_glb,
 };
@@ -218,24 +218,13 @@ impl Model<'_> {
             heading_rad: eyes.heading_deg.to_radians(),
             pitch_rad: eyes.pitch_deg.to_radians(),
         };
-        let dirt = |name, channel, colour| Dirt { name, channel, colour };
         let page = Page {
             title: &self.graded.title,
             scene,
             walls: self.graded.walls,
             wall_height_m: self.walls.atlas.height_m,
             floor: Covering::floor(&self.floor.reduced, look, clean_floor),
-            wall: Covering {
-                images: &self.walls.reduced,
-                clean: clean_wall.base_color,
-                roughness: f32::from(clean_wall.orm[1]) / 255.0,
-                dirt: vec![
-                    dirt("Hands", 0, look.wall.skin.colour),
-                    dirt("Clothes and bags", 1, look.wall.bag.colour),
-                    dirt("Shoe scuffs", 2, look.wall.rubber.colour),
-                    dirt("Splashes", 3, look.wall.splash.colour),
-                ],
-            },
+            wall: Covering::wall(&self.walls.reduced, look, clean_wall),
             start,
             options: PageOptions::default(),
         };

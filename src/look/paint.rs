@@ -206,6 +206,7 @@ fn write(dither: u32, window: &Window, run: Run, buffers: &mut Buffers, block: &
         orm: &mut block.orm[texels.clone()],
     };
     shaded.write(dither, i, j, &mut bytes);
+    block.set_clean(from, &shaded.bare);
     let planes = [&known.passes, &known.presence, &shaded.film, &shaded.soil, &known.scuff, &known.edge, &shaded.dust];
     for (layer, plane) in block.layers.iter_mut().zip(planes) {
         layer.values[texels.clone()].copy_from_slice(plane);

@@ -82,6 +82,8 @@ pub(super) struct Shaded {
     hiding: Vec<f32>,
     roughness: Vec<f32>,
     rgb: [Vec<f32>; 3],
+    /// Linear colour of the floor without dirt.
+    pub bare: [Vec<f32>; 3],
     joint: [Vec<f32>; 3],
     rounding: Rounding,
 }
@@ -129,7 +131,10 @@ impl Law {
         out.resize(known.presence.len());
         self.densities(known, out);
         self.roughness(out);
-        let Shaded { film, soil, dust, through, rgb, hiding, .. } = out;
+        let Shaded { film, soil, dust, through, rgb, bare, hiding, .. } = out;
+        for (bare, floor) in bare.iter_mut().zip(&known.ground.rgb) {
+            bare.copy_from_slice(floor);
+        }
         let dirt = Dirt { film, soil, scuff: &known.scuff, edge: &known.edge, dust, through };
         self.colour(&dirt, &known.ground.rgb, hiding, rgb);
         if let Some(joint) = joint.filter(|_| known.ground.joint.iter().any(|&share| share > 0.0)) {
@@ -208,9 +213,13 @@ impl Law {
             through: &through,
         };
         self.colour(&dirt, &floor, &mut out.hiding, &mut out.joint);
-        for (plane, joint) in out.rgb.iter_mut().zip(&out.joint) {
-            for ((value, joint), share) in plane.iter_mut().zip(joint).zip(&known.ground.joint) {
-                *value += share * (joint - *value);
+        let [a, b, c] = &out.through;
+        for ((plane, joint), bare) in out.rgb.iter_mut().zip(&out.joint).zip(&mut out.bare) {
+            for (k, value) in plane.iter_mut().enumerate() {
+                let change = known.ground.joint[k] * (joint[k] - *value);
+                *value += change;
+                // A joint's own film counts as part of the floor, so that the law over the bare floor gives what is shown.
+                bare[k] = (bare[k] + change / (a[k] * b[k] * c[k]).max(0.02)).max(0.0);
             }
         }
     }
@@ -228,10 +237,23 @@ struct Dirt<'a> {
 
 impl Shaded {
     fn resize(&mut self, len: usize) {
-        let Shaded { film, soil, dust, history, clean, uneven, through, hiding, roughness, rgb, joint, rounding: _ } =
-            self;
+        let Shaded {
+            film,
+            soil,
+            dust,
+            history,
+            clean,
+            uneven,
+            through,
+            hiding,
+            roughness,
+            rgb,
+            bare,
+            joint,
+            rounding: _,
+        } = self;
         let single = [film, soil, dust, history, clean, uneven, hiding, roughness];
-        for plane in single.into_iter().chain(through).chain(rgb).chain(joint) {
+        for plane in single.into_iter().chain(through).chain(rgb).chain(bare).chain(joint) {
             plane.resize(len, 0.0);
         }
     }

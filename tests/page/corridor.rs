@@ -70,7 +70,7 @@ pub fn corridor(clean: Srgb8) -> Corridor {
 impl Corridor {
     /// The page of it.
     pub fn page<'a>(&'a self, title: &'a str) -> Page<'a> {
-        let dirt = |name, channel, colour| Dirt { name, channel, colour };
+        let dirt = |name, colour| Dirt { name, colour };
         Page {
             title,
             scene: &self.scene,
@@ -81,22 +81,17 @@ impl Corridor {
                 clean: self.clean[0],
                 roughness: 0.35,
                 dirt: vec![
-                    dirt("Trodden film", 0, DRY),
-                    dirt("Shoe prints", 2, DRY),
-                    dirt("Heel marks", 2, RUBBER),
-                    dirt("Edges and dust", 3, EDGE),
+                    dirt("Trodden film", DRY),
+                    dirt("Shoe prints", DRY),
+                    dirt("Heel marks", RUBBER),
+                    dirt("Edges and dust", EDGE),
                 ],
             },
             wall: Covering {
                 images: &self.wall,
                 clean: self.clean[1],
                 roughness: 0.6,
-                dirt: vec![
-                    dirt("Hands", 0, SKIN),
-                    dirt("Bags", 1, GREY),
-                    dirt("Shoes", 2, RUBBER),
-                    dirt("Splashes", 3, EDGE),
-                ],
+                dirt: vec![dirt("Hands", SKIN), dirt("Bags", GREY), dirt("Shoes", RUBBER), dirt("Splashes", EDGE)],
             },
             start: Viewpoint { at_m: vec2(1.0, 2.6), heading_rad: 0.05, pitch_rad: -0.12 },
             options: PageOptions::default(),
@@ -317,18 +312,27 @@ impl FloorMarks<'_> {
     }
 }
 
-fn reduced(width: u32, height: u32, of: impl Fn(u32, u32) -> (Srgb8, [u8; 4], f64)) -> Reduced {
+/// What a pixel shows.
+struct Shown {
+    clean: Srgb8,
+    dirt: [(f64, Srgb8); 4],
+    roughness: f64,
+}
+
+fn reduced(width: u32, height: u32, of: impl Fn(u32, u32) -> Shown) -> Reduced {
     let mut image = Reduced {
         factor: 4,
         base_color: RgbImage::new(width, height),
-        mask: RgbaImage::new(width, height),
+        clean: RgbImage::new(width, height),
+        dirt: RgbaImage::new(width, height),
         orm: RgbImage::new(width, height),
     };
     for y in 0..height {
         for x in 0..width {
-            let (colour, mask, roughness) = of(x, y);
-            image.base_color.put_pixel(x, y, Rgb(colour));
-            image.mask.put_pixel(x, y, Rgba(mask));
+            let Shown { clean, dirt, roughness } = of(x, y);
+            image.base_color.put_pixel(x, y, Rgb(covered(clean, &dirt)));
+            image.clean.put_pixel(x, y, Rgb(clean));
+            image.dirt.put_pixel(x, y, Rgba(dirt.map(|(density, _)| mask(density))));
             image.orm.put_pixel(x, y, Rgb([255, (255.0 * roughness) as u8, 0]));
         }
     }
@@ -344,8 +348,8 @@ fn floor_image(marks: &FloorMarks<'_>, tile: usize, clean: Srgb8) -> Reduced {
         // The clean floor has a faint texture of its own.
         let grain = 0.98 + 0.04 * cloud(8, p, 0.06);
         let clean = clean.map(|channel| srgb(linear(channel) * grain));
-        let colour = covered(clean, &[(film, DRY), (prints, DRY), (scuffs, RUBBER), (edge, EDGE)]);
-        (colour, [mask(film), 128, mask(prints + scuffs), mask(edge)], 0.35 + 0.3 * film + 0.2 * edge)
+        let dirt = [(film, DRY), (prints, DRY), (scuffs, RUBBER), (edge, EDGE)];
+        Shown { clean, dirt, roughness: 0.35 + 0.3 * film + 0.2 * edge }
     })
 }
 
@@ -371,11 +375,10 @@ fn wall_image(strips: &[Strip], clean: Srgb8) -> Reduced {
                 .then_some(vec2(along, up))
         };
         let Some((n, p)) = strips.iter().enumerate().find_map(|(n, strip)| Some((n, place(strip)?))) else {
-            return (clean, [0; 4], 0.6);
+            return Shown { clean, dirt: [(0.0, EDGE); 4], roughness: 0.6 };
         };
         let [skin, bag, shoe] = [0, 1, 2].map(|kind| marks[n][kind].iter().map(|spot| spot.at(p)).sum::<f64>());
         let splash = 0.25 * math::exp(-(p.y / 0.06).max(0.0)) * (0.5 + cloud(9, p, 0.1));
-        let colour = covered(clean, &[(skin, SKIN), (bag, GREY), (shoe, RUBBER), (splash, EDGE)]);
-        (colour, [mask(skin), mask(bag), mask(shoe), mask(splash)], 0.6)
+        Shown { clean, dirt: [(skin, SKIN), (bag, GREY), (shoe, RUBBER), (splash, EDGE)], roughness: 0.6 }
     })
 }

@@ -176,7 +176,7 @@ fn under_the_dirt_the_floor_is_clean() {
     }
 }
 
-/// Scuffs and prints share a channel; the page tells them apart by colour.
+/// Scuffs and prints are kinds of their own.
 #[test]
 fn heel_marks_are_told_from_prints() {
     let html = &*LIGHT_PAGE;
@@ -193,7 +193,7 @@ fn damaged_scenes_and_images_leave_a_page() {
     corridor.scene.parts[0].positions_m[1][0] = f32::NAN;
     corridor.scene.parts[1].uvs.clear();
     corridor.scene.parts[3].indices[0] = u32::MAX;
-    corridor.wall[0].mask = image::RgbaImage::new(3, 3);
+    corridor.wall[0].dirt = image::RgbaImage::new(3, 3);
     let html = page_html(&corridor.page("Corridor"));
     let parts = data(&html)["parts"].as_array().unwrap().clone();
     assert_eq!(parts.len(), 1);

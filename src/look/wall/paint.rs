@@ -118,6 +118,7 @@ impl<'a> WallPainter<'a> {
                 }
             }
         }
+        block.set_clean(texels.start, &known.plaster.rgb);
         for (layer, plane) in block.layers.iter_mut().zip(&shaded.density) {
             let values = &mut layer.values[texels.clone()];
             if plane.is_empty() { values.fill(0.0) } else { values.copy_from_slice(plane) }

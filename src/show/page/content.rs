@@ -1,8 +1,7 @@
-use super::law;
 use crate::export::Reduced;
 use crate::look::{Background, Look};
 use crate::math::Vec2;
-use crate::math::srgb::Srgb8;
+use crate::math::srgb::{Srgb8, from_linear, light_of};
 use crate::show::scene::Scene;
 use crate::walls::Walls;
 
@@ -62,7 +61,7 @@ pub struct Covering<'a> {
     pub clean: Srgb8,
     /// Roughness without dirt, 0 to 1.
     pub roughness: f32,
-    /// What lies on it: at most four kinds.
+    /// The kinds of dirt on it, in the order of [`Layer::kind`](crate::look::Layer::kind).
     pub dirt: Vec<Dirt>,
 }
 
@@ -71,9 +70,6 @@ pub struct Covering<'a> {
 pub struct Dirt {
     /// What its switch says.
     pub name: &'static str,
-    /// Channel of the packed masks that holds it. Two kinds may share one: what the base colour shows tells them
-    /// apart.
-    pub channel: usize,
     /// Colour, sRGB.
     pub colour: Srgb8,
 }
@@ -81,17 +77,17 @@ pub struct Dirt {
 impl<'a> Covering<'a> {
     /// A floor in the colours of `look`. `background` is the clean floor as its resolver gives it.
     pub fn floor(images: &'a [Reduced], look: &Look, background: Background) -> Covering<'a> {
-        // Edge and dust share a channel and nearly the colour: one of them is in the skirting, the other before it.
-        let edge = law::mixed(look.edge.colour, look.dust.colour, 0.4);
+        // Edge and dust are one kind and nearly of one colour.
+        let edge = mixed(look.edge.colour, look.dust.colour, 0.4);
         Covering {
             images,
             clean: background.base_color,
             roughness: f32::from(background.orm[1]) / 255.0,
             dirt: vec![
-                Dirt { name: "Trodden film", channel: 0, colour: look.film.colour },
-                Dirt { name: "Shoe prints", channel: 2, colour: look.prints.colour },
-                Dirt { name: "Heel marks", channel: 2, colour: look.scuffs.colour },
-                Dirt { name: "Edges and dust", channel: 3, colour: edge },
+                Dirt { name: "Trodden film", colour: look.film.colour },
+                Dirt { name: "Shoe prints", colour: look.prints.colour },
+                Dirt { name: "Heel marks", colour: look.scuffs.colour },
+                Dirt { name: "Edges and dust", colour: edge },
             ],
         }
     }
@@ -104,15 +100,17 @@ impl<'a> Covering<'a> {
             clean: background.base_color,
             roughness: f32::from(background.orm[1]) / 255.0,
             dirt: vec![
-                Dirt { name: "Hands", channel: 0, colour: wall.skin.colour },
-                Dirt {
-                    name: "Clothes and bags",
-                    channel: 1,
-                    colour: law::mixed(wall.cloth.colour, wall.bag.colour, 0.5),
-                },
-                Dirt { name: "Shoe scuffs", channel: 2, colour: wall.rubber.colour },
-                Dirt { name: "Splashes and dust", channel: 3, colour: wall.splash.colour },
+                Dirt { name: "Hands", colour: wall.skin.colour },
+                Dirt { name: "Clothes and bags", colour: mixed(wall.cloth.colour, wall.bag.colour, 0.5) },
+                Dirt { name: "Shoe scuffs", colour: wall.rubber.colour },
+                Dirt { name: "Splashes and dust", colour: wall.splash.colour },
             ],
         }
     }
+}
+
+/// The light of two colours mixed, `share` of the second.
+fn mixed(a: Srgb8, b: Srgb8, share: f32) -> Srgb8 {
+    let (a, b) = (light_of(a), light_of(b));
+    std::array::from_fn(|n| from_linear((65_535.0 * (a[n] + share * (b[n] - a[n]))).round() as u16))
 }

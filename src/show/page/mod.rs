@@ -9,7 +9,6 @@ mod field;
 mod geometry;
 mod images;
 mod lamps;
-mod law;
 mod light;
 
 pub use content::{Covering, Dirt, Page, PageOptions, Viewpoint};

@@ -6,7 +6,7 @@ use image::codecs::jpeg::JpegEncoder;
 use image::{ImageFormat, RgbImage};
 
 use super::options::MOST_EMBEDDED_PX;
-use crate::math::srgb;
+use crate::export::reduction::{halved_colours, halved_numbers};
 
 /// Quality of base colour within the scene, 1 to 100.
 const JPEG_QUALITY: u8 = 92;
@@ -50,20 +50,10 @@ impl Picture {
     }
 
     fn halved(self, image: &RgbImage) -> RgbImage {
-        let (width, height) = image.dimensions();
-        let table: Vec<f32> =
-            (0..=255).map(|v| if self == Picture::Colour { srgb::light(v) } else { f32::from(v) }).collect();
-        RgbImage::from_fn(width.div_ceil(2), height.div_ceil(2), |x, y| {
-            let at = |dx: u32, dy: u32| image.get_pixel((2 * x + dx).min(width - 1), (2 * y + dy).min(height - 1)).0;
-            let four = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
-            image::Rgb([0, 1, 2].map(|k| {
-                let mean = four.iter().map(|p| table[usize::from(p[k])]).sum::<f32>() * 0.25;
-                // The value whose light is nearest.
-                let above = table.partition_point(|&light| light < mean).min(255);
-                let below = above.saturating_sub(1);
-                if mean - table[below] < table[above] - mean { below as u8 } else { above as u8 }
-            }))
-        })
+        match self {
+            Picture::Colour => halved_colours(image),
+            Picture::Data => halved_numbers(image),
+        }
     }
 }
 
