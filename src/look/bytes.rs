@@ -11,7 +11,7 @@ pub(super) struct Bytes<'a> {
 }
 
 /// What a run of texels shows, a plane per quantity.
-pub(super) struct Shown<'a> {
+pub(super) struct ShadedPlanes<'a> {
     /// Linear colour.
     pub rgb: &'a [Vec<f32>; 3],
     /// By channel of the mask, the light that comes through; an empty plane for a channel without any dirt.
@@ -30,7 +30,7 @@ pub(super) struct Rounding {
 
 impl Rounding {
     /// Rounds a run that starts at texel (i, j), dithered by a hash of each texel's place. Occlusion is left as it is.
-    pub fn write(&mut self, dither: u32, i: i64, j: i64, shown: &Shown<'_>, out: &mut Bytes<'_>) {
+    pub fn write(&mut self, dither: u32, i: i64, j: i64, shown: &ShadedPlanes<'_>, out: &mut Bytes<'_>) {
         let len = out.base_color.len();
         let Rounding { words: [first, second], values, bytes } = self;
         first.clear();

@@ -18,9 +18,9 @@ mod coarse;
 mod colours;
 mod dust;
 mod error;
-mod face;
+mod segment;
 mod file;
-mod ground;
+mod clean_floor;
 mod image;
 mod lattice;
 mod material;
@@ -35,7 +35,7 @@ mod resolve;
 mod settings;
 mod shade;
 mod skirting;
-mod traffic;
+mod passes;
 mod wall;
 
 #[cfg(test)]
@@ -43,7 +43,7 @@ mod tests;
 
 pub use crate::math::srgb::Srgb8;
 pub use block::{Background, Layer, ResolvedBlock};
-pub use error::{LookError, Place, RangeError};
+pub use error::{FilePlace, LookError, RangeError};
 pub use material::Material;
 pub use octaves::{NoiseLook, Octave};
 pub use presets::LOOK_PRESETS;

@@ -4,48 +4,48 @@ use std::cell::RefCell;
 
 use super::block::{Background, ResolvedBlock};
 use super::bytes::Bytes;
+use super::clean_floor::{CleanFloor, CleanFloorWindow};
 use super::dust;
 use super::error::LookError;
-use super::ground::{Ground, GroundWindow};
-use super::lattice::{Lattice, Window};
+use super::lattice::{SplineLattice, TexelWindow};
 use super::material::Properties;
 use super::noise::{self, Channel, Noise, NoiseField};
 use super::octaves::{NoiseLook, Octave};
+use super::passes::{self, PassesField};
 use super::settings::Look;
-use super::shade::{Known, Law, Shaded};
+use super::shade::{FloorShader, ShadeInput, ShadeOutput};
 use super::skirting::Skirting;
-use super::traffic::{self, Traffic};
 use crate::math::srgb;
 use crate::sums::{FloorSums, Quantity};
 use crate::walls::Walls;
 
-/// Buffers that a thread uses again from window to window: touching fresh memory costs as much as painting.
+/// FloorBuffers that a thread uses again from window to window: touching fresh memory costs as much as painting.
 #[derive(Default)]
-struct Buffers {
+struct FloorBuffers {
     edge: Vec<f32>,
     passes: Vec<u32>,
     soil: Vec<u32>,
     scuff: Vec<u32>,
-    known: Known,
-    shaded: Shaded,
+    known: ShadeInput,
+    shaded: ShadeOutput,
     row: Vec<f32>,
 }
 
 thread_local! {
-    static BUFFERS: RefCell<Buffers> = RefCell::default();
+    static BUFFERS: RefCell<FloorBuffers> = RefCell::default();
 }
 
 /// Everything that changes from row to row.
-struct Layout<'a> {
-    traffic: Traffic,
+struct FloorLayout<'a> {
+    traffic: PassesField,
     noise: Vec<NoiseField>,
-    ground: GroundWindow<'a>,
-    dust: Option<Lattice>,
+    ground: CleanFloorWindow<'a>,
+    dust: Option<SplineLattice>,
 }
 
 /// Texels of a row.
 #[derive(Clone, Copy)]
-struct Run {
+struct RowRun {
     row: usize,
     start: usize,
     len: usize,
@@ -58,12 +58,12 @@ pub(super) struct FloorPainter<'a> {
     pub background: Background,
     look: Look,
     properties: Properties,
-    ground: Ground,
+    ground: CleanFloor,
     skirting: Skirting<'a>,
     /// Unevenness of film and dust.
     noise: Vec<Noise>,
     spread_m: f64,
-    law: Law,
+    law: FloorShader,
     dither: u32,
 }
 
@@ -79,12 +79,12 @@ impl<'a> FloorPainter<'a> {
         let [clean, trodden] = &mut properties.roughness;
         *clean = look.floor.roughness.unwrap_or(*clean);
         *trodden = look.floor.roughness_trodden.unwrap_or(*trodden);
-        let ground = Ground::new(&look.floor, look.seed, texels_per_metre)?;
+        let ground = CleanFloor::new(&look.floor, look.seed, texels_per_metre)?;
         let noise = film_noise(look);
         Ok(FloorPainter {
             sums,
             walls,
-            law: Law::new(look, &properties, simulated_people, &noise, texels_per_metre),
+            law: FloorShader::new(look, &properties, simulated_people, &noise, texels_per_metre),
             noise,
             spread_m: look.film.spread_m.max(properties.least_spread_m),
             background: Background {
@@ -101,24 +101,30 @@ impl<'a> FloorPainter<'a> {
     }
 
     /// Shades the texels of a window, all of them or at least those that are `wanted`, into a block of its size.
-    pub fn paint(&self, window: Window, wanted: Option<&[bool]>, block: &mut ResolvedBlock) {
+    pub fn paint(&self, window: TexelWindow, wanted: Option<&[bool]>, block: &mut ResolvedBlock) {
         BUFFERS.with_borrow_mut(|buffers| self.paint_with(buffers, window, wanted, block));
     }
 
-    fn paint_with(&self, buffers: &mut Buffers, window: Window, wanted: Option<&[bool]>, block: &mut ResolvedBlock) {
-        let mut layout = Layout {
-            traffic: Traffic::over(&window, self.sums, self.walls, self.spread_m),
+    fn paint_with(
+        &self,
+        buffers: &mut FloorBuffers,
+        window: TexelWindow,
+        wanted: Option<&[bool]>,
+        block: &mut ResolvedBlock,
+    ) {
+        let mut layout = FloorLayout {
+            traffic: PassesField::over(&window, self.sums, self.walls, self.spread_m),
             noise: self.noise.iter().map(|noise| noise.over(&window)).collect(),
             ground: self.ground.over(&window),
             dust: dust::over(&window, self.walls, &self.look.dust),
         };
         self.skirting.lay_out(&window, wanted, &mut buffers.edge);
-        traffic::read(self.sums, Quantity::Passes, &window, &mut buffers.passes);
-        traffic::read(self.sums, Quantity::Soil, &window, &mut buffers.soil);
-        traffic::read(self.sums, Quantity::Scuff, &window, &mut buffers.scuff);
+        passes::read(self.sums, Quantity::Passes, &window, &mut buffers.passes);
+        passes::read(self.sums, Quantity::Soil, &window, &mut buffers.soil);
+        passes::read(self.sums, Quantity::Scuff, &window, &mut buffers.scuff);
         for row in 0..window.height {
             let Some((start, len)) = run_of(row, &window, wanted) else { continue };
-            let run = Run { row, start, len };
+            let run = RowRun { row, start, len };
             layout.begin_row(row);
             layout.gather(self, &window, run, buffers);
             self.law.shade(&buffers.known, self.ground.joint, &mut buffers.shaded);
@@ -145,7 +151,7 @@ fn film_noise(look: &Look) -> Vec<Noise> {
 }
 
 /// From the first to the last texel of a row that is wanted.
-fn run_of(row: usize, window: &Window, wanted: Option<&[bool]>) -> Option<(usize, usize)> {
+fn run_of(row: usize, window: &TexelWindow, wanted: Option<&[bool]>) -> Option<(usize, usize)> {
     let Some(wanted) = wanted else { return Some((0, window.width)) };
     let wanted = &wanted[row * window.width..(row + 1) * window.width];
     let first = wanted.iter().position(|&wanted| wanted)?;
@@ -153,7 +159,7 @@ fn run_of(row: usize, window: &Window, wanted: Option<&[bool]>) -> Option<(usize
     Some((first, last + 1 - first))
 }
 
-impl Layout<'_> {
+impl FloorLayout<'_> {
     fn begin_row(&mut self, row: usize) {
         self.traffic.begin_row(row);
         self.ground.begin_row(row);
@@ -166,9 +172,9 @@ impl Layout<'_> {
     }
 
     /// Everything that the law needs to know of a run of the row last begun.
-    fn gather(&self, painter: &FloorPainter<'_>, window: &Window, run: Run, buffers: &mut Buffers) {
+    fn gather(&self, painter: &FloorPainter<'_>, window: &TexelWindow, run: RowRun, buffers: &mut FloorBuffers) {
         let FloorPainter { look, properties, .. } = painter;
-        let Buffers { edge, passes, soil, scuff, known, row, .. } = buffers;
+        let FloorBuffers { edge, passes, soil, scuff, known, row, .. } = buffers;
         known.clear(run.len);
         let from = run.row * window.width + run.start;
         let scaled = |sums: &[u32], quantity: Quantity, factor: f32, out: &mut [f32]| {
@@ -195,8 +201,8 @@ impl Layout<'_> {
     }
 }
 
-fn write(dither: u32, window: &Window, run: Run, buffers: &mut Buffers, block: &mut ResolvedBlock) {
-    let Buffers { known, shaded, .. } = buffers;
+fn write(dither: u32, window: &TexelWindow, run: RowRun, buffers: &mut FloorBuffers, block: &mut ResolvedBlock) {
+    let FloorBuffers { known, shaded, .. } = buffers;
     let from = run.row * window.width + run.start;
     let texels = from..from + run.len;
     let (i, j) = (window.i0 + run.start as i64, window.j0 + run.row as i64);

@@ -3,7 +3,7 @@ use std::cell::RefCell;
 use super::block::{Background, ResolvedBlock};
 use super::coarse::{CoarseFloor, CoarseShare};
 use super::error::LookError;
-use super::lattice::Window;
+use super::lattice::TexelWindow;
 use super::padding::{PADDING, sources};
 use super::paint::FloorPainter;
 use super::settings::Look;
@@ -34,7 +34,7 @@ impl<'a> FloorResolver<'a> {
     ) -> Result<FloorResolver<'a>, LookError> {
         look.check()?;
         if simulated_people == 0 {
-            return Err(LookError::Nobody { total_passes: look.total_passes });
+            return Err(LookError::NoPeople { total_passes: look.total_passes });
         }
         let grid = sums.grid();
         Ok(FloorResolver {
@@ -59,7 +59,7 @@ impl<'a> FloorResolver<'a> {
     /// otherwise.
     pub fn resolve_into(&self, i0: i64, j0: i64, width: usize, height: usize, block: &mut ResolvedBlock) {
         let texels_per_metre = self.painter.sums.grid().texels_per_metre;
-        let rect = Window { texels_per_metre, i0, j0, width, height };
+        let rect = TexelWindow { texels_per_metre, i0, j0, width, height };
         match self.coarse.of_window(&rect) {
             CoarseShare::Nothing => block.become_empty(),
             CoarseShare::All => {
@@ -71,7 +71,7 @@ impl<'a> FloorResolver<'a> {
     }
 
     /// A rectangle that holds floor's edge.
-    fn with_padding(&self, rect: Window, block: &mut ResolvedBlock) {
+    fn with_padding(&self, rect: TexelWindow, block: &mut ResolvedBlock) {
         let around = rect.grown(PADDING);
         let mut share = vec![0.0; around.texels()];
         self.painter.walls.coverage(
@@ -127,7 +127,7 @@ fn run_length(shown: &[Option<[u32; 2]>]) -> usize {
 }
 
 /// The part of a window that holds all places that are shown.
-fn bounds(shown: &[Option<[u32; 2]>], around: &Window) -> Option<Window> {
+fn bounds(shown: &[Option<[u32; 2]>], around: &TexelWindow) -> Option<TexelWindow> {
     let mut low = [u32::MAX; 2];
     let mut high = [0; 2];
     for place in shown.iter().flatten() {
@@ -136,7 +136,7 @@ fn bounds(shown: &[Option<[u32; 2]>], around: &Window) -> Option<Window> {
             high[axis] = high[axis].max(place[axis] + 1);
         }
     }
-    (low[0] < high[0]).then(|| Window {
+    (low[0] < high[0]).then(|| TexelWindow {
         i0: around.i0 + i64::from(low[0]),
         j0: around.j0 + i64::from(low[1]),
         width: (high[0] - low[0]) as usize,

@@ -5,8 +5,8 @@ use trodden::export::Reduced;
 use trodden::look::Srgb8;
 use trodden::math::{self, SplitMix64, Vec2, vec2};
 use trodden::plan::FloorPlan;
-use trodden::show::page::{Covering, Dirt, Page, PageOptions, Viewpoint};
-use trodden::show::scene::{Part, Scene, Surface};
+use trodden::show::page::{DirtKind, Page, PageOptions, PageSurface, Viewpoint};
+use trodden::show::scene::{Mesh, Scene, SceneSurface};
 use trodden::walls::{Walls, WallsOptions};
 
 /// Half a metre per character, `.` floor.
@@ -57,10 +57,10 @@ pub fn corridor(clean: Srgb8) -> Corridor {
     let walls = Walls::trace(&plan, &WallsOptions::default());
     let mut scene = Scene::default();
     let tiles = 2;
-    scene.parts.extend((0..tiles).map(|n| floor_part(&plan, n)));
+    scene.meshes.extend((0..tiles).map(|n| floor_part(&plan, n)));
     let (part, strips) = wall_part(&walls);
-    scene.parts.push(part);
-    scene.parts.push(top_part(&plan));
+    scene.meshes.push(part);
+    scene.meshes.push(top_part(&plan));
     let marks = FloorMarks::new(&walls);
     let floor = (0..tiles).map(|n| floor_image(&marks, n, clean[0])).collect();
     let wall = vec![wall_image(&strips, clean[1])];
@@ -70,13 +70,13 @@ pub fn corridor(clean: Srgb8) -> Corridor {
 impl Corridor {
     /// The page of it.
     pub fn page<'a>(&'a self, title: &'a str) -> Page<'a> {
-        let dirt = |name, colour| Dirt { name, colour };
+        let dirt = |name, colour| DirtKind { name, colour };
         Page {
             title,
             scene: &self.scene,
             walls: &self.walls,
             wall_height_m: HEIGHT_M,
-            floor: Covering {
+            floor: PageSurface {
                 images: &self.floor,
                 clean: self.clean[0],
                 roughness: 0.35,
@@ -87,7 +87,7 @@ impl Corridor {
                     dirt("Edges and dust", EDGE),
                 ],
             },
-            wall: Covering {
+            wall: PageSurface {
                 images: &self.wall,
                 clean: self.clean[1],
                 roughness: 0.6,
@@ -120,11 +120,11 @@ fn runs(plan: &FloorPlan, of: impl Fn(u32, u32) -> bool) -> Vec<[Vec2; 2]> {
     runs
 }
 
-fn part(surface: Surface) -> Part {
-    Part { surface, positions_m: vec![], normals: vec![], uvs: vec![], indices: vec![] }
+fn part(surface: SceneSurface) -> Mesh {
+    Mesh { surface, positions_m: vec![], normals: vec![], uvs: vec![], indices: vec![] }
 }
 
-fn quad(part: &mut Part, corners: [[f64; 3]; 4], normal: [f64; 3], uvs: Option<[[f64; 2]; 4]>) {
+fn quad(part: &mut Mesh, corners: [[f64; 3]; 4], normal: [f64; 3], uvs: Option<[[f64; 2]; 4]>) {
     let first = part.positions_m.len() as u32;
     part.positions_m.extend(corners.map(|p| p.map(|value| value as f32)));
     part.normals.extend([normal.map(|value| value as f32); 4]);
@@ -132,8 +132,8 @@ fn quad(part: &mut Part, corners: [[f64; 3]; 4], normal: [f64; 3], uvs: Option<[
     part.indices.extend([0, 1, 2, 0, 2, 3].map(|n| first + n));
 }
 
-fn floor_part(plan: &FloorPlan, tile: usize) -> Part {
-    let mut part = part(Surface::FloorTile(tile));
+fn floor_part(plan: &FloorPlan, tile: usize) -> Mesh {
+    let mut part = part(SceneSurface::FloorTile(tile));
     let left = tile as f64 * TILE_M;
     for [low, high] in runs(plan, |i, j| plan.floor[(j * plan.width_px + i) as usize] == 1) {
         let (x0, x1) = (low.x.max(left), high.x.min(left + TILE_M));
@@ -146,8 +146,8 @@ fn floor_part(plan: &FloorPlan, tile: usize) -> Part {
     part
 }
 
-fn top_part(plan: &FloorPlan) -> Part {
-    let mut part = part(Surface::WallTop);
+fn top_part(plan: &FloorPlan) -> Mesh {
+    let mut part = part(SceneSurface::WallTop);
     let floor = |i: i64, j: i64| {
         (0..i64::from(plan.width_px)).contains(&i)
             && (0..i64::from(plan.height_px)).contains(&j)
@@ -172,8 +172,8 @@ struct Strip {
     seed: u64,
 }
 
-fn wall_part(walls: &Walls) -> (Part, Vec<Strip>) {
-    let mut part = part(Surface::WallSheet(0));
+fn wall_part(walls: &Walls) -> (Mesh, Vec<Strip>) {
+    let mut part = part(SceneSurface::WallSheet(0));
     let mut strips = Vec::new();
     let strip_px = (HEIGHT_M * f64::from(PX_PER_M)).ceil() as u32;
     let (mut left_px, mut low_px) = (4, SHEET_PX[1] - 4);

@@ -7,7 +7,7 @@
 mod dots;
 mod material;
 mod paint;
-mod plaster;
+mod clean_wall;
 mod resolve;
 mod settings;
 mod shade;

@@ -2,16 +2,16 @@
 
 use std::cell::RefCell;
 
-use super::plaster::{Plaster, PlasterWindow};
+use super::clean_wall::{CleanWall, CleanWallWindow};
 use super::settings::StainLook;
-use super::shade::{WallKnown, WallLaw, WallShaded, stains};
+use super::shade::{WallShadeInput, WallShadeOutput, WallShader, stains};
 use super::splash::{Splash, SplashWindow};
-use super::strip::Strip;
-use super::touches::Touches;
+use super::strip::FaceStrip;
+use super::touches::TouchFields;
 use crate::look::block::{Background, ResolvedBlock};
 use crate::look::bytes::Bytes;
 use crate::look::error::LookError;
-use crate::look::lattice::Window;
+use crate::look::lattice::TexelWindow;
 use crate::look::noise::{self, Channel, Noise, NoiseField};
 use crate::look::octaves::{NoiseLook, Octave};
 use crate::look::settings::Look;
@@ -20,22 +20,22 @@ use crate::patterns::Cause;
 use crate::stamps::DENSITY_ONE;
 use crate::sums::WallSums;
 
-/// Buffers that a thread uses again from window to window.
+/// WallBuffers that a thread uses again from window to window.
 #[derive(Default)]
-struct Buffers {
-    known: WallKnown,
-    shaded: WallShaded,
+struct WallBuffers {
+    known: WallShadeInput,
+    shaded: WallShadeOutput,
 }
 
 thread_local! {
-    static BUFFERS: RefCell<Buffers> = RefCell::default();
+    static BUFFERS: RefCell<WallBuffers> = RefCell::default();
 }
 
 /// Everything that changes from row to row.
-struct Layout<'a> {
-    plaster: PlasterWindow<'a>,
+struct WallLayout<'a> {
+    plaster: CleanWallWindow<'a>,
     /// By cause.
-    touches: [Option<Touches>; 5],
+    touches: [Option<TouchFields>; 5],
     splash: Option<SplashWindow>,
     noise: Vec<NoiseField>,
     /// Whether there may be dirt.
@@ -46,22 +46,22 @@ struct Layout<'a> {
 pub(super) struct WallPainter<'a> {
     pub sums: &'a WallSums,
     pub background: Background,
-    plaster: Plaster,
+    plaster: CleanWall,
     /// By cause.
     stains: [StainLook; 5],
     splash: Splash,
     /// Unevenness of all dirt.
     noise: Vec<Noise>,
-    law: WallLaw,
+    law: WallShader,
     dither: u32,
 }
 
 impl<'a> WallPainter<'a> {
     pub fn new(sums: &'a WallSums, look: &Look, simulated_people: u32) -> Result<WallPainter<'a>, LookError> {
         let (wall, texels_per_metre) = (&look.wall, sums.grid().texels_per_metre);
-        let plaster = Plaster::new(wall, look.seed, texels_per_metre)?;
+        let plaster = CleanWall::new(wall, look.seed, texels_per_metre)?;
         let noise = dirt_noise(look);
-        let law = WallLaw::new(look, &wall.material.properties(), simulated_people, &noise, texels_per_metre);
+        let law = WallShader::new(look, &wall.material.properties(), simulated_people, &noise, texels_per_metre);
         Ok(WallPainter {
             sums,
             background: Background {
@@ -80,9 +80,9 @@ impl<'a> WallPainter<'a> {
 
     /// Shades all texels of a window that lies within the strip, into a block of its size; `false` if all of them show
     /// the background.
-    pub fn paint(&self, strip: &Strip, window: &Window, block: &mut ResolvedBlock) -> bool {
+    pub fn paint(&self, strip: &FaceStrip, window: &TexelWindow, block: &mut ResolvedBlock) -> bool {
         BUFFERS.with_borrow_mut(|buffers| {
-            let mut layout = Layout::over(self, strip, window);
+            let mut layout = WallLayout::over(self, strip, window);
             let even = self.plaster.is_even();
             let all_wall = self.plaster.is_above_board(window.j0, window.texels_per_metre);
             if even && all_wall && !layout.dirty {
@@ -100,8 +100,15 @@ impl<'a> WallPainter<'a> {
         })
     }
 
-    fn write(&self, strip: &Strip, window: &Window, row: usize, buffers: &mut Buffers, block: &mut ResolvedBlock) {
-        let Buffers { known, shaded } = buffers;
+    fn write(
+        &self,
+        strip: &FaceStrip,
+        window: &TexelWindow,
+        row: usize,
+        buffers: &mut WallBuffers,
+        block: &mut ResolvedBlock,
+    ) {
+        let WallBuffers { known, shaded } = buffers;
         let texels = row * window.width..(row + 1) * window.width;
         let mut bytes = Bytes {
             base_color: &mut block.base_color[texels.clone()],
@@ -134,19 +141,20 @@ fn dirt_noise(look: &Look) -> Vec<Noise> {
     all.into_iter().filter(|noise| !noise.is_flat()).collect()
 }
 
-impl<'a> Layout<'a> {
-    fn over(painter: &'a WallPainter<'_>, strip: &Strip, window: &Window) -> Layout<'a> {
+impl<'a> WallLayout<'a> {
+    fn over(painter: &'a WallPainter<'_>, strip: &FaceStrip, window: &TexelWindow) -> WallLayout<'a> {
         let WallPainter { law, stains, sums, .. } = painter;
         let touches = std::array::from_fn(|n| {
-            let over =
-                || Touches::over(window, strip, sums, Cause::WALL[n], law.evens_out().then_some(stains[n].spread_m));
+            let over = || {
+                TouchFields::over(window, strip, sums, Cause::WALL[n], law.evens_out().then_some(stains[n].spread_m))
+            };
             law.takes(n).then(over).flatten()
         });
         let splash = painter.splash.over(window, strip);
         let low_m = (window.j0 as f64 + 0.5) / window.texels_per_metre;
         let dirty = splash.is_some() || touches.iter().any(Option::is_some) || law.dust_from(low_m as f32);
         let noise = |noise: &Noise| noise.over_strip(window, strip.salt, strip.width, strip.closed);
-        Layout {
+        WallLayout {
             plaster: painter.plaster.over(window, strip),
             touches,
             splash,
@@ -169,8 +177,8 @@ impl<'a> Layout<'a> {
     }
 
     /// Everything that the law needs to know of the row last begun.
-    fn gather(&self, law: &WallLaw, window: &Window, row: usize, buffers: &mut Buffers) {
-        let Buffers { known, .. } = buffers;
+    fn gather(&self, law: &WallShader, window: &TexelWindow, row: usize, buffers: &mut WallBuffers) {
+        let WallBuffers { known, .. } = buffers;
         self.plaster.read(&mut known.plaster);
         known.height_m = ((window.j0 + row as i64) as f64 + 0.5) as f32 / window.texels_per_metre as f32;
         let unit = 1.0 / DENSITY_ONE;

@@ -2,7 +2,7 @@ use std::cell::RefCell;
 
 use super::paint::WallPainter;
 use super::shade::KINDS;
-use super::strip::{Shown, Strip};
+use super::strip::{ColumnRun, FaceStrip};
 use crate::look::block::{Background, ResolvedBlock};
 use crate::look::error::LookError;
 use crate::look::settings::Look;
@@ -28,7 +28,7 @@ impl<'a> WallResolver<'a> {
     ) -> Result<WallResolver<'a>, LookError> {
         look.check()?;
         if simulated_people == 0 {
-            return Err(LookError::Nobody { total_passes: look.wall.total_passes });
+            return Err(LookError::NoPeople { total_passes: look.wall.total_passes });
         }
         let (faces, summed) = (walls.faces.len(), sums.grid().faces.len());
         if summed != faces {
@@ -56,14 +56,14 @@ impl<'a> WallResolver<'a> {
 
     /// As [`WallResolver::resolve`], into a block whose memory is used again.
     pub fn resolve_into(&self, face: usize, i0: i64, j0: i64, width: usize, height: usize, block: &mut ResolvedBlock) {
-        let Some(strip) = Strip::of(self.0.sums.grid(), face).filter(|_| width > 0 && height > 0) else {
+        let Some(strip) = FaceStrip::of(self.0.sums.grid(), face).filter(|_| width > 0 && height > 0) else {
             block.become_empty();
             return;
         };
         block.resize(width * height, &WALL_LAYERS);
         let rows = strip.rows(j0, height);
         let runs = strip.columns(i0, width);
-        let whole = Shown { columns: i0.max(0) as u32..i0.max(0) as u32 + width as u32, at: 0 };
+        let whole = ColumnRun { columns: i0.max(0) as u32..i0.max(0) as u32 + width as u32, at: 0 };
         if i0 >= 0 && runs == [whole] && i64::from(rows.start) == j0 && rows.len() == height {
             if !self.0.paint(&strip, &strip.window(&runs[0].columns, &rows), block) {
                 block.become_empty();
@@ -81,7 +81,7 @@ impl<'a> WallResolver<'a> {
                 let left = if strip.closed { 0 } else { (window.i0 - i0).clamp(0, width as i64) as usize };
                 for row in 0..height {
                     let source = (j0 + row as i64 - window.j0).clamp(0, window.height as i64 - 1) as usize;
-                    let place = Line { to: row * width, from: source * window.width };
+                    let place = RowCopy { to: row * width, from: source * window.width };
                     place.copy(block, painted, run.at..end, left, window.width);
                 }
             }
@@ -99,12 +99,12 @@ thread_local! {
 }
 
 /// Rows of a block and of what is copied to it, by their first texels.
-struct Line {
+struct RowCopy {
     to: usize,
     from: usize,
 }
 
-impl Line {
+impl RowCopy {
     /// Copies `len` texels to the columns from `at.start + left` on, and continues the first and the last of them over
     /// the rest of the columns `at`.
     fn copy(

@@ -327,7 +327,7 @@ fn drips_are_rare_and_never_evenly_spaced() {
         height: 260,
         faces: vec![crate::stamps::FaceSpan { width: 100_000, length_m: 1000.0, closed: false }],
     };
-    let strip = strip::Strip::of(&grid, 0).unwrap();
+    let strip = strip::FaceStrip::of(&grid, 0).unwrap();
     let look = SplashLook { drips_per_metre: 0.5, ..SplashLook::default() };
     let drips = splash::Splash::new(look, 3);
     let mut places: Vec<f64> = drips.places_of_drips(&strip.window(&(0..100_000), &(0..50)), &strip);

@@ -5,9 +5,9 @@ mod error;
 mod options;
 mod palette;
 mod recorder;
-mod reel;
-mod scene;
-mod tails;
+mod packed_frames;
+mod crowd_view;
+mod trails;
 #[cfg(test)]
 mod tests;
 

@@ -2,13 +2,13 @@ use std::io::{self, Write};
 
 use serde::{Deserialize, Serialize};
 
-use super::encode::{self, Film, Patch};
+use super::crowd_view::CrowdView;
+use super::encode::{self, EncoderInput, LabelPatch};
 use super::error::AnimationError;
 use super::options::{ANIMATION_SPEEDS, AnimationFormat, AnimationOptions};
+use super::packed_frames::PackedFrames;
 use super::palette::Palette;
-use super::reel::Reel;
-use super::scene::Scene;
-use super::tails::Tails;
+use super::trails::Trails;
 use crate::crowd::{Arrival, Stuck};
 use crate::math::Vec2;
 use crate::motion::{Frame, Resampler};
@@ -29,7 +29,7 @@ const SPEEDS: [f64; 9] = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0];
 const ROOM_S: f64 = 3.0;
 
 /// The least round speed at which so many seconds are shown in time.
-fn round_speed(expected_s: f64) -> f64 {
+pub(super) fn round_speed(expected_s: f64) -> f64 {
     let most_s = MOST_PICTURES as f64 / RATE - ROOM_S;
     let mut speeds = [1.0, 10.0, 100.0].into_iter().flat_map(|tens| SPEEDS.map(|speed| tens * speed));
     let [_, fastest] = ANIMATION_SPEEDS;
@@ -54,13 +54,13 @@ pub struct AnimationReport {
 /// Holds packed pictures, at most 250 unless a speed was asked for and 7500 then: where there would be more, every other
 /// one is dropped and the speed doubled.
 pub struct Animation<'a> {
-    scene: Scene<'a>,
+    scene: CrowdView<'a>,
     palette: Palette,
     resampler: Resampler,
-    reel: Reel,
+    reel: PackedFrames,
     speed: f64,
     most: usize,
-    tails: Tails,
+    tails: Trails,
     stuck: Vec<Vec2>,
     options: AnimationOptions,
 }
@@ -79,14 +79,14 @@ impl<'a> Animation<'a> {
     ) -> Result<Animation<'a>, AnimationError> {
         options.check()?;
         let speed = options.speed.unwrap_or_else(|| round_speed(expected_s));
-        let scene = Scene::new(plan, walls, arrivals, options);
+        let scene = CrowdView::new(plan, walls, arrivals, options);
         Ok(Animation {
             palette: Palette::new(),
             resampler: Resampler::new(RATE * MOMENTS as f64 / speed),
-            reel: Reel::default(),
+            reel: PackedFrames::default(),
             most: if options.speed.is_some() { MOST_AT_FIXED_SPEED } else { MOST_PICTURES },
             speed,
-            tails: Tails::default(),
+            tails: Trails::default(),
             stuck: Vec::new(),
             options: *options,
             scene,
@@ -131,8 +131,9 @@ impl<'a> Animation<'a> {
     pub fn write(&self, out: impl Write, format: AnimationFormat) -> io::Result<AnimationReport> {
         // The speed is known only now.
         let (at, label) = self.scene.speed_label(self.speed);
-        let patch = Patch { at, width: label.width() as usize, indices: self.palette.indices(&label) };
-        let film = Film { reel: &self.reel, palette: self.palette.colours(), size_px: self.scene.size_px(), patch };
+        let patch = LabelPatch { at, width: label.width() as usize, indices: self.palette.indices(&label) };
+        let film =
+            EncoderInput { reel: &self.reel, palette: self.palette.colours(), size_px: self.scene.size_px(), patch };
         match format {
             AnimationFormat::Gif => encode::gif(&film, out)?,
             AnimationFormat::Png => encode::png(&film, out)?,

@@ -1,9 +1,16 @@
 use image::AnimationDecoder;
 
+use std::path::Path;
+
+use super::crowd_view::CrowdView;
+use super::recorder::round_speed;
+use super::trails::Trails;
 use super::*;
+use crate::crowd::Stuck;
 use crate::math::vec2;
-use crate::motion::Walker;
-use crate::walls::WallsOptions;
+use crate::motion::{Frame, Walker};
+use crate::plan::FloorPlan;
+use crate::walls::{Walls, WallsOptions};
 
 /// A corridor of 12 x 3 m between walls of a metre.
 fn plan() -> (FloorPlan, Walls) {
@@ -55,7 +62,7 @@ fn gif_and_png_show_the_same_pictures() {
     assert_eq!((delays[0], delays[50]), (8, 150));
     // Nobody is left behind where they were.
     let (plan, walls) = plan();
-    let empty = Scene::new(&plan, &walls, &[], &small()).picture(0.0, &[], &Tails::default(), &[]);
+    let empty = CrowdView::new(&plan, &walls, &[], &small()).picture(0.0, &[], &Trails::default(), &[]);
     let dark = |picture: &image::RgbaImage| picture.pixels().filter(|pixel| pixel.0[0] < 60).count();
     let few = dark(gif[10].buffer());
     assert!(few > 0 && dark(gif[50].buffer()).abs_diff(few) < 60, "{few} {}", dark(gif[50].buffer()));

@@ -17,9 +17,9 @@ pub struct Page<'a> {
     /// Height of the ceiling, metres.
     pub wall_height_m: f64,
     /// What floor tiles show.
-    pub floor: Covering<'a>,
+    pub floor: PageSurface<'a>,
     /// What wall sheets show.
-    pub wall: Covering<'a>,
+    pub wall: PageSurface<'a>,
     /// Where a reader stands at first.
     pub start: Viewpoint,
     /// How much the page may carry.
@@ -54,56 +54,56 @@ impl Default for PageOptions {
 
 /// How tiles or sheets look, clean and dirty.
 #[derive(Clone, Debug)]
-pub struct Covering<'a> {
-    /// The images, by the number that [`Surface`](super::scene::Surface) gives.
+pub struct PageSurface<'a> {
+    /// The images, by the number that [`SceneSurface`](super::scene::SceneSurface) gives.
     pub images: &'a [Reduced],
     /// Colour without dirt, on average.
     pub clean: Srgb8,
     /// Roughness without dirt, 0 to 1.
     pub roughness: f32,
     /// The kinds of dirt on it, in the order of [`Layer::kind`](crate::look::Layer::kind).
-    pub dirt: Vec<Dirt>,
+    pub dirt: Vec<DirtKind>,
 }
 
 /// A kind of dirt that the page can show or leave out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Dirt {
+pub struct DirtKind {
     /// What its switch says.
     pub name: &'static str,
     /// Colour, sRGB.
     pub colour: Srgb8,
 }
 
-impl<'a> Covering<'a> {
+impl<'a> PageSurface<'a> {
     /// A floor in the colours of `look`. `background` is the clean floor as its resolver gives it.
-    pub fn floor(images: &'a [Reduced], look: &Look, background: Background) -> Covering<'a> {
+    pub fn floor(images: &'a [Reduced], look: &Look, background: Background) -> PageSurface<'a> {
         // Edge and dust are one kind and nearly of one colour.
         let edge = mixed(look.edge.colour, look.dust.colour, 0.4);
-        Covering {
+        PageSurface {
             images,
             clean: background.base_color,
             roughness: f32::from(background.orm[1]) / 255.0,
             dirt: vec![
-                Dirt { name: "Trodden film", colour: look.film.colour },
-                Dirt { name: "Shoe prints", colour: look.prints.colour },
-                Dirt { name: "Heel marks", colour: look.scuffs.colour },
-                Dirt { name: "Edges and dust", colour: edge },
+                DirtKind { name: "Trodden film", colour: look.film.colour },
+                DirtKind { name: "Shoe prints", colour: look.prints.colour },
+                DirtKind { name: "Heel marks", colour: look.scuffs.colour },
+                DirtKind { name: "Edges and dust", colour: edge },
             ],
         }
     }
 
     /// Walls in the colours of `look`. `background` is the clean wall as its resolver gives it.
-    pub fn wall(images: &'a [Reduced], look: &Look, background: Background) -> Covering<'a> {
+    pub fn wall(images: &'a [Reduced], look: &Look, background: Background) -> PageSurface<'a> {
         let wall = &look.wall;
-        Covering {
+        PageSurface {
             images,
             clean: background.base_color,
             roughness: f32::from(background.orm[1]) / 255.0,
             dirt: vec![
-                Dirt { name: "Hands", colour: wall.skin.colour },
-                Dirt { name: "Clothes and bags", colour: mixed(wall.cloth.colour, wall.bag.colour, 0.5) },
-                Dirt { name: "Shoe scuffs", colour: wall.rubber.colour },
-                Dirt { name: "Splashes and dust", colour: wall.splash.colour },
+                DirtKind { name: "Hands", colour: wall.skin.colour },
+                DirtKind { name: "Clothes and bags", colour: mixed(wall.cloth.colour, wall.bag.colour, 0.5) },
+                DirtKind { name: "Shoe scuffs", colour: wall.rubber.colour },
+                DirtKind { name: "Splashes and dust", colour: wall.splash.colour },
             ],
         }
     }

@@ -3,15 +3,15 @@
 use image::ExtendedColorType;
 use serde_json::{Value, json};
 
-use super::content::{Covering, Page, PageOptions};
-use super::field::{self, Field, Raster};
+use super::content::{Page, PageOptions, PageSurface};
+use super::field::{self, CellGrid, DistanceField};
 use super::images::{self, ImageFiles, PageImages, PixelRect};
 use super::{geometry, lamps, light};
 use crate::export::{ExportError, OutputFolder};
 use crate::look::Layer;
 use crate::math::Vec2;
 use crate::math::srgb::light_of;
-use crate::show::scene::{Part, Surface};
+use crate::show::scene::{Mesh, SceneSurface};
 
 /// Name of the page in a bake's folder.
 pub const PAGE_FILE: &str = "index.html";
@@ -139,7 +139,7 @@ fn outline(outline: &crate::walls::Outline) -> Value {
     json!({ "points": points, "openings": outline.openings.iter().map(|(edge, _)| edge).collect::<Vec<_>>() })
 }
 
-fn covering(covering: &Covering<'_>) -> Value {
+fn covering(covering: &PageSurface<'_>) -> Value {
     let kinds = &covering.dirt[..covering.dirt.len().min(Layer::KINDS)];
     let kinds: Vec<Value> = kinds
         .iter()
@@ -156,11 +156,11 @@ struct PartImage {
     images: PageImages,
 }
 
-fn part_image(page: &Page<'_>, part: &Part) -> Option<PartImage> {
+fn part_image(page: &Page<'_>, part: &Mesh) -> Option<PartImage> {
     let images = match part.surface {
-        Surface::FloorTile(n) => page.floor.images.get(n),
-        Surface::WallSheet(n) => page.wall.images.get(n),
-        Surface::WallTop | Surface::Lintel => None,
+        SceneSurface::FloorTile(n) => page.floor.images.get(n),
+        SceneSurface::WallSheet(n) => page.wall.images.get(n),
+        SceneSurface::WallTop | SceneSurface::Lintel => None,
     }?;
     let (width, height) = images.clean.dimensions();
     let fits = images.dirt.dimensions() == (width, height) && images.orm.dimensions() == (width, height);
@@ -173,7 +173,7 @@ fn part_image(page: &Page<'_>, part: &Part) -> Option<PartImage> {
 
 /// Describes the parts and appends their bytes.
 fn parts(page: &Page<'_>, blocks: &mut Vec<(String, Vec<u8>)>) -> Vec<Value> {
-    let parts: Vec<&Part> = page.scene.parts.iter().filter(|part| geometry::usable(part)).collect();
+    let parts: Vec<&Mesh> = page.scene.meshes.iter().filter(|part| geometry::usable(part)).collect();
     let images: Vec<Option<PartImage>> = parts.iter().map(|part| part_image(page, part)).collect();
     let files = within_bounds(page.options, &images);
     let mut described = Vec::new();
@@ -190,10 +190,10 @@ fn parts(page: &Page<'_>, blocks: &mut Vec<(String, Vec<u8>)>) -> Vec<Value> {
             json!({ "id": n, "width": width, "height": height })
         });
         let kind = match part.surface {
-            Surface::FloorTile(_) => "floor",
-            Surface::WallSheet(_) => "wall",
-            Surface::WallTop => "top",
-            Surface::Lintel => "lintel",
+            SceneSurface::FloorTile(_) => "floor",
+            SceneSurface::WallSheet(_) => "wall",
+            SceneSurface::WallTop => "top",
+            SceneSurface::Lintel => "lintel",
         };
         described.push(json!({
             "surface": kind,
@@ -231,16 +231,16 @@ fn within_bounds(options: PageOptions, images: &[Option<PartImage>]) -> Vec<Opti
     }
 }
 
-fn raster(raster: &Raster) -> Value {
+fn raster(raster: &CellGrid) -> Value {
     let origin = point(raster.origin_m);
     json!({ "origin": origin, "cell": raster.cell_m, "width": raster.width, "height": raster.height })
 }
 
 /// Distances, lamps and their light.
 fn surroundings(page: &Page<'_>, data: &mut Value, blocks: &mut Vec<(String, Vec<u8>)>) {
-    let field = Field::of(page.walls);
+    let field = DistanceField::of(page.walls);
     let lamps = lamps::hang(page.walls, &field);
-    let light = light::Light::of(page.walls, &lamps, page.wall_height_m);
+    let light = light::LightGrid::of(page.walls, &lamps, page.wall_height_m);
     let image = field.image();
     blocks.push(("field".to_string(), images::png(&image, image.width(), image.height(), ExtendedColorType::L8)));
     let image = light.image();

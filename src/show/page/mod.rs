@@ -11,5 +11,5 @@ mod images;
 mod lamps;
 mod light;
 
-pub use content::{Covering, Dirt, Page, PageOptions, Viewpoint};
+pub use content::{DirtKind, Page, PageOptions, PageSurface, Viewpoint};
 pub use document::{PAGE_FILE, page_html, write_page};

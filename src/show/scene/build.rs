@@ -1,6 +1,6 @@
 use super::builder::SceneBuilder;
-use super::model::{Scene, Surface, WallStrip};
-use super::region::Region;
+use super::model::{Scene, SceneSurface, WallStrip};
+use super::region::PolygonSet;
 use super::tiles::TileCuts;
 use super::tops::Solid;
 use super::{faces, floor, lintels};
@@ -29,7 +29,7 @@ const LOWEST_LINTEL_M: f64 = 0.05;
 ///
 /// `tiles` are the places of the floor's textures in the plan frame, in the manifest's order; floor outside all of
 /// them is left out. `strips` tell which wall is found where on the wall sheets; wall that is on none is clean
-/// ([`Surface::Lintel`]).
+/// ([`SceneSurface::Lintel`]).
 ///
 /// The floor has the walls' real outline, with holes and islands, cut at the tiles' borders such that neighbours
 /// share their corners. Wall faces are upright quads with smooth normals round curved walls (turns of less than 40
@@ -48,12 +48,12 @@ pub fn build(
     let height_m = options.wall_height_m;
     let mut scene = SceneBuilder::default();
     let cuts = TileCuts::new(tiles);
-    let floor = Region::inside_right(walls.outlines().iter().map(|o| o.points_m.iter().copied()));
+    let floor = PolygonSet::inside_right(walls.outlines().iter().map(|o| o.points_m.iter().copied()));
     floor::add(&floor, tiles, &cuts, &mut scene);
     faces::add(&walls.faces, strips, &cuts, height_m, &mut scene);
     let solid = Solid::around(&floor, walls.outlines(), options.rim_m.clamp(0.0, 10.0));
-    solid.add_tops(height_m, scene.part(Surface::WallTop));
-    solid.add_sides(height_m, scene.part(Surface::WallTop));
+    solid.add_tops(height_m, scene.part(SceneSurface::WallTop));
+    solid.add_sides(height_m, scene.part(SceneSurface::WallTop));
     let mut heads_m: Vec<f64> =
         doorways.iter().map(|door| door.head_m).filter(|head_m| height_m - head_m >= LOWEST_LINTEL_M).collect();
     heads_m.sort_by(f64::total_cmp);

@@ -15,4 +15,4 @@ mod tops;
 
 pub use build::{SceneOptions, build};
 pub use glb::{GlbImage, GlbOptions, MOST_EMBEDDED_PX, PlainMaterial, SurfaceImages, write_glb};
-pub use model::{Part, Scene, Surface, WallStrip};
+pub use model::{Mesh, Scene, SceneSurface, WallStrip};

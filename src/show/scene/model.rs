@@ -1,6 +1,6 @@
 /// What a part of the scene is covered with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Surface {
+pub enum SceneSurface {
     /// A floor texture: place in the manifest's list of tiles.
     FloorTile(usize),
     /// A wall texture: place in the manifest's list of sheets.
@@ -13,9 +13,9 @@ pub enum Surface {
 
 /// Triangles that share a surface. All lists but `indices` have an entry per vertex.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Part {
+pub struct Mesh {
     /// What it is covered with.
-    pub surface: Surface,
+    pub surface: SceneSurface,
     /// x, y in the plan frame and height above the floor, metres.
     pub positions_m: Vec<[f32; 3]>,
     /// Unit vectors in the same frame.
@@ -31,7 +31,7 @@ pub struct Part {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
     /// By surface, each once.
-    pub parts: Vec<Part>,
+    pub meshes: Vec<Mesh>,
 }
 
 /// Which piece of a wall face a piece of a wall sheet shows.

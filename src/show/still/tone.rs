@@ -1,6 +1,6 @@
 //! From linear light to the picture's bytes.
 
-use super::shade::Colour;
+use super::shade::LinearRgb;
 use crate::math::{SplitMix64, exp, srgb};
 
 /// Up to here light is kept as it is; above, it comes ever closer to white.
@@ -33,7 +33,7 @@ impl Tone {
     }
 
     /// The bytes of a row of a picture of `width` x `height` pixels.
-    pub fn row(&self, row: &[Colour], y: u32, [width, height]: [u32; 2], out: &mut [u8]) {
+    pub fn row(&self, row: &[LinearRgb], y: u32, [width, height]: [u32; 2], out: &mut [u8]) {
         let reach = width as f32 * width as f32 + height as f32 * height as f32;
         let mut random = SplitMix64::new(u64::from(y).wrapping_mul(0x9e37_79b9_7f4a_7c15));
         for (x, (colour, out)) in row.iter().zip(out.chunks_exact_mut(3)).enumerate() {

@@ -9,13 +9,13 @@ pub struct GlbOptions<'a> {
     pub name: String,
     /// Seed of the bake.
     pub seed: u64,
-    /// Textures of [`Surface::FloorTile`](crate::show::scene::Surface::FloorTile), in its order.
+    /// Textures of [`SceneSurface::FloorTile`](crate::show::scene::SceneSurface::FloorTile), in its order.
     pub floor: Vec<SurfaceImages<'a>>,
-    /// Textures of [`Surface::WallSheet`](crate::show::scene::Surface::WallSheet), in its order.
+    /// Textures of [`SceneSurface::WallSheet`](crate::show::scene::SceneSurface::WallSheet), in its order.
     pub walls: Vec<SurfaceImages<'a>>,
-    /// [`Surface::WallTop`](crate::show::scene::Surface::WallTop).
+    /// [`SceneSurface::WallTop`](crate::show::scene::SceneSurface::WallTop).
     pub wall_top: PlainMaterial,
-    /// [`Surface::Lintel`](crate::show::scene::Surface::Lintel): the clean wall.
+    /// [`SceneSurface::Lintel`](crate::show::scene::SceneSurface::Lintel): the clean wall.
     pub clean_wall: PlainMaterial,
 }
 

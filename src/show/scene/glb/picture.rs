@@ -13,26 +13,26 @@ const JPEG_QUALITY: u8 = 92;
 
 /// What an image holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Picture {
+pub(super) enum TextureContent {
     /// sRGB colour: averaged as light, kept as JPEG.
     Colour,
     /// Numbers: averaged as they are, kept without loss.
     Data,
 }
 
-impl Picture {
+impl TextureContent {
     /// The image's media type and its file, halved until it fits.
     pub fn encode(self, image: &RgbImage) -> io::Result<(&'static str, Vec<u8>)> {
         let smaller = self.fitting(image);
         let image = smaller.as_ref().unwrap_or(image);
         let mut bytes = Vec::new();
         match self {
-            Picture::Colour => {
+            TextureContent::Colour => {
                 let mut encoder = JpegEncoder::new_with_quality(&mut bytes, JPEG_QUALITY);
                 encoder.encode_image(image).map_err(io::Error::other)?;
                 Ok(("image/jpeg", bytes))
             }
-            Picture::Data => {
+            TextureContent::Data => {
                 image.write_to(&mut Cursor::new(&mut bytes), ImageFormat::Png).map_err(io::Error::other)?;
                 Ok(("image/png", bytes))
             }
@@ -51,8 +51,8 @@ impl Picture {
 
     fn halved(self, image: &RgbImage) -> RgbImage {
         match self {
-            Picture::Colour => halved_colours(image),
-            Picture::Data => halved_numbers(image),
+            TextureContent::Colour => halved_colours(image),
+            TextureContent::Data => halved_numbers(image),
         }
     }
 }
@@ -82,19 +82,19 @@ mod tests {
     #[test]
     fn a_large_image_is_halved_as_light() {
         let stripes = RgbImage::from_fn(4096, 3, |x, _| image::Rgb(if x % 2 == 0 { [0; 3] } else { [255; 3] }));
-        let colour = Picture::Colour.fitting(&stripes).unwrap();
+        let colour = TextureContent::Colour.fitting(&stripes).unwrap();
         assert_eq!(colour.dimensions(), (2048, 2));
         assert!(colour.pixels().all(|p| p.0 == [188; 3]), "{:?}", colour.get_pixel(0, 0));
-        let data = Picture::Data.fitting(&stripes).unwrap();
+        let data = TextureContent::Data.fitting(&stripes).unwrap();
         assert!(data.pixels().all(|p| p.0[0] == 127 || p.0[0] == 128));
-        assert_eq!(Picture::Data.fitting(&RgbImage::new(2048, 2048)), None);
+        assert_eq!(TextureContent::Data.fitting(&RgbImage::new(2048, 2048)), None);
     }
 
     #[test]
     fn halving_keeps_an_even_colour() {
         for value in 0..=255 {
             let even = RgbImage::from_pixel(2, 2, image::Rgb([value; 3]));
-            assert_eq!(Picture::Colour.halved(&even).get_pixel(0, 0).0, [value; 3]);
+            assert_eq!(TextureContent::Colour.halved(&even).get_pixel(0, 0).0, [value; 3]);
         }
     }
 }

@@ -1,6 +1,6 @@
 use std::io::{self, Write};
 
-use super::document::Document;
+use super::document::GltfDocument;
 use super::options::GlbOptions;
 use crate::show::scene::model::Scene;
 
@@ -13,7 +13,7 @@ use crate::show::scene::model::Scene;
 /// # Errors
 /// What the writer says; a scene of more than 4 GiB, which the format cannot hold.
 pub fn write_glb(out: &mut impl Write, scene: &Scene, options: &GlbOptions) -> io::Result<()> {
-    let document = Document::new(scene, options)?;
+    let document = GltfDocument::new(scene, options)?;
     let mut json = document.json();
     json.resize(json.len().next_multiple_of(4), b' ');
     let binary_length = document.binary_length();
