@@ -143,7 +143,7 @@ fn resolved(scene: &SummedFloor, look: &Look) -> Resolved {
     let TexelGrid { width, height, .. } = scene.sums.grid();
     let block = resolver.resolve(0, 0, width as usize, height as usize);
     let lightness = block.base_color.iter().map(|&colour| lightness(light_of(colour))).collect();
-    let clean = lightness(light_of(resolver.background().base_color));
+    let clean = self::lightness(light_of(resolver.background().base_color));
     Resolved { width: width as usize, block, lightness, clean }
 }
 

@@ -143,7 +143,7 @@ fn every_texel_of_every_face_lies_where_the_manifest_says_and_padding_goes_on() 
         let told = Told(&baked.grid);
         let mut turned = 0;
         for sheet in &baked.entry.sheets {
-            let image = image::open(baked.path(&sheet.orm)).unwrap().to_rgb8();
+            let image = image::open(baked.path(&sheet.mask)).unwrap().to_rgba8();
             assert_eq!(image.dimensions(), (sheet.width_px, sheet.height_px));
             for strip in &sheet.strips {
                 turned += usize::from(strip.turned);

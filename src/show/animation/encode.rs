@@ -11,7 +11,7 @@ const LAST_DELAY: u16 = 150;
 
 /// All that a file is made of.
 pub(super) struct EncoderInput<'a> {
-    pub(super) reel: &'a PackedFrames,
+    pub(super) frames: &'a PackedFrames,
     pub(super) palette: &'a [Srgb8],
     pub(super) size_px: [u32; 2],
     /// Covers its place in every picture.
@@ -37,9 +37,9 @@ struct FrameDelta {
 impl EncoderInput<'_> {
     fn changes(&self) -> impl Iterator<Item = FrameDelta> {
         let [width, height] = self.size_px.map(|side| side as usize);
-        let last = self.reel.len() - 1;
+        let last = self.frames.len() - 1;
         let mut before: Vec<u8> = Vec::new();
-        self.reel.pictures().enumerate().map(move |(n, mut picture)| {
+        self.frames.pictures().enumerate().map(move |(n, mut picture)| {
             self.patch.cover(&mut picture, width);
             let delay = if n == last { LAST_DELAY } else { DELAY };
             let change = match n {
@@ -81,16 +81,16 @@ fn change(before: &[u8], now: &[u8], [width, height]: [usize; 2], delay: u16) ->
     FrameDelta { at: [left as u32, top as u32], size, indices, delay }
 }
 
-pub(super) fn gif(film: &EncoderInput<'_>, out: impl Write) -> io::Result<()> {
+pub(super) fn gif(input: &EncoderInput<'_>, out: impl Write) -> io::Result<()> {
     let failed = |error: gif::EncodingError| match error {
         gif::EncodingError::Io(error) => error,
         other => io::Error::other(other),
     };
     let short = |pixels: u32| u16::try_from(pixels).map_err(io::Error::other);
-    let [width, height] = film.size_px;
-    let mut encoder = gif::Encoder::new(out, short(width)?, short(height)?, &full(film.palette)).map_err(failed)?;
+    let [width, height] = input.size_px;
+    let mut encoder = gif::Encoder::new(out, short(width)?, short(height)?, &full(input.palette)).map_err(failed)?;
     encoder.set_repeat(gif::Repeat::Infinite).map_err(failed)?;
-    for change in film.changes() {
+    for change in input.changes() {
         let frame = gif::Frame {
             delay: change.delay,
             dispose: gif::DisposalMethod::Keep,
@@ -107,23 +107,23 @@ pub(super) fn gif(film: &EncoderInput<'_>, out: impl Write) -> io::Result<()> {
     encoder.into_inner().map_err(failed)?.flush()
 }
 
-pub(super) fn png(film: &EncoderInput<'_>, out: impl Write) -> io::Result<()> {
+pub(super) fn png(input: &EncoderInput<'_>, out: impl Write) -> io::Result<()> {
     let failed = |error: png::EncodingError| match error {
         png::EncodingError::IoError(error) => error,
         other => io::Error::other(other),
     };
-    let [width, height] = film.size_px;
+    let [width, height] = input.size_px;
     let mut encoder = png::Encoder::new(out, width, height);
     encoder.set_color(png::ColorType::Indexed);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_palette(full(film.palette));
+    encoder.set_palette(full(input.palette));
     let mut alpha = vec![255; usize::from(UNCHANGED)];
     alpha.push(0);
     encoder.set_trns(alpha);
-    encoder.set_animated(film.reel.len() as u32, 0).map_err(failed)?;
+    encoder.set_animated(input.frames.len() as u32, 0).map_err(failed)?;
     encoder.set_blend_op(png::BlendOp::Over).map_err(failed)?;
     let mut writer = encoder.write_header().map_err(failed)?;
-    for (n, change) in film.changes().enumerate() {
+    for (n, change) in input.changes().enumerate() {
         if n > 0 {
             writer.reset_frame_position().map_err(failed)?;
             writer.set_frame_dimension(change.size[0], change.size[1]).map_err(failed)?;

@@ -54,13 +54,13 @@ pub struct AnimationReport {
 /// Holds packed pictures, at most 250 unless a speed was asked for and 7500 then: where there would be more, every other
 /// one is dropped and the speed doubled.
 pub struct Animation<'a> {
-    scene: CrowdView<'a>,
+    pub(super) view: CrowdView<'a>,
     palette: Palette,
     resampler: Resampler,
-    reel: PackedFrames,
-    speed: f64,
-    most: usize,
-    tails: Trails,
+    pub(super) frames: PackedFrames,
+    pub(super) speed: f64,
+    most_frames: usize,
+    trails: Trails,
     stuck: Vec<Vec2>,
     options: AnimationOptions,
 }
@@ -79,17 +79,17 @@ impl<'a> Animation<'a> {
     ) -> Result<Animation<'a>, AnimationError> {
         options.check()?;
         let speed = options.speed.unwrap_or_else(|| round_speed(expected_s));
-        let scene = CrowdView::new(plan, walls, arrivals, options);
+        let view = CrowdView::new(plan, walls, arrivals, options);
         Ok(Animation {
             palette: Palette::new(),
             resampler: Resampler::new(RATE * MOMENTS as f64 / speed),
-            reel: PackedFrames::default(),
-            most: if options.speed.is_some() { MOST_AT_FIXED_SPEED } else { MOST_PICTURES },
+            frames: PackedFrames::default(),
+            most_frames: if options.speed.is_some() { MOST_AT_FIXED_SPEED } else { MOST_PICTURES },
             speed,
-            tails: Trails::default(),
+            trails: Trails::default(),
             stuck: Vec::new(),
             options: *options,
-            scene,
+            view,
         })
     }
 
@@ -97,19 +97,19 @@ impl<'a> Animation<'a> {
     pub fn push(&mut self, frame: &Frame, stuck: &[Stuck]) {
         self.resampler.push(frame);
         while let Some((moment, walkers)) = self.resampler.next() {
-            self.tails.push(&walkers, self.speed / (RATE * MOMENTS as f64));
+            self.trails.push(&walkers, self.speed / (RATE * MOMENTS as f64));
             if moment % MOMENTS != 0 {
                 continue;
             }
-            if self.reel.len() >= self.most {
+            if self.frames.len() >= self.most_frames {
                 // An even number of pictures: the one that comes now is not among those that are dropped.
-                self.reel.halve();
+                self.frames.halve();
                 self.resampler.halve();
                 self.speed *= 2.0;
             }
-            let time_s = self.time_of(self.reel.len());
-            let picture = self.scene.picture(time_s, &walkers, &self.tails, &self.stuck);
-            self.reel.push(&self.palette.indices(&picture));
+            let time_s = self.time_of(self.frames.len());
+            let picture = self.view.picture(time_s, &walkers, &self.trails, &self.stuck);
+            self.frames.push(&self.palette.indices(&picture));
         }
         self.stuck.clear();
         self.stuck.extend(stuck.iter().map(|person| person.place_m));
@@ -130,15 +130,15 @@ impl<'a> Animation<'a> {
     /// `out` cannot be written to.
     pub fn write(&self, out: impl Write, format: AnimationFormat) -> io::Result<AnimationReport> {
         // The speed is known only now.
-        let (at, label) = self.scene.speed_label(self.speed);
+        let (at, label) = self.view.speed_label(self.speed);
         let patch = LabelPatch { at, width: label.width() as usize, indices: self.palette.indices(&label) };
         let film =
-            EncoderInput { reel: &self.reel, palette: self.palette.colours(), size_px: self.scene.size_px(), patch };
+            EncoderInput { frames: &self.frames, palette: self.palette.colours(), size_px: self.view.size_px(), patch };
         match format {
             AnimationFormat::Gif => encode::gif(&film, out)?,
             AnimationFormat::Png => encode::png(&film, out)?,
         }
-        let seconds = self.reel.len() as f64 / RATE;
-        Ok(AnimationReport { speed: self.speed, seconds, pictures: self.reel.len(), size_px: self.scene.size_px() })
+        let seconds = self.frames.len() as f64 / RATE;
+        Ok(AnimationReport { speed: self.speed, seconds, pictures: self.frames.len(), size_px: self.view.size_px() })
     }
 }

@@ -160,7 +160,7 @@ fn surfaces_without_images_are_plain() {
         vec![triangle(SceneSurface::FloorTile(3)), triangle(SceneSurface::WallTop), triangle(SceneSurface::Lintel)];
     let wall_top = PlainMaterial { colour: [0, 255, 188], roughness: f32::NAN };
     let options = GlbOptions { wall_top, ..GlbOptions::default() };
-    let json = parsed(&written(&Scene { parts }, &options)).json;
+    let json = parsed(&written(&Scene { meshes: parts }, &options)).json;
     assert_eq!((json.get("images"), json.get("samplers")), (None, None));
     let top = &json["materials"][1]["pbrMetallicRoughness"];
     let colour: Vec<f64> = top["baseColorFactor"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();
