@@ -58,7 +58,7 @@ impl Corridors {
             Layer { name, values: density.iter().map(|d| d * scale).collect() }
         };
         let layers = LAYERS.map(layer).into();
-        Corridors { piece: ResolvedBlock { empty: false, base_color, mask, orm, layers } }
+        Corridors { piece: ResolvedBlock { base_color, mask, orm, layers, ..ResolvedBlock::default() } }
     }
 }
 
@@ -95,6 +95,7 @@ impl TextureSource for Corridors {
         let (outside, at) = (self.background(), [i0, j0]);
         ResolvedBlock {
             empty: false,
+            clean: Vec::new(),
             base_color: cut(&self.piece.base_color, outside.base_color, at, width, height),
             mask: cut(&self.piece.mask, outside.mask, at, width, height),
             orm: cut(&self.piece.orm, outside.orm, at, width, height),

@@ -7,7 +7,7 @@ use crate::export::Camera;
 use crate::export::{self, Manifest};
 use crate::look::{FloorResolver, Look, WallResolver};
 use crate::progress::Progress;
-use crate::show::still::{Coat, FarWalls, Studio, WallCoat, check_size};
+use crate::show::still::{FarWalls, StillScene, Surfaces, WallSurfaces, check_size};
 
 /// How to look at a finished bake.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,7 +38,7 @@ pub fn view(bake: &Path, view: &View, progress: &dyn Progress) -> Result<(RgbIma
     let read = || -> Result<_, Error> {
         let manifest = Manifest::read(bake)?;
         let walls = manifest.walls()?;
-        let studio = Studio::new(&walls, &manifest.doorways(), wall_height_m(&manifest));
+        let studio = StillScene::new(&walls, &manifest.doorways(), wall_height_m(&manifest));
         // A camera that cannot be is told of before anything long is done.
         if let Some(camera) = &view.camera {
             studio.check(&with_fov(*camera, view))?;
@@ -61,13 +61,13 @@ pub fn view(bake: &Path, view: &View, progress: &dyn Progress) -> Result<(RgbIma
     let floor = FloorResolver::new(&sums, &walls, &look, manifest.people)?;
     let wall =
         wall_sums.as_ref().map(|sums| WallResolver::new(sums, &walls, &look, manifest.wall_people())).transpose()?;
-    let on_walls = wall_sums.as_ref().zip(wall.as_ref()).map(|(sums, source)| WallCoat {
+    let on_walls = wall_sums.as_ref().zip(wall.as_ref()).map(|(sums, source)| WallSurfaces {
         source,
         texels_per_metre: sums.grid().texels_per_metre,
         far: FarWalls::Resolved,
     });
     let floor_texels_per_metre = sums.grid().texels_per_metre;
-    let coat = Coat { floor: &floor, floor_texels_per_metre, small: None, walls: on_walls };
+    let coat = Surfaces { floor: &floor, floor_texels_per_metre, small: None, walls: on_walls };
     let pictures = studio.draw(&camera, view.size_px, &[coat], progress)?;
     let picture = pictures.into_iter().next().expect("there is one picture for each coat");
     Ok((picture, camera))

@@ -16,6 +16,7 @@ mod memory;
 mod output;
 mod png;
 mod reduced;
+pub(crate) mod reduction;
 mod report;
 mod source;
 mod sums;

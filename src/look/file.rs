@@ -2,7 +2,7 @@ use std::path::Path;
 
 use toml::de::{DeTable, DeValue};
 
-use super::error::{LookError, Place};
+use super::error::{FilePlace, LookError};
 use super::image::decode;
 use super::settings::Look;
 use crate::files::read_text;
@@ -94,10 +94,10 @@ fn offset_of(table: &DeTable<'_>, key: &str) -> usize {
     }
 }
 
-fn place(text: &str, path: &Path, offset: usize) -> Place {
+fn place(text: &str, path: &Path, offset: usize) -> FilePlace {
     let before = &text[..text.floor_char_boundary(offset)];
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-    Place {
+    FilePlace {
         path: path.to_path_buf(),
         line: before.matches('\n').count() + 1,
         column: before[line_start..].chars().count() + 1,

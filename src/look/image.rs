@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::error::LookError;
-use super::tone;
 use crate::files::{LARGEST_IMAGE_BYTES, open_input_up_to};
+use crate::math::srgb;
 
 /// Pixels kept per texel and axis: more would only cost memory, since a texel shows their mean.
 const PIXELS_PER_TEXEL: f64 = 3.0;
@@ -47,8 +47,7 @@ impl RepeatedImage {
     pub fn open(path: &Path, size_m: [f64; 2], texels_per_metre: f64) -> Result<RepeatedImage, LookError> {
         let image = decode(path)?;
         let (width, height) = (image.width() as usize, image.height() as usize);
-        let table: Vec<f32> = (0..=255u8).map(|value| tone::linear(f32::from(value))).collect();
-        let rows = image.rows().map(|row| row.map(|p| p.0.map(|c| table[usize::from(c)])).collect());
+        let rows = image.rows().map(|row| row.map(|p| srgb::light_of(p.0)).collect());
         Ok(RepeatedImage::new(rows, [width, height], size_m, texels_per_metre))
     }
 

@@ -212,7 +212,7 @@ impl TextureSource for Squares {
         };
         let base_color: Vec<[u8; 3]> = (0..width * height).map(colour).collect();
         let (mask, orm) = (vec![[0; 4]; base_color.len()], vec![[0; 3]; base_color.len()]);
-        ResolvedBlock { empty: false, base_color, mask, orm, layers: Vec::new() }
+        ResolvedBlock { base_color, mask, orm, ..ResolvedBlock::default() }
     }
 }
 

@@ -7,7 +7,7 @@ use trodden::export::{Camera, CameraError};
 use trodden::look::{Background, ResolvedBlock};
 use trodden::math::vec2;
 use trodden::plan::FloorPlan;
-use trodden::show::still::{Coat, StillError, Studio};
+use trodden::show::still::{StillError, StillScene, Surfaces};
 use trodden::sums::FloorSums;
 use trodden::walls::{Walls, WallsOptions};
 
@@ -56,8 +56,8 @@ fn camera(text: &str) -> Camera {
 
 fn drawn(camera: &Camera, size: [u32; 2], floor: &(impl Fn(i64, i64) -> [u8; 3] + Sync)) -> RgbImage {
     let floor = Painted(floor);
-    let coat = Coat { floor: &floor, floor_texels_per_metre: DENSITY, small: None, walls: None };
-    let studio = Studio::new(&corridor(), &[], 2.6);
+    let coat = Surfaces { floor: &floor, floor_texels_per_metre: DENSITY, small: None, walls: None };
+    let studio = StillScene::new(&corridor(), &[], 2.6);
     studio.draw(camera, size, &[coat], &Silent).unwrap().remove(0)
 }
 
@@ -69,7 +69,7 @@ fn board(i: i64, j: i64) -> [u8; 3] {
 #[test]
 fn a_corridor_at_eye_level_and_from_above() {
     assert_golden("still_eye_level", &drawn(&camera("11,2.2,1.7,184,-9"), [112, 63], &board), EXACT);
-    let above = Studio::new(&corridor(), &[], 2.6).birds_eye([112, 63]);
+    let above = StillScene::new(&corridor(), &[], 2.6).birds_eye([112, 63]);
     assert_golden("still_birds_eye", &drawn(&above, [112, 63], &board), EXACT);
 }
 
@@ -121,7 +121,7 @@ fn a_known_point_is_seen_at_the_known_pixel() {
 
 #[test]
 fn cameras_that_see_nothing_are_refused_with_a_place_that_does() {
-    let studio = Studio::new(&corridor(), &[], 2.6);
+    let studio = StillScene::new(&corridor(), &[], 2.6);
     let refused = |text: &str| studio.check(&camera(text)).unwrap_err();
     // In the pillar, in the wall beside the corridor, far beyond the plan.
     for (text, beyond) in [("7.3,3.3,1.7,0,0", false), ("5,0.4,1.7,0,0", true), ("-40,2,1.7,0,0", true)] {
@@ -143,7 +143,7 @@ fn cameras_that_see_nothing_are_refused_with_a_place_that_does() {
 #[test]
 fn automatic_cameras_stand_on_the_floor_away_from_walls() {
     let walls = corridor();
-    let studio = Studio::new(&walls, &[], 2.6);
+    let studio = StillScene::new(&walls, &[], 2.6);
     let grid = trodden::stamps::TexelGrid::covering(13.0, 5.0, DENSITY).unwrap();
     let camera = studio.eye_level(&FloorSums::new(grid));
     assert_eq!(camera.position_m[2], 1.7);
@@ -154,11 +154,11 @@ fn automatic_cameras_stand_on_the_floor_away_from_walls() {
 /// All corners of the plan are in the picture, and it fills it.
 #[test]
 fn the_birds_eye_frames_the_plan() {
-    let studio = Studio::new(&corridor(), &[], 2.6);
+    let studio = StillScene::new(&corridor(), &[], 2.6);
     for size in [[192, 108], [100, 200], [300, 60]] {
         let from = studio.birds_eye(size);
         let coat = Painted(|_, _| [255, 0, 0]);
-        let coat = Coat { floor: &coat, floor_texels_per_metre: DENSITY, small: None, walls: None };
+        let coat = Surfaces { floor: &coat, floor_texels_per_metre: DENSITY, small: None, walls: None };
         let picture = studio.draw(&from, size, &[coat], &Silent).unwrap().remove(0);
         let red: Vec<(u32, u32)> = picture
             .enumerate_pixels()
@@ -195,13 +195,13 @@ fn absurd_cameras_and_sizes_are_errors() {
         let error = parse(text);
         assert!(matches!(error, CameraError::Number { name: found, .. } if found == name), "{text}: {error}");
     }
-    let studio = Studio::new(&corridor(), &[], 2.6);
+    let studio = StillScene::new(&corridor(), &[], 2.6);
     assert!(matches!(
         studio.check(&camera("3,2,1.7,0,0").with_fov(f64::NAN)),
         Err(StillError::Camera(CameraError::Number { name: "fov", .. }))
     ));
     let coat = Painted(board);
-    let coat = Coat { floor: &coat, floor_texels_per_metre: DENSITY, small: None, walls: None };
+    let coat = Surfaces { floor: &coat, floor_texels_per_metre: DENSITY, small: None, walls: None };
     assert!(studio.draw(&camera("3,2,1.7,0,0"), [0, 5], &[coat], &Silent).is_err());
     assert_eq!(camera("3, 2,1.7, 0,0").to_string(), "3.00,2.00,1.70,0.0,0.0");
 }

@@ -41,6 +41,7 @@ impl TextureSource for Disc {
         ResolvedBlock {
             empty: false,
             base_color: mask.iter().map(|m| [m[0], m[1], m[2]]).collect(),
+            clean: Vec::new(),
             orm: mask.iter().map(|m| [m[3], m[2], 0]).collect(),
             mask,
             layers: vec![

@@ -61,6 +61,7 @@ impl WallSource for Told<'_> {
         *block = ResolvedBlock {
             empty: false,
             base_color: texels.iter().map(|&t| base_color(t)).collect(),
+            clean: Vec::new(),
             mask: texels.iter().map(|&t| mask(t)).collect(),
             orm: texels.iter().map(|&t| orm(t)).collect(),
             layers: LAYERS.iter().enumerate().map(layer).collect(),
@@ -258,7 +259,7 @@ fn the_same_bytes_on_any_number_of_threads_with_small_images_too() {
     assert!(one.1.len() > 1);
     for (reduced, sheet) in one.1.iter().zip(&bake(100.0, &options(512)).textures.atlas.sheets) {
         assert_eq!(reduced.factor, (sheet.width.max(sheet.height) / 64).max(1));
-        assert_eq!(reduced.mask.dimensions(), (sheet.width / reduced.factor, sheet.height / reduced.factor));
+        assert_eq!(reduced.dirt.dimensions(), (sheet.width / reduced.factor, sheet.height / reduced.factor));
     }
     for threads in [2, 16] {
         let other = baked(threads);
@@ -273,10 +274,10 @@ fn the_same_bytes_on_any_number_of_threads_with_small_images_too() {
 fn small_images_are_the_files_made_smaller() {
     let baked = bake(100.0, &TextureOptions { reduced_px: Some(256), ..options(1000) });
     let sheet = &baked.entry.sheets[0];
-    let (reduced, full) = (&baked.textures.reduced[0], masks(&baked, sheet));
-    assert_eq!((reduced.factor, reduced.mask.width()), (4, 250));
-    for (x, y, pixel) in reduced.mask.enumerate_pixels() {
-        let mut sums = [0u32; 4];
+    let (reduced, full) = (&baked.textures.reduced[0], image::open(baked.path(&sheet.orm)).unwrap().to_rgb8());
+    assert_eq!((reduced.factor, reduced.orm.width()), (4, 250));
+    for (x, y, pixel) in reduced.orm.enumerate_pixels() {
+        let mut sums = [0u32; 3];
         for (dx, dy) in (0..16).map(|k| (k % 4, k / 4)) {
             let texel = full.get_pixel(4 * x + dx, 4 * y + dy).0;
             sums = std::array::from_fn(|k| sums[k] + u32::from(texel[k]));

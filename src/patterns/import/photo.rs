@@ -6,7 +6,7 @@ use image::{DynamicImage, ImageDecoder, ImageReader, Limits, RgbImage};
 
 use super::raster::PixelRaster;
 use super::{ImportError, ImportOptions, PhotoScale};
-use crate::math;
+use crate::math::{self, srgb};
 
 /// Limits on the pixels of a photograph and on the side of its crop.
 const MOST_PX: u64 = 64_000_000;
@@ -90,7 +90,6 @@ fn factor(width: u32, height: u32, size: PhotoScale) -> usize {
 
 /// ln of the linear light of an sRGB value (IEC 61966-2-1).
 fn log_of(value: u16) -> f32 {
-    let value = f64::from(value) / 65_535.0;
-    let linear = if value <= 0.04045 { value / 12.92 } else { math::pow((value + 0.055) / 1.055, 2.4) };
-    math::ln(linear.max(DARKEST)) as f32
+    let light = srgb::decode(f64::from(value) / 65_535.0);
+    math::ln(light.max(DARKEST)) as f32
 }

@@ -5,8 +5,8 @@ use trodden::export::Reduced;
 use trodden::look::Srgb8;
 use trodden::math::{self, SplitMix64, Vec2, vec2};
 use trodden::plan::FloorPlan;
-use trodden::show::page::{Covering, Dirt, Page, PageOptions, Viewpoint};
-use trodden::show::scene::{Part, Scene, Surface};
+use trodden::show::page::{DirtKind, Page, PageOptions, PageSurface, Viewpoint};
+use trodden::show::scene::{Mesh, Scene, SceneSurface};
 use trodden::walls::{Walls, WallsOptions};
 
 /// Half a metre per character, `.` floor.
@@ -57,10 +57,10 @@ pub fn corridor(clean: Srgb8) -> Corridor {
     let walls = Walls::trace(&plan, &WallsOptions::default());
     let mut scene = Scene::default();
     let tiles = 2;
-    scene.parts.extend((0..tiles).map(|n| floor_part(&plan, n)));
+    scene.meshes.extend((0..tiles).map(|n| floor_part(&plan, n)));
     let (part, strips) = wall_part(&walls);
-    scene.parts.push(part);
-    scene.parts.push(top_part(&plan));
+    scene.meshes.push(part);
+    scene.meshes.push(top_part(&plan));
     let marks = FloorMarks::new(&walls);
     let floor = (0..tiles).map(|n| floor_image(&marks, n, clean[0])).collect();
     let wall = vec![wall_image(&strips, clean[1])];
@@ -70,33 +70,28 @@ pub fn corridor(clean: Srgb8) -> Corridor {
 impl Corridor {
     /// The page of it.
     pub fn page<'a>(&'a self, title: &'a str) -> Page<'a> {
-        let dirt = |name, channel, colour| Dirt { name, channel, colour };
+        let dirt = |name, colour| DirtKind { name, colour };
         Page {
             title,
             scene: &self.scene,
             walls: &self.walls,
             wall_height_m: HEIGHT_M,
-            floor: Covering {
+            floor: PageSurface {
                 images: &self.floor,
                 clean: self.clean[0],
                 roughness: 0.35,
                 dirt: vec![
-                    dirt("Trodden film", 0, DRY),
-                    dirt("Shoe prints", 2, DRY),
-                    dirt("Heel marks", 2, RUBBER),
-                    dirt("Edges and dust", 3, EDGE),
+                    dirt("Trodden film", DRY),
+                    dirt("Shoe prints", DRY),
+                    dirt("Heel marks", RUBBER),
+                    dirt("Edges and dust", EDGE),
                 ],
             },
-            wall: Covering {
+            wall: PageSurface {
                 images: &self.wall,
                 clean: self.clean[1],
                 roughness: 0.6,
-                dirt: vec![
-                    dirt("Hands", 0, SKIN),
-                    dirt("Bags", 1, GREY),
-                    dirt("Shoes", 2, RUBBER),
-                    dirt("Splashes", 3, EDGE),
-                ],
+                dirt: vec![dirt("Hands", SKIN), dirt("Bags", GREY), dirt("Shoes", RUBBER), dirt("Splashes", EDGE)],
             },
             start: Viewpoint { at_m: vec2(1.0, 2.6), heading_rad: 0.05, pitch_rad: -0.12 },
             options: PageOptions::default(),
@@ -125,11 +120,11 @@ fn runs(plan: &FloorPlan, of: impl Fn(u32, u32) -> bool) -> Vec<[Vec2; 2]> {
     runs
 }
 
-fn part(surface: Surface) -> Part {
-    Part { surface, positions_m: vec![], normals: vec![], uvs: vec![], indices: vec![] }
+fn part(surface: SceneSurface) -> Mesh {
+    Mesh { surface, positions_m: vec![], normals: vec![], uvs: vec![], indices: vec![] }
 }
 
-fn quad(part: &mut Part, corners: [[f64; 3]; 4], normal: [f64; 3], uvs: Option<[[f64; 2]; 4]>) {
+fn quad(part: &mut Mesh, corners: [[f64; 3]; 4], normal: [f64; 3], uvs: Option<[[f64; 2]; 4]>) {
     let first = part.positions_m.len() as u32;
     part.positions_m.extend(corners.map(|p| p.map(|value| value as f32)));
     part.normals.extend([normal.map(|value| value as f32); 4]);
@@ -137,8 +132,8 @@ fn quad(part: &mut Part, corners: [[f64; 3]; 4], normal: [f64; 3], uvs: Option<[
     part.indices.extend([0, 1, 2, 0, 2, 3].map(|n| first + n));
 }
 
-fn floor_part(plan: &FloorPlan, tile: usize) -> Part {
-    let mut part = part(Surface::FloorTile(tile));
+fn floor_part(plan: &FloorPlan, tile: usize) -> Mesh {
+    let mut part = part(SceneSurface::FloorTile(tile));
     let left = tile as f64 * TILE_M;
     for [low, high] in runs(plan, |i, j| plan.floor[(j * plan.width_px + i) as usize] == 1) {
         let (x0, x1) = (low.x.max(left), high.x.min(left + TILE_M));
@@ -151,8 +146,8 @@ fn floor_part(plan: &FloorPlan, tile: usize) -> Part {
     part
 }
 
-fn top_part(plan: &FloorPlan) -> Part {
-    let mut part = part(Surface::WallTop);
+fn top_part(plan: &FloorPlan) -> Mesh {
+    let mut part = part(SceneSurface::WallTop);
     let floor = |i: i64, j: i64| {
         (0..i64::from(plan.width_px)).contains(&i)
             && (0..i64::from(plan.height_px)).contains(&j)
@@ -177,8 +172,8 @@ struct Strip {
     seed: u64,
 }
 
-fn wall_part(walls: &Walls) -> (Part, Vec<Strip>) {
-    let mut part = part(Surface::WallSheet(0));
+fn wall_part(walls: &Walls) -> (Mesh, Vec<Strip>) {
+    let mut part = part(SceneSurface::WallSheet(0));
     let mut strips = Vec::new();
     let strip_px = (HEIGHT_M * f64::from(PX_PER_M)).ceil() as u32;
     let (mut left_px, mut low_px) = (4, SHEET_PX[1] - 4);
@@ -317,18 +312,27 @@ impl FloorMarks<'_> {
     }
 }
 
-fn reduced(width: u32, height: u32, of: impl Fn(u32, u32) -> (Srgb8, [u8; 4], f64)) -> Reduced {
+/// What a pixel shows.
+struct Shown {
+    clean: Srgb8,
+    dirt: [(f64, Srgb8); 4],
+    roughness: f64,
+}
+
+fn reduced(width: u32, height: u32, of: impl Fn(u32, u32) -> Shown) -> Reduced {
     let mut image = Reduced {
         factor: 4,
         base_color: RgbImage::new(width, height),
-        mask: RgbaImage::new(width, height),
+        clean: RgbImage::new(width, height),
+        dirt: RgbaImage::new(width, height),
         orm: RgbImage::new(width, height),
     };
     for y in 0..height {
         for x in 0..width {
-            let (colour, mask, roughness) = of(x, y);
-            image.base_color.put_pixel(x, y, Rgb(colour));
-            image.mask.put_pixel(x, y, Rgba(mask));
+            let Shown { clean, dirt, roughness } = of(x, y);
+            image.base_color.put_pixel(x, y, Rgb(covered(clean, &dirt)));
+            image.clean.put_pixel(x, y, Rgb(clean));
+            image.dirt.put_pixel(x, y, Rgba(dirt.map(|(density, _)| mask(density))));
             image.orm.put_pixel(x, y, Rgb([255, (255.0 * roughness) as u8, 0]));
         }
     }
@@ -344,8 +348,8 @@ fn floor_image(marks: &FloorMarks<'_>, tile: usize, clean: Srgb8) -> Reduced {
         // The clean floor has a faint texture of its own.
         let grain = 0.98 + 0.04 * cloud(8, p, 0.06);
         let clean = clean.map(|channel| srgb(linear(channel) * grain));
-        let colour = covered(clean, &[(film, DRY), (prints, DRY), (scuffs, RUBBER), (edge, EDGE)]);
-        (colour, [mask(film), 128, mask(prints + scuffs), mask(edge)], 0.35 + 0.3 * film + 0.2 * edge)
+        let dirt = [(film, DRY), (prints, DRY), (scuffs, RUBBER), (edge, EDGE)];
+        Shown { clean, dirt, roughness: 0.35 + 0.3 * film + 0.2 * edge }
     })
 }
 
@@ -371,11 +375,10 @@ fn wall_image(strips: &[Strip], clean: Srgb8) -> Reduced {
                 .then_some(vec2(along, up))
         };
         let Some((n, p)) = strips.iter().enumerate().find_map(|(n, strip)| Some((n, place(strip)?))) else {
-            return (clean, [0; 4], 0.6);
+            return Shown { clean, dirt: [(0.0, EDGE); 4], roughness: 0.6 };
         };
         let [skin, bag, shoe] = [0, 1, 2].map(|kind| marks[n][kind].iter().map(|spot| spot.at(p)).sum::<f64>());
         let splash = 0.25 * math::exp(-(p.y / 0.06).max(0.0)) * (0.5 + cloud(9, p, 0.1));
-        let colour = covered(clean, &[(skin, SKIN), (bag, GREY), (shoe, RUBBER), (splash, EDGE)]);
-        (colour, [mask(skin), mask(bag), mask(shoe), mask(splash)], 0.6)
+        Shown { clean, dirt: [(skin, SKIN), (bag, GREY), (shoe, RUBBER), (splash, EDGE)], roughness: 0.6 }
     })
 }

@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 
 use corridor::{Corridor, covered};
 use trodden::show::page::{PageOptions, page_html};
-use trodden::show::scene::{Part, Scene};
+use trodden::show::scene::{Mesh, Scene};
 
 const LIGHT: [u8; 3] = [197, 192, 182];
 const DARK: [u8; 3] = [60, 58, 56];
@@ -134,7 +134,7 @@ fn with_all_dirt_the_page_shows_what_was_baked() {
             let dirt = image::load_from_memory(&bytes(html, &format!("dirt-{n}"))).unwrap().to_rgba8();
             let under = image::load_from_memory(&bytes(html, &format!("clean-{n}"))).unwrap().to_rgb8();
             let kinds: Vec<[u8; 3]> = covering.dirt.iter().map(|kind| kind.colour).collect();
-            let [x0, y0] = place(&corridor.scene.parts[n], baked.base_color.dimensions());
+            let [x0, y0] = place(&corridor.scene.meshes[n], baked.base_color.dimensions());
             let mut off = [0u64; 2];
             for (x, y, masks) in dirt.enumerate_pixels() {
                 let densities = masks.0.map(|mask| -trodden::math::ln(1.0 - f64::from(mask).min(254.5) / 255.0));
@@ -151,7 +151,7 @@ fn with_all_dirt_the_page_shows_what_was_baked() {
 }
 
 /// Where the page's part of an image starts: its texture coordinates less 8 px.
-fn place(part: &Part, (width, height): (u32, u32)) -> [u32; 2] {
+fn place(part: &Mesh, (width, height): (u32, u32)) -> [u32; 2] {
     let low = |axis: usize, side: u32| {
         let low = part.uvs.iter().map(|uv| uv[axis]).fold(1.0, f32::min);
         (low * side as f32 - 8.0).floor().max(0.0) as u32
@@ -173,7 +173,7 @@ fn under_the_dirt_the_floor_is_clean() {
     }
 }
 
-/// Scuffs and prints share a channel; the page tells them apart by colour.
+/// Scuffs and prints are kinds of their own.
 #[test]
 fn heel_marks_are_told_from_prints() {
     let html = &*LIGHT_PAGE;
@@ -187,10 +187,10 @@ fn heel_marks_are_told_from_prints() {
 #[test]
 fn damaged_scenes_and_images_leave_a_page() {
     let mut corridor = corridor::corridor(LIGHT);
-    corridor.scene.parts[0].positions_m[1][0] = f32::NAN;
-    corridor.scene.parts[1].uvs.clear();
-    corridor.scene.parts[3].indices[0] = u32::MAX;
-    corridor.wall[0].mask = image::RgbaImage::new(3, 3);
+    corridor.scene.meshes[0].positions_m[1][0] = f32::NAN;
+    corridor.scene.meshes[1].uvs.clear();
+    corridor.scene.meshes[3].indices[0] = u32::MAX;
+    corridor.wall[0].dirt = image::RgbaImage::new(3, 3);
     let html = page_html(&corridor.page("Corridor"));
     let parts = data(&html)["parts"].as_array().unwrap().clone();
     assert_eq!(parts.len(), 1);

@@ -8,18 +8,18 @@ const FASTEST_M_S: f64 = 20.0;
 
 /// Where people have just been: between two pictures they may have walked some metres.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Tails {
+pub(super) struct Trails {
     /// By ascending id, the newest place first.
-    tails: Vec<Tail>,
+    tails: Vec<Trail>,
 }
 
 #[derive(Clone, Debug)]
-struct Tail {
+struct Trail {
     id: u32,
     places: Vec<Vec2>,
 }
 
-impl Tails {
+impl Trails {
     /// Takes everybody's places, `step_s` after the last ones.
     pub(super) fn push(&mut self, walkers: &[Walker], step_s: f64) {
         let mut before = std::mem::take(&mut self.tails).into_iter().peekable();
@@ -27,7 +27,7 @@ impl Tails {
         for walker in walkers {
             while before.next_if(|tail| tail.id < walker.id).is_some() {}
             let known = before.next_if(|tail| tail.id == walker.id);
-            let mut tail = known.unwrap_or_else(|| Tail { id: walker.id, places: Vec::with_capacity(PLACES + 1) });
+            let mut tail = known.unwrap_or_else(|| Trail { id: walker.id, places: Vec::with_capacity(PLACES + 1) });
             let jumped = |last: &Vec2| last.distance(walker.position_m) > FASTEST_M_S * step_s;
             if tail.places.first().is_some_and(jumped) {
                 tail.places.clear();
@@ -52,7 +52,7 @@ mod tests {
     #[test]
     fn tails_follow_and_end_where_somebody_is_put_elsewhere() {
         let walker = |id, x| Walker { id, position_m: vec2(x, 0.0), velocity_m_s: Vec2::ZERO, heading: None };
-        let mut tails = Tails::default();
+        let mut tails = Trails::default();
         for step in 0..9 {
             tails.push(&[walker(2, f64::from(step)), walker(5, if step == 8 { 200.0 } else { 1.0 })], 1.0);
         }

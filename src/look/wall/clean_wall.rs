@@ -1,15 +1,14 @@
 //! The clean wall: its colour, its own texture, joints and pores, the skirting board.
 
-use super::dots::{Dots, Spread};
+use super::dots::{DotSettings, Dots};
 use super::material::WallMaterial;
 use super::settings::WallLook;
-use super::strip::Strip;
+use super::strip::FaceStrip;
 use crate::look::error::LookError;
 use crate::look::image::RepeatedImage;
-use crate::look::lattice::Window;
+use crate::look::lattice::TexelWindow;
 use crate::look::noise::{self, Channel, Noise, NoiseField};
-use crate::look::tone;
-use crate::math::exp_f32;
+use crate::math::{exp_f32, srgb};
 
 /// Formwork panels of concrete: width along the wall and height, metres.
 const PANEL_M: [f64; 2] = [1.25, 1.30];
@@ -28,28 +27,28 @@ const LIP_M: f32 = 0.004;
 const LIP_TONE: f32 = 0.82;
 
 /// The clean wall of one look.
-pub(super) struct Plaster {
+pub(super) struct CleanWall {
     base: [f32; 3],
     image: Option<Box<RepeatedImage>>,
     tone: Vec<Noise>,
     tint: Noise,
-    panels: Option<Panels>,
+    panels: Option<Formwork>,
     board_m: f32,
     board: [f32; 3],
 }
 
 /// Formwork panels.
-struct Panels {
+struct Formwork {
     key: u32,
     gain: f32,
     pores: Dots,
 }
 
 /// The clean wall over one window.
-pub(super) struct PlasterWindow<'a> {
-    plaster: &'a Plaster,
-    window: Window,
-    strip: Strip,
+pub(super) struct CleanWallWindow<'a> {
+    plaster: &'a CleanWall,
+    window: TexelWindow,
+    strip: FaceStrip,
     row: usize,
     tone: Vec<NoiseField>,
     tint: Option<NoiseField>,
@@ -59,20 +58,20 @@ pub(super) struct PlasterWindow<'a> {
 
 /// A run of texels of the clean wall.
 #[derive(Default)]
-pub(super) struct PlasterRow {
+pub(super) struct CleanWallRow {
     /// Linear colour, a plane per channel.
     pub rgb: [Vec<f32>; 3],
     /// Share of the row that is skirting board.
     pub board: f32,
 }
 
-impl Plaster {
-    pub fn new(wall: &WallLook, seed: u64, texels_per_metre: f64) -> Result<Plaster, LookError> {
+impl CleanWall {
+    pub fn new(wall: &WallLook, seed: u64, texels_per_metre: f64) -> Result<CleanWall, LookError> {
         let image = match &wall.image {
             Some(path) => Some(Box::new(RepeatedImage::open(path, wall.image_size_m, texels_per_metre)?)),
             None => None,
         };
-        let own = tone::linear_rgb(wall.colour.unwrap_or(wall.material.properties().colour));
+        let own = srgb::light_of(wall.colour.unwrap_or(wall.material.properties().colour));
         let noise = |channel, [x, y, sd]: [f64; 3]| Noise::new(seed, channel, [x, y], sd as f32 * wall.texture);
         // Length along the wall and height of spots, metres; deviation. The last is of the tint. Paint is even: the stipple
         // of a roller is finer than texels.
@@ -84,22 +83,22 @@ impl Plaster {
             }
         };
         let channels = [Channel::WallGround, Channel::WallGroundMiddle, Channel::WallGroundCoarse];
-        let panels = (wall.material == WallMaterial::Concrete && wall.texture > 0.0).then(|| Panels {
+        let panels = (wall.material == WallMaterial::Concrete && wall.texture > 0.0).then(|| Formwork {
             key: noise::key(seed, Channel::WallPiece),
             gain: wall.texture.min(1.5),
             pores: Dots::new(
                 noise::key(seed, Channel::WallPore),
-                Spread { per_m2: 260.0, radius_m: [0.0008, 0.0042], depth: [0.10, 0.42] },
+                DotSettings { per_m2: 260.0, radius_m: [0.0008, 0.0042], depth: [0.10, 0.42] },
             ),
         });
-        Ok(Plaster {
+        Ok(CleanWall {
             base: image.as_ref().map_or(own, |image| image.mean()),
             image,
             tone: channels.into_iter().zip([fine, middle, coarse]).map(|(c, spots)| noise(c, spots)).collect(),
             tint: noise(Channel::WallGroundTint, tint),
             panels,
             board_m: wall.skirting.height_m,
-            board: tone::linear_rgb(wall.skirting.colour),
+            board: srgb::light_of(wall.skirting.colour),
         })
     }
 
@@ -118,8 +117,8 @@ impl Plaster {
         j as f32 >= self.board_m * texels_per_metre as f32
     }
 
-    pub fn over(&self, window: &Window, strip: &Strip) -> PlasterWindow<'_> {
-        let shown = PlasterWindow {
+    pub fn over(&self, window: &TexelWindow, strip: &FaceStrip) -> CleanWallWindow<'_> {
+        let shown = CleanWallWindow {
             plaster: self,
             window: *window,
             strip: *strip,
@@ -137,11 +136,11 @@ impl Plaster {
             Some(panels) => panels.pores.over(window, strip),
             None => Vec::new(),
         };
-        PlasterWindow { tone: self.tone.iter().filter_map(field).collect(), tint: field(&self.tint), pores, ..shown }
+        CleanWallWindow { tone: self.tone.iter().filter_map(field).collect(), tint: field(&self.tint), pores, ..shown }
     }
 }
 
-impl PlasterWindow<'_> {
+impl CleanWallWindow<'_> {
     pub fn begin_row(&mut self, row: usize) {
         self.row = row;
         for field in self.tone.iter_mut().chain(&mut self.tint) {
@@ -150,7 +149,7 @@ impl PlasterWindow<'_> {
     }
 
     /// The texels of the row last begun.
-    pub fn read(&self, out: &mut PlasterRow) {
+    pub fn read(&self, out: &mut CleanWallRow) {
         for plane in &mut out.rgb {
             plane.clear();
             plane.resize(self.window.width, 0.0);
@@ -205,9 +204,9 @@ impl PlasterWindow<'_> {
     }
 }
 
-impl Panels {
+impl Formwork {
     /// Adds the tone of panels, joints and tie holes to row `j`.
-    fn add_row(&self, window: &Window, strip: &Strip, j: i64, tone: &mut [f32]) {
+    fn add_row(&self, window: &TexelWindow, strip: &FaceStrip, j: i64, tone: &mut [f32]) {
         let texel_m = 1.0 / window.texels_per_metre;
         let length_m = f64::from(strip.width) * texel_m;
         // A whole number of panels goes round.

@@ -2,36 +2,36 @@
 
 use super::error::LookError;
 use super::image::RepeatedImage;
-use super::lattice::Window;
+use super::lattice::TexelWindow;
 use super::material::Material;
 use super::noise::{self, Channel, Noise, NoiseField};
-use super::settings::{FloorLook, Srgb8};
-use super::tone;
+use super::settings::FloorLook;
+use crate::math::srgb::{self, Srgb8};
 
 /// The clean floor of one look.
-pub(super) struct Ground {
+pub(super) struct CleanFloor {
     base: [f32; 3],
-    surface: Surface,
+    surface: BaseTexture,
     /// Colour of joints, linear, where there are any.
     pub joint: Option<[f32; 3]>,
 }
 
-enum Surface {
+enum BaseTexture {
     Image(Box<RepeatedImage>),
-    Texture(Texture),
+    Procedural(ProceduralTexture),
 }
 
 /// Unevenness of a material's own, as relative deviations of the light that it reflects.
-struct Texture {
+struct ProceduralTexture {
     /// Lighter and darker.
     tone: Vec<Noise>,
     /// Warmer and cooler.
     tint: Noise,
-    pieces: Option<Pieces>,
+    pieces: Option<Paving>,
 }
 
 /// Planks and tiles.
-struct Pieces {
+struct Paving {
     size_m: [f64; 2],
     gap_m: f64,
     /// Deviation of tone from piece to piece.
@@ -41,18 +41,18 @@ struct Pieces {
     key: u32,
 }
 
-impl Ground {
-    pub fn new(floor: &FloorLook, seed: u64, texels_per_metre: f64) -> Result<Ground, LookError> {
+impl CleanFloor {
+    pub fn new(floor: &FloorLook, seed: u64, texels_per_metre: f64) -> Result<CleanFloor, LookError> {
         let properties = floor.material.properties();
         let colour = floor.colour.unwrap_or(properties.colour);
         if let Some(path) = &floor.image {
             let image = RepeatedImage::open(path, floor.image_size_m, texels_per_metre)?;
             let base = image.mean();
-            return Ok(Ground { base, surface: Surface::Image(Box::new(image)), joint: None });
+            return Ok(CleanFloor { base, surface: BaseTexture::Image(Box::new(image)), joint: None });
         }
-        let texture = Texture::of(floor, seed);
-        let joint = texture.pieces.as_ref().map(|_| tone::linear_rgb(joint_colour(floor.material)));
-        Ok(Ground { base: tone::linear_rgb(colour), surface: Surface::Texture(texture), joint })
+        let texture = ProceduralTexture::of(floor, seed);
+        let joint = texture.pieces.as_ref().map(|_| srgb::light_of(joint_colour(floor.material)));
+        Ok(CleanFloor { base: srgb::light_of(colour), surface: BaseTexture::Procedural(texture), joint })
     }
 
     /// Mean colour of the clean floor, linear.
@@ -60,13 +60,13 @@ impl Ground {
         self.base
     }
 
-    pub fn over(&self, window: &Window) -> GroundWindow<'_> {
-        let Surface::Texture(texture) = &self.surface else {
-            return GroundWindow { ground: self, window: *window, row: 0, tone: Vec::new(), tint: None };
+    pub fn over(&self, window: &TexelWindow) -> CleanFloorWindow<'_> {
+        let BaseTexture::Procedural(texture) = &self.surface else {
+            return CleanFloorWindow { ground: self, window: *window, row: 0, tone: Vec::new(), tint: None };
         };
         let field = |noise: &Noise| (!noise.is_flat()).then(|| noise.over(window));
         let tone = texture.tone.iter().filter_map(field).collect();
-        GroundWindow { ground: self, window: *window, row: 0, tone, tint: field(&texture.tint) }
+        CleanFloorWindow { ground: self, window: *window, row: 0, tone, tint: field(&texture.tint) }
     }
 }
 
@@ -74,11 +74,11 @@ fn joint_colour(material: Material) -> Srgb8 {
     if material == Material::Wood { [70, 52, 38] } else { [160, 156, 148] }
 }
 
-impl Texture {
-    fn of(floor: &FloorLook, seed: u64) -> Texture {
-        // Spots: length, width in metres, deviation; a deviation of the tint; pieces.
-        type Spots = (f64, f64, f32);
-        let (tone, tint, pieces): ([Spots; 3], Spots, Option<Pieces>) = match floor.material {
+impl ProceduralTexture {
+    fn of(floor: &FloorLook, seed: u64) -> ProceduralTexture {
+        // NoiseSpec: length, width in metres, deviation; a deviation of the tint; pieces.
+        type NoiseSpec = (f64, f64, f32);
+        let (tone, tint, pieces): ([NoiseSpec; 3], NoiseSpec, Option<Paving>) = match floor.material {
             Material::Vinyl => {
                 ([(0.006, 0.006, 0.03), (0.05, 0.05, 0.006), (0.9, 0.9, 0.008)], (0.008, 0.008, 0.006), None)
             }
@@ -94,7 +94,7 @@ impl Texture {
             Material::Wood => (
                 [(0.50, 0.008, 0.05), (0.9, 0.03, 0.03), (0.4, 0.4, 0.012)],
                 (0.9, 0.05, 0.02),
-                Some(Pieces {
+                Some(Paving {
                     size_m: [1.35, 0.13],
                     gap_m: 0.0012,
                     sd: 0.055,
@@ -108,7 +108,7 @@ impl Texture {
             Material::Tile => (
                 [(0.012, 0.012, 0.012), (0.08, 0.08, 0.01), (0.9, 0.9, 0.006)],
                 (0.1, 0.1, 0.004),
-                Some(Pieces {
+                Some(Paving {
                     size_m: [floor.tile_m, floor.tile_m],
                     gap_m: floor.joint_m,
                     sd: 0.010,
@@ -118,20 +118,20 @@ impl Texture {
             ),
         };
         let gain = floor.texture;
-        let noise = |channel, (x, y, sd): Spots| Noise::new(seed, channel, [x, y], sd * gain);
+        let noise = |channel, (x, y, sd): NoiseSpec| Noise::new(seed, channel, [x, y], sd * gain);
         let channels = [Channel::Ground, Channel::GroundMiddle, Channel::GroundCoarse];
-        Texture {
+        ProceduralTexture {
             tone: channels.into_iter().zip(tone).map(|(channel, spots)| noise(channel, spots)).collect(),
             tint: noise(Channel::GroundTint, tint),
-            pieces: pieces.map(|pieces| Pieces { sd: pieces.sd * gain, ..pieces }),
+            pieces: pieces.map(|pieces| Paving { sd: pieces.sd * gain, ..pieces }),
         }
     }
 }
 
 /// The clean floor over one window.
-pub(super) struct GroundWindow<'a> {
-    ground: &'a Ground,
-    window: Window,
+pub(super) struct CleanFloorWindow<'a> {
+    ground: &'a CleanFloor,
+    window: TexelWindow,
     row: usize,
     tone: Vec<NoiseField>,
     tint: Option<NoiseField>,
@@ -139,14 +139,14 @@ pub(super) struct GroundWindow<'a> {
 
 /// A run of texels of the clean floor.
 #[derive(Default)]
-pub(super) struct GroundRow {
+pub(super) struct CleanFloorRow {
     /// Linear colour, a plane per channel.
     pub rgb: [Vec<f32>; 3],
     /// Share of each texel that joints take up.
     pub joint: Vec<f32>,
 }
 
-impl GroundWindow<'_> {
+impl CleanFloorWindow<'_> {
     pub fn begin_row(&mut self, row: usize) {
         self.row = row;
         for field in self.tone.iter_mut().chain(&mut self.tint) {
@@ -155,16 +155,16 @@ impl GroundWindow<'_> {
     }
 
     /// The texels `start..start + len` of the row last begun.
-    pub fn read(&self, start: usize, len: usize, out: &mut GroundRow) {
+    pub fn read(&self, start: usize, len: usize, out: &mut CleanFloorRow) {
         for plane in out.rgb.iter_mut().chain([&mut out.joint]) {
             plane.clear();
             plane.resize(len, 0.0);
         }
         let (i, j) = (self.window.i0 + start as i64, self.window.j0 + self.row as i64);
         match &self.ground.surface {
-            Surface::Image(image) => image.read_row(i, j, &mut out.rgb),
-            Surface::Texture(texture) => {
-                let GroundRow { rgb: [tone, _, tint], joint } = out;
+            BaseTexture::Image(image) => image.read_row(i, j, &mut out.rgb),
+            BaseTexture::Procedural(texture) => {
+                let CleanFloorRow { rgb: [tone, _, tint], joint } = out;
                 for field in &self.tone {
                     field.add_to(start, tone);
                 }
@@ -180,7 +180,7 @@ impl GroundWindow<'_> {
     }
 
     /// From tone (first plane) and tint (third plane) to colour.
-    fn colour(&self, out: &mut GroundRow) {
+    fn colour(&self, out: &mut CleanFloorRow) {
         let [r0, g0, b0] = self.ground.base;
         let [red, green, blue] = &mut out.rgb;
         for ((r, g), b) in red.iter_mut().zip(green).zip(blue) {
@@ -192,7 +192,7 @@ impl GroundWindow<'_> {
     }
 }
 
-impl Pieces {
+impl Paving {
     /// Adds each piece's own tone, and sets the share of joints.
     fn read_row(&self, i: i64, j: i64, texels_per_metre: f64, tone: &mut [f32], joint: &mut [f32]) {
         let texel_m = 1.0 / texels_per_metre;
@@ -239,10 +239,10 @@ mod tests {
     fn the_clean_floor_keeps_its_mean_colour() {
         for material in [Material::Vinyl, Material::Dark, Material::Concrete, Material::Carpet, Material::Terrazzo] {
             let floor = FloorLook { material, ..FloorLook::default() };
-            let ground = Ground::new(&floor, 1, 100.0).unwrap();
-            let window = Window { texels_per_metre: 100.0, i0: 0, j0: 0, width: 400, height: 400 };
+            let ground = CleanFloor::new(&floor, 1, 100.0).unwrap();
+            let window = TexelWindow { texels_per_metre: 100.0, i0: 0, j0: 0, width: 400, height: 400 };
             let mut over = ground.over(&window);
-            let mut row = GroundRow::default();
+            let mut row = CleanFloorRow::default();
             let mut sum = 0.0;
             for j in 0..400 {
                 over.begin_row(j);

@@ -1,11 +1,11 @@
-//! What covers floor and walls, and where of it a pixel looks.
+//! QuadKind covers floor and walls, and where of it a pixel looks.
 
 use std::collections::BTreeSet;
 
-use super::pyramid::{Footprint, Key, Needed, Pyramid};
-use super::space::{Piece, Space, What};
-use super::texels::{Texel, Texels};
-use super::trace::{Hit, Surface};
+use super::pyramid::{Footprint, NeededBlocks, Pyramid, TexelBlockKey};
+use super::ray_grid::{QuadKind, RayGrid, WallQuad};
+use super::texels::{Texel, TexelSource};
+use super::trace::{HitSurface, RayHit};
 
 /// Pixels see a little less than their own width: pictures look soft otherwise.
 const SHARPER: f32 = 0.85;
@@ -13,7 +13,7 @@ const SHARPER: f32 = 0.85;
 const MOST_STRETCH: f32 = 24.0;
 
 /// Floor and walls in one state: trodden, or clean.
-pub(super) struct Skin<'a> {
+pub(super) struct SurfaceSampler<'a> {
     fine: Pyramid<'a>,
     small: Option<Pyramid<'a>>,
     walls: Pyramid<'a>,
@@ -24,16 +24,16 @@ pub(super) struct Skin<'a> {
 
 /// Blocks of a skin.
 #[derive(Default)]
-pub(super) struct SkinNeeds {
-    fine: Needed,
-    small: Needed,
-    walls: Needed,
-    small_walls: Needed,
+pub(super) struct SamplerNeeds {
+    fine: NeededBlocks,
+    small: NeededBlocks,
+    walls: NeededBlocks,
+    small_walls: NeededBlocks,
 }
 
-impl SkinNeeds {
-    pub fn and(self, other: SkinNeeds) -> SkinNeeds {
-        SkinNeeds {
+impl SamplerNeeds {
+    pub fn and(self, other: SamplerNeeds) -> SamplerNeeds {
+        SamplerNeeds {
             fine: self.fine.and(other.fine),
             small: self.small.and(other.small),
             walls: self.walls.and(other.walls),
@@ -41,26 +41,26 @@ impl SkinNeeds {
         }
     }
 
-    fn keys(&self) -> [&BTreeSet<Key>; 4] {
+    fn keys(&self) -> [&BTreeSet<TexelBlockKey>; 4] {
         [self.fine.keys(), self.small.keys(), self.walls.keys(), self.small_walls.keys()]
     }
 }
 
-/// Colour as linear light, and roughness, 0 to 1.
+/// LinearRgb as linear light, and roughness, 0 to 1.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Paint {
+pub(super) struct SampledMaterial {
     pub colour: [f32; 3],
     pub roughness: f32,
 }
 
-impl<'a> Skin<'a> {
+impl<'a> SurfaceSampler<'a> {
     /// Floor and walls at their own texel density, and both made small, where they are.
     pub fn new(
-        [floor, walls]: [&'a dyn Texels; 2],
-        [small, small_walls]: [Option<&'a dyn Texels>; 2],
+        [floor, walls]: [&'a dyn TexelSource; 2],
+        [small, small_walls]: [Option<&'a dyn TexelSource>; 2],
         plain: Texel,
-    ) -> Skin<'a> {
-        Skin {
+    ) -> SurfaceSampler<'a> {
+        SurfaceSampler {
             fine: Pyramid::new(floor),
             small: small.map(Pyramid::new),
             walls: Pyramid::new(walls),
@@ -70,16 +70,16 @@ impl<'a> Skin<'a> {
     }
 
     /// Names what a hit needs.
-    pub fn needs(&self, space: &Space, hit: &Hit, pixel: f32, needs: &mut SkinNeeds) {
+    pub fn needs(&self, space: &RayGrid, hit: &RayHit, pixel: f32, needs: &mut SamplerNeeds) {
         match hit.surface {
-            Surface::Floor => {
+            HitSurface::Floor => {
                 let footprint = on_floor(hit, pixel);
                 match enough(&self.small, &footprint) {
                     Some(small) => small.needs(&footprint, 1.0, &mut needs.small),
                     None => self.fine.needs(&footprint, 1.0, &mut needs.fine),
                 }
             }
-            Surface::Wall(piece) => {
+            HitSurface::Wall(piece) => {
                 let footprint = on_wall(&space.pieces[piece as usize], hit, pixel);
                 match enough(&self.small_walls, &footprint) {
                     Some(small) => small.needs(&footprint, 1.0, &mut needs.small_walls),
@@ -90,7 +90,7 @@ impl<'a> Skin<'a> {
         }
     }
 
-    pub fn hold(&mut self, needs: &SkinNeeds) {
+    pub fn hold(&mut self, needs: &SamplerNeeds) {
         let [fine, small, walls, small_walls] = needs.keys();
         self.fine.hold(fine);
         if let Some(pyramid) = &mut self.small {
@@ -102,27 +102,27 @@ impl<'a> Skin<'a> {
         }
     }
 
-    pub fn floor(&self, hit: &Hit, pixel: f32) -> Paint {
+    pub fn floor(&self, hit: &RayHit, pixel: f32) -> SampledMaterial {
         let footprint = on_floor(hit, pixel);
         paint(enough(&self.small, &footprint).unwrap_or(&self.fine).sample(&footprint, 1.0))
     }
 
-    pub fn wall(&self, piece: &Piece, hit: &Hit, pixel: f32) -> Paint {
+    pub fn wall(&self, piece: &WallQuad, hit: &RayHit, pixel: f32) -> SampledMaterial {
         let footprint = on_wall(piece, hit, pixel);
         paint(enough(&self.small_walls, &footprint).unwrap_or(&self.walls).sample(&footprint, 1.0))
     }
 }
 
-/// What was made small, where it is fine enough.
+/// QuadKind was made small, where it is fine enough.
 fn enough<'p, 'a>(small: &'p Option<Pyramid<'a>>, footprint: &Footprint) -> Option<&'p Pyramid<'a>> {
     small.as_ref().filter(|small| footprint.width * small.density() as f32 > 0.75)
 }
 
-fn paint([red, green, blue, roughness]: [f32; 4]) -> Paint {
-    Paint { colour: [red, green, blue], roughness }
+fn paint([red, green, blue, roughness]: [f32; 4]) -> SampledMaterial {
+    SampledMaterial { colour: [red, green, blue], roughness }
 }
 
-fn on_floor(hit: &Hit, pixel: f32) -> Footprint {
+fn on_floor(hit: &RayHit, pixel: f32) -> Footprint {
     let [x, y, z] = hit.toward;
     let width = hit.way_m * pixel * SHARPER;
     let across = (x * x + y * y).sqrt().max(1e-6);
@@ -130,8 +130,8 @@ fn on_floor(hit: &Hit, pixel: f32) -> Footprint {
     Footprint { layer: 0, middle: [hit.point[0], hit.point[1]], axis: [x / across * half, y / across * half], width }
 }
 
-fn on_wall(piece: &Piece, hit: &Hit, pixel: f32) -> Footprint {
-    let (along, face) = (along_m(piece, hit), if let What::Wall(face) = piece.what { face } else { 0 });
+fn on_wall(piece: &WallQuad, hit: &RayHit, pixel: f32) -> Footprint {
+    let (along, face) = (along_m(piece, hit), if let QuadKind::Wall(face) = piece.what { face } else { 0 });
     let [x, y, z] = hit.toward;
     let u = x * piece.along.x as f32 + y * piece.along.y as f32;
     let facing = (x * piece.along.y as f32 - y * piece.along.x as f32).abs();
@@ -147,7 +147,7 @@ fn on_wall(piece: &Piece, hit: &Hit, pixel: f32) -> Footprint {
 }
 
 /// From a piece's start to where a hit is on it, metres.
-pub(super) fn along_m(piece: &Piece, hit: &Hit) -> f32 {
+pub(super) fn along_m(piece: &WallQuad, hit: &RayHit) -> f32 {
     let (x, y) = (f64::from(hit.point[0]) - piece.a.x, f64::from(hit.point[1]) - piece.a.y);
     (x * piece.along.x + y * piece.along.y) as f32
 }

@@ -1,15 +1,16 @@
 use image::{Rgb, RgbImage};
 
-use super::{AnimationColour, AnimationOptions, Tails};
+use super::options::{AnimationColour, AnimationOptions};
+use super::trails::Trails;
 use crate::crowd::Arrival;
+use crate::math::srgb::Srgb8;
 use crate::math::{Vec2, vec2};
 use crate::motion::Walker;
 use crate::plan::FloorPlan;
-use crate::show::pictures::canvas::{Canvas, Colour, text_width};
-use crate::show::pictures::drawing::{
-    FASTEST_M_S, PAPER, PLAIN_FLOOR, ROUTES, TEXT, draw_ground, draw_walls, scale_bar, speed_colour,
-};
+use crate::show::pictures::canvas::{PlanCanvas, text_width};
+use crate::show::pictures::drawing::{draw_ground, draw_walls};
 use crate::show::pictures::stuck::draw_cross;
+use crate::show::pictures::style::{FASTEST_M_S, PAPER, PLAIN_FLOOR, ROUTES, TEXT, scale_bar, speed_colour};
 use crate::walls::Walls;
 
 /// Room around the plan, pixels.
@@ -26,32 +27,32 @@ const SMALLEST_PX: f64 = 3.4;
 /// How strong a tail is at the body.
 const TAIL: f64 = 0.5;
 /// The line around a body.
-pub(super) const OUTLINE: Colour = [44, 44, 52];
+pub(super) const OUTLINE: Srgb8 = [44, 44, 52];
 /// Size of the clock's dots, pixels.
 const CLOCK_DOT: i64 = 3;
 
 /// The plan from above, on which people are drawn.
-pub(super) struct Scene<'a> {
-    ground: Canvas,
+pub(super) struct CrowdView<'a> {
+    ground: PlanCanvas,
     arrivals: &'a [Arrival],
     colour: AnimationColour,
 }
 
-impl<'a> Scene<'a> {
+impl<'a> CrowdView<'a> {
     pub(super) fn new(
         plan: &FloorPlan,
         walls: &Walls,
         arrivals: &'a [Arrival],
         options: &AnimationOptions,
-    ) -> Scene<'a> {
+    ) -> CrowdView<'a> {
         let size_m = vec2(plan.width_m(), plan.height_m());
         let longest = f64::from(options.size_px) - 2.0 * MARGIN as f64;
         let width = (size_m.x / size_m.x.max(size_m.y).max(1e-3) * longest) as usize;
         let beside = MARGIN.max(NARROWEST.saturating_sub(width) / 2);
-        let mut ground = Canvas::new(size_m, longest, [beside, MARGIN + FOOTER], PAPER);
+        let mut ground = PlanCanvas::new(size_m, longest, [beside, MARGIN + FOOTER], PAPER);
         draw_ground(&mut ground, plan, walls, PLAIN_FLOOR);
         draw_walls(&mut ground, walls, false);
-        let mut scene = Scene { ground, arrivals, colour: options.colour };
+        let mut scene = CrowdView { ground, arrivals, colour: options.colour };
         scene.draw_scales();
         scene
     }
@@ -82,7 +83,7 @@ impl<'a> Scene<'a> {
     }
 
     /// Everybody at a moment, and crosses where people got stuck.
-    pub(super) fn picture(&self, time_s: f64, walkers: &[Walker], tails: &Tails, stuck: &[Vec2]) -> RgbImage {
+    pub(super) fn picture(&self, time_s: f64, walkers: &[Walker], tails: &Trails, stuck: &[Vec2]) -> RgbImage {
         let mut canvas = self.ground.clone();
         for (walker, places) in walkers.iter().zip(tails.places()) {
             self.draw_tail(&mut canvas, walker, places);
@@ -107,7 +108,7 @@ impl<'a> Scene<'a> {
         place.x >= 0.0 && place.y >= 0.0 && place.x <= width && place.y <= height
     }
 
-    fn colour(&self, walker: &Walker) -> Colour {
+    fn colour(&self, walker: &Walker) -> Srgb8 {
         match self.colour {
             AnimationColour::Speed => speed_colour(walker.velocity_m_s.length()),
             AnimationColour::Route => {
@@ -118,7 +119,7 @@ impl<'a> Scene<'a> {
     }
 
     /// Where somebody has just been, the longer ago the paler.
-    fn draw_tail(&self, canvas: &mut Canvas, walker: &Walker, places: &[Vec2]) {
+    fn draw_tail(&self, canvas: &mut PlanCanvas, walker: &Walker, places: &[Vec2]) {
         let (colour, width) = (self.colour(walker), (BODY_M[1] * canvas.pixels_per_metre).max(0.7 * SMALLEST_PX));
         let count = places.len() as f64;
         for (n, pair) in places.windows(2).enumerate().filter(|(_, pair)| pair.iter().all(|&p| self.is_on_plan(p))) {
@@ -127,7 +128,7 @@ impl<'a> Scene<'a> {
     }
 
     /// A body from above: shoulders across the way, the head a little forward.
-    fn draw_body(&self, canvas: &mut Canvas, walker: &Walker) {
+    fn draw_body(&self, canvas: &mut PlanCanvas, walker: &Walker) {
         let colour = self.colour(walker);
         let facing = walker.heading.or_else(|| walker.velocity_m_s.normalized()).unwrap_or(vec2(1.0, 0.0));
         let along = vec2(facing.x, -facing.y);
@@ -148,7 +149,7 @@ impl<'a> Scene<'a> {
         const WIDTH: usize = 100;
         let left = MARGIN + 2 + 110;
         let top = self.footer() as usize + 11;
-        let mut label = Canvas {
+        let mut label = PlanCanvas {
             picture: RgbImage::from_pixel(WIDTH as u32, 16, Rgb(PAPER)),
             pixels_per_metre: 1.0,
             plan_px: [0, 0],

@@ -1,29 +1,30 @@
 //! How often each texel was stepped on in the floor's whole history.
 
-use super::lattice::{Axis, Lattice, Window};
+use super::lattice::{SplineAxis, SplineLattice, TexelWindow};
 use crate::math;
 use crate::sums::{FloorSums, Quantity};
 use crate::walls::Walls;
 
 /// The simulated people's passes, read for one window.
-pub(super) struct Traffic {
+pub(super) struct PassesField {
     /// Presence times the share of floor in its cell, and that share: beyond the floor nothing is known, so only
     /// floor counts in the mean, and lanes run on undiminished to openings and door jambs.
-    weighted: Lattice,
+    weighted: SplineLattice,
     /// `None` where all is floor.
-    share: Option<Lattice>,
+    share: Option<SplineLattice>,
 }
 
-impl Traffic {
-    pub fn over(window: &Window, sums: &FloorSums, walls: &Walls, blur_m: f64) -> Traffic {
+impl PassesField {
+    pub fn over(window: &TexelWindow, sums: &FloorSums, walls: &Walls, blur_m: f64) -> PassesField {
         let cells_per_metre = sums.presence_grid().texels_per_metre;
         let texels_per_cell = window.texels_per_metre / cells_per_metre;
-        let axis = |texel0, count| Axis::new(texel0, count, texels_per_cell, 0.5);
+        let axis = |texel0, count| SplineAxis::new(texel0, count, texels_per_cell, 0.5);
         let (x, y) = (axis(window.i0, window.width), axis(window.j0, window.height));
 
         let kernel = half_gaussian(blur_m * cells_per_metre);
         let reach = kernel.len() - 1;
-        let cells = Window { texels_per_metre: cells_per_metre, i0: x.first, j0: y.first, width: x.len, height: y.len };
+        let cells =
+            TexelWindow { texels_per_metre: cells_per_metre, i0: x.first, j0: y.first, width: x.len, height: y.len };
         let around = cells.grown(reach);
         let mut share = vec![0.0; around.texels()];
         walls.coverage(cells_per_metre, around.i0, around.j0, around.width, around.height, &mut share);
@@ -36,8 +37,8 @@ impl Traffic {
             share = blurred(&share, &around, &kernel);
         }
         let all_floor = share.iter().all(|&share| share == 1.0);
-        let share = (!all_floor).then(|| Lattice::new(x.clone(), y.clone(), share));
-        Traffic { weighted: Lattice::new(x, y, weighted), share }
+        let share = (!all_floor).then(|| SplineLattice::new(x.clone(), y.clone(), share));
+        PassesField { weighted: SplineLattice::new(x, y, weighted), share }
     }
 
     pub fn begin_row(&mut self, row: usize) {
@@ -63,7 +64,7 @@ impl Traffic {
 }
 
 /// Presence of the cells of a window.
-fn presence(sums: &FloorSums, window: &Window) -> Vec<f32> {
+fn presence(sums: &FloorSums, window: &TexelWindow) -> Vec<f32> {
     let unit = 1.0 / Quantity::Presence.one() as f32;
     let mut values = Vec::new();
     if read(sums, Quantity::Presence, window, &mut values) {
@@ -74,7 +75,7 @@ fn presence(sums: &FloorSums, window: &Window) -> Vec<f32> {
 }
 
 /// Reads sums over a window, 0 beyond the grid; `false` where there are none at all.
-pub(super) fn read(sums: &FloorSums, quantity: Quantity, window: &Window, values: &mut Vec<u32>) -> bool {
+pub(super) fn read(sums: &FloorSums, quantity: Quantity, window: &TexelWindow, values: &mut Vec<u32>) -> bool {
     values.clear();
     let grid = sums.grid_of(quantity);
     let clip = |first: i64, count: usize, size: u32| {
@@ -114,7 +115,7 @@ pub(super) fn half_gaussian(sd: f64) -> Vec<f32> {
 }
 
 /// Blurred along both axes; the window shrinks by the kernel's reach on every side.
-pub(super) fn blurred(values: &[f32], window: &Window, half_kernel: &[f32]) -> Vec<f32> {
+pub(super) fn blurred(values: &[f32], window: &TexelWindow, half_kernel: &[f32]) -> Vec<f32> {
     let reach = half_kernel.len() - 1;
     let (width, height) = (window.width - 2 * reach, window.height - 2 * reach);
     let mut across = vec![0.0; width * window.height];

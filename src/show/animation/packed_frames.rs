@@ -6,11 +6,11 @@ use flate2::write::DeflateEncoder;
 
 /// Pictures in a row, packed: an hour of a crowd takes some megabytes.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Reel {
+pub(super) struct PackedFrames {
     pictures: Vec<Vec<u8>>,
 }
 
-impl Reel {
+impl PackedFrames {
     pub(super) fn len(&self) -> usize {
         self.pictures.len()
     }

@@ -8,10 +8,10 @@ use crate::walls::Segment;
 pub(super) const SQUARE: usize = 16;
 
 /// One row of a square.
-pub(super) type Row = [f32; SQUARE];
+pub(super) type TexelRow = [f32; SQUARE];
 
 /// A wall segment in metres from a square's lower left corner.
-pub(super) struct Face {
+pub(super) struct LocalSegment {
     start: [f32; 2],
     along: [f32; 2],
     length: f32,
@@ -21,20 +21,20 @@ pub(super) struct Face {
 }
 
 /// Where a row of texels lies as seen from a face.
-pub(super) struct Places {
+pub(super) struct TexelPlaces {
     /// Along the face from its start, metres; may lie beyond its ends.
-    along: Row,
+    along: TexelRow,
     /// In front of the face, metres; negative behind.
-    front: Row,
+    front: TexelRow,
     /// To the nearest point of the face, metres.
-    pub distance: Row,
+    pub distance: TexelRow,
 }
 
-impl Face {
-    pub fn seen_from(segment: &Segment, origin: Vec2) -> Face {
+impl LocalSegment {
+    pub fn seen_from(segment: &Segment, origin: Vec2) -> LocalSegment {
         let (start, way) = (segment.a - origin, segment.b - segment.a);
         let along = way.normalized().unwrap_or(vec2(1.0, 0.0));
-        Face {
+        LocalSegment {
             start: [start.x as f32, start.y as f32],
             along: [along.x as f32, along.y as f32],
             length: way.length() as f32,
@@ -43,9 +43,9 @@ impl Face {
         }
     }
 
-    /// Places of the texels `x = texel_m * (k + 0.5)` at a height `y`.
-    pub fn places(&self, y: f32, texel_m: f32) -> Places {
-        let mut places = Places { along: [0.0; SQUARE], front: [0.0; SQUARE], distance: [0.0; SQUARE] };
+    /// TexelPlaces of the texels `x = texel_m * (k + 0.5)` at a height `y`.
+    pub fn places(&self, y: f32, texel_m: f32) -> TexelPlaces {
+        let mut places = TexelPlaces { along: [0.0; SQUARE], front: [0.0; SQUARE], distance: [0.0; SQUARE] };
         let y = y - self.start[1];
         for k in 0..SQUARE {
             let x = (k as f32 + 0.5) * texel_m - self.start[0];
@@ -61,7 +61,7 @@ impl Face {
 
     /// Adds the angle, in radians, under which the face blocks the horizon, farther parts of it counting less:
     /// integral of R^2 / (r^2 + R^2) over the angle. Faces seen from behind block nothing.
-    pub fn add_blocked(&self, places: &Places, radius: f32, texel_m: f32, blocked: &mut Row) {
+    pub fn add_blocked(&self, places: &TexelPlaces, radius: f32, texel_m: f32, blocked: &mut TexelRow) {
         for (k, blocked) in blocked.iter_mut().enumerate() {
             // A texel on the wall itself counts as in front.
             let front = places.front[k].max(1e-4);
@@ -76,7 +76,7 @@ impl Face {
 }
 
 /// Noise along a face, laid out for one square.
-pub(super) struct Spots {
+pub(super) struct SegmentNoise {
     /// Length along the wall and width across, metres.
     size: [f32; 2],
     /// Arc length of the face's start within the table, in spots.
@@ -85,9 +85,9 @@ pub(super) struct Spots {
     values: Vec<f32>,
 }
 
-impl Spots {
-    /// Spots of `size_m` on a face, as far as a square of side `side_m` sees them within `reach_m`.
-    pub fn over(face: &Face, size_m: [f64; 2], side_m: f32, reach_m: f32, key: u32) -> Spots {
+impl SegmentNoise {
+    /// SegmentNoise of `size_m` on a face, as far as a square of side `side_m` sees them within `reach_m`.
+    pub fn over(face: &LocalSegment, size_m: [f64; 2], side_m: f32, reach_m: f32, key: u32) -> SegmentNoise {
         let corner = |x: f32, y: f32| (x - face.start[0]) * face.along[0] + (y - face.start[1]) * face.along[1];
         let corners = [corner(0.0, 0.0), corner(side_m, 0.0), corner(0.0, side_m), corner(side_m, side_m)];
         let clamped = |along: f32| f64::from(along.max(0.0).min(face.length));
@@ -101,11 +101,11 @@ impl Spots {
         let values = (0..columns * rows)
             .map(|n| noise::signed(key, (first as i64 as i32).wrapping_add((n % columns) as i32), (n / columns) as i32))
             .collect();
-        Spots { size: size_m.map(|size| size as f32), start: (start - first) as f32, columns, values }
+        SegmentNoise { size: size_m.map(|size| size as f32), start: (start - first) as f32, columns, values }
     }
 
     /// Adds the noise, deviation 1, times `weights`, to a row.
-    pub fn add(&self, face: &Face, places: &Places, weights: &Row, out: &mut Row) {
+    pub fn add(&self, face: &LocalSegment, places: &TexelPlaces, weights: &TexelRow, out: &mut TexelRow) {
         let rows = self.values.len() / self.columns;
         for (k, out) in out.iter_mut().enumerate() {
             let u = (self.start + places.along[k].max(0.0).min(face.length) / self.size[0]).max(0.0);
@@ -147,7 +147,7 @@ mod tests {
     fn blocked(segments: &[Segment], x: f64, y: f64) -> f32 {
         let mut row = [0.0; SQUARE];
         for segment in segments {
-            let face = Face::seen_from(segment, vec2(x, y));
+            let face = LocalSegment::seen_from(segment, vec2(x, y));
             face.add_blocked(&face.places(0.0, 1e-4), 0.1, 1e-4, &mut row);
         }
         row[0]

@@ -10,9 +10,9 @@ const MOST_CELLS: f64 = 4e6;
 /// Rays step over cell borders by this much, metres.
 const NUDGE_M: f64 = 1e-7;
 
-/// What an upright face is.
+/// QuadKind an upright face is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum What {
+pub(super) enum QuadKind {
     /// A wall: place in [`Walls::faces`].
     Wall(u32),
     /// Where floor meets the image's side: nothing is there.
@@ -23,20 +23,20 @@ pub(super) enum What {
 
 /// One upright rectangle, seen from its right side.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
+pub(super) struct WallQuad {
     pub a: Vec2,
     /// Unit vector from start to end.
     pub along: Vec2,
     pub length: f64,
-    pub what: What,
+    pub what: QuadKind,
     /// Arc length of the start along the wall's face, metres.
     pub along_m: f64,
 }
 
-impl Piece {
-    fn new(a: Vec2, b: Vec2, what: What, along_m: f64) -> Option<Piece> {
+impl WallQuad {
+    fn new(a: Vec2, b: Vec2, what: QuadKind, along_m: f64) -> Option<WallQuad> {
         let along = (b - a).normalized()?;
-        Some(Piece { a, along, length: a.distance(b), what, along_m })
+        Some(WallQuad { a, along, length: a.distance(b), what, along_m })
     }
 
     /// Unit vector that points to where the floor is: to the right.
@@ -60,7 +60,7 @@ impl Piece {
 pub(super) struct Crossing {
     /// Way from the ray's start, metres.
     pub way_m: f64,
-    /// Place in [`Space::pieces`].
+    /// Place in [`RayGrid::pieces`].
     pub piece: usize,
     /// From the piece's start, metres.
     pub along_m: f64,
@@ -95,27 +95,27 @@ impl Lintel {
         across.min(slab(p.dot(side), toward.dot(side), self.half.y)).max(0.0)
     }
 
-    fn pieces(&self, number: u32) -> impl Iterator<Item = Piece> {
+    fn pieces(&self, number: u32) -> impl Iterator<Item = WallQuad> {
         let (way, side) = (self.through * self.half.x, self.through.left() * self.half.y);
         let ends = [
             [self.centre + way + side, self.centre + way - side],
             [self.centre - way - side, self.centre - way + side],
         ];
         // Their fronts look away from the gap: to the right of the way from the first end to the second.
-        ends.into_iter().filter_map(move |[a, b]| Piece::new(b, a, What::Lintel(number), 0.0))
+        ends.into_iter().filter_map(move |[a, b]| WallQuad::new(b, a, QuadKind::Lintel(number), 0.0))
     }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Ground {
+enum CellGround {
     Solid,
     Floor,
 }
 
 /// All upright faces of a plan.
 #[derive(Debug)]
-pub(super) struct Space {
-    pub pieces: Vec<Piece>,
+pub(super) struct RayGrid {
+    pub pieces: Vec<WallQuad>,
     pub lintels: Vec<Lintel>,
     /// Both ends of each opening.
     pub openings: Vec<[Vec2; 2]>,
@@ -131,14 +131,14 @@ pub(super) struct Space {
     /// Pieces of cell `c` are `entries[starts[c]..starts[c + 1]]`.
     starts: Vec<u32>,
     entries: Vec<u32>,
-    /// What is at each cell's middle.
-    middles: Vec<Ground>,
+    /// QuadKind is at each cell's middle.
+    middles: Vec<CellGround>,
     /// Cells all around that hold no piece, in rings; 0 where there is one in the cell itself.
     empty_rings: Vec<u8>,
 }
 
-impl Space {
-    pub fn new(walls: &Walls, doorways: &[Doorway], height_m: f64) -> Space {
+impl RayGrid {
+    pub fn new(walls: &Walls, doorways: &[Doorway], height_m: f64) -> RayGrid {
         let lintels: Vec<Lintel> = doorways.iter().map(|door| Lintel::new(door, height_m)).collect();
         let mut pieces = wall_pieces(walls);
         pieces.extend(opening_pieces(walls));
@@ -148,7 +148,7 @@ impl Space {
         let cell_m = CELL_M.max((area.width() * area.height() / MOST_CELLS).sqrt());
         let count = |metres: f64| (metres / cell_m) as usize + 1;
         let (columns, rows) = (count(area.width()), count(area.height()));
-        let mut space = Space {
+        let mut space = RayGrid {
             openings: opening_pieces(walls).map(|piece| [piece.a, piece.b()]).collect(),
             pieces,
             lintels,
@@ -168,7 +168,7 @@ impl Space {
         space.middles = (0..columns * rows)
             .map(|cell| {
                 let middle = space.middle(cell);
-                if bounds.contains(middle) && walls.is_inside(middle) { Ground::Floor } else { Ground::Solid }
+                if bounds.contains(middle) && walls.is_inside(middle) { CellGround::Floor } else { CellGround::Solid }
             })
             .collect();
         space.empty_rings = rings(&space.starts, columns, rows);
@@ -186,9 +186,9 @@ impl Space {
         let middle = self.middle(cell);
         let crossed = self.cell(cell).iter().filter(|&&n| {
             let piece = &self.pieces[n as usize];
-            !matches!(piece.what, What::Lintel(_)) && crosses(middle, p, piece.a, piece.b())
+            !matches!(piece.what, QuadKind::Lintel(_)) && crosses(middle, p, piece.a, piece.b())
         });
-        (self.middles[cell] == Ground::Floor) == crossed.count().is_multiple_of(2)
+        (self.middles[cell] == CellGround::Floor) == crossed.count().is_multiple_of(2)
     }
 
     /// The first face that a ray meets from its front, at most `limit_m` away; `toward` is a unit vector. Faces for
@@ -198,7 +198,7 @@ impl Space {
         from: Vec2,
         toward: Vec2,
         limit_m: f64,
-        solid: impl Fn(&Piece, f64) -> bool,
+        solid: impl Fn(&WallQuad, f64) -> bool,
     ) -> Option<Crossing> {
         let inverse = vec2(1.0 / toward.x, 1.0 / toward.y);
         let mut way = self.enters(from, inverse)?;
@@ -238,7 +238,7 @@ impl Space {
         from: Vec2,
         toward: Vec2,
         limit_m: f64,
-        solid: &impl Fn(&Piece, f64) -> bool,
+        solid: &impl Fn(&WallQuad, f64) -> bool,
     ) -> Option<Crossing> {
         let mut first: Option<Crossing> = None;
         for &number in self.cell(cell) {
@@ -280,7 +280,7 @@ impl Space {
 
     /// Middles of all cells that are floor.
     pub fn floor_places(&self) -> impl Iterator<Item = Vec2> {
-        let floor = |&(_, ground): &(usize, &Ground)| *ground == Ground::Floor;
+        let floor = |&(_, ground): &(usize, &CellGround)| *ground == CellGround::Floor;
         self.middles.iter().enumerate().filter(floor).map(|(cell, _)| self.middle(cell))
     }
 
@@ -338,23 +338,23 @@ impl Space {
     }
 }
 
-fn wall_pieces(walls: &Walls) -> Vec<Piece> {
+fn wall_pieces(walls: &Walls) -> Vec<WallQuad> {
     let mut pieces = Vec::new();
     for (number, face) in (0..).zip(&walls.faces) {
         let count = face.points_m.len();
         let mut along_m = 0.0;
         for k in 0..if face.closed { count } else { count.saturating_sub(1) } {
             let (a, b) = (face.points_m[k], face.points_m[(k + 1) % count]);
-            pieces.extend(Piece::new(a, b, What::Wall(number), along_m));
+            pieces.extend(WallQuad::new(a, b, QuadKind::Wall(number), along_m));
             along_m += a.distance(b);
         }
     }
     pieces
 }
 
-fn opening_pieces(walls: &Walls) -> impl Iterator<Item = Piece> {
+fn opening_pieces(walls: &Walls) -> impl Iterator<Item = WallQuad> {
     let edges = walls.outlines().iter().flat_map(|outline| outline.openings.iter().map(|&(k, _)| outline.edge(k)));
-    edges.filter_map(|[a, b]| Piece::new(a, b, What::Opening, 0.0))
+    edges.filter_map(|[a, b]| WallQuad::new(a, b, QuadKind::Opening, 0.0))
 }
 
 /// The floor's bounds with a rim, but none on sides that are open.

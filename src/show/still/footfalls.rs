@@ -7,14 +7,14 @@ use crate::sums::{BLOCK, FloorSums, Quantity};
 pub(super) const CELL_M: f64 = 0.25;
 
 /// How trodden each cell is, 0 to 1.
-pub(super) struct Traffic {
+pub(super) struct FootfallGrid {
     columns: usize,
     rows: usize,
     trodden: Vec<f32>,
 }
 
-impl Traffic {
-    pub fn of(sums: &FloorSums) -> Traffic {
+impl FootfallGrid {
+    pub fn of(sums: &FloorSums) -> FootfallGrid {
         let grid = sums.presence_grid();
         let per_metre = grid.texels_per_metre;
         let cells = |texels: u32| (f64::from(texels) / per_metre / CELL_M) as usize + 1;
@@ -34,7 +34,7 @@ impl Traffic {
         let walked = counts.iter().filter(|&&count| count > 0).count().max(1) as f64;
         let usual = counts.iter().map(|&count| count as f64).sum::<f64>() / walked;
         let share = |count: u64| (count as f64 / (count as f64 + usual.max(1.0))) as f32;
-        Traffic { columns, rows, trodden: counts.into_iter().map(share).collect() }
+        FootfallGrid { columns, rows, trodden: counts.into_iter().map(share).collect() }
     }
 
     /// How trodden a place is, 0 to 1.
