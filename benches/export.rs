@@ -58,7 +58,7 @@ impl Corridors {
             Layer { name, values: density.iter().map(|d| d * scale).collect() }
         };
         let layers = LAYERS.map(layer).into();
-        Corridors { piece: ResolvedBlock { empty: false, base_color, mask, orm, layers } }
+        Corridors { piece: ResolvedBlock { base_color, mask, orm, layers, ..ResolvedBlock::default() } }
     }
 }
 
@@ -95,6 +95,7 @@ impl TextureSource for Corridors {
         let (outside, at) = (self.background(), [i0, j0]);
         ResolvedBlock {
             empty: false,
+            clean: Vec::new(),
             base_color: cut(&self.piece.base_color, outside.base_color, at, width, height),
             mask: cut(&self.piece.mask, outside.mask, at, width, height),
             orm: cut(&self.piece.orm, outside.orm, at, width, height),
@@ -139,7 +140,7 @@ fn export(c: &mut Criterion) {
     };
     let mut group = c.benchmark_group("export 8192 x 8192");
     group.sample_size(10).measurement_time(Duration::from_secs(10));
-    let images = TextureOptions { layers: false, ..TextureOptions::default() };
+    let images = TextureOptions { layers: Some(false), ..TextureOptions::default() };
     group.bench_function("images", |b| b.iter(|| black_box(textures(&images).1.export_busy_s)));
     group.bench_function("images and layers", |b| {
         b.iter(|| black_box(textures(&TextureOptions::default()).1.export_busy_s));

@@ -27,7 +27,7 @@ fn hall() -> (Walls, FloorSums) {
     let walls = Walls::trace(&plan, &WallsOptions::default());
     let texels = (side as f64 * 0.1 * DENSITY) as u32;
     let grid = TexelGrid { texels_per_metre: DENSITY, width: texels, height: texels };
-    let library = PatternLibrary::built_in().expect("the built-in library is tested");
+    let library = PatternLibrary::built_in();
     let pattern = library.pick(Cause::Sole, 0.3, None).expect("there is a sole");
     let mut rng = SplitMix64::new(1);
     let marks: Vec<Mark> = (0..60_000)
@@ -48,7 +48,11 @@ fn hall() -> (Walls, FloorSums) {
         })
         .collect();
     let mut sums = FloorSums::new(grid);
-    sums.add(&Stamper::new(&library, grid, &StampOptions::default()), &walls, &marks);
+    sums.add(
+        &Stamper::new(&library, grid, &StampOptions::default()).expect("the default options are in range"),
+        &walls,
+        &marks,
+    );
     (walls, sums)
 }
 

@@ -52,7 +52,7 @@ fn frames(facing: bool, across_m: impl Fn(u32) -> f64) -> Vec<Frame> {
 fn marks(c: &mut Criterion) {
     let (hall, corridors) = (hall(), corridors());
     let people = People::new(1, BodyOptions::default());
-    let library = PatternLibrary::built_in().expect("the built-in library is tested");
+    let library = PatternLibrary::built_in();
     let mut group = c.benchmark_group("marks");
     group.throughput(Throughput::Elements(u64::from(PEOPLE * FRAMES)));
     group.sample_size(20);

@@ -58,14 +58,14 @@ fn grid(texels_per_metre: f64) -> TexelGrid {
 }
 
 fn stamps(c: &mut Criterion) {
-    let library = PatternLibrary::built_in().expect("the built-in library is sound");
+    let library = PatternLibrary::built_in();
     let walls = walls();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread can be started");
     let mut group = c.benchmark_group("stamps");
     group.sample_size(10).warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3));
     for (density, count, naive_count) in [(100.0, 20_000, 500), (400.0, 2000, 30)] {
         let grid = grid(density);
-        let stamper = Stamper::new(&library, grid, &StampOptions::default());
+        let stamper = Stamper::new(&library, grid, &StampOptions::default()).expect("the default options are in range");
         for (what, soil) in [("no soil", 0.0), ("faint soil", 0.002), ("readable soil", 0.1)] {
             let marks = footfalls(&library, count, soil);
             let mut sums = FloorSums::new(grid);
@@ -130,13 +130,14 @@ fn wall_grid(texels_per_metre: f64) -> WallGrid {
 }
 
 fn stains(c: &mut Criterion) {
-    let library = PatternLibrary::built_in().expect("the built-in library is sound");
+    let library = PatternLibrary::built_in();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread can be started");
     let mut group = c.benchmark_group("walls");
     group.sample_size(10).warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3));
     for (density, count) in [(50.0, 10_000), (200.0, 10_000), (1000.0, 500)] {
         let grid = wall_grid(density);
-        let stamper = WallStamper::new(&library, &grid, &StampOptions::default());
+        let stamper =
+            WallStamper::new(&library, &grid, &StampOptions::default()).expect("the default options are in range");
         let contacts = contacts(&library, count);
         let mut sums = WallSums::new(grid);
         group.throughput(Throughput::Elements(count as u64));
@@ -148,16 +149,21 @@ fn stains(c: &mut Criterion) {
 }
 
 fn making(c: &mut Criterion) {
-    let library = PatternLibrary::built_in().expect("the built-in library is sound");
+    let library = PatternLibrary::built_in();
     let mut group = c.benchmark_group("new");
     group.sample_size(10).warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(2));
     for density in [100.0, 400.0] {
         group.bench_function(BenchmarkId::new("stamper", format!("{density} texels/m")), |b| {
-            b.iter(|| Stamper::new(&library, grid(density), &StampOptions::default()));
+            b.iter(|| {
+                Stamper::new(&library, grid(density), &StampOptions::default())
+                    .expect("the default options are in range")
+            });
         });
         let walls = wall_grid(density);
         group.bench_function(BenchmarkId::new("wall stamper", format!("{density} texels/m")), |b| {
-            b.iter(|| WallStamper::new(&library, &walls, &StampOptions::default()));
+            b.iter(|| {
+                WallStamper::new(&library, &walls, &StampOptions::default()).expect("the default options are in range")
+            });
         });
     }
     group.finish();

@@ -92,14 +92,14 @@ fn grid(texels_per_metre: f64) -> TexelGrid {
 }
 
 fn adding(c: &mut Criterion) {
-    let library = PatternLibrary::built_in().expect("the built-in library is sound");
+    let library = PatternLibrary::built_in();
     let walls = walls();
     let mut group = c.benchmark_group("add");
     group.sample_size(10).warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(5));
     for (density, count) in [(100.0, 150_000), (400.0, 15_000)] {
         let grid = grid(density);
         let marks = walks(&library, count);
-        let stamper = Stamper::new(&library, grid, &StampOptions::default());
+        let stamper = Stamper::new(&library, grid, &StampOptions::default()).expect("the default options are in range");
         group.throughput(Throughput::Elements(count as u64));
         for threads in [1, 2] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started");
@@ -152,12 +152,13 @@ fn contacts(library: &PatternLibrary, grid: &WallGrid, count: usize) -> Vec<Cont
 }
 
 fn adding_to_walls(c: &mut Criterion) {
-    let library = PatternLibrary::built_in().expect("the built-in library is sound");
+    let library = PatternLibrary::built_in();
     let walls = walls();
     let mut group = c.benchmark_group("add to walls");
     group.sample_size(10).warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(5));
     let grid = WallGrid::covering(&walls, 2.6, 200.0).expect("the walls have a height");
-    let stamper = WallStamper::new(&library, &grid, &StampOptions::default());
+    let stamper =
+        WallStamper::new(&library, &grid, &StampOptions::default()).expect("the default options are in range");
     let contacts = contacts(&library, &grid, 20_000);
     group.throughput(Throughput::Elements(contacts.len() as u64));
     for threads in [1, 2] {

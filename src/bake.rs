@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::Error;
 use crate::crowd::simulate;
-use crate::export::{self, Manifest, OutputFolder, Report, Target, TargetEntry};
+use crate::export::{self, Atlas, Estimate, Manifest, OutputFolder, PADDING_PX, Report, Target, TargetEntry};
 use crate::look::Look;
 use crate::marks::{ContactPlaces, Footfalls};
 use crate::motion::People;
@@ -26,12 +26,19 @@ pub use view::{View, view};
 use graded::{Graded, Sums, look_entry, title};
 use tread::{Marks, tread};
 
+/// Files that every bake makes, whatever its plan.
+const ALWAYS_MADE: [&str; 5] =
+    ["manifest.json", Report::FILE_NAME, "preview/floor.png", show::PATHS_FILE, "sums/floor_presence.exr"];
+/// Files that a bake makes besides where it makes walls.
+const MADE_WITH_WALLS: [&str; 5] =
+    ["scene.glb", "index.html", "preview/birds_eye.png", "preview/eye_level.png", "preview/eye_level_clean.png"];
+
 /// Where a bake goes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutputOptions {
     /// The folder to make.
     pub folder: PathBuf,
-    /// Whether an earlier bake there is replaced. Anything else is never replaced.
+    /// Whether the files of an earlier bake there are replaced. Anything else is never replaced.
     pub force: bool,
 }
 
@@ -45,12 +52,25 @@ pub struct OutputOptions {
 /// [`Error::Interrupted`]. In all these cases nothing is left behind and an earlier result stays as it was.
 pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress) -> Result<Report, Error> {
     let watch = Stopwatch::start();
+    // What is known to be wrong is told before anybody walks.
+    scenario.look.check_images()?;
+    scenario.texture.check()?;
     let folder = OutputFolder::begin(&output.folder, output.force)?;
+    check_free(&folder, scenario.texture.walls)?;
+    folder.check_not_inputs(&scenario.input_files())?;
 
     // A motion may be given: then nobody has to be walked, and without a plan the floor is open ground around it.
     let given = Given::of_scenario(scenario, &watch, progress)?.map(Given::on_foot);
     let ground = Ground::of_scenario(scenario, given.as_ref(), &watch, progress)?;
     let (plan, walls) = (&ground.plan, &ground.walls);
+    let grid = TexelGrid::covering(plan.width_m(), plan.height_m(), scenario.floor_texels_per_metre)?;
+    let wall_grid = WallGrid::covering(walls, scenario.wall_height_m, scenario.wall_texels_per_metre)?;
+    let with_walls = scenario.texture.walls;
+    let estimate = Estimate::of(plan, grid, with_walls.then_some(&wall_grid), &scenario.texture)?;
+    let told = estimate.check(folder.path(), folder.shown(), scenario.texture.any_size)?;
+    told.iter().for_each(|told| progress.warn(told));
+    let pack = || Atlas::pack(&wall_grid, &walls.corners(), scenario.texture.tile, PADDING_PX);
+    let atlas = watch.busy(Stage::Export, || with_walls.then(pack).transpose())?;
     let library = watch.busy(Stage::Patterns, || PatternLibrary::open(scenario.pattern_path().as_deref()))?;
 
     // A person is a pure function of the seed and a number; who arrives when is settled before anybody walks.
@@ -62,7 +82,8 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
             Source::of_given(given, &ground)?.numbered()
         }
         None => {
-            let (found, ways) = watch.busy(Stage::Routes, || Navigation::find(plan, walls, &scenario.routes))?;
+            let (found, ways) =
+                watch.busy(Stage::Routes, || Navigation::find_watched(plan, walls, &scenario.routes, progress))?;
             routes = found;
             let simulated = || simulate(plan, walls, &routes, ways, &people, &scenario.crowd, &scenario.spots());
             Source::of_crowd(watch.busy(Stage::Crowd, simulated)?, &routes)
@@ -77,11 +98,8 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let mut footfalls = Footfalls::new(&people, walls, &library, &scenario.marks, origins)?.with_contacts(places);
 
     // Frames become marks, marks become stamps, stamps are summed up: a stream of which only the sums are kept.
-    let grid = TexelGrid::covering(plan.width_m(), plan.height_m(), scenario.floor_texels_per_metre)?;
-    let wall_grid = WallGrid::covering(walls, scenario.wall_height_m, scenario.wall_texels_per_metre)?;
-    let with_walls = scenario.texture.walls;
-    let stamper = watch.busy(Stage::Stamps, || Stamper::new(&library, grid, &scenario.stamps));
-    let wall_stamper = watch.busy(Stage::Stamps, || WallStamper::new(&library, &wall_grid, &scenario.stamps));
+    let stamper = watch.busy(Stage::Stamps, || Stamper::new(&library, grid, &scenario.stamps))?;
+    let wall_stamper = watch.busy(Stage::Stamps, || WallStamper::new(&library, &wall_grid, &scenario.stamps))?;
     let mut sums = Sums { floor: FloorSums::new(grid), walls: with_walls.then(|| WallSums::new(wall_grid)) };
     let mut paths = PathSampler::new(source.people());
     let mut stamp = |marks: &Marks| {
@@ -108,7 +126,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
         wall_people: footfalls.contact_people(),
         title: title(&settings),
         seed: scenario.seed,
-        atlas: None,
+        atlas,
     };
     let written = graded.write(&folder, &scenario.texture, &crops, &watch, progress)?;
     let sums_entry =
@@ -146,7 +164,13 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     Ok(report)
 }
 
-/// What is made anew of a finished bake. What is left out stays as it was.
+/// Whether `resolve` takes a file of the bake over as it is.
+fn is_kept(file: &str) -> bool {
+    let sums = file.starts_with("sums/") && file.ends_with(".exr");
+    sums || file == show::PATHS_FILE
+}
+
+/// Which outputs `resolve` rewrites of a finished bake. What is left out stays as it was.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ResolveOptions {
     /// Another look.
@@ -155,6 +179,8 @@ pub struct ResolveOptions {
     pub target: Option<Target>,
     /// Whether the model carries its textures.
     pub embed: Option<bool>,
+    /// Whether every layer is written on its own too.
+    pub layers: Option<bool>,
 }
 
 /// Grades a finished bake with another look, or writes it for another target: its exact sums are resolved to textures
@@ -165,18 +191,27 @@ pub struct ResolveOptions {
 /// cannot be written; [`Error::Interrupted`]. In all these cases the bake stays as it was.
 pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -> Result<Report, Error> {
     let watch = Stopwatch::start();
-    export::restore(bake)?;
+    export::settled(&[bake], || Manifest::read(bake))?;
+    // From here on no other run replaces the bake.
+    let folder = OutputFolder::begin(bake, true)?;
     let manifest = Manifest::read(bake)?;
+    check_free(&folder, manifest.walls.is_some())?;
     let look = &options.look.clone().map_or_else(|| manifest.look(bake), Ok)?;
+    look.check()?;
+    look.check_images()?;
     let mut textures = manifest.texture_options();
     textures.target = options.target.unwrap_or(textures.target);
     textures.embed = options.embed.unwrap_or(textures.embed);
+    textures.layers = options.layers.or(textures.layers);
+    textures.check()?;
+    let atlas = manifest.walls.as_ref().map(|walls| walls.atlas());
+    atlas.iter().try_for_each(|atlas| atlas.check(textures.target))?;
     let earlier = Report::read(bake)?;
+    let folder = OutputFolder::begin(bake, true)?;
     let floor = watch.busy(Stage::Sums, || export::read_sums(bake, &manifest))?;
-    let walls = watch.busy(Stage::Walls, || manifest.walls());
+    let walls = watch.busy(Stage::Walls, || manifest.walls())?;
     let sums = Sums { floor, walls: watch.busy(Stage::Sums, || export::read_wall_sums(bake, &manifest))? };
 
-    let folder = OutputFolder::begin(bake, true)?;
     let graded = Graded {
         sums: &sums,
         walls: &walls,
@@ -186,11 +221,11 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
         wall_people: manifest.wall_people(),
         title: title(&manifest.settings),
         seed: manifest.seed,
-        atlas: manifest.walls.as_ref().map(|walls| walls.atlas()),
+        atlas,
     };
     let crops = Crop::of_manifest(&manifest);
     let written = graded.write(&folder, &textures, &crops, &watch, progress)?;
-    for file in manifest.files.iter().filter(|file| file.starts_with("sums/") || *file == show::PATHS_FILE) {
+    for file in manifest.files.iter().filter(|file| is_kept(file)) {
         folder.keep(file)?;
     }
 
@@ -208,4 +243,10 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
     export::write_target_files(&folder, &manifest)?;
     folder.publish(&manifest)?;
     Ok(report)
+}
+
+/// Refuses, before any work is done, names that files of the user have.
+fn check_free(folder: &OutputFolder, with_walls: bool) -> Result<(), export::ExportError> {
+    folder.check_free(&ALWAYS_MADE)?;
+    if with_walls { folder.check_free(&MADE_WITH_WALLS) } else { Ok(()) }
 }

@@ -1,7 +1,7 @@
 use crate::progress::Interrupted;
 use crate::{
     crowd, export, features, files, formation, look, marks, motion, patterns, plan, recordings, routes, scenario, show,
-    stamps, sums, units,
+    stamps, sums, units, walls,
 };
 
 /// Declares [`Error`] from one list of stages, in the order of the data.
@@ -45,8 +45,10 @@ stages! {
     File(files::FileError);
     /// The plan image or its scale cannot be used.
     Plan(plan::PlanError);
+    /// Kept outlines are no walls.
+    Walls(walls::WallsError);
     /// A route leads nowhere.
-    Routes(routes::RoutesError);
+    Routes(routes::RoutesError) { routes::RoutesError::Interrupted };
     /// A motion cannot go on, or cannot be held.
     Motion(motion::MotionError) { motion::MotionError::Interrupted(_) };
     /// A recording cannot be read or written.

@@ -1,9 +1,22 @@
-//! Files that appear whole or not at all.
+//! Files that appear whole or not at all, and never in the place of something else.
 
-use std::ffi::OsString;
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+
+use tempfile::TempPath;
+
+mod absolute;
+mod input;
+mod lock;
+mod names;
+
+pub use absolute::absolute;
+pub use input::{LARGEST_IMAGE_BYTES, LARGEST_TEXT_BYTES, open_input, open_input_up_to, read_input, read_text};
+pub use lock::{LockError, NameLock};
+pub use names::{check_not_input, files_in, same_file};
+
+use names::{Destination, Stream};
 
 /// Why a file cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -27,9 +40,9 @@ pub enum FileError {
         /// The path.
         path: PathBuf,
     },
-    /// Another process writes the same file right now.
-    #[error("another trodden is writing {} right now", path.display())]
-    InUse {
+    /// The same run reads this file.
+    #[error("cannot write {}: the same run reads it", path.display())]
+    IsInput {
         /// The file.
         path: PathBuf,
     },
@@ -49,7 +62,7 @@ impl FileError {
         match self {
             FileError::Exists { .. } => Some("--force replaces it; or choose another file".to_string()),
             FileError::IsFolder { .. } | FileError::HasNoName { .. } => Some("name a file".to_string()),
-            FileError::InUse { .. } => Some("wait for it, or choose another file".to_string()),
+            FileError::IsInput { .. } => Some("choose another file".to_string()),
             FileError::Write { source, .. } => match source.kind() {
                 io::ErrorKind::NotFound => Some("make its folder first".to_string()),
                 io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
@@ -66,61 +79,77 @@ impl FileError {
 
 /// A file that appears under its name when it is complete.
 ///
-/// It is written as `.NAME.new` beside the place where it will be, and renamed by [`WholeFile::publish`]. Dropped
-/// unpublished, it is removed, and what was there before stays as it was. What a killed process left behind is
-/// replaced by the next one.
+/// It is written beside the place where it will be, under a name that no other file has, and renamed by
+/// [`WholeFile::publish`]. Dropped unpublished, it is removed, and what was there before stays as it was. Through a
+/// link, the file that it leads to is written. A device, a pipe or a descriptor, such as `/dev/stdout`, is written to
+/// as it is: there is nothing to rename.
 #[derive(Debug)]
 pub struct WholeFile {
     /// As the user gave it, for messages.
     shown: PathBuf,
-    target: PathBuf,
-    new: PathBuf,
-    lock: PathBuf,
-    /// Held while the file is written, so that two processes never write the same.
-    locked: Option<File>,
+    place: Place,
     force: bool,
-    published: bool,
 }
 
+#[derive(Debug)]
+enum Place {
+    /// A file to be renamed.
+    Beside { written: TempPath, target: PathBuf },
+    /// Something that is written to directly.
+    Stream(Stream),
+}
+
+/// The longest part of a file's name that the temporary name repeats, characters.
+const REPEATED: usize = 60;
+
 impl WholeFile {
-    /// Makes sure that the file may be written, and reserves its place.
+    /// Makes sure that the file may be written, and makes the temporary file.
     ///
     /// # Errors
-    /// A file of this name unless `force` is set, a folder of this name, no right to write to its folder, another
-    /// process that writes the same file.
+    /// A file of this name unless `force` is set, a folder of this name, no right to write to its folder.
     pub fn begin(path: &Path, force: bool) -> Result<WholeFile, FileError> {
         let shown = path.to_path_buf();
-        // Through a link, the file that it leads to is replaced, not the link.
-        let target = fs::canonicalize(path).ok().filter(|_| path.is_symlink()).unwrap_or_else(|| shown.clone());
-        let Some(name) = target.file_name() else { return Err(FileError::HasNoName { path: shown }) };
+        let failed = |source| FileError::Write { path: path.to_path_buf(), source };
+        let target = match Destination::of(path).map_err(failed)? {
+            Destination::Stream(stream) => return Ok(WholeFile { shown, place: Place::Stream(stream), force }),
+            Destination::Name(target) => target,
+        };
         if target.is_dir() {
             return Err(FileError::IsFolder { path: shown });
         }
-        let beside = |suffix: &str| {
-            let mut hidden = OsString::from(".");
-            hidden.push(name);
-            hidden.push(suffix);
-            target.with_file_name(hidden)
-        };
-        let (new, lock) = (beside(".new"), beside(".lock"));
-        let mut file = WholeFile { shown, target, new, lock, locked: None, force, published: false };
-        file.check_replaceable()?;
-        file.reserve()?;
-        Ok(file)
+        let Some(name) = target.file_name() else { return Err(FileError::HasNoName { path: shown }) };
+        if target.exists() && !force {
+            return Err(FileError::Exists { path: shown });
+        }
+        let start: String = name.to_string_lossy().chars().take(REPEATED).collect();
+        let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let written = new_file(folder, &format!(".{start}.")).map_err(failed)?.into_temp_path();
+        Ok(WholeFile { shown, place: Place::Beside { written, target }, force })
     }
 
     /// Where to write until the file is published.
     pub fn path(&self) -> &Path {
-        &self.new
+        match &self.place {
+            Place::Beside { written, .. } => written,
+            Place::Stream(_) => &self.shown,
+        }
     }
 
-    /// Makes the file, to be written by way of [`WholeFile::path`]'s name.
+    /// Whether it is a device, a pipe or a descriptor: written from front to back, without a size.
+    pub fn is_stream(&self) -> bool {
+        matches!(self.place, Place::Stream(_))
+    }
+
+    /// Opens the file, to be written from its start.
     ///
     /// # Errors
     /// The system refuses.
     pub fn create(&self) -> Result<BufWriter<File>, FileError> {
-        let file = File::create(&self.new).map_err(|source| self.failed(source))?;
-        Ok(BufWriter::with_capacity(1 << 16, file))
+        let file = match &self.place {
+            Place::Beside { written, .. } => File::options().write(true).truncate(true).open(written),
+            Place::Stream(stream) => stream.open(),
+        };
+        Ok(BufWriter::with_capacity(1 << 16, file.map_err(|source| self.failed(source))?))
     }
 
     /// The error of a write to this file that failed.
@@ -128,53 +157,56 @@ impl WholeFile {
         FileError::Write { path: self.shown.clone(), source }
     }
 
-    /// Puts the file, which must be closed, in its place; gives its size in bytes.
+    /// Writes the whole content; the file still has to be published.
+    ///
+    /// # Errors
+    /// The system refuses.
+    pub fn write(&self, bytes: &[u8]) -> Result<(), FileError> {
+        let mut file = self.create()?;
+        file.write_all(bytes).and_then(|()| file.flush()).map_err(|source| self.failed(source))
+    }
+
+    /// Puts the file, which must be closed, in its place; gives its size in bytes, 0 for a stream.
     ///
     /// # Errors
     /// A file of this name that has appeared in the meantime, unless it may be replaced; the system refuses.
-    pub fn publish(mut self) -> Result<u64, FileError> {
-        self.check_replaceable()?;
-        let size = fs::metadata(&self.new).map_err(|source| self.failed(source))?.len();
-        fs::rename(&self.new, &self.target).map_err(|source| self.failed(source))?;
-        self.published = true;
+    pub fn publish(self) -> Result<u64, FileError> {
+        let WholeFile { shown, place, force } = self;
+        let Place::Beside { written, target } = place else { return Ok(0) };
+        let failed = |source| FileError::Write { path: shown.clone(), source };
+        let size = fs::metadata(&written).map_err(failed)?.len();
+        if !force {
+            return match written.persist_noclobber(&target) {
+                Ok(()) => Ok(size),
+                Err(_) if target.exists() => Err(FileError::Exists { path: shown }),
+                // Some disks cannot rename without replacing, nor link.
+                Err(refused) => refused.path.persist(&target).map(|()| size).map_err(|e| failed(plain(e.error))),
+            };
+        }
+        // The old content must not be gone before the new one is on the disk.
+        File::options().write(true).open(&written).and_then(|file| file.sync_all()).map_err(failed)?;
+        written.persist(&target).map_err(|refused| failed(plain(refused.error)))?;
         Ok(size)
-    }
-
-    fn check_replaceable(&self) -> Result<(), FileError> {
-        match self.target.exists() && !self.force {
-            true => Err(FileError::Exists { path: self.shown.clone() }),
-            false => Ok(()),
-        }
-    }
-
-    fn reserve(&mut self) -> Result<(), FileError> {
-        let failed = |source| FileError::Write { path: self.shown.clone(), source };
-        let lock = File::create(&self.lock).map_err(failed)?;
-        match lock.try_lock() {
-            Err(TryLockError::WouldBlock) => {
-                // Not ours to remove.
-                self.published = true;
-                return Err(FileError::InUse { path: self.shown.clone() });
-            }
-            // Some network disks cannot lock: then only two processes at once are not told apart.
-            Ok(()) | Err(TryLockError::Error(_)) => self.locked = Some(lock),
-        }
-        match fs::remove_file(&self.new) {
-            Err(source) if source.kind() != io::ErrorKind::NotFound => Err(self.failed(source)),
-            _ => Ok(()),
-        }
     }
 }
 
-impl Drop for WholeFile {
-    fn drop(&mut self) {
-        if !self.published {
-            // Nobody is left to tell; the next start cleans up.
-            let _ = fs::remove_file(&self.new);
-        }
-        if self.locked.take().is_some() {
-            let _ = fs::remove_file(&self.lock);
-        }
+/// Makes a file in a folder under a name that no other file has, with the rights of any new file.
+fn new_file(folder: &Path, start: &str) -> io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(start).suffix(".new");
+    #[cfg(unix)]
+    let rights = std::os::unix::fs::PermissionsExt::from_mode(0o666);
+    #[cfg(unix)]
+    builder.permissions(rights);
+    builder.tempfile_in(folder).map_err(plain)
+}
+
+/// An error of the system without the temporary name, which would tell the user nothing.
+fn plain(error: io::Error) -> io::Error {
+    let source = error.get_ref().and_then(|inner| inner.source()).and_then(|source| source.downcast_ref::<io::Error>());
+    match source.and_then(io::Error::raw_os_error) {
+        Some(code) => io::Error::from_raw_os_error(code),
+        None => error,
     }
 }
 
@@ -184,8 +216,7 @@ impl Drop for WholeFile {
 /// As [`WholeFile::begin`] and [`WholeFile::publish`].
 pub fn write_whole(path: &Path, bytes: &[u8], force: bool) -> Result<u64, FileError> {
     let file = WholeFile::begin(path, force)?;
-    let written = file.create()?.into_inner().map_err(|error| error.into_error());
-    written.and_then(|mut open| open.write_all(bytes)).map_err(|source| file.failed(source))?;
+    file.write(bytes)?;
     file.publish()
 }
 
@@ -229,18 +260,39 @@ mod tests {
     }
 
     #[test]
-    fn two_never_write_the_same_file_and_leftovers_are_replaced() {
+    fn of_two_writers_the_second_finds_the_file_there() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("a.txt");
-        let first = WholeFile::begin(&path, false).unwrap();
-        first.create().unwrap().write_all(b"first").unwrap();
-        assert!(matches!(WholeFile::begin(&path, false), Err(FileError::InUse { .. })));
+        let [first, second] = [(); 2].map(|()| WholeFile::begin(&path, false).unwrap());
+        first.write(b"first").unwrap();
+        second.write(b"second").unwrap();
         first.publish().unwrap();
-        // As a killed process leaves them.
-        fs::write(dir.path().join(".b.txt.new"), "half of it").unwrap();
-        fs::write(dir.path().join(".b.txt.lock"), "").unwrap();
-        write_whole(&dir.path().join("b.txt"), b"b", false).unwrap();
-        assert_eq!(names(dir.path()), ["a.txt", "b.txt"]);
+        assert!(matches!(second.publish(), Err(FileError::Exists { .. })));
+        assert_eq!(fs::read(&path).unwrap(), b"first");
+        assert_eq!(names(dir.path()), ["a.txt"]);
+    }
+
+    #[test]
+    fn files_with_similar_names_stay() {
+        let dir = tempfile::tempdir().unwrap();
+        for name in [".a.txt.new", ".a.txt.lock"] {
+            fs::write(dir.path().join(name), name).unwrap();
+        }
+        write_whole(&dir.path().join("a.txt"), b"a", false).unwrap();
+        assert_eq!(names(dir.path()), [".a.txt.lock", ".a.txt.new", "a.txt"]);
+        assert_eq!(fs::read(dir.path().join(".a.txt.lock")).unwrap(), b".a.txt.lock");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn files_have_the_rights_of_any_new_file() {
+        use std::os::unix::fs::PermissionsExt;
+        let dir = tempfile::tempdir().unwrap();
+        let [plain, whole] = ["plain", "whole"].map(|name| dir.path().join(name));
+        fs::write(&plain, "x").unwrap();
+        write_whole(&whole, b"x", false).unwrap();
+        let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode();
+        assert_eq!(mode(&whole), mode(&plain));
     }
 
     #[test]
@@ -266,5 +318,29 @@ mod tests {
         write_whole(&link, b"later", true).unwrap();
         assert!(link.is_symlink());
         assert_eq!(fs::read(&real).unwrap(), b"later");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_that_leads_nowhere_yet_leads_to_the_new_file() {
+        let dir = tempfile::tempdir().unwrap();
+        let link = dir.path().join("link.txt");
+        std::os::unix::fs::symlink("real.txt", &link).unwrap();
+        write_whole(&link, b"x", false).unwrap();
+        assert!(link.is_symlink());
+        assert_eq!(fs::read(dir.path().join("real.txt")).unwrap(), b"x");
+        // A ring of links is an error, not a loop.
+        let ring = dir.path().join("ring.txt");
+        std::os::unix::fs::symlink("ring.txt", &ring).unwrap();
+        assert!(matches!(WholeFile::begin(&ring, true), Err(FileError::Write { .. })));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_device_stays_a_device() {
+        for force in [false, true] {
+            assert_eq!(write_whole(Path::new("/dev/null"), b"x", force).unwrap(), 0);
+        }
+        assert!(!Path::new("/dev/null").is_file());
     }
 }

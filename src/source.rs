@@ -5,7 +5,7 @@ use crate::crowd::{Arrival, Simulation, Stuck, Tally};
 use crate::formation::{self, FormedCrowd};
 use crate::marks::Origin;
 use crate::math::{Rect, Vec2, sin_cos, vec2};
-use crate::motion::{Ensemble, Frame, Motion, MotionError, Walker};
+use crate::motion::{Ensemble, Frame, Motion, MotionError, Statures, Walker};
 use crate::plan::{self, FloorPlan, Pose};
 use crate::progress::{Progress, Stage, Stopwatch};
 use crate::recordings::Recording;
@@ -144,6 +144,14 @@ impl Given {
             Content::Ensemble(ensemble) | Content::FormedCrowd(FormedCrowd { ensemble, .. }) => ensemble.people(),
         };
         people.min(u32::MAX as usize) as u32
+    }
+
+    /// Body heights of those whose recording tells them.
+    pub fn statures(&self) -> Statures {
+        match &self.content {
+            Content::Recording(recording) => recording.statures(),
+            Content::Ensemble(_) | Content::FormedCrowd(_) => Statures::default(),
+        }
     }
 
     /// Frames per second.

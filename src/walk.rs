@@ -2,15 +2,15 @@
 //! same for a motion that is given.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde::Serialize;
 
 use crate::Error;
 use crate::crowd::{Stuck, simulate};
 use crate::export::{self, PeopleReport};
-use crate::files::WholeFile;
-use crate::motion::{Frame, Mileage, Motion, People};
+use crate::files::{FileError, WholeFile, check_not_input};
+use crate::motion::{Frame, Mileage, Motion, People, Statures};
 use crate::progress::{Progress, Stage, Stopwatch};
 use crate::recordings::{RecordForm, Recorded, RecordedWorld, Recorder, RecordingFormat};
 use crate::routes::{Navigation, Route};
@@ -33,6 +33,21 @@ pub struct WalkOutputs {
     pub paths: Option<PathBuf>,
     /// Whether files that exist are replaced.
     pub force: bool,
+}
+
+impl WalkOutputs {
+    /// Makes sure that no file is to be written that the run reads.
+    ///
+    /// # Errors
+    /// [`FileError::IsInput`].
+    pub fn check_not_inputs(&self, inputs: &[PathBuf]) -> Result<(), FileError> {
+        let motion = self.motion.iter().filter_map(|motion| match motion {
+            MotionOutput::File(path) => Some(path),
+            MotionOutput::StandardOutput => None,
+        });
+        let mut files = motion.chain(self.animation.iter().map(|(path, _)| path)).chain(&self.paths);
+        files.try_for_each(|file| check_not_input(file, inputs))
+    }
 }
 
 /// Where a motion is written to.
@@ -82,13 +97,14 @@ pub struct WalkReport {
 /// [`Error::Interrupted`]. In all these cases no file is left behind and earlier ones stay as they were.
 pub fn walk(scenario: &Scenario, outputs: &WalkOutputs, progress: &dyn Progress) -> Result<WalkReport, Error> {
     let watch = Stopwatch::start();
+    outputs.check_not_inputs(&scenario.input_files())?;
     let files = Files::begin(outputs)?;
     let given = Given::of_scenario(scenario, &watch, progress)?;
     let ground = Ground::of_scenario(scenario, given.as_ref(), &watch, progress)?;
     let people = People::new(scenario.seed, scenario.bodies.clone());
     if let Some(given) = &given {
         let source = Source::of_given(given, &ground)?;
-        return Walk { source, ground: &ground, routes: &[], people: &people }.record(
+        return Walk { source, ground: &ground, routes: &[], people: &people, statures: given.statures() }.record(
             outputs,
             given.fps(),
             files,
@@ -97,15 +113,18 @@ pub fn walk(scenario: &Scenario, outputs: &WalkOutputs, progress: &dyn Progress)
         );
     }
     let (plan, walls) = (&ground.plan, &ground.walls);
-    let (routes, ways) = watch.busy(Stage::Routes, || Navigation::find(plan, walls, &scenario.routes))?;
+    let (routes, ways) =
+        watch.busy(Stage::Routes, || Navigation::find_watched(plan, walls, &scenario.routes, progress))?;
     let crowd = watch
         .busy(Stage::Crowd, || simulate(plan, walls, &routes, ways, &people, &scenario.crowd, &scenario.spots()))?;
     let source = Source::of_crowd(crowd, &routes);
     let fps = 1.0 / scenario.crowd.time_step;
-    Walk { source, ground: &ground, routes: &routes, people: &people }.record(outputs, fps, files, &watch, progress)
+    let walk = Walk { source, ground: &ground, routes: &routes, people: &people, statures: Statures::default() };
+    walk.record(outputs, fps, files, &watch, progress)
 }
 
-/// Plays a given motion on its ground, and writes it, an animation and a picture of its paths.
+/// Plays a given motion on its ground, and writes it, an animation and a picture of its paths. The files that the motion
+/// was read from are not known here: see [`WalkOutputs::check_not_inputs`].
 ///
 /// # Errors
 /// As [`walk`].
@@ -119,18 +138,37 @@ pub fn show(
     let watch = Stopwatch::start();
     let files = Files::begin(outputs)?;
     let source = Source::of_given(given, ground)?;
-    Walk { source, ground, routes: &[], people }.record(outputs, given.fps(), files, &watch, progress)
+    let walk = Walk { source, ground, routes: &[], people, statures: given.statures() };
+    walk.record(outputs, given.fps(), files, &watch, progress)
 }
 
-/// The files in the making, but for the motion's own.
+/// The files in the making.
 struct Files {
+    motion: Option<Sheet>,
     animation: Option<(WholeFile, AnimationFormat)>,
     paths: Option<WholeFile>,
 }
 
+/// Where the motion goes, and how it is written.
+enum Sheet {
+    File(RecordForm, WholeFile),
+    StandardOutput(RecordingFormat),
+}
+
 impl Files {
+    /// Makes sure that all files can be written, before anybody walks.
     fn begin(outputs: &WalkOutputs) -> Result<Files, Error> {
         let begin = |path: &PathBuf| WholeFile::begin(path, outputs.force);
+        let motion = match &outputs.motion {
+            None => None,
+            Some(MotionOutput::File(path)) => {
+                let form = RecordForm::of(path, outputs.format)?;
+                Some(Sheet::File(form, begin(path)?))
+            }
+            Some(MotionOutput::StandardOutput) => {
+                Some(Sheet::StandardOutput(outputs.format.unwrap_or(RecordingFormat::Juelich)))
+            }
+        };
         let animation = match &outputs.animation {
             Some((path, _)) => {
                 let format = AnimationFormat::of(path)?;
@@ -138,7 +176,7 @@ impl Files {
             }
             None => None,
         };
-        Ok(Files { animation, paths: outputs.paths.as_ref().map(begin).transpose()? })
+        Ok(Files { motion, animation, paths: outputs.paths.as_ref().map(begin).transpose()? })
     }
 }
 
@@ -148,6 +186,8 @@ struct Walk<'a> {
     ground: &'a Ground,
     routes: &'a [Route],
     people: &'a People,
+    /// Of those whose body height is known from elsewhere.
+    statures: Statures,
 }
 
 impl Walk<'_> {
@@ -159,20 +199,15 @@ impl Walk<'_> {
         watch: &Stopwatch,
         progress: &dyn Progress,
     ) -> Result<WalkReport, Error> {
-        let Walk { mut source, ground: Ground { plan, walls, .. }, routes, people } = self;
+        let Walk { mut source, ground: Ground { plan, walls, .. }, routes, people, statures } = self;
         let world = RecordedWorld { plan, walls, people };
         let fps = outputs.fps.unwrap_or(own_fps);
-        let recorder = match &outputs.motion {
+        let recorder = match files.motion {
             None => None,
-            Some(MotionOutput::File(path)) => {
-                let form = RecordForm::of(path, outputs.format)?;
-                Some(Recorder::create_as(form, path, outputs.force, fps, world)?)
-            }
-            Some(MotionOutput::StandardOutput) => {
-                let format = outputs.format.unwrap_or(RecordingFormat::Juelich);
-                Some(Recorder::to_writer(io::stdout(), format, fps, world)?)
-            }
+            Some(Sheet::File(form, file)) => Some(Recorder::into_file(form, file, fps, world)?),
+            Some(Sheet::StandardOutput(format)) => Some(Recorder::to_writer(io::stdout(), format, fps, world)?),
         };
+        let recorder = recorder.map(|recorder| recorder.with_statures(statures));
         let arrivals = source.arrivals().to_vec();
         let animation = outputs.animation.as_ref();
         let animation =
@@ -203,7 +238,7 @@ impl Walk<'_> {
         };
         if let (Some(paths), Some(file)) = (&paths, &files.paths) {
             let picture = show::draw_paths(plan, walls, routes, paths.paths(), &tally.stuck);
-            std::fs::write(file.path(), encode_picture(&picture)).map_err(|source| file.failed(source))?;
+            file.write(&encode_picture(&picture))?;
         }
         // All that can fail has been done: now the files appear.
         let motion = watch.busy(Stage::Export, || recorder.map(Recorder::finish).transpose())?;
@@ -274,10 +309,4 @@ impl Onlookers<'_> {
             progress.advance(source.stage(), source.share_done());
         }
     }
-}
-
-/// Whether two outputs are the same file.
-pub fn same_file(a: &Path, b: &Path) -> bool {
-    let real = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
-    real(a) == real(b)
 }

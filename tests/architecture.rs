@@ -46,7 +46,6 @@ type Names = Vec<String>;
 /// What a source file says about itself.
 #[derive(Default)]
 struct Module {
-    file: PathBuf,
     /// Names of functions, types, constants and macros that it defines.
     defined: BTreeSet<String>,
     /// Names that `use` brings in, with the path that each stands for; `pub` ones are handed on.
@@ -59,7 +58,7 @@ impl Module {
     fn parse(file: &Path) -> Module {
         let text = fs::read_to_string(file).unwrap();
         let syntax = syn::parse_file(&text).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
-        let mut module = Module { file: file.to_path_buf(), ..Module::default() };
+        let mut module = Module::default();
         module.visit_file(&syntax);
         module
     }

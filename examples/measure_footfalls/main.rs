@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Prints a table for each recording: a row for each speed, a column for each rate with the mean step and how much longer
-//! it is than on the line `L = 0.247 + 0.344 v`, which holds from 0.4 m/s on. `cargo test --test gait` holds footfalls to
+//! it is than on the line `L = 0.247 + 0.344 v`, which holds from 0.4 m/s on. `cargo test --test marks gait` holds footfalls to
 //! the same.
 
 use std::collections::BTreeMap;
@@ -15,10 +15,10 @@ use trodden::Error;
 use trodden::motion::{Frame, Walker};
 use trodden::recordings::{Recording, RecordingOptions};
 
-#[path = "../../tests/gait/measure.rs"]
+#[path = "../../tests/marks/gait/measure.rs"]
 #[allow(dead_code, clippy::unwrap_used, reason = "shared with the tests of gait")]
 mod measure;
-#[path = "../../tests/gait/strides.rs"]
+#[path = "../../tests/marks/gait/strides.rs"]
 #[allow(dead_code, clippy::unwrap_used, reason = "shared with the tests of gait")]
 mod strides;
 

@@ -9,11 +9,11 @@ use crate::export::{
 use crate::look::{Background, FloorResolver, Look, WallResolver};
 use crate::math::Rect;
 use crate::progress::{Progress, Stage, Stopwatch};
-use crate::show::page::{Covering, Dirt, Page, PageOptions, Viewpoint};
+use crate::show::page::{Page, PageOptions, PageSurface, Viewpoint};
 use crate::show::scene::{
     self, GlbImage, GlbOptions, PlainMaterial, Scene, SceneOptions, SurfaceImages, WallStrip, write_glb,
 };
-use crate::show::still::{Coat, FarWalls, STILL_SIZE_PX, Studio, WallCoat, write_stills};
+use crate::show::still::{FarWalls, STILL_SIZE_PX, StillScene, Surfaces, WallSurfaces, write_stills};
 use crate::show::{self, Crop};
 use crate::sums::{FloorSums, WallSums};
 use crate::walls::{Doorway, Walls};
@@ -41,7 +41,7 @@ pub(super) struct Graded<'a> {
     /// What the plan is called.
     pub title: String,
     pub seed: u64,
-    /// How the walls were laid into sheets before, where that is known.
+    /// How the walls are laid into sheets, where there are walls.
     pub atlas: Option<Atlas>,
 }
 
@@ -102,7 +102,7 @@ impl Graded<'_> {
             let model = Model { graded: self, floor: floor_textures, walls: &textures };
             let scene = model.scene(sums.grid().height_m);
             model.write_glb(&scene, wall.background(), options.embed, folder)?;
-            let studio = Studio::new(self.walls, self.doorways, sums.grid().height_m);
+            let studio = StillScene::new(self.walls, self.doorways, sums.grid().height_m);
             let cameras = [studio.birds_eye(STILL_SIZE_PX), studio.eye_level(&self.sums.floor)];
             let (stills, page) = rayon::join(
                 || model.write_stills((floor, &wall), sums, (&studio, cameras), folder, progress),
@@ -181,7 +181,7 @@ impl Model<'_> {
         &self,
         (floor, wall): (&FloorResolver<'_>, &WallResolver<'_>),
         wall_sums: &WallSums,
-        (studio, cameras): (&Studio, [Camera; 2]),
+        (studio, cameras): (&StillScene, [Camera; 2]),
         folder: &OutputFolder,
         progress: &dyn Progress,
     ) -> Result<Vec<StillEntry>, Error> {
@@ -191,15 +191,20 @@ impl Model<'_> {
         let clean_wall = WallResolver::new(wall_sums, walls, &look, wall_people)?;
         let floor_texels_per_metre = sums.floor.grid().texels_per_metre;
         let texels_per_metre = wall_sums.grid().texels_per_metre;
-        let on_walls = |source, far| Some(WallCoat { source, texels_per_metre, far });
+        let on_walls = |source, far| Some(WallSurfaces { source, texels_per_metre, far });
         let coats = [
-            Coat {
+            Surfaces {
                 floor,
                 floor_texels_per_metre,
                 small: Some(&self.floor.birdseye),
                 walls: on_walls(wall, FarWalls::Textures(self.walls)),
             },
-            Coat { floor: &clean, floor_texels_per_metre, small: None, walls: on_walls(&clean_wall, FarWalls::Plain) },
+            Surfaces {
+                floor: &clean,
+                floor_texels_per_metre,
+                small: None,
+                walls: on_walls(&clean_wall, FarWalls::Plain),
+            },
         ];
         Ok(write_stills(folder, studio, cameras, coats, progress)?)
     }
@@ -218,24 +223,13 @@ impl Model<'_> {
             heading_rad: eyes.heading_deg.to_radians(),
             pitch_rad: eyes.pitch_deg.to_radians(),
         };
-        let dirt = |name, channel, colour| Dirt { name, channel, colour };
         let page = Page {
             title: &self.graded.title,
             scene,
             walls: self.graded.walls,
             wall_height_m: self.walls.atlas.height_m,
-            floor: Covering::floor(&self.floor.reduced, look, clean_floor),
-            wall: Covering {
-                images: &self.walls.reduced,
-                clean: clean_wall.base_color,
-                roughness: f32::from(clean_wall.orm[1]) / 255.0,
-                dirt: vec![
-                    dirt("Hands", 0, look.wall.skin.colour),
-                    dirt("Clothes and bags", 1, look.wall.bag.colour),
-                    dirt("Shoe scuffs", 2, look.wall.rubber.colour),
-                    dirt("Splashes", 3, look.wall.splash.colour),
-                ],
-            },
+            floor: PageSurface::floor(&self.floor.reduced, look, clean_floor),
+            wall: PageSurface::wall(&self.walls.reduced, look, clean_wall),
             start,
             options: PageOptions::default(),
         };

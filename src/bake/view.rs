@@ -7,7 +7,7 @@ use crate::export::Camera;
 use crate::export::{self, Manifest};
 use crate::look::{FloorResolver, Look, WallResolver};
 use crate::progress::Progress;
-use crate::show::still::{Coat, FarWalls, Studio, WallCoat, check_size};
+use crate::show::still::{FarWalls, StillScene, Surfaces, WallSurfaces, check_size};
 
 /// How to look at a finished bake.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,20 +35,23 @@ pub struct View {
 /// out of range; [`Error::Interrupted`].
 pub fn view(bake: &Path, view: &View, progress: &dyn Progress) -> Result<(RgbImage, Camera), Error> {
     check_size(view.size_px)?;
-    export::restore(bake)?;
-    let manifest = Manifest::read(bake)?;
-    let walls = manifest.walls();
-    let studio = Studio::new(&walls, &manifest.doorways(), wall_height_m(&manifest));
-    // A camera that cannot be is told of before anything long is done.
-    if let Some(camera) = &view.camera {
-        studio.check(&with_fov(*camera, view))?;
-    }
-    let look = match &view.look {
-        Some(look) => look.clone(),
-        None => manifest.look(bake)?,
+    let read = || -> Result<_, Error> {
+        let manifest = Manifest::read(bake)?;
+        let walls = manifest.walls()?;
+        let studio = StillScene::new(&walls, &manifest.doorways(), wall_height_m(&manifest));
+        // A camera that cannot be is told of before anything long is done.
+        if let Some(camera) = &view.camera {
+            studio.check(&with_fov(*camera, view))?;
+        }
+        let look = match &view.look {
+            Some(look) => look.clone(),
+            None => manifest.look(bake)?,
+        };
+        let (sums, wall_sums) = (export::read_sums(bake, &manifest)?, export::read_wall_sums(bake, &manifest)?);
+        Ok((manifest, walls, studio, look, sums, wall_sums))
     };
+    let (manifest, walls, studio, look, sums, wall_sums) = export::settled(&[bake], read)?;
     let look = if view.clean { look.clean() } else { look };
-    let sums = export::read_sums(bake, &manifest)?;
     let camera = match view.camera {
         Some(camera) => camera,
         None if view.birds_eye => studio.birds_eye(view.size_px),
@@ -56,16 +59,15 @@ pub fn view(bake: &Path, view: &View, progress: &dyn Progress) -> Result<(RgbIma
     };
     let camera = with_fov(camera, view);
     let floor = FloorResolver::new(&sums, &walls, &look, manifest.people)?;
-    let wall_sums = export::read_wall_sums(bake, &manifest)?;
     let wall =
         wall_sums.as_ref().map(|sums| WallResolver::new(sums, &walls, &look, manifest.wall_people())).transpose()?;
-    let on_walls = wall_sums.as_ref().zip(wall.as_ref()).map(|(sums, source)| WallCoat {
+    let on_walls = wall_sums.as_ref().zip(wall.as_ref()).map(|(sums, source)| WallSurfaces {
         source,
         texels_per_metre: sums.grid().texels_per_metre,
         far: FarWalls::Resolved,
     });
     let floor_texels_per_metre = sums.grid().texels_per_metre;
-    let coat = Coat { floor: &floor, floor_texels_per_metre, small: None, walls: on_walls };
+    let coat = Surfaces { floor: &floor, floor_texels_per_metre, small: None, walls: on_walls };
     let pictures = studio.draw(&camera, view.size_px, &[coat], progress)?;
     let picture = pictures.into_iter().next().expect("there is one picture for each coat");
     Ok((picture, camera))

@@ -2,12 +2,14 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
+use trodden::Error;
 use trodden::bake::{OutputOptions, bake};
-use trodden::export::{Report, Target};
+use trodden::export::{ExportError, Report, Target};
 use trodden::scenario::Overrides;
 
 use super::arguments::{self, ScenarioArguments};
 use super::motion::{Alignment, Reading};
+use super::print::Refused;
 use super::progress::Watch;
 use super::{Common, print};
 
@@ -24,7 +26,10 @@ Examples:
   trodden bake plan.toml --target unreal             names, packing and shaders for Unreal Engine
   trodden bake plan.toml --preset wet --force        again, over the earlier bake
   trodden bake plan.toml --motion paths.txt          recorded people instead of a crowd
-  trodden bake --motion paths.txt                    the same on open ground")]
+  trodden bake --motion paths.txt                    the same on open ground
+  draw_plan | trodden bake - -o floor                a plan or a scenario from standard input
+
+Of a scenario from standard input, paths start from the working directory.")]
 #[command(mut_arg("path", |argument| argument.required(false).required_unless_present("motion")))]
 pub struct Bake {
     #[command(flatten)]
@@ -45,9 +50,15 @@ pub struct Bake {
     /// Make the floor alone: no walls, no scene, no stills, no page
     #[arg(long)]
     floor_only: bool,
+    /// Write every layer on its own too, as EXR: game engines get them only if asked for
+    #[arg(long)]
+    layers: bool,
     /// Put the textures, reduced, into scene.glb
     #[arg(long)]
     embed: bool,
+    /// Bake even if the files will take more than 20 GB, or more than is free on the disk
+    #[arg(long)]
+    yes: bool,
     /// Replace an earlier bake; anything else is never replaced
     #[arg(long)]
     force: bool,
@@ -55,6 +66,9 @@ pub struct Bake {
 
 impl Bake {
     fn named_after(&self) -> Option<&Path> {
+        if self.scenario.is_standard_input() {
+            return Some(Path::new("stdin"));
+        }
         self.scenario.path.as_deref().or(self.motion.as_deref())
     }
 
@@ -63,6 +77,8 @@ impl Bake {
             target: self.target,
             walls: self.floor_only.then_some(false),
             embed: self.embed.then_some(true),
+            any_size: self.yes,
+            layers: self.layers.then_some(true),
             motion_file: self.motion.clone(),
             recording: self.alignment.over(self.reading.options()),
             ..self.scenario.overrides()
@@ -73,7 +89,8 @@ impl Bake {
             None => Path::new("out").join(self.named_after().and_then(Path::file_stem).unwrap_or_default()),
         };
         let output = OutputOptions { folder: folder.clone(), force: self.force };
-        let report = bake(&scenario, &output, &Watch::new(common))?;
+        let report = bake(&scenario, &output, &Watch::new(common))
+            .map_err(|error| with_remedy(error, |error| self.scenario.explain(error)))?;
         if !common.quiet {
             let people = &report.people;
             let (entered, arrived) = (people.entered, people.arrived);
@@ -84,6 +101,17 @@ impl Bake {
             summary(&folder, &report, common)?;
         }
         Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// Names the option that bakes it all the same.
+fn with_remedy(error: Error, otherwise: impl Fn(Error) -> anyhow::Error) -> anyhow::Error {
+    match error {
+        Error::Export(ExportError::TooMuch { .. }) => {
+            let hint = Some("lower --texels-per-metre and texture.wall_texels_per_metre, or say --yes".into());
+            Refused { message: error.to_string(), hint }.into()
+        }
+        error => otherwise(error),
     }
 }
 

@@ -42,7 +42,7 @@ impl Crowd {
         self.files.check(&["crowd"], self.json);
         let scenario = self.scenario.scenario()?;
         let outputs = WalkOutputs { fps: self.fps, ..self.files.outputs() };
-        let report = walk(&scenario, &outputs, &Watch::new(common))?;
+        let report = walk(&scenario, &outputs, &Watch::new(common)).map_err(|error| self.scenario.explain(error))?;
         self.files.tell(&report, self.json, common)?;
         Ok(ExitCode::SUCCESS)
     }

@@ -8,15 +8,18 @@ use trodden::export::diff::{Comparison, DiffOptions, ImageDiff, diff};
 use super::arguments::number_within;
 use super::{Common, print};
 
-/// Compare two bakes, or two images, texel by texel; exit with 1 where they differ
+/// Compare two bakes, or two images, texel by texel
 ///
-/// Values of PNG files are 0 to 1, those of EXR files as they are in the file: sums are whole numbers.
+/// Of bakes, all files are compared: images texel by texel, the rest byte by byte; only report.json may differ. Values of
+/// PNG files are 0 to 1, those of EXR files as they are in the file: sums are whole numbers.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   trodden diff out/monday out/tuesday                         the same to the bit?
   trodden diff a.png b.png --tolerance 0.02 --picture where.png
-  trodden diff a b --tolerance 0.02 --share 0.001 --most 0.2  a few texels may differ, none by much")]
+  trodden diff a b --tolerance 0.02 --share 0.001 --most 0.2  a few texels may differ, none by much
+
+Exit codes: 0 the same, 1 different, 2 they could not be compared.")]
 pub struct Diff {
     /// A bake's folder, or an image: PNG or EXR
     #[arg(value_name = "A")]
@@ -39,30 +42,54 @@ pub struct Diff {
     /// Draw a heat map of where they differ, as a PNG
     #[arg(long, value_name = "FILE")]
     picture: Option<PathBuf>,
+    /// Replace the picture if it is there
+    #[arg(long, requires = "picture")]
+    force: bool,
 }
 
 impl Diff {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
+        match self.compare(common) {
+            Ok(true) => Ok(ExitCode::FAILURE),
+            Ok(false) => Ok(ExitCode::SUCCESS),
+            Err(error) if print::is_broken_pipe(&error) => Err(error),
+            Err(error) => {
+                print::failure(&error, common);
+                Ok(ExitCode::from(NOT_COMPARED))
+            }
+        }
+    }
+
+    /// Whether the two differ.
+    fn compare(&self, common: &Common) -> anyhow::Result<bool> {
         let options = DiffOptions {
             fail: self.tolerance,
             fail_share: self.share,
             hard_fail: self.most.unwrap_or(DiffOptions::default().hard_fail),
         };
+        let inputs = [&self.a, &self.b].map(|compared| print::files_of(compared)).concat();
+        let picture = self.picture.as_ref().map(|path| print::begin_file(path, self.force, &inputs)).transpose()?;
         let comparison = diff(&self.a, &self.b, &options).map_err(Error::from)?;
         if self.json {
             print::line(serde_json::to_string_pretty(&comparison)?)?;
         } else if !common.quiet {
             self.tell(&comparison)?;
         }
-        if let Some(path) = &self.picture {
-            print::save_picture(&comparison.heat_map.picture(), path)?;
+        if let Some(file) = picture {
+            print::save_picture(&comparison.heat_map.picture(), file)?;
         }
-        Ok(if comparison.failed() { ExitCode::FAILURE } else { ExitCode::SUCCESS })
+        Ok(comparison.failed())
     }
 
     fn tell(&self, comparison: &Comparison) -> anyhow::Result<()> {
         for image in &comparison.images {
             print::line(sentence(image))?;
+        }
+        for file in &comparison.different {
+            print::line(format!("{file}: different"))?;
+        }
+        for file in &comparison.missing {
+            print::line(format!("{file}: missing in both, though a manifest lists it"))?;
         }
         for (files, folder) in [(&comparison.only_in_a, &self.a), (&comparison.only_in_b, &self.b)] {
             for file in files {
@@ -76,6 +103,9 @@ impl Diff {
         })
     }
 }
+
+/// The exit code where there is no answer.
+const NOT_COMPARED: u8 = 2;
 
 fn sentence(image: &ImageDiff) -> String {
     if image.largest == 0.0 {

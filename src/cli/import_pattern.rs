@@ -1,11 +1,11 @@
-use std::fs;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{ArgGroup, Args};
 use trodden::Error;
+use trodden::files::{LARGEST_IMAGE_BYTES, check_not_input, files_in, read_input};
 use trodden::patterns::{
-    Cause, Form, Import as Imported, ImportEntry, ImportError, ImportOptions, Listed, PatternsError, PhotoScale,
+    Cause, Form, ImportEntry, ImportError, ImportOptions, ImportedPattern, PatternsError, PhotoScale, SavedPattern,
     import_picture, name_of_photo,
 };
 
@@ -58,7 +58,7 @@ pub struct Import {
     /// The folder; it and its patterns.toml are made if there are none
     #[arg(long, value_name = "FOLDER", default_value = "patterns")]
     into: PathBuf,
-    /// Replace a pattern of this name
+    /// Replace a pattern of this name, and the picture if it is there
     #[arg(long)]
     force: bool,
     /// Draw the photograph, its density and the pattern beside each other, as a PNG
@@ -75,20 +75,21 @@ impl Import {
         };
         let options =
             ImportOptions { cause: self.cause, form: self.form, size, crop: self.crop, rotate_deg: self.rotate };
-        let bytes = fs::read(&self.photo).map_err(|error| {
+        let name = self.name.clone().unwrap_or_else(|| name_of_photo(&self.photo));
+        let inputs: Vec<PathBuf> = files_in(&self.into).into_iter().chain([self.photo.clone()]).collect();
+        let picture = self.picture.as_ref().map(|path| print::begin_file(path, self.force, &inputs)).transpose()?;
+        // With --force, an earlier pattern of this name is replaced, but never the photograph.
+        check_not_input(&self.into.join(format!("{name}.png")), std::slice::from_ref(&self.photo))
+            .map_err(Error::from)?;
+        let bytes = read_input(&self.photo, LARGEST_IMAGE_BYTES).map_err(|error| {
             ours(ImportError::Unreadable { reason: format!("{}: {error}", self.photo.display()) }.into())
         })?;
-        let import = Imported::from_photo(&bytes, &options).map_err(|error| ours(error.into()))?;
+        let import = ImportedPattern::from_photo(&bytes, &options).map_err(|error| ours(error.into()))?;
         // Drawn first: it shows what was found even if the folder has the name already.
-        if let Some(path) = &self.picture {
-            print::save_picture(&import_picture(&import), path)?;
+        if let Some(file) = picture {
+            print::save_picture(&import_picture(&import), file)?;
         }
-        let entry = ImportEntry {
-            name: self.name.clone().unwrap_or_else(|| name_of_photo(&self.photo)),
-            share: self.share,
-            description: self.description.clone(),
-            force: self.force,
-        };
+        let entry = ImportEntry { name, share: self.share, description: self.description.clone(), force: self.force };
         let listed = import.save(&self.into, &entry).map_err(ours)?;
         if !common.quiet {
             self.report(&import, &listed)?;
@@ -96,7 +97,7 @@ impl Import {
         Ok(ExitCode::SUCCESS)
     }
 
-    fn report(&self, import: &Imported, listed: &Listed) -> anyhow::Result<()> {
+    fn report(&self, import: &ImportedPattern, listed: &SavedPattern) -> anyhow::Result<()> {
         let [length_cm, breadth_cm] = import.stain_cm;
         let lighter = if import.lighter { ", lighter than the wall" } else { "" };
         print::line(format!(

@@ -8,7 +8,7 @@ use trodden::plan::Opening;
 use trodden::routes::{Place, PlaceRequest, Route, RouteRequest};
 use trodden::scenario::Scenario;
 
-use super::arguments::ScenarioArguments;
+use super::arguments::{STANDARD_OUTPUT, ScenarioArguments};
 use super::inspect::Understood;
 use super::print::Refused;
 use super::{Common, print};
@@ -24,7 +24,7 @@ Examples:
 pub struct Init {
     #[command(flatten)]
     scenario: ScenarioArguments,
-    /// The file to write [default: the plan's name with the ending .toml, beside it]
+    /// The file to write; - prints it [default: the plan's name with the ending .toml, beside it]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Replace the file if it is there
@@ -34,30 +34,41 @@ pub struct Init {
 
 impl Init {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
-        let output = self
-            .output
-            .clone()
-            .unwrap_or_else(|| self.scenario.path.clone().unwrap_or_default().with_extension("toml"));
-        if output.exists() && !self.force {
-            let message = format!("{} exists already", output.display());
-            let hint = Some("--force replaces it; --output chooses another file".into());
-            return Err(Refused { message, hint }.into());
-        }
+        let output = self.file();
         let mut scenario = self.scenario.scenario()?;
-        let understood = Understood::of(&scenario, common)?;
+        if self.scenario.is_standard_input() && scenario.folder != Path::new("") {
+            let message = "a scenario has to name its plan, and standard input has no name".to_string();
+            return Err(Refused { message, hint: Some("save the plan to a file first".into()) }.into());
+        }
+        let begin = |path: &PathBuf| print::begin_file(path, self.force, &scenario.input_files());
+        let file = output.as_ref().map(begin).transpose()?;
+        let understood = Understood::of(&scenario, common).map_err(|error| self.scenario.explain(error))?;
         if scenario.plan.scale.is_none() && !is_ros_map(&scenario.plan_path()?) {
             scenario.plan.metres_per_pixel = Some(understood.plan.metres_per_pixel);
         }
         if scenario.routes.routes.is_empty() {
             scenario.routes.routes = requests(&understood);
         }
-        move_to(&mut scenario, output.parent().unwrap_or(Path::new("")))?;
+        move_to(&mut scenario, output.as_deref().and_then(Path::parent).unwrap_or(Path::new("")))?;
         let text = format!("{}{}{}", HEADER, openings(&understood), scenario.to_toml());
-        print::save(text.as_bytes(), &output)?;
+        let (Some(output), Some(file)) = (output, file) else {
+            print::text(&text)?;
+            return Ok(ExitCode::SUCCESS);
+        };
+        print::save(text.as_bytes(), file)?;
         if !common.quiet {
             print::line(format!("wrote {}; `trodden bake {}` bakes it", output.display(), output.display()))?;
         }
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// The file to write; none for standard output.
+    fn file(&self) -> Option<PathBuf> {
+        let beside_plan = || match self.scenario.is_standard_input() {
+            true => PathBuf::from(STANDARD_OUTPUT),
+            false => self.scenario.path.clone().unwrap_or_default().with_extension("toml"),
+        };
+        Some(self.output.clone().unwrap_or_else(beside_plan)).filter(|path| path != Path::new(STANDARD_OUTPUT))
     }
 }
 

@@ -31,6 +31,9 @@ pub struct Inspect {
     /// Draw it too, as a PNG
     #[arg(long, value_name = "FILE")]
     picture: Option<PathBuf>,
+    /// Replace the picture if it is there
+    #[arg(long, requires = "picture")]
+    force: bool,
 }
 
 /// What was understood of a scenario's plan.
@@ -71,7 +74,10 @@ impl Understood {
 
 impl Inspect {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
-        let understood = Understood::of(&self.scenario.scenario()?, common)?;
+        let scenario = self.scenario.scenario()?;
+        let begin = |path: &PathBuf| print::begin_file(path, self.force, &scenario.input_files());
+        let picture = self.picture.as_ref().map(begin).transpose()?;
+        let understood = Understood::of(&scenario, common).map_err(|error| self.scenario.explain(error))?;
         let Understood { plan, walls, routes } = &understood;
         if self.json {
             print::line(serde_json::to_string_pretty(&Json {
@@ -89,8 +95,8 @@ impl Inspect {
         } else if !common.quiet {
             self.tell(&understood)?;
         }
-        if let Some(path) = &self.picture {
-            print::save_picture(&draw_plan(plan, walls, routes), path)?;
+        if let (Some(path), Some(file)) = (&self.picture, picture) {
+            print::save_picture(&draw_plan(plan, walls, routes), file)?;
             if !self.json && !common.quiet {
                 print::line(format!("picture   {}", path.display()))?;
             }

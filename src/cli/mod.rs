@@ -17,6 +17,8 @@ mod patterns;
 mod print;
 mod progress;
 mod resolve;
+mod signals;
+mod standard_input;
 mod view;
 
 /// Turns a bitmap floor plan into the dirt that people leave in it.
@@ -53,9 +55,9 @@ pub struct Common {
     /// Say more: seconds of each stage, memory
     #[arg(short, long, global = true)]
     verbose: bool,
-    /// How many threads work; all results are the same for any number [default: all cores]
+    /// How many threads work, 1 to 256; all results are the same for any number [default: all cores]
     #[arg(long, global = true, value_name = "N", allow_negative_numbers = true)]
-    #[arg(value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
     /// When to colour messages
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
@@ -87,6 +89,7 @@ pub fn parse() -> Cli {
 impl Cli {
     /// Does what the command line says.
     pub fn run(&self) -> anyhow::Result<ExitCode> {
+        signals::survive_size_limit();
         self.common.start_threads()?;
         match &self.command {
             Command::Bake(bake) => bake.run(&self.common),
@@ -101,9 +104,11 @@ impl Cli {
         }
     }
 
-    /// Prints why it could not be done; gives the exit code.
+    /// Prints why it could not be done; gives the exit code. Ends by a signal where one was caught.
     pub fn fail(&self, error: &anyhow::Error) -> ExitCode {
-        print::failure(error, &self.common)
+        let code = print::failure(error, &self.common);
+        signals::end();
+        code
     }
 }
 

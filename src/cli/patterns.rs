@@ -3,6 +3,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
 use trodden::Error;
+use trodden::files::files_in;
 use trodden::patterns::{Pattern, PatternFolder, PatternLibrary, contact_sheet};
 
 use super::import_pattern::Import;
@@ -26,6 +27,9 @@ pub struct Patterns {
     /// Draw the contact sheet, as a PNG at 10 px/cm
     #[arg(long, value_name = "FILE")]
     picture: Option<PathBuf>,
+    /// Replace the picture if it is there
+    #[arg(long, requires = "picture")]
+    force: bool,
 }
 
 #[derive(Subcommand)]
@@ -38,15 +42,17 @@ impl Patterns {
         if let Some(PatternsCommand::Import(import)) = &self.command {
             return import.run(common);
         }
+        let inputs = self.folder.as_deref().map(files_in).unwrap_or_default();
+        let picture = self.picture.as_ref().map(|path| print::begin_file(path, self.force, &inputs)).transpose()?;
         let library = match &self.folder {
-            None => PatternLibrary::built_in().map_err(Error::from)?,
+            None => PatternLibrary::built_in(),
             Some(folder) => own(folder, common)?,
         };
         if !common.quiet {
             list(&library)?;
         }
-        if let Some(path) = &self.picture {
-            print::save_picture(&contact_sheet(&library), path)?;
+        if let (Some(path), Some(file)) = (&self.picture, picture) {
+            print::save_picture(&contact_sheet(&library), file)?;
             if !common.quiet {
                 print::line(format!("drawn to {}", path.display()))?;
             }

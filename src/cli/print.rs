@@ -3,13 +3,13 @@
 use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use anyhow::Context;
 use clap::ColorChoice;
 use clap::builder::styling::{AnsiColor, Style};
-use trodden::files::write_whole;
+use trodden::export::Manifest;
+use trodden::files::{WholeFile, check_not_input};
 use trodden::show::encode_picture;
 
 use super::Common;
@@ -21,7 +21,12 @@ const HINT: Style = AnsiColor::Cyan.on_default().bold();
 /// Writes a line to standard output. A reader that has gone away is an error here, so that work stops, and none in
 /// [`failure`].
 pub fn line(text: impl Display) -> anyhow::Result<()> {
-    Ok(writeln!(io::stdout(), "{text}")?)
+    Ok(writeln!(io::stdout(), "{}", plain(&text.to_string()))?)
+}
+
+/// Writes text to standard output as it is.
+pub fn text(text: &str) -> anyhow::Result<()> {
+    Ok(io::stdout().write_all(text.as_bytes())?)
 }
 
 /// Prints why a command failed: what, what caused it, what to do about it.
@@ -30,19 +35,19 @@ pub fn failure(error: &anyhow::Error, common: &Common) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let colour = common.colours(&io::stderr());
-    let mut text = format!("{} {error}\n", label("error", ERROR, colour));
+    let mut text = format!("{} {}\n", label("error", ERROR, colour), plain(&error.to_string()));
     let mut last = error.to_string();
     for cause in error.chain().skip(1).map(ToString::to_string) {
         // Many messages end with that of their cause.
         if !last.contains(&cause) {
-            text.push_str(&format!("  caused by: {cause}\n"));
+            text.push_str(&format!("  caused by: {}\n", plain(&cause)));
             last = cause;
         }
     }
     let ours = error.downcast_ref::<trodden::Error>().and_then(trodden::Error::hint);
     let refused = error.downcast_ref::<Refused>().and_then(|refused| refused.hint.as_ref()).map(ToString::to_string);
     if let Some(hint) = ours.or(refused) {
-        text.push_str(&format!("{} {hint}\n", label("hint", HINT, colour)));
+        text.push_str(&format!("{} {}\n", label("hint", HINT, colour), plain(&hint)));
     }
     to_stderr(&text);
     ExitCode::FAILURE
@@ -50,7 +55,7 @@ pub fn failure(error: &anyhow::Error, common: &Common) -> ExitCode {
 
 /// The text of a warning.
 pub fn warning(message: &str, common: &Common) -> String {
-    format!("{} {message}\n", label("warning", WARNING, common.colours(&io::stderr())))
+    format!("{} {}\n", label("warning", WARNING, common.colours(&io::stderr())), plain(message))
 }
 
 /// Writes to standard error; there is nobody left to tell if that fails.
@@ -58,12 +63,27 @@ pub fn to_stderr(text: &str) {
     let _ = io::stderr().write_all(text.as_bytes());
 }
 
+/// Text that leaves the terminal as it is: control characters and those that turn the direction of writing are shown
+/// as escapes, but for ends of lines. Names of files, routes and stops may hold any.
+fn plain(text: &str) -> Cow<'_, str> {
+    let turns = |c: char| matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let is_unsafe = |c: char| c != '\n' && (c.is_control() || turns(c));
+    if !text.contains(is_unsafe) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len() + 16);
+    for c in text.chars() {
+        if is_unsafe(c) { shown.extend(c.escape_unicode()) } else { shown.push(c) }
+    }
+    Cow::Owned(shown)
+}
+
 fn label(name: &str, style: Style, colour: bool) -> String {
     if colour { format!("{style}{name}:{style:#}") } else { format!("{name}:") }
 }
 
 /// Whether the program that read our output stopped reading, as `head` does: no failure of ours.
-fn is_broken_pipe(error: &anyhow::Error) -> bool {
+pub fn is_broken_pipe(error: &anyhow::Error) -> bool {
     let is_one = |cause: &(dyn std::error::Error + 'static)| {
         cause.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
     };
@@ -95,18 +115,28 @@ pub struct Refused {
     pub hint: Option<Cow<'static, str>>,
 }
 
-/// Writes a picture as PNG, whatever the path's ending.
-pub fn save_picture(picture: &image::RgbImage, path: &Path) -> anyhow::Result<()> {
-    save(&encode_picture(picture), path)
+/// Begins a file that a command writes, before its work is done. A file that exists is refused without `force`, and one
+/// that the command reads always.
+pub fn begin_file(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<WholeFile, trodden::Error> {
+    check_not_input(path, inputs)?;
+    Ok(WholeFile::begin(path, force)?)
 }
 
-/// Writes a file whole or not at all, over one that is there.
-pub fn save(bytes: &[u8], path: &Path) -> anyhow::Result<()> {
-    let is_device = path.exists() && !path.is_file() && !path.is_dir();
-    if is_device {
-        // It takes what it gets; there is nothing to rename.
-        return std::fs::write(path, bytes).with_context(|| format!("cannot write {}", path.display()));
-    }
-    write_whole(path, bytes, true).map_err(trodden::Error::from)?;
+/// Writes a picture as PNG, whatever the file's ending.
+pub fn save_picture(picture: &image::RgbImage, file: WholeFile) -> Result<(), trodden::Error> {
+    save(&encode_picture(picture), file)
+}
+
+/// Writes the content of a file that was begun.
+pub fn save(bytes: &[u8], file: WholeFile) -> Result<(), trodden::Error> {
+    file.write(bytes)?;
+    file.publish()?;
     Ok(())
+}
+
+/// The files that are read of a bake, or of an image alone.
+pub fn files_of(bake: &Path) -> Vec<PathBuf> {
+    let listed = Manifest::read(bake).map(|manifest| manifest.files).unwrap_or_default();
+    let image = Some(bake.to_path_buf()).filter(|path| path.is_file());
+    listed.iter().map(|file| bake.join(file)).chain(image).collect()
 }

@@ -1,19 +1,16 @@
-//! Progress bars on a terminal, warnings, and Ctrl-C.
+//! Progress bars on a terminal, and warnings.
 
 use std::collections::BTreeMap;
 use std::io::{self, IsTerminal};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use trodden::{Progress, Stage};
 
-use super::{Common, print};
+use super::{Common, print, signals};
 
 /// Parts of a whole bar.
 const PARTS: u64 = 1000;
-
-static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
 /// Shows one bar for each stage that is at work; nothing where standard error is no terminal.
 pub struct Watch<'a> {
@@ -23,14 +20,9 @@ pub struct Watch<'a> {
 }
 
 impl<'a> Watch<'a> {
-    /// Begins to listen for Ctrl-C: the first asks the work to stop, the second ends the program.
+    /// Begins to listen for signals: the first asks the work to stop, the second ends the program.
     pub fn new(common: &'a Common) -> Watch<'a> {
-        // Without a handler Ctrl-C ends the program at once, which is what there is if this fails.
-        let _ = ctrlc::set_handler(|| {
-            if INTERRUPTED.swap(true, Ordering::SeqCst) {
-                std::process::exit(1);
-            }
-        });
+        signals::listen();
         let shown = !common.quiet && io::stderr().is_terminal();
         let target = if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         Watch { common, bars: MultiProgress::with_draw_target(target), by_stage: Mutex::default() }
@@ -79,6 +71,6 @@ impl Progress for Watch<'_> {
     }
 
     fn interrupted(&self) -> bool {
-        INTERRUPTED.load(Ordering::Relaxed)
+        signals::caught()
     }
 }

@@ -26,7 +26,7 @@ pub struct Resolve {
     #[arg(value_name = "BAKE")]
     bake: PathBuf,
     /// A look file: TOML with the keys of a scenario's [look]
-    #[arg(long, value_name = "FILE", required_unless_present_any = ["preset", "target", "embed"])]
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["preset", "target", "embed", "layers"])]
     look: Option<PathBuf>,
     /// Or the look of a preset
     #[arg(long, value_name = "NAME", value_parser = arguments::preset(), conflicts_with = "look")]
@@ -34,6 +34,9 @@ pub struct Resolve {
     /// The program that the textures are for: names, packing, axes, shaders [default: as before]
     #[arg(long, value_name = "NAME", value_parser = arguments::target())]
     target: Option<Target>,
+    /// Write every layer on its own too, as EXR: game engines get them only if asked for
+    #[arg(long)]
+    layers: bool,
     /// Put the textures, reduced, into scene.glb
     #[arg(long)]
     embed: bool,
@@ -45,7 +48,12 @@ impl Resolve {
             (Some(file), _) => Some(Look::read(file).map_err(Error::from)?),
             (None, preset) => preset.and_then(|preset| Look::preset(preset.name())),
         };
-        let options = ResolveOptions { look, target: self.target, embed: self.embed.then_some(true) };
+        let options = ResolveOptions {
+            look,
+            target: self.target,
+            embed: self.embed.then_some(true),
+            layers: self.layers.then_some(true),
+        };
         let report = resolve(&self.bake, &options, &Watch::new(common))?;
         if !common.quiet {
             bake::summary(&self.bake, &report, common)?;

@@ -48,9 +48,12 @@ pub struct ViewCommand {
     /// Grade it with another look: TOML with the keys of a scenario's [look]
     #[arg(long, value_name = "FILE")]
     look: Option<PathBuf>,
-    /// The picture to write, a PNG; one that is there is replaced [default: the bake's name and -view.png]
+    /// The picture to write, a PNG [default: the bake's name and -view.png]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Replace the picture if it is there
+    #[arg(long)]
+    force: bool,
 }
 
 impl ViewCommand {
@@ -65,9 +68,13 @@ impl ViewCommand {
         };
         let output = self.output.clone().unwrap_or_else(|| beside(&self.bake));
         let watch = Watch::new(common);
+        let look_images = view_from.look.clone().map(|mut look| look.images().map(|image| image.cloned()));
+        let look_files = self.look.clone().into_iter().chain(look_images.into_iter().flatten().flatten());
+        let inputs: Vec<PathBuf> = print::files_of(&self.bake).into_iter().chain(look_files).collect();
+        let file = print::begin_file(&output, self.force, &inputs)?;
         let (picture, camera) = view(&self.bake, &view_from, &watch)?;
         watch.advance(Stage::Export, 1.0);
-        print::save_picture(&picture, &output)?;
+        print::save_picture(&picture, file)?;
         if !common.quiet {
             tell(&output, &camera)?;
         }

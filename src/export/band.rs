@@ -12,6 +12,7 @@ use super::layout::BLOCK;
 use super::output::OutputFile;
 use super::png::{Pixels, PngWriter, Strip, StripEncoder};
 use super::reduced::ReducedBlock;
+use super::targets::Covered;
 use crate::look::{Background, ResolvedBlock};
 
 /// Rows that are compressed together: few enough to stay in the cache, and for eight threads to have work.
@@ -22,8 +23,11 @@ const STRIP: usize = 32;
 pub(super) enum Image {
     /// Colour.
     BaseColor,
-    /// Packed masks of dirt.
-    Mask,
+    /// Three masks of dirt, packed as red, green and blue: many programs multiply colours by alpha when they load an
+    /// image, so alpha is no place for data.
+    Mask(Covered),
+    /// The fourth mask, in an image of its own.
+    LoneMask(Covered),
     /// Occlusion, roughness, metallic.
     Orm,
     /// Metallic, occlusion, detail, smoothness.
@@ -34,8 +38,9 @@ impl Image {
     pub(super) fn pixels(self) -> Pixels {
         match self {
             Image::BaseColor => Pixels::Srgb,
-            Image::Mask | Image::MaskMap => Pixels::Linear4,
-            Image::Orm => Pixels::Linear3,
+            Image::MaskMap => Pixels::Linear4,
+            Image::Mask(_) | Image::Orm => Pixels::Linear3,
+            Image::LoneMask(_) => Pixels::Linear1,
         }
     }
 
@@ -45,7 +50,16 @@ impl Image {
         let copy = |all: &[u8], out: &mut [u8]| out.copy_from_slice(&all[from * bytes..from * bytes + out.len()]);
         match self {
             Image::BaseColor => copy(block.base_color.as_flattened(), out),
-            Image::Mask => copy(block.mask.as_flattened(), out),
+            Image::Mask(covered) => {
+                for (pixel, masks) in out.as_chunks_mut().0.iter_mut().zip(&block.mask[from..]) {
+                    *pixel = covered.packed_masks().map(|kind| masks[kind]);
+                }
+            }
+            Image::LoneMask(covered) => {
+                for (pixel, masks) in out.iter_mut().zip(&block.mask[from..]) {
+                    *pixel = masks[covered.lone_mask()];
+                }
+            }
             Image::Orm => copy(block.orm.as_flattened(), out),
             Image::MaskMap => {
                 for (pixel, &orm) in out.as_chunks_mut().0.iter_mut().zip(&block.orm[from..]) {
@@ -59,7 +73,8 @@ impl Image {
     fn background(self, background: &Background) -> Vec<u8> {
         match self {
             Image::BaseColor => background.base_color.repeat(BLOCK),
-            Image::Mask => background.mask.repeat(BLOCK),
+            Image::Mask(covered) => covered.packed_masks().map(|kind| background.mask[kind]).repeat(BLOCK),
+            Image::LoneMask(covered) => vec![background.mask[covered.lone_mask()]; BLOCK],
             Image::Orm => background.orm.repeat(BLOCK),
             Image::MaskMap => mask_map(background.orm).repeat(BLOCK),
         }
@@ -149,9 +164,12 @@ pub(super) struct LayerFile {
 }
 
 impl LayerFile {
-    /// All layers in one file, each under its name.
+    /// All layers in one file, each the channel `V` (a value) of a layer with its name.
+    ///
+    /// Blender takes a channel without a dot in its name for part of a plain image and shows black; Nuke and others
+    /// list it among the rest.
     pub(super) fn by_name(layers: &[&'static str]) -> Vec<LayerFile> {
-        let mut channels: Vec<_> = layers.iter().enumerate().map(|(k, name)| (name.to_string(), Some(k))).collect();
+        let mut channels: Vec<_> = layers.iter().enumerate().map(|(k, name)| (format!("{name}.V"), Some(k))).collect();
         channels.sort();
         vec![LayerFile { channels }]
     }

@@ -2,8 +2,8 @@ use std::sync::{Mutex, PoisonError};
 
 use image::{Rgb, RgbImage};
 
+use super::reduction::LightSum;
 use crate::look::ResolvedBlock;
-use crate::math::srgb::{from_linear, to_linear};
 use crate::stamps::TexelGrid;
 
 /// Greatest width and height of the picture, pixels.
@@ -17,17 +17,17 @@ pub struct Birdseye {
     factor: usize,
     width: usize,
     height: usize,
-    /// Red, green, blue, number of texels; row 0 is the southernmost. Whole numbers: any order of adding gives the same.
-    sums: Mutex<Vec<[u32; 4]>>,
+    /// Row 0 is the southernmost.
+    sums: Mutex<Vec<LightSum>>,
 }
 
 impl Birdseye {
     /// Nothing seen yet.
     pub fn new(grid: TexelGrid) -> Birdseye {
-        // 256 x 256 texels of the lightest white are the most that a sum holds.
+        // At most as many texels as a sum holds.
         let factor = grid.width.max(grid.height).div_ceil(LARGEST).clamp(1, 256) as usize;
         let (width, height) = ((grid.width as usize).div_ceil(factor), (grid.height as usize).div_ceil(factor));
-        Birdseye { grid, factor, width, height, sums: Mutex::new(vec![[0; 4]; width * height]) }
+        Birdseye { grid, factor, width, height, sums: Mutex::new(vec![LightSum::default(); width * height]) }
     }
 
     /// Adds a block whose lower-left texel is (i0, j0) of the whole floor. Empty blocks and texels beyond the floor's
@@ -42,27 +42,20 @@ impl Birdseye {
         let (left, below) = (i0 / self.factor, j0 / self.factor);
         let cells_across = (i0 + columns - 1) / self.factor - left + 1;
         let cells_up = (j0 + rows - 1) / self.factor - below + 1;
-        let mut cells = vec![[0u32; 4]; cells_across * cells_up];
+        let mut cells = vec![LightSum::default(); cells_across * cells_up];
         for (y, row) in block.base_color.chunks(width).enumerate().take(rows) {
             let cells = &mut cells[((j0 + y) / self.factor - below) * cells_across..][..cells_across];
             let mut x = 0;
             for (k, cell) in cells.iter_mut().enumerate() {
                 let end = ((left + k + 1) * self.factor - i0).min(columns);
-                for colour in &row[x..end] {
-                    for (sum, &value) in cell.iter_mut().zip(colour) {
-                        *sum += u32::from(to_linear(value));
-                    }
-                }
-                cell[3] += (end - x) as u32;
+                row[x..end].iter().for_each(|&colour| cell.add(colour));
                 x = end;
             }
         }
         let mut sums = self.sums.lock().unwrap_or_else(PoisonError::into_inner);
         for (y, row) in cells.chunks(cells_across).enumerate() {
             let sums = &mut sums[(below + y) * self.width + left..][..cells_across];
-            for (sum, cell) in sums.iter_mut().zip(row) {
-                *sum = std::array::from_fn(|k| sum[k] + cell[k]);
-            }
+            sums.iter_mut().zip(row).for_each(|(sum, cell)| sum.merge(*cell));
         }
     }
 
@@ -75,9 +68,7 @@ impl Birdseye {
     pub fn picture(&self, nothing: [u8; 3]) -> RgbImage {
         let sums = self.sums.lock().unwrap_or_else(PoisonError::into_inner);
         RgbImage::from_fn(self.width as u32, self.height as u32, |x, y| {
-            let [red, green, blue, count] = sums[(self.height - 1 - y as usize) * self.width + x as usize];
-            let mean = |sum: u32| from_linear(((sum + count / 2) / count) as u16);
-            Rgb(if count == 0 { nothing } else { [red, green, blue].map(mean) })
+            Rgb(sums[(self.height - 1 - y as usize) * self.width + x as usize].mean().unwrap_or(nothing))
         })
     }
 }

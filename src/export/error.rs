@@ -1,6 +1,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::manifest::NotInside;
 use crate::progress::Interrupted;
 
 /// Why the `export` stage cannot go on.
@@ -40,11 +41,20 @@ pub enum ExportError {
         path: PathBuf,
     },
     /// The folder beside the output, in which results are collected, is taken by something else.
-    #[error("{} is in the way: it is not an unfinished bake of trodden", path.display())]
+    #[error("{} is in the way: trodden needs this name, and it did not make it", path.display())]
     InTheWay {
         /// The folder.
         path: PathBuf,
     },
+    /// A file that no bake made has the name of one that the bake makes.
+    #[error("{} would be written, but a file of that name is there that no bake has made", path.display())]
+    UserFile {
+        /// The file that is there.
+        path: PathBuf,
+    },
+    /// A path leads out of the output folder.
+    #[error(transparent)]
+    NotInside(#[from] NotInside),
     /// The output folder cannot be made or replaced.
     #[error("cannot write the output folder {}: {source}", path.display())]
     Folder {
@@ -122,6 +132,16 @@ pub enum ExportError {
         /// Side of the sheets, texels.
         sheet: u32,
     },
+    /// A bake that is large, or larger than the disk has room for.
+    #[error("a bake to {} would write {}", path.display(), estimate.describe(*free))]
+    TooMuch {
+        /// The output as the user gave it.
+        path: PathBuf,
+        /// What it would write.
+        estimate: super::Estimate,
+        /// Bytes that are free on its disk, where the system tells.
+        free: Option<u64>,
+    },
     /// Two images of different size were to be compared.
     #[error("{} is {} x {} px, {} is {} x {} px", a.display(), a_size[0], a_size[1], b.display(), b_size[0], b_size[1])]
     SizesDiffer {
@@ -173,19 +193,21 @@ impl ExportError {
                 Some("--force replaces it; --output chooses another folder".to_string())
             }
             ExportError::OutputInUse { .. } => Some("wait for it, or choose another folder with --output".to_string()),
+            ExportError::UserFile { .. } => Some("move it away, or choose another folder".to_string()),
             ExportError::InTheWay { path } => Some(format!("move {} away", path.display())),
             ExportError::Folder { source, .. } | ExportError::Write { source, .. } => write_hint(source),
             ExportError::Read { source, .. } if source.kind() == io::ErrorKind::NotFound => {
                 Some("a bake is a folder with a manifest.json in it".to_string())
             }
             ExportError::NewerFormat { .. } => Some("bake again, or use the newer version of trodden".to_string()),
-            ExportError::Damaged { .. } => Some("bake again".to_string()),
+            ExportError::Damaged { .. } => Some("bake again, into a new folder".to_string()),
             ExportError::TileSize { .. } => Some("engines want powers of two, such as 4096 or 8192".to_string()),
             ExportError::TileTooLargeFor { max, .. } => Some(format!("set texture.tile to {max} or less")),
             ExportError::WallTooHigh { needed, .. } => Some(format!(
                 "set texture.tile to {} or more, or lower texture.wall_texels_per_metre",
                 needed.checked_next_power_of_two().unwrap_or(*needed)
             )),
+            ExportError::TooMuch { .. } => Some("lower the texel density of floor and walls".to_string()),
             ExportError::SizesDiffer { .. } | ExportError::ChannelsDiffer { .. } => {
                 Some("only bakes of the same plan, texel density and tile size can be compared".to_string())
             }

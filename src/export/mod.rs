@@ -8,6 +8,7 @@ mod camera;
 mod deflate;
 pub mod diff;
 mod error;
+mod estimate;
 mod exr_tiles;
 mod layout;
 mod manifest;
@@ -15,6 +16,7 @@ mod memory;
 mod output;
 mod png;
 mod reduced;
+pub(crate) mod reduction;
 mod report;
 mod source;
 mod sums;
@@ -25,13 +27,14 @@ pub use atlas::{Atlas, Sheet, Strip};
 pub use birdseye::Birdseye;
 pub use camera::{Camera, CameraError, DEFAULT_FOV_DEG, FOV_DEG, StillEntry};
 pub use error::ExportError;
+pub use estimate::{Estimate, LARGE_BYTES};
 pub use layout::{BLOCK, Tile, TileLayout};
 pub use manifest::{
-    ChannelEntry, FORMAT, FloorEntry, GENERATOR, Manifest, Naming, PlanEntry, PresenceEntry, PreviewEntry, SheetEntry,
-    StripEntry, SumsEntry, TileEntry, WallsEntry,
+    BakePath, CROP_M, ChannelEntry, FORMAT, FloorEntry, GENERATOR, Manifest, ManifestError, Naming, NotInside,
+    PlanEntry, PresenceEntry, PreviewEntry, SheetEntry, StripEntry, SumsEntry, TileEntry, WallsEntry,
 };
 pub use memory::peak_memory_mib;
-pub use output::{OutputFile, OutputFolder, is_bake, restore};
+pub use output::{OutputFile, OutputFolder, is_bake, restore, settled};
 pub use reduced::Reduced;
 pub use report::{PeopleReport, Report, StuckReport};
 pub use source::{SheetSource, TextureSource, WallSource};

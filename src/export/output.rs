@@ -1,60 +1,53 @@
 use std::collections::BTreeSet;
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use super::manifest::{self, Manifest};
-use super::{ExportError, Report};
+use super::ExportError;
+use super::manifest::{self, BakePath, Manifest};
+use crate::files::{FileError, LockError, NameLock};
 
-/// Held under an exclusive lock by the run that writes the folder, so that the leftovers of a killed run can be told
-/// from the work of a living one.
-const LOCK: &str = ".lock";
+mod places;
+mod settled;
+mod users;
+
+pub use places::restore;
+pub use settled::settled;
+
+use places::Places;
+use users::UserFiles;
+
+/// Marks the hidden folder while results are collected in it. By this the leftovers of a killed run are told from a
+/// folder of the user.
+const UNFINISHED: &str = ".unfinished";
+
+/// Files that the system puts into folders that somebody looks at.
+const LITTER: [&str; 3] = [".DS_Store", "Thumbs.db", "desktop.ini"];
 
 /// A folder of results that appears whole or not at all.
 ///
-/// Results are collected in a hidden folder beside the output, `.NAME.new`. [`OutputFolder::publish`] renames an
-/// earlier bake to `.NAME.old`, the new folder to `NAME`, and removes the old one. Dropped unpublished, the new
-/// folder is removed and the earlier bake stays as it was.
+/// Results are collected in a hidden folder beside the output, `.NAME.new`. [`OutputFolder::publish`] exchanges it with
+/// an earlier bake in one step and then removes that one. Where the system cannot exchange folders, the earlier bake is
+/// renamed to `.NAME.old` for a moment. Dropped unpublished, the new folder is removed and the earlier bake stays as it
+/// was. From beginning to end one process at a time holds a lock on `.NAME.lock`.
 ///
-/// Only an empty folder or, when forced, an earlier bake of ours is ever replaced.
+/// Only an empty folder or, when forced, an earlier bake of ours is ever replaced. Of an earlier bake, the files that
+/// its manifest lists go. All other files in it are the user's: they stay, at the same place in the folder.
 #[derive(Debug)]
 pub struct OutputFolder {
     /// As the user gave it, for messages.
     shown: PathBuf,
     places: Places,
-    lock: Option<File>,
+    force: bool,
+    lock: Option<NameLock>,
     /// Parents of the output that did not exist before, outermost first.
     made_parents: Vec<PathBuf>,
-    files: Mutex<BTreeSet<String>>,
-    published: bool,
-}
-
-/// Where an output folder lives while it is replaced.
-#[derive(Debug)]
-struct Places {
-    output: PathBuf,
-    new: PathBuf,
-    old: PathBuf,
-}
-
-impl Places {
-    fn of(shown: &Path) -> Result<Places, ExportError> {
-        let folder = |source| ExportError::Folder { path: shown.to_path_buf(), source };
-        // Through a link, the folder that it leads to is replaced, not the link.
-        let output = if shown.is_symlink() { fs::canonicalize(shown) } else { std::path::absolute(shown) };
-        let output = output.map_err(folder)?;
-        let (Some(parent), Some(name)) = (output.parent(), output.file_name()) else {
-            return Err(ExportError::OutputHasNoName { path: shown.to_path_buf() });
-        };
-        let beside = |suffix: &str| {
-            let mut hidden = std::ffi::OsString::from(".");
-            hidden.push(name);
-            hidden.push(suffix);
-            parent.join(hidden)
-        };
-        Ok(Places { new: beside(".new"), old: beside(".old"), output })
-    }
+    /// The user's files in the output, as far as they were there at the beginning.
+    users: UserFiles,
+    files: Mutex<BTreeSet<BakePath>>,
+    /// Whether the hidden folder is ours to remove.
+    is_open: bool,
 }
 
 impl OutputFolder {
@@ -67,43 +60,49 @@ impl OutputFolder {
     /// written by another process, or cannot be written.
     pub fn begin(path: &Path, force: bool) -> Result<OutputFolder, ExportError> {
         let places = Places::of(path)?;
-        let folder_error = |source| ExportError::Folder { path: path.to_path_buf(), source };
-        restore(path)?;
-        check_replaceable(path, &places.output, force)?;
-        let made_parents = make_parents(&places.output).map_err(folder_error)?;
+        // Once before anything is made, and again below, when no other process can change it any more.
+        earlier(path, &places.output, force)?;
         let mut folder = OutputFolder {
             shown: path.to_path_buf(),
             places,
+            force,
             lock: None,
-            made_parents,
+            made_parents: Vec::new(),
+            users: UserFiles::default(),
             files: Mutex::default(),
-            published: true, // nothing to clean up yet
+            is_open: false,
         };
-        folder.make_new()?;
-        folder.published = false;
-        folder.lock = Some(lock_new(&folder.places.new).map_err(folder_error)?);
+        folder.lock()?;
+        folder.places.recover(path)?;
+        let listed = earlier(path, &folder.places.output, force)?;
+        folder.users = UserFiles::of(&folder.places.output, &listed).map_err(|e| folder.failed(e))?;
+        fs::create_dir(&folder.places.new).map_err(|e| folder.failed(e))?;
+        folder.is_open = true;
+        fs::write(folder.places.new.join(UNFINISHED), "").map_err(|e| folder.failed(e))?;
         Ok(folder)
     }
 
-    fn make_new(&self) -> Result<(), ExportError> {
-        let new = &self.places.new;
-        let folder_error = |source| ExportError::Folder { path: self.shown.clone(), source };
-        match fs::create_dir(new) {
-            Err(e) if e.kind() == io::ErrorKind::AlreadyExists => {
-                match leftover(new).map_err(folder_error)? {
-                    Leftover::Abandoned => remove_bake(new).map_err(folder_error)?,
-                    Leftover::InUse => return Err(ExportError::OutputInUse { path: self.shown.clone() }),
-                    Leftover::Foreign => return Err(ExportError::InTheWay { path: new.clone() }),
+    fn lock(&mut self) -> Result<(), ExportError> {
+        // Another process may remove a parent that it made, just before this one locks.
+        for _ in 0..5 {
+            let made = make_parents(&self.places.output).map_err(|e| self.failed(e))?;
+            self.made_parents.extend(made);
+            match NameLock::take(&self.places.lock) {
+                Ok(lock) => {
+                    self.lock = Some(lock);
+                    return Ok(());
                 }
-                fs::create_dir(new).map_err(folder_error)
-            }
-            made => {
-                if made.is_err() {
-                    self.remove_made_parents();
-                }
-                made.map_err(folder_error)
+                Err(LockError::InUse) => return Err(ExportError::OutputInUse { path: self.shown.clone() }),
+                Err(LockError::InTheWay) => return Err(ExportError::InTheWay { path: self.places.lock.clone() }),
+                Err(LockError::Io(e)) if e.kind() == io::ErrorKind::NotFound => {}
+                Err(LockError::Io(e)) => return Err(self.failed(e)),
             }
         }
+        Err(self.failed(io::ErrorKind::NotFound.into()))
+    }
+
+    fn failed(&self, source: io::Error) -> ExportError {
+        ExportError::Folder { path: self.shown.clone(), source }
     }
 
     /// The hidden folder in which results are collected until they are published.
@@ -116,13 +115,46 @@ impl OutputFolder {
         &self.shown
     }
 
+    /// Makes sure that no file of the user has one of these names, before any work is done. `relative` has `/` between
+    /// its parts.
+    ///
+    /// # Errors
+    /// [`ExportError::UserFile`].
+    pub fn check_free(&self, relative: &[&str]) -> Result<(), ExportError> {
+        relative.iter().try_for_each(|relative| self.check_user(&self.users, relative))
+    }
+
+    fn check_user(&self, users: &UserFiles, relative: &str) -> Result<(), ExportError> {
+        match users.in_the_way(Path::new(relative)) {
+            Some(found) => Err(ExportError::UserFile { path: self.shown.join(found) }),
+            None => Ok(()),
+        }
+    }
+
+    /// Makes sure that the run reads no file of the earlier bake, which goes when the new one has its place.
+    ///
+    /// # Errors
+    /// [`FileError::IsInput`].
+    pub fn check_not_inputs(&self, inputs: &[PathBuf]) -> Result<(), FileError> {
+        let Ok(output) = fs::canonicalize(&self.places.output) else { return Ok(()) };
+        for input in inputs.iter().filter(|input| input.is_file()) {
+            let real = fs::canonicalize(input).unwrap_or_else(|_| input.clone());
+            if real.strip_prefix(&output).is_ok_and(|relative| self.users.in_the_way(relative).is_none()) {
+                return Err(FileError::IsInput { path: input.clone() });
+            }
+        }
+        Ok(())
+    }
+
     /// Makes a file (and the folder that it lies in). `relative` has `/` between its parts.
     ///
     /// # Errors
-    /// The file cannot be made.
+    /// The file cannot be made; a file of the user has its name.
     pub fn create(&self, relative: &str) -> Result<OutputFile, ExportError> {
-        let path = self.places.new.join(relative);
-        let shown = self.shown.join(relative);
+        let relative = BakePath::new(relative)?;
+        self.check_user(&self.users, &relative)?;
+        let path = self.places.new.join(&relative);
+        let shown = self.shown.join(&relative);
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent).map_err(ExportError::write(&shown))?;
         }
@@ -135,7 +167,7 @@ impl OutputFolder {
     /// Writes a small file in one go.
     ///
     /// # Errors
-    /// The file cannot be written.
+    /// As [`OutputFolder::create`].
     pub fn write(&self, relative: &str, bytes: &[u8]) -> Result<(), ExportError> {
         let mut file = self.create(relative)?;
         file.write_all(bytes).map_err(OutputFile::explain)?;
@@ -146,119 +178,88 @@ impl OutputFolder {
     /// that, as a copy elsewhere.
     ///
     /// # Errors
-    /// The earlier bake has no such file, or it cannot be copied.
-    pub fn keep(&self, relative: &str) -> Result<(), ExportError> {
+    /// The earlier bake has no such file, a link leads out of the bake, or it cannot be copied.
+    pub fn keep(&self, relative: &BakePath) -> Result<(), ExportError> {
         let shown = self.shown.join(relative);
-        let (from, to) = (self.places.output.join(relative), self.places.new.join(relative));
-        if let Some(parent) = to.parent() {
-            fs::create_dir_all(parent).map_err(ExportError::write(&shown))?;
-        }
+        relative.within(&self.shown)?;
+        let from = fs::canonicalize(self.places.output.join(relative)).map_err(ExportError::read(&shown))?;
         if !from.is_file() {
             return Err(ExportError::Read { path: shown, source: io::ErrorKind::NotFound.into() });
         }
-        if fs::hard_link(&from, &to).is_err() {
-            fs::copy(&from, &to).map_err(ExportError::write(&shown))?;
+        let to = self.places.new.join(relative);
+        if let Some(parent) = to.parent() {
+            fs::create_dir_all(parent).map_err(ExportError::write(&shown))?;
         }
-        self.note(relative);
+        users::link_or_copy(&from, &to).map_err(ExportError::write(&shown))?;
+        self.note(relative.clone());
         Ok(())
     }
 
-    fn note(&self, relative: &str) {
-        self.files.lock().unwrap_or_else(PoisonError::into_inner).insert(relative.to_string());
+    fn note(&self, relative: BakePath) {
+        self.files.lock().unwrap_or_else(PoisonError::into_inner).insert(relative);
     }
 
     /// Writes the manifest, with the list of all files, and puts the folder in the output's place.
     ///
     /// # Errors
-    /// The manifest cannot be written or a folder cannot be renamed; the earlier bake is in its place then.
+    /// The manifest cannot be written; something else than the earlier bake is in the output's place by now; a folder
+    /// cannot be renamed. The earlier bake is in its place then.
     pub fn publish(mut self, manifest: &Manifest) -> Result<(), ExportError> {
-        self.note(manifest::FILE_NAME);
-        let files = std::mem::take(&mut *self.files.lock().unwrap_or_else(PoisonError::into_inner));
-        let manifest = Manifest { files: files.into_iter().collect(), ..manifest.clone() };
+        self.note(BakePath::new(manifest::FILE_NAME)?);
+        let files: Vec<BakePath> =
+            std::mem::take(&mut *self.files.lock().unwrap_or_else(PoisonError::into_inner)).into_iter().collect();
+        let manifest = Manifest { files, ..manifest.clone() };
         self.write(manifest::FILE_NAME, &manifest.to_json())?;
-        let folder_error = |source| ExportError::Folder { path: self.shown.clone(), source };
-        // An open file keeps some systems from renaming the folder.
-        drop(self.lock.take());
-        fs::remove_file(self.places.new.join(LOCK)).map_err(folder_error)?;
-        let replaced = set_aside(&self.places).map_err(folder_error)?;
-        if let Err(source) = fs::rename(&self.places.new, &self.places.output) {
-            if replaced {
-                // Whether or not this works: the next start restores the old bake.
-                let _ = fs::rename(&self.places.old, &self.places.output);
-            }
-            return Err(folder_error(source));
+        self.take_user_files_over(&manifest.files)?;
+        let new = &self.places.new;
+        if self.places.output.exists() {
+            // The earlier bake must not be gone before the new one is on the disk.
+            places::sync(new, &manifest.files).map_err(|e| self.failed(e))?;
         }
-        self.published = true;
-        if replaced {
-            // The result is in its place. A rest of the old one is removed by the next start.
-            let _ = remove_bake(&self.places.old);
+        fs::remove_file(new.join(UNFINISHED)).map_err(|e| self.failed(e))?;
+        let replaced = self.places.put_in_place().map_err(|e| self.failed(e))?;
+        self.is_open = false;
+        if let Some(replaced) = replaced {
+            // The result is in its place. The next run removes what is left of the old one.
+            let _ = places::clear(&replaced, &self.places.output);
         }
         Ok(())
     }
 
-    fn remove_made_parents(&self) {
-        for parent in self.made_parents.iter().rev() {
-            // Not empty any more: somebody else uses it.
-            let _ = fs::remove_dir(parent);
-        }
+    /// Gives the new folder the user's files of the output as it is now.
+    fn take_user_files_over(&self, files: &[BakePath]) -> Result<(), ExportError> {
+        let listed = earlier(&self.shown, &self.places.output, self.force)?;
+        let users = UserFiles::of(&self.places.output, &listed).map_err(|e| self.failed(e))?;
+        files.iter().try_for_each(|file| self.check_user(&users, file))?;
+        users.take_over(&self.places.output, &self.places.new).map_err(|e| self.failed(e))
     }
 }
 
 impl Drop for OutputFolder {
     fn drop(&mut self) {
-        if !self.published {
-            drop(self.lock.take());
-            // Nobody is left to tell; the next start cleans up.
-            let _ = remove_bake(&self.places.new);
-            self.remove_made_parents();
+        if self.is_open {
+            // Nothing can be done about a failure here; the next run cleans up.
+            let _ = fs::remove_dir_all(&self.places.new);
+        }
+        drop(self.lock.take());
+        for parent in self.made_parents.iter().rev() {
+            // One that is not empty holds the output, or is used by something else.
+            let _ = fs::remove_dir(parent);
         }
     }
 }
-
-/// Brings back the bake that a run left as `.NAME.old` when it was killed between two renamings, or removes it if
-/// the new one had taken its place. Gives whether there was something to bring back.
-///
-/// # Errors
-/// It cannot be renamed or removed.
-pub fn restore(path: &Path) -> Result<bool, ExportError> {
-    let places = Places::of(path)?;
-    let folder_error = |source| ExportError::Folder { path: path.to_path_buf(), source };
-    if !is_bake(&places.old) {
-        return Ok(false);
-    }
-    let restored = !places.output.exists();
-    if restored {
-        fs::rename(&places.old, &places.output).map_err(folder_error)?;
-    } else {
-        remove_bake(&places.old).map_err(folder_error)?;
-    }
-    Ok(restored)
-}
-
-/// All that a bake holds at its top.
-const BAKED: [&str; 10] = [
-    "floor",
-    "walls",
-    "sums",
-    "preview",
-    "shaders",
-    "scene.glb",
-    "scene",
-    "index.html",
-    manifest::FILE_NAME,
-    Report::FILE_NAME,
-];
 
 /// Whether the folder holds a bake of ours, as its manifest's `generator` says.
 pub fn is_bake(folder: &Path) -> bool {
     manifest::generator(folder).is_ok_and(|generator| generator == manifest::GENERATOR)
 }
 
-fn check_replaceable(shown: &Path, output: &Path, force: bool) -> Result<(), ExportError> {
+/// Makes sure that the output may be replaced; gives the files that the earlier bake in it lists.
+fn earlier(shown: &Path, output: &Path, force: bool) -> Result<BTreeSet<PathBuf>, ExportError> {
     let path = shown.to_path_buf();
     let entries = match fs::read_dir(output) {
         Ok(entries) => entries,
-        Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(()),
+        Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(BTreeSet::new()),
         Err(e) if e.kind() == io::ErrorKind::NotADirectory => {
             // Either it is a file itself, or a part of the way to it is one.
             return Err(if output.exists() {
@@ -274,19 +275,15 @@ fn check_replaceable(shown: &Path, output: &Path, force: bool) -> Result<(), Exp
     for entry in entries {
         names.push(entry.map_err(folder_error)?.file_name().to_string_lossy().into_owned());
     }
-    names.sort();
+    names.retain(|name| !LITTER.contains(&name.as_str()));
     if fs::metadata(output).map_err(folder_error)?.permissions().readonly() {
         return Err(folder_error(io::ErrorKind::PermissionDenied.into()));
     }
-    match names.first() {
-        None => Ok(()),
+    match names.iter().min() {
+        None => Ok(BTreeSet::new()),
         Some(found) if !is_bake(output) => Err(ExportError::NotABake { path, found: found.clone() }),
         Some(_) if !force => Err(ExportError::OutputExists { path }),
-        // What somebody else put into a bake is not ours to remove.
-        Some(_) => match names.iter().find(|name| !BAKED.contains(&name.as_str())) {
-            Some(found) => Err(ExportError::NotABake { path, found: found.clone() }),
-            None => Ok(()),
-        },
+        Some(_) => places::listed(output),
     }
 }
 
@@ -298,68 +295,6 @@ fn make_parents(output: &Path) -> io::Result<Vec<PathBuf>> {
     missing.reverse();
     fs::create_dir_all(parent)?;
     Ok(missing)
-}
-
-fn lock_new(new: &Path) -> io::Result<File> {
-    let lock = File::create(new.join(LOCK))?;
-    match lock.try_lock() {
-        // Some network disks cannot lock: then only leftovers are taken less carefully.
-        Ok(()) | Err(TryLockError::Error(_)) => Ok(lock),
-        Err(TryLockError::WouldBlock) => Err(io::ErrorKind::WouldBlock.into()),
-    }
-}
-
-enum Leftover {
-    /// A killed run of ours left it.
-    Abandoned,
-    /// A living run writes it.
-    InUse,
-    /// It is not ours.
-    Foreign,
-}
-
-fn leftover(new: &Path) -> io::Result<Leftover> {
-    match File::open(new.join(LOCK)) {
-        Ok(lock) => Ok(match lock.try_lock() {
-            Err(TryLockError::WouldBlock) => Leftover::InUse,
-            _ => Leftover::Abandoned,
-        }),
-        // Killed before the lock was made, or after it was removed.
-        Err(_) => Ok(match fs::read_dir(new)?.next().is_none() || is_bake(new) {
-            true => Leftover::Abandoned,
-            false => Leftover::Foreign,
-        }),
-    }
-}
-
-/// Clears the output's place; gives whether an earlier bake was set aside for that.
-fn set_aside(places: &Places) -> io::Result<bool> {
-    if !places.output.exists() {
-        return Ok(false);
-    }
-    if is_bake(&places.output) {
-        fs::rename(&places.output, &places.old)?;
-        return Ok(true);
-    }
-    // Fails unless it is empty: something may have been put there since the start.
-    fs::remove_dir(&places.output)?;
-    Ok(false)
-}
-
-/// Removes a bake, its manifest and its lock last, so that a killed removal leaves what is still recognised as ours.
-fn remove_bake(folder: &Path) -> io::Result<()> {
-    for entry in fs::read_dir(folder)? {
-        let entry = entry?;
-        if entry.file_name() == manifest::FILE_NAME || entry.file_name() == LOCK {
-            continue;
-        }
-        if entry.file_type()?.is_dir() {
-            fs::remove_dir_all(entry.path())?;
-        } else {
-            fs::remove_file(entry.path())?;
-        }
-    }
-    fs::remove_dir_all(folder)
 }
 
 /// A file of an [`OutputFolder`]. Its errors name the place where the file would have appeared: see

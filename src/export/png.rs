@@ -19,6 +19,8 @@ impl Signature {
 pub(super) enum Pixels {
     /// Red, green, blue in sRGB; the file says so.
     Srgb,
+    /// A value that is no colour, as grey.
+    Linear1,
     /// Three values that are no colour. The file says nothing about them: readers that heed a gamma would bend them.
     Linear3,
     /// Four values that are no colour.
@@ -28,6 +30,7 @@ pub(super) enum Pixels {
 impl Pixels {
     pub(super) fn bytes(self) -> usize {
         match self {
+            Pixels::Linear1 => 1,
             Pixels::Srgb | Pixels::Linear3 => 3,
             Pixels::Linear4 => 4,
         }
@@ -112,7 +115,11 @@ pub(super) struct PngWriter<W: Write> {
 
 impl<W: Write> PngWriter<W> {
     pub(super) fn begin(mut out: W, pixels: Pixels, width: u32, height: u32) -> io::Result<PngWriter<W>> {
-        let colour_type = if pixels == Pixels::Linear4 { 6 } else { 2 };
+        let colour_type = match pixels {
+            Pixels::Linear1 => 0,
+            Pixels::Srgb | Pixels::Linear3 => 2,
+            Pixels::Linear4 => 6,
+        };
         let mut head = Signature::BYTES.to_vec();
         let size = [width.to_be_bytes(), height.to_be_bytes()].concat();
         chunk(b"IHDR", &[&size[..], &[8, colour_type, 0, 0, 0]].concat(), &mut head);

@@ -1,18 +1,21 @@
 use image::{Rgb, RgbImage, Rgba, RgbaImage};
 
 use super::layout::BLOCK;
-use crate::look::{Background, ResolvedBlock};
-use crate::math::srgb::{from_linear, to_linear};
+use super::reduction::{LightSum, rounded_mean};
+use crate::look::{Background, Layer, ResolvedBlock};
+use crate::math::exp_f32;
 
-/// A tile's or a sheet's images, made small while its blocks go by: for pages and models that carry their textures.
+/// A tile's or a sheet's images, reduced: for pages and models that carry their textures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reduced {
     /// Texels of the full image under a pixel, each way: a power of two.
     pub factor: u32,
     /// Base colour, sRGB (averaged as light). Row 0 is the upper one, as in the files.
     pub base_color: RgbImage,
-    /// Packed masks, linear.
-    pub mask: RgbaImage,
+    /// Base colour without dirt, sRGB (averaged as light).
+    pub clean: RgbImage,
+    /// Opacity 1 - exp(-D) of the dirt of each [kind](Layer::kind), linear.
+    pub dirt: RgbaImage,
     /// Occlusion, roughness, metallic, linear, whatever the files are packed for.
     pub orm: RgbImage,
 }
@@ -28,10 +31,12 @@ impl Reduced {
     /// Images of a full size that show nothing but the background.
     pub(super) fn blank([width, height]: [u32; 2], factor: u32, background: Background) -> Reduced {
         let (width, height) = (width.div_ceil(factor), height.div_ceil(factor));
+        let colour = RgbImage::from_pixel(width, height, Rgb(background.base_color));
         Reduced {
             factor,
-            base_color: RgbImage::from_pixel(width, height, Rgb(background.base_color)),
-            mask: RgbaImage::from_pixel(width, height, Rgba(background.mask)),
+            clean: colour.clone(),
+            base_color: colour,
+            dirt: RgbaImage::new(width, height),
             orm: RgbImage::from_pixel(width, height, Rgb(background.orm)),
         }
     }
@@ -42,74 +47,107 @@ impl Reduced {
         for (k, pixel) in block.pixels.iter().enumerate() {
             let (x, y) = (left + (k % block.width) as u32, top + (k / block.width) as u32);
             self.base_color.put_pixel(x, y, Rgb(pixel.base_color));
-            self.mask.put_pixel(x, y, Rgba(pixel.mask));
+            self.clean.put_pixel(x, y, Rgb(pixel.clean.unwrap_or(self.clean.get_pixel(x, y).0)));
+            self.dirt.put_pixel(x, y, Rgba(pixel.dirt));
             self.orm.put_pixel(x, y, Rgb(pixel.orm));
         }
     }
 }
 
-/// A block, made small: row 0 is the upper one.
+/// A reduced block: row 0 is the upper one.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ReducedBlock {
     width: usize,
-    pixels: Vec<Background>,
+    pixels: Vec<ReducedPixel>,
 }
 
-/// Sums of the texels under a pixel: light of three colours, four masks, occlusion, roughness, metallic.
-type Sums = [u32; 10];
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct ReducedPixel {
+    base_color: [u8; 3],
+    /// `None` where the source does not know it.
+    clean: Option<[u8; 3]>,
+    dirt: [u8; Layer::KINDS],
+    orm: [u8; 3],
+}
+
+/// Sums over the texels under a pixel.
+#[derive(Clone, Copy, Default)]
+struct PixelSums {
+    base_color: LightSum,
+    clean: LightSum,
+    dirt: [f32; Layer::KINDS],
+    orm: [u32; 3],
+    count: u32,
+}
 
 impl ReducedBlock {
     /// The mean of each `factor` x `factor` texels, from the block's upper left on; fewer texels at its right and
-    /// lower side. Whole numbers, rounded to the nearest.
+    /// lower side. Rounded to the nearest.
     pub(super) fn of(block: &ResolvedBlock, [width, height]: [usize; 2], factor: usize) -> ReducedBlock {
         let columns = width.div_ceil(factor);
         let mut pixels = Vec::with_capacity(columns * height.div_ceil(factor));
-        let mut sums: Vec<Sums> = vec![[0; 10]; columns];
+        let mut sums = vec![PixelSums::default(); columns];
+        let mut opacity = std::array::from_fn(|_| Vec::new());
         for y in 0..height {
             let row = (height - 1 - y) * width;
+            opacities(block, row..row + width, &mut opacity);
             for (column, sums) in sums.iter_mut().enumerate() {
-                let texels = row + column * factor..row + width.min((column + 1) * factor);
-                add(block, texels, sums);
-            }
-            let rows = y % factor + 1;
-            if rows == factor || y + 1 == height {
-                for (column, sums) in sums.iter_mut().enumerate() {
-                    let count = rows * (width.min((column + 1) * factor) - column * factor);
-                    pixels.push(mean(std::mem::take(sums), count as u32));
+                let texels = column * factor..width.min((column + 1) * factor);
+                sums.count += texels.len() as u32;
+                for texel in row + texels.start..row + texels.end {
+                    sums.base_color.add(block.base_color[texel]);
+                    block.clean.get(texel).iter().for_each(|light| sums.clean.add_linear(**light));
+                    for (sum, value) in sums.orm.iter_mut().zip(block.orm[texel]) {
+                        *sum += u32::from(value);
+                    }
                 }
+                for (sum, opacity) in sums.dirt.iter_mut().zip(&opacity) {
+                    *sum += opacity.get(texels.clone()).unwrap_or_default().iter().sum::<f32>();
+                }
+            }
+            if y % factor + 1 == factor || y + 1 == height {
+                pixels.extend(sums.iter_mut().map(|sums| std::mem::take(sums).mean()));
             }
         }
         ReducedBlock { width: columns, pixels }
     }
 }
 
-fn add(block: &ResolvedBlock, texels: std::ops::Range<usize>, sums: &mut Sums) {
-    let colours = &block.base_color[texels.clone()];
-    for ((colour, mask), orm) in colours.iter().zip(&block.mask[texels.clone()]).zip(&block.orm[texels]) {
-        for (sum, &value) in sums[..3].iter_mut().zip(colour) {
-            *sum += u32::from(to_linear(value));
-        }
-        for (sum, &value) in sums[3..].iter_mut().zip(mask.iter().chain(orm)) {
-            *sum += u32::from(value);
+impl PixelSums {
+    fn mean(self) -> ReducedPixel {
+        ReducedPixel {
+            base_color: self.base_color.mean().unwrap_or_default(),
+            clean: self.clean.mean(),
+            dirt: self.dirt.map(|sum| (255.0 * sum / self.count as f32).round() as u8),
+            orm: self.orm.map(|sum| rounded_mean(sum, self.count) as u8),
         }
     }
 }
 
-/// 256 x 256 texels of the lightest white are the most that a sum holds.
-fn mean(sums: Sums, count: u32) -> Background {
-    let mean = |sum: u32| (u64::from(sum) + u64::from(count) / 2) / u64::from(count);
-    let [red, green, blue, a, b, c, d, occlusion, roughness, metallic] = sums.map(mean);
-    Background {
-        base_color: [red, green, blue].map(|light| from_linear(light as u16)),
-        mask: [a, b, c, d].map(|value| value as u8),
-        orm: [occlusion, roughness, metallic].map(|value| value as u8),
+/// Opacity 1 - exp(-D) of each kind of dirt over a run of texels; empty for kinds of which there is none.
+fn opacities(block: &ResolvedBlock, texels: std::ops::Range<usize>, out: &mut [Vec<f32>; Layer::KINDS]) {
+    out.iter_mut().for_each(Vec::clear);
+    for layer in &block.layers {
+        let Some(kind) = layer.kind() else { continue };
+        let densities = &layer.values[texels.clone()];
+        if densities.iter().all(|&density| density == 0.0) {
+            continue;
+        }
+        out[kind].resize(densities.len(), 0.0);
+        out[kind].iter_mut().zip(densities).for_each(|(sum, density)| *sum += density);
     }
+    out.iter_mut().flatten().for_each(|density| *density = 1.0 - exp_f32(-*density));
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::math::SplitMix64;
+
+    /// A density of 1 where a texel is white.
+    fn layer(name: &'static str, values: &[u8]) -> Layer {
+        Layer { name, values: values.iter().map(|&v| f32::from(v) / 255.0).collect() }
+    }
 
     fn block(width: usize, height: usize, texel: impl Fn(usize, usize) -> u8) -> ResolvedBlock {
         let values: Vec<u8> = (0..width * height).map(|k| texel(k % width, k / width)).collect();
@@ -118,15 +156,18 @@ mod tests {
             base_color: values.iter().map(|&v| [v, 255 - v, 7]).collect(),
             mask: values.iter().map(|&v| [v, v / 2, 0, 255]).collect(),
             orm: values.iter().map(|&v| [255, v, 0]).collect(),
-            layers: Vec::new(),
+            clean: values.iter().map(|&v| [u16::from(v) * 257, 0, 65_535]).collect(),
+            layers: ["film", "edge", "dust"].map(|name| layer(name, &values)).to_vec(),
         }
     }
 
     #[test]
-    fn light_is_averaged_and_masks_are_averaged_as_numbers() {
+    fn colours_are_averaged_as_light_and_opacities_as_numbers() {
         let chequered = block(4, 4, |x, y| if (x + y) % 2 == 0 { 255 } else { 0 });
         let small = ReducedBlock::of(&chequered, [4, 4], 2);
-        let pixel = Background { base_color: [188, 188, 7], mask: [128, 64, 0, 255], orm: [255, 128, 0] };
+        // Half of the texels let all light through; the others exp(-1) through film, exp(-2) through edge and dust.
+        let dirt = [81, 0, 0, 110];
+        let pixel = ReducedPixel { base_color: [188, 188, 7], clean: Some([188, 0, 255]), dirt, orm: [255, 128, 0] };
         assert_eq!(small.pixels, [pixel; 4]);
     }
 
@@ -134,12 +175,17 @@ mod tests {
     fn the_whitest_block_does_not_overflow() {
         let white = ResolvedBlock {
             base_color: vec![[255; 3]; 65_536],
-            mask: vec![[255; 4]; 65_536],
+            clean: vec![[65_535; 3]; 65_536],
             orm: vec![[255; 3]; 65_536],
+            layers: vec![Layer { name: "hand", values: vec![1e9; 65_536] }],
             ..ResolvedBlock::default()
         };
         let small = ReducedBlock::of(&white, [256, 256], 256);
-        assert_eq!(small.pixels, [Background { base_color: [255; 3], mask: [255; 4], orm: [255; 3] }]);
+        let white = [255; 3];
+        assert_eq!(
+            small.pixels,
+            [ReducedPixel { base_color: white, clean: Some(white), dirt: [255, 0, 0, 0], orm: white }]
+        );
     }
 
     #[test]

@@ -5,8 +5,12 @@ use serde::{Deserialize, Serialize};
 
 use super::{ExportError, OutputFolder};
 use crate::crowd::{SpotReport, Stuck, Tally};
+use crate::files::read_input;
 use crate::math::{Vec2, vec2};
 use crate::routes::Route;
+
+/// Largest report that is read, bytes.
+const LARGEST_BYTES: u64 = 512 << 20;
 
 /// What happened in a run: `report.json`, the one file of a bake that differs from run to run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -87,7 +91,7 @@ impl Report {
     /// There is none, or it is damaged.
     pub fn read(bake: &Path) -> Result<Report, ExportError> {
         let path = bake.join(Self::FILE_NAME);
-        let json = std::fs::read(&path).map_err(ExportError::read(&path))?;
+        let json = read_input(&path, LARGEST_BYTES).map_err(ExportError::read(&path))?;
         serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))
     }
 

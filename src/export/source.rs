@@ -1,5 +1,6 @@
 use super::atlas::{Sheet, Strip};
 use crate::look::{Background, FloorResolver, LAYERS, Layer, ResolvedBlock, WALL_LAYERS, WallResolver};
+use crate::math::srgb::to_linear;
 
 /// What gives a floor's or a sheet's texels: pure, so that any thread may ask for any rectangle in any order.
 pub trait TextureSource: Sync {
@@ -152,6 +153,7 @@ fn turn(block: &mut ResolvedBlock, width: usize) {
         *texels = (0..width).flat_map(|i| (0..height).rev().map(move |j| j * width + i)).map(|k| texels[k]).collect();
     }
     turned(&mut block.base_color, width);
+    turned(&mut block.clean, width);
     turned(&mut block.mask, width);
     turned(&mut block.orm, width);
     for layer in &mut block.layers {
@@ -163,6 +165,7 @@ fn blank(texels: usize, background: Background, layers: &[&'static str]) -> Reso
     ResolvedBlock {
         empty: false,
         base_color: vec![background.base_color; texels],
+        clean: vec![background.base_color.map(to_linear); texels],
         mask: vec![background.mask; texels],
         orm: vec![background.orm; texels],
         layers: layers.iter().map(|&name| Layer { name, values: vec![0.0; texels] }).collect(),
@@ -177,6 +180,9 @@ fn paste(part: &ResolvedBlock, seen: &Rect, block: &mut ResolvedBlock, whole: &R
         let at = (low + row) * whole.width + left;
         let to = at..at + seen.width;
         block.base_color[to.clone()].copy_from_slice(&part.base_color[from.clone()]);
+        if !part.clean.is_empty() {
+            block.clean[to.clone()].copy_from_slice(&part.clean[from.clone()]);
+        }
         block.mask[to.clone()].copy_from_slice(&part.mask[from.clone()]);
         block.orm[to.clone()].copy_from_slice(&part.orm[from.clone()]);
         for (layer, part) in block.layers.iter_mut().zip(&part.layers) {

@@ -85,7 +85,7 @@ pub use formed::{FormedCrowd, FormedPerson};
 pub use hierarchy::form;
 pub use interpolate::interpolate;
 pub use kirchhoff::{AdjacencyEdit, default_sigma_m, kirchhoff};
-pub use limits::{LEAST_PEOPLE, MOST_PEOPLE};
+pub use limits::{LEAST_PEOPLE, MOST_FORMED_PLACES, MOST_IN_ALL, MOST_KEY_PAIRS, MOST_PEOPLE};
 pub use matching::match_basis;
 pub use options::{Carry, Ease, FormationOptions, KeyFormation};
 pub use picture::is_picture;

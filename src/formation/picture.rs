@@ -6,12 +6,13 @@ use std::path::Path;
 use image::{ImageDecoder, ImageReader, Limits};
 
 use super::request::RequestError;
+use crate::files::{read_input, read_text};
 use crate::math::{Vec2, vec2};
 
 /// Longest side of a picture of a formation, pixels.
 const MOST_PX: u32 = 4096;
-/// Largest file of points, bytes.
-const LARGEST_TEXT: u64 = 64 << 20;
+/// Largest picture file, bytes.
+const LARGEST_PICTURE: u64 = 256 << 20;
 
 /// What a picture shows: its middle is the formation's, up is forward.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,7 +34,7 @@ pub fn is_picture(path: &Path) -> bool {
 /// background.
 pub(super) fn read_picture(path: &Path) -> Result<FormationPicture, RequestError> {
     let failed = |problem: String| RequestError::File { path: path.to_path_buf(), problem };
-    let bytes = std::fs::read(path).map_err(|error| failed(error.to_string()))?;
+    let bytes = read_input(path, LARGEST_PICTURE).map_err(|error| failed(error.to_string()))?;
     let mut reader = ImageReader::new(Cursor::new(bytes.as_slice()))
         .with_guessed_format()
         .map_err(|error| failed(error.to_string()))?;
@@ -109,11 +110,7 @@ fn of_ink(ink: &[bool], width: usize, height: usize) -> FormationPicture {
 /// Reads points as text: a line for each, `x y` in metres, apart by blanks, commas or semicolons; `#` begins a comment.
 pub(super) fn read_points(path: &Path) -> Result<Vec<Vec2>, RequestError> {
     let failed = |problem: String| RequestError::File { path: path.to_path_buf(), problem };
-    let size = std::fs::metadata(path).map_err(|error| failed(error.to_string()))?.len();
-    if size > LARGEST_TEXT {
-        return Err(failed(format!("it has {size} bytes; points are read from files of up to {LARGEST_TEXT}")));
-    }
-    let text = std::fs::read_to_string(path).map_err(|error| failed(error.to_string()))?;
+    let text = read_text(path).map_err(|error| failed(error.to_string()))?;
     points_of(&text).map_err(|(line, problem)| RequestError::Line { path: path.to_path_buf(), line, problem })
 }
 
@@ -127,15 +124,14 @@ fn points_of(text: &str) -> Result<Vec<Vec2>, (usize, String)> {
         if words.is_empty() {
             continue;
         }
-        let shown: String = line.chars().filter(|c| !c.is_control()).take(40).collect();
         let numbers: Option<Vec<f64>> = words.iter().map(|word| word.parse().ok()).collect();
         let Some([x, y]) = numbers.as_deref() else {
-            return Err((number, format!("\"{shown}\" is no point: two numbers, x and y in metres")));
+            return Err((number, "it is no point: write two numbers, x and y in metres".to_string()));
         };
         let point = vec2(*x, *y);
         if !(x.abs() <= super::request::FARTHEST_M && y.abs() <= super::request::FARTHEST_M) {
             let most = super::request::FARTHEST_M;
-            return Err((number, format!("\"{shown}\" lies beyond what is allowed, -{most} to {most} m")));
+            return Err((number, format!("the point ({x}, {y}) lies beyond what is allowed, -{most} to {most} m")));
         }
         points.push(point);
     }

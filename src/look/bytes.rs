@@ -1,7 +1,7 @@
 //! From what texels show to 8 bits, without bands.
 
 use super::noise;
-use super::tone;
+use crate::math::srgb;
 
 /// Where 8-bit texels go, for one run.
 pub(super) struct Bytes<'a> {
@@ -11,7 +11,7 @@ pub(super) struct Bytes<'a> {
 }
 
 /// What a run of texels shows, a plane per quantity.
-pub(super) struct Shown<'a> {
+pub(super) struct ShadedPlanes<'a> {
     /// Linear colour.
     pub rgb: &'a [Vec<f32>; 3],
     /// By channel of the mask, the light that comes through; an empty plane for a channel without any dirt.
@@ -30,7 +30,7 @@ pub(super) struct Rounding {
 
 impl Rounding {
     /// Rounds a run that starts at texel (i, j), dithered by a hash of each texel's place. Occlusion is left as it is.
-    pub fn write(&mut self, dither: u32, i: i64, j: i64, shown: &Shown<'_>, out: &mut Bytes<'_>) {
+    pub fn write(&mut self, dither: u32, i: i64, j: i64, shown: &ShadedPlanes<'_>, out: &mut Bytes<'_>) {
         let len = out.base_color.len();
         let Rounding { words: [first, second], values, bytes } = self;
         first.clear();
@@ -41,7 +41,7 @@ impl Rounding {
         for (n, bytes) in bytes.iter_mut().enumerate() {
             values.clear();
             match n {
-                0..3 => values.extend(shown.rgb[n].iter().map(|&light| tone::srgb(light))),
+                0..3 => values.extend(shown.rgb[n].iter().map(|&light| srgb::encode_f32(light))),
                 3..7 => values.extend(shown.through[n - 3].iter().map(|light| 255.0 * (1.0 - light))),
                 _ => values.extend(shown.roughness.iter().map(|roughness| 255.0 * roughness)),
             }
@@ -51,7 +51,7 @@ impl Rounding {
                 continue;
             }
             let words = if n < 4 { &*first } else { &*second };
-            tone::dither(values, words, n as u32 % 4, bytes);
+            round_dithered(values, words, n as u32 % 4, bytes);
         }
         let [red, green, blue, m0, m1, m2, m3, rough] = &*bytes;
         for (((out, r), g), b) in out.base_color.iter_mut().zip(red).zip(green).zip(blue) {
@@ -63,5 +63,38 @@ impl Rounding {
         for (out, rough) in out.orm.iter_mut().zip(rough) {
             *out = [255, *rough, 0];
         }
+    }
+}
+
+/// Rounds values of 0 to 255 up or down at random, so that their means over neighbours stay: a byte of each word is
+/// the threshold.
+fn round_dithered(values: &[f32], words: &[u32], byte: u32, out: &mut [u8]) {
+    // Adding 2^23 rounds to the nearest integer and leaves it in the lowest bits: a cast would not vectorise.
+    const ROUND: f32 = 8_388_608.0;
+    for ((out, value), word) in out.iter_mut().zip(values).zip(words) {
+        let threshold = (((word >> (8 * byte)) & 0xff) as i32 as f32 + 0.5) / 256.0 - 0.5;
+        *out = ((value + threshold).clamp(0.0, 255.0) + ROUND).to_bits() as u8;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dither_keeps_the_mean_and_whole_values() {
+        let words: Vec<u32> = (0..256).map(|threshold| threshold << 16).collect();
+        let dithered = |value: f32| {
+            let mut out = vec![0; 256];
+            round_dithered(&[value; 256], &words, 2, &mut out);
+            out
+        };
+        for value in [0.0, 17.0, 100.25, 200.9, 255.0] {
+            let mean = dithered(value).into_iter().map(f32::from).sum::<f32>() / 256.0;
+            assert!((mean - value).abs() < 0.004, "{value} became {mean}");
+        }
+        assert!(dithered(42.0).into_iter().all(|value| value == 42));
+        assert!(dithered(-3.0).into_iter().all(|value| value == 0));
+        assert!(dithered(300.0).into_iter().all(|value| value == 255));
     }
 }

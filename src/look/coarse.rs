@@ -1,6 +1,6 @@
 //! Where floor is, roughly: blocks without any cost nothing.
 
-use super::lattice::Window;
+use super::lattice::TexelWindow;
 use super::padding::PADDING;
 use crate::walls::Walls;
 
@@ -35,7 +35,7 @@ impl CoarseFloor {
     }
 
     /// Whether a window is all floor, or neither floor nor padding.
-    pub fn of_window(&self, window: &Window) -> CoarseShare {
+    pub fn of_window(&self, window: &TexelWindow) -> CoarseShare {
         let squares = |from: i64, count: usize, grown: i64| {
             (from - grown).div_euclid(SIDE)..=(from + count as i64 - 1 + grown).div_euclid(SIDE)
         };

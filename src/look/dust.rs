@@ -1,6 +1,6 @@
 //! Dust: settles where nobody walks, most of it along walls.
 
-use super::lattice::{Axis, Lattice, Window};
+use super::lattice::{SplineAxis, SplineLattice, TexelWindow};
 use super::settings::DustLook;
 use super::skirting::distance_squared;
 use crate::math::{Rect, exp, vec2};
@@ -9,20 +9,20 @@ use crate::walls::{Segment, Walls};
 /// Spacing of the lattice on which dust is laid out, metres: it changes slowly.
 const SPACING_M: f64 = 0.05;
 
-/// Lattice points are worked out in squares of so many a side that share a list of near walls.
+/// SplineLattice points are worked out in squares of so many a side that share a list of near walls.
 const SIDE: i64 = 8;
 
 /// Beyond so many times the reach nothing is left.
 const END: f64 = 5.0;
 
 /// exp(-distance / reach) to the nearest wall over a window; `None` where there is no dust.
-pub(super) fn over(window: &Window, walls: &Walls, dust: &DustLook) -> Option<Lattice> {
+pub(super) fn over(window: &TexelWindow, walls: &Walls, dust: &DustLook) -> Option<SplineLattice> {
     if dust.density == 0.0 {
         return None;
     }
     let spacing = SPACING_M * window.texels_per_metre;
-    let x = Axis::new(window.i0, window.width, spacing, 0.0);
-    let y = Axis::new(window.j0, window.height, spacing, 0.0);
+    let x = SplineAxis::new(window.i0, window.width, spacing, 0.0);
+    let y = SplineAxis::new(window.j0, window.height, spacing, 0.0);
     let reach_m = f64::from(dust.reach_m);
     let (x_end, y_end) = (x.first + x.len as i64, y.first + y.len as i64);
     let mut near = Vec::new();
@@ -49,7 +49,7 @@ pub(super) fn over(window: &Window, walls: &Walls, dust: &DustLook) -> Option<La
             }
         }
     }
-    Some(Lattice::new(x, y, values))
+    Some(SplineLattice::new(x, y, values))
 }
 
 fn square(low: [i64; 2], high: [i64; 2]) -> Rect {
@@ -78,7 +78,7 @@ mod tests {
         // A room of 6 x 6 m, wall below y = 1.
         let floor = (0..64).map(|n| u8::from((1..7).contains(&(n % 8)) && (1..7).contains(&(n / 8)))).collect();
         let walls = Walls::trace(&FloorPlan::from_mask(8, 8, 1.0, floor), &WallsOptions::default());
-        let window = Window { texels_per_metre: 100.0, i0: 400, j0: 100, width: 1, height: 300 };
+        let window = TexelWindow { texels_per_metre: 100.0, i0: 400, j0: 100, width: 1, height: 300 };
         let dust = DustLook { density: 0.1, reach_m: 0.3, ..DustLook::default() };
         let mut lattice = over(&window, &walls, &dust).unwrap();
         for (row, distance) in [(10, 0.105), (30, 0.305), (100, 1.005), (160, 1.605)] {

@@ -19,7 +19,7 @@ pub enum LookError {
     #[error("{place}: {message}")]
     Syntax {
         /// Where.
-        place: Place,
+        place: FilePlace,
         /// What is wrong there.
         message: String,
     },
@@ -29,7 +29,7 @@ pub enum LookError {
         /// What was asked for.
         name: String,
         /// Where, if it came from a file.
-        place: Option<Place>,
+        place: Option<FilePlace>,
     },
     /// A number beyond what is allowed.
     #[error("{}{range}", at(.place))]
@@ -37,7 +37,7 @@ pub enum LookError {
         /// Which key, which value, which range.
         range: RangeError,
         /// Where, if it came from a file.
-        place: Option<Place>,
+        place: Option<FilePlace>,
     },
     /// The repeated image of a floor or a wall cannot be used.
     #[error("cannot use the image {path}: {message}", path = .path.display())]
@@ -57,7 +57,7 @@ pub enum LookError {
     },
     /// Sums of nobody stand for no history.
     #[error("the sums hold no simulated people; a history of {total_passes} passes needs at least one")]
-    Nobody {
+    NoPeople {
         /// What the look asks for.
         total_passes: u64,
     },
@@ -65,7 +65,7 @@ pub enum LookError {
 
 /// A place in a look file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct FilePlace {
     /// The file.
     pub path: PathBuf,
     /// Line, from 1 on.
@@ -87,7 +87,7 @@ pub struct RangeError {
     pub high: f64,
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for FilePlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}:{}", self.path.display(), self.line, self.column)
     }
@@ -100,7 +100,7 @@ impl fmt::Display for RangeError {
     }
 }
 
-fn at(place: &Option<Place>) -> String {
+fn at(place: &Option<FilePlace>) -> String {
     place.as_ref().map_or(String::new(), |place| format!("{place}: "))
 }
 
@@ -118,7 +118,7 @@ impl LookError {
             ),
             LookError::Syntax { .. } => Some("keys that are left out keep the preset's value".to_string()),
             LookError::OtherWalls { .. } => Some("bake the plan again".to_string()),
-            LookError::Nobody { .. } => Some("bake with --people 1 or more".to_string()),
+            LookError::NoPeople { .. } => Some("bake with --people 1 or more".to_string()),
             LookError::Unreadable { .. } | LookError::Range { .. } => None,
         }
     }

@@ -2,8 +2,10 @@ use std::path::Path;
 
 use toml::de::{DeTable, DeValue};
 
-use super::error::{LookError, Place};
+use super::error::{FilePlace, LookError};
+use super::image::decode;
 use super::settings::Look;
+use crate::files::read_text;
 
 impl Look {
     /// Reads a look file: TOML with the keys of [`Look`]. What it leaves out comes from the preset that its key
@@ -13,8 +15,7 @@ impl Look {
     /// Unreadable files; syntax, unknown keys, wrong types, unknown presets and values out of range, each with
     /// line and column.
     pub fn read(path: &Path) -> Result<Look, LookError> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|source| LookError::Unreadable { path: path.to_path_buf(), source })?;
+        let text = read_text(path).map_err(|source| LookError::Unreadable { path: path.to_path_buf(), source })?;
         Look::parse(&text, path)
     }
 
@@ -48,6 +49,14 @@ impl Look {
             }
         }
         Ok(look)
+    }
+
+    /// Checks that the images of floor and walls can be read, before any work that they would spoil at its end.
+    ///
+    /// # Errors
+    /// An image that is missing, damaged, too large or of an unknown format.
+    pub fn check_images(&self) -> Result<(), LookError> {
+        [&self.floor.image, &self.wall.image].into_iter().flatten().try_for_each(|path| decode(path).map(drop))
     }
 
     /// These settings with those of a TOML table laid over them.
@@ -85,10 +94,10 @@ fn offset_of(table: &DeTable<'_>, key: &str) -> usize {
     }
 }
 
-fn place(text: &str, path: &Path, offset: usize) -> Place {
+fn place(text: &str, path: &Path, offset: usize) -> FilePlace {
     let before = &text[..text.floor_char_boundary(offset)];
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-    Place {
+    FilePlace {
         path: path.to_path_buf(),
         line: before.matches('\n').count() + 1,
         column: before[line_start..].chars().count() + 1,

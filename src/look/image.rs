@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use super::error::LookError;
-use super::tone;
+use crate::files::{LARGEST_IMAGE_BYTES, open_input_up_to};
+use crate::math::srgb;
 
 /// Pixels kept per texel and axis: more would only cost memory, since a texel shows their mean.
 const PIXELS_PER_TEXEL: f64 = 3.0;
@@ -13,6 +14,24 @@ const LARGEST: usize = 4096;
 
 /// Largest side read, pixels.
 const LARGEST_READ: u32 = 16_384;
+
+/// Reads an image of a known format, at least a pixel large.
+pub(super) fn decode(path: &Path) -> Result<image::RgbImage, LookError> {
+    let wrong = |message: String| LookError::Image { path: path.to_path_buf(), message };
+    let file = open_input_up_to(path, LARGEST_IMAGE_BYTES).map_err(|e| wrong(e.to_string()))?;
+    let reader = image::ImageReader::new(std::io::BufReader::new(file));
+    let mut reader = reader.with_guessed_format().map_err(|e| wrong(e.to_string()))?;
+    let mut limits = image::Limits::default();
+    limits.max_image_width = Some(LARGEST_READ);
+    limits.max_image_height = Some(LARGEST_READ);
+    limits.max_alloc = Some(LARGEST_IMAGE_BYTES);
+    reader.limits(limits);
+    let image = reader.decode().map_err(|e| wrong(e.to_string()))?.to_rgb8();
+    if image.width() == 0 || image.height() == 0 {
+        return Err(wrong("it has no pixels".to_string()));
+    }
+    Ok(image)
+}
 
 /// A repeated image whose mean over any rectangle takes four look-ups.
 pub(super) struct RepeatedImage {
@@ -26,30 +45,25 @@ pub(super) struct RepeatedImage {
 
 impl RepeatedImage {
     pub fn open(path: &Path, size_m: [f64; 2], texels_per_metre: f64) -> Result<RepeatedImage, LookError> {
-        let wrong = |message: String| LookError::Image { path: path.to_path_buf(), message };
-        let reader = image::ImageReader::open(path).map_err(|e| wrong(e.to_string()))?;
-        let mut reader = reader.with_guessed_format().map_err(|e| wrong(e.to_string()))?;
-        let mut limits = image::Limits::default();
-        limits.max_image_width = Some(LARGEST_READ);
-        limits.max_image_height = Some(LARGEST_READ);
-        reader.limits(limits);
-        let image = reader.decode().map_err(|e| wrong(e.to_string()))?.to_rgb8();
+        let image = decode(path)?;
         let (width, height) = (image.width() as usize, image.height() as usize);
-        if width == 0 || height == 0 {
-            return Err(wrong("it has no pixels".to_string()));
-        }
-        let table: Vec<f32> = (0..=255u8).map(|value| tone::linear(f32::from(value))).collect();
-        let pixels: Vec<[f32; 3]> = image.pixels().map(|p| p.0.map(|c| table[usize::from(c)])).collect();
-        Ok(RepeatedImage::new(&pixels, [width, height], size_m, texels_per_metre))
+        let rows = image.rows().map(|row| row.map(|p| srgb::light_of(p.0)).collect());
+        Ok(RepeatedImage::new(rows, [width, height], size_m, texels_per_metre))
     }
 
-    fn new(pixels: &[[f32; 3]], size: [usize; 2], size_m: [f64; 2], texels_per_metre: f64) -> RepeatedImage {
+    /// Of rows from above, each reduced as it comes: all at full size would take much more memory than the image.
+    fn new(
+        rows: impl Iterator<Item = Vec<[f32; 3]>>,
+        size: [usize; 2],
+        size_m: [f64; 2],
+        texels_per_metre: f64,
+    ) -> RepeatedImage {
         let wanted = |pixels: usize, metres: f64| {
             let enough = (metres * texels_per_metre * PIXELS_PER_TEXEL).ceil().max(1.0) as usize;
             pixels.min(enough).min(LARGEST)
         };
         let [width, height] = [wanted(size[0], size_m[0]), wanted(size[1], size_m[1])];
-        let across: Vec<[f32; 3]> = pixels.chunks_exact(size[0]).flat_map(|row| reduced(row, width)).collect();
+        let across: Vec<[f32; 3]> = rows.flat_map(|row| reduced(&row, width).collect::<Vec<_>>()).collect();
         let mut sums = vec![[0.0; 3]; (width + 1) * (height + 1)];
         for x in 0..width {
             let column: Vec<[f32; 3]> = across.iter().skip(x).step_by(width).copied().collect();
@@ -144,6 +158,10 @@ mod tests {
         (0..width * height).map(|n| [(n % width) as f32, (n / width) as f32, (n % 7) as f32]).collect()
     }
 
+    fn rows(pixels: &[[f32; 3]], width: usize) -> impl Iterator<Item = Vec<[f32; 3]>> + '_ {
+        pixels.chunks_exact(width).map(<[_]>::to_vec)
+    }
+
     fn texel(image: &RepeatedImage, i: i64, j: i64) -> [f32; 3] {
         let mut rgb = [vec![0.0], vec![0.0], vec![0.0]];
         image.read_row(i, j, &mut rgb);
@@ -153,7 +171,7 @@ mod tests {
     #[test]
     fn a_texel_of_one_pixel_shows_that_pixel_in_every_repetition() {
         let pixels = image(4, 3);
-        let repeated = RepeatedImage::new(&pixels, [4, 3], [0.04, 0.03], 100.0);
+        let repeated = RepeatedImage::new(rows(&pixels, 4), [4, 3], [0.04, 0.03], 100.0);
         for (i, j) in [(0, 0), (3, 2), (1, 1)] {
             let truth = pixels[((2 - j) * 4 + i) as usize];
             for (columns, rows) in [(0, 0), (5, -7), (-300, 1000)] {
@@ -167,12 +185,12 @@ mod tests {
 
     #[test]
     fn a_texel_shows_the_mean_of_what_it_covers() {
-        let repeated = RepeatedImage::new(&image(6, 6), [6, 6], [0.06, 0.06], 50.0);
+        let repeated = RepeatedImage::new(rows(&image(6, 6), 6), [6, 6], [0.06, 0.06], 50.0);
         assert!((texel(&repeated, 0, 0)[0] - 0.5).abs() < 1e-5);
         assert!((texel(&repeated, 2, 0)[0] - 4.5).abs() < 1e-5);
         assert!((texel(&repeated, 0, 0)[1] - 4.5).abs() < 1e-5);
         // A texel larger than the image shows its mean.
-        let large = RepeatedImage::new(&image(6, 6), [6, 6], [0.06, 0.06], 1.0 / 0.6);
+        let large = RepeatedImage::new(rows(&image(6, 6), 6), [6, 6], [0.06, 0.06], 1.0 / 0.6);
         assert!((texel(&large, 3, 3)[0] - 2.5).abs() < 1e-4);
     }
 }

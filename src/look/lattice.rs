@@ -7,7 +7,7 @@ use crate::math::{Rect, vec2};
 
 /// A rectangle of texels of the whole floor. Texel (i, j) covers `[i, i+1)/t x [j, j+1)/t` metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Window {
+pub(super) struct TexelWindow {
     pub texels_per_metre: f64,
     pub i0: i64,
     pub j0: i64,
@@ -15,7 +15,7 @@ pub(super) struct Window {
     pub height: usize,
 }
 
-impl Window {
+impl TexelWindow {
     pub fn texels(&self) -> usize {
         self.width * self.height
     }
@@ -28,7 +28,7 @@ impl Window {
     }
 
     /// Whether any texel of `part` is set in a mask of this window.
-    pub fn any_in(&self, part: &Window, mask: &[bool]) -> bool {
+    pub fn any_in(&self, part: &TexelWindow, mask: &[bool]) -> bool {
         let clip = |first: i64, count: usize, size: usize| {
             let low = first.clamp(0, size as i64);
             low as usize..(first + count as i64).clamp(low, size as i64) as usize
@@ -39,8 +39,8 @@ impl Window {
     }
 
     /// Grown by so many texels on every side.
-    pub fn grown(&self, by: usize) -> Window {
-        Window {
+    pub fn grown(&self, by: usize) -> TexelWindow {
+        TexelWindow {
             i0: self.i0 - by as i64,
             j0: self.j0 - by as i64,
             width: self.width + 2 * by,
@@ -55,31 +55,31 @@ impl Window {
 /// A texel's place follows from its number in the whole floor alone, so that every rectangle that holds the
 /// texel finds the same value.
 #[derive(Clone, Debug)]
-pub(super) struct Axis {
+pub(super) struct SplineAxis {
     /// Number of the first lattice value needed.
     pub first: i64,
     /// How many are needed.
     pub len: usize,
     /// Runs of texels that take the same three values.
-    runs: Vec<Run>,
+    runs: Vec<SplineRun>,
     /// Weights of the three values, by texel.
     weights: [Vec<f32>; 3],
 }
 
 /// Texels `start..end` take the lattice values `base..base + 3`.
 #[derive(Clone, Copy, Debug)]
-struct Run {
+struct SplineRun {
     base: u32,
     start: u32,
     end: u32,
 }
 
-impl Axis {
+impl SplineAxis {
     /// Texels `texel0..texel0 + count` over lattice values that lie at `spacing * (k + offset)` texels.
-    pub fn new(texel0: i64, count: usize, spacing: f64, offset: f64) -> Axis {
+    pub fn new(texel0: i64, count: usize, spacing: f64, offset: f64) -> SplineAxis {
         let place = |k: usize| ((texel0 + k as i64) as f64 + 0.5) / spacing - offset;
         let first = (place(0) + 0.5).floor() as i64 - 1;
-        let mut runs: Vec<Run> = Vec::new();
+        let mut runs: Vec<SplineRun> = Vec::new();
         let mut weights: [Vec<f32>; 3] = std::array::from_fn(|_| Vec::with_capacity(count));
         for k in 0..count {
             let u = place(k);
@@ -87,7 +87,7 @@ impl Axis {
             let base = (middle as i64 - 1 - first) as u32;
             match runs.last_mut().filter(|run| run.base == base) {
                 Some(run) => run.end += 1,
-                None => runs.push(Run { base, start: k as u32, end: k as u32 + 1 }),
+                None => runs.push(SplineRun { base, start: k as u32, end: k as u32 + 1 }),
             }
             let f = (u - middle) as f32;
             weights[0].push(0.5 * (0.5 - f) * (0.5 - f));
@@ -95,7 +95,7 @@ impl Axis {
             weights[2].push(0.5 * (0.5 + f) * (0.5 + f));
         }
         let len = runs.last().map_or(0, |run| run.base as usize + 3);
-        Axis { first, len, runs, weights }
+        SplineAxis { first, len, runs, weights }
     }
 
     /// First of the three values that a texel takes, and their weights.
@@ -107,20 +107,20 @@ impl Axis {
 
 /// Values on a lattice, ready to be read off at texels.
 #[derive(Clone, Debug)]
-pub(super) struct Lattice {
-    pub x: Axis,
-    pub y: Axis,
+pub(super) struct SplineLattice {
+    pub x: SplineAxis,
+    pub y: SplineAxis,
     /// Row-major, `x.len` by `y.len`.
     values: Vec<f32>,
     row: Vec<f32>,
 }
 
-impl Lattice {
+impl SplineLattice {
     /// A lattice with row-major values, `x.len` by `y.len`.
-    pub fn new(x: Axis, y: Axis, values: Vec<f32>) -> Lattice {
+    pub fn new(x: SplineAxis, y: SplineAxis, values: Vec<f32>) -> SplineLattice {
         debug_assert_eq!(values.len(), x.len * y.len);
         let row = vec![0.0; x.len];
-        Lattice { x, y, values, row }
+        SplineLattice { x, y, values, row }
     }
 
     /// Moves to a row of texels: everything that is the same along it.
@@ -156,13 +156,13 @@ impl Lattice {
 mod tests {
     use super::*;
 
-    fn lattice(x: Axis, y: Axis, value: impl Fn(i64, i64) -> f32) -> Lattice {
+    fn lattice(x: SplineAxis, y: SplineAxis, value: impl Fn(i64, i64) -> f32) -> SplineLattice {
         let place = |n: usize| (x.first + (n % x.len) as i64, y.first + (n / x.len) as i64);
         let values = (0..x.len * y.len).map(place).map(|(i, j)| value(i, j)).collect();
-        Lattice::new(x, y, values)
+        SplineLattice::new(x, y, values)
     }
 
-    fn read(lattice: &mut Lattice, width: usize, row: usize) -> Vec<f32> {
+    fn read(lattice: &mut SplineLattice, width: usize, row: usize) -> Vec<f32> {
         let mut out = vec![0.0; width];
         lattice.begin_row(row);
         lattice.add_to(0, &mut out);
@@ -172,7 +172,7 @@ mod tests {
     #[test]
     fn a_ramp_stays_a_ramp() {
         // Values at the middles of cells of 4 texels.
-        let axis = |from: i64, n| Axis::new(from, n, 4.0, 0.5);
+        let axis = |from: i64, n| SplineAxis::new(from, n, 4.0, 0.5);
         let mut lattice = lattice(axis(-7, 30), axis(9, 5), |i, j| (3 * i - j) as f32);
         for row in 0..5 {
             for (k, value) in read(&mut lattice, 30, row).into_iter().enumerate() {
@@ -186,8 +186,8 @@ mod tests {
     #[test]
     fn a_texel_has_the_same_value_in_every_window() {
         let value = |i: i64, j: i64| ((i * 31 + j * 17) % 23) as f32;
-        let mut whole = lattice(Axis::new(-50, 100, 3.7, 0.2), Axis::new(0, 10, 3.7, 0.2), value);
-        let mut part = lattice(Axis::new(-3, 20, 3.7, 0.2), Axis::new(6, 2, 3.7, 0.2), value);
+        let mut whole = lattice(SplineAxis::new(-50, 100, 3.7, 0.2), SplineAxis::new(0, 10, 3.7, 0.2), value);
+        let mut part = lattice(SplineAxis::new(-3, 20, 3.7, 0.2), SplineAxis::new(6, 2, 3.7, 0.2), value);
         assert_eq!(read(&mut whole, 100, 7)[47..67], read(&mut part, 20, 1)[..]);
     }
 }

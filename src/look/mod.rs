@@ -15,40 +15,38 @@
 mod block;
 mod bytes;
 mod coarse;
+mod colours;
 mod dust;
 mod error;
-mod face;
+mod segment;
 mod file;
-mod ground;
+mod clean_floor;
 mod image;
 mod lattice;
 mod material;
 mod noise;
+mod octaves;
 mod padding;
 mod paint;
 mod planes;
 mod presets;
+mod ranges;
 mod resolve;
 mod settings;
 mod shade;
 mod skirting;
-mod tone;
-mod traffic;
+mod passes;
 mod wall;
 
 #[cfg(test)]
 mod tests;
 
+pub use crate::math::srgb::Srgb8;
 pub use block::{Background, Layer, ResolvedBlock};
-pub use error::{LookError, Place, RangeError};
+pub use error::{FilePlace, LookError, RangeError};
 pub use material::Material;
+pub use octaves::{NoiseLook, Octave};
 pub use presets::LOOK_PRESETS;
 pub use resolve::{FloorResolver, LAYERS};
-pub use settings::{
-    DustLook, EdgeLook, FilmLook, FloorLook, IngrainedLook, Look, NoiseLook, Octave, PrintsLook, RUBBER, SOIL_DRY,
-    SOIL_WET, ScuffsLook, Srgb8,
-};
-pub use wall::{
-    BAG, CLOTH, SKIN, SkirtingLook, SplashLook, StainLook, WALL_LAYERS, WallDustLook, WallLook, WallMaterial,
-    WallResolver,
-};
+pub use settings::{DustLook, EdgeLook, FilmLook, FloorLook, IngrainedLook, Look, PrintsLook, ScuffsLook};
+pub use wall::{SkirtingLook, SplashLook, StainLook, WALL_LAYERS, WallDustLook, WallLook, WallMaterial, WallResolver};

@@ -1,7 +1,7 @@
 //! Noise in plan space: values hashed on a lattice, joined by B-splines. The same at any place for any texel
 //! density, tile or rectangle; nothing is stored.
 
-use super::lattice::{Axis, Lattice, Window};
+use super::lattice::{SplineAxis, SplineLattice, TexelWindow};
 
 /// Sixteen well mixed bits of input make 32 of output (Wellons' `lowbias32`).
 pub(super) fn mix(mut x: u32) -> u32 {
@@ -78,7 +78,7 @@ pub(super) fn key(seed: u64, channel: Channel) -> u32 {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Noise {
     key: u32,
-    /// Lattice spacing along x and y, metres.
+    /// SplineLattice spacing along x and y, metres.
     spacing_m: [f64; 2],
     sd: f32,
 }
@@ -106,14 +106,14 @@ impl Noise {
     }
 
     /// The noise over a window.
-    pub fn over(&self, window: &Window) -> NoiseField {
+    pub fn over(&self, window: &TexelWindow) -> NoiseField {
         let [x, y] = self.spacing_m.map(|spacing_m| spacing_m * window.texels_per_metre);
         self.laid_out(window, self.key, [x, y], None)
     }
 
     /// The noise over a window of a strip that has a pattern of its own, by `salt`. If it is `closed`, `width` texels
     /// around, its end goes on at its start: spots are stretched a little so that a whole number goes round.
-    pub fn over_strip(&self, window: &Window, salt: u32, width: u32, closed: bool) -> NoiseField {
+    pub fn over_strip(&self, window: &TexelWindow, salt: u32, width: u32, closed: bool) -> NoiseField {
         let [mut x, y] = self.spacing_m.map(|spacing_m| spacing_m * window.texels_per_metre);
         let mut period = None;
         if closed {
@@ -125,7 +125,7 @@ impl Noise {
     }
 
     /// Spacings in texels; `period` is after how many of them the noise comes again along x.
-    fn laid_out(&self, window: &Window, key: u32, [x, y]: [f64; 2], period: Option<i64>) -> NoiseField {
+    fn laid_out(&self, window: &TexelWindow, key: u32, [x, y]: [f64; 2], period: Option<i64>) -> NoiseField {
         let sd = self.sd_of_texels(window.texels_per_metre);
         if x <= 1.0 && y <= 1.0 {
             // The difference of two uniform values has a variance of 1/6.
@@ -133,8 +133,8 @@ impl Noise {
         }
         // Mean square of B-spline weights is 11/20 per axis, of a uniform value in [-1, 1) 1/3.
         let gain = sd / (11.0f32 / 20.0 * (1.0f32 / 3.0).sqrt());
-        let x = Axis::new(window.i0, window.width, x.max(1.0), 0.0);
-        let y = Axis::new(window.j0, window.height, y.max(1.0), 0.0);
+        let x = SplineAxis::new(window.i0, window.width, x.max(1.0), 0.0);
+        let y = SplineAxis::new(window.j0, window.height, y.max(1.0), 0.0);
         let mut values = vec![0.0; x.len * y.len];
         for (row, values) in values.chunks_exact_mut(x.len).enumerate() {
             let row_key = row_key(key, (y.first + row as i64) as i32);
@@ -144,7 +144,7 @@ impl Noise {
                 *value = gain * (word as i32 as f32 / 2_147_483_648.0);
             }
         }
-        NoiseField::Lattice(Box::new(Lattice::new(x, y, values)))
+        NoiseField::Lattice(Box::new(SplineLattice::new(x, y, values)))
     }
 }
 
@@ -152,7 +152,7 @@ impl Noise {
 #[derive(Clone, Debug)]
 pub(super) enum NoiseField {
     /// Spots of several texels.
-    Lattice(Box<Lattice>),
+    Lattice(Box<SplineLattice>),
     /// Spots smaller than texels: what is left of them differs from texel to texel.
     Texels {
         key: u32,
@@ -192,7 +192,7 @@ mod tests {
     use super::*;
 
     fn field(noise: &Noise, texels_per_metre: f64, side: usize) -> Vec<f32> {
-        let window = Window { texels_per_metre, i0: -40, j0: 17, width: side, height: side };
+        let window = TexelWindow { texels_per_metre, i0: -40, j0: 17, width: side, height: side };
         let mut lattice = noise.over(&window);
         let mut out = vec![0.0; side * side];
         for (row, out) in out.chunks_exact_mut(side).enumerate() {
@@ -233,7 +233,7 @@ mod tests {
         let noise = Noise::new(5, Channel::Coarse, [0.5, 0.5], 1.0);
         let fine = field(&noise, 100.0, 400);
         // Texel (0, 0) of a tenth of the density covers texels (0..10, 0..10).
-        let window = Window { texels_per_metre: 10.0, i0: 0, j0: 2, width: 30, height: 30 };
+        let window = TexelWindow { texels_per_metre: 10.0, i0: 0, j0: 2, width: 30, height: 30 };
         let mut lattice = noise.over(&window);
         let mut row = vec![0.0; 30];
         lattice.begin_row(0);

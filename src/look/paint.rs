@@ -1,77 +1,157 @@
-//! Paints the texels of a window: lays everything out over it, then works through it row by row.
+//! Shades the texels of a window of the floor, row by row.
 
 use std::cell::RefCell;
 
-use super::block::ResolvedBlock;
+use super::block::{Background, ResolvedBlock};
 use super::bytes::Bytes;
+use super::clean_floor::{CleanFloor, CleanFloorWindow};
 use super::dust;
-use super::ground::GroundWindow;
-use super::lattice::{Lattice, Window};
-use super::noise::NoiseField;
-use super::resolve::FloorResolver;
-use super::shade::{Known, Shaded};
-use super::traffic::{self, Traffic};
-use crate::sums::Quantity;
+use super::error::LookError;
+use super::lattice::{SplineLattice, TexelWindow};
+use super::material::Properties;
+use super::noise::{self, Channel, Noise, NoiseField};
+use super::octaves::{NoiseLook, Octave};
+use super::passes::{self, PassesField};
+use super::settings::Look;
+use super::shade::{FloorShader, ShadeInput, ShadeOutput};
+use super::skirting::Skirting;
+use crate::math::srgb;
+use crate::sums::{FloorSums, Quantity};
+use crate::walls::Walls;
 
-/// Buffers that a thread uses again from window to window: touching fresh memory costs as much as painting.
+/// FloorBuffers that a thread uses again from window to window: touching fresh memory costs as much as painting.
 #[derive(Default)]
-struct Buffers {
+struct FloorBuffers {
     edge: Vec<f32>,
     passes: Vec<u32>,
     soil: Vec<u32>,
     scuff: Vec<u32>,
-    known: Known,
-    shaded: Shaded,
+    known: ShadeInput,
+    shaded: ShadeOutput,
     row: Vec<f32>,
 }
 
 thread_local! {
-    static BUFFERS: RefCell<Buffers> = RefCell::default();
+    static BUFFERS: RefCell<FloorBuffers> = RefCell::default();
 }
 
 /// Everything that changes from row to row.
-struct Layout<'a> {
-    traffic: Traffic,
+struct FloorLayout<'a> {
+    traffic: PassesField,
     noise: Vec<NoiseField>,
-    ground: GroundWindow<'a>,
-    dust: Option<Lattice>,
+    ground: CleanFloorWindow<'a>,
+    dust: Option<SplineLattice>,
 }
 
 /// Texels of a row.
 #[derive(Clone, Copy)]
-struct Run {
+struct RowRun {
     row: usize,
     start: usize,
     len: usize,
 }
 
-/// Paints the texels of a window, all of them or at least those that are `wanted`. `block` has the window's size.
-pub(super) fn paint(resolver: &FloorResolver<'_>, window: Window, wanted: Option<&[bool]>, block: &mut ResolvedBlock) {
-    BUFFERS.with_borrow_mut(|buffers| {
-        let FloorResolver { sums, walls, look, .. } = resolver;
-        let mut layout = Layout {
-            traffic: Traffic::over(&window, sums, walls, resolver.spread_m),
-            noise: resolver.noise.iter().map(|noise| noise.over(&window)).collect(),
-            ground: resolver.ground.over(&window),
-            dust: dust::over(&window, walls, &look.dust),
+/// A floor with its sums and the look that turns them into texels.
+pub(super) struct FloorPainter<'a> {
+    pub sums: &'a FloorSums,
+    pub walls: &'a Walls,
+    pub background: Background,
+    look: Look,
+    properties: Properties,
+    ground: CleanFloor,
+    skirting: Skirting<'a>,
+    /// Unevenness of film and dust.
+    noise: Vec<Noise>,
+    spread_m: f64,
+    law: FloorShader,
+    dither: u32,
+}
+
+impl<'a> FloorPainter<'a> {
+    pub fn new(
+        sums: &'a FloorSums,
+        walls: &'a Walls,
+        look: &Look,
+        simulated_people: u32,
+    ) -> Result<FloorPainter<'a>, LookError> {
+        let texels_per_metre = sums.grid().texels_per_metre;
+        let mut properties = look.floor.material.properties();
+        let [clean, trodden] = &mut properties.roughness;
+        *clean = look.floor.roughness.unwrap_or(*clean);
+        *trodden = look.floor.roughness_trodden.unwrap_or(*trodden);
+        let ground = CleanFloor::new(&look.floor, look.seed, texels_per_metre)?;
+        let noise = film_noise(look);
+        Ok(FloorPainter {
+            sums,
+            walls,
+            law: FloorShader::new(look, &properties, simulated_people, &noise, texels_per_metre),
+            noise,
+            spread_m: look.film.spread_m.max(properties.least_spread_m),
+            background: Background {
+                base_color: ground.mean().map(|light| srgb::encode_f32(light).round() as u8),
+                mask: [0; 4],
+                orm: [255, (255.0 * properties.roughness[0]).round() as u8, 0],
+            },
+            dither: noise::key(look.seed, Channel::Dither),
+            skirting: Skirting::new(walls, look.edge.clone(), look.seed),
+            look: look.clone(),
+            properties,
+            ground,
+        })
+    }
+
+    /// Shades the texels of a window, all of them or at least those that are `wanted`, into a block of its size.
+    pub fn paint(&self, window: TexelWindow, wanted: Option<&[bool]>, block: &mut ResolvedBlock) {
+        BUFFERS.with_borrow_mut(|buffers| self.paint_with(buffers, window, wanted, block));
+    }
+
+    fn paint_with(
+        &self,
+        buffers: &mut FloorBuffers,
+        window: TexelWindow,
+        wanted: Option<&[bool]>,
+        block: &mut ResolvedBlock,
+    ) {
+        let mut layout = FloorLayout {
+            traffic: PassesField::over(&window, self.sums, self.walls, self.spread_m),
+            noise: self.noise.iter().map(|noise| noise.over(&window)).collect(),
+            ground: self.ground.over(&window),
+            dust: dust::over(&window, self.walls, &self.look.dust),
         };
-        resolver.skirting.lay_out(&window, wanted, &mut buffers.edge);
-        traffic::read(sums, Quantity::Passes, &window, &mut buffers.passes);
-        traffic::read(sums, Quantity::Soil, &window, &mut buffers.soil);
-        traffic::read(sums, Quantity::Scuff, &window, &mut buffers.scuff);
+        self.skirting.lay_out(&window, wanted, &mut buffers.edge);
+        passes::read(self.sums, Quantity::Passes, &window, &mut buffers.passes);
+        passes::read(self.sums, Quantity::Soil, &window, &mut buffers.soil);
+        passes::read(self.sums, Quantity::Scuff, &window, &mut buffers.scuff);
         for row in 0..window.height {
             let Some((start, len)) = run_of(row, &window, wanted) else { continue };
-            let run = Run { row, start, len };
+            let run = RowRun { row, start, len };
             layout.begin_row(row);
-            layout.gather(resolver, &window, run, buffers);
-            resolver.law.shade(&buffers.known, resolver.ground.joint, &mut buffers.shaded);
-            write(resolver, &window, run, buffers, block);
+            layout.gather(self, &window, run, buffers);
+            self.law.shade(&buffers.known, self.ground.joint, &mut buffers.shaded);
+            write(self.dither, &window, run, buffers, block);
         }
-    });
+    }
+}
+
+/// The noises that add up to the look's three octaves. Clouds and blotches have detail of their own: a third of their
+/// variance is in spots 0.4 times as large.
+fn film_noise(look: &Look) -> Vec<Noise> {
+    let noise = |channel, octave: Octave, size: f64, variance: f32| {
+        Noise::new(look.seed, channel, [size * octave.size_m; 2], variance.sqrt() * octave.sd)
+    };
+    let NoiseLook { fine, middle, coarse } = look.noise;
+    let all = [
+        noise(Channel::Fine, fine, 1.0, 1.0),
+        noise(Channel::Middle, middle, 1.0, 2.0 / 3.0),
+        noise(Channel::MiddleDetail, middle, 0.4, 1.0 / 3.0),
+        noise(Channel::Coarse, coarse, 1.0, 2.0 / 3.0),
+        noise(Channel::CoarseDetail, coarse, 0.4, 1.0 / 3.0),
+    ];
+    all.into_iter().filter(|noise| !noise.is_flat()).collect()
 }
 
 /// From the first to the last texel of a row that is wanted.
-fn run_of(row: usize, window: &Window, wanted: Option<&[bool]>) -> Option<(usize, usize)> {
+fn run_of(row: usize, window: &TexelWindow, wanted: Option<&[bool]>) -> Option<(usize, usize)> {
     let Some(wanted) = wanted else { return Some((0, window.width)) };
     let wanted = &wanted[row * window.width..(row + 1) * window.width];
     let first = wanted.iter().position(|&wanted| wanted)?;
@@ -79,7 +159,7 @@ fn run_of(row: usize, window: &Window, wanted: Option<&[bool]>) -> Option<(usize
     Some((first, last + 1 - first))
 }
 
-impl Layout<'_> {
+impl FloorLayout<'_> {
     fn begin_row(&mut self, row: usize) {
         self.traffic.begin_row(row);
         self.ground.begin_row(row);
@@ -92,9 +172,9 @@ impl Layout<'_> {
     }
 
     /// Everything that the law needs to know of a run of the row last begun.
-    fn gather(&self, resolver: &FloorResolver<'_>, window: &Window, run: Run, buffers: &mut Buffers) {
-        let FloorResolver { look, properties, .. } = resolver;
-        let Buffers { edge, passes, soil, scuff, known, row, .. } = buffers;
+    fn gather(&self, painter: &FloorPainter<'_>, window: &TexelWindow, run: RowRun, buffers: &mut FloorBuffers) {
+        let FloorPainter { look, properties, .. } = painter;
+        let FloorBuffers { edge, passes, soil, scuff, known, row, .. } = buffers;
         known.clear(run.len);
         let from = run.row * window.width + run.start;
         let scaled = |sums: &[u32], quantity: Quantity, factor: f32, out: &mut [f32]| {
@@ -121,8 +201,8 @@ impl Layout<'_> {
     }
 }
 
-fn write(resolver: &FloorResolver<'_>, window: &Window, run: Run, buffers: &mut Buffers, block: &mut ResolvedBlock) {
-    let Buffers { known, shaded, .. } = buffers;
+fn write(dither: u32, window: &TexelWindow, run: RowRun, buffers: &mut FloorBuffers, block: &mut ResolvedBlock) {
+    let FloorBuffers { known, shaded, .. } = buffers;
     let from = run.row * window.width + run.start;
     let texels = from..from + run.len;
     let (i, j) = (window.i0 + run.start as i64, window.j0 + run.row as i64);
@@ -131,7 +211,8 @@ fn write(resolver: &FloorResolver<'_>, window: &Window, run: Run, buffers: &mut 
         mask: &mut block.mask[texels.clone()],
         orm: &mut block.orm[texels.clone()],
     };
-    shaded.write(resolver.dither, i, j, &mut bytes);
+    shaded.write(dither, i, j, &mut bytes);
+    block.set_clean(from, &shaded.bare);
     let planes = [&known.passes, &known.presence, &shaded.film, &shaded.soil, &known.scuff, &known.edge, &shaded.dust];
     for (layer, plane) in block.layers.iter_mut().zip(planes) {
         layer.values[texels.clone()].copy_from_slice(plane);

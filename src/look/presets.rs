@@ -1,4 +1,6 @@
-use super::settings::{EdgeLook, FilmLook, IngrainedLook, Look, NoiseLook, Octave, PrintsLook, SOIL_WET, ScuffsLook};
+use super::colours::SOIL_WET;
+use super::octaves::{NoiseLook, Octave};
+use super::settings::{EdgeLook, FilmLook, IngrainedLook, Look, PrintsLook, ScuffsLook};
 use super::wall::{SplashLook, StainLook, WallDustLook, WallLook};
 
 /// Names of the presets, in the order in which help texts list them.

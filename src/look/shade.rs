@@ -2,14 +2,13 @@
 //!
 //! Written over runs of texels, a plane per quantity and a loop per step, so that compilers vectorise it.
 
-use super::bytes::{Bytes, Rounding, Shown};
-use super::ground::GroundRow;
+use super::bytes::{Bytes, Rounding, ShadedPlanes};
+use super::clean_floor::CleanFloorRow;
 use super::material::Properties;
 use super::noise::Noise;
 use super::planes::{add2, each1, each2, each3};
 use super::settings::Look;
-use super::tone;
-use crate::math::exp_f32;
+use crate::math::{exp_f32, srgb};
 
 /// Roughness of loose dirt.
 const DIRT_ROUGHNESS: f32 = 0.8;
@@ -20,7 +19,7 @@ const JOINT_FILM_TRODDEN: f32 = 0.40;
 
 /// Everything about a look that is the same for all texels.
 #[derive(Clone, Debug)]
-pub(super) struct Law {
+pub(super) struct FloorShader {
     /// History stands for so many times the simulated passes.
     weight: f32,
     /// What single passes stand out by counts so many times.
@@ -51,8 +50,8 @@ struct Colours {
 
 /// What is known of each texel of a run.
 #[derive(Default)]
-pub(super) struct Known {
-    pub ground: GroundRow,
+pub(super) struct ShadeInput {
+    pub ground: CleanFloorRow,
     /// Simulated passes: expected, and counted.
     pub presence: Vec<f32>,
     pub passes: Vec<f32>,
@@ -68,7 +67,7 @@ pub(super) struct Known {
 
 /// What follows for each texel of a run.
 #[derive(Default)]
-pub(super) struct Shaded {
+pub(super) struct ShadeOutput {
     /// Optical densities.
     pub film: Vec<f32>,
     pub soil: Vec<f32>,
@@ -83,13 +82,15 @@ pub(super) struct Shaded {
     hiding: Vec<f32>,
     roughness: Vec<f32>,
     rgb: [Vec<f32>; 3],
+    /// Linear colour of the floor without dirt.
+    pub bare: [Vec<f32>; 3],
     joint: [Vec<f32>; 3],
     rounding: Rounding,
 }
 
-impl Known {
+impl ShadeInput {
     pub fn clear(&mut self, len: usize) {
-        let Known { ground: _, presence, passes, uneven, soil, scuff, edge, dust } = self;
+        let ShadeInput { ground: _, presence, passes, uneven, soil, scuff, edge, dust } = self;
         for plane in [presence, passes, uneven, soil, scuff, edge, dust] {
             plane.clear();
             plane.resize(len, 0.0);
@@ -97,12 +98,18 @@ impl Known {
     }
 }
 
-impl Law {
-    pub fn new(look: &Look, properties: &Properties, simulated_people: u32, noise: &[Noise], density: f64) -> Law {
+impl FloorShader {
+    pub fn new(
+        look: &Look,
+        properties: &Properties,
+        simulated_people: u32,
+        noise: &[Noise],
+        density: f64,
+    ) -> FloorShader {
         let weight = (look.total_passes as f64 / f64::from(simulated_people)) as f32;
         // With fewer passes than were simulated there is nothing to even out.
         let residual = if properties.shows_single_passes { weight.min(weight.sqrt()) } else { 0.0 };
-        Law {
+        FloorShader {
             weight,
             residual,
             per_pass: look.film.per_pass,
@@ -115,31 +122,34 @@ impl Law {
             mean_log: noise.iter().map(|noise| noise.sd_of_texels(density)).map(|sd| 0.5 * sd * sd).sum(),
             roughness: properties.roughness,
             colours: Colours {
-                film: tone::linear_rgb(look.film.colour),
-                prints: tone::linear_rgb(look.prints.colour),
-                scuffs: tone::linear_rgb(look.scuffs.colour),
-                edge: tone::linear_rgb(look.edge.colour),
-                dust: tone::linear_rgb(look.dust.colour),
-                darkest: tone::linear(look.darkest),
+                film: srgb::light_of(look.film.colour),
+                prints: srgb::light_of(look.prints.colour),
+                scuffs: srgb::light_of(look.scuffs.colour),
+                edge: srgb::light_of(look.edge.colour),
+                dust: srgb::light_of(look.dust.colour),
+                darkest: srgb::decode(f64::from(look.darkest) / 255.0) as f32,
             },
         }
     }
 
     /// Works out a run. Joints, where there are any, have the colour `joint`.
-    pub fn shade(&self, known: &Known, joint: Option<[f32; 3]>, out: &mut Shaded) {
+    pub fn shade(&self, known: &ShadeInput, joint: Option<[f32; 3]>, out: &mut ShadeOutput) {
         out.resize(known.presence.len());
         self.densities(known, out);
         self.roughness(out);
-        let Shaded { film, soil, dust, through, rgb, hiding, .. } = out;
-        let dirt = Dirt { film, soil, scuff: &known.scuff, edge: &known.edge, dust, through };
+        let ShadeOutput { film, soil, dust, through, rgb, bare, hiding, .. } = out;
+        for (bare, floor) in bare.iter_mut().zip(&known.ground.rgb) {
+            bare.copy_from_slice(floor);
+        }
+        let dirt = DirtPlanes { film, soil, scuff: &known.scuff, edge: &known.edge, dust, through };
         self.colour(&dirt, &known.ground.rgb, hiding, rgb);
         if let Some(joint) = joint.filter(|_| known.ground.joint.iter().any(|&share| share > 0.0)) {
             self.fill_joints(known, joint, out);
         }
     }
 
-    fn densities(&self, known: &Known, out: &mut Shaded) {
-        let Shaded { history, clean, uneven, film, soil, dust, through, .. } = out;
+    fn densities(&self, known: &ShadeInput, out: &mut ShadeOutput) {
+        let ShadeOutput { history, clean, uneven, film, soil, dust, through, .. } = out;
         let [through_film, through_prints, through_edge] = through;
         each2(history, &known.presence, &known.passes, |expected, counted| {
             (self.weight * expected + self.residual * (counted - expected)).max(0.0)
@@ -157,8 +167,8 @@ impl Law {
         each2(through_edge, &known.edge, dust, |edge, dust| exp_f32(-edge - dust));
     }
 
-    fn roughness(&self, out: &mut Shaded) {
-        let Shaded { roughness, clean, uneven, through: [_, prints, edge], hiding: loose, .. } = out;
+    fn roughness(&self, out: &mut ShadeOutput) {
+        let ShadeOutput { roughness, clean, uneven, through: [_, prints, edge], hiding: loose, .. } = out;
         each2(loose, prints, edge, |prints, edge| 1.0 - prints * edge);
         let [smooth, worn] = self.roughness;
         each3(roughness, clean, uneven, loose, |clean, uneven, loose| {
@@ -167,8 +177,8 @@ impl Law {
         });
     }
 
-    /// Dirt over a floor. `hiding` is a buffer.
-    fn colour(&self, dirt: &Dirt<'_>, floor: &[Vec<f32>; 3], hiding: &mut [f32], rgb: &mut [Vec<f32>; 3]) {
+    /// DirtPlanes over a floor. `hiding` is a buffer.
+    fn colour(&self, dirt: &DirtPlanes<'_>, floor: &[Vec<f32>; 3], hiding: &mut [f32], rgb: &mut [Vec<f32>; 3]) {
         let [a, b, c] = dirt.through;
         // What hides the floor, by density: (1 - T) / sum(D).
         each3(hiding, dirt.film, dirt.soil, dirt.scuff, |film, soil, scuff| film + soil + scuff);
@@ -185,14 +195,14 @@ impl Law {
             for (((((plane, hiding), floor), a), b), c) in
                 plane.iter_mut().zip(&*hiding).zip(floor).zip(a).zip(b).zip(c)
             {
-                // Dirt makes nothing darker than the darkest, nor a floor lighter that is darker by itself.
+                // DirtPlanes makes nothing darker than the darkest, nor a floor lighter that is darker by itself.
                 *plane = (floor * (a * b * c) + *plane * hiding).max(colours.darkest.min(*floor));
             }
         }
     }
 
     /// Lays joints, with a film of their own, over the share of each texel that they take up.
-    fn fill_joints(&self, known: &Known, joint: [f32; 3], out: &mut Shaded) {
+    fn fill_joints(&self, known: &ShadeInput, joint: [f32; 3], out: &mut ShadeOutput) {
         let mut film = vec![0.0; known.presence.len()];
         each2(&mut film, &out.clean, &out.uneven, |clean, uneven| {
             self.joint_film * (JOINT_FILM + JOINT_FILM_TRODDEN * (1.0 - clean)) * uneven
@@ -200,7 +210,7 @@ impl Law {
         let mut through = out.through.clone();
         each1(&mut through[0], &film, |film| exp_f32(-film));
         let floor = joint.map(|light| vec![light; film.len()]);
-        let dirt = Dirt {
+        let dirt = DirtPlanes {
             film: &film,
             soil: &out.soil,
             scuff: &known.scuff,
@@ -209,16 +219,20 @@ impl Law {
             through: &through,
         };
         self.colour(&dirt, &floor, &mut out.hiding, &mut out.joint);
-        for (plane, joint) in out.rgb.iter_mut().zip(&out.joint) {
-            for ((value, joint), share) in plane.iter_mut().zip(joint).zip(&known.ground.joint) {
-                *value += share * (joint - *value);
+        let [a, b, c] = &out.through;
+        for ((plane, joint), bare) in out.rgb.iter_mut().zip(&out.joint).zip(&mut out.bare) {
+            for (k, value) in plane.iter_mut().enumerate() {
+                let change = known.ground.joint[k] * (joint[k] - *value);
+                *value += change;
+                // A joint's own film counts as part of the floor, so that the law over the bare floor gives what is shown.
+                bare[k] = (bare[k] + change / (a[k] * b[k] * c[k]).max(0.02)).max(0.0);
             }
         }
     }
 }
 
 /// Planes of optical densities, and the light that comes through.
-struct Dirt<'a> {
+struct DirtPlanes<'a> {
     film: &'a [f32],
     soil: &'a [f32],
     scuff: &'a [f32],
@@ -227,12 +241,25 @@ struct Dirt<'a> {
     through: &'a [Vec<f32>; 3],
 }
 
-impl Shaded {
+impl ShadeOutput {
     fn resize(&mut self, len: usize) {
-        let Shaded { film, soil, dust, history, clean, uneven, through, hiding, roughness, rgb, joint, rounding: _ } =
-            self;
+        let ShadeOutput {
+            film,
+            soil,
+            dust,
+            history,
+            clean,
+            uneven,
+            through,
+            hiding,
+            roughness,
+            rgb,
+            bare,
+            joint,
+            rounding: _,
+        } = self;
         let single = [film, soil, dust, history, clean, uneven, hiding, roughness];
-        for plane in single.into_iter().chain(through).chain(rgb).chain(joint) {
+        for plane in single.into_iter().chain(through).chain(rgb).chain(bare).chain(joint) {
             plane.resize(len, 0.0);
         }
     }
@@ -240,7 +267,8 @@ impl Shaded {
     /// Rounds a run that starts at texel (i, j) to 8 bits.
     pub fn write(&mut self, dither: u32, i: i64, j: i64, out: &mut Bytes<'_>) {
         let [film, prints, edge] = &self.through;
-        let shown = Shown { rgb: &self.rgb, through: [film, &self.clean, prints, edge], roughness: &self.roughness };
+        let shown =
+            ShadedPlanes { rgb: &self.rgb, through: [film, &self.clean, prints, edge], roughness: &self.roughness };
         self.rounding.write(dither, i, j, &shown, out);
     }
 }

@@ -1,8 +1,8 @@
 //! The dirty line along the skirting, where no mop reaches: broken up, heavier in corners.
 
-use super::face::{Face, Row, SQUARE, Spots};
-use super::lattice::Window;
+use super::lattice::TexelWindow;
 use super::noise::{self, Channel};
+use super::segment::{LocalSegment, SQUARE, SegmentNoise, TexelRow};
 use super::settings::EdgeLook;
 use crate::math::{Vec2, exp_f32};
 use crate::walls::{Segment, Walls};
@@ -30,11 +30,11 @@ pub(super) struct Skirting<'a> {
 }
 
 /// The walls around one square of texels.
-struct Surroundings {
+struct NearbyWalls {
     /// All that make corners.
-    faces: Vec<Face>,
+    faces: Vec<LocalSegment>,
     /// Those near enough to show their pattern.
-    patterned: Vec<(Face, [Spots; 3])>,
+    patterned: Vec<(LocalSegment, [SegmentNoise; 3])>,
     texel_m: f32,
 }
 
@@ -50,7 +50,7 @@ impl<'a> Skirting<'a> {
     ///
     /// Works in squares that start at multiples of [`SQUARE`] on the whole floor, so that what a texel is made
     /// from does not depend on the window.
-    pub fn lay_out(&self, window: &Window, wanted: Option<&[bool]>, density: &mut Vec<f32>) -> bool {
+    pub fn lay_out(&self, window: &TexelWindow, wanted: Option<&[bool]>, density: &mut Vec<f32>) -> bool {
         density.clear();
         // Corners are felt a little farther than the line reaches.
         let felt_m = f64::from(self.reach_m.max(2.0 * self.edge.corner_radius_m));
@@ -67,7 +67,7 @@ impl<'a> Skirting<'a> {
         for square_j in squares(window.j0, window.height) {
             for square_i in squares(window.i0, window.width) {
                 let square =
-                    Window { i0: square_i * side, j0: square_j * side, width: SQUARE, height: SQUARE, ..*window };
+                    TexelWindow { i0: square_i * side, j0: square_j * side, width: SQUARE, height: SQUARE, ..*window };
                 if !wanted.is_none_or(|wanted| window.any_in(&square, wanted)) {
                     continue;
                 }
@@ -79,7 +79,7 @@ impl<'a> Skirting<'a> {
         true
     }
 
-    fn surroundings(&self, square: &Window, near: &[Segment], felt_m: f64) -> Option<Surroundings> {
+    fn surroundings(&self, square: &TexelWindow, near: &[Segment], felt_m: f64) -> Option<NearbyWalls> {
         let area = square.area_m();
         let (centre, half_diagonal) = (area.centre(), 0.5 * area.min.distance(area.max));
         let distances: Vec<f64> = near.iter().map(|segment| distance_squared(segment, centre).sqrt()).collect();
@@ -91,18 +91,18 @@ impl<'a> Skirting<'a> {
         let side_m = area.width() as f32;
         let reach_m = self.reach_m + 2.0 * half_diagonal as f32;
         let patterned = within(nearest + 2.0 * half_diagonal + BLEND_END_M).map(|segment| {
-            let face = Face::seen_from(segment, area.min);
-            let spots = std::array::from_fn(|n| Spots::over(&face, SPOTS_M[n], side_m, reach_m, self.keys[n]));
+            let face = LocalSegment::seen_from(segment, area.min);
+            let spots = std::array::from_fn(|n| SegmentNoise::over(&face, SPOTS_M[n], side_m, reach_m, self.keys[n]));
             (face, spots)
         });
-        Some(Surroundings {
+        Some(NearbyWalls {
             patterned: patterned.collect(),
-            faces: within(felt_m + half_diagonal).map(|segment| Face::seen_from(segment, area.min)).collect(),
+            faces: within(felt_m + half_diagonal).map(|segment| LocalSegment::seen_from(segment, area.min)).collect(),
             texel_m: (1.0 / square.texels_per_metre) as f32,
         })
     }
 
-    fn square(&self, square: &Window, around: &Surroundings, window: &Window, density: &mut [f32]) {
+    fn square(&self, square: &TexelWindow, around: &NearbyWalls, window: &TexelWindow, density: &mut [f32]) {
         let first = (square.i0 - window.i0).clamp(0, window.width as i64) as usize;
         let end = (square.i0 + SQUARE as i64 - window.i0).clamp(0, window.width as i64) as usize;
         let skipped = (window.i0 - square.i0).max(0) as usize;
@@ -117,7 +117,7 @@ impl<'a> Skirting<'a> {
     }
 
     /// One row of a square: `y` metres above its lower side.
-    fn row(&self, around: &Surroundings, y: f32) -> Row {
+    fn row(&self, around: &NearbyWalls, y: f32) -> TexelRow {
         let texel_m = around.texel_m;
         let places: Vec<_> = around.patterned.iter().map(|(face, _)| face.places(y, texel_m)).collect();
         let mut least = [f32::INFINITY; SQUARE];
@@ -151,7 +151,7 @@ impl<'a> Skirting<'a> {
 
     /// How much more of the horizon walls block than a straight wall would: 1, in a right-angled inner corner 1.5,
     /// at an outer one 0.5.
-    fn turns(&self, around: &Surroundings, y: f32, least: &Row) -> Row {
+    fn turns(&self, around: &NearbyWalls, y: f32, least: &TexelRow) -> TexelRow {
         // A lone segment goes on beyond what is felt: a straight wall.
         if around.faces.len() < 2 {
             return [1.0; SQUARE];
@@ -169,7 +169,13 @@ impl<'a> Skirting<'a> {
     }
 
     /// The line's density from the distance to the wall, the corners' turn, and the patterns (deviation 1 each).
-    fn law(&self, distance: &Row, turns: &Row, [stretch, clump, streak]: &[Row; 3], texel_m: f32) -> Row {
+    fn law(
+        &self,
+        distance: &TexelRow,
+        turns: &TexelRow,
+        [stretch, clump, streak]: &[TexelRow; 3],
+        texel_m: f32,
+    ) -> TexelRow {
         let edge = &self.edge;
         let sd = edge.unevenness;
         let mut density = [0.0; SQUARE];

@@ -1,8 +1,8 @@
 //! The look measured: what a trodden corridor must show, in numbers.
 
-use super::tone::{lightness, linear_rgb};
 use super::*;
 use crate::marks::Mark;
+use crate::math::srgb::light_of;
 use crate::math::{SplitMix64, Vec2, exp, vec2};
 use crate::patterns::{Cause, PatternLibrary};
 use crate::plan::FloorPlan;
@@ -19,27 +19,38 @@ const WIDTH_M: f64 = 4.0;
 const WALL_M: f64 = 0.5;
 const PEOPLE: u32 = 1000;
 
+/// CIE L* of linear luminance.
+pub(in crate::look) fn lightness(linear: [f32; 3]) -> f64 {
+    let y = 0.2126 * f64::from(linear[0]) + 0.7152 * f64::from(linear[1]) + 0.0722 * f64::from(linear[2]);
+    if y > 216.0 / 24389.0 { 116.0 * libm::cbrt(y) - 16.0 } else { y * 24389.0 / 27.0 }
+}
+
+#[test]
+fn lightness_of_the_light_vinyl_is_about_78() {
+    assert!((lightness(light_of([197, 192, 182])) - 78.0).abs() < 0.5);
+}
+
 /// A floor with its sums.
-struct Scene {
+struct SummedFloor {
     walls: Walls,
     sums: FloorSums,
 }
 
 /// A corridor from west to east, open at both ends, that 1000 people have walked.
-static CORRIDOR: LazyLock<Scene> = LazyLock::new(|| {
+static CORRIDOR: LazyLock<SummedFloor> = LazyLock::new(|| {
     let walls = walls(LENGTH_M, WIDTH_M + 2.0 * WALL_M, |p| p.y > WALL_M && p.y < WALL_M + WIDTH_M);
     let grid = grid(LENGTH_M, WIDTH_M + 2.0 * WALL_M);
-    let library = PatternLibrary::built_in().unwrap();
-    let stamper = Stamper::new(&library, grid, &StampOptions::default());
+    let library = PatternLibrary::built_in();
+    let stamper = Stamper::new(&library, grid, &StampOptions::default()).unwrap();
     let mut sums = FloorSums::new(grid);
     sums.add(&stamper, &walls, &people(&library));
-    Scene { walls, sums }
+    SummedFloor { walls, sums }
 });
 
 /// An empty room of 4 x 3 m.
-static ROOM: LazyLock<Scene> = LazyLock::new(|| {
+static ROOM: LazyLock<SummedFloor> = LazyLock::new(|| {
     let walls = walls(5.0, 4.0, |p| p.x > 0.5 && p.x < 4.5 && p.y > 0.5 && p.y < 3.5);
-    Scene { walls, sums: FloorSums::new(grid(5.0, 4.0)) }
+    SummedFloor { walls, sums: FloorSums::new(grid(5.0, 4.0)) }
 });
 
 fn grid(width_m: f64, height_m: f64) -> TexelGrid {
@@ -127,12 +138,12 @@ struct Resolved {
     clean: f64,
 }
 
-fn resolved(scene: &Scene, look: &Look) -> Resolved {
+fn resolved(scene: &SummedFloor, look: &Look) -> Resolved {
     let resolver = FloorResolver::new(&scene.sums, &scene.walls, look, PEOPLE).unwrap();
     let TexelGrid { width, height, .. } = scene.sums.grid();
     let block = resolver.resolve(0, 0, width as usize, height as usize);
-    let lightness = block.base_color.iter().map(|&colour| lightness(linear_rgb(colour))).collect();
-    let clean = super::tone::lightness(linear_rgb(resolver.background().base_color));
+    let lightness = block.base_color.iter().map(|&colour| lightness(light_of(colour))).collect();
+    let clean = self::lightness(light_of(resolver.background().base_color));
     Resolved { width: width as usize, block, lightness, clean }
 }
 

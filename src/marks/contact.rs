@@ -1,33 +1,33 @@
+//! Wall contacts.
+
 use crate::patterns::Cause;
 
-/// A body part's, a bag's or a shoe's touching of a wall.
+/// A contact: a touch of a wall by a body part, luggage or a shoe.
 ///
-/// Places on a wall are `along_m`, the arc length from the start of its face (it grows to the right for who looks at the
-/// wall), and the height above the floor. A drag goes on round a corner: the face is unrolled.
+/// Faces are unrolled, so a drag continues round a corner. Arc length grows to the right for a viewer of the wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
-    /// What leaves it: one of [`Cause::WALL`].
+    /// Cause: one of [`Cause::WALL`].
     pub cause: Cause,
     /// Index into [`crate::walls::Walls::faces`].
     pub face: u32,
-    /// Middle of the stain along the face, metres. On a closed face it is taken modulo the face's length; at the ends of an
-    /// open one it may lie beyond by half of the stain.
+    /// Arc length of the stain's middle, metres: modulo the length of a closed face; up to half a stain beyond the ends
+    /// of an open one.
     pub along_m: f64,
-    /// Middle of the stain above the floor, metres.
+    /// Height of the stain's middle above the floor, metres.
     pub height_m: f64,
-    /// Where the pattern's +x (the way a drag goes) points: radians counter-clockwise for who looks at the wall, 0 to the
-    /// right.
+    /// Direction of the pattern's +x (of a drag), radians counter-clockwise for a viewer of the wall; 0 to the right.
     pub direction_rad: f32,
     /// Index into [`crate::patterns::PatternLibrary::patterns`].
     pub pattern: u16,
     /// Whether the pattern is mirrored about its long axis.
     pub mirrored: bool,
-    /// Real length along the pattern's x axis, metres: the pattern is stretched to it.
+    /// Length along the pattern's x axis, metres; the pattern is stretched to it.
     pub length_m: f32,
-    /// Real extent across, metres.
+    /// Extent across, metres.
     pub breadth_m: f32,
-    /// Optical density where the pattern covers fully.
+    /// Optical density at full coverage.
     pub strength: f32,
-    /// Expanded by the stamp into all its variation: blur, blotches, how a drag fades.
+    /// Random word of the contact, expanded into blur, blotches and fade by the stamp.
     pub variation: u64,
 }

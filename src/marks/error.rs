@@ -1,65 +1,67 @@
+//! Errors of the marks.
+
 use crate::math::DistributionError;
 
-/// Why the `marks` stage cannot start.
+/// Error in the options of the marks, or in the places of contacts.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MarksError {
-    /// A setting beyond what it may be.
+    /// A setting is out of range.
     #[error("marks.{key} is {value}, allowed is {low} to {high}")]
     OutOfRange {
-        /// The setting, as a scenario writes it.
+        /// Key in a scenario.
         key: &'static str,
-        /// What it is.
+        /// The value.
         value: f64,
         /// Least value allowed.
         low: f64,
         /// Largest value allowed.
         high: f64,
     },
-    /// A distribution that cannot be drawn from.
+    /// A distribution is invalid.
     #[error("marks.{key}: {problem}")]
     Distribution {
-        /// The setting, as a scenario writes it.
+        /// Key in a scenario.
         key: &'static str,
-        /// What is wrong with it.
+        /// The problem.
         problem: DistributionError,
     },
-    /// A library without soles.
-    #[error("the pattern library holds no sole, so nobody can wear shoes")]
+    /// The pattern library has no sole.
+    #[error("the pattern library holds no sole, which footprints need")]
     NoSole,
-    /// Everybody is to wear a shoe that is not there.
+    /// The one shoe that everybody wears is not in the library.
     #[error("marks.shoe is \"{name}\", but the pattern library has no sole of this name")]
     UnknownShoe {
-        /// The name asked for.
+        /// Name of the shoe.
         name: String,
-        /// The names of the library's soles.
+        /// Names of the library's soles.
         soles: Vec<String>,
     },
-    /// A door or a fixture that a plan does not have.
+    /// A door or a fixture does not fit the plan.
     #[error("{list} {}: {key}: {problem}", called(.name, *.index))]
     Place {
         /// `door` or `fixture`.
         list: &'static str,
-        /// Its place in the scenario's list.
+        /// Index in the scenario's list.
         index: usize,
-        /// What the scenario calls it.
+        /// Name in the scenario.
         name: Option<String>,
-        /// The key, as a scenario writes it.
+        /// Key in a scenario.
         key: &'static str,
-        /// What is wrong.
+        /// The problem.
         problem: String,
-        /// What to do about it.
+        /// Hint for the user.
         hint: Option<String>,
     },
 }
 
-/// How messages call one of a list: by its name, or by its number.
+/// Label of a list entry in messages: its name, or its number from 1.
 fn called(name: &Option<String>, index: usize) -> String {
     name.as_ref().map_or_else(|| (index + 1).to_string(), |name| format!("\"{name}\""))
 }
 
 impl MarksError {
-    /// What the user can do about it.
+    /// Hint for the user.
     pub fn hint(&self) -> Option<String> {
         match self {
             MarksError::UnknownShoe { name, soles } => {

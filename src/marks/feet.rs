@@ -1,4 +1,4 @@
-//! A pair of feet: how one is set down under a body, and where both stand.
+//! The feet of a person: placement of footfalls and stances.
 
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
@@ -9,10 +9,10 @@ use crate::motion::Person;
 
 /// Turns of less than this per step do not twist the foot, radians.
 const LEAST_TWIST: f64 = 0.15;
-/// How much of a turn the standing foot follows by twisting on its ball, and how far at most, radians.
+/// Share of a turn that the standing foot follows by twisting on its ball, and its limit, radians.
 const TWIST_SHARE: f64 = 0.35;
 const MOST_TWIST: f64 = 0.35;
-/// Spread of a step about its mean: across and along the way (metres), toe-out (radians), pressure.
+/// Standard deviations of a step: across and along the path (metres), toe-out (radians), pressure.
 const SPREAD_ACROSS_M: f64 = 0.012;
 const SPREAD_ALONG_M: f64 = 0.015;
 const SPREAD_TOE_OUT: f64 = 0.045;
@@ -25,30 +25,29 @@ const MOST_SLIP_M: f64 = 0.03;
 const FREE_SPEED_M_S: f64 = 1.34;
 /// Slip that braking adds, metres per m/s2.
 const BRAKING_SLIP_M: f64 = 0.01;
-/// Steps get wider by this share from free walking to a standstill: the body sways 5 to 7 cm then instead of 3 ...
+/// Share by which steps widen from free walking to a standstill, as body sway grows from 3 to 5 to 7 cm ...
 const WIDER_WHEN_SLOW: f64 = 0.5;
-/// ... and by so many metres per radian turned, up to a limit.
+/// ... and widening per radian turned with its limit, metres.
 const WIDER_PER_RADIAN_M: f64 = 0.06;
 const WIDEST_TURN_M: f64 = 0.05;
-/// Standing, the feet's middles are this much farther apart than in free walking: 17 cm in all (McIlroy, Maki 1997,
+/// Additional distance between the feet's middles while standing: 17 cm in all (McIlroy, Maki 1997,
 /// Clin. Biomech. 12).
 const STANDING_WIDER_M: f64 = 0.09;
-/// Middles of feet that stand beside each other are at least a shoe's breadth apart, less the farther one is behind the
-/// other, down to nothing at a shoe's length. Metres.
+/// Least distance of feet side by side, and the offset along the foot at which it falls to zero, metres.
 const SHOE_BREADTH_M: f64 = 0.10;
 const SHOE_LENGTH_M: f64 = 0.28;
-/// Walking becomes running, metres per second; how much of the load has gone over to the ball by then, and after.
+/// Speed of the change to running, metres per second, and the load share of the ball at that speed and in running.
 const RUNS_M_S: f64 = 2.1;
 const BALL_AT_FAST_WALK: f64 = 0.35;
 const BALL_AT_RUN: f64 = 0.6;
 
-/// A foot set down.
+/// A footfall of one foot.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Step {
+pub(super) struct FootPlacement {
     pub left: bool,
     /// Middle of the sole.
     pub place_m: Vec2,
-    /// Where the toes point.
+    /// Unit vector: direction of the toes.
     pub heading: Vec2,
     pub pressure: f64,
     pub smear_m: f64,
@@ -57,11 +56,12 @@ pub(super) struct Step {
     pub forefoot: f64,
 }
 
-/// How a foot comes down.
+/// The body at the moment of a footfall.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Landing {
-    /// The body's place when it stands over the foot, and where it faces.
+    /// Position of the body over the foot, metres.
     pub body_m: Vec2,
+    /// Unit vector: where the body faces.
     pub facing: Vec2,
     /// Distance of the foot from the body's line, metres.
     pub half_width_m: f64,
@@ -73,11 +73,11 @@ pub(super) struct Landing {
     pub turn_rad: f64,
 }
 
-/// Where a foot stands.
+/// The stance of a foot on the floor.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stance {
     pub place_m: Vec2,
-    /// Where the body faced as it was set down.
+    /// Unit vector: where the body faced at the footfall.
     pub facing: Vec2,
 }
 
@@ -100,30 +100,30 @@ impl Feet {
         }
     }
 
-    /// Where a foot stands, once it was set down.
+    /// The stance of a foot, once it was set down.
     pub fn stance(&self, left: bool) -> Option<Stance> {
         self.stances[usize::from(left)]
     }
 
-    /// Forgets where the feet stand.
+    /// Clears the stances.
     pub fn lift(&mut self) {
         self.stances = [None; 2];
     }
 
-    /// Half the step width of somebody who walks at a speed and turns by an angle per step.
+    /// Half the step width at a speed and a turn per step, metres.
     pub fn half_width_m(&self, speed_m_s: f64, turn_rad: f64) -> f64 {
         let slow = (1.0 - speed_m_s / FREE_SPEED_M_S).clamp(0.0, 1.0);
         let turning_m = (WIDER_PER_RADIAN_M * turn_rad.abs()).min(WIDEST_TURN_M);
         self.half_width_m * (1.0 + WIDER_WHEN_SLOW * slow) + 0.5 * turning_m
     }
 
-    /// The same of somebody who stands.
+    /// Half the step width while standing, metres.
     pub fn standing_half_width_m(&self) -> f64 {
         self.half_width_m + 0.5 * STANDING_WIDER_M
     }
 
     /// Sets a foot down.
-    pub fn set_down(&mut self, rng: &mut ChaCha8Rng, left: bool, landing: &Landing) -> Step {
+    pub fn set_down(&mut self, rng: &mut ChaCha8Rng, left: bool, landing: &Landing) -> FootPlacement {
         let side = if left { 1.0 } else { -1.0 };
         let [across, along, toe_out, pressure, slip] = std::array::from_fn(|_| normal(rng));
         let across_m = side * landing.half_width_m + SPREAD_ACROSS_M * across;
@@ -135,7 +135,7 @@ impl Feet {
         let wanted_m = landing.body_m + facing.left() * across_m + facing * (SPREAD_ALONG_M * along);
         let place_m = self.beside_the_other(left, wanted_m, facing);
         self.stances[usize::from(left)] = Some(Stance { place_m, facing });
-        Step {
+        FootPlacement {
             left,
             place_m,
             heading: turned_by(facing, outward_rad + landing.askew_rad),
@@ -146,7 +146,7 @@ impl Feet {
         }
     }
 
-    /// A foot's place, moved aside if it lies on or beyond the other foot: nobody treads on their own feet.
+    /// Position of a foot, moved aside if it would overlap the other foot.
     fn beside_the_other(&self, left: bool, place_m: Vec2, facing: Vec2) -> Vec2 {
         let Some(other) = self.stance(!left) else { return place_m };
         let offset = place_m - other.place_m;
@@ -156,8 +156,7 @@ impl Feet {
         if behind.abs() >= 1.0 || too_close_m <= 0.0 { place_m } else { place_m + outward * too_close_m }
     }
 
-    /// How much of the heel's load goes over to the ball: none in slow walking, some in fast, much in running, all
-    /// for whoever runs on the ball.
+    /// Share of the heel's load carried by the ball at a speed: 0 in slow walking, 1 for runners on the ball.
     fn forefoot(&self, speed_m_s: f64) -> f64 {
         if speed_m_s > RUNS_M_S {
             return if self.runs_on_ball { 1.0 } else { BALL_AT_RUN };

@@ -1,3 +1,5 @@
+//! The stage that turns motion into marks.
+
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 
@@ -6,70 +8,70 @@ use crate::motion::{Frame, People, Person, Walker};
 use crate::patterns::{Cause, PatternLibrary};
 use crate::walls::Walls;
 
-use super::contacts::{Contacts, Moment, Touches};
-use super::feet::Step;
-use super::gait::Gait;
+use super::contacts::{ContactState, ContactTick, Contacts};
+use super::feet::FootPlacement;
+use super::gait::GaitState;
 use super::heels::{self, HeelMarks};
 use super::soil::Shoes;
-use super::track::{Sample, Track};
+use super::track::{PathSample, SmoothedPath};
 use super::{Contact, ContactPlaces, Mark, MarksError, MarksOptions, Origin};
 
-/// Times beyond this (30 years) are no times; the clock of the paths could not count their ticks.
+/// Limit on frame times, seconds (30 years): the clock of the paths counts ticks of 0.1 s.
 const MOST_TIME_S: f64 = 1e9;
 
-/// The stage: frames in, marks out. Holds only people who are present.
+/// Turns frames of motion into footfalls, heel marks and contacts; holds only the people who are present.
 ///
-/// Marks come about two seconds of motion after the body passed, by person within a frame and by time within a
-/// person; which come in which call depends on the frames, the marks themselves do not.
+/// Marks come about two seconds of motion after the body passed, ordered by person within a frame and by time within a
+/// person. The frames decide which call returns a mark, not the mark itself.
 pub struct Footfalls<'a> {
     people: &'a People,
     walls: &'a Walls,
     plan_m: Rect,
     library: &'a PatternLibrary,
-    /// The sole that everybody wears, if it is one.
+    /// Index of the sole that everybody wears, if there is one.
     uniform: Option<u16>,
     options: MarksOptions,
     heel_marks: HeelMarks,
-    /// Not made before the first frame: somebody may know more of the places than the walls do. None where nobody can touch
-    /// a wall.
+    /// Made at the first frame, unless [`Footfalls::with_contacts`] gave the places; the inner `None` means no contacts.
     contacts: Option<Option<Contacts>>,
-    /// Contacts that nobody has taken yet.
+    /// Contacts that the caller has not taken yet.
     touched: Vec<Contact>,
     contact_count: u64,
     origins: Vec<Origin>,
     /// By ascending id.
     #[expect(clippy::vec_box, reason = "they are a kilobyte each and move to a new list at every frame")]
-    present: Vec<Box<Present>>,
+    present: Vec<Box<PresentPerson>>,
     count: u64,
 }
 
-/// Somebody who is present.
-struct Present {
+/// The state of a person who is present.
+struct PresentPerson {
     person: Person,
-    track: Track,
-    gait: Gait,
-    feet: Feet,
-    touches: Touches,
+    track: SmoothedPath,
+    gait: GaitState,
+    feet: ShoeState,
+    contact_state: ContactState,
 }
 
-/// What somebody's feet wear and leave.
-struct Feet {
+/// The shoes of a person and their marks.
+struct ShoeState {
     pattern: u16,
-    /// The word of the pair's wear.
+    /// Random word of the pair's worn spots.
     wear: u32,
     shoes: Option<Shoes>,
     rng: ChaCha8Rng,
-    heels: heels::Wear,
+    heels: heels::HeelState,
     /// The foot on the floor.
-    last: Option<Step>,
+    last: Option<FootPlacement>,
 }
 
 impl<'a> Footfalls<'a> {
-    /// Prepares the stage. `origins` is by id; whoever has none is neither fresh nor from outside. Doors and corners are those
-    /// that the walls tell of, see [`Footfalls::with_contacts`].
+    /// Prepares the stage with the doors and corners found in the walls.
+    ///
+    /// `origins` is indexed by person id; missing people are neither fresh nor from outside.
     ///
     /// # Errors
-    /// Options out of range, a library without soles, a `shoe` that is not in it.
+    /// An option is out of range; the library has no sole, or not the `shoe` of the options.
     pub fn new(
         people: &'a People,
         walls: &'a Walls,
@@ -98,33 +100,33 @@ impl<'a> Footfalls<'a> {
         })
     }
 
-    /// The same with other doors, corners and fixtures than the walls tell of.
+    /// Replaces the doors, corners and fixtures found in the walls.
     pub fn with_contacts(mut self, places: ContactPlaces) -> Footfalls<'a> {
         self.contacts =
             Some(Contacts::new(self.walls, self.library, &self.options.contact, self.origins.len(), || places));
         self
     }
 
-    /// For how many people the contacts stand, see [`super::ContactOptions::people`].
+    /// Number of people that the contacts stand for, see [`super::ContactOptions::people`].
     pub fn contact_people(&self) -> u32 {
         let crowd = self.origins.len();
-        (self.options.contact.stand_ins(crowd) * crowd as f64).round() as u32
+        (self.options.contact.rate_factor(crowd) * crowd as f64).round() as u32
     }
 
-    /// Moves the contacts that are known by now to the end of `out`; in the order of marks.
+    /// Moves the contacts found so far to the end of `out`, in the order of marks.
     pub fn take_contacts(&mut self, out: &mut Vec<Contact>) {
         out.append(&mut self.touched);
     }
 
-    /// Contacts so far.
+    /// Number of contacts so far.
     pub fn contact_count(&self) -> u64 {
         self.contact_count
     }
 
-    /// Takes the next frame and adds the marks that are now known to `out`.
+    /// Takes the next frame and appends the marks found to `out`.
     ///
-    /// Walkers must come by ascending id. Whoever is missing has left, and so has who is at no finite place. A frame
-    /// without a finite time is passed over.
+    /// Walkers must be sorted by id. A person who is missing, or whose position is not finite, has left. Frames without a
+    /// finite time are skipped.
     pub fn push(&mut self, frame: &Frame, out: &mut Vec<Mark>) {
         if !frame.time_s.is_finite() || frame.time_s.abs() > MOST_TIME_S {
             return;
@@ -152,27 +154,27 @@ impl<'a> Footfalls<'a> {
         self.present = now;
     }
 
-    /// Ends the motion: everybody leaves.
+    /// Ends the motion; appends the remaining marks to `out`.
     pub fn finish(&mut self, out: &mut Vec<Mark>) {
         for left in std::mem::take(&mut self.present) {
             self.leave(left, out);
         }
     }
 
-    /// Footfalls so far.
+    /// Number of footfalls so far.
     pub fn count(&self) -> u64 {
         self.count
     }
 
-    fn arrive(&self, time_s: f64, walker: &Walker) -> Present {
+    fn arrive(&self, time_s: f64, walker: &Walker) -> PresentPerson {
         let person = self.people.person(walker.id);
         let seed = self.people.seed();
         let origin = self.origins.get(walker.id as usize).copied().unwrap_or_default();
         let mut rng = person_stream(seed, person.id, Purpose::Marks);
         let wear = rng.random();
-        let heels = heels::Wear::new(&mut rng);
+        let heels = heels::HeelState::new(&mut rng);
         let own = || self.library.pick(Cause::Sole, person.shoe_draw, Some(person.sole_length_m * 100.0));
-        let feet = Feet {
+        let feet = ShoeState {
             pattern: self.uniform.or_else(own).unwrap_or(0),
             wear,
             shoes: origin.fresh.then(|| Shoes::new(seed, person.id, &self.options.soil, origin.from_outside)),
@@ -180,36 +182,42 @@ impl<'a> Footfalls<'a> {
             heels,
             last: None,
         };
-        let gait = Gait::new(seed, &person, self.options.shifts_per_minute / 60.0);
-        let touches = Touches::new(seed, &person);
-        Present { track: Track::new(time_s, walker.position_m, walker.heading), gait, feet, touches, person }
-    }
-
-    fn walk_on(&mut self, present: &mut Present, time_s: f64, walker: &Walker, out: &mut Vec<Mark>) {
-        let Present { person, track, gait, feet, touches } = present;
-        let mut stride = |sample: Sample| self.stride(person, gait, (feet, touches), sample, out);
-        if track.continues(time_s, walker.position_m) {
-            track.push(time_s, walker.position_m, walker.heading, stride);
-        } else {
-            track.finish(&mut stride);
-            gait.interrupt();
-            touches.interrupt();
-            *track = Track::new(time_s, walker.position_m, walker.heading);
+        let gait = GaitState::new(seed, &person, self.options.shifts_per_minute / 60.0);
+        let contact_state = ContactState::new(seed, &person);
+        PresentPerson {
+            track: SmoothedPath::new(time_s, walker.position_m, walker.heading),
+            gait,
+            feet,
+            contact_state,
+            person,
         }
     }
 
-    fn leave(&mut self, mut present: Box<Present>, out: &mut Vec<Mark>) {
-        let Present { person, track, gait, feet, touches } = &mut *present;
-        track.finish(|sample| self.stride(person, gait, (feet, touches), sample, out));
+    fn walk_on(&mut self, present: &mut PresentPerson, time_s: f64, walker: &Walker, out: &mut Vec<Mark>) {
+        let PresentPerson { person, track, gait, feet, contact_state } = present;
+        let mut advance = |sample: PathSample| self.advance(person, gait, (feet, contact_state), sample, out);
+        if track.continues(time_s, walker.position_m) {
+            track.push(time_s, walker.position_m, walker.heading, advance);
+        } else {
+            track.finish(&mut advance);
+            gait.interrupt();
+            contact_state.interrupt();
+            *track = SmoothedPath::new(time_s, walker.position_m, walker.heading);
+        }
     }
 
-    /// One tick of a smoothed path: steps, then what heels lost on the way, then what was touched.
-    fn stride(
+    fn leave(&mut self, mut present: Box<PresentPerson>, out: &mut Vec<Mark>) {
+        let PresentPerson { person, track, gait, feet, contact_state } = &mut *present;
+        track.finish(|sample| self.advance(person, gait, (feet, contact_state), sample, out));
+    }
+
+    /// Processes a tick of a smoothed path: footfalls, heel marks, contacts.
+    fn advance(
         &mut self,
         person: &Person,
-        gait: &mut Gait,
-        (feet, touches): (&mut Feet, &mut Touches),
-        sample: Sample,
+        gait: &mut GaitState,
+        (feet, contact_state): (&mut ShoeState, &mut ContactState),
+        sample: PathSample,
         out: &mut Vec<Mark>,
     ) {
         let progress = gait.walk(person, sample, |step| {
@@ -229,7 +237,7 @@ impl<'a> Footfalls<'a> {
             out.extend(mark);
         });
         if let Some(Some(contacts)) = &self.contacts {
-            let moment = Moment {
+            let tick = ContactTick {
                 at_m: sample.position_m,
                 facing: gait.heading(),
                 velocity_m_s: sample.velocity_m_s,
@@ -237,15 +245,15 @@ impl<'a> Footfalls<'a> {
                 stood_s: progress.stood_s,
             };
             let before = self.touched.len();
-            contacts.walk(touches, self.walls, person, &moment, &mut self.touched);
+            contacts.walk(contact_state, self.walls, person, &tick, &mut self.touched);
             self.contact_count += (self.touched.len() - before) as u64;
         }
     }
 }
 
-impl Feet {
-    /// The print of a step. Shoes lose soil from the first step inside the plan on.
-    fn footfall(&mut self, step: &Step, sole_length_m: f64, inside: bool) -> Mark {
+impl ShoeState {
+    /// The mark of a footfall. Shoes lose soil from the first step inside the plan on.
+    fn footfall(&mut self, step: &FootPlacement, sole_length_m: f64, inside: bool) -> Mark {
         let variation: u64 = self.rng.random();
         let deviation = f64::from(SplitMix64::new(variation ^ u64::from(self.wear)).normal());
         let soil = self.shoes.as_mut().filter(|_| inside).map_or(0.0, |shoes| shoes.step(step.left, deviation));

@@ -1,4 +1,4 @@
-//! Steps: when and where a foot is set down.
+//! Gait: the times and places of footfalls.
 
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
@@ -6,89 +6,87 @@ use rand::rngs::ChaCha8Rng;
 use crate::math::{Purpose, Vec2, atan2, person_stream, vec2};
 use crate::motion::Person;
 
-use super::feet::{Feet, Landing, Step, turned_by};
+use super::feet::{Feet, FootPlacement, Landing, turned_by};
 use super::rest::{self, Rest};
-use super::track::{Sample, TICK_S};
+use super::track::{PathSample, TICK_S};
 
-/// The walked way is measured by a point that is pulled along on a leash of this length, so that somebody who stands
-/// and sways walks no way.
+/// Length of the leash on which a point follows the body to measure the path, metres: sway does not count as walking.
 const LEASH_M: f64 = 0.05;
-/// A body of which only the way is known turns at most this fast, radians per second: half a turn takes 1.3 s.
+/// Limit on the turn rate of a body with unknown facing, radians per second: half a turn takes 1.3 s.
 const FASTEST_TURN: f64 = 2.4;
-/// Such a body turns around within this much way per radian, metres: who shifts a little while standing does not turn.
+/// Least path length per radian of such a turn, metres: small shifts while standing do not turn the body.
 const TURNING_WAY_M: f64 = 0.08;
-/// Where such a body faces is drawn along on a longer leash by those who hardly move: so long at a walk, so long for
-/// who shuffles, metres, at these speeds, metres per second. Jostling within that turns nobody.
+/// Lengths of the leash for such a facing, metres, for walking and for shuffling, at these speeds, metres per second.
 const HEADING_LEASH_M: [f64; 2] = [0.05, 0.25];
 const HEADING_SPEEDS_M_S: [f64; 2] = [0.6, 0.2];
-/// A way whose direction has less than this cosine with the heading is a step aside or back, ...
+/// Cosine between path and heading below which a step is aside or back ...
 const ASIDE: f64 = 0.3;
-/// ... unless it leads farther than this, metres: then such a body turns to walk it.
+/// ... unless the path is longer than this, metres: then the body turns.
 const STEP_ASIDE_M: f64 = 0.45;
-/// A body that stands does not turn for less than this, radians.
+/// Slack of the turn of a standing body, radians.
 const TURN_SLACK: f64 = 0.12;
-/// Who turns on the spot takes a step per this angle, radians.
+/// Angle per step of a turn on the spot, radians.
 const TURN_PER_STEP: f64 = 0.8;
-/// Steps are shorter by up to this share where the way's direction has less than this cosine with the heading.
+/// Largest shortening of steps aside or back, and the cosine between path and heading where it begins.
 const ASIDE_SHORTER: f64 = 0.35;
 const AHEAD: f64 = 0.8;
-/// How much of the next step is over when somebody who stood sets out: from feet side by side it is a short one.
+/// Phase of the first step after standing: with feet side by side it is short.
 const SETTING_OUT: f64 = 0.35;
-/// Whoever moves on by no more than this before standing again does so in steps of at most so much, metres.
+/// Longest path of a shuffle between two stands, and its longest step, metres.
 const SHUFFLE_M: f64 = 1.0;
 const SHUFFLE_STEP_M: f64 = 0.5;
 
-/// What happened on the smoothed path between two ticks.
+/// Walking, turning and standing in a tick.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Progress {
-    /// Way walked, metres.
+pub(super) struct GaitProgress {
+    /// Distance walked, metres.
     pub walked_m: f64,
     /// Turn of the body, radians counter-clockwise.
     pub turned_rad: f64,
-    /// Stops and starts: 1 each, less for those of a short shuffle.
+    /// Stops and starts: 1 each, less for a short shuffle.
     pub stops: f64,
     /// Time stood, seconds.
     pub stood_s: f64,
 }
 
-/// One person's legs.
-pub(super) struct Gait {
+/// The gait state of one person.
+pub(super) struct GaitState {
     rng: ChaCha8Rng,
     shifts_per_s: f64,
-    /// Steps taken, with the fraction of the one under way.
+    /// Number of steps, with the fraction of the current one.
     phase: f64,
     left_next: bool,
     feet: Feet,
     rest: Rest,
-    previous: Option<Sample>,
+    previous: Option<PathSample>,
     leash_m: Vec2,
     heading: Vec2,
-    /// The end of the leash that draws the heading along.
+    /// End of the leash of the heading, metres.
     drawn_m: Vec2,
-    /// Way gone aside or back without turning to it, metres.
+    /// Path length aside or back without a turn, metres.
     aside_m: f64,
     turned_since_step_rad: f64,
 }
 
-/// A piece of way, walked in a tick.
-struct Way {
-    from: Sample,
-    to: Sample,
+/// The path walked in a tick.
+struct TickPath {
+    from: PathSample,
+    to: PathSample,
     facing_before: Vec2,
     direction: Vec2,
     walked_m: f64,
     turned_rad: f64,
 }
 
-impl Gait {
-    /// The legs of a person who shifts weight so many times a second when standing.
-    pub fn new(seed: u64, person: &Person, shifts_per_s: f64) -> Gait {
+impl GaitState {
+    /// The gait of a person; `shifts_per_s` is the rate of weight shifts while standing.
+    pub fn new(seed: u64, person: &Person, shifts_per_s: f64) -> GaitState {
         let mut rng = person_stream(seed, person.id, Purpose::Gait);
         let phase = rng.random::<f64>();
         let left_next = rng.random::<bool>();
         let feet = Feet::new(&mut rng, person);
         let rest = Rest::new(&mut rng);
-        Gait {
+        GaitState {
             rng,
             shifts_per_s,
             phase,
@@ -104,18 +102,18 @@ impl Gait {
         }
     }
 
-    /// Forgets where the person was, but not which foot comes next.
+    /// Clears the position after a gap in the path, but not the next foot.
     pub fn interrupt(&mut self) {
         self.previous = None;
         self.feet.lift();
         self.rest.forget();
     }
 
-    /// Walks on to the next sample; gives the feet that are set down on the way to `each`.
-    pub fn walk(&mut self, person: &Person, sample: Sample, mut each: impl FnMut(Step)) -> Progress {
+    /// Advances to the next sample; calls `each` with the footfalls in between.
+    pub fn walk(&mut self, person: &Person, sample: PathSample, mut each: impl FnMut(FootPlacement)) -> GaitProgress {
         let Some(from) = self.previous.replace(sample) else {
             self.begin(&sample);
-            return Progress::default();
+            return GaitProgress::default();
         };
         let facing_before = self.heading;
         let (walked_m, direction) = self.pull(sample.position_m);
@@ -123,9 +121,9 @@ impl Gait {
             Some(facing) => self.face(facing, walked_m),
             None => self.follow(direction, walked_m, &sample),
         };
-        let way = Way { from, to: sample, facing_before, direction, walked_m, turned_rad };
+        let way = TickPath { from, to: sample, facing_before, direction, walked_m, turned_rad };
         self.take_steps(person, &way, &mut each);
-        let tick = rest::Tick {
+        let tick = rest::RestTick {
             body_m: sample.position_m,
             facing: self.heading,
             walked_m,
@@ -134,7 +132,7 @@ impl Gait {
             shifts_per_s: self.shifts_per_s,
         };
         let left_next = &mut self.left_next;
-        let stood = self.rest.pass(&mut self.feet, &mut self.rng, &tick, &mut |step: Step| {
+        let stood = self.rest.pass(&mut self.feet, &mut self.rng, &tick, &mut |step: FootPlacement| {
             *left_next = !step.left;
             each(step);
         });
@@ -142,15 +140,15 @@ impl Gait {
             self.phase = SETTING_OUT;
             self.turned_since_step_rad = 0.0;
         }
-        Progress { walked_m, turned_rad, stops: stood.stops, stood_s: stood.stood_s }
+        GaitProgress { walked_m, turned_rad, stops: stood.stops, stood_s: stood.stood_s }
     }
 
-    /// Where the body faces: a unit vector.
+    /// Unit vector: where the body faces.
     pub fn heading(&self) -> Vec2 {
         self.heading
     }
 
-    fn begin(&mut self, sample: &Sample) {
+    fn begin(&mut self, sample: &PathSample) {
         let walks = sample.velocity_m_s.length() > 0.2;
         let way = if walks { sample.velocity_m_s } else { sample.ahead_m };
         self.heading = sample.facing.or(way.normalized()).unwrap_or(self.heading);
@@ -158,14 +156,14 @@ impl Gait {
         self.drawn_m = self.leash_m;
     }
 
-    /// Takes the steps of a piece of way.
-    fn take_steps(&mut self, person: &Person, way: &Way, each: &mut impl FnMut(Step)) {
+    /// Takes the steps of a tick.
+    fn take_steps(&mut self, person: &Person, way: &TickPath, each: &mut impl FnMut(FootPlacement)) {
         let speeds = [way.from, way.to].map(|sample| sample.velocity_m_s.length());
         let speed_m_s = (speeds[0] + speeds[1]) / 2.0;
         let ahead = self.heading.dot(way.direction);
         let step_m = self.step_m(person, way, speed_m_s) * shortened(ahead);
         let steps = (way.walked_m / step_m).max(self.steps_around(way));
-        // Who stops within the step sets the foot down where the body will stand.
+        // The last step before a stop ends where the body will stand.
         let stops = way.to.comes_to_rest && way.to.ahead_m.length() < 0.5 * step_m;
         let to_go_m = if stops { way.to.ahead_m } else { Vec2::ZERO };
         let end = self.phase + steps;
@@ -193,11 +191,11 @@ impl Gait {
         self.phase = end - end.floor();
     }
 
-    /// Steps that a turn takes. Where the source says where the body faces, the legs follow the turn at its own pace. Where
-    /// that is drawn from the way alone, it swings with the sway of whoever is slow or squeezed through; whoever walks
-    /// takes such turns along within the steps, and only one that goes on farther than a step reaches needs a step of its
-    /// own.
-    fn steps_around(&self, way: &Way) -> f64 {
+    /// Number of steps for a turn.
+    ///
+    /// With a known facing the steps follow its angle. A facing derived from the path swings with body sway, so only a
+    /// turn beyond the angle of one step takes a step of its own.
+    fn steps_around(&self, way: &TickPath) -> f64 {
         if way.to.facing.is_some() {
             return way.turned_rad.abs() / TURN_PER_STEP;
         }
@@ -205,8 +203,8 @@ impl Gait {
         if since_step_rad.abs() >= TURN_PER_STEP { 1.0 - self.phase } else { 0.0 }
     }
 
-    /// Length of a step ahead: by the speed, but for a few steps between one stand and the next by their way.
-    fn step_m(&self, person: &Person, way: &Way, speed_m_s: f64) -> f64 {
+    /// Length of a step ahead, metres: by speed; in a shuffle between two stands by its path length.
+    fn step_m(&self, person: &Person, way: &TickPath, speed_m_s: f64) -> f64 {
         let by_speed_m = person.step_length_m(speed_m_s);
         let way_m = self.rest.moved_m() + way.to.ahead_m.length();
         if !way.to.comes_to_rest || way_m > SHUFFLE_M {
@@ -215,7 +213,7 @@ impl Gait {
         by_speed_m.max(way_m / (way_m / SHUFFLE_STEP_M).ceil().max(1.0))
     }
 
-    /// Pulls the leash to a place. Returns the way and its direction, both null if the leash is slack.
+    /// Pulls the leash to a position. Returns distance and direction, both zero if the leash is slack.
     fn pull(&mut self, place_m: Vec2) -> (f64, Vec2) {
         let taut = place_m - self.leash_m;
         let distance = taut.length();
@@ -227,15 +225,15 @@ impl Gait {
         (distance - LEASH_M, direction)
     }
 
-    /// Turns the body where the source says that it faces. Returns the turn.
+    /// Turns the body to a known facing; returns the turn, radians.
     fn face(&mut self, facing: Vec2, walked_m: f64) -> f64 {
         let angle = self.angle_to(facing);
         let slack = if walked_m > 0.0 { 0.0 } else { TURN_SLACK };
         self.turn(angle - angle.clamp(-slack, slack), angle, facing)
     }
 
-    /// Turns the body the way it goes, unless that is a step aside or back. Returns the turn.
-    fn follow(&mut self, direction: Vec2, walked_m: f64, sample: &Sample) -> f64 {
+    /// Turns the body along its path, except in steps aside or back; returns the turn, radians.
+    fn follow(&mut self, direction: Vec2, walked_m: f64, sample: &PathSample) -> f64 {
         let taut = sample.position_m - self.drawn_m;
         let distance = taut.length();
         let leash_m = heading_leash_m(sample.velocity_m_s.length());
@@ -261,7 +259,7 @@ impl Gait {
         atan2(self.heading.cross(direction), self.heading.dot(direction))
     }
 
-    /// Turns by an angle; `angle` is the one to `direction`, which is taken up exactly if it is all of it.
+    /// Turns by `turned_rad`; a turn by all of `angle` sets the heading to `direction` exactly.
     fn turn(&mut self, turned_rad: f64, angle: f64, direction: Vec2) -> f64 {
         if turned_rad == angle {
             self.heading = direction;
@@ -272,19 +270,19 @@ impl Gait {
     }
 }
 
-/// Length of the leash that draws the heading along at a speed.
+/// Length of the heading's leash at a speed, metres.
 fn heading_leash_m(speed_m_s: f64) -> f64 {
     let ([short_m, long_m], [fast, slow]) = (HEADING_LEASH_M, HEADING_SPEEDS_M_S);
     short_m + (long_m - short_m) * ((fast - speed_m_s) / (fast - slow)).clamp(0.0, 1.0)
 }
 
-/// Factor on the length of steps along a way whose direction has this cosine with the heading.
+/// Factor on the step length for a cosine between path and heading.
 fn shortened(ahead: f64) -> f64 {
     1.0 - ASIDE_SHORTER * ((AHEAD - ahead) / AHEAD).clamp(0.0, 1.0)
 }
 
-/// How far beyond its line a foot lands in a step of which so much goes to a side: half of it where all does, so that
-/// the foot on that side takes it and the other one closes up.
+/// Offset of a foot beyond its line in a sideways step, metres: half the step if all of it is sideways, so that the
+/// other foot closes up.
 fn beyond_line_m(aside_m: f64, ahead: f64) -> f64 {
     0.5 * aside_m * (1.0 - ahead.abs() / AHEAD).max(0.0)
 }

@@ -7,25 +7,24 @@ use crate::patterns::{Cause, Pattern, PatternLibrary};
 use crate::walls::Walls;
 
 use super::Mark;
-use super::feet::{Step, turned_by};
-use super::gait::Progress;
+use super::feet::{FootPlacement, turned_by};
+use super::gait::GaitProgress;
 use super::options::HeelOptions;
 use super::rest::waiting;
 use super::track::TICK_S;
 
-/// Turns that are not more than a wiggle about the way, radians to either side, do not count.
+/// Turns within this slack to either side do not count, radians.
 const WIGGLE: f64 = 0.15;
-/// A turn pushes aside as hard as it is fast: it counts in full from this speed on, and in this share on the spot, where
-/// feet are lifted. Metres per second.
+/// Speed from which a turn counts fully, metres per second, and its share on the spot, where feet are lifted.
 const TURNING_M_S: f64 = 1.0;
 const ON_THE_SPOT: f64 = 0.15;
-/// Way between two looks for a narrow place, metres.
-const LOOK_M: f64 = 0.15;
-/// The rates of a small crowd are raised at most this many times.
+/// Path length between two checks for a narrow place, metres.
+const CHECK_M: f64 = 0.15;
+/// Limit on the factor of a small crowd's rates.
 const MOST_SCALE: f64 = 10.0;
-/// Two walls are on both sides if they lie in directions less than this cosine from opposite.
+/// Cosine limit for two walls to lie on opposite sides.
 const OPPOSITE: f64 = 0.95;
-/// Range of a drag's length as shares of its pattern's, and in metres; and of its density.
+/// Ranges of a drag's length as a factor on its pattern's, and in metres; limit on its optical density.
 const LENGTHS: [f32; 2] = [1.1, 2.2];
 const LENGTH_M: [f64; 2] = [0.02, 0.12];
 const MOST_DENSITY: f64 = 0.5;
@@ -37,15 +36,15 @@ pub(super) struct HeelMarks {
     options: HeelOptions,
     /// Factor on the rates.
     scale: f64,
-    all: Vec<Drag>,
-    /// Those that bend: for turns.
-    bent: Vec<Drag>,
+    all: Vec<HeelPattern>,
+    /// Bent patterns, for turns.
+    bent: Vec<HeelPattern>,
 }
 
 /// A heel pattern.
 #[derive(Clone, Copy)]
-struct Drag {
-    /// Its place in the library.
+struct HeelPattern {
+    /// Index in the library.
     pattern: u16,
     share: f64,
     length_m: f64,
@@ -53,14 +52,14 @@ struct Drag {
     bend: f64,
 }
 
-/// What one person's heels have been through.
-pub(super) struct Wear {
-    /// Expected marks until the next one: runs down by rate times metres, radians and events.
+/// The state of one person's heel marks.
+pub(super) struct HeelState {
+    /// Expected number of marks until the next one; decreases by rate times metres, radians and events.
     until_next: f64,
     /// Turn within the slack of [`WIGGLE`], radians.
     slack_rad: f64,
     narrow: bool,
-    since_look_m: f64,
+    since_check_m: f64,
 }
 
 impl HeelMarks {
@@ -68,60 +67,67 @@ impl HeelMarks {
         let drag = |(place, pattern): (usize, &Pattern)| {
             let pattern_index = u16::try_from(place).ok().filter(|_| pattern.cause == Cause::Heel)?;
             let length_m = pattern.length_cm / 100.0;
-            Some(Drag { pattern: pattern_index, share: pattern.share, length_m, bend: bend_of(pattern) })
+            Some(HeelPattern { pattern: pattern_index, share: pattern.share, length_m, bend: bend_of(pattern) })
         };
-        let all: Vec<Drag> = library.patterns.iter().enumerate().filter_map(drag).collect();
-        let bent: Vec<Drag> = all.iter().copied().filter(|drag| drag.bend.abs() > BENT).collect();
-        // A library without heel marks is one whose shoes leave none.
+        let all: Vec<HeelPattern> = library.patterns.iter().enumerate().filter_map(drag).collect();
+        let bent: Vec<HeelPattern> = all.iter().copied().filter(|drag| drag.bend.abs() > BENT).collect();
+        // A library without heel marks turns them off.
         let scale = if all.is_empty() { 0.0 } else { (options.people / people.max(1) as f64).min(MOST_SCALE) };
         HeelMarks { options: options.clone(), scale, bent: if bent.is_empty() { all.clone() } else { bent }, all }
     }
 
-    /// Runs a person's heels over what happened in a tick; gives each mark's turn (0 straight on) to `each`.
+    /// Advances a person by a tick; calls `each` with the turn (0 for straight on) of each mark.
     pub fn walk(
         &self,
-        wear: &mut Wear,
+        state: &mut HeelState,
         rng: &mut ChaCha8Rng,
-        progress: &Progress,
+        progress: &GaitProgress,
         body: (Vec2, &Walls),
         mut each: impl FnMut(&mut ChaCha8Rng, f64),
     ) {
         if self.scale == 0.0 {
             return;
         }
-        let turned = wear.turn(progress.turned_rad);
+        let turned = state.turn(progress.turned_rad);
         let events = self.options.per_stop * progress.stops
             + self.options.per_second_stood * progress.stood_s
-            + self.options.per_passage * self.passages(wear, progress.walked_m, body);
+            + self.options.per_passage * self.passages(state, progress.walked_m, body);
         let speed_m_s = progress.walked_m / TICK_S;
         let turning = self.options.per_radian * turned.abs() * (speed_m_s / TURNING_M_S).clamp(ON_THE_SPOT, 1.0);
         let straight = self.options.per_metre * progress.walked_m + events;
-        wear.until_next -= self.scale * (straight + turning);
-        while wear.until_next <= 0.0 {
-            wear.until_next += waiting(rng);
+        state.until_next -= self.scale * (straight + turning);
+        while state.until_next <= 0.0 {
+            state.until_next += waiting(rng);
             each(rng, if turning > straight { turned } else { 0.0 });
         }
     }
 
-    /// Half a passage for each end of a narrow place: 0 or 0.5.
-    fn passages(&self, wear: &mut Wear, walked_m: f64, (place_m, walls): (Vec2, &Walls)) -> f64 {
-        wear.since_look_m += walked_m;
-        if wear.since_look_m < LOOK_M {
+    /// Passages of narrow places in a tick: 0.5 at each end of one, else 0.
+    fn passages(&self, state: &mut HeelState, walked_m: f64, (place_m, walls): (Vec2, &Walls)) -> f64 {
+        state.since_check_m += walked_m;
+        if state.since_check_m < CHECK_M {
             return 0.0;
         }
-        wear.since_look_m %= LOOK_M;
+        state.since_check_m %= CHECK_M;
         let narrow = is_narrow(walls, place_m, self.options.narrow_m);
-        if std::mem::replace(&mut wear.narrow, narrow) == narrow { 0.0 } else { 0.5 }
+        if std::mem::replace(&mut state.narrow, narrow) == narrow { 0.0 } else { 0.5 }
     }
 
-    /// The mark that a drag of this foot leaves.
-    pub fn mark(&self, foot: &Step, sole_length_m: f64, turned_rad: f64, wear: u32, variation: u64) -> Option<Mark> {
+    /// The heel mark of a drag of this foot.
+    pub fn mark(
+        &self,
+        foot: &FootPlacement,
+        sole_length_m: f64,
+        turned_rad: f64,
+        wear: u32,
+        variation: u64,
+    ) -> Option<Mark> {
         let draw = &mut SplitMix64::new(variation);
         let turning = turned_rad != 0.0;
         let drag = choose(if turning { &self.bent } else { &self.all }, f64::from(draw.unit()))?;
         let either_side = draw.unit() < 0.5;
         let mirrored = if turning { (drag.bend > 0.0) != (turned_rad > 0.0) } else { either_side };
-        // Heels strike and slip; toes drag when they leave, and the ball is what turns.
+        // Heels strike and slip; toes drag when they leave; turns are on the ball.
         let at_heel = draw.unit() < if turning { 0.4 } else { 0.65 };
         let along = if at_heel { -0.40 } else { 0.30 } + 0.06 * f64::from(draw.normal());
         let across_m = 0.012 * f64::from(draw.normal());
@@ -146,9 +152,9 @@ impl HeelMarks {
     }
 }
 
-impl Wear {
-    pub fn new(rng: &mut ChaCha8Rng) -> Wear {
-        Wear { until_next: waiting(rng), slack_rad: 0.0, narrow: false, since_look_m: 0.0 }
+impl HeelState {
+    pub fn new(rng: &mut ChaCha8Rng) -> HeelState {
+        HeelState { until_next: waiting(rng), slack_rad: 0.0, narrow: false, since_check_m: 0.0 }
     }
 
     /// The part of a turn that goes beyond a wiggle.
@@ -160,7 +166,7 @@ impl Wear {
 }
 
 /// Chooses by share; `draw` is uniform in `[0, 1)`.
-fn choose(drags: &[Drag], draw: f64) -> Option<Drag> {
+fn choose(drags: &[HeelPattern], draw: f64) -> Option<HeelPattern> {
     let total: f64 = drags.iter().map(|drag| drag.share).sum();
     let mut left = draw * total;
     let found = drags.iter().find(|drag| {
@@ -170,18 +176,18 @@ fn choose(drags: &[Drag], draw: f64) -> Option<Drag> {
     found.or(drags.last()).copied()
 }
 
-/// Whether there are walls on both sides of a place, less than `clear_m` from each other.
+/// Whether walls on both sides of a place are less than `clear_m` apart.
 fn is_narrow(walls: &Walls, place_m: Vec2, clear_m: f64) -> bool {
     let Some(near) = walls.nearest(place_m, clear_m / 2.0) else { return false };
     let Some(towards) = (near.point_m - place_m).normalized() else { return false };
-    // All that lies on the other side, no farther than the rest of the width, lies in this disc.
+    // This disc holds the points on the other side within the rest of the width.
     let radius_m = (clear_m - near.distance_m) / 2.0;
     let Some(far) = walls.nearest(place_m - towards * radius_m, radius_m) else { return false };
     let across = far.point_m - place_m;
     -across.dot(towards) > OPPOSITE * across.length()
 }
 
-/// How far a pattern's middle line leaves the chord, as a share of its length; positive where it turns to the left.
+/// Signed sagitta of a pattern's middle line over its length; positive for a bend to the left.
 fn bend_of(pattern: &Pattern) -> f64 {
     let (width, height) = (pattern.width_px as usize, pattern.height_px as usize);
     let middle = |from: usize, to: usize| {
@@ -195,7 +201,7 @@ fn bend_of(pattern: &Pattern) -> f64 {
         if weight > 0.0 { moment / weight } else { 0.0 }
     };
     let third = width / 3;
-    // Whoever turns left begins and ends to the left of the middle of the way.
+    // A bend to the left begins and ends to the left of its middle.
     let sagitta = (middle(0, third) + middle(width - third, width)) / 2.0 - middle(third, width - third);
     sagitta / width.max(1) as f64
 }

@@ -1,18 +1,16 @@
-//! Turns motion into marks: where a foot was set down, where a heel scraped, where a wall was touched. Still without
-//! pixels.
+//! Turns motion into marks: footfalls, heel marks and wall contacts, without pixels.
 //!
-//! [`Footfalls`] takes frames one by one and keeps only the people who are present. Each of them passes through
+//! [`Footfalls`] takes frames one by one and keeps only the people who are present. Each person passes through
 //!
-//! 1. `track`: the path on a clock of its own, smoothed over a stride, so that neither the source's frame rate nor
-//!    the sway of a body decides where feet fall;
-//! 2. `gait`: a phase that grows by a step per step length walked; at every whole step one of the `feet` is set down,
-//!    left and right in turn, as the body faces; who comes to `rest` draws them together, and shifts them while
-//!    standing;
-//! 3. `soil` and `heels`: what the shoe leaves there;
-//! 4. `contacts`: what of the body touches the walls that it passes.
+//! 1. `track`: the path, resampled to a fixed clock and smoothed over a stride, so that footfalls depend neither on the
+//!    source's frame rate nor on body sway;
+//! 2. `gait`: a phase that grows by one per step length walked; at every whole step `feet` sets down the left or the
+//!    right foot in turn. `rest` draws the feet of a person who stops together and shifts them while standing;
+//! 3. `soil` and `heels`: soil prints and heel marks;
+//! 4. `contacts`: touches of walls.
 //!
-//! Everything that can happen more or less often is a rate per metre walked, per radian turned, per second stood or per
-//! event; the number of marks does not depend on the source's time step.
+//! Random events have rates per metre walked, per radian turned, per second stood or per event, so the number of marks
+//! does not depend on the source's time step.
 
 mod contact;
 mod contacts;
@@ -37,49 +35,48 @@ pub use options::{HeelOptions, MarksOptions, SoilOptions, Weather};
 use crate::math::Vec2;
 use crate::patterns::Cause;
 
-/// A footfall or a scuff.
+/// A footfall or a heel mark.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
-    /// What leaves it.
+    /// Cause: sole or heel.
     pub cause: Cause,
     /// Middle of the pattern in the plan frame, metres.
     pub place_m: Vec2,
-    /// Unit vector: where the toes point, or the drag goes.
+    /// Unit vector: direction of the toes or of the drag.
     pub heading: Vec2,
     /// Whether the pattern, drawn as a left foot, is mirrored.
     pub mirrored: bool,
     /// Index into [`crate::patterns::PatternLibrary::patterns`].
     pub pattern: u16,
-    /// Real length along the heading, metres (heel marks: of the drag).
+    /// Length along the heading, metres.
     pub length_m: f32,
-    /// How far the heel slips forward, metres, 0 to 0.03.
+    /// Forward slip of the heel, metres, 0 to 0.03.
     pub smear_m: f32,
-    /// How far the ball twists on the floor while the foot stands, radians counter-clockwise; 0 unless the person turns.
+    /// Twist of the ball on the floor, radians counter-clockwise; 0 unless the person turns.
     pub twist_rad: f32,
-    /// How much of the heel's load has gone over to the ball, 0 to 1: the faster the more; 1 is somebody who runs on
-    /// the ball and hardly touches the floor with the heel.
+    /// Share of the heel's load carried by the ball, 0 to 1; grows with speed, 1 for a runner on the ball.
     pub forefoot: f32,
     /// Footfalls: pressure, about 1, added to `passes` and `presence` as a factor. Heel marks: optical density.
     pub strength: f32,
-    /// Optical density of the soil that this print leaves where coverage is full; 0 unless the person is one of the fresh.
+    /// Optical density of soil at full coverage; 0 for people without soil on their shoes.
     pub soil: f32,
-    /// The same word for all prints of a pair of shoes: expanded by the stamp into where that pair is worn.
+    /// Random word of the pair of shoes, expanded into worn spots by the stamp.
     pub wear: u32,
-    /// Expanded by the stamp into all its variation: partial prints, blur, noise, bend.
+    /// Random word of the mark, expanded into partial prints, blur, noise and bend by the stamp.
     pub variation: u64,
 }
 
-/// Where somebody comes from, as far as the shoes tell.
+/// Origin of a person, which decides the soil on the shoes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Origin {
-    /// One of the last people since the floor was mopped: only their prints can be read.
+    /// Whether the person came after the floor was mopped; only these leave soil.
     pub fresh: bool,
-    /// Came in from outside the plan; everybody else has walked indoors for a while.
+    /// Whether the person came from outside the plan; the others have walked indoors for a while.
     pub from_outside: bool,
 }
 
 impl Origin {
-    /// Origins by id: `from_outside` in the order of the arrival list, of which the last `fresh_people` are fresh.
+    /// Origins by person id; the last `fresh_people` of the arrival list are fresh.
     pub fn of_arrivals(from_outside: impl ExactSizeIterator<Item = bool>, fresh_people: u32) -> Vec<Origin> {
         let first_fresh = from_outside.len().saturating_sub(fresh_people as usize);
         let origin = |(id, from_outside)| Origin { fresh: id >= first_fresh, from_outside };

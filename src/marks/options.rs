@@ -1,29 +1,31 @@
+//! Options of the marks.
+
 use serde::{Deserialize, Serialize};
 
 use crate::math::Distribution;
 
 use super::{ContactOptions, MarksError};
 
-/// What people leave behind on floors and walls.
+/// Options of the marks: footprints, soil, heel marks and wall contacts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MarksOptions {
-    /// How many of the last people leave readable prints: those since the floor was mopped.
+    /// Number of the last people whose shoes carry soil: those since the floor was mopped.
     pub fresh_people: u32,
-    /// Name of the one sole that everybody wears; left out, people wear soles by their share in the library.
+    /// Name of the sole that everybody wears; `None` draws soles by their share in the library.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shoe: Option<String>,
-    /// How often somebody who stands shifts the weight and sets a foot anew, per minute.
+    /// Weight shifts of a standing person, each with a new footfall, per minute, 0 to 60.
     pub shifts_per_minute: f64,
-    /// Soil that fresh people bring in.
+    /// Soil on shoes.
     pub soil: SoilOptions,
-    /// Rubber that heels and toes leave.
+    /// Heel marks.
     pub heel: HeelOptions,
-    /// What is left on walls.
+    /// Wall contacts.
     pub contact: ContactOptions,
 }
 
-/// The weather outside, which decides how a trail fades.
+/// Weather outside, which decides how a soil trail fades.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Weather {
@@ -38,41 +40,40 @@ pub enum Weather {
     Wet,
 }
 
-/// Soil that fresh people bring in.
+/// Options of soil on shoes.
 ///
 /// With the defaults 300 fresh people through an entrance of 5 m leave 2 to 3 readable prints (D of 0.04 and more)
 /// per m2 on the first 5 m, and 0.4 on the 20 m behind; 0.15 % of all footfalls of 1000 people.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SoilOptions {
-    /// How a trail fades.
+    /// Weather, which decides how a trail fades.
     pub weather: Weather,
-    /// Median of people's loads: the optical density that a first print leaves in dry weather.
+    /// Median optical density of a person's first print in dry weather, 0 to 3.
     pub median_density: f64,
-    /// Spread of people's loads: standard deviation of their natural logarithm.
+    /// Standard deviation of the natural logarithm of people's first prints, 0 to 3.
     pub sigma: f64,
-    /// The same between the two shoes of a person.
+    /// Standard deviation of that logarithm between the two shoes of a person, 0 to 3.
     pub shoe_sigma: f64,
-    /// Length of the mat inside an entrance, metres. Walking L metres of it takes `1 - exp(-L / 2 m)` of the load.
+    /// Length of the mat inside an entrance, metres, 0 to 100. L metres of mat take `1 - exp(-L / 2 m)` of the load.
     pub mat_length_m: f64,
-    /// Steps of a shoe since the soil outside, for people who come in.
+    /// Steps of a shoe since the soil, for people who come from outside.
     pub steps_before_entering: Distribution,
-    /// The same for people who start inside the building.
+    /// Steps of a shoe since the soil, for people who start indoors.
     pub steps_before_indoors: Distribution,
 }
 
-/// Rubber that heels and toes leave. The rates hold for [`HeelOptions::people`]; they are scaled so that another
-/// number of simulated people leaves as many marks in all.
+/// Options of heel marks: the rubber of dragged heels and toes.
 ///
-/// A corridor that 1000 people walk 4 to 5 m wide sees 200 to 250 person-metres on each m2; `per_metre` gives 0.4 to
-/// 0.5 marks there, and 0.2 where half of them walk. The other rates make the square metres of a turn, a door, or a
-/// place where people stop about five times as marked.
+/// Rates are for [`HeelOptions::people`] and scaled so that another number of simulated people leaves as many marks in
+/// all. In a corridor 4 to 5 m wide 1000 people walk 200 to 250 m on each m2, where `per_metre` gives 0.4 to 0.5 marks.
+/// The other rates make turns, doors and stops about five times as marked.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct HeelOptions {
     /// Marks per metre walked.
     pub per_metre: f64,
-    /// Marks per radian turned at a walk; on the spot 0.15 of it.
+    /// Marks per radian turned while walking; turns on the spot count 0.15 of it.
     pub per_radian: f64,
     /// Marks per stop, and per start.
     pub per_stop: f64,
@@ -84,9 +85,9 @@ pub struct HeelOptions {
     pub narrow_m: f64,
     /// Median optical density of a mark.
     pub median_density: f64,
-    /// Spread: standard deviation of its natural logarithm.
+    /// Standard deviation of the natural logarithm of the density.
     pub sigma: f64,
-    /// The number of people for which the rates hold. Fewer leave up to ten times the rates.
+    /// Number of people for which the rates hold; smaller crowds get up to ten times the rates.
     pub people: f64,
 }
 
@@ -134,7 +135,7 @@ impl Default for HeelOptions {
 }
 
 impl HeelOptions {
-    /// No heel marks at all.
+    /// Options with all rates zero.
     pub fn none() -> HeelOptions {
         HeelOptions {
             per_metre: 0.0,
@@ -151,7 +152,7 @@ impl MarksOptions {
     /// Checks every value.
     ///
     /// # Errors
-    /// The first value that is not finite or lies beyond its range, by its name in a scenario.
+    /// The first value out of its range, by its key in a scenario.
     pub fn check(&self) -> Result<(), MarksError> {
         let (soil, heel) = (&self.soil, &self.heel);
         for (key, value, low, high) in [

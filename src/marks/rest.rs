@@ -1,64 +1,61 @@
-//! Standing: feet that come together when the body stops, and shift now and then while it stands.
+//! Standing: feet come together when the body stops, and shift now and then.
 
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 
 use crate::math::{Vec2, ln};
 
-use super::feet::{Feet, Landing, Step, normal};
+use super::feet::{Feet, FootPlacement, Landing, normal};
 use super::track::TICK_S;
 
-/// Whoever goes no way and does not turn for so long stands, seconds.
+/// Time without walking or turning after which a person stands, seconds.
 const REST_S: f64 = 0.4;
-/// A foot that lags behind the standing body by more than this is drawn after it, metres; the other is set beside it
-/// if it stands farther off than the second.
+/// Lag from which a foot is drawn after the standing body, and from which the other foot is set beside it, metres.
 const LAGS_M: f64 = 0.13;
 const BESIDE_M: f64 = 0.07;
-/// The same for a foot that points another way than the body, as the cosine of the angle: 23 degrees.
+/// Cosine of the angle between foot and body from which a foot is set anew: 23 degrees.
 const ASKEW: f64 = 0.92;
-/// Way that counts as a stop, and as a start, in full; shorter shuffles count in proportion, those of less than the
-/// second not at all. Metres.
+/// Path length from which a stop or a start counts fully, and below which it does not count, metres.
 const FULL_STOP_M: f64 = 1.0;
 const LEAST_STOP_M: f64 = 0.1;
-/// Spread of a shifting foot about its place (metres) and about the body's heading (radians): standing feet point
-/// every way a little.
+/// Standard deviations of a shifting foot's place, metres, and angle to the body's heading, radians.
 const SHIFT_M: f64 = 0.035;
 const SHIFT_RAD: f64 = 0.17;
-/// Share of shifts in which both feet move, to a new place so far off (standard deviation, metres).
+/// Share of shifts that move both feet, and the standard deviation of their new place, metres.
 const BOTH_SHIFT: f64 = 0.3;
 const NEW_PLACE_M: f64 = 0.05;
 
-/// What somebody who may stand has been through.
+/// The standing state of a person.
 pub(super) struct Rest {
     still_s: f64,
     rests: bool,
-    /// Way gone since the last stop, metres.
+    /// Path length since the last stop, metres.
     moved_m: f64,
-    /// Expected shifts until the next one.
+    /// Expected number of shifts until the next one.
     until_shift: f64,
-    /// Where the body stands.
+    /// Position of the standing body, metres.
     place_m: Vec2,
 }
 
-/// What a tick did to somebody who may stand.
-pub(super) struct Tick {
+/// A tick of a person's path.
+pub(super) struct RestTick {
     pub body_m: Vec2,
     pub facing: Vec2,
     pub walked_m: f64,
     pub turned_rad: f64,
-    /// How far the body goes in the next two seconds, metres.
+    /// Distance to the body's position two seconds later, metres.
     pub ahead_m: f64,
     /// Shifts of the feet per second.
     pub shifts_per_s: f64,
 }
 
-/// What came of it.
+/// Stops and standing time in a tick.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Stood {
     pub stood_s: f64,
-    /// 1 for a stop or a start, less for that of a short shuffle.
+    /// 1 for a stop or a start, less after a short shuffle.
     pub stops: f64,
-    /// Whether it was now that the body came to stand, feet side by side: the next step starts from there.
+    /// Whether the body came to stand in this tick, with its feet side by side.
     pub came_to_rest: bool,
 }
 
@@ -67,18 +64,24 @@ impl Rest {
         Rest { still_s: 0.0, rests: false, moved_m: 0.0, until_shift: waiting(rng), place_m: Vec2::ZERO }
     }
 
-    /// Forgets that anybody stood.
+    /// Clears the state after a gap in the path.
     pub fn forget(&mut self) {
         (self.still_s, self.rests, self.moved_m) = (0.0, false, 0.0);
     }
 
-    /// Way gone since the last stop, metres.
+    /// Path length since the last stop, metres.
     pub fn moved_m(&self) -> f64 {
         self.moved_m
     }
 
-    /// Stands on, or not, for a tick; gives the feet that come together or shift to `each`.
-    pub fn pass(&mut self, feet: &mut Feet, rng: &mut ChaCha8Rng, tick: &Tick, each: &mut impl FnMut(Step)) -> Stood {
+    /// Advances by a tick; calls `each` with the footfalls of feet that come together or shift.
+    pub fn pass(
+        &mut self,
+        feet: &mut Feet,
+        rng: &mut ChaCha8Rng,
+        tick: &RestTick,
+        each: &mut impl FnMut(FootPlacement),
+    ) -> Stood {
         self.moved_m += tick.walked_m;
         if tick.walked_m > 0.0 || tick.turned_rad != 0.0 {
             self.still_s = 0.0;
@@ -104,8 +107,8 @@ impl Rest {
         stood
     }
 
-    /// Shifts the weight if it is time to: one foot or both to another place and angle.
-    fn shift(&mut self, feet: &mut Feet, rng: &mut ChaCha8Rng, tick: &Tick, each: &mut impl FnMut(Step)) {
+    /// Shifts the weight if due: one foot or both to another place and angle.
+    fn shift(&mut self, feet: &mut Feet, rng: &mut ChaCha8Rng, tick: &RestTick, each: &mut impl FnMut(FootPlacement)) {
         self.until_shift -= tick.shifts_per_s * TICK_S;
         while self.until_shift <= 0.0 {
             self.until_shift += waiting(rng);
@@ -123,10 +126,10 @@ impl Rest {
     }
 }
 
-/// Draws the feet under a body that has just stopped: whichever is too far off, so that they end side by side.
-fn close(feet: &mut Feet, rng: &mut ChaCha8Rng, tick: &Tick, each: &mut impl FnMut(Step)) {
+/// Draws the feet of a body that has just stopped together, so that they end side by side.
+fn close(feet: &mut Feet, rng: &mut ChaCha8Rng, tick: &RestTick, each: &mut impl FnMut(FootPlacement)) {
     let facing = tick.facing;
-    // How far ahead of the body a foot stands, if it stands somewhere and points as the body does.
+    // Offset of a foot ahead of the body, if it stands and points like the body.
     let ahead_m = |feet: &Feet, left: bool| {
         let stance = feet.stance(left).filter(|stance| stance.facing.dot(facing) > ASKEW)?;
         let offset = stance.place_m - tick.body_m;
@@ -150,8 +153,8 @@ fn close(feet: &mut Feet, rng: &mut ChaCha8Rng, tick: &Tick, each: &mut impl FnM
     }
 }
 
-/// How a foot comes down under a body that stands.
-fn standing(feet: &Feet, tick: &Tick, body_m: Vec2, askew_rad: f64) -> Landing {
+/// The landing of a foot under a standing body.
+fn standing(feet: &Feet, tick: &RestTick, body_m: Vec2, askew_rad: f64) -> Landing {
     Landing {
         body_m,
         facing: tick.facing,
@@ -163,12 +166,12 @@ fn standing(feet: &Feet, tick: &Tick, body_m: Vec2, askew_rad: f64) -> Landing {
     }
 }
 
-/// How much of a stop or a start a way is.
+/// Weight of a stop or a start after a path of this length, 0 to 1.
 fn event(way_m: f64) -> f64 {
     (way_m / FULL_STOP_M).min(1.0)
 }
 
-/// Expected events between two: exponential with mean 1.
+/// Draws the expected number of events until the next one: exponential with mean 1.
 pub(super) fn waiting(rng: &mut ChaCha8Rng) -> f64 {
     (-ln(1.0 - rng.random::<f64>())).max(1e-6)
 }

@@ -1,4 +1,4 @@
-//! Soil that a pair of shoes brings in, and how it fades step by step.
+//! Soil on a pair of shoes and its fading with every step.
 
 use rand::RngExt;
 
@@ -9,22 +9,22 @@ use super::options::{SoilOptions, Weather};
 
 /// Steps of a shoe after which a dry trail has halved.
 const DRY_HALF_STEPS: f64 = 2.68;
-/// Range of the decay per step of a wet shoe.
+/// Range of the decay constant of a wet shoe, per step.
 const WET_DECAY: [f64; 2] = [0.7, 1.4];
-/// How much more a wet shoe leaves at first.
+/// Factor on the first print of a wet shoe.
 const WET_FACTOR: f64 = 3.0;
 /// Metres of mat that take all but 1/e of a load.
 const MAT_M: f64 = 2.0;
-/// Spread of a single print about the trail: standard deviation of the natural logarithm.
+/// Standard deviation of the natural logarithm of a print about its trail.
 const PRINT_SIGMA: f64 = 0.2;
-/// No shoe brings in more than this optical density.
+/// Limit on the optical density of a first print.
 const MOST_DENSITY: f64 = 3.0;
 
-/// The pair of shoes of somebody whose prints can be read.
+/// A pair of shoes with soil.
 pub(super) struct Shoes {
     feet: [Shoe; 2],
     weather: Weather,
-    /// Mat still to be walked, metres.
+    /// Length of mat ahead, metres.
     mat_left_m: f64,
     mat_walked_m: f64,
 }
@@ -35,17 +35,17 @@ struct Shoe {
     load: f64,
     /// Steps since then.
     steps: f64,
-    /// Decay per step when wet.
+    /// Decay constant when wet, per step.
     decay: f64,
 }
 
 impl Shoes {
-    /// Draws the load of a pair: lognormal for the person, with a smaller spread between the feet.
+    /// Draws the soil of a pair: lognormal per person, with a smaller spread between the feet.
     pub fn new(seed: u64, person: u32, options: &SoilOptions, from_outside: bool) -> Shoes {
         let rng = &mut person_stream(seed, person, Purpose::Load);
         let weather_factor = if options.weather == Weather::Wet { WET_FACTOR } else { 1.0 };
         let person_load = options.median_density * weather_factor * exp(options.sigma * normal(rng));
-        // Both kinds of start are drawn for everybody, so that where somebody starts shifts no other draw.
+        // Both kinds of start are drawn, so that the origin of a person shifts no other draw.
         let entering = options.steps_before_entering.draw(rng);
         let indoors = options.steps_before_indoors.draw(rng);
         let feet = [0, 1].map(|_| Shoe {
@@ -57,14 +57,14 @@ impl Shoes {
         Shoes { feet, weather: options.weather, mat_left_m, mat_walked_m: 0.0 }
     }
 
-    /// Walks some metres within the plan: first over the mat.
+    /// Walks a distance within the plan, first over the mat.
     pub fn walk(&mut self, walked_m: f64) {
         let on_mat_m = walked_m.min(self.mat_left_m);
         self.mat_left_m -= on_mat_m;
         self.mat_walked_m += on_mat_m;
     }
 
-    /// Sets a foot down. Returns the optical density that it leaves; `deviation` is a standard normal value.
+    /// Optical density of the next print of a foot; `deviation` is a standard normal value.
     pub fn step(&mut self, left: bool, deviation: f64) -> f64 {
         let shoe = &mut self.feet[usize::from(left)];
         let faded = shoe.load * fade(self.weather, shoe.steps, shoe.decay);
@@ -73,7 +73,7 @@ impl Shoes {
     }
 }
 
-/// What is left of a shoe's first print after some steps of that shoe, 1 to 0.
+/// Share of a shoe's first print that is left after some steps of that shoe, 1 to 0.
 fn fade(weather: Weather, steps: f64, decay: f64) -> f64 {
     match weather {
         Weather::Dry => DRY_HALF_STEPS / (steps + DRY_HALF_STEPS),

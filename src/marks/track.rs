@@ -2,48 +2,46 @@
 
 use crate::math::Vec2;
 
-/// The clock on which paths are kept, seconds. It is the same for every source, so what follows does not depend on
-/// the source's time step.
+/// Time step of resampled paths, seconds: the same for every source.
 pub(super) const TICK_S: f64 = 0.1;
-/// Ticks on either side that the smoothing may use; also its delay.
+/// Ticks on either side of the smoothing window; also its delay.
 const REACH: usize = 20;
 /// Ticks of a full window.
 const WINDOW: usize = 2 * REACH + 1;
-/// Points held: windows are moved to the front once per `HELD - WINDOW` ticks.
+/// Capacity in points: the window moves to the front once per `HELD - WINDOW` ticks.
 const HELD: usize = 96;
-/// A gap in time, or a jump, beyond which a person is taken to have been elsewhere in between.
+/// Gap in time, seconds, and speed of a jump, metres per second, that interrupt a path.
 const GAP_S: f64 = 5.0;
 const JUMP_M_S: f64 = 12.0;
 
-/// Ticks on either side over which the body's heading is evened out: as long as the sway of a stride at 0.7 m/s, for
-/// headings that somebody took from where a swaying head went.
+/// Ticks on either side over which headings are smoothed: a stride at 0.7 m/s, for headings that sway with the head.
 const FACING_REACH: usize = 10;
-/// Whoever moves less than this in this many ticks stands; more than the sway of standing.
+/// A body that moves less than this distance, metres, in this many ticks stands; more than the sway of standing.
 const REST_M: f64 = 0.08;
 const REST_TICKS: usize = 7;
 
 /// A tick of the smoothed path.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Sample {
+pub(super) struct PathSample {
     pub position_m: Vec2,
     pub velocity_m_s: Vec2,
-    /// Where the body faces, if the source says so.
+    /// Unit vector: where the body faces, if the source says so.
     pub facing: Option<Vec2>,
-    /// How far the body will have gone two seconds later.
+    /// Displacement of the body two seconds later, metres.
     pub ahead_m: Vec2,
-    /// Whether it stands by then.
+    /// Whether the body stands by then.
     pub comes_to_rest: bool,
 }
 
-/// One person's path: raw positions in, smoothed samples out, two seconds later.
+/// One person's smoothed path: takes raw positions, returns samples two seconds later.
 ///
-/// Each sample is the local quadratic through the positions around it (weights `1 - (t/h)^2`, h about one stride, 0.8
-/// to 2 s). That takes out the sway of a stride and of a step (3 to 7 cm in recordings) and the jitter of collisions, and leaves
-/// a turn of 0.7 m radius within 4 cm, where a running mean would cut it by 10. Beyond its ends a path is continued
-/// by its reflection in the end point, so that straight paths stay straight.
-pub(super) struct Track {
+/// A sample is the local quadratic fit to the positions around it (weights `1 - (t/h)^2`, h about one stride, 0.8 to
+/// 2 s). The fit removes the sway of strides and steps (3 to 7 cm in recordings) and the jitter of collisions. It keeps
+/// a turn of 0.7 m radius within 4 cm, where a moving average would cut it by 10 cm. A path is extended by its point
+/// reflection in its ends, so that straight paths stay straight.
+pub(super) struct SmoothedPath {
     points: Vec<Vec2>,
-    /// Where the body faces at each of them; null where nobody knows. Empty as long as nobody ever did.
+    /// Facing at each point; zero where unknown. Empty until the first is known.
     facings: Vec<Vec2>,
     /// Index of the window's first point within `points`.
     start: usize,
@@ -56,10 +54,10 @@ pub(super) struct Track {
     begun: bool,
 }
 
-impl Track {
-    pub fn new(time_s: f64, position_m: Vec2, facing: Option<Vec2>) -> Track {
+impl SmoothedPath {
+    pub fn new(time_s: f64, position_m: Vec2, facing: Option<Vec2>) -> SmoothedPath {
         let facing = facing.and_then(unit);
-        let mut track = Track {
+        let mut track = SmoothedPath {
             points: Vec::with_capacity(HELD),
             facings: Vec::with_capacity(if facing.is_some() { HELD } else { 0 }),
             start: 0,
@@ -75,14 +73,14 @@ impl Track {
         track
     }
 
-    /// Whether a position continues this path, rather than that of somebody who was elsewhere in between.
+    /// Whether a position continues this path without a gap or a jump.
     pub fn continues(&self, time_s: f64, position_m: Vec2) -> bool {
         let elapsed = time_s - self.last.0;
         elapsed <= GAP_S && position_m.distance(self.last.1) <= 0.5 + JUMP_M_S * elapsed.max(0.0)
     }
 
-    /// Takes the next raw position and where the body faces; gives the samples that are now known to `each`.
-    pub fn push(&mut self, time_s: f64, position_m: Vec2, facing: Option<Vec2>, mut each: impl FnMut(Sample)) {
+    /// Takes the next raw position and facing; calls `each` with the completed samples.
+    pub fn push(&mut self, time_s: f64, position_m: Vec2, facing: Option<Vec2>, mut each: impl FnMut(PathSample)) {
         let (last_s, last_m) = self.last;
         if time_s <= last_s {
             return;
@@ -101,14 +99,14 @@ impl Track {
         self.last_facing = facing;
     }
 
-    /// Ends the path; gives the samples that are left to `each`.
-    pub fn finish(&mut self, mut each: impl FnMut(Sample)) {
+    /// Ends the path; calls `each` with the remaining samples.
+    pub fn finish(&mut self, mut each: impl FnMut(PathSample)) {
         let Some(&end) = self.points.last() else { return };
         let newest = self.points.len() - 1;
         let oldest = if self.begun { self.start } else { 0 };
         let tail: Vec<Vec2> =
             (1..=REACH).map(|n| end * 2.0 - self.points[newest.saturating_sub(n).max(oldest)]).collect();
-        // Whoever leaves goes on facing the same way.
+        // A person who leaves keeps their facing.
         let facing = self.last_facing;
         for point in tail {
             self.add(point, facing, &mut each);
@@ -119,7 +117,7 @@ impl Track {
         self.begun = false;
     }
 
-    fn add(&mut self, point: Vec2, facing: Option<Vec2>, each: &mut impl FnMut(Sample)) {
+    fn add(&mut self, point: Vec2, facing: Option<Vec2>, each: &mut impl FnMut(PathSample)) {
         if self.points.len() == HELD {
             for list in [&mut self.points, &mut self.facings] {
                 list.drain(..self.start.min(list.len()));
@@ -145,18 +143,18 @@ impl Track {
         if self.begun {
             let window = self.start..self.start + WINDOW;
             let facing = self.facings.get(window.clone()).and_then(evened_out);
-            each(Sample { facing, ..smooth(&self.points[window]) });
+            each(PathSample { facing, ..smooth(&self.points[window]) });
             self.start += 1;
         }
     }
 }
 
-/// The unit vector along a finite vector that is not null.
+/// Unit vector of a finite vector other than zero.
 fn unit(v: Vec2) -> Option<Vec2> {
     v.normalized().filter(|v| v.is_finite())
 }
 
-/// Where the body faces in the middle of a window, weighted as positions are.
+/// Smoothed facing in the middle of a window, with the weights of positions.
 fn evened_out(window: &[Vec2]) -> Option<Vec2> {
     let reach = (FACING_REACH * FACING_REACH) as f64;
     let mut sum = window[REACH];
@@ -169,8 +167,8 @@ fn evened_out(window: &[Vec2]) -> Option<Vec2> {
     unit(sum).or(Some(window[REACH]))
 }
 
-/// The local quadratic in the middle of a window.
-fn smooth(window: &[Vec2]) -> Sample {
+/// Local quadratic fit in the middle of a window.
+fn smooth(window: &[Vec2]) -> PathSample {
     let middle = window[REACH];
     let reach = half_width_ticks(window);
     let shrink = 1.0 / (reach * reach);
@@ -191,7 +189,7 @@ fn smooth(window: &[Vec2]) -> Sample {
     let position_m = middle + (even * s4 - even2 * s2) / (s0 * s4 - s2 * s2);
     let around = |n: usize| (window[n - 1] + window[n] + window[n + 1]) * (1.0 / 3.0);
     let end_m = around(WINDOW - 2);
-    Sample {
+    PathSample {
         position_m,
         velocity_m_s: odd / (s2 * TICK_S),
         facing: None,
@@ -200,8 +198,9 @@ fn smooth(window: &[Vec2]) -> Sample {
     }
 }
 
-/// Half width of the smoothing: the stride (two steps) at the speed over the two seconds around, at which the sway
-/// falls into the first null of the filter.
+/// Half width of the smoothing window in ticks: one stride (two steps) at the mean speed over two seconds.
+///
+/// At this width the sway falls into the first null of the filter.
 fn half_width_ticks(window: &[Vec2]) -> f64 {
     const SPAN: usize = 10;
     let speed = window[REACH + SPAN].distance(window[REACH - SPAN]) / (2.0 * SPAN as f64 * TICK_S);

@@ -34,9 +34,16 @@ pub enum Distribution {
 /// Why a distribution cannot be drawn from.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DistributionError {
-    /// A NaN or an infinity.
-    #[error("not a finite number")]
-    NotFinite,
+    /// A mean, a deviation or an end that is NaN or infinite.
+    #[error("it is {value}, allowed is {low} to {high}")]
+    NotFinite {
+        /// The number.
+        value: f64,
+        /// Least value allowed.
+        low: f64,
+        /// Largest value allowed.
+        high: f64,
+    },
     /// The ends of a range in the wrong order.
     #[error("the range runs from {0} down to {1}")]
     Reversed(f64, f64),
@@ -104,16 +111,16 @@ impl Distribution {
     /// Numbers that are not finite, ends in the wrong order, a negative deviation, values out of range.
     pub fn check(&self, low: f64, high: f64) -> Result<(), DistributionError> {
         if let Distribution::Normal { mean, sd, .. } = *self {
-            if !(mean.is_finite() && sd.is_finite()) {
-                return Err(DistributionError::NotFinite);
+            if let Some(value) = [mean, sd].into_iter().find(|number| !number.is_finite()) {
+                return Err(DistributionError::NotFinite { value, low, high });
             }
             if sd < 0.0 {
                 return Err(DistributionError::NegativeDeviation(sd));
             }
         }
         let [least, most] = self.bounds();
-        if !(least.is_finite() && most.is_finite()) {
-            return Err(DistributionError::NotFinite);
+        if let Some(value) = [least, most].into_iter().find(|number| number.is_nan()) {
+            return Err(DistributionError::NotFinite { value, low, high });
         }
         if least > most {
             return Err(DistributionError::Reversed(least, most));

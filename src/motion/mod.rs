@@ -8,6 +8,7 @@ mod frame;
 mod mileage;
 mod person;
 mod resampler;
+mod statures;
 
 pub use ensemble::{Ensemble, EnsembleMotion, MOST_PLACES};
 pub use error::{MotionError, SourceError};
@@ -15,3 +16,4 @@ pub use frame::{Frame, Motion, Walker};
 pub use mileage::Mileage;
 pub use person::{Bag, BagKind, BodyOptions, CarrySide, People, Person, STRIDE_SPEED_M_S};
 pub(crate) use resampler::{FASTEST_M_S, Resampler};
+pub use statures::Statures;

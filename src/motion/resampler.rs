@@ -21,11 +21,13 @@ impl Resampler {
         Resampler { fps, next: 0, before: Frame::default(), now: Frame::default() }
     }
 
-    /// Takes the motion's next frame; call it when [`Resampler::next`] returns `None`.
-    pub(crate) fn push(&mut self, frame: &Frame) {
+    /// Takes the motion's next frame; call it when [`Resampler::next`] returns `None`. Returns the time since the frame
+    /// before it, seconds.
+    pub(crate) fn push(&mut self, frame: &Frame) -> f64 {
         std::mem::swap(&mut self.before, &mut self.now);
         self.now.time_s = frame.time_s;
         self.now.walkers.clone_from(&frame.walkers);
+        self.now.time_s - self.before.time_s
     }
 
     /// The number and the walkers of the next resampled frame; `None` if it lies after the frames pushed so far.

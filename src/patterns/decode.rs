@@ -6,37 +6,27 @@ use image::{ImageReader, Limits};
 
 use super::{Cause, PATTERN_PX_PER_CM};
 
-/// Longest side of an image that is read.
+/// Limit on the side of an image, pixels.
 const MOST_PX: u32 = 8192;
-/// Resolutions that are read, pixels per centimetre: coarser shows no tread, finer is a wrong length.
+/// Range of resolutions, pixels per centimetre: coarser images show no tread, finer ones have a wrong length.
 const RESOLUTIONS: [f64; 2] = [4.0, 200.0];
-/// Breadth over length that a pattern may have: what is on the floor is drawn along its length; on a wall it is upright
-/// and may be higher than long.
-const FLOOR_ASPECTS: [f64; 2] = [0.01, 1.0];
-const WALL_ASPECTS: [f64; 2] = [0.01, 4.0];
-
-/// Breadth over length that a pattern of a cause may have.
-pub(super) const fn aspects(cause: Cause) -> [f64; 2] {
-    if cause.on_wall().is_some() { WALL_ASPECTS } else { FLOOR_ASPECTS }
-}
-
-/// Coverage at 10 px/cm.
+/// Coverage of a pattern at 10 px/cm, 0 to 255, in image order.
 pub(super) struct Coverage {
     pub width_px: u32,
     pub height_px: u32,
     pub values: Vec<u8>,
 }
 
-/// Why an image gives no coverage.
-pub(super) enum Refused {
-    /// It cannot be decoded.
+/// Reason why a pattern image is refused.
+pub(super) enum PatternImageError {
+    /// The image cannot be decoded: the decoder's message.
     Unreadable(String),
-    /// It can, but it is no pattern.
+    /// The image is decoded but is not a pattern: the problem.
     Unfit(String),
 }
 
-/// Reads an image whose width is `length_cm`.
-pub(super) fn read(bytes: &[u8], cause: Cause, length_cm: f64) -> Result<Coverage, Refused> {
+/// Decodes an image whose width is `length_cm` and resamples it to 10 px/cm by area.
+pub(super) fn read(bytes: &[u8], cause: Cause, length_cm: f64) -> Result<Coverage, PatternImageError> {
     let (width, height, values) = decode(bytes)?;
     check(width, height, &values, cause, length_cm)?;
     let width_px = (length_cm * PATTERN_PX_PER_CM).round().max(1.0) as u32;
@@ -53,9 +43,9 @@ pub(super) fn read(bytes: &[u8], cause: Cause, length_cm: f64) -> Result<Coverag
     Ok(Coverage { width_px, height_px, values })
 }
 
-/// Coverage, 0 to 1: brightness times opacity.
-fn decode(bytes: &[u8]) -> Result<(u32, u32, Vec<f32>), Refused> {
-    let unreadable = |reason: String| Refused::Unreadable(reason);
+/// Decodes an image to width, height and coverage (0 to 1): brightness times opacity.
+fn decode(bytes: &[u8]) -> Result<(u32, u32, Vec<f32>), PatternImageError> {
+    let unreadable = |reason: String| PatternImageError::Unreadable(reason);
     if bytes.is_empty() {
         return Err(unreadable("the file is empty".to_owned()));
     }
@@ -63,7 +53,7 @@ fn decode(bytes: &[u8]) -> Result<(u32, u32, Vec<f32>), Refused> {
     let (width, height) =
         reader().map_err(|e| unreadable(e.to_string()))?.into_dimensions().map_err(|e| unreadable(e.to_string()))?;
     if width > MOST_PX || height > MOST_PX {
-        return Err(Refused::Unfit(format!("is {width} x {height} px, allowed are {MOST_PX} px a side")));
+        return Err(PatternImageError::Unfit(format!("is {width} x {height} px, allowed are {MOST_PX} px a side")));
     }
     let mut reader = reader().map_err(|e| unreadable(e.to_string()))?;
     let mut limits = Limits::default();
@@ -76,8 +66,8 @@ fn decode(bytes: &[u8]) -> Result<(u32, u32, Vec<f32>), Refused> {
     Ok((width, height, values))
 }
 
-fn check(width: u32, height: u32, values: &[f32], cause: Cause, length_cm: f64) -> Result<(), Refused> {
-    let unfit = |problem: String| Err(Refused::Unfit(problem));
+fn check(width: u32, height: u32, values: &[f32], cause: Cause, length_cm: f64) -> Result<(), PatternImageError> {
+    let unfit = |problem: String| Err(PatternImageError::Unfit(problem));
     let resolution = f64::from(width) / length_cm;
     if !(RESOLUTIONS[0]..=RESOLUTIONS[1]).contains(&resolution) {
         return unfit(format!(
@@ -86,7 +76,7 @@ fn check(width: u32, height: u32, values: &[f32], cause: Cause, length_cm: f64) 
         ));
     }
     let aspect = f64::from(height) / f64::from(width);
-    let [least, most] = aspects(cause);
+    let [least, most] = cause.aspects();
     if !(least..=most).contains(&aspect) {
         return unfit(format!(
             "is {width} x {height} px; the length runs along the width, and height / width is {aspect:.2}, allowed \
@@ -96,7 +86,7 @@ fn check(width: u32, height: u32, values: &[f32], cause: Cause, length_cm: f64) 
     }
     let brightest = values.iter().copied().fold(0.0, f32::max);
     if brightest < 0.05 {
-        return unfit("is empty: no pixel is brighter than 5 %, so it would leave nothing".to_owned());
+        return unfit("is empty: no pixel is brighter than 5 %, so it leaves nothing".to_owned());
     }
     let (width, height) = (width as usize, height as usize);
     let border = (0..width).flat_map(|i| [i, (height - 1) * width + i]);
@@ -104,14 +94,14 @@ fn check(width: u32, height: u32, values: &[f32], cause: Cause, length_cm: f64) 
     let mean = border.map(|at| values[at]).sum::<f32>() / (2 * (width + height)) as f32;
     if mean > 0.7 {
         return unfit(format!(
-            "has a bright border ({:.0} % on average, allowed is 70 %): it is a light background that would leave soil",
+            "has a bright border ({:.0} % on average, at most 70 % is allowed): a light background would leave soil",
             mean * 100.0
         ));
     }
     Ok(())
 }
 
-/// Brings rows of `from` values to `to` values, each the mean over the length that it covers.
+/// Resamples rows of `from` values to `to` values, each the mean over the length that it covers.
 fn resample_rows(values: &[f32], from: usize, to: usize) -> Vec<f32> {
     let scale = from as f64 / to as f64;
     let mut out = Vec::with_capacity(values.len() / from * to);
@@ -155,8 +145,8 @@ mod tests {
     fn problem(bytes: &[u8], length_cm: f64) -> String {
         match read(bytes, Cause::Sole, length_cm) {
             Ok(_) => panic!("read"),
-            Err(Refused::Unreadable(reason)) => reason,
-            Err(Refused::Unfit(problem)) => problem,
+            Err(PatternImageError::Unreadable(reason)) => reason,
+            Err(PatternImageError::Unfit(problem)) => problem,
         }
     }
 
@@ -177,18 +167,18 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_pattern_is_refused_with_its_reason() {
+    fn an_unfit_image_is_refused_with_its_reason() {
         assert!(problem(&[], 29.0).contains("empty"));
         assert!(problem(b"no image", 29.0).contains("format"));
         assert!(problem(&png(&disc(290, 105))[..200], 29.0).len() > 5);
-        assert!(problem(&png(&GrayImage::new(290, 105)), 29.0).contains("leave nothing"));
+        assert!(problem(&png(&GrayImage::new(290, 105)), 29.0).contains("leaves nothing"));
         assert!(problem(&png(&GrayImage::from_pixel(290, 105, Luma([255]))), 29.0).contains("border"));
         assert!(problem(&png(&disc(105, 290)), 10.5).contains("height / width is 2.76"));
         assert!(problem(&png(&disc(40, 20)), 29.0).contains("1.4 px/cm"));
     }
 
     #[test]
-    fn what_is_on_a_wall_may_be_higher_than_long() {
+    fn wall_patterns_may_be_higher_than_long() {
         let hand = read(&png(&disc(100, 190)), Cause::Hand, 10.0).ok().unwrap();
         assert_eq!((hand.width_px, hand.height_px), (100, 190));
         assert!(read(&png(&disc(40, 190)), Cause::Hand, 4.0).is_err());

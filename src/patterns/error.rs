@@ -3,7 +3,7 @@ use std::path::PathBuf;
 
 use super::{Cause, ImportError};
 
-/// A place in a `patterns.toml`.
+/// Position in a `patterns.toml`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ListedAt {
     /// The listing.
@@ -20,7 +20,7 @@ impl fmt::Display for ListedAt {
     }
 }
 
-/// Why a pattern library cannot be used.
+/// Error in a pattern library.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PatternsError {
@@ -29,98 +29,98 @@ pub enum PatternsError {
     Listing {
         /// The listing.
         file: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         source: std::io::Error,
     },
-    /// The listing is far too large to be one.
+    /// The listing is too large.
     #[error("the pattern list {} has {bytes} bytes, allowed are {most}", .file.display())]
     ListingTooLarge {
         /// The listing.
         file: PathBuf,
-        /// Its size.
+        /// Size of the listing.
         bytes: u64,
         /// The limit.
         most: u64,
     },
-    /// Not TOML, a key that does not exist, or a value of the wrong type.
+    /// The listing is not TOML, has an unknown key or a value of the wrong type.
     #[error("{at}: {message}")]
     Syntax {
-        /// Where.
+        /// Position in the listing.
         at: ListedAt,
-        /// What the parser says.
+        /// Message of the parser.
         message: String,
     },
-    /// A number beyond what it may be.
+    /// A value is out of range.
     #[error("{at}: {key} is {value}, allowed is {allowed}")]
     Value {
-        /// Where.
+        /// Position in the listing.
         at: ListedAt,
-        /// Which key.
+        /// Key in the listing.
         key: &'static str,
-        /// What it is.
+        /// The value.
         value: String,
-        /// What it may be.
+        /// Allowed values.
         allowed: String,
     },
-    /// More patterns than marks can name.
+    /// The listing has too many patterns.
     #[error("{} lists {count} patterns, allowed are {most}", .file.display())]
     TooMany {
         /// The listing.
         file: PathBuf,
-        /// How many it lists.
+        /// Number of patterns.
         count: usize,
         /// The limit.
         most: usize,
     },
-    /// An image that is missing or cannot be decoded.
+    /// An image is missing or cannot be decoded.
     #[error("{at}: cannot read the image {}: {reason}", .image.display())]
     Image {
-        /// Where it is listed.
+        /// Position in the listing.
         at: ListedAt,
         /// The image.
         image: PathBuf,
-        /// What the system or the decoder says.
+        /// Message of the operating system or the decoder.
         reason: String,
     },
-    /// An image that can be read but is no pattern.
+    /// An image is decoded but is not a pattern.
     #[error("{at}: {} {problem}", .image.display())]
     Unfit {
-        /// Where it is listed.
+        /// Position in the listing.
         at: ListedAt,
         /// The image.
         image: PathBuf,
-        /// What is wrong, with the value and the allowed range.
+        /// The problem, with the value and the allowed range.
         problem: String,
     },
-    /// Nobody can walk without soles.
+    /// The listing has no pattern of a cause that is needed.
     #[error("{} lists no pattern with cause = \"{}\"", .file.display(), .cause.name())]
-    NoneOf {
+    MissingCause {
         /// The listing.
         file: PathBuf,
-        /// What is missing.
+        /// The missing cause.
         cause: Cause,
     },
-    /// No pattern can be taken from a photograph.
+    /// A photograph cannot be imported.
     #[error(transparent)]
     Import(#[from] ImportError),
 }
 
 impl PatternsError {
-    /// What the user can do about it.
+    /// Hint for the user.
     pub fn hint(&self) -> Option<String> {
         let hint = match self {
             PatternsError::Listing { .. } => {
                 "a pattern library is a folder with a patterns.toml and the images that it lists; leave the folder \
                  out to use the built-in library"
             }
-            PatternsError::Syntax { .. } | PatternsError::NoneOf { .. } => {
+            PatternsError::Syntax { .. } | PatternsError::MissingCause { .. } => {
                 "each pattern is a table [[pattern]] with file, cause (sole, heel, hand, arm, shoulder, bag or shoe), \
-                 length_cm and share, and, if you like, form, lengths_cm = [from, to] and description"
+                 length_cm and share, and optionally form, lengths_cm = [from, to] and description"
             }
             PatternsError::Image { .. } => "file is a path relative to patterns.toml; PNG, JPEG, TIFF and BMP are read",
             PatternsError::Unfit { .. } => {
-                "a pattern is cut out to its shape: white leaves soil, black leaves none, toes or the drag to the right, \
-                 a left foot, 10 px per centimetre of length_cm (finer is reduced)"
+                "a pattern is cut out to its shape: white leaves soil, black leaves none; toes or the drag point to the \
+                 right; a sole is a left foot; 10 px per centimetre of length_cm (finer images are reduced)"
             }
             PatternsError::Import(error) => return error.hint(),
             PatternsError::ListingTooLarge { .. } | PatternsError::Value { .. } | PatternsError::TooMany { .. } => {

@@ -1,11 +1,12 @@
-//! Capitals, digits and a little punctuation in 5 x 7 dots, for the labels of the contact sheet.
+//! A bitmap font of 5 x 7 dots: capitals, digits and some punctuation.
 
-/// Dots across and down of a letter; one column of space follows.
+/// Dots across and down of a letter; one blank column follows.
 pub(crate) const WIDTH: u32 = 5;
 pub(crate) const HEIGHT: u32 = 7;
 
-/// The rows of a character from the top; the highest of five bits is the leftmost dot. Lower case is drawn as
-/// capitals, what is not known as a blank.
+/// The rows of a character from the top; the highest of five bits is the leftmost dot.
+///
+/// Lower case is drawn as capitals, unknown characters as blanks.
 pub(crate) fn rows(character: char) -> [u8; 7] {
     match character.to_ascii_uppercase() {
         'A' => [0b01110, 0b10001, 0b10001, 0b11111, 0b10001, 0b10001, 0b10001],

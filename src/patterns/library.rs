@@ -1,12 +1,11 @@
-//! Loads libraries and chooses from them.
+//! The pattern library: the built-in one, and choosing patterns by share.
 
 use std::io;
 use std::path::Path;
 
-use super::decode::{self, Refused};
-use super::folder::LISTING;
-use super::listing::{self, Entry};
-use super::{Cause, Form, Pattern, PatternFolder, PatternLibrary, PatternsError};
+use super::decode::{self, PatternImageError};
+use super::listing::{self, LISTING, ListedPattern};
+use super::{Cause, Form, Pattern, PatternsError};
 
 /// The files of `patterns/`, compiled in so that an installed program needs no folder.
 macro_rules! built_in {
@@ -85,58 +84,31 @@ const BUILT_IN: &[(&str, &[u8])] = built_in![
     "shoe_sole_tread.png",
 ];
 
+/// The pattern library: coverage images by cause, with their shares.
+#[derive(Clone, Debug)]
+pub struct PatternLibrary {
+    /// Patterns in the order of `patterns.toml`; marks refer to a pattern by its index here.
+    pub patterns: Vec<Pattern>,
+}
+
 impl PatternLibrary {
-    /// The library that comes with the program: ten soles, eight heel marks and at least six stains of each cause
-    /// that touches walls, drawn by `examples/draw_patterns`.
+    /// The library that comes with the program.
     ///
-    /// # Errors
-    /// None in a program that passes its tests; the signature is that of [`PatternLibrary::load`].
-    pub fn built_in() -> Result<PatternLibrary, PatternsError> {
+    /// It has ten soles, eight heel marks and at least six stains of each wall cause, drawn by
+    /// `examples/draw_patterns`.
+    pub fn built_in() -> PatternLibrary {
         let open = |file: &str| {
             let found = BUILT_IN.iter().find(|(name, _)| *name == file);
             found.map(|(_, bytes)| bytes.to_vec()).ok_or_else(|| io::Error::from(io::ErrorKind::NotFound))
         };
-        read(BUILT_IN_LISTING, Path::new("built-in patterns"), open)
+        let library = read(BUILT_IN_LISTING, Path::new("built-in patterns"), open);
+        library.expect("tests read the compiled-in patterns")
     }
 
-    /// The library in a folder, or the built-in one.
+    /// Chooses among the patterns of a cause by share; `draw` is uniform in `[0, 1)`.
     ///
-    /// # Errors
-    /// As [`PatternLibrary::load`].
-    pub fn open(folder: Option<&Path>) -> Result<PatternLibrary, PatternsError> {
-        folder.map_or_else(PatternLibrary::built_in, PatternLibrary::load)
-    }
-
-    /// Loads a folder: its `patterns.toml` and the images that it lists.
-    ///
-    /// ```toml
-    /// [[pattern]]
-    /// file = "clog.png"             # relative to the folder; white leaves soil, toes to the right, a left foot
-    /// cause = "sole"                # or heel; on walls, upright: hand, arm, shoulder, bag, shoe
-    /// form = "palm"                 # hand: palm, drag, fingertips; shoe: toe, heel_line, sole; left out: none of these
-    /// length_cm = 28.5              # real length of what the image shows, along its width
-    /// share = 0.1                   # how often it occurs among those of its cause
-    /// lengths_cm = [22.0, 27.0]     # lengths of sole that wear it; left out: all
-    /// description = "a wooden clog"
-    /// ```
-    ///
-    /// Images of any resolution from 4 to 200 px/cm are brought to 10 px/cm by area. Of a wall's cause that the folder
-    /// does not list at all, the built-in patterns are taken; so are soles, and heel marks if it lists neither: see
-    /// [`PatternFolder`], which says which.
-    ///
-    /// # Errors
-    /// A listing that is missing, too large, not TOML, has unknown keys or values out of range; a form that its cause
-    /// does not have; an image that is missing, empty, too large, of another shape or resolution than `length_cm`
-    /// says, or that shows nothing; no pattern at all. Messages name line and column of the
-    /// listing.
-    pub fn load(folder: &Path) -> Result<PatternLibrary, PatternsError> {
-        PatternFolder::read(folder).map(|read| read.library)
-    }
-
-    /// Chooses among the patterns of a cause by share: `draw` is uniform in `[0, 1)`. With a sole length only those
-    /// count that are worn at that length; where there is none, the one whose range is nearest.
-    ///
-    /// Returns the pattern's place in [`PatternLibrary::patterns`], or `None` if there is none of the cause.
+    /// A sole length in centimetres limits the choice to patterns worn at that length, or to the nearest range.
+    /// Returns the index in [`PatternLibrary::patterns`]; `None` without a pattern of the cause.
     pub fn pick(&self, cause: Cause, draw: f64, sole_length_cm: Option<f64>) -> Option<u16> {
         let off = |pattern: &Pattern| match (sole_length_cm, pattern.lengths_cm) {
             (Some(length), Some([from, to])) => (from - length).max(length - to).max(0.0),
@@ -147,10 +119,10 @@ impl PatternLibrary {
         self.pick_among(draw, |pattern| pattern.cause == cause && off(pattern) <= least)
     }
 
-    /// Chooses among the patterns of a cause and form by share: `draw` is uniform in `[0, 1)`. Without a form, or where
-    /// no pattern of the cause has it, all of the cause count.
+    /// Chooses among the patterns of a cause and form by share; `draw` is uniform in `[0, 1)`.
     ///
-    /// Returns the pattern's place in [`PatternLibrary::patterns`], or `None` if there is none of the cause.
+    /// Without a form, or where no pattern of the cause has it, all patterns of the cause are candidates. Returns the
+    /// index in [`PatternLibrary::patterns`]; `None` without a pattern of the cause.
     pub fn pick_form(&self, cause: Cause, form: Option<Form>, draw: f64) -> Option<u16> {
         let of_form =
             form.and_then(|form| self.pick_among(draw, |pattern| pattern.cause == cause && pattern.form == Some(form)));
@@ -173,7 +145,7 @@ impl PatternLibrary {
     }
 }
 
-/// Makes a library of a listing's text; `open` gives the bytes of the images.
+/// Builds a library from the text of a listing; `open` returns the bytes of an image.
 pub(super) fn read(
     text: &str,
     folder: &Path,
@@ -190,7 +162,7 @@ pub(super) fn read(
 }
 
 fn pattern(
-    entry: Entry,
+    entry: ListedPattern,
     total_share: f64,
     folder: &Path,
     open: &mut impl FnMut(&str) -> io::Result<Vec<u8>>,
@@ -199,8 +171,10 @@ fn pattern(
     let unreadable = |reason: String| PatternsError::Image { at: entry.listed_at.clone(), image: path.clone(), reason };
     let bytes = open(&entry.file).map_err(|error| unreadable(error.to_string()))?;
     let coverage = decode::read(&bytes, entry.cause, entry.length_cm).map_err(|refused| match refused {
-        Refused::Unreadable(reason) => unreadable(reason),
-        Refused::Unfit(problem) => PatternsError::Unfit { at: entry.listed_at.clone(), image: path.clone(), problem },
+        PatternImageError::Unreadable(reason) => unreadable(reason),
+        PatternImageError::Unfit(problem) => {
+            PatternsError::Unfit { at: entry.listed_at.clone(), image: path.clone(), problem }
+        }
     })?;
     let stem = Path::new(&entry.file).file_stem().map(|stem| stem.to_string_lossy().into_owned());
     Ok(Pattern {
@@ -240,7 +214,7 @@ mod tests {
 
     #[test]
     fn the_built_in_library_holds_patterns_of_every_cause() {
-        let library = PatternLibrary::built_in().unwrap();
+        let library = PatternLibrary::built_in();
         let counts = Cause::ALL.map(|cause| library.patterns.iter().filter(|pattern| pattern.cause == cause).count());
         assert_eq!(counts, [10, 8, 14, 7, 7, 10, 10]);
         assert_eq!(library.patterns.len(), BUILT_IN.len(), "an image is compiled in but not listed");
@@ -254,7 +228,7 @@ mod tests {
     #[test]
     fn a_folder_gives_what_is_compiled_in() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("patterns");
-        let (loaded, built_in) = (PatternLibrary::load(&folder).unwrap(), PatternLibrary::built_in().unwrap());
+        let (loaded, built_in) = (PatternLibrary::load(&folder).unwrap(), PatternLibrary::built_in());
         for (a, b) in loaded.patterns.iter().zip(&built_in.patterns) {
             assert_eq!((&a.name, &a.coverage), (&b.name, &b.coverage));
         }
@@ -262,7 +236,7 @@ mod tests {
 
     #[test]
     fn soles_are_picked_by_share_and_length() {
-        let library = PatternLibrary::built_in().unwrap();
+        let library = PatternLibrary::built_in();
         let draws = 10_000;
         let mut counts = vec![0.0; library.patterns.len()];
         for n in 0..draws {
@@ -285,7 +259,7 @@ mod tests {
 
     #[test]
     fn a_form_is_picked_by_share_and_missing_forms_fall_back_to_the_cause() {
-        let library = PatternLibrary::built_in().unwrap();
+        let library = PatternLibrary::built_in();
         let draws = 10_000;
         let mut counts = vec![0.0; library.patterns.len()];
         for n in 0..draws {

@@ -8,19 +8,21 @@ use toml::Spanned;
 
 use super::{Cause, Form, ListedAt, PatternsError};
 
-/// Marks name a pattern by a `u16`; this is plenty and keeps a wrong file from filling memory.
+/// Name of the listing in a library's folder.
+pub(super) const LISTING: &str = "patterns.toml";
+/// Limit on the number of patterns: marks refer to a pattern by a `u16`, and a wrong file must not fill memory.
 const MOST_PATTERNS: usize = 1000;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Listing {
+struct RawListing {
     #[serde(default)]
-    pattern: Vec<RawEntry>,
+    pattern: Vec<RawPattern>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct RawEntry {
+struct RawPattern {
     file: Spanned<String>,
     cause: Cause,
     form: Option<Spanned<Form>>,
@@ -31,8 +33,8 @@ struct RawEntry {
     description: String,
 }
 
-/// One `[[pattern]]` whose numbers are in range; its image is still to be read.
-pub(super) struct Entry {
+/// One checked `[[pattern]]` of a listing; its image is not read yet.
+pub(super) struct ListedPattern {
     pub file: String,
     pub listed_at: ListedAt,
     pub cause: Cause,
@@ -43,10 +45,10 @@ pub(super) struct Entry {
     pub description: String,
 }
 
-/// Reads the text of a listing; `file` is only for the messages.
-pub(super) fn parse(text: &str, file: &Path) -> Result<Vec<Entry>, PatternsError> {
+/// Parses and checks the text of a listing; `file` appears in messages only.
+pub(super) fn parse(text: &str, file: &Path) -> Result<Vec<ListedPattern>, PatternsError> {
     let at = |span: Option<Range<usize>>| listed_at(text, file, span);
-    let listing: Listing = toml::from_str(text)
+    let listing: RawListing = toml::from_str(text)
         .map_err(|error| PatternsError::Syntax { at: at(error.span()), message: error.message().to_owned() })?;
     if listing.pattern.len() > MOST_PATTERNS {
         return Err(PatternsError::TooMany {
@@ -57,22 +59,13 @@ pub(super) fn parse(text: &str, file: &Path) -> Result<Vec<Entry>, PatternsError
     }
     let entries = listing.pattern.into_iter().map(|raw| check(raw, at)).collect::<Result<Vec<_>, _>>()?;
     if entries.is_empty() {
-        return Err(PatternsError::NoneOf { file: file.to_owned(), cause: Cause::Sole });
+        return Err(PatternsError::MissingCause { file: file.to_owned(), cause: Cause::Sole });
     }
     Ok(entries)
 }
 
-/// Real lengths that a pattern of a cause may have, centimetres.
-pub(super) const fn lengths_cm(cause: Cause) -> [f64; 2] {
-    match cause {
-        Cause::Sole => [8.0, 45.0],
-        Cause::Heel => [1.0, 30.0],
-        Cause::Hand | Cause::Arm | Cause::Shoulder | Cause::Bag | Cause::Shoe => [0.5, 150.0],
-    }
-}
-
-fn check(raw: RawEntry, at: impl Fn(Option<Range<usize>>) -> ListedAt) -> Result<Entry, PatternsError> {
-    let lengths = lengths_cm(raw.cause);
+fn check(raw: RawPattern, at: impl Fn(Option<Range<usize>>) -> ListedAt) -> Result<ListedPattern, PatternsError> {
+    let lengths = raw.cause.lengths_cm();
     let value = |span: Range<usize>, key, value: String, allowed: String| {
         Err(PatternsError::Value { at: at(Some(span)), key, value, allowed })
     };
@@ -98,7 +91,7 @@ fn check(raw: RawEntry, at: impl Fn(Option<Range<usize>>) -> ListedAt) -> Result
     if raw.file.get_ref().is_empty() {
         return value(raw.file.span(), "file", "empty".to_owned(), "the path of an image".to_owned());
     }
-    Ok(Entry {
+    Ok(ListedPattern {
         listed_at: at(Some(raw.file.span())),
         file: raw.file.into_inner(),
         cause: raw.cause,
@@ -110,7 +103,7 @@ fn check(raw: RawEntry, at: impl Fn(Option<Range<usize>>) -> ListedAt) -> Result
     })
 }
 
-/// Line and column of the start of a byte range; the start of the file if there is none.
+/// Line and column of the start of a byte range; the start of the file without one.
 fn listed_at(text: &str, file: &Path, span: Option<Range<usize>>) -> ListedAt {
     let start = span.map_or(0, |span| span.start).min(text.len());
     let before = String::from_utf8_lossy(&text.as_bytes()[..start]);

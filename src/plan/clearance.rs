@@ -5,8 +5,9 @@ use rayon::prelude::*;
 /// Pixels of `mask` (non-zero) whose distance to every zero pixel is at least `radius` pixels, centre to centre.
 /// What lies beyond the image is no obstacle.
 pub(super) fn erode(mask: &[u8], width: usize, radius: f64) -> Vec<u8> {
-    let near = within(mask, width, radius, |pixel| pixel == 0, true);
-    near.into_iter().zip(mask).map(|(near, &m)| u8::from(near == 0 && m != 0)).collect()
+    let mut near = within(mask, width, radius, |pixel| pixel == 0, true);
+    near.iter_mut().zip(mask).for_each(|(near, &m)| *near = u8::from(*near == 0 && m != 0));
+    near
 }
 
 /// Pixels whose distance to a non-zero pixel of `mask` is at most `radius` pixels, centre to centre.
@@ -14,29 +15,51 @@ pub(super) fn dilate(mask: &[u8], width: usize, radius: f64) -> Vec<u8> {
     within(mask, width, radius, |pixel| pixel != 0, false)
 }
 
+/// Rows that are worked on together, at least.
+const BAND_ROWS: usize = 256;
+/// Bytes of column distances that all bands at work may take together.
+const MOST_BAND_BYTES: usize = 256 << 20;
+
 /// 1 where a source pixel lies within `radius`, or strictly within.
 ///
 /// Down each column the distance to the nearest source above or below is swept; along each row a source at
 /// column distance g then reaches sqrt(radius^2 - g^2) to both sides, which two more sweeps carry on.
+///
+/// Done band by band: no source farther than the radius above or below a band matters to it.
 fn within(mask: &[u8], width: usize, radius: f64, is_source: impl Fn(u8) -> bool + Sync, strictly: bool) -> Vec<u8> {
     // Nothing needs distances beyond this; u16 holds them.
     let far = (radius.ceil() as u16).saturating_add(1);
     let reach = reaches(radius, far, strictly);
-    let columns = column_distances(mask, width, far, &is_source);
+    let (height, halo) = (mask.len() / width, usize::from(far));
+    let rows = halo.max(BAND_ROWS);
+    let band_bytes = 2 * width * (rows + 2 * halo).min(height);
+    let at_once = (MOST_BAND_BYTES / band_bytes.max(1)).max(1);
     let mut near = vec![0u8; mask.len()];
-    near.par_chunks_exact_mut(width).zip(columns.par_chunks_exact(width)).for_each(|(near, columns)| {
-        let mut left = -1i32;
-        for (near, &g) in near.iter_mut().zip(columns) {
-            left = (left - 1).max(reach[usize::from(g)]);
-            *near = u8::from(left >= 0);
-        }
-        left = -1;
-        for (near, &g) in near.iter_mut().zip(columns).rev() {
-            left = (left - 1).max(reach[usize::from(g)]);
-            *near |= u8::from(left >= 0);
-        }
-    });
+    for (group, near) in near.chunks_mut(rows * width * at_once).enumerate() {
+        near.par_chunks_mut(rows * width).enumerate().for_each(|(band, near)| {
+            let first = (group * at_once + band) * rows;
+            let last = first + near.len() / width;
+            let (from, to) = (first.saturating_sub(halo), (last + halo).min(height));
+            let columns = column_distances(&mask[from * width..to * width], width, far, &is_source);
+            let columns = columns[(first - from) * width..].chunks_exact(width);
+            near.chunks_exact_mut(width).zip(columns).for_each(|(near, columns)| sweep_row(near, columns, &reach));
+        });
+    }
     near
+}
+
+/// Carries what sources of a row's columns reach to both sides.
+fn sweep_row(near: &mut [u8], columns: &[u16], reach: &[i32]) {
+    let mut left = -1i32;
+    for (near, &g) in near.iter_mut().zip(columns) {
+        left = (left - 1).max(reach[usize::from(g)]);
+        *near = u8::from(left >= 0);
+    }
+    left = -1;
+    for (near, &g) in near.iter_mut().zip(columns).rev() {
+        left = (left - 1).max(reach[usize::from(g)]);
+        *near |= u8::from(left >= 0);
+    }
 }
 
 /// For each column distance: how many pixels to the side a source reaches, -1 for not even its own column.
@@ -98,5 +121,21 @@ mod tests {
                 .collect();
             prop_assert_eq!(dilate(&mask, width, radius), dilated);
         }
+    }
+
+    #[test]
+    fn bands_are_seamless() {
+        // Pixels here and there, over several bands.
+        let (width, height) = (3, 3 * BAND_ROWS + 17);
+        let mask: Vec<u8> = (0..width * height).map(|at| u8::from((at * 7919) % 613 == 0)).collect();
+        let radius = 40.0;
+        let near = |at: usize| {
+            (0..mask.len()).any(|b| {
+                let (dx, dy) = ((at % width).abs_diff(b % width) as f64, (at / width).abs_diff(b / width) as f64);
+                mask[b] != 0 && dx * dx + dy * dy <= radius * radius
+            })
+        };
+        let expected: Vec<u8> = (0..mask.len()).map(|at| u8::from(near(at))).collect();
+        assert_eq!(dilate(&mask, width, radius), expected);
     }
 }

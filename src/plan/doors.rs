@@ -32,10 +32,12 @@ const LEAST_BENT_PX: f64 = 2.0;
 /// Drops the symbols of doors.
 pub(super) fn drop_doors(drawing: &mut Drawing, metres_per_pixel: f64) {
     let sizes = Sizes::new(metres_per_pixel);
-    let white: Vec<u8> = drawing.dark.iter().map(|&d| 1 - d).collect();
     let mut doors: Vec<Arc> = Vec::new();
-    for boundary in trace(&white, drawing.width) {
-        sizes.search.find(&boundary, &mut doors);
+    {
+        let white: Vec<u8> = drawing.dark.iter().map(|&d| 1 - d).collect();
+        for boundary in trace(&white, drawing.width) {
+            sizes.search.find(&boundary, &mut doors);
+        }
     }
     doors.retain(|arc| is_door(drawing, arc, &sizes));
     // Walls are thicker than strokes and stay.

@@ -1,7 +1,6 @@
 use std::path::PathBuf;
 
-use super::image_file::{LARGEST_AREA_PX, LARGEST_SIDE_PX};
-use super::scale::{LARGEST_M_PER_PX, LARGEST_SIDE_M, SMALLEST_M_PER_PX};
+use super::limits::{LARGEST_AREA_PX, LARGEST_M_PER_PX, LARGEST_SIDE_M, LARGEST_SIDE_PX, SMALLEST_M_PER_PX};
 use crate::math::Vec2;
 
 /// Why the `plan` stage cannot go on.
@@ -35,6 +34,43 @@ pub enum PlanError {
         path: PathBuf,
         /// What the decoder says.
         reason: String,
+    },
+    /// A kind of image that is not read.
+    #[error("the plan {path} cannot be read: {what} is not supported", path = .path.display())]
+    Unsupported {
+        /// The plan image.
+        path: PathBuf,
+        /// What it is.
+        what: String,
+    },
+    /// Pixels that take more bytes than are read.
+    #[error(
+        "the plan {path} claims {width} x {height} pixels that take {bytes} bytes; at most {most} are read",
+        path = .path.display()
+    )]
+    TooManyBytes {
+        /// The plan image.
+        path: PathBuf,
+        /// Pixels across, as its header says.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// Bytes of the decoded image.
+        bytes: u64,
+        /// The most that are read.
+        most: u64,
+    },
+    /// Not enough memory for an image.
+    #[error("there is no memory for the {width} x {height} pixels of the plan {path}: they take up to {needed} bytes", path = .path.display())]
+    NoMemory {
+        /// The plan image.
+        path: PathBuf,
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// Bytes that are needed.
+        needed: u64,
     },
     /// More pixels than are read.
     #[error(
@@ -178,6 +214,12 @@ impl PlanError {
         Some(match self {
             PlanError::UnknownFormat { .. } => "use PNG, JPEG, BMP, PGM, TIFF or GIF, or the YAML of a ROS map".into(),
             PlanError::Empty { .. } | PlanError::Damaged { .. } => "save or copy the file again".into(),
+            PlanError::Open { path, source } if source.kind() == std::io::ErrorKind::NotFound => {
+                format!("did you mean {}?", super::similar::similar_file(path)?.display())
+            }
+            PlanError::Unsupported { .. } => "save it as PNG, or as TIFF with 8 bits of grey or colour".into(),
+            PlanError::TooManyBytes { .. } => "save it with 8 bits of grey a pixel, or reduce it".into(),
+            PlanError::NoMemory { .. } => "reduce the image; walls are traced more finely than pixels".into(),
             PlanError::TooManyPixels { .. } => "reduce the image; walls are traced more finely than pixels".into(),
             PlanError::MapImageMissing { similar: Some(similar), .. } => {
                 format!("{} lies beside it: correct the name in the YAML", similar.display())
@@ -190,10 +232,8 @@ impl PlanError {
             PlanError::TwoPoints { .. } => {
                 "scale = { from = { px = [120, 40] }, to = { px = [480, 40] }, metres = 36.0 }".into()
             }
-            PlanError::TooLarge { .. } | PlanError::NoRoom { .. } => {
-                "check the scale (--metres-per-pixel, plan.metres_per_pixel)".into()
-            }
-            PlanError::PathsTooWide { .. } => "check the recording's unit (--unit, motion.unit)".into(),
+            PlanError::TooLarge { .. } | PlanError::NoRoom { .. } => "check the scale in metres per pixel".into(),
+            PlanError::PathsTooWide { .. } => "check the unit of the recording, such as metres or centimetres".into(),
             PlanError::NoFloor { .. } => {
                 "white is floor, black is wall; lower plan.threshold if the floor is grey".into()
             }

@@ -1,57 +1,87 @@
 //! Decodes plan images.
 
-use std::io::Cursor;
+use std::fs::File;
+use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 
-use super::PlanError;
+use super::{LARGEST_AREA_PX, LARGEST_SIDE_PX, PlanError, palette};
+use crate::files::{LARGEST_IMAGE_BYTES, open_input_up_to};
 
-/// Longest side of an image that is read, pixels.
-pub const LARGEST_SIDE_PX: u32 = 20_000;
-/// Most pixels of an image that is read.
-pub const LARGEST_AREA_PX: u64 = 268_435_456;
+/// Most bytes of an image's decoded pixels: four for each of [`LARGEST_AREA_PX`].
+const LARGEST_DECODED_BYTES: u64 = 4 * LARGEST_AREA_PX;
+/// Bytes for each pixel that understanding a plan takes at most, beyond the image.
+const WORKING_BYTES: u64 = 6;
 
 /// Reads an image of any known format, whatever its name ends in.
 pub(super) fn decode(path: &Path) -> Result<DynamicImage, PlanError> {
     let open = |source| PlanError::Open { path: path.to_owned(), source };
-    let damaged = |e: ImageError| PlanError::Damaged { path: path.to_owned(), reason: e.to_string() };
-    let bytes = std::fs::read(path).map_err(open)?;
-    if bytes.is_empty() {
+    let file = open_input_up_to(path, LARGEST_IMAGE_BYTES).map_err(open)?;
+    let metadata = file.metadata().map_err(open)?;
+    if metadata.is_file() && metadata.len() == 0 {
         return Err(PlanError::Empty { path: path.to_owned() });
     }
-    let mut reader = ImageReader::new(Cursor::new(bytes.as_slice())).with_guessed_format().map_err(open)?;
+    let mut reader = ImageReader::new(BufReader::new(file)).with_guessed_format().map_err(open)?;
     let format = reader.format().ok_or_else(|| PlanError::UnknownFormat { path: path.to_owned() })?;
     reader.limits(limits());
-    let decoder = reader.into_decoder().map_err(|e| match e {
-        ImageError::Unsupported(_) => PlanError::UnknownFormat { path: path.to_owned() },
-        e => damaged(e),
-    })?;
-    // The header is read, nothing is allocated for pixels yet.
+    if format == ImageFormat::Jpeg && !ends_as_jpeg(path).map_err(open)? {
+        return Err(damaged(path, "the JPEG has no end: it was cut off"));
+    }
+    match reader.into_decoder() {
+        Ok(decoder) => pixels(path, decoder),
+        Err(ImageError::Unsupported(_)) if format == ImageFormat::Tiff => palette::decode(path),
+        Err(ImageError::Unsupported(_)) => Err(PlanError::UnknownFormat { path: path.to_owned() }),
+        Err(error) => Err(damaged(path, error)),
+    }
+}
+
+/// The pixels of an image whose header was read, unless there are too many.
+pub(super) fn pixels(path: &Path, decoder: impl ImageDecoder) -> Result<DynamicImage, PlanError> {
     let (width, height) = decoder.dimensions();
-    if width > LARGEST_SIDE_PX || height > LARGEST_SIDE_PX || u64::from(width) * u64::from(height) > LARGEST_AREA_PX {
+    let area = u64::from(width) * u64::from(height);
+    if width > LARGEST_SIDE_PX || height > LARGEST_SIDE_PX || area > LARGEST_AREA_PX {
         return Err(PlanError::TooManyPixels { path: path.to_owned(), width, height });
     }
     if width < 2 || height < 2 {
         return Err(PlanError::TooFewPixels { path: path.to_owned(), width, height });
     }
-    if format == ImageFormat::Jpeg && !ends_as_jpeg(&bytes) {
-        return Err(PlanError::Damaged { path: path.to_owned(), reason: "the JPEG has no end: it was cut off".into() });
+    let bytes = decoder.total_bytes();
+    if bytes > LARGEST_DECODED_BYTES {
+        return Err(PlanError::TooManyBytes {
+            path: path.to_owned(),
+            width,
+            height,
+            bytes,
+            most: LARGEST_DECODED_BYTES,
+        });
     }
-    DynamicImage::from_decoder(decoder).map_err(damaged)
+    let needed = bytes + WORKING_BYTES * area;
+    if Vec::<u8>::new().try_reserve_exact(usize::try_from(needed).unwrap_or(usize::MAX)).is_err() {
+        return Err(PlanError::NoMemory { path: path.to_owned(), width, height, needed });
+    }
+    DynamicImage::from_decoder(decoder).map_err(|error| damaged(path, error))
+}
+
+pub(super) fn damaged(path: &Path, reason: impl ToString) -> PlanError {
+    PlanError::Damaged { path: path.to_owned(), reason: reason.to_string() }
 }
 
 /// Room for the largest image in the widest pixel type; sides are checked by the caller.
-fn limits() -> Limits {
+pub(super) fn limits() -> Limits {
     let mut limits = Limits::default();
-    limits.max_alloc = Some(LARGEST_AREA_PX * 8 + (64 << 20));
+    limits.max_alloc = Some(LARGEST_DECODED_BYTES + (64 << 20));
     limits
 }
 
 /// Whether the end-of-image marker stands near the end; decoders fill up what is missing with grey.
-fn ends_as_jpeg(bytes: &[u8]) -> bool {
+fn ends_as_jpeg(path: &Path) -> std::io::Result<bool> {
     // Some cameras and editors append data of their own.
-    const TAIL: usize = 64 << 10;
-    let tail = &bytes[bytes.len().saturating_sub(TAIL).max(2).min(bytes.len())..];
-    tail.windows(2).any(|marker| marker == [0xff, 0xd9])
+    const TAIL: u64 = 64 << 10;
+    let mut file = File::open(path)?;
+    let length = file.metadata()?.len();
+    file.seek(SeekFrom::Start(length.saturating_sub(TAIL).max(2).min(length)))?;
+    let mut tail = Vec::new();
+    file.take(TAIL).read_to_end(&mut tail)?;
+    Ok(tail.windows(2).any(|marker| marker == [0xff, 0xd9]))
 }

@@ -10,26 +10,33 @@ mod clearance;
 mod colour;
 mod components;
 pub(crate) mod cracks;
+mod depths;
 mod doors;
 mod drawing;
 mod error;
 mod image_file;
+mod limits;
+mod mask;
 mod open_ground;
 mod openings;
 mod options;
+mod palette;
 mod read;
 mod regions;
 mod ros_map;
 mod scale;
+mod similar;
 mod spaces;
 mod symbols;
 
 pub use colour::{Colour, ColourError};
 pub use error::PlanError;
-pub use image_file::{LARGEST_AREA_PX, LARGEST_SIDE_PX};
+pub use limits::{
+    ASSUMED_M_PER_PX, LARGEST_AREA_PX, LARGEST_COORDINATE, LARGEST_M_PER_PX, LARGEST_ORIGIN_M, LARGEST_SIDE_M,
+    LARGEST_SIDE_PX, SMALLEST_M_PER_PX,
+};
 pub use options::{PixelPoint, PlanOptions, PlanPoint, TransparentPolicy, TwoPoints, UnknownPolicy};
-pub use read::read;
-pub use scale::{ASSUMED_M_PER_PX, LARGEST_M_PER_PX, LARGEST_SIDE_M, SMALLEST_M_PER_PX};
+pub use read::{files, read};
 
 /// Openings narrower than this are none, metres.
 pub const NARROWEST_OPENING_M: f64 = 0.6;
@@ -62,33 +69,6 @@ pub struct FloorPlan {
 }
 
 impl FloorPlan {
-    /// A plan from a ready mask in image order (row 0 at the top), 1 or any other non-zero byte where floor is.
-    ///
-    /// All of it is floor, whether anybody can reach it or not; openings and regions are found. A mask of the
-    /// wrong length is cut, or filled up with wall.
-    pub fn from_mask(width_px: u32, height_px: u32, metres_per_pixel: f64, mut floor: Vec<u8>) -> FloorPlan {
-        floor.resize(width_px as usize * height_px as usize, 0);
-        for pixel in &mut floor {
-            *pixel = u8::from(*pixel != 0);
-        }
-        let lightness = floor.iter().map(|&f| f * 255).collect();
-        let mut plan = FloorPlan {
-            width_px,
-            height_px,
-            metres_per_pixel,
-            floor,
-            lightness,
-            threshold: 128,
-            map_from_plan: Pose::default(),
-            regions: Vec::new(),
-            openings: Vec::new(),
-            warnings: Vec::new(),
-        };
-        plan.regions = regions::of_mask(&plan);
-        plan.openings = openings::find(&plan);
-        plan
-    }
-
     /// Width in metres.
     pub fn width_m(&self) -> f64 {
         f64::from(self.width_px) * self.metres_per_pixel

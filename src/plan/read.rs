@@ -1,6 +1,6 @@
 //! From a path to a [`FloorPlan`].
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::drawing::{self, Drawing};
 use super::{FloorPlan, PlanError, PlanOptions, Pose, doors, image_file, openings, regions, ros_map, scale, symbols};
@@ -35,6 +35,12 @@ pub fn read(path: &Path, options: &PlanOptions) -> Result<FloorPlan, PlanError> 
     understand(drawing, metres_per_pixel, options, map_from_plan, warnings)
 }
 
+/// The files that [`read`] opens for a path: a ROS map names its image.
+pub fn files(path: &Path) -> Vec<PathBuf> {
+    let image = if ros_map::is_map(path) { ros_map::read(path).ok().map(|map| map.image) } else { None };
+    [path.to_owned()].into_iter().chain(image).collect()
+}
+
 fn understand(
     mut drawing: Drawing,
     metres_per_pixel: f64,
@@ -49,16 +55,20 @@ fn understand(
     symbols::drop_specks(&mut drawing, metres_per_pixel, options.speck_m);
     if options.drop_annotation && !drawing.scanned {
         symbols::drop_annotation(&mut drawing, metres_per_pixel);
+        drawing.coloured = Vec::new();
         doors::drop_doors(&mut drawing, metres_per_pixel);
     }
     if !drawing.dark.contains(&1) {
         return Err(PlanError::NoWalls { pixels, threshold });
     }
+    // In place: large plans are most of the memory.
+    let mut floor = drawing.dark;
+    floor.iter_mut().for_each(|pixel| *pixel = 1 - *pixel);
     let mut plan = FloorPlan {
         width_px: drawing.width as u32,
         height_px: drawing.height as u32,
         metres_per_pixel,
-        floor: drawing.dark.iter().map(|&d| 1 - d).collect(),
+        floor,
         lightness: drawing.lightness,
         threshold,
         map_from_plan,
@@ -76,7 +86,7 @@ fn assumed_scale(path: &Path, metres_per_pixel: f64) -> String {
     let map = path.with_extension("yaml");
     let advice = match map.file_name() {
         Some(name) if map.is_file() => format!("give {} instead if it is this image's map", name.display()),
-        _ => "say otherwise with --metres-per-pixel".to_owned(),
+        _ => "give the scale in metres per pixel if it is another".to_owned(),
     };
     format!("no scale was given: a pixel was taken for {metres_per_pixel} m; {advice}")
 }

@@ -3,7 +3,7 @@
 use super::clearance::{dilate, erode};
 use super::components::{Components, Neighbours};
 use super::spaces::{Spaces, split};
-use super::{FloorPlan, NARROWEST_OPENING_M, PlanError, Region, RegionRole};
+use super::{FloorPlan, NARROWEST_OPENING_M, PlanError, Region, RegionRole, depths};
 use crate::math::Vec2;
 
 /// A space that holds an image corner is outside if the others have at least this share of its area.
@@ -47,8 +47,10 @@ pub(super) fn choose(plan: &mut FloorPlan, narrowest_m: f64, seeds: &[Vec2]) -> 
         }
     }
     let roles = if seeds.is_empty() { roles_by_shape(&spaces) } else { roles_by_seeds(plan, &spaces, seeds)? };
-    plan.floor = spaces.label.iter().map(|&n| u8::from(n > 0 && roles[n as usize - 1] == RegionRole::Floor)).collect();
     plan.regions = list(plan, &spaces, &roles, &white, paper.as_deref());
+    let is_floor = |n: u16| n > 0 && roles[usize::from(n) - 1] == RegionRole::Floor;
+    white.iter_mut().zip(&spaces.label).for_each(|(pixel, &n)| *pixel = u8::from(is_floor(n)));
+    plan.floor = white;
     Ok(())
 }
 
@@ -72,6 +74,7 @@ fn paper_around(white: &[u8], spaces: &Spaces, width: usize, door_px: f64) -> Op
     let radius = (door_px * 0.5).max(1.0);
     let wide = erode(white, width, radius);
     let pieces = Components::of(&wide, width, 1, Neighbours::Four);
+    drop(wide);
     let mut core = vec![0u8; white.len()];
     let corner = |x: u32, y: u32| (x == 0 || x == width as u32 - 1) && (y == 0 || y == height as u32 - 1);
     for piece in &pieces.all {
@@ -81,6 +84,7 @@ fn paper_around(white: &[u8], spaces: &Spaces, width: usize, door_px: f64) -> Op
         }
     }
     let mut paper = dilate(&core, width, radius);
+    drop(core);
     for (paper, &white) in paper.iter_mut().zip(white) {
         *paper &= white;
     }
@@ -171,20 +175,13 @@ fn nearest_space(plan: &FloorPlan, spaces: &Spaces, p: Vec2) -> Option<Vec2> {
 fn list(plan: &FloorPlan, spaces: &Spaces, roles: &[RegionRole], white: &[u8], paper: Option<&[u8]>) -> Vec<Region> {
     let width = plan.width_px as usize;
     let pixel_m2 = plan.metres_per_pixel * plan.metres_per_pixel;
-    let depth = depths(white, width);
     let region = |area: usize, inside: usize, role: RegionRole| Region {
         area_m2: area as f64 * pixel_m2,
         inside_m: plan.px_to_m([(inside % width) as f64 + 0.5, (inside / width) as f64 + 0.5]),
         role,
     };
-    let mut deepest = vec![(0u16, 0usize); spaces.all.len()];
-    for (at, &number) in spaces.label.iter().enumerate() {
-        if number > 0 && depth[at] > deepest[number as usize - 1].0 {
-            deepest[number as usize - 1] = (depth[at], at);
-        }
-    }
-    let mut regions: Vec<Region> =
-        (0..roles.len()).map(|k| region(spaces.all[k].area, deepest[k].1, roles[k])).collect();
+    let deepest = depths::deepest(white, width, &spaces.label, spaces.all.len());
+    let mut regions: Vec<Region> = (0..roles.len()).map(|k| region(spaces.all[k].area, deepest[k], roles[k])).collect();
     // White in which nobody can stand, and the paper.
     let rest: Vec<u8> = spaces.label.iter().zip(white).map(|(&n, &w)| u8::from(n == 0 && w != 0)).collect();
     for (mask, role) in [(Some(rest.as_slice()), RegionRole::Unreached), (paper, RegionRole::Outside)] {
@@ -197,38 +194,4 @@ fn list(plan: &FloorPlan, spaces: &Spaces, roles: &[RegionRole], white: &[u8], p
     }
     regions.sort_by(|a, b| b.area_m2.total_cmp(&a.area_m2));
     regions
-}
-
-/// How far each white pixel lies from the nearest other, in fifths of a pixel (5-7 chamfer, saturating).
-fn depths(white: &[u8], width: usize) -> Vec<u16> {
-    let height = white.len() / width;
-    let mut depth: Vec<u16> = white.iter().map(|&w| if w != 0 { u16::MAX - 8 } else { 0 }).collect();
-    let pull = |depth: &mut [u16], at: usize, from: usize, step: u16| depth[at] = depth[at].min(depth[from] + step);
-    for y in 1..height {
-        for x in 0..width {
-            let at = y * width + x;
-            pull(&mut depth, at, at - width, 5);
-            if x > 0 {
-                pull(&mut depth, at, at - 1, 5);
-                pull(&mut depth, at, at - width - 1, 7);
-            }
-            if x + 1 < width {
-                pull(&mut depth, at, at - width + 1, 7);
-            }
-        }
-    }
-    for y in (0..height.saturating_sub(1)).rev() {
-        for x in (0..width).rev() {
-            let at = y * width + x;
-            pull(&mut depth, at, at + width, 5);
-            if x + 1 < width {
-                pull(&mut depth, at, at + 1, 5);
-                pull(&mut depth, at, at + width + 1, 7);
-            }
-            if x > 0 {
-                pull(&mut depth, at, at + width - 1, 7);
-            }
-        }
-    }
-    depth
 }

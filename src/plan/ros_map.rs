@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::{PlanError, Pose};
+use super::similar::similar_file;
+use super::{LARGEST_ORIGIN_M, PlanError, Pose};
+use crate::files::read_text;
 use crate::math::vec2;
 
 /// What a map says about its image.
@@ -123,7 +125,7 @@ fn usual_free() -> f64 {
 
 /// Reads a map's YAML. Its resolution is checked with the other scales, its image not at all.
 pub(super) fn read(path: &Path) -> Result<RosMap, PlanError> {
-    let text = std::fs::read_to_string(path).map_err(|source| PlanError::Open { path: path.to_owned(), source })?;
+    let text = read_text(path).map_err(|source| PlanError::Open { path: path.to_owned(), source })?;
     if text.trim().is_empty() {
         return Err(PlanError::Empty { path: path.to_owned() });
     }
@@ -134,8 +136,10 @@ pub(super) fn read(path: &Path) -> Result<RosMap, PlanError> {
         [x, y, yaw] => (x, y, yaw),
         _ => return Err(refuse(format!("origin has {} numbers instead of x, y, yaw", file.origin.len()))),
     };
-    if !(x.is_finite() && y.is_finite() && yaw_rad.is_finite()) {
-        return Err(refuse(format!("origin [{x}, {y}, {yaw_rad}] is not finite")));
+    // Written so that NaN is out of range.
+    if ![x, y, yaw_rad].iter().all(|number| number.abs() <= LARGEST_ORIGIN_M) {
+        let most = LARGEST_ORIGIN_M;
+        return Err(refuse(format!("origin is [{x}, {y}, {yaw_rad}], allowed is -{most} to {most}")));
     }
     for (key, value) in [("occupied_thresh", file.occupied_thresh), ("free_thresh", file.free_thresh)] {
         if !(0.0..=1.0).contains(&value) {
@@ -148,7 +152,7 @@ pub(super) fn read(path: &Path) -> Result<RosMap, PlanError> {
     }
     let image = path.parent().unwrap_or(Path::new("")).join(&file.image);
     if !image.is_file() {
-        let similar = similar_name(&image);
+        let similar = similar_file(&image);
         return Err(PlanError::MapImageMissing { map: path.to_owned(), image, similar });
     }
     let negate = match file.negate {
@@ -161,28 +165,6 @@ pub(super) fn read(path: &Path) -> Result<RosMap, PlanError> {
         pose: Pose { origin_m: vec2(x, y), yaw_rad },
         greys: Greys { mode: file.mode, negate, occupied_at: file.occupied_thresh, free_at: file.free_thresh },
     })
-}
-
-/// The image in the same folder whose name is most like that of a missing one.
-fn similar_name(missing: &Path) -> Option<PathBuf> {
-    const ENDINGS: [&str; 9] = ["pgm", "png", "jpg", "jpeg", "bmp", "tif", "tiff", "gif", "pnm"];
-    let wanted = missing.file_name()?.to_str()?.to_lowercase();
-    let mut best: Option<(f64, PathBuf)> = None;
-    for entry in std::fs::read_dir(missing.parent()?).ok()?.flatten() {
-        let path = entry.path();
-        let ending = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
-        let Some(name) = path.file_name().and_then(|n| n.to_str()).map(str::to_lowercase) else { continue };
-        if !ENDINGS.contains(&ending.as_str()) {
-            continue;
-        }
-        let likeness = strsim::jaro_winkler(&wanted, &name);
-        // Ties by name, so that the folder's order decides nothing.
-        let better = best.as_ref().is_none_or(|(most, p)| likeness > *most || (likeness == *most && path < *p));
-        if likeness > 0.7 && better {
-            best = Some((likeness, path));
-        }
-    }
-    best.map(|(_, path)| path)
 }
 
 #[cfg(test)]

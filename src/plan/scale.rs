@@ -1,15 +1,6 @@
 //! How large a pixel is.
 
-use super::{PlanError, PlanOptions, TwoPoints};
-
-/// Finest scale that is believed, metres per pixel.
-pub const SMALLEST_M_PER_PX: f64 = 0.0005;
-/// Coarsest scale that is believed, metres per pixel.
-pub const LARGEST_M_PER_PX: f64 = 10.0;
-/// Longest side of a plan, metres.
-pub const LARGEST_SIDE_M: f64 = 4000.0;
-/// Assumed where nothing says otherwise, metres per pixel: the usual one of indoor maps.
-pub const ASSUMED_M_PER_PX: f64 = 0.05;
+use super::{ASSUMED_M_PER_PX, LARGEST_M_PER_PX, LARGEST_SIDE_M, PlanError, PlanOptions, SMALLEST_M_PER_PX, TwoPoints};
 
 /// Metres per pixel, and whether that had to be assumed. A setting goes before what a map says.
 pub(super) fn choose(options: &PlanOptions, from_map: Option<f64>) -> Result<(f64, bool), PlanError> {

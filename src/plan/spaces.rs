@@ -6,16 +6,19 @@
 //! an open end, the rays that a scanner sends through a window.
 
 use super::clearance::erode;
-use super::components::{Components, Neighbours};
+use super::components::{Component, Components, Neighbours};
 
 /// How far beyond where a person's middle can go white still belongs to a space, in half widths of the person.
 /// Corners of down to about 30 degrees are filled to their tip.
 const REACH_HALF_WIDTHS: f64 = 4.0;
 
+/// The most spaces that are told apart; of more, the smallest where people can stand are left out.
+const MOST_SPACES: usize = u16::MAX as usize;
+
 /// The spaces of a plan.
 pub(super) struct Spaces {
     /// For each pixel the number of its space from 1 on, or 0.
-    pub(super) label: Vec<u32>,
+    pub(super) label: Vec<u16>,
     /// By number less one.
     pub(super) all: Vec<Space>,
 }
@@ -39,13 +42,13 @@ pub(super) struct Space {
 /// `opening_px` wide.
 pub(super) fn split(white: &[u8], width: usize, person_px: f64, opening_px: f64) -> Spaces {
     let radius = (person_px * 0.5).max(1.0);
-    let standing = erode(white, width, radius);
-    let pieces = Components::of(&standing, width, 1, Neighbours::Four);
-    let mut label = vec![0u32; white.len()];
-    for (number, piece) in pieces.all.iter().enumerate() {
+    let mut pieces = Components::of(&erode(white, width, radius), width, 1, Neighbours::Four);
+    keep_largest(&mut pieces.all, MOST_SPACES);
+    let mut label = vec![0u16; white.len()];
+    for (number, piece) in (1..).zip(&pieces.all) {
         for run in pieces.runs(piece) {
             let row = run.y as usize * width;
-            label[row + run.from as usize..row + run.to as usize].fill(number as u32 + 1);
+            label[row + run.from as usize..row + run.to as usize].fill(number);
         }
     }
     if radius > 1.0 {
@@ -61,15 +64,31 @@ pub(super) fn split(white: &[u8], width: usize, person_px: f64, opening_px: f64)
     count_sides(spaces, width, opening_px)
 }
 
+/// Leaves out the smallest pieces where there are more than `most`; the others stay in their order.
+fn keep_largest(pieces: &mut Vec<Component>, most: usize) {
+    if pieces.len() <= most {
+        return;
+    }
+    let mut areas: Vec<usize> = pieces.iter().map(|piece| piece.area).collect();
+    areas.sort_unstable_by(|a, b| b.cmp(a));
+    let least = areas[most - 1];
+    let mut of_least = areas[..most].iter().filter(|&&area| area == least).count();
+    pieces.retain(|piece| {
+        let is_least = piece.area == least && of_least > 0;
+        of_least -= usize::from(is_least);
+        piece.area > least || is_least
+    });
+}
+
 /// Gives white around labelled pixels to the nearest of them by the way through white, up to `reach` pixels.
 ///
 /// Dijkstra over pixels in buckets of equal cost; a step costs 5 to the side and 7 over a corner (Borgefors
 /// 1986, doi 10.1016/S0734-189X(86)80047-0), the latter only past a white pixel, since floor is 4-connected.
-fn share_out(white: &[u8], width: usize, label: &mut [u32], reach: f64) {
+fn share_out(white: &[u8], width: usize, label: &mut [u16], reach: f64) {
     let height = white.len() / width;
     let last = (reach * 5.0).ceil() as usize;
-    let mut buckets: Vec<Vec<(u32, u32)>> = vec![Vec::new(); last + 8];
-    let spread = |at: usize, number: u32, cost: usize, label: &[u32], buckets: &mut [Vec<(u32, u32)>]| {
+    let mut buckets: Vec<Vec<(u32, u16)>> = vec![Vec::new(); last + 8];
+    let spread = |at: usize, number: u16, cost: usize, label: &[u16], buckets: &mut [Vec<(u32, u16)>]| {
         let (x, y) = (at % width, at / width);
         let (west, east, north, south) = (x > 0, x + 1 < width, y > 0, y + 1 < height);
         let free = |at: usize| white[at] != 0;
@@ -96,9 +115,19 @@ fn share_out(white: &[u8], width: usize, label: &mut [u32], reach: f64) {
             }
         }
     };
-    for at in 0..label.len() {
-        if label[at] != 0 {
-            spread(at, label[at], 0, label, &mut buckets);
+    // Most labelled pixels lie amid others, and have nothing to give.
+    let mut open = vec![false; width];
+    for y in 0..height {
+        open.fill(false);
+        for row in y.saturating_sub(1)..=(y + 1).min(height - 1) {
+            let row = &label[row * width..(row + 1) * width];
+            open.iter_mut().zip(row).for_each(|(open, &number)| *open |= number == 0);
+        }
+        for x in 0..width {
+            let at = y * width + x;
+            if label[at] != 0 && open[x.saturating_sub(1)..=(x + 1).min(width - 1)].contains(&true) {
+                spread(at, label[at], 0, label, &mut buckets);
+            }
         }
     }
     for cost in 0..=last {

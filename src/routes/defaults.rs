@@ -34,7 +34,7 @@ struct Stop {
 
 /// Joins the widest openings, all pairs in both directions. Where there are fewer than two, or where they lie close
 /// together at the edge of a large floor, places far apart join them. A pair's share is the product of its widths.
-pub(super) fn plots(plan: &FloorPlan, ground: &Ground, fields: &mut FieldStore) -> Result<Vec<Plot>, RoutesError> {
+pub(super) fn plots(plan: &FloorPlan, ground: &Ground, fields: &mut FieldStore<'_>) -> Result<Vec<Plot>, RoutesError> {
     let stops = with_far_places(plan, ground, fields, widest_openings(plan, ground))?;
     let mut plots = Vec::new();
     for from in &stops {
@@ -93,7 +93,7 @@ fn widest_openings(plan: &FloorPlan, ground: &Ground) -> Vec<Stop> {
 fn with_far_places(
     plan: &FloorPlan,
     ground: &Ground,
-    fields: &mut FieldStore,
+    fields: &mut FieldStore<'_>,
     mut stops: Vec<Stop>,
 ) -> Result<Vec<Stop>, RoutesError> {
     let part = match stops.first() {
@@ -111,7 +111,7 @@ fn with_far_places(
     if openings == 0 {
         // The end of a longest walk: the place farthest from anywhere.
         let anywhere = targets::cells(plan, ground, stand_in(ground, cells[0]));
-        let field = super::Field::to(ground, &anywhere);
+        let field = fields.measure(ground, &anywhere)?;
         let far = farthest(&cells, |k| field.of_cell(cells[k]));
         stops.push(named(stand_in(ground, far.0), 1, part));
     }
@@ -121,7 +121,7 @@ fn with_far_places(
     while stops.len() < MOST_PLACES {
         for k in measured..stops.len() {
             let end = LegEnd { place: stops[k].place, last: true };
-            fields.fill(plan, ground, [end].into_iter());
+            fields.fill(plan, ground, [end].into_iter())?;
             let field = fields.get(end);
             for (nearest, &cell) in nearest_m.iter_mut().zip(&cells) {
                 *nearest = nearest.min(field.of_cell(cell));

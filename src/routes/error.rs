@@ -4,6 +4,9 @@ use crate::math::Vec2;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RoutesError {
+    /// Stopped by the user.
+    #[error("interrupted")]
+    Interrupted,
     /// A name that no opening bears.
     #[error("route \"{route}\": the plan has no opening called \"{name}\"{}", list(.openings))]
     UnknownOpening {
@@ -30,15 +33,20 @@ pub enum RoutesError {
         /// The nearest place to stand.
         nearest: Option<Box<Spot>>,
     },
-    /// A coordinate that is no number.
-    #[error("route \"{route}\": {role} {place} holds a coordinate that is not a finite number")]
-    NotFinite {
+    /// A coordinate far beyond any plan, or none.
+    #[error(
+        "route \"{route}\": {role} {place} holds the coordinate {value} m, allowed is -{most} to {most}",
+        most = crate::plan::LARGEST_COORDINATE
+    )]
+    TooFar {
         /// The route that asks for it.
         route: String,
         /// `from`, `to` or `via`.
         role: &'static str,
         /// The place as asked for.
         place: String,
+        /// The coordinate, metres.
+        value: f64,
     },
     /// A stop that the scenario does not have.
     #[error("route \"{route}\": there is no stop called \"{name}\"")]
@@ -200,7 +208,7 @@ impl RoutesError {
             RoutesError::NotOnFloor { nearest: Some(spot), .. } => {
                 Some(format!("use [{:.2}, {:.2}], or px = [{:.0}, {:.0}]", spot.at_m.x, spot.at_m.y, spot.at_px[0], spot.at_px[1]))
             }
-            RoutesError::NotOnFloor { .. } | RoutesError::NotFinite { .. } | RoutesError::StopNotOnFloor { .. } => {
+            RoutesError::NotOnFloor { .. } | RoutesError::TooFar { .. } | RoutesError::StopNotOnFloor { .. } => {
                 Some("points are metres from the plan's lower-left corner, or { px = [x, y] } from the top left".into())
             }
             RoutesError::StopUnreachable { .. } => {
@@ -219,7 +227,7 @@ impl RoutesError {
             }
             RoutesError::NoLength { .. } => Some("give another goal, or a place to pass with `via`".into()),
             RoutesError::Share { .. } | RoutesError::NoShares { .. } | RoutesError::TooMany { .. } => None,
-            RoutesError::StopValue { .. } | RoutesError::Timetable { .. } => None,
+            RoutesError::StopValue { .. } | RoutesError::Timetable { .. } | RoutesError::Interrupted => None,
         }
     }
 }

@@ -1,4 +1,6 @@
+use super::RoutesError;
 use super::ground::Ground;
+use crate::Progress;
 use crate::math::{Vec2, vec2};
 
 /// Walking distance from everywhere to one place: metres, where a metre close to walls counts for more.
@@ -6,6 +8,9 @@ use crate::math::{Vec2, vec2};
 /// Solution of the eikonal equation `|grad d| = cost` with `d = 0` at the place, first-order upwind (Rouy and
 /// Tourin 1992, doi 10.1137/0729053), found in order of distance (Sethian 1996, doi 10.1073/pnas.93.4.1591)
 /// with buckets in place of a heap and every improvement passed on, so that the order decides nothing.
+///
+/// Distances are kept as `f32`. An improvement counts if it is still one after rounding: a cell's distance only ever
+/// falls, by a step of `f32` at least, so that the search ends at any distance.
 #[derive(Debug)]
 pub(crate) struct Field {
     distance_m: Vec<f32>,
@@ -19,6 +24,9 @@ const EASE_M: f64 = 3.0;
 const SQUEEZE_COST: f64 = 4.0;
 /// Clearance from which nobody has to squeeze, metres.
 const SQUEEZE_M: f64 = 0.25;
+
+/// Improvements below this share of a cell are not worth passing on.
+const LEAST_GAIN: f64 = 1e-4;
 
 /// Buckets in the ring.
 const RING: usize = 16;
@@ -37,6 +45,17 @@ impl Field {
     pub(crate) fn to(ground: &Ground, goal: &[usize]) -> Field {
         let seeds = goal.iter().map(|&cell| (cell, 0.0)).collect();
         Field::spread(ground, seeds, |_, _| true)
+    }
+
+    /// The same, but given up half done once somebody wants the work to stop.
+    pub(super) fn to_unless_interrupted(
+        ground: &Ground,
+        goal: &[usize],
+        progress: &dyn Progress,
+    ) -> Result<Field, RoutesError> {
+        let seeds = goal.iter().map(|&cell| (cell, 0.0)).collect();
+        let field = Field::spread(ground, seeds, |_, _| !progress.interrupted());
+        if progress.interrupted() { Err(RoutesError::Interrupted) } else { Ok(field) }
     }
 
     /// The least of `value + distance` over cells with values of 0 or more, in those cells for which `wanted` says so.
@@ -76,7 +95,7 @@ impl Field {
                     }
                     let step = cell_m * cost(ground.cell_clearance_m(beside));
                     let value = upwind(&distance, lattice.around(beside), step);
-                    if value + 1e-4 * cell_m < f64::from(distance[beside]) && wanted(beside, value) {
+                    if is_nearer(value, distance[beside], LEAST_GAIN * cell_m) && wanted(beside, value) {
                         distance[beside] = value as f32;
                         let at = bucket_of(distance[beside]);
                         waiting += 1;
@@ -155,6 +174,13 @@ impl Field {
             .min_by(|&a, &b| self.of_cell(a).total_cmp(&self.of_cell(b)).then(a.cmp(&b)))?;
         (lattice.centre(best) - p).normalized()
     }
+}
+
+/// Whether a distance falls short of one that is kept by a least gain, and still does once it is rounded as that is:
+/// far away the gain is less than a step of `f32`, and a distance that was rounded up would be improved for ever.
+#[inline]
+fn is_nearer(value: f64, kept: f32, least_gain: f64) -> bool {
+    value + least_gain < f64::from(kept) && (value as f32) < kept
 }
 
 /// Upwind solution in a cell whose neighbours (west, east, south, north) have these distances.

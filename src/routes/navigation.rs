@@ -15,6 +15,7 @@ use super::{
 use crate::math::Vec2;
 use crate::plan::FloorPlan;
 use crate::walls::Walls;
+use crate::{Progress, Silent};
 
 /// More routes than this are a mistake.
 const MOST_ROUTES: usize = 1000;
@@ -70,9 +71,22 @@ impl Navigation {
         walls: &Walls,
         options: &RoutesOptions,
     ) -> Result<(Vec<Route>, Navigation), RoutesError> {
+        Navigation::find_watched(plan, walls, options, &Silent)
+    }
+
+    /// The same, given up soon after `progress` says that the user wants it to stop.
+    ///
+    /// # Errors
+    /// As [`find`]; [`RoutesError::Interrupted`].
+    pub fn find_watched(
+        plan: &FloorPlan,
+        walls: &Walls,
+        options: &RoutesOptions,
+        progress: &dyn Progress,
+    ) -> Result<(Vec<Route>, Navigation), RoutesError> {
         first_that_works(plan, |fineness| {
             let ground = Ground::new(plan, walls, fineness);
-            let (routes, fields) = Navigation::find_on(plan, walls, &ground, options)?;
+            let (routes, fields) = Navigation::find_on(plan, walls, &ground, options, progress)?;
             let navigation = Navigation::of(plan, ground, &routes, fields)?;
             Ok((routes, navigation))
         })
@@ -84,21 +98,22 @@ impl Navigation {
     /// Routes that do not belong to this plan.
     pub fn new(plan: &FloorPlan, walls: &Walls, routes: &[Route]) -> Result<Navigation, RoutesError> {
         first_that_works(plan, |fineness| {
-            Navigation::of(plan, Ground::new(plan, walls, fineness), routes, FieldStore::default())
+            Navigation::of(plan, Ground::new(plan, walls, fineness), routes, FieldStore::new(&Silent))
         })
     }
 
-    fn find_on(
+    fn find_on<'p>(
         plan: &FloorPlan,
         walls: &Walls,
         ground: &Ground,
         options: &RoutesOptions,
-    ) -> Result<(Vec<Route>, FieldStore), RoutesError> {
+        progress: &'p dyn Progress,
+    ) -> Result<(Vec<Route>, FieldStore<'p>), RoutesError> {
         let asked = &options.routes;
         if asked.len() > MOST_ROUTES {
             return Err(RoutesError::TooMany { routes: asked.len(), most: MOST_ROUTES });
         }
-        let mut fields = FieldStore::default();
+        let mut fields = FieldStore::new(progress);
         let mut plots: Vec<Plot> = if asked.is_empty() {
             defaults::plots(plan, ground, &mut fields)?
         } else {
@@ -109,7 +124,7 @@ impl Navigation {
         if total <= 0.0 {
             return Err(RoutesError::NoShares { routes: plots.len() });
         }
-        fields.fill(plan, ground, plots.iter().flat_map(Plot::legs));
+        fields.fill(plan, ground, plots.iter().flat_map(Plot::legs))?;
         turn_gates(ground, &fields, &mut plots);
         let routes: Result<Vec<Route>, RoutesError> =
             plots.par_iter().map(|plot| lay_out(plan, ground, &fields, plot, plot.share / total)).collect();
@@ -120,17 +135,18 @@ impl Navigation {
         plan: &FloorPlan,
         ground: Ground,
         routes: &[Route],
-        mut fields: FieldStore,
+        mut fields: FieldStore<'_>,
     ) -> Result<Navigation, RoutesError> {
-        fields.fill(plan, &ground, routes.iter().flat_map(route_legs));
+        fields.fill(plan, &ground, routes.iter().flat_map(route_legs))?;
         let mut pairs: Vec<Pair> = Vec::new();
         let ways =
             routes.iter().map(|route| way(plan, &ground, &fields, route, &mut pairs)).collect::<Result<_, _>>()?;
         let flow = |pair: &Pair| {
+            fields.go_on()?;
             let starts = pair.from.cells(plan, &ground);
-            Arc::new(Flow::new(&ground, &starts, fields.get(pair.to)))
+            Ok(Arc::new(Flow::new(&ground, &starts, fields.get(pair.to))))
         };
-        let flows = pairs.par_iter().map(flow).collect();
+        let flows = pairs.par_iter().map(flow).collect::<Result<_, RoutesError>>()?;
         let fields = fields.fields.into_iter().map(|f| f.1).collect();
         Ok(Navigation { ground: Arc::new(ground), fields, flows, ways })
     }
@@ -185,23 +201,43 @@ struct Pair {
 }
 
 /// The fields made so far.
-#[derive(Debug, Default)]
-pub(super) struct FieldStore {
+pub(super) struct FieldStore<'p> {
     fields: Vec<(LegEnd, Arc<Field>)>,
+    progress: &'p dyn Progress,
 }
 
-impl FieldStore {
+impl FieldStore<'_> {
+    pub(super) fn new(progress: &dyn Progress) -> FieldStore<'_> {
+        FieldStore { fields: Vec::new(), progress }
+    }
+
+    /// An error once the user wants the work to stop.
+    fn go_on(&self) -> Result<(), RoutesError> {
+        if self.progress.interrupted() { Err(RoutesError::Interrupted) } else { Ok(()) }
+    }
+
+    /// The field to some cells, which is not kept.
+    pub(super) fn measure(&self, ground: &Ground, goal: &[usize]) -> Result<Field, RoutesError> {
+        Field::to_unless_interrupted(ground, goal, self.progress)
+    }
+
     /// Makes the fields that are still missing, side by side.
-    pub(super) fn fill(&mut self, plan: &FloorPlan, ground: &Ground, wanted: impl Iterator<Item = LegEnd>) {
+    pub(super) fn fill(
+        &mut self,
+        plan: &FloorPlan,
+        ground: &Ground,
+        wanted: impl Iterator<Item = LegEnd>,
+    ) -> Result<(), RoutesError> {
         let mut missing: Vec<LegEnd> = Vec::new();
         for end in wanted {
             if !missing.contains(&end) && self.fields.iter().all(|f| f.0 != end) {
                 missing.push(end);
             }
         }
-        let made = missing.into_par_iter().map(|end| (end, Arc::new(Field::to(ground, &end.cells(plan, ground)))));
-        let made: Vec<_> = made.collect();
+        let make = |end: LegEnd| Ok((end, Arc::new(self.measure(ground, &end.cells(plan, ground))?)));
+        let made: Vec<_> = missing.into_par_iter().map(make).collect::<Result<_, RoutesError>>()?;
         self.fields.extend(made);
+        Ok(())
     }
 
     fn index(&self, end: LegEnd) -> usize {
@@ -341,7 +377,7 @@ fn or_stop(error: RoutesError, stops: &[Stop]) -> RoutesError {
 }
 
 /// Turns ticket gates the way that the first route goes through them; all routes share them.
-fn turn_gates(ground: &Ground, fields: &FieldStore, plots: &mut [Plot]) {
+fn turn_gates(ground: &Ground, fields: &FieldStore<'_>, plots: &mut [Plot]) {
     let mut turned: Vec<Stop> = Vec::new();
     for plot in plots {
         let legs: Vec<LegEnd> = plot.legs().collect();
@@ -360,7 +396,7 @@ fn turn_gates(ground: &Ground, fields: &FieldStore, plots: &mut [Plot]) {
 fn lay_out(
     plan: &FloorPlan,
     ground: &Ground,
-    fields: &FieldStore,
+    fields: &FieldStore<'_>,
     plot: &Plot,
     share: f64,
 ) -> Result<Route, RoutesError> {
@@ -430,7 +466,7 @@ fn no_way(plan: &FloorPlan, ground: &Ground, route: &str, names: [&str; 2], cell
 fn way(
     plan: &FloorPlan,
     ground: &Ground,
-    fields: &FieldStore,
+    fields: &FieldStore<'_>,
     route: &Route,
     pairs: &mut Vec<Pair>,
 ) -> Result<Way, RoutesError> {

@@ -6,7 +6,7 @@ use super::field::Field;
 use super::ground::Ground;
 use super::{Place, Route, RoutesError};
 use crate::math::{Distribution, Rect, Vec2, sin_cos, vec2};
-use crate::plan::{FloorPlan, PlanPoint};
+use crate::plan::{FloorPlan, LARGEST_COORDINATE, PlanPoint};
 use crate::walls::Walls;
 
 /// A place to stand lies at most this far from where it was asked for, metres: counters stand at walls.
@@ -197,8 +197,15 @@ impl StopRequest {
         self.check().map_err(wrong)?;
         let finite = |key, point: PlanPoint| {
             let p = point.to_m(plan);
-            let fine = p.is_finite() && p.x.abs() < 1e7 && p.y.abs() < 1e7;
-            if fine { Ok(p) } else { Err(wrong((key, "a coordinate is not a finite number".into()))) }
+            // Written so that NaN is out of range.
+            let beyond = [p.x, p.y].into_iter().find(|c| !(c.abs() <= LARGEST_COORDINATE));
+            match beyond {
+                None => Ok(p),
+                Some(c) => {
+                    let most = LARGEST_COORDINATE;
+                    Err(wrong((key, format!("a coordinate is {c} m, allowed is -{most} to {most}"))))
+                }
+            }
         };
         let at_m = match self.at {
             StopAt::Point(point) => [finite("at", point)?; 2],

@@ -3,7 +3,7 @@
 use super::ground::{Ground, apron};
 use super::{Place, PlaceRequest, RoutesError, Spot};
 use crate::math::{Rect, Vec2, vec2};
-use crate::plan::FloorPlan;
+use crate::plan::{FloorPlan, LARGEST_COORDINATE};
 use crate::walls::APRON_M;
 
 /// Half the side of the square that a point stands for, metres.
@@ -64,10 +64,14 @@ fn opening(plan: &FloorPlan, name: &str, asked: Asked<'_>) -> Result<Place, Rout
 
 fn finite(p: Vec2, request: &PlaceRequest, asked: Asked<'_>) -> Result<Vec2, RoutesError> {
     // Coordinates far beyond any plan are as useless as NaN, and would overflow the grid's indices.
-    if p.is_finite() && p.x.abs() < 1e7 && p.y.abs() < 1e7 {
-        return Ok(p);
+    // Written so that NaN is out of range.
+    match [p.x, p.y].into_iter().find(|c| !(c.abs() <= LARGEST_COORDINATE)) {
+        None => Ok(p),
+        Some(value) => {
+            let (route, place) = (asked.route.into(), request.describe());
+            Err(RoutesError::TooFar { route, role: asked.role, place, value })
+        }
     }
-    Err(RoutesError::NotFinite { route: asked.route.into(), role: asked.role, place: request.describe() })
 }
 
 fn not_on_floor(plan: &FloorPlan, ground: &Ground, p: Vec2, request: &PlaceRequest, asked: Asked<'_>) -> RoutesError {

@@ -162,7 +162,7 @@ fn a_door_of_30_cm_is_named_as_what_is_too_narrow() {
 fn coordinates_that_are_no_numbers_are_refused() {
     for bad in [f64::NAN, f64::INFINITY, 1e300] {
         let error = found(&CORRIDOR, vec![route(point(bad, 2.0), opening("east"))]).expect_err("not a number");
-        assert!(matches!(error, RoutesError::NotFinite { .. }), "{error}");
+        assert!(matches!(error, RoutesError::TooFar { .. }), "{error}");
         let area = PlaceRequest::Area([[0.0, 0.0], [bad, 1.0]]);
         assert!(found(&CORRIDOR, vec![route(area, opening("east"))]).is_err());
     }

@@ -129,9 +129,11 @@ impl Timetable {
     /// person. Lines that begin with `#` are skipped, and so is a first line of names.
     ///
     /// # Errors
-    /// The line, counted from 1, that holds anything else, and what it holds.
-    pub fn rows_of_csv(text: &str) -> Result<Vec<[f64; 2]>, (usize, String)> {
+    /// The line, counted from 1, that holds anything else, and what is wrong with it. The line itself is not repeated: the
+    /// file may be a wrong one.
+    pub fn rows_of_csv(text: &str) -> Result<Vec<[f64; 2]>, (usize, &'static str)> {
         let mut rows = Vec::new();
+        let mut may_be_names = true;
         for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
             let line = line.trim();
             if line.is_empty() || line.starts_with('#') {
@@ -142,10 +144,11 @@ impl Timetable {
             match numbers.as_deref() {
                 Some(&[time_s]) => rows.push([time_s, 1.0]),
                 Some(&[time_s, people]) => rows.push([time_s, people]),
-                // Names of columns hold no number at all.
-                None if rows.is_empty() && cells.iter().all(|cell| cell.parse::<f64>().is_err()) => {}
-                _ => return Err((index + 1, line.chars().take(60).collect())),
+                None if may_be_names && cells.len() <= 2 && cells.iter().all(|cell| is_name(cell)) => {}
+                None => return Err((index + 1, "it is no time and number of people")),
+                Some(_) => return Err((index + 1, "it has more than two columns, a time and a number of people")),
             }
+            may_be_names = false;
         }
         Ok(rows)
     }
@@ -192,6 +195,12 @@ impl Timetable {
             }
         }
     }
+}
+
+/// Whether a cell can be the name of a column, with its unit.
+fn is_name(cell: &str) -> bool {
+    let is_part = |c: char| c.is_alphanumeric() || " _-.()[]".contains(c);
+    cell.starts_with(char::is_alphabetic) && cell.chars().all(is_part)
 }
 
 impl TimetableKind {
@@ -250,8 +259,9 @@ mod tests {
     fn a_csv_file_holds_times_and_numbers_of_people() {
         let text = "\u{feff}time, people\n# a train\n60, 20\n\n300; 80\r\n400\n";
         assert_eq!(Timetable::rows_of_csv(text), Ok(vec![[60.0, 20.0], [300.0, 80.0], [400.0, 1.0]]));
-        assert_eq!(Timetable::rows_of_csv("1,2\nx,3\n"), Err((2, "x,3".into())));
-        assert_eq!(Timetable::rows_of_csv("1,2,3\n"), Err((1, "1,2,3".into())));
+        assert_eq!(Timetable::rows_of_csv("1,2\nx,3\n").unwrap_err().0, 2);
+        assert_eq!(Timetable::rows_of_csv("1,2,3\n").unwrap_err().0, 1);
+        assert_eq!(Timetable::rows_of_csv("time\npeople\n1,2\n").unwrap_err().0, 2);
     }
 
     #[test]

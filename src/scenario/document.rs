@@ -151,9 +151,30 @@ impl<'t> Document<'t> {
     }
 
     fn wrong(&self, span: Range<usize>, (message, hint): (String, Option<String>)) -> ScenarioError {
+        let start = self.text.floor_char_boundary(span.start.min(self.text.len()));
         let snippet = Snippet::of(&self.path, self.text, span);
+        let snippet = if is_scenario(self.text, start) { snippet } else { snippet.without_line() };
         ScenarioError::Wrong(Box::new(Wrong { message, snippet, hint }))
     }
+}
+
+/// Whether a line may be repeated in a message, as part of a scenario: a section of a scenario stands in it or above it,
+/// or it begins with the name of a key or with the bracket of a section. Lines of any other file are not repeated.
+fn is_scenario(text: &str, at: usize) -> bool {
+    let line_start = text[..at].rfind('\n').map_or(0, |newline| newline + 1);
+    let line = text[line_start..].lines().next().unwrap_or("");
+    let name_of = |line: &str| -> String {
+        line.trim_start_matches(['[', ' ', '\t', '"'])
+            .chars()
+            .take_while(|c| c.is_alphanumeric() || *c == '_')
+            .collect()
+    };
+    let is_header = |line: &str| line.trim_start().starts_with('[');
+    let name = name_of(line);
+    is_header(line)
+        || keys::SECTIONS.contains(&name.as_str())
+        || !keys::sections_with(&name).is_empty()
+        || text[..line_start].lines().any(|line| is_header(line) && keys::SECTIONS.contains(&name_of(line).as_str()))
 }
 
 fn find<'d, 't>(table: &'d DeTable<'t>, key: &str) -> Option<&'d Spanned<DeValue<'t>>> {

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::crowd::{CrowdModel, CrowdOptions, SpotRequest};
 use crate::export::{Target, TextureOptions};
+use crate::files::read_text;
 use crate::formation::FormationRequest;
 use crate::look::Look;
 use crate::marks::{DoorRequest, FixtureRequest, MarksOptions};
@@ -24,6 +25,7 @@ mod check;
 mod document;
 mod error;
 mod explain;
+mod inputs;
 mod keys;
 mod preset;
 mod snippet;
@@ -41,6 +43,8 @@ use document::Document;
 pub struct Scenario {
     /// The folder that the scenario's paths start from: that of its file.
     pub folder: PathBuf,
+    /// The files that it was read from: its own and that of its look, where it has them.
+    pub read_from: Vec<PathBuf>,
     /// The plan, relative to `folder`: an image or the YAML of a ROS map. Only a motion that is given needs none: the
     /// floor is open ground then.
     pub image: Option<PathBuf>,
@@ -107,6 +111,10 @@ pub struct Overrides {
     pub walls: Option<bool>,
     /// Whether the model carries its textures.
     pub embed: Option<bool>,
+    /// Whether a bake of any size is made: see [`TextureOptions::any_size`].
+    pub any_size: bool,
+    /// Whether every layer is written on its own too.
+    pub layers: Option<bool>,
     /// A recording that takes the crowd's place, relative to the working directory.
     pub motion_file: Option<PathBuf>,
     /// How it is read; keys that differ from the defaults win.
@@ -156,9 +164,10 @@ impl Scenario {
     /// Files that cannot be read; whatever is not TOML, not a key, not of the right type or beyond its range, with
     /// line and column.
     pub fn read(path: &Path, overrides: &Overrides) -> Result<Scenario, ScenarioError> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|source| ScenarioError::Unreadable { path: path.to_path_buf(), source })?;
-        Scenario::parse(&text, path, overrides)
+        let text = read_text(path).map_err(|source| ScenarioError::Unreadable { path: path.to_path_buf(), source })?;
+        let mut scenario = Scenario::parse(&text, path, overrides)?;
+        scenario.read_from.push(path.to_path_buf());
+        Ok(scenario)
     }
 
     /// Reads a scenario from text; `path` is where it came from, for errors and for the paths in it.
@@ -274,6 +283,7 @@ impl Scenario {
     pub fn of_preset(preset: Preset) -> Scenario {
         let mut scenario = Scenario {
             folder: PathBuf::new(),
+            read_from: Vec::new(),
             image: None,
             wall_height_m: 2.6,
             plan: PlanOptions::default(),
@@ -321,16 +331,18 @@ impl Scenario {
         for (timetable, key) in self.timetables().zip(places) {
             let Some(file) = &timetable.file else { continue };
             let path = folder.join(file);
-            let text = std::fs::read_to_string(&path).map_err(|error| {
+            let text = read_text(&path).map_err(|error| {
                 document.wrong_value(&key, format!("cannot read the timetable {}: {error}", path.display()), None)
             })?;
-            timetable.of_file = Timetable::rows_of_csv(&text).map_err(|(line, found)| {
-                let message = format!("{}, line {line}: \"{found}\" is no time and number of people", path.display());
+            timetable.of_file = Timetable::rows_of_csv(&text).map_err(|(line, problem)| {
+                let message = format!("the timetable {}, line {line}: {problem}", path.display());
                 document.wrong_value(&key, message, Some("write a line as `60, 20`: 20 people at 60 s".to_string()))
             })?;
             if timetable.of_file.is_empty() {
-                let message = format!("the timetable {} is empty", path.display());
-                return Err(document.wrong_value(&key, message, None));
+                let problem = if text.trim().is_empty() { "is empty" } else { "has no line with a time" };
+                let message = format!("the timetable {} {problem}", path.display());
+                let hint = "write a line as `60, 20`: 20 people at 60 s".to_string();
+                return Err(document.wrong_value(&key, message, Some(hint)));
             }
         }
         let own: Vec<Option<u64>> = self.routes.routes.iter().map(|route| route.arrivals.as_ref()?.listed()).collect();
@@ -352,6 +364,8 @@ impl Scenario {
         self.texture.target = overrides.target.unwrap_or(self.texture.target);
         self.texture.walls = overrides.walls.unwrap_or(self.texture.walls);
         self.texture.embed = overrides.embed.unwrap_or(self.texture.embed);
+        self.texture.any_size |= overrides.any_size;
+        self.texture.layers = overrides.layers.or(self.texture.layers);
         if let Some(file) = &overrides.motion_file {
             // Paths of the command line start from the working directory, those of the scenario from its folder.
             let absolute = std::path::absolute(file).ok().filter(|_| !self.folder.as_os_str().is_empty());
@@ -365,7 +379,7 @@ impl Scenario {
     }
 
     /// The look: that of a preset or a file, with the section's own keys laid over it.
-    fn read_look(&self, document: &Document<'_>, preset_overridden: bool) -> Result<Look, ScenarioError> {
+    fn read_look(&mut self, document: &Document<'_>, preset_overridden: bool) -> Result<Look, ScenarioError> {
         let mut section = document.section("look");
         let preset: Option<Preset> = section.take("preset")?;
         let file: Option<PathBuf> = section.take("file")?;
@@ -378,8 +392,12 @@ impl Scenario {
                     Some(hint),
                 ));
             }
-            (Some(file), None) => Look::read(&self.folder.join(file))
-                .map_err(|error| document.wrong_value("look.file", error.to_string(), error.hint()))?,
+            (Some(file), None) => {
+                let file = self.folder.join(file);
+                let look = Look::read(&file);
+                self.read_from.push(file);
+                look.map_err(|error| document.wrong_value("look.file", error.to_string(), error.hint()))?
+            }
             (None, Some(preset)) if !preset_overridden => Look::preset(preset.name()).unwrap_or_default(),
             (None, _) => self.look.clone(),
         };

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 /// Longest piece of a source line that is shown, characters.
 const LONGEST: usize = 96;
 
-/// A place in a text file, and the line that it lies in.
+/// A place in a text file, and the line that it lies in unless that is kept back.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Snippet {
     /// The file.
@@ -14,8 +14,9 @@ pub struct Snippet {
     pub line: usize,
     /// Column in characters, from 1 on.
     pub column: usize,
-    /// The line's text, or the part of it around the place, on one row of a terminal.
-    source: String,
+    /// The line's text, or the part of it around the place, on one row of a terminal; `None` where the file may be a wrong
+    /// one, whose content is nobody's business.
+    source: Option<String>,
     /// Where in `source` the carets begin, characters.
     caret: usize,
     /// How many carets.
@@ -39,10 +40,17 @@ impl Snippet {
             path: path.to_path_buf(),
             line: text[..start].matches('\n').count() + 1,
             column: column + 1,
-            source,
+            source: Some(source),
             caret: column - first,
             width: width.min(LONGEST - (column - first).min(LONGEST - 1)),
         }
+    }
+}
+
+impl Snippet {
+    /// The place alone.
+    pub(super) fn without_line(self) -> Snippet {
+        Snippet { source: None, ..self }
     }
 }
 
@@ -62,7 +70,9 @@ impl fmt::Display for Snippet {
         let Snippet { path, line, column, source, caret, width } = self;
         let number = line.to_string();
         let margin = " ".repeat(number.len());
-        writeln!(f, "{margin}--> {}:{line}:{column}", path.display())?;
+        write!(f, "{margin}--> {}:{line}:{column}", path.display())?;
+        let Some(source) = source else { return Ok(()) };
+        writeln!(f)?;
         writeln!(f, "{margin} |")?;
         writeln!(f, "{number} | {source}")?;
         write!(f, "{margin} | {}{}", " ".repeat(*caret), "^".repeat(*width))

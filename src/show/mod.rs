@@ -11,6 +11,6 @@ pub use animation::{
     AnimationOptions, AnimationReport,
 };
 pub use pictures::{
-    CROP_M, Crop, PATHS_FILE, Path, PathSample, PathSampler, choose_crops, draw_paths, draw_plan, draw_unit,
-    encode_picture, render_crop, render_floor, write_picture, write_previews,
+    Crop, PATHS_FILE, Path, PathSample, PathSampler, choose_crops, draw_paths, draw_plan, draw_unit, encode_picture,
+    render_crop, render_floor, write_picture, write_previews,
 };

@@ -1,65 +1,68 @@
-//! The bank: every pattern filtered for the texel density, made when first asked for.
+//! The bank: every pattern filtered for the texel density, on first use.
 //!
-//! A texel shows the mean over its square. Here a pattern is filtered once, by a Gaussian of 0.45 texel, and a
-//! stamp reads it at the texels' middles. The Gaussian passes 0.7 % of what has a period of one texel, so the sum
-//! over a stamp's texels does not depend on how the raster happens to lie on the pattern, at any angle; a
-//! square that keeps to the pattern's axes would do so only unrotated. Samples are kept at four a texel, so that the
-//! nearest one is at most an eighth of a texel away.
+//! A pattern is filtered once by a Gaussian of 0.45 texel; a stamp samples it at the texel centres. The Gaussian passes
+//! 0.7 % of a period of one texel, so the sum over a stamp's texels is independent of its sub-texel position at any
+//! angle; a box filter along the pattern's axes would be so only unrotated. With four samples a texel the nearest
+//! sample is at most an eighth of a texel away.
+//!
+//! Not imageproc's Gaussian: results must not depend on its version, and it has no deviation per axis.
 
 use std::sync::OnceLock;
 
-use super::StampOptions;
-use super::coat::{Coat, smooth_step};
-use super::picture::{FILTER_REACH, Picture};
-use super::print::Pose;
-use super::shadow::Extent;
-use super::sole::FARTHEST;
-use super::variation::SoleVariation;
+use super::float_image::{FILTER_REACH, FloatImage};
+use super::linear::Linear;
+use super::pose::PrintPose;
+use super::shadow::StampExtent;
+use super::soil_coat::{SoilCoat, smooth_step};
+use super::variation::{FARTHEST, SoleVariation};
+use super::window::{TexelBounds, floor};
+use super::{StampOptions, TexelGrid};
+use crate::math::Vec2;
 use crate::patterns::{Cause, Pattern, PatternLibrary};
 
-/// Deviation of the texel's filter, texels.
+/// Standard deviation of the texel filter, texels.
 const TEXEL_FILTER: f64 = 0.45;
 
 /// Samples of a plate per texel.
 const SAMPLES_PER_TEXEL: f64 = 4.0;
 
-/// Samples are never closer than this, metres: half a pattern's pixel.
+/// Least distance of samples, metres: half a pixel of a pattern.
 const FINEST_SAMPLE_M: f64 = 0.0005;
 
-/// A pattern has at most so many samples in a row.
+/// Limit on the samples of a pattern in a row.
 const MOST_SAMPLES: f64 = 1000.0;
 
-/// Smears are told apart in steps of about this, metres.
+/// Approximate step between smears, metres.
 const SMEAR_STEP_M: f64 = 0.004;
 
 /// The longest smear that a plate is made for, metres of the pattern: 3 cm, on a foot of half the
 /// pattern's size.
 const LONGEST_SMEAR_M: f64 = 0.06;
 
-/// A sole has few texels if they are larger than this, metres.
+/// Texels larger than this count as few per sole, metres.
 const FEW_TEXELS_M: f64 = 0.0126;
 
-/// Zero samples around a plate beyond what the filter reaches, so that a row's span may be a texel too long.
+/// Zero samples around a plate beyond the filter's reach: a row's span may be a texel too long.
 const GUARD: usize = 6;
 
-/// Coats over which the mean is taken.
+/// Number of soil coats over which the mean is taken.
 const COATS: u64 = 1024;
 
-/// How many blurs soil prints come in.
+/// Number of blur levels of soil prints.
 const BLURS: usize = 3;
 
-/// A pattern ready to be read: coverage at even distances.
+/// A filtered pattern: coverage samples at even distances.
 #[derive(Debug)]
 pub(super) struct Plate {
     /// Samples in a row.
     pub(super) columns: usize,
     /// Rows, from the outer edge of a left foot to the inner.
     pub(super) rows: usize,
-    /// Rows, `1 << pitch_bits` apart, a power of two of them. In the plate's unit: all 8 bits are used, also where a
-    /// thin mark covers no texel in full.
+    /// Samples in units of `unit`: rows `1 << pitch_bits` apart, a power of two of them. All 8 bits are used, also where
+    /// a thin mark covers no texel fully.
     pub(super) samples: Vec<u8>,
     pub(super) pitch_bits: u32,
-    /// Coverage that a sample of 1 stands for.
+    /// Coverage of a sample value of 1.
     pub(super) unit: f32,
     /// Side of a sample, metres of the pattern.
     pub(super) sample_m: f64,
@@ -68,14 +71,14 @@ pub(super) struct Plate {
 }
 
 impl Plate {
-    /// Whether the nearest sample is too far off for a texel of a print at this scale: where the finest samples are
-    /// not fine enough, and where a print has so few texels that their errors do not cancel.
+    /// Whether a print at this scale needs interpolated samples: where the samples are coarse, or where a print has too
+    /// few texels for their errors to cancel.
     pub(super) fn needs_smooth_reading(&self, texel_m: f64, scale: f64) -> bool {
         self.sample_m > 0.3 * texel_m / scale || texel_m > FEW_TEXELS_M
     }
 }
 
-/// One pattern at all its sizes, blurs and smears.
+/// One pattern at all sizes, blurs and smears.
 #[derive(Debug)]
 pub(super) struct Printer {
     pub(super) cause: Cause,
@@ -83,61 +86,61 @@ pub(super) struct Printer {
     pub(super) length_m: f64,
     /// Width of the pattern, metres.
     pub(super) width_m: f64,
-    /// What a full print of the pattern's own size amounts to: the integral of its coverage, square metres.
+    /// Integral of the coverage at the pattern's own size, square metres.
     pub(super) mass_m2: f64,
-    /// Middle of its coverage, soles along and across.
+    /// Centroid of the coverage, soles along and across.
     pub(super) centroid: [f64; 2],
-    /// Where its coverage lies, coarsely: for prints cut by a wall.
+    /// Coarse distribution of the coverage, for prints cut by a wall.
     pub(super) lumps: Vec<Lump>,
-    coverage: Picture,
-    sizes: Vec<Size>,
+    coverage: FloatImage,
+    sizes: Vec<SizePlates>,
 }
 
-/// A pattern's plates for feet of about one size: a texel covers more of the pattern of a shoe that is worn smaller.
+/// The plates of a pattern for feet of about one size; on a smaller shoe a texel covers more of the pattern.
 #[derive(Debug)]
-struct Size {
+struct SizePlates {
     sample_m: f64,
-    /// How far the filter spreads, samples.
+    /// Reach of the filter, samples.
     reach: usize,
-    /// How much gentler pressure slopes must be for that.
+    /// Factors on the pressure slopes along and across that keep pressure positive within the filter's reach.
     slopes_held: [f32; 2],
-    /// Samples from smear to smear.
+    /// Samples between smears.
     smear_step: usize,
-    /// Deviations of the filter for each blur, metres of the pattern.
+    /// Standard deviation of the filter for each blur, metres of the pattern.
     filters_m: Vec<f64>,
-    filtered: Vec<OnceLock<Picture>>,
+    filtered: Vec<OnceLock<FloatImage>>,
     plates: Vec<Vec<OnceLock<Plate>>>,
     mean_coat: OnceLock<f32>,
 }
 
-/// Part of a pattern, as if it lay in one place.
+/// A cell of the coarse coverage distribution of a pattern.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lump {
-    /// Soles along and across.
+    /// Middle, soles along and across.
     pub(super) place: [f64; 2],
     /// Share of the pattern's coverage.
     pub(super) share: f32,
 }
 
-/// Lumps of a pattern along and across.
+/// Number of lumps along and across.
 const LUMPS: [usize; 2] = [20, 8];
 
-/// Printers for all patterns of a library that marks on a floor use, by their number.
+/// Printers of all floor patterns of a library, by pattern index.
 pub(super) fn printers(library: &PatternLibrary, texel_m: f64, options: &StampOptions) -> Vec<Option<Printer>> {
     let of_floor = |pattern: &Pattern| pattern.cause.on_wall().is_none();
     let printer = |pattern| of_floor(pattern).then(|| Printer::new(pattern, texel_m, options));
     library.patterns.iter().map(printer).collect()
 }
 
-/// Sizes of a foot on its pattern between which a bank changes over from one to the next: half powers of two.
+/// Scales at which the bank changes to the next size: half powers of two.
 const SIZE_EDGES: [f64; 10] = [0.210, 0.297, 0.420, 0.595, 0.841, 1.189, 1.682, 2.378, 3.364, 4.757];
 
 impl Printer {
     fn new(pattern: &Pattern, texel_m: f64, options: &StampOptions) -> Printer {
-        let coverage = Picture::of(pattern);
+        let coverage = FloatImage::of(pattern);
         let (mass_m2, centroid) = coverage.mass_and_centroid();
         let extent_m = [coverage.width, coverage.height].map(|count| count as f64 * coverage.pixel_m);
-        // In the middle between the edges, in proportion.
+        // Geometric middle between the edges.
         let scale = |size: usize| SIZE_EDGES.get(size).map_or(5.657, |edge| edge / 1.189);
         Printer {
             cause: pattern.cause,
@@ -146,12 +149,14 @@ impl Printer {
             mass_m2,
             centroid,
             lumps: lumps(&coverage),
-            sizes: (0..=SIZE_EDGES.len()).map(|k| Size::new(texel_m / scale(k), extent_m, centroid, options)).collect(),
+            sizes: (0..=SIZE_EDGES.len())
+                .map(|k| SizePlates::new(texel_m / scale(k), extent_m, centroid, options))
+                .collect(),
             coverage,
         }
     }
 
-    fn size(&self, scale: f64) -> &Size {
+    fn size(&self, scale: f64) -> &SizePlates {
         &self.sizes[SIZE_EDGES.partition_point(|&edge| edge < scale)]
     }
 
@@ -160,27 +165,27 @@ impl Printer {
         self.length_m / LUMPS[0] as f64
     }
 
-    /// Half the length and half the width of a print with what the filter spreads, metres.
-    pub(super) fn half_extent_m(&self, pose: &Pose) -> [f64; 2] {
+    /// Half the length and half the width of a print with the filter's reach, metres.
+    pub(super) fn half_extent_m(&self, pose: &PrintPose) -> [f64; 2] {
         let size = self.size(pose.scale_across);
         let spread_m = size.reach as f64 * size.sample_m;
         [(self.length_m * 0.5 + spread_m) * pose.scale_along, (self.width_m * 0.5 + spread_m) * pose.scale_across]
     }
 
-    /// How much gentler pressure slopes along and across must be for the print's spread by the texels' filter.
-    pub(super) fn slopes_held(&self, pose: &Pose) -> [f32; 2] {
+    /// Factors on the pressure slopes along and across, for the print's spread by the texel filter.
+    pub(super) fn slopes_held(&self, pose: &PrintPose) -> [f32; 2] {
         self.size(pose.scale_across).slopes_held
     }
 
-    /// What a soil print leaves of its full coverage, on average over all variation.
-    pub(super) fn mean_coat(&self, pose: &Pose, options: &StampOptions) -> f32 {
+    /// Mean share of full coverage that a soil print leaves, over all variation.
+    pub(super) fn mean_coat(&self, pose: &PrintPose, options: &StampOptions) -> f32 {
         let size = self.size(pose.scale_across);
         *size.mean_coat.get_or_init(|| {
             let filtered = size.filtered[0].get_or_init(|| self.filtered(size, size.filters_m[0]));
             let (margin, [u_pitch, v_pitch]) =
                 (size.margin(), [self.length_m, self.width_m].map(|m| size.sample_m / m));
             let place = |k: usize, pitch: f64| ((k as f64 + 0.5 - margin as f64) * pitch - 0.5) as f32;
-            // A few hundred places will do.
+            // A few hundred positions suffice.
             let step = ((filtered.values.len() / 300) as f64).sqrt().max(1.0) as usize;
             let places: Vec<[f32; 3]> = (0..filtered.height * filtered.width)
                 .map(|k| (k % filtered.width, k / filtered.width))
@@ -195,7 +200,7 @@ impl Printer {
             let left: f32 = (0..COATS)
                 .map(|word| {
                     let variation = SoleVariation::new(word.wrapping_mul(0x9e37_79b9_7f4a_7c15), options);
-                    let coat = Coat::on_sole(&variation, word as u32);
+                    let coat = SoilCoat::on_sole(&variation, word as u32);
                     places.iter().map(|&[coverage, u, v]| coat.coated_at(coverage, u, v)).sum::<f32>()
                 })
                 .sum();
@@ -203,14 +208,48 @@ impl Printer {
         })
     }
 
-    /// What a print covers, `more_m` larger on every side.
-    pub(super) fn extent(&self, pose: &Pose, more_m: f64) -> Extent {
+    /// Extent of a print, `more_m` larger on every side.
+    pub(super) fn extent(&self, pose: &PrintPose, more_m: f64) -> StampExtent {
         let [half_along_m, half_across_m] = self.half_extent_m(pose).map(|half| half + more_m);
-        Extent { middle_m: pose.place_m, heading: pose.heading, half_along_m, half_across_m }
+        StampExtent { middle_m: pose.place_m, heading: pose.heading, half_along_m, half_across_m }
     }
 
-    /// The plate for a print: `blur` is 0 to 1 from the least to the most, `smear_m` is measured on the floor.
-    pub(super) fn plate(&self, pose: &Pose, blur: f32, smear_m: f64) -> &Plate {
+    /// The floor point under a point of the pattern, which is given in soles along and across.
+    pub(super) fn point_m(&self, pose: &PrintPose, [along, across]: [f64; 2]) -> Vec2 {
+        let right = pose.heading.left() * if pose.mirrored { 1.0 } else { -1.0 };
+        pose.place_m
+            + pose.heading * (along * self.length_m * pose.scale_along)
+            + right * (across * self.width_m * pose.scale_across)
+    }
+
+    /// Texels that a print can touch, `more_m` larger on every side.
+    pub(super) fn bounds(&self, pose: &PrintPose, grid: &TexelGrid, more_m: f64) -> TexelBounds {
+        let [half_along, half_across] = self.half_extent_m(pose).map(|half| half + more_m);
+        let h = pose.heading;
+        let x = half_along * h.x.abs() + half_across * h.y.abs();
+        let y = half_along * h.y.abs() + half_across * h.x.abs();
+        let t = grid.texels_per_metre;
+        TexelBounds {
+            i0: floor((pose.place_m.x - x) * t),
+            j0: floor((pose.place_m.y - y) * t),
+            i1: floor((pose.place_m.x + x) * t) + 1,
+            j1: floor((pose.place_m.y + y) * t) + 1,
+        }
+    }
+
+    /// Position on the sole of texels counted from the origin, in soles along and across.
+    pub(super) fn sole_place(&self, pose: &PrintPose, grid: &TexelGrid) -> [Linear; 2] {
+        let [along, across] = pose.along_across(grid, pose.origin(grid));
+        let linear = |v: [f64; 3], extent: f64| {
+            let per_extent = 1.0 / extent;
+            let [at_origin, per_i, per_j] = v.map(|v| (v * per_extent) as f32);
+            Linear { at_origin, per_i, per_j }
+        };
+        [linear(along, self.length_m), linear(across, self.width_m)]
+    }
+
+    /// The plate for a print: `blur` is 0 to 1 from the least to the largest, `smear_m` is measured on the floor.
+    pub(super) fn plate(&self, pose: &PrintPose, blur: f32, smear_m: f64) -> &Plate {
         let size = self.size(pose.scale_across);
         let blur = ((blur * size.filters_m.len() as f32) as usize).min(size.filters_m.len() - 1);
         let step_m = size.sample_m * size.smear_step as f64;
@@ -222,8 +261,8 @@ impl Printer {
         })
     }
 
-    /// The pattern, filtered and sampled, with its margin.
-    fn filtered(&self, size: &Size, deviation_m: f64) -> Picture {
+    /// Filters and samples the pattern with its margin.
+    fn filtered(&self, size: &SizePlates, deviation_m: f64) -> FloatImage {
         let mut image = self.coverage.reduced_for(deviation_m);
         image = image.padded((FILTER_REACH * deviation_m / image.pixel_m).ceil() as usize + 1);
         image.blur(deviation_m / image.pixel_m);
@@ -239,8 +278,8 @@ impl Printer {
                 values.push(image.at(x, y));
             }
         }
-        let mut sampled = Picture { width: columns, height: rows, pixel_m: size.sample_m, values };
-        // Cutting the filter off and sampling lose a little: what a print amounts to stays exact.
+        let mut sampled = FloatImage { width: columns, height: rows, pixel_m: size.sample_m, values };
+        // Restores the integral that truncating the filter and sampling change slightly.
         let (mass, _) = sampled.mass_and_centroid();
         if mass > 0.0 {
             let factor = (self.mass_m2 / mass) as f32;
@@ -249,9 +288,8 @@ impl Printer {
         sampled
     }
 
-    /// Draws the heel out forward: each part of it leaves the mean of all places from where it was set down to
-    /// `samples` further on. Nothing is lost or added by it.
-    fn smeared(&self, image: &Picture, size: &Size, samples: usize) -> Plate {
+    /// Smears the heel forward: the mean over shifts of 0 to `samples`. Keeps the integral.
+    fn smeared(&self, image: &FloatImage, size: &SizePlates, samples: usize) -> Plate {
         let weight: Vec<f32> = (0..image.width)
             .map(|column| {
                 let along = (column as f64 + 0.5 - size.margin() as f64) * size.sample_m / self.length_m - 0.5;
@@ -285,21 +323,21 @@ impl Printer {
     }
 }
 
-impl Size {
-    /// Plates for texels that cover `texel_m` of the pattern.
-    fn new(texel_m: f64, extent_m: [f64; 2], centroid: [f64; 2], options: &StampOptions) -> Size {
+impl SizePlates {
+    /// Prepares plates for texels that cover `texel_m` of the pattern.
+    fn new(texel_m: f64, extent_m: [f64; 2], centroid: [f64; 2], options: &StampOptions) -> SizePlates {
         let longest_m = extent_m[0].max(extent_m[1]);
         let sample_m = (texel_m / SAMPLES_PER_TEXEL).max(FINEST_SAMPLE_M).max(longest_m / MOST_SAMPLES);
         let smear_step = (SMEAR_STEP_M / sample_m).round().max(1.0) as usize;
         let smears = (LONGEST_SMEAR_M / (sample_m * smear_step as f64)).ceil() as usize + 1;
-        // Blurs that the texel's filter hides are one.
+        // The texel filter hides small blurs: one level suffices.
         let [least, most] = options.blur_m;
         let blurs = if most < 0.6 * TEXEL_FILTER * texel_m { 1 } else { BLURS };
         let blur_m = |k: usize| least + (most - least) * k as f64 / (BLURS - 1) as f64;
         let filter = |blur: f64| (blur * blur + TEXEL_FILTER * TEXEL_FILTER * texel_m * texel_m).sqrt();
         let reach = (FILTER_REACH * filter(most) / sample_m).ceil() as usize;
         let farthest = |k: usize| 0.5 + reach as f64 * sample_m / extent_m[k] + centroid[k].abs();
-        Size {
+        SizePlates {
             sample_m,
             reach,
             slopes_held: [0, 1].map(|k| (f64::from(FARTHEST) / farthest(k)).min(1.0) as f32),
@@ -311,14 +349,14 @@ impl Size {
         }
     }
 
-    /// Empty samples before the pattern's first.
+    /// Number of empty samples before the pattern's first.
     fn margin(&self) -> usize {
         self.reach + GUARD
     }
 }
 
-/// Where a pattern's coverage lies.
-fn lumps(coverage: &Picture) -> Vec<Lump> {
+/// Coarse distribution of a pattern's coverage.
+fn lumps(coverage: &FloatImage) -> Vec<Lump> {
     let [columns, rows] = LUMPS;
     let mut sums = vec![0.0f64; columns * rows];
     for (row, line) in coverage.values.chunks_exact(coverage.width.max(1)).enumerate() {

@@ -1,45 +1,48 @@
-/// Why the `stamps` stage cannot go on.
+/// Error in the options or the grids of the stamps.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StampsError {
-    /// A texel density beyond its range.
+    /// The floor's texel density is out of range.
     #[error("the floor's texel density is {texels_per_metre} texels/m, allowed is 1 to 1000")]
-    Density {
-        /// What was asked for.
+    FloorTexelDensity {
+        /// Texel density, texels per metre.
         texels_per_metre: f64,
     },
-    /// A floor with more texels than can be counted.
-    #[error("{metres:.1} m at {texels_per_metre} texels/m are more than {most} texels", most = super::MOST_TEXELS)]
+    /// The floor has too many texels.
+    #[error("{metres:.1} m at {texels_per_metre} texels/m are more than {most} texels")]
     TooManyTexels {
         /// Side of the floor, metres.
         metres: f64,
-        /// What was asked for.
+        /// Texel density, texels per metre.
         texels_per_metre: f64,
+        /// Limit on the texels of a side.
+        most: u32,
     },
-    /// A texel density of walls beyond its range.
+    /// The walls' texel density is out of range.
     #[error("the walls' texel density is {texels_per_metre} texels/m, allowed is 1 to 1000")]
-    WallDensity {
-        /// What was asked for.
+    WallTexelDensity {
+        /// Texel density, texels per metre.
         texels_per_metre: f64,
     },
-    /// Walls of no sensible height.
-    #[error("walls are {height_m} m high, allowed is more than 0, and at most {most} m", most = super::wall_grid::HIGHEST_M)]
+    /// The wall height is out of range.
+    #[error("walls are {height_m} m high, allowed is more than 0, and at most {most} m")]
     WallHeight {
-        /// What was asked for, metres.
+        /// Wall height, metres.
         height_m: f64,
+        /// Largest height allowed, metres.
+        most: f64,
     },
-    /// A wall face with more texels than can be counted.
-    #[error(
-        "a wall of {length_m:.1} m at {texels_per_metre} texels/m is more than {most} texels",
-        most = super::wall_grid::MOST_COLUMNS
-    )]
+    /// A wall face has too many texels.
+    #[error("a wall of {length_m:.1} m at {texels_per_metre} texels/m is more than {most} texels")]
     FaceTooLong {
         /// Length of the face, metres.
         length_m: f64,
-        /// What was asked for.
+        /// Texel density, texels per metre.
         texels_per_metre: f64,
+        /// Limit on the texels of a face's length.
+        most: u32,
     },
-    /// An option beyond its range.
+    /// An option is out of range.
     #[error("stamps.{name} is {value}, allowed is {low} to {high}")]
     OutOfRange {
         /// Name of the option.
@@ -54,11 +57,11 @@ pub enum StampsError {
 }
 
 impl StampsError {
-    /// What the user can do about it.
+    /// Hint for the user.
     pub fn hint(&self) -> Option<String> {
         match self {
-            StampsError::Density { .. } => Some("100 is one texel a centimetre".into()),
-            StampsError::WallDensity { .. } => Some("200 is half a centimetre a texel".into()),
+            StampsError::FloorTexelDensity { .. } => Some("100 is one texel a centimetre".into()),
+            StampsError::WallTexelDensity { .. } => Some("200 is half a centimetre a texel".into()),
             StampsError::WallHeight { .. } => Some("rooms are 2.1 to 3.5 m high".into()),
             StampsError::TooManyTexels { .. } | StampsError::FaceTooLong { .. } => {
                 Some("lower the texel density, or check the plan's metres per pixel".into())

@@ -1,4 +1,4 @@
-//! Small worlds for the tests of stamps and sums.
+//! Small scenes for the tests of stamps and sums.
 
 use super::{FaceSpan, TexelGrid, WallGrid};
 use crate::marks::{Contact, Mark};

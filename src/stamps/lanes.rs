@@ -1,25 +1,25 @@
 //! Loops over eight texels at a time, in 16-bit integers, written so that compilers vectorise them.
 
-/// Texels that are worked on at a time.
+/// Number of texels processed at once.
 pub(crate) const LANES: usize = 8;
 
 /// Eight texels side by side.
 pub(crate) type Lanes<T> = [T; LANES];
 
-/// What a stamp is added to.
-pub(crate) trait Cell: Copy + Default {
-    /// Adds, staying at the largest value instead of going beyond it.
+/// A cell of a sum: 16 or 32 bits.
+pub(crate) trait SumCell: Copy + Default {
+    /// Adds with saturation.
     fn add(&mut self, amount: u16);
 }
 
-impl Cell for u16 {
+impl SumCell for u16 {
     #[inline]
     fn add(&mut self, amount: u16) {
         *self = self.saturating_add(amount);
     }
 }
 
-impl Cell for u32 {
+impl SumCell for u32 {
     #[inline]
     fn add(&mut self, amount: u16) {
         *self = self.saturating_add(u32::from(amount));
@@ -28,30 +28,30 @@ impl Cell for u32 {
 
 /// Adds amounts to eight cells.
 #[inline]
-pub(super) fn add_lanes<C: Cell>(cells: &mut Lanes<C>, amounts: &Lanes<u16>) {
+pub(super) fn add_lanes<C: SumCell>(cells: &mut Lanes<C>, amounts: &Lanes<u16>) {
     for (cell, &amount) in cells.iter_mut().zip(amounts) {
         cell.add(amount);
     }
 }
 
-/// Upper half of a product.
+/// Upper 16 bits of a product.
 #[inline]
 pub(super) fn upper(a: u16, b: u16) -> u16 {
     ((u32::from(a) * u32::from(b)) >> 16) as u16
 }
 
-/// A factor in 16 bits: as many bits behind the point as fit.
+/// Fixed-point scaling of a factor to 16 bits, with as many fraction bits as fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Scaling {
-    /// Bits behind the point.
+    /// Fraction bits.
     pub(super) shift: u32,
 }
 
-/// Factors stay below this, so that rounding never carries them over 16 bits.
+/// Limit on scaled factors: rounding must not overflow 16 bits.
 const MOST_FACTOR: f32 = 60_000.0;
 
 impl Scaling {
-    /// For factors up to `most`, which is at most 60 000.
+    /// The scaling for factors up to `most`, which is at most 60 000.
     #[inline]
     pub(super) fn for_most(most: f32) -> Scaling {
         // 2^shift <= 60 000 / most < 2^(shift + 1): the exponent of the quotient.
@@ -59,7 +59,7 @@ impl Scaling {
         Scaling { shift: exponent.saturating_sub(127).min(14) }
     }
 
-    /// A factor in this scaling.
+    /// The fixed-point value of 1.
     #[inline]
     pub(super) fn factor(self) -> f32 {
         (1u32 << self.shift) as f32

@@ -1,14 +1,15 @@
-//! Tiles of noise in texels, the same wherever they are made; each print takes its piece from elsewhere in them.
+//! Periodic tiles of noise in texels; each print reads them at its own offset.
+//!
+//! Not imageproc's filters: they do not wrap around.
 
 use super::lanes::{LANES, Lanes};
-use super::stamper::WINDOW;
+use super::window::WINDOW;
 use crate::math::SplitMix64;
 
-/// What 1 is in a tile of [`NoiseTile::grain`].
+/// Fixed-point value of 1 in a tile of [`NoiseTile::grain`].
 pub(super) const NOISE_ONE: f32 = 16_384.0;
 
-/// A square of noise that repeats without end. Prints move it by whole [`Lanes`], so that it stays in step with
-/// the texels of a window.
+/// A periodic square of noise. Prints shift it by whole [`Lanes`], in step with the texels of a window.
 #[derive(Debug)]
 pub(super) struct NoiseTile {
     /// Texels a side, a power of two.
@@ -16,28 +17,28 @@ pub(super) struct NoiseTile {
     lanes: Vec<Lanes<u16>>,
 }
 
-/// A tile that is read texel by texel.
+/// A tile read texel by texel.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Raster<'a> {
+pub(super) struct NoiseRaster<'a> {
     values: &'a [u16],
     bits: u32,
     mask: u32,
 }
 
-impl Raster<'_> {
-    /// The place of a column and a row, counted without end, among the tile's values.
+impl NoiseRaster<'_> {
+    /// Index of the value at a column and a row, which may be any numbers.
     #[inline]
     pub(super) fn place(&self, i: u32, j: u32) -> u32 {
         (j & self.mask) << self.bits | i & self.mask
     }
 
-    /// The value at a place; raw, as [`NoiseTile::row`] gives it.
+    /// The fixed-point value at an index.
     #[inline]
     pub(super) fn at(&self, place: u32) -> u16 {
         self.values.get(place as usize).copied().unwrap_or(0)
     }
 
-    /// Copies a row from a column on.
+    /// Copies values of a row, from a column on.
     #[inline]
     pub(super) fn copy_row(&self, i: u32, j: u32, mut out: &mut [u16]) {
         let row = &self.values[self.place(0, j) as usize..][..=self.mask as usize];
@@ -58,19 +59,19 @@ pub(super) struct NoiseRow<'a> {
     first: usize,
 }
 
-/// The seed of all tiles: noise belongs to the program, not to the scenario.
+/// Seed of all tiles, independent of the scenario.
 const SEED: u64 = 0x6e6f_6973_6521;
 
 impl NoiseTile {
-    /// Blotches and grain of 25, 8 and 2 mm, about a sole's length a side.
+    /// Blotches and grain of 25, 8 and 2 mm, with mean 1; the tile's side is about a sole's length.
     pub(super) fn grain(texels_per_metre: f64, deviation: f64, seed: u64) -> NoiseTile {
         NoiseTile::of_scales(tile_size(texels_per_metre), texels_per_metre, &[0.025, 0.008, 0.002], deviation, seed)
     }
 
-    /// Noise about 1 with the given deviation, cut off at 2.5 deviations; `size` is a power of two of texels a side.
+    /// Noise of mean 1 and the given standard deviation, clamped at 2.5 deviations; `size` is a power of two of texels.
     ///
-    /// An octave for each scale in metres, all of equal variance, as blurred white noise; what is smaller than a texel
-    /// averages out as it does over a real texel.
+    /// Each scale in metres adds an octave of blurred white noise, all of equal variance. Octaves below a texel are
+    /// weakened like the mean over a texel.
     pub(super) fn of_scales(
         size: usize,
         texels_per_metre: f64,
@@ -101,7 +102,7 @@ impl NoiseTile {
         NoiseTile::new(size, &values)
     }
 
-    /// Uniform in `0..65536`, independent from texel to texel: for rounding without bias.
+    /// Dither: uniform in `0..65536`, independent from texel to texel, for unbiased rounding.
     pub(super) fn dither(texels_per_metre: f64) -> NoiseTile {
         let size = tile_size(texels_per_metre);
         let rng = &mut SplitMix64::new(SEED ^ 0xd17e);
@@ -114,13 +115,12 @@ impl NoiseTile {
         NoiseTile { size, lanes }
     }
 
-    /// The values of the tile, row by row, and a mask for columns and rows that are counted without end.
-    pub(super) fn raster(&self) -> Raster<'_> {
-        Raster { values: self.lanes.as_flattened(), bits: self.size.trailing_zeros(), mask: self.size as u32 - 1 }
+    /// The tile for reading texel by texel.
+    pub(super) fn raster(&self) -> NoiseRaster<'_> {
+        NoiseRaster { values: self.lanes.as_flattened(), bits: self.size.trailing_zeros(), mask: self.size as u32 - 1 }
     }
 
-    /// Row `j` of the whole floor, from the lanes on that begin at texel `LANES * lanes`, for a print whose noise
-    /// starts at `at`.
+    /// Row `j` of the whole floor from texel `LANES * lanes` on, for a print with the noise offset `at`.
     #[inline]
     pub(super) fn row(&self, at: [u32; 2], lanes: u32, j: u32) -> NoiseRow<'_> {
         let row = j.wrapping_add(at[1]) as usize & (self.size - 1);
@@ -135,7 +135,7 @@ impl NoiseTile {
 }
 
 impl<'a> NoiseRow<'a> {
-    /// The first texels of the row, in one piece.
+    /// Copies the first `count` texels of the row.
     #[inline]
     pub(super) fn to_row(self, count: usize) -> [u16; WINDOW] {
         let mut row = [0; WINDOW];
@@ -144,7 +144,7 @@ impl<'a> NoiseRow<'a> {
         row
     }
 
-    /// The lanes of the row, one after the other.
+    /// Iterates over the lanes of the row.
     #[inline]
     pub(super) fn iter(self) -> impl Iterator<Item = &'a Lanes<u16>> {
         let mask = self.lanes.len() - 1;
@@ -152,7 +152,7 @@ impl<'a> NoiseRow<'a> {
     }
 }
 
-/// A power of two of texels, a sole's length or so.
+/// Side of a tile in texels: a power of two, about a sole's length.
 fn tile_size(texels_per_metre: f64) -> usize {
     ((0.3 * texels_per_metre) as usize).clamp(64, 512).next_power_of_two()
 }
@@ -162,7 +162,7 @@ fn white(size: usize, seed: u64) -> Vec<f64> {
     (0..size * size).map(|_| f64::from(rng.normal())).collect()
 }
 
-/// Three box filters along each axis, with wrap-around: close to a Gaussian of the given deviation.
+/// Three periodic box filters along each axis: close to a Gaussian of the given standard deviation.
 fn blur_periodic(values: &mut [f64], size: usize, deviation: f64) {
     // Three boxes of width 2 r + 1 have the variance ((2 r + 1)^2 - 1) / 4.
     let radius = (((4.0 * deviation * deviation + 1.0).sqrt() - 1.0) * 0.5).round() as usize;
@@ -200,13 +200,13 @@ mod tests {
 
     #[test]
     fn grain_is_one_in_the_mean_and_varies_as_asked() {
-        for density in [25.0, 100.0, 400.0] {
-            let tile = NoiseTile::grain(density, 0.35, 1);
+        for texels_per_metre in [25.0, 100.0, 400.0] {
+            let tile = NoiseTile::grain(texels_per_metre, 0.35, 1);
             let all: Vec<f64> = tile.lanes.iter().flatten().map(|&v| f64::from(v) / f64::from(NOISE_ONE)).collect();
             assert_eq!(all.len(), tile.size * tile.size);
             assert!((all.iter().sum::<f64>() / all.len() as f64 - 1.0).abs() < 1e-4);
             let deviation = deviation_of(&all);
-            assert!(deviation > 0.12 && deviation < 0.36, "{deviation} at {density}");
+            assert!(deviation > 0.12 && deviation < 0.36, "{deviation} at {texels_per_metre}");
             assert!(tile.peak() < 2.0);
         }
     }

@@ -1,20 +1,19 @@
-//! The soft kernel that a footfall adds to `presence`: its expectation, as it were, if the same person came by
-//! many times.
+//! The soft kernel that a footfall adds to `presence`: the expected print over many passes of the same person.
 //!
-//! The kernel is `3 / (pi a b) (1 - r^2)^2` on the ellipse `r < 1` along the heading, whose half axes a and b are
-//! `sqrt 8` times the standard deviations: as smooth as a Gaussian to the eye, but it ends. It is kept
-//! ready for 64 headings (it looks the same from both ends) and 4 x 4 places within a cell.
+//! The kernel is `3 / (pi a b) (1 - r^2)^2` on the ellipse `r < 1` along the heading. Its half axes a and b are `sqrt 8`
+//! times the standard deviations. It looks like a Gaussian but has bounded support. Kernels are precomputed for 64
+//! headings over half a turn (a kernel is symmetric) and 4 x 4 positions within a cell.
 
 use super::StampOptions;
-use super::lanes::{Cell, LANES, Lanes, Scaling, add_lanes, upper};
-use super::shadow::{Extent, Shadow};
-use super::stamper::{Bounds, WINDOW, Window, floor};
+use super::lanes::{LANES, Lanes, Scaling, SumCell, add_lanes, upper};
+use super::shadow::{Shadow, StampExtent};
+use super::window::{TexelBounds, TexelWindow, WINDOW, floor};
 use crate::math::{Vec2, atan2, sin_cos, vec2};
 
 const HEADINGS: usize = 64;
 const PHASES: usize = 4;
 
-/// All kernels, for one size of cell.
+/// The precomputed kernels for one cell size.
 #[derive(Debug)]
 pub(super) struct Kernels {
     cell_m: f64,
@@ -24,18 +23,18 @@ pub(super) struct Kernels {
     half_across_m: f64,
     kernels: Vec<Kernel>,
     rows: Vec<KernelRow>,
-    /// Shares of the whole in `1 / unit`.
+    /// Shares of the integral, in `1 / unit`.
     values: Vec<Lanes<u16>>,
     unit: f32,
 }
 
-/// One kernel: rows from cell `j0` on, counted from the cell of the foot's place.
+/// One kernel: rows from `j0` on, counted from the cell of the foot.
 #[derive(Clone, Copy, Debug)]
 struct Kernel {
     j0: i16,
     first_row: u32,
     rows: u16,
-    /// Columns that any of its rows touches.
+    /// Columns that its rows touch.
     i0: i16,
     i1: i16,
 }
@@ -44,16 +43,16 @@ struct Kernel {
 struct KernelRow {
     i0: i16,
     length: u16,
-    /// Values are kept in whole lanes.
+    /// Index of its first lane in `values`.
     first_lanes: u32,
 }
 
-/// A kernel put down: which one, in which cell, and how much of it.
+/// A placed kernel: its index, cell and amount.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedKernel {
     cell: [i32; 2],
     number: u16,
-    /// What a value of 65536 adds to a cell, in the scaling.
+    /// Amount that a value of 65536 adds to a cell, in the scaling.
     factor: u16,
     scaling: Scaling,
 }
@@ -81,10 +80,10 @@ impl Kernels {
         bank
     }
 
-    /// What a kernel around a place covers: a little more than its ellipse, which is kept for the nearest heading.
-    pub(super) fn extent(&self, middle_m: Vec2, heading: Vec2) -> Extent {
+    /// Extent of a kernel: a little more than its ellipse, for the rounding of the heading.
+    pub(super) fn extent(&self, middle_m: Vec2, heading: Vec2) -> StampExtent {
         let turned_aside_m = self.half_along_m * (0.5 * std::f64::consts::PI / HEADINGS as f64);
-        Extent {
+        StampExtent {
             middle_m,
             heading,
             half_along_m: self.half_along_m + self.cell_m,
@@ -92,14 +91,14 @@ impl Kernels {
         }
     }
 
-    /// Shares of the cells around the place, of which it takes `number` for heading and place within the cell.
+    /// Shares of the cells around a place; `number` encodes the heading and the position within the cell.
     fn shares(&self, number: usize) -> Shares {
         let (sin, cos) = sin_cos(std::f64::consts::PI * (number / (PHASES * PHASES)) as f64 / HEADINGS as f64);
         let phase = |k: usize| (k as f64 + 0.5) / PHASES as f64;
         let middle = vec2(phase(number % PHASES), phase(number / PHASES % PHASES)) * self.cell_m;
         let reach = (self.half_along_m.max(self.half_across_m) / self.cell_m).ceil() as i32 + 1;
         let size = (2 * reach + 1) as usize;
-        // Coarse cells hold means over several places.
+        // Coarse cells hold means over several points.
         let parts = (self.cell_m / (0.3 * self.half_across_m)).ceil().clamp(1.0, 24.0) as usize;
         let mut values = vec![0.0; size * size];
         for (k, value) in values.iter_mut().enumerate() {
@@ -124,7 +123,7 @@ impl Kernels {
     }
 
     fn push(&mut self, shares: &Shares, unit: f64) {
-        // Rounded one after the other with the remainder carried on, so that they sum up to one.
+        // Carries the rounding remainder on, so that the shares sum up to one.
         let mut remainder = 0.0;
         let whole: Vec<u16> = shares
             .values
@@ -164,7 +163,7 @@ impl Kernels {
         });
     }
 
-    /// The kernel for a heading around a place: its number and the cell that it is counted from.
+    /// Finds the kernel for a place and a heading.
     pub(super) fn find(&self, place_m: Vec2, heading: Vec2) -> FoundKernel {
         let turn = atan2(heading.y, heading.x) / std::f64::consts::PI;
         let angle = floor(turn * HEADINGS as f64 + 0.5);
@@ -176,7 +175,7 @@ impl Kernels {
         FoundKernel { number: number as u16, cell: cell.map(|k| k as i32) }
     }
 
-    /// Puts a kernel down that amounts to `amount`, summed up over all cells.
+    /// Places a kernel with the integral `amount` over all cells.
     pub(super) fn place(&self, found: FoundKernel, amount: f32) -> PlacedKernel {
         let peak = amount / self.unit * 65_536.0;
         let scaling = Scaling::for_most(peak);
@@ -185,12 +184,12 @@ impl Kernels {
     }
 
     /// The cells that a kernel touches.
-    pub(super) fn bounds(&self, found: FoundKernel) -> Bounds {
+    pub(super) fn bounds(&self, found: FoundKernel) -> TexelBounds {
         let kernel = self.kernels[usize::from(found.number)];
         let [i, j] = found.cell.map(i64::from);
         let j0 = j + i64::from(kernel.j0);
         let rows = i64::from(kernel.rows);
-        Bounds { i0: i + i64::from(kernel.i0), i1: i + i64::from(kernel.i1), j0, j1: j0 + rows }
+        TexelBounds { i0: i + i64::from(kernel.i0), i1: i + i64::from(kernel.i1), j0, j1: j0 + rows }
     }
 
     fn rows_of(&self, kernel: Kernel) -> &[KernelRow] {
@@ -218,13 +217,19 @@ impl Kernels {
         sum / self.unit
     }
 
-    /// The most that a placed kernel adds to a cell.
+    /// Upper bound on what a placed kernel adds to a cell.
     pub(super) fn peak(&self, placed: &PlacedKernel) -> u32 {
         (u32::from(placed.factor) >> placed.scaling.shift) + 1
     }
 
-    /// Adds a kernel to the cells of a window, where walls let it.
-    pub(super) fn add<C: Cell>(&self, placed: &PlacedKernel, shadow: Option<&Shadow>, window: Window, cells: &mut [C]) {
+    /// Adds a kernel to the cells of a window, except behind walls.
+    pub(super) fn add<C: SumCell>(
+        &self,
+        placed: &PlacedKernel,
+        shadow: Option<&Shadow>,
+        window: TexelWindow,
+        cells: &mut [C],
+    ) {
         let kernel = self.kernels[usize::from(placed.number)];
         let from_window = i64::from(placed.cell[0]) - window.i0;
         let first_row = i64::from(placed.cell[1]) + i64::from(kernel.j0) - window.j0;
@@ -246,7 +251,7 @@ impl Kernels {
                             shadow.reached([column + window.i0, j + window.j0], &mut reached);
                         }
                         for ((column, amount), reached) in (column..).zip(amounts).zip(reached) {
-                            // A cell that a wall runs through shows what stands before the wall.
+                            // A cell cut by a wall shows the part in front of it.
                             if reached > 0.0 && column >= 0 && column < WINDOW as i64 {
                                 cells[column as usize].add(amount);
                             }
@@ -259,7 +264,7 @@ impl Kernels {
 }
 
 impl PlacedKernel {
-    /// What values of the bank add.
+    /// Amounts that kernel values add.
     #[inline]
     fn amounts(self, values: &Lanes<u16>) -> Lanes<u16> {
         let (factor, half, shift) = (self.factor, self.scaling.half(), self.scaling.shift);
@@ -267,14 +272,14 @@ impl PlacedKernel {
     }
 }
 
-/// Which kernel belongs to a heading and a place, and the cell that it is counted from.
+/// Index of a kernel and the cell that its rows are counted from.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FoundKernel {
     number: u16,
     cell: [i32; 2],
 }
 
-/// A kernel before it is rounded: a square of cells around the place.
+/// An unrounded kernel: a square of cells around the place.
 struct Shares {
     reach: i32,
     size: usize,

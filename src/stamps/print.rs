@@ -1,11 +1,11 @@
-//! A plate laid on the floor: which sample lies under which texel.
+//! A plate placed on the floor: sampling it under texels.
 
 use super::TexelGrid;
 use super::bank::{Plate, Printer};
-use super::stamper::{Bounds, floor};
-use crate::math::Vec2;
+use super::pose::PrintPose;
+use super::window::floor;
 
-/// Samples are counted in parts of this many bits.
+/// Fraction bits of a sample position.
 const FRACTION_BITS: u32 = 10;
 const FRACTION: i32 = 1 << FRACTION_BITS;
 
@@ -21,115 +21,12 @@ pub(super) struct Print<'a> {
     v_per_j: i32,
 }
 
-/// Where and how a pattern is laid.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pose {
-    /// Middle of the pattern, metres.
-    pub(super) place_m: Vec2,
-    /// Unit vector along the pattern.
-    pub(super) heading: Vec2,
-    /// Size along the heading, as a factor on the pattern's.
-    pub(super) scale_along: f64,
-    /// Size across the heading, as a factor on the pattern's.
-    pub(super) scale_across: f64,
-    /// Whether left and right are swapped.
-    pub(super) mirrored: bool,
-}
-
-/// A linear function of texels, counted from the print's origin.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Linear {
-    pub(super) at_origin: f32,
-    pub(super) per_i: f32,
-    pub(super) per_j: f32,
-}
-
-impl Linear {
-    /// Its value at the start of a row.
-    #[inline]
-    pub(super) fn in_row(self, dj: i32) -> f32 {
-        self.at_origin + dj as f32 * self.per_j
-    }
-
-    /// `offset + factor * self`.
-    #[inline]
-    pub(super) fn times(self, factor: f32, offset: f32) -> Linear {
-        Linear { at_origin: self.at_origin * factor + offset, per_i: self.per_i * factor, per_j: self.per_j * factor }
-    }
-
-    #[inline]
-    pub(super) fn plus(self, other: Linear) -> Linear {
-        Linear {
-            at_origin: self.at_origin + other.at_origin,
-            per_i: self.per_i + other.per_i,
-            per_j: self.per_j + other.per_j,
-        }
-    }
-}
-
-impl Pose {
-    /// Place of a texel's middle on the pattern, metres of the pattern along and across, and its change per
-    /// texel along i and j.
-    fn along_across(&self, grid: &TexelGrid, origin: [i64; 2]) -> [[f64; 3]; 2] {
-        let texel_m = grid.texel_m();
-        let from_place = |k: i64, place_m: f64| (k as f64 + 0.5) * texel_m - place_m;
-        let (dx, dy) = (from_place(origin[0], self.place_m.x), from_place(origin[1], self.place_m.y));
-        let h = self.heading;
-        let along = 1.0 / self.scale_along;
-        // Image rows run to the right of the heading.
-        let across = if self.mirrored { -1.0 } else { 1.0 } / self.scale_across;
-        [
-            [dx * h.x + dy * h.y, h.x * texel_m, h.y * texel_m].map(|v| v * along),
-            [dx * h.y - dy * h.x, h.y * texel_m, -h.x * texel_m].map(|v| v * across),
-        ]
-    }
-
-    /// The point of the floor under a place on the pattern, given in soles along and across.
-    pub(super) fn point_m(&self, printer: &Printer, [along, across]: [f64; 2]) -> Vec2 {
-        let right = self.heading.left() * if self.mirrored { 1.0 } else { -1.0 };
-        self.place_m
-            + self.heading * (along * printer.length_m * self.scale_along)
-            + right * (across * printer.width_m * self.scale_across)
-    }
-
-    /// Texel that holds the place.
-    pub(super) fn origin(&self, grid: &TexelGrid) -> [i64; 2] {
-        [self.place_m.x, self.place_m.y].map(|m| floor(m * grid.texels_per_metre))
-    }
-
-    /// The texels that a pattern of this size, `more_m` larger on every side, can touch.
-    pub(super) fn bounds(&self, grid: &TexelGrid, printer: &Printer, more_m: f64) -> Bounds {
-        let [half_along, half_across] = printer.half_extent_m(self).map(|half| half + more_m);
-        let h = self.heading;
-        let x = half_along * h.x.abs() + half_across * h.y.abs();
-        let y = half_along * h.y.abs() + half_across * h.x.abs();
-        let t = grid.texels_per_metre;
-        Bounds {
-            i0: floor((self.place_m.x - x) * t),
-            j0: floor((self.place_m.y - y) * t),
-            i1: floor((self.place_m.x + x) * t) + 1,
-            j1: floor((self.place_m.y + y) * t) + 1,
-        }
-    }
-
-    /// Place on the sole, in soles along and across, of texels counted from the origin.
-    pub(super) fn sole_place(&self, printer: &Printer, grid: &TexelGrid) -> [Linear; 2] {
-        let [along, across] = self.along_across(grid, self.origin(grid));
-        let linear = |v: [f64; 3], extent: f64| {
-            let per_extent = 1.0 / extent;
-            let [at_origin, per_i, per_j] = v.map(|v| (v * per_extent) as f32);
-            Linear { at_origin, per_i, per_j }
-        };
-        [linear(along, printer.length_m), linear(across, printer.width_m)]
-    }
-}
-
 impl<'a> Print<'a> {
-    /// Lays a plate down; texels will be counted from `origin`.
+    /// Places a plate; texels are counted from `origin`.
     pub(super) fn new(
         printer: &Printer,
         plate: &'a Plate,
-        pose: &Pose,
+        pose: &PrintPose,
         grid: &TexelGrid,
         origin: [i64; 2],
     ) -> Print<'a> {
@@ -144,16 +41,16 @@ impl<'a> Print<'a> {
         Print { plate, u0, v0, u_per_i, v_per_i, u_per_j, v_per_j }
     }
 
-    /// For rows from `dj` on, the texels that can lie on the plate, counted from the origin: first and one past the
-    /// last, no further out than `limits`. Empty rows end where they begin or before.
+    /// Finds the texels on the plate for rows from `dj` on: first and one past the last, within `limits`.
     ///
-    /// A row may be a texel too long: the plate's guard of empty samples makes up for it.
+    /// Texels are counted from the origin. An empty row ends at or before its start. A row may be a texel too long; the
+    /// plate's guard of empty samples covers it.
     #[inline]
     pub(super) fn spans(&self, dj: i32, limits: [i32; 2], spans: &mut [[i32; 2]]) {
         const SAMPLE: f32 = 1.0 / FRACTION as f32;
         const ROUND: f32 = 12_582_912.0;
         let whole = |v: f32| (v + ROUND).to_bits() as i32 - ROUND.to_bits() as i32;
-        // Where a row hardly moves over the plate, as if it moved a little.
+        // Avoids a division by nearly zero for rows along an axis of the plate.
         let inverse = |v: i32| {
             let v = v as f32 * SAMPLE;
             1.0 / if v.abs() < 1e-3 { 1e-3 } else { v }
@@ -175,10 +72,10 @@ impl<'a> Print<'a> {
         }
     }
 
-    /// Coverage of the texels from `di` on in row `dj`, which lie on the plate.
+    /// Reads the nearest samples under the texels from `di` on in row `dj`, which lie on the plate.
     #[inline]
     pub(super) fn read_nearest(&self, di: i32, dj: i32, out: &mut [u8]) {
-        let Some(walk) = Walk::new(self, [0, 0], di, dj) else { return };
+        let Some(walk) = SampleSteps::new(self, [0, 0], di, dj) else { return };
         let mut at = walk.start;
         for coverage in out {
             *coverage = walk.samples[walk.place(at) & walk.mask];
@@ -186,11 +83,11 @@ impl<'a> Print<'a> {
         }
     }
 
-    /// The same, smoothly between the samples.
+    /// Reads bilinearly interpolated samples under the same texels.
     #[inline]
     pub(super) fn read_between(&self, di: i32, dj: i32, out: &mut [u8]) {
         const HALF: i32 = 1 << (FRACTION_BITS - 1);
-        let Some(walk) = Walk::new(self, [HALF, HALF], di, dj) else { return };
+        let Some(walk) = SampleSteps::new(self, [HALF, HALF], di, dj) else { return };
         let row = 1 << self.plate.pitch_bits;
         let mut at = walk.start;
         for coverage in out {
@@ -205,7 +102,7 @@ impl<'a> Print<'a> {
         }
     }
 
-    /// Coverage under one texel, moved by `aside` samples across the pattern; anywhere, also beyond the plate.
+    /// Interpolated coverage under any texel, shifted by `aside` samples across; 0 beyond the plate.
     #[inline]
     pub(super) fn read_anywhere(&self, di: i32, dj: i32, aside: f32) -> u8 {
         let u = self.u0 + di * self.u_per_i + dj * self.u_per_j;
@@ -225,11 +122,11 @@ impl<'a> Print<'a> {
     }
 }
 
-/// A walk over a plate's samples along a row of texels.
+/// Steps over a plate's samples along a row of texels.
 ///
-/// Both coordinates go in one word: the column, with its fraction, in the lower half, and the row, with its fraction
-/// and shifted by the pitch, in the upper.
-struct Walk<'a> {
+/// One word holds both coordinates: the column with its fraction in the lower half; the row with its fraction, shifted
+/// by the pitch, in the upper.
+struct SampleSteps<'a> {
     samples: &'a [u8],
     mask: usize,
     row_mask: u64,
@@ -237,18 +134,18 @@ struct Walk<'a> {
     step: u64,
 }
 
-impl<'a> Walk<'a> {
+impl<'a> SampleSteps<'a> {
     #[inline]
-    fn new(print: &Print<'a>, before: [i32; 2], di: i32, dj: i32) -> Option<Walk<'a>> {
+    fn new(print: &Print<'a>, before: [i32; 2], di: i32, dj: i32) -> Option<SampleSteps<'a>> {
         let samples = &print.plate.samples[..];
-        // There are a power of two of them, so that a mask keeps every place on the plate.
+        // Their number is a power of two, so that a mask keeps every index within the plate.
         let mask = samples.len().checked_sub(1)?;
         let pitch_bits = print.plate.pitch_bits;
         let u = print.u0 + di * print.u_per_i + dj * print.u_per_j - before[0];
         let v = print.v0 + di * print.v_per_i + dj * print.v_per_j - before[1];
         let word = |u: i32, v: i32| ((i64::from(v) << (32 + pitch_bits)).wrapping_add(i64::from(u))) as u64;
         let row_mask = mask as u64 & !((1 << pitch_bits) - 1);
-        Some(Walk { samples, mask, row_mask, start: word(u, v), step: word(print.u_per_i, print.v_per_i) })
+        Some(SampleSteps { samples, mask, row_mask, start: word(u, v), step: word(print.u_per_i, print.v_per_i) })
     }
 
     #[inline]

@@ -1,11 +1,11 @@
-//! The naive way to stamp, to test and to measure the fast one against.
+//! A naive reference for the stamps, for tests and measurements.
 
 use super::TexelGrid;
 use crate::marks::Mark;
 use crate::math::vec2;
 use crate::patterns::Pattern;
 
-/// Texels around a print.
+/// Texels around a print, from the reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReferenceImage {
     /// First column on the grid.
@@ -18,11 +18,12 @@ pub struct ReferenceImage {
     pub coverage: Vec<f64>,
 }
 
-/// Places within a texel along each axis at which the reference looks.
+/// Sample points within a texel along each axis.
 const PLACES: usize = 6;
 
-/// Mean coverage, 0 to 1, of every texel near a mark: its pattern turned, scaled to the mark's length, mirrored, and
-/// nothing else. Looks at 6 x 6 places in each texel. Slow: for tests and measurements.
+/// Mean coverage, 0 to 1, of every texel near a mark, from 6 x 6 point samples a texel.
+///
+/// The pattern is only rotated, scaled to the mark's length and mirrored. Slow: for tests and measurements.
 pub fn stamp_reference(pattern: &Pattern, mark: &Mark, grid: TexelGrid) -> ReferenceImage {
     let pixel_m = pattern.length_cm / 100.0 / f64::from(pattern.width_px.max(1));
     let scale = f64::from(mark.length_m) / (pattern.length_cm / 100.0);

@@ -1,10 +1,10 @@
-//! What a foot cannot reach: places behind a wall, seen from where the foot stands.
+//! Shadows of walls: points behind a wall, seen from the stand of a foot, get no print.
 
-use super::stamper::WINDOW;
+use super::window::WINDOW;
 use crate::math::{Rect, Vec2, vec2};
 use crate::walls::Walls;
 
-/// The walls near a place, and which squares of a raster lie behind them for somebody who stands there.
+/// The walls near a place, for finding the grid squares behind them as seen from there.
 #[derive(Debug)]
 pub(super) struct Shadow {
     place_m: Vec2,
@@ -25,38 +25,37 @@ struct Blocking {
     half_extent: f32,
 }
 
-/// What a print or a kernel covers, as far as walls are concerned.
+/// Oriented rectangle around a print or a kernel.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Extent {
+pub(super) struct StampExtent {
     pub(super) middle_m: Vec2,
-    /// Unit vector along it.
+    /// Unit vector along the rectangle.
     pub(super) heading: Vec2,
     pub(super) half_along_m: f64,
     pub(super) half_across_m: f64,
 }
 
-impl Extent {
-    /// How far its bounding rectangle reaches in a direction, seen from a place.
+impl StampExtent {
+    /// Reach in a direction, measured from a point.
     fn farthest_m(&self, from: Vec2, direction: Vec2) -> f64 {
         let along = self.half_along_m * self.heading.dot(direction).abs();
         let across = self.half_across_m * self.heading.cross(direction).abs();
         (self.middle_m - from).dot(direction) + along + across
     }
 
-    /// How far its corners are away from a place at most.
+    /// Upper bound on the distance of its corners from a point.
     pub(super) fn reach_m(&self, from: Vec2) -> f64 {
         vec2(self.half_along_m, self.half_across_m).length() + self.middle_m.distance(from)
     }
 }
 
-/// Places this far beside a shadow's rim count as in it, square metres of the cross product: wall segments
-/// that join leave no slit.
+/// Tolerance at the rim of a shadow, square metres of the cross product: joined wall segments leave no slit.
 const RIM: f32 = 1e-5;
 
-/// Where somebody stands whose foot seems to be in a wall: this far in front of it, metres.
+/// Distance in front of a wall at which a foot stands whose place lies in the wall, metres.
 const BEFORE_WALL_M: f64 = 0.002;
 
-/// Where a foot stands from which it reaches its surroundings: its place, or if that lies in a wall, before the wall.
+/// The stand of a foot: its place, or a point in front of the wall if the place lies in one.
 pub(super) fn foothold(walls: &Walls, place: Vec2, nearest_m: Vec2) -> Vec2 {
     match (nearest_m - place).normalized() {
         Some(out) if !walls.is_inside(place) => nearest_m + out * BEFORE_WALL_M,
@@ -65,9 +64,8 @@ pub(super) fn foothold(walls: &Walls, place: Vec2, nearest_m: Vec2) -> Vec2 {
 }
 
 impl Shadow {
-    /// The shadow on squares of side `square_m` that lie within an extent, seen from a place; `None` where no wall
-    /// stands in the way.
-    pub(super) fn new(walls: &Walls, place_m: Vec2, extent: &Extent, square_m: f64) -> Option<Shadow> {
+    /// The shadow on squares of side `square_m` within an extent, seen from a place; `None` without a wall in between.
+    pub(super) fn new(walls: &Walls, place_m: Vec2, extent: &StampExtent, square_m: f64) -> Option<Shadow> {
         let reach_m = extent.reach_m(place_m) + square_m;
         let mut segments = Vec::new();
         walls.segments_near(Rect { min: place_m, max: place_m }.grown(reach_m), &mut segments);
@@ -75,7 +73,7 @@ impl Shadow {
         for segment in segments {
             let (a, b) = (segment.a - place_m, segment.b - place_m);
             let Some(along) = (b - a).normalized() else { continue };
-            // Floor, and so the place, lies on the right of a face; walls seen from behind hide nothing.
+            // The floor lies on the right of a face; walls seen from behind cast no shadow.
             let normal = along.left();
             let distance = normal.dot(a);
             let nearest = a + along * (-a.dot(along)).clamp(0.0, (b - a).length());
@@ -96,9 +94,7 @@ impl Shadow {
         (!faces.is_empty()).then_some(Shadow { place_m, square_m, faces })
     }
 
-    /// How much of the squares in a row, 0 to 1, can be reached, from square `[i, j]` on to the right.
-    ///
-    /// The least over all faces, which does not depend on their order.
+    /// Visible share, 0 to 1, of the squares in a row from square `[i, j]` on: the minimum over all faces.
     pub(super) fn reached(&self, [i, j]: [i64; 2], out: &mut [f32]) {
         let middle = |k: i64, place: f64| ((k as f64 + 0.5) * self.square_m - place) as f32;
         self.reached_from(middle(i, self.place_m.x), middle(j, self.place_m.y), out);
@@ -120,7 +116,7 @@ impl Shadow {
         }
     }
 
-    /// How much of a square around a point, metres, can be reached.
+    /// Visible share, 0 to 1, of a square around a point.
     pub(super) fn reached_at(&self, point_m: Vec2) -> f32 {
         let offset = point_m - self.place_m;
         let mut out = [0.0];
@@ -128,9 +124,7 @@ impl Shadow {
         out[0]
     }
 
-    /// Takes away the coverage of squares that cannot be reached, from square `[i, j]` on to the right.
-    ///
-    /// A texel that a wall runs through shows what lies before the wall.
+    /// Clears the coverage of invisible squares from square `[i, j]` on. A texel cut by a wall keeps its coverage.
     pub(super) fn hide(&self, square: [i64; 2], coverage: &mut [u8]) {
         let mut reached = [0.0; WINDOW];
         let reached = &mut reached[..coverage.len()];
@@ -162,17 +156,17 @@ mod tests {
         Walls::trace(&FloorPlan::from_mask(width as u32, height as u32, 0.1, floor), &WallsOptions::default())
     }
 
-    fn around(middle_m: Vec2, half_m: f64) -> Extent {
-        Extent { middle_m, heading: vec2(1.0, 0.0), half_along_m: half_m, half_across_m: half_m }
+    fn around(middle_m: Vec2, half_m: f64) -> StampExtent {
+        StampExtent { middle_m, heading: vec2(1.0, 0.0), half_along_m: half_m, half_across_m: half_m }
     }
 
     #[test]
     fn a_wall_beside_a_narrow_extent_is_not_in_the_way() {
         let walls = rooms();
         let place = vec2(1.9, 1.0);
-        let along_the_wall = Extent { half_across_m: 0.1, heading: vec2(0.0, 1.0), ..around(place, 0.6) };
+        let along_the_wall = StampExtent { half_across_m: 0.1, heading: vec2(0.0, 1.0), ..around(place, 0.6) };
         assert!(Shadow::new(&walls, place, &along_the_wall, 0.01).is_none());
-        assert!(Shadow::new(&walls, place, &Extent { heading: vec2(1.0, 0.0), ..along_the_wall }, 0.01).is_some());
+        assert!(Shadow::new(&walls, place, &StampExtent { heading: vec2(1.0, 0.0), ..along_the_wall }, 0.01).is_some());
     }
 
     #[test]

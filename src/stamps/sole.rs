@@ -1,86 +1,56 @@
-//! Soles: what a footfall adds to `passes` and to `soil`.
+//! Footfalls: what a sole adds to `passes` and `soil`.
 
 use super::bank::{Plate, Printer};
-use super::coat::{Coat, smooth_step};
-use super::lanes::{Cell, LANES, Scaling, add_lanes, upper};
+use super::lanes::{LANES, Scaling, SumCell, add_lanes, upper};
+use super::linear::Linear;
 use super::noise::{NOISE_ONE, NoiseTile};
-use super::print::{Linear, Pose, Print};
-use super::sheet::Sheet;
-use super::stamper::{MOST_DENSITY, MOST_STRENGTH, Placed, Stamper, Window};
-use super::variation::{STEEPEST, SoleVariation};
+use super::pose::{BALL_RADIUS, PrintPose, WIDEST_TWIST, twist_reach_m};
+use super::print::Print;
+use super::print_coverage::PrintCoverage;
+use super::soil_coat::{SoilCoat, smooth_step};
+use super::stamper::{MOST_DENSITY, MOST_STRENGTH, PlacedMark, Stamper};
+use super::variation::{MOST_PRESSURE, SoleVariation};
+use super::window::TexelWindow;
 use super::{DENSITY_ONE, PASSES_ONE};
 use crate::marks::Mark;
 use crate::math::{sin_cos, vec2};
 use crate::walls::Walls;
 
-/// Soil prints denser than this can be told as prints and get all their variation; the others leave the same on the
-/// whole.
+/// Optical density from which a soil print is readable and gets all its variation; fainter ones keep only the mean.
 const READABLE_DENSITY: f32 = 0.015;
 
-/// The heel slips this far at most, metres.
+/// Limit on the slip of the heel, metres.
 const LONGEST_SLIP_M: f32 = 0.03;
 
-/// Middle of the ball, about which a foot twists, soles from the middle.
+/// Middle of the ball, the pivot of a twist, soles from the middle.
 const BALL: f64 = 0.22;
 
-/// How far from there a twist is felt, soles.
-const BALL_RADIUS: f64 = 0.25;
-
-/// Twists beyond this are cut, radians.
-const WIDEST_TWIST: f32 = 1.0;
-
-/// A twist is drawn as so many prints at most.
+/// Limit on the prints that a twist is drawn as.
 const TWIST_PRINTS: usize = 8;
 
-/// No part of a print lies farther from the middle of its coverage, soles; pressure slopes are made to hold on that
-/// far.
-pub(super) const FARTHEST: f32 = 0.75;
-
-/// The most that uneven pressure comes to, as a factor.
-pub(super) const MOST_PRESSURE: f32 = 1.0 + 2.0 * FARTHEST * STEEPEST;
-
-/// A print that is ready to be read and laid down.
+/// A print with its plate and variation, ready to be read.
 struct Prepared<'a> {
     printer: &'a Printer,
-    pose: Pose,
+    pose: PrintPose,
     plate: &'a Plate,
     variation: SoleVariation,
     origin: [i64; 2],
 }
 
 impl Stamper {
-    pub(super) fn sole_pose(&self, mark: &Mark, printer: &Printer) -> Option<Pose> {
-        let scale = f64::from(mark.length_m) / printer.length_m;
-        (0.2..=5.0).contains(&scale).then_some(Pose {
-            place_m: mark.place_m,
-            heading: mark.heading,
-            scale_along: scale,
-            scale_across: scale,
-            mirrored: mark.mirrored,
-        })
-    }
-
-    /// How far a twist carries the print beyond its outline, metres.
-    pub(super) fn twist_reach_m(&self, mark: &Mark) -> f64 {
-        if mark.twist_rad == 0.0 {
-            return 0.0;
-        }
-        f64::from(mark.twist_rad.abs().min(WIDEST_TWIST)) * BALL_RADIUS * 2.0 * f64::from(mark.length_m)
-    }
-
-    /// The most that one texel of `passes` can get from a mark.
+    /// Upper bound on what a mark adds to a texel of `passes`.
     pub(crate) fn peak_of_passes(&self, mark: &Mark) -> u32 {
         (passes(mark) * MOST_PRESSURE * self.faint_peak) as u32 + 2
     }
 
-    /// The most that one texel of `soil` can get from a mark.
+    /// Upper bound on what a mark adds to a texel of `soil`.
     pub(crate) fn peak_of_soil(&self, mark: &Mark) -> u32 {
         (soil(mark) * MOST_PRESSURE * self.grain_peak) as u32 + 2
     }
 
     fn prepare(&self, mark: &Mark, blurred: bool) -> Option<Prepared<'_>> {
         let printer = self.printer(mark)?;
-        let pose = self.sole_pose(mark, printer)?;
+        let pose = PrintPose::of_sole(mark, printer.length_m)?;
         let variation = SoleVariation::new(mark.variation, &self.options).over_ball(mark.forefoot);
         let smear_m = f64::from(mark.smear_m.clamp(0.0, LONGEST_SLIP_M));
         let plate = printer.plate(&pose, if blurred { variation.blur } else { 0.0 }, smear_m);
@@ -89,65 +59,65 @@ impl Stamper {
 
     /// Adds a footfall's coverage times pressure to the texels of a window.
     #[allow(clippy::too_many_arguments)]
-    pub(crate) fn add_passes<C: Cell>(
+    pub(crate) fn add_passes<C: SumCell>(
         &self,
         mark: &Mark,
-        placed: &Placed,
+        placed: &PlacedMark,
         walls: &Walls,
-        window: Window,
-        sheet: &mut Sheet,
+        window: TexelWindow,
+        sheet: &mut PrintCoverage,
         cells: &mut [C],
     ) {
         let Some(prepared) = self.prepare(mark, false) else { return };
         self.read(&prepared, mark, placed, walls, window, sheet);
-        self.lay_evenly(&prepared, passes(mark), &self.faint, window, sheet, cells);
+        self.add_evenly(&prepared, passes(mark), &self.faint, window, sheet, cells);
     }
 
     /// Adds the soil that a footfall leaves to the texels of a window, as optical density.
     #[allow(clippy::too_many_arguments)]
-    pub(crate) fn add_soil<C: Cell>(
+    pub(crate) fn add_soil<C: SumCell>(
         &self,
         mark: &Mark,
-        placed: &Placed,
+        placed: &PlacedMark,
         walls: &Walls,
-        window: Window,
-        sheet: &mut Sheet,
+        window: TexelWindow,
+        sheet: &mut PrintCoverage,
         cells: &mut [C],
     ) {
         if mark.soil < READABLE_DENSITY {
             let Some(prepared) = self.prepare(mark, false) else { return };
             self.read(&prepared, mark, placed, walls, window, sheet);
             let left = prepared.printer.mean_coat(&prepared.pose, &self.options);
-            self.lay_evenly(&prepared, soil(mark) * left, &self.grain, window, sheet, cells);
+            self.add_evenly(&prepared, soil(mark) * left, &self.grain, window, sheet, cells);
             return;
         }
         let Some(prepared) = self.prepare(mark, true) else { return };
         self.read_smoothly(&prepared, mark, placed, walls, window, sheet);
         let Prepared { printer, pose, plate, variation, origin } = &prepared;
-        let sole = pose.sole_place(printer, &self.grid);
+        let sole = printer.sole_place(pose, &self.grid);
         let pressure = pressure(printer, pose, variation, sole).times(soil(mark) / NOISE_ONE, 0.0);
-        let coat = Coat::new(variation, mark.wear, sole);
+        let coat = SoilCoat::new(variation, mark.wear, sole);
         let (cells, _) = cells.as_chunks_mut::<LANES>();
         for row in sheet.rows(*origin, window) {
             let noise = self.grain.row(variation.noise_at, row.first_lanes, row.j as u32);
             let dither = self.dither.row(variation.noise_at, row.first_lanes, row.j as u32);
-            coat.lay(&row, plate.unit, pressure, noise, dither, &mut cells[row.cells.clone()]);
+            coat.add(&row, plate.unit, pressure, noise, dither, &mut cells[row.cells.clone()]);
         }
     }
 
-    /// Reads a print for which the nearest samples will do.
+    /// Reads a faint print, from the nearest samples where they suffice.
     fn read(
         &self,
         prepared: &Prepared,
         mark: &Mark,
-        placed: &Placed,
+        placed: &PlacedMark,
         walls: &Walls,
-        window: Window,
-        sheet: &mut Sheet,
+        window: TexelWindow,
+        sheet: &mut PrintCoverage,
     ) {
         let Prepared { printer, pose, plate, origin, .. } = prepared;
         let print = Print::new(printer, plate, pose, &self.grid, *origin);
-        let bounds = pose.bounds(&self.grid, printer, 0.0);
+        let bounds = printer.bounds(pose, &self.grid, 0.0);
         let spans = |dj: i32, limits: [i32; 2], spans: &mut [[i32; 2]]| print.spans(dj, limits, spans);
         if plate.needs_smooth_reading(self.grid.texel_m(), pose.scale_along) {
             sheet.fill(*origin, bounds, window, spans, |di, dj, out| print.read_between(di, dj, out));
@@ -159,21 +129,21 @@ impl Stamper {
         }
     }
 
-    /// Reads a print that may be recognised: between samples, and turned about its ball if the foot twisted.
+    /// Reads a readable print: interpolated, and rotated about its ball if the foot twisted.
     fn read_smoothly(
         &self,
         prepared: &Prepared,
         mark: &Mark,
-        placed: &Placed,
+        placed: &PlacedMark,
         walls: &Walls,
-        window: Window,
-        sheet: &mut Sheet,
+        window: TexelWindow,
+        sheet: &mut PrintCoverage,
     ) {
         let Prepared { printer, pose, plate, origin, .. } = prepared;
         let poses = self.twisted(mark, printer, pose);
         let prints: Vec<Print> = poses.iter().map(|p| Print::new(printer, plate, p, &self.grid, *origin)).collect();
-        let bounds = pose.bounds(&self.grid, printer, self.twist_reach_m(mark));
-        let [along, _] = pose.sole_place(printer, &self.grid);
+        let bounds = printer.bounds(pose, &self.grid, twist_reach_m(mark));
+        let [along, _] = printer.sole_place(pose, &self.grid);
         match &prints[..] {
             [print] => sheet.fill(
                 *origin,
@@ -195,24 +165,24 @@ impl Stamper {
         }
     }
 
-    /// Lays a sheet down under uneven pressure with noise: `amount` of the quantity's unit where coverage is full.
+    /// Adds coverage times pressure times noise; full coverage is `amount` of the quantity's unit.
     ///
-    /// In 16 bits: coverage times pressure, scaled up as far as it goes, times noise. The dither rounds without bias: a
-    /// trail of soil fades on where a print is less than the unit of the sums.
-    fn lay_evenly<C: Cell>(
+    /// Computed in 16 bits: coverage times scaled pressure, times noise. Dither rounds without bias, so that a soil trail
+    /// fades on below the unit of the sums.
+    fn add_evenly<C: SumCell>(
         &self,
         prepared: &Prepared,
         amount: f32,
         noise: &NoiseTile,
-        window: Window,
-        sheet: &Sheet,
+        window: TexelWindow,
+        sheet: &PrintCoverage,
         cells: &mut [C],
     ) {
         let Prepared { printer, pose, plate, variation, origin } = prepared;
-        // The upper halves of the two products take 16 bits each away; coverage is counted in 1/257, noise in 1/2^14.
+        // Each of the two products loses 16 bits; coverage is in 1/257, noise in 1/2^14.
         let factor = amount * plate.unit * (262_144.0 / 257.0);
         let scaling = Scaling::for_most(factor * MOST_PRESSURE);
-        let sole = pose.sole_place(printer, &self.grid);
+        let sole = printer.sole_place(pose, &self.grid);
         let pressure = pressure(printer, pose, variation, sole).times(factor * scaling.factor(), 0.5);
         let slope = pressure.per_i.round() as i32;
         let shift = scaling.shift;
@@ -226,7 +196,7 @@ impl Stamper {
             let (mut start, slope) = (start as u16, slope as u16);
             for ((cells, coverage), (noise, dither)) in lanes.zip(noise.iter().zip(dither.iter())) {
                 let amounts = std::array::from_fn(|k| {
-                    // Beyond the print pressure may wrap around: there is no coverage there.
+                    // Outside the print pressure may wrap around: coverage is 0 there.
                     let pressure = start.wrapping_add(slope.wrapping_mul(k as u16));
                     let coverage = u16::from_ne_bytes([coverage[k]; 2]);
                     let value = upper(upper(coverage, pressure), noise[k]);
@@ -238,12 +208,12 @@ impl Stamper {
         }
     }
 
-    /// The poses that a foot takes while its ball twists on the floor; one if it does not, or too little to see.
-    fn twisted(&self, mark: &Mark, printer: &Printer, pose: &Pose) -> Vec<Pose> {
+    /// Poses of a foot while its ball twists on the floor; one pose for no or an invisible twist.
+    fn twisted(&self, mark: &Mark, printer: &Printer, pose: &PrintPose) -> Vec<PrintPose> {
         let twist = f64::from(mark.twist_rad.clamp(-WIDEST_TWIST, WIDEST_TWIST));
         let length_m = printer.length_m * pose.scale_along;
         let sweep = twist.abs() * BALL_RADIUS * length_m * self.grid.texels_per_metre;
-        // NaN is no twist.
+        // NaN counts as no twist.
         if sweep.is_nan() || sweep <= 0.3 {
             return vec![*pose];
         }
@@ -253,26 +223,26 @@ impl Stamper {
             .map(|k| {
                 let (sin, cos) = sin_cos(twist * k as f64 / (count - 1) as f64);
                 let heading = pose.heading.rotated(vec2(cos, sin));
-                Pose { place_m: ball - heading * (BALL * length_m), heading, ..*pose }
+                PrintPose { place_m: ball - heading * (BALL * length_m), heading, ..*pose }
             })
             .collect()
     }
 }
 
-/// What a mark adds to `passes` where its coverage is full.
+/// Amount that a mark adds to `passes` at full coverage.
 fn passes(mark: &Mark) -> f32 {
     mark.strength.clamp(0.0, MOST_STRENGTH) * PASSES_ONE
 }
 
-/// What a mark adds to `soil` where its coverage is full.
+/// Amount that a mark adds to `soil` at full coverage.
 fn soil(mark: &Mark) -> f32 {
     mark.soil.clamp(0.0, MOST_DENSITY) * DENSITY_ONE
 }
 
-/// Pressure over the sole: 1 in the mean of its coverage, so that uneven pressure leaves as much as even.
+/// Pressure over the sole, with mean 1 over its coverage, so that uneven pressure leaves as much as even.
 ///
-/// Where texels are so coarse that their filter spreads a print far beyond its outline, slopes are gentler.
-fn pressure(printer: &Printer, pose: &Pose, variation: &SoleVariation, [along, across]: [Linear; 2]) -> Linear {
+/// Slopes are gentler where coarse texels spread a print far beyond its outline.
+fn pressure(printer: &Printer, pose: &PrintPose, variation: &SoleVariation, [along, across]: [Linear; 2]) -> Linear {
     let [u, v] = printer.centroid.map(|c| c as f32);
     let [hold_along, hold_across] = printer.slopes_held(pose);
     let slopes = [variation.along * hold_along, variation.across * hold_across];
@@ -280,7 +250,7 @@ fn pressure(printer: &Printer, pose: &Pose, variation: &SoleVariation, [along, a
     slope.times(1.0, 1.0 - slopes[0] * u - slopes[1] * v)
 }
 
-/// The texels of rows that any of the prints can touch.
+/// Finds the texels of rows that any of the prints can touch.
 fn widest_spans(prints: &[Print], dj: i32, limits: [i32; 2], spans: &mut [[i32; 2]]) {
     let mut of_one = vec![[0; 2]; spans.len()];
     spans.fill([0; 2]);
@@ -295,7 +265,7 @@ fn widest_spans(prints: &[Print], dj: i32, limits: [i32; 2], spans: &mut [[i32; 
     }
 }
 
-/// The ball's part of a twisting foot as the mean of all its poses, the rest as it stands.
+/// Reads a twisting foot: the ball as the mean over all poses, the rest at the first pose.
 fn read_twisted(prints: &[Print], along: Linear, di: i32, dj: i32, out: &mut [u8]) {
     let start = along.in_row(dj);
     for (di, c) in (di..).zip(out) {

@@ -17,7 +17,7 @@ fn plain() -> StampOptions {
 
 fn stamped(library: &PatternLibrary, grid: TexelGrid, options: &StampOptions, marks: &[Mark]) -> FloorSums {
     let mut sums = FloorSums::new(grid);
-    sums.add(&Stamper::new(library, grid, options), &room(8.0, 8.0), marks);
+    sums.add(&Stamper::new(library, grid, options).unwrap(), &room(8.0, 8.0), marks);
     sums
 }
 
@@ -73,10 +73,10 @@ fn odd_footfalls(count: usize) -> Vec<Mark> {
 
 #[test]
 fn prints_lie_where_the_reference_puts_them() {
-    let library = PatternLibrary::built_in().unwrap();
+    let library = PatternLibrary::built_in();
     for (density, least) in [(100.0, 0.95), (400.0, 0.95), (1000.0, 0.97)] {
         let grid = grid(density, 1.3, 1.3);
-        let stamper = Stamper::new(&library, grid, &plain());
+        let stamper = Stamper::new(&library, grid, &plain()).unwrap();
         let count = if density > 500.0 { 2 } else { 10 };
         for (k, mark) in odd_footfalls(count).into_iter().enumerate() {
             let mark = Mark { pattern: k as u16, soil: 1.0, ..mark };
@@ -90,10 +90,10 @@ fn prints_lie_where_the_reference_puts_them() {
 
 #[test]
 fn a_print_at_400_texels_per_metre_shows_its_pattern() {
-    let library = PatternLibrary::built_in().unwrap();
+    let library = PatternLibrary::built_in();
     let soles: Vec<usize> = (0..library.patterns.len()).filter(|&k| library.patterns[k].cause == Cause::Sole).collect();
     let grid = grid(400.0, 1.3, 1.3);
-    let stamper = Stamper::new(&library, grid, &plain());
+    let stamper = Stamper::new(&library, grid, &plain()).unwrap();
     for &worn in &soles {
         let mark = Mark { pattern: worn as u16, soil: 0.5, ..footfall(vec2(0.6513, 0.6487), 0.7) };
         let mut sums = FloorSums::new(grid);
@@ -160,7 +160,7 @@ fn smear_draws_the_heel_forward_and_loses_nothing() {
 fn soil_prints_differ_and_leave_about_their_load() {
     let library = library();
     let grid = grid(100.0, 1.3, 1.3);
-    let stamper = Stamper::new(&library, grid, &StampOptions::default());
+    let stamper = Stamper::new(&library, grid, &StampOptions::default()).unwrap();
     let mut kept: Vec<Vec<f64>> = Vec::new();
     let mut total = 0.0;
     for k in 0..60 {
@@ -179,7 +179,7 @@ fn soil_prints_differ_and_leave_about_their_load() {
 fn soil_fades_in_proportion_below_the_unit_of_the_sums() {
     let library = library();
     let grid = grid(100.0, 1.3, 1.3);
-    let stamper = Stamper::new(&library, grid, &StampOptions::default());
+    let stamper = Stamper::new(&library, grid, &StampOptions::default()).unwrap();
     let leaves = |soil: f32| {
         let marks: Vec<Mark> =
             (0..200).map(|k| Mark { soil, variation: k, ..footfall(vec2(0.65, 0.65), f64::from(k as u32)) }).collect();
@@ -196,7 +196,7 @@ fn heel_marks_thinner_than_a_texel_keep_their_density() {
     let library = library();
     let amounts = [25.0, 100.0, 400.0].map(|density| {
         let grid = grid(density, 1.3, 1.3);
-        let stamper = Stamper::new(&library, grid, &plain());
+        let stamper = Stamper::new(&library, grid, &plain()).unwrap();
         let mut total = 0.0;
         for k in 0..40 {
             let place = vec2(0.6 + 0.0013 * f64::from(k as u32), 0.65);

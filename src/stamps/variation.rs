@@ -1,13 +1,19 @@
-//! What differs from print to print, expanded from the one word that a mark carries.
+//! Variation of prints and heel marks, expanded from the random word of a mark.
 //!
-//! Places on a sole are counted in soles: `along` from -0.5 at the heel's end to 0.5 at the toes, `across` from
+//! Positions on a sole are in soles: `along` from -0.5 at the heel's end to 0.5 at the toes, `across` from
 //! -0.5 to 0.5 in image order, so that -0.5 is the outer edge of the left foot that a pattern shows.
 
 use super::StampOptions;
 use crate::math::SplitMix64;
 
-/// Slope of a pressure never beyond this, so that pressure stays positive everywhere on the sole.
+/// Limit on a pressure slope; keeps pressure positive everywhere on the sole.
 pub(super) const STEEPEST: f32 = 0.6;
+
+/// Largest distance of a print's parts from its centroid up to which pressure stays positive, soles.
+pub(super) const FARTHEST: f32 = 0.75;
+
+/// Largest factor of uneven pressure.
+pub(super) const MOST_PRESSURE: f32 = 1.0 + 2.0 * FARTHEST * STEEPEST;
 
 /// How much steeper the pressure falls from the ball to the heel of a foot that runs on the ball.
 const BALL_SLOPE: f32 = 0.5;
@@ -18,33 +24,33 @@ const ON_BALL: f32 = 0.9;
 /// ... and leaves this share.
 const HEEL_ON_BALL: f32 = 0.08;
 
-/// One footfall's own.
+/// Variation of one footfall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SoleVariation {
-    /// Pressure's slope from heel to toe, shares of the mean.
+    /// Pressure slope from heel to toe, shares of the mean per sole.
     pub(super) along: f32,
-    /// Pressure's slope from edge to edge: the roll of the foot.
+    /// Pressure slope from edge to edge: the roll of the foot.
     pub(super) across: f32,
-    /// Where the noise tile starts.
+    /// Offset in the noise tile.
     pub(super) noise_at: [u32; 2],
-    /// Uniform in `[0, 1)`: how blurred.
+    /// Blur, uniform in `[0, 1)` from the least to the largest.
     pub(super) blur: f32,
-    /// How much more the full parts leave than the faint ones: `c (1 + contrast (c - 1))`.
+    /// Contrast of coverage c: `c (1 + contrast (c - 1))`.
     pub(super) contrast: f32,
-    /// Which part of the sole shows.
+    /// The part of the sole that shows.
     pub(super) fade: Fade,
 }
 
-/// Which part of a sole shows: from `floor` to 1 along a direction, in a smooth step.
+/// Partial print: coverage falls from 1 to `floor` along a direction, in a smooth step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Fade {
-    /// The step's progress in the middle of the sole.
+    /// Progress of the step in the middle of the sole.
     pub(super) at_middle: f32,
-    /// The progress' slope from heel to toe.
+    /// Slope of the progress from heel to toe.
     pub(super) along: f32,
-    /// The progress' slope from edge to edge.
+    /// Slope of the progress from edge to edge.
     pub(super) across: f32,
-    /// What is left of the part that does not show.
+    /// Remaining share of the hidden part.
     pub(super) floor: f32,
 }
 
@@ -52,7 +58,7 @@ impl Fade {
     /// The whole sole shows.
     const NONE: Fade = Fade { at_middle: 1.0, along: 0.0, across: 0.0, floor: 1.0 };
 
-    /// The ball shows, from a place along the sole on.
+    /// Only the ball shows, from a position along the sole.
     fn ball(from: f32) -> Fade {
         const SOFT: f32 = 0.2;
         Fade { at_middle: 0.5 - from / SOFT, along: 1.0 / SOFT, across: 0.0, floor: HEEL_ON_BALL }
@@ -75,11 +81,9 @@ impl SoleVariation {
             fade: fade(rng, options.partial as f32),
         }
     }
-}
 
-impl SoleVariation {
-    /// The same foot with so much of the heel's load on the ball, 0 to 1: walking fast the ball presses more, running on
-    /// the ball little else shows.
+    /// Shifts a share of the heel's load to the ball, 0 to 1: in fast walking the ball presses more; of a runner on the
+    /// ball the heel hardly shows.
     pub(super) fn over_ball(self, forefoot: f32) -> SoleVariation {
         // Written so that NaN is 0.
         let forefoot = if forefoot > 0.0 { forefoot.min(1.0) } else { 0.0 };
@@ -90,7 +94,7 @@ impl SoleVariation {
     }
 }
 
-/// Forty per cent of prints are partial, in equal parts: heel only, ball only, faded to one edge.
+/// Draws the fade of a print: with probability `partial` heel only, ball only or faded to an edge, in equal shares.
 fn fade(rng: &mut SplitMix64, partial: f32) -> Fade {
     let kind = rng.unit() / partial.max(1e-6) * 3.0;
     let (place, softness, floor, side) = (rng.unit(), rng.unit(), rng.unit(), rng.unit());
@@ -115,22 +119,22 @@ fn fade(rng: &mut SplitMix64, partial: f32) -> Fade {
     }
 }
 
-/// Where a pair of shoes is worn down, so that it leaves less: the outer heel and a place under the ball.
+/// Worn spots of a pair of shoes that leave less soil: the outer heel and under the ball.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Wear(pub(super) [WornSpot; 2]);
+pub(super) struct WornSpots(pub(super) [WornSpot; 2]);
 
-/// A worn place: `1 - depth` of the print is left in its middle, all of it from its rim on.
+/// A worn spot: the print keeps `1 - depth` in its middle, everything from its rim on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct WornSpot {
     pub(super) along: f32,
     pub(super) across: f32,
-    /// One over the half axes.
+    /// Reciprocals of the half axes.
     pub(super) inverse_radius: [f32; 2],
     pub(super) depth: f32,
 }
 
-impl Wear {
-    pub(super) fn new(word: u32) -> Wear {
+impl WornSpots {
+    pub(super) fn new(word: u32) -> WornSpots {
         let rng = &mut SplitMix64::new(u64::from(word) ^ 0x7765_6172_0000_0000);
         let mut spot = |along: [f32; 2], across: [f32; 2], radius: [f32; 2], depth: f32| WornSpot {
             along: rng.range(along[0], along[1]),
@@ -138,10 +142,13 @@ impl Wear {
             inverse_radius: [1.0 / rng.range(radius[0], radius[1]), 1.0 / rng.range(0.3, 0.6)],
             depth: depth * rng.unit(),
         };
-        Wear([spot([-0.5, -0.4], [-0.45, -0.1], [0.1, 0.2], 0.9), spot([0.1, 0.32], [-0.25, 0.3], [0.08, 0.2], 0.7)])
+        WornSpots([
+            spot([-0.5, -0.4], [-0.45, -0.1], [0.1, 0.2], 0.9),
+            spot([0.1, 0.32], [-0.25, 0.3], [0.08, 0.2], 0.7),
+        ])
     }
 
-    /// What is left of the print at a place on the sole.
+    /// Share of the print that is left at a position on the sole.
     #[inline]
     pub(super) fn left(&self, along: f32, across: f32) -> f32 {
         let [heel, ball] = &self.0;
@@ -158,20 +165,20 @@ impl WornSpot {
     }
 }
 
-/// One heel mark's own.
+/// Variation of one heel mark.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HeelVariation {
     /// Factor on the pattern's width.
     pub(super) width: f32,
-    /// How far the ends lie beside the middle's tangent, shares of the length.
+    /// Offset of the ends from the tangent in the middle, shares of the length.
     pub(super) bend: f32,
-    /// Share of the density that is lost from the start to the end of the drag.
+    /// Share of the density lost from the start to the end of the drag.
     pub(super) fade: f32,
-    /// Where the noise tile starts.
+    /// Offset in the noise tile.
     pub(super) noise_at: [u32; 2],
 }
 
-/// The most that the ends of a heel mark are bent aside, shares of its length.
+/// Limit on the bend of a heel mark, shares of its length.
 pub(super) const MOST_BEND: f32 = 0.3;
 
 impl HeelVariation {
@@ -180,7 +187,7 @@ impl HeelVariation {
         let bend = (0.1 * rng.normal()).clamp(-MOST_BEND, MOST_BEND);
         let at = rng.next_u64();
         HeelVariation {
-            // Patterns are drawn 2 to 4 mm wide; marks on real floors are 2 to 8 mm.
+            // Patterns are 2 to 4 mm wide; marks on real floors 2 to 8 mm.
             width: rng.range(1.2, 2.2),
             bend,
             fade: 0.5 * rng.unit(),

@@ -1,21 +1,25 @@
+//! The texel grid of all walls.
+
 use super::StampsError;
 use crate::walls::{Face, Walls};
 
-/// The raster of all walls: each face unrolled into a strip. Texel (i, j) of a face covers `[i, i+1)/t` metres of its
-/// arc length and `[j, j+1)/t` metres of height above the floor, so j grows upward.
+/// The texel grid of all walls: each face unrolled into a strip.
+///
+/// Texel (i, j) of a face covers `[i, i+1)/t` metres of its arc length and `[j, j+1)/t` metres of height above the
+/// floor, so j grows upward.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WallGrid {
-    /// Texel density t, texels per metre.
+    /// Texel density t, texels per metre, 1 to 1000.
     pub texels_per_metre: f64,
-    /// Height of the walls, metres.
+    /// Height of the walls, metres, above 0 to 100.
     pub height_m: f64,
     /// Rows: the height, rounded up to whole texels.
     pub height: u32,
-    /// By face, as in [`Walls::faces`].
+    /// Strip of each face, in the order of [`Walls::faces`].
     pub faces: Vec<FaceSpan>,
 }
 
-/// How far a face goes on its strip.
+/// Extent of a face on its strip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceSpan {
     /// Columns: the length, rounded up to whole texels. The last one may be covered in part.
@@ -26,32 +30,33 @@ pub struct FaceSpan {
     pub closed: bool,
 }
 
-/// The most columns of a face: 1000 km at 1000 texels per metre. Faces wind: a maze is one.
-pub(super) const MOST_COLUMNS: u32 = 1 << 30;
+/// Limit on the columns of a face: 1000 km at 1000 texels per metre. A maze may be one long face.
+const MOST_COLUMNS: u32 = 1 << 30;
 
-/// The highest wall, metres.
-pub(super) const HIGHEST_M: f64 = 100.0;
+/// Limit on the wall height, metres.
+const HIGHEST_M: f64 = 100.0;
 
 impl WallGrid {
-    /// The grid of all faces of a plan's walls, `height_m` metres high: more than 0, at most 100.
+    /// The grid of all wall faces of a plan; `height_m` is the wall height in metres.
     ///
     /// # Errors
-    /// A density out of 1 to 1000 texels per metre, a height out of its range, a face of more than 2^30 texels.
+    /// The texel density is outside 1 to 1000 texels per metre; the height is out of range; a face has more than
+    /// 2^30 texels.
     pub fn covering(walls: &Walls, height_m: f64, texels_per_metre: f64) -> Result<WallGrid, StampsError> {
         if !(1.0..=1000.0).contains(&texels_per_metre) {
-            return Err(StampsError::WallDensity { texels_per_metre });
+            return Err(StampsError::WallTexelDensity { texels_per_metre });
         }
         if !(height_m > 0.0 && height_m <= HIGHEST_M) {
-            return Err(StampsError::WallHeight { height_m });
+            return Err(StampsError::WallHeight { height_m, most: HIGHEST_M });
         }
-        // A wall that is a whole number of texels but for rounding does not get one more.
+        // Rounding errors must not add a texel.
         let texels = |metres: f64| (metres * texels_per_metre - 1e-6).ceil().max(1.0);
         let span = |face: &Face| {
             let length_m = face.length_m();
             let width = texels(length_m);
             let fits = width <= f64::from(MOST_COLUMNS);
             fits.then_some(FaceSpan { width: width as u32, length_m, closed: face.closed })
-                .ok_or(StampsError::FaceTooLong { length_m, texels_per_metre })
+                .ok_or(StampsError::FaceTooLong { length_m, texels_per_metre, most: MOST_COLUMNS })
         };
         let faces = walls.faces.iter().map(span).collect::<Result<_, _>>()?;
         Ok(WallGrid { texels_per_metre, height_m, height: texels(height_m) as u32, faces })
@@ -80,10 +85,10 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_wall_is_named() {
+    fn values_out_of_range_are_named() {
         let walls = room(3.0, 2.0);
-        let message = |height_m, density| {
-            let error = WallGrid::covering(&walls, height_m, density).unwrap_err();
+        let message = |height_m, texels_per_metre| {
+            let error = WallGrid::covering(&walls, height_m, texels_per_metre).unwrap_err();
             assert!(error.hint().is_some());
             error.to_string()
         };
@@ -92,10 +97,10 @@ mod tests {
         for height_m in [0.0, -2.0, 101.0, f64::NAN, f64::INFINITY] {
             assert!(message(height_m, 200.0).starts_with("walls are "), "{height_m}");
         }
-        let of_length = |length_m: f64, density| {
+        let of_length = |length_m: f64, texels_per_metre| {
             let mut walls = room(3.0, 2.0);
             walls.faces[0] = Face { closed: false, points_m: vec![vec2(0.0, 0.0), vec2(length_m, 0.0)] };
-            WallGrid::covering(&walls, 2.6, density)
+            WallGrid::covering(&walls, 2.6, texels_per_metre)
         };
         let message = of_length(2e6, 1000.0).unwrap_err().to_string();
         assert!(message.starts_with("a wall of 2000000.0 m"), "{message}");

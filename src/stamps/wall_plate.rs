@@ -1,73 +1,72 @@
-//! Wall patterns, filtered for the texels that they are laid on.
+//! Wall patterns, filtered for the texels of their stains.
 //!
-//! A contact stretches its pattern along and across by different factors, so that a texel covers an ellipse of it.
-//! A plate is the pattern under a Gaussian with a deviation along and another across; deviations go in half octaves,
-//! rounded up, and each pair of them is made when first asked for.
+//! A contact stretches its pattern by different factors along and across, so a texel covers an ellipse of it. A plate is
+//! the pattern under a Gaussian with one standard deviation along and one across. Deviations are rounded up to half
+//! octaves; each pair is filtered on first use.
 
 use std::sync::OnceLock;
 
-use super::picture::{FILTER_REACH, Picture};
+use super::float_image::{FILTER_REACH, FloatImage};
 use crate::math::ln;
 use crate::patterns::{Cause, Pattern};
 
-/// Least deviation of a plate's filter, metres of the pattern: a quarter of a pattern's pixel.
+/// Least standard deviation of a plate's filter, metres of the pattern: a quarter of a pattern's pixel.
 const FINEST_M: f64 = 0.000_25;
 
-/// Deviations that a plate comes in, along and across: up to 11 m, a texel of 1 m on a pattern squeezed to a
-/// twenty-fifth.
+/// Number of deviations along and across: up to 11 m, for a texel of 1 m on a pattern squeezed to a twenty-fifth.
 const LEVELS: usize = 32;
 
-/// Levels along and across differ by no more than this, a ratio of 16: beyond it the filter would be far larger than
-/// the picture.
+/// Limit on the difference of the levels along and across, a ratio of 16: keeps the filter from growing far beyond the
+/// image.
 const MOST_APART: usize = 8;
 
-/// Distance of a plate's samples, deviations: a Gaussian is smooth between them.
+/// Distance of a plate's samples, standard deviations.
 const SAMPLE: f64 = 0.7;
 
-/// A plate has at most about so many samples along an axis.
+/// Approximate limit on the samples of a plate along an axis.
 const MOST_SAMPLES: f64 = 1000.0;
 
-/// One wall pattern with all its plates.
+/// One wall pattern with its plates.
 #[derive(Debug)]
 pub(super) struct WallPattern {
     pub(super) cause: Cause,
     /// Length along +x, metres.
     pub(super) length_m: f64,
-    /// Extent across, metres.
+    /// StampExtent across, metres.
     pub(super) breadth_m: f64,
-    /// Middle of its coverage, in shares of length and breadth from the pattern's middle.
+    /// Centroid of the coverage, in shares of length and breadth from the pattern's middle.
     pub(super) centroid: [f64; 2],
     mass_m2: f64,
-    coverage: Picture,
+    coverage: FloatImage,
     plates: Vec<OnceLock<Box<WallPlate>>>,
 }
 
-/// A pattern under a filter, in samples.
+/// A filtered and sampled pattern.
 #[derive(Debug)]
 pub(super) struct WallPlate {
     columns: usize,
     rows: usize,
-    /// By sample, that sample, the next, and the same two of the next row, from the lowest byte up; in the plate's
-    /// unit. The outermost samples are empty.
+    /// Per sample from the lowest byte: the sample, the next, and the two below them, in units of `unit`. The outermost
+    /// samples are empty.
     quads: Vec<u32>,
-    /// Coverage that a sample of 1 stands for.
+    /// Coverage of a sample value of 1.
     unit: f32,
     /// Distance of the samples along and across, metres of the pattern.
     pub(super) pitch_m: [f64; 2],
-    /// How far there is anything from the pattern's middle, metres of the pattern.
+    /// Reach of the coverage from the pattern's middle, metres of the pattern.
     pub(super) half_extent_m: [f64; 2],
     /// Largest coverage.
     pub(super) peak: f32,
 }
 
 impl WallPattern {
-    /// `None` for a pattern that belongs on a floor or that shows nothing.
+    /// Prepares a pattern; `None` for a floor pattern or an empty one.
     pub(super) fn new(pattern: &Pattern) -> Option<WallPattern> {
         pattern.cause.on_wall()?;
-        let coverage = Picture::of(pattern);
+        let coverage = FloatImage::of(pattern);
         let (mass_m2, centroid) = coverage.mass_and_centroid();
         let [length_m, breadth_m] = [coverage.width, coverage.height].map(|count| count as f64 * coverage.pixel_m);
-        // Written so that NaN is no pattern.
+        // Written so that NaN is refused.
         let sound = mass_m2 > 0.0 && length_m > 0.0 && length_m.is_finite();
         sound.then(|| WallPattern {
             cause: pattern.cause,
@@ -117,14 +116,14 @@ impl WallPlate {
         let bytes: Vec<u8> = values.iter().map(|v| (v / peak * 255.0 + 0.5) as u8).collect();
         let byte = |k: usize| u32::from(bytes.get(k).copied().unwrap_or(0));
         let quad = |k| byte(k) | byte(k + 1) << 8 | byte(k + columns) << 16 | byte(k + columns + 1) << 24;
-        // Cutting the filter off, sampling and rounding lose a little: what a stain amounts to stays exact.
+        // Restores the integral that truncating the filter, sampling and rounding change slightly.
         let sum = bytes.iter().map(|&byte| f64::from(byte)).sum::<f64>() * pitch_m[0] * pitch_m[1];
         let unit = if sum > 0.0 { (mass_m2 / sum) as f32 } else { 0.0 };
         let mut plate =
             WallPlate { columns, rows, quads: Vec::new(), unit, pitch_m, half_extent_m: [0.0; 2], peak: 255.0 * unit };
         let middle = plate.middle();
         for k in (0..bytes.len()).filter(|&k| bytes[k] > 0) {
-            // A sample is felt as far as the next.
+            // Interpolation carries a sample as far as the next.
             for (axis, place) in [k % columns, k / columns].into_iter().enumerate() {
                 let reach_m = ((place as f64 - middle[axis]).abs() + 1.0) * pitch_m[axis];
                 plate.half_extent_m[axis] = plate.half_extent_m[axis].max(reach_m);
@@ -134,15 +133,15 @@ impl WallPlate {
         plate
     }
 
-    /// The sample, counted with fractions, in the pattern's middle.
+    /// Position of the pattern's middle, samples.
     pub(super) fn middle(&self) -> [f64; 2] {
         [self.columns, self.rows].map(|count| count as f64 * 0.5 - 0.5)
     }
 
-    /// Finds the samples around places in a row of texels, which it replaces by how far they are from the first of them.
+    /// Finds the samples around positions in a row of texels; replaces the positions by their fractions.
     #[inline]
     pub(super) fn find(&self, along: &mut [f32], across: &mut [f32], quads: &mut [u32]) {
-        // Beyond the outermost samples, which are empty, is as good as on them.
+        // The outermost samples are empty, so positions beyond are clamped to them.
         let [most_along, most_across] = [self.columns, self.rows].map(|count| (count - 2) as f32);
         let columns = self.columns as f32;
         for ((u, v), quad) in along.iter_mut().zip(across).zip(&mut *quads) {
@@ -156,7 +155,7 @@ impl WallPlate {
         }
     }
 
-    /// Coverage between four samples.
+    /// Bilinear coverage between four samples.
     #[inline]
     pub(super) fn between(&self, quad: u32, along: f32, across: f32) -> f32 {
         let byte = |shift: u32| (quad >> shift & 0xff) as i32 as f32;
@@ -166,22 +165,22 @@ impl WallPlate {
     }
 }
 
-/// Adding this rounds to the nearest whole number, without a check of the range, so that loops are vectorised.
+/// Adding this rounds to the nearest whole number without a range check, so that loops vectorise.
 const ROUND: f32 = 12_582_912.0;
 
-/// The largest whole number that is not larger, or the one below it where that is as near: for numbers up to 4 million.
+/// Floor of a value up to 4 million; may be one less for whole numbers.
 #[inline]
 pub(super) fn whole(value: f32) -> f32 {
     (value - 0.5 + ROUND) - ROUND
 }
 
-/// A whole number from -4 to 4 million.
+/// Bits of a whole number from -4 to 4 million, as an integer.
 #[inline]
 pub(super) fn bits_of(whole: f32) -> u32 {
     (whole + ROUND).to_bits().wrapping_sub(ROUND.to_bits())
 }
 
-/// The level whose deviation is not less, as far as levels go.
+/// The least level with at least this deviation, or the last.
 fn level(deviation_m: f64) -> usize {
     const LEVELS_PER_E: f64 = 2.0 / std::f64::consts::LN_2;
     (ln(deviation_m.max(FINEST_M) / FINEST_M) * LEVELS_PER_E).ceil().min((LEVELS - 1) as f64) as usize

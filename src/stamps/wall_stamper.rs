@@ -1,150 +1,150 @@
 //! Turns contacts into texels of unrolled wall faces.
 
-use super::lanes::Cell;
+use super::lanes::SumCell;
+use super::linear::Linear;
 use super::noise::{NOISE_ONE, NoiseTile};
-use super::print::Linear;
-use super::stamper::{Bounds, MOST_DENSITY, WINDOW, Window, floor};
+use super::stamper::MOST_DENSITY;
 use super::wall_plate::{WallPattern, WallPlate, bits_of, whole};
 use super::wall_variation::{ContactVariation, drag};
-use super::{DENSITY_ONE, FaceSpan, StampOptions, WallGrid};
+use super::window::{TexelBounds, TexelWindow, WINDOW, floor};
+use super::{DENSITY_ONE, FaceSpan, StampOptions, StampsError, WallGrid};
 use crate::marks::Contact;
 use crate::math::{SplitMix64, sin_cos};
 use crate::patterns::{Cause, PatternLibrary};
 
-/// Deviation of the texel's filter, texels; as on the floor.
+/// Standard deviation of the texel filter, texels; as on the floor.
 const TEXEL_FILTER: f64 = 0.45;
 
-/// Contacts are at least and at most so long and so broad, metres.
+/// Range of the length and breadth of a contact, metres.
 const EXTENT_M: [f32; 2] = [0.001, 10.0];
 
-/// Contacts lie within this distance from a face's start and from the floor, metres.
+/// Limit on a contact's distance from the start of its face and from the floor, metres.
 const FARTHEST_M: f64 = 1e6;
 
-/// A stain goes round a closed face no more often than this.
+/// Limit on the turns of a stain round a closed face.
 const MOST_TURNS: f64 = 64.0;
 
-/// How much more skin and cloth blur than what is hard: a factor on [`StampOptions::blur_m`].
+/// Factor on [`StampOptions::blur_m`] for skin and cloth.
 const SOFT: f64 = 2.5;
 
-/// No stain is blurred by more than this share of its smaller extent.
+/// Limit on a stain's blur, as a share of its smaller extent.
 const MOST_BLUR: f64 = 0.15;
 
-/// Sizes of blotches, metres: how grime sticks to a hand or comes off it.
+/// Sizes of blotches, metres: uneven grime on a hand.
 const BLOTCHES_M: [f64; 3] = [0.06, 0.02, 0.007];
 
-/// Deviation of the blotches, as a share of [`StampOptions::noise`].
+/// Standard deviation of the blotches, as a share of [`StampOptions::noise`].
 const BLOTCHY: f64 = 1.2;
 
-/// Sizes of a wall's micro texture, metres: the grain that a paint roller leaves.
+/// Sizes of the wall's micro texture, metres: the grain of a paint roller.
 const GRAIN_M: [f64; 2] = [0.005, 0.002];
 
-/// Deviation of what the grain catches, as a share of [`StampOptions::noise`].
+/// Standard deviation of the grain, as a share of [`StampOptions::noise`].
 const GRAINY: f64 = 0.8;
 
-/// A full touch fills the grain, a faint one leaves something on its tops only: share of the grain's contrast that
-/// full coverage loses.
+/// Share of the grain's contrast that full coverage hides: a faint touch marks only the tops of the grain.
 const FILLED: f32 = 0.6;
 
-/// How much longer than broad the blotches of a drag are.
+/// Length over breadth of the blotches of a drag.
 const STREAKS: f32 = 4.0;
 
-/// Turns contacts into texels for one library, one grid and one set of options.
+/// Turns contacts into texels of wall faces, for one pattern library, grid and set of options.
 ///
-/// A stain is a pure function of its contact, its pattern and the grid: a stain that is cut by a block's border gives the same
-/// integers on both sides as one that is not. It is cut off at the floor, at the ceiling and at the ends of an open
-/// face; on a closed face it goes on across the seam.
+/// A stain is a pure function of its contact, its pattern and the grid: a stain cut by a block's border gives the same
+/// integers on both sides as an uncut one. It ends at the floor, at the ceiling and at the ends of an open face; on a
+/// closed face it continues across the seam.
 #[derive(Debug)]
 pub struct WallStamper {
     grid: WallGrid,
     options: StampOptions,
-    /// By the pattern's number; none for what floors take.
+    /// By pattern index; `None` for floor patterns.
     patterns: Vec<Option<WallPattern>>,
     blotches: NoiseTile,
     grain: NoiseTile,
     dither: NoiseTile,
-    /// The most that blotches and grain make of 1.
+    /// Largest factor of blotches and grain.
     noise_peak: f32,
 }
 
-/// A contact that was found sound, once for each time that it shows on its face's strip.
+/// A valid contact, placed on the strip of its face.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stain<'a> {
+pub(crate) struct PlacedStain<'a> {
     pub(crate) cause: Cause,
     pub(crate) face: u32,
-    /// Texels of the strip that it can touch; within the strip.
-    pub(crate) bounds: Bounds,
-    /// No texel gets more than this.
+    /// Texels of the strip that the stain can touch.
+    pub(crate) bounds: TexelBounds,
+    /// Upper bound on what a texel gets.
     pub(crate) peak: u16,
     plate: &'a WallPlate,
-    /// The texel that the others are counted from.
+    /// The texel from which others are counted.
     origin: [i64; 2],
-    /// Place of a texel's middle on the stain, metres along and across, and how far the stain reaches.
-    axes_m: [Axis; 2],
-    /// The same in samples of the plate.
+    /// Position of a texel's middle along and across the stain, metres, with the stain's reach.
+    axes_m: [StainAxis; 2],
+    /// Position in samples of the plate.
     samples: [Linear; 2],
-    bend: Bend,
-    /// Density of full coverage, in the unit of sums.
+    bend: StainBend,
+    /// Optical density at full coverage, in the unit of sums.
     density: Linear,
-    /// The same place in texels of the blotches.
+    /// Position in texels of the blotches.
     blotches: [Linear; 2],
     blotches_at: [u32; 2],
-    /// What to add to a texel for its place in the grain and in the dither.
+    /// Offsets in the tiles of grain and dither.
     grain_at: [u32; 2],
     dither_at: [u32; 2],
 }
 
-/// A linear function of texels, with the range in which there is anything.
+/// A linear function of texels with the half extent of the stain.
 #[derive(Clone, Copy, Debug)]
-struct Axis {
+struct StainAxis {
     at_origin: f64,
     per_i: f64,
     per_j: f64,
     half: f64,
 }
 
-/// How a stain is bent aside: a cubic of the place along, both in samples.
+/// Bend of a stain: sideways shift as a cubic of the position along, both in samples.
 #[derive(Clone, Copy, Debug)]
-struct Bend {
+struct StainBend {
     middle: f32,
     share_per_sample: f32,
     factors: [f32; 4],
 }
 
 impl WallStamper {
-    /// A stamper for the contacts that use this library. Options out of range (see [`StampOptions::check`]) are
-    /// replaced by their defaults.
+    /// Prepares a stamper for the wall patterns of a library; uses the options `blur_m`, `pressure` and `noise`.
     ///
-    /// Of the options `blur_m`, `pressure` and `noise` mean on walls what they mean on floors.
-    pub fn new(library: &PatternLibrary, grid: &WallGrid, options: &StampOptions) -> WallStamper {
-        let options = if options.check().is_ok() { options.clone() } else { StampOptions::default() };
-        let density = grid.texels_per_metre;
-        // A metre or so, as far as a tile of that many texels is small enough.
-        let size = ((0.8 * density) as usize).clamp(64, 512).next_power_of_two();
+    /// # Errors
+    /// An option is out of range, see [`StampOptions::check`].
+    pub fn new(library: &PatternLibrary, grid: &WallGrid, options: &StampOptions) -> Result<WallStamper, StampsError> {
+        options.check()?;
+        let texels_per_metre = grid.texels_per_metre;
+        // About a metre, within limits on the size of a tile.
+        let size = ((0.8 * texels_per_metre) as usize).clamp(64, 512).next_power_of_two();
         let noise = |scales_m: &[f64], share: f64, seed: u64| {
-            NoiseTile::of_scales(size, density, scales_m, options.noise * share, seed)
+            NoiseTile::of_scales(size, texels_per_metre, scales_m, options.noise * share, seed)
         };
         let (blotches, grain) = (noise(&BLOTCHES_M, BLOTCHY, 11), noise(&GRAIN_M, GRAINY, 17));
-        WallStamper {
+        Ok(WallStamper {
             patterns: library.patterns.iter().map(WallPattern::new).collect(),
             noise_peak: blotches.peak() * grain.peak().max(1.0),
-            dither: NoiseTile::dither(density),
+            dither: NoiseTile::dither(texels_per_metre),
             blotches,
             grain,
             grid: grid.clone(),
-            options,
-        }
+            options: options.clone(),
+        })
     }
 
-    /// The grid that it stamps for.
+    /// The grid of the stamps.
     pub fn grid(&self) -> &WallGrid {
         &self.grid
     }
 
-    /// The stains that a contact leaves: one, or one more for each time that it crosses the seam of a closed face.
+    /// Places the stains of a contact: one, and another for each crossing of a closed face's seam.
     ///
-    /// None if it can leave nothing: a pattern that is not in the library or not of the contact's cause, a face that
-    /// is none, a place, size, direction or strength that is no sensible number.
-    pub(crate) fn place(&self, contact: &Contact) -> Vec<Stain<'_>> {
+    /// Empty for a contact that leaves nothing: its pattern is not in the library or of another cause, its face is not in
+    /// the grid, or its place, size, direction or strength is out of range.
+    pub(crate) fn place(&self, contact: &Contact) -> Vec<PlacedStain<'_>> {
         let (Some(pattern), Some(face)) = (self.pattern(contact), self.grid.faces.get(contact.face as usize)) else {
             return Vec::new();
         };
@@ -157,7 +157,7 @@ impl WallStamper {
         if !sound {
             return Vec::new();
         }
-        let shape = Shape::new(self, contact, pattern);
+        let shape = StainShape::new(self, contact, pattern);
         places_m(contact.along_m, face, shape.reach_m[0], self.grid.texel_m())
             .into_iter()
             .filter_map(|along_m| self.stain(contact, &shape, face, along_m))
@@ -168,8 +168,14 @@ impl WallStamper {
         self.patterns.get(usize::from(contact.pattern))?.as_ref().filter(|p| p.cause == contact.cause)
     }
 
-    /// The stain of a contact whose middle lies here on the strip, if it touches the strip at all.
-    fn stain<'a>(&self, contact: &Contact, shape: &Shape<'a>, face: &FaceSpan, along_m: f64) -> Option<Stain<'a>> {
+    /// Places a stain with its middle at `along_m` on the strip; `None` if it does not touch the strip.
+    fn stain<'a>(
+        &self,
+        contact: &Contact,
+        shape: &StainShape<'a>,
+        face: &FaceSpan,
+        along_m: f64,
+    ) -> Option<PlacedStain<'a>> {
         let (t, texel_m) = (self.grid.texels_per_metre, self.grid.texel_m());
         let place_m = [along_m, contact.height_m];
         let ends = [i64::from(face.width), i64::from(self.grid.height)];
@@ -184,9 +190,9 @@ impl WallStamper {
         let origin = place_m.map(|m| floor(m * t));
         let from_place = |k: usize| (origin[k] as f64 + 0.5) * texel_m - place_m[k];
         let (dx, dy) = (from_place(0), from_place(1));
-        let axes_m: [Axis; 2] = std::array::from_fn(|k| {
+        let axes_m: [StainAxis; 2] = std::array::from_fn(|k| {
             let [x, y] = shape.axes[k];
-            Axis { at_origin: dx * x + dy * y, per_i: x * texel_m, per_j: y * texel_m, half: shape.half_m[k] }
+            StainAxis { at_origin: dx * x + dy * y, per_i: x * texel_m, per_j: y * texel_m, half: shape.half_m[k] }
         });
         let middle = shape.plate.middle();
         let samples = std::array::from_fn(|k| axes_m[k].linear(shape.samples_per_m[k], middle[k]));
@@ -198,10 +204,10 @@ impl WallStamper {
             .plus(axes_m[1].linear(unit * f64::from(v.across) / breadth_m, 0.0));
         let streaks = f64::from(1.0 + (STREAKS - 1.0) * shape.drag);
         let on_face = SplitMix64::new(u64::from(contact.face)).next_u64();
-        Some(Stain {
+        Some(PlacedStain {
             cause: contact.cause,
             face: contact.face,
-            bounds: Bounds { i0, j0, i1, j1 },
+            bounds: TexelBounds { i0, j0, i1, j1 },
             peak: shape.peak,
             plate: shape.plate,
             origin,
@@ -217,8 +223,8 @@ impl WallStamper {
     }
 
     /// Adds a stain to the cells of a window of its face's strip.
-    pub(crate) fn add<C: Cell>(&self, stain: &Stain, window: Window, cells: &mut [C]) {
-        let mut texels = Texels::new();
+    pub(crate) fn add<C: SumCell>(&self, stain: &PlacedStain, window: TexelWindow, cells: &mut [C]) {
+        let mut texels = TexelRow::new();
         let rows = stain.bounds.j0.max(window.j0)..stain.bounds.j1.min(window.j0 + WINDOW as i64);
         for j in rows {
             let from = (j - window.j0) as usize * WINDOW;
@@ -226,8 +232,14 @@ impl WallStamper {
         }
     }
 
-    /// Adds a row of a stain to [`WINDOW`] cells or fewer, the first of which is texel `[i, j]`.
-    pub(super) fn add_row<C: Cell>(&self, stain: &Stain, [i, j]: [i64; 2], texels: &mut Texels, cells: &mut [C]) {
+    /// Adds a row of a stain to at most [`WINDOW`] cells, the first of which is texel `[i, j]`.
+    pub(super) fn add_row<C: SumCell>(
+        &self,
+        stain: &PlacedStain,
+        [i, j]: [i64; 2],
+        texels: &mut TexelRow,
+        cells: &mut [C],
+    ) {
         let dj = (j - stain.origin[1]) as i32;
         let [from, to] = stain.span(dj);
         let (first, last) = (from.max(i), to.min(i + cells.len() as i64));
@@ -235,14 +247,14 @@ impl WallStamper {
             let cells = &mut cells[(first - i) as usize..(last - i) as usize];
             let di = (first - stain.origin[0]) as i32;
             texels.cut(cells.len()).read(self, stain, [first, j], [di, dj]);
-            texels.cut(cells.len()).lay(stain, [di, dj], cells);
+            texels.cut(cells.len()).add_to(stain, [di, dj], cells);
         }
     }
 }
 
-/// What is known of a row of texels before a stain is laid on them: in separate arrays, so that loops are vectorised.
+/// Buffers for a row of texels, in separate arrays so that loops vectorise.
 #[derive(Debug)]
-pub(super) struct Texels {
+pub(super) struct TexelRow {
     along: [f32; WINDOW],
     across: [f32; WINDOW],
     quads: [u32; WINDOW],
@@ -251,8 +263,8 @@ pub(super) struct Texels {
     rounding: [u16; WINDOW],
 }
 
-/// The first of them.
-struct Cut<'a> {
+/// The first texels of the buffers.
+struct TexelRowSlices<'a> {
     along: &'a mut [f32],
     across: &'a mut [f32],
     quads: &'a mut [u32],
@@ -261,9 +273,9 @@ struct Cut<'a> {
     rounding: &'a mut [u16],
 }
 
-impl Texels {
-    pub(super) fn new() -> Texels {
-        Texels {
+impl TexelRow {
+    pub(super) fn new() -> TexelRow {
+        TexelRow {
             along: [0.0; WINDOW],
             across: [0.0; WINDOW],
             quads: [0; WINDOW],
@@ -273,8 +285,8 @@ impl Texels {
         }
     }
 
-    fn cut(&mut self, count: usize) -> Cut<'_> {
-        Cut {
+    fn cut(&mut self, count: usize) -> TexelRowSlices<'_> {
+        TexelRowSlices {
             along: &mut self.along[..count],
             across: &mut self.across[..count],
             quads: &mut self.quads[..count],
@@ -285,10 +297,10 @@ impl Texels {
     }
 }
 
-impl Cut<'_> {
-    /// Reads the row that begins at texel `[i, j]`, which is `[di, dj]` as the stain counts.
+impl TexelRowSlices<'_> {
+    /// Reads the row from texel `[i, j]` on, which is `[di, dj]` counted from the stain's origin.
     #[inline]
-    fn read(self, stamper: &WallStamper, stain: &Stain, [i, j]: [i64; 2], [di, dj]: [i32; 2]) {
+    fn read(self, stamper: &WallStamper, stain: &PlacedStain, [i, j]: [i64; 2], [di, dj]: [i32; 2]) {
         let [along, across] = stain.samples;
         let (u, v) = (along.in_row(dj), across.in_row(dj));
         let [blotch_i, blotch_j] = stain.blotches;
@@ -312,9 +324,9 @@ impl Cut<'_> {
         stamper.dither.raster().copy_row(ri, rj, self.rounding);
     }
 
-    /// Adds what was read to as many cells.
+    /// Adds the row to as many cells.
     #[inline]
-    fn lay<C: Cell>(self, stain: &Stain, [di, dj]: [i32; 2], cells: &mut [C]) {
+    fn add_to<C: SumCell>(self, stain: &PlacedStain, [di, dj]: [i32; 2], cells: &mut [C]) {
         let (density, per_i) = (stain.density.in_row(dj), stain.density.per_i);
         let peak = f32::from(stain.peak);
         let places = self.along.iter().zip(&*self.across);
@@ -333,9 +345,9 @@ impl Cut<'_> {
     }
 }
 
-/// Where the middle of a stain lies on its face's strip: a closed face shows it at every turn that reaches the strip.
+/// Positions of a stain's middle on its face's strip: one per turn of a closed face that reaches the strip.
 fn places_m(along_m: f64, face: &FaceSpan, reach_m: f64, texel_m: f64) -> Vec<f64> {
-    // Written so that NaN is no length.
+    // Written so that NaN is refused.
     if !(face.closed && face.length_m > 0.0 && face.length_m.is_finite()) {
         return vec![along_m];
     }
@@ -346,8 +358,8 @@ fn places_m(along_m: f64, face: &FaceSpan, reach_m: f64, texel_m: f64) -> Vec<f6
     (low..=high).map(|turn| first + f64::from(turn) * face.length_m).collect()
 }
 
-/// All about a stain but where it lies.
-struct Shape<'a> {
+/// A stain without its position.
+struct StainShape<'a> {
     plate: &'a WallPlate,
     variation: ContactVariation,
     drag: f32,
@@ -355,20 +367,20 @@ struct Shape<'a> {
     axes: [[f64; 2]; 2],
     /// Length and breadth, metres.
     extent_m: [f64; 2],
-    /// How far it reaches from its middle, along and across, metres.
+    /// Reach from its middle along and across, metres.
     half_m: [f64; 2],
-    /// How far it reaches from its middle, to the sides and up and down, metres.
+    /// Reach from its middle horizontally and vertically, metres.
     reach_m: [f64; 2],
     /// Samples of the plate per metre of wall.
     samples_per_m: [f64; 2],
-    bend: Bend,
-    /// Density in the middle of a stain of full coverage, in the unit of sums.
+    bend: StainBend,
+    /// Optical density at full coverage in the middle of the stain, in the unit of sums.
     unit: f32,
     peak: u16,
 }
 
-impl<'a> Shape<'a> {
-    fn new(stamper: &WallStamper, contact: &Contact, pattern: &'a WallPattern) -> Shape<'a> {
+impl<'a> StainShape<'a> {
+    fn new(stamper: &WallStamper, contact: &Contact, pattern: &'a WallPattern) -> StainShape<'a> {
         let drag = drag(contact.length_m, contact.breadth_m);
         let variation = ContactVariation::new(contact.variation, drag, &stamper.options);
         let extent_m = [contact.length_m, contact.breadth_m].map(f64::from);
@@ -377,22 +389,22 @@ impl<'a> Shape<'a> {
         let plate = pattern.plate(scales.map(|scale| filter_m / scale));
         let samples_per_m: [f64; 2] = std::array::from_fn(|k| 1.0 / (plate.pitch_m[k] * scales[k]));
         let mut half_m: [f64; 2] = std::array::from_fn(|k| plate.half_extent_m[k] * scales[k]);
-        let bend = Bend::new(&variation, extent_m[0], samples_per_m, plate.middle()[0] as f32);
+        let bend = StainBend::new(&variation, extent_m[0], samples_per_m, plate.middle()[0] as f32);
         half_m[1] += variation.aside_at_most() * extent_m[0];
 
         let (sin, cos) = sin_cos(f64::from(contact.direction_rad));
-        // Image rows run to the right of the drag: downwards where it goes to the right.
+        // Image rows run to the right of the drag: downwards for a drag to the right.
         let side = if contact.mirrored { -1.0 } else { 1.0 };
         let axes = [[cos, sin], [side * sin, -side * cos]];
         let reach = |k: usize| half_m[0] * axes[0][k].abs() + half_m[1] * axes[1][k].abs();
 
-        // Sloping pressure is 1 in the mean over what the pattern covers.
+        // Sloping pressure has mean 1 over the coverage.
         let slopes = [variation.along, variation.across];
         let mean = 1.0 + slopes[0] * pattern.centroid[0] as f32 + slopes[1] * pattern.centroid[1] as f32;
         let unit = contact.strength.min(MOST_DENSITY) * DENSITY_ONE / mean;
         let slope = |k: usize| slopes[k].abs() * (half_m[k] / extent_m[k]) as f32;
         let most = unit * (1.0 + slope(0) + slope(1)) * plate.peak * stamper.noise_peak;
-        Shape {
+        StainShape {
             plate,
             drag,
             axes,
@@ -409,7 +421,7 @@ impl<'a> Shape<'a> {
 }
 
 impl WallStamper {
-    /// Deviation of what a stain is seen through, metres: the texel's filter and its own blur.
+    /// Standard deviation of a stain's filter, metres: the texel filter and its own blur.
     fn filter_m(&self, cause: Cause, blur: f32, extent_m: [f64; 2]) -> f64 {
         let [least, most] = self.options.blur_m;
         let softness = match cause {
@@ -424,29 +436,29 @@ impl WallStamper {
 }
 
 impl ContactVariation {
-    /// How far the stain is bent aside at most, shares of its length.
+    /// Limit on the bend of the stain, shares of its length.
     fn aside_at_most(&self) -> f64 {
         f64::from(self.bow.abs()) / 6.0 + f64::from(self.wave.abs()) * 0.2
     }
 }
 
-impl Bend {
-    fn new(v: &ContactVariation, length_m: f64, samples_per_m: [f64; 2], middle: f32) -> Bend {
+impl StainBend {
+    fn new(v: &ContactVariation, length_m: f64, samples_per_m: [f64; 2], middle: f32) -> StainBend {
         let across = (length_m * samples_per_m[1]) as f32;
         let factors = [-v.bow / 12.0, -v.wave, v.bow, 4.0 * v.wave].map(|factor| factor * across);
-        Bend { middle, share_per_sample: (1.0 / (length_m * samples_per_m[0])) as f32, factors }
+        StainBend { middle, share_per_sample: (1.0 / (length_m * samples_per_m[0])) as f32, factors }
     }
 
     #[inline]
     fn at(&self, sample: f32) -> f32 {
-        // What the filter spreads beyond the stain's ends goes on straight.
+        // Beyond the stain's ends the bend is constant.
         let share = ((sample - self.middle) * self.share_per_sample).clamp(-0.5, 0.5);
         let [a, b, c, d] = self.factors;
         a + share * (b + share * (c + share * d))
     }
 }
 
-impl Axis {
+impl StainAxis {
     /// `offset + factor * self`, in single precision.
     fn linear(&self, factor: f64, offset: f64) -> Linear {
         Linear {
@@ -457,8 +469,8 @@ impl Axis {
     }
 }
 
-impl Stain<'_> {
-    /// The columns of a row that the stain can touch, counted from the strip's start: first and one past the last.
+impl PlacedStain<'_> {
+    /// Columns of a row that the stain can touch, from the strip's start: first and one past the last.
     fn span(&self, dj: i32) -> [i64; 2] {
         let mut span = [self.bounds.i0 as f64, self.bounds.i1 as f64];
         for axis in &self.axes_m {

@@ -1,51 +1,52 @@
-//! What differs from stain to stain, expanded from the one word that a contact carries.
+//! Variation of wall stains, expanded from the random word of a contact.
 
 use super::StampOptions;
 use super::variation::STEEPEST;
 use crate::math::SplitMix64;
 
-/// One contact's own. Places are shares of the stain's length and breadth from its middle.
+/// Variation of one stain. Positions are shares of its length and breadth from its middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ContactVariation {
-    /// Pressure's slope along the stain, shares of the mean.
+    /// Pressure slope along the stain, shares of the mean.
     pub(super) along: f32,
-    /// Pressure's slope across.
+    /// Pressure slope across the stain.
     pub(super) across: f32,
-    /// How a stain is bent aside: `bow (u^2 - 1/12) + wave u (4 u^2 - 1)`, shares of the length.
+    /// Bend of the stain: aside by `bow (u^2 - 1/12) + wave u (4 u^2 - 1)`, shares of the length.
     pub(super) bow: f32,
+    /// See `bow`.
     pub(super) wave: f32,
-    /// Uniform in `[0, 1)`: how blurred.
+    /// Blur, uniform in `[0, 1)` from the least to the largest.
     pub(super) blur: f32,
-    /// Where the blotches start in their tile.
+    /// Offset in the tile of blotches.
     pub(super) blotches_at: [u32; 2],
-    /// Where the rounding starts in its tile.
+    /// Offset in the dither tile.
     pub(super) dither_at: [u32; 2],
 }
 
-/// Stains longer than this times their breadth begin to be drags ...
+/// Length over breadth from which a stain begins to be a drag ...
 const DRAG_FROM: f32 = 1.5;
 
-/// ... and from this on are nothing else.
+/// ... and from which it is nothing else.
 const DRAG_TO: f32 = 3.5;
 
-/// Share of the mean density that a drag loses from its middle to its end: least and most.
+/// Range of the share of the mean density that a drag loses from its middle to its end.
 const FADE: [f32; 2] = [0.2, 0.75];
 
-/// Deviation and bound of the bow of a drag, shares of its length.
+/// Standard deviation and limit of the bow of a drag, shares of its length.
 const BOW: f32 = 0.05;
 const MOST_BOW: f32 = 0.1;
 
-/// The same of the wave.
+/// Standard deviation and limit of the wave of a drag, shares of its length.
 const WAVE: f32 = 0.015;
 const MOST_WAVE: f32 = 0.03;
 
-/// How much of a drag a stain is by its shape, 0 to 1.
+/// Degree to which a stain is a drag by its shape, 0 to 1.
 pub(super) fn drag(length_m: f32, breadth_m: f32) -> f32 {
     ((length_m / breadth_m - DRAG_FROM) / (DRAG_TO - DRAG_FROM)).clamp(0.0, 1.0)
 }
 
 impl ContactVariation {
-    /// `drag` is 0 for a touch and 1 for a drag, which fades along its way and bends more.
+    /// Draws a variation; `drag` is 0 for a touch and 1 for a drag, which fades along its way and bends more.
     pub(super) fn new(word: u64, drag: f32, options: &StampOptions) -> ContactVariation {
         let rng = &mut SplitMix64::new(word);
         let pressure = options.pressure as f32;
@@ -56,7 +57,7 @@ impl ContactVariation {
         let (bow, wave) = (bent(rng.normal(), BOW, MOST_BOW), bent(rng.normal(), WAVE, MOST_WAVE));
         let [blotches, dither] = [rng.next_u64(), rng.next_u64()];
         ContactVariation {
-            // At the stain's ends and edges together not quite nothing is left.
+            // Keeps pressure positive at the corners of the stain.
             along: (tilt - 2.0 * fade).clamp(-1.9 + across.abs(), 1.9 - across.abs()),
             across,
             bow,

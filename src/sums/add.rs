@@ -2,95 +2,74 @@
 
 use rayon::prelude::*;
 
-use super::blocks::{Block, BlockKey, Cells};
+use super::batch::{Batch, MARKS_AT_A_TIME, MarkEntry, PLACE_BITS};
+use super::blocks::{BLOCK, BlockCells, SumBlock};
 use super::floor::FloorMask;
-use super::{BLOCK, FloorSums, Quantity};
+use super::floor_sums::FloorSums;
+use super::quantity::Quantity;
 use crate::marks::Mark;
 use crate::patterns::Cause;
-use crate::stamps::{Bounds, Cell, Placed, Sheet, Stamper, TexelGrid, Touched, Window};
+use crate::stamps::{MarkBounds, PlacedMark, PrintCoverage, Stamper, SumCell, TexelBounds, TexelGrid, TexelWindow};
 use crate::walls::Walls;
-
-/// Buffers that are used again from batch to batch.
-#[derive(Debug, Default)]
-pub(super) struct Batch {
-    placed: Vec<Option<Placed>>,
-    entries: Vec<Entry>,
-}
-
-/// That a mark touches a block, in one word that sorts by quantity, row, column and mark.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Entry(u64);
-
-/// Bits of an entry: the mark's number in its batch, column and row of the block.
-const MARK_BITS: u32 = 16;
-const PLACE_BITS: u32 = 23;
-
-/// Marks are taken so many at a time.
-const MARKS_AT_A_TIME: usize = 1 << MARK_BITS;
-
-/// Marks that one thread places at a time.
-const MARKS_OF_A_THREAD: usize = 1 << 12;
-
-impl Entry {
-    fn new(quantity: Quantity, [row, column]: BlockKey, mark: usize) -> Entry {
-        let place = u64::from(row) << PLACE_BITS | u64::from(column);
-        Entry(((quantity as u64) << (2 * PLACE_BITS) | place) << MARK_BITS | mark as u64)
-    }
-
-    fn quantity(self) -> usize {
-        (self.0 >> (MARK_BITS + 2 * PLACE_BITS)) as usize
-    }
-
-    fn key(self) -> BlockKey {
-        let place = |shift: u32| (self.0 >> shift) as u32 & ((1 << PLACE_BITS) - 1);
-        [place(MARK_BITS + PLACE_BITS), place(MARK_BITS)]
-    }
-
-    fn mark(self) -> usize {
-        self.0 as usize & ((1 << MARK_BITS) - 1)
-    }
-
-    fn same_block(a: &Entry, b: &Entry) -> bool {
-        a.0 >> MARK_BITS == b.0 >> MARK_BITS
-    }
-}
 
 /// A block with the marks that touch it.
 struct Task<'a> {
     quantity: Quantity,
-    block: &'a mut Block,
+    block: &'a mut SumBlock,
     floor: &'a FloorMask,
-    entries: &'a [Entry],
+    entries: &'a [MarkEntry],
 }
 
-/// All marks of a batch with what was found out about them.
-struct Marks<'a> {
+/// The marks of a batch with their places among the walls.
+struct BatchMarks<'a> {
     stamper: &'a Stamper,
     walls: &'a Walls,
     marks: &'a [Mark],
-    placed: &'a [Option<Placed>],
+    placed: &'a [Option<PlacedMark>],
 }
 
-pub(super) fn add(sums: &mut FloorSums, stamper: &Stamper, walls: &Walls, marks: &[Mark]) {
+impl FloorSums {
+    /// Adds the stamps of marks, in the current rayon pool.
+    ///
+    /// The sums do not depend on the order of the marks, their split into calls or the number of threads. Invalid marks
+    /// (a pattern of another cause, a place that is not finite) are skipped. `stamper` must have the same grid; `walls`
+    /// must be the same in all calls.
+    pub fn add(&mut self, stamper: &Stamper, walls: &Walls, marks: &[Mark]) {
+        add(self, stamper, walls, marks);
+    }
+}
+
+/// Number of marks that a thread places at once.
+const MARKS_OF_A_THREAD: usize = 1 << 12;
+
+fn add(sums: &mut FloorSums, stamper: &Stamper, walls: &Walls, marks: &[Mark]) {
     let mut batch = std::mem::take(&mut sums.batch);
     for marks in marks.chunks(MARKS_AT_A_TIME) {
         bin(sums, stamper, walls, marks, &mut batch);
         let of = |presence: bool| {
-            let is_wanted = move |e: &Entry| (e.quantity() == Quantity::Presence as usize) == presence;
-            batch.entries.chunk_by(Entry::same_block).map(|entries| entries[0]).filter(is_wanted).map(Entry::key)
+            let is_wanted = move |e: &MarkEntry| (e.quantity() == Quantity::Presence as usize) == presence;
+            batch
+                .entries
+                .chunk_by(MarkEntry::same_block)
+                .map(|entries| entries[0])
+                .filter(is_wanted)
+                .map(MarkEntry::key)
         };
         sums.texel_floor.prepare(of(false), walls);
         sums.cell_floor.prepare(of(true), walls);
-        let marks = Marks { stamper, walls, marks, placed: &batch.placed };
+        let marks = BatchMarks { stamper, walls, marks, placed: &batch.placed };
         let tasks = tasks(sums, &batch.entries);
-        tasks.into_par_iter().with_max_len(1).for_each_init(Sheet::new, |sheet, task| fine(task, &marks, sheet));
+        tasks
+            .into_par_iter()
+            .with_max_len(1)
+            .for_each_init(PrintCoverage::new, |sheet, task| fine(task, &marks, sheet));
     }
     sums.batch = batch;
 }
 
-/// Looks at every mark's surroundings and finds the blocks that it touches; entries end up sorted.
+/// Places every mark and finds the blocks that it touches; sorts the entries.
 fn bin(sums: &FloorSums, stamper: &Stamper, walls: &Walls, marks: &[Mark], batch: &mut Batch) {
-    let parts: Vec<(Vec<Option<Placed>>, Vec<Entry>)> = marks
+    let parts: Vec<(Vec<Option<PlacedMark>>, Vec<MarkEntry>)> = marks
         .par_chunks(MARKS_OF_A_THREAD)
         .enumerate()
         .map(|(part, marks)| {
@@ -112,8 +91,8 @@ fn bin(sums: &FloorSums, stamper: &Stamper, walls: &Walls, marks: &[Mark], batch
     batch.entries.par_sort_unstable();
 }
 
-fn push_entries(sums: &FloorSums, cause: Cause, touched: &Touched, mark: usize, entries: &mut Vec<Entry>) {
-    let mut push = |quantity: Quantity, grid: TexelGrid, bounds: Bounds| {
+fn push_entries(sums: &FloorSums, cause: Cause, touched: &MarkBounds, mark: usize, entries: &mut Vec<MarkEntry>) {
+    let mut push = |quantity: Quantity, grid: TexelGrid, bounds: TexelBounds| {
         let blocks = |low: i64, high: i64, count: u32| {
             let size = BLOCK as i64;
             let (low, high) = (low.max(0), high.min(count.into()).min(size << PLACE_BITS));
@@ -121,7 +100,7 @@ fn push_entries(sums: &FloorSums, cause: Cause, touched: &Touched, mark: usize, 
         };
         for row in blocks(bounds.j0, bounds.j1, grid.height) {
             for column in blocks(bounds.i0, bounds.i1, grid.width) {
-                entries.push(Entry::new(quantity, [row, column], mark));
+                entries.push(MarkEntry::new(quantity, [row, column], mark));
             }
         }
     };
@@ -138,8 +117,8 @@ fn push_entries(sums: &FloorSums, cause: Cause, touched: &Touched, mark: usize, 
     }
 }
 
-/// Pairs blocks, made where there is floor and none yet, with their entries.
-fn tasks<'a>(sums: &'a mut FloorSums, entries: &'a [Entry]) -> Vec<Task<'a>> {
+/// Pairs blocks with their entries; allocates missing blocks where there is floor.
+fn tasks<'a>(sums: &'a mut FloorSums, entries: &'a [MarkEntry]) -> Vec<Task<'a>> {
     let (texel_floor, cell_floor) = (&sums.texel_floor, &sums.cell_floor);
     let mut tasks = Vec::new();
     for (quantity, plane) in Quantity::ALL.into_iter().zip(&mut sums.planes) {
@@ -147,7 +126,7 @@ fn tasks<'a>(sums: &'a mut FloorSums, entries: &'a [Entry]) -> Vec<Task<'a>> {
         let first = entries.partition_point(|e| e.quantity() < quantity as usize);
         let end = entries.partition_point(|e| e.quantity() <= quantity as usize);
         let of_blocks = entries[first..end]
-            .chunk_by(Entry::same_block)
+            .chunk_by(MarkEntry::same_block)
             .map(|entries| (entries[0].key(), entries))
             .filter(|(key, _)| !floor.get(*key).is_none());
         tasks.extend(plane.blocks_at(of_blocks).into_iter().map(|(block, entries)| {
@@ -159,10 +138,10 @@ fn tasks<'a>(sums: &'a mut FloorSums, entries: &'a [Entry]) -> Vec<Task<'a>> {
 }
 
 /// Adds all marks of a block to its texels.
-fn fine(task: Task, marks: &Marks, sheet: &mut Sheet) {
+fn fine(task: Task, marks: &BatchMarks, sheet: &mut PrintCoverage) {
     let Task { quantity, block, floor, entries } = task;
     let [row, column] = block.key();
-    let window = Window { i0: i64::from(column) * BLOCK as i64, j0: i64::from(row) * BLOCK as i64 };
+    let window = TexelWindow { i0: i64::from(column) * BLOCK as i64, j0: i64::from(row) * BLOCK as i64 };
     for entry in entries {
         let mark = &marks.marks[entry.mark()];
         let Some(placed) = &marks.placed[entry.mark()] else { continue };
@@ -173,24 +152,24 @@ fn fine(task: Task, marks: &Marks, sheet: &mut Sheet) {
             Quantity::Scuff => marks.stamper.peak_of_scuff(mark),
         };
         match block.cells_for(peak) {
-            Cells::Narrow(cells) => stamp(quantity, mark, placed, marks, window, sheet, cells),
-            Cells::Wide(cells) => stamp(quantity, mark, placed, marks, window, sheet, cells),
+            BlockCells::Narrow(cells) => stamp(quantity, mark, placed, marks, window, sheet, cells),
+            BlockCells::Wide(cells) => stamp(quantity, mark, placed, marks, window, sheet, cells),
         }
     }
     floor.clear_outside(block.cells_mut());
 }
 
 /// Adds one mark to the cells of a block.
-fn stamp<C: Cell>(
+fn stamp<C: SumCell>(
     quantity: Quantity,
     mark: &Mark,
-    placed: &Placed,
-    marks: &Marks,
-    window: Window,
-    sheet: &mut Sheet,
+    placed: &PlacedMark,
+    marks: &BatchMarks,
+    window: TexelWindow,
+    sheet: &mut PrintCoverage,
     cells: &mut [C],
 ) {
-    let Marks { stamper, walls, .. } = *marks;
+    let BatchMarks { stamper, walls, .. } = *marks;
     match quantity {
         Quantity::Passes => stamper.add_passes(mark, placed, walls, window, sheet, cells),
         Quantity::Presence => stamper.add_presence(mark, placed, walls, window, cells),

@@ -2,30 +2,41 @@
 
 use rayon::prelude::*;
 
-use super::blocks::{Block, BlockKey, Cells};
-use super::wall::StripKey;
-use super::{BLOCK, WallSums};
+use super::blocks::{BLOCK, BlockCells, BlockKey, SumBlock};
+use super::wall::{StripKey, WallSums};
 use crate::marks::Contact;
-use crate::stamps::{Stain, WallStamper, Window};
+use crate::stamps::{PlacedStain, TexelWindow, WallStamper};
 
-/// Contacts are taken so many at a time, so that their stains take little memory.
+/// Number of contacts in a batch: limits the memory of their stains.
 const CONTACTS_AT_A_TIME: usize = 1 << 14;
 
-/// That a stain touches a block; sorted by strip, block and stain.
+/// A stain that touches a block; sorts by strip, block and stain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Entry {
+struct StripEntry {
     strip: StripKey,
     block: BlockKey,
     stain: usize,
 }
 
-pub(super) fn add(sums: &mut WallSums, stamper: &WallStamper, contacts: &[Contact]) {
+impl WallSums {
+    /// Adds the stamps of contacts, in the current rayon pool.
+    ///
+    /// The sums do not depend on the order of the contacts, their split into calls or the number of threads. Invalid
+    /// contacts (a pattern of another cause, a face outside the grid, a place that is not finite) are skipped. A stamper
+    /// of another grid adds nothing.
+    pub fn add(&mut self, stamper: &WallStamper, contacts: &[Contact]) {
+        add(self, stamper, contacts);
+    }
+}
+
+fn add(sums: &mut WallSums, stamper: &WallStamper, contacts: &[Contact]) {
     if stamper.grid() != &sums.grid {
         return;
     }
     for contacts in contacts.chunks(CONTACTS_AT_A_TIME) {
-        let stains: Vec<Stain> = contacts.par_iter().flat_map_iter(|contact| stamper.place(contact)).collect();
-        let mut entries: Vec<Entry> = stains.iter().enumerate().flat_map(|(k, stain)| entries_of(stain, k)).collect();
+        let stains: Vec<PlacedStain> = contacts.par_iter().flat_map_iter(|contact| stamper.place(contact)).collect();
+        let mut entries: Vec<StripEntry> =
+            stains.iter().enumerate().flat_map(|(k, stain)| entries_of(stain, k)).collect();
         entries.par_sort_unstable();
         tasks(sums, &entries).into_par_iter().with_max_len(1).for_each(|(block, entries)| {
             entries.iter().for_each(|entry| stamp(stamper, &stains[entry.stain], block));
@@ -34,15 +45,17 @@ pub(super) fn add(sums: &mut WallSums, stamper: &WallStamper, contacts: &[Contac
 }
 
 /// The blocks that a stain touches.
-fn entries_of(stain: &Stain, number: usize) -> impl Iterator<Item = Entry> + use<> {
+fn entries_of(stain: &PlacedStain, number: usize) -> impl Iterator<Item = StripEntry> + use<> {
     let strip = (stain.cause.on_wall().unwrap_or(0), stain.face);
     let blocks = |low: i64, high: i64| (low / BLOCK as i64) as u32..(high as u64).div_ceil(BLOCK as u64) as u32;
     let (rows, columns) = (blocks(stain.bounds.j0, stain.bounds.j1), blocks(stain.bounds.i0, stain.bounds.i1));
-    rows.flat_map(move |row| columns.clone().map(move |column| Entry { strip, block: [row, column], stain: number }))
+    rows.flat_map(move |row| {
+        columns.clone().map(move |column| StripEntry { strip, block: [row, column], stain: number })
+    })
 }
 
-/// Pairs blocks, made where there are none yet, with their entries.
-fn tasks<'a>(sums: &'a mut WallSums, entries: &'a [Entry]) -> Vec<(&'a mut Block, &'a [Entry])> {
+/// Pairs blocks with their entries; allocates missing blocks.
+fn tasks<'a>(sums: &'a mut WallSums, entries: &'a [StripEntry]) -> Vec<(&'a mut SumBlock, &'a [StripEntry])> {
     let mut of_strips = entries.chunk_by(|a, b| a.strip == b.strip).peekable();
     for entries in of_strips.clone() {
         sums.strip_mut(entries[0].strip);
@@ -58,11 +71,11 @@ fn tasks<'a>(sums: &'a mut WallSums, entries: &'a [Entry]) -> Vec<(&'a mut Block
 }
 
 /// Adds a stain to a block.
-fn stamp(stamper: &WallStamper, stain: &Stain, block: &mut Block) {
+fn stamp(stamper: &WallStamper, stain: &PlacedStain, block: &mut SumBlock) {
     let [row, column] = block.key();
-    let window = Window { i0: i64::from(column) * BLOCK as i64, j0: i64::from(row) * BLOCK as i64 };
+    let window = TexelWindow { i0: i64::from(column) * BLOCK as i64, j0: i64::from(row) * BLOCK as i64 };
     match block.cells_for(stain.peak.into()) {
-        Cells::Narrow(cells) => stamper.add(stain, window, cells),
-        Cells::Wide(cells) => stamper.add(stain, window, cells),
+        BlockCells::Narrow(cells) => stamper.add(stain, window, cells),
+        BlockCells::Wide(cells) => stamper.add(stain, window, cells),
     }
 }

@@ -2,42 +2,48 @@
 
 use std::collections::BTreeMap;
 
-use super::BLOCK;
-use crate::stamps::TexelGrid;
+use crate::stamps::{TexelGrid, WINDOW};
 
-/// Place of a block: row and column of blocks, so that keys ascend with rows.
+/// Side of a block, texels (`presence`: cells).
+pub const BLOCK: usize = WINDOW;
+
+/// Key of a block: row and column of blocks, so that keys ascend with rows.
 pub(super) type BlockKey = [u32; 2];
 
-/// Texels of a block, narrow until one of them needs more.
+/// Cells of a block: 16 bits each until one needs 32.
 #[derive(Debug)]
-pub(super) enum Cells {
+pub(super) enum BlockCells {
     Narrow(Box<[u16]>),
     Wide(Box<[u32]>),
 }
 
 /// A square of sums.
 #[derive(Debug)]
-pub(super) struct Block {
+pub(super) struct SumBlock {
     key: BlockKey,
-    cells: Cells,
-    /// No cell is larger than this (narrow blocks only).
+    cells: BlockCells,
+    /// Upper bound on the cells (narrow blocks only).
     peak: u32,
 }
 
-/// The most that a narrow cell holds.
+/// Largest value of a narrow cell.
 const NARROW_MOST: u32 = u16::MAX as u32;
 
-/// A narrow block with a cell larger than this goes wide rather than look for its peak again and again.
+/// A cell larger than this widens its block, which saves repeated searches for the peak.
 const NARROW_ENOUGH: u32 = 48 << 10;
 
-impl Block {
-    fn new(key: BlockKey) -> Block {
-        Block { key, cells: Cells::Narrow(vec![0; BLOCK * BLOCK].into_boxed_slice()), peak: 0 }
+impl SumBlock {
+    fn new(key: BlockKey) -> SumBlock {
+        SumBlock { key, cells: BlockCells::Narrow(vec![0; BLOCK * BLOCK].into_boxed_slice()), peak: 0 }
     }
 
-    /// The cells, ready for an addition of at most `most` to each.
-    pub(super) fn cells_for(&mut self, most: u32) -> &mut Cells {
-        if let Cells::Narrow(cells) = &self.cells {
+    pub(super) fn key(&self) -> BlockKey {
+        self.key
+    }
+
+    /// The cells, with room for adding at most `most` to each.
+    pub(super) fn cells_for(&mut self, most: u32) -> &mut BlockCells {
+        if let BlockCells::Narrow(cells) = &self.cells {
             if self.peak.saturating_add(most) > NARROW_MOST {
                 self.peak = cells.iter().fold(0, |a, &b| a.max(b)).into();
                 if self.peak.saturating_add(most) > NARROW_ENOUGH {
@@ -49,26 +55,26 @@ impl Block {
         &mut self.cells
     }
 
-    /// The cells as 32 bits.
+    /// Widens the cells to 32 bits.
     pub(super) fn widen(&mut self) -> &mut [u32] {
-        if let Cells::Narrow(cells) = &self.cells {
-            self.cells = Cells::Wide(cells.iter().map(|&c| u32::from(c)).collect());
+        if let BlockCells::Narrow(cells) = &self.cells {
+            self.cells = BlockCells::Wide(cells.iter().map(|&c| u32::from(c)).collect());
         }
         match &mut self.cells {
-            Cells::Wide(cells) => cells,
-            Cells::Narrow(_) => &mut [],
+            BlockCells::Wide(cells) => cells,
+            BlockCells::Narrow(_) => &mut [],
         }
     }
 
-    pub(super) fn cells_mut(&mut self) -> &mut Cells {
+    pub(super) fn cells_mut(&mut self) -> &mut BlockCells {
         &mut self.cells
     }
 
     fn copy_row(&self, row: usize, columns: std::ops::Range<usize>, out: &mut [u32]) {
         let range = row * BLOCK + columns.start..row * BLOCK + columns.end;
         match &self.cells {
-            Cells::Narrow(cells) => out.iter_mut().zip(&cells[range]).for_each(|(o, &c)| *o = c.into()),
-            Cells::Wide(cells) => out.iter_mut().zip(&cells[range]).for_each(|(o, &c)| *o = c),
+            BlockCells::Narrow(cells) => out.iter_mut().zip(&cells[range]).for_each(|(o, &c)| *o = c.into()),
+            BlockCells::Wide(cells) => out.iter_mut().zip(&cells[range]).for_each(|(o, &c)| *o = c),
         }
     }
 
@@ -76,50 +82,50 @@ impl Block {
         let most = values.iter().fold(0, |a, &b| a.max(b));
         let range = row * BLOCK + columns.start..row * BLOCK + columns.end;
         match self.cells_for(most) {
-            Cells::Narrow(cells) => {
+            BlockCells::Narrow(cells) => {
                 cells[range].iter_mut().zip(values).for_each(|(c, &v)| *c = c.saturating_add(v as u16));
             }
-            Cells::Wide(cells) => cells[range].iter_mut().zip(values).for_each(|(c, &v)| *c = c.saturating_add(v)),
+            BlockCells::Wide(cells) => cells[range].iter_mut().zip(values).for_each(|(c, &v)| *c = c.saturating_add(v)),
         }
     }
 }
 
-/// One quantity over the whole floor.
+/// The sparse blocks of one quantity over a grid.
 #[derive(Debug)]
-pub(super) struct Plane {
+pub(super) struct SparsePlane {
     width: u32,
     height: u32,
-    /// Numbers of blocks by place.
+    /// Indices of blocks by key.
     numbers: BTreeMap<BlockKey, usize>,
-    blocks: Vec<Block>,
+    blocks: Vec<SumBlock>,
 }
 
 /// The part of a rectangle that lies in one block.
-struct Piece {
+struct BlockPiece {
     key: BlockKey,
     /// Rows and columns of the block.
     rows: std::ops::Range<usize>,
     columns: std::ops::Range<usize>,
-    /// Where the piece begins in the rectangle.
+    /// Start of the piece in the rectangle.
     row: usize,
     column: usize,
 }
 
-impl Plane {
-    pub(super) fn new(grid: TexelGrid) -> Plane {
-        Plane { width: grid.width, height: grid.height, numbers: BTreeMap::new(), blocks: Vec::new() }
+impl SparsePlane {
+    pub(super) fn new(grid: TexelGrid) -> SparsePlane {
+        SparsePlane { width: grid.width, height: grid.height, numbers: BTreeMap::new(), blocks: Vec::new() }
     }
 
-    /// Number of the block at a place, made if it is not there.
+    /// Index of the block with a key; allocates it if missing.
     fn number(&mut self, key: BlockKey) -> usize {
         *self.numbers.entry(key).or_insert_with(|| {
-            self.blocks.push(Block::new(key));
+            self.blocks.push(SumBlock::new(key));
             self.blocks.len() - 1
         })
     }
 
-    /// The blocks of places, all different, made where they are not there; each with what its place came with.
-    pub(super) fn blocks_at<T>(&mut self, places: impl Iterator<Item = (BlockKey, T)>) -> Vec<(&mut Block, T)> {
+    /// The blocks with distinct keys, each with the value of its key; allocates missing blocks.
+    pub(super) fn blocks_at<T>(&mut self, places: impl Iterator<Item = (BlockKey, T)>) -> Vec<(&mut SumBlock, T)> {
         let mut numbered: Vec<(usize, T)> = places.map(|(key, with)| (self.number(key), with)).collect();
         numbered.sort_unstable_by_key(|&(number, _)| number);
         let mut numbered = numbered.into_iter().peekable();
@@ -132,9 +138,9 @@ impl Plane {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        let of = |block: &Block| match &block.cells {
-            Cells::Narrow(cells) => cells.len() * 2,
-            Cells::Wide(cells) => cells.len() * 4,
+        let of = |block: &SumBlock| match &block.cells {
+            BlockCells::Narrow(cells) => cells.len() * 2,
+            BlockCells::Wide(cells) => cells.len() * 4,
         };
         self.blocks.iter().map(of).sum()
     }
@@ -157,7 +163,7 @@ impl Plane {
     }
 
     pub(super) fn add_values(&mut self, at: [u32; 2], width: usize, height: usize, values: &[u32]) {
-        let pieces: Vec<Piece> = self.pieces(at, width, height).collect();
+        let pieces: Vec<BlockPiece> = self.pieces(at, width, height).collect();
         for piece in pieces {
             for (k, row) in piece.rows.clone().enumerate() {
                 let start = (piece.row + k) * width + piece.column;
@@ -170,8 +176,8 @@ impl Plane {
         }
     }
 
-    /// Splits a rectangle at the blocks' borders; what lies beyond the grid is left out.
-    fn pieces(&self, at: [u32; 2], width: usize, height: usize) -> impl Iterator<Item = Piece> + use<> {
+    /// Splits a rectangle at the block borders; ignores the part beyond the grid.
+    fn pieces(&self, at: [u32; 2], width: usize, height: usize) -> impl Iterator<Item = BlockPiece> + use<> {
         let size = BLOCK as u64;
         let [i0, j0] = at.map(u64::from);
         let i1 = (i0 + width as u64).min(self.width.into()).max(i0);
@@ -184,14 +190,8 @@ impl Plane {
         };
         split(j0, j1).flat_map(move |(block_row, rows, row)| {
             split(i0, i1).filter(|(_, columns, _)| !columns.is_empty()).map(move |(block_column, columns, column)| {
-                Piece { key: [block_row, block_column], rows: rows.clone(), columns, row, column }
+                BlockPiece { key: [block_row, block_column], rows: rows.clone(), columns, row, column }
             })
         })
-    }
-}
-
-impl Block {
-    pub(super) fn key(&self) -> BlockKey {
-        self.key
     }
 }

@@ -1,30 +1,30 @@
 use crate::stamps::{TexelGrid, WallGrid};
 
-/// Why sums cannot be put together.
+/// Error while merging sums.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SumsError {
-    /// Two bakes of different size or texel density.
+    /// The floors differ in size or texel density.
     #[error(
         "sums of {w1} x {h1} texels at {t1} texels/m cannot be added to {w0} x {h0} texels at {t0} texels/m",
         w0 = .ours.width, h0 = .ours.height, t0 = .ours.texels_per_metre,
         w1 = .theirs.width, h1 = .theirs.height, t1 = .theirs.texels_per_metre
     )]
     GridsDiffer {
-        /// The grid added to.
+        /// The grid of the sums added to.
         ours: TexelGrid,
-        /// The grid of what was to be added.
+        /// The grid of the sums to add.
         theirs: TexelGrid,
     },
-    /// Two bakes whose walls differ in density, height or number.
+    /// The walls differ in texel density, height or number of faces.
     #[error("sums of {theirs} cannot be added to {ours}")]
     WallGridsDiffer {
-        /// The walls added to.
+        /// The walls of the sums added to.
         ours: WallsOfSums,
-        /// The walls of what was to be added.
+        /// The walls of the sums to add.
         theirs: WallsOfSums,
     },
-    /// Two bakes with a wall face that is not the same in both.
+    /// A wall face differs.
     #[error("wall face {face} is {theirs_m} m long in the sums to add, and {ours_m} m in those that they are added to")]
     WallFacesDiffer {
         /// The first face that differs.
@@ -36,14 +36,14 @@ pub enum SumsError {
     },
 }
 
-/// What there is to say of the walls that sums are of.
+/// Summary of the walls of sums.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WallsOfSums {
     /// Number of faces.
     pub faces: usize,
     /// Height, metres.
     pub height_m: f64,
-    /// Texel density.
+    /// Texel density, texels per metre.
     pub texels_per_metre: f64,
 }
 
@@ -54,7 +54,7 @@ impl std::fmt::Display for WallsOfSums {
 }
 
 impl SumsError {
-    /// The error that says in what two grids of walls, which are not the same, differ.
+    /// The error for two wall grids that differ.
     pub(super) fn walls_differ(ours: &WallGrid, theirs: &WallGrid) -> SumsError {
         let walls = |grid: &WallGrid| WallsOfSums {
             faces: grid.faces.len(),
@@ -72,7 +72,7 @@ impl SumsError {
         }
     }
 
-    /// What the user can do about it.
+    /// Hint for the user.
     pub fn hint(&self) -> Option<String> {
         match self {
             SumsError::GridsDiffer { .. } => Some("bake both from the same plan at the same texels per metre".into()),

@@ -1,19 +1,18 @@
-//! Which texels have floor, kept as bits for every block that was asked about.
+//! Floor masks: a bit for each texel of a block that has floor.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use rayon::prelude::*;
 
-use super::BLOCK;
-use super::blocks::{BlockKey, Cells};
+use super::blocks::{BLOCK, BlockCells, BlockKey};
 use crate::math::Vec2;
 use crate::stamps::TexelGrid;
 use crate::walls::Walls;
 
-/// One bit a texel, a word a row.
+/// A row of a block: one bit a texel.
 type RowBits = u128;
 
-/// The floor in a block.
+/// The floor mask of a block.
 #[derive(Debug)]
 pub(super) enum FloorMask {
     None,
@@ -21,12 +20,12 @@ pub(super) enum FloorMask {
     All,
 }
 
-/// The floor in all blocks asked about so far.
+/// The floor masks of all blocks used so far.
 #[derive(Debug)]
 pub(super) struct FloorMasks {
     grid: TexelGrid,
     masks: BTreeMap<BlockKey, FloorMask>,
-    /// Blocks that the floor's outline passes, once they are known.
+    /// Blocks on the outline of the floor, computed on first use.
     rim: Option<BTreeSet<BlockKey>>,
 }
 
@@ -35,7 +34,7 @@ impl FloorMasks {
         FloorMasks { grid, masks: BTreeMap::new(), rim: None }
     }
 
-    /// Makes the masks of blocks that have none yet.
+    /// Computes the missing masks of blocks.
     pub(super) fn prepare(&mut self, keys: impl Iterator<Item = BlockKey>, walls: &Walls) {
         let mut missing: Vec<BlockKey> = keys.filter(|key| !self.masks.contains_key(key)).collect();
         missing.sort_unstable();
@@ -70,11 +69,11 @@ impl FloorMask {
     }
 
     /// Sets everything outside the floor to zero.
-    pub(super) fn clear_outside(&self, cells: &mut Cells) {
+    pub(super) fn clear_outside(&self, cells: &mut BlockCells) {
         if let FloorMask::Part(rows) = self {
             match cells {
-                Cells::Narrow(cells) => clear(rows, cells),
-                Cells::Wide(cells) => clear(rows, cells),
+                BlockCells::Narrow(cells) => clear(rows, cells),
+                BlockCells::Wide(cells) => clear(rows, cells),
             }
         }
     }
@@ -82,7 +81,7 @@ impl FloorMask {
 
 fn clear<C: Default + Copy>(rows: &[RowBits], cells: &mut [C]) {
     for (&bits, cells) in rows.iter().zip(cells.chunks_exact_mut(BLOCK)) {
-        // Run by run of what is no floor.
+        // Run by run of texels without floor.
         let mut outside = !bits;
         while outside != 0 {
             let start = outside.trailing_zeros();
@@ -93,7 +92,7 @@ fn clear<C: Default + Copy>(rows: &[RowBits], cells: &mut [C]) {
     }
 }
 
-/// The blocks that the floor's outline passes, or nearly so. Those at the grid's end count too.
+/// The blocks on or near the outline of the floor, and those at the end of the grid.
 fn rim(grid: TexelGrid, walls: &Walls) -> BTreeSet<BlockKey> {
     let block_m = BLOCK as f64 / grid.texels_per_metre;
     let margin_m = 1.0 / grid.texels_per_metre;
@@ -125,12 +124,12 @@ fn rim(grid: TexelGrid, walls: &Walls) -> BTreeSet<BlockKey> {
     rim
 }
 
-/// Where an edge that is not level has a height, or its nearer end.
+/// x of an edge that is not level at a height y, clamped to its ends.
 fn x_on([a, b]: [Vec2; 2], y: f64) -> f64 {
     a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)).clamp(0.0, 1.0)
 }
 
-/// The mask of a block that no outline passes.
+/// The mask of a block away from the outline.
 fn whole(grid: TexelGrid, [row, column]: BlockKey, walls: &Walls) -> FloorMask {
     let middle = |k: u32| i64::from(k) * BLOCK as i64 + BLOCK as i64 / 2;
     let mut coverage = [0.0];
@@ -173,7 +172,7 @@ mod tests {
     use crate::plan::FloorPlan;
     use crate::walls::WallsOptions;
 
-    /// What is told by the outline's rim alone is the same as what coverage says.
+    /// Masks from the outline's blocks equal masks from coverage.
     #[test]
     fn blocks_away_from_the_outline_are_all_floor_or_none() {
         let (width, height) = (90, 70);
@@ -186,9 +185,9 @@ mod tests {
             .collect();
         let plan = FloorPlan::from_mask(width as u32, height as u32, 0.1, floor);
         let walls = Walls::trace(&plan, &WallsOptions::default());
-        for density in [60.0, 100.0, 331.0] {
-            let size = |m: f64| (m * density) as u32;
-            let grid = TexelGrid { texels_per_metre: density, width: size(9.0), height: size(7.0) };
+        for texels_per_metre in [60.0, 100.0, 331.0] {
+            let size = |m: f64| (m * texels_per_metre) as u32;
+            let grid = TexelGrid { texels_per_metre, width: size(9.0), height: size(7.0) };
             let keys =
                 || (0..grid.height.div_ceil(128)).flat_map(|j| (0..grid.width.div_ceil(128)).map(move |i| [j, i]));
             let mut masks = FloorMasks::new(grid);
@@ -199,10 +198,10 @@ mod tests {
                 match (masks.get(key), &expected) {
                     (FloorMask::All, FloorMask::All) | (FloorMask::None, FloorMask::None) => whole += 1,
                     (FloorMask::Part(a), FloorMask::Part(b)) => assert_eq!(a, b),
-                    other => panic!("{key:?} at {density}: {other:?}"),
+                    other => panic!("{key:?} at {texels_per_metre}: {other:?}"),
                 }
             }
-            assert!(whole > 0 || density < 100.0);
+            assert!(whole > 0 || texels_per_metre < 100.0);
         }
     }
 }

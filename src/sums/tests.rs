@@ -3,11 +3,12 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::marks::Mark;
 use crate::math::{SplitMix64, vec2};
 use crate::plan::FloorPlan;
-use crate::stamps::StampOptions;
 use crate::stamps::fixtures::{crowd, footfall, grid, library, room};
-use crate::walls::WallsOptions;
+use crate::stamps::{StampOptions, Stamper, TexelGrid};
+use crate::walls::{Walls, WallsOptions};
 
 mod wall;
 
@@ -25,7 +26,7 @@ fn everything(sums: &FloorSums) -> Vec<Vec<u32>> {
 #[test]
 fn order_split_and_threads_do_not_matter() {
     let (library, walls, grid) = (library(), room(3.8, 2.8), grid(100.0, 4.0, 3.0));
-    let stamper = Stamper::new(&library, grid, &StampOptions::default());
+    let stamper = Stamper::new(&library, grid, &StampOptions::default()).unwrap();
     let mut marks = crowd(3000, 4.0, 3.0, 3);
     let mut at_once = FloorSums::new(grid);
     at_once.add(&stamper, &walls, &marks);
@@ -47,7 +48,7 @@ fn order_split_and_threads_do_not_matter() {
 #[test]
 fn sums_are_the_sum_of_single_stamps() {
     let (library, walls, grid) = (library(), room(1.8, 1.8), grid(100.0, 2.0, 2.0));
-    let stamper = Stamper::new(&library, grid, &StampOptions::default());
+    let stamper = Stamper::new(&library, grid, &StampOptions::default()).unwrap();
     let marks = crowd(60, 2.0, 2.0, 5);
     let mut together = FloorSums::new(grid);
     together.add(&stamper, &walls, &marks);
@@ -66,7 +67,7 @@ fn sums_are_the_sum_of_single_stamps() {
 fn blocks_leave_no_seams() {
     let (library, walls) = (library(), room(7.8, 7.8));
     let grid = grid(100.0, 8.0, 8.0);
-    let stamper = Stamper::new(&library, grid, &StampOptions::default());
+    let stamper = Stamper::new(&library, grid, &StampOptions::default()).unwrap();
     let print_at = |i: u32, j: u32| {
         let mut sums = FloorSums::new(grid);
         // Eighths of a texel, so that moving by whole texels rounds nothing.
@@ -97,7 +98,7 @@ fn nothing_falls_outside_the_floor() {
     for density in [25.0, 100.0] {
         let grid = grid(density, 4.0, 3.0);
         let mut sums = FloorSums::new(grid);
-        sums.add(&Stamper::new(&library, grid, &StampOptions::default()), &walls, &crowd(4000, 4.0, 3.0, 7));
+        sums.add(&Stamper::new(&library, grid, &StampOptions::default()).unwrap(), &walls, &crowd(4000, 4.0, 3.0, 7));
         for quantity in Quantity::ALL {
             let of = sums.grid_of(quantity);
             let (width, height) = (of.width as usize, of.height as usize);
@@ -134,7 +135,7 @@ fn nothing_passes_a_thin_wall() {
     let mut sums = FloorSums::new(grid);
     let marks: Vec<Mark> =
         crowd(3000, 2.0, 2.8, 8).into_iter().filter(|m| m.place_m.x < 2.02 && m.place_m.x > 0.02).collect();
-    sums.add(&Stamper::new(&library, grid, &StampOptions::default()), &walls, &marks);
+    sums.add(&Stamper::new(&library, grid, &StampOptions::default()).unwrap(), &walls, &marks);
     for quantity in Quantity::ALL {
         let of = sums.grid_of(quantity);
         let values = all(&sums, quantity);
@@ -167,7 +168,7 @@ fn means(sums: &FloorSums, walls: &Walls, rows_m: [f64; 2]) -> [f64; 2] {
 fn presence_has_the_local_mean_of_passes_also_along_walls() {
     // 12 x 3 m, closed, inner walls at 0.1 and 3.1 m.
     let (library, walls, grid) = (library(), room(12.0, 3.0), grid(100.0, 12.2, 3.2));
-    let stamper = Stamper::new(&library, grid, &StampOptions::default());
+    let stamper = Stamper::new(&library, grid, &StampOptions::default()).unwrap();
     for turned in [0.0, 1.3] {
         let mut marks = crowd(60_000, 12.2, 3.2, 21);
         marks.retain(|m| walls.is_inside(m.place_m));
@@ -192,7 +193,11 @@ fn memory_grows_with_touched_floor_not_with_area() {
     let walls = room(300.0, 2.0);
     let grid = TexelGrid { texels_per_metre: 1000.0, width: 300_200, height: 300_000 };
     let mut sums = FloorSums::new(grid);
-    sums.add(&Stamper::new(&library, grid, &StampOptions::default()), &walls, &[footfall(vec2(150.0, 1.0), 0.0)]);
+    sums.add(
+        &Stamper::new(&library, grid, &StampOptions::default()).unwrap(),
+        &walls,
+        &[footfall(vec2(150.0, 1.0), 0.0)],
+    );
     assert!(sums.bytes() < 2 << 20, "{} bytes", sums.bytes());
     assert!(sums.touched(Quantity::Passes, 150_000, 1000, 1, 1));
     assert!(!sums.touched(Quantity::Passes, 100_000, 1000, 1000, 1000));
@@ -213,7 +218,7 @@ fn sums_stay_at_their_largest_instead_of_overflowing() {
 #[test]
 fn many_passes_outgrow_narrow_blocks_unnoticed() {
     let (library, walls, grid) = (library(), room(1.8, 1.8), grid(100.0, 2.0, 2.0));
-    let stamper = Stamper::new(&library, grid, &StampOptions::default());
+    let stamper = Stamper::new(&library, grid, &StampOptions::default()).unwrap();
     let mark = footfall(vec2(1.0, 1.0), 0.3);
     let mut once = FloorSums::new(grid);
     once.add(&stamper, &walls, &[mark]);
@@ -245,7 +250,7 @@ proptest! {
 fn blocks_carry_all_there_is() {
     let (library, walls, grid) = (library(), room(3.8, 2.8), grid(100.0, 4.0, 3.0));
     let mut sums = FloorSums::new(grid);
-    sums.add(&Stamper::new(&library, grid, &StampOptions::default()), &walls, &crowd(500, 4.0, 3.0, 3));
+    sums.add(&Stamper::new(&library, grid, &StampOptions::default()).unwrap(), &walls, &crowd(500, 4.0, 3.0, 3));
     let mut copy = FloorSums::new(grid);
     copy.merge(&sums).unwrap();
     assert!(everything(&copy) == everything(&sums));

@@ -1,48 +1,39 @@
+//! The sums of walls.
+
 use std::collections::BTreeMap;
 
-use super::blocks::Plane;
-use super::{BLOCK, SumsError, add_wall};
-use crate::marks::Contact;
+use super::SumsError;
+use super::blocks::{BLOCK, SparsePlane};
 use crate::patterns::Cause;
-use crate::stamps::{TexelGrid, WallGrid, WallStamper};
+use crate::stamps::{TexelGrid, WallGrid};
 
-/// All sums of a plan's walls: optical density by cause, as `u32` fixed point of [`crate::stamps::DENSITY_ONE`] that
-/// stays at its largest value instead of overflowing.
+/// The sums of a plan's walls: optical density per cause and face, in sparse blocks.
 ///
-/// A wall that nobody touched costs nothing.
+/// Values are saturating `u32` fixed point in units of [`crate::stamps::DENSITY_ONE`]. Untouched walls take no memory.
 #[derive(Debug)]
 pub struct WallSums {
     pub(super) grid: WallGrid,
-    /// The strips that somebody touched, by cause (its place in [`Cause::WALL`]) and face.
-    pub(super) strips: BTreeMap<StripKey, Plane>,
+    /// The touched strips.
+    pub(super) strips: BTreeMap<StripKey, SparsePlane>,
 }
 
-/// A cause's place in [`Cause::WALL`] and a face.
+/// Key of a strip: index of its cause in [`Cause::WALL`], index of its face.
 pub(super) type StripKey = (usize, u32);
 
 impl WallSums {
-    /// Sums of nothing yet. Allocates nothing for the area.
+    /// Empty sums; blocks are allocated on first use.
     pub fn new(grid: WallGrid) -> WallSums {
         WallSums { grid, strips: BTreeMap::new() }
     }
 
-    /// The raster of the walls.
+    /// The texel grid of the walls.
     pub fn grid(&self) -> &WallGrid {
         &self.grid
     }
 
-    /// Adds the stamps of contacts, in the current rayon pool.
+    /// Copies a rectangle of a face's sums, row 0 lowest. Zero beyond the face.
     ///
-    /// The sums do not depend on the contacts' order, on how they are split into calls or on the number of threads.
-    /// Contacts without sense (a pattern of another cause, a face that is none, no finite place) leave nothing.
-    /// `stamper` must be made for the same grid; one of another grid adds nothing.
-    pub fn add(&mut self, stamper: &WallStamper, contacts: &[Contact]) {
-        add_wall::add(self, stamper, contacts);
-    }
-
-    /// Copies a rectangle of a face's sums, row 0 lowest. Zeros where there is nothing and beyond the face.
-    ///
-    /// `cause` must be one of [`Cause::WALL`]; others have no sums here.
+    /// Sums of causes outside [`Cause::WALL`] are zero.
     #[allow(clippy::too_many_arguments)]
     pub fn read(&self, cause: Cause, face: usize, i0: u32, j0: u32, width: usize, height: usize, out: &mut [u32]) {
         match self.strip(cause, face) {
@@ -51,20 +42,21 @@ impl WallSums {
         }
     }
 
-    /// Whether anything may be other than zero in a rectangle of a face.
+    /// Whether a rectangle of a face overlaps an allocated block; it is zero otherwise.
     pub fn touched(&self, cause: Cause, face: usize, i0: u32, j0: u32, width: usize, height: usize) -> bool {
         self.strip(cause, face).is_some_and(|strip| strip.touched([i0, j0], width, height))
     }
 
-    /// Faces and lower-left texels of all blocks that hold something of a cause, by ascending face, row, column. A
-    /// block is [`BLOCK`] texels a side, less where the strip ends.
+    /// Faces and lower-left texels of all allocated blocks of a cause, by ascending face, row, column.
+    ///
+    /// A block is [`BLOCK`] texels a side, less where the strip ends.
     pub fn blocks(&self, cause: Cause) -> Vec<(usize, [u32; 2])> {
         let Some(number) = cause.on_wall() else { return Vec::new() };
         let strips = self.strips.range((number, 0)..=(number, u32::MAX));
         strips.flat_map(|(&(_, face), strip)| strip.origins().into_iter().map(move |at| (face as usize, at))).collect()
     }
 
-    /// Adds a rectangle of sums that were read before, row 0 lowest. What lies beyond the face is left out.
+    /// Adds a rectangle of sums, row 0 lowest; ignores the part beyond the face.
     pub fn add_block(
         &mut self,
         cause: Cause,
@@ -83,7 +75,7 @@ impl WallSums {
     /// Adds the sums of another bake of the same walls.
     ///
     /// # Errors
-    /// Sums on another grid.
+    /// The grids differ.
     pub fn merge(&mut self, other: &WallSums) -> Result<(), SumsError> {
         if self.grid != other.grid {
             return Err(SumsError::walls_differ(&self.grid, &other.grid));
@@ -98,19 +90,19 @@ impl WallSums {
         Ok(())
     }
 
-    /// Bytes that the sums take up.
+    /// Memory of the sums, bytes.
     pub fn bytes(&self) -> usize {
-        self.strips.values().map(Plane::bytes).sum()
+        self.strips.values().map(SparsePlane::bytes).sum()
     }
 
-    fn strip(&self, cause: Cause, face: usize) -> Option<&Plane> {
+    fn strip(&self, cause: Cause, face: usize) -> Option<&SparsePlane> {
         self.strips.get(&(cause.on_wall()?, u32::try_from(face).ok()?))
     }
 
-    /// A strip, made if nobody touched it yet. The face must be one.
-    pub(super) fn strip_mut(&mut self, key: StripKey) -> &mut Plane {
+    /// A strip, allocated on first use. The face must be in the grid.
+    pub(super) fn strip_mut(&mut self, key: StripKey) -> &mut SparsePlane {
         let WallGrid { texels_per_metre, height, faces, .. } = &self.grid;
         let (texels_per_metre, width, height) = (*texels_per_metre, faces[key.1 as usize].width, *height);
-        self.strips.entry(key).or_insert_with(|| Plane::new(TexelGrid { texels_per_metre, width, height }))
+        self.strips.entry(key).or_insert_with(|| SparsePlane::new(TexelGrid { texels_per_metre, width, height }))
     }
 }

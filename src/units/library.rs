@@ -3,6 +3,7 @@ use std::path::{Path, PathBuf};
 use super::error::UnitsError;
 use super::file::LARGEST_BYTES;
 use super::unit::Unit;
+use crate::files::read_text;
 
 /// The files of `floorplans/units/`, compiled in so that an installed program needs no folder.
 macro_rules! built_in {
@@ -148,7 +149,7 @@ impl UnitLibrary {
             if bytes > LARGEST_BYTES {
                 return Err(unreadable(&path, format!("it has {bytes} bytes, allowed are {LARGEST_BYTES}")));
             }
-            let text = std::fs::read_to_string(&path).map_err(|error| unreadable(&path, error.to_string()))?;
+            let text = read_text(&path).map_err(|error| unreadable(&path, error.to_string()))?;
             files.push((path, text));
         }
         if files.is_empty() {

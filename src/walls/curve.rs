@@ -1,6 +1,6 @@
 //! Tells curves from corners, so that a drawn circle is not traced with the corners of its straight pieces.
 
-use super::fit::{Joint, Piece};
+use super::piece::{Joint, Piece};
 use super::runs::{Runs, Sample};
 
 /// A curve turns by at most this much from one piece to the next: cosine of 100 degrees.
@@ -16,6 +16,7 @@ const FEWEST_SAMPLES: usize = 3;
 const LEAST_SAGITTA: f64 = 0.05;
 
 /// Where a boundary is curved, and points on the curve in place of the corners of its straight pieces.
+#[derive(Debug)]
 pub(super) struct Curves {
     joints: Vec<Option<[f64; 2]>>,
     middles: Vec<Option<[f64; 2]>>,

@@ -1,7 +1,9 @@
 //! From a boundary to a polyline: straight pieces, their lines, and the corners where neighbouring lines cross.
+//! Where two polylines would cross, parts of them are put back on the pixels' edges, which never do.
 
 use super::curve::Curves;
-use super::line::{Line, Moments};
+use super::line::Line;
+use super::piece::{Joint, Piece, squared_distance};
 use super::polygon::breaks;
 use super::runs::Runs;
 
@@ -13,43 +15,6 @@ pub(super) struct SideLine {
     pub(super) at: f64,
 }
 
-/// A straight piece of a boundary: the runs `from..to` and the line through them, in the direction of the boundary.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
-    pub(super) from: usize,
-    pub(super) to: usize,
-    pub(super) line: Line,
-    /// Whether the line runs exactly along pixel edges.
-    pub(super) exact: bool,
-}
-
-impl Piece {
-    fn new(runs: &Runs, from: usize, to: usize) -> Piece {
-        let (mut line, exact) = line_of(runs, from, to);
-        let ([x0, y0], [x1, y1]) = (runs.corner(from), runs.corner(to));
-        if (x1 - x0) * line.along[0] + (y1 - y0) * line.along[1] < 0.0 {
-            line.along = line.along.map(|c| -c);
-        }
-        Piece { from, to, line, exact }
-    }
-
-    /// Distance between its ends, pixels.
-    pub(super) fn length(&self, runs: &Runs) -> f64 {
-        squared_distance(runs.corner(self.from), runs.corner(self.to)).sqrt()
-    }
-}
-
-/// How two neighbouring pieces meet.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Joint {
-    /// Where their lines cross.
-    Crossing([f64; 2]),
-    /// Their lines do not cross nearby: the ends of both.
-    Step([f64; 2], [f64; 2]),
-}
-
-/// Pieces of at least this many pixel edges leave out the one at each end, where a corner blurs the edge.
-const TRIMMED_FROM: usize = 8;
 /// A corner may lie this far from the place where the boundary was cut, per cosine of half the turn, pixels.
 const CORNER_REACH: f64 = 0.85;
 /// Ends of an open boundary may slide this far along the image's side, pixels.
@@ -63,36 +28,159 @@ const SAME_POINT: f64 = 0.9;
 /// The same where an oblique boundary goes on, whose pieces may each be off by half a pixel.
 const SAME_POINT_OBLIQUE: f64 = 1.4;
 
-/// The corners of a boundary, in pixels. An open one ends on the two image sides given.
-pub(super) fn polyline(runs: &Runs, ends: Option<[SideLine; 2]>) -> Vec<[f64; 2]> {
-    let starts = breaks(runs);
-    let count = starts.len();
-    let end_of = |k: usize| match starts.get(k + 1) {
-        Some(&next) => next,
-        None if runs.closed => starts[0] + runs.len(),
-        None => runs.len(),
-    };
-    let pieces: Vec<Piece> = (0..count).map(|k| Piece::new(runs, starts[k], end_of(k))).collect();
-    let pieces = with_single_steps(runs, pieces);
-    let count = pieces.len();
-    let joints: Vec<Option<Joint>> = (0..count)
-        .map(|k| (k > 0 || runs.closed).then(|| joint(runs, &pieces[(k + count - 1) % count], &pieces[k])))
-        .collect();
-    let curves = Curves::find(runs, &pieces, &joints);
-    let mut points = Vec::with_capacity(count + 1);
-    for (k, &own) in joints.iter().enumerate() {
-        match (curves.joint(k).map(Joint::Crossing).or(own), ends) {
-            (Some(Joint::Crossing(at)), _) => points.push(at),
-            (Some(Joint::Step(a, b)), _) => points.extend([a, b]),
-            (None, Some([start, _])) => points.push(end_on_side(&pieces[0].line, runs.corner(0), start)),
-            (None, None) => {}
+/// A corner of a fitted boundary.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Corner {
+    /// Pixels from the top left, y down.
+    pub(super) at: [f64; 2],
+    /// The run that starts there, or amid which it stands; the number of runs at the end of an open boundary.
+    pub(super) run: usize,
+}
+
+/// A boundary fitted with straight pieces and curves. Parts of it can be put back on the pixels' edges.
+#[derive(Debug)]
+pub(super) struct Fitted {
+    pub(super) runs: Runs,
+    ends: Option<[SideLine; 2]>,
+    pieces: Vec<Piece>,
+    /// How piece `k` meets the one before; `None` at the start of an open boundary.
+    joints: Vec<Option<Joint>>,
+    curves: Curves,
+    /// Runs that are drawn as the pixels' edges that they are, where the fitted line got in another's way.
+    on_edges: Vec<bool>,
+    /// Whether there are any.
+    is_mended: bool,
+}
+
+impl Fitted {
+    /// Fits a boundary. An open one ends on the two image sides given.
+    pub(super) fn new(runs: Runs, ends: Option<[SideLine; 2]>) -> Fitted {
+        let starts = breaks(&runs);
+        let end_of = |k: usize| match starts.get(k + 1) {
+            Some(&next) => next,
+            None if runs.closed => starts[0] + runs.len(),
+            None => runs.len(),
+        };
+        let pieces: Vec<Piece> = (0..starts.len()).map(|k| Piece::new(&runs, starts[k], end_of(k))).collect();
+        let pieces = with_single_steps(&runs, pieces);
+        let count = pieces.len();
+        let joints: Vec<Option<Joint>> = (0..count)
+            .map(|k| (k > 0 || runs.closed).then(|| joint(&runs, &pieces[(k + count - 1) % count], &pieces[k])))
+            .collect();
+        let curves = Curves::find(&runs, &pieces, &joints);
+        let on_edges = vec![false; runs.len()];
+        Fitted { runs, ends, pieces, joints, curves, on_edges, is_mended: false }
+    }
+
+    /// The corners in order, in pixels; those of a closed boundary go round.
+    pub(super) fn corners(&self) -> Vec<Corner> {
+        let mut corners = Vec::with_capacity(self.pieces.len() + 1);
+        for (k, piece) in self.pieces.iter().enumerate() {
+            match (self.curves.joint(k).map(Joint::Crossing).or(self.joints[k]), self.ends) {
+                (Some(joint), _) if self.stands(k, joint) => {
+                    corners.extend(joint.points().map(|at| Corner { at, run: piece.from }));
+                }
+                (Some(_), _) => self.change_over(piece.from, &mut corners),
+                (None, Some([start, _])) => corners.push(self.end(piece, 0, start)),
+                (None, None) => {}
+            }
+            if !self.is_mended || !(piece.from..piece.to).any(|run| self.is_on_edges(run)) {
+                let run = (piece.from + piece.to) / 2;
+                corners.extend(self.curves.middle(k).map(|at| Corner { at, run }));
+            } else {
+                (piece.from + 1..piece.to).for_each(|run| self.change_over(run, &mut corners));
+            }
         }
-        points.extend(curves.middle(k));
+        if let (Some([_, end]), Some(last)) = (self.ends, self.pieces.last()) {
+            corners.push(self.end(last, self.runs.len(), end));
+        }
+        without_straight_corners(corners, self.runs.closed)
     }
-    if let Some([_, end]) = ends {
-        points.push(end_on_side(&pieces[count - 1].line, runs.corner(runs.len()), end));
+
+    /// Whether a run is drawn as the pixels' edges; a closed boundary goes round.
+    fn is_on_edges(&self, run: usize) -> bool {
+        self.on_edges[run % self.on_edges.len()]
     }
-    without_straight_corners(points, runs.closed)
+
+    /// The piece that a run is part of; a closed boundary goes round.
+    fn piece_of(&self, run: usize) -> &Piece {
+        let first = self.pieces[0].from;
+        let count = self.runs.len();
+        let run = first + (run + count - first % count) % count;
+        &self.pieces[self.pieces.partition_point(|piece| piece.from <= run).max(1) - 1]
+    }
+
+    /// The corners between a run and the one before where either is drawn as the pixels' edges, or both pieces are
+    /// cut off there: from the one line to the pixels' corner, and on to the other line.
+    fn change_over(&self, run: usize, corners: &mut Vec<Corner>) {
+        let count = self.runs.len();
+        let [before, after] = [(run + count - 1) % count, run % count];
+        let cut = self.runs.corner(run);
+        let [left, right] = [before, after].map(|run| (!self.on_edges[run]).then(|| self.piece_of(run)));
+        let within = |a: &Piece, b: &Piece| a.from == b.from;
+        if left.zip(right).is_some_and(|(a, b)| within(a, b)) {
+            return;
+        }
+        let mut push = |at: [f64; 2]| corners.push(Corner { at, run });
+        left.into_iter().for_each(|piece| push(piece.line.project(cut)));
+        push(cut);
+        right.into_iter().for_each(|piece| push(piece.line.project(cut)));
+    }
+
+    /// An end of an open boundary, by the run that starts there (or the number of runs).
+    fn end(&self, piece: &Piece, run: usize, side: SideLine) -> Corner {
+        let corner = self.runs.corner(run);
+        let is_cut = self.on_edges[run.min(self.runs.len() - 1)];
+        Corner { at: if is_cut { corner } else { end_on_side(&piece.line, corner, side) }, run }
+    }
+
+    /// Whether all runs around the joint before piece `k` are fitted, as far as the joint lies from its cut.
+    fn stands(&self, k: usize, joint: Joint) -> bool {
+        if !self.is_mended {
+            return true;
+        }
+        let (count, cut_run) = (self.runs.len(), self.pieces[k].from);
+        // Where walks ahead and back begin, and how far they can go.
+        let (last, most) =
+            if self.runs.closed { (cut_run + count, [count; 2]) } else { (cut_run, [count - cut_run, cut_run]) };
+        let cut = self.runs.corner(cut_run);
+        let squared = joint.points().map(|p| squared_distance(p, cut)).fold(0.0, f64::max);
+        let reach = squared.sqrt() + 1.0;
+        let near = |run: usize| squared_distance(self.runs.corner(run), cut) <= reach * reach;
+        let ahead = (0..most[0]).map(|step| cut_run + step).take_while(|&run| near(run));
+        let behind = (0..most[1]).map(|step| last - step).take_while(|&run| near(run));
+        !ahead.chain(behind.map(|run| run - 1)).any(|run| self.is_on_edges(run))
+    }
+
+    /// Puts the runs about a place back on the pixels' edges: among `from..to` (which may go round) the nearest one
+    /// that is not yet, and its neighbours. Says whether there was one.
+    pub(super) fn put_on_edges(&mut self, from: usize, to: usize, place: [f64; 2]) -> bool {
+        let count = self.runs.len();
+        let away = |run: usize| {
+            let [a, b] = [self.runs.corner(run), self.runs.corner(run + 1)];
+            let nearest = [0, 1].map(|axis| place[axis].clamp(a[axis].min(b[axis]), a[axis].max(b[axis])));
+            squared_distance(nearest, place)
+        };
+        let fitted = (from..to).map(|run| run % count).filter(|&run| !self.on_edges[run]);
+        let Some(nearest) = fitted.min_by(|&a, &b| away(a).total_cmp(&away(b)).then(a.cmp(&b))) else { return false };
+        self.is_mended = true;
+        self.on_edges[nearest] = true;
+        if self.runs.closed || nearest > 0 {
+            self.on_edges[(nearest + count - 1) % count] = true;
+        }
+        if self.runs.closed || nearest + 1 < count {
+            self.on_edges[(nearest + 1) % count] = true;
+        }
+        true
+    }
+
+    /// Puts all runs back on the pixels' edges. Says whether any was not.
+    pub(super) fn put_all_on_edges(&mut self) -> bool {
+        let any = self.on_edges.contains(&false);
+        self.is_mended = true;
+        self.on_edges.fill(true);
+        any
+    }
 }
 
 /// Splits pieces that have a single step between neighbours that run along pixel edges.
@@ -130,19 +218,20 @@ fn single_step(runs: &Runs, piece: &Piece) -> Option<usize> {
     (hard && steps.next().is_none()).then_some(step)
 }
 
-/// Drops points at which the polyline does not turn.
-fn without_straight_corners(points: Vec<[f64; 2]>, closed: bool) -> Vec<[f64; 2]> {
-    let mut kept: Vec<[f64; 2]> = Vec::with_capacity(points.len());
-    let n = points.len();
-    for (k, &p) in points.iter().enumerate() {
-        let before = kept.last().copied().or(closed.then(|| points[n - 1]));
-        let after = if k + 1 < n { Some(points[k + 1]) } else { closed.then(|| kept.first().copied().unwrap_or(p)) };
+/// Drops corners at which the polyline does not turn.
+fn without_straight_corners(corners: Vec<Corner>, closed: bool) -> Vec<Corner> {
+    let mut kept: Vec<Corner> = Vec::with_capacity(corners.len());
+    let n = corners.len();
+    for (k, &corner) in corners.iter().enumerate() {
+        let before = kept.last().copied().or(closed.then(|| corners[n - 1]));
+        let after =
+            if k + 1 < n { Some(corners[k + 1]) } else { closed.then(|| kept.first().copied().unwrap_or(corner)) };
         match (before, after) {
-            (Some(a), Some(b)) if is_between(a, p, b) => {}
-            _ => kept.push(p),
+            (Some(a), Some(b)) if is_between(a.at, corner.at, b.at) => {}
+            _ => kept.push(corner),
         }
     }
-    if kept.len() < 3 && closed { points } else { kept }
+    if kept.len() < 3 && closed { corners } else { kept }
 }
 
 /// Whether the way from `a` to `b` over `p` is straight, or `p` is no more than a repetition.
@@ -150,39 +239,6 @@ fn is_between(a: [f64; 2], p: [f64; 2], b: [f64; 2]) -> bool {
     let ([ux, uy], [vx, vy]) = ([p[0] - a[0], p[1] - a[1]], [b[0] - p[0], b[1] - p[1]]);
     let (ahead, length) = (ux * vx + uy * vy, squared_distance(a, b).sqrt());
     squared_distance(a, p) < 1e-12 || (ahead > 0.0 && (ux * vy - uy * vx).abs() <= STRAIGHT * length)
-}
-
-/// The line of the runs `from..to`, and whether it runs exactly along the pixels' edges, where the samples are.
-fn line_of(runs: &Runs, from: usize, to: usize) -> (Line, bool) {
-    let (from, to) = without_caps(runs, from, to);
-    let edges = runs.edges(from, to);
-    let trim = usize::from(edges >= TRIMMED_FROM);
-    let samples = || runs.samples_of(from, to).skip(trim).take(edges - 2 * trim);
-    let first = samples().next().map_or([0.0; 2], |s| s.at);
-    let direction = runs.direction(from);
-    if (from..to).all(|k| runs.direction(k) == direction) {
-        let across = direction.across();
-        if samples().all(|s| s.at[across] == first[across]) {
-            return (Line { through: first, along: direction.step().map(f64::from) }, true);
-        }
-    }
-    let mut moments = Moments::default();
-    for s in samples() {
-        moments.add(s, first);
-    }
-    let mut line = moments.line().line;
-    line.through = [line.through[0] + first[0], line.through[1] + first[1]];
-    (line, false)
-}
-
-/// A piece less the pixel edges across its ends if what remains is one straight stretch: they belong to the corner.
-fn without_caps(runs: &Runs, from: usize, to: usize) -> (usize, usize) {
-    let across = runs.main_across(from, to);
-    let is_main = |k: &usize| runs.direction(*k).across() == across;
-    let first = (from..to).find(is_main).unwrap_or(from);
-    let last = (from..to).rev().find(is_main).unwrap_or(to - 1);
-    let straight = (first..last).all(|k| runs.direction(k) == runs.direction(last));
-    if straight { (first, last + 1) } else { (from, to) }
 }
 
 /// How two neighbouring pieces meet: where their lines cross if that is nearby; if not, square to the lines, as at
@@ -209,10 +265,6 @@ fn joint(runs: &Runs, before: &Piece, after: &Piece) -> Joint {
     } else {
         Joint::Step(p, q)
     }
-}
-
-fn squared_distance([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
-    (ax - bx) * (ax - bx) + (ay - by) * (ay - by)
 }
 
 /// Where a line meets an image side, near the pixel corner where the boundary does.

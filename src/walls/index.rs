@@ -1,6 +1,7 @@
 //! Answers about places: the nearest wall, inside or not, what can be seen.
 
-use super::{Nearest, Segment};
+use super::face::{Nearest, Segment};
+use super::grid::Grid;
 use crate::math::{Rect, Vec2, vec2};
 
 /// Side of a cell, metres.
@@ -10,9 +11,7 @@ const CELL_M: f64 = 0.5;
 #[derive(Debug)]
 pub(super) struct Index {
     segments: Vec<Segment>,
-    origin: Vec2,
-    columns: usize,
-    rows: usize,
+    grid: Grid,
     /// Segment numbers of cell `c` are `entries[starts[c]..starts[c + 1]]`.
     starts: Vec<u32>,
     entries: Vec<u32>,
@@ -28,14 +27,10 @@ impl Index {
             let point = Rect { min: *p, max: *p };
             area = if k == 0 { point } else { union(area, point) };
         }
-        let area = area.grown(CELL_M * 0.5);
-        let columns = (area.width() / CELL_M) as usize + 1;
-        let rows = (area.height() / CELL_M) as usize + 1;
+        let grid = Grid::new(area, CELL_M);
         let mut index = Index {
             segments,
-            origin: area.min,
-            columns,
-            rows,
+            grid,
             starts: Vec::new(),
             entries: Vec::new(),
             row_starts: Vec::new(),
@@ -43,62 +38,29 @@ impl Index {
         };
         let mut pairs: Vec<(u32, u32)> = Vec::new();
         for (number, s) in index.segments.iter().enumerate() {
-            index.cells_along(s.a, s.b, |cell| {
+            grid.cells_along(s.a, s.b, |cell| {
                 pairs.push((cell as u32, number as u32));
                 true
             });
         }
         pairs.sort_unstable();
         pairs.dedup();
-        index.starts = counted_starts(columns * rows, pairs.iter().map(|p| p.0));
+        index.starts = counted_starts(grid.cells(), pairs.iter().map(|p| p.0));
         index.entries = pairs.into_iter().map(|p| p.1).collect();
         let mut by_row: Vec<(u32, [Vec2; 2])> = Vec::new();
         for points in walked {
             for (k, &a) in points.iter().enumerate() {
                 let b = points[(k + 1) % points.len()];
                 if a.y != b.y {
-                    let [low, high] = [a.y.min(b.y), a.y.max(b.y)].map(|y| index.row_of(y));
+                    let [low, high] = [a.y.min(b.y), a.y.max(b.y)].map(|y| grid.row_of(y));
                     by_row.extend((low..=high).map(|row| (row as u32, [a, b])));
                 }
             }
         }
         by_row.sort_by_key(|e| e.0);
-        index.row_starts = counted_starts(rows, by_row.iter().map(|e| e.0));
+        index.row_starts = counted_starts(grid.rows(), by_row.iter().map(|e| e.0));
         index.row_edges = by_row.into_iter().map(|e| e.1).collect();
         index
-    }
-
-    fn column_of(&self, x: f64) -> usize {
-        (((x - self.origin.x) / CELL_M).max(0.0) as usize).min(self.columns - 1)
-    }
-
-    fn row_of(&self, y: f64) -> usize {
-        (((y - self.origin.y) / CELL_M).max(0.0) as usize).min(self.rows - 1)
-    }
-
-    /// Calls `visit` with every cell that the segment passes until it says false.
-    fn cells_along(&self, a: Vec2, b: Vec2, mut visit: impl FnMut(usize) -> bool) {
-        let (low, high) = if a.y <= b.y { (a, b) } else { (b, a) };
-        for row in self.row_of(low.y)..=self.row_of(high.y) {
-            // The piece of the segment within this row, a hair longer so that rounding never skips a cell.
-            let bottom = self.origin.y + row as f64 * CELL_M - 1e-9;
-            let top = bottom + CELL_M + 2e-9;
-            let x_at = |y: f64| {
-                if high.y - low.y < 1e-12 {
-                    return None;
-                }
-                Some(low.x + (high.x - low.x) * ((y - low.y) / (high.y - low.y)).clamp(0.0, 1.0))
-            };
-            let (x0, x1) = match (x_at(bottom), x_at(top)) {
-                (Some(x0), Some(x1)) => (x0, x1),
-                _ => (low.x, high.x),
-            };
-            for column in self.column_of(x0.min(x1) - 1e-9)..=self.column_of(x0.max(x1) + 1e-9) {
-                if !visit(row * self.columns + column) {
-                    return;
-                }
-            }
-        }
     }
 
     fn cell_segments(&self, cell: usize) -> &[u32] {
@@ -109,9 +71,9 @@ impl Index {
         let reach = vec2(within_m, within_m);
         let (low, high) = (p - reach, p + reach);
         let mut best: Option<(f64, u32, Vec2)> = None;
-        for row in self.row_of(low.y)..=self.row_of(high.y) {
-            for column in self.column_of(low.x)..=self.column_of(high.x) {
-                for &number in self.cell_segments(row * self.columns + column) {
+        for row in self.grid.row_of(low.y)..=self.grid.row_of(high.y) {
+            for column in self.grid.column_of(low.x)..=self.grid.column_of(high.x) {
+                for &number in self.cell_segments(self.grid.cell(column, row)) {
                     let s = &self.segments[number as usize];
                     let q = closest_on(s.a, s.b, p);
                     let d = (p - q).length_squared();
@@ -134,7 +96,7 @@ impl Index {
 
     pub(super) fn is_inside(&self, p: Vec2) -> bool {
         let mut winding = 0;
-        let row = self.row_of(p.y);
+        let row = self.grid.row_of(p.y);
         for &[a, b] in &self.row_edges[self.row_starts[row] as usize..self.row_starts[row + 1] as usize] {
             let upward = a.y <= p.y && b.y > p.y;
             let downward = b.y <= p.y && a.y > p.y;
@@ -150,7 +112,7 @@ impl Index {
 
     pub(super) fn sight(&self, a: Vec2, b: Vec2) -> bool {
         let mut clear = true;
-        self.cells_along(a, b, |cell| {
+        self.grid.cells_along(a, b, |cell| {
             clear = !self.cell_segments(cell).iter().any(|&n| {
                 let s = &self.segments[n as usize];
                 crosses(a, b, s.a, s.b)
@@ -162,9 +124,9 @@ impl Index {
 
     pub(super) fn segments_near(&self, area: Rect, out: &mut Vec<Segment>) {
         let mut numbers: Vec<u32> = Vec::new();
-        for row in self.row_of(area.min.y)..=self.row_of(area.max.y) {
-            for column in self.column_of(area.min.x)..=self.column_of(area.max.x) {
-                numbers.extend_from_slice(self.cell_segments(row * self.columns + column));
+        for row in self.grid.row_of(area.min.y)..=self.grid.row_of(area.max.y) {
+            for column in self.grid.column_of(area.min.x)..=self.grid.column_of(area.max.x) {
+                numbers.extend_from_slice(self.cell_segments(self.grid.cell(column, row)));
             }
         }
         numbers.sort_unstable();
@@ -201,7 +163,8 @@ fn crosses(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> bool {
     (ab.cross(c - a) > 0.0) != (ab.cross(d - a) > 0.0) && (cd.cross(a - c) > 0.0) != (cd.cross(b - c) > 0.0)
 }
 
-fn union(a: Rect, b: Rect) -> Rect {
+/// The smallest rectangle that holds both.
+pub(super) fn union(a: Rect, b: Rect) -> Rect {
     Rect {
         min: vec2(a.min.x.min(b.min.x), a.min.y.min(b.min.y)),
         max: vec2(a.max.x.max(b.max.x), a.max.y.max(b.max.y)),

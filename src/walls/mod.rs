@@ -1,76 +1,38 @@
 //! Traces the wall faces of a plan as polylines in metres, and answers how far the nearest wall is.
 
+use rayon::prelude::*;
+
+use boundary::Boundary;
+
 use crate::math::{Rect, Vec2};
 use crate::plan::{FloorPlan, cracks};
 
+mod boundary;
 mod coverage;
 mod curve;
+mod error;
+mod face;
 mod fit;
+mod grid;
 mod index;
 mod line;
 mod outline;
+mod piece;
 mod places;
 mod polygon;
 mod runs;
 mod stabbing;
 mod subpixel;
+mod untangle;
 
 #[cfg(test)]
 mod truth_tests;
 
+pub use error::WallsError;
+pub use face::{APRON_M, Face, Nearest, Segment};
 pub use outline::Outline;
+pub(crate) use outline::check as check_outlines;
 pub use places::{Corner, DOOR_HEAD_M, DOOR_WIDTHS_M, Doorway};
-
-/// How far beyond an opening the floor goes on unseen, metres: room to appear and to vanish.
-pub const APRON_M: f64 = 3.0;
-
-/// One wall face: the floor lies on the **right** of the polyline, so that arc length grows to the right for a
-/// viewer who stands on the floor and looks at the wall.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct Face {
-    /// Whether the last point joins the first (rooms, pillars). The first is not repeated.
-    pub closed: bool,
-    /// Corners and ends, metres. A closed face starts at its vertex least in (y, x).
-    #[serde(rename = "points")]
-    pub points_m: Vec<Vec2>,
-}
-
-impl Face {
-    /// Length of the polyline, metres.
-    pub fn length_m(&self) -> f64 {
-        let open: f64 = self.points_m.windows(2).map(|w| w[0].distance(w[1])).sum();
-        match (self.closed, self.points_m.first(), self.points_m.last()) {
-            (true, Some(&first), Some(&last)) => open + last.distance(first),
-            _ => open,
-        }
-    }
-}
-
-/// The place on a wall nearest to a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Nearest {
-    /// Distance from the point to the wall, metres. Never negative; see [`Walls::is_inside`].
-    pub distance_m: f64,
-    /// The place on the wall.
-    pub point_m: Vec2,
-    /// Index into [`Walls::faces`], or `None` for the unseen walls of an apron.
-    pub face: Option<usize>,
-    /// Arc length from the face's start to the place, metres.
-    pub along_m: f64,
-}
-
-/// One straight piece of a wall, floor on its right.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Segment {
-    /// Start, metres.
-    pub a: Vec2,
-    /// End, metres.
-    pub b: Vec2,
-    /// Index into [`Walls::faces`], or `None` for the unseen walls of an apron.
-    pub face: Option<usize>,
-    /// Arc length from the face's start to `a`, metres; 0 on an apron.
-    pub along_m: f64,
-}
 
 /// How to trace walls.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -101,12 +63,23 @@ impl Walls {
     /// Traces the boundary of a plan's floor.
     pub fn trace(plan: &FloorPlan, options: &WallsOptions) -> Walls {
         let loops = cracks::trace(&plan.floor, plan.width_px as usize);
-        let outlines = loops.iter().map(|l| outline::of_boundary(plan, l, options.tolerance_px / 0.5)).collect();
-        Walls::from_outlines(outlines)
+        let fit = |l| Boundary::fit(plan, l, options.tolerance_px / 0.5);
+        let mut boundaries: Vec<Boundary> = loops.par_iter().map(fit).collect();
+        untangle::untangle(&mut boundaries);
+        Walls::of(boundaries.iter().map(|boundary| boundary.outline(plan)).collect())
     }
 
-    /// Walls from outlines that were kept, see [`Walls::outlines`].
-    pub fn from_outlines(outlines: Vec<Outline>) -> Walls {
+    /// Rebuilds walls from their [`Walls::outlines`].
+    ///
+    /// # Errors
+    /// Outlines of fewer than three points, with openings at edges that they do not have, that reach farther than any
+    /// plan, or that are longer than all walls of any plan.
+    pub fn from_outlines(outlines: Vec<Outline>) -> Result<Walls, WallsError> {
+        check_outlines(&outlines)?;
+        Ok(Walls::of(outlines))
+    }
+
+    fn of(outlines: Vec<Outline>) -> Walls {
         let faces = outline::faces(&outlines);
         let segments = outline::wall_segments(&faces, &outlines);
         let walked = outline::walked_loops(&outlines);

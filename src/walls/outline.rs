@@ -2,13 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::fit::{self, SideLine};
-use super::runs::{Runs, Sample};
-use super::subpixel;
-use super::{APRON_M, Face, Segment};
+use super::error::{FEWEST_POINTS, LARGEST_EXTENT_M, LONGEST_M, WallsError};
+use super::face::{APRON_M, Face, Segment};
 use crate::math::{Rect, Vec2, vec2};
-use crate::plan::cracks::CrackLoop;
-use crate::plan::{FloorPlan, Side};
+use crate::plan::Side;
 
 /// A closed loop around floor (or around a hole in it), floor on the right.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,105 +29,33 @@ impl Outline {
     }
 }
 
-/// The outline of one boundary: walls as fitted polylines, openings straight along the image's sides.
-pub(super) fn of_boundary(plan: &FloorPlan, cracks: &CrackLoop, tolerance_scale: f64) -> Outline {
-    let samples = subpixel::samples(plan, cracks, tolerance_scale);
-    let sides: Vec<Option<Side>> = (0..cracks.len()).map(|k| side_of(plan, cracks, k)).collect();
-    let stretches = stretches(&sides);
-    let mut points: Vec<[f64; 2]> = Vec::new();
-    let mut openings = Vec::new();
-    if let [_] = stretches[..] {
-        let runs = Runs::new(true, cracks, &samples);
-        points = fit::polyline(&runs, None);
-    } else {
-        for (k, stretch) in stretches.iter().enumerate() {
-            let before = stretches[(k + stretches.len() - 1) % stretches.len()].side;
-            let after = stretches[(k + 1) % stretches.len()].side;
-            match (stretch.side, before, after) {
-                (None, Some(before), Some(after)) => {
-                    let runs = stretch.runs(cracks, &samples);
-                    points.extend(fit::polyline(&runs, Some([side_line(plan, before), side_line(plan, after)])));
-                }
-                (Some(side), Some(_), _) => {
-                    // Two openings meet in the image's corner.
-                    points.push(cracks[stretch.from].map(f64::from));
-                    openings.push((points.len() - 1, side));
-                }
-                // The wall before ends where this opening starts.
-                (Some(side), None, _) => openings.push((points.len() - 1, side)),
-                (None, ..) => {}
-            }
+/// Checks outlines that were not traced here.
+pub(crate) fn check(outlines: &[Outline]) -> Result<(), WallsError> {
+    for (index, outline) in outlines.iter().enumerate() {
+        let points = outline.points_m.len();
+        if points < FEWEST_POINTS {
+            return Err(WallsError::TooFewPoints { outline: index, points });
+        }
+        let ascends = outline.openings.is_sorted_by(|a, b| a.0 < b.0);
+        let beyond = outline.openings.iter().find(|(edge, _)| *edge >= points || !ascends);
+        if let Some(&(edge, _)) = beyond {
+            return Err(WallsError::Opening { outline: index, edge, points });
         }
     }
-    Outline { points_m: points.into_iter().map(|p| plan.px_to_m(p)).collect(), openings }
-}
-
-/// Consecutive pixel edges that are all wall or all the same opening.
-struct Stretch {
-    side: Option<Side>,
-    from: usize,
-    count: usize,
-}
-
-impl Stretch {
-    fn runs(&self, cracks: &CrackLoop, samples: &[Sample]) -> Runs {
-        let n = cracks.len();
-        let points: Vec<[i32; 2]> = (0..=self.count).map(|k| cracks[(self.from + k) % n]).collect();
-        let samples: Vec<Sample> = (0..self.count).map(|k| samples[(self.from + k) % n]).collect();
-        Runs::new(false, &points, &samples)
+    let all = || outlines.iter().flat_map(|outline| outline.points_m.iter());
+    // Minimum and maximum pass over NaN.
+    if let Some(nan) = all().map(|p| p.x + p.y).find(|sum| sum.is_nan()) {
+        return Err(WallsError::TooFar { extent_m: nan });
     }
-}
-
-/// All stretches of a boundary in order, from a wall on if there is one; a single one if it is wall all around.
-fn stretches(sides: &[Option<Side>]) -> Vec<Stretch> {
-    let n = sides.len();
-    let starts = || (0..n).filter(|&k| sides[k] != sides[(k + n - 1) % n]);
-    let first = starts().find(|&k| sides[k].is_none()).or(starts().next()).unwrap_or(0);
-    let mut stretches: Vec<Stretch> = Vec::new();
-    for step in 0..n {
-        let k = (first + step) % n;
-        match stretches.last_mut() {
-            Some(last) if last.side == sides[k] => last.count += 1,
-            _ => stretches.push(Stretch { side: sides[k], from: k, count: 1 }),
-        }
+    let bounds = bounds(outlines);
+    let extent_m = bounds.width().max(bounds.height());
+    let farthest_m = all().map(|p| p.x.abs().max(p.y.abs())).fold(extent_m, f64::max);
+    if extent_m > LARGEST_EXTENT_M || farthest_m > LARGEST_EXTENT_M {
+        return Err(WallsError::TooFar { extent_m: farthest_m });
     }
-    stretches
-}
-
-fn side_line(plan: &FloorPlan, side: Side) -> SideLine {
-    match side {
-        Side::West => SideLine { axis: 0, at: 0.0 },
-        Side::East => SideLine { axis: 0, at: f64::from(plan.width_px) },
-        Side::North => SideLine { axis: 1, at: 0.0 },
-        Side::South => SideLine { axis: 1, at: f64::from(plan.height_px) },
-    }
-}
-
-/// The image side on which crack `k` is part of an opening.
-fn side_of(plan: &FloorPlan, cracks: &CrackLoop, k: usize) -> Option<Side> {
-    let [x0, y0] = cracks[k];
-    let [x1, y1] = cracks[(k + 1) % cracks.len()];
-    let (width, height) = (plan.width_px as i32, plan.height_px as i32);
-    let side = if x0 == 0 && x1 == 0 {
-        Side::West
-    } else if x0 == width && x1 == width {
-        Side::East
-    } else if y0 == 0 && y1 == 0 {
-        Side::North
-    } else if y0 == height && y1 == height {
-        Side::South
-    } else {
-        return None;
-    };
-    let middle = plan.px_to_m([f64::from(x0 + x1) * 0.5, f64::from(y0 + y1) * 0.5]);
-    let within = |o: &crate::plan::Opening| {
-        o.side == side
-            && match side {
-                Side::West | Side::East => middle.y > o.from_m.y && middle.y < o.to_m.y,
-                Side::South | Side::North => middle.x > o.from_m.x && middle.x < o.to_m.x,
-            }
-    };
-    plan.openings.iter().any(within).then_some(side)
+    let edges = outlines.iter().flat_map(|outline| (0..outline.points_m.len()).map(|k| outline.edge(k)));
+    let length_m: f64 = edges.map(|[a, b]| a.distance(b)).sum();
+    if length_m > LONGEST_M { Err(WallsError::TooLong { length_m }) } else { Ok(()) }
 }
 
 /// Wall faces: closed loops as they are, others cut at their openings. Longest first, ties by start.

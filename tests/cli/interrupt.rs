@@ -2,10 +2,13 @@
 
 #![cfg(unix)]
 
+use std::os::unix::process::ExitStatusExt;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::sandbox::Sandbox;
+
+const SIGINT: i32 = 2;
 
 fn interrupted_after(wait: Duration) {
     let sandbox = Sandbox::new();
@@ -20,7 +23,8 @@ fn interrupted_after(wait: Duration) {
     let asked = Instant::now();
     let output = child.wait_with_output().unwrap();
     assert!(asked.elapsed() < Duration::from_secs(20), "took {:?} to stop", asked.elapsed());
-    sandbox.ran(before, output).fails(1, &["interrupted"]);
+    assert_eq!(output.status.signal(), Some(SIGINT), "a shell's loop must end too");
+    sandbox.ran(before, output).fails(128 + SIGINT, &["interrupted"]);
 }
 
 #[test]
@@ -40,5 +44,5 @@ fn an_interrupted_bake_leaves_an_earlier_one_as_it_was() {
     std::thread::sleep(Duration::from_millis(1000));
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
     let output = child.wait_with_output().unwrap();
-    sandbox.ran(before, output).fails(1, &["interrupted"]);
+    sandbox.ran(before, output).fails(128 + SIGINT, &["interrupted"]);
 }

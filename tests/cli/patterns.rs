@@ -33,7 +33,7 @@ fn a_stain_is_imported_listed_and_walked_over() {
 
     // Again: the name is taken, and everything stays as it is.
     let again = [&import[..], &["--into", "mine"]].concat();
-    sandbox.run(&again).fails(1, &["mine/patterns.toml lists wall_1.png already", "hint: --force replaces it"]);
+    sandbox.run(&again).fails(1, &["mine/patterns.toml already lists wall_1.png", "hint: choose another name"]);
     sandbox.run(&[&again[..], &["--name", "other", "--share", "0.5", "-q"]].concat()).succeeds();
 
     fs::write(sandbox.path("mine/forgotten.png"), "").unwrap();
@@ -64,7 +64,7 @@ fn what_cannot_be_imported_is_explained() {
     run(&["wall.png", "--cause", "arm", "--scale", "20", "--crop", "300,0,90,90"])
         .fails(1, &["does not fit", "hint: "]);
     run(&["wall.png", "--cause", "arm", "--form", "palm", "--scale", "20"])
-        .fails(1, &["no form \"palm\"", "leave --form"]);
+        .fails(1, &["no form \"palm\"", "leave the form out"]);
     run(&["wall.png", "--cause", "sole", "--scale", "20"]).fails(1, &["is 8 to 45 cm long", "hint: "]);
     run(&["wall.png", "--cause", "arm", "--scale", "20", "--name", "a/b"]).fails(1, &["cannot be the name", "--name"]);
     run(&["wall.png", "--cause", "arm"]).fails(2, &["--scale <PX_PER_CM>|--length-cm <L>"]);

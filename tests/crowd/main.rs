@@ -6,9 +6,14 @@
 #![allow(clippy::unwrap_used)] // a test may panic
 
 mod counter_flow;
+mod hard_plans;
 mod keeps;
 mod measures;
+mod paper;
 mod rimea;
 mod scene;
+mod social_force;
 mod speed_density;
+mod stops;
+mod walk;
 mod walls;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, ExitStatus, Output};
 
 use image::{GrayImage, Luma};
 
@@ -14,6 +14,7 @@ pub struct Sandbox {
 /// What a run left behind.
 #[derive(Debug)]
 pub struct Ran {
+    /// The exit code; 128 and the signal's number where a signal ended the program, as shells have it.
     pub code: Option<i32>,
     pub out: String,
     pub err: String,
@@ -68,7 +69,7 @@ impl Sandbox {
             String::from_utf8(bytes).unwrap().replace(&self.folder.path().display().to_string(), "[SANDBOX]")
         };
         let after = self.contents();
-        Ran { code: output.status.code(), out: clean(output.stdout), err: clean(output.stderr), before, after }
+        Ran { code: code(output.status), out: clean(output.stdout), err: clean(output.stderr), before, after }
     }
 
     pub fn contents(&self) -> BTreeMap<PathBuf, Vec<u8>> {
@@ -88,6 +89,17 @@ impl Sandbox {
         collect(self.folder.path(), &mut found);
         found
     }
+}
+
+#[cfg(unix)]
+fn code(status: ExitStatus) -> Option<i32> {
+    use std::os::unix::process::ExitStatusExt;
+    status.code().or_else(|| Some(128 + status.signal()?))
+}
+
+#[cfg(not(unix))]
+fn code(status: ExitStatus) -> Option<i32> {
+    status.code()
 }
 
 /// See [`Sandbox::plan`].
@@ -123,6 +135,7 @@ impl Ran {
 
     /// Failed with code 1; gives what it said, in whatever colours.
     #[track_caller]
+    #[allow(dead_code)] // not every test program looks at colours
     pub fn fails_in_colour(self) -> String {
         assert_eq!((self.code, self.out.as_str()), (Some(1), ""));
         self.err

@@ -7,10 +7,12 @@ use clap::builder::TypedValueParser;
 use trodden::export::Target;
 use trodden::scenario::{Overrides, Preset, Scenario, allowed_range};
 
+use super::standard_input::{self, Spool};
+
 mod motion_files;
 mod values;
 
-pub use motion_files::{MotionFiles, frame_rate, recording_format};
+pub use motion_files::{MotionFiles, STANDARD_OUTPUT, frame_rate, recording_format};
 pub use values::{number_within, one_of, within};
 
 /// Texel density of a quick bake, texels per metre.
@@ -19,7 +21,7 @@ const QUICK_TEXELS_PER_METRE: f64 = 25.0;
 /// A scenario and what of it is overridden.
 #[derive(Args)]
 pub struct ScenarioArguments {
-    /// A scenario (TOML), or a plan alone: PNG, JPEG, BMP, PGM, TIFF, GIF, or the YAML of a ROS map
+    /// A scenario (TOML), or a plan alone: PNG, JPEG, BMP, PGM, TIFF, GIF, or the YAML of a ROS map; - reads standard input
     #[arg(value_name = "SCENARIO|PLAN", required = true)]
     pub path: Option<PathBuf>,
     /// Side of a pixel of the plan in metres
@@ -43,20 +45,47 @@ pub struct ScenarioArguments {
     /// A coarse floor of 25 texels per metre: a picture in about a second
     #[arg(long, help_heading = "Scenario", conflicts_with = "texels_per_metre")]
     pub quick: bool,
+    /// The plan, where it came on standard input.
+    #[arg(skip)]
+    spool: Spool,
 }
 
 impl ScenarioArguments {
     /// The scenario with the overrides applied.
-    pub fn scenario(&self) -> Result<Scenario, trodden::Error> {
+    pub fn scenario(&self) -> anyhow::Result<Scenario> {
         self.with(&self.overrides())
     }
 
     /// The scenario with these overrides applied; without a file, that of a given motion on open ground.
-    pub fn with(&self, overrides: &Overrides) -> Result<Scenario, trodden::Error> {
-        Ok(match &self.path {
-            Some(path) => Scenario::open(path, overrides)?,
-            None => Scenario::of_motion(overrides)?,
-        })
+    pub fn with(&self, overrides: &Overrides) -> anyhow::Result<Scenario> {
+        let scenario = match &self.path {
+            Some(path) if standard_input::is_meant(path) => return self.read(overrides),
+            Some(path) => Scenario::open(path, overrides),
+            None => Scenario::of_motion(overrides),
+        };
+        Ok(scenario.map_err(trodden::Error::from)?)
+    }
+
+    /// The scenario on standard input, with paths from the working directory; or that of the plan there.
+    fn read(&self, overrides: &Overrides) -> anyhow::Result<Scenario> {
+        let bytes = standard_input::read()?;
+        let scenario = match std::str::from_utf8(&bytes) {
+            Ok(text) if image::guess_format(&bytes).is_err() => {
+                Scenario::parse(text, standard_input::shown(), overrides)
+            }
+            _ => Scenario::from_plan(&self.spool.keep(&bytes)?, overrides),
+        };
+        Ok(scenario.map_err(trodden::Error::from)?)
+    }
+
+    /// Whether standard input takes the place of the file.
+    pub fn is_standard_input(&self) -> bool {
+        self.path.as_deref().is_some_and(standard_input::is_meant)
+    }
+
+    /// An error that names the scenario's files as the user knows them.
+    pub fn explain(&self, error: trodden::Error) -> anyhow::Error {
+        self.spool.explain(error)
     }
 
     /// What of the scenario is overridden.

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory};
+use trodden::files::{WholeFile, same_file};
 use trodden::recordings::{FRAME_RATES, RecordForm, RecordingFormat};
 use trodden::show::{ANIMATION_SIZES_PX, ANIMATION_SPEEDS, AnimationColour, AnimationFormat, AnimationOptions};
-use trodden::walk::{MotionOutput, WalkOutputs, WalkReport, same_file};
+use trodden::walk::{MotionOutput, WalkOutputs, WalkReport};
 
 use super::super::{Cli, Common, print};
 use super::{number_within, one_of};
@@ -58,11 +59,27 @@ impl MotionFiles {
                 "the motion and the JSON summary cannot both go to standard output: name a file with --output",
             );
         }
-        if let (Some(animation), Some(paths)) = (&self.animation, &self.paths)
-            && same_file(animation, paths)
-        {
-            refuse(command, ErrorKind::ArgumentConflict, "--animation and --paths name the same file");
+        let output = self.output.as_ref().filter(|_| !self.prints_motion());
+        let files = [("--output", output), ("--animation", self.animation.as_ref()), ("--paths", self.paths.as_ref())];
+        for (number, (option, file)) in files.iter().enumerate() {
+            for (other_option, other) in &files[number + 1..] {
+                if let (Some(file), Some(other)) = (file, other)
+                    && same_file(file, other)
+                {
+                    let message = format!("{option} and {other_option} name the same file");
+                    refuse(command, ErrorKind::ArgumentConflict, &message);
+                }
+            }
         }
+    }
+
+    /// Makes sure that all files can be written, before the work that they are for.
+    pub fn probe(&self) -> Result<(), trodden::Error> {
+        let motion = self.output.as_ref().filter(|_| !self.prints_motion());
+        for path in [motion, self.animation.as_ref(), self.paths.as_ref()].into_iter().flatten() {
+            WholeFile::begin(path, self.force)?;
+        }
+        Ok(())
     }
 
     /// Whether the motion can be written to the file.
@@ -160,7 +177,7 @@ impl MotionFiles {
 }
 
 /// The file name that means standard output.
-const STANDARD_OUTPUT: &str = "-";
+pub const STANDARD_OUTPUT: &str = "-";
 
 fn refuse(command: &[&str], kind: ErrorKind, message: &str) {
     let mut cli = Cli::command();

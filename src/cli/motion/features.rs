@@ -1,3 +1,4 @@
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
@@ -124,6 +125,7 @@ impl Features {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
         let (files, json) = (&self.outputs.files, self.outputs.json);
         files.check(&["motion", "features"], json);
+        files.probe()?;
         let watch = Watch::new(common);
         let (summary, mut made) = self.make(&watch)?;
         made.start_s = 0.0;
@@ -132,7 +134,8 @@ impl Features {
         }
         let report = if files.any() {
             let given = Given::ensemble(made, CoordinateFrame::Map);
-            Some(self.outputs.write(&given, &watch)?)
+            let inputs: Vec<PathBuf> = self.mixing.mix.iter().chain([&self.input.file]).cloned().collect();
+            Some(self.outputs.write(&given, &inputs, &watch)?)
         } else {
             None
         };

@@ -2,12 +2,12 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use trodden::Stopwatch;
 use trodden::formation::{Assign, AvoidRequest, ExampleRequest, FormationRequest, KeyRequest, form, is_picture};
 use trodden::motion::People;
 use trodden::scenario::{Overrides, Scenario};
 use trodden::source::{Given, Ground};
 use trodden::walk::show;
+use trodden::{Error, Stopwatch};
 
 use super::super::arguments::within;
 use super::super::progress::Watch;
@@ -94,12 +94,16 @@ struct Parts {
 impl Formation {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
         self.outputs.files.check(&["motion", "formation"], self.outputs.json);
+        self.outputs.files.probe()?;
         let watch = Watch::new(common);
         let report = match &self.scenario {
             Some(path) => self.of_scenario(path, &watch)?,
             None => {
-                let formed = form(&self.request(&watch)?, Path::new(""), &watch)?;
-                self.outputs.write(&Given::formation(formed), &watch)?
+                let request = self.request(&watch)?;
+                let keys = request.key.iter().filter_map(|key| key.file.clone());
+                let inputs: Vec<PathBuf> = keys.chain(request.example.file.clone()).collect();
+                let formed = form(&request, Path::new(""), &watch)?;
+                self.outputs.write(&Given::formation(formed), &inputs, &watch)?
             }
         };
         self.outputs.files.tell(&report, self.outputs.json, common)?;
@@ -113,8 +117,9 @@ impl Formation {
         };
         let given = Given::formation(form(request, &scenario.folder, watch)?);
         if scenario.image.is_none() || self.outputs.plan.is_some() {
-            return Ok(self.outputs.write(&given, watch)?);
+            return Ok(self.outputs.write(&given, &scenario.input_files(), watch)?);
         }
+        self.outputs.outputs().check_not_inputs(&scenario.input_files()).map_err(Error::from)?;
         let ground = Ground::of_scenario(&scenario, Some(&given), &Stopwatch::start(), watch)?;
         let people = People::new(scenario.seed, scenario.bodies.clone());
         Ok(show(&given, &ground, &people, &self.outputs.outputs(), watch)?)

@@ -2,6 +2,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
+use trodden::Error;
 use trodden::motion::People;
 use trodden::recordings::Survey;
 use trodden::source::{Given, Ground};
@@ -44,6 +45,7 @@ impl Info {
             let given = Given::recording(recording.clone());
             let ground = Ground::around(&given)?;
             let outputs = WalkOutputs { paths: self.paths.clone(), force: self.force, ..WalkOutputs::default() };
+            outputs.check_not_inputs(std::slice::from_ref(&self.input.file)).map_err(Error::from)?;
             show(&given, &ground, &People::new(1, Default::default()), &outputs, &watch)?;
         }
         drop(watch);

@@ -8,13 +8,18 @@ use trodden::recordings::{LengthUnit, Recording, RecordingFormat, RecordingOptio
 use trodden::{Error, Progress};
 
 use super::super::arguments::{number_within, one_of, recording_format};
+use super::super::standard_input::{self, Spool};
 
 /// A recording and how it is read.
 #[derive(Args)]
 pub struct RecordingInput {
-    /// The motion: Juelich text, JuPedSim database, Vadere, crowd:it, Viswalk, Pathfinder, obsmat, or CSV with names
+    /// The motion: Juelich text, JuPedSim database, Vadere, crowd:it, Viswalk, Pathfinder, obsmat, or CSV with names; -
+    /// reads standard input
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
+    /// The motion, where it came on standard input.
+    #[arg(skip)]
+    spool: Spool,
     #[command(flatten)]
     pub reading: Reading,
     #[command(flatten)]
@@ -23,8 +28,13 @@ pub struct RecordingInput {
 
 impl RecordingInput {
     /// Looks through the file, and says what a user should know of it.
-    pub fn open(&self, progress: &dyn Progress) -> Result<Recording, Error> {
-        open(&self.file, &self.alignment.over(self.reading.options()), progress)
+    pub fn open(&self, progress: &dyn Progress) -> anyhow::Result<Recording> {
+        let file = match standard_input::is_meant(&self.file) {
+            true => &self.spool.fill()?,
+            false => &self.file,
+        };
+        let options = self.alignment.over(self.reading.options());
+        open(file, &options, progress).map_err(|error| self.spool.explain(error))
     }
 }
 

@@ -9,7 +9,7 @@ use trodden::source::{Given, Ground};
 use trodden::walk::{WalkOutputs, WalkReport, show};
 use trodden::{Error, Progress, Stopwatch};
 
-use super::super::arguments::MotionFiles;
+use super::super::arguments::{MotionFiles, within};
 
 /// The files that a motion is written to.
 #[derive(Args)]
@@ -24,16 +24,22 @@ pub struct Outputs {
     /// Draw over this plan (a scenario or a plan alone) instead of open ground
     #[arg(long, value_name = "SCENARIO|PLAN")]
     pub plan: Option<PathBuf>,
+    /// Side of a pixel of that plan in metres
+    #[arg(long, value_name = "M", requires = "plan", value_parser = within("plan.metres_per_pixel"))]
+    #[arg(allow_negative_numbers = true)]
+    pub metres_per_pixel: Option<f64>,
     /// Print the summary as JSON
     #[arg(long)]
     pub json: bool,
 }
 
 impl Outputs {
-    /// Writes a motion to all files that were asked for.
-    pub fn write(&self, given: &Given, progress: &dyn Progress) -> Result<WalkReport, Error> {
-        let overrides = Overrides::default();
+    /// Writes a motion to all files that were asked for. The files that it was made of, `inputs`, are never replaced.
+    pub fn write(&self, given: &Given, inputs: &[PathBuf], progress: &dyn Progress) -> Result<WalkReport, Error> {
+        let overrides = Overrides { metres_per_pixel: self.metres_per_pixel, ..Overrides::default() };
         let scenario = self.plan.as_ref().map(|plan| Scenario::open(plan, &overrides)).transpose()?;
+        let of_plan = scenario.iter().flat_map(Scenario::input_files);
+        self.outputs().check_not_inputs(&inputs.iter().cloned().chain(of_plan).collect::<Vec<_>>())?;
         let ground = match &scenario {
             Some(scenario) => Ground::of_scenario(scenario, None, &Stopwatch::start(), progress)?,
             None => Ground::around(given)?,

@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use trodden::Error;
-use trodden::files::write_whole;
+use trodden::files::files_in;
 use trodden::math::{Vec2, sin_cos, vec2};
 use trodden::show::{draw_unit, encode_picture};
 use trodden::units::{Areas, CutOptions, DiversityReport, SpotFrame, Unit, UnitCut, UnitLibrary, cut};
@@ -140,10 +140,17 @@ impl Units {
             make_folder(folder)?;
             for (file, unit) in &units {
                 let picture = encode_picture(&draw_unit(unit, &areas));
-                write_whole(&folder.join(file).with_extension("png"), &picture, self.force).map_err(Error::from)?;
+                let path = folder.join(file).with_extension("png");
+                print::save(&picture, print::begin_file(&path, self.force, &self.inputs())?)?;
             }
         }
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// The files that are read.
+    fn inputs(&self) -> Vec<PathBuf> {
+        let listed = self.list.iter().flatten().flat_map(|folder| files_in(folder));
+        listed.chain(self.file.clone()).collect()
     }
 
     /// Lists a folder, or what is built in.
@@ -171,8 +178,8 @@ impl Units {
             make_folder(folder)?;
             for (file, unit) in &files {
                 let text = unit.to_toml();
-                write_whole(&folder.join(file).with_extension("toml"), text.as_bytes(), self.force)
-                    .map_err(Error::from)?;
+                let path = folder.join(file).with_extension("toml");
+                print::save(text.as_bytes(), print::begin_file(&path, self.force, &self.inputs())?)?;
             }
         }
         Ok(files)

@@ -3,7 +3,7 @@
 use crate::stamps::WallGrid;
 use crate::walls::Corner;
 
-use super::ExportError;
+use super::{ExportError, Target};
 
 mod pack;
 
@@ -75,6 +75,14 @@ impl Atlas {
     pub fn pack(grid: &WallGrid, corners: &[Corner], sheet_px: u32, padding_px: u32) -> Result<Atlas, ExportError> {
         let sheets = pack::sheets(grid, corners, sheet_px, padding_px)?;
         Ok(Atlas { texels_per_metre: grid.texels_per_metre, height_m: grid.height_m, padding_px, sheets })
+    }
+
+    /// Checks the size of the sheets against what a target takes.
+    ///
+    /// # Errors
+    /// A sheet that is too large.
+    pub fn check(&self, target: Target) -> Result<(), ExportError> {
+        target.check_size(self.sheets.iter().map(|sheet| sheet.width.max(sheet.height)).max().unwrap_or(1))
     }
 
     /// All strips, each with the index of its sheet.

@@ -1,11 +1,14 @@
-//! Compares two bakes, or two images, texel by texel.
+//! Compares two bakes, or two images: images texel by texel, other files byte by byte.
 
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::{ExportError, Manifest};
+use super::{ExportError, Manifest, Report, settled};
 
 mod heat;
 mod rows;
@@ -55,11 +58,31 @@ pub struct ImageDiff {
     pub failed: bool,
 }
 
+impl ImageDiff {
+    /// No difference.
+    fn none(file: &str, size_px: [usize; 2]) -> ImageDiff {
+        ImageDiff {
+            file: file.to_string(),
+            size_px,
+            largest: 0.0,
+            largest_channel: String::new(),
+            largest_px: [0, 0],
+            mean: 0.0,
+            share_over: 0.0,
+            failed: false,
+        }
+    }
+}
+
 /// How two bakes, or two images, differ.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
-    /// File by file.
+    /// Images, file by file.
     pub images: Vec<ImageDiff>,
+    /// Other files of both bakes that differ by any byte, and images of different size or channels.
+    pub different: Vec<String>,
+    /// Files that a manifest lists and that neither bake has.
+    pub missing: Vec<String>,
     /// Files that only the first bake has.
     pub only_in_a: Vec<String>,
     /// Files that only the second bake has.
@@ -72,8 +95,8 @@ pub struct Comparison {
 impl Comparison {
     /// Whether they differ by more than the thresholds allow.
     pub fn failed(&self) -> bool {
-        let missing = !self.only_in_a.is_empty() || !self.only_in_b.is_empty();
-        missing || self.images.iter().any(|image| image.failed)
+        let lists = [&self.different, &self.missing, &self.only_in_a, &self.only_in_b];
+        lists.iter().any(|list| !list.is_empty()) || self.images.iter().any(|image| image.failed)
     }
 
     /// Largest difference of a channel in any file.
@@ -84,17 +107,24 @@ impl Comparison {
 
 /// Compares two bakes (folders) or two images (PNG of 8 or 16 bit, EXR).
 ///
-/// Of bakes, all textures and sums are compared; `preview/` is not, as it shows the same again.
+/// Of bakes, all files are compared that a manifest lists or that are there; only `report.json` may differ.
 ///
 /// # Errors
-/// Something that cannot be read, images of different size or channels, a folder that is no bake.
+/// A file that cannot be read; two images of different size or channels; a folder that is no bake.
 pub fn diff(a: &Path, b: &Path, options: &DiffOptions) -> Result<Comparison, ExportError> {
     match (a.is_dir(), b.is_dir()) {
         (false, false) => {
             let (image, heat_map) = diff_images(a, b, options)?;
-            Ok(Comparison { images: vec![image], only_in_a: Vec::new(), only_in_b: Vec::new(), heat_map })
+            Ok(Comparison {
+                images: vec![image],
+                different: Vec::new(),
+                missing: Vec::new(),
+                only_in_a: Vec::new(),
+                only_in_b: Vec::new(),
+                heat_map,
+            })
         }
-        (true, true) => diff_bakes(a, b, options),
+        (true, true) => settled(&[a, b], || diff_bakes(a, b, options)),
         (true, false) => Err(not_alike(a, b)),
         (false, true) => Err(not_alike(b, a)),
     }
@@ -105,52 +135,118 @@ fn not_alike(bake: &Path, image: &Path) -> ExportError {
 }
 
 fn diff_bakes(a: &Path, b: &Path, options: &DiffOptions) -> Result<Comparison, ExportError> {
-    let (manifest_a, manifest_b) = (Manifest::read(a)?, Manifest::read(b)?);
-    let (files_a, files_b) = (compared_files(&manifest_a), compared_files(&manifest_b));
-    let without = |these: &[String], those: &[String]| -> Vec<String> {
-        these.iter().filter(|file| !those.contains(file)).cloned().collect()
-    };
-    let both: Vec<&String> = files_a.iter().filter(|file| files_b.contains(file)).collect();
-    let diffs: Vec<(ImageDiff, HeatMap)> = both
+    let manifests = [Manifest::read(a)?, Manifest::read(b)?];
+    let (files_a, files_b) = (files_in(a)?, files_in(b)?);
+    let listed = manifests.iter().flat_map(|manifest| &manifest.files).map(ToString::to_string);
+    let missing: BTreeSet<String> = listed.filter(|file| !files_a.contains(file) && !files_b.contains(file)).collect();
+    let both: Vec<&String> = files_a.intersection(&files_b).filter(|file| *file != Report::FILE_NAME).collect();
+    let found: Vec<Found> = both
         .par_iter()
         .with_max_len(1)
-        .map(|&file| {
-            let (mut image, heat) = diff_images(&a.join(file), &b.join(file), options)?;
-            image.file = file.clone();
-            Ok((image, heat))
-        })
+        .map(|&file| diff_files(a, b, file, options))
         .collect::<Result<_, ExportError>>()?;
-    let heat_map = floor_heat(&manifest_a, &diffs);
+    let (mut diffs, mut different) = (Vec::new(), Vec::new());
+    for (found, file) in found.into_iter().zip(both) {
+        match found {
+            Found::Image(image, heat) => diffs.push((*image, heat)),
+            Found::Same => {}
+            Found::Different => different.push(file.clone()),
+        }
+    }
+    let heat_map = floor_heat(&manifests[0], &diffs);
     Ok(Comparison {
         images: diffs.into_iter().map(|(image, _)| image).collect(),
-        only_in_a: without(&files_a, &files_b),
-        only_in_b: without(&files_b, &files_a),
+        different,
+        missing: missing.into_iter().collect(),
+        only_in_a: files_a.difference(&files_b).cloned().collect(),
+        only_in_b: files_b.difference(&files_a).cloned().collect(),
         heat_map,
     })
 }
 
-fn compared_files(manifest: &Manifest) -> Vec<String> {
-    let image = |file: &&String| file.ends_with(".png") || file.ends_with(".exr");
-    manifest.files.iter().filter(image).filter(|file| !file.starts_with("preview/")).cloned().collect()
+/// What comparing a file of two bakes gave.
+enum Found {
+    Image(Box<ImageDiff>, Option<HeatMap>),
+    Same,
+    Different,
+}
+
+/// Compares a file that both bakes have.
+fn diff_files(a: &Path, b: &Path, file: &str, options: &DiffOptions) -> Result<Found, ExportError> {
+    let (path_a, path_b) = (a.join(file), b.join(file));
+    let same = same_bytes(&path_a, &path_b)?;
+    if !(file.ends_with(".png") || file.ends_with(".exr")) {
+        return Ok(if same { Found::Same } else { Found::Different });
+    }
+    if same {
+        let size_px = ImageRows::open(&path_a).map_or([0; 2], |image| [image.width, image.height]);
+        return Ok(Found::Image(Box::new(ImageDiff::none(file, size_px)), None));
+    }
+    match diff_images(&path_a, &path_b, options) {
+        Ok((image, heat)) => Ok(Found::Image(Box::new(ImageDiff { file: file.to_string(), ..image }), Some(heat))),
+        Err(ExportError::SizesDiffer { .. } | ExportError::ChannelsDiffer { .. }) => Ok(Found::Different),
+        Err(error) => Err(error),
+    }
+}
+
+/// All files below a folder, by their paths in it, with `/` between the parts.
+fn files_in(folder: &Path) -> Result<BTreeSet<String>, ExportError> {
+    let mut files = BTreeSet::new();
+    let mut open = vec![(folder.to_path_buf(), String::new())];
+    while let Some((at, prefix)) = open.pop() {
+        for entry in std::fs::read_dir(&at).map_err(ExportError::read(&at))? {
+            let entry = entry.map_err(ExportError::read(&at))?;
+            let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
+            // Links to folders are not followed: they may lead back.
+            match entry.file_type().map_err(ExportError::read(&at))?.is_dir() {
+                true => open.push((entry.path(), format!("{name}/"))),
+                false => drop(files.insert(name)),
+            }
+        }
+    }
+    Ok(files)
+}
+
+/// Whether two files hold the same bytes.
+fn same_bytes(a: &Path, b: &Path) -> Result<bool, ExportError> {
+    let open = |path: &Path| File::open(path).map_err(ExportError::read(path));
+    let (mut file_a, mut file_b) = (open(a)?, open(b)?);
+    let length = |file: &File, path: &Path| file.metadata().map_err(ExportError::read(path)).map(|about| about.len());
+    if length(&file_a, a)? != length(&file_b, b)? {
+        return Ok(false);
+    }
+    let (mut bytes_a, mut bytes_b) = (Vec::new(), Vec::new());
+    loop {
+        for (file, path, bytes) in [(&mut file_a, a, &mut bytes_a), (&mut file_b, b, &mut bytes_b)] {
+            bytes.clear();
+            file.take(1 << 16).read_to_end(bytes).map_err(ExportError::read(path))?;
+        }
+        if bytes_a != bytes_b || bytes_a.is_empty() {
+            return Ok(bytes_a == bytes_b);
+        }
+    }
 }
 
 /// The heat of all files, each laid over the piece of floor that it shows.
-fn floor_heat(manifest: &Manifest, diffs: &[(ImageDiff, HeatMap)]) -> HeatMap {
+fn floor_heat(manifest: &Manifest, diffs: &[(ImageDiff, Option<HeatMap>)]) -> HeatMap {
     let floor = &manifest.floor;
     let (columns, rows) =
         floor.tiles.iter().fold((1, 1), |(columns, rows), tile| (columns.max(tile.u + 1), rows.max(tile.v + 1)));
     let [tile_width, tile_height] = floor.tile_px.map(|px| px as usize);
     let size = [columns as usize * tile_width, rows as usize * tile_height];
     let mut heat = HeatMap::new(size[0].max(1), size[1].max(1));
-    for (image, part) in diffs {
+    // Pictures show the same floor again, from elsewhere.
+    let of_floor = diffs.iter().filter(|(image, _)| !image.file.starts_with("preview/"));
+    for (image, part) in of_floor.filter_map(|(image, part)| Some((image, part.as_ref()?))) {
         let names = |tile: &&super::TileEntry| {
-            let files = [&tile.basecolor, &tile.mask, &tile.orm, &tile.sums];
-            files.into_iter().chain(&tile.layers).chain(&tile.mask_map).any(|file| *file == image.file)
+            let files = [&tile.basecolor, &tile.mask, &tile.passes, &tile.orm];
+            let mut files = files.into_iter().chain(&tile.layers).chain(&tile.mask_map);
+            *tile.sums == *image.file || files.any(|file| *file == image.file)
         };
         if let Some(tile) = floor.tiles.iter().find(names) {
             let top = (rows - 1 - tile.v) as usize * tile_height;
             heat.lay(part, [tile.u as usize * tile_width, top], [tile_width, tile_height]);
-        } else if image.file == floor.sums.presence.file {
+        } else if *image.file == *floor.sums.presence.file {
             // Presence covers the floor alone, not what fills up the tiles.
             let grid = [floor.width_px as usize, floor.height_px as usize];
             heat.lay(part, [0, size[1].saturating_sub(grid[1])], grid);

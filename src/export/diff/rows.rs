@@ -9,6 +9,12 @@ use exr::block::{BlockIndex, UncompressedBlock};
 use exr::prelude::{SampleType, f16};
 
 use crate::export::ExportError;
+use crate::files::open_input;
+
+/// Greatest width and height of an image that is compared, pixels.
+const LARGEST_SIDE_PX: usize = 1 << 18;
+/// Most channels of an image that is compared.
+const MOST_CHANNELS: usize = 1024;
 
 /// An image whose rows come from above.
 pub(super) struct ImageRows {
@@ -36,6 +42,18 @@ impl ImageRows {
         }
     }
 
+    /// Checks what an image's header claims, before memory is taken for it.
+    fn check_size(path: &Path, width: usize, height: usize, channels: usize) -> Result<(), ExportError> {
+        if width <= LARGEST_SIDE_PX && height <= LARGEST_SIDE_PX && channels <= MOST_CHANNELS {
+            return Ok(());
+        }
+        let problem = format!(
+            "it claims {width} x {height} px with {channels} channels; at most {LARGEST_SIDE_PX} px a side and \
+             {MOST_CHANNELS} channels are compared"
+        );
+        Err(ExportError::damaged(path, problem))
+    }
+
     /// Fills `row` with the next row's values, all channels of a pixel together: 0 to 1 in PNG, as they are in EXR.
     pub(super) fn next_row(&mut self, row: &mut Vec<f64>) -> Result<(), ExportError> {
         row.clear();
@@ -47,7 +65,7 @@ impl ImageRows {
 }
 
 fn buffered(path: &Path) -> Result<BufReader<File>, ExportError> {
-    Ok(BufReader::with_capacity(1 << 16, File::open(path).map_err(ExportError::read(path))?))
+    Ok(BufReader::with_capacity(1 << 16, open_input(path).map_err(ExportError::read(path))?))
 }
 
 fn open_png(path: &Path) -> Result<ImageRows, ExportError> {
@@ -58,6 +76,8 @@ fn open_png(path: &Path) -> Result<ImageRows, ExportError> {
     if reader.info().interlaced {
         return Err(ExportError::damaged(path, "it is interlaced, which is not supported"));
     }
+    let (width, height) = (reader.info().width as usize, reader.info().height as usize);
+    ImageRows::check_size(path, width, height, 4)?;
     let channels = match reader.output_color_type().0 {
         png::ColorType::Grayscale => "Y",
         png::ColorType::GrayscaleAlpha => "YA",
@@ -66,8 +86,8 @@ fn open_png(path: &Path) -> Result<ImageRows, ExportError> {
     };
     Ok(ImageRows {
         path: path.to_path_buf(),
-        width: reader.info().width as usize,
-        height: reader.info().height as usize,
+        width,
+        height,
         channels: channels.chars().map(String::from).collect(),
         source: Source::Png(Box::new(reader)),
     })
@@ -107,6 +127,7 @@ fn open_exr(path: &Path) -> Result<ImageRows, ExportError> {
         return Err(ExportError::damaged(path, "it is deep or subsampled, which is not supported"));
     }
     let (width, height) = (header.layer_size.0, header.layer_size.1);
+    ImageRows::check_size(path, width, height, header.channels.list.len())?;
     let samples = header.channels.list.iter().map(|channel| channel.sample_type).collect();
     let channels = header.channels.list.iter().map(|channel| channel.name.to_string()).collect();
     let chunks = reader.all_chunks(false).map_err(damaged(path))?;
@@ -151,6 +172,9 @@ impl ExrRows {
             if right == 0 {
                 self.band_height = pixel_size.1.min(self.height - self.band_top);
                 self.band.resize(self.band_height * self.width * self.samples.len(), 0.0);
+            }
+            if right + pixel_size.0 > self.width {
+                return Err(ExportError::damaged(path, "its blocks reach beyond its width"));
             }
             if pixel_size.1 != self.band_height {
                 return Err(ExportError::damaged(path, "its blocks are not of one height"));

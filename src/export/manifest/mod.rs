@@ -3,21 +3,31 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::camera::StillEntry;
+use super::layout::TileLayout;
 use super::targets::{TargetEntry, WorldEntry};
 use super::{ExportError, TextureOptions};
+use crate::files::read_input;
 use crate::look::Look;
 use crate::math::Vec2;
 use crate::plan::{FloorPlan, Opening, Pose};
 use crate::routes::Route;
-use crate::walls::{Doorway, Outline, Walls};
+use crate::walls::{Doorway, Outline, Walls, WallsError};
 
+mod bake_path;
+mod check;
 mod one_or_many;
 mod walls;
 
+pub use bake_path::{BakePath, NotInside};
+pub use check::{CROP_M, ManifestError};
 pub use walls::{SheetEntry, StripEntry, WallsEntry};
 
 /// The manifest's name in a bake.
 pub const FILE_NAME: &str = "manifest.json";
+/// The floor from above.
+const FLOOR_PICTURE: &str = "preview/floor.png";
+/// Largest manifest that is read, bytes.
+const LARGEST_BYTES: u64 = 512 << 20;
 /// What `generator` says in every manifest of ours: by this a bake is recognised.
 pub const GENERATOR: &str = "trodden";
 /// The version of the manifest's structure. It grows when an older program could not read the new structure.
@@ -68,7 +78,7 @@ pub struct Manifest {
     /// Closed loops around the floor, floor on the right, from which walls are rebuilt.
     pub outlines: Vec<Outline>,
     /// Every file of the bake, relative to it, in alphabetical order. Filled in when the bake is published.
-    pub files: Vec<String>,
+    pub files: Vec<BakePath>,
 }
 
 /// The plan image.
@@ -150,8 +160,11 @@ pub struct TileEntry {
     pub world: Option<WorldEntry>,
     /// Base colour, 8 bit sRGB.
     pub basecolor: String,
-    /// Packed masks, 8 bit linear.
+    /// Packed masks, 8 bit linear: film, prints and scuffs, edge.
     pub mask: String,
+    /// The mask of passes, 8 bit linear, grey. Empty in bakes of before the mask had three channels.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub passes: String,
     /// Occlusion, roughness, metallic, 8 bit linear.
     pub orm: String,
     /// The same as Unity's mask map, for that target: metallic, occlusion, detail, smoothness.
@@ -161,7 +174,7 @@ pub struct TileEntry {
     #[serde(default, skip_serializing_if = "Vec::is_empty", with = "one_or_many")]
     pub layers: Vec<String>,
     /// Exact sums.
-    pub sums: String,
+    pub sums: BakePath,
 }
 
 /// How the sums are to be read.
@@ -177,7 +190,7 @@ pub struct SumsEntry {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PresenceEntry {
     /// The file.
-    pub file: String,
+    pub file: BakePath,
     /// Cells per metre.
     pub texels_per_metre: f64,
     /// Columns.
@@ -219,7 +232,8 @@ impl Manifest {
 
     /// The doors of the bake; an earlier version's are found in its walls.
     pub fn doorways(&self) -> Vec<Doorway> {
-        self.doors.clone().unwrap_or_else(|| self.walls().doorways())
+        let found = || self.walls().map_or_else(|_| Vec::new(), |walls| walls.doorways());
+        self.doors.clone().unwrap_or_else(found)
     }
 
     /// For how many people the touches of walls stand.
@@ -228,7 +242,10 @@ impl Manifest {
     }
 
     /// The walls of the bake, rebuilt.
-    pub fn walls(&self) -> Walls {
+    ///
+    /// # Errors
+    /// Outlines that are none; never of a manifest that was read.
+    pub fn walls(&self) -> Result<Walls, WallsError> {
         Walls::from_outlines(self.outlines.clone())
     }
 
@@ -245,9 +262,12 @@ impl Manifest {
     pub fn texture_options(&self) -> TextureOptions {
         // A tile smaller than the setting is a floor smaller than a tile: its power of two is found again.
         let [width, height] = self.floor.tile_px;
+        let written = self.floor.tiles.iter().any(|tile| !tile.layers.is_empty());
+        // What is usual for the target was left to it, and is left to another one as well.
+        let unusual = (written != self.target.name.wants_layers()).then_some(written);
         TextureOptions {
-            tile: width.max(height),
-            layers: self.floor.tiles.iter().any(|tile| !tile.layers.is_empty()),
+            tile: width.max(height).max(TileLayout::MIN_TILE),
+            layers: self.settings["texture"]["layers"].as_bool().or(unusual),
             target: self.target.name,
             embed: self.settings["texture"]["embed"].as_bool().unwrap_or_default(),
             ..TextureOptions::default()
@@ -264,10 +284,11 @@ impl Manifest {
     /// Reads the manifest of a bake.
     ///
     /// # Errors
-    /// There is none, it is not ours, it is damaged, or a later version wrote it.
+    /// There is none, it is not ours, it is damaged, a value is out of its range or does not fit the others, or a later
+    /// version wrote it.
     pub fn read(bake: &Path) -> Result<Manifest, ExportError> {
         let path = bake.join(FILE_NAME);
-        let json = std::fs::read(&path).map_err(ExportError::read(&path))?;
+        let json = read_input(&path, LARGEST_BYTES).map_err(ExportError::read(&path))?;
         let head: Head = serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))?;
         if head.generator != GENERATOR {
             return Err(ExportError::NotABake { path: bake.to_path_buf(), found: FILE_NAME.to_string() });
@@ -275,7 +296,9 @@ impl Manifest {
         if head.format > FORMAT {
             return Err(ExportError::NewerFormat { path, found: head.format, known: FORMAT });
         }
-        serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))
+        let manifest: Manifest = serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))?;
+        manifest.check().map_err(|wrong| ExportError::damaged(&path, wrong))?;
+        Ok(manifest)
     }
 }
 
@@ -286,18 +309,74 @@ struct Head {
     format: u32,
 }
 
-/// Who wrote the manifest in a folder.
+/// The files that the manifest in a folder lists, whatever version of this program wrote it.
+///
+/// # Errors
+/// There is no manifest, it is not ours, or a path in it leads out of the folder.
+pub(super) fn listed_files(folder: &Path) -> Result<Vec<BakePath>, ExportError> {
+    #[derive(Deserialize)]
+    struct List {
+        generator: String,
+        files: Vec<BakePath>,
+    }
+    let path = folder.join(FILE_NAME);
+    let json = read_input(&path, LARGEST_BYTES).map_err(ExportError::read(&path))?;
+    let list: List = serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))?;
+    if list.generator != GENERATOR {
+        return Err(ExportError::NotABake { path: folder.to_path_buf(), found: FILE_NAME.to_string() });
+    }
+    Ok(list.files)
+}
+
+/// The program that wrote the manifest in a folder.
 pub(super) fn generator(folder: &Path) -> Result<String, ExportError> {
     let path = folder.join(FILE_NAME);
-    let json = std::fs::read(&path).map_err(ExportError::read(&path))?;
-    let head: Head = serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))?;
+    let json = read_input(&path, LARGEST_BYTES).map_err(ExportError::read(&path))?;
+    let head: Generator = serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))?;
     Ok(head.generator)
+}
+
+#[derive(Deserialize)]
+struct Generator {
+    generator: String,
+}
+
+#[cfg(test)]
+impl Manifest {
+    /// The manifest of a bake of nothing, on a plan of this size at a texel a metre.
+    pub(in crate::export) fn blank([width_m, height_m]: [f64; 2]) -> Manifest {
+        let grid = crate::stamps::TexelGrid::covering(width_m, height_m, 1.0).expect("the plan is small");
+        let layout = TileLayout::new(grid, TileLayout::MIN_TILE).expect("the tile size is in range");
+        let presence = grid.presence_grid();
+        let presence = PresenceEntry {
+            texels_per_metre: presence.texels_per_metre,
+            width_px: presence.width,
+            height_px: presence.height,
+            ..PresenceEntry::default()
+        };
+        Manifest {
+            generator: GENERATOR.to_string(),
+            format: FORMAT,
+            plan: PlanEntry { width_m, height_m, metres_per_pixel: 0.1, ..PlanEntry::default() },
+            floor: FloorEntry {
+                texels_per_metre: 1.0,
+                width_px: grid.width,
+                height_px: grid.height,
+                tile_px: [layout.width, layout.height],
+                naming: layout.naming(),
+                sums: SumsEntry { presence, ..SumsEntry::default() },
+                ..FloorEntry::default()
+            },
+            ..Manifest::default()
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::export::Target;
+    use crate::export::targets::Covered;
     use crate::math::vec2;
     use crate::plan::Side;
     use crate::routes::{Gate, Place};
@@ -325,7 +404,25 @@ mod tests {
             look: serde_json::json!({ "total_passes": 20_000 }),
             floor: FloorEntry {
                 texels_per_metre: 100.0,
-                channels: Target::Gltf.channels("floor", ["film"; 4], &["passes", "dust"], |_| "optical density D"),
+                width_px: 400,
+                height_px: 200,
+                tile_px: [512, 256],
+                sums: SumsEntry {
+                    presence: PresenceEntry {
+                        texels_per_metre: 25.0,
+                        width_px: 100,
+                        height_px: 50,
+                        ..PresenceEntry::default()
+                    },
+                    ..SumsEntry::default()
+                },
+                channels: Target::Gltf.channels(
+                    Covered::Floor,
+                    "floor",
+                    ["film"; 4],
+                    &["passes", "dust"],
+                    |_| "optical density D",
+                ),
                 ..FloorEntry::default()
             },
             ..Manifest::of_plan(&plan, &walls, &[route])
@@ -344,13 +441,14 @@ mod tests {
         let manifest = manifest();
         assert!(manifest.openings.iter().any(|opening| opening.side == Side::West));
         assert_eq!(written(&manifest.to_json()).1.unwrap(), manifest);
-        assert_eq!(manifest.walls().faces, Walls::from_outlines(manifest.outlines.clone()).faces);
+        assert_eq!(manifest.walls().unwrap().faces, Walls::from_outlines(manifest.outlines.clone()).unwrap().faces);
     }
 
     #[test]
     fn a_manifest_of_before_there_were_walls_and_targets_still_reads() {
         let mut manifest = manifest();
-        let tile = TileEntry { layers: vec!["floor/floor_layers.1001.exr".to_string()], ..TileEntry::default() };
+        let layers = vec!["floor/floor_layers.1001.exr".to_string()];
+        let tile = TileEntry { max_m: vec2(5.12, 2.56), layers, ..TileEntry::default() };
         manifest.floor.tiles = vec![tile];
         let mut json: serde_json::Value = serde_json::from_slice(&manifest.to_json()).unwrap();
         assert_eq!(json["floor"]["tiles"][0]["layers"], "floor/floor_layers.1001.exr", "as it was written then");
@@ -358,7 +456,7 @@ mod tests {
         let read = written(json.to_string().as_bytes()).1.unwrap();
         assert_eq!(read, manifest);
         assert_eq!((read.target.name, read.walls.is_none()), (Target::Gltf, true));
-        assert!(read.texture_options().layers);
+        assert!(read.texture_options().writes_layers());
     }
 
     #[test]

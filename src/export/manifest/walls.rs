@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::{ChannelEntry, Naming};
+use super::{BakePath, ChannelEntry, Naming};
 use crate::export::atlas::{Atlas, Sheet, Strip};
 use crate::math::Vec2;
 
@@ -39,8 +39,11 @@ pub struct SheetEntry {
     pub height_px: u32,
     /// Base colour, 8 bit sRGB.
     pub basecolor: String,
-    /// Packed masks, 8 bit linear.
+    /// Packed masks, 8 bit linear: skin, rub, scuff.
     pub mask: String,
+    /// The mask of splashes, 8 bit linear, grey. Empty in bakes of before the mask had three channels.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub splash: String,
     /// Occlusion, roughness, metallic, 8 bit linear.
     pub orm: String,
     /// The same as Unity's mask map, for that target: metallic, occlusion, detail, smoothness.
@@ -50,7 +53,7 @@ pub struct SheetEntry {
     #[serde(default, skip_serializing_if = "Vec::is_empty", with = "super::one_or_many")]
     pub layers: Vec<String>,
     /// Exact sums.
-    pub sums: String,
+    pub sums: BakePath,
     /// What it shows.
     pub strips: Vec<StripEntry>,
 }

@@ -8,7 +8,7 @@ fn place() -> (tempfile::TempDir, PathBuf) {
 }
 
 fn manifest() -> Manifest {
-    Manifest { generator: manifest::GENERATOR.to_string(), format: manifest::FORMAT, ..Manifest::default() }
+    Manifest::blank([10.0, 10.0])
 }
 
 /// Publishes a bake with one file of this content.
@@ -176,7 +176,7 @@ fn a_run_killed_before_the_old_bake_was_removed_is_finished() {
 fn leftovers_of_a_killed_run_are_cleaned_up() {
     let (dir, out) = place();
     let new = dir.path().join(".out.new");
-    for files in [&[][..], &[LOCK][..], &[LOCK, "half.png"][..]] {
+    for files in [&[][..], &[UNFINISHED][..], &[UNFINISHED, "half.png"][..]] {
         fs::create_dir(&new).unwrap();
         for file in files {
             fs::write(new.join(file), "").unwrap();
@@ -219,9 +219,9 @@ fn kept_files_are_those_of_the_earlier_bake() {
     let (_dir, out) = place();
     bake(&out, "1", false);
     let folder = OutputFolder::begin(&out, true).unwrap();
-    folder.keep("floor/a.txt").unwrap();
+    folder.keep(&BakePath::new("floor/a.txt").unwrap()).unwrap();
     assert!(folder.create("floor/a.txt").is_err(), "it would change the earlier bake");
-    assert!(matches!(folder.keep("floor/b.txt"), Err(ExportError::Read { .. })));
+    assert!(matches!(folder.keep(&BakePath::new("floor/b.txt").unwrap()), Err(ExportError::Read { .. })));
     folder.publish(&manifest()).unwrap();
     assert_eq!(content(&out), "1");
 }
@@ -248,4 +248,136 @@ fn a_full_disk_is_an_error_that_names_the_file() {
     let error = file.close().unwrap_err();
     assert!(error.to_string().contains("out/floor/floor_mask.1001.png"), "{error}");
     assert!(error.hint().unwrap().contains("full"), "{:?}", error.hint());
+}
+
+#[test]
+fn files_of_the_user_stay_and_those_of_the_earlier_bake_go() {
+    let (dir, out) = place();
+    bake(&out, "1", false);
+    fs::write(out.join("floor/b.txt"), "of an earlier bake").unwrap();
+    let mut earlier = Manifest::read(&out).unwrap();
+    earlier.files.push(BakePath::new("floor/b.txt").unwrap());
+    fs::write(out.join("manifest.json"), earlier.to_json()).unwrap();
+    for (name, text) in
+        [("floor/mine.txt", "a"), ("notes/deep/b.md", "b"), (".DS_Store", "c"), ("floor/a.txt.import", "d")]
+    {
+        fs::create_dir_all(out.join(name).parent().unwrap()).unwrap();
+        fs::write(out.join(name), text).unwrap();
+    }
+    fs::create_dir(out.join("empty")).unwrap();
+    bake(&out, "2", true);
+    assert_eq!(content(&out), "2");
+    assert_eq!(names(dir.path()), ["out"]);
+    assert_eq!(names(&out), [".DS_Store", "empty", "floor", "manifest.json", "notes"]);
+    assert_eq!(names(&out.join("floor")), ["a.txt", "a.txt.import", "mine.txt"]);
+    assert_eq!(fs::read_to_string(out.join("notes/deep/b.md")).unwrap(), "b");
+    // The manifest lists what the bake made, and nothing else.
+    assert_eq!(Manifest::read(&out).unwrap().files, ["floor/a.txt", "manifest.json"]);
+}
+
+#[test]
+fn a_file_of_the_user_is_never_replaced() {
+    let (dir, out) = place();
+    bake(&out, "1", false);
+    fs::write(out.join("floor/b.txt"), "mine").unwrap();
+    let folder = OutputFolder::begin(&out, true).unwrap();
+    assert!(matches!(folder.check_free(&["floor/b.txt"]), Err(ExportError::UserFile { .. })));
+    assert!(matches!(folder.create("floor/b.txt/c"), Err(ExportError::UserFile { .. })));
+    folder.write("floor/c.txt", b"2").unwrap();
+    folder.write("d", b"2").unwrap();
+    // Put there while the bake is at work.
+    fs::create_dir(out.join("d")).unwrap();
+    fs::write(out.join("floor/c.txt"), "mine too").unwrap();
+    let error = folder.publish(&manifest()).unwrap_err();
+    assert!(error.to_string().contains("no bake has made"), "{error}");
+    assert_eq!(names(dir.path()), ["out"]);
+    assert_eq!(names(&out.join("floor")), ["a.txt", "b.txt", "c.txt"]);
+    assert_eq!(fs::read_to_string(out.join("floor/c.txt")).unwrap(), "mine too");
+}
+
+#[test]
+fn a_manifest_that_leads_out_of_the_folder_is_refused() {
+    let (dir, out) = place();
+    bake(&out, "1", false);
+    let text = fs::read_to_string(out.join("manifest.json")).unwrap().replace("floor/a.txt", "../victim.txt");
+    fs::write(out.join("manifest.json"), text).unwrap();
+    fs::write(dir.path().join("victim.txt"), "v").unwrap();
+    let error = OutputFolder::begin(&out, true).unwrap_err();
+    assert!(error.to_string().contains("../victim.txt"), "{error}");
+    assert_eq!(names(dir.path()), ["out", "victim.txt"]);
+    assert!(matches!(
+        OutputFolder::begin(&dir.path().join("other"), false).unwrap().create("../x"),
+        Err(ExportError::NotInside(_))
+    ));
+}
+
+#[test]
+#[cfg(unix)]
+fn links_of_the_user_stay_and_are_not_followed() {
+    let (dir, out) = place();
+    bake(&out, "1", false);
+    let elsewhere = dir.path().join("elsewhere");
+    fs::create_dir(&elsewhere).unwrap();
+    fs::write(elsewhere.join("a.txt"), "mine").unwrap();
+    std::os::unix::fs::symlink("../elsewhere", out.join("link")).unwrap();
+    std::os::unix::fs::symlink("nowhere", out.join("floor/dangling")).unwrap();
+    bake(&out, "2", true);
+    assert_eq!(fs::read_to_string(out.join("link/a.txt")).unwrap(), "mine");
+    assert_eq!(fs::read_link(out.join("floor/dangling")).unwrap(), Path::new("nowhere"));
+    // A folder of the bake that was moved elsewhere, with a link in its place.
+    fs::rename(out.join("floor"), dir.path().join("floor")).unwrap();
+    std::os::unix::fs::symlink("../floor", out.join("floor")).unwrap();
+    let folder = OutputFolder::begin(&out, true).unwrap();
+    assert!(matches!(folder.create("floor/a.txt"), Err(ExportError::UserFile { .. })));
+    let error = folder.keep(&BakePath::new("floor/a.txt").unwrap()).unwrap_err();
+    assert!(error.to_string().contains("leads out of the bake"), "{error}");
+    drop(folder);
+    assert_eq!(fs::read_to_string(dir.path().join("floor/a.txt")).unwrap(), "2");
+}
+
+#[test]
+fn where_folders_cannot_be_exchanged_they_are_renamed() {
+    let (dir, out) = place();
+    bake(&out, "1", false);
+    bake(&dir.path().join(".out.new"), "2", false);
+    let places = Places::of(&out).unwrap();
+    assert_eq!(places.rename_twice().unwrap().unwrap(), places.old);
+    assert_eq!(content(&out), "2");
+    assert_eq!(content(&places.old), "1");
+    assert!(!restore(&out).unwrap());
+    assert_eq!(names(dir.path()), ["out"]);
+    // An empty folder, but for what the system puts into it.
+    let empty = dir.path().join("empty");
+    for folder in [&empty, &dir.path().join(".empty.new")] {
+        fs::create_dir(folder).unwrap();
+        fs::write(folder.join(".DS_Store"), "x").unwrap();
+    }
+    assert!(Places::of(&empty).unwrap().rename_twice().unwrap().is_none());
+    assert_eq!(names(dir.path()), ["empty", "out"]);
+}
+
+#[test]
+fn readers_see_one_bake_while_others_replace_it() {
+    let (_dir, out) = place();
+    bake(&out, "1", false);
+    let stop = std::sync::atomic::AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            for number in 2..60 {
+                let folder = OutputFolder::begin(&out, true).unwrap();
+                folder.write("floor/a.txt", number.to_string().as_bytes()).unwrap();
+                folder.publish(&Manifest { people: number, ..manifest() }).unwrap();
+            }
+            stop.store(true, std::sync::atomic::Ordering::SeqCst);
+        });
+        while !stop.load(std::sync::atomic::Ordering::SeqCst) {
+            let read = || -> Result<(u32, String), ExportError> {
+                let manifest = Manifest::read(&out)?;
+                let path = manifest.files[0].within(&out)?;
+                Ok((manifest.people, fs::read_to_string(&path).map_err(ExportError::read(&path))?))
+            };
+            let (people, text) = settled(&[&out], read).unwrap();
+            assert!(text == people.to_string() || (people, text.as_str()) == (0, "1"), "{people} {text}");
+        }
+    });
 }

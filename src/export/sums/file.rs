@@ -1,18 +1,21 @@
 //! One file of sums: an EXR image of whole numbers in blocks, of which only those cost anything that somebody touched.
 
-use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
 use exr::block::UncompressedBlock;
 use exr::block::chunk::{Chunk, CompressedBlock};
-use exr::meta::MetaData;
+use exr::math::RoundingMode;
+use exr::meta::attribute::LevelMode;
+use exr::meta::{BlockDescription, MetaData};
+use exr::prelude::{TileDescription, Vec2};
 use rayon::prelude::*;
 
 use crate::export::band::Pool;
 use crate::export::exr_tiles::{ExrWriter, Samples, TileEncoder, zero_tile};
 use crate::export::layout::BLOCK;
 use crate::export::{ExportError, OutputFile};
+use crate::files::open_input;
 use crate::progress::Progress;
 
 /// What an image of sums shows. Places are columns and rows counted from the image's lower left.
@@ -101,7 +104,7 @@ pub(super) fn read_image(
         exr::error::Error::Io(source) => ExportError::Read { path: path.to_path_buf(), source },
         other => ExportError::damaged(path, other),
     };
-    let file = File::open(path).map_err(ExportError::read(path))?;
+    let file = open_input(path).map_err(ExportError::read(path))?;
     let reader = exr::block::read(BufReader::with_capacity(1 << 16, file), false).map_err(damaged)?;
     check_header(path, reader.headers(), size, channels)?;
     let mut chunks = reader.all_chunks(false).map_err(damaged)?;
@@ -121,8 +124,9 @@ pub(super) fn read_image(
             .collect::<Result<_, _>>()
             .map_err(damaged)?;
         for read in blocks.into_iter().flatten() {
-            let (at, expected) = block(size, read.left, read.top);
-            if expected != read.size {
+            let usual = read.left < size[0] as usize && read.top < size[1] as usize;
+            let (at, expected) = if usual { block(size, read.left, read.top) } else { ([0; 2], [0; 2]) };
+            if !usual || expected != read.size {
                 return Err(ExportError::damaged(path, "its tiles are not of the usual size"));
             }
             for (channel, values) in read.channels.iter().enumerate() {
@@ -143,6 +147,14 @@ fn check_header(
     if [size.0, size.1] != [width as usize, height as usize] {
         let problem = format!("it is {} x {} px, not {width} x {height}", size.0, size.1);
         return Err(ExportError::damaged(path, problem));
+    }
+    let tiles = TileDescription {
+        tile_size: Vec2(BLOCK, BLOCK),
+        level_mode: LevelMode::Singular,
+        rounding_mode: RoundingMode::Down,
+    };
+    if header.deep || header.blocks != BlockDescription::Tiles(tiles) {
+        return Err(ExportError::damaged(path, "its tiles are not of the usual size"));
     }
     let channels = &header.channels.list;
     let fits = channels.len() == names.len()

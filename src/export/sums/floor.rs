@@ -2,7 +2,7 @@ use std::path::Path;
 
 use super::file::{SumsImage, read_image, write_image};
 use crate::export::layout::{Tile, TileLayout};
-use crate::export::manifest::{self, Manifest, PresenceEntry, SumsEntry, TileEntry};
+use crate::export::manifest::{self, BakePath, Manifest, PresenceEntry, SumsEntry, TileEntry};
 use crate::export::{ExportError, FloorTextures, OutputFolder};
 use crate::progress::Progress;
 use crate::stamps::TexelGrid;
@@ -34,7 +34,7 @@ pub fn write_sums(
     Ok(SumsEntry {
         one: Quantity::ALL.iter().map(|quantity| (quantity.name().to_string(), quantity.one())).collect(),
         presence: PresenceEntry {
-            file: PRESENCE_FILE.to_string(),
+            file: BakePath::new(PRESENCE_FILE)?,
             texels_per_metre,
             width_px: width,
             height_px: height,
@@ -105,8 +105,9 @@ pub fn read_sums(bake: &Path, manifest: &Manifest) -> Result<FloorSums, ExportEr
             return Err(in_manifest(&format!("`floor.sums.one.{}` is not {}", quantity.name(), quantity.one())));
         }
     }
-    if !grid.texels_per_metre.is_finite() || grid.texels_per_metre <= 0.0 {
-        return Err(in_manifest("`floor.texels_per_metre` is no texel density"));
+    let density = grid.texels_per_metre;
+    if !(1.0..=1000.0).contains(&density) {
+        return Err(in_manifest(&format!("`floor.texels_per_metre` is {density}, allowed is 1 to 1000")));
     }
     let mut sums = FloorSums::new(grid);
     let [width, height] = floor.tile_px;
@@ -118,14 +119,14 @@ pub fn read_sums(bake: &Path, manifest: &Manifest) -> Result<FloorSums, ExportEr
         let [i0, j0] = [entry.u.checked_mul(layout.width), entry.v.checked_mul(layout.height)];
         let (Some(i0), Some(j0)) = (i0, j0) else { return Err(in_manifest("a tile lies beyond the floor")) };
         let area = Area { at: [i0, j0], size: [width, height], quantities: &TILE_QUANTITIES };
-        read_area(&bake.join(&entry.sums), &mut sums, area)?;
+        read_area(&entry.sums.within(bake)?, &mut sums, area)?;
     }
     let presence = sums.presence_grid();
     if [presence.width, presence.height] != [floor.sums.presence.width_px, floor.sums.presence.height_px] {
         return Err(in_manifest("`floor.sums.presence` has another size than follows from the floor's"));
     }
     let area = Area { at: [0, 0], size: [presence.width, presence.height], quantities: &[Quantity::Presence] };
-    read_area(&bake.join(&floor.sums.presence.file), &mut sums, area)?;
+    read_area(&floor.sums.presence.file.within(bake)?, &mut sums, area)?;
     Ok(sums)
 }
 
@@ -179,7 +180,7 @@ mod tests {
                 basecolor: name(&tile, "basecolor"),
                 mask: name(&tile, "mask"),
                 orm: name(&tile, "orm"),
-                sums: name(&tile, "sums"),
+                sums: BakePath::new(name(&tile, "sums")).unwrap(),
                 ..TileEntry::default()
             })
             .collect();

@@ -38,12 +38,13 @@ pub fn write_wall_sums(
 pub fn read_wall_sums(bake: &Path, manifest: &Manifest) -> Result<Option<WallSums>, ExportError> {
     let Some(entry) = &manifest.walls else { return Ok(None) };
     let in_manifest = |problem: String| ExportError::damaged(&bake.join(manifest::FILE_NAME), problem);
-    let grid = WallGrid::covering(&manifest.walls(), entry.height_m, entry.texels_per_metre)
+    let walls = manifest.walls().map_err(|error| in_manifest(error.to_string()))?;
+    let grid = WallGrid::covering(&walls, entry.height_m, entry.texels_per_metre)
         .map_err(|error| in_manifest(format!("`walls`: {error}")))?;
     check(entry, &grid).map_err(in_manifest)?;
     let mut sums = WallSums::new(grid);
-    for (sheet, file) in entry.atlas().sheets.iter().zip(entry.sheets.iter().map(|sheet| bake.join(&sheet.sums))) {
-        read_sheet(&file, sheet, &mut sums)?;
+    for (sheet, entry) in entry.atlas().sheets.iter().zip(&entry.sheets) {
+        read_sheet(&entry.sums.within(bake)?, sheet, &mut sums)?;
     }
     Ok(Some(sums))
 }

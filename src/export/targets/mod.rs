@@ -33,11 +33,37 @@ pub enum Target {
     Godot,
 }
 
-/// What is on textures: the first part of their names.
+/// What a texture covers: the first part of its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Covered {
     Floor,
     Wall,
+}
+
+impl Covered {
+    /// Which of a block's masks a mask image holds, as red, green and blue.
+    pub(super) fn packed_masks(self) -> [usize; 3] {
+        match self {
+            Covered::Floor => [0, 2, 3],
+            Covered::Wall => [0, 1, 2],
+        }
+    }
+
+    /// The mask that has an image of its own: the one that is needed least often.
+    pub(super) fn lone_mask(self) -> usize {
+        match self {
+            Covered::Floor => 1,
+            Covered::Wall => 3,
+        }
+    }
+
+    /// What the image of that mask is called.
+    fn lone_mask_name(self) -> &'static str {
+        match self {
+            Covered::Floor => "passes",
+            Covered::Wall => "splash",
+        }
+    }
 }
 
 /// The number in the name of a texture.
@@ -80,9 +106,16 @@ impl Target {
     }
 
     /// The images of a texture.
-    pub(super) fn images(self) -> impl Iterator<Item = Image> {
-        let all = [Image::BaseColor, Image::Mask, Image::Orm, Image::MaskMap];
+    pub(super) fn images(self, covered: Covered) -> impl Iterator<Item = Image> {
+        let all = [Image::BaseColor, Image::Mask(covered), Image::LoneMask(covered), Image::Orm, Image::MaskMap];
         all.into_iter().filter(move |image| *image != Image::MaskMap || self == Target::Unity)
+    }
+
+    /// Whether the layers are written as EXR unless a caller says otherwise.
+    ///
+    /// Game engines import every image of a bake, and these are the largest and the ones that games need least.
+    pub fn wants_layers(self) -> bool {
+        matches!(self, Target::Gltf | Target::Blender)
     }
 
     /// The EXR files of a texture: engines refuse channels of other names than R, G, B and A.
@@ -97,15 +130,18 @@ impl Target {
     pub(super) fn image_name(self, covered: Covered, image: Image, number: Number) -> String {
         let kind = match (self, image) {
             (Target::Unreal, Image::BaseColor) => "BaseColor",
-            (Target::Unreal, Image::Mask) => "Mask",
+            (Target::Unreal, Image::Mask(_)) => "Mask",
+            (Target::Unreal | Target::Unity, Image::LoneMask(Covered::Floor)) => "Passes",
+            (Target::Unreal | Target::Unity, Image::LoneMask(Covered::Wall)) => "Splash",
             (Target::Unreal | Target::Unity, Image::Orm) => "ORM",
             (Target::Unity, Image::BaseColor) => "BaseMap",
             // Unity's own mask map is something else.
-            (Target::Unity, Image::Mask) => "DirtMask",
+            (Target::Unity, Image::Mask(_)) => "DirtMask",
             (Target::Unity, Image::MaskMap) => "MaskMap",
             (Target::Godot, Image::BaseColor) => "albedo",
             (_, Image::BaseColor) => "basecolor",
-            (_, Image::Mask) => "mask",
+            (_, Image::Mask(_)) => "mask",
+            (_, Image::LoneMask(covered)) => covered.lone_mask_name(),
             (_, Image::Orm) => "orm",
             (_, Image::MaskMap) => "maskmap",
         };
@@ -140,9 +176,10 @@ impl Target {
         }
     }
 
-    /// What the channels of all images hold. `masks` says what the four of the mask are, `of_layer` what a layer is.
+    /// What the channels of all images hold. `masks` describes a block's four masks, `of_layer` a layer.
     pub(super) fn channels(
         self,
+        covered: Covered,
         colour: &str,
         masks: [&str; 4],
         layers: &[&'static str],
@@ -156,10 +193,12 @@ impl Target {
         };
         let mut channels = vec![entry("basecolor", "RGB", colour, "sRGB")];
         let rgba = ["R", "G", "B", "A"];
-        channels.extend(rgba.into_iter().zip(masks).map(|(name, mask)| entry("mask", name, mask, "1 - exp(-D)")));
+        let packed = covered.packed_masks().map(|kind| masks[kind]);
+        channels.extend(rgba.into_iter().zip(packed).map(|(name, mask)| entry("mask", name, mask, "1 - exp(-D)")));
+        channels.push(entry(covered.lone_mask_name(), "Y", masks[covered.lone_mask()], "1 - exp(-D)"));
         let packed = ["occlusion", "roughness", "metallic"];
         channels.extend(rgba.into_iter().zip(packed).map(|(name, holds)| entry("orm", name, holds, "linear")));
-        if self.images().any(|image| image == Image::MaskMap) {
+        if self.images(covered).any(|image| image == Image::MaskMap) {
             let packed = ["metallic", "occlusion", "detail: 1 everywhere", "smoothness: 1 - roughness"];
             let map = rgba.into_iter().zip(packed).map(|(name, holds)| entry("mask_map", name, holds, "linear"));
             channels.extend(map);
@@ -169,7 +208,7 @@ impl Target {
             let image = if files.len() == 1 { "layers".to_string() } else { format!("layers{}", k + 1) };
             for (name, layer) in file.channels() {
                 let holds = match layer.and_then(|k| layers.get(k)) {
-                    Some(layer) if layer == name => of_layer(layer).to_string(),
+                    Some(layer) if name.strip_suffix(".V") == Some(layer) => of_layer(layer).to_string(),
                     Some(layer) => format!("{layer}: {}", of_layer(layer)),
                     None => "nothing".to_string(),
                 };

@@ -44,18 +44,25 @@ pub fn write_target_files(folder: &OutputFolder, manifest: &Manifest) -> Result<
         for (file, settings) in godot_imports(manifest) {
             folder.write(&format!("{file}.import"), settings.as_bytes())?;
         }
+        for name in GODOT_IGNORES {
+            folder.write(&format!("{name}/.gdignore"), b"")?;
+        }
     }
     Ok(())
 }
 
+/// Folders that hold no assets: Godot would import every image in them, the sums with whole numbers as HDR textures.
+const GODOT_IGNORES: [&str; 2] = ["preview", "sums"];
+
 /// Every image of a bake with its import settings for Godot 4.
 fn godot_imports(manifest: &Manifest) -> Vec<(&str, String)> {
-    let tiles = manifest.floor.tiles.iter().map(|tile| (&tile.basecolor, &tile.mask, &tile.orm, &tile.layers));
+    let tiles = manifest.floor.tiles.iter();
+    let tiles = tiles.map(|tile| ([&tile.basecolor, &tile.mask, &tile.passes, &tile.orm], &tile.layers));
     let sheets = manifest.walls.iter().flat_map(|walls| &walls.sheets);
-    let sheets = sheets.map(|sheet| (&sheet.basecolor, &sheet.mask, &sheet.orm, &sheet.layers));
+    let sheets = sheets.map(|sheet| ([&sheet.basecolor, &sheet.mask, &sheet.splash, &sheet.orm], &sheet.layers));
     let mut imports = Vec::new();
-    for (basecolor, mask, orm, layers) in tiles.chain(sheets) {
-        for image in [basecolor, mask, orm] {
+    for (images, layers) in tiles.chain(sheets) {
+        for image in images {
             imports.push((image.as_str(), godot_import(GodotCompression::Vram)));
         }
         imports.extend(layers.iter().map(|file| (file.as_str(), godot_import(GodotCompression::None))));

@@ -7,9 +7,10 @@ use crate::math::{Rect, vec2};
 fn names(target: Target) -> Vec<String> {
     let udim = Number::Udim(1012);
     let image = |image| target.image_name(Covered::Floor, image, udim);
-    let mut names: Vec<String> = target.images().map(image).collect();
+    let mut names: Vec<String> = target.images(Covered::Floor).map(image).collect();
     names.push(target.layers_name(Covered::Wall, 1, udim));
-    names.push(target.image_name(Covered::Wall, Image::Mask, Number::Uv(12, 3)));
+    names.push(target.image_name(Covered::Wall, Image::Mask(Covered::Wall), Number::Uv(12, 3)));
+    names.push(target.image_name(Covered::Wall, Image::LoneMask(Covered::Wall), udim));
     names
 }
 
@@ -18,23 +19,23 @@ fn names_are_those_that_each_program_is_used_to() {
     let expected = [
         (
             Target::Gltf,
-            "floor_basecolor.1012.png floor_mask.1012.png floor_orm.1012.png wall_layers.1012.exr wall_mask_u012_v003.png",
+            "floor_basecolor.1012.png floor_mask.1012.png floor_passes.1012.png floor_orm.1012.png wall_layers.1012.exr wall_mask_u012_v003.png wall_splash.1012.png",
         ),
         (
             Target::Blender,
-            "floor_basecolor.1012.png floor_mask.1012.png floor_orm.1012.png wall_layers.1012.exr wall_mask_u012_v003.png",
+            "floor_basecolor.1012.png floor_mask.1012.png floor_passes.1012.png floor_orm.1012.png wall_layers.1012.exr wall_mask_u012_v003.png wall_splash.1012.png",
         ),
         (
             Target::Unreal,
-            "T_Floor_BaseColor.1012.png T_Floor_Mask.1012.png T_Floor_ORM.1012.png T_Wall_Layers2.1012.exr T_Wall_Mask_u012_v003.png",
+            "T_Floor_BaseColor.1012.png T_Floor_Mask.1012.png T_Floor_Passes.1012.png T_Floor_ORM.1012.png T_Wall_Layers2.1012.exr T_Wall_Mask_u012_v003.png T_Wall_Splash.1012.png",
         ),
         (
             Target::Unity,
-            "Floor_BaseMap_1012.png Floor_DirtMask_1012.png Floor_ORM_1012.png Floor_MaskMap_1012.png Wall_Layers2_1012.exr Wall_DirtMask_u012_v003.png",
+            "Floor_BaseMap_1012.png Floor_DirtMask_1012.png Floor_Passes_1012.png Floor_ORM_1012.png Floor_MaskMap_1012.png Wall_Layers2_1012.exr Wall_DirtMask_u012_v003.png Wall_Splash_1012.png",
         ),
         (
             Target::Godot,
-            "floor_albedo_1012.png floor_mask_1012.png floor_orm_1012.png wall_layers2_1012.exr wall_mask_u012_v003.png",
+            "floor_albedo_1012.png floor_mask_1012.png floor_passes_1012.png floor_orm_1012.png wall_layers2_1012.exr wall_mask_u012_v003.png wall_splash_1012.png",
         ),
     ];
     for (target, expected) in expected {
@@ -144,6 +145,7 @@ fn manifest(target: Target) -> Manifest {
     let tile = TileEntry {
         basecolor: "floor/b.png".to_string(),
         mask: "floor/m.png".to_string(),
+        passes: "floor/p.png".to_string(),
         orm: "floor/o.png".to_string(),
         layers,
         world: Some(WorldEntry::of(target, TILE)),
@@ -152,6 +154,7 @@ fn manifest(target: Target) -> Manifest {
     let sheet = SheetEntry {
         basecolor: "walls/b.png".to_string(),
         mask: "walls/m.png".to_string(),
+        splash: "walls/s.png".to_string(),
         orm: "walls/o.png".to_string(),
         ..SheetEntry::default()
     };
@@ -189,8 +192,8 @@ fn each_target_gets_its_shader_and_what_sets_the_flags() {
     assert_eq!(files(Target::Unreal), "shaders/trodden_dirt.hlsl shaders/trodden_mix.hlsl shaders/trodden_unreal.py");
     assert_eq!(files(Target::Unity), "shaders/Editor/TroddenImporter.cs shaders/TroddenDirt.hlsl");
     let godot = "floor/b.png.import floor/l1.exr.import floor/l2.exr.import floor/m.png.import floor/o.png.import \
-                 shaders/trodden_floor.gdshader shaders/trodden_setup.gd walls/b.png.import walls/m.png.import \
-                 walls/o.png.import";
+                 floor/p.png.import preview/.gdignore shaders/trodden_floor.gdshader shaders/trodden_setup.gd sums/.gdignore \
+                 walls/b.png.import walls/m.png.import walls/o.png.import walls/s.png.import";
     assert_eq!(files(Target::Godot), godot);
 }
 

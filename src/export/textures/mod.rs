@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::band::Image;
 use super::birdseye::Birdseye;
 use super::layout::TileLayout;
-use super::manifest::{FloorEntry, Naming, SumsEntry, TileEntry};
+use super::manifest::{BakePath, FloorEntry, Naming, SumsEntry, TileEntry};
 use super::source::TextureSource;
 use super::targets::{Covered, Number, Target, WorldEntry};
 use super::{ExportError, OutputFolder, Reduced};
@@ -32,8 +32,9 @@ pub const PADDING_PX: u32 = 16;
 pub struct TextureOptions {
     /// Greatest width and height of a texture, texels: 64 to 16384.
     pub tile: u32,
-    /// Whether to write the layers as EXR too.
-    pub layers: bool,
+    /// Whether to write the layers as EXR too; left out: as is usual for the target, see [`Target::wants_layers`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layers: Option<bool>,
     /// The program that they are for.
     pub target: Target,
     /// Whether walls are made too, and with them the scene, stills and page; the floor alone otherwise.
@@ -43,22 +44,31 @@ pub struct TextureOptions {
     /// The greatest width and height of the small images that are kept of each texture; none are without it.
     #[serde(skip)]
     pub reduced_px: Option<u32>,
+    /// Whether a bake is made even if it is larger than [`crate::export::LARGE_BYTES`] or than the disk has room for.
+    #[serde(skip)]
+    pub any_size: bool,
 }
 
 impl Default for TextureOptions {
     fn default() -> TextureOptions {
         TextureOptions {
             tile: 8192,
-            layers: true,
+            layers: None,
             target: Target::default(),
             walls: true,
             embed: false,
             reduced_px: None,
+            any_size: false,
         }
     }
 }
 
 impl TextureOptions {
+    /// Whether the layers are written.
+    pub fn writes_layers(&self) -> bool {
+        self.layers.unwrap_or_else(|| self.target.wants_layers())
+    }
+
     /// Checks the size against what the target takes.
     ///
     /// # Errors
@@ -114,7 +124,13 @@ impl FloorTextures {
             tile_px: [self.layout.width, self.layout.height],
             naming: self.layout.naming(),
             padding_px: PADDING_PX,
-            channels: self.target.channels("colour of the trodden floor", masks, &self.layers, of_layer),
+            channels: self.target.channels(
+                Covered::Floor,
+                "colour of the trodden floor",
+                masks,
+                &self.layers,
+                of_layer,
+            ),
             tiles: self.tiles.clone(),
             sums,
         }
@@ -166,18 +182,19 @@ pub fn floor_textures(
             max_m: place.max,
             world: Some(WorldEntry::of(options.target, place)),
             basecolor: file(Image::BaseColor),
-            mask: file(Image::Mask),
+            mask: file(Image::Mask(Covered::Floor)),
+            passes: file(Image::LoneMask(Covered::Floor)),
             orm: file(Image::Orm),
             mask_map: canvas.files.image(Image::MaskMap),
             layers: canvas.files.layers,
-            sums: format!("sums/{}", layout.file_name(&tile, "sums", "exr")),
+            sums: BakePath::new(format!("sums/{}", layout.file_name(&tile, "sums", "exr")))?,
         });
     }
     Ok(FloorTextures {
         layout,
         tiles,
         target: options.target,
-        layers: if options.layers { source.layers().to_vec() } else { Vec::new() },
+        layers: if options.writes_layers() { source.layers().to_vec() } else { Vec::new() },
         reduced,
         look_busy_s: writer.look_busy.seconds(),
         export_busy_s: writer.export_busy.seconds(),

@@ -41,6 +41,7 @@ impl TextureSource for Disc {
         ResolvedBlock {
             empty: false,
             base_color: mask.iter().map(|m| [m[0], m[1], m[2]]).collect(),
+            clean: Vec::new(),
             orm: mask.iter().map(|m| [m[3], m[2], 0]).collect(),
             mask,
             layers: vec![
@@ -77,8 +78,15 @@ fn image_texel(out: &Path, written: &FloorTextures, kind: &str, i: u32, j: u32) 
     let layout = &written.layout;
     let tile = layout.tiles().find(|t| (t.i0..t.i0 + t.width).contains(&i) && (t.j0..t.j0 + t.height).contains(&j))?;
     let path = out.join(layout.file_name(&tile, kind, "png"));
-    let image = image::open(path).ok()?.to_rgba8();
+    let image = image::open(path).ok()?.to_rgb8();
     Some(image.get_pixel(i - tile.i0, tile.height - 1 - (j - tile.j0)).0.to_vec())
+}
+
+/// The four masks of texel (i, j) of the whole floor.
+fn masks(out: &Path, written: &FloorTextures, i: u32, j: u32) -> Option<[u8; 4]> {
+    let packed = image_texel(out, written, "mask", i, j)?;
+    let passes = image_texel(out, written, "passes", i, j)?;
+    Some([packed[0], passes[0], packed[1], packed[2]])
 }
 
 #[test]
@@ -92,9 +100,9 @@ fn any_tile_size_gives_the_same_texels() {
             let (i, j) = (k * 37 % 610, k * 101 % 560);
             let block = disc.resolve(i64::from(i), i64::from(j), 1, 1);
             let value = block.mask.first().copied().unwrap_or([10, 20, 30, 40]);
-            let found = image_texel(&out, &written, "mask", i, j);
+            let found = masks(&out, &written, i, j);
             // Tiles without floor have no files.
-            assert_eq!(found.unwrap_or(vec![10, 20, 30, 40]), value, "({i}, {j}), tile {tile}");
+            assert_eq!(found.unwrap_or([10, 20, 30, 40]), value, "({i}, {j}), tile {tile}");
         }
     }
 }
@@ -107,7 +115,7 @@ fn layers_hold_what_the_source_says_and_row_0_is_the_largest_y() {
     bake(dir.path().join("out").as_path(), &disc, grid(300, 500), 512);
     let image = read_first_flat_layer_from_file(dir.path().join("out/floor_layers.1001.exr")).unwrap();
     let channel = &image.layer_data.channel_data.list[0];
-    assert_eq!(channel.name.to_string(), "film");
+    assert_eq!(channel.name.to_string(), "film.V");
     let values: Vec<f32> = channel.sample_data.values_as_f32().collect();
     let block = disc.resolve(0, 0, 512, 512);
     for (k, value) in values.into_iter().enumerate() {
@@ -121,13 +129,13 @@ fn tiles_without_floor_are_left_out_and_blank_bands_above_the_floor_are_not() {
     // Floor only in the lower left corner of the lower left tile.
     let written = bake(&dir.path().join("out"), &Disc { centre: [0, 0], radius: 50 }, grid(2000, 2000), 1024);
     assert_eq!(written.tiles.len(), 1);
-    let image = image::open(dir.path().join("out/floor_mask.1001.png")).unwrap().to_rgba8();
+    let image = image::open(dir.path().join("out/floor_mask.1001.png")).unwrap().to_rgb8();
     assert_eq!(image.dimensions(), (1024, 1024));
     let floor = |(x, y): (u32, u32)| {
         let [i, j] = [i64::from(x), i64::from(1023 - y)];
         i * i + j * j < 2500
     };
-    assert!(image.enumerate_pixels().all(|(x, y, p)| floor((x, y)) || p.0 == [10, 20, 30, 40]));
+    assert!(image.enumerate_pixels().all(|(x, y, p)| floor((x, y)) || p.0 == [10, 30, 40]));
 }
 
 #[test]
@@ -142,7 +150,7 @@ fn the_same_bytes_on_any_number_of_threads() {
             .map(|entry| entry.unwrap().path())
             .map(|path| (path.file_name().unwrap().to_owned(), std::fs::read(&path).unwrap()))
             .collect();
-        assert_eq!(files.len(), written.tiles.len() * 4);
+        assert_eq!(files.len(), written.tiles.len() * 5);
         (files, written.birdseye.picture([0; 3]))
     };
     let one = bytes(1);

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::*;
-use crate::export::{Atlas, Manifest, WallSource, WallsEntry, is_bake};
+use crate::export::{Atlas, Manifest, SheetEntry, WallSource, WallsEntry, is_bake};
 use crate::look::{Background, Layer, ResolvedBlock};
 use crate::plan::FloorPlan;
 use crate::progress::Silent;
@@ -61,6 +61,7 @@ impl WallSource for Told<'_> {
         *block = ResolvedBlock {
             empty: false,
             base_color: texels.iter().map(|&t| base_color(t)).collect(),
+            clean: Vec::new(),
             mask: texels.iter().map(|&t| mask(t)).collect(),
             orm: texels.iter().map(|&t| orm(t)).collect(),
             layers: LAYERS.iter().enumerate().map(layer).collect(),
@@ -104,11 +105,9 @@ fn bake(texels_per_metre: f64, options: &TextureOptions) -> Baked {
     let folder = OutputFolder::begin(&out.path().join("out"), false).unwrap();
     let textures = wall_textures(&folder, &atlas, &Told(&grid), options, &Silent).unwrap();
     let manifest = Manifest {
-        generator: "trodden".to_string(),
-        format: 1,
         target: crate::export::TargetEntry::of(options.target),
         walls: Some(textures.entry(&walls, 1000)),
-        ..Manifest::default()
+        ..Manifest::blank([50.0, 50.0])
     };
     folder.publish(&manifest).unwrap();
     let read = Manifest::read(&out.path().join("out")).unwrap();
@@ -134,6 +133,16 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
         .collect()
 }
 
+/// The four masks of a sheet.
+fn masks(baked: &Baked, sheet: &SheetEntry) -> image::RgbaImage {
+    let packed = image::open(baked.path(&sheet.mask)).unwrap().to_rgb8();
+    let splash = image::open(baked.path(&sheet.splash)).unwrap().to_luma8();
+    image::RgbaImage::from_fn(packed.width(), packed.height(), |x, y| {
+        let [skin, rub, scuff] = packed.get_pixel(x, y).0;
+        image::Rgba([skin, rub, scuff, splash.get_pixel(x, y).0[0]])
+    })
+}
+
 #[test]
 fn every_texel_of_every_face_lies_where_the_manifest_says_and_padding_goes_on() {
     // A strip takes 252 texels: two rows of them leave enough of 700 for turned ones.
@@ -142,7 +151,7 @@ fn every_texel_of_every_face_lies_where_the_manifest_says_and_padding_goes_on() 
         let told = Told(&baked.grid);
         let mut turned = 0;
         for sheet in &baked.entry.sheets {
-            let image = image::open(baked.path(&sheet.mask)).unwrap().to_rgba8();
+            let image = masks(&baked, sheet);
             assert_eq!(image.dimensions(), (sheet.width_px, sheet.height_px));
             for strip in &sheet.strips {
                 turned += usize::from(strip.turned);
@@ -202,19 +211,19 @@ fn layers_are_named_by_cause_or_by_colour_and_hold_the_same() {
     let by_cause = read(&named, &named.entry.sheets[0].layers[0]);
     assert_eq!(
         by_cause.keys().map(String::as_str).collect::<std::vec::Vec<_>>(),
-        ["arm", "bag", "hand", "shoe", "splash"]
+        ["arm.V", "bag.V", "hand.V", "shoe.V", "splash.V"]
     );
     for target in [Target::Unreal, Target::Unity, Target::Godot] {
-        let engine = bake(100.0, &TextureOptions { target, ..options(1024) });
+        let engine = bake(100.0, &TextureOptions { target, layers: Some(true), ..options(1024) });
         let files = &engine.entry.sheets[0].layers;
         assert_eq!(files.len(), 2, "five layers");
         let (first, second) = (read(&engine, &files[0]), read(&engine, &files[1]));
         assert_eq!(first.keys().map(String::as_str).collect::<std::vec::Vec<_>>(), ["A", "B", "G", "R"]);
         assert_eq!(second.keys().map(String::as_str).collect::<std::vec::Vec<_>>(), ["B", "G", "R"]);
         for (name, layer) in ["R", "G", "B", "A"].into_iter().zip(LAYERS) {
-            assert!(first[name] == by_cause[layer], "{layer}");
+            assert!(first[name] == by_cause[&format!("{layer}.V")], "{layer}");
         }
-        assert!(second["R"] == by_cause["splash"] && second["G"].iter().all(|&value| value == 0.0));
+        assert!(second["R"] == by_cause["splash.V"] && second["G"].iter().all(|&value| value == 0.0));
         let holds = |image: &str, channel: &str| {
             let found = engine.entry.channels.iter().find(|c| c.image == image && c.channel == channel).unwrap();
             found.holds.clone()
@@ -246,11 +255,11 @@ fn the_same_bytes_on_any_number_of_threads_with_small_images_too() {
         (files(&baked.path("walls")), baked.textures.reduced)
     };
     let one = baked(1);
-    assert_eq!(one.0.len(), 4 * one.1.len());
+    assert_eq!(one.0.len(), 5 * one.1.len());
     assert!(one.1.len() > 1);
     for (reduced, sheet) in one.1.iter().zip(&bake(100.0, &options(512)).textures.atlas.sheets) {
         assert_eq!(reduced.factor, (sheet.width.max(sheet.height) / 64).max(1));
-        assert_eq!(reduced.mask.dimensions(), (sheet.width / reduced.factor, sheet.height / reduced.factor));
+        assert_eq!(reduced.dirt.dimensions(), (sheet.width / reduced.factor, sheet.height / reduced.factor));
     }
     for threads in [2, 16] {
         let other = baked(threads);
@@ -265,10 +274,10 @@ fn the_same_bytes_on_any_number_of_threads_with_small_images_too() {
 fn small_images_are_the_files_made_smaller() {
     let baked = bake(100.0, &TextureOptions { reduced_px: Some(256), ..options(1000) });
     let sheet = &baked.entry.sheets[0];
-    let (reduced, full) = (&baked.textures.reduced[0], image::open(baked.path(&sheet.mask)).unwrap().to_rgba8());
-    assert_eq!((reduced.factor, reduced.mask.width()), (4, 250));
-    for (x, y, pixel) in reduced.mask.enumerate_pixels() {
-        let mut sums = [0u32; 4];
+    let (reduced, full) = (&baked.textures.reduced[0], image::open(baked.path(&sheet.orm)).unwrap().to_rgb8());
+    assert_eq!((reduced.factor, reduced.orm.width()), (4, 250));
+    for (x, y, pixel) in reduced.orm.enumerate_pixels() {
+        let mut sums = [0u32; 3];
         for (dx, dy) in (0..16).map(|k| (k % 4, k / 4)) {
             let texel = full.get_pixel(4 * x + dx, 4 * y + dy).0;
             sums = std::array::from_fn(|k| sums[k] + u32::from(texel[k]));

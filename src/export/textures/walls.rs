@@ -3,7 +3,7 @@ use super::writer::{Canvas, TextureWriter};
 use crate::export::atlas::{Atlas, Strip};
 use crate::export::band::Image;
 use crate::export::busy::BusyTime;
-use crate::export::manifest::{Naming, SheetEntry, StripEntry, WallsEntry};
+use crate::export::manifest::{BakePath, Naming, SheetEntry, StripEntry, WallsEntry};
 use crate::export::source::SheetSource;
 use crate::export::targets::{Covered, Number, Target};
 use crate::export::{ExportError, OutputFolder, Reduced, WallSource};
@@ -47,8 +47,7 @@ pub fn wall_textures(
     progress: &dyn Progress,
 ) -> Result<WallTextures, ExportError> {
     options.check()?;
-    let largest = atlas.sheets.iter().map(|sheet| sheet.width.max(sheet.height)).max().unwrap_or(1);
-    options.target.check_size(largest)?;
+    atlas.check(options.target)?;
     let writer = TextureWriter::new(folder, source.layers(), options, progress);
     let (mut sheets, mut reduced) = (Vec::new(), Vec::new());
     let count = atlas.sheets.len();
@@ -63,14 +62,14 @@ pub fn wall_textures(
         };
         let texels = SheetSource::new(source, sheet, atlas.padding_px);
         reduced.extend(writer.write(&texels, &canvas, &|_, _, _: &_| ())?.and_then(|written| written.reduced));
-        sheets.push(entry(index, count, &canvas));
+        sheets.push(entry(index, count, &canvas)?);
     }
     let seconds = BusyTime::seconds;
     Ok(WallTextures {
         atlas: atlas.clone(),
         sheets,
         target: options.target,
-        layers: if options.layers { source.layers().to_vec() } else { Vec::new() },
+        layers: if options.writes_layers() { source.layers().to_vec() } else { Vec::new() },
         reduced,
         look_busy_s: seconds(&writer.look_busy),
         export_busy_s: seconds(&writer.export_busy),
@@ -89,30 +88,32 @@ fn naming(count: usize) -> Naming {
 }
 
 /// A sheet's entry without its strips.
-fn entry(index: usize, count: usize, canvas: &Canvas) -> SheetEntry {
+fn entry(index: usize, count: usize, canvas: &Canvas) -> Result<SheetEntry, ExportError> {
     let file = |image| canvas.files.image(image).unwrap_or_default();
     let (udim, name) = match number(index, count) {
         Number::Udim(udim) => (Some(udim), format!(".{udim}")),
         Number::Uv(u, v) => (None, format!("_u{u:03}_v{v:03}")),
     };
-    SheetEntry {
+    Ok(SheetEntry {
         udim,
         width_px: canvas.size[0],
         height_px: canvas.size[1],
         basecolor: file(Image::BaseColor),
-        mask: file(Image::Mask),
+        mask: file(Image::Mask(Covered::Wall)),
+        splash: file(Image::LoneMask(Covered::Wall)),
         orm: file(Image::Orm),
         mask_map: canvas.files.image(Image::MaskMap),
         layers: canvas.files.layers.clone(),
-        sums: format!("sums/wall_sums{name}.exr"),
+        sums: BakePath::new(format!("sums/wall_sums{name}.exr"))?,
         strips: Vec::new(),
-    }
+    })
 }
 
 impl WallTextures {
     /// The manifest's entry; `walls` are those that the atlas was made for, `people` those for whom the sums stand.
     pub fn entry(&self, walls: &Walls, people: u32) -> WallsEntry {
-        let masks = ["skin: touches of hands, arms and shoulders", "rub: bags", "scuff: shoes", "edge and splash"];
+        let masks =
+            ["skin: touches of hands", "rub: arms, shoulders and bags", "scuff: shoes", "edge: splashes and dust"];
         let atlas = &self.atlas;
         let with_strips = |(index, entry): (usize, &SheetEntry)| {
             let strips = atlas.sheets[index].strips.iter();
@@ -129,7 +130,13 @@ impl WallTextures {
             padding_px: atlas.padding_px,
             naming: naming(atlas.sheets.len()),
             sums_one: DENSITY_ONE as u32,
-            channels: self.target.channels("colour of the touched wall", masks, &self.layers, |_| "optical density D"),
+            channels: self.target.channels(
+                Covered::Wall,
+                "colour of the touched wall",
+                masks,
+                &self.layers,
+                |_| "optical density D",
+            ),
             sheets: self.sheets.iter().enumerate().map(with_strips).collect(),
         }
     }

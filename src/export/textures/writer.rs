@@ -61,7 +61,7 @@ impl<'a> TextureWriter<'a> {
             folder,
             progress,
             target: options.target,
-            layers: (options.layers && !layers.is_empty()).then(|| LayerEncoder::new(files)),
+            layers: (options.writes_layers() && !layers.is_empty()).then(|| LayerEncoder::new(files)),
             reduced_px: options.reduced_px,
             look_busy: BusyTime::default(),
             export_busy: BusyTime::default(),
@@ -77,7 +77,10 @@ impl<'a> TextureWriter<'a> {
         let image = |image| (image, format!("{folder}/{}", self.target.image_name(covered, image, number)));
         let layers = |k| format!("{folder}/{}", self.target.layers_name(covered, k, number));
         let count = self.layers.as_ref().map_or(0, |layers| layers.files().len());
-        TextureFiles { images: self.target.images().map(image).collect(), layers: (0..count).map(layers).collect() }
+        TextureFiles {
+            images: self.target.images(covered).map(image).collect(),
+            layers: (0..count).map(layers).collect(),
+        }
     }
 
     /// Writes a texture, or nothing if nothing is there; `seen` is shown every block with its lower-left texel and its
@@ -121,7 +124,7 @@ impl<'a> TextureWriter<'a> {
         Ok(Open {
             canvas,
             writer: if canvas.even_if_empty { Some(self.create(canvas)?) } else { None },
-            encoder: ImageEncoder::new(self.target.images().collect(), background),
+            encoder: ImageEncoder::new(canvas.files.images.iter().map(|(image, _)| *image).collect(), background),
             blank: Vec::new(),
             reduced: self.reduced_px.map(blank),
         })

@@ -5,22 +5,30 @@ use super::heading::{headings, turned_to};
 use super::keys::{self, FormationLayout, PlacementInput};
 use super::{example, path};
 use crate::formation::FormationError;
-use crate::formation::MOST_PEOPLE;
 use crate::formation::avoidance::{AvoidanceSettings, BodyMember, FormationBody, keep_clear};
 use crate::formation::blend::{self, KeyPlaces};
 use crate::formation::formed::FormedPerson;
+use crate::formation::limits::{MOST_FORMED_PLACES, MOST_IN_ALL, MOST_KEY_PAIRS, MOST_PEOPLE};
 use crate::formation::places::{centroid, grid_of};
 use crate::formation::request::{
     Assign, AvoidRequest, CrowdRequest, CrowdSection, ExampleKind, ExampleRequest, FormationRequest, Members,
     RequestError,
 };
 use crate::math::{SplitMix64, Vec2, sin_cos, vec2};
-use crate::motion::{Ensemble, MOST_PLACES};
+use crate::motion::Ensemble;
 use crate::progress::Progress;
 use crate::recordings::Recording;
 
-/// Largest number of people of all crowds together.
-const MOST_IN_ALL: usize = 1_000_000;
+/// Refuses more key formations than memory holds.
+fn check_keys(keys: usize, people: usize, crowd: &str) -> Result<(), FormationError> {
+    let most = MOST_KEY_PAIRS / (people * people).max(1);
+    if keys <= most {
+        return Ok(());
+    }
+    let problem = format!("{keys} key formations of {people} people, allowed are {most} for so many people");
+    let hint = Some("make crowds of crowds with [[formation.crowd]]".to_string());
+    Err(RequestError::Value { key: format!("{crowd}.key"), problem, hint }.into())
+}
 
 /// Builder of a crowd and the small crowds within it, level by level.
 pub(super) struct CrowdBuilder<'m> {
@@ -95,6 +103,7 @@ impl<'m> CrowdBuilder<'m> {
         let layouts: Vec<FormationLayout> =
             section.key.iter().map(|key| FormationLayout::of(key, self.folder)).collect::<Result<_, _>>()?;
         let example = self.example(section.example, spot, &layouts)?;
+        check_keys(section.key.len(), example.people(), &spot.key)?;
         let keys = self.keys(section, &layouts, &example, spot)?;
         let moments: Vec<usize> = keys.iter().map(|key| key.moment).collect();
         let mut tracks = blend::between(&example, &keys, section, self.progress)?;
@@ -343,9 +352,9 @@ fn chosen(example: &Ensemble, people: &[u32], key: &str) -> Result<Ensemble, Req
 }
 
 /// Checks that all positions can be held.
-fn check_size(people: usize, moments: usize) -> Result<(), FormationError> {
+pub(super) fn check_size(people: usize, moments: usize) -> Result<(), FormationError> {
     match people.checked_mul(moments) {
-        Some(places) if places <= MOST_PLACES => Ok(()),
-        _ => Err(RequestError::TooLong { people, moments, most: MOST_PLACES }.into()),
+        Some(places) if places <= MOST_FORMED_PLACES => Ok(()),
+        _ => Err(RequestError::TooLong { people, moments, most: MOST_FORMED_PLACES }.into()),
     }
 }

@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use super::builder::CrowdBuilder;
+use super::builder::{CrowdBuilder, check_size};
 use crate::formation::FormationError;
 use crate::formation::formed::FormedCrowd;
 use crate::formation::request::{CrowdSection, FormationRequest};
@@ -29,6 +29,8 @@ pub fn form(request: &FormationRequest, folder: &Path, progress: &dyn Progress) 
     };
     // Rounded down, so that no frame lies after the end; a duration of whole frames keeps its last one.
     builder.moments = ((duration_s * fps + 1e-6).floor() as usize).max(1) + 1;
+    // Before anything is made for each frame.
+    check_size(1, builder.moments)?;
     let bodies = builder.whole(request)?;
     progress.advance(Stage::Motion, 1.0);
 

@@ -1,7 +1,7 @@
 //! Small round spots scattered at random: pores of concrete, droplets.
 
-use super::strip::Strip;
-use crate::look::lattice::Window;
+use super::strip::FaceStrip;
+use crate::look::lattice::TexelWindow;
 use crate::look::noise;
 use crate::math::{SplitMix64, exp, exp_f32};
 
@@ -10,7 +10,7 @@ const SIDE_M: f64 = 0.10;
 
 /// How many spots there are, how large, how deep: least and largest, small ones are more frequent.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spread {
+pub(super) struct DotSettings {
     pub per_m2: f64,
     pub radius_m: [f32; 2],
     pub depth: [f32; 2],
@@ -20,16 +20,16 @@ pub(super) struct Spread {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Dots {
     key: u32,
-    spread: Spread,
+    spread: DotSettings,
 }
 
 impl Dots {
-    pub fn new(key: u32, spread: Spread) -> Dots {
+    pub fn new(key: u32, spread: DotSettings) -> Dots {
         Dots { key, spread }
     }
 
     /// Depth of the spots over a window, as a mean over each texel.
-    pub fn over(&self, window: &Window, strip: &Strip) -> Vec<f32> {
+    pub fn over(&self, window: &TexelWindow, strip: &FaceStrip) -> Vec<f32> {
         let mut out = vec![0.0; window.texels()];
         let density = strip.texels_per_metre;
         // A whole number of squares goes round, or covers a strip.
@@ -75,7 +75,7 @@ pub(super) fn poisson(mean: f64, rng: &mut SplitMix64) -> usize {
 
 /// Takes the larger of what is there and a Gaussian spot at a place in texels of the strip; one that is smaller than
 /// texels keeps its volume.
-pub(super) fn splat(out: &mut [f32], window: &Window, [x, y]: [f64; 2], radius: f32, depth: f32) {
+pub(super) fn splat(out: &mut [f32], window: &TexelWindow, [x, y]: [f64; 2], radius: f32, depth: f32) {
     // Variance of a disc, and of a texel.
     let variance = radius * radius / 4.0 + 1.0 / 12.0;
     let depth = depth * (radius * radius / 4.0) / variance;

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use crate::look::settings::Srgb8;
+use crate::math::srgb::Srgb8;
 
 /// What a wall is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -7,7 +7,7 @@
 mod dots;
 mod material;
 mod paint;
-mod plaster;
+mod clean_wall;
 mod resolve;
 mod settings;
 mod shade;
@@ -20,4 +20,4 @@ mod tests;
 
 pub use material::WallMaterial;
 pub use resolve::{WALL_LAYERS, WallResolver};
-pub use settings::{BAG, CLOTH, SKIN, SkirtingLook, SplashLook, StainLook, WallDustLook, WallLook};
+pub use settings::{SkirtingLook, SplashLook, StainLook, WallDustLook, WallLook};

@@ -1,82 +1,164 @@
-//! Paints the texels of a window of a strip: lays everything out over it, then works through it row by row.
+//! Shades the texels of a window of a wall strip, row by row.
 
 use std::cell::RefCell;
 
-use super::plaster::PlasterWindow;
-use super::resolve::WallResolver;
-use super::shade::{WallKnown, WallShaded};
-use super::splash::SplashWindow;
-use super::strip::Strip;
-use super::touches::Touches;
-use crate::look::block::ResolvedBlock;
+use super::clean_wall::{CleanWall, CleanWallWindow};
+use super::settings::StainLook;
+use super::shade::{WallShadeInput, WallShadeOutput, WallShader, stains};
+use super::splash::{Splash, SplashWindow};
+use super::strip::FaceStrip;
+use super::touches::TouchFields;
+use crate::look::block::{Background, ResolvedBlock};
 use crate::look::bytes::Bytes;
-use crate::look::lattice::Window;
-use crate::look::noise::{Noise, NoiseField};
+use crate::look::error::LookError;
+use crate::look::lattice::TexelWindow;
+use crate::look::noise::{self, Channel, Noise, NoiseField};
+use crate::look::octaves::{NoiseLook, Octave};
+use crate::look::settings::Look;
+use crate::math::srgb;
 use crate::patterns::Cause;
 use crate::stamps::DENSITY_ONE;
+use crate::sums::WallSums;
 
-/// Buffers that a thread uses again from window to window.
+/// WallBuffers that a thread uses again from window to window.
 #[derive(Default)]
-struct Buffers {
-    known: WallKnown,
-    shaded: WallShaded,
+struct WallBuffers {
+    known: WallShadeInput,
+    shaded: WallShadeOutput,
 }
 
 thread_local! {
-    static BUFFERS: RefCell<Buffers> = RefCell::default();
+    static BUFFERS: RefCell<WallBuffers> = RefCell::default();
 }
 
 /// Everything that changes from row to row.
-struct Layout<'a> {
-    plaster: PlasterWindow<'a>,
+struct WallLayout<'a> {
+    plaster: CleanWallWindow<'a>,
     /// By cause.
-    touches: [Option<Touches>; 5],
+    touches: [Option<TouchFields>; 5],
     splash: Option<SplashWindow>,
     noise: Vec<NoiseField>,
     /// Whether there may be dirt.
     dirty: bool,
 }
 
-/// Paints all texels of a window that lies within the strip, `block` has its size; `false` if all of them show the
-/// background, of which nothing need be painted.
-pub(super) fn paint(resolver: &WallResolver<'_>, strip: &Strip, window: &Window, block: &mut ResolvedBlock) -> bool {
-    BUFFERS.with_borrow_mut(|buffers| {
-        let mut layout = Layout::over(resolver, strip, window);
-        let even = resolver.plaster.is_even();
-        let all_wall = resolver.plaster.is_above_board(window.j0, window.texels_per_metre);
-        if even && all_wall && !layout.dirty {
-            let all = 0..window.texels();
-            block.clear(all, resolver.background());
-            return false;
-        }
-        let mut any = !(even && all_wall);
-        for row in 0..window.height {
-            layout.begin_row(row);
-            layout.gather(resolver, window, row, buffers);
-            any |= resolver.law.shade(&buffers.known, &mut buffers.shaded);
-            write(resolver, strip, window, row, buffers, block);
-        }
-        any
-    })
+/// Walls with their sums and the look that turns them into texels.
+pub(super) struct WallPainter<'a> {
+    pub sums: &'a WallSums,
+    pub background: Background,
+    plaster: CleanWall,
+    /// By cause.
+    stains: [StainLook; 5],
+    splash: Splash,
+    /// Unevenness of all dirt.
+    noise: Vec<Noise>,
+    law: WallShader,
+    dither: u32,
 }
 
-impl<'a> Layout<'a> {
-    fn over(resolver: &'a WallResolver<'_>, strip: &Strip, window: &Window) -> Layout<'a> {
-        let WallResolver { law, stains, sums, .. } = resolver;
+impl<'a> WallPainter<'a> {
+    pub fn new(sums: &'a WallSums, look: &Look, simulated_people: u32) -> Result<WallPainter<'a>, LookError> {
+        let (wall, texels_per_metre) = (&look.wall, sums.grid().texels_per_metre);
+        let plaster = CleanWall::new(wall, look.seed, texels_per_metre)?;
+        let noise = dirt_noise(look);
+        let law = WallShader::new(look, &wall.material.properties(), simulated_people, &noise, texels_per_metre);
+        Ok(WallPainter {
+            sums,
+            background: Background {
+                base_color: plaster.mean().map(|light| srgb::encode_f32(light).round() as u8),
+                mask: [0; 4],
+                orm: [255, (255.0 * law.clean_roughness()).round() as u8, 0],
+            },
+            plaster,
+            stains: stains(wall),
+            splash: Splash::new(wall.splash, look.seed),
+            noise,
+            law,
+            dither: noise::key(look.seed, Channel::WallDither),
+        })
+    }
+
+    /// Shades all texels of a window that lies within the strip, into a block of its size; `false` if all of them show
+    /// the background.
+    pub fn paint(&self, strip: &FaceStrip, window: &TexelWindow, block: &mut ResolvedBlock) -> bool {
+        BUFFERS.with_borrow_mut(|buffers| {
+            let mut layout = WallLayout::over(self, strip, window);
+            let even = self.plaster.is_even();
+            let all_wall = self.plaster.is_above_board(window.j0, window.texels_per_metre);
+            if even && all_wall && !layout.dirty {
+                block.clear(0..window.texels(), self.background);
+                return false;
+            }
+            let mut any = !(even && all_wall);
+            for row in 0..window.height {
+                layout.begin_row(row);
+                layout.gather(&self.law, window, row, buffers);
+                any |= self.law.shade(&buffers.known, &mut buffers.shaded);
+                self.write(strip, window, row, buffers, block);
+            }
+            any
+        })
+    }
+
+    fn write(
+        &self,
+        strip: &FaceStrip,
+        window: &TexelWindow,
+        row: usize,
+        buffers: &mut WallBuffers,
+        block: &mut ResolvedBlock,
+    ) {
+        let WallBuffers { known, shaded } = buffers;
+        let texels = row * window.width..(row + 1) * window.width;
+        let mut bytes = Bytes {
+            base_color: &mut block.base_color[texels.clone()],
+            mask: &mut block.mask[texels.clone()],
+            orm: &mut block.orm[texels.clone()],
+        };
+        shaded.write(self.dither ^ strip.salt, window.i0, window.j0 + row as i64, &mut bytes);
+        if self.plaster.is_even() {
+            // Without dither, which no file packs.
+            let (colour, orm) = known.even_bytes(&self.law);
+            for ((total, base_color), out) in shaded.total.iter().zip(&mut *bytes.base_color).zip(&mut *bytes.orm) {
+                if *total == 0.0 {
+                    (*base_color, *out) = (colour, orm);
+                }
+            }
+        }
+        block.set_clean(texels.start, &known.plaster.rgb);
+        for (layer, plane) in block.layers.iter_mut().zip(&shaded.density) {
+            let values = &mut layer.values[texels.clone()];
+            if plane.is_empty() { values.fill(0.0) } else { values.copy_from_slice(plane) }
+        }
+    }
+}
+
+/// The noises that add up to the wall's three octaves.
+fn dirt_noise(look: &Look) -> Vec<Noise> {
+    let NoiseLook { fine, middle, coarse } = look.wall.noise;
+    let noise = |channel, octave: Octave| Noise::new(look.seed, channel, [octave.size_m; 2], octave.sd);
+    let all = [noise(Channel::WallFine, fine), noise(Channel::WallMiddle, middle), noise(Channel::WallCoarse, coarse)];
+    all.into_iter().filter(|noise| !noise.is_flat()).collect()
+}
+
+impl<'a> WallLayout<'a> {
+    fn over(painter: &'a WallPainter<'_>, strip: &FaceStrip, window: &TexelWindow) -> WallLayout<'a> {
+        let WallPainter { law, stains, sums, .. } = painter;
         let touches = std::array::from_fn(|n| {
-            let over =
-                || Touches::over(window, strip, sums, Cause::WALL[n], law.evens_out().then_some(stains[n].spread_m));
+            let over = || {
+                TouchFields::over(window, strip, sums, Cause::WALL[n], law.evens_out().then_some(stains[n].spread_m))
+            };
             law.takes(n).then(over).flatten()
         });
-        let splash = resolver.splash.over(window, strip);
+        let splash = painter.splash.over(window, strip);
         let low_m = (window.j0 as f64 + 0.5) / window.texels_per_metre;
         let dirty = splash.is_some() || touches.iter().any(Option::is_some) || law.dust_from(low_m as f32);
         let noise = |noise: &Noise| noise.over_strip(window, strip.salt, strip.width, strip.closed);
-        Layout {
-            plaster: resolver.plaster.over(window, strip),
+        WallLayout {
+            plaster: painter.plaster.over(window, strip),
             touches,
             splash,
-            noise: if dirty { resolver.noise.iter().map(noise).collect() } else { Vec::new() },
+            noise: if dirty { painter.noise.iter().map(noise).collect() } else { Vec::new() },
             dirty,
         }
     }
@@ -95,8 +177,8 @@ impl<'a> Layout<'a> {
     }
 
     /// Everything that the law needs to know of the row last begun.
-    fn gather(&self, resolver: &WallResolver<'_>, window: &Window, row: usize, buffers: &mut Buffers) {
-        let Buffers { known, .. } = buffers;
+    fn gather(&self, law: &WallShader, window: &TexelWindow, row: usize, buffers: &mut WallBuffers) {
+        let WallBuffers { known, .. } = buffers;
         self.plaster.read(&mut known.plaster);
         known.height_m = ((window.j0 + row as i64) as f64 + 0.5) as f32 / window.texels_per_metre as f32;
         let unit = 1.0 / DENSITY_ONE;
@@ -115,7 +197,7 @@ impl<'a> Layout<'a> {
         known.splash.clear();
         if let Some(splash) = &self.splash {
             known.splash.resize(window.width, 0.0);
-            splash.read(resolver.law.splash, &mut known.splash);
+            splash.read(law.splash, &mut known.splash);
             if known.splash.iter().all(|&density| density == 0.0) {
                 known.splash.clear();
             }
@@ -125,36 +207,5 @@ impl<'a> Layout<'a> {
         for field in &self.noise {
             field.add_to(0, &mut known.uneven);
         }
-    }
-}
-
-fn write(
-    resolver: &WallResolver<'_>,
-    strip: &Strip,
-    window: &Window,
-    row: usize,
-    buffers: &mut Buffers,
-    block: &mut ResolvedBlock,
-) {
-    let Buffers { known, shaded } = buffers;
-    let texels = row * window.width..(row + 1) * window.width;
-    let mut bytes = Bytes {
-        base_color: &mut block.base_color[texels.clone()],
-        mask: &mut block.mask[texels.clone()],
-        orm: &mut block.orm[texels.clone()],
-    };
-    shaded.write(resolver.dither ^ strip.salt, window.i0, window.j0 + row as i64, &mut bytes);
-    if resolver.plaster.is_even() {
-        // Without dither, which no file packs.
-        let (colour, orm) = known.even_bytes(&resolver.law);
-        for ((total, base_color), out) in shaded.total.iter().zip(&mut *bytes.base_color).zip(&mut *bytes.orm) {
-            if *total == 0.0 {
-                (*base_color, *out) = (colour, orm);
-            }
-        }
-    }
-    for (layer, plane) in block.layers.iter_mut().zip(&shaded.density) {
-        let values = &mut layer.values[texels.clone()];
-        if plane.is_empty() { values.fill(0.0) } else { values.copy_from_slice(plane) }
     }
 }

@@ -1,16 +1,11 @@
 use std::cell::RefCell;
 
-use super::paint::paint;
-use super::plaster::Plaster;
-use super::settings::StainLook;
-use super::shade::{KINDS, WallLaw, stains};
-use super::splash::Splash;
-use super::strip::{Shown, Strip};
+use super::paint::WallPainter;
+use super::shade::KINDS;
+use super::strip::{ColumnRun, FaceStrip};
 use crate::look::block::{Background, ResolvedBlock};
 use crate::look::error::LookError;
-use crate::look::noise::{self, Channel, Noise};
-use crate::look::settings::{Look, NoiseLook, Octave};
-use crate::look::tone;
+use crate::look::settings::Look;
 use crate::sums::WallSums;
 use crate::walls::Walls;
 
@@ -18,24 +13,13 @@ use crate::walls::Walls;
 pub const WALL_LAYERS: [&str; KINDS] = ["hand", "arm", "shoulder", "bag", "shoe", "splash", "dust"];
 
 /// Resolves any rectangle of any wall face's strip. Shared by threads; every texel's value depends on its place alone.
-pub struct WallResolver<'a> {
-    pub(super) sums: &'a WallSums,
-    pub(super) plaster: Plaster,
-    /// By cause.
-    pub(super) stains: [StainLook; 5],
-    pub(super) splash: Splash,
-    /// Unevenness of all dirt.
-    pub(super) noise: Vec<Noise>,
-    pub(super) law: WallLaw,
-    pub(super) dither: u32,
-    background: Background,
-}
+pub struct WallResolver<'a>(WallPainter<'a>);
 
 impl<'a> WallResolver<'a> {
     /// Prepares to resolve `sums` of `simulated_people` on the faces of `walls`, for which the sums were made.
     ///
     /// # Errors
-    /// Settings out of range, a wall image that cannot be read, sums of nobody, sums of other walls.
+    /// Settings out of range, a wall image that cannot be read, sums without simulated people, sums of other walls.
     pub fn new(
         sums: &'a WallSums,
         walls: &Walls,
@@ -43,37 +27,19 @@ impl<'a> WallResolver<'a> {
         simulated_people: u32,
     ) -> Result<WallResolver<'a>, LookError> {
         look.check()?;
-        let wall = &look.wall;
         if simulated_people == 0 {
-            return Err(LookError::Nobody { total_passes: wall.total_passes });
+            return Err(LookError::NoPeople { total_passes: look.wall.total_passes });
         }
-        let grid = sums.grid();
-        if grid.faces.len() != walls.faces.len() {
-            return Err(LookError::OtherWalls { faces: walls.faces.len(), summed: grid.faces.len() });
+        let (faces, summed) = (walls.faces.len(), sums.grid().faces.len());
+        if summed != faces {
+            return Err(LookError::OtherWalls { faces, summed });
         }
-        let properties = wall.material.properties();
-        let plaster = Plaster::new(wall, look.seed, grid.texels_per_metre)?;
-        let noise = dirt_noise(look);
-        let law = WallLaw::new(look, &properties, simulated_people, &noise, grid.texels_per_metre);
-        Ok(WallResolver {
-            sums,
-            background: Background {
-                base_color: plaster.mean().map(|light| tone::srgb(light).round() as u8),
-                mask: [0; 4],
-                orm: [255, (255.0 * law.clean_roughness()).round() as u8, 0],
-            },
-            plaster,
-            stains: stains(wall),
-            splash: Splash::new(wall.splash, look.seed),
-            noise,
-            law,
-            dither: noise::key(look.seed, Channel::WallDither),
-        })
+        Ok(WallResolver(WallPainter::new(sums, look, simulated_people)?))
     }
 
     /// The clean wall's mean: what all texels of an empty block show.
     pub fn background(&self) -> Background {
-        self.background
+        self.0.background
     }
 
     /// Resolves the texels `i0..i0 + width`, `j0..j0 + height` of the unrolled strip of a face: i grows along the face,
@@ -90,16 +56,16 @@ impl<'a> WallResolver<'a> {
 
     /// As [`WallResolver::resolve`], into a block whose memory is used again.
     pub fn resolve_into(&self, face: usize, i0: i64, j0: i64, width: usize, height: usize, block: &mut ResolvedBlock) {
-        let Some(strip) = Strip::of(self.sums.grid(), face).filter(|_| width > 0 && height > 0) else {
+        let Some(strip) = FaceStrip::of(self.0.sums.grid(), face).filter(|_| width > 0 && height > 0) else {
             block.become_empty();
             return;
         };
         block.resize(width * height, &WALL_LAYERS);
         let rows = strip.rows(j0, height);
         let runs = strip.columns(i0, width);
-        let whole = Shown { columns: i0.max(0) as u32..i0.max(0) as u32 + width as u32, at: 0 };
+        let whole = ColumnRun { columns: i0.max(0) as u32..i0.max(0) as u32 + width as u32, at: 0 };
         if i0 >= 0 && runs == [whole] && i64::from(rows.start) == j0 && rows.len() == height {
-            if !paint(self, &strip, &strip.window(&runs[0].columns, &rows), block) {
+            if !self.0.paint(&strip, &strip.window(&runs[0].columns, &rows), block) {
                 block.become_empty();
             }
             return;
@@ -109,13 +75,13 @@ impl<'a> WallResolver<'a> {
             for (n, run) in runs.iter().enumerate() {
                 let window = strip.window(&run.columns, &rows);
                 painted.resize(window.texels(), &WALL_LAYERS);
-                any |= paint(self, &strip, &window, painted);
+                any |= self.0.paint(&strip, &window, painted);
                 // On an open strip its one run goes on to either side.
                 let end = runs.get(n + 1).map_or(width, |next| next.at);
                 let left = if strip.closed { 0 } else { (window.i0 - i0).clamp(0, width as i64) as usize };
                 for row in 0..height {
                     let source = (j0 + row as i64 - window.j0).clamp(0, window.height as i64 - 1) as usize;
-                    let place = Line { to: row * width, from: source * window.width };
+                    let place = RowCopy { to: row * width, from: source * window.width };
                     place.copy(block, painted, run.at..end, left, window.width);
                 }
             }
@@ -133,12 +99,12 @@ thread_local! {
 }
 
 /// Rows of a block and of what is copied to it, by their first texels.
-struct Line {
+struct RowCopy {
     to: usize,
     from: usize,
 }
 
-impl Line {
+impl RowCopy {
     /// Copies `len` texels to the columns from `at.start + left` on, and continues the first and the last of them over
     /// the rest of the columns `at`.
     fn copy(
@@ -159,12 +125,4 @@ impl Line {
             block.copy(self.to + column, painted, self.from + len - 1, 1);
         }
     }
-}
-
-/// The noises that add up to the wall's three octaves.
-fn dirt_noise(look: &Look) -> Vec<Noise> {
-    let NoiseLook { fine, middle, coarse } = look.wall.noise;
-    let noise = |channel, octave: Octave| Noise::new(look.seed, channel, [octave.size_m; 2], octave.sd);
-    let all = [noise(Channel::WallFine, fine), noise(Channel::WallMiddle, middle), noise(Channel::WallCoarse, coarse)];
-    all.into_iter().filter(|noise| !noise.is_flat()).collect()
 }

@@ -3,14 +3,9 @@ use std::path::PathBuf;
 use serde::{Deserialize, Serialize};
 
 use super::material::WallMaterial;
-use crate::look::settings::{NoiseLook, Octave, RUBBER, SOIL_WET, Srgb8};
-
-/// What hands leave: skin fat with the dirt that it holds, yellow-grey.
-pub const SKIN: Srgb8 = [118, 104, 84];
-/// What sleeves and shoulders rub on.
-pub const CLOTH: Srgb8 = [112, 106, 99];
-/// What bags and cases rub on.
-pub const BAG: Srgb8 = [92, 91, 90];
+use crate::look::colours::{BAG, CLOTH, RUBBER, SKIN, SOIL_WET};
+use crate::look::octaves::{NoiseLook, Octave};
+use crate::math::srgb::Srgb8;
 
 /// How sums become a wall: the section `[wall]` of a look.
 ///

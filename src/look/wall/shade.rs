@@ -2,15 +2,14 @@
 //!
 //! Causes that left nothing in a window are skipped: most of a wall is clean.
 
+use super::clean_wall::CleanWallRow;
 use super::material::WallProperties;
-use super::plaster::PlasterRow;
 use super::settings::{StainLook, WallLook};
-use crate::look::bytes::{Bytes, Rounding, Shown};
+use crate::look::bytes::{Bytes, Rounding, ShadedPlanes};
 use crate::look::noise::Noise;
 use crate::look::planes::{add2, each1, each2, each3};
 use crate::look::settings::Look;
-use crate::look::tone;
-use crate::math::exp_f32;
+use crate::math::{exp_f32, srgb};
 
 /// Kinds of dirt, in the order of [`super::WALL_LAYERS`]: five causes, splash, dust.
 pub(super) const KINDS: usize = 7;
@@ -43,7 +42,7 @@ const HANDS_SD_M: f32 = 0.22;
 
 /// Everything about a look that is the same for all texels.
 #[derive(Clone, Debug)]
-pub(super) struct WallLaw {
+pub(super) struct WallShader {
     /// History stands for so many times the simulated touches; what single ones stand out by counts so many times.
     weight: f32,
     residual: f32,
@@ -64,8 +63,8 @@ pub(super) struct WallLaw {
 
 /// What is known of each texel of a row.
 #[derive(Default)]
-pub(super) struct WallKnown {
-    pub plaster: PlasterRow,
+pub(super) struct WallShadeInput {
+    pub plaster: CleanWallRow,
     /// By cause: simulated touches, and their mean around. Empty where there are none.
     pub single: [Vec<f32>; 5],
     pub expected: [Vec<f32>; 5],
@@ -79,7 +78,7 @@ pub(super) struct WallKnown {
 
 /// What follows for each texel of a row.
 #[derive(Default)]
-pub(super) struct WallShaded {
+pub(super) struct WallShadeOutput {
     /// Optical densities by kind; empty where there is none.
     pub density: [Vec<f32>; KINDS],
     uneven: Vec<f32>,
@@ -93,25 +92,25 @@ pub(super) struct WallShaded {
     rounding: Rounding,
 }
 
-impl WallKnown {
+impl WallShadeInput {
     /// Whether nothing lies on any texel.
     fn is_clean(&self, dust: f32) -> bool {
         self.single.iter().all(Vec::is_empty) && self.splash.is_empty() && dust == 0.0
     }
 
     /// The row's clean wall where it is even: colour and orm.
-    pub fn even_bytes(&self, law: &WallLaw) -> ([u8; 3], [u8; 3]) {
-        let colour = self.plaster.rgb.each_ref().map(|plane| tone::srgb(plane[0]).round() as u8);
+    pub fn even_bytes(&self, law: &WallShader) -> ([u8; 3], [u8; 3]) {
+        let colour = self.plaster.rgb.each_ref().map(|plane| srgb::encode_f32(plane[0]).round() as u8);
         (colour, [255, (255.0 * law.roughness_with(self.plaster.board)).round() as u8, 0])
     }
 }
 
-impl WallLaw {
+impl WallShader {
     pub fn new(look: &Look, properties: &WallProperties, simulated_people: u32, noise: &[Noise], density: f64) -> Self {
         let wall = &look.wall;
         let weight = properties.history * (wall.total_passes as f64 / f64::from(simulated_people)) as f32;
         let stains = stains(wall);
-        WallLaw {
+        WallShader {
             weight,
             // With fewer passes than were simulated there is nothing to even out.
             residual: weight.min(weight.sqrt()).min(MOST_SINGLE),
@@ -121,13 +120,13 @@ impl WallLaw {
             splash: properties.splash,
             dust: [wall.dust.density * properties.dust, wall.dust.reach_m, wall.dust.hands * properties.dust],
             colours: std::array::from_fn(|kind| {
-                tone::linear_rgb(match kind {
+                srgb::light_of(match kind {
                     SPLASH => wall.splash.colour,
                     DUST => wall.dust.colour,
                     cause => stains[cause].colour,
                 })
             }),
-            darkest: tone::linear(look.darkest),
+            darkest: srgb::decode(f64::from(look.darkest) / 255.0) as f32,
             mean_log: noise.iter().map(|noise| noise.sd_of_texels(density)).map(|sd| 0.5 * sd * sd).sum(),
             roughness: wall.roughness.unwrap_or(properties.roughness),
             grime_roughness: properties.grime_roughness,
@@ -167,7 +166,7 @@ impl WallLaw {
     }
 
     /// Works out a row; `false` where it is clean.
-    pub fn shade(&self, known: &WallKnown, out: &mut WallShaded) -> bool {
+    pub fn shade(&self, known: &WallShadeInput, out: &mut WallShadeOutput) -> bool {
         let len = known.plaster.rgb[0].len();
         let dust = self.dust_at(known.height_m);
         out.clear();
@@ -194,9 +193,9 @@ impl WallLaw {
         self.roughness + board * (BOARD_ROUGHNESS - self.roughness)
     }
 
-    fn densities(&self, known: &WallKnown, dust: f32, out: &mut WallShaded) {
+    fn densities(&self, known: &WallShadeInput, dust: f32, out: &mut WallShadeOutput) {
         let len = known.plaster.rgb[0].len();
-        let WallShaded { density, uneven, .. } = out;
+        let WallShadeOutput { density, uneven, .. } = out;
         if known.uneven.is_empty() {
             uneven.fill(1.0);
         } else {
@@ -227,8 +226,8 @@ impl WallLaw {
     }
 
     /// Dirt over the wall, and the light that comes through it.
-    fn colour(&self, wall: &[Vec<f32>; 3], out: &mut WallShaded) {
-        let WallShaded { density, through, total, hiding, rgb, .. } = out;
+    fn colour(&self, wall: &[Vec<f32>; 3], out: &mut WallShadeOutput) {
+        let WallShadeOutput { density, through, total, hiding, rgb, .. } = out;
         for plane in rgb.iter_mut().chain([&mut *total]) {
             plane.fill(0.0);
         }
@@ -262,8 +261,8 @@ impl WallLaw {
         }
     }
 
-    fn roughness(&self, board: f32, out: &mut WallShaded) {
-        let WallShaded { through: [skin, rub, scuff, splash], roughness, .. } = out;
+    fn roughness(&self, board: f32, out: &mut WallShadeOutput) {
+        let WallShadeOutput { through: [skin, rub, scuff, splash], roughness, .. } = out;
         roughness.fill(self.roughness_with(board));
         if !skin.is_empty() {
             add2(roughness, skin, skin, |skin, _| self.grime_roughness * ((1.0 - skin) / FULL_GRIME).min(1.0));
@@ -294,7 +293,7 @@ pub(super) fn stains(wall: &WallLook) -> [StainLook; 5] {
     [wall.skin, wall.cloth, wall.cloth, wall.bag, wall.rubber]
 }
 
-impl WallShaded {
+impl WallShadeOutput {
     fn clear(&mut self) {
         for plane in self.density.iter_mut().chain(&mut self.through) {
             plane.clear();
@@ -302,7 +301,7 @@ impl WallShaded {
     }
 
     fn resize(&mut self, len: usize) {
-        let WallShaded { uneven, total, hiding, roughness, rgb, .. } = self;
+        let WallShadeOutput { uneven, total, hiding, roughness, rgb, .. } = self;
         for plane in [uneven, total, hiding, roughness].into_iter().chain(rgb) {
             plane.resize(len, 0.0);
         }
@@ -311,7 +310,7 @@ impl WallShaded {
     /// Rounds a row that starts at texel (i, j) to 8 bits.
     pub fn write(&mut self, dither: u32, i: i64, j: i64, out: &mut Bytes<'_>) {
         let [skin, rub, scuff, splash] = &self.through;
-        let shown = Shown { rgb: &self.rgb, through: [skin, rub, scuff, splash], roughness: &self.roughness };
+        let shown = ShadedPlanes { rgb: &self.rgb, through: [skin, rub, scuff, splash], roughness: &self.roughness };
         self.rounding.write(dither, i, j, &shown, out);
     }
 }

@@ -1,9 +1,9 @@
 //! The splash band: what the mop smears and throws against the foot of a wall, and what runs down from there.
 
-use super::dots::{Dots, Spread, poisson, splat};
+use super::dots::{DotSettings, Dots, poisson, splat};
 use super::settings::SplashLook;
-use super::strip::Strip;
-use crate::look::lattice::Window;
+use super::strip::FaceStrip;
+use crate::look::lattice::TexelWindow;
 use crate::look::noise::{self, Channel, Noise, NoiseField};
 use crate::math::{SplitMix64, exp_f32};
 
@@ -41,7 +41,7 @@ pub(super) struct Splash {
 
 /// The band over one window.
 pub(super) struct SplashWindow {
-    window: Window,
+    window: TexelWindow,
     look: SplashLook,
     /// By column: factor on the density, and where the band ends, metres.
     amount: Vec<f32>,
@@ -65,14 +65,14 @@ impl Splash {
             streaks: Noise::new(seed, Channel::SplashStreak, [0.12, 0.014], 1.0),
             drops: Dots::new(
                 noise::key(seed, Channel::SplashDrop),
-                Spread { per_m2: 420.0, radius_m: [0.0006, 0.0032], depth: [0.25, 1.0] },
+                DotSettings { per_m2: 420.0, radius_m: [0.0006, 0.0032], depth: [0.25, 1.0] },
             ),
             drip_key: noise::key(seed, Channel::Drip),
         }
     }
 
     /// `None` where the window lies above all splashes.
-    pub fn over(&self, window: &Window, strip: &Strip) -> Option<SplashWindow> {
+    pub fn over(&self, window: &TexelWindow, strip: &FaceStrip) -> Option<SplashWindow> {
         let drips = self.look.drips_per_metre > 0.0;
         let band = self.look.density > 0.0;
         let top_m = f64::from(if band { DROPS_END * self.look.height_m } else { 0.0 });
@@ -80,7 +80,7 @@ impl Splash {
         if window.j0 as f64 >= top_m * window.texels_per_metre {
             return None;
         }
-        let line = Window { j0: 0, height: 1, ..*window };
+        let line = TexelWindow { j0: 0, height: 1, ..*window };
         let along = |noise: &Noise| {
             let mut field = noise.over_strip(&line, strip.salt, strip.width, strip.closed);
             let mut values = vec![0.0; window.width];
@@ -122,7 +122,7 @@ impl Splash {
 
     /// The drips that may reach a window. Splashes are thrown anywhere along the wall (a Poisson process); each leaves one
     /// drip, or a few close to each other.
-    fn drips(&self, window: &Window, strip: &Strip) -> Vec<Drip> {
+    fn drips(&self, window: &TexelWindow, strip: &FaceStrip) -> Vec<Drip> {
         let density = strip.texels_per_metre;
         let around = (f64::from(strip.width) / (STRETCH_M * density)).round().max(1.0);
         let side = f64::from(strip.width) / around;
@@ -148,7 +148,7 @@ impl Splash {
 
     /// Where the drips are that may reach a window, texels along the strip.
     #[cfg(test)]
-    pub fn places_of_drips(&self, window: &Window, strip: &Strip) -> Vec<f64> {
+    pub fn places_of_drips(&self, window: &TexelWindow, strip: &FaceStrip) -> Vec<f64> {
         self.drips(window, strip).into_iter().map(|drip| drip.place).collect()
     }
 }
@@ -176,7 +176,7 @@ impl Drip {
     }
 
     /// Adds the drip to a window: thin and straight but for a little wander, paler upward, a bead where it stopped.
-    fn paint(&self, window: &Window, density: f64, out: &mut [f32]) {
+    fn paint(&self, window: &TexelWindow, density: f64, out: &mut [f32]) {
         // Variance of the run and of a texel.
         let variance = self.radius * self.radius / 4.0 + 1.0 / 12.0;
         let depth = self.depth * self.radius / 2.0 / variance.sqrt();

@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
-use crate::look::lattice::Window;
+use crate::look::lattice::TexelWindow;
 use crate::look::noise;
 use crate::stamps::WallGrid;
 
 /// What is the same all over a face.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Strip {
+pub(super) struct FaceStrip {
     pub face: usize,
     pub texels_per_metre: f64,
     /// Columns and rows.
@@ -22,16 +22,16 @@ pub(super) struct Strip {
 
 /// A rectangle of texels on a strip, and where its columns and rows are shown.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Shown {
+pub(super) struct ColumnRun {
     pub columns: Range<u32>,
     /// First column of the block that shows them.
     pub at: usize,
 }
 
-impl Strip {
-    pub fn of(grid: &WallGrid, face: usize) -> Option<Strip> {
+impl FaceStrip {
+    pub fn of(grid: &WallGrid, face: usize) -> Option<FaceStrip> {
         let span = grid.faces.get(face)?;
-        Some(Strip {
+        Some(FaceStrip {
             face,
             texels_per_metre: grid.texels_per_metre,
             width: span.width.max(1),
@@ -41,8 +41,8 @@ impl Strip {
         })
     }
 
-    pub fn window(&self, columns: &Range<u32>, rows: &Range<u32>) -> Window {
-        Window {
+    pub fn window(&self, columns: &Range<u32>, rows: &Range<u32>) -> TexelWindow {
+        TexelWindow {
             texels_per_metre: self.texels_per_metre,
             i0: i64::from(columns.start),
             j0: i64::from(rows.start),
@@ -53,15 +53,15 @@ impl Strip {
 
     /// The columns of the strip that a block of columns `i0..i0 + width` shows: round a closed face as often as need be;
     /// on an open one the part within the strip, at least its first or last column.
-    pub fn columns(&self, i0: i64, width: usize) -> Vec<Shown> {
+    pub fn columns(&self, i0: i64, width: usize) -> Vec<ColumnRun> {
         if !self.closed {
-            return vec![Shown { columns: clamped(i0, width, self.width), at: 0 }];
+            return vec![ColumnRun { columns: clamped(i0, width, self.width), at: 0 }];
         }
         let (mut runs, mut at) = (Vec::new(), 0);
         while at < width {
             let first = (i0 + at as i64).rem_euclid(i64::from(self.width)) as u32;
             let len = (width - at).min((self.width - first) as usize);
-            runs.push(Shown { columns: first..first + len as u32, at });
+            runs.push(ColumnRun { columns: first..first + len as u32, at });
             at += len;
         }
         runs
@@ -85,23 +85,23 @@ fn clamped(first: i64, count: usize, size: u32) -> Range<u32> {
 mod tests {
     use super::*;
 
-    fn strip(closed: bool) -> Strip {
-        Strip { face: 0, texels_per_metre: 100.0, width: 50, height: 20, closed, salt: 1 }
+    fn strip(closed: bool) -> FaceStrip {
+        FaceStrip { face: 0, texels_per_metre: 100.0, width: 50, height: 20, closed, salt: 1 }
     }
 
     #[test]
     fn an_open_strip_ends_in_its_edge() {
         let open = strip(false);
-        assert_eq!(open.columns(-8, 20), [Shown { columns: 0..12, at: 0 }]);
-        assert_eq!(open.columns(-20, 10), [Shown { columns: 0..1, at: 0 }]);
-        assert_eq!(open.columns(60, 10), [Shown { columns: 49..50, at: 0 }]);
+        assert_eq!(open.columns(-8, 20), [ColumnRun { columns: 0..12, at: 0 }]);
+        assert_eq!(open.columns(-20, 10), [ColumnRun { columns: 0..1, at: 0 }]);
+        assert_eq!(open.columns(60, 10), [ColumnRun { columns: 49..50, at: 0 }]);
         assert_eq!((open.rows(-3, 5), open.rows(18, 9), open.rows(40, 2)), (0..2, 18..20, 19..20));
     }
 
     #[test]
     fn a_closed_strip_goes_round() {
         let runs = strip(true).columns(-8, 120);
-        let shown = |columns, at| Shown { columns, at };
+        let shown = |columns, at| ColumnRun { columns, at };
         assert_eq!(runs, [shown(42..50, 0), shown(0..50, 8), shown(0..50, 58), shown(0..12, 108)]);
     }
 }

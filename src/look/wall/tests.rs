@@ -4,8 +4,9 @@ use std::sync::LazyLock;
 
 use super::shade::{DUST, SPLASH};
 use super::*;
-use crate::look::tone::{lightness, linear_rgb};
+use crate::look::tests::lightness;
 use crate::look::{Look, LookError, ResolvedBlock};
+use crate::math::srgb::light_of;
 use crate::math::{SplitMix64, exp};
 use crate::patterns::Cause;
 use crate::plan::FloorPlan;
@@ -24,42 +25,42 @@ const JAMB_M: f64 = 4.0;
 const SPLASH_ZONE_M: f64 = 0.15;
 
 /// Walls with their sums.
-struct Scene {
+struct SummedWalls {
     walls: Walls,
     sums: WallSums,
 }
 
 /// A corridor of 8 m; people pass its first wall within reach.
-static PLAIN: LazyLock<Scene> = LazyLock::new(|| {
+static PLAIN: LazyLock<SummedWalls> = LazyLock::new(|| {
     let mut scene = corridor(200.0);
     passers_by(&mut scene.sums);
     scene
 });
 
 /// The same with people who push themselves through a door in the first wall.
-static DOOR: LazyLock<Scene> = LazyLock::new(|| {
+static DOOR: LazyLock<SummedWalls> = LazyLock::new(|| {
     let mut scene = corridor(200.0);
     passers_by(&mut scene.sums);
     jamb(&mut scene.sums);
     scene
 });
 
-fn corridor(texels_per_metre: f64) -> Scene {
+fn corridor(texels_per_metre: f64) -> SummedWalls {
     scene((LENGTH_M * 10.0) as usize, 24, texels_per_metre, |_, row| (2..22).contains(&row))
 }
 
 /// A room of 3 x 2 m: one closed face.
-fn room(texels_per_metre: f64) -> Scene {
+fn room(texels_per_metre: f64) -> SummedWalls {
     scene(34, 24, texels_per_metre, |column, row| (2..32).contains(&column) && (2..22).contains(&row))
 }
 
 /// Walls of a plan with pixels of 10 cm.
-fn scene(columns: usize, rows: usize, texels_per_metre: f64, is_floor: impl Fn(usize, usize) -> bool) -> Scene {
+fn scene(columns: usize, rows: usize, texels_per_metre: f64, is_floor: impl Fn(usize, usize) -> bool) -> SummedWalls {
     let floor = (0..columns * rows).map(|n| u8::from(is_floor(n % columns, n / columns))).collect();
     let plan = FloorPlan::from_mask(columns as u32, rows as u32, 0.1, floor);
     let walls = Walls::trace(&plan, &WallsOptions::default());
     let grid = WallGrid::covering(&walls, HEIGHT_M, texels_per_metre).unwrap();
-    Scene { sums: WallSums::new(grid), walls }
+    SummedWalls { sums: WallSums::new(grid), walls }
 }
 
 /// A soft spot on the first face: its middle and its whole size, metres; its density there.
@@ -138,7 +139,7 @@ struct Resolved {
     clean: ResolvedBlock,
 }
 
-fn resolved(scene: &Scene, look: &Look, along_m: [f64; 2], up_m: [f64; 2]) -> Resolved {
+fn resolved(scene: &SummedWalls, look: &Look, along_m: [f64; 2], up_m: [f64; 2]) -> Resolved {
     let t = scene.sums.grid().texels_per_metre;
     let part = |look: &Look| {
         let resolver = WallResolver::new(&scene.sums, &scene.walls, look, PEOPLE).unwrap();
@@ -153,7 +154,7 @@ impl Resolved {
     /// What dirt changes the lightness by, texel by texel.
     fn change(&self) -> Vec<f64> {
         let of = |block: &ResolvedBlock| -> Vec<f64> {
-            block.base_color.iter().map(|&colour| lightness(linear_rgb(colour))).collect()
+            block.base_color.iter().map(|&colour| lightness(light_of(colour))).collect()
         };
         of(&self.dirty).into_iter().zip(of(&self.clean)).map(|(dirty, clean)| dirty - clean).collect()
     }
@@ -218,7 +219,7 @@ fn touches_gather_at_a_jamb() {
     assert!(uneven < 3.0, "the patch varies by {uneven}");
 
     // Square metres that are visibly dirty, per metre of wall.
-    let dirty = |scene: &Scene, along_m: [f64; 2]| {
+    let dirty = |scene: &SummedWalls, along_m: [f64; 2]| {
         let wall = resolved(scene, &look(WallMaterial::Matt), along_m, [0.2, HEIGHT_M]);
         (HEIGHT_M - 0.2) * share(&wall.change(), |change| change < -3.0)
     };
@@ -326,7 +327,7 @@ fn drips_are_rare_and_never_evenly_spaced() {
         height: 260,
         faces: vec![crate::stamps::FaceSpan { width: 100_000, length_m: 1000.0, closed: false }],
     };
-    let strip = strip::Strip::of(&grid, 0).unwrap();
+    let strip = strip::FaceStrip::of(&grid, 0).unwrap();
     let look = SplashLook { drips_per_metre: 0.5, ..SplashLook::default() };
     let drips = splash::Splash::new(look, 3);
     let mut places: Vec<f64> = drips.places_of_drips(&strip.window(&(0..100_000), &(0..50)), &strip);
@@ -370,7 +371,7 @@ fn texel_density_does_not_change_the_picture() {
                 let means = (0..15 * 12).map(|n| {
                     let (column, row) = (n % 12 * cell, n / 12 * cell);
                     let texels = (0..cell * cell).map(|m| (row + m / cell) * wall.width + column + m % cell);
-                    let colours: Vec<[f32; 3]> = texels.map(|m| linear_rgb(wall.dirty.base_color[m])).collect();
+                    let colours: Vec<[f32; 3]> = texels.map(|m| light_of(wall.dirty.base_color[m])).collect();
                     [0, 1, 2].map(|c| mean(colours.iter().map(|colour| f64::from(colour[c]))))
                 });
                 means.collect()
@@ -501,7 +502,7 @@ fn the_paper_paints_touches_over_each_other_and_nothing_else() {
 
 #[test]
 fn history_gathers_where_people_do_and_lone_touches_stay_faint() {
-    let density = |scene: &Scene, total_passes: u64, [along, up]: [f64; 2]| {
+    let density = |scene: &SummedWalls, total_passes: u64, [along, up]: [f64; 2]| {
         let mut look = look(WallMaterial::Matt);
         look.wall.total_passes = total_passes;
         let wall = resolved(scene, &look, [along - 0.02, along + 0.02], [up - 0.02, up + 0.02]);

@@ -1,32 +1,32 @@
 //! What the simulated people's touches tell of all those for whom they stand.
 
-use super::strip::Strip;
-use crate::look::lattice::{Axis, Lattice, Window};
-use crate::look::traffic::{blurred, half_gaussian};
+use super::strip::FaceStrip;
+use crate::look::lattice::{SplineAxis, SplineLattice, TexelWindow};
+use crate::look::passes::{blurred, half_gaussian};
 use crate::patterns::Cause;
 use crate::stamps::DENSITY_ONE;
 use crate::sums::WallSums;
 
-/// Touches of one cause over a window of a strip.
-pub(super) struct Touches {
+/// TouchFields of one cause over a window of a strip.
+pub(super) struct TouchFields {
     /// Sums as they are, texel by texel.
     pub single: Vec<u32>,
     /// Their mean around; `None` where it is not asked for.
-    mean: Option<Lattice>,
+    mean: Option<SplineLattice>,
 }
 
 /// A strip's texels in groups along one axis.
 #[derive(Clone, Copy)]
-struct Cells {
+struct TexelCells {
     texels: u32,
     count: i64,
     closed: bool,
 }
 
-impl Cells {
-    fn new(texels: u32, wanted: f64, closed: bool) -> Cells {
+impl TexelCells {
+    fn new(texels: u32, wanted: f64, closed: bool) -> TexelCells {
         let count = (f64::from(texels) / wanted).round().max(1.0) as i64;
-        Cells { texels, count, closed }
+        TexelCells { texels, count, closed }
     }
 
     /// Texels per cell; cells differ by less than one.
@@ -60,24 +60,24 @@ impl Cells {
     }
 }
 
-impl Touches {
+impl TouchFields {
     /// `None` where nobody has touched the wall in the window, nor near it if touches are evened out over `spread_m`.
     pub fn over(
-        window: &Window,
-        strip: &Strip,
+        window: &TexelWindow,
+        strip: &FaceStrip,
         sums: &WallSums,
         cause: Cause,
         spread_m: Option<f64>,
-    ) -> Option<Touches> {
-        let Some(spread_m) = spread_m else { return Touches::alone(window, strip, sums, cause) };
+    ) -> Option<TouchFields> {
+        let Some(spread_m) = spread_m else { return TouchFields::alone(window, strip, sums, cause) };
         let spread = spread_m * strip.texels_per_metre;
         let cell = (spread / 3.0).floor().max(1.0);
-        let across = Cells::new(strip.width, cell, strip.closed);
-        let up = Cells::new(strip.height, cell, false);
-        let x = Axis::new(window.i0, window.width, across.spacing(), 0.5);
-        let y = Axis::new(window.j0, window.height, up.spacing(), 0.5);
+        let across = TexelCells::new(strip.width, cell, strip.closed);
+        let up = TexelCells::new(strip.height, cell, false);
+        let x = SplineAxis::new(window.i0, window.width, across.spacing(), 0.5);
+        let y = SplineAxis::new(window.j0, window.height, up.spacing(), 0.5);
         let kernel = half_gaussian(spread / cell);
-        let cells = Window { texels_per_metre: 1.0, i0: x.first, j0: y.first, width: x.len, height: y.len };
+        let cells = TexelWindow { texels_per_metre: 1.0, i0: x.first, j0: y.first, width: x.len, height: y.len };
         let around = cells.grown(kernel.len() - 1);
 
         let mut values = vec![0.0; around.texels()];
@@ -85,7 +85,7 @@ impl Touches {
         let mut any = false;
         for (row, j, rows) in up.runs(around.j0, around.height) {
             for (column, i, columns) in across.runs(around.i0, around.width) {
-                let place = Place { cause, strip, across, up, cells: [i, j], count: [columns, rows] };
+                let place = CellBlock { cause, strip, across, up, cells: [i, j], count: [columns, rows] };
                 any |= place.read(sums, &mut values, row * around.width + column, around.width);
                 for line in share[row * around.width + column..].chunks_mut(around.width).take(rows) {
                     line[..columns].fill(1.0);
@@ -101,13 +101,13 @@ impl Touches {
             *mean /= share.max(1e-3);
         }
         let single = singles(window, strip, sums, cause);
-        Some(Touches { single, mean: Some(Lattice::new(x, y, mean)) })
+        Some(TouchFields { single, mean: Some(SplineLattice::new(x, y, mean)) })
     }
 
     /// Without a mean around.
-    fn alone(window: &Window, strip: &Strip, sums: &WallSums, cause: Cause) -> Option<Touches> {
+    fn alone(window: &TexelWindow, strip: &FaceStrip, sums: &WallSums, cause: Cause) -> Option<TouchFields> {
         let touched = sums.touched(cause, strip.face, window.i0 as u32, window.j0 as u32, window.width, window.height);
-        touched.then(|| Touches { single: singles(window, strip, sums, cause), mean: None })
+        touched.then(|| TouchFields { single: singles(window, strip, sums, cause), mean: None })
     }
 
     pub fn begin_row(&mut self, row: usize) {
@@ -126,27 +126,27 @@ impl Touches {
 }
 
 /// Sums of a window as they are.
-fn singles(window: &Window, strip: &Strip, sums: &WallSums, cause: Cause) -> Vec<u32> {
+fn singles(window: &TexelWindow, strip: &FaceStrip, sums: &WallSums, cause: Cause) -> Vec<u32> {
     let mut single = vec![0; window.texels()];
-    let Window { i0, j0, width, height, .. } = *window;
+    let TexelWindow { i0, j0, width, height, .. } = *window;
     sums.read(cause, strip.face, i0 as u32, j0 as u32, width, height, &mut single);
     single
 }
 
 /// A rectangle of cells on a strip.
-struct Place<'a> {
+struct CellBlock<'a> {
     cause: Cause,
-    strip: &'a Strip,
-    across: Cells,
-    up: Cells,
+    strip: &'a FaceStrip,
+    across: TexelCells,
+    up: TexelCells,
     cells: [i64; 2],
     count: [usize; 2],
 }
 
-impl Place<'_> {
+impl CellBlock<'_> {
     /// Writes each cell's mean density from `out[at]` on, in rows of `stride`; `false` where there is nothing.
     fn read(&self, sums: &WallSums, out: &mut [f32], at: usize, stride: usize) -> bool {
-        let Place { cause, strip, across, up, cells: [i, j], count: [columns, rows] } = self;
+        let CellBlock { cause, strip, across, up, cells: [i, j], count: [columns, rows] } = self;
         let (i0, i1) = (across.start(*i), across.start(i + *columns as i64));
         let (j0, j1) = (up.start(*j), up.start(j + *rows as i64));
         let (width, height) = ((i1 - i0) as usize, (j1 - j0) as usize);

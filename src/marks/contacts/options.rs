@@ -1,92 +1,93 @@
+//! Options of wall contacts.
+
 use serde::{Deserialize, Serialize};
 
 use crate::marks::MarksError;
 
-/// What decides where people touch walls.
+/// Rule that decides where people touch walls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ContactRule {
-    /// What people do there: pass a door, turn round a corner, squeeze through, carry a bag along, stand and lean.
+    /// Activities: passing a door, turning round a corner, squeezing through, carrying luggage, leaning.
     #[default]
     Causes,
-    /// Nothing but the distance from the wall, as in Takenaka, Tanaka, Sagawa, *Expression of indoor grime by human walk*:
-    /// very close, arm, shoulder, shoe and belongings touch, a little farther hand and belongings only.
+    /// Distance from the wall alone: very close arm, shoulder, shoe and luggage touch; farther away hand and luggage.
+    ///
+    /// Source: Takenaka, Tanaka, Sagawa, *Expression of indoor grime by human walk*.
     Distance,
 }
 
-/// How often people touch walls, and how strongly.
+/// Options of wall contacts: rates, reaches and optical densities.
 ///
-/// Every rate is for one person: per metre walked, per passage, per turn, per second stood. Distances are those from the
-/// side of the body to the wall. The defaults are judgement, so that 1000 people leave a plain wall almost clean and door
-/// jambs, corners and fixtures at least ten times as touched.
+/// Rates are for one person: per metre walked, per passage, per turn, per second stood. Distances are from the side of
+/// the body to the wall. The defaults are estimates: 1000 people leave a plain wall almost clean, and touch door jambs,
+/// corners and fixtures at least ten times as often.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ContactOptions {
-    /// What decides where people touch walls.
+    /// Rule that decides where people touch walls.
     pub rule: ContactRule,
-    /// For how many people touches are drawn, 1 to 1e9: touches are rare, so that those of a few hundred would not show
-    /// where many more have touched. Whoever walks in a smaller crowd touches as often as up to 64 who go the same way;
-    /// the look knows for how many the sums stand. 1: as many as walk.
+    /// Number of people whose contacts the walls show, 1 to 1e9; 1 means the simulated crowd.
+    ///
+    /// In a crowd of fewer than `people`, each person's contact rate is scaled up, at most 64 times. The look accounts
+    /// for the number of people that the sums stand for.
     pub people: f64,
-    /// How far hands and belongings reach, metres.
+    /// Reach of hands and luggage, metres.
     pub reach_m: f64,
-    /// How far away a wall may be that shoulder, arm and hip touch, metres.
+    /// Reach of shoulder, arm and hip, metres.
     pub close_m: f64,
-    /// Clear width below which those who walk brush walls with their shoulders, metres.
+    /// Clear width below which walking people brush walls with their shoulders, metres.
     pub narrow_m: f64,
-    /// Hands on a plain wall, per metre walked within reach, more often the nearer it is: 0.01 per 10 m at the distances that
-    /// people keep.
+    /// Hands on a plain wall, per metre walked within reach, more often the nearer: 0.01 per 10 m at usual distances.
     pub hand_per_metre: f64,
     /// Elbow, upper arm and hip, per metre walked very close.
     pub arm_per_metre: f64,
-    /// Shoulders, per metre walked very close where it is narrow.
+    /// Shoulders, per metre walked very close in narrow places.
     pub shoulder_per_metre: f64,
-    /// Belongings, per metre walked within reach of those who carry some on the wall's side: by the shares of people, 0.005
-    /// per 10 m of everybody.
+    /// Luggage on the wall's side, per metre walked within reach by its carriers: 0.005 per 10 m over all people.
     pub bag_per_metre: f64,
-    /// Shoes, per metre walked within reach, mostly of those who walk very close: 0.002 per 10 m at the distances that people
-    /// keep.
+    /// Shoes, per metre walked within reach, mostly very close: 0.002 per 10 m at usual distances.
     pub shoe_per_metre: f64,
     /// Hands on a jamb, per passage of a doorway within reach of it.
     pub jamb_hand_per_passage: f64,
     /// Shoulders and arms on a jamb, per passage of a doorway narrower than `narrow_m`.
     pub jamb_shoulder_per_passage: f64,
-    /// Belongings against a jamb, per passage of those who carry some on that side.
+    /// Luggage against a jamb, per passage of people who carry it on that side.
     pub jamb_bag_per_passage: f64,
     /// Shoes against a jamb, per passage.
     pub jamb_shoe_per_passage: f64,
-    /// Hands on the corner that one turns round, per turn within reach of it.
+    /// Hands on a convex corner, per turn round it within reach.
     pub corner_per_turn: f64,
-    /// Belongings against it, per turn of those who carry some on that side.
+    /// Luggage against the corner, per turn of people who carry it on that side.
     pub corner_bag_per_turn: f64,
-    /// Shoes against its foot, per turn.
+    /// Shoes against the foot of the corner, per turn.
     pub corner_shoe_per_turn: f64,
-    /// Shoulder, back, hand, sole or belongings of somebody who stands very close, per second.
+    /// Shoulder, back, hand, sole or luggage of a person who stands very close, per second.
     pub lean_per_second: f64,
-    /// What a fixture takes of somebody who passes within reach; factor on the kind's own shares.
+    /// Contacts with a fixture per passage within reach; factor on the rate of its kind.
     pub fixture_per_passage: f64,
-    /// What it takes of somebody who stands within reach, per second; factor likewise.
+    /// Contacts with a fixture per second stood within reach; factor on the rate of its kind.
     pub fixture_per_second: f64,
-    /// Rule `distance`: touches per metre walked at no distance; falls to nothing at `close_m`.
+    /// Rule `distance`: contacts per metre walked at distance 0; falls to zero at `close_m`.
     pub distance_close_per_metre: f64,
-    /// Rule `distance`: the same of hand and belongings, to nothing at `reach_m`.
+    /// Rule `distance`: contacts of hand and luggage per metre walked at distance 0; falls to zero at `reach_m`.
     pub distance_far_per_metre: f64,
-    /// Median optical density of a hand's touch where its pattern covers fully.
+    /// Median optical density of a hand's contact at full coverage, 0 to 3.
     pub hand_density: f64,
-    /// Of an arm's.
+    /// Median optical density of an arm's contact.
     pub arm_density: f64,
-    /// Of a shoulder's.
+    /// Median optical density of a shoulder's contact.
     pub shoulder_density: f64,
-    /// Of a bag's.
+    /// Median optical density of a bag's contact.
     pub bag_density: f64,
-    /// Of a shoe's.
+    /// Median optical density of a shoe's contact.
     pub shoe_density: f64,
-    /// Spread of all: standard deviation of the natural logarithm.
+    /// Standard deviation of the natural logarithm of these densities.
     pub sigma: f64,
 }
 
-/// Nobody stands for more than so many people: their few ways would show.
-const MOST_STAND_INS: f64 = 64.0;
+/// Limit on the factor of contact rates: beyond it the few simulated paths would show.
+const MOST_RATE_FACTOR: f64 = 64.0;
 
 impl Default for ContactOptions {
     fn default() -> ContactOptions {
@@ -124,7 +125,7 @@ impl Default for ContactOptions {
 }
 
 impl ContactOptions {
-    /// Nobody ever touches a wall.
+    /// Options with all rates zero.
     pub fn none() -> ContactOptions {
         ContactOptions {
             hand_per_metre: 0.0,
@@ -149,24 +150,24 @@ impl ContactOptions {
         }
     }
 
-    /// The paper's rule: by distance alone.
+    /// Options of the rule by distance alone.
     pub fn paper() -> ContactOptions {
         ContactOptions { rule: ContactRule::Distance, people: 1.0, ..ContactOptions::default() }
     }
 
-    /// For how many people each of a crowd touches: 1 to [`MOST_STAND_INS`].
-    pub(crate) fn stand_ins(&self, crowd: usize) -> f64 {
-        (self.people / crowd.max(1) as f64).clamp(1.0, MOST_STAND_INS)
+    /// Factor on contact rates in a crowd of this size, 1 to [`MOST_RATE_FACTOR`].
+    pub(crate) fn rate_factor(&self, crowd: usize) -> f64 {
+        (self.people / crowd.max(1) as f64).clamp(1.0, MOST_RATE_FACTOR)
     }
 
-    /// Whether nobody can touch anything.
+    /// Whether all rates are zero.
     pub(crate) fn is_none(&self) -> bool {
         let Self { rule, .. } = self;
         let none = ContactOptions { rule: *rule, ..ContactOptions::none() };
         self.rates() == none.rates()
     }
 
-    /// The rates that count under the rule.
+    /// The rates that apply under the rule.
     fn rates(&self) -> Vec<f64> {
         match self.rule {
             ContactRule::Distance => vec![self.distance_close_per_metre, self.distance_far_per_metre],
@@ -193,7 +194,7 @@ impl ContactOptions {
     /// Checks every value.
     ///
     /// # Errors
-    /// The first value that is not finite or lies beyond its range, by its name in a scenario.
+    /// The first value out of its range, by its key in a scenario.
     pub fn check(&self) -> Result<(), MarksError> {
         for (key, value, low, high) in [
             ("contact.people", self.people, 1.0, 1e9),

@@ -1,50 +1,51 @@
-//! Places that people touch more than others: doors, corners, fixtures.
+//! Places with contact rates of their own: doors, corners, fixtures.
 
+use crate::marks::MarksError;
 use crate::math::{Vec2, vec2};
 use crate::plan::{FloorPlan, PlanPoint};
 use crate::routes::{Facing, Stop, StopKind};
 use crate::walls::{Corner, Doorway, Nearest, Walls};
 
-use super::super::MarksError;
-use super::nearby::NEAR_M;
 use super::requests::{DoorRequest, FixtureAt, FixtureKind, FixtureRequest};
 
-/// Height of the handle of a door that nobody described, metres.
+/// Reach of contacts from the middle of the body, metres.
+pub(super) const NEAR_M: f64 = 1.2;
+/// Default height of a door handle, metres.
 const HANDLE_M: f64 = 1.0;
-/// A fixture touches the nearest wall within this distance, metres.
+/// Search radius for the wall of a fixture, metres.
 const FIXTURE_REACH_M: f64 = 1.5;
-/// It is touched from so near by the middle of the body, metres.
+/// Reach of a fixture from the middle of the body, metres.
 const AT_FIXTURE_M: f64 = 1.05;
-/// The side from which a fixture is reached is looked at from so far before it, metres.
+/// Distance before a fixture from which its wall is searched, metres.
 const BEFORE_M: f64 = 0.2;
-/// The counter, the machine or the bench of a stop is looked for within this distance of those who stand there, metres.
+/// Search distance for the counter, machine or bench of a stop, metres.
 const STOP_REACH_M: f64 = NEAR_M;
-/// Steps in which it is looked for, metres.
+/// Step of that search, metres.
 const AHEAD_STEP_M: f64 = 0.12;
-/// Least turn of a corner that one turns round, radians.
+/// Least turn of a convex corner, radians.
 const LEAST_OUTER_RAD: f64 = 0.6;
 
-/// A door: a doorway with what a scenario says of it.
+/// A door: a doorway with its handle and name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Door {
-    /// What the scenario calls it.
+    /// Name in the scenario.
     pub name: Option<String>,
-    /// Where it is.
+    /// The doorway in the walls.
     pub doorway: Doorway,
-    /// The jamb with the handle, `None` if either: an index into [`Doorway::jambs_m`].
+    /// Index into [`Doorway::jambs_m`] of the jamb with the handle; `None` for either.
     pub latch: Option<usize>,
     /// Height of the handle, metres; `None` of an opening without a leaf.
     pub handle_m: Option<f64>,
-    /// At each jamb: whether going through, along [`Doorway::through`], is along the face's growing arc length.
+    /// Per jamb: whether [`Doorway::through`] points along the face's growing arc length.
     pub(super) onward: [bool; 2],
 }
 
 /// A fixture on a wall.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fixture {
-    /// What the scenario calls it.
+    /// Name in the scenario.
     pub name: Option<String>,
-    /// What it is.
+    /// Kind of fixture.
     pub kind: FixtureKind,
     /// Index into [`Walls::faces`].
     pub face: usize,
@@ -54,11 +55,11 @@ pub struct Fixture {
     pub width_m: f64,
     /// The middle on the wall, metres.
     pub point_m: Vec2,
-    /// From how far it is touched, metres from the wall to the middle of the body.
+    /// Reach from the wall to the middle of the body, metres.
     pub reach_m: f64,
 }
 
-/// Doors, corners and fixtures of a plan.
+/// The doors, corners and fixtures of a plan.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactPlaces {
     doors: Vec<Door>,
@@ -67,17 +68,17 @@ pub struct ContactPlaces {
 }
 
 impl ContactPlaces {
-    /// What the walls alone tell: doorways and the corners that one turns round.
+    /// Finds doorways and convex corners in the walls.
     pub fn of_walls(walls: &Walls) -> ContactPlaces {
         let doors = walls.doorways().into_iter().map(|doorway| door(walls, doorway)).collect();
         let corners = walls.corners().into_iter().filter(|corner| corner.turn_rad < -LEAST_OUTER_RAD).collect();
         ContactPlaces { doors, corners, fixtures: Vec::new() }
     }
 
-    /// Adds the doors that a scenario gives; one where a doorway was found says more of it.
+    /// Adds the doors of a scenario; a request near a found doorway describes it.
     ///
     /// # Errors
-    /// Values out of range; a door outside the plan's floor or without two jambs.
+    /// A value is out of range; a door is outside the floor or lacks two jambs.
     pub fn with_doors(
         mut self,
         plan: &FloorPlan,
@@ -111,7 +112,7 @@ impl ContactPlaces {
                             format!("[{x:.2}, {y:.2}] is not on the floor")
                         };
                         let hint = "give the middle of a gap between two walls, in metres from the plan's lower-left corner \
-                                    or as { px = [x, y] }; `trodden inspect PLAN` draws what was taken for wall and floor";
+                                    or as { px = [x, y] }; inspecting the plan draws its walls and floor";
                         wrong("at", problem, hint)
                     })?;
                     self.doors.push(door(walls, doorway));
@@ -131,10 +132,10 @@ impl ContactPlaces {
         Ok(self)
     }
 
-    /// Adds the fixtures that a scenario gives.
+    /// Adds the fixtures of a scenario.
     ///
     /// # Errors
-    /// Values out of range; a fixture without a wall in reach.
+    /// A value is out of range; a fixture has no wall in reach.
     pub fn with_fixtures(
         mut self,
         plan: &FloorPlan,
@@ -162,8 +163,8 @@ impl ContactPlaces {
             let found = fixture(walls, request.kind, middle_m, facing_m, width_m).ok_or_else(|| {
                 let problem =
                     format!("no wall stands within {FIXTURE_REACH_M} m of [{:.2}, {:.2}]", middle_m.x, middle_m.y);
-                let hint = "a fixture belongs to the wall that people touch there; points are metres from the plan's \
-                            lower-left corner, or { px = [x, y] } from the top left";
+                let hint = "place a fixture at its wall; points are metres from the plan's lower-left corner, or \
+                            { px = [x, y] } from the top left";
                 wrong("at", problem, Some(hint))
             })?;
             self.fixtures.push(Fixture { name: request.name.clone(), ..found });
@@ -171,8 +172,7 @@ impl ContactPlaces {
         Ok(self)
     }
 
-    /// Adds what stands at the stops of a scenario: counters, machines, benches at a wall. A stop that several routes share
-    /// counts once.
+    /// Adds the counters, machines and benches at the stops of a scenario; a stop shared by routes counts once.
     pub fn with_stops<'s>(mut self, walls: &Walls, stops: impl IntoIterator<Item = &'s Stop>) -> ContactPlaces {
         let mut known: Vec<&str> = Vec::new();
         for stop in stops {
@@ -208,28 +208,28 @@ impl ContactPlaces {
         self
     }
 
-    /// The doors: those that were found in the walls, then those that only the scenario tells of.
+    /// Doors: those found in the walls, then those of the scenario only.
     pub fn doors(&self) -> &[Door] {
         &self.doors
     }
 
-    /// Where the doors are.
+    /// Doorways of the doors.
     pub fn doorways(&self) -> Vec<Doorway> {
         self.doors.iter().map(|door| door.doorway).collect()
     }
 
-    /// The corners that one turns round.
+    /// Convex corners.
     pub fn corners(&self) -> &[Corner] {
         &self.corners
     }
 
-    /// The fixtures, in the order of the scenario, then those of its stops.
+    /// Fixtures in the order of the scenario, then those of its stops.
     pub fn fixtures(&self) -> &[Fixture] {
         &self.fixtures
     }
 }
 
-/// The wall that somebody stands before or leans back on, and its face.
+/// Finds the wall ahead of a person who stands, and its face.
 fn wall_ahead(walls: &Walls, from_m: Vec2, ahead: Vec2) -> Option<(Nearest, usize)> {
     let steps = (STOP_REACH_M / AHEAD_STEP_M) as u32;
     let spots = (0..=steps).map(|step| from_m + ahead * (AHEAD_STEP_M * f64::from(step)));
@@ -239,9 +239,9 @@ fn wall_ahead(walls: &Walls, from_m: Vec2, ahead: Vec2) -> Option<(Nearest, usiz
     near.face.filter(|_| is_seen).map(|face| (near, face))
 }
 
-/// Whether a place on a wall can be seen from another place.
+/// Whether a point on a wall is visible from another point.
 pub(super) fn sees(walls: &Walls, from_m: Vec2, on_wall_m: Vec2) -> bool {
-    // The wall itself must not be in the way.
+    // Ends short of the wall, which would hide the point.
     walls.sight(from_m, on_wall_m.lerp(from_m, 0.02))
 }
 
@@ -283,7 +283,7 @@ fn fixture(walls: &Walls, kind: FixtureKind, middle_m: Vec2, facing_m: Option<Ve
 }
 
 impl Door {
-    /// Height of the handle's zone, where there is a leaf.
+    /// Height of the handle, metres.
     pub(super) fn handle_height_m(&self) -> f64 {
         self.handle_m.unwrap_or(HANDLE_M)
     }

@@ -2,32 +2,32 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::plan::PlanPoint;
+use crate::plan::{LARGEST_COORDINATE, PlanPoint};
 
 /// Range of a door's clear width in a scenario, metres.
-pub(super) const WIDTHS_M: [f64; 2] = [0.5, 6.0];
-/// Range of a door's height, metres: those of the walls less a little above.
+const WIDTHS_M: [f64; 2] = [0.5, 6.0];
+/// Range of a door's height in a scenario, metres.
 const HEIGHTS_M: [f64; 2] = [1.8, 3.5];
 
 /// A door as a scenario writes it. Lengths in metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DoorRequest {
-    /// What messages call it.
+    /// Name in messages.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// Its middle.
+    /// Middle of the clear width.
     pub at: PlanPoint,
-    /// Clear width, 0.5 to 6.
+    /// Clear width, metres, 0.5 to 6.
     #[serde(default = "usual_width")]
     pub width: f64,
-    /// Height, 1.8 to 3.5.
+    /// Height, metres, 1.8 to 3.5.
     #[serde(default = "usual_height")]
     pub height: f64,
-    /// A point near the jamb on which the leaf hangs: the handle is at the other one. Left out: either.
+    /// A point near the hinge jamb; the handle is at the other. `None` for either.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hinge: Option<PlanPoint>,
-    /// Height of the handle, 0.6 to 1.5.
+    /// Height of the handle, metres, 0.6 to 1.5.
     #[serde(default = "usual_handle")]
     pub handle: f64,
 }
@@ -44,7 +44,7 @@ fn usual_handle() -> f64 {
     1.0
 }
 
-/// What a fixture is.
+/// Kind of fixture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum FixtureKind {
@@ -58,7 +58,7 @@ pub enum FixtureKind {
     Bench,
     /// A radiator: hands and hips that lean on it.
     Radiator,
-    /// A bin: what misses it.
+    /// A bin: splashes and knocks around it.
     Bin,
     /// A vending or ticket machine: hands on its front, now and then a shoe.
     #[serde(alias = "vending machine")]
@@ -67,7 +67,7 @@ pub enum FixtureKind {
     Chairs,
 }
 
-/// Where a fixture is, as a scenario writes it.
+/// Position of a fixture, as a scenario writes it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged, expecting = "a point [x, y], or two of them: [[x0, y0], [x1, y1]]")]
 pub enum FixtureAt {
@@ -81,29 +81,29 @@ pub enum FixtureAt {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FixtureRequest {
-    /// What messages call it.
+    /// Name in messages.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// What it is.
+    /// Kind of fixture.
     pub kind: FixtureKind,
-    /// Where it is: a wall within 1.5 m of it is the one that is touched.
+    /// Position; people touch the nearest wall within 1.5 m.
     pub at: FixtureAt,
-    /// A point on the side from which it is reached: of a thin wall, it chooses the face.
+    /// A point on the side of its users, which selects the face of a thin wall.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub facing: Option<PlanPoint>,
-    /// Width along the wall of a fixture given by its middle, 0.02 to 20. Left out: by the kind.
+    /// Width along the wall of a fixture given by its middle, metres, 0.02 to 20; default by kind.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width: Option<f64>,
 }
 
-/// A key that is wrong, and what is wrong with it.
+/// An invalid key and its problem.
 type Problem = (&'static str, String);
 
 impl DoorRequest {
     /// Checks every value.
     ///
     /// # Errors
-    /// The first key whose value is no number or out of its range, and what is wrong with it.
+    /// The first key whose value is out of range, with the problem.
     pub fn check(&self) -> Result<(), Problem> {
         check_point("at", self.at)?;
         check_number("width", self.width, WIDTHS_M)?;
@@ -114,7 +114,7 @@ impl DoorRequest {
 }
 
 impl FixtureKind {
-    /// How messages and scenarios call it.
+    /// Name in messages and scenarios.
     pub const fn name(self) -> &'static str {
         match self {
             FixtureKind::Switch => "switch",
@@ -128,7 +128,7 @@ impl FixtureKind {
         }
     }
 
-    /// Width along the wall, where a scenario does not say, metres.
+    /// Default width along the wall, metres.
     pub(super) const fn width_m(self) -> f64 {
         match self {
             FixtureKind::Switch => 0.08,
@@ -147,7 +147,7 @@ impl FixtureRequest {
     /// Checks every value.
     ///
     /// # Errors
-    /// The first key whose value is no number or out of its range, and what is wrong with it.
+    /// The first key whose value is out of range, with the problem.
     pub fn check(&self) -> Result<(), Problem> {
         match self.at {
             FixtureAt::Point(point) => check_point("at", point)?,
@@ -155,7 +155,7 @@ impl FixtureRequest {
                 check_point("at", from)?;
                 check_point("at", to)?;
                 if self.width.is_some() {
-                    return Err(("width", "a fixture that is given by its two ends has no `width`".into()));
+                    return Err(("width", "a fixture given by its two ends takes no `width`".into()));
                 }
             }
         }
@@ -179,7 +179,7 @@ fn check_point(key: &'static str, point: PlanPoint) -> Result<(), Problem> {
     let [x, y] = match point {
         PlanPoint::Metres(at) | PlanPoint::Pixels { px: at } => at,
     };
-    // Written so that NaN is none.
-    let fine = |c: f64| c.abs() < 1e7;
-    if fine(x) && fine(y) { Ok(()) } else { Err((key, format!("`{key}` holds a coordinate that is no finite number"))) }
+    [x, y]
+        .into_iter()
+        .try_for_each(|coordinate| check_number(key, coordinate, [-LARGEST_COORDINATE, LARGEST_COORDINATE]))
 }

@@ -1,4 +1,4 @@
-//! What a touch leaves: where, how high, how long, and by which pattern.
+//! Turns a touch into a contact: position, height, length and pattern of its stain.
 
 use std::f64::consts::PI;
 
@@ -7,14 +7,15 @@ use crate::motion::{BagKind, CarrySide, Person};
 use crate::patterns::{Cause, Form};
 use crate::walls::Walls;
 
-use super::super::Contact;
-use super::beside::Beside;
+use super::ContactOptions;
 use super::places::{ContactPlaces, direction_at};
 use super::requests::FixtureKind;
-use super::stains::{Chosen, Stains};
-use super::{ContactOptions, Look};
+use super::step::ContactStep;
+use super::wall_patterns::{SizedPattern, WallPatterns};
+use super::wall_side::WallSide;
+use crate::marks::Contact;
 
-/// Stature that the heights of hands belong to, metres, and how much of them follows it.
+/// Reference stature for the heights of hands, metres, and the share of a height that scales with stature.
 const STATURE_M: f64 = 1.69;
 const BY_STATURE: f64 = 0.6;
 /// Heights over stature (ANSUR II): shoulder, middle of the upper arm, elbow, hip.
@@ -22,36 +23,36 @@ const SHOULDER: f64 = 0.82;
 const UPPER_ARM: f64 = 0.73;
 const ELBOW: f64 = 0.629;
 const HIP: f64 = 0.515;
-/// Where hands push, where they trail along, where they hold on to a corner, metres, and their spread.
+/// Heights at which hands push, trail along and hold a corner, and their standard deviation, metres.
 const PUSH_M: f64 = 1.25;
 const TRAILING_M: f64 = 1.05;
 const AT_CORNER_M: f64 = 1.15;
 const HAND_SPREAD_M: f64 = 0.08;
-/// Buttons and switches, metres.
+/// Range of heights of buttons and switches, metres.
 const SWITCH_M: [f64; 2] = [1.05, 1.2];
-/// Drags are so long, metres, and hands fall so much on the way, degrees.
+/// Ranges of the length of a drag, metres, and of the fall of a dragged hand, degrees.
 const DRAG_M: [f64; 2] = [0.2, 0.8];
 const FALL_DEG: [f32; 2] = [5.0, 15.0];
-/// Patterns are stretched by so much in length and breadth.
+/// Range of the factors on a pattern's length and breadth.
 const STRETCH: [f32; 2] = [0.85, 1.2];
-/// Around a corner or a jamb touches are spread along the wall by this, metres.
+/// Standard deviation of touches along the wall at a corner or a jamb, metres.
 const ROUND_A_CORNER_M: f64 = 0.05;
-/// Heights of what touches low, metres: toes, the foot of a corner, cases, trolleys by their two ends, chair backs.
+/// Height ranges of low touches, metres: toes, shoes at a corner, cases, both ends of trolleys, chair backs.
 const TOE_M: [f64; 2] = [0.02, 0.15];
 const CORNER_SHOE_M: [f64; 2] = [0.02, 0.28];
 const CASE_M: [f64; 2] = [0.2, 0.6];
 const TROLLEY_M: [[f64; 2]; 2] = [[0.15, 0.3], [0.8, 0.95]];
 const CHAIR_BACK_M: [f64; 2] = [0.75, 0.95];
-/// A sole that somebody sets against the wall behind, metres.
+/// Height range of a sole set against the wall behind, metres.
 const SOLE_M: [f64; 2] = [0.22, 0.5];
-/// Touches at the foot of corners and jambs are this much harder.
+/// Factor on the density at the foot of corners and jambs.
 const HARD: f64 = 1.5;
-/// No touch is stronger than this, optical density.
+/// Limit on the optical density of a contact.
 const MOST_DENSITY: f64 = 1.0;
 
-/// What of a body touches.
+/// The part of a body, or the luggage, that touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Part {
+pub(crate) enum BodyPart {
     /// A hand that pushes or holds.
     Hand,
     /// A hand drawn along a wall.
@@ -60,40 +61,40 @@ pub(super) enum Part {
     Shoulder,
     Bag,
     Shoe,
-    /// Whatever somebody who stands leans against the wall.
+    /// Any part of a standing person who leans.
     Lean,
 }
 
-/// Somebody touches something.
+/// A touch: the part and the place that it touches.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Touch {
-    /// The wall beside.
-    Beside { side: Beside, part: Part },
-    /// A jamb of a door that is passed along its `through`, or against it.
-    Jamb { door: u32, jamb: usize, onward: bool, part: Part },
-    /// A corner that one turns round.
-    Corner { corner: u32, part: Part },
+pub(crate) enum Touch {
+    /// The wall beside the body.
+    Beside { side: WallSide, part: BodyPart },
+    /// A jamb of a passed door; `onward` if passed along its `through`.
+    Jamb { door: u32, jamb: usize, onward: bool, part: BodyPart },
+    /// A corner.
+    Corner { corner: u32, part: BodyPart },
     /// A fixture.
     Fixture { fixture: u32 },
 }
 
-/// A stain before its pattern is chosen.
-struct Stain {
+/// A stain whose pattern is not chosen yet.
+struct StainSpec {
     cause: Cause,
     form: Option<Form>,
     face: usize,
     along_m: f64,
     height_m: f64,
-    /// Which way along the face the body goes, 1 or -1, if it draws the stain along.
+    /// Direction of a drag along the face, 1 or -1; `None` for a plain touch.
     way: Option<f64>,
     /// Factor on the median density.
     hard: f64,
 }
 
-/// The random numbers of one touch.
-struct Draw(SplitMix64);
+/// Random numbers of one touch.
+struct TouchRandom(SplitMix64);
 
-impl Draw {
+impl TouchRandom {
     fn unit(&mut self) -> f64 {
         f64::from(self.0.unit())
     }
@@ -107,8 +108,9 @@ impl Draw {
     }
 }
 
-/// How often somebody who passes touches a kind of fixture, and somebody who stands there per second: factors on
-/// [`ContactOptions::fixture_per_passage`] and [`ContactOptions::fixture_per_second`].
+/// Relative contact rates of a kind of fixture per passage and per second stood.
+///
+/// They are factors on [`ContactOptions::fixture_per_passage`] and [`ContactOptions::fixture_per_second`].
 pub(super) fn fixture_rates(kind: FixtureKind) -> (f64, f64) {
     match kind {
         FixtureKind::Switch => (1.0, 0.3),
@@ -121,93 +123,93 @@ pub(super) fn fixture_rates(kind: FixtureKind) -> (f64, f64) {
     }
 }
 
-/// The contact that a touch is; none if the wall is no face or the library lacks the cause.
+/// The contact of a touch; `None` if its wall has no face or the library lacks the cause.
 pub(super) fn contact(
     options: &ContactOptions,
-    stains: &Stains,
+    wall_patterns: &WallPatterns,
     places: &ContactPlaces,
     walls: &Walls,
-    look: &Look,
+    step: &ContactStep,
     touch: &Touch,
     word: u64,
 ) -> Option<Contact> {
-    let draw = &mut Draw(SplitMix64::new(word));
+    let draw = &mut TouchRandom(SplitMix64::new(word));
     let stain = match *touch {
-        Touch::Beside { side, part } => beside(look, &side, part, draw)?,
+        Touch::Beside { side, part } => beside(step, &side, part, draw)?,
         Touch::Jamb { door, jamb, onward, part } => {
             let door = &places.doors()[door as usize];
             let (face, along_m) = door.doorway.on_faces[jamb];
-            // Most take hold of the edge that they come to, some of the one that they leave behind.
+            // Most people hold the edge ahead, some the edge behind.
             let behind = draw.unit() < 0.3;
             let sign = if (onward != behind) == door.onward[jamb] { -1.0 } else { 1.0 };
             let edge_m = draw.normal(0.5 * door.doorway.depth_m, ROUND_A_CORNER_M);
-            let (mut stain, handle) = (at_edge(look.person, part, PUSH_M, draw), draw.unit());
+            let (mut stain, handle) = (at_edge(step.person, part, PUSH_M, draw), draw.unit());
             let is_latch = door.latch.is_none_or(|latch| latch == jamb);
             let share = if door.latch.is_some() { 0.5 } else { 0.25 };
-            if part == Part::Hand && door.handle_m.is_some() && is_latch && handle < share {
+            if part == BodyPart::Hand && door.handle_m.is_some() && is_latch && handle < share {
                 stain.height_m = draw.normal(door.handle_height_m(), HAND_SPREAD_M);
                 stain.form = Some(if draw.unit() < 0.6 { Form::Fingertips } else { Form::Palm });
             }
-            Stain { face, along_m: along_m + sign * edge_m, ..stain }
+            StainSpec { face, along_m: along_m + sign * edge_m, ..stain }
         }
         Touch::Corner { corner, part } => {
             let corner = &places.corners()[corner as usize];
-            let stain = at_edge(look.person, part, AT_CORNER_M, draw);
-            Stain { face: corner.face, along_m: draw.normal(corner.along_m, ROUND_A_CORNER_M), ..stain }
+            let stain = at_edge(step.person, part, AT_CORNER_M, draw);
+            StainSpec { face: corner.face, along_m: draw.normal(corner.along_m, ROUND_A_CORNER_M), ..stain }
         }
         Touch::Fixture { fixture } => {
             let fixture = &places.fixtures()[fixture as usize];
             let direction = direction_at(walls, fixture.face, fixture.along_m);
             let half_m = 0.5 * fixture.width_m;
-            let before_m = (look.at_m - fixture.point_m).dot(direction).clamp(-half_m, half_m);
-            let stain = at_fixture(look.person, fixture.kind, draw);
+            let before_m = (step.at_m - fixture.point_m).dot(direction).clamp(-half_m, half_m);
+            let stain = at_fixture(step.person, fixture.kind, draw);
             let spread_m = 0.07 + 0.1 * fixture.width_m.min(1.0);
-            Stain { face: fixture.face, along_m: fixture.along_m + draw.normal(before_m, spread_m), ..stain }
+            StainSpec { face: fixture.face, along_m: fixture.along_m + draw.normal(before_m, spread_m), ..stain }
         }
     };
-    let chosen = stains.choose(stain.cause, stain.form, draw.unit())?;
+    let chosen = wall_patterns.choose(stain.cause, stain.form, draw.unit())?;
     let length_m = walls.faces.get(stain.face)?.length_m();
-    laid(options, &stain, chosen, (length_m, walls.faces[stain.face].closed), draw)
+    fitted(options, &stain, chosen, (length_m, walls.faces[stain.face].closed), draw)
 }
 
-/// A hand's height: by stature in part, for a hand raised to a height chosen by what is there.
-fn hand_m(person: &Person, mean_m: f64, draw: &mut Draw) -> f64 {
+/// Height of a hand, which scales with stature in part, metres.
+fn hand_m(person: &Person, mean_m: f64, draw: &mut TouchRandom) -> f64 {
     let stature = 1.0 - BY_STATURE + BY_STATURE * person.stature_m / STATURE_M;
     draw.normal(mean_m, HAND_SPREAD_M) * stature
 }
 
-fn stain(cause: Cause, form: Option<Form>, height_m: f64) -> Stain {
-    Stain { cause, form, face: 0, along_m: 0.0, height_m, way: None, hard: 1.0 }
+fn stain(cause: Cause, form: Option<Form>, height_m: f64) -> StainSpec {
+    StainSpec { cause, form, face: 0, along_m: 0.0, height_m, way: None, hard: 1.0 }
 }
 
-/// A wall beside the body.
-fn beside(look: &Look, side: &Beside, part: Part, draw: &mut Draw) -> Option<Stain> {
-    let person = look.person;
-    let onward = look.way.dot(side.direction());
-    let way = (look.walked_m > 0.0 && onward != 0.0).then(|| onward.signum());
+/// The stain on a wall beside the body.
+fn beside(step: &ContactStep, side: &WallSide, part: BodyPart, draw: &mut TouchRandom) -> Option<StainSpec> {
+    let person = step.person;
+    let onward = step.way.dot(side.direction());
+    let way = (step.walked_m > 0.0 && onward != 0.0).then(|| onward.signum());
     let found = match part {
-        Part::Trailing | Part::Hand => {
+        BodyPart::Trailing | BodyPart::Hand => {
             let form = if draw.unit() < 0.55 { Form::Drag } else { Form::Fingertips };
             let height_m = hand_m(person, TRAILING_M, draw);
-            Stain { way, ..stain(Cause::Hand, Some(form), height_m) }
+            StainSpec { way, ..stain(Cause::Hand, Some(form), height_m) }
         }
-        Part::Arm => Stain { way, ..arm(person, draw) },
-        Part::Shoulder => Stain { way, ..shoulder(person, draw) },
-        Part::Bag => Stain { way, ..bag(person, draw) },
-        Part::Shoe => {
+        BodyPart::Arm => StainSpec { way, ..arm(person, draw) },
+        BodyPart::Shoulder => StainSpec { way, ..shoulder(person, draw) },
+        BodyPart::Bag => StainSpec { way, ..bag(person, draw) },
+        BodyPart::Shoe => {
             let form = if draw.unit() < 0.7 { Form::Toe } else { Form::HeelLine };
-            Stain { way, ..stain(Cause::Shoe, Some(form), draw.within(TOE_M)) }
+            StainSpec { way, ..stain(Cause::Shoe, Some(form), draw.within(TOE_M)) }
         }
-        Part::Lean => leaning(person, side, draw),
+        BodyPart::Lean => leaning(person, side, draw),
     };
-    Some(Stain { face: side.face?, along_m: draw.normal(side.along_m, 0.06), ..found })
+    Some(StainSpec { face: side.face?, along_m: draw.normal(side.along_m, 0.06), ..found })
 }
 
-fn shoulder(person: &Person, draw: &mut Draw) -> Stain {
+fn shoulder(person: &Person, draw: &mut TouchRandom) -> StainSpec {
     stain(Cause::Shoulder, None, draw.normal(SHOULDER * person.stature_m, 0.025))
 }
 
-fn arm(person: &Person, draw: &mut Draw) -> Stain {
+fn arm(person: &Person, draw: &mut TouchRandom) -> StainSpec {
     let height = match draw.unit() {
         u if u < 0.55 => ELBOW,
         u if u < 0.8 => UPPER_ARM,
@@ -216,7 +218,7 @@ fn arm(person: &Person, draw: &mut Draw) -> Stain {
     stain(Cause::Arm, None, draw.normal(height * person.stature_m, 0.04))
 }
 
-fn bag(person: &Person, draw: &mut Draw) -> Stain {
+fn bag(person: &Person, draw: &mut TouchRandom) -> StainSpec {
     let kind = person.bag.map_or(BagKind::Bag, |bag| bag.kind);
     let height_m = match kind {
         BagKind::Bag | BagKind::Case => draw.within(CASE_M),
@@ -229,8 +231,8 @@ fn bag(person: &Person, draw: &mut Draw) -> Stain {
     stain(Cause::Bag, None, height_m)
 }
 
-/// What somebody who stands leans on a wall: by where it is.
-fn leaning(person: &Person, side: &Beside, draw: &mut Draw) -> Stain {
+/// The stain of a standing person who leans, by the direction of the wall.
+fn leaning(person: &Person, side: &WallSide, draw: &mut TouchRandom) -> StainSpec {
     let u = draw.unit();
     if side.is_at_side() {
         return match u {
@@ -255,31 +257,31 @@ fn leaning(person: &Person, side: &Beside, draw: &mut Draw) -> Stain {
     }
 }
 
-/// The edge of a jamb or a corner.
-fn at_edge(person: &Person, part: Part, hand_height_m: f64, draw: &mut Draw) -> Stain {
+/// The stain on the edge of a jamb or a corner.
+fn at_edge(person: &Person, part: BodyPart, hand_height_m: f64, draw: &mut TouchRandom) -> StainSpec {
     match part {
-        Part::Bag => bag(person, draw),
-        Part::Shoe => {
+        BodyPart::Bag => bag(person, draw),
+        BodyPart::Shoe => {
             let form = if draw.unit() < 0.65 { Form::Toe } else { Form::HeelLine };
-            Stain { hard: HARD, ..stain(Cause::Shoe, Some(form), draw.within(CORNER_SHOE_M)) }
+            StainSpec { hard: HARD, ..stain(Cause::Shoe, Some(form), draw.within(CORNER_SHOE_M)) }
         }
-        Part::Shoulder => {
+        BodyPart::Shoulder => {
             if draw.unit() < 0.6 {
                 shoulder(person, draw)
             } else {
                 arm(person, draw)
             }
         }
-        Part::Arm => arm(person, draw),
-        Part::Hand | Part::Trailing | Part::Lean => {
+        BodyPart::Arm => arm(person, draw),
+        BodyPart::Hand | BodyPart::Trailing | BodyPart::Lean => {
             let form = if draw.unit() < 0.75 { Form::Palm } else { Form::Fingertips };
             stain(Cause::Hand, Some(form), hand_m(person, hand_height_m, draw))
         }
     }
 }
 
-/// What people leave at a fixture.
-fn at_fixture(person: &Person, kind: FixtureKind, draw: &mut Draw) -> Stain {
+/// The stain at a fixture.
+fn at_fixture(person: &Person, kind: FixtureKind, draw: &mut TouchRandom) -> StainSpec {
     let u = draw.unit();
     let palm = |height_m: f64| stain(Cause::Hand, Some(Form::Palm), height_m);
     let tips = |height_m: f64| stain(Cause::Hand, Some(Form::Fingertips), height_m);
@@ -324,20 +326,20 @@ fn at_fixture(person: &Person, kind: FixtureKind, draw: &mut Draw) -> Stain {
     }
 }
 
-/// Lays a pattern on a face of a length, closed or not.
-fn laid(
+/// Fits a pattern to a stain on a face of this length, closed or not.
+fn fitted(
     options: &ContactOptions,
-    stain: &Stain,
-    chosen: Chosen,
+    stain: &StainSpec,
+    chosen: SizedPattern,
     (face_m, closed): (f64, bool),
-    draw: &mut Draw,
+    draw: &mut TouchRandom,
 ) -> Option<Contact> {
-    let stretch = |draw: &mut Draw| f64::from(draw.0.range(STRETCH[0], STRETCH[1]));
+    let stretch = |draw: &mut TouchRandom| f64::from(draw.0.range(STRETCH[0], STRETCH[1]));
     let is_drag = stain.way.is_some() && stain.form != Some(Form::Fingertips) && stain.form != Some(Form::Toe);
     let breadth_m = chosen.breadth_m * stretch(draw);
     let drawn_m = DRAG_M[0] + (DRAG_M[1] - DRAG_M[0]) * draw.unit() * draw.unit();
     let length_m = match stain.cause {
-        // Rubber leaves thin lines of its own length, and so does what only touches.
+        // Rubber lines and plain touches keep the pattern's length.
         Cause::Shoe => chosen.length_m * stretch(draw) * if is_drag { 1.3 } else { 1.0 },
         _ if is_drag => drawn_m,
         _ => chosen.length_m * stretch(draw),
@@ -351,14 +353,14 @@ fn laid(
         10.0 * draw.0.normal()
     })
     .to_radians();
-    // A stain that goes to the left is turned by half a turn and mirrored: what was up stays up.
+    // A drag to the left is rotated by half a turn and mirrored, so that up stays up.
     let either = if draw.unit() < 0.5 { 1.0 } else { -1.0 };
     let sign = stain.way.unwrap_or(either);
     let (direction_rad, mirrored) = if sign > 0.0 { (-fall_rad, false) } else { (fall_rad - PI, true) };
     let (sin, cos) = crate::math::sin_cos(fall_rad);
     let (ahead_m, down_m) = if is_drag { (0.5 * length_m * cos, 0.5 * length_m * sin) } else { (0.0, 0.0) };
     let along_m = stain.along_m + sign * ahead_m;
-    // Beyond the ends of an open face goes on what nobody sees; a stain that begins before the end shows in part.
+    // WallPatterns entirely beyond the ends of an open face are dropped; the others show in part.
     if !closed && (along_m < -0.5 * length_m || along_m > face_m + 0.5 * length_m) {
         return None;
     }

@@ -40,7 +40,7 @@ struct Case {
 impl Case {
     fn new(walls: Walls) -> Case {
         let options = MarksOptions { heel: HeelOptions::none(), ..MarksOptions::default() };
-        Case { people: People::new(5, even_bodies()), walls, library: PatternLibrary::built_in().unwrap(), options }
+        Case { people: People::new(5, even_bodies()), walls, library: PatternLibrary::built_in(), options }
     }
 
     fn stage(&self, origins: Vec<Origin>) -> Footfalls<'_> {

@@ -3,15 +3,15 @@
 use rayon::prelude::*;
 
 use super::photo::Photo;
-use super::raster::Raster;
-use super::stain::Stain;
-use super::surface::Surface;
+use super::raster::PixelRaster;
+use super::stain::StainMask;
+use super::surface::WallSurface;
 
-/// The density of a photograph at its own resolution, positive where it is stained, mean over the channels.
+/// Optical density of each pixel of a photograph, mean over the channels, positive on the stain.
 ///
-/// A stain darkens the channels by d = (d_r, d_g, d_b) times its density, mean 1; each channel has noise of its own. The
-/// best estimate of the density of D_c = D d_c + noise is sum(w_c D_c) with w_c = d_c / s_c^2 / sum(d_k^2 / s_k^2).
-pub(super) fn of(photo: &Photo, surface: &Surface, stain: &Stain) -> Raster {
+/// A stain of density D darkens channel c by D d_c, with mean(d) = 1 and noise of variance s_c^2. The least-squares
+/// estimate of D from the measured D_c is sum(w_c D_c) with w_c = d_c / s_c^2 / sum(d_k^2 / s_k^2).
+pub(super) fn of(photo: &Photo, surface: &WallSurface, stain: &StainMask) -> PixelRaster {
     let weights = weights(surface, stain);
     let sign = if surface.lighter { -1.0 } else { 1.0 };
     let (width, height) = (photo.logs[0].width, photo.logs[0].height);
@@ -25,22 +25,22 @@ pub(super) fn of(photo: &Photo, surface: &Surface, stain: &Stain) -> Raster {
             *value = sign * (0..3).map(|c| weights[c] * of_channel(c)).sum::<f32>();
         }
     });
-    Raster { width, height, values }
+    PixelRaster { width, height, values }
 }
 
-/// How much each channel counts.
-fn weights(surface: &Surface, stain: &Stain) -> [f32; 3] {
+/// Weight of each channel.
+fn weights(surface: &WallSurface, stain: &StainMask) -> [f32; 3] {
     let sums = [0, 1, 2].map(|channel: usize| {
         let values = surface.residuals[channel].values.iter().zip(&stain.core);
         values.filter(|(_, core)| **core).map(|(value, _)| f64::from(*value)).sum::<f64>()
     });
     let total = sums.iter().sum::<f64>() / 3.0;
-    // A channel that the stain hardly changes, or the other way, says little.
+    // A channel that the stain hardly changes, or lightens, gets little weight.
     let darkens = sums.map(|sum| if total > 0.0 { (sum / total).max(0.05) } else { 1.0 });
     let variances = [0, 1, 2].map(|channel: usize| {
         let values = surface.residuals[channel].values.iter().zip(&stain.clean).filter(|(_, clean)| **clean);
         let (sum, count) = values.fold((0.0, 0.0), |(sum, count), (v, _)| (sum + f64::from(v * v), count + 1.0));
-        // Never so little that one channel is all: the fit has errors of its own.
+        // A floor for the errors of the fit keeps one channel from taking all the weight.
         sum / f64::max(count, 1.0) + 1e-5
     });
     let norm: f64 = darkens.iter().zip(&variances).map(|(d, variance)| d * d / variance).sum();

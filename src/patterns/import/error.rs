@@ -1,47 +1,47 @@
 use std::path::PathBuf;
 
-use super::super::{Cause, Form};
 use crate::files::FileError;
+use crate::patterns::{Cause, Form};
 
-/// Why no pattern can be taken from a photograph.
+/// Error while importing a pattern from a photograph.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ImportError {
-    /// A number beyond what it may be.
+    /// A value is out of range.
     #[error("the {key} is {value}, allowed is {allowed}")]
     Value {
-        /// Which.
+        /// Name of the value.
         key: &'static str,
-        /// What it is.
+        /// The value.
         value: f64,
-        /// What it may be.
+        /// Allowed values.
         allowed: &'static str,
     },
-    /// A form that the cause does not have.
+    /// The form does not belong to the cause.
     #[error("cause \"{}\" has no form \"{}\", allowed is {}", .cause.name(), .form.name(), Form::of_cause_in_words(*.cause))]
     Form {
-        /// What left the stain.
+        /// Cause of the stain.
         cause: Cause,
         /// The form.
         form: Form,
     },
-    /// No image.
+    /// The photograph cannot be decoded.
     #[error("cannot read the photograph: {reason}")]
     Unreadable {
-        /// What the decoder says.
+        /// Message of the decoder.
         reason: String,
     },
-    /// The photograph has far too many or too few pixels.
+    /// The photograph has too many or too few pixels.
     #[error("the photograph has {width} x {height} px, allowed are {allowed}")]
     Size {
         /// Pixels across.
         width: u32,
         /// Pixels down.
         height: u32,
-        /// What it may have.
+        /// Allowed size.
         allowed: &'static str,
     },
-    /// The part to look at reaches beyond the photograph, or is too small.
+    /// The crop exceeds the photograph, or is too small.
     #[error(
         "the crop {},{},{},{} does not fit: the photograph has {width} x {height} px, and a crop at least {least} px a side",
         .crop[0], .crop[1], .crop[2], .crop[3]
@@ -56,22 +56,22 @@ pub enum ImportError {
         /// Least side of a crop.
         least: u32,
     },
-    /// Nothing stands out from the wall.
+    /// The photograph shows no stain.
     #[error(
         "there is no stain in the photograph: nothing differs from the wall by more than its unevenness, density {noise:.3}"
     )]
     NoStain {
-        /// How uneven the wall is.
+        /// Standard deviation of the wall's density.
         noise: f64,
     },
-    /// The wall around the stain cannot be seen.
+    /// The photograph shows too little clean wall around the stain.
     #[error(
         "the stain fills the photograph: clean wall is {wall_percent:.0} % of it, and the stain lies along {border_percent:.0} % of its border"
     )]
     FillsPhoto {
-        /// Share of the photograph that is wall.
+        /// Share of the photograph that is clean wall, percent.
         wall_percent: f64,
-        /// Share of its border that is stain.
+        /// Share of its border that is stain, percent.
         border_percent: f64,
     },
     /// The scale that follows from the stain's length is out of range.
@@ -81,82 +81,82 @@ pub enum ImportError {
         length_px: f64,
         /// Its real length, centimetres.
         length_cm: f64,
-        /// What follows.
+        /// The resulting scale, pixels per centimetre.
         px_per_cm: f64,
     },
-    /// No pattern of the cause may have this size.
+    /// The stain is too small or too large for its cause.
     #[error(
         "the stain with its margin is {length_cm:.1} x {breadth_cm:.1} cm; a pattern with cause = \"{}\" is {} to {} cm long \
          and at most {most_aspect} times as high", .cause.name(), .lengths_cm[0], .lengths_cm[1]
     )]
     Extent {
-        /// What left it.
+        /// Cause of the stain.
         cause: Cause,
-        /// Size along.
+        /// Length with the margin, centimetres.
         length_cm: f64,
-        /// Size across.
+        /// Breadth with the margin, centimetres.
         breadth_cm: f64,
-        /// Lengths that its patterns may have.
+        /// Allowed lengths, centimetres.
         lengths_cm: [f64; 2],
-        /// Greatest breadth over length.
+        /// Largest allowed breadth over length.
         most_aspect: f64,
     },
-    /// A name that is not one of a file.
+    /// The pattern's name is not a valid file name.
     #[error("\"{name}\" cannot be the name of a pattern: letters, digits, - and _ are allowed, at most 60")]
     Name {
         /// The name.
         name: String,
     },
-    /// A share that is none.
+    /// The share is out of range.
     #[error("the share is {share}, allowed is above 0, to 1000000")]
     Share {
         /// The share.
         share: f64,
     },
-    /// The list names the image already.
-    #[error("{} lists {image} already", .file.display())]
+    /// The listing already has the image.
+    #[error("{} already lists {image}", .file.display())]
     IsListed {
         /// The listing.
         file: PathBuf,
         /// The image.
         image: String,
     },
-    /// The image or the list cannot be written.
+    /// The image or the listing cannot be written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The folder cannot be made.
-    #[error("cannot make the folder {}: {source}", .folder.display())]
+    /// The folder cannot be created.
+    #[error("cannot create the folder {}: {source}", .folder.display())]
     Folder {
         /// The folder.
         folder: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         source: std::io::Error,
     },
 }
 
 impl ImportError {
-    /// What the user can do about it.
+    /// Hint for the user.
     pub fn hint(&self) -> Option<String> {
         let hint = match self {
             ImportError::Unreadable { .. } => "PNG, JPEG, TIFF and BMP are read",
             ImportError::Size { .. } => "scale it down, or cut the stain out with some wall around it",
             ImportError::Crop { .. } => {
-                "--crop is left,top,width,height in pixels from the upper left of the photograph"
+                "a crop is left,top,width,height in pixels from the upper left of the photograph"
             }
             ImportError::NoStain { .. } => {
-                "photograph it in even light, closer; or cut out with --crop what is not wall: skirtings, switches, edges"
+                "photograph it closer and in even light; or crop skirtings, switches and edges away"
             }
             ImportError::FillsPhoto { .. } => {
-                "the clean wall is seen around the stain only: photograph it from farther away, or choose a larger --crop"
+                "clean wall must surround the stain: photograph it from farther away, or choose a larger crop"
             }
-            ImportError::Scale { .. } => "--length-cm is the length of the stain itself, from left to right",
+            ImportError::Scale { .. } => "the length is that of the stain itself, from left to right",
             ImportError::Extent { .. } => {
-                "check --scale or --length-cm; --rotate turns the stain so that its drag, or the toes, point to the right"
+                "check the scale or the length of the stain, and rotate it so that its drag, or the toes, point to the right"
             }
-            ImportError::Name { .. } => "choose one with --name",
-            ImportError::IsListed { .. } => "--force replaces it; or choose another --name",
+            ImportError::Name { .. } => "choose another name",
+            ImportError::IsListed { .. } => "choose another name, or allow to replace the pattern",
             ImportError::Form { cause, .. } if Form::ALL.iter().all(|form| form.cause() != *cause) => {
-                "leave --form out"
+                "leave the form out"
             }
             ImportError::File(error) => return error.hint(),
             ImportError::Value { .. }

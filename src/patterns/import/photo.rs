@@ -4,30 +4,31 @@ use std::io::Cursor;
 
 use image::{DynamicImage, ImageDecoder, ImageReader, Limits, RgbImage};
 
-use super::raster::Raster;
+use super::raster::PixelRaster;
 use super::{ImportError, ImportOptions, PhotoScale};
-use crate::math;
+use crate::math::{self, srgb};
 
-/// Most pixels, and least side, of a photograph and of the part that is looked at.
+/// Limits on the pixels of a photograph and on the side of its crop.
 const MOST_PX: u64 = 64_000_000;
 const LEAST_SIDE_PX: u32 = 32;
-/// Beyond so many pixels it is worked on at a fraction of its resolution.
+/// Number of pixels above which the photograph is reduced.
 const ENOUGH_PX: u64 = 12_000_000;
-/// What a photograph cannot show darker than, linear light: half a step of 8 bits.
+/// Smallest linear light that counts: half a step of 8 bits.
 const DARKEST: f64 = 0.5 / 255.0 / 12.92;
 
-/// The part of a photograph that is looked at.
+/// The cropped photograph as logarithms of light.
 pub(super) struct Photo {
     /// ln of linear light per channel.
-    pub logs: [Raster; 3],
-    /// Pixels of the photograph per pixel here.
+    pub logs: [PixelRaster; 3],
+    /// Pixels of the photograph per pixel of `logs`, along each axis.
     pub factor: usize,
-    /// Upper left in the photograph.
+    /// Upper left corner of the crop in the photograph.
     pub corner_px: [u32; 2],
-    /// For the picture.
-    pub looked_at: RgbImage,
+    /// The crop in sRGB, for the preview.
+    pub cropped: RgbImage,
 }
 
+/// Decodes, crops and reduces a photograph.
 pub(super) fn read(bytes: &[u8], options: &ImportOptions) -> Result<Photo, ImportError> {
     let image = decode(bytes)?;
     let (width, height) = (image.width(), image.height());
@@ -40,17 +41,17 @@ pub(super) fn read(bytes: &[u8], options: &ImportOptions) -> Result<Photo, Impor
     let part = image.crop_imm(left, top, across, down);
     drop(image);
     let factor = factor(across, down, options.size);
-    let looked_at = part.to_rgb8();
+    let cropped = part.to_rgb8();
     let part = part.into_rgb16();
     let log_of: Vec<f32> = (0..=u16::MAX).map(log_of).collect();
     let logs = [0, 1, 2].map(|channel| {
         let values = part.pixels().map(|pixel| log_of[usize::from(pixel.0[channel])]).collect();
-        Raster { width: across as usize, height: down as usize, values }.reduced(factor)
+        PixelRaster { width: across as usize, height: down as usize, values }.reduced(factor)
     });
-    Ok(Photo { logs, factor, corner_px: [left, top], looked_at })
+    Ok(Photo { logs, factor, corner_px: [left, top], cropped })
 }
 
-/// Reads an image the way up in which it was taken.
+/// Decodes an image and applies the orientation stored in it.
 fn decode(bytes: &[u8]) -> Result<DynamicImage, ImportError> {
     let unreadable = |reason: String| ImportError::Unreadable { reason };
     if bytes.is_empty() {
@@ -75,7 +76,7 @@ fn decode(bytes: &[u8]) -> Result<DynamicImage, ImportError> {
     Ok(image)
 }
 
-/// By how much a large photograph is reduced: never below what the pattern needs.
+/// Reduction factor of a large photograph: never below the resolution of the pattern.
 fn factor(width: u32, height: u32, size: PhotoScale) -> usize {
     let mut factor = 1;
     while u64::from(width) * u64::from(height) / (factor * factor) > ENOUGH_PX {
@@ -89,7 +90,6 @@ fn factor(width: u32, height: u32, size: PhotoScale) -> usize {
 
 /// ln of the linear light of an sRGB value (IEC 61966-2-1).
 fn log_of(value: u16) -> f32 {
-    let value = f64::from(value) / 65_535.0;
-    let linear = if value <= 0.04045 { value / 12.92 } else { math::pow((value + 0.055) / 1.055, 2.4) };
-    math::ln(linear.max(DARKEST)) as f32
+    let light = srgb::decode(f64::from(value) / 65_535.0);
+    math::ln(light.max(DARKEST)) as f32
 }

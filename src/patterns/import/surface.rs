@@ -1,51 +1,51 @@
-//! The clean wall under a stain: a smooth surface through the logarithm of the light around it.
+//! The clean wall under a stain: a smooth surface fitted to the logarithm of the light around it.
 //!
-//! ln I is the sum of the wall's colour and of the light on it, which falls off slowly: a polynomial of two variables, of
-//! up to the fourth degree (a lamp, the window's side, the lens that darkens corners), and what is left of the wall at
-//! large scale. It must go through the wall and not through the stain. So it is first fitted with weights that
-//! forget what is on the stain's side of it (iteratively reweighted least squares, Holland and Welsch 1977,
-//! doi 10.1080/03610927708827533; asymmetric after Eilers 2003, doi 10.1021/ac034173t), then again and again to what
-//! has not been found to be stain.
+//! ln I is the sum of the wall's colour and of slowly varying light: a polynomial in x and y of up to the fourth
+//! degree (lamps, windows, lens vignetting) plus large-scale residuals of the wall. The fit must follow the wall and
+//! ignore the stain. The first fit is an asymmetric, iteratively reweighted least squares (Holland and Welsch 1977,
+//! doi 10.1080/03610927708827533; asymmetric after Eilers 2003, doi 10.1021/ac034173t). Later fits leave out the
+//! pixels found to be stain.
 
 use super::ImportError;
 use super::photo::Photo;
-use super::raster::{Raster, quantile};
+use super::raster::{PixelRaster, quantile};
 use super::stain;
 
 /// Longest side of the raster on which the surface is fitted.
 const COARSE_PX: usize = 320;
-/// Shortest side of the raster of the first fit, if a finer one can be had.
+/// Least side of the raster of the first fit, if the photograph allows.
 const LEAST_HALVED_PX: usize = 40;
-/// Most terms of a polynomial of degree 4.
+/// Number of terms of a polynomial of degree 4.
 const MOST_TERMS: usize = 15;
-/// Of the photograph, so much must be wall.
+/// Least share of the photograph that is clean wall.
 const LEAST_WALL: f64 = 0.12;
-/// Of the photograph's border, so much may be stain.
+/// Largest share of the photograph's border that is stain.
 const MOST_BORDER: f64 = 0.55;
 /// Standard deviation of a normal distribution over the median of its absolute values.
 const SD_OF_MEDIAN: f64 = 1.4826;
 
-/// A fitted wall, at the resolution of the fit.
-pub(super) struct Surface {
+/// The fitted clean wall, at the resolution of the fit.
+pub(super) struct WallSurface {
     /// Pixels of [`Photo`] per pixel of the fit.
     pub factor: usize,
-    /// ln of the light of the clean wall, by channel.
-    pub wall: [Raster; 3],
-    /// By how much it is darker there (lighter, if the stain is) than the wall, by channel.
-    pub residuals: [Raster; 3],
-    /// The mean over the channels, smoothed: where the stain is looked for.
-    pub smooth: Raster,
-    /// Standard deviation of `smooth` where the wall is clean.
+    /// ln of the light of the clean wall, per channel.
+    pub wall: [PixelRaster; 3],
+    /// Density against the wall per channel, positive on the stain.
+    pub residuals: [PixelRaster; 3],
+    /// Mean of the residuals over the channels, smoothed.
+    pub smooth: PixelRaster,
+    /// Standard deviation of `smooth` on the clean wall.
     pub noise: f64,
     /// Whether the stain is lighter than the wall.
     pub lighter: bool,
 }
 
-pub(super) fn fit(photo: &Photo) -> Result<Surface, ImportError> {
+/// Fits the clean wall of a photograph.
+pub(super) fn fit(photo: &Photo) -> Result<WallSurface, ImportError> {
     let longest = photo.logs[0].width.max(photo.logs[0].height);
     let factor = longest.div_ceil(COARSE_PX).max(1);
     let logs = [0, 1, 2].map(|channel| photo.logs[channel].reduced(factor));
-    let mean = Raster::from_fn(logs[0].width, logs[0].height, |i, j| {
+    let mean = PixelRaster::from_fn(logs[0].width, logs[0].height, |i, j| {
         let n = j * logs[0].width + i;
         (logs[0].values[n] + logs[1].values[n] + logs[2].values[n]) / 3.0
     });
@@ -53,39 +53,39 @@ pub(super) fn fit(photo: &Photo) -> Result<Surface, ImportError> {
     let halved = if mean.width.min(mean.height) >= 2 * LEAST_HALVED_PX { 2 } else { 1 };
     let small = mean.reduced(halved);
     let (dark, light) = (first_fit(&small, 1.0), first_fit(&small, -1.0));
-    // Grime is darker than most walls; what is lighter must stand out clearly.
+    // Grime is darker than most walls; a lighter stain must stand out clearly.
     let (first, sign) = if light.mass > 2.0 * dark.mass { (light, -1.0) } else { (dark, 1.0) };
     let at = |n: usize, count: usize| (n / halved).min(count - 1);
     let in_small = |n: usize| at(n / mean.width, small.height) * small.width + at(n % mean.width, small.width);
     let mut stained: Vec<bool> = (0..mean.values.len()).map(|n| first.stained[in_small(n)]).collect();
     for _ in 0..4 {
         let surface = refit(&logs, &stained, sign, factor)?;
-        stained = stain::around(&surface);
+        stained = stain::around(&surface.smooth, surface.noise);
     }
     refit(&logs, &stained, sign, factor)
 }
 
-/// A fit with weights instead of knowledge.
+/// Result of the first, reweighted fit.
 struct FirstFit {
     stained: Vec<bool>,
-    /// How much stands out on the stain's side.
+    /// Sum of the residuals on the stain's side.
     mass: f64,
 }
 
-/// `sign` is 1 for a stain darker than the wall, -1 for a lighter one.
-fn first_fit(mean: &Raster, sign: f32) -> FirstFit {
+/// Fits with asymmetric weights; `sign` is 1 for a stain darker than the wall, -1 for a lighter one.
+fn first_fit(mean: &PixelRaster, sign: f32) -> FirstFit {
     let mut weights = vec![1.0f64; mean.values.len()];
     let mut residual = mean.clone();
     for step in 0..36 {
-        // The slope first, then the bow, then what lenses do; a stain must not be mistaken for any of them.
+        // Low degrees first, so that the polynomial does not fit the stain.
         let degree = [1, 2, 3, 4][(step / 6).min(3)];
         let polynomial = Polynomial::fit(degree, mean.width, mean.height, &weights, &[mean]);
         let wall = polynomial.raster(0);
-        residual = Raster::from_fn(mean.width, mean.height, |i, j| {
+        residual = PixelRaster::from_fn(mean.width, mean.height, |i, j| {
             let n = j * mean.width + i;
             sign * (wall.values[n] - mean.values[n])
         });
-        // The stain is on the other side: this one has only the wall's own unevenness.
+        // Only the wall's unevenness lies on the side away from the stain.
         let sd = SD_OF_MEDIAN * quantile(residual.values.iter().filter(|r| **r < 0.0).map(|r| -r), 0.5);
         let sd = sd.max(1e-4);
         for (weight, &r) in weights.iter_mut().zip(&residual.values) {
@@ -101,15 +101,15 @@ fn first_fit(mean: &Raster, sign: f32) -> FirstFit {
     FirstFit { stained, mass: smooth.values.iter().map(|&r| over(r)).sum() }
 }
 
-/// The wall around what is stained.
-fn refit(logs: &[Raster; 3], stained: &[bool], sign: f32, factor: usize) -> Result<Surface, ImportError> {
+/// Fits the wall to the pixels that are not stained.
+fn refit(logs: &[PixelRaster; 3], stained: &[bool], sign: f32, factor: usize) -> Result<WallSurface, ImportError> {
     let (width, height) = (logs[0].width, logs[0].height);
     let free = stained.iter().filter(|&&stained| !stained).count() as f64 / stained.len() as f64;
     let border = border_share(stained, width, height);
     if free < LEAST_WALL || border > MOST_BORDER {
         return Err(ImportError::FillsPhoto { wall_percent: 100.0 * free, border_percent: 100.0 * border });
     }
-    // The less wall there is, the less can be said of how the light falls under the stain.
+    // With less wall the light under the stain is less certain: a lower degree.
     let degree = if free > 0.5 {
         4
     } else if free > 0.3 {
@@ -127,41 +127,42 @@ fn refit(logs: &[Raster; 3], stained: &[bool], sign: f32, factor: usize) -> Resu
     let residuals = [0, 1, 2].map(|channel: usize| {
         let (wall, log) = (&wall[channel].values, &logs[channel].values);
         let values = wall.iter().zip(log).map(|(wall, log)| sign * (wall - log)).collect();
-        Raster { width, height, values }
+        PixelRaster { width, height, values }
     });
-    let mean = Raster::from_fn(width, height, |i, j| {
+    let mean = PixelRaster::from_fn(width, height, |i, j| {
         residuals.iter().map(|residual| residual.values[j * width + i]).sum::<f32>() / 3.0
     });
     let smooth = smoothed(&mean);
     let clean = smooth.values.iter().zip(stained).filter(|(_, stained)| !**stained);
     let noise = SD_OF_MEDIAN * quantile(clean.map(|(r, _)| r.abs()), 0.5);
-    Ok(Surface { factor, wall, residuals, smooth, noise: noise.max(5e-4), lighter: sign < 0.0 })
+    Ok(WallSurface { factor, wall, residuals, smooth, noise: noise.max(5e-4), lighter: sign < 0.0 })
 }
 
-/// What a polynomial cannot follow: the means of what is left, over a twelfth of the photograph, of wall alone. It
-/// goes to nothing where no wall is near.
-fn large_scale(log: &Raster, wall: &Raster, weights: &[f64]) -> Raster {
+/// Residuals of the polynomial at large scale: local means of the wall over a twelfth of the photograph.
+///
+/// Falls to zero away from clean wall.
+fn large_scale(log: &PixelRaster, wall: &PixelRaster, weights: &[f64]) -> PixelRaster {
     let (width, height) = (log.width, log.height);
     let radius = (width.max(height) / 24).max(2);
-    let weight = Raster { width, height, values: weights.iter().map(|&weight| weight as f32).collect() };
-    let left = Raster::from_fn(width, height, |i, j| {
+    let weight = PixelRaster { width, height, values: weights.iter().map(|&weight| weight as f32).collect() };
+    let left = PixelRaster::from_fn(width, height, |i, j| {
         let n = j * width + i;
         (log.values[n] - wall.values[n]) * weight.values[n]
     });
     let (sum, seen) = (left.blurred(radius, 3), weight.blurred(radius, 3));
-    Raster::from_fn(width, height, |i, j| {
+    PixelRaster::from_fn(width, height, |i, j| {
         let n = j * width + i;
         sum.values[n] / (seen.values[n] + 0.08)
     })
 }
 
-/// Rid of what is smaller than a hundredth of the photograph.
-fn smoothed(residual: &Raster) -> Raster {
+/// Removes detail smaller than a hundredth of the photograph.
+fn smoothed(residual: &PixelRaster) -> PixelRaster {
     let radius = (residual.width.max(residual.height) / 160).max(1);
     residual.blurred(radius, 2)
 }
 
-/// The wall's unevenness, from the side on which there is no stain.
+/// Standard deviation of the wall, from the residuals on the side without stain.
 fn noise_of(residuals: impl Iterator<Item = f32>) -> f64 {
     (SD_OF_MEDIAN * quantile(residuals.filter(|r| *r < 0.0).map(|r| -r), 0.5)).max(5e-4)
 }
@@ -174,7 +175,7 @@ fn border_share(stained: &[bool], width: usize, height: usize) -> f64 {
     count as f64 / (2 * (width + height)) as f64
 }
 
-/// A polynomial in x and y for each of several rasters of one size.
+/// Polynomials in x and y, one per raster, for rasters of one size.
 struct Polynomial {
     degree: usize,
     width: usize,
@@ -183,9 +184,10 @@ struct Polynomial {
 }
 
 impl Polynomial {
-    /// Weighted least squares: minimises sum w (z - p(x, y))^2 by the normal equations, in Legendre polynomials of
-    /// coordinates of -1 to 1, which keeps them well conditioned.
-    fn fit(degree: usize, width: usize, height: usize, weights: &[f64], rasters: &[&Raster]) -> Polynomial {
+    /// Weighted least squares: minimises sum w (z - p(x, y))^2 by the normal equations.
+    ///
+    /// The basis is products of Legendre polynomials on -1 to 1, which keeps the equations well conditioned.
+    fn fit(degree: usize, width: usize, height: usize, weights: &[f64], rasters: &[&PixelRaster]) -> Polynomial {
         let terms = (degree + 1) * (degree + 2) / 2;
         let mut normal = [[0.0f64; MOST_TERMS]; MOST_TERMS];
         let mut right = vec![[0.0f64; MOST_TERMS]; rasters.len()];
@@ -204,18 +206,18 @@ impl Polynomial {
         }
         let total = normal[0][0].max(1e-9);
         for (a, row) in normal.iter_mut().enumerate().take(terms) {
-            // Where wall is seen on one side only, the higher terms would go anywhere.
+            // Regularisation: with wall on one side only, higher terms would be undetermined.
             row[a] += 1e-6 * total;
         }
         let coefficients = right.into_iter().map(|right| solve(&normal, right, terms)).collect();
         Polynomial { degree, width, height, coefficients }
     }
 
-    /// Its values for one of the rasters.
-    fn raster(&self, which: usize) -> Raster {
+    /// Evaluates the polynomial of one raster at every pixel.
+    fn raster(&self, which: usize) -> PixelRaster {
         let (across, down) = (legendre(self.width), legendre(self.height));
         let coefficients = &self.coefficients[which];
-        Raster::from_fn(self.width, self.height, |i, j| {
+        PixelRaster::from_fn(self.width, self.height, |i, j| {
             let basis = products(self.degree, &across[i], &down[j]);
             basis.iter().zip(coefficients).map(|(basis, coefficient)| basis * coefficient).sum::<f64>() as f32
         })
@@ -232,7 +234,7 @@ fn legendre(count: usize) -> Vec<[f64; 5]> {
     (0..count).map(at).collect()
 }
 
-/// The products whose degree together is at most `degree`; 0 beyond.
+/// The basis functions of total degree at most `degree`; 0 beyond.
 fn products(degree: usize, across: &[f64; 5], down: &[f64; 5]) -> [f64; MOST_TERMS] {
     let mut basis = [0.0; MOST_TERMS];
     let mut n = 0;
@@ -274,7 +276,7 @@ mod tests {
     fn a_quartic_is_found_again_around_a_hole() {
         let (width, height) = (60, 40);
         let z = |x: f64, y: f64| 0.3 - 0.5 * x + 0.2 * x * y + 0.7 * y * y - 0.4 * x * x * x * y + 0.3 * x * x * y * y;
-        let raster = Raster::from_fn(width, height, |i, j| {
+        let raster = PixelRaster::from_fn(width, height, |i, j| {
             z((2 * i + 1) as f64 / 60.0 - 1.0, (2 * j + 1) as f64 / 40.0 - 1.0) as f32
         });
         let weight =

@@ -52,6 +52,16 @@ pub(super) struct TextColumn {
 
 impl TextColumn {
     pub const UNUSED: TextColumn = TextColumn { role: Role::Unused, unit: None, flipped: false };
+
+    /// Whether it may hold people's heights.
+    pub fn is_height(&self) -> bool {
+        matches!(self.role, Role::Z | Role::Height)
+    }
+
+    /// Whether no line can do without it.
+    pub fn is_needed(&self) -> bool {
+        self.role != Role::Unused && !self.is_height()
+    }
 }
 
 /// Words that stand for a role, by rank: the first in a list is the one to believe where a file has several.

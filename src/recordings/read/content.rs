@@ -9,12 +9,14 @@ use super::rows::TrajectoryRows;
 use super::scale::{Alignment, Scale};
 use super::text_rows::TextRows;
 use super::{RecordingError, Survey};
+use crate::motion::Statures;
 
 /// A surveyed recording: all that is needed to read its rows again.
 #[derive(Debug)]
 pub(super) struct RecordingContent {
     pub path: PathBuf,
     pub survey: Survey,
+    pub statures: Statures,
     pub source: RowSource,
     pub scale: Scale,
     pub alignment: Alignment,

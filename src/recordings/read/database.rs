@@ -10,6 +10,7 @@ use super::RecordingError;
 use super::layout::{HIGHEST_RATE, LARGEST};
 use super::row::{ID_LIMIT, Passed, TrajectoryRow};
 use crate::math::{Vec2, vec2};
+use crate::motion::Statures;
 
 /// How an SQLite file begins.
 pub(super) const MAGIC: &[u8; 16] = b"SQLite format 3\0";
@@ -86,6 +87,24 @@ impl DatabaseRows {
 
     pub fn passed(&self) -> Passed {
         self.passed
+    }
+
+    /// How tall people are, where the database says so: what it says otherwise is passed over.
+    pub fn statures(&self) -> Statures {
+        let mut statures = Statures::default();
+        let read = |statures: &mut Statures| -> rusqlite::Result<()> {
+            let mut statement = self.database.prepare("SELECT id, height_m FROM person_data")?;
+            let mut rows = statement.query([])?;
+            while let Some(row) = rows.next()? {
+                if let (Ok(id), Ok(height_m)) = (row.get(0), row.get(1)) {
+                    statures.note(id, height_m);
+                }
+            }
+            Ok(())
+        };
+        // Most databases have no such table.
+        let _ = read(&mut statures);
+        statures
     }
 
     pub fn share_done(&self) -> f64 {

@@ -68,6 +68,7 @@ pub(super) fn detect(head: &[u8], whole: bool, options: &RecordingOptions) -> Re
         header: header.map(|((_, line), _)| line.to_vec()),
         fps: comments.fps,
         unit: None,
+        heights: None,
         warnings,
     };
     let named = names.as_ref().or(comments.columns.as_ref()).filter(|_| options.columns.is_none());
@@ -91,10 +92,10 @@ pub(super) fn detect(head: &[u8], whole: bool, options: &RecordingOptions) -> Re
     Ok(layout)
 }
 
-/// Says where a refusal without a place belongs.
-fn place(refusal: Refusal, (line, text): Numbered) -> Refusal {
+/// Says where a refusal without a place belongs. The line is not repeated: the file may be a wrong one.
+fn place(refusal: Refusal, (line, _): Numbered) -> Refusal {
     match refusal {
-        Refusal::Unknown { found, hint } => Refusal::Line { line, problem: format!("{found}: {}", shown(text)), hint },
+        Refusal::Unknown { found, hint } => Refusal::Line { line, problem: found, hint },
         refusal => refusal,
     }
 }

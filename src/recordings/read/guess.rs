@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::RecordingFormat;
 use super::columns::{Role, TextColumn};
-use super::layout::{Separator, TextLayout, shown};
+use super::layout::{Separator, TextLayout};
 use super::number::{number, stamp};
 use super::refusal::Refusal;
 
@@ -38,8 +38,8 @@ pub(super) fn columns(
     let is_number = |at: usize| number(fields[at]).is_some();
     let when = |at: usize| number(fields[at]).or_else(|| stamp(fields[at])).is_some();
     if !(when(1) && is_number(2) && is_number(3)) {
-        let bad = (1..4).find(|&at| !is_number(at)).map_or("", |at| std::str::from_utf8(fields[at]).unwrap_or(""));
-        let found = format!("no header names the columns, and {} is no number", shown(bad.as_bytes()));
+        let bad = (1..4).find(|&at| !is_number(at)).unwrap_or(1) + 1;
+        let found = format!("no header names the columns, and column {bad} holds no number");
         return Err(Refusal::Unknown { found, hint });
     }
     let table: Vec<Vec<f64>> = rows.iter().take(ROWS).filter_map(|row| numbers(row, separator)).collect();
@@ -145,7 +145,7 @@ pub(super) fn upright_axis(layout: &mut TextLayout, rows: &[&[u8]], asked: bool)
 /// The unit that heights of heads tell: people are 1 to 2.3 m tall.
 pub(super) fn unit_of_heights(layout: &TextLayout, rows: &[&[u8]]) -> Option<super::LengthUnit> {
     use super::LengthUnit::{Centimetre, Metre, Millimetre};
-    let at = layout.column(Role::Height).or_else(|| layout.column(Role::Z))?;
+    let at = layout.heights_column()?;
     let value = |row: &&[u8]| number(layout.separator.split(row).get(at)?).filter(|z| z.is_finite());
     let mut heights: Vec<f64> = rows.iter().take(ROWS).filter_map(value).collect();
     let middle = heights.len() / 2;

@@ -9,6 +9,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use flate2::bufread::MultiGzDecoder;
 
+use crate::files::open_input;
+
 /// Bytes read at once.
 const CHUNK: usize = 1 << 18;
 /// No line is longer than this, bytes.
@@ -67,8 +69,8 @@ pub(super) struct LineReader {
 impl LineReader {
     pub fn open(path: &Path) -> Result<LineReader, Trouble> {
         let mut magic = [0; 2];
-        let packed = fill(&mut File::open(path)?, &mut magic)? == 2 && magic == GZIP;
-        let file = File::open(path)?;
+        let packed = fill(&mut open_input(path)?, &mut magic)? == 2 && magic == GZIP;
+        let file = open_input(path)?;
         let length = file.metadata()?.len();
         let read = Arc::new(AtomicU64::new(0));
         let counted = Counted { file, bytes: Arc::clone(&read) };

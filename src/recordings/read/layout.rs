@@ -46,6 +46,8 @@ pub(super) struct TextLayout {
     pub fps: Option<f64>,
     /// Unit of its lengths, if the file says so.
     pub unit: Option<LengthUnit>,
+    /// Unit of people's body heights, where a column holds them.
+    pub heights: Option<LengthUnit>,
     /// What a user should be told.
     pub warnings: Vec<String>,
 }
@@ -93,15 +95,23 @@ impl TextLayout {
         self.columns.iter().position(|column| column.role == role)
     }
 
+    /// The column that may hold people's heights.
+    pub fn heights_column(&self) -> Option<usize> {
+        self.column(Role::Height).or_else(|| self.column(Role::Z))
+    }
+
     /// Whether columns with these roles are all there.
     pub fn has(&self, roles: &[Role]) -> bool {
         roles.iter().all(|&role| self.column(role).is_some())
     }
 
-    /// Heights and what stands behind the last useful column need not be read any more.
-    pub fn without_heights(mut self) -> TextLayout {
-        let heights = self.columns.iter_mut().filter(|column| matches!(column.role, Role::Z | Role::Height));
-        heights.for_each(|column| *column = TextColumn::UNUSED);
+    /// Leaves only those columns that are of use: of heights one, if it holds those of bodies, in this unit.
+    pub fn with_heights_in(mut self, unit: Option<LengthUnit>) -> TextLayout {
+        self.heights = unit;
+        let kept = unit.and_then(|_| self.heights_column());
+        let heights = self.columns.iter_mut().enumerate();
+        let heights = heights.filter(|(at, column)| column.is_height() && Some(*at) != kept);
+        heights.for_each(|(_, column)| *column = TextColumn::UNUSED);
         let useful = self.columns.iter().rposition(|column| column.role != Role::Unused).map_or(0, |last| last + 1);
         self.columns.truncate(useful);
         self
@@ -113,9 +123,15 @@ impl TextLayout {
         let mut rest = line;
         for (at, column) in self.columns.iter().enumerate() {
             let field = self.separator.next(&mut rest).or_else(|| self.empty_last(line, at));
-            let Some(field) = field else { return Err(self.too_short(line, at)) };
+            let field = match field {
+                Some(field) => field,
+                // A height is good to have; nobody's place depends on it.
+                None if self.columns[at..].iter().all(|column| !column.is_needed()) => break,
+                None => return Err(self.too_short(at)),
+            };
             match column.role {
                 Role::Unused => {}
+                Role::Z | Role::Height => read.values[slot(column.role)] = self.number(field).unwrap_or(f64::NAN),
                 Role::Id => read.id = field,
                 Role::Frame | Role::Time => read.time = self.moment(field)?,
                 role => {
@@ -168,8 +184,9 @@ impl TextLayout {
         Ok(value)
     }
 
-    fn too_short(&self, line: &[u8], found: usize) -> LineProblem {
-        let text = format!("{found} columns instead of at least {}: {}", self.columns.len(), shown(line));
+    fn too_short(&self, found: usize) -> LineProblem {
+        let needed = self.columns.iter().rposition(TextColumn::is_needed).map_or(0, |last| last + 1);
+        let text = format!("{found} columns instead of at least {needed}");
         LineProblem { text, hint: "--columns says what each column holds", short: true }
     }
 }

@@ -50,6 +50,12 @@ impl Sorted {
             self.extras.resize(order as usize, Extra::default());
             self.extras.push(Extra { velocity, heading, until });
         }
+        if self.rows.try_reserve(1).is_err() || self.lines.try_reserve(1).is_err() {
+            let (path, hint) = (path.to_path_buf(), "sort it by time first");
+            let problem =
+                format!("there is no memory for its rows, {order} so far, which are not in the order of time");
+            return Err(RecordingError::Unreadable { path, problem, hint });
+        }
         self.lines.push(u32::try_from(line).unwrap_or(u32::MAX));
         self.rows.push(Compact { time, x: at.x, y: at.y, id, order });
         Ok(())

@@ -1,6 +1,5 @@
 //! Opens a recording: what it is, what it holds, what its numbers mean.
 
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
@@ -20,7 +19,9 @@ use super::rows::TrajectoryRows;
 use super::scale::{Alignment, Scale, Stated, TimeScale, rotation};
 use super::text_rows::unreadable;
 use super::{LengthUnit, RecordingError, RecordingFormat, RecordingOptions, Survey};
+use crate::files::open_input;
 use crate::math::{Rect, Vec2};
+use crate::motion::Statures;
 use crate::{Progress, Stage};
 
 pub(super) fn open(
@@ -53,7 +54,7 @@ pub(super) fn open(
     };
     let frames = stated.clock == TimeColumn::Frames;
     let way = CensusTask { path, frames, turn: rotation(options.rotation_deg), progress };
-    let Counting { source, mut census, passed, in_order } = count(source, way)?;
+    let Counting { source, mut census, passed, statures, in_order } = count(source, way)?;
     let Some(bounds) = census.bounds else {
         let what = if passed.nowhere > 0 { "nobody has a place" } else { "there is a header, but nothing behind it" };
         return Err(RecordingError::Empty { path: path.to_path_buf(), what });
@@ -64,7 +65,7 @@ pub(super) fn open(
     let alignment = Alignment::new(scale.unit, options);
     let survey = survey(&mut census, &stated, &scale, &alignment, bounds, in_order, warnings);
     let (path, first_time) = (path.to_path_buf(), census.first_time);
-    Ok(RecordingContent { path, survey, source, scale, alignment, first_time })
+    Ok(RecordingContent { path, survey, statures, source, scale, alignment, first_time })
 }
 
 fn check(options: &RecordingOptions) -> Result<(), RecordingError> {
@@ -87,7 +88,7 @@ fn check(options: &RecordingOptions) -> Result<(), RecordingError> {
 
 fn is_database(path: &Path, options: &RecordingOptions) -> Result<bool, RecordingError> {
     let mut magic = [0; 16];
-    let opened = File::open(path).and_then(|mut file| file.read(&mut magic));
+    let opened = open_input(path).and_then(|mut file| file.read(&mut magic));
     let length = opened.map_err(|error| unreadable(path, error.into(), 0))?;
     let found = length == magic.len() && magic == *database::MAGIC;
     let asked = options.format.is_some_and(|format| format == RecordingFormat::Jupedsim);
@@ -114,16 +115,17 @@ fn read_head(path: &Path, options: &RecordingOptions) -> Result<(TextLayout, Sta
     }
     let layout = detect::detect(head, whole, options).map_err(|refusal| refused(path, options, refusal))?;
     let rows: Vec<&[u8]> = head.split(|&byte| byte == b'\n').skip(layout.head_lines as usize).collect();
+    let unit_of_heights = guess::unit_of_heights(&layout, &rows);
     let stated = Stated {
         format: layout.format,
         clock: layout.clock,
         fps: layout.fps,
         unit: layout.unit,
-        unit_of_heights: guess::unit_of_heights(&layout, &rows),
+        unit_of_heights,
         bare: layout.head_lines == 0,
         angles: layout.column(Role::HeadingAngle).is_some(),
     };
-    Ok((layout.without_heights(), stated))
+    Ok((layout.with_heights_in(unit_of_heights), stated))
 }
 
 fn refused(path: &Path, options: &RecordingOptions, refusal: Refusal) -> RecordingError {
@@ -170,6 +172,7 @@ struct Counting {
     source: RowSource,
     census: Census,
     passed: Passed,
+    statures: Statures,
     in_order: bool,
 }
 
@@ -179,9 +182,11 @@ fn count(mut source: RowSource, way: CensusTask<'_>) -> Result<Counting, Recordi
     let path = way.path;
     loop {
         let mut rows = source.rows(path)?;
+        rows.note_statures();
         let again = match census_of(&mut rows, &source, way) {
             Ok(census) => {
-                return Ok(Counting { passed: rows.passed(), source, census, in_order: true });
+                let (passed, statures) = (rows.passed(), rows.statures());
+                return Ok(Counting { passed, statures, source, census, in_order: true });
             }
             Err(Obstacle::Error(error)) => return Err(error),
             Err(Obstacle::Name) => None,
@@ -192,13 +197,14 @@ fn count(mut source: RowSource, way: CensusTask<'_>) -> Result<Counting, Recordi
             continue;
         }
         let mut rows = source.rows(path)?;
+        rows.note_statures();
         match sorted(&mut rows, way) {
             Ok(sorted) => {
-                let passed = rows.passed();
+                let (passed, statures) = (rows.passed(), rows.statures());
                 let sorted = RowSource::Memory(Arc::new(sorted));
                 let mut rows = sorted.rows(path)?;
                 return match census_of(&mut rows, &source, way) {
-                    Ok(census) => Ok(Counting { passed, source: sorted, census, in_order: false }),
+                    Ok(census) => Ok(Counting { passed, statures, source: sorted, census, in_order: false }),
                     Err(Obstacle::Error(error)) => Err(error),
                     Err(Obstacle::Name | Obstacle::Disorder) => {
                         Err(RecordingError::Empty { path: path.to_path_buf(), what: "its times have no order" })

@@ -5,7 +5,7 @@ use super::content::RecordingContent;
 use super::open::open;
 use super::weave::Weaver;
 use super::{RecordingError, RecordingOptions, Survey};
-use crate::motion::{Ensemble, Motion, MotionError};
+use crate::motion::{Ensemble, Motion, MotionError, Statures};
 use crate::progress::{Progress, Silent};
 
 /// A recording: surveyed once, and read as often as is wanted.
@@ -46,6 +46,12 @@ impl Recording {
         &self.content.survey
     }
 
+    /// Body heights of those for whom the file tells one: the first that a person may have. Somebody who comes back after
+    /// a long gap as another person has none.
+    pub fn statures(&self) -> Statures {
+        self.content.statures.clone()
+    }
+
     /// Reads it from its start. Times begin at 0 with the first frame; ids are those of the file where they are whole
     /// numbers below 10 million, else people are numbered from 1 as they appear.
     ///
@@ -58,7 +64,7 @@ impl Recording {
     /// # Errors
     /// The file cannot be read any more.
     pub fn motion(&self) -> Result<Box<dyn Motion + Send + '_>, MotionError> {
-        let RecordingContent { path, survey, source, scale, alignment, first_time } = &*self.content;
+        let RecordingContent { path, survey, source, scale, alignment, first_time, .. } = &*self.content;
         let rows = source.rows(path).map_err(MotionError::of_source)?;
         let weaver = Weaver::new(rows, scale.clone(), *alignment, *first_time, survey.largest_id);
         Ok(Box::new(weaver))

@@ -4,6 +4,7 @@ use super::database::DatabaseRows;
 use super::memory::MemoryRows;
 use super::row::{Passed, ReadStop, TrajectoryRow};
 use super::text_rows::TextRows;
+use crate::motion::Statures;
 
 /// Where rows come from.
 pub(super) enum TrajectoryRows {
@@ -27,6 +28,22 @@ impl TrajectoryRows {
             TrajectoryRows::Text(rows) => rows.share_done(),
             TrajectoryRows::Database(rows) => rows.share_done(),
             TrajectoryRows::Memory(rows) => rows.share_done(),
+        }
+    }
+
+    /// From now on, notes people's heights as their rows are read.
+    pub fn note_statures(&mut self) {
+        if let TrajectoryRows::Text(rows) = self {
+            rows.note_statures();
+        }
+    }
+
+    /// The heights that were noted; a database has them in a table of their own.
+    pub fn statures(&self) -> Statures {
+        match self {
+            TrajectoryRows::Text(rows) => rows.statures(),
+            TrajectoryRows::Database(rows) => rows.statures(),
+            TrajectoryRows::Memory(_) => Statures::default(),
         }
     }
 

@@ -10,6 +10,7 @@ use super::layout::{TextLayout, TextLine, slot};
 use super::number::number;
 use super::row::{ID_LIMIT, Numbering, Passed, ReadStop, TrajectoryRow};
 use crate::math::{Vec2, sin_cos, vec2};
+use crate::motion::Statures;
 
 /// The rows of a text.
 pub(super) struct TextRows {
@@ -20,6 +21,9 @@ pub(super) struct TextRows {
     numbers: HashMap<Box<[u8]>, u32>,
     passed: Passed,
     extras: Extras,
+    /// Metres in the unit of heights, where they are noted.
+    heights_in_m: Option<f64>,
+    statures: Statures,
 }
 
 /// Which columns there are beyond the necessary.
@@ -51,11 +55,23 @@ impl TextRows {
             numbers: HashMap::new(),
             passed: Passed::default(),
             extras,
+            heights_in_m: None,
+            statures: Statures::default(),
         };
         for _ in 0..layout.head_lines {
             rows.lines.next().map_err(|trouble| unreadable(path, trouble, rows.lines.number()))?;
         }
         Ok(rows)
+    }
+
+    /// From now on, notes people's heights as their rows are read.
+    pub fn note_statures(&mut self) {
+        self.heights_in_m = self.layout.heights.map(|unit| unit.metres());
+    }
+
+    /// The heights that were noted.
+    pub fn statures(&self) -> Statures {
+        self.statures.clone()
     }
 
     pub fn passed(&self) -> Passed {
@@ -117,6 +133,9 @@ impl TextRows {
                     }
                 }
             };
+            if let Some(metres) = self.heights_in_m {
+                self.statures.note(id, line.values[slot(Role::Height)] * metres);
+            }
             return Ok(Some(self.row(id, &line)));
         }
     }

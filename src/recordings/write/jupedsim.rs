@@ -3,13 +3,14 @@ use std::path::Path;
 
 use rusqlite::{Connection, ErrorCode, params};
 
-use super::place::{MapFrame, RecordedPlace};
+use super::place::{MapFrame, PER_UNIT, RecordedPlace};
 use super::sheet::MotionSink;
 use super::wkt;
 use super::world::RecordedWorld;
 use crate::math::Rect;
 
-/// The tables of a JuPedSim database, version 2, as its `sqlite_serialization.py` makes them.
+/// The tables of a JuPedSim database, version 2, as its `sqlite_serialization.py` makes them, and one of our own, which
+/// others pass over: how tall people are.
 const TABLES: &str = "
     CREATE TABLE trajectory_data (
         frame INTEGER NOT NULL, id INTEGER NOT NULL,
@@ -18,7 +19,8 @@ const TABLES: &str = "
     CREATE TABLE geometry (hash INTEGER NOT NULL, wkt TEXT NOT NULL);
     CREATE UNIQUE INDEX geometry_hash ON geometry (hash);
     CREATE TABLE frame_data (frame INTEGER NOT NULL, geometry_hash INTEGER NOT NULL);
-    CREATE INDEX frame_id_idx ON trajectory_data (frame, id);";
+    CREATE INDEX frame_id_idx ON trajectory_data (frame, id);
+    CREATE TABLE person_data (id INTEGER NOT NULL PRIMARY KEY, height_m REAL NOT NULL);";
 
 /// A file that is thrown away if it does not become whole needs no journal; one transaction writes it all.
 const BEGIN: &str = "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; BEGIN;";
@@ -26,10 +28,15 @@ const BEGIN: &str = "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; BEGIN;
 const INSERT_PLACE: &str = "INSERT INTO trajectory_data VALUES (?, ?, ?, ?, ?, ?)";
 const INSERT_FRAME: &str = "INSERT INTO frame_data VALUES (?, ?)";
 
+/// Somebody who left may come back: then the height is there.
+const INSERT_PERSON: &str = "INSERT OR IGNORE INTO person_data VALUES (?, ?)";
+
 /// A JuPedSim database, version 2.
 pub(super) struct JupedsimDatabase {
     database: Connection,
     geometry_hash: i64,
+    /// Who was there in the last frame, ascending.
+    before: Vec<u32>,
 }
 
 impl JupedsimDatabase {
@@ -59,7 +66,7 @@ impl JupedsimDatabase {
             Ok(database)
         };
         let database = begin().map_err(explain)?;
-        Ok(JupedsimDatabase { database, geometry_hash })
+        Ok(JupedsimDatabase { database, geometry_hash, before: Vec::new() })
     }
 }
 
@@ -70,13 +77,20 @@ impl MotionSink for JupedsimDatabase {
         let insert = || {
             self.database.prepare_cached(INSERT_FRAME)?.execute(params![number, self.geometry_hash])?;
             let mut insert = self.database.prepare_cached(INSERT_PLACE)?;
+            let mut insert_person = self.database.prepare_cached(INSERT_PERSON)?;
             for place in places {
+                if self.before.binary_search(&place.id).is_err() {
+                    insert_person.execute(params![place.id, (place.height_m * PER_UNIT).round() / PER_UNIT])?;
+                }
                 let [at, facing] = [place.at, place.facing];
                 insert.execute(params![number, place.id, at.x, at.y, facing.x, facing.y])?;
             }
             Ok(())
         };
-        insert().map_err(explain)
+        insert().map_err(explain)?;
+        self.before.clear();
+        self.before.extend(places.iter().map(|place| place.id));
+        Ok(())
     }
 
     fn close(self: Box<Self>) -> io::Result<u64> {

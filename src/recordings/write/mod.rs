@@ -9,7 +9,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::files::{FileError, WholeFile};
-use crate::motion::{Frame, People, Resampler, Walker};
+use crate::motion::{Frame, Resampler, Statures, Walker};
 use crate::recordings::{RecordingError, RecordingFormat};
 
 mod form;
@@ -30,6 +30,9 @@ use sheet::MotionSink;
 use text::{LineFormat, Out, Text};
 use vadere::StepFormat;
 pub use world::RecordedWorld;
+
+/// An absence of everybody for longer is passed over, seconds: its frames are not written one by one.
+const LONG_ABSENCE_S: f64 = 3600.0;
 
 /// Least and most frames per second of a recording.
 pub const FRAME_RATES: [f64; 2] = [0.1, 1000.0];
@@ -63,6 +66,7 @@ pub struct Recorder<'a> {
     written: Recorded,
     /// Who was present in the last frame, and how tall they are.
     heights: Vec<(u32, f64)>,
+    statures: Statures,
 }
 
 impl<'a> Recorder<'a> {
@@ -91,12 +95,27 @@ impl<'a> Recorder<'a> {
         fps: f64,
         world: RecordedWorld<'a>,
     ) -> Result<Recorder<'a>, RecordingError> {
+        Recorder::into_file(form, WholeFile::begin(path, force)?, fps, world)
+    }
+
+    /// Begins a file whose place is reserved already.
+    ///
+    /// # Errors
+    /// As [`Recorder::create_as`], but for the place.
+    pub fn into_file(
+        form: RecordForm,
+        file: WholeFile,
+        fps: f64,
+        world: RecordedWorld<'a>,
+    ) -> Result<Recorder<'a>, RecordingError> {
         check(fps)?;
         let RecordForm { format, packed } = form;
         if packed && !format.is_text() {
             return Err(RecordingError::NoText { format }.into());
         }
-        let file = WholeFile::begin(path, force)?;
+        if file.is_stream() && !format.is_text() {
+            return Err(RecordingError::NoText { format });
+        }
         let sheet: Box<dyn MotionSink> = match layout(format, fps) {
             Some(layout) => {
                 let out = file.create()?;
@@ -143,7 +162,13 @@ impl<'a> Recorder<'a> {
             file,
             written: Recorded { format, fps, frames: 0, places: 0, bytes: 0 },
             heights: Vec::new(),
+            statures: Statures::default(),
         }
+    }
+
+    /// The same with body heights that are known from elsewhere; those of the others are the world's people's.
+    pub fn with_statures(self, statures: Statures) -> Recorder<'a> {
+        Recorder { statures, ..self }
     }
 
     /// Takes the motion's next frame.
@@ -151,9 +176,16 @@ impl<'a> Recorder<'a> {
     /// # Errors
     /// The file cannot be written.
     pub fn push(&mut self, frame: &Frame) -> Result<(), RecordingError> {
-        self.resampler.push(frame);
+        let absent_s = self.resampler.push(frame);
+        // A short absence is written as it is: databases list its frames.
+        if absent_s > LONG_ABSENCE_S {
+            self.resampler.pass_over_absence();
+        }
         while let Some((number, walkers)) = self.resampler.next() {
-            measure_heights(&mut self.heights, &walkers, self.world.people);
+            let (statures, people) = (&self.statures, self.world.people);
+            measure_heights(&mut self.heights, &walkers, |id| {
+                statures.of(id).unwrap_or_else(|| people.person(id).stature_m)
+            });
             let places: Vec<RecordedPlace> = (walkers.iter().zip(&self.heights))
                 .map(|(walker, &(_, height_m))| self.frame_of_map.place(walker, height_m))
                 .collect();
@@ -172,7 +204,10 @@ impl<'a> Recorder<'a> {
         let Recorder { sheet, file, mut written, .. } = self;
         written.bytes = sheet.close().map_err(|source| failed(&file, source))?;
         if let Some(file) = file {
-            written.bytes = file.publish()?;
+            // Of a stream, only what was counted on the way is known.
+            let is_stream = file.is_stream();
+            let size = file.publish()?;
+            written.bytes = if is_stream { written.bytes } else { size };
         }
         Ok(written)
     }
@@ -204,7 +239,7 @@ fn unnamed(source: io::Error) -> RecordingError {
 }
 
 /// Brings the list of heights up to those who are present now; both are in ascending order of ids.
-fn measure_heights(heights: &mut Vec<(u32, f64)>, walkers: &[Walker], people: &People) {
+fn measure_heights(heights: &mut Vec<(u32, f64)>, walkers: &[Walker], height_m_of: impl Fn(u32) -> f64) {
     let before = std::mem::take(heights);
     let mut known = before.iter().peekable();
     heights.reserve(walkers.len());
@@ -212,7 +247,7 @@ fn measure_heights(heights: &mut Vec<(u32, f64)>, walkers: &[Walker], people: &P
         while known.next_if(|&&(id, _)| id < walker.id).is_some() {}
         let height_m = match known.next_if(|&&(id, _)| id == walker.id) {
             Some(&(_, height_m)) => height_m,
-            None => people.person(walker.id).stature_m,
+            None => height_m_of(walker.id),
         };
         heights.push((walker.id, height_m));
     }

@@ -72,7 +72,7 @@ fn a_wrong_door_or_fixture_shows_its_place() {
     assert_data_eq!(
         with("[[door]]\nat = [1, inf]\n"),
         str![[r#"
-`at` holds a coordinate that is no finite number
+`at` is inf, allowed is -10000000 to 10000000
  --> plans/hall.toml:4:6
   |
 4 | at = [1, inf]

@@ -106,7 +106,7 @@ fn timetables_are_read_from_files_beside_the_scenario() {
     std::fs::write(dir.path().join("day.csv"), "time,people\n60,many\n").unwrap();
     let error = Scenario::parse(&text, &path, &Overrides::default()).unwrap_err();
     let shown = error.to_string();
-    assert!(shown.contains("day.csv, line 2: \"60,many\" is no time and number of people"), "{shown}");
+    assert!(shown.contains("day.csv, line 2: it is no time and number of people"), "{shown}");
     assert!(shown.contains("hall.toml:5:8"), "{shown}");
     std::fs::write(dir.path().join("day.csv"), "# nothing\n").unwrap();
     let shown = Scenario::parse(&text, &path, &Overrides::default()).unwrap_err().to_string();
@@ -177,7 +177,7 @@ hint: did you mean "bench"?
     assert_data_eq!(
         with("[\"bench\"]", &format!("{stop}dwell = nan\n")),
         str![[r#"
-`dwell`: not a finite number
+`dwell`: it is NaN, allowed is 0 to 86400
   --> plans/hall.toml:10:9
    |
 10 | dwell = nan

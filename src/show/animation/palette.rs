@@ -2,12 +2,12 @@ use std::sync::atomic::{AtomicU16, Ordering};
 
 use image::RgbImage;
 
-use super::scene::OUTLINE;
-use crate::show::pictures::canvas::Colour;
-use crate::show::pictures::drawing::{FASTEST_M_S, PAPER, PLAIN_FLOOR, ROUTES, SOLID, STUCK, TEXT, speed_colour};
+use super::crowd_view::OUTLINE;
+use crate::math::srgb::Srgb8;
+use crate::show::pictures::style::{FASTEST_M_S, PAPER, PLAIN_FLOOR, ROUTES, SOLID, STUCK, TEXT, speed_colour};
 
 /// The colour of a pixel that stays as it was.
-pub(super) const SAME: u8 = 255;
+pub(super) const UNCHANGED: u8 = 255;
 
 /// Steps of the scale of speeds.
 const SPEEDS: usize = 14;
@@ -19,7 +19,7 @@ const UNKNOWN: u16 = u16::MAX;
 /// The colours of an animation: few, and the same in all pictures, so that its file stays small.
 #[derive(Debug)]
 pub(super) struct Palette {
-    colours: Vec<Colour>,
+    colours: Vec<Srgb8>,
     /// Index of the nearest colour by the upper bits of red, green and blue.
     nearest: Vec<AtomicU16>,
 }
@@ -28,7 +28,7 @@ impl Palette {
     /// All colours that are drawn, and mixtures of those that meet at edges.
     pub(super) fn new() -> Palette {
         let mut colours = vec![PAPER, PLAIN_FLOOR, SOLID, TEXT, OUTLINE, STUCK];
-        let mut mix = |a: Colour, b: Colour, steps: usize| {
+        let mut mix = |a: Srgb8, b: Srgb8, steps: usize| {
             colours.extend((1..steps).map(|k| mixed(a, b, k as f64 / steps as f64)));
         };
         mix(PLAIN_FLOOR, SOLID, 14);
@@ -38,7 +38,7 @@ impl Palette {
         mix(PLAIN_FLOOR, STUCK, 4);
         mix(PLAIN_FLOOR, PAPER, 2);
         let speeds = (0..SPEEDS).map(|k| speed_colour(FASTEST_M_S * k as f64 / (SPEEDS - 1) as f64));
-        let people: Vec<Colour> = speeds.chain(ROUTES).collect();
+        let people: Vec<Srgb8> = speeds.chain(ROUTES).collect();
         for &colour in &people {
             mix(colour, OUTLINE, 4);
             mix(PLAIN_FLOOR, colour, 4);
@@ -46,13 +46,13 @@ impl Palette {
         colours.extend(people);
         let mut seen = std::collections::HashSet::new();
         colours.retain(|colour| seen.insert(*colour));
-        debug_assert!(colours.len() <= usize::from(SAME), "{} colours", colours.len());
+        debug_assert!(colours.len() <= usize::from(UNCHANGED), "{} colours", colours.len());
         let nearest = (0..1usize << (3 * BITS)).map(|_| AtomicU16::new(UNKNOWN)).collect();
         Palette { colours, nearest }
     }
 
     /// The colours, at most 255.
-    pub(super) fn colours(&self) -> &[Colour] {
+    pub(super) fn colours(&self) -> &[Srgb8] {
         &self.colours
     }
 
@@ -61,7 +61,7 @@ impl Palette {
         picture.pixels().map(|pixel| self.index(pixel.0)).collect()
     }
 
-    fn index(&self, colour: Colour) -> u8 {
+    fn index(&self, colour: Srgb8) -> u8 {
         let key = colour.iter().fold(0usize, |key, &value| key << BITS | usize::from(value >> (8 - BITS)));
         let known = self.nearest[key].load(Ordering::Relaxed);
         if known != UNKNOWN {
@@ -69,7 +69,7 @@ impl Palette {
         }
         // The same for all colours of this key, whichever comes first.
         let middle = colour.map(|value| value >> (8 - BITS) << (8 - BITS) | 1 << (7 - BITS));
-        let distance = |other: &Colour| -> u32 {
+        let distance = |other: &Srgb8| -> u32 {
             other.iter().zip(middle).map(|(&a, b)| u32::from(a.abs_diff(b)) * u32::from(a.abs_diff(b))).sum()
         };
         let nearest =
@@ -79,7 +79,7 @@ impl Palette {
     }
 }
 
-fn mixed(a: Colour, b: Colour, share: f64) -> Colour {
+fn mixed(a: Srgb8, b: Srgb8, share: f64) -> Srgb8 {
     std::array::from_fn(|k| (f64::from(a[k]) + (f64::from(b[k]) - f64::from(a[k])) * share).round() as u8)
 }
 

@@ -1,9 +1,16 @@
 use image::AnimationDecoder;
 
+use std::path::Path;
+
+use super::crowd_view::{CrowdView, clock};
+use super::recorder::round_speed;
+use super::trails::Trails;
 use super::*;
+use crate::crowd::Stuck;
 use crate::math::vec2;
-use crate::motion::Walker;
-use crate::walls::WallsOptions;
+use crate::motion::{Frame, Walker};
+use crate::plan::FloorPlan;
+use crate::walls::{Walls, WallsOptions};
 
 /// A corridor of 12 x 3 m between walls of a metre.
 fn plan() -> (FloorPlan, Walls) {
@@ -55,7 +62,7 @@ fn gif_and_png_show_the_same_pictures() {
     assert_eq!((delays[0], delays[50]), (8, 150));
     // Nobody is left behind where they were.
     let (plan, walls) = plan();
-    let empty = Scene::new(&plan, &walls, &[], &small()).picture(0.0, &[], &Tails::default(), &[]);
+    let empty = CrowdView::new(&plan, &walls, &[], &small()).picture(0.0, &[], &Trails::default(), &[]);
     let dark = |picture: &image::RgbaImage| picture.pixels().filter(|pixel| pixel.0[0] < 60).count();
     let few = dark(gif[10].buffer());
     assert!(few > 0 && dark(gif[50].buffer()).abs_diff(few) < 60, "{few} {}", dark(gif[50].buffer()));
@@ -85,16 +92,16 @@ fn walks_that_last_longer_than_expected_are_shown_faster_from_the_start() {
         frame.walkers[0].position_m.x = 3.0;
         animation.push(&frame, &[]);
     }
-    assert_eq!((animation.speed, animation.reel.len()), (4.0, 219));
-    let pictures: Vec<Vec<u8>> = animation.reel.pictures().collect();
+    assert_eq!((animation.speed, animation.frames.len()), (4.0, 219));
+    let pictures: Vec<Vec<u8>> = animation.frames.pictures().collect();
     // All but the first, in which nobody is there yet, differ by the clock alone.
-    let [width, height] = animation.scene.size_px().map(|side| side as usize);
+    let [width, height] = animation.view.size_px().map(|side| side as usize);
     let plan_rows = ..width * (height - 70);
     assert!(pictures[2..].iter().all(|picture| picture[plan_rows] == pictures[1][plan_rows]));
-    let clock = |n: usize| &pictures[n][width * (height - 60)..];
+    let clock_of = |n: usize| &pictures[n][width * (height - 60)..];
     // Picture n shows the moment 0.32 n seconds.
-    assert!(clock(10) == clock(12) && clock(12) != clock(13) && clock(13) == clock(15));
-    assert!(clock(201) == clock(203) && clock(203) != clock(204));
+    assert!(clock_of(10) == clock_of(12) && clock_of(12) != clock_of(13) && clock_of(13) == clock_of(15));
+    assert!(clock_of(201) == clock_of(203) && clock_of(203) != clock_of(204));
 }
 
 #[test]
@@ -125,5 +132,5 @@ fn absurd_options_are_refused() {
 
 #[test]
 fn clocks_have_hours_when_they_need_them() {
-    assert_eq!([0.0, 59.96, 61.0, 3600.0, 7384.9].map(scene::clock), ["0:00", "0:59", "1:01", "1:00:00", "2:03:04"]);
+    assert_eq!([0.0, 59.96, 61.0, 3600.0, 7384.9].map(clock), ["0:00", "0:59", "1:01", "1:00:00", "2:03:04"]);
 }

@@ -3,13 +3,18 @@
 use image::ExtendedColorType;
 use serde_json::{Value, json};
 
-use super::field::{self, Field, Raster};
-use super::images::{self, Crop, Files, KINDS};
-use super::law;
-use super::{Covering, Page, PageOptions, geometry, lamps, light};
-use crate::export::Reduced;
+use super::content::{Page, PageOptions, PageSurface};
+use super::field::{self, CellGrid, DistanceField};
+use super::images::{self, ImageFiles, PageImages, PixelRect};
+use super::{geometry, lamps, light};
+use crate::export::{ExportError, OutputFolder};
+use crate::look::Layer;
 use crate::math::Vec2;
-use crate::show::scene::{Part, Surface};
+use crate::math::srgb::light_of;
+use crate::show::scene::{Mesh, SceneSurface};
+
+/// Name of the page in a bake's folder.
+pub const PAGE_FILE: &str = "index.html";
 
 /// The page without what it shows.
 const TEMPLATE: &str = include_str!("page.html");
@@ -32,8 +37,16 @@ const SHADERS: [(&str, &str); 4] = [
     ("plain-fragment", include_str!("client/plain.frag")),
 ];
 
-/// The page's text.
-pub(super) fn html(page: &Page<'_>) -> String {
+/// Writes the page to a bake's folder.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_page(folder: &OutputFolder, page: &Page<'_>) -> Result<(), ExportError> {
+    folder.write(PAGE_FILE, page_html(page).as_bytes())
+}
+
+/// The page's text. The same page gives the same bytes.
+pub fn page_html(page: &Page<'_>) -> String {
     let mut blocks = Vec::new();
     let mut data = json!({
         "title": page.title,
@@ -126,60 +139,61 @@ fn outline(outline: &crate::walls::Outline) -> Value {
     json!({ "points": points, "openings": outline.openings.iter().map(|(edge, _)| edge).collect::<Vec<_>>() })
 }
 
-fn covering(covering: &Covering<'_>) -> Value {
-    let kinds = &covering.dirt[..covering.dirt.len().min(KINDS)];
+fn covering(covering: &PageSurface<'_>) -> Value {
+    let kinds = &covering.dirt[..covering.dirt.len().min(Layer::KINDS)];
     let kinds: Vec<Value> = kinds
         .iter()
-        .map(|dirt| json!({ "name": dirt.name, "colour": law::linear_rgb(dirt.colour), "srgb": dirt.colour }))
+        .map(|dirt| json!({ "name": dirt.name, "colour": light_of(dirt.colour), "srgb": dirt.colour }))
         .collect();
-    json!({ "clean": law::linear_rgb(covering.clean), "roughness": covering.roughness, "kinds": kinds })
+    json!({ "clean": light_of(covering.clean), "roughness": covering.roughness, "kinds": kinds })
 }
 
 /// The image of a part, and which of it.
-struct Picture {
-    crop: Crop,
+struct PartImage {
+    area: PixelRect,
+    /// Of the whole image.
     size: [u32; 2],
-    image: Reduced,
+    images: PageImages,
 }
 
-fn picture(page: &Page<'_>, part: &Part) -> Option<Picture> {
+fn part_image(page: &Page<'_>, part: &Mesh) -> Option<PartImage> {
     let images = match part.surface {
-        Surface::FloorTile(n) => page.floor.images.get(n),
-        Surface::WallSheet(n) => page.wall.images.get(n),
-        Surface::WallTop | Surface::Lintel => None,
+        SceneSurface::FloorTile(n) => page.floor.images.get(n),
+        SceneSurface::WallSheet(n) => page.wall.images.get(n),
+        SceneSurface::WallTop | SceneSurface::Lintel => None,
     }?;
-    let (width, height) = images.base_color.dimensions();
-    let fits = images.mask.dimensions() == (width, height) && images.orm.dimensions() == (width, height);
+    let (width, height) = images.clean.dimensions();
+    let fits = images.dirt.dimensions() == (width, height) && images.orm.dimensions() == (width, height);
     if !fits || width == 0 || height == 0 {
         return None;
     }
-    let crop = geometry::shown(part, width, height);
-    Some(Picture { crop, size: [width, height], image: images::cropped(images, crop) })
+    let area = geometry::shown(part, width, height);
+    Some(PartImage { area, size: [width, height], images: PageImages::cropped(images, area) })
 }
 
 /// Describes the parts and appends their bytes.
 fn parts(page: &Page<'_>, blocks: &mut Vec<(String, Vec<u8>)>) -> Vec<Value> {
-    let parts: Vec<&Part> = page.scene.parts.iter().filter(|part| geometry::usable(part)).collect();
-    let pictures: Vec<Option<Picture>> = parts.iter().map(|part| picture(page, part)).collect();
-    let files = within_bounds(page, &parts, &pictures);
+    let parts: Vec<&Mesh> = page.scene.meshes.iter().filter(|part| geometry::usable(part)).collect();
+    let images: Vec<Option<PartImage>> = parts.iter().map(|part| part_image(page, part)).collect();
+    let files = within_bounds(page.options, &images);
     let mut described = Vec::new();
     let (mut vertices, mut indices) = (Vec::new(), Vec::new());
-    for (n, ((part, picture), files)) in parts.iter().zip(&pictures).zip(files).enumerate() {
+    for (n, ((part, image), files)) in parts.iter().zip(&images).zip(files).enumerate() {
         let starts = [vertices.len() / geometry::VERTEX_BYTES, indices.len() / 4];
-        geometry::vertices(part, picture.as_ref().map(|picture| (picture.crop, picture.size)), &mut vertices);
+        geometry::vertices(part, image.as_ref().map(|image| (image.area, image.size)), &mut vertices);
         geometry::indices(part, &mut indices);
         let image = files.map(|files| {
-            let Files { width, height, dirt, clean, rough } = files;
+            let ImageFiles { width, height, dirt, clean, rough } = files;
             for (kind, bytes) in [("dirt", dirt), ("clean", clean), ("rough", rough)] {
                 blocks.push((format!("{kind}-{n}"), bytes));
             }
             json!({ "id": n, "width": width, "height": height })
         });
         let kind = match part.surface {
-            Surface::FloorTile(_) => "floor",
-            Surface::WallSheet(_) => "wall",
-            Surface::WallTop => "top",
-            Surface::Lintel => "lintel",
+            SceneSurface::FloorTile(_) => "floor",
+            SceneSurface::WallSheet(_) => "wall",
+            SceneSurface::WallTop => "top",
+            SceneSurface::Lintel => "lintel",
         };
         described.push(json!({
             "surface": kind,
@@ -194,46 +208,39 @@ fn parts(page: &Page<'_>, blocks: &mut Vec<(String, Vec<u8>)>) -> Vec<Value> {
 }
 
 /// Compressed images, halved as often as it takes to keep to the options.
-fn within_bounds(page: &Page<'_>, parts: &[&Part], pictures: &[Option<Picture>]) -> Vec<Option<Files>> {
-    let PageOptions { largest_px, image_bytes } = page.options;
-    let largest_px = largest_px.max(256);
-    let mut images: Vec<Option<Reduced>> = pictures
-        .iter()
-        .map(|picture| {
-            let mut image = picture.as_ref()?.image.clone();
-            while image.base_color.width().max(image.base_color.height()) > largest_px {
-                image = images::halved(&image);
-            }
-            Some(image)
-        })
-        .collect();
+fn within_bounds(options: PageOptions, images: &[Option<PartImage>]) -> Vec<Option<ImageFiles>> {
+    const LEAST_PX: u32 = 256;
+    let largest_px = options.largest_px.max(LEAST_PX);
+    let fitting = |image: &Option<PartImage>| {
+        let mut image = image.as_ref()?.images.clone();
+        while image.longest_px() > largest_px {
+            image = image.halved();
+        }
+        Some(image)
+    };
+    let mut images: Vec<Option<PageImages>> = images.iter().map(fitting).collect();
     loop {
-        let encode = |(part, image): (&&Part, &Option<Reduced>)| {
-            let covering = if matches!(part.surface, Surface::FloorTile(_)) { &page.floor } else { &page.wall };
-            image.as_ref().map(|image| images::encode(&images::layers(covering, image)))
-        };
-        let files: Vec<Option<Files>> = parts.iter().zip(&images).map(encode).collect();
-        let bytes: usize = files.iter().flatten().map(Files::bytes).sum();
-        let small = |image: &Reduced| image.base_color.width().max(image.base_color.height()) <= 256;
-        if bytes <= image_bytes || images.iter().flatten().all(small) {
+        let files: Vec<Option<ImageFiles>> = images.iter().map(|image| image.as_ref().map(images::encode)).collect();
+        let bytes: usize = files.iter().flatten().map(ImageFiles::bytes).sum();
+        if bytes <= options.image_bytes || images.iter().flatten().all(|image| image.longest_px() <= LEAST_PX) {
             return files;
         }
-        for image in images.iter_mut().flatten().filter(|image| !small(image)) {
-            *image = images::halved(image);
+        for image in images.iter_mut().flatten().filter(|image| image.longest_px() > LEAST_PX) {
+            *image = image.halved();
         }
     }
 }
 
-fn raster(raster: &Raster) -> Value {
+fn raster(raster: &CellGrid) -> Value {
     let origin = point(raster.origin_m);
     json!({ "origin": origin, "cell": raster.cell_m, "width": raster.width, "height": raster.height })
 }
 
 /// Distances, lamps and their light.
 fn surroundings(page: &Page<'_>, data: &mut Value, blocks: &mut Vec<(String, Vec<u8>)>) {
-    let field = Field::of(page.walls);
+    let field = DistanceField::of(page.walls);
     let lamps = lamps::hang(page.walls, &field);
-    let light = light::Light::of(page.walls, &lamps, page.wall_height_m);
+    let light = light::LightGrid::of(page.walls, &lamps, page.wall_height_m);
     let image = field.image();
     blocks.push(("field".to_string(), images::png(&image, image.width(), image.height(), ExtendedColorType::L8)));
     let image = light.image();

@@ -17,7 +17,7 @@ const MARGIN_M: f64 = 1.0;
 
 /// A raster over the plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Raster {
+pub(super) struct CellGrid {
     /// Its lower-left corner.
     pub origin_m: Vec2,
     pub cell_m: f64,
@@ -25,13 +25,13 @@ pub(super) struct Raster {
     pub height: u32,
 }
 
-impl Raster {
+impl CellGrid {
     /// Cells of at least `least_m` that cover an area, at most `most` along a side.
-    pub fn covering(area: Rect, least_m: f64, most: f64) -> Raster {
+    pub fn covering(area: Rect, least_m: f64, most: f64) -> CellGrid {
         let longest = area.width().max(area.height()).max(least_m);
         let cell_m = least_m.max(longest / most);
         let cells = |extent: f64| ((extent / cell_m).ceil().max(1.0)).min(most) as u32;
-        Raster { origin_m: area.min, cell_m, width: cells(area.width()), height: cells(area.height()) }
+        CellGrid { origin_m: area.min, cell_m, width: cells(area.width()), height: cells(area.height()) }
     }
 
     /// The middle of a cell, counted from the lower left.
@@ -51,21 +51,21 @@ impl Raster {
 
 /// Signed distances, negative in walls.
 #[derive(Clone, Debug)]
-pub(super) struct Field {
-    pub raster: Raster,
+pub(super) struct DistanceField {
+    pub raster: CellGrid,
     /// Metres, within [`RANGE_M`].
     pub distances_m: Vec<f64>,
 }
 
-impl Field {
-    pub fn of(walls: &Walls) -> Field {
-        let raster = Raster::covering(walls.bounds_m().grown(MARGIN_M), LEAST_CELL_M, MOST_CELLS);
+impl DistanceField {
+    pub fn of(walls: &Walls) -> DistanceField {
+        let raster = CellGrid::covering(walls.bounds_m().grown(MARGIN_M), LEAST_CELL_M, MOST_CELLS);
         let [low, high] = RANGE_M;
         let distances_m = raster.map(|p| {
             let distance = walls.nearest(p, high).map_or(high, |nearest| nearest.distance_m);
             if walls.is_inside(p) { distance.min(high) } else { (-distance).max(low) }
         });
-        Field { raster, distances_m }
+        DistanceField { raster, distances_m }
     }
 
     /// Row 0 is the southernmost, as textures have it.

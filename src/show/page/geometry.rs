@@ -1,15 +1,15 @@
 //! The scene's triangles as bytes.
 
-use super::images::Crop;
-use crate::show::scene::{Part, Surface};
+use super::images::PixelRect;
+use crate::show::scene::{Mesh, SceneSurface};
 
 /// Bytes of a vertex: position (3 x f32), texture coordinates (2 x u16, 0 to 1), normal (3 x i8, one unused).
 pub(super) const VERTEX_BYTES: usize = 20;
 
 /// A part that can be drawn: what is not finite or points nowhere is left out.
-pub(super) fn usable(part: &Part) -> bool {
+pub(super) fn usable(part: &Mesh) -> bool {
     let vertices = part.positions_m.len();
-    let textured = matches!(part.surface, Surface::FloorTile(_) | Surface::WallSheet(_));
+    let textured = matches!(part.surface, SceneSurface::FloorTile(_) | SceneSurface::WallSheet(_));
     !part.indices.is_empty()
         && part.normals.len() == vertices
         && (!textured || part.uvs.len() == vertices)
@@ -18,7 +18,7 @@ pub(super) fn usable(part: &Part) -> bool {
 }
 
 /// The part of a `width` x `height` image that a part shows, with a margin for filters.
-pub(super) fn shown(part: &Part, width: u32, height: u32) -> Crop {
+pub(super) fn shown(part: &Mesh, width: u32, height: u32) -> PixelRect {
     const MARGIN: f32 = 8.0;
     let range = |axis: usize, size: u32| {
         let values = || part.uvs.iter().map(|uv| uv[axis].clamp(0.0, 1.0) * size as f32);
@@ -28,11 +28,11 @@ pub(super) fn shown(part: &Part, width: u32, height: u32) -> Crop {
         (low, high.max(low + 1) - low)
     };
     let ((x, width), (y, height)) = (range(0, width), range(1, height));
-    Crop { x, y, width, height }
+    PixelRect { x, y, width, height }
 }
 
 /// Vertices, with texture coordinates from 0 to 1 within the `crop` of an image of `size`.
-pub(super) fn vertices(part: &Part, crop: Option<(Crop, [u32; 2])>, out: &mut Vec<u8>) {
+pub(super) fn vertices(part: &Mesh, crop: Option<(PixelRect, [u32; 2])>, out: &mut Vec<u8>) {
     for (n, position) in part.positions_m.iter().enumerate() {
         position.iter().for_each(|value| out.extend(value.to_le_bytes()));
         let uv = part.uvs.get(n).copied().unwrap_or_default();
@@ -51,6 +51,6 @@ pub(super) fn vertices(part: &Part, crop: Option<(Crop, [u32; 2])>, out: &mut Ve
 }
 
 /// Indices, four bytes each.
-pub(super) fn indices(part: &Part, out: &mut Vec<u8>) {
+pub(super) fn indices(part: &Mesh, out: &mut Vec<u8>) {
     part.indices.iter().for_each(|index| out.extend(index.to_le_bytes()));
 }

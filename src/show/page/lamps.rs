@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::field::Field;
+use super::field::DistanceField;
 use crate::math::{Vec2, vec2};
 use crate::walls::Walls;
 
@@ -26,7 +26,7 @@ pub(super) struct Lamp {
 }
 
 /// Hangs lamps where there is most room, apart from each other.
-pub(super) fn hang(walls: &Walls, field: &Field) -> Vec<Lamp> {
+pub(super) fn hang(walls: &Walls, field: &DistanceField) -> Vec<Lamp> {
     let bounds = walls.bounds_m();
     let mut places: Vec<(u32, u32, u32)> = Vec::new();
     for j in 0..field.raster.height {
@@ -86,7 +86,7 @@ mod tests {
         let rows = ["####################", "....................", "....................", "####################"];
         let floor = rows.iter().flat_map(|row| row.bytes()).map(|c| u8::from(c == b'.')).collect();
         let walls = Walls::trace(&FloorPlan::from_mask(20, 4, 1.0, floor), &WallsOptions::default());
-        let lamps = hang(&walls, &Field::of(&walls));
+        let lamps = hang(&walls, &DistanceField::of(&walls));
         assert!((6..=8).contains(&lamps.len()), "{}", lamps.len());
         for lamp in &lamps {
             assert!((lamp.centre_m.y - 2.0).abs() < 0.15 && lamp.along.x.abs() > 0.99, "{lamp:?}");
@@ -97,6 +97,6 @@ mod tests {
     fn nothing_hangs_in_a_gap() {
         let floor = vec![0, 0, 0, 1, 1, 1, 0, 0, 0];
         let walls = Walls::trace(&FloorPlan::from_mask(3, 3, 0.5, floor), &WallsOptions::default());
-        assert_eq!(hang(&walls, &Field::of(&walls)), []);
+        assert_eq!(hang(&walls, &DistanceField::of(&walls)), []);
     }
 }

@@ -1,11 +1,11 @@
-//! Light on the floor and on walls, on a coarse raster: from the lamps, from outside through the openings, and what
+//! LightGrid on the floor and on walls, on a coarse raster: from the lamps, from outside through the openings, and what
 //! the surfaces throw back.
 
 use std::collections::HashMap;
 
 use image::RgbaImage;
 
-use super::field::Raster;
+use super::field::CellGrid;
 use super::lamps::Lamp;
 use crate::math::{Vec2, vec2};
 use crate::walls::Walls;
@@ -30,18 +30,18 @@ pub(super) const WALL_HEIGHTS: [f64; 2] = [0.2, 0.75];
 
 /// Irradiance of the floor, of the nearest wall at two heights, and what comes from everywhere.
 #[derive(Clone, Debug)]
-pub(super) struct Light {
-    pub raster: Raster,
+pub(super) struct LightGrid {
+    pub raster: CellGrid,
     /// `None` where there is no floor, nor floor beside.
     values: Vec<Option<[f64; 4]>>,
 }
 
-impl Light {
-    pub fn of(walls: &Walls, lamps: &[Lamp], height_m: f64) -> Light {
-        let raster = Raster::covering(walls.bounds_m().grown(1.0), LEAST_CELL_M, MOST_CELLS);
-        let near = Near::new(lamps, windows(walls), height_m);
+impl LightGrid {
+    pub fn of(walls: &Walls, lamps: &[Lamp], height_m: f64) -> LightGrid {
+        let raster = CellGrid::covering(walls.bounds_m().grown(1.0), LEAST_CELL_M, MOST_CELLS);
+        let near = LightSources::new(lamps, windows(walls), height_m);
         let values = raster.map(|p| walls.is_inside(p).then(|| near.light(walls, p)));
-        let mut light = Light { raster, values };
+        let mut light = LightGrid { raster, values };
         light.throw_back();
         // Cells under a wall take from their neighbours, so that filters find light there.
         for _ in 0..3 {
@@ -50,7 +50,7 @@ impl Light {
         light
     }
 
-    /// Light from everywhere: the floor's own, evened out over a few metres.
+    /// LightGrid from everywhere: the floor's own, evened out over a few metres.
     fn throw_back(&mut self) {
         let reach = ((THROWN_M / self.raster.cell_m).round() as usize).max(1);
         let (width, height) = (self.raster.width as usize, self.raster.height as usize);
@@ -114,14 +114,14 @@ fn evened(sums: &mut [[f64; 2]], first: usize, step: usize, length: usize, reach
 }
 
 /// A piece of an opening.
-struct Window {
+struct OpeningPiece {
     centre_m: Vec2,
     width_m: f64,
     /// Unit vector into the plan.
     inward: Vec2,
 }
 
-fn windows(walls: &Walls) -> Vec<Window> {
+fn windows(walls: &Walls) -> Vec<OpeningPiece> {
     const PIECE_M: f64 = 1.0;
     let mut windows = Vec::new();
     for outline in walls.outlines() {
@@ -129,7 +129,7 @@ fn windows(walls: &Walls) -> Vec<Window> {
             let [a, b] = outline.edge(edge);
             let Some(along) = (b - a).normalized() else { continue };
             let pieces = (a.distance(b) / PIECE_M).ceil().clamp(1.0, 200.0);
-            windows.extend((0..pieces as u32).map(|k| Window {
+            windows.extend((0..pieces as u32).map(|k| OpeningPiece {
                 centre_m: a.lerp(b, (f64::from(k) + 0.5) / pieces),
                 width_m: a.distance(b) / pieces,
                 // The floor lies on the right.
@@ -141,17 +141,17 @@ fn windows(walls: &Walls) -> Vec<Window> {
 }
 
 /// Lamps and openings by place.
-struct Near<'a> {
-    lamps: Buckets<&'a Lamp>,
-    windows: Buckets<Window>,
+struct LightSources<'a> {
+    lamps: SourceBuckets<&'a Lamp>,
+    windows: SourceBuckets<OpeningPiece>,
     height_m: f64,
 }
 
-type Buckets<T> = HashMap<(i64, i64), Vec<T>>;
+type SourceBuckets<T> = HashMap<(i64, i64), Vec<T>>;
 
-impl<'a> Near<'a> {
-    fn new(lamps: &'a [Lamp], windows: Vec<Window>, height_m: f64) -> Near<'a> {
-        let mut near = Near { lamps: HashMap::new(), windows: HashMap::new(), height_m };
+impl<'a> LightSources<'a> {
+    fn new(lamps: &'a [Lamp], windows: Vec<OpeningPiece>, height_m: f64) -> LightSources<'a> {
+        let mut near = LightSources { lamps: HashMap::new(), windows: HashMap::new(), height_m };
         for lamp in lamps {
             near.lamps.entry(bucket(lamp.centre_m)).or_default().push(lamp);
         }
@@ -201,7 +201,7 @@ fn bucket(p: Vec2) -> (i64, i64) {
 }
 
 /// What may be within reach, in a fixed order, so that sums come out the same.
-fn around<T>(buckets: &Buckets<T>, p: Vec2) -> impl Iterator<Item = &T> {
+fn around<T>(buckets: &SourceBuckets<T>, p: Vec2) -> impl Iterator<Item = &T> {
     let (column, row) = bucket(p);
     let keys = (-1..=1).flat_map(move |dx| (-1..=1).map(move |dy| (column + dx, row + dy)));
     keys.filter_map(|key| buckets.get(&key)).flatten()

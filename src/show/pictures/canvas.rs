@@ -2,14 +2,12 @@
 
 use image::{Rgb, RgbImage};
 
+use crate::math::srgb::Srgb8;
 use crate::math::{Vec2, vec2};
 use crate::patterns::font;
 
 /// Size of a dot of the letters, pixels.
 const DOT: u32 = 2;
-
-/// A colour in sRGB.
-pub(in crate::show) type Colour = [u8; 3];
 
 /// A line of text's height with the space below, pixels.
 pub(in crate::show) const LINE_PX: i64 = ((font::HEIGHT + 3) * DOT) as i64;
@@ -17,7 +15,7 @@ pub(in crate::show) const LINE_PX: i64 = ((font::HEIGHT + 3) * DOT) as i64;
 /// A picture with a plan on it: the plan's lower-left corner lies `margin` pixels from the left and `below` pixels from
 /// the lower edge.
 #[derive(Clone, Debug)]
-pub(in crate::show) struct Canvas {
+pub(in crate::show) struct PlanCanvas {
     pub(in crate::show) picture: RgbImage,
     pub(in crate::show) pixels_per_metre: f64,
     /// Size of the plan, pixels.
@@ -26,14 +24,14 @@ pub(in crate::show) struct Canvas {
     pub(in crate::show) corner: [usize; 2],
 }
 
-impl Canvas {
+impl PlanCanvas {
     /// A canvas for a plan of `size_m`, whose longer side takes about `longest_px`, at most 100 px a metre.
-    pub(in crate::show) fn new(size_m: Vec2, longest_px: f64, [margin, below]: [usize; 2], paper: Colour) -> Canvas {
+    pub(in crate::show) fn new(size_m: Vec2, longest_px: f64, [margin, below]: [usize; 2], paper: Srgb8) -> PlanCanvas {
         let pixels_per_metre = (longest_px / size_m.x.max(size_m.y).max(1e-3)).min(100.0);
         let plan_px = [size_m.x, size_m.y].map(|m| ((m * pixels_per_metre).ceil() as usize).max(1));
         let [width, height] = [plan_px[0] + 2 * margin, plan_px[1] + margin + below];
         let picture = RgbImage::from_pixel(width as u32, height as u32, Rgb(paper));
-        Canvas { picture, pixels_per_metre, plan_px, corner: [margin, margin] }
+        PlanCanvas { picture, pixels_per_metre, plan_px, corner: [margin, margin] }
     }
 
     /// From the plan frame to pixels from the picture's upper left, y down.
@@ -43,7 +41,7 @@ impl Canvas {
     }
 
     /// Lays a colour over a pixel.
-    pub(in crate::show) fn blend(&mut self, x: i64, y: i64, colour: Colour, share: f64) {
+    pub(in crate::show) fn blend(&mut self, x: i64, y: i64, colour: Srgb8, share: f64) {
         let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else { return };
         if let Some(pixel) = self.picture.get_pixel_mut_checked(x, y) {
             for (value, new) in pixel.0.iter_mut().zip(colour) {
@@ -54,7 +52,7 @@ impl Canvas {
     }
 
     /// Fills a rectangle of pixels.
-    pub(in crate::show) fn fill(&mut self, [left, top]: [i64; 2], [width, height]: [i64; 2], colour: Colour) {
+    pub(in crate::show) fn fill(&mut self, [left, top]: [i64; 2], [width, height]: [i64; 2], colour: Srgb8) {
         for y in top..top + height {
             for x in left..left + width {
                 self.blend(x, y, colour, 1.0);
@@ -65,7 +63,7 @@ impl Canvas {
     /// A line with flat ends between two pixels' places, `width` pixels wide.
     ///
     /// A pixel's share is that of a box of one pixel moved across the line: exact along the axes, close elsewhere.
-    pub(in crate::show) fn line(&mut self, a: Vec2, b: Vec2, width: f64, colour: Colour, share: f64) {
+    pub(in crate::show) fn line(&mut self, a: Vec2, b: Vec2, width: f64, colour: Srgb8, share: f64) {
         let length = a.distance(b);
         let Some(along) = (b - a).normalized().filter(|_| a.is_finite() && b.is_finite()) else { return };
         let reach = width * 0.5 + 1.0;
@@ -86,12 +84,12 @@ impl Canvas {
     }
 
     /// A line with flat ends between two places of the plan.
-    pub(in crate::show) fn line_m(&mut self, a: Vec2, b: Vec2, width: f64, colour: Colour, share: f64) {
+    pub(in crate::show) fn line_m(&mut self, a: Vec2, b: Vec2, width: f64, colour: Srgb8, share: f64) {
         self.line(self.px(a), self.px(b), width, colour, share);
     }
 
     /// A dashed line between two places of the plan; dashes go on from `phase` pixels, the new phase is given back.
-    pub(in crate::show) fn dashed_m(&mut self, [a, b]: [Vec2; 2], width: f64, colour: Colour, phase: f64) -> f64 {
+    pub(in crate::show) fn dashed_m(&mut self, [a, b]: [Vec2; 2], width: f64, colour: Srgb8, phase: f64) -> f64 {
         const DASH: f64 = 10.0;
         const PERIOD: f64 = 16.0;
         let (a, b) = (self.px(a), self.px(b));
@@ -108,7 +106,7 @@ impl Canvas {
     }
 
     /// An arrow head whose point is at `tip`.
-    pub(in crate::show) fn arrow_m(&mut self, from: Vec2, tip: Vec2, colour: Colour) {
+    pub(in crate::show) fn arrow_m(&mut self, from: Vec2, tip: Vec2, colour: Srgb8) {
         let tip = self.px(tip);
         let Some(back) = (self.px(from) - tip).normalized() else { return };
         for side in [back.left(), -back.left()] {
@@ -117,7 +115,7 @@ impl Canvas {
     }
 
     /// Text with a halo of the paper's colour, its upper-left corner at a pixel.
-    pub(in crate::show) fn text(&mut self, at: [i64; 2], text: &str, colour: Colour, halo: Option<Colour>) {
+    pub(in crate::show) fn text(&mut self, at: [i64; 2], text: &str, colour: Srgb8, halo: Option<Srgb8>) {
         for (spread, colour) in [(2, halo), (0, Some(colour))] {
             if let Some(colour) = colour {
                 self.letters(at, text, colour, i64::from(DOT), spread);
@@ -126,14 +124,7 @@ impl Canvas {
     }
 
     /// Letters whose dots have a side of `dot` pixels, and go over it by `spread` all around.
-    pub(in crate::show) fn letters(
-        &mut self,
-        [left, top]: [i64; 2],
-        text: &str,
-        colour: Colour,
-        dot: i64,
-        spread: i64,
-    ) {
+    pub(in crate::show) fn letters(&mut self, [left, top]: [i64; 2], text: &str, colour: Srgb8, dot: i64, spread: i64) {
         for (n, character) in (0..).zip(text.chars()) {
             let left = left + n * i64::from(font::WIDTH + 1) * dot;
             for (row, bits) in (0..).zip(font::rows(character)) {
@@ -146,7 +137,7 @@ impl Canvas {
     }
 
     /// A filled ellipse around a pixel's place: `axes` are half its size along the unit vector `along` and across it, pixels.
-    pub(in crate::show) fn ellipse(&mut self, middle: Vec2, along: Vec2, [a, b]: [f64; 2], colour: Colour) {
+    pub(in crate::show) fn ellipse(&mut self, middle: Vec2, along: Vec2, [a, b]: [f64; 2], colour: Srgb8) {
         let reach = a.max(b) + 1.0;
         if !middle.is_finite() {
             return;
@@ -170,7 +161,7 @@ impl Canvas {
     }
 
     /// Text around a pixel, moved so that all of it is seen.
-    pub(in crate::show) fn label(&mut self, at: Vec2, text: &str, colour: Colour, halo: Colour) {
+    pub(in crate::show) fn label(&mut self, at: Vec2, text: &str, colour: Srgb8, halo: Srgb8) {
         let [width, height] = [text_width(text), i64::from(font::HEIGHT * DOT)];
         let within =
             |at: f64, size: i64, most: u32| (at as i64 - size / 2).clamp(3, (i64::from(most) - size - 3).max(3));
@@ -189,12 +180,12 @@ pub(in crate::show) fn text_width(text: &str) -> i64 {
 mod tests {
     use super::*;
 
-    fn canvas() -> Canvas {
-        Canvas::new(vec2(1.0, 1.0), 100.0, [0, 0], [255; 3])
+    fn canvas() -> PlanCanvas {
+        PlanCanvas::new(vec2(1.0, 1.0), 100.0, [0, 0], [255; 3])
     }
 
     /// Ink on a white canvas, in pixels.
-    fn ink(canvas: &Canvas) -> f64 {
+    fn ink(canvas: &PlanCanvas) -> f64 {
         canvas.picture.pixels().map(|p| 1.0 - f64::from(p.0[0]) / 255.0).sum()
     }
 
@@ -238,7 +229,7 @@ mod tests {
 
     #[test]
     fn the_plans_origin_is_at_the_lower_left() {
-        let canvas = Canvas::new(vec2(2.0, 1.0), 100.0, [10, 30], [255; 3]);
+        let canvas = PlanCanvas::new(vec2(2.0, 1.0), 100.0, [10, 30], [255; 3]);
         assert_eq!(canvas.picture.dimensions(), (120, 90));
         assert_eq!(canvas.px(Vec2::ZERO), vec2(10.0, 60.0));
         assert_eq!(canvas.px(vec2(2.0, 1.0)), vec2(110.0, 10.0));

@@ -1,11 +1,8 @@
 use super::paths::Path;
-use crate::export::Manifest;
+use crate::export::{CROP_M, Manifest};
 use crate::math::{Rect, Vec2, atan2, sin_cos, vec2};
 use crate::plan::Opening;
 use crate::walls::Walls;
-
-/// Width and height of a crop, metres.
-pub const CROP_M: [f64; 2] = [6.0, 4.0];
 
 /// Side of the cells in which traffic is counted, metres.
 const CELL_M: f64 = 0.5;
@@ -48,7 +45,7 @@ impl Crop {
 ///
 /// Where nobody walked or no place of a kind is found, it is left out.
 pub fn choose_crops(bounds_m: Rect, openings: &[Opening], walls: &Walls, paths: &[Path]) -> Vec<Crop> {
-    let Some(traffic) = Traffic::count(bounds_m, paths) else { return Vec::new() };
+    let Some(traffic) = TrafficGrid::count(bounds_m, paths) else { return Vec::new() };
     let entrance = entrance(openings, &traffic);
     let junction = junction(&traffic, entrance);
     let narrow = narrow(&traffic, walls, [entrance, junction]);
@@ -83,7 +80,7 @@ impl Walked {
 }
 
 /// Where people walked, and in which directions.
-struct Traffic {
+struct TrafficGrid {
     bounds: Rect,
     columns: usize,
     rows: usize,
@@ -92,8 +89,8 @@ struct Traffic {
     sums: Vec<Walked>,
 }
 
-impl Traffic {
-    fn count(bounds: Rect, paths: &[Path]) -> Option<Traffic> {
+impl TrafficGrid {
+    fn count(bounds: Rect, paths: &[Path]) -> Option<TrafficGrid> {
         let cells_of = |metres: f64| ((metres / CELL_M).ceil() as usize).max(1);
         let (columns, rows) = (cells_of(bounds.width()), cells_of(bounds.height()));
         let mut cells = vec![Walked::default(); columns * rows];
@@ -121,7 +118,7 @@ impl Traffic {
             }
         }
         let walked = sums.last().is_some_and(|all| all.length > 0.0);
-        walked.then_some(Traffic { bounds, columns, rows, cells, sums })
+        walked.then_some(TrafficGrid { bounds, columns, rows, cells, sums })
     }
 
     fn centre(&self, index: usize) -> Vec2 {
@@ -160,14 +157,14 @@ fn best<T>(candidates: impl Iterator<Item = (f64, T)>) -> Option<T> {
     best.map(|(_, candidate)| candidate)
 }
 
-fn entrance(openings: &[Opening], traffic: &Traffic) -> Option<Rect> {
+fn entrance(openings: &[Opening], traffic: &TrafficGrid) -> Option<Rect> {
     best(openings.iter().map(|opening| {
         let window = traffic.window(opening.centre_m());
         (traffic.within(window).length, window)
     }))
 }
 
-fn junction(traffic: &Traffic, entrance: Option<Rect>) -> Option<Rect> {
+fn junction(traffic: &TrafficGrid, entrance: Option<Rect>) -> Option<Rect> {
     let windows = (0..traffic.cells.len()).map(|index| traffic.window(traffic.centre(index)));
     best(windows.filter(|window| !entrance.is_some_and(|taken| taken.overlaps(*window))).map(|window| {
         // What crosses near the middle counts more than once.
@@ -176,7 +173,7 @@ fn junction(traffic: &Traffic, entrance: Option<Rect>) -> Option<Rect> {
     }))
 }
 
-fn narrow(traffic: &Traffic, walls: &Walls, taken: [Option<Rect>; 2]) -> Option<Rect> {
+fn narrow(traffic: &TrafficGrid, walls: &Walls, taken: [Option<Rect>; 2]) -> Option<Rect> {
     let most = traffic.cells.iter().map(|cell| cell.length).fold(0.0, f64::max);
     let candidates = (0..traffic.cells.len()).filter_map(|index| {
         let (cell, centre) = (traffic.cells[index], traffic.centre(index));

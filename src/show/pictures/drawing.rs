@@ -1,9 +1,13 @@
 use image::RgbImage;
 
-use super::canvas::{Canvas, Colour, LINE_PX, text_width};
+use super::canvas::{LINE_PX, PlanCanvas, text_width};
 use super::paths::Path;
 use super::stuck::draw_stuck;
+use super::style::{
+    FASTEST_M_S, PAPER, PLAIN_FLOOR, ROUTES, SOLID, SPEED_SCALE_PX, TEXT, legend, scale_bar, speed_colour,
+};
 use crate::crowd::Stuck;
+use crate::math::srgb::Srgb8;
 use crate::math::{Vec2, vec2};
 use crate::plan::{FloorPlan, RegionRole};
 use crate::routes::{Place, Route};
@@ -16,26 +20,12 @@ const MARGIN: usize = 110;
 /// Room below the plan for the legend.
 const LEGEND: usize = 120;
 
-pub(in crate::show) const PAPER: Colour = [250, 250, 248];
-const FLOOR: Colour = [226, 234, 240];
-pub(in crate::show) const PLAIN_FLOOR: Colour = [238, 238, 236];
-pub(in crate::show) const SOLID: Colour = [70, 70, 74];
-const OPEN_FACE: Colour = [20, 60, 140];
-const CLOSED_FACE: Colour = [150, 60, 20];
-pub(in crate::show) const OPENING: Colour = [0, 140, 70];
-const GATE: Colour = [140, 60, 160];
-const UNREACHED: Colour = [214, 130, 0];
-pub(in crate::show) const STUCK: Colour = [224, 20, 30];
-pub(in crate::show) const TEXT: Colour = [30, 30, 34];
-pub(in crate::show) const ROUTES: [Colour; 6] =
-    [[196, 40, 40], [40, 90, 200], [20, 130, 60], [150, 90, 0], [120, 40, 150], [0, 120, 140]];
-
-/// Speed of the upper end of the colour scale, metres per second.
-pub(in crate::show) const FASTEST_M_S: f64 = 2.0;
-/// Colours from standing to [`FASTEST_M_S`], alike to people who see no red or no green (Smith and van der Walt 2015,
-/// *viridis*).
-const SPEEDS: [Colour; 6] =
-    [[68, 1, 84], [65, 68, 135], [42, 120, 142], [34, 168, 132], [122, 209, 81], [222, 205, 30]];
+const FLOOR: Srgb8 = [226, 234, 240];
+const OPEN_FACE: Srgb8 = [20, 60, 140];
+const CLOSED_FACE: Srgb8 = [150, 60, 20];
+const OPENING: Srgb8 = [0, 140, 70];
+const GATE: Srgb8 = [140, 60, 160];
+const UNREACHED: Srgb8 = [214, 130, 0];
 
 /// Draws what was understood of a plan: floor, regions that nobody reaches (hatched), walls (blue: from side to side of
 /// the image; brown: closed), openings with their names, routes with their gates.
@@ -78,12 +68,12 @@ pub fn draw_paths(plan: &FloorPlan, walls: &Walls, routes: &[Route], paths: &[Pa
 }
 
 /// Paper for a plan with its legend.
-fn sheet(plan: &FloorPlan) -> Canvas {
-    Canvas::new(vec2(plan.width_m(), plan.height_m()), LONGEST_PX, [MARGIN, LEGEND], PAPER)
+fn sheet(plan: &FloorPlan) -> PlanCanvas {
+    PlanCanvas::new(vec2(plan.width_m(), plan.height_m()), LONGEST_PX, [MARGIN, LEGEND], PAPER)
 }
 
 /// The plan's image in greys, its floor in a colour.
-pub(in crate::show) fn draw_ground(canvas: &mut Canvas, plan: &FloorPlan, walls: &Walls, floor: Colour) {
+pub(in crate::show) fn draw_ground(canvas: &mut PlanCanvas, plan: &FloorPlan, walls: &Walls, floor: Srgb8) {
     let ([left, top], [width, height]) = (canvas.corner, canvas.plan_px);
     let mut share = vec![0.0f32; width];
     for y in 0..height {
@@ -112,7 +102,7 @@ fn lightness(plan: &FloorPlan, p: Vec2) -> Option<u8> {
 }
 
 /// Oblique lines over the white regions that were taken for unreachable.
-fn hatch_unreached(canvas: &mut Canvas, plan: &FloorPlan) {
+fn hatch_unreached(canvas: &mut PlanCanvas, plan: &FloorPlan) {
     let hatched = unreached(plan);
     let ([left, top], [width, height]) = (canvas.corner, canvas.plan_px);
     for y in 0..height {
@@ -149,7 +139,7 @@ fn unreached(plan: &FloorPlan) -> Vec<bool> {
     found
 }
 
-pub(in crate::show) fn draw_walls(canvas: &mut Canvas, walls: &Walls, coloured: bool) {
+pub(in crate::show) fn draw_walls(canvas: &mut PlanCanvas, walls: &Walls, coloured: bool) {
     for face in &walls.faces {
         let colour = match (coloured, face.closed) {
             (false, _) => SOLID,
@@ -165,7 +155,7 @@ pub(in crate::show) fn draw_walls(canvas: &mut Canvas, walls: &Walls, coloured: 
     }
 }
 
-fn draw_openings(canvas: &mut Canvas, plan: &FloorPlan) {
+fn draw_openings(canvas: &mut PlanCanvas, plan: &FloorPlan) {
     for opening in &plan.openings {
         canvas.line_m(opening.from_m, opening.to_m, 6.0, OPENING, 1.0);
         let outward = opening.side.outward();
@@ -176,7 +166,7 @@ fn draw_openings(canvas: &mut Canvas, plan: &FloorPlan) {
 }
 
 /// A dashed line through the middles of the gates, with an arrow at its end, and the gates themselves.
-fn draw_route(canvas: &mut Canvas, plan: &FloorPlan, route: &Route, colour: Colour) {
+fn draw_route(canvas: &mut PlanCanvas, plan: &FloorPlan, route: &Route, colour: Srgb8) {
     let place = |place: &Place| match *place {
         Place::Opening(index) => plan.openings.get(index).map(|opening| opening.centre_m()),
         Place::Area([min, max]) => Some((min + max) * 0.5),
@@ -194,29 +184,13 @@ fn draw_route(canvas: &mut Canvas, plan: &FloorPlan, route: &Route, colour: Colo
     draw_gates(canvas, route);
 }
 
-fn draw_gates(canvas: &mut Canvas, route: &Route) {
+fn draw_gates(canvas: &mut PlanCanvas, route: &Route) {
     for gate in &route.gates {
         canvas.line_m(gate.left_m, gate.right_m, 1.2, GATE, 0.55);
     }
 }
 
-/// Upper-left pixel of the legend.
-pub(in crate::show) fn legend(canvas: &Canvas) -> [i64; 2] {
-    [canvas.corner[0] as i64, (canvas.corner[1] + canvas.plan_px[1]) as i64 + 40]
-}
-
-pub(in crate::show) fn speed_colour(speed_m_s: f64) -> Colour {
-    let steps = (SPEEDS.len() - 1) as f64;
-    let at = (speed_m_s / FASTEST_M_S * steps).max(0.0).min(steps);
-    let low = (at as usize).min(SPEEDS.len() - 2);
-    let (a, b) = (SPEEDS[low], SPEEDS[low + 1]);
-    std::array::from_fn(|k| (f64::from(a[k]) + (f64::from(b[k]) - f64::from(a[k])) * (at - low as f64)).round() as u8)
-}
-
-/// Width of the scale of speeds, pixels.
-pub(in crate::show) const SPEED_SCALE_PX: i64 = 320;
-
-fn draw_speed_scale(canvas: &mut Canvas) {
+fn draw_speed_scale(canvas: &mut PlanCanvas) {
     let [left, top] = legend(canvas);
     for x in 0..SPEED_SCALE_PX {
         let speed = FASTEST_M_S * x as f64 / SPEED_SCALE_PX as f64;
@@ -230,29 +204,16 @@ fn draw_speed_scale(canvas: &mut Canvas) {
 }
 
 /// A bar of a round number of metres, about 200 px long, at the legend's right end.
-fn draw_scale_bar(canvas: &mut Canvas) {
+fn draw_scale_bar(canvas: &mut PlanCanvas) {
     let [_, top] = legend(canvas);
     let right = (canvas.corner[0] + canvas.plan_px[0]) as i64;
     scale_bar(canvas, [right, top], 260.0);
 }
 
-/// A bar of a round number of metres, at most `longest_px` long, whose right end is at a pixel.
-pub(in crate::show) fn scale_bar(canvas: &mut Canvas, [right, top]: [i64; 2], longest_px: f64) {
-    let per_metre = canvas.pixels_per_metre;
-    let lengths = [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0];
-    let length_m = lengths.into_iter().rev().find(|m| m * per_metre <= longest_px).unwrap_or(lengths[0]);
-    let width = (length_m * per_metre).round() as i64;
-    let left = right - width;
-    for (x, size) in [(left, [width, 2]), (left, [2, 10]), (left + width - 2, [2, 10])] {
-        canvas.fill([x, top], size, TEXT);
-    }
-    let label = format!("{length_m} m");
-    canvas.text([left + width - text_width(&label), top + 18], &label, TEXT, None);
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::paths::PathSample;
+    use super::super::style::STUCK;
     use super::*;
     use crate::plan::{PlanOptions, read};
     use crate::routes::Gate;
@@ -271,7 +232,7 @@ mod tests {
         read(&path, &PlanOptions { metres_per_pixel: Some(0.1), ..PlanOptions::default() }).unwrap()
     }
 
-    fn at(picture: &RgbImage, p: Vec2) -> Colour {
+    fn at(picture: &RgbImage, p: Vec2) -> Srgb8 {
         let scale = f64::from(picture.width() - 2 * MARGIN as u32) / 12.0;
         let y = MARGIN as f64 + (6.0 - p.y) * scale;
         picture.get_pixel((MARGIN as f64 + p.x * scale) as u32, y as u32).0
@@ -322,14 +283,6 @@ mod tests {
         let many: Vec<Stuck> = (0..500).map(|id| stuck(id, f64::from(id) * 0.5 - 3.0)).collect();
         draw_paths(&plan, &walls, &[], &[], &many);
         draw_paths(&plan, &walls, &[], &[], &[stuck(1, f64::NAN)]);
-    }
-
-    #[test]
-    fn the_colour_scale_has_its_ends() {
-        assert_eq!(speed_colour(0.0), SPEEDS[0]);
-        assert_eq!(speed_colour(FASTEST_M_S), SPEEDS[SPEEDS.len() - 1]);
-        assert_eq!(speed_colour(99.0), SPEEDS[SPEEDS.len() - 1]);
-        assert_eq!(speed_colour(f64::NAN), SPEEDS[0]);
     }
 
     #[test]

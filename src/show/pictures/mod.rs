@@ -1,72 +1,18 @@
 //! Pictures of a bake for people: the floor from above, crops at native density, plan and paths.
 
-use image::{ImageEncoder, RgbImage};
-
-use crate::export::{ExportError, FloorTextures, OutputFolder, PreviewEntry, TextureSource};
-use crate::math::{Vec2, vec2};
-use crate::walls::Walls;
-
 pub(super) mod canvas;
 mod crops;
 pub(super) mod drawing;
 mod paths;
 mod render;
 pub(super) mod stuck;
+pub(super) mod style;
 mod units;
+mod write;
 
-pub use crops::{CROP_M, Crop, choose_crops};
+pub use crops::{Crop, choose_crops};
 pub use drawing::{draw_paths, draw_plan};
 pub use paths::{Path, PathSample, PathSampler};
 pub use render::{render_crop, render_floor};
 pub use units::draw_unit;
-
-/// What walls and the outside look like in pictures of the floor, sRGB.
-const WALL: [u8; 3] = [58, 58, 62];
-
-/// The picture of plan and paths in a bake.
-pub const PATHS_FILE: &str = "preview/paths.png";
-
-/// Writes the floor from above and crops of it into `preview/`.
-///
-/// # Errors
-/// A file cannot be written.
-pub fn write_previews(
-    folder: &OutputFolder,
-    textures: &FloorTextures,
-    source: &impl TextureSource,
-    walls: &Walls,
-    crops: &[Crop],
-) -> Result<Vec<PreviewEntry>, ExportError> {
-    let grid = textures.layout.grid;
-    let far_corner = vec2(f64::from(grid.width), f64::from(grid.height)) / grid.texels_per_metre;
-    let floor = PreviewEntry { file: "preview/floor.png".to_string(), min_m: Vec2::ZERO, max_m: far_corner };
-    write_picture(folder, &floor.file, &render_floor(&textures.birdseye, walls))?;
-    let mut written = vec![floor];
-    for crop in crops {
-        write_picture(folder, &crop.file(), &render_crop(source, walls, grid, crop))?;
-        written.push(PreviewEntry { file: crop.file(), min_m: crop.min_m, max_m: crop.max_m });
-    }
-    Ok(written)
-}
-
-/// Writes a picture as 8-bit PNG.
-///
-/// # Errors
-/// The file cannot be written.
-pub fn write_picture(folder: &OutputFolder, relative: &str, picture: &RgbImage) -> Result<(), ExportError> {
-    folder.write(relative, &encode_picture(picture))
-}
-
-/// A picture as an 8-bit PNG.
-pub fn encode_picture(picture: &RgbImage) -> Vec<u8> {
-    let mut png = Vec::new();
-    let encoder = image::codecs::png::PngEncoder::new_with_quality(
-        &mut png,
-        image::codecs::png::CompressionType::Fast,
-        image::codecs::png::FilterType::Adaptive,
-    );
-    encoder
-        .write_image(picture, picture.width(), picture.height(), image::ExtendedColorType::Rgb8)
-        .expect("memory does not fail and the picture has the size that it says");
-    png
-}
+pub use write::{PATHS_FILE, encode_picture, write_picture, write_previews};

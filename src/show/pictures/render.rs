@@ -1,13 +1,15 @@
 use image::{Rgb, RgbImage};
 use rayon::prelude::*;
 
-use super::WALL;
 use super::crops::Crop;
 use crate::export::Birdseye;
 use crate::export::TextureSource;
 use crate::math::srgb::{from_linear, to_linear};
 use crate::stamps::TexelGrid;
 use crate::walls::Walls;
+
+/// Srgb8 of walls and of the outside in pictures of the floor, sRGB.
+const WALL: [u8; 3] = [58, 58, 62];
 
 /// Side of the blocks in which a crop is resolved, texels.
 const BLOCK: usize = 256;

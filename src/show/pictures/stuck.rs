@@ -1,7 +1,7 @@
 //! Marks the places where people got stuck.
 
-use super::canvas::{Canvas, LINE_PX};
-use super::drawing::{PAPER, SPEED_SCALE_PX, STUCK, TEXT, legend};
+use super::canvas::{LINE_PX, PlanCanvas};
+use super::style::{PAPER, SPEED_SCALE_PX, STUCK, TEXT, legend};
 use crate::crowd::Stuck;
 use crate::math::{Vec2, vec2};
 use crate::routes::Route;
@@ -10,7 +10,7 @@ use crate::routes::Route;
 const NUMBERED: usize = 3;
 
 /// A red cross, big enough to be found.
-pub(in crate::show) fn draw_cross(canvas: &mut Canvas, place: Vec2, size_px: f64) {
+pub(in crate::show) fn draw_cross(canvas: &mut PlanCanvas, place: Vec2, size_px: f64) {
     for (grow, colour) in [(2.0, PAPER), (0.0, STUCK)] {
         for arm in [vec2(size_px, size_px), vec2(size_px, -size_px)] {
             let reach = arm * (1.0 + grow * 0.7 / size_px);
@@ -21,7 +21,7 @@ pub(in crate::show) fn draw_cross(canvas: &mut Canvas, place: Vec2, size_px: f64
 
 /// A cross for everybody who got stuck; a number for some, whom the legend names. Of people who got stuck beside each
 /// other, one has the number.
-pub(in crate::show) fn draw_stuck(canvas: &mut Canvas, routes: &[Route], stuck: &[Stuck]) {
+pub(in crate::show) fn draw_stuck(canvas: &mut PlanCanvas, routes: &[Route], stuck: &[Stuck]) {
     const APART_PX: f64 = 40.0;
     let mut numbered: Vec<&Stuck> = Vec::new();
     for person in stuck {

@@ -1,7 +1,8 @@
 use image::RgbImage;
 
-use super::canvas::{Canvas, Colour, text_width};
-use super::drawing::{PAPER, PLAIN_FLOOR, ROUTES, TEXT, speed_colour};
+use super::canvas::{PlanCanvas, text_width};
+use super::style::{PAPER, PLAIN_FLOOR, ROUTES, TEXT, speed_colour};
+use crate::math::srgb::Srgb8;
 use crate::math::{Vec2, vec2};
 use crate::units::{Areas, Unit};
 
@@ -13,8 +14,8 @@ const BESIDE_M: f64 = 1.5;
 const TICK_S: f64 = 1.0;
 /// Ways are drawn in pieces of this length, seconds.
 const PIECE_S: f64 = 0.1;
-const AREA: Colour = [150, 156, 164];
-const VIEWER: Colour = [20, 60, 140];
+const AREA: Srgb8 = [150, 156, 164];
+const VIEWER: Srgb8 = [20, 60, 140];
 
 /// Draws a unit from above: the viewer, who looks up, the areas, and everybody's way, coloured by speed, with a mark at
 /// every second that points where the body faces. Dots of one colour belong together; numbers are seconds.
@@ -27,7 +28,7 @@ pub fn draw_unit(unit: &Unit, areas: &Areas) -> RgbImage {
     let half_m = (0.5 * unit.area_m[0].max(areas.front_m[0]) + BESIDE_M).max(0.5 * written_m);
     let (behind_m, ahead_m) = (areas.rear_m[1] + 0.8, unit.area_m[1].max(areas.front_m[1]) + 0.8);
     let size = vec2(2.0 * half_m, behind_m + ahead_m);
-    let mut canvas = Canvas::new(size, PX_PER_M * size.x.max(size.y), [16, 76], PAPER);
+    let mut canvas = PlanCanvas::new(size, PX_PER_M * size.x.max(size.y), [16, 76], PAPER);
     let on = |p: Vec2| p + vec2(half_m, behind_m);
     let [left, top] = canvas.corner.map(|c| c as i64);
     let [width, height] = canvas.plan_px.map(|c| c as i64);
@@ -53,7 +54,7 @@ pub fn draw_unit(unit: &Unit, areas: &Areas) -> RgbImage {
     canvas.picture
 }
 
-fn draw_viewer(canvas: &mut Canvas, unit: &Unit, on: impl Fn(Vec2) -> Vec2) {
+fn draw_viewer(canvas: &mut PlanCanvas, unit: &Unit, on: impl Fn(Vec2) -> Vec2) {
     let at = |time_s: f64| on(unit.viewer.at(time_s).place_m);
     let pieces = (unit.duration_s / PIECE_S) as usize;
     if unit.viewer.samples().len() > 1 {
@@ -67,7 +68,7 @@ fn draw_viewer(canvas: &mut Canvas, unit: &Unit, on: impl Fn(Vec2) -> Vec2) {
 }
 
 /// One member's way as far as it lies on the picture.
-fn draw_way(canvas: &mut Canvas, unit: &Unit, member: usize, on: &dyn Fn(Vec2) -> Option<Vec2>) {
+fn draw_way(canvas: &mut PlanCanvas, unit: &Unit, member: usize, on: &dyn Fn(Vec2) -> Option<Vec2>) {
     let colour = ROUTES[unit.members[member].group as usize % ROUTES.len()];
     let moment = |time_s: f64| unit.moment(member, time_s, false);
     for k in 0..(unit.duration_s / PIECE_S).round() as usize {

@@ -2,29 +2,29 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::{Part, Scene, Surface};
+use super::model::{Mesh, Scene, SceneSurface};
 
 /// A scene that is being built: a part per surface.
 #[derive(Debug, Default)]
 pub(super) struct SceneBuilder {
-    parts: BTreeMap<Surface, PartBuilder>,
+    parts: BTreeMap<SceneSurface, MeshBuilder>,
 }
 
 impl SceneBuilder {
     /// The part with this surface.
-    pub fn part(&mut self, surface: Surface) -> &mut PartBuilder {
-        self.parts.entry(surface).or_insert_with(|| PartBuilder::new(surface))
+    pub fn part(&mut self, surface: SceneSurface) -> &mut MeshBuilder {
+        self.parts.entry(surface).or_insert_with(|| MeshBuilder::new(surface))
     }
 
     /// All parts that have triangles, by surface.
     pub fn finish(self) -> Scene {
-        Scene { parts: self.parts.into_values().filter_map(PartBuilder::finish).collect() }
+        Scene { meshes: self.parts.into_values().filter_map(MeshBuilder::finish).collect() }
     }
 }
 
 /// A corner of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Vertex {
+pub(super) struct MeshVertex {
     /// Plan frame and height, metres.
     pub position_m: [f64; 3],
     pub normal: [f64; 3],
@@ -34,22 +34,22 @@ pub(super) struct Vertex {
 
 /// A part that is being built.
 #[derive(Debug)]
-pub(super) struct PartBuilder {
-    part: Part,
+pub(super) struct MeshBuilder {
+    part: Mesh,
     textured: bool,
     /// By the bits of all its numbers.
     known: HashMap<[u32; 8], u32>,
 }
 
-impl PartBuilder {
-    fn new(surface: Surface) -> PartBuilder {
-        let textured = matches!(surface, Surface::FloorTile(_) | Surface::WallSheet(_));
-        let part = Part { surface, positions_m: Vec::new(), normals: Vec::new(), uvs: Vec::new(), indices: Vec::new() };
-        PartBuilder { part, textured, known: HashMap::new() }
+impl MeshBuilder {
+    fn new(surface: SceneSurface) -> MeshBuilder {
+        let textured = matches!(surface, SceneSurface::FloorTile(_) | SceneSurface::WallSheet(_));
+        let part = Mesh { surface, positions_m: Vec::new(), normals: Vec::new(), uvs: Vec::new(), indices: Vec::new() };
+        MeshBuilder { part, textured, known: HashMap::new() }
     }
 
     /// Adds a triangle, counter-clockwise for who sees its front, unless it has no area in single precision.
-    pub fn triangle(&mut self, corners: [Vertex; 3]) {
+    pub fn triangle(&mut self, corners: [MeshVertex; 3]) {
         let positions = corners.map(|c| single(c.position_m));
         if !has_area(positions) {
             return;
@@ -61,13 +61,13 @@ impl PartBuilder {
     }
 
     /// Adds a convex polygon, counter-clockwise for who sees its front.
-    pub fn polygon(&mut self, corners: &[Vertex]) {
+    pub fn polygon(&mut self, corners: &[MeshVertex]) {
         for k in 2..corners.len() {
             self.triangle([corners[0], corners[k - 1], corners[k]]);
         }
     }
 
-    fn vertex(&mut self, vertex: &Vertex) -> u32 {
+    fn vertex(&mut self, vertex: &MeshVertex) -> u32 {
         let position = single(vertex.position_m);
         let normal = single(vertex.normal);
         let uv = if self.textured { single(vertex.uv) } else { [0.0; 2] };
@@ -86,7 +86,7 @@ impl PartBuilder {
     }
 
     /// The part, or nothing if it has no triangle.
-    fn finish(self) -> Option<Part> {
+    fn finish(self) -> Option<Mesh> {
         (!self.part.indices.is_empty()).then_some(self.part)
     }
 }

@@ -1,9 +1,9 @@
 //! Wall faces as upright quads, one part per wall sheet.
 
-use super::builder::{SceneBuilder, Vertex};
+use super::builder::{MeshVertex, SceneBuilder};
+use super::model::{SceneSurface, WallStrip};
 use super::region::snap;
 use super::tiles::TileCuts;
-use super::{Surface, WallStrip};
 use crate::math::Vec2;
 use crate::walls::Face;
 
@@ -17,7 +17,7 @@ const SAME_M: f64 = 1e-6;
 
 /// A place along a face where something ends or starts.
 #[derive(Clone, Copy, Debug)]
-struct Post {
+struct PanelEdge {
     along_m: f64,
     point: Vec2,
     /// Points to the floor; of unit length.
@@ -38,7 +38,7 @@ pub(super) fn add(faces: &[Face], strips: &[WallStrip], cuts: &TileCuts, height_
             for [from, to] in panels(stretch, &strips, cuts) {
                 let middle_m = (from.along_m + to.along_m) * 0.5;
                 let strip = strips.iter().rev().find(|s| s.along_m[0] <= middle_m && middle_m <= s.along_m[1]);
-                let surface = strip.map_or(Surface::Lintel, |strip| Surface::WallSheet(strip.sheet));
+                let surface = strip.map_or(SceneSurface::Lintel, |strip| SceneSurface::WallSheet(strip.sheet));
                 scene.part(surface).polygon(&quad([from, to], strip.map(|s| **s), height_m));
             }
         }
@@ -46,7 +46,7 @@ pub(super) fn add(faces: &[Face], strips: &[WallStrip], cuts: &TileCuts, height_
 }
 
 /// The straight stretches of a face, with the normals at their ends: shared where the face curves, apart at edges.
-fn stretches(face: &Face) -> Vec<[Post; 2]> {
+fn stretches(face: &Face) -> Vec<[PanelEdge; 2]> {
     let points: Vec<Vec2> = face.points_m.iter().copied().map(snap).collect();
     let count = if face.closed { points.len() } else { points.len().saturating_sub(1) };
     let mut along_m = 0.0;
@@ -57,7 +57,7 @@ fn stretches(face: &Face) -> Vec<[Post; 2]> {
         let length_m = face.points_m[k].distance(face.points_m[next]);
         if let Some(direction) = (points[next] - points[k]).normalized() {
             let normal = -direction.left();
-            let post = |along_m, point| Post { along_m, point, normal };
+            let post = |along_m, point| PanelEdge { along_m, point, normal };
             stretches.push([post(along_m, points[k]), post(along_m + length_m, points[next])]);
         }
         along_m += length_m;
@@ -66,7 +66,7 @@ fn stretches(face: &Face) -> Vec<[Post; 2]> {
     stretches
 }
 
-fn smooth(stretches: &mut [[Post; 2]], closed: bool) {
+fn smooth(stretches: &mut [[PanelEdge; 2]], closed: bool) {
     let count = stretches.len();
     let flat: Vec<(Vec2, f64)> = stretches.iter().map(|[a, b]| (a.normal, a.point.distance(b.point))).collect();
     for k in 0..if closed { count } else { count.saturating_sub(1) } {
@@ -88,13 +88,13 @@ fn smooth(stretches: &mut [[Post; 2]], closed: bool) {
 }
 
 /// A stretch, cut where strips and floor tiles end.
-fn panels(stretch: [Post; 2], strips: &[&WallStrip], cuts: &TileCuts) -> Vec<[Post; 2]> {
+fn panels(stretch: [PanelEdge; 2], strips: &[&WallStrip], cuts: &TileCuts) -> Vec<[PanelEdge; 2]> {
     let [a, b] = stretch;
     let length_m = b.along_m - a.along_m;
     let at = |along_m: f64, point: Option<Vec2>| {
         let share = if length_m > 0.0 { (along_m - a.along_m) / length_m } else { 0.0 };
         let normal = a.normal.lerp(b.normal, share).normalized().unwrap_or(a.normal);
-        Post { along_m, point: point.unwrap_or_else(|| a.point.lerp(b.point, share)), normal }
+        PanelEdge { along_m, point: point.unwrap_or_else(|| a.point.lerp(b.point, share)), normal }
     };
     let mut posts = vec![a];
     let edge = cuts.edge(a.point, b.point);
@@ -118,10 +118,10 @@ fn panels(stretch: [Post; 2], strips: &[&WallStrip], cuts: &TileCuts) -> Vec<[Po
 }
 
 /// Counter-clockwise for who stands on the floor.
-fn quad([a, b]: [Post; 2], strip: Option<WallStrip>, height_m: f64) -> [Vertex; 4] {
-    let corner = |post: Post, top: bool| {
+fn quad([a, b]: [PanelEdge; 2], strip: Option<WallStrip>, height_m: f64) -> [MeshVertex; 4] {
+    let corner = |post: PanelEdge, top: bool| {
         let uv = strip.map_or([0.0; 2], |s| s.uv_at(post.along_m, top));
-        Vertex {
+        MeshVertex {
             position_m: [post.point.x, post.point.y, if top { height_m } else { 0.0 }],
             normal: [post.normal.x, post.normal.y, 0.0],
             uv: uv.map(|v| v.clamp(0.0, 1.0)),

@@ -1,8 +1,8 @@
 //! What is above doors.
 
-use super::Surface;
-use super::builder::{SceneBuilder, Vertex};
-use super::region::Region;
+use super::builder::{MeshVertex, SceneBuilder};
+use super::model::SceneSurface;
+use super::region::PolygonSet;
 use super::tops::{add_level, add_upright};
 use crate::math::Vec2;
 use crate::walls::{Doorway, Walls};
@@ -16,17 +16,17 @@ const PROBE_M: f64 = 0.002;
 
 /// Adds lintels over doorways, from a door's height to the walls'.
 pub(super) fn add<'d>(
-    floor: &Region,
+    floor: &PolygonSet,
     walls: &Walls,
     doorways: impl Iterator<Item = &'d Doorway>,
     [door_m, height_m]: [f64; 2],
     scene: &mut SceneBuilder,
 ) {
-    let gaps = floor.intersection(&Region::inside_right(doorways.filter_map(gap)));
+    let gaps = floor.intersection(&PolygonSet::inside_right(doorways.filter_map(gap)));
     for corners in gaps.triangles().corners {
         let [a, b, c] =
-            corners.map(|p| Vertex { position_m: [p.x, p.y, door_m], normal: [0.0, 0.0, -1.0], uv: [0.0; 2] });
-        scene.part(Surface::Lintel).triangle([a, c, b]);
+            corners.map(|p| MeshVertex { position_m: [p.x, p.y, door_m], normal: [0.0, 0.0, -1.0], uv: [0.0; 2] });
+        scene.part(SceneSurface::Lintel).triangle([a, c, b]);
     }
     for points in gaps.loops() {
         let points: Vec<Vec2> = points.collect();
@@ -34,11 +34,11 @@ pub(super) fn add<'d>(
             let b = points[(k + 1) % points.len()];
             let outward = (b - a).normalized().map_or(Vec2::ZERO, |direction| -direction.left());
             if walls.is_inside(a.lerp(b, 0.5) + outward * PROBE_M) {
-                add_upright([a, b], [door_m, height_m], scene.part(Surface::Lintel));
+                add_upright([a, b], [door_m, height_m], scene.part(SceneSurface::Lintel));
             }
         }
     }
-    add_level(&gaps, height_m, scene.part(Surface::WallTop));
+    add_level(&gaps, height_m, scene.part(SceneSurface::WallTop));
 }
 
 /// The gap of a doorway, a little wider than it is, clockwise.

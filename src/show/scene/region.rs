@@ -41,7 +41,7 @@ fn metres(p: Point) -> Vec2 {
 
 /// Area with holes: polygons whose outer loop (the first) goes counter-clockwise, holes clockwise.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Region {
+pub(super) struct PolygonSet {
     shapes: Vec<Vec<Vec<Point>>>,
 }
 
@@ -51,10 +51,10 @@ pub(super) struct Triangles {
     pub corners: Vec<[Vec2; 3]>,
 }
 
-impl Region {
+impl PolygonSet {
     /// What loops enclose that have their inside on the **right**. Where they cross, what they enclose more than once
     /// counts once. Loops with coordinates that no plan has are left out.
-    pub fn inside_right<L: IntoIterator<Item = Vec2>>(loops: impl IntoIterator<Item = L>) -> Region {
+    pub fn inside_right<L: IntoIterator<Item = Vec2>>(loops: impl IntoIterator<Item = L>) -> PolygonSet {
         let mut contours = Vec::new();
         for points in loops {
             let mut contour: Vec<Vec2> = points.into_iter().collect();
@@ -63,53 +63,53 @@ impl Region {
                 contours.push(contour.into_iter().map(steps).collect());
             }
         }
-        Region { shapes: vec![contours] }.tidied()
+        PolygonSet { shapes: vec![contours] }.tidied()
     }
 
     /// Rectangles, together.
-    pub fn rectangles(rectangles: impl IntoIterator<Item = Rect>) -> Region {
-        Region::inside_right(rectangles.into_iter().map(|r| {
+    pub fn rectangles(rectangles: impl IntoIterator<Item = Rect>) -> PolygonSet {
+        PolygonSet::inside_right(rectangles.into_iter().map(|r| {
             // Clockwise.
             [r.min, vec2(r.min.x, r.max.y), r.max, vec2(r.max.x, r.min.y)]
         }))
     }
 
-    fn tidied(self) -> Region {
+    fn tidied(self) -> PolygonSet {
         let mut overlay = Overlay::from_subj_custom(&self.shapes, keep_all(), Default::default());
-        Region { shapes: overlay.overlay(OverlayRule::Subject, FillRule::Positive) }
+        PolygonSet { shapes: overlay.overlay(OverlayRule::Subject, FillRule::Positive) }
     }
 
-    fn with(&self, other: &Region, rule: OverlayRule) -> Region {
+    fn with(&self, other: &PolygonSet, rule: OverlayRule) -> PolygonSet {
         let mut overlay =
             Overlay::from_subj_and_clip_custom(&self.shapes, &other.shapes, keep_all(), Default::default());
-        Region { shapes: overlay.overlay(rule, FillRule::Positive) }
+        PolygonSet { shapes: overlay.overlay(rule, FillRule::Positive) }
     }
 
     /// What belongs to either.
-    pub fn union(&self, other: &Region) -> Region {
+    pub fn union(&self, other: &PolygonSet) -> PolygonSet {
         self.with(other, OverlayRule::Union)
     }
 
     /// What belongs to this one only.
-    pub fn minus(&self, other: &Region) -> Region {
+    pub fn minus(&self, other: &PolygonSet) -> PolygonSet {
         self.with(other, OverlayRule::Difference)
     }
 
     /// What belongs to both.
-    pub fn intersection(&self, other: &Region) -> Region {
+    pub fn intersection(&self, other: &PolygonSet) -> PolygonSet {
         self.with(other, OverlayRule::Intersect)
     }
 
     /// Grown outward and into its holes, or shrunk if negative, with corners that stay sharp.
-    pub fn grown(&self, by_m: f64) -> Region {
+    pub fn grown(&self, by_m: f64) -> PolygonSet {
         let join = IntLineJoin::Miter(Angle::from_bits((SHARPEST * f64::from(u32::MAX)) as u32));
         let style = IntOutlineStyle::new((by_m * STEPS_PER_M).round() as i64).line_join(join);
         // Fails for coordinates out of range only, and those were left out.
-        Region { shapes: self.shapes.outline(&style).unwrap_or_default() }
+        PolygonSet { shapes: self.shapes.outline(&style).unwrap_or_default() }
     }
 
     /// Without its holes.
-    pub fn filled(mut self) -> Region {
+    pub fn filled(mut self) -> PolygonSet {
         self.shapes.iter_mut().for_each(|shape| shape.truncate(1));
         // An island in a filled hole is part of what is around it.
         self.tidied()
@@ -150,8 +150,8 @@ impl Triangles {
 mod tests {
     use super::*;
 
-    fn square(x: f64, y: f64, side: f64) -> Region {
-        Region::rectangles([Rect { min: vec2(x, y), max: vec2(x + side, y + side) }])
+    fn square(x: f64, y: f64, side: f64) -> PolygonSet {
+        PolygonSet::rectangles([Rect { min: vec2(x, y), max: vec2(x + side, y + side) }])
     }
 
     #[test]
@@ -180,8 +180,8 @@ mod tests {
     fn loops_that_cross_themselves_or_are_no_numbers_do_no_harm() {
         let bow = [vec2(0.0, 0.0), vec2(0.0, 2.0), vec2(2.0, 0.0), vec2(2.0, 2.0)];
         let bad = [vec2(f64::NAN, 0.0), vec2(0.0, 1.0), vec2(1.0, 1.0), vec2(1e300, 0.0)];
-        let region = Region::inside_right([bow, bad]);
+        let region = PolygonSet::inside_right([bow, bad]);
         assert_eq!(region.triangles().area_m2(), 1.0);
-        assert_eq!(Region::default().grown(1.0).triangles().area_m2(), 0.0);
+        assert_eq!(PolygonSet::default().grown(1.0).triangles().area_m2(), 0.0);
     }
 }

@@ -6,10 +6,12 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::export::TileLayout;
+use crate::math::Rect;
 use crate::math::{Vec2, vec2};
 use crate::plan::FloorPlan;
 use crate::stamps::TexelGrid;
 use crate::walls::WallsOptions;
+use crate::walls::{Doorway, Walls};
 
 const HEIGHT_M: f64 = 2.5;
 
@@ -76,7 +78,7 @@ fn floor_area_m2(walls: &Walls) -> f64 {
 }
 
 /// The corners of a part's triangles.
-fn triangles(part: &Part) -> impl Iterator<Item = [[f64; 3]; 3]> + '_ {
+fn triangles(part: &Mesh) -> impl Iterator<Item = [[f64; 3]; 3]> + '_ {
     part.indices.chunks(3).map(|t| [0, 1, 2].map(|k| part.positions_m[t[k] as usize].map(f64::from)))
 }
 
@@ -91,20 +93,20 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|k| a[k] * b[k]).sum()
 }
 
-fn area_m2<'a>(parts: impl IntoIterator<Item = &'a Part>) -> f64 {
+fn area_m2<'a>(parts: impl IntoIterator<Item = &'a Mesh>) -> f64 {
     parts.into_iter().flat_map(triangles).map(area_vector).map(|v| dot(v, v).sqrt()).sum()
 }
 
-fn floors(scene: &Scene) -> impl Iterator<Item = &Part> {
-    scene.parts.iter().filter(|p| matches!(p.surface, Surface::FloorTile(_)))
+fn floors(scene: &Scene) -> impl Iterator<Item = &Mesh> {
+    scene.meshes.iter().filter(|p| matches!(p.surface, SceneSurface::FloorTile(_)))
 }
 
-fn part(scene: &Scene, surface: Surface) -> &Part {
-    scene.parts.iter().find(|p| p.surface == surface).unwrap()
+fn part(scene: &Scene, surface: SceneSurface) -> &Mesh {
+    scene.meshes.iter().find(|p| p.surface == surface).unwrap()
 }
 
 /// Area of the triangles of a part that look in a direction, square metres.
-fn area_towards(part: &Part, direction: [f64; 3]) -> f64 {
+fn area_towards(part: &Mesh, direction: [f64; 3]) -> f64 {
     let towards = triangles(part).map(area_vector).map(|v| dot(v, direction));
     let whole = triangles(part).map(area_vector).map(|v| dot(v, v).sqrt());
     towards.zip(whole).filter(|(towards, whole)| towards > &(whole * 0.99)).map(|(_, whole)| whole).sum()
@@ -116,10 +118,10 @@ fn assert_close(value: f64, wanted: f64, relative: f64) {
 
 /// What holds for every scene.
 fn check(scene: &Scene) {
-    for part in &scene.parts {
+    for part in &scene.meshes {
         let count = part.positions_m.len();
         assert_eq!(part.normals.len(), count);
-        let textured = matches!(part.surface, Surface::FloorTile(_) | Surface::WallSheet(_));
+        let textured = matches!(part.surface, SceneSurface::FloorTile(_) | SceneSurface::WallSheet(_));
         assert_eq!(part.uvs.len(), if textured { count } else { 0 });
         assert!(!part.indices.is_empty() && part.indices.len() % 3 == 0);
         assert!(part.indices.iter().all(|&i| (i as usize) < count));
@@ -140,7 +142,7 @@ fn check(scene: &Scene) {
             }
         }
     }
-    assert!(scene.parts.windows(2).all(|w| w[0].surface < w[1].surface), "each surface once, in order");
+    assert!(scene.meshes.windows(2).all(|w| w[0].surface < w[1].surface), "each surface once, in order");
 }
 
 /// Length of all edges of floor triangles that no two of them share, metres: the outline, and every crack wider than
@@ -205,7 +207,7 @@ fn floor_coordinates_say_where_in_the_tile_a_corner_lies() {
     let walls = museum();
     let tiles = tiles_over(&walls, 512);
     for part in floors(&scene_of(&walls, 512)) {
-        let Surface::FloorTile(index) = part.surface else { continue };
+        let SceneSurface::FloorTile(index) = part.surface else { continue };
         let tile = tiles[index];
         for (position, uv) in part.positions_m.iter().zip(&part.uvs) {
             let x = tile.min.x + f64::from(uv[0]) * tile.width();
@@ -230,7 +232,7 @@ fn floor_a_little_beyond_the_tiles_belongs_to_the_nearest() {
 fn walls_are_as_long_and_as_high_as_they_are_and_look_at_the_floor() {
     let walls = museum();
     let scene = scene_of(&walls, 512);
-    let part = part(&scene, Surface::WallSheet(0));
+    let part = part(&scene, SceneSurface::WallSheet(0));
     let length: f64 = walls.faces.iter().map(|f| f.length_m()).sum();
     assert_close(area_m2([part]), length * HEIGHT_M, 1e-6);
     for corners in triangles(part) {
@@ -239,14 +241,14 @@ fn walls_are_as_long_and_as_high_as_they_are_and_look_at_the_floor() {
         let middle = [0, 1].map(|k| (corners[0][k] + corners[1][k] + corners[2][k]) / 3.0 + area[k] / size * 1e-3);
         assert!(walls.is_inside(vec2(middle[0], middle[1])));
     }
-    assert!(!scene.parts.iter().any(|p| p.surface == Surface::Lintel), "all wall is textured");
+    assert!(!scene.meshes.iter().any(|p| p.surface == SceneSurface::Lintel), "all wall is textured");
 }
 
 #[test]
 fn wall_coordinates_follow_the_strips() {
     let walls = museum();
     let scene = scene_of(&walls, 512);
-    let part = part(&scene, Surface::WallSheet(0));
+    let part = part(&scene, SceneSurface::WallSheet(0));
     let total: f64 = walls.faces.iter().map(|f| f.length_m()).sum();
     let corners = part.positions_m.iter().zip(&part.uvs);
     assert!(corners.clone().all(|(p, uv)| uv[1] == if p[2] == 0.0 { 0.9 } else { 0.1 }));
@@ -267,7 +269,7 @@ fn wall_coordinates_follow_the_strips() {
 fn normals_are_smooth_round_a_pillar_and_hard_at_a_corner() {
     let walls = museum();
     let scene = scene_of(&walls, 4096);
-    let part = part(&scene, Surface::WallSheet(0));
+    let part = part(&scene, SceneSurface::WallSheet(0));
     let centre = vec2(9.0, 8.5);
     let mut seen = 0;
     for (position, normal) in part.positions_m.iter().zip(&part.normals) {
@@ -282,7 +284,7 @@ fn normals_are_smooth_round_a_pillar_and_hard_at_a_corner() {
 
     let room = walls_of(&["#####", "#...#", "#...#", "#####"], 1.0);
     let scene = scene_of(&room, 4096);
-    let part = self::part(&scene, Surface::WallSheet(0));
+    let part = self::part(&scene, SceneSurface::WallSheet(0));
     assert!(part.normals.iter().all(|n| n.contains(&1.0) || n.contains(&-1.0)), "{:?}", part.normals);
 }
 
@@ -294,8 +296,8 @@ fn wall_that_is_on_no_sheet_is_clean_wall() {
     strips.truncate(1);
     let scene = build(&walls, &tiles_over(&walls, 512), &strips, &[], &options());
     check(&scene);
-    assert_close(area_m2([part(&scene, Surface::WallSheet(0))]), kept_m * HEIGHT_M, 1e-6);
-    assert_close(area_m2([part(&scene, Surface::Lintel)]), (10.0 - kept_m) * HEIGHT_M, 1e-6);
+    assert_close(area_m2([part(&scene, SceneSurface::WallSheet(0))]), kept_m * HEIGHT_M, 1e-6);
+    assert_close(area_m2([part(&scene, SceneSurface::Lintel)]), (10.0 - kept_m) * HEIGHT_M, 1e-6);
 }
 
 #[test]
@@ -303,7 +305,7 @@ fn a_turned_strip_runs_upward() {
     let walls = walls_of(&["####", "#..#", "#..#", "####"], 1.0);
     let strip = WallStrip { face: 0, sheet: 2, along_m: [0.0, 8.0], uv: [[0.5, 1.0], [0.5, 0.0], [0.25, 1.0]] };
     let scene = build(&walls, &[], &[strip], &[], &options());
-    let part = part(&scene, Surface::WallSheet(2));
+    let part = part(&scene, SceneSurface::WallSheet(2));
     assert!(part.positions_m.iter().zip(&part.uvs).all(|(p, uv)| uv[0] == if p[2] == 0.0 { 0.5 } else { 0.25 }));
     assert!(part.uvs.iter().any(|uv| uv[1] == 0.75) && part.uvs.iter().all(|uv| (uv[1] * 4.0).fract() == 0.0));
     assert_eq!(floors(&scene).count(), 0);
@@ -313,7 +315,7 @@ fn a_turned_strip_runs_upward() {
 fn a_room_gets_a_rim_that_is_closed_outside() {
     let walls = walls_of(&["#####", "#...#", "#...#", "#####"], 1.0);
     let scene = scene_of(&walls, 512);
-    let tops = part(&scene, Surface::WallTop);
+    let tops = part(&scene, SceneSurface::WallTop);
     assert_close(area_towards(tops, [0.0, 0.0, 1.0]), 3.4 * 2.4 - 6.0, 1e-5);
     for direction in [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]] {
         assert_close(area_towards(tops, direction), 2.4 * HEIGHT_M, 1e-5);
@@ -328,7 +330,7 @@ fn a_plan_is_open_where_people_come_in() {
     let walls = walls_of(&["######", "......", "......", "######"], 1.0);
     let scene = scene_of(&walls, 512);
     check(&scene);
-    let tops = part(&scene, Surface::WallTop);
+    let tops = part(&scene, SceneSurface::WallTop);
     assert_close(area_towards(tops, [0.0, 0.0, 1.0]), 2.0 * 6.0 * 0.2, 1e-5);
     // Of the ends only the rim's is closed.
     assert_close(area_towards(tops, [1.0, 0.0, 0.0]), 2.0 * 0.2 * HEIGHT_M, 1e-5);
@@ -354,7 +356,7 @@ fn what_is_solid_between_floors_is_closed_on_top() {
     );
     let scene = scene_of(&walls, 512);
     check(&scene);
-    let tops = part(&scene, Surface::WallTop);
+    let tops = part(&scene, SceneSurface::WallTop);
     let floor = floor_area_m2(&walls);
     assert_close(floor, 50.0 - 4.0 - 4.0, 1e-9);
     assert_close(area_towards(tops, [0.0, 0.0, 1.0]), 10.4 * 5.4 - floor, 1e-5);
@@ -381,7 +383,7 @@ fn a_lintel_closes_the_wall_above_a_door() {
     let (walls, doorway) = two_rooms();
     let scene = build(&walls, &tiles_over(&walls, 512), &strips_of(&walls), &[doorway], &options());
     check(&scene);
-    let lintel = part(&scene, Surface::Lintel);
+    let lintel = part(&scene, SceneSurface::Lintel);
     let height = HEIGHT_M - 2.1;
     assert_close(area_towards(lintel, [1.0, 0.0, 0.0]), height, 1e-5);
     assert_close(area_towards(lintel, [-1.0, 0.0, 0.0]), height, 1e-5);
@@ -389,7 +391,7 @@ fn a_lintel_closes_the_wall_above_a_door() {
     assert_close(area_m2([lintel]), 2.0 * height + 0.5, 1e-5);
     assert!(lintel.positions_m.iter().all(|p| p[2] >= 2.1 - 1e-6 && p[2] <= HEIGHT_M as f32));
     let plain = scene_of(&walls, 512);
-    let [tops, tops_without] = [&scene, &plain].map(|s| area_towards(part(s, Surface::WallTop), [0.0, 0.0, 1.0]));
+    let [tops, tops_without] = [&scene, &plain].map(|s| area_towards(part(s, SceneSurface::WallTop), [0.0, 0.0, 1.0]));
     assert_close(tops, tops_without + 0.5, 1e-5);
 }
 
@@ -398,7 +400,7 @@ fn a_wall_no_higher_than_a_door_has_no_lintel() {
     let (walls, doorway) = two_rooms();
     let options = SceneOptions { wall_height_m: 2.1, ..SceneOptions::default() };
     let scene = build(&walls, &tiles_over(&walls, 512), &strips_of(&walls), &[doorway], &options);
-    assert!(!scene.parts.iter().any(|p| p.surface == Surface::Lintel));
+    assert!(!scene.meshes.iter().any(|p| p.surface == SceneSurface::Lintel));
 }
 
 #[test]
@@ -444,7 +446,7 @@ proptest! {
         let scene = build(&walls, &tiles_over(&walls, tile), &strips_of(&walls), &doorways, &options());
         check(&scene);
         // Outlines of noise may cross each other: what they enclose together is the floor.
-        let floor = region::Region::inside_right(walls.outlines().iter().map(|o| o.points_m.iter().copied()));
+        let floor = region::PolygonSet::inside_right(walls.outlines().iter().map(|o| o.points_m.iter().copied()));
         let wanted = floor.triangles().area_m2();
         let found = area_m2(floors(&scene));
         prop_assert!((found - wanted).abs() <= 1e-5 * wanted, "{found} m2 instead of {wanted}");

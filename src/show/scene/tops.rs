@@ -1,7 +1,7 @@
 //! What is solid: the tops of walls and pillars, and the outer sides of the rim.
 
-use super::builder::{PartBuilder, Vertex};
-use super::region::{Region, snap};
+use super::builder::{MeshBuilder, MeshVertex};
+use super::region::{PolygonSet, snap};
 use crate::math::{Rect, Vec2, vec2};
 use crate::walls::Outline;
 
@@ -13,9 +13,9 @@ const PAST_M: f64 = 4.0 * CLOSED_M;
 /// The solid part of a plan as seen from above.
 pub(super) struct Solid {
     /// Tops of walls.
-    pub tops: Region,
+    pub tops: PolygonSet,
     /// Floor and tops together: its outline is where the plan ends.
-    pub whole: Region,
+    pub whole: PolygonSet,
     /// The edges at which the floor goes on beyond the plan.
     openings: Vec<[Vec2; 2]>,
 }
@@ -23,9 +23,9 @@ pub(super) struct Solid {
 impl Solid {
     /// Walls and pillars between floors entirely, a rim of `rim_m` metres around the outer ones, nothing beyond
     /// openings.
-    pub fn around(floor: &Region, outlines: &[Outline], rim_m: f64) -> Solid {
-        let aprons = Region::rectangles(rectangles_beyond(outlines, 0.0, PAST_M));
-        let beyond = Region::rectangles(rectangles_beyond(outlines, CLOSED_M, 2.0 * PAST_M));
+    pub fn around(floor: &PolygonSet, outlines: &[Outline], rim_m: f64) -> Solid {
+        let aprons = PolygonSet::rectangles(rectangles_beyond(outlines, 0.0, PAST_M));
+        let beyond = PolygonSet::rectangles(rectangles_beyond(outlines, CLOSED_M, 2.0 * PAST_M));
         let walked = floor.union(&aprons);
         // Grown and shrunk again, what is narrow closes up; holes that are left are filled.
         let closed = walked.grown(CLOSED_M + rim_m).filled().grown(-CLOSED_M).filled();
@@ -36,12 +36,12 @@ impl Solid {
     }
 
     /// The tops, at a height.
-    pub fn add_tops(&self, height_m: f64, part: &mut PartBuilder) {
+    pub fn add_tops(&self, height_m: f64, part: &mut MeshBuilder) {
         add_level(&self.tops, height_m, part);
     }
 
     /// The sides that nobody inside sees, from the floor's level up.
-    pub fn add_sides(&self, height_m: f64, part: &mut PartBuilder) {
+    pub fn add_sides(&self, height_m: f64, part: &mut MeshBuilder) {
         for points in self.whole.loops() {
             let points: Vec<Vec2> = points.collect();
             for (k, &a) in points.iter().enumerate() {
@@ -103,9 +103,9 @@ fn rectangles_beyond(outlines: &[Outline], aside_m: f64, out_m: f64) -> Vec<Rect
 }
 
 /// A level area, seen from above.
-pub(super) fn add_level(region: &Region, height_m: f64, part: &mut PartBuilder) {
+pub(super) fn add_level(region: &PolygonSet, height_m: f64, part: &mut MeshBuilder) {
     for corners in region.triangles().corners {
-        part.triangle(corners.map(|p| Vertex {
+        part.triangle(corners.map(|p| MeshVertex {
             position_m: [p.x, p.y, height_m],
             normal: [0.0, 0.0, 1.0],
             uv: [0.0; 2],
@@ -114,10 +114,10 @@ pub(super) fn add_level(region: &Region, height_m: f64, part: &mut PartBuilder) 
 }
 
 /// An upright quad over an edge, seen from its right.
-pub(super) fn add_upright([a, b]: [Vec2; 2], [low, high]: [f64; 2], part: &mut PartBuilder) {
+pub(super) fn add_upright([a, b]: [Vec2; 2], [low, high]: [f64; 2], part: &mut MeshBuilder) {
     let Some(direction) = (b - a).normalized() else { return };
     let normal = -direction.left();
     let corner =
-        |p: Vec2, z: f64| Vertex { position_m: [p.x, p.y, z], normal: [normal.x, normal.y, 0.0], uv: [0.0; 2] };
+        |p: Vec2, z: f64| MeshVertex { position_m: [p.x, p.y, z], normal: [normal.x, normal.y, 0.0], uv: [0.0; 2] };
     part.polygon(&[corner(a, low), corner(b, low), corner(b, high), corner(a, high)]);
 }

@@ -37,13 +37,13 @@ pub enum StillError {
     /// A size that is not two numbers.
     #[error("the size `{text}` is not two whole numbers with an x between them")]
     NotASize {
-        /// What was given.
+        /// QuadKind was given.
         text: String,
     },
 }
 
 impl StillError {
-    /// What the user can do about it.
+    /// QuadKind the user can do about it.
     pub fn hint(&self) -> Option<String> {
         match self {
             StillError::Camera(error) => error.hint(),

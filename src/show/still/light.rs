@@ -6,8 +6,8 @@ use std::hash::BuildHasherDefault;
 use rayon::prelude::*;
 
 use super::panels::Panels;
-use super::pyramid::Mixer;
-use super::space::{Piece, Space, What};
+use super::pyramid::PlaceHasher;
+use super::ray_grid::{QuadKind, RayGrid, WallQuad};
 use crate::math::{Vec2, exp_f32, sin_cos, vec2};
 
 /// Places per metre at which light is computed.
@@ -30,9 +30,9 @@ pub(super) enum Lighting {
     Above(Vec2),
 }
 
-/// What falls on a place.
+/// QuadKind falls on a place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Light {
+pub(super) struct Irradiance {
     /// Irradiance; 1 is a well-lit place.
     pub full: f32,
     /// Share of the surroundings that is open, 0 to 1.
@@ -47,18 +47,18 @@ pub(super) struct LightKey {
     y: i32,
 }
 
-/// Light on all that is seen.
+/// Irradiance on all that is seen.
 #[derive(Debug)]
 pub(super) struct LightMap<'a> {
-    space: &'a Space,
+    space: &'a RayGrid,
     lighting: Lighting,
     /// Rows of a wall's raster.
     rows: usize,
-    blocks: HashMap<LightKey, Box<[Light]>, BuildHasherDefault<Mixer>>,
+    blocks: HashMap<LightKey, Box<[Irradiance]>, BuildHasherDefault<PlaceHasher>>,
 }
 
 impl<'a> LightMap<'a> {
-    pub fn new(space: &'a Space, lighting: Lighting) -> LightMap<'a> {
+    pub fn new(space: &'a RayGrid, lighting: Lighting) -> LightMap<'a> {
         let rows = (space.height_m * PER_METRE).ceil() as usize + 1;
         LightMap { space, lighting, rows, blocks: HashMap::default() }
     }
@@ -82,11 +82,12 @@ impl<'a> LightMap<'a> {
     /// Computes what is needed and is not there yet.
     pub fn hold(&mut self, needed: &BTreeSet<LightKey>) {
         let fresh: Vec<&LightKey> = needed.iter().filter(|key| !self.blocks.contains_key(key)).collect();
-        let made: Vec<(LightKey, Box<[Light]>)> = fresh.into_par_iter().map(|&key| (key, self.make(key))).collect();
+        let made: Vec<(LightKey, Box<[Irradiance]>)> =
+            fresh.into_par_iter().map(|&key| (key, self.make(key))).collect();
         self.blocks.extend(made);
     }
 
-    fn make(&self, key: LightKey) -> Box<[Light]> {
+    fn make(&self, key: LightKey) -> Box<[Irradiance]> {
         if key.layer == 0 {
             let place = |k: usize| {
                 let [i, j] = [k % (SIDE + 1), k / (SIDE + 1)].map(|k| k as f64);
@@ -97,7 +98,7 @@ impl<'a> LightMap<'a> {
         }
         let piece = &self.space.pieces[key.layer as usize - 1];
         let columns = Columns::of(piece);
-        let mut block = vec![Light::default(); (SIDE + 1) * self.rows];
+        let mut block = vec![Irradiance::default(); (SIDE + 1) * self.rows];
         for k in 0..=SIDE {
             let along = columns.place(key.x as usize * SIDE + k);
             let column = self.on_wall(piece, along);
@@ -108,18 +109,18 @@ impl<'a> LightMap<'a> {
         block.into()
     }
 
-    /// Light on a place of the floor.
-    pub fn floor(&self, x: f32, y: f32) -> Light {
-        let Some(block) = self.blocks.get(&self.floor_key(x, y)) else { return Light { full: 0.8, open: 0.8 } };
+    /// Irradiance on a place of the floor.
+    pub fn floor(&self, x: f32, y: f32) -> Irradiance {
+        let Some(block) = self.blocks.get(&self.floor_key(x, y)) else { return Irradiance { full: 0.8, open: 0.8 } };
         let [x, y] = [x, y].map(|m| m * PER_METRE as f32);
         let within = |m: f32| m - (m / SIDE as f32).floor() * SIDE as f32;
         between(block, within(x), within(y), SIDE)
     }
 
-    /// Light on a place of a piece of wall.
-    pub fn wall(&self, piece: u32, along_m: f32, z: f32) -> Light {
+    /// Irradiance on a place of a piece of wall.
+    pub fn wall(&self, piece: u32, along_m: f32, z: f32) -> Irradiance {
         let Some(block) = self.blocks.get(&self.wall_key(piece, along_m)) else {
-            return Light { full: 0.7, open: 0.7 };
+            return Irradiance { full: 0.7, open: 0.7 };
         };
         let columns = Columns::of(&self.space.pieces[piece as usize]);
         let (column, share) = columns.at(along_m);
@@ -127,8 +128,8 @@ impl<'a> LightMap<'a> {
         between(block, (column % SIDE) as f32 + share, row, self.rows - 1)
     }
 
-    fn on_floor(&self, p: Vec2) -> Light {
-        let Some(p) = self.onto_floor(p) else { return Light { full: 0.6, open: 0.5 } };
+    fn on_floor(&self, p: Vec2) -> Irradiance {
+        let Some(p) = self.onto_floor(p) else { return Irradiance { full: 0.6, open: 0.5 } };
         match &self.lighting {
             Lighting::Inside(panels) => {
                 let open = self.open_around(p, self.space.height_m * 0.55);
@@ -136,12 +137,12 @@ impl<'a> LightMap<'a> {
                     let h2 = self.space.height_m * self.space.height_m;
                     h2 * h2 / (r2 * r2)
                 });
-                Light { full: (0.62 * direct + 0.55 * (0.25 + 0.75 * open)) as f32, open: open as f32 }
+                Irradiance { full: (0.62 * direct + 0.55 * (0.25 + 0.75 * open)) as f32, open: open as f32 }
             }
             Lighting::Above(sun) => {
                 let open = self.open_around(p, self.space.height_m);
                 let lit = self.sunlit(p, *sun, self.space.height_m);
-                Light { full: (0.12 + 0.48 * open + 0.5 * lit) as f32, open: open as f32 }
+                Irradiance { full: (0.12 + 0.48 * open + 0.5 * lit) as f32, open: open as f32 }
             }
         }
     }
@@ -172,7 +173,7 @@ impl<'a> LightMap<'a> {
 
     /// Way to the nearest wall in a direction, at most `reach_m`.
     fn way(&self, from: Vec2, toward: Vec2, reach_m: f64) -> f64 {
-        let walls = |piece: &Piece, _: f64| matches!(piece.what, What::Wall(_));
+        let walls = |piece: &WallQuad, _: f64| matches!(piece.what, QuadKind::Wall(_));
         self.space.cast(from, toward, reach_m, walls).map_or(reach_m, |met| met.way_m.max(0.0))
     }
 
@@ -214,8 +215,8 @@ impl<'a> LightMap<'a> {
         sum / FULL_PANELS / 0.72
     }
 
-    /// Light on a column of a wall, from below.
-    fn on_wall(&self, piece: &Piece, along_m: f64) -> Vec<Light> {
+    /// Irradiance on a column of a wall, from below.
+    fn on_wall(&self, piece: &WallQuad, along_m: f64) -> Vec<Irradiance> {
         let normal = piece.normal();
         let p = piece.a
             + piece.along
@@ -241,7 +242,7 @@ impl<'a> LightMap<'a> {
                 let dark = |way: f64, share: f32, reach: f32| 1.0 - share * exp_f32(-(way as f32) / reach);
                 let edges = dark(z, 0.30, 0.10) * dark(height_m - z, 0.22, 0.16);
                 let full = (0.42 * direct.min(1.6) + 1.25 * from_floor * (0.3 + 0.7 * open)) as f32 * edges;
-                Light { full, open: open as f32 }
+                Irradiance { full, open: open as f32 }
             }
             Lighting::Above(sun) => {
                 let above = height_m - z;
@@ -249,7 +250,7 @@ impl<'a> LightMap<'a> {
                     ways.iter().map(|(sine, way)| sine * way * way / (way * way + above * above)).sum::<f64>() / weight;
                 let facing = normal.dot(*sun).max(0.0);
                 let lit = if facing > 0.0 { facing * self.sunlit(p, *sun, above.max(0.05)) } else { 0.0 };
-                Light { full: (0.20 + 0.30 * sky + 0.55 * lit) as f32, open: open as f32 }
+                Irradiance { full: (0.20 + 0.30 * sky + 0.55 * lit) as f32, open: open as f32 }
             }
         };
         (0..self.rows).map(|row| at(height(row))).collect()
@@ -294,7 +295,7 @@ struct Columns {
 }
 
 impl Columns {
-    fn of(piece: &Piece) -> Columns {
+    fn of(piece: &WallQuad) -> Columns {
         Columns { count: (piece.length * PER_METRE).ceil().max(1.0) as usize, length: piece.length }
     }
 
@@ -311,11 +312,11 @@ impl Columns {
 }
 
 /// Straight between four values of a block that is `SIDE + 1` wide.
-fn between(block: &[Light], x: f32, y: f32, last_row: usize) -> Light {
+fn between(block: &[Irradiance], x: f32, y: f32, last_row: usize) -> Irradiance {
     let (i, j) = ((x as usize).min(SIDE - 1), (y as usize).min(last_row.saturating_sub(1)));
     let (u, v) = (x - i as f32, (y - j as f32).min(1.0));
     let at = j * (SIDE + 1) + i;
-    let mix = |a: Light, b: Light, t: f32| Light {
+    let mix = |a: Irradiance, b: Irradiance, t: f32| Irradiance {
         full: a.full + (b.full - a.full) * t,
         open: a.open + (b.open - a.open) * t,
     };

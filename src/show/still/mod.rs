@@ -23,20 +23,20 @@ mod places;
 mod pyramid;
 mod render;
 mod shade;
-mod skin;
-mod space;
+mod sampler;
+mod ray_grid;
 mod texels;
 mod tone;
 mod trace;
-mod traffic;
+mod footfalls;
 
 pub use error::StillError;
 
+use footfalls::FootfallGrid;
+use ray_grid::RayGrid;
 use render::Renderer;
-use skin::Skin;
-use space::Space;
-use texels::{FloorTexels, PlainWalls, SmallFloor, SmallWalls, Texel, Texels, WallTexels};
-use traffic::Traffic;
+use sampler::SurfaceSampler;
+use texels::{FloorTexels, PlainWalls, SmallFloor, SmallWalls, Texel, TexelSource, WallTexels};
 
 /// Width and height of a bake's stills, pixels.
 pub const STILL_SIZE_PX: [u32; 2] = [1280, 720];
@@ -45,35 +45,35 @@ pub const STILL_SIZES_PX: [u32; 2] = [16, 8192];
 
 /// The plan as stills show it.
 #[derive(Debug)]
-pub struct Studio {
-    space: Space,
+pub struct StillScene {
+    space: RayGrid,
 }
 
-/// What lies on floor and walls.
+/// QuadKind lies on floor and walls.
 #[derive(Clone, Copy)]
-pub struct Coat<'a, S> {
+pub struct Surfaces<'a, S> {
     /// The floor at its own texel density.
     pub floor: &'a S,
-    /// Texels per metre of the floor.
+    /// TexelSource per metre of the floor.
     pub floor_texels_per_metre: f64,
     /// The floor made small, for what is far away; without it, all that is seen is resolved.
     pub small: Option<&'a Birdseye>,
     /// The walls; without them, all are plain.
-    pub walls: Option<WallCoat<'a>>,
+    pub walls: Option<WallSurfaces<'a>>,
 }
 
-/// What lies on walls.
+/// QuadKind lies on walls.
 #[derive(Clone, Copy)]
-pub struct WallCoat<'a> {
+pub struct WallSurfaces<'a> {
     /// The walls at their own texel density.
     pub source: &'a dyn WallSource,
-    /// Texels per metre of the walls.
+    /// TexelSource per metre of the walls.
     pub texels_per_metre: f64,
-    /// What is shown of walls that are far away.
+    /// QuadKind is shown of walls that are far away.
     pub far: FarWalls<'a>,
 }
 
-/// What is shown of walls that are far away.
+/// QuadKind is shown of walls that are far away.
 #[derive(Clone, Copy)]
 pub enum FarWalls<'a> {
     /// The walls themselves, resolved as far as one sees.
@@ -84,12 +84,12 @@ pub enum FarWalls<'a> {
     Plain,
 }
 
-impl Studio {
+impl StillScene {
     /// Makes rooms of a plan's walls, `wall_height_m` high, with lintels over its doorways. Without any walls it is a floor
     /// under the sky.
-    pub fn new(walls: &Walls, doorways: &[Doorway], wall_height_m: f64) -> Studio {
+    pub fn new(walls: &Walls, doorways: &[Doorway], wall_height_m: f64) -> StillScene {
         let height_m = if walls.faces.is_empty() { 0.0 } else { wall_height_m };
-        Studio { space: Space::new(walls, doorways, height_m) }
+        StillScene { space: RayGrid::new(walls, doorways, height_m) }
     }
 
     /// The camera from above that has the whole plan in a picture of a size in pixels.
@@ -99,7 +99,7 @@ impl Studio {
 
     /// The camera 1.7 m above the floor where there is most to see.
     pub fn eye_level(&self, sums: &FloorSums) -> Camera {
-        self.space.eye_level(&Traffic::of(sums))
+        self.space.eye_level(&FootfallGrid::of(sums))
     }
 
     /// Checks that a camera stands where something is seen: below the walls' height, on the floor.
@@ -121,41 +121,42 @@ impl Studio {
         })
     }
 
-    /// What a camera sees, once with each coat, in the rayon pool that it is called in.
+    /// QuadKind a camera sees, once with each coat, in the rayon pool that it is called in.
     ///
     /// # Errors
-    /// As [`Studio::check`]; a size out of [`STILL_SIZES_PX`]; an interruption.
+    /// As [`StillScene::check`]; a size out of [`STILL_SIZES_PX`]; an interruption.
     pub fn draw<S: TextureSource>(
         &self,
         camera: &Camera,
         size_px: [u32; 2],
-        coats: &[Coat<S>],
+        coats: &[Surfaces<S>],
         progress: &dyn Progress,
     ) -> Result<Vec<RgbImage>, StillError> {
         self.check(camera)?;
         check_size(size_px)?;
-        let sheets: Vec<Sheets<S>> = coats.iter().map(|coat| Sheets::of(coat, self.space.height_m)).collect();
-        let mut skins: Vec<Skin> = sheets.iter().map(Sheets::skin).collect();
+        let sheets: Vec<SurfaceTexels<S>> =
+            coats.iter().map(|coat| SurfaceTexels::of(coat, self.space.height_m)).collect();
+        let mut skins: Vec<SurfaceSampler> = sheets.iter().map(SurfaceTexels::skin).collect();
         let done = |share: f64| progress.advance(Stage::Export, share);
         Ok(Renderer::new(&self.space, camera, size_px).draw(&mut skins, progress, done)?)
     }
 }
 
 /// A coat's sources.
-struct Sheets<'a, S> {
+struct SurfaceTexels<'a, S> {
     floor: FloorTexels<'a, S>,
     small: Option<SmallFloor>,
-    walls: Box<dyn Texels + 'a>,
+    walls: Box<dyn TexelSource + 'a>,
     plain_wall: Texel,
-    far_walls: Option<Box<dyn Texels + 'a>>,
+    far_walls: Option<Box<dyn TexelSource + 'a>>,
 }
 
-impl<'a, S: TextureSource> Sheets<'a, S> {
-    fn of(coat: &Coat<'a, S>, height_m: f64) -> Sheets<'a, S> {
+impl<'a, S: TextureSource> SurfaceTexels<'a, S> {
+    fn of(coat: &Surfaces<'a, S>, height_m: f64) -> SurfaceTexels<'a, S> {
         let background = coat.floor.background();
         let plain = |background: Background, density: f64| Box::new(PlainWalls::of(background, density));
         let unknown = Background { base_color: [226, 222, 212], mask: [0; 4], orm: [255, 160, 0] };
-        Sheets {
+        SurfaceTexels {
             floor: FloorTexels { source: coat.floor, texels_per_metre: coat.floor_texels_per_metre },
             small: coat.small.map(|small| SmallFloor {
                 picture: small.picture(background.base_color),
@@ -163,7 +164,7 @@ impl<'a, S: TextureSource> Sheets<'a, S> {
                 roughness: background.orm[1],
             }),
             walls: match coat.walls {
-                Some(WallCoat { source, texels_per_metre, .. }) => {
+                Some(WallSurfaces { source, texels_per_metre, .. }) => {
                     Box::new(WallTexels { source, texels_per_metre, height_m })
                 }
                 None => plain(unknown, 100.0),
@@ -174,17 +175,17 @@ impl<'a, S: TextureSource> Sheets<'a, S> {
                 match walls.far {
                     FarWalls::Resolved => None,
                     FarWalls::Textures(textures) => {
-                        SmallWalls::of(textures, background).map(|small| Box::new(small) as Box<dyn Texels>)
+                        SmallWalls::of(textures, background).map(|small| Box::new(small) as Box<dyn TexelSource>)
                     }
-                    FarWalls::Plain => Some(plain(background, walls.texels_per_metre * 0.25) as Box<dyn Texels>),
+                    FarWalls::Plain => Some(plain(background, walls.texels_per_metre * 0.25) as Box<dyn TexelSource>),
                 }
             }),
         }
     }
 
-    fn skin(&self) -> Skin<'_> {
-        let small = self.small.as_ref().map(|small| small as &dyn Texels);
-        Skin::new([&self.floor, &*self.walls], [small, self.far_walls.as_deref()], self.plain_wall)
+    fn skin(&self) -> SurfaceSampler<'_> {
+        let small = self.small.as_ref().map(|small| small as &dyn TexelSource);
+        SurfaceSampler::new([&self.floor, &*self.walls], [small, self.far_walls.as_deref()], self.plain_wall)
     }
 }
 
@@ -205,13 +206,13 @@ pub fn check_size([width, height]: [u32; 2]) -> Result<(), StillError> {
 /// A file cannot be written; an interruption.
 pub fn write_stills<S: TextureSource>(
     folder: &OutputFolder,
-    studio: &Studio,
+    studio: &StillScene,
     [above, inside]: [Camera; 2],
-    [trodden, clean]: [Coat<S>; 2],
+    [trodden, clean]: [Surfaces<S>; 2],
     progress: &dyn Progress,
 ) -> Result<Vec<StillEntry>, StillError> {
     let size = STILL_SIZE_PX;
-    let from_above = studio.draw(&above, size, &[Coat { ..trodden }], progress)?;
+    let from_above = studio.draw(&above, size, &[Surfaces { ..trodden }], progress)?;
     let from_inside = studio.draw(&inside, size, &[trodden, clean], progress)?;
     let names = ["birds_eye", "eye_level", "eye_level_clean"];
     let cameras = [above, inside, inside];

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::space::Space;
+use super::ray_grid::RayGrid;
 use crate::math::{Vec2, vec2};
 
 /// Side of a ceiling tile, metres.
@@ -41,7 +41,7 @@ pub(super) struct Panels {
 }
 
 impl Panels {
-    pub fn over(space: &Space) -> Panels {
+    pub fn over(space: &RayGrid) -> Panels {
         let square = |m: f64| (m / SQUARE_M).floor() as i64;
         let origin = [square(space.block.min.x), square(space.block.min.y)];
         let columns = square(space.block.max.x) - origin[0] + 1;
@@ -63,7 +63,7 @@ impl Panels {
 }
 
 /// The panel in a square that is farthest from walls, the most central of those that are far enough.
-fn best_panel(space: &Space, [x, y]: [i64; 2]) -> Option<Panel> {
+fn best_panel(space: &RayGrid, [x, y]: [i64; 2]) -> Option<Panel> {
     let mut best: Option<(f64, Panel)> = None;
     for [i, j, across, up] in places() {
         let corner = vec2((x * SQUARE_TILES + i) as f64, (y * SQUARE_TILES + j) as f64) * TILE_M;
@@ -103,11 +103,11 @@ fn places() -> impl Iterator<Item = [i64; 4]> {
 }
 
 /// Distance from a rectangle to the nearest wall, roughly; none if it is not all over floor.
-fn clearance(space: &Space, centre: Vec2, half: Vec2) -> Option<f64> {
+fn clearance(space: &RayGrid, centre: Vec2, half: Vec2) -> Option<f64> {
     if !space.is_floor(centre) {
         return None;
     }
-    let solid = |_: &super::space::Piece, _: f64| true;
+    let solid = |_: &super::ray_grid::WallQuad, _: f64| true;
     let mut clear = CLEAR_M;
     for (toward, reach) in [
         (vec2(1.0, 0.0), half.x),

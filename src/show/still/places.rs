@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
+use super::footfalls::{CELL_M, FootfallGrid};
 use super::lens::Lens;
-use super::space::{Piece, Space, What};
-use super::trace::Surface;
-use super::traffic::{CELL_M, Traffic};
+use super::ray_grid::{QuadKind, RayGrid, WallQuad};
+use super::trace::HitSurface;
 use crate::export::{Camera, DEFAULT_FOV_DEG};
 use crate::math::{Vec2, ln, sin_cos, vec2};
 
@@ -38,9 +38,9 @@ const INDOORS_M: f64 = 6.0;
 /// Openings that are seen from nearer than this are too bright, metres.
 const BRIGHT_M: f64 = 16.0;
 
-impl Space {
+impl RayGrid {
     /// At the height of eyes, where there is most to see: trodden floor with quiet margins, depth, walls on both sides.
-    pub(super) fn eye_level(&self, traffic: &Traffic) -> Camera {
+    pub(super) fn eye_level(&self, traffic: &FootfallGrid) -> Camera {
         let (places, doors) = (self.standing_places(traffic), self.doors());
         let judged: Vec<(f64, Vec2, f64)> = places
             .par_iter()
@@ -65,7 +65,7 @@ impl Space {
     }
 
     /// Places a metre apart where people walked; anywhere on the floor if nobody did.
-    fn standing_places(&self, traffic: &Traffic) -> Vec<Vec2> {
+    fn standing_places(&self, traffic: &FootfallGrid) -> Vec<Vec2> {
         let [columns, rows] = traffic.size();
         let step = (1.0 / CELL_M) as usize;
         let middle = |x: usize, y: usize| vec2(x as f64 + 0.5, y as f64 + 0.5) * CELL_M;
@@ -73,7 +73,7 @@ impl Space {
             (0..rows).step_by(step).flat_map(|y| (0..columns).step_by(step).map(move |x| middle(x, y))).collect();
         let clear: Vec<Vec2> =
             all.into_par_iter().filter(|&p| self.is_floor(p) && self.clearance(p, CLEAR_M) >= CLEAR_M).collect();
-        let openings: Vec<&Piece> = self.pieces.iter().filter(|piece| piece.what == What::Opening).collect();
+        let openings: Vec<&WallQuad> = self.pieces.iter().filter(|piece| piece.what == QuadKind::Opening).collect();
         let indoors = |p: Vec2| openings.iter().all(|opening| opening.distance_m(p) >= INDOORS_M);
         let walked = |p: Vec2| traffic.at(p) > 0.05;
         let chosen = |good: &dyn Fn(Vec2) -> bool| clear.iter().copied().filter(|&p| good(p)).collect::<Vec<Vec2>>();
@@ -92,20 +92,20 @@ impl Space {
     }
 
     fn wall_way(&self, from: Vec2, toward: Vec2, reach_m: f64) -> f64 {
-        let solid = |piece: &Piece, _: f64| !matches!(piece.what, What::Lintel(_));
+        let solid = |piece: &WallQuad, _: f64| !matches!(piece.what, QuadKind::Lintel(_));
         self.cast(from, toward, reach_m, solid).map_or(reach_m, |met| met.way_m)
     }
 
     /// How much there is to see from a place in a direction.
-    fn judge(&self, place: Vec2, heading_deg: f64, traffic: &Traffic, doors: &[Vec2]) -> f64 {
+    fn judge(&self, place: Vec2, heading_deg: f64, traffic: &FootfallGrid, doors: &[Vec2]) -> f64 {
         let (mut count, mut trodden, mut contrast) = (0.0, 0.0, 0.0);
         let (mut depth, mut near_walls, mut blocked, mut glare) = (0.0, 0.0, 0.0, 0.0);
         for k in 0..GLANCES {
             let aside = (k as f64 / (GLANCES - 1) as f64 - 0.5) * DEFAULT_FOV_DEG * 0.94;
             let toward = direction(heading_deg + aside);
-            let met = self.cast(place, toward, 45.0, |piece, _| !matches!(piece.what, What::Lintel(_)));
+            let met = self.cast(place, toward, 45.0, |piece, _| !matches!(piece.what, QuadKind::Lintel(_)));
             let way = met.map_or(45.0, |met| met.way_m);
-            let outward = met.is_some_and(|met| self.pieces[met.piece].what == What::Opening);
+            let outward = met.is_some_and(|met| self.pieces[met.piece].what == QuadKind::Opening);
             glare += if outward && way < BRIGHT_M { 1.0 - way / BRIGHT_M } else { 0.0 };
             for distance in DISTANCES_M.iter().filter(|&&distance| distance < way) {
                 let p = place + toward * *distance;
@@ -149,7 +149,7 @@ impl Space {
 
     /// Middles of lintels.
     fn doors(&self) -> Vec<Vec2> {
-        let doors = self.pieces.iter().filter(|piece| matches!(piece.what, What::Lintel(_)));
+        let doors = self.pieces.iter().filter(|piece| matches!(piece.what, QuadKind::Lintel(_)));
         doors.map(|piece| piece.a + piece.along * (piece.length * 0.5)).collect()
     }
 
@@ -175,7 +175,7 @@ impl Space {
         let place = |k: usize, count: usize, size: u32| (k as f64 + 0.5) / count as f64 * f64::from(size);
         let is_floor = |k: &usize| {
             let ray = lens.ray(place(k % ACROSS, ACROSS, width), place(k / ACROSS, up, height));
-            self.trace_above(lens.position, ray).surface == Surface::Floor
+            self.trace_above(lens.position, ray).surface == HitSurface::Floor
         };
         (0..ACROSS * up).filter(is_floor).count() as f64 / (ACROSS * up) as f64
     }

@@ -1,11 +1,11 @@
-//! Texels at all scales, in blocks that are made when they are needed.
+//! TexelSource at all scales, in blocks that are made when they are needed.
 
 use std::collections::{BTreeSet, HashMap};
 use std::hash::{BuildHasherDefault, Hasher};
 
 use rayon::prelude::*;
 
-use super::texels::{Block, SIDE, Texel, Texels};
+use super::texels::{SIDE, Texel, TexelBlock, TexelSource};
 
 /// Coarsest level: 2^LEVELS texels a side are one.
 const LEVELS: u32 = 12;
@@ -14,7 +14,7 @@ const MOST_PROBES: f32 = 12.0;
 
 /// A block's place: level, layer, column, row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) struct Key {
+pub(super) struct TexelBlockKey {
     level: u8,
     layer: u32,
     x: i32,
@@ -22,13 +22,13 @@ pub(super) struct Key {
 }
 
 /// Blocks by their place. Their order is never looked at.
-type Blocks = HashMap<Key, Block, BuildHasherDefault<Mixer>>;
+type Blocks = HashMap<TexelBlockKey, TexelBlock, BuildHasherDefault<PlaceHasher>>;
 
 /// A quick hash: keys are places, not what an enemy chose.
 #[derive(Default)]
-pub(super) struct Mixer(u64);
+pub(super) struct PlaceHasher(u64);
 
-impl Hasher for Mixer {
+impl Hasher for PlaceHasher {
     fn finish(&self) -> u64 {
         self.0 ^ self.0 >> 32
     }
@@ -56,11 +56,11 @@ impl Hasher for Mixer {
 
 /// A texture of which what is seen is held, each place as finely as it is seen.
 pub(super) struct Pyramid<'a> {
-    source: &'a dyn Texels,
+    source: &'a dyn TexelSource,
     blocks: Blocks,
 }
 
-/// What is seen of a texture by a pixel: an ellipse, as a row of discs.
+/// QuadKind is seen of a texture by a pixel: an ellipse, as a row of discs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Footprint {
     pub layer: u32,
@@ -80,22 +80,22 @@ struct Probes {
     count: u32,
     first: [f32; 2],
     step: [f32; 2],
-    /// Texels are much larger than pixels.
+    /// TexelSource are much larger than pixels.
     enlarged: bool,
 }
 
 impl<'a> Pyramid<'a> {
-    pub fn new(source: &'a dyn Texels) -> Pyramid<'a> {
+    pub fn new(source: &'a dyn TexelSource) -> Pyramid<'a> {
         Pyramid { source, blocks: Blocks::default() }
     }
 
-    /// Texels per metre.
+    /// TexelSource per metre.
     pub fn density(&self) -> f64 {
         self.source.density()
     }
 
     /// Names the blocks that a footprint needs.
-    pub fn needs(&self, footprint: &Footprint, bias: f32, needed: &mut Needed) {
+    pub fn needs(&self, footprint: &Footprint, bias: f32, needed: &mut NeededBlocks) {
         let probes = self.probes(footprint, bias);
         let last = probes.count.saturating_sub(1) as f32;
         for level in probes.level..=(probes.level + 1).min(LEVELS) {
@@ -103,7 +103,7 @@ impl<'a> Pyramid<'a> {
             for at in [0.0, last] {
                 let [x, y] = [0, 1].map(|k| (probes.first[k] + probes.step[k] * at) * scale);
                 for [dx, dy] in [[-1.5, -1.5], [1.5, -1.5], [-1.5, 1.5], [1.5, 1.5]] {
-                    needed.add(Key {
+                    needed.add(TexelBlockKey {
                         level: level as u8,
                         layer: footprint.layer,
                         x: block_of(x + dx),
@@ -115,7 +115,7 @@ impl<'a> Pyramid<'a> {
     }
 
     /// Makes what is needed and drops the rest. Fine blocks first: coarser ones are made of them.
-    pub fn hold(&mut self, needed: &BTreeSet<Key>) {
+    pub fn hold(&mut self, needed: &BTreeSet<TexelBlockKey>) {
         let mut from = needed.iter().copied().peekable();
         let mut fresh = Blocks::default();
         while let Some(level) = from.peek().map(|key| key.level) {
@@ -123,7 +123,7 @@ impl<'a> Pyramid<'a> {
             while let Some(key) = from.next_if(|key| key.level == level) {
                 wanted.push(key);
             }
-            let made: Vec<(Key, Block)> = wanted
+            let made: Vec<(TexelBlockKey, TexelBlock)> = wanted
                 .par_iter()
                 .filter(|key| !self.blocks.contains_key(key))
                 .map(|&key| (key, self.make(key, &fresh)))
@@ -138,7 +138,7 @@ impl<'a> Pyramid<'a> {
         self.blocks = fresh;
     }
 
-    fn make(&self, key: Key, fresh: &Blocks) -> Block {
+    fn make(&self, key: TexelBlockKey, fresh: &Blocks) -> TexelBlock {
         if key.level == 0 {
             return self.source.read(
                 key.layer as usize,
@@ -147,7 +147,7 @@ impl<'a> Pyramid<'a> {
             );
         }
         let child = |dx: i32, dy: i32| {
-            let key = Key { level: key.level - 1, x: key.x * 2 + dx, y: key.y * 2 + dy, ..key };
+            let key = TexelBlockKey { level: key.level - 1, x: key.x * 2 + dx, y: key.y * 2 + dy, ..key };
             match fresh.get(&key).or_else(|| self.blocks.get(&key)) {
                 Some(block) => block.clone(),
                 None => self.make(key, fresh),
@@ -223,39 +223,39 @@ fn down(value: f32) -> i32 {
 }
 
 /// Four blocks as one of the next level.
-fn halved(children: &[Block; 4]) -> Block {
-    if let [Block::Flat(a), Block::Flat(b), Block::Flat(c), Block::Flat(d)] = children
+fn halved(children: &[TexelBlock; 4]) -> TexelBlock {
+    if let [TexelBlock::Flat(a), TexelBlock::Flat(b), TexelBlock::Flat(c), TexelBlock::Flat(d)] = children
         && a == b
         && b == c
         && c == d
     {
-        return Block::Flat(*a);
+        return TexelBlock::Flat(*a);
     }
     const HALF: usize = SIDE / 2;
     let texel = |k: usize| -> Texel {
         let (x, y) = (k % SIDE, k / SIDE);
         match &children[y / HALF * 2 + x / HALF] {
-            Block::Flat(texel) => *texel,
-            Block::Full(texels) => {
+            TexelBlock::Flat(texel) => *texel,
+            TexelBlock::Full(texels) => {
                 let at = (y % HALF * 2) * SIDE + x % HALF * 2;
                 let four = [texels[at], texels[at + 1], texels[at + SIDE], texels[at + SIDE + 1]];
                 std::array::from_fn(|c| (four.iter().map(|t| u32::from(t[c])).sum::<u32>().div_ceil(4)) as u16)
             }
         }
     };
-    Block::Full((0..SIDE * SIDE).map(texel).collect())
+    TexelBlock::Full((0..SIDE * SIDE).map(texel).collect())
 }
 
 /// Reads texels; knows the block that it read last.
 struct Reader<'a> {
     pyramid: &'a Pyramid<'a>,
     layer: u32,
-    last: Option<(Key, &'a Block)>,
+    last: Option<(TexelBlockKey, &'a TexelBlock)>,
 }
 
 impl<'a> Reader<'a> {
-    fn block(&mut self, level: u32, x: i32, y: i32) -> Option<&'a Block> {
-        let key = Key { level: level as u8, layer: self.layer, x, y };
+    fn block(&mut self, level: u32, x: i32, y: i32) -> Option<&'a TexelBlock> {
+        let key = TexelBlockKey { level: level as u8, layer: self.layer, x, y };
         if let Some((last, block)) = self.last
             && last == key
         {
@@ -271,8 +271,8 @@ impl<'a> Reader<'a> {
         for level in level..=LEVELS {
             const S: i32 = SIDE as i32;
             match self.block(level, i.div_euclid(S), j.div_euclid(S)) {
-                Some(Block::Flat(texel)) => return *texel,
-                Some(Block::Full(texels)) => return texels[(j.rem_euclid(S) * S + i.rem_euclid(S)) as usize],
+                Some(TexelBlock::Flat(texel)) => return *texel,
+                Some(TexelBlock::Full(texels)) => return texels[(j.rem_euclid(S) * S + i.rem_euclid(S)) as usize],
                 // Few pixels at edges see what their neighbours did not ask for: a coarser one will do.
                 None => (i, j) = (i.div_euclid(2), j.div_euclid(2)),
             }
@@ -296,8 +296,8 @@ impl<'a> Reader<'a> {
         let (within_i, within_j) = (i.rem_euclid(S), j.rem_euclid(S));
         if within_i < S - 1 && within_j < S - 1 {
             match self.block(level, i.div_euclid(S), j.div_euclid(S)) {
-                Some(Block::Flat(texel)) => return [*texel; 4],
-                Some(Block::Full(texels)) => {
+                Some(TexelBlock::Flat(texel)) => return [*texel; 4],
+                Some(TexelBlock::Full(texels)) => {
                     let at = (within_j * S + within_i) as usize;
                     return [texels[at], texels[at + 1], texels[at + SIDE], texels[at + SIDE + 1]];
                 }
@@ -332,15 +332,15 @@ fn cubic_weights(t: f32) -> [f32; 4] {
 
 /// Blocks that were asked for.
 #[derive(Debug, Default)]
-pub(super) struct Needed {
-    keys: BTreeSet<Key>,
+pub(super) struct NeededBlocks {
+    keys: BTreeSet<TexelBlockKey>,
     /// The last few, which most are again.
-    last: [Option<Key>; 8],
+    last: [Option<TexelBlockKey>; 8],
     next: usize,
 }
 
-impl Needed {
-    fn add(&mut self, key: Key) {
+impl NeededBlocks {
+    fn add(&mut self, key: TexelBlockKey) {
         if !self.last.contains(&Some(key)) {
             self.last[self.next % 8] = Some(key);
             self.next += 1;
@@ -349,12 +349,12 @@ impl Needed {
     }
 
     /// All of both.
-    pub fn and(mut self, mut other: Needed) -> Needed {
+    pub fn and(mut self, mut other: NeededBlocks) -> NeededBlocks {
         self.keys.append(&mut other.keys);
         self
     }
 
-    pub fn keys(&self) -> &BTreeSet<Key> {
+    pub fn keys(&self) -> &BTreeSet<TexelBlockKey> {
         &self.keys
     }
 }
@@ -366,20 +366,20 @@ mod tests {
     /// A board of squares of one texel, black and white; noise on the right half.
     struct Board;
 
-    impl Texels for Board {
+    impl TexelSource for Board {
         fn density(&self) -> f64 {
             100.0
         }
 
-        fn read(&self, _: usize, i0: i64, j0: i64) -> Block {
+        fn read(&self, _: usize, i0: i64, j0: i64) -> TexelBlock {
             let value = |k: usize| if (i0 + j0 + (k % SIDE + k / SIDE) as i64) % 2 == 0 { 65_535 } else { 0 };
-            Block::Full((0..SIDE * SIDE).map(|k| [value(k); 4]).collect())
+            TexelBlock::Full((0..SIDE * SIDE).map(|k| [value(k); 4]).collect())
         }
     }
 
     fn sampled(footprint: &Footprint) -> [f32; 4] {
         let mut pyramid = Pyramid::new(&Board);
-        let mut needed = Needed::default();
+        let mut needed = NeededBlocks::default();
         pyramid.needs(footprint, 1.0, &mut needed);
         pyramid.hold(needed.keys());
         pyramid.sample(footprint, 1.0)
@@ -417,13 +417,13 @@ mod tests {
 
     #[test]
     fn a_coarse_block_is_the_same_whether_finer_ones_are_held_or_not() {
-        let key = |level, x, y| Key { level, layer: 0, x, y };
+        let key = |level, x, y| TexelBlockKey { level, layer: 0, x, y };
         let (mut with, mut without) = (Pyramid::new(&Board), Pyramid::new(&Board));
         with.hold(&[key(0, 0, 0), key(0, 1, 1), key(1, 0, 0), key(2, 0, 0)].into());
         without.hold(&[key(2, 0, 0)].into());
         let texels = |pyramid: &Pyramid| match &pyramid.blocks[&key(2, 0, 0)] {
-            Block::Full(texels) => texels.to_vec(),
-            Block::Flat(texel) => vec![*texel],
+            TexelBlock::Full(texels) => texels.to_vec(),
+            TexelBlock::Flat(texel) => vec![*texel],
         };
         assert_eq!(texels(&with), texels(&without));
         assert_eq!(with.blocks.len(), 4);

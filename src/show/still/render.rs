@@ -8,11 +8,11 @@ use rayon::prelude::*;
 use super::lens::Lens;
 use super::light::{LightKey, LightMap, Lighting, over_the_shoulder};
 use super::panels::Panels;
-use super::shade::{Colour, Shader};
-use super::skin::{Skin, SkinNeeds, along_m};
-use super::space::Space;
+use super::ray_grid::RayGrid;
+use super::sampler::{SamplerNeeds, SurfaceSampler, along_m};
+use super::shade::{LinearRgb, Shader};
 use super::tone::Tone;
-use super::trace::{Hit, Surface};
+use super::trace::{HitSurface, RayHit};
 use crate::export::Camera;
 use crate::export::ExportError;
 use crate::progress::Progress;
@@ -35,23 +35,23 @@ const PLACES: [[f64; 2]; RAYS] = [
 
 /// A row of a picture before it is shaded.
 #[derive(Default)]
-struct Row {
-    hits: Vec<Hit>,
+struct TracedRow {
+    hits: Vec<RayHit>,
     /// Columns in which surfaces meet, and what their rays hit.
-    edges: Vec<(u32, [Hit; RAYS])>,
+    edges: Vec<(u32, [RayHit; RAYS])>,
 }
 
-/// What a band needs.
+/// QuadKind a band needs.
 #[derive(Default)]
 struct Needs {
-    skins: Vec<SkinNeeds>,
+    skins: Vec<SamplerNeeds>,
     light: BTreeSet<LightKey>,
     last_light: Option<LightKey>,
 }
 
 impl Needs {
     fn of(skins: usize) -> Needs {
-        Needs { skins: (0..skins).map(|_| SkinNeeds::default()).collect(), ..Needs::default() }
+        Needs { skins: (0..skins).map(|_| SamplerNeeds::default()).collect(), ..Needs::default() }
     }
 
     fn and(mut self, mut other: Needs) -> Needs {
@@ -70,7 +70,7 @@ impl Needs {
 
 /// Draws what a camera sees, once in each skin.
 pub(super) struct Renderer<'a> {
-    space: &'a Space,
+    space: &'a RayGrid,
     lens: Lens,
     size: [u32; 2],
     above: bool,
@@ -79,7 +79,7 @@ pub(super) struct Renderer<'a> {
 }
 
 impl<'a> Renderer<'a> {
-    pub fn new(space: &'a Space, camera: &Camera, size: [u32; 2]) -> Renderer<'a> {
+    pub fn new(space: &'a RayGrid, camera: &Camera, size: [u32; 2]) -> Renderer<'a> {
         let above = camera.position_m[2] >= space.height_m;
         let lighting = match above {
             true => Lighting::Above(over_the_shoulder(camera.heading_deg)),
@@ -102,7 +102,7 @@ impl<'a> Renderer<'a> {
     /// [`ExportError::Interrupted`].
     pub fn draw(
         &mut self,
-        skins: &mut [Skin],
+        skins: &mut [SurfaceSampler],
         progress: &dyn Progress,
         done: impl Fn(f64),
     ) -> Result<Vec<RgbImage>, ExportError> {
@@ -124,7 +124,7 @@ impl<'a> Renderer<'a> {
         Ok(pictures)
     }
 
-    fn trace(&self, x: f64, y: f64) -> Hit {
+    fn trace(&self, x: f64, y: f64) -> RayHit {
         let way = self.lens.ray(x, y);
         if self.above {
             self.space.trace_above(self.lens.position, way)
@@ -133,9 +133,9 @@ impl<'a> Renderer<'a> {
         }
     }
 
-    fn trace_band(&self, top: usize, count: usize) -> Vec<Row> {
+    fn trace_band(&self, top: usize, count: usize) -> Vec<TracedRow> {
         let width = self.size[0] as usize;
-        let rows: Vec<Vec<Hit>> = (0..count + 2)
+        let rows: Vec<Vec<RayHit>> = (0..count + 2)
             .into_par_iter()
             .map(|k| {
                 // One row more on either side: edges are found by neighbours.
@@ -143,13 +143,13 @@ impl<'a> Renderer<'a> {
                 (0..width).map(|x| self.trace(x as f64 + 0.5, y)).collect()
             })
             .collect();
-        let edges: Vec<Vec<(u32, [Hit; RAYS])>> = (1..=count)
+        let edges: Vec<Vec<(u32, [RayHit; RAYS])>> = (1..=count)
             .into_par_iter()
             .map(|k| {
                 let y = (top + k - 1) as f64;
                 let meets = |x: &usize| {
                     let here = &rows[k][*x];
-                    let beside = |other: &Hit| meets(here, other);
+                    let beside = |other: &RayHit| meets(here, other);
                     beside(&rows[k - 1][*x])
                         || beside(&rows[k + 1][*x])
                         || (*x > 0 && beside(&rows[k][*x - 1]))
@@ -160,12 +160,12 @@ impl<'a> Renderer<'a> {
             })
             .collect();
         let inner = rows.into_iter().skip(1).zip(edges);
-        inner.map(|(hits, edges)| Row { hits, edges }).collect()
+        inner.map(|(hits, edges)| TracedRow { hits, edges }).collect()
     }
 
-    fn hold(&mut self, rows: &[Row], skins: &mut [Skin]) {
+    fn hold(&mut self, rows: &[TracedRow], skins: &mut [SurfaceSampler]) {
         let pixel = self.lens.pixel as f32;
-        let gather = |row: &Row| {
+        let gather = |row: &TracedRow| {
             let mut needs = Needs::of(skins.len());
             for hit in row.hits.iter().chain(row.edges.iter().flat_map(|(_, hits)| hits)) {
                 for (skin, needs) in skins.iter().zip(&mut needs.skins) {
@@ -173,8 +173,8 @@ impl<'a> Renderer<'a> {
                 }
                 let [x, y, _] = hit.point;
                 match hit.surface {
-                    Surface::Floor | Surface::Ceiling => needs.add(self.light.floor_key(x, y)),
-                    Surface::Wall(piece) => {
+                    HitSurface::Floor | HitSurface::Ceiling => needs.add(self.light.floor_key(x, y)),
+                    HitSurface::Wall(piece) => {
                         let along = along_m(&self.space.pieces[piece as usize], hit);
                         needs.add(self.light.wall_key(piece, along));
                     }
@@ -191,9 +191,9 @@ impl<'a> Renderer<'a> {
     }
 
     /// Bytes by row and skin.
-    fn shade_band(&self, rows: &[Row], top: usize, skins: &[Skin]) -> Vec<Vec<Vec<u8>>> {
+    fn shade_band(&self, rows: &[TracedRow], top: usize, skins: &[SurfaceSampler]) -> Vec<Vec<Vec<u8>>> {
         let shader = Shader { space: self.space, light: &self.light, pixel: self.lens.pixel as f32 };
-        let shade = |(k, row): (usize, &Row)| {
+        let shade = |(k, row): (usize, &TracedRow)| {
             let width = row.hits.len();
             let mut lit = vec![vec![[0.0f32; 3]; width]; skins.len()];
             let mut colours = vec![[0.0f32; 3]; skins.len()];
@@ -213,7 +213,7 @@ impl<'a> Renderer<'a> {
                     }
                 }
             }
-            let bytes = |row: Vec<Colour>| {
+            let bytes = |row: Vec<LinearRgb>| {
                 let mut bytes = vec![0; width * 3];
                 self.tone.row(&row, (top + k) as u32, self.size, &mut bytes);
                 bytes
@@ -225,13 +225,13 @@ impl<'a> Renderer<'a> {
 }
 
 /// Adds one of [`RAYS`] to a pixel. Lamps count as white: their edges would be rough otherwise.
-fn add_share(sum: &mut Colour, colour: Colour) {
+fn add_share(sum: &mut LinearRgb, colour: LinearRgb) {
     for (sum, value) in sum.iter_mut().zip(colour) {
         *sum += value.min(1.6) / RAYS as f32;
     }
 }
 
 /// Whether two neighbouring pixels see different things.
-fn meets(a: &Hit, b: &Hit) -> bool {
+fn meets(a: &RayHit, b: &RayHit) -> bool {
     a.surface != b.surface || (a.beyond_m > 0.0) != (b.beyond_m > 0.0)
 }

@@ -2,26 +2,26 @@
 
 use super::light::{LightMap, Lighting};
 use super::panels::{Panels, TILE_M};
-use super::skin::{Paint, Skin, along_m};
-use super::space::{Piece, Space, What};
-use super::trace::{Hit, Surface};
+use super::ray_grid::{QuadKind, RayGrid, WallQuad};
+use super::sampler::{SampledMaterial, SurfaceSampler, along_m};
+use super::trace::{HitSurface, RayHit};
 use crate::math::{Vec2, exp_f32, vec2};
 
 /// Linear light, red, green, blue.
-pub(super) type Colour = [f32; 3];
+pub(super) type LinearRgb = [f32; 3];
 
 /// How bright lamps are.
-const LAMP: Colour = [3.3, 3.25, 3.1];
+const LAMP: LinearRgb = [3.3, 3.25, 3.1];
 /// Daylight beyond openings.
-const DAYLIGHT: Colour = [1.18, 1.22, 1.28];
+const DAYLIGHT: LinearRgb = [1.18, 1.22, 1.28];
 /// The ceiling's tiles.
-const CEILING: Colour = [0.78, 0.775, 0.76];
-/// What rooms are cut into, as seen from above.
-const TOP: Colour = [0.052, 0.052, 0.058];
-/// What the model stands on.
-const TABLE: Colour = [0.56, 0.555, 0.54];
+const CEILING: LinearRgb = [0.78, 0.775, 0.76];
+/// QuadKind rooms are cut into, as seen from above.
+const TOP: LinearRgb = [0.052, 0.052, 0.058];
+/// QuadKind the model stands on.
+const TABLE: LinearRgb = [0.56, 0.555, 0.54];
 /// Walls as floors mirror them.
-const PLAIN: Colour = [0.66, 0.64, 0.60];
+const PLAIN: LinearRgb = [0.66, 0.64, 0.60];
 /// Share of light that smooth surfaces throw back at a right angle.
 const F0: f32 = 0.04;
 /// Farthest wall that is looked for in the floor, metres.
@@ -31,13 +31,13 @@ const LOBE: f64 = 0.11;
 
 /// All that a picture is made of.
 pub(super) struct Shader<'a> {
-    pub space: &'a Space,
+    pub space: &'a RayGrid,
     pub light: &'a LightMap<'a>,
     /// Side of a pixel at the distance 1.
     pub pixel: f32,
 }
 
-/// What a smooth floor shows.
+/// QuadKind a smooth floor shows.
 struct Mirror {
     wall_m: f64,
     ceiling_m: f64,
@@ -53,11 +53,11 @@ struct Mirror {
 
 impl Shader<'_> {
     /// The light of a hit in each skin.
-    pub fn shade(&self, hit: &Hit, skins: &[Skin], out: &mut [Colour]) {
+    pub fn shade(&self, hit: &RayHit, skins: &[SurfaceSampler], out: &mut [LinearRgb]) {
         match hit.surface {
-            Surface::Floor => self.floor(hit, skins, out),
-            Surface::Wall(piece) => self.wall(hit, piece, skins, out),
-            Surface::Lintel(_) | Surface::Soffit(_) => self.lintel(hit, skins, out),
+            HitSurface::Floor => self.floor(hit, skins, out),
+            HitSurface::Wall(piece) => self.wall(hit, piece, skins, out),
+            HitSurface::Lintel(_) | HitSurface::Soffit(_) => self.lintel(hit, skins, out),
             other => out.fill(self.plain(hit, other)),
         }
         if hit.beyond_m > 0.0 {
@@ -66,7 +66,7 @@ impl Shader<'_> {
         }
     }
 
-    fn floor(&self, hit: &Hit, skins: &[Skin], out: &mut [Colour]) {
+    fn floor(&self, hit: &RayHit, skins: &[SurfaceSampler], out: &mut [LinearRgb]) {
         let light = self.light.floor(hit.point[0], hit.point[1]);
         let cosine = hit.toward[2].abs();
         let mirror = match self.light.lighting() {
@@ -85,41 +85,41 @@ impl Shader<'_> {
         }
     }
 
-    fn wall(&self, hit: &Hit, number: u32, skins: &[Skin], out: &mut [Colour]) {
+    fn wall(&self, hit: &RayHit, number: u32, skins: &[SurfaceSampler], out: &mut [LinearRgb]) {
         let piece = &self.space.pieces[number as usize];
         let light = self.light.wall(number, along_m(piece, hit), hit.point[2]);
         let normal = piece.normal();
         let cosine = (f64::from(hit.toward[0]) * normal.x + f64::from(hit.toward[1]) * normal.y).abs() as f32;
         for (skin, out) in skins.iter().zip(out) {
-            let Paint { colour, roughness } = skin.wall(piece, hit, self.pixel);
+            let SampledMaterial { colour, roughness } = skin.wall(piece, hit, self.pixel);
             let shine = fresnel(cosine, roughness) * 0.5 * light.open;
             *out = std::array::from_fn(|c| colour[c] * light.full + shine);
         }
     }
 
     /// The clean wall over a door.
-    fn lintel(&self, hit: &Hit, skins: &[Skin], out: &mut [Colour]) {
+    fn lintel(&self, hit: &RayHit, skins: &[SurfaceSampler], out: &mut [LinearRgb]) {
         let height = (hit.point[2] / self.space.height_m as f32).clamp(0.0, 1.0);
-        let light = if matches!(hit.surface, Surface::Soffit(_)) { 0.5 } else { 0.84 - 0.14 * height };
+        let light = if matches!(hit.surface, HitSurface::Soffit(_)) { 0.5 } else { 0.84 - 0.14 * height };
         for (skin, out) in skins.iter().zip(out) {
             *out = scaled(skin.plain, light);
         }
     }
 
-    fn plain(&self, hit: &Hit, surface: Surface) -> Colour {
+    fn plain(&self, hit: &RayHit, surface: HitSurface) -> LinearRgb {
         let [x, y, _] = hit.point;
         match surface {
-            Surface::Ceiling => self.ceiling(hit),
-            Surface::Top => TOP,
-            Surface::Side => scaled(TOP, 0.75),
-            Surface::Table => self.table(x, y, hit.way_m),
-            Surface::Outside => DAYLIGHT,
+            HitSurface::Ceiling => self.ceiling(hit),
+            HitSurface::Top => TOP,
+            HitSurface::Side => scaled(TOP, 0.75),
+            HitSurface::Table => self.table(x, y, hit.way_m),
+            HitSurface::Outside => DAYLIGHT,
             _ => scaled(TABLE, 0.95),
         }
     }
 
     /// Tiles with fine joints, and the lamps between them.
-    fn ceiling(&self, hit: &Hit) -> Colour {
+    fn ceiling(&self, hit: &RayHit) -> LinearRgb {
         let Lighting::Inside(panels) = self.light.lighting() else { return CEILING };
         let [x, y, _] = hit.point;
         let p = vec2(f64::from(x), f64::from(y));
@@ -135,7 +135,7 @@ impl Shader<'_> {
         mix(tile, LAMP, lamp as f32)
     }
 
-    fn table(&self, x: f32, y: f32, way_m: f32) -> Colour {
+    fn table(&self, x: f32, y: f32, way_m: f32) -> LinearRgb {
         let p = vec2(f64::from(x), f64::from(y));
         // A floor without walls lies flat, and the table under it goes on to the horizon.
         if self.space.is_open() {
@@ -163,7 +163,7 @@ impl Shader<'_> {
         (x * x + y * y).sqrt()
     }
 
-    fn mirror(&self, hit: &Hit) -> Mirror {
+    fn mirror(&self, hit: &RayHit) -> Mirror {
         let [x, y, z] = hit.toward.map(f64::from);
         let across = (x * x + y * y).sqrt().max(1e-6);
         let toward = vec2(x, y).normalized().unwrap_or(vec2(1.0, 0.0));
@@ -171,7 +171,7 @@ impl Shader<'_> {
         let from = vec2(f64::from(hit.point[0]), f64::from(hit.point[1]));
         let ceiling_m = self.space.height_m / slope;
         let reach = (1.6 * ceiling_m + 0.5).min(MIRROR_REACH_M);
-        let solid = |piece: &Piece, _: f64| !matches!(piece.what, What::Lintel(_));
+        let solid = |piece: &WallQuad, _: f64| !matches!(piece.what, QuadKind::Lintel(_));
         let wall_m = self.space.cast(from, toward, reach, solid).map_or(reach, |met| met.way_m.max(0.0));
         Mirror {
             wall_m,
@@ -191,7 +191,7 @@ impl Shader<'_> {
         let mut sum = 0.0;
         for &[a, b] in &self.space.openings {
             let [a, b] = [a - from, b - from].map(|way| vec2(way.dot(toward), toward.cross(way)));
-            // What lies beside or behind is not in the lobe.
+            // QuadKind lies beside or behind is not in the lobe.
             if a.x < 0.3 || b.x < 0.3 {
                 continue;
             }
@@ -225,12 +225,12 @@ impl Shader<'_> {
     /// Whether nothing stands between a place and where a way from it leads.
     fn sees(&self, from: Vec2, way: Vec2) -> bool {
         let distance = way.length();
-        let walls = |piece: &Piece, _: f64| matches!(piece.what, What::Wall(_));
+        let walls = |piece: &WallQuad, _: f64| matches!(piece.what, QuadKind::Wall(_));
         self.space.cast(from, way / distance.max(1e-9), distance - 0.02, walls).is_none()
     }
 
     /// The mirrored room, as blurred as the floor is rough.
-    fn shine(&self, mirror: &Mirror, panels: &Panels, roughness: f32) -> Colour {
+    fn shine(&self, mirror: &Mirror, panels: &Panels, roughness: f32) -> LinearRgb {
         // Walter et al. 2007, Microfacet models for refraction: half of the light lies within about this slope.
         let alpha = f64::from(roughness * roughness).max(0.002);
         let height = self.space.height_m;
@@ -289,10 +289,10 @@ fn fresnel(cosine: f32, roughness: f32) -> f32 {
     F0 + ((1.0 - roughness).max(F0) - F0) * c2 * c2 * c
 }
 
-fn scaled(colour: Colour, by: f32) -> Colour {
+fn scaled(colour: LinearRgb, by: f32) -> LinearRgb {
     colour.map(|c| c * by)
 }
 
-pub(super) fn mix(a: Colour, b: Colour, share: f32) -> Colour {
+pub(super) fn mix(a: LinearRgb, b: LinearRgb, share: f32) -> LinearRgb {
     std::array::from_fn(|c| a[c] + (b[c] - a[c]) * share)
 }

@@ -14,20 +14,20 @@ pub(super) const SIDE: usize = 128;
 
 /// A square of texels.
 #[derive(Clone, Debug)]
-pub(super) enum Block {
+pub(super) enum TexelBlock {
     /// All the same.
     Flat(Texel),
-    /// Row by row, row 0 lowest.
+    /// TracedRow by row, row 0 lowest.
     Full(Box<[Texel]>),
 }
 
 /// A surface's texels, as squares of [`SIDE`]: pure, so that any thread may ask for any of them in any order.
-pub(super) trait Texels: Sync {
-    /// Texels per metre.
+pub(super) trait TexelSource: Sync {
+    /// TexelSource per metre.
     fn density(&self) -> f64;
 
     /// The block whose lower-left texel is `(i0, j0)`. `layer` is a wall's face, 0 for the floor.
-    fn read(&self, layer: usize, i0: i64, j0: i64) -> Block;
+    fn read(&self, layer: usize, i0: i64, j0: i64) -> TexelBlock;
 }
 
 /// A floor at its own texel density.
@@ -36,23 +36,23 @@ pub(super) struct FloorTexels<'a, S> {
     pub texels_per_metre: f64,
 }
 
-impl<S: TextureSource> Texels for FloorTexels<'_, S> {
+impl<S: TextureSource> TexelSource for FloorTexels<'_, S> {
     fn density(&self) -> f64 {
         self.texels_per_metre
     }
 
-    fn read(&self, _: usize, i0: i64, j0: i64) -> Block {
+    fn read(&self, _: usize, i0: i64, j0: i64) -> TexelBlock {
         let block = self.source.resolve(i0, j0, SIDE, SIDE);
         if block.empty {
             let background = self.source.background();
-            return Block::Flat(texel(background.base_color, background.orm));
+            return TexelBlock::Flat(texel(background.base_color, background.orm));
         }
         of_resolved(&block)
     }
 }
 
-fn of_resolved(block: &ResolvedBlock) -> Block {
-    Block::Full(block.base_color.iter().zip(&block.orm).map(|(&colour, &orm)| texel(colour, orm)).collect())
+fn of_resolved(block: &ResolvedBlock) -> TexelBlock {
+    TexelBlock::Full(block.base_color.iter().zip(&block.orm).map(|(&colour, &orm)| texel(colour, orm)).collect())
 }
 
 fn texel(colour: [u8; 3], orm: [u8; 3]) -> Texel {
@@ -68,19 +68,19 @@ pub(super) struct SmallFloor {
     pub roughness: u8,
 }
 
-impl Texels for SmallFloor {
+impl TexelSource for SmallFloor {
     fn density(&self) -> f64 {
         self.pixels_per_metre
     }
 
-    fn read(&self, _: usize, i0: i64, j0: i64) -> Block {
+    fn read(&self, _: usize, i0: i64, j0: i64) -> TexelBlock {
         let (width, height) = (i64::from(self.picture.width()), i64::from(self.picture.height()));
         let pixel = |k: usize| {
             let x = (i0 + (k % SIDE) as i64).clamp(0, width - 1);
             let y = height - 1 - (j0 + (k / SIDE) as i64).clamp(0, height - 1);
             texel(self.picture.get_pixel(x as u32, y as u32).0, [255, self.roughness, 0])
         };
-        Block::Full((0..SIDE * SIDE).map(pixel).collect())
+        TexelBlock::Full((0..SIDE * SIDE).map(pixel).collect())
     }
 }
 
@@ -91,21 +91,21 @@ pub(super) struct WallTexels<'a> {
     pub height_m: f64,
 }
 
-impl Texels for WallTexels<'_> {
+impl TexelSource for WallTexels<'_> {
     fn density(&self) -> f64 {
         self.texels_per_metre
     }
 
-    fn read(&self, layer: usize, i0: i64, j0: i64) -> Block {
+    fn read(&self, layer: usize, i0: i64, j0: i64) -> TexelBlock {
         let background = self.source.background();
         let rows = (self.height_m * self.texels_per_metre).ceil() as i64;
-        // What is above the ceiling or below the floor is never seen itself.
+        // QuadKind is above the ceiling or below the floor is never seen itself.
         if j0 >= rows + 2 || j0 + (SIDE as i64) < -2 {
-            return Block::Flat(texel(background.base_color, background.orm));
+            return TexelBlock::Flat(texel(background.base_color, background.orm));
         }
         let mut block = ResolvedBlock::default();
         self.source.resolve_into(layer, i0, j0, SIDE, SIDE, &mut block);
-        if block.empty { Block::Flat(texel(background.base_color, background.orm)) } else { of_resolved(&block) }
+        if block.empty { TexelBlock::Flat(texel(background.base_color, background.orm)) } else { of_resolved(&block) }
     }
 }
 
@@ -150,16 +150,16 @@ impl<'a> SmallWalls<'a> {
     }
 }
 
-impl Texels for SmallWalls<'_> {
+impl TexelSource for SmallWalls<'_> {
     fn density(&self) -> f64 {
         self.textures.atlas.texels_per_metre / self.factor
     }
 
-    fn read(&self, layer: usize, i0: i64, j0: i64) -> Block {
+    fn read(&self, layer: usize, i0: i64, j0: i64) -> TexelBlock {
         let metre = |texel: i64| (texel as f64 + 0.5) / self.density();
         let rows = (self.textures.atlas.height_m * self.density()).ceil() as i64;
         if j0 >= rows + 2 {
-            return Block::Flat(self.background);
+            return TexelBlock::Flat(self.background);
         }
         let mut texels = vec![self.background; SIDE * SIDE];
         for i in 0..SIDE {
@@ -171,7 +171,7 @@ impl Texels for SmallWalls<'_> {
                 texels[j * SIDE + i] = self.pixel(sheet, [along(0), along(1)]);
             }
         }
-        Block::Full(texels.into_boxed_slice())
+        TexelBlock::Full(texels.into_boxed_slice())
     }
 }
 
@@ -182,18 +182,18 @@ pub(super) struct PlainWalls {
 }
 
 impl PlainWalls {
-    /// What nobody knows more of.
+    /// QuadKind nobody knows more of.
     pub fn of(background: Background, density: f64) -> PlainWalls {
         PlainWalls { density, texel: texel(background.base_color, background.orm) }
     }
 }
 
-impl Texels for PlainWalls {
+impl TexelSource for PlainWalls {
     fn density(&self) -> f64 {
         self.density
     }
 
-    fn read(&self, _: usize, _: i64, _: i64) -> Block {
-        Block::Flat(self.texel)
+    fn read(&self, _: usize, _: i64, _: i64) -> TexelBlock {
+        TexelBlock::Flat(self.texel)
     }
 }

@@ -1,7 +1,7 @@
 //! From linear light to the picture's bytes.
 
-use super::shade::Colour;
-use crate::math::{SplitMix64, exp, pow};
+use super::shade::LinearRgb;
+use crate::math::{SplitMix64, exp, srgb};
 
 /// Up to here light is kept as it is; above, it comes ever closer to white.
 const STRAIGHT: f64 = 0.62;
@@ -27,14 +27,13 @@ impl Tone {
             let rest = 1.0 - STRAIGHT;
             let shown =
                 if light <= STRAIGHT { light } else { STRAIGHT + rest * (1.0 - exp(-(light - STRAIGHT) / rest)) };
-            let s = if shown <= 0.003_130_8 { shown * 12.92 } else { 1.055 * pow(shown, 1.0 / 2.4) - 0.055 };
-            (s * 255.0) as f32
+            (srgb::encode(shown) * 255.0) as f32
         };
         Tone { table: (0..STEPS).map(byte).collect(), exposure }
     }
 
     /// The bytes of a row of a picture of `width` x `height` pixels.
-    pub fn row(&self, row: &[Colour], y: u32, [width, height]: [u32; 2], out: &mut [u8]) {
+    pub fn row(&self, row: &[LinearRgb], y: u32, [width, height]: [u32; 2], out: &mut [u8]) {
         let reach = width as f32 * width as f32 + height as f32 * height as f32;
         let mut random = SplitMix64::new(u64::from(y).wrapping_mul(0x9e37_79b9_7f4a_7c15));
         for (x, (colour, out)) in row.iter().zip(out.chunks_exact_mut(3)).enumerate() {

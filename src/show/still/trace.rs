@@ -1,36 +1,36 @@
 //! Which surface a ray from the camera meets.
 
-use super::space::{Space, What};
+use super::ray_grid::{QuadKind, RayGrid};
 use crate::math::{Vec2, vec2};
 
 /// Way beyond an opening at which nothing but light is seen, metres.
 const OUTSIDE_M: f64 = 14.0;
 
-/// What is seen.
+/// QuadKind is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Surface {
+pub(super) enum HitSurface {
     Floor,
     Ceiling,
-    /// Place in [`Space::pieces`].
+    /// Place in [`RayGrid::pieces`].
     Wall(u32),
     Lintel(u32),
     /// The underside of a lintel.
     Soffit(u32),
-    /// What rooms are cut into, from above.
+    /// QuadKind rooms are cut into, from above.
     Top,
     /// The same from the side.
     Side,
-    /// What the model stands on.
+    /// QuadKind the model stands on.
     Table,
-    /// Light, far beyond an opening.
+    /// Irradiance, far beyond an opening.
     Outside,
     Sky,
 }
 
 /// Where a ray ends.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Hit {
-    pub surface: Surface,
+pub(super) struct RayHit {
+    pub surface: HitSurface,
     /// x, y in the plan frame and height, metres. Beyond openings the plan goes on as its mirror image.
     pub point: [f32; 3],
     /// Unit vector of the ray as it ends.
@@ -81,11 +81,11 @@ impl Ray {
         self.z + self.slope * way
     }
 
-    fn hit(&self, surface: Surface, way: f64) -> Hit {
+    fn hit(&self, surface: HitSurface, way: f64) -> RayHit {
         let p = self.at(way);
         let scale = 1.0 / self.stretch;
         let beyond = if self.beyond > 0.0 { self.beyond + way } else { 0.0 };
-        Hit {
+        RayHit {
             surface,
             point: [p.x as f32, p.y as f32, self.height(way) as f32],
             toward: [self.toward.x * scale, self.toward.y * scale, self.slope * scale].map(|c| c as f32),
@@ -95,38 +95,38 @@ impl Ray {
     }
 }
 
-impl Space {
-    /// What a ray meets from within the rooms, below the ceiling.
-    pub fn trace_inside(&self, position: [f64; 3], way: [f64; 3]) -> Hit {
+impl RayGrid {
+    /// QuadKind a ray meets from within the rooms, below the ceiling.
+    pub fn trace_inside(&self, position: [f64; 3], way: [f64; 3]) -> RayHit {
         let mut ray = Ray::new(position, way);
         loop {
             let (level, end) = if ray.slope < 0.0 {
-                (Surface::Floor, -ray.z / ray.slope)
+                (HitSurface::Floor, -ray.z / ray.slope)
             } else if ray.slope > 0.0 {
-                (Surface::Ceiling, (self.height_m - ray.z) / ray.slope)
+                (HitSurface::Ceiling, (self.height_m - ray.z) / ray.slope)
             } else {
-                (Surface::Outside, 1e6)
+                (HitSurface::Outside, 1e6)
             };
             let end = end.clamp(0.0, 1e6);
-            let solid = |piece: &super::space::Piece, way: f64| match piece.what {
-                What::Lintel(number) => self.under_lintel(&ray, number, way).is_some(),
+            let solid = |piece: &super::ray_grid::WallQuad, way: f64| match piece.what {
+                QuadKind::Lintel(number) => self.under_lintel(&ray, number, way).is_some(),
                 _ => true,
             };
             let Some(met) = self.cast(ray.from, ray.toward, end, solid) else { return ray.hit(level, end) };
             let piece = &self.pieces[met.piece];
             match piece.what {
-                What::Wall(_) => return ray.hit(Surface::Wall(met.piece as u32), met.way_m),
-                What::Lintel(number) => {
+                QuadKind::Wall(_) => return ray.hit(HitSurface::Wall(met.piece as u32), met.way_m),
+                QuadKind::Lintel(number) => {
                     let way = self.under_lintel(&ray, number, met.way_m).unwrap_or(met.way_m);
                     let face = way <= met.way_m;
-                    let surface = if face { Surface::Lintel(met.piece as u32) } else { Surface::Soffit(number) };
+                    let surface = if face { HitSurface::Lintel(met.piece as u32) } else { HitSurface::Soffit(number) };
                     return ray.hit(surface, way);
                 }
-                What::Opening => {
+                QuadKind::Opening => {
                     let walked = met.way_m.max(0.0);
                     let beyond = if ray.beyond > 0.0 { ray.beyond + walked } else { 1e-6 };
                     if beyond > OUTSIDE_M {
-                        return ray.hit(Surface::Outside, walked);
+                        return ray.hit(HitSurface::Outside, walked);
                     }
                     let normal = piece.normal();
                     let toward = ray.toward - normal * (2.0 * ray.toward.dot(normal));
@@ -147,33 +147,33 @@ impl Space {
         (ray.height(leaves) > lintel.low_m).then(|| (lintel.low_m - ray.z) / ray.slope)
     }
 
-    /// What a ray meets from above the walls: the rooms lie open, cut into a block on a table.
-    pub fn trace_above(&self, position: [f64; 3], way: [f64; 3]) -> Hit {
+    /// QuadKind a ray meets from above the walls: the rooms lie open, cut into a block on a table.
+    pub fn trace_above(&self, position: [f64; 3], way: [f64; 3]) -> RayHit {
         let ray = Ray::new(position, way);
         if ray.slope >= -1e-9 {
-            return ray.hit(Surface::Sky, 1.0);
+            return ray.hit(HitSurface::Sky, 1.0);
         }
         let ground = -ray.z / ray.slope;
         if self.is_open() {
-            let surface = if self.is_floor(ray.at(ground)) { Surface::Floor } else { Surface::Table };
+            let surface = if self.is_floor(ray.at(ground)) { HitSurface::Floor } else { HitSurface::Table };
             return ray.hit(surface, ground);
         }
         let top = (self.height_m - ray.z) / ray.slope;
-        let Some((enter, leave)) = self.block_span(&ray) else { return ray.hit(Surface::Table, ground) };
+        let Some((enter, leave)) = self.block_span(&ray) else { return ray.hit(HitSurface::Table, ground) };
         let way = top.max(enter);
         if way >= leave || way >= ground {
-            return ray.hit(Surface::Table, ground);
+            return ray.hit(HitSurface::Table, ground);
         }
         // A hair further, so that it lies within the block.
         let inside = ray.at(way + 1e-6);
         if !self.is_floor(inside) {
-            return ray.hit(if enter > top { Surface::Side } else { Surface::Top }, way);
+            return ray.hit(if enter > top { HitSurface::Side } else { HitSurface::Top }, way);
         }
-        let walls = |piece: &super::space::Piece, _: f64| !matches!(piece.what, What::Lintel(_));
+        let walls = |piece: &super::ray_grid::WallQuad, _: f64| !matches!(piece.what, QuadKind::Lintel(_));
         match self.cast(inside, ray.toward, ground - way, walls) {
-            None => ray.hit(Surface::Floor, ground),
-            Some(met) if self.pieces[met.piece].what == What::Opening => ray.hit(Surface::Table, ground),
-            Some(met) => ray.hit(Surface::Wall(met.piece as u32), way + met.way_m.max(0.0)),
+            None => ray.hit(HitSurface::Floor, ground),
+            Some(met) if self.pieces[met.piece].what == QuadKind::Opening => ray.hit(HitSurface::Table, ground),
+            Some(met) => ray.hit(HitSurface::Wall(met.piece as u32), way + met.way_m.max(0.0)),
         }
     }
 

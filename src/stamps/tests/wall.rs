@@ -5,14 +5,14 @@ use proptest::prelude::*;
 use super::*;
 use crate::marks::Contact;
 use crate::stamps::fixtures::{CLOUD, DRAG, SCUFF, touch, touches, wall_grid, wall_library};
-use crate::stamps::wall_stamper::{Stain, Texels};
+use crate::stamps::wall_stamper::{PlacedStain, TexelRow};
 use crate::sums::WallSums;
 
 const DENSITIES: [f64; 3] = [50.0, 200.0, 1000.0];
 
 fn stamped_on(grid: &WallGrid, options: &StampOptions, contacts: &[Contact]) -> WallSums {
     let mut sums = WallSums::new(grid.clone());
-    sums.add(&WallStamper::new(&wall_library(), grid, options), contacts);
+    sums.add(&WallStamper::new(&wall_library(), grid, options).unwrap(), contacts);
     sums
 }
 
@@ -115,7 +115,7 @@ fn stains_are_stretched_turned_and_mirrored() {
         let half = cloud.coverage.len() / 2;
         cloud.coverage[half..].fill(0);
         let mut sums = WallSums::new(grid.clone());
-        sums.add(&WallStamper::new(&library, &grid, &plain()), &[Contact { mirrored, ..plain_touch }]);
+        sums.add(&WallStamper::new(&library, &grid, &plain()).unwrap(), &[Contact { mirrored, ..plain_touch }]);
         place_and_spread(&sums)[0][1]
     };
     assert!(lopsided(false) > 1.215 && lopsided(true) < 1.185);
@@ -127,7 +127,7 @@ fn drags_fade_along_their_way() {
     let mut library = wall_library();
     library.patterns[usize::from(DRAG)].coverage.fill(255);
     let drag = Contact { pattern: DRAG, length_m: 0.6, breadth_m: 0.08, ..touch(1.0, 1.2) };
-    let stamper = WallStamper::new(&library, &grid, &StampOptions::default());
+    let stamper = WallStamper::new(&library, &grid, &StampOptions::default()).unwrap();
     let (mut start, mut end) = (0.0, 0.0);
     for variation in 0..40 {
         let mut sums = WallSums::new(grid.clone());
@@ -216,9 +216,9 @@ fn on_a_closed_face_a_stain_goes_on_across_the_seam() {
 }
 
 /// Rows laid over the whole strip in pieces that are not those of blocks.
-fn in_other_pieces(stamper: &WallStamper, stain: &Stain, width: usize, height: usize) -> Vec<u32> {
+fn in_other_pieces(stamper: &WallStamper, stain: &PlacedStain, width: usize, height: usize) -> Vec<u32> {
     let mut texels = vec![0u32; width * height];
-    let mut buffers = Texels::new();
+    let mut buffers = TexelRow::new();
     for (j, row) in texels.chunks_mut(width).enumerate() {
         for (k, piece) in row.chunks_mut(97).enumerate() {
             stamper.add_row(stain, [97 * k as i64, j as i64], &mut buffers, piece);
@@ -231,7 +231,7 @@ fn in_other_pieces(stamper: &WallStamper, stain: &Stain, width: usize, height: u
 fn a_stain_that_blocks_cut_is_the_same_as_one_that_they_do_not() {
     for density in DENSITIES {
         let grid = wall_grid(density, &[(1.7, false), (1.3, true)]);
-        let stamper = WallStamper::new(&wall_library(), &grid, &StampOptions::default());
+        let stamper = WallStamper::new(&wall_library(), &grid, &StampOptions::default()).unwrap();
         for contact in touches(if density > 500.0 { 6 } else { 40 }, &grid, 8) {
             let span = grid.faces[contact.face as usize];
             let (width, height) = (span.width as usize, grid.height as usize);
@@ -251,7 +251,7 @@ fn a_stain_that_blocks_cut_is_the_same_as_one_that_they_do_not() {
 
 #[test]
 fn a_stamper_of_floors_makes_nothing_of_wall_patterns() {
-    let stamper = Stamper::new(&wall_library(), super::grid(100.0, 1.0, 1.0), &StampOptions::default());
+    let stamper = Stamper::new(&wall_library(), super::grid(100.0, 1.0, 1.0), &StampOptions::default()).unwrap();
     assert_eq!(stamper.printers.iter().map(Option::is_some).collect::<Vec<_>>(), [false, false, false, true]);
 }
 

@@ -25,7 +25,7 @@ fn walls(texels_per_metre: f64) -> WallGrid {
 }
 
 fn stamper(grid: &WallGrid) -> WallStamper {
-    WallStamper::new(&wall_library(), grid, &StampOptions::default())
+    WallStamper::new(&wall_library(), grid, &StampOptions::default()).unwrap()
 }
 
 fn sums_of(grid: &WallGrid, contacts: &[Contact]) -> WallSums {

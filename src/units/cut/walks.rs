@@ -89,6 +89,7 @@ impl SpotTracks {
             progress.keep_on()?;
             progress.advance(Stage::Motion, motion.share_done());
             resampler.push(&frame);
+            resampler.pass_over_absence();
             while let Some((number, walkers)) = resampler.next() {
                 for walker in walkers {
                     let place_m = spot.of_plan(walker.position_m);

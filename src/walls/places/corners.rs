@@ -1,8 +1,21 @@
 //! Where faces turn: corners, told from the pieces of a curve and from steps of a pixel.
 
-use super::super::Face;
-use super::Corner;
 use crate::math::{Vec2, atan2};
+use crate::walls::Face;
+
+/// A corner of a face: a turn of more than 20 degrees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corner {
+    /// Index into [`crate::walls::Walls::faces`].
+    pub face: usize,
+    /// Arc length from the face's start, metres.
+    pub along_m: f64,
+    /// The vertex, metres.
+    pub point_m: Vec2,
+    /// Turn of the face, radians: positive at an inner corner (the floor fills less than a half turn), negative at an
+    /// outer one.
+    pub turn_rad: f64,
+}
 
 /// A face that turns less than this has no corner there, radians: 20 degrees.
 const LEAST_TURN_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;

@@ -6,11 +6,38 @@
 
 use std::f64::consts::TAU;
 
-use super::super::{Face, Segment, Walls};
 use super::corners::turn_rad;
 use super::rays::{Hit, Rays};
-use super::{DOOR_HEAD_M, DOOR_WIDTHS_M, Doorway};
 use crate::math::{Rect, Vec2, sin_cos, vec2};
+use crate::walls::{Face, Segment, Walls};
+
+/// A doorway: a gap of 0.7 to 2.0 m between two wall ends, with more floor on either side.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Doorway {
+    /// Middles of the two jambs, metres: the line from one to the other is the threshold.
+    pub jambs_m: [Vec2; 2],
+    /// Index into [`crate::walls::Walls::faces`] and arc length of each jamb's middle, metres.
+    pub on_faces: [(usize, f64); 2],
+    /// Thickness of the wall, metres.
+    pub depth_m: f64,
+    /// Unit vector through the door, across the threshold.
+    pub through: Vec2,
+    /// Height of its head above the floor, metres; default [`DOOR_HEAD_M`].
+    pub head_m: f64,
+}
+
+/// Default height of a door's head above the floor, metres.
+pub const DOOR_HEAD_M: f64 = 2.1;
+
+impl Doorway {
+    /// Clear width, metres.
+    pub fn width_m(&self) -> f64 {
+        self.jambs_m[0].distance(self.jambs_m[1])
+    }
+}
+
+/// Range of a door's clear width, metres.
+pub const DOOR_WIDTHS_M: [f64; 2] = [0.7, 2.0];
 
 /// Drawn widths may be off by this much, metres.
 const DRAWN_M: f64 = 0.03;

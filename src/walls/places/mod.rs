@@ -1,4 +1,4 @@
-//! Places of note along the walls: corners and doorways.
+//! Corners and doorways of walls.
 
 mod corners;
 mod doorways;
@@ -9,47 +9,8 @@ mod tests;
 use super::Walls;
 use crate::math::Vec2;
 
-/// A place where a face turns by more than a little.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Corner {
-    /// Index into [`super::Walls::faces`].
-    pub face: usize,
-    /// Arc length from the face's start, metres.
-    pub along_m: f64,
-    /// The vertex, metres.
-    pub point_m: Vec2,
-    /// How far the face turns there, radians; positive at an inner corner (the floor fills less than a half turn),
-    /// negative at an outer one.
-    pub turn_rad: f64,
-}
-
-/// A gap between two wall ends that is as wide as a door: 0.7 to 2.0 m, with more floor on either side.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Doorway {
-    /// Middles of the two jambs, metres: the line from one to the other is the threshold.
-    pub jambs_m: [Vec2; 2],
-    /// Index into [`super::Walls::faces`] and arc length of each jamb's middle, metres.
-    pub on_faces: [(usize, f64); 2],
-    /// Thickness of the wall that it goes through, metres.
-    pub depth_m: f64,
-    /// Unit vector through the door, across the threshold.
-    pub through: Vec2,
-    /// Height of its head above the floor, metres: [`DOOR_HEAD_M`] unless a scenario says otherwise.
-    pub head_m: f64,
-}
-
-/// Height of a door's head above the floor that nobody tells of, metres.
-pub const DOOR_HEAD_M: f64 = 2.1;
-
-impl Doorway {
-    /// Clear width, metres.
-    pub fn width_m(&self) -> f64 {
-        self.jambs_m[0].distance(self.jambs_m[1])
-    }
-}
-
-/// Range of a door's clear width, metres.
-pub const DOOR_WIDTHS_M: [f64; 2] = [0.7, 2.0];
+pub use corners::Corner;
+pub use doorways::{DOOR_HEAD_M, DOOR_WIDTHS_M, Doorway};
 
 impl Walls {
     /// Every place where a face turns by more than 20 degrees, by face and arc length.

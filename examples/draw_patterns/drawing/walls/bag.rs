@@ -3,9 +3,9 @@
 
 use trodden::math::vec2;
 
+use super::super::heel_marks::Stroke;
 use super::Stain;
 use super::touch::{Dab, Rub, Wall};
-use crate::drawing::heel_marks::Stroke;
 
 /// The bags, in the order of `patterns.toml`.
 pub fn all() -> Vec<Stain> {
@@ -136,7 +136,7 @@ fn rucksack() -> Stain {
 
 /// A hard shell: many fine scratches side by side.
 fn scrapes() -> Stain {
-    let draw = |n: u64, k: i64| crate::drawing::noise::hash(n as i64, k, 560);
+    let draw = |n: u64, k: i64| super::super::noise::hash(n as i64, k, 560);
     let lines = (0..11).map(|n| {
         let y = -3.0 + 0.6 * n as f64 + 0.5 * draw(n, 0);
         let from = 1.0 + 9.0 * draw(n, 1);

@@ -2,9 +2,9 @@
 
 use trodden::math::{Vec2, sin_cos, vec2};
 
+use super::super::noise::hash;
 use super::Stain;
 use super::touch::{Dab, Rub, Wall};
-use crate::drawing::noise::hash;
 
 /// The hands, in the order of `patterns.toml`.
 pub fn all() -> Vec<Stain> {

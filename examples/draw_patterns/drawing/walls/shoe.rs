@@ -2,9 +2,9 @@
 
 use trodden::math::{Vec2, vec2};
 
+use super::super::heel_marks::Stroke;
 use super::Stain;
 use super::touch::{Dab, Rub, Wall};
-use crate::drawing::heel_marks::Stroke;
 
 /// The shoes, in the order of `patterns.toml`.
 pub fn all() -> Vec<Stain> {
@@ -151,7 +151,7 @@ fn sole_ball() -> Stain {
 
 /// A treaded toe against the wall, seen in bars.
 fn sole_tread() -> Stain {
-    let draw = |n: u64, k: i64| crate::drawing::noise::hash(n as i64, k, 780);
+    let draw = |n: u64, k: i64| super::super::noise::hash(n as i64, k, 780);
     let bars = (0..7).map(|n| {
         let y = 2.9 - 0.95 * n as f64;
         let half = 3.6 * (1.0 - (y - 0.2) * (y - 0.2) / (4.2 * 4.2)).max(0.05).sqrt();

@@ -3,8 +3,8 @@
 
 use trodden::math::{Vec2, exp, vec2};
 
-use crate::drawing::noise;
-use crate::drawing::shape::{smoothstep, unturned};
+use super::super::noise;
+use super::super::shape::{smoothstep, unturned};
 
 /// Something drawn along the wall: soft at its sides, of streaks that come on and give out one by one.
 #[derive(Clone, Copy)]

@@ -55,7 +55,7 @@ fn written(folder: &OutputFolder, sums: &WallSums, (plan, walls): &(FloorPlan, W
     let entry = |(number, sheet): (usize, &Sheet)| manifest::SheetEntry {
         width_px: sheet.width,
         height_px: sheet.height,
-        sums: format!("sums/wall_sums.{number}.exr"),
+        sums: manifest::BakePath::new(format!("sums/wall_sums.{number}.exr")).unwrap(),
         ..manifest::SheetEntry::default()
     };
     let textures = WallTextures {

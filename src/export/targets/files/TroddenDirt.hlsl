@@ -8,10 +8,10 @@
 #ifndef TRODDEN_DIRT_INCLUDED
 #define TRODDEN_DIRT_INCLUDED
 
-// `Amount` scales each kind of dirt: (1, 0, 1, 1) is what was baked, since passes only count people. Masks hold
-// 1 - exp(-density): R film, G passes, B prints and scuffs, A edge and dust. Colours are linear.
+// `Amount` scales each kind of dirt: (1, 1, 1) is what was baked. Masks hold 1 - exp(-density): R film, G prints and
+// scuffs, B edge and dust. Colours are linear.
 void TroddenDirt_float(
-    float3 World, UnityTexture2D Mask, float2 Origin, float2 Size, float4 Amount, float3 FloorColour,
+    float3 World, UnityTexture2D Mask, float2 Origin, float2 Size, float3 Amount, float3 FloorColour,
     float FloorSmoothness, out float3 Colour, out float Smoothness)
 {
     const float3 dry = float3(0.174647, 0.147027, 0.111932);
@@ -19,17 +19,17 @@ void TroddenDirt_float(
     const float dirtSmoothness = 0.45;
     float2 uv = (World.xz - Origin) / Size;
     float2 inside = step(0.0, uv) * step(uv, 1.0);
-    float4 masks = SAMPLE_TEXTURE2D(Mask.tex, Mask.samplerstate, uv) * (inside.x * inside.y);
-    float4 density = -log(max(1.0 - masks, 0.002)) * Amount;
-    float total = density.r + density.g + density.b + density.a;
+    float3 masks = SAMPLE_TEXTURE2D(Mask.tex, Mask.samplerstate, uv).rgb * (inside.x * inside.y);
+    float3 density = -log(max(1.0 - masks, 0.002)) * Amount;
+    float total = density.r + density.g + density.b;
     float through = exp(-total);
-    float3 dirt = (dry * (density.r + density.g + density.a) + prints * density.b) / max(total, 1e-6);
+    float3 dirt = (dry * (density.r + density.b) + prints * density.g) / max(total, 1e-6);
     Colour = lerp(dirt, FloorColour, through);
     Smoothness = lerp(dirtSmoothness, FloorSmoothness, through);
 }
 
 void TroddenDirt_half(
-    half3 World, UnityTexture2D Mask, half2 Origin, half2 Size, half4 Amount, half3 FloorColour,
+    half3 World, UnityTexture2D Mask, half2 Origin, half2 Size, half3 Amount, half3 FloorColour,
     half FloorSmoothness, out half3 Colour, out half Smoothness)
 {
     float3 colour;

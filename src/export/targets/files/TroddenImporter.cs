@@ -15,7 +15,7 @@ public class TroddenImporter : AssetPostprocessor
 {
     // Floor_BaseMap_1001.png, Wall_DirtMask_1002.png, Floor_Layers1_u012_v000.exr
     private static readonly Regex Texture = new Regex(
-        @"^(Floor|Wall)_(BaseMap|DirtMask|ORM|MaskMap|Layers\d+)_(\d{4}|u\d{3}_v\d{3})\.(png|exr)$");
+        @"^(Floor|Wall)_(BaseMap|DirtMask|Passes|Splash|ORM|MaskMap|Layers\d+)_(\d{4}|u\d{3}_v\d{3})\.(png|exr)$");
 
     private void OnPreprocessTexture()
     {

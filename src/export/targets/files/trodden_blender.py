@@ -12,11 +12,13 @@ What it does:
 - each material named with --over gets the group between what feeds its Principled BSDF and the BSDF. With another
   floor height or place of your model nothing has to be done; move the group's input Offset with the model.
 
-Masks come as Non-Color and with channels packed, at full size.
+Masks come as Non-Color, at full size. Run it again after another bake to the same folder: what it made before is
+updated in its place, and your own changes of materials and of objects' places stay.
 """
 
 import argparse
 import json
+import re
 import sys
 from pathlib import Path
 
@@ -26,6 +28,9 @@ import bpy
 DRY = (0.174647, 0.147027, 0.111932)
 PRINTS = (0.0989, 0.084601, 0.066576)
 DIRT_ROUGHNESS = 0.55
+
+# The property that says from which bake something is, and what it was called there.
+TAG = "trodden"
 
 
 def find_bake():
@@ -88,34 +93,108 @@ class Nodes:
 
 
 def load_mask(path):
+    """The image of a mask: read again where an earlier run has loaded it."""
     image = bpy.data.images.load(str(path), check_existing=True)
+    image.reload()
     image.colorspace_settings.name = "Non-Color"
-    image.alpha_mode = "CHANNEL_PACKED"
     return image
+
+
+def tag(bake, thing):
+    """What a thing of the scene is called in the bake, without the number that Blender adds to a name in use."""
+    name = Path(thing.filepath).name if isinstance(thing, bpy.types.Image) and thing.filepath else thing.name
+    return f"{bake.name}/{re.sub(r'[.][0-9]{3}$', '', name)}"
+
+
+def update_mesh(old, new):
+    """Gives a mesh's users the new one, with the materials that the old one had."""
+    for index, material in enumerate(old.materials):
+        if index < len(new.materials):
+            new.materials[index] = material
+    name = old.name
+    old.user_remap(new)
+    bpy.data.meshes.remove(old)
+    new.name = name
+
+
+def update_image(old, new):
+    """Reads an image again from where it is now."""
+    old.filepath = new.filepath
+    if new.packed_file:
+        data = new.packed_file.data
+        old.pack(data=data, data_len=len(data))
+    old.reload()
+    new.user_remap(old)
+    bpy.data.images.remove(new)
+
+
+def update_material(old, new):
+    """Keeps a material as it is, but for the plain values of its BSDF."""
+    def pins(material):
+        nodes = [node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED"]
+        return {pin.name: pin for node in nodes for pin in node.inputs if not pin.is_linked}
+
+    old_pins, new_pins = pins(old), pins(new)
+    for name in ("Base Color", "Roughness"):
+        if name in old_pins and name in new_pins:
+            old_pins[name].default_value = new_pins[name].default_value
+    new.user_remap(old)
+    bpy.data.materials.remove(new)
+
+
+def update_object(old, new):
+    """Keeps an object where it is: its mesh is the new one already."""
+    bpy.data.objects.remove(new)
+
+
+def import_scene(bake):
+    """Imports scene.glb. What an earlier run imported of it is updated in its place."""
+    kinds = {"images": update_image, "materials": update_material, "meshes": update_mesh, "objects": update_object}
+    there = {kind: set(getattr(bpy.data, kind)) for kind in kinds}
+    earlier = {
+        kind: {thing[TAG]: thing for thing in things if thing.get(TAG, "").startswith(f"{bake.name}/")}
+        for kind, things in there.items()}
+    bpy.ops.import_scene.gltf(filepath=str(bake / "scene.glb"))
+    for kind, update in kinds.items():
+        for thing in [thing for thing in getattr(bpy.data, kind) if thing not in there[kind]]:
+            name = tag(bake, thing)
+            old = earlier[kind].pop(name, None)
+            # A new mesh takes the old one's place, so it has to be known the next time.
+            if old is None or kind == "meshes":
+                thing[TAG] = name
+            if old is not None:
+                update(old, thing)
+    # Pieces that the new bake does not have.
+    for thing in earlier["objects"].values():
+        bpy.data.objects.remove(thing)
 
 
 def add_masks(nodes, bake, tiles, position):
     """Film, prints and edge at a place of the world, from all tiles; nothing beyond them."""
-    colour, alpha = None, None
+    masks = None
     for tile in tiles:
         world = tile["world"]
         shifted = nodes.vector("SUBTRACT", position, (*world["origin"], 0.0))
         uv = nodes.vector("DIVIDE", shifted, (*world["size"], 1.0))
         image = nodes.add("ShaderNodeTexImage", extension="CLIP", image=load_mask(bake / tile["mask"]))
         nodes.put(image.inputs["Vector"], uv)
-        colour = image.outputs["Color"] if colour is None else nodes.vector("ADD", colour, image.outputs["Color"])
-        alpha = image.outputs["Alpha"] if alpha is None else nodes.math("ADD", alpha, image.outputs["Alpha"])
+        masks = image.outputs["Color"] if masks is None else nodes.vector("ADD", masks, image.outputs["Color"])
     split = nodes.add("ShaderNodeSeparateXYZ")
-    nodes.put(split.inputs[0], colour)
-    return split.outputs["X"], split.outputs["Z"], alpha
+    nodes.put(split.inputs[0], masks)
+    return split.outputs["X"], split.outputs["Y"], split.outputs["Z"]
 
 
 def make_group(bake, manifest):
     """The node group of the dirt. Masks hold 1 - exp(-density)."""
     name = f"Trodden dirt {bake.name}"
-    old = bpy.data.node_groups.get(name)
-    group = bpy.data.node_groups.new(name, "ShaderNodeTree")
-    socket = group.interface.new_socket
+    group = bpy.data.node_groups.get(name) or bpy.data.node_groups.new(name, "ShaderNodeTree")
+    # In the same group: materials that use it keep their links and their sliders.
+    group.nodes.clear()
+    made = {(item.name, item.in_out): item for item in group.interface.items_tree if item.item_type == "SOCKET"}
+
+    def socket(name, in_out, socket_type):
+        return made.get((name, in_out)) or group.interface.new_socket(name, in_out=in_out, socket_type=socket_type)
+
     socket("Color", in_out="INPUT", socket_type="NodeSocketColor").default_value = (0.5, 0.5, 0.5, 1.0)
     socket("Roughness", in_out="INPUT", socket_type="NodeSocketFloat").default_value = 0.35
     for amount in ("Film", "Prints", "Edge"):
@@ -142,11 +221,6 @@ def make_group(bake, manifest):
     result = nodes.add("NodeGroupOutput").inputs
     nodes.put(result["Color"], nodes.mix(through, dirt, given["Color"], "RGBA"))
     nodes.put(result["Roughness"], nodes.mix(through, DIRT_ROUGHNESS, given["Roughness"], "FLOAT"))
-    if old is not None:
-        # Only now: materials that use the old one keep their links where the new one has the same sockets.
-        old.user_remap(group)
-        bpy.data.node_groups.remove(old)
-        group.name = name
     return group
 
 
@@ -180,9 +254,8 @@ def main():
     manifest = json.loads((bake / "manifest.json").read_text(encoding="utf-8"))
     if manifest.get("target", {}).get("uv_axes") != ["X", "Y"] or manifest["target"]["units_per_metre"] != 1:
         raise ValueError("this bake was not made with --target blender")
-    scene = bake / "scene.glb"
-    if scene.is_file() and not options.no_scene:
-        bpy.ops.import_scene.gltf(filepath=str(scene))
+    if (bake / "scene.glb").is_file() and not options.no_scene:
+        import_scene(bake)
     group = make_group(bake, manifest)
     for name in options.over:
         if name not in bpy.data.materials:

@@ -8,6 +8,9 @@ Textures come to /Game/Trodden/NAME with their flags set: base colour sRGB, mask
 full size, clamped. MF_TroddenDirt there takes your floor's BaseColor and Roughness and gives both with the dirt over
 them, in world space: put it in front of the outputs of your own floor material. It expects the plan's lower-left corner
 at the world's origin, where scene.glb comes to lie; move both together with the input Offset.
+
+Run it again after another bake to the same folder: textures are replaced, and the function gets new nodes inside, so
+that materials keep their links to it.
 """
 
 import json
@@ -24,6 +27,8 @@ FOLDER = f"/Game/Trodden/{NAME}"
 COMPRESSION = {
     "basecolor": unreal.TextureCompressionSettings.TC_DEFAULT,
     "mask": unreal.TextureCompressionSettings.TC_MASKS,
+    "passes": unreal.TextureCompressionSettings.TC_GRAYSCALE,
+    "splash": unreal.TextureCompressionSettings.TC_GRAYSCALE,
     "orm": unreal.TextureCompressionSettings.TC_MASKS,
     "layers": unreal.TextureCompressionSettings.TC_HDR,
 }
@@ -61,6 +66,9 @@ def import_all(entry):
     """Imports all images of a tile or sheet; gives its mask."""
     import_texture(entry["basecolor"], "basecolor")
     import_texture(entry["orm"], "orm")
+    for lone in ("passes", "splash"):
+        if lone in entry:
+            import_texture(entry[lone], lone)
     layers = entry.get("layers", [])
     for file in [layers] if isinstance(layers, str) else layers:
         import_texture(file, "layers")
@@ -72,11 +80,38 @@ class Function:
 
     def __init__(self, name):
         path = f"{FOLDER}/{name}"
-        if unreal.EditorAssetLibrary.does_asset_exist(path):
-            unreal.EditorAssetLibrary.delete_asset(path)
-        tools = unreal.AssetToolsHelpers.get_asset_tools()
-        self.asset = tools.create_asset(name, FOLDER, unreal.MaterialFunction, unreal.MaterialFunctionFactoryNew())
         self.row = 0
+        # Inputs and outputs by name. Materials know them by numbers of their own, which new ones would not have.
+        self.pins = {}
+        if unreal.EditorAssetLibrary.does_asset_exist(path):
+            self.asset = unreal.load_asset(path)
+            self.clear()
+        else:
+            tools = unreal.AssetToolsHelpers.get_asset_tools()
+            self.asset = tools.create_asset(name, FOLDER, unreal.MaterialFunction, unreal.MaterialFunctionFactoryNew())
+
+    def clear(self):
+        """Deletes all nodes but the inputs and outputs."""
+        names = {
+            unreal.MaterialExpressionFunctionInput: "input_name",
+            unreal.MaterialExpressionFunctionOutput: "output_name",
+        }
+        nodes = [node for node in unreal.ObjectIterator(unreal.MaterialExpression) if node.get_outer() == self.asset]
+        for node in nodes:
+            kind = type(node)
+            if kind in names:
+                self.pins[(kind, str(node.get_editor_property(names[kind])))] = node
+            else:
+                unreal.MaterialEditingLibrary.delete_material_expression_in_function(self.asset, node)
+
+    def pin(self, kind, name, x, **properties):
+        """An input or output: the one that an earlier run made, if there is one."""
+        node = self.pins.get((kind, name))
+        if node is None:
+            return self.node(kind, x, **properties)
+        for key, value in properties.items():
+            node.set_editor_property(key, value)
+        return node
 
     def node(self, kind, x, **properties):
         self.row += 160
@@ -87,11 +122,11 @@ class Function:
 
     def input(self, name, kind, preview):
         kind = getattr(unreal.FunctionInputType, f"FUNCTION_INPUT_{kind}")
-        return self.node(
-            unreal.MaterialExpressionFunctionInput, -900, input_name=name, input_type=kind,
+        return self.pin(
+            unreal.MaterialExpressionFunctionInput, name, -900, input_name=name, input_type=kind,
             preview_value=unreal.Vector4f(*preview), use_preview_value_as_default=True)
 
-    def custom(self, file, x, inputs):
+    def custom(self, file, x, inputs, channels):
         """A Custom node with the code of a file beside this script; `inputs` are names and nodes."""
         pins = []
         for name in inputs:
@@ -100,7 +135,8 @@ class Function:
             pins.append(pin)
         node = self.node(
             unreal.MaterialExpressionCustom, x, code=(BAKE / "shaders" / file).read_text(encoding="utf-8"),
-            output_type=unreal.CustomMaterialOutputType.CMOT_FLOAT4, inputs=pins, description=Path(file).stem)
+            output_type=getattr(unreal.CustomMaterialOutputType, f"CMOT_FLOAT{channels}"), inputs=pins,
+            description=Path(file).stem)
         for name, source in inputs.items():
             self.connect(source, node, name)
         return node
@@ -109,7 +145,7 @@ class Function:
         mask = self.node(
             unreal.MaterialExpressionComponentMask, 300, **{c: c in channels for c in "rgba"})
         self.connect(source, mask, "")
-        node = self.node(unreal.MaterialExpressionFunctionOutput, 500, output_name=name)
+        node = self.pin(unreal.MaterialExpressionFunctionOutput, name, 500, output_name=name)
         self.connect(mask, node, "")
 
     @staticmethod
@@ -127,7 +163,7 @@ def make_function(tiles):
     function = Function("MF_TroddenDirt")
     colour = function.input("BaseColor", "VECTOR3", (0.5, 0.5, 0.5, 0.0))
     roughness = function.input("Roughness", "SCALAR", (0.35, 0.0, 0.0, 0.0))
-    amount = function.input("Amount", "VECTOR4", (1.0, 0.0, 1.0, 1.0))
+    amount = function.input("Amount", "VECTOR3", (1.0, 1.0, 1.0, 0.0))
     offset = function.input("Offset", "VECTOR3", (0.0, 0.0, 0.0, 0.0))
     position = function.node(unreal.MaterialExpressionWorldPosition, -900)
     world = function.node(unreal.MaterialExpressionSubtract, -700)
@@ -141,7 +177,7 @@ def make_function(tiles):
         place = function.node(
             unreal.MaterialExpressionConstant4Vector, -600,
             constant=unreal.LinearColor(*entry["world"]["origin"], *entry["world"]["size"]))
-        tile = function.custom("trodden_dirt.hlsl", -300, {"World": world, "Mask": texture, "Place": place})
+        tile = function.custom("trodden_dirt.hlsl", -300, {"World": world, "Mask": texture, "Place": place}, 3)
         if masks is not None:
             both = function.node(unreal.MaterialExpressionAdd, -150)
             function.connect(masks, both, "A")
@@ -150,7 +186,7 @@ def make_function(tiles):
         masks = tile
     mixed = function.custom(
         "trodden_mix.hlsl", 100,
-        {"Masks": masks, "Amount": amount, "FloorColour": colour, "FloorRoughness": roughness})
+        {"Masks": masks, "Amount": amount, "FloorColour": colour, "FloorRoughness": roughness}, 4)
     function.output("BaseColor", mixed, "rgb")
     function.output("Roughness", mixed, "a")
     function.save()

@@ -14,8 +14,8 @@ function invalidate() {
 
 function frame(now) {
   waiting = false;
-  // Who sets out has not walked since the last frame: the first step is a frame's.
-  const seconds = moving && now - last < 200 ? (now - last) / 1000 : 1 / 60;
+  // The first step of a walk lasts a frame. No step is longer than 0.2 s, so that nothing jumps after a pause.
+  const seconds = moving ? Math.min((now - last) / 1000, 0.2) : 1 / 60;
   last = now;
   moving = advance(seconds);
   if (moving) invalidate();

@@ -4,10 +4,11 @@ use std::io::{self, Write};
 
 use serde_json::{Value, json};
 
-use super::picture::{self, Picture};
-use super::{Cover, GlbImage, GlbOptions, PlainMaterial, has_short_indices, y_up};
+use super::options::{GlbImage, GlbOptions, PlainMaterial, SurfaceImages};
+use super::picture::{self, TextureContent};
 use crate::export::GENERATOR;
-use crate::show::scene::{Part, Scene};
+use crate::math::srgb;
+use crate::show::scene::model::{Mesh, Scene, SceneSurface};
 
 // Numbers that glTF 2.0 has for them.
 const FLOAT: u32 = 5126;
@@ -20,8 +21,8 @@ const LINEAR_MIPMAP_LINEAR: u32 = 9987;
 const CLAMP_TO_EDGE: u32 = 33071;
 
 /// The whole file but for its framing. What the binary chunk holds is written part by part, never held whole.
-pub(super) struct Document<'a> {
-    parts: Vec<&'a Part>,
+pub(super) struct GltfDocument<'a> {
+    parts: Vec<&'a Mesh>,
     pictures: Vec<Vec<u8>>,
     root: Value,
     length: usize,
@@ -42,9 +43,9 @@ struct Lists {
     length: usize,
 }
 
-impl<'a> Document<'a> {
-    pub fn new(scene: &'a Scene, options: &GlbOptions) -> io::Result<Document<'a>> {
-        let parts: Vec<&Part> = scene.parts.iter().filter(|part| !part.indices.is_empty()).collect();
+impl<'a> GltfDocument<'a> {
+    pub fn new(scene: &'a Scene, options: &GlbOptions) -> io::Result<GltfDocument<'a>> {
+        let parts: Vec<&Mesh> = scene.meshes.iter().filter(|part| !part.indices.is_empty()).collect();
         let mut lists = Lists::default();
         for part in &parts {
             lists.add_part(part, &Cover::of(part.surface, options));
@@ -65,7 +66,7 @@ impl<'a> Document<'a> {
             "scenes": [{ "name": options.name, "nodes": [lists.nodes.len() - 1] }],
         });
         let (length, pictures) = (lists.length, std::mem::take(&mut lists.pictures));
-        Ok(Document { parts, pictures, root: lists.into_root(root), length })
+        Ok(GltfDocument { parts, pictures, root: lists.into_root(root), length })
     }
 
     /// The JSON chunk's bytes.
@@ -133,7 +134,7 @@ impl Lists {
     }
 
     /// Node and mesh of a part; its material has the part's number.
-    fn add_part(&mut self, part: &Part, cover: &Cover) {
+    fn add_part(&mut self, part: &Mesh, cover: &Cover) {
         let short = has_short_indices(part);
         let (kind, size) = if short { (UNSIGNED_SHORT, 2) } else { (UNSIGNED_INT, 4) };
         let view = self.view(part.indices.len() * size, Some(ELEMENT_ARRAY_BUFFER));
@@ -156,8 +157,8 @@ impl Lists {
         debug_assert_eq!(part, self.materials.len());
         let material = match cover {
             Cover::Textured(images) => {
-                let base_color = self.texture(&images.name, "basecolor", Picture::Colour, images.base_color)?;
-                let orm = self.texture(&images.name, "orm", Picture::Data, images.orm)?;
+                let base_color = self.texture(&images.name, "basecolor", TextureContent::Colour, images.base_color)?;
+                let orm = self.texture(&images.name, "orm", TextureContent::Data, images.orm)?;
                 json!({
                     "name": images.name,
                     "pbrMetallicRoughness": {
@@ -175,7 +176,7 @@ impl Lists {
         Ok(())
     }
 
-    fn texture(&mut self, name: &str, kind: &str, picture: Picture, image: GlbImage) -> io::Result<usize> {
+    fn texture(&mut self, name: &str, kind: &str, picture: TextureContent, image: GlbImage) -> io::Result<usize> {
         let image = match image {
             GlbImage::File(path) => json!({ "name": format!("{name}_{kind}"), "uri": picture::uri(path) }),
             GlbImage::Embedded(image) => {
@@ -220,7 +221,7 @@ impl Lists {
 }
 
 fn plain_material(name: &str, plain: PlainMaterial) -> Value {
-    let [red, green, blue] = plain.colour.map(picture::linear);
+    let [red, green, blue] = srgb::light_of(plain.colour);
     let roughness = if plain.roughness.is_finite() { plain.roughness.clamp(0.0, 1.0) } else { 1.0 };
     json!({
         "name": name,
@@ -241,4 +242,46 @@ fn bounds(points: impl Iterator<Item = [f32; 3]>) -> Option<[[f32; 3]; 2]> {
         }
         Some([least, greatest])
     })
+}
+
+/// Plan frame to glTF's.
+fn y_up([x, y, height]: [f32; 3]) -> [f32; 3] {
+    // Adding zero turns -0 into 0.
+    [x, height, -y + 0.0]
+}
+
+/// Whether 16 bits are enough for a part's indices; 65535 has a meaning of its own.
+fn has_short_indices(part: &Mesh) -> bool {
+    part.positions_m.len() <= usize::from(u16::MAX)
+}
+
+/// What stands for a surface in the file.
+enum Cover<'a> {
+    Textured(&'a SurfaceImages<'a>),
+    Plain(&'static str, PlainMaterial),
+}
+
+impl<'a> Cover<'a> {
+    fn of(surface: SceneSurface, options: &'a GlbOptions<'a>) -> Cover<'a> {
+        let textured = match surface {
+            SceneSurface::FloorTile(tile) => options.floor.get(tile),
+            SceneSurface::WallSheet(sheet) => options.walls.get(sheet),
+            SceneSurface::WallTop | SceneSurface::Lintel => None,
+        };
+        let name = match surface {
+            SceneSurface::FloorTile(_) => "floor",
+            SceneSurface::WallSheet(_) => "wall",
+            SceneSurface::WallTop => "wall_tops",
+            SceneSurface::Lintel => "clean_wall",
+        };
+        let plain = if surface == SceneSurface::WallTop { options.wall_top } else { options.clean_wall };
+        textured.map_or(Cover::Plain(name, plain), Cover::Textured)
+    }
+
+    fn name(&self) -> &str {
+        match self {
+            Cover::Textured(images) => &images.name,
+            Cover::Plain(name, _) => name,
+        }
+    }
 }

@@ -5,34 +5,34 @@ use std::io::{self, Cursor};
 use image::codecs::jpeg::JpegEncoder;
 use image::{ImageFormat, RgbImage};
 
-use super::MOST_EMBEDDED_PX;
-use crate::math;
+use super::options::MOST_EMBEDDED_PX;
+use crate::export::reduction::{halved_colours, halved_numbers};
 
 /// Quality of base colour within the scene, 1 to 100.
 const JPEG_QUALITY: u8 = 92;
 
 /// What an image holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Picture {
+pub(super) enum TextureContent {
     /// sRGB colour: averaged as light, kept as JPEG.
     Colour,
     /// Numbers: averaged as they are, kept without loss.
     Data,
 }
 
-impl Picture {
+impl TextureContent {
     /// The image's media type and its file, halved until it fits.
     pub fn encode(self, image: &RgbImage) -> io::Result<(&'static str, Vec<u8>)> {
         let smaller = self.fitting(image);
         let image = smaller.as_ref().unwrap_or(image);
         let mut bytes = Vec::new();
         match self {
-            Picture::Colour => {
+            TextureContent::Colour => {
                 let mut encoder = JpegEncoder::new_with_quality(&mut bytes, JPEG_QUALITY);
                 encoder.encode_image(image).map_err(io::Error::other)?;
                 Ok(("image/jpeg", bytes))
             }
-            Picture::Data => {
+            TextureContent::Data => {
                 image.write_to(&mut Cursor::new(&mut bytes), ImageFormat::Png).map_err(io::Error::other)?;
                 Ok(("image/png", bytes))
             }
@@ -50,28 +50,11 @@ impl Picture {
     }
 
     fn halved(self, image: &RgbImage) -> RgbImage {
-        let (width, height) = image.dimensions();
-        let table: Vec<f32> =
-            (0..=255).map(|v| if self == Picture::Colour { linear(v) } else { f32::from(v) }).collect();
-        RgbImage::from_fn(width.div_ceil(2), height.div_ceil(2), |x, y| {
-            let at = |dx: u32, dy: u32| image.get_pixel((2 * x + dx).min(width - 1), (2 * y + dy).min(height - 1)).0;
-            let four = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
-            image::Rgb([0, 1, 2].map(|k| {
-                let mean = four.iter().map(|p| table[usize::from(p[k])]).sum::<f32>() * 0.25;
-                // The value whose light is nearest.
-                let above = table.partition_point(|&light| light < mean).min(255);
-                let below = above.saturating_sub(1);
-                if mean - table[below] < table[above] - mean { below as u8 } else { above as u8 }
-            }))
-        })
+        match self {
+            TextureContent::Colour => halved_colours(image),
+            TextureContent::Data => halved_numbers(image),
+        }
     }
-}
-
-/// The light of an sRGB value, 0 to 1, rounded to what 8 bits resolve and more (IEC 61966-2-1).
-pub(super) fn linear(srgb: u8) -> f32 {
-    let v = f64::from(srgb) / 255.0;
-    let light = if v <= 0.04045 { v / 12.92 } else { math::pow((v + 0.055) / 1.055, 2.4) };
-    light as f32
 }
 
 /// A relative path as a URI reference: everything but letters, digits and `-._~/` escaped (RFC 3986).
@@ -99,19 +82,19 @@ mod tests {
     #[test]
     fn a_large_image_is_halved_as_light() {
         let stripes = RgbImage::from_fn(4096, 3, |x, _| image::Rgb(if x % 2 == 0 { [0; 3] } else { [255; 3] }));
-        let colour = Picture::Colour.fitting(&stripes).unwrap();
+        let colour = TextureContent::Colour.fitting(&stripes).unwrap();
         assert_eq!(colour.dimensions(), (2048, 2));
         assert!(colour.pixels().all(|p| p.0 == [188; 3]), "{:?}", colour.get_pixel(0, 0));
-        let data = Picture::Data.fitting(&stripes).unwrap();
+        let data = TextureContent::Data.fitting(&stripes).unwrap();
         assert!(data.pixels().all(|p| p.0[0] == 127 || p.0[0] == 128));
-        assert_eq!(Picture::Data.fitting(&RgbImage::new(2048, 2048)), None);
+        assert_eq!(TextureContent::Data.fitting(&RgbImage::new(2048, 2048)), None);
     }
 
     #[test]
     fn halving_keeps_an_even_colour() {
         for value in 0..=255 {
             let even = RgbImage::from_pixel(2, 2, image::Rgb([value; 3]));
-            assert_eq!(Picture::Colour.halved(&even).get_pixel(0, 0).0, [value; 3]);
+            assert_eq!(TextureContent::Colour.halved(&even).get_pixel(0, 0).0, [value; 3]);
         }
     }
 }

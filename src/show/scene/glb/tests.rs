@@ -1,6 +1,8 @@
+use image::RgbImage;
 use serde_json::Value;
 
 use super::*;
+use crate::show::scene::{Mesh, Scene, SceneSurface};
 
 /// A file taken apart again.
 struct Parsed {
@@ -54,9 +56,9 @@ impl Parsed {
     }
 }
 
-fn triangle(surface: Surface) -> Part {
-    let textured = matches!(surface, Surface::FloorTile(_) | Surface::WallSheet(_));
-    Part {
+fn triangle(surface: SceneSurface) -> Mesh {
+    let textured = matches!(surface, SceneSurface::FloorTile(_) | SceneSurface::WallSheet(_));
+    Mesh {
         surface,
         positions_m: vec![[1.0, 2.0, 0.0], [4.0, 2.0, 0.1], [4.0, 6.5, 0.3]],
         normals: vec![[0.0, 0.0, 1.0]; 3],
@@ -71,7 +73,7 @@ fn files<'a>(name: &str, base_color: &'a str, orm: &'a str) -> SurfaceImages<'a>
 
 #[test]
 fn a_part_is_found_again_with_y_up() {
-    let scene = Scene { parts: vec![triangle(Surface::FloorTile(0)), triangle(Surface::WallTop)] };
+    let scene = Scene { meshes: vec![triangle(SceneSurface::FloorTile(0)), triangle(SceneSurface::WallTop)] };
     let floor = vec![files("floor_1001", "floor/floor base.1001.png", "floor/floor_orm.1001.png")];
     let options = GlbOptions { name: "Hall \"A\"".to_string(), seed: u64::MAX, floor, ..GlbOptions::default() };
     let file = parsed(&written(&scene, &options));
@@ -108,7 +110,7 @@ fn a_part_is_found_again_with_y_up() {
 
 #[test]
 fn embedded_images_are_whole_files() {
-    let scene = Scene { parts: vec![triangle(Surface::WallSheet(0))] };
+    let scene = Scene { meshes: vec![triangle(SceneSurface::WallSheet(0))] };
     let colour = RgbImage::from_fn(64, 32, |x, y| image::Rgb([x as u8 * 3, y as u8 * 7, 90]));
     let orm = RgbImage::from_fn(31, 17, |x, y| image::Rgb([255, (x * y) as u8, 0]));
     let images = SurfaceImages {
@@ -135,9 +137,9 @@ fn embedded_images_are_whole_files() {
 
 #[test]
 fn indices_have_16_bits_where_that_is_enough() {
-    let mut part = triangle(Surface::Lintel);
-    let kind = |part: &Part| {
-        let file = parsed(&written(&Scene { parts: vec![part.clone()] }, &GlbOptions::default()));
+    let mut part = triangle(SceneSurface::Lintel);
+    let kind = |part: &Mesh| {
+        let file = parsed(&written(&Scene { meshes: vec![part.clone()] }, &GlbOptions::default()));
         let primitive = &file.json["meshes"][0]["primitives"][0];
         assert_eq!(file.numbers(&primitive["indices"]), part.indices.iter().map(|&i| f64::from(i)).collect::<Vec<_>>());
         file.json["accessors"][0]["componentType"].as_u64().unwrap()
@@ -154,10 +156,11 @@ fn indices_have_16_bits_where_that_is_enough() {
 
 #[test]
 fn surfaces_without_images_are_plain() {
-    let parts = vec![triangle(Surface::FloorTile(3)), triangle(Surface::WallTop), triangle(Surface::Lintel)];
+    let parts =
+        vec![triangle(SceneSurface::FloorTile(3)), triangle(SceneSurface::WallTop), triangle(SceneSurface::Lintel)];
     let wall_top = PlainMaterial { colour: [0, 255, 188], roughness: f32::NAN };
     let options = GlbOptions { wall_top, ..GlbOptions::default() };
-    let json = parsed(&written(&Scene { parts }, &options)).json;
+    let json = parsed(&written(&Scene { meshes: parts }, &options)).json;
     assert_eq!((json.get("images"), json.get("samplers")), (None, None));
     let top = &json["materials"][1]["pbrMetallicRoughness"];
     let colour: Vec<f64> = top["baseColorFactor"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();

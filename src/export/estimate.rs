@@ -1,0 +1,125 @@
+//! How much a bake will write, told before anything long is done.
+
+use std::path::Path;
+
+use super::layout::TileLayout;
+use super::{ExportError, TextureOptions};
+use crate::plan::FloorPlan;
+use crate::stamps::{TexelGrid, WallGrid};
+
+/// A bake of more bytes has to be asked for.
+pub const LARGE_BYTES: u64 = 20_000_000_000;
+
+/// Bytes on the disk for a texel of floor and of wall, all files together: about the mean over bakes of hundreds to
+/// thousands of people. Where few walk, it is a third of it; where all floor is trodden, three times as much.
+const FLOOR_BYTES: f64 = 2.0;
+const WALL_BYTES: f64 = 0.8;
+/// How much more it is with the layers on their own.
+const WITH_LAYERS: f64 = 2.0;
+
+/// How much a bake will write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Estimate {
+    /// Floor tiles.
+    pub tiles: u64,
+    /// Wall sheets, about.
+    pub sheets: u64,
+    /// Largest side of a texture, texels.
+    pub tile_px: u32,
+    /// Bytes of all files, about.
+    pub bytes: u64,
+}
+
+impl Estimate {
+    /// What the textures of a plan will take: floor by its area, walls by theirs.
+    ///
+    /// # Errors
+    /// A tile size out of range.
+    pub fn of(
+        plan: &FloorPlan,
+        floor: TexelGrid,
+        walls: Option<&WallGrid>,
+        options: &TextureOptions,
+    ) -> Result<Estimate, ExportError> {
+        let layout = TileLayout::new(floor, options.tile)?;
+        let floor_px = plan.floor.iter().filter(|&&pixel| pixel != 0).count() as f64;
+        let texels_per_px = plan.metres_per_pixel * floor.texels_per_metre;
+        let floor_texels = floor_px * texels_per_px * texels_per_px;
+        let wall_texels = walls.map_or(0.0, |grid| {
+            grid.faces.iter().map(|face| f64::from(face.width)).sum::<f64>() * f64::from(grid.height)
+        });
+        let factor = if options.writes_layers() { WITH_LAYERS } else { 1.0 };
+        Ok(Estimate {
+            tiles: u64::from(layout.columns()) * u64::from(layout.rows()),
+            sheets: (wall_texels / (f64::from(options.tile) * f64::from(options.tile))).ceil() as u64,
+            tile_px: options.tile,
+            bytes: (factor * (FLOOR_BYTES * floor_texels + WALL_BYTES * wall_texels)) as u64,
+        })
+    }
+
+    /// Refuses a bake that is large or that the disk of `folder` has no room for, unless any size is asked for; gives what
+    /// to tell the user of one that is large.
+    ///
+    /// # Errors
+    /// [`ExportError::TooMuch`].
+    pub fn check(&self, folder: &Path, shown: &Path, any_size: bool) -> Result<Option<String>, ExportError> {
+        let free = free_bytes(folder);
+        let fits = self.bytes <= LARGE_BYTES && free.is_none_or(|free| self.bytes <= free);
+        if fits {
+            return Ok(None);
+        }
+        let too_much = ExportError::TooMuch { path: shown.to_path_buf(), estimate: *self, free };
+        if any_size { Ok(Some(too_much.to_string())) } else { Err(too_much) }
+    }
+
+    /// The numbers in words.
+    pub(super) fn describe(&self, free: Option<u64>) -> String {
+        let Estimate { tiles, sheets, tile_px, bytes } = *self;
+        let free = free.map_or(String::new(), |free| format!("; {} are free", size(free)));
+        format!("{tiles} floor tiles and {sheets} wall sheets of up to {tile_px} px, about {}{free}", size(bytes))
+    }
+}
+
+/// A number of bytes with a unit.
+pub(super) fn size(bytes: u64) -> String {
+    match bytes {
+        0..10_000_000_000 => format!("{:.1} GB", bytes as f64 / 1e9),
+        _ => format!("{:.0} GB", bytes as f64 / 1e9),
+    }
+}
+
+/// Room on the disk of a folder for files of this user, where the system tells.
+#[cfg(unix)]
+fn free_bytes(folder: &Path) -> Option<u64> {
+    let disk = rustix::fs::statvfs(folder).ok()?;
+    disk.f_bavail.checked_mul(disk.f_frsize)
+}
+
+#[cfg(not(unix))]
+fn free_bytes(_folder: &Path) -> Option<u64> {
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn large_bakes_are_refused_with_their_numbers_unless_asked_for() {
+        let mut plan = FloorPlan::from_mask(500, 500, 1.0, vec![1; 250_000]);
+        plan.floor[..500].fill(0);
+        let options = TextureOptions::default();
+        let estimate = |density: f64| {
+            let grid = TexelGrid::covering(500.0, 500.0, density).unwrap();
+            Estimate::of(&plan, grid, None, &options).unwrap()
+        };
+        let large = estimate(1000.0);
+        assert_eq!((large.tiles, large.sheets), (62 * 62, 0));
+        let folder = tempfile::tempdir().unwrap();
+        let error = large.check(folder.path(), Path::new("out"), false).unwrap_err();
+        let message = error.to_string();
+        assert!(message.contains("3844 floor tiles") && message.contains("998 GB"), "{message}");
+        assert!(large.check(folder.path(), Path::new("out"), true).unwrap().unwrap().contains("3844 floor tiles"));
+        assert_eq!(estimate(1.0).check(folder.path(), Path::new("out"), false).unwrap(), None);
+    }
+}

@@ -1,0 +1,162 @@
+//! Files in a bake that no bake made.
+
+use std::collections::BTreeSet;
+use std::fs::{self, File, FileType};
+use std::io::{self, BufReader, Read};
+use std::path::{Path, PathBuf};
+
+/// The user's files in a folder, as paths relative to it.
+#[derive(Debug, Default)]
+pub(super) struct UserFiles {
+    /// Files and links.
+    files: BTreeSet<PathBuf>,
+    /// Empty folders.
+    folders: BTreeSet<PathBuf>,
+}
+
+/// Something in a folder.
+pub(super) struct Entry {
+    /// Its path from that folder.
+    pub relative: PathBuf,
+    pub kind: FileType,
+}
+
+/// All that lies in a folder at any depth, what a folder holds before the folder itself. No link is followed.
+pub(super) fn entries(folder: &Path) -> io::Result<Vec<Entry>> {
+    fn collect(folder: &Path, relative: &Path, out: &mut Vec<Entry>) -> io::Result<()> {
+        for entry in fs::read_dir(folder)? {
+            let entry = entry?;
+            let relative = relative.join(entry.file_name());
+            let kind = entry.file_type()?;
+            if kind.is_dir() {
+                collect(&entry.path(), &relative, out)?;
+            }
+            out.push(Entry { relative, kind });
+        }
+        Ok(())
+    }
+    let mut out = Vec::new();
+    collect(folder, Path::new(""), &mut out)?;
+    Ok(out)
+}
+
+impl UserFiles {
+    /// All but what is listed; nothing of a folder that does not exist.
+    pub fn of(folder: &Path, listed: &BTreeSet<PathBuf>) -> io::Result<UserFiles> {
+        let mut users = UserFiles::default();
+        if !folder.exists() {
+            return Ok(users);
+        }
+        let mut used = BTreeSet::new();
+        for Entry { relative, kind } in entries(folder)? {
+            used.extend(relative.parent().map(Path::to_path_buf));
+            if !kind.is_dir() {
+                if !listed.contains(&relative) {
+                    users.files.insert(relative);
+                }
+            } else if !used.contains(&relative) {
+                users.folders.insert(relative);
+            }
+        }
+        Ok(users)
+    }
+
+    /// The user's file or folder that keeps a file of this name from being made.
+    pub fn in_the_way(&self, relative: &Path) -> Option<&Path> {
+        let file = self.files.iter().find(|file| relative.starts_with(file) || file.starts_with(relative));
+        file.or_else(|| self.folders.iter().find(|folder| folder.starts_with(relative))).map(PathBuf::as_path)
+    }
+
+    /// Gives another folder the same files, without taking them away here.
+    ///
+    /// # Errors
+    /// A file cannot be linked or copied.
+    pub fn take_over(&self, from: &Path, to: &Path) -> io::Result<()> {
+        let mut made = BTreeSet::new();
+        for relative in self.files.iter().chain(&self.folders) {
+            let folders = relative.ancestors().skip(usize::from(self.files.contains(relative)));
+            made.extend(folders.filter(|folder| !to.join(folder).exists()).map(Path::to_path_buf));
+            let (from, to) = (from.join(relative), to.join(relative));
+            if self.folders.contains(relative) {
+                fs::create_dir_all(to)?;
+                continue;
+            }
+            fs::create_dir_all(to.parent().unwrap_or(Path::new("")))?;
+            match fs::read_link(&from) {
+                Ok(target) => link_again(&target, &from, &to)?,
+                Err(_) => link_or_copy(&from, &to)?,
+            }
+        }
+        // Innermost first, and last of all: a folder may be closed to writing.
+        made.iter()
+            .rev()
+            .try_for_each(|folder| fs::set_permissions(to.join(folder), fs::metadata(from.join(folder))?.permissions()))
+    }
+}
+
+/// Gives a file a second name, or copies it where the disk has no second names. Never replaces a file.
+pub(super) fn link_or_copy(from: &Path, to: &Path) -> io::Result<()> {
+    if fs::hard_link(from, to).is_ok() {
+        return Ok(());
+    }
+    let found = fs::metadata(from)?;
+    if !found.is_file() {
+        return Err(io::ErrorKind::Unsupported.into());
+    }
+    let mut copy = File::create_new(to)?;
+    io::copy(&mut File::open(from)?, &mut copy)?;
+    copy.set_modified(found.modified()?)?;
+    copy.set_permissions(found.permissions())?;
+    copy.sync_all()
+}
+
+#[cfg(unix)]
+fn link_again(target: &Path, _from: &Path, to: &Path) -> io::Result<()> {
+    std::os::unix::fs::symlink(target, to)
+}
+
+#[cfg(windows)]
+fn link_again(target: &Path, from: &Path, to: &Path) -> io::Result<()> {
+    if from.is_dir() {
+        std::os::windows::fs::symlink_dir(target, to)
+    } else {
+        std::os::windows::fs::symlink_file(target, to)
+    }
+}
+
+#[cfg(not(any(unix, windows)))]
+fn link_again(_target: &Path, _from: &Path, _to: &Path) -> io::Result<()> {
+    Err(io::ErrorKind::Unsupported.into())
+}
+
+/// Whether two names stand for the same file, or for files or links with the same content.
+pub(super) fn is_same(a: &Path, b: &Path) -> io::Result<bool> {
+    let (Ok(found_a), Ok(found_b)) = (fs::symlink_metadata(a), fs::symlink_metadata(b)) else { return Ok(false) };
+    if found_a.is_symlink() && found_b.is_symlink() {
+        return Ok(fs::read_link(a)? == fs::read_link(b)?);
+    }
+    if is_one_file(&found_a, &found_b) {
+        return Ok(true);
+    }
+    if !found_a.is_file() || !found_b.is_file() || found_a.len() != found_b.len() {
+        return Ok(false);
+    }
+    let bytes = |path: &Path| Ok::<_, io::Error>(BufReader::with_capacity(1 << 16, File::open(path)?).bytes());
+    for (a, b) in bytes(a)?.zip(bytes(b)?) {
+        if a? != b? {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+#[cfg(unix)]
+fn is_one_file(a: &fs::Metadata, b: &fs::Metadata) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    (a.dev(), a.ino()) == (b.dev(), b.ino())
+}
+
+#[cfg(not(unix))]
+fn is_one_file(_: &fs::Metadata, _: &fs::Metadata) -> bool {
+    false
+}

@@ -1,0 +1,142 @@
+//! How often each texel was stepped on in the floor's whole history.
+
+use super::lattice::{SplineAxis, SplineLattice, TexelWindow};
+use crate::math;
+use crate::sums::{FloorSums, Quantity};
+use crate::walls::Walls;
+
+/// The simulated people's passes, read for one window.
+pub(super) struct PassesField {
+    /// Presence times the share of floor in its cell, and that share: beyond the floor nothing is known, so only
+    /// floor counts in the mean, and lanes run on undiminished to openings and door jambs.
+    weighted: SplineLattice,
+    /// `None` where all is floor.
+    share: Option<SplineLattice>,
+}
+
+impl PassesField {
+    pub fn over(window: &TexelWindow, sums: &FloorSums, walls: &Walls, blur_m: f64) -> PassesField {
+        let cells_per_metre = sums.presence_grid().texels_per_metre;
+        let texels_per_cell = window.texels_per_metre / cells_per_metre;
+        let axis = |texel0, count| SplineAxis::new(texel0, count, texels_per_cell, 0.5);
+        let (x, y) = (axis(window.i0, window.width), axis(window.j0, window.height));
+
+        let kernel = half_gaussian(blur_m * cells_per_metre);
+        let reach = kernel.len() - 1;
+        let cells =
+            TexelWindow { texels_per_metre: cells_per_metre, i0: x.first, j0: y.first, width: x.len, height: y.len };
+        let around = cells.grown(reach);
+        let mut share = vec![0.0; around.texels()];
+        walls.coverage(cells_per_metre, around.i0, around.j0, around.width, around.height, &mut share);
+        let mut weighted = presence(sums, &around);
+        for (value, share) in weighted.iter_mut().zip(&share) {
+            *value *= share;
+        }
+        if reach > 0 {
+            weighted = blurred(&weighted, &around, &kernel);
+            share = blurred(&share, &around, &kernel);
+        }
+        let all_floor = share.iter().all(|&share| share == 1.0);
+        let share = (!all_floor).then(|| SplineLattice::new(x.clone(), y.clone(), share));
+        PassesField { weighted: SplineLattice::new(x, y, weighted), share }
+    }
+
+    pub fn begin_row(&mut self, row: usize) {
+        self.weighted.begin_row(row);
+        if let Some(share) = &mut self.share {
+            share.begin_row(row);
+        }
+    }
+
+    /// Expected passes of the simulated people at `start..start + out.len()` of the row last begun.
+    pub fn presence(&self, start: usize, out: &mut [f32], scratch: &mut Vec<f32>) {
+        out.fill(0.0);
+        self.weighted.add_to(start, out);
+        if let Some(share) = &self.share {
+            scratch.clear();
+            scratch.resize(out.len(), 0.0);
+            share.add_to(start, scratch);
+            for (value, share) in out.iter_mut().zip(scratch.iter()) {
+                *value /= share.max(1e-3);
+            }
+        }
+    }
+}
+
+/// Presence of the cells of a window.
+fn presence(sums: &FloorSums, window: &TexelWindow) -> Vec<f32> {
+    let unit = 1.0 / Quantity::Presence.one() as f32;
+    let mut values = Vec::new();
+    if read(sums, Quantity::Presence, window, &mut values) {
+        values.into_iter().map(|sum| sum as f32 * unit).collect()
+    } else {
+        vec![0.0; window.texels()]
+    }
+}
+
+/// Reads sums over a window, 0 beyond the grid; `false` where there are none at all.
+pub(super) fn read(sums: &FloorSums, quantity: Quantity, window: &TexelWindow, values: &mut Vec<u32>) -> bool {
+    values.clear();
+    let grid = sums.grid_of(quantity);
+    let clip = |first: i64, count: usize, size: u32| {
+        let low = first.clamp(0, i64::from(size));
+        let high = (first + count as i64).clamp(low, i64::from(size));
+        (low, (high - low) as usize)
+    };
+    let (i0, width) = clip(window.i0, window.width, grid.width);
+    let (j0, height) = clip(window.j0, window.height, grid.height);
+    if width == 0 || height == 0 || !sums.touched(quantity, i0 as u32, j0 as u32, width, height) {
+        return false;
+    }
+    values.resize(window.texels(), 0);
+    if (width, height) == (window.width, window.height) {
+        sums.read(quantity, i0 as u32, j0 as u32, width, height, values);
+        return true;
+    }
+    let mut inner = vec![0; width * height];
+    sums.read(quantity, i0 as u32, j0 as u32, width, height, &mut inner);
+    let (left, below) = ((i0 - window.i0) as usize, (j0 - window.j0) as usize);
+    for (row, inner) in inner.chunks_exact(width).enumerate() {
+        let start = (below + row) * window.width + left;
+        values[start..start + width].copy_from_slice(inner);
+    }
+    true
+}
+
+/// The middle and one side of a Gaussian of deviation `sd` cells whose whole adds up to 1; `[1.0]` for none.
+pub(super) fn half_gaussian(sd: f64) -> Vec<f32> {
+    if sd <= 0.0 {
+        return vec![1.0];
+    }
+    let reach = (3.0 * sd).ceil() as usize;
+    let half: Vec<f64> = (0..=reach).map(|k| math::exp(-0.5 * (k as f64 / sd) * (k as f64 / sd))).collect();
+    let whole = 2.0 * half.iter().sum::<f64>() - half[0];
+    half.into_iter().map(|weight| (weight / whole) as f32).collect()
+}
+
+/// Blurred along both axes; the window shrinks by the kernel's reach on every side.
+pub(super) fn blurred(values: &[f32], window: &TexelWindow, half_kernel: &[f32]) -> Vec<f32> {
+    let reach = half_kernel.len() - 1;
+    let (width, height) = (window.width - 2 * reach, window.height - 2 * reach);
+    let mut across = vec![0.0; width * window.height];
+    for (out, row) in across.chunks_exact_mut(width).zip(values.chunks_exact(window.width)) {
+        for (k, out) in out.iter_mut().enumerate() {
+            *out = row[k + reach] * half_kernel[0];
+            for (offset, weight) in half_kernel.iter().enumerate().skip(1) {
+                *out += weight * (row[k + reach - offset] + row[k + reach + offset]);
+            }
+        }
+    }
+    let mut both = vec![0.0; width * height];
+    for (j, out) in both.chunks_exact_mut(width).enumerate() {
+        let row = |j: usize| &across[j * width..(j + 1) * width];
+        for (offset, &weight) in half_kernel.iter().enumerate() {
+            let (below, above) = (row(j + reach - offset), row(j + reach + offset));
+            let weight = if offset == 0 { 0.5 * weight } else { weight };
+            for ((out, a), b) in out.iter_mut().zip(below).zip(above) {
+                *out += weight * (a + b);
+            }
+        }
+    }
+    both
+}

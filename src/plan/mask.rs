@@ -1,0 +1,31 @@
+//! Plans from ready floor masks.
+
+use super::{FloorPlan, Pose, openings, regions};
+
+impl FloorPlan {
+    /// Builds a plan from a floor mask in image order (row 0 at the top); non-zero bytes are floor.
+    ///
+    /// Unreachable floor counts too. A mask of the wrong length is cut, or filled up with wall.
+    pub fn from_mask(width_px: u32, height_px: u32, metres_per_pixel: f64, mut floor: Vec<u8>) -> FloorPlan {
+        floor.resize(width_px as usize * height_px as usize, 0);
+        for pixel in &mut floor {
+            *pixel = u8::from(*pixel != 0);
+        }
+        let lightness = floor.iter().map(|&f| f * 255).collect();
+        let mut plan = FloorPlan {
+            width_px,
+            height_px,
+            metres_per_pixel,
+            floor,
+            lightness,
+            threshold: 128,
+            map_from_plan: Pose::default(),
+            regions: Vec::new(),
+            openings: Vec::new(),
+            warnings: Vec::new(),
+        };
+        plan.regions = regions::of_mask(&plan);
+        plan.openings = openings::find(&plan);
+        plan
+    }
+}

@@ -1,0 +1,66 @@
+use super::builder::SceneBuilder;
+use super::model::{Scene, SceneSurface, WallStrip};
+use super::region::PolygonSet;
+use super::tiles::TileCuts;
+use super::tops::Solid;
+use super::{faces, floor, lintels};
+use crate::math::Rect;
+use crate::walls::{Doorway, Walls};
+
+/// Sizes that a plan does not tell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SceneOptions {
+    /// Height of the walls, metres.
+    pub wall_height_m: f64,
+    /// Thickness that outer walls are shown with, metres, 0 to 10: plans do not tell what is behind them.
+    pub rim_m: f64,
+}
+
+impl Default for SceneOptions {
+    fn default() -> SceneOptions {
+        SceneOptions { wall_height_m: 2.6, rim_m: 0.2 }
+    }
+}
+
+/// Lintels are at least this high, metres.
+const LOWEST_LINTEL_M: f64 = 0.05;
+
+/// A plan as triangles.
+///
+/// `tiles` are the places of the floor's textures in the plan frame, in the manifest's order; floor outside all of
+/// them is left out. `strips` tell which wall is found where on the wall sheets; wall that is on none is clean
+/// ([`SceneSurface::Lintel`]).
+///
+/// The floor has the walls' real outline, with holes and islands, cut at the tiles' borders such that neighbours
+/// share their corners. Wall faces are upright quads with smooth normals round curved walls (turns of less than 40
+/// degrees) and hard ones at edges. What is solid between floors is closed on top at the walls' height, and the outer
+/// walls are shown as a rim with its outer sides; above doors that are at least 5 cm lower than the walls are lintels; where the floor goes on beyond the plan it is open. All triangles
+/// have an area and are counter-clockwise for who sees their front.
+///
+/// The same triangles in the same order on every machine.
+pub fn build(
+    walls: &Walls,
+    tiles: &[Rect],
+    strips: &[WallStrip],
+    doorways: &[Doorway],
+    options: &SceneOptions,
+) -> Scene {
+    let height_m = options.wall_height_m;
+    let mut scene = SceneBuilder::default();
+    let cuts = TileCuts::new(tiles);
+    let floor = PolygonSet::inside_right(walls.outlines().iter().map(|o| o.points_m.iter().copied()));
+    floor::add(&floor, tiles, &cuts, &mut scene);
+    faces::add(&walls.faces, strips, &cuts, height_m, &mut scene);
+    let solid = Solid::around(&floor, walls.outlines(), options.rim_m.clamp(0.0, 10.0));
+    solid.add_tops(height_m, scene.part(SceneSurface::WallTop));
+    solid.add_sides(height_m, scene.part(SceneSurface::WallTop));
+    let mut heads_m: Vec<f64> =
+        doorways.iter().map(|door| door.head_m).filter(|head_m| height_m - head_m >= LOWEST_LINTEL_M).collect();
+    heads_m.sort_by(f64::total_cmp);
+    heads_m.dedup();
+    for head_m in heads_m {
+        let alike = doorways.iter().filter(|door| door.head_m == head_m);
+        lintels::add(&floor, walls, alike, [head_m.max(0.0), height_m], &mut scene);
+    }
+    scene.finish()
+}

@@ -1,0 +1,396 @@
+//! The plan as rays see it: upright faces over a plane, found through a grid of cells.
+
+use crate::math::{Rect, Vec2, vec2};
+use crate::walls::{Doorway, Walls};
+
+/// Side of a cell, metres, where the plan is not so large that coarser ones must do.
+const CELL_M: f64 = 0.5;
+/// Most cells.
+const MOST_CELLS: f64 = 4e6;
+/// Rays step over cell borders by this much, metres.
+const NUDGE_M: f64 = 1e-7;
+
+/// QuadKind an upright face is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum QuadKind {
+    /// A wall: place in [`Walls::faces`].
+    Wall(u32),
+    /// Where floor meets the image's side: nothing is there.
+    Opening,
+    /// Above a door: place in the list of doorways.
+    Lintel(u32),
+}
+
+/// One upright rectangle, seen from its right side.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WallQuad {
+    pub a: Vec2,
+    /// Unit vector from start to end.
+    pub along: Vec2,
+    pub length: f64,
+    pub what: QuadKind,
+    /// Arc length of the start along the wall's face, metres.
+    pub along_m: f64,
+}
+
+impl WallQuad {
+    fn new(a: Vec2, b: Vec2, what: QuadKind, along_m: f64) -> Option<WallQuad> {
+        let along = (b - a).normalized()?;
+        Some(WallQuad { a, along, length: a.distance(b), what, along_m })
+    }
+
+    /// Unit vector that points to where the floor is: to the right.
+    pub fn normal(&self) -> Vec2 {
+        -self.along.left()
+    }
+
+    /// Distance of a place to it in the plan, metres.
+    pub fn distance_m(&self, p: Vec2) -> f64 {
+        let along = (p - self.a).dot(self.along).clamp(0.0, self.length);
+        p.distance(self.a + self.along * along)
+    }
+
+    fn b(&self) -> Vec2 {
+        self.a + self.along * self.length
+    }
+}
+
+/// Where a ray meets a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Crossing {
+    /// Way from the ray's start, metres.
+    pub way_m: f64,
+    /// Place in [`RayGrid::pieces`].
+    pub piece: usize,
+    /// From the piece's start, metres.
+    pub along_m: f64,
+}
+
+/// A gap with a lintel over it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lintel {
+    pub low_m: f64,
+    centre: Vec2,
+    through: Vec2,
+    half: Vec2,
+}
+
+impl Lintel {
+    fn new(door: &Doorway, height_m: f64) -> Lintel {
+        Lintel {
+            low_m: door.head_m.min(height_m),
+            centre: (door.jambs_m[0] + door.jambs_m[1]) * 0.5,
+            through: door.through,
+            half: vec2(door.depth_m.max(0.02) * 0.5, door.width_m() * 0.5),
+        }
+    }
+
+    /// Way to where a ray that is inside leaves the gap, metres.
+    pub fn leaves(&self, from: Vec2, toward: Vec2) -> f64 {
+        let (p, side) = (from - self.centre, self.through.left());
+        let slab = |p: f64, d: f64, half: f64| {
+            if d.abs() < 1e-9 { f64::INFINITY } else { (half.copysign(d) - p) / d }
+        };
+        let across = slab(p.dot(self.through), toward.dot(self.through), self.half.x);
+        across.min(slab(p.dot(side), toward.dot(side), self.half.y)).max(0.0)
+    }
+
+    fn pieces(&self, number: u32) -> impl Iterator<Item = WallQuad> {
+        let (way, side) = (self.through * self.half.x, self.through.left() * self.half.y);
+        let ends = [
+            [self.centre + way + side, self.centre + way - side],
+            [self.centre - way - side, self.centre - way + side],
+        ];
+        // Their fronts look away from the gap: to the right of the way from the first end to the second.
+        ends.into_iter().filter_map(move |[a, b]| WallQuad::new(b, a, QuadKind::Lintel(number), 0.0))
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum CellGround {
+    Solid,
+    Floor,
+}
+
+/// All upright faces of a plan.
+#[derive(Debug)]
+pub(super) struct RayGrid {
+    pub pieces: Vec<WallQuad>,
+    pub lintels: Vec<Lintel>,
+    /// Both ends of each opening.
+    pub openings: Vec<[Vec2; 2]>,
+    /// Of walls and ceiling; 0: there are none.
+    pub height_m: f64,
+    /// The block that the rooms are cut into.
+    pub block: Rect,
+    origin: Vec2,
+    cell_m: f64,
+    cells_per_metre: f64,
+    columns: usize,
+    rows: usize,
+    /// Pieces of cell `c` are `entries[starts[c]..starts[c + 1]]`.
+    starts: Vec<u32>,
+    entries: Vec<u32>,
+    /// QuadKind is at each cell's middle.
+    middles: Vec<CellGround>,
+    /// Cells all around that hold no piece, in rings; 0 where there is one in the cell itself.
+    empty_rings: Vec<u8>,
+}
+
+impl RayGrid {
+    pub fn new(walls: &Walls, doorways: &[Doorway], height_m: f64) -> RayGrid {
+        let lintels: Vec<Lintel> = doorways.iter().map(|door| Lintel::new(door, height_m)).collect();
+        let mut pieces = wall_pieces(walls);
+        pieces.extend(opening_pieces(walls));
+        pieces.extend((0..).zip(&lintels).flat_map(|(n, lintel)| lintel.pieces(n)));
+        let bounds = walls.bounds_m();
+        let area = bounds.grown(2.0 * CELL_M);
+        let cell_m = CELL_M.max((area.width() * area.height() / MOST_CELLS).sqrt());
+        let count = |metres: f64| (metres / cell_m) as usize + 1;
+        let (columns, rows) = (count(area.width()), count(area.height()));
+        let mut space = RayGrid {
+            openings: opening_pieces(walls).map(|piece| [piece.a, piece.b()]).collect(),
+            pieces,
+            lintels,
+            height_m,
+            block: block(walls),
+            origin: area.min,
+            cell_m,
+            cells_per_metre: 1.0 / cell_m,
+            columns,
+            rows,
+            starts: Vec::new(),
+            entries: Vec::new(),
+            middles: Vec::new(),
+            empty_rings: Vec::new(),
+        };
+        space.sort_into_cells();
+        space.middles = (0..columns * rows)
+            .map(|cell| {
+                let middle = space.middle(cell);
+                if bounds.contains(middle) && walls.is_inside(middle) { CellGround::Floor } else { CellGround::Solid }
+            })
+            .collect();
+        space.empty_rings = rings(&space.starts, columns, rows);
+        space
+    }
+
+    /// Whether there are no rooms, only a floor under the sky.
+    pub fn is_open(&self) -> bool {
+        self.height_m <= 0.0
+    }
+
+    /// Whether there is floor; beyond the openings there is none.
+    pub fn is_floor(&self, p: Vec2) -> bool {
+        let Some(cell) = self.cell_of(p) else { return false };
+        let middle = self.middle(cell);
+        let crossed = self.cell(cell).iter().filter(|&&n| {
+            let piece = &self.pieces[n as usize];
+            !matches!(piece.what, QuadKind::Lintel(_)) && crosses(middle, p, piece.a, piece.b())
+        });
+        (self.middles[cell] == CellGround::Floor) == crossed.count().is_multiple_of(2)
+    }
+
+    /// The first face that a ray meets from its front, at most `limit_m` away; `toward` is a unit vector. Faces for
+    /// which `solid` says no at the way to them let it through.
+    pub fn cast(
+        &self,
+        from: Vec2,
+        toward: Vec2,
+        limit_m: f64,
+        solid: impl Fn(&WallQuad, f64) -> bool,
+    ) -> Option<Crossing> {
+        let inverse = vec2(1.0 / toward.x, 1.0 / toward.y);
+        let mut way = self.enters(from, inverse)?;
+        while way <= limit_m {
+            let p = from + toward * (way + NUDGE_M);
+            let [column, row] = [p.x - self.origin.x, p.y - self.origin.y].map(|m| m * self.cells_per_metre);
+            if !(column >= 0.0 && row >= 0.0 && column < self.columns as f64 && row < self.rows as f64) {
+                return None;
+            }
+            // Within the grid both are positive: whole numbers by truncation, which is faster than rounding down.
+            let (column, row) = (column as usize, row as usize);
+            let cell = row * self.columns + column;
+            let (column, row) = (column as f64, row as f64);
+            let rings = f64::from(self.empty_rings[cell]);
+            let wide = (rings - 1.0).max(0.0);
+            let x = self.origin.x + (if toward.x > 0.0 { column + 1.0 + wide } else { column - wide }) * self.cell_m;
+            let y = self.origin.y + (if toward.y > 0.0 { row + 1.0 + wide } else { row - wide }) * self.cell_m;
+            // A ray that runs along a border, but for rounding, does not leave there.
+            let leaves = |way_there: f64| if way_there > way + 0.5 * NUDGE_M { way_there } else { f64::INFINITY };
+            let leave_x = if toward.x == 0.0 { f64::INFINITY } else { leaves((x - from.x) * inverse.x) };
+            let leave_y = if toward.y == 0.0 { f64::INFINITY } else { leaves((y - from.y) * inverse.y) };
+            let leave = leave_x.min(leave_y).max(way + NUDGE_M);
+            if rings == 0.0 {
+                let met = self.first_in(cell, from, toward, limit_m, &solid);
+                if let Some(met) = met.filter(|met| met.way_m <= leave + 2.0 * NUDGE_M) {
+                    return Some(met);
+                }
+            }
+            way = leave;
+        }
+        None
+    }
+
+    fn first_in(
+        &self,
+        cell: usize,
+        from: Vec2,
+        toward: Vec2,
+        limit_m: f64,
+        solid: &impl Fn(&WallQuad, f64) -> bool,
+    ) -> Option<Crossing> {
+        let mut first: Option<Crossing> = None;
+        for &number in self.cell(cell) {
+            let piece = &self.pieces[number as usize];
+            let against = toward.x * piece.along.y - toward.y * piece.along.x;
+            // The floor side's normal is (along.y, -along.x): seen from the front, the ray goes against it.
+            if against >= 0.0 {
+                continue;
+            }
+            let apart = piece.a - from;
+            let way_m = (apart.x * piece.along.y - apart.y * piece.along.x) / against;
+            if way_m < -NUDGE_M || way_m > limit_m || first.is_some_and(|first| first.way_m <= way_m) {
+                continue;
+            }
+            let along_m = (from + toward * way_m - piece.a).dot(piece.along);
+            if along_m >= -NUDGE_M && along_m <= piece.length + NUDGE_M && solid(piece, way_m) {
+                first = Some(Crossing { way_m, piece: number as usize, along_m });
+            }
+        }
+        first
+    }
+
+    /// Way to the grid; none if the ray misses it.
+    fn enters(&self, from: Vec2, inverse: Vec2) -> Option<f64> {
+        let size = vec2(self.columns as f64, self.rows as f64) * self.cell_m;
+        let span = |from: f64, inverse: f64, low: f64, high: f64| {
+            if inverse.is_infinite() {
+                let inside = from >= low && from <= high;
+                return if inside { (f64::NEG_INFINITY, f64::INFINITY) } else { (f64::INFINITY, f64::NEG_INFINITY) };
+            }
+            let (a, b) = ((low - from) * inverse, (high - from) * inverse);
+            (a.min(b), a.max(b))
+        };
+        let (x0, x1) = span(from.x, inverse.x, self.origin.x, self.origin.x + size.x);
+        let (y0, y1) = span(from.y, inverse.y, self.origin.y, self.origin.y + size.y);
+        let (enter, leave) = (x0.max(y0).max(0.0), x1.min(y1));
+        (enter <= leave).then_some(enter)
+    }
+
+    /// Middles of all cells that are floor.
+    pub fn floor_places(&self) -> impl Iterator<Item = Vec2> {
+        let floor = |&(_, ground): &(usize, &CellGround)| *ground == CellGround::Floor;
+        self.middles.iter().enumerate().filter(floor).map(|(cell, _)| self.middle(cell))
+    }
+
+    fn cell(&self, cell: usize) -> &[u32] {
+        &self.entries[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+    }
+
+    fn cell_of(&self, p: Vec2) -> Option<usize> {
+        let at = (p - self.origin) / self.cell_m;
+        let inside = at.x >= 0.0 && at.y >= 0.0 && at.x < self.columns as f64 && at.y < self.rows as f64;
+        inside.then(|| at.y as usize * self.columns + at.x as usize)
+    }
+
+    fn middle(&self, cell: usize) -> Vec2 {
+        // Not quite the middle: plans like to have their walls on round numbers.
+        let [column, row] = [cell % self.columns, cell / self.columns].map(|k| k as f64);
+        self.origin + vec2(column + 0.5137, row + 0.4871) * self.cell_m
+    }
+
+    fn sort_into_cells(&mut self) {
+        let mut pairs: Vec<(u32, u32)> = Vec::new();
+        for (number, piece) in (0..).zip(&self.pieces) {
+            self.cells_along(piece.a, piece.b(), |cell| pairs.push((cell as u32, number)));
+        }
+        pairs.sort_unstable();
+        pairs.dedup();
+        let mut starts = vec![0u32; self.columns * self.rows + 1];
+        pairs.iter().for_each(|pair| starts[pair.0 as usize + 1] += 1);
+        for cell in 1..starts.len() {
+            starts[cell] += starts[cell - 1];
+        }
+        self.starts = starts;
+        self.entries = pairs.into_iter().map(|pair| pair.1).collect();
+    }
+
+    /// Every cell that comes within a hair of a segment.
+    fn cells_along(&self, a: Vec2, b: Vec2, mut visit: impl FnMut(usize)) {
+        const HAIR_M: f64 = 4.0 * NUDGE_M;
+        let limit = |at: f64, most: usize| ((at / self.cell_m).floor().max(0.0) as usize).min(most - 1);
+        let row_of = |y: f64| limit(y - self.origin.y, self.rows);
+        let (low, high) = if a.y <= b.y { (a, b) } else { (b, a) };
+        for row in row_of(low.y - HAIR_M)..=row_of(high.y + HAIR_M) {
+            let x_at = |y: f64| low.x + (high.x - low.x) * ((y - low.y) / (high.y - low.y)).clamp(0.0, 1.0);
+            let bottom = self.origin.y + row as f64 * self.cell_m;
+            let (x0, x1) = if high.y - low.y < 1e-9 {
+                (low.x, high.x)
+            } else {
+                (x_at(bottom - HAIR_M), x_at(bottom + self.cell_m + HAIR_M))
+            };
+            let column_of = |x: f64| limit(x - self.origin.x, self.columns);
+            for column in column_of(x0.min(x1) - HAIR_M)..=column_of(x0.max(x1) + HAIR_M) {
+                visit(row * self.columns + column);
+            }
+        }
+    }
+}
+
+fn wall_pieces(walls: &Walls) -> Vec<WallQuad> {
+    let mut pieces = Vec::new();
+    for (number, face) in (0..).zip(&walls.faces) {
+        let count = face.points_m.len();
+        let mut along_m = 0.0;
+        for k in 0..if face.closed { count } else { count.saturating_sub(1) } {
+            let (a, b) = (face.points_m[k], face.points_m[(k + 1) % count]);
+            pieces.extend(WallQuad::new(a, b, QuadKind::Wall(number), along_m));
+            along_m += a.distance(b);
+        }
+    }
+    pieces
+}
+
+fn opening_pieces(walls: &Walls) -> impl Iterator<Item = WallQuad> {
+    let edges = walls.outlines().iter().flat_map(|outline| outline.openings.iter().map(|&(k, _)| outline.edge(k)));
+    edges.filter_map(|[a, b]| WallQuad::new(a, b, QuadKind::Opening, 0.0))
+}
+
+/// The floor's bounds with a rim, but none on sides that are open.
+fn block(walls: &Walls) -> Rect {
+    use crate::plan::Side;
+    const RIM_M: f64 = 0.3;
+    let open = |side: Side| {
+        let mut sides = walls.outlines().iter().flat_map(|outline| outline.openings.iter().map(|&(_, side)| side));
+        if sides.any(|other| other == side) { 0.0 } else { RIM_M }
+    };
+    let bounds = walls.bounds_m();
+    Rect {
+        min: bounds.min - vec2(open(Side::West), open(Side::South)),
+        max: bounds.max + vec2(open(Side::East), open(Side::North)),
+    }
+}
+
+/// Chessboard distance to the nearest cell with a piece, at most 255.
+fn rings(starts: &[u32], columns: usize, rows: usize) -> Vec<u8> {
+    let mut rings: Vec<u8> = starts.windows(2).map(|pair| if pair[1] > pair[0] { 0 } else { 255 }).collect();
+    let near = |rings: &[u8], x: i64, y: i64| {
+        let inside = x >= 0 && y >= 0 && x < columns as i64 && y < rows as i64;
+        // Beyond the grid nothing is known: rays end at its border anyway.
+        if inside { rings[y as usize * columns + x as usize].saturating_add(1) } else { 1 }
+    };
+    let mut pass = |cell: usize, neighbours: [[i64; 2]; 4]| {
+        let (x, y) = ((cell % columns) as i64, (cell / columns) as i64);
+        let least = neighbours.iter().map(|[dx, dy]| near(&rings, x + dx, y + dy)).min();
+        rings[cell] = rings[cell].min(least.unwrap_or(255));
+    };
+    (0..columns * rows).for_each(|cell| pass(cell, [[-1, 0], [-1, -1], [0, -1], [1, -1]]));
+    (0..columns * rows).rev().for_each(|cell| pass(cell, [[1, 0], [1, 1], [0, 1], [-1, 1]]));
+    rings
+}
+
+fn crosses(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> bool {
+    let (ab, cd) = (b - a, d - c);
+    (ab.cross(c - a) > 0.0) != (ab.cross(d - a) > 0.0) && (cd.cross(a - c) > 0.0) != (cd.cross(b - c) > 0.0)
+}

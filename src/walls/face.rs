@@ -1,0 +1,55 @@
+//! Wall faces, their segments and the nearest point of a wall.
+
+use crate::math::Vec2;
+
+/// Length of the apron: the untextured floor beyond an opening where people appear and vanish, metres.
+pub const APRON_M: f64 = 3.0;
+
+/// A wall face: a polyline with the floor on its **right**.
+///
+/// Arc length grows to the right for a viewer who stands on the floor and looks at the wall.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Face {
+    /// Whether the last point joins the first (rooms, pillars). The first is not repeated.
+    pub closed: bool,
+    /// Corners and ends, metres. A closed face starts at its vertex least in (y, x).
+    #[serde(rename = "points")]
+    pub points_m: Vec<Vec2>,
+}
+
+impl Face {
+    /// Length of the polyline, metres.
+    pub fn length_m(&self) -> f64 {
+        let open: f64 = self.points_m.windows(2).map(|w| w[0].distance(w[1])).sum();
+        match (self.closed, self.points_m.first(), self.points_m.last()) {
+            (true, Some(&first), Some(&last)) => open + last.distance(first),
+            _ => open,
+        }
+    }
+}
+
+/// The point of a wall nearest to another point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest {
+    /// Distance from the point to the wall, metres. Never negative; see [`Walls::is_inside`].
+    pub distance_m: f64,
+    /// The point on the wall, metres.
+    pub point_m: Vec2,
+    /// Index into [`Walls::faces`], or `None` for the walls of an apron.
+    pub face: Option<usize>,
+    /// Arc length from the face's start to the point, metres.
+    pub along_m: f64,
+}
+
+/// A straight wall segment with the floor on its right.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// Start, metres.
+    pub a: Vec2,
+    /// End, metres.
+    pub b: Vec2,
+    /// Index into [`Walls::faces`], or `None` for the walls of an apron.
+    pub face: Option<usize>,
+    /// Arc length from the face's start to `a`, metres; 0 on an apron.
+    pub along_m: f64,
+}

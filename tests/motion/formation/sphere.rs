@@ -1,0 +1,54 @@
+//! Three people: eigenvectors as recorded, and as a rotation from the first to the last has them.
+
+use trodden::formation::{one_pattern, sphere_tracks};
+use trodden::math::{Vec2, vec2};
+use trodden::motion::Ensemble;
+
+use super::crowds::walking_between;
+
+/// Three who walk abreast; the one in the middle moves over from one neighbour to the other, who falls behind: two pairs of
+/// neighbours throughout.
+fn moving_over(seed: u64) -> Ensemble {
+    let formation = |share: f64| -> Vec<Vec2> {
+        let (sine, cosine) = trodden::math::sin_cos(0.6 * share);
+        vec![vec2(0.0, 0.9 + 0.35 * share), vec2(0.0, 0.0), vec2(-sine, -cosine) * (1.25 - 0.35 * share)]
+    };
+    walking_between(formation, 25.0, 4.0, seed)
+}
+
+#[test]
+fn turned_vectors_are_near_the_recorded_ones() {
+    for seed in 0..10 {
+        let example = moving_over(seed);
+        assert_eq!(one_pattern(&example, 1.55).len(), 1, "one pattern of adjacency throughout");
+        let tracks = sphere_tracks(&example, None).unwrap();
+        let degrees = tracks.mean_angles_rad().map(f64::to_degrees);
+        assert!(degrees.iter().all(|&mean| mean < 5.0), "seed {seed}: {degrees:?} degrees");
+        // They do turn, or there would be nothing to see.
+        let turned = tracks.turned[0][0].iter().zip(&tracks.turned[100][0]).map(|(a, b)| a * b).sum::<f64>();
+        assert!(turned < 0.98, "seed {seed}: {turned}");
+        for (recorded, turned) in tracks.recorded.iter().zip(&tracks.turned) {
+            for vector in recorded.iter().chain(turned) {
+                assert!((vector.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() < 1e-12);
+                assert!(vector.iter().sum::<f64>().abs() < 1e-12, "on the great circle around the constant vector");
+            }
+        }
+    }
+}
+
+#[test]
+fn ends_are_the_recorded_ones() {
+    let tracks = sphere_tracks(&moving_over(3), None).unwrap();
+    for end in [0, tracks.recorded.len() - 1] {
+        for (a, b) in tracks.recorded[end].iter().flatten().zip(tracks.turned[end].iter().flatten()) {
+            assert!((a - b).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn patterns_change_where_somebody_comes_near() {
+    let places = [3.0, 2.0, 0.9, 0.8, 2.0].iter().flat_map(|&x| [vec2(0.0, 0.0), vec2(x, 0.0)]).collect();
+    let example = Ensemble::new(1.0, 0.0, vec![1, 2], places);
+    assert_eq!(one_pattern(&example, 1.0), [0..2, 2..4, 4..5]);
+}

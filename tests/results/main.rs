@@ -1,0 +1,13 @@
+//! What a bake leaves: textures, sums, scene, stills and page; the same bytes on any number of threads.
+
+// A test that cannot go on fails.
+#![allow(clippy::unwrap_used)]
+
+mod bake;
+mod empty_walls;
+mod export;
+mod floorplans;
+mod page;
+#[path = "../support/golden.rs"]
+mod golden;
+mod view;

@@ -1,0 +1,218 @@
+//! Stills: rooms in perspective, the same on any number of threads, and what is said of cameras that see nothing.
+
+use image::RgbImage;
+use trodden::Silent;
+use trodden::export::TextureSource;
+use trodden::export::{Camera, CameraError};
+use trodden::look::{Background, ResolvedBlock};
+use trodden::math::vec2;
+use trodden::plan::FloorPlan;
+use trodden::show::still::{StillError, StillScene, Surfaces};
+use trodden::sums::FloorSums;
+use trodden::walls::{Walls, WallsOptions};
+
+use crate::golden::{EXACT, assert_golden};
+
+/// Texels per metre.
+const DENSITY: f64 = 20.0;
+
+/// A floor whose texels are a pure function of their place.
+struct Painted<F>(F);
+
+impl<F: Fn(i64, i64) -> [u8; 3] + Sync> TextureSource for Painted<F> {
+    fn layers(&self) -> &[&'static str] {
+        &[]
+    }
+
+    fn background(&self) -> Background {
+        Background { base_color: [197, 192, 182], mask: [0; 4], orm: [255, 200, 0] }
+    }
+
+    fn resolve(&self, i0: i64, j0: i64, width: usize, height: usize) -> ResolvedBlock {
+        let texel = |k: usize| (self.0)(i0 + (k % width) as i64, j0 + (k / width) as i64);
+        ResolvedBlock {
+            base_color: (0..width * height).map(texel).collect(),
+            orm: vec![[255, 200, 0]; width * height],
+            ..ResolvedBlock::default()
+        }
+    }
+}
+
+/// A corridor 12 m long and 3 m wide that is open in the west, with a pillar.
+fn corridor() -> Walls {
+    let (width, height) = (130, 50);
+    let floor = |k: usize| {
+        let (x, y) = (k % width, k / width);
+        let pillar = (70..76).contains(&x) && (14..20).contains(&y);
+        u8::from(x < 120 && (10..40).contains(&y) && !pillar)
+    };
+    let plan = FloorPlan::from_mask(width as u32, height as u32, 0.1, (0..width * height).map(floor).collect());
+    Walls::trace(&plan, &WallsOptions::default())
+}
+
+fn camera(text: &str) -> Camera {
+    text.parse().unwrap()
+}
+
+fn drawn(camera: &Camera, size: [u32; 2], floor: &(impl Fn(i64, i64) -> [u8; 3] + Sync)) -> RgbImage {
+    let floor = Painted(floor);
+    let coat = Surfaces { floor: &floor, floor_texels_per_metre: DENSITY, small: None, walls: None };
+    let studio = StillScene::new(&corridor(), &[], 2.6);
+    studio.draw(camera, size, &[coat], &Silent).unwrap().remove(0)
+}
+
+/// A board of squares of half a metre.
+fn board(i: i64, j: i64) -> [u8; 3] {
+    if (i.div_euclid(10) + j.div_euclid(10)) % 2 == 0 { [90, 84, 76] } else { [205, 200, 190] }
+}
+
+#[test]
+fn a_corridor_at_eye_level_and_from_above() {
+    assert_golden("still_eye_level", &drawn(&camera("11,2.2,1.7,184,-9"), [112, 63], &board), EXACT);
+    let above = StillScene::new(&corridor(), &[], 2.6).birds_eye([112, 63]);
+    assert_golden("still_birds_eye", &drawn(&above, [112, 63], &board), EXACT);
+}
+
+#[test]
+fn the_same_bytes_on_any_number_of_threads() {
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| drawn(&camera("3,2.5,1.7,5,-12"), [320, 180], &board))
+    };
+    let one = on(1);
+    assert!(one == on(2) && one == on(4));
+}
+
+/// Fine squares far away are seen as their mean: neither single ones nor waves of them.
+#[test]
+fn a_fine_pattern_far_away_shows_its_mean() {
+    let fine = |i: i64, j: i64| if (i + j) % 2 == 0 { [20; 3] } else { [250; 3] };
+    let from = camera("0.6,2.5,1.7,0,0").with_fov(90.0);
+    let mean = |_: i64, _: i64| [188u8; 3]; // half of the light of 20 and of 250
+    let (seen, expected) = (drawn(&from, [320, 240], &fine), drawn(&from, [320, 240], &mean));
+    // Floor 7 to 10 m away, where a pixel covers a texel across and some along.
+    let rows = 240 / 2 + 27..240 / 2 + 38;
+    let mut worst = 0;
+    for y in rows {
+        for x in 150..170 {
+            let (a, b) = (seen.get_pixel(x, y).0[1], expected.get_pixel(x, y).0[1]);
+            worst = worst.max(a.abs_diff(b));
+        }
+    }
+    assert!(worst <= 20, "{worst}");
+}
+
+/// The pillar's edges stand where their projection says, to the pixel.
+#[test]
+fn a_known_point_is_seen_at_the_known_pixel() {
+    // Level and along +x, 4 m before the pillar's face, which reaches from y = 3.0 to 3.6: 0.3 m to both sides.
+    let from = camera("3,3.3,1.7,0,0").with_fov(90.0);
+    let picture = drawn(&from, [400, 300], &|_, _| [200; 3]);
+    // 200 px at the distance 1 with 90 degrees: its edges are 0.3 / 4 * 200 = 15 px beside the middle.
+    let step = |x: u32| {
+        let [a, b] = [x - 1, x].map(|x| i32::from(picture.get_pixel(x, 150).0[1]));
+        (a - b).abs()
+    };
+    for (expected, around) in [(185, 175..196), (215, 205..226)] {
+        let edge = around.max_by_key(|&x| step(x)).unwrap();
+        assert!(i64::from(edge).abs_diff(expected) <= 1, "the edge is at {edge}");
+    }
+}
+
+#[test]
+fn cameras_that_see_nothing_are_refused_with_a_place_that_does() {
+    let studio = StillScene::new(&corridor(), &[], 2.6);
+    let refused = |text: &str| studio.check(&camera(text)).unwrap_err();
+    // In the pillar, in the wall beside the corridor, far beyond the plan.
+    for (text, beyond) in [("7.3,3.3,1.7,0,0", false), ("5,0.4,1.7,0,0", true), ("-40,2,1.7,0,0", true)] {
+        let StillError::NotOnFloor { beyond: found, nearest_m, .. } = refused(text) else { panic!("{text}") };
+        assert_eq!(found, beyond, "{text}");
+        let [x, y] = nearest_m;
+        studio.check(&camera(&format!("{x},{y},1.7,0,0"))).unwrap();
+        let [from_x, from_y, _] = camera(text).position_m;
+        let nearest = vec2(from_x, from_y).distance(vec2(x, y));
+        assert!(beyond || nearest < 1.5, "{text}: {nearest_m:?}");
+        let error = trodden::Error::from(refused(text));
+        assert!(error.hint().unwrap().contains(&format!("{x:.2},{y:.2}")), "{:?}", error.hint());
+    }
+    // Above the walls it may be anywhere.
+    studio.check(&camera("7.3,3.3,2.7,0,-45")).unwrap();
+    studio.check(&camera("-40,2,20,0,-30")).unwrap();
+}
+
+#[test]
+fn automatic_cameras_stand_on_the_floor_away_from_walls() {
+    let walls = corridor();
+    let studio = StillScene::new(&walls, &[], 2.6);
+    let grid = trodden::stamps::TexelGrid::covering(13.0, 5.0, DENSITY).unwrap();
+    let camera = studio.eye_level(&FloorSums::new(grid));
+    assert_eq!(camera.position_m[2], 1.7);
+    assert!(walls.nearest(camera.place_m(), 5.0).unwrap().distance_m >= 0.48, "{camera}");
+    studio.check(&camera).unwrap();
+}
+
+/// All corners of the plan are in the picture, and it fills it.
+#[test]
+fn the_birds_eye_frames_the_plan() {
+    let studio = StillScene::new(&corridor(), &[], 2.6);
+    for size in [[192, 108], [100, 200], [300, 60]] {
+        let from = studio.birds_eye(size);
+        let coat = Painted(|_, _| [255, 0, 0]);
+        let coat = Surfaces { floor: &coat, floor_texels_per_metre: DENSITY, small: None, walls: None };
+        let picture = studio.draw(&from, size, &[coat], &Silent).unwrap().remove(0);
+        let red: Vec<(u32, u32)> = picture
+            .enumerate_pixels()
+            .filter(|(.., pixel)| pixel.0[0].saturating_sub(pixel.0[1].max(pixel.0[2])) > 40)
+            .map(|(x, y, _)| (x, y))
+            .collect();
+        let [width, height] = size;
+        let span = |values: Vec<u32>| [*values.iter().min().unwrap(), *values.iter().max().unwrap()];
+        let across = span(red.iter().map(|p| p.0).collect());
+        let up = span(red.iter().map(|p| p.1).collect());
+        assert!(
+            across[0] > 0 && across[1] < width - 1 && up[0] > 0 && up[1] < height - 1,
+            "{size:?} {across:?} {up:?}"
+        );
+        let filled = |[low, high]: [u32; 2], of: u32| f64::from(high - low) / f64::from(of);
+        assert!(filled(across, width).max(filled(up, height)) > 0.55, "{size:?}: {across:?} {up:?}");
+    }
+}
+
+#[test]
+fn absurd_cameras_and_sizes_are_errors() {
+    let parse = |text: &str| text.parse::<Camera>().unwrap_err();
+    assert!(matches!(parse("1,2,3"), CameraError::Parts { found: 3, .. }));
+    assert!(matches!(parse(""), CameraError::Parts { .. }));
+    assert!(matches!(parse("1,2,x,0,0"), CameraError::NotANumber { name: "z", .. }));
+    for (text, name) in [
+        ("1,2,0,0,0", "z"),
+        ("1,2,-1,0,0", "z"),
+        ("1,2,1.7,400,0", "heading"),
+        ("1,2,1.7,0,-95", "pitch"),
+        ("NaN,2,1.7,0,0", "x"),
+        ("1,inf,1.7,0,0", "y"),
+    ] {
+        let error = parse(text);
+        assert!(matches!(error, CameraError::Number { name: found, .. } if found == name), "{text}: {error}");
+    }
+    let studio = StillScene::new(&corridor(), &[], 2.6);
+    assert!(matches!(
+        studio.check(&camera("3,2,1.7,0,0").with_fov(f64::NAN)),
+        Err(StillError::Camera(CameraError::Number { name: "fov", .. }))
+    ));
+    let coat = Painted(board);
+    let coat = Surfaces { floor: &coat, floor_texels_per_metre: DENSITY, small: None, walls: None };
+    assert!(studio.draw(&camera("3,2,1.7,0,0"), [0, 5], &[coat], &Silent).is_err());
+    assert_eq!(camera("3, 2,1.7, 0,0").to_string(), "3.00,2.00,1.70,0.0,0.0");
+}
+
+/// Straight down, straight along walls, from a doorway's edge: rays of all kinds end somewhere.
+#[test]
+fn rays_along_walls_and_straight_down_end() {
+    for text in
+        ["3,2.5,1.7,0,-89", "3,2.5,1.7,90,89", "6,2.5,30,0,-89", "0.001,1.001,0.05,0,0", "11.999,3.999,2.59,180,0"]
+    {
+        let picture = drawn(&camera(text), [64, 48], &board);
+        assert!(picture.pixels().any(|pixel| pixel.0 != [0; 3]), "{text}");
+    }
+}

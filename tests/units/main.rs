@@ -1,9 +1,0 @@
-//! Crowd units on the sample plaza: 72 people walk under social forces, and near the viewer they do what units show.
-
-#![allow(clippy::unwrap_used)] // a test may panic
-
-mod drawn;
-mod played;
-mod refused;
-mod scene;
-mod spliced;
