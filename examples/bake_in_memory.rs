@@ -20,13 +20,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let plan = FloorPlan::from_mask(120, 40, 0.1, mask);
     let walls = Walls::trace(&plan, &Default::default());
     let routes = trodden::routes::find(&plan, &walls, &Default::default())?;
-    let library = PatternLibrary::built_in()?;
+    let library = PatternLibrary::built_in();
     let people = People::new(1, Default::default());
     let mut crowd = Crowd::new(&plan, &walls, &routes, &people, &Default::default())?;
     let origins = Origin::of_arrivals(crowd.arrivals().iter().map(|arrival| arrival.from_outside), 200);
     let mut footfalls = Footfalls::new(&people, &walls, &library, &MarksOptions::default(), origins)?;
     let grid = TexelGrid::covering(plan.width_m(), plan.height_m(), 100.0)?;
-    let (stamper, mut sums) = (Stamper::new(&library, grid, &Default::default()), FloorSums::new(grid));
+    let (stamper, mut sums) = (Stamper::new(&library, grid, &Default::default())?, FloorSums::new(grid));
     let (mut frame, mut marks) = (Frame::default(), Vec::new());
     while crowd.next_frame(&mut frame)? {
         footfalls.push(&frame, &mut marks);

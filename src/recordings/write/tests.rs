@@ -4,10 +4,10 @@ use rusqlite::Connection;
 
 use super::*;
 use crate::math::vec2;
-use crate::motion::BodyOptions;
+use crate::motion::{BodyOptions, People};
 use crate::plan::{FloorPlan, Pose};
-use crate::walls::Walls;
-use crate::walls::WallsOptions;
+
+use crate::walls::{Walls, WallsOptions};
 
 /// A corridor of 6 x 2 m, turned on its map.
 fn world() -> (FloorPlan, Walls, People) {
