@@ -9,7 +9,7 @@ use crate::stamps::TexelGrid;
 /// Greatest width and height of the picture, pixels.
 const LARGEST: u32 = 2048;
 
-/// A floor from above, made small while its blocks go by: mean light of the texels under each pixel.
+/// An overview of a floor, reduced block by block: mean light of the texels under each pixel.
 #[derive(Debug)]
 pub struct Birdseye {
     grid: TexelGrid,
@@ -22,7 +22,7 @@ pub struct Birdseye {
 }
 
 impl Birdseye {
-    /// Nothing seen yet.
+    /// An overview without blocks.
     pub fn new(grid: TexelGrid) -> Birdseye {
         // At most as many texels as a sum holds.
         let factor = grid.width.max(grid.height).div_ceil(LARGEST).clamp(1, 256) as usize;

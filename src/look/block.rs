@@ -2,21 +2,21 @@ use std::ops::Range;
 
 use crate::math::srgb::to_linear;
 
-/// What texels show that nothing lies on: beyond a floor and its padding, or the clean wall's mean.
+/// Texel values of a clean surface: beyond a floor and its padding, or the mean of the clean wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Background {
     /// The clean surface's mean colour, sRGB.
     pub base_color: [u8; 3],
-    /// Nothing.
+    /// Packed masks: all 0.
     pub mask: [u8; 4],
     /// Unoccluded, as rough as the clean surface, no metal.
     pub orm: [u8; 3],
 }
 
-/// A resolved rectangle of a floor or a wall, row-major; row 0 is the southernmost, on a wall the lowest.
+/// A resolved rectangle of texels, row-major; row 0 is the southernmost, on a wall the lowest.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ResolvedBlock {
-    /// Whether there is neither surface nor padding: all [`Background`], and all vectors are empty.
+    /// True without surface and padding: all [`Background`], and all vectors are empty.
     pub empty: bool,
     /// 8-bit sRGB, dithered.
     pub base_color: Vec<[u8; 3]>,
@@ -44,7 +44,7 @@ impl Layer {
     /// Kinds of dirt that [`Layer::kind`] tells apart.
     pub const KINDS: usize = 4;
 
-    /// The kind of dirt whose optical density a layer holds; layers that are no density belong to none.
+    /// The kind of dirt whose optical density a layer holds; `None` for counts of passes.
     ///
     /// On floors film, prints, scuffs, edge and dust; on walls hands, cloth and bags, shoes, splash and dust.
     pub fn kind(&self) -> Option<usize> {

@@ -3,18 +3,18 @@
 use super::noise;
 use crate::math::srgb;
 
-/// Where 8-bit texels go, for one run.
+/// The 8-bit output of one run of texels.
 pub(super) struct Bytes<'a> {
     pub base_color: &'a mut [[u8; 3]],
     pub mask: &'a mut [[u8; 4]],
     pub orm: &'a mut [[u8; 3]],
 }
 
-/// What a run of texels shows, a plane per quantity.
+/// Shaded texels of a run, a plane per quantity.
 pub(super) struct ShadedPlanes<'a> {
     /// Linear colour.
     pub rgb: &'a [Vec<f32>; 3],
-    /// By channel of the mask, the light that comes through; an empty plane for a channel without any dirt.
+    /// Transmittance by channel of the mask; an empty plane for a channel without dirt.
     pub through: [&'a [f32]; 4],
     pub roughness: &'a [f32],
 }
@@ -66,8 +66,9 @@ impl Rounding {
     }
 }
 
-/// Rounds values of 0 to 255 up or down at random, so that their means over neighbours stay: a byte of each word is
-/// the threshold.
+/// Rounds values of 0 to 255 with random dither, so that means over neighbours are kept.
+///
+/// A byte of each word is the threshold.
 fn round_dithered(values: &[f32], words: &[u32], byte: u32, out: &mut [u8]) {
     // Adding 2^23 rounds to the nearest integer and leaves it in the lowest bits: a cast would not vectorise.
     const ROUND: f32 = 8_388_608.0;

@@ -76,7 +76,7 @@ fn joint_colour(material: Material) -> Srgb8 {
 
 impl ProceduralTexture {
     fn of(floor: &FloorLook, seed: u64) -> ProceduralTexture {
-        // NoiseSpec: length, width in metres, deviation; a deviation of the tint; pieces.
+        // Spots: length, width in metres, deviation; a deviation of the tint; pieces.
         type NoiseSpec = (f64, f64, f32);
         let (tone, tint, pieces): ([NoiseSpec; 3], NoiseSpec, Option<Paving>) = match floor.material {
             Material::Vinyl => {

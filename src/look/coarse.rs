@@ -1,4 +1,4 @@
-//! Where floor is, roughly: blocks without any cost nothing.
+//! A coarse map of the floor, so that blocks without floor cost nothing.
 
 use super::lattice::TexelWindow;
 use super::padding::PADDING;
@@ -34,7 +34,7 @@ impl CoarseFloor {
         CoarseFloor { width, height, shares: shares.collect() }
     }
 
-    /// Whether a window is all floor, or neither floor nor padding.
+    /// The share of floor in a window and its padding.
     pub fn of_window(&self, window: &TexelWindow) -> CoarseShare {
         let squares = |from: i64, count: usize, grown: i64| {
             (from - grown).div_euclid(SIDE)..=(from + count as i64 - 1 + grown).div_euclid(SIDE)

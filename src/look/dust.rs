@@ -1,4 +1,4 @@
-//! Dust: settles where nobody walks, most of it along walls.
+//! Dust: settles off the lanes, most of it along walls.
 
 use super::lattice::{SplineAxis, SplineLattice, TexelWindow};
 use super::settings::DustLook;
@@ -9,7 +9,7 @@ use crate::walls::{Segment, Walls};
 /// Spacing of the lattice on which dust is laid out, metres: it changes slowly.
 const SPACING_M: f64 = 0.05;
 
-/// SplineLattice points are worked out in squares of so many a side that share a list of near walls.
+/// Lattice points are worked out in squares of so many a side that share a list of near walls.
 const SIDE: i64 = 8;
 
 /// Beyond so many times the reach nothing is left.

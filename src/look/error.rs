@@ -12,23 +12,23 @@ pub enum LookError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the operating system.
         source: std::io::Error,
     },
-    /// Not TOML, a key that does not exist, or a value of the wrong type.
+    /// Invalid TOML, an unknown key, or a value of the wrong type.
     #[error("{place}: {message}")]
     Syntax {
-        /// Where.
+        /// Place of the mistake.
         place: FilePlace,
-        /// What is wrong there.
+        /// Description of the mistake.
         message: String,
     },
-    /// A preset that does not exist.
+    /// An unknown preset.
     #[error("{}there is no look preset {name:?}; there are {}", at(.place), LOOK_PRESETS.join(", "))]
     UnknownPreset {
-        /// What was asked for.
+        /// The unknown name.
         name: String,
-        /// Where, if it came from a file.
+        /// Place of the value, if it came from a file.
         place: Option<FilePlace>,
     },
     /// A number beyond what is allowed.
@@ -36,7 +36,7 @@ pub enum LookError {
     Range {
         /// Which key, which value, which range.
         range: RangeError,
-        /// Where, if it came from a file.
+        /// Place of the value, if it came from a file.
         place: Option<FilePlace>,
     },
     /// The repeated image of a floor or a wall cannot be used.
@@ -44,10 +44,10 @@ pub enum LookError {
     Image {
         /// The image.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Description of the mistake.
         message: String,
     },
-    /// Sums that were made for other walls.
+    /// Sums of other walls.
     #[error("the sums are those of {summed} wall faces, but the plan has {faces}")]
     OtherWalls {
         /// Faces of the plan.
@@ -55,10 +55,10 @@ pub enum LookError {
         /// Faces of the sums.
         summed: usize,
     },
-    /// Sums of nobody stand for no history.
+    /// Sums without simulated people.
     #[error("the sums hold no simulated people; a history of {total_passes} passes needs at least one")]
     NoPeople {
-        /// What the look asks for.
+        /// Total passes of the look.
         total_passes: u64,
     },
 }
@@ -105,7 +105,7 @@ fn at(place: &Option<FilePlace>) -> String {
 }
 
 impl LookError {
-    /// What the user can do about it.
+    /// Suggests a remedy.
     pub fn hint(&self) -> Option<String> {
         match self {
             LookError::UnknownPreset { name, .. } => {
@@ -118,7 +118,7 @@ impl LookError {
             ),
             LookError::Syntax { .. } => Some("keys that are left out keep the preset's value".to_string()),
             LookError::OtherWalls { .. } => Some("bake the plan again".to_string()),
-            LookError::NoPeople { .. } => Some("bake with --people 1 or more".to_string()),
+            LookError::NoPeople { .. } => Some("bake a crowd of at least one person".to_string()),
             LookError::Unreadable { .. } | LookError::Range { .. } => None,
         }
     }

@@ -27,7 +27,7 @@ impl TexelWindow {
         Rect { min: corner(self.i0, self.j0), max: corner(i1, j1) }
     }
 
-    /// Whether any texel of `part` is set in a mask of this window.
+    /// True if any texel of `part` is set in a mask of this window.
     pub fn any_in(&self, part: &TexelWindow, mask: &[bool]) -> bool {
         let clip = |first: i64, count: usize, size: usize| {
             let low = first.clamp(0, size as i64);
@@ -50,7 +50,7 @@ impl TexelWindow {
     }
 }
 
-/// Where a row of texels lies on one axis of a lattice.
+/// Spline weights of a row of texels along one axis of a lattice.
 ///
 /// A texel's place follows from its number in the whole floor alone, so that every rectangle that holds the
 /// texel finds the same value.
@@ -58,7 +58,7 @@ impl TexelWindow {
 pub(super) struct SplineAxis {
     /// Number of the first lattice value needed.
     pub first: i64,
-    /// How many are needed.
+    /// Number of lattice values needed.
     pub len: usize,
     /// Runs of texels that take the same three values.
     runs: Vec<SplineRun>,

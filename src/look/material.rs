@@ -2,7 +2,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::math::srgb::Srgb8;
 
-/// What a floor is made of.
+/// Floor material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Material {
@@ -22,7 +22,7 @@ pub enum Material {
     Tile,
 }
 
-/// How dirt shows on a material, as factors on the look's settings, and its own values where the look has none.
+/// Properties of a material: own values, and factors on the look's settings.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Properties {
     pub colour: Srgb8,
@@ -35,7 +35,7 @@ pub(super) struct Properties {
     pub dust: f32,
     /// Least spread of the film, metres: fibres pass dirt on to their neighbours.
     pub least_spread_m: f64,
-    /// Whether the film keeps a trace of single passes.
+    /// True if the film keeps a trace of single passes.
     pub shows_single_passes: bool,
 }
 

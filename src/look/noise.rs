@@ -32,7 +32,7 @@ pub(super) fn signed(key: u32, i: i32, j: i32) -> f32 {
     hash(key, i, j) as i32 as f32 / 2_147_483_648.0
 }
 
-/// What a noise is for: each has a pattern of its own.
+/// Purpose of a noise; each has a pattern of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub(super) enum Channel {
@@ -78,7 +78,7 @@ pub(super) fn key(seed: u64, channel: Channel) -> u32 {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Noise {
     key: u32,
-    /// SplineLattice spacing along x and y, metres.
+    /// Lattice spacing along x and y, metres.
     spacing_m: [f64; 2],
     sd: f32,
 }

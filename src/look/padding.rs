@@ -1,6 +1,6 @@
 //! Continues the floor's colours beyond its edge, so that mip-maps pull in no clean rim.
 
-/// How far the floor is continued, texels.
+/// Width of the padding, texels.
 pub(super) const PADDING: usize = 16;
 
 /// For every texel of the inner part of a mask the column and row in the mask of the floor texel whose colours it

@@ -19,7 +19,7 @@ use crate::math::srgb;
 use crate::sums::{FloorSums, Quantity};
 use crate::walls::Walls;
 
-/// FloorBuffers that a thread uses again from window to window: touching fresh memory costs as much as painting.
+/// Buffers that a thread uses again from window to window: touching fresh memory costs as much as painting.
 #[derive(Default)]
 struct FloorBuffers {
     edge: Vec<f32>,

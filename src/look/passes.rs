@@ -1,4 +1,4 @@
-//! How often each texel was stepped on in the floor's whole history.
+//! Expected passes of the simulated people at each texel.
 
 use super::lattice::{SplineAxis, SplineLattice, TexelWindow};
 use crate::math;
@@ -10,7 +10,7 @@ pub(super) struct PassesField {
     /// Presence times the share of floor in its cell, and that share: beyond the floor nothing is known, so only
     /// floor counts in the mean, and lanes run on undiminished to openings and door jambs.
     weighted: SplineLattice,
-    /// `None` where all is floor.
+    /// `None` if all cells are floor.
     share: Option<SplineLattice>,
 }
 

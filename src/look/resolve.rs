@@ -43,7 +43,7 @@ impl<'a> FloorResolver<'a> {
         })
     }
 
-    /// What texels show that are neither floor nor padding, and all texels of an empty block.
+    /// Texel values beyond floor and padding, and of all texels of an empty block.
     pub fn background(&self) -> Background {
         self.painter.background
     }
@@ -55,8 +55,7 @@ impl<'a> FloorResolver<'a> {
         block
     }
 
-    /// As [`FloorResolver::resolve`], into a block whose memory is used again: half the time is spent on fresh memory
-    /// otherwise.
+    /// As [`FloorResolver::resolve`], into a block whose memory is reused, which is about twice as fast.
     pub fn resolve_into(&self, i0: i64, j0: i64, width: usize, height: usize, block: &mut ResolvedBlock) {
         let texels_per_metre = self.painter.sums.grid().texels_per_metre;
         let rect = TexelWindow { texels_per_metre, i0, j0, width, height };
@@ -116,7 +115,7 @@ impl<'a> FloorResolver<'a> {
 }
 
 thread_local! {
-    /// What texels of a block show, before padding is made from them.
+    /// Shaded texels of a block before padding.
     static PAINTED: RefCell<ResolvedBlock> = RefCell::default();
 }
 

@@ -20,7 +20,7 @@ pub(super) struct LocalSegment {
     salt: u32,
 }
 
-/// Where a row of texels lies as seen from a face.
+/// Places of a row of texels relative to a wall segment.
 pub(super) struct TexelPlaces {
     /// Along the face from its start, metres; may lie beyond its ends.
     along: TexelRow,
@@ -43,7 +43,7 @@ impl LocalSegment {
         }
     }
 
-    /// TexelPlaces of the texels `x = texel_m * (k + 0.5)` at a height `y`.
+    /// Places of the texels `x = texel_m * (k + 0.5)` at a height `y`.
     pub fn places(&self, y: f32, texel_m: f32) -> TexelPlaces {
         let mut places = TexelPlaces { along: [0.0; SQUARE], front: [0.0; SQUARE], distance: [0.0; SQUARE] };
         let y = y - self.start[1];
@@ -86,7 +86,7 @@ pub(super) struct SegmentNoise {
 }
 
 impl SegmentNoise {
-    /// SegmentNoise of `size_m` on a face, as far as a square of side `side_m` sees them within `reach_m`.
+    /// Spots of `size_m` on a face, as far as a square of side `side_m` sees them within `reach_m`.
     pub fn over(face: &LocalSegment, size_m: [f64; 2], side_m: f32, reach_m: f32, key: u32) -> SegmentNoise {
         let corner = |x: f32, y: f32| (x - face.start[0]) * face.along[0] + (y - face.start[1]) * face.along[1];
         let corners = [corner(0.0, 0.0), corner(side_m, 0.0), corner(0.0, side_m), corner(side_m, side_m)];

@@ -7,7 +7,7 @@ use super::octaves::NoiseLook;
 use super::wall::WallLook;
 use crate::math::srgb::Srgb8;
 
-/// How sums become a floor: every setting that `resolve` reads. None of them needs a new simulation.
+/// The look: settings that turn sums into textures. Changing them needs no new simulation.
 ///
 /// A look file is TOML with these keys; keys that it leaves out keep the value of the preset that it names:
 ///
@@ -27,16 +27,16 @@ pub struct Look {
     pub preset: String,
     /// Chooses the noise's pattern; independent of the crowd's seed.
     pub seed: u64,
-    /// How many people the floor has seen since it was laid or last stripped; those simulated stand for them.
+    /// Passes since the floor was laid or last stripped; the simulated people stand for them.
     /// 1 to 1e9. For the presets `commuters`, `heavy` and `wet` 20 000.
     pub total_passes: u64,
-    /// sRGB value (0 to 255) below which dirt darkens no texel: nothing lying about indoors is black.
+    /// Least sRGB value, 0 to 255, to which dirt darkens a texel: indoor dirt is never black.
     pub darkest: f32,
-    /// What is under the dirt.
+    /// The clean floor.
     pub floor: FloorLook,
     /// The grey film that all passes leave together: the lane.
     pub film: FilmLook,
-    /// What darkens on where very many pass, long after the film is complete: thresholds.
+    /// Ingrained dirt: goes on darkening where very many pass, as on thresholds.
     pub ingrained: IngrainedLook,
     /// Single prints that can be read.
     pub prints: PrintsLook,
@@ -44,7 +44,7 @@ pub struct Look {
     pub scuffs: ScuffsLook,
     /// The dirty line along the skirting, where no mop reaches.
     pub edge: EdgeLook,
-    /// Dust where nobody walks.
+    /// Dust off the lanes.
     pub dust: DustLook,
     /// Unevenness of film and dust, in plan space: it does not move when the texel density changes.
     pub noise: NoiseLook,
@@ -56,12 +56,12 @@ pub struct Look {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct FloorLook {
-    /// What the floor is made of: colour, texture, roughness, how dirt stays on it.
+    /// Material: colour, texture, roughness, and how dirt stays on it.
     pub material: Material,
     /// Colour of the clean floor, sRGB; the material's own if left out.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub colour: Option<Srgb8>,
-    /// How much the clean floor's own texture shows: 0 (dead flat) to 3, 1 as the material has it.
+    /// Contrast of the clean floor's own texture: 0 (flat) to 3; 1 as the material has it.
     pub texture: f32,
     /// An image of the floor, repeated from the plan's origin on, instead of the material's colour and texture.
     /// A path relative to the look file.
@@ -89,9 +89,10 @@ pub struct FilmLook {
     pub density: f32,
     /// Share of what is still missing that one pass adds, 0 to 1.
     pub per_pass: f32,
-    /// How far the simulated passes are evened out (standard deviation of a Gaussian), metres, 0 to 0.5: people who
-    /// were not simulated walked beside those who were. What single passes stand out by is kept, scaled by
-    /// 1/sqrt(w).
+    /// Standard deviation of the Gaussian that evens out the simulated passes, metres, 0 to 0.5.
+    ///
+    /// It stands for the people who were not simulated and walked beside. The deviation of single passes is kept,
+    /// scaled by 1/sqrt(w).
     pub spread_m: f64,
     /// Colour, sRGB.
     pub colour: Srgb8,
@@ -139,9 +140,9 @@ pub struct EdgeLook {
     pub reach_m: f32,
     /// Relative unevenness along the wall (standard deviation of the logarithm), 0 to 1.5.
     pub unevenness: f32,
-    /// How many times as much lies in a right-angled inner corner, 1 to 4.
+    /// Factor on the density in a right-angled inner corner, 1 to 4.
     pub corner: f32,
-    /// How far a corner is felt, metres, 0.01 to 0.5.
+    /// Radius of a corner's effect, metres, 0.01 to 0.5.
     pub corner_radius_m: f32,
     /// Colour, sRGB.
     pub colour: Srgb8,
@@ -239,7 +240,7 @@ impl Default for DustLook {
 }
 
 impl Look {
-    /// The same floor and walls without any dirt: for pairs of pictures, clean and dirty.
+    /// The same look without dirt and wear.
     pub fn clean(&self) -> Look {
         let mut look = Look { wall: self.wall.clean(), ..self.clone() };
         look.film.density = 0.0;
@@ -254,7 +255,7 @@ impl Look {
         look
     }
 
-    /// The paths of the images that it uses: of the floor, of the wall.
+    /// Paths of the images of floor and wall.
     pub fn images(&mut self) -> [Option<&mut PathBuf>; 2] {
         [self.floor.image.as_mut(), self.wall.image.as_mut()]
     }

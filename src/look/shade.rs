@@ -20,9 +20,9 @@ const JOINT_FILM_TRODDEN: f32 = 0.40;
 /// Everything about a look that is the same for all texels.
 #[derive(Clone, Debug)]
 pub(super) struct FloorShader {
-    /// History stands for so many times the simulated passes.
+    /// Passes of the whole history per simulated pass.
     weight: f32,
-    /// What single passes stand out by counts so many times.
+    /// Factor on the deviation of single passes from their mean.
     residual: f32,
     per_pass: f32,
     film: f32,
@@ -48,7 +48,7 @@ struct Colours {
     darkest: f32,
 }
 
-/// What is known of each texel of a run.
+/// Inputs of the look's law for a run of texels.
 #[derive(Default)]
 pub(super) struct ShadeInput {
     pub ground: CleanFloorRow,
@@ -65,7 +65,7 @@ pub(super) struct ShadeInput {
     pub dust: Vec<f32>,
 }
 
-/// What follows for each texel of a run.
+/// Results of the look's law for a run of texels.
 #[derive(Default)]
 pub(super) struct ShadeOutput {
     /// Optical densities.
@@ -177,7 +177,7 @@ impl FloorShader {
         });
     }
 
-    /// DirtPlanes over a floor. `hiding` is a buffer.
+    /// Dirt over a floor. `hiding` is a buffer.
     fn colour(&self, dirt: &DirtPlanes<'_>, floor: &[Vec<f32>; 3], hiding: &mut [f32], rgb: &mut [Vec<f32>; 3]) {
         let [a, b, c] = dirt.through;
         // What hides the floor, by density: (1 - T) / sum(D).
@@ -195,7 +195,7 @@ impl FloorShader {
             for (((((plane, hiding), floor), a), b), c) in
                 plane.iter_mut().zip(&*hiding).zip(floor).zip(a).zip(b).zip(c)
             {
-                // DirtPlanes makes nothing darker than the darkest, nor a floor lighter that is darker by itself.
+                // Dirt makes nothing darker than the darkest, nor a floor lighter that is darker by itself.
                 *plane = (floor * (a * b * c) + *plane * hiding).max(colours.darkest.min(*floor));
             }
         }

@@ -31,9 +31,9 @@ pub(super) struct Skirting<'a> {
 
 /// The walls around one square of texels.
 struct NearbyWalls {
-    /// All that make corners.
+    /// Segments that make corners.
     faces: Vec<LocalSegment>,
-    /// Those near enough to show their pattern.
+    /// Segments near enough to show their pattern.
     patterned: Vec<(LocalSegment, [SegmentNoise; 3])>,
     texel_m: f32,
 }

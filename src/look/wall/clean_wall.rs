@@ -19,7 +19,7 @@ const JOINT_DEPTH: f32 = 0.22;
 const TIE_AT: f64 = 0.22;
 const TIE_RADIUS_M: f32 = 0.011;
 const TIE_DEPTH: f32 = 0.28;
-/// How much panels differ in tone: standard deviation.
+/// Standard deviation of the tone from panel to panel.
 const PANEL_SD: f32 = 0.028;
 
 /// The top of a skirting board: a lip that catches dust, metres, and its own tone.
@@ -107,12 +107,12 @@ impl CleanWall {
         self.base
     }
 
-    /// Whether all of the wall above the skirting board has one colour.
+    /// True if the wall above the skirting board has one colour.
     pub fn is_even(&self) -> bool {
         self.image.is_none() && self.panels.is_none() && self.tone.iter().chain([&self.tint]).all(Noise::is_flat)
     }
 
-    /// Whether a row shows nothing of the skirting board.
+    /// True if a row lies above the skirting board.
     pub fn is_above_board(&self, j: i64, texels_per_metre: f64) -> bool {
         j as f32 >= self.board_m * texels_per_metre as f32
     }

@@ -2,7 +2,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::math::srgb::Srgb8;
 
-/// What a wall is made of.
+/// Wall material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum WallMaterial {
@@ -14,7 +14,7 @@ pub enum WallMaterial {
     Concrete,
 }
 
-/// How dirt shows on a material, as factors on the look's settings, and its own values where the look has none.
+/// Properties of a material: own values, and factors on the look's settings.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct WallProperties {
     pub colour: Srgb8,
@@ -28,7 +28,7 @@ pub(super) struct WallProperties {
     pub history: f32,
     pub splash: f32,
     pub dust: f32,
-    /// What full skin grime, and full rub of cloth and bags, change the roughness by.
+    /// Changes of the roughness by full skin grime and by full rub of cloth and bags.
     pub grime_roughness: f32,
     pub rub_roughness: f32,
 }

@@ -20,7 +20,7 @@ use crate::patterns::Cause;
 use crate::stamps::DENSITY_ONE;
 use crate::sums::WallSums;
 
-/// WallBuffers that a thread uses again from window to window.
+/// Buffers that a thread uses again from window to window.
 #[derive(Default)]
 struct WallBuffers {
     known: WallShadeInput,
@@ -38,7 +38,7 @@ struct WallLayout<'a> {
     touches: [Option<TouchFields>; 5],
     splash: Option<SplashWindow>,
     noise: Vec<NoiseField>,
-    /// Whether there may be dirt.
+    /// True if there may be dirt.
     dirty: bool,
 }
 

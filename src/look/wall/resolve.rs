@@ -37,13 +37,14 @@ impl<'a> WallResolver<'a> {
         Ok(WallResolver(WallPainter::new(sums, look, simulated_people)?))
     }
 
-    /// The clean wall's mean: what all texels of an empty block show.
+    /// Mean of the clean wall: the value of all texels of an empty block.
     pub fn background(&self) -> Background {
         self.0.background
     }
 
-    /// Resolves the texels `i0..i0 + width`, `j0..j0 + height` of the unrolled strip of a face: i grows along the face,
-    /// row 0 is the lowest, at the floor for `j0` = 0.
+    /// Resolves the texels `i0..i0 + width`, `j0..j0 + height` of the unrolled strip of a face.
+    ///
+    /// i grows along the face; row 0 is the lowest, at the floor for `j0` = 0.
     ///
     /// Beyond the strip's ends, the floor and the ceiling the texels at the edge go on, which makes the padding of an
     /// atlas; a closed face goes on at its other end. Where an even wall is clean, the block is empty, all background; also
@@ -54,7 +55,7 @@ impl<'a> WallResolver<'a> {
         block
     }
 
-    /// As [`WallResolver::resolve`], into a block whose memory is used again.
+    /// As [`WallResolver::resolve`], into a block whose memory is reused.
     pub fn resolve_into(&self, face: usize, i0: i64, j0: i64, width: usize, height: usize, block: &mut ResolvedBlock) {
         let Some(strip) = FaceStrip::of(self.0.sums.grid(), face).filter(|_| width > 0 && height > 0) else {
             block.become_empty();
@@ -94,7 +95,7 @@ impl<'a> WallResolver<'a> {
 }
 
 thread_local! {
-    /// What the strip shows, before its edges are continued.
+    /// Shaded texels of a strip before its edges are continued.
     static PAINTED: RefCell<ResolvedBlock> = RefCell::default();
 }
 

@@ -7,7 +7,7 @@ use crate::look::colours::{BAG, CLOTH, RUBBER, SKIN, SOIL_WET};
 use crate::look::octaves::{NoiseLook, Octave};
 use crate::math::srgb::Srgb8;
 
-/// How sums become a wall: the section `[wall]` of a look.
+/// The look of walls: the section `[wall]`.
 ///
 /// Densities are optical densities D, as on the floor. A stain's density follows from the touches S of its cause and from
 /// their mean E around: n = strength (w E + g (S - E)) with w = total_passes / people for whom touches were drawn, and
@@ -16,7 +16,7 @@ use crate::math::srgb::Srgb8;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct WallLook {
-    /// What is under the dirt: colour, texture, roughness, and how stains stay on it.
+    /// Material: colour, texture, roughness, and how stains stay on it.
     pub material: WallMaterial,
     /// Colour of the clean wall, sRGB; the material's own if left out.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -45,7 +45,7 @@ pub struct WallLook {
     pub bag: StainLook,
     /// Of shoes.
     pub rubber: StainLook,
-    /// What the mop throws against the wall.
+    /// Splashes of mopping.
     pub splash: SplashLook,
     /// Grey film low on the wall.
     pub dust: WallDustLook,
@@ -55,7 +55,7 @@ pub struct WallLook {
     pub noise: NoiseLook,
 }
 
-/// What one kind of touch leaves.
+/// Stains of one kind of touch.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct StainLook {
@@ -76,9 +76,9 @@ pub struct StainLook {
 pub struct SplashLook {
     /// Optical density at the foot, 0 to 3.
     pub density: f32,
-    /// Where it ends at the highest, metres above the floor, 0.01 to 1.
+    /// Largest height of the band above the floor, metres, 0.01 to 1.
     pub height_m: f32,
-    /// How uneven it is along the wall, 0 to 1.5.
+    /// Unevenness along the wall, 0 to 1.5.
     pub unevenness: f32,
     /// Drips that ran down, per metre of wall, 0 to 20.
     pub drips_per_metre: f32,
@@ -140,7 +140,7 @@ impl Default for WallLook {
 }
 
 impl Default for StainLook {
-    /// That of hands.
+    /// The stain of hands.
     fn default() -> StainLook {
         WallLook::default().skin
     }

@@ -20,9 +20,9 @@ const CHANNEL: [usize; KINDS] = [0, 1, 1, 1, 2, 3, 3];
 /// Which of the material's factors on touches holds for each cause: skin, cloth, bag, rubber.
 const STAIN: [usize; 5] = [0, 1, 1, 2, 3];
 
-/// Less than this optical density changes no 8-bit step: none, so that clean wall stays even.
+/// Least optical density that changes an 8-bit step; less counts as 0, so that clean wall stays even.
 const LEAST: f32 = 0.002;
-/// What one touch leaves is scaled by at most so much.
+/// Largest factor on the stain of one touch.
 const MOST_SINGLE: f32 = 8.0;
 /// Skin grime that hides this share of the wall has changed its roughness in full.
 const FULL_GRIME: f32 = 0.30;
@@ -43,7 +43,7 @@ const HANDS_SD_M: f32 = 0.22;
 /// Everything about a look that is the same for all texels.
 #[derive(Clone, Debug)]
 pub(super) struct WallShader {
-    /// History stands for so many times the simulated touches; what single ones stand out by counts so many times.
+    /// Touches of the whole history per simulated touch, and the factor on the deviation of single ones.
     weight: f32,
     residual: f32,
     every_touch: f32,
@@ -61,7 +61,7 @@ pub(super) struct WallShader {
     rub_roughness: f32,
 }
 
-/// What is known of each texel of a row.
+/// Inputs of the wall's law for a row of texels.
 #[derive(Default)]
 pub(super) struct WallShadeInput {
     pub plaster: CleanWallRow,
@@ -76,7 +76,7 @@ pub(super) struct WallShadeInput {
     pub height_m: f32,
 }
 
-/// What follows for each texel of a row.
+/// Results of the wall's law for a row of texels.
 #[derive(Default)]
 pub(super) struct WallShadeOutput {
     /// Optical densities by kind; empty where there is none.
@@ -93,7 +93,7 @@ pub(super) struct WallShadeOutput {
 }
 
 impl WallShadeInput {
-    /// Whether nothing lies on any texel.
+    /// True if all texels are clean.
     fn is_clean(&self, dust: f32) -> bool {
         self.single.iter().all(Vec::is_empty) && self.splash.is_empty() && dust == 0.0
     }
@@ -134,12 +134,12 @@ impl WallShader {
         }
     }
 
-    /// Whether touches are evened out: where history is no longer than what was drawn, there is nothing to even out.
+    /// True if touches are evened out: the history is longer than the simulation.
     pub fn evens_out(&self) -> bool {
         self.residual < self.weight
     }
 
-    /// Whether a cause can leave anything.
+    /// True if a cause can leave dirt.
     pub fn takes(&self, cause: usize) -> bool {
         self.strength[cause] > 0.0 && self.density[cause] > 0.0 || self.every_touch > 0.0
     }
@@ -149,7 +149,7 @@ impl WallShader {
         self.roughness
     }
 
-    /// Whether there may be dust from a height on upward.
+    /// True if there may be dust at a height or above.
     pub fn dust_from(&self, height_m: f32) -> bool {
         let [density, reach_m, hands] = self.dust;
         density > 0.0 && height_m < DUST_END * reach_m || hands > 0.0 && height_m < HANDS_M + 3.0 * HANDS_SD_M

@@ -7,7 +7,7 @@ use crate::patterns::Cause;
 use crate::stamps::DENSITY_ONE;
 use crate::sums::WallSums;
 
-/// TouchFields of one cause over a window of a strip.
+/// Touches of one cause over a window of a strip.
 pub(super) struct TouchFields {
     /// Sums as they are, texel by texel.
     pub single: Vec<u32>,

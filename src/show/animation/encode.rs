@@ -9,7 +9,7 @@ use crate::math::srgb::Srgb8;
 const DELAY: u16 = 8;
 const LAST_DELAY: u16 = 150;
 
-/// All that a file is made of.
+/// The input of the encoders.
 pub(super) struct EncoderInput<'a> {
     pub(super) frames: &'a PackedFrames,
     pub(super) palette: &'a [Srgb8],

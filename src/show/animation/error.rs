@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-/// Why there can be no animation as asked.
+/// Errors of animations.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AnimationError {
@@ -13,7 +13,7 @@ pub enum AnimationError {
     /// A number out of its range.
     #[error("the animation's {name} is {value}; allowed is {low} to {high}")]
     Number {
-        /// What it is.
+        /// Name of the number.
         name: &'static str,
         /// Its value.
         value: f64,
@@ -25,7 +25,7 @@ pub enum AnimationError {
 }
 
 impl AnimationError {
-    /// What the user can do about it.
+    /// Suggests a remedy.
     pub fn hint(&self) -> Option<String> {
         match self {
             AnimationError::UnknownEnding { .. } => Some("walk.gif is understood everywhere".to_string()),

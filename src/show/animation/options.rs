@@ -9,15 +9,16 @@ pub const ANIMATION_SIZES_PX: [u32; 2] = [200, 2000];
 /// Least and largest value of [`AnimationOptions::speed`].
 pub const ANIMATION_SPEEDS: [f64; 2] = [0.1, 1000.0];
 
-/// How an animation looks.
+/// Speed, size and colours of an animation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AnimationOptions {
-    /// How many times as fast as in life people walk. Left out: a round number at which the animation lasts 20 s at
-    /// most.
+    /// Playback speed as a factor on real time, 0.1 to 1000.
+    ///
+    /// `None`: a round number at which the animation lasts at most 20 s.
     pub speed: Option<f64>,
     /// Longer side of the picture, pixels; 200 to 2000.
     pub size_px: u32,
-    /// What people's colours say.
+    /// Meaning of people's colours.
     pub colour: AnimationColour,
 }
 
@@ -27,14 +28,14 @@ impl Default for AnimationOptions {
     }
 }
 
-/// What people's colours in an animation say.
+/// Meaning of people's colours in an animation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum AnimationColour {
-    /// How fast they walk.
+    /// Walking speed.
     #[default]
     Speed,
-    /// Which route they take.
+    /// Route.
     Route,
 }
 

@@ -36,12 +36,12 @@ pub(super) fn round_speed(expected_s: f64) -> f64 {
     speeds.find(|speed| expected_s / speed <= most_s).unwrap_or(fastest)
 }
 
-/// What an animation became.
+/// Facts of a finished animation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AnimationReport {
-    /// How many times as fast as in life people walk.
+    /// Playback speed as a factor on real time.
     pub speed: f64,
-    /// How long it lasts, seconds.
+    /// Duration, seconds.
     pub seconds: f64,
     /// Number of pictures.
     pub pictures: usize,

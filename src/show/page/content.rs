@@ -5,31 +5,31 @@ use crate::math::srgb::{Srgb8, from_linear, light_of};
 use crate::show::scene::Scene;
 use crate::walls::Walls;
 
-/// What a page shows.
+/// The content of a page.
 #[derive(Clone, Debug)]
 pub struct Page<'a> {
-    /// What the plan is called: the page's title.
+    /// The page's title: the plan's name.
     pub title: &'a str,
     /// The triangles.
     pub scene: &'a Scene,
-    /// The plan: for the small map, for light and shade, and so that nobody walks through walls.
+    /// The walls: for the small map, for light and shade, and to stop the reader at walls.
     pub walls: &'a Walls,
     /// Height of the ceiling, metres.
     pub wall_height_m: f64,
-    /// What floor tiles show.
+    /// Textures of the floor tiles.
     pub floor: PageSurface<'a>,
-    /// What wall sheets show.
+    /// Textures of the wall sheets.
     pub wall: PageSurface<'a>,
-    /// Where a reader stands at first.
+    /// The viewpoint at the start.
     pub start: Viewpoint,
-    /// How much the page may carry.
+    /// Limits of the images.
     pub options: PageOptions,
 }
 
-/// Where somebody stands and looks.
+/// A viewer's place and direction of sight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewpoint {
-    /// Feet, in the plan frame.
+    /// Place of the feet in the plan frame, metres.
     pub at_m: Vec2,
     /// Direction of sight, radians counter-clockwise from +x.
     pub heading_rad: f64,
@@ -37,12 +37,12 @@ pub struct Viewpoint {
     pub pitch_rad: f64,
 }
 
-/// How much a page may carry.
+/// Limits of the images that a page carries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PageOptions {
-    /// Longest side of an image, pixels: what graphics cards take. At least 256.
+    /// Longest side of an image, pixels; at least 256. Graphics cards limit it.
     pub largest_px: u32,
-    /// Images are halved until all together take at most so many bytes before they are written as text.
+    /// Most bytes of all images together: they are halved until they fit.
     pub image_bytes: usize,
 }
 
@@ -52,12 +52,12 @@ impl Default for PageOptions {
     }
 }
 
-/// How tiles or sheets look, clean and dirty.
+/// The textures of floor tiles or wall sheets, clean and dirty.
 #[derive(Clone, Debug)]
 pub struct PageSurface<'a> {
     /// The images, by the number that [`SceneSurface`](super::scene::SceneSurface) gives.
     pub images: &'a [Reduced],
-    /// Colour without dirt, on average.
+    /// Mean colour without dirt, sRGB.
     pub clean: Srgb8,
     /// Roughness without dirt, 0 to 1.
     pub roughness: f32,
@@ -65,10 +65,10 @@ pub struct PageSurface<'a> {
     pub dirt: Vec<DirtKind>,
 }
 
-/// A kind of dirt that the page can show or leave out.
+/// A kind of dirt that the page shows or leaves out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DirtKind {
-    /// What its switch says.
+    /// Label of its switch.
     pub name: &'static str,
     /// Colour, sRGB.
     pub colour: Srgb8,

@@ -1,4 +1,4 @@
-//! LightGrid on the floor and on walls, on a coarse raster: from the lamps, from outside through the openings, and what
+//! Light on the floor and on walls, on a coarse raster: from the lamps, from outside through the openings, and what
 //! the surfaces throw back.
 
 use std::collections::HashMap;
@@ -32,7 +32,7 @@ pub(super) const WALL_HEIGHTS: [f64; 2] = [0.2, 0.75];
 #[derive(Clone, Debug)]
 pub(super) struct LightGrid {
     pub raster: CellGrid,
-    /// `None` where there is no floor, nor floor beside.
+    /// `None` away from floor.
     values: Vec<Option<[f64; 4]>>,
 }
 
@@ -50,7 +50,7 @@ impl LightGrid {
         light
     }
 
-    /// LightGrid from everywhere: the floor's own, evened out over a few metres.
+    /// Light from everywhere: the floor's own, evened out over a few metres.
     fn throw_back(&mut self) {
         let reach = ((THROWN_M / self.raster.cell_m).round() as usize).max(1);
         let (width, height) = (self.raster.width as usize, self.raster.height as usize);
@@ -200,7 +200,7 @@ fn bucket(p: Vec2) -> (i64, i64) {
     ((p.x / REACH_M).floor() as i64, (p.y / REACH_M).floor() as i64)
 }
 
-/// What may be within reach, in a fixed order, so that sums come out the same.
+/// Sources in the buckets around a place, in a fixed order: sums stay the same.
 fn around<T>(buckets: &SourceBuckets<T>, p: Vec2) -> impl Iterator<Item = &T> {
     let (column, row) = bucket(p);
     let keys = (-1..=1).flat_map(move |dx| (-1..=1).map(move |dy| (column + dx, row + dy)));

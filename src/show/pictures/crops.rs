@@ -40,10 +40,9 @@ impl Crop {
     }
 }
 
-/// Chooses what to look at closely: the entrance that most people use, the junction where most people's ways cross, the
-/// narrowest place that a good number of them pass.
+/// Chooses crops: the busiest entrance, the busiest junction, the narrowest place with traffic.
 ///
-/// Where nobody walked or no place of a kind is found, it is left out.
+/// Kinds of which no place is found are left out.
 pub fn choose_crops(bounds_m: Rect, openings: &[Opening], walls: &Walls, paths: &[Path]) -> Vec<Crop> {
     let Some(traffic) = TrafficGrid::count(bounds_m, paths) else { return Vec::new() };
     let entrance = entrance(openings, &traffic);
@@ -55,7 +54,7 @@ pub fn choose_crops(bounds_m: Rect, openings: &[Opening], walls: &Walls, paths: 
     [crop("entrance", entrance), crop("junction", junction), crop("narrow", narrow)].into_iter().flatten().collect()
 }
 
-/// What was walked in a cell, or in many.
+/// Distance walked in a cell or in several.
 #[derive(Clone, Copy, Debug, Default)]
 struct Walked {
     /// Metres.
@@ -79,7 +78,7 @@ impl Walked {
     }
 }
 
-/// Where people walked, and in which directions.
+/// Distance and direction of walking by cell.
 struct TrafficGrid {
     bounds: Rect,
     columns: usize,
@@ -136,7 +135,7 @@ impl TrafficGrid {
         Rect { min, max: min + size }
     }
 
-    /// What was walked in the cells that lie in a rectangle.
+    /// Distance walked in the cells of a rectangle.
     fn within(&self, area: Rect) -> Walked {
         let cell = |metres: f64, most: usize| ((metres / CELL_M).round().max(0.0) as usize).min(most);
         let [left, right] = [area.min.x, area.max.x].map(|x| cell(x - self.bounds.min.x, self.columns));

@@ -27,8 +27,10 @@ const OPENING: Srgb8 = [0, 140, 70];
 const GATE: Srgb8 = [140, 60, 160];
 const UNREACHED: Srgb8 = [214, 130, 0];
 
-/// Draws what was understood of a plan: floor, regions that nobody reaches (hatched), walls (blue: from side to side of
-/// the image; brown: closed), openings with their names, routes with their gates.
+/// Draws a plan as it was read: floor, walls, openings and routes.
+///
+/// Unreached regions are hatched; walls are blue from side to side of the image, brown if closed; openings have their
+/// names, routes their gates.
 pub fn draw_plan(plan: &FloorPlan, walls: &Walls, routes: &[Route]) -> RgbImage {
     let mut canvas = sheet(plan);
     draw_ground(&mut canvas, plan, walls, FLOOR);

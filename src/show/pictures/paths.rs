@@ -3,19 +3,19 @@ use crate::motion::Frame;
 
 /// Seconds between two samples of a path.
 const INTERVAL_S: f64 = 0.5;
-/// How many people are followed at most.
+/// Most people that are followed.
 const FOLLOWED: u32 = 300;
 
-/// One person's way.
+/// The path of one person.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
-    /// Who it is.
+    /// Id of the person.
     pub id: u32,
     /// Places in the order of time.
     pub samples: Vec<PathSample>,
 }
 
-/// Where somebody was.
+/// A person's place and speed at a moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSample {
     /// Plan frame, metres.
@@ -27,7 +27,7 @@ pub struct PathSample {
 /// Follows some of the people of a motion, for pictures.
 #[derive(Clone, Debug)]
 pub struct PathSampler {
-    /// Everybody whose number is a multiple of this is followed.
+    /// People whose id is a multiple of this are followed.
     every: u32,
     next_s: f64,
     paths: Vec<Path>,
@@ -39,7 +39,7 @@ impl PathSampler {
         PathSampler { every: people.div_ceil(FOLLOWED).max(1), next_s: 0.0, paths: Vec::new() }
     }
 
-    /// Looks where everybody is, twice a second.
+    /// Records the places of a frame, twice a second.
     pub fn push(&mut self, frame: &Frame) {
         if frame.time_s < self.next_s {
             return;

@@ -8,7 +8,7 @@ use crate::math::srgb::{from_linear, to_linear};
 use crate::stamps::TexelGrid;
 use crate::walls::Walls;
 
-/// Srgb8 of walls and of the outside in pictures of the floor, sRGB.
+/// Colour of walls and of the outside in pictures of the floor, sRGB.
 const WALL: [u8; 3] = [58, 58, 62];
 
 /// Side of the blocks in which a crop is resolved, texels.

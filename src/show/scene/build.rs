@@ -7,12 +7,12 @@ use super::{faces, floor, lintels};
 use crate::math::Rect;
 use crate::walls::{Doorway, Walls};
 
-/// Sizes that a plan does not tell.
+/// Sizes that a plan does not contain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SceneOptions {
     /// Height of the walls, metres.
     pub wall_height_m: f64,
-    /// Thickness that outer walls are shown with, metres, 0 to 10: plans do not tell what is behind them.
+    /// Shown thickness of outer walls, metres, 0 to 10; plans do not contain it.
     pub rim_m: f64,
 }
 
@@ -35,7 +35,7 @@ const LOWEST_LINTEL_M: f64 = 0.05;
 /// share their corners. Wall faces are upright quads with smooth normals round curved walls (turns of less than 40
 /// degrees) and hard ones at edges. What is solid between floors is closed on top at the walls' height, and the outer
 /// walls are shown as a rim with its outer sides; above doors that are at least 5 cm lower than the walls are lintels; where the floor goes on beyond the plan it is open. All triangles
-/// have an area and are counter-clockwise for who sees their front.
+/// have an area and are counter-clockwise seen from their front.
 ///
 /// The same triangles in the same order on every machine.
 pub fn build(

@@ -48,7 +48,7 @@ impl MeshBuilder {
         MeshBuilder { part, textured, known: HashMap::new() }
     }
 
-    /// Adds a triangle, counter-clockwise for who sees its front, unless it has no area in single precision.
+    /// Adds a triangle, counter-clockwise seen from its front, unless it has no area in single precision.
     pub fn triangle(&mut self, corners: [MeshVertex; 3]) {
         let positions = corners.map(|c| single(c.position_m));
         if !has_area(positions) {
@@ -60,7 +60,7 @@ impl MeshBuilder {
         }
     }
 
-    /// Adds a convex polygon, counter-clockwise for who sees its front.
+    /// Adds a convex polygon, counter-clockwise seen from its front.
     pub fn polygon(&mut self, corners: &[MeshVertex]) {
         for k in 2..corners.len() {
             self.triangle([corners[0], corners[k - 1], corners[k]]);

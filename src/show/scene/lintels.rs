@@ -1,4 +1,4 @@
-//! What is above doors.
+//! Lintels: the walls above doors.
 
 use super::builder::{MeshVertex, SceneBuilder};
 use super::model::SceneSurface;

@@ -1,11 +1,11 @@
-/// What a part of the scene is covered with.
+/// Surface material of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SceneSurface {
     /// A floor texture: place in the manifest's list of tiles.
     FloorTile(usize),
     /// A wall texture: place in the manifest's list of sheets.
     WallSheet(usize),
-    /// What lies on top of walls, and the outer sides of the plan: nobody sees more of it than its colour.
+    /// Tops of walls and outer sides of the plan, in one plain colour.
     WallTop,
     /// Clean wall: above a door, with its underside, and wherever a wall has no texture.
     Lintel,
@@ -14,7 +14,7 @@ pub enum SceneSurface {
 /// Triangles that share a surface. All lists but `indices` have an entry per vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
-    /// What it is covered with.
+    /// Its material.
     pub surface: SceneSurface,
     /// x, y in the plan frame and height above the floor, metres.
     pub positions_m: Vec<[f32; 3]>,
@@ -23,7 +23,7 @@ pub struct Mesh {
     /// Texture coordinates from 0 to 1 within the tile or sheet, from its upper left, v downward; empty for surfaces
     /// without a texture.
     pub uvs: Vec<[f32; 2]>,
-    /// Three per triangle, counter-clockwise for who sees its front.
+    /// Three per triangle, counter-clockwise seen from its front.
     pub indices: Vec<u32>,
 }
 

@@ -52,7 +52,7 @@ pub(super) struct Triangles {
 }
 
 impl PolygonSet {
-    /// What loops enclose that have their inside on the **right**. Where they cross, what they enclose more than once
+    /// The area inside loops that have it on their **right**. Where they cross, what they enclose more than once
     /// counts once. Loops with coordinates that no plan has are left out.
     pub fn inside_right<L: IntoIterator<Item = Vec2>>(loops: impl IntoIterator<Item = L>) -> PolygonSet {
         let mut contours = Vec::new();
@@ -85,17 +85,17 @@ impl PolygonSet {
         PolygonSet { shapes: overlay.overlay(rule, FillRule::Positive) }
     }
 
-    /// What belongs to either.
+    /// The area of either.
     pub fn union(&self, other: &PolygonSet) -> PolygonSet {
         self.with(other, OverlayRule::Union)
     }
 
-    /// What belongs to this one only.
+    /// The area of this one without the other.
     pub fn minus(&self, other: &PolygonSet) -> PolygonSet {
         self.with(other, OverlayRule::Difference)
     }
 
-    /// What belongs to both.
+    /// The area that both share.
     pub fn intersection(&self, other: &PolygonSet) -> PolygonSet {
         self.with(other, OverlayRule::Intersect)
     }

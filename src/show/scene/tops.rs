@@ -1,4 +1,4 @@
-//! What is solid: the tops of walls and pillars, and the outer sides of the rim.
+//! Tops of walls and pillars, and outer sides of the rim.
 
 use super::builder::{MeshBuilder, MeshVertex};
 use super::region::{PolygonSet, snap};
@@ -40,7 +40,7 @@ impl Solid {
         add_level(&self.tops, height_m, part);
     }
 
-    /// The sides that nobody inside sees, from the floor's level up.
+    /// Outer sides, from the floor's level up.
     pub fn add_sides(&self, height_m: f64, part: &mut MeshBuilder) {
         for points in self.whole.loops() {
             let points: Vec<Vec2> = points.collect();

@@ -1,6 +1,6 @@
 use crate::export::{CameraError, ExportError};
 
-/// Why there can be no still as asked.
+/// Errors of stills.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StillError {
@@ -13,11 +13,11 @@ pub enum StillError {
     /// The camera is inside a wall, or beyond the plan, and below the walls' height.
     #[error("the camera at x = {:.2} m, y = {:.2} m is {}", place_m[0], place_m[1], if *beyond { "beyond the plan" } else { "inside a wall" })]
     NotOnFloor {
-        /// Where it is, metres.
+        /// The camera's place, metres.
         place_m: [f64; 2],
-        /// Whether it lies outside the rectangle around all floor.
+        /// True if it lies outside the rectangle around all floor.
         beyond: bool,
-        /// The nearest place on the floor from which something is seen, metres.
+        /// The nearest free place on the floor, metres.
         nearest_m: [f64; 2],
         /// Height above which a camera may be anywhere, metres.
         wall_height_m: f64,
@@ -37,13 +37,13 @@ pub enum StillError {
     /// A size that is not two numbers.
     #[error("the size `{text}` is not two whole numbers with an x between them")]
     NotASize {
-        /// QuadKind was given.
+        /// The text that was given.
         text: String,
     },
 }
 
 impl StillError {
-    /// QuadKind the user can do about it.
+    /// Suggests a remedy.
     pub fn hint(&self) -> Option<String> {
         match self {
             StillError::Camera(error) => error.hint(),
@@ -51,7 +51,9 @@ impl StillError {
             StillError::NotOnFloor { nearest_m: [x, y], wall_height_m, .. } => Some(format!(
                 "the nearest place on the floor is {x:.2},{y:.2}; above {wall_height_m} m a camera may be anywhere"
             )),
-            StillError::NotASize { .. } | StillError::Size { .. } => Some("such as --size 1920x1080".to_string()),
+            StillError::NotASize { .. } | StillError::Size { .. } => {
+                Some("give width and height in pixels, such as 1920x1080".to_string())
+            }
         }
     }
 }

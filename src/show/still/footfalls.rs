@@ -1,4 +1,4 @@
-//! Where people walked, on a raster coarse enough to search through.
+//! Footfalls on a coarse raster.
 
 use crate::math::Vec2;
 use crate::sums::{BLOCK, FloorSums, Quantity};
@@ -6,7 +6,7 @@ use crate::sums::{BLOCK, FloorSums, Quantity};
 /// Side of a cell, metres.
 pub(super) const CELL_M: f64 = 0.25;
 
-/// How trodden each cell is, 0 to 1.
+/// Wear of each cell by footfalls, 0 to 1.
 pub(super) struct FootfallGrid {
     columns: usize,
     rows: usize,
@@ -37,7 +37,7 @@ impl FootfallGrid {
         FootfallGrid { columns, rows, trodden: counts.into_iter().map(share).collect() }
     }
 
-    /// How trodden a place is, 0 to 1.
+    /// Wear of a place by footfalls, 0 to 1.
     pub fn at(&self, p: Vec2) -> f32 {
         let (x, y) = (p.x / CELL_M, p.y / CELL_M);
         let inside = x >= 0.0 && y >= 0.0 && x < self.columns as f64 && y < self.rows as f64;

@@ -1,4 +1,4 @@
-//! How much light falls on floor and walls, on coarse rasters that are computed where something is seen.
+//! Irradiance of floor and walls on coarse rasters, computed where the camera looks.
 
 use std::collections::{BTreeSet, HashMap};
 use std::hash::BuildHasherDefault;
@@ -14,14 +14,14 @@ use crate::math::{Vec2, exp_f32, sin_cos, vec2};
 const PER_METRE: f64 = 8.0;
 /// Side of a block of such places.
 const SIDE: usize = 16;
-/// Nothing farther away than this takes away light, metres.
+/// Largest distance of walls that block light, metres.
 const REACH_M: f64 = 6.0;
 /// Sum over an endless raster of panels, by which light is divided: under it lies 1.
 const FULL_PANELS: f64 = 3.7;
-/// How close a ray may start to a wall, metres.
+/// Least distance of a ray's start from a wall, metres.
 const OFF_WALL_M: f64 = 0.01;
 
-/// How rooms are lit.
+/// The light sources of a still.
 #[derive(Debug)]
 pub(super) enum Lighting {
     /// By panels in the ceiling, and by what floor and walls throw back.
@@ -30,10 +30,10 @@ pub(super) enum Lighting {
     Above(Vec2),
 }
 
-/// QuadKind falls on a place.
+/// Light that falls on a place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Irradiance {
-    /// Irradiance; 1 is a well-lit place.
+    /// Irradiance; 1 in a well-lit place.
     pub full: f32,
     /// Share of the surroundings that is open, 0 to 1.
     pub open: f32,
@@ -47,7 +47,7 @@ pub(super) struct LightKey {
     y: i32,
 }
 
-/// Irradiance on all that is seen.
+/// Irradiance in blocks of places, by block.
 #[derive(Debug)]
 pub(super) struct LightMap<'a> {
     space: &'a RayGrid,
@@ -109,7 +109,7 @@ impl<'a> LightMap<'a> {
         block.into()
     }
 
-    /// Irradiance on a place of the floor.
+    /// Light on a place of the floor.
     pub fn floor(&self, x: f32, y: f32) -> Irradiance {
         let Some(block) = self.blocks.get(&self.floor_key(x, y)) else { return Irradiance { full: 0.8, open: 0.8 } };
         let [x, y] = [x, y].map(|m| m * PER_METRE as f32);
@@ -117,7 +117,7 @@ impl<'a> LightMap<'a> {
         between(block, within(x), within(y), SIDE)
     }
 
-    /// Irradiance on a place of a piece of wall.
+    /// Light on a place of a piece of wall.
     pub fn wall(&self, piece: u32, along_m: f32, z: f32) -> Irradiance {
         let Some(block) = self.blocks.get(&self.wall_key(piece, along_m)) else {
             return Irradiance { full: 0.7, open: 0.7 };
@@ -193,7 +193,7 @@ impl<'a> LightMap<'a> {
         share.sum::<f64>() / SPREAD_7.len() as f64
     }
 
-    /// Adds up what `weight` says of each panel that is seen: way to it, its squared distance, square metres.
+    /// Sum over the visible panels of `weight(way, squared distance, area)`.
     fn over_panels(&self, panels: &Panels, p: Vec2, weight: impl Fn(Vec2, f64, f64) -> f64) -> f64 {
         let height2 = self.space.height_m * self.space.height_m;
         let mut sum = 0.0;
@@ -215,7 +215,7 @@ impl<'a> LightMap<'a> {
         sum / FULL_PANELS / 0.72
     }
 
-    /// Irradiance on a column of a wall, from below.
+    /// Light on a column of a wall, from below.
     fn on_wall(&self, piece: &WallQuad, along_m: f64) -> Vec<Irradiance> {
         let normal = piece.normal();
         let p = piece.a
@@ -288,7 +288,7 @@ impl SeenPanel {
     }
 }
 
-/// Where light is computed along a piece: evenly from end to end.
+/// Columns of a wall piece at which light is computed: evenly from end to end.
 struct Columns {
     count: usize,
     length: f64,

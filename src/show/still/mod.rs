@@ -43,18 +43,18 @@ pub const STILL_SIZE_PX: [u32; 2] = [1280, 720];
 /// Least and greatest width or height of a still, pixels.
 pub const STILL_SIZES_PX: [u32; 2] = [16, 8192];
 
-/// The plan as stills show it.
+/// The rooms of a plan, ready to be drawn.
 #[derive(Debug)]
 pub struct StillScene {
     space: RayGrid,
 }
 
-/// QuadKind lies on floor and walls.
+/// Texel sources of floor and walls.
 #[derive(Clone, Copy)]
 pub struct Surfaces<'a, S> {
     /// The floor at its own texel density.
     pub floor: &'a S,
-    /// TexelSource per metre of the floor.
+    /// Texels per metre of the floor.
     pub floor_texels_per_metre: f64,
     /// The floor made small, for what is far away; without it, all that is seen is resolved.
     pub small: Option<&'a Birdseye>,
@@ -62,18 +62,18 @@ pub struct Surfaces<'a, S> {
     pub walls: Option<WallSurfaces<'a>>,
 }
 
-/// QuadKind lies on walls.
+/// Texel sources of walls.
 #[derive(Clone, Copy)]
 pub struct WallSurfaces<'a> {
     /// The walls at their own texel density.
     pub source: &'a dyn WallSource,
-    /// TexelSource per metre of the walls.
+    /// Texels per metre of the walls.
     pub texels_per_metre: f64,
-    /// QuadKind is shown of walls that are far away.
+    /// Texel source of walls that are far away.
     pub far: FarWalls<'a>,
 }
 
-/// QuadKind is shown of walls that are far away.
+/// Texel source of walls that are far away.
 #[derive(Clone, Copy)]
 pub enum FarWalls<'a> {
     /// The walls themselves, resolved as far as one sees.
@@ -102,7 +102,7 @@ impl StillScene {
         self.space.eye_level(&FootfallGrid::of(sums))
     }
 
-    /// Checks that a camera stands where something is seen: below the walls' height, on the floor.
+    /// Checks that a camera below the walls' height stands on the floor.
     ///
     /// # Errors
     /// A number out of range; a camera inside a wall or beyond the plan.
@@ -121,7 +121,7 @@ impl StillScene {
         })
     }
 
-    /// QuadKind a camera sees, once with each coat, in the rayon pool that it is called in.
+    /// Draws the view of a camera, once for each of `coats`, in the current rayon pool.
     ///
     /// # Errors
     /// As [`StillScene::check`]; a size out of [`STILL_SIZES_PX`]; an interruption.

@@ -1,4 +1,4 @@
-//! Where cameras are put that nobody placed.
+//! Finds default cameras: from above and at eye level.
 
 use rayon::prelude::*;
 
@@ -39,7 +39,7 @@ const INDOORS_M: f64 = 6.0;
 const BRIGHT_M: f64 = 16.0;
 
 impl RayGrid {
-    /// At the height of eyes, where there is most to see: trodden floor with quiet margins, depth, walls on both sides.
+    /// The eye-level camera with the best view: trodden floor with margins, depth, walls on both sides.
     pub(super) fn eye_level(&self, traffic: &FootfallGrid) -> Camera {
         let (places, doors) = (self.standing_places(traffic), self.doors());
         let judged: Vec<(f64, Vec2, f64)> = places
@@ -64,7 +64,7 @@ impl RayGrid {
         }
     }
 
-    /// Places a metre apart where people walked; anywhere on the floor if nobody did.
+    /// Candidate places a metre apart, on walked floor if there is some.
     fn standing_places(&self, traffic: &FootfallGrid) -> Vec<Vec2> {
         let [columns, rows] = traffic.size();
         let step = (1.0 / CELL_M) as usize;
@@ -96,7 +96,7 @@ impl RayGrid {
         self.cast(from, toward, reach_m, solid).map_or(reach_m, |met| met.way_m)
     }
 
-    /// How much there is to see from a place in a direction.
+    /// Score of a view from a place in a direction.
     fn judge(&self, place: Vec2, heading_deg: f64, traffic: &FootfallGrid, doors: &[Vec2]) -> f64 {
         let (mut count, mut trodden, mut contrast) = (0.0, 0.0, 0.0);
         let (mut depth, mut near_walls, mut blocked, mut glare) = (0.0, 0.0, 0.0, 0.0);

@@ -1,4 +1,4 @@
-//! TexelSource at all scales, in blocks that are made when they are needed.
+//! Texels at all scales, in blocks that are made when they are needed.
 
 use std::collections::{BTreeSet, HashMap};
 use std::hash::{BuildHasherDefault, Hasher};
@@ -60,7 +60,7 @@ pub(super) struct Pyramid<'a> {
     blocks: Blocks,
 }
 
-/// QuadKind is seen of a texture by a pixel: an ellipse, as a row of discs.
+/// What is seen of a texture by a pixel: an ellipse, as a row of discs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Footprint {
     pub layer: u32,
@@ -80,7 +80,7 @@ struct Probes {
     count: u32,
     first: [f32; 2],
     step: [f32; 2],
-    /// TexelSource are much larger than pixels.
+    /// Texels are much larger than pixels.
     enlarged: bool,
 }
 
@@ -89,7 +89,7 @@ impl<'a> Pyramid<'a> {
         Pyramid { source, blocks: Blocks::default() }
     }
 
-    /// TexelSource per metre.
+    /// Texels per metre.
     pub fn density(&self) -> f64 {
         self.source.density()
     }

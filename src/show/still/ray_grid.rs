@@ -10,7 +10,7 @@ const MOST_CELLS: f64 = 4e6;
 /// Rays step over cell borders by this much, metres.
 const NUDGE_M: f64 = 1e-7;
 
-/// QuadKind an upright face is.
+/// Kind of an upright quad.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum QuadKind {
     /// A wall: place in [`Walls::faces`].
@@ -55,7 +55,7 @@ impl WallQuad {
     }
 }
 
-/// Where a ray meets a face.
+/// The crossing of a ray and a quad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Crossing {
     /// Way from the ray's start, metres.
@@ -112,7 +112,7 @@ enum CellGround {
     Floor,
 }
 
-/// All upright faces of a plan.
+/// All upright quads of a plan in a grid of cells.
 #[derive(Debug)]
 pub(super) struct RayGrid {
     pub pieces: Vec<WallQuad>,
@@ -131,7 +131,7 @@ pub(super) struct RayGrid {
     /// Pieces of cell `c` are `entries[starts[c]..starts[c + 1]]`.
     starts: Vec<u32>,
     entries: Vec<u32>,
-    /// QuadKind is at each cell's middle.
+    /// What is at each cell's middle.
     middles: Vec<CellGround>,
     /// Cells all around that hold no piece, in rings; 0 where there is one in the cell itself.
     empty_rings: Vec<u8>,
@@ -175,12 +175,12 @@ impl RayGrid {
         space
     }
 
-    /// Whether there are no rooms, only a floor under the sky.
+    /// True for a floor under the sky, without rooms.
     pub fn is_open(&self) -> bool {
         self.height_m <= 0.0
     }
 
-    /// Whether there is floor; beyond the openings there is none.
+    /// True on the floor, false beyond the openings.
     pub fn is_floor(&self, p: Vec2) -> bool {
         let Some(cell) = self.cell_of(p) else { return false };
         let middle = self.middle(cell);

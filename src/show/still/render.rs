@@ -41,7 +41,7 @@ struct TracedRow {
     edges: Vec<(u32, [RayHit; RAYS])>,
 }
 
-/// QuadKind a band needs.
+/// What a band needs.
 #[derive(Default)]
 struct Needs {
     skins: Vec<SamplerNeeds>,

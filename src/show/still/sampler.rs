@@ -1,4 +1,4 @@
-//! QuadKind covers floor and walls, and where of it a pixel looks.
+//! Samples the textures of floor and walls under a pixel.
 
 use std::collections::BTreeSet;
 
@@ -46,7 +46,7 @@ impl SamplerNeeds {
     }
 }
 
-/// LinearRgb as linear light, and roughness, 0 to 1.
+/// Colour as linear light, and roughness, 0 to 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SampledMaterial {
     pub colour: [f32; 3],
@@ -113,7 +113,7 @@ impl<'a> SurfaceSampler<'a> {
     }
 }
 
-/// QuadKind was made small, where it is fine enough.
+/// What was made small, where it is fine enough.
 fn enough<'p, 'a>(small: &'p Option<Pyramid<'a>>, footprint: &Footprint) -> Option<&'p Pyramid<'a>> {
     small.as_ref().filter(|small| footprint.width * small.density() as f32 > 0.75)
 }

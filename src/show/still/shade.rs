@@ -1,4 +1,4 @@
-//! How bright what a ray meets looks from where it comes.
+//! Radiance of a ray's hit toward the camera.
 
 use super::light::{LightMap, Lighting};
 use super::panels::{Panels, TILE_M};
@@ -10,15 +10,15 @@ use crate::math::{Vec2, exp_f32, vec2};
 /// Linear light, red, green, blue.
 pub(super) type LinearRgb = [f32; 3];
 
-/// How bright lamps are.
+/// Radiance of lamps.
 const LAMP: LinearRgb = [3.3, 3.25, 3.1];
 /// Daylight beyond openings.
 const DAYLIGHT: LinearRgb = [1.18, 1.22, 1.28];
 /// The ceiling's tiles.
 const CEILING: LinearRgb = [0.78, 0.775, 0.76];
-/// QuadKind rooms are cut into, as seen from above.
+/// What rooms are cut into, as seen from above.
 const TOP: LinearRgb = [0.052, 0.052, 0.058];
-/// QuadKind the model stands on.
+/// What the model stands on.
 const TABLE: LinearRgb = [0.56, 0.555, 0.54];
 /// Walls as floors mirror them.
 const PLAIN: LinearRgb = [0.66, 0.64, 0.60];
@@ -29,7 +29,7 @@ const MIRROR_REACH_M: f64 = 90.0;
 /// Half of what a usual floor mirrors comes from within this slope to either side.
 const LOBE: f64 = 0.11;
 
-/// All that a picture is made of.
+/// Shades the hits of rays.
 pub(super) struct Shader<'a> {
     pub space: &'a RayGrid,
     pub light: &'a LightMap<'a>,
@@ -37,7 +37,7 @@ pub(super) struct Shader<'a> {
     pub pixel: f32,
 }
 
-/// QuadKind a smooth floor shows.
+/// What a smooth floor shows.
 struct Mirror {
     wall_m: f64,
     ceiling_m: f64,
@@ -191,7 +191,7 @@ impl Shader<'_> {
         let mut sum = 0.0;
         for &[a, b] in &self.space.openings {
             let [a, b] = [a - from, b - from].map(|way| vec2(way.dot(toward), toward.cross(way)));
-            // QuadKind lies beside or behind is not in the lobe.
+            // What lies beside or behind is not in the lobe.
             if a.x < 0.3 || b.x < 0.3 {
                 continue;
             }

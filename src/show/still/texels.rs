@@ -1,4 +1,4 @@
-//! Where surfaces get their texels from.
+//! Texel sources of surfaces.
 
 use image::RgbImage;
 
@@ -17,13 +17,13 @@ pub(super) const SIDE: usize = 128;
 pub(super) enum TexelBlock {
     /// All the same.
     Flat(Texel),
-    /// TracedRow by row, row 0 lowest.
+    /// Row by row, row 0 lowest.
     Full(Box<[Texel]>),
 }
 
 /// A surface's texels, as squares of [`SIDE`]: pure, so that any thread may ask for any of them in any order.
 pub(super) trait TexelSource: Sync {
-    /// TexelSource per metre.
+    /// Texels per metre.
     fn density(&self) -> f64;
 
     /// The block whose lower-left texel is `(i0, j0)`. `layer` is a wall's face, 0 for the floor.
@@ -99,7 +99,7 @@ impl TexelSource for WallTexels<'_> {
     fn read(&self, layer: usize, i0: i64, j0: i64) -> TexelBlock {
         let background = self.source.background();
         let rows = (self.height_m * self.texels_per_metre).ceil() as i64;
-        // QuadKind is above the ceiling or below the floor is never seen itself.
+        // What is above the ceiling or below the floor is never seen itself.
         if j0 >= rows + 2 || j0 + (SIDE as i64) < -2 {
             return TexelBlock::Flat(texel(background.base_color, background.orm));
         }
@@ -119,7 +119,7 @@ pub(super) struct SmallWalls<'a> {
 }
 
 impl<'a> SmallWalls<'a> {
-    /// None if there are no small images of them.
+    /// `None` without reduced images.
     pub fn of(textures: &'a WallTextures, background: Background) -> Option<SmallWalls<'a>> {
         let factor = textures.reduced.iter().map(|reduced| reduced.factor).max()?;
         let faces = textures.atlas.strips().map(|(_, strip)| strip.face + 1).max().unwrap_or(0);
@@ -182,7 +182,7 @@ pub(super) struct PlainWalls {
 }
 
 impl PlainWalls {
-    /// QuadKind nobody knows more of.
+    /// Walls in the colour of the background.
     pub fn of(background: Background, density: f64) -> PlainWalls {
         PlainWalls { density, texel: texel(background.base_color, background.orm) }
     }

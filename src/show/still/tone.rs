@@ -9,7 +9,7 @@ const STRAIGHT: f64 = 0.62;
 const MOST: f64 = 8.0;
 /// Steps of the table.
 const STEPS: usize = 16_384;
-/// How much darker the picture's corners are.
+/// Relative darkening of the picture's corners.
 const VIGNETTE: f32 = 0.13;
 
 /// A table from light to sRGB, 0 to 255.

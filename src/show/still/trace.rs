@@ -6,7 +6,7 @@ use crate::math::{Vec2, vec2};
 /// Way beyond an opening at which nothing but light is seen, metres.
 const OUTSIDE_M: f64 = 14.0;
 
-/// QuadKind is seen.
+/// The surface that a ray hits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum HitSurface {
     Floor,
@@ -16,18 +16,18 @@ pub(super) enum HitSurface {
     Lintel(u32),
     /// The underside of a lintel.
     Soffit(u32),
-    /// QuadKind rooms are cut into, from above.
+    /// What rooms are cut into, from above.
     Top,
     /// The same from the side.
     Side,
-    /// QuadKind the model stands on.
+    /// What the model stands on.
     Table,
-    /// Irradiance, far beyond an opening.
+    /// Light, far beyond an opening.
     Outside,
     Sky,
 }
 
-/// Where a ray ends.
+/// The hit of a ray.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RayHit {
     pub surface: HitSurface,
@@ -96,7 +96,7 @@ impl Ray {
 }
 
 impl RayGrid {
-    /// QuadKind a ray meets from within the rooms, below the ceiling.
+    /// What a ray meets from within the rooms, below the ceiling.
     pub fn trace_inside(&self, position: [f64; 3], way: [f64; 3]) -> RayHit {
         let mut ray = Ray::new(position, way);
         loop {
@@ -147,7 +147,7 @@ impl RayGrid {
         (ray.height(leaves) > lintel.low_m).then(|| (lintel.low_m - ray.z) / ray.slope)
     }
 
-    /// QuadKind a ray meets from above the walls: the rooms lie open, cut into a block on a table.
+    /// What a ray meets from above the walls: the rooms lie open, cut into a block on a table.
     pub fn trace_above(&self, position: [f64; 3], way: [f64; 3]) -> RayHit {
         let ray = Ray::new(position, way);
         if ray.slope >= -1e-9 {

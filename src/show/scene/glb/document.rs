@@ -1,4 +1,4 @@
-//! What the file says of its binary chunk, and the chunk.
+//! The JSON and binary chunks of a glTF file.
 
 use std::io::{self, Write};
 
@@ -255,7 +255,7 @@ fn has_short_indices(part: &Mesh) -> bool {
     part.positions_m.len() <= usize::from(u16::MAX)
 }
 
-/// What stands for a surface in the file.
+/// The material of a surface in the file.
 enum Cover<'a> {
     Textured(&'a SurfaceImages<'a>),
     Plain(&'static str, PlainMaterial),

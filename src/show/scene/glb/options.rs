@@ -2,7 +2,7 @@ use image::RgbImage;
 
 use crate::math::srgb::Srgb8;
 
-/// What the parts of a scene look like and what the file says of itself.
+/// Materials of a scene and metadata of the glTF file.
 #[derive(Clone, Debug)]
 pub struct GlbOptions<'a> {
     /// Name of the node that holds everything: the plan's.
@@ -30,12 +30,12 @@ pub struct SurfaceImages<'a> {
     pub orm: GlbImage<'a>,
 }
 
-/// Where an image is.
+/// The source of a texture image: a file or an image in memory.
 #[derive(Clone, Copy, Debug)]
 pub enum GlbImage<'a> {
-    /// In a file beside the scene: its path relative to the scene's folder, with `/` between its parts.
+    /// A file beside the scene: its path relative to the scene's folder, with `/` between its parts.
     File(&'a str),
-    /// In the scene itself, made smaller if need be, see [`MOST_EMBEDDED_PX`]. Row 0 is the upper one.
+    /// An image embedded in the scene, reduced to [`MOST_EMBEDDED_PX`]. Row 0 is the upper one.
     Embedded(&'a RgbImage),
 }
 
@@ -52,7 +52,7 @@ pub struct PlainMaterial {
 }
 
 impl PlainMaterial {
-    /// What is solid, as drawings show it: darker than any wall, so that a plan can be read from above.
+    /// Cut surfaces: darker than any wall, so that the plan can be read from above.
     pub const CUT: PlainMaterial = PlainMaterial { colour: [104, 102, 98], roughness: 0.9 };
     /// White paint.
     pub const PAINT: PlainMaterial = PlainMaterial { colour: [224, 222, 216], roughness: 0.7 };

@@ -11,7 +11,7 @@ use crate::export::reduction::{halved_colours, halved_numbers};
 /// Quality of base colour within the scene, 1 to 100.
 const JPEG_QUALITY: u8 = 92;
 
-/// What an image holds.
+/// Content of a texture image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TextureContent {
     /// sRGB colour: averaged as light, kept as JPEG.
