@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::Error;
-use crate::crowd::simulate;
+use crate::crowd::Simulation;
 use crate::export::{self, Manifest, OutputFolder, Report, Target, TargetEntry};
 use crate::look::Look;
 use crate::marks::{ContactPlaces, Footfalls};
@@ -64,7 +64,8 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
         None => {
             let (found, ways) = watch.busy(Stage::Routes, || Navigation::find(plan, walls, &scenario.routes))?;
             routes = found;
-            let simulated = || simulate(plan, walls, &routes, ways, &people, &scenario.crowd, &scenario.spots());
+            let simulated =
+                || Simulation::with_spots(plan, walls, &routes, ways, &people, &scenario.crowd, &scenario.spots());
             Source::of_crowd(watch.busy(Stage::Crowd, simulated)?, &routes)
         }
     };

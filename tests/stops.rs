@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)] // a test may panic
 
-use trodden::crowd::{Crowd, CrowdOptions, Tally, Visit};
+use trodden::crowd::{CrowdOptions, Simulation, Tally, Visit};
 use trodden::math::{Distribution, Vec2, vec2};
 use trodden::motion::{BodyOptions, Frame, Motion, People};
 use trodden::plan::{FloorPlan, PlanPoint};
@@ -76,8 +76,8 @@ impl Walk {
         Walk { plan, walls, routes, options }
     }
 
-    fn crowd<'a>(&'a self, people: &People) -> Crowd<'a> {
-        Crowd::new(&self.plan, &self.walls, &self.routes, people, &self.options).unwrap()
+    fn crowd<'a>(&'a self, people: &People) -> Simulation<'a> {
+        Simulation::new(&self.plan, &self.walls, &self.routes, people, &self.options).unwrap()
     }
 
     fn run(&self, mut each: impl FnMut(&Frame)) -> Walked {

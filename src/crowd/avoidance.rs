@@ -5,12 +5,10 @@
 
 use wide::f32x8;
 
-use super::neighbours::Neighbours;
-use super::seen::{LANES, NOWHERE_M};
-use super::state::Body;
+use super::neighbours::{LANES, NOWHERE_M};
+use super::perception::Perception;
+use super::state::BodyState;
 use crate::math::vec2;
-use crate::routes::Ground;
-use crate::walls::Walls;
 
 /// How far ahead people look for somebody in the way, metres.
 const HORIZON_M: f32 = 4.5;
@@ -85,7 +83,7 @@ const AGAINST: f32 = 5.0;
 type Column = [[f32; LANES]; MOST_WEIGHED / LANES];
 
 /// Those who may get in the way, relative to the one who looks.
-struct Others {
+struct Obstacles {
     count: usize,
     /// On which side those are who go the same way: -1 all on the right, 1 all on the left.
     company: f32,
@@ -99,18 +97,9 @@ struct Others {
     gap_m2: Column,
 }
 
-/// What the choice looks at.
-pub(super) struct Sights<'a> {
-    pub(super) neighbours: &'a Neighbours,
-    pub(super) ground: &'a Ground,
-    pub(super) walls: &'a Walls,
-    /// How quickly people take up the line of others, per second.
-    pub(super) alignment: f32,
-}
-
-impl Sights<'_> {
+impl Perception<'_> {
     /// The way round others for somebody who wants to go along the unit vector `wanted` at this speed.
-    pub(super) fn detour(&self, me: &Body, speed_m_s: f32, wanted: [f32; 2]) -> Detour {
+    pub(super) fn detour(&self, me: &BodyState, speed_m_s: f32, wanted: [f32; 2]) -> Detour {
         let others = self.in_the_way(me, speed_m_s, wanted);
         if others.count == 0 {
             return Detour::NONE;
@@ -149,7 +138,7 @@ impl Sights<'_> {
     }
 
     /// Whether somebody who wants to go the other way stands in the way.
-    pub(super) fn is_blocked(&self, me: &Body, wanted: [f32; 2]) -> bool {
+    pub(super) fn is_blocked(&self, me: &BodyState, wanted: [f32; 2]) -> bool {
         if me.vx * wanted[0] + me.vy * wanted[1] > BLOCKED_M_S {
             return false;
         }
@@ -168,8 +157,8 @@ impl Sights<'_> {
     }
 
     /// Collects those ahead who are not on the same way at the same pace.
-    fn in_the_way(&self, me: &Body, speed_m_s: f32, wanted: [f32; 2]) -> Others {
-        let mut others = Others::none();
+    fn in_the_way(&self, me: &BodyState, speed_m_s: f32, wanted: [f32; 2]) -> Obstacles {
+        let mut others = Obstacles::none();
         let (cx, cy) = (me.x + wanted[0] * CENTRE_M, me.y + wanted[1] * CENTRE_M);
         let (mut left, mut company, mut against) = (0.0, 0.5, 0.0);
         self.neighbours.around(cx, cy, |range, shift| {
@@ -193,11 +182,8 @@ impl Sights<'_> {
                     continue;
                 }
                 let clear_m = me.clearance_m + body.clearance_m;
-                if distance_m2 > clear_m * clear_m {
-                    let at = me.position();
-                    if !self.ground.sight(self.walls, at, at + vec2(f64::from(dx), f64::from(dy))) {
-                        continue;
-                    }
+                if distance_m2 > clear_m * clear_m && !self.sees(me, dx, dy) {
+                    continue;
                 }
                 let touching_m = me.half_exclusion_m + body.half_exclusion_m + PASSING_M;
                 others.add(dx, dy, body, distance_m2, touching_m);
@@ -211,11 +197,11 @@ impl Sights<'_> {
     }
 
     /// How far the way along `u` is free of walls, at most `far`.
-    fn free_of_walls_m(&self, me: &Body, u: [f32; 2], far: f32) -> f32 {
+    fn free_of_walls_m(&self, me: &BodyState, u: [f32; 2], far: f32) -> f32 {
         let mut done = me.clearance_m;
         while done < far {
             let at = me.position() + vec2(f64::from(u[0]), f64::from(u[1])) * f64::from(done);
-            let free = self.ground.clearance_m(at) as f32 - 0.15;
+            let free = self.environment.ground().clearance_m(at) as f32 - 0.15;
             if free < 0.03 {
                 return done;
             }
@@ -225,10 +211,10 @@ impl Sights<'_> {
     }
 }
 
-impl Others {
-    fn none() -> Others {
+impl Obstacles {
+    fn none() -> Obstacles {
         let column = [[0.0; LANES]; MOST_WEIGHED / LANES];
-        Others {
+        Obstacles {
             count: 0,
             company: 0.0,
             against: false,
@@ -241,7 +227,7 @@ impl Others {
     }
 
     /// Takes in one more; when there is no room for more, in place of the farthest if that is farther.
-    fn add(&mut self, dx: f32, dy: f32, body: &Body, distance_m2: f32, touching_m: f32) {
+    fn add(&mut self, dx: f32, dy: f32, body: &BodyState, distance_m2: f32, touching_m: f32) {
         let at = if self.count < MOST_WEIGHED {
             self.count += 1;
             self.count - 1
@@ -302,10 +288,10 @@ impl Others {
 mod tests {
     use super::*;
 
-    fn others(list: &[[f32; 4]]) -> Others {
-        let mut others = Others::none();
+    fn others(list: &[[f32; 4]]) -> Obstacles {
+        let mut others = Obstacles::none();
         for &[dx, dy, vx, vy] in list {
-            others.add(dx, dy, &Body { vx, vy, ..Body::default() }, dx * dx + dy * dy, 0.5);
+            others.add(dx, dy, &BodyState { vx, vy, ..BodyState::default() }, dx * dx + dy * dy, 0.5);
         }
         others.fill_up();
         others

@@ -1,13 +1,24 @@
 use serde::{Deserialize, Serialize};
 
 use super::CrowdError;
-use super::social_force::{CrowdModel, GroupOptions, SocialForceOptions};
+use super::social_force::{GroupOptions, SocialForceOptions};
 use crate::math::Distribution;
 use crate::motion::BodyOptions;
 use crate::routes::Timetable;
 
 /// More people than this are a mistake: the arrival list alone would take gigabytes.
 const MOST_PEOPLE: u32 = 5_000_000;
+
+/// Which model moves a crowd.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CrowdModel {
+    /// Boids without cohesion: everybody walks alone. The model of the Grime paper, fast, for large crowds.
+    #[default]
+    Boids,
+    /// Social forces, with groups of up to four who walk together.
+    SocialForce,
+}
 
 /// How the people of a crowd walk. Speeds in metres per second, distances in metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -167,41 +178,5 @@ impl CrowdOptions {
         }
         self.groups.check()?;
         self.social_force.check()
-    }
-}
-
-/// Density at which the linear law comes to rest, persons per square metre.
-const LINEAR_JAM: f64 = 4.0;
-/// Density at which Weidmann's law comes to rest, persons per square metre.
-const WEIDMANN_JAM: f64 = 5.4;
-/// Nobody gets slower than this by density alone, metres per second: an arch before a door must dissolve.
-pub(super) const LEAST_SPEED_M_S: f32 = 0.08;
-
-/// A speed law as a table over density.
-#[derive(Clone, Debug)]
-pub(super) struct SpeedTable {
-    factors: Vec<f32>,
-}
-
-impl SpeedTable {
-    const PER_UNIT: f32 = 32.0;
-
-    pub(super) fn new(law: SpeedLaw) -> SpeedTable {
-        let factor = |rho: f64| match law {
-            SpeedLaw::Linear => (1.0 - rho / LINEAR_JAM).max(0.0),
-            SpeedLaw::Weidmann if rho < 1e-3 => 1.0,
-            SpeedLaw::Weidmann => (1.0 - crate::math::exp(-1.913 * (1.0 / rho - 1.0 / WEIDMANN_JAM))).max(0.0),
-        };
-        let count = (8.0 * f64::from(SpeedTable::PER_UNIT)) as usize;
-        SpeedTable { factors: (0..=count).map(|k| factor(k as f64 / f64::from(SpeedTable::PER_UNIT)) as f32).collect() }
-    }
-
-    /// Share of the free speed that is left at a density.
-    #[inline]
-    pub(super) fn factor(&self, density: f32) -> f32 {
-        let at = (density * SpeedTable::PER_UNIT).clamp(0.0, (self.factors.len() - 2) as f32);
-        let k = at as usize;
-        let (a, b) = (self.factors[k], self.factors[k + 1]);
-        a + (b - a) * (at - k as f32)
     }
 }

@@ -10,13 +10,6 @@ use crate::routes::Route;
 /// Of those who got stuck, so many are named one by one.
 const NAMED: usize = 5;
 
-/// Those who have walked a route to its end.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Trail {
-    pub(super) arrived: u64,
-    pub(super) last_arrived_s: f64,
-}
-
 /// What became of everybody.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tally {

@@ -2,15 +2,17 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::draft::RouteDraft;
 use super::field::Field;
 use super::flow::Flow;
 use super::ground::{Fineness, Ground};
-use super::ribbon::End;
+use super::legs::{FieldStore, LegEnd, leg_ends};
+use super::ribbon::RibbonEnd;
 use super::stop::{RouteStop, Stop};
 use super::targets::{self, Asked};
 use super::{
-    Gap, Place, PlaceRequest, Route, RouteRequest, RoutesError, RoutesOptions, Spot, Timetable, Via, ViaRequest,
-    defaults, gates, ribbon,
+    Gap, Place, PlaceRequest, Route, RouteRequest, RoutesError, RoutesOptions, Spot, Via, ViaRequest, defaults, gates,
+    ribbon,
 };
 use crate::math::Vec2;
 use crate::plan::FloorPlan;
@@ -99,20 +101,20 @@ impl Navigation {
             return Err(RoutesError::TooMany { routes: asked.len(), most: MOST_ROUTES });
         }
         let mut fields = FieldStore::default();
-        let mut plots: Vec<Plot> = if asked.is_empty() {
-            defaults::plots(plan, ground, &mut fields)?
+        let mut drafts: Vec<RouteDraft> = if asked.is_empty() {
+            defaults::drafts(plan, ground, &mut fields)?
         } else {
             let stops = stops(plan, walls, ground, options)?;
-            asked.iter().map(|request| plot(plan, ground, request, options, &stops)).collect::<Result<_, _>>()?
+            asked.iter().map(|request| draft(plan, ground, request, options, &stops)).collect::<Result<_, _>>()?
         };
-        let total: f64 = plots.iter().map(|p| p.share).sum();
+        let total: f64 = drafts.iter().map(|p| p.share).sum();
         if total <= 0.0 {
-            return Err(RoutesError::NoShares { routes: plots.len() });
+            return Err(RoutesError::NoShares { routes: drafts.len() });
         }
-        fields.fill(plan, ground, plots.iter().flat_map(Plot::legs));
-        turn_gates(ground, &fields, &mut plots);
+        fields.fill(plan, ground, drafts.iter().flat_map(RouteDraft::legs));
+        turn_gates(ground, &fields, &mut drafts);
         let routes: Result<Vec<Route>, RoutesError> =
-            plots.par_iter().map(|plot| lay_out(plan, ground, &fields, plot, plot.share / total)).collect();
+            drafts.par_iter().map(|draft| lay_out(plan, ground, &fields, draft, draft.share / total)).collect();
         Ok((routes?, fields))
     }
 
@@ -123,16 +125,15 @@ impl Navigation {
         mut fields: FieldStore,
     ) -> Result<Navigation, RoutesError> {
         fields.fill(plan, &ground, routes.iter().flat_map(route_legs));
-        let mut pairs: Vec<Pair> = Vec::new();
+        let mut pairs: Vec<LegEnds> = Vec::new();
         let ways =
             routes.iter().map(|route| way(plan, &ground, &fields, route, &mut pairs)).collect::<Result<_, _>>()?;
-        let flow = |pair: &Pair| {
+        let flow = |pair: &LegEnds| {
             let starts = pair.from.cells(plan, &ground);
             Arc::new(Flow::new(&ground, &starts, fields.get(pair.to)))
         };
         let flows = pairs.par_iter().map(flow).collect();
-        let fields = fields.fields.into_iter().map(|f| f.1).collect();
-        Ok(Navigation { ground: Arc::new(ground), fields, flows, ways })
+        Ok(Navigation { ground: Arc::new(ground), fields: fields.into_fields(), flows, ways })
     }
 }
 
@@ -160,95 +161,25 @@ fn first_that_works<T>(
     Err(first_error.unwrap_or(RoutesError::NoRoom { largest_m2: 0.0 }))
 }
 
-/// A place that a leg leads to, and whether it is the route's last.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct LegEnd {
-    pub(super) place: Place,
-    pub(super) last: bool,
-}
-
-impl LegEnd {
-    /// The cells that count as this end.
-    fn cells(self, plan: &FloorPlan, ground: &Ground) -> Vec<usize> {
-        match self.last {
-            true => targets::cells(plan, ground, self.place),
-            false => targets::via_cells(plan, ground, self.place),
-        }
-    }
-}
-
 /// Both ends of a leg.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Pair {
+struct LegEnds {
     from: LegEnd,
     to: LegEnd,
-}
-
-/// The fields made so far.
-#[derive(Debug, Default)]
-pub(super) struct FieldStore {
-    fields: Vec<(LegEnd, Arc<Field>)>,
-}
-
-impl FieldStore {
-    /// Makes the fields that are still missing, side by side.
-    pub(super) fn fill(&mut self, plan: &FloorPlan, ground: &Ground, wanted: impl Iterator<Item = LegEnd>) {
-        let mut missing: Vec<LegEnd> = Vec::new();
-        for end in wanted {
-            if !missing.contains(&end) && self.fields.iter().all(|f| f.0 != end) {
-                missing.push(end);
-            }
-        }
-        let made = missing.into_par_iter().map(|end| (end, Arc::new(Field::to(ground, &end.cells(plan, ground)))));
-        let made: Vec<_> = made.collect();
-        self.fields.extend(made);
-    }
-
-    fn index(&self, end: LegEnd) -> usize {
-        self.fields.iter().position(|f| f.0 == end).expect("filled with every leg before")
-    }
-
-    pub(super) fn get(&self, end: LegEnd) -> &Field {
-        &self.fields[self.index(end)].1
-    }
-}
-
-/// A route before its way is known.
-#[derive(Clone, Debug)]
-pub(super) struct Plot {
-    pub(super) name: String,
-    /// How messages call start, places between, and goal.
-    pub(super) place_names: Vec<String>,
-    pub(super) start: Place,
-    pub(super) via: Vec<Place>,
-    pub(super) stops: Vec<RouteStop>,
-    pub(super) arrivals: Option<Timetable>,
-    pub(super) goal: Place,
-    pub(super) share: f64,
-}
-
-impl Plot {
-    fn legs(&self) -> impl Iterator<Item = LegEnd> {
-        leg_ends(self.via.iter().copied(), self.goal)
-    }
 }
 
 fn route_legs(route: &Route) -> impl Iterator<Item = LegEnd> {
     leg_ends(route.via.iter().map(|v| v.place), route.goal)
 }
 
-fn leg_ends(via: impl Iterator<Item = Place>, goal: Place) -> impl Iterator<Item = LegEnd> {
-    via.map(|place| LegEnd { place, last: false }).chain([LegEnd { place: goal, last: true }])
-}
-
 /// Finds the places that a request names.
-fn plot(
+fn draft(
     plan: &FloorPlan,
     ground: &Ground,
     request: &RouteRequest,
     options: &RoutesOptions,
     stops: &[Stop],
-) -> Result<Plot, RoutesError> {
+) -> Result<RouteDraft, RoutesError> {
     let (passed, stopped) = split(request, options);
     let mut names: Vec<String> =
         [&request.from].into_iter().chain(passed.iter().copied()).chain([&request.to]).map(|p| p.describe()).collect();
@@ -292,7 +223,7 @@ fn plot(
         return Err(RoutesError::Timetable { route: name, key, problem });
     }
     let arrivals = request.arrivals.clone();
-    Ok(Plot { name, place_names: names, start, via, stops, arrivals, goal, share: request.share })
+    Ok(RouteDraft { name, place_names: names, start, via, stops, arrivals, goal, share: request.share })
 }
 
 /// The stops that a scenario describes, on the ground.
@@ -341,11 +272,11 @@ fn or_stop(error: RoutesError, stops: &[Stop]) -> RoutesError {
 }
 
 /// Turns ticket gates the way that the first route goes through them; all routes share them.
-fn turn_gates(ground: &Ground, fields: &FieldStore, plots: &mut [Plot]) {
+fn turn_gates(ground: &Ground, fields: &FieldStore, drafts: &mut [RouteDraft]) {
     let mut turned: Vec<Stop> = Vec::new();
-    for plot in plots {
-        let legs: Vec<LegEnd> = plot.legs().collect();
-        for on_route in &mut plot.stops {
+    for draft in drafts {
+        let legs: Vec<LegEnd> = draft.legs().collect();
+        for on_route in &mut draft.stops {
             if let Some(known) = turned.iter().find(|stop| stop.name == on_route.stop.name) {
                 on_route.stop = known.clone();
                 continue;
@@ -356,25 +287,25 @@ fn turn_gates(ground: &Ground, fields: &FieldStore, plots: &mut [Plot]) {
     }
 }
 
-/// Follows a plotted route and lays gates across its way.
+/// Follows a drafted route and lays gates across its way.
 fn lay_out(
     plan: &FloorPlan,
     ground: &Ground,
     fields: &FieldStore,
-    plot: &Plot,
+    draft: &RouteDraft,
     share: f64,
 ) -> Result<Route, RoutesError> {
     let unreachable = |leg: usize, from: Vec2| {
-        let to = plot.via.get(leg).copied().unwrap_or(plot.goal);
-        let names = [plot.place_names[leg].as_str(), plot.place_names[leg + 1].as_str()];
+        let to = draft.via.get(leg).copied().unwrap_or(draft.goal);
+        let names = [draft.place_names[leg].as_str(), draft.place_names[leg + 1].as_str()];
         let cells = [ground.walkable_near(from, 1.0), targets::cells(plan, ground, to).first().copied()];
-        no_way(plan, ground, &plot.name, names, cells)
+        no_way(plan, ground, &draft.name, names, cells)
     };
-    let start_cells = targets::cells(plan, ground, plot.start);
+    let start_cells = targets::cells(plan, ground, draft.start);
     let mut at = targets::middle(ground, &start_cells).unwrap_or_default();
     let mut line: Vec<Vec2> = Vec::new();
     let mut turns = Vec::new();
-    for (leg, end) in plot.legs().enumerate() {
+    for (leg, end) in draft.legs().enumerate() {
         let path = ribbon::trace(ground, fields.get(end), at).ok_or_else(|| unreachable(leg, at))?;
         at = path[path.len() - 1];
         let piece = ribbon::resample(&path);
@@ -382,14 +313,14 @@ fn lay_out(
         turns.push(line.len() - 1);
     }
     turns.pop();
-    let ends = [plot.start, plot.goal].map(|place| match place {
-        Place::Opening(index) => End::Opening(plan.openings.get(index).map_or(0.0, |o| o.width_m())),
-        Place::Area([min, max]) => End::Area(min.distance(max)),
+    let ends = [draft.start, draft.goal].map(|place| match place {
+        Place::Opening(index) => RibbonEnd::Opening(plan.openings.get(index).map_or(0.0, |o| o.width_m())),
+        Place::Area([min, max]) => RibbonEnd::Area(min.distance(max)),
     });
     let pinches: Vec<(usize, f64)> = turns.iter().map(|&k| (k, VIA_REACH_M)).collect();
     let stations = ribbon::measure(ground, &line, ends, &pinches);
     let (gates, at) = gates::lay(&stations, &turns);
-    let via = plot
+    let via = draft
         .via
         .iter()
         .zip(&turns)
@@ -397,12 +328,12 @@ fn lay_out(
         .collect();
     let length_m = line.windows(2).map(|w| w[0].distance(w[1])).sum();
     Ok(Route {
-        name: plot.name.clone(),
-        start: plot.start,
+        name: draft.name.clone(),
+        start: draft.start,
         via,
-        stops: plot.stops.clone(),
-        arrivals: plot.arrivals.clone(),
-        goal: plot.goal,
+        stops: draft.stops.clone(),
+        arrivals: draft.arrivals.clone(),
+        goal: draft.goal,
         share,
         gates,
         length_m,
@@ -432,13 +363,13 @@ fn way(
     ground: &Ground,
     fields: &FieldStore,
     route: &Route,
-    pairs: &mut Vec<Pair>,
+    pairs: &mut Vec<LegEnds>,
 ) -> Result<Way, RoutesError> {
     // People come from anywhere in the start.
     let mut from = LegEnd { place: route.start, last: true };
     let mut legs = Vec::with_capacity(route.via.len() + 1);
     for to in route_legs(route) {
-        let pair = Pair { from, to };
+        let pair = LegEnds { from, to };
         let flow = pairs.iter().position(|p| *p == pair).unwrap_or(pairs.len());
         if flow == pairs.len() {
             pairs.push(pair);
@@ -446,7 +377,7 @@ fn way(
         legs.push(Leg { field: fields.index(to), flow });
         from = to;
     }
-    let first_field = &fields.fields[legs[0].field].1;
+    let first_field = fields.of_index(legs[0].field);
     let start_cells: Vec<usize> =
         targets::cells(plan, ground, route.start).into_iter().filter(|&c| first_field.of_cell(c).is_finite()).collect();
     let goal_cells = targets::cells(plan, ground, route.goal);

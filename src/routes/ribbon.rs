@@ -28,7 +28,7 @@ pub(super) struct Station {
 }
 
 impl Station {
-    /// End of the usable way on the left (0) or right (1).
+    /// RibbonEnd of the usable way on the left (0) or right (1).
     pub(super) fn end(&self, side: usize) -> Vec2 {
         let sign = if side == 0 { 1.0 } else { -1.0 };
         self.middle_m + self.ahead.left() * (sign * self.extent_m[side])
@@ -37,19 +37,19 @@ impl Station {
 
 /// How wide a route is where it begins or ends, metres.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum End {
+pub(super) enum RibbonEnd {
     /// Everybody comes in or goes out over the whole width.
     Opening(f64),
     /// People come from or gather at a place in the open.
     Area(f64),
 }
 
-impl End {
+impl RibbonEnd {
     /// How far to either side people spread at this distance from the end, who would otherwise spread that far.
     fn limit(self, otherwise_m: f64, distance_m: f64) -> f64 {
         match self {
-            End::Opening(width_m) => otherwise_m.max(0.5 * width_m - FANNING * distance_m),
-            End::Area(width_m) => otherwise_m.min(0.5 * width_m + FANNING * distance_m),
+            RibbonEnd::Opening(width_m) => otherwise_m.max(0.5 * width_m - FANNING * distance_m),
+            RibbonEnd::Area(width_m) => otherwise_m.min(0.5 * width_m + FANNING * distance_m),
         }
     }
 }
@@ -122,7 +122,7 @@ pub(super) fn resample(path: &[Vec2]) -> Vec<Vec2> {
 ///
 /// `ends` says how wide start and goal are, `pinches` which stations are places in the open that people pass within a
 /// stated distance.
-pub(super) fn measure(ground: &Ground, line: &[Vec2], ends: [End; 2], pinches: &[(usize, f64)]) -> Vec<Station> {
+pub(super) fn measure(ground: &Ground, line: &[Vec2], ends: [RibbonEnd; 2], pinches: &[(usize, f64)]) -> Vec<Station> {
     let reach = (SMOOTHING_M / STEP_M) as usize;
     let count = line.len();
     let smooth: Vec<Vec2> = (0..count)

@@ -2,17 +2,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::crowd::CrowdError;
 
-/// Which model moves a crowd.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum CrowdModel {
-    /// Boids without cohesion: everybody walks alone. The model of the Grime paper, fast, for large crowds.
-    #[default]
-    Boids,
-    /// Social forces, with groups of up to four who walk together.
-    SocialForce,
-}
-
 /// Who walks with whom, under social forces.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]

@@ -22,12 +22,12 @@ pub struct SpotReport {
     /// How many people took a part.
     pub people: u64,
     /// How far from the beginning of their part people were when it was taken over, metres.
-    pub position_error_m: Spread,
+    pub position_error_m: MeanAndMax,
     /// How far they were turned from it, degrees.
-    pub heading_error_deg: Spread,
+    pub heading_error_deg: MeanAndMax,
     /// How long they took to move over, seconds.
-    pub move_over_s: Spread,
-    /// Seconds that people played their parts, all together.
+    pub move_over_s: MeanAndMax,
+    /// Seconds that people played their performers, all together.
     pub led_s: f64,
     /// Metres that they walked meanwhile.
     pub led_m: f64,
@@ -59,7 +59,7 @@ pub struct SpotReport {
 
 /// Mean and largest of many values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Spread {
+pub struct MeanAndMax {
     /// The mean; 0 of none.
     pub mean: f64,
     /// The largest.
@@ -68,7 +68,7 @@ pub struct Spread {
     pub count: u64,
 }
 
-impl Spread {
+impl MeanAndMax {
     /// Takes one more value.
     pub fn push(&mut self, value: f64) {
         self.count += 1;
@@ -136,9 +136,9 @@ mod tests {
 
     #[test]
     fn a_spread_is_mean_and_largest() {
-        let mut spread = Spread::default();
+        let mut spread = MeanAndMax::default();
         [1.0, 4.0, 1.0].into_iter().for_each(|value| spread.push(value));
-        assert_eq!(spread, Spread { mean: 2.0, largest: 4.0, count: 3 });
+        assert_eq!(spread, MeanAndMax { mean: 2.0, largest: 4.0, count: 3 });
     }
 
     #[test]

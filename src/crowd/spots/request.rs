@@ -2,12 +2,11 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-use super::super::CrowdError;
+use crate::crowd::CrowdError;
+use crate::crowd::environment::Environment;
 use crate::math::{Vec2, sin_cos, vec2};
-use crate::plan::{FloorPlan, PlanPoint};
-use crate::routes::Ground;
+use crate::plan::PlanPoint;
 use crate::units::{Areas, SpotFrame};
-use crate::walls::Walls;
 
 /// Nobody stands nearer to a wall than this, metres.
 const LEAST_CLEARANCE_M: f64 = 0.2;
@@ -142,11 +141,8 @@ impl SpotRequest {
     }
 
     /// Finds the spot on the floor.
-    pub(super) fn resolve(
-        &self,
-        index: usize,
-        (plan, walls, ground): (&FloorPlan, &Walls, &Ground),
-    ) -> Result<SpotFrame, CrowdError> {
+    pub(super) fn resolve(&self, index: usize, environment: &Environment<'_>) -> Result<SpotFrame, CrowdError> {
+        let (plan, walls, ground) = (environment.plan, environment.walls, environment.ground());
         let at_m = self.at.to_m(plan);
         let wrong = |problem: String, hint: String| {
             Err(CrowdError::Spot { spot: self.title(index), x: at_m.x, y: at_m.y, problem, hint })

@@ -1,8 +1,8 @@
 //! Whether there is room for a unit.
 
-use super::super::Present;
-use super::play::Play;
-use super::way::{LOOK_S, Way};
+use super::path::{BlendedPath, LOOK_S};
+use super::playback::Playback;
+use crate::crowd::agents::AgentSnapshot;
 use crate::math::Vec2;
 use crate::units::{LEAST_APART_M, SpotFrame, Unit};
 use crate::walls::Walls;
@@ -19,20 +19,20 @@ const FORESEEN_M: f64 = 0.42;
 const FAR_M: f64 = 20.0;
 
 /// What may be in the way of a unit that begins now.
-pub(super) struct Room<'a> {
+pub(super) struct Clearance<'a> {
     pub(super) frame: &'a SpotFrame,
     /// Radius of the viewer's body, metres; 0: nobody stands there.
     pub(super) radius_m: f64,
     pub(super) walls: &'a Walls,
     /// What is being played at the spot.
-    pub(super) playing: Vec<(&'a Play, &'a Unit)>,
-    /// Now, seconds since the start.
+    pub(super) playing: Vec<(&'a Playback, &'a Unit)>,
+    /// StepTime, seconds since the start.
     pub(super) time_s: f64,
 }
 
-impl Room<'_> {
+impl Clearance<'_> {
     /// Whether people can take these ways into a unit: nobody runs into anybody, the viewer, or a wall.
-    pub(super) fn has(&self, unit: &Unit, ways: &[(u32, Way)], people: &[Present]) -> bool {
+    pub(super) fn has(&self, unit: &Unit, ways: &[(u32, BlendedPath)], people: &[AgentSnapshot]) -> bool {
         self.are_apart(unit, ways)
             && self.keep_off(unit, ways, people)
             && self.keep_off_who_play(unit, ways)
@@ -40,7 +40,7 @@ impl Room<'_> {
     }
 
     /// Whether nobody runs into another or the viewer while they move over.
-    fn are_apart(&self, unit: &Unit, ways: &[(u32, Way)]) -> bool {
+    fn are_apart(&self, unit: &Unit, ways: &[(u32, BlendedPath)]) -> bool {
         let over_s = ways.iter().map(|(_, way)| way.over_s).fold(0.0, f64::max);
         let viewer_m = viewer_m(self.radius_m);
         looks(over_s + LOOK_S).all(|time_s| {
@@ -52,34 +52,34 @@ impl Room<'_> {
     }
 
     /// Whether nobody who walks by the model is about to come into their way.
-    fn keep_off(&self, unit: &Unit, ways: &[(u32, Way)], people: &[Present]) -> bool {
+    fn keep_off(&self, unit: &Unit, ways: &[(u32, BlendedPath)], people: &[AgentSnapshot]) -> bool {
         let known = |id: u32| {
-            let parts = self.playing.iter().flat_map(|(play, _)| &play.parts);
-            ways.iter().any(|(other, _)| *other == id) || parts.into_iter().any(|part| part.id == id)
+            let performers = self.playing.iter().flat_map(|(play, _)| &play.performers);
+            ways.iter().any(|(other, _)| *other == id) || performers.into_iter().any(|part| part.id == id)
         };
-        let near = |p: &&Present| {
+        let near = |p: &&AgentSnapshot| {
             ways.iter().any(|(_, way)| {
                 let from_m = self.frame.to_plan(way.at(unit, 0.0).place_m);
                 p.position_m.distance(from_m) < FAR_M
             })
         };
-        let others: Vec<&Present> = people.iter().filter(near).filter(|person| !known(person.id)).collect();
+        let others: Vec<&AgentSnapshot> = people.iter().filter(near).filter(|person| !known(person.id)).collect();
         looks(FORESEEN_S).all(|time_s| {
             ways.iter().all(|(_, way)| {
                 let (place_m, _) = way.on_plan(unit, time_s, self.frame);
-                let there = |other: &&Present| other.position_m + other.velocity_m_s * time_s;
+                let there = |other: &&AgentSnapshot| other.position_m + other.velocity_m_s * time_s;
                 others.iter().all(|other| there(other).distance(place_m) >= FORESEEN_M)
             })
         })
     }
 
     /// Whether they keep off those who play another unit here, to the end of either.
-    fn keep_off_who_play(&self, unit: &Unit, ways: &[(u32, Way)]) -> bool {
+    fn keep_off_who_play(&self, unit: &Unit, ways: &[(u32, BlendedPath)]) -> bool {
         self.playing.iter().all(|(play, other)| {
             let since_s = self.time_s - play.began_s;
             looks(unit.duration_s.min(other.duration_s - since_s)).all(|time_s| {
                 let there: Vec<Vec2> =
-                    play.parts.iter().map(|part| part.way.at(other, since_s + time_s).place_m).collect();
+                    play.performers.iter().map(|part| part.way.at(other, since_s + time_s).place_m).collect();
                 let mut places = ways.iter().map(|(_, way)| way.at(unit, time_s).place_m);
                 places.all(|place| there.iter().all(|other| other.distance(place) >= FORESEEN_M))
             })
@@ -87,8 +87,8 @@ impl Room<'_> {
     }
 
     /// Whether no way comes near a wall, to the unit's end.
-    fn cross_nothing(&self, unit: &Unit, ways: &[(u32, Way)]) -> bool {
-        let on_plan = |way: &Way, time_s: f64| way.on_plan(unit, time_s, self.frame).0;
+    fn cross_nothing(&self, unit: &Unit, ways: &[(u32, BlendedPath)]) -> bool {
+        let on_plan = |way: &BlendedPath, time_s: f64| way.on_plan(unit, time_s, self.frame).0;
         ways.iter().all(|(_, way)| is_clear(|time_s| on_plan(way, time_s), unit.duration_s, self.walls))
     }
 }

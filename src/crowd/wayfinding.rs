@@ -1,10 +1,10 @@
 //! Where people want to go: along the flow that spreads them over all sensible ways, see [`Flow`](crate::routes).
 
-use super::state::{Course, Traits};
+use super::environment::Environment;
+use super::state::{AgentMut, Traits, WalkState};
 use crate::math::Vec2;
-use crate::plan::{FloorPlan, Opening};
-use crate::routes::{Field, Flow, Leg, Navigation, Place, Route, Way};
-use crate::walls::Walls;
+use crate::plan::Opening;
+use crate::routes::{Field, Flow, Leg, Place, Way};
 
 /// A place between start and goal counts as passed from this walking distance on, metres.
 const PASSED_M: f64 = 0.3;
@@ -41,77 +41,81 @@ const EASING_M: f64 = 1.2;
 /// At most this share of a way's width on either side is left to the walls.
 const MARGIN_SHARE: f64 = 0.15;
 
-/// A plan's routes with all that leads along them.
-pub(super) struct Steering<'a> {
-    pub(super) plan: &'a FloorPlan,
-    pub(super) walls: &'a Walls,
-    pub(super) routes: &'a [Route],
-    pub(super) navigation: &'a Navigation,
-}
+/// Finds the way along the routes of an environment.
+pub(super) struct Wayfinder<'e>(pub(super) &'e Environment<'e>);
 
-impl Steering<'_> {
-    fn way(&self, course: &Course) -> &Way {
-        &self.navigation.ways[course.route as usize]
+impl Wayfinder<'_> {
+    fn way(&self, walk: &WalkState) -> &Way {
+        &self.0.navigation.ways[walk.route as usize]
     }
 
-    fn leg(&self, course: &Course) -> Leg {
-        let legs = &self.way(course).legs;
-        legs[(course.leg as usize).min(legs.len() - 1)]
+    fn leg(&self, walk: &WalkState) -> Leg {
+        let legs = &self.way(walk).legs;
+        legs[(walk.leg as usize).min(legs.len() - 1)]
     }
 
-    fn field(&self, course: &Course) -> &Field {
-        &self.navigation.fields[self.leg(course).field]
+    fn field(&self, walk: &WalkState) -> &Field {
+        &self.0.navigation.fields[self.leg(walk).field]
     }
 
-    fn flow(&self, course: &Course) -> &Flow {
-        &self.navigation.flows[self.leg(course).flow]
+    fn flow(&self, walk: &WalkState) -> &Flow {
+        &self.0.navigation.flows[self.leg(walk).flow]
     }
 
-    fn is_on_last_leg(&self, course: &Course) -> bool {
-        course.leg as usize + 1 >= self.way(course).legs.len()
+    fn is_on_last_leg(&self, walk: &WalkState) -> bool {
+        walk.leg as usize + 1 >= self.way(walk).legs.len()
     }
 
     /// Walking distance to the end of the leg, metres.
-    fn left_m(&self, course: &Course, p: Vec2) -> f64 {
-        self.field(course).at(&self.navigation.ground, p)
+    fn left_m(&self, walk: &WalkState, p: Vec2) -> f64 {
+        self.field(walk).at(self.0.ground(), p)
     }
 
     /// Goes on to the next leg where one is done, and notes how far the person has come.
-    pub(super) fn advance(&self, course: &mut Course, p: Vec2, time_s: f64) {
-        let mut left_m = self.left_m(course, p);
-        while left_m < PASSED_M && !self.is_on_last_leg(course) {
-            course.leg += 1;
-            left_m = self.left_m(course, p);
+    pub(super) fn advance(&self, walk: &mut WalkState, p: Vec2, time_s: f64) {
+        let mut left_m = self.left_m(walk, p);
+        while left_m < PASSED_M && !self.is_on_last_leg(walk) {
+            walk.leg += 1;
+            left_m = self.left_m(walk, p);
         }
-        let legs_left = self.way(course).legs.len() - 1 - course.leg as usize;
+        let legs_left = self.way(walk).legs.len() - 1 - walk.leg as usize;
         // Legs ahead count for more than any plan is long, so that the sum falls at every turn.
         let total = (left_m + legs_left as f64 * 1e4) as f32;
-        if total < course.least_left_m - 0.3 {
-            course.least_left_m = total;
-            course.improved_s = time_s;
+        if total < walk.least_left_m - 0.3 {
+            walk.least_left_m = total;
+            walk.improved_s = time_s;
         }
+    }
+
+    /// Sets the direction and the pace at which an agent wants to walk on.
+    pub(super) fn look(&self, agent: &mut AgentMut<'_>, time_s: f64) {
+        let p = agent.body.position();
+        self.advance(agent.walk, p, time_s);
+        let aim = self.aim(agent.walk, agent.traits, p, agent.body.aim(), time_s);
+        agent.walk.wanted = [aim.x as f32, aim.y as f32];
+        agent.walk.pace = self.pace(agent.walk, p);
     }
 
     /// The unit vector in which the person wants to walk.
-    pub(super) fn aim(&self, course: &Course, traits: &Traits, p: Vec2, last: Vec2, time_s: f64) -> Vec2 {
-        if let Some(end) = self.to_the_end(course, traits, p) {
+    pub(super) fn aim(&self, walk: &WalkState, traits: &Traits, p: Vec2, last: Vec2, time_s: f64) -> Vec2 {
+        if let Some(end) = self.to_the_end(walk, traits, p) {
             return end;
         }
         // Who gets no farther in the flow tries the shortest way.
-        let at_a_loss = (time_s - course.improved_s) % RETHINK_S > RETHOUGHT_S;
+        let at_a_loss = (time_s - walk.improved_s) % RETHINK_S > RETHOUGHT_S;
         let flow = if at_a_loss {
             None
         } else {
-            self.along_the_flow(course, p).map(|aim| self.towards_lane(course, traits, p, aim))
+            self.along_the_flow(walk, p).map(|aim| self.towards_lane(walk, traits, p, aim))
         };
-        let aim = flow.or_else(|| self.down_the_field(course, p)).unwrap_or(last);
-        give_way(aim, course.blocked_s)
+        let aim = flow.or_else(|| self.down_the_field(walk, p)).unwrap_or(last);
+        give_way(aim, walk.blocked_s)
     }
 
     /// Direction of a place some way along the flow, in sight.
-    fn along_the_flow(&self, course: &Course, p: Vec2) -> Option<Vec2> {
-        let ground = &self.navigation.ground;
-        let flow = self.flow(course);
+    fn along_the_flow(&self, walk: &WalkState, p: Vec2) -> Option<Vec2> {
+        let ground = self.0.ground();
+        let flow = self.flow(walk);
         let open = ground.clearance_at_least_m(p) > OPEN_M;
         let pieces = if open { PIECES } else { PIECES_AT_WALLS };
         let step_m = AHEAD_M / pieces as f64;
@@ -122,7 +126,7 @@ impl Steering<'_> {
         for _ in 1..pieces {
             let Some(ahead) = flow.at(ground, at) else { break };
             let next = at + ahead * step_m;
-            if !open && !ground.is_free(self.walls, p, next, margin_m) {
+            if !open && !self.0.is_free(p, next, margin_m) {
                 break;
             }
             at = next;
@@ -132,8 +136,8 @@ impl Steering<'_> {
 
     /// Lets the way lead towards the share of a corridor's width that the person likes best: after a bend people spread
     /// again. In halls, and at crossings, there is no width to share.
-    fn towards_lane(&self, course: &Course, traits: &Traits, p: Vec2, aim: Vec2) -> Vec2 {
-        if course.yields_s > 0.0 {
+    fn towards_lane(&self, walk: &WalkState, traits: &Traits, p: Vec2, aim: Vec2) -> Vec2 {
+        if walk.yields_s > 0.0 {
             return aim;
         }
         let across = aim.left();
@@ -150,7 +154,7 @@ impl Steering<'_> {
 
     /// Distance of the wall in a direction, metres, if it is no farther than corridors are wide.
     fn room_m(&self, p: Vec2, direction: Vec2) -> Option<f64> {
-        let ground = &self.navigation.ground;
+        let ground = self.0.ground();
         let mut done_m = 0.0;
         while done_m < WIDEST_M {
             let free_m = ground.clearance_at_least_m(p + direction * done_m);
@@ -164,16 +168,16 @@ impl Steering<'_> {
     }
 
     /// Direction of a place some way down the distance field, in sight.
-    fn down_the_field(&self, course: &Course, p: Vec2) -> Option<Vec2> {
-        let field = self.field(course);
-        let ground = &self.navigation.ground;
+    fn down_the_field(&self, walk: &WalkState, p: Vec2) -> Option<Vec2> {
+        let field = self.field(walk);
+        let ground = self.0.ground();
         let step = 0.15;
         let mut at = p;
         let mut aim = None;
         for _ in 0..(FIELD_AIM_M / step) as usize {
             let Some(down) = field.downhill(ground, at) else { break };
             at += down * step;
-            if aim.is_some() && !ground.sight(self.walls, p, at) {
+            if aim.is_some() && !self.0.sight(p, at) {
                 break;
             }
             aim = (at - p).normalized().or(aim);
@@ -183,52 +187,50 @@ impl Steering<'_> {
 
     /// Direction out of the plan for those who have reached their opening, or to the place where the person vanishes for
     /// those who are near and see it.
-    fn to_the_end(&self, course: &Course, traits: &Traits, p: Vec2) -> Option<Vec2> {
-        if !self.is_on_last_leg(course) || f64::from(course.least_left_m) > HOMING_M + 1.0 {
+    fn to_the_end(&self, walk: &WalkState, traits: &Traits, p: Vec2) -> Option<Vec2> {
+        if !self.is_on_last_leg(walk) || f64::from(walk.least_left_m) > HOMING_M + 1.0 {
             return None;
         }
-        let left_m = self.left_m(course, p);
-        match self.routes[course.route as usize].goal {
-            Place::Opening(index) if left_m <= 0.0 => self.plan.openings.get(index).map(|o| o.side.outward()),
+        let left_m = self.left_m(walk, p);
+        match self.0.routes[walk.route as usize].goal {
+            Place::Opening(index) if left_m <= 0.0 => self.0.plan.openings.get(index).map(|o| o.side.outward()),
             Place::Area(_) if left_m <= HOMING_M => {
-                let ground = &self.navigation.ground;
+                let ground = self.0.ground();
                 let margin_m = f64::from(traits.wall_exclusion_m).min(ground.gap_limit_m(p));
                 let margin_m = (0.9 * margin_m).min(ground.clearance_at_least_m(p)).max(0.08);
-                let free = left_m <= 0.0 || ground.is_free(self.walls, p, course.end_m, margin_m);
-                (course.end_m - p).normalized().filter(|_| free)
+                let free = left_m <= 0.0 || self.0.is_free(p, walk.end_m, margin_m);
+                (walk.end_m - p).normalized().filter(|_| free)
             }
             _ => None,
         }
     }
 
     /// Share of the speed that the person wants: all of it on the way, less where the end is near.
-    pub(super) fn pace(&self, course: &Course, p: Vec2) -> f32 {
-        match self.routes[course.route as usize].goal {
-            Place::Area(_) if self.is_on_last_leg(course) => {
-                ((course.end_m.distance(p) / EASING_M) as f32).clamp(0.3, 1.0)
-            }
+    fn pace(&self, walk: &WalkState, p: Vec2) -> f32 {
+        match self.0.routes[walk.route as usize].goal {
+            Place::Area(_) if self.is_on_last_leg(walk) => ((walk.end_m.distance(p) / EASING_M) as f32).clamp(0.3, 1.0),
             _ => 1.0,
         }
     }
 
     /// Whether the person has arrived.
-    pub(super) fn has_arrived(&self, course: &Course, p: Vec2, speed_m_s: f32, time_s: f64) -> bool {
-        if !self.is_on_last_leg(course) {
+    pub(super) fn has_arrived(&self, walk: &WalkState, p: Vec2, speed_m_s: f32, time_s: f64) -> bool {
+        if !self.is_on_last_leg(walk) {
             return false;
         }
-        match self.routes[course.route as usize].goal {
+        match self.0.routes[walk.route as usize].goal {
             Place::Opening(index) => {
-                let Some(opening) = self.plan.openings.get(index) else { return true };
+                let Some(opening) = self.0.plan.openings.get(index) else { return true };
                 let along = (opening.to_m - opening.from_m) / opening.width_m().max(1e-9);
                 let beside = !(0.0..=opening.width_m()).contains(&(p - opening.from_m).dot(along));
-                !beside && (p - opening.from_m).dot(opening.side.outward()) > course.end_m.x
+                !beside && (p - opening.from_m).dot(opening.side.outward()) > walk.end_m.x
             }
             Place::Area([min, max]) => {
                 let inside = p.x >= min.x && p.x <= max.x && p.y >= min.y && p.y <= max.y;
-                let at_place = p.distance(course.end_m) < 0.4;
+                let at_place = p.distance(walk.end_m) < 0.4;
                 // Where others or a chair stand in the way, being there is enough.
-                let hindered = speed_m_s < 0.15 || time_s - course.improved_s > AT_A_LOSS_S;
-                at_place || inside && hindered && self.left_m(course, p) < 0.3
+                let hindered = speed_m_s < 0.15 || time_s - walk.improved_s > AT_A_LOSS_S;
+                at_place || inside && hindered && self.left_m(walk, p) < 0.3
             }
         }
     }

@@ -2,10 +2,11 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use super::path::{QueuePath, stands};
-use super::spots::{self, Room};
-use super::visit::Visitor;
-use super::{Round, Surface};
+use super::queue_path::{QueuePath, stands};
+use super::standing::{self, SearchArea};
+use super::update::StopsUpdate;
+use super::visitor::Visitor;
+use crate::crowd::environment::Environment;
 use crate::math::{SplitMix64, Vec2};
 use crate::routes::{Stop, StopKind};
 
@@ -27,8 +28,8 @@ const HABIT_S: f64 = 2.0;
 
 /// Places that are served in turn, and the line before them.
 #[derive(Clone, Debug)]
-pub(super) struct Line {
-    places: Vec<CounterPlace>,
+pub(super) struct Queue {
+    places: Vec<ServicePlace>,
     path: QueuePath,
     spacing_m: f64,
     /// Everybody who waits, the first one first.
@@ -43,17 +44,17 @@ pub(super) struct Line {
 
 /// Where one person is served at a time.
 #[derive(Clone, Copy, Debug)]
-struct CounterPlace {
+struct ServicePlace {
     place_m: Vec2,
     facing: Vec2,
     taken: Option<u32>,
     free_since_s: f64,
 }
 
-impl Line {
-    pub(super) fn new(places: impl Iterator<Item = (Vec2, Vec2)>, spacing_m: f64) -> Line {
-        let place = |(place_m, facing)| CounterPlace { place_m, facing, taken: None, free_since_s: 0.0 };
-        Line {
+impl Queue {
+    pub(super) fn new(places: impl Iterator<Item = (Vec2, Vec2)>, spacing_m: f64) -> Queue {
+        let place = |(place_m, facing)| ServicePlace { place_m, facing, taken: None, free_since_s: 0.0 };
+        Queue {
             places: places.map(place).collect(),
             path: QueuePath::default(),
             spacing_m,
@@ -70,16 +71,16 @@ impl Line {
     }
 
     /// Lays the line behind the places: as the stop says, or as it finds room.
-    pub(super) fn lay(&mut self, surface: Surface<'_>, stop: &Stop, taken: &[Vec2]) {
+    pub(super) fn lay(&mut self, environment: &Environment<'_>, stop: &Stop, taken: &[Vec2]) {
         let count = self.places.len().max(1) as f64;
         let middle = self.places.iter().fold(Vec2::ZERO, |sum, place| sum + place.place_m) / count;
         let ahead = stop.facing_from(middle);
         if stop.queue_m.is_empty() {
-            // Room to step up and to get away between several places and the line that serves them.
+            // SearchArea to step up and to get away between several places and the line that serves them.
             let gap_m = if self.places.len() > 1 { self.spacing_m.max(1.3) } else { self.spacing_m };
-            self.path = QueuePath::found(surface, middle - ahead * gap_m, ahead, self.spacing_m, taken);
+            self.path = QueuePath::found(environment, middle - ahead * gap_m, ahead, self.spacing_m, taken);
         } else {
-            let points = stop.queue_m.iter().map(|&point| spots::off_walls(surface, point, 0.25)).collect();
+            let points = stop.queue_m.iter().map(|&point| standing::off_walls(environment, point, 0.25)).collect();
             self.path = QueuePath::new(points, ahead);
         }
         self.moved_s = 0.0;
@@ -111,9 +112,9 @@ impl Line {
 
     /// The place to head for on the way to the tail: itself if it is in sight, or else the last part of the line that
     /// is. `None` if nothing is.
-    pub(super) fn seen_from(&self, surface: Surface<'_>, p: Vec2, tail_m: Vec2) -> Option<Vec2> {
+    pub(super) fn seen_from(&self, environment: &Environment<'_>, p: Vec2, tail_m: Vec2) -> Option<Vec2> {
         const MARGIN_M: f64 = 0.2;
-        let free = |to: &Vec2| surface.ground.is_free(surface.walls, p, *to, MARGIN_M);
+        let free = |to: &Vec2| environment.is_free(p, *to, MARGIN_M);
         let step_m = 1.5;
         let steps = (self.reach_m() / step_m) as usize;
         let along = (0..=steps).rev().map(|k| self.path.at(k as f64 * step_m).0);
@@ -142,23 +143,27 @@ impl Line {
     }
 
     /// Where exactly somebody stands at a place, and what they face.
-    pub(super) fn spot_at(&self, place: usize, stop: &Stop, draw: u64, surface: Surface<'_>) -> (Vec2, Vec2) {
-        let CounterPlace { place_m, facing, .. } = self.places[place];
+    pub(super) fn spot_at(&self, place: usize, stop: &Stop, draw: u64, environment: &Environment<'_>) -> (Vec2, Vec2) {
+        let ServicePlace { place_m, facing, .. } = self.places[place];
         let rng = &mut SplitMix64::new(draw);
         let across = if stop.kind == StopKind::Gate { 0.5 } else { 1.0 } * OFF_PLACE_M[0];
         let off = facing.left() * (across * f64::from(rng.range(-1.0, 1.0)))
             - facing * (OFF_PLACE_M[1] * f64::from(rng.unit()));
-        let spot = if stands(surface, place_m + off, 0.2) { place_m + off } else { place_m };
-        (spot, spots::about(facing, draw))
+        let spot = if stands(environment, place_m + off, 0.2) { place_m + off } else { place_m };
+        (spot, standing::about(facing, draw))
     }
 
     /// Where everybody in the line stands now: slot of the person, spot, what they face.
-    pub(super) fn line_up(&mut self, round: &Round<'_>, visitors: &BTreeMap<u32, Visitor>) -> Vec<(usize, Vec2, Vec2)> {
+    pub(super) fn line_up(
+        &mut self,
+        update: &StopsUpdate<'_>,
+        visitors: &BTreeMap<u32, Visitor>,
+    ) -> Vec<(usize, Vec2, Vec2)> {
         let mut spots = Vec::with_capacity(self.order.len());
         let mut along_m = 0.0;
         let (has_path, length_m) = (!self.path.points().is_empty(), self.path.length_m());
         for (index, id) in self.order.iter().enumerate() {
-            let Some((slot, p)) = round.place_of(*id) else { continue };
+            let Some((slot, p)) = update.place_of(*id) else { continue };
             let draw = visitors.get(id).and_then(|visitor| visitor.plan.last()).map_or(0, |planned| planned.draw);
             let rng = &mut SplitMix64::new(draw ^ 0x11);
             let gap_m = self.spacing_m * (1.0 + UNEVEN * f64::from(rng.range(-1.0, 1.0)));
@@ -170,8 +175,8 @@ impl Line {
                 self.loose.remove(id);
                 let (middle, ahead) = self.path.at(along_m);
                 let spot = middle + ahead.left() * beside_m;
-                let spot = if stands(round.surface, spot, 0.2) { spot } else { middle };
-                spots.push((slot, spot, spots::about(ahead, draw)));
+                let spot = if stands(update.environment, spot, 0.2) { spot } else { middle };
+                spots.push((slot, spot, standing::about(ahead, draw)));
                 continue;
             }
             let (end, ahead) = match has_path {
@@ -186,25 +191,26 @@ impl Line {
                     self.loose.values().chain(line).all(|other| other.distance(spot) >= apart_m)
                         && self.places.iter().all(|place| place.place_m.distance(spot) >= CLEAR_OF_PLACES_M)
                 };
-                let room = Room::Around(end - ahead * (0.6 * reach_m), reach_m);
-                let found = spots::free_spot(round.surface, room, LOOSE_M, draw, free)
-                    .or_else(|| spots::free_spot(round.surface, Room::Around(end, 1.5 * reach_m), LOOSE_M, draw, free));
+                let room = SearchArea::Around(end - ahead * (0.6 * reach_m), reach_m);
+                let found = standing::free_spot(update.environment, room, LOOSE_M, draw, free).or_else(|| {
+                    standing::free_spot(update.environment, SearchArea::Around(end, 1.5 * reach_m), LOOSE_M, draw, free)
+                });
                 self.loose.insert(*id, found.unwrap_or(p));
             }
             let spot = self.loose[id];
-            spots.push((slot, spot, spots::about((end - spot).normalized().unwrap_or(ahead), draw)));
+            spots.push((slot, spot, standing::about((end - spot).normalized().unwrap_or(ahead), draw)));
         }
-        self.let_go_first(round, &spots);
+        self.let_go_first(update, &spots);
         self.tail_along_m = if self.order.is_empty() { 0.0 } else { along_m + self.spacing_m };
         spots
     }
 
     /// Where a gap opens because somebody is held up on the way to their place in the line, the next one fills it.
-    fn let_go_first(&mut self, round: &Round<'_>, spots: &[(usize, Vec2, Vec2)]) {
+    fn let_go_first(&mut self, update: &StopsUpdate<'_>, spots: &[(usize, Vec2, Vec2)]) {
         if spots.len() != self.order.len() {
             return;
         }
-        let position = |index: usize| round.bodies[spots[index].0].position();
+        let position = |index: usize| update.position(spots[index].0);
         let mut index = 0;
         while index + 1 < spots.len() {
             let spot = spots[index].1;
@@ -233,7 +239,7 @@ impl Line {
 
 /// The line to go to from `p`: the one that promises to be the quickest; whoever has chosen one keeps to it unless
 /// another is much better.
-pub(super) fn choose(lines: &[Line], chosen: Option<usize>, p: Vec2, mean_s: f64) -> usize {
+pub(super) fn choose(lines: &[Queue], chosen: Option<usize>, p: Vec2, mean_s: f64) -> usize {
     let wait_s = |line: usize| lines[line].wait_s(p, mean_s) - if chosen == Some(line) { HABIT_S } else { 0.0 };
     let mut best = 0;
     for line in 1..lines.len() {

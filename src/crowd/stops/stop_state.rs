@@ -1,7 +1,7 @@
-use super::Surface;
-use super::line::Line;
-use super::spots::{self, Spread};
+use super::queue::Queue;
+use super::standing::{self, StandingArea};
 use super::visit::StopTally;
+use crate::crowd::environment::Environment;
 use crate::math::Vec2;
 use crate::routes::{Field, Flow, Stop, StopKind};
 
@@ -17,46 +17,46 @@ const DETOUR_M: f64 = 2.0;
 
 /// A stop with who is there.
 #[derive(Debug)]
-pub(super) struct Post {
+pub(super) struct StopState {
     pub(super) stop: Stop,
     /// Walking distance to it.
     pub(super) field: Field,
-    /// How people spread over the ways there.
+    /// How people standing over the ways there.
     pub(super) flow: Flow,
-    pub(super) kind: Kind,
+    pub(super) kind: Service,
     pub(super) tally: StopTally,
 }
 
 /// How people are served at a stop.
 #[derive(Debug)]
-pub(super) enum Kind {
+pub(super) enum Service {
     /// Everybody finds a spot.
-    Spread(Spread),
+    Standing(StandingArea),
     /// One after the other.
-    Lines(Vec<Line>),
+    Queues(Vec<Queue>),
 }
 
-impl Post {
+impl StopState {
     /// A stop that people come to from these cells.
-    pub(super) fn new(surface: Surface<'_>, stop: &Stop, starts: &[usize], keep_m: f64) -> Post {
+    pub(super) fn new(environment: &Environment<'_>, stop: &Stop, starts: &[usize], keep_m: f64) -> StopState {
         let place = |&p: &Vec2| {
-            let place_m = spots::off_walls(surface, p, keep_m);
+            let place_m = standing::off_walls(environment, p, keep_m);
             (place_m, stop.facing_from(place_m))
         };
         let kind = match stop.kind {
-            StopKind::Place | StopKind::Bench => Kind::Spread(Spread::new(surface, stop, keep_m)),
+            StopKind::Place | StopKind::Bench => Service::Standing(StandingArea::new(environment, stop, keep_m)),
             StopKind::Queue | StopKind::Machine => {
-                Kind::Lines(vec![Line::new(stop.places_m.iter().map(place), stop.spacing_m)])
+                Service::Queues(vec![Queue::new(stop.places_m.iter().map(place), stop.spacing_m)])
             }
             StopKind::Gate => {
-                let lane = |p: &Vec2| Line::new([place(p)].into_iter(), stop.spacing_m);
-                Kind::Lines(stop.places_m.iter().map(lane).collect())
+                let lane = |p: &Vec2| Queue::new([place(p)].into_iter(), stop.spacing_m);
+                Service::Queues(stop.places_m.iter().map(lane).collect())
             }
         };
-        let field = Field::to(surface.ground, &stop.cells(surface.ground));
-        Post {
+        let field = Field::to(environment.ground(), &stop.cells(environment.ground()));
+        StopState {
             stop: stop.clone(),
-            flow: Flow::new(surface.ground, starts, &field),
+            flow: Flow::new(environment.ground(), starts, &field),
             field,
             kind,
             tally: StopTally { name: stop.name.clone(), in_line: stop.kind.has_line(), ..StopTally::default() },
@@ -66,24 +66,30 @@ impl Post {
     /// How far from the stop itself people may be at it, metres.
     pub(super) fn reach_m(&self) -> f64 {
         match &self.kind {
-            Kind::Spread(spread) => spread.reach_m(),
-            Kind::Lines(lines) => lines.iter().map(Line::reach_m).fold(0.0, f64::max),
+            Service::Standing(standing) => standing.reach_m(),
+            Service::Queues(queues) => queues.iter().map(Queue::reach_m).fold(0.0, f64::max),
         }
     }
 
     /// Somebody is not there any more.
     pub(super) fn forget(&mut self, id: u32) {
         match &mut self.kind {
-            Kind::Spread(spread) => spread.leave(id),
-            Kind::Lines(lines) => lines.iter_mut().for_each(|line| line.forget(id)),
+            Service::Standing(standing) => standing.leave(id),
+            Service::Queues(queues) => queues.iter_mut().for_each(|queue| queue.forget(id)),
         }
     }
 
-    /// Where somebody at `p` goes first who leaves the stop and then goes down the field `onward`: aside of the line,
+    /// Where somebody at `p` goes first who leaves the stop and then goes down the field `onward`: aside of the queue,
     /// through the gate, up from the bench. `None` if they just go.
-    pub(super) fn way_out(&self, surface: Surface<'_>, p: Vec2, onward: &Field, others: &[Vec2]) -> Option<Vec2> {
+    pub(super) fn way_out(
+        &self,
+        environment: &Environment<'_>,
+        p: Vec2,
+        onward: &Field,
+        others: &[Vec2],
+    ) -> Option<Vec2> {
         let facing = self.stop.facing_from(p);
-        let free = |to: &Vec2| surface.ground.is_free(surface.walls, p, *to, 0.17);
+        let free = |to: &Vec2| environment.is_free(p, *to, 0.17);
         match self.stop.kind {
             StopKind::Place => None,
             StopKind::Bench => Some(p + facing * FROM_BENCH_M).filter(free),
@@ -91,7 +97,7 @@ impl Post {
             StopKind::Queue | StopKind::Machine => {
                 let cost = |to: &Vec2| {
                     let crowded = others.iter().filter(|other| other.distance(*to) < IN_THE_WAY_M).count();
-                    let way_m = onward.at(surface.ground, *to);
+                    let way_m = onward.at(environment.ground(), *to);
                     if way_m.is_finite() { way_m + DETOUR_M * crowded as f64 } else { 1e9 }
                 };
                 let sides = [-1.0, 1.0].map(|side| p + facing.left() * (side * ASIDE_M) - facing * BACK_M);
@@ -101,24 +107,24 @@ impl Post {
     }
 }
 
-/// Lays the lines of all stops, each clear of all counters and of the lines before it.
-pub(super) fn lay_lines(surface: Surface<'_>, posts: &mut [Post]) {
-    for index in 0..posts.len() {
-        let Kind::Lines(lines) = &posts[index].kind else { continue };
-        for number in 0..lines.len() {
-            let taken: Vec<Vec2> = posts
+/// Lays the queues of all stops, each clear of all counters and of the queues before it.
+pub(super) fn lay_queues(environment: &Environment<'_>, states: &mut [StopState]) {
+    for index in 0..states.len() {
+        let Service::Queues(queues) = &states[index].kind else { continue };
+        for number in 0..queues.len() {
+            let taken: Vec<Vec2> = states
                 .iter()
                 .enumerate()
-                .flat_map(|(other, post)| match &post.kind {
-                    Kind::Lines(lines) => lines.iter().enumerate().map(|line| (other, line)).collect(),
-                    Kind::Spread(_) => Vec::new(),
+                .flat_map(|(other, state)| match &state.kind {
+                    Service::Queues(queues) => queues.iter().enumerate().map(|queue| (other, queue)).collect(),
+                    Service::Standing(_) => Vec::new(),
                 })
-                .filter(|&(other, (line, _))| (other, line) != (index, number))
-                .flat_map(|(_, (_, line))| line.footprint())
+                .filter(|&(other, (queue, _))| (other, queue) != (index, number))
+                .flat_map(|(_, (_, queue))| queue.footprint())
                 .collect();
-            let Post { stop, kind, .. } = &mut posts[index];
-            if let Kind::Lines(lines) = kind {
-                lines[number].lay(surface, stop, &taken);
+            let StopState { stop, kind, .. } = &mut states[index];
+            if let Service::Queues(queues) = kind {
+                queues[number].lay(environment, stop, &taken);
             }
         }
     }

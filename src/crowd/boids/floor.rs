@@ -2,13 +2,12 @@
 
 use rayon::prelude::*;
 
+use crate::crowd::perception::{OPEN_M, SENSE_M};
 use crate::math::{Vec2, vec2};
 use crate::routes::{Ground, Lattice};
 use crate::walls::Walls;
 
-/// How far people count others for density, metres.
-pub(super) const SENSE_M: f64 = 2.0;
-/// Cells of this table, metres.
+/// Side of this table's cells, metres.
 const CELL_M: f64 = 0.4;
 /// Samples across a cell when its share of floor is taken.
 const SAMPLES: usize = 4;
@@ -18,7 +17,7 @@ const SAMPLES: usize = 4;
 /// A person who looks in direction `h` counts somebody at distance `r` in direction `u` with the weight
 /// `k(r) (1 + u.h) / 2`, so that the floor counts `(m0 + m.h) / 2`: walls and what lies behind them do not.
 #[derive(Debug)]
-pub(super) struct Surroundings {
+pub(super) struct FloorMoments {
     lattice: Lattice,
     moments: Vec<[f32; 3]>,
 }
@@ -33,11 +32,8 @@ fn kernel(squared_m2: f32) -> f32 {
 /// The kernel's integral over open floor.
 const OPEN_M2: f32 = (std::f64::consts::PI * SENSE_M * SENSE_M / 3.0) as f32;
 
-/// With no wall nearer than this, floor is open as far as it counts, metres.
-pub(super) const OPEN_M: f32 = (SENSE_M + CELL_M) as f32;
-
-impl Surroundings {
-    pub(super) fn new(ground: &Ground, walls: &Walls) -> Surroundings {
+impl FloorMoments {
+    pub(super) fn new(ground: &Ground, walls: &Walls) -> FloorMoments {
         let lattice = ground.lattice.coarser(CELL_M);
         let cells: Vec<Cell> = (0..lattice.len()).into_par_iter().map(|c| Cell::new(&lattice, ground, c)).collect();
         let joined: Vec<[bool; 4]> = (0..lattice.len())
@@ -48,13 +44,13 @@ impl Surroundings {
             .into_par_iter()
             .map_init(Vec::new, |seen, cell| moments(&lattice, &cells, &joined, cell, seen))
             .collect();
-        Surroundings { lattice, moments }
+        FloorMoments { lattice, moments }
     }
 
     /// Floor that a person at `p` who looks along the unit vector `heading` counts people over, square metres; no wall
     /// is nearer than `clearance_m`.
     #[inline]
-    pub(super) fn floor_ahead_m2(&self, p: Vec2, clearance_m: f32, heading: [f32; 2]) -> f32 {
+    pub(super) fn ahead_m2(&self, p: Vec2, clearance_m: f32, heading: [f32; 2]) -> f32 {
         if clearance_m > OPEN_M {
             return 0.5 * OPEN_M2;
         }

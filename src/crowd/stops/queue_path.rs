@@ -1,4 +1,4 @@
-use super::Surface;
+use crate::crowd::environment::Environment;
 use crate::math::{Vec2, vec2};
 
 /// People in a line keep this far off walls, metres; less where there is no room.
@@ -39,9 +39,15 @@ impl QueuePath {
 
     /// A line that begins at `head` behind somebody who faces `ahead`, goes straight back while it can and bends
     /// along walls. It keeps clear of `taken` places.
-    pub(super) fn found(surface: Surface<'_>, head: Vec2, ahead: Vec2, spacing_m: f64, taken: &[Vec2]) -> QueuePath {
+    pub(super) fn found(
+        environment: &Environment<'_>,
+        head: Vec2,
+        ahead: Vec2,
+        spacing_m: f64,
+        taken: &[Vec2],
+    ) -> QueuePath {
         let mut points = Vec::new();
-        if stands(surface, head, LEAST_MARGIN_M) {
+        if stands(environment, head, LEAST_MARGIN_M) {
             points.push(head);
         }
         let mut back = -ahead;
@@ -50,7 +56,9 @@ impl QueuePath {
                 break;
             }
             let next = [(MARGIN_M, PASSAGE_M), (MARGIN_M, 0.0), (LEAST_MARGIN_M, 0.0)].into_iter().find_map(
-                |(margin_m, passage_m)| onward(surface, &points, last, back, spacing_m, taken, [margin_m, passage_m]),
+                |(margin_m, passage_m)| {
+                    onward(environment, &points, last, back, spacing_m, taken, [margin_m, passage_m])
+                },
             );
             let Some(direction) = next else { break };
             points.push(last + direction * spacing_m);
@@ -82,13 +90,13 @@ impl QueuePath {
 }
 
 /// Whether a body has room at `p`, inside of the plan.
-pub(super) fn stands(surface: Surface<'_>, p: Vec2, margin_m: f64) -> bool {
-    surface.plan.is_floor(p) && surface.ground.clearance_m(p) >= margin_m
+pub(super) fn stands(environment: &Environment<'_>, p: Vec2, margin_m: f64) -> bool {
+    environment.plan.is_floor(p) && environment.ground().clearance_m(p) >= margin_m
 }
 
 /// The direction in which a line goes on from its last place: straight, or else the turn with the most room ahead.
 fn onward(
-    surface: Surface<'_>,
+    environment: &Environment<'_>,
     points: &[Vec2],
     last: Vec2,
     back: Vec2,
@@ -107,10 +115,10 @@ fn onward(
             || taken.iter().any(|other| near(other, APART_M));
         let ahead = next + direction * passage_m;
         !crosses
-            && stands(surface, next, margin_m)
-            && surface.ground.is_free(surface.walls, last, next, margin_m)
+            && stands(environment, next, margin_m)
+            && environment.is_free(last, next, margin_m)
             && (passage_m == 0.0
-                || surface.plan.is_floor(ahead) && surface.ground.is_free(surface.walls, next, ahead, LEAST_MARGIN_M))
+                || environment.plan.is_floor(ahead) && environment.is_free(next, ahead, LEAST_MARGIN_M))
     };
     let mut best: Option<(f64, Vec2)> = None;
     for [cos, sin] in TURNS {
@@ -121,7 +129,7 @@ fn onward(
         if sin == 0.0 {
             return Some(direction);
         }
-        let room_m = room_ahead_m(surface, last, direction);
+        let room_m = room_ahead_m(environment, last, direction);
         // The first of equals: gentle turns are tried first, and to the left of those who come.
         if best.is_none_or(|(most_m, _)| room_m > most_m + 0.5) {
             best = Some((room_m, direction));
@@ -130,9 +138,9 @@ fn onward(
     best.map(|(_, direction)| direction)
 }
 
-fn room_ahead_m(surface: Surface<'_>, from: Vec2, direction: Vec2) -> f64 {
+fn room_ahead_m(environment: &Environment<'_>, from: Vec2, direction: Vec2) -> f64 {
     let mut done = 0.0;
-    while done < LOOK_M && stands(surface, from + direction * (done + 0.5), LEAST_MARGIN_M) {
+    while done < LOOK_M && stands(environment, from + direction * (done + 0.5), LEAST_MARGIN_M) {
         done += 0.5;
     }
     done

@@ -25,7 +25,7 @@ const FACING_M_S: f64 = 0.6;
 /// `e = e0 (1 - 10 s^3 + 15 s^4 - 6 s^5) + e0' T (s - 6 s^3 + 8 s^4 - 3 s^5)`, `s = t / T`. So place and velocity are
 /// continuous.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Way {
+pub(super) struct BlendedPath {
     pub(super) member: usize,
     pub(super) mirrored: bool,
     off_m: Vec2,
@@ -34,14 +34,14 @@ pub(super) struct Way {
     pub(super) over_s: f64,
 }
 
-impl Way {
+impl BlendedPath {
     /// The quickest way over to a part that a human body manages; `None` if there is none. `from` is the viewer's frame.
-    pub(super) fn find(unit: &Unit, member: usize, mirrored: bool, from: &Moment) -> Option<Way> {
+    pub(super) fn find(unit: &Unit, member: usize, mirrored: bool, from: &Moment) -> Option<BlendedPath> {
         let start = unit.moment(member, 0.0, mirrored);
         let (off_m, off_m_s) = (from.place_m - start.place_m, from.velocity_m_s - start.velocity_m_s);
         let [least, most, step] = MOVE_OVER_S;
         let times = (0..).map(|k| least + step * f64::from(k)).take_while(|&t| t <= most.min(unit.duration_s - 0.4));
-        let mut ways = times.map(|over_s| Way { member, mirrored, off_m, off_m_s, over_s });
+        let mut ways = times.map(|over_s| BlendedPath { member, mirrored, off_m, off_m_s, over_s });
         ways.find(|way| way.is_human(unit, from))
     }
 
@@ -129,7 +129,7 @@ mod tests {
                     velocity_m_s: start.velocity_m_s + vec2(0.2, 0.1),
                     heading: start.heading.rotated(vec2(0.8, 0.6)),
                 };
-                let Some(way) = Way::find(unit, member, true, &off) else { continue };
+                let Some(way) = BlendedPath::find(unit, member, true, &off) else { continue };
                 found += 1;
                 let at = way.at(unit, 0.0);
                 assert!(at.place_m.distance(off.place_m) < 1e-9 && at.velocity_m_s.distance(off.velocity_m_s) < 1e-9);
@@ -158,9 +158,9 @@ mod tests {
         let unit = &library.units[0];
         let start = unit.moment(0, 0.0, false);
         let far = Moment { place_m: start.place_m + vec2(9.0, 0.0), ..start };
-        assert_eq!(Way::find(unit, 0, false, &far), None);
+        assert_eq!(BlendedPath::find(unit, 0, false, &far), None);
         let ahead = start.heading * 2.5;
         let beyond = Moment { place_m: start.place_m + ahead, velocity_m_s: Vec2::ZERO, ..start };
-        assert!(Way::find(unit, 0, false, &beyond).is_none_or(|way| way.over_s > 1.5));
+        assert!(BlendedPath::find(unit, 0, false, &beyond).is_none_or(|way| way.over_s > 1.5));
     }
 }

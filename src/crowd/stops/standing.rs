@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::Surface;
-use super::path::stands;
+use super::queue_path::stands;
+use crate::crowd::environment::Environment;
 use crate::math::{Rect, SplitMix64, Vec2, vec2};
 use crate::routes::{Facing, Stop, StopKind};
 
@@ -20,18 +20,18 @@ const TURN: f64 = 0.2;
 
 /// Where somebody who looks for a spot may find one.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Room {
+pub(super) enum SearchArea {
     /// Around a place, metres.
     Around(Vec2, f64),
     /// In a rectangle.
     Within(Rect),
 }
 
-impl Room {
+impl SearchArea {
     fn middle(self) -> Vec2 {
         match self {
-            Room::Around(middle, _) => middle,
-            Room::Within(area) => area.centre(),
+            SearchArea::Around(middle, _) => middle,
+            SearchArea::Within(area) => area.centre(),
         }
     }
 
@@ -40,8 +40,10 @@ impl Room {
         let mut side = || 2.0 * f64::from(rng.unit()) - 1.0;
         let [x, y] = [side(), side()];
         match self {
-            Room::Around(middle, reach_m) => (x * x + y * y <= 1.0).then(|| middle + vec2(x, y) * (reach_m * wider)),
-            Room::Within(area) => {
+            SearchArea::Around(middle, reach_m) => {
+                (x * x + y * y <= 1.0).then(|| middle + vec2(x, y) * (reach_m * wider))
+            }
+            SearchArea::Within(area) => {
                 let half = vec2(0.5 * area.width() * x, 0.5 * area.height() * y);
                 Some(area.centre() + half * wider)
             }
@@ -51,16 +53,16 @@ impl Room {
     /// Area, square metres.
     fn m2(self) -> f64 {
         match self {
-            Room::Around(_, reach_m) => std::f64::consts::PI * reach_m * reach_m,
-            Room::Within(area) => area.width() * area.height(),
+            SearchArea::Around(_, reach_m) => std::f64::consts::PI * reach_m * reach_m,
+            SearchArea::Within(area) => area.width() * area.height(),
         }
     }
 }
 
 /// A free spot in a room, at least about `apart_m` from all `others`. The same draw tries the same spots.
 pub(super) fn free_spot(
-    surface: Surface<'_>,
-    room: Room,
+    environment: &Environment<'_>,
+    room: SearchArea,
     apart_m: f64,
     draw: u64,
     free: impl Fn(Vec2, f64) -> bool,
@@ -71,10 +73,7 @@ pub(super) fn free_spot(
         for attempt in 0..TRIES {
             let Some(spot) = room.draw(rng, wider) else { continue };
             let closer = 1.0 - (1.0 - CLOSEST) * attempt as f64 / TRIES as f64;
-            if stands(surface, spot, MARGIN_M)
-                && free(spot, apart_m * closer)
-                && surface.ground.sight(surface.walls, middle, spot)
-            {
+            if stands(environment, spot, MARGIN_M) && free(spot, apart_m * closer) && environment.sight(middle, spot) {
                 return Some(spot);
             }
         }
@@ -89,47 +88,49 @@ pub(super) fn about(facing: Vec2, draw: u64) -> Vec2 {
 }
 
 /// The spot, moved off walls that are nearer than `keep_m`, if that helps.
-pub(super) fn off_walls(surface: Surface<'_>, spot: Vec2, keep_m: f64) -> Vec2 {
+pub(super) fn off_walls(environment: &Environment<'_>, spot: Vec2, keep_m: f64) -> Vec2 {
     let mut moved = spot;
     for _ in 0..4 {
-        let Some(nearest) = surface.walls.nearest(moved, keep_m) else { return moved };
+        let Some(nearest) = environment.walls.nearest(moved, keep_m) else { return moved };
         let Some(away) = (moved - nearest.point_m).normalized() else { return spot };
         moved = nearest.point_m + away * (keep_m + 1e-3);
     }
-    if surface.ground.sight(surface.walls, spot, moved) { moved } else { spot }
+    if environment.sight(spot, moved) { moved } else { spot }
 }
 
 /// People who stand or sit around.
 #[derive(Clone, Debug)]
-pub(super) struct Spread {
-    room: Room,
+pub(super) struct StandingArea {
+    room: SearchArea,
     /// Seats, and who sits there.
     seats: Vec<(Vec2, Option<u32>)>,
     /// Where everybody is.
     spots: BTreeMap<u32, Vec2>,
 }
 
-impl Spread {
-    pub(super) fn new(surface: Surface<'_>, stop: &Stop, keep_m: f64) -> Spread {
+impl StandingArea {
+    pub(super) fn new(environment: &Environment<'_>, stop: &Stop, keep_m: f64) -> StandingArea {
         let area = Rect::around(stop.at_m[0], stop.at_m[1]);
         let middle = area.centre();
         let is_bench = stop.kind == StopKind::Bench;
         let room = match is_bench {
             // Whoever finds no seat stands before the bench.
-            true => Room::Around(middle + stop.facing_from(middle) * 1.6, 1.2 + 0.5 * area.width().max(area.height())),
-            false if area.width() > 0.0 && area.height() > 0.0 => Room::Within(area),
-            false => Room::Around(middle, stop.reach_m),
+            true => {
+                SearchArea::Around(middle + stop.facing_from(middle) * 1.6, 1.2 + 0.5 * area.width().max(area.height()))
+            }
+            false if area.width() > 0.0 && area.height() > 0.0 => SearchArea::Within(area),
+            false => SearchArea::Around(middle, stop.reach_m),
         };
         let seats = if is_bench { stop.places_m.as_slice() } else { &[] };
-        let seats = seats.iter().map(|&seat| (off_walls(surface, seat, keep_m), None)).collect();
-        Spread { room, seats, spots: BTreeMap::new() }
+        let seats = seats.iter().map(|&seat| (off_walls(environment, seat, keep_m), None)).collect();
+        StandingArea { room, seats, spots: BTreeMap::new() }
     }
 
     /// How far around the middle people are, metres.
     pub(super) fn reach_m(&self) -> f64 {
         match self.room {
-            Room::Around(_, reach_m) => reach_m,
-            Room::Within(area) => 0.5 * area.width().max(area.height()),
+            SearchArea::Around(_, reach_m) => reach_m,
+            SearchArea::Within(area) => 0.5 * area.width().max(area.height()),
         }
     }
 
@@ -147,7 +148,14 @@ impl Spread {
     }
 
     /// A spot for somebody who comes from `p`, and what they face there.
-    pub(super) fn take(&mut self, surface: Surface<'_>, stop: &Stop, id: u32, draw: u64, p: Vec2) -> (Vec2, Vec2) {
+    pub(super) fn take(
+        &mut self,
+        environment: &Environment<'_>,
+        stop: &Stop,
+        id: u32,
+        draw: u64,
+        p: Vec2,
+    ) -> (Vec2, Vec2) {
         let vacant = self.seats.iter().filter(|seat| seat.1.is_none()).count();
         let spot = if vacant > 0 {
             let wanted = (draw % vacant as u64) as usize;
@@ -162,7 +170,7 @@ impl Spread {
                 let seats = self.seats.iter().map(|seat| &seat.0);
                 self.spots.values().chain(seats).all(|other| other.distance(spot) >= apart_m)
             };
-            free_spot(surface, self.room, spacing_m, draw, free).unwrap_or(p)
+            free_spot(environment, self.room, spacing_m, draw, free).unwrap_or(p)
         };
         self.spots.insert(id, spot);
         let facing = match stop.facing {

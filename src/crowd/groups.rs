@@ -5,7 +5,7 @@ use std::ops::Range;
 use rand::RngExt;
 
 use super::GroupOptions;
-use crate::crowd::arrivals::Arrival;
+use super::arrivals::Arrival;
 use crate::math::{Purpose, person_stream};
 use crate::routes::{Route, Timetable, TimetableKind};
 
@@ -14,7 +14,7 @@ const LISTED_TOGETHER_S: f64 = 5.0;
 
 /// Everybody's group. The members of a group have ids that follow each other.
 #[derive(Debug, Default)]
-pub(in crate::crowd) struct Groups {
+pub(super) struct Groups {
     /// For each id the first of its group. Empty: everybody is alone.
     first: Vec<u32>,
 }
@@ -62,14 +62,14 @@ impl Groups {
     }
 
     /// The ids of everybody in this person's group, the person included.
-    pub(in crate::crowd) fn members(&self, id: u32) -> Range<u32> {
+    pub(super) fn members(&self, id: u32) -> Range<u32> {
         let Some(&first) = self.first.get(id as usize) else { return id..id.saturating_add(1) };
         let size = self.first[first as usize..].iter().take_while(|&&other| other == first).count();
         first..first + size as u32
     }
 
     /// The first of this person's group.
-    pub(in crate::crowd) fn first(&self, id: u32) -> u32 {
+    pub(super) fn first(&self, id: u32) -> u32 {
         self.first.get(id as usize).copied().unwrap_or(id)
     }
 }
