@@ -17,24 +17,24 @@ use crate::routes::{Place, Route};
 /// Depth beyond an opening's edge between which people appear and vanish, metres.
 const APPEAR_M: [f64; 2] = [1.6, 2.7];
 const VANISH_M: [f64; 2] = [1.0, 2.3];
-/// Room that somebody who enters wants beyond the exclusion distance, metres.
+/// Gap beyond the exclusion distance that people who enter want, metres.
 const ENTRY_ROOM_M: f32 = 0.25;
-/// Places that somebody tries in each step.
+/// Places that a person tries in each step.
 const TRIES: usize = 4;
-/// Members of a group who come in one after the other keep this near to each other, metres ...
+/// Distance between members of a group who come in one after the other, metres.
 const COMPANY_M: [f64; 2] = [0.7, 0.95];
-/// ... in one of so many directions.
+/// Directions that are tried around the member before.
 const COMPANY_WAYS: usize = 8;
-/// Whoever finds no room beside their group for so long comes in anywhere, seconds.
+/// Time after which a person who finds no room beside the group enters anywhere, seconds.
 const COMPANY_S: f64 = 5.0;
-/// People of one queue who try in each step.
+/// People of one queue who try to enter in each step.
 const HEADS: usize = 4;
-/// The same where everybody starts at once: between two looks at who stands where.
+/// The same where everybody starts at once: between two rebuilds of the grid.
 const MOST_AT_ONCE: usize = 1024;
-/// If nobody gets in for so many times the patience, all who wait are stuck.
+/// Multiple of the patience after which all who wait at a blocked entrance are stuck.
 const PATIENCE_LIMIT: f64 = 5.0;
 
-/// Who waits where to come in.
+/// Queues of people who wait to enter.
 #[derive(Debug, Default)]
 pub(super) struct Entrances {
     next_arrival: usize,
@@ -74,13 +74,13 @@ impl Entrances {
         self.next_arrival >= arrivals.len() && self.queues.iter().all(|q| q.waiting.is_empty())
     }
 
-    /// When the next person wants to enter, if nobody waits already.
+    /// Time of the next arrival, seconds, if no queue holds anybody.
     pub(super) fn next_arrival_s(&self, arrivals: &[Arrival]) -> Option<f64> {
         let nobody = self.queues.iter().all(|q| q.waiting.is_empty());
         arrivals.get(self.next_arrival).filter(|_| nobody).map(|a| a.time_s)
     }
 
-    /// Lets in whoever is due and finds room.
+    /// Lets in those who are due and find room.
     pub(super) fn admit(&mut self, admission: &mut Admission<'_>) {
         let time_s = admission.time_s;
         while let Some(&arrival) = admission.arrivals.get(self.next_arrival).filter(|a| a.time_s <= time_s) {
@@ -99,7 +99,7 @@ impl Entrances {
         }
     }
 
-    /// Lets in some of those who are at the heads of their queues; says whether somebody got in.
+    /// Lets in some of those at the heads of their queues; returns whether somebody got in.
     fn admit_heads(&mut self, admission: &mut Admission<'_>) -> bool {
         let (present, time_s) = (admission.agents.bodies.len(), admission.time_s);
         let at_once = admission.options.entry_seconds == Some(0.0);
@@ -174,7 +174,7 @@ impl Admission<'_> {
         false
     }
 
-    /// What somebody is like; members of a group walk at one speed, and towards one place.
+    /// Traits of a person; members of a group walk at one speed, and towards one place.
     fn traits_of(&self, id: u32) -> Traits {
         let mut traits = Traits::draw(self.seed, id, self.options);
         let others = self.agents.groups.members(id).len().saturating_sub(1);
@@ -188,15 +188,16 @@ impl Admission<'_> {
         traits
     }
 
-    /// The slot of the member of somebody's group who came in last.
+    /// Slot of the member of a person's group who came in last.
     fn companion(&self, id: u32) -> Option<usize> {
         let members = self.agents.groups.members(id);
         let is_member = |walk: &WalkState| members.contains(&walk.id);
         if members.len() < 2 { None } else { self.agents.walks.iter().rposition(is_member) }
     }
 
-    /// Places around a companion, in turn from the direction that a draw in `[0, 1)` gives, that can be seen from there
-    /// and, for who comes through an opening, lie as far beyond it as everybody's.
+    /// Free places around a companion and in sight, in turn from the direction that a draw in `[0, 1)` gives.
+    ///
+    /// At an opening they lie as far beyond it as all entry places do.
     fn places_beside(
         &self,
         companion: usize,
@@ -219,7 +220,7 @@ impl Admission<'_> {
                 }),
                 Place::Area(_) => true,
             };
-            // Nor behind the wall of a narrow opening, where there may be a gap too.
+            // Behind the wall of a narrow opening there may be a gap too.
             let walkable = ground.lattice.cell_at(p).is_some_and(|cell| ground.is_walkable(cell));
             let free =
                 outside && walkable && ground.clearance_m(p) >= limit_m && ground.sight(self.environment.walls, at, p);
@@ -227,7 +228,7 @@ impl Admission<'_> {
         })
     }
 
-    /// A place to appear at.
+    /// Place at which a person appears, if it is free of walls.
     fn entry_place(&self, route: usize, traits: &Traits, draws: [f64; 2]) -> Option<Vec2> {
         let ground = self.environment.ground();
         match self.environment.routes[route].start {
@@ -248,7 +249,7 @@ impl Admission<'_> {
         }
     }
 
-    /// Whether nobody stands too near, newcomers of this step included.
+    /// Whether a place keeps the distance from all agents, newcomers of this step included.
     fn has_room(&self, p: Vec2, exclusion_m: f32, present: usize) -> bool {
         let (x, y) = (p.x as f32, p.y as f32);
         let free = |body: &BodyState| {

@@ -1,4 +1,4 @@
-//! Who is near whom: bodies sorted into a uniform grid, rebuilt every step.
+//! Neighbour search: bodies sorted into a uniform grid, rebuilt every step.
 
 use std::ops::Range;
 
@@ -18,16 +18,16 @@ pub(super) struct NeighbourGrid {
     cells_per_m: f32,
     columns: usize,
     rows: usize,
-    /// Whether the columns go round.
+    /// Period in x, metres, if the columns go round.
     period_x_m: Option<f32>,
-    /// Where each cell begins, and the end behind the last.
+    /// First index of each cell, and the end behind the last.
     starts: Vec<u32>,
     cell_of_slot: Vec<u32>,
     /// Bodies in the order of cells.
     pub(super) bodies: Vec<BodyState>,
-    /// The slot that each of them has.
+    /// Slot of each of them.
     pub(super) slots: Vec<u32>,
-    /// And the other way round: where among them each slot's body is.
+    /// Index among them of each slot's body.
     pub(super) index_of_slot: Vec<u32>,
 }
 
@@ -93,8 +93,9 @@ impl NeighbourGrid {
         self.cell_of_slot = cells;
     }
 
-    /// Calls `visit` with the stretches of [`NeighbourGrid::bodies`] in the nine cells around a place, and what is to be
-    /// added to their x to have them where they are seen from there: a period, on its other side.
+    /// Calls `visit` with the ranges of [`NeighbourGrid::bodies`] in the nine cells around a place.
+    ///
+    /// The second argument is to be added to their x: a period, for those seen across its end.
     #[inline]
     pub(super) fn around(&self, x: f32, y: f32, mut visit: impl FnMut(Range<usize>, f32)) {
         let mut base_shift = 0.0;
@@ -133,8 +134,9 @@ impl NeighbourGrid {
         }
     }
 
-    /// The same with the stretches in all cells that come nearer than `reach_m`. Round a period some are seen on either
-    /// side: of these, one at most lies within half a period.
+    /// Calls `visit` with the ranges in all cells that come nearer than `reach_m`, as [`NeighbourGrid::around`] does.
+    ///
+    /// Round a period some bodies are found on either side: of these, one at most lies within half a period.
     #[inline]
     pub(super) fn within(&self, x: f32, y: f32, reach_m: f32, mut visit: impl FnMut(Range<usize>, f32)) {
         let across = (reach_m * self.cells_per_m).ceil().max(1.0) as usize;
@@ -158,7 +160,7 @@ impl NeighbourGrid {
         }
     }
 
-    /// The shortest way in x from `a` to `b`, round the period if there is one.
+    /// Shortest difference in x from `a` to `b`, round the period if there is one, metres.
     #[inline]
     pub(super) fn dx(&self, a: f32, b: f32) -> f32 {
         let dx = b - a;

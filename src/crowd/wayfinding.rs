@@ -1,4 +1,4 @@
-//! Where people want to go: along the flow that spreads them over all sensible ways, see [`Flow`](crate::routes).
+//! Wayfinding: along the flow that spreads people over all sensible ways, see [`Flow`](crate::routes).
 
 use super::environment::Environment;
 use super::state::{AgentMut, Traits, WalkState};
@@ -6,39 +6,39 @@ use crate::math::Vec2;
 use crate::plan::Opening;
 use crate::routes::{Field, Flow, Leg, Place, Way};
 
-/// A place between start and goal counts as passed from this walking distance on, metres.
+/// Walking distance at which a place between start and goal counts as passed, metres.
 const PASSED_M: f64 = 0.3;
-/// People look so far ahead along the flow, metres: it swerves into every niche, they do not ...
+/// Distance over which agents follow the flow ahead, metres: it swerves into niches, people do not.
 const AHEAD_M: f64 = 2.4;
-/// ... in so many pieces, and in more of them where walls are near.
+/// Pieces of that distance on open floor, and near walls.
 const PIECES: usize = 3;
 const PIECES_AT_WALLS: usize = 6;
-/// Clearance from which on no wall is near, metres.
+/// Clearance of open floor, metres.
 const OPEN_M: f64 = 2.0;
-/// Distance kept from corners, metres.
+/// Distance from corners, metres.
 const CORNER_M: f64 = 0.4;
-/// People drift towards their lane so that they would reach it in this distance, metres, by at most this slope.
+/// Distance in which agents drift to their lane, metres, and the largest slope of the drift.
 const LANE_REACH_M: f64 = 6.0;
 const MOST_SLOPE: f64 = 0.2;
-/// The width of the way is measured so far behind and ahead of a person, metres.
+/// Distance behind and ahead at which the width of the way is measured, metres.
 const BESIDE_M: f64 = 2.5;
-/// With walls farther off than this, metres, there are no lanes.
+/// Distance of walls beyond which there are no lanes, metres.
 const WIDEST_M: f64 = 6.0;
-/// Following the distance field, people aim at the place that is this far down it, metres.
+/// Distance down the distance field at which agents aim, metres.
 const FIELD_AIM_M: f64 = 1.2;
-/// Whoever has made no way for so long, seconds, has no business elsewhere in a goal area any more.
+/// Time without progress after which anywhere in a goal area is good enough, seconds.
 const AT_A_LOSS_S: f64 = 3.0;
-/// Without way made people follow the shortest way instead of the flow for the last part of each such time, seconds.
+/// Period, and its first part in which agents without progress follow the flow, seconds; then the shortest way.
 const RETHINK_S: f64 = 15.0;
 const RETHOUGHT_S: f64 = 10.0;
-/// Those who block each other step to their right by up to this slope, reached after so many seconds.
+/// Largest slope by which blocked agents step to their right, and the time after which it is reached, seconds.
 const MOST_ASIDE: f64 = 0.7;
 const ASIDE_S: f64 = 2.0;
-/// From this walking distance to the goal's edge people in sight of their place in it go straight there, metres.
+/// Walking distance to the goal at which agents go straight to their visible place in it, metres.
 const HOMING_M: f64 = 2.5;
-/// From this distance on people slow down towards the place where they stop, metres.
+/// Distance over which agents slow down towards their place in a goal area, metres.
 const EASING_M: f64 = 1.2;
-/// At most this share of a way's width on either side is left to the walls.
+/// Largest share of a way's width that is left to the wall on either side.
 const MARGIN_SHARE: f64 = 0.15;
 
 /// Finds the way along the routes of an environment.
@@ -71,7 +71,7 @@ impl Wayfinder<'_> {
         self.field(walk).at(self.0.ground(), p)
     }
 
-    /// Goes on to the next leg where one is done, and notes how far the person has come.
+    /// Goes on to the next leg where one is done, and notes the progress.
     pub(super) fn advance(&self, walk: &mut WalkState, p: Vec2, time_s: f64) {
         let mut left_m = self.left_m(walk, p);
         while left_m < PASSED_M && !self.is_on_last_leg(walk) {
@@ -101,7 +101,7 @@ impl Wayfinder<'_> {
         if let Some(end) = self.to_the_end(walk, traits, p) {
             return end;
         }
-        // Who gets no farther in the flow tries the shortest way.
+        // Agents that get no farther in the flow try the shortest way.
         let at_a_loss = (time_s - walk.improved_s) % RETHINK_S > RETHOUGHT_S;
         let flow = if at_a_loss {
             None
@@ -119,7 +119,7 @@ impl Wayfinder<'_> {
         let open = ground.clearance_at_least_m(p) > OPEN_M;
         let pieces = if open { PIECES } else { PIECES_AT_WALLS };
         let step_m = AHEAD_M / pieces as f64;
-        // Nobody cuts a corner closer than that, but those who stand nearer to a wall may walk on.
+        // Corners are cut no closer than that, but agents nearer to a wall may walk on.
         let margin_m = CORNER_M.min(0.9 * ground.clearance_at_least_m(p)).max(0.05);
         let first = flow.at(ground, p)?;
         let mut at = p + first * step_m;
@@ -134,8 +134,9 @@ impl Wayfinder<'_> {
         (at - p).normalized()
     }
 
-    /// Lets the way lead towards the share of a corridor's width that the person likes best: after a bend people spread
-    /// again. In halls, and at crossings, there is no width to share.
+    /// Turns the direction towards the agent's lane in a corridor: after a bend people spread again.
+    ///
+    /// In halls, and at crossings, there is no width to share.
     fn towards_lane(&self, walk: &WalkState, traits: &Traits, p: Vec2, aim: Vec2) -> Vec2 {
         if walk.yields_s > 0.0 {
             return aim;
@@ -185,8 +186,7 @@ impl Wayfinder<'_> {
         aim
     }
 
-    /// Direction out of the plan for those who have reached their opening, or to the place where the person vanishes for
-    /// those who are near and see it.
+    /// Direction out of the opening that has been reached, or to the visible place in the goal area nearby.
     fn to_the_end(&self, walk: &WalkState, traits: &Traits, p: Vec2) -> Option<Vec2> {
         if !self.is_on_last_leg(walk) || f64::from(walk.least_left_m) > HOMING_M + 1.0 {
             return None;
@@ -205,7 +205,7 @@ impl Wayfinder<'_> {
         }
     }
 
-    /// Share of the speed that the person wants: all of it on the way, less where the end is near.
+    /// Wanted share of the speed: 1 on the way, less near the end.
     fn pace(&self, walk: &WalkState, p: Vec2) -> f32 {
         match self.0.routes[walk.route as usize].goal {
             Place::Area(_) if self.is_on_last_leg(walk) => ((walk.end_m.distance(p) / EASING_M) as f32).clamp(0.3, 1.0),
@@ -236,7 +236,7 @@ impl Wayfinder<'_> {
     }
 }
 
-/// Whoever is in the way of somebody who comes the other way keeps to the right, the more the longer it takes.
+/// Turns a blocked agent to its right, the more the longer it has been blocked.
 fn give_way(aim: Vec2, blocked_s: f32) -> Vec2 {
     if blocked_s <= 0.0 {
         return aim;
@@ -245,8 +245,7 @@ fn give_way(aim: Vec2, blocked_s: f32) -> Vec2 {
     (aim + right).normalized().unwrap_or(aim)
 }
 
-/// The place at an opening's edge where a person likes to enter: in the own lane, off the walls by as much as the person
-/// likes.
+/// Place at an opening's edge where a person enters: in the own lane, at an acceptable distance from walls.
 pub(super) fn entry_place(opening: &Opening, traits: &Traits) -> Vec2 {
     let width_m = opening.width_m();
     let margin = (f64::from(traits.wall_acceptable_m) / width_m.max(0.01)).min(MARGIN_SHARE);

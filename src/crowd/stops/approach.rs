@@ -1,4 +1,4 @@
-//! How people walk to a stop, shuffle forward and stand.
+//! Steering at stops: agents walk up, shuffle forward and stand.
 
 use super::service::Stops;
 use super::target::{ApproachMode, VisitTarget};
@@ -6,26 +6,26 @@ use crate::crowd::perception::Perception;
 use crate::crowd::state::AgentMut;
 use crate::math::Vec2;
 
-/// How far ahead people look on the way to a stop, metres, and in which steps.
+/// Distance over which agents follow flow or field ahead, metres, and its steps.
 const AHEAD_M: f64 = 0.8;
 const AHEAD_STEP_M: f64 = 0.2;
-/// Whoever makes no way for so long on the way that people spread over takes the shortest, seconds.
+/// Time without progress after which an agent follows the shortest way instead of the flow, seconds.
 const AT_A_LOSS_S: f64 = 5.0;
-/// From this distance on people walk straight to their spot, metres ...
+/// Distance at which agents walk straight to their spot, metres.
 const STRAIGHT_M: f64 = 2.0;
-/// ... without going update others: from here on, or in a line, where those before them are not in the way but wait.
+/// Distance at which they go round nobody any more, metres; in a queue [`STRAIGHT_M`], since those ahead wait too.
 const SHUFFLE_M: f64 = 0.5;
-/// Somebody who walks up to a spot would be there in this time, seconds, all the way: so they slow down.
+/// Time in which an agent would reach its spot at the current pace, seconds: it slows down on the way.
 const EASING_S: f64 = 0.7;
-/// Nobody walks to a spot more slowly than this, metres per second.
+/// Least speed of walking up to a spot, metres per second.
 const SLOWEST_M_S: f64 = 0.1;
-/// A spot is reached within the first, and left behind beyond the second, metres.
+/// Distances within which a spot is reached, and beyond which it is left, metres.
 const STANDING_M: [f64; 2] = [0.05, 0.09];
-/// Whoever makes less way than this although they want to, metres per second, is held up.
+/// Speed below which a walking agent is held up, metres per second.
 const HELD_UP_M_S: f32 = 0.1;
 
 impl Stops {
-    /// Turns somebody on an target where it leads, and sets how fast they want to go.
+    /// Turns an agent towards its target, and sets its pace.
     pub(in crate::crowd) fn steer(
         &self,
         target: &VisitTarget,
@@ -87,7 +87,7 @@ impl Stops {
     }
 }
 
-/// Direction of a place some way along what leads to the stop, in sight.
+/// Direction of the farthest place in sight along a field of directions.
 fn along(leads: impl Fn(Vec2) -> Option<Vec2>, perception: &Perception<'_>, p: Vec2) -> Option<Vec2> {
     let mut at = p + leads(p)? * AHEAD_STEP_M;
     for _ in 1..(AHEAD_M / AHEAD_STEP_M) as usize {

@@ -1,28 +1,28 @@
 use crate::crowd::environment::Environment;
 use crate::math::{Vec2, vec2};
 
-/// People in a line keep this far off walls, metres; less where there is no room.
+/// Distance of a queue from walls, metres; and the least where there is no room.
 const MARGIN_M: f64 = 0.32;
 const LEAST_MARGIN_M: f64 = 0.2;
-/// A line leaves a passage of this width before a wall that it comes to, metres.
+/// Width of the passage that a queue leaves before a wall, metres.
 const PASSAGE_M: f64 = 1.3;
-/// Pieces of a line lie this far apart at least, metres, and so do lines.
+/// Least distance between pieces of a queue, and between queues, metres.
 const APART_M: f64 = 0.95;
-/// No line is longer than this, metres.
+/// Longest queue, metres.
 const LONGEST_M: f64 = 60.0;
-/// How far a line looks for the side with more room, metres.
+/// Distance over which the room beside a turn is compared, metres.
 const LOOK_M: f64 = 8.0;
-/// Turns that a line tries where it cannot go straight on: cosine and sine, gentle ones first.
+/// Turns of a queue that cannot go straight on, gentle ones first: cosine and sine.
 const TURNS: [[f64; 2]; 7] =
     [[1.0, 0.0], [0.866, 0.5], [0.866, -0.5], [0.5, 0.866], [0.5, -0.866], [0.0, 1.0], [0.0, -1.0]];
 
-/// The line that people queue in, from its head on.
+/// The polyline along which people queue, from its head on.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct QueuePath {
     points: Vec<Vec2>,
-    /// Way from the head to each point, metres.
+    /// Length of the polyline from the head to each point, metres.
     along_m: Vec<f64>,
-    /// What the first one faces.
+    /// Unit vector that the first one faces.
     ahead: Vec2,
 }
 
@@ -37,7 +37,7 @@ impl QueuePath {
         QueuePath { points, along_m, ahead }
     }
 
-    /// A line that begins at `head` behind somebody who faces `ahead`, goes straight back while it can and bends
+    /// A queue that begins at `head` behind somebody who faces `ahead`, goes straight back while it can and bends
     /// along walls. It keeps clear of `taken` places.
     pub(super) fn found(
         environment: &Environment<'_>,
@@ -75,7 +75,7 @@ impl QueuePath {
         self.along_m.last().copied().unwrap_or(0.0)
     }
 
-    /// The place this far behind the head, and the direction in which the line moves there.
+    /// The place this far behind the head, and the direction in which the queue moves there.
     pub(super) fn at(&self, along_m: f64) -> (Vec2, Vec2) {
         let after = self.along_m.partition_point(|&a| a < along_m).min(self.points.len().saturating_sub(1));
         let Some(&point) = self.points.get(after) else { return (Vec2::ZERO, self.ahead) };
@@ -94,7 +94,7 @@ pub(super) fn stands(environment: &Environment<'_>, p: Vec2, margin_m: f64) -> b
     environment.plan.is_floor(p) && environment.ground().clearance_m(p) >= margin_m
 }
 
-/// The direction in which a line goes on from its last place: straight, or else the turn with the most room ahead.
+/// The direction in which a queue goes on from its last place: straight, or else the turn with the most room ahead.
 fn onward(
     environment: &Environment<'_>,
     points: &[Vec2],
@@ -108,7 +108,7 @@ fn onward(
     let earlier = &points[..points.len().saturating_sub(1)];
     let fits = |direction: Vec2| {
         let next = last + direction * spacing_m;
-        // The place before the last is as near as a bend of the line allows.
+        // The place before the last is as near as a bend of the queue allows.
         let near = |other: &Vec2, apart_m: f64| next.distance(*other) < apart_m;
         let crosses = earlier.iter().rev().skip(1).any(|other| near(other, apart_m))
             || earlier.last().is_some_and(|other| near(other, 0.9 * spacing_m))

@@ -11,37 +11,37 @@ use crate::crowd::environment::Environment;
 use crate::math::Rect;
 use crate::routes::{Field, Place, StopKind};
 
-/// How often stops are looked after, seconds.
+/// Interval at which stops are updated, seconds.
 const UPDATE_S: f64 = 0.2;
-/// People look for a free spot or a line from this walking distance on, metres.
+/// Walking distance at which people look for a free spot or a queue, metres.
 const NEAR_M: f64 = 6.0;
-/// Whoever is this near to the tail of a line joins it, metres.
+/// Distance from the tail of a queue at which people join it, metres.
 const JOIN_M: f64 = 1.0;
-/// Whoever gets no nearer to a tail for so long joins from where they are, seconds.
+/// Time without getting nearer to the tail after which people join from where they are, seconds.
 const JOIN_AFTER_S: f64 = 5.0;
-/// Whoever is this near to a spot is there, metres.
+/// Distance from a spot at which it counts as reached, metres.
 const THERE_M: f64 = 0.2;
-/// Whoever is called steps up within this distance: the time of the service runs from there on, metres.
+/// Distance from the counter at which the time of the service begins, metres.
 const STEP_UP_M: f64 = 1.8;
-/// ... and from so long after the call in any case, seconds.
+/// Time after the call at which it begins in any case, seconds.
 const STEP_UP_S: f64 = 8.0;
-/// A stay begins so long after a spot was found, even if the crowd keeps the person from it, seconds.
+/// Time after which a stay begins even if the crowd keeps the person off the spot, seconds.
 const SETTLE_S: f64 = 20.0;
-/// Nobody who is served leaves before they are there, unless so much time is over, seconds.
+/// Time by which a service is extended for people who have not reached the counter, seconds.
 const GRACE_S: f64 = 4.0;
-/// Somebody who leaves gets to where the route goes on within this, or goes on from where they are, seconds.
+/// Time after which people who leave go on along their route in any case, seconds.
 const LEAVE_S: f64 = 8.0;
-/// A line that serves nobody for so much longer than anybody takes does not move, seconds.
+/// Time beyond the longest service after which a queue counts as stalled, seconds.
 const STALLED_S: f64 = 30.0;
 
-/// All stops and who is at them.
+/// All stops, and the people who visit them.
 #[derive(Debug, Default)]
 pub(in crate::crowd) struct Stops {
     states: Vec<StopState>,
-    /// For each route its stops: index of the post, share, places passed before.
+    /// Stops of each route.
     of_route: Vec<Vec<StopOnRoute>>,
     visitors: BTreeMap<u32, Visitor>,
-    /// Slots in the order of ids, made anew for every look.
+    /// Slots in the order of ids, sorted anew for every update.
     by_id: Vec<u32>,
     log: Option<Vec<Visit>>,
 }
@@ -52,8 +52,7 @@ impl Stops {
         self.states.get(stop)
     }
 
-    /// The stops of these routes; those of one name are one. Nobody stands nearer to a wall than `keep_m` if there
-    /// is room.
+    /// The stops of the routes; stops of one name are one. People stand at least `keep_m` off walls where there is room.
     pub(in crate::crowd) fn new(environment: &Environment<'_>, keep_m: f64) -> Stops {
         let mut stops = Stops::default();
         for route in environment.routes {
@@ -78,8 +77,9 @@ impl Stops {
         stops
     }
 
-    /// Somebody comes in: decides where they will stop, together with the first of their group, and gives the target to
-    /// begin with.
+    /// Draws the stops of a person who enters, the same for all of a group, and returns the first target if there is one.
+    ///
+    /// `id` is the person's, `first` that of the first of the group.
     pub(in crate::crowd) fn enter(&mut self, seed: u64, [id, first]: [u32; 2], route: usize) -> Option<VisitTarget> {
         let stops = self.of_route.get(route).filter(|stops| !stops.is_empty())?;
         let visitor = Visitor::new(seed, [id, first], route, stops)?;
@@ -88,27 +88,27 @@ impl Stops {
         first.filter(|stop| stop.after_via == 0).map(|stop| VisitTarget::come(stop.stop))
     }
 
-    /// What became of everybody who stopped, one for each stop.
+    /// Counts of visits, stop by stop.
     pub(in crate::crowd) fn tally(&self) -> Vec<StopTally> {
         self.states.iter().map(|state| state.tally.clone()).collect()
     }
 
-    /// From now on, keeps every visit that ends.
+    /// Keeps every visit that ends from now on.
     pub(in crate::crowd) fn keep_visits(&mut self) {
         self.log.get_or_insert_with(Vec::new);
     }
 
-    /// Every visit that ended since [`Stops::keep_visits`], in the order of their ends.
+    /// Visits that ended since [`Stops::keep_visits`], in the order of their ends.
     pub(in crate::crowd) fn visits(&self) -> &[Visit] {
         self.log.as_deref().unwrap_or(&[])
     }
 
-    /// The name of the stop that an target leads to; for messages.
+    /// The name of a target's stop, for messages.
     pub(in crate::crowd) fn name_of(&self, target: &VisitTarget) -> Option<String> {
         self.get(target.stop()).map(|state| state.stop.name.clone())
     }
 
-    /// Looks after everybody who stops, if it is time to.
+    /// Moves queues on and ends stays, if an update is due at this step.
     pub(in crate::crowd) fn update(
         &mut self,
         (step, time_step_s): (u64, f64),
@@ -139,7 +139,7 @@ impl Stops {
         self.by_id = by_id;
     }
 
-    /// Takes out who is not there any more: they arrived, or gave up.
+    /// Takes out visitors who have left the crowd.
     fn forget_those_who_left(&mut self, update: &StopsUpdate<'_>) {
         let states = &mut self.states;
         self.visitors.retain(|id, _| {
@@ -151,7 +151,7 @@ impl Stops {
         });
     }
 
-    /// One person's next state.
+    /// Updates the state of one visitor.
     fn go_on(&mut self, visitor: &mut Visitor, slot: usize, update: &mut StopsUpdate<'_>, joining: &mut Vec<Joining>) {
         let Some(planned) = visitor.plan.last().copied() else { return };
         let on_route = self.of_route[visitor.route][planned.stop];
@@ -162,11 +162,11 @@ impl Stops {
             VisitState::Underway => {
                 let passed = update.walk(slot).leg as usize >= on_route.after_via;
                 if passed {
-                    visitor.state = VisitState::Coming { line: None };
+                    visitor.state = VisitState::Coming { queue: None };
                     update.set(slot, VisitTarget::come(on_route.stop));
                 }
             }
-            VisitState::Coming { line } => {
+            VisitState::Coming { queue } => {
                 let far_m = state.field.at(update.environment.ground(), p);
                 if far_m > NEAR_M + state.reach_m() {
                     return;
@@ -181,15 +181,15 @@ impl Stops {
                         update.set(slot, VisitTarget::stand(on_route.stop, spot_m, facing, true));
                     }
                     Service::Queues(queues) => {
-                        let line = queue::choose(queues, line, p, state.stop.dwell_s.mean());
-                        visitor.state = VisitState::Coming { line: Some(line) };
-                        let tail_m = queues[line].tail_m(planned.draw);
+                        let queue = queue::choose(queues, queue, p, state.stop.dwell_s.mean());
+                        visitor.state = VisitState::Coming { queue: Some(queue) };
+                        let tail_m = queues[queue].tail_m(planned.draw);
                         let idle_s = time_s - update.walk(slot).improved_s;
                         let distance_m = p.distance(tail_m);
                         if distance_m < JOIN_M || idle_s > JOIN_AFTER_S {
-                            joining.push(Joining { stop: on_route.stop, line, distance_m, id: visitor.id });
+                            joining.push(Joining { stop: on_route.stop, queue, distance_m, id: visitor.id });
                         }
-                        let seen = queues[line].seen_from(update.environment, p, tail_m);
+                        let seen = queues[queue].seen_from(update.environment, p, tail_m);
                         let target = match seen {
                             Some(to_m) => VisitTarget::towards(on_route.stop, to_m),
                             None => VisitTarget::come(on_route.stop),
@@ -214,21 +214,21 @@ impl Stops {
                     self.leave(visitor, slot, on_route, until_s, update);
                 }
             }
-            VisitState::Waiting { line } => {
+            VisitState::Waiting { queue } => {
                 if let Service::Queues(queues) = &state.kind
-                    && time_s - queues[line].moved_s < state.stop.dwell_s.bounds()[1] + STALLED_S
+                    && time_s - queues[queue].moved_s < state.stop.dwell_s.bounds()[1] + STALLED_S
                 {
                     update.walk(slot).improved_s = time_s;
                 }
             }
-            VisitState::Called { line, place, called_s, begun_s, ready_s } => {
+            VisitState::Called { queue, place, called_s, begun_s, ready_s } => {
                 let distance_m = update.distance_to_spot(slot);
                 let begun_s = begun_s.or_else(|| {
-                    // Whoever stood in the line steps up at once.
+                    // People who stood in the queue step up at once.
                     (distance_m < STEP_UP_M).then_some(if time_s - ready_s < 3.0 * UPDATE_S { ready_s } else { time_s })
                 });
                 let begun_s = begun_s.or((time_s - called_s > STEP_UP_S).then_some(time_s));
-                visitor.state = VisitState::Called { line, place, called_s, begun_s, ready_s };
+                visitor.state = VisitState::Called { queue, place, called_s, begun_s, ready_s };
                 let Some(begun_s) = begun_s else { return };
                 update.walk(slot).improved_s = time_s;
                 let end_s = begun_s + planned.dwell_s;
@@ -238,10 +238,10 @@ impl Stops {
                     return;
                 }
                 visitor.begun_s = begun_s;
-                // Waiting for the next look at the stop is nobody's service time.
+                // The time until the next update counts for no service.
                 let free_s = if time_s - end_s < 1.5 * UPDATE_S { end_s } else { time_s };
                 if let Service::Queues(queues) = &mut state.kind {
-                    queues[line].free(place, free_s);
+                    queues[queue].free(place, free_s);
                 }
                 self.leave(visitor, slot, on_route, free_s, update);
             }
@@ -254,7 +254,7 @@ impl Stops {
         }
     }
 
-    /// Somebody has stayed long enough, until `left_s`.
+    /// Ends a visit at the time `left_s`.
     fn leave(
         &mut self,
         visitor: &mut Visitor,
@@ -282,7 +282,7 @@ impl Stops {
         }
     }
 
-    /// The walking distance to where somebody goes who leaves a stop.
+    /// The distance field that leads a visitor on from a stop.
     fn onward<'f>(&'f self, visitor: &Visitor, update: &'f StopsUpdate<'_>) -> &'f Field {
         let stops = &self.of_route[visitor.route];
         let now = visitor.plan.last().map_or(0, |planned| stops[planned.stop].after_via);
@@ -294,7 +294,7 @@ impl Stops {
         &update.environment.navigation.fields[legs[now.min(legs.len() - 1)].field]
     }
 
-    /// The next stop, or the rest of the route.
+    /// Sends a visitor to the next stop, or along the rest of the route.
     fn done(&mut self, visitor: &mut Visitor, slot: usize, update: &mut StopsUpdate<'_>) {
         visitor.plan.pop();
         visitor.state = VisitState::Underway;
@@ -307,49 +307,49 @@ impl Stops {
         walk.blocked_s = 0.0;
     }
 
-    /// Those who reached the tail of a line join it, the nearest first.
+    /// Adds those who reached the tail of a queue to it, the nearest first.
     fn join(&mut self, mut joining: Vec<Joining>, visitors: &mut BTreeMap<u32, Visitor>, time_s: f64) {
         joining.sort_by(|a, b| a.distance_m.total_cmp(&b.distance_m).then(a.id.cmp(&b.id)));
-        for Joining { stop, line, id, .. } in joining {
+        for Joining { stop, queue, id, .. } in joining {
             let (Service::Queues(queues), Some(visitor)) = (&mut self.states[stop].kind, visitors.get_mut(&id)) else {
                 continue;
             };
-            queues[line].order.push_back(id);
+            queues[queue].order.push_back(id);
             visitor.came_s = time_s;
-            visitor.state = VisitState::Waiting { line };
+            visitor.state = VisitState::Waiting { queue };
         }
     }
 
-    /// Calls whoever is first to the places that are free.
+    /// Calls the first of each queue to the places that are free.
     fn call(&mut self, visitors: &mut BTreeMap<u32, Visitor>, update: &mut StopsUpdate<'_>) {
         for (index, state) in self.states.iter_mut().enumerate() {
             let stop = &state.stop;
             let Service::Queues(queues) = &mut state.kind else { continue };
-            for (number, line) in queues.iter_mut().enumerate() {
-                while let Some(&id) = line.order.front() {
+            for (number, queue) in queues.iter_mut().enumerate() {
+                while let Some(&id) = queue.order.front() {
                     let found = update
                         .slot(id)
-                        .and_then(|slot| Some((slot, visitors.get_mut(&id)?, line.free_place(update.position(slot))?)));
+                        .and_then(|slot| Some((slot, visitors.get_mut(&id)?, queue.free_place(update.position(slot))?)));
                     let Some((slot, visitor, place)) = found else { break };
-                    line.order.pop_front();
-                    let ready_s = line.take(place, id, update.time_s);
+                    queue.order.pop_front();
+                    let ready_s = queue.take(place, id, update.time_s);
                     visitor.state =
-                        VisitState::Called { line: number, place, called_s: update.time_s, begun_s: None, ready_s };
+                        VisitState::Called { queue: number, place, called_s: update.time_s, begun_s: None, ready_s };
                     let draw = visitor.plan.last().map_or(0, |planned| planned.draw);
-                    let (spot_m, facing) = line.spot_at(place, stop, draw, update.environment);
+                    let (spot_m, facing) = queue.spot_at(place, stop, draw, update.environment);
                     update.set(slot, VisitTarget::stand(index, spot_m, facing, true));
                 }
             }
         }
     }
 
-    /// Gives everybody who waits in a line the place there.
+    /// Gives everybody who waits in a queue a place there.
     fn line_up(&mut self, visitors: &mut BTreeMap<u32, Visitor>, update: &mut StopsUpdate<'_>) {
         for (index, state) in self.states.iter_mut().enumerate() {
             let Service::Queues(queues) = &mut state.kind else { continue };
-            for line in queues {
-                let spots = line.line_up(update, visitors);
-                state.tally.crowd(line.order.len(), line.room());
+            for queue in queues {
+                let spots = queue.line_up(update, visitors);
+                state.tally.crowd(queue.order.len(), queue.room());
                 for (slot, spot_m, facing) in spots {
                     update.set_waiting(slot, VisitTarget::stand(index, spot_m, facing, false));
                 }
@@ -377,11 +377,11 @@ fn starts_of(environment: &Environment<'_>, name: &str) -> Vec<usize> {
     cells
 }
 
-/// Somebody who has reached the tail of a line.
+/// A visitor who has reached the tail of a queue.
 #[derive(Clone, Copy, Debug)]
 struct Joining {
     stop: usize,
-    line: usize,
+    queue: usize,
     distance_m: f64,
     id: u32,
 }

@@ -1,4 +1,4 @@
-//! Spots to stand on where nobody tells people exactly where.
+//! Free spots where people stand or sit, and how they are found.
 
 use std::collections::BTreeMap;
 
@@ -7,23 +7,23 @@ use crate::crowd::environment::Environment;
 use crate::math::{Rect, SplitMix64, Vec2, vec2};
 use crate::routes::{Facing, Stop, StopKind};
 
-/// Spots that somebody considers.
+/// Spots that are tried for each size of the area.
 const TRIES: usize = 48;
-/// Whoever finds no room stands closer to the others, down to this share of the distance wanted ...
+/// Least share of the wanted distance from others, where there is no room.
 const CLOSEST: f64 = 0.7;
-/// ... and then looks around so many times as far.
+/// Sizes of the area that are searched in turn, as multiples of its own.
 const WIDER: [f64; 4] = [1.0, 1.6, 2.5, 4.0];
 /// Distance from walls, metres.
 const MARGIN_M: f64 = 0.3;
-/// How far people turn from what they face, as the sine of the angle.
+/// Largest turn from the wanted direction, as the sine of the angle.
 const TURN: f64 = 0.2;
 
-/// Where somebody who looks for a spot may find one.
+/// Area in which a free spot is searched.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum SearchArea {
-    /// Around a place, metres.
+    /// Disc: middle and radius, metres.
     Around(Vec2, f64),
-    /// In a rectangle.
+    /// Rectangle, metres.
     Within(Rect),
 }
 
@@ -35,7 +35,7 @@ impl SearchArea {
         }
     }
 
-    /// A place in the room, so many times as far from its middle, or `None` where the draw fell beside it.
+    /// A random place in the area, enlarged `wider` times, or `None` where the draw fell beside it.
     fn draw(self, rng: &mut SplitMix64, wider: f64) -> Option<Vec2> {
         let mut side = || 2.0 * f64::from(rng.unit()) - 1.0;
         let [x, y] = [side(), side()];
@@ -59,7 +59,7 @@ impl SearchArea {
     }
 }
 
-/// A free spot in a room, at least about `apart_m` from all `others`. The same draw tries the same spots.
+/// Finds a spot for which `free` holds, about `apart_m` from others. The same draw tries the same spots.
 pub(super) fn free_spot(
     environment: &Environment<'_>,
     room: SearchArea,
@@ -81,13 +81,13 @@ pub(super) fn free_spot(
     None
 }
 
-/// A unit vector that is off by up to about 12 degrees.
+/// Turns a unit vector by a random angle of up to about 12 degrees.
 pub(super) fn about(facing: Vec2, draw: u64) -> Vec2 {
     let off = TURN * (2.0 * f64::from(SplitMix64::new(draw ^ 0x5f).unit()) - 1.0);
     (facing + facing.left() * off).normalized().unwrap_or(facing)
 }
 
-/// The spot, moved off walls that are nearer than `keep_m`, if that helps.
+/// Moves a spot at least `keep_m` off walls, if there is such a place in sight.
 pub(super) fn off_walls(environment: &Environment<'_>, spot: Vec2, keep_m: f64) -> Vec2 {
     let mut moved = spot;
     for _ in 0..4 {
@@ -98,13 +98,13 @@ pub(super) fn off_walls(environment: &Environment<'_>, spot: Vec2, keep_m: f64) 
     if environment.sight(spot, moved) { moved } else { spot }
 }
 
-/// People who stand or sit around.
+/// People who stand or sit at a stop without a queue.
 #[derive(Clone, Debug)]
 pub(super) struct StandingArea {
     room: SearchArea,
-    /// Seats, and who sits there.
+    /// Seats, metres, and the id of who sits there.
     seats: Vec<(Vec2, Option<u32>)>,
-    /// Where everybody is.
+    /// Spots by id, metres.
     spots: BTreeMap<u32, Vec2>,
 }
 
@@ -114,7 +114,7 @@ impl StandingArea {
         let middle = area.centre();
         let is_bench = stop.kind == StopKind::Bench;
         let room = match is_bench {
-            // Whoever finds no seat stands before the bench.
+            // People who find no seat stand before the bench.
             true => {
                 SearchArea::Around(middle + stop.facing_from(middle) * 1.6, 1.2 + 0.5 * area.width().max(area.height()))
             }
@@ -126,7 +126,7 @@ impl StandingArea {
         StandingArea { room, seats, spots: BTreeMap::new() }
     }
 
-    /// How far around the middle people are, metres.
+    /// Largest distance of people from the middle, metres.
     pub(super) fn reach_m(&self) -> f64 {
         match self.room {
             SearchArea::Around(_, reach_m) => reach_m,
@@ -134,7 +134,7 @@ impl StandingArea {
         }
     }
 
-    /// How many find room as they want it: seats, or as many as spots drawn at random leave room for.
+    /// Number of people who find room: seats, or spots drawn at random with `spacing_m` between them.
     pub(super) fn room(&self, spacing_m: f64) -> usize {
         if self.seats.is_empty() {
             ((0.7 * self.room.m2() / (spacing_m * spacing_m)) as usize).max(1)
@@ -147,7 +147,7 @@ impl StandingArea {
         self.spots.len()
     }
 
-    /// A spot for somebody who comes from `p`, and what they face there.
+    /// Takes a spot for a person who comes from `p`; returns it and the unit vector that the person faces.
     pub(super) fn take(
         &mut self,
         environment: &Environment<'_>,

@@ -5,34 +5,34 @@ use crate::crowd::environment::Environment;
 use crate::math::Vec2;
 use crate::routes::{Field, Flow, Stop, StopKind};
 
-/// How far to the side, and back, people leave a counter before they turn to go on, metres.
+/// Distance to the side, and back, over which people leave a counter, metres.
 const ASIDE_M: f64 = 0.95;
 const BACK_M: f64 = 0.3;
-/// How far beyond a ticket gate, and before a bench, people are on their way again, metres.
+/// Distances beyond a ticket gate, and before a bench, at which people go on along their route, metres.
 const BEYOND_GATE_M: [f64; 3] = [2.2, 1.4, 0.7];
 const FROM_BENCH_M: f64 = 0.8;
-/// Somebody who stands within this of the way out is worth a detour of so much, metres.
+/// Radius within which others crowd a way out, and the detour that each of them is worth, metres.
 const IN_THE_WAY_M: f64 = 0.7;
 const DETOUR_M: f64 = 2.0;
 
-/// A stop with who is there.
+/// A stop with the people at it.
 #[derive(Debug)]
 pub(super) struct StopState {
     pub(super) stop: Stop,
     /// Walking distance to it.
     pub(super) field: Field,
-    /// How people standing over the ways there.
+    /// Flow that spreads people over the ways there.
     pub(super) flow: Flow,
     pub(super) kind: Service,
     pub(super) tally: StopTally,
 }
 
-/// How people are served at a stop.
+/// How people spend their time at a stop.
 #[derive(Debug)]
 pub(super) enum Service {
-    /// Everybody finds a spot.
+    /// Everybody finds a spot to stand or sit.
     Standing(StandingArea),
-    /// One after the other.
+    /// People wait in queues and are served in turn.
     Queues(Vec<Queue>),
 }
 
@@ -63,7 +63,7 @@ impl StopState {
         }
     }
 
-    /// How far from the stop itself people may be at it, metres.
+    /// Largest distance from the stop itself of people who are at it, metres.
     pub(super) fn reach_m(&self) -> f64 {
         match &self.kind {
             Service::Standing(standing) => standing.reach_m(),
@@ -71,7 +71,7 @@ impl StopState {
         }
     }
 
-    /// Somebody is not there any more.
+    /// Removes a person who has left the crowd.
     pub(super) fn forget(&mut self, id: u32) {
         match &mut self.kind {
             Service::Standing(standing) => standing.leave(id),
@@ -79,8 +79,8 @@ impl StopState {
         }
     }
 
-    /// Where somebody at `p` goes first who leaves the stop and then goes down the field `onward`: aside of the queue,
-    /// through the gate, up from the bench. `None` if they just go.
+    /// First place of a person at `p` who leaves the stop and then follows the field `onward`: beside the queue, beyond the
+    /// gate, before the bench. `None` if the route goes on at once.
     pub(super) fn way_out(
         &self,
         environment: &Environment<'_>,

@@ -1,26 +1,26 @@
 use serde::Serialize;
 
-/// What happened at a stop.
+/// Counts of the visits of a stop.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct StopTally {
     /// The stop's name.
     pub name: String,
-    /// Whether people wait in line there.
+    /// Whether people wait in a queue there.
     pub in_line: bool,
-    /// How many visits have ended.
+    /// Number of visits that have ended.
     pub visits: u64,
-    /// How long all of them together waited in line, or walked up to their spots, seconds.
+    /// Waiting time of all visits together, or the time to walk up to a spot, seconds.
     pub waited_s: f64,
-    /// How long all of them together stayed or were served, seconds.
+    /// Dwell time of all visits together, seconds.
     pub stayed_s: f64,
-    /// The most people who were there or in line at once.
+    /// Largest number of people who were there or in the queue at once.
     pub most: usize,
-    /// How many find room there; more stand around in a loose crowd.
+    /// Number of people for whom there is room; more stand around in a loose crowd.
     pub room: usize,
 }
 
 impl StopTally {
-    /// Says that more people came than find room, if so.
+    /// Warns if more people came at once than there is room for.
     pub fn warning(&self) -> Option<String> {
         let StopTally { name, in_line, most, room, .. } = self;
         (most > room).then(|| match in_line {
@@ -42,17 +42,17 @@ impl StopTally {
     }
 }
 
-/// One person's visit of a stop.
+/// A visit of a stop by one person.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Visit {
-    /// Who.
+    /// Number of the person.
     pub id: u32,
     /// Index of the stop, in the order in which routes first name them.
     pub stop: usize,
-    /// When the person joined the line or found a spot, seconds.
+    /// Time at which the person joined the queue or found a spot, seconds.
     pub came_s: f64,
-    /// When the stay or the service began, seconds.
+    /// Time at which the stay or the service began, seconds.
     pub begun_s: f64,
-    /// When it ended, seconds.
+    /// Time at which it ended, seconds.
     pub left_s: f64,
 }

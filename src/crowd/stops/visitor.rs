@@ -16,7 +16,7 @@ pub(super) struct StopOnRoute {
     pub(super) dwell_s: Distribution,
 }
 
-/// Somebody who will stop, or does.
+/// A person with stops still to make.
 #[derive(Clone, Debug)]
 pub(super) struct Visitor {
     pub(super) id: u32,
@@ -28,28 +28,28 @@ pub(super) struct Visitor {
     pub(super) begun_s: f64,
 }
 
-/// A stop that somebody will make.
+/// A stop that a person will make.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PlannedVisit {
     /// Index among the route's stops.
     pub(super) stop: usize,
-    /// Seconds to stay or to be served.
+    /// Dwell time, seconds.
     pub(super) dwell_s: f64,
-    /// Where exactly to stand.
+    /// Random draw of the exact spot.
     pub(super) draw: u64,
 }
 
-/// What somebody does about the next stop.
+/// Progress of a visitor with its next stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum VisitState {
-    /// Not there yet on the route.
+    /// On the route before the stop.
     Underway,
-    /// On the way to it, or to the tail of a line.
-    Coming { line: Option<usize> },
-    /// Waiting in a line.
-    Waiting { line: usize },
+    /// On the way to it, or to the tail of a queue.
+    Coming { queue: Option<usize> },
+    /// Waiting in a queue.
+    Waiting { queue: usize },
     /// Called to a place at the counter that was ready at a time: steps up, is served.
-    Called { line: usize, place: usize, called_s: f64, begun_s: Option<f64>, ready_s: f64 },
+    Called { queue: usize, place: usize, called_s: f64, begun_s: Option<f64>, ready_s: f64 },
     /// On the way to a spot.
     Settling { since_s: f64 },
     /// Stays at a spot.
@@ -59,8 +59,7 @@ pub(super) enum VisitState {
 }
 
 impl Visitor {
-    /// Draws where somebody stops, and for how long: a function of the seed and of the first of their group. `None` for
-    /// who stops nowhere.
+    /// Draws a person's stops and dwell times from the seed and the first of the group; `None` without any stop.
     pub(super) fn new(seed: u64, [id, first]: [u32; 2], route: usize, stops: &[StopOnRoute]) -> Option<Visitor> {
         let rng = &mut person_stream(seed, first, Purpose::Stops);
         let mut plan = Vec::new();
@@ -75,7 +74,7 @@ impl Visitor {
         }
         plan.reverse();
         let state = match plan.last().is_some_and(|first| stops[first.stop].after_via == 0) {
-            true => VisitState::Coming { line: None },
+            true => VisitState::Coming { queue: None },
             false => VisitState::Underway,
         };
         (!plan.is_empty()).then_some(Visitor { id, route, plan, state, came_s: 0.0, begun_s: 0.0 })
