@@ -75,13 +75,13 @@ pub(super) struct Agents {
     /// For each id the slot that the agent had when the step began; other agents may be there now.
     slot_of: Vec<u32>,
     led: BTreeMap<u32, LedMotion>,
-    /// How many people arrive over time: the `k`-th onlooker has the id `arrivals + k`.
+    /// Number of people who arrive over time: the `k`-th onlooker has the id `arrivals + k`.
     arrivals: u32,
     onlookers: u32,
 }
 
 impl Agents {
-    /// Nobody yet, of as many people as these groups hold or `arrivals` says.
+    /// An empty crowd before so many arrivals.
     pub(super) fn new(arrivals: u32, groups: Groups) -> Agents {
         Agents { arrivals, groups, ..Agents::default() }
     }

@@ -14,12 +14,12 @@ const CORRECTIONS: usize = 4;
 /// Places that moves lead to, corrected round by round.
 #[derive(Debug, Default)]
 pub(super) struct Collisions {
-    /// Places in the order of the neighbours' grid, metres; and those of the round before.
+    /// Places in the order of the neighbours' grid, and those of the round before, metres.
     places: [Vec<[f32; 2]>; 2],
 }
 
 impl Collisions {
-    /// Where these moves lead without overlaps, in the order of the neighbours' grid; walls have the last word.
+    /// Corrected places of these moves, in the order of the neighbours' grid; walls have the last word.
     pub(super) fn correct(
         &mut self,
         moves: &[Move],
@@ -60,8 +60,7 @@ impl Collisions {
     }
 }
 
-/// The place of a body after it and its neighbours have each given half of their overlap; to those who give nothing it
-/// leaves all of it.
+/// Place of a body after it and its neighbours have each given half of their overlap, fixed ones none.
 fn apart(index: usize, moves: &[Move], places: &[[f32; 2]], neighbours: &NeighbourGrid) -> [f32; 2] {
     let [x, y] = places[index];
     let own = &moves[index];
@@ -88,15 +87,16 @@ fn apart(index: usize, moves: &[Move], places: &[[f32; 2]], neighbours: &Neighbo
     if count == 0.0 {
         return [x, y];
     }
-    // Several pushes at once overshoot: in part they say the same.
+    // Several pushes at once overshoot: in part they point the same way.
     let ease = 1.1 / (0.6 + 0.4 * count).max(1.0);
     [x + px * ease, y + py * ease]
 }
 
-/// Moves a body out of a wall, exactly: from `from`, which is free, towards `to`, ending at least `limit_m` off
-/// every wall if there is such a place near, and never beyond one.
+/// Moves a body from the free place `from` towards `to`, and out of walls.
+///
+/// The result is at least `limit_m` off every wall if there is such a place near, and never beyond a wall.
 fn off_walls(ground: &Ground, walls: &Walls, from: Vec2, to: Vec2, limit_m: f64) -> Vec2 {
-    // Aprons are open at their far ends, but nobody goes there.
+    // Aprons are open at their far ends; agents stay within them.
     let to = ground.within_aprons(to);
     let free = ground.clearance_at_least_m(to);
     if free >= limit_m && ground.clearance_at_least_m(from) + free >= from.distance(to) {
@@ -105,7 +105,7 @@ fn off_walls(ground: &Ground, walls: &Walls, from: Vec2, to: Vec2, limit_m: f64)
     let step = to - from;
     let straight = pushed_out(ground, walls, from, to, limit_m);
     let found = straight.or_else(|| {
-        // Along the wall that is in the way, or half as far.
+        // Slides along the wall, or half as far.
         let nearest = walls.nearest(from, limit_m + step.length())?;
         let away = (from - nearest.point_m).normalized()?;
         let along = step - away * step.dot(away).min(0.0);
@@ -115,7 +115,7 @@ fn off_walls(ground: &Ground, walls: &Walls, from: Vec2, to: Vec2, limit_m: f64)
     found.unwrap_or(from)
 }
 
-/// `to`, moved at least `limit_m` off every wall; `None` if there is no such place that can be reached from `from`.
+/// The place `to`, moved at least `limit_m` off every wall; `None` if `from` cannot reach it.
 fn pushed_out(ground: &Ground, walls: &Walls, from: Vec2, to: Vec2, limit_m: f64) -> Option<Vec2> {
     if !ground.sight(walls, from, to) {
         return None;

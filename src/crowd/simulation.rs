@@ -37,9 +37,9 @@ const ORDER_STEPS: u64 = 16;
 /// As a [`Motion`] it gives one frame for each time step; people who have arrived or got stuck are in no frame any more.
 pub struct Simulation<'a> {
     environment: Environment<'a>,
-    /// What was asked for; its time step is one of the equal parts of the one asked for.
+    /// Options; the time step is that of a substep.
     options: CrowdOptions,
-    /// The time step that was asked for, seconds, and its parts.
+    /// Time step between frames, seconds, and the number of substeps.
     frame_s: f64,
     substeps: u64,
     seed: u64,

@@ -4,7 +4,7 @@ use super::environment::Environment;
 use super::state::{AgentMut, Traits, WalkState};
 use crate::math::Vec2;
 use crate::plan::Opening;
-use crate::routes::{Field, Flow, Leg, Place, Way};
+use crate::routes::{Field, Flow, Leg, Place, RouteLegs};
 
 /// Walking distance at which a place between start and goal counts as passed, metres.
 const PASSED_M: f64 = 0.3;
@@ -45,7 +45,7 @@ const MARGIN_SHARE: f64 = 0.15;
 pub(super) struct Wayfinder<'e>(pub(super) &'e Environment<'e>);
 
 impl Wayfinder<'_> {
-    fn way(&self, walk: &WalkState) -> &Way {
+    fn way(&self, walk: &WalkState) -> &RouteLegs {
         &self.0.navigation.ways[walk.route as usize]
     }
 

@@ -28,7 +28,7 @@ pub enum RoutesError {
         /// The place, or the middle of the area, in the image, pixels from the top left.
         at_px: [f64; 2],
         /// The nearest place to stand.
-        nearest: Option<Box<Spot>>,
+        nearest: Option<Box<FloorPoint>>,
     },
     /// A coordinate that is no number.
     #[error("route \"{route}\": {role} {place} holds a coordinate that is not a finite number")]
@@ -106,9 +106,9 @@ pub enum RoutesError {
         /// The route.
         route: String,
         /// Where the way begins.
-        from: Box<Spot>,
+        from: Box<FloorPoint>,
         /// Where it should lead.
-        to: Box<Spot>,
+        to: Box<FloorPoint>,
         /// The narrowest place of the widest way between them, if only that is in the way.
         gap: Option<Gap>,
     },
@@ -152,7 +152,7 @@ pub enum RoutesError {
 
 /// A place on the floor, as messages tell of it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Spot {
+pub struct FloorPoint {
     /// What the scenario or the program calls it.
     pub name: String,
     /// Where it is, metres.
@@ -163,9 +163,9 @@ pub struct Spot {
     pub part_m2: f64,
 }
 
-impl std::fmt::Display for Spot {
+impl std::fmt::Display for FloorPoint {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Spot { name, at_m, at_px, part_m2 } = self;
+        let FloorPoint { name, at_m, at_px, part_m2 } = self;
         if !name.is_empty() {
             write!(f, "{name}, ")?;
         }
@@ -236,7 +236,7 @@ fn nearest_place(nearest_m: &Option<Vec2>) -> String {
     nearest_m.map_or_else(String::new, |p| format!("; the nearest floor is at [{:.2}, {:.2}]", p.x, p.y))
 }
 
-fn nearest_floor(nearest: &Option<Box<Spot>>) -> String {
+fn nearest_floor(nearest: &Option<Box<FloorPoint>>) -> String {
     nearest.as_ref().map_or(String::new(), |spot| format!("; the nearest floor is at {spot}"))
 }
 

@@ -1,7 +1,7 @@
 use super::field::Field;
 use super::ground::Ground;
 use super::lattice::BLOCK_CELLS;
-use super::sheet::{NONE, Sheet};
+use super::sheet::{NONE, ConductiveSheet};
 use crate::math::{Vec2, vec2};
 
 /// Detours that hardly anybody makes: this many metres, and this share of the way ...
@@ -63,14 +63,14 @@ impl Flow {
         };
         let loose: Vec<f64> = cells.iter().map(|&cell| conducts(cell)).collect();
         let guess = cells.iter().map(|&cell| to.of_cell(cell)).collect();
-        let mut sheet = Sheet::new(&ground.lattice, cells, &loose, |cell| to.of_cell(cell) <= 0.0);
+        let mut sheet = ConductiveSheet::new(&ground.lattice, cells, &loose, |cell| to.of_cell(cell) <= 0.0);
         let first = sheet.potential(&seeds, guess);
         sheet.conduct(&tightened(&sheet, &loose, &first, ground.lattice.cell_m()));
         let potential = sheet.potential(&seeds, first);
         Flow::of_currents(ground, to, &sheet, sheet.currents(&potential))
     }
 
-    fn of_currents(ground: &Ground, to: &Field, sheet: &Sheet, currents: Vec<Vec2>) -> Flow {
+    fn of_currents(ground: &Ground, to: &Field, sheet: &ConductiveSheet, currents: Vec<Vec2>) -> Flow {
         let lattice = &ground.lattice;
         let mut first = vec![NONE; lattice.len() / BLOCK_CELLS];
         let mut ahead = Vec::new();
@@ -109,7 +109,7 @@ impl Flow {
 }
 
 /// What a sheet conducts that conducted `loose`, with slack places left aside.
-fn tightened(sheet: &Sheet, loose: &[f64], potential: &[f64], cell_m: f64) -> Vec<f64> {
+fn tightened(sheet: &ConductiveSheet, loose: &[f64], potential: &[f64], cell_m: f64) -> Vec<f64> {
     let slopes = sheet.slopes(potential);
     let currents: Vec<f64> = slopes.iter().zip(loose).map(|(slope, conducts)| slope * conducts).collect();
     let side =

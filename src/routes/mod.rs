@@ -27,7 +27,7 @@ mod targets;
 mod tests;
 mod timetable;
 
-pub use error::{Gap, RoutesError, Spot};
+pub use error::{Gap, RoutesError, FloorPoint};
 pub use navigation::{Navigation, find};
 pub use request::{PlaceRequest, RouteRequest, RoutesOptions, SharedStop, ViaRequest};
 pub use route::{Gate, Place, Route, Via};
@@ -38,4 +38,4 @@ pub(crate) use field::Field;
 pub(crate) use flow::Flow;
 pub(crate) use ground::Ground;
 pub(crate) use lattice::Lattice;
-pub(crate) use navigation::{Leg, Way};
+pub(crate) use navigation::{Leg, RouteLegs};

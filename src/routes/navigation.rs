@@ -9,9 +9,9 @@ use super::ground::{Fineness, Ground};
 use super::legs::{FieldStore, LegEnd, leg_ends};
 use super::ribbon::RibbonEnd;
 use super::stop::{RouteStop, Stop};
-use super::targets::{self, Asked};
+use super::targets::{self, PlaceUsage};
 use super::{
-    Gap, Place, PlaceRequest, Route, RouteRequest, RoutesError, RoutesOptions, Spot, Via, ViaRequest, defaults, gates,
+    Gap, Place, PlaceRequest, Route, RouteRequest, RoutesError, RoutesOptions, FloorPoint, Via, ViaRequest, defaults, gates,
     ribbon,
 };
 use crate::math::Vec2;
@@ -31,12 +31,12 @@ pub struct Navigation {
     pub(crate) fields: Vec<Arc<Field>>,
     pub(crate) flows: Vec<Arc<Flow>>,
     /// One for each route, in order.
-    pub(crate) ways: Vec<Way>,
+    pub(crate) ways: Vec<RouteLegs>,
 }
 
 /// A route as the crowd walks it.
 #[derive(Clone, Debug)]
-pub(crate) struct Way {
+pub(crate) struct RouteLegs {
     /// Cells on which people may appear.
     pub(crate) start_cells: Vec<usize>,
     /// Cells that count as the goal.
@@ -187,7 +187,7 @@ fn draft(
     if !(request.share >= 0.0 && request.share.is_finite()) {
         return Err(RoutesError::Share { route: name, share: request.share });
     }
-    let place = |request, role| targets::place(plan, ground, request, Asked { route: &name, role });
+    let place = |request, role| targets::place(plan, ground, request, PlaceUsage { route: &name, role });
     let start = place(&request.from, "from")?;
     let via = passed.into_iter().map(|p| place(p, "via").map_err(|error| or_stop(error, stops)));
     let mut via = via.collect::<Result<Vec<_>, _>>()?;
@@ -345,7 +345,7 @@ fn no_way(plan: &FloorPlan, ground: &Ground, route: &str, names: [&str; 2], cell
     let spot = |end: usize| {
         Box::new(match cells[end] {
             Some(cell) => targets::spot(plan, ground, cell, names[end]),
-            None => Spot { name: names[end].into(), at_m: Vec2::ZERO, at_px: [0.0; 2], part_m2: 0.0 },
+            None => FloorPoint { name: names[end].into(), at_m: Vec2::ZERO, at_px: [0.0; 2], part_m2: 0.0 },
         })
     };
     let gap = match cells {
@@ -364,7 +364,7 @@ fn way(
     fields: &FieldStore,
     route: &Route,
     pairs: &mut Vec<LegEnds>,
-) -> Result<Way, RoutesError> {
+) -> Result<RouteLegs, RoutesError> {
     // People come from anywhere in the start.
     let mut from = LegEnd { place: route.start, last: true };
     let mut legs = Vec::with_capacity(route.via.len() + 1);
@@ -386,5 +386,5 @@ fn way(
         let names = ["its start", "its goal"];
         return Err(no_way(plan, ground, &route.name, names, [start, goal_cells.first().copied()]));
     }
-    Ok(Way { start_cells, goal_cells, legs })
+    Ok(RouteLegs { start_cells, goal_cells, legs })
 }

@@ -21,7 +21,7 @@ const EARTH: u32 = u32::MAX - 1;
 /// again, with a few rounds of Gauss and Seidel's relaxation each time. What a tile is too coarse for is local, and
 /// that is what relaxation is quick at.
 #[derive(Debug)]
-pub(super) struct Sheet {
+pub(super) struct ConductiveSheet {
     /// The lattice's cells, ascending.
     cells: Vec<usize>,
     /// For each cell the places of its neighbours to the west, east, south and north, or [`NONE`].
@@ -63,20 +63,20 @@ fn sides(cells: usize) -> impl Iterator<Item = usize> {
     std::iter::successors(Some(largest), |side| Some(side / 2)).take_while(move |&side| side > 1 || side == largest)
 }
 
-impl Sheet {
+impl ConductiveSheet {
     /// Joins cells (ascending) that conduct as well as given, in their order.
     pub(super) fn new(
         lattice: &Lattice,
         cells: Vec<usize>,
         conducts: &[f64],
         is_earthed: impl Fn(usize) -> bool,
-    ) -> Sheet {
+    ) -> ConductiveSheet {
         let mut place = vec![NONE; lattice.len()];
         cells.iter().enumerate().for_each(|(k, &cell)| place[cell] = k as u32);
         let beside_of = |&c: &usize| lattice.around(c).map(|b| if b == usize::MAX { NONE } else { place[b] });
         let beside: Vec<[u32; 4]> = cells.iter().map(beside_of).collect();
         let is_earthed = cells.iter().map(|&c| is_earthed(c)).collect();
-        let mut sheet = Sheet { cells, beside, conductance: Vec::new(), is_earthed, tilings: Vec::new() };
+        let mut sheet = ConductiveSheet { cells, beside, conductance: Vec::new(), is_earthed, tilings: Vec::new() };
         sheet.conduct(conducts);
         sheet.tilings = sides(sheet.cells.len()).map(|side| (side, sheet.joined(side))).collect();
         sheet

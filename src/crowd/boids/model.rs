@@ -91,16 +91,15 @@ impl Boids {
         let around = neighbourhood.weigh(me);
         let people_per_m2 = around.count / self.floor.ahead_m2(at, me.clearance_m, [me.aim_x, me.aim_y]);
         let wanted_speed = traits.speed_m_s * pace * bend(me);
-        // Density alone brings nobody to rest, but who wants to stand stands.
+        // A dense crowd alone brings no agent to rest, but agents that want to stand do.
         let most_speed = (wanted_speed * self.speeds.factor(people_per_m2)).max(wanted_speed.min(LEAST_SPEED_M_S));
 
         let mut ax = (me.aim_x * most_speed - me.vx) / RELAXATION_S;
         let mut ay = (me.aim_y * most_speed - me.vy) / RELAXATION_S;
         let separation = neighbourhood.separate(me, traits, people_per_m2);
-        // Making way is stepping aside. Slowing down is left to the law and to not bumping into others; nobody is
-        // pushed backwards.
+        // Making way is stepping aside, not backwards. Slowing down is left to the speed law and to bumping.
         let back = (separation[0] * me.aim_x + separation[1] * me.aim_y).min(0.0);
-        // Whoever walks up to a spot to stand there heads for the spot, not for room.
+        // Agents that walk up to a spot head for the spot, not for room.
         let heed = pace.min(1.0);
         ax += SEPARATION * heed * (separation[0] - back * me.aim_x);
         ay += SEPARATION * heed * (separation[1] - back * me.aim_y);
@@ -149,8 +148,8 @@ impl Boids {
     }
 }
 
-/// Share of the speed that is kept in a bend: people slow down where they turn (Hicheur et al. 2005,
-/// Exp. Brain Res. 162), by how far they look into it from where they go.
+/// Share of the speed that is kept in a bend, by the angle between aim and velocity (Hicheur et al. 2005, Exp. Brain
+/// Res. 162).
 fn bend(me: &BodyState) -> f32 {
     let speed = (me.vx * me.vx + me.vy * me.vy).sqrt();
     if speed < TURNING_M_S {
@@ -160,7 +159,7 @@ fn bend(me: &BodyState) -> f32 {
     1.0 - BEND * (1.0 - cos.max(0.0))
 }
 
-/// Direction away from a near wall, and the acceleration.
+/// Direction away from a near wall, and the acceleration, metres per second squared.
 fn keep_off_wall(
     perception: &Perception<'_>,
     me: &BodyState,
@@ -168,7 +167,7 @@ fn keep_off_wall(
     limit_m: f32,
     gap_limit_m: f32,
 ) -> Option<(f32, f32, f32)> {
-    // In a gap nobody keeps farther off one wall than the other lets them.
+    // In a gap, the other wall limits the distance from this one.
     let acceptable_m = traits.wall_acceptable_m.min(gap_limit_m + 0.15).max(limit_m + 0.02);
     if me.clearance_m >= acceptable_m {
         return None;
@@ -177,7 +176,7 @@ fn keep_off_wall(
     let nearest = perception.environment.walls.nearest(at, f64::from(acceptable_m))?;
     let away = (at - nearest.point_m).normalized()?;
     let share = (nearest.distance_m as f32 - limit_m) / (acceptable_m - limit_m);
-    // Little at first: what people like to keep they give up easily.
+    // Little at first: people give up their acceptable distance easily.
     let near = 1.0 - share.clamp(0.0, 1.0);
     let push = WALL_PUSH * near * near;
     Some((away.x as f32, away.y as f32, push))

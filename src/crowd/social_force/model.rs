@@ -73,7 +73,7 @@ impl SocialForce {
         let mut next = Move { wall_limit_m: traits.wall_exclusion_m, ..Move::default() };
         let [px, py] = self.by_others(perception, index, own_group, &mut next);
         let [gx, gy] = self.by_group(perception, me, own_group);
-        // Whoever walks up to a spot to stand there, or stands, heeds the spot more than others.
+        // Agents that stand, or walk up to a spot, heed the spot more than others.
         let heed = pace.min(1.0);
         let [rx, ry] = self.forces.by_chance(traits.wander, perception.time_s);
         let mut ax = (aim[0] * wanted_speed - me.vx) / self.forces.relaxation_s + heed * (px + gx + rx);
@@ -103,7 +103,7 @@ impl SocialForce {
         next
     }
 
-    /// The sum of what everybody else does but the own group; notes who may be touched.
+    /// Sum of the forces of all others but the own group; notes the bodies that may touch.
     fn by_others(&self, perception: &Perception<'_>, index: usize, own_group: &[u32], next: &mut Move) -> [f32; 2] {
         let me = &perception.neighbours.bodies[index];
         let aim = [me.aim_x, me.aim_y];
@@ -141,7 +141,7 @@ impl SocialForce {
         sum
     }
 
-    /// What the own group does, as far as it is in sight.
+    /// Force of the own group, as far as it is in sight.
     fn by_group(&self, perception: &Perception<'_>, me: &BodyState, own_group: &[u32]) -> [f32; 2] {
         let mut mates = [[0.0f32; 2]; 3];
         let mut count = 0;
@@ -158,7 +158,7 @@ impl SocialForce {
         if count == 0 { [0.0; 2] } else { self.forces.by_group(&mates[..count], [me.vx, me.vy]) }
     }
 
-    /// Acceleration away from the nearest wall; notes how near to it the body may come.
+    /// Acceleration away from the nearest wall; notes the least distance from walls.
     fn by_wall(&self, perception: &Perception<'_>, me: &BodyState, next: &mut Move) -> Option<[f32; 2]> {
         let limit_m = next.wall_limit_m;
         let reach_m = limit_m + self.forces.wall_reach_m().max(MOST_MOVED_M);
@@ -174,8 +174,9 @@ impl SocialForce {
     }
 }
 
-/// The others of an agent's group who walk along, as indices of the neighbours' grid, and how many they are. Members at a
-/// stop, or on the way to one, walk on their own.
+/// The others of an agent's group who walk along, as indices of the neighbours' grid, and their number.
+///
+/// Members at a stop, or on the way to one, walk on their own.
 fn mates(agents: &Agents, perception: &Perception<'_>, slot: usize) -> ([u32; 3], usize) {
     let (mut mates, mut count) = ([0; 3], 0);
     let (walk, body) = (&agents.walks[slot], &agents.bodies[slot]);

@@ -4,7 +4,7 @@ use crate::crowd::agents::{AgentSnapshot, Agents};
 use crate::math::Vec2;
 use crate::units::{SpotFrame, Unit};
 
-/// Others are kept off who plays; whoever still overlaps by more than this, wedged in somewhere, breaks a part off, metres.
+/// Overlap with others beyond which a part is broken off, metres.
 const WEDGED_M: f64 = 0.03;
 
 /// Time of the step after which spots are updated.
@@ -16,7 +16,7 @@ pub(super) struct StepTime {
     pub(super) step_s: f64,
 }
 
-/// A unit that is being played.
+/// Playback of a unit by people of the crowd.
 #[derive(Clone, Debug)]
 pub(super) struct Playback {
     pub(super) unit: usize,
@@ -24,19 +24,20 @@ pub(super) struct Playback {
     pub(super) performers: Vec<Performer>,
 }
 
-/// Somebody who plays a part.
+/// A person who plays the part of a member.
 #[derive(Clone, Debug)]
 pub(super) struct Performer {
     pub(super) id: u32,
     pub(super) group: u32,
     pub(super) way: BlendedPath,
-    /// Where the body faces, plan frame.
+    /// Unit vector in which the body faces, plan frame.
     pub(super) facing: Vec2,
 }
 
 impl Playback {
-    /// Tells everybody who plays where they are after the next step; lets those go who are at the end, and those in whose
-    /// way somebody came, with their group. Gives those who no longer play.
+    /// Leads all performers through the next step, and returns the ids of those who no longer play.
+    ///
+    /// Performers are released at the unit's end, and with their group as soon as one of them overlaps with others.
     pub(super) fn go_on(
         &mut self,
         now: StepTime,
@@ -63,7 +64,7 @@ impl Playback {
         gone
     }
 
-    /// The unit's time after the next step, seconds.
+    /// Time of the unit after the next step, seconds.
     fn next_s(&self, now: StepTime) -> f64 {
         now.time_s + now.step_s - self.began_s
     }
@@ -90,7 +91,7 @@ impl Playback {
         gone
     }
 
-    /// Groups of which somebody overlaps somebody who plays no part here.
+    /// Groups with a member who overlaps with people who play no part here.
     fn wedged(&self, people: &[AgentSnapshot]) -> Vec<u32> {
         let mut groups = Vec::new();
         for part in &self.performers {
@@ -108,7 +109,7 @@ impl Playback {
     }
 }
 
-/// Somebody in a list that is sorted by id.
+/// Finds an agent in a list that is sorted by id.
 pub(super) fn find(people: &[AgentSnapshot], id: u32) -> Option<&AgentSnapshot> {
     people.binary_search_by_key(&id, |present| present.id).ok().map(|at| &people[at])
 }

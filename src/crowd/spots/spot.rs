@@ -12,30 +12,29 @@ use crate::units::{
 };
 use crate::walls::Walls;
 
-/// Members of a group who are farther from its middle than this count on their own, metres.
+/// Distance from the middle of their group beyond which members count on their own, metres.
 const TOGETHER_M: f64 = 2.5;
-/// Nobody farther from the viewer than this matters, metres: a unit's area is at most 40 m deep, people's ways end within.
+/// Distance from the viewer beyond which people are left out, metres: a unit's area is at most 40 m deep.
 const NEAR_M: f64 = 50.0;
-/// Whoever is this far from where their velocity leads in a step was pushed, metres.
+/// Distance from where its velocity leads at which an agent was pushed in a step, metres.
 const PUSHED_M: f64 = 0.004;
-/// Of so many units that were played last it is remembered when.
+/// Number of units played last that are remembered.
 const REMEMBERED: usize = 12;
 
-/// What a spot looks at.
+/// The people around a spot, now and a step ago.
 #[derive(Clone, Copy)]
 pub(super) struct SpotInput<'a> {
     /// Everybody present, by ascending id.
     pub(super) people: &'a [AgentSnapshot],
     /// The same a step ago.
     pub(super) before: &'a [AgentSnapshot],
-    /// Seconds since then.
+    /// Time since then, seconds.
     pub(super) step_s: f64,
     pub(super) walls: &'a Walls,
 }
 
 impl SpotInput<'_> {
-    /// Whether somebody just speeds up, brakes or turns harder than people do who move over to a part, or is being pushed:
-    /// they make way for somebody, and go on with that first.
+    /// Whether an agent makes way for somebody: it accelerates harder than people who move over to a part, or is pushed.
     fn dodges(&self, person: &AgentSnapshot) -> bool {
         let Some(before) = find(self.before, person.id) else { return false };
         let [was, is] = [before.velocity_m_s, person.velocity_m_s];
@@ -44,7 +43,7 @@ impl SpotInput<'_> {
     }
 }
 
-/// A spot with its viewer, and the units that are being played there.
+/// A spot with its viewer, and the units played there.
 pub(super) struct Spot {
     pub(super) frame: SpotFrame,
     pub(super) radius_m: f64,
@@ -56,11 +55,11 @@ pub(super) struct Spot {
     units: Vec<Unit>,
     options: MatchOptions,
     playing: Vec<Playback>,
-    /// Who has just played, and until when they are left alone, seconds.
+    /// Ids of people who have just played, and the time until which they are left alone, seconds.
     resting: Vec<(u32, f64)>,
-    /// When the people there are looked at again.
+    /// Time at which units are looked for again, seconds.
     next_s: f64,
-    /// What was played last, the latest first.
+    /// Indices of the units played last, the latest first.
     recent: Vec<usize>,
     report: SpotReport,
 }
@@ -113,7 +112,7 @@ impl Spot {
         SpotReport { diversity: self.diversity.report(), ..self.report.clone() }
     }
 
-    /// Goes on with the units that are being played.
+    /// Leads those who play through the next step.
     pub(super) fn go_on(&mut self, now: StepTime, agents: &mut Agents, people: &[AgentSnapshot]) {
         let judged = |person: &AgentSnapshot| self.areas.side_of(self.frame.of_plan(person.position_m)).is_some();
         if people.iter().any(judged) {
@@ -129,7 +128,7 @@ impl Spot {
         });
     }
 
-    /// Looks whether a unit can be begun, and begins it.
+    /// Begins the best unit for the people who are there, if there is one and it is due.
     pub(super) fn look(&mut self, now: StepTime, agents: &mut Agents, there: &SpotInput<'_>) {
         if self.units.is_empty() || now.time_s < self.next_s - 1e-9 {
             return;
@@ -160,7 +159,7 @@ impl Spot {
         }
     }
 
-    /// The best unit for the people who are there, and everybody's way into it.
+    /// Finds the best unit for the people who are there, and the path of each person into it.
     fn choose(
         &self,
         now: StepTime,
@@ -197,8 +196,9 @@ impl Spot {
         Err(missed)
     }
 
-    /// The groups in the front and rear areas that could play, in the order of their first ids: whoever plays already, or
-    /// has just done so, is none of them.
+    /// Groups in the front and rear areas that could play, in the order of their first ids.
+    ///
+    /// People who play, or have just played, are left out.
     fn present(&self, agents: &Agents, people: &[AgentSnapshot]) -> Vec<Party> {
         let mut parties = Vec::new();
         let mut at = 0;
@@ -227,7 +227,7 @@ impl Spot {
         }
     }
 
-    /// Somebody as the viewer sees them.
+    /// State of an agent in the viewer's frame.
     fn moment(&self, person: &AgentSnapshot) -> Moment {
         Moment {
             place_m: self.frame.of_plan(person.position_m),
@@ -236,7 +236,7 @@ impl Spot {
         }
     }
 
-    /// Everybody's way into a unit, if they are free to take it and there is room for it.
+    /// Paths of all people into a unit, if they are free to take them and there is room.
     fn ways(
         &self,
         candidate: &Candidate,

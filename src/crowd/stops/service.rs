@@ -327,9 +327,9 @@ impl Stops {
             let Service::Queues(queues) = &mut state.kind else { continue };
             for (number, queue) in queues.iter_mut().enumerate() {
                 while let Some(&id) = queue.order.front() {
-                    let found = update
-                        .slot(id)
-                        .and_then(|slot| Some((slot, visitors.get_mut(&id)?, queue.free_place(update.position(slot))?)));
+                    let found = update.slot(id).and_then(|slot| {
+                        Some((slot, visitors.get_mut(&id)?, queue.free_place(update.position(slot))?))
+                    });
                     let Some((slot, visitor, place)) = found else { break };
                     queue.order.pop_front();
                     let ready_s = queue.take(place, id, update.time_s);
