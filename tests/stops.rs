@@ -448,7 +448,7 @@ fn stops_that_cannot_be_are_refused_with_their_name_and_place() {
     let (message, hint) = refused(&closet, at([10.0, 13.5]), to());
     assert_eq!(
         message.split("; the nearest").next().unwrap(),
-        "stop \"counter\": at: nobody can stand at [10.00, 13.50]"
+        "stop \"counter\": at: there is no floor to stand on at [10.00, 13.50]"
     );
     assert!(hint.starts_with("use [9.95, 11."), "{hint}");
     let (message, _) = refused(&closet, at([16.0, 9.0]), to());

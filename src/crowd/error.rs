@@ -1,6 +1,6 @@
 use crate::math::DistributionError;
 
-/// Why the `crowd` stage cannot go on.
+/// Errors of the crowd stage.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CrowdError {
@@ -17,7 +17,7 @@ pub enum CrowdError {
     Distribution {
         /// The option.
         name: &'static str,
-        /// What is wrong with it.
+        /// The problem.
         source: DistributionError,
     },
     /// A number out of its range.
@@ -37,7 +37,7 @@ pub enum CrowdError {
     Timetable {
         /// The key, as a scenario writes it.
         key: &'static str,
-        /// What is wrong.
+        /// The problem.
         problem: String,
     },
     /// Empty list of routes.
@@ -52,15 +52,15 @@ pub enum CrowdError {
         x: f64,
         /// Place in y, metres.
         y: f64,
-        /// What is wrong.
+        /// The problem.
         problem: String,
-        /// What to do about it.
+        /// A remedy.
         hint: String,
     },
-    /// Units that cannot be used.
+    /// Invalid units.
     #[error(transparent)]
     Units(#[from] crate::units::UnitsError),
-    /// Routes that do not fit the plan.
+    /// Invalid routes.
     #[error(transparent)]
     Routes(#[from] crate::routes::RoutesError),
 }

@@ -1,4 +1,4 @@
-//! Routes for plans that come without any.
+//! Default routes, for plans without any.
 
 use super::draft::RouteDraft;
 use super::field::Field;
@@ -8,11 +8,11 @@ use super::{Place, RoutesError, targets};
 use crate::math::vec2;
 use crate::plan::{FloorPlan, Opening};
 
-/// Default routes join this many places at most: 12 routes, there and back.
+/// Largest number of places that default routes join: 12 routes, there and back.
 const MOST_PLACES: usize = 4;
-/// A part of the floor must be this large for default routes, square metres.
+/// Least area of a part of the floor with default routes, square metres.
 const LEAST_PART_M2: f64 = 1.0;
-/// Places that stand in for openings are squares of this half side, metres.
+/// Half side of the squares that stand in for openings, metres.
 const STAND_IN_REACH_M: f64 = 1.5;
 /// They lie where ways of this clearance lead, metres: through doors, but not between chairs, ...
 const ROOMY_M: f64 = 0.34;
@@ -22,9 +22,9 @@ const ROOMY_SHARE: f64 = 0.3;
 const LEAST_APART_M: f64 = 2.0;
 /// ... and this share of the longest walk.
 const APART_SHARE: f64 = 0.3;
-/// Where there are several openings, only what is so many times farther from them than they are from each other.
+/// Least distance of a stand-in from several openings, as a multiple of their distance from each other.
 const BEYOND_OPENINGS: f64 = 1.5;
-/// Widths count for shares between these, metres.
+/// Range to which widths are clamped for shares, metres.
 const SHARE_WIDTHS_M: [f64; 2] = [0.6, 8.0];
 
 struct Endpoint {
@@ -60,7 +60,7 @@ pub(super) fn drafts(
     Ok(drafts)
 }
 
-/// All openings that somebody fits through.
+/// All openings that are wide enough for a person.
 fn opening_endpoints(plan: &FloorPlan, ground: &Ground) -> Vec<Endpoint> {
     let endpoint = |(index, opening): (usize, &Opening)| {
         let place = Place::Opening(index);

@@ -1,10 +1,10 @@
-//! Finds the ways that people take through the plan.
+//! Route finding: where people walk through the plan.
 //!
 //! Takes the plan, its walls and what a scenario asks for; gives [`Route`]s: a start, places to pass, a goal, and
 //! gates across the shortest way. [`Navigation`] keeps what the walking itself needs: the ground measured in cells, for
 //! every place that a route leads to the walking distance from everywhere, and for every leg of a route how people
 //! spread over all the sensible ways (a potential flow), so that corridors are walked over their whole width, halls
-//! beside their middle too, and between pillars every gap. Nobody searches a way while walking.
+//! beside their middle too, and between pillars every gap. No path is searched while people walk.
 
 mod defaults;
 mod draft;
@@ -27,7 +27,7 @@ mod targets;
 mod tests;
 mod timetable;
 
-pub use error::{Gap, RoutesError, FloorPoint};
+pub use error::{FloorPoint, Gap, RoutesError};
 pub use navigation::{Navigation, find};
 pub use request::{PlaceRequest, RouteRequest, RoutesOptions, SharedStop, ViaRequest};
 pub use route::{Gate, Place, Route, Via};

@@ -11,19 +11,19 @@ use super::ribbon::RibbonEnd;
 use super::stop::{RouteStop, Stop};
 use super::targets::{self, PlaceUsage};
 use super::{
-    Gap, Place, PlaceRequest, Route, RouteRequest, RoutesError, RoutesOptions, FloorPoint, Via, ViaRequest, defaults, gates,
-    ribbon,
+    FloorPoint, Gap, Place, PlaceRequest, Route, RouteRequest, RoutesError, RoutesOptions, Via, ViaRequest, defaults,
+    gates, ribbon,
 };
 use crate::math::Vec2;
 use crate::plan::FloorPlan;
 use crate::walls::Walls;
 
-/// More routes than this are a mistake.
+/// Largest number of routes.
 const MOST_ROUTES: usize = 1000;
 /// People keep within this of a place between start and goal that lies in the open, metres.
 const VIA_REACH_M: f64 = 2.5;
 
-/// What walking needs to know of a plan and its routes: the ground in cells, and the walking distance from
+/// Navigation data of a plan and its routes: the ground in cells, and the walking distance from
 /// everywhere to each place that a route leads to. Routes that lead to the same place share it.
 #[derive(Clone, Debug)]
 pub struct Navigation {
@@ -48,9 +48,9 @@ pub(crate) struct RouteLegs {
 /// The way from one place of a route to its next.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Leg {
-    /// Which field says how far it is.
+    /// Index of the distance field to its end.
     pub(crate) field: usize,
-    /// Which flow leads there.
+    /// Index of the flow that leads there.
     pub(crate) flow: usize,
 }
 
@@ -63,7 +63,7 @@ pub fn find(plan: &FloorPlan, walls: &Walls, options: &RoutesOptions) -> Result<
 }
 
 impl Navigation {
-    /// Finds the routes, and keeps what walking them needs: what [`find`] and [`Navigation::new`] do, once.
+    /// Finds the routes, and measures them: what [`find`] and [`Navigation::new`] do, once.
     ///
     /// # Errors
     /// As [`find`].
@@ -80,7 +80,7 @@ impl Navigation {
         })
     }
 
-    /// Measures what walking these routes needs.
+    /// Measures distance fields and flows of these routes.
     ///
     /// # Errors
     /// Routes that do not belong to this plan.
@@ -236,7 +236,7 @@ fn stops(plan: &FloorPlan, walls: &Walls, ground: &Ground, options: &RoutesOptio
     options.stops.iter().map(|stop| stop.resolve(plan, ground, walls)).collect()
 }
 
-/// What a request passes, and where it stops: name, share, number of places passed before.
+/// Places that a request passes, and its stops: name, share, number of places passed before.
 fn split<'r>(
     request: &'r RouteRequest,
     options: &RoutesOptions,
@@ -357,7 +357,7 @@ fn no_way(plan: &FloorPlan, ground: &Ground, route: &str, names: [&str; 2], cell
     RoutesError::Unreachable { route: route.into(), from: spot(0), to: spot(1), gap }
 }
 
-/// What the crowd needs of one route; pairs of places that no flow leads between yet are appended.
+/// Navigation data of one route; pairs of places without a flow are appended.
 fn way(
     plan: &FloorPlan,
     ground: &Ground,

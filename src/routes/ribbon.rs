@@ -8,7 +8,7 @@ use crate::math::Vec2;
 pub(super) const STEP_M: f64 = 0.25;
 /// Bodies' middles keep this far off the walls at least, metres; less in narrow gaps.
 const WALL_MARGIN_M: f64 = 0.16;
-/// How far to either side of the middle line people spread where no wall limits them, metres.
+/// Half width of the ribbon where no wall limits it, metres.
 const SPREAD_M: f64 = 5.0;
 /// How much wider, on either side, the used way grows per metre walked: people fan out behind a door, they do not
 /// line up along the wall beside it.
@@ -35,7 +35,7 @@ impl Station {
     }
 }
 
-/// How wide a route is where it begins or ends, metres.
+/// Width of a route where it begins or ends, metres.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum RibbonEnd {
     /// Everybody comes in or goes out over the whole width.
@@ -152,7 +152,7 @@ pub(super) fn measure(ground: &Ground, line: &[Vec2], ends: [RibbonEnd; 2], pinc
     stations
 }
 
-/// How far one can step sideways before a wall comes close.
+/// Distance to the side that is free of walls, metres.
 fn room_beside(ground: &Ground, from: Vec2, direction: Vec2, limit_m: f64) -> f64 {
     // In a gap too narrow for the margin, half of what there is.
     let margin = WALL_MARGIN_M.min(0.5 * ground.clearance_m(from));

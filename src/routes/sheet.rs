@@ -2,13 +2,13 @@ use super::lattice::{BLOCK_CELLS, Lattice, SIDE};
 use super::solve::Matrix;
 use crate::math::{Vec2, vec2};
 
-/// Cells are joined to tiles until there are no more than so many.
+/// Largest number of tiles to which cells are joined.
 const MOST_TILES: usize = 8_000;
 /// Cells along the side of the largest tiles.
 const LARGEST_TILE: usize = 8;
 /// Rounds of smoothing each time that tiles are divided: enough for what is new at that size.
 const SWEEPS: usize = 8;
-/// How many tiles are gone over to their neighbours for a mean: by chance they would get 1.5 tiles far.
+/// Steps from tile to neighbouring tile for a mean: a random walk gets 1.5 tiles far.
 const STEPS_AROUND: usize = 6;
 /// Nothing there.
 pub(super) const NONE: u32 = u32::MAX;
@@ -118,7 +118,7 @@ impl ConductiveSheet {
         (0..self.cells.len()).map(current).collect()
     }
 
-    /// How steeply a potential falls at each cell, per cell's side.
+    /// Slope of a potential at each cell, per cell's side.
     pub(super) fn slopes(&self, potential: &[f64]) -> Vec<f64> {
         let slope = |cell: usize| {
             let along = |[back, ahead]: [usize; 2]| {
@@ -166,7 +166,7 @@ impl ConductiveSheet {
             _ => values[k],
         };
         let mut means: Vec<f64> = tiles.of.iter().enumerate().map(mean).collect();
-        // Tiles have edges that nobody should see.
+        // Smooths the edges of the tiles.
         for _ in 0..side {
             means = (0..means.len())
                 .map(|k| {

@@ -1,7 +1,7 @@
-//! Turns the places that a scenario names into places on the ground.
+//! Places of routes: from the names in a scenario to cells of the ground.
 
 use super::ground::{Ground, apron};
-use super::{Place, PlaceRequest, RoutesError, FloorPoint};
+use super::{FloorPoint, Place, PlaceRequest, RoutesError};
 use crate::math::{Rect, Vec2, vec2};
 use crate::plan::FloorPlan;
 use crate::walls::APRON_M;
@@ -70,7 +70,13 @@ fn finite(p: Vec2, request: &PlaceRequest, usage: PlaceUsage<'_>) -> Result<Vec2
     Err(RoutesError::NotFinite { route: usage.route.into(), role: usage.role, place: request.describe() })
 }
 
-fn not_on_floor(plan: &FloorPlan, ground: &Ground, p: Vec2, request: &PlaceRequest, usage: PlaceUsage<'_>) -> RoutesError {
+fn not_on_floor(
+    plan: &FloorPlan,
+    ground: &Ground,
+    p: Vec2,
+    request: &PlaceRequest,
+    usage: PlaceUsage<'_>,
+) -> RoutesError {
     let nearest = (0..ground.lattice.len()).filter(|&c| ground.is_walkable(c)).min_by(|&a, &b| {
         let distance = |c| ground.lattice.centre(c).distance(p);
         distance(a).total_cmp(&distance(b))
@@ -80,7 +86,7 @@ fn not_on_floor(plan: &FloorPlan, ground: &Ground, p: Vec2, request: &PlaceReque
     RoutesError::NotOnFloor { route: usage.route.into(), role: usage.role, place: request.describe(), at_px, nearest }
 }
 
-/// What messages tell of a cell.
+/// Description of a cell for messages.
 pub(super) fn spot(plan: &FloorPlan, ground: &Ground, cell: usize, name: &str) -> FloorPoint {
     let at_m = ground.lattice.centre(cell);
     let part_m2 = ground.part_area_m2(ground.part(cell));
