@@ -10,7 +10,7 @@ use crate::marks::{ContactPlaces, Footfalls};
 use crate::motion::People;
 use crate::patterns::PatternLibrary;
 use crate::progress::{Progress, Stage, Stopwatch};
-use crate::routes::{Navigation, Stop};
+use crate::routes::{Navigation, Route};
 use crate::scenario::Scenario;
 use crate::show::{self, Crop, PathSampler};
 use crate::source::{Given, Ground, Source};
@@ -73,7 +73,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let places = ContactPlaces::of_walls(walls)
         .with_doors(plan, walls, &scenario.doors)?
         .with_fixtures(plan, walls, &scenario.fixtures)?
-        .with_stops(walls, Stop::each(&routes));
+        .with_stops(walls, Route::each_stop(&routes));
     let doorways = places.doorways();
     let mut footfalls = Footfalls::new(&people, walls, &library, &scenario.marks, origins)?.with_contacts(places);
 

@@ -16,6 +16,7 @@ mod ground;
 mod lattice;
 mod legs;
 mod navigation;
+mod place;
 mod request;
 mod ribbon;
 mod route;
@@ -29,8 +30,9 @@ mod timetable;
 
 pub use error::{FloorPoint, Gap, RoutesError};
 pub use navigation::{Navigation, find};
+pub use place::{Gate, Place, Via};
 pub use request::{PlaceRequest, RouteRequest, RoutesOptions, SharedStop, ViaRequest};
-pub use route::{Gate, Place, Route, Via};
+pub use route::Route;
 pub use stop::{Facing, RouteStop, Stop, StopAt, StopKind, StopRequest};
 pub use timetable::{Timetable, TimetableKind};
 

@@ -1,47 +1,6 @@
-use super::{RouteStop, Timetable};
-use crate::math::Vec2;
+use super::{Gate, Place, RouteStop, Stop, Timetable, Via};
 
-/// A segment across the shortest way, as wide as people can use around it: not a point, because they spread out.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Gate {
-    /// End on the left of those who walk the route, metres.
-    pub left_m: Vec2,
-    /// End on the right, metres.
-    pub right_m: Vec2,
-}
-
-impl Gate {
-    /// The point at this share of the way from the left end to the right one.
-    pub fn at(&self, share: f64) -> Vec2 {
-        self.left_m.lerp(self.right_m, share)
-    }
-
-    /// Width, metres.
-    pub fn width_m(&self) -> f64 {
-        self.left_m.distance(self.right_m)
-    }
-}
-
-/// Where people appear or vanish.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Place {
-    /// An opening in an image side, by its index in `FloorPlan::openings`: beyond the floor's edge.
-    Opening(usize),
-    /// Anywhere within a rectangle of floor, metres: `[min, max]`.
-    Area([Vec2; 2]),
-}
-
-/// A place between start and goal.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Via {
-    /// Where it is.
-    pub place: Place,
-    /// Index of the gate at it.
-    pub gate: usize,
-}
-
-/// A way from a start to a goal.
+/// A route from a start to a goal.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Route {
     /// What the scenario or the program calls it, such as `west to north`.
@@ -65,4 +24,17 @@ pub struct Route {
     pub gates: Vec<Gate>,
     /// Length of the middle line, metres.
     pub length_m: f64,
+}
+
+impl Route {
+    /// Stops of all routes, each once, in the order of the routes.
+    pub fn each_stop(routes: &[Route]) -> Vec<&Stop> {
+        let mut each: Vec<&Stop> = Vec::new();
+        for stop in routes.iter().flat_map(|route| &route.stops).map(|stop| &stop.stop) {
+            if !each.iter().any(|known| known.name == stop.name) {
+                each.push(stop);
+            }
+        }
+        each
+    }
 }

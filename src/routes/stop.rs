@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::field::Field;
 use super::ground::Ground;
-use super::{Place, Route, RoutesError};
+use super::{Place, RoutesError};
 use crate::math::{Distribution, Rect, Vec2, sin_cos, vec2};
 use crate::plan::{FloorPlan, PlanPoint};
 use crate::walls::Walls;
@@ -296,17 +296,6 @@ impl StopRequest {
 }
 
 impl Stop {
-    /// The stops of all routes, each once, in the order of the routes.
-    pub fn each(routes: &[Route]) -> Vec<&Stop> {
-        let mut each: Vec<&Stop> = Vec::new();
-        for stop in routes.iter().flat_map(|route| &route.stops).map(|stop| &stop.stop) {
-            if !each.iter().any(|known| known.name == stop.name) {
-                each.push(stop);
-            }
-        }
-        each
-    }
-
     /// Unit vector that a person at `p` faces; +y where the direction is free.
     pub fn facing_from(&self, p: Vec2) -> Vec2 {
         let otherwise = vec2(0.0, 1.0);
