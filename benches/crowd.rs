@@ -4,7 +4,7 @@
 use std::time::Instant;
 
 use criterion::{Criterion, criterion_group};
-use trodden::crowd::{Crowd, CrowdOptions};
+use trodden::crowd::{CrowdOptions, Simulation};
 use trodden::math::{Vec2, vec2};
 use trodden::motion::{BodyOptions, Frame, Motion, People};
 use trodden::plan::FloorPlan;
@@ -59,8 +59,9 @@ fn table() {
         let mut best = [0.0f64; 2];
         let mut frame = Frame::default();
         for _ in 0..TURNS {
-            let mut crowd = Crowd::with_navigation(&plan, &walls, &routes, navigation.clone(), &everybody, &options)
-                .expect("a crowd");
+            let mut crowd =
+                Simulation::with_navigation(&plan, &walls, &routes, navigation.clone(), &everybody, &options)
+                    .expect("a crowd");
             // Everybody comes in, and gets going.
             for _ in 0..WARM_UP_STEPS {
                 crowd.next_frame(&mut frame).expect("a step");
@@ -105,8 +106,8 @@ fn default_scenario(c: &mut Criterion) {
     group.bench_function("1000 people from opening to opening", |b| {
         b.iter(|| {
             let options = CrowdOptions::commuters();
-            let mut crowd =
-                Crowd::with_navigation(&plan, &walls, &routes, navigation.clone(), &people, &options).expect("a crowd");
+            let mut crowd = Simulation::with_navigation(&plan, &walls, &routes, navigation.clone(), &people, &options)
+                .expect("a crowd");
             let mut frame = Frame::default();
             while crowd.next_frame(&mut frame).expect("a step") {}
             crowd.tally().arrived

@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use crate::Error;
-use crate::crowd::simulate;
+use crate::crowd::Simulation;
 use crate::export::{self, Atlas, Estimate, Manifest, OutputFolder, PADDING_PX, Report, Target, TargetEntry};
 use crate::look::Look;
 use crate::marks::{ContactPlaces, Footfalls};
 use crate::motion::People;
 use crate::patterns::PatternLibrary;
 use crate::progress::{Progress, Stage, Stopwatch};
-use crate::routes::{Navigation, Stop};
+use crate::routes::{Navigation, Route};
 use crate::scenario::Scenario;
 use crate::show::{self, Crop, PathSampler};
 use crate::source::{Given, Ground, Source};
@@ -85,7 +85,8 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
             let (found, ways) =
                 watch.busy(Stage::Routes, || Navigation::find_watched(plan, walls, &scenario.routes, progress))?;
             routes = found;
-            let simulated = || simulate(plan, walls, &routes, ways, &people, &scenario.crowd, &scenario.spots());
+            let simulated =
+                || Simulation::with_spots(plan, walls, &routes, ways, &people, &scenario.crowd, &scenario.spots());
             Source::of_crowd(watch.busy(Stage::Crowd, simulated)?, &routes)
         }
     };
@@ -93,7 +94,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let places = ContactPlaces::of_walls(walls)
         .with_doors(plan, walls, &scenario.doors)?
         .with_fixtures(plan, walls, &scenario.fixtures)?
-        .with_stops(walls, Stop::each(&routes));
+        .with_stops(walls, Route::each_stop(&routes));
     let doorways = places.doorways();
     let mut footfalls = Footfalls::new(&people, walls, &library, &scenario.marks, origins)?.with_contacts(places);
 

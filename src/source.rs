@@ -194,15 +194,15 @@ pub struct Source<'a> {
 }
 
 enum Mover<'a> {
-    Crowd(Box<dyn Simulation + 'a>),
+    Crowd(Box<Simulation<'a>>),
     Given(Box<Placed<'a>>),
 }
 
 impl<'a> Source<'a> {
     /// A crowd that will walk these routes.
-    pub fn of_crowd(crowd: Box<dyn Simulation + 'a>, routes: &[Route]) -> Source<'a> {
+    pub fn of_crowd(crowd: Simulation<'a>, routes: &[Route]) -> Source<'a> {
         let (people, expected_s) = (crowd.arrivals().len() as u32, expected_s(crowd.arrivals(), routes));
-        Source { mover: Mover::Crowd(crowd), people, expected_s }
+        Source { mover: Mover::Crowd(Box::new(crowd)), people, expected_s }
     }
 
     /// A given motion on its ground.

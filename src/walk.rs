@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use crate::Error;
-use crate::crowd::{Stuck, simulate};
+use crate::crowd::{Simulation, Stuck};
 use crate::export::{self, PeopleReport};
 use crate::files::{FileError, WholeFile, check_not_input};
 use crate::motion::{Frame, Mileage, Motion, People, Statures};
@@ -115,8 +115,9 @@ pub fn walk(scenario: &Scenario, outputs: &WalkOutputs, progress: &dyn Progress)
     let (plan, walls) = (&ground.plan, &ground.walls);
     let (routes, ways) =
         watch.busy(Stage::Routes, || Navigation::find_watched(plan, walls, &scenario.routes, progress))?;
-    let crowd = watch
-        .busy(Stage::Crowd, || simulate(plan, walls, &routes, ways, &people, &scenario.crowd, &scenario.spots()))?;
+    let crowd = watch.busy(Stage::Crowd, || {
+        Simulation::with_spots(plan, walls, &routes, ways, &people, &scenario.crowd, &scenario.spots())
+    })?;
     let source = Source::of_crowd(crowd, &routes);
     let fps = 1.0 / scenario.crowd.time_step;
     let walk = Walk { source, ground: &ground, routes: &routes, people: &people, statures: Statures::default() };

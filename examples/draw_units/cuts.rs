@@ -19,7 +19,7 @@ pub fn all() -> Result<Vec<(String, Unit)>, trodden::Error> {
         let spot = SpotFrame { at_m: plaza.spots(false)[0].at.to_m(&plaza.plan), ahead: vec2(0.0, 1.0) };
         let mut crowd = plaza.crowd(false)?;
         let options = CutOptions { most: 60, apart_m: 0.5, least_s: 4.0, ..CutOptions::default() };
-        let found = cut(&mut *crowd, "walked", spot, &options, &Silent)?;
+        let found = cut(&mut crowd, "walked", spot, &options, &Silent)?;
         let fits = |unit: &Unit| {
             unit.members.len() <= MOST_PEOPLE && unit.starts_within(&options.areas) && super::problems(unit).is_empty()
         };

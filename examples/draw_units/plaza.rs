@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use trodden::crowd::{Simulation, SpotRequest, simulate};
+use trodden::crowd::{Simulation, SpotRequest};
 use trodden::motion::People;
 use trodden::plan::{self, FloorPlan};
 use trodden::routes::{Navigation, Route};
@@ -33,10 +33,10 @@ impl Plaza {
     }
 
     /// Its crowd, at the start.
-    pub fn crowd(&self, play: bool) -> Result<Box<dyn Simulation + '_>, trodden::Error> {
+    pub fn crowd(&self, play: bool) -> Result<Simulation<'_>, trodden::Error> {
         let people = People::new(self.scenario.seed, self.scenario.bodies.clone());
         let (navigation, options) = (self.navigation.clone(), &self.scenario.crowd);
         let spots = self.spots(play);
-        Ok(simulate(&self.plan, &self.walls, &self.routes, navigation, &people, options, &spots)?)
+        Ok(Simulation::with_spots(&self.plan, &self.walls, &self.routes, navigation, &people, options, &spots)?)
     }
 }

@@ -1,4 +1,4 @@
-//! Who comes when, where and on which route: decided before anybody walks.
+//! Arrival list: time and route of each person, drawn before the walk begins.
 
 use rand::RngExt;
 
@@ -7,12 +7,12 @@ use crate::math::{Purpose, person_stream};
 use crate::plan::FloorPlan;
 use crate::routes::{Place, Route};
 
-/// One line of the arrival list.
+/// Arrival of one person: time and route.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arrival {
     /// Number of the person, counted from 0 in the order of arrival.
     pub id: u32,
-    /// When the person wants to enter, seconds from the start. Without room at the entrance it gets later.
+    /// Time of entering, seconds from the start; later where the entrance has no room.
     pub time_s: f64,
     /// Index of the person's route.
     pub route: usize,
@@ -20,17 +20,17 @@ pub struct Arrival {
     pub from_outside: bool,
 }
 
-/// Through narrow places fewer people go than the openings let in: persons per second and metre.
+/// Flow through narrow places, people per second and metre: less than openings let in.
 const NARROW_RATE: f64 = 0.45;
-/// However many openings there are, no more people come in than this, persons per second.
+/// Largest flow through all openings together, people per second.
 const MOST_RATE: f64 = 5.0;
-/// Ways wider than this carry whatever the openings let in, metres.
+/// Width from which on a place limits no flow, metres.
 const NARROW_M: f64 = 2.5;
-/// Gates whose middles lie within this of each other are the same place, metres.
+/// Distance of their middles within which two gates are the same place, metres.
 const SAME_PLACE_M: f64 = 1.0;
 
-/// Everybody's arrival. Person `id` enters in the `id`-th of as many equal parts of the entry time, so that the
-/// stream is even over time and everybody is a function of (seed, id) alone.
+/// Draws the arrival list. Person `id` enters in the `id`-th of as many equal parts of the entry time, so that the
+/// stream is even over time and each person a function of (seed, id) alone.
 pub(super) fn list(plan: &FloorPlan, routes: &[Route], seed: u64, options: &CrowdOptions) -> Vec<Arrival> {
     if !options.arrivals.is_default() || routes.iter().any(|route| route.arrivals.is_some()) {
         return by_timetables(plan, routes, seed, options);
@@ -48,9 +48,8 @@ pub(super) fn list(plan: &FloorPlan, routes: &[Route], seed: u64, options: &Crow
         .collect()
 }
 
-/// Everybody's arrival where people come by timetables. Lists of routes take as many people as they name, in the
-/// order of routes; everybody else takes a route by share, and comes when its timetable or the crowd's says. Ids
-/// follow the times.
+/// Draws the arrival list by timetables. Lists of routes take as many people as they name, in the order of routes;
+/// everybody else takes a route by share, and comes when its timetable or the crowd's says. Ids follow the times.
 fn by_timetables(plan: &FloorPlan, routes: &[Route], seed: u64, options: &CrowdOptions) -> Vec<Arrival> {
     let people = options.people as usize;
     let listed = listed(routes, people);
@@ -63,7 +62,7 @@ fn by_timetables(plan: &FloorPlan, routes: &[Route], seed: u64, options: &CrowdO
             [rng.random(), rng.random()]
         })
         .collect();
-    // Who belongs to which route, and to which timetable: the crowd's comes behind those of the routes.
+    // People by timetable: the crowd's comes behind those of the routes.
     let mut members: Vec<Vec<usize>> = vec![Vec::new(); routes.len() + 1];
     let mut route_of = Vec::with_capacity(people);
     for (index, draw) in draws.iter().enumerate() {
@@ -93,8 +92,10 @@ fn by_timetables(plan: &FloorPlan, routes: &[Route], seed: u64, options: &CrowdO
     times.into_iter().enumerate().map(arrival).collect()
 }
 
-/// How many people each route's list takes: as many as it names if there are so many, or all of them if nobody else
-/// is left to walk; else its part of them. `None` for routes without a list.
+/// Number of people that each route's list takes; `None` for routes without a list.
+///
+/// A list takes as many people as it names, or its proportion of them if there are not as many, or if all routes with a
+/// share have lists.
 fn listed(routes: &[Route], people: usize) -> Vec<Option<usize>> {
     let named: Vec<Option<u64>> = routes.iter().map(|route| route.arrivals.as_ref()?.listed()).collect();
     let total: u64 = named.iter().flatten().sum();
@@ -122,12 +123,12 @@ fn pick(routes: &[Route], draw: f64) -> usize {
             return index;
         }
     }
-    // Shares that sum up to a hair less than 1: the last route that anybody takes.
+    // Shares that sum up to a hair less than 1: the last route with a share.
     routes.iter().rposition(|r| r.share > 0.0).unwrap_or(0)
 }
 
-/// Seconds that everybody's entering takes if no opening lets in more than the entry rate, and no narrow place on
-/// the way more than it can carry.
+/// Entry time of the whole crowd, seconds: no opening lets in more than the entry rate, and no narrow place on the way
+/// carries more than [`NARROW_RATE`].
 fn entry_seconds(plan: &FloorPlan, routes: &[Route], options: &CrowdOptions) -> f64 {
     let people = f64::from(options.people);
     let mut seconds: f64 = people / MOST_RATE;

@@ -1,26 +1,24 @@
-//! Going round others in good time: the heading that leads farthest towards the goal before somebody is in the way.
+//! Collision avoidance by detours: the heading that leads farthest towards the goal before somebody is in the way.
 //!
-//! After Moussaid, Helbing and Theraulaz 2011 (doi 10.1073/pnas.1016507108): people choose the direction that, for
-//! what they see, brings them nearest to where they want to go. Lanes in counter flow follow from it.
+//! After Moussaid, Helbing and Theraulaz 2011 (doi 10.1073/pnas.1016507108): people choose the visible direction that
+//! brings them nearest to where they want to go. Lanes in counter flow follow from it.
 
 use wide::f32x8;
 
-use super::neighbours::Neighbours;
-use super::seen::{LANES, NOWHERE_M};
-use super::state::Body;
+use super::neighbours::{LANES, NOWHERE_M};
+use super::perception::Perception;
+use super::state::BodyState;
 use crate::math::vec2;
-use crate::routes::Ground;
-use crate::walls::Walls;
 
-/// How far ahead people look for somebody in the way, metres.
+/// Distance up to which others are avoided, metres.
 const HORIZON_M: f32 = 4.5;
-/// Where the middle of what they look at lies ahead of them, metres.
+/// Distance ahead of the place around which others are looked up, metres.
 const CENTRE_M: f32 = 2.2;
-/// Room that is wanted between two who pass each other, metres beyond their exclusion distance.
+/// Wanted gap between two who pass each other, metres beyond their exclusion distance.
 const PASSING_M: f32 = 0.12;
-/// Whoever goes the same way at this share of the own speed need not be gone round.
+/// Share of the own speed at which others who go the same way need no detour.
 const AS_FAST: f32 = 0.9;
-/// Most people who are weighed; more are not taken in at a glance.
+/// Largest number of obstacles that are weighed.
 const MOST_WEIGHED: usize = 48;
 /// Headings that are weighed against the straight one, from the least turn to the largest: cosine and sine.
 const HEADINGS: [[f32; 2]; 9] = [
@@ -34,17 +32,17 @@ const HEADINGS: [[f32; 2]; 9] = [
     [0.342_02, 0.939_693],
     [0.087_156, 0.996_195],
 ];
-/// Of a new heading, people take this share at once, and the rest at their next looks.
+/// Share of a new heading that an agent takes at once; the rest follows at its next looks.
 const TURNING: f32 = 0.7;
-/// Whoever makes less way than this, metres per second, ...
+/// Speed below which an agent may be blocked, metres per second.
 const BLOCKED_M_S: f32 = 0.15;
-/// ... with somebody against them within this, metres beyond their exclusion distance, is blocked.
+/// Gap within which somebody against it blocks it, metres beyond their exclusion distance.
 const BLOCKING_M: f32 = 0.5;
-/// Extra cost of the left, and of leaving the heading taken before, as shares of the squared horizon.
+/// Extra cost of turning left, and of leaving the heading taken before, as shares of the squared horizon.
 const LEFT: f32 = 0.02;
 const CHANGE: f32 = 0.15;
 
-/// The turn out of the wanted direction that brings people round others: cosine and sine, counter-clockwise.
+/// Turn out of the wanted direction round others: cosine and sine, counter-clockwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Detour {
     cos: f32,
@@ -57,12 +55,12 @@ impl Detour {
     /// Straight on.
     const NONE: Detour = Detour { cos: 1.0, sin: 0.0, against: false };
 
-    /// The direction that this detour from `wanted` leads in.
+    /// The wanted direction turned by this detour.
     fn of(self, [x, y]: [f32; 2]) -> [f32; 2] {
         [x * self.cos - y * self.sin, x * self.sin + y * self.cos]
     }
 
-    /// The heading that somebody with the heading `before` takes towards this detour from `wanted`.
+    /// The heading of an agent that so far had the heading `before`, towards this detour from `wanted`.
     pub(super) fn turn(self, wanted: [f32; 2], before: [f32; 2]) -> [f32; 2] {
         let new = self.of(wanted);
         let x = before[0] + (new[0] - before[0]) * TURNING;
@@ -73,21 +71,21 @@ impl Detour {
     }
 }
 
-/// Those whose headings agree with the wanted one at least so well (cosine) go the same way.
+/// Cosine between headings from which on two go the same way.
 const SAME_WAY: f32 = 0.7;
-/// What it is worth to go round others on the side where people go the same way, as a share of the squared horizon, with an
-/// alignment of 1 per second.
+/// Bonus of detours on the side where people go the same way, as a share of the squared horizon at an alignment of 1 per
+/// second.
 const JOINING: f32 = 0.15;
-/// How much somebody who comes the other way makes people fall in line.
+/// Weight of oncoming people in that bonus.
 const AGAINST: f32 = 5.0;
 
-/// A quantity of everybody who is weighed.
+/// One quantity of all obstacles.
 type Column = [[f32; LANES]; MOST_WEIGHED / LANES];
 
-/// Those who may get in the way, relative to the one who looks.
-struct Others {
+/// Others who may get in the way, relative to the agent.
+struct Obstacles {
     count: usize,
-    /// On which side those are who go the same way: -1 all on the right, 1 all on the left.
+    /// Side of those who go the same way: -1 all on the right, 1 all on the left.
     company: f32,
     /// Whether somebody comes the other way.
     against: bool,
@@ -99,18 +97,9 @@ struct Others {
     gap_m2: Column,
 }
 
-/// What the choice looks at.
-pub(super) struct Sights<'a> {
-    pub(super) neighbours: &'a Neighbours,
-    pub(super) ground: &'a Ground,
-    pub(super) walls: &'a Walls,
-    /// How quickly people take up the line of others, per second.
-    pub(super) alignment: f32,
-}
-
-impl Sights<'_> {
-    /// The way round others for somebody who wants to go along the unit vector `wanted` at this speed.
-    pub(super) fn detour(&self, me: &Body, speed_m_s: f32, wanted: [f32; 2]) -> Detour {
+impl Perception<'_> {
+    /// The best detour of an agent that wants to go along the unit vector `wanted` at this speed.
+    pub(super) fn detour(&self, me: &BodyState, speed_m_s: f32, wanted: [f32; 2]) -> Detour {
         let others = self.in_the_way(me, speed_m_s, wanted);
         if others.count == 0 {
             return Detour::NONE;
@@ -148,8 +137,8 @@ impl Sights<'_> {
         best.1
     }
 
-    /// Whether somebody who wants to go the other way stands in the way.
-    pub(super) fn is_blocked(&self, me: &Body, wanted: [f32; 2]) -> bool {
+    /// Whether somebody who wants to go the other way blocks an agent.
+    pub(super) fn is_blocked(&self, me: &BodyState, wanted: [f32; 2]) -> bool {
         if me.vx * wanted[0] + me.vy * wanted[1] > BLOCKED_M_S {
             return false;
         }
@@ -167,9 +156,9 @@ impl Sights<'_> {
         blocked
     }
 
-    /// Collects those ahead who are not on the same way at the same pace.
-    fn in_the_way(&self, me: &Body, speed_m_s: f32, wanted: [f32; 2]) -> Others {
-        let mut others = Others::none();
+    /// Collects those ahead who do not go the same way as fast.
+    fn in_the_way(&self, me: &BodyState, speed_m_s: f32, wanted: [f32; 2]) -> Obstacles {
+        let mut others = Obstacles::none();
         let (cx, cy) = (me.x + wanted[0] * CENTRE_M, me.y + wanted[1] * CENTRE_M);
         let (mut left, mut company, mut against) = (0.0, 0.5, 0.0);
         self.neighbours.around(cx, cy, |range, shift| {
@@ -193,11 +182,8 @@ impl Sights<'_> {
                     continue;
                 }
                 let clear_m = me.clearance_m + body.clearance_m;
-                if distance_m2 > clear_m * clear_m {
-                    let at = me.position();
-                    if !self.ground.sight(self.walls, at, at + vec2(f64::from(dx), f64::from(dy))) {
-                        continue;
-                    }
+                if distance_m2 > clear_m * clear_m && !self.sees(me, dx, dy) {
+                    continue;
                 }
                 let touching_m = me.half_exclusion_m + body.half_exclusion_m + PASSING_M;
                 others.add(dx, dy, body, distance_m2, touching_m);
@@ -210,12 +196,12 @@ impl Sights<'_> {
         others
     }
 
-    /// How far the way along `u` is free of walls, at most `far`.
-    fn free_of_walls_m(&self, me: &Body, u: [f32; 2], far: f32) -> f32 {
+    /// Distance along `u` that is free of walls, at most `far`, metres.
+    fn free_of_walls_m(&self, me: &BodyState, u: [f32; 2], far: f32) -> f32 {
         let mut done = me.clearance_m;
         while done < far {
             let at = me.position() + vec2(f64::from(u[0]), f64::from(u[1])) * f64::from(done);
-            let free = self.ground.clearance_m(at) as f32 - 0.15;
+            let free = self.environment.ground().clearance_m(at) as f32 - 0.15;
             if free < 0.03 {
                 return done;
             }
@@ -225,10 +211,10 @@ impl Sights<'_> {
     }
 }
 
-impl Others {
-    fn none() -> Others {
+impl Obstacles {
+    fn none() -> Obstacles {
         let column = [[0.0; LANES]; MOST_WEIGHED / LANES];
-        Others {
+        Obstacles {
             count: 0,
             company: 0.0,
             against: false,
@@ -240,8 +226,8 @@ impl Others {
         }
     }
 
-    /// Takes in one more; when there is no room for more, in place of the farthest if that is farther.
-    fn add(&mut self, dx: f32, dy: f32, body: &Body, distance_m2: f32, touching_m: f32) {
+    /// Adds an obstacle; when there is no room for more, in place of the farthest if that is farther.
+    fn add(&mut self, dx: f32, dy: f32, body: &BodyState, distance_m2: f32, touching_m: f32) {
         let at = if self.count < MOST_WEIGHED {
             self.count += 1;
             self.count - 1
@@ -269,14 +255,14 @@ impl Others {
         self.gap_m2[row][lane] = gap_m2;
     }
 
-    /// Puts somebody whom nobody ever meets into the unused lanes.
+    /// Fills the unused lanes with an obstacle out of reach.
     fn fill_up(&mut self) {
         for at in self.count..self.count.next_multiple_of(LANES) {
             self.set(at, NOWHERE_M, 0.0, [0.0; 2], NOWHERE_M * NOWHERE_M);
         }
     }
 
-    /// How far the heading `u` leads at this speed before somebody is touched, at most [`HORIZON_M`].
+    /// Distance along the heading `u` at this speed before somebody is touched, at most [`HORIZON_M`], metres.
     ///
     /// Two who move on evenly touch at the first root of `|d + w t| = r`.
     fn free_m(&self, u: [f32; 2], speed_m_s: f32) -> f32 {
@@ -302,10 +288,10 @@ impl Others {
 mod tests {
     use super::*;
 
-    fn others(list: &[[f32; 4]]) -> Others {
-        let mut others = Others::none();
+    fn others(list: &[[f32; 4]]) -> Obstacles {
+        let mut others = Obstacles::none();
         for &[dx, dy, vx, vy] in list {
-            others.add(dx, dy, &Body { vx, vy, ..Body::default() }, dx * dx + dy * dy, 0.5);
+            others.add(dx, dy, &BodyState { vx, vy, ..BodyState::default() }, dx * dx + dy * dy, 0.5);
         }
         others.fill_up();
         others

@@ -1,23 +1,23 @@
 use crate::math::DistributionError;
 
-/// Why the `crowd` stage cannot go on.
+/// Errors of the crowd stage.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CrowdError {
-    /// Nobody, or more people than the list can hold.
-    #[error("crowd: {people} people are asked for, allowed is 1 to {most}")]
+    /// Number of people out of its range.
+    #[error("crowd: {people} people are requested, allowed is 1 to {most}")]
     People {
-        /// How many are asked for.
+        /// Number of people requested.
         people: u32,
         /// The limit.
         most: u32,
     },
-    /// A distribution that cannot be drawn from.
+    /// A distribution with invalid parameters.
     #[error("crowd: {name}: {source}")]
     Distribution {
         /// The option.
         name: &'static str,
-        /// What is wrong with it.
+        /// The problem.
         source: DistributionError,
     },
     /// A number out of its range.
@@ -32,41 +32,41 @@ pub enum CrowdError {
         /// Largest value allowed.
         high: f64,
     },
-    /// A timetable that says nothing sensible.
+    /// An invalid timetable.
     #[error("crowd: arrivals: {key}: {problem}")]
     Timetable {
         /// The key, as a scenario writes it.
         key: &'static str,
-        /// What is wrong.
+        /// The problem.
         problem: String,
     },
-    /// No routes to walk.
+    /// Empty list of routes.
     #[error("crowd: there is no route to walk")]
     NoRoutes,
-    /// A spot at which units are to be played, where nobody can stand.
+    /// A spot for units without room for its viewer.
     #[error("crowd: {spot} at [{x:.2}, {y:.2}] {problem}")]
     Spot {
-        /// What the spot is called.
+        /// Name of the spot.
         spot: String,
-        /// Where it is, metres.
+        /// Place in x, metres.
         x: f64,
-        /// Where it is, metres.
+        /// Place in y, metres.
         y: f64,
-        /// What is wrong.
+        /// The problem.
         problem: String,
-        /// What to do about it.
+        /// A remedy.
         hint: String,
     },
-    /// Units that cannot be used.
+    /// Invalid units.
     #[error(transparent)]
     Units(#[from] crate::units::UnitsError),
-    /// Routes that do not fit the plan.
+    /// Invalid routes.
     #[error(transparent)]
     Routes(#[from] crate::routes::RoutesError),
 }
 
 impl CrowdError {
-    /// What the user can do about it.
+    /// A remedy in words, if there is one.
     pub fn hint(&self) -> Option<String> {
         match self {
             CrowdError::People { .. } => Some("give a whole number of people, such as 1000".into()),

@@ -1,55 +1,43 @@
-use super::{Arrival, Crowd, CrowdError, CrowdModel, CrowdOptions, SocialCrowd, SpotRequest, Spots, Stuck, Tally};
-use crate::motion::{Motion, People};
-use crate::plan::FloorPlan;
-use crate::routes::{Navigation, Route};
-use crate::walls::Walls;
+//! What a model of walking decides: an agent's direction, and its next velocity.
 
-/// A crowd that is walked step by step, whatever model moves it.
-pub trait Simulation: Motion + Send {
-    /// Who comes when and on which route, in the order of ids.
-    fn arrivals(&self) -> &[Arrival];
+use super::agents::Agents;
+use super::moves::Move;
+use super::perception::Perception;
+use super::state::AgentMut;
 
-    /// What became of everybody so far.
-    fn tally(&self) -> Tally;
+/// Largest acceleration of a walking person, metres per second squared.
+pub(super) const MOST_ACCELERATION: f32 = 5.0;
+/// Deceleration of an agent that was led faster than it walks, metres per second squared.
+pub(super) const CALMS_DOWN_M_S2: f32 = 2.5;
 
-    /// Who has got stuck so far.
-    fn stuck(&self) -> &[Stuck];
-}
-
-impl Simulation for Crowd<'_> {
-    fn arrivals(&self) -> &[Arrival] {
-        Crowd::arrivals(self)
-    }
-
-    fn tally(&self) -> Tally {
-        Crowd::tally(self)
-    }
-
-    fn stuck(&self) -> &[Stuck] {
-        Crowd::stuck(self)
-    }
-}
-
-/// A crowd under the model that its options name. With spots at which units are played, it is one under social forces.
+/// A model of walking: how agents choose their direction, and their next velocity among others.
 ///
-/// # Errors
-/// As [`Crowd::with_navigation`]; spots where nobody can stand, units that cannot be read.
-pub fn simulate<'a>(
-    plan: &'a FloorPlan,
-    walls: &'a Walls,
-    routes: &'a [Route],
-    navigation: Navigation,
-    people: &People,
-    options: &CrowdOptions,
-    spots: &[SpotRequest],
-) -> Result<Box<dyn Simulation + 'a>, CrowdError> {
-    if !spots.is_empty() {
-        return Ok(Box::new(Spots::new(plan, walls, routes, navigation, people, options, spots)?));
-    }
-    Ok(match options.model {
-        CrowdModel::Boids => Box::new(Crowd::with_navigation(plan, walls, routes, navigation, people, options)?),
-        CrowdModel::SocialForce => {
-            Box::new(SocialCrowd::with_navigation(plan, walls, routes, navigation, people, options)?)
-        }
-    })
+/// Both are pure functions of the state at the beginning of the step, so that neither the order of agents nor the number
+/// of threads matters. Everything else (arrivals, stops, units, exclusion of bodies, walls) is the same for all models.
+pub(super) trait SteeringModel: Send + Sync {
+    /// The model's time steps and limits.
+    fn settings(&self) -> ModelSettings;
+
+    /// Turns an agent that walks its route towards where it wants to go, and sets its pace.
+    ///
+    /// Returns whether somebody ahead comes the other way.
+    fn turn(&self, agent: AgentMut<'_>, perception: &Perception<'_>) -> bool;
+
+    /// Chooses the next moves of the agents from index `first` of the neighbours' grid on.
+    fn next_moves(&self, agents: &Agents, perception: &Perception<'_>, first: usize, moves: &mut [Move]);
+}
+
+/// Time steps and limits of a model.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ModelSettings {
+    /// Longest time step, seconds; longer ones are divided.
+    pub(super) longest_step_s: f64,
+    /// Interval at which agents look for their way, seconds.
+    pub(super) look_s: f64,
+    /// How many times as often those at a stop, or on the way to one, look for their spot.
+    pub(super) looks_at_stops: u64,
+    /// Fastest that others push an agent, as a multiple of the agent's own speed.
+    pub(super) most_speed: f32,
+    /// How much before its end a walk counts as over, seconds.
+    pub(super) end_tolerance_s: f64,
 }

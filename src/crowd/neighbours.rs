@@ -1,34 +1,39 @@
-//! Who is near whom: bodies sorted into a uniform grid, rebuilt every step.
+//! Neighbour search: bodies sorted into a uniform grid, rebuilt every step.
 
 use std::ops::Range;
 
-use super::state::Body;
+use super::state::BodyState;
 use crate::math::Rect;
+
+/// Lanes of a vector register: others are weighed so many at a time.
+pub(super) const LANES: usize = 8;
+/// Place of unused lanes, metres: farther away than anything that matters.
+pub(super) const NOWHERE_M: f32 = 1e3;
 
 /// Bodies by grid cell. Cells run row by row, bodies in a cell by slot, so that the order is the same however the
 /// work is split; the cells of a row lie side by side, so that a neighbourhood is one stretch for each row.
 #[derive(Debug, Default)]
-pub(super) struct Neighbours {
+pub(super) struct NeighbourGrid {
     origin: [f32; 2],
     cells_per_m: f32,
     columns: usize,
     rows: usize,
-    /// Whether the columns go round.
+    /// Period in x, metres, if the columns go round.
     period_x_m: Option<f32>,
-    /// Where each cell begins, and the end behind the last.
+    /// First index of each cell, and the end behind the last.
     starts: Vec<u32>,
     cell_of_slot: Vec<u32>,
     /// Bodies in the order of cells.
-    pub(super) bodies: Vec<Body>,
-    /// The slot that each of them has.
+    pub(super) bodies: Vec<BodyState>,
+    /// Slot of each of them.
     pub(super) slots: Vec<u32>,
-    /// And the other way round: where among them each slot's body is.
+    /// Index among them of each slot's body.
     pub(super) index_of_slot: Vec<u32>,
 }
 
-impl Neighbours {
+impl NeighbourGrid {
     /// A grid over `area` whose cells are at least `cell_m` wide; with a period in x, from x = 0 to the period.
-    pub(super) fn new(area: Rect, cell_m: f32, period_x_m: Option<f32>) -> Neighbours {
+    pub(super) fn new(area: Rect, cell_m: f32, period_x_m: Option<f32>) -> NeighbourGrid {
         let rows = (area.height() as f32 / cell_m).ceil().max(1.0) as usize;
         let (left, columns, cell_m) = match period_x_m {
             // A whole number of columns, three at least so that a body is never on both sides of another.
@@ -38,14 +43,14 @@ impl Neighbours {
             }
             None => (area.min.x as f32, (area.width() as f32 / cell_m).ceil().max(1.0) as usize, cell_m),
         };
-        Neighbours {
+        NeighbourGrid {
             origin: [left, area.min.y as f32],
             cells_per_m: 1.0 / cell_m,
             columns,
             rows,
             period_x_m,
             starts: vec![0; columns * rows + 1],
-            ..Neighbours::default()
+            ..NeighbourGrid::default()
         }
     }
 
@@ -56,7 +61,7 @@ impl Neighbours {
     }
 
     /// Sorts the bodies anew.
-    pub(super) fn rebuild(&mut self, bodies: &[Body]) {
+    pub(super) fn rebuild(&mut self, bodies: &[BodyState]) {
         let mut cells = std::mem::take(&mut self.cell_of_slot);
         cells.clear();
         cells.extend(bodies.iter().map(|body| {
@@ -73,7 +78,7 @@ impl Neighbours {
             sum += *start;
             *start = sum;
         }
-        self.bodies.resize(bodies.len(), Body::default());
+        self.bodies.resize(bodies.len(), BodyState::default());
         self.slots.resize(bodies.len(), 0);
         self.index_of_slot.resize(bodies.len(), 0);
         // Backwards, so that each cell's end walks back to its beginning and slots stay in order.
@@ -88,8 +93,9 @@ impl Neighbours {
         self.cell_of_slot = cells;
     }
 
-    /// Calls `visit` with the stretches of [`Neighbours::bodies`] in the nine cells around a place, and what is to be
-    /// added to their x to have them where they are seen from there: a period, on its other side.
+    /// Calls `visit` with the ranges of [`NeighbourGrid::bodies`] in the nine cells around a place.
+    ///
+    /// The second argument is to be added to their x: a period, for those seen across its end.
     #[inline]
     pub(super) fn around(&self, x: f32, y: f32, mut visit: impl FnMut(Range<usize>, f32)) {
         let mut base_shift = 0.0;
@@ -128,8 +134,9 @@ impl Neighbours {
         }
     }
 
-    /// The same with the stretches in all cells that come nearer than `reach_m`. Round a period some are seen on either
-    /// side: of these, one at most lies within half a period.
+    /// Calls `visit` with the ranges in all cells that come nearer than `reach_m`, as [`NeighbourGrid::around`] does.
+    ///
+    /// Round a period some bodies are found on either side: of these, one at most lies within half a period.
     #[inline]
     pub(super) fn within(&self, x: f32, y: f32, reach_m: f32, mut visit: impl FnMut(Range<usize>, f32)) {
         let across = (reach_m * self.cells_per_m).ceil().max(1.0) as usize;
@@ -153,7 +160,7 @@ impl Neighbours {
         }
     }
 
-    /// The shortest way in x from `a` to `b`, round the period if there is one.
+    /// Shortest difference in x from `a` to `b`, round the period if there is one, metres.
     #[inline]
     pub(super) fn dx(&self, a: f32, b: f32) -> f32 {
         let dx = b - a;
@@ -170,17 +177,17 @@ mod tests {
     use super::*;
     use crate::math::{Vec2, vec2};
 
-    fn body(x: f32, y: f32) -> Body {
-        Body { x, y, ..Body::default() }
+    fn body(x: f32, y: f32) -> BodyState {
+        BodyState { x, y, ..BodyState::default() }
     }
 
     #[test]
     fn everybody_near_is_found_once_and_the_sorting_keeps_them_all() {
         let area = Rect { min: Vec2::ZERO, max: vec2(20.0, 10.0) };
         for period in [None, Some(20.0f32)] {
-            let mut grid = Neighbours::new(area, 2.0, period);
+            let mut grid = NeighbourGrid::new(area, 2.0, period);
             for count in [0usize, 1, 700] {
-                let bodies: Vec<Body> =
+                let bodies: Vec<BodyState> =
                     (0..count).map(|k| body((k as f32 * 7.31) % 20.0, (k as f32 * 3.77) % 10.0)).collect();
                 grid.rebuild(&bodies);
                 for (slot, me) in bodies.iter().enumerate() {

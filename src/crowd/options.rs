@@ -1,61 +1,72 @@
 use serde::{Deserialize, Serialize};
 
 use super::CrowdError;
-use super::social_force::{CrowdModel, GroupOptions, SocialForceOptions};
+use super::social_force::{GroupOptions, SocialForceOptions};
 use crate::math::Distribution;
 use crate::motion::BodyOptions;
 use crate::routes::Timetable;
 
-/// More people than this are a mistake: the arrival list alone would take gigabytes.
+/// Largest number of people: a longer arrival list would take gigabytes.
 const MOST_PEOPLE: u32 = 5_000_000;
 
-/// How the people of a crowd walk. Speeds in metres per second, distances in metres.
+/// Steering model of a crowd.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CrowdModel {
+    /// Boids without cohesion: everybody walks alone. The model of the Grime paper, fast, for large crowds.
+    #[default]
+    Boids,
+    /// Social forces, with groups of up to four who walk together.
+    SocialForce,
+}
+
+/// Options of a crowd. Speeds in metres per second, distances in metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct CrowdOptions {
-    /// Which model moves people.
+    /// Steering model.
     pub model: CrowdModel,
-    /// How many people walk, 1 to 5 million.
+    /// Number of people, 1 to 5 million.
     pub people: u32,
-    /// Speed of a person with nobody around (Weidmann 1993: 1.34 +- 0.26).
+    /// Free speed of a person (Weidmann 1993: 1.34 +- 0.26).
     pub speed: Distribution,
-    /// How speed falls with the density of people ahead.
+    /// Fall of speed with the number of people per square metre ahead.
     pub speed_law: SpeedLaw,
-    /// Bodies' middles never come nearer to each other than this (mean of the two).
+    /// Exclusion distance: least distance of two bodies' middles (mean of the two).
     pub exclusion: Distribution,
-    /// People make way for others who would come nearer than this; it shrinks as density grows.
+    /// Acceptable distance, within which people make way for others; it shrinks in a dense crowd.
     pub acceptable: Distribution,
-    /// A body's middle never comes nearer to a wall than this; it shrinks in gaps.
+    /// Least distance of a body's middle from walls; it shrinks in gaps.
     pub wall_exclusion: Distribution,
-    /// People keep this far off walls if they can; it shrinks in gaps.
+    /// Distance from walls that people keep if they can; it shrinks in gaps.
     pub wall_acceptable: Distribution,
-    /// How quickly people take up the line of those who go the same way, per second (alignment, Reynolds 1987).
+    /// Alignment with those who go the same way, per second (Reynolds 1987).
     pub alignment: f64,
-    /// The most people who enter in a second, per metre of opening.
+    /// Largest flow through an opening, people per second and metre.
     pub entry_rate: f64,
-    /// Seconds over which people enter; left out, as many as [`CrowdOptions::entry_rate`] asks for.
+    /// Seconds over which people enter; left out, by [`CrowdOptions::entry_rate`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub entry_seconds: Option<f64>,
-    /// When people come, unless their route has a timetable of its own.
+    /// Timetable of people whose route has none of its own.
     pub arrivals: Timetable,
-    /// Whoever has made no way for so many seconds, while nobody else arrives either, is stuck.
+    /// Seconds without progress after which a person is stuck, if no others of the route arrive either.
     pub patience_seconds: f64,
     /// Time step, seconds.
     pub time_step: f64,
     /// Ends the walk after so many seconds, wherever people are.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub end_seconds: Option<f64>,
-    /// A period in x, metres: whoever leaves there comes back at the other end. For measuring speed against
-    /// density in an endless corridor.
+    /// Period in x, metres: people who leave at one end come back at the other. For measuring speed against people per
+    /// square metre in an endless corridor.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub period_x: Option<f64>,
-    /// Who walks with whom, under social forces.
+    /// Groups of people who walk together, under social forces.
     pub groups: GroupOptions,
-    /// How people push each other, under social forces.
+    /// Parameters of the social forces.
     pub social_force: SocialForceOptions,
 }
 
-/// How the largest speed falls with the density of the people ahead.
+/// Fall of the largest speed with the number of people per square metre ahead (rho).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SpeedLaw {
@@ -111,7 +122,7 @@ impl CrowdOptions {
         }
     }
 
-    /// The preset of this name: `commuters` or `paper`.
+    /// Finds the preset `commuters` or `paper`.
     pub fn preset(name: &str) -> Option<CrowdOptions> {
         match name {
             "commuters" => Some(CrowdOptions::commuters()),
@@ -120,7 +131,7 @@ impl CrowdOptions {
         }
     }
 
-    /// The bodies that belong to the preset of this name: the paper's people have a stride of their own around 0.7 m.
+    /// Body options that belong to a preset: the paper's people have step lengths around 0.7 m.
     pub fn preset_bodies(name: &str) -> Option<BodyOptions> {
         match name {
             "commuters" => Some(BodyOptions::default()),
@@ -132,10 +143,10 @@ impl CrowdOptions {
         }
     }
 
-    /// Checks every value.
+    /// Checks every value against its range.
     ///
     /// # Errors
-    /// The first value that is not a number or out of its range.
+    /// The first value that is not finite or out of its range.
     pub fn check(&self) -> Result<(), CrowdError> {
         if self.people == 0 || self.people > MOST_PEOPLE {
             return Err(CrowdError::People { people: self.people, most: MOST_PEOPLE });
@@ -167,41 +178,5 @@ impl CrowdOptions {
         }
         self.groups.check()?;
         self.social_force.check()
-    }
-}
-
-/// Density at which the linear law comes to rest, persons per square metre.
-const LINEAR_JAM: f64 = 4.0;
-/// Density at which Weidmann's law comes to rest, persons per square metre.
-const WEIDMANN_JAM: f64 = 5.4;
-/// Nobody gets slower than this by density alone, metres per second: an arch before a door must dissolve.
-pub(super) const LEAST_SPEED_M_S: f32 = 0.08;
-
-/// A speed law as a table over density.
-#[derive(Clone, Debug)]
-pub(super) struct SpeedTable {
-    factors: Vec<f32>,
-}
-
-impl SpeedTable {
-    const PER_UNIT: f32 = 32.0;
-
-    pub(super) fn new(law: SpeedLaw) -> SpeedTable {
-        let factor = |rho: f64| match law {
-            SpeedLaw::Linear => (1.0 - rho / LINEAR_JAM).max(0.0),
-            SpeedLaw::Weidmann if rho < 1e-3 => 1.0,
-            SpeedLaw::Weidmann => (1.0 - crate::math::exp(-1.913 * (1.0 / rho - 1.0 / WEIDMANN_JAM))).max(0.0),
-        };
-        let count = (8.0 * f64::from(SpeedTable::PER_UNIT)) as usize;
-        SpeedTable { factors: (0..=count).map(|k| factor(k as f64 / f64::from(SpeedTable::PER_UNIT)) as f32).collect() }
-    }
-
-    /// Share of the free speed that is left at a density.
-    #[inline]
-    pub(super) fn factor(&self, density: f32) -> f32 {
-        let at = (density * SpeedTable::PER_UNIT).clamp(0.0, (self.factors.len() - 2) as f32);
-        let k = at as usize;
-        let (a, b) = (self.factors[k], self.factors[k + 1]);
-        a + (b - a) * (at - k as f32)
     }
 }

@@ -1,84 +1,68 @@
+use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 use std::sync::atomic::Ordering::Relaxed;
 
-use rayon::prelude::*;
-
+use super::agents::{AgentSnapshot, Agents, in_chunks};
 use super::arrivals::{self, Arrival};
-use super::avoidance::Sights;
-use super::entrances::Entrances;
-use super::neighbours::Neighbours;
-use super::options::SpeedTable;
-use super::roll;
-use super::seen::Seen;
-use super::social_force::Groups;
-use super::state::{Body, Course, Traits};
-use super::steering::Steering;
-use super::stops::{Stops, Surface, Visit};
-use super::surroundings::{OPEN_M, SENSE_M, Surroundings};
-use super::tally::{Tally, Trail};
-use super::walking::{CALMS_DOWN_M_S2, Move, Scene};
-use super::{CrowdError, CrowdOptions, Stuck};
+use super::boids::Boids;
+use super::collisions::Collisions;
+use super::departures::{Departures, StepEnd};
+use super::entrances::{Admission, Entrances};
+use super::environment::Environment;
+use super::groups::Groups;
+use super::model::{CALMS_DOWN_M_S2, ModelSettings, SteeringModel};
+use super::moves::Move;
+use super::neighbours::NeighbourGrid;
+use super::options::CrowdModel;
+use super::perception::{OPEN_M, Perception, SENSE_M};
+use super::social_force::SocialForce;
+use super::spots::{SpotRequest, Spots};
+use super::stops::{Stops, Visit};
+use super::tally::{Stuck, Tally};
+use super::wayfinding::Wayfinder;
+use super::{CrowdError, CrowdOptions};
 use crate::math::{Rect, Vec2, vec2};
 use crate::motion::{Frame, Motion, MotionError, People, Walker};
 use crate::plan::FloorPlan;
 use crate::routes::{Navigation, Route};
 use crate::walls::{APRON_M, Walls};
 
-mod correcting;
-mod leaving;
-
-/// How often people look for their way, seconds.
-const LOOK_S: f64 = 0.5;
-/// With no wall nearer than this, metres, ...
-const OPEN_GROUND_M: f32 = 1.2;
-/// ... people look for their way only every so many times that they look out for others.
-const OPEN_GROUND_LOOKS: u8 = 2;
-/// Whoever met somebody who came the other way does not return to their own lane for so long, seconds.
+/// Time for which an agent does not return to its lane after somebody came the other way, seconds.
 const YIELDS_S: f32 = 6.0;
-/// Steps after which everybody is put in the order of the grid.
+/// Steps after which agents are put into the order of the neighbours' grid.
 const ORDER_STEPS: u64 = 16;
-/// Nobody is moved faster than so many times their own speed.
-const MOST_SPEED: f32 = 1.1;
-/// Bodies per piece of parallel work.
-pub(super) const CHUNK: usize = 128;
 
-/// People walking along routes, step by step.
-pub struct Crowd<'a> {
-    pub(super) plan: &'a FloorPlan,
-    pub(super) walls: &'a Walls,
-    pub(super) routes: &'a [Route],
-    pub(super) navigation: Navigation,
-    pub(super) options: CrowdOptions,
-    pub(super) seed: u64,
-    pub(super) arrivals: Vec<Arrival>,
-    pub(super) entrances: Entrances,
-    pub(super) speeds: SpeedTable,
-    pub(super) surroundings: Surroundings,
-    /// Everybody present: bodies, traits, courses, roughly in the order of the grid.
-    pub(super) bodies: Vec<Body>,
-    pub(super) traits: Vec<Traits>,
-    pub(super) courses: Vec<Course>,
-    pub(super) neighbours: Neighbours,
-    pub(super) moves: Vec<Move>,
-    /// Corrected places in the order of the neighbours' grid, and the next round's.
-    pub(super) places: [Vec<[f32; 2]>; 2],
-    /// Slots in the order of ids, made anew for every frame.
-    pub(super) by_id: Vec<u32>,
-    pub(super) step: u64,
-    /// Whether somebody arrived in this step.
-    pub(super) some_arrived: bool,
-    /// For each route, who went before.
-    pub(super) trails: Vec<Trail>,
-    pub(super) stops: Stops,
-    pub(super) tally: Tally,
-    /// Who walks with whom.
-    pub(super) groups: Groups,
-    /// Being pushed moves nobody faster than so many times their own speed.
-    pub(super) most_speed: f32,
+/// A crowd that walks along routes, step by step, under the model that its options name.
+///
+/// As a [`Motion`] it gives one frame for each time step; people who have arrived or got stuck are in no frame any more.
+pub struct Simulation<'a> {
+    environment: Environment<'a>,
+    /// Options; the time step is that of a substep.
+    options: CrowdOptions,
+    /// Time step between frames, seconds, and the number of substeps.
+    frame_s: f64,
+    substeps: u64,
+    seed: u64,
+    model: Box<dyn SteeringModel>,
+    settings: ModelSettings,
+    arrivals: Vec<Arrival>,
+    entrances: Entrances,
+    departures: Departures,
+    agents: Agents,
+    neighbours: NeighbourGrid,
+    moves: Vec<Move>,
+    collisions: Collisions,
+    stops: Stops,
+    spots: Spots,
+    tally: Tally,
+    /// Number of the substep.
+    step: u64,
+    /// Slots in the order of ids, sorted anew for every frame.
+    by_id: Vec<u32>,
 }
 
-impl<'a> Crowd<'a> {
-    /// A crowd that has not entered yet.
+impl<'a> Simulation<'a> {
+    /// A crowd before anybody has entered; measures the way along the routes first.
     ///
     /// # Errors
     /// Options out of range, no routes, routes that do not belong to the plan.
@@ -88,16 +72,16 @@ impl<'a> Crowd<'a> {
         routes: &'a [Route],
         people: &People,
         options: &CrowdOptions,
-    ) -> Result<Crowd<'a>, CrowdError> {
+    ) -> Result<Simulation<'a>, CrowdError> {
         options.check()?;
         let navigation = Navigation::new(plan, walls, routes)?;
-        Crowd::with_navigation(plan, walls, routes, navigation, people, options)
+        Simulation::with_navigation(plan, walls, routes, navigation, people, options)
     }
 
-    /// The same with a navigation at hand, see [`Navigation::find`].
+    /// A crowd on routes that have been measured already, see [`Navigation::find`].
     ///
     /// # Errors
-    /// As [`Crowd::new`].
+    /// Options out of range, no routes.
     pub fn with_navigation(
         plan: &'a FloorPlan,
         walls: &'a Walls,
@@ -105,335 +89,333 @@ impl<'a> Crowd<'a> {
         navigation: Navigation,
         people: &People,
         options: &CrowdOptions,
-    ) -> Result<Crowd<'a>, CrowdError> {
+    ) -> Result<Simulation<'a>, CrowdError> {
+        Simulation::with_spots(plan, walls, routes, navigation, people, options, &[])
+    }
+
+    /// A crowd with spots at which units are played; with any spot, it walks under social forces.
+    ///
+    /// # Errors
+    /// As [`Simulation::with_navigation`]; a spot in a wall or off the floor; units that cannot be read.
+    pub fn with_spots(
+        plan: &'a FloorPlan,
+        walls: &'a Walls,
+        routes: &'a [Route],
+        navigation: Navigation,
+        people: &People,
+        options: &CrowdOptions,
+        spots: &[SpotRequest],
+    ) -> Result<Simulation<'a>, CrowdError> {
         options.check()?;
         if routes.is_empty() {
             return Err(CrowdError::NoRoutes);
         }
         let seed = people.seed();
-        let surface = Surface { plan, walls, ground: &navigation.ground };
+        let environment = Environment { plan, walls, routes, navigation };
+        let spots = Spots::new(&environment, spots)?;
+        let mut arrivals = arrivals::list(plan, routes, seed, options);
+        let mut groups = Groups::default();
+        let in_groups = options.model == CrowdModel::SocialForce || !spots.is_empty();
+        let model: Box<dyn SteeringModel> = if in_groups {
+            groups = Groups::draw(&mut arrivals, routes, &options.arrivals, &options.groups, seed);
+            Box::new(SocialForce::new(options))
+        } else {
+            Box::new(Boids::new(&environment, options))
+        };
+        let settings = model.settings();
+        // A hair less, so that rounding adds no part.
+        let substeps = (options.time_step / settings.longest_step_s - 1e-6).ceil().max(1.0);
         let keep_m = options.wall_exclusion.bounds()[1] + 0.02;
         let area = Rect { min: Vec2::ZERO, max: vec2(plan.width_m(), plan.height_m()) }.grown(APRON_M);
-        Ok(Crowd {
-            arrivals: arrivals::list(plan, routes, seed, options),
+        let mut agents = Agents::new(arrivals.len() as u32, groups);
+        spots.stand_viewers(&mut agents, seed, options);
+        Ok(Simulation {
             entrances: Entrances::new(routes),
-            speeds: SpeedTable::new(options.speed_law),
-            surroundings: Surroundings::new(&navigation.ground, walls),
-            neighbours: Neighbours::new(area, SENSE_M as f32, options.period_x.map(|p| p as f32)),
-            bodies: Vec::new(),
-            traits: Vec::new(),
-            courses: Vec::new(),
+            departures: Departures::new(routes.len()),
+            neighbours: NeighbourGrid::new(area, SENSE_M as f32, options.period_x.map(|p| p as f32)),
             moves: Vec::new(),
-            places: [Vec::new(), Vec::new()],
-            by_id: Vec::new(),
-            step: 0,
-            some_arrived: false,
-            trails: vec![Trail::default(); routes.len()],
-            stops: Stops::new(surface, routes, &navigation, keep_m),
+            collisions: Collisions::default(),
+            stops: Stops::new(&environment, keep_m),
             tally: Tally::default(),
-            groups: Groups::default(),
-            most_speed: MOST_SPEED,
-            plan,
-            walls,
-            routes,
-            navigation,
-            options: options.clone(),
+            step: 0,
+            by_id: Vec::new(),
+            options: CrowdOptions { time_step: options.time_step / substeps, ..options.clone() },
+            frame_s: options.time_step,
+            substeps: substeps as u64,
+            environment,
             seed,
+            model,
+            settings,
+            arrivals,
+            agents,
+            spots,
         })
     }
 
-    /// Who comes when and on which route, in the order of ids.
+    /// Arrival list: when each person comes, and on which route, in the order of ids.
     pub fn arrivals(&self) -> &[Arrival] {
         &self.arrivals
     }
 
-    /// What became of everybody so far.
+    /// Counts of people, stops and units so far.
     pub fn tally(&self) -> Tally {
-        Tally { stops: self.stops.tally(), ..self.tally.clone() }
+        Tally { stops: self.stops.tally(), spots: self.spots.reports(), ..self.tally.clone() }
     }
 
-    /// Keeps every visit of a stop that ends from now on, for [`Crowd::visits`]: memory grows with them.
-    pub fn keep_visits(&mut self) {
-        self.stops.keep_visits();
-    }
-
-    /// Every visit of a stop that ended since [`Crowd::keep_visits`], in the order of their ends.
-    pub fn visits(&self) -> &[Visit] {
-        self.stops.visits()
-    }
-
-    /// Who has got stuck so far.
+    /// People who have got stuck so far.
     pub fn stuck(&self) -> &[Stuck] {
         &self.tally.stuck
     }
 
-    /// Seconds since the start.
+    /// Keeps every visit of a stop that ends from now on, for [`Simulation::visits`]: memory grows with them.
+    pub fn keep_visits(&mut self) {
+        self.stops.keep_visits();
+    }
+
+    /// Visits of stops that ended since [`Simulation::keep_visits`], in the order of their ends.
+    pub fn visits(&self) -> &[Visit] {
+        self.stops.visits()
+    }
+
+    /// Ids of everybody in a person's group, the person included: a range, of which some may not have come yet, or have left.
+    pub fn group_of(&self, id: u32) -> Range<u32> {
+        self.agents.group_of(id)
+    }
+
+    /// Time since the start, seconds.
     pub fn time_s(&self) -> f64 {
         self.step as f64 * self.options.time_step
     }
 
-    /// How many people are present.
+    /// Number of people present, onlookers left out.
     pub fn present(&self) -> usize {
-        self.bodies.len()
+        self.agents.present()
     }
 
-    /// Whether nobody is left to walk, or the time is up.
+    /// Whether everybody has come and left, or the time is up.
     pub fn is_over(&self) -> bool {
-        let all_gone = self.bodies.is_empty() && self.entrances.is_empty(&self.arrivals);
-        all_gone || self.options.end_seconds.is_some_and(|end| self.time_s() >= end)
+        let all_gone = self.present() == 0 && self.entrances.is_empty(&self.arrivals);
+        let end_s = self.options.end_seconds.map(|end| end - self.settings.end_tolerance_s);
+        all_gone || end_s.is_some_and(|end| self.time_s() >= end)
+    }
+
+    /// Snapshots of all people present, onlookers left out, in no particular order.
+    pub fn agents(&self) -> impl Iterator<Item = AgentSnapshot> + '_ {
+        self.agents.snapshots()
+    }
+
+    /// Snapshot of a person or an onlooker; `None` before a person has come and after they have left.
+    pub fn agent(&self, id: u32) -> Option<AgentSnapshot> {
+        self.agents.get(id)
+    }
+
+    /// Leads an agent: in the next step it goes to `position_m` and has this velocity there.
+    ///
+    /// The body faces along the unit vector `heading`, or else where it goes. The agent stays there until it is led on or
+    /// [released](Simulation::release). Others see it and make way; walls and the bodies of others are the caller's
+    /// business. A led agent does not arrive, does not get stuck, and is not served at stops.
+    ///
+    /// Returns false if the agent is not present, or if a number is not finite or beyond 1000 km of the origin.
+    pub fn lead(&mut self, id: u32, position_m: Vec2, velocity_m_s: Vec2, heading: Option<Vec2>) -> bool {
+        self.agents.lead(id, position_m, velocity_m_s, heading)
+    }
+
+    /// Lets a led agent walk on by the model, from place and velocity as they are.
+    ///
+    /// Returns whether it was led; onlookers cannot be released.
+    pub fn release(&mut self, id: u32) -> bool {
+        let time_s = self.time_s();
+        self.agents.release(id, time_s)
+    }
+
+    /// Adds an onlooker, such as a viewer: an agent on no route, whom others walk around.
+    ///
+    /// `radius_m` is the body's radius. Onlookers are in no frame and no tally. Returns the id by which the onlooker can be
+    /// [led](Simulation::lead); `None` if the place is not finite or the radius not within 0.05 to 5 m.
+    pub fn stand(&mut self, position_m: Vec2, radius_m: f64) -> Option<u32> {
+        self.agents.stand(position_m, radius_m, self.seed, &self.options)
     }
 
     /// Goes on by one time step.
     pub fn advance(&mut self) {
         self.skip_idle_time();
-        self.neighbours.rebuild(&self.bodies);
-        self.put_in_order();
-        self.look_after_stops();
-        self.look();
-        self.choose_moves();
-        self.correct();
-        self.take_places();
-        self.step += 1;
-        self.admit();
-        self.let_go();
+        self.agents.begin_leading();
+        for substep in 1..=self.substeps {
+            self.neighbours.rebuild(&self.agents.bodies);
+            self.put_in_order();
+            self.agents.note_slots();
+            self.stops.update((self.step, self.options.time_step), &self.environment, &mut self.agents);
+            self.look();
+            self.choose_moves(substep as f64 / self.substeps as f64);
+            let some_arrived = self.take_places();
+            self.agents.finish_leading(self.time_s());
+            self.step += 1;
+            self.admit();
+            let end = StepEnd { step: self.step, time_step_s: self.options.time_step, some_arrived };
+            let patience_s = self.options.patience_seconds;
+            self.departures.let_go(end, patience_s, &mut self.agents, &self.stops, &mut self.tally);
+        }
     }
 
-    /// With nobody present, goes on to the next arrival.
+    /// Goes on to the next arrival, by whole steps, while nobody is present.
     fn skip_idle_time(&mut self) {
-        if self.bodies.is_empty()
+        if self.present() == 0
             && let Some(next_s) = self.entrances.next_arrival_s(&self.arrivals)
         {
-            self.step = self.step.max((next_s / self.options.time_step) as u64);
+            let steps = (next_s / self.options.time_step) as u64 / self.substeps;
+            self.step = self.step.max(steps * self.substeps);
         }
     }
 
-    /// Now and then, puts everybody in the order of the grid, so that who is near in space is near in memory.
-    pub(super) fn put_in_order(&mut self) {
-        if !self.step.is_multiple_of(ORDER_STEPS) {
-            return;
+    /// Puts agents into the order of the grid now and then, so that neighbours in space are neighbours in memory.
+    fn put_in_order(&mut self) {
+        if self.step.is_multiple_of(ORDER_STEPS) {
+            self.agents.reorder(&self.neighbours.bodies, &self.neighbours.slots);
+            self.neighbours.rebuild(&self.agents.bodies);
         }
-        let slots = &self.neighbours.slots;
-        self.bodies.clone_from(&self.neighbours.bodies);
-        self.traits = slots.iter().map(|&slot| self.traits[slot as usize]).collect();
-        self.courses = slots.iter().map(|&slot| self.courses[slot as usize]).collect();
-        self.neighbours.rebuild(&self.bodies);
     }
 
-    /// Serves whoever is at a stop.
-    pub(super) fn look_after_stops(&mut self) {
-        let surface = Surface { plan: self.plan, walls: self.walls, ground: &self.navigation.ground };
-        let clock = (self.step, self.options.time_step);
-        self.stops.update(clock, surface, &self.navigation, &self.bodies, &mut self.courses);
-    }
-
-    /// Everybody whose turn it is looks for the way.
+    /// Lets every agent whose turn it is look for its way, or for its spot at a stop.
     fn look(&mut self) {
-        let every = (LOOK_S / self.options.time_step).round().max(1.0) as u64;
-        let (step, time_s) = (self.step, self.time_s());
+        let every = (self.settings.look_s / self.options.time_step).round().max(1.0) as u64;
         let look_s = every as f32 * self.options.time_step as f32;
-        let steering =
-            Steering { plan: self.plan, walls: self.walls, routes: self.routes, navigation: &self.navigation };
-        let sights = Sights {
-            neighbours: &self.neighbours,
-            ground: &self.navigation.ground,
-            walls: self.walls,
-            alignment: self.options.alignment as f32,
-        };
-        let stops = &self.stops;
-        let look = |((body, course), traits): ((&mut Body, &mut Course), &Traits)| {
-            // Who stands or queues keeps to the spot more closely than who walks to the way.
-            let halves = if course.errand.is_some() { 2 } else { 1 };
-            if !(u64::from(course.id) + step).is_multiple_of((every / halves).max(1)) {
+        let (step, looks_at_stops) = (self.step, self.settings.looks_at_stops);
+        let perception = perception(&self.environment, &self.neighbours, &self.options, self.step);
+        let (model, stops) = (&self.model, &self.stops);
+        self.agents.for_each(|_, mut agent| {
+            let looks = if agent.walk.visit.is_some() { looks_at_stops } else { 1 };
+            if agent.walk.led || !(u64::from(agent.walk.id) + step).is_multiple_of((every / looks).max(1)) {
                 return;
             }
-            if let Some(errand) = course.errand {
-                stops.steer(&errand, (body, course, traits), &sights, time_s, look_s / halves as f32);
+            if let Some(target) = agent.walk.visit {
+                stops.steer(&target, agent, &perception, look_s / looks as f32);
                 return;
             }
-            course.looks = course.looks.wrapping_add(1);
-            if body.clearance_m < OPEN_GROUND_M || course.looks.is_multiple_of(OPEN_GROUND_LOOKS) {
-                let p = body.position();
-                steering.advance(course, p, time_s);
-                let last = vec2(f64::from(body.aim_x), f64::from(body.aim_y));
-                let aim = steering.aim(course, traits, p, last, time_s);
-                course.wanted = [aim.x as f32, aim.y as f32];
-                course.pace = steering.pace(course, p);
-            }
-            let wanted = course.wanted;
-            let detour = sights.detour(body, traits.speed_m_s, wanted);
-            [body.aim_x, body.aim_y] = detour.turn(wanted, [body.aim_x, body.aim_y]);
-            course.yields_s = if detour.against { YIELDS_S } else { course.yields_s - look_s };
-            let blocked_s = if sights.is_blocked(body, wanted) { look_s } else { -4.0 * look_s };
-            course.blocked_s = (course.blocked_s + blocked_s).max(0.0);
-            body.half_exclusion_m = 0.5 * traits.exclusion_m * course.squeeze();
-        };
-        if self.bodies.len() < 2 * CHUNK {
-            self.bodies.iter_mut().zip(&mut self.courses).zip(&self.traits).for_each(look);
-        } else {
-            let people = self.bodies.par_iter_mut().zip(&mut self.courses).zip(&self.traits);
-            people.with_min_len(CHUNK).for_each(look);
-        }
-    }
-
-    /// Everybody chooses the next move.
-    fn choose_moves(&mut self) {
-        let scene = Scene {
-            neighbours: &self.neighbours,
-            surroundings: &self.surroundings,
-            ground: &self.navigation.ground,
-            walls: self.walls,
-            speeds: &self.speeds,
-            alignment: self.options.alignment as f32,
-            dt: self.options.time_step as f32,
-        };
-        let (traits, courses) = (&self.traits, &self.courses);
-        let slots = &self.neighbours.slots;
-        self.moves.resize_with(self.bodies.len(), Move::default);
-        in_chunks(&mut self.moves, |start, moves| {
-            let mut seen = Seen::default();
-            for (k, next) in moves.iter_mut().enumerate() {
-                let index = start + k;
-                let slot = slots[index] as usize;
-                *next = scene.next(index, &traits[slot], courses[slot].pace, &mut seen);
-            }
+            let against = model.turn(agent.reborrow(), &perception);
+            let walk = agent.walk;
+            walk.yields_s = if against { YIELDS_S } else { walk.yields_s - look_s };
+            let blocked_s = if perception.is_blocked(agent.body, walk.wanted) { look_s } else { -4.0 * look_s };
+            walk.blocked_s = (walk.blocked_s + blocked_s).max(0.0);
+            agent.body.half_exclusion_m = 0.5 * agent.traits.exclusion_m * walk.squeeze();
         });
     }
 
-    /// Takes up the corrected places, and notes who has arrived.
-    pub(super) fn take_places(&mut self) {
+    /// Lets every agent choose its next move; led agents are at this share of their step.
+    fn choose_moves(&mut self, share: f64) {
+        let perception = perception(&self.environment, &self.neighbours, &self.options, self.step);
+        let (model, agents) = (&self.model, &self.agents);
+        self.moves.resize_with(agents.bodies.len(), Move::default);
+        in_chunks(&mut self.moves, |first, moves| model.next_moves(agents, &perception, first, moves));
+        agents.move_led(share, &self.neighbours.index_of_slot, &mut self.moves);
+    }
+
+    /// Moves everybody to their corrected places; returns whether somebody has arrived.
+    fn take_places(&mut self) -> bool {
         let dt = self.options.time_step as f32;
         let time_s = (self.step + 1) as f64 * self.options.time_step;
         let period = self.options.period_x.map(|p| p as f32);
-        let most_speed = self.most_speed;
-        let steering =
-            Steering { plan: self.plan, walls: self.walls, routes: self.routes, navigation: &self.navigation };
-        let ground = &self.navigation.ground;
-        let places = &self.places[0];
+        let most_speed = self.settings.most_speed;
+        let places = self.collisions.correct(&self.moves, &self.neighbours, &self.environment);
+        let (ground, indices) = (self.environment.ground(), &self.neighbours.index_of_slot);
+        let wayfinder = Wayfinder(&self.environment);
         let some_arrived = AtomicBool::new(false);
-        let take = |(((body, course), traits), &index): (((&mut Body, &mut Course), &Traits), &u32)| {
-            let [x, y] = places[index as usize];
+        self.agents.for_each(|slot, agent| {
+            let (body, walk) = (agent.body, agent.walk);
+            let [x, y] = places[indices[slot] as usize];
             let (dx, dy) = (x - body.x, y - body.y);
             let (vx, vy) = (dx / dt, dy / dt);
-            // Being pushed makes nobody run.
+            // Being pushed makes an agent no faster than it may walk.
             let own_speed = (body.vx * body.vx + body.vy * body.vy).sqrt();
-            let most = (most_speed * traits.speed_m_s).max(own_speed - CALMS_DOWN_M_S2 * dt);
+            let most = (most_speed * agent.traits.speed_m_s).max(own_speed - CALMS_DOWN_M_S2 * dt);
             let speed = (vx * vx + vy * vy).sqrt();
             let ease = if speed > most { most / speed } else { 1.0 };
             (body.vx, body.vy) = (vx * ease, vy * ease);
             (body.x, body.y) = (x, y);
-            course.turn(body, dt);
+            walk.turn(body, dt);
             if let Some(period) = period
                 && !(0.0..period).contains(&x)
             {
                 body.x = if x < 0.0 { x + period } else { x - period };
-                course.leg = 0;
-                course.least_left_m = f32::INFINITY;
+                walk.leg = 0;
+                walk.least_left_m = f32::INFINITY;
                 body.clearance_m = 0.0;
             }
-            // However it moved, no wall has come nearer than this.
+            // However it moved, walls have come nearer by this at most.
             body.clearance_m -= speed * dt + 1e-3;
             if body.clearance_m < OPEN_M {
                 body.clearance_m = ground.clearance_at_least_m(body.position()) as f32;
             }
-            course.arrived = !course.led
-                && course.errand.is_none()
-                && steering.has_arrived(course, body.position(), speed.min(most), time_s);
-            if course.arrived {
+            walk.arrived = !walk.led
+                && walk.visit.is_none()
+                && wayfinder.has_arrived(walk, body.position(), speed.min(most), time_s);
+            if walk.arrived {
                 some_arrived.store(true, Relaxed);
             }
-        };
-        let mut bodies = std::mem::take(&mut self.bodies);
-        let mut courses = std::mem::take(&mut self.courses);
-        let (traits, indices) = (&self.traits, &self.neighbours.index_of_slot);
-        if bodies.len() < 2 * CHUNK {
-            bodies.iter_mut().zip(&mut courses).zip(traits).zip(indices).for_each(take);
-        } else {
-            let people = bodies.par_iter_mut().zip(&mut courses).zip(traits).zip(indices);
-            people.with_min_len(CHUNK).for_each(take);
-        }
-        (self.bodies, self.courses) = (bodies, courses);
-        self.some_arrived = some_arrived.into_inner();
+        });
+        some_arrived.into_inner()
     }
 
     /// Lets those enter who are due and find room.
-    pub(super) fn admit(&mut self) {
-        let time_s = self.time_s();
-        let mut entrances = std::mem::take(&mut self.entrances);
-        entrances.admit(self, time_s);
-        self.entrances = entrances;
-    }
-
-    pub(super) fn parts(&mut self) -> Parts<'_, 'a> {
-        Parts {
-            steering: Steering {
-                plan: self.plan,
-                walls: self.walls,
-                routes: self.routes,
-                navigation: &self.navigation,
-            },
-            plan: self.plan,
+    fn admit(&mut self) {
+        let mut admission = Admission {
+            time_s: self.step as f64 * self.options.time_step,
+            environment: &self.environment,
             options: &self.options,
             seed: self.seed,
             arrivals: &self.arrivals,
-            bodies: &mut self.bodies,
-            traits: &mut self.traits,
-            courses: &mut self.courses,
-            neighbours: &self.neighbours,
+            agents: &mut self.agents,
+            neighbours: &mut self.neighbours,
             stops: &mut self.stops,
             tally: &mut self.tally,
-            groups: &self.groups,
-        }
+        };
+        self.entrances.admit(&mut admission);
+    }
+
+    /// Writes everybody present into a frame, by ascending ids, onlookers left out.
+    fn fill(&mut self, frame: &mut Frame) {
+        frame.time_s = self.time_s();
+        self.agents.slots_by_id(&mut self.by_id);
+        frame.walkers.clear();
+        frame.walkers.extend(self.by_id.iter().filter_map(|&slot| {
+            let (body, walk) = (&self.agents.bodies[slot as usize], &self.agents.walks[slot as usize]);
+            (!self.agents.is_onlooker(walk.id)).then(|| Walker {
+                id: walk.id,
+                position_m: body.position(),
+                velocity_m_s: body.velocity(),
+                heading: Some(walk.heading.into_vec()),
+            })
+        }));
     }
 }
 
-/// What entrances work on.
-pub(super) struct Parts<'s, 'a> {
-    pub(super) steering: Steering<'s>,
-    pub(super) plan: &'a FloorPlan,
-    pub(super) options: &'s CrowdOptions,
-    pub(super) seed: u64,
-    pub(super) arrivals: &'s [Arrival],
-    pub(super) bodies: &'s mut Vec<Body>,
-    pub(super) traits: &'s mut Vec<Traits>,
-    pub(super) courses: &'s mut Vec<Course>,
-    pub(super) neighbours: &'s Neighbours,
-    pub(super) stops: &'s mut Stops,
-    pub(super) tally: &'s mut Tally,
-    pub(super) groups: &'s Groups,
+fn perception<'s>(
+    environment: &'s Environment<'s>,
+    neighbours: &'s NeighbourGrid,
+    options: &CrowdOptions,
+    step: u64,
+) -> Perception<'s> {
+    Perception {
+        environment,
+        neighbours,
+        alignment: options.alignment as f32,
+        time_s: step as f64 * options.time_step,
+        dt: options.time_step as f32,
+    }
 }
 
-impl Motion for Crowd<'_> {
+impl Motion for Simulation<'_> {
     fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, MotionError> {
         if self.is_over() {
             return Ok(false);
         }
         self.advance();
-        frame.time_s = self.time_s();
-        roll::call(&self.courses, &mut self.by_id);
-        frame.walkers.clear();
-        frame.walkers.extend(self.by_id.iter().map(|&slot| {
-            let (body, course) = (&self.bodies[slot as usize], &self.courses[slot as usize]);
-            Walker {
-                id: course.id,
-                position_m: body.position(),
-                velocity_m_s: vec2(f64::from(body.vx), f64::from(body.vy)),
-                heading: Some(course.heading.into_vec()),
-            }
-        }));
+        self.fill(frame);
+        self.spots.play(frame, self.frame_s, &mut self.agents, self.environment.walls);
         Ok(true)
     }
 
     fn share_done(&self) -> f64 {
         let gone = self.tally.arrived + self.tally.stuck.len() as u64;
         gone as f64 / self.arrivals.len().max(1) as f64
-    }
-}
-
-/// Runs `work` on pieces of a slice, side by side if there are enough, with the index at which each begins.
-pub(super) fn in_chunks<T: Send>(items: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
-    if items.len() < 2 * CHUNK {
-        work(0, items);
-    } else {
-        items.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, items)| work(chunk * CHUNK, items));
     }
 }

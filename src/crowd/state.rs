@@ -1,37 +1,58 @@
-//! What the crowd knows of everybody present.
+//! State of an agent: body, traits, and progress along the route.
 
 use rand::RngExt;
 
 use crate::math::{Distribution, Purpose, Vec2, person_stream, vec2};
 
 use super::CrowdOptions;
-use super::stops::Errand;
+use super::stops::VisitTarget;
 
-/// What others see of a person.
+/// Position, velocity and size of an agent, as others perceive them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Body {
+pub(super) struct BodyState {
     /// Position, metres.
     pub(super) x: f32,
     pub(super) y: f32,
     /// Velocity, metres per second.
     pub(super) vx: f32,
     pub(super) vy: f32,
-    /// Unit vector towards where the person wants to go.
+    /// Unit vector in which the agent wants to go.
     pub(super) aim_x: f32,
     pub(super) aim_y: f32,
     /// Half of the exclusion distance, metres.
     pub(super) half_exclusion_m: f32,
-    /// A distance that no wall comes nearer than, metres.
+    /// Lower bound of the distance to the nearest wall, metres.
     pub(super) clearance_m: f32,
 }
 
-impl Body {
+impl BodyState {
     pub(super) fn position(&self) -> Vec2 {
         vec2(f64::from(self.x), f64::from(self.y))
     }
+
+    pub(super) fn velocity(&self) -> Vec2 {
+        vec2(f64::from(self.vx), f64::from(self.vy))
+    }
+
+    pub(super) fn aim(&self) -> Vec2 {
+        vec2(f64::from(self.aim_x), f64::from(self.aim_y))
+    }
 }
 
-/// What a person is like: drawn once, a function of (seed, id).
+/// One agent: its state, which a step changes, and its traits.
+pub(super) struct AgentMut<'s> {
+    pub(super) body: &'s mut BodyState,
+    pub(super) walk: &'s mut WalkState,
+    pub(super) traits: &'s Traits,
+}
+
+impl AgentMut<'_> {
+    pub(super) fn reborrow(&mut self) -> AgentMut<'_> {
+        AgentMut { body: self.body, walk: self.walk, traits: self.traits }
+    }
+}
+
+/// Speed, distances and preferences of a person: drawn once, a function of seed and id.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Traits {
     pub(super) speed_m_s: f32,
@@ -39,11 +60,11 @@ pub(super) struct Traits {
     pub(super) acceptable_m: f32,
     pub(super) wall_exclusion_m: f32,
     pub(super) wall_acceptable_m: f32,
-    /// Which share of the way's width, from the left, the person likes to walk at.
+    /// Preferred lane: share of the way's width, from the left, 0 to 1.
     pub(super) lane: f32,
-    /// Uniform in `[0, 1)`: where the person vanishes.
+    /// Uniform draw in `[0, 1)`: where the person vanishes.
     pub(super) goal_draw: f32,
-    /// What the unevenness of the person's walk is drawn from, under social forces.
+    /// Seed of the random acceleration under social forces.
     pub(super) wander: u64,
 }
 
@@ -57,7 +78,7 @@ impl Traits {
         Traits {
             speed_m_s: draw(&options.speed),
             exclusion_m,
-            // Nobody accepts less than what is possible at all.
+            // An acceptable distance below the exclusion distance could never be kept.
             acceptable_m: draw(&options.acceptable).max(exclusion_m),
             wall_exclusion_m,
             wall_acceptable_m: draw(&options.wall_acceptable).max(wall_exclusion_m),
@@ -68,14 +89,14 @@ impl Traits {
     }
 }
 
-/// Where a person is on the route.
+/// Progress of an agent along its route, and what it does next.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Course {
+pub(super) struct WalkState {
     pub(super) id: u32,
     pub(super) route: u32,
-    /// Which leg of the route, counted from 0.
+    /// Leg of the route, counted from 0.
     pub(super) leg: u32,
-    /// The least distance left so far, metres, legs behind included.
+    /// Least walking distance left so far, metres; legs ahead count 10 km each.
     pub(super) least_left_m: f32,
     /// When that was last improved, seconds.
     pub(super) improved_s: f64,
@@ -83,30 +104,30 @@ pub(super) struct Course {
     pub(super) end_m: Vec2,
     /// Unit vector along the way, as last looked up.
     pub(super) wanted: [f32; 2],
-    /// How often the person has looked around.
+    /// Number of looks for the way so far, modulo 256.
     pub(super) looks: u8,
-    /// Share of the speed that the person wants now: less when about to stop.
+    /// Wanted share of the free speed: less when about to stop.
     pub(super) pace: f32,
-    /// Where the body faces.
+    /// Direction in which the body faces.
     pub(super) heading: Heading,
     /// Whether the person has arrived, and is about to be taken out.
     pub(super) arrived: bool,
-    /// How many of the route had arrived when this person last made way.
+    /// How many people of the route had arrived when this one last came nearer to its goal.
     pub(super) arrived_before: u64,
-    /// For how long yet the person walks wherever those who come the other way leave room, seconds.
+    /// Time left in which the agent does not return to its lane, since somebody comes the other way, seconds.
     pub(super) yields_s: f32,
-    /// For how long somebody who comes the other way has been in the way, seconds.
+    /// Time for which oncoming people have blocked the agent, seconds.
     pub(super) blocked_s: f32,
-    /// What the person does who is at a stop or on the way to one; nobody else has one.
-    pub(super) errand: Option<Errand>,
-    /// Whether somebody outside of the crowd says where the person goes.
+    /// Where an agent stands or walks that is at a stop, or on the way to one; `None` on the route.
+    pub(super) visit: Option<VisitTarget>,
+    /// Whether the caller leads the agent.
     pub(super) led: bool,
 }
 
-impl Course {
-    /// Somebody who walks no route.
-    pub(super) fn onlooker(id: u32, heading: Heading) -> Course {
-        Course {
+impl WalkState {
+    /// The state of an agent at the beginning of the first route.
+    pub(super) fn new(id: u32, heading: Heading) -> WalkState {
+        WalkState {
             id,
             route: 0,
             leg: 0,
@@ -115,43 +136,44 @@ impl Course {
             end_m: Vec2::ZERO,
             wanted: [1.0, 0.0],
             looks: 0,
-            pace: 0.0,
+            pace: 1.0,
             heading,
             arrived: false,
             arrived_before: 0,
             yields_s: 0.0,
             blocked_s: 0.0,
-            errand: None,
-            led: true,
+            visit: None,
+            led: false,
         }
     }
 
-    /// Turns the body where it goes, or where it faces while it stands or shuffles.
-    pub(super) fn turn(&mut self, body: &Body, dt: f32) {
-        let faced = self.errand.and_then(|errand| errand.faces(body.x, body.y));
+    /// Turns the heading towards the velocity, or while standing towards what the agent faces.
+    pub(super) fn turn(&mut self, body: &BodyState, dt: f32) {
+        let faced = self.visit.and_then(|target| target.faces(body.x, body.y));
         self.heading.follow(body, faced.unwrap_or([body.aim_x, body.aim_y]), dt);
     }
 
-    /// Share of the exclusion distance that the person claims: those who block each other turn sideways after a while
-    /// and squeeze past, as in a passage for one.
+    /// Share of the exclusion distance that the agent claims, 0.35 to 1.
+    ///
+    /// People who block each other turn sideways after a while and squeeze past.
     pub(super) fn squeeze(&self) -> f32 {
         (1.0 - (self.blocked_s - SQUEEZE_AFTER_S) / SQUEEZE_OVER_S).clamp(SQUEEZED, 1.0)
     }
 }
 
-/// People who block each other wait so long, seconds, ...
+/// Time for which blocked people wait before they squeeze past, seconds.
 const SQUEEZE_AFTER_S: f32 = 4.0;
-/// ... then get thinner over so long, seconds ...
+/// Time over which their exclusion distance shrinks, seconds.
 const SQUEEZE_OVER_S: f32 = 8.0;
-/// ... down to this share of their exclusion distance.
+/// Least share of the exclusion distance.
 const SQUEEZED: f32 = 0.35;
 
-/// Whoever is faster than this faces the way that they go, metres per second; whoever stands, where they want to go.
+/// Speed above which a body faces along its velocity, metres per second.
 const WALKING_M_S: f32 = 0.25;
-/// A body turns at most this fast, radians per second: half a turn takes 1.3 s.
+/// Largest angular velocity of a body, radians per second: half a turn takes 1.3 s.
 const FASTEST_TURN_RAD_S: f32 = 2.4;
 
-/// Where a body faces: a unit vector.
+/// Unit vector in which a body faces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Heading {
     x: f32,
@@ -167,8 +189,8 @@ impl Heading {
         vec2(f64::from(self.x), f64::from(self.y))
     }
 
-    /// Turns where the body goes, or to `faced` while it stands, as far as it gets in `dt` seconds.
-    pub(super) fn follow(&mut self, body: &Body, faced: [f32; 2], dt: f32) {
+    /// Turns towards the velocity, or towards `faced` while the body stands, as far as `dt` seconds allow.
+    pub(super) fn follow(&mut self, body: &BodyState, faced: [f32; 2], dt: f32) {
         let speed = (body.vx * body.vx + body.vy * body.vy).sqrt();
         let wanted = if speed > WALKING_M_S { [body.vx / speed, body.vy / speed] } else { faced };
         let cos = self.x * wanted[0] + self.y * wanted[1];

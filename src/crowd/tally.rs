@@ -1,4 +1,4 @@
-//! What became of everybody.
+//! Counts of people who entered, arrived and got stuck.
 
 use std::path::Path;
 
@@ -7,39 +7,32 @@ use super::stops::StopTally;
 use crate::math::Vec2;
 use crate::routes::Route;
 
-/// Of those who got stuck, so many are named one by one.
+/// Number of stuck people who are named one by one.
 const NAMED: usize = 5;
 
-/// Those who have walked a route to its end.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Trail {
-    pub(super) arrived: u64,
-    pub(super) last_arrived_s: f64,
-}
-
-/// What became of everybody.
+/// Counts of people, stops and units of a simulation.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tally {
-    /// How many entered.
+    /// Number of people who entered.
     pub entered: u64,
-    /// How many reached their goal.
+    /// Number of people who reached their goal.
     pub arrived: u64,
-    /// Who made no way any more and was taken out.
+    /// People who got stuck and were taken out.
     pub stuck: Vec<Stuck>,
-    /// What happened at each stop, in the order in which routes first name them.
+    /// Counts of visits stop by stop, in the order in which routes first name them.
     pub stops: Vec<StopTally>,
-    /// How units were played at each spot.
+    /// Reports of the units played, spot by spot.
     pub spots: Vec<SpotReport>,
 }
 
 impl Tally {
-    /// Says who got stuck where, which picture shows it, and at which stops more people came than find room.
+    /// Warnings: who got stuck where, which picture shows it, at which stops there was not enough room.
     pub fn describe(&self, routes: &[Route], picture: Option<&Path>) -> Vec<String> {
         let mut lines: Vec<String> = self.stuck.iter().take(NAMED).map(|stuck| stuck.describe(routes)).collect();
         if !self.stuck.is_empty() {
             let others = self.stuck.len().saturating_sub(NAMED);
             let others = if others > 0 { format!("{others} others got stuck too; ") } else { String::new() };
-            let place = picture.map_or("the picture of --paths FILE".to_string(), |path| path.display().to_string());
+            let place = picture.map_or("the picture of the paths".to_string(), |path| path.display().to_string());
             lines.push(format!("{others}{place} marks the places where people got stuck"));
         }
         lines.extend(self.stops.iter().filter_map(StopTally::warning));
@@ -48,21 +41,21 @@ impl Tally {
     }
 }
 
-/// Somebody who made no way any more.
+/// A person who got stuck: no progress for longer than the patience.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Stuck {
-    /// Who.
+    /// Number of the person.
     pub id: u32,
-    /// Where, metres.
+    /// Place, metres.
     pub place_m: Vec2,
     /// Index of the route.
     pub route: usize,
-    /// Name of the stop where they were, or where they wanted to go.
+    /// Name of the stop where the person was, or was going.
     pub stop: Option<String>,
 }
 
 impl Stuck {
-    /// Says who and where.
+    /// Message: person, route, place, stop.
     pub fn describe(&self, routes: &[Route]) -> String {
         let route = routes.get(self.route).map_or("unknown", |route| &route.name);
         let stop = self.stop.as_ref().map_or(String::new(), |stop| format!(", for the stop \"{stop}\""));

@@ -1,16 +1,17 @@
-//! Routes for plans that come without any.
+//! Default routes, for plans without any.
 
+use super::draft::RouteDraft;
 use super::ground::Ground;
-use super::navigation::{FieldStore, LegEnd, Plot};
+use super::legs::{FieldStore, LegEnd};
 use super::{Place, RoutesError, targets};
 use crate::math::vec2;
 use crate::plan::{FloorPlan, Opening};
 
-/// Default routes join this many places at most: 12 routes, there and back.
+/// Largest number of places that default routes join: 12 routes, there and back.
 const MOST_PLACES: usize = 4;
-/// A part of the floor must be this large for default routes, square metres.
+/// Least area of a part of the floor with default routes, square metres.
 const LEAST_PART_M2: f64 = 1.0;
-/// Places that stand in for openings are squares of this half side, metres.
+/// Half side of the squares that stand in for openings, metres.
 const STAND_IN_REACH_M: f64 = 1.5;
 /// They lie where ways of this clearance lead, metres: through doors, but not between chairs, ...
 const ROOMY_M: f64 = 0.34;
@@ -20,12 +21,12 @@ const ROOMY_SHARE: f64 = 0.3;
 const LEAST_APART_M: f64 = 2.0;
 /// ... and this share of the longest walk.
 const APART_SHARE: f64 = 0.3;
-/// Where there are several openings, only what is so many times farther from them than they are from each other.
+/// Least distance of a stand-in from several openings, as a multiple of their distance from each other.
 const BEYOND_OPENINGS: f64 = 1.5;
-/// Widths count for shares between these, metres.
+/// Range to which widths are clamped for shares, metres.
 const SHARE_WIDTHS_M: [f64; 2] = [0.6, 8.0];
 
-struct Stop {
+struct Endpoint {
     place: Place,
     name: String,
     width_m: f64,
@@ -34,12 +35,16 @@ struct Stop {
 
 /// Joins the widest openings, all pairs in both directions. Where there are fewer than two, or where they lie close
 /// together at the edge of a large floor, places far apart join them. A pair's share is the product of its widths.
-pub(super) fn plots(plan: &FloorPlan, ground: &Ground, fields: &mut FieldStore<'_>) -> Result<Vec<Plot>, RoutesError> {
-    let stops = with_far_places(plan, ground, fields, widest_openings(plan, ground))?;
-    let mut plots = Vec::new();
-    for from in &stops {
-        for to in stops.iter().filter(|to| to.part == from.part && to.place != from.place) {
-            plots.push(Plot {
+pub(super) fn drafts(
+    plan: &FloorPlan,
+    ground: &Ground,
+    fields: &mut FieldStore<'_>,
+) -> Result<Vec<RouteDraft>, RoutesError> {
+    let endpoints = with_far_places(plan, ground, fields, widest_openings(plan, ground))?;
+    let mut drafts = Vec::new();
+    for from in &endpoints {
+        for to in endpoints.iter().filter(|to| to.part == from.part && to.place != from.place) {
+            drafts.push(RouteDraft {
                 name: format!("{} to {}", from.name, to.name),
                 place_names: vec![from.name.clone(), to.name.clone()],
                 start: from.place,
@@ -51,42 +56,42 @@ pub(super) fn plots(plan: &FloorPlan, ground: &Ground, fields: &mut FieldStore<'
             });
         }
     }
-    Ok(plots)
+    Ok(drafts)
 }
 
-/// All openings that somebody fits through.
-fn opening_stops(plan: &FloorPlan, ground: &Ground) -> Vec<Stop> {
-    let stop = |(index, opening): (usize, &Opening)| {
+/// All openings that are wide enough for a person.
+fn opening_endpoints(plan: &FloorPlan, ground: &Ground) -> Vec<Endpoint> {
+    let endpoint = |(index, opening): (usize, &Opening)| {
         let place = Place::Opening(index);
         let cell = *targets::cells(plan, ground, place).first()?;
         let width_m = opening.width_m().clamp(SHARE_WIDTHS_M[0], SHARE_WIDTHS_M[1]);
-        Some(Stop { place, name: opening.name.clone(), width_m, part: ground.part(cell) })
+        Some(Endpoint { place, name: opening.name.clone(), width_m, part: ground.part(cell) })
     };
-    plan.openings.iter().enumerate().filter_map(stop).collect()
+    plan.openings.iter().enumerate().filter_map(endpoint).collect()
 }
 
 /// The widest openings that have another one within walking distance.
-fn widest_openings(plan: &FloorPlan, ground: &Ground) -> Vec<Stop> {
-    let mut stops = opening_stops(plan, ground);
-    let width = |s: &Stop| match s.place {
+fn widest_openings(plan: &FloorPlan, ground: &Ground) -> Vec<Endpoint> {
+    let mut endpoints = opening_endpoints(plan, ground);
+    let width = |s: &Endpoint| match s.place {
         Place::Opening(index) => plan.openings[index].width_m(),
         Place::Area(_) => 0.0,
     };
-    stops.sort_by(|a, b| width(b).total_cmp(&width(a)));
+    endpoints.sort_by(|a, b| width(b).total_cmp(&width(a)));
     // Taking one away may leave its partner without any, so until nothing changes.
     loop {
-        let lonely = |stops: &[Stop], part: u16| stops.iter().filter(|s| s.part == part).count() < 2;
-        let among = stops.len().min(MOST_PLACES);
-        match (0..among).find(|&k| lonely(&stops[..among], stops[k].part)) {
+        let lonely = |endpoints: &[Endpoint], part: u16| endpoints.iter().filter(|s| s.part == part).count() < 2;
+        let among = endpoints.len().min(MOST_PLACES);
+        match (0..among).find(|&k| lonely(&endpoints[..among], endpoints[k].part)) {
             // Lonely among the widest only: its partner is a narrower one, not worth a place.
             Some(k) => {
-                stops.remove(k);
+                endpoints.remove(k);
             }
             None => break,
         }
     }
-    stops.truncate(MOST_PLACES);
-    stops
+    endpoints.truncate(MOST_PLACES);
+    endpoints
 }
 
 /// Adds places as far as possible by walking distance from those that there are.
@@ -94,60 +99,60 @@ fn with_far_places(
     plan: &FloorPlan,
     ground: &Ground,
     fields: &mut FieldStore<'_>,
-    mut stops: Vec<Stop>,
-) -> Result<Vec<Stop>, RoutesError> {
-    let part = match stops.first() {
-        Some(stop) => stop.part,
+    mut endpoints: Vec<Endpoint>,
+) -> Result<Vec<Endpoint>, RoutesError> {
+    let part = match endpoints.first() {
+        Some(endpoint) => endpoint.part,
         None => largest_part(ground)?,
     };
-    if stops.iter().any(|s| s.part != part) {
-        return Ok(stops); // several floors with openings of their own
+    if endpoints.iter().any(|s| s.part != part) {
+        return Ok(endpoints); // several floors with openings of their own
     }
     let cells = roomy_cells(ground, part);
-    if stops.is_empty() {
-        stops.extend(lone_opening(plan, ground, part));
+    if endpoints.is_empty() {
+        endpoints.extend(lone_opening(plan, ground, part));
     }
-    let openings = stops.len();
+    let openings = endpoints.len();
     if openings == 0 {
         // The end of a longest walk: the place farthest from anywhere.
         let anywhere = targets::cells(plan, ground, stand_in(ground, cells[0]));
         let field = fields.measure(ground, &anywhere)?;
         let far = farthest(&cells, |k| field.of_cell(cells[k]));
-        stops.push(named(stand_in(ground, far.0), 1, part));
+        endpoints.push(named(stand_in(ground, far.0), 1, part));
     }
     let mut nearest_m = vec![f64::INFINITY; cells.len()];
     let mut longest_m: f64 = 0.0;
     let mut measured = 0;
-    while stops.len() < MOST_PLACES {
-        for k in measured..stops.len() {
-            let end = LegEnd { place: stops[k].place, last: true };
+    while endpoints.len() < MOST_PLACES {
+        for k in measured..endpoints.len() {
+            let end = LegEnd { place: endpoints[k].place, last: true };
             fields.fill(plan, ground, [end].into_iter())?;
             let field = fields.get(end);
             for (nearest, &cell) in nearest_m.iter_mut().zip(&cells) {
                 *nearest = nearest.min(field.of_cell(cell));
             }
-            for other in &stops[..k] {
+            for other in &endpoints[..k] {
                 let there = targets::cells(plan, ground, other.place);
                 longest_m = there.first().map_or(longest_m, |&c| longest_m.max(field.of_cell(c)));
             }
         }
-        measured = stops.len();
+        measured = endpoints.len();
         let (cell, distance_m) = farthest(&cells, |k| nearest_m[k]);
-        let apart_m = match stops.len() {
+        let apart_m = match endpoints.len() {
             1 => 0.0,
             count if count == openings => BEYOND_OPENINGS * longest_m,
             _ => LEAST_APART_M.max(APART_SHARE * longest_m),
         };
         let place = stand_in(ground, cell);
-        if distance_m < apart_m || stops.iter().any(|s| s.place == place) {
+        if distance_m < apart_m || endpoints.iter().any(|s| s.place == place) {
             break;
         }
-        stops.push(named(place, stops.len() + 1 - openings, part));
+        endpoints.push(named(place, endpoints.len() + 1 - openings, part));
     }
-    if stops.len() < 2 {
+    if endpoints.len() < 2 {
         return Err(RoutesError::NoRoom { largest_m2: ground.part_area_m2(part) });
     }
-    Ok(stops)
+    Ok(endpoints)
 }
 
 /// Where places for everybody may lie: what of a part of the floor can be walked to through ways of [`ROOMY_M`] to
@@ -196,12 +201,12 @@ fn largest_part(ground: &Ground) -> Result<u16, RoutesError> {
 }
 
 /// The only opening of a part of the floor.
-fn lone_opening(plan: &FloorPlan, ground: &Ground, part: u16) -> Option<Stop> {
-    opening_stops(plan, ground).into_iter().find(|stop| stop.part == part)
+fn lone_opening(plan: &FloorPlan, ground: &Ground, part: u16) -> Option<Endpoint> {
+    opening_endpoints(plan, ground).into_iter().find(|endpoint| endpoint.part == part)
 }
 
-fn named(place: Place, number: usize, part: u16) -> Stop {
-    Stop { place, name: format!("place {number}"), width_m: 2.0 * STAND_IN_REACH_M, part }
+fn named(place: Place, number: usize, part: u16) -> Endpoint {
+    Endpoint { place, name: format!("place {number}"), width_m: 2.0 * STAND_IN_REACH_M, part }
 }
 
 /// The cell of the largest finite value, the first of equals, and the value.

@@ -1,18 +1,18 @@
 use crate::math::Vec2;
 
-/// Why the `routes` stage cannot go on.
+/// Errors of the routes stage.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RoutesError {
-    /// Stopped by the user.
+    /// The user stopped the work.
     #[error("interrupted")]
     Interrupted,
-    /// A name that no opening bears.
+    /// Unknown name of an opening.
     #[error("route \"{route}\": the plan has no opening called \"{name}\"{}", list(.openings))]
     UnknownOpening {
-        /// The route that asks for it.
+        /// The route that uses it.
         route: String,
-        /// What was asked for.
+        /// The unknown name.
         name: String,
         /// The name most like it.
         nearest: Option<String>,
@@ -22,38 +22,38 @@ pub enum RoutesError {
     /// A point or an area without a place to stand.
     #[error("route \"{route}\": {role} {place} (px [{:.0}, {:.0}]) is not on floor{}", at_px[0], at_px[1], nearest_floor(.nearest))]
     NotOnFloor {
-        /// The route that asks for it.
+        /// The route that uses it.
         route: String,
         /// `from`, `to` or `via`.
         role: &'static str,
-        /// The place as asked for.
+        /// The requested place.
         place: String,
         /// The place, or the middle of the area, in the image, pixels from the top left.
         at_px: [f64; 2],
         /// The nearest place to stand.
-        nearest: Option<Box<Spot>>,
+        nearest: Option<Box<FloorPoint>>,
     },
-    /// A coordinate far beyond any plan, or none.
+    /// A coordinate far beyond any plan, or not a number.
     #[error(
         "route \"{route}\": {role} {place} holds the coordinate {value} m, allowed is -{most} to {most}",
         most = crate::plan::LARGEST_COORDINATE
     )]
     TooFar {
-        /// The route that asks for it.
+        /// The route that uses it.
         route: String,
         /// `from`, `to` or `via`.
         role: &'static str,
-        /// The place as asked for.
+        /// The requested place.
         place: String,
         /// The coordinate, metres.
         value: f64,
     },
-    /// A stop that the scenario does not have.
+    /// Unknown name of a stop.
     #[error("route \"{route}\": there is no stop called \"{name}\"")]
     UnknownStop {
-        /// The route that asks for it.
+        /// The route that uses it.
         route: String,
-        /// What was asked for.
+        /// The unknown name.
         name: String,
         /// The name most like it.
         nearest: Option<String>,
@@ -71,22 +71,22 @@ pub enum RoutesError {
         stop: String,
         /// The key, as a scenario writes it.
         key: &'static str,
-        /// What is wrong.
+        /// The problem.
         problem: String,
     },
-    /// A timetable that says nothing sensible.
+    /// An invalid timetable.
     #[error("route \"{route}\": arrivals: {key}: {problem}")]
     Timetable {
         /// The route.
         route: String,
         /// The key, as a scenario writes it.
         key: &'static str,
-        /// What is wrong.
+        /// The problem.
         problem: String,
     },
     /// A stop without a place to stand.
     #[error(
-        "stop \"{stop}\": {key}: nobody can stand at [{:.2}, {:.2}]{}", .place_m.x, .place_m.y, nearest_place(.nearest_m)
+        "stop \"{stop}\": {key}: there is no floor to stand on at [{:.2}, {:.2}]{}", .place_m.x, .place_m.y, nearest_place(.nearest_m)
     )]
     StopNotOnFloor {
         /// The stop.
@@ -101,7 +101,7 @@ pub enum RoutesError {
     /// A stop that walls enclose.
     #[error("route \"{route}\": no way leads to the stop \"{stop}\" at [{:.2}, {:.2}]", .place_m.x, .place_m.y)]
     StopUnreachable {
-        /// The route that asks for it.
+        /// The route that uses it.
         route: String,
         /// The stop.
         stop: String,
@@ -114,9 +114,9 @@ pub enum RoutesError {
         /// The route.
         route: String,
         /// Where the way begins.
-        from: Box<Spot>,
+        from: Box<FloorPoint>,
         /// Where it should lead.
-        to: Box<Spot>,
+        to: Box<FloorPoint>,
         /// The narrowest place of the widest way between them, if only that is in the way.
         gap: Option<Gap>,
     },
@@ -128,24 +128,24 @@ pub enum RoutesError {
         /// Start and goal.
         place: String,
     },
-    /// A share that is negative or no number.
+    /// A share that is negative or not finite.
     #[error("route \"{route}\": the share {share} is not a number of 0 or more")]
     Share {
         /// The route.
         route: String,
-        /// What was asked for.
+        /// The requested share.
         share: f64,
     },
-    /// Nobody takes any route.
+    /// All shares are 0.
     #[error("the shares of all {routes} routes are 0")]
     NoShares {
-        /// How many routes there are.
+        /// Number of routes.
         routes: usize,
     },
-    /// More routes than can be kept.
-    #[error("{routes} routes are asked for, at most {most} are possible")]
+    /// Too many routes.
+    #[error("{routes} routes are requested, at most {most} are possible")]
     TooMany {
-        /// How many routes are asked for.
+        /// Number of routes requested.
         routes: usize,
         /// The limit.
         most: usize,
@@ -158,10 +158,10 @@ pub enum RoutesError {
     },
 }
 
-/// A place on the floor, as messages tell of it.
+/// A place on the floor, for messages.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Spot {
-    /// What the scenario or the program calls it.
+pub struct FloorPoint {
+    /// Name of the place; may be empty.
     pub name: String,
     /// Where it is, metres.
     pub at_m: Vec2,
@@ -171,9 +171,9 @@ pub struct Spot {
     pub part_m2: f64,
 }
 
-impl std::fmt::Display for Spot {
+impl std::fmt::Display for FloorPoint {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Spot { name, at_m, at_px, part_m2 } = self;
+        let FloorPoint { name, at_m, at_px, part_m2 } = self;
         if !name.is_empty() {
             write!(f, "{name}, ")?;
         }
@@ -189,12 +189,12 @@ pub struct Gap {
     pub at_m: Vec2,
     /// Where it is in the image, pixels from the top left.
     pub at_px: [f64; 2],
-    /// About how wide it is, metres.
+    /// Approximate width, metres.
     pub width_m: f64,
 }
 
 impl RoutesError {
-    /// What the user can do about it.
+    /// A remedy in words, if there is one.
     pub fn hint(&self) -> Option<String> {
         match self {
             RoutesError::UnknownOpening { nearest: Some(nearest), .. }
@@ -215,7 +215,7 @@ impl RoutesError {
                 Some("`trodden inspect PLAN` draws what was taken for wall and floor; open a door to it".into())
             }
             RoutesError::Unreachable { gap: Some(_), .. } => Some(
-                "widen it in the image to 0.5 m or more, or check the scale (metres per pixel): nobody fits through less \
+                "widen it in the image to 0.5 m or more, or check the scale (metres per pixel): no person fits through less \
                   than 0.4 m"
                     .into(),
             ),
@@ -244,7 +244,7 @@ fn nearest_place(nearest_m: &Option<Vec2>) -> String {
     nearest_m.map_or_else(String::new, |p| format!("; the nearest floor is at [{:.2}, {:.2}]", p.x, p.y))
 }
 
-fn nearest_floor(nearest: &Option<Box<Spot>>) -> String {
+fn nearest_floor(nearest: &Option<Box<FloorPoint>>) -> String {
     nearest.as_ref().map_or(String::new(), |spot| format!("; the nearest floor is at {spot}"))
 }
 

@@ -1,13 +1,13 @@
 use super::field::Field;
 use super::ground::Ground;
 use super::lattice::BLOCK_CELLS;
-use super::sheet::{NONE, Sheet};
+use super::sheet::{ConductiveSheet, NONE};
 use crate::math::{Vec2, vec2};
 
-/// Detours that hardly anybody makes: this many metres, and this share of the way ...
+/// Longest detour that the flow spreads over: metres, plus a share of the way.
 const DETOUR_M: f64 = 4.0;
 const DETOUR_SHARE: f64 = 0.16;
-/// ... but no more than so many metres.
+/// Limit of the sum of both, metres.
 const MOST_DETOUR_M: f64 = 24.0;
 /// Along a wall so much less room is used than in the open, from this distance to that one, metres.
 const WALL_SHARE: f64 = 0.04;
@@ -23,10 +23,10 @@ const DOWN_SHARE: f64 = 0.003;
 /// what the sheet conducts there is left, from the second share on all of it.
 const SLACK: [f64; 2] = [0.65, 0.95];
 const SLACK_LEAVES: f64 = 0.02;
-/// What counts as around: about 1.5 tiles of about this side, metres.
+/// Side of the tiles for means around a cell, metres: means reach about 1.5 tiles far.
 const AROUND_M: f64 = 1.0;
 
-/// How people spread over all the sensible ways from one place to another: a direction for every cell on them.
+/// Flow of people over all the sensible ways from one place to another: a direction for every cell.
 ///
 /// Potential flow: people set out evenly from the start's cells and spread as a current does in a sheet,
 /// `div(s grad p) = source`, with `p = 0` at the goal. They fill a corridor evenly over its width, fan out in a hall,
@@ -38,9 +38,9 @@ const AROUND_M: f64 = 1.0;
 /// where it is slack the first time, the sheet conducts little the second time.
 #[derive(Debug)]
 pub(crate) struct Flow {
-    /// Where each of the lattice's blocks begins in `ahead`, or [`NONE`].
+    /// Index in `ahead` at which each of the lattice's blocks begins, or [`NONE`].
     first: Vec<u32>,
-    /// Unit vectors times 127; null where nobody is expected.
+    /// Unit vectors times 127; null beside the flow.
     ahead: Vec<[i8; 2]>,
 }
 
@@ -63,14 +63,14 @@ impl Flow {
         };
         let loose: Vec<f64> = cells.iter().map(|&cell| conducts(cell)).collect();
         let guess = cells.iter().map(|&cell| to.of_cell(cell)).collect();
-        let mut sheet = Sheet::new(&ground.lattice, cells, &loose, |cell| to.of_cell(cell) <= 0.0);
+        let mut sheet = ConductiveSheet::new(&ground.lattice, cells, &loose, |cell| to.of_cell(cell) <= 0.0);
         let first = sheet.potential(&seeds, guess);
         sheet.conduct(&tightened(&sheet, &loose, &first, ground.lattice.cell_m()));
         let potential = sheet.potential(&seeds, first);
         Flow::of_currents(ground, to, &sheet, sheet.currents(&potential))
     }
 
-    fn of_currents(ground: &Ground, to: &Field, sheet: &Sheet, currents: Vec<Vec2>) -> Flow {
+    fn of_currents(ground: &Ground, to: &Field, sheet: &ConductiveSheet, currents: Vec<Vec2>) -> Flow {
         let lattice = &ground.lattice;
         let mut first = vec![NONE; lattice.len() / BLOCK_CELLS];
         let mut ahead = Vec::new();
@@ -91,7 +91,7 @@ impl Flow {
         Flow { first, ahead }
     }
 
-    /// The unit vector along the flow at `p`, if anybody is expected to pass there.
+    /// Unit vector along the flow at `p`; `None` beside the flow.
     #[inline]
     pub(crate) fn at(&self, ground: &Ground, p: Vec2) -> Option<Vec2> {
         let mut sum = Vec2::ZERO;
@@ -108,8 +108,8 @@ impl Flow {
     }
 }
 
-/// What a sheet conducts that conducted `loose`, with slack places left aside.
-fn tightened(sheet: &Sheet, loose: &[f64], potential: &[f64], cell_m: f64) -> Vec<f64> {
+/// Conductances of a sheet that had `loose` ones, reduced at slack places.
+fn tightened(sheet: &ConductiveSheet, loose: &[f64], potential: &[f64], cell_m: f64) -> Vec<f64> {
     let slopes = sheet.slopes(potential);
     let currents: Vec<f64> = slopes.iter().zip(loose).map(|(slope, conducts)| slope * conducts).collect();
     let side =

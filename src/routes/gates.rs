@@ -5,7 +5,7 @@ use super::ribbon::{STEP_M, Station};
 
 /// Farthest that two gates lie apart, metres.
 const SPACING_M: f64 = 3.5;
-/// How far the straight border between two gates may lie outside of the ribbon's, metres.
+/// Largest distance of the straight border between two gates outside of the ribbon's, metres.
 const TOLERANCE_M: f64 = 0.12;
 /// Cosine of the largest turn between two gates.
 const LEAST_COS: f64 = 0.906; // 25 degrees

@@ -9,7 +9,7 @@ use crate::walls::{APRON_M, Walls};
 
 /// Clearances beyond this are stored as this, metres.
 pub(crate) const CLEARANCE_LIMIT_M: f64 = 3.0;
-/// How finely the ground is measured, and how near to walls the narrowest person goes.
+/// Resolution of the ground: side of a cell, and least clearance of the narrowest person.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fineness {
     /// Side of a cell, metres.
@@ -31,8 +31,9 @@ const SIDEWAYS_CELL_M: f64 = 0.06;
 const SIDEWAYS_FLOOR_M2: f64 = 15_000.0;
 
 impl Fineness {
-    /// What to try on a plan, in order, until every route leads to its goal: cells as coarse as the floor is large,
-    /// cells that see every narrow passage, and people who squeeze.
+    /// Resolutions to try in order until every route leads to its goal.
+    ///
+    /// First cells as coarse as the floor is large, then cells that see every narrow passage, last people who squeeze.
     pub(crate) fn attempts(plan: &FloorPlan) -> Vec<Fineness> {
         let pixel_m2 = plan.metres_per_pixel * plan.metres_per_pixel;
         let floor_m2 = plan.floor.iter().filter(|&&f| f != 0).count() as f64 * pixel_m2;
@@ -48,16 +49,16 @@ impl Fineness {
     }
 }
 
-/// The walked space (floor and aprons) as cells that know how far the nearest wall is.
+/// Walkable floor and aprons in cells, with the distance to the nearest wall.
 #[derive(Debug)]
 pub(crate) struct Ground {
     pub(crate) lattice: Lattice,
     /// Distance from the cell's middle to the nearest wall, metres, at most [`CLEARANCE_LIMIT_M`]; 0 where no
     /// floor is.
     clearance_m: Vec<f32>,
-    /// Connected part that a walkable cell belongs to, counted from 1; 0 where nobody can stand.
+    /// Connected part that a walkable cell belongs to, counted from 1; 0 where no body has room.
     part: Vec<u16>,
-    /// How near a wall bodies have to be allowed here, see [`Ground::gap_limit_m`].
+    /// Distance from walls that can be kept in each cell, see [`Ground::gap_limit_m`].
     gap_limit_m: Vec<f32>,
     /// Plan and aprons, less a margin.
     extent: Rect,
@@ -65,7 +66,7 @@ pub(crate) struct Ground {
 
 /// People make themselves narrow from this distance to a narrow place on, metres.
 const GAP_REACH_M: f64 = 0.7;
-/// Clearance from which on nobody has to come near a wall for want of room, metres.
+/// Clearance from which on walls leave plenty of room, metres.
 const PLENTY_M: f32 = 0.9;
 /// The distance from walls that can be kept there, metres: more than the 0.5 m of the Grime paper.
 const KEPT_M: f32 = 0.55;
@@ -93,7 +94,7 @@ impl Ground {
         self.part[cell] != 0
     }
 
-    /// Connected part that a cell belongs to, counted from 1; 0 where nobody can stand.
+    /// Connected part that a cell belongs to, counted from 1; 0 where no body has room.
     pub(crate) fn part(&self, cell: usize) -> u16 {
         self.part[cell]
     }
@@ -162,7 +163,7 @@ impl Ground {
         best.map(|b| b.1)
     }
 
-    /// Whether nobody's straight way from `a` to `b` meets a wall; exact, but mostly answered from clearances.
+    /// Whether the straight line from `a` to `b` meets no wall; exact, but mostly answered from clearances.
     #[inline]
     pub(crate) fn sight(&self, walls: &Walls, a: Vec2, b: Vec2) -> bool {
         let distance = a.distance(b);
@@ -355,7 +356,7 @@ fn parts(lattice: &Lattice, clearance_m: &[f32], least_clearance_m: f64) -> Vec<
     part
 }
 
-/// How near a wall bodies have to be allowed in each cell: [`KEPT_M`] in the open.
+/// Distance from walls that can be kept in each cell, metres: [`KEPT_M`] in the open.
 ///
 /// Half way between two walls that are `2 c` apart, as in a door, `0.71 c - 0.13` (0.15 m in a door of 0.8 m, so that
 /// two people pass each other), at least 0.1 m, and as much on all ways to there from [`GAP_REACH_M`] on: whoever keeps

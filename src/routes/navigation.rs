@@ -2,27 +2,29 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::draft::RouteDraft;
 use super::field::Field;
 use super::flow::Flow;
 use super::ground::{Fineness, Ground};
-use super::ribbon::End;
+use super::legs::{FieldStore, LegEnd, leg_ends};
+use super::ribbon::RibbonEnd;
 use super::stop::{RouteStop, Stop};
-use super::targets::{self, Asked};
+use super::targets::{self, PlaceUsage};
 use super::{
-    Gap, Place, PlaceRequest, Route, RouteRequest, RoutesError, RoutesOptions, Spot, Timetable, Via, ViaRequest,
-    defaults, gates, ribbon,
+    FloorPoint, Gap, Place, PlaceRequest, Route, RouteRequest, RoutesError, RoutesOptions, Via, ViaRequest, defaults,
+    gates, ribbon,
 };
 use crate::math::Vec2;
 use crate::plan::FloorPlan;
 use crate::walls::Walls;
 use crate::{Progress, Silent};
 
-/// More routes than this are a mistake.
+/// Largest number of routes.
 const MOST_ROUTES: usize = 1000;
 /// People keep within this of a place between start and goal that lies in the open, metres.
 const VIA_REACH_M: f64 = 2.5;
 
-/// What walking needs to know of a plan and its routes: the ground in cells, and the walking distance from
+/// Navigation data of a plan and its routes: the ground in cells, and the walking distance from
 /// everywhere to each place that a route leads to. Routes that lead to the same place share it.
 #[derive(Clone, Debug)]
 pub struct Navigation {
@@ -30,12 +32,12 @@ pub struct Navigation {
     pub(crate) fields: Vec<Arc<Field>>,
     pub(crate) flows: Vec<Arc<Flow>>,
     /// One for each route, in order.
-    pub(crate) ways: Vec<Way>,
+    pub(crate) ways: Vec<RouteLegs>,
 }
 
 /// A route as the crowd walks it.
 #[derive(Clone, Debug)]
-pub(crate) struct Way {
+pub(crate) struct RouteLegs {
     /// Cells on which people may appear.
     pub(crate) start_cells: Vec<usize>,
     /// Cells that count as the goal.
@@ -47,9 +49,9 @@ pub(crate) struct Way {
 /// The way from one place of a route to its next.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Leg {
-    /// Which field says how far it is.
+    /// Index of the distance field to its end.
     pub(crate) field: usize,
-    /// Which flow leads there.
+    /// Index of the flow that leads there.
     pub(crate) flow: usize,
 }
 
@@ -62,7 +64,7 @@ pub fn find(plan: &FloorPlan, walls: &Walls, options: &RoutesOptions) -> Result<
 }
 
 impl Navigation {
-    /// Finds the routes, and keeps what walking them needs: what [`find`] and [`Navigation::new`] do, once.
+    /// Finds the routes, and measures them: what [`find`] and [`Navigation::new`] do, once.
     ///
     /// # Errors
     /// As [`find`].
@@ -92,7 +94,7 @@ impl Navigation {
         })
     }
 
-    /// Measures what walking these routes needs.
+    /// Measures distance fields and flows of these routes.
     ///
     /// # Errors
     /// Routes that do not belong to this plan.
@@ -114,20 +116,20 @@ impl Navigation {
             return Err(RoutesError::TooMany { routes: asked.len(), most: MOST_ROUTES });
         }
         let mut fields = FieldStore::new(progress);
-        let mut plots: Vec<Plot> = if asked.is_empty() {
-            defaults::plots(plan, ground, &mut fields)?
+        let mut drafts: Vec<RouteDraft> = if asked.is_empty() {
+            defaults::drafts(plan, ground, &mut fields)?
         } else {
             let stops = stops(plan, walls, ground, options)?;
-            asked.iter().map(|request| plot(plan, ground, request, options, &stops)).collect::<Result<_, _>>()?
+            asked.iter().map(|request| draft(plan, ground, request, options, &stops)).collect::<Result<_, _>>()?
         };
-        let total: f64 = plots.iter().map(|p| p.share).sum();
+        let total: f64 = drafts.iter().map(|p| p.share).sum();
         if total <= 0.0 {
-            return Err(RoutesError::NoShares { routes: plots.len() });
+            return Err(RoutesError::NoShares { routes: drafts.len() });
         }
-        fields.fill(plan, ground, plots.iter().flat_map(Plot::legs))?;
-        turn_gates(ground, &fields, &mut plots);
+        fields.fill(plan, ground, drafts.iter().flat_map(RouteDraft::legs))?;
+        turn_gates(ground, &fields, &mut drafts);
         let routes: Result<Vec<Route>, RoutesError> =
-            plots.par_iter().map(|plot| lay_out(plan, ground, &fields, plot, plot.share / total)).collect();
+            drafts.par_iter().map(|draft| lay_out(plan, ground, &fields, draft, draft.share / total)).collect();
         Ok((routes?, fields))
     }
 
@@ -138,17 +140,16 @@ impl Navigation {
         mut fields: FieldStore<'_>,
     ) -> Result<Navigation, RoutesError> {
         fields.fill(plan, &ground, routes.iter().flat_map(route_legs))?;
-        let mut pairs: Vec<Pair> = Vec::new();
+        let mut pairs: Vec<LegEnds> = Vec::new();
         let ways =
             routes.iter().map(|route| way(plan, &ground, &fields, route, &mut pairs)).collect::<Result<_, _>>()?;
-        let flow = |pair: &Pair| {
-            fields.go_on()?;
+        let flow = |pair: &LegEnds| {
+            fields.keep_on()?;
             let starts = pair.from.cells(plan, &ground);
             Ok(Arc::new(Flow::new(&ground, &starts, fields.get(pair.to))))
         };
         let flows = pairs.par_iter().map(flow).collect::<Result<_, RoutesError>>()?;
-        let fields = fields.fields.into_iter().map(|f| f.1).collect();
-        Ok(Navigation { ground: Arc::new(ground), fields, flows, ways })
+        Ok(Navigation { ground: Arc::new(ground), fields: fields.into_fields(), flows, ways })
     }
 }
 
@@ -176,115 +177,25 @@ fn first_that_works<T>(
     Err(first_error.unwrap_or(RoutesError::NoRoom { largest_m2: 0.0 }))
 }
 
-/// A place that a leg leads to, and whether it is the route's last.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct LegEnd {
-    pub(super) place: Place,
-    pub(super) last: bool,
-}
-
-impl LegEnd {
-    /// The cells that count as this end.
-    fn cells(self, plan: &FloorPlan, ground: &Ground) -> Vec<usize> {
-        match self.last {
-            true => targets::cells(plan, ground, self.place),
-            false => targets::via_cells(plan, ground, self.place),
-        }
-    }
-}
-
 /// Both ends of a leg.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Pair {
+struct LegEnds {
     from: LegEnd,
     to: LegEnd,
-}
-
-/// The fields made so far.
-pub(super) struct FieldStore<'p> {
-    fields: Vec<(LegEnd, Arc<Field>)>,
-    progress: &'p dyn Progress,
-}
-
-impl FieldStore<'_> {
-    pub(super) fn new(progress: &dyn Progress) -> FieldStore<'_> {
-        FieldStore { fields: Vec::new(), progress }
-    }
-
-    /// An error once the user wants the work to stop.
-    fn go_on(&self) -> Result<(), RoutesError> {
-        if self.progress.interrupted() { Err(RoutesError::Interrupted) } else { Ok(()) }
-    }
-
-    /// The field to some cells, which is not kept.
-    pub(super) fn measure(&self, ground: &Ground, goal: &[usize]) -> Result<Field, RoutesError> {
-        Field::to_unless_interrupted(ground, goal, self.progress)
-    }
-
-    /// Makes the fields that are still missing, side by side.
-    pub(super) fn fill(
-        &mut self,
-        plan: &FloorPlan,
-        ground: &Ground,
-        wanted: impl Iterator<Item = LegEnd>,
-    ) -> Result<(), RoutesError> {
-        let mut missing: Vec<LegEnd> = Vec::new();
-        for end in wanted {
-            if !missing.contains(&end) && self.fields.iter().all(|f| f.0 != end) {
-                missing.push(end);
-            }
-        }
-        let make = |end: LegEnd| Ok((end, Arc::new(self.measure(ground, &end.cells(plan, ground))?)));
-        let made: Vec<_> = missing.into_par_iter().map(make).collect::<Result<_, RoutesError>>()?;
-        self.fields.extend(made);
-        Ok(())
-    }
-
-    fn index(&self, end: LegEnd) -> usize {
-        self.fields.iter().position(|f| f.0 == end).expect("filled with every leg before")
-    }
-
-    pub(super) fn get(&self, end: LegEnd) -> &Field {
-        &self.fields[self.index(end)].1
-    }
-}
-
-/// A route before its way is known.
-#[derive(Clone, Debug)]
-pub(super) struct Plot {
-    pub(super) name: String,
-    /// How messages call start, places between, and goal.
-    pub(super) place_names: Vec<String>,
-    pub(super) start: Place,
-    pub(super) via: Vec<Place>,
-    pub(super) stops: Vec<RouteStop>,
-    pub(super) arrivals: Option<Timetable>,
-    pub(super) goal: Place,
-    pub(super) share: f64,
-}
-
-impl Plot {
-    fn legs(&self) -> impl Iterator<Item = LegEnd> {
-        leg_ends(self.via.iter().copied(), self.goal)
-    }
 }
 
 fn route_legs(route: &Route) -> impl Iterator<Item = LegEnd> {
     leg_ends(route.via.iter().map(|v| v.place), route.goal)
 }
 
-fn leg_ends(via: impl Iterator<Item = Place>, goal: Place) -> impl Iterator<Item = LegEnd> {
-    via.map(|place| LegEnd { place, last: false }).chain([LegEnd { place: goal, last: true }])
-}
-
 /// Finds the places that a request names.
-fn plot(
+fn draft(
     plan: &FloorPlan,
     ground: &Ground,
     request: &RouteRequest,
     options: &RoutesOptions,
     stops: &[Stop],
-) -> Result<Plot, RoutesError> {
+) -> Result<RouteDraft, RoutesError> {
     let (passed, stopped) = split(request, options);
     let mut names: Vec<String> =
         [&request.from].into_iter().chain(passed.iter().copied()).chain([&request.to]).map(|p| p.describe()).collect();
@@ -292,7 +203,7 @@ fn plot(
     if !(request.share >= 0.0 && request.share.is_finite()) {
         return Err(RoutesError::Share { route: name, share: request.share });
     }
-    let place = |request, role| targets::place(plan, ground, request, Asked { route: &name, role });
+    let place = |request, role| targets::place(plan, ground, request, PlaceUsage { route: &name, role });
     let start = place(&request.from, "from")?;
     let via = passed.into_iter().map(|p| place(p, "via").map_err(|error| or_stop(error, stops)));
     let mut via = via.collect::<Result<Vec<_>, _>>()?;
@@ -328,7 +239,7 @@ fn plot(
         return Err(RoutesError::Timetable { route: name, key, problem });
     }
     let arrivals = request.arrivals.clone();
-    Ok(Plot { name, place_names: names, start, via, stops, arrivals, goal, share: request.share })
+    Ok(RouteDraft { name, place_names: names, start, via, stops, arrivals, goal, share: request.share })
 }
 
 /// The stops that a scenario describes, on the ground.
@@ -341,7 +252,7 @@ fn stops(plan: &FloorPlan, walls: &Walls, ground: &Ground, options: &RoutesOptio
     options.stops.iter().map(|stop| stop.resolve(plan, ground, walls)).collect()
 }
 
-/// What a request passes, and where it stops: name, share, number of places passed before.
+/// Places that a request passes, and its stops: name, share, number of places passed before.
 fn split<'r>(
     request: &'r RouteRequest,
     options: &RoutesOptions,
@@ -377,11 +288,11 @@ fn or_stop(error: RoutesError, stops: &[Stop]) -> RoutesError {
 }
 
 /// Turns ticket gates the way that the first route goes through them; all routes share them.
-fn turn_gates(ground: &Ground, fields: &FieldStore<'_>, plots: &mut [Plot]) {
+fn turn_gates(ground: &Ground, fields: &FieldStore<'_>, drafts: &mut [RouteDraft]) {
     let mut turned: Vec<Stop> = Vec::new();
-    for plot in plots {
-        let legs: Vec<LegEnd> = plot.legs().collect();
-        for on_route in &mut plot.stops {
+    for draft in drafts {
+        let legs: Vec<LegEnd> = draft.legs().collect();
+        for on_route in &mut draft.stops {
             if let Some(known) = turned.iter().find(|stop| stop.name == on_route.stop.name) {
                 on_route.stop = known.clone();
                 continue;
@@ -392,25 +303,25 @@ fn turn_gates(ground: &Ground, fields: &FieldStore<'_>, plots: &mut [Plot]) {
     }
 }
 
-/// Follows a plotted route and lays gates across its way.
+/// Follows a drafted route and lays gates across its way.
 fn lay_out(
     plan: &FloorPlan,
     ground: &Ground,
     fields: &FieldStore<'_>,
-    plot: &Plot,
+    draft: &RouteDraft,
     share: f64,
 ) -> Result<Route, RoutesError> {
     let unreachable = |leg: usize, from: Vec2| {
-        let to = plot.via.get(leg).copied().unwrap_or(plot.goal);
-        let names = [plot.place_names[leg].as_str(), plot.place_names[leg + 1].as_str()];
+        let to = draft.via.get(leg).copied().unwrap_or(draft.goal);
+        let names = [draft.place_names[leg].as_str(), draft.place_names[leg + 1].as_str()];
         let cells = [ground.walkable_near(from, 1.0), targets::cells(plan, ground, to).first().copied()];
-        no_way(plan, ground, &plot.name, names, cells)
+        no_way(plan, ground, &draft.name, names, cells)
     };
-    let start_cells = targets::cells(plan, ground, plot.start);
+    let start_cells = targets::cells(plan, ground, draft.start);
     let mut at = targets::middle(ground, &start_cells).unwrap_or_default();
     let mut line: Vec<Vec2> = Vec::new();
     let mut turns = Vec::new();
-    for (leg, end) in plot.legs().enumerate() {
+    for (leg, end) in draft.legs().enumerate() {
         let path = ribbon::trace(ground, fields.get(end), at).ok_or_else(|| unreachable(leg, at))?;
         at = path[path.len() - 1];
         let piece = ribbon::resample(&path);
@@ -418,14 +329,14 @@ fn lay_out(
         turns.push(line.len() - 1);
     }
     turns.pop();
-    let ends = [plot.start, plot.goal].map(|place| match place {
-        Place::Opening(index) => End::Opening(plan.openings.get(index).map_or(0.0, |o| o.width_m())),
-        Place::Area([min, max]) => End::Area(min.distance(max)),
+    let ends = [draft.start, draft.goal].map(|place| match place {
+        Place::Opening(index) => RibbonEnd::Opening(plan.openings.get(index).map_or(0.0, |o| o.width_m())),
+        Place::Area([min, max]) => RibbonEnd::Area(min.distance(max)),
     });
     let pinches: Vec<(usize, f64)> = turns.iter().map(|&k| (k, VIA_REACH_M)).collect();
     let stations = ribbon::measure(ground, &line, ends, &pinches);
     let (gates, at) = gates::lay(&stations, &turns);
-    let via = plot
+    let via = draft
         .via
         .iter()
         .zip(&turns)
@@ -433,12 +344,12 @@ fn lay_out(
         .collect();
     let length_m = line.windows(2).map(|w| w[0].distance(w[1])).sum();
     Ok(Route {
-        name: plot.name.clone(),
-        start: plot.start,
+        name: draft.name.clone(),
+        start: draft.start,
         via,
-        stops: plot.stops.clone(),
-        arrivals: plot.arrivals.clone(),
-        goal: plot.goal,
+        stops: draft.stops.clone(),
+        arrivals: draft.arrivals.clone(),
+        goal: draft.goal,
         share,
         gates,
         length_m,
@@ -450,7 +361,7 @@ fn no_way(plan: &FloorPlan, ground: &Ground, route: &str, names: [&str; 2], cell
     let spot = |end: usize| {
         Box::new(match cells[end] {
             Some(cell) => targets::spot(plan, ground, cell, names[end]),
-            None => Spot { name: names[end].into(), at_m: Vec2::ZERO, at_px: [0.0; 2], part_m2: 0.0 },
+            None => FloorPoint { name: names[end].into(), at_m: Vec2::ZERO, at_px: [0.0; 2], part_m2: 0.0 },
         })
     };
     let gap = match cells {
@@ -462,19 +373,19 @@ fn no_way(plan: &FloorPlan, ground: &Ground, route: &str, names: [&str; 2], cell
     RoutesError::Unreachable { route: route.into(), from: spot(0), to: spot(1), gap }
 }
 
-/// What the crowd needs of one route; pairs of places that no flow leads between yet are appended.
+/// Navigation data of one route; pairs of places without a flow are appended.
 fn way(
     plan: &FloorPlan,
     ground: &Ground,
     fields: &FieldStore<'_>,
     route: &Route,
-    pairs: &mut Vec<Pair>,
-) -> Result<Way, RoutesError> {
+    pairs: &mut Vec<LegEnds>,
+) -> Result<RouteLegs, RoutesError> {
     // People come from anywhere in the start.
     let mut from = LegEnd { place: route.start, last: true };
     let mut legs = Vec::with_capacity(route.via.len() + 1);
     for to in route_legs(route) {
-        let pair = Pair { from, to };
+        let pair = LegEnds { from, to };
         let flow = pairs.iter().position(|p| *p == pair).unwrap_or(pairs.len());
         if flow == pairs.len() {
             pairs.push(pair);
@@ -482,7 +393,7 @@ fn way(
         legs.push(Leg { field: fields.index(to), flow });
         from = to;
     }
-    let first_field = &fields.fields[legs[0].field].1;
+    let first_field = fields.of_index(legs[0].field);
     let start_cells: Vec<usize> =
         targets::cells(plan, ground, route.start).into_iter().filter(|&c| first_field.of_cell(c).is_finite()).collect();
     let goal_cells = targets::cells(plan, ground, route.goal);
@@ -491,5 +402,5 @@ fn way(
         let names = ["its start", "its goal"];
         return Err(no_way(plan, ground, &route.name, names, [start, goal_cells.first().copied()]));
     }
-    Ok(Way { start_cells, goal_cells, legs })
+    Ok(RouteLegs { start_cells, goal_cells, legs })
 }

@@ -3,11 +3,11 @@ use serde::{Deserialize, Serialize};
 use super::{StopRequest, Timetable};
 use crate::plan::PlanPoint;
 
-/// Which ways people take. Without any request, routes run between the widest openings.
+/// Requested routes and stops. Without any route, routes run between the widest openings.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RoutesOptions {
-    /// What is asked for; empty for the default routes.
+    /// Requested routes; empty for the default routes.
     pub routes: Vec<RouteRequest>,
     /// Places where people may stop; routes name them.
     pub stops: Vec<StopRequest>,
@@ -17,7 +17,7 @@ pub struct RoutesOptions {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RouteRequest {
-    /// What to call it; made of the places if left out.
+    /// Name; left out: made of the places.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Where people appear.
@@ -27,10 +27,10 @@ pub struct RouteRequest {
     /// Places to pass and stops on the way, in order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub via: Vec<ViaRequest>,
-    /// How many people take it, relative to the other routes' shares.
+    /// Share of the people who take it, relative to the other routes' shares; 0 or more.
     #[serde(default = "one")]
     pub share: f64,
-    /// When its people come; left out, as the whole crowd does.
+    /// Timetable of its people; left out, that of the whole crowd.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arrivals: Option<Timetable>,
 }
@@ -64,7 +64,7 @@ pub enum ViaRequest {
     Place(PlaceRequest),
 }
 
-/// A stop of a route, and who stops there.
+/// A stop of a route, and the share of people who stop there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SharedStop {
@@ -76,7 +76,7 @@ pub struct SharedStop {
 }
 
 impl ViaRequest {
-    /// The stop that this names among `stops`, and the share of people who stop there; `None` for a place to pass.
+    /// Name of the stop among `stops`, and the share of people who stop there; `None` for a place to pass.
     pub fn stop<'s>(&'s self, stops: &[StopRequest]) -> Option<(&'s str, f64)> {
         match self {
             ViaRequest::Stop(SharedStop { stop, share }) => Some((stop, *share)),
@@ -95,7 +95,7 @@ impl From<PlaceRequest> for ViaRequest {
 }
 
 impl PlaceRequest {
-    /// How messages call it.
+    /// Name of the place in messages.
     pub(super) fn describe(&self) -> String {
         match self {
             PlaceRequest::Opening(name) => name.clone(),

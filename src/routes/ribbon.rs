@@ -8,7 +8,7 @@ use crate::math::Vec2;
 pub(super) const STEP_M: f64 = 0.25;
 /// Bodies' middles keep this far off the walls at least, metres; less in narrow gaps.
 const WALL_MARGIN_M: f64 = 0.16;
-/// How far to either side of the middle line people spread where no wall limits them, metres.
+/// Half width of the ribbon where no wall limits it, metres.
 const SPREAD_M: f64 = 5.0;
 /// How much wider, on either side, the used way grows per metre walked: people fan out behind a door, they do not
 /// line up along the wall beside it.
@@ -28,28 +28,28 @@ pub(super) struct Station {
 }
 
 impl Station {
-    /// End of the usable way on the left (0) or right (1).
+    /// RibbonEnd of the usable way on the left (0) or right (1).
     pub(super) fn end(&self, side: usize) -> Vec2 {
         let sign = if side == 0 { 1.0 } else { -1.0 };
         self.middle_m + self.ahead.left() * (sign * self.extent_m[side])
     }
 }
 
-/// How wide a route is where it begins or ends, metres.
+/// Width of a route where it begins or ends, metres.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum End {
+pub(super) enum RibbonEnd {
     /// Everybody comes in or goes out over the whole width.
     Opening(f64),
     /// People come from or gather at a place in the open.
     Area(f64),
 }
 
-impl End {
+impl RibbonEnd {
     /// How far to either side people spread at this distance from the end, who would otherwise spread that far.
     fn limit(self, otherwise_m: f64, distance_m: f64) -> f64 {
         match self {
-            End::Opening(width_m) => otherwise_m.max(0.5 * width_m - FANNING * distance_m),
-            End::Area(width_m) => otherwise_m.min(0.5 * width_m + FANNING * distance_m),
+            RibbonEnd::Opening(width_m) => otherwise_m.max(0.5 * width_m - FANNING * distance_m),
+            RibbonEnd::Area(width_m) => otherwise_m.min(0.5 * width_m + FANNING * distance_m),
         }
     }
 }
@@ -122,7 +122,7 @@ pub(super) fn resample(path: &[Vec2]) -> Vec<Vec2> {
 ///
 /// `ends` says how wide start and goal are, `pinches` which stations are places in the open that people pass within a
 /// stated distance.
-pub(super) fn measure(ground: &Ground, line: &[Vec2], ends: [End; 2], pinches: &[(usize, f64)]) -> Vec<Station> {
+pub(super) fn measure(ground: &Ground, line: &[Vec2], ends: [RibbonEnd; 2], pinches: &[(usize, f64)]) -> Vec<Station> {
     let reach = (SMOOTHING_M / STEP_M) as usize;
     let count = line.len();
     let smooth: Vec<Vec2> = (0..count)
@@ -152,7 +152,7 @@ pub(super) fn measure(ground: &Ground, line: &[Vec2], ends: [End; 2], pinches: &
     stations
 }
 
-/// How far one can step sideways before a wall comes close.
+/// Distance to the side that is free of walls, metres.
 fn room_beside(ground: &Ground, from: Vec2, direction: Vec2, limit_m: f64) -> f64 {
     // In a gap too narrow for the margin, half of what there is.
     let margin = WALL_MARGIN_M.min(0.5 * ground.clearance_m(from));

@@ -2,13 +2,13 @@ use super::lattice::{BLOCK_CELLS, Lattice, SIDE};
 use super::solve::Matrix;
 use crate::math::{Vec2, vec2};
 
-/// Cells are joined to tiles until there are no more than so many.
+/// Largest number of tiles to which cells are joined.
 const MOST_TILES: usize = 8_000;
 /// Cells along the side of the largest tiles.
 const LARGEST_TILE: usize = 8;
 /// Rounds of smoothing each time that tiles are divided: enough for what is new at that size.
 const SWEEPS: usize = 8;
-/// How many tiles are gone over to their neighbours for a mean: by chance they would get 1.5 tiles far.
+/// Steps from tile to neighbouring tile for a mean: a random walk gets 1.5 tiles far.
 const STEPS_AROUND: usize = 6;
 /// Nothing there.
 pub(super) const NONE: u32 = u32::MAX;
@@ -21,7 +21,7 @@ const EARTH: u32 = u32::MAX - 1;
 /// again, with a few rounds of Gauss and Seidel's relaxation each time. What a tile is too coarse for is local, and
 /// that is what relaxation is quick at.
 #[derive(Debug)]
-pub(super) struct Sheet {
+pub(super) struct ConductiveSheet {
     /// The lattice's cells, ascending.
     cells: Vec<usize>,
     /// For each cell the places of its neighbours to the west, east, south and north, or [`NONE`].
@@ -63,20 +63,20 @@ fn sides(cells: usize) -> impl Iterator<Item = usize> {
     std::iter::successors(Some(largest), |side| Some(side / 2)).take_while(move |&side| side > 1 || side == largest)
 }
 
-impl Sheet {
+impl ConductiveSheet {
     /// Joins cells (ascending) that conduct as well as given, in their order.
     pub(super) fn new(
         lattice: &Lattice,
         cells: Vec<usize>,
         conducts: &[f64],
         is_earthed: impl Fn(usize) -> bool,
-    ) -> Sheet {
+    ) -> ConductiveSheet {
         let mut place = vec![NONE; lattice.len()];
         cells.iter().enumerate().for_each(|(k, &cell)| place[cell] = k as u32);
         let beside_of = |&c: &usize| lattice.around(c).map(|b| if b == usize::MAX { NONE } else { place[b] });
         let beside: Vec<[u32; 4]> = cells.iter().map(beside_of).collect();
         let is_earthed = cells.iter().map(|&c| is_earthed(c)).collect();
-        let mut sheet = Sheet { cells, beside, conductance: Vec::new(), is_earthed, tilings: Vec::new() };
+        let mut sheet = ConductiveSheet { cells, beside, conductance: Vec::new(), is_earthed, tilings: Vec::new() };
         sheet.conduct(conducts);
         sheet.tilings = sides(sheet.cells.len()).map(|side| (side, sheet.joined(side))).collect();
         sheet
@@ -118,7 +118,7 @@ impl Sheet {
         (0..self.cells.len()).map(current).collect()
     }
 
-    /// How steeply a potential falls at each cell, per cell's side.
+    /// Slope of a potential at each cell, per cell's side.
     pub(super) fn slopes(&self, potential: &[f64]) -> Vec<f64> {
         let slope = |cell: usize| {
             let along = |[back, ahead]: [usize; 2]| {
@@ -166,7 +166,7 @@ impl Sheet {
             _ => values[k],
         };
         let mut means: Vec<f64> = tiles.of.iter().enumerate().map(mean).collect();
-        // Tiles have edges that nobody should see.
+        // Smooths the edges of the tiles.
         for _ in 0..side {
             means = (0..means.len())
                 .map(|k| {

@@ -1,6 +1,6 @@
 /// The residual, against the right-hand side, at which a solution is good enough for a crowd.
 const RESIDUAL: f64 = 2e-3;
-/// Rounds after which a solution is taken as it is.
+/// Largest number of rounds.
 const MOST_ROUNDS: usize = 500;
 /// Share of the dropped fill-in that is put on the diagonal instead.
 const MODIFIED: f64 = 0.97;

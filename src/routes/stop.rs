@@ -1,28 +1,28 @@
-//! Places where people stop on their way: what a scenario asks for, and where that is on the ground.
+//! Stops on the way: as a scenario writes them, and as found on the ground.
 
 use serde::{Deserialize, Serialize};
 
 use super::field::Field;
 use super::ground::Ground;
-use super::{Place, Route, RoutesError};
+use super::{Place, RoutesError};
 use crate::math::{Distribution, Rect, Vec2, sin_cos, vec2};
 use crate::plan::{FloorPlan, LARGEST_COORDINATE, PlanPoint};
 use crate::walls::Walls;
 
-/// A place to stand lies at most this far from where it was asked for, metres: counters stand at walls.
+/// Largest distance of a place to stand from the requested one, metres: counters stand at walls.
 const NEAREST_FLOOR_M: f64 = 0.6;
-/// Places at a counter that is given by its middle lie this far apart, metres.
+/// Distance between places at a counter that is given by its middle, metres.
 const PLACES_APART_M: f64 = 0.9;
-/// Counters, benches and pictures are looked for within this distance, metres.
+/// Radius within which counters, benches and pictures are looked for, metres.
 const WALL_REACH_M: f64 = 4.0;
-/// Whoever comes for a stop alone passes the floor this far before it, metres.
+/// Distance before a stop at which routes pass that lead to it alone, metres.
 const BEFORE_M: f64 = 1.5;
 /// Longest stay, seconds: a day.
 const MOST_DWELL_S: f64 = 86_400.0;
 /// Most places at one stop.
 const MOST_PLACES: u32 = 1000;
 
-/// What people do at a stop.
+/// Kind of a stop: what people do there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum StopKind {
@@ -43,9 +43,9 @@ pub enum StopKind {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StopRequest {
-    /// What routes call it.
+    /// Name by which routes refer to it.
     pub name: String,
-    /// What people do there.
+    /// Kind of the stop.
     #[serde(default)]
     pub kind: StopKind,
     /// Where people stand: a point, or a line along which the places lie; of a `place` two corners of its area.
@@ -56,7 +56,7 @@ pub struct StopRequest {
     /// Or the direction that they face, degrees counter-clockwise from +x.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heading_deg: Option<f64>,
-    /// Seconds that a person stays, or is served. Left out: by the kind.
+    /// Dwell time: seconds that a person stays, or is served. Left out: by the kind.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dwell: Option<Distribution>,
     /// Counters, seats or lanes, 1 to 1000.
@@ -65,7 +65,7 @@ pub struct StopRequest {
     /// Distance between people in the line, on a bench, or around a place, 0.4 to 5.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spacing: Option<f64>,
-    /// How far around a `place` given as a point people stand, 0.3 to 50.
+    /// Radius around a `place` given as a point within which people stand, 0.3 to 50.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reach: Option<f64>,
     /// The line in which people queue, from the counter to its tail. Left out: straight back, and on along walls.
@@ -83,11 +83,11 @@ pub enum StopAt {
     Line([PlanPoint; 2]),
 }
 
-/// What people at a stop face.
+/// Direction that people at a stop face.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Facing {
-    /// Whatever they like.
+    /// A random direction for each person.
     Free,
     /// This point, metres.
     Point(Vec2),
@@ -98,21 +98,21 @@ pub enum Facing {
 /// A stop on the ground. Routes that share it hold the same value. Metres of the plan frame, seconds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stop {
-    /// What it is called; no two stops of a plan share a name.
+    /// Name; no two stops of a plan share one.
     pub name: String,
-    /// What people do there.
+    /// Kind of the stop.
     pub kind: StopKind,
     /// Both ends of the line along which the places lie, or two corners of the area; the same twice for a point.
     pub at_m: [Vec2; 2],
     /// Where people stand, sit or are served; for a `place` only the middle.
     pub places_m: Vec<Vec2>,
-    /// What they face.
+    /// Direction that people face.
     pub facing: Facing,
-    /// How long each of them stays, or is served.
+    /// Dwell time of each of them.
     pub dwell_s: Distribution,
     /// Distance between people.
     pub spacing_m: f64,
-    /// How far around the point of a `place` people stand.
+    /// Radius around the point of a `place` within which people stand.
     pub reach_m: f64,
     /// The line in which people queue, from the counter on; empty: found.
     pub queue_m: Vec<Vec2>,
@@ -125,12 +125,12 @@ pub struct RouteStop {
     pub stop: Stop,
     /// Share of the route's people who stop there, 0 to 1.
     pub share: f64,
-    /// How many of the route's places between start and goal are passed before.
+    /// Number of the route's places between start and goal that are passed before.
     pub after_via: usize,
 }
 
 impl StopKind {
-    /// How long people stay, where a scenario does not say, seconds.
+    /// Default dwell time, seconds.
     fn dwell_s(self) -> Distribution {
         match self {
             StopKind::Place => Distribution::normal(20.0, 10.0, 5.0, 60.0),
@@ -141,7 +141,7 @@ impl StopKind {
         }
     }
 
-    /// How far apart people keep, where a scenario does not say, metres.
+    /// Default distance between people, metres.
     fn spacing_m(self) -> f64 {
         match self {
             StopKind::Place => 0.8,
@@ -150,17 +150,17 @@ impl StopKind {
         }
     }
 
-    /// Whether people wait for each other there.
+    /// Whether people queue there.
     pub fn has_line(self) -> bool {
         matches!(self, StopKind::Queue | StopKind::Machine | StopKind::Gate)
     }
 }
 
 impl StopRequest {
-    /// Checks every value: the key that is wrong, and what is wrong with it.
+    /// Checks every value; an error holds the key and the problem.
     ///
     /// # Errors
-    /// The first value that is no number, out of its range, or does not go with the kind.
+    /// The first value that is not finite, out of its range, or does not go with the kind.
     pub fn check(&self) -> Result<(), (&'static str, String)> {
         if self.name.trim().is_empty() {
             return Err(("name", "the name is empty".into()));
@@ -252,7 +252,7 @@ impl StopRequest {
         Ok(stop)
     }
 
-    /// What people face who were not told: the counter, the room before the bench; gates are turned later.
+    /// Default direction: towards the counter, away from the wall behind a bench; gates are turned later.
     fn usual_facing(&self, walls: &Walls, [from, to]: [Vec2; 2]) -> Facing {
         let middle = from.lerp(to, 0.5);
         let towards_wall =
@@ -303,18 +303,7 @@ impl StopRequest {
 }
 
 impl Stop {
-    /// The stops of all routes, each once, in the order of the routes.
-    pub fn each(routes: &[Route]) -> Vec<&Stop> {
-        let mut each: Vec<&Stop> = Vec::new();
-        for stop in routes.iter().flat_map(|route| &route.stops).map(|stop| &stop.stop) {
-            if !each.iter().any(|known| known.name == stop.name) {
-                each.push(stop);
-            }
-        }
-        each
-    }
-
-    /// The unit vector in which somebody at `p` faces; where they are free to choose, up.
+    /// Unit vector that a person at `p` faces; +y where the direction is free.
     pub fn facing_from(&self, p: Vec2) -> Vec2 {
         let otherwise = vec2(0.0, 1.0);
         match self.facing {
@@ -335,7 +324,7 @@ impl Stop {
         cells
     }
 
-    /// The floor before the stop, to pass on the way for whoever goes nowhere else.
+    /// Floor before the stop, which routes pass that lead to the stop alone.
     pub(super) fn before(&self, ground: &Ground) -> Place {
         let middle = self.at_m[0].lerp(self.at_m[1], 0.5);
         let back = middle - self.facing_from(middle) * BEFORE_M;

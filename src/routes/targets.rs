@@ -1,7 +1,7 @@
-//! Turns the places that a scenario names into places on the ground.
+//! Places of routes: from the names in a scenario to cells of the ground.
 
 use super::ground::{Ground, apron};
-use super::{Place, PlaceRequest, RoutesError, Spot};
+use super::{FloorPoint, Place, PlaceRequest, RoutesError};
 use crate::math::{Rect, Vec2, vec2};
 use crate::plan::{FloorPlan, LARGEST_COORDINATE};
 use crate::walls::APRON_M;
@@ -11,9 +11,9 @@ const POINT_REACH_M: f64 = 1.0;
 /// Distances to an opening are counted from this far beyond the floor's edge on, metres.
 const OPENING_DEPTH_M: f64 = APRON_M - 0.4;
 
-/// What a place is asked for as, for messages.
+/// The route that uses a place, and the place's role in it, for messages.
 #[derive(Clone, Copy)]
-pub(super) struct Asked<'a> {
+pub(super) struct PlaceUsage<'a> {
     pub(super) route: &'a str,
     pub(super) role: &'static str,
 }
@@ -23,13 +23,13 @@ pub(super) fn place(
     plan: &FloorPlan,
     ground: &Ground,
     request: &PlaceRequest,
-    asked: Asked<'_>,
+    usage: PlaceUsage<'_>,
 ) -> Result<Place, RoutesError> {
     match request {
-        PlaceRequest::Opening(name) => opening(plan, name, asked),
+        PlaceRequest::Opening(name) => opening(plan, name, usage),
         PlaceRequest::Point(point) => {
-            let p = finite(point.to_m(plan), request, asked)?;
-            let cell = ground.walkable_near(p, 0.2).ok_or_else(|| not_on_floor(plan, ground, p, request, asked))?;
+            let p = finite(point.to_m(plan), request, usage)?;
+            let cell = ground.walkable_near(p, 0.2).ok_or_else(|| not_on_floor(plan, ground, p, request, usage))?;
             let centre = ground.lattice.centre(cell);
             // A point within the narrow band along a wall counts as the nearest place to stand.
             let p = if ground.lattice.cell_at(p) == Some(cell) { p } else { centre };
@@ -37,17 +37,17 @@ pub(super) fn place(
             Ok(Place::Area([p - reach, p + reach]))
         }
         PlaceRequest::Area([a, b]) => {
-            let (a, b) = (finite(Vec2::from(*a), request, asked)?, finite(Vec2::from(*b), request, asked)?);
+            let (a, b) = (finite(Vec2::from(*a), request, usage)?, finite(Vec2::from(*b), request, usage)?);
             let area = Rect::around(a, b);
             if area_cells(ground, area).is_empty() {
-                return Err(not_on_floor(plan, ground, area.centre(), request, asked));
+                return Err(not_on_floor(plan, ground, area.centre(), request, usage));
             }
             Ok(Place::Area([area.min, area.max]))
         }
     }
 }
 
-fn opening(plan: &FloorPlan, name: &str, asked: Asked<'_>) -> Result<Place, RoutesError> {
+fn opening(plan: &FloorPlan, name: &str, usage: PlaceUsage<'_>) -> Result<Place, RoutesError> {
     let wanted = name.trim();
     if let Some(index) = plan.openings.iter().position(|o| o.name.eq_ignore_ascii_case(wanted)) {
         return Ok(Place::Opening(index));
@@ -59,36 +59,42 @@ fn opening(plan: &FloorPlan, name: &str, asked: Asked<'_>) -> Result<Place, Rout
         .min_by_key(|(distance, _)| *distance)
         .filter(|(distance, _)| *distance <= 3)
         .map(|(_, o)| o.clone());
-    Err(RoutesError::UnknownOpening { route: asked.route.into(), name: name.into(), nearest, openings })
+    Err(RoutesError::UnknownOpening { route: usage.route.into(), name: name.into(), nearest, openings })
 }
 
-fn finite(p: Vec2, request: &PlaceRequest, asked: Asked<'_>) -> Result<Vec2, RoutesError> {
+fn finite(p: Vec2, request: &PlaceRequest, usage: PlaceUsage<'_>) -> Result<Vec2, RoutesError> {
     // Coordinates far beyond any plan are as useless as NaN, and would overflow the grid's indices.
     // Written so that NaN is out of range.
     match [p.x, p.y].into_iter().find(|c| !(c.abs() <= LARGEST_COORDINATE)) {
         None => Ok(p),
         Some(value) => {
-            let (route, place) = (asked.route.into(), request.describe());
-            Err(RoutesError::TooFar { route, role: asked.role, place, value })
+            let (route, place) = (usage.route.into(), request.describe());
+            Err(RoutesError::TooFar { route, role: usage.role, place, value })
         }
     }
 }
 
-fn not_on_floor(plan: &FloorPlan, ground: &Ground, p: Vec2, request: &PlaceRequest, asked: Asked<'_>) -> RoutesError {
+fn not_on_floor(
+    plan: &FloorPlan,
+    ground: &Ground,
+    p: Vec2,
+    request: &PlaceRequest,
+    usage: PlaceUsage<'_>,
+) -> RoutesError {
     let nearest = (0..ground.lattice.len()).filter(|&c| ground.is_walkable(c)).min_by(|&a, &b| {
         let distance = |c| ground.lattice.centre(c).distance(p);
         distance(a).total_cmp(&distance(b))
     });
     let nearest = nearest.map(|cell| Box::new(spot(plan, ground, cell, "")));
     let at_px = plan.m_to_px(p);
-    RoutesError::NotOnFloor { route: asked.route.into(), role: asked.role, place: request.describe(), at_px, nearest }
+    RoutesError::NotOnFloor { route: usage.route.into(), role: usage.role, place: request.describe(), at_px, nearest }
 }
 
-/// What messages tell of a cell.
-pub(super) fn spot(plan: &FloorPlan, ground: &Ground, cell: usize, name: &str) -> Spot {
+/// Description of a cell for messages.
+pub(super) fn spot(plan: &FloorPlan, ground: &Ground, cell: usize, name: &str) -> FloorPoint {
     let at_m = ground.lattice.centre(cell);
     let part_m2 = ground.part_area_m2(ground.part(cell));
-    Spot { name: name.into(), at_m, at_px: plan.m_to_px(at_m), part_m2 }
+    FloorPoint { name: name.into(), at_m, at_px: plan.m_to_px(at_m), part_m2 }
 }
 
 /// The cells that count as being there.

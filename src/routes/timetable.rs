@@ -2,51 +2,51 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-/// More people or bursts than this are a mistake.
+/// Largest number of people.
 const MOST_PEOPLE: f64 = 5e6;
 /// Latest time, seconds.
 const LATEST_S: f64 = 1e7;
 
-/// When people come: for the whole crowd, or for one route. Seconds.
+/// Timetable of arrivals, of the whole crowd or of one route. Times in seconds.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Timetable {
-    /// How they come.
+    /// Kind of the timetable.
     pub kind: TimetableKind,
-    /// When the first come.
+    /// Time of the first arrivals.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_s: Option<f64>,
-    /// Of a rate: how many come in a second. Left out: as many as the entrances let in.
+    /// Of a rate: people per second. Left out: as many as the entrances let in.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub per_second: Option<f64>,
     /// Of bursts: time from one to the next.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub every_s: Option<f64>,
-    /// Of bursts: how many people come in one ...
+    /// Of bursts: number of people in each; or `share`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub people: Option<u32>,
-    /// ... or which share of all of them does.
+    /// Of bursts: share of all people in each; or `people`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub share: Option<f64>,
-    /// Of bursts: how long the people of one take to come, 0 for all at once.
+    /// Of bursts: time over which the people of one come, 0 for all at once.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spread_s: Option<f64>,
-    /// Of a list: times, each with how many people come then.
+    /// Of a list: times with the number of people who come then.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub times: Vec<[f64; 2]>,
     /// Of a list: a CSV file with a time and a number of people in each line.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<PathBuf>,
-    /// What the file says.
+    /// Rows of the file, once it has been read.
     #[serde(skip)]
     pub of_file: Vec<[f64; 2]>,
 }
 
-/// How people come.
+/// Kind of a timetable.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum TimetableKind {
-    /// Evenly.
+    /// An even stream.
     #[default]
     Rate,
     /// A train every few minutes, a school bell.
@@ -56,7 +56,7 @@ pub enum TimetableKind {
 }
 
 impl Timetable {
-    /// Whether it says nothing of its own.
+    /// Whether nothing differs from the default.
     pub fn is_default(&self) -> bool {
         *self == Timetable::default()
     }
@@ -66,15 +66,15 @@ impl Timetable {
         self.of_file.iter().chain(&self.times).copied()
     }
 
-    /// How many people a list names; `None` for other kinds.
+    /// Number of people that a list names; `None` for other kinds.
     pub fn listed(&self) -> Option<u64> {
         (self.kind == TimetableKind::List).then(|| self.rows().map(|row| row[1] as u64).sum())
     }
 
-    /// Checks every value: the key that is wrong, and what is wrong with it.
+    /// Checks every value; an error holds the key and the problem.
     ///
     /// # Errors
-    /// The first value that is no number, out of its range, missing, or does not go with the kind.
+    /// The first value that is not finite, out of its range, missing, or does not go with the kind.
     pub fn check(&self) -> Result<(), (&'static str, String)> {
         use TimetableKind::{Bursts, List, Rate};
         let numbers = [
@@ -122,7 +122,7 @@ impl Timetable {
         }
         // A file that has not been read yet has no rows.
         let empty = self.listed() == Some(0) && !(self.file.is_some() && self.of_file.is_empty());
-        if empty { Err(("times", "nobody comes at any time of the list".into())) } else { Ok(()) }
+        if empty { Err(("times", "the list holds no people".into())) } else { Ok(()) }
     }
 
     /// Reads the rows of a CSV file: a time in seconds and a number of people in each line, or a time alone for one

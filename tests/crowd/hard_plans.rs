@@ -1,7 +1,7 @@
 //! Plans on which people lose their way easily. On each of them next to everybody must arrive, in about the time that
 //! the way takes, and people must use the room that there is.
 
-use trodden::crowd::{Crowd, CrowdOptions};
+use trodden::crowd::{CrowdOptions, Simulation};
 use trodden::math::{SplitMix64, Vec2, atan2, vec2};
 use trodden::motion::{BodyOptions, Frame, Motion, People};
 use trodden::plan::FloorPlan;
@@ -50,7 +50,7 @@ impl Scene {
         let people = People::new(seed, BodyOptions::default());
         let navigation = self.navigation.clone();
         let mut crowd =
-            Crowd::with_navigation(&self.plan, &self.walls, &self.routes, navigation, &people, options).unwrap();
+            Simulation::with_navigation(&self.plan, &self.walls, &self.routes, navigation, &people, options).unwrap();
         let mut walk = Walk { crossings: vec![Vec::new(); watched.len()], ..Walk::default() };
         let mut last: Vec<Option<Vec2>> = vec![None; options.people as usize];
         let mut since: Vec<f64> = vec![0.0; options.people as usize];

@@ -1,7 +1,7 @@
 //! What a crowd must keep to, whatever the plan: walls, distances, determinism, the order of ids.
 
 use proptest::prelude::*;
-use trodden::crowd::{Crowd, CrowdError, CrowdOptions};
+use trodden::crowd::{CrowdError, CrowdOptions, Simulation};
 use trodden::math::{Distribution, Vec2, vec2};
 use trodden::motion::{BodyOptions, Frame, Motion, People, Walker};
 use trodden::plan::PlanPoint;
@@ -194,10 +194,10 @@ fn options_out_of_range_are_refused() {
         CrowdOptions { patience_seconds: 0.0, ..good.clone() },
     ];
     for options in bad {
-        let error = Crowd::new(&scene.plan, &scene.walls, &scene.routes, &people, &options).err();
+        let error = Simulation::new(&scene.plan, &scene.walls, &scene.routes, &people, &options).err();
         assert!(error.is_some(), "{options:?}");
     }
-    let none = Crowd::new(&scene.plan, &scene.walls, &[], &people, &good).err();
+    let none = Simulation::new(&scene.plan, &scene.walls, &[], &people, &good).err();
     assert!(matches!(none, Some(CrowdError::NoRoutes)));
 }
 

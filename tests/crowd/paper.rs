@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use trodden::crowd::Crowd;
+use trodden::crowd::Simulation;
 use trodden::marks::{Footfalls, Mark, Origin};
 use trodden::math::{Rect, Vec2, vec2};
 use trodden::motion::{Frame, Motion, People};
@@ -82,7 +82,7 @@ fn walk(people: u32) -> Walked {
     let routes = routes::find(&plan, &walls, &scenario.routes).unwrap();
     let library = PatternLibrary::built_in();
     let persons = People::new(scenario.seed, scenario.bodies.clone());
-    let mut crowd = Crowd::new(&plan, &walls, &routes, &persons, &scenario.crowd).unwrap();
+    let mut crowd = Simulation::new(&plan, &walls, &routes, &persons, &scenario.crowd).unwrap();
     let origins = Origin::of_arrivals(crowd.arrivals().iter().map(|a| a.from_outside), 0);
     let mut footfalls = Footfalls::new(&persons, &walls, &library, &scenario.marks, origins).unwrap();
     let grid = TexelGrid::covering(plan.width_m(), plan.height_m(), 50.0).unwrap();

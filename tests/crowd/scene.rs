@@ -1,6 +1,6 @@
 //! Plans drawn in code, and crowds on them.
 
-use trodden::crowd::{Crowd, CrowdOptions, Tally};
+use trodden::crowd::{CrowdOptions, Simulation, Tally};
 use trodden::math::{Rect, Vec2, vec2};
 use trodden::motion::{BodyOptions, Frame, Motion, People};
 use trodden::plan::FloorPlan;
@@ -43,8 +43,8 @@ impl Scene {
         Scene::new([16.0, 6.4], floor, routes)
     }
 
-    pub fn crowd<'a>(&'a self, people: &People, options: &CrowdOptions) -> Crowd<'a> {
-        Crowd::with_navigation(&self.plan, &self.walls, &self.routes, self.navigation.clone(), people, options)
+    pub fn crowd<'a>(&'a self, people: &People, options: &CrowdOptions) -> Simulation<'a> {
+        Simulation::with_navigation(&self.plan, &self.walls, &self.routes, self.navigation.clone(), people, options)
             .expect("a crowd")
     }
 

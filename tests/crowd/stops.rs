@@ -1,6 +1,6 @@
 //! Places where people stop, and timetables: what the scenario asks for is what people do.
 
-use trodden::crowd::{Crowd, CrowdOptions, Tally, Visit};
+use trodden::crowd::{CrowdOptions, Simulation, Tally, Visit};
 use trodden::math::{Distribution, Vec2, vec2};
 use trodden::motion::{BodyOptions, Frame, Motion, People};
 use trodden::plan::{FloorPlan, PlanPoint};
@@ -74,8 +74,8 @@ impl Walk {
         Walk { plan, walls, routes, options }
     }
 
-    fn crowd<'a>(&'a self, people: &People) -> Crowd<'a> {
-        Crowd::new(&self.plan, &self.walls, &self.routes, people, &self.options).unwrap()
+    fn crowd<'a>(&'a self, people: &People) -> Simulation<'a> {
+        Simulation::new(&self.plan, &self.walls, &self.routes, people, &self.options).unwrap()
     }
 
     fn run(&self, mut each: impl FnMut(&Frame)) -> Walked {
@@ -446,7 +446,7 @@ fn stops_that_cannot_be_are_refused_with_their_name_and_place() {
     let (message, hint) = refused(&closet, at([10.0, 13.5]), to());
     assert_eq!(
         message.split("; the nearest").next().unwrap(),
-        "stop \"counter\": at: nobody can stand at [10.00, 13.50]"
+        "stop \"counter\": at: there is no floor to stand on at [10.00, 13.50]"
     );
     assert!(hint.starts_with("use [9.95, 11."), "{hint}");
     let (message, _) = refused(&closet, at([16.0, 9.0]), to());

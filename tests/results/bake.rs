@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use trodden::Silent;
 use trodden::bake::{OutputOptions, ResolveOptions, bake, resolve};
-use trodden::crowd::Crowd;
+use trodden::crowd::Simulation;
 use trodden::export::Report;
 use trodden::look::Look;
 use trodden::math::{Rect, vec2};
@@ -105,7 +105,7 @@ fn people_arrive_and_nobody_is_ever_inside_a_wall() {
             let walls = Walls::trace(&plan, &scenario.walls);
             let routes = routes::find(&plan, &walls, &scenario.routes).unwrap();
             let people = People::new(scenario.seed, scenario.bodies.clone());
-            let mut crowd = Crowd::new(&plan, &walls, &routes, &people, &scenario.crowd).unwrap();
+            let mut crowd = Simulation::new(&plan, &walls, &routes, &people, &scenario.crowd).unwrap();
             let [least_exclusion_m, _] = scenario.crowd.exclusion.bounds();
             let image = Rect { min: vec2(0.0, 0.0), max: vec2(plan.width_m(), plan.height_m()) };
             let mut frame = Frame::default();

@@ -1,19 +1,18 @@
-//! The forces: pure functions of what somebody sees, see [`SocialForceOptions`] and [`GroupOptions`].
+//! Social forces as pure functions, see [`SocialForceOptions`] and [`GroupOptions`].
 
 use super::{GroupOptions, SocialForceOptions};
 use crate::math::{SplitMix64, atan2, exp_f32};
 
-/// Weaker interactions than this share of the strongest are none: natural logarithm of 0.001.
+/// Share of the strongest interaction below which others exert no force: natural logarithm of 0.001.
 const LEAST_SHARE_LN: f32 = -6.907_755;
-/// How long people wander one way, seconds.
+/// Interval at which the random acceleration is drawn anew, seconds.
 const FLUCTUATION_S: f64 = 1.0;
-/// Sets the draws of one time apart from those of the next; an odd number.
+/// Odd number that sets the draws of one interval apart from those of the next.
 const KNOT: u64 = 0xd1b5_4a32_d192_ed03;
-/// The wish to be with the group grows from nothing to all of it over this distance, metres: a step would make people
-/// tremble.
+/// Distance over which the forces of the group grow from nothing to all, metres: a step would make people tremble.
 const SOFT_M: f32 = 0.1;
 
-/// The model's numbers, as the step uses them.
+/// Parameters of the forces in single precision.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Forces {
     pub(super) relaxation_s: f32,
@@ -56,8 +55,7 @@ impl Forces {
         }
     }
 
-    /// Acceleration by somebody at `d`, as seen from the person, who moves at the velocity `w` against the person's own;
-    /// `aim` is the unit vector of where the person wants to go.
+    /// Acceleration by another at the offset `d` and the relative velocity `w`; `aim` is the agent's wanted direction.
     pub(super) fn by_person(&self, d: [f32; 2], w: [f32; 2], aim: [f32; 2]) -> [f32; 2] {
         let distance_m = (d[0] * d[0] + d[1] * d[1]).sqrt().max(1e-3);
         let e = [d[0] / distance_m, d[1] / distance_m];
@@ -80,14 +78,15 @@ impl Forces {
         [strength * (along * t[0] + across * n[0]), strength * (along * t[1] + across * n[1])]
     }
 
-    /// Which side somebody is on: 1 on the left, -1 on the right.
+    /// Side on which another is: 1 on the left, -1 on the right, in between straight ahead.
     fn side(&self, theta: f32, range_m: f32) -> f32 {
         let comes = (range_m - self.range_m).max(0.0);
         ((theta + LEFT_RAD_M * comes) / STRAIGHT_RAD).clamp(-1.0, 1.0)
     }
 
-    /// The random acceleration of somebody at a time: drawn anew every [`FLUCTUATION_S`], in between on a straight line, so
-    /// that it is the same for any time step.
+    /// Random acceleration of an agent at a time, the same for any time step.
+    ///
+    /// It is drawn anew every [`FLUCTUATION_S`] and interpolated linearly in between.
     pub(super) fn by_chance(&self, wander: u64, time_s: f64) -> [f32; 2] {
         if self.fluctuation == 0.0 {
             return [0.0; 2];
@@ -103,18 +102,17 @@ impl Forces {
         [0, 1].map(|axis| scale * (before[axis] + (after[axis] - before[axis]) * share))
     }
 
-    /// Acceleration away from a wall that the body's edge is so far from, metres per second squared.
+    /// Acceleration away from a wall at this distance from the body's edge, metres per second squared.
     pub(super) fn by_wall(&self, gap_m: f32) -> f32 {
         self.wall_strength * exp_f32(-gap_m.max(0.0) / self.wall_range_m)
     }
 
-    /// Beyond this distance from the body's edge a wall pushes nobody, metres.
+    /// Distance from the body's edge beyond which a wall exerts no force, metres.
     pub(super) fn wall_reach_m(&self) -> f32 {
         -LEAST_SHARE_LN * self.wall_range_m
     }
 
-    /// Acceleration that keeps somebody with their group: the others at `mates`, as seen from the person, who walks at
-    /// `velocity`.
+    /// Acceleration towards the group: the others are at the offsets `mates`, the agent walks at `velocity`.
     ///
     /// ```text
     /// -beta1 alpha v                 alpha: the head's turn beyond the field of view that shows the others' middle
@@ -133,7 +131,7 @@ impl Forces {
             ax -= near * dx / distance_m;
             ay -= near * dy / distance_m;
         }
-        // What they look at is the middle of the others; the group's own middle is nearer by their own place in it.
+        // People look at the middle of the others; the middle of the whole group is nearer to them.
         let middle_m = (cx * cx + cy * cy).sqrt() / (others + 1.0);
         if middle_m < 1e-3 {
             return [ax, ay];
@@ -147,17 +145,16 @@ impl Forces {
     }
 }
 
-/// The angle whose sine and cosine are in this proportion, radians.
+/// Angle whose sine and cosine are in this proportion, radians.
 fn angle(sin: f32, cos: f32) -> f32 {
     atan2(f64::from(sin), f64::from(cos)) as f32
 }
 
-/// Those who come count as so much farther to the left for each metre of the interaction's range, radians: whoever meets
-/// somebody head on steps to the right. Ours; Moussaid et al. 2009 have such a bias too, for everybody: `theta + epsilon B`,
-/// epsilon about 0.005.
+/// Bias of oncoming people to the left per metre of the interaction's range, radians: those who meet step to the right.
+///
+/// Ours; Moussaid et al. 2009 have such a bias too, for everybody: `theta + epsilon B`, epsilon about 0.005.
 const LEFT_RAD_M: f32 = 0.01;
-/// Beyond this angle from straight ahead, radians, somebody is on one side or the other; below, one side goes over into
-/// the other: a step would make those who follow each other swerve.
+/// Angle from straight ahead over which one side blends into the other, radians: a step would make followers swerve.
 const STRAIGHT_RAD: f32 = 0.02;
 
 #[cfg(test)]

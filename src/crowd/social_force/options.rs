@@ -2,36 +2,25 @@ use serde::{Deserialize, Serialize};
 
 use crate::crowd::CrowdError;
 
-/// Which model moves a crowd.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum CrowdModel {
-    /// Boids without cohesion: everybody walks alone. The model of the Grime paper, fast, for large crowds.
-    #[default]
-    Boids,
-    /// Social forces, with groups of up to four who walk together.
-    SocialForce,
-}
-
-/// Who walks with whom, under social forces.
+/// Sizes and forces of groups that walk together, under social forces.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct GroupOptions {
-    /// Of all groups, which share has one, two, three and four people. Together more than 0; only their proportions count.
+    /// Shares of groups of one, two, three and four people. Together more than 0; only their proportions count.
     pub shares: [f64; 4],
-    /// How much more slowly each further member makes a group want to walk, metres per second.
+    /// Fall of a group's free speed with each further member, metres per second.
     pub slowdown: f64,
     /// Strength of the wish to have the others in view (beta 1), per second and radian of the head's turn.
     pub gaze: f64,
-    /// Pull towards the group's middle for whoever is too far from it (beta 2), metres per second squared.
+    /// Pull towards the group's middle beyond `reach` (beta 2), metres per second squared.
     pub cohesion: f64,
-    /// Push away from members who are too near (beta 3), metres per second squared.
+    /// Push away from members nearer than `distance` (beta 3), metres per second squared.
     pub repulsion: f64,
-    /// Members are too near below this distance (d0), metres.
+    /// Distance below which members push each other away (d0), metres.
     pub distance: f64,
-    /// How far to either side people see without turning their head (phi), degrees.
+    /// Field of view to either side without turning the head (phi), degrees.
     pub view_deg: f64,
-    /// Somebody is too far from the group's middle beyond this distance for each further member, metres.
+    /// Distance from the group's middle, per further member, beyond which a member is pulled back, metres.
     pub reach: f64,
 }
 
@@ -57,7 +46,7 @@ impl Default for GroupOptions {
     }
 }
 
-/// How people push each other by their mere presence.
+/// Parameters of the social forces: how people push each other by their mere presence.
 ///
 /// Moussaid, Helbing, Garnier, Johansson, Combe, Theraulaz 2009 (doi 10.1098/rspb.2009.0405): with
 /// `D = lambda (v_i - v_j) + e_ij`, `t = D / |D|`, `n` to the left of `t`, `theta` the angle from `t` to `e_ij`,
@@ -82,21 +71,21 @@ pub struct SocialForceOptions {
     pub strength: f64,
     /// Range of the interaction for each unit of `|D|` (gamma), metres.
     pub range: f64,
-    /// How much velocity counts against place in the direction of the interaction (lambda), seconds.
+    /// Weight of velocity against place in the direction of the interaction (lambda), seconds.
     pub foresight: f64,
-    /// How narrow stepping aside is about the direction of the interaction (n).
+    /// Angular narrowness of stepping aside (n).
     pub aside_width: f64,
-    /// The same of slowing down (n').
+    /// Angular narrowness of slowing down (n').
     pub slowing_width: f64,
-    /// What somebody straight behind counts against somebody straight ahead, 0 to 1.
+    /// Weight of people straight behind against people straight ahead, 0 to 1.
     pub behind: f64,
     /// Push of a wall that the body touches (a), metres per second squared.
     pub wall_strength: f64,
-    /// Distance over which that falls to 1/e (b), metres.
+    /// Distance over which the push of a wall falls to 1/e (b), metres.
     pub wall_range: f64,
-    /// Unevenness of everybody's walk: deviation of a random acceleration along each axis, metres per second squared.
+    /// Standard deviation of a random acceleration along each axis, metres per second squared.
     pub fluctuation: f64,
-    /// Nobody walks faster than so many times their own speed.
+    /// Largest speed as a multiple of a person's free speed.
     pub most_speed: f64,
 }
 
@@ -118,7 +107,7 @@ impl Default for SocialForceOptions {
     }
 }
 
-/// A number, and the range that it has to be in.
+/// Name and value of a number, and the range that it has to be in.
 type Checked = (&'static str, f64, f64, f64);
 
 fn check(numbers: &[Checked]) -> Result<(), CrowdError> {

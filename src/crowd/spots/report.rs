@@ -5,71 +5,71 @@ use serde::{Deserialize, Serialize};
 use crate::math::Vec2;
 use crate::units::DiversityReport;
 
-/// So many sorts of people for whom there is no unit are named.
+/// Number of combinations of groups without a unit that a warning names.
 const NAMED: usize = 4;
 
-/// How units were played at one spot.
+/// Report of the units played at one spot.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SpotReport {
-    /// What the spot is called.
+    /// Name of the spot.
     pub name: String,
-    /// Where the viewer stands, metres.
+    /// Place of the viewer, metres.
     pub place_m: Vec2,
-    /// How many units were played.
+    /// Number of units played.
     pub splices: u64,
-    /// The same by the unit's name.
+    /// Number of times that each unit was played, by name.
     pub by_unit: BTreeMap<String, u64>,
-    /// How many people took a part.
+    /// Number of parts that people took.
     pub people: u64,
-    /// How far from the beginning of their part people were when it was taken over, metres.
-    pub position_error_m: Spread,
-    /// How far they were turned from it, degrees.
-    pub heading_error_deg: Spread,
-    /// How long they took to move over, seconds.
-    pub move_over_s: Spread,
-    /// Seconds that people played their parts, all together.
+    /// Distance of people from the beginning of their part when they took it over, metres.
+    pub position_error_m: MeanAndMax,
+    /// Angle between their heading and that of the part, degrees.
+    pub heading_error_deg: MeanAndMax,
+    /// Time in which they moved over, seconds.
+    pub move_over_s: MeanAndMax,
+    /// Time in which people played their parts, all together, seconds.
     pub led_s: f64,
-    /// Metres that they walked meanwhile.
+    /// Distance that they walked meanwhile, metres.
     pub led_m: f64,
-    /// How many people left their part early, since somebody else came into their way.
+    /// Number of parts broken off because others were in the way.
     pub broken_off: u64,
-    /// Seconds that anybody was in the front or rear area, whatever they did.
+    /// Time in which people were in the front or rear area, seconds.
     #[serde(default)]
     pub there_s: f64,
-    /// Of these: a unit, or several, was being played.
+    /// Part of that time in which at least one unit was played, seconds.
     #[serde(default)]
     pub played_s: f64,
-    /// How often people were there who could have played, and no unit was begun.
+    /// Number of looks at people who could have played, but began no unit.
     pub moments: u64,
     /// Of these: no unit has as many people in the same groups.
     pub unmatched: u64,
-    /// Of these: units have, but people are too far from their beginnings.
+    /// Of these: a unit has, but people are too far from its beginning.
     pub too_far: u64,
     /// Of these: walls or others are in the way.
     pub in_the_way: u64,
-    /// Of these: somebody of them stood at a stop, or was just making way for somebody.
+    /// Of these: people stand at a stop, or make way for others.
     pub not_free: u64,
-    /// For which people there was no unit: sizes of groups in front and behind, with how often.
+    /// Sizes of groups in front and behind for which there was no unit, and how often.
     pub missing: BTreeMap<String, u64>,
-    /// How many units fit the floor before the spot, of how many.
+    /// Number of units that fit the floor around the spot, and number of all units.
     pub fitting: [usize; 2],
-    /// How much speeds and headings differ in the area in front.
+    /// Diversity of speeds and headings in the area in front.
     pub diversity: DiversityReport,
 }
 
 /// Mean and largest of many values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Spread {
-    /// The mean; 0 of none.
+pub struct MeanAndMax {
+    /// Mean; 0 without values.
     pub mean: f64,
-    /// The largest.
+    /// Largest value; at least 0.
     pub largest: f64,
-    /// How many there were.
+    /// Number of values.
     pub count: u64,
 }
 
-impl Spread {
-    /// Takes one more value.
+impl MeanAndMax {
+    /// Adds a value.
     pub fn push(&mut self, value: f64) {
         self.count += 1;
         self.mean += (value - self.mean) / self.count as f64;
@@ -78,7 +78,7 @@ impl Spread {
 }
 
 impl SpotReport {
-    /// What a user should know: spots at which nothing was ever played, and why.
+    /// Warns of a spot at which no unit was played, and says why.
     pub fn warning(&self) -> Option<String> {
         let SpotReport { name, place_m: Vec2 { x, y }, .. } = self;
         let [fitting, units] = self.fitting;
@@ -92,7 +92,7 @@ impl SpotReport {
             ));
         }
         if self.moments == 0 {
-            return Some(format!("{begin}: nobody ever came by"));
+            return Some(format!("{begin}: no people came by"));
         }
         let mut missing: Vec<(&String, &u64)> = self.missing.iter().collect();
         missing.sort_by(|a, b| b.1.cmp(a.1).then(a.0.cmp(b.0)));
@@ -110,7 +110,7 @@ impl SpotReport {
         ))
     }
 
-    /// The report in words, one line.
+    /// Summary in one line.
     pub fn describe(&self) -> String {
         let DiversityReport { speed_bits, heading_bits, .. } = self.diversity;
         format!(
@@ -136,9 +136,9 @@ mod tests {
 
     #[test]
     fn a_spread_is_mean_and_largest() {
-        let mut spread = Spread::default();
+        let mut spread = MeanAndMax::default();
         [1.0, 4.0, 1.0].into_iter().for_each(|value| spread.push(value));
-        assert_eq!(spread, Spread { mean: 2.0, largest: 4.0, count: 3 });
+        assert_eq!(spread, MeanAndMax { mean: 2.0, largest: 4.0, count: 3 });
     }
 
     #[test]

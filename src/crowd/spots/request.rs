@@ -2,27 +2,27 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-use super::super::CrowdError;
+use crate::crowd::CrowdError;
+use crate::crowd::environment::Environment;
 use crate::math::{Vec2, sin_cos, vec2};
-use crate::plan::{FloorPlan, PlanPoint};
-use crate::routes::Ground;
+use crate::plan::PlanPoint;
 use crate::units::{Areas, SpotFrame};
-use crate::walls::Walls;
 
-/// Nobody stands nearer to a wall than this, metres.
+/// Least distance of a spot from walls, metres.
 const LEAST_CLEARANCE_M: f64 = 0.2;
-/// Free floor is looked for within this distance of a spot that has none, metres, for the hint.
+/// Radius within which a hint names the nearest floor, metres.
 const HINT_REACH_M: f64 = 5.0;
 
-/// A spot that is looked at closely, as a scenario writes it: somebody stands there, and near them people do what units
-/// show. Lengths in metres, seconds.
+/// A spot where a viewer stands and people nearby play units, as a scenario writes it.
+///
+/// Lengths in metres, times in seconds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SpotRequest {
-    /// What to call it; left out: by its number.
+    /// Name; left out: by its number.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// Where the viewer stands.
+    /// Place of the viewer.
     pub at: PlanPoint,
     /// A point that the viewer looks at.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -30,25 +30,25 @@ pub struct SpotRequest {
     /// Or the direction in which the viewer looks, degrees counter-clockwise from +x.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heading_deg: Option<f64>,
-    /// A folder with own units; left out: the built-in ones.
+    /// Folder with own units; left out: the built-in ones.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub folder: Option<PathBuf>,
-    /// How often the people there are looked at, 0.05 to 60.
+    /// Interval at which units are looked for, 0.05 to 60 s.
     #[serde(default = "every")]
     pub every: f64,
-    /// How long those who have played a unit are left alone, 0 to 3600.
+    /// Time for which those who have played a unit are left alone, 0 to 3600 s.
     #[serde(default = "pause")]
     pub pause: f64,
     /// Width and depth of the area in front in which people are counted.
     #[serde(default = "judged")]
     pub front: [f64; 2],
-    /// The same behind.
+    /// Width and depth of the area behind in which people are counted.
     #[serde(default = "judged")]
     pub rear: [f64; 2],
     /// Width and depth of the area in front in which units are played; larger units are left out.
     #[serde(default = "played")]
     pub area: [f64; 2],
-    /// Radius of the viewer's body, which people walk around; 0: nobody stands there.
+    /// Radius of the viewer's body, which people walk around, 0 to 2 m; 0 without a body.
     #[serde(default = "radius")]
     pub radius: f64,
     /// Whether units are played; if not, people there are only measured.
@@ -81,7 +81,7 @@ fn play() -> bool {
 }
 
 impl SpotRequest {
-    /// A spot with nothing but its place and the direction in which the viewer looks, degrees.
+    /// A spot at a place with a viewer who looks in a direction, degrees; the rest by default.
     pub fn new(at: PlanPoint, heading_deg: f64) -> SpotRequest {
         SpotRequest {
             name: None,
@@ -99,15 +99,15 @@ impl SpotRequest {
         }
     }
 
-    /// Where people are judged and units are played.
+    /// Areas in which people are counted and units are played.
     pub fn areas(&self) -> Areas {
         Areas { front_m: self.front, rear_m: self.rear, played_m: self.area }
     }
 
-    /// Checks every value: the key that is wrong, and what is wrong with it.
+    /// Checks every value; an error holds the key and the problem.
     ///
     /// # Errors
-    /// The first value that is no number, out of its range, or does not go with another.
+    /// The first value that is not finite, out of its range, or at odds with another.
     pub fn check(&self) -> Result<(), (&'static str, String)> {
         let [front_x, front_y] = self.front;
         let [rear_x, rear_y] = self.rear;
@@ -131,22 +131,21 @@ impl SpotRequest {
         }
         match (&self.facing, self.heading_deg) {
             (Some(_), Some(_)) => Err(("heading_deg", "the unit's spot has both `facing` and `heading_deg`".into())),
-            (None, None) => Err(("at", "say where the viewer looks: `facing` or `heading_deg`".into())),
+            (None, None) => {
+                Err(("at", "the direction in which the viewer looks is missing: give `facing` or `heading_deg`".into()))
+            }
             _ => Ok(()),
         }
     }
 
-    /// What messages and the report call the `index`-th spot.
+    /// Name of the `index`-th spot in messages and the report.
     pub(super) fn title(&self, index: usize) -> String {
         self.name.clone().unwrap_or_else(|| format!("spot {}", index + 1))
     }
 
     /// Finds the spot on the floor.
-    pub(super) fn resolve(
-        &self,
-        index: usize,
-        (plan, walls, ground): (&FloorPlan, &Walls, &Ground),
-    ) -> Result<SpotFrame, CrowdError> {
+    pub(super) fn resolve(&self, index: usize, environment: &Environment<'_>) -> Result<SpotFrame, CrowdError> {
+        let (plan, walls, ground) = (environment.plan, environment.walls, environment.ground());
         let at_m = self.at.to_m(plan);
         let wrong = |problem: String, hint: String| {
             Err(CrowdError::Spot { spot: self.title(index), x: at_m.x, y: at_m.y, problem, hint })
@@ -162,7 +161,7 @@ impl SpotRequest {
                 None => format!("there is no floor to stand on within {HINT_REACH_M} m: choose another `at`"),
             };
             let problem = match at_m.is_finite() && walls.is_inside(at_m) {
-                true => format!("is {clearance_m:.2} m from a wall, at least {LEAST_CLEARANCE_M} m are needed"),
+                true => format!("is {clearance_m:.2} m from a wall, needed are at least {LEAST_CLEARANCE_M} m"),
                 false => "lies in a wall or off the floor".to_string(),
             };
             return wrong(problem, hint);

@@ -1,51 +1,41 @@
-use super::super::{CrowdError, Present, SocialCrowd};
-use super::play::{Part, Play, find};
+use super::clearance::{self, Clearance};
+use super::path::{BlendedPath, MOST_M_S2};
+use super::playback::{Performer, Playback, StepTime, find};
 use super::report::SpotReport;
 use super::request::SpotRequest;
-use super::room::{self, Room};
-use super::way::{MOST_M_S2, Way};
+use crate::crowd::CrowdError;
+use crate::crowd::agents::{AgentSnapshot, Agents};
+use crate::crowd::environment::Environment;
 use crate::math::{Vec2, atan2};
-use crate::plan::FloorPlan;
-use crate::routes::Ground;
 use crate::units::{
     AreaSide, Areas, Candidate, Diversity, MatchOptions, Party, SpotFrame, TrackState, Unit, UnitLibrary, rank,
 };
 use crate::walls::Walls;
 
-/// Members of a group who are farther from its middle than this count on their own, metres.
+/// Distance from the middle of their group beyond which members count on their own, metres.
 const TOGETHER_M: f64 = 2.5;
-/// Nobody farther from the viewer than this matters, metres: a unit's area is at most 40 m deep, people's ways end within.
+/// Distance from the viewer beyond which people are left out, metres: a unit's area is at most 40 m deep.
 const NEAR_M: f64 = 50.0;
-/// Whoever is this far from where their velocity leads in a step was pushed, metres.
+/// Distance from where its velocity leads at which an agent was pushed in a step, metres.
 const PUSHED_M: f64 = 0.004;
-/// Of so many units that were played last it is remembered when.
+/// Number of units played last that are remembered.
 const REMEMBERED: usize = 12;
 
-/// The moment at which spots are looked at.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Now {
-    /// Seconds since the start.
-    pub(super) time_s: f64,
-    /// Seconds to the next moment.
-    pub(super) step_s: f64,
-}
-
-/// What a spot looks at.
+/// The people around a spot, now and a step ago.
 #[derive(Clone, Copy)]
-pub(super) struct There<'a> {
+pub(super) struct SpotInput<'a> {
     /// Everybody present, by ascending id.
-    pub(super) people: &'a [Present],
+    pub(super) people: &'a [AgentSnapshot],
     /// The same a step ago.
-    pub(super) before: &'a [Present],
-    /// Seconds since then.
+    pub(super) before: &'a [AgentSnapshot],
+    /// Time since then, seconds.
     pub(super) step_s: f64,
     pub(super) walls: &'a Walls,
 }
 
-impl There<'_> {
-    /// Whether somebody just speeds up, brakes or turns harder than people do who move over to a part, or is being pushed:
-    /// they make way for somebody, and go on with that first.
-    fn dodges(&self, person: &Present) -> bool {
+impl SpotInput<'_> {
+    /// Whether an agent makes way for somebody: it accelerates harder than people who move over to a part, or is pushed.
+    fn dodges(&self, person: &AgentSnapshot) -> bool {
         let Some(before) = find(self.before, person.id) else { return false };
         let [was, is] = [before.velocity_m_s, person.velocity_m_s];
         let expected_m = before.position_m + (was + is) * (0.5 * self.step_s);
@@ -53,7 +43,7 @@ impl There<'_> {
     }
 }
 
-/// A spot with its viewer, and the units that are being played there.
+/// A spot with its viewer, and the units played there.
 pub(super) struct Spot {
     pub(super) frame: SpotFrame,
     pub(super) radius_m: f64,
@@ -64,18 +54,18 @@ pub(super) struct Spot {
     /// The units that fit the floor, unmirrored or mirrored.
     units: Vec<Unit>,
     options: MatchOptions,
-    playing: Vec<Play>,
-    /// Who has just played, and until when they are left alone, seconds.
+    playing: Vec<Playback>,
+    /// Ids of people who have just played, and the time until which they are left alone, seconds.
     resting: Vec<(u32, f64)>,
-    /// When the people there are looked at again.
+    /// Time at which units are looked for again, seconds.
     next_s: f64,
-    /// What was played last, the latest first.
+    /// Indices of the units played last, the latest first.
     recent: Vec<usize>,
     report: SpotReport,
 }
 
 /// Why no unit was begun.
-enum Missed {
+enum NoUnit {
     Nobody,
     NotFree,
     NoneAlike(String),
@@ -84,12 +74,8 @@ enum Missed {
 }
 
 impl Spot {
-    pub(super) fn new(
-        index: usize,
-        request: &SpotRequest,
-        (plan, walls, ground): (&FloorPlan, &Walls, &Ground),
-    ) -> Result<Spot, CrowdError> {
-        let frame = request.resolve(index, (plan, walls, ground))?;
+    pub(super) fn new(index: usize, request: &SpotRequest, environment: &Environment<'_>) -> Result<Spot, CrowdError> {
+        let frame = request.resolve(index, environment)?;
         let library = match request.play {
             true => UnitLibrary::open(request.folder.as_deref())?,
             false => UnitLibrary::default(),
@@ -97,7 +83,7 @@ impl Spot {
         let count = library.units.len();
         let areas = request.areas();
         let options = MatchOptions::default();
-        let fits = |unit: &Unit| room::fits(unit, &frame, request.radius, walls);
+        let fits = |unit: &Unit| clearance::fits(unit, &frame, request.radius, environment.walls);
         let units: Vec<Unit> = library.units.into_iter().filter(fits).collect();
         let report = SpotReport {
             name: request.title(index),
@@ -126,9 +112,9 @@ impl Spot {
         SpotReport { diversity: self.diversity.report(), ..self.report.clone() }
     }
 
-    /// Goes on with the units that are being played.
-    pub(super) fn go_on(&mut self, now: Now, crowd: &mut SocialCrowd<'_>, people: &[Present]) {
-        let judged = |person: &Present| self.areas.side_of(self.frame.of_plan(person.position_m)).is_some();
+    /// Leads those who play through the next step.
+    pub(super) fn go_on(&mut self, now: StepTime, agents: &mut Agents, people: &[AgentSnapshot]) {
+        let judged = |person: &AgentSnapshot| self.areas.side_of(self.frame.of_plan(person.position_m)).is_some();
         if people.iter().any(judged) {
             self.report.there_s += now.step_s;
             self.report.played_s += if self.playing.is_empty() { 0.0 } else { now.step_s };
@@ -136,73 +122,73 @@ impl Spot {
         self.resting.retain(|&(_, until_s)| until_s > now.time_s + 1e-9);
         let Spot { playing, units, frame, report, resting, pause_s, .. } = self;
         playing.retain_mut(|play| {
-            let gone = play.go_on(now, &units[play.unit], frame, crowd, people, report);
+            let gone = play.go_on(now, &units[play.unit], frame, agents, people, report);
             resting.extend(gone.into_iter().map(|id| (id, now.time_s + *pause_s)));
-            !play.parts.is_empty()
+            !play.performers.is_empty()
         });
     }
 
-    /// Looks whether a unit can be begun, and begins it.
-    pub(super) fn look(&mut self, now: Now, crowd: &mut SocialCrowd<'_>, there: &There<'_>) {
+    /// Begins the best unit for the people who are there, if there is one and it is due.
+    pub(super) fn look(&mut self, now: StepTime, agents: &mut Agents, there: &SpotInput<'_>) {
         if self.units.is_empty() || now.time_s < self.next_s - 1e-9 {
             return;
         }
         self.next_s = now.time_s + self.every_s;
-        match self.choose(now, crowd, there) {
+        match self.choose(now, agents, there) {
             Ok((candidate, ways)) => {
                 let mut play = self.begin(now, &candidate, ways, there.people);
-                play.go_on(now, &self.units[play.unit], &self.frame, crowd, there.people, &mut self.report);
+                play.go_on(now, &self.units[play.unit], &self.frame, agents, there.people, &mut self.report);
                 self.playing.push(play);
             }
             Err(missed) => self.count(missed),
         }
     }
 
-    fn count(&mut self, missed: Missed) {
+    fn count(&mut self, missed: NoUnit) {
         let report = &mut self.report;
-        report.moments += u64::from(!matches!(missed, Missed::Nobody));
+        report.moments += u64::from(!matches!(missed, NoUnit::Nobody));
         match missed {
-            Missed::Nobody => {}
-            Missed::NotFree => report.not_free += 1,
-            Missed::TooFar => report.too_far += 1,
-            Missed::InTheWay => report.in_the_way += 1,
-            Missed::NoneAlike(who) => {
+            NoUnit::Nobody => {}
+            NoUnit::NotFree => report.not_free += 1,
+            NoUnit::TooFar => report.too_far += 1,
+            NoUnit::InTheWay => report.in_the_way += 1,
+            NoUnit::NoneAlike(who) => {
                 report.unmatched += 1;
                 *report.missing.entry(who).or_default() += 1;
             }
         }
     }
 
-    /// The best unit for the people who are there, and everybody's way into it.
+    /// Finds the best unit for the people who are there, and the path of each person into it.
     fn choose(
         &self,
-        now: Now,
-        crowd: &SocialCrowd<'_>,
-        there: &There<'_>,
-    ) -> Result<(Candidate, Vec<(u32, Way)>), Missed> {
-        let present = self.present(crowd, there.people);
+        now: StepTime,
+        agents: &Agents,
+        there: &SpotInput<'_>,
+    ) -> Result<(Candidate, Vec<(u32, BlendedPath)>), NoUnit> {
+        let present = self.present(agents, there.people);
         if present.is_empty() {
-            return Err(Missed::Nobody);
+            return Err(NoUnit::Nobody);
         }
         let waits = |id: u32| find(there.people, id).is_none_or(|person| person.at_stop);
         if present.iter().flat_map(|group| &group.people).any(|&(id, _)| waits(id)) {
-            return Err(Missed::NotFree);
+            return Err(NoUnit::NotFree);
         }
         let recent = |unit: usize| self.recent.iter().position(|&played| played == unit).map(|ago| ago + 1);
         let ranked = rank(&self.units, &present, &self.areas, &self.options, recent);
         if ranked.alike == 0 {
-            return Err(Missed::NoneAlike(in_words(&present)));
+            return Err(NoUnit::NoneAlike(in_words(&present)));
         }
-        let room = Room {
+        let clearance = Clearance {
             frame: &self.frame,
             radius_m: self.radius_m,
             walls: there.walls,
             playing: self.playing.iter().map(|play| (play, &self.units[play.unit])).collect(),
             time_s: now.time_s,
         };
-        let mut missed = Missed::TooFar;
+        let mut missed = NoUnit::TooFar;
         for candidate in ranked.candidates {
-            match self.ways(&candidate, there, &room) {
+            match self.ways(&candidate, there, &clearance) {
                 Ok(ways) => return Ok((candidate, ways)),
                 Err(reason) => missed = reason,
             }
@@ -210,28 +196,29 @@ impl Spot {
         Err(missed)
     }
 
-    /// The groups in the front and rear areas that could play, in the order of their first ids: whoever plays already, or
-    /// has just done so, is none of them.
-    fn present(&self, crowd: &SocialCrowd<'_>, people: &[Present]) -> Vec<Party> {
+    /// Groups in the front and rear areas that could play, in the order of their first ids.
+    ///
+    /// People who play, or have just played, are left out.
+    fn present(&self, agents: &Agents, people: &[AgentSnapshot]) -> Vec<Party> {
         let mut parties = Vec::new();
         let mut at = 0;
         while let Some(first) = people.get(at) {
             // The members of a group follow each other.
-            let ids = crowd.group_of(first.id);
+            let ids = agents.group_of(first.id);
             let count = people[at..].iter().take_while(|p| p.id == first.id || ids.contains(&p.id)).count();
             let group = &people[at..at + count];
             at += count;
-            let near = |p: &Present| p.position_m.distance(self.frame.at_m) < NEAR_M;
+            let near = |p: &AgentSnapshot| p.position_m.distance(self.frame.at_m) < NEAR_M;
             if group.iter().any(near) {
-                let rests = |p: &Present| self.resting.iter().any(|&(id, _)| id == p.id);
-                let free: Vec<Present> = group.iter().filter(|p| !p.led && !rests(p)).copied().collect();
+                let rests = |p: &AgentSnapshot| self.resting.iter().any(|&(id, _)| id == p.id);
+                let free: Vec<AgentSnapshot> = group.iter().filter(|p| !p.led && !rests(p)).copied().collect();
                 self.gather(&free, &mut parties);
             }
         }
         parties
     }
 
-    fn gather(&self, group: &[Present], parties: &mut Vec<Party>) {
+    fn gather(&self, group: &[AgentSnapshot], parties: &mut Vec<Party>) {
         let middle = group.iter().fold(Vec2::ZERO, |sum, p| sum + p.position_m) / group.len().max(1) as f64;
         let together = group.iter().all(|person| person.position_m.distance(middle) < TOGETHER_M);
         for people in group.chunks(if together { group.len().max(1) } else { 1 }) {
@@ -240,8 +227,8 @@ impl Spot {
         }
     }
 
-    /// Somebody as the viewer sees them.
-    fn moment(&self, person: &Present) -> TrackState {
+    /// State of an agent in the viewer's frame.
+    fn moment(&self, person: &AgentSnapshot) -> TrackState {
         TrackState {
             place_m: self.frame.of_plan(person.position_m),
             velocity_m_s: self.frame.turn_of_plan(person.velocity_m_s),
@@ -249,27 +236,39 @@ impl Spot {
         }
     }
 
-    /// Everybody's way into a unit, if they are free to take it and there is room for it.
-    fn ways(&self, candidate: &Candidate, there: &There<'_>, room: &Room<'_>) -> Result<Vec<(u32, Way)>, Missed> {
+    /// Paths of all people into a unit, if they are free to take them and there is room.
+    fn ways(
+        &self,
+        candidate: &Candidate,
+        there: &SpotInput<'_>,
+        clearance: &Clearance<'_>,
+    ) -> Result<Vec<(u32, BlendedPath)>, NoUnit> {
         let unit = &self.units[candidate.unit];
         let mut ways = Vec::with_capacity(candidate.parts.len());
         for (member, &id) in candidate.parts.iter().enumerate() {
-            let person = find(there.people, id).ok_or(Missed::TooFar)?;
+            let person = find(there.people, id).ok_or(NoUnit::TooFar)?;
             if there.dodges(person) {
-                return Err(Missed::NotFree);
+                return Err(NoUnit::NotFree);
             }
-            let way = Way::find(unit, member, candidate.mirrored, &self.moment(person)).ok_or(Missed::TooFar)?;
+            let way =
+                BlendedPath::find(unit, member, candidate.mirrored, &self.moment(person)).ok_or(NoUnit::TooFar)?;
             ways.push((id, way));
         }
-        if room.has(unit, &ways, there.people) { Ok(ways) } else { Err(Missed::InTheWay) }
+        if clearance.has(unit, &ways, there.people) { Ok(ways) } else { Err(NoUnit::InTheWay) }
     }
 
-    fn begin(&mut self, now: Now, candidate: &Candidate, ways: Vec<(u32, Way)>, people: &[Present]) -> Play {
+    fn begin(
+        &mut self,
+        now: StepTime,
+        candidate: &Candidate,
+        ways: Vec<(u32, BlendedPath)>,
+        people: &[AgentSnapshot],
+    ) -> Playback {
         let unit = &self.units[candidate.unit];
         let report = &mut self.report;
         report.splices += 1;
         *report.by_unit.entry(unit.name.clone()).or_default() += 1;
-        let mut parts = Vec::with_capacity(ways.len());
+        let mut performers = Vec::with_capacity(ways.len());
         for (id, way) in ways {
             let Some(person) = find(people, id) else { continue };
             let start = unit.moment(way.member, 0.0, candidate.mirrored);
@@ -279,11 +278,11 @@ impl Spot {
             report.position_error_m.push(person.position_m.distance(self.frame.to_plan(start.place_m)));
             report.heading_error_deg.push(turned_rad.to_degrees());
             report.move_over_s.push(way.over_s);
-            parts.push(Part { id, group: unit.members[way.member].group, way, facing: person.heading });
+            performers.push(Performer { id, group: unit.members[way.member].group, way, facing: person.heading });
         }
         self.recent.insert(0, candidate.unit);
         self.recent.truncate(REMEMBERED);
-        Play { unit: candidate.unit, began_s: now.time_s, parts }
+        Playback { unit: candidate.unit, began_s: now.time_s, performers }
     }
 }
 

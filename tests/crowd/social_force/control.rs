@@ -14,8 +14,8 @@ fn who_is_led_goes_where_they_are_told_and_then_walks_on() {
     while crowd.time_s() < 12.0 {
         assert!(crowd.next_frame(&mut frame).unwrap());
     }
-    let person = crowd.everybody().min_by_key(|person| person.id).unwrap();
-    assert_eq!(crowd.person(person.id), Some(person));
+    let person = crowd.agents().min_by_key(|person| person.id).unwrap();
+    assert_eq!(crowd.agent(person.id), Some(person));
     let mut at = person.position_m;
     // Up and down across the corridor for 20 s, with the face to the east.
     for step in 0..200 {
@@ -32,7 +32,7 @@ fn who_is_led_goes_where_they_are_told_and_then_walks_on() {
             assert!(other.position_m.distance(at) > 0.25, "{other:?} walks into {at:?}");
         }
     }
-    assert!(crowd.person(person.id).unwrap().led && !crowd.everybody().any(|p| p.led && p.id != person.id));
+    assert!(crowd.agent(person.id).unwrap().led && !crowd.agents().any(|p| p.led && p.id != person.id));
     assert!(crowd.release(person.id) && !crowd.release(person.id));
     let mut before = frame.walkers.iter().find(|w| w.id == person.id).copied().unwrap();
     while crowd.next_frame(&mut frame).unwrap() {
@@ -51,7 +51,7 @@ fn an_onlooker_is_walked_round_and_counts_for_nobody() {
     let mut crowd = crowd(&scene, &options, 2);
     let viewer = vec2(10.0, 2.2);
     let id = crowd.stand(viewer, 0.3).unwrap();
-    assert!(crowd.person(id).is_some_and(|onlooker| onlooker.position_m.distance(viewer) < 1e-5));
+    assert!(crowd.agent(id).is_some_and(|onlooker| onlooker.position_m.distance(viewer) < 1e-5));
     let mut frame = Frame::default();
     let (mut nearest_m, mut close): (f64, u32) = (9.0, 0);
     while crowd.next_frame(&mut frame).unwrap() {
@@ -61,7 +61,7 @@ fn an_onlooker_is_walked_round_and_counts_for_nobody() {
             nearest_m = nearest_m.min(distance_m);
             close += u32::from(distance_m < 1.5);
         }
-        assert!(crowd.person(id).is_some_and(|onlooker| onlooker.position_m.distance(viewer) < 1e-5));
+        assert!(crowd.agent(id).is_some_and(|onlooker| onlooker.position_m.distance(viewer) < 1e-5));
     }
     println!("nearest to an onlooker of 0.3 m: {nearest_m:.2} m");
     // Bodies of 0.28 m at least against 0.3 m.
@@ -84,5 +84,5 @@ fn nobody_is_led_who_is_not_there_nor_to_no_place() {
     assert!(!crowd.lead(id, vec2(f64::NAN, 0.0), Vec2::ZERO, None));
     assert!(!crowd.lead(id, Vec2::ZERO, vec2(f64::INFINITY, 0.0), None));
     assert_eq!((crowd.stand(vec2(f64::NAN, 0.0), 0.3), crowd.stand(Vec2::ZERO, f64::NAN)), (None, None));
-    assert_eq!((crowd.stand(Vec2::ZERO, 0.0), crowd.person(4000)), (None, None));
+    assert_eq!((crowd.stand(Vec2::ZERO, 0.0), crowd.agent(4000)), (None, None));
 }

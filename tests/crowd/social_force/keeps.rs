@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use trodden::crowd::{CrowdModel, CrowdOptions, GroupOptions, SocialCrowd, SocialForceOptions, simulate};
+use trodden::crowd::{CrowdModel, CrowdOptions, GroupOptions, Simulation, SocialForceOptions};
 use trodden::math::{Distribution, Vec2, vec2};
 use trodden::motion::{BodyOptions, Frame, Motion, People, Walker};
 use trodden::plan::PlanPoint;
@@ -39,7 +39,9 @@ fn a_scenario_gets_the_model_that_it_names() {
     let options = social(40, MIXED);
     let walkers = |options: &CrowdOptions| {
         let navigation = scene.navigation.clone();
-        let mut crowd = simulate(&scene.plan, &scene.walls, &scene.routes, navigation, &people, options, &[]).unwrap();
+        let mut crowd =
+            Simulation::with_navigation(&scene.plan, &scene.walls, &scene.routes, navigation, &people, options)
+                .unwrap();
         let (mut frame, mut all) = (Frame::default(), Vec::new());
         while crowd.next_frame(&mut frame).unwrap() {
             all.extend(frame.walkers.clone());
@@ -189,10 +191,10 @@ fn what_is_out_of_range_is_refused() {
         forces(SocialForceOptions { range: f64::INFINITY, ..SocialForceOptions::default() }),
     ];
     for options in bad {
-        let error = SocialCrowd::new(&scene.plan, &scene.walls, &scene.routes, &people, &options).err();
+        let error = Simulation::new(&scene.plan, &scene.walls, &scene.routes, &people, &options).err();
         assert!(error.is_some_and(|error| error.to_string().contains("allowed is")), "{options:?}");
     }
-    let none = SocialCrowd::new(&scene.plan, &scene.walls, &[], &people, &good).err();
+    let none = Simulation::new(&scene.plan, &scene.walls, &[], &people, &good).err();
     assert!(none.is_some());
 }
 

@@ -1,6 +1,6 @@
 //! Crowds under social forces on the plans of the crowd's tests.
 
-use trodden::crowd::{CrowdModel, CrowdOptions, GroupOptions, SocialCrowd, Tally};
+use trodden::crowd::{CrowdModel, CrowdOptions, GroupOptions, Simulation, Tally};
 use trodden::motion::{BodyOptions, Frame, Motion, People};
 
 pub use super::plans::{Scene, across, area, opening, route};
@@ -31,14 +31,14 @@ pub fn endless(people: u32, shares: [f64; 4], length_m: f64, seconds: f64) -> Cr
     }
 }
 
-pub fn crowd<'a>(scene: &'a Scene, options: &CrowdOptions, seed: u64) -> SocialCrowd<'a> {
+pub fn crowd<'a>(scene: &'a Scene, options: &CrowdOptions, seed: u64) -> Simulation<'a> {
     let people = People::new(seed, BodyOptions::default());
     let navigation = scene.navigation.clone();
-    SocialCrowd::with_navigation(&scene.plan, &scene.walls, &scene.routes, navigation, &people, options).unwrap()
+    Simulation::with_navigation(&scene.plan, &scene.walls, &scene.routes, navigation, &people, options).unwrap()
 }
 
 /// Walks to the end.
-pub fn walk(scene: &Scene, options: &CrowdOptions, seed: u64, mut see: impl FnMut(&Frame, &SocialCrowd<'_>)) -> Tally {
+pub fn walk(scene: &Scene, options: &CrowdOptions, seed: u64, mut see: impl FnMut(&Frame, &Simulation<'_>)) -> Tally {
     let mut crowd = crowd(scene, options, seed);
     let mut frame = Frame::default();
     while crowd.next_frame(&mut frame).unwrap() {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use trodden::crowd::Crowd;
+use trodden::crowd::Simulation;
 use trodden::marks::{ContactOptions, Footfalls, MarksOptions};
 use trodden::motion::{Frame, Motion, People};
 use trodden::patterns::PatternLibrary;
@@ -61,7 +61,7 @@ fn of_plan(name: &str, people: u32) -> f64 {
     let walls = Walls::trace(&plan, &scenario.walls);
     let (routes, ways) = Navigation::find(&plan, &walls, &scenario.routes).unwrap();
     let people = People::new(scenario.seed, scenario.bodies.clone());
-    let mut crowd = Crowd::with_navigation(&plan, &walls, &routes, ways, &people, &scenario.crowd).unwrap();
+    let mut crowd = Simulation::with_navigation(&plan, &walls, &routes, ways, &people, &scenario.crowd).unwrap();
     let library = PatternLibrary::built_in();
     // Of those who pass by: whoever stands at a painting leans on its wall, and whoever squeezes through a gap brushes both
     // of its sides.

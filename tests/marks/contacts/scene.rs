@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use trodden::crowd::{Crowd, CrowdOptions};
+use trodden::crowd::{CrowdOptions, Simulation};
 use trodden::marks::{Contact, ContactOptions, ContactPlaces, Footfalls, MarksOptions};
 use trodden::math::{Vec2, vec2};
 use trodden::motion::{BodyOptions, Frame, Motion, People};
@@ -80,7 +80,7 @@ pub fn walked(plan: &FloorPlan, walls: &Walls, people: &People, crowd: u32, ends
     let routes = routes::find(plan, walls, &request).unwrap_or_else(|error| panic!("{error}"));
     let options =
         CrowdOptions { people: crowd, entry_seconds: Some(f64::from(crowd) * 0.9), ..CrowdOptions::default() };
-    let mut crowd = Crowd::new(plan, walls, &routes, people, &options).unwrap();
+    let mut crowd = Simulation::new(plan, walls, &routes, people, &options).unwrap();
     let mut frames = Vec::new();
     let mut frame = Frame::default();
     while crowd.next_frame(&mut frame).unwrap() {

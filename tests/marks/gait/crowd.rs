@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use trodden::crowd::{Crowd, CrowdOptions};
+use trodden::crowd::{CrowdOptions, Simulation};
 use trodden::marks::{HeelOptions, MarksOptions};
 use trodden::math::atan2;
 use trodden::motion::{BodyOptions, Frame, Motion, People};
@@ -25,7 +25,7 @@ fn congested(time_step: f64) -> (Floor, Vec<Path>) {
     let mut found = routes::find(&plan, &walls, &RoutesOptions::default()).unwrap();
     found.retain(|route| route.name.starts_with("west"));
     let mut paths: BTreeMap<u32, Path> = BTreeMap::new();
-    let mut crowd = Crowd::new(&plan, &walls, &found, &people, &options).unwrap();
+    let mut crowd = Simulation::new(&plan, &walls, &found, &people, &options).unwrap();
     let mut frame = Frame::default();
     while crowd.next_frame(&mut frame).unwrap() {
         for walker in &frame.walkers {

@@ -97,7 +97,7 @@ fn units_need_the_model_whose_people_walk_in_groups() {
 fn a_scenarios_spots_are_checked_written_and_read_again() {
     let wrong = |keys: &str| scenario(&format!("[[unit]]\nat = [14.0, 8.5]\n{keys}\n")).unwrap_err();
     for (keys, expected) in [
-        ("", "say where the viewer looks"),
+        ("", "the direction in which the viewer looks is missing"),
         ("heading_deg = 90\nfacing = [1, 2]", "both `facing` and `heading_deg`"),
         ("heading_deg = 90\nevery = 0", "`every` is 0, allowed is 0.05 to 60"),
         ("heading_deg = 90\npause = nan", "`pause` is"),

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::OnceLock;
 
-use trodden::crowd::{CrowdError, CrowdOptions, Present, SpotReport, SpotRequest, Spots};
+use trodden::crowd::{AgentSnapshot, CrowdError, CrowdOptions, Simulation, SpotReport, SpotRequest};
 use trodden::math::Vec2;
 use trodden::motion::{Frame, Motion, People};
 use trodden::plan::{self, FloorPlan};
@@ -55,15 +55,15 @@ impl Scene {
         self.scenario.spots()[0].clone()
     }
 
-    pub fn begin(&self, spot: SpotRequest) -> Result<Spots<'_>, CrowdError> {
+    pub fn begin(&self, spot: SpotRequest) -> Result<Simulation<'_>, CrowdError> {
         self.begin_with(spot, self.scenario.seed, self.scenario.crowd.people)
     }
 
-    fn begin_with(&self, spot: SpotRequest, seed: u64, people: u32) -> Result<Spots<'_>, CrowdError> {
+    fn begin_with(&self, spot: SpotRequest, seed: u64, people: u32) -> Result<Simulation<'_>, CrowdError> {
         let navigation = self.navigation.clone();
         let options = CrowdOptions { people, ..self.scenario.crowd.clone() };
         let people = People::new(seed, self.scenario.bodies.clone());
-        Spots::new(&self.plan, &self.walls, &self.routes, navigation, &people, &options, &[spot])
+        Simulation::with_spots(&self.plan, &self.walls, &self.routes, navigation, &people, &options, &[spot])
     }
 
     /// Lets the crowd walk for so many seconds: everybody at every moment, and the report.
@@ -81,8 +81,7 @@ impl Scene {
         let mut crowd = self.begin_with(spot, seed, people).unwrap();
         let (mut frame, mut moments) = (Frame::default(), Vec::new());
         while frame.time_s < seconds && crowd.next_frame(&mut frame).unwrap() {
-            let known: BTreeMap<u32, Present> =
-                crowd.crowd().everybody().map(|present| (present.id, present)).collect();
+            let known: BTreeMap<u32, AgentSnapshot> = crowd.agents().map(|agent| (agent.id, agent)).collect();
             let seen = frame.walkers.iter().map(|walker| Seen {
                 id: walker.id,
                 place_m: walker.position_m,
@@ -90,11 +89,11 @@ impl Scene {
                 heading: walker.heading.unwrap(),
                 radius_m: known[&walker.id].radius_m,
                 led: known[&walker.id].led,
-                group: crowd.crowd().group_of(walker.id).start,
+                group: crowd.group_of(walker.id).start,
             });
             moments.push(seen.collect());
         }
-        let report = crowd.reports().remove(0);
+        let report = crowd.tally().spots.remove(0);
         (moments, report)
     }
 }

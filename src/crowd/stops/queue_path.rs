@@ -1,28 +1,28 @@
-use super::Surface;
+use crate::crowd::environment::Environment;
 use crate::math::{Vec2, vec2};
 
-/// People in a line keep this far off walls, metres; less where there is no room.
+/// Distance of a queue from walls, metres; and the least where there is no room.
 const MARGIN_M: f64 = 0.32;
 const LEAST_MARGIN_M: f64 = 0.2;
-/// A line leaves a passage of this width before a wall that it comes to, metres.
+/// Width of the passage that a queue leaves before a wall, metres.
 const PASSAGE_M: f64 = 1.3;
-/// Pieces of a line lie this far apart at least, metres, and so do lines.
+/// Least distance between pieces of a queue, and between queues, metres.
 const APART_M: f64 = 0.95;
-/// No line is longer than this, metres.
+/// Longest queue, metres.
 const LONGEST_M: f64 = 60.0;
-/// How far a line looks for the side with more room, metres.
+/// Distance over which the room beside a turn is compared, metres.
 const LOOK_M: f64 = 8.0;
-/// Turns that a line tries where it cannot go straight on: cosine and sine, gentle ones first.
+/// Turns of a queue that cannot go straight on, gentle ones first: cosine and sine.
 const TURNS: [[f64; 2]; 7] =
     [[1.0, 0.0], [0.866, 0.5], [0.866, -0.5], [0.5, 0.866], [0.5, -0.866], [0.0, 1.0], [0.0, -1.0]];
 
-/// The line that people queue in, from its head on.
+/// The polyline along which people queue, from its head on.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct QueuePath {
     points: Vec<Vec2>,
-    /// Way from the head to each point, metres.
+    /// Length of the polyline from the head to each point, metres.
     along_m: Vec<f64>,
-    /// What the first one faces.
+    /// Unit vector that the first one faces.
     ahead: Vec2,
 }
 
@@ -37,11 +37,17 @@ impl QueuePath {
         QueuePath { points, along_m, ahead }
     }
 
-    /// A line that begins at `head` behind somebody who faces `ahead`, goes straight back while it can and bends
+    /// A queue that begins at `head` behind somebody who faces `ahead`, goes straight back while it can and bends
     /// along walls. It keeps clear of `taken` places.
-    pub(super) fn found(surface: Surface<'_>, head: Vec2, ahead: Vec2, spacing_m: f64, taken: &[Vec2]) -> QueuePath {
+    pub(super) fn found(
+        environment: &Environment<'_>,
+        head: Vec2,
+        ahead: Vec2,
+        spacing_m: f64,
+        taken: &[Vec2],
+    ) -> QueuePath {
         let mut points = Vec::new();
-        if stands(surface, head, LEAST_MARGIN_M) {
+        if stands(environment, head, LEAST_MARGIN_M) {
             points.push(head);
         }
         let mut back = -ahead;
@@ -50,7 +56,9 @@ impl QueuePath {
                 break;
             }
             let next = [(MARGIN_M, PASSAGE_M), (MARGIN_M, 0.0), (LEAST_MARGIN_M, 0.0)].into_iter().find_map(
-                |(margin_m, passage_m)| onward(surface, &points, last, back, spacing_m, taken, [margin_m, passage_m]),
+                |(margin_m, passage_m)| {
+                    onward(environment, &points, last, back, spacing_m, taken, [margin_m, passage_m])
+                },
             );
             let Some(direction) = next else { break };
             points.push(last + direction * spacing_m);
@@ -67,7 +75,7 @@ impl QueuePath {
         self.along_m.last().copied().unwrap_or(0.0)
     }
 
-    /// The place this far behind the head, and the direction in which the line moves there.
+    /// The place this far behind the head, and the direction in which the queue moves there.
     pub(super) fn at(&self, along_m: f64) -> (Vec2, Vec2) {
         let after = self.along_m.partition_point(|&a| a < along_m).min(self.points.len().saturating_sub(1));
         let Some(&point) = self.points.get(after) else { return (Vec2::ZERO, self.ahead) };
@@ -82,13 +90,13 @@ impl QueuePath {
 }
 
 /// Whether a body has room at `p`, inside of the plan.
-pub(super) fn stands(surface: Surface<'_>, p: Vec2, margin_m: f64) -> bool {
-    surface.plan.is_floor(p) && surface.ground.clearance_m(p) >= margin_m
+pub(super) fn stands(environment: &Environment<'_>, p: Vec2, margin_m: f64) -> bool {
+    environment.plan.is_floor(p) && environment.ground().clearance_m(p) >= margin_m
 }
 
-/// The direction in which a line goes on from its last place: straight, or else the turn with the most room ahead.
+/// The direction in which a queue goes on from its last place: straight, or else the turn with the most room ahead.
 fn onward(
-    surface: Surface<'_>,
+    environment: &Environment<'_>,
     points: &[Vec2],
     last: Vec2,
     back: Vec2,
@@ -100,17 +108,17 @@ fn onward(
     let earlier = &points[..points.len().saturating_sub(1)];
     let fits = |direction: Vec2| {
         let next = last + direction * spacing_m;
-        // The place before the last is as near as a bend of the line allows.
+        // The place before the last is as near as a bend of the queue allows.
         let near = |other: &Vec2, apart_m: f64| next.distance(*other) < apart_m;
         let crosses = earlier.iter().rev().skip(1).any(|other| near(other, apart_m))
             || earlier.last().is_some_and(|other| near(other, 0.9 * spacing_m))
             || taken.iter().any(|other| near(other, APART_M));
         let ahead = next + direction * passage_m;
         !crosses
-            && stands(surface, next, margin_m)
-            && surface.ground.is_free(surface.walls, last, next, margin_m)
+            && stands(environment, next, margin_m)
+            && environment.is_free(last, next, margin_m)
             && (passage_m == 0.0
-                || surface.plan.is_floor(ahead) && surface.ground.is_free(surface.walls, next, ahead, LEAST_MARGIN_M))
+                || environment.plan.is_floor(ahead) && environment.is_free(next, ahead, LEAST_MARGIN_M))
     };
     let mut best: Option<(f64, Vec2)> = None;
     for [cos, sin] in TURNS {
@@ -121,7 +129,7 @@ fn onward(
         if sin == 0.0 {
             return Some(direction);
         }
-        let room_m = room_ahead_m(surface, last, direction);
+        let room_m = room_ahead_m(environment, last, direction);
         // The first of equals: gentle turns are tried first, and to the left of those who come.
         if best.is_none_or(|(most_m, _)| room_m > most_m + 0.5) {
             best = Some((room_m, direction));
@@ -130,9 +138,9 @@ fn onward(
     best.map(|(_, direction)| direction)
 }
 
-fn room_ahead_m(surface: Surface<'_>, from: Vec2, direction: Vec2) -> f64 {
+fn room_ahead_m(environment: &Environment<'_>, from: Vec2, direction: Vec2) -> f64 {
     let mut done = 0.0;
-    while done < LOOK_M && stands(surface, from + direction * (done + 0.5), LEAST_MARGIN_M) {
+    while done < LOOK_M && stands(environment, from + direction * (done + 0.5), LEAST_MARGIN_M) {
         done += 0.5;
     }
     done

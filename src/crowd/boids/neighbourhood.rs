@@ -1,38 +1,34 @@
-//! Everybody around a person, weighed eight at a time.
+//! Neighbourhood of an agent: all others within sensing distance, weighed eight at a time.
 
 use wide::f32x8;
 
-use super::neighbours::Neighbours;
-use super::state::{Body, Traits};
-use super::surroundings::SENSE_M;
+use crate::crowd::neighbours::{LANES, NOWHERE_M, NeighbourGrid};
+use crate::crowd::perception::SENSE_M;
+use crate::crowd::state::{BodyState, Traits};
 
-/// Lanes of a vector register.
-pub(super) const LANES: usize = 8;
-/// Most people within sensing distance; more do not fit there.
+/// Largest number of others within sensing distance; more do not fit there.
 const MOST_SEEN: usize = 96;
-/// Farther away than anything that matters, metres: where unused lanes stand.
-pub(super) const NOWHERE_M: f32 = 1e3;
-/// Those whose headings agree at least so well (cosine) go the same way.
+/// Cosine between headings from which on two go the same way.
 const ALIKE: f32 = 0.3;
-/// Density at which the acceptable distance has halved the way to the exclusion distance, persons per square metre.
+/// People per square metre at which the acceptable distance is half way down to the exclusion distance.
 const CROWDED: f32 = 1.2;
-/// How far ahead in time people see others come near, seconds.
+/// Time over which people foresee others, seconds.
 const FORESIGHT_S: f32 = 1.2;
 /// Sidestep of those who meet head on, to their right, metres: somebody has to begin.
 const SIDESTEP_M: f32 = 0.08;
-/// Two people never close the gap between them in less than this, seconds.
+/// Least time in which two people close the gap between them, seconds.
 const CLOSING_S: f32 = 0.35;
-/// Beyond this gap nobody is bumped into, metres.
+/// Gap beyond which nobody is bumped into, metres.
 const BUMPING_M: f32 = 1.2;
 
-/// A quantity of everybody seen.
+/// One quantity of all others.
 type Column = [[f32; LANES]; MOST_SEEN / LANES];
 
-/// Everybody around a person, relative to that person. Reused from person to person.
+/// All others around an agent, relative to it. Reused from agent to agent.
 #[derive(Clone, Debug)]
-pub(super) struct Seen {
+pub(super) struct Neighbourhood {
     count: usize,
-    /// Indices into [`Neighbours::bodies`].
+    /// Indices into [`NeighbourGrid::bodies`].
     index: [u32; MOST_SEEN],
     dx: Column,
     dy: Column,
@@ -43,9 +39,9 @@ pub(super) struct Seen {
     half_exclusion_m: Column,
 }
 
-/// What the people around add up to.
+/// Weighted sums over the neighbourhood.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Weighed {
+pub(super) struct NeighbourSums {
     /// Weighted count of the people ahead.
     pub(super) count: f32,
     /// Weighted count and velocity of those among them who go the same way.
@@ -54,10 +50,10 @@ pub(super) struct Weighed {
     pub(super) alike_vy: f32,
 }
 
-impl Default for Seen {
-    fn default() -> Seen {
+impl Default for Neighbourhood {
+    fn default() -> Neighbourhood {
         let column = [[0.0; LANES]; MOST_SEEN / LANES];
-        Seen {
+        Neighbourhood {
             count: 0,
             index: [0; MOST_SEEN],
             dx: column,
@@ -71,9 +67,9 @@ impl Default for Seen {
     }
 }
 
-impl Seen {
-    /// Finds everybody within reach whom `sees` does not rule out: it is asked about those who may be behind a wall.
-    pub(super) fn find(&mut self, neighbours: &Neighbours, index: usize, sees: impl Fn(f32, f32) -> bool) {
+impl Neighbourhood {
+    /// Finds all others within sensing distance; `sees` tells of those who may be behind a wall.
+    pub(super) fn find(&mut self, neighbours: &NeighbourGrid, index: usize, sees: impl Fn(f32, f32) -> bool) {
         let me = neighbours.bodies[index];
         let reach2 = (SENSE_M * SENSE_M) as f32;
         let mut count = 0;
@@ -96,7 +92,7 @@ impl Seen {
             }
         });
         self.count = count;
-        let far = Body { vx: me.vx, vy: me.vy, ..Body::default() };
+        let far = BodyState { vx: me.vx, vy: me.vy, ..BodyState::default() };
         while count % LANES != 0 {
             self.set(count, 0, NOWHERE_M, 0.0, &far);
             count += 1;
@@ -104,7 +100,7 @@ impl Seen {
     }
 
     #[inline]
-    fn set(&mut self, at: usize, index: u32, dx: f32, dy: f32, body: &Body) {
+    fn set(&mut self, at: usize, index: u32, dx: f32, dy: f32, body: &BodyState) {
         self.index[at] = index;
         let (row, lane) = (at / LANES, at % LANES);
         self.dx[row][lane] = dx;
@@ -121,8 +117,8 @@ impl Seen {
         self.count.div_ceil(LANES)
     }
 
-    /// Weighs everybody by how near and how far ahead they are, see [`kernel`](super::surroundings::kernel).
-    pub(super) fn weigh(&self, me: &Body) -> Weighed {
+    /// Sums over all others, weighted by distance and by how far ahead they are, see [`kernel`](super::floor::kernel).
+    pub(super) fn weigh(&self, me: &BodyState) -> NeighbourSums {
         let [mut count, mut alike, mut alike_vx, mut alike_vy] = [f32x8::ZERO; 4];
         let (aim_x, aim_y) = (f32x8::splat(me.aim_x), f32x8::splat(me.aim_y));
         for row in 0..self.rows() {
@@ -139,12 +135,12 @@ impl Seen {
             alike_vy += weight * f32x8::new(self.vy[row]);
         }
         let [count, alike, alike_vx, alike_vy] = [count, alike, alike_vx, alike_vy].map(sum);
-        Weighed { count, alike, alike_vx, alike_vy }
+        NeighbourSums { count, alike, alike_vx, alike_vy }
     }
 
-    /// Separation: the sum of pushes away from those who come nearer than the acceptable distance, now or soon.
-    pub(super) fn separate(&self, me: &Body, traits: &Traits, density: f32) -> [f32; 2] {
-        let crowded = 1.0 / (1.0 + density / CROWDED);
+    /// Separation: sum of the pushes away from others who come nearer than the acceptable distance, now or soon.
+    pub(super) fn separate(&self, me: &BodyState, traits: &Traits, people_per_m2: f32) -> [f32; 2] {
+        let crowded = 1.0 / (1.0 + people_per_m2 / CROWDED);
         let beyond_m = f32x8::splat((traits.acceptable_m - traits.exclusion_m).max(0.05) * crowded);
         let own_half_m = f32x8::splat(me.half_exclusion_m);
         let (aim_x, aim_y) = (f32x8::splat(me.aim_x), f32x8::splat(me.aim_y));
@@ -180,8 +176,8 @@ impl Seen {
         [sum(push_x), sum(push_y)]
     }
 
-    /// Takes away the speed at which a gap between two bodies would close too fast; each of them takes half.
-    pub(super) fn keep_from_bumping(&self, me: &Body, velocity: &mut [f32; 2]) {
+    /// Reduces a velocity that would close the gap between two bodies too fast; each of them takes half.
+    pub(super) fn keep_from_bumping(&self, me: &BodyState, velocity: &mut [f32; 2]) {
         let own_half_m = f32x8::splat(me.half_exclusion_m);
         for row in 0..self.rows() {
             let (dx, dy) = (f32x8::new(self.dx[row]), f32x8::new(self.dy[row]));
@@ -210,9 +206,10 @@ impl Seen {
         }
     }
 
-    /// Calls `each` with the indices of those who will be within `gap_m` of touching after `dt` seconds, everybody
-    /// keeping on, oneself at this velocity.
-    pub(super) fn within(&self, me: &Body, velocity: [f32; 2], dt: f32, gap_m: f32, mut each: impl FnMut(u32)) {
+    /// Calls `each` with the indices of others who will be within `gap_m` of touching after `dt` seconds.
+    ///
+    /// Others keep their velocity, the agent has this one.
+    pub(super) fn within(&self, me: &BodyState, velocity: [f32; 2], dt: f32, gap_m: f32, mut each: impl FnMut(u32)) {
         let reach_m = f32x8::splat(me.half_exclusion_m + gap_m);
         let [own_x, own_y] = velocity.map(f32x8::splat);
         let dt = f32x8::splat(dt);
@@ -230,7 +227,7 @@ impl Seen {
     }
 }
 
-/// All lanes together, in their order: a horizontal sum of the machine's may add in another.
+/// Sum of all lanes in their order: a horizontal sum of the machine's may add in another.
 #[inline]
 fn sum(lanes: f32x8) -> f32 {
     lanes.to_array().into_iter().sum()

@@ -1,46 +1,46 @@
-//! Whether there is room for a unit.
+//! Clearance of a unit: whether it keeps off walls, the viewer and other people.
 
-use super::super::Present;
-use super::play::Play;
-use super::way::{LOOK_S, Way};
+use super::path::{BlendedPath, LOOK_S};
+use super::playback::Playback;
+use crate::crowd::agents::AgentSnapshot;
 use crate::math::Vec2;
 use crate::units::{LEAST_APART_M, SpotFrame, Unit};
 use crate::walls::Walls;
 
-/// People who play keep this far from walls at least, metres.
+/// Least distance of performers from walls, metres.
 const WALL_M: f64 = 0.22;
-/// They come no nearer to the viewer than the viewer's radius and this, metres.
+/// Least distance of performers from the edge of the viewer's body, metres.
 const BODY_M: f64 = 0.2;
-/// How far ahead others are foreseen, seconds, ...
+/// Time over which the motion of others is foreseen, seconds.
 const FORESEEN_S: f64 = 1.2;
-/// ... and how far off they have to be then, metres; those who play another unit all the time until one of them ends.
+/// Least distance of others within that time, and of performers of another unit to its end, metres.
 const FORESEEN_M: f64 = 0.42;
-/// Others who are farther from whoever plays than this are not looked at, metres: nobody comes so far while foreseen.
+/// Distance beyond which others are left out, metres: more than they walk within [`FORESEEN_S`].
 const FAR_M: f64 = 20.0;
 
-/// What may be in the way of a unit that begins now.
-pub(super) struct Room<'a> {
+/// Obstacles of a unit that begins now.
+pub(super) struct Clearance<'a> {
     pub(super) frame: &'a SpotFrame,
-    /// Radius of the viewer's body, metres; 0: nobody stands there.
+    /// Radius of the viewer's body, metres; 0 without a body.
     pub(super) radius_m: f64,
     pub(super) walls: &'a Walls,
-    /// What is being played at the spot.
-    pub(super) playing: Vec<(&'a Play, &'a Unit)>,
-    /// Now, seconds since the start.
+    /// Units that are played at the spot.
+    pub(super) playing: Vec<(&'a Playback, &'a Unit)>,
+    /// Time since the start, seconds.
     pub(super) time_s: f64,
 }
 
-impl Room<'_> {
-    /// Whether people can take these ways into a unit: nobody runs into anybody, the viewer, or a wall.
-    pub(super) fn has(&self, unit: &Unit, ways: &[(u32, Way)], people: &[Present]) -> bool {
+impl Clearance<'_> {
+    /// Whether these paths into a unit keep off each other, other people, the viewer and walls.
+    pub(super) fn has(&self, unit: &Unit, ways: &[(u32, BlendedPath)], people: &[AgentSnapshot]) -> bool {
         self.are_apart(unit, ways)
             && self.keep_off(unit, ways, people)
             && self.keep_off_who_play(unit, ways)
             && self.cross_nothing(unit, ways)
     }
 
-    /// Whether nobody runs into another or the viewer while they move over.
-    fn are_apart(&self, unit: &Unit, ways: &[(u32, Way)]) -> bool {
+    /// Whether performers keep off each other and the viewer while they move over.
+    fn are_apart(&self, unit: &Unit, ways: &[(u32, BlendedPath)]) -> bool {
         let over_s = ways.iter().map(|(_, way)| way.over_s).fold(0.0, f64::max);
         let viewer_m = viewer_m(self.radius_m);
         looks(over_s + LOOK_S).all(|time_s| {
@@ -51,49 +51,49 @@ impl Room<'_> {
         })
     }
 
-    /// Whether nobody who walks by the model is about to come into their way.
-    fn keep_off(&self, unit: &Unit, ways: &[(u32, Way)], people: &[Present]) -> bool {
+    /// Whether performers keep off people who walk by the model.
+    fn keep_off(&self, unit: &Unit, ways: &[(u32, BlendedPath)], people: &[AgentSnapshot]) -> bool {
         let known = |id: u32| {
-            let parts = self.playing.iter().flat_map(|(play, _)| &play.parts);
-            ways.iter().any(|(other, _)| *other == id) || parts.into_iter().any(|part| part.id == id)
+            let performers = self.playing.iter().flat_map(|(play, _)| &play.performers);
+            ways.iter().any(|(other, _)| *other == id) || performers.into_iter().any(|part| part.id == id)
         };
-        let near = |p: &&Present| {
+        let near = |p: &&AgentSnapshot| {
             ways.iter().any(|(_, way)| {
                 let from_m = self.frame.to_plan(way.at(unit, 0.0).place_m);
                 p.position_m.distance(from_m) < FAR_M
             })
         };
-        let others: Vec<&Present> = people.iter().filter(near).filter(|person| !known(person.id)).collect();
+        let others: Vec<&AgentSnapshot> = people.iter().filter(near).filter(|person| !known(person.id)).collect();
         looks(FORESEEN_S).all(|time_s| {
             ways.iter().all(|(_, way)| {
                 let (place_m, _) = way.on_plan(unit, time_s, self.frame);
-                let there = |other: &&Present| other.position_m + other.velocity_m_s * time_s;
+                let there = |other: &&AgentSnapshot| other.position_m + other.velocity_m_s * time_s;
                 others.iter().all(|other| there(other).distance(place_m) >= FORESEEN_M)
             })
         })
     }
 
-    /// Whether they keep off those who play another unit here, to the end of either.
-    fn keep_off_who_play(&self, unit: &Unit, ways: &[(u32, Way)]) -> bool {
+    /// Whether performers keep off those of other units here, to the end of either.
+    fn keep_off_who_play(&self, unit: &Unit, ways: &[(u32, BlendedPath)]) -> bool {
         self.playing.iter().all(|(play, other)| {
             let since_s = self.time_s - play.began_s;
             looks(unit.duration_s.min(other.duration_s - since_s)).all(|time_s| {
                 let there: Vec<Vec2> =
-                    play.parts.iter().map(|part| part.way.at(other, since_s + time_s).place_m).collect();
+                    play.performers.iter().map(|part| part.way.at(other, since_s + time_s).place_m).collect();
                 let mut places = ways.iter().map(|(_, way)| way.at(unit, time_s).place_m);
                 places.all(|place| there.iter().all(|other| other.distance(place) >= FORESEEN_M))
             })
         })
     }
 
-    /// Whether no way comes near a wall, to the unit's end.
-    fn cross_nothing(&self, unit: &Unit, ways: &[(u32, Way)]) -> bool {
-        let on_plan = |way: &Way, time_s: f64| way.on_plan(unit, time_s, self.frame).0;
+    /// Whether all paths keep off walls, to the unit's end.
+    fn cross_nothing(&self, unit: &Unit, ways: &[(u32, BlendedPath)]) -> bool {
+        let on_plan = |way: &BlendedPath, time_s: f64| way.on_plan(unit, time_s, self.frame).0;
         ways.iter().all(|(_, way)| is_clear(|time_s| on_plan(way, time_s), unit.duration_s, self.walls))
     }
 }
 
-/// Whether a unit's own ways, mirrored or not, keep off walls and off the viewer, who stays where the unit begins.
+/// Whether a unit's own paths, mirrored or not, keep off walls and off the viewer.
 pub(super) fn fits(unit: &Unit, frame: &SpotFrame, radius_m: f64, walls: &Walls) -> bool {
     let place = |member: usize, time_s: f64, mirrored: bool| unit.moment(member, time_s, mirrored).place_m;
     let is_seen = |member: usize| {
@@ -108,21 +108,21 @@ pub(super) fn fits(unit: &Unit, frame: &SpotFrame, radius_m: f64, walls: &Walls)
         && members.next().is_some()
 }
 
-/// How near to the viewer others come at most, metres.
+/// Least distance of performers from the viewer's place, metres.
 fn viewer_m(radius_m: f64) -> f64 {
     if radius_m > 0.0 { radius_m + BODY_M } else { 0.0 }
 }
 
-/// The times at which ways are looked at, after the first moment.
+/// Times at which paths are checked, seconds, without 0.
 fn looks(until_s: f64) -> impl Iterator<Item = f64> {
     (1..=(until_s.max(0.0) / LOOK_S) as usize).map(|k| k as f64 * LOOK_S)
 }
 
-/// Whether a way keeps off walls and crosses none.
+/// Whether a path keeps off walls and crosses none.
 fn is_clear(at: impl Fn(f64) -> Vec2, duration_s: f64, walls: &Walls) -> bool {
     let start = at(0.0);
     let mut before = start;
-    // Who stands close to a wall already may walk away from it.
+    // A path may begin close to a wall and lead away from it.
     walls.is_inside(start)
         && looks(duration_s).all(|time_s| {
             let place_m = at(time_s);

@@ -1,28 +1,29 @@
-//! Who walks with whom: decided before anybody walks, like the arrivals.
+//! Groups of people who walk together, drawn before the walk begins, like the arrivals.
 
 use std::ops::Range;
 
 use rand::RngExt;
 
 use super::GroupOptions;
-use crate::crowd::arrivals::Arrival;
+use super::arrivals::Arrival;
 use crate::math::{Purpose, person_stream};
 use crate::routes::{Route, Timetable, TimetableKind};
 
-/// Of a list of times, people who are named within this of each other may come together, seconds.
+/// Interval within which people of a list of times may come together, seconds.
 const LISTED_TOGETHER_S: f64 = 5.0;
 
-/// Everybody's group. The members of a group have ids that follow each other.
+/// Groups of all people. The members of a group have consecutive ids.
 #[derive(Debug, Default)]
-pub(in crate::crowd) struct Groups {
-    /// For each id the first of its group. Empty: everybody is alone.
+pub(super) struct Groups {
+    /// For each id the first of its group; empty if everybody is alone.
     first: Vec<u32>,
 }
 
 impl Groups {
-    /// Draws groups for a list of arrivals: people of a route who come one after the other become a group and come
-    /// together, when the first of them does. How many come, on which route and in which burst stays as it was; ids are
-    /// dealt out anew in the order of arrival.
+    /// Draws groups for a list of arrivals, and numbers the people anew in the order of arrival.
+    ///
+    /// Consecutive people of a route become a group and come together, when the first of them does. Their number, by route
+    /// and by burst, stays as it was.
     pub(super) fn draw(
         arrivals: &mut Vec<Arrival>,
         routes: &[Route],
@@ -34,7 +35,7 @@ impl Groups {
         for arrival in arrivals.iter() {
             of_route[arrival.route].push(arrival.id);
         }
-        // When each group comes, and who it is, by the ids so far.
+        // Time, members by the ids so far, and route of each group.
         let mut groups: Vec<(f64, Range<usize>, usize)> = Vec::new();
         for (index, (route, ids)) in routes.iter().zip(&of_route).enumerate() {
             let apart_s = apart_s(route.arrivals.as_ref().unwrap_or(timetable));
@@ -61,20 +62,20 @@ impl Groups {
         Groups { first }
     }
 
-    /// The ids of everybody in this person's group, the person included.
-    pub(in crate::crowd) fn members(&self, id: u32) -> Range<u32> {
+    /// Ids of all members of a person's group, the person included.
+    pub(super) fn members(&self, id: u32) -> Range<u32> {
         let Some(&first) = self.first.get(id as usize) else { return id..id.saturating_add(1) };
         let size = self.first[first as usize..].iter().take_while(|&&other| other == first).count();
         first..first + size as u32
     }
 
-    /// The first of this person's group.
-    pub(in crate::crowd) fn first(&self, id: u32) -> u32 {
+    /// Id of the first member of a person's group.
+    pub(super) fn first(&self, id: u32) -> u32 {
         self.first.get(id as usize).copied().unwrap_or(id)
     }
 }
 
-/// How long after the first of a group another member may have been meant to come, seconds.
+/// Longest time between the arrivals of the first and another member of a group, seconds.
 fn apart_s(timetable: &Timetable) -> f64 {
     match timetable.kind {
         TimetableKind::Rate => f64::INFINITY,
@@ -83,7 +84,7 @@ fn apart_s(timetable: &Timetable) -> f64 {
     }
 }
 
-/// The size of group that a draw in `[0, 1)` falls on.
+/// Size of a group for a draw in `[0, 1)`.
 fn size(shares: &[f64; 4], draw: f64) -> usize {
     let total: f64 = shares.iter().sum();
     let mut sum = 0.0;

@@ -1,24 +1,23 @@
-//! How much floor lies around a place: what a count of people is divided by to give a density.
+//! Floor area around a place: a count of people divided by it gives people per square metre.
 
 use rayon::prelude::*;
 
+use crate::crowd::perception::{OPEN_M, SENSE_M};
 use crate::math::{Vec2, vec2};
 use crate::routes::{Ground, Lattice};
 use crate::walls::Walls;
 
-/// How far people count others for density, metres.
-pub(super) const SENSE_M: f64 = 2.0;
-/// Cells of this table, metres.
+/// Side of this table's cells, metres.
 const CELL_M: f64 = 0.4;
-/// Samples across a cell when its share of floor is taken.
+/// Samples across a cell for its share of floor.
 const SAMPLES: usize = 4;
 
-/// Moments of the floor around every place, weighted by [`kernel`]: `m0 = sum k dA`, `m = sum k d/|d| dA`.
+/// Moments of the floor around each cell: `m0 = sum k dA`, `m = sum k d/|d| dA`, with the weight [`kernel`].
 ///
-/// A person who looks in direction `h` counts somebody at distance `r` in direction `u` with the weight
+/// A person who looks in direction `h` counts another at distance `r` in direction `u` with the weight
 /// `k(r) (1 + u.h) / 2`, so that the floor counts `(m0 + m.h) / 2`: walls and what lies behind them do not.
 #[derive(Debug)]
-pub(super) struct Surroundings {
+pub(super) struct FloorMoments {
     lattice: Lattice,
     moments: Vec<[f32; 3]>,
 }
@@ -33,13 +32,11 @@ fn kernel(squared_m2: f32) -> f32 {
 /// The kernel's integral over open floor.
 const OPEN_M2: f32 = (std::f64::consts::PI * SENSE_M * SENSE_M / 3.0) as f32;
 
-/// With no wall nearer than this, floor is open as far as it counts, metres.
-pub(super) const OPEN_M: f32 = (SENSE_M + CELL_M) as f32;
-
-impl Surroundings {
-    pub(super) fn new(ground: &Ground, walls: &Walls) -> Surroundings {
+impl FloorMoments {
+    pub(super) fn new(ground: &Ground, walls: &Walls) -> FloorMoments {
         let lattice = ground.lattice.coarser(CELL_M);
-        let cells: Vec<Cell> = (0..lattice.len()).into_par_iter().map(|c| Cell::new(&lattice, ground, c)).collect();
+        let cells: Vec<FloorCell> =
+            (0..lattice.len()).into_par_iter().map(|c| FloorCell::new(&lattice, ground, c)).collect();
         let joined: Vec<[bool; 4]> = (0..lattice.len())
             .into_par_iter()
             .map(|c| lattice.around(c).map(|b| b != usize::MAX && cells[c].sees(&cells[b], ground, walls)))
@@ -48,13 +45,14 @@ impl Surroundings {
             .into_par_iter()
             .map_init(Vec::new, |seen, cell| moments(&lattice, &cells, &joined, cell, seen))
             .collect();
-        Surroundings { lattice, moments }
+        FloorMoments { lattice, moments }
     }
 
-    /// Floor that a person at `p` who looks along the unit vector `heading` counts people over, square metres; no wall
-    /// is nearer than `clearance_m`.
+    /// Weighted floor area ahead of a person at `p` who looks along the unit vector `heading`, square metres.
+    ///
+    /// `clearance_m` is a lower bound of the distance to walls.
     #[inline]
-    pub(super) fn floor_ahead_m2(&self, p: Vec2, clearance_m: f32, heading: [f32; 2]) -> f32 {
+    pub(super) fn ahead_m2(&self, p: Vec2, clearance_m: f32, heading: [f32; 2]) -> f32 {
         if clearance_m > OPEN_M {
             return 0.5 * OPEN_M2;
         }
@@ -64,19 +62,19 @@ impl Surroundings {
     }
 }
 
-/// A cell's floor.
-struct Cell {
+/// Floor of a coarse cell.
+struct FloorCell {
     /// Share of the cell that is floor.
     share: f32,
-    /// The place of most room in it.
+    /// Place with the largest clearance in it, metres.
     place_m: Vec2,
     clearance_m: f64,
 }
 
-impl Cell {
-    fn new(lattice: &Lattice, ground: &Ground, cell: usize) -> Cell {
+impl FloorCell {
+    fn new(lattice: &Lattice, ground: &Ground, cell: usize) -> FloorCell {
         let corner = lattice.centre(cell) - vec2(0.5, 0.5) * CELL_M;
-        let mut best = Cell { share: 0.0, place_m: lattice.centre(cell), clearance_m: 0.0 };
+        let mut best = FloorCell { share: 0.0, place_m: lattice.centre(cell), clearance_m: 0.0 };
         for k in 0..SAMPLES * SAMPLES {
             let at = vec2((k % SAMPLES) as f64 + 0.5, (k / SAMPLES) as f64 + 0.5) * (CELL_M / SAMPLES as f64);
             let Some(fine) = ground.lattice.cell_at(corner + at) else { continue };
@@ -92,13 +90,19 @@ impl Cell {
         best
     }
 
-    fn sees(&self, other: &Cell, ground: &Ground, walls: &Walls) -> bool {
+    fn sees(&self, other: &FloorCell, ground: &Ground, walls: &Walls) -> bool {
         self.share > 0.0 && other.share > 0.0 && ground.sight(walls, self.place_m, other.place_m)
     }
 }
 
-/// Sums the floor that can be reached from a cell within the kernel's radius.
-fn moments(lattice: &Lattice, cells: &[Cell], joined: &[[bool; 4]], from: usize, seen: &mut Vec<usize>) -> [f32; 3] {
+/// Sums the moments of the floor that can be reached from a cell within the kernel's radius.
+fn moments(
+    lattice: &Lattice,
+    cells: &[FloorCell],
+    joined: &[[bool; 4]],
+    from: usize,
+    seen: &mut Vec<usize>,
+) -> [f32; 3] {
     let reach_m = SENSE_M + 0.5 * CELL_M;
     if cells[from].clearance_m > reach_m {
         return [OPEN_M2, 0.0, 0.0];

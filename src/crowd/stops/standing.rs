@@ -1,47 +1,49 @@
-//! Spots to stand on where nobody tells people exactly where.
+//! Free spots where people stand or sit, and how they are found.
 
 use std::collections::BTreeMap;
 
-use super::Surface;
-use super::path::stands;
+use super::queue_path::stands;
+use crate::crowd::environment::Environment;
 use crate::math::{Rect, SplitMix64, Vec2, vec2};
 use crate::routes::{Facing, Stop, StopKind};
 
-/// Spots that somebody considers.
+/// Spots that are tried for each size of the area.
 const TRIES: usize = 48;
-/// Whoever finds no room stands closer to the others, down to this share of the distance wanted ...
+/// Least share of the wanted distance from others, where there is no room.
 const CLOSEST: f64 = 0.7;
-/// ... and then looks around so many times as far.
+/// Sizes of the area that are searched in turn, as multiples of its own.
 const WIDER: [f64; 4] = [1.0, 1.6, 2.5, 4.0];
 /// Distance from walls, metres.
 const MARGIN_M: f64 = 0.3;
-/// How far people turn from what they face, as the sine of the angle.
+/// Largest turn from the wanted direction, as the sine of the angle.
 const TURN: f64 = 0.2;
 
-/// Where somebody who looks for a spot may find one.
+/// Area in which a free spot is searched.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Room {
-    /// Around a place, metres.
+pub(super) enum SearchArea {
+    /// Disc: middle and radius, metres.
     Around(Vec2, f64),
-    /// In a rectangle.
+    /// Rectangle, metres.
     Within(Rect),
 }
 
-impl Room {
+impl SearchArea {
     fn middle(self) -> Vec2 {
         match self {
-            Room::Around(middle, _) => middle,
-            Room::Within(area) => area.centre(),
+            SearchArea::Around(middle, _) => middle,
+            SearchArea::Within(area) => area.centre(),
         }
     }
 
-    /// A place in the room, so many times as far from its middle, or `None` where the draw fell beside it.
+    /// A random place in the area, enlarged `wider` times, or `None` where the draw fell beside it.
     fn draw(self, rng: &mut SplitMix64, wider: f64) -> Option<Vec2> {
         let mut side = || 2.0 * f64::from(rng.unit()) - 1.0;
         let [x, y] = [side(), side()];
         match self {
-            Room::Around(middle, reach_m) => (x * x + y * y <= 1.0).then(|| middle + vec2(x, y) * (reach_m * wider)),
-            Room::Within(area) => {
+            SearchArea::Around(middle, reach_m) => {
+                (x * x + y * y <= 1.0).then(|| middle + vec2(x, y) * (reach_m * wider))
+            }
+            SearchArea::Within(area) => {
                 let half = vec2(0.5 * area.width() * x, 0.5 * area.height() * y);
                 Some(area.centre() + half * wider)
             }
@@ -51,16 +53,16 @@ impl Room {
     /// Area, square metres.
     fn m2(self) -> f64 {
         match self {
-            Room::Around(_, reach_m) => std::f64::consts::PI * reach_m * reach_m,
-            Room::Within(area) => area.width() * area.height(),
+            SearchArea::Around(_, reach_m) => std::f64::consts::PI * reach_m * reach_m,
+            SearchArea::Within(area) => area.width() * area.height(),
         }
     }
 }
 
-/// A free spot in a room, at least about `apart_m` from all `others`. The same draw tries the same spots.
+/// Finds a spot for which `free` holds, about `apart_m` from others. The same draw tries the same spots.
 pub(super) fn free_spot(
-    surface: Surface<'_>,
-    room: Room,
+    environment: &Environment<'_>,
+    room: SearchArea,
     apart_m: f64,
     draw: u64,
     free: impl Fn(Vec2, f64) -> bool,
@@ -71,10 +73,7 @@ pub(super) fn free_spot(
         for attempt in 0..TRIES {
             let Some(spot) = room.draw(rng, wider) else { continue };
             let closer = 1.0 - (1.0 - CLOSEST) * attempt as f64 / TRIES as f64;
-            if stands(surface, spot, MARGIN_M)
-                && free(spot, apart_m * closer)
-                && surface.ground.sight(surface.walls, middle, spot)
-            {
+            if stands(environment, spot, MARGIN_M) && free(spot, apart_m * closer) && environment.sight(middle, spot) {
                 return Some(spot);
             }
         }
@@ -82,58 +81,60 @@ pub(super) fn free_spot(
     None
 }
 
-/// A unit vector that is off by up to about 12 degrees.
+/// Turns a unit vector by a random angle of up to about 12 degrees.
 pub(super) fn about(facing: Vec2, draw: u64) -> Vec2 {
     let off = TURN * (2.0 * f64::from(SplitMix64::new(draw ^ 0x5f).unit()) - 1.0);
     (facing + facing.left() * off).normalized().unwrap_or(facing)
 }
 
-/// The spot, moved off walls that are nearer than `keep_m`, if that helps.
-pub(super) fn off_walls(surface: Surface<'_>, spot: Vec2, keep_m: f64) -> Vec2 {
+/// Moves a spot at least `keep_m` off walls, if there is such a place in sight.
+pub(super) fn off_walls(environment: &Environment<'_>, spot: Vec2, keep_m: f64) -> Vec2 {
     let mut moved = spot;
     for _ in 0..4 {
-        let Some(nearest) = surface.walls.nearest(moved, keep_m) else { return moved };
+        let Some(nearest) = environment.walls.nearest(moved, keep_m) else { return moved };
         let Some(away) = (moved - nearest.point_m).normalized() else { return spot };
         moved = nearest.point_m + away * (keep_m + 1e-3);
     }
-    if surface.ground.sight(surface.walls, spot, moved) { moved } else { spot }
+    if environment.sight(spot, moved) { moved } else { spot }
 }
 
-/// People who stand or sit around.
+/// People who stand or sit at a stop without a queue.
 #[derive(Clone, Debug)]
-pub(super) struct Spread {
-    room: Room,
-    /// Seats, and who sits there.
+pub(super) struct StandingArea {
+    room: SearchArea,
+    /// Seats, metres, and the id of who sits there.
     seats: Vec<(Vec2, Option<u32>)>,
-    /// Where everybody is.
+    /// Spots by id, metres.
     spots: BTreeMap<u32, Vec2>,
 }
 
-impl Spread {
-    pub(super) fn new(surface: Surface<'_>, stop: &Stop, keep_m: f64) -> Spread {
+impl StandingArea {
+    pub(super) fn new(environment: &Environment<'_>, stop: &Stop, keep_m: f64) -> StandingArea {
         let area = Rect::around(stop.at_m[0], stop.at_m[1]);
         let middle = area.centre();
         let is_bench = stop.kind == StopKind::Bench;
         let room = match is_bench {
-            // Whoever finds no seat stands before the bench.
-            true => Room::Around(middle + stop.facing_from(middle) * 1.6, 1.2 + 0.5 * area.width().max(area.height())),
-            false if area.width() > 0.0 && area.height() > 0.0 => Room::Within(area),
-            false => Room::Around(middle, stop.reach_m),
+            // People who find no seat stand before the bench.
+            true => {
+                SearchArea::Around(middle + stop.facing_from(middle) * 1.6, 1.2 + 0.5 * area.width().max(area.height()))
+            }
+            false if area.width() > 0.0 && area.height() > 0.0 => SearchArea::Within(area),
+            false => SearchArea::Around(middle, stop.reach_m),
         };
         let seats = if is_bench { stop.places_m.as_slice() } else { &[] };
-        let seats = seats.iter().map(|&seat| (off_walls(surface, seat, keep_m), None)).collect();
-        Spread { room, seats, spots: BTreeMap::new() }
+        let seats = seats.iter().map(|&seat| (off_walls(environment, seat, keep_m), None)).collect();
+        StandingArea { room, seats, spots: BTreeMap::new() }
     }
 
-    /// How far around the middle people are, metres.
+    /// Largest distance of people from the middle, metres.
     pub(super) fn reach_m(&self) -> f64 {
         match self.room {
-            Room::Around(_, reach_m) => reach_m,
-            Room::Within(area) => 0.5 * area.width().max(area.height()),
+            SearchArea::Around(_, reach_m) => reach_m,
+            SearchArea::Within(area) => 0.5 * area.width().max(area.height()),
         }
     }
 
-    /// How many find room as they want it: seats, or as many as spots drawn at random leave room for.
+    /// Number of people who find room: seats, or spots drawn at random with `spacing_m` between them.
     pub(super) fn room(&self, spacing_m: f64) -> usize {
         if self.seats.is_empty() {
             ((0.7 * self.room.m2() / (spacing_m * spacing_m)) as usize).max(1)
@@ -146,8 +147,15 @@ impl Spread {
         self.spots.len()
     }
 
-    /// A spot for somebody who comes from `p`, and what they face there.
-    pub(super) fn take(&mut self, surface: Surface<'_>, stop: &Stop, id: u32, draw: u64, p: Vec2) -> (Vec2, Vec2) {
+    /// Takes a spot for a person who comes from `p`; returns it and the unit vector that the person faces.
+    pub(super) fn take(
+        &mut self,
+        environment: &Environment<'_>,
+        stop: &Stop,
+        id: u32,
+        draw: u64,
+        p: Vec2,
+    ) -> (Vec2, Vec2) {
         let vacant = self.seats.iter().filter(|seat| seat.1.is_none()).count();
         let spot = if vacant > 0 {
             let wanted = (draw % vacant as u64) as usize;
@@ -162,7 +170,7 @@ impl Spread {
                 let seats = self.seats.iter().map(|seat| &seat.0);
                 self.spots.values().chain(seats).all(|other| other.distance(spot) >= apart_m)
             };
-            free_spot(surface, self.room, spacing_m, draw, free).unwrap_or(p)
+            free_spot(environment, self.room, spacing_m, draw, free).unwrap_or(p)
         };
         self.spots.insert(id, spot);
         let facing = match stop.facing {

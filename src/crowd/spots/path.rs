@@ -1,51 +1,53 @@
 use crate::math::Vec2;
 use crate::units::{SpotFrame, TrackState, Unit};
 
-/// Least and most time to move over to a part, seconds, and the steps in between.
+/// Least and largest time to move over to a part, seconds, and the steps in between.
 const MOVE_OVER_S: [f64; 3] = [0.8, 4.4, 0.3];
-/// While they move over, people speed up, brake and turn at most this hard, metres per second squared ...
+/// Largest acceleration while moving over, metres per second squared.
 pub(super) const MOST_M_S2: f64 = 2.8;
-/// ... and are at most this fast, unless their part is faster, metres per second, ...
+/// Largest speed while moving over, metres per second, unless the part is faster.
 const MOST_M_S: f64 = 1.9;
-/// ... or this much faster than the part, metres per second, ...
+/// Largest excess over the speed of the part, metres per second.
 const MOST_FASTER_M_S: f64 = 0.6;
-/// ... and step back at most this fast, metres per second.
+/// Largest speed of stepping back, metres per second.
 const MOST_BACK_M_S: f64 = 0.3;
-/// Ways are looked at this often, seconds.
+/// Interval at which paths are checked, seconds.
 pub(super) const LOOK_S: f64 = 0.1;
-/// A body turns at most this fast, radians per second, as it does in the crowd.
+/// Largest angular velocity of a body, radians per second, as in the crowd.
 const FASTEST_TURN_RAD_S: f64 = 2.4;
-/// Above this speed, metres per second, a body faces where it goes, turned as its part is; below half of it, as its part.
+/// Speed from which on a body turns along with its path, metres per second; below half of it, the part alone counts.
 const FACING_M_S: f64 = 0.6;
 
-/// A member's part, as somebody plays it: the member's way plus what they are off at first, which vanishes over a time.
+/// Path of a person into the part of a member: the part plus an offset that vanishes over time.
 ///
-/// `x(t) = u(t) + e(t)`, where `e` is the polynomial of degree 5 that begins with the place and the velocity that somebody
-/// is off, and ends after `T` with neither, without acceleration at either end:
+/// `x(t) = u(t) + e(t)`, where `e` is the polynomial of degree 5 that begins with the offset of place and velocity, and ends
+/// after `T` with neither, without acceleration at either end:
 /// `e = e0 (1 - 10 s^3 + 15 s^4 - 6 s^5) + e0' T (s - 6 s^3 + 8 s^4 - 3 s^5)`, `s = t / T`. So place and velocity are
 /// continuous.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Way {
+pub(super) struct BlendedPath {
     pub(super) member: usize,
     pub(super) mirrored: bool,
     off_m: Vec2,
     off_m_s: Vec2,
-    /// How long moving over takes, seconds.
+    /// Time of moving over, seconds.
     pub(super) over_s: f64,
 }
 
-impl Way {
-    /// The quickest way over to a part that a human body manages; `None` if there is none. `from` is the viewer's frame.
-    pub(super) fn find(unit: &Unit, member: usize, mirrored: bool, from: &TrackState) -> Option<Way> {
+impl BlendedPath {
+    /// Finds the quickest path into a part within the limits of a human body; `None` if there is none.
+    ///
+    /// `from` is the person's state in the viewer's frame.
+    pub(super) fn find(unit: &Unit, member: usize, mirrored: bool, from: &TrackState) -> Option<BlendedPath> {
         let start = unit.moment(member, 0.0, mirrored);
         let (off_m, off_m_s) = (from.place_m - start.place_m, from.velocity_m_s - start.velocity_m_s);
         let [least, most, step] = MOVE_OVER_S;
         let times = (0..).map(|k| least + step * f64::from(k)).take_while(|&t| t <= most.min(unit.duration_s - 0.4));
-        let mut ways = times.map(|over_s| Way { member, mirrored, off_m, off_m_s, over_s });
+        let mut ways = times.map(|over_s| BlendedPath { member, mirrored, off_m, off_m_s, over_s });
         ways.find(|way| way.is_human(unit, from))
     }
 
-    /// Place and velocity at a time of the unit, viewer's frame.
+    /// State at a time of the unit, viewer's frame.
     pub(super) fn at(&self, unit: &Unit, time_s: f64) -> TrackState {
         let mut moment = unit.moment(self.member, time_s, self.mirrored);
         let s = time_s / self.over_s;
@@ -59,8 +61,9 @@ impl Way {
         moment
     }
 
-    /// Where the body faces at a time, if it faced `before` a step of `dt` earlier: as the part says, turned along with
-    /// the way where it is walked, and never faster than bodies turn.
+    /// Unit vector in which the body faces at a time, from `before` a step of `dt` seconds earlier.
+    ///
+    /// It follows the part, turned along with the path while moving over, no faster than bodies turn.
     pub(super) fn heading(&self, unit: &Unit, time_s: f64, before: Vec2, dt: f64) -> Vec2 {
         let part = unit.moment(self.member, time_s, self.mirrored);
         let mut wanted = part.heading;
@@ -76,7 +79,7 @@ impl Way {
         turn_towards(before, wanted, FASTEST_TURN_RAD_S * dt)
     }
 
-    /// Whether moving over asks no more than people do.
+    /// Whether moving over stays within the limits of a human body.
     fn is_human(&self, unit: &Unit, from: &TrackState) -> bool {
         let (mut before, mut facing) = (*from, from.heading);
         let steps = (self.over_s / LOOK_S).ceil() as usize + 1;
@@ -94,7 +97,7 @@ impl Way {
         })
     }
 
-    /// The same in the plan frame.
+    /// Place and velocity at a time of the unit, plan frame.
     pub(super) fn on_plan(&self, unit: &Unit, time_s: f64, spot: &SpotFrame) -> (Vec2, Vec2) {
         let moment = self.at(unit, time_s);
         (spot.to_plan(moment.place_m), spot.turn_to_plan(moment.velocity_m_s))
@@ -129,7 +132,7 @@ mod tests {
                     velocity_m_s: start.velocity_m_s + vec2(0.2, 0.1),
                     heading: start.heading.rotated(vec2(0.8, 0.6)),
                 };
-                let Some(way) = Way::find(unit, member, true, &off) else { continue };
+                let Some(way) = BlendedPath::find(unit, member, true, &off) else { continue };
                 found += 1;
                 let at = way.at(unit, 0.0);
                 assert!(at.place_m.distance(off.place_m) < 1e-9 && at.velocity_m_s.distance(off.velocity_m_s) < 1e-9);
@@ -158,9 +161,9 @@ mod tests {
         let unit = &library.units[0];
         let start = unit.moment(0, 0.0, false);
         let far = TrackState { place_m: start.place_m + vec2(9.0, 0.0), ..start };
-        assert_eq!(Way::find(unit, 0, false, &far), None);
+        assert_eq!(BlendedPath::find(unit, 0, false, &far), None);
         let ahead = start.heading * 2.5;
         let beyond = TrackState { place_m: start.place_m + ahead, velocity_m_s: Vec2::ZERO, ..start };
-        assert!(Way::find(unit, 0, false, &beyond).is_none_or(|way| way.over_s > 1.5));
+        assert!(BlendedPath::find(unit, 0, false, &beyond).is_none_or(|way| way.over_s > 1.5));
     }
 }

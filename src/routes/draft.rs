@@ -1,0 +1,22 @@
+use super::legs::{LegEnd, leg_ends};
+use super::{Place, RouteStop, Timetable};
+
+/// A route whose places are known, but not its way.
+#[derive(Clone, Debug)]
+pub(super) struct RouteDraft {
+    pub(super) name: String,
+    /// Names of start, places between, and goal in messages.
+    pub(super) place_names: Vec<String>,
+    pub(super) start: Place,
+    pub(super) via: Vec<Place>,
+    pub(super) stops: Vec<RouteStop>,
+    pub(super) arrivals: Option<Timetable>,
+    pub(super) goal: Place,
+    pub(super) share: f64,
+}
+
+impl RouteDraft {
+    pub(super) fn legs(&self) -> impl Iterator<Item = LegEnd> {
+        leg_ends(self.via.iter().copied(), self.goal)
+    }
+}

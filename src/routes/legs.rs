@@ -1,0 +1,90 @@
+//! Legs of routes, and the distance fields that lead along them.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::field::Field;
+use super::ground::Ground;
+use super::{Place, RoutesError, targets};
+use crate::plan::FloorPlan;
+use crate::progress::Progress;
+
+/// A place that a leg leads to, and whether it is the route's last.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct LegEnd {
+    pub(super) place: Place,
+    pub(super) last: bool,
+}
+
+impl LegEnd {
+    /// The cells that count as this end.
+    pub(super) fn cells(self, plan: &FloorPlan, ground: &Ground) -> Vec<usize> {
+        match self.last {
+            true => targets::cells(plan, ground, self.place),
+            false => targets::via_cells(plan, ground, self.place),
+        }
+    }
+}
+
+/// Ends of a route's legs, in order.
+pub(super) fn leg_ends(via: impl Iterator<Item = Place>, goal: Place) -> impl Iterator<Item = LegEnd> {
+    via.map(|place| LegEnd { place, last: false }).chain([LegEnd { place: goal, last: true }])
+}
+
+/// Distance fields of the ends of legs, each made once.
+pub(super) struct FieldStore<'p> {
+    fields: Vec<(LegEnd, Arc<Field>)>,
+    progress: &'p dyn Progress,
+}
+
+impl FieldStore<'_> {
+    pub(super) fn new(progress: &dyn Progress) -> FieldStore<'_> {
+        FieldStore { fields: Vec::new(), progress }
+    }
+
+    /// Gives up once the user wants the work to stop.
+    pub(super) fn keep_on(&self) -> Result<(), RoutesError> {
+        self.progress.keep_on().map_err(|_| RoutesError::Interrupted)
+    }
+
+    /// The field to some cells, which is not kept.
+    pub(super) fn measure(&self, ground: &Ground, goal: &[usize]) -> Result<Field, RoutesError> {
+        Field::to_unless_interrupted(ground, goal, self.progress)
+    }
+
+    /// Makes the fields that are missing, in parallel.
+    pub(super) fn fill(
+        &mut self,
+        plan: &FloorPlan,
+        ground: &Ground,
+        wanted: impl Iterator<Item = LegEnd>,
+    ) -> Result<(), RoutesError> {
+        let mut missing: Vec<LegEnd> = Vec::new();
+        for end in wanted {
+            if !missing.contains(&end) && self.fields.iter().all(|f| f.0 != end) {
+                missing.push(end);
+            }
+        }
+        let make = |end: LegEnd| Ok((end, Arc::new(self.measure(ground, &end.cells(plan, ground))?)));
+        let made: Vec<_> = missing.into_par_iter().map(make).collect::<Result<_, RoutesError>>()?;
+        self.fields.extend(made);
+        Ok(())
+    }
+
+    pub(super) fn index(&self, end: LegEnd) -> usize {
+        self.fields.iter().position(|f| f.0 == end).expect("filled with every leg before")
+    }
+
+    pub(super) fn get(&self, end: LegEnd) -> &Field {
+        self.of_index(self.index(end))
+    }
+
+    pub(super) fn of_index(&self, index: usize) -> &Field {
+        &self.fields[index].1
+    }
+
+    pub(super) fn into_fields(self) -> Vec<Arc<Field>> {
+        self.fields.into_iter().map(|(_, field)| field).collect()
+    }
+}
