@@ -3,7 +3,7 @@
 //! `cargo run --release --example bake_in_memory` saves it as `target/floor.png`.
 
 use image::{Rgb, RgbImage};
-use trodden::crowd::Crowd;
+use trodden::crowd::Simulation;
 use trodden::look::{FloorResolver, Look};
 use trodden::marks::{Footfalls, MarksOptions, Origin};
 use trodden::motion::{Frame, Motion, People};
@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let routes = trodden::routes::find(&plan, &walls, &Default::default())?;
     let library = PatternLibrary::built_in();
     let people = People::new(1, Default::default());
-    let mut crowd = Crowd::new(&plan, &walls, &routes, &people, &Default::default())?;
+    let mut crowd = Simulation::new(&plan, &walls, &routes, &people, &Default::default())?;
     let origins = Origin::of_arrivals(crowd.arrivals().iter().map(|arrival| arrival.from_outside), 200);
     let mut footfalls = Footfalls::new(&people, &walls, &library, &MarksOptions::default(), origins)?;
     let grid = TexelGrid::covering(plan.width_m(), plan.height_m(), 100.0)?;

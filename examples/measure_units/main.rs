@@ -5,7 +5,7 @@
 //! ```
 
 use trodden::crowd::SpotReport;
-use trodden::motion::Frame;
+use trodden::motion::{Frame, Motion};
 
 #[path = "../draw_units/plaza.rs"]
 mod plaza;
