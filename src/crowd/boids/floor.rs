@@ -95,13 +95,23 @@ impl FloorCell {
     }
 }
 
+/// Cells that the kernel reaches to either side of the one in the middle.
+const REACH: i32 = (SENSE_M / CELL_M) as i32;
+/// Cells along the side of the square around a cell that the kernel reaches.
+const SQUARE: i32 = 2 * REACH + 1;
+/// One bit for each cell of the square.
+const _: () = assert!(SQUARE * SQUARE <= u128::BITS as i32);
+
+/// A cell by its number, and how many columns and rows it lies from the one in the middle.
+type CellOffset = (usize, [i32; 2]);
+
 /// Sums the moments of the floor that can be reached from a cell within the kernel's radius.
 fn moments(
     lattice: &Lattice,
     cells: &[FloorCell],
     joined: &[[bool; 4]],
     from: usize,
-    seen: &mut Vec<usize>,
+    seen: &mut Vec<CellOffset>,
 ) -> [f32; 3] {
     let reach_m = SENSE_M + 0.5 * CELL_M;
     if cells[from].clearance_m > reach_m {
@@ -110,27 +120,27 @@ fn moments(
     if cells[from].share == 0.0 {
         return [OPEN_M2, 0.0, 0.0];
     }
-    let [x0, y0] = lattice.column_row(from).map(|v| v as f64);
+    let bit = |[x, y]: [i32; 2]| 1u128 << ((y + REACH) * SQUARE + x + REACH);
     let mut sums = [0.0f32; 3];
+    let mut is_seen = bit([0, 0]);
     seen.clear();
-    seen.push(from);
+    seen.push((from, [0, 0]));
     let mut next = 0;
-    while let Some(&cell) = seen.get(next) {
+    while let Some(&(cell, [x, y])) = seen.get(next) {
         next += 1;
-        let [x, y] = lattice.column_row(cell).map(|v| v as f64);
-        let d = vec2(x - x0, y - y0) * CELL_M;
+        let d = vec2(f64::from(x), f64::from(y)) * CELL_M;
         let weight = kernel(d.length_squared() as f32) * cells[cell].share * (CELL_M * CELL_M) as f32;
         sums[0] += weight;
         if let Some(unit) = d.normalized() {
             sums[1] += weight * unit.x as f32;
             sums[2] += weight * unit.y as f32;
         }
-        for (side, beside) in lattice.around(cell).into_iter().enumerate() {
-            if joined[cell][side] && !seen.contains(&beside) {
-                let [x, y] = lattice.column_row(beside).map(|v| v as f64);
-                if vec2(x - x0, y - y0).length() * CELL_M < SENSE_M {
-                    seen.push(beside);
-                }
+        let around = [[x - 1, y], [x + 1, y], [x, y - 1], [x, y + 1]];
+        for ((side, beside), offset) in lattice.around(cell).into_iter().enumerate().zip(around) {
+            let is_near = || vec2(f64::from(offset[0]), f64::from(offset[1])).length() * CELL_M < SENSE_M;
+            if joined[cell][side] && is_near() && is_seen & bit(offset) == 0 {
+                is_seen |= bit(offset);
+                seen.push((beside, offset));
             }
         }
     }

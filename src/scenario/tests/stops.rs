@@ -110,6 +110,9 @@ fn timetables_are_read_from_files_beside_the_scenario() {
     assert!(shown.contains("hall.toml:5:8"), "{shown}");
     std::fs::write(dir.path().join("day.csv"), "# nothing\n").unwrap();
     let shown = Scenario::parse(&text, &path, &Overrides::default()).unwrap_err().to_string();
+    assert!(shown.contains("has no line with a time"), "{shown}");
+    std::fs::write(dir.path().join("day.csv"), "\n").unwrap();
+    let shown = Scenario::parse(&text, &path, &Overrides::default()).unwrap_err().to_string();
     assert!(shown.contains("is empty"), "{shown}");
 }
 

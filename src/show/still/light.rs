@@ -99,10 +99,14 @@ impl<'a> LightMap<'a> {
         let piece = &self.space.pieces[key.layer as usize - 1];
         let columns = Columns::of(piece);
         let mut block = vec![Irradiance::default(); (SIDE + 1) * self.rows];
+        let mut column = Vec::new();
         for k in 0..=SIDE {
-            let along = columns.place(key.x as usize * SIDE + k);
-            let column = self.on_wall(piece, along);
-            for (row, light) in column.into_iter().enumerate() {
+            let number = key.x as usize * SIDE + k;
+            // Beyond the piece's end the last column goes on.
+            if k == 0 || number <= columns.count {
+                column = self.on_wall(piece, columns.place(number));
+            }
+            for (row, &light) in column.iter().enumerate() {
                 block[row * (SIDE + 1) + k] = light;
             }
         }

@@ -126,7 +126,7 @@ impl<'a> Pyramid<'a> {
             let made: Vec<(TexelBlockKey, TexelBlock)> = wanted
                 .par_iter()
                 .filter(|key| !self.blocks.contains_key(key))
-                .map(|&key| (key, self.make(key, &fresh)))
+                .map(|&key| (key, self.make(key, &fresh, &mut Blocks::default())))
                 .collect();
             for key in &wanted {
                 if let Some(block) = self.blocks.remove(key) {
@@ -138,7 +138,9 @@ impl<'a> Pyramid<'a> {
         self.blocks = fresh;
     }
 
-    fn make(&self, key: TexelBlockKey, fresh: &Blocks) -> TexelBlock {
+    /// Makes a block. Of blocks beyond a layer's ends, which are all alike, `made` remembers those that it was made of:
+    /// otherwise a coarse block of a short wall would be made of thousands.
+    fn make(&self, key: TexelBlockKey, fresh: &Blocks, made: &mut Blocks) -> TexelBlock {
         if key.level == 0 {
             return self.source.read(
                 key.layer as usize,
@@ -146,14 +148,32 @@ impl<'a> Pyramid<'a> {
                 i64::from(key.y) * SIDE as i64,
             );
         }
-        let child = |dx: i32, dy: i32| {
+        let mut child = |dx: i32, dy: i32| {
             let key = TexelBlockKey { level: key.level - 1, x: key.x * 2 + dx, y: key.y * 2 + dy, ..key };
-            match fresh.get(&key).or_else(|| self.blocks.get(&key)) {
-                Some(block) => block.clone(),
-                None => self.make(key, fresh),
+            if let Some(block) = fresh.get(&key).or_else(|| self.blocks.get(&key)) {
+                return block.clone();
             }
+            let Some(alike) = self.alike(key) else { return self.make(key, fresh, made) };
+            if let Some(block) = made.get(&alike) {
+                return block.clone();
+            }
+            let block = self.make(alike, fresh, made);
+            made.insert(alike, block.clone());
+            block
         };
         halved(&[child(0, 0), child(1, 0), child(0, 1), child(1, 1)])
+    }
+
+    /// The block nearest to a layer that shows the same as one beyond its ends (the block itself if it is not);
+    /// `None` where each block may differ.
+    fn alike(&self, key: TexelBlockKey) -> Option<TexelBlockKey> {
+        let size = self.source.size(key.layer as usize)?;
+        let side = (SIDE as i64) << key.level;
+        let [x, y] = [0, 1].map(|axis| {
+            let first_beyond = (size[axis].max(0) + side - 1) / side;
+            i64::from([key.x, key.y][axis]).clamp(-1, first_beyond) as i32
+        });
+        Some(TexelBlockKey { x, y, ..key })
     }
 
     fn probes(&self, footprint: &Footprint, bias: f32) -> Probes {
@@ -427,5 +447,47 @@ mod tests {
         };
         assert_eq!(texels(&with), texels(&without));
         assert_eq!(with.blocks.len(), 4);
+    }
+
+    /// A wall of some texels that goes on as it ends, and counts how often it is read.
+    struct Short(std::sync::atomic::AtomicUsize, bool);
+
+    impl TexelSource for Short {
+        fn density(&self) -> f64 {
+            100.0
+        }
+
+        fn read(&self, _: usize, i0: i64, j0: i64) -> TexelBlock {
+            self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+            let value = |i: i64, j: i64| (i.clamp(0, 299) * 97 + j.clamp(0, 39) * 31) as u16;
+            TexelBlock::Full(
+                (0..SIDE * SIDE).map(|k| [value(i0 + (k % SIDE) as i64, j0 + (k / SIDE) as i64); 4]).collect(),
+            )
+        }
+
+        fn size(&self, _: usize) -> Option<[i64; 2]> {
+            self.1.then_some([300, 40])
+        }
+    }
+
+    #[test]
+    fn a_short_wall_seen_from_afar_is_read_a_few_times_and_looks_the_same() {
+        let keys: BTreeSet<TexelBlockKey> = [[-1, -1], [0, -1], [-1, 0], [0, 0], [3, 2]]
+            .into_iter()
+            .flat_map(|[x, y]| [4, 5].map(|level| TexelBlockKey { level, layer: 0, x, y }))
+            .collect();
+        let [quick, plain] = [true, false].map(|knows_size| Short(Default::default(), knows_size));
+        let [(quick_blocks, quick_reads), (plain_blocks, plain_reads)] = [&quick, &plain].map(|wall| {
+            let mut pyramid = Pyramid::new(wall);
+            pyramid.hold(&keys);
+            let texels = |block: &TexelBlock| match block {
+                TexelBlock::Full(texels) => texels.to_vec(),
+                TexelBlock::Flat(texel) => vec![*texel; SIDE * SIDE],
+            };
+            let blocks: Vec<Vec<Texel>> = keys.iter().map(|key| texels(&pyramid.blocks[key])).collect();
+            (blocks, wall.0.load(std::sync::atomic::Ordering::Relaxed))
+        });
+        assert!(quick_blocks == plain_blocks);
+        assert!(quick_reads < 100 && plain_reads > 1000, "{quick_reads} of {plain_reads} reads");
     }
 }

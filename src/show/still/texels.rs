@@ -28,6 +28,12 @@ pub(super) trait TexelSource: Sync {
 
     /// The block whose lower-left texel is `(i0, j0)`. `layer` is a wall's face, 0 for the floor.
     fn read(&self, layer: usize, i0: i64, j0: i64) -> TexelBlock;
+
+    /// Columns and rows of a layer beyond which all blocks are alike, as are those below column and row 0; `None` where
+    /// each block may differ.
+    fn size(&self, _layer: usize) -> Option<[i64; 2]> {
+        None
+    }
 }
 
 /// A floor at its own texel density.
@@ -142,6 +148,11 @@ impl<'a> SmallWalls<'a> {
         Some((sheet, [0.0, atlas.height_m].map(|height_m| atlas.uv(sheet, strip, along_m, height_m))))
     }
 
+    /// Rows from which on nothing is seen any more.
+    fn rows(&self) -> i64 {
+        (self.textures.atlas.height_m * self.density()).ceil() as i64 + 2
+    }
+
     fn pixel(&self, sheet: usize, [u, v]: [f64; 2]) -> Texel {
         let Some(small) = self.textures.reduced.get(sheet) else { return self.background };
         let pixel = |share: f64, size: u32| ((share * f64::from(size)).max(0.0) as u32).min(size - 1);
@@ -157,21 +168,36 @@ impl TexelSource for SmallWalls<'_> {
 
     fn read(&self, layer: usize, i0: i64, j0: i64) -> TexelBlock {
         let metre = |texel: i64| (texel as f64 + 0.5) / self.density();
-        let rows = (self.textures.atlas.height_m * self.density()).ceil() as i64;
-        if j0 >= rows + 2 {
+        if j0 >= self.rows() {
             return TexelBlock::Flat(self.background);
         }
+        // Along a column texture coordinates are linear; beyond its ends it goes on as it ends.
+        let shares: [f64; SIDE] =
+            std::array::from_fn(|j| (metre(j0 + j as i64) / self.textures.atlas.height_m).clamp(0.0, 1.0));
         let mut texels = vec![self.background; SIDE * SIDE];
+        let mut last = None;
         for i in 0..SIDE {
-            let Some((sheet, [foot, top])) = self.column(layer, metre(i0 + i as i64)) else { continue };
+            let column = self.column(layer, metre(i0 + i as i64));
+            let Some((sheet, [foot, top])) = column else { continue };
+            if i > 0 && column == last {
+                (0..SIDE).for_each(|j| texels[j * SIDE + i] = texels[j * SIDE + i - 1]);
+                continue;
+            }
+            last = column;
             for j in 0..SIDE {
-                // Along a column texture coordinates are linear; beyond its ends it goes on as it ends.
-                let share = (metre(j0 + j as i64) / self.textures.atlas.height_m).clamp(0.0, 1.0);
-                let along = |k: usize| foot[k] + (top[k] - foot[k]) * share;
-                texels[j * SIDE + i] = self.pixel(sheet, [along(0), along(1)]);
+                let along = |k: usize| foot[k] + (top[k] - foot[k]) * shares[j];
+                texels[j * SIDE + i] = match j.checked_sub(1) {
+                    Some(below) if shares[below] == shares[j] => texels[below * SIDE + i],
+                    _ => self.pixel(sheet, [along(0), along(1)]),
+                };
             }
         }
         TexelBlock::Full(texels.into_boxed_slice())
+    }
+
+    fn size(&self, layer: usize) -> Option<[i64; 2]> {
+        let to_m = self.strips.get(layer)?.last()?.1.to_m;
+        Some([(to_m * self.density()).ceil() as i64 + 1, self.rows()])
     }
 }
 
