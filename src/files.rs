@@ -178,7 +178,9 @@ impl WholeFile {
         if !force {
             return match written.persist_noclobber(&target) {
                 Ok(()) => Ok(size),
-                Err(_) if target.exists() => Err(FileError::Exists { path: shown }),
+                Err(refused) if refused.error.kind() == io::ErrorKind::AlreadyExists || target.exists() => {
+                    Err(FileError::Exists { path: shown })
+                }
                 // Some disks cannot rename without replacing, nor link.
                 Err(refused) => refused.path.persist(&target).map(|()| size).map_err(|e| failed(plain(e.error))),
             };

@@ -102,11 +102,13 @@ fn make(path: &Path) -> io::Result<Option<(File, bool)>> {
     file.write_all(MARK)?;
     match file.persist_noclobber(path) {
         Ok(file) => Ok(Some((file, true))),
-        Err(_) if fs::symlink_metadata(path).is_ok() => Ok(None),
-        // Some disks cannot rename without replacing, nor link.
-        Err(refused) => match refused.file.persist(path) {
-            Ok(file) => Ok(Some((file, true))),
-            Err(refused) => Err(super::plain(refused.error)),
+        Err(refused) if refused.error.kind() == io::ErrorKind::AlreadyExists => Ok(None),
+        // Some disks cannot rename without replacing, nor link. There the mark comes a moment later; a process that
+        // misses it leaves the file where it is.
+        Err(_) => match File::options().read(true).write(true).create_new(true).open(path) {
+            Ok(mut file) => file.write_all(MARK).map(|()| Some((file, true))),
+            Err(e) if e.kind() == io::ErrorKind::AlreadyExists => Ok(None),
+            Err(e) => Err(e),
         },
     }
 }

@@ -134,6 +134,7 @@ impl Ran {
     }
 
     /// Failed with code 1; gives what it said, in whatever colours.
+    #[allow(dead_code)] // not every folder of tests needs it
     #[track_caller]
     #[allow(dead_code)] // not every test program looks at colours
     pub fn fails_in_colour(self) -> String {
@@ -142,6 +143,7 @@ impl Ran {
     }
 
     /// The paths below the folder that were not there before.
+    #[allow(dead_code)] // not every folder of tests needs it
     pub fn made(&self) -> Vec<&Path> {
         self.after.keys().filter(|path| !self.before.contains_key(*path)).map(PathBuf::as_path).collect()
     }
