@@ -1,4 +1,4 @@
-//! Formations from files: a picture of dots, a filled shape, or points as text.
+//! Formations from files: pictures of dots or filled shapes, and points as text.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -13,16 +13,16 @@ const MOST_PX: u32 = 4096;
 /// Largest file of points, bytes.
 const LARGEST_TEXT: u64 = 64 << 20;
 
-/// What a picture shows: its middle is the formation's, up is forward.
+/// The positions in a picture, relative to its centre; up is forward.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct FormationPicture {
-    /// Middle of each dot, from the top left, in pixels.
+    /// Centre of each dot, from the top left, pixels.
     pub dots_px: Vec<Vec2>,
-    /// Middle of each pixel of what is drawn, in pixels.
+    /// Centre of each drawn pixel, pixels.
     pub area_px: Vec<Vec2>,
 }
 
-/// Whether a file is a picture by its name; others are points as text.
+/// Whether a file name is that of a picture; other files hold points as text.
 pub fn is_picture(path: &Path) -> bool {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     let endings = ["png", "jpg", "jpeg", "bmp", "gif", "tif", "tiff", "pgm", "pbm", "ppm", "pnm"];
@@ -40,7 +40,7 @@ pub(super) fn read_picture(path: &Path) -> Result<FormationPicture, RequestError
     let mut limits = Limits::default();
     limits.max_alloc = Some(512 << 20);
     reader.limits(limits);
-    let decoder = reader.into_decoder().map_err(|error| failed(format!("this is no picture: {error}")))?;
+    let decoder = reader.into_decoder().map_err(|error| failed(format!("this is not a picture: {error}")))?;
     let (width, height) = decoder.dimensions();
     if width == 0 || height == 0 || width > MOST_PX || height > MOST_PX {
         return Err(failed(format!("it has {width} x {height} pixels; allowed are 1 to {MOST_PX} a side")));
@@ -55,7 +55,7 @@ pub(super) fn read_picture(path: &Path) -> Result<FormationPicture, RequestError
     Ok(of_ink(&ink, width as usize, height as usize))
 }
 
-/// Which pixels are drawn: of dark and light the rarer, where pixels are transparent whatever is not.
+/// The drawn pixels: the rarer of dark and light, or the opaque ones if some are transparent.
 fn ink(values: &[(u8, bool)]) -> Vec<bool> {
     let clear = values.iter().filter(|(_, opaque)| !opaque).count();
     if clear > 0 {
@@ -72,7 +72,7 @@ fn ink(values: &[(u8, bool)]) -> Vec<bool> {
     values.iter().map(|value| (value.0 <= threshold) == dark_is_ink).collect()
 }
 
-/// Dots are what hangs together, diagonals included.
+/// Finds dots as 8-connected components of drawn pixels.
 fn of_ink(ink: &[bool], width: usize, height: usize) -> FormationPicture {
     let middle = vec2(width as f64, height as f64) / 2.0;
     let place = |k: usize| vec2((k % width) as f64 + 0.5 - middle.x, middle.y - (k / width) as f64 - 0.5);
@@ -106,7 +106,7 @@ fn of_ink(ink: &[bool], width: usize, height: usize) -> FormationPicture {
     drawn
 }
 
-/// Reads points as text: a line for each, `x y` in metres, apart by blanks, commas or semicolons; `#` begins a comment.
+/// Reads points as text: one per line, `x y` in metres, separated by blanks, commas or semicolons; `#` starts a comment.
 pub(super) fn read_points(path: &Path) -> Result<Vec<Vec2>, RequestError> {
     let failed = |problem: String| RequestError::File { path: path.to_path_buf(), problem };
     let size = std::fs::metadata(path).map_err(|error| failed(error.to_string()))?.len();
@@ -130,12 +130,12 @@ fn points_of(text: &str) -> Result<Vec<Vec2>, (usize, String)> {
         let shown: String = line.chars().filter(|c| !c.is_control()).take(40).collect();
         let numbers: Option<Vec<f64>> = words.iter().map(|word| word.parse().ok()).collect();
         let Some([x, y]) = numbers.as_deref() else {
-            return Err((number, format!("\"{shown}\" is no point: two numbers, x and y in metres")));
+            return Err((number, format!("\"{shown}\" is not a point: two numbers, x and y in metres")));
         };
         let point = vec2(*x, *y);
         if !(x.abs() <= super::request::FARTHEST_M && y.abs() <= super::request::FARTHEST_M) {
             let most = super::request::FARTHEST_M;
-            return Err((number, format!("\"{shown}\" lies beyond what is allowed, -{most} to {most} m")));
+            return Err((number, format!("\"{shown}\" is out of range, allowed is -{most} to {most} m")));
         }
         points.push(point);
     }
@@ -189,8 +189,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("dots.png");
         assert!(read_picture(&path).is_err());
-        std::fs::write(&path, "no picture").unwrap();
-        assert!(read_picture(&path).unwrap_err().to_string().contains("no picture"));
+        std::fs::write(&path, "text").unwrap();
+        assert!(read_picture(&path).unwrap_err().to_string().contains("not a picture"));
         GrayImage::from_pixel(9, 9, Luma([7])).save(&path).unwrap();
         assert!(read_picture(&path).unwrap_err().to_string().contains("nothing is drawn"));
         let bytes = std::fs::read(&path).unwrap();
@@ -207,8 +207,8 @@ mod tests {
         for (text, line, says) in [
             ("1 2\n3\n", 2, "two numbers"),
             ("1 2\nx y\n", 2, "two numbers"),
-            ("1 nan\n", 1, "beyond"),
-            ("1 inf\n", 1, "beyond"),
+            ("1 nan\n", 1, "out of range"),
+            ("1 inf\n", 1, "out of range"),
         ] {
             let (at, problem) = points_of(text).unwrap_err();
             assert!(at == line && problem.contains(says), "{text}: line {at}: {problem}");

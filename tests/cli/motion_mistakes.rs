@@ -206,7 +206,7 @@ fn formations_that_cannot_be() {
     for (file, parts) in [
         ("three.txt", &["there are 5 people, but 3 points in three.txt"][..]),
         ("none.txt", &["but 0 points in none.txt"]),
-        ("word.txt", &["word.txt, line 2: \"1 zero\" is no point"]),
+        ("word.txt", &["word.txt, line 2: \"1 zero\" is not a point"]),
         ("far.txt", &["far.txt, line 1: \"0 nan\" lies beyond what is allowed"]),
         ("missing.txt", &["missing.txt: No such file"]),
         ("white.png", &["white.png"]),
