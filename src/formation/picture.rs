@@ -1,4 +1,4 @@
-//! Formations from files: a picture of dots, a filled shape, or points as text.
+//! Formations from files: pictures of dots or filled shapes, and points as text.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -14,16 +14,16 @@ const MOST_PX: u32 = 4096;
 /// Largest picture file, bytes.
 const LARGEST_PICTURE: u64 = 256 << 20;
 
-/// What a picture shows: its middle is the formation's, up is forward.
+/// The positions in a picture, relative to its centre; up is forward.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct FormationPicture {
-    /// Middle of each dot, from the top left, in pixels.
+    /// Centre of each dot, from the top left, pixels.
     pub dots_px: Vec<Vec2>,
-    /// Middle of each pixel of what is drawn, in pixels.
+    /// Centre of each drawn pixel, pixels.
     pub area_px: Vec<Vec2>,
 }
 
-/// Whether a file is a picture by its name; others are points as text.
+/// Whether a file name is that of a picture; other files hold points as text.
 pub fn is_picture(path: &Path) -> bool {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     let endings = ["png", "jpg", "jpeg", "bmp", "gif", "tif", "tiff", "pgm", "pbm", "ppm", "pnm"];
@@ -41,7 +41,7 @@ pub(super) fn read_picture(path: &Path) -> Result<FormationPicture, RequestError
     let mut limits = Limits::default();
     limits.max_alloc = Some(512 << 20);
     reader.limits(limits);
-    let decoder = reader.into_decoder().map_err(|error| failed(format!("this is no picture: {error}")))?;
+    let decoder = reader.into_decoder().map_err(|error| failed(format!("this is not a picture: {error}")))?;
     let (width, height) = decoder.dimensions();
     if width == 0 || height == 0 || width > MOST_PX || height > MOST_PX {
         return Err(failed(format!("it has {width} x {height} pixels; allowed are 1 to {MOST_PX} a side")));
@@ -56,7 +56,7 @@ pub(super) fn read_picture(path: &Path) -> Result<FormationPicture, RequestError
     Ok(of_ink(&ink, width as usize, height as usize))
 }
 
-/// Which pixels are drawn: of dark and light the rarer, where pixels are transparent whatever is not.
+/// The drawn pixels: the rarer of dark and light, or the opaque ones if some are transparent.
 fn ink(values: &[(u8, bool)]) -> Vec<bool> {
     let clear = values.iter().filter(|(_, opaque)| !opaque).count();
     if clear > 0 {
@@ -73,7 +73,7 @@ fn ink(values: &[(u8, bool)]) -> Vec<bool> {
     values.iter().map(|value| (value.0 <= threshold) == dark_is_ink).collect()
 }
 
-/// Dots are what hangs together, diagonals included.
+/// Finds dots as 8-connected components of drawn pixels.
 fn of_ink(ink: &[bool], width: usize, height: usize) -> FormationPicture {
     let middle = vec2(width as f64, height as f64) / 2.0;
     let place = |k: usize| vec2((k % width) as f64 + 0.5 - middle.x, middle.y - (k / width) as f64 - 0.5);
@@ -107,7 +107,7 @@ fn of_ink(ink: &[bool], width: usize, height: usize) -> FormationPicture {
     drawn
 }
 
-/// Reads points as text: a line for each, `x y` in metres, apart by blanks, commas or semicolons; `#` begins a comment.
+/// Reads points as text: one per line, `x y` in metres, separated by blanks, commas or semicolons; `#` starts a comment.
 pub(super) fn read_points(path: &Path) -> Result<Vec<Vec2>, RequestError> {
     let failed = |problem: String| RequestError::File { path: path.to_path_buf(), problem };
     let text = read_text(path).map_err(|error| failed(error.to_string()))?;
@@ -126,12 +126,12 @@ fn points_of(text: &str) -> Result<Vec<Vec2>, (usize, String)> {
         }
         let numbers: Option<Vec<f64>> = words.iter().map(|word| word.parse().ok()).collect();
         let Some([x, y]) = numbers.as_deref() else {
-            return Err((number, "it is no point: write two numbers, x and y in metres".to_string()));
+            return Err((number, "it is not a point: write two numbers, x and y in metres".to_string()));
         };
         let point = vec2(*x, *y);
         if !(x.abs() <= super::request::FARTHEST_M && y.abs() <= super::request::FARTHEST_M) {
             let most = super::request::FARTHEST_M;
-            return Err((number, format!("the point ({x}, {y}) lies beyond what is allowed, -{most} to {most} m")));
+            return Err((number, format!("the point ({x}, {y}) is out of range, allowed is -{most} to {most} m")));
         }
         points.push(point);
     }
@@ -185,8 +185,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("dots.png");
         assert!(read_picture(&path).is_err());
-        std::fs::write(&path, "no picture").unwrap();
-        assert!(read_picture(&path).unwrap_err().to_string().contains("no picture"));
+        std::fs::write(&path, "text").unwrap();
+        assert!(read_picture(&path).unwrap_err().to_string().contains("not a picture"));
         GrayImage::from_pixel(9, 9, Luma([7])).save(&path).unwrap();
         assert!(read_picture(&path).unwrap_err().to_string().contains("nothing is drawn"));
         let bytes = std::fs::read(&path).unwrap();
@@ -203,8 +203,8 @@ mod tests {
         for (text, line, says) in [
             ("1 2\n3\n", 2, "two numbers"),
             ("1 2\nx y\n", 2, "two numbers"),
-            ("1 nan\n", 1, "beyond"),
-            ("1 inf\n", 1, "beyond"),
+            ("1 nan\n", 1, "out of range"),
+            ("1 inf\n", 1, "out of range"),
         ] {
             let (at, problem) = points_of(text).unwrap_err();
             assert!(at == line && problem.contains(says), "{text}: line {at}: {problem}");

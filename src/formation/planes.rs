@@ -15,10 +15,10 @@ const SINE_SHARE: f64 = 0.03;
 const NEAR_SQUARES: f64 = 1e-6;
 /// The sum of `2 (1 - cos)` over all directions below which every turn is so small that sines alone tell them apart.
 const SMALL_TURNS: f64 = 0.5;
-/// An antisymmetric part below this turns nothing any more: rounding of the products that it came from.
+/// Largest entry of the antisymmetric part that is only rounding.
 const NO_SINE: f64 = 1e-13;
 
-/// What each pair of columns does.
+/// The turn of each pair of columns.
 pub(super) struct PlaneTurns {
     /// Cosine and sine of the turn of each pair.
     pub turns: Vec<(f64, f64)>,
@@ -26,7 +26,7 @@ pub(super) struct PlaneTurns {
     pub unpaired_mirrored: bool,
 }
 
-/// Finds the vectors: first two for each plane, then those that stay as they are.
+/// Finds an orthonormal basis: two vectors for each invariant plane, then the fixed directions.
 pub(super) fn invariant_planes(matrix: &DMatrix<f64>) -> Result<(DMatrix<f64>, PlaneTurns), FormationError> {
     let n = matrix.nrows();
     let transposed = matrix.transpose();
@@ -53,9 +53,9 @@ pub(super) fn invariant_planes(matrix: &DMatrix<f64>) -> Result<(DMatrix<f64>, P
 struct PlaneCollector {
     /// Two vectors for each plane, with cosine and sine.
     planes: Vec<([DVector<f64>; 2], f64, f64)>,
-    /// Directions that stay.
+    /// Fixed directions.
     still: Vec<DVector<f64>>,
-    /// Directions that are mirrored.
+    /// Mirrored directions.
     mirrored: Vec<DVector<f64>>,
 }
 
@@ -99,7 +99,7 @@ impl PlaneCollector {
         Ok(())
     }
 
-    /// Pairs what is mirrored into turns by half a circle, and puts the columns in order.
+    /// Pairs mirrored directions into half turns, and orders the columns.
     fn finish(mut self, n: usize) -> (DMatrix<f64>, PlaneTurns) {
         let mut mirrored = self.mirrored.into_iter();
         let mut unpaired = None;
@@ -120,7 +120,7 @@ impl PlaneCollector {
     }
 }
 
-/// One step towards the nearest orthogonal matrix: what was 1e-9 off is 1e-18 off.
+/// One Newton step towards the nearest orthogonal matrix: an error of 1e-9 becomes 1e-18.
 fn orthonormalised(vectors: DMatrix<f64>) -> DMatrix<f64> {
     let mut gram = vectors.transpose() * &vectors * -0.5;
     for k in 0..gram.nrows() {
@@ -129,7 +129,7 @@ fn orthonormalised(vectors: DMatrix<f64>) -> DMatrix<f64> {
     vectors * gram
 }
 
-/// Pairs of vectors that span planes, and what is left.
+/// Pairs of vectors that span planes, and a basis of the rest.
 type Split = (Vec<[DVector<f64>; 2]>, DMatrix<f64>);
 
 /// Splits an antisymmetric matrix whose largest entry is 1: pairs of vectors `a, b` of length one with `S a = s b`,
@@ -160,7 +160,7 @@ fn split(sines: &DMatrix<f64>) -> Result<Split, FormationError> {
     Ok((pairs, candidates.columns(0, end).into_owned()))
 }
 
-/// Pairs the vectors of one space of equal sines, an even number: each with what the matrix makes of it.
+/// Pairs the vectors of a space of equal sines, each with its image under the matrix.
 fn pair_up(sines: &DMatrix<f64>, mut left: Vec<DVector<f64>>) -> Option<Vec<[DVector<f64>; 2]>> {
     let mut pairs: Vec<[DVector<f64>; 2]> = Vec::new();
     for _ in 0..left.len() / 2 {
@@ -190,7 +190,7 @@ fn pair_up(sines: &DMatrix<f64>, mut left: Vec<DVector<f64>>) -> Option<Vec<[DVe
     Some(pairs)
 }
 
-/// Removes what of a vector lies in a plane.
+/// Removes the component of a vector within a plane.
 fn take_away(vector: &mut DVector<f64>, plane: &[DVector<f64>; 2]) {
     for direction in plane {
         let along = direction.dot(vector);

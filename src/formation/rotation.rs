@@ -6,8 +6,9 @@ use crate::math::{atan2, sin_cos};
 /// How far a matrix may be from a rotation: largest entry of `R^T R - 1`.
 const ORTHOGONAL_WITHIN: f64 = 1e-6;
 
-/// A rotation of n-dimensional space, taken apart into turns within planes that do not disturb each other, so that any
-/// part of it, `R^t`, is at hand.
+/// A rotation of n-dimensional space, decomposed into turns within orthogonal planes.
+///
+/// The decomposition gives any power `R^t` directly.
 ///
 /// `R = U D U^T` is the real Schur form of an orthogonal matrix: the columns of the orthogonal `U` are two for each plane,
 /// then those directions that stay as they are; `D` turns plane p by the angle `a_p` in `(0, pi]`. Then
@@ -19,14 +20,14 @@ const ORTHOGONAL_WITHIN: f64 = 1e-6;
 /// the bytes of the matrix, and it is a shortest way like any other.
 #[derive(Clone, Debug)]
 pub struct Rotation {
-    /// `U`: two columns for each plane, then what stays.
+    /// `U`: two columns for each plane, then the fixed directions.
     vectors: DMatrix<f64>,
     /// The turn of each plane, from its first column towards its second, radians in `(0, pi]`.
     angles_rad: Vec<f64>,
 }
 
 impl Rotation {
-    /// Takes a rotation apart.
+    /// Decomposes a rotation.
     ///
     /// The symmetric part `(R + R^T) / 2` has the cosines as eigenvalues, each twice, and always decomposes (Schur
     /// iterations do not always converge on a permutation). Within a space of near-equal cosines, the antisymmetric part
@@ -68,17 +69,17 @@ impl Rotation {
         &self.angles_rad
     }
 
-    /// `U^T M`: what stands in the columns of `M`, seen along the planes.
+    /// `U^T M`: the columns of `M` in the coordinates of the planes.
     pub fn into_planes(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
         self.vectors.transpose() * matrix
     }
 
-    /// `U M`: back from the planes.
+    /// `U M`: back from the coordinates of the planes.
     pub fn out_of_planes(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
         &self.vectors * matrix
     }
 
-    /// `D^share M` for those `columns` of `M`, which are seen along the planes: one small turn per plane and column.
+    /// `D^share M` for those `columns` of `M`, which are in the coordinates of the planes: one turn per plane and column.
     pub fn turn(&self, matrix: &mut DMatrix<f64>, columns: std::ops::Range<usize>, share: f64) {
         for (plane, &angle_rad) in self.angles_rad.iter().enumerate() {
             let (sine, cosine) = sin_cos(share * angle_rad);
@@ -97,7 +98,7 @@ impl Rotation {
         self.out_of_planes(&within)
     }
 
-    /// `R^share` as a matrix: for looking at; applying is cheaper without it.
+    /// `R^share` as a matrix; [`Rotation::apply`] is cheaper.
     pub fn power(&self, share: f64) -> DMatrix<f64> {
         self.apply(&DMatrix::identity(self.size(), self.size()), share)
     }

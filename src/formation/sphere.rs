@@ -7,22 +7,23 @@ use super::example::{check_example, example_sigma_m};
 use super::{Basis, FormationError, Rotation, match_basis};
 use crate::motion::Ensemble;
 
-/// People whose eigenvectors are points on a sphere.
+/// Number of people whose eigenvectors are points on a sphere.
 const ON_A_SPHERE: usize = 3;
-/// Eigenvalues that count as equal here: the vectors themselves are looked at.
+/// Share of their mean up to which eigenvalues count as equal.
 const NEARNESS: f64 = 1e-9;
 
-/// The eigenvectors of three people as points on the unit sphere, over time: those of a recording, and those between its
-/// first and last formation as a rotation gives them. Figure 3 of the paper.
+/// The eigenvectors of three people over time, as points on the unit sphere (figure 3 of the paper).
+///
+/// They are those of a recording, and those that a rotation gives between its first and last formation.
 ///
 /// `e_0` is constant and `e_1` and `e_2` are orthogonal to it, so that their tracks lie on the great circle around it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SphereTracks {
-    /// `e_1` and `e_2` of each moment, as recorded, signs matched from moment to moment.
+    /// `e_1` and `e_2` of each frame, as recorded, with signs matched from frame to frame.
     pub recorded: Vec<[[f64; 3]; 2]>,
-    /// The same, turned evenly from the first to the last.
+    /// `e_1` and `e_2` of each frame, turned evenly from the first to the last.
     pub turned: Vec<[[f64; 3]; 2]>,
-    /// Coefficients `c_1, d_1, c_2, d_2` of each moment in the recorded basis, metres.
+    /// Coefficients `c_1, d_1, c_2, d_2` of each frame in the recorded basis, metres.
     pub coefficients_m: Vec<[f64; 4]>,
 }
 
@@ -81,8 +82,7 @@ pub fn sphere_tracks(example: &Ensemble, sigma_m: Option<f64>) -> Result<SphereT
     Ok(SphereTracks { recorded: bases.iter().map(points).collect(), turned, coefficients_m })
 }
 
-/// The stretches of an example throughout which the same pairs of people are nearer to each other than `reach_m`: those with
-/// one pattern of adjacency, as ranges of moments.
+/// The ranges of frames with one pattern of adjacency: the same pairs of people within `reach_m`.
 ///
 /// At `reach_m` = 1.18 sigma the Gaussian weight is one half.
 pub fn one_pattern(example: &Ensemble, reach_m: f64) -> Vec<Range<usize>> {

@@ -206,8 +206,8 @@ fn formations_that_cannot_be() {
     for (file, parts) in [
         ("three.txt", &["there are 5 people, but 3 points in three.txt"][..]),
         ("none.txt", &["but 0 points in none.txt"]),
-        ("word.txt", &["word.txt, line 2: it is no point"]),
-        ("far.txt", &["far.txt, line 1: \"0 nan\" lies beyond what is allowed"]),
+        ("word.txt", &["word.txt, line 2: it is not a point"]),
+        ("far.txt", &["far.txt, line 1: the point (0, NaN) is out of range"]),
         ("missing.txt", &["missing.txt: No such file"]),
         ("white.png", &["white.png"]),
         (".", &["."]),

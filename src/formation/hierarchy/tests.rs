@@ -236,7 +236,7 @@ fn other_counts_are_refused_with_both_numbers() {
     assert!(message.contains("formation.key.0") && message.contains("2 people, but 3 points"), "{message}");
     assert!(with(2, "file = \"none.txt\"").contains("none.txt"));
     let message = refused("[[key]]\ntime_s = 0\nshape = \"ring\"\n", Path::new(""));
-    assert!(message.contains("how many people"), "{message}");
+    assert!(message.contains("the number of people is missing"), "{message}");
 }
 
 #[test]

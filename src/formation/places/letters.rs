@@ -3,7 +3,7 @@
 use super::Strokes;
 use crate::math::{Vec2, vec2};
 
-/// Width and height of a letter in its own grid, and the gap to the next.
+/// Width and height of a letter in grid units, and the gap to the next letter.
 const WIDTH: f64 = 4.0;
 const HEIGHT: f64 = 6.0;
 const GAP: f64 = 2.0;
@@ -60,12 +60,12 @@ fn drawn(letter: char) -> Option<&'static str> {
     })
 }
 
-/// The letters of a text that nobody can form.
+/// The letters of a text that have no strokes.
 pub(in super::super) fn unknown_letters(text: &str) -> String {
     text.chars().filter(|letter| drawn(letter.to_ascii_uppercase()).is_none()).collect()
 }
 
-/// The lines of a text `height_m` high, around its middle; letters that are not known are left out.
+/// The strokes of a text `height_m` high, relative to its centre; unknown letters are left out.
 pub(in super::super) fn strokes(text: &str, height_m: f64) -> Strokes {
     let scale = height_m / HEIGHT;
     let mut lines: Strokes = Vec::new();

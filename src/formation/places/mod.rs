@@ -1,5 +1,4 @@
-//! Where people stand in a key formation: shapes, letters, drawn points, in metres around the formation's middle.
-//! Up is forward.
+//! Positions of key formations: shapes, letters, drawn points, in metres relative to the centroid; up is forward.
 
 mod letters;
 mod shapes;
@@ -11,18 +10,18 @@ pub(super) use spread::spread;
 
 use crate::math::{Vec2, vec2};
 
-/// Middle of places; the origin of none.
+/// Centroid of positions; the origin for an empty list.
 pub(super) fn centroid(places: &[Vec2]) -> Vec2 {
     places.iter().fold(Vec2::ZERO, |sum, &place| sum + place) / places.len().max(1) as f64
 }
 
-/// Places around their middle.
+/// Positions relative to their centroid.
 pub(super) fn centred(places: &[Vec2]) -> Vec<Vec2> {
     let middle = centroid(places);
     places.iter().map(|&place| place - middle).collect()
 }
 
-/// Places turned by an angle around the origin, counter-clockwise.
+/// Positions rotated around the origin, counter-clockwise.
 pub(super) fn turned(places: &[Vec2], angle_rad: f64) -> Vec<Vec2> {
     let (sin, cos) = crate::math::sin_cos(angle_rad);
     places.iter().map(|place| place.rotated(vec2(cos, sin))).collect()

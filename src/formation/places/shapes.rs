@@ -3,10 +3,10 @@ use std::f64::consts::TAU;
 use super::centred;
 use crate::math::{Vec2, sin_cos, vec2};
 
-/// Lines that people stand along: polylines, metres.
+/// Polylines along which people stand, metres.
 pub(in super::super) type Strokes = Vec<Vec<Vec2>>;
 
-/// Columns and rows of a block of so many people, about as wide as it is deep.
+/// Columns and rows of a nearly square block of people.
 pub(in super::super) fn grid_of(people: usize) -> [usize; 2] {
     let mut columns = 1;
     while columns * columns < people {
@@ -15,8 +15,7 @@ pub(in super::super) fn grid_of(people: usize) -> [usize; 2] {
     [columns, people.div_ceil(columns)]
 }
 
-/// Rows one behind the other, the first in front, each from left to right; people who do not fill the last row stand
-/// in its middle.
+/// A grid: rows one behind the other, the first in front, each from left to right; an incomplete last row is centred.
 pub(in super::super) fn grid(people: usize, columns: usize, spacing_m: f64) -> Vec<Vec2> {
     let rows = (0..people).collect::<Vec<_>>();
     let lengths = rows.chunks(columns.max(1)).map(|row| (row.len(), 0.0));
@@ -36,7 +35,7 @@ pub(in super::super) fn ranks_of_triangle(people: usize, spacing_m: f64) -> Vec<
     ranks(rows, spacing_m, spacing_m * 3.0_f64.sqrt() / 2.0)
 }
 
-/// Rows of given lengths one behind the other, each centred but for so many places.
+/// Rows of given lengths one behind the other, each centred with an offset in places.
 fn ranks(rows: impl Iterator<Item = (usize, f64)>, spacing_m: f64, depth_m: f64) -> Vec<Vec2> {
     let mut places = Vec::new();
     for (row, (length, beside)) in rows.enumerate() {
@@ -47,13 +46,12 @@ fn ranks(rows: impl Iterator<Item = (usize, f64)>, spacing_m: f64, depth_m: f64)
     places.iter().map(|&place| place - vec2(0.0, (top + bottom) / 2.0)).collect()
 }
 
-/// Side by side, from left to right.
+/// A line of people side by side, from left to right.
 pub(in super::super) fn line(people: usize, spacing_m: f64) -> Vec<Vec2> {
     grid(people, people, spacing_m)
 }
 
-/// Somebody in front, the others behind to the left and to the right in turn, as cranes fly; `angle_rad` is that between
-/// the two lines.
+/// A wedge: one person in front, the others behind to the left and right in turn; `angle_rad` between the two lines.
 pub(in super::super) fn wedge(people: usize, spacing_m: f64, angle_rad: f64) -> Vec<Vec2> {
     let (sin, cos) = sin_cos(angle_rad / 2.0);
     let place = |k: usize| {
@@ -63,8 +61,9 @@ pub(in super::super) fn wedge(people: usize, spacing_m: f64, angle_rad: f64) -> 
     centred(&(0..people).map(place).collect::<Vec<_>>())
 }
 
-/// Rings around the middle, the outermost first, each with as many people as its length asks for; every ring begins in
-/// front and goes round clockwise. Without a radius, neighbours are `spacing_m` apart.
+/// Concentric rings, the outermost first, with people in proportion to their length.
+///
+/// Each ring starts in front and goes clockwise. Without a radius, neighbours are `spacing_m` apart.
 pub(in super::super) fn rings(people: usize, rings: usize, spacing_m: f64, radius_m: Option<f64>) -> Vec<Vec2> {
     let rings = rings.clamp(1, people.max(1));
     // Radii as 1, 2, 3, ...: the people of a ring are in proportion to it.
@@ -85,13 +84,13 @@ pub(in super::super) fn rings(people: usize, rings: usize, spacing_m: f64, radiu
     places
 }
 
-/// Radius of a ring whose neighbours are so far apart.
+/// Radius of a ring with a distance between neighbours, metres.
 fn ring_radius_m(people: usize, spacing_m: f64) -> f64 {
     if people < 2 { spacing_m } else { spacing_m / (2.0 * sin_cos(TAU / 2.0 / people as f64).0) }
 }
 
-/// People in the open, evenly in a disc, the first in the middle (Vogel 1979, *A better way to construct the sunflower
-/// head*, doi 10.1016/0025-5564(79)90080-4). Without a radius, everybody has the area of a square of `spacing_m`.
+/// People evenly in a disc, the first at the centre (Vogel 1979, *A better way to construct the sunflower
+/// head*, doi 10.1016/0025-5564(79)90080-4). Without a radius, each person has an area of `spacing_m` squared.
 pub(in super::super) fn disc(people: usize, spacing_m: f64, radius_m: Option<f64>) -> Vec<Vec2> {
     const GOLDEN_ANGLE_RAD: f64 = 2.399_963_229_728_653;
     let radius_m = radius_m.unwrap_or_else(|| spacing_m * (people as f64 * 2.0 / TAU).sqrt());
@@ -102,7 +101,7 @@ pub(in super::super) fn disc(people: usize, spacing_m: f64, radius_m: Option<f64
     centred(&(0..people).map(place).collect::<Vec<_>>())
 }
 
-/// A polygon of so many corners on a circle, one of them in front.
+/// A regular polygon on a circle, with one corner in front.
 pub(in super::super) fn polygon(corners: usize, radius_m: f64) -> Vec<Vec2> {
     let corner = |k: usize| {
         let (sin, cos) = sin_cos(TAU * (k % corners) as f64 / corners as f64);
@@ -111,7 +110,7 @@ pub(in super::super) fn polygon(corners: usize, radius_m: f64) -> Vec<Vec2> {
     (0..=corners).map(corner).collect()
 }
 
-/// A star of so many points, one of them in front, whose inner corners are at `inner` of the radius.
+/// A star with one point in front, whose inner corners are at `inner` times the radius.
 pub(in super::super) fn star(points: usize, inner: f64, radius_m: f64) -> Vec<Vec2> {
     let count = 2 * points;
     let corner = |k: usize| {
@@ -121,8 +120,7 @@ pub(in super::super) fn star(points: usize, inner: f64, radius_m: f64) -> Vec<Ve
     (0..=count).map(corner).collect()
 }
 
-/// People evenly along a closed line, the first on its first corner; with `spacing_m` the line is scaled so that they are
-/// so far apart along it.
+/// People evenly along a closed line, the first on its first corner; `spacing_m` scales the line to that spacing.
 pub(in super::super) fn outline(people: usize, corners: &[Vec2], spacing_m: Option<f64>) -> Vec<Vec2> {
     let length_m: f64 = corners.windows(2).map(|side| side[0].distance(side[1])).sum();
     let scale = match spacing_m {
@@ -180,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn nobody_is_lost_in_rings_discs_and_stars() {
+    fn rings_discs_and_stars_have_all_people() {
         for people in 1..60 {
             assert_eq!(disc(people, 1.0, None).len(), people);
             for count in 1..5 {

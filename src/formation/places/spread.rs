@@ -1,14 +1,15 @@
 use super::centroid;
 use crate::math::{Rect, Vec2, vec2};
 
-/// Rounds of moving everybody to the middle of what is nearest to them.
+/// Most rounds of Lloyd's algorithm.
 const ROUNDS: usize = 40;
-/// Places looked at for each of the people: more than this many samples are thinned out.
+/// Samples per person above which samples are thinned out.
 const MOST_SAMPLES_PER_PERSON: usize = 400;
 
-/// `people` places spread evenly over a shape that is given as many points within it, metres: farthest points first
-/// (Gonzalez 1985, doi 10.1016/0304-3975(85)90224-5), then each to the middle of what is nearest to it (Lloyd 1982,
-/// doi 10.1109/TIT.1982.1056489). Every place is one of the samples; fewer samples than people are used again.
+/// Spreads people evenly over a shape that is given as samples, metres.
+///
+/// Farthest points first (Gonzalez 1985, doi 10.1016/0304-3975(85)90224-5), then Lloyd's algorithm (Lloyd 1982,
+/// doi 10.1109/TIT.1982.1056489). Every position is one of the samples; if there are fewer than people, they repeat.
 pub(in super::super) fn spread(samples: &[Vec2], people: usize) -> Vec<Vec2> {
     if samples.is_empty() || people == 0 {
         return Vec::new();
@@ -37,7 +38,7 @@ pub(in super::super) fn spread(samples: &[Vec2], people: usize) -> Vec<Vec2> {
             break;
         }
     }
-    // The middle of what is nearest may lie beside a bent line, or in a hole.
+    // The centroid of a cell may lie beside a bent line, or in a hole.
     let index = CellIndex::new(samples);
     let mut taken = vec![false; samples.len()];
     places
@@ -51,7 +52,7 @@ pub(in super::super) fn spread(samples: &[Vec2], people: usize) -> Vec<Vec2> {
         .collect()
 }
 
-/// At most about so many of the samples, evenly from all of them.
+/// Thins samples evenly to at most about `most`.
 fn thinned(samples: &[Vec2], most: usize) -> Vec<Vec2> {
     let every = samples.len().div_ceil(most.max(1)).max(1);
     samples.iter().copied().step_by(every).collect()
@@ -62,7 +63,7 @@ fn nearest_free(samples: &[Vec2], taken: &[bool], place: Vec2) -> usize {
     free.min_by(|&a, &b| samples[a].distance(place).total_cmp(&samples[b].distance(place))).unwrap_or(0)
 }
 
-/// First the sample that is farthest from the middle, then always that which is farthest from all before.
+/// Farthest-point sampling, starting with the sample farthest from the centroid.
 fn farthest_points(samples: &[Vec2], people: usize) -> Vec<Vec2> {
     let middle = centroid(samples);
     let farthest = |distances: &[f64]| {
@@ -83,7 +84,7 @@ fn farthest_points(samples: &[Vec2], people: usize) -> Vec<Vec2> {
     places
 }
 
-/// Points by cell, so that the nearest is found without looking at all.
+/// A grid index of points for nearest-neighbour queries.
 struct CellIndex {
     area: Rect,
     cell_m: f64,
@@ -138,12 +139,12 @@ impl CellIndex {
         row * self.columns + column
     }
 
-    /// The nearest of the points that the index was made of; of several the first.
+    /// Index of the nearest point; of equally near ones the first.
     fn nearest(&self, points: &[Vec2], to: Vec2) -> usize {
         let [column, row] = self.column_row(to);
         let mut best = (f64::INFINITY, 0);
         for ring in 0..self.columns.max(self.rows) {
-            // Whatever lies in this ring of cells or beyond is at least so far away.
+            // Least distance of points in this ring of cells or beyond.
             let least_m = (ring as f64 - 1.0).max(0.0) * self.cell_m;
             if best.0 <= least_m * least_m {
                 break;

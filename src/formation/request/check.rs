@@ -8,7 +8,7 @@ use crate::recordings::FRAME_RATES;
 /// Longest motion, seconds.
 const LONGEST_S: f64 = 36_000.0;
 
-/// What is wrong: the key, the problem, a hint.
+/// A problem: the key, the message, a hint.
 type Problem = (String, String, Option<String>);
 
 fn wrong(key: &str, problem: impl Into<String>, hint: impl Into<Option<&'static str>>) -> Problem {
@@ -16,10 +16,10 @@ fn wrong(key: &str, problem: impl Into<String>, hint: impl Into<Option<&'static 
 }
 
 impl FormationRequest {
-    /// Checks every value, and that they fit each other as far as can be said without reading files.
+    /// Checks all values and their consistency, as far as possible without reading files.
     ///
     /// # Errors
-    /// The first that is out of range or does not fit: its key, as `formation.key.2.time_s`.
+    /// [`RequestError::Value`] for the first value out of range or in conflict, with its key, as `formation.key.2.time_s`.
     pub fn check(&self) -> Result<(), RequestError> {
         self.problem().map_or(Ok(()), |(key, problem, hint)| Err(RequestError::Value { key, problem, hint }))
     }
@@ -37,13 +37,13 @@ impl FormationRequest {
             let path = "formation.way";
             let points = way.from.iter().chain(&way.to).chain(&way.path);
             if points.clone().count() == 0 {
-                return Err(wrong(path, "the way has no points", "write `from` and `to`, or a `path`"));
+                return Err(wrong(path, "the path has no points", "write `from` and `to`, or a `path`"));
             }
             points.into_iter().try_for_each(|&point| place(path, "path", point))?;
             number(path, "from_s", Some(way.from_s), 0.0, LONGEST_S)?;
             number(path, "to_s", way.to_s, 0.0, LONGEST_S)?;
             if way.to_s.is_some_and(|to_s| to_s <= way.from_s) {
-                return Err(wrong(&format!("{path}.to_s"), "the way ends before it begins", None));
+                return Err(wrong(&format!("{path}.to_s"), "the path ends before it begins", None));
             }
         }
         self.section().check(path, 0, self.duration_s)
@@ -82,8 +82,9 @@ impl CrowdSection<'_> {
             }
             let end_s = key.time_s + key.hold_s;
             if let Some(duration_s) = duration_s.filter(|&duration_s| end_s > duration_s) {
-                let problem = format!("the key formation ends at {end_s} s, after the whole, {duration_s} s");
-                return Err(wrong(&format!("{path}.time_s"), problem, "give the whole a longer `duration_s`"));
+                let problem =
+                    format!("the key formation ends at {end_s} s, after the whole formation, at {duration_s} s");
+                return Err(wrong(&format!("{path}.time_s"), problem, "set a longer `duration_s`"));
             }
             ends_s = Some(end_s);
         }
@@ -97,7 +98,7 @@ impl CrowdSection<'_> {
 impl CrowdRequest {
     fn check(&self, path: &str, depth: usize, duration_s: Option<f64>) -> Result<(), Problem> {
         if depth > DEEPEST {
-            return Err(wrong(path, format!("small crowds stand {DEEPEST} deep in each other at most"), None));
+            return Err(wrong(path, format!("small crowds are nested {DEEPEST} deep at most"), None));
         }
         match &self.members {
             Members::Word(_) => {}
@@ -118,7 +119,7 @@ impl CrowdRequest {
 impl ExampleRequest {
     fn check(&self, path: &str) -> Result<(), Problem> {
         if let (Some(_), Some(_)) = (&self.file, self.kind) {
-            let hint = "a recording moves as it does: leave one of the two out";
+            let hint = "leave one of the two out";
             return Err(wrong(&format!("{path}.kind"), "the example has both a file and a kind", hint));
         }
         number(path, "from_s", Some(self.from_s), 0.0, 1e7)?;
@@ -156,7 +157,7 @@ impl ExampleRequest {
             members(&key, list, 1)?;
         }
         if self.choose.as_ref().is_some_and(|choice| choice.lists().is_empty()) {
-            return Err(wrong(&format!("{path}.choose"), "nobody is chosen", None));
+            return Err(wrong(&format!("{path}.choose"), "no person is chosen", None));
         }
         Ok(())
     }
@@ -174,7 +175,7 @@ impl KeyRequest {
         match (given.next(), given.next()) {
             (None, _) => {
                 let hint = "write a `shape`, a `text`, `points` or a `file`";
-                return Err(wrong(path, "the key formation says nothing of where people stand", hint));
+                return Err(wrong(path, "the key formation has no positions", hint));
             }
             (Some(first), Some(second)) => {
                 let problem = format!("the key formation has both `{first}` and `{second}`");
@@ -187,8 +188,8 @@ impl KeyRequest {
         if let Some(letters) = self.text.as_deref() {
             let unknown = super::super::places::unknown_letters(letters);
             if !unknown.is_empty() {
-                let hint = "people form A to Z, 0 to 9, blanks and - + . : ! ? / '";
-                return Err(wrong(&format!("{path}.text"), format!("nobody can form \"{unknown}\""), hint));
+                let hint = "there are letters for A to Z, 0 to 9, blanks and - + . : ! ? / '";
+                return Err(wrong(&format!("{path}.text"), format!("there are no letters for \"{unknown}\""), hint));
             }
             if letters.trim().is_empty() || letters.chars().count() > 200 {
                 let problem = format!("`text` has {} letters, allowed are 1 to 200", letters.chars().count());
@@ -196,8 +197,8 @@ impl KeyRequest {
             }
         }
         if in_crowd && self.at.is_some() {
-            let hint = "leave `at` out: a small crowd is where the individual is whose place it takes";
-            return Err(wrong(&format!("{path}.at"), "a small crowd has no place of its own", hint));
+            let hint = "leave `at` out: a small crowd is at the position of the individual that it replaces";
+            return Err(wrong(&format!("{path}.at"), "a small crowd has no position of its own", hint));
         }
         for (index, &point) in self.points.iter().flatten().enumerate() {
             place(&format!("{path}.points"), &index.to_string(), point)?;
@@ -225,7 +226,7 @@ impl KeyRequest {
         numbers.into_iter().try_for_each(|(name, value, low, high)| number(path, name, value, low, high))
     }
 
-    /// Keys that say something only of one kind of formation stand with that kind.
+    /// Checks that keys for one kind of formation are used with that kind.
     fn check_fit(&self, path: &str) -> Result<(), Problem> {
         let is = |shapes: &[FormationShape]| self.shape.is_some_and(|shape| shapes.contains(&shape));
         let fits = [
@@ -268,7 +269,7 @@ impl KeyRequest {
         ];
         for (name, given, fit, kind) in fits {
             if given && !fit {
-                return Err(wrong(&format!("{path}.{name}"), format!("`{name}` says something of {kind} only"), None));
+                return Err(wrong(&format!("{path}.{name}"), format!("`{name}` applies to {kind} only"), None));
             }
         }
         Ok(())
@@ -296,7 +297,7 @@ fn place(path: &str, name: &str, at: Vec2) -> Result<(), Problem> {
     }
 }
 
-/// Individuals who are named: enough of them, and nobody twice.
+/// Checks a list of individuals: its length, and that none is repeated.
 fn members(key: &str, list: &[u32], least: usize) -> Result<(), Problem> {
     if list.len() < least {
         return Err(wrong(key, format!("{} named, at least {least} are needed", list.len()), None));

@@ -1,97 +1,91 @@
 use std::path::PathBuf;
 
-use super::{DEEPEST, MOST_PEOPLE};
+use super::MOST_PEOPLE;
 
-/// Why a formation cannot be made as it is asked for.
+/// An invalid formation request.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RequestError {
-    /// A value that is out of range or does not fit the others.
+    /// A value out of range or in conflict with others.
     #[error("{key}: {problem}")]
     Value {
-        /// Which, as `formation.key.2.time_s`, lists counted from 0.
+        /// Key of the value, as `formation.key.2.time_s`, with lists counted from 0.
         key: String,
-        /// What is wrong with it.
+        /// The problem.
         problem: String,
-        /// What to do about it.
+        /// The remedy.
         hint: Option<String>,
     },
-    /// A file of places cannot be used.
+    /// An unusable file of positions.
     #[error("{}: {problem}", path.display())]
     File {
         /// The file.
         path: PathBuf,
-        /// Why not.
+        /// The problem.
         problem: String,
     },
-    /// A line of a file of points.
+    /// An invalid line of a file of points.
     #[error("{}, line {line}: {problem}", path.display())]
     Line {
         /// The file.
         path: PathBuf,
-        /// The line, from 1 on.
+        /// Number of the line, from 1.
         line: usize,
-        /// What is wrong with it.
+        /// The problem.
         problem: String,
     },
-    /// A formation has places for others than there are.
+    /// A formation whose number of positions differs from the number of people.
     #[error("{key}: there are {people} people, but {places} {what}")]
     Count {
-        /// Which key formation.
+        /// Key of the key formation.
         key: String,
-        /// People of the example.
+        /// Number of people in the example.
         people: usize,
-        /// Places of the formation.
+        /// Number of positions in the formation.
         places: usize,
-        /// What they are: "points", "dots in dots.png".
+        /// Description of the positions: "points", "dots in dots.png".
         what: String,
     },
-    /// Nothing says how many people there are.
-    #[error("{key}: nothing says how many people there are")]
+    /// An example without a number of people.
+    #[error("{key}: the number of people is missing")]
     HowMany {
-        /// Which example.
+        /// Key of the example.
         key: String,
     },
-    /// An example has not those who are chosen.
+    /// A chosen person who is not in the example.
     #[error("{key}: there is no person {person} in the example: it has {people}, from 0 to {last}", last = people.saturating_sub(1))]
     NoSuchPerson {
-        /// What names the person.
+        /// Key that names the person.
         key: String,
-        /// Who is not there.
+        /// Index of the person.
         person: u32,
-        /// How many there are.
+        /// Number of people.
         people: usize,
     },
-    /// More than can be worked on.
+    /// Too many people, or none, in one crowd.
     #[error(
         "{key}: {people} people, allowed are 1 to {MOST_PEOPLE} in one crowd; small crowds within may have as many each"
     )]
     TooMany {
-        /// Which example.
+        /// Key of the example.
         key: String,
-        /// How many there are.
+        /// Number of people.
         people: usize,
     },
-    /// More in all than can be worked on.
-    #[error("{people} people in {moments} frames are more than {most} places")]
+    /// More positions than can be held.
+    #[error("{people} people in {moments} frames are more than {most} positions")]
     TooLong {
-        /// People of all crowds.
+        /// Number of people of all crowds.
         people: usize,
-        /// Frames.
+        /// Number of frames.
         moments: usize,
-        /// The most places allowed.
+        /// Largest number of positions.
         most: usize,
-    },
-    /// Crowds within crowds without end.
-    #[error("{key}: small crowds stand {DEEPEST} deep in each other at most")]
-    TooDeep {
-        /// The crowd.
-        key: String,
     },
 }
 
 impl RequestError {
-    /// What the user can do about it.
+    /// A remedy that the user can try.
     pub fn hint(&self) -> Option<String> {
         match self {
             RequestError::Value { hint, .. } => hint.clone(),
@@ -109,7 +103,6 @@ impl RequestError {
             RequestError::NoSuchPerson { .. } => Some("people are counted from 0 on".to_string()),
             RequestError::TooMany { .. } => Some("make crowds of crowds with [[formation.crowd]]".to_string()),
             RequestError::TooLong { .. } => Some("make it shorter, with fewer people or frames per second".to_string()),
-            RequestError::TooDeep { .. } => None,
         }
     }
 }

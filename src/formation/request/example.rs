@@ -4,50 +4,50 @@ use serde::{Deserialize, Serialize};
 
 use crate::recordings::RecordingOptions;
 
-/// The motion whose way of moving a formation takes over: a recording, or one that is made here.
+/// The example of a formation: a recording or a generated motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ExampleRequest {
-    /// What is made where no file is given.
+    /// Kind of generated motion, if no file is given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub kind: Option<ExampleKind>,
-    /// A recording, relative to the scenario.
+    /// File of the recording, relative to the scenario.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<PathBuf>,
-    /// How the recording is read.
+    /// Options for reading the recording.
     pub recording: RecordingOptions,
-    /// Where in the example to begin, seconds.
+    /// Start within the recording, seconds.
     pub from_s: f64,
-    /// Where to end; left out: at its end.
+    /// End within the recording, seconds; left out: its end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to_s: Option<f64>,
-    /// How an example goes on that is too short.
+    /// Repetition of an example that is too short.
     pub repeat: Repeat,
-    /// Which of its people to take, by their order from 0 on; left out: all.
+    /// The people to take, by index from 0; left out: all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub choose: Option<Choice>,
-    /// How many people are made; left out: as many as rows and columns, or as the first key formation has places.
+    /// Number of people to generate; left out: rows times columns, or the positions of the first key formation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub people: Option<u32>,
-    /// Rows one behind the other.
+    /// Number of rows.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rows: Option<u32>,
-    /// People side by side in a row.
+    /// Number of people in a row.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub columns: Option<u32>,
-    /// From one to the next, metres.
+    /// Distance between neighbours, metres.
     pub spacing_m: f64,
-    /// How fast they walk, metres per second; left out: ranks 1.2, who wanders 0.9.
+    /// Walking speed, metres per second; left out: 1.2 for ranks, 0.9 for wanderers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_m_s: Option<f64>,
-    /// Where ranks go, degrees counter-clockwise from +x.
+    /// Heading of ranks, degrees counter-clockwise from +x.
     pub heading_deg: f64,
-    /// How far everybody strays from their place in the ranks, metres.
+    /// Amplitude of straying from the place in the ranks, metres.
     pub stray_m: f64,
-    /// How far from their middle people wander, metres; left out: so that each has three spacings squared.
+    /// Radius within which people wander, metres; left out: three times the squared spacing for each person.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_m: Option<f64>,
-    /// Another number, another example.
+    /// Seed of the generated motion.
     pub seed: u64,
 }
 
@@ -80,43 +80,43 @@ impl ExampleRequest {
     }
 }
 
-/// A motion that is made here.
+/// Kinds of generated motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ExampleKind {
-    /// Nobody moves.
+    /// People stand still.
     Still,
-    /// Everybody stays about their place and shifts around it, as people do who float or wait.
+    /// People shift around their place, as when floating or waiting.
     Sway,
     /// Ranks that march, step by step.
     Ranks,
-    /// A crowd that strolls about in all directions.
+    /// A crowd that wanders in all directions.
     Wander,
 }
 
-/// How an example goes on that is too short.
+/// Repetition of an example that is too short.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Repeat {
     /// Forwards, then backwards, and so on, slowing down where it turns.
     #[default]
     ToAndFro,
-    /// From the start again, each passage faded into the next.
+    /// From the start again, with a cross-fade between passages.
     Loop,
 }
 
-/// Which people of an example are taken.
+/// The people of an example that are taken.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Choice {
-    /// The same for every small crowd.
+    /// The same people for every small crowd.
     Same(Vec<u32>),
-    /// For the first small crowd, the second, and so on, from the start again where there are more.
+    /// One list per small crowd, repeated from the start if there are more crowds.
     Each(Vec<Vec<u32>>),
 }
 
 impl Choice {
-    /// The people of the small crowd of this number.
+    /// The people for the small crowd of a number.
     pub(in super::super) fn of_crowd(&self, number: usize) -> &[u32] {
         match self {
             Choice::Same(people) => people,

@@ -5,22 +5,22 @@ use serde::{Deserialize, Serialize};
 use super::Assign;
 use crate::math::Vec2;
 
-/// A formation at a time: `[[formation.key]]`.
+/// A key formation: `[[formation.key]]`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KeyRequest {
-    /// When people stand so, seconds.
+    /// Time at which people are in the formation, seconds.
     pub time_s: f64,
-    /// How long they stay in it.
+    /// Time for which they stay in it, seconds.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub hold_s: f64,
-    /// A named shape; left out where a text, points or a file say it.
+    /// A named shape; left out if a text, points or a file are given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shape: Option<FormationShape>,
-    /// Letters that people stand along.
+    /// Letters along whose strokes people stand.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub text: Option<String>,
-    /// A place for everybody, `[x, y]` in metres.
+    /// The position of each person, `[x, y]` in metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub points: Option<Vec<Vec2>>,
     /// A picture of dots or of a shape, or points as text; relative to the scenario.
@@ -29,25 +29,25 @@ pub struct KeyRequest {
     /// Side of a pixel of the picture, metres; left out: 0.1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub metres_per_pixel: Option<f64>,
-    /// Whether people fill what is drawn in the picture, or the inside of a polygon or star.
+    /// Whether people fill the shape drawn in the picture, or the inside of a polygon or star.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub filled: Option<bool>,
-    /// People side by side in a grid.
+    /// Number of people in a row of a grid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub columns: Option<u32>,
-    /// Rings one in the other.
+    /// Number of concentric rings.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rings: Option<u32>,
-    /// Corners of a polygon, points of a star.
+    /// Number of corners of a polygon, or of points of a star.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub corners: Option<u32>,
-    /// Inner radius of a star over its outer.
+    /// Ratio of a star's inner to its outer radius.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inner: Option<f64>,
     /// Angle between the two lines of a wedge, degrees.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angle_deg: Option<f64>,
-    /// From one person to the next, metres; left out: 1.
+    /// Distance between neighbours, metres; left out: 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spacing_m: Option<f64>,
     /// Radius of rings, discs, polygons and stars, metres; left out: by the spacing.
@@ -56,20 +56,19 @@ pub struct KeyRequest {
     /// Height of letters, metres; left out: by the spacing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height_m: Option<f64>,
-    /// Where the middle of the formation is; left out: the origin, of the example's own places where they are.
+    /// Centroid of the formation, metres; left out: the origin, or the example's own centroid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<Vec2>,
-    /// How far it is turned, counter-clockwise, degrees.
+    /// Rotation of the formation, counter-clockwise, degrees.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub turn_deg: f64,
-    /// How far the whole wheels around its middle from the key formation before to this one, counter-clockwise, degrees: as
-    /// one body, whatever changes within.
+    /// Rotation of the crowd as one body from the key formation before to this one, counter-clockwise, degrees.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub wheel_deg: f64,
-    /// How many times as large.
+    /// Scale factor.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<f64>,
-    /// Who goes to which place; left out: as the whole says.
+    /// Assignment of people to positions; left out: the crowd's default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub assign: Option<Assign>,
 }
@@ -83,13 +82,13 @@ fn is_zero(number: &f64) -> bool {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum FormationShape {
-    /// As the example has it at that time.
+    /// The example's own positions at that time.
     Example,
     /// Rows one behind the other.
     Grid,
-    /// Side by side.
+    /// A line, side by side.
     Line,
-    /// A ring, or rings one in the other.
+    /// A ring, or concentric rings.
     Ring,
     /// Evenly in a disc.
     Disc,
@@ -99,6 +98,6 @@ pub enum FormationShape {
     Polygon,
     /// Along the outline of a star, or in it.
     Star,
-    /// Somebody in front, the others behind to the left and the right.
+    /// A wedge: one person in front, the others behind to the left and the right.
     Wedge,
 }

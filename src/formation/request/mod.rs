@@ -1,4 +1,4 @@
-//! What a user asks for: the `[formation]` section of a scenario.
+//! The `[formation]` section of a scenario.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,72 +14,73 @@ pub use key::{FormationShape, KeyRequest};
 use super::MOST_PEOPLE;
 use crate::math::Vec2;
 
-/// Farthest from the origin that anything may be, metres.
+/// Largest coordinate of a position, metres.
 pub const FARTHEST_M: f64 = 100_000.0;
-/// How deep small crowds may stand within each other.
+/// Largest nesting depth of small crowds.
 pub const DEEPEST: usize = 8;
 
 /// A crowd that changes from formation to formation: `[formation]` of a scenario.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct FormationRequest {
-    /// How long it lasts, seconds; left out: to the last key formation, else as long as the example, else a minute.
+    /// Duration, seconds; left out: to the last key formation, else as long as the example, else 60 s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub duration_s: Option<f64>,
     /// Frames per second; left out: 10.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fps: Option<f64>,
-    /// How the individuals move.
+    /// The example whose motion the individuals take over.
     #[serde(skip_serializing_if = "ExampleRequest::is_default")]
     pub example: ExampleRequest,
-    /// How strongly it is kept: 0 not at all, 1 as in the example; left out: 1.
+    /// Factor on the example's fluctuation, 0 to 10; left out: 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fluctuation: Option<f64>,
-    /// What the example's way of moving stays with; left out: with the formation's shapes.
+    /// How the fluctuation is carried over; left out: with the formation's shapes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stays_with: Option<Stays>,
-    /// How far neighbours feel each other, metres; left out: from how far apart they are.
+    /// Range of adjacency, metres; left out: the median distance to the nearest person.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sigma_m: Option<f64>,
-    /// Individuals who are each other's neighbours wherever they are: they keep together.
+    /// Groups of individuals who are adjacent at any distance, so that they keep together.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub together: Vec<Vec<u32>>,
-    /// Individuals whose weight of adjacency is set.
+    /// Weights of adjacency between individuals.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub adjacency: Vec<AdjacencyRequest>,
-    /// Who goes to which place of a key formation, unless it says so itself.
+    /// Default assignment of people to the positions of key formations.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub assign: Option<Assign>,
-    /// How people go from one key formation to the next.
+    /// Easing from one key formation to the next.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pace: Option<Pace>,
-    /// Where the whole goes.
+    /// Path of the crowd's centroid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub way: Option<PathRequest>,
-    /// How people keep clear of each other.
+    /// Collision avoidance.
     #[serde(skip_serializing_if = "AvoidRequest::is_default")]
     pub avoid: AvoidRequest,
-    /// Formations at chosen times.
+    /// Key formations.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub key: Vec<KeyRequest>,
-    /// Small crowds that stand where individuals would.
+    /// Small crowds in the places of individuals.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub crowd: Vec<CrowdRequest>,
 }
 
-/// A small crowd that takes the place of one individual or of several: `[[formation.crowd]]`, and within it
-/// `[[formation.crowd.crowd]]`, and so on.
+/// A small crowd in the place of one or several individuals: `[[formation.crowd]]`.
+///
+/// Small crowds nest: `[[formation.crowd.crowd]]`, and so on.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct CrowdRequest {
-    /// In whose places such crowds stand.
+    /// The individuals that such crowds replace.
     pub members: Members,
-    /// Whether one more is carried in the middle of each.
+    /// Whether each crowd carries a rider at its centre.
     pub rider: bool,
-    /// Whether it keeps clear of others as one body; left out: where there is a rider.
+    /// Whether it avoids others as one body; left out: if it has a rider.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub as_one: Option<bool>,
-    /// Whether it turns to where it goes: what is up in its formations points forward.
+    /// Whether it turns to its heading: the formations' up points forward.
     pub follow_heading: bool,
     /// As in [`FormationRequest::example`].
     #[serde(skip_serializing_if = "ExampleRequest::is_default")]
@@ -105,10 +106,10 @@ pub struct CrowdRequest {
     /// As in [`FormationRequest::pace`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pace: Option<Pace>,
-    /// What differs from the larger crowd's way of keeping clear.
+    /// Collision avoidance settings that differ from the larger crowd's.
     #[serde(skip_serializing_if = "AvoidRequest::is_default")]
     pub avoid: AvoidRequest,
-    /// Formations at chosen times, around the individual whose place it takes.
+    /// Key formations, relative to the individual that it replaces.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub key: Vec<KeyRequest>,
     /// Smaller crowds within.
@@ -116,7 +117,7 @@ pub struct CrowdRequest {
     pub crowd: Vec<CrowdRequest>,
 }
 
-/// What a crowd and the small crowds within it have in common.
+/// The settings that a crowd and the small crowds within it have in common.
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs)] // as in FormationRequest
 pub(super) struct CrowdSection<'r> {
@@ -162,31 +163,31 @@ impl CrowdRequest {
         section!(self)
     }
 
-    /// Whether it keeps clear of others as one body.
+    /// Whether it avoids others as one body.
     pub(super) fn is_as_one(&self) -> bool {
         self.as_one.unwrap_or(self.rider)
     }
 }
 
-/// In whose places small crowds stand.
+/// The individuals that small crowds replace.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Members {
-    /// In those of these individuals.
+    /// These individuals.
     List(Vec<u32>),
-    /// In that of every so many.
+    /// Individuals at a regular interval.
     Every {
-        /// From one to the next.
+        /// The interval, 1 or more.
         every: u32,
-        /// The first.
+        /// The first individual, from 0.
         #[serde(default)]
         from: u32,
     },
-    /// In everybody's.
+    /// A word.
     Word(MembersWord),
 }
 
-/// What members may be as a word.
+/// Words for members.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum MembersWord {
@@ -201,7 +202,7 @@ impl Default for Members {
 }
 
 impl Members {
-    /// Whether this individual is one of them.
+    /// Whether an individual is among the members.
     pub(super) fn contains(&self, individual: usize) -> bool {
         match self {
             Members::Word(MembersWord::All) => true,
@@ -214,17 +215,17 @@ impl Members {
     }
 }
 
-/// A weight of adjacency that is set.
+/// A weight of adjacency between individuals.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AdjacencyRequest {
-    /// Between all of these.
+    /// The individuals; the weight applies to each pair.
     pub members: Vec<u32>,
-    /// 0: they are strangers however near; 1: neighbours as if they stood in one place.
+    /// Weight, 0 to 1: 0 as for people far apart, 1 as for people at one position.
     pub weight: f64,
 }
 
-/// Who goes to which place.
+/// Assignment of people to the positions of a key formation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Assign {
@@ -268,33 +269,34 @@ pub struct PathRequest {
     /// Where it ends.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to: Option<Vec2>,
-    /// Points on the way, passed on a smooth curve.
+    /// Points on the path, joined by a smooth curve.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub path: Vec<Vec2>,
-    /// When the way begins, seconds; before, the whole stays.
+    /// Start of the motion along the path, seconds.
     pub from_s: f64,
-    /// When it ends; left out: at the end of all.
+    /// End of the motion along the path, seconds; left out: the end of the formation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to_s: Option<f64>,
-    /// Whether the whole turns along the way: what is up in its formations points forward.
+    /// Whether the crowd turns to its heading: the formations' up points forward.
     pub follow_heading: bool,
 }
 
-/// How people keep clear of each other. What a small crowd leaves out is as in the larger one.
+/// Settings of collision avoidance; a small crowd inherits what it leaves out.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct AvoidRequest {
-    /// Whether they do; left out: yes.
+    /// Whether people keep clear of each other; left out: yes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<bool>,
-    /// Bodies' middles never come nearer to each other (mean of the two), metres; left out: 0.36.
+    /// Least distance between the centres of two people (mean of both settings), metres; left out: 0.36.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub distance_m: Option<f64>,
-    /// How strongly neighbours push each other, in inverse proportion to their distance, where 1 moves somebody by 1 m
-    /// whose neighbour is at 1 m; left out: 0.02.
+    /// Strength of the push between neighbours, in inverse proportion to their distance; left out: 0.02.
+    ///
+    /// 1 moves a person by 1 m whose neighbour is at 1 m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub push: Option<f64>,
-    /// How long before and after an encounter people step aside, seconds; left out: 0.8.
+    /// Time for which people step aside before and after an encounter, seconds; left out: 0.8.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seconds: Option<f64>,
 }
@@ -304,7 +306,7 @@ impl AvoidRequest {
         *self == AvoidRequest::default()
     }
 
-    /// These settings, over those of the larger crowd.
+    /// These settings, completed by those of the larger crowd.
     pub(super) fn over(&self, larger: &AvoidRequest) -> AvoidRequest {
         AvoidRequest {
             on: self.on.or(larger.on),

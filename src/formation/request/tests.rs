@@ -25,9 +25,9 @@ fn what_is_wrong_is_named_by_its_key() {
         ("example = { rows = 2, columns = 2, people = 5 }", "formation.example.people", "do not stand"),
         ("example = { choose = [] }", "formation.example.choose", "0 named"),
         ("example = { from_s = 3, to_s = 3 }", "formation.example.to_s", "ends before"),
-        ("[[key]]\ntime_s = 0", "formation.key.0", "says nothing"),
+        ("[[key]]\ntime_s = 0", "formation.key.0", "has no positions"),
         ("[[key]]\ntime_s = 0\nshape = \"ring\"\ntext = \"A\"", "formation.key.0.text", "both `shape` and `text`"),
-        ("[[key]]\ntime_s = 0\nshape = \"ring\"\ncolumns = 3", "formation.key.0.columns", "of a grid only"),
+        ("[[key]]\ntime_s = 0\nshape = \"ring\"\ncolumns = 3", "formation.key.0.columns", "to a grid only"),
         ("[[key]]\ntime_s = 0\npoints = [[0, 0]]\nspacing_m = 3", "formation.key.0.spacing_m", "only"),
         ("[[key]]\ntime_s = 0\npoints = [[0, 0], [0, 1e9]]", "formation.key.0.points.1", "out of range"),
         ("[[key]]\ntime_s = 0\ntext = \"A\u{fc}\"", "formation.key.0.text", "\u{fc}"),
@@ -43,7 +43,7 @@ fn what_is_wrong_is_named_by_its_key() {
         (
             "[[crowd]]\n[[crowd.key]]\ntime_s = 0\nshape = \"ring\"\nat = [0, 0]",
             "formation.crowd.0.key.0.at",
-            "no place of its own",
+            "no position of its own",
         ),
         ("[[crowd]]\n[[crowd.crowd]]\nsigma_m = 0", "formation.crowd.0.crowd.0.sigma_m", "allowed"),
     ] {
