@@ -67,7 +67,7 @@ impl Timetable {
     }
 
     /// Number of people that a list names; `None` for other kinds.
-    pub fn listed(&self) -> Option<u64> {
+    pub(crate) fn listed(&self) -> Option<u64> {
         (self.kind == TimetableKind::List).then(|| self.rows().map(|row| row[1] as u64).sum())
     }
 
@@ -130,7 +130,7 @@ impl Timetable {
     ///
     /// # Errors
     /// The first other line: its number, counted from 1, and its text.
-    pub fn rows_of_csv(text: &str) -> Result<Vec<[f64; 2]>, (usize, String)> {
+    pub(crate) fn rows_of_csv(text: &str) -> Result<Vec<[f64; 2]>, (usize, String)> {
         let mut rows = Vec::new();
         for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
             let line = line.trim();
