@@ -83,6 +83,7 @@ const AGAINST: f32 = 5.0;
 type Column = [[f32; LANES]; MOST_WEIGHED / LANES];
 
 /// Others who may get in the way, relative to the agent.
+#[derive(Default)]
 struct Obstacles {
     count: usize,
     /// Side of those who go the same way: -1 all on the right, 1 all on the left.
@@ -158,7 +159,7 @@ impl Perception<'_> {
 
     /// Collects those ahead who do not go the same way as fast.
     fn in_the_way(&self, me: &BodyState, speed_m_s: f32, wanted: [f32; 2]) -> Obstacles {
-        let mut others = Obstacles::none();
+        let mut others = Obstacles::default();
         let (cx, cy) = (me.x + wanted[0] * CENTRE_M, me.y + wanted[1] * CENTRE_M);
         let (mut left, mut company, mut against) = (0.0, 0.5, 0.0);
         self.neighbours.around(cx, cy, |range, shift| {
@@ -212,20 +213,6 @@ impl Perception<'_> {
 }
 
 impl Obstacles {
-    fn none() -> Obstacles {
-        let column = [[0.0; LANES]; MOST_WEIGHED / LANES];
-        Obstacles {
-            count: 0,
-            company: 0.0,
-            against: false,
-            dx: column,
-            dy: column,
-            vx: column,
-            vy: column,
-            gap_m2: column,
-        }
-    }
-
     /// Adds an obstacle; when there is no room for more, in place of the farthest if that is farther.
     fn add(&mut self, dx: f32, dy: f32, body: &BodyState, distance_m2: f32, touching_m: f32) {
         let at = if self.count < MOST_WEIGHED {
@@ -289,7 +276,7 @@ mod tests {
     use super::*;
 
     fn others(list: &[[f32; 4]]) -> Obstacles {
-        let mut others = Obstacles::none();
+        let mut others = Obstacles::default();
         for &[dx, dy, vx, vy] in list {
             others.add(dx, dy, &BodyState { vx, vy, ..BodyState::default() }, dx * dx + dy * dy, 0.5);
         }

@@ -132,7 +132,7 @@ impl CrowdOptions {
     }
 
     /// Body options that belong to a preset: the paper's people have step lengths around 0.7 m.
-    pub fn preset_bodies(name: &str) -> Option<BodyOptions> {
+    pub(crate) fn preset_bodies(name: &str) -> Option<BodyOptions> {
         match name {
             "commuters" => Some(BodyOptions::default()),
             "paper" => Some(BodyOptions {

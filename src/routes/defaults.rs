@@ -167,17 +167,7 @@ fn roomy_cells(ground: &Ground, part: u16) -> Vec<usize> {
             continue;
         }
         seen[first] = true;
-        let mut joined = vec![first];
-        let mut next = 0;
-        while let Some(&cell) = joined.get(next) {
-            next += 1;
-            for beside in ground.lattice.around(cell).into_iter().filter(|&b| b != usize::MAX) {
-                if !seen[beside] && is_roomy(beside) {
-                    seen[beside] = true;
-                    joined.push(beside);
-                }
-            }
-        }
+        let joined = ground.lattice.joined(first, |cell| is_roomy(cell) && !std::mem::replace(&mut seen[cell], true));
         if joined.len() > largest.len() {
             largest = joined;
         }
@@ -237,7 +227,7 @@ fn stand_in(ground: &Ground, from: usize) -> Place {
             if score(cell) > score(best) {
                 best = cell;
             }
-            let beside = ground.lattice.around(cell).into_iter().filter(|&b| b != usize::MAX && ground.is_walkable(b));
+            let beside = ground.lattice.beside(cell).filter(|&b| ground.is_walkable(b));
             next.extend(beside.filter(|&b| seen.insert(b)));
         }
         border = next;

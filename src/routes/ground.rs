@@ -230,7 +230,7 @@ impl Ground {
             if cell == to {
                 return Some((self.lattice.centre(at), 2.0 * self.cell_clearance_m(at)));
             }
-            for beside in self.lattice.around(cell).into_iter().filter(|&b| b != usize::MAX) {
+            for beside in self.lattice.beside(cell) {
                 let own = clearance(beside);
                 if own > least && narrowest[beside].is_none() {
                     open.push(if own < width { (own, beside, beside) } else { (width, beside, at) });
@@ -293,7 +293,7 @@ fn clearances(lattice: &Lattice, inside: &[bool], walls: &Walls) -> Vec<f32> {
             if (f64::from(clearance[cell]) / width) as usize != bucket {
                 continue; // found a nearer wall meanwhile
             }
-            for beside in lattice.around(cell).into_iter().filter(|&b| b != usize::MAX && inside[b]) {
+            for beside in lattice.beside(cell).filter(|&b| inside[b]) {
                 let d = distance(beside, nearest[cell]) as f32;
                 if d + 1e-6 < clearance[beside] {
                     clearance[beside] = d;
@@ -335,7 +335,6 @@ fn parts(lattice: &Lattice, clearance_m: &[f32], least_clearance_m: f64) -> Vec<
     let least = least_clearance_m.max(0.51 * lattice.cell_m()) as f32;
     let mut part = vec![0u16; lattice.len()];
     let mut count = 0u16;
-    let mut open = Vec::new();
     for first in 0..lattice.len() {
         if part[first] != 0 || clearance_m[first] < least {
             continue;
@@ -343,15 +342,13 @@ fn parts(lattice: &Lattice, clearance_m: &[f32], least_clearance_m: f64) -> Vec<
         // Slivers beyond the 65 535th share the last number; so many are never places to walk.
         count = count.saturating_add(1);
         part[first] = count;
-        open.push(first);
-        while let Some(cell) = open.pop() {
-            for beside in lattice.around(cell).into_iter().filter(|&b| b != usize::MAX) {
-                if part[beside] == 0 && clearance_m[beside] >= least {
-                    part[beside] = count;
-                    open.push(beside);
-                }
+        lattice.joined(first, |cell| {
+            let joins = part[cell] == 0 && clearance_m[cell] >= least;
+            if joins {
+                part[cell] = count;
             }
-        }
+            joins
+        });
     }
     part
 }
@@ -381,14 +378,14 @@ fn gap_limits(lattice: &Lattice, clearance_m: &[f32], part: &[u16]) -> Vec<f32> 
     for _ in 0..(GAP_REACH_M / cell_m).round() as usize {
         let before = &limits;
         let least = |cell: usize| {
-            let beside = lattice.around(cell).into_iter().filter(|&b| b != usize::MAX && part[b] != 0);
+            let beside = lattice.beside(cell).filter(|&b| part[b] != 0);
             let least = beside.map(|b| before[b]).fold(before[cell], f32::min);
             if part[cell] == 0 { before[cell] } else { least }
         };
         limits = (0..clearance_m.len()).into_par_iter().map(least).collect();
     }
     let allowed = |(cell, limit): (usize, &f32)| {
-        let near = lattice.around(cell).into_iter().filter(|&b| b != usize::MAX).map(|b| clearance_m[b]);
+        let near = lattice.beside(cell).map(|b| clearance_m[b]);
         let near = near.fold(clearance_m[cell], f32::max);
         // What no body reaches takes after the nearest cell that one does.
         if near < PLENTY_M { limit.min(0.9 * near).max(0.0) } else { *limit }

@@ -156,6 +156,22 @@ impl Lattice {
         ]
     }
 
+    /// The cells beside a cell that exist.
+    pub(crate) fn beside(&self, cell: usize) -> impl Iterator<Item = usize> {
+        self.around(cell).into_iter().filter(|&beside| beside != usize::MAX)
+    }
+
+    /// Flood fill: `first`, and all cells joined to it that `take` accepts, each of which it has to accept once only.
+    pub(crate) fn joined(&self, first: usize, mut take: impl FnMut(usize) -> bool) -> Vec<usize> {
+        let mut joined = vec![first];
+        let mut next = 0;
+        while let Some(&cell) = joined.get(next) {
+            next += 1;
+            joined.extend(self.beside(cell).filter(|&beside| take(beside)));
+        }
+        joined
+    }
+
     /// The four cells whose middles surround a point, with their bilinear weights.
     #[inline]
     pub(crate) fn stencil(&self, p: Vec2) -> [(Option<usize>, f64); 4] {

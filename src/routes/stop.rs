@@ -151,7 +151,7 @@ impl StopKind {
     }
 
     /// Whether people queue there.
-    pub fn has_line(self) -> bool {
+    pub(crate) fn has_line(self) -> bool {
         matches!(self, StopKind::Queue | StopKind::Machine | StopKind::Gate)
     }
 }
@@ -304,7 +304,7 @@ impl StopRequest {
 
 impl Stop {
     /// Unit vector that a person at `p` faces; +y where the direction is free.
-    pub fn facing_from(&self, p: Vec2) -> Vec2 {
+    pub(crate) fn facing_from(&self, p: Vec2) -> Vec2 {
         let otherwise = vec2(0.0, 1.0);
         match self.facing {
             Facing::Free => otherwise,

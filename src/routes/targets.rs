@@ -152,13 +152,7 @@ fn area_cells(ground: &Ground, area: Rect) -> Vec<usize> {
         if !std::mem::take(&mut left[first]) {
             continue;
         }
-        let mut joined = vec![first];
-        let mut next = 0;
-        while let Some(&cell) = joined.get(next) {
-            next += 1;
-            let around = ground.lattice.around(cell).into_iter().filter(|&b| b != usize::MAX);
-            joined.extend(around.filter(|&b| std::mem::take(&mut left[b])));
-        }
+        let joined = ground.lattice.joined(first, |cell| std::mem::take(&mut left[cell]));
         let holds_centre = centre.is_some_and(|c| joined.contains(&c));
         if holds_centre || joined.len() > best.len() {
             best = joined;

@@ -67,7 +67,7 @@ impl Timetable {
     }
 
     /// Number of people that a list names; `None` for other kinds.
-    pub fn listed(&self) -> Option<u64> {
+    pub(crate) fn listed(&self) -> Option<u64> {
         (self.kind == TimetableKind::List).then(|| self.rows().map(|row| row[1] as u64).sum())
     }
 
@@ -131,7 +131,7 @@ impl Timetable {
     /// # Errors
     /// The line, counted from 1, that holds anything else, and what is wrong with it. The line itself is not repeated: the
     /// file may be a wrong one.
-    pub fn rows_of_csv(text: &str) -> Result<Vec<[f64; 2]>, (usize, &'static str)> {
+    pub(crate) fn rows_of_csv(text: &str) -> Result<Vec<[f64; 2]>, (usize, &'static str)> {
         let mut rows = Vec::new();
         let mut may_be_names = true;
         for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {

@@ -22,14 +22,14 @@ const CLOSING_S: f32 = 0.35;
 const BUMPING_M: f32 = 1.2;
 
 /// One quantity of all others.
-type Column = [[f32; LANES]; MOST_SEEN / LANES];
+type Column<T = f32> = [[T; LANES]; MOST_SEEN / LANES];
 
 /// All others around an agent, relative to it. Reused from agent to agent.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Neighbourhood {
     count: usize,
     /// Indices into [`NeighbourGrid::bodies`].
-    index: [u32; MOST_SEEN],
+    index: Column<u32>,
     dx: Column,
     dy: Column,
     vx: Column,
@@ -48,23 +48,6 @@ pub(super) struct NeighbourSums {
     pub(super) alike: f32,
     pub(super) alike_vx: f32,
     pub(super) alike_vy: f32,
-}
-
-impl Default for Neighbourhood {
-    fn default() -> Neighbourhood {
-        let column = [[0.0; LANES]; MOST_SEEN / LANES];
-        Neighbourhood {
-            count: 0,
-            index: [0; MOST_SEEN],
-            dx: column,
-            dy: column,
-            vx: column,
-            vy: column,
-            aim_x: column,
-            aim_y: column,
-            half_exclusion_m: column,
-        }
-    }
 }
 
 impl Neighbourhood {
@@ -101,8 +84,8 @@ impl Neighbourhood {
 
     #[inline]
     fn set(&mut self, at: usize, index: u32, dx: f32, dy: f32, body: &BodyState) {
-        self.index[at] = index;
         let (row, lane) = (at / LANES, at % LANES);
+        self.index[row][lane] = index;
         self.dx[row][lane] = dx;
         self.dy[row][lane] = dy;
         self.vx[row][lane] = body.vx;
@@ -221,7 +204,7 @@ impl Neighbourhood {
             while near != 0 {
                 let lane = near.trailing_zeros() as usize;
                 near &= near - 1;
-                each(self.index[row * LANES + lane]);
+                each(self.index[row][lane]);
             }
         }
     }

@@ -12,56 +12,30 @@ const KNOT: u64 = 0xd1b5_4a32_d192_ed03;
 /// Distance over which the forces of the group grow from nothing to all, metres: a step would make people tremble.
 const SOFT_M: f32 = 0.1;
 
-/// Parameters of the forces in single precision.
-#[derive(Clone, Copy, Debug)]
+/// The forces with their parameters.
+#[derive(Clone, Debug)]
 pub(super) struct Forces {
-    pub(super) relaxation_s: f32,
-    strength: f32,
-    range_m: f32,
-    foresight_s: f32,
-    aside_width: f32,
-    slowing_width: f32,
-    behind: f32,
-    wall_strength: f32,
-    wall_range_m: f32,
-    fluctuation: f32,
-    gaze: f32,
-    cohesion: f32,
-    repulsion: f32,
-    distance_m: f32,
-    view_rad: f32,
-    reach_m: f32,
+    options: SocialForceOptions,
+    groups: GroupOptions,
 }
 
 impl Forces {
     pub(super) fn new(options: &SocialForceOptions, groups: &GroupOptions) -> Forces {
-        Forces {
-            relaxation_s: options.relaxation as f32,
-            strength: options.strength as f32,
-            range_m: options.range as f32,
-            foresight_s: options.foresight as f32,
-            aside_width: options.aside_width as f32,
-            slowing_width: options.slowing_width as f32,
-            behind: options.behind as f32,
-            wall_strength: options.wall_strength as f32,
-            wall_range_m: options.wall_range as f32,
-            fluctuation: options.fluctuation as f32,
-            gaze: groups.gaze as f32,
-            cohesion: groups.cohesion as f32,
-            repulsion: groups.repulsion as f32,
-            distance_m: groups.distance as f32,
-            view_rad: groups.view_deg.to_radians() as f32,
-            reach_m: groups.reach as f32,
-        }
+        Forces { options: options.clone(), groups: groups.clone() }
+    }
+
+    /// Time in which the desired velocity is taken up, seconds.
+    pub(super) fn relaxation_s(&self) -> f32 {
+        self.options.relaxation as f32
     }
 
     /// Acceleration by another at the offset `d` and the relative velocity `w`; `aim` is the agent's wanted direction.
     pub(super) fn by_person(&self, d: [f32; 2], w: [f32; 2], aim: [f32; 2]) -> [f32; 2] {
         let distance_m = (d[0] * d[0] + d[1] * d[1]).sqrt().max(1e-3);
         let e = [d[0] / distance_m, d[1] / distance_m];
-        let interaction = [e[0] - self.foresight_s * w[0], e[1] - self.foresight_s * w[1]];
+        let interaction = [e[0] - self.options.foresight as f32 * w[0], e[1] - self.options.foresight as f32 * w[1]];
         let length = (interaction[0] * interaction[0] + interaction[1] * interaction[1]).sqrt();
-        let range_m = self.range_m * length;
+        let range_m = self.options.range as f32 * length;
         if distance_m > -LEAST_SHARE_LN * range_m {
             return [0.0; 2];
         }
@@ -69,18 +43,19 @@ impl Forces {
         let n = [-t[1], t[0]];
         let sin = t[0] * e[1] - t[1] * e[0];
         let theta = angle(sin, t[0] * e[0] + t[1] * e[1]);
-        let slowing = self.slowing_width * range_m * theta;
-        let aside = self.aside_width * range_m * theta;
+        let slowing = self.options.slowing_width as f32 * range_m * theta;
+        let aside = self.options.aside_width as f32 * range_m * theta;
         let along = exp_f32(-distance_m / range_m - slowing * slowing);
         let across = self.side(theta, range_m) * exp_f32(-distance_m / range_m - aside * aside);
         let ahead = 0.5 * (1.0 + e[0] * aim[0] + e[1] * aim[1]);
-        let strength = -self.strength * (self.behind + (1.0 - self.behind) * ahead);
+        let strength =
+            -self.options.strength as f32 * (self.options.behind as f32 + (1.0 - self.options.behind as f32) * ahead);
         [strength * (along * t[0] + across * n[0]), strength * (along * t[1] + across * n[1])]
     }
 
     /// Side on which another is: 1 on the left, -1 on the right, in between straight ahead.
     fn side(&self, theta: f32, range_m: f32) -> f32 {
-        let comes = (range_m - self.range_m).max(0.0);
+        let comes = (range_m - self.options.range as f32).max(0.0);
         ((theta + LEFT_RAD_M * comes) / STRAIGHT_RAD).clamp(-1.0, 1.0)
     }
 
@@ -88,7 +63,7 @@ impl Forces {
     ///
     /// It is drawn anew every [`FLUCTUATION_S`] and interpolated linearly in between.
     pub(super) fn by_chance(&self, wander: u64, time_s: f64) -> [f32; 2] {
-        if self.fluctuation == 0.0 {
+        if self.options.fluctuation as f32 == 0.0 {
             return [0.0; 2];
         }
         let at = time_s / FLUCTUATION_S;
@@ -98,18 +73,18 @@ impl Forces {
             [draws.range(-1.0, 1.0), draws.range(-1.0, 1.0)]
         });
         // Uniform in [-1, 1] deviates by 1 / sqrt(3).
-        let scale = self.fluctuation * 1.732_050_8;
+        let scale = self.options.fluctuation as f32 * 1.732_050_8;
         [0, 1].map(|axis| scale * (before[axis] + (after[axis] - before[axis]) * share))
     }
 
     /// Acceleration away from a wall at this distance from the body's edge, metres per second squared.
     pub(super) fn by_wall(&self, gap_m: f32) -> f32 {
-        self.wall_strength * exp_f32(-gap_m.max(0.0) / self.wall_range_m)
+        self.options.wall_strength as f32 * exp_f32(-gap_m.max(0.0) / self.options.wall_range as f32)
     }
 
     /// Distance from the body's edge beyond which a wall exerts no force, metres.
     pub(super) fn wall_reach_m(&self) -> f32 {
-        -LEAST_SHARE_LN * self.wall_range_m
+        -LEAST_SHARE_LN * self.options.wall_range as f32
     }
 
     /// Acceleration towards the group: the others are at the offsets `mates`, the agent walks at `velocity`.
@@ -127,7 +102,8 @@ impl Forces {
             cx += dx;
             cy += dy;
             let distance_m = (dx * dx + dy * dy).sqrt().max(1e-3);
-            let near = self.repulsion * ((self.distance_m - distance_m) / SOFT_M).clamp(0.0, 1.0);
+            let near =
+                self.groups.repulsion as f32 * ((self.groups.distance as f32 - distance_m) / SOFT_M).clamp(0.0, 1.0);
             ax -= near * dx / distance_m;
             ay -= near * dy / distance_m;
         }
@@ -137,10 +113,11 @@ impl Forces {
             return [ax, ay];
         }
         let [ux, uy] = [cx / (middle_m * (others + 1.0)), cy / (middle_m * (others + 1.0))];
-        let far = self.cohesion * ((middle_m - self.reach_m * others) / SOFT_M).clamp(0.0, 1.0);
+        let far =
+            self.groups.cohesion as f32 * ((middle_m - self.groups.reach as f32 * others) / SOFT_M).clamp(0.0, 1.0);
         let [vx, vy] = velocity;
         let turned = angle(vx * uy - vy * ux, vx * ux + vy * uy).abs();
-        let gaze = self.gaze * (turned - self.view_rad).max(0.0);
+        let gaze = self.groups.gaze as f32 * (turned - self.groups.view_deg.to_radians() as f32).max(0.0);
         [ax + far * ux - gaze * vx, ay + far * uy - gaze * vy]
     }
 }
@@ -181,7 +158,8 @@ mod tests {
 
     #[test]
     fn the_interaction_is_the_published_one() {
-        let all_round = Forces { behind: 1.0, ..forces() };
+        let options = SocialForceOptions { behind: 1.0, ..SocialForceOptions::default() };
+        let all_round = Forces::new(&options, &GroupOptions::default());
         for (d, w) in [([1.0, 0.4], [-1.5, 0.2]), ([2.5, -0.5], [-2.6, 0.0]), ([0.3, 0.4], [0.2, 0.1])] {
             let found = all_round.by_person(d, w, [1.0, 0.0]);
             let published = naive(d.map(f64::from), w.map(f64::from));

@@ -76,8 +76,8 @@ impl SocialForce {
         // Agents that stand, or walk up to a spot, heed the spot more than others.
         let heed = pace.min(1.0);
         let [rx, ry] = self.forces.by_chance(traits.wander, perception.time_s);
-        let mut ax = (aim[0] * wanted_speed - me.vx) / self.forces.relaxation_s + heed * (px + gx + rx);
-        let mut ay = (aim[1] * wanted_speed - me.vy) / self.forces.relaxation_s + heed * (py + gy + ry);
+        let mut ax = (aim[0] * wanted_speed - me.vx) / self.forces.relaxation_s() + heed * (px + gx + rx);
+        let mut ay = (aim[1] * wanted_speed - me.vy) / self.forces.relaxation_s() + heed * (py + gy + ry);
         if let Some([wx, wy]) = self.by_wall(perception, me, &mut next) {
             ax += heed * wx;
             ay += heed * wy;

@@ -70,7 +70,7 @@ pub struct MeanAndMax {
 
 impl MeanAndMax {
     /// Adds a value.
-    pub fn push(&mut self, value: f64) {
+    pub(super) fn push(&mut self, value: f64) {
         self.count += 1;
         self.mean += (value - self.mean) / self.count as f64;
         self.largest = self.largest.max(value);

@@ -37,18 +37,18 @@ impl Stops {
         let p = body.position();
         let way = target.spot_m() - p;
         let distance_m = way.length();
-        if target.mode() == ApproachMode::Stand {
+        if target.mode == ApproachMode::Stand {
             let standing = walk.pace == 0.0;
             if distance_m < STANDING_M[usize::from(standing)] {
                 walk.pace = 0.0;
                 walk.blocked_s = 0.0;
-                [body.aim_x, body.aim_y] = target.facing();
+                [body.aim_x, body.aim_y] = target.facing;
                 body.half_exclusion_m = 0.5 * traits.exclusion_m;
                 return;
             }
         }
         let stop = self.get(target.stop());
-        let straight = target.mode() != ApproachMode::Come
+        let straight = target.mode != ApproachMode::Come
             && (distance_m < STRAIGHT_M || perception.environment.sight(p, target.spot_m()));
         let left_m = match stop {
             Some(stop) if !straight => stop.field.at(perception.environment.ground(), p),
@@ -70,18 +70,18 @@ impl Stops {
             _ => way.normalized(),
         };
         let wanted = wanted.map_or(last, |unit| [unit.x as f32, unit.y as f32]);
-        let straight_m = if target.squeezes() { SHUFFLE_M } else { STRAIGHT_M };
-        let shuffles = target.mode() == ApproachMode::Stand && distance_m < straight_m;
+        let straight_m = if target.squeezes { SHUFFLE_M } else { STRAIGHT_M };
+        let shuffles = target.mode == ApproachMode::Stand && distance_m < straight_m;
         [body.aim_x, body.aim_y] =
             if shuffles { wanted } else { perception.detour(body, traits.speed_m_s, wanted).turn(wanted, last) };
         walk.wanted = wanted;
         let speed_m_s = f64::from(traits.speed_m_s);
-        walk.pace = match target.mode() {
+        walk.pace = match target.mode {
             ApproachMode::Stand => ((distance_m / EASING_S).max(SLOWEST_M_S) / speed_m_s).min(1.0) as f32,
             ApproachMode::Come | ApproachMode::Pass => 1.0,
         };
         let held_up = body.vx * wanted[0] + body.vy * wanted[1] < HELD_UP_M_S;
-        let blocked = target.squeezes() && held_up || perception.is_blocked(body, wanted);
+        let blocked = target.squeezes && held_up || perception.is_blocked(body, wanted);
         walk.blocked_s = (walk.blocked_s + if blocked { look_s } else { -4.0 * look_s }).max(0.0);
         body.half_exclusion_m = 0.5 * traits.exclusion_m * walk.squeeze();
     }

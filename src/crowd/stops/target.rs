@@ -7,10 +7,12 @@ const TURNING_M: f32 = 0.6;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::crowd) struct VisitTarget {
     stop: u32,
-    mode: ApproachMode,
-    squeezes: bool,
+    pub(super) mode: ApproachMode,
+    /// Whether the agent slips through between others who stand in the way.
+    pub(super) squeezes: bool,
     spot: [f32; 2],
-    facing: [f32; 2],
+    /// Unit vector that the agent faces there.
+    pub(super) facing: [f32; 2],
 }
 
 /// How an agent approaches its target.
@@ -56,21 +58,9 @@ impl VisitTarget {
         self.stop as usize
     }
 
-    pub(super) fn mode(&self) -> ApproachMode {
-        self.mode
-    }
-
-    pub(super) fn squeezes(&self) -> bool {
-        self.squeezes
-    }
-
     /// Where to stand or to pass, metres; without meaning under [`ApproachMode::Come`].
     pub(super) fn spot_m(&self) -> Vec2 {
         vec2(f64::from(self.spot[0]), f64::from(self.spot[1]))
-    }
-
-    pub(super) fn facing(&self) -> [f32; 2] {
-        self.facing
     }
 
     /// Direction that an agent at `x`, `y` faces as it stands or shuffles; `None` if it faces where it goes.

@@ -47,7 +47,7 @@ impl StopsUpdate<'_> {
     /// Sends an agent in a queue to its place: a step forward keeps the time since it came nearer.
     pub(super) fn set_waiting(&mut self, slot: usize, target: VisitTarget) {
         let walk = self.walk(slot);
-        if walk.visit.is_none_or(|before| before.mode() != ApproachMode::Stand || before.squeezes()) {
+        if walk.visit.is_none_or(|before| before.mode != ApproachMode::Stand || before.squeezes) {
             self.set(slot, target);
         } else if walk.visit != Some(target) {
             walk.visit = Some(target);

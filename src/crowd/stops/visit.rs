@@ -21,7 +21,7 @@ pub struct StopTally {
 
 impl StopTally {
     /// Warns if more people came at once than there is room for.
-    pub fn warning(&self) -> Option<String> {
+    pub(in crate::crowd) fn warning(&self) -> Option<String> {
         let StopTally { name, in_line, most, room, .. } = self;
         (most > room).then(|| match in_line {
             true => format!("the line at \"{name}\" reached {most} people, there is room for {room}"),
