@@ -87,7 +87,7 @@ fn sees_a_front(edges: &[[Vec2; 2]], from: Vec2, toward: Vec2) -> bool {
 }
 
 fn assert_traced(plan: &FloorPlan, tolerance_px: f64, name: &str) {
-    let walls = Walls::trace(plan, &WallsOptions { tolerance_px }).unwrap();
+    let walls = Walls::trace(plan, &WallsOptions { tolerance_px });
     assert_sound(plan, &walls, name);
 }
 
