@@ -208,7 +208,6 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
     let atlas = manifest.walls.as_ref().map(|walls| walls.atlas());
     atlas.iter().try_for_each(|atlas| atlas.check(textures.target))?;
     let earlier = Report::read(bake)?;
-    let folder = OutputFolder::begin(bake, true)?;
     let floor = watch.busy(Stage::Sums, || export::read_sums(bake, &manifest))?;
     let walls = watch.busy(Stage::Walls, || manifest.walls())?;
     let sums = Sums { floor, walls: watch.busy(Stage::Sums, || export::read_wall_sums(bake, &manifest))? };

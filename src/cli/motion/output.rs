@@ -27,7 +27,7 @@ pub struct Outputs {
     /// Side of a pixel of that plan in metres
     #[arg(long, value_name = "M", requires = "plan", value_parser = within("plan.metres_per_pixel"))]
     #[arg(allow_negative_numbers = true)]
-    pub metres_per_pixel: Option<f64>,
+    pub plan_metres_per_pixel: Option<f64>,
     /// Print the summary as JSON
     #[arg(long)]
     pub json: bool,
@@ -36,7 +36,7 @@ pub struct Outputs {
 impl Outputs {
     /// Writes a motion to all files that were asked for. The files that it was made of, `inputs`, are never replaced.
     pub fn write(&self, given: &Given, inputs: &[PathBuf], progress: &dyn Progress) -> Result<WalkReport, Error> {
-        let overrides = Overrides { metres_per_pixel: self.metres_per_pixel, ..Overrides::default() };
+        let overrides = Overrides { metres_per_pixel: self.plan_metres_per_pixel, ..Overrides::default() };
         let scenario = self.plan.as_ref().map(|plan| Scenario::open(plan, &overrides)).transpose()?;
         let of_plan = scenario.iter().flat_map(Scenario::input_files);
         self.outputs().check_not_inputs(&inputs.iter().cloned().chain(of_plan).collect::<Vec<_>>())?;

@@ -34,7 +34,8 @@ fn tiny_bake(sandbox: &Sandbox, name: &str, walls: bool, density: f64) {
     };
     let mut scenario = Scenario::from_plan(&sandbox.path("plan.png"), &overrides).unwrap();
     scenario.wall_texels_per_metre = density;
-    scenario.texture.tile = 64;
+    // The smallest that takes strips of these walls.
+    scenario.texture.tile = if walls { 128 } else { 64 };
     bake(&scenario, &OutputOptions { folder: sandbox.path(name), force: false }, &Silent).unwrap();
 }
 

@@ -75,11 +75,11 @@ fn a_plan_or_a_scenario_is_read_from_standard_input() {
     assert!(floor("out/stdin") == floor("b"));
     run_with(&sandbox, &["init", "-"], "plan.png").fails(1, &["standard input has no name", "hint: save the plan"]);
     sandbox.write("wrong.toml", "[plan]\nimage = \"plan.png\"\npeple = 3\n");
-    run_with(&sandbox, &["bake", "-"], "wrong.toml").fails(1, &["--> standard input:3:1"]);
+    run_with(&sandbox, &["bake", "-", "-o", "c"], "wrong.toml").fails(1, &["--> standard input:3:1"]);
     sandbox.write("nothing", "");
-    run_with(&sandbox, &["bake", "-"], "nothing").fails(1, &["standard input is empty"]);
+    run_with(&sandbox, &["bake", "-", "-o", "c"], "nothing").fails(1, &["standard input is empty"]);
     sandbox.write("noise", [0xff, 0xfe, 0x01]);
-    let told = run_with(&sandbox, &["bake", "-"], "noise").fails(1, &["standard input"]).err;
+    let told = run_with(&sandbox, &["bake", "-", "-o", "c"], "noise").fails(1, &["standard input"]).err;
     assert!(!told.contains("/stdin"), "{told}");
 }
 
@@ -107,7 +107,7 @@ fn convert_has_the_options_that_its_messages_name() {
     sandbox.write("a.txt", format!("# framerate: 1\n{text}"));
     let convert = ["motion", "convert", "a.txt", "--plan", "plan.png", "-o", "b.txt", "--force"];
     let told = sandbox.run(&convert).succeeds().err;
-    assert!(told.contains("say otherwise with --metres-per-pixel"), "{told}");
-    let quiet = sandbox.run(&[&convert[..], &["--metres-per-pixel", "0.1"]].concat()).succeeds().err;
+    assert!(told.contains("give the scale in metres per pixel") && !told.contains("--"), "{told}");
+    let quiet = sandbox.run(&[&convert[..], &["--plan-metres-per-pixel", "0.1"]].concat()).succeeds().err;
     assert_eq!(quiet, "");
 }
