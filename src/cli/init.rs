@@ -38,7 +38,7 @@ impl Init {
             .clone()
             .unwrap_or_else(|| self.scenario.path.clone().unwrap_or_default().with_extension("toml"));
         let mut scenario = self.scenario.scenario()?;
-        let file = print::begin_file(&output, self.force, &scenario.input_files())?;
+        let file = print::plan_file(&output, self.force, &scenario.input_files())?;
         let understood = Understood::of(&scenario, common)?;
         if scenario.plan.scale.is_none() && !is_ros_map(&scenario.plan_path()?) {
             scenario.plan.metres_per_pixel = Some(understood.plan.metres_per_pixel);
