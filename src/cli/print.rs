@@ -96,28 +96,28 @@ pub struct Refused {
 }
 
 /// A file that a command will write, once its work is done.
-pub struct PlannedFile<'a> {
-    path: &'a Path,
+pub struct PlannedFile {
+    path: PathBuf,
     force: bool,
 }
 
 /// Makes sure, before the work begins, that a file may be written. A file that exists is refused without `force`, and one
 /// that the command reads always.
-pub fn plan_file<'a>(path: &'a Path, force: bool, inputs: &[PathBuf]) -> Result<PlannedFile<'a>, trodden::Error> {
+pub fn plan_file(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<PlannedFile, trodden::Error> {
     check_not_input(path, inputs)?;
     // Begun and dropped again: a command that ends halfway by a signal leaves nothing behind.
     WholeFile::begin(path, force)?;
-    Ok(PlannedFile { path, force })
+    Ok(PlannedFile { path: path.to_path_buf(), force })
 }
 
 /// Writes a picture as PNG, whatever the file's ending.
-pub fn save_picture(picture: &image::RgbImage, file: PlannedFile<'_>) -> Result<(), trodden::Error> {
+pub fn save_picture(picture: &image::RgbImage, file: PlannedFile) -> Result<(), trodden::Error> {
     save(&encode_picture(picture), file)
 }
 
 /// Writes a planned file, whole or not at all.
-pub fn save(bytes: &[u8], file: PlannedFile<'_>) -> Result<(), trodden::Error> {
-    write_whole(file.path, bytes, file.force)?;
+pub fn save(bytes: &[u8], file: PlannedFile) -> Result<(), trodden::Error> {
+    write_whole(&file.path, bytes, file.force)?;
     Ok(())
 }
 
