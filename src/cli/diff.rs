@@ -68,7 +68,7 @@ impl Diff {
             hard_fail: self.most.unwrap_or(DiffOptions::default().hard_fail),
         };
         let inputs = [&self.a, &self.b].map(|compared| print::files_of(compared)).concat();
-        let picture = self.picture.as_ref().map(|path| print::begin_file(path, self.force, &inputs)).transpose()?;
+        let picture = self.picture.as_ref().map(|path| print::plan_file(path, self.force, &inputs)).transpose()?;
         let comparison = diff(&self.a, &self.b, &options).map_err(Error::from)?;
         if self.json {
             print::line(serde_json::to_string_pretty(&comparison)?)?;

@@ -77,7 +77,7 @@ impl Import {
             ImportOptions { cause: self.cause, form: self.form, size, crop: self.crop, rotate_deg: self.rotate };
         let name = self.name.clone().unwrap_or_else(|| name_of_photo(&self.photo));
         let inputs: Vec<PathBuf> = files_in(&self.into).into_iter().chain([self.photo.clone()]).collect();
-        let picture = self.picture.as_ref().map(|path| print::begin_file(path, self.force, &inputs)).transpose()?;
+        let picture = self.picture.as_ref().map(|path| print::plan_file(path, self.force, &inputs)).transpose()?;
         // With --force, an earlier pattern of this name is replaced, but never the photograph.
         check_not_input(&self.into.join(format!("{name}.png")), std::slice::from_ref(&self.photo))
             .map_err(Error::from)?;

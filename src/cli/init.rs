@@ -40,7 +40,7 @@ impl Init {
             let message = "a scenario has to name its plan, and standard input has no name".to_string();
             return Err(Refused { message, hint: Some("save the plan to a file first".into()) }.into());
         }
-        let begin = |path: &PathBuf| print::begin_file(path, self.force, &scenario.input_files());
+        let begin = |path: &PathBuf| print::plan_file(path, self.force, &scenario.input_files());
         let file = output.as_ref().map(begin).transpose()?;
         let understood = Understood::of(&scenario, common).map_err(|error| self.scenario.explain(error))?;
         if scenario.plan.scale.is_none() && !is_ros_map(&scenario.plan_path()?) {

@@ -75,7 +75,7 @@ impl Understood {
 impl Inspect {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
         let scenario = self.scenario.scenario()?;
-        let begin = |path: &PathBuf| print::begin_file(path, self.force, &scenario.input_files());
+        let begin = |path: &PathBuf| print::plan_file(path, self.force, &scenario.input_files());
         let picture = self.picture.as_ref().map(begin).transpose()?;
         let understood = Understood::of(&scenario, common).map_err(|error| self.scenario.explain(error))?;
         let Understood { plan, walls, routes } = &understood;

@@ -43,7 +43,7 @@ impl Patterns {
             return import.run(common);
         }
         let inputs = self.folder.as_deref().map(files_in).unwrap_or_default();
-        let picture = self.picture.as_ref().map(|path| print::begin_file(path, self.force, &inputs)).transpose()?;
+        let picture = self.picture.as_ref().map(|path| print::plan_file(path, self.force, &inputs)).transpose()?;
         let library = match &self.folder {
             None => PatternLibrary::built_in(),
             Some(folder) => own(folder, common)?,

@@ -9,7 +9,7 @@ use std::process::ExitCode;
 use clap::ColorChoice;
 use clap::builder::styling::{AnsiColor, Style};
 use trodden::export::Manifest;
-use trodden::files::{WholeFile, check_not_input};
+use trodden::files::{WholeFile, check_not_input, write_whole};
 use trodden::show::encode_picture;
 
 use super::Common;
@@ -115,22 +115,29 @@ pub struct Refused {
     pub hint: Option<Cow<'static, str>>,
 }
 
-/// Begins a file that a command writes, before its work is done. A file that exists is refused without `force`, and one
+/// A file that a command will write, once its work is done.
+pub struct PlannedFile {
+    path: PathBuf,
+    force: bool,
+}
+
+/// Makes sure, before the work begins, that a file may be written. A file that exists is refused without `force`, and one
 /// that the command reads always.
-pub fn begin_file(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<WholeFile, trodden::Error> {
+pub fn plan_file(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<PlannedFile, trodden::Error> {
     check_not_input(path, inputs)?;
-    Ok(WholeFile::begin(path, force)?)
+    // Begun and dropped again: a command that ends halfway by a signal leaves nothing behind.
+    WholeFile::begin(path, force)?;
+    Ok(PlannedFile { path: path.to_path_buf(), force })
 }
 
 /// Writes a picture as PNG, whatever the file's ending.
-pub fn save_picture(picture: &image::RgbImage, file: WholeFile) -> Result<(), trodden::Error> {
+pub fn save_picture(picture: &image::RgbImage, file: PlannedFile) -> Result<(), trodden::Error> {
     save(&encode_picture(picture), file)
 }
 
-/// Writes the content of a file that was begun.
-pub fn save(bytes: &[u8], file: WholeFile) -> Result<(), trodden::Error> {
-    file.write(bytes)?;
-    file.publish()?;
+/// Writes a planned file, whole or not at all.
+pub fn save(bytes: &[u8], file: PlannedFile) -> Result<(), trodden::Error> {
+    write_whole(&file.path, bytes, file.force)?;
     Ok(())
 }
 

@@ -71,7 +71,7 @@ impl ViewCommand {
         let look_images = view_from.look.clone().map(|mut look| look.images().map(|image| image.cloned()));
         let look_files = self.look.clone().into_iter().chain(look_images.into_iter().flatten().flatten());
         let inputs: Vec<PathBuf> = print::files_of(&self.bake).into_iter().chain(look_files).collect();
-        let file = print::begin_file(&output, self.force, &inputs)?;
+        let file = print::plan_file(&output, self.force, &inputs)?;
         let (picture, camera) = view(&self.bake, &view_from, &watch)?;
         watch.advance(Stage::Export, 1.0);
         print::save_picture(&picture, file)?;

@@ -141,7 +141,7 @@ impl Units {
             for (file, unit) in &units {
                 let picture = encode_picture(&draw_unit(unit, &areas));
                 let path = folder.join(file).with_extension("png");
-                print::save(&picture, print::begin_file(&path, self.force, &self.inputs())?)?;
+                print::save(&picture, print::plan_file(&path, self.force, &self.inputs())?)?;
             }
         }
         Ok(ExitCode::SUCCESS)
@@ -179,7 +179,7 @@ impl Units {
             for (file, unit) in &files {
                 let text = unit.to_toml();
                 let path = folder.join(file).with_extension("toml");
-                print::save(text.as_bytes(), print::begin_file(&path, self.force, &self.inputs())?)?;
+                print::save(text.as_bytes(), print::plan_file(&path, self.force, &self.inputs())?)?;
             }
         }
         Ok(files)
