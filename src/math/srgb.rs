@@ -1,4 +1,6 @@
-//! sRGB (IEC 61966-2-1) to linear light and back, exact in integers so that sums of light do not depend on their order.
+//! Conversion between sRGB (IEC 61966-2-1) and linear light.
+//!
+//! Integers keep sums of light independent of their order.
 
 use std::sync::LazyLock;
 
@@ -18,7 +20,7 @@ pub fn to_linear(byte: u8) -> u16 {
     LINEAR[usize::from(byte)]
 }
 
-/// The sRGB byte nearest to each linear light.
+/// The sRGB byte nearest to each value of linear light.
 static NEAREST: LazyLock<Vec<u8>> = LazyLock::new(|| (0..=u16::MAX).map(nearest).collect());
 
 fn nearest(linear: u16) -> u8 {
@@ -27,7 +29,7 @@ fn nearest(linear: u16) -> u8 {
     if LINEAR[above] - linear.min(LINEAR[above]) <= linear.abs_diff(LINEAR[below]) { above as u8 } else { below as u8 }
 }
 
-/// The sRGB byte nearest to a linear light of 0 to 65 535.
+/// The sRGB byte nearest to a value of linear light, 0 to 65 535.
 pub fn from_linear(linear: u16) -> u8 {
     NEAREST[usize::from(linear)]
 }
