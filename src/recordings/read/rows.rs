@@ -1,10 +1,11 @@
 //! Rows of a recording, one by one, from wherever they are.
 
 use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+use rustc_hash::FxHashMap;
 
 use super::RecordingError;
 use super::columns::{Role, Unit};
@@ -301,25 +302,5 @@ pub(super) fn moment(time: f64, frames: bool) -> String {
     }
 }
 
-/// Spreads ids over a table of people; they are small whole numbers, mostly in a row.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct IdHasher(u64);
-
-impl Hasher for IdHasher {
-    fn finish(&self) -> u64 {
-        self.0
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|&byte| self.write_u32(u32::from(byte)));
-    }
-
-    fn write_u32(&mut self, id: u32) {
-        // The golden ratio's bits; the table uses the upper ones too.
-        let mixed = (self.0 ^ u64::from(id)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        self.0 = mixed ^ (mixed >> 32);
-    }
-}
-
-/// Something for each person.
-pub(super) type ById<T> = HashMap<u32, T, BuildHasherDefault<IdHasher>>;
+/// A map from person ids.
+pub(super) type ById<T> = FxHashMap<u32, T>;

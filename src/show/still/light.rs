@@ -1,12 +1,11 @@
 //! How much light falls on floor and walls, on coarse rasters that are computed where something is seen.
 
-use std::collections::{BTreeSet, HashMap};
-use std::hash::BuildHasherDefault;
+use std::collections::BTreeSet;
 
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use super::panels::Panels;
-use super::pyramid::Mixer;
 use super::space::{Piece, Space, What};
 use crate::math::{Vec2, exp_f32, sin_cos, vec2};
 
@@ -54,13 +53,13 @@ pub(super) struct LightMap<'a> {
     lighting: Lighting,
     /// Rows of a wall's raster.
     rows: usize,
-    blocks: HashMap<LightKey, Box<[Light]>, BuildHasherDefault<Mixer>>,
+    blocks: FxHashMap<LightKey, Box<[Light]>>,
 }
 
 impl<'a> LightMap<'a> {
     pub fn new(space: &'a Space, lighting: Lighting) -> LightMap<'a> {
         let rows = (space.height_m * PER_METRE).ceil() as usize + 1;
-        LightMap { space, lighting, rows, blocks: HashMap::default() }
+        LightMap { space, lighting, rows, blocks: FxHashMap::default() }
     }
 
     pub fn lighting(&self) -> &Lighting {

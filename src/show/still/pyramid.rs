@@ -1,9 +1,9 @@
 //! Texels at all scales, in blocks that are made when they are needed.
 
-use std::collections::{BTreeSet, HashMap};
-use std::hash::{BuildHasherDefault, Hasher};
+use std::collections::BTreeSet;
 
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use super::texels::{Block, SIDE, Texel, Texels};
 
@@ -22,37 +22,7 @@ pub(super) struct Key {
 }
 
 /// Blocks by their place. Their order is never looked at.
-type Blocks = HashMap<Key, Block, BuildHasherDefault<Mixer>>;
-
-/// A quick hash: keys are places, not what an enemy chose.
-#[derive(Default)]
-pub(super) struct Mixer(u64);
-
-impl Hasher for Mixer {
-    fn finish(&self) -> u64 {
-        self.0 ^ self.0 >> 32
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|&byte| self.write_u64(byte.into()));
-    }
-
-    fn write_u64(&mut self, value: u64) {
-        self.0 = (self.0.rotate_left(23) ^ value).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    }
-
-    fn write_u8(&mut self, value: u8) {
-        self.write_u64(value.into());
-    }
-
-    fn write_u32(&mut self, value: u32) {
-        self.write_u64(value.into());
-    }
-
-    fn write_i32(&mut self, value: i32) {
-        self.write_u64(value as u32 as u64);
-    }
-}
+type Blocks = FxHashMap<Key, Block>;
 
 /// A texture of which what is seen is held, each place as finely as it is seen.
 pub(super) struct Pyramid<'a> {
