@@ -13,7 +13,7 @@ use super::feet::FootPlacement;
 use super::gait::GaitState;
 use super::heels::{self, HeelMarks};
 use super::soil::Shoes;
-use super::track::{PathSample, SmoothedPath};
+use super::track::{SmoothedPath, TrackSample};
 use super::{Contact, ContactPlaces, Mark, MarksError, MarksOptions, Origin};
 
 /// Limit on frame times, seconds (30 years): the clock of the paths counts ticks of 0.1 s.
@@ -195,7 +195,7 @@ impl<'a> Footfalls<'a> {
 
     fn walk_on(&mut self, present: &mut PresentPerson, time_s: f64, walker: &Walker, out: &mut Vec<Mark>) {
         let PresentPerson { person, track, gait, feet, contact_state } = present;
-        let mut advance = |sample: PathSample| self.advance(person, gait, (feet, contact_state), sample, out);
+        let mut advance = |sample: TrackSample| self.advance(person, gait, (feet, contact_state), sample, out);
         if track.continues(time_s, walker.position_m) {
             track.push(time_s, walker.position_m, walker.heading, advance);
         } else {
@@ -217,7 +217,7 @@ impl<'a> Footfalls<'a> {
         person: &Person,
         gait: &mut GaitState,
         (feet, contact_state): (&mut ShoeState, &mut ContactState),
-        sample: PathSample,
+        sample: TrackSample,
         out: &mut Vec<Mark>,
     ) {
         let progress = gait.walk(person, sample, |step| {

@@ -8,7 +8,7 @@ use crate::motion::Person;
 
 use super::feet::{Feet, FootPlacement, Landing, turned_by};
 use super::rest::{self, Rest};
-use super::track::{PathSample, TICK_S};
+use super::track::{TICK_S, TrackSample};
 
 /// Length of the leash on which a point follows the body to measure the path, metres: sway does not count as walking.
 const LEASH_M: f64 = 0.05;
@@ -58,7 +58,7 @@ pub(super) struct GaitState {
     left_next: bool,
     feet: Feet,
     rest: Rest,
-    previous: Option<PathSample>,
+    previous: Option<TrackSample>,
     leash_m: Vec2,
     heading: Vec2,
     /// End of the leash of the heading, metres.
@@ -70,8 +70,8 @@ pub(super) struct GaitState {
 
 /// The path walked in a tick.
 struct TickPath {
-    from: PathSample,
-    to: PathSample,
+    from: TrackSample,
+    to: TrackSample,
     facing_before: Vec2,
     direction: Vec2,
     walked_m: f64,
@@ -110,7 +110,7 @@ impl GaitState {
     }
 
     /// Advances to the next sample; calls `each` with the footfalls in between.
-    pub fn walk(&mut self, person: &Person, sample: PathSample, mut each: impl FnMut(FootPlacement)) -> GaitProgress {
+    pub fn walk(&mut self, person: &Person, sample: TrackSample, mut each: impl FnMut(FootPlacement)) -> GaitProgress {
         let Some(from) = self.previous.replace(sample) else {
             self.begin(&sample);
             return GaitProgress::default();
@@ -148,7 +148,7 @@ impl GaitState {
         self.heading
     }
 
-    fn begin(&mut self, sample: &PathSample) {
+    fn begin(&mut self, sample: &TrackSample) {
         let walks = sample.velocity_m_s.length() > 0.2;
         let way = if walks { sample.velocity_m_s } else { sample.ahead_m };
         self.heading = sample.facing.or(way.normalized()).unwrap_or(self.heading);
@@ -233,7 +233,7 @@ impl GaitState {
     }
 
     /// Turns the body along its path, except in steps aside or back; returns the turn, radians.
-    fn follow(&mut self, direction: Vec2, walked_m: f64, sample: &PathSample) -> f64 {
+    fn follow(&mut self, direction: Vec2, walked_m: f64, sample: &TrackSample) -> f64 {
         let taut = sample.position_m - self.drawn_m;
         let distance = taut.length();
         let leash_m = heading_leash_m(sample.velocity_m_s.length());

@@ -22,7 +22,7 @@ const REST_TICKS: usize = 7;
 
 /// A tick of the smoothed path.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct PathSample {
+pub(super) struct TrackSample {
     pub position_m: Vec2,
     pub velocity_m_s: Vec2,
     /// Unit vector: where the body faces, if the source says so.
@@ -80,7 +80,7 @@ impl SmoothedPath {
     }
 
     /// Takes the next raw position and facing; calls `each` with the completed samples.
-    pub fn push(&mut self, time_s: f64, position_m: Vec2, facing: Option<Vec2>, mut each: impl FnMut(PathSample)) {
+    pub fn push(&mut self, time_s: f64, position_m: Vec2, facing: Option<Vec2>, mut each: impl FnMut(TrackSample)) {
         let (last_s, last_m) = self.last;
         if time_s <= last_s {
             return;
@@ -100,7 +100,7 @@ impl SmoothedPath {
     }
 
     /// Ends the path; calls `each` with the remaining samples.
-    pub fn finish(&mut self, mut each: impl FnMut(PathSample)) {
+    pub fn finish(&mut self, mut each: impl FnMut(TrackSample)) {
         let Some(&end) = self.points.last() else { return };
         let newest = self.points.len() - 1;
         let oldest = if self.begun { self.start } else { 0 };
@@ -117,7 +117,7 @@ impl SmoothedPath {
         self.begun = false;
     }
 
-    fn add(&mut self, point: Vec2, facing: Option<Vec2>, each: &mut impl FnMut(PathSample)) {
+    fn add(&mut self, point: Vec2, facing: Option<Vec2>, each: &mut impl FnMut(TrackSample)) {
         if self.points.len() == HELD {
             for list in [&mut self.points, &mut self.facings] {
                 list.drain(..self.start.min(list.len()));
@@ -143,7 +143,7 @@ impl SmoothedPath {
         if self.begun {
             let window = self.start..self.start + WINDOW;
             let facing = self.facings.get(window.clone()).and_then(evened_out);
-            each(PathSample { facing, ..smooth(&self.points[window]) });
+            each(TrackSample { facing, ..smooth(&self.points[window]) });
             self.start += 1;
         }
     }
@@ -168,7 +168,7 @@ fn evened_out(window: &[Vec2]) -> Option<Vec2> {
 }
 
 /// Local quadratic fit in the middle of a window.
-fn smooth(window: &[Vec2]) -> PathSample {
+fn smooth(window: &[Vec2]) -> TrackSample {
     let middle = window[REACH];
     let reach = half_width_ticks(window);
     let shrink = 1.0 / (reach * reach);
@@ -189,7 +189,7 @@ fn smooth(window: &[Vec2]) -> PathSample {
     let position_m = middle + (even * s4 - even2 * s2) / (s0 * s4 - s2 * s2);
     let around = |n: usize| (window[n - 1] + window[n] + window[n + 1]) * (1.0 / 3.0);
     let end_m = around(WINDOW - 2);
-    PathSample {
+    TrackSample {
         position_m,
         velocity_m_s: odd / (s2 * TICK_S),
         facing: None,

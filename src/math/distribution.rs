@@ -1,12 +1,14 @@
+//! Distributions of quantities that differ from person to person.
+
 use rand::RngExt;
 use rand_distr::StandardNormal;
 use serde::{Deserialize, Serialize};
 
 use super::round_to_grid;
 
-/// A quantity that differs from person to person, as a scenario writes it.
+/// Distribution of a quantity that differs from person to person.
 ///
-/// In TOML: a number (`0.3`), a range drawn from evenly (`[0.28, 0.36]`), or a normal distribution
+/// In a scenario: a number (`0.3`), a range drawn from evenly (`[0.28, 0.36]`), or a normal distribution
 /// (`{ mean = 1.34, sd = 0.26 }`), which `min` and `max` may cut off.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
@@ -15,8 +17,7 @@ pub enum Distribution {
     Constant(f64),
     /// Evenly between the two.
     Uniform([f64; 2]),
-    /// Normal; values beyond `min` and `max` are moved to them (no draw is rejected, so that every
-    /// person uses the same number of draws).
+    /// Normal, clamped to `min` and `max`: without rejection every person uses the same number of draws.
     Normal {
         /// Mean.
         mean: f64,
@@ -31,7 +32,7 @@ pub enum Distribution {
     },
 }
 
-/// Why a distribution cannot be drawn from.
+/// Error in a distribution.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DistributionError {
     /// A mean, a deviation or an end that is NaN or infinite.
@@ -47,10 +48,10 @@ pub enum DistributionError {
     /// The ends of a range in the wrong order.
     #[error("the range runs from {0} down to {1}")]
     Reversed(f64, f64),
-    /// A negative standard deviation.
+    /// The standard deviation is negative.
     #[error("the standard deviation {0} is negative")]
     NegativeDeviation(f64),
-    /// A value that can be drawn lies beyond what the quantity allows.
+    /// The range of values exceeds what the quantity allows.
     #[error("it can be as {side} as {value}, allowed is {low} to {high}")]
     OutOfRange {
         /// "small" or "large".
@@ -65,12 +66,12 @@ pub enum DistributionError {
 }
 
 impl Distribution {
-    /// Normal, cut off at `min` and `max`.
+    /// A normal distribution, clamped to `min` and `max`.
     pub const fn normal(mean: f64, sd: f64, min: f64, max: f64) -> Distribution {
         Distribution::Normal { mean, sd, min: Some(min), max: Some(max) }
     }
 
-    /// Draws one value, rounded to 1e-4 of its unit. Always takes the same amount from `rng`.
+    /// Draws a value, rounded to 1e-4 of its unit; always uses the same number of draws.
     pub fn draw(&self, rng: &mut impl rand::Rng) -> f64 {
         match *self {
             Distribution::Constant(value) => value,
@@ -96,7 +97,7 @@ impl Distribution {
         }
     }
 
-    /// Mean, before any cut-off.
+    /// Mean before clamping.
     pub fn mean(&self) -> f64 {
         match *self {
             Distribution::Constant(value) => value,
@@ -105,10 +106,10 @@ impl Distribution {
         }
     }
 
-    /// Checks that every value that can be drawn lies in `low..=high`.
+    /// Checks that every value lies in `low..=high`.
     ///
     /// # Errors
-    /// Numbers that are not finite, ends in the wrong order, a negative deviation, values out of range.
+    /// A number is not finite; ends are in the wrong order; the deviation is negative; values are out of range.
     pub fn check(&self, low: f64, high: f64) -> Result<(), DistributionError> {
         if let Distribution::Normal { mean, sd, .. } = *self {
             if let Some(value) = [mean, sd].into_iter().find(|number| !number.is_finite()) {

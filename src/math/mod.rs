@@ -1,8 +1,7 @@
-//! The leaf that every stage stands on: vectors, rectangles, random streams, and the few functions beyond
-//! `+ - * / sqrt` that an outcome may depend on.
+//! Vectors, rectangles, random streams, distributions and elementary functions for all stages.
 //!
-//! Everything here gives the same bits on every machine: the `libm` crate instead of the platform's
-//! libm, no fused multiply-add, values drawn from `rand_distr` rounded to a coarse grid.
+//! Results are bit-identical on every machine: the `libm` crate replaces the platform's libm, there is no fused
+//! multiply-add, and values from `rand_distr` are rounded to a coarse grid.
 
 mod assignment;
 mod distribution;
@@ -15,7 +14,7 @@ pub use distribution::{Distribution, DistributionError};
 pub use random::{Purpose, SplitMix64, person_stream, round_to_grid};
 pub use vector::{Rect, Vec2, vec2};
 
-/// Sine and cosine of an angle in radians, the same on every machine.
+/// Sine and cosine of an angle in radians, bit-identical on every machine.
 pub fn sin_cos(angle_rad: f64) -> (f64, f64) {
     (libm::sin(angle_rad), libm::cos(angle_rad))
 }
@@ -25,22 +24,22 @@ pub fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)
 }
 
-/// `e^x`, the same on every machine.
+/// `e^x`, bit-identical on every machine.
 pub fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
 
-/// Natural logarithm, the same on every machine.
+/// Natural logarithm, bit-identical on every machine.
 pub fn ln(x: f64) -> f64 {
     libm::log(x)
 }
 
-/// `base^exponent`, the same on every machine.
+/// `base^exponent`, bit-identical on every machine.
 pub fn pow(base: f64, exponent: f64) -> f64 {
     libm::pow(base, exponent)
 }
 
-/// `e^x` in single precision for inner loops over texels, branch-free so that compilers vectorise it.
+/// `e^x` in single precision for inner loops, branch-free so that it vectorises.
 ///
 /// Relative error below 4e-7 over `[-87, 88]`; arguments beyond are clamped to that range.
 /// Formula: `2^n * p(r)` with `x = n ln 2 + r`, `|r| <= ln 2 / 2`, `p` the Taylor polynomial of degree 6.
@@ -54,7 +53,7 @@ pub fn exp_f32(x: f32) -> f32 {
     let n = shifted - ROUND;
     let r = (x - n * LN2_HIGH) - n * LN2_LOW;
     let p = 1.0 + r * (1.0 + r * (0.5 + r * (1.0 / 6.0 + r * (1.0 / 24.0 + r * (1.0 / 120.0 + r * (1.0 / 720.0))))));
-    // The lowest bits of `shifted` are n; casting a float would check its range, one by one.
+    // The lowest bits of `shifted` are n; a cast would check the range of each float.
     let scale = f32::from_bits(shifted.to_bits().wrapping_sub(ROUND.to_bits()).wrapping_add(127) << 23);
     p * scale
 }

@@ -1,8 +1,11 @@
+//! Random streams per person and purpose, and the expansion of random words.
+
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 
-/// What a random stream is drawn for. Each person has one stream per purpose, so that a new draw for one
-/// purpose never shifts the draws of another.
+/// Purpose of a random stream.
+///
+/// Each person has one stream per purpose, so that a new draw for one purpose never shifts the draws of another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u64)]
 pub enum Purpose {
@@ -16,17 +19,17 @@ pub enum Purpose {
     Gait = 4,
     /// Heel marks and the variation word of each mark.
     Marks = 5,
-    /// Soil that the shoes bring in.
+    /// Soil on the shoes.
     Load = 6,
-    /// At which stops to stop, and for how long.
+    /// Choice of stops and dwell times.
     Stops = 7,
-    /// What is touched on walls, and the variation word of each contact.
+    /// Wall contacts and the variation word of each.
     Contacts = 8,
-    /// With how many others somebody walks.
+    /// Group sizes.
     Groups = 9,
 }
 
-/// The random stream of one person for one purpose: a pure function of its three arguments.
+/// The random stream of one person for one purpose: a pure function of its arguments.
 ///
 /// The seed keys the ChaCha8 generator, person and purpose choose the stream.
 pub fn person_stream(seed: u64, person: u32, purpose: Purpose) -> ChaCha8Rng {
@@ -35,19 +38,21 @@ pub fn person_stream(seed: u64, person: u32, purpose: Purpose) -> ChaCha8Rng {
     rng
 }
 
-/// Rounds a drawn value to a grid of 1e-4 of its unit, so that the last bit of a platform's libm
-/// (inside `rand_distr`) decides nothing.
+/// Rounds a drawn value to a grid of 1e-4 of its unit.
+///
+/// The last bit of a platform's libm (inside `rand_distr`) then has no effect.
 pub fn round_to_grid(value: f64) -> f64 {
     (value * 1e4).round() / 1e4
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014, doi 10.1145/2660193.2660195): expands the one word that a mark
-/// carries into as many as its stamp wants.
+/// SplitMix64 generator: expands the random word of a mark for its stamp.
+///
+/// Source: Steele, Lea, Flood 2014, doi 10.1145/2660193.2660195.
 #[derive(Clone, Copy, Debug)]
 pub struct SplitMix64(u64);
 
 impl SplitMix64 {
-    /// Starts from a mark's variation word.
+    /// Seeds the generator with a word.
     pub fn new(word: u64) -> SplitMix64 {
         SplitMix64(word)
     }

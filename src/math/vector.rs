@@ -1,3 +1,5 @@
+//! Points, vectors and rectangles in the plan frame.
+
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use serde::{Deserialize, Serialize};
@@ -12,7 +14,7 @@ pub struct Vec2 {
     pub y: f64,
 }
 
-/// Short for [`Vec2`] from its two components.
+/// Makes a [`Vec2`] of its components.
 pub const fn vec2(x: f64, y: f64) -> Vec2 {
     Vec2 { x, y }
 }
@@ -46,28 +48,28 @@ impl Vec2 {
         (self - other).length()
     }
 
-    /// The vector of length one in the same direction, or `None` for a vector too short to have one.
+    /// Unit vector in the same direction; `None` for a length below 1e-12.
     pub fn normalized(self) -> Option<Vec2> {
         let length = self.length();
         (length > 1e-12).then(|| self / length)
     }
 
-    /// Turned by a quarter counter-clockwise: points to the left of `self`.
+    /// The vector rotated by a quarter turn counter-clockwise: to the left of `self`.
     pub fn left(self) -> Vec2 {
         vec2(-self.y, self.x)
     }
 
-    /// Turned counter-clockwise by the angle whose cosine and sine are the components of the unit vector `by`.
+    /// The vector rotated counter-clockwise by the direction of the unit vector `by`.
     pub fn rotated(self, by: Vec2) -> Vec2 {
         vec2(self.x * by.x - self.y * by.y, self.x * by.y + self.y * by.x)
     }
 
-    /// The point at the share `t` of the way to `other`.
+    /// Linear interpolation: the point at the share `t` from `self` to `other`.
     pub fn lerp(self, other: Vec2, t: f64) -> Vec2 {
         self + (other - self) * t
     }
 
-    /// The same direction, at most `limit` long.
+    /// The vector shortened to at most `limit`.
     pub fn clamped(self, limit: f64) -> Vec2 {
         let squared = self.length_squared();
         if squared > limit * limit { self * (limit / squared.sqrt()) } else { self }
@@ -148,12 +150,12 @@ pub struct Rect {
 }
 
 impl Rect {
-    /// The smallest rectangle around both points, in whatever order they come.
+    /// Bounding rectangle of two points.
     pub fn around(a: Vec2, b: Vec2) -> Rect {
         Rect { min: vec2(a.x.min(b.x), a.y.min(b.y)), max: vec2(a.x.max(b.x), a.y.max(b.y)) }
     }
 
-    /// Grown on every side.
+    /// The rectangle grown on every side.
     pub fn grown(self, by_m: f64) -> Rect {
         Rect { min: self.min - vec2(by_m, by_m), max: self.max + vec2(by_m, by_m) }
     }
@@ -163,7 +165,7 @@ impl Rect {
         p.x >= self.min.x && p.x <= self.max.x && p.y >= self.min.y && p.y <= self.max.y
     }
 
-    /// Whether the two share a point.
+    /// Whether two rectangles share a point.
     pub fn overlaps(self, other: Rect) -> bool {
         self.min.x <= other.max.x && other.min.x <= self.max.x && self.min.y <= other.max.y && other.min.y <= self.max.y
     }

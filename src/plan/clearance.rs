@@ -1,4 +1,6 @@
-//! Where a disc has room: exact erosion and dilation by discs, in time that does not grow with their radius.
+//! Exact erosion and dilation by discs, in time independent of the radius.
+//!
+//! Not imageproc's distance transform: it holds 8 bytes a pixel and squares of distances, this 2 bytes a pixel.
 
 use rayon::prelude::*;
 

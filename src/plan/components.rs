@@ -1,4 +1,6 @@
-//! Connected pieces of a picture, as runs of pixels.
+//! Connected components of an image, as runs of pixels.
+//!
+//! Not imageproc's components: its label image takes four bytes a pixel, runs take a few per row.
 
 use std::ops::Range;
 

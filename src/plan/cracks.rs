@@ -1,4 +1,6 @@
-//! Follows the boundary between floor and wall along pixel edges ("cracks").
+//! Traces the boundary between floor and wall along pixel edges ("cracks").
+//!
+//! Not imageproc's contours: those run through pixel centres.
 
 /// One closed boundary: lattice points in pixels from the top left, y down, one per crack, floor on the right.
 pub(crate) type CrackLoop = Vec<[i32; 2]>;

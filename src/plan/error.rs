@@ -3,11 +3,11 @@ use std::path::PathBuf;
 use super::limits::{LARGEST_AREA_PX, LARGEST_M_PER_PX, LARGEST_SIDE_M, LARGEST_SIDE_PX, SMALLEST_M_PER_PX};
 use crate::math::Vec2;
 
-/// Why the `plan` stage cannot go on.
+/// Error while reading a plan.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// The file is not there or cannot be opened.
+    /// The file is missing or cannot be opened.
     #[error("cannot read the plan {path}: {source}", path = .path.display())]
     Open {
         /// The plan image or map YAML.
@@ -15,19 +15,19 @@ pub enum PlanError {
         /// What the system says.
         source: std::io::Error,
     },
-    /// A file of zero bytes.
+    /// The file has zero bytes.
     #[error("the plan {path} is empty (0 bytes)", path = .path.display())]
     Empty {
         /// The plan image or map YAML.
         path: PathBuf,
     },
-    /// Not an image that can be read.
-    #[error("the plan {path} is no image of a known format", path = .path.display())]
+    /// The file is not an image of a known format.
+    #[error("the plan {path} is not an image of a known format", path = .path.display())]
     UnknownFormat {
         /// The plan image.
         path: PathBuf,
     },
-    /// The image breaks off or its bytes make no sense.
+    /// The image is truncated or corrupt.
     #[error("the plan {path} is damaged: {reason}", path = .path.display())]
     Damaged {
         /// The plan image.
@@ -86,7 +86,7 @@ pub enum PlanError {
         /// Pixels down.
         height: u32,
     },
-    /// One pixel is no plan.
+    /// The image has too few pixels.
     #[error("the plan {path} has {width} x {height} pixels: too small for a room", path = .path.display())]
     TooFewPixels {
         /// The plan image.
@@ -96,7 +96,7 @@ pub enum PlanError {
         /// Pixels down.
         height: u32,
     },
-    /// A map YAML that cannot be understood.
+    /// The map YAML is invalid.
     #[error("the map {path} cannot be used: {reason}", path = .path.display())]
     Map {
         /// The YAML.
@@ -104,7 +104,7 @@ pub enum PlanError {
         /// What is wrong, with line and column.
         reason: String,
     },
-    /// A map YAML's image is missing.
+    /// The image of a map YAML is missing.
     #[error("the map {map} names the image {image}, which does not exist", map = .map.display(), image = .image.display())]
     MapImageMissing {
         /// The YAML.
@@ -114,7 +114,7 @@ pub enum PlanError {
         /// An image beside it whose name is alike.
         similar: Option<PathBuf>,
     },
-    /// A scale that is not a number of metres.
+    /// The scale is out of range.
     #[error("{what} is {value}; metres per pixel must lie between {SMALLEST_M_PER_PX} and {LARGEST_M_PER_PX}")]
     Scale {
         /// Which scale it is, and where it comes from.
@@ -122,16 +122,16 @@ pub enum PlanError {
         /// Its value, metres per pixel.
         value: f64,
     },
-    /// Both a scale in metres per pixel and two points.
+    /// The scale is given both in metres per pixel and by two points.
     #[error("the scale is given twice: as metres per pixel and as two points")]
     ScaleTwice,
-    /// Two points that give no scale.
-    #[error("the two points of the scale give none: {reason}")]
+    /// The two points do not define a scale.
+    #[error("the two points do not define a scale: {reason}")]
     TwoPoints {
         /// What is wrong with them.
         reason: String,
     },
-    /// A plan too large to walk.
+    /// The plan is too large.
     #[error(
         "at {metres_per_pixel} m per pixel the plan is {width_m:.0} x {height_m:.0} m; at most {LARGEST_SIDE_M} m a side are walked"
     )]
@@ -143,7 +143,7 @@ pub enum PlanError {
         /// Height, metres.
         height_m: f64,
     },
-    /// Paths that reach too far for a floor around them.
+    /// The paths of a recording span too large an area.
     #[error(
         "without a plan the floor around the paths would be {width_m:.0} x {height_m:.0} m; at most {LARGEST_SIDE_M} m a side are walked"
     )]
@@ -153,7 +153,7 @@ pub enum PlanError {
         /// Height, metres.
         height_m: f64,
     },
-    /// A setting beyond its range.
+    /// A setting is out of range.
     #[error("plan.{key} is {value}; it must lie between {low} and {high}")]
     OutOfRange {
         /// The setting's name.
@@ -165,7 +165,7 @@ pub enum PlanError {
         /// Largest value allowed.
         high: f64,
     },
-    /// Nothing white.
+    /// No pixel is floor.
     #[error("the plan has no floor: none of its {pixels} pixels is as light as the threshold, {threshold} of 255")]
     NoFloor {
         /// Pixels in the image.
@@ -173,7 +173,7 @@ pub enum PlanError {
         /// Lightness at which floor begins.
         threshold: u8,
     },
-    /// Nothing black.
+    /// No pixel is wall.
     #[error("the plan has no walls: none of its {pixels} pixels is darker than the threshold, {threshold} of 255")]
     NoWalls {
         /// Pixels in the image.
@@ -181,7 +181,7 @@ pub enum PlanError {
         /// Lightness at which floor begins.
         threshold: u8,
     },
-    /// White, but too narrow.
+    /// The floor is too narrow for a person.
     #[error(
         "no place in the plan is wide enough for a person of {narrowest_m} m at {metres_per_pixel} m per pixel \
          (the plan is {width_m:.2} x {height_m:.2} m)"
@@ -196,7 +196,7 @@ pub enum PlanError {
         /// Height of the plan, metres.
         height_m: f64,
     },
-    /// A point that should be floor lies elsewhere.
+    /// A point given as floor is not on the floor.
     #[error("the point ({x:.2}, {y:.2}) m that should be floor {where_}", x = .point_m.x, y = .point_m.y)]
     SeedNotFloor {
         /// The point, metres.
@@ -209,7 +209,7 @@ pub enum PlanError {
 }
 
 impl PlanError {
-    /// What the user can do about it.
+    /// Hint for the user.
     pub fn hint(&self) -> Option<String> {
         Some(match self {
             PlanError::UnknownFormat { .. } => "use PNG, JPEG, BMP, PGM, TIFF or GIF, or the YAML of a ROS map".into(),

@@ -1,7 +1,7 @@
-//! Reads a plan image and decides what is floor.
+//! Reads a plan image and finds its floor.
 //!
-//! Takes an image (or a ROS map YAML) and a scale; gives a [`FloorPlan`]: which pixels are floor, how large a
-//! pixel is, where the floor meets the image's sides.
+//! Turns an image (or a ROS map YAML) and a scale into a [`FloorPlan`]: the floor mask, the scale and the openings at
+//! the image's sides.
 
 use crate::math::Vec2;
 
@@ -38,10 +38,10 @@ pub use limits::{
 pub use options::{PixelPoint, PlanOptions, PlanPoint, TransparentPolicy, TwoPoints, UnknownPolicy};
 pub use read::{files, read};
 
-/// Openings narrower than this are none, metres.
+/// Least width of an opening, metres.
 pub const NARROWEST_OPENING_M: f64 = 0.6;
 
-/// What was understood of a plan image.
+/// A floor plan: floor mask, scale, regions and openings.
 #[derive(Clone, Debug)]
 pub struct FloorPlan {
     /// Image width in pixels.
@@ -60,11 +60,11 @@ pub struct FloorPlan {
     pub threshold: u8,
     /// Pose of the plan frame in the map frame; the identity unless a ROS map says otherwise.
     pub map_from_plan: Pose,
-    /// Every connected white region, largest first, chosen or not.
+    /// All connected white regions, largest first.
     pub regions: Vec<Region>,
-    /// Where the floor meets the image's sides.
+    /// Openings at the image's sides.
     pub openings: Vec<Opening>,
-    /// What a user should be told about this plan although it can be used, such as a scale that was assumed.
+    /// Warnings for the user, such as an assumed scale.
     pub warnings: Vec<String>,
 }
 
@@ -98,35 +98,35 @@ impl FloorPlan {
     }
 }
 
-/// A rigid motion: turn by `yaw_rad`, then move.
+/// A rigid transform: rotation by `yaw_rad`, then translation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Pose {
-    /// Where the plan's origin lies in the map frame, metres.
+    /// Plan origin in the map frame, metres.
     pub origin_m: Vec2,
     /// Radians counter-clockwise.
     pub yaw_rad: f64,
 }
 
-/// A connected piece of white.
+/// A connected white region of a plan.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Region {
     /// Area in square metres.
     pub area_m2: f64,
     /// A point in it, far from its border, metres.
     pub inside_m: Vec2,
-    /// What it was taken for.
+    /// Role of the region.
     pub role: RegionRole,
 }
 
-/// What a connected white region was taken for.
+/// Role of a white region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RegionRole {
-    /// People walk here.
+    /// Walkable floor.
     Floor,
     /// The paper around the building.
     Outside,
-    /// Too narrow for anybody, or nobody gets there.
+    /// Too narrow for a person, or unreachable.
     Unreached,
 }
 
@@ -153,12 +153,12 @@ impl Side {
     }
 }
 
-/// A stretch of an image side where floor goes on beyond the plan. At least 0.6 m wide.
+/// An opening: a stretch of an image side where floor continues beyond the plan, at least 0.6 m wide.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Opening {
     /// `west`, or `west 1`, `west 2`, ... (from the least x or y on) where a side has several.
     pub name: String,
-    /// The side that it lies on.
+    /// Side of the image.
     pub side: Side,
     /// The end of least x or y, metres.
     pub from_m: Vec2,

@@ -34,7 +34,7 @@ pub struct TwoPoints {
     pub from: PixelPoint,
     /// The other end.
     pub to: PixelPoint,
-    /// How far apart they are, metres.
+    /// Distance between them, metres.
     pub metres: f64,
 }
 
@@ -46,7 +46,7 @@ pub struct PixelPoint {
     pub px: [f64; 2],
 }
 
-/// What transparent pixels are.
+/// Meaning of transparent pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum TransparentPolicy {
@@ -61,40 +61,40 @@ pub enum TransparentPolicy {
     Floor,
 }
 
-/// What a ROS map's unknown pixels are.
+/// Meaning of a ROS map's unknown pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum UnknownPolicy {
-    /// Nobody walks where the robot has not been.
+    /// Unknown is wall: the robot has not been there.
     #[default]
     Wall,
-    /// Unknown is walkable.
+    /// Unknown is floor.
     Floor,
 }
 
-/// How to read a plan.
+/// Options of reading a plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PlanOptions {
     /// Side of a pixel, metres. Overrides a ROS map's.
     pub metres_per_pixel: Option<f64>,
-    /// Or two points and their distance.
+    /// Scale by two points and their distance, instead of `metres_per_pixel`.
     pub scale: Option<TwoPoints>,
     /// Lightness, 0 to 255, at which wall ends and floor begins.
     pub threshold: Option<u8>,
     /// Colours (`"#c03030"`) that are wall although saturated colour is annotation otherwise.
     pub wall_colours: Vec<Colour>,
-    /// What a ROS map's unknown pixels are.
+    /// Meaning of a ROS map's unknown pixels.
     pub unknown: UnknownPolicy,
-    /// What transparent pixels are.
+    /// Meaning of transparent pixels.
     pub transparent: TransparentPolicy,
     /// Specks whose larger side is below this are dropped, metres: black ones in the floor, white ones in walls.
     pub speck_m: f64,
     /// Whether lettering, dashed lines and the outlines of coloured dots are dropped from drawings.
     pub drop_annotation: bool,
-    /// Points that are floor: the regions that hold them are, and no others. Empty: found (see `plan`).
+    /// Points of the floor: only the regions that hold them are floor. Empty: regions are chosen automatically.
     pub floor: Vec<PlanPoint>,
-    /// Width of the narrowest person, metres: where they cannot pass, nobody goes.
+    /// Width of the narrowest person, metres, 0 to 5; narrower passages are unreachable.
     pub narrowest_m: f64,
 }
 

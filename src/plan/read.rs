@@ -1,18 +1,18 @@
-//! From a path to a [`FloorPlan`].
+//! The steps of reading a plan in their order.
 
 use std::path::{Path, PathBuf};
 
 use super::drawing::{self, Drawing};
 use super::{FloorPlan, PlanError, PlanOptions, Pose, doors, image_file, openings, regions, ros_map, scale, symbols};
 
-/// Reads a plan image, or the YAML of a ROS map in its place, and decides what is floor.
+/// Reads a plan image, or the YAML of a ROS map, and finds the floor.
 ///
 /// PNG, JPEG, BMP, PGM, TIFF and GIF, grey, colour, with alpha, 8 or 16 bit, up to 20 000 pixels a side. White is
-/// floor, black is wall; saturated colour is annotation and counts as floor. See [`PlanOptions`] for what can be
-/// set, and `regions` of the result for what became of each piece of white.
+/// floor, black is wall; saturated colour is annotation and counts as floor. [`FloorPlan::regions`] tells the role of
+/// each white region.
 ///
 /// # Errors
-/// A file that cannot be read or understood, a scale that is none, a plan without walls or without room.
+/// The file cannot be read or decoded; the scale is out of range; the plan has no walls or no room for a person.
 pub fn read(path: &Path, options: &PlanOptions) -> Result<FloorPlan, PlanError> {
     options.check()?;
     let map = if ros_map::is_map(path) { Some(ros_map::read(path)?) } else { None };

@@ -1,4 +1,4 @@
-//! How large a pixel is.
+//! The scale of a plan.
 
 use super::{ASSUMED_M_PER_PX, LARGEST_M_PER_PX, LARGEST_SIDE_M, PlanError, PlanOptions, SMALLEST_M_PER_PX, TwoPoints};
 

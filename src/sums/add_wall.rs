@@ -12,7 +12,7 @@ const CONTACTS_AT_A_TIME: usize = 1 << 14;
 
 /// A stain that touches a block; sorts by strip, block and stain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct StripEntry {
+struct StainEntry {
     strip: StripKey,
     block: BlockKey,
     stain: usize,
@@ -35,7 +35,7 @@ fn add(sums: &mut WallSums, stamper: &WallStamper, contacts: &[Contact]) {
     }
     for contacts in contacts.chunks(CONTACTS_AT_A_TIME) {
         let stains: Vec<PlacedStain> = contacts.par_iter().flat_map_iter(|contact| stamper.place(contact)).collect();
-        let mut entries: Vec<StripEntry> =
+        let mut entries: Vec<StainEntry> =
             stains.iter().enumerate().flat_map(|(k, stain)| entries_of(stain, k)).collect();
         entries.par_sort_unstable();
         tasks(sums, &entries).into_par_iter().with_max_len(1).for_each(|(block, entries)| {
@@ -45,17 +45,17 @@ fn add(sums: &mut WallSums, stamper: &WallStamper, contacts: &[Contact]) {
 }
 
 /// The blocks that a stain touches.
-fn entries_of(stain: &PlacedStain, number: usize) -> impl Iterator<Item = StripEntry> + use<> {
+fn entries_of(stain: &PlacedStain, number: usize) -> impl Iterator<Item = StainEntry> + use<> {
     let strip = (stain.cause.on_wall().unwrap_or(0), stain.face);
     let blocks = |low: i64, high: i64| (low / BLOCK as i64) as u32..(high as u64).div_ceil(BLOCK as u64) as u32;
     let (rows, columns) = (blocks(stain.bounds.j0, stain.bounds.j1), blocks(stain.bounds.i0, stain.bounds.i1));
     rows.flat_map(move |row| {
-        columns.clone().map(move |column| StripEntry { strip, block: [row, column], stain: number })
+        columns.clone().map(move |column| StainEntry { strip, block: [row, column], stain: number })
     })
 }
 
 /// Pairs blocks with their entries; allocates missing blocks.
-fn tasks<'a>(sums: &'a mut WallSums, entries: &'a [StripEntry]) -> Vec<(&'a mut SumBlock, &'a [StripEntry])> {
+fn tasks<'a>(sums: &'a mut WallSums, entries: &'a [StainEntry]) -> Vec<(&'a mut SumBlock, &'a [StainEntry])> {
     let mut of_strips = entries.chunk_by(|a, b| a.strip == b.strip).peekable();
     for entries in of_strips.clone() {
         sums.strip_mut(entries[0].strip);

@@ -1,4 +1,4 @@
-//! Answers about places: the nearest wall, inside or not, what can be seen.
+//! A spatial index of walls: nearest wall, inside test, line of sight.
 
 use super::face::{Nearest, Segment};
 use super::grid::Grid;

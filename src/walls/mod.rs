@@ -1,4 +1,4 @@
-//! Traces the wall faces of a plan as polylines in metres, and answers how far the nearest wall is.
+//! Traces the wall faces of a plan as polylines; finds the nearest wall, lines of sight and floor coverage.
 
 use rayon::prelude::*;
 
@@ -34,11 +34,11 @@ pub use outline::Outline;
 pub(crate) use outline::check as check_outlines;
 pub use places::{Corner, DOOR_HEAD_M, DOOR_WIDTHS_M, Doorway};
 
-/// How to trace walls.
+/// Options of tracing walls.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct WallsOptions {
-    /// How far the traced boundary may lie from the pixels' boundary, plan pixels.
+    /// Tolerance between the traced boundary and the pixels' boundary, plan pixels.
     pub tolerance_px: f64,
 }
 
@@ -48,10 +48,10 @@ impl Default for WallsOptions {
     }
 }
 
-/// All wall faces of a plan, indexed for quick answers.
+/// The wall faces of a plan with a spatial index.
 #[derive(Debug)]
 pub struct Walls {
-    /// Longest first, ties by start.
+    /// Wall faces, longest first, ties by start.
     pub faces: Vec<Face>,
     outlines: Vec<Outline>,
     bounds: Rect,
@@ -102,7 +102,7 @@ impl Walls {
         self.bounds
     }
 
-    /// The wall nearest to `p` that is at most `within_m` away, unseen apron walls included.
+    /// The wall nearest to `p` that is at most `within_m` away, apron walls included.
     pub fn nearest(&self, p: Vec2, within_m: f64) -> Option<Nearest> {
         self.index.nearest(p, within_m)
     }
@@ -122,7 +122,7 @@ impl Walls {
         self.index.segments_near(area, out);
     }
 
-    /// Exact share, 0 to 1, of each texel that floor covers (aprons are no floor).
+    /// Exact share, 0 to 1, of each texel that is floor; aprons do not count.
     ///
     /// Texel (i, j) covers `[i, i+1)/t x [j, j+1)/t` metres of the plan frame; `out` is row-major and its row 0
     /// is `j0`, the southernmost. The values do not depend on the rectangle asked for.

@@ -1,4 +1,4 @@
-//! Closed loops around the floor, and what is made of them: faces, wall segments, the walked space.
+//! Closed outlines of the floor, and the faces, wall segments and walkable loops made from them.
 
 use serde::{Deserialize, Serialize};
 

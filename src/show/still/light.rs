@@ -1,9 +1,9 @@
 //! Irradiance of floor and walls on coarse rasters, computed where the camera looks.
 
-use std::collections::{BTreeSet, HashMap};
-use std::hash::BuildHasherDefault;
+use std::collections::BTreeSet;
 
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use super::panels::Panels;
 use super::pyramid::PlaceHasher;
@@ -60,7 +60,7 @@ pub(super) struct LightMap<'a> {
 impl<'a> LightMap<'a> {
     pub fn new(space: &'a RayGrid, lighting: Lighting) -> LightMap<'a> {
         let rows = (space.height_m * PER_METRE).ceil() as usize + 1;
-        LightMap { space, lighting, rows, blocks: HashMap::default() }
+        LightMap { space, lighting, rows, blocks: FxHashMap::default() }
     }
 
     pub fn lighting(&self) -> &Lighting {

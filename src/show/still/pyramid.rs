@@ -1,9 +1,9 @@
 //! Texels at all scales, in blocks that are made when they are needed.
 
-use std::collections::{BTreeSet, HashMap};
-use std::hash::{BuildHasherDefault, Hasher};
+use std::collections::BTreeSet;
 
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use super::texels::{SIDE, Texel, TexelBlock, TexelSource};
 

@@ -1,4 +1,4 @@
-//! Gaps that read as doors.
+//! Finds doorways: gaps in walls that have the shape of doors.
 //!
 //! A gap is where the floor is narrowest: two places on walls such that no wall reaches into the disc between them, at
 //! least one of them an outer corner (between two flat walls lies a corridor). It is a door if it is as wide as one, if
