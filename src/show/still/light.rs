@@ -6,7 +6,6 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::panels::Panels;
-use super::pyramid::PlaceHasher;
 use super::ray_grid::{QuadKind, RayGrid, WallQuad};
 use crate::math::{Vec2, exp_f32, sin_cos, vec2};
 
@@ -54,7 +53,7 @@ pub(super) struct LightMap<'a> {
     lighting: Lighting,
     /// Rows of a wall's raster.
     rows: usize,
-    blocks: HashMap<LightKey, Box<[Irradiance]>, BuildHasherDefault<PlaceHasher>>,
+    blocks: FxHashMap<LightKey, Box<[Irradiance]>>,
 }
 
 impl<'a> LightMap<'a> {

@@ -22,37 +22,7 @@ pub(super) struct TexelBlockKey {
 }
 
 /// Blocks by their place. Their order is never looked at.
-type Blocks = HashMap<TexelBlockKey, TexelBlock, BuildHasherDefault<PlaceHasher>>;
-
-/// A quick hash: keys are places, not what an enemy chose.
-#[derive(Default)]
-pub(super) struct PlaceHasher(u64);
-
-impl Hasher for PlaceHasher {
-    fn finish(&self) -> u64 {
-        self.0 ^ self.0 >> 32
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|&byte| self.write_u64(byte.into()));
-    }
-
-    fn write_u64(&mut self, value: u64) {
-        self.0 = (self.0.rotate_left(23) ^ value).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    }
-
-    fn write_u8(&mut self, value: u8) {
-        self.write_u64(value.into());
-    }
-
-    fn write_u32(&mut self, value: u32) {
-        self.write_u64(value.into());
-    }
-
-    fn write_i32(&mut self, value: i32) {
-        self.write_u64(value as u32 as u64);
-    }
-}
+type Blocks = FxHashMap<TexelBlockKey, TexelBlock>;
 
 /// A texture of which what is seen is held, each place as finely as it is seen.
 pub(super) struct Pyramid<'a> {
