@@ -7,6 +7,7 @@ mod bake;
 mod empty_walls;
 mod export;
 mod floorplans;
+mod hashes;
 mod page;
 #[path = "../support/golden.rs"]
 mod golden;
