@@ -109,6 +109,9 @@ pub struct Walls {
 impl Walls {
     /// Traces the boundary of a plan's floor.
     ///
+    /// Outlines do not cross each other or themselves, and each has three points or more. Where fitted lines would
+    /// cross, the outlines follow the pixels' edges.
+    ///
     /// # Errors
     /// A plan without floor, a tolerance that is not a number of pixels.
     pub fn trace(plan: &FloorPlan, options: &WallsOptions) -> Result<Walls, WallsError> {
