@@ -34,8 +34,8 @@ fn noisy(number: u64) -> FloorPlan {
     FloorPlan::from_mask(width as u32, height as u32, [0.05, 0.3, 1.0][number as usize % 3], floor)
 }
 
-/// Asserts that no two edges cross, that each outline encloses something, and that whoever looks around on the floor
-/// sees walls from their front.
+/// Asserts that no two edges cross, that each outline encloses an area, and that rays from the floor meet the fronts of
+/// walls.
 #[track_caller]
 fn assert_sound(plan: &FloorPlan, walls: &Walls, name: &str) {
     let mut edges: Vec<[Vec2; 2]> = Vec::new();
