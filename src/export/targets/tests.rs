@@ -177,7 +177,7 @@ fn written(target: Target) -> (tempfile::TempDir, OutputFolder, BTreeSet<String>
             }
         }
     }
-    found.remove(".lock");
+    found.remove(".unfinished");
     (dir, folder, found)
 }
 
