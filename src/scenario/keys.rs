@@ -109,7 +109,7 @@ pub(super) const KEYS: &[Key] = &[
     key("texture.floor_texels_per_metre", Number(1.0, 1000.0), "texel density of the floor"),
     key("texture.wall_texels_per_metre", Number(1.0, 1000.0), "texel density of the walls"),
     key("texture.tile", Number(64.0, 16384.0), "largest side of a texture [px]; Unreal takes 8192"),
-    optional("texture.layers", Any, "whether to write every layer on its own too, as EXR; left out: for gltf and blender only", "true"),
+    optional("texture.layers", Any, "whether every layer is an EXR too; left out: for gltf and blender only", "true"),
     key("texture.target", Any, "what the files are for: \"gltf\", \"blender\", \"unreal\", \"unity\" or \"godot\""),
     key("texture.walls", Any, "whether walls are made too, and with them the scene, stills and page"),
     key("texture.embed", Any, "whether scene.glb carries its textures, reduced, inside"),
