@@ -229,5 +229,6 @@ fn an_interrupted_walk_leaves_nothing() {
     let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     assert!(kill.success());
     let output = child.wait_with_output().unwrap();
-    sandbox.ran(before, output).fails(1, &["interrupted"]);
+    // It ends by the signal, as a shell expects.
+    sandbox.ran(before, output).fails(130, &["interrupted"]);
 }

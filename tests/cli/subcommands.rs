@@ -98,6 +98,7 @@ fn init_writes_exactly_the_defaults() {
         let written = Scenario::read(&sandbox.path(&name), &Overrides::default()).unwrap();
         assert_eq!(written.routes.routes.len(), 2);
         expected.routes = written.routes.clone();
+        expected.read_from = written.read_from.clone();
         assert_eq!(written, expected);
     }
 }

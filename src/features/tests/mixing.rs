@@ -139,7 +139,7 @@ fn crowds_with_nothing_in_common_are_refused() {
     let refused =
         |a: &Ensemble, b: &Ensemble| Mix::find(a, b, &options, MixOptions::default(), &Silent).unwrap_err().to_string();
     let short = Ensemble::new(100.0, 0.0, vec![1, 2], vec![Vec2::ZERO, vec2(1.0, 0.0), vec2(0.0, 1.0), vec2(2.0, 2.0)]);
-    assert!(refused(&sideways(5), &short).contains("shorter than two moments"));
+    assert!(refused(&sideways(5), &short).contains("shorter than two frames"));
     assert!(refused(&sideways(5), &wild(1, 50)).contains("too few"));
     assert!(refused(&wild(1001, 2), &wild(5, 9)).contains("1000 people"));
     let still = Ensemble::new(10.0, 0.0, vec![1, 2], [vec2(0.0, 0.0), vec2(1.0, 0.0)].repeat(50));

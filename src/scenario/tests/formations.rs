@@ -45,10 +45,10 @@ fn mistakes_are_shown_where_they_stand() {
         ("time_s = 10", "time_s = 31", 7, 10, "ends at 31 s, after the whole"),
         ("shape = \"star\"", "shape = \"stra\"", 8, 9, "did you mean \"star\"?"),
         ("shape = \"star\"", "shap = \"star\"", 8, 1, "did you mean `shape`?"),
-        ("shape = \"star\"", "columns = 3\nshape = \"star\"", 8, 11, "of a grid only"),
+        ("shape = \"star\"", "columns = 3\nshape = \"star\"", 8, 11, "to a grid only"),
         ("members = [0, 4]", "members = [0, 0]", 11, 11, "0 is named twice"),
         ("members = [0, 4]", "members = 3", 11, 11, "a list of individuals"),
-        ("shape = \"triangle\"", "at = [0, 1]\nshape = \"triangle\"", 16, 6, "no place of its own"),
+        ("shape = \"triangle\"", "at = [0, 1]\nshape = \"triangle\"", 16, 6, "no position of its own"),
         ("people = 3", "people = 0", 19, 37, "`people` is 0"),
         ("people = 3", "peple = 3", 19, 28, "did you mean `people`?"),
     ] {

@@ -118,7 +118,7 @@ hint: did you mean "radiator"?
     assert_data_eq!(
         with("[[fixture]]\nkind = \"counter\"\nat = [[1, 2], [3, 2]]\nwidth = 2.0\n"),
         str![[r#"
-a fixture that is given by its two ends has no `width`
+a fixture given by its two ends takes no `width`
  --> plans/hall.toml:6:9
   |
 6 | width = 2.0
