@@ -214,7 +214,7 @@ fn formations_that_cannot_be() {
     ] {
         formation(&["--last", file]).fails(1, &[&["hint: "], parts].concat());
     }
-    formation(&["--key", "99=points.txt"]).fails(1, &["99 s, after the whole, 5.9 s", "hint: "]);
+    formation(&["--key", "99=points.txt"]).fails(1, &["99 s, after the whole formation, at 5.9 s", "hint: "]);
     formation(&["--key", "2=points.txt", "--key", "2=points.txt"]).fails(1, &["2 s is not after", "hint: "]);
     formation(&["--span", "100,200", "--last", "points.txt"]).fails(1, &["no person is present", "hint: "]);
     formation(&["--key", "x=points.txt"]).fails(2, &["--key"]);

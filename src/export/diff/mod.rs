@@ -136,6 +136,10 @@ fn not_alike(bake: &Path, image: &Path) -> ExportError {
 
 fn diff_bakes(a: &Path, b: &Path, options: &DiffOptions) -> Result<Comparison, ExportError> {
     let manifests = [Manifest::read(a)?, Manifest::read(b)?];
+    for (bake, manifest) in [a, b].into_iter().zip(&manifests) {
+        let listed = manifest.files.iter().filter(|file| bake.join(file).exists());
+        listed.map(|file| file.within(bake)).collect::<Result<Vec<_>, _>>()?;
+    }
     let (files_a, files_b) = (files_in(a)?, files_in(b)?);
     let listed = manifests.iter().flat_map(|manifest| &manifest.files).map(ToString::to_string);
     let missing: BTreeSet<String> = listed.filter(|file| !files_a.contains(file) && !files_b.contains(file)).collect();

@@ -37,7 +37,7 @@ fn formations_have_limits_of_people_keys_seconds_and_frames() {
     };
     refused(
         "[formation]\nduration_s = 36000\nfps = 1000\n[formation.example]\npeople = 2\n",
-        &["36000001 frames are more than 20000000 places"],
+        &["36000001 frames are more than 20000000 positions"],
     );
     refused(
         "[formation]\nduration_s = 3600\nfps = 100\n[formation.example]\npeople = 100\n",

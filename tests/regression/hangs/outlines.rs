@@ -58,7 +58,11 @@ fn assert_sound(plan: &FloorPlan, walls: &Walls, name: &str) {
         let from = vec2(unit() * plan.width_m(), unit() * plan.height_m());
         let (sin, cos) = sin_cos(unit() * std::f64::consts::TAU);
         if plan.is_floor(from) && walls.is_inside(from) {
-            assert!(sees_a_front(&edges, from, vec2(cos, sin)), "{name}: a wall's back is seen from {from:?}");
+            let off_m = walls.nearest(from, 1.0).map(|nearest| nearest.distance_m);
+            assert!(
+                sees_a_front(&edges, from, vec2(cos, sin)),
+                "{name}: a wall's back is seen from {from:?}, {off_m:?} m off a wall"
+            );
         }
     }
 }

@@ -53,6 +53,6 @@ fn blender_updates_what_the_first_run_made() {
 /// After a pause, as in a tab in the background, the walk of the page went on as if no time had passed, or jumped.
 #[test]
 fn no_step_of_the_page_is_longer_than_a_fifth_of_a_second() {
-    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/src/export/page/client/page.js");
+    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/src/show/page/client/page.js");
     assert!(fs::read_to_string(page).unwrap().contains("Math.min((now - last) / 1000, 0.2)"));
 }
