@@ -41,7 +41,7 @@ fn formations_have_limits_of_people_keys_seconds_and_frames() {
     );
     refused(
         "[formation]\nduration_s = 3600\nfps = 100\n[formation.example]\npeople = 100\n",
-        &["100 people in 360001 frames are more than 20000000 places", "hint: make it shorter"],
+        &["100 people in 360001 frames are more than 20000000 positions", "hint: make it shorter"],
     );
     let mut keys = "[formation]\nduration_s = 100\n[formation.example]\npeople = 2000\n".to_string();
     for time_s in 0..20 {
