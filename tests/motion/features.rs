@@ -177,7 +177,7 @@ fn the_other_recording_is_read_as_its_own_options_say() {
     let (_, said) = refused(folder.path(), &["dance.txt", "--mix", "guise.txt", "--mix-columns", "who"]);
     assert!(said.contains("hint:") && said.contains("--mix-columns id,frame,x,y"), "{said}");
     let (_, said) = refused(folder.path(), &["dance.txt", "--mix", "dance.txt", "--mix-from", "90", "--mix-to", "95"]);
-    assert!(said.contains("leave out --mix-from and --mix-to"), "{said}");
+    assert!(said.contains("leave out its start and end"), "{said}");
     let (code, said) = refused(folder.path(), &["dance.txt", "--mix-unit", "cm"]);
     assert!(code == 2 && said.contains("--mix <OTHER>"), "{said}");
 }
@@ -203,7 +203,7 @@ fn mistakes_are_told() {
     recording(&path("relay.txt"), 5, 50, |id, t| ((t as u32) + 1 == id).then(|| vec2(t, 0.0)));
     for (arguments, code, what) in [
         (&["dance.txt", "--scale", "1=sin(2*pi*t"] as &[&str], 2, "    ^ column 4"),
-        (&["dance.txt", "--scale", "all=2*speed"], 2, "speed is not known"),
+        (&["dance.txt", "--scale", "all=2*speed"], 2, "speed is not a known name"),
         (&["dance.txt", "--scale", "5..2=1"], 2, "backwards"),
         (&["dance.txt", "--scale", "2.0"], 2, "no ="),
         (&["dance.txt", "--scale", "1=1/(t-2)", "-o", "x.txt"], 1, "at t = 2.000 s"),
@@ -213,7 +213,7 @@ fn mistakes_are_told() {
         (&["dance.txt", "--neighbour-distance", "0"], 2, "allowed is 0.05 to 10000"),
         (&["dance.txt", "--from", "90", "--to", "95"], 1, "leave out its start and end"),
         (&["one.txt"], 1, "at least 2 are needed"),
-        (&["blink.txt"], 1, "at 2 moments"),
+        (&["blink.txt"], 1, "2 frames"),
         (&["rigid.txt"], 1, "do not move relative to the centroid"),
         (&["relay.txt"], 1, "at least 2 are needed"),
         (&["dance.txt", "--mix", "one.txt"], 1, "at least 2 are needed"),

@@ -129,7 +129,7 @@ fn what_is_no_rotation_is_refused() {
     let long = DMatrix::<f64>::identity(3, 3) * 1.1;
     for matrix in [mirror, not_a_number, swap, long, DMatrix::zeros(2, 3), DMatrix::zeros(0, 2)] {
         let error = Rotation::of(&matrix).unwrap_err();
-        assert!(error.to_string().contains("no rotation"), "{error}");
+        assert!(error.to_string().contains("not a rotation"), "{error}");
         assert!(error.hint().is_some());
     }
     assert_eq!(Rotation::of(&DMatrix::zeros(0, 0)).unwrap().angles_rad().len(), 0);

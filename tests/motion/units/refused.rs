@@ -20,7 +20,7 @@ fn a_spot_in_a_wall_is_an_error_with_its_place_and_the_nearest_floor() {
     assert_eq!(error.to_string(), "crowd: basin at [24.20, 13.30] lies in a wall or off the floor");
     assert!(error.hint().unwrap().starts_with("the nearest floor to stand on is at [2"), "{error:?}");
     let error = refused(at(1.6, 5.0));
-    assert_eq!(error.to_string(), "crowd: spot 1 at [1.60, 5.00] is 0.10 m from a wall, at least 0.2 m are needed");
+    assert_eq!(error.to_string(), "crowd: spot 1 at [1.60, 5.00] is 0.10 m from a wall, needed are at least 0.2 m");
     let error = refused(at(900.0, 5.0));
     assert!(error.hint().unwrap().contains("no floor"), "{error:?}");
     let error = refused(at(f64::NAN, 5.0));
