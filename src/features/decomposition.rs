@@ -72,7 +72,7 @@ impl Features {
         let total_m2 = displacements.norm_squared() / moments;
         let still_m = STILL_M.max(displacement.rounding_m());
         if total_m2 <= people * still_m * still_m {
-            return Err(FeaturesError::Still.into());
+            return Err(FeaturesError::Still);
         }
         progress.advance(0.1);
         let (values, vectors, mean_neighbours) = match options.method {

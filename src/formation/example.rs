@@ -114,7 +114,7 @@ pub(super) fn decompose(
     let bases_of = |moments: &[usize]| -> Result<Vec<Basis>, FormationError> {
         let basis = |&moment: &usize| {
             progress.keep_on()?;
-            Ok(Basis::of(example.places_at(moment), sigma_m, &options.adjacency)?)
+            Basis::of(example.places_at(moment), sigma_m, &options.adjacency)
         };
         moments.par_iter().map(basis).collect()
     };

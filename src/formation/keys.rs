@@ -172,5 +172,5 @@ fn matched(
     for neighbour in before.into_iter().chain(chain.get(k + 1).map(|after| &after.vectors)) {
         target += neighbour;
     }
-    Ok(match_basis(&chain[k].basis, &target, nearness, before.filter(|_| oriented))?)
+    match_basis(&chain[k].basis, &target, nearness, before.filter(|_| oriented))
 }

@@ -198,7 +198,7 @@ impl StopRequest {
         let finite = |key, point: PlanPoint| {
             let p = point.to_m(plan);
             // Written so that NaN is out of range.
-            let beyond = [p.x, p.y].into_iter().find(|c| !(c.abs() <= LARGEST_COORDINATE));
+            let beyond = [p.x, p.y].into_iter().find(|c| c.is_nan() || c.abs() > LARGEST_COORDINATE);
             match beyond {
                 None => Ok(p),
                 Some(c) => {

@@ -65,7 +65,7 @@ fn opening(plan: &FloorPlan, name: &str, usage: PlaceUsage<'_>) -> Result<Place,
 fn finite(p: Vec2, request: &PlaceRequest, usage: PlaceUsage<'_>) -> Result<Vec2, RoutesError> {
     // Coordinates far beyond any plan are as useless as NaN, and would overflow the grid's indices.
     // Written so that NaN is out of range.
-    match [p.x, p.y].into_iter().find(|c| !(c.abs() <= LARGEST_COORDINATE)) {
+    match [p.x, p.y].into_iter().find(|c| c.is_nan() || c.abs() > LARGEST_COORDINATE) {
         None => Ok(p),
         Some(value) => {
             let (route, place) = (usage.route.into(), request.describe());

@@ -17,6 +17,7 @@ pub(super) struct Boundary {
 }
 
 #[derive(Debug)]
+#[allow(clippy::large_enum_variant)] // a boundary has few parts
 enum Part {
     Wall(Fitted),
     Opening {
@@ -155,7 +156,8 @@ impl Boundary {
             Part::Wall(wall) => Some(wall),
             Part::Opening { .. } => None,
         });
-        walls.fold(false, |changed, wall| wall.put_all_on_edges() || changed)
+        // All of them, not only up to the first that changes.
+        walls.map(|wall| wall.put_all_on_edges()).fold(false, |any, changed| any | changed)
     }
 }
 

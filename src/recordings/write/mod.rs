@@ -111,7 +111,7 @@ impl<'a> Recorder<'a> {
         check(fps)?;
         let RecordForm { format, packed } = form;
         if packed && !format.is_text() {
-            return Err(RecordingError::NoText { format }.into());
+            return Err(RecordingError::NoText { format });
         }
         if file.is_stream() && !format.is_text() {
             return Err(RecordingError::NoText { format });
@@ -141,7 +141,7 @@ impl<'a> Recorder<'a> {
         world: RecordedWorld<'a>,
     ) -> Result<Recorder<'a>, RecordingError> {
         check(fps)?;
-        let Some(layout) = layout(format, fps) else { return Err(RecordingError::NoText { format }.into()) };
+        let Some(layout) = layout(format, fps) else { return Err(RecordingError::NoText { format }) };
         let out = Out::Plain(io::BufWriter::with_capacity(1 << 16, out));
         let text = Text::begin(out, layout).map_err(unnamed)?;
         Ok(Recorder::new(world, fps, format, Box::new(text), None))

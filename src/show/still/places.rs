@@ -170,7 +170,7 @@ impl RayGrid {
     /// Share of a picture that is floor.
     fn floor_share(&self, camera: &Camera, [width, height]: [u32; 2]) -> f64 {
         const ACROSS: usize = 72;
-        let lens = Lens::of(&camera, [width, height]);
+        let lens = Lens::of(camera, [width, height]);
         let up = (ACROSS * height as usize / width.max(1) as usize).clamp(4, 4 * ACROSS);
         let place = |k: usize, count: usize, size: u32| (k as f64 + 0.5) / count as f64 * f64::from(size);
         let is_floor = |k: &usize| {

@@ -88,7 +88,7 @@ impl<'a> Renderer<'a> {
         let light = LightMap::new(space, lighting);
         Renderer {
             space,
-            lens: Lens::of(&camera, size),
+            lens: Lens::of(camera, size),
             size,
             above,
             light,

@@ -114,7 +114,7 @@ fn outlines_have_three_points() {
 
 #[test]
 fn outlines_of_noisy_plans_are_sound() {
-    for_noisy_plans(|plan, tolerance_px, name| assert_traced(plan, tolerance_px, name));
+    for_noisy_plans(assert_traced);
 }
 
 #[test]
