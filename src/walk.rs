@@ -1,4 +1,4 @@
-//! The pipeline up to the motion: [`walk`] lets a crowd walk and writes down where everybody went; [`show`] does the
+//! The pipeline up to the motion: [`walk`] lets a crowd walk and writes down where everybody went; [`show()`] does the
 //! same for a motion that is given.
 
 use std::io;

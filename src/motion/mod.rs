@@ -1,6 +1,6 @@
 //! The hub: a motion as a stream of frames with the position of each person. Later stages do not know whether the
-//! frames were simulated, recorded, interpolated or spliced. A [`Recorder`] writes them to a file that other programs
-//! read, a [`Recording`] reads such files.
+//! frames were simulated, recorded, interpolated or spliced. A [`Recorder`](crate::recordings::Recorder) writes them to a file that other programs
+//! read, a [`Recording`](crate::recordings::Recording) reads such files.
 
 mod ensemble;
 mod error;

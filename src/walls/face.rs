@@ -31,11 +31,11 @@ impl Face {
 /// The point of a wall nearest to another point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
-    /// Distance from the point to the wall, metres. Never negative; see [`Walls::is_inside`].
+    /// Distance from the point to the wall, metres. Never negative; see [`Walls::is_inside`](super::Walls::is_inside).
     pub distance_m: f64,
     /// The point on the wall, metres.
     pub point_m: Vec2,
-    /// Index into [`Walls::faces`], or `None` for the walls of an apron.
+    /// Index into [`Walls::faces`](super::Walls::faces), or `None` for the walls of an apron.
     pub face: Option<usize>,
     /// Arc length from the face's start to the point, metres.
     pub along_m: f64,
@@ -48,7 +48,7 @@ pub struct Segment {
     pub a: Vec2,
     /// End, metres.
     pub b: Vec2,
-    /// Index into [`Walls::faces`], or `None` for the walls of an apron.
+    /// Index into [`Walls::faces`](super::Walls::faces), or `None` for the walls of an apron.
     pub face: Option<usize>,
     /// Arc length from the face's start to `a`, metres; 0 on an apron.
     pub along_m: f64,

@@ -55,7 +55,7 @@ impl Default for PageOptions {
 /// The textures of floor tiles or wall sheets, clean and dirty.
 #[derive(Clone, Debug)]
 pub struct PageSurface<'a> {
-    /// The images, by the number that [`SceneSurface`](super::scene::SceneSurface) gives.
+    /// The images, by the number that [`SceneSurface`](crate::show::scene::SceneSurface) gives.
     pub images: &'a [Reduced],
     /// Mean colour without dirt, sRGB.
     pub clean: Srgb8,
