@@ -227,5 +227,5 @@ fn mistakes_are_told() {
     // The time that would do is named.
     corridor(&path("corridor.txt"));
     let (_, said) = refused(folder.path(), &["corridor.txt", "--from", "0", "--to", "29"]);
-    assert!(said.contains("has the most people for longest"), "{said}");
+    assert!(said.contains("the most people are present for longest"), "{said}");
 }
