@@ -38,7 +38,7 @@ const RECORDINGS: [Recording; 3] = [
 
 pub fn measure() -> Measured {
     let mut table =
-        "| corridor | persons/m² | 5 % within, measured | recorded | nearest of all, measured | recorded |\n\
+        "| corridor | persons/m² | 5 % within, measured | recorded | minimum, measured | recorded |\n\
                      |---|---|---|---|---|---|\n"
             .to_string();
     let mut series = Vec::new();
