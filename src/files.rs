@@ -7,14 +7,17 @@ use std::path::{Path, PathBuf};
 use tempfile::TempPath;
 
 mod absolute;
+mod folder;
 mod input;
 mod lock;
 mod names;
 
 pub use absolute::absolute;
+pub use folder::files_in;
+pub(crate) use folder::{Entry, Unreadable, entries, have_same_bytes};
 pub use input::{LARGEST_IMAGE_BYTES, LARGEST_TEXT_BYTES, open_input, open_input_up_to, read_input, read_text};
 pub use lock::{LockError, NameLock};
-pub use names::{check_not_input, files_in, same_file};
+pub use names::{check_not_input, same_file};
 
 use names::{Destination, Stream};
 

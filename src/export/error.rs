@@ -2,6 +2,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::manifest::NotInside;
+use crate::files::Unreadable;
 use crate::progress::Interrupted;
 
 /// Why the `export` stage cannot go on.
@@ -177,6 +178,12 @@ pub enum ExportError {
     /// The user stopped the work.
     #[error(transparent)]
     Interrupted(#[from] Interrupted),
+}
+
+impl From<Unreadable> for ExportError {
+    fn from(Unreadable { path, source }: Unreadable) -> ExportError {
+        ExportError::Read { path, source }
+    }
 }
 
 impl ExportError {

@@ -7,10 +7,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use super::users::{entries, is_same};
+use super::users::is_same;
 use super::{ExportError, UNFINISHED, is_bake};
 use crate::export::manifest::{self, BakePath};
-use crate::files::{LockError, NameLock, absolute};
+use crate::files::{LockError, NameLock, absolute, entries};
 
 /// How long a reader waits for a bake whose folder is being renamed.
 const LONGEST_WAIT: Duration = Duration::from_secs(5);

@@ -118,18 +118,7 @@ fn a_damaged_file_of_walls_is_an_error_that_names_it() {
     let folder = OutputFolder::begin(&dir.path().join("out"), false).unwrap();
     let manifest = written(&folder, &sums, &plan, 512);
     let path = folder.path().join("sums/wall_sums.0.exr");
-    let whole = std::fs::read(&path).unwrap();
-    let mut bent = whole.clone();
-    for at in (400..whole.len()).step_by(97) {
-        bent[at] ^= 0x55;
-    }
-    for bytes in [&whole[..whole.len() / 2], &whole[..20], &[], &bent] {
-        std::fs::write(&path, bytes).unwrap();
-        let error = read_wall_sums(folder.path(), &manifest).map(|_| ()).unwrap_err();
-        assert!(error.to_string().contains("wall_sums.0.exr"), "{error}");
-    }
-    std::fs::remove_file(&path).unwrap();
-    assert!(matches!(read_wall_sums(folder.path(), &manifest), Err(ExportError::Read { .. })));
+    super::super::file::assert_damage_is_named(&path, || read_wall_sums(folder.path(), &manifest).map(|_| ()));
 }
 
 /// Something that is wrong with a manifest.
