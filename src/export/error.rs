@@ -1,7 +1,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::manifest::NotInside;
+use super::output_size::Estimate;
 use crate::files::Unreadable;
 use crate::progress::Interrupted;
 
@@ -139,7 +139,7 @@ pub enum ExportError {
         /// The output as the user gave it.
         path: PathBuf,
         /// What it would write.
-        estimate: super::Estimate,
+        estimate: Estimate,
         /// Bytes that are free on its disk, where the system tells.
         free: Option<u64>,
     },
@@ -234,6 +234,14 @@ impl ExportError {
     pub(super) fn damaged(path: &Path, problem: impl std::fmt::Display) -> ExportError {
         ExportError::Damaged { path: path.to_path_buf(), problem: problem.to_string() }
     }
+}
+
+/// A path that is no plain name inside a bake.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the path {path:?} does not stay inside the bake: allowed are plain names with / between them")]
+pub struct NotInside {
+    /// The path.
+    pub path: String,
 }
 
 fn write_hint(source: &io::Error) -> Option<String> {

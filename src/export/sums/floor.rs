@@ -1,8 +1,9 @@
 use std::path::Path;
 
 use super::file::{SumsImage, read_image, write_image};
+use crate::export::bake_path::{BakePath, MANIFEST_NAME};
 use crate::export::layout::{Tile, TileLayout};
-use crate::export::manifest::{self, BakePath, Manifest, PresenceEntry, SumsEntry, TileEntry};
+use crate::export::manifest::{Manifest, PresenceEntry, SumsEntry, TileEntry};
 use crate::export::{ExportError, FloorTextures, OutputFolder};
 use crate::progress::Progress;
 use crate::stamps::TexelGrid;
@@ -99,7 +100,7 @@ impl SumsImage for FloorImage<'_> {
 pub fn read_sums(bake: &Path, manifest: &Manifest) -> Result<FloorSums, ExportError> {
     let floor = &manifest.floor;
     let grid = TexelGrid { texels_per_metre: floor.texels_per_metre, width: floor.width_px, height: floor.height_px };
-    let in_manifest = |problem: &str| ExportError::damaged(&bake.join(manifest::FILE_NAME), problem);
+    let in_manifest = |problem: &str| ExportError::damaged(&bake.join(MANIFEST_NAME), problem);
     for quantity in Quantity::ALL {
         if floor.sums.one.get(quantity.name()) != Some(&quantity.one()) {
             return Err(in_manifest(&format!("`floor.sums.one.{}` is not {}", quantity.name(), quantity.one())));

@@ -1,5 +1,5 @@
 use super::*;
-use crate::export::{Atlas, Manifest, Target};
+use crate::export::{Atlas, BakePath, Manifest, SheetEntry, Target};
 use crate::math::SplitMix64;
 use crate::plan::FloorPlan;
 use crate::progress::Silent;
@@ -52,11 +52,11 @@ fn everything(sums: &WallSums) -> Vec<Vec<u32>> {
 /// Writes sums as a bake does, without its textures.
 fn written(folder: &OutputFolder, sums: &WallSums, (plan, walls): &(FloorPlan, Walls), sheet_px: u32) -> Manifest {
     let atlas = Atlas::pack(sums.grid(), &walls.corners(), sheet_px, 4).unwrap();
-    let entry = |(number, sheet): (usize, &Sheet)| manifest::SheetEntry {
+    let entry = |(number, sheet): (usize, &Sheet)| SheetEntry {
         width_px: sheet.width,
         height_px: sheet.height,
-        sums: manifest::BakePath::new(format!("sums/wall_sums.{number}.exr")).unwrap(),
-        ..manifest::SheetEntry::default()
+        sums: BakePath::new(format!("sums/wall_sums.{number}.exr")).unwrap(),
+        ..SheetEntry::default()
     };
     let textures = WallTextures {
         sheets: atlas.sheets.iter().enumerate().map(entry).collect(),
