@@ -27,6 +27,14 @@ macro_rules! stages {
                     Error::Interrupted(_) => None,
                 }
             }
+
+            /// The remedy of an error that is this one or that of a stage, as it comes out of a box of any error.
+            pub fn hint_of(error: &(dyn std::error::Error + 'static)) -> Option<String> {
+                $(if let Some(error) = error.downcast_ref::<$Error>() {
+                    return error.hint();
+                })*
+                error.downcast_ref::<Error>()?.hint()
+            }
         }
 
         $(impl From<$Error> for Error {
@@ -48,11 +56,11 @@ stages! {
     /// Kept outlines are no walls.
     Walls(walls::WallsError);
     /// A route leads nowhere.
-    Routes(routes::RoutesError) { routes::RoutesError::Interrupted };
+    Routes(routes::RoutesError) { routes::RoutesError::Interrupted(_) };
     /// A motion cannot go on, or cannot be held.
     Motion(motion::MotionError) { motion::MotionError::Interrupted(_) };
     /// A recording cannot be read or written.
-    Recording(recordings::RecordingError) { recordings::RecordingError::Interrupted { .. } };
+    Recording(recordings::RecordingError) { recordings::RecordingError::Interrupted(_) };
     /// Formations cannot be interpolated.
     Formation(formation::FormationError) { formation::FormationError::Interrupted(_) };
     /// Features cannot be worked on.
@@ -81,4 +89,21 @@ stages! {
     Still(show::still::StillError) { show::still::StillError::Export(export::ExportError::Interrupted(_)) };
     /// The scenario file is wrong.
     Scenario(scenario::ScenarioError);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_boxed_error_of_any_stage_keeps_its_remedy() {
+        let errors: [Box<dyn std::error::Error>; 3] = [
+            Box::new(routes::RoutesError::SameStop { name: "bar".into() }),
+            Box::new(Error::from(routes::RoutesError::SameStop { name: "bar".into() })),
+            Box::new(std::io::Error::other("full")),
+        ];
+        let hints = errors.map(|error| Error::hint_of(&*error));
+        let expected = Some("give each [[stop]] a name of its own".to_string());
+        assert_eq!(hints, [expected.clone(), expected, None]);
+    }
 }

@@ -40,7 +40,7 @@ const ORDER: [&str; 24] = [
 /// Longest file, lines.
 const LONGEST: usize = 600;
 /// Rooms whose files still import each other. This list only ever gets shorter.
-const WITH_RINGS: [&str; 5] = ["cli", "export", "files", "plan", "scenario"];
+const WITH_RINGS: [&str; 1] = ["scenario"];
 
 /// A path of names, as `["walls", "Face"]`.
 type Names = Vec<String>;
@@ -292,6 +292,48 @@ fn the_scan_finds_what_code_names() {
     let needs = source.needs();
     let of = |name: &str| &needs[&Names::from([name.to_string()])];
     assert!(of("bake").iter().any(|names| names[0] == "show") && of("error").iter().any(|names| names[0] == "plan"));
+}
+
+/// Error types that have a remedy, and the types that each type's variants wrap.
+#[derive(Default)]
+struct Errors {
+    with_hint: BTreeSet<String>,
+    wrapped_by: BTreeMap<String, BTreeSet<String>>,
+}
+
+fn last_name(path: &syn::Type) -> Option<String> {
+    let syn::Type::Path(path) = path else { return None };
+    path.path.segments.last().map(|segment| segment.ident.to_string())
+}
+
+impl<'a> Visit<'a> for Errors {
+    fn visit_item_enum(&mut self, item: &'a syn::ItemEnum) {
+        for wrapped in item.variants.iter().flat_map(|v| &v.fields).filter_map(|field| last_name(&field.ty)) {
+            self.wrapped_by.entry(wrapped).or_default().insert(item.ident.to_string());
+        }
+    }
+
+    fn visit_item_impl(&mut self, item: &'a syn::ItemImpl) {
+        let is_hint = |item: &syn::ImplItem| matches!(item, syn::ImplItem::Fn(f) if f.sig.ident == "hint");
+        if item.items.iter().any(is_hint) {
+            self.with_hint.extend(last_name(&item.self_ty));
+        }
+    }
+}
+
+/// `trodden::Error` finds the remedy of every error that a caller can box.
+#[test]
+fn no_error_with_a_remedy_is_forgotten() {
+    let mut errors = Errors::default();
+    for file in files_in("src") {
+        errors.visit_file(&syn::parse_file(&fs::read_to_string(file).unwrap()).unwrap());
+    }
+    assert!(errors.with_hint.len() > 20, "{:?}", errors.with_hint);
+    let gathered = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/error.rs")).unwrap();
+    let is_listed = |error: &String| gathered.contains(&format!("::{error})"));
+    let is_wrapped = |error: &String| errors.wrapped_by.get(error).is_some_and(|by| by.iter().any(is_listed));
+    let forgotten: Vec<_> = errors.with_hint.iter().filter(|error| !is_listed(error) && !is_wrapped(error)).collect();
+    assert!(forgotten.is_empty(), "neither src/error.rs nor an error listed there names {forgotten:?}");
 }
 
 #[test]

@@ -39,7 +39,7 @@ pub struct Crowd {
 
 impl Crowd {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
-        self.files.check(&["crowd"], self.json);
+        self.files.check(&["crowd"], self.json)?;
         let scenario = self.scenario.scenario()?;
         let outputs = WalkOutputs { fps: self.fps, ..self.files.outputs() };
         let report = walk(&scenario, &outputs, &Watch::new(common)).map_err(|error| self.scenario.explain(error))?;

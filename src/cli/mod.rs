@@ -3,10 +3,11 @@
 use std::process::ExitCode;
 
 use clap::builder::styling::{AnsiColor, Styles};
-use clap::{Args, ColorChoice, Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 mod arguments;
 mod bake;
+mod common;
 mod crowd;
 mod diff;
 mod import_pattern;
@@ -20,6 +21,9 @@ mod resolve;
 mod signals;
 mod standard_input;
 mod view;
+
+use arguments::WrongUsage;
+use common::Common;
 
 /// Turns a bitmap floor plan into the dirt that people leave in it.
 #[derive(Parser)]
@@ -43,25 +47,6 @@ enum Command {
     Inspect(inspect::Inspect),
     Patterns(patterns::Patterns),
     Diff(diff::Diff),
-}
-
-/// What every subcommand takes.
-#[derive(Args)]
-#[command(next_help_heading = "Common options")]
-pub struct Common {
-    /// Say nothing but errors
-    #[arg(short, long, global = true, conflicts_with = "verbose")]
-    quiet: bool,
-    /// Say more: seconds of each stage, memory
-    #[arg(short, long, global = true)]
-    verbose: bool,
-    /// How many threads work, 1 to 256; all results are the same for any number [default: all cores]
-    #[arg(long, global = true, value_name = "N", allow_negative_numbers = true)]
-    #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
-    threads: Option<u16>,
-    /// When to colour messages
-    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
-    color: ColorChoice,
 }
 
 const STYLES: Styles = Styles::styled()
@@ -91,7 +76,7 @@ impl Cli {
     pub fn run(&self) -> anyhow::Result<ExitCode> {
         signals::survive_size_limit();
         self.common.start_threads()?;
-        match &self.command {
+        let ran = match &self.command {
             Command::Bake(bake) => bake.run(&self.common),
             Command::Crowd(crowd) => crowd.run(&self.common),
             Command::Motion(motion) => motion.run(&self.common),
@@ -101,7 +86,11 @@ impl Cli {
             Command::Inspect(inspect) => inspect.run(&self.common),
             Command::Patterns(patterns) => patterns.run(&self.common),
             Command::Diff(diff) => diff.run(&self.common),
+        };
+        if let Some(usage) = ran.as_ref().err().and_then(|error| error.downcast_ref()) {
+            refuse(usage);
         }
+        ran
     }
 
     /// Prints why it could not be done; gives the exit code. Ends by a signal where one was caught.
@@ -112,17 +101,21 @@ impl Cli {
     }
 }
 
-impl Common {
-    fn start_threads(&self) -> anyhow::Result<()> {
-        let threads = self.threads.map_or(0, usize::from);
-        Ok(rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?)
+/// Prints what is wrong with the command line and how the subcommand is used, and exits.
+fn refuse(usage: &WrongUsage) {
+    let mut cli = Cli::command();
+    // So that the usage is that of the whole command.
+    cli.build();
+    let mut found = &mut cli;
+    for name in usage.command {
+        let Some(next) = found.find_subcommand_mut(name) else { return };
+        found = next;
     }
+    found.error(usage.kind, &usage.message).exit();
 }
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory;
-
     use super::*;
 
     #[test]

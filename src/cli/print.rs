@@ -44,35 +44,13 @@ pub fn failure(error: &anyhow::Error, common: &Common) -> ExitCode {
             last = cause;
         }
     }
-    let ours = hint_of(error);
+    let ours = error.chain().find_map(trodden::Error::hint_of);
     let refused = error.downcast_ref::<Refused>().and_then(|refused| refused.hint.as_ref()).map(ToString::to_string);
     if let Some(hint) = ours.or(refused) {
         text.push_str(&format!("{} {}\n", label("hint", HINT, colour), plain(&hint)));
     }
     to_stderr(&text);
     ExitCode::FAILURE
-}
-
-/// The hint of an error of the library, of a stage or of the whole.
-fn hint_of(error: &anyhow::Error) -> Option<String> {
-    macro_rules! first_of {
-        ($($Error:ty),* $(,)?) => {
-            $(if let Some(found) = error.downcast_ref::<$Error>() { return found.hint(); })*
-        };
-    }
-    first_of!(
-        trodden::Error,
-        trodden::files::FileError,
-        trodden::motion::MotionError,
-        trodden::recordings::RecordingError,
-        trodden::formation::FormationError,
-        trodden::features::FeaturesError,
-        trodden::units::UnitsError,
-        trodden::look::LookError,
-        trodden::export::ExportError,
-        trodden::scenario::ScenarioError,
-    );
-    None
 }
 
 /// The text of a warning.

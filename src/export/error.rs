@@ -1,7 +1,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::manifest::NotInside;
+use super::output_size::Estimate;
+use crate::files::Unreadable;
 use crate::progress::Interrupted;
 
 /// Why the `export` stage cannot go on.
@@ -138,7 +139,7 @@ pub enum ExportError {
         /// The output as the user gave it.
         path: PathBuf,
         /// What it would write.
-        estimate: super::Estimate,
+        estimate: Estimate,
         /// Bytes that are free on its disk, where the system tells.
         free: Option<u64>,
     },
@@ -177,6 +178,12 @@ pub enum ExportError {
     /// The user stopped the work.
     #[error(transparent)]
     Interrupted(#[from] Interrupted),
+}
+
+impl From<Unreadable> for ExportError {
+    fn from(Unreadable { path, source }: Unreadable) -> ExportError {
+        ExportError::Read { path, source }
+    }
 }
 
 impl ExportError {
@@ -227,6 +234,14 @@ impl ExportError {
     pub(super) fn damaged(path: &Path, problem: impl std::fmt::Display) -> ExportError {
         ExportError::Damaged { path: path.to_path_buf(), problem: problem.to_string() }
     }
+}
+
+/// A path that is no plain name inside a bake.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the path {path:?} does not stay inside the bake: allowed are plain names with / between them")]
+pub struct NotInside {
+    /// The path.
+    pub path: String,
 }
 
 fn write_hint(source: &io::Error) -> Option<String> {

@@ -1,5 +1,6 @@
+use serde::{Deserialize, Serialize};
+
 use super::ExportError;
-use super::manifest::Naming;
 use crate::math::{Rect, vec2};
 use crate::stamps::TexelGrid;
 
@@ -37,6 +38,17 @@ pub struct Tile {
     pub width: u32,
     /// Height, texels.
     pub height: u32,
+}
+
+/// How the tiles of a floor are named.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Naming {
+    #[default]
+    /// `.1001.`, 1001 + u + 10 v: up to 10 x 10 tiles.
+    Udim,
+    /// `_u012_v003.`: any number.
+    Uv,
 }
 
 impl TileLayout {

@@ -1,6 +1,7 @@
 //! Writes the result: textures, sums, previews, manifest, report.
 
 mod atlas;
+mod bake_path;
 mod band;
 mod birdseye;
 mod busy;
@@ -13,7 +14,9 @@ mod exr_tiles;
 mod layout;
 mod manifest;
 mod memory;
+mod options;
 mod output;
+mod output_size;
 mod png;
 mod reduced;
 pub(crate) mod reduction;
@@ -24,20 +27,23 @@ mod targets;
 mod textures;
 
 pub use atlas::{Atlas, Sheet, Strip};
+pub use bake_path::BakePath;
 pub use birdseye::Birdseye;
 pub use camera::{Camera, CameraError, DEFAULT_FOV_DEG, FOV_DEG, StillEntry};
-pub use error::ExportError;
-pub use estimate::{Estimate, LARGE_BYTES};
-pub use layout::{BLOCK, Tile, TileLayout};
+pub use error::{ExportError, NotInside};
+pub use estimate::LARGE_BYTES;
+pub use layout::{BLOCK, Naming, Tile, TileLayout};
 pub use manifest::{
-    BakePath, CROP_M, ChannelEntry, FORMAT, FloorEntry, GENERATOR, Manifest, ManifestError, Naming, NotInside,
-    PlanEntry, PresenceEntry, PreviewEntry, SheetEntry, StripEntry, SumsEntry, TileEntry, WallsEntry,
+    CROP_M, ChannelEntry, FORMAT, FloorEntry, GENERATOR, Manifest, ManifestError, PlanEntry, PresenceEntry,
+    PreviewEntry, SheetEntry, StripEntry, SumsEntry, TileEntry, WallsEntry,
 };
 pub use memory::peak_memory_mib;
+pub use options::TextureOptions;
 pub use output::{OutputFile, OutputFolder, is_bake, restore, settled};
+pub use output_size::Estimate;
 pub use reduced::Reduced;
 pub use report::{PeopleReport, Report, StuckReport};
 pub use source::{SheetSource, TextureSource, WallSource};
 pub use sums::{read_sums, read_wall_sums, write_sums, write_wall_sums};
 pub use targets::{Target, TargetEntry, WorldEntry, write_target_files};
-pub use textures::{FloorTextures, PADDING_PX, TextureOptions, WallTextures, floor_textures, wall_textures};
+pub use textures::{FloorTextures, PADDING_PX, WallTextures, floor_textures, wall_textures};

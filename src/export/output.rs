@@ -5,22 +5,19 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use super::ExportError;
-use super::manifest::{self, BakePath, Manifest};
+use super::bake_path::{BakePath, MANIFEST_NAME};
+use super::manifest::Manifest;
 use crate::files::{FileError, LockError, NameLock};
 
 mod places;
 mod settled;
 mod users;
 
-pub use places::restore;
+pub use places::{is_bake, restore};
 pub use settled::settled;
 
-use places::Places;
+use places::{Places, UNFINISHED};
 use users::UserFiles;
-
-/// Marks the hidden folder while results are collected in it. By this the leftovers of a killed run are told from a
-/// folder of the user.
-const UNFINISHED: &str = ".unfinished";
 
 /// Files that the system puts into folders that somebody looks at.
 const LITTER: [&str; 3] = [".DS_Store", "Thumbs.db", "desktop.ini"];
@@ -205,11 +202,11 @@ impl OutputFolder {
     /// The manifest cannot be written; something else than the earlier bake is in the output's place by now; a folder
     /// cannot be renamed. The earlier bake is in its place then.
     pub fn publish(mut self, manifest: &Manifest) -> Result<(), ExportError> {
-        self.note(BakePath::new(manifest::FILE_NAME)?);
+        self.note(BakePath::new(MANIFEST_NAME)?);
         let files: Vec<BakePath> =
             std::mem::take(&mut *self.files.lock().unwrap_or_else(PoisonError::into_inner)).into_iter().collect();
         let manifest = Manifest { files, ..manifest.clone() };
-        self.write(manifest::FILE_NAME, &manifest.to_json())?;
+        self.write(MANIFEST_NAME, &manifest.to_json())?;
         self.take_user_files_over(&manifest.files)?;
         let new = &self.places.new;
         if self.places.output.exists() {
@@ -247,11 +244,6 @@ impl Drop for OutputFolder {
             let _ = fs::remove_dir(parent);
         }
     }
-}
-
-/// Whether the folder holds a bake of ours, as its manifest's `generator` says.
-pub fn is_bake(folder: &Path) -> bool {
-    manifest::generator(folder).is_ok_and(|generator| generator == manifest::GENERATOR)
 }
 
 /// Makes sure that the output may be replaced; gives the files that the earlier bake in it lists.

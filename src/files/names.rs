@@ -99,12 +99,6 @@ fn real(path: &Path) -> PathBuf {
     }
 }
 
-/// The files that lie in a folder itself; nothing if it cannot be read.
-pub fn files_in(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    entries.map(|entry| entry.path()).filter(|path| path.is_file()).collect()
-}
-
 /// Makes sure that an output is none of the files that the same run reads.
 ///
 /// # Errors

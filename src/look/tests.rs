@@ -175,17 +175,17 @@ impl Resolved {
     }
 }
 
-fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
+pub(in crate::look) fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
     let (sum, count) = values.into_iter().fold((0.0, 0), |(sum, count), value| (sum + value, count + 1));
     sum / f64::from(count)
 }
 
-fn sd(values: &[f64]) -> f64 {
+pub(in crate::look) fn sd(values: &[f64]) -> f64 {
     let middle = mean(values.iter().copied());
     mean(values.iter().map(|value| (value - middle) * (value - middle))).sqrt()
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
+pub(in crate::look) fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]
 }

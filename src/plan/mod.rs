@@ -21,6 +21,7 @@ mod open_ground;
 mod openings;
 mod options;
 mod palette;
+mod pixels;
 mod read;
 mod regions;
 mod ros_map;

@@ -9,7 +9,7 @@ use std::path::Path;
 use image::{DynamicImage, GrayImage, ImageReader, RgbImage};
 
 use super::PlanError;
-use super::image_file::{damaged, limits, pixels};
+use super::pixels::{damaged, limits, pixels};
 use crate::files::{LARGEST_IMAGE_BYTES, read_input};
 
 /// Tags and a value of them.

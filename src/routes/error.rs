@@ -1,12 +1,13 @@
 use crate::math::Vec2;
+use crate::progress::Interrupted;
 
 /// Errors of the routes stage.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RoutesError {
     /// The user stopped the work.
-    #[error("interrupted")]
-    Interrupted,
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
     /// Unknown name of an opening.
     #[error("route \"{route}\": the plan has no opening called \"{name}\"{}", list(.openings))]
     UnknownOpening {
@@ -227,7 +228,7 @@ impl RoutesError {
             }
             RoutesError::NoLength { .. } => Some("give another goal, or a place to pass with `via`".into()),
             RoutesError::Share { .. } | RoutesError::NoShares { .. } | RoutesError::TooMany { .. } => None,
-            RoutesError::StopValue { .. } | RoutesError::Timetable { .. } | RoutesError::Interrupted => None,
+            RoutesError::StopValue { .. } | RoutesError::Timetable { .. } | RoutesError::Interrupted(_) => None,
         }
     }
 }

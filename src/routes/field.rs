@@ -1,7 +1,6 @@
-use super::RoutesError;
 use super::ground::Ground;
-use crate::Progress;
 use crate::math::{Vec2, vec2};
+use crate::progress::{Interrupted, Progress};
 
 /// Walking distance from everywhere to one place: metres, where a metre close to walls counts for more.
 ///
@@ -52,10 +51,10 @@ impl Field {
         ground: &Ground,
         goal: &[usize],
         progress: &dyn Progress,
-    ) -> Result<Field, RoutesError> {
+    ) -> Result<Field, Interrupted> {
         let seeds = goal.iter().map(|&cell| (cell, 0.0)).collect();
         let field = Field::spread(ground, seeds, |_, _| !progress.interrupted());
-        if progress.interrupted() { Err(RoutesError::Interrupted) } else { Ok(field) }
+        progress.keep_on().map(|()| field)
     }
 
     /// The least of `value + distance` over cells with values of 0 or more, in those cells for which `wanted` says so.

@@ -6,9 +6,9 @@ use rayon::prelude::*;
 
 use super::field::Field;
 use super::ground::Ground;
-use super::{Place, RoutesError, targets};
+use super::{Place, targets};
 use crate::plan::FloorPlan;
-use crate::progress::Progress;
+use crate::progress::{Interrupted, Progress};
 
 /// A place that a leg leads to, and whether it is the route's last.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,12 +44,12 @@ impl FieldStore<'_> {
     }
 
     /// Gives up once the user wants the work to stop.
-    pub(super) fn keep_on(&self) -> Result<(), RoutesError> {
-        self.progress.keep_on().map_err(|_| RoutesError::Interrupted)
+    pub(super) fn keep_on(&self) -> Result<(), Interrupted> {
+        self.progress.keep_on()
     }
 
     /// The field to some cells, which is not kept.
-    pub(super) fn measure(&self, ground: &Ground, goal: &[usize]) -> Result<Field, RoutesError> {
+    pub(super) fn measure(&self, ground: &Ground, goal: &[usize]) -> Result<Field, Interrupted> {
         Field::to_unless_interrupted(ground, goal, self.progress)
     }
 
@@ -59,7 +59,7 @@ impl FieldStore<'_> {
         plan: &FloorPlan,
         ground: &Ground,
         wanted: impl Iterator<Item = LegEnd>,
-    ) -> Result<(), RoutesError> {
+    ) -> Result<(), Interrupted> {
         let mut missing: Vec<LegEnd> = Vec::new();
         for end in wanted {
             if !missing.contains(&end) && self.fields.iter().all(|f| f.0 != end) {
@@ -67,7 +67,7 @@ impl FieldStore<'_> {
             }
         }
         let make = |end: LegEnd| Ok((end, Arc::new(self.measure(ground, &end.cells(plan, ground))?)));
-        let made: Vec<_> = missing.into_par_iter().map(make).collect::<Result<_, RoutesError>>()?;
+        let made: Vec<_> = missing.into_par_iter().map(make).collect::<Result<_, Interrupted>>()?;
         self.fields.extend(made);
         Ok(())
     }

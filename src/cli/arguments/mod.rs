@@ -10,9 +10,11 @@ use trodden::scenario::{Overrides, Preset, Scenario, allowed_range};
 use super::standard_input::{self, Spool};
 
 mod motion_files;
+mod usage;
 mod values;
 
 pub use motion_files::{MotionFiles, STANDARD_OUTPUT, frame_rate, recording_format};
+pub use usage::WrongUsage;
 pub use values::{number_within, one_of, within};
 
 /// Texel density of a quick bake, texels per metre.

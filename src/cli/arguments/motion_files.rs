@@ -2,15 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
-use clap::{Args, CommandFactory};
 use trodden::files::{WholeFile, same_file};
 use trodden::recordings::{FRAME_RATES, RecordForm, RecordingFormat};
 use trodden::show::{ANIMATION_SIZES_PX, ANIMATION_SPEEDS, AnimationColour, AnimationFormat, AnimationOptions};
 use trodden::walk::{MotionOutput, WalkOutputs, WalkReport};
 
-use super::super::{Cli, Common, print};
+use super::super::{Common, print};
+use super::usage::WrongUsage;
 use super::{number_within, one_of};
 
 /// Where a motion and pictures of it are written.
@@ -45,19 +46,18 @@ pub struct MotionFiles {
 }
 
 impl MotionFiles {
-    /// Ends the program where options contradict each other.
-    pub fn check(&self, command: &[&str], json: bool) {
+    /// Refuses options of a subcommand that contradict each other.
+    pub fn check(&self, command: &'static [&'static str], json: bool) -> Result<(), WrongUsage> {
+        let refuse = |kind: ErrorKind, message: String| Err(WrongUsage { command, kind, message });
         if let Err(problem) = self.form() {
             let path = self.output.as_deref().unwrap_or(Path::new("")).display();
             let message = format!("invalid value '{path}' for '--output <FILE>': {problem}");
-            refuse(command, ErrorKind::ValueValidation, &message);
+            return refuse(ErrorKind::ValueValidation, message);
         }
         if self.prints_motion() && json {
-            refuse(
-                command,
-                ErrorKind::ArgumentConflict,
-                "the motion and the JSON summary cannot both go to standard output: name a file with --output",
-            );
+            let message =
+                "the motion and the JSON summary cannot both go to standard output: name a file with --output";
+            return refuse(ErrorKind::ArgumentConflict, message.to_string());
         }
         let output = self.output.as_ref().filter(|_| !self.prints_motion());
         let files = [("--output", output), ("--animation", self.animation.as_ref()), ("--paths", self.paths.as_ref())];
@@ -67,10 +67,11 @@ impl MotionFiles {
                     && same_file(file, other)
                 {
                     let message = format!("{option} and {other_option} name the same file");
-                    refuse(command, ErrorKind::ArgumentConflict, &message);
+                    return refuse(ErrorKind::ArgumentConflict, message);
                 }
             }
         }
+        Ok(())
     }
 
     /// Makes sure that all files can be written, before the work that they are for.
@@ -178,18 +179,6 @@ impl MotionFiles {
 
 /// The file name that means standard output.
 pub const STANDARD_OUTPUT: &str = "-";
-
-fn refuse(command: &[&str], kind: ErrorKind, message: &str) {
-    let mut cli = Cli::command();
-    // So that the usage is that of the whole command.
-    cli.build();
-    let mut found = &mut cli;
-    for name in command {
-        let Some(next) = found.find_subcommand_mut(name) else { return };
-        found = next;
-    }
-    found.error(kind, message).exit();
-}
 
 /// Minutes and seconds.
 fn duration(seconds: f64) -> String {

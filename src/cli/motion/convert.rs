@@ -28,7 +28,7 @@ pub struct Convert {
 
 impl Convert {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
-        self.outputs.files.check(&["motion", "convert"], self.outputs.json);
+        self.outputs.files.check(&["motion", "convert"], self.outputs.json)?;
         self.outputs.files.probe()?;
         let watch = Watch::new(common);
         let given = Given::recording(self.input.open(&watch)?);

@@ -124,7 +124,7 @@ struct Everything<'a> {
 impl Features {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
         let (files, json) = (&self.outputs.files, self.outputs.json);
-        files.check(&["motion", "features"], json);
+        files.check(&["motion", "features"], json)?;
         files.probe()?;
         let watch = Watch::new(common);
         let (summary, mut made) = self.make(&watch)?;

@@ -93,7 +93,7 @@ struct Parts {
 
 impl Formation {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
-        self.outputs.files.check(&["motion", "formation"], self.outputs.json);
+        self.outputs.files.check(&["motion", "formation"], self.outputs.json)?;
         self.outputs.files.probe()?;
         let watch = Watch::new(common);
         let report = match &self.scenario {

@@ -1,7 +1,7 @@
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-use super::{Sheet, Strip};
+use super::sheet::{Sheet, Strip};
 use crate::export::{ExportError, TileLayout};
 use crate::stamps::WallGrid;
 use crate::walls::Corner;

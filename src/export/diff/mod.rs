@@ -1,14 +1,13 @@
 //! Compares two bakes, or two images: images texel by texel, other files byte by byte.
 
 use std::collections::BTreeSet;
-use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::{ExportError, Manifest, Report, settled};
+use crate::files::{entries, have_same_bytes};
 
 mod heat;
 mod rows;
@@ -178,7 +177,7 @@ enum Found {
 /// Compares a file that both bakes have.
 fn diff_files(a: &Path, b: &Path, file: &str, options: &DiffOptions) -> Result<Found, ExportError> {
     let (path_a, path_b) = (a.join(file), b.join(file));
-    let same = same_bytes(&path_a, &path_b)?;
+    let same = have_same_bytes(&path_a, &path_b)?;
     if !(file.ends_with(".png") || file.ends_with(".exr")) {
         return Ok(if same { Found::Same } else { Found::Different });
     }
@@ -195,40 +194,9 @@ fn diff_files(a: &Path, b: &Path, file: &str, options: &DiffOptions) -> Result<F
 
 /// All files below a folder, by their paths in it, with `/` between the parts.
 fn files_in(folder: &Path) -> Result<BTreeSet<String>, ExportError> {
-    let mut files = BTreeSet::new();
-    let mut open = vec![(folder.to_path_buf(), String::new())];
-    while let Some((at, prefix)) = open.pop() {
-        for entry in std::fs::read_dir(&at).map_err(ExportError::read(&at))? {
-            let entry = entry.map_err(ExportError::read(&at))?;
-            let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
-            // Links to folders are not followed: they may lead back.
-            match entry.file_type().map_err(ExportError::read(&at))?.is_dir() {
-                true => open.push((entry.path(), format!("{name}/"))),
-                false => drop(files.insert(name)),
-            }
-        }
-    }
-    Ok(files)
-}
-
-/// Whether two files hold the same bytes.
-fn same_bytes(a: &Path, b: &Path) -> Result<bool, ExportError> {
-    let open = |path: &Path| File::open(path).map_err(ExportError::read(path));
-    let (mut file_a, mut file_b) = (open(a)?, open(b)?);
-    let length = |file: &File, path: &Path| file.metadata().map_err(ExportError::read(path)).map(|about| about.len());
-    if length(&file_a, a)? != length(&file_b, b)? {
-        return Ok(false);
-    }
-    let (mut bytes_a, mut bytes_b) = (Vec::new(), Vec::new());
-    loop {
-        for (file, path, bytes) in [(&mut file_a, a, &mut bytes_a), (&mut file_b, b, &mut bytes_b)] {
-            bytes.clear();
-            file.take(1 << 16).read_to_end(bytes).map_err(ExportError::read(path))?;
-        }
-        if bytes_a != bytes_b || bytes_a.is_empty() {
-            return Ok(bytes_a == bytes_b);
-        }
-    }
+    let files = entries(folder)?.into_iter().filter(|entry| !entry.kind.is_dir());
+    let parts = |path: &Path| Vec::from_iter(path.iter().map(|part| part.to_string_lossy())).join("/");
+    Ok(files.map(|entry| parts(&entry.relative)).collect())
 }
 
 /// The heat of all files, each laid over the piece of floor that it shows.

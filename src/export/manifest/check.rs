@@ -5,8 +5,8 @@
 
 use std::fmt::Display;
 
-use super::{FloorEntry, Manifest, Naming, PlanEntry, PreviewEntry, TileEntry, WallsEntry};
-use crate::export::layout::{Tile, TileLayout};
+use super::{FloorEntry, Manifest, PlanEntry, PreviewEntry, TileEntry, WallsEntry};
+use crate::export::layout::{Naming, Tile, TileLayout};
 use crate::math::Vec2;
 use crate::plan::{LARGEST_M_PER_PX, LARGEST_ORIGIN_M, LARGEST_SIDE_M, SMALLEST_M_PER_PX};
 use crate::stamps::TexelGrid;

@@ -2,10 +2,12 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::ExportError;
+use super::bake_path::{BakePath, MANIFEST_NAME};
 use super::camera::StillEntry;
-use super::layout::TileLayout;
+use super::layout::{Naming, TileLayout};
+use super::options::TextureOptions;
 use super::targets::{TargetEntry, WorldEntry};
-use super::{ExportError, TextureOptions};
 use crate::files::read_input;
 use crate::look::Look;
 use crate::math::Vec2;
@@ -13,17 +15,13 @@ use crate::plan::{FloorPlan, Opening, Pose};
 use crate::routes::Route;
 use crate::walls::{Doorway, Outline, Walls, WallsError};
 
-mod bake_path;
 mod check;
 mod one_or_many;
 mod walls;
 
-pub use bake_path::{BakePath, NotInside};
 pub use check::{CROP_M, ManifestError};
 pub use walls::{SheetEntry, StripEntry, WallsEntry};
 
-/// The manifest's name in a bake.
-pub const FILE_NAME: &str = "manifest.json";
 /// The floor from above.
 const FLOOR_PICTURE: &str = "preview/floor.png";
 /// Largest manifest that is read, bytes.
@@ -115,17 +113,6 @@ pub struct FloorEntry {
     pub tiles: Vec<TileEntry>,
     /// The exact sums.
     pub sums: SumsEntry,
-}
-
-/// How the tiles of a floor are named.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Naming {
-    #[default]
-    /// `.1001.`, 1001 + u + 10 v: up to 10 x 10 tiles.
-    Udim,
-    /// `_u012_v003.`: any number.
-    Uv,
 }
 
 /// One channel of the images of a kind.
@@ -255,7 +242,7 @@ impl Manifest {
     /// # Errors
     /// It cannot be read as a look.
     pub fn look(&self, bake: &Path) -> Result<Look, ExportError> {
-        serde_json::from_value(self.look.clone()).map_err(|e| ExportError::damaged(&bake.join(FILE_NAME), e))
+        serde_json::from_value(self.look.clone()).map_err(|e| ExportError::damaged(&bake.join(MANIFEST_NAME), e))
     }
 
     /// Options that write the same textures again. Sheets of walls are not laid anew: see [`WallsEntry::atlas`].
@@ -287,11 +274,11 @@ impl Manifest {
     /// There is none, it is not ours, it is damaged, a value is out of its range or does not fit the others, or a later
     /// version wrote it.
     pub fn read(bake: &Path) -> Result<Manifest, ExportError> {
-        let path = bake.join(FILE_NAME);
+        let path = bake.join(MANIFEST_NAME);
         let json = read_input(&path, LARGEST_BYTES).map_err(ExportError::read(&path))?;
         let head: Head = serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))?;
         if head.generator != GENERATOR {
-            return Err(ExportError::NotABake { path: bake.to_path_buf(), found: FILE_NAME.to_string() });
+            return Err(ExportError::NotABake { path: bake.to_path_buf(), found: MANIFEST_NAME.to_string() });
         }
         if head.format > FORMAT {
             return Err(ExportError::NewerFormat { path, found: head.format, known: FORMAT });
@@ -319,18 +306,18 @@ pub(super) fn listed_files(folder: &Path) -> Result<Vec<BakePath>, ExportError> 
         generator: String,
         files: Vec<BakePath>,
     }
-    let path = folder.join(FILE_NAME);
+    let path = folder.join(MANIFEST_NAME);
     let json = read_input(&path, LARGEST_BYTES).map_err(ExportError::read(&path))?;
     let list: List = serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))?;
     if list.generator != GENERATOR {
-        return Err(ExportError::NotABake { path: folder.to_path_buf(), found: FILE_NAME.to_string() });
+        return Err(ExportError::NotABake { path: folder.to_path_buf(), found: MANIFEST_NAME.to_string() });
     }
     Ok(list.files)
 }
 
 /// The program that wrote the manifest in a folder.
 pub(super) fn generator(folder: &Path) -> Result<String, ExportError> {
-    let path = folder.join(FILE_NAME);
+    let path = folder.join(MANIFEST_NAME);
     let json = read_input(&path, LARGEST_BYTES).map_err(ExportError::read(&path))?;
     let head: Generator = serde_json::from_slice(&json).map_err(|e| ExportError::damaged(&path, e))?;
     Ok(head.generator)
@@ -431,7 +418,7 @@ mod tests {
 
     fn written(text: &[u8]) -> (tempfile::TempDir, Result<Manifest, ExportError>) {
         let dir = tempfile::tempdir().unwrap();
-        std::fs::write(dir.path().join(FILE_NAME), text).unwrap();
+        std::fs::write(dir.path().join(MANIFEST_NAME), text).unwrap();
         let read = Manifest::read(dir.path());
         (dir, read)
     }

@@ -1,7 +1,9 @@
 use serde::{Deserialize, Serialize};
 
-use super::{BakePath, ChannelEntry, Naming};
+use super::ChannelEntry;
 use crate::export::atlas::{Atlas, Sheet, Strip};
+use crate::export::bake_path::BakePath;
+use crate::export::layout::Naming;
 use crate::math::Vec2;
 
 /// All textures of the walls.

@@ -7,13 +7,23 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use super::users::{entries, is_same};
-use super::{ExportError, UNFINISHED, is_bake};
-use crate::export::manifest::{self, BakePath};
-use crate::files::{LockError, NameLock, absolute};
+use super::users::is_same;
+use crate::export::ExportError;
+use crate::export::bake_path::{BakePath, MANIFEST_NAME};
+use crate::export::manifest;
+use crate::files::{LockError, NameLock, absolute, entries};
+
+/// Marks the hidden folder while results are collected in it. By this the leftovers of a killed run are told from a
+/// folder of the user.
+pub(super) const UNFINISHED: &str = ".unfinished";
 
 /// How long a reader waits for a bake whose folder is being renamed.
 const LONGEST_WAIT: Duration = Duration::from_secs(5);
+
+/// Whether the folder holds a bake of ours, as its manifest's `generator` says.
+pub fn is_bake(folder: &Path) -> bool {
+    manifest::generator(folder).is_ok_and(|generator| generator == manifest::GENERATOR)
+}
 
 /// The output and what lies beside it while it is replaced.
 #[derive(Debug)]
@@ -163,7 +173,7 @@ pub fn restore(path: &Path) -> Result<bool, ExportError> {
 /// The files that a bake lists, its manifest among them.
 pub(super) fn listed(bake: &Path) -> Result<BTreeSet<PathBuf>, ExportError> {
     let files = manifest::listed_files(bake)?;
-    Ok(files.iter().map(|file| &**file).chain([manifest::FILE_NAME]).map(PathBuf::from).collect())
+    Ok(files.iter().map(|file| &**file).chain([MANIFEST_NAME]).map(PathBuf::from).collect())
 }
 
 /// Removes a bake: the files that it lists, and the user's files that are in `other` as well. Anything else of the
@@ -176,7 +186,7 @@ pub(super) fn listed(bake: &Path) -> Result<BTreeSet<PathBuf>, ExportError> {
 pub(super) fn clear(bake: &Path, other: &Path) -> io::Result<()> {
     // Of a manifest that cannot be read, no file is known to be ours.
     let listed = listed(bake).unwrap_or_default();
-    let manifest = Path::new(manifest::FILE_NAME);
+    let manifest = Path::new(MANIFEST_NAME);
     for entry in entries(bake)? {
         let (path, twin) = (bake.join(&entry.relative), other.join(&entry.relative));
         if entry.kind.is_dir() {

@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use same_file::Handle;
 
-use super::{ExportError, restore};
+use super::places::restore;
+use crate::export::ExportError;
 
 /// How often a read is begun.
 const TRIES: u32 = 20;

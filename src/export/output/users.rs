@@ -1,9 +1,11 @@
 //! Files in a bake that no bake made.
 
 use std::collections::BTreeSet;
-use std::fs::{self, File, FileType};
-use std::io::{self, BufReader, Read};
+use std::fs::{self, File};
+use std::io;
 use std::path::{Path, PathBuf};
+
+use crate::files::{Entry, entries, have_same_bytes};
 
 /// The user's files in a folder, as paths relative to it.
 #[derive(Debug, Default)]
@@ -12,32 +14,6 @@ pub(super) struct UserFiles {
     files: BTreeSet<PathBuf>,
     /// Empty folders.
     folders: BTreeSet<PathBuf>,
-}
-
-/// Something in a folder.
-pub(super) struct Entry {
-    /// Its path from that folder.
-    pub relative: PathBuf,
-    pub kind: FileType,
-}
-
-/// All that lies in a folder at any depth, what a folder holds before the folder itself. No link is followed.
-pub(super) fn entries(folder: &Path) -> io::Result<Vec<Entry>> {
-    fn collect(folder: &Path, relative: &Path, out: &mut Vec<Entry>) -> io::Result<()> {
-        for entry in fs::read_dir(folder)? {
-            let entry = entry?;
-            let relative = relative.join(entry.file_name());
-            let kind = entry.file_type()?;
-            if kind.is_dir() {
-                collect(&entry.path(), &relative, out)?;
-            }
-            out.push(Entry { relative, kind });
-        }
-        Ok(())
-    }
-    let mut out = Vec::new();
-    collect(folder, Path::new(""), &mut out)?;
-    Ok(out)
 }
 
 impl UserFiles {
@@ -138,16 +114,10 @@ pub(super) fn is_same(a: &Path, b: &Path) -> io::Result<bool> {
     if is_one_file(&found_a, &found_b) {
         return Ok(true);
     }
-    if !found_a.is_file() || !found_b.is_file() || found_a.len() != found_b.len() {
+    if !found_a.is_file() || !found_b.is_file() {
         return Ok(false);
     }
-    let bytes = |path: &Path| Ok::<_, io::Error>(BufReader::with_capacity(1 << 16, File::open(path)?).bytes());
-    for (a, b) in bytes(a)?.zip(bytes(b)?) {
-        if a? != b? {
-            return Ok(false);
-        }
-    }
-    Ok(true)
+    Ok(have_same_bytes(a, b)?)
 }
 
 #[cfg(unix)]

@@ -192,3 +192,21 @@ fn unpack(chunk: Chunk, meta: &MetaData, blank: &[u8]) -> exr::error::Result<Opt
     }
     Ok(Some(Block { left: position.0, top: position.1, size: [size.0, size.1], channels }))
 }
+
+/// Cuts a file of sums short, bends its bytes and removes it: reading must name it each time.
+#[cfg(test)]
+pub(super) fn assert_damage_is_named(path: &Path, read: impl Fn() -> Result<(), ExportError>) {
+    let name = path.file_name().unwrap().to_string_lossy();
+    let whole = std::fs::read(path).unwrap();
+    let mut bent = whole.clone();
+    for at in (400..whole.len()).step_by(97) {
+        bent[at] ^= 0x55;
+    }
+    for bytes in [&whole[..whole.len() / 2], &whole[..20], &[], &bent] {
+        std::fs::write(path, bytes).unwrap();
+        let error = read().unwrap_err();
+        assert!(error.to_string().contains(&*name), "{error}");
+    }
+    std::fs::remove_file(path).unwrap();
+    assert!(matches!(read(), Err(ExportError::Read { .. })));
+}

@@ -1,8 +1,9 @@
 use std::path::Path;
 
 use super::file::{SumsImage, read_image, write_image};
+use crate::export::bake_path::{BakePath, MANIFEST_NAME};
 use crate::export::layout::{Tile, TileLayout};
-use crate::export::manifest::{self, BakePath, Manifest, PresenceEntry, SumsEntry, TileEntry};
+use crate::export::manifest::{Manifest, PresenceEntry, SumsEntry, TileEntry};
 use crate::export::{ExportError, FloorTextures, OutputFolder};
 use crate::progress::Progress;
 use crate::stamps::TexelGrid;
@@ -99,7 +100,7 @@ impl SumsImage for FloorImage<'_> {
 pub fn read_sums(bake: &Path, manifest: &Manifest) -> Result<FloorSums, ExportError> {
     let floor = &manifest.floor;
     let grid = TexelGrid { texels_per_metre: floor.texels_per_metre, width: floor.width_px, height: floor.height_px };
-    let in_manifest = |problem: &str| ExportError::damaged(&bake.join(manifest::FILE_NAME), problem);
+    let in_manifest = |problem: &str| ExportError::damaged(&bake.join(MANIFEST_NAME), problem);
     for quantity in Quantity::ALL {
         if floor.sums.one.get(quantity.name()) != Some(&quantity.one()) {
             return Err(in_manifest(&format!("`floor.sums.one.{}` is not {}", quantity.name(), quantity.one())));
@@ -226,17 +227,6 @@ mod tests {
         let folder = OutputFolder::begin(&dir.path().join("out"), false).unwrap();
         let manifest = Manifest { floor: written(&folder, &sums, 512), ..Manifest::default() };
         let path = folder.path().join(&manifest.floor.tiles[0].sums);
-        let whole = std::fs::read(&path).unwrap();
-        let mut bent = whole.clone();
-        for at in (400..whole.len()).step_by(97) {
-            bent[at] ^= 0x55;
-        }
-        for bytes in [&whole[..whole.len() / 2], &whole[..20], &[], &bent] {
-            std::fs::write(&path, bytes).unwrap();
-            let error = read_sums(folder.path(), &manifest).map(|_| ()).unwrap_err();
-            assert!(error.to_string().contains("floor_sums.1001.png"), "{error}");
-        }
-        std::fs::remove_file(&path).unwrap();
-        assert!(matches!(read_sums(folder.path(), &manifest), Err(ExportError::Read { .. })));
+        super::super::file::assert_damage_is_named(&path, || read_sums(folder.path(), &manifest).map(|_| ()));
     }
 }

@@ -2,7 +2,8 @@ use std::path::Path;
 
 use super::file::{SumsImage, read_image, write_image};
 use crate::export::atlas::{Sheet, Strip};
-use crate::export::manifest::{self, Manifest, WallsEntry};
+use crate::export::bake_path::MANIFEST_NAME;
+use crate::export::manifest::{Manifest, WallsEntry};
 use crate::export::{ExportError, OutputFolder, WallTextures};
 use crate::patterns::Cause;
 use crate::progress::Progress;
@@ -37,7 +38,7 @@ pub fn write_wall_sums(
 /// A file that is missing or damaged, or that does not fit the manifest; strips that do not fit the walls.
 pub fn read_wall_sums(bake: &Path, manifest: &Manifest) -> Result<Option<WallSums>, ExportError> {
     let Some(entry) = &manifest.walls else { return Ok(None) };
-    let in_manifest = |problem: String| ExportError::damaged(&bake.join(manifest::FILE_NAME), problem);
+    let in_manifest = |problem: String| ExportError::damaged(&bake.join(MANIFEST_NAME), problem);
     let walls = manifest.walls().map_err(|error| in_manifest(error.to_string()))?;
     let grid = WallGrid::covering(&walls, entry.height_m, entry.texels_per_metre)
         .map_err(|error| in_manifest(format!("`walls`: {error}")))?;

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::Target;
+use super::target::Target;
 use crate::math::{Rect, Vec2};
 
 /// The target's world: how places of the plan become places there.

@@ -1,70 +1,20 @@
 //! What the files are made for: names, packing, axes, and what each program needs to use them.
 
-use serde::{Deserialize, Serialize};
-
-use super::ExportError;
 use super::band::{Image, LayerFile};
-use super::layout::TileLayout;
 use super::manifest::ChannelEntry;
 
+mod covered;
 mod frame;
 mod scripts;
+mod target;
 
 #[cfg(test)]
 mod tests;
 
+pub(super) use covered::Covered;
 pub use frame::{TargetEntry, WorldEntry};
 pub use scripts::write_target_files;
-
-/// The program that the textures are for. It decides on names, packing and axes; texels are the same for all.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Target {
-    /// Anything that reads glTF; film tools: EXR channels have names of their own.
-    #[default]
-    Gltf,
-    /// Blender.
-    Blender,
-    /// Unreal Engine 5.
-    Unreal,
-    /// Unity, High Definition or Universal Render Pipeline.
-    Unity,
-    /// Godot 4.
-    Godot,
-}
-
-/// What a texture covers: the first part of its name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Covered {
-    Floor,
-    Wall,
-}
-
-impl Covered {
-    /// Which of a block's masks a mask image holds, as red, green and blue.
-    pub(super) fn packed_masks(self) -> [usize; 3] {
-        match self {
-            Covered::Floor => [0, 2, 3],
-            Covered::Wall => [0, 1, 2],
-        }
-    }
-
-    /// The mask that has an image of its own: the one that is needed least often.
-    pub(super) fn lone_mask(self) -> usize {
-        match self {
-            Covered::Floor => 1,
-            Covered::Wall => 3,
-        }
-    }
-
-    /// What the image of that mask is called.
-    fn lone_mask_name(self) -> &'static str {
-        match self {
-            Covered::Floor => "passes",
-            Covered::Wall => "splash",
-        }
-    }
-}
+pub use target::Target;
 
 /// The number in the name of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,47 +25,10 @@ pub(super) enum Number {
 }
 
 impl Target {
-    /// All of them.
-    pub const ALL: [Target; 5] = [Target::Gltf, Target::Blender, Target::Unreal, Target::Unity, Target::Godot];
-
-    /// What the command line and the scenario call it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Target::Gltf => "gltf",
-            Target::Blender => "blender",
-            Target::Unreal => "unreal",
-            Target::Unity => "unity",
-            Target::Godot => "godot",
-        }
-    }
-
-    /// The largest side of a texture that it takes, texels.
-    ///
-    /// Unreal streams up to 14 mip levels, 8192 texels; the others go as far as Direct3D 11 and Vulkan do.
-    pub fn largest_px(self) -> u32 {
-        match self {
-            Target::Unreal => 8192,
-            _ => TileLayout::MAX_TILE,
-        }
-    }
-
-    /// Checks a side of a texture, texels.
-    pub(super) fn check_size(self, tile: u32) -> Result<(), ExportError> {
-        let (target, max) = (self.name(), self.largest_px());
-        if tile > max { Err(ExportError::TileTooLargeFor { tile, target, max }) } else { Ok(()) }
-    }
-
     /// The images of a texture.
     pub(super) fn images(self, covered: Covered) -> impl Iterator<Item = Image> {
         let all = [Image::BaseColor, Image::Mask(covered), Image::LoneMask(covered), Image::Orm, Image::MaskMap];
         all.into_iter().filter(move |image| *image != Image::MaskMap || self == Target::Unity)
-    }
-
-    /// Whether the layers are written as EXR unless a caller says otherwise.
-    ///
-    /// Game engines import every image of a bake, and these are the largest and the ones that games need least.
-    pub fn wants_layers(self) -> bool {
-        matches!(self, Target::Gltf | Target::Blender)
     }
 
     /// The EXR files of a texture: engines refuse channels of other names than R, G, B and A.

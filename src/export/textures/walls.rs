@@ -1,9 +1,11 @@
-use super::TextureOptions;
 use super::writer::{Canvas, TextureWriter};
 use crate::export::atlas::{Atlas, Strip};
+use crate::export::bake_path::BakePath;
 use crate::export::band::Image;
 use crate::export::busy::BusyTime;
-use crate::export::manifest::{BakePath, Naming, SheetEntry, StripEntry, WallsEntry};
+use crate::export::layout::Naming;
+use crate::export::manifest::{SheetEntry, StripEntry, WallsEntry};
+use crate::export::options::TextureOptions;
 use crate::export::source::SheetSource;
 use crate::export::targets::{Covered, Number, Target};
 use crate::export::{ExportError, OutputFolder, Reduced, WallSource};

@@ -1,7 +1,7 @@
-use super::TextureOptions;
 use crate::export::band::{Band, BandBlock, ImageEncoder, LayerEncoder, TextureFiles, TileWriter};
 use crate::export::busy::BusyTime;
 use crate::export::layout::BLOCK;
+use crate::export::options::TextureOptions;
 use crate::export::reduced::ReducedBlock;
 use crate::export::targets::{Covered, Number, Target};
 use crate::export::{ExportError, OutputFile, OutputFolder, Reduced, TextureSource};

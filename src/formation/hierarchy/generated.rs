@@ -10,7 +10,7 @@ use super::heading::turned_to;
 use crate::formation::FormationError;
 use crate::math::{Purpose, Vec2, person_stream, sin_cos, vec2};
 use crate::motion::Ensemble;
-use crate::progress::Progress;
+use crate::progress::{Interrupted, Progress};
 
 /// Default speeds of ranks and of wanderers, metres per second.
 const MARCH_M_S: f64 = 1.2;
@@ -88,7 +88,7 @@ impl GeneratedExample<'_> {
     }
 
     /// Positions of wanderers, whose directions drift, turn back at the edge of a disc, and away from others.
-    fn wander(&self, progress: &dyn Progress) -> Result<Vec<Vec2>, FormationError> {
+    fn wander(&self, progress: &dyn Progress) -> Result<Vec<Vec2>, Interrupted> {
         let spacing_m = self.request.spacing_m;
         let radius_m = self.request.radius_m.unwrap_or_else(|| spacing_m * (6.0 * self.people as f64 / TAU).sqrt());
         let mut crowd: Vec<Wanderer> = disc(self.people, 0.0, Some(0.8 * radius_m))
@@ -102,8 +102,8 @@ impl GeneratedExample<'_> {
         for moment in 0..self.moments {
             let time_s = self.time_s(moment);
             while (steps as f64) * STEP_S < time_s {
-                if steps.is_multiple_of(100) && progress.interrupted() {
-                    return Err(crate::Interrupted.into());
+                if steps.is_multiple_of(100) {
+                    progress.keep_on()?;
                 }
                 before.clone_from(&after);
                 crowd.iter_mut().enumerate().for_each(|(k, wanderer)| wanderer.walk(k, &before, radius_m, spacing_m));

@@ -26,3 +26,10 @@ pub(super) fn turned(places: &[Vec2], angle_rad: f64) -> Vec<Vec2> {
     let (sin, cos) = crate::math::sin_cos(angle_rad);
     places.iter().map(|place| place.rotated(vec2(cos, sin))).collect()
 }
+
+/// Distance between the two positions that are closest.
+#[cfg(test)]
+fn nearest_m(places: &[Vec2]) -> f64 {
+    let pairs = (0..places.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
+    pairs.map(|(a, b)| places[a].distance(places[b])).fold(f64::INFINITY, f64::min)
+}

@@ -144,12 +144,8 @@ pub(in super::super) fn outline(people: usize, corners: &[Vec2], spacing_m: Opti
 
 #[cfg(test)]
 mod tests {
+    use super::super::nearest_m;
     use super::*;
-
-    fn nearest_m(places: &[Vec2]) -> f64 {
-        let pairs = (0..places.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
-        pairs.map(|(a, b)| places[a].distance(places[b])).fold(f64::INFINITY, f64::min)
-    }
 
     #[test]
     fn a_grid_is_rows_from_the_front_left() {

@@ -170,13 +170,9 @@ impl CellIndex {
 
 #[cfg(test)]
 mod tests {
+    use super::super::nearest_m;
     use super::*;
     use crate::math::SplitMix64;
-
-    fn nearest_m(places: &[Vec2]) -> f64 {
-        let pairs = (0..places.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
-        pairs.map(|(a, b)| places[a].distance(places[b])).fold(f64::INFINITY, f64::min)
-    }
 
     #[test]
     fn the_nearest_is_the_nearest() {

@@ -19,107 +19,106 @@ pub const FARTHEST_M: f64 = 100_000.0;
 /// Largest nesting depth of small crowds.
 pub const DEEPEST: usize = 8;
 
-/// A crowd that changes from formation to formation: `[formation]` of a scenario.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct FormationRequest {
-    /// Duration, seconds; left out: to the last key formation, else as long as the example, else 60 s.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub duration_s: Option<f64>,
-    /// Frames per second; left out: 10.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub fps: Option<f64>,
-    /// The example whose motion the individuals take over.
-    #[serde(skip_serializing_if = "ExampleRequest::is_default")]
-    pub example: ExampleRequest,
-    /// Factor on the example's fluctuation, 0 to 10; left out: 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub fluctuation: Option<f64>,
-    /// How the fluctuation is carried over; left out: with the formation's shapes.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stays_with: Option<Stays>,
-    /// Range of adjacency, metres; left out: the median distance to the nearest person.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sigma_m: Option<f64>,
-    /// Groups of individuals who are adjacent at any distance, so that they keep together.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub together: Vec<Vec<u32>>,
-    /// Weights of adjacency between individuals.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub adjacency: Vec<AdjacencyRequest>,
-    /// Default assignment of people to the positions of key formations.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub assign: Option<Assign>,
-    /// Easing from one key formation to the next.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pace: Option<Pace>,
-    /// Path of the crowd's centroid.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub way: Option<PathRequest>,
-    /// Collision avoidance.
-    #[serde(skip_serializing_if = "AvoidRequest::is_default")]
-    pub avoid: AvoidRequest,
-    /// Key formations.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub key: Vec<KeyRequest>,
-    /// Small crowds in the places of individuals.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub crowd: Vec<CrowdRequest>,
+/// Declares a section of a scenario that describes a crowd: its own settings around those that all crowds have.
+macro_rules! crowd_section {
+    ($(#[$about:meta])* $Section:ident { $($own:tt)* } around { $($inner:tt)* }) => {
+        $(#[$about])*
+        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+        #[serde(deny_unknown_fields, default)]
+        pub struct $Section {
+            $($own)*
+            /// The example whose motion the individuals take over.
+            #[serde(skip_serializing_if = "ExampleRequest::is_default")]
+            pub example: ExampleRequest,
+            /// Factor on the example's fluctuation, 0 to 10; left out: 1.
+            #[serde(skip_serializing_if = "Option::is_none")]
+            pub fluctuation: Option<f64>,
+            /// How the fluctuation is carried over; left out: with the formation's shapes.
+            #[serde(skip_serializing_if = "Option::is_none")]
+            pub stays_with: Option<Stays>,
+            /// Range of adjacency, metres; left out: the median distance to the nearest person.
+            #[serde(skip_serializing_if = "Option::is_none")]
+            pub sigma_m: Option<f64>,
+            /// Groups of individuals who are adjacent at any distance, so that they keep together.
+            #[serde(skip_serializing_if = "Vec::is_empty")]
+            pub together: Vec<Vec<u32>>,
+            /// Weights of adjacency between individuals.
+            #[serde(skip_serializing_if = "Vec::is_empty")]
+            pub adjacency: Vec<AdjacencyRequest>,
+            /// Default assignment of people to the positions of key formations.
+            #[serde(skip_serializing_if = "Option::is_none")]
+            pub assign: Option<Assign>,
+            /// Easing from one key formation to the next.
+            #[serde(skip_serializing_if = "Option::is_none")]
+            pub pace: Option<Pace>,
+            $($inner)*
+            /// Collision avoidance; a small crowd inherits what it leaves out from the larger one.
+            #[serde(skip_serializing_if = "AvoidRequest::is_default")]
+            pub avoid: AvoidRequest,
+            /// Key formations; those of a small crowd are relative to the individual that it replaces.
+            #[serde(skip_serializing_if = "Vec::is_empty")]
+            pub key: Vec<KeyRequest>,
+            /// Small crowds in the places of individuals.
+            #[serde(skip_serializing_if = "Vec::is_empty")]
+            pub crowd: Vec<CrowdRequest>,
+        }
+
+        impl $Section {
+            /// What it has in common with other crowds.
+            pub(super) fn section(&self) -> CrowdSection<'_> {
+                CrowdSection {
+                    example: &self.example,
+                    fluctuation: self.fluctuation,
+                    stays_with: self.stays_with,
+                    sigma_m: self.sigma_m,
+                    together: &self.together,
+                    adjacency: &self.adjacency,
+                    assign: self.assign,
+                    pace: self.pace,
+                    avoid: &self.avoid,
+                    key: &self.key,
+                    crowd: &self.crowd,
+                }
+            }
+        }
+    };
 }
 
-/// A small crowd in the place of one or several individuals: `[[formation.crowd]]`.
-///
-/// Small crowds nest: `[[formation.crowd.crowd]]`, and so on.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct CrowdRequest {
-    /// The individuals that such crowds replace.
-    pub members: Members,
-    /// Whether each crowd carries a rider at its centre.
-    pub rider: bool,
-    /// Whether it avoids others as one body; left out: if it has a rider.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub as_one: Option<bool>,
-    /// Whether it turns to its heading: the formations' up points forward.
-    pub follow_heading: bool,
-    /// As in [`FormationRequest::example`].
-    #[serde(skip_serializing_if = "ExampleRequest::is_default")]
-    pub example: ExampleRequest,
-    /// As in [`FormationRequest::fluctuation`].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub fluctuation: Option<f64>,
-    /// As in [`FormationRequest::stays_with`].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stays_with: Option<Stays>,
-    /// As in [`FormationRequest::sigma_m`].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sigma_m: Option<f64>,
-    /// As in [`FormationRequest::together`].
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub together: Vec<Vec<u32>>,
-    /// As in [`FormationRequest::adjacency`].
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub adjacency: Vec<AdjacencyRequest>,
-    /// As in [`FormationRequest::assign`].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub assign: Option<Assign>,
-    /// As in [`FormationRequest::pace`].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pace: Option<Pace>,
-    /// Collision avoidance settings that differ from the larger crowd's.
-    #[serde(skip_serializing_if = "AvoidRequest::is_default")]
-    pub avoid: AvoidRequest,
-    /// Key formations, relative to the individual that it replaces.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub key: Vec<KeyRequest>,
-    /// Smaller crowds within.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub crowd: Vec<CrowdRequest>,
+crowd_section! {
+    /// A crowd that changes from formation to formation: `[formation]` of a scenario.
+    FormationRequest {
+        /// Duration, seconds; left out: to the last key formation, else as long as the example, else 60 s.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub duration_s: Option<f64>,
+        /// Frames per second; left out: 10.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub fps: Option<f64>,
+    } around {
+        /// Path of the crowd's centroid.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub way: Option<PathRequest>,
+    }
+}
+
+crowd_section! {
+    /// A small crowd in the place of one or several individuals: `[[formation.crowd]]`.
+    ///
+    /// Small crowds nest: `[[formation.crowd.crowd]]`, and so on.
+    CrowdRequest {
+        /// The individuals that such crowds replace.
+        pub members: Members,
+        /// Whether each crowd carries a rider at its centre.
+        pub rider: bool,
+        /// Whether it avoids others as one body; left out: if it has a rider.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub as_one: Option<bool>,
+        /// Whether it turns to its heading: the formations' up points forward.
+        pub follow_heading: bool,
+    } around {}
 }
 
 /// The settings that a crowd and the small crowds within it have in common.
 #[derive(Clone, Copy, Debug)]
-#[allow(missing_docs)] // as in FormationRequest
 pub(super) struct CrowdSection<'r> {
     pub example: &'r ExampleRequest,
     pub fluctuation: Option<f64>,
@@ -134,35 +133,7 @@ pub(super) struct CrowdSection<'r> {
     pub crowd: &'r [CrowdRequest],
 }
 
-macro_rules! section {
-    ($request:expr) => {
-        CrowdSection {
-            example: &$request.example,
-            fluctuation: $request.fluctuation,
-            stays_with: $request.stays_with,
-            sigma_m: $request.sigma_m,
-            together: &$request.together,
-            adjacency: &$request.adjacency,
-            assign: $request.assign,
-            pace: $request.pace,
-            avoid: &$request.avoid,
-            key: &$request.key,
-            crowd: &$request.crowd,
-        }
-    };
-}
-
-impl FormationRequest {
-    pub(super) fn section(&self) -> CrowdSection<'_> {
-        section!(self)
-    }
-}
-
 impl CrowdRequest {
-    pub(super) fn section(&self) -> CrowdSection<'_> {
-        section!(self)
-    }
-
     /// Whether it avoids others as one body.
     pub(super) fn is_as_one(&self) -> bool {
         self.as_one.unwrap_or(self.rider)

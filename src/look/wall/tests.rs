@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use super::shade::{DUST, SPLASH};
 use super::*;
-use crate::look::tests::lightness;
+use crate::look::tests::{lightness, mean, median, sd};
 use crate::look::{Look, LookError, ResolvedBlock};
 use crate::math::srgb::light_of;
 use crate::math::{SplitMix64, exp};
@@ -171,21 +171,6 @@ impl Resolved {
     fn mask(&self) -> [f64; 4] {
         [0, 1, 2, 3].map(|n| mean(self.dirty.mask.iter().map(|mask| f64::from(mask[n]))))
     }
-}
-
-fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
-    let (sum, count) = values.into_iter().fold((0.0, 0), |(sum, count), value| (sum + value, count + 1));
-    sum / f64::from(count)
-}
-
-fn sd(values: &[f64]) -> f64 {
-    let middle = mean(values.iter().copied());
-    mean(values.iter().map(|value| (value - middle) * (value - middle))).sqrt()
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }
 
 fn share(values: &[f64], is: impl Fn(f64) -> bool) -> f64 {

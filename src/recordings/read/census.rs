@@ -1,7 +1,9 @@
 //! What a pass over the rows of a recording finds, in the file's own numbers.
 
+use rustc_hash::FxHashMap;
+
 use super::histogram::Histogram;
-use super::row::{ById, TrajectoryRow};
+use super::row::TrajectoryRow;
 use crate::math::{Rect, Vec2};
 
 /// Rows of one person over which a speed is taken, so that noise and sway count little.
@@ -12,7 +14,7 @@ pub(super) const SAME: f64 = 1e-3;
 /// What was counted.
 #[derive(Debug, Default)]
 pub(super) struct Census {
-    people: ById<PersonRecord>,
+    people: FxHashMap<u32, PersonRecord>,
     pub first_time: f64,
     pub last_time: f64,
     /// When the last step ends, if that is later.

@@ -3,6 +3,7 @@ use std::path::PathBuf;
 use super::format::RecordingFormat;
 use crate::files::FileError;
 use crate::motion::SourceError;
+use crate::progress::Interrupted;
 
 /// What recordings look like.
 pub(super) const LINES: &str = "a recording has a line for everybody in every frame: who, when, x, y";
@@ -82,12 +83,9 @@ pub enum RecordingError {
         /// What SQLite says, or what is missing.
         problem: String,
     },
-    /// Somebody asked to stop.
-    #[error("reading {} was interrupted", path.display())]
-    Interrupted {
-        /// The file.
-        path: PathBuf,
-    },
+    /// The user stopped the reading.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
     /// An option is out of range.
     #[error("{option} = {value}: {allowed}")]
     Option {
@@ -159,7 +157,7 @@ impl RecordingError {
             }
             RecordingError::Empty { .. } => LINES,
             RecordingError::Unreadable { hint, .. } => hint,
-            RecordingError::Interrupted { .. } | RecordingError::Option { .. } => return None,
+            RecordingError::Interrupted(_) | RecordingError::Option { .. } => return None,
         };
         (!text.is_empty()).then(|| text.to_owned())
     }

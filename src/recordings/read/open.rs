@@ -158,9 +158,7 @@ struct CensusTask<'a> {
 impl CensusTask<'_> {
     /// Whether to stop here.
     fn check(&self, rows: &TrajectoryRows) -> Result<(), RecordingError> {
-        if self.progress.interrupted() {
-            return Err(RecordingError::Interrupted { path: self.path.to_path_buf() });
-        }
+        self.progress.keep_on()?;
         // The motion itself will fill the bar again.
         self.progress.advance(Stage::Motion, rows.share_done().min(0.999));
         Ok(())

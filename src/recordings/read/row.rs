@@ -1,8 +1,5 @@
 //! Rows of a recording.
 
-use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
-
 use super::RecordingError;
 use super::layout::shown;
 use crate::math::Vec2;
@@ -73,26 +70,3 @@ pub(super) fn moment(time: f64, frames: bool) -> String {
         format!("time {}", shown(time.to_string().as_bytes()).trim_matches('`'))
     }
 }
-
-/// Spreads ids over a table of people; they are small whole numbers, mostly in a row.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct IdHasher(u64);
-
-impl Hasher for IdHasher {
-    fn finish(&self) -> u64 {
-        self.0
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|&byte| self.write_u32(u32::from(byte)));
-    }
-
-    fn write_u32(&mut self, id: u32) {
-        // The golden ratio's bits; the table uses the upper ones too.
-        let mixed = (self.0 ^ u64::from(id)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        self.0 = mixed ^ (mixed >> 32);
-    }
-}
-
-/// Something for each person.
-pub(super) type ById<T> = HashMap<u32, T, BuildHasherDefault<IdHasher>>;

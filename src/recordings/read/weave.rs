@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use rustc_hash::FxHashMap;
+
 use super::RecordingError;
-use super::row::{ById, ReadStop, TrajectoryRow};
+use super::row::{ReadStop, TrajectoryRow};
 use super::rows::TrajectoryRows;
 use super::scale::{Alignment, Scale};
 use crate::math::Vec2;
@@ -28,7 +30,7 @@ pub(super) struct Weaver {
     /// Whether all rows were read.
     read: bool,
     /// Where everybody was last.
-    tracks: ById<LastPlace>,
+    tracks: FxHashMap<u32, LastPlace>,
     /// Tracks are looked through when there are so many.
     most_tracks: usize,
     /// The moments that were not given out yet, by number; without a common clock, the newest stands apart.
@@ -103,7 +105,7 @@ impl Weaver {
             align,
             first_time,
             read: false,
-            tracks: ById::default(),
+            tracks: FxHashMap::default(),
             most_tracks: 1024,
             pending: BTreeMap::new(),
             latest: PendingFrame::default(),

@@ -1,5 +1,5 @@
 use super::*;
-use crate::export::{Atlas, Manifest, Target};
+use crate::export::{Atlas, BakePath, Manifest, SheetEntry, Target};
 use crate::math::SplitMix64;
 use crate::plan::FloorPlan;
 use crate::progress::Silent;
@@ -52,11 +52,11 @@ fn everything(sums: &WallSums) -> Vec<Vec<u32>> {
 /// Writes sums as a bake does, without its textures.
 fn written(folder: &OutputFolder, sums: &WallSums, (plan, walls): &(FloorPlan, Walls), sheet_px: u32) -> Manifest {
     let atlas = Atlas::pack(sums.grid(), &walls.corners(), sheet_px, 4).unwrap();
-    let entry = |(number, sheet): (usize, &Sheet)| manifest::SheetEntry {
+    let entry = |(number, sheet): (usize, &Sheet)| SheetEntry {
         width_px: sheet.width,
         height_px: sheet.height,
-        sums: manifest::BakePath::new(format!("sums/wall_sums.{number}.exr")).unwrap(),
-        ..manifest::SheetEntry::default()
+        sums: BakePath::new(format!("sums/wall_sums.{number}.exr")).unwrap(),
+        ..SheetEntry::default()
     };
     let textures = WallTextures {
         sheets: atlas.sheets.iter().enumerate().map(entry).collect(),
@@ -118,18 +118,7 @@ fn a_damaged_file_of_walls_is_an_error_that_names_it() {
     let folder = OutputFolder::begin(&dir.path().join("out"), false).unwrap();
     let manifest = written(&folder, &sums, &plan, 512);
     let path = folder.path().join("sums/wall_sums.0.exr");
-    let whole = std::fs::read(&path).unwrap();
-    let mut bent = whole.clone();
-    for at in (400..whole.len()).step_by(97) {
-        bent[at] ^= 0x55;
-    }
-    for bytes in [&whole[..whole.len() / 2], &whole[..20], &[], &bent] {
-        std::fs::write(&path, bytes).unwrap();
-        let error = read_wall_sums(folder.path(), &manifest).map(|_| ()).unwrap_err();
-        assert!(error.to_string().contains("wall_sums.0.exr"), "{error}");
-    }
-    std::fs::remove_file(&path).unwrap();
-    assert!(matches!(read_wall_sums(folder.path(), &manifest), Err(ExportError::Read { .. })));
+    super::super::file::assert_damage_is_named(&path, || read_wall_sums(folder.path(), &manifest).map(|_| ()));
 }
 
 /// Something that is wrong with a manifest.

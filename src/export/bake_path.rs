@@ -6,7 +6,10 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use crate::export::ExportError;
+use super::error::{ExportError, NotInside};
+
+/// The manifest's name in a bake.
+pub(super) const MANIFEST_NAME: &str = "manifest.json";
 
 /// The name of a file inside a bake, relative to the bake's folder, with `/` between its parts.
 ///
@@ -16,14 +19,6 @@ use crate::export::ExportError;
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub struct BakePath(String);
-
-/// A path that is no plain name inside a bake.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the path {path:?} does not stay inside the bake: allowed are plain names with / between them")]
-pub struct NotInside {
-    /// The path.
-    pub path: String,
-}
 
 impl BakePath {
     /// Checks a path.
@@ -46,7 +41,7 @@ impl BakePath {
     pub fn within(&self, bake: &Path) -> Result<PathBuf, ExportError> {
         let path = bake.join(&self.0);
         if self.0.is_empty() {
-            return Err(ExportError::damaged(&bake.join(super::FILE_NAME), "it names a file without a name"));
+            return Err(ExportError::damaged(&bake.join(MANIFEST_NAME), "it names a file without a name"));
         }
         let real = |path: &Path| fs::canonicalize(path).map_err(ExportError::read(path));
         if real(&path)?.starts_with(real(bake)?) {
