@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 
 use clap::builder::styling::{AnsiColor, Styles};
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 mod arguments;
 mod bake;
@@ -68,7 +68,16 @@ Examples:
 
 /// Reads the command line; prints help, the version or what is wrong, and exits, where it is one of these.
 pub fn parse() -> Cli {
-    Cli::parse()
+    let mut command = Cli::command();
+    let matches = command.get_matches_mut();
+    let (mut used, mut given) = (&command, &matches);
+    while let Some((name, below)) = given.subcommand() {
+        (used, given) = (used.find_subcommand(name).unwrap_or(used), below);
+    }
+    let flags = used.get_arguments().filter_map(|argument| argument.get_long().map(str::to_string)).collect();
+    let mut cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    cli.common.flags = flags;
+    cli
 }
 
 impl Cli {

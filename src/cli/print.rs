@@ -35,19 +35,20 @@ pub fn failure(error: &anyhow::Error, common: &Common) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let colour = common.colours(&io::stderr());
-    let mut text = format!("{} {}\n", label("error", ERROR, colour), plain(&error.to_string()));
+    let named = |text: String| with_flags(&text, &common.flags);
+    let mut text = format!("{} {}\n", label("error", ERROR, colour), plain(&named(error.to_string())));
     let mut last = error.to_string();
     for cause in error.chain().skip(1).map(ToString::to_string) {
         // Many messages end with that of their cause.
         if !last.contains(&cause) {
-            text.push_str(&format!("  caused by: {}\n", plain(&cause)));
+            text.push_str(&format!("  caused by: {}\n", plain(&named(cause.clone()))));
             last = cause;
         }
     }
     let ours = error.chain().find_map(trodden::Error::hint_of);
     let refused = error.downcast_ref::<Refused>().and_then(|refused| refused.hint.as_ref()).map(ToString::to_string);
     if let Some(hint) = ours.or(refused) {
-        text.push_str(&format!("{} {}\n", label("hint", HINT, colour), plain(&hint)));
+        text.push_str(&format!("{} {}\n", label("hint", HINT, colour), plain(&named(hint))));
     }
     to_stderr(&text);
     ExitCode::FAILURE
@@ -55,12 +56,38 @@ pub fn failure(error: &anyhow::Error, common: &Common) -> ExitCode {
 
 /// The text of a warning.
 pub fn warning(message: &str, common: &Common) -> String {
-    format!("{} {}\n", label("warning", WARNING, common.colours(&io::stderr())), plain(message))
+    format!(
+        "{} {}\n",
+        label("warning", WARNING, common.colours(&io::stderr())),
+        plain(&with_flags(message, &common.flags))
+    )
 }
 
 /// Writes to standard error; there is nobody left to tell if that fails.
 pub fn to_stderr(text: &str) {
     let _ = io::stderr().write_all(text.as_bytes());
+}
+
+/// How the library names an option that is a flag on the command line: "the option `fps`", "the option `fps = 25`".
+pub const OPTION: &str = "the option `";
+
+/// Names the options of the library as the flags that the command has: "the option `fps = 25`" becomes "--fps 25".
+fn with_flags(text: &str, flags: &[String]) -> String {
+    let mut parts = text.split(OPTION);
+    let mut named = parts.next().unwrap_or_default().to_string();
+    for part in parts {
+        let (option, rest) = part.split_once('`').unwrap_or((part, ""));
+        let (name, value) = option.split_once(" = ").unwrap_or((option, ""));
+        let flag = name.replace('_', "-");
+        if flags.contains(&flag) {
+            named.push_str(format!("--{flag} {}", value.trim_matches('"')).trim_end());
+            named.push_str(rest);
+        } else {
+            named.push_str(OPTION);
+            named.push_str(part);
+        }
+    }
+    named
 }
 
 /// Text that leaves the terminal as it is: control characters and those that turn the direction of writing are shown
@@ -146,4 +173,23 @@ pub fn files_of(bake: &Path) -> Vec<PathBuf> {
     let listed = Manifest::read(bake).map(|manifest| manifest.files).unwrap_or_default();
     let image = Some(bake.to_path_buf()).filter(|path| path.is_file());
     listed.iter().map(|file| bake.join(file)).chain(image).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn options_of_the_library_become_the_flags_of_the_command() {
+        let flags = ["fps".to_string(), "mix-fps".to_string()];
+        for (text, named) in [
+            ("give the rate with the option `fps`: 25", "give the rate with --fps: 25"),
+            ("as in the option `mix_fps = \"25\"`", "as in --mix-fps 25"),
+            ("the option `unit` overrides it", "the option `unit` overrides it"),
+            ("did you mean `fps`?", "did you mean `fps`?"),
+            ("an end in the option `fps", "an end in --fps"),
+        ] {
+            assert_eq!(with_flags(text, &flags), named);
+        }
+    }
 }

@@ -191,15 +191,18 @@ impl ExportError {
     pub fn hint(&self) -> Option<String> {
         match self {
             ExportError::OutputIsFile { .. } | ExportError::OutputHasNoName { .. } => {
-                Some("choose another folder with --output".to_string())
+                Some("choose another folder with the option `output`".to_string())
             }
-            ExportError::NotABake { .. } => {
-                Some("choose a new or empty folder with --output; --force replaces bakes of trodden only".to_string())
-            }
+            ExportError::NotABake { .. } => Some(
+                "choose a new or empty folder with the option `output`; the option `force` replaces bakes only"
+                    .to_string(),
+            ),
             ExportError::OutputExists { .. } => {
-                Some("--force replaces it; --output chooses another folder".to_string())
+                Some("the option `force` replaces it; the option `output` names another folder".to_string())
             }
-            ExportError::OutputInUse { .. } => Some("wait for it, or choose another folder with --output".to_string()),
+            ExportError::OutputInUse { .. } => {
+                Some("wait for it, or choose another folder with the option `output`".to_string())
+            }
             ExportError::UserFile { .. } => Some("move it away, or choose another folder".to_string()),
             ExportError::InTheWay { path } => Some(format!("move {} away", path.display())),
             ExportError::Folder { source, .. } | ExportError::Write { source, .. } => write_hint(source),
@@ -247,10 +250,10 @@ pub struct NotInside {
 fn write_hint(source: &io::Error) -> Option<String> {
     match source.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
-            Some("the disk is full: make room, or choose another disk with --output".to_string())
+            Some("the disk is full: make room, or choose another disk with the option `output`".to_string())
         }
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
-            Some("choose a folder that you may write to with --output".to_string())
+            Some("choose a folder that you may write to with the option `output`".to_string())
         }
         _ => None,
     }

@@ -9,7 +9,7 @@ use trodden::recordings::{LengthUnit, Recording, RecordingFormat, RecordingOptio
 use trodden::{Error, Progress, Stage};
 
 use super::super::arguments::{one_of, recording_format};
-use super::super::print::Refused;
+use super::super::print::{OPTION, Refused};
 use super::input;
 
 /// Options of the first recording that the other has too, as `--mix-NAME`.
@@ -93,7 +93,8 @@ pub fn of_other(error: Error) -> anyhow::Error {
 }
 
 fn renamed(message: &str) -> String {
-    let rename = |message: String, name: &&str| message.replace(&format!("--{name}"), &format!("--mix-{name}"));
+    let rename =
+        |message: String, name: &&str| message.replace(&format!("{OPTION}{name}"), &format!("{OPTION}mix_{name}"));
     OPTIONS.iter().fold(message.to_string(), rename)
 }
 

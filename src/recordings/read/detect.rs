@@ -75,7 +75,7 @@ pub(super) fn detect(head: &[u8], whole: bool, options: &RecordingOptions) -> Re
     let strange = named.and_then(|names| names.iter().find_map(|name| strange_unit(name)));
     if let Some(unit) = strange.filter(|_| options.unit.is_none()) {
         layout.warnings.push(format!(
-            "nothing is known of the unit {}: --unit says which it is, m, cm, mm or ft",
+            "the unit {} is unknown: give it with the option `unit`: m, cm, mm or ft",
             shown(unit.as_bytes())
         ));
     }
@@ -160,7 +160,7 @@ fn read_comments<'a>(lines: &[Numbered<'a>], asked: Option<f64>) -> Result<Comme
 
 fn bad_rate(line: u64, rate: &str) -> Refusal {
     let problem = format!("the frame rate is {rate}; allowed is above 0, up to {HIGHEST_RATE}");
-    let hint = "give the recording's frames per second with --fps".to_owned();
+    let hint = "give the recording's frames per second with the option `fps`".to_owned();
     Refusal::Line { line, problem, hint }
 }
 
@@ -250,7 +250,8 @@ fn columns_of(
             None => Ok(columns),
             Some(what) => Err(Refusal::Unknown {
                 found: format!("the header names no column for {what}"),
-                hint: "--columns id,time,x,y says what each column holds, - for one that is of no use".to_owned(),
+                hint: "name the columns in order with the option `columns = \"id,time,x,y\"`, - for an unused one"
+                    .to_owned(),
             }),
         };
     }

@@ -144,16 +144,17 @@ impl RecordingError {
             RecordingError::FrameRate { .. } => "10 is the crowd's own rate",
             RecordingError::Unknown { hint, .. } | RecordingError::Line { hint, .. } => hint,
             RecordingError::Twice { .. } => {
-                "ids must be different for different people: if another column tells them apart, name it with --columns"
+                "ids must be different for different people: if another column tells them apart, name it with \
+                 the option `columns`"
             }
             RecordingError::UnknownRate { .. } => {
-                "give the rate with --fps: for most recordings by camera 16, 25 or 30"
+                "give the rate with the option `fps`: for most recordings by camera 16, 25 or 30"
             }
             RecordingError::Database { .. } => {
                 "read are JuPedSim's databases, with the tables trajectory_data (frame, id, pos_x, pos_y) and metadata"
             }
             RecordingError::Option { option: "columns", .. } => {
-                "as --columns id,frame,x,y: a word for each column in turn, - for one that is of no use"
+                "name the columns in order with the option `columns = \"id,frame,x,y\"`, - for an unused one"
             }
             RecordingError::Empty { .. } => LINES,
             RecordingError::Unreadable { hint, .. } => hint,

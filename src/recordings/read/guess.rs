@@ -29,7 +29,7 @@ pub(super) fn columns(
     let first = rows.first().copied().unwrap_or_default();
     let fields = separator.split(first);
     let width = fields.len();
-    let hint = "--columns id,frame,x,y says what each column holds, - for one that is of no use".to_owned();
+    let hint = "name the columns in order with the option `columns = \"id,frame,x,y\"`, - for an unused one".to_owned();
     if width < 4 {
         let found = if width == 1 { "a line with 1 column".to_owned() } else { format!("a line with {width} columns") };
         let found = format!("{found} where who, when, x and y are needed");
@@ -136,8 +136,8 @@ pub(super) fn upright_axis(layout: &mut TextLayout, rows: &[&[u8]], asked: bool)
     if tall.is_finite() && tall < 0.1 * deep && tall < 0.1 * wide {
         layout.columns[z].role = Role::Y;
         layout.columns[y].role = Role::Z;
-        let told = "y hardly changes and is taken for the height, z for the floor's second axis; --columns says \
-                    otherwise, with -z named -y where z points towards the viewer";
+        let told = "y hardly changes and is taken for the height, z for the floor's second axis; the option `columns` \
+                    overrides it, with -y for z where z points towards the viewer";
         layout.warnings.push(told.to_owned());
     }
 }

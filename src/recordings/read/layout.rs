@@ -178,7 +178,7 @@ impl TextLayout {
         }
         if frames && value != value.trunc() {
             let text = format!("the frame is {}: frames are whole numbers", shown(field));
-            let hint = "if the column holds seconds, call it time: --columns id,time,x,y";
+            let hint = "if the column holds seconds, call it time, as in the option `columns = \"id,time,x,y\"`";
             return Err(LineProblem { text, hint, short: false });
         }
         Ok(value)
@@ -187,7 +187,7 @@ impl TextLayout {
     fn too_short(&self, found: usize) -> LineProblem {
         let needed = self.columns.iter().rposition(TextColumn::is_needed).map_or(0, |last| last + 1);
         let text = format!("{found} columns instead of at least {needed}");
-        LineProblem { text, hint: "--columns says what each column holds", short: true }
+        LineProblem { text, hint: "name the columns with the option `columns`", short: true }
     }
 }
 
@@ -243,13 +243,13 @@ fn unquoted(field: &[u8]) -> &[u8] {
 
 fn not_a_number(role: Role, field: &[u8]) -> LineProblem {
     let text = format!("{} is {}, which is no number", named(role), shown(field));
-    LineProblem { text, hint: "--columns says what each column holds", short: true }
+    LineProblem { text, hint: "name the columns with the option `columns`", short: true }
 }
 
 fn too_large(role: Role, field: &[u8]) -> LineProblem {
     let text = format!("{} is {}; allowed is up to {LARGEST:e}", named(role), shown(field));
     let hint = match role {
-        Role::Time | Role::Frame => "--columns says what each column holds",
+        Role::Time | Role::Frame => "name the columns with the option `columns`",
         _ => "a row without a place, where somebody is missing, has `nan` or an empty field",
     };
     LineProblem { text, hint, short: false }

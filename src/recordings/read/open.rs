@@ -96,10 +96,14 @@ fn is_database(path: &Path, options: &RecordingOptions) -> Result<bool, Recordin
         Err(RecordingError::Unknown { path: path.to_path_buf(), found: found.to_owned(), hint: hint.to_owned() })
     };
     match (found, options.format) {
-        (false, _) if asked => unknown("it is no SQLite database", "leave --format out: the format is found"),
-        (true, Some(_)) if !asked => unknown("it is an SQLite database", "leave --format out: the format is found"),
+        (false, _) if asked => {
+            unknown("it is no SQLite database", "leave out the option `format`: the content tells the format")
+        }
+        (true, Some(_)) if !asked => {
+            unknown("it is an SQLite database", "leave out the option `format`: the content tells the format")
+        }
         (true, _) if options.columns.is_some() => {
-            unknown("it is a database, whose columns have names", "leave --columns out")
+            unknown("it is a database, whose columns have names", "leave out the option `columns`")
         }
         _ => Ok(found),
     }

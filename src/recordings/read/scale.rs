@@ -112,7 +112,7 @@ impl Scale {
             TimeColumn::Frames => TimeScale::Frames(rate(census, stated, options, unit, own, warnings)?),
             TimeColumn::Times(seconds) => {
                 if options.fps.is_some() {
-                    warnings.push("the recording tells times: --fps is of no use".to_owned());
+                    warnings.push("the recording has times, so the option `fps` is ignored".to_owned());
                 }
                 TimeScale::Times(seconds.unwrap_or_else(|| guessed_time_unit(census, unit, own, warnings)))
             }
@@ -194,7 +194,7 @@ fn unit(census: &mut Census, stated: &Stated, options: &RecordingOptions, warnin
     };
     if unit != LengthUnit::Metre {
         warnings.push(format!(
-            "nothing tells the unit of lengths: {} are assumed {why}; --unit says otherwise",
+            "the file gives no unit of lengths: {} are assumed {why}; the option `unit` overrides it",
             unit.plural()
         ));
     }
@@ -218,7 +218,7 @@ fn rate(
         let nearest = |best: f64, known: f64| if (rate - known).abs() < (rate - best).abs() { known } else { best };
         let fps = known.map_or(tidy(rate), |first| RATES.into_iter().fold(first, nearest));
         warnings.push(format!(
-            "nothing tells the rate: {fps} frames per second fit the recording's own velocities; --fps says otherwise"
+            "the file gives no rate: {fps} frames per second fit its own velocities; the option `fps` overrides it"
         ));
         return Ok(fps);
     }
@@ -226,8 +226,8 @@ fn rate(
         let step = census.moment_intervals.quantile(0.5).unwrap_or(1.0);
         let fps = ANNOTATED_HZ * step;
         warnings.push(format!(
-            "nothing tells the rate: {ANNOTATED_HZ} annotations per second are assumed, as ETH and UCY have, so {fps} \
-             frames per second; --fps says otherwise"
+            "the file gives no rate: {ANNOTATED_HZ} annotations per second are assumed, as ETH and UCY have, so {fps} \
+             frames per second; the option `fps` overrides it"
         ));
         return Ok(fps);
     }
@@ -243,7 +243,9 @@ fn rate(
     } else {
         (guess, "at which people walk most plausibly")
     };
-    warnings.push(format!("nothing tells the rate: {fps} frames per second are assumed, {why}; --fps says otherwise"));
+    warnings.push(format!(
+        "the file gives no rate: {fps} frames per second are assumed, {why}; the option `fps` overrides it"
+    ));
     Ok(fps)
 }
 
@@ -262,8 +264,8 @@ fn guessed_time_unit(census: &mut Census, unit: LengthUnit, own: Option<f64>, wa
     let speed = census.speed_quantile(0.75).unwrap_or(0.0) * unit.metres();
     if interval >= 5.0 && interval == interval.round() && speed < 0.05 {
         warnings.push(
-            "nothing tells the unit of times: milliseconds are assumed by the people's speeds; a column named time_s \
-             would say otherwise"
+            "the file gives no unit of times: milliseconds are assumed by the people's speeds; name the column time_s \
+             for seconds"
                 .to_owned(),
         );
         return 1e-3;
@@ -279,8 +281,10 @@ fn warn_of_speeds(census: &mut Census, time: TimeScale, unit: LengthUnit, warnin
         return;
     }
     let options = match time {
-        TimeScale::Frames(fps) => format!("--unit and --fps say otherwise than {} and {fps} a second", unit.plural()),
-        TimeScale::Times(_) => format!("--unit says otherwise than {}", unit.plural()),
+        TimeScale::Frames(fps) => {
+            format!("the option `unit` overrides {}, the option `fps` {fps} frames per second", unit.plural())
+        }
+        TimeScale::Times(_) => format!("the option `unit` overrides {}", unit.plural()),
     };
     warnings.push(format!(
         "half of all people are {} than {speed:.3} m/s: {options}",
