@@ -8,20 +8,19 @@ use serde::{Deserialize, Serialize};
 
 use crate::export::ExportError;
 
-/// The name of a file inside a bake, relative to the bake's folder, with `/` between its parts.
+/// Path of a file inside a bake, relative to the bake's folder, with `/` between its parts.
 ///
-/// A value is always a plain name: no `..`, no `.`, no empty part, neither absolute nor with a drive or a backslash.
-/// So it leads nowhere else, whatever a manifest says; only a link on the disk can, which [`BakePath::within`] checks.
-/// The default is empty and stands for no file.
+/// Its parts are plain names: no `..`, `.`, empty part, backslash, drive or leading `/`. So it cannot leave the bake,
+/// except through a link on the disk, which [`BakePath::within`] checks. The default is empty and stands for no file.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub struct BakePath(String);
 
-/// A path that is no plain name inside a bake.
+/// A path that may lead out of the bake.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the path {path:?} does not stay inside the bake: allowed are plain names with / between them")]
 pub struct NotInside {
-    /// The path.
+    /// The rejected path.
     pub path: String,
 }
 
@@ -39,7 +38,7 @@ impl BakePath {
         }
     }
 
-    /// Where the file lies in a bake, once it is known to lie there.
+    /// Returns the path of the file in a bake, after checking that it lies inside.
     ///
     /// # Errors
     /// The path is empty, there is no such file, or a link leads out of the bake.

@@ -1,4 +1,4 @@
-//! Reading a bake that another process may replace at the same time.
+//! Reads a bake that another process may replace at the same time.
 
 use std::path::Path;
 use std::thread;
@@ -8,15 +8,16 @@ use same_file::Handle;
 
 use super::{ExportError, restore};
 
-/// How often a read is begun.
+/// Largest number of attempts to read.
 const TRIES: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(25);
 
-/// Reads bakes as a whole: all that `read` gives is of the earlier or all of the later bake, and a bake that is
-/// replaced meanwhile is no error. `read` may be called again.
+/// Reads bakes consistently: `read` sees all of the earlier bake or all of the later one.
+///
+/// A replacement during the read is not an error: `read` is called again, at most [`TRIES`] times.
 ///
 /// # Errors
-/// As `read`; a bake that was set aside by a killed run cannot be brought back.
+/// Those of `read`; a bake that a killed run moved aside cannot be restored.
 pub fn settled<T, E: From<ExportError>>(bakes: &[&Path], read: impl Fn() -> Result<T, E>) -> Result<T, E> {
     let folders = || -> Vec<Option<Handle>> { bakes.iter().map(|bake| Handle::from_path(bake).ok()).collect() };
     let mut tries = 1;

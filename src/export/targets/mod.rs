@@ -1,4 +1,4 @@
-//! What the files are made for: names, packing, axes, and what each program needs to use them.
+//! Target programs: file names, channel packing, axes, and scripts for each program.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,11 +16,11 @@ mod tests;
 pub use frame::{TargetEntry, WorldEntry};
 pub use scripts::write_target_files;
 
-/// The program that the textures are for. It decides on names, packing and axes; texels are the same for all.
+/// The program that the textures are for. It sets names, packing and axes, but not the texels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Target {
-    /// Anything that reads glTF; film tools: EXR channels have names of their own.
+    /// Programs that read glTF; film tools. EXR channels are named after their layers.
     #[default]
     Gltf,
     /// Blender.
@@ -33,7 +33,7 @@ pub enum Target {
     Godot,
 }
 
-/// What a texture covers: the first part of its name.
+/// The surface of a texture, the first part of its file name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Covered {
     Floor,
@@ -41,7 +41,7 @@ pub(super) enum Covered {
 }
 
 impl Covered {
-    /// Which of a block's masks a mask image holds, as red, green and blue.
+    /// Returns the indices of the masks in a mask image, as red, green and blue.
     pub(super) fn packed_masks(self) -> [usize; 3] {
         match self {
             Covered::Floor => [0, 2, 3],
@@ -49,7 +49,7 @@ impl Covered {
         }
     }
 
-    /// The mask that has an image of its own: the one that is needed least often.
+    /// Returns the index of the mask with its own image, the one needed least often.
     pub(super) fn lone_mask(self) -> usize {
         match self {
             Covered::Floor => 1,
@@ -57,7 +57,7 @@ impl Covered {
         }
     }
 
-    /// What the image of that mask is called.
+    /// Returns the name of that mask's image.
     fn lone_mask_name(self) -> &'static str {
         match self {
             Covered::Floor => "passes",
@@ -66,7 +66,7 @@ impl Covered {
     }
 }
 
-/// The number in the name of a texture.
+/// The number in a texture's file name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Number {
     Udim(u32),
@@ -75,10 +75,10 @@ pub(super) enum Number {
 }
 
 impl Target {
-    /// All of them.
+    /// All targets.
     pub const ALL: [Target; 5] = [Target::Gltf, Target::Blender, Target::Unreal, Target::Unity, Target::Godot];
 
-    /// What the command line and the scenario call it.
+    /// Returns its name on the command line and in scenarios.
     pub fn name(self) -> &'static str {
         match self {
             Target::Gltf => "gltf",
@@ -89,9 +89,9 @@ impl Target {
         }
     }
 
-    /// The largest side of a texture that it takes, texels.
+    /// Returns the largest side of a texture that the target accepts, texels.
     ///
-    /// Unreal streams up to 14 mip levels, 8192 texels; the others go as far as Direct3D 11 and Vulkan do.
+    /// Unreal streams up to 14 mip levels, 8192 texels. The limit of the others is that of Direct3D 11 and Vulkan.
     pub fn largest_px(self) -> u32 {
         match self {
             Target::Unreal => 8192,
@@ -99,26 +99,26 @@ impl Target {
         }
     }
 
-    /// Checks a side of a texture, texels.
+    /// Checks the side of a texture, texels, against the target's limit.
     pub(super) fn check_size(self, tile: u32) -> Result<(), ExportError> {
         let (target, max) = (self.name(), self.largest_px());
         if tile > max { Err(ExportError::TileTooLargeFor { tile, target, max }) } else { Ok(()) }
     }
 
-    /// The images of a texture.
+    /// Returns the images of a texture for the target.
     pub(super) fn images(self, covered: Covered) -> impl Iterator<Item = Image> {
         let all = [Image::BaseColor, Image::Mask(covered), Image::LoneMask(covered), Image::Orm, Image::MaskMap];
         all.into_iter().filter(move |image| *image != Image::MaskMap || self == Target::Unity)
     }
 
-    /// Whether the layers are written as EXR unless a caller says otherwise.
+    /// Whether the layers are written as EXR by default.
     ///
-    /// Game engines import every image of a bake, and these are the largest and the ones that games need least.
+    /// Game engines import every image of a bake; the layers are the largest ones and rarely used in games.
     pub fn wants_layers(self) -> bool {
         matches!(self, Target::Gltf | Target::Blender)
     }
 
-    /// The EXR files of a texture: engines refuse channels of other names than R, G, B and A.
+    /// Returns the EXR files of a texture. Engines only accept the channels R, G, B and A.
     pub(super) fn layer_files(self, layers: &[&'static str]) -> Vec<LayerFile> {
         match self {
             Target::Gltf | Target::Blender => LayerFile::by_name(layers),
@@ -126,7 +126,7 @@ impl Target {
         }
     }
 
-    /// The name of an image, without its folder.
+    /// Returns the file name of an image, without its folder.
     pub(super) fn image_name(self, covered: Covered, image: Image, number: Number) -> String {
         let kind = match (self, image) {
             (Target::Unreal, Image::BaseColor) => "BaseColor",
@@ -135,7 +135,7 @@ impl Target {
             (Target::Unreal | Target::Unity, Image::LoneMask(Covered::Wall)) => "Splash",
             (Target::Unreal | Target::Unity, Image::Orm) => "ORM",
             (Target::Unity, Image::BaseColor) => "BaseMap",
-            // Unity's own mask map is something else.
+            // Unity's own mask map has other channels.
             (Target::Unity, Image::Mask(_)) => "DirtMask",
             (Target::Unity, Image::MaskMap) => "MaskMap",
             (Target::Godot, Image::BaseColor) => "albedo",
@@ -148,7 +148,7 @@ impl Target {
         self.file_name(covered, kind, number, "png")
     }
 
-    /// The name of the `index`-th EXR file, without its folder.
+    /// Returns the file name of the `index`-th EXR file, without its folder.
     pub(super) fn layers_name(self, covered: Covered, index: usize, number: Number) -> String {
         let kind = match self {
             Target::Gltf | Target::Blender => "layers".to_string(),
@@ -164,7 +164,7 @@ impl Target {
             Covered::Wall => ("wall", "Wall"),
         };
         let number = match (self, number) {
-            // Blender and Unreal find the other tiles by this.
+            // Blender and Unreal recognise UDIM tiles by the dot.
             (Target::Gltf | Target::Blender | Target::Unreal, Number::Udim(udim)) => format!(".{udim}"),
             (Target::Unity | Target::Godot, Number::Udim(udim)) => format!("_{udim}"),
             (_, Number::Uv(u, v)) => format!("_u{u:03}_v{v:03}"),
@@ -176,7 +176,7 @@ impl Target {
         }
     }
 
-    /// What the channels of all images hold. `masks` describes a block's four masks, `of_layer` a layer.
+    /// Describes the channels of all images. `masks` and `of_layer` describe masks and layers.
     pub(super) fn channels(
         self,
         covered: Covered,

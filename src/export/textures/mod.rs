@@ -1,4 +1,4 @@
-//! The textures of floor and walls, as files.
+//! Writes the textures of floor and walls.
 
 use serde::{Deserialize, Serialize};
 
@@ -23,28 +23,28 @@ mod wall_tests;
 pub use walls::{WallTextures, wall_textures};
 use writer::{Canvas, TextureWriter};
 
-/// How far the look goes on beyond the floor's edge and around strips of wall, texels.
+/// How far the look continues beyond the floor's edge and around strips of wall, texels.
 pub const PADDING_PX: u32 = 16;
 
-/// How textures are written.
+/// Size, target and kinds of the textures to write.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct TextureOptions {
     /// Greatest width and height of a texture, texels: 64 to 16384.
     pub tile: u32,
-    /// Whether to write the layers as EXR too; left out: as is usual for the target, see [`Target::wants_layers`].
+    /// Whether to write the layers as EXR too. `None`: the target's default, see [`Target::wants_layers`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub layers: Option<bool>,
-    /// The program that they are for.
+    /// The target program.
     pub target: Target,
-    /// Whether walls are made too, and with them the scene, stills and page; the floor alone otherwise.
+    /// Whether to write walls, scene, stills and page too, not only the floor.
     pub walls: bool,
-    /// Whether `scene.glb` carries its textures, reduced, inside.
+    /// Whether `scene.glb` embeds its textures, reduced.
     pub embed: bool,
-    /// The greatest width and height of the small images that are kept of each texture; none are without it.
+    /// Greatest width and height of the reduced images; `None` for no reduced images.
     #[serde(skip)]
     pub reduced_px: Option<u32>,
-    /// Whether a bake is made even if it is larger than [`crate::export::LARGE_BYTES`] or than the disk has room for.
+    /// Whether to write a bake beyond [`crate::export::LARGE_BYTES`] or the free disk space.
     #[serde(skip)]
     pub any_size: bool,
 }
@@ -64,15 +64,15 @@ impl Default for TextureOptions {
 }
 
 impl TextureOptions {
-    /// Whether the layers are written.
+    /// Whether the layers are written as EXR.
     pub fn writes_layers(&self) -> bool {
         self.layers.unwrap_or_else(|| self.target.wants_layers())
     }
 
-    /// Checks the size against what the target takes.
+    /// Checks the tile size against its range and the target's limit.
     ///
     /// # Errors
-    /// A tile size out of range.
+    /// The tile size is out of range.
     pub fn check(&self) -> Result<(), ExportError> {
         let (tile, min, max) = (self.tile, TileLayout::MIN_TILE, TileLayout::MAX_TILE);
         if !(min..=max).contains(&tile) {
@@ -82,29 +82,29 @@ impl TextureOptions {
     }
 }
 
-/// What was written of a floor.
+/// The written textures of a floor.
 #[derive(Debug)]
 pub struct FloorTextures {
-    /// How the floor was cut.
+    /// Layout of the tiles.
     pub layout: TileLayout,
-    /// The tiles that hold floor; there are no files of the others.
+    /// The tiles that hold floor; other tiles have no files.
     pub tiles: Vec<TileEntry>,
-    /// The program that they are for.
+    /// The target program.
     pub target: Target,
     /// Names of the layers that were written.
     pub layers: Vec<&'static str>,
-    /// Small images of each of `tiles`, if they were asked for.
+    /// Reduced images of each of `tiles`, if requested.
     pub reduced: Vec<Reduced>,
-    /// The floor from above.
+    /// Overview of the floor.
     pub birdseye: Birdseye,
-    /// Seconds that threads spent on resolving.
+    /// Time that threads spent on resolving, seconds.
     pub look_busy_s: f64,
-    /// Seconds that threads spent on compressing and writing.
+    /// Time that threads spent on compressing and writing, seconds.
     pub export_busy_s: f64,
 }
 
 impl FloorTextures {
-    /// The manifest's entry.
+    /// Returns the floor's entry for the manifest.
     pub fn entry(&self, sums: SumsEntry) -> FloorEntry {
         let grid = self.layout.grid;
         let masks = [
@@ -137,13 +137,13 @@ impl FloorTextures {
     }
 }
 
-/// Resolves a floor and writes its textures into `floor/`, a band of blocks at a time from above, on the rayon pool
-/// that it is called in: while one band is compressed and written, the next one is resolved.
+/// Resolves a floor and writes its textures into `floor/`, band by band from above.
 ///
-/// Needs memory for the images of two bands of 256 rows, whatever the size of the floor, and for the reduced images.
+/// Runs on the current rayon pool: it resolves the next band while it compresses and writes one. Memory holds the
+/// images of two bands of 256 rows, whatever the floor's size, and the reduced images.
 ///
 /// # Errors
-/// A tile size out of range or beyond what the target takes, a file that cannot be written, an interruption.
+/// A tile size out of range or beyond the target's limit; a file that cannot be written; an interruption.
 pub fn floor_textures(
     folder: &OutputFolder,
     grid: TexelGrid,
