@@ -1,4 +1,4 @@
-//! What is printed, and how.
+//! Output to standard output and standard error, and files of results.
 
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -18,18 +18,19 @@ const ERROR: Style = AnsiColor::Red.on_default().bold();
 const WARNING: Style = AnsiColor::Yellow.on_default().bold();
 const HINT: Style = AnsiColor::Cyan.on_default().bold();
 
-/// Writes a line to standard output. A reader that has gone away is an error here, so that work stops, and none in
-/// [`failure`].
+/// Writes a line to standard output.
+///
+/// A closed pipe is an error here, so that the work stops; [`failure`] does not report it.
 pub fn line(text: impl Display) -> anyhow::Result<()> {
     Ok(writeln!(io::stdout(), "{}", plain(&text.to_string()))?)
 }
 
-/// Writes text to standard output as it is.
+/// Writes text unchanged to standard output.
 pub fn text(text: &str) -> anyhow::Result<()> {
     Ok(io::stdout().write_all(text.as_bytes())?)
 }
 
-/// Prints why a command failed: what, what caused it, what to do about it.
+/// Prints why a command failed: the error, its causes, a hint.
 pub fn failure(error: &anyhow::Error, common: &Common) -> ExitCode {
     if is_broken_pipe(error) {
         return ExitCode::SUCCESS;
@@ -38,7 +39,7 @@ pub fn failure(error: &anyhow::Error, common: &Common) -> ExitCode {
     let mut text = format!("{} {}\n", label("error", ERROR, colour), plain(&error.to_string()));
     let mut last = error.to_string();
     for cause in error.chain().skip(1).map(ToString::to_string) {
-        // Many messages end with that of their cause.
+        // Many messages already contain their cause.
         if !last.contains(&cause) {
             text.push_str(&format!("  caused by: {}\n", plain(&cause)));
             last = cause;
@@ -53,7 +54,7 @@ pub fn failure(error: &anyhow::Error, common: &Common) -> ExitCode {
     ExitCode::FAILURE
 }
 
-/// The hint of an error of the library, of a stage or of the whole.
+/// Returns the hint of the library's error or of a stage's error.
 fn hint_of(error: &anyhow::Error) -> Option<String> {
     macro_rules! first_of {
         ($($Error:ty),* $(,)?) => {
@@ -75,18 +76,19 @@ fn hint_of(error: &anyhow::Error) -> Option<String> {
     None
 }
 
-/// The text of a warning.
+/// Formats a warning.
 pub fn warning(message: &str, common: &Common) -> String {
     format!("{} {}\n", label("warning", WARNING, common.colours(&io::stderr())), plain(message))
 }
 
-/// Writes to standard error; there is nobody left to tell if that fails.
+/// Writes to standard error and ignores failures.
 pub fn to_stderr(text: &str) {
     let _ = io::stderr().write_all(text.as_bytes());
 }
 
-/// Text that leaves the terminal as it is: control characters and those that turn the direction of writing are shown
-/// as escapes, but for ends of lines. Names of files, routes and stops may hold any.
+/// Escapes control characters and marks of writing direction, except newlines.
+///
+/// Names of files, routes and stops may contain them.
 fn plain(text: &str) -> Cow<'_, str> {
     let turns = |c: char| matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     let is_unsafe = |c: char| c != '\n' && (c.is_control() || turns(c));
@@ -104,7 +106,7 @@ fn label(name: &str, style: Style, colour: bool) -> String {
     if colour { format!("{style}{name}:{style:#}") } else { format!("{name}:") }
 }
 
-/// Whether the program that read our output stopped reading, as `head` does: no failure of ours.
+/// Whether the reader of standard output closed the pipe, as `head` does.
 pub fn is_broken_pipe(error: &anyhow::Error) -> bool {
     let is_one = |cause: &(dyn std::error::Error + 'static)| {
         cause.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
@@ -113,7 +115,7 @@ pub fn is_broken_pipe(error: &anyhow::Error) -> bool {
 }
 
 impl Common {
-    /// Whether to colour what is written to a stream.
+    /// Whether to colour the output to a stream.
     pub fn colours(&self, stream: &impl IsTerminal) -> bool {
         match self.color {
             ColorChoice::Always => true,
@@ -127,43 +129,44 @@ impl Common {
     }
 }
 
-/// A failure of the command line itself, with its remedy.
+/// An error of the command line itself, with a hint.
 #[derive(Debug, thiserror::Error)]
 #[error("{message}")]
 pub struct Refused {
-    /// What cannot be done, and why.
+    /// Description of the error.
     pub message: String,
-    /// What to do instead, where there is something.
+    /// Suggested remedy.
     pub hint: Option<Cow<'static, str>>,
 }
 
-/// A file that a command will write, once its work is done.
+/// A file that a command writes when its work is done.
 pub struct PlannedFile {
     path: PathBuf,
     force: bool,
 }
 
-/// Makes sure, before the work begins, that a file may be written. A file that exists is refused without `force`, and one
-/// that the command reads always.
+/// Checks, before the work begins, that a file may be written.
+///
+/// Refuses an existing file without `force`, and always a file that the command reads.
 pub fn plan_file(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<PlannedFile, trodden::Error> {
     check_not_input(path, inputs)?;
-    // Begun and dropped again: a command that ends halfway by a signal leaves nothing behind.
+    // Begun and dropped: a command that a signal ends leaves nothing behind.
     WholeFile::begin(path, force)?;
     Ok(PlannedFile { path: path.to_path_buf(), force })
 }
 
-/// Writes a picture as PNG, whatever the file's ending.
+/// Writes a picture as PNG, whatever the file's extension.
 pub fn save_picture(picture: &image::RgbImage, file: PlannedFile) -> Result<(), trodden::Error> {
     save(&encode_picture(picture), file)
 }
 
-/// Writes a planned file, whole or not at all.
+/// Writes a planned file, completely or not at all.
 pub fn save(bytes: &[u8], file: PlannedFile) -> Result<(), trodden::Error> {
     write_whole(&file.path, bytes, file.force)?;
     Ok(())
 }
 
-/// The files that are read of a bake, or of an image alone.
+/// Lists the files that reading a bake, or a single image, needs.
 pub fn files_of(bake: &Path) -> Vec<PathBuf> {
     let listed = Manifest::read(bake).map(|manifest| manifest.files).unwrap_or_default();
     let image = Some(bake.to_path_buf()).filter(|path| path.is_file());

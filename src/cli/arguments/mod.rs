@@ -45,18 +45,18 @@ pub struct ScenarioArguments {
     /// A coarse floor of 25 texels per metre: a picture in about a second
     #[arg(long, help_heading = "Scenario", conflicts_with = "texels_per_metre")]
     pub quick: bool,
-    /// The plan, where it came on standard input.
+    /// A copy of the plan, if it came on standard input.
     #[arg(skip)]
     spool: Spool,
 }
 
 impl ScenarioArguments {
-    /// The scenario with the overrides applied.
+    /// Reads the scenario and applies the overrides.
     pub fn scenario(&self) -> anyhow::Result<Scenario> {
         self.with(&self.overrides())
     }
 
-    /// The scenario with these overrides applied; without a file, that of a given motion on open ground.
+    /// Reads the scenario and applies overrides. Without a file it is open ground for a motion.
     pub fn with(&self, overrides: &Overrides) -> anyhow::Result<Scenario> {
         let scenario = match &self.path {
             Some(path) if standard_input::is_meant(path) => return self.read(overrides),
@@ -66,7 +66,7 @@ impl ScenarioArguments {
         Ok(scenario.map_err(trodden::Error::from)?)
     }
 
-    /// The scenario on standard input, with paths from the working directory; or that of the plan there.
+    /// Reads standard input: a scenario with paths from the working directory, or a plan.
     fn read(&self, overrides: &Overrides) -> anyhow::Result<Scenario> {
         let bytes = standard_input::read()?;
         let scenario = match std::str::from_utf8(&bytes) {
@@ -78,17 +78,17 @@ impl ScenarioArguments {
         Ok(scenario.map_err(trodden::Error::from)?)
     }
 
-    /// Whether standard input takes the place of the file.
+    /// Whether the scenario comes from standard input.
     pub fn is_standard_input(&self) -> bool {
         self.path.as_deref().is_some_and(standard_input::is_meant)
     }
 
-    /// An error that names the scenario's files as the user knows them.
+    /// Replaces the path of the copy of standard input in an error.
     pub fn explain(&self, error: trodden::Error) -> anyhow::Error {
         self.spool.explain(error)
     }
 
-    /// What of the scenario is overridden.
+    /// Returns the overrides of the command line.
     pub fn overrides(&self) -> Overrides {
         Overrides {
             preset: self.preset,
@@ -101,12 +101,12 @@ impl ScenarioArguments {
     }
 }
 
-/// Takes the name of a program that textures are for.
+/// Returns a parser of target names.
 pub fn target() -> impl TypedValueParser<Value = Target> {
     one_of(Target::ALL, Target::name)
 }
 
-/// Takes the name of a preset.
+/// Returns a parser of preset names.
 pub fn preset() -> impl TypedValueParser<Value = Preset> {
     one_of(Preset::ALL, Preset::name)
 }

@@ -1,4 +1,4 @@
-//! The files that a motion goes to.
+//! Output files of a motion.
 
 use std::path::{Path, PathBuf};
 
@@ -45,7 +45,7 @@ pub struct MotionFiles {
 }
 
 impl MotionFiles {
-    /// Ends the program where options contradict each other.
+    /// Exits with a usage error where options contradict each other.
     pub fn check(&self, command: &[&str], json: bool) {
         if let Err(problem) = self.form() {
             let path = self.output.as_deref().unwrap_or(Path::new("")).display();
@@ -73,7 +73,7 @@ impl MotionFiles {
         }
     }
 
-    /// Makes sure that all files can be written, before the work that they are for.
+    /// Checks, before the work begins, that all files can be written.
     pub fn probe(&self) -> Result<(), trodden::Error> {
         let motion = self.output.as_ref().filter(|_| !self.prints_motion());
         for path in [motion, self.animation.as_ref(), self.paths.as_ref()].into_iter().flatten() {
@@ -82,7 +82,7 @@ impl MotionFiles {
         Ok(())
     }
 
-    /// Whether the motion can be written to the file.
+    /// Checks that the file's name gives a format for the motion.
     fn form(&self) -> Result<(), String> {
         let Some(path) = &self.output else { return Ok(()) };
         if self.prints_motion() {
@@ -100,7 +100,7 @@ impl MotionFiles {
         self.output.as_deref() == Some(Path::new(STANDARD_OUTPUT))
     }
 
-    /// The same for the library, at the motion's own frame rate.
+    /// Returns the outputs for the library, at the motion's own frame rate.
     pub fn outputs(&self) -> WalkOutputs {
         let default = AnimationOptions::default();
         let options = AnimationOptions {
@@ -121,7 +121,7 @@ impl MotionFiles {
         }
     }
 
-    /// Says how it went, as JSON or in words.
+    /// Prints a summary, as JSON or as text.
     pub fn tell(&self, report: &WalkReport, json: bool, common: &Common) -> anyhow::Result<()> {
         if json {
             return self.say(serde_json::to_string_pretty(report)?);
@@ -161,12 +161,12 @@ impl MotionFiles {
         self.say(format!("done in {total:.1} s{memory}"))
     }
 
-    /// Whether there is anything to write.
+    /// Whether any file is to be written.
     pub fn any(&self) -> bool {
         self.output.is_some() || self.animation.is_some() || self.paths.is_some()
     }
 
-    /// Prints a line where the motion does not go.
+    /// Prints a line to standard output, or to standard error if the motion uses that.
     pub fn say(&self, text: String) -> anyhow::Result<()> {
         if self.prints_motion() {
             print::to_stderr(&format!("{text}\n"));
@@ -176,12 +176,12 @@ impl MotionFiles {
     }
 }
 
-/// The file name that means standard output.
+/// File name for standard output.
 pub const STANDARD_OUTPUT: &str = "-";
 
 fn refuse(command: &[&str], kind: ErrorKind, message: &str) {
     let mut cli = Cli::command();
-    // So that the usage is that of the whole command.
+    // Gives the usage line the full command name.
     cli.build();
     let mut found = &mut cli;
     for name in command {
@@ -191,7 +191,7 @@ fn refuse(command: &[&str], kind: ErrorKind, message: &str) {
     found.error(kind, message).exit();
 }
 
-/// Minutes and seconds.
+/// Formats a duration as minutes and seconds.
 fn duration(seconds: f64) -> String {
     let whole = seconds.round() as u64;
     if whole < 60 { format!("{whole} s") } else { format!("{} min {} s", whole / 60, whole % 60) }
@@ -207,12 +207,12 @@ fn animation_file(text: &str) -> Result<PathBuf, String> {
     AnimationFormat::of(&path).map(|_| path).map_err(|_| "known endings are .gif, .png or .apng".to_string())
 }
 
-/// Takes the name of a format.
+/// Returns a parser of recording formats.
 pub fn recording_format() -> impl TypedValueParser<Value = RecordingFormat> {
     one_of(RecordingFormat::ALL, RecordingFormat::name)
 }
 
-/// Takes frames per second.
+/// Parses a frame rate, frames per second.
 pub fn frame_rate(text: &str) -> Result<f64, String> {
     number_within(text, FRAME_RATES)
 }
