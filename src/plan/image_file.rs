@@ -9,12 +9,12 @@ use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Li
 use super::{LARGEST_AREA_PX, LARGEST_SIDE_PX, PlanError, palette};
 use crate::files::{LARGEST_IMAGE_BYTES, open_input_up_to};
 
-/// Most bytes of an image's decoded pixels: four for each of [`LARGEST_AREA_PX`].
+/// Limit on an image's decoded size, bytes: four for each of [`LARGEST_AREA_PX`].
 const LARGEST_DECODED_BYTES: u64 = 4 * LARGEST_AREA_PX;
-/// Bytes for each pixel that understanding a plan takes at most, beyond the image.
+/// Most memory for reading a plan beyond the image itself, bytes per pixel.
 const WORKING_BYTES: u64 = 6;
 
-/// Reads an image of any known format, whatever its name ends in.
+/// Decodes an image of any known format, whatever its file extension.
 pub(super) fn decode(path: &Path) -> Result<DynamicImage, PlanError> {
     let open = |source| PlanError::Open { path: path.to_owned(), source };
     let file = open_input_up_to(path, LARGEST_IMAGE_BYTES).map_err(open)?;
@@ -36,7 +36,7 @@ pub(super) fn decode(path: &Path) -> Result<DynamicImage, PlanError> {
     }
 }
 
-/// The pixels of an image whose header was read, unless there are too many.
+/// Decodes the pixels of an image whose header was read; refuses too many pixels.
 pub(super) fn pixels(path: &Path, decoder: impl ImageDecoder) -> Result<DynamicImage, PlanError> {
     let (width, height) = decoder.dimensions();
     let area = u64::from(width) * u64::from(height);
@@ -67,16 +67,16 @@ pub(super) fn damaged(path: &Path, reason: impl ToString) -> PlanError {
     PlanError::Damaged { path: path.to_owned(), reason: reason.to_string() }
 }
 
-/// Room for the largest image in the widest pixel type; sides are checked by the caller.
+/// Memory limit for the largest image in the widest pixel type. The caller checks the sides.
 pub(super) fn limits() -> Limits {
     let mut limits = Limits::default();
     limits.max_alloc = Some(LARGEST_DECODED_BYTES + (64 << 20));
     limits
 }
 
-/// Whether the end-of-image marker stands near the end; decoders fill up what is missing with grey.
+/// Whether a JPEG ends with its end marker; decoders replace missing data with grey.
 fn ends_as_jpeg(path: &Path) -> std::io::Result<bool> {
-    // Some cameras and editors append data of their own.
+    // Some cameras and editors append their own data.
     const TAIL: u64 = 64 << 10;
     let mut file = File::open(path)?;
     let length = file.metadata()?.len();
