@@ -45,7 +45,7 @@ enum Command {
     Diff(diff::Diff),
 }
 
-/// What every subcommand takes.
+/// Options of every subcommand.
 #[derive(Args)]
 #[command(next_help_heading = "Common options")]
 pub struct Common {

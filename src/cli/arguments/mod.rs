@@ -18,7 +18,7 @@ pub use values::{number_within, one_of, within};
 /// Texel density of a quick bake, texels per metre.
 const QUICK_TEXELS_PER_METRE: f64 = 25.0;
 
-/// A scenario and what of it is overridden.
+/// A scenario and its overrides.
 #[derive(Args)]
 pub struct ScenarioArguments {
     /// A scenario (TOML), or a plan alone: PNG, JPEG, BMP, PGM, TIFF, GIF, or the YAML of a ROS map; - reads standard input

@@ -13,7 +13,7 @@ use trodden::walk::{MotionOutput, WalkOutputs, WalkReport};
 use super::super::{Cli, Common, print};
 use super::{number_within, one_of};
 
-/// Where a motion and pictures of it are written.
+/// Output files of a motion: positions, animation, picture of the paths.
 #[derive(Args)]
 pub struct MotionFiles {
     /// Write the motion: .txt is Juelich text, .csv a CSV with named columns, .traj Vadere's steps, each also in .gz;

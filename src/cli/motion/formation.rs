@@ -40,7 +40,7 @@ pub struct Formation {
     outputs: Outputs,
 }
 
-/// A formation without a scenario.
+/// Options of a formation without a scenario.
 #[derive(Args)]
 #[command(next_help_heading = "Without a scenario")]
 struct Parts {

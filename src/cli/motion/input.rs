@@ -10,7 +10,7 @@ use trodden::{Error, Progress};
 use super::super::arguments::{number_within, one_of, recording_format};
 use super::super::standard_input::{self, Spool};
 
-/// A recording and how it is read.
+/// A recording and the options of reading it.
 #[derive(Args)]
 pub struct RecordingInput {
     /// The motion: Juelich text, JuPedSim database, Vadere, crowd:it, Viswalk, Pathfinder, obsmat, or CSV with names; -
@@ -45,7 +45,7 @@ pub fn open(file: &std::path::Path, options: &RecordingOptions, progress: &dyn P
     Ok(recording)
 }
 
-/// How a recording is read; what is left out is found in the file.
+/// Format options of a recording; missing ones are detected in the file.
 #[derive(Args)]
 #[command(next_help_heading = "Recording")]
 pub struct Reading {
@@ -76,7 +76,7 @@ impl Reading {
     }
 }
 
-/// Where a recording lies on the plan.
+/// Position of a recording on the plan.
 #[derive(Args)]
 #[command(next_help_heading = "Recording")]
 pub struct Alignment {

@@ -15,7 +15,7 @@ use super::input;
 /// Options of the first recording that the second has too, as `--mix-NAME`.
 const OPTIONS: [&str; 6] = ["format", "unit", "fps", "columns", "from", "to"];
 
-/// Another crowd whose features are added.
+/// Options of a second crowd whose features are added.
 #[derive(Args)]
 #[command(next_help_heading = "Mixing")]
 pub struct Mixing {

@@ -11,7 +11,7 @@ use trodden::{Error, Progress, Stopwatch};
 
 use super::super::arguments::{MotionFiles, within};
 
-/// The files that a motion is written to.
+/// Output options of a motion.
 #[derive(Args)]
 #[command(next_help_heading = "Output")]
 pub struct Outputs {

@@ -49,7 +49,7 @@ pub struct Units {
     json: bool,
 }
 
-/// Where the viewer stands, and what is cut.
+/// Options of the viewer's spot and of cutting.
 #[derive(Args)]
 #[command(next_help_heading = "Cutting")]
 struct SpotArguments {

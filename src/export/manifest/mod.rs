@@ -77,7 +77,7 @@ pub struct Manifest {
     pub settings: serde_json::Value,
     /// Outlines of the floor, closed loops with the floor on the right. Walls are rebuilt from them.
     pub outlines: Vec<Outline>,
-    /// Every file of the bake in alphabetical order. [`OutputFolder::publish`] fills it in.
+    /// All files of the bake in alphabetical order. Set by [`crate::export::OutputFolder::publish`].
     pub files: Vec<BakePath>,
 }
 

@@ -14,7 +14,7 @@ const PAUSE: Duration = Duration::from_millis(25);
 
 /// Reads bakes consistently: `read` sees all of the earlier bake or all of the later one.
 ///
-/// A replacement during the read is not an error: `read` is called again, at most [`TRIES`] times.
+/// A bake may be replaced during the read: then `read` is called again, at most 20 times in all.
 ///
 /// # Errors
 /// Those of `read`; a bake that a killed run moved aside cannot be restored.
