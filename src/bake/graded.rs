@@ -21,7 +21,6 @@ use crate::walls::{Doorway, Walls};
 /// Greatest side of the reduced images in the page and in a model with textures, pixels.
 const REDUCED_PX: u32 = 2048;
 
-/// Sums of all stamps.
 pub(super) struct Sums {
     pub floor: FloorSums,
     /// `None` for a bake of the floor only.
@@ -45,7 +44,6 @@ pub(super) struct Graded<'a> {
     pub atlas: Option<Atlas>,
 }
 
-/// Entries of the written files.
 pub(super) struct Written {
     pub floor: FloorTextures,
     pub walls: Option<WallTextures>,

@@ -8,7 +8,6 @@ use crate::source::Source;
 /// Footfalls in a batch: enough to stamp blocks in parallel, few enough to keep all cores busy.
 const BATCH: usize = 16_384;
 
-/// A batch of marks.
 #[derive(Default)]
 pub(super) struct Marks {
     /// Footfalls and heel marks.

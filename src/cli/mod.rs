@@ -87,7 +87,6 @@ pub fn parse() -> Cli {
 }
 
 impl Cli {
-    /// Runs the subcommand.
     pub fn run(&self) -> anyhow::Result<ExitCode> {
         signals::survive_size_limit();
         self.common.start_threads()?;

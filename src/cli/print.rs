@@ -76,7 +76,6 @@ fn hint_of(error: &anyhow::Error) -> Option<String> {
     None
 }
 
-/// Formats a warning.
 pub fn warning(message: &str, common: &Common) -> String {
     format!("{} {}\n", label("warning", WARNING, common.colours(&io::stderr())), plain(message))
 }
@@ -133,9 +132,7 @@ impl Common {
 #[derive(Debug, thiserror::Error)]
 #[error("{message}")]
 pub struct Refused {
-    /// Description of the error.
     pub message: String,
-    /// Suggested remedy.
     pub hint: Option<Cow<'static, str>>,
 }
 

@@ -10,11 +10,9 @@ use tempfile::TempDir;
 
 use super::print::Refused;
 
-/// File name for standard input.
 const FILE_NAME: &str = "-";
 /// File name of the copy.
 const SPOOLED: &str = "stdin";
-/// Name in messages.
 const SHOWN: &str = "standard input";
 /// Largest scenario or plan on standard input, bytes.
 const MOST_BYTES: u64 = 1 << 30;

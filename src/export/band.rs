@@ -118,7 +118,6 @@ impl Band {
         });
     }
 
-    /// Whether all its blocks are empty.
     pub(super) fn is_empty(&self) -> bool {
         self.blocks.iter().all(|block| block.texels.empty)
     }
@@ -209,14 +208,12 @@ pub(super) struct LayerEncoder {
 }
 
 impl LayerEncoder {
-    /// Returns an encoder for these files.
     pub(super) fn new(files: Vec<LayerFile>) -> LayerEncoder {
         let mut encoder = LayerEncoder { files, pool: Pool::default(), blank: Vec::new() };
         encoder.blank = encoder.zeros(BLOCK, BLOCK);
         encoder
     }
 
-    /// The EXR files that it encodes for.
     pub(super) fn files(&self) -> &[LayerFile] {
         &self.files
     }
@@ -333,7 +330,6 @@ pub(super) struct TextureFiles {
 }
 
 impl TextureFiles {
-    /// Returns the path of an image, `None` if the texture has no such image.
     pub(super) fn image(&self, wanted: Image) -> Option<String> {
         self.images.iter().find(|(image, _)| *image == wanted).map(|(_, name)| name.clone())
     }

@@ -61,7 +61,6 @@ impl<W: Write + Seek> ExrWriter<W> {
         Ok(ExrWriter { out, table_at, at: head.len() as u64, offsets: Vec::new(), columns, tiles: columns * rows })
     }
 
-    /// Appends the next tile.
     pub(super) fn push(&mut self, tile: &[u8]) -> io::Result<()> {
         let index = self.offsets.len();
         let coordinates = [index % self.columns, index / self.columns, 0, 0, tile.len()];

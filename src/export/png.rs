@@ -7,7 +7,6 @@ use std::io::{self, Write};
 
 use super::deflate::{Part, ZLIB_HEADER, adler32, adler32_joined, deflate};
 
-/// The signature at the start of every PNG file.
 pub(super) struct Signature;
 
 impl Signature {

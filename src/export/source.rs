@@ -111,7 +111,6 @@ impl<S: WallSource> TextureSource for SheetSource<'_, S> {
     }
 }
 
-/// A rectangle of texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Rect {
     i0: i64,

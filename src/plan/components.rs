@@ -25,7 +25,6 @@ pub(super) struct Component {
 }
 
 impl Component {
-    /// Width and height of its bounding box.
     pub(super) fn size(&self) -> [u32; 2] {
         [self.end[0] - self.min[0], self.end[1] - self.min[1]]
     }
@@ -74,7 +73,6 @@ impl Components {
         group(runs, &mut parents)
     }
 
-    /// Returns the runs of a component, in reading order.
     pub(super) fn runs(&self, component: &Component) -> &[Run] {
         &self.runs[component.runs.clone()]
     }

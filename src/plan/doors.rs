@@ -28,7 +28,6 @@ const THICK_WALLS: f64 = 0.7;
 const BENT: f64 = 0.12;
 const LEAST_BENT_PX: f64 = 2.0;
 
-/// Removes the symbols of doors.
 pub(super) fn drop_doors(drawing: &mut Drawing, metres_per_pixel: f64) {
     let sizes = Sizes::new(metres_per_pixel);
     let mut doors: Vec<Arc> = Vec::new();

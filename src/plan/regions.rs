@@ -154,7 +154,6 @@ fn roles_by_seeds(plan: &FloorPlan, spaces: &Spaces, seeds: &[Vec2]) -> Result<V
     Ok(roles)
 }
 
-/// Returns the pixel under a point, or `None` beyond the image.
 fn pixel_of(plan: &FloorPlan, p: Vec2) -> Option<usize> {
     let [x, y] = plan.m_to_px(p);
     let within = x >= 0.0 && y >= 0.0 && x < f64::from(plan.width_px) && y < f64::from(plan.height_px);

@@ -88,7 +88,6 @@ impl ScenarioArguments {
         self.spool.explain(error)
     }
 
-    /// Returns the overrides of the command line.
     pub fn overrides(&self) -> Overrides {
         Overrides {
             preset: self.preset,
@@ -101,12 +100,10 @@ impl ScenarioArguments {
     }
 }
 
-/// Returns a parser of target names.
 pub fn target() -> impl TypedValueParser<Value = Target> {
     one_of(Target::ALL, Target::name)
 }
 
-/// Returns a parser of preset names.
 pub fn preset() -> impl TypedValueParser<Value = Preset> {
     one_of(Preset::ALL, Preset::name)
 }

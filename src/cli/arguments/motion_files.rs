@@ -161,7 +161,6 @@ impl MotionFiles {
         self.say(format!("done in {total:.1} s{memory}"))
     }
 
-    /// Whether any file is to be written.
     pub fn any(&self) -> bool {
         self.output.is_some() || self.animation.is_some() || self.paths.is_some()
     }
@@ -207,7 +206,6 @@ fn animation_file(text: &str) -> Result<PathBuf, String> {
     AnimationFormat::of(&path).map(|_| path).map_err(|_| "known endings are .gif, .png or .apng".to_string())
 }
 
-/// Returns a parser of recording formats.
 pub fn recording_format() -> impl TypedValueParser<Value = RecordingFormat> {
     one_of(RecordingFormat::ALL, RecordingFormat::name)
 }

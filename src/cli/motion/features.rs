@@ -113,7 +113,6 @@ struct Row {
     error_m: f64,
 }
 
-/// The whole JSON output.
 #[derive(Serialize)]
 struct Everything<'a> {
     features: &'a Summary,
@@ -265,7 +264,6 @@ impl Features {
         Ok((summary, made))
     }
 
-    /// Returns the lines of the table of components.
     fn table(&self, summary: &Summary) -> Vec<String> {
         let Summary { span, components, .. } = summary;
         let (name, neighbours) = match (summary.method, summary.mean_neighbours.as_slice()) {

@@ -125,7 +125,6 @@ impl Formation {
         Ok(show(&given, &ground, &people, &self.outputs.outputs(), watch)?)
     }
 
-    /// Builds the request from the options.
     fn request(&self, watch: &Watch) -> anyhow::Result<FormationRequest> {
         let parts = &self.parts;
         let file = parts.example.clone().unwrap_or_default();

@@ -64,7 +64,6 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// Returns the options for the library.
     pub fn options(&self) -> RecordingOptions {
         RecordingOptions {
             format: self.format,
@@ -122,7 +121,6 @@ pub fn rate(text: &str) -> Result<f64, String> {
     number_within(text, [0.01, 1000.0])
 }
 
-/// Returns a parser of length units.
 pub fn unit() -> impl TypedValueParser<Value = LengthUnit> {
     one_of(LengthUnit::ALL, LengthUnit::name)
 }

@@ -51,7 +51,6 @@ impl Outputs {
         show(given, &ground, &people, &self.outputs(), progress)
     }
 
-    /// Returns the outputs for the library.
     pub fn outputs(&self) -> WalkOutputs {
         WalkOutputs { fps: self.output_fps, ..self.files.outputs() }
     }

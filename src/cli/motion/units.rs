@@ -147,7 +147,6 @@ impl Units {
         Ok(ExitCode::SUCCESS)
     }
 
-    /// Returns the input files.
     fn inputs(&self) -> Vec<PathBuf> {
         let listed = self.list.iter().flatten().flat_map(|folder| files_in(folder));
         listed.chain(self.file.clone()).collect()

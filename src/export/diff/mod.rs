@@ -168,7 +168,6 @@ fn diff_bakes(a: &Path, b: &Path, options: &DiffOptions) -> Result<Comparison, E
     })
 }
 
-/// Result of comparing one file of two bakes.
 enum Found {
     Image(Box<ImageDiff>, Option<HeatMap>),
     Same,
@@ -211,7 +210,6 @@ fn files_in(folder: &Path) -> Result<BTreeSet<String>, ExportError> {
     Ok(files)
 }
 
-/// Whether two files have the same bytes.
 fn same_bytes(a: &Path, b: &Path) -> Result<bool, ExportError> {
     let open = |path: &Path| File::open(path).map_err(ExportError::read(path));
     let (mut file_a, mut file_b) = (open(a)?, open(b)?);

@@ -22,7 +22,6 @@ fn content(out: &Path) -> String {
     fs::read_to_string(out.join("floor/a.txt")).unwrap()
 }
 
-/// Names of all entries of a folder, including hidden ones.
 fn names(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> =
         fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();

@@ -39,7 +39,6 @@ fn block([width, height]: [u32; 2], left: usize, top: usize) -> ([u32; 2], [usiz
     ([left as u32, (height as usize - top - size[1]) as u32], size)
 }
 
-/// Writes an image of sums as an EXR.
 pub(super) fn write_image(
     file: OutputFile,
     image: &impl SumsImage,

@@ -106,7 +106,6 @@ fn read_sheet(path: &Path, sheet: &Sheet, sums: &mut WallSums) -> Result<(), Exp
     })
 }
 
-/// A sheet of walls as an image of sums.
 struct SheetImage<'a> {
     sums: &'a WallSums,
     sheet: &'a Sheet,
@@ -179,7 +178,6 @@ impl Part {
         (self.at[1] + y) * pitch + self.at[0] + x
     }
 
-    /// Copies the part's values into the rectangle.
     fn paste(&self, values: &[u32], pitch: usize, rectangle: &mut [u32]) {
         for (j, row) in values.chunks_exact(self.size[0]).enumerate() {
             for (i, &value) in row.iter().enumerate() {

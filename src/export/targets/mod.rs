@@ -57,7 +57,6 @@ impl Covered {
         }
     }
 
-    /// Returns the name of that mask's image.
     fn lone_mask_name(self) -> &'static str {
         match self {
             Covered::Floor => "passes",

@@ -43,13 +43,11 @@ struct Open<'c> {
     reduced: Option<Reduced>,
 }
 
-/// Result of writing a texture.
 pub(super) struct Written {
     pub(super) reduced: Option<Reduced>,
 }
 
 impl<'a> TextureWriter<'a> {
-    /// Creates a writer for sources with these layers.
     pub(super) fn new(
         folder: &'a OutputFolder,
         layers: &[&'static str],
@@ -68,7 +66,6 @@ impl<'a> TextureWriter<'a> {
         }
     }
 
-    /// Returns the paths of a texture's files.
     pub(super) fn files(&self, covered: Covered, number: Number) -> TextureFiles {
         let folder = match covered {
             Covered::Floor => "floor",
