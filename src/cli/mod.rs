@@ -1,4 +1,4 @@
-//! The command line: one file per subcommand, and what they share. Only here: clap, indicatif, anyhow.
+//! The command line: one file per subcommand, and shared parts. Only this module uses clap, indicatif and anyhow.
 
 use std::process::ExitCode;
 
@@ -66,7 +66,7 @@ Examples:
 
 `trodden COMMAND --help` says more about each.";
 
-/// Reads the command line; prints help, the version or what is wrong, and exits, where it is one of these.
+/// Parses the command line. Prints help, the version or a usage error, and exits, where one applies.
 pub fn parse() -> Cli {
     let mut command = Cli::command();
     let matches = command.get_matches_mut();
@@ -81,7 +81,6 @@ pub fn parse() -> Cli {
 }
 
 impl Cli {
-    /// Does what the command line says.
     pub fn run(&self) -> anyhow::Result<ExitCode> {
         signals::survive_size_limit();
         self.common.start_threads()?;
@@ -102,7 +101,7 @@ impl Cli {
         ran
     }
 
-    /// Prints why it could not be done; gives the exit code. Ends by a signal where one was caught.
+    /// Prints an error and returns the exit code. Ends by a signal if one was caught.
     pub fn fail(&self, error: &anyhow::Error) -> ExitCode {
         let code = print::failure(error, &self.common);
         signals::end();

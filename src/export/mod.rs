@@ -1,4 +1,4 @@
-//! Writes the result: textures, sums, previews, manifest, report.
+//! Writes a bake: textures, sums, previews, manifest, report.
 
 mod atlas;
 mod bake_path;
