@@ -50,6 +50,26 @@ pub struct OutputOptions {
 /// # Errors
 /// Whatever a stage says of its input; an output folder that cannot be written or must not be replaced;
 /// [`Error::Interrupted`]. In all these cases nothing is left behind and an earlier result stays as it was.
+///
+/// # Example
+/// ```
+/// use trodden::bake::{OutputOptions, bake};
+/// use trodden::scenario::{Overrides, Scenario};
+///
+/// // Three people in the sample museum, at five texels per metre.
+/// let coarse = Overrides {
+///     metres_per_pixel: Some(0.05),
+///     people: Some(3),
+///     texels_per_metre: Some(5.0),
+///     ..Overrides::default()
+/// };
+/// let scenario = Scenario::from_plan("floorplans/museum.png".as_ref(), &coarse)?;
+/// let folder = tempfile::tempdir()?;
+/// let output = OutputOptions { folder: folder.path().join("museum"), force: false };
+/// let report = bake(&scenario, &output, &trodden::Silent)?;
+/// assert!(report.footfalls > 10 && output.folder.join("manifest.json").is_file());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress) -> Result<Report, Error> {
     let watch = Stopwatch::start();
     // What is known to be wrong is told before anybody walks.

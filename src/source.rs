@@ -147,7 +147,7 @@ impl Given {
     }
 
     /// Body heights of those whose recording tells them.
-    pub fn statures(&self) -> Statures {
+    pub(crate) fn statures(&self) -> Statures {
         match &self.content {
             Content::Recording(recording) => recording.statures(),
             Content::Ensemble(_) | Content::FormedCrowd(_) => Statures::default(),

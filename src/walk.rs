@@ -95,6 +95,21 @@ pub struct WalkReport {
 /// # Errors
 /// Whatever a stage says of its input; files that exist, that cannot be written or that have an unknown ending;
 /// [`Error::Interrupted`]. In all these cases no file is left behind and earlier ones stay as they were.
+///
+/// # Example
+/// ```
+/// use trodden::scenario::{Overrides, Scenario};
+/// use trodden::walk::{MotionOutput, WalkOutputs, walk};
+///
+/// let options = Overrides { metres_per_pixel: Some(0.05), people: Some(3), ..Overrides::default() };
+/// let scenario = Scenario::from_plan("floorplans/museum.png".as_ref(), &options)?;
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("paths.txt");
+/// let outputs = WalkOutputs { motion: Some(MotionOutput::File(path.clone())), ..WalkOutputs::default() };
+/// assert_eq!(walk(&scenario, &outputs, &trodden::Silent)?.people.entered, 3);
+/// assert!(path.is_file());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn walk(scenario: &Scenario, outputs: &WalkOutputs, progress: &dyn Progress) -> Result<WalkReport, Error> {
     let watch = Stopwatch::start();
     outputs.check_not_inputs(&scenario.input_files())?;

@@ -1,7 +1,6 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::output_size::Estimate;
 use crate::files::Unreadable;
 use crate::progress::Interrupted;
 
@@ -134,14 +133,12 @@ pub enum ExportError {
         sheet: u32,
     },
     /// A bake that is large, or larger than the disk has room for.
-    #[error("a bake to {} would write {}", path.display(), estimate.describe(*free))]
+    #[error("a bake to {} would write {amount}", path.display())]
     TooMuch {
         /// The output as the user gave it.
         path: PathBuf,
-        /// What it would write.
-        estimate: Estimate,
-        /// Bytes that are free on its disk, where the system tells.
-        free: Option<u64>,
+        /// What it would write, and what is free on its disk where the system tells, in words.
+        amount: String,
     },
     /// Two images of different size were to be compared.
     #[error("{} is {} x {} px, {} is {} x {} px", a.display(), a_size[0], a_size[1], b.display(), b_size[0], b_size[1])]

@@ -13,7 +13,7 @@ mod places;
 mod settled;
 mod users;
 
-pub use places::{is_bake, restore};
+pub(super) use places::is_bake;
 pub use settled::settled;
 
 use places::{Places, UNFINISHED};
@@ -147,7 +147,7 @@ impl OutputFolder {
     ///
     /// # Errors
     /// The file cannot be made; a file of the user has its name.
-    pub fn create(&self, relative: &str) -> Result<OutputFile, ExportError> {
+    pub(crate) fn create(&self, relative: &str) -> Result<OutputFile, ExportError> {
         let relative = BakePath::new(relative)?;
         self.check_user(&self.users, &relative)?;
         let path = self.places.new.join(&relative);

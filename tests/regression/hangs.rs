@@ -11,7 +11,7 @@ use trodden::math::SplitMix64;
 use trodden::plan::FloorPlan;
 use trodden::routes::{Navigation, RoutesError, RoutesOptions};
 use trodden::walls::{Walls, WallsOptions};
-use trodden::{Error, Progress, Stage};
+use trodden::{Error, Interrupted, Progress, Stage};
 
 use crate::sandbox::Sandbox;
 
@@ -83,7 +83,9 @@ fn routes_are_found_at_any_scale() {
         let found = Navigation::find_watched(&plan, &walls, &RoutesOptions::default(), &Deadline::after(60));
         match found.map(|(routes, _)| routes.len()) {
             Ok(count) => assert!(count > 0),
-            Err(RoutesError::Interrupted(Interrupted)) => panic!("endless at {metres_per_pixel} m per pixel, seed {seed}"),
+            Err(RoutesError::Interrupted(Interrupted)) => {
+                panic!("endless at {metres_per_pixel} m per pixel, seed {seed}")
+            }
             Err(error) => assert!(metres_per_pixel < 0.5 || seed > 0, "{error} at {metres_per_pixel}"),
         }
     }

@@ -1,3 +1,4 @@
+use super::places::restore;
 use super::*;
 
 /// A folder of our own, and the output `out` in it.
