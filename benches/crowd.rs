@@ -4,7 +4,7 @@
 use std::time::Instant;
 
 use criterion::{Criterion, criterion_group};
-use trodden::crowd::{CrowdOptions, Simulation};
+use trodden::crowd::{CrowdModel, CrowdOptions, Simulation};
 use trodden::math::{Vec2, vec2};
 use trodden::motion::{BodyOptions, Frame, Motion, People};
 use trodden::plan::FloorPlan;
@@ -46,14 +46,15 @@ fn crossing(side_m: f64) -> RoutesOptions {
 /// Prints how many seconds of how many people's walking a second gives, for crowds of one density, on one thread and
 /// on two: the best of several turns, as the machine may have other things to do.
 fn table() {
-    println!("people   threads  person-steps/s  person-seconds/s  against 1000 people  against 1 thread");
+    println!("model         people   threads  person-steps/s  person-seconds/s  against 1000 people  against 1 thread");
     let mut first = None;
-    for people in [1_000u32, 10_000, 100_000] {
+    let boids = [1_000u32, 10_000, 100_000].map(|people| (CrowdModel::Boids, people));
+    for (model, people) in boids.into_iter().chain([(CrowdModel::SocialForce, 1_000)]) {
         let side_m = (f64::from(people) / DENSITY).sqrt();
         let plan = hall(side_m);
         let walls = Walls::trace(&plan, &WallsOptions::default());
         let (routes, navigation) = Navigation::find(&plan, &walls, &crossing(side_m)).expect("ways across");
-        let options = CrowdOptions { people, entry_seconds: Some(0.0), ..CrowdOptions::commuters() };
+        let options = CrowdOptions { model, people, entry_seconds: Some(0.0), ..CrowdOptions::commuters() };
         let everybody = People::new(1, BodyOptions::default());
         let pools = [1, 2].map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build().expect("a pool"));
         let mut best = [0.0f64; 2];
@@ -81,7 +82,8 @@ fn table() {
         let first = *first.get_or_insert(best[0]);
         for (threads, rate) in [(1, best[0]), (2, best[1])] {
             println!(
-                "{people:7} {threads:8} {:11.2} M {:15.0} k {:17.2} {:17.2}",
+                "{:12} {people:7} {threads:8} {:11.2} M {:15.0} k {:17.2} {:17.2}",
+                format!("{model:?}"),
                 rate * 1e-6,
                 rate * options.time_step * 1e-3,
                 first / best[0],

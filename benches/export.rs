@@ -5,10 +5,10 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use trodden::Silent;
-use trodden::export::{OutputFolder, TextureOptions, TextureSource, floor_textures, write_sums};
+use trodden::export::{Atlas, OutputFolder, TextureOptions, TextureSource, floor_textures, write_sums};
 use trodden::look::{Background, LAYERS, Layer, ResolvedBlock};
 use trodden::math::SplitMix64;
-use trodden::stamps::TexelGrid;
+use trodden::stamps::{FaceSpan, TexelGrid, WallGrid};
 use trodden::sums::{FloorSums, Quantity};
 
 const SIDE: u32 = 8192;
@@ -166,5 +166,19 @@ fn export(c: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, export);
+/// Lays 100 000 walls of 1 to 41 cm into sheets.
+fn atlas(c: &mut Criterion) {
+    let mut random = SplitMix64::new(1);
+    let mut lengths: Vec<f64> = (0..100_000).map(|_| 0.01 + 0.4 * f64::from(random.unit())).collect();
+    lengths.sort_by(|a, b| b.total_cmp(a));
+    let face = |&length_m: &f64| FaceSpan { width: (200.0 * length_m).ceil() as u32, length_m, closed: false };
+    let faces = lengths.iter().map(face).collect();
+    let grid = WallGrid { texels_per_metre: 200.0, height_m: 2.6, height: 520, faces };
+    let mut group = c.benchmark_group("atlas");
+    group.sample_size(10);
+    group.bench_function("100 000 tiny walls", |b| b.iter(|| black_box(Atlas::pack(&grid, &[], 8192, 16).is_ok())));
+    group.finish();
+}
+
+criterion_group!(benches, export, atlas);
 criterion_main!(benches);

@@ -9,6 +9,7 @@ use std::path::PathBuf;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use trodden::Silent;
+use trodden::features::{Features, FeaturesOptions, Method};
 use trodden::formation::{FormationOptions, KeyFormation, interpolate};
 use trodden::math::{Vec2, sin_cos, vec2};
 use trodden::motion::{Ensemble, Frame};
@@ -91,5 +92,18 @@ fn formation(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, motion, formation);
+fn features(c: &mut Criterion) {
+    let (example, _) = crowd(200, 800);
+    let mut group = c.benchmark_group("features");
+    group.throughput(Throughput::Elements(example.moments() as u64));
+    group.sample_size(10);
+    for method in Method::ALL {
+        let options = FeaturesOptions { method, ..FeaturesOptions::default() };
+        let found = || Features::find(&example, &options, &Silent).expect("people move");
+        group.bench_function(format!("{method:?} of 200 people"), |b| b.iter(|| black_box(found())));
+    }
+    group.finish();
+}
+
+criterion_group!(benches, motion, formation, features);
 criterion_main!(benches);

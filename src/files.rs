@@ -17,8 +17,9 @@ pub use absolute::absolute;
 pub use error::FileError;
 pub use folder::files_in;
 pub(crate) use folder::{Entry, Unreadable, entries, have_same_bytes};
-pub use input::{LARGEST_IMAGE_BYTES, LARGEST_TEXT_BYTES, open_input, open_input_up_to, read_input, read_text};
-pub use lock::{LockError, NameLock};
+pub use input::{LARGEST_IMAGE_BYTES, read_input};
+pub(crate) use input::{open_input, open_input_up_to, read_text};
+pub(crate) use lock::{LockError, NameLock};
 pub use names::{check_not_input, same_file};
 
 use names::{Destination, Stream};

@@ -42,6 +42,9 @@ const LONGEST: usize = 600;
 /// Rooms whose files still import each other. This list only ever gets shorter.
 const WITH_RINGS: [&str; 1] = ["scenario"];
 
+/// Names that a caller of the library can reach. A new one replaces an old one, or says in its commit why it is needed.
+const MOST_PUBLIC_NAMES: usize = 400;
+
 /// A path of names, as `["walls", "Face"]`.
 type Names = Vec<String>;
 
@@ -54,6 +57,37 @@ struct Module {
     imported: BTreeMap<String, Names>,
     /// Paths that it names in code, `pub use` left out: a module that only hands a name on does not need it.
     named: Vec<Names>,
+    /// Names that it shows to all who see it.
+    public: Vec<String>,
+}
+
+/// Names that an item gives to a module.
+fn names_of(item: &syn::Item) -> (&syn::Visibility, Vec<&syn::Ident>) {
+    fn leaves<'a>(tree: &'a syn::UseTree, out: &mut Vec<&'a syn::Ident>) {
+        match tree {
+            syn::UseTree::Path(path) => leaves(&path.tree, out),
+            syn::UseTree::Group(group) => group.items.iter().for_each(|tree| leaves(tree, out)),
+            syn::UseTree::Name(name) => out.push(&name.ident),
+            syn::UseTree::Rename(rename) => out.push(&rename.rename),
+            syn::UseTree::Glob(_) => panic!("a public `*` hides what it shows"),
+        }
+    }
+    match item {
+        syn::Item::Mod(item) => (&item.vis, vec![&item.ident]),
+        syn::Item::Fn(item) => (&item.vis, vec![&item.sig.ident]),
+        syn::Item::Struct(item) => (&item.vis, vec![&item.ident]),
+        syn::Item::Enum(item) => (&item.vis, vec![&item.ident]),
+        syn::Item::Trait(item) => (&item.vis, vec![&item.ident]),
+        syn::Item::Type(item) => (&item.vis, vec![&item.ident]),
+        syn::Item::Const(item) => (&item.vis, vec![&item.ident]),
+        syn::Item::Static(item) => (&item.vis, vec![&item.ident]),
+        syn::Item::Use(item) if matches!(item.vis, syn::Visibility::Public(_)) => {
+            let mut names = Vec::new();
+            leaves(&item.tree, &mut names);
+            (&item.vis, names)
+        }
+        _ => (&syn::Visibility::Inherited, Vec::new()),
+    }
 }
 
 impl Module {
@@ -62,6 +96,8 @@ impl Module {
         let syntax = syn::parse_file(&text).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
         let mut module = Module::default();
         module.visit_file(&syntax);
+        let public = syntax.items.iter().map(names_of).filter(|(vis, _)| matches!(vis, syn::Visibility::Public(_)));
+        module.public = public.flat_map(|(_, names)| names).map(ToString::to_string).collect();
         module
     }
 
@@ -277,6 +313,29 @@ fn no_file_imports_a_file_that_imports_it() {
         rings.iter().map(|ring| format!("ring: {}", Vec::from_iter(ring.clone()).join(", "))).collect();
     assert_eq!(still, BTreeSet::from(WITH_RINGS), "rooms without rings leave the list");
     assert!(rings.is_empty(), "{} rings\n{}\n{}", rings.len(), shown.join("\n"), ties.join("\n"));
+}
+
+/// What a caller sees is what the next version has to keep: a stage's entry, its options, its result, its error.
+#[test]
+fn the_public_surface_does_not_grow() {
+    let source = Source::read();
+    let (mut names, mut open) = (BTreeSet::new(), vec![Names::new()]);
+    while let Some(module) = open.pop() {
+        for name in &source.0[&module].public {
+            let path = [module.as_slice(), std::slice::from_ref(name)].concat();
+            if source.0.contains_key(&path) {
+                open.push(path);
+            } else {
+                // The scan does not look into macros.
+                let home = source.find_in(module.clone(), std::slice::from_ref(name), 0).unwrap_or(module.clone());
+                names.insert(format!("{}::{name}", home.join("::")));
+            }
+        }
+    }
+    assert!(names.contains("plan::read::read") && names.contains("::Error"), "the scan misses names: {names:?}");
+    let (found, most) = (names.len(), MOST_PUBLIC_NAMES);
+    assert!(found <= most, "{found} public names, at most {most}; make new ones pub(crate):\n{names:#?}");
+    assert!(found + 10 > most, "{found} public names: lower MOST_PUBLIC_NAMES, so that it stays so");
 }
 
 #[test]

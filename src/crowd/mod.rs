@@ -10,6 +10,9 @@
 //!   the same way, a speed that falls with the number of people ahead;
 //! - social forces with groups of up to four (Moussaid et al. 2009, 2010).
 //!
+//! More than 5000 lines, since both models, the queues of stops and the spots of units work on the same agents within one
+//! step; a folder each keeps them apart: `boids`, `social_force`, `stops`, `spots`.
+//!
 //! Each step is a pure function of the state before it, so that neither the order of agents nor the number of threads
 //! matters. In a step
 //!

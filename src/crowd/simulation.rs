@@ -66,6 +66,26 @@ impl<'a> Simulation<'a> {
     ///
     /// # Errors
     /// Options out of range, no routes, routes that do not belong to the plan.
+    ///
+    /// # Example
+    /// ```
+    /// use trodden::crowd::{CrowdOptions, Simulation};
+    /// use trodden::motion::{Frame, Motion, People};
+    /// use trodden::{plan::FloorPlan, routes, walls::Walls};
+    ///
+    /// // Five people in a corridor of 12 x 3 m.
+    /// let floor = (0..120 * 40).map(|k: u32| u8::from((5..35).contains(&(k / 120)))).collect();
+    /// let plan = FloorPlan::from_mask(120, 40, 0.1, floor);
+    /// let walls = Walls::trace(&plan, &Default::default());
+    /// let routes = routes::find(&plan, &walls, &Default::default())?;
+    /// let people = People::new(1, Default::default());
+    /// let options = CrowdOptions { people: 5, ..CrowdOptions::default() };
+    /// let mut crowd = Simulation::new(&plan, &walls, &routes, &people, &options)?;
+    /// let mut frame = Frame::default();
+    /// while crowd.next_frame(&mut frame)? {}
+    /// assert_eq!(crowd.tally().arrived, 5);
+    /// # Ok::<(), trodden::Error>(())
+    /// ```
     pub fn new(
         plan: &'a FloorPlan,
         walls: &'a Walls,

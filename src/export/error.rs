@@ -1,7 +1,6 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::output_size::Estimate;
 use crate::files::Unreadable;
 use crate::progress::Interrupted;
 
@@ -138,10 +137,8 @@ pub enum ExportError {
     TooMuch {
         /// Path of the output as the user gave it.
         path: PathBuf,
-        /// What it would write.
-        estimate: Estimate,
-        /// Bytes that are free on its disk, where the system tells.
-        free: Option<u64>,
+        /// What it would write, and what is free on its disk where the system tells, in words.
+        amount: String,
     },
     /// Two images to compare have different sizes.
     #[error("{} is {} x {} px, {} is {} x {} px", a.display(), a_size[0], a_size[1], b.display(), b_size[0], b_size[1])]

@@ -5,7 +5,6 @@ use std::path::Path;
 use super::ExportError;
 use super::layout::TileLayout;
 use super::options::TextureOptions;
-use super::output_size::Estimate;
 use crate::plan::FloorPlan;
 use crate::stamps::{TexelGrid, WallGrid};
 
@@ -18,6 +17,19 @@ const FLOOR_BYTES: f64 = 2.0;
 const WALL_BYTES: f64 = 0.8;
 /// Factor for bakes that also write the layers as EXR.
 const WITH_LAYERS: f64 = 2.0;
+
+/// How much a bake will write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Estimate {
+    /// Floor tiles.
+    pub tiles: u64,
+    /// Wall sheets, about.
+    pub sheets: u64,
+    /// Largest side of a texture, texels.
+    pub tile_px: u32,
+    /// Bytes of all files, about.
+    pub bytes: u64,
+}
 
 impl Estimate {
     /// Estimates the textures of a plan from the areas of its floor and walls.
@@ -58,8 +70,23 @@ impl Estimate {
         if fits {
             return Ok(None);
         }
-        let too_much = ExportError::TooMuch { path: shown.to_path_buf(), estimate: *self, free };
+        let too_much = ExportError::TooMuch { path: shown.to_path_buf(), amount: self.describe(free) };
         if any_size { Ok(Some(too_much.to_string())) } else { Err(too_much) }
+    }
+
+    /// The numbers in words.
+    fn describe(&self, free: Option<u64>) -> String {
+        let Estimate { tiles, sheets, tile_px, bytes } = *self;
+        let free = free.map_or(String::new(), |free| format!("; {} are free", size(free)));
+        format!("{tiles} floor tiles and {sheets} wall sheets of up to {tile_px} px, about {}{free}", size(bytes))
+    }
+}
+
+/// A number of bytes with a unit.
+fn size(bytes: u64) -> String {
+    match bytes {
+        0..10_000_000_000 => format!("{:.1} GB", bytes as f64 / 1e9),
+        _ => format!("{:.0} GB", bytes as f64 / 1e9),
     }
 }
 

@@ -16,7 +16,6 @@ mod manifest;
 mod memory;
 mod options;
 mod output;
-mod output_size;
 mod png;
 mod reduced;
 pub(crate) mod reduction;
@@ -29,21 +28,26 @@ mod textures;
 pub use atlas::{Atlas, Sheet, Strip};
 pub use bake_path::BakePath;
 pub use birdseye::Birdseye;
-pub use camera::{Camera, CameraError, DEFAULT_FOV_DEG, FOV_DEG, StillEntry};
+pub(crate) use camera::DEFAULT_FOV_DEG;
+pub use camera::{Camera, CameraError, FOV_DEG, StillEntry};
 pub use error::{ExportError, NotInside};
-pub use estimate::LARGE_BYTES;
-pub use layout::{BLOCK, Naming, Tile, TileLayout};
+pub(crate) use estimate::Estimate;
+pub use layout::{Naming, Tile, TileLayout};
+pub(crate) use manifest::{CROP_M, GENERATOR};
 pub use manifest::{
-    CROP_M, ChannelEntry, FORMAT, FloorEntry, GENERATOR, Manifest, ManifestError, PlanEntry, PresenceEntry,
-    PreviewEntry, SheetEntry, StripEntry, SumsEntry, TileEntry, WallsEntry,
+    ChannelEntry, FloorEntry, Manifest, ManifestError, PlanEntry, PresenceEntry, PreviewEntry, SheetEntry, StripEntry,
+    SumsEntry, TileEntry, WallsEntry,
 };
 pub use memory::peak_memory_mib;
 pub use options::TextureOptions;
-pub use output::{OutputFile, OutputFolder, is_bake, restore, settled};
-pub use output_size::Estimate;
+pub(crate) use output::OutputFile;
+pub use output::{OutputFolder, settled};
 pub use reduced::Reduced;
 pub use report::{PeopleReport, Report, StuckReport};
-pub use source::{SheetSource, TextureSource, WallSource};
-pub use sums::{read_sums, read_wall_sums, write_sums, write_wall_sums};
-pub use targets::{Target, TargetEntry, WorldEntry, write_target_files};
-pub use textures::{FloorTextures, PADDING_PX, WallTextures, floor_textures, wall_textures};
+pub use source::{TextureSource, WallSource};
+pub use sums::{read_sums, write_sums};
+pub(crate) use sums::{read_wall_sums, write_wall_sums};
+pub(crate) use targets::write_target_files;
+pub use targets::{Target, TargetEntry, WorldEntry};
+pub use textures::{FloorTextures, WallTextures, floor_textures};
+pub(crate) use textures::{PADDING_PX, wall_textures};

@@ -13,7 +13,7 @@ mod places;
 mod settled;
 mod users;
 
-pub use places::{is_bake, restore};
+pub(super) use places::is_bake;
 pub use settled::settled;
 
 use places::{Places, UNFINISHED};

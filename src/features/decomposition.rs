@@ -51,6 +51,20 @@ impl Features {
     /// Fewer than 2 people or 2 frames; more positions than [`MOST_FEATURE_PLACES`](super::MOST_FEATURE_PLACES) or rows
     /// than [`MOST_ROWS`](super::MOST_ROWS); positions out of range; people who do not move relative to their centroid; a
     /// neighbour distance out of range; [`FeaturesError::Interrupted`].
+    ///
+    /// # Example
+    /// ```
+    /// use trodden::features::{Features, FeaturesOptions};
+    /// use trodden::math::{sin_cos, vec2};
+    /// use trodden::motion::Ensemble;
+    ///
+    /// // Two people sway towards each other and apart: one component says it all.
+    /// let place = |k: u32| [-1.0, 1.0].map(|side| vec2(side * (1.0 + 0.2 * sin_cos(0.3 * f64::from(k)).0), 0.0));
+    /// let crowd = Ensemble::new(10.0, 0.0, vec![0, 1], (0..50).flat_map(place).collect());
+    /// let features = Features::find(&crowd, &FeaturesOptions::default(), &trodden::Silent)?;
+    /// assert!(features.components()[0].share > 0.999);
+    /// # Ok::<(), trodden::Error>(())
+    /// ```
     pub fn find(
         ensemble: &Ensemble,
         options: &FeaturesOptions,

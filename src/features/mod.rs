@@ -47,10 +47,9 @@ mod presence;
 
 pub use component_range::{ComponentRange, ComponentsError};
 pub use decomposition::{FeatureComponent, Features};
-pub use displacement::MOST_FEATURE_PLACES;
 pub use eigen::MOST_ROWS;
 pub use error::FeaturesError;
-pub use expression::{Expression, ExpressionError, LONGEST_EXPRESSION, Mistake, Variables};
+pub use expression::{Expression, ExpressionError, Mistake, Variables};
 pub use method::{FeaturesOptions, Method, NEIGHBOUR_DISTANCES_M};
 pub use mix::{CentroidPath, Mix, MixOptions, MixSource};
 pub use modulation::{CoefficientChange, Modulation, Rule};

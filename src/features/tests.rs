@@ -210,24 +210,16 @@ fn who_never_changes_neighbours_is_ordered_by_motion() {
     assert!(features.mean_neighbours().unwrap() < 1.0);
 }
 
-/// A decomposition of a large crowd, timed: `cargo test --release --lib -- --ignored --nocapture 500_people`.
+/// `cargo test --release --lib -- --ignored 500_people`; the bench `motion` tells how long it takes.
 #[test]
 #[ignore = "takes its time when unoptimised"]
 fn features_of_500_people_at_2000_moments() {
     for (people, moments) in [(500, 2000), (500, 500)] {
         let crowd = wild(people, moments);
         for method in Method::ALL {
-            let start = std::time::Instant::now();
             let features = find(&crowd, method);
-            let found_s = start.elapsed().as_secs_f64();
-            let all = features.components().len();
-            let rebuilt = features.rebuild(all).unwrap();
-            let seconds = start.elapsed().as_secs_f64();
-            println!(
-                "{people} x {moments} {method:?}: {found_s:.2} s, rebuilt by {seconds:.2} s, {:.1e} m off",
-                apart(&rebuilt, &crowd)
-            );
-            assert!(seconds < 10.0 && apart(&rebuilt, &crowd) < 1e-9);
+            let rebuilt = features.rebuild(features.components().len()).unwrap();
+            assert!(apart(&rebuilt, &crowd) < 1e-9, "{people} x {moments} {method:?}");
         }
     }
 }

@@ -25,6 +25,22 @@ const DECOMPOSING: f64 = 0.9;
 /// Fewer than two people or more than [`MOST_PEOPLE`](super::MOST_PEOPLE); fewer than two keys; a key whose number of
 /// positions is not the number of people, that is out of order, in the same frame as another, or outside the example; numbers
 /// that are not finite; options out of range; [`FormationError::Interrupted`].
+///
+/// # Example
+/// ```
+/// use trodden::formation::{FormationOptions, KeyFormation, interpolate};
+/// use trodden::math::vec2;
+/// use trodden::motion::Ensemble;
+///
+/// // Three people who stand in a row for a second turn into a column.
+/// let row = [-1.0, 0.0, 1.0].map(|x| vec2(x, 0.0));
+/// let column = row.map(|place| vec2(0.0, place.x));
+/// let example = Ensemble::new(10.0, 0.0, vec![0, 1, 2], row.repeat(11));
+/// let keys = [(0.0, row), (1.0, column)].map(|(time_s, places)| KeyFormation { time_s, places_m: places.to_vec() });
+/// let crowd = interpolate(&example, &keys, &FormationOptions::default(), &trodden::Silent)?;
+/// assert_eq!((crowd.people(), crowd.moments()), (3, 11));
+/// # Ok::<(), trodden::Error>(())
+/// ```
 pub fn interpolate(
     example: &Ensemble,
     keys: &[KeyFormation],

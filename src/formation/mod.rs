@@ -5,6 +5,9 @@
 //! times; its output is a crowd that takes up one key after the other, and sways, pulses and drifts in between as the
 //! example does.
 //!
+//! More than 5000 lines, since three parts are one method: the interpolation in this folder, with the eigenvectors it needs
+//! (`symmetric`), `avoidance` between the people that it leads, and crowds within crowds (`hierarchy`, `request`, `places`).
+//!
 //! # A formation as shapes, coarse to fine
 //!
 //! Let `X` and `Y` be the coordinates of n people relative to their centroid. The adjacency of each pair is
@@ -84,8 +87,10 @@ pub use follow::Follower;
 pub use formed::{FormedCrowd, FormedPerson};
 pub use hierarchy::form;
 pub use interpolate::interpolate;
-pub use kirchhoff::{AdjacencyEdit, default_sigma_m, kirchhoff};
-pub use limits::{LEAST_PEOPLE, MOST_FORMED_PLACES, MOST_IN_ALL, MOST_KEY_PAIRS, MOST_PEOPLE};
+pub(crate) use kirchhoff::kirchhoff;
+pub use kirchhoff::{AdjacencyEdit, default_sigma_m};
+pub(crate) use limits::LEAST_PEOPLE;
+pub use limits::MOST_PEOPLE;
 pub use matching::match_basis;
 pub use options::{Carry, Ease, FormationOptions, KeyFormation};
 pub use picture::is_picture;

@@ -26,6 +26,25 @@ impl<'a> FloorResolver<'a> {
     ///
     /// # Errors
     /// Settings out of range, a floor image that cannot be read, sums without simulated people.
+    ///
+    /// # Example
+    /// ```
+    /// use trodden::look::{FloorResolver, Look};
+    /// use trodden::{patterns::PatternLibrary, plan::FloorPlan, walls::Walls};
+    /// use trodden::stamps::{Stamper, TexelGrid};
+    /// use trodden::sums::FloorSums;
+    ///
+    /// // A floor of 2 x 2 m that nobody walked on: add marks, and they show.
+    /// let plan = FloorPlan::from_mask(20, 20, 0.1, vec![1; 400]);
+    /// let walls = Walls::trace(&plan, &Default::default());
+    /// let grid = TexelGrid::covering(plan.width_m(), plan.height_m(), 50.0)?;
+    /// let stamper = Stamper::new(&PatternLibrary::built_in(), grid, &Default::default())?;
+    /// let mut sums = FloorSums::new(grid);
+    /// sums.add(&stamper, &walls, &[]);
+    /// let look = FloorResolver::new(&sums, &walls, &Look::default(), 1)?;
+    /// assert_eq!(look.resolve(0, 0, 100, 100).base_color.len(), 10_000);
+    /// # Ok::<(), trodden::Error>(())
+    /// ```
     pub fn new(
         sums: &'a FloorSums,
         walls: &'a Walls,

@@ -72,6 +72,29 @@ impl<'a> Footfalls<'a> {
     ///
     /// # Errors
     /// An option is out of range; the library has no sole, or not the `shoe` of the options.
+    ///
+    /// # Example
+    /// ```
+    /// use trodden::marks::{Footfalls, MarksOptions};
+    /// use trodden::math::vec2;
+    /// use trodden::motion::{Frame, People, Walker};
+    /// use trodden::{patterns::PatternLibrary, plan::FloorPlan, walls::Walls};
+    ///
+    /// // One person walks 6 m to the right.
+    /// let plan = FloorPlan::from_mask(100, 40, 0.1, vec![1; 4000]);
+    /// let walls = Walls::trace(&plan, &Default::default());
+    /// let (people, library) = (People::new(1, Default::default()), PatternLibrary::built_in());
+    /// let mut footfalls = Footfalls::new(&people, &walls, &library, &MarksOptions::default(), Vec::new())?;
+    /// let mut marks = Vec::new();
+    /// for time_s in (0..50).map(|tenth| 0.1 * f64::from(tenth)) {
+    ///     let (position_m, velocity_m_s) = (vec2(2.0 + 1.2 * time_s, 2.0), vec2(1.2, 0.0));
+    ///     let walkers = vec![Walker { id: 0, position_m, velocity_m_s, heading: None }];
+    ///     footfalls.push(&Frame { time_s, walkers }, &mut marks);
+    /// }
+    /// footfalls.finish(&mut marks);
+    /// assert!(marks.len() > 5);
+    /// # Ok::<(), trodden::Error>(())
+    /// ```
     pub fn new(
         people: &'a People,
         walls: &'a Walls,

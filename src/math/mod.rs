@@ -11,7 +11,8 @@ mod vector;
 
 pub(crate) use assignment::assign;
 pub use distribution::{Distribution, DistributionError};
-pub use random::{Purpose, SplitMix64, person_stream, round_to_grid};
+pub use random::SplitMix64;
+pub(crate) use random::{Purpose, person_stream, round_to_grid};
 pub use vector::{Rect, Vec2, vec2};
 
 /// Sine and cosine of an angle in radians, bit-identical on every machine.
@@ -43,7 +44,7 @@ pub fn pow(base: f64, exponent: f64) -> f64 {
 ///
 /// Relative error below 4e-7 over `[-87, 88]`; arguments beyond are clamped to that range.
 /// Formula: `2^n * p(r)` with `x = n ln 2 + r`, `|r| <= ln 2 / 2`, `p` the Taylor polynomial of degree 6.
-pub fn exp_f32(x: f32) -> f32 {
+pub(crate) fn exp_f32(x: f32) -> f32 {
     const LN2_HIGH: f32 = 0.693_359_4;
     const LN2_LOW: f32 = -2.121_944_4e-4;
     // Adding and taking away 1.5 * 2^23 rounds to the nearest integer without a branch or a libm call.

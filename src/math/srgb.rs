@@ -8,12 +8,12 @@ use super::pow;
 pub type Srgb8 = [u8; 3];
 
 /// Linear light of an sRGB value, both 0 to 1.
-pub fn decode(value: f64) -> f64 {
+pub(crate) fn decode(value: f64) -> f64 {
     if value <= 0.04045 { value / 12.92 } else { pow((value + 0.055) / 1.055, 2.4) }
 }
 
 /// The sRGB value of linear light, both 0 to 1.
-pub fn encode(light: f64) -> f64 {
+pub(crate) fn encode(light: f64) -> f64 {
     if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * pow(light, 1.0 / 2.4) - 0.055 }
 }
 
@@ -21,7 +21,7 @@ pub fn encode(light: f64) -> f64 {
 ///
 /// A polynomial in the fourth root (the curve is 1.055 root^(5/3) - 0.055), fitted at Chebyshev points: off by less than
 /// 0.003 of an 8-bit step, and compilers vectorise it.
-pub fn encode_f32(light: f32) -> f32 {
+pub(crate) fn encode_f32(light: f32) -> f32 {
     let light = light.clamp(0.0, 1.0);
     let t = light.sqrt().sqrt();
     let curve = -15.678_25 + t * (41.691_35 + t * (318.693_94 + t * (-144.683_87 + t * (71.647_62 + t * -16.672_062))));
@@ -49,17 +49,17 @@ pub fn light(byte: u8) -> f32 {
 }
 
 /// Linear light, 0 to 1, of an sRGB colour.
-pub fn light_of(colour: Srgb8) -> [f32; 3] {
+pub(crate) fn light_of(colour: Srgb8) -> [f32; 3] {
     colour.map(light)
 }
 
 /// Linear light of an sRGB byte, 0 to 65 535: sums of it do not depend on their order.
-pub fn to_linear(byte: u8) -> u16 {
+pub(crate) fn to_linear(byte: u8) -> u16 {
     LINEAR[usize::from(byte)]
 }
 
 /// The sRGB byte nearest to a linear light of 0 to 65 535.
-pub fn from_linear(linear: u16) -> u8 {
+pub(crate) fn from_linear(linear: u16) -> u8 {
     NEAREST[usize::from(linear)]
 }
 

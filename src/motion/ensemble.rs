@@ -115,7 +115,7 @@ impl Ensemble {
     }
 
     /// The ensemble as a motion; velocities are central differences.
-    pub fn motion(&self) -> EnsembleMotion<'_> {
+    pub fn motion(&self) -> impl Motion + Send + '_ {
         EnsembleMotion { ensemble: self, next: 0 }
     }
 }

@@ -10,10 +10,11 @@ mod person;
 mod resampler;
 mod statures;
 
-pub use ensemble::{Ensemble, EnsembleMotion, MOST_PLACES};
+pub use ensemble::Ensemble;
+pub(crate) use ensemble::MOST_PLACES;
 pub use error::{MotionError, SourceError};
 pub use frame::{Frame, Motion, Walker};
-pub use mileage::Mileage;
-pub use person::{Bag, BagKind, BodyOptions, CarrySide, People, Person, STRIDE_SPEED_M_S};
+pub(crate) use mileage::Mileage;
+pub use person::{Bag, BagKind, BodyOptions, CarrySide, People, Person};
 pub(crate) use resampler::{FASTEST_M_S, Resampler};
-pub use statures::Statures;
+pub(crate) use statures::Statures;

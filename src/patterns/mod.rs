@@ -24,4 +24,5 @@ pub use import::{
     ImportEntry, ImportError, ImportOptions, ImportedPattern, PhotoScale, SavedPattern, import_picture, name_of_photo,
 };
 pub use library::PatternLibrary;
-pub use pattern::{PATTERN_PX_PER_CM, Pattern};
+pub(crate) use pattern::PATTERN_PX_PER_CM;
+pub use pattern::Pattern;

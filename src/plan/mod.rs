@@ -32,7 +32,7 @@ mod symbols;
 
 pub use colour::{Colour, ColourError};
 pub use error::PlanError;
-pub use limits::{
+pub(crate) use limits::{
     ASSUMED_M_PER_PX, LARGEST_AREA_PX, LARGEST_COORDINATE, LARGEST_M_PER_PX, LARGEST_ORIGIN_M, LARGEST_SIDE_M,
     LARGEST_SIDE_PX, SMALLEST_M_PER_PX,
 };
@@ -40,7 +40,7 @@ pub use options::{PixelPoint, PlanOptions, PlanPoint, TransparentPolicy, TwoPoin
 pub use read::{files, read};
 
 /// Least width of an opening, metres.
-pub const NARROWEST_OPENING_M: f64 = 0.6;
+pub(crate) const NARROWEST_OPENING_M: f64 = 0.6;
 
 /// A floor plan: floor mask, scale, regions and openings.
 #[derive(Clone, Debug)]

@@ -13,6 +13,16 @@ use super::{FloorPlan, PlanError, PlanOptions, Pose, doors, image_file, openings
 ///
 /// # Errors
 /// The file cannot be read or decoded; the scale is out of range; the plan has no walls or no room for a person.
+///
+/// # Example
+/// ```
+/// use trodden::plan::{PlanOptions, read};
+///
+/// let options = PlanOptions { metres_per_pixel: Some(0.05), ..PlanOptions::default() };
+/// let plan = read("floorplans/museum.png".as_ref(), &options)?;
+/// assert!(plan.width_m() > 10.0 && plan.floor.contains(&1));
+/// # Ok::<(), trodden::Error>(())
+/// ```
 pub fn read(path: &Path, options: &PlanOptions) -> Result<FloorPlan, PlanError> {
     options.check()?;
     let map = if ros_map::is_map(path) { Some(ros_map::read(path)?) } else { None };

@@ -59,6 +59,18 @@ pub(crate) struct Leg {
 ///
 /// # Errors
 /// Places that the plan does not have, that are inside walls, or that no way joins; see [`RoutesError`].
+///
+/// # Example
+/// ```
+/// use trodden::{plan::FloorPlan, routes, walls::Walls};
+///
+/// // A corridor of 12 x 3 m: by default, people walk it from end to end.
+/// let floor = (0..120 * 40).map(|k: u32| u8::from((5..35).contains(&(k / 120)))).collect();
+/// let plan = FloorPlan::from_mask(120, 40, 0.1, floor);
+/// let walls = Walls::trace(&plan, &Default::default());
+/// assert!(!routes::find(&plan, &walls, &Default::default())?.is_empty());
+/// # Ok::<(), trodden::Error>(())
+/// ```
 pub fn find(plan: &FloorPlan, walls: &Walls, options: &RoutesOptions) -> Result<Vec<Route>, RoutesError> {
     Navigation::find(plan, walls, options).map(|found| found.0)
 }

@@ -45,14 +45,14 @@ mod wall_variation;
 mod window;
 
 pub use error::StampsError;
-pub use fixed_point::{DENSITY_ONE, PASSES_ONE, PRESENCE_ONE};
+pub(crate) use fixed_point::{DENSITY_ONE, PASSES_ONE, PRESENCE_ONE};
 pub(crate) use lanes::SumCell;
 pub use options::StampOptions;
 pub(crate) use print_coverage::PrintCoverage;
 pub use reference::{ReferenceImage, stamp_reference};
 pub use stamper::Stamper;
 pub(crate) use stamper::{MarkBounds, PlacedMark};
-pub use texel_grid::{MOST_TEXELS, TexelGrid};
+pub use texel_grid::TexelGrid;
 pub use wall_grid::{FaceSpan, WallGrid};
 pub(crate) use wall_stamper::PlacedStain;
 pub use wall_stamper::WallStamper;

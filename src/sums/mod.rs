@@ -17,7 +17,7 @@ mod quantity;
 mod tests;
 mod wall;
 
-pub use blocks::BLOCK;
+pub(crate) use blocks::BLOCK;
 pub use error::{SumsError, WallsOfSums};
 pub use floor_sums::FloorSums;
 pub use quantity::Quantity;

@@ -19,9 +19,11 @@ mod write;
 
 pub use areas::{AreaSide, Areas, SpotFrame};
 pub use cut::{CutOptions, UnitCut, UnitCuts, cut};
-pub use diversity::{Diversity, DiversityReport};
+pub(crate) use diversity::Diversity;
+pub use diversity::DiversityReport;
 pub use error::{UnitAt, UnitsError};
 pub use library::UnitLibrary;
 pub use matching::{Candidate, MatchOptions, Party, Ranking, rank};
 pub use track::{TrackSample, TrackState, UnitTrack};
-pub use unit::{AREA_DEPTHS_M, AREA_WIDTHS_M, LEAST_APART_M, LONGEST_S, MOST_MEMBERS, Member, Unit};
+pub(crate) use unit::{LEAST_APART_M, LONGEST_S};
+pub use unit::{Member, Unit};

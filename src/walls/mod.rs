@@ -29,10 +29,12 @@ mod untangle;
 mod truth_tests;
 
 pub use error::WallsError;
-pub use face::{APRON_M, Face, Nearest, Segment};
+pub(crate) use face::{APRON_M, Segment};
+pub use face::{Face, Nearest};
 pub use outline::Outline;
 pub(crate) use outline::check as check_outlines;
-pub use places::{Corner, DOOR_HEAD_M, DOOR_WIDTHS_M, Doorway};
+pub(crate) use places::DOOR_HEAD_M;
+pub use places::{Corner, Doorway};
 
 /// Options of tracing walls.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -61,6 +63,16 @@ pub struct Walls {
 
 impl Walls {
     /// Traces the boundary of a plan's floor.
+    ///
+    /// # Example
+    /// ```
+    /// use trodden::{plan::FloorPlan, walls::Walls};
+    ///
+    /// // A room of 3 x 2 m, 10 cm to a pixel; 1 is floor.
+    /// let floor = |k: u32| u8::from((1..31).contains(&(k % 32)) && (1..21).contains(&(k / 32)));
+    /// let plan = FloorPlan::from_mask(32, 22, 0.1, (0..32 * 22).map(floor).collect());
+    /// assert_eq!(Walls::trace(&plan, &Default::default()).faces.len(), 1);
+    /// ```
     pub fn trace(plan: &FloorPlan, options: &WallsOptions) -> Walls {
         let loops = cracks::trace(&plan.floor, plan.width_px as usize);
         let fit = |l| Boundary::fit(plan, l, options.tolerance_px / 0.5);
@@ -118,7 +130,7 @@ impl Walls {
     }
 
     /// Appends every wall segment (apron walls included) that comes near `area`, each once, in a fixed order.
-    pub fn segments_near(&self, area: Rect, out: &mut Vec<Segment>) {
+    pub(crate) fn segments_near(&self, area: Rect, out: &mut Vec<Segment>) {
         self.index.segments_near(area, out);
     }
 

@@ -11,7 +11,7 @@ use trodden::math::SplitMix64;
 use trodden::plan::FloorPlan;
 use trodden::routes::{Navigation, RoutesError, RoutesOptions};
 use trodden::walls::{Walls, WallsOptions};
-use trodden::{Error, Progress, Stage};
+use trodden::{Error, Interrupted, Progress, Stage};
 
 use crate::sandbox::Sandbox;
 

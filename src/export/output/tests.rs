@@ -1,3 +1,4 @@
+use super::places::restore;
 use super::*;
 
 /// Returns a temporary folder and the path `out` in it.

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::*;
-use crate::export::{Atlas, Manifest, SheetEntry, WallSource, WallsEntry, is_bake};
+use crate::export::{Atlas, Manifest, SheetEntry, WallSource, WallsEntry};
 use crate::look::{Background, Layer, ResolvedBlock};
 use crate::plan::FloorPlan;
 use crate::progress::Silent;
@@ -111,7 +111,7 @@ fn bake(texels_per_metre: f64, options: &TextureOptions) -> Baked {
     };
     folder.publish(&manifest).unwrap();
     let read = Manifest::read(&out.path().join("out")).unwrap();
-    assert!(is_bake(&out.path().join("out")));
+    assert!(crate::export::output::is_bake(&out.path().join("out")));
     assert_eq!(read.walls, manifest.walls);
     Baked { out, entry: read.walls.unwrap(), textures, grid }
 }

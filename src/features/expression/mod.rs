@@ -11,7 +11,7 @@ mod parse;
 mod tokens;
 mod variables;
 
-pub use error::{ExpressionError, LONGEST_EXPRESSION, Mistake};
+pub use error::{ExpressionError, Mistake};
 pub use formula::Expression;
 pub use variables::Variables;
 

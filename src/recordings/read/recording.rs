@@ -20,6 +20,18 @@ impl Recording {
     /// # Errors
     /// A file that cannot be read or is none of the formats, with the line; a rate that nobody knows; places that are
     /// infinite; somebody at two places at once; options out of range.
+    ///
+    /// # Example
+    /// ```
+    /// use trodden::recordings::Recording;
+    ///
+    /// let folder = tempfile::tempdir()?;
+    /// let path = folder.path().join("paths.txt");
+    /// std::fs::write(&path, "# framerate: 10\n1 0 0.0 0.0\n1 1 0.1 0.0\n1 2 0.2 0.0\n")?;
+    /// let recording = Recording::open(&path, &Default::default())?;
+    /// assert_eq!((recording.survey().people, recording.survey().frames), (1, 3));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn open(path: &Path, options: &RecordingOptions) -> Result<Recording, RecordingError> {
         Recording::open_watched(path, options, &Silent)
     }
@@ -48,7 +60,7 @@ impl Recording {
 
     /// Body heights of those for whom the file tells one: the first that a person may have. Somebody who comes back after
     /// a long gap as another person has none.
-    pub fn statures(&self) -> Statures {
+    pub(crate) fn statures(&self) -> Statures {
         self.content.statures.clone()
     }
 

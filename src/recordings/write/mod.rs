@@ -167,7 +167,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// The same with body heights that are known from elsewhere; those of the others are the world's people's.
-    pub fn with_statures(self, statures: Statures) -> Recorder<'a> {
+    pub(crate) fn with_statures(self, statures: Statures) -> Recorder<'a> {
         Recorder { statures, ..self }
     }
 

@@ -10,7 +10,7 @@ use super::Walls;
 use crate::math::Vec2;
 
 pub use corners::Corner;
-pub use doorways::{DOOR_HEAD_M, DOOR_WIDTHS_M, Doorway};
+pub use doorways::{DOOR_HEAD_M, Doorway};
 
 impl Walls {
     /// Every place where a face turns by more than 20 degrees, by face and arc length.
