@@ -7,46 +7,46 @@ use super::RecordingError;
 use super::layout::shown;
 use crate::math::Vec2;
 
-/// Ids of files are kept where they are whole numbers below this.
+/// Ids of the file are kept if they are whole numbers below this.
 pub(super) const ID_LIMIT: f64 = 1e7;
 
-/// Somebody's place as the file tells it, in its own numbers.
+/// A person's position at one time, in the file's own numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TrajectoryRow {
     pub id: u32,
-    /// Line, from 1; in a database the row's number.
+    /// Line number, from 1; in a database the row number.
     pub line: u64,
     pub time: f64,
     pub at: Vec2,
     pub velocity: Option<Vec2>,
     pub heading: Option<Vec2>,
-    /// When and where a step ends that begins here.
+    /// Time and position of the end of a step that starts here.
     pub until: Option<(f64, Vec2)>,
 }
 
-/// How people are numbered.
+/// Numbering of persons.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Numbering {
-    /// As in the file.
+    /// Ids of the file.
     Own,
-    /// From 1, as they first appear.
+    /// From 1, in order of appearance.
     Appearance,
 }
 
-/// What was passed over.
+/// Rows that were skipped.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Passed {
-    /// Rows without a place, and the line of the first.
+    /// Rows without a position, and the line of the first.
     pub nowhere: u64,
     pub first_nowhere: u64,
-    /// The last line if it breaks off.
+    /// The last line, if it is cut off.
     pub broken: Option<u64>,
 }
 
-/// What stops rows from coming.
+/// Why reading stopped.
 #[derive(Debug)]
 pub(super) enum ReadStop {
-    /// An id that is no whole number below [`ID_LIMIT`]: people have to be numbered.
+    /// An id is not a whole number below [`ID_LIMIT`]: persons must be renumbered.
     Name,
     Error(RecordingError),
 }
@@ -57,7 +57,7 @@ impl From<RecordingError> for ReadStop {
     }
 }
 
-/// Who a row is about, for messages.
+/// Names a person in messages.
 pub(super) fn who(id: u32, numbering: Numbering) -> String {
     match numbering {
         Numbering::Own => format!("person {id}"),
@@ -65,7 +65,7 @@ pub(super) fn who(id: u32, numbering: Numbering) -> String {
     }
 }
 
-/// A value of the file for messages.
+/// Formats a time or frame for messages.
 pub(super) fn moment(time: f64, frames: bool) -> String {
     if frames {
         format!("frame {time}")
@@ -74,7 +74,7 @@ pub(super) fn moment(time: f64, frames: bool) -> String {
     }
 }
 
-/// Spreads ids over a table of people; they are small whole numbers, mostly in a row.
+/// Hash for ids, which are small and mostly consecutive.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct IdHasher(u64);
 
@@ -88,11 +88,11 @@ impl Hasher for IdHasher {
     }
 
     fn write_u32(&mut self, id: u32) {
-        // The golden ratio's bits; the table uses the upper ones too.
+        // The golden ratio's bits; folded down because the table uses the upper ones too.
         let mixed = (self.0 ^ u64::from(id)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         self.0 = mixed ^ (mixed >> 32);
     }
 }
 
-/// Something for each person.
+/// A map from person id to `T`.
 pub(super) type ById<T> = HashMap<u32, T, BuildHasherDefault<IdHasher>>;
