@@ -58,7 +58,7 @@ fn other(field: &[u8]) -> Option<f64> {
     nothing.then_some(f64::NAN)
 }
 
-/// Parses `2024-05-01T12:00:00.25Z`, in seconds since 1970, or the time of day `12:00:00.25`, in seconds.
+/// Parses a timestamp (`2024-05-01T12:00:00.25Z`: seconds since 1970) or time of day, s.
 pub(super) fn stamp(field: &[u8]) -> Option<f64> {
     let text = std::str::from_utf8(field).ok()?.trim();
     let (days, clock) = match text.split_once(['T', ' ']) {

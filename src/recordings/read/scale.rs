@@ -26,7 +26,7 @@ const SLOWEST_CAMERA: f64 = 8.0;
 const ANNOTATED_HZ: f64 = 2.5;
 /// Rate of the older Juelich recordings, whose files have no header, 1/s.
 const OLD_JUELICH_HZ: f64 = 16.0;
-/// Gap after which a person has left, seconds, or `GAP_INTERVALS` usual intervals if that is longer.
+/// Gap after which a person has left, seconds; `GAP_INTERVALS` usual intervals if longer.
 const GAP_S: f64 = 1.0;
 const GAP_INTERVALS: f64 = 2.5;
 /// Upper bound of that gap, seconds.
