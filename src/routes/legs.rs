@@ -10,7 +10,7 @@ use super::{Place, RoutesError, targets};
 use crate::plan::FloorPlan;
 use crate::progress::Progress;
 
-/// A place that a leg leads to, and whether it is the route's last.
+/// End of a leg: a place, and whether it is the route's goal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LegEnd {
     pub(super) place: Place,
@@ -18,7 +18,7 @@ pub(super) struct LegEnd {
 }
 
 impl LegEnd {
-    /// The cells that count as this end.
+    /// Cells of this end.
     pub(super) fn cells(self, plan: &FloorPlan, ground: &Ground) -> Vec<usize> {
         match self.last {
             true => targets::cells(plan, ground, self.place),
@@ -32,7 +32,7 @@ pub(super) fn leg_ends(via: impl Iterator<Item = Place>, goal: Place) -> impl It
     via.map(|place| LegEnd { place, last: false }).chain([LegEnd { place: goal, last: true }])
 }
 
-/// Distance fields of the ends of legs, each made once.
+/// Distance fields of leg ends, each computed once.
 pub(super) struct FieldStore<'p> {
     fields: Vec<(LegEnd, Arc<Field>)>,
     progress: &'p dyn Progress,
@@ -43,17 +43,17 @@ impl FieldStore<'_> {
         FieldStore { fields: Vec::new(), progress }
     }
 
-    /// Gives up once the user wants the work to stop.
+    /// Returns an error if the user interrupted the work.
     pub(super) fn keep_on(&self) -> Result<(), RoutesError> {
         self.progress.keep_on().map_err(|_| RoutesError::Interrupted)
     }
 
-    /// The field to some cells, which is not kept.
+    /// Computes the field of some cells without storing it.
     pub(super) fn measure(&self, ground: &Ground, goal: &[usize]) -> Result<Field, RoutesError> {
         Field::to_unless_interrupted(ground, goal, self.progress)
     }
 
-    /// Makes the fields that are missing, in parallel.
+    /// Computes the missing fields in parallel.
     pub(super) fn fill(
         &mut self,
         plan: &FloorPlan,
