@@ -2,7 +2,7 @@
 //!
 //! 1. `detect`: the layout of a text, from its beginning: `columns` knows names, `guess` handles unnamed numbers;
 //! 2. `input`, `layout`, `number`: lines, fields, numbers; `rows`: persons' positions, from a text (`text_rows`), a
-//! `database`, or, if a file is not sorted by time, from `memory`;
+//!    `database`, or, if a file is not sorted by time, from `memory`;
 //! 3. `census`: statistics of one pass over all rows; `scale`: the file's units in metres and seconds;
 //! 4. `weave`: frames.
 
