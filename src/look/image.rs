@@ -39,7 +39,7 @@ pub(super) struct RepeatedImage {
     height: usize,
     /// Pixels per texel along x and y.
     pixels_per_texel: [f64; 2],
-    /// Linear light summed left of and above each pixel corner; one row and column more than pixels.
+    /// Linear light summed left of and above each pixel corner; a row and column more than pixels.
     sums: Vec<[f64; 3]>,
 }
 

@@ -84,7 +84,7 @@ pub(super) struct Noise {
 }
 
 impl Noise {
-    /// Creates noise of deviation `sd` with spots of `size_m` (width of the autocorrelation) per axis.
+    /// Creates noise of deviation `sd`; `size_m`: the autocorrelation's width at half height, per axis.
     pub fn new(seed: u64, channel: Channel, size_m: [f64; 2], sd: f32) -> Noise {
         // The autocorrelation is a quintic B-spline: its full width at half maximum is 1.67 spacings.
         Noise { key: key(seed, channel), spacing_m: size_m.map(|size| size / 1.67), sd }

@@ -58,7 +58,7 @@ impl Field {
         if progress.interrupted() { Err(RoutesError::Interrupted) } else { Ok(field) }
     }
 
-    /// Computes the least `value + distance` over seeds (value >= 0) in cells that `wanted` accepts.
+    /// Computes the least `value + distance` over seeds, value >= 0, in cells that are `wanted`.
     pub(super) fn spread(ground: &Ground, mut seeds: Vec<(usize, f32)>, wanted: impl Fn(usize, f64) -> bool) -> Field {
         let lattice = &ground.lattice;
         let cell_m = lattice.cell_m();

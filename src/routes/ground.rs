@@ -18,7 +18,7 @@ pub(crate) struct Fineness {
     least_clearance_m: f64,
 }
 
-/// Largest wanted number of cells; limits fineness between [`FINEST_M`] and [`COARSEST_M`].
+/// Wanted number of cells; the cell size follows, from [`FINEST_M`] to [`COARSEST_M`].
 const CELLS_WANTED: f64 = 400_000.0;
 const FINEST_M: f64 = 0.1;
 const COARSEST_M: f64 = 0.25;

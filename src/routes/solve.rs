@@ -5,7 +5,7 @@ const MOST_ROUNDS: usize = 500;
 /// Share of the dropped fill-in that is added to the diagonal.
 const MODIFIED: f64 = 0.97;
 
-/// A symmetric system `diagonal x_i - sum values x_j = b_i`, with the sum over the neighbours j.
+/// A symmetric system `diagonal x_i - sum values x_j = b_i`, summed over the neighbours j.
 #[derive(Debug, Default)]
 pub(super) struct Matrix {
     diagonal: Vec<f64>,

@@ -15,7 +15,7 @@ pub(super) struct Batch {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct MarkEntry(u64);
 
-/// Bits of an entry for the mark's index in its batch; bits for the block's row and for its column.
+/// Bits of an entry for the mark's index; bits for each of the block's row and column.
 const MARK_BITS: u32 = 16;
 pub(super) const PLACE_BITS: u32 = 23;
 

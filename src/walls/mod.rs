@@ -1,4 +1,4 @@
-//! Traces the wall faces of a plan as polylines; finds the nearest wall, lines of sight and floor coverage.
+//! Traces wall faces of a plan as polylines; nearest wall, line of sight, floor coverage.
 
 use rayon::prelude::*;
 

@@ -5,7 +5,7 @@ use crate::math::{SplitMix64, sin_cos};
 use crate::plan::{self, PlanOptions};
 use proptest::prelude::*;
 
-/// How far a traced face may lie from the drawn edge, pixels.
+/// Largest allowed distance of a traced face from the drawn edge, pixels.
 const TRUTH: f64 = 0.5;
 
 /// A drawing read as a plan of 0.05 m per pixel. A pixel's darkness is the share of `fine` x `fine` samples with
@@ -38,7 +38,7 @@ fn only_closed(walls: &Walls) -> &Face {
     closed[0]
 }
 
-/// The largest distance, in pixels, of any place on a face from the truth; `distance` takes pixels, y down.
+/// Largest distance of a face from the truth, pixels. `distance` takes pixels, y down.
 fn worst(plan: &FloorPlan, face: &Face, distance: impl Fn(f64, f64) -> f64) -> f64 {
     let n = face.points_m.len();
     let mut worst: f64 = 0.0;

@@ -47,8 +47,8 @@ impl<'a> WallResolver<'a> {
     /// i increases along the face; row 0 is the lowest, at the floor for `j0` = 0.
     ///
     /// Beyond the strip's ends, the floor and the ceiling, the edge texels are repeated, as padding of an atlas; a
-    /// closed face continues at its other end. The block is empty (all background) where an even wall is clean, and if
-    /// there is no such face.
+    /// closed face continues at its other end. The block is empty (all background) where an even wall is clean, and for
+    /// unknown faces.
     pub fn resolve(&self, face: usize, i0: i64, j0: i64, width: usize, height: usize) -> ResolvedBlock {
         let mut block = ResolvedBlock::default();
         self.resolve_into(face, i0, j0, width, height, &mut block);

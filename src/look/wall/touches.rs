@@ -144,7 +144,7 @@ struct CellBlock<'a> {
 }
 
 impl CellBlock<'_> {
-    /// Writes each cell's mean density from `out[at]`, in rows of `stride`; `false` if all are zero.
+    /// Writes cells' mean densities from `out[at]`, in rows of `stride`; `false` if all are zero.
     fn read(&self, sums: &WallSums, out: &mut [f32], at: usize, stride: usize) -> bool {
         let CellBlock { cause, strip, across, up, cells: [i, j], count: [columns, rows] } = self;
         let (i0, i1) = (across.start(*i), across.start(i + *columns as i64));

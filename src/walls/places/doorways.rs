@@ -16,7 +16,7 @@ use crate::walls::{Face, Segment, Walls};
 pub struct Doorway {
     /// Middles of the two jambs, metres: the ends of the threshold.
     pub jambs_m: [Vec2; 2],
-    /// Face and arc length, metres, of each jamb's middle; faces index [`crate::walls::Walls::faces`].
+    /// Face and arc length, metres, of each jamb; faces index [`crate::walls::Walls::faces`].
     pub on_faces: [(usize, f64); 2],
     /// Thickness of the wall, metres.
     pub depth_m: f64,
@@ -53,8 +53,8 @@ const STEP_M: f64 = 0.05;
 const WIDENS_M: f64 = 0.22;
 /// Least widening if the other jamb is a straight wall, metres: the wall with the door is longer than a stub.
 const WIDENS_BESIDE_WALL_M: f64 = 0.5;
-/// Depth behind the door that must be free, and depth that must stay wide, metres, unless a wall comes first. A
-/// corridor with doors on its sides widens for less.
+/// Depths behind the door that must be free, and stay wide unless a wall comes first, metres. A corridor with doors on
+/// its sides widens for less.
 const ROOM_M: f64 = 0.45;
 const STAYS_WIDE_M: f64 = 1.1;
 /// Least widening beside a jamb, metres.

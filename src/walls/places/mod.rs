@@ -16,7 +16,7 @@ impl Walls {
     /// Corners of all faces: turns of more than 20 degrees, by face and arc length.
     ///
     /// Vertices within a few centimetres form one corner with the sum of their turns: the end of a thin wall is one
-    /// corner of 180 degrees; a step of one pixel is no corner. Nor are the small turns of a curved wall.
+    /// corner of 180 degrees; steps of one pixel and the small turns of a curved wall do not count.
     pub fn corners(&self) -> Vec<Corner> {
         let mut corners = Vec::new();
         for (number, face) in self.faces.iter().enumerate() {

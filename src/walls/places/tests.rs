@@ -24,7 +24,7 @@ fn within(p: Vec2, min: [f64; 2], max: [f64; 2]) -> bool {
     p.x >= min[0] && p.x < max[0] && p.y >= min[1] && p.y < max[1]
 }
 
-/// Two rooms of 5 x 6 m in a wall of 0.2 m, and a wall of a thickness between them, around x = 5, open from `from_m` to `to_m`.
+/// Two rooms of 5 x 6 m in a wall of 0.2 m. The wall between them, at x = 5, is open from `from_m` to `to_m`.
 fn two_rooms(thickness_m: f64, gaps: &'static [[f64; 2]]) -> Walls {
     drawn([10.0, 6.0], move |p| {
         let around = !within(p, [0.2, 0.2], [9.8, 5.8]);
