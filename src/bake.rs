@@ -1,4 +1,4 @@
-//! The pipeline in one function: a reader who has read only [`bake`] knows the program.
+//! The pipeline in one function, [`bake`]: from a scenario to textures, scene and report.
 
 use std::path::{Path, PathBuf};
 
@@ -26,60 +26,40 @@ pub use view::{View, view};
 use graded::{Graded, Sums, look_entry, title};
 use tread::{Marks, tread};
 
-/// Files that every bake makes, whatever its plan.
+/// Files in every bake.
 const ALWAYS_MADE: [&str; 5] =
     ["manifest.json", Report::FILE_NAME, "preview/floor.png", show::PATHS_FILE, "sums/floor_presence.exr"];
-/// Files that a bake makes besides where it makes walls.
+/// Additional files in a bake with walls.
 const MADE_WITH_WALLS: [&str; 5] =
     ["scene.glb", "index.html", "preview/birds_eye.png", "preview/eye_level.png", "preview/eye_level_clean.png"];
 
-/// Where a bake goes.
+/// Output folder of a bake.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutputOptions {
-    /// The folder to make.
+    /// Path of the folder.
     pub folder: PathBuf,
-    /// Whether the files of an earlier bake there are replaced. Anything else is never replaced.
+    /// Whether to replace an earlier bake there. Other folders with files are never replaced.
     pub force: bool,
 }
 
-/// From a plan to its trodden floor: reads the scenario's plan, walks its crowd, and writes textures, sums,
-/// previews and the manifest to a new folder, on the rayon pool that it is called in.
+/// Bakes a scenario: reads its plan, walks its crowd, and writes textures to a new folder.
 ///
-/// The same scenario gives the same bytes in every file but `report.json`, on any number of threads.
+/// It also writes sums, previews and the manifest. Runs on the current rayon pool. The same scenario gives the same
+/// bytes in every file but `report.json`, on any number of threads.
 ///
 /// # Errors
-/// Whatever a stage says of its input; an output folder that cannot be written or must not be replaced;
-/// [`Error::Interrupted`]. In all these cases nothing is left behind and an earlier result stays as it was.
-///
-/// # Example
-/// ```
-/// use trodden::bake::{OutputOptions, bake};
-/// use trodden::scenario::{Overrides, Scenario};
-///
-/// // Three people in the sample museum, at five texels per metre.
-/// let coarse = Overrides {
-///     metres_per_pixel: Some(0.05),
-///     people: Some(3),
-///     texels_per_metre: Some(5.0),
-///     ..Overrides::default()
-/// };
-/// let scenario = Scenario::from_plan("floorplans/museum.png".as_ref(), &coarse)?;
-/// let folder = tempfile::tempdir()?;
-/// let output = OutputOptions { folder: folder.path().join("museum"), force: false };
-/// let report = bake(&scenario, &output, &trodden::Silent)?;
-/// assert!(report.footfalls > 10 && output.folder.join("manifest.json").is_file());
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
+/// Errors of the stages; an output folder that cannot be written or must not be replaced; [`Error::Interrupted`]. After
+/// an error no new files remain and an earlier result is unchanged.
 pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress) -> Result<Report, Error> {
     let watch = Stopwatch::start();
-    // What is known to be wrong is told before anybody walks.
+    // Errors in the input should appear before the crowd walks.
     scenario.look.check_images()?;
     scenario.texture.check()?;
     let folder = OutputFolder::begin(&output.folder, output.force)?;
     check_free(&folder, scenario.texture.walls)?;
     folder.check_not_inputs(&scenario.input_files())?;
 
-    // A motion may be given: then nobody has to be walked, and without a plan the floor is open ground around it.
+    // A given motion replaces the simulation; without a plan, its floor is open ground.
     let given = Given::of_scenario(scenario, &watch, progress)?.map(Given::on_foot);
     let ground = Ground::of_scenario(scenario, given.as_ref(), &watch, progress)?;
     let (plan, walls) = (&ground.plan, &ground.walls);
@@ -93,7 +73,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let atlas = watch.busy(Stage::Export, || with_walls.then(pack).transpose())?;
     let library = watch.busy(Stage::Patterns, || PatternLibrary::open(scenario.pattern_path().as_deref()))?;
 
-    // A person is a pure function of the seed and a number; who arrives when is settled before anybody walks.
+    // Bodies depend on seed and person id only; all arrival times are known before the crowd walks.
     let people = People::new(scenario.seed, scenario.bodies.clone());
     let routes;
     let mut source = match &given {
@@ -118,7 +98,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let doorways = places.doorways();
     let mut footfalls = Footfalls::new(&people, walls, &library, &scenario.marks, origins)?.with_contacts(places);
 
-    // Frames become marks, marks become stamps, stamps are summed up: a stream of which only the sums are kept.
+    // Frames become marks, marks become stamps, and stamps are added to sums. Only the sums stay in memory.
     let stamper = watch.busy(Stage::Stamps, || Stamper::new(&library, grid, &scenario.stamps))?;
     let wall_stamper = watch.busy(Stage::Stamps, || WallStamper::new(&library, &wall_grid, &scenario.stamps))?;
     let mut sums = Sums { floor: FloorSums::new(grid), walls: with_walls.then(|| WallSums::new(wall_grid)) };
@@ -135,7 +115,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     warnings.extend(source.warning());
     warnings.iter().for_each(|warning| progress.warn(warning));
 
-    // Sums become what floor and walls look like, block by block, as the files are written.
+    // The look turns sums into texels, block by block, while the files are written.
     let crops = show::choose_crops(walls.bounds_m(), &plan.openings, walls, paths.paths());
     let settings = scenario.settings();
     let graded = Graded {
@@ -185,35 +165,36 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     Ok(report)
 }
 
-/// Whether `resolve` takes a file of the bake over as it is.
+/// Whether `resolve` keeps a file of the bake unchanged.
 fn is_kept(file: &str) -> bool {
     let sums = file.starts_with("sums/") && file.ends_with(".exr");
     sums || file == show::PATHS_FILE
 }
 
-/// Which outputs `resolve` rewrites of a finished bake. What is left out stays as it was.
+/// Outputs of a finished bake that [`resolve`] changes; `None` keeps the bake's value.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ResolveOptions {
-    /// Another look.
+    /// New look.
     pub look: Option<Look>,
-    /// Another program that the textures are for.
+    /// New target program of the textures.
     pub target: Option<Target>,
-    /// Whether the model carries its textures.
+    /// Whether `scene.glb` embeds its textures.
     pub embed: Option<bool>,
-    /// Whether every layer is written on its own too.
+    /// Whether to write the layers as EXR too.
     pub layers: Option<bool>,
 }
 
-/// Grades a finished bake with another look, or writes it for another target: its exact sums are resolved to textures
-/// and previews once more, without simulating. Sums and everything else stay as they were.
+/// Rewrites a finished bake with another look or for another target, without simulating.
+///
+/// The exact sums are resolved to textures and previews again. Sums and all other files stay unchanged.
 ///
 /// # Errors
-/// A folder that is not a bake or is damaged; a look out of range; textures larger than the target takes; files that
-/// cannot be written; [`Error::Interrupted`]. In all these cases the bake stays as it was.
+/// The folder is not a bake or is damaged; a look out of range; textures beyond the target's limit; files that cannot
+/// be written; [`Error::Interrupted`]. After an error the bake is unchanged.
 pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -> Result<Report, Error> {
     let watch = Stopwatch::start();
     export::settled(&[bake], || Manifest::read(bake))?;
-    // From here on no other run replaces the bake.
+    // From here on the lock keeps other runs from replacing the bake.
     let folder = OutputFolder::begin(bake, true)?;
     let manifest = Manifest::read(bake)?;
     check_free(&folder, manifest.walls.is_some())?;
@@ -265,7 +246,7 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
     Ok(report)
 }
 
-/// Refuses, before any work is done, names that files of the user have.
+/// Checks, before any work, that no file of the user has the name of an output.
 fn check_free(folder: &OutputFolder, with_walls: bool) -> Result<(), export::ExportError> {
     folder.check_free(&ALWAYS_MADE)?;
     if with_walls { folder.check_free(&MADE_WITH_WALLS) } else { Ok(()) }

@@ -7,20 +7,20 @@ use crate::{
 /// Declares [`Error`] from one list of stages, in the order of the data.
 macro_rules! stages {
     ($($(#[$meaning:meta])* $Stage:ident($Error:ty) $({ $interrupted:pat })?;)*) => {
-        /// Why a bake stops, by the stage that found it.
+        /// Error of a stage.
         ///
-        /// Every message says what, where and which value; [`Error::hint`] says what to do about it.
+        /// Messages name the problem, its place and the value; [`Error::hint`] suggests a remedy.
         #[derive(Debug, thiserror::Error)]
         #[non_exhaustive]
         pub enum Error {
             $($(#[$meaning])* #[error(transparent)] $Stage($Error),)*
-            /// The user stopped the work.
+            /// The user interrupted the run.
             #[error(transparent)]
             Interrupted(#[from] Interrupted),
         }
 
         impl Error {
-            /// What the user can do about it, where there is something.
+            /// Suggests a remedy to the user, if there is one.
             pub fn hint(&self) -> Option<String> {
                 match self {
                     $(Error::$Stage(error) => error.hint(),)*
@@ -53,7 +53,7 @@ stages! {
     File(files::FileError);
     /// The plan image or its scale cannot be used.
     Plan(plan::PlanError);
-    /// Kept outlines are no walls.
+    /// Outlines in a manifest are invalid.
     Walls(walls::WallsError);
     /// A route leads nowhere.
     Routes(routes::RoutesError) { routes::RoutesError::Interrupted(_) };
@@ -63,31 +63,31 @@ stages! {
     Recording(recordings::RecordingError) { recordings::RecordingError::Interrupted(_) };
     /// Formations cannot be interpolated.
     Formation(formation::FormationError) { formation::FormationError::Interrupted(_) };
-    /// Features cannot be worked on.
+    /// Features cannot be computed or changed.
     Features(features::FeaturesError) { features::FeaturesError::Interrupted(_) };
     /// Units cannot be cut or used.
     Units(units::UnitsError) { units::UnitsError::Interrupted(_) };
-    /// The crowd cannot walk.
+    /// The crowd's options or routes are invalid.
     Crowd(crowd::CrowdError);
-    /// The pattern library is missing or wrong.
+    /// A pattern library is missing or invalid.
     Patterns(patterns::PatternsError);
-    /// Feet cannot leave marks with these options.
+    /// The options of marks are invalid.
     Marks(marks::MarksError);
-    /// The floor cannot be divided into texels, or a stamp's settings are wrong.
+    /// The texel grid or the options of stamps are invalid.
     Stamps(stamps::StampsError);
-    /// Sums do not fit together.
+    /// Sums are invalid.
     Sums(sums::SumsError);
-    /// A look file is wrong.
+    /// A look is invalid.
     Look(look::LookError);
-    /// The result cannot be written or an earlier one cannot be read.
+    /// A bake cannot be written or read.
     Export(export::ExportError) { export::ExportError::Interrupted(_) };
-    /// A camera cannot be used.
+    /// A camera is invalid.
     Camera(export::CameraError);
-    /// An animation cannot be made with these options.
+    /// The options of an animation are invalid.
     Animation(show::AnimationError);
-    /// A still cannot be taken with these options.
+    /// The options of a still are invalid.
     Still(show::still::StillError) { show::still::StillError::Export(export::ExportError::Interrupted(_)) };
-    /// The scenario file is wrong.
+    /// A scenario is invalid.
     Scenario(scenario::ScenarioError);
 }
 

@@ -1,4 +1,4 @@
-//! Files that appear whole or not at all, and never in the place of something else.
+//! Output files that appear complete or not at all, and never overwrite by accident.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -26,13 +26,12 @@ use names::{Destination, Stream};
 
 /// A file that appears under its name when it is complete.
 ///
-/// It is written beside the place where it will be, under a name that no other file has, and renamed by
-/// [`WholeFile::publish`]. Dropped unpublished, it is removed, and what was there before stays as it was. Through a
-/// link, the file that it leads to is written. A device, a pipe or a descriptor, such as `/dev/stdout`, is written to
-/// as it is: there is nothing to rename.
+/// It is written beside its destination under a unique temporary name, and renamed by [`WholeFile::publish`]. Dropping
+/// it unpublished removes it and leaves an earlier file unchanged. A link is followed: its target is written. A device,
+/// a pipe or a descriptor, such as `/dev/stdout`, is written directly.
 #[derive(Debug)]
 pub struct WholeFile {
-    /// As the user gave it, for messages.
+    /// Path as the user gave it, for messages.
     shown: PathBuf,
     place: Place,
     force: bool,
@@ -40,20 +39,20 @@ pub struct WholeFile {
 
 #[derive(Debug)]
 enum Place {
-    /// A file to be renamed.
+    /// A temporary file to be renamed.
     Beside { written: TempPath, target: PathBuf },
-    /// Something that is written to directly.
+    /// A device, pipe or descriptor that is written directly.
     Stream(Stream),
 }
 
-/// The longest part of a file's name that the temporary name repeats, characters.
+/// Greatest number of characters of a file's name in its temporary name.
 const REPEATED: usize = 60;
 
 impl WholeFile {
-    /// Makes sure that the file may be written, and makes the temporary file.
+    /// Checks that the file may be written, and creates the temporary file.
     ///
     /// # Errors
-    /// A file of this name unless `force` is set, a folder of this name, no right to write to its folder.
+    /// The file exists and `force` is not set; a folder has its name; its folder is not writable.
     pub fn begin(path: &Path, force: bool) -> Result<WholeFile, FileError> {
         let shown = path.to_path_buf();
         let failed = |source| FileError::Write { path: path.to_path_buf(), source };
@@ -74,7 +73,7 @@ impl WholeFile {
         Ok(WholeFile { shown, place: Place::Beside { written, target }, force })
     }
 
-    /// Where to write until the file is published.
+    /// Path to write to until the file is published.
     pub fn path(&self) -> &Path {
         match &self.place {
             Place::Beside { written, .. } => written,
@@ -82,15 +81,15 @@ impl WholeFile {
         }
     }
 
-    /// Whether it is a device, a pipe or a descriptor: written from front to back, without a size.
+    /// Whether it is a device, a pipe or a descriptor, written sequentially.
     pub fn is_stream(&self) -> bool {
         matches!(self.place, Place::Stream(_))
     }
 
-    /// Opens the file, to be written from its start.
+    /// Opens the file to write it from its start.
     ///
     /// # Errors
-    /// The system refuses.
+    /// Error of the system.
     pub fn create(&self) -> Result<BufWriter<File>, FileError> {
         let file = match &self.place {
             Place::Beside { written, .. } => File::options().write(true).truncate(true).open(written),
@@ -99,24 +98,24 @@ impl WholeFile {
         Ok(BufWriter::with_capacity(1 << 16, file.map_err(|source| self.failed(source))?))
     }
 
-    /// The error of a write to this file that failed.
+    /// Wraps an error of writing to this file.
     pub fn failed(&self, source: io::Error) -> FileError {
         FileError::Write { path: self.shown.clone(), source }
     }
 
-    /// Writes the whole content; the file still has to be published.
+    /// Writes the whole content; the caller still has to publish the file.
     ///
     /// # Errors
-    /// The system refuses.
+    /// Error of the system.
     pub fn write(&self, bytes: &[u8]) -> Result<(), FileError> {
         let mut file = self.create()?;
         file.write_all(bytes).and_then(|()| file.flush()).map_err(|source| self.failed(source))
     }
 
-    /// Puts the file, which must be closed, in its place; gives its size in bytes, 0 for a stream.
+    /// Renames the file, which must be closed, to its destination. Returns its size in bytes, 0 for a stream.
     ///
     /// # Errors
-    /// A file of this name that has appeared in the meantime, unless it may be replaced; the system refuses.
+    /// The file has appeared meanwhile and may not be replaced; error of the system.
     pub fn publish(self) -> Result<u64, FileError> {
         let WholeFile { shown, place, force } = self;
         let Place::Beside { written, target } = place else { return Ok(0) };
@@ -128,18 +127,18 @@ impl WholeFile {
                 Err(refused) if refused.error.kind() == io::ErrorKind::AlreadyExists || target.exists() => {
                     Err(FileError::Exists { path: shown })
                 }
-                // Some disks cannot rename without replacing, nor link.
+                // Some disks support neither renaming without replacement nor links.
                 Err(refused) => refused.path.persist(&target).map(|()| size).map_err(|e| failed(plain(e.error))),
             };
         }
-        // The old content must not be gone before the new one is on the disk.
+        // The new content has to be on the disk before the old one is replaced.
         File::options().write(true).open(&written).and_then(|file| file.sync_all()).map_err(failed)?;
         written.persist(&target).map_err(|refused| failed(plain(refused.error)))?;
         Ok(size)
     }
 }
 
-/// Makes a file in a folder under a name that no other file has, with the rights of any new file.
+/// Creates a file with a unique name in a folder, with default permissions.
 fn new_file(folder: &Path, start: &str) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(start).suffix(".new");
@@ -150,7 +149,7 @@ fn new_file(folder: &Path, start: &str) -> io::Result<tempfile::NamedTempFile> {
     builder.tempfile_in(folder).map_err(plain)
 }
 
-/// An error of the system without the temporary name, which would tell the user nothing.
+/// Returns the system's error without the temporary file name, which the user does not know.
 fn plain(error: io::Error) -> io::Error {
     let source = error.get_ref().and_then(|inner| inner.source()).and_then(|source| source.downcast_ref::<io::Error>());
     match source.and_then(io::Error::raw_os_error) {
@@ -159,10 +158,10 @@ fn plain(error: io::Error) -> io::Error {
     }
 }
 
-/// Writes a file in one go, whole or not at all.
+/// Writes a file completely or not at all.
 ///
 /// # Errors
-/// As [`WholeFile::begin`] and [`WholeFile::publish`].
+/// The same as for [`WholeFile::begin`] and [`WholeFile::publish`].
 pub fn write_whole(path: &Path, bytes: &[u8], force: bool) -> Result<u64, FileError> {
     let file = WholeFile::begin(path, force)?;
     file.write(bytes)?;
@@ -278,7 +277,7 @@ mod tests {
         write_whole(&link, b"x", false).unwrap();
         assert!(link.is_symlink());
         assert_eq!(fs::read(dir.path().join("real.txt")).unwrap(), b"x");
-        // A ring of links is an error, not a loop.
+        // A cycle of links is an error, not an endless loop.
         let ring = dir.path().join("ring.txt");
         std::os::unix::fs::symlink("ring.txt", &ring).unwrap();
         assert!(matches!(WholeFile::begin(&ring, true), Err(FileError::Write { .. })));

@@ -1,7 +1,7 @@
 //! Turns a bitmap floor plan into the dirt that people leave in it.
 //!
-//! A crowd walks routes through the plan, every footfall leaves a shoe print on the floor, and the result is
-//! tiled floor textures for a game engine or a renderer. The stages, in the order in which the data goes:
+//! A crowd walks routes through the plan, and every footfall leaves a shoe print on the floor. The result is tiled
+//! floor textures for a game engine or a renderer. The stages, in the order of the data:
 //!
 //! ```text
 //! plan image ─► plan ─► walls ───────────────────────────────┐
@@ -12,14 +12,12 @@
 //!    units                                  patterns ──┘
 //! ```
 //!
-//! [`mod@bake`] joins them in one function; a reader who has read only that knows the program. [`mod@walk`] does the
-//! same up to the motion, which a [`Recorder`](recordings::Recorder) writes down for other programs.
+//! [`mod@bake`] runs all stages in one function; read it first. [`mod@walk`] runs the stages up to the motion, which a
+//! [`Recorder`](recordings::Recorder) writes for other programs.
 //!
 //! Units are metres, seconds and radians counter-clockwise from +x unless a name says otherwise. The *plan
 //! frame* has its origin at the lower-left corner of the lower-left pixel, x right, y up.
-#![warn(unnameable_types)]
-
-// In the order of the data: a module uses those above it.
+// In the order of the data: a module uses the modules above it.
 mod progress;
 pub mod files;
 pub mod math;

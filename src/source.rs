@@ -1,5 +1,6 @@
-//! Where a motion comes from, and the ground that it goes over: a crowd that is simulated on a plan, or a motion that is
-//! given (a recording, formations), on a plan or on open ground.
+//! Sources of motion and their ground.
+//!
+//! A source is a simulated crowd on a plan, or a given motion (recording, formation) on a plan or on open ground.
 
 use crate::crowd::{Arrival, Simulation, Stuck, Tally};
 use crate::formation::{self, FormedCrowd};
@@ -14,25 +15,25 @@ use crate::scenario::Scenario;
 use crate::walls::{Walls, WallsOptions};
 use crate::{Error, export::PeopleReport};
 
-/// If more than this share of a given motion's places lies beyond the floor, it is probably not aligned.
+/// Share of positions beyond the floor above which a given motion is probably misaligned.
 const MOST_BEYOND: f64 = 0.05;
 
-/// What a motion goes over.
+/// The floor and the walls of a motion.
 #[derive(Debug)]
 pub struct Ground {
-    /// The floor.
+    /// Floor plan.
     pub plan: FloorPlan,
-    /// What stands around it.
+    /// Walls of the plan.
     pub walls: Walls,
-    /// Whether it is open ground, with no plan to measure from: all places are in the map frame then.
+    /// Whether it is open ground without a plan; all positions are then in the map frame.
     pub open: bool,
 }
 
 impl Ground {
-    /// The plan of a scenario; where it has none, open ground around a given motion.
+    /// Reads the plan of a scenario; without a plan, builds open ground around a given motion.
     ///
     /// # Errors
-    /// A plan that cannot be read or has no floor; a motion that spans more than a plan may.
+    /// The plan cannot be read or has no floor; the motion exceeds the largest plan.
     pub fn of_scenario(
         scenario: &Scenario,
         given: Option<&Given>,
@@ -49,20 +50,20 @@ impl Ground {
         Ok(Ground { plan, walls, open: false })
     }
 
-    /// Open ground without walls around a given motion, in the motion's own frame as the map frame.
+    /// Builds open ground without walls around a given motion; its frame becomes the map frame.
     ///
     /// # Errors
-    /// A motion that spans more than a plan may.
+    /// The motion exceeds the largest plan.
     pub fn around(given: &Given) -> Result<Ground, Error> {
         let mut plan = FloorPlan::open_ground(given.bounds_m())?;
         let walls = Walls::trace(&plan, &WallsOptions::default());
-        // Open on all sides, but no way leads out.
+        // Floor reaches all sides, but people do not come or go there.
         plan.openings.clear();
         Ok(Ground { plan, walls, open: true })
     }
 }
 
-/// A motion that is not simulated.
+/// A motion that is given instead of simulated.
 #[derive(Clone, Debug)]
 pub struct Given {
     content: Content,
@@ -76,32 +77,32 @@ enum Content {
     FormedCrowd(FormedCrowd),
 }
 
-/// What the places of a motion are measured from.
+/// Coordinate frame of a motion's positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CoordinateFrame {
-    /// The map's origin: that of the ROS map where the plan is one, elsewhere the plan's.
+    /// The map frame: that of the ROS map if the plan is one, else the plan frame.
     Map,
-    /// The plan's lower left corner.
+    /// The plan frame, with its origin at the lower-left corner.
     Plan,
 }
 
 impl Given {
-    /// A recording; its places are in the map frame.
+    /// Wraps a recording; its positions are in the map frame.
     pub fn recording(recording: Recording) -> Given {
         Given { content: Content::Recording(recording), frame: CoordinateFrame::Map }
     }
 
-    /// The same people throughout.
+    /// Wraps an ensemble, the same people at all times.
     pub fn ensemble(ensemble: Ensemble, frame: CoordinateFrame) -> Given {
         Given { content: Content::Ensemble(ensemble), frame }
     }
 
-    /// A crowd that changes from formation to formation; its places are in the plan frame.
+    /// Wraps a crowd in formations; its positions are in the plan frame.
     pub fn formation(formed: FormedCrowd) -> Given {
         Given { content: Content::FormedCrowd(formed), frame: CoordinateFrame::Plan }
     }
 
-    /// Those who touch the floor: without riders, who are carried.
+    /// Removes riders, who are carried and do not touch the floor.
     pub fn on_foot(self) -> Given {
         match self.content {
             Content::FormedCrowd(formed) if formed.riders() > 0 => Given::ensemble(formed.on_foot(), self.frame),
@@ -109,10 +110,10 @@ impl Given {
         }
     }
 
-    /// What a scenario gives instead of a crowd, if anything.
+    /// Opens the formation or the recording of a scenario; `None` if it has neither.
     ///
     /// # Errors
-    /// A recording that cannot be read, formations that cannot be made; [`Error::Interrupted`].
+    /// The recording cannot be read; the formations are infeasible; [`Error::Interrupted`].
     pub fn of_scenario(
         scenario: &Scenario,
         watch: &Stopwatch,
@@ -128,7 +129,7 @@ impl Given {
         Ok(Some(Given::recording(recording)))
     }
 
-    /// The rectangle around all places, metres.
+    /// Bounding box of all positions, metres.
     pub fn bounds_m(&self) -> Rect {
         match &self.content {
             Content::Recording(recording) => recording.survey().bounds_m,
@@ -136,25 +137,25 @@ impl Given {
         }
     }
 
-    /// How many people there are.
+    /// Number of people.
     pub fn people(&self) -> u32 {
         let people = match &self.content {
-            // Whoever comes back after a long gap is somebody else.
+            // A person who returns after a long gap counts as another person.
             Content::Recording(recording) => recording.survey().people + recording.survey().returns as usize,
             Content::Ensemble(ensemble) | Content::FormedCrowd(FormedCrowd { ensemble, .. }) => ensemble.people(),
         };
         people.min(u32::MAX as usize) as u32
     }
 
-    /// Body heights of those whose recording tells them.
-    pub(crate) fn statures(&self) -> Statures {
+    /// Statures of the people whose recording gives them.
+    pub fn statures(&self) -> Statures {
         match &self.content {
             Content::Recording(recording) => recording.statures(),
             Content::Ensemble(_) | Content::FormedCrowd(_) => Statures::default(),
         }
     }
 
-    /// Frames per second.
+    /// Frame rate, frames per second.
     pub fn fps(&self) -> f64 {
         match &self.content {
             Content::Recording(recording) => recording.survey().fps,
@@ -162,7 +163,7 @@ impl Given {
         }
     }
 
-    /// When the last frame is, seconds.
+    /// Time of the last frame, seconds.
     pub fn end_s(&self) -> f64 {
         match &self.content {
             Content::Recording(recording) => recording.survey().span_s[1],
@@ -172,10 +173,10 @@ impl Given {
         }
     }
 
-    /// The motion from its start, in its own frame.
+    /// Returns the motion from its start, in its own frame.
     ///
     /// # Errors
-    /// The recording cannot be read any more.
+    /// The recording can no longer be read.
     pub fn motion(&self) -> Result<Box<dyn Motion + Send + '_>, MotionError> {
         match &self.content {
             Content::Recording(recording) => recording.motion(),
@@ -186,7 +187,7 @@ impl Given {
     }
 }
 
-/// A motion on its ground, in the plan frame.
+/// A simulated or given motion on its ground, in the plan frame.
 pub struct Source<'a> {
     mover: Mover<'a>,
     people: u32,
@@ -199,16 +200,16 @@ enum Mover<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// A crowd that will walk these routes.
+    /// Wraps a simulated crowd on these routes.
     pub fn of_crowd(crowd: Simulation<'a>, routes: &[Route]) -> Source<'a> {
         let (people, expected_s) = (crowd.arrivals().len() as u32, expected_s(crowd.arrivals(), routes));
         Source { mover: Mover::Crowd(Box::new(crowd)), people, expected_s }
     }
 
-    /// A given motion on its ground.
+    /// Places a given motion on its ground.
     ///
     /// # Errors
-    /// The recording cannot be read any more.
+    /// The recording can no longer be read.
     pub fn of_given(given: &'a Given, ground: &'a Ground) -> Result<Source<'a>, Error> {
         let pose = match given.frame {
             CoordinateFrame::Plan if !ground.open => Pose::default(),
@@ -218,7 +219,7 @@ impl<'a> Source<'a> {
         Ok(Source { mover: Mover::Given(Box::new(placed)), people: given.people(), expected_s: given.end_s() })
     }
 
-    /// The same with people numbered from 0 on in the order in which they appear, as those of a crowd are.
+    /// Renumbers people from 0 in order of appearance, like those of a simulated crowd.
     pub fn numbered(mut self) -> Source<'a> {
         if let Mover::Given(placed) = &mut self.mover {
             placed.numbers = Some(Numbers::default());
@@ -226,7 +227,7 @@ impl<'a> Source<'a> {
         self
     }
 
-    /// The stage that is at work: what progress is shown for.
+    /// Stage for progress and timing.
     pub fn stage(&self) -> Stage {
         match &self.mover {
             Mover::Crowd(_) => Stage::Crowd,
@@ -234,17 +235,17 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// How many people there will be.
+    /// Total number of people.
     pub fn people(&self) -> u32 {
         self.people
     }
 
-    /// How long it will last if nothing holds it up, seconds.
+    /// Expected duration without delays, seconds.
     pub fn expected_s(&self) -> f64 {
         self.expected_s
     }
 
-    /// Who comes when; nothing is known of a given motion.
+    /// Arrivals of a simulated crowd; empty for a given motion.
     pub fn arrivals(&self) -> &[Arrival] {
         match &self.mover {
             Mover::Crowd(crowd) => crowd.arrivals(),
@@ -252,7 +253,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Where people's soles were before, by number; see [`Source::numbered`]. Those of a given motion come from outside.
+    /// Origins of people by id, see [`Source::numbered`]. In a given motion all come from outside.
     pub fn origins(&self, fresh_people: u32) -> Vec<Origin> {
         match &self.mover {
             Mover::Crowd(crowd) => {
@@ -262,7 +263,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Who has got stuck so far.
+    /// People who got stuck so far.
     pub fn stuck(&self) -> &[Stuck] {
         match &self.mover {
             Mover::Crowd(crowd) => crowd.stuck(),
@@ -270,7 +271,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// What became of everybody so far. Of a given motion, whoever is not there any more has arrived.
+    /// Counts of people so far. In a given motion, people who left count as arrived.
     pub fn tally(&self) -> Tally {
         match &self.mover {
             Mover::Crowd(crowd) => crowd.tally(),
@@ -282,12 +283,12 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// The same as it is reported.
+    /// The tally as a report.
     pub fn people_report(&self, routes: &[Route]) -> PeopleReport {
         PeopleReport::of(&self.tally(), routes)
     }
 
-    /// What a user should know of the motion once it is over.
+    /// A warning about the alignment of a given motion, after its end.
     pub fn warning(&self) -> Option<String> {
         let Mover::Given(placed) = &self.mover else { return None };
         let share = placed.beyond as f64 / placed.places.max(1) as f64;
@@ -314,22 +315,22 @@ impl Motion for Source<'_> {
     }
 }
 
-/// How long a crowd will walk if nothing holds it up, seconds.
+/// Computes the expected duration of a crowd without delays, seconds.
 fn expected_s(arrivals: &[Arrival], routes: &[Route]) -> f64 {
     const USUAL_M_S: f64 = 1.2;
     let last_s = arrivals.last().map_or(0.0, |arrival| arrival.time_s);
     last_s + routes.iter().map(|route| route.length_m).fold(0.0, f64::max) / USUAL_M_S
 }
 
-/// A given motion, brought to the plan frame.
+/// A given motion, transformed to the plan frame.
 struct Placed<'a> {
     motion: Box<dyn Motion + Send + 'a>,
     plan: &'a FloorPlan,
     origin_m: Vec2,
-    /// Cosine and sine of the turn from the map to the plan.
+    /// Cosine and sine of the rotation from the map to the plan.
     turn: Vec2,
     numbers: Option<Numbers>,
-    /// Who is present, ascending.
+    /// Ids of the people present, ascending.
     present: Vec<u32>,
     entered: u64,
     places: u64,
@@ -354,7 +355,7 @@ impl<'a> Placed<'a> {
 
     fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, MotionError> {
         if !self.motion.next_frame(frame)? {
-            // Then everybody has left.
+            // At the end all people have left.
             self.present.clear();
             return Ok(false);
         }
@@ -376,10 +377,10 @@ impl<'a> Placed<'a> {
     }
 }
 
-/// Numbers from 0 on in the order in which people appear.
+/// Numbers people from 0 in order of appearance.
 #[derive(Debug, Default)]
 struct Numbers {
-    /// Who is present, ascending, and their numbers.
+    /// Ids of the people present, ascending, with their numbers.
     given: Vec<(u32, u32)>,
     next: u32,
 }

@@ -1,5 +1,4 @@
-//! The pipeline up to the motion: [`walk`] lets a crowd walk and writes down where everybody went; [`show()`] does the
-//! same for a motion that is given.
+//! The pipeline up to the motion. [`walk`] records a simulated crowd, [`show()`] a given motion.
 
 use std::io;
 use std::path::PathBuf;
@@ -18,25 +17,25 @@ use crate::scenario::Scenario;
 use crate::show::{self, Animation, AnimationFormat, AnimationOptions, AnimationReport, PathSampler, encode_picture};
 use crate::source::{Given, Ground, Source};
 
-/// What a walk leaves behind. Nothing is a choice too: then only the report says how it went.
+/// Outputs of a walk. All of them are optional; the [`WalkReport`] is always returned.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WalkOutputs {
-    /// Everybody's places over time.
+    /// Motion: positions of all people over time.
     pub motion: Option<MotionOutput>,
-    /// How the motion is written; left out: as the file's name says, Juelich text to standard output.
+    /// Format of the motion. `None`: by the file's name, or Juelich text on standard output.
     pub format: Option<RecordingFormat>,
-    /// Frames per second of the motion; left out: those of the simulation.
+    /// Frame rate of the motion, frames per second; `None` for that of the source.
     pub fps: Option<f64>,
-    /// A moving picture (GIF or animated PNG, by its name) and how it looks.
+    /// Animation (GIF or animated PNG, by its file name) and its options.
     pub animation: Option<(PathBuf, AnimationOptions)>,
-    /// A picture (PNG) of the ways that people took, and of where they got stuck.
+    /// Picture (PNG) of the paths, and of the places where people got stuck.
     pub paths: Option<PathBuf>,
-    /// Whether files that exist are replaced.
+    /// Whether to replace existing files.
     pub force: bool,
 }
 
 impl WalkOutputs {
-    /// Makes sure that no file is to be written that the run reads.
+    /// Checks that no output is an input of the run.
     ///
     /// # Errors
     /// [`FileError::IsInput`].
@@ -50,66 +49,50 @@ impl WalkOutputs {
     }
 }
 
-/// Where a motion is written to.
+/// Destination of a motion.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotionOutput {
-    /// A file whose name says its format, see [`RecordForm`].
+    /// A file; its name gives the format, see [`RecordForm`].
     File(PathBuf),
     /// Text to standard output.
     StandardOutput,
 }
 
-/// How a walk went.
+/// Statistics of a walk.
 #[derive(Clone, Debug, Serialize)]
 pub struct WalkReport {
-    /// What became of everybody.
+    /// Counts of people who entered, arrived or got stuck.
     pub people: PeopleReport,
-    /// How many were still on their way when time was up.
+    /// Number of people still present at the end.
     pub walking: u64,
-    /// How long it took from the start until the last one was gone, seconds.
+    /// Time from the start to the last frame, seconds.
     pub duration_s: f64,
-    /// Metres that all walked together.
+    /// Total distance walked, metres.
     pub metres: f64,
-    /// Seconds that all were present together.
+    /// Total time of presence, seconds.
     pub person_seconds: f64,
-    /// Metres walked in a second of somebody's presence.
+    /// Distance walked per second of presence, m/s.
     pub mean_speed_m_s: f64,
-    /// The motion, where it was written.
+    /// The written motion, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<Recorded>,
-    /// The animation, where there is one.
+    /// The written animation, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub animation: Option<AnimationReport>,
     /// Wall-clock seconds as `total`, and the busy seconds of each stage.
     pub seconds: std::collections::BTreeMap<String, f64>,
-    /// The most memory held at once, MiB, where the system tells.
+    /// Peak memory, MiB, if the system reports it.
     pub peak_memory_mib: Option<f64>,
 }
 
-/// Lets a scenario's crowd walk, or plays the motion that takes its place, and writes the motion, an animation and a
-/// picture of its paths, on the rayon pool that it is called in. Memory is bounded by the people present, whatever is
-/// written.
+/// Simulates a scenario's crowd, or plays its given motion, and writes the outputs.
 ///
-/// The same scenario gives the same bytes in every file, on any number of threads.
+/// Runs on the current rayon pool. Memory grows with the number of people present, not with the duration. The same
+/// scenario gives the same bytes in every file, on any number of threads.
 ///
 /// # Errors
-/// Whatever a stage says of its input; files that exist, that cannot be written or that have an unknown ending;
-/// [`Error::Interrupted`]. In all these cases no file is left behind and earlier ones stay as they were.
-///
-/// # Example
-/// ```
-/// use trodden::scenario::{Overrides, Scenario};
-/// use trodden::walk::{MotionOutput, WalkOutputs, walk};
-///
-/// let options = Overrides { metres_per_pixel: Some(0.05), people: Some(3), ..Overrides::default() };
-/// let scenario = Scenario::from_plan("floorplans/museum.png".as_ref(), &options)?;
-/// let folder = tempfile::tempdir()?;
-/// let path = folder.path().join("paths.txt");
-/// let outputs = WalkOutputs { motion: Some(MotionOutput::File(path.clone())), ..WalkOutputs::default() };
-/// assert_eq!(walk(&scenario, &outputs, &trodden::Silent)?.people.entered, 3);
-/// assert!(path.is_file());
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
+/// Errors of the stages; files that exist, that cannot be written or that have an unknown extension;
+/// [`Error::Interrupted`]. After an error no new files remain and earlier files are unchanged.
 pub fn walk(scenario: &Scenario, outputs: &WalkOutputs, progress: &dyn Progress) -> Result<WalkReport, Error> {
     let watch = Stopwatch::start();
     outputs.check_not_inputs(&scenario.input_files())?;
@@ -139,11 +122,12 @@ pub fn walk(scenario: &Scenario, outputs: &WalkOutputs, progress: &dyn Progress)
     walk.record(outputs, fps, files, &watch, progress)
 }
 
-/// Plays a given motion on its ground, and writes it, an animation and a picture of its paths. The files that the motion
-/// was read from are not known here: see [`WalkOutputs::check_not_inputs`].
+/// Plays a given motion on its ground and writes the requested outputs.
+///
+/// The caller has to protect the files of the motion with [`WalkOutputs::check_not_inputs`].
 ///
 /// # Errors
-/// As [`walk`].
+/// The same as for [`walk`].
 pub fn show(
     given: &Given,
     ground: &Ground,
@@ -158,21 +142,21 @@ pub fn show(
     walk.record(outputs, given.fps(), files, &watch, progress)
 }
 
-/// The files in the making.
+/// The output files until they are published.
 struct Files {
     motion: Option<Sheet>,
     animation: Option<(WholeFile, AnimationFormat)>,
     paths: Option<WholeFile>,
 }
 
-/// Where the motion goes, and how it is written.
+/// Destination and format of a motion.
 enum Sheet {
     File(RecordForm, WholeFile),
     StandardOutput(RecordingFormat),
 }
 
 impl Files {
-    /// Makes sure that all files can be written, before anybody walks.
+    /// Creates all output files, so that errors appear before the walk.
     fn begin(outputs: &WalkOutputs) -> Result<Files, Error> {
         let begin = |path: &PathBuf| WholeFile::begin(path, outputs.force);
         let motion = match &outputs.motion {
@@ -196,13 +180,13 @@ impl Files {
     }
 }
 
-/// A motion about to be played.
+/// A motion that is ready to be played, and its ground.
 struct Walk<'a> {
     source: Source<'a>,
     ground: &'a Ground,
     routes: &'a [Route],
     people: &'a People,
-    /// Of those whose body height is known from elsewhere.
+    /// Known statures of recorded people.
     statures: Statures,
 }
 
@@ -256,7 +240,7 @@ impl Walk<'_> {
             let picture = show::draw_paths(plan, walls, routes, paths.paths(), &tally.stuck);
             file.write(&encode_picture(&picture))?;
         }
-        // All that can fail has been done: now the files appear.
+        // Everything that can fail is done; publish the files.
         let motion = watch.busy(Stage::Export, || recorder.map(Recorder::finish).transpose())?;
         for file in [files.animation.map(|(file, _)| file), files.paths].into_iter().flatten() {
             file.publish()?;
@@ -276,7 +260,7 @@ impl Walk<'_> {
     }
 }
 
-/// Who looks on while people walk.
+/// Consumers of the frames of a motion.
 struct Onlookers<'a> {
     recorder: Option<Recorder<'a>>,
     animation: Option<Animation<'a>>,
@@ -299,11 +283,13 @@ impl Onlookers<'_> {
         Ok(())
     }
 
-    /// Lets people walk to the end: while onlookers take one step in, the next is walked. Gives the time of the last step.
+    /// Plays the motion to its end and returns the time of the last frame, seconds.
+    ///
+    /// The consumers process one frame while the next is computed.
     fn watch(&mut self, source: &mut Source<'_>, watch: &Stopwatch, progress: &dyn Progress) -> Result<f64, Error> {
         let (mut frame, mut ahead) = (Frame::default(), Frame::default());
         let mut stuck: Vec<Stuck> = Vec::new();
-        // Before a crowd's first step nobody is there; a given motion begins with its own first frame, which may be at 0.
+        // A crowd has no people before its first frame; a given motion starts with its first frame, possibly at 0 s.
         let mut begun = source.stage() == Stage::Crowd;
         loop {
             progress.keep_on()?;

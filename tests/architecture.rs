@@ -408,3 +408,45 @@ fn no_file_is_too_long() {
     }
     assert!(long.is_empty(), "{}", long.join("\n"));
 }
+
+/// Callers of the library know its options; only the command line has flags.
+#[test]
+fn no_text_of_the_library_names_a_flag() {
+    struct Texts(Vec<String>);
+    impl<'a> Visit<'a> for Texts {
+        fn visit_item_mod(&mut self, item: &'a syn::ItemMod) {
+            if item.ident != "tests" {
+                syn::visit::visit_item_mod(self, item);
+            }
+        }
+        fn visit_attribute(&mut self, attribute: &'a syn::Attribute) {
+            if let (true, Ok(list)) = (attribute.path().is_ident("error"), attribute.meta.require_list()) {
+                self.0.push(list.tokens.to_string());
+            }
+        }
+        fn visit_lit_str(&mut self, text: &'a syn::LitStr) {
+            self.0.push(text.value());
+        }
+        fn visit_macro(&mut self, item: &'a syn::Macro) {
+            self.0.push(item.tokens.to_string());
+        }
+    }
+    let names_flag = |text: &String| {
+        text.match_indices("--").any(|(at, _)| {
+            let before = text[..at].chars().next_back();
+            let is_start = before.is_none_or(|c| " (`\"".contains(c));
+            is_start && text[at + 2..].starts_with(|c: char| c.is_ascii_lowercase())
+        })
+    };
+    let mut naming = Vec::new();
+    for file in files_in("src") {
+        let path = file.display().to_string();
+        if path.contains("src/cli/") || path.contains("/tests") || path.ends_with("tests.rs") {
+            continue;
+        }
+        let mut texts = Texts(Vec::new());
+        texts.visit_file(&syn::parse_file(&fs::read_to_string(&file).unwrap()).unwrap());
+        naming.extend(texts.0.into_iter().filter(names_flag).map(|text| format!("{path}: {text}")));
+    }
+    assert!(naming.is_empty(), "{naming:#?}");
+}

@@ -23,7 +23,7 @@ pub fn measure() -> Measured {
         speeds.iter().sum::<f64>() / SEEDS.len() as f64
     };
     let measured: Vec<[f64; 2]> = HELD.map(|density| [density, speed(density)]).to_vec();
-    let mut table = "| persons/m² | measured m/s | Weidmann m/s | apart |\n|---|---|---|---|\n".to_string();
+    let mut table = "| persons/m² | measured m/s | Weidmann m/s | difference |\n|---|---|---|---|\n".to_string();
     for &[density, speed] in &measured {
         let published = weidmann_m_s(density);
         table += &format!("| {density} | {speed:.2} | {published:.2} | {:+.2} |\n", speed - published);

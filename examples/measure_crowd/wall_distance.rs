@@ -37,10 +37,9 @@ const RECORDINGS: [Recording; 3] = [
 ];
 
 pub fn measure() -> Measured {
-    let mut table =
-        "| corridor | persons/m² | 5 % within, measured | recorded | nearest of all, measured | recorded |\n\
+    let mut table = "| corridor | persons/m² | 5 % within, measured | recorded | minimum, measured | recorded |\n\
                      |---|---|---|---|---|---|\n"
-            .to_string();
+        .to_string();
     let mut series = Vec::new();
     for recording in &RECORDINGS {
         let Recording { name, colour, width_m, density, nearest_m, least_m } = *recording;

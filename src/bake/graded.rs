@@ -18,34 +18,32 @@ use crate::show::{self, Crop};
 use crate::sums::{FloorSums, WallSums};
 use crate::walls::{Doorway, Walls};
 
-/// Greatest side of the small images that the page and a model with its textures inside carry, pixels.
+/// Greatest side of the reduced images in the page and in a model with textures, pixels.
 const REDUCED_PX: u32 = 2048;
 
-/// All that people left.
 pub(super) struct Sums {
     pub floor: FloorSums,
-    /// Left out where only the floor was asked for.
+    /// `None` for a bake of the floor only.
     pub walls: Option<WallSums>,
 }
 
-/// A finished walk's sums with what turns them into pictures.
+/// The sums of a walk, with the look and the geometry that turn them into textures.
 pub(super) struct Graded<'a> {
     pub sums: &'a Sums,
     pub walls: &'a Walls,
     pub doorways: &'a [Doorway],
     pub look: &'a Look,
-    /// How many people were simulated.
+    /// Number of people, simulated or recorded.
     pub people: u32,
-    /// For how many people the touches of walls stand.
+    /// Number of people whose touches the wall sums hold.
     pub wall_people: u32,
-    /// What the plan is called.
+    /// Title of the bake, the name of its plan.
     pub title: String,
     pub seed: u64,
-    /// How the walls are laid into sheets, where there are walls.
+    /// Atlas of the walls; `None` packs a new one.
     pub atlas: Option<Atlas>,
 }
 
-/// What was written of it.
 pub(super) struct Written {
     pub floor: FloorTextures,
     pub walls: Option<WallTextures>,
@@ -54,7 +52,7 @@ pub(super) struct Written {
 }
 
 impl Graded<'_> {
-    /// Writes the textures of floor and walls, pictures of them, and all that shows them in 3D.
+    /// Writes the textures of floor and walls, previews, the model, stills and the page.
     pub fn write(
         &self,
         folder: &OutputFolder,
@@ -114,7 +112,7 @@ impl Graded<'_> {
     }
 }
 
-/// A bake in three dimensions.
+/// Writer of the 3D outputs of a bake: model, stills, page.
 struct Model<'a> {
     graded: &'a Graded<'a>,
     floor: &'a FloorTextures,
@@ -237,7 +235,7 @@ impl Model<'_> {
     }
 }
 
-/// A look as the manifest keeps it: without the folders of its images, so that it says nothing of the machine.
+/// Converts a look to JSON without the folders of its images, which belong to the machine.
 pub(super) fn look_entry(look: &Look) -> serde_json::Value {
     let mut look = look.clone();
     for image in look.images().into_iter().flatten() {
@@ -246,7 +244,7 @@ pub(super) fn look_entry(look: &Look) -> serde_json::Value {
     serde_json::to_value(&look).expect("a look is plain values with keys that are strings")
 }
 
-/// What a bake with these settings is called: its plan's image without ending, or the motion's file where there is no plan.
+/// Returns the title of a bake: the file stem of its plan, or of its motion without a plan.
 pub(super) fn title(settings: &serde_json::Value) -> String {
     let name = settings["plan"]["image"].as_str().or_else(|| settings["motion"]["file"].as_str()).unwrap_or("plan");
     std::path::Path::new(name).file_stem().unwrap_or_default().to_string_lossy().into_owned()

@@ -5,20 +5,18 @@ use crate::progress::{Progress, Stage, Stopwatch};
 use crate::show::PathSampler;
 use crate::source::Source;
 
-/// Marks that are stamped at a time: enough that a block's marks are worth a thread, few enough that the crowd
-/// and the stamping take turns often and both cores stay busy.
+/// Footfalls in a batch: enough to stamp blocks in parallel, few enough to keep all cores busy.
 const BATCH: usize = 16_384;
 
-/// A batch of what people leave.
 #[derive(Default)]
 pub(super) struct Marks {
-    /// Footfalls and scuffs on the floor.
+    /// Footfalls and heel marks.
     pub footfalls: Vec<Mark>,
-    /// Touches of walls.
+    /// Wall contacts.
     pub contacts: Vec<Contact>,
 }
 
-/// Lets people walk and hands their marks out in batches: while one batch is stamped, the next is walked.
+/// Passes the marks of a motion to `stamp` in batches, filling the next while stamping one.
 pub(super) fn tread(
     source: &mut Source<'_>,
     footfalls: &mut Footfalls<'_>,
@@ -42,7 +40,7 @@ pub(super) fn tread(
     Ok(())
 }
 
-/// The stream from frames to marks.
+/// Generates marks from frames.
 struct Walk<'a, 'c, 'f> {
     source: &'a mut Source<'c>,
     footfalls: &'a mut Footfalls<'f>,
@@ -52,7 +50,7 @@ struct Walk<'a, 'c, 'f> {
 }
 
 impl Walk<'_, '_, '_> {
-    /// Walks on until there is a batch of marks, or to the end.
+    /// Fills a batch, up to the end of the motion.
     fn fill(&mut self, marks: &mut Marks, watch: &Stopwatch, progress: &dyn Progress) -> Result<(), Error> {
         while marks.footfalls.len() < BATCH {
             progress.keep_on()?;

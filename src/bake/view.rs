@@ -9,37 +9,37 @@ use crate::look::{FloorResolver, Look, WallResolver};
 use crate::progress::Progress;
 use crate::show::still::{FarWalls, StillScene, Surfaces, WallSurfaces, check_size};
 
-/// How to look at a finished bake.
+/// Camera and look of a still of a finished bake.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
-    /// Where from; without one, from the height of eyes where there is most to see.
+    /// Camera; `None` for the best view at eye level, or for the bird's-eye view.
     pub camera: Option<Camera>,
-    /// Without a camera: the whole plan from above.
+    /// Whether to show the whole plan from above if `camera` is `None`.
     pub birds_eye: bool,
-    /// Horizontal angle of view, degrees; the camera's own if left out.
+    /// Horizontal angle of view, degrees; `None` for the camera's own.
     pub fov_deg: Option<f64>,
     /// Width and height of the picture, pixels.
     pub size_px: [u32; 2],
-    /// Without any dirt.
+    /// Whether to leave out all dirt.
     pub clean: bool,
-    /// The look; that of the bake if left out.
+    /// Look; `None` for the bake's own.
     pub look: Option<Look>,
 }
 
-/// Draws what a camera sees of a finished bake; gives the picture and the camera, in the rayon pool that it is called in.
+/// Draws a still of a finished bake. Returns the picture and its camera.
 ///
-/// The bake's exact sums are resolved as finely as the picture shows them; nothing is written.
+/// Resolves the bake's exact sums at the resolution of the picture, on the current rayon pool. Writes no files.
 ///
 /// # Errors
-/// A folder that is not a bake or is damaged; a camera inside a wall or beyond the plan, or a number out of range; a look
-/// out of range; [`Error::Interrupted`].
+/// The folder is not a bake or is damaged; a camera inside a wall, outside the plan or out of range; a look out of
+/// range; [`Error::Interrupted`].
 pub fn view(bake: &Path, view: &View, progress: &dyn Progress) -> Result<(RgbImage, Camera), Error> {
     check_size(view.size_px)?;
     let read = || -> Result<_, Error> {
         let manifest = Manifest::read(bake)?;
         let walls = manifest.walls()?;
         let studio = StillScene::new(&walls, &manifest.doorways(), wall_height_m(&manifest));
-        // A camera that cannot be is told of before anything long is done.
+        // An invalid camera should fail before the long work.
         if let Some(camera) = &view.camera {
             studio.check(&with_fov(*camera, view))?;
         }
@@ -77,7 +77,7 @@ fn with_fov(camera: Camera, view: &View) -> Camera {
     Camera { fov_deg: view.fov_deg.unwrap_or(camera.fov_deg), ..camera }
 }
 
-/// The height that the scenario asked for; earlier bakes may not say it.
+/// Returns the scenario's wall height, metres. Earlier bakes may lack it.
 fn wall_height_m(manifest: &Manifest) -> f64 {
     let height = manifest.settings["plan"]["wall_height"].as_f64();
     height.filter(|height| (1.0..100.0).contains(height)).unwrap_or(2.6)

@@ -104,7 +104,7 @@ impl Bake {
     }
 }
 
-/// Names the option that bakes it all the same.
+/// Adds a hint at `--yes` to an error about the size of a bake.
 fn with_remedy(error: Error, otherwise: impl Fn(Error) -> anyhow::Error) -> anyhow::Error {
     match error {
         Error::Export(ExportError::TooMuch { .. }) => {
@@ -115,7 +115,7 @@ fn with_remedy(error: Error, otherwise: impl Fn(Error) -> anyhow::Error) -> anyh
     }
 }
 
-/// Says how long it took and where to look first.
+/// Prints the run time and the files to look at first.
 pub fn summary(folder: &Path, report: &Report, common: &Common) -> anyhow::Result<()> {
     let total = report.seconds.get("total").copied().unwrap_or_default();
     print::line(format!("{} is done in {total:.1} s", folder.display()))?;

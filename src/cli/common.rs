@@ -17,6 +17,9 @@ pub struct Common {
     /// When to colour messages
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
     pub color: ColorChoice,
+    /// Long flags of the subcommand, without dashes.
+    #[arg(skip)]
+    pub flags: Vec<String>,
 }
 
 impl Common {

@@ -60,7 +60,7 @@ impl Diff {
         }
     }
 
-    /// Whether the two differ.
+    /// Compares the two; returns whether they differ.
     fn compare(&self, common: &Common) -> anyhow::Result<bool> {
         let options = DiffOptions {
             fail: self.tolerance,
@@ -104,7 +104,7 @@ impl Diff {
     }
 }
 
-/// The exit code where there is no answer.
+/// Exit code if the two cannot be compared.
 const NOT_COMPARED: u8 = 2;
 
 fn sentence(image: &ImageDiff) -> String {
@@ -123,7 +123,7 @@ fn sentence(image: &ImageDiff) -> String {
 }
 
 fn not_negative(text: &str) -> Result<f64, String> {
-    // Written so that NaN is refused.
+    // This form also rejects NaN.
     text.parse().ok().filter(|number: &f64| *number >= 0.0).ok_or_else(|| "allowed are numbers from 0 on".to_string())
 }
 

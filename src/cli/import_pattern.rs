@@ -85,7 +85,7 @@ impl Import {
             ours(ImportError::Unreadable { reason: format!("{}: {error}", self.photo.display()) }.into())
         })?;
         let import = ImportedPattern::from_photo(&bytes, &options).map_err(|error| ours(error.into()))?;
-        // Drawn first: it shows what was found even if the folder has the name already.
+        // First, so that the picture exists even if the name is taken in the folder.
         if let Some(file) = picture {
             print::save_picture(&import_picture(&import), file)?;
         }

@@ -62,7 +62,7 @@ impl Init {
         Ok(ExitCode::SUCCESS)
     }
 
-    /// The file to write; none for standard output.
+    /// Returns the file to write, `None` for standard output.
     fn file(&self) -> Option<PathBuf> {
         let beside_plan = || match self.scenario.is_standard_input() {
             true => PathBuf::from(STANDARD_OUTPUT),
@@ -78,14 +78,14 @@ const HEADER: &str = "\
 # at the image's lower left, y up.
 ";
 
-/// The openings, as a comment: routes name them.
+/// Returns a TOML comment that lists the openings by name, for use in routes.
 fn openings(understood: &Understood) -> String {
     let of = |opening: &Opening| format!("\"{}\" ({:.1} m wide)", opening.name, opening.width_m());
     let names: Vec<String> = understood.plan.openings.iter().map(of).collect();
     if names.is_empty() { "\n".to_string() } else { format!("# Openings of the plan: {}\n\n", names.join(", ")) }
 }
 
-/// The routes that were found, as a scenario asks for them.
+/// Returns the routes found in the plan as requests of a scenario.
 fn requests(understood: &Understood) -> Vec<RouteRequest> {
     let request = |place: Place| match place {
         Place::Opening(index) => PlaceRequest::Opening(understood.plan.openings[index].name.clone()),
@@ -110,7 +110,7 @@ fn is_ros_map(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("yaml") || ending.eq_ignore_ascii_case("yml"))
 }
 
-/// Makes a scenario's paths start from another folder.
+/// Makes a scenario's paths relative to another folder.
 fn move_to(scenario: &mut Scenario, folder: &Path) -> anyhow::Result<()> {
     if same_folder(&scenario.folder, folder) {
         return Ok(());

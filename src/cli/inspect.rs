@@ -36,7 +36,7 @@ pub struct Inspect {
     force: bool,
 }
 
-/// What was understood of a scenario's plan.
+/// Plan, walls and routes of a scenario.
 pub struct Understood {
     pub plan: FloorPlan,
     pub walls: Walls,
@@ -58,7 +58,7 @@ struct Json<'a> {
 }
 
 impl Understood {
-    /// Reads the plan, traces its walls, finds the routes.
+    /// Reads the plan, traces its walls and finds the routes.
     pub fn of(scenario: &Scenario, common: &Common) -> Result<Understood, Error> {
         let plan = plan::read(&scenario.plan_path()?, &scenario.plan_options())?;
         if !common.quiet {
@@ -142,7 +142,7 @@ impl Inspect {
     }
 }
 
-/// How much floor there is, and what other white.
+/// Describes the area of the floor and of other white regions.
 fn regions(plan: &FloorPlan) -> String {
     let of = |role: RegionRole| {
         let areas = plan.regions.iter().filter(|region| region.role == role).map(|region| region.area_m2);

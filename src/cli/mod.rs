@@ -1,9 +1,9 @@
-//! The command line: one file per subcommand, and what they share. Only here: clap, indicatif, anyhow.
+//! The command line: one file per subcommand, and shared parts. Only this module uses clap, indicatif and anyhow.
 
 use std::process::ExitCode;
 
 use clap::builder::styling::{AnsiColor, Styles};
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 mod arguments;
 mod bake;
@@ -66,13 +66,21 @@ Examples:
 
 `trodden COMMAND --help` says more about each.";
 
-/// Reads the command line; prints help, the version or what is wrong, and exits, where it is one of these.
+/// Parses the command line. Prints help, the version or a usage error, and exits, where one applies.
 pub fn parse() -> Cli {
-    Cli::parse()
+    let mut command = Cli::command();
+    let matches = command.get_matches_mut();
+    let (mut used, mut given) = (&command, &matches);
+    while let Some((name, below)) = given.subcommand() {
+        (used, given) = (used.find_subcommand(name).unwrap_or(used), below);
+    }
+    let flags = used.get_arguments().filter_map(|argument| argument.get_long().map(str::to_string)).collect();
+    let mut cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    cli.common.flags = flags;
+    cli
 }
 
 impl Cli {
-    /// Does what the command line says.
     pub fn run(&self) -> anyhow::Result<ExitCode> {
         signals::survive_size_limit();
         self.common.start_threads()?;
@@ -93,7 +101,7 @@ impl Cli {
         ran
     }
 
-    /// Prints why it could not be done; gives the exit code. Ends by a signal where one was caught.
+    /// Prints an error and returns the exit code. Ends by a signal if one was caught.
     pub fn fail(&self, error: &anyhow::Error) -> ExitCode {
         let code = print::failure(error, &self.common);
         signals::end();

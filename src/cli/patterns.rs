@@ -61,7 +61,7 @@ impl Patterns {
     }
 }
 
-/// A folder's own patterns; says what it borrows and what it does not list.
+/// Reads a folder's own patterns. Prints the causes that it borrows and its unlisted images.
 fn own(folder: &Path, common: &Common) -> anyhow::Result<PatternLibrary> {
     let read = PatternFolder::read(folder).map_err(Error::from)?;
     let mut patterns = read.library.patterns;

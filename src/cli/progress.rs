@@ -9,10 +9,10 @@ use trodden::{Progress, Stage};
 
 use super::{Common, print, signals};
 
-/// Parts of a whole bar.
+/// Steps of a full bar.
 const PARTS: u64 = 1000;
 
-/// Shows one bar for each stage that is at work; nothing where standard error is no terminal.
+/// Shows a progress bar for each running stage, if standard error is a terminal.
 pub struct Watch<'a> {
     common: &'a Common,
     bars: MultiProgress,
@@ -20,7 +20,7 @@ pub struct Watch<'a> {
 }
 
 impl<'a> Watch<'a> {
-    /// Begins to listen for signals: the first asks the work to stop, the second ends the program.
+    /// Starts to listen for signals: the first one stops the work, the second ends the program.
     pub fn new(common: &'a Common) -> Watch<'a> {
         signals::listen();
         let shown = !common.quiet && io::stderr().is_terminal();
@@ -40,7 +40,7 @@ impl<'a> Watch<'a> {
 }
 
 impl Drop for Watch<'_> {
-    /// Takes away the bars of work that was not finished.
+    /// Clears the bars of unfinished work.
     fn drop(&mut self) {
         let _ = self.bars.clear();
     }
@@ -51,10 +51,10 @@ impl Progress for Watch<'_> {
         if self.bars.is_hidden() {
             return;
         }
-        // A thread that panicked while it held the lock has left only a bar behind.
+        // A panic of another thread under the lock leaves at most a stale bar.
         let mut by_stage = self.by_stage.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         if share >= 1.0 {
-            // The stage may be at work again: then it gets a new bar.
+            // A stage that runs again gets a new bar.
             if let Some(bar) = by_stage.remove(&stage) {
                 bar.finish_and_clear();
             }

@@ -1,4 +1,4 @@
-//! Signals that ask the program to end: Ctrl-C, a closed terminal, the end of a session.
+//! Signals that end the program: Ctrl-C, a closed terminal, the end of a session.
 
 #[cfg(unix)]
 pub use unix::{caught, end, listen, survive_size_limit};
@@ -15,17 +15,17 @@ mod unix {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
     use signal_hook::{flag, low_level};
 
-    /// The signal that was caught last, or 0.
+    /// Number of the last caught signal, or 0.
     static CAUGHT: LazyLock<Arc<AtomicUsize>> = LazyLock::new(Arc::default);
 
-    /// From now on the first signal asks the work to stop, and the second ends the program at once.
+    /// Installs the handlers: the first signal stops the work, the second ends the program.
     pub fn listen() {
         static ONCE: Once = Once::new();
         ONCE.call_once(|| {
             let again = Arc::new(AtomicBool::new(false));
             for signal in [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|&signal| !is_ignored(signal)) {
-                // In this order: the first signal finds `again` unset. Where there is no handler, a signal ends the
-                // program at once, so nothing is lost if this fails.
+                // In this order: the first signal finds `again` unset. If registering fails, a signal ends the program
+                // at once, which is acceptable.
                 let _ = flag::register_conditional_default(signal, Arc::clone(&again));
                 let _ = flag::register(signal, Arc::clone(&again));
                 let _ = flag::register_usize(signal, Arc::clone(&CAUGHT), signal.unsigned_abs() as usize);
@@ -33,24 +33,24 @@ mod unix {
         });
     }
 
-    /// Whether a signal has asked the work to stop.
+    /// Whether a signal was caught.
     pub fn caught() -> bool {
         CAUGHT.load(Ordering::Relaxed) != 0
     }
 
-    /// Ends the program by the signal that was caught, if there is one, so that a shell's loop ends with it.
+    /// Ends the program by the caught signal, if any, so that a shell's loop ends too.
     pub fn end() {
         if let Ok(signal @ 1..) = i32::try_from(CAUGHT.load(Ordering::Relaxed)) {
             let _ = low_level::emulate_default_handler(signal);
         }
     }
 
-    /// A file that grows beyond the limit of its size is an error of the write, not the end of the program.
+    /// Turns writing beyond the file size limit into an error instead of the end of the program.
     pub fn survive_size_limit() {
         let _ = flag::register(SIGXFSZ, Arc::default());
     }
 
-    /// Whether the program was started with a closed terminal's signal ignored, as `nohup` does. It stays ignored then.
+    /// Whether the program was started with SIGHUP ignored, as by `nohup`. It then stays ignored.
     fn is_ignored(signal: i32) -> bool {
         if signal != SIGHUP {
             return false;
@@ -59,7 +59,7 @@ mod unix {
         let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
         match ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()) {
             Some(mask) => mask >> (signal - 1) & 1 == 1,
-            // Other systems do not tell; `nohup` takes the terminal away.
+            // Other systems do not report it; `nohup` detaches from the terminal.
             None => !io::stderr().is_terminal(),
         }
     }
@@ -71,9 +71,9 @@ mod other {
 
     static CAUGHT: AtomicBool = AtomicBool::new(false);
 
-    /// From now on the first Ctrl-C asks the work to stop, and the second ends the program at once.
+    /// Installs the handler: the first Ctrl-C stops the work, the second ends the program at once.
     pub fn listen() {
-        // Where there is no handler, Ctrl-C ends the program at once, so nothing is lost if this fails.
+        // If this fails, Ctrl-C ends the program at once, which is acceptable.
         let _ = ctrlc::set_handler(|| {
             if CAUGHT.swap(true, Ordering::SeqCst) {
                 std::process::exit(1);
@@ -81,14 +81,14 @@ mod other {
         });
     }
 
-    /// Whether Ctrl-C has asked the work to stop.
+    /// Whether Ctrl-C was pressed.
     pub fn caught() -> bool {
         CAUGHT.load(Ordering::Relaxed)
     }
 
-    /// The exit code says it all on this system.
+    /// Does nothing: this system has no exit by signal.
     pub fn end() {}
 
-    /// There is no such limit on this system.
+    /// Does nothing: this system has no such limit.
     pub fn survive_size_limit() {}
 }

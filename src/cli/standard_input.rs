@@ -1,4 +1,4 @@
-//! Standard input in the place of a file.
+//! Standard input as a file.
 
 use std::cell::OnceCell;
 use std::fs;
@@ -10,36 +10,34 @@ use tempfile::TempDir;
 
 use super::print::Refused;
 
-/// The file name that means standard input.
 const FILE_NAME: &str = "-";
-/// What a file of its content is called.
+/// File name of the copy.
 const SPOOLED: &str = "stdin";
-/// What messages call it.
 const SHOWN: &str = "standard input";
-/// The most that is read of a scenario or a plan, bytes.
+/// Largest scenario or plan on standard input, bytes.
 const MOST_BYTES: u64 = 1 << 30;
 
-/// Whether a file name means standard input.
+/// Whether a file name stands for standard input.
 pub fn is_meant(path: &Path) -> bool {
     path == Path::new(FILE_NAME)
 }
 
-/// What stands in messages and names of results in the place of a file's name.
+/// Returns the name of standard input in messages and in names of results.
 pub fn shown() -> &'static Path {
     Path::new(SHOWN)
 }
 
-/// A temporary copy of standard input, for what has to be a file; removed with its owner.
+/// A temporary copy of standard input, removed on drop.
 #[derive(Debug, Default)]
 pub struct Spool(OnceCell<TempDir>);
 
 impl Spool {
-    /// Copies all of standard input; gives the copy's path.
+    /// Copies all of standard input to a file and returns its path.
     pub fn fill(&self) -> anyhow::Result<PathBuf> {
         self.hold(|path| io::copy(&mut io::stdin().lock(), &mut fs::File::create(path)?).map(drop))
     }
 
-    /// Makes a file of what was read from standard input; gives its path.
+    /// Writes bytes from standard input to a file and returns its path.
     pub fn keep(&self, bytes: &[u8]) -> anyhow::Result<PathBuf> {
         self.hold(|path| fs::write(path, bytes))
     }
@@ -48,12 +46,12 @@ impl Spool {
         let folder = tempfile::tempdir().context("cannot make a temporary folder for standard input")?;
         let path = folder.path().join(SPOOLED);
         write(&path).context("cannot copy standard input to a temporary file")?;
-        // There is one standard input, and one owner asks once.
+        // Each owner asks only once.
         let _ = self.0.set(folder);
         Ok(path)
     }
 
-    /// An error that calls standard input by its name, not by that of the copy.
+    /// Replaces the path of the copy in an error by `standard input`.
     pub fn explain(&self, error: trodden::Error) -> anyhow::Error {
         let Some(folder) = self.0.get() else { return error.into() };
         let copy = folder.path().join(SPOOLED).display().to_string();
@@ -66,7 +64,7 @@ impl Spool {
     }
 }
 
-/// Reads a scenario or a plan to its end.
+/// Reads all of standard input, a scenario or a plan.
 pub fn read() -> anyhow::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     io::stdin().lock().take(MOST_BYTES + 1).read_to_end(&mut bytes).context("cannot read standard input")?;

@@ -86,7 +86,7 @@ fn tell(output: &Path, camera: &Camera) -> anyhow::Result<()> {
     print::line(format!("{}: --camera {camera} --fov {}", output.display(), camera.fov_deg))
 }
 
-/// A picture beside the bake's folder: within it only bakes write.
+/// Returns a path for a picture beside the bake's folder, in which only bakes write.
 fn beside(bake: &Path) -> PathBuf {
     let bake = bake.canonicalize().unwrap_or_else(|_| bake.to_path_buf());
     let mut name = bake.file_name().unwrap_or_default().to_os_string();

@@ -11,11 +11,10 @@ use super::error::{ExportError, NotInside};
 /// The manifest's name in a bake.
 pub(super) const MANIFEST_NAME: &str = "manifest.json";
 
-/// The name of a file inside a bake, relative to the bake's folder, with `/` between its parts.
+/// Path of a file inside a bake, relative to the bake's folder, with `/` between its parts.
 ///
-/// A value is always a plain name: no `..`, no `.`, no empty part, neither absolute nor with a drive or a backslash.
-/// So it leads nowhere else, whatever a manifest says; only a link on the disk can, which [`BakePath::within`] checks.
-/// The default is empty and stands for no file.
+/// Its parts are plain names: no `..`, `.`, empty part, backslash, drive or leading `/`. So it cannot leave the bake,
+/// except through a link on the disk, which [`BakePath::within`] checks. The default is empty and stands for no file.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub struct BakePath(String);
@@ -34,7 +33,7 @@ impl BakePath {
         }
     }
 
-    /// Where the file lies in a bake, once it is known to lie there.
+    /// Returns the path of the file in a bake, after checking that it lies inside.
     ///
     /// # Errors
     /// The path is empty, there is no such file, or a link leads out of the bake.

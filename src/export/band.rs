@@ -1,4 +1,4 @@
-//! A band of blocks across a tile: resolved, compressed, written.
+//! A band of blocks across a tile: resolves, compresses and writes it.
 
 use std::io::{self, Seek, Write};
 use std::sync::{Mutex, PoisonError};
@@ -15,18 +15,19 @@ use super::reduced::ReducedBlock;
 use super::targets::Covered;
 use crate::look::{Background, ResolvedBlock};
 
-/// Rows that are compressed together: few enough to stay in the cache, and for eight threads to have work.
+/// Rows compressed together: few enough for the cache and to keep eight threads busy.
 const STRIP: usize = 32;
 
-/// An image of a texture.
+/// A kind of image that a texture consists of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Image {
-    /// Colour.
+    /// Base colour, sRGB.
     BaseColor,
-    /// Three masks of dirt, packed as red, green and blue: many programs multiply colours by alpha when they load an
-    /// image, so alpha is no place for data.
+    /// Three masks of dirt, packed as red, green and blue.
+    ///
+    /// Alpha stays unused: many programs multiply colours by alpha when they load an image.
     Mask(Covered),
-    /// The fourth mask, in an image of its own.
+    /// The fourth mask, in its own image.
     LoneMask(Covered),
     /// Occlusion, roughness, metallic.
     Orm,
@@ -44,7 +45,7 @@ impl Image {
         }
     }
 
-    /// The pixels of texels `from..` of a block, as many as `out` holds.
+    /// Copies the pixels of texels `from..` of a block, as many as `out` holds.
     fn copy(self, block: &ResolvedBlock, from: usize, out: &mut [u8]) {
         let bytes = self.pixels().bytes();
         let copy = |all: &[u8], out: &mut [u8]| out.copy_from_slice(&all[from * bytes..from * bytes + out.len()]);
@@ -69,7 +70,7 @@ impl Image {
         }
     }
 
-    /// A row of an empty block.
+    /// Returns a row of an empty block.
     fn background(self, background: &Background) -> Vec<u8> {
         match self {
             Image::BaseColor => background.base_color.repeat(BLOCK),
@@ -81,7 +82,7 @@ impl Image {
     }
 }
 
-/// Metallic, occlusion, detail (all of it) and smoothness.
+/// Packs Unity's mask map: metallic, occlusion, detail (always 1), smoothness.
 fn mask_map([occlusion, roughness, metallic]: [u8; 3]) -> [u8; 4] {
     [metallic, occlusion, u8::MAX, u8::MAX - roughness]
 }
@@ -94,20 +95,21 @@ pub(super) struct Band {
     pub(super) blocks: Vec<BandBlock>,
 }
 
-/// A block whose layers are compressed already.
+/// A resolved block with its layers already compressed.
 #[derive(Clone, Debug, Default)]
 pub(super) struct BandBlock {
-    /// The images; the layers were taken out.
+    /// Its images; `layers` is empty.
     pub(super) texels: ResolvedBlock,
     /// The layers as a tile of each EXR file.
     pub(super) layers: Vec<Vec<u8>>,
-    /// The images made small, if that is wanted.
+    /// Its images, reduced, if requested.
     pub(super) reduced: Option<ReducedBlock>,
 }
 
 impl Band {
-    /// Fills in all blocks of a band of `width` x `height` texels; `resolve` is told the column at which a block
-    /// starts and its width.
+    /// Resolves all blocks of a band of `width` x `height` texels in parallel.
+    ///
+    /// `resolve` takes the first column of a block and its width.
     pub(super) fn fill(&mut self, [width, height]: [usize; 2], resolve: impl Fn(usize, usize) -> BandBlock + Sync) {
         (self.width, self.height) = (width, height);
         self.blocks.resize_with(width.div_ceil(BLOCK), BandBlock::default);
@@ -116,12 +118,11 @@ impl Band {
         });
     }
 
-    /// Whether no block of it holds anything.
     pub(super) fn is_empty(&self) -> bool {
         self.blocks.iter().all(|block| block.texels.empty)
     }
 
-    /// The pixels of one row, counted from above. `background` is a row of an empty block.
+    /// Writes the pixels of one row, counted from above. `background` is a row of an empty block.
     fn row(&self, image: Image, background: &[u8], y: usize, out: &mut [u8]) {
         for (block, out) in self.blocks.iter().zip(out.chunks_mut(BLOCK * image.pixels().bytes())) {
             if block.texels.empty {
@@ -134,7 +135,7 @@ impl Band {
     }
 }
 
-/// Buffers that threads take and give back.
+/// A pool of buffers that threads borrow and return.
 #[derive(Debug)]
 pub(super) struct Pool<T>(Mutex<Vec<T>>);
 
@@ -145,7 +146,7 @@ impl<T> Default for Pool<T> {
 }
 
 impl<T> Pool<T> {
-    /// Works with a buffer that nobody else has, made if there is none.
+    /// Runs `work` on a free buffer, or on a new one from `make`.
     pub(super) fn with<R>(&self, make: impl FnOnce() -> T, work: impl FnOnce(&mut T) -> R) -> R {
         let taken = self.0.lock().unwrap_or_else(PoisonError::into_inner).pop();
         let mut buffer = taken.unwrap_or_else(make);
@@ -155,26 +156,26 @@ impl<T> Pool<T> {
     }
 }
 
-/// Which layers an EXR file holds, and what its channels are called.
+/// The channels of an EXR file and the layers that they hold.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct LayerFile {
-    /// Channel names, sorted as the format wants it, with the place of each among the blocks' layers; none for a
-    /// channel that is there only because readers want it.
+    /// Channel names, sorted as EXR requires, each with the index of its layer.
+    ///
+    /// `None` marks a channel without a layer, which only exists because readers expect it.
     channels: Vec<(String, Option<usize>)>,
 }
 
 impl LayerFile {
-    /// All layers in one file, each the channel `V` (a value) of a layer with its name.
+    /// Puts all layers into one file, each as the channel `V` (value) of an EXR layer of its name.
     ///
-    /// Blender takes a channel without a dot in its name for part of a plain image and shows black; Nuke and others
-    /// list it among the rest.
+    /// Blender shows a channel without a dot in its name as a black image; Nuke and others list it among the rest.
     pub(super) fn by_name(layers: &[&'static str]) -> Vec<LayerFile> {
         let mut channels: Vec<_> = layers.iter().enumerate().map(|(k, name)| (format!("{name}.V"), Some(k))).collect();
         channels.sort();
         vec![LayerFile { channels }]
     }
 
-    /// Four layers a file, as R, G, B, A; at least R, G and B, which is the least that some readers take.
+    /// Puts four layers into each file, as R, G, B, A. R, G and B always exist, because some readers require them.
     pub(super) fn by_colour(layers: &[&'static str]) -> Vec<LayerFile> {
         let indices: Vec<usize> = (0..layers.len()).collect();
         let file = |layers: &[usize]| {
@@ -187,7 +188,7 @@ impl LayerFile {
         indices.chunks(4).map(file).collect()
     }
 
-    /// Each channel's name with its place among the blocks' layers.
+    /// Channel names, each with the index of its layer.
     pub(super) fn channels(&self) -> &[(String, Option<usize>)] {
         &self.channels
     }
@@ -207,19 +208,17 @@ pub(super) struct LayerEncoder {
 }
 
 impl LayerEncoder {
-    /// An encoder for blocks with the layers of these files.
     pub(super) fn new(files: Vec<LayerFile>) -> LayerEncoder {
         let mut encoder = LayerEncoder { files, pool: Pool::default(), blank: Vec::new() };
         encoder.blank = encoder.zeros(BLOCK, BLOCK);
         encoder
     }
 
-    /// The files.
     pub(super) fn files(&self) -> &[LayerFile] {
         &self.files
     }
 
-    /// A block as a tile of each file.
+    /// Compresses a block to one tile per file.
     pub(super) fn encode(&self, block: &ResolvedBlock, width: usize, height: usize) -> Vec<Vec<u8>> {
         if block.empty {
             return if (width, height) == (BLOCK, BLOCK) { self.blank.clone() } else { self.zeros(width, height) };
@@ -241,13 +240,13 @@ impl LayerEncoder {
     }
 }
 
-/// Compresses the images of a tile's bands, from above.
+/// Compresses the images of a tile, band by band from above.
 #[derive(Debug)]
 pub(super) struct ImageEncoder {
     images: Vec<Image>,
     /// A row of an empty block, image by image.
     background: Vec<Vec<u8>>,
-    /// The lowest row of the band before, image by image; none at the top of the tile.
+    /// The lowest row of the previous band, image by image; `None` at the top of the tile.
     above: Option<Vec<Vec<u8>>>,
     /// Whether that row belongs to an empty band.
     above_empty: bool,
@@ -265,13 +264,13 @@ impl ImageEncoder {
         }
     }
 
-    /// Compresses the next band: its strips from above, image by image.
+    /// Compresses the next band and returns its strips from above, image by image.
     pub(super) fn encode(&mut self, band: &Band, busy: &BusyTime) -> Vec<Vec<Strip>> {
         let empty = band.is_empty();
         // Below an empty row all strips of an empty band are alike.
         let alike = empty && self.above_empty && band.height.is_multiple_of(STRIP);
         let height = if alike { STRIP } else { band.height };
-        // Those of the widest pixels first: the last tasks should be small ones.
+        // Images with the widest pixels go first, so that the last tasks are small.
         let mut widest: Vec<usize> = (0..self.images.len()).collect();
         widest.sort_by_key(|&image| std::cmp::Reverse(self.images[image].pixels().bytes()));
         let tasks: Vec<(usize, usize)> =
@@ -321,7 +320,7 @@ impl ImageEncoder {
     }
 }
 
-/// The files of a texture, relative to the bake.
+/// Paths of a texture's files, relative to the bake.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct TextureFiles {
     /// One for each image.
@@ -331,13 +330,12 @@ pub(super) struct TextureFiles {
 }
 
 impl TextureFiles {
-    /// The file of an image; none if the texture has no such image.
     pub(super) fn image(&self, wanted: Image) -> Option<String> {
         self.images.iter().find(|(image, _)| *image == wanted).map(|(_, name)| name.clone())
     }
 }
 
-/// The files of a texture that is being written.
+/// Writes the files of one texture.
 #[derive(Debug)]
 pub(super) struct TileWriter<W: Write + Seek> {
     images: Vec<PngWriter<W>>,
@@ -345,7 +343,7 @@ pub(super) struct TileWriter<W: Write + Seek> {
 }
 
 impl<W: Write + Seek> TileWriter<W> {
-    /// Begins the files of a texture.
+    /// Creates the files of a texture and writes their headers.
     pub(super) fn begin(
         [width, height]: [usize; 2],
         files: &TextureFiles,
@@ -379,7 +377,7 @@ impl<W: Write + Seek> TileWriter<W> {
         Ok(())
     }
 
-    /// Ends the files and gives them, still to be closed.
+    /// Finishes the files and returns them; the caller has to close them.
     pub(super) fn finish(self) -> io::Result<Vec<W>> {
         let mut files = Vec::new();
         for image in self.images {

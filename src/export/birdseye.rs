@@ -9,11 +9,11 @@ use crate::stamps::TexelGrid;
 /// Greatest width and height of the picture, pixels.
 const LARGEST: u32 = 2048;
 
-/// An overview of a floor, reduced block by block: mean light of the texels under each pixel.
+/// An overview of a floor from above. Each pixel is the mean light of the texels under it.
 #[derive(Debug)]
 pub struct Birdseye {
     grid: TexelGrid,
-    /// Texels under a pixel, each way.
+    /// Texels per pixel, along each axis.
     factor: usize,
     width: usize,
     height: usize,
@@ -22,16 +22,17 @@ pub struct Birdseye {
 }
 
 impl Birdseye {
-    /// An overview without blocks.
+    /// Creates an empty overview of a floor.
     pub fn new(grid: TexelGrid) -> Birdseye {
-        // At most as many texels as a sum holds.
+        // At most as many texels per pixel as a `LightSum` holds.
         let factor = grid.width.max(grid.height).div_ceil(LARGEST).clamp(1, 256) as usize;
         let (width, height) = ((grid.width as usize).div_ceil(factor), (grid.height as usize).div_ceil(factor));
         Birdseye { grid, factor, width, height, sums: Mutex::new(vec![LightSum::default(); width * height]) }
     }
 
-    /// Adds a block whose lower-left texel is (i0, j0) of the whole floor. Empty blocks and texels beyond the floor's
-    /// grid do not count.
+    /// Adds a block whose lower-left texel is (i0, j0) of the whole floor.
+    ///
+    /// Skips empty blocks, and texels outside the floor's grid.
     pub fn add(&self, [i0, j0]: [i64; 2], [width, height]: [usize; 2], block: &ResolvedBlock) {
         let (Ok(i0), Ok(j0)) = (usize::try_from(i0), usize::try_from(j0)) else { return };
         let columns = width.min((self.grid.width as usize).saturating_sub(i0));
@@ -59,12 +60,12 @@ impl Birdseye {
         }
     }
 
-    /// Texels per metre of the picture.
+    /// Pixels per metre of the picture.
     pub fn pixels_per_metre(&self) -> f64 {
         self.grid.texels_per_metre / self.factor as f64
     }
 
-    /// The picture, its upper row the largest y. Where nothing was seen it has the colour `nothing`.
+    /// Draws the picture, its upper row at the largest y. Pixels without floor get the colour `nothing`.
     pub fn picture(&self, nothing: [u8; 3]) -> RgbImage {
         let sums = self.sums.lock().unwrap_or_else(PoisonError::into_inner);
         RgbImage::from_fn(self.width as u32, self.height as u32, |x, y| {

@@ -1,7 +1,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
-/// Adds up what threads spend on something.
+/// Sums the time that threads spend on a task.
 #[derive(Debug, Default)]
 pub(super) struct BusyTime(AtomicU64);
 

@@ -4,23 +4,23 @@ use serde::{Deserialize, Serialize};
 
 use crate::math::{Vec2, vec2};
 
-/// Where a picture is taken from, and in which direction.
+/// The pose and the angle of view of a camera.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Camera {
     /// x and y in the plan frame and height above the floor, metres.
     pub position_m: [f64; 3],
-    /// Direction in the plan, degrees counter-clockwise from +x.
+    /// Heading in the plan, degrees counter-clockwise from +x.
     pub heading_deg: f64,
-    /// Upward from level, degrees; negative looks down.
+    /// Pitch, degrees upward from level; negative looks down.
     pub pitch_deg: f64,
     /// Horizontal angle of view, degrees.
     pub fov_deg: f64,
 }
 
-/// Angle of view of cameras that say nothing of it, degrees: a 29 mm lens on 35 mm film.
+/// Horizontal angle of view where no other is given, degrees: a 29 mm lens on 35 mm film.
 pub const DEFAULT_FOV_DEG: f64 = 64.0;
 
-/// Names of the numbers that [`Camera`] is parsed from, and their ranges.
+/// Names and ranges of the numbers that a [`Camera`] is parsed from.
 const NUMBERS: [(&str, [f64; 2]); 5] = [
     ("x", [-100_000.0, 100_000.0]),
     ("y", [-100_000.0, 100_000.0]),
@@ -49,18 +49,18 @@ impl Camera {
         Ok(())
     }
 
-    /// Where it stands in the plan.
+    /// Its position in the plan, metres.
     pub fn place_m(&self) -> Vec2 {
         vec2(self.position_m[0], self.position_m[1])
     }
 
-    /// The same camera with another angle of view, degrees.
+    /// Returns the camera with another horizontal angle of view, degrees.
     pub fn with_fov(self, fov_deg: f64) -> Camera {
         Camera { fov_deg, ..self }
     }
 }
 
-/// `x,y,z,heading,pitch`: metres and degrees; the angle of view is [`DEFAULT_FOV_DEG`].
+/// Parses `x,y,z,heading,pitch`, metres and degrees, with [`DEFAULT_FOV_DEG`].
 impl FromStr for Camera {
     type Err = CameraError;
 
@@ -79,7 +79,7 @@ impl FromStr for Camera {
     }
 }
 
-/// As it is parsed.
+/// Writes `x,y,z,heading,pitch`, without the angle of view.
 impl std::fmt::Display for Camera {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let [x, y, z] = self.position_m;
@@ -87,42 +87,42 @@ impl std::fmt::Display for Camera {
     }
 }
 
-/// Why a camera cannot be used.
+/// Why a camera is invalid.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CameraError {
-    /// Not five numbers.
+    /// The text does not hold five numbers.
     #[error("the camera `{text}` has {found} numbers, not 5")]
     Parts {
-        /// The text that was given.
+        /// The input.
         text: String,
         /// How many numbers it has.
         found: usize,
     },
-    /// A part of a camera is no number.
+    /// A part of the text is not a number.
     #[error("the camera's {name} is `{text}`, which is not a number")]
     NotANumber {
-        /// Which part.
+        /// Name of the number, such as `heading`.
         name: &'static str,
-        /// The text that was given.
+        /// The part.
         text: String,
     },
-    /// A number out of range.
+    /// A number is out of range.
     #[error("the camera's {name} is {value}; allowed is {low} to {high}")]
     Number {
-        /// Which one.
+        /// Name of the number, such as `heading`.
         name: &'static str,
-        /// Its value.
+        /// The value given.
         value: f64,
-        /// Least value.
+        /// Least allowed value.
         low: f64,
-        /// Greatest value.
+        /// Greatest allowed value.
         high: f64,
     },
 }
 
 impl CameraError {
-    /// What the user can do about it.
+    /// Suggests a remedy to the user.
     pub fn hint(&self) -> Option<String> {
         match self {
             CameraError::Parts { .. } | CameraError::NotANumber { .. } => Some(
@@ -138,11 +138,11 @@ impl CameraError {
     }
 }
 
-/// A still of a bake's `preview/` and where it was taken from.
+/// A still in a bake's `preview/` and its camera.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StillEntry {
-    /// The file.
+    /// Path of the image, relative to the bake.
     pub file: String,
-    /// The camera.
+    /// The camera that it was rendered with.
     pub camera: Camera,
 }

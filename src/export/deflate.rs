@@ -1,21 +1,22 @@
-//! Deflate and zlib streams (RFC 1950, 1951) in parts that threads compress apart from each other.
+//! Deflate and zlib streams (RFC 1950, 1951), compressed in parts by several threads.
 
 use flate2::{Compress, Compression, FlushCompress, Status};
 
-/// What a compressed part is to the stream.
+/// Position of a compressed part in its stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
-    /// More follows: it ends on a byte, so that parts can be made apart from each other and put in a row.
+    /// More parts follow. It ends on a byte, so that parts compressed separately can be concatenated.
     Middle,
-    /// It ends the stream.
+    /// The part that ends the stream.
     Last,
 }
 
-/// What PNG's filter and EXR's predictor make of a floor is noise around zero, in which strings hardly ever occur again:
-/// a longer search for them costs time and gains nothing.
+/// Deflate level, the fastest.
+///
+/// PNG's filter and EXR's predictor leave noise around zero with few repeated strings: a longer search gains nothing.
 const LEVEL: u32 = 1;
 
-/// Begins a zlib stream: deflate, window of 32 KiB, fastest.
+/// Header of a zlib stream: deflate, window of 32 KiB, fastest.
 pub(super) const ZLIB_HEADER: [u8; 2] = [0x78, 0x01];
 
 /// Appends a whole zlib stream.
@@ -25,7 +26,7 @@ pub(super) fn zlib(input: &[u8], out: &mut Vec<u8>) {
     out.extend_from_slice(&adler32(input).to_be_bytes());
 }
 
-/// A zlib stream of nothing but zeros, as small as it gets: for what is written again and again.
+/// Returns a zlib stream of `count` zeros, as small as possible: it is written many times.
 pub(super) fn zlib_zeros(count: usize) -> Vec<u8> {
     let (zeros, mut out) = (vec![0; count], ZLIB_HEADER.to_vec());
     deflate_at(Compression::best(), &zeros, Part::Last, &mut out);
@@ -33,7 +34,7 @@ pub(super) fn zlib_zeros(count: usize) -> Vec<u8> {
     out
 }
 
-/// Appends `input` as whole deflate blocks.
+/// Appends `input` as complete deflate blocks.
 pub(super) fn deflate(input: &[u8], part: Part, out: &mut Vec<u8>) {
     deflate_at(Compression::new(LEVEL), input, part, out);
 }
@@ -42,7 +43,7 @@ fn deflate_at(level: Compression, input: &[u8], part: Part, out: &mut Vec<u8>) {
     let mut compress = Compress::new(level, false);
     let flush = if part == Part::Last { FlushCompress::Finish } else { FlushCompress::Sync };
     loop {
-        // Room for what does not get smaller: a stored block of 64 KiB has a head of five bytes.
+        // Incompressible input becomes stored blocks: 64 KiB each with a header of five bytes.
         out.reserve(input.len() / 2 + 1024);
         let read = compress.total_in() as usize;
         let status = compress.compress_vec(&input[read..], out, flush).expect("no state of a fresh stream is wrong");
@@ -58,7 +59,7 @@ pub(super) fn adler32(data: &[u8]) -> u32 {
     simd_adler32::adler32(&data)
 }
 
-/// The check sum of two pieces in a row, of which the second is `length` bytes long.
+/// Combines the checksums of two adjacent pieces, the second of `length` bytes.
 pub(super) fn adler32_joined(first: u32, second: u32, length: u64) -> u32 {
     let modulus = 65_521;
     let (a1, b1) = (u64::from(first & 0xffff), u64::from(first >> 16));
@@ -74,7 +75,7 @@ mod tests {
 
     use super::*;
 
-    /// Reads a zlib stream with the `png` crate: as the pixels of a grey image of one row.
+    /// Decompresses a zlib stream with the `png` crate, as the pixels of a grey image of one row.
     fn inflated(stream: &[u8], length: usize) -> Vec<u8> {
         use super::super::png::{Signature, chunk};
         let mut file = Signature::BYTES.to_vec();
@@ -94,7 +95,7 @@ mod tests {
         let mut stream = Vec::new();
         zlib(&input, &mut stream);
         assert_eq!(inflated(&stream, bytes.len()), bytes);
-        // The same in parts that were made on their own.
+        // The same input in two separately compressed parts.
         let mut parts = ZLIB_HEADER.to_vec();
         let (head, tail) = input.split_at(input.len() / 2);
         deflate(head, Part::Middle, &mut parts);

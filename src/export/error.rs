@@ -4,63 +4,63 @@ use std::path::{Path, PathBuf};
 use crate::files::Unreadable;
 use crate::progress::Interrupted;
 
-/// Why the `export` stage cannot go on.
+/// Why the `export` stage failed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExportError {
     /// The output is a file.
     #[error("the output {} is a file, not a folder", path.display())]
     OutputIsFile {
-        /// The output as the user gave it.
+        /// Path as the user gave it.
         path: PathBuf,
     },
-    /// The output has no name of its own, as `/` or `..`.
+    /// The output has no name, such as `/` or `..`.
     #[error("the output {} cannot be replaced by a new folder", path.display())]
     OutputHasNoName {
-        /// The output as the user gave it.
+        /// Path as the user gave it.
         path: PathBuf,
     },
-    /// The output holds something else.
+    /// The output holds files that do not belong to a bake.
     #[error("the output folder {} holds something that is not a bake of trodden ({found})", path.display())]
     NotABake {
-        /// The output as the user gave it.
+        /// Path as the user gave it.
         path: PathBuf,
-        /// The name of something in it, or what is wrong with its manifest.
+        /// Name of such a file, or the defect of the manifest.
         found: String,
     },
     /// The output holds an earlier bake.
     #[error("the output folder {} holds an earlier bake", path.display())]
     OutputExists {
-        /// The output as the user gave it.
+        /// Path as the user gave it.
         path: PathBuf,
     },
-    /// Somebody else writes to the output right now.
+    /// Another process is writing to the output.
     #[error("another trodden is writing to {} right now", path.display())]
     OutputInUse {
-        /// The output as the user gave it.
+        /// Path as the user gave it.
         path: PathBuf,
     },
-    /// The folder beside the output, in which results are collected, is taken by something else.
+    /// A file or folder of the user has the name of the hidden folder beside the output.
     #[error("{} is in the way: trodden needs this name, and it did not make it", path.display())]
     InTheWay {
-        /// The folder.
+        /// Path of the hidden folder.
         path: PathBuf,
     },
-    /// A file that no bake made has the name of one that the bake makes.
+    /// A file of the user has the name of an output file.
     #[error("{} would be written, but a file of that name is there that no bake has made", path.display())]
     UserFile {
-        /// The file that is there.
+        /// Path of the user's file.
         path: PathBuf,
     },
     /// A path leads out of the output folder.
     #[error(transparent)]
     NotInside(#[from] NotInside),
-    /// The output folder cannot be made or replaced.
+    /// The output folder cannot be created or replaced.
     #[error("cannot write the output folder {}: {source}", path.display())]
     Folder {
-        /// The output as the user gave it.
+        /// Path as the user gave it.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
     /// A file cannot be written.
@@ -68,7 +68,7 @@ pub enum ExportError {
     Write {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
     /// A file cannot be read.
@@ -76,48 +76,48 @@ pub enum ExportError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
-    /// A file was read, but what it holds cannot be used.
+    /// The content of a file is invalid.
     #[error("{}: {problem}", path.display())]
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Its defect.
         problem: String,
     },
-    /// A bake of a later version.
+    /// The bake has a later format than this version reads.
     #[error("{} has format {found}, this version of trodden reads format {known}", path.display())]
     NewerFormat {
         /// The manifest.
         path: PathBuf,
-        /// Its format.
+        /// Format of the manifest.
         found: u32,
-        /// The format that this version writes.
+        /// Latest format that this version reads.
         known: u32,
     },
-    /// A tile size out of range.
+    /// The tile size is out of range.
     #[error("the tile size is {tile} px; it has to be {min} to {max} px")]
     TileSize {
-        /// What was asked for.
+        /// Requested tile size, texels.
         tile: u32,
-        /// The least size.
+        /// Least tile size, texels.
         min: u32,
-        /// The greatest size.
+        /// Greatest tile size, texels.
         max: u32,
     },
-    /// A tile size beyond what the target takes.
+    /// The tile size exceeds the target's largest texture.
     #[error("the tile size is {tile} px; {target} takes textures of at most {max} px")]
     TileTooLargeFor {
-        /// What was asked for.
+        /// Requested tile size, texels.
         tile: u32,
-        /// The target.
+        /// Name of the target.
         target: &'static str,
-        /// The greatest size that it takes.
+        /// Largest texture of the target, texels.
         max: u32,
     },
-    /// A sheet in which not even one strip of wall fits.
+    /// A strip of wall with its padding is taller than a sheet.
     #[error(
         "a wall of {height_m} m at {texels_per_metre} texels per metre needs textures of {needed} px with its padding; \
          they are {sheet} px"
@@ -125,46 +125,46 @@ pub enum ExportError {
     WallTooHigh {
         /// Height of the walls, metres.
         height_m: f64,
-        /// Their texel density.
+        /// Texel density of the walls, texels per metre.
         texels_per_metre: f64,
         /// Height of a strip with its padding, texels.
         needed: u32,
         /// Side of the sheets, texels.
         sheet: u32,
     },
-    /// A bake that is large, or larger than the disk has room for.
-    #[error("a bake to {} would write {amount}", path.display())]
+    /// The bake is large, or larger than the free disk space.
+    #[error("a bake to {} would write {}", path.display(), estimate.describe(*free))]
     TooMuch {
-        /// The output as the user gave it.
+        /// Path of the output as the user gave it.
         path: PathBuf,
         /// What it would write, and what is free on its disk where the system tells, in words.
         amount: String,
     },
-    /// Two images of different size were to be compared.
+    /// Two images to compare have different sizes.
     #[error("{} is {} x {} px, {} is {} x {} px", a.display(), a_size[0], a_size[1], b.display(), b_size[0], b_size[1])]
     SizesDiffer {
-        /// One image.
+        /// First image.
         a: PathBuf,
-        /// Its width and height.
+        /// Its width and height, texels.
         a_size: [u32; 2],
-        /// The other image.
+        /// Second image.
         b: PathBuf,
-        /// Its width and height.
+        /// Its width and height, texels.
         b_size: [u32; 2],
     },
-    /// Two images with different channels were to be compared.
+    /// Two images to compare have different channels.
     #[error("{} has the channels {a_channels}, {} has {b_channels}", a.display(), b.display())]
     ChannelsDiffer {
-        /// One image.
+        /// First image.
         a: PathBuf,
         /// Its channels.
         a_channels: String,
-        /// The other image.
+        /// Second image.
         b: PathBuf,
         /// Its channels.
         b_channels: String,
     },
-    /// A bake was to be compared with an image.
+    /// One side of a comparison is a bake, the other an image.
     #[error("{} is a folder, {} is a file", folder.display(), file.display())]
     NotAlike {
         /// The folder.
@@ -172,7 +172,7 @@ pub enum ExportError {
         /// The file.
         file: PathBuf,
     },
-    /// The user stopped the work.
+    /// The user interrupted the run.
     #[error(transparent)]
     Interrupted(#[from] Interrupted),
 }
@@ -184,19 +184,22 @@ impl From<Unreadable> for ExportError {
 }
 
 impl ExportError {
-    /// What the user can do about it.
+    /// Suggests a remedy to the user.
     pub fn hint(&self) -> Option<String> {
         match self {
             ExportError::OutputIsFile { .. } | ExportError::OutputHasNoName { .. } => {
-                Some("choose another folder with --output".to_string())
+                Some("choose another folder with the option `output`".to_string())
             }
-            ExportError::NotABake { .. } => {
-                Some("choose a new or empty folder with --output; --force replaces bakes of trodden only".to_string())
-            }
+            ExportError::NotABake { .. } => Some(
+                "choose a new or empty folder with the option `output`; the option `force` replaces bakes only"
+                    .to_string(),
+            ),
             ExportError::OutputExists { .. } => {
-                Some("--force replaces it; --output chooses another folder".to_string())
+                Some("the option `force` replaces it; the option `output` names another folder".to_string())
             }
-            ExportError::OutputInUse { .. } => Some("wait for it, or choose another folder with --output".to_string()),
+            ExportError::OutputInUse { .. } => {
+                Some("wait for it, or choose another folder with the option `output`".to_string())
+            }
             ExportError::UserFile { .. } => Some("move it away, or choose another folder".to_string()),
             ExportError::InTheWay { path } => Some(format!("move {} away", path.display())),
             ExportError::Folder { source, .. } | ExportError::Write { source, .. } => write_hint(source),
@@ -244,10 +247,10 @@ pub struct NotInside {
 fn write_hint(source: &io::Error) -> Option<String> {
     match source.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
-            Some("the disk is full: make room, or choose another disk with --output".to_string())
+            Some("the disk is full: make room, or choose another disk with the option `output`".to_string())
         }
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
-            Some("choose a folder that you may write to with --output".to_string())
+            Some("choose a folder that you may write to with the option `output`".to_string())
         }
         _ => None,
     }

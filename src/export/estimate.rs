@@ -1,4 +1,4 @@
-//! How much a bake will write, told before anything long is done.
+//! Estimates the size of a bake before the simulation starts.
 
 use std::path::Path;
 
@@ -8,14 +8,14 @@ use super::options::TextureOptions;
 use crate::plan::FloorPlan;
 use crate::stamps::{TexelGrid, WallGrid};
 
-/// A bake of more bytes has to be asked for.
+/// Size above which a bake has to be confirmed, bytes.
 pub const LARGE_BYTES: u64 = 20_000_000_000;
 
-/// Bytes on the disk for a texel of floor and of wall, all files together: about the mean over bakes of hundreds to
-/// thousands of people. Where few walk, it is a third of it; where all floor is trodden, three times as much.
+/// Bytes on disk per texel of floor, and of wall below: the mean over bakes of
+/// hundreds to thousands of people. With few people it is a third; with all floor trodden, three times as much.
 const FLOOR_BYTES: f64 = 2.0;
 const WALL_BYTES: f64 = 0.8;
-/// How much more it is with the layers on their own.
+/// Factor for bakes that also write the layers as EXR.
 const WITH_LAYERS: f64 = 2.0;
 
 /// How much a bake will write.
@@ -32,7 +32,7 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// What the textures of a plan will take: floor by its area, walls by theirs.
+    /// Estimates the textures of a plan from the areas of its floor and walls.
     ///
     /// # Errors
     /// A tile size out of range.
@@ -58,8 +58,9 @@ impl Estimate {
         })
     }
 
-    /// Refuses a bake that is large or that the disk of `folder` has no room for, unless any size is asked for; gives what
-    /// to tell the user of one that is large.
+    /// Refuses a bake that is large or exceeds the free space on the disk of `folder`.
+    ///
+    /// With `any_size` it returns a message about the size instead; `None` if the bake is small enough.
     ///
     /// # Errors
     /// [`ExportError::TooMuch`].
@@ -89,7 +90,7 @@ fn size(bytes: u64) -> String {
     }
 }
 
-/// Room on the disk of a folder for files of this user, where the system tells.
+/// Returns the free disk space for this user at a folder, bytes, if the system reports it.
 #[cfg(unix)]
 fn free_bytes(folder: &Path) -> Option<u64> {
     let disk = rustix::fs::statvfs(folder).ok()?;

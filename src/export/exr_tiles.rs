@@ -1,7 +1,7 @@
-//! EXR files of tiles that are compressed apart from each other, by any thread.
+//! EXR files made of tiles that any thread compresses separately.
 //!
-//! The header is the `exr` crate's; the tiles' compression is our own, because the crate's takes sixteen times as
-//! long for the same size.
+//! The `exr` crate writes the header. The tiles are compressed here, because the crate takes sixteen times as long for
+//! the same size.
 
 use std::io::{self, Seek, SeekFrom, Write};
 
@@ -15,17 +15,18 @@ use half::slice::HalfFloatSliceExt;
 use super::deflate::{zlib, zlib_zeros};
 use super::layout::BLOCK;
 
-/// What the samples of an image's channels are.
+/// Sample type of an image's channels, with its compression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Samples {
     /// Half floats, compressed as ZIP.
     Half,
-    /// Whole numbers of 32 bit, compressed as PXR24, which keeps them exactly and takes two thirds of ZIP's space: it
-    /// puts bytes of equal weight together.
+    /// Integers of 32 bit, compressed losslessly as PXR24.
+    ///
+    /// PXR24 groups bytes of equal weight and needs two thirds of ZIP's space.
     U32,
 }
 
-/// Writes an image tile by tile, row of tiles by row of tiles from above.
+/// Writes an image tile by tile, in rows of tiles from above.
 #[derive(Debug)]
 pub(super) struct ExrWriter<W: Write + Seek> {
     out: W,
@@ -37,7 +38,7 @@ pub(super) struct ExrWriter<W: Write + Seek> {
 }
 
 impl<W: Write + Seek> ExrWriter<W> {
-    /// Begins a file with the channels of these names, which have to be sorted.
+    /// Begins a file with these channel names, which have to be sorted.
     pub(super) fn begin(
         mut out: W,
         samples: Samples,
@@ -54,13 +55,12 @@ impl<W: Write + Seek> ExrWriter<W> {
         Header::write_all(&headers, &mut head, false).map_err(io_error)?;
         let (columns, rows) = (width.div_ceil(BLOCK), height.div_ceil(BLOCK));
         let table_at = head.len() as u64;
-        // The places of the tiles; known at the end.
+        // Space for the tile offsets, which are known at the end.
         head.resize(head.len() + columns * rows * 8, 0);
         out.write_all(&head)?;
         Ok(ExrWriter { out, table_at, at: head.len() as u64, offsets: Vec::new(), columns, tiles: columns * rows })
     }
 
-    /// Appends the next tile.
     pub(super) fn push(&mut self, tile: &[u8]) -> io::Result<()> {
         let index = self.offsets.len();
         let coordinates = [index % self.columns, index / self.columns, 0, 0, tile.len()];
@@ -74,7 +74,7 @@ impl<W: Write + Seek> ExrWriter<W> {
         self.out.write_all(tile)
     }
 
-    /// Ends the file and gives what it was written to, still to be flushed.
+    /// Finishes the file and returns its writer, not yet flushed.
     pub(super) fn finish(mut self) -> io::Result<W> {
         if self.offsets.len() != self.tiles {
             return Err(io::Error::other(format!("{} of {} tiles were written", self.offsets.len(), self.tiles)));
@@ -100,7 +100,7 @@ fn header(samples: Samples, width: usize, height: usize, channels: &[String]) ->
         rounding_mode: exr::math::RoundingMode::Down,
     };
     let mut header = Header::new("floor".into(), (width, height), channels);
-    // Single-layer files need no name, and some readers put it before every channel's.
+    // Single-layer files need no name; some readers prefix it to every channel's name.
     header.own_attributes.layer_name = None;
     header.with_encoding(compression, BlockDescription::Tiles(tiles), LineOrder::Increasing)
 }
@@ -112,15 +112,15 @@ fn io_error(error: exr::error::Error) -> io::Error {
     }
 }
 
-/// A tile of whole numbers that are all zero.
+/// Returns a compressed tile of integers that are all zero.
 pub(super) fn zero_tile(channels: usize, [width, height]: [usize; 2]) -> Vec<u8> {
     let count = 4 * channels * width * height;
     let tile = zlib_zeros(count);
-    // What compression does not make smaller is stored as it is.
+    // EXR stores data raw where compression does not shrink it.
     if tile.len() < count { tile } else { vec![0; count] }
 }
 
-/// Compresses tiles; keeps its buffers from one to the next.
+/// Compresses tiles and reuses its buffers.
 #[derive(Debug, Default)]
 pub(super) struct TileEncoder {
     halves: Vec<f16>,
@@ -128,14 +128,14 @@ pub(super) struct TileEncoder {
 }
 
 impl TileEncoder {
-    /// A tile of half floats. Each channel is given row by row, `width` values a row, the southernmost row first.
+    /// Compresses a tile of half floats. Each channel has rows of `width` values, the southernmost first.
     pub(super) fn half(&mut self, channels: &[&[f32]], width: usize) -> Vec<u8> {
         let count: usize = channels.iter().map(|values| values.len()).sum();
         self.halves.resize(count, f16::ZERO);
         for_rows_from_above(channels, width, |at, values| {
             self.halves[at..at + values.len()].convert_from_f32_slice(values);
         });
-        // ZIP: all low bytes, then all high bytes, each as the difference to the one before.
+        // ZIP: all low bytes, then all high bytes, each as the difference to the previous byte.
         self.packed.resize(2 * count, 0);
         let (low, high) = self.packed.split_at_mut(count);
         let mut before = [128u8, 0];
@@ -153,11 +153,11 @@ impl TileEncoder {
         smaller(&self.packed, raw)
     }
 
-    /// A tile of whole numbers. Each channel is given row by row, `width` values a row, the southernmost row first.
+    /// Compresses a tile of integers. Each channel has rows of `width` values, the southernmost first.
     pub(super) fn u32(&mut self, channels: &[&[u32]], width: usize) -> Vec<u8> {
         let count: usize = channels.iter().map(|values| values.len()).sum();
         self.packed.resize(4 * count, 0);
-        // PXR24: in each row the differences of neighbours, their highest bytes first.
+        // PXR24: differences of neighbours in each row, their highest bytes first.
         for_rows_from_above(channels, width, |at, values| {
             let planes = &mut self.packed[4 * at..4 * (at + values.len())];
             let (high, low) = planes.split_at_mut(2 * values.len());
@@ -186,8 +186,9 @@ fn difference(byte: u8, before: u8) -> u8 {
     byte.wrapping_sub(before).wrapping_add(128)
 }
 
-/// Calls `row` for each row of each channel in the order of EXR: rows from above, channel by channel in each, with
-/// the number of samples before it.
+/// Calls `row` for each row in EXR's order: rows from above, in each row channel by channel.
+///
+/// The first argument is the number of samples before that row.
 fn for_rows_from_above<T>(channels: &[&[T]], width: usize, mut row: impl FnMut(usize, &[T])) {
     let height = channels.first().map_or(0, |values| values.len() / width.max(1));
     let mut at = 0;
@@ -199,7 +200,7 @@ fn for_rows_from_above<T>(channels: &[&[T]], width: usize, mut row: impl FnMut(u
     }
 }
 
-/// The packed bytes compressed, or those of `raw` where that is no gain, as the format wants it.
+/// Compresses packed bytes, or returns `raw` where they do not shrink, as EXR requires.
 fn smaller(packed: &[u8], raw: impl FnOnce() -> Vec<u8>) -> Vec<u8> {
     let mut compressed = Vec::with_capacity(packed.len() / 2);
     zlib(packed, &mut compressed);

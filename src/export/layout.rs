@@ -7,15 +7,15 @@ use crate::stamps::TexelGrid;
 /// Side of the blocks in which textures are resolved, compressed and stored, texels.
 pub const BLOCK: usize = 256;
 
-/// How a floor is cut into textures.
+/// The division of a floor into texture tiles.
 ///
-/// Tiles start at multiples of the tile size from the floor's lower left. Along an axis with more than one tile all
-/// are of full size, so that one scale maps metres to UV over all of them (`u = x t / tile`); what the floor does not
-/// fill costs next to nothing on disk. Along an axis on which the floor is smaller than a tile, the tile is the next
-/// power of two, filled from its lower left.
+/// Tiles start at multiples of the tile size from the floor's lower left. Along an axis with several tiles all have
+/// full size, so that one scale maps metres to UV over all of them (`u = x t / tile`); the empty rest costs almost no
+/// disk space. Along an axis on which the floor is smaller than a tile, the tile's side is the next power of two, with
+/// the floor at its lower left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TileLayout {
-    /// The whole floor.
+    /// Texel grid of the whole floor.
     pub grid: TexelGrid,
     /// Width of each tile, texels.
     pub width: u32,
@@ -23,16 +23,16 @@ pub struct TileLayout {
     pub height: u32,
 }
 
-/// One tile of a layout.
+/// One tile of a [`TileLayout`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tile {
     /// Column from the left.
     pub u: u32,
     /// Row from below.
     pub v: u32,
-    /// Column of the whole floor at which it starts.
+    /// Its first column of the whole floor.
     pub i0: u32,
-    /// Row of the whole floor at which it starts.
+    /// Its first row of the whole floor.
     pub j0: u32,
     /// Width, texels.
     pub width: u32,
@@ -52,12 +52,12 @@ pub enum Naming {
 }
 
 impl TileLayout {
-    /// The least tile size, texels.
+    /// Least tile size, texels.
     pub const MIN_TILE: u32 = 64;
-    /// The greatest tile size, texels: what engines and graphics cards take.
+    /// Greatest tile size, texels: the limit of engines and graphics cards.
     pub const MAX_TILE: u32 = 16_384;
 
-    /// Cuts a floor into tiles of at most `tile` texels.
+    /// Divides a floor into tiles of at most `tile` texels.
     ///
     /// # Errors
     /// A tile size out of range.
@@ -70,17 +70,17 @@ impl TileLayout {
         Ok(TileLayout { grid, width: side(grid.width), height: side(grid.height) })
     }
 
-    /// Number of tiles side by side.
+    /// Number of columns of tiles.
     pub fn columns(&self) -> u32 {
         self.grid.width.max(1).div_ceil(self.width)
     }
 
-    /// Number of tiles one above the other.
+    /// Number of rows of tiles.
     pub fn rows(&self) -> u32 {
         self.grid.height.max(1).div_ceil(self.height)
     }
 
-    /// All tiles, row by row from the lower left.
+    /// Iterates over all tiles, row by row from the lower left.
     pub fn tiles(&self) -> impl Iterator<Item = Tile> + use<> {
         let TileLayout { width, height, .. } = *self;
         let columns = self.columns();
@@ -88,12 +88,12 @@ impl TileLayout {
             .flat_map(move |v| (0..columns).map(move |u| Tile { u, v, i0: u * width, j0: v * height, width, height }))
     }
 
-    /// How tiles are told apart: UDIM as far as it goes.
+    /// Naming scheme of the tiles: UDIM for up to 10 x 10 tiles, else u and v.
     pub fn naming(&self) -> Naming {
         if self.columns() <= 10 && self.rows() <= 10 { Naming::Udim } else { Naming::Uv }
     }
 
-    /// The name of a tile's image, such as `floor_mask.1001.png`.
+    /// Returns the name of a tile's image, such as `floor_mask.1001.png`.
     pub fn file_name(&self, tile: &Tile, kind: &str, extension: &str) -> String {
         match self.naming() {
             Naming::Udim => format!("floor_{kind}.{}.{extension}", tile.udim()),
@@ -101,7 +101,7 @@ impl TileLayout {
         }
     }
 
-    /// Where a tile lies in the plan frame, metres.
+    /// Returns a tile's rectangle in the plan frame, metres.
     pub fn place_m(&self, tile: &Tile) -> Rect {
         let t = self.grid.texels_per_metre;
         let corner = |i: u32, j: u32| vec2(f64::from(i) / t, f64::from(j) / t);
@@ -110,7 +110,7 @@ impl TileLayout {
 }
 
 impl Tile {
-    /// The UDIM number: 1001 + u + 10 v.
+    /// UDIM number: 1001 + u + 10 v.
     pub fn udim(&self) -> u32 {
         1001 + self.u + 10 * self.v
     }

@@ -1,4 +1,4 @@
-/// The most memory that this process has held at once, MiB, where the system tells (Linux).
+/// Returns the peak memory of this process, MiB, where the system reports it (Linux).
 pub fn peak_memory_mib() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     parse_peak(&status)

@@ -25,39 +25,39 @@ const LITTER: [&str; 3] = [".DS_Store", "Thumbs.db", "desktop.ini"];
 /// A folder of results that appears whole or not at all.
 ///
 /// Results are collected in a hidden folder beside the output, `.NAME.new`. [`OutputFolder::publish`] exchanges it with
-/// an earlier bake in one step and then removes that one. Where the system cannot exchange folders, the earlier bake is
-/// renamed to `.NAME.old` for a moment. Dropped unpublished, the new folder is removed and the earlier bake stays as it
-/// was. From beginning to end one process at a time holds a lock on `.NAME.lock`.
+/// the earlier bake in one step and then removes that bake. Where the system cannot exchange folders, the earlier bake
+/// is `.NAME.old` for a moment. Dropping an unpublished folder removes it and leaves the earlier bake unchanged. The
+/// process holds a lock on `.NAME.lock` all the time.
 ///
-/// Only an empty folder or, when forced, an earlier bake of ours is ever replaced. Of an earlier bake, the files that
-/// its manifest lists go. All other files in it are the user's: they stay, at the same place in the folder.
+/// It only replaces an empty folder or, with `force`, an earlier bake. Of that bake it removes the files that the
+/// manifest lists. All other files are the user's: they stay at the same place in the folder.
 #[derive(Debug)]
 pub struct OutputFolder {
-    /// As the user gave it, for messages.
+    /// Path as the user gave it, for messages.
     shown: PathBuf,
     places: Places,
     force: bool,
     lock: Option<NameLock>,
-    /// Parents of the output that did not exist before, outermost first.
+    /// Parents of the output that were created, outermost first.
     made_parents: Vec<PathBuf>,
-    /// The user's files in the output, as far as they were there at the beginning.
+    /// The user's files in the output at the beginning.
     users: UserFiles,
     files: Mutex<BTreeSet<BakePath>>,
-    /// Whether the hidden folder is ours to remove.
+    /// Whether to remove the hidden folder on drop.
     is_open: bool,
 }
 
 impl OutputFolder {
-    /// Makes the hidden folder, after having cleaned up what a killed run may have left.
+    /// Creates the hidden folder, after cleaning up after a killed run.
     ///
-    /// With `force`, an earlier bake may be replaced; anything else that is not empty never is.
+    /// With `force`, it may replace an earlier bake, but never another folder with files in it.
     ///
     /// # Errors
-    /// The output is a file, holds something else than a bake, holds a bake and `force` is not set, is being
-    /// written by another process, or cannot be written.
+    /// The output is a file, holds files that are not a bake's, holds a bake and `force` is not set, is being written
+    /// by another process, or cannot be written.
     pub fn begin(path: &Path, force: bool) -> Result<OutputFolder, ExportError> {
         let places = Places::of(path)?;
-        // Once before anything is made, and again below, when no other process can change it any more.
+        // First before anything is created, and again below under the lock.
         earlier(path, &places.output, force)?;
         let mut folder = OutputFolder {
             shown: path.to_path_buf(),
@@ -107,13 +107,14 @@ impl OutputFolder {
         &self.places.new
     }
 
-    /// The output as the user gave it.
+    /// Path of the output as the user gave it.
     pub fn shown(&self) -> &Path {
         &self.shown
     }
 
-    /// Makes sure that no file of the user has one of these names, before any work is done. `relative` has `/` between
-    /// its parts.
+    /// Checks, before the run does any work, that no file of the user has one of these names.
+    ///
+    /// `relative` has `/` between its parts.
     ///
     /// # Errors
     /// [`ExportError::UserFile`].
@@ -128,7 +129,7 @@ impl OutputFolder {
         }
     }
 
-    /// Makes sure that the run reads no file of the earlier bake, which goes when the new one has its place.
+    /// Checks that no input of the run is a file of the earlier bake, which `publish` removes.
     ///
     /// # Errors
     /// [`FileError::IsInput`].
@@ -143,11 +144,11 @@ impl OutputFolder {
         Ok(())
     }
 
-    /// Makes a file (and the folder that it lies in). `relative` has `/` between its parts.
+    /// Creates a file, and the folder that it lies in. `relative` has `/` between its parts.
     ///
     /// # Errors
-    /// The file cannot be made; a file of the user has its name.
-    pub(crate) fn create(&self, relative: &str) -> Result<OutputFile, ExportError> {
+    /// The file cannot be created, or a file of the user has its name.
+    pub fn create(&self, relative: &str) -> Result<OutputFile, ExportError> {
         let relative = BakePath::new(relative)?;
         self.check_user(&self.users, &relative)?;
         let path = self.places.new.join(&relative);
@@ -155,27 +156,26 @@ impl OutputFolder {
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent).map_err(ExportError::write(&shown))?;
         }
-        // A file that was kept shares its data with the earlier bake and must not be written over.
+        // A kept file is a hard link to the earlier bake's and must not be overwritten.
         let file = File::create_new(&path).map_err(ExportError::write(&shown))?;
         self.note(relative);
         Ok(OutputFile { writer: BufWriter::with_capacity(1 << 16, file), shown })
     }
 
-    /// Writes a small file in one go.
+    /// Creates a file with this content.
     ///
     /// # Errors
-    /// As [`OutputFolder::create`].
+    /// The same as for [`OutputFolder::create`].
     pub fn write(&self, relative: &str, bytes: &[u8]) -> Result<(), ExportError> {
         let mut file = self.create(relative)?;
         file.write_all(bytes).map_err(OutputFile::explain)?;
         file.close()
     }
 
-    /// Takes a file of the earlier bake over unchanged: as a second name of the same data where the disk can do
-    /// that, as a copy elsewhere.
+    /// Keeps a file of the earlier bake, as a hard link where the disk supports it, else as copy.
     ///
     /// # Errors
-    /// The earlier bake has no such file, a link leads out of the bake, or it cannot be copied.
+    /// The earlier bake has no such file, a link leads out of the bake, or the copy fails.
     pub fn keep(&self, relative: &BakePath) -> Result<(), ExportError> {
         let shown = self.shown.join(relative);
         relative.within(&self.shown)?;
@@ -196,11 +196,11 @@ impl OutputFolder {
         self.files.lock().unwrap_or_else(PoisonError::into_inner).insert(relative);
     }
 
-    /// Writes the manifest, with the list of all files, and puts the folder in the output's place.
+    /// Writes the manifest with the list of all files, and moves the folder to the output's place.
     ///
     /// # Errors
-    /// The manifest cannot be written; something else than the earlier bake is in the output's place by now; a folder
-    /// cannot be renamed. The earlier bake is in its place then.
+    /// The manifest cannot be written; another folder than the earlier bake is at the output's place; a rename fails.
+    /// The earlier bake is then at its place.
     pub fn publish(mut self, manifest: &Manifest) -> Result<(), ExportError> {
         self.note(BakePath::new(MANIFEST_NAME)?);
         let files: Vec<BakePath> =
@@ -210,20 +210,20 @@ impl OutputFolder {
         self.take_user_files_over(&manifest.files)?;
         let new = &self.places.new;
         if self.places.output.exists() {
-            // The earlier bake must not be gone before the new one is on the disk.
+            // The new bake has to be on the disk before the earlier one is removed.
             places::sync(new, &manifest.files).map_err(|e| self.failed(e))?;
         }
         fs::remove_file(new.join(UNFINISHED)).map_err(|e| self.failed(e))?;
         let replaced = self.places.put_in_place().map_err(|e| self.failed(e))?;
         self.is_open = false;
         if let Some(replaced) = replaced {
-            // The result is in its place. The next run removes what is left of the old one.
+            // The result is published. The next run removes any rest of the old one.
             let _ = places::clear(&replaced, &self.places.output);
         }
         Ok(())
     }
 
-    /// Gives the new folder the user's files of the output as it is now.
+    /// Links or copies the user's files in the current output into the new folder.
     fn take_user_files_over(&self, files: &[BakePath]) -> Result<(), ExportError> {
         let listed = earlier(&self.shown, &self.places.output, self.force)?;
         let users = UserFiles::of(&self.places.output, &listed).map_err(|e| self.failed(e))?;
@@ -235,12 +235,12 @@ impl OutputFolder {
 impl Drop for OutputFolder {
     fn drop(&mut self) {
         if self.is_open {
-            // Nothing can be done about a failure here; the next run cleans up.
+            // A failure cannot be reported here; the next run cleans up.
             let _ = fs::remove_dir_all(&self.places.new);
         }
         drop(self.lock.take());
         for parent in self.made_parents.iter().rev() {
-            // One that is not empty holds the output, or is used by something else.
+            // Fails for a parent that is not empty, which is right.
             let _ = fs::remove_dir(parent);
         }
     }
@@ -253,7 +253,7 @@ fn earlier(shown: &Path, output: &Path, force: bool) -> Result<BTreeSet<PathBuf>
         Ok(entries) => entries,
         Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(BTreeSet::new()),
         Err(e) if e.kind() == io::ErrorKind::NotADirectory => {
-            // Either it is a file itself, or a part of the way to it is one.
+            // The output or one of its parents is a file.
             return Err(if output.exists() {
                 ExportError::OutputIsFile { path }
             } else {
@@ -279,7 +279,7 @@ fn earlier(shown: &Path, output: &Path, force: bool) -> Result<BTreeSet<PathBuf>
     }
 }
 
-/// Makes the folders above `output` that are missing, and gives them, outermost first.
+/// Creates the missing parents of `output` and returns them, outermost first.
 fn make_parents(output: &Path) -> io::Result<Vec<PathBuf>> {
     let Some(parent) = output.parent() else { return Ok(Vec::new()) };
     let mut missing: Vec<PathBuf> =
@@ -289,8 +289,9 @@ fn make_parents(output: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(missing)
 }
 
-/// A file of an [`OutputFolder`]. Its errors name the place where the file would have appeared: see
-/// [`OutputFile::explain`].
+/// A file of an [`OutputFolder`]. Its errors name its path in the output.
+///
+/// [`OutputFile::explain`] gets the error back from an [`io::Error`].
 #[derive(Debug)]
 pub struct OutputFile {
     writer: BufWriter<File>,
@@ -298,15 +299,15 @@ pub struct OutputFile {
 }
 
 impl OutputFile {
-    /// Writes what is buffered and closes the file. A file that is only dropped hides a full disk.
+    /// Flushes and closes the file. Dropping it instead would hide a full disk.
     ///
     /// # Errors
-    /// The rest cannot be written.
+    /// The buffered rest cannot be written.
     pub fn close(mut self) -> Result<(), ExportError> {
         self.flush().map_err(Self::explain)
     }
 
-    /// The error behind one that came out of writing to an output file, through whatever wrote to it.
+    /// Unwraps the [`ExportError`] in an I/O error of an output file, also through other writers.
     pub fn explain(error: io::Error) -> ExportError {
         let kind = error.kind();
         match error.into_inner().map(|inner| inner.downcast::<ExportError>()) {

@@ -1,29 +1,28 @@
-//! PNG files made of strips that are compressed apart from each other, by any thread.
+//! PNG files made of strips that any thread compresses separately.
 //!
-//! Each strip of rows becomes an `IDAT` chunk; the chunks put in a row are one zlib stream. The bytes depend on the
-//! image alone, not on who compressed what.
+//! Each strip of rows becomes an `IDAT` chunk; the chunks together are one zlib stream. The bytes depend on the image
+//! only, not on the threads.
 
 use std::io::{self, Write};
 
 use super::deflate::{Part, ZLIB_HEADER, adler32, adler32_joined, deflate};
 
-/// Begins every PNG file.
 pub(super) struct Signature;
 
 impl Signature {
     pub(super) const BYTES: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 }
 
-/// What the bytes of a pixel are.
+/// Pixel format and colour space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Pixels {
-    /// Red, green, blue in sRGB; the file says so.
+    /// Red, green, blue in sRGB, with an `sRGB` chunk.
     Srgb,
-    /// A value that is no colour, as grey.
+    /// One linear value, stored as grey.
     Linear1,
-    /// Three values that are no colour. The file says nothing about them: readers that heed a gamma would bend them.
+    /// Three linear values, without a `gAMA` chunk: some readers would apply a gamma to the data.
     Linear3,
-    /// Four values that are no colour.
+    /// Four linear values.
     Linear4,
 }
 
@@ -37,7 +36,7 @@ impl Pixels {
     }
 }
 
-/// Rows of an image, compressed.
+/// A compressed run of rows.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Strip {
     chunk: Vec<u8>,
@@ -45,7 +44,7 @@ pub(super) struct Strip {
     bytes: u64,
 }
 
-/// Filters and compresses rows of an image, top down, one after the other.
+/// Filters and compresses rows of an image from above.
 #[derive(Debug)]
 pub(super) struct StripEncoder {
     pixel_bytes: usize,
@@ -60,12 +59,12 @@ impl StripEncoder {
         StripEncoder { pixel_bytes: pixels.bytes(), above: vec![0; bytes], row: vec![0; bytes], filtered: Vec::new() }
     }
 
-    /// Starts a strip at the image's top.
+    /// Begins a strip at the image's top.
     pub(super) fn begin_at_top(&mut self) {
         self.begin_below(|row| row.fill(0));
     }
 
-    /// Starts a strip below the row that `fill` writes.
+    /// Begins a strip below the row that `fill` writes.
     pub(super) fn begin_below(&mut self, fill: impl FnOnce(&mut [u8])) {
         self.filtered.clear();
         fill(&mut self.above);
@@ -81,7 +80,7 @@ impl StripEncoder {
         std::mem::swap(&mut self.above, &mut self.row);
     }
 
-    /// Compresses what was added since [`StripEncoder::begin`].
+    /// Compresses the rows added since the strip began.
     pub(super) fn finish(&mut self) -> Strip {
         let mut chunk = begin_chunk(b"IDAT", self.filtered.len() / 3);
         deflate(&self.filtered, Part::Middle, &mut chunk);
@@ -92,7 +91,7 @@ impl StripEncoder {
 
 /// The rendering intent of the sRGB chunk.
 const PERCEPTUAL: u8 = 0;
-/// The filter of each row. On floors it leaves a tenth less than `Up`, `Sub` and `Paeth` do.
+/// The filter of each row. For floors it gives files a tenth smaller than `Up`, `Sub` and `Paeth`.
 const AVERAGE: u8 = 3;
 
 fn filter_average(pixel_bytes: usize, above: &[u8], row: &[u8], out: &mut [u8]) {
@@ -106,7 +105,7 @@ fn filter_average(pixel_bytes: usize, above: &[u8], row: &[u8], out: &mut [u8]) 
     }
 }
 
-/// Puts strips together to a file.
+/// Writes strips to a PNG file.
 #[derive(Debug)]
 pub(super) struct PngWriter<W: Write> {
     out: W,
@@ -137,7 +136,7 @@ impl<W: Write> PngWriter<W> {
         self.out.write_all(&strip.chunk)
     }
 
-    /// Ends the file and gives what it was written to, still to be flushed.
+    /// Finishes the file and returns its writer, not yet flushed.
     pub(super) fn finish(mut self) -> io::Result<W> {
         let mut end = Vec::new();
         deflate(&[], Part::Last, &mut end);
@@ -150,7 +149,7 @@ impl<W: Write> PngWriter<W> {
     }
 }
 
-/// Appends a chunk: length, name, data, check sum.
+/// Appends a chunk: length, name, data, checksum.
 pub(super) fn chunk(name: &[u8; 4], data: &[u8], out: &mut Vec<u8>) {
     let mut chunk = begin_chunk(name, data.len());
     chunk.extend_from_slice(data);

@@ -5,30 +5,30 @@ use super::reduction::{LightSum, rounded_mean};
 use crate::look::{Background, Layer, ResolvedBlock};
 use crate::math::exp_f32;
 
-/// A tile's or a sheet's images, reduced: for pages and models that carry their textures.
+/// Reduced images of a tile or a sheet, embedded in pages and models.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reduced {
-    /// Texels of the full image under a pixel, each way: a power of two.
+    /// Texels per pixel along each axis, a power of two.
     pub factor: u32,
-    /// Base colour, sRGB (averaged as light). Row 0 is the upper one, as in the files.
+    /// Base colour, sRGB, averaged in linear light. Row 0 is the topmost, as in the files.
     pub base_color: RgbImage,
-    /// Base colour without dirt, sRGB (averaged as light).
+    /// Base colour without dirt, sRGB, averaged in linear light.
     pub clean: RgbImage,
     /// Opacity 1 - exp(-D) of the dirt of each [kind](Layer::kind), linear.
     pub dirt: RgbaImage,
-    /// Occlusion, roughness, metallic, linear, whatever the files are packed for.
+    /// Occlusion, roughness, metallic, linear, for every target.
     pub orm: RgbImage,
 }
 
 impl Reduced {
-    /// The power of two by which images of a size have to be made smaller so that no side exceeds `largest_px`.
+    /// Returns the power of two that reduces an image so that no side exceeds `largest_px`.
     ///
-    /// At most [`BLOCK`]: a pixel never covers more than one block.
+    /// It is at most [`BLOCK`]: a pixel covers no more than one block.
     pub(super) fn factor([width, height]: [u32; 2], largest_px: u32) -> u32 {
         width.max(height).div_ceil(largest_px.max(1)).next_power_of_two().min(BLOCK as u32)
     }
 
-    /// Images of a full size that show nothing but the background.
+    /// Creates reduced images that show the background, for an image of this full size.
     pub(super) fn blank([width, height]: [u32; 2], factor: u32, background: Background) -> Reduced {
         let (width, height) = (width.div_ceil(factor), height.div_ceil(factor));
         let colour = RgbImage::from_pixel(width, height, Rgb(background.base_color));
@@ -41,7 +41,7 @@ impl Reduced {
         }
     }
 
-    /// Puts in a block whose upper left texel is (left, top) of the full image, both multiples of [`BLOCK`].
+    /// Inserts a block at column `left`, row `top` of the full image, multiples of [`BLOCK`].
     pub(super) fn put(&mut self, left: usize, top: usize, block: &ReducedBlock) {
         let (left, top) = (left as u32 / self.factor, top as u32 / self.factor);
         for (k, pixel) in block.pixels.iter().enumerate() {
@@ -54,7 +54,7 @@ impl Reduced {
     }
 }
 
-/// A reduced block: row 0 is the upper one.
+/// A reduced block. Row 0 is the topmost.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ReducedBlock {
     width: usize,
@@ -64,13 +64,13 @@ pub(super) struct ReducedBlock {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct ReducedPixel {
     base_color: [u8; 3],
-    /// `None` where the source does not know it.
+    /// `None` if the source has no clean base colour.
     clean: Option<[u8; 3]>,
     dirt: [u8; Layer::KINDS],
     orm: [u8; 3],
 }
 
-/// Sums over the texels under a pixel.
+/// Sums over the texels of a pixel.
 #[derive(Clone, Copy, Default)]
 struct PixelSums {
     base_color: LightSum,
@@ -81,8 +81,9 @@ struct PixelSums {
 }
 
 impl ReducedBlock {
-    /// The mean of each `factor` x `factor` texels, from the block's upper left on; fewer texels at its right and
-    /// lower side. Rounded to the nearest.
+    /// Averages each `factor` x `factor` texels, from the block's upper left; rounds to nearest.
+    ///
+    /// Pixels at its right and lower side may cover fewer texels.
     pub(super) fn of(block: &ResolvedBlock, [width, height]: [usize; 2], factor: usize) -> ReducedBlock {
         let columns = width.div_ceil(factor);
         let mut pixels = Vec::with_capacity(columns * height.div_ceil(factor));
@@ -124,7 +125,7 @@ impl PixelSums {
     }
 }
 
-/// Opacity 1 - exp(-D) of each kind of dirt over a run of texels; empty for kinds of which there is none.
+/// Computes the opacity 1 - exp(-D) of each kind of dirt; empty for kinds without a layer.
 fn opacities(block: &ResolvedBlock, texels: std::ops::Range<usize>, out: &mut [Vec<f32>; Layer::KINDS]) {
     out.iter_mut().for_each(Vec::clear);
     for layer in &block.layers {
@@ -144,7 +145,7 @@ mod tests {
     use super::*;
     use crate::math::SplitMix64;
 
-    /// A density of 1 where a texel is white.
+    /// A layer with a density of 1 where `values` are 255.
     fn layer(name: &'static str, values: &[u8]) -> Layer {
         Layer { name, values: values.iter().map(|&v| f32::from(v) / 255.0).collect() }
     }
@@ -165,7 +166,7 @@ mod tests {
     fn colours_are_averaged_as_light_and_opacities_as_numbers() {
         let chequered = block(4, 4, |x, y| if (x + y) % 2 == 0 { 255 } else { 0 });
         let small = ReducedBlock::of(&chequered, [4, 4], 2);
-        // Half of the texels let all light through; the others exp(-1) through film, exp(-2) through edge and dust.
+        // Half of the texels are clean; the others transmit exp(-1) through film, exp(-2) through edge and dust.
         let dirt = [81, 0, 0, 110];
         let pixel = ReducedPixel { base_color: [188, 188, 7], clean: Some([188, 0, 255]), dirt, orm: [255, 128, 0] };
         assert_eq!(small.pixels, [pixel; 4]);

@@ -1,12 +1,12 @@
-//! Makes images smaller: colours are averaged as light, numbers as they are.
+//! Reduces images: colours are averaged in linear light, other numbers as they are.
 
 use image::{ImageBuffer, Pixel, RgbImage};
 
 use crate::math::srgb::{Srgb8, from_linear, to_linear};
 
-/// A sum of linear light in whole numbers: the same in any order of adding.
+/// A sum of linear light in integers, independent of the order of adding.
 ///
-/// Holds up to 65 536 texels of the lightest white.
+/// It holds up to 65 536 white texels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct LightSum {
     light: [u32; 3],
@@ -31,19 +31,19 @@ impl LightSum {
         self.count += other.count;
     }
 
-    /// The colour of the mean light; `None` where nothing was added.
+    /// Returns the colour of the mean light; `None` for an empty sum.
     pub(crate) fn mean(&self) -> Option<Srgb8> {
         let mean = |sum: u32| from_linear(rounded_mean(sum, self.count) as u16);
         (self.count > 0).then(|| self.light.map(mean))
     }
 }
 
-/// The mean of `count` whole numbers, rounded to the nearest; halves go up.
+/// Returns `sum / count`, rounded to nearest; halves go up.
 pub(super) fn rounded_mean(sum: u32, count: u32) -> u32 {
     ((u64::from(sum) + u64::from(count) / 2) / u64::from(count)) as u32
 }
 
-/// A colour image of half the size, rounded up: each pixel the mean light of four.
+/// Halves a colour image, rounding its size up: each pixel is the mean light of four.
 pub(crate) fn halved_colours(image: &RgbImage) -> RgbImage {
     halved(image, |four| {
         let mut sum = LightSum::default();
@@ -52,7 +52,7 @@ pub(crate) fn halved_colours(image: &RgbImage) -> RgbImage {
     })
 }
 
-/// An image of half the size, rounded up: each channel of a pixel the mean of four.
+/// Halves an image, rounding its size up: each channel is the mean of four.
 pub(crate) fn halved_numbers<P: Pixel<Subpixel = u8>>(image: &ImageBuffer<P, Vec<u8>>) -> ImageBuffer<P, Vec<u8>> {
     halved(image, |four| {
         let mut mean = four[0];
@@ -63,7 +63,7 @@ pub(crate) fn halved_numbers<P: Pixel<Subpixel = u8>>(image: &ImageBuffer<P, Vec
     })
 }
 
-/// Beyond an odd side the last pixel counts twice.
+/// Halves an image; its last column or row counts twice if the size is odd.
 fn halved<P: Pixel<Subpixel = u8>>(
     image: &ImageBuffer<P, Vec<u8>>,
     mean: impl Fn([P; 4]) -> P,

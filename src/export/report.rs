@@ -9,47 +9,47 @@ use crate::files::read_input;
 use crate::math::{Vec2, vec2};
 use crate::routes::Route;
 
-/// Largest report that is read, bytes.
+/// Largest report to read, bytes.
 const LARGEST_BYTES: u64 = 512 << 20;
 
-/// What happened in a run: `report.json`, the one file of a bake that differs from run to run.
+/// Counts and timings of a run: `report.json`, the only file that differs from run to run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Report {
-    /// Who walked.
+    /// Counts of people.
     pub people: PeopleReport,
-    /// What the crowd warned of, such as lines that were longer than their room, with the name of the place.
+    /// Warnings of the crowd, such as a queue longer than its room, with the name of the place.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<String>,
     /// Number of footfalls.
     pub footfalls: u64,
-    /// Touches of walls.
+    /// Number of wall touches.
     #[serde(default)]
     pub contacts: u64,
-    /// Wall-clock seconds as `total`, and the busy seconds of each stage, summed over threads, by the stage's name.
+    /// Wall-clock seconds as `total`. Busy seconds of each stage, summed over threads, by its name.
     pub seconds: BTreeMap<String, f64>,
-    /// The most memory held at once, MiB; `null` where the system does not tell.
+    /// Peak memory, MiB; `null` where the system does not report it.
     pub peak_memory_mib: Option<f64>,
 }
 
-/// What became of the people.
+/// Counts of people who entered, arrived or got stuck.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PeopleReport {
-    /// How many entered.
+    /// Number of people who entered.
     pub entered: u64,
-    /// How many reached their goal.
+    /// Number of people who reached their goal.
     pub arrived: u64,
-    /// How many made no way any more and were taken out.
+    /// Number of people who made no progress and were removed.
     pub stuck: u64,
-    /// Who they were, in the order in which they were given up.
+    /// The removed people, in the order of removal.
     #[serde(default)]
     pub stuck_people: Vec<StuckReport>,
-    /// How units were played at each spot.
+    /// Units played at each spot.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub spots: Vec<SpotReport>,
 }
 
 impl PeopleReport {
-    /// What became of the people of a crowd.
+    /// Summarises the tally of a crowd.
     pub fn of(tally: &Tally, routes: &[Route]) -> PeopleReport {
         PeopleReport {
             entered: tally.entered,
@@ -61,14 +61,14 @@ impl PeopleReport {
     }
 }
 
-/// Somebody who made no way any more.
+/// A person who made no progress and was removed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StuckReport {
     /// Number of the person.
     pub id: u32,
     /// Name of the route.
     pub route: String,
-    /// Where, metres of the plan frame, rounded to millimetres.
+    /// Where the person was, metres of the plan frame, rounded to millimetres.
     pub place_m: Vec2,
 }
 
@@ -82,13 +82,13 @@ impl StuckReport {
 }
 
 impl Report {
-    /// The report's name in a bake.
+    /// File name of the report in a bake.
     pub const FILE_NAME: &str = "report.json";
 
     /// Reads the report of a bake.
     ///
     /// # Errors
-    /// There is none, or it is damaged.
+    /// The report is missing or invalid.
     pub fn read(bake: &Path) -> Result<Report, ExportError> {
         let path = bake.join(Self::FILE_NAME);
         let json = read_input(&path, LARGEST_BYTES).map_err(ExportError::read(&path))?;

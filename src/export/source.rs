@@ -2,30 +2,34 @@ use super::atlas::{Sheet, Strip};
 use crate::look::{Background, FloorResolver, LAYERS, Layer, ResolvedBlock, WALL_LAYERS, WallResolver};
 use crate::math::srgb::to_linear;
 
-/// What gives a floor's or a sheet's texels: pure, so that any thread may ask for any rectangle in any order.
+/// The texels of a floor or a sheet.
+///
+/// Implementations are pure functions: any thread may resolve any rectangle, in any order.
 pub trait TextureSource: Sync {
-    /// Names of the layers that blocks have, in the blocks' order.
+    /// Names of the layers of each block, in order.
     fn layers(&self) -> &[&'static str];
 
-    /// What all texels of an empty block show.
+    /// Values of all texels of an empty block.
     fn background(&self) -> Background;
 
-    /// Resolves a rectangle of `width` x `height` texels with the lower-left texel (i0, j0) of the whole floor or the
-    /// sheet, also beyond its edges.
+    /// Resolves a rectangle of `width` x `height` texels with the lower-left texel (i0, j0).
+    ///
+    /// The rectangle may reach beyond the edges of the floor or the sheet.
     fn resolve(&self, i0: i64, j0: i64, width: usize, height: usize) -> ResolvedBlock;
 }
 
-/// What gives walls' texels, face by face: pure, as [`TextureSource`].
+/// The texels of walls, face by face. Implementations are pure functions, as for [`TextureSource`].
 pub trait WallSource: Sync {
-    /// Names of the layers that blocks have, in the blocks' order.
+    /// Names of the layers of each block, in order.
     fn layers(&self) -> &[&'static str];
 
-    /// What all texels of an empty block show.
+    /// Values of all texels of an empty block.
     fn background(&self) -> Background;
 
-    /// Resolves a rectangle of `width` x `height` texels of a face with the lower-left texel (i0, j0) into `block`,
-    /// row 0 lowest, columns along the face. Beyond the face's ends, below and above the wall, the edge's texels go on;
-    /// on a closed face columns wrap.
+    /// Resolves `width` x `height` texels of a face into `block`, from the texel (i0, j0).
+    ///
+    /// Row 0 is the lowest, columns run along the face. Beyond the face's ends, below and above the wall, the texels of
+    /// the edge repeat; on a closed face columns wrap.
     fn resolve_into(&self, face: usize, i0: i64, j0: i64, width: usize, height: usize, block: &mut ResolvedBlock);
 }
 
@@ -57,7 +61,7 @@ impl WallSource for WallResolver<'_> {
     }
 }
 
-/// A sheet of walls, put together from its strips; padding is what lies beyond a strip's edges.
+/// A sheet of walls, composed of its strips. Padding repeats the texels of a strip's edges.
 #[derive(Debug)]
 pub struct SheetSource<'a, S> {
     walls: &'a S,
@@ -66,7 +70,7 @@ pub struct SheetSource<'a, S> {
 }
 
 impl<'a, S: WallSource> SheetSource<'a, S> {
-    /// The texels of one sheet, each strip going on for `padding_px` texels around it.
+    /// Creates the source of one sheet with `padding_px` texels of padding around each strip.
     pub fn new(walls: &'a S, sheet: &'a Sheet, padding_px: u32) -> SheetSource<'a, S> {
         SheetSource { walls, sheet, padding_px }
     }
@@ -107,7 +111,6 @@ impl<S: WallSource> TextureSource for SheetSource<'_, S> {
     }
 }
 
-/// A rectangle of texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Rect {
     i0: i64,
@@ -125,14 +128,14 @@ impl Rect {
     }
 }
 
-/// A strip's rectangle in the sheet with its padding.
+/// Returns a strip's rectangle in the sheet, with its padding.
 fn padded(strip: &Strip, padding_px: u32) -> Rect {
     let padding = i64::from(padding_px);
     let [width, height] = strip.size().map(|side| (side + 2 * padding_px) as usize);
     Rect { i0: i64::from(strip.x) - padding, j0: i64::from(strip.y) - padding, width, height }
 }
 
-/// The columns and rows of the face that a rectangle of the sheet shows.
+/// Maps a rectangle of the sheet to columns and rows of the face.
 fn on_face(strip: &Strip, seen: &Rect) -> Rect {
     let (right, up) = (seen.i0 - i64::from(strip.x), seen.j0 - i64::from(strip.y));
     let first = i64::from(strip.i0);
@@ -145,11 +148,11 @@ fn on_face(strip: &Strip, seen: &Rect) -> Rect {
     }
 }
 
-/// Turns a block, `width` texels wide, by a quarter counter-clockwise.
+/// Turns a block of `width` columns by a quarter counter-clockwise.
 fn turn(block: &mut ResolvedBlock, width: usize) {
     fn turned<T: Copy>(texels: &mut Vec<T>, width: usize) {
         let height = texels.len() / width;
-        // The new row is the old column, from the old top to the left of the new block.
+        // Each new row is an old column, from its top.
         *texels = (0..width).flat_map(|i| (0..height).rev().map(move |j| j * width + i)).map(|k| texels[k]).collect();
     }
     turned(&mut block.base_color, width);
@@ -172,7 +175,7 @@ fn blank(texels: usize, background: Background, layers: &[&'static str]) -> Reso
     }
 }
 
-/// Copies a part that shows the rectangle `seen` into a block that shows `whole`.
+/// Copies `part`, the rectangle `seen`, into `block`, the rectangle `whole`.
 fn paste(part: &ResolvedBlock, seen: &Rect, block: &mut ResolvedBlock, whole: &Rect) {
     let (left, low) = ((seen.i0 - whole.i0) as usize, (seen.j0 - whole.j0) as usize);
     for row in 0..seen.height {

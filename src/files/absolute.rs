@@ -1,8 +1,9 @@
 use std::path::{Component, Path, PathBuf};
 use std::{fs, io};
 
-/// An absolute path without `..`, so that nothing has to be made on the way to it: `nope/../a` is `a` even where there is no
-/// `nope`. Behind a link, `..` is the folder above what the link leads to.
+/// Returns an absolute path without `.` and `..`.
+///
+/// `nope/../a` is `a` even if `nope` does not exist. After a link, `..` is the parent of the link's target.
 ///
 /// # Errors
 /// The path is empty, or there is no working directory.

@@ -43,7 +43,7 @@ impl FileError {
     /// What the user can do about it.
     pub fn hint(&self) -> Option<String> {
         match self {
-            FileError::Exists { .. } => Some("--force replaces it; or choose another file".to_string()),
+            FileError::Exists { .. } => Some("the option `force` replaces it; or choose another file".to_string()),
             FileError::IsFolder { .. } | FileError::HasNoName { .. } => Some("name a file".to_string()),
             FileError::IsInput { .. } => Some("choose another file".to_string()),
             FileError::Write { source, .. } => match source.kind() {

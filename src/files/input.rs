@@ -1,15 +1,15 @@
-//! Input files: only regular files are opened, and only up to a stated size is a file read whole.
+//! Input files. Only regular files are opened, and only up to a stated size.
 
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Largest text that is read whole, bytes: a scenario, a look, a list of times or points, the YAML of a map.
+/// Largest text file, bytes: a scenario, a look, a list of times or points, the YAML of a map.
 pub const LARGEST_TEXT_BYTES: u64 = 64 << 20;
 /// Largest image file, bytes: 2^28 pixels of four bytes, and its header.
 pub const LARGEST_IMAGE_BYTES: u64 = (1 << 30) + (1 << 20);
 
-/// Opens a regular file. A pipe or a device is refused: it may never end, and opening it may wait for ever.
+/// Opens a regular file. Refuses pipes and devices, which may block or never end.
 ///
 /// # Errors
 /// There is no such file, it is not a regular file, or the system refuses.
@@ -25,7 +25,7 @@ pub fn open_input(path: &Path) -> io::Result<File> {
 /// Opens a regular file of at most `most` bytes.
 ///
 /// # Errors
-/// As [`open_input`]; a larger file.
+/// The same as for [`open_input`]; the file is larger.
 pub fn open_input_up_to(path: &Path, most: u64) -> io::Result<File> {
     let file = open_input(path)?;
     check_size(file.metadata()?.len(), most)?;
@@ -35,10 +35,10 @@ pub fn open_input_up_to(path: &Path, most: u64) -> io::Result<File> {
 /// Reads a regular file of at most `most` bytes.
 ///
 /// # Errors
-/// As [`open_input_up_to`]; it cannot be read, or there is no memory for it.
+/// The same as for [`open_input_up_to`]; the file cannot be read or does not fit in memory.
 pub fn read_input(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    // The limit again: some files of the system have no length of their own.
+    // Checked again: some system files report no length.
     open_input_up_to(path, most)?.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
     check_size(bytes.len() as u64, most)?;
     Ok(bytes)
@@ -47,7 +47,7 @@ pub fn read_input(path: &Path, most: u64) -> io::Result<Vec<u8>> {
 /// Reads a regular file of at most [`LARGEST_TEXT_BYTES`] as UTF-8.
 ///
 /// # Errors
-/// As [`read_input`]; text that is not UTF-8.
+/// The same as for [`read_input`]; the file is not UTF-8.
 pub fn read_text(path: &Path) -> io::Result<String> {
     let bytes = read_input(path, LARGEST_TEXT_BYTES)?;
     String::from_utf8(bytes).map_err(|_| io::Error::new(io::ErrorKind::InvalidData, "it is not UTF-8 text"))

@@ -1,4 +1,4 @@
-//! Locks on names.
+//! Locks between processes.
 
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Seek, Write};
@@ -6,16 +6,16 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// What a lock file of ours holds. By this it is told from a file of the user that has the same name.
+/// Content of a lock file, which tells it from a file of the user with the same name.
 const MARK: &[u8] = b"While a trodden writes the folder beside this file, it holds a lock on it.\n";
 
-/// How often a waiting process tries again.
+/// Time between two attempts to take the lock.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// An exclusive lock on a file, for as long as the value lives: of all processes, one at a time has it.
+/// An exclusive lock between processes, held while the value lives.
 ///
-/// The file is made where there is none, and removed with the lock. A lock file that a killed process left is taken
-/// over. A file of the user is locked but never written to or removed.
+/// The lock file is created if missing, and removed with the lock. A lock file that a killed process left is reused. A
+/// file of the user is locked but never written or removed.
 #[derive(Debug)]
 pub struct NameLock {
     path: PathBuf,
@@ -23,14 +23,14 @@ pub struct NameLock {
     is_ours: bool,
 }
 
-/// Why there is no lock.
+/// Why a lock was not taken.
 #[derive(Debug)]
 pub enum LockError {
-    /// Another process holds it.
+    /// Another process holds the lock.
     InUse,
-    /// The name belongs to something that is not a file.
+    /// A folder or a link has the name of the lock file.
     InTheWay,
-    /// The system refuses.
+    /// Error of the system.
     Io(io::Error),
 }
 
@@ -43,12 +43,12 @@ impl NameLock {
         loop {
             let Some((mut file, made)) = open(path)? else { continue };
             match file.try_lock() {
-                // Some network disks cannot lock: then only two processes at once are not told apart.
+                // Some network disks cannot lock; there, two processes at once are not detected.
                 Ok(()) | Err(TryLockError::Error(_)) => {}
                 Err(TryLockError::WouldBlock) if is_named(&file, path) => return Err(LockError::InUse),
                 Err(TryLockError::WouldBlock) => continue,
             }
-            // The process that had it before has removed the file: a lock on it keeps nobody out.
+            // The previous owner removed the file; a lock on it excludes nobody.
             if !is_named(&file, path) {
                 continue;
             }
@@ -57,10 +57,10 @@ impl NameLock {
         }
     }
 
-    /// Takes the lock, and waits for another process at most so long.
+    /// Takes the lock, waiting for another process for at most `longest`.
     ///
     /// # Errors
-    /// As [`NameLock::take`].
+    /// The same as for [`NameLock::take`].
     pub fn wait(path: &Path, longest: Duration) -> Result<NameLock, LockError> {
         let start = Instant::now();
         loop {
@@ -75,14 +75,14 @@ impl NameLock {
 impl Drop for NameLock {
     fn drop(&mut self) {
         if self.is_ours {
-            // While the lock is held, so that it is not the file of the next process. A file that stays does no harm.
+            // Before unlocking, so that it is not the next process's file. A file that stays does no harm.
             let _ = fs::remove_file(&self.path);
         }
         drop(self.file.take());
     }
 }
 
-/// Opens the lock file, and gives whether it was made; nothing if it has just come or gone.
+/// Opens or creates the lock file. Returns whether it was created; `None` if it appeared or vanished meanwhile.
 fn open(path: &Path) -> Result<Option<(File, bool)>, LockError> {
     match fs::symlink_metadata(path) {
         Ok(found) if !found.is_file() => Err(LockError::InTheWay),
@@ -96,15 +96,15 @@ fn open(path: &Path) -> Result<Option<(File, bool)>, LockError> {
     }
 }
 
-/// Makes the lock file with its mark in it, in one step: another process never sees it without.
+/// Creates the lock file together with its content: other processes never see it empty.
 fn make(path: &Path) -> io::Result<Option<(File, bool)>> {
     let mut file = super::new_file(path.parent().unwrap_or(Path::new(".")), ".lock.")?;
     file.write_all(MARK)?;
     match file.persist_noclobber(path) {
         Ok(file) => Ok(Some((file, true))),
         Err(refused) if refused.error.kind() == io::ErrorKind::AlreadyExists => Ok(None),
-        // Some disks cannot rename without replacing, nor link. There the mark comes a moment later; a process that
-        // misses it leaves the file where it is.
+        // Some disks support neither renaming without replacement nor links. There the content follows a moment later;
+        // a process that misses it does not remove the file.
         Err(_) => match File::options().read(true).write(true).create_new(true).open(path) {
             Ok(mut file) => file.write_all(MARK).map(|()| Some((file, true))),
             Err(e) if e.kind() == io::ErrorKind::AlreadyExists => Ok(None),
@@ -138,7 +138,7 @@ mod tests {
         assert!(matches!(NameLock::wait(&path, PAUSE), Err(LockError::InUse)));
         drop(lock);
         assert!(!path.exists());
-        // What a killed process leaves.
+        // A lock file left by a killed process.
         fs::write(&path, MARK).unwrap();
         drop(NameLock::take(&path).unwrap());
         assert!(!path.exists());

@@ -1,4 +1,4 @@
-//! Which file a name stands for.
+//! Resolves the file that a name stands for.
 
 use std::fs::{self, File};
 use std::io;
@@ -6,15 +6,15 @@ use std::path::{Path, PathBuf};
 
 use super::FileError;
 
-/// The longest chain of links that is followed.
+/// Longest chain of links to follow.
 const LINKS: usize = 40;
 
-/// The folders in which a process finds its own open files, by number.
+/// Folders that list the process's open files by number.
 const DESCRIPTORS: [&str; 3] = ["/dev/fd", "/proc/self/fd", "/proc/thread-self/fd"];
 
-/// What a path of the user leads to.
+/// Destination of a user's path.
 pub(super) enum Destination {
-    /// A file, whether it exists or not, with all links followed.
+    /// Path of a file with links resolved; it may not exist.
     Name(PathBuf),
     Stream(Stream),
 }
@@ -47,7 +47,7 @@ impl Destination {
 }
 
 impl Stream {
-    /// Opens it for writing, at its end where it has one.
+    /// Opens it for writing, descriptors at their end.
     pub fn open(&self) -> io::Result<File> {
         if let Some(own) = self.standard() {
             return own;
@@ -55,7 +55,7 @@ impl Stream {
         File::options().append(self.is_descriptor).write(true).open(&self.path)
     }
 
-    /// Standard output and standard error share their place in the file with what is printed there.
+    /// Returns standard output or standard error, which keep their position in a file.
     #[cfg(unix)]
     fn standard(&self) -> Option<io::Result<File>> {
         use std::os::fd::AsFd;
@@ -76,9 +76,9 @@ impl Stream {
     }
 }
 
-/// Whether two paths lead to the same file, which need not exist.
+/// Whether two paths lead to the same file, which may not exist.
 pub fn same_file(a: &Path, b: &Path) -> bool {
-    // Only these: to open a pipe is to wait for its reader.
+    // Opening a pipe would wait for its reader.
     let is_plain = |path: &Path| fs::metadata(path).is_ok_and(|found| found.is_file() || found.is_dir());
     if is_plain(a) && is_plain(b) {
         return same_file::is_same_file(a, b).unwrap_or(false);
@@ -89,7 +89,7 @@ pub fn same_file(a: &Path, b: &Path) -> bool {
     }
 }
 
-/// A path in one spelling: without links, `.` and `..` in the folder.
+/// Returns a normal form: absolute, its folder without links, `.` and `..`.
 fn real(path: &Path) -> PathBuf {
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
     let folder = absolute.parent().and_then(|folder| fs::canonicalize(folder).ok());

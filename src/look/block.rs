@@ -2,51 +2,51 @@ use std::ops::Range;
 
 use crate::math::srgb::to_linear;
 
-/// Texel values of a clean surface: beyond a floor and its padding, or the mean of the clean wall.
+/// Texel values of a clean surface: those beyond a floor's padding, or the mean of a clean wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Background {
-    /// The clean surface's mean colour, sRGB.
+    /// Mean colour of the clean surface, sRGB.
     pub base_color: [u8; 3],
     /// Packed masks: all 0.
     pub mask: [u8; 4],
-    /// Unoccluded, as rough as the clean surface, no metal.
+    /// Occlusion 1, roughness of the clean surface, metallic 0.
     pub orm: [u8; 3],
 }
 
 /// A resolved rectangle of texels, row-major; row 0 is the southernmost, on a wall the lowest.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ResolvedBlock {
-    /// True without surface and padding: all [`Background`], and all vectors are empty.
+    /// True without surface and padding: all texels are [`Background`], and all vectors are empty.
     pub empty: bool,
-    /// 8-bit sRGB, dithered.
+    /// Base colour, 8-bit sRGB, dithered.
     pub base_color: Vec<[u8; 3]>,
-    /// Colour of the surface under the dirt: linear light, 0 to 65 535. Empty where a source does not know it.
+    /// Colour of the surface without dirt, linear, 0 to 65 535. Empty if the source does not have it.
     pub clean: Vec<[u16; 3]>,
-    /// 1 - exp(-D), linear, dithered. Floor: film, passes (D = per_pass n), fresh prints and scuffs, edge and dust. Wall:
-    /// skin, rub (cloth and bags), scuffs, splash and dust.
+    /// Opacity of dirt 1 - exp(-D), linear, dithered. Floor: film, passes (D = per_pass n), fresh prints and scuffs,
+    /// edge and dust. Wall: skin, rub (cloth and bags), scuffs, splash and dust.
     pub mask: Vec<[u8; 4]>,
     /// Occlusion, roughness, metallic; linear, roughness dithered.
     pub orm: Vec<[u8; 3]>,
-    /// Linear float layers: those of [`super::LAYERS`] or [`super::WALL_LAYERS`].
+    /// Linear float layers, named in [`super::LAYERS`] or [`super::WALL_LAYERS`].
     pub layers: Vec<Layer>,
 }
 
 /// One float channel of a block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
-    /// One of [`super::LAYERS`] or [`super::WALL_LAYERS`].
+    /// Name: one of [`super::LAYERS`] or [`super::WALL_LAYERS`].
     pub name: &'static str,
-    /// A value per texel.
+    /// One value per texel.
     pub values: Vec<f32>,
 }
 
 impl Layer {
-    /// Kinds of dirt that [`Layer::kind`] tells apart.
+    /// Number of kinds of dirt, see [`Layer::kind`].
     pub const KINDS: usize = 4;
 
-    /// The kind of dirt whose optical density a layer holds; `None` for counts of passes.
+    /// Kind of dirt whose optical density the layer holds; `None` for counts of passes.
     ///
-    /// On floors film, prints, scuffs, edge and dust; on walls hands, cloth and bags, shoes, splash and dust.
+    /// Floors: film, prints, scuffs, edge and dust. Walls: hands, cloth and bags, shoes, splash and dust.
     pub fn kind(&self) -> Option<usize> {
         match self.name {
             "film" | "hand" => Some(0),
@@ -59,7 +59,7 @@ impl Layer {
 }
 
 impl ResolvedBlock {
-    /// Makes room for so many texels with these layers.
+    /// Resizes to a number of texels, with these layers.
     pub(super) fn resize(&mut self, texels: usize, layers: &[&'static str]) {
         self.empty = false;
         self.base_color.resize(texels, [0; 3]);
@@ -74,7 +74,7 @@ impl ResolvedBlock {
         }
     }
 
-    /// Keeps the memory for the next block.
+    /// Empties the block; its memory is reused for the next one.
     pub(super) fn become_empty(&mut self) {
         self.empty = true;
         self.base_color.clear();
@@ -97,7 +97,7 @@ impl ResolvedBlock {
         }
     }
 
-    /// Sets the colour under the dirt of texels from `start` on; `rgb` is linear light from 0 to 1, a plane per channel.
+    /// Sets the colour without dirt of texels from `start` on. `rgb` is linear, 0 to 1, a plane per channel.
     pub(super) fn set_clean(&mut self, start: usize, rgb: &[Vec<f32>; 3]) {
         let [red, green, blue] = rgb;
         let level = |light: f32| (65_535.0 * light.clamp(0.0, 1.0) + 0.5) as u16;
@@ -106,7 +106,7 @@ impl ResolvedBlock {
         }
     }
 
-    /// Shows the background at some texels.
+    /// Sets texels to the background.
     pub(super) fn clear(&mut self, texels: Range<usize>, background: Background) {
         self.base_color[texels.clone()].fill(background.base_color);
         self.clean[texels.clone()].fill(background.base_color.map(to_linear));

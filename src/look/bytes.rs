@@ -1,20 +1,20 @@
-//! From what texels show to 8 bits, without bands.
+//! Conversion of shaded texels to 8 bits, with dither against banding.
 
 use super::noise;
 use crate::math::srgb;
 
-/// The 8-bit output of one run of texels.
+/// The 8-bit output for a run of texels.
 pub(super) struct Bytes<'a> {
     pub base_color: &'a mut [[u8; 3]],
     pub mask: &'a mut [[u8; 4]],
     pub orm: &'a mut [[u8; 3]],
 }
 
-/// Shaded texels of a run, a plane per quantity.
+/// Shaded texels of a run, one plane per quantity.
 pub(super) struct ShadedPlanes<'a> {
     /// Linear colour.
     pub rgb: &'a [Vec<f32>; 3],
-    /// Transmittance by channel of the mask; an empty plane for a channel without dirt.
+    /// Transmittance per channel of the mask; an empty plane for a channel without dirt.
     pub through: [&'a [f32]; 4],
     pub roughness: &'a [f32],
 }
@@ -29,7 +29,7 @@ pub(super) struct Rounding {
 }
 
 impl Rounding {
-    /// Rounds a run that starts at texel (i, j), dithered by a hash of each texel's place. Occlusion is left as it is.
+    /// Rounds a run that starts at texel (i, j), dithered by a hash of the position; not occlusion.
     pub fn write(&mut self, dither: u32, i: i64, j: i64, shown: &ShadedPlanes<'_>, out: &mut Bytes<'_>) {
         let len = out.base_color.len();
         let Rounding { words: [first, second], values, bytes } = self;
@@ -66,11 +66,11 @@ impl Rounding {
     }
 }
 
-/// Rounds values of 0 to 255 with random dither, so that means over neighbours are kept.
+/// Rounds values of 0 to 255 with random dither, which preserves means over neighbours.
 ///
-/// A byte of each word is the threshold.
+/// Byte `byte` of each word is the threshold.
 fn round_dithered(values: &[f32], words: &[u32], byte: u32, out: &mut [u8]) {
-    // Adding 2^23 rounds to the nearest integer and leaves it in the lowest bits: a cast would not vectorise.
+    // Adding 2^23 rounds to the nearest integer and leaves it in the lowest bits; a cast would not vectorise.
     const ROUND: f32 = 8_388_608.0;
     for ((out, value), word) in out.iter_mut().zip(values).zip(words) {
         let threshold = (((word >> (8 * byte)) & 0xff) as i32 as f32 + 0.5) / 256.0 - 0.5;

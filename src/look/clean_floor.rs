@@ -1,4 +1,4 @@
-//! The clean floor: its colour, its own texture, its joints.
+//! Clean floor: colour, texture and joints.
 
 use super::error::LookError;
 use super::image::RepeatedImage;
@@ -12,7 +12,7 @@ use crate::math::srgb::{self, Srgb8};
 pub(super) struct CleanFloor {
     base: [f32; 3],
     surface: BaseTexture,
-    /// Colour of joints, linear, where there are any.
+    /// Colour of joints, linear; `None` without joints.
     pub joint: Option<[f32; 3]>,
 }
 
@@ -21,22 +21,22 @@ enum BaseTexture {
     Procedural(ProceduralTexture),
 }
 
-/// Unevenness of a material's own, as relative deviations of the light that it reflects.
+/// Texture of a material, as relative deviations of its albedo.
 struct ProceduralTexture {
-    /// Lighter and darker.
+    /// Deviations in lightness.
     tone: Vec<Noise>,
-    /// Warmer and cooler.
+    /// Deviations in colour temperature.
     tint: Noise,
     pieces: Option<Paving>,
 }
 
-/// Planks and tiles.
+/// Planks or tiles.
 struct Paving {
     size_m: [f64; 2],
     gap_m: f64,
-    /// Deviation of tone from piece to piece.
+    /// Standard deviation of the tone between pieces.
     sd: f32,
-    /// Whether rows are shifted against each other (planks).
+    /// Whether rows are shifted relative to each other, as planks are.
     shifted: bool,
     key: u32,
 }
@@ -76,7 +76,7 @@ fn joint_colour(material: Material) -> Srgb8 {
 
 impl ProceduralTexture {
     fn of(floor: &FloorLook, seed: u64) -> ProceduralTexture {
-        // Spots: length, width in metres, deviation; a deviation of the tint; pieces.
+        // Noise: length and width of spots, metres, and deviation; for the tint too; pieces.
         type NoiseSpec = (f64, f64, f32);
         let (tone, tint, pieces): ([NoiseSpec; 3], NoiseSpec, Option<Paving>) = match floor.material {
             Material::Vinyl => {
@@ -142,7 +142,7 @@ pub(super) struct CleanFloorWindow<'a> {
 pub(super) struct CleanFloorRow {
     /// Linear colour, a plane per channel.
     pub rgb: [Vec<f32>; 3],
-    /// Share of each texel that joints take up.
+    /// Share of joints in each texel.
     pub joint: Vec<f32>,
 }
 
@@ -154,7 +154,7 @@ impl CleanFloorWindow<'_> {
         }
     }
 
-    /// The texels `start..start + len` of the row last begun.
+    /// Reads the texels `start..start + len` of the current row.
     pub fn read(&self, start: usize, len: usize, out: &mut CleanFloorRow) {
         for plane in out.rgb.iter_mut().chain([&mut out.joint]) {
             plane.clear();
@@ -179,7 +179,7 @@ impl CleanFloorWindow<'_> {
         }
     }
 
-    /// From tone (first plane) and tint (third plane) to colour.
+    /// Converts tone (first plane) and tint (third plane) to colour.
     fn colour(&self, out: &mut CleanFloorRow) {
         let [r0, g0, b0] = self.ground.base;
         let [red, green, blue] = &mut out.rgb;
@@ -193,7 +193,7 @@ impl CleanFloorWindow<'_> {
 }
 
 impl Paving {
-    /// Adds each piece's own tone, and sets the share of joints.
+    /// Adds the tone of each piece, and sets the share of joints.
     fn read_row(&self, i: i64, j: i64, texels_per_metre: f64, tone: &mut [f32], joint: &mut [f32]) {
         let texel_m = 1.0 / texels_per_metre;
         let [length, width] = self.size_m;
@@ -209,7 +209,7 @@ impl Paving {
     }
 }
 
-/// Share of `from..from + size` that gaps take up which lie around the multiples of `period`.
+/// Share of gaps in `from..from + size`; gaps are centred at multiples of `period`.
 fn gap_share(from: f64, size: f64, period: f64, gap: f64) -> f32 {
     let before = |x: f64| {
         let x = x + 0.5 * gap;

@@ -1,13 +1,13 @@
-//! A coarse map of the floor, so that blocks without floor cost nothing.
+//! Coarse map of the floor, for skipping blocks without floor.
 
 use super::lattice::TexelWindow;
 use super::padding::PADDING;
 use crate::walls::Walls;
 
-/// Side of the squares of texels in which floor is looked up.
+/// Side of the map's squares, texels.
 const SIDE: i64 = 32;
 
-/// Which squares of texels hold floor.
+/// Share of floor in each square of texels.
 pub(super) struct CoarseFloor {
     width: i64,
     height: i64,
@@ -34,7 +34,7 @@ impl CoarseFloor {
         CoarseFloor { width, height, shares: shares.collect() }
     }
 
-    /// The share of floor in a window and its padding.
+    /// Share of floor in a window and its padding.
     pub fn of_window(&self, window: &TexelWindow) -> CoarseShare {
         let squares = |from: i64, count: usize, grown: i64| {
             (from - grown).div_euclid(SIDE)..=(from + count as i64 - 1 + grown).div_euclid(SIDE)

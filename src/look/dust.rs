@@ -1,4 +1,4 @@
-//! Dust: settles off the lanes, most of it along walls.
+//! Dust: settles beside the lanes, mostly along walls.
 
 use super::lattice::{SplineAxis, SplineLattice, TexelWindow};
 use super::settings::DustLook;
@@ -6,16 +6,16 @@ use super::skirting::distance_squared;
 use crate::math::{Rect, exp, vec2};
 use crate::walls::{Segment, Walls};
 
-/// Spacing of the lattice on which dust is laid out, metres: it changes slowly.
+/// Spacing of the lattice of dust values, metres: dust varies slowly.
 const SPACING_M: f64 = 0.05;
 
-/// Lattice points are worked out in squares of so many a side that share a list of near walls.
+/// Side of the squares of lattice points that share a list of near walls.
 const SIDE: i64 = 8;
 
-/// Beyond so many times the reach nothing is left.
+/// Multiple of the reach beyond which there is no dust.
 const END: f64 = 5.0;
 
-/// exp(-distance / reach) to the nearest wall over a window; `None` where there is no dust.
+/// Computes exp(-distance / reach) to the nearest wall over a window; `None` without dust.
 pub(super) fn over(window: &TexelWindow, walls: &Walls, dust: &DustLook) -> Option<SplineLattice> {
     if dust.density == 0.0 {
         return None;
@@ -57,7 +57,7 @@ fn square(low: [i64; 2], high: [i64; 2]) -> Rect {
     Rect { min: point(low), max: point(high) }
 }
 
-/// Picks the segments that can be the nearest one to a point of `area`; says whether any is within reach.
+/// Selects segments that may be nearest to a point of `area`. Returns whether any is in reach.
 fn can_be_nearest(near: &[Segment], area: Rect, reach_m: f64, out: &mut Vec<Segment>) -> bool {
     let (centre, half_diagonal) = (area.centre(), 0.5 * area.min.distance(area.max));
     let distance = |segment: &Segment| distance_squared(segment, centre).sqrt();
@@ -75,7 +75,7 @@ mod tests {
 
     #[test]
     fn falls_off_from_the_wall() {
-        // A room of 6 x 6 m, wall below y = 1.
+        // A room of 6 x 6 m, with a wall below y = 1.
         let floor = (0..64).map(|n| u8::from((1..7).contains(&(n % 8)) && (1..7).contains(&(n / 8)))).collect();
         let walls = Walls::trace(&FloorPlan::from_mask(8, 8, 1.0, floor), &WallsOptions::default());
         let window = TexelWindow { texels_per_metre: 100.0, i0: 400, j0: 100, width: 1, height: 300 };

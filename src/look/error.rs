@@ -3,7 +3,7 @@ use std::path::PathBuf;
 
 use super::LOOK_PRESETS;
 
-/// Why the `look` stage cannot go on.
+/// Errors of the `look` stage.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LookError {
@@ -18,44 +18,44 @@ pub enum LookError {
     /// Invalid TOML, an unknown key, or a value of the wrong type.
     #[error("{place}: {message}")]
     Syntax {
-        /// Place of the mistake.
+        /// Position of the error.
         place: FilePlace,
-        /// Description of the mistake.
+        /// Description of the error.
         message: String,
     },
-    /// An unknown preset.
+    /// The look has an unknown preset.
     #[error("{}there is no look preset {name:?}; there are {}", at(.place), LOOK_PRESETS.join(", "))]
     UnknownPreset {
         /// The unknown name.
         name: String,
-        /// Place of the value, if it came from a file.
+        /// Position of the value, if it is from a file.
         place: Option<FilePlace>,
     },
-    /// A number beyond what is allowed.
+    /// A number is out of range.
     #[error("{}{range}", at(.place))]
     Range {
-        /// Which key, which value, which range.
+        /// Key, value and allowed range.
         range: RangeError,
-        /// Place of the value, if it came from a file.
+        /// Position of the value, if it is from a file.
         place: Option<FilePlace>,
     },
-    /// The repeated image of a floor or a wall cannot be used.
+    /// The image of a floor or wall cannot be used.
     #[error("cannot use the image {path}: {message}", path = .path.display())]
     Image {
         /// The image.
         path: PathBuf,
-        /// Description of the mistake.
+        /// Description of the error.
         message: String,
     },
-    /// Sums of other walls.
+    /// The sums belong to other walls.
     #[error("the sums are those of {summed} wall faces, but the plan has {faces}")]
     OtherWalls {
-        /// Faces of the plan.
+        /// Number of faces in the plan.
         faces: usize,
-        /// Faces of the sums.
+        /// Number of faces in the sums.
         summed: usize,
     },
-    /// Sums without simulated people.
+    /// The sums have no simulated people.
     #[error("the sums hold no simulated people; a history of {total_passes} passes needs at least one")]
     NoPeople {
         /// Total passes of the look.
@@ -63,27 +63,27 @@ pub enum LookError {
     },
 }
 
-/// A place in a look file.
+/// A position in a look file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FilePlace {
     /// The file.
     pub path: PathBuf,
-    /// Line, from 1 on.
+    /// Line, from 1.
     pub line: usize,
-    /// Column in characters, from 1 on.
+    /// Column in characters, from 1.
     pub column: usize,
 }
 
 /// A setting out of its range.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RangeError {
-    /// The key with its sections, as in `film.density`.
+    /// Key with its sections, such as `film.density`.
     pub key: &'static str,
-    /// Its value.
+    /// Given value.
     pub value: f64,
-    /// Least value allowed.
+    /// Smallest allowed value.
     pub low: f64,
-    /// Largest value allowed.
+    /// Largest allowed value.
     pub high: f64,
 }
 
@@ -105,7 +105,7 @@ fn at(place: &Option<FilePlace>) -> String {
 }
 
 impl LookError {
-    /// Suggests a remedy.
+    /// Returns the remedy, for the user.
     pub fn hint(&self) -> Option<String> {
         match self {
             LookError::UnknownPreset { name, .. } => {

@@ -8,18 +8,18 @@ use super::settings::Look;
 use crate::files::read_text;
 
 impl Look {
-    /// Reads a look file: TOML with the keys of [`Look`]. What it leaves out comes from the preset that its key
-    /// `preset` names (`commuters` if it names none). Paths of images are taken relative to the file.
+    /// Reads a look file: TOML with the keys of [`Look`].
+    /// Missing keys come from its `preset`, by default `commuters`. Paths of images are relative to the file.
     ///
     /// # Errors
-    /// Unreadable files; syntax, unknown keys, wrong types, unknown presets and values out of range, each with
+    /// The file cannot be read; syntax errors, unknown keys, wrong types, unknown presets and values out of range, with
     /// line and column.
     pub fn read(path: &Path) -> Result<Look, LookError> {
         let text = read_text(path).map_err(|source| LookError::Unreadable { path: path.to_path_buf(), source })?;
         Look::parse(&text, path)
     }
 
-    /// Reads a look from `text`; `path` is the file that it came from, for errors and for paths of images.
+    /// Parses a look from `text`; `path` is its file, for errors and paths of images.
     ///
     /// # Errors
     /// As [`Look::read`].
@@ -29,7 +29,7 @@ impl Look {
             place: at(error.span().map_or(0, |span| span.start)),
             message: error.message().to_string(),
         };
-        // Read twice: as it stands, so that a wrong key or type is found where it is, and laid over the preset.
+        // Parsed twice: directly, so that errors have a position in the file, and merged with the preset.
         toml::from_str::<Look>(text).map_err(syntax)?;
         let spans = DeTable::parse(text).map_err(syntax)?;
         let written: toml::Table = toml::from_str(text).map_err(syntax)?;
@@ -51,18 +51,18 @@ impl Look {
         Ok(look)
     }
 
-    /// Checks that the images of floor and walls can be read, before any work that they would spoil at its end.
+    /// Checks that the images of floor and walls can be read, before any long computation.
     ///
     /// # Errors
-    /// An image that is missing, damaged, too large or of an unknown format.
+    /// An image is missing, damaged, too large or of an unknown format.
     pub fn check_images(&self) -> Result<(), LookError> {
         [&self.floor.image, &self.wall.image].into_iter().flatten().try_for_each(|path| decode(path).map(drop))
     }
 
-    /// These settings with those of a TOML table laid over them.
+    /// Returns these settings, overridden by a TOML table.
     ///
     /// # Errors
-    /// A key or a type that [`Look`] does not have.
+    /// [`Look`] has no such key, or a key of another type.
     pub fn overlaid(&self, table: toml::Table) -> Result<Look, toml::de::Error> {
         let own = toml::Table::try_from(self).map_err(serde::de::Error::custom)?;
         toml::Value::Table(laid_over(own, table)).try_into()
@@ -80,7 +80,7 @@ fn laid_over(mut below: toml::Table, above: toml::Table) -> toml::Table {
     below
 }
 
-/// Byte offset of the value of a key such as `film.density`, or of the nearest section above it that is there.
+/// Byte offset of a key's value, such as `film.density`, or of the nearest section that exists.
 fn offset_of(table: &DeTable<'_>, key: &str) -> usize {
     let (first, rest) = key.split_once('.').unwrap_or((key, ""));
     let Some((_, value)) = table.iter().find(|(name, _)| name.get_ref() == first) else { return 0 };

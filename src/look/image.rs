@@ -1,4 +1,4 @@
-//! An image of a floor or a wall, the artist's, repeated, at the texels' size.
+//! Repeated image of a floor or wall, resampled to the texel density.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use super::error::LookError;
 use crate::files::{LARGEST_IMAGE_BYTES, open_input_up_to};
 use crate::math::srgb;
 
-/// Pixels kept per texel and axis: more would only cost memory, since a texel shows their mean.
+/// Pixels kept per texel and axis; a texel shows their mean.
 const PIXELS_PER_TEXEL: f64 = 3.0;
 
 /// Largest side kept, pixels.
@@ -15,7 +15,7 @@ const LARGEST: usize = 4096;
 /// Largest side read, pixels.
 const LARGEST_READ: u32 = 16_384;
 
-/// Reads an image of a known format, at least a pixel large.
+/// Reads an image of a known format with at least one pixel.
 pub(super) fn decode(path: &Path) -> Result<image::RgbImage, LookError> {
     let wrong = |message: String| LookError::Image { path: path.to_path_buf(), message };
     let file = open_input_up_to(path, LARGEST_IMAGE_BYTES).map_err(|e| wrong(e.to_string()))?;
@@ -33,13 +33,13 @@ pub(super) fn decode(path: &Path) -> Result<image::RgbImage, LookError> {
     Ok(image)
 }
 
-/// A repeated image whose mean over any rectangle takes four look-ups.
+/// A repeated image with a summed-area table: the mean over a rectangle takes four look-ups.
 pub(super) struct RepeatedImage {
     width: usize,
     height: usize,
     /// Pixels per texel along x and y.
     pixels_per_texel: [f64; 2],
-    /// Linear light summed over all pixels left of and above each pixel corner; a row and a column longer.
+    /// Linear light summed left of and above each pixel corner; a row and column more than pixels.
     sums: Vec<[f64; 3]>,
 }
 
@@ -51,7 +51,7 @@ impl RepeatedImage {
         Ok(RepeatedImage::new(rows, [width, height], size_m, texels_per_metre))
     }
 
-    /// Of rows from above, each reduced as it comes: all at full size would take much more memory than the image.
+    /// Builds the table from rows, top first. Each is reduced at once: full size would take much more memory.
     fn new(
         rows: impl Iterator<Item = Vec<[f32; 3]>>,
         size: [usize; 2],
@@ -92,10 +92,10 @@ impl RepeatedImage {
         self.sums[self.sums.len() - 1].map(|sum| (sum / area) as f32)
     }
 
-    /// Mean colours of the texels (i, j), (i + 1, j), ...; the image's lower left corner lies at the plan's origin.
+    /// Mean colours of texels (i, j), (i + 1, j), ... The image's lower left corner is at the plan's origin.
     pub fn read_row(&self, i: i64, j: i64, rgb: &mut [Vec<f32>; 3]) {
         let [across, down] = self.pixels_per_texel;
-        // Image rows run downward from the top of the texel.
+        // Image rows run downward from the texel's top.
         let top = (-((j + 1) as f64) * down).rem_euclid(self.height as f64);
         let area = across * down;
         for k in 0..rgb[0].len() {
@@ -108,7 +108,7 @@ impl RepeatedImage {
         }
     }
 
-    /// Light left of `x` and above `y` on the repeated image, from its upper left corner on.
+    /// Light left of `x` and above `y` in the repeated image, from its upper left corner.
     fn sum(&self, x: f64, y: f64) -> [f64; 3] {
         let split = |x: f64, size: usize| {
             let times = (x / size as f64).floor();
@@ -134,7 +134,7 @@ impl RepeatedImage {
     }
 }
 
-/// A line of pixels reduced to `count`: each the mean of the stretch that it covers.
+/// Reduces a line of pixels to `count` means over equal stretches.
 fn reduced(line: &[[f32; 3]], count: usize) -> impl Iterator<Item = [f32; 3]> + '_ {
     let step = line.len() as f64 / count as f64;
     (0..count).map(move |k| {

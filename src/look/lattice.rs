@@ -1,11 +1,11 @@
-//! Smooth fields from values on a square lattice: quadratic B-splines, evaluated row by row.
+//! Smooth fields from values on a square lattice, by quadratic B-splines evaluated row by row.
 //!
-//! A quadratic B-spline is continuous with its slope, reproduces straight ramps exactly, and takes three values
-//! per axis: no blocks, no creases, no overshoot.
+//! A quadratic B-spline has a continuous slope, reproduces linear ramps exactly, and uses three values per axis: no
+//! blocks, creases or overshoot.
 
 use crate::math::{Rect, vec2};
 
-/// A rectangle of texels of the whole floor. Texel (i, j) covers `[i, i+1)/t x [j, j+1)/t` metres.
+/// A rectangle of texels of the floor. Texel (i, j) covers `[i, i+1)/t x [j, j+1)/t` metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TexelWindow {
     pub texels_per_metre: f64,
@@ -20,14 +20,14 @@ impl TexelWindow {
         self.width * self.height
     }
 
-    /// The floor that it covers, metres.
+    /// Area of floor covered, metres.
     pub fn area_m(&self) -> Rect {
         let corner = |i: i64, j: i64| vec2(i as f64, j as f64) / self.texels_per_metre;
         let (i1, j1) = (self.i0 + self.width as i64, self.j0 + self.height as i64);
         Rect { min: corner(self.i0, self.j0), max: corner(i1, j1) }
     }
 
-    /// True if any texel of `part` is set in a mask of this window.
+    /// Whether any texel of `part` is set in a mask of this window.
     pub fn any_in(&self, part: &TexelWindow, mask: &[bool]) -> bool {
         let clip = |first: i64, count: usize, size: usize| {
             let low = first.clamp(0, size as i64);
@@ -38,7 +38,7 @@ impl TexelWindow {
         rows.any(|row| mask[row * self.width..][columns.clone()].contains(&true))
     }
 
-    /// Grown by so many texels on every side.
+    /// Returns the window enlarged by `by` texels on every side.
     pub fn grown(&self, by: usize) -> TexelWindow {
         TexelWindow {
             i0: self.i0 - by as i64,
@@ -52,21 +52,21 @@ impl TexelWindow {
 
 /// Spline weights of a row of texels along one axis of a lattice.
 ///
-/// A texel's place follows from its number in the whole floor alone, so that every rectangle that holds the
-/// texel finds the same value.
+/// A texel's weights depend only on its number on the whole floor, so every rectangle that contains the texel gets the
+/// same value.
 #[derive(Clone, Debug)]
 pub(super) struct SplineAxis {
-    /// Number of the first lattice value needed.
+    /// Index of the first lattice value needed.
     pub first: i64,
     /// Number of lattice values needed.
     pub len: usize,
-    /// Runs of texels that take the same three values.
+    /// Runs of texels that use the same three values.
     runs: Vec<SplineRun>,
-    /// Weights of the three values, by texel.
+    /// Weights of the three values, per texel.
     weights: [Vec<f32>; 3],
 }
 
-/// Texels `start..end` take the lattice values `base..base + 3`.
+/// Texels `start..end` use the lattice values `base..base + 3`.
 #[derive(Clone, Copy, Debug)]
 struct SplineRun {
     base: u32,
@@ -75,7 +75,7 @@ struct SplineRun {
 }
 
 impl SplineAxis {
-    /// Texels `texel0..texel0 + count` over lattice values that lie at `spacing * (k + offset)` texels.
+    /// Weights for `count` texels from `texel0`. Lattice value k is at `spacing * (k + offset)` texels.
     pub fn new(texel0: i64, count: usize, spacing: f64, offset: f64) -> SplineAxis {
         let place = |k: usize| ((texel0 + k as i64) as f64 + 0.5) / spacing - offset;
         let first = (place(0) + 0.5).floor() as i64 - 1;
@@ -98,14 +98,14 @@ impl SplineAxis {
         SplineAxis { first, len, runs, weights }
     }
 
-    /// First of the three values that a texel takes, and their weights.
+    /// Index of the first of a texel's three values, and their weights.
     fn at(&self, texel: usize) -> (usize, [f32; 3]) {
         let run = self.runs.partition_point(|run| run.end as usize <= texel);
         (self.runs[run].base as usize, self.weights.each_ref().map(|weights| weights[texel]))
     }
 }
 
-/// Values on a lattice, ready to be read off at texels.
+/// Values on a lattice, for evaluation at texels.
 #[derive(Clone, Debug)]
 pub(super) struct SplineLattice {
     pub x: SplineAxis,
@@ -116,14 +116,14 @@ pub(super) struct SplineLattice {
 }
 
 impl SplineLattice {
-    /// A lattice with row-major values, `x.len` by `y.len`.
+    /// Creates a lattice with row-major values, `x.len` by `y.len`.
     pub fn new(x: SplineAxis, y: SplineAxis, values: Vec<f32>) -> SplineLattice {
         debug_assert_eq!(values.len(), x.len * y.len);
         let row = vec![0.0; x.len];
         SplineLattice { x, y, values, row }
     }
 
-    /// Moves to a row of texels: everything that is the same along it.
+    /// Moves to a row of texels; evaluates the spline along y.
     pub fn begin_row(&mut self, row: usize) {
         let (base, [below, middle, above]) = self.y.at(row);
         let n = self.x.len;
@@ -134,7 +134,7 @@ impl SplineLattice {
         }
     }
 
-    /// Adds the field at the texels `start..start + out.len()` of the row last begun.
+    /// Adds the field to the texels `start..start + out.len()` of the current row.
     pub fn add_to(&self, start: usize, out: &mut [f32]) {
         let end = start + out.len();
         let first = self.x.runs.partition_point(|run| run.end as usize <= start);
@@ -171,7 +171,7 @@ mod tests {
 
     #[test]
     fn a_ramp_stays_a_ramp() {
-        // Values at the middles of cells of 4 texels.
+        // Values at the centres of cells of 4 texels.
         let axis = |from: i64, n| SplineAxis::new(from, n, 4.0, 0.5);
         let mut lattice = lattice(axis(-7, 30), axis(9, 5), |i, j| (3 * i - j) as f32);
         for row in 0..5 {

@@ -6,36 +6,36 @@ use crate::math::srgb::Srgb8;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Material {
-    /// Light PVC sheet, waxed: the film shows as a grey lane, the wax is worn dull.
+    /// Light PVC sheet, waxed: the film forms a grey lane, and wear dulls the wax.
     Vinyl,
     /// Dark PVC or rubber: soil is lighter than the floor.
     Dark,
-    /// Terrazzo and polished stone: feet polish the lane, dirt stays in the margin.
+    /// Terrazzo and polished stone: steps polish the lane, dirt stays at the edges.
     Terrazzo,
-    /// Bare, sealed concrete: cloudy, takes up soil, worn smooth.
+    /// Bare, sealed concrete: cloudy, absorbs soil, worn smooth.
     Concrete,
-    /// Varnished planks: worn dull and grey where many walk.
+    /// Varnished planks: worn dull and grey on lanes.
     Wood,
     /// Carpet: wide, soft lanes, no prints, no heel marks.
     Carpet,
-    /// Glazed tiles: nearly clean, dirt in the joints.
+    /// Glazed tiles: nearly clean, with dirt in the joints.
     Tile,
 }
 
-/// Properties of a material: own values, and factors on the look's settings.
+/// Properties of a material: absolute values, and factors on the look's settings.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Properties {
     pub colour: Srgb8,
-    /// Clean, and where many have walked.
+    /// Roughness when clean, and on lanes.
     pub roughness: [f32; 2],
     pub film: f32,
     pub prints: f32,
     pub scuffs: f32,
     pub edge: f32,
     pub dust: f32,
-    /// Least spread of the film, metres: fibres pass dirt on to their neighbours.
+    /// Least spread of the film, metres: fibres pass dirt on to adjacent ones.
     pub least_spread_m: f64,
-    /// True if the film keeps a trace of single passes.
+    /// Whether the film shows traces of single passes.
     pub shows_single_passes: bool,
 }
 

@@ -1,16 +1,16 @@
-//! Resolves sums into what floors and walls look like: masks, base colour, roughness. Needs no simulation.
+//! Resolves sums to textures of floors and walls: masks, base colour, roughness. Needs no simulation.
 //!
-//! The simulated people stand for the floor's whole history: `w = total_passes / simulated`. Their sums become
-//! optical densities of dirt, each with a colour of its own:
+//! The simulated people represent the floor's whole history: `w = total_passes / simulated`. Their sums become optical
+//! densities of dirt, each with a colour:
 //!
-//! - **film**, D = density (1 - exp(-per_pass n)) x noise. The passes n are w `presence`, plus what is left of single
+//! - **film**, D = density (1 - exp(-per_pass n)) x noise. The passes n are w `presence`, plus the deviation of single
 //!   prints (`passes` around `presence`) scaled by sqrt(w): the speckle of a sum of w times as many prints;
 //! - **prints** of the last people since mopping (`soil`), and **scuffs** (`scuff`);
-//! - the **edge** along the skirting, heavier in corners, and **dust** where nobody walks.
+//! - **edge** along the skirting, denser in corners, and **dust** beside the lanes.
 //!
-//! Dirt lies on the floor as C = floor T + soil (1 - T) with T = exp(-sum D), soil = sum(D c) / sum(D), in linear light:
-//! the order in which it came does not matter, and it is lighter than a dark floor. Walls follow the same law with dirt of
-//! their own, see [`WallLook`].
+//! Dirt covers the floor as C = floor T + soil (1 - T) with T = exp(-sum D), soil = sum(D c) / sum(D), in linear light.
+//! The result does not depend on the order of deposits, and dirt may be lighter than a dark floor. Walls use the same
+//! formula with other kinds of dirt, see [`WallLook`].
 
 mod block;
 mod bytes;

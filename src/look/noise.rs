@@ -1,9 +1,9 @@
-//! Noise in plan space: values hashed on a lattice, joined by B-splines. The same at any place for any texel
-//! density, tile or rectangle; nothing is stored.
+//! Noise in plan space: hashed values on a lattice, interpolated by B-splines. It has the same value at a place for any
+//! texel density, tile or rectangle, without storage.
 
 use super::lattice::{SplineAxis, SplineLattice, TexelWindow};
 
-/// Sixteen well mixed bits of input make 32 of output (Wellons' `lowbias32`).
+/// Mixes the bits of a 32-bit word (Wellons' `lowbias32`).
 pub(super) fn mix(mut x: u32) -> u32 {
     x ^= x >> 16;
     x = x.wrapping_mul(0x7feb_352d);
@@ -17,22 +17,22 @@ pub(super) fn hash(key: u32, i: i32, j: i32) -> u32 {
     mix(column_word(i) ^ row_key(key, j))
 }
 
-/// The part of [`hash`] that is the same along a row.
+/// Part of [`hash`] that is constant along a row.
 pub(super) fn row_key(key: u32, j: i32) -> u32 {
     mix((j as u32).wrapping_add(key))
 }
 
-/// The part of [`hash`] that differs along a row.
+/// Part of [`hash`] that varies along a row.
 pub(super) fn column_word(i: i32) -> u32 {
     (i as u32).wrapping_mul(0x9e37_79b1)
 }
 
-/// Hash of a lattice point, as a number in `[-1, 1)`.
+/// Hash of a lattice point as a number in `[-1, 1)`.
 pub(super) fn signed(key: u32, i: i32, j: i32) -> f32 {
     hash(key, i, j) as i32 as f32 / 2_147_483_648.0
 }
 
-/// Purpose of a noise; each has a pattern of its own.
+/// Purpose of a noise; each has a separate pattern.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub(super) enum Channel {
@@ -69,7 +69,7 @@ pub(super) enum Channel {
     WallDither,
 }
 
-/// The key of one channel under one seed.
+/// Key of a channel for a seed.
 pub(super) fn key(seed: u64, channel: Channel) -> u32 {
     mix((seed as u32) ^ mix((seed >> 32) as u32 ^ mix(channel as u32)))
 }
@@ -84,9 +84,9 @@ pub(super) struct Noise {
 }
 
 impl Noise {
-    /// Spots of `size_m` along each axis (width at half height of the autocorrelation), standard deviation `sd`.
+    /// Creates noise of deviation `sd`; `size_m`: the autocorrelation's width at half height, per axis.
     pub fn new(seed: u64, channel: Channel, size_m: [f64; 2], sd: f32) -> Noise {
-        // The autocorrelation is a quintic B-spline: 1.67 spacings wide at half its height.
+        // The autocorrelation is a quintic B-spline: its full width at half maximum is 1.67 spacings.
         Noise { key: key(seed, channel), spacing_m: size_m.map(|size| size / 1.67), sd }
     }
 
@@ -94,7 +94,7 @@ impl Noise {
         self.sd == 0.0
     }
 
-    /// Standard deviation of the mean over a texel: spots smaller than a texel even out in it.
+    /// Standard deviation of the mean over a texel: spots smaller than a texel average out.
     pub fn sd_of_texels(&self, texels_per_metre: f64) -> f32 {
         // Variances of a B-spline (1/4 spacing^2) and a box (1/12 texel^2) add, per axis.
         let share = |spacing_m: f64| {
@@ -105,14 +105,14 @@ impl Noise {
         self.sd * (x * y).sqrt().sqrt() as f32
     }
 
-    /// The noise over a window.
+    /// Lays the noise out over a window.
     pub fn over(&self, window: &TexelWindow) -> NoiseField {
         let [x, y] = self.spacing_m.map(|spacing_m| spacing_m * window.texels_per_metre);
         self.laid_out(window, self.key, [x, y], None)
     }
 
-    /// The noise over a window of a strip that has a pattern of its own, by `salt`. If it is `closed`, `width` texels
-    /// around, its end goes on at its start: spots are stretched a little so that a whole number goes round.
+    /// Lays the noise out over a window of a strip, with the pattern `salt`. On a `closed` strip of `width` texels it
+    /// is periodic: spots are stretched slightly so that a whole number fits.
     pub fn over_strip(&self, window: &TexelWindow, salt: u32, width: u32, closed: bool) -> NoiseField {
         let [mut x, y] = self.spacing_m.map(|spacing_m| spacing_m * window.texels_per_metre);
         let mut period = None;
@@ -124,7 +124,7 @@ impl Noise {
         self.laid_out(window, self.key ^ salt, [x, y], period)
     }
 
-    /// Spacings in texels; `period` is after how many of them the noise comes again along x.
+    /// Spacings are in texels; the noise repeats along x after `period` of them.
     fn laid_out(&self, window: &TexelWindow, key: u32, [x, y]: [f64; 2], period: Option<i64>) -> NoiseField {
         let sd = self.sd_of_texels(window.texels_per_metre);
         if x <= 1.0 && y <= 1.0 {
@@ -148,12 +148,12 @@ impl Noise {
     }
 }
 
-/// A noise over a window, to be read row by row.
+/// Noise over a window, read row by row.
 #[derive(Clone, Debug)]
 pub(super) enum NoiseField {
     /// Spots of several texels.
     Lattice(Box<SplineLattice>),
-    /// Spots smaller than texels: what is left of them differs from texel to texel.
+    /// Spots smaller than texels: their remaining variation is independent per texel.
     Texels {
         key: u32,
         gain: f32,
@@ -171,7 +171,7 @@ impl NoiseField {
         }
     }
 
-    /// Adds the noise at the texels `start..start + out.len()` of the row last begun.
+    /// Adds the noise to the texels `start..start + out.len()` of the current row.
     pub fn add_to(&self, start: usize, out: &mut [f32]) {
         match self {
             NoiseField::Lattice(lattice) => lattice.add_to(start, out),
@@ -232,7 +232,7 @@ mod tests {
     fn coarse_texels_show_the_same_noise_evened_out() {
         let noise = Noise::new(5, Channel::Coarse, [0.5, 0.5], 1.0);
         let fine = field(&noise, 100.0, 400);
-        // Texel (0, 0) of a tenth of the density covers texels (0..10, 0..10).
+        // Texel (0, 0) at a tenth of the density covers texels (0..10, 0..10).
         let window = TexelWindow { texels_per_metre: 10.0, i0: 0, j0: 2, width: 30, height: 30 };
         let mut lattice = noise.over(&window);
         let mut row = vec![0.0; 30];

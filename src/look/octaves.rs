@@ -1,4 +1,4 @@
-//! Settings of noise: lognormal unevenness at three sizes.
+//! Noise settings: lognormal variation at three sizes.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +14,7 @@ pub struct NoiseLook {
     pub coarse: Octave,
 }
 
-/// One size of unevenness.
+/// One octave of noise: size and standard deviation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Octave {

@@ -1,13 +1,12 @@
-//! Continues the floor's colours beyond its edge, so that mip-maps pull in no clean rim.
+//! Padding: extends the floor's colours beyond its edge, so that mip-maps have no clean rim.
 
 /// Width of the padding, texels.
 pub(super) const PADDING: usize = 16;
 
-/// For every texel of the inner part of a mask the column and row in the mask of the floor texel whose colours it
-/// shows: itself if it is floor, `None` beyond the padding. `mask` is `width` wide and reaches [`PADDING`] texels
-/// farther than the result on every side.
+/// Returns, per texel of a mask's inner part, column and row of the floor texel to copy. Floor texels copy themselves;
+/// `None` beyond the padding. `mask` is `width` wide and [`PADDING`] texels larger than the result on every side.
 ///
-/// The nearest floor texel wins, the southernmost, then westernmost of equally near ones.
+/// The nearest floor texel wins; of equally near ones the southernmost, then the westernmost.
 pub(super) fn sources(mask: &[bool], width: usize) -> Vec<Option<[u32; 2]>> {
     let height = mask.len() / width;
     let up_down = nearest_in_columns(mask, width);
@@ -31,7 +30,7 @@ pub(super) fn sources(mask: &[bool], width: usize) -> Vec<Option<[u32; 2]>> {
 
 const FAR: i8 = i8::MAX;
 
-/// Rows to the nearest floor texel in the same column, at most [`PADDING`], or [`FAR`]; down wins.
+/// Rows to the nearest floor texel in a column, at most [`PADDING`], or [`FAR`]; down wins.
 fn nearest_in_columns(mask: &[bool], width: usize) -> Vec<i8> {
     let mut rows = vec![FAR; mask.len()];
     let mut since = vec![FAR; width];
@@ -53,7 +52,7 @@ fn nearest_in_columns(mask: &[bool], width: usize) -> Vec<i8> {
     rows
 }
 
-/// Whether any of the columns within [`PADDING`] of each inner one has floor near, for one row.
+/// Whether any column within [`PADDING`] of each inner one is near floor, for one row.
 fn any_near(up_down: &[i8]) -> Vec<bool> {
     let mut last: Option<usize> = None;
     let mut near = Vec::with_capacity(up_down.len());
@@ -61,7 +60,7 @@ fn any_near(up_down: &[i8]) -> Vec<bool> {
         if rows != FAR {
             last = Some(column);
         }
-        // The window of the column that lies PADDING to the left ends here.
+        // The window of the column PADDING to the left ends here.
         if column >= 2 * PADDING {
             near.push(last.is_some_and(|last| last + 2 * PADDING >= column));
         }
@@ -97,7 +96,7 @@ mod tests {
 
     #[test]
     fn finds_the_nearest_floor_texel() {
-        // Scattered floor in a field of nothing, against the plain search.
+        // Scattered floor, compared with a naive search.
         let (width, height) = (70, 60);
         let mask: Vec<bool> =
             (0..width * height).map(|n| super::super::noise::hash(7, n as i32, 0).is_multiple_of(300)).collect();

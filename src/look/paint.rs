@@ -19,7 +19,7 @@ use crate::math::srgb;
 use crate::sums::{FloorSums, Quantity};
 use crate::walls::Walls;
 
-/// Buffers that a thread uses again from window to window: touching fresh memory costs as much as painting.
+/// Buffers that a thread reuses between windows: touching fresh memory costs as much as painting.
 #[derive(Default)]
 struct FloorBuffers {
     edge: Vec<f32>,
@@ -35,7 +35,7 @@ thread_local! {
     static BUFFERS: RefCell<FloorBuffers> = RefCell::default();
 }
 
-/// Everything that changes from row to row.
+/// Fields that are evaluated row by row.
 struct FloorLayout<'a> {
     traffic: PassesField,
     noise: Vec<NoiseField>,
@@ -43,7 +43,7 @@ struct FloorLayout<'a> {
     dust: Option<SplineLattice>,
 }
 
-/// Texels of a row.
+/// A run of texels in a row.
 #[derive(Clone, Copy)]
 struct RowRun {
     row: usize,
@@ -51,7 +51,7 @@ struct RowRun {
     len: usize,
 }
 
-/// A floor with its sums and the look that turns them into texels.
+/// A floor's sums, and the look that turns them into texels.
 pub(super) struct FloorPainter<'a> {
     pub sums: &'a FloorSums,
     pub walls: &'a Walls,
@@ -60,7 +60,7 @@ pub(super) struct FloorPainter<'a> {
     properties: Properties,
     ground: CleanFloor,
     skirting: Skirting<'a>,
-    /// Unevenness of film and dust.
+    /// Noise of film and dust.
     noise: Vec<Noise>,
     spread_m: f64,
     law: FloorShader,
@@ -100,7 +100,7 @@ impl<'a> FloorPainter<'a> {
         })
     }
 
-    /// Shades the texels of a window, all of them or at least those that are `wanted`, into a block of its size.
+    /// Shades the texels of a window, or at least the `wanted` ones, into a block of its size.
     pub fn paint(&self, window: TexelWindow, wanted: Option<&[bool]>, block: &mut ResolvedBlock) {
         BUFFERS.with_borrow_mut(|buffers| self.paint_with(buffers, window, wanted, block));
     }
@@ -133,8 +133,8 @@ impl<'a> FloorPainter<'a> {
     }
 }
 
-/// The noises that add up to the look's three octaves. Clouds and blotches have detail of their own: a third of their
-/// variance is in spots 0.4 times as large.
+/// Returns the noises of the look's three octaves. Coarse and middle octaves have detail: a third of their variance is
+/// in spots 0.4 times as large.
 fn film_noise(look: &Look) -> Vec<Noise> {
     let noise = |channel, octave: Octave, size: f64, variance: f32| {
         Noise::new(look.seed, channel, [size * octave.size_m; 2], variance.sqrt() * octave.sd)
@@ -150,7 +150,7 @@ fn film_noise(look: &Look) -> Vec<Noise> {
     all.into_iter().filter(|noise| !noise.is_flat()).collect()
 }
 
-/// From the first to the last texel of a row that is wanted.
+/// Range from the first to the last wanted texel of a row.
 fn run_of(row: usize, window: &TexelWindow, wanted: Option<&[bool]>) -> Option<(usize, usize)> {
     let Some(wanted) = wanted else { return Some((0, window.width)) };
     let wanted = &wanted[row * window.width..(row + 1) * window.width];
@@ -171,14 +171,14 @@ impl FloorLayout<'_> {
         }
     }
 
-    /// Everything that the law needs to know of a run of the row last begun.
+    /// Collects the shader's inputs for a run of the current row.
     fn gather(&self, painter: &FloorPainter<'_>, window: &TexelWindow, run: RowRun, buffers: &mut FloorBuffers) {
         let FloorPainter { look, properties, .. } = painter;
         let FloorBuffers { edge, passes, soil, scuff, known, row, .. } = buffers;
         known.clear(run.len);
         let from = run.row * window.width + run.start;
         let scaled = |sums: &[u32], quantity: Quantity, factor: f32, out: &mut [f32]| {
-            // Where there are no sums at all the buffer is empty, and the plane stays 0.
+            // Without any sums the buffer is empty, and the plane stays 0.
             let unit = factor / quantity.one() as f32;
             for (out, &sum) in out.iter_mut().zip(sums.get(from..).unwrap_or_default()) {
                 *out = sum as f32 * unit;

@@ -1,14 +1,14 @@
-//! Expected passes of the simulated people at each texel.
+//! Expected passes of the simulated people per texel.
 
 use super::lattice::{SplineAxis, SplineLattice, TexelWindow};
 use crate::math;
 use crate::sums::{FloorSums, Quantity};
 use crate::walls::Walls;
 
-/// The simulated people's passes, read for one window.
+/// Passes of the simulated people over one window.
 pub(super) struct PassesField {
-    /// Presence times the share of floor in its cell, and that share: beyond the floor nothing is known, so only
-    /// floor counts in the mean, and lanes run on undiminished to openings and door jambs.
+    /// Presence times the share of floor in each cell, and that share. Presence is unknown off the floor, so only floor
+    /// counts in the mean: lanes reach openings and door jambs undiminished.
     weighted: SplineLattice,
     /// `None` if all cells are floor.
     share: Option<SplineLattice>,
@@ -48,7 +48,7 @@ impl PassesField {
         }
     }
 
-    /// Expected passes of the simulated people at `start..start + out.len()` of the row last begun.
+    /// Expected passes at the texels `start..start + out.len()` of the current row.
     pub fn presence(&self, start: usize, out: &mut [f32], scratch: &mut Vec<f32>) {
         out.fill(0.0);
         self.weighted.add_to(start, out);
@@ -74,7 +74,7 @@ fn presence(sums: &FloorSums, window: &TexelWindow) -> Vec<f32> {
     }
 }
 
-/// Reads sums over a window, 0 beyond the grid; `false` where there are none at all.
+/// Reads sums over a window, 0 outside the grid; `false` if all are zero.
 pub(super) fn read(sums: &FloorSums, quantity: Quantity, window: &TexelWindow, values: &mut Vec<u32>) -> bool {
     values.clear();
     let grid = sums.grid_of(quantity);
@@ -103,7 +103,7 @@ pub(super) fn read(sums: &FloorSums, quantity: Quantity, window: &TexelWindow, v
     true
 }
 
-/// The middle and one side of a Gaussian of deviation `sd` cells whose whole adds up to 1; `[1.0]` for none.
+/// Centre and one side of a normalised Gaussian of deviation `sd` cells; `[1.0]` for 0.
 pub(super) fn half_gaussian(sd: f64) -> Vec<f32> {
     if sd <= 0.0 {
         return vec![1.0];
@@ -114,7 +114,7 @@ pub(super) fn half_gaussian(sd: f64) -> Vec<f32> {
     half.into_iter().map(|weight| (weight / whole) as f32).collect()
 }
 
-/// Blurred along both axes; the window shrinks by the kernel's reach on every side.
+/// Blurs along both axes; the window shrinks by the kernel's reach on every side.
 pub(super) fn blurred(values: &[f32], window: &TexelWindow, half_kernel: &[f32]) -> Vec<f32> {
     let reach = half_kernel.len() - 1;
     let (width, height) = (window.width - 2 * reach, window.height - 2 * reach);

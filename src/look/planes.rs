@@ -1,4 +1,4 @@
-//! Loops over few planes at a time, which compilers vectorise.
+//! Loops over a few planes at a time, for vectorisation.
 
 pub(super) fn each1(out: &mut [f32], a: &[f32], law: impl Fn(f32) -> f32) {
     for (out, &a) in out.iter_mut().zip(a) {

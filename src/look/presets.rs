@@ -3,17 +3,17 @@ use super::octaves::{NoiseLook, Octave};
 use super::settings::{EdgeLook, FilmLook, IngrainedLook, Look, PrintsLook, ScuffsLook};
 use super::wall::{SplashLook, StainLook, WallDustLook, WallLook};
 
-/// Names of the presets, in the order in which help texts list them.
+/// Names of the presets, in the order of help texts.
 pub const LOOK_PRESETS: [&str; 4] = ["commuters", "heavy", "wet", "paper"];
 
 impl Look {
-    /// The settings behind a name of [`LOOK_PRESETS`], or `None` for any other name.
+    /// Returns the settings of a preset in [`LOOK_PRESETS`]; `None` for other names.
     ///
     /// - `commuters`: an office or a station in dry weather, mopped daily. The default.
-    /// - `heavy`: the same floor far beyond its next deep clean, walls far beyond their next coat.
-    /// - `wet`: a rainy day; darker soil, prints that show, an uneven film.
-    /// - `paper`: prints painted over each other and nothing else, as in the experiment of Takenaka, Tanaka and
-    ///   Sagawa, *Expression of indoor grime by human walk*.
+    /// - `heavy`: the same floor long overdue for a deep clean, walls long overdue for a coat of paint.
+    /// - `wet`: a rainy day; darker soil, visible prints, an uneven film.
+    /// - `paper`: only overlapping prints, as in Takenaka, Tanaka and Sagawa, *Expression of indoor grime by human
+    ///   walk*.
     pub fn preset(name: &str) -> Option<Look> {
         let look = match name {
             "commuters" => Look::default(),
@@ -32,11 +32,11 @@ fn heavy() -> Look {
         total_passes: 50_000,
         film: FilmLook { density: 0.67, colour: [98, 89, 76], ..look.film },
         ingrained: IngrainedLook { density: 0.20, ..look.ingrained },
-        // What lies under so much film shows less.
+        // Scuffs show less under so dense a film.
         scuffs: ScuffsLook { strength: 0.9, ..look.scuffs },
         edge: EdgeLook { density: 0.45, reach_m: 0.05, ..look.edge },
         wall: heavy_wall(look.wall),
-        // A film that is complete is even.
+        // A complete film is even.
         noise: NoiseLook {
             fine: Octave { sd: 0.07, ..look.noise.fine },
             middle: Octave { sd: 0.06, ..look.noise.middle },

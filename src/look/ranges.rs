@@ -8,7 +8,7 @@ impl Look {
     /// Checks every number against its range.
     ///
     /// # Errors
-    /// [`LookError::Range`] names the key, its value and the range allowed.
+    /// [`LookError::Range`] names the key, its value and the allowed range.
     pub fn check(&self) -> Result<(), LookError> {
         self.first_out_of_range().map_or(Ok(()), |range| Err(LookError::Range { range, place: None }))
     }
@@ -56,7 +56,7 @@ impl Look {
             .into_iter()
             .chain(octaves.flat_map(|(name, value)| octave(name, value)))
             .chain(self.wall.ranges())
-            // In single precision, so that a limit written as 0.005 is within; written so that NaN is out of range.
+            // In single precision, so that a limit written as 0.005 is in range; NaN must be out of range.
             .find(|&(_, value, low, high)| !(value as f32 >= low as f32 && value as f32 <= high as f32))
             .map(|(key, value, low, high)| RangeError { key, value, low, high })
     }

@@ -10,19 +10,19 @@ use super::settings::Look;
 use crate::sums::FloorSums;
 use crate::walls::Walls;
 
-/// Names of a block's float layers, in their order.
+/// Names of a floor block's float layers, in order.
 ///
 /// `passes` and `presence` count the simulated people's footfalls; the rest are optical densities.
 pub const LAYERS: [&str; 7] = ["passes", "presence", "film", "soil", "scuff", "edge", "dust"];
 
-/// Resolves any rectangle of a floor. Shared by threads; every texel's value depends on its place alone.
+/// Resolves rectangles of a floor, also from several threads. A texel's value depends on its position only.
 pub struct FloorResolver<'a> {
     painter: FloorPainter<'a>,
     coarse: CoarseFloor,
 }
 
 impl<'a> FloorResolver<'a> {
-    /// Prepares to resolve `sums` of `simulated_people`.
+    /// Prepares to resolve `sums` of `simulated_people` people.
     ///
     /// # Errors
     /// Settings out of range, a floor image that cannot be read, sums without simulated people.
@@ -67,14 +67,14 @@ impl<'a> FloorResolver<'a> {
         self.painter.background
     }
 
-    /// Resolves the texels `i0..i0 + width`, `j0..j0 + height`, which may reach beyond the floor's grid.
+    /// Resolves the texels `i0..i0 + width`, `j0..j0 + height`, which may exceed the floor's grid.
     pub fn resolve(&self, i0: i64, j0: i64, width: usize, height: usize) -> ResolvedBlock {
         let mut block = ResolvedBlock::default();
         self.resolve_into(i0, j0, width, height, &mut block);
         block
     }
 
-    /// As [`FloorResolver::resolve`], into a block whose memory is reused, which is about twice as fast.
+    /// As [`FloorResolver::resolve`], into a block whose memory is reused: about twice as fast.
     pub fn resolve_into(&self, i0: i64, j0: i64, width: usize, height: usize, block: &mut ResolvedBlock) {
         let texels_per_metre = self.painter.sums.grid().texels_per_metre;
         let rect = TexelWindow { texels_per_metre, i0, j0, width, height };
@@ -88,7 +88,7 @@ impl<'a> FloorResolver<'a> {
         }
     }
 
-    /// A rectangle that holds floor's edge.
+    /// Resolves a rectangle that contains the floor's edge.
     fn with_padding(&self, rect: TexelWindow, block: &mut ResolvedBlock) {
         let around = rect.grown(PADDING);
         let mut share = vec![0.0; around.texels()];
@@ -101,7 +101,7 @@ impl<'a> FloorResolver<'a> {
             &mut share,
         );
         let floor: Vec<bool> = share.iter().map(|&share| share > 0.0).collect();
-        // For every texel the column and row, counted from `around`, of the floor texel that it shows.
+        // Column and row, relative to `around`, of the floor texel that each texel copies.
         let shown = sources(&floor, around.width);
         let Some(window) = bounds(&shown, &around) else {
             block.become_empty();
@@ -121,7 +121,7 @@ impl<'a> FloorResolver<'a> {
             block.resize(rect.texels(), &LAYERS);
             let mut n = 0;
             while n < shown.len() {
-                // Neighbours mostly show neighbours.
+                // Adjacent texels mostly copy adjacent texels.
                 let len = run_length(&shown[n..(n / rect.width + 1) * rect.width]);
                 match shown[n] {
                     Some(place) => block.copy(n, painted, place_of(place), len),
@@ -138,13 +138,13 @@ thread_local! {
     static PAINTED: RefCell<ResolvedBlock> = RefCell::default();
 }
 
-/// How many texels from the first on show one texel after the other, or all nothing.
+/// Number of texels from the first on that copy consecutive texels, or none.
 fn run_length(shown: &[Option<[u32; 2]>]) -> usize {
     let next = |k: u32| shown[0].map(|[column, row]| [column + k, row]);
     shown.iter().zip(0..).take_while(|&(&place, k)| place == next(k)).count()
 }
 
-/// The part of a window that holds all places that are shown.
+/// Returns the part of a window that contains all copied texels.
 fn bounds(shown: &[Option<[u32; 2]>], around: &TexelWindow) -> Option<TexelWindow> {
     let mut low = [u32::MAX; 2];
     let mut high = [0; 2];

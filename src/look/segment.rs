@@ -1,4 +1,4 @@
-//! A piece of wall as the texels near it see it.
+//! Wall segments relative to the texels near them.
 
 use super::noise;
 use crate::math::{Vec2, vec2};
@@ -15,18 +15,18 @@ pub(super) struct LocalSegment {
     start: [f32; 2],
     along: [f32; 2],
     length: f32,
-    /// Arc length of the start, metres, and which face of the plan it belongs to: what its patterns start from.
+    /// Arc length of the start, metres, and a key of the face: the origin of its patterns.
     start_m: f64,
     salt: u32,
 }
 
-/// Places of a row of texels relative to a wall segment.
+/// Positions of a row of texels relative to a wall segment.
 pub(super) struct TexelPlaces {
-    /// Along the face from its start, metres; may lie beyond its ends.
+    /// Along the face from its start, metres; may exceed its ends.
     along: TexelRow,
-    /// In front of the face, metres; negative behind.
+    /// In front of the face, metres; negative behind it.
     front: TexelRow,
-    /// To the nearest point of the face, metres.
+    /// Distance to the nearest point of the face, metres.
     pub distance: TexelRow,
 }
 
@@ -43,7 +43,7 @@ impl LocalSegment {
         }
     }
 
-    /// Places of the texels `x = texel_m * (k + 0.5)` at a height `y`.
+    /// Positions of the texels `x = texel_m * (k + 0.5)` at height `y`.
     pub fn places(&self, y: f32, texel_m: f32) -> TexelPlaces {
         let mut places = TexelPlaces { along: [0.0; SQUARE], front: [0.0; SQUARE], distance: [0.0; SQUARE] };
         let y = y - self.start[1];
@@ -59,8 +59,8 @@ impl LocalSegment {
         places
     }
 
-    /// Adds the angle, in radians, under which the face blocks the horizon, farther parts of it counting less:
-    /// integral of R^2 / (r^2 + R^2) over the angle. Faces seen from behind block nothing.
+    /// Adds the angle of horizon that the face blocks, radians, weighted by distance: the integral of R^2 / (r^2 + R^2)
+    /// over the angle. Faces seen from behind block nothing.
     pub fn add_blocked(&self, places: &TexelPlaces, radius: f32, texel_m: f32, blocked: &mut TexelRow) {
         for (k, blocked) in blocked.iter_mut().enumerate() {
             // A texel on the wall itself counts as in front.
@@ -86,7 +86,7 @@ pub(super) struct SegmentNoise {
 }
 
 impl SegmentNoise {
-    /// Spots of `size_m` on a face, as far as a square of side `side_m` sees them within `reach_m`.
+    /// Noise with spots of `size_m` on a face, for a square of side `side_m` with reach `reach_m`.
     pub fn over(face: &LocalSegment, size_m: [f64; 2], side_m: f32, reach_m: f32, key: u32) -> SegmentNoise {
         let corner = |x: f32, y: f32| (x - face.start[0]) * face.along[0] + (y - face.start[1]) * face.along[1];
         let corners = [corner(0.0, 0.0), corner(side_m, 0.0), corner(0.0, side_m), corner(side_m, side_m)];
@@ -104,7 +104,7 @@ impl SegmentNoise {
         SegmentNoise { size: size_m.map(|size| size as f32), start: (start - first) as f32, columns, values }
     }
 
-    /// Adds the noise, deviation 1, times `weights`, to a row.
+    /// Adds the noise, with deviation 1, times `weights` to a row.
     pub fn add(&self, face: &LocalSegment, places: &TexelPlaces, weights: &TexelRow, out: &mut TexelRow) {
         let rows = self.values.len() / self.columns;
         for (k, out) in out.iter_mut().enumerate() {
@@ -126,7 +126,7 @@ fn smooth(t: f32) -> f32 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// Arc tangent, error below 2e-4 (Abramowitz & Stegun 4.4.47), the same on every machine.
+/// Arc tangent with error below 2e-4 (Abramowitz & Stegun 4.4.47), identical on every machine.
 fn arctan(x: f32) -> f32 {
     let inverse = x.abs() > 1.0;
     let t = if inverse { 1.0 / x } else { x };
@@ -164,12 +164,12 @@ mod tests {
     #[test]
     fn walls_block_half_the_horizon_and_corners_three_quarters_or_one() {
         let pi = std::f32::consts::PI;
-        // The floor lies right of the walls: above the x axis, and right of the y axis.
+        // The floor is to the right of the walls: above the x axis, and right of the y axis.
         let south = wall(vec2(9.0, 0.0), vec2(-9.0, 0.0));
         assert!((blocked(&[south], 0.0, 0.001) - pi).abs() < 0.06);
         let [inner_south, west] = [wall(vec2(9.0, 0.0), vec2(0.0, 0.0)), wall(vec2(0.0, 0.0), vec2(0.0, 9.0))];
         assert!((blocked(&[inner_south, west], 0.001, 0.001) / pi - 1.5).abs() < 0.05);
-        // Seen from beside an outer corner, only the wall below is there.
+        // Beside an outer corner, only the wall below is visible.
         let east = wall(vec2(0.0, 0.0), vec2(0.0, -9.0));
         assert!((blocked(&[wall(vec2(-9.0, 0.0), vec2(0.0, 0.0)), east], 0.001, 0.001) / pi) < 0.6);
     }

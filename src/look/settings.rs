@@ -7,9 +7,9 @@ use super::octaves::NoiseLook;
 use super::wall::WallLook;
 use crate::math::srgb::Srgb8;
 
-/// The look: settings that turn sums into textures. Changing them needs no new simulation.
+/// The look: settings that turn sums into textures. Changes need no new simulation.
 ///
-/// A look file is TOML with these keys; keys that it leaves out keep the value of the preset that it names:
+/// A look file is TOML with these keys; missing keys have the value of its preset:
 ///
 /// ```toml
 /// preset = "heavy"
@@ -19,36 +19,36 @@ use crate::math::srgb::Srgb8;
 /// density = 0.6
 /// ```
 ///
-/// Densities are optical densities D: dirt covers the floor with opacity 1 - exp(-D).
+/// Densities are optical densities D: dirt has the opacity 1 - exp(-D).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Look {
-    /// The preset that these values started from: one of [`super::LOOK_PRESETS`].
+    /// Preset on which these values are based: one of [`super::LOOK_PRESETS`].
     pub preset: String,
-    /// Chooses the noise's pattern; independent of the crowd's seed.
+    /// Seed of the noise, independent of the crowd's seed.
     pub seed: u64,
-    /// Passes since the floor was laid or last stripped; the simulated people stand for them.
-    /// 1 to 1e9. For the presets `commuters`, `heavy` and `wet` 20 000.
+    /// Passes since the floor was laid or last stripped, which the simulated people represent. 1 to 1e9; 20 000 in the
+    /// presets `commuters`, `heavy` and `wet`.
     pub total_passes: u64,
-    /// Least sRGB value, 0 to 255, to which dirt darkens a texel: indoor dirt is never black.
+    /// Smallest sRGB value, 0 to 255, to which dirt darkens a texel: indoor dirt is never black.
     pub darkest: f32,
     /// The clean floor.
     pub floor: FloorLook,
-    /// The grey film that all passes leave together: the lane.
+    /// Grey film of all passes together: the lane.
     pub film: FilmLook,
-    /// Ingrained dirt: goes on darkening where very many pass, as on thresholds.
+    /// Ingrained dirt: continues to darken at very many passes, as on thresholds.
     pub ingrained: IngrainedLook,
-    /// Single prints that can be read.
+    /// Readable single prints.
     pub prints: PrintsLook,
     /// Black marks of heels and toes.
     pub scuffs: ScuffsLook,
-    /// The dirty line along the skirting, where no mop reaches.
+    /// Dirty line along the skirting, where no mop reaches.
     pub edge: EdgeLook,
-    /// Dust off the lanes.
+    /// Dust beside the lanes.
     pub dust: DustLook,
-    /// Unevenness of film and dust, in plan space: it does not move when the texel density changes.
+    /// Noise of film and dust, in plan space: independent of the texel density.
     pub noise: NoiseLook,
-    /// The walls: all of the above but `seed` and `darkest` is about the floor.
+    /// Walls. All other settings but `seed` and `darkest` are for the floor.
     pub wall: WallLook,
 }
 
@@ -56,23 +56,23 @@ pub struct Look {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct FloorLook {
-    /// Material: colour, texture, roughness, and how dirt stays on it.
+    /// Material: colour, texture, roughness, and adhesion of dirt.
     pub material: Material,
-    /// Colour of the clean floor, sRGB; the material's own if left out.
+    /// Colour of the clean floor, sRGB; default: the material's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub colour: Option<Srgb8>,
-    /// Contrast of the clean floor's own texture: 0 (flat) to 3; 1 as the material has it.
+    /// Contrast of the clean floor's texture, 0 (flat) to 3; 1 is the material's.
     pub texture: f32,
-    /// An image of the floor, repeated from the plan's origin on, instead of the material's colour and texture.
-    /// A path relative to the look file.
+    /// Image of the floor, repeated from the plan's origin. It replaces the material's colour and texture. The path is
+    /// relative to the look file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub image: Option<PathBuf>,
-    /// Width and height of the floor that the image shows, metres, 0.01 to 1000.
+    /// Width and height of the floor in the image, metres, 0.01 to 1000.
     pub image_size_m: [f64; 2],
-    /// Roughness of the clean floor, 0 to 1; the material's own if left out.
+    /// Roughness of the clean floor, 0 to 1; default: the material's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub roughness: Option<f32>,
-    /// Roughness where many people have walked, 0 to 1; the material's own if left out.
+    /// Roughness on lanes, 0 to 1; default: the material's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub roughness_trodden: Option<f32>,
     /// Side of a tile (material `tile`), metres, 0.02 to 5.
@@ -85,26 +85,26 @@ pub struct FloorLook {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct FilmLook {
-    /// Optical density where the floor takes up no more, 0 to 3.
+    /// Optical density of a saturated film, 0 to 3.
     pub density: f32,
-    /// Share of what is still missing that one pass adds, 0 to 1.
+    /// Share of the missing density that one pass adds, 0 to 1.
     pub per_pass: f32,
-    /// Standard deviation of the Gaussian that evens out the simulated passes, metres, 0 to 0.5.
+    /// Standard deviation of the Gaussian that smooths the simulated passes, metres, 0 to 0.5.
     ///
-    /// It stands for the people who were not simulated and walked beside. The deviation of single passes is kept,
-    /// scaled by 1/sqrt(w).
+    /// It represents people who were not simulated and walked nearby. The deviation of single passes remains, scaled by
+    /// 1/sqrt(w).
     pub spread_m: f64,
     /// Colour, sRGB.
     pub colour: Srgb8,
 }
 
-/// Dirt that has worked its way in: the same law as the film's, at a far lower rate.
+/// Ingrained dirt: the film's formula at a far lower rate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct IngrainedLook {
-    /// Optical density at the end, 0 to 3.
+    /// Optical density at saturation, 0 to 3.
     pub density: f32,
-    /// Share of what is still missing that one pass adds, 0 to 1.
+    /// Share of the missing density that one pass adds, 0 to 1.
     pub per_pass: f32,
 }
 
@@ -112,9 +112,9 @@ pub struct IngrainedLook {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PrintsLook {
-    /// Factor on the soil that fresh people brought in, 0 to 20.
+    /// Factor on the soil of fresh prints, 0 to 20.
     pub soil: f32,
-    /// Optical density that every simulated pass paints, fresh or not, 0 to 3: the way of the paper, 0 otherwise.
+    /// Optical density painted by every simulated pass, 0 to 3: the method of the paper, otherwise 0.
     pub every_pass: f32,
     /// Colour, sRGB.
     pub colour: Srgb8,
@@ -130,13 +130,13 @@ pub struct ScuffsLook {
     pub colour: Srgb8,
 }
 
-/// The skirting line: D = density exp(-d / reach) at the distance d from the wall, broken up along the wall.
+/// Skirting line: D = density exp(-d / reach) at distance d from the wall, uneven along the wall.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct EdgeLook {
     /// Optical density at the wall, 0 to 3.
     pub density: f32,
-    /// Distance in which it falls to 1/e, metres, 0.005 to 0.5.
+    /// Distance over which it falls to 1/e, metres, 0.005 to 0.5.
     pub reach_m: f32,
     /// Relative unevenness along the wall (standard deviation of the logarithm), 0 to 1.5.
     pub unevenness: f32,
@@ -148,13 +148,13 @@ pub struct EdgeLook {
     pub colour: Srgb8,
 }
 
-/// Dust: D = density exp(-d / reach), walked off as the film grows.
+/// Dust: D = density exp(-d / reach), removed by passes as the film grows.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct DustLook {
     /// Optical density at the wall, 0 to 3.
     pub density: f32,
-    /// Distance in which it falls to 1/e, metres, 0.02 to 3.
+    /// Distance over which it falls to 1/e, metres, 0.02 to 3.
     pub reach_m: f32,
     /// Colour, sRGB.
     pub colour: Srgb8,
@@ -240,7 +240,7 @@ impl Default for DustLook {
 }
 
 impl Look {
-    /// The same look without dirt and wear.
+    /// Returns the same look without dirt and wear.
     pub fn clean(&self) -> Look {
         let mut look = Look { wall: self.wall.clean(), ..self.clone() };
         look.film.density = 0.0;

@@ -1,6 +1,6 @@
-//! The look's law, texel by texel: from sums and places to densities, colours and roughness.
+//! Floor shader: computes densities, colours and roughness per texel from sums.
 //!
-//! Written over runs of texels, a plane per quantity and a loop per step, so that compilers vectorise it.
+//! Works on runs of texels, with a plane per quantity and a loop per step, for vectorisation.
 
 use super::bytes::{Bytes, Rounding, ShadedPlanes};
 use super::clean_floor::CleanFloorRow;
@@ -13,11 +13,11 @@ use crate::math::{exp_f32, srgb};
 /// Roughness of loose dirt.
 const DIRT_ROUGHNESS: f32 = 0.8;
 
-/// Film in joints, as a share of the look's: much of it lies off the lane too.
+/// Film in joints, as a share of the look's film: off the lanes, and added on lanes.
 const JOINT_FILM: f32 = 0.75;
 const JOINT_FILM_TRODDEN: f32 = 0.40;
 
-/// Everything about a look that is the same for all texels.
+/// Values of a look that are the same for all texels.
 #[derive(Clone, Debug)]
 pub(super) struct FloorShader {
     /// Passes of the whole history per simulated pass.
@@ -31,7 +31,7 @@ pub(super) struct FloorShader {
     joint_film: f32,
     every_pass: f32,
     dust: f32,
-    /// Logarithm of what the lognormal noise is divided by, so that its mean is 1.
+    /// Logarithm of the divisor that gives the lognormal noise a mean of 1.
     mean_log: f32,
     roughness: [f32; 2],
     colours: Colours,
@@ -48,7 +48,7 @@ struct Colours {
     darkest: f32,
 }
 
-/// Inputs of the look's law for a run of texels.
+/// Inputs of the shader for a run of texels.
 #[derive(Default)]
 pub(super) struct ShadeInput {
     pub ground: CleanFloorRow,
@@ -57,7 +57,7 @@ pub(super) struct ShadeInput {
     pub passes: Vec<f32>,
     /// Sum of the noises.
     pub uneven: Vec<f32>,
-    /// Optical densities, factors of look and material included.
+    /// Optical densities, including factors of look and material.
     pub soil: Vec<f32>,
     pub scuff: Vec<f32>,
     pub edge: Vec<f32>,
@@ -65,19 +65,19 @@ pub(super) struct ShadeInput {
     pub dust: Vec<f32>,
 }
 
-/// Results of the look's law for a run of texels.
+/// Results of the shader for a run of texels.
 #[derive(Default)]
 pub(super) struct ShadeOutput {
     /// Optical densities.
     pub film: Vec<f32>,
     pub soil: Vec<f32>,
     pub dust: Vec<f32>,
-    /// Passes in all of history, and exp(-per_pass n).
+    /// Passes in the whole history, and exp(-per_pass n).
     history: Vec<f32>,
     clean: Vec<f32>,
-    /// The noise, as a factor.
+    /// Noise, as a factor.
     uneven: Vec<f32>,
-    /// Light that comes through film, prints and scuffs, edge and dust.
+    /// Transmittance of film; of prints and scuffs; of edge and dust.
     through: [Vec<f32>; 3],
     hiding: Vec<f32>,
     roughness: Vec<f32>,
@@ -107,7 +107,7 @@ impl FloorShader {
         density: f64,
     ) -> FloorShader {
         let weight = (look.total_passes as f64 / f64::from(simulated_people)) as f32;
-        // With fewer passes than were simulated there is nothing to even out.
+        // With fewer passes than simulated, there is nothing to smooth.
         let residual = if properties.shows_single_passes { weight.min(weight.sqrt()) } else { 0.0 };
         FloorShader {
             weight,
@@ -132,7 +132,7 @@ impl FloorShader {
         }
     }
 
-    /// Works out a run. Joints, where there are any, have the colour `joint`.
+    /// Computes a run. Joints, if there are any, have the colour `joint`.
     pub fn shade(&self, known: &ShadeInput, joint: Option<[f32; 3]>, out: &mut ShadeOutput) {
         out.resize(known.presence.len());
         self.densities(known, out);
@@ -177,10 +177,10 @@ impl FloorShader {
         });
     }
 
-    /// Dirt over a floor. `hiding` is a buffer.
+    /// Computes the colour of dirt over a floor. `hiding` is a buffer.
     fn colour(&self, dirt: &DirtPlanes<'_>, floor: &[Vec<f32>; 3], hiding: &mut [f32], rgb: &mut [Vec<f32>; 3]) {
         let [a, b, c] = dirt.through;
-        // What hides the floor, by density: (1 - T) / sum(D).
+        // Opacity per optical density: (1 - T) / sum(D).
         each3(hiding, dirt.film, dirt.soil, dirt.scuff, |film, soil, scuff| film + soil + scuff);
         add2(hiding, dirt.edge, dirt.dust, |edge, dust| edge + dust);
         for (((hiding, a), b), c) in hiding.iter_mut().zip(a).zip(b).zip(c) {
@@ -195,13 +195,13 @@ impl FloorShader {
             for (((((plane, hiding), floor), a), b), c) in
                 plane.iter_mut().zip(&*hiding).zip(floor).zip(a).zip(b).zip(c)
             {
-                // Dirt makes nothing darker than the darkest, nor a floor lighter that is darker by itself.
+                // Dirt darkens no texel below the darkest value, and does not lighten a darker floor to it.
                 *plane = (floor * (a * b * c) + *plane * hiding).max(colours.darkest.min(*floor));
             }
         }
     }
 
-    /// Lays joints, with a film of their own, over the share of each texel that they take up.
+    /// Blends joints, with their film, into the share of each texel that they cover.
     fn fill_joints(&self, known: &ShadeInput, joint: [f32; 3], out: &mut ShadeOutput) {
         let mut film = vec![0.0; known.presence.len()];
         each2(&mut film, &out.clean, &out.uneven, |clean, uneven| {
@@ -224,14 +224,14 @@ impl FloorShader {
             for (k, value) in plane.iter_mut().enumerate() {
                 let change = known.ground.joint[k] * (joint[k] - *value);
                 *value += change;
-                // A joint's own film counts as part of the floor, so that the law over the bare floor gives what is shown.
+                // A joint's film counts as part of the floor, so that dirt over the bare floor gives the shown colour.
                 bare[k] = (bare[k] + change / (a[k] * b[k] * c[k]).max(0.02)).max(0.0);
             }
         }
     }
 }
 
-/// Planes of optical densities, and the light that comes through.
+/// Planes of optical densities, and the transmittance.
 struct DirtPlanes<'a> {
     film: &'a [f32],
     soil: &'a [f32],

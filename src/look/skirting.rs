@@ -1,4 +1,4 @@
-//! The dirty line along the skirting, where no mop reaches: broken up, heavier in corners.
+//! Dirty line along the skirting, where no mop reaches: uneven, denser in corners.
 
 use super::lattice::TexelWindow;
 use super::noise::{self, Channel};
@@ -7,16 +7,16 @@ use super::settings::EdgeLook;
 use crate::math::{Vec2, exp_f32};
 use crate::walls::{Segment, Walls};
 
-/// What breaks the line up: long stretches that were mopped better or worse, clumps, and streaks that the mop drew.
-/// Length along the wall and width across, metres.
+/// Sizes of the line's noise, length along the wall and width across, metres: long stretches mopped better or worse,
+/// clumps, and streaks of the mop.
 const SPOTS_M: [[f64; 2]; 3] = [[0.55, 0.30], [0.11, 0.05], [0.26, 0.013]];
 
-/// The joint between floor and skirting, which no mop gets out of: share of the density at the wall that is added,
-/// and the distance in which it falls to 1/e, metres.
+/// The joint between floor and skirting, which no mop cleans: additional share of the density at the wall, and the
+/// distance over which it falls to 1/e, metres.
 const JOINT_SHARE: f32 = 0.6;
 const JOINT_M: f32 = 0.010;
 
-/// Distance in which a wall's own pattern gives way to another wall's, and where that is over, metres.
+/// Distance over which walls' patterns blend into each other, and end of the blend, metres.
 const BLEND_M: f32 = 0.015;
 const BLEND_END_M: f64 = 0.10;
 
@@ -25,13 +25,13 @@ pub(super) struct Skirting<'a> {
     walls: &'a Walls,
     edge: EdgeLook,
     keys: [u32; 3],
-    /// Beyond this distance nothing is left of the line, metres.
+    /// Distance beyond which the line is zero, metres.
     reach_m: f32,
 }
 
-/// The walls around one square of texels.
+/// Walls around one square of texels.
 struct NearbyWalls {
-    /// Segments that make corners.
+    /// Segments that form corners.
     faces: Vec<LocalSegment>,
     /// Segments near enough to show their pattern.
     patterned: Vec<(LocalSegment, [SegmentNoise; 3])>,
@@ -45,14 +45,14 @@ impl<'a> Skirting<'a> {
         Skirting { walls, edge, keys, reach_m }
     }
 
-    /// Lays the line's optical density out over a window, at least over the texels that are `wanted`; 0 elsewhere.
-    /// `false` if there is none.
+    /// Computes the line's optical density over a window, at least at `wanted` texels. 0 elsewhere; returns `false` if
+    /// there is none.
     ///
-    /// Works in squares that start at multiples of [`SQUARE`] on the whole floor, so that what a texel is made
-    /// from does not depend on the window.
+    /// Works in squares at multiples of [`SQUARE`] on the whole floor, so that a texel's value does not depend on the
+    /// window.
     pub fn lay_out(&self, window: &TexelWindow, wanted: Option<&[bool]>, density: &mut Vec<f32>) -> bool {
         density.clear();
-        // Corners are felt a little farther than the line reaches.
+        // Corners have an effect slightly beyond the line.
         let felt_m = f64::from(self.reach_m.max(2.0 * self.edge.corner_radius_m));
         let mut near = Vec::new();
         if self.edge.density > 0.0 {
@@ -116,7 +116,7 @@ impl<'a> Skirting<'a> {
         }
     }
 
-    /// One row of a square: `y` metres above its lower side.
+    /// Computes one row of a square, `y` metres above its lower side.
     fn row(&self, around: &NearbyWalls, y: f32) -> TexelRow {
         let texel_m = around.texel_m;
         let places: Vec<_> = around.patterned.iter().map(|(face, _)| face.places(y, texel_m)).collect();
@@ -149,10 +149,10 @@ impl<'a> Skirting<'a> {
         self.law(&least, &self.turns(around, y, &least), &spots, texel_m)
     }
 
-    /// How much more of the horizon walls block than a straight wall would: 1, in a right-angled inner corner 1.5,
-    /// at an outer one 0.5.
+    /// Blocked horizon relative to a straight wall: 1 at a straight wall, 1.5 in a right-angled inner corner, 0.5 at an
+    /// outer one.
     fn turns(&self, around: &NearbyWalls, y: f32, least: &TexelRow) -> TexelRow {
-        // A lone segment goes on beyond what is felt: a straight wall.
+        // A lone segment extends beyond the reach: a straight wall.
         if around.faces.len() < 2 {
             return [1.0; SQUARE];
         }
@@ -168,7 +168,7 @@ impl<'a> Skirting<'a> {
         turns
     }
 
-    /// The line's density from the distance to the wall, the corners' turn, and the patterns (deviation 1 each).
+    /// The line's density from wall distance, corner turn, and patterns (deviation 1 each).
     fn law(
         &self,
         distance: &TexelRow,
@@ -183,13 +183,13 @@ impl<'a> Skirting<'a> {
             let turn = turns[k];
             let inner = turn.max(1.0) - 1.0;
             let outer = turn.min(1.0);
-            // Round an outer corner the small patterns would draw arcs.
+            // Around an outer corner the small patterns would draw arcs.
             let (clump, streak) = (clump[k] * outer * outer, streak[k] * outer * outer);
             let corner = (1.0 + 2.0 * (edge.corner - 1.0) * inner) * (0.6 + 0.4 * outer);
-            // Where more lies, it also lies farther from the wall.
+            // A denser line is also wider.
             let wide = exp_f32(sd * (0.6 * stretch[k] + 0.35 * clump)) * (1.0 + 0.75 * inner);
             let uneven = exp_f32(sd * (0.7 * stretch[k] + 0.5 * clump + 0.5 * streak) - 0.5 * sd * sd);
-            // Means over a texel: the line may be thinner than that.
+            // Means over a texel: the line may be thinner.
             let (near, far) = ((distance[k] - 0.5 * texel_m).max(0.0), distance[k] + 0.5 * texel_m);
             let mean = |reach: f32| reach * (exp_f32(-near / reach) - exp_f32(-far / reach)) / (far - near);
             let reach = edge.reach_m * wide;

@@ -1,4 +1,4 @@
-//! The look measured: what a trodden corridor must show, in numbers.
+//! Quantitative tests of the look on a trodden corridor.
 
 use super::*;
 use crate::marks::Mark;
@@ -11,7 +11,7 @@ use crate::sums::FloorSums;
 use crate::walls::{Walls, WallsOptions};
 use std::sync::LazyLock;
 
-/// Texels per metre of all these floors.
+/// Texel density of all test floors, texels per metre.
 const DENSITY: f64 = 100.0;
 const LENGTH_M: f64 = 12.0;
 const WIDTH_M: f64 = 4.0;
@@ -36,7 +36,7 @@ struct SummedFloor {
     sums: FloorSums,
 }
 
-/// A corridor from west to east, open at both ends, that 1000 people have walked.
+/// A corridor from west to east, open at both ends, walked by 1000 people.
 static CORRIDOR: LazyLock<SummedFloor> = LazyLock::new(|| {
     let walls = walls(LENGTH_M, WIDTH_M + 2.0 * WALL_M, |p| p.y > WALL_M && p.y < WALL_M + WIDTH_M);
     let grid = grid(LENGTH_M, WIDTH_M + 2.0 * WALL_M);
@@ -68,8 +68,8 @@ fn walls(width_m: f64, height_m: f64, is_floor: impl Fn(Vec2) -> bool) -> Walls 
     Walls::trace(&plan, &WallsOptions::default())
 }
 
-/// Footfalls of people who walk straight, either way, mostly in the middle, none within 28 cm of a wall; and some
-/// heel marks. The last 300 are fresh.
+/// Footfalls of people who walk straight in both directions, with some heel marks. Most walk in the middle, all at
+/// least 28 cm from walls. The last 300 people are fresh.
 fn people(library: &PatternLibrary) -> Vec<Mark> {
     let mut rng = SplitMix64::new(7);
     let mut marks = Vec::new();
@@ -157,7 +157,7 @@ impl Resolved {
         &self.block.layers.iter().find(|layer| layer.name == name).unwrap().values
     }
 
-    /// Values of a plane in columns and rows of texels.
+    /// Values of a plane in a rectangle of texels.
     fn cut<T: Copy>(&self, plane: &[T], columns: std::ops::Range<usize>, rows: std::ops::Range<usize>) -> Vec<T> {
         rows.flat_map(|row| plane[row * self.width..][columns.clone()].to_vec()).collect()
     }
@@ -168,7 +168,7 @@ impl Resolved {
         (from..from + 200).map(|row| self.cut(&self.lightness, 100..1100, row..row + 1)).collect()
     }
 
-    /// Rows of texels from so many to so many centimetres from the corridor's south wall.
+    /// Rows of texels in a range of distances, centimetres, from the corridor's south wall.
     fn beside_wall(&self, cm: std::ops::Range<usize>) -> std::ops::Range<usize> {
         let wall = (WALL_M * DENSITY) as usize;
         wall + cm.start..wall + cm.end
@@ -190,7 +190,7 @@ pub(in crate::look) fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// Rows with the mean over a square of `2 reach + 1` texels taken away.
+/// Subtracts the mean over a square of `2 reach + 1` texels from rows.
 fn without_large_scale(rows: &[Vec<f64>], reach: usize) -> Vec<Vec<f64>> {
     let blurred = |line: &[f64]| -> Vec<f64> {
         (0..line.len())
@@ -219,7 +219,7 @@ fn a_broad_lane_darkens_by_the_right_amount() {
         assert!((low..=high).contains(&lane), "{preset}: {lane}");
         let darkest = floor.lane().concat().into_iter().fold(f64::INFINITY, f64::min) - floor.clean;
         println!("{preset}: darkest {darkest:.1}");
-        // Heel marks stand out of the lane, but are no holes in it; wet prints may be darker.
+        // Heel marks stand out from the lane without being holes; wet prints may be darker.
         assert!(preset == "wet" || darkest > -25.3, "{preset}: {darkest}");
     }
 }
@@ -269,7 +269,7 @@ fn inner_corners_hold_more() {
         let floor = resolved(&ROOM, &Look { seed, ..look("commuters", Material::Vinyl) });
         let edge = floor.layer("edge");
         let density = |columns, rows| mean(floor.cut(edge, columns, rows).into_iter().map(f64::from));
-        // Strips of 10 cm along the south and north walls, 4 cm deep, in the corners and in between.
+        // Strips of 10 cm along the south and north walls, 4 cm deep, in and between corners.
         for rows in [50..54, 346..350] {
             let corners = density(50..60, rows.clone()) + density(440..450, rows.clone());
             ratios.push(0.5 * corners / density(100..400, rows));
@@ -311,7 +311,7 @@ fn film_varies_as_its_noise_does() {
     let (mean, variation) = (mean(ratios.iter().copied()), sd(&ratios));
     println!("noise: mean {mean:.3}, sd {variation:.3}");
     assert!((mean - 1.0).abs() < 0.08, "{mean}");
-    // sqrt(0.10^2 + 0.12^2 + 0.15^2), the finest evened out a little by texels of 1 cm.
+    // sqrt(0.10^2 + 0.12^2 + 0.15^2), with the finest octave slightly attenuated by texels of 1 cm.
     assert!((0.17..0.25).contains(&variation), "{variation}");
 }
 
@@ -398,7 +398,7 @@ fn the_floor_goes_on_16_texels_beyond_its_edge() {
 
 #[test]
 fn smooth_lanes_have_no_bands() {
-    // Means of 8 x 8 texels follow the unrounded colour far more finely than in steps of one.
+    // Means of 8 x 8 texels follow the unrounded colour in steps far below 1.
     let mut look = look("commuters", Material::Vinyl);
     look.floor.texture = 0.0;
     let floor = resolved(&CORRIDOR, &look);

@@ -29,7 +29,7 @@ pub enum MarksError {
     /// The pattern library has no sole.
     #[error("the pattern library holds no sole, which footprints need")]
     NoSole,
-    /// The one shoe that everybody wears is not in the library.
+    /// The sole that all people should wear is not in the library.
     #[error("marks.shoe is \"{name}\", but the pattern library has no sole of this name")]
     UnknownShoe {
         /// Name of the shoe.

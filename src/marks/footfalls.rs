@@ -28,7 +28,7 @@ pub struct Footfalls<'a> {
     walls: &'a Walls,
     plan_m: Rect,
     library: &'a PatternLibrary,
-    /// Index of the sole that everybody wears, if there is one.
+    /// Index of the sole that all people wear, if any.
     uniform: Option<u16>,
     options: MarksOptions,
     heel_marks: HeelMarks,

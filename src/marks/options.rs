@@ -12,7 +12,7 @@ use super::{ContactOptions, MarksError};
 pub struct MarksOptions {
     /// Number of the last people whose shoes carry soil: those since the floor was mopped.
     pub fresh_people: u32,
-    /// Name of the sole that everybody wears; `None` draws soles by their share in the library.
+    /// Name of the sole that all people wear; `None` draws soles by their share in the library.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shoe: Option<String>,
     /// Weight shifts of a standing person, each with a new footfall, per minute, 0 to 60.

@@ -1,6 +1,8 @@
 //! The contact sheet: all patterns of a library on one page, to scale.
 
 use image::{GrayImage, Rgb, RgbImage};
+use imageproc::drawing::draw_filled_rect_mut;
+use imageproc::rect::Rect;
 
 use super::{Cause, Pattern, PatternLibrary, font};
 use crate::math;
@@ -199,9 +201,5 @@ fn scale_bar(page: &mut RgbImage, left: u32, top: u32) {
 }
 
 fn fill(page: &mut RgbImage, [left, top]: [u32; 2], [width, height]: [u32; 2], colour: [u8; 3]) {
-    for (x, y) in (left..left + width).flat_map(|x| (top..top + height).map(move |y| (x, y))) {
-        if let Some(pixel) = page.get_pixel_mut_checked(x, y) {
-            *pixel = Rgb(colour);
-        }
-    }
+    draw_filled_rect_mut(page, Rect::at(left as i32, top as i32).of_size(width, height), Rgb(colour));
 }

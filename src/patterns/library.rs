@@ -92,7 +92,7 @@ pub struct PatternLibrary {
 }
 
 impl PatternLibrary {
-    /// The library that comes with the program.
+    /// Returns the built-in library.
     ///
     /// It has ten soles, eight heel marks and at least six stains of each wall cause, drawn by
     /// `examples/draw_patterns`.

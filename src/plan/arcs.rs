@@ -1,22 +1,22 @@
-//! Finds quarter circles in a boundary.
+//! Finds quarter circles in a boundary, the arcs of drawn doors.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::cracks::CrackLoop;
 use crate::math::{atan2, sin_cos};
 
-/// How much of a circle a door's arc is, radians: 60 to 112 degrees, as far as it can be followed.
+/// Range of the angle of a door's arc that can be followed, radians: 60 to 112 degrees.
 const SHORTEST_ARC: f64 = 1.05;
 const LONGEST_ARC: f64 = 1.95;
-/// How far an arc may be off a circle, share of the radius or pixels, whichever is more.
+/// Largest deviation of an arc from a circle: share of its radius, or pixels if that is more.
 const ROUNDNESS: f64 = 0.06;
 const ROUNDNESS_PX: f64 = 0.7;
-/// Arcs of fewer pixels cannot be told from rounded corners.
+/// Least radius, pixels; smaller arcs look like rounded corners.
 const LEAST_RADIUS_PX: f64 = 10.0;
-/// The ends of an arc are blurred by what they meet: so much farther it may go on, radians.
+/// Angle by which an arc may continue beyond each of its blurred ends, radians.
 const END_MARGIN: f64 = 0.1;
 
-/// Part of a circle in the image, pixels and radians (y down).
+/// An arc of a circle in the image, pixels and radians (y down).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Arc {
     pub(super) centre: [f64; 2],
@@ -27,12 +27,12 @@ pub(super) struct Arc {
 }
 
 impl Arc {
-    /// How far the quarter circle may go on beyond either end, radians.
+    /// Angle by which the quarter circle may continue beyond either end, radians.
     pub(super) fn missing(&self) -> f64 {
         (FRAC_PI_2 - (self.to - self.from)).max(0.0) * 0.5 + END_MARGIN
     }
 
-    /// Whether a direction lies in the quarter circle, of which the ends may have been missed.
+    /// Whether a direction lies in the quarter circle, extended by [`Arc::missing`] at both ends.
     pub(super) fn spans(&self, angle: f64) -> bool {
         let margin = self.missing();
         let from = self.from - margin;
@@ -46,16 +46,16 @@ impl Arc {
     }
 }
 
-/// What to look for.
+/// Parameters of the search for arcs.
 pub(super) struct Search {
-    /// Least and largest radius, pixels.
+    /// Least and greatest radius, pixels.
     pub(super) radii: [f64; 2],
-    /// Distance between the points at which a boundary is looked at, pixel edges.
+    /// Distance between sampled points of a boundary, pixel edges.
     pub(super) step: usize,
 }
 
 impl Search {
-    /// Appends the parts of a boundary that are about quarter circles.
+    /// Appends the arcs of a boundary that may be quarter circles.
     pub(super) fn find(&self, boundary: &CrackLoop, arcs: &mut Vec<Arc>) {
         let [least, most] = [self.radii[0].max(LEAST_RADIUS_PX), self.radii[1]];
         let points = smoothed(boundary, self.step);
@@ -80,7 +80,7 @@ impl Search {
     }
 }
 
-/// The mean of the boundary around every `step`-th pixel edge.
+/// Samples every `step`-th pixel edge of a boundary, each averaged over its neighbours.
 fn smoothed(boundary: &CrackLoop, step: usize) -> Vec<[f64; 2]> {
     let n = boundary.len();
     let window = 2 * step + 1;
@@ -96,12 +96,12 @@ fn smoothed(boundary: &CrackLoop, step: usize) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// The arc of about `radius` that starts at a point, as long as it goes on, and the number of points on it.
+/// Follows the arc of about `radius` from a point. Returns it with its number of points.
 fn arc_at(points: &[[f64; 2]], start: usize, radius: f64, step: usize) -> Option<(Arc, usize)> {
     let n = points.len();
     let at = |k: usize| points[(start + k) % n];
     let distance = |a: [f64; 2], b: [f64; 2]| ((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])).sqrt();
-    // The chord of the shortest arc; pixel edges are up to a diagonal longer than the way.
+    // Chord of the shortest arc. Measured along pixel edges, the arc is up to a factor sqrt(2) longer.
     let chord = 2.0 * radius * sin_cos(SHORTEST_ARC * 0.5).0;
     let longest = ((radius * LONGEST_ARC * 1.5) as usize / step).min(n - 1);
     let end = (2..=longest).find(|&k| distance(at(0), at(k)) >= chord)?;
@@ -121,13 +121,13 @@ fn arc_at(points: &[[f64; 2]], start: usize, radius: f64, step: usize) -> Option
     Some((Arc { centre, radius: r, from, to }, length))
 }
 
-/// The turn from one direction to another, in `[-pi, pi)`.
+/// Returns the angle from one direction to another, in `[-pi, pi)`.
 fn turn(from: f64, to: f64) -> f64 {
     let turns = (to - from + PI) / TAU;
     (turns - turns.floor()) * TAU - PI
 }
 
-/// Centre and radius of the circle through three points; `None` if they lie in a line.
+/// Returns centre and radius of the circle through three points; `None` for collinear points.
 fn circle_through(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Option<([f64; 2], f64)> {
     let ([bx, by], [cx, cy]) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
     let d = 2.0 * (bx * cy - by * cx);

@@ -1,35 +1,36 @@
 //! Exact erosion and dilation by discs, in time independent of the radius.
 //!
-//! Not imageproc's distance transform: it holds 8 bytes a pixel and squares of distances, this 2 bytes a pixel.
+//! imageproc's distance transform needs 8 bytes a pixel for squared distances, this needs 2.
 
 use rayon::prelude::*;
 
-/// Pixels of `mask` (non-zero) whose distance to every zero pixel is at least `radius` pixels, centre to centre.
-/// What lies beyond the image is no obstacle.
+/// Keeps the non-zero pixels at least `radius` pixels from every zero pixel, centre to centre.
+///
+/// The border of the image is no obstacle.
 pub(super) fn erode(mask: &[u8], width: usize, radius: f64) -> Vec<u8> {
     let mut near = within(mask, width, radius, |pixel| pixel == 0, true);
     near.iter_mut().zip(mask).for_each(|(near, &m)| *near = u8::from(*near == 0 && m != 0));
     near
 }
 
-/// Pixels whose distance to a non-zero pixel of `mask` is at most `radius` pixels, centre to centre.
+/// Marks pixels at most `radius` pixels from a non-zero pixel of `mask`, centre to centre.
 pub(super) fn dilate(mask: &[u8], width: usize, radius: f64) -> Vec<u8> {
     within(mask, width, radius, |pixel| pixel != 0, false)
 }
 
-/// Rows that are worked on together, at least.
+/// Least number of rows in a band.
 const BAND_ROWS: usize = 256;
-/// Bytes of column distances that all bands at work may take together.
+/// Most memory for the column distances of all bands in progress, bytes.
 const MOST_BAND_BYTES: usize = 256 << 20;
 
-/// 1 where a source pixel lies within `radius`, or strictly within.
+/// Returns 1 where a source pixel lies within `radius`, or strictly within.
 ///
-/// Down each column the distance to the nearest source above or below is swept; along each row a source at
-/// column distance g then reaches sqrt(radius^2 - g^2) to both sides, which two more sweeps carry on.
+/// Sweeps along each column find the distance g to the nearest source above or below. Along each row a source
+/// reaches sqrt(radius^2 - g^2) to both sides, found by two more sweeps.
 ///
-/// Done band by band: no source farther than the radius above or below a band matters to it.
+/// Bands are independent: sources farther than the radius above or below a band do not affect it.
 fn within(mask: &[u8], width: usize, radius: f64, is_source: impl Fn(u8) -> bool + Sync, strictly: bool) -> Vec<u8> {
-    // Nothing needs distances beyond this; u16 holds them.
+    // Greater distances do not matter; u16 holds this one.
     let far = (radius.ceil() as u16).saturating_add(1);
     let reach = reaches(radius, far, strictly);
     let (height, halo) = (mask.len() / width, usize::from(far));
@@ -50,7 +51,7 @@ fn within(mask: &[u8], width: usize, radius: f64, is_source: impl Fn(u8) -> bool
     near
 }
 
-/// Carries what sources of a row's columns reach to both sides.
+/// Marks the pixels of a row that sources in its columns reach.
 fn sweep_row(near: &mut [u8], columns: &[u16], reach: &[i32]) {
     let mut left = -1i32;
     for (near, &g) in near.iter_mut().zip(columns) {
@@ -64,12 +65,14 @@ fn sweep_row(near: &mut [u8], columns: &[u16], reach: &[i32]) {
     }
 }
 
-/// For each column distance: how many pixels to the side a source reaches, -1 for not even its own column.
+/// Returns the sideways reach for each column distance, pixels.
+///
+/// It is -1 where a source does not reach its own column.
 fn reaches(radius: f64, far: u16, strictly: bool) -> Vec<i32> {
     let squared = radius * radius;
     let covers = |g: u16, k: i32| {
         let d = f64::from(g) * f64::from(g) + f64::from(k) * f64::from(k);
-        // A hair of tolerance: 0.2 m are 4 pixels of 0.05 m, whatever the rounding.
+        // Tolerance for rounding: 0.2 m are 4 pixels of 0.05 m.
         if strictly { d < squared - 1e-6 } else { d <= squared + 1e-6 }
     };
     let mut k = far as i32;
@@ -127,7 +130,7 @@ mod tests {
 
     #[test]
     fn bands_are_seamless() {
-        // Pixels here and there, over several bands.
+        // Scattered pixels over several bands.
         let (width, height) = (3, 3 * BAND_ROWS + 17);
         let mask: Vec<u8> = (0..width * height).map(|at| u8::from((at * 7919) % 613 == 0)).collect();
         let radius = 40.0;

@@ -1,11 +1,11 @@
 use serde::{Deserialize, Serialize};
 
-/// A colour as a scenario writes it: `"#c03030"`, or `"#c33"` for short. sRGB.
+/// An sRGB colour, written `"#c03030"` or `"#c33"` in a scenario.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Colour(pub [u8; 3]);
 
-/// A text that is no colour.
+/// A text that is not a colour.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{text}` is no colour; write it as \"#rrggbb\", such as \"#c03030\"")]
 pub struct ColourError {
@@ -13,11 +13,11 @@ pub struct ColourError {
     pub text: String,
 }
 
-/// Chroma from which a pixel can count as coloured, of 255.
+/// Least chroma of a coloured pixel, of 255.
 const LEAST_CHROMA: u8 = 48;
-/// Chroma from which it does, as a share of the lightest channel.
+/// Least chroma of a coloured pixel, as a share of its lightest channel.
 const LEAST_SATURATION: f32 = 0.35;
-/// How far a pixel may lie from the line between white and a wall colour, of 255.
+/// Largest distance of a pixel from the line between white and a wall colour, of 255.
 const WALL_COLOUR_REACH: f32 = 40.0;
 
 impl TryFrom<String> for Colour {
@@ -40,7 +40,7 @@ impl From<Colour> for String {
     }
 }
 
-/// Whether a colour is saturated enough to be annotation (lanes, dots, highlights) rather than a dark or light grey.
+/// Whether a colour is saturated enough for annotation: lanes, dots, highlights.
 ///
 /// Chroma is the largest minus the smallest channel: at least 48 of 255, and at least 35 % of the largest channel.
 pub(super) fn is_saturated([r, g, b]: [u8; 3]) -> bool {
@@ -49,13 +49,14 @@ pub(super) fn is_saturated([r, g, b]: [u8; 3]) -> bool {
     chroma >= LEAST_CHROMA && f32::from(chroma) >= LEAST_SATURATION * f32::from(most)
 }
 
-/// Luma (ITU-R BT.601), 0 to 255.
+/// Computes luma (ITU-R BT.601), 0 to 255.
 pub(super) fn luma([r, g, b]: [u8; 3]) -> u8 {
     ((299 * u32::from(r) + 587 * u32::from(g) + 114 * u32::from(b) + 500) / 1000) as u8
 }
 
-/// How light a pixel is against a wall of this colour: 0 on it, 255 on white, in between where the edge is
-/// anti-aliased; `None` for a pixel of another hue.
+/// Returns the lightness of a pixel against a wall colour: 0 for that colour, 255 for white.
+///
+/// Anti-aliased edges lie in between. `None` for a pixel of another hue.
 pub(super) fn lightness_against(wall: Colour, pixel: [u8; 3]) -> Option<u8> {
     let from_white = |c: [u8; 3]| c.map(|v| 255.0 - f32::from(v));
     let dot = |a: [f32; 3], b: [f32; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -1,6 +1,6 @@
 //! Connected components of an image, as runs of pixels.
 //!
-//! Not imageproc's components: its label image takes four bytes a pixel, runs take a few per row.
+//! imageproc's label image takes four bytes a pixel; runs take a few per row.
 
 use std::ops::Range;
 
@@ -12,20 +12,19 @@ pub(super) struct Run {
     pub(super) to: u32,
 }
 
-/// A connected piece.
+/// A connected component.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Component {
     /// Number of pixels.
     pub(super) area: usize,
-    /// Least x, least y.
+    /// Least x and least y.
     pub(super) min: [u32; 2],
-    /// One beyond the largest x, the largest y.
+    /// One beyond the greatest x and the greatest y.
     pub(super) end: [u32; 2],
     runs: Range<usize>,
 }
 
 impl Component {
-    /// Width and height of the rectangle around it.
     pub(super) fn size(&self) -> [u32; 2] {
         [self.end[0] - self.min[0], self.end[1] - self.min[1]]
     }
@@ -36,23 +35,23 @@ impl Component {
     }
 }
 
-/// All pieces, by their first pixel in reading order.
+/// The components of an image, ordered by their first pixel in reading order.
 pub(super) struct Components {
     runs: Vec<Run>,
     pub(super) all: Vec<Component>,
 }
 
-/// What makes neighbours.
+/// Neighbourhood of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Neighbours {
-    /// Sides.
+    /// Pixels that share a side.
     Four,
-    /// Sides and corners.
+    /// Pixels that share a side or a corner.
     Eight,
 }
 
 impl Components {
-    /// The pieces of the pixels that hold `value`.
+    /// Finds the components of the pixels with `value`.
     pub(super) fn of(pixels: &[u8], width: usize, value: u8, neighbours: Neighbours) -> Components {
         let (runs, row_starts) = find_runs(pixels, width, value);
         let mut parents: Vec<u32> = (0..runs.len() as u32).collect();
@@ -74,12 +73,11 @@ impl Components {
         group(runs, &mut parents)
     }
 
-    /// The runs of a piece, in reading order.
     pub(super) fn runs(&self, component: &Component) -> &[Run] {
         &self.runs[component.runs.clone()]
     }
 
-    /// Writes `value` over a piece.
+    /// Sets the pixels of a component to `value`.
     pub(super) fn paint(&self, component: &Component, pixels: &mut [u8], width: usize, value: u8) {
         for run in self.runs(component) {
             let row = run.y as usize * width;
@@ -88,7 +86,7 @@ impl Components {
     }
 }
 
-/// Runs row by row, and where each row's runs start.
+/// Returns the runs row by row, and the index of each row's first run.
 fn find_runs(pixels: &[u8], width: usize, value: u8) -> (Vec<Run>, Vec<usize>) {
     let mut runs = Vec::new();
     let mut row_starts = vec![0];
@@ -114,7 +112,7 @@ fn root(parents: &mut [u32], mut at: u32) -> u32 {
     at
 }
 
-/// The smaller number becomes the root, so that pieces come out by their first run.
+/// Joins two trees. The smaller index becomes the root, so that components keep the order of their first runs.
 fn join(parents: &mut [u32], a: u32, b: u32) {
     let (a, b) = (root(parents, a), root(parents, b));
     parents[a.max(b) as usize] = a.min(b);

@@ -1,22 +1,23 @@
 //! Traces the boundary between floor and wall along pixel edges ("cracks").
 //!
-//! Not imageproc's contours: those run through pixel centres.
+//! imageproc's contours run through pixel centres instead.
 
-/// One closed boundary: lattice points in pixels from the top left, y down, one per crack, floor on the right.
+/// A closed boundary: a lattice point per crack, pixels from the top left, floor on the right.
 pub(crate) type CrackLoop = Vec<[i32; 2]>;
 
-/// Directions in image coordinates (y down), each a quarter clockwise as seen on the screen from the one before.
+/// Directions in image coordinates (y down), each a quarter turn clockwise from the last.
 const STEPS: [[i32; 2]; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
 
-/// All boundaries of the non-zero pixels of a mask. They are 4-connected: where two touch at a corner only, the
-/// boundaries stay apart.
+/// Traces all boundaries of the non-zero pixels of a mask.
+///
+/// Floor is 4-connected: boundaries that touch at a corner stay separate.
 pub(crate) fn trace(mask: &[u8], width: usize) -> Vec<CrackLoop> {
     let (width, height) = (width as i32, (mask.len() / width) as i32);
     let floor = |x: i32, y: i32| {
         x >= 0 && y >= 0 && x < width && y < height && mask[y as usize * width as usize + x as usize] != 0
     };
     let mut loops = Vec::new();
-    // Marks the top cracks of floor pixels that have been followed; every loop has one.
+    // Marks the top cracks of floor pixels that were followed; every loop has one.
     let mut followed = vec![false; mask.len()];
     for y in 0..height {
         for x in 0..width {
@@ -28,7 +29,7 @@ pub(crate) fn trace(mask: &[u8], width: usize) -> Vec<CrackLoop> {
     loops
 }
 
-/// Follows one boundary from the upper-left corner of a floor pixel with wall above, eastwards.
+/// Follows one boundary eastwards, from the upper-left corner of a floor pixel below wall.
 fn follow(start: [i32; 2], floor: &impl Fn(i32, i32) -> bool, width: usize, followed: &mut [bool]) -> CrackLoop {
     let mut points = Vec::new();
     let [mut x, mut y] = start;
@@ -40,7 +41,7 @@ fn follow(start: [i32; 2], floor: &impl Fn(i32, i32) -> bool, width: usize, foll
         points.push([x, y]);
         x += STEPS[direction][0];
         y += STEPS[direction][1];
-        // The two pixels ahead, to the right and to the left of the way on.
+        // The two pixels ahead, on the right and on the left.
         let (right, left) = match direction {
             0 => ([x, y], [x, y - 1]),
             1 => ([x - 1, y], [x, y]),
@@ -75,7 +76,7 @@ mod tests {
     #[test]
     fn pixels_that_touch_at_a_corner_stay_apart() {
         assert_eq!(trace(&[1, 0, 0, 1], 2).len(), 2);
-        // Two holes that touch at a corner are one: wall is 8-connected.
+        // Two holes that touch at a corner have one boundary: wall is 8-connected.
         assert_eq!(trace(&[1, 1, 1, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1, 1, 1, 1], 4).len(), 2);
     }
 }

@@ -1,14 +1,13 @@
-//! The pixel of each space that lies deepest in it, in memory for a few rows.
+//! Finds the deepest pixel of each space, in memory for a few rows.
 
-/// Rows that are worked on together.
+/// Number of rows in a band.
 const BAND_ROWS: usize = 128;
 
-/// The deepest pixel of each of `count` spaces, whose numbers from 1 on are the labels; the first of several, and 0 where a
-/// space has none.
+/// Finds the deepest pixel of each of `count` spaces, labelled from 1; the first of several.
 ///
-/// Depth is the distance from the nearest pixel that is not white, in fifths of a pixel (5-7 chamfer, saturating). Its
-/// two sweeps, down and up, would need a number for each pixel at once: so the sweep down keeps the first row of each
-/// band, and is done again within each band when the sweep up gets there.
+/// A space without a pixel gets 0. Depth is the distance to the nearest pixel that is not white, in fifths of a pixel
+/// (5-7 chamfer, saturating). Its two sweeps, down and up, would need a number for each pixel. To save memory, the
+/// sweep down keeps only the first row of each band, and is repeated within a band when the sweep up reaches it.
 pub(super) fn deepest(white: &[u8], width: usize, label: &[u16], count: usize) -> Vec<usize> {
     let height = white.len() / width;
     let row_of = |y: usize| &white[y * width..(y + 1) * width];
@@ -41,7 +40,7 @@ pub(super) fn deepest(white: &[u8], width: usize, label: &[u16], count: usize) -
             let at = (from + k) * width;
             for (x, (&depth, &number)) in row.iter().zip(&label[at..at + width]).enumerate() {
                 if let Some(best) = usize::from(number).checked_sub(1).map(|n| &mut deepest[n]) {
-                    // Later rows come first.
+                    // The sweep goes up, so an equal depth in an earlier pixel wins.
                     if depth > best.0 || (depth == best.0 && depth > 0 && at + x < best.1) {
                         *best = (depth, at + x);
                     }
@@ -57,7 +56,7 @@ fn start(white: &[u8]) -> Vec<u16> {
     white.iter().map(|&w| if w != 0 { u16::MAX - 8 } else { 0 }).collect()
 }
 
-/// Distances by way of the row above and of pixels to the left.
+/// Propagates distances from the row above and from the left.
 fn pull_down(above: &[u16], row: &mut [u16]) {
     let width = row.len();
     for x in 0..width {
@@ -72,7 +71,7 @@ fn pull_down(above: &[u16], row: &mut [u16]) {
     }
 }
 
-/// Distances by way of the row below and of pixels to the right.
+/// Propagates distances from the row below and from the right.
 fn pull_up(below: &[u16], row: &mut [u16]) {
     let width = row.len();
     for x in (0..width).rev() {
@@ -91,7 +90,7 @@ fn pull_up(below: &[u16], row: &mut [u16]) {
 mod tests {
     use super::*;
 
-    /// The same with all distances at once.
+    /// Reference version with all distances in memory.
     fn at_once(white: &[u8], width: usize, label: &[u16], count: usize) -> Vec<usize> {
         let height = white.len() / width;
         let mut rows: Vec<Vec<u16>> = white.chunks_exact(width).map(start).collect();
@@ -121,7 +120,7 @@ mod tests {
                 .collect();
             assert_eq!(deepest(&white, width, &label, 3), at_once(&white, width, &label, 3), "{width} x {height}");
         }
-        // Nothing is not white: everything is as deep as can be.
+        // Without a pixel that is not white, all depths saturate.
         assert_eq!(deepest(&[1; 12], 4, &[1; 12], 1), at_once(&[1; 12], 4, &[1; 12], 1));
     }
 }

@@ -1,8 +1,7 @@
-//! Takes doors out of a drawing, so that the rooms behind them can be reached.
+//! Removes doors from a drawing, so that the rooms behind them can be reached.
 //!
-//! A door is drawn as a quarter circle of a thin stroke, the way of its edge, round the hinge, with the leaf as a
-//! straight stroke from the hinge to one end of it. Where a door swings nothing stands: arc, leaf and the line
-//! of the threshold are dropped.
+//! A door symbol is a quarter circle of a thin stroke round the hinge, with the leaf as a straight stroke from the
+//! hinge to one end of it. The arc, the leaf and the line of the threshold are removed.
 
 use super::arcs::{Arc, Search};
 use super::clearance::{dilate, erode};
@@ -11,25 +10,24 @@ use super::cracks::trace;
 use super::drawing::Drawing;
 use crate::math::{atan2, sin_cos};
 
-/// Widths of door leaves, metres.
+/// Range of the width of a door leaf, metres.
 const NARROWEST_LEAF_M: f64 = 0.45;
 const WIDEST_LEAF_M: f64 = 1.7;
-/// Strokes of door symbols are at most this thick, metres or pixels, whichever is more.
+/// Greatest thickness of the strokes of a door symbol, metres or pixels, whichever is more.
 const THICKEST_STROKE_M: f64 = 0.07;
 const THICKEST_STROKE_PX: f64 = 2.5;
-/// Share of an arc that must be a thin stroke.
+/// Least share of an arc that is a thin stroke.
 const STROKE_SHARE: f64 = 0.65;
-/// The hinge is at a wall: something dark lies this near to the arc's centre, metres or pixels.
+/// Greatest distance from an arc's centre to the wall at the hinge, metres or pixels.
 const HINGE_REACH_M: f64 = 0.15;
 const HINGE_REACH_PX: f64 = 4.5;
 
-/// Walls are drawn thick if this share of all dark pixels is thicker than a stroke.
+/// Least share of the dark pixels thicker than a stroke, for walls that are drawn thick.
 const THICK_WALLS: f64 = 0.7;
-/// A stroke is bent if it is this broad, as a share of its length and in pixels.
+/// Least breadth of a bent stroke, as a share of its length and in pixels.
 const BENT: f64 = 0.12;
 const LEAST_BENT_PX: f64 = 2.0;
 
-/// Drops the symbols of doors.
 pub(super) fn drop_doors(drawing: &mut Drawing, metres_per_pixel: f64) {
     let sizes = Sizes::new(metres_per_pixel);
     let mut doors: Vec<Arc> = Vec::new();
@@ -40,7 +38,7 @@ pub(super) fn drop_doors(drawing: &mut Drawing, metres_per_pixel: f64) {
         }
     }
     doors.retain(|arc| is_door(drawing, arc, &sizes));
-    // Walls are thicker than strokes and stay.
+    // Walls are thicker than strokes; they stay.
     let radius = (sizes.stroke + 1.0) * 0.5;
     let thick = dilate(&erode(&drawing.dark, drawing.width, radius), drawing.width, radius);
     let found: Vec<usize> = doors.iter().flat_map(|arc| strokes(drawing, arc, &sizes, &thick)).collect();
@@ -51,9 +49,9 @@ pub(super) fn drop_doors(drawing: &mut Drawing, metres_per_pixel: f64) {
     drop_bent_strokes(drawing, &sizes, &thick);
 }
 
-/// Where walls are drawn thick, drops thin strokes of the size of a door that are not straight.
+/// Removes bent thin strokes of the size of a door, where walls are drawn thick.
 ///
-/// In small drawings the arcs of doors are but a few pixels of any shape.
+/// In small drawings the arcs of doors are a few pixels of any shape.
 fn drop_bent_strokes(drawing: &mut Drawing, sizes: &Sizes, thick: &[u8]) {
     let thin: Vec<u8> = drawing.dark.iter().zip(thick).map(|(&d, &t)| d & (1 - t)).collect();
     let (dark, thin_count) = [&drawing.dark, &thin].map(|m| m.iter().filter(|&&d| d != 0).count()).into();
@@ -73,7 +71,7 @@ fn drop_bent_strokes(drawing: &mut Drawing, sizes: &Sizes, thick: &[u8]) {
     }
 }
 
-/// Breadth of a piece across its main axis, pixels.
+/// Computes the breadth of a component across its main axis, pixels.
 fn bend(runs: &[Run]) -> f64 {
     let mut moments = [0.0; 6];
     let pixels = || runs.iter().flat_map(|r| (r.from..r.to).map(|x| [f64::from(x), f64::from(r.y)]));
@@ -91,7 +89,7 @@ fn bend(runs: &[Run]) -> f64 {
     high - low
 }
 
-/// The limits above in pixels.
+/// The limits above, in pixels.
 struct Sizes {
     search: Search,
     stroke: f64,
@@ -111,11 +109,11 @@ impl Sizes {
     }
 }
 
-/// Whether an arc is a thin stroke that ends where a quarter circle does, round a place at a wall.
+/// Whether an arc is a thin stroke with its centre at a wall.
 fn is_door(drawing: &Drawing, arc: &Arc, sizes: &Sizes) -> bool {
     const PLACES: usize = 12;
     let is_stroke = |angle: f64| {
-        // Dark along the radius near the arc, on whichever side of its boundary the stroke lies.
+        // Dark along the radius near the arc: the stroke may lie on either side of its boundary.
         let reach = sizes.stroke * 1.5;
         let steps = (reach * 4.0) as i32;
         let dark =
@@ -143,7 +141,7 @@ fn is_dark(drawing: &Drawing, [x, y]: [f64; 2]) -> bool {
 struct Radius {
     /// Unit vector away from the hinge.
     along: [f64; 2],
-    /// How far it passes from the arc's centre, which is not exactly the hinge, pixels.
+    /// Distance at which it passes the arc's centre, which is not exactly the hinge, pixels.
     beside: f64,
 }
 
@@ -153,7 +151,7 @@ impl Radius {
         Radius { along: [cosine, sine], beside }
     }
 
-    /// Distance of a place, as seen from the arc's centre; infinite behind the hinge.
+    /// Distance of a point relative to the arc's centre, pixels; infinite behind the hinge.
     fn distance(&self, [dx, dy]: [f64; 2]) -> f64 {
         let [c, s] = self.along;
         if dx * c + dy * s > 0.0 { (dy * c - dx * s - self.beside).abs() } else { f64::INFINITY }
@@ -165,7 +163,7 @@ impl Radius {
     }
 }
 
-/// The darkest stroke from the hinge to about an end of the arc, if there is one.
+/// Finds the darkest stroke from the hinge to about an end of the arc.
 fn stroke_from_hinge(drawing: &Drawing, arc: &Arc, end: f64, sizes: &Sizes) -> Option<Radius> {
     const TURNS: i32 = 12;
     let reach = arc.missing();
@@ -189,7 +187,7 @@ fn stroke_from_hinge(drawing: &Drawing, arc: &Arc, end: f64, sizes: &Sizes) -> O
     (best.0 * 5 >= steps * 3).then_some(best.1)
 }
 
-/// The pixels of the arc's stroke and of the strokes from the hinge to its ends.
+/// Lists the pixels of the arc's stroke and of the strokes from the hinge to its ends.
 fn strokes(drawing: &Drawing, arc: &Arc, sizes: &Sizes, thick: &[u8]) -> Vec<usize> {
     let radii: Vec<Radius> =
         [arc.from, arc.to].iter().filter_map(|&end| stroke_from_hinge(drawing, arc, end, sizes)).collect();
@@ -217,7 +215,7 @@ fn strokes(drawing: &Drawing, arc: &Arc, sizes: &Sizes, thick: &[u8]) -> Vec<usi
 mod tests {
     use super::*;
 
-    /// Walls 4 pixels thick with a doorway of 18 pixels, of 0.05 m, and the symbol of a door drawn in it.
+    /// Draws walls 4 pixels thick with a doorway of 18 pixels (0.05 m each) and a door symbol.
     fn drawing(width: f64, leaf: bool) -> Drawing {
         let (w, h) = (80usize, 60usize);
         let mut dark = vec![0u8; w * h];

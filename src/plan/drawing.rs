@@ -1,4 +1,4 @@
-//! From pixels of any kind to how light they are, and which of them are wall.
+//! Converts pixels of any format to lightness, and finds wall pixels.
 
 use image::DynamicImage;
 
@@ -6,32 +6,32 @@ use super::colour::{Colour, is_saturated, lightness_against, luma};
 use super::ros_map::{Cell, Greys};
 use super::{PlanOptions, TransparentPolicy, UnknownPolicy};
 
-/// Lightness at which wall ends and floor begins unless a setting says otherwise.
+/// Default lightness at which wall ends and floor begins.
 pub(super) const USUAL_THRESHOLD: u8 = 128;
 
-/// The grey of unknown cells and of free cells that mappers write.
+/// Greys of unknown and of free cells as mappers write them.
 const MAP_UNKNOWN: u8 = 205;
 const MAP_FREE: u8 = 254;
 
-/// A plan image, understood pixel by pixel.
+/// The pixels of a plan image by lightness, wall and colour.
 pub(super) struct Drawing {
     pub(super) width: usize,
     pub(super) height: usize,
-    /// 0 on the plan's usual wall tone, 255 on its usual floor tone.
+    /// Lightness: 0 for the plan's wall tone, 255 for its floor tone.
     pub(super) lightness: Vec<u8>,
-    /// 1 where wall is.
+    /// 1 for wall pixels.
     pub(super) dark: Vec<u8>,
-    /// 1 where saturated colour is; empty if nowhere.
+    /// 1 for pixels of saturated colour; empty if there are none.
     pub(super) coloured: Vec<u8>,
-    /// What divided `dark` from the rest, in the image's own lightness.
+    /// Threshold between wall and floor, in the image's own lightness.
     pub(super) threshold: u8,
-    /// Whether it was measured (a map of a robot) rather than drawn: then it has no text, doors or dashes.
+    /// Whether it is a robot's map, measured rather than drawn: without text, doors or dashes.
     pub(super) scanned: bool,
-    /// A plain image whose greys are those of a robot's map: what was made of them.
+    /// Whether it is a plain image with the greys of a robot's map.
     pub(super) looks_like_map: bool,
 }
 
-/// Reads an image by the greys of a ROS map.
+/// Converts an image with the greys of a ROS map.
 pub(super) fn of_map(image: &DynamicImage, greys: &Greys, options: &PlanOptions) -> Drawing {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let policy = match options.transparent {
@@ -65,7 +65,7 @@ pub(super) fn of_map(image: &DynamicImage, greys: &Greys, options: &PlanOptions)
     }
 }
 
-/// Reads a plain image: white is floor, black is wall, saturated colour is annotation.
+/// Converts a plain image: white is floor, black is wall, saturated colour is annotation.
 pub(super) fn of_image(image: &DynamicImage, options: &PlanOptions) -> Drawing {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let coloured = if image.color().has_color() {
@@ -76,7 +76,7 @@ pub(super) fn of_image(image: &DynamicImage, options: &PlanOptions) -> Drawing {
     let coloured = if coloured.contains(&1) { coloured } else { Vec::new() };
     let mut lightness = map_pixels(image, |pixel| lightness_of(pixel, options));
     let looks_like_map = options.threshold.is_none() && coloured.is_empty() && has_map_greys(&lightness);
-    // In a robot's map everything up to the grey of unknown is no floor.
+    // Unless unknown is floor, a robot's map is wall up to the grey of unknown cells.
     let usual =
         if looks_like_map && options.unknown == UnknownPolicy::Wall { MAP_UNKNOWN + 1 } else { USUAL_THRESHOLD };
     let threshold = options.threshold.unwrap_or(usual);
@@ -90,7 +90,7 @@ pub(super) fn of_image(image: &DynamicImage, options: &PlanOptions) -> Drawing {
     Drawing { width, height, lightness, dark, coloured, threshold, scanned: looks_like_map, looks_like_map }
 }
 
-/// One byte per pixel; grey images are not blown up to colour first.
+/// Computes one byte per pixel, without converting grey images to colour first.
 fn map_pixels(image: &DynamicImage, of: impl Fn([u8; 4]) -> u8) -> Vec<u8> {
     match image {
         DynamicImage::ImageLuma8(grey) => {
@@ -103,7 +103,7 @@ fn map_pixels(image: &DynamicImage, of: impl Fn([u8; 4]) -> u8) -> Vec<u8> {
     }
 }
 
-/// A pixel laid on white paper.
+/// Composites a pixel over white paper.
 fn on_paper([r, g, b, a]: [u8; 4]) -> [u8; 3] {
     let alpha = u32::from(a);
     [r, g, b].map(|v| ((u32::from(v) * alpha + 255 * (255 - alpha) + 127) / 255) as u8)
@@ -126,13 +126,13 @@ fn lightness_of(pixel: [u8; 4], options: &PlanOptions) -> u8 {
     }
     let pixel = on_paper(pixel);
     if let Some(lightness) = wall_colour_lightness(pixel, &options.wall_colours) {
-        // Black is a wall whatever colours are named.
+        // Black is wall for any list of wall colours.
         return if is_saturated(pixel) { lightness } else { lightness.min(luma(pixel)) };
     }
     if is_saturated(pixel) { 255 } else { luma(pixel) }
 }
 
-/// Whether a grey image has the greys of a robot's map: 254 for free and 205 for unknown.
+/// Whether a grey image has a robot's greys: 254 for free and 205 for unknown.
 fn has_map_greys(lightness: &[u8]) -> bool {
     let counts = histogram(lightness);
     let light: usize = counts[128..].iter().sum();
@@ -149,11 +149,11 @@ fn histogram(values: &[u8]) -> [usize; 256] {
     counts
 }
 
-/// Spreads lightness so that the plan's wall tone becomes 0 and its floor tone 255: what lies in between then
-/// tells which share of a pixel an anti-aliased edge covers.
+/// Stretches lightness so that the plan's wall tone becomes 0 and its floor tone 255.
 ///
-/// The floor's tone is the commonest. The walls' is the commonest amid them, or where all lines are thin, that of
-/// the darkest twentieth.
+/// Values in between then give the share of a pixel that an anti-aliased edge covers. The floor's tone is the most
+/// frequent one. The walls' tone is the most frequent one inside walls or, where all lines are thin, the 5 % quantile
+/// of wall pixels.
 fn stretch(width: usize, lightness: &mut [u8], dark: &[u8]) {
     let (mut wall, mut amid, mut floor) = ([0usize; 256], [0usize; 256], [0usize; 256]);
     for (at, (&value, &is_dark)) in lightness.iter().zip(dark).enumerate() {
@@ -173,7 +173,7 @@ fn stretch(width: usize, lightness: &mut [u8], dark: &[u8]) {
     let total: usize = wall.iter().sum();
     let commonest = |counts: &[usize; 256]| (0..256).max_by_key(|&l| (counts[l], l)).unwrap_or(0);
     let wall_tone = if amid.iter().sum::<usize>() * 20 >= total {
-        // Of equals the darkest.
+        // Of equally frequent tones, the darkest.
         (0..256).max_by_key(|&l| (amid[l], std::cmp::Reverse(l))).unwrap_or(0)
     } else {
         let mut seen = 0;
@@ -197,14 +197,14 @@ fn stretch(width: usize, lightness: &mut [u8], dark: &[u8]) {
     }
 }
 
-/// Closes the gaps that a threshold tears into anti-aliased lines one pixel wide.
+/// Closes the gaps that a threshold leaves in anti-aliased lines one pixel wide.
 ///
-/// Where such a line changes over from one row of pixels to the next, both pixels are half covered and neither
-/// may pass the threshold. The darker of the two becomes wall if the line goes on at both sides.
+/// Where such a line moves from one row of pixels to the next, both pixels are half covered and may both be lighter
+/// than the threshold. The darker of the two becomes wall if the line continues on both sides.
 fn close_thin_lines(width: usize, lightness: &[u8], dark: &mut [u8]) {
     let height = lightness.len() / width;
     let mut closed = Vec::new();
-    // Lines that are nearer to x, then those nearer to y: `at(along, across)` is a pixel.
+    // Lines nearer to x, then lines nearer to y: `at(along, across)` is a pixel.
     torn_pairs(width, height, |x, y| y * width + x, lightness, dark, &mut closed);
     torn_pairs(height, width, |y, x| y * width + x, lightness, dark, &mut closed);
     for pixel in closed {
@@ -212,7 +212,7 @@ fn close_thin_lines(width: usize, lightness: &[u8], dark: &mut [u8]) {
     }
 }
 
-/// Finds what closes the gaps of thin lines that run along the first coordinate of `at`.
+/// Finds pixels that close gaps of thin lines along the first coordinate of `at`.
 fn torn_pairs(
     length: usize,
     breadth: usize,
@@ -224,7 +224,7 @@ fn torn_pairs(
     let darkness = |a: usize, c: usize| 255 - u32::from(lightness[at(a, c)]);
     let is_torn = |a: usize, c: usize| {
         let (first, second) = (darkness(a, c), darkness(a, c + 1));
-        // Each partly dark, together nearly one pixel, and nothing else beside them.
+        // Each is partly dark, together they cover nearly one pixel, and both neighbours are light.
         (64..204).contains(&first)
             && second >= 64
             && first + second >= 204
@@ -238,7 +238,7 @@ fn torn_pairs(
         let mut a = 0;
         while a < length {
             let gap = (a..length).take_while(|&a| is_torn(a, c)).count();
-            // Lines go on beyond the image.
+            // Lines continue beyond the image.
             let (before, after) = (a == 0 || goes_on(a - 1), a + gap == length || goes_on(a + gap));
             if (1..length).contains(&gap) && before && after {
                 closed.extend((a..a + gap).map(|a| {
@@ -324,7 +324,7 @@ mod tests {
 
     #[test]
     fn a_thin_line_that_changes_rows_stays_whole() {
-        // Darkness of a line one pixel wide that sinks from row 1 to row 2; in the middle both are just too light.
+        // Darkness of a line one pixel wide that descends from row 1 to row 2; in the middle both are just too light.
         let mut pixels = vec![255u8; 7 * 5];
         for (x, share) in [0.0, 0.2, 0.35, 0.5, 0.65, 0.8, 1.0].into_iter().enumerate() {
             pixels[7 + x] = (255.0 * share + 1.0f64).min(255.0) as u8;

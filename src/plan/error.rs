@@ -12,7 +12,7 @@ pub enum PlanError {
     Open {
         /// The plan image or map YAML.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         source: std::io::Error,
     },
     /// The file has zero bytes.
@@ -32,18 +32,18 @@ pub enum PlanError {
     Damaged {
         /// The plan image.
         path: PathBuf,
-        /// What the decoder says.
+        /// Message of the decoder.
         reason: String,
     },
-    /// A kind of image that is not read.
+    /// The kind of image is not supported.
     #[error("the plan {path} cannot be read: {what} is not supported", path = .path.display())]
     Unsupported {
         /// The plan image.
         path: PathBuf,
-        /// What it is.
+        /// The kind of image.
         what: String,
     },
-    /// Pixels that take more bytes than are read.
+    /// The decoded pixels exceed the limit on memory.
     #[error(
         "the plan {path} claims {width} x {height} pixels that take {bytes} bytes; at most {most} are read",
         path = .path.display()
@@ -51,13 +51,13 @@ pub enum PlanError {
     TooManyBytes {
         /// The plan image.
         path: PathBuf,
-        /// Pixels across, as its header says.
+        /// Pixels across, from the header.
         width: u32,
         /// Pixels down.
         height: u32,
         /// Bytes of the decoded image.
         bytes: u64,
-        /// The most that are read.
+        /// Limit on the bytes of the decoded image.
         most: u64,
     },
     /// Not enough memory for an image.
@@ -69,10 +69,10 @@ pub enum PlanError {
         width: u32,
         /// Pixels down.
         height: u32,
-        /// Bytes that are needed.
+        /// Bytes needed.
         needed: u64,
     },
-    /// More pixels than are read.
+    /// The image has too many pixels.
     #[error(
         "the plan {path} claims {width} x {height} pixels; at most {LARGEST_SIDE_PX} a side and \
          {LARGEST_AREA_PX} in all are read",
@@ -81,7 +81,7 @@ pub enum PlanError {
     TooManyPixels {
         /// The plan image.
         path: PathBuf,
-        /// Pixels across, as its header says.
+        /// Pixels across, from the header.
         width: u32,
         /// Pixels down.
         height: u32,
@@ -101,7 +101,7 @@ pub enum PlanError {
     Map {
         /// The YAML.
         path: PathBuf,
-        /// What is wrong, with line and column.
+        /// The problem, with line and column.
         reason: String,
     },
     /// The image of a map YAML is missing.
@@ -109,15 +109,15 @@ pub enum PlanError {
     MapImageMissing {
         /// The YAML.
         map: PathBuf,
-        /// The image, relative to the YAML resolved.
+        /// The image, resolved relative to the YAML.
         image: PathBuf,
-        /// An image beside it whose name is alike.
+        /// An image beside it with a similar name.
         similar: Option<PathBuf>,
     },
     /// The scale is out of range.
     #[error("{what} is {value}; metres per pixel must lie between {SMALLEST_M_PER_PX} and {LARGEST_M_PER_PX}")]
     Scale {
-        /// Which scale it is, and where it comes from.
+        /// Kind of scale and its source.
         what: String,
         /// Its value, metres per pixel.
         value: f64,
@@ -128,7 +128,7 @@ pub enum PlanError {
     /// The two points do not define a scale.
     #[error("the two points do not define a scale: {reason}")]
     TwoPoints {
-        /// What is wrong with them.
+        /// The problem.
         reason: String,
     },
     /// The plan is too large.
@@ -156,7 +156,7 @@ pub enum PlanError {
     /// A setting is out of range.
     #[error("plan.{key} is {value}; it must lie between {low} and {high}")]
     OutOfRange {
-        /// The setting's name.
+        /// Key in a scenario.
         key: &'static str,
         /// Its value.
         value: f64,
@@ -201,7 +201,7 @@ pub enum PlanError {
     SeedNotFloor {
         /// The point, metres.
         point_m: Vec2,
-        /// What it lies in instead.
+        /// Where the point lies instead.
         where_: String,
         /// The nearest place with room for a person, metres.
         nearest_m: Option<Vec2>,

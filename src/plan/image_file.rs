@@ -34,7 +34,7 @@ pub(super) fn decode(path: &Path) -> Result<DynamicImage, PlanError> {
 
 /// Whether the end-of-image marker stands near the end; decoders fill up what is missing with grey.
 fn ends_as_jpeg(path: &Path) -> std::io::Result<bool> {
-    // Some cameras and editors append data of their own.
+    // Some cameras and editors append their own data.
     const TAIL: u64 = 64 << 10;
     let mut file = File::open(path)?;
     let length = file.metadata()?.len();

@@ -51,15 +51,15 @@ pub struct FloorPlan {
     pub height_px: u32,
     /// Side of a pixel in metres.
     pub metres_per_pixel: f64,
-    /// One byte per pixel in image order (row 0 at the top, the largest y): 1 where people's floor is.
-    /// White that nobody can reach (outside, hollow walls, closed shafts) is 0.
+    /// One byte per pixel in image order (row 0 at the top, the largest y): 1 for walkable floor.
+    /// White that people cannot reach (outside, hollow walls, closed shafts) is 0.
     pub floor: Vec<u8>,
-    /// How white each pixel is, 0 (wall) to 255 (floor), in image order. Between the two lie anti-aliased edges,
-    /// from which `walls` takes its sub-pixel places.
+    /// Lightness of each pixel, 0 (wall) to 255 (floor), in image order. Anti-aliased edges lie in between,
+    /// from which `walls` takes sub-pixel positions.
     pub lightness: Vec<u8>,
-    /// The lightness at which wall ends and floor begins (128 unless the threshold was set).
+    /// Lightness at which wall ends and floor begins, 128 by default.
     pub threshold: u8,
-    /// Pose of the plan frame in the map frame; the identity unless a ROS map says otherwise.
+    /// Pose of the plan frame in the map frame; the identity without a ROS map.
     pub map_from_plan: Pose,
     /// All connected white regions, largest first.
     pub regions: Vec<Region>,

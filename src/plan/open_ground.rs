@@ -1,24 +1,24 @@
 use super::{FloorPlan, LARGEST_SIDE_M, PlanError};
 use crate::math::{Rect, vec2};
 
-/// Open ground reaches so far around the paths on it, metres.
+/// Margin of open ground around the paths, metres.
 const MARGIN_M: f64 = 2.0;
-/// Its pixels are as small as this, metres, ...
+/// Side of its pixels, metres, ...
 const FINEST_M: f64 = 0.05;
-/// ... or larger, where there would be more of them on a side.
+/// ... unless one of its sides would have more pixels than this.
 const MOST_PX: f64 = 4096.0;
 
 impl FloorPlan {
-    /// Floor that is open on all sides, 2 m and more around a rectangle of the map frame, its sides on whole metres.
+    /// Builds open floor: a rectangle of the map frame grown by 2 m, its sides on whole metres.
     ///
     /// # Errors
-    /// Ground of more than [`LARGEST_SIDE_M`] a side.
+    /// The ground exceeds [`LARGEST_SIDE_M`] on a side.
     pub fn open_ground(around_m: Rect) -> Result<FloorPlan, PlanError> {
         let Rect { min, max } = around_m.grown(MARGIN_M);
         let (min, max) = (vec2(min.x.floor(), min.y.floor()), vec2(max.x.ceil(), max.y.ceil()));
         let [width_m, height_m] = [max.x - min.x, max.y - min.y];
         let longest_m = width_m.max(height_m);
-        // Written so that NaN is too large.
+        // This form also refuses NaN.
         let fits = width_m <= LARGEST_SIDE_M && height_m <= LARGEST_SIDE_M;
         if !fits {
             return Err(PlanError::PathsTooWide { width_m, height_m });

@@ -1,8 +1,8 @@
-//! Where the floor meets the image's sides.
+//! Finds openings: where the floor meets the image's sides.
 
 use super::{FloorPlan, NARROWEST_OPENING_M, Opening, Side};
 
-/// All openings, side by side in the order west, south, east, north, each side from its least x or y on.
+/// Finds all openings, in the order west, south, east, north, each side by growing x or y.
 pub(super) fn find(plan: &FloorPlan) -> Vec<Opening> {
     let mut openings = Vec::new();
     for side in [Side::West, Side::South, Side::East, Side::North] {
@@ -18,7 +18,7 @@ pub(super) fn find(plan: &FloorPlan) -> Vec<Opening> {
     openings
 }
 
-/// Runs of floor along a side that are wide enough, as pixel edges counted along +x or +y of the plan frame.
+/// Returns the runs of floor along a side that are wide enough, as pixel edges along +x or +y.
 fn on_side(plan: &FloorPlan, side: Side) -> Vec<[u32; 2]> {
     let (width, height) = (plan.width_px, plan.height_px);
     let length = match side {
@@ -41,7 +41,7 @@ fn on_side(plan: &FloorPlan, side: Side) -> Vec<[u32; 2]> {
         match (floor, start) {
             (true, None) => start = Some(k),
             (false, Some(from)) => {
-                // A hair of tolerance: 12 pixels of 0.05 m are 0.6 m, whatever the rounding of 0.05.
+                // Tolerance for rounding: 12 pixels of 0.05 m are 0.6 m.
                 if f64::from(k - from) * plan.metres_per_pixel >= NARROWEST_OPENING_M - 1e-9 {
                     runs.push([from, k]);
                 }
@@ -53,7 +53,7 @@ fn on_side(plan: &FloorPlan, side: Side) -> Vec<[u32; 2]> {
     runs
 }
 
-/// Pixel coordinates (from the top left, y down) of the place `k` pixels along a side.
+/// Returns the point `k` pixels along a side, in pixels from the top left, y down.
 fn end_on_side(plan: &FloorPlan, side: Side, k: u32) -> [f64; 2] {
     let (width, height, k) = (f64::from(plan.width_px), f64::from(plan.height_px), f64::from(k));
     match side {

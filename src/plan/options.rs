@@ -50,7 +50,7 @@ pub struct PixelPoint {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum TransparentPolicy {
-    /// What shows when the image lies on white paper (an image), unknown (a ROS map, as its format says).
+    /// White paper below an image; unknown in a ROS map, as its format defines.
     #[default]
     Auto,
     /// The image is laid on white paper.

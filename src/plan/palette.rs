@@ -1,7 +1,7 @@
-//! Reads TIFF images whose pixels are numbers of colours in a palette, which the `image` crate refuses.
+//! Reads TIFF images with a palette, which the `image` crate refuses.
 //!
-//! The header says of each pixel that it is an index (photometric interpretation 3). With a 1 in its place the same
-//! file is a grey image whose greys are the indices; the palette is looked up afterwards. Format: TIFF 6.0, section 5.
+//! The photometric interpretation 3 in the header means palette indices. With a 1 in its place the same file is a grey
+//! image of the indices, to which the palette is applied afterwards. Format: TIFF 6.0, section 5.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -12,7 +12,7 @@ use super::PlanError;
 use super::pixels::{damaged, limits, pixels};
 use crate::files::{LARGEST_IMAGE_BYTES, read_input};
 
-/// Tags and a value of them.
+/// Numbers of TIFF tags, and values of `INTERPRETATION`.
 const BITS_PER_SAMPLE: u16 = 258;
 const INTERPRETATION: u16 = 262;
 const COLOUR_MAP: u16 = 320;
@@ -43,7 +43,7 @@ pub(super) fn decode(path: &Path) -> Result<DynamicImage, PlanError> {
     }
 }
 
-/// Looks the colours of indices up. Of one bit they come as black and white.
+/// Applies the palette to indices. One-bit indices are decoded as black and white.
 fn coloured(indices: &GrayImage, colours: &[[u8; 3]], one_bit: bool) -> DynamicImage {
     let colour = |index: u8| colours[usize::from(if one_bit { index >> 7 } else { index })];
     let is_grey = colours.iter().all(|[r, g, b]| r == g && g == b);
@@ -57,7 +57,7 @@ fn coloured(indices: &GrayImage, colours: &[[u8; 3]], one_bit: bool) -> DynamicI
     DynamicImage::ImageRgb8(rgb)
 }
 
-/// The bytes of a TIFF and its first directory.
+/// A TIFF file and the position of its first directory.
 struct Tiff {
     bytes: Vec<u8>,
     little_endian: bool,
@@ -87,13 +87,13 @@ impl Tiff {
         usize::try_from(value).ok()
     }
 
-    /// Where a tag's entry of 12 bytes begins.
+    /// Returns the position of a tag's entry of 12 bytes.
     fn entry(&self, tag: u16) -> Option<usize> {
         let count = usize::from(self.short(self.directory)?);
         (0..count).map(|k| self.directory + 2 + 12 * k).find(|&at| self.short(at) == Some(tag))
     }
 
-    /// The palette: all reds, then all greens, then all blues, of 16 bits.
+    /// Reads the palette: all reds, then all greens, then all blues, of 16 bits.
     fn colours(&self, count: usize) -> Option<Vec<[u8; 3]>> {
         let entry = self.entry(COLOUR_MAP)?;
         let (length, start) = (self.long(entry + 4)?, self.long(entry + 8)?);

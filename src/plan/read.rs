@@ -1,4 +1,4 @@
-//! The steps of reading a plan in their order.
+//! The steps of reading a plan, in order.
 
 use std::path::{Path, PathBuf};
 
@@ -45,7 +45,7 @@ pub fn read(path: &Path, options: &PlanOptions) -> Result<FloorPlan, PlanError> 
     understand(drawing, metres_per_pixel, options, map_from_plan, warnings)
 }
 
-/// The files that [`read`] opens for a path: a ROS map names its image.
+/// Lists the files that [`read`] opens for a path: a ROS map's YAML and its image.
 pub fn files(path: &Path) -> Vec<PathBuf> {
     let image = if ros_map::is_map(path) { ros_map::read(path).ok().map(|map| map.image) } else { None };
     [path.to_owned()].into_iter().chain(image).collect()
@@ -71,7 +71,7 @@ fn understand(
     if !drawing.dark.contains(&1) {
         return Err(PlanError::NoWalls { pixels, threshold });
     }
-    // In place: large plans are most of the memory.
+    // In place, because the pixels of large plans take most of the memory.
     let mut floor = drawing.dark;
     floor.iter_mut().for_each(|pixel| *pixel = 1 - *pixel);
     let mut plan = FloorPlan {

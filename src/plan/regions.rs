@@ -1,4 +1,4 @@
-//! Decides which white is floor.
+//! Decides which white regions are floor.
 
 use super::clearance::{dilate, erode};
 use super::components::{Components, Neighbours};
@@ -6,21 +6,21 @@ use super::spaces::{Spaces, split};
 use super::{FloorPlan, NARROWEST_OPENING_M, PlanError, Region, RegionRole, depths};
 use crate::math::Vec2;
 
-/// A space that holds an image corner is outside if the others have at least this share of its area.
+/// Share of its area that other spaces need for a space with an image corner to be outside.
 const BUILDING_SHARE: f64 = 0.3;
-/// Doors between the building and the paper around it are narrower than this, metres.
+/// Greatest width of a door between the building and the paper around it, metres.
 const WIDEST_DOOR_M: f64 = 2.0;
-/// The paper around a building takes up at least this share of the image's sides.
+/// Least share of the image's sides that the paper covers.
 const PAPER_SHARE: f64 = 0.5;
-/// It lies in at least this many of the image's corners.
+/// Least number of the image's corners that the paper covers.
 const PAPER_CORNERS: usize = 3;
-/// White that nobody can stand in is listed from this area on, square metres.
+/// Least area of white too narrow for a person to be listed, square metres.
 const LEAST_LISTED_M2: f64 = 0.1;
 
 /// Fills in `floor` and `regions` of a plan whose `floor` holds all white.
 ///
-/// Spaces are judged for a person of `narrowest_m`. Those that hold a point of `seeds` are floor; without
-/// seeds those that are not outside and have at least two openings, and if there is none the largest.
+/// Spaces are found for a person of `narrowest_m`. Floor are the spaces with a point of `seeds`. Without seeds, floor
+/// are the spaces that are not outside and have at least two openings, or if there are none, the largest.
 pub(super) fn choose(plan: &mut FloorPlan, narrowest_m: f64, seeds: &[Vec2]) -> Result<(), PlanError> {
     let width = plan.width_px as usize;
     let in_px = |metres: f64| metres / plan.metres_per_pixel;
@@ -54,7 +54,7 @@ pub(super) fn choose(plan: &mut FloorPlan, narrowest_m: f64, seeds: &[Vec2]) -> 
     Ok(())
 }
 
-/// The 4-connected regions of a ready mask, largest first, all of them floor.
+/// Lists the 4-connected regions of a floor mask, largest first, all of them floor.
 pub(super) fn of_mask(plan: &FloorPlan) -> Vec<Region> {
     let white = plan.floor.clone();
     let spaces = split(&white, plan.width_px as usize, 1.0, 1.0);
@@ -62,10 +62,10 @@ pub(super) fn of_mask(plan: &FloorPlan) -> Vec<Region> {
     list(plan, &spaces, &roles, &white, None)
 }
 
-/// The pixels of the paper around a building that is joined to it by doors, if that is what the plan shows.
+/// Finds the paper around a building, if doors connect the building to it.
 ///
-/// The paper is where a disc as wide as a wide door gets to from the image's corners. It must hold three corners,
-/// at least half of the image's sides, and leave a building of at least 0.3 of its area.
+/// The paper is the white that a disc as wide as a wide door reaches from the image's corners. It must cover three
+/// corners and at least half of the image's sides, and leave a building of at least 0.3 of its area.
 fn paper_around(white: &[u8], spaces: &Spaces, width: usize, door_px: f64) -> Option<Vec<u8>> {
     let height = white.len() / width;
     if !spaces.all.iter().any(|s| s.corners > 0) {
@@ -99,7 +99,7 @@ fn paper_around(white: &[u8], spaces: &Spaces, width: usize, door_px: f64) -> Op
     {
         return None;
     }
-    // The building: the largest piece that is left of the white that reaches into the paper, and what lies apart.
+    // The building: the largest remaining piece of the white connected to the paper, and all separate spaces.
     let mut touched = vec![false; spaces.all.len()];
     for (at, &number) in spaces.label.iter().enumerate() {
         if number > 0 && paper[at] != 0 {
@@ -154,14 +154,13 @@ fn roles_by_seeds(plan: &FloorPlan, spaces: &Spaces, seeds: &[Vec2]) -> Result<V
     Ok(roles)
 }
 
-/// The pixel under a point, or `None` beyond the image.
 fn pixel_of(plan: &FloorPlan, p: Vec2) -> Option<usize> {
     let [x, y] = plan.m_to_px(p);
     let within = x >= 0.0 && y >= 0.0 && x < f64::from(plan.width_px) && y < f64::from(plan.height_px);
     within.then(|| y as usize * plan.width_px as usize + x as usize)
 }
 
-/// The middle of the pixel of any space that is nearest to a point.
+/// Returns the centre of the pixel nearest to a point that belongs to a space.
 fn nearest_space(plan: &FloorPlan, spaces: &Spaces, p: Vec2) -> Option<Vec2> {
     let width = plan.width_px as usize;
     let middle = |at: usize| plan.px_to_m([(at % width) as f64 + 0.5, (at / width) as f64 + 0.5]);
@@ -171,7 +170,7 @@ fn nearest_space(plan: &FloorPlan, spaces: &Spaces, p: Vec2) -> Option<Vec2> {
         .min_by(|a, b| (*a - p).length_squared().total_cmp(&(*b - p).length_squared()))
 }
 
-/// All regions, largest first.
+/// Lists all regions, largest first.
 fn list(plan: &FloorPlan, spaces: &Spaces, roles: &[RegionRole], white: &[u8], paper: Option<&[u8]>) -> Vec<Region> {
     let width = plan.width_px as usize;
     let pixel_m2 = plan.metres_per_pixel * plan.metres_per_pixel;
@@ -182,7 +181,7 @@ fn list(plan: &FloorPlan, spaces: &Spaces, roles: &[RegionRole], white: &[u8], p
     };
     let deepest = depths::deepest(white, width, &spaces.label, spaces.all.len());
     let mut regions: Vec<Region> = (0..roles.len()).map(|k| region(spaces.all[k].area, deepest[k], roles[k])).collect();
-    // White in which nobody can stand, and the paper.
+    // White too narrow for a person, and the paper.
     let rest: Vec<u8> = spaces.label.iter().zip(white).map(|(&n, &w)| u8::from(n == 0 && w != 0)).collect();
     for (mask, role) in [(Some(rest.as_slice()), RegionRole::Unreached), (paper, RegionRole::Outside)] {
         let Some(mask) = mask else { continue };

@@ -1,6 +1,6 @@
-//! The YAML of a ROS map (`map_server`): an image, its scale and pose, and what its greys mean.
+//! The YAML of a ROS map (`map_server`): its image, scale, pose, and the meaning of its greys.
 //!
-//! Format: <http://wiki.ros.org/map_server>, section 3.1, and the one of Nav2's map server, which agrees.
+//! Format: <http://wiki.ros.org/map_server>, section 3.1, equal to that of Nav2's map server.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use super::{LARGEST_ORIGIN_M, PlanError, Pose};
 use crate::files::read_text;
 use crate::math::vec2;
 
-/// What a map says about its image.
+/// The content of a map's YAML.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RosMap {
     pub(super) image: PathBuf,
@@ -20,7 +20,7 @@ pub(super) struct RosMap {
     pub(super) greys: Greys,
 }
 
-/// How a map's greys become free, occupied or unknown.
+/// How a map's greys map to free, occupied or unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Greys {
     pub(super) mode: Mode,
@@ -33,16 +33,16 @@ pub(super) struct Greys {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Mode {
-    /// Free, occupied or unknown by two thresholds.
+    /// Two thresholds separate free, unknown and occupied.
     #[default]
     Trinary,
-    /// Between the thresholds: the probability of being occupied.
+    /// Between the thresholds, the grey is the probability of occupied.
     Scale,
-    /// The pixel is the occupancy in percent; above 100 it is unknown.
+    /// The grey is the occupancy in percent; above 100 it is unknown.
     Raw,
 }
 
-/// What is known about a cell of the map.
+/// State of a cell of the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cell {
     Free,
@@ -51,11 +51,11 @@ pub(super) enum Cell {
 }
 
 impl Greys {
-    /// What a pixel says; `grey` is the mean of its channels.
+    /// Returns the state of a pixel; `grey` is the mean of its channels.
     ///
-    /// With p = (255 - grey)/255, or grey/255 where `negate` is set: occupied from `occupied_thresh` on, free up to
-    /// `free_thresh`, unknown in between and wherever the pixel is not opaque. `scale` maps, whose values in
-    /// between are probabilities, are free below one half. `raw` maps hold percent themselves.
+    /// With p = (255 - grey)/255, or grey/255 if `negate` is set: occupied from `occupied_thresh` on, free up to
+    /// `free_thresh`, unknown in between and for pixels that are not opaque. In `scale` maps, values in between are
+    /// probabilities and free below one half. In `raw` maps the grey is a percentage.
     pub(super) fn cell(&self, grey: f64, opaque: bool) -> Cell {
         if !opaque {
             return Cell::Unknown;
@@ -81,7 +81,7 @@ impl Greys {
     }
 }
 
-/// Whether a path is the YAML of a map rather than an image.
+/// Whether a path is a map's YAML rather than an image.
 pub(super) fn is_map(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("yaml") || e.eq_ignore_ascii_case("yml"))
 }
@@ -101,7 +101,7 @@ struct File {
     mode: Mode,
 }
 
-/// `negate: 0`, `negate: 1`, and what YAML writers make of it.
+/// `negate: 0` or `negate: 1`, and the booleans that YAML writers make of them.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Negate {
@@ -123,7 +123,7 @@ fn usual_free() -> f64 {
     0.196
 }
 
-/// Reads a map's YAML. Its resolution is checked with the other scales, its image not at all.
+/// Reads a map's YAML. Its scale is checked with the other scales; its image is not opened.
 pub(super) fn read(path: &Path) -> Result<RosMap, PlanError> {
     let text = read_text(path).map_err(|source| PlanError::Open { path: path.to_owned(), source })?;
     if text.trim().is_empty() {
@@ -136,7 +136,7 @@ pub(super) fn read(path: &Path) -> Result<RosMap, PlanError> {
         [x, y, yaw] => (x, y, yaw),
         _ => return Err(refuse(format!("origin has {} numbers instead of x, y, yaw", file.origin.len()))),
     };
-    // Written so that NaN is out of range.
+    // This form also refuses NaN.
     if ![x, y, yaw_rad].iter().all(|number| number.abs() <= LARGEST_ORIGIN_M) {
         let most = LARGEST_ORIGIN_M;
         return Err(refuse(format!("origin is [{x}, {y}, {yaw_rad}], allowed is -{most} to {most}")));

@@ -2,7 +2,7 @@
 
 use super::{ASSUMED_M_PER_PX, LARGEST_M_PER_PX, LARGEST_SIDE_M, PlanError, PlanOptions, SMALLEST_M_PER_PX, TwoPoints};
 
-/// Metres per pixel, and whether that had to be assumed. A setting goes before what a map says.
+/// Returns the metres per pixel and whether they are assumed. Options override the map.
 pub(super) fn choose(options: &PlanOptions, from_map: Option<f64>) -> Result<(f64, bool), PlanError> {
     let (what, value) = match (options.metres_per_pixel, &options.scale, from_map) {
         (Some(_), Some(_), _) => return Err(PlanError::ScaleTwice),
@@ -11,7 +11,7 @@ pub(super) fn choose(options: &PlanOptions, from_map: Option<f64>) -> Result<(f6
         (None, None, Some(value)) => ("the map's resolution", value),
         (None, None, None) => return Ok((ASSUMED_M_PER_PX, true)),
     };
-    // Written so that NaN is refused.
+    // This form also refuses NaN.
     if !(SMALLEST_M_PER_PX..=LARGEST_M_PER_PX).contains(&value) {
         return Err(PlanError::Scale { what: what.to_owned(), value });
     }
@@ -34,7 +34,7 @@ fn of_two_points(points: &TwoPoints) -> Result<f64, PlanError> {
     Ok(points.metres / pixels)
 }
 
-/// Refuses plans too large to walk.
+/// Refuses a plan larger than [`LARGEST_SIDE_M`] on a side.
 pub(super) fn check_size(width_px: u32, height_px: u32, metres_per_pixel: f64) -> Result<(), PlanError> {
     let [width_m, height_m] = [width_px, height_px].map(|px| f64::from(px) * metres_per_pixel);
     if width_m.max(height_m) > LARGEST_SIDE_M {

@@ -1,17 +1,19 @@
-//! The file that may be meant by a name that does not exist.
+//! Suggests a file for a name that does not exist.
 
 use std::path::{Path, PathBuf};
 
-/// Endings of plan images.
+/// File extensions of plan images.
 const IMAGES: [&str; 10] = ["pgm", "ppm", "pnm", "png", "jpg", "jpeg", "bmp", "tif", "tiff", "gif"];
-/// Endings of maps.
+/// File extensions of maps.
 const MAPS: [&str; 2] = ["yaml", "yml"];
 
-/// Shorter names say nothing where they stand in another, characters.
+/// Least length of a name that counts when another name contains it, characters.
 const SHORTEST: usize = 3;
 
-/// The file beside a missing one of the same kind (image or map) whose name has the least edit distance, if that is at
-/// most a third of the name's length, or if one name holds the other; of several the first by name.
+/// Finds the file beside a missing one, also image or map, with the most similar name.
+///
+/// The edit distance must be at most a third of the name's length, or one name contain the other. Ties go to the first
+/// by name.
 pub(super) fn similar_file(missing: &Path) -> Option<PathBuf> {
     let wanted = stem(missing)?;
     let kind = kind(missing)?;
@@ -30,12 +32,12 @@ pub(super) fn similar_file(missing: &Path) -> Option<PathBuf> {
         .map(|(_, path)| path)
 }
 
-/// The name without its ending.
+/// The name without extension, in lower case.
 fn stem(path: &Path) -> Option<String> {
     Some(path.file_stem()?.to_str()?.to_lowercase())
 }
 
-/// The endings that are as good as a file's own.
+/// The extensions of the same kind as a file's.
 fn kind(path: &Path) -> Option<&'static [&'static str]> {
     let ending = path.extension()?.to_str()?.to_lowercase();
     [IMAGES.as_slice(), MAPS.as_slice()].into_iter().find(|kind| kind.contains(&ending.as_str()))

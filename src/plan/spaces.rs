@@ -1,45 +1,46 @@
-//! Splits white into spaces that people can get about in.
+//! Splits white into spaces that people can walk in.
 //!
-//! A space is where the middle of the narrowest person can go without a break, and the white around it. Where
-//! two such spaces meet in a neck too narrow to pass, the white is shared out by the way to it. White that is
-//! farther from where a person can stand than a few of their widths belongs to no space: hollow walls with
-//! an open end, the rays that a scanner sends through a window.
+//! A space is a connected region for the middle of the narrowest person, and the white around it. At a neck too narrow
+//! to pass, the white is divided by its walking distance to both spaces. White farther than a few widths of a person
+//! from any space belongs to none: hollow walls with an open end, a scanner's rays through a window.
 
 use super::clearance::erode;
 use super::components::{Component, Components, Neighbours};
 
-/// How far beyond where a person's middle can go white still belongs to a space, in half widths of the person.
-/// Corners of down to about 30 degrees are filled to their tip.
+/// Reach of a space beyond the positions of a person's middle, in half widths of the person.
+///
+/// It fills corners of down to about 30 degrees to their tip.
 const REACH_HALF_WIDTHS: f64 = 4.0;
 
-/// The most spaces that are told apart; of more, the smallest where people can stand are left out.
+/// Limit on the number of spaces; beyond it the smallest are dropped.
 const MOST_SPACES: usize = u16::MAX as usize;
 
 /// The spaces of a plan.
 pub(super) struct Spaces {
-    /// For each pixel the number of its space from 1 on, or 0.
+    /// The number of each pixel's space from 1 on, or 0.
     pub(super) label: Vec<u16>,
-    /// By number less one.
+    /// Space by number less one.
     pub(super) all: Vec<Space>,
 }
 
-/// A piece of white that holds together for people.
+/// A piece of white that is connected for people.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Space {
     /// Number of pixels.
     pub(super) area: usize,
-    /// Holds how many of the image's corners.
+    /// Number of the image's corners in it.
     pub(super) corners: usize,
-    /// Pixels on the image's sides.
+    /// Number of its pixels on the image's sides.
     pub(super) side_pixels: usize,
-    /// Stretches of image side wide enough for an opening, those that run into an image corner not counted.
+    /// Number of openings on the image's sides, without those that reach an image corner.
     pub(super) openings: usize,
-    /// The same with those.
+    /// Number of openings on the image's sides, with those.
     pub(super) openings_and_corners: usize,
 }
 
-/// Splits the white of a picture (non-zero pixels) for people who are `person_px` wide. Openings are at least
-/// `opening_px` wide.
+/// Splits white (non-zero pixels) into spaces for people who are `person_px` wide.
+///
+/// Openings are at least `opening_px` wide.
 pub(super) fn split(white: &[u8], width: usize, person_px: f64, opening_px: f64) -> Spaces {
     let radius = (person_px * 0.5).max(1.0);
     let mut pieces = Components::of(&erode(white, width, radius), width, 1, Neighbours::Four);
@@ -64,7 +65,7 @@ pub(super) fn split(white: &[u8], width: usize, person_px: f64, opening_px: f64)
     count_sides(spaces, width, opening_px)
 }
 
-/// Leaves out the smallest pieces where there are more than `most`; the others stay in their order.
+/// Keeps the `most` largest components, in their order.
 fn keep_largest(pieces: &mut Vec<Component>, most: usize) {
     if pieces.len() <= most {
         return;
@@ -80,10 +81,10 @@ fn keep_largest(pieces: &mut Vec<Component>, most: usize) {
     });
 }
 
-/// Gives white around labelled pixels to the nearest of them by the way through white, up to `reach` pixels.
+/// Assigns white to the nearest labelled pixel through white, up to `reach` pixels away.
 ///
-/// Dijkstra over pixels in buckets of equal cost; a step costs 5 to the side and 7 over a corner (Borgefors
-/// 1986, doi 10.1016/S0734-189X(86)80047-0), the latter only past a white pixel, since floor is 4-connected.
+/// Dijkstra over pixels in buckets of equal cost. A step costs 5 along a side and 7 along a diagonal (Borgefors 1986,
+/// doi 10.1016/S0734-189X(86)80047-0), the latter only beside a white pixel, since floor is 4-connected.
 fn share_out(white: &[u8], width: usize, label: &mut [u16], reach: f64) {
     let height = white.len() / width;
     let last = (reach * 5.0).ceil() as usize;
@@ -115,7 +116,7 @@ fn share_out(white: &[u8], width: usize, label: &mut [u16], reach: f64) {
             }
         }
     };
-    // Most labelled pixels lie amid others, and have nothing to give.
+    // Most labelled pixels have only labelled neighbours and need not start.
     let mut open = vec![false; width];
     for y in 0..height {
         open.fill(false);

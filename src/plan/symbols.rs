@@ -1,22 +1,22 @@
-//! Takes out of a drawing what is dark but no wall: specks, lettering, dashed lines, outlined dots.
+//! Removes dark symbols that are not walls: specks, lettering, dashed lines, outlined dots.
 
 use super::components::{Component, Components, Neighbours};
 use super::drawing::Drawing;
 
-/// Letters and dashes are at most this long, metres.
+/// Greatest length of a letter or a dash, metres.
 const LONGEST_STROKE_M: f64 = 0.7;
-/// Strokes are at most this thick, metres, unless pixels are larger than half of it.
+/// Greatest thickness of a stroke, metres, unless a pixel is larger than half of it.
 const THICKEST_STROKE_M: f64 = 0.12;
-/// Strokes belong together if the gap between them is at most this share of the longer one.
+/// Greatest gap between strokes of one group, as a share of the longer stroke.
 const GAP_SHARE: f64 = 0.6;
-/// Fewer strokes than this are no lettering and no dashed line.
+/// Least number of strokes in lettering or a dashed line.
 const FEWEST_STROKES: usize = 3;
-/// The outline of a coloured dot is at most this large, metres.
+/// Greatest size of a coloured dot's outline, metres.
 const LARGEST_DOT_M: f64 = 1.5;
-/// Share of an outline's pixels that touch colour.
+/// Least share of an outline's pixels that touch colour.
 const COLOURED_SHARE: f64 = 0.35;
 
-/// Drops dark pieces whose larger side is below `speck_m`.
+/// Removes dark components whose larger side is below `speck_m`.
 pub(super) fn drop_specks(drawing: &mut Drawing, metres_per_pixel: f64, speck_m: f64) {
     let pieces = Components::of(&drawing.dark, drawing.width, 1, Neighbours::Eight);
     let small = |c: &&Component| f64::from(c.larger_side()) * metres_per_pixel < speck_m - 1e-9;
@@ -25,10 +25,10 @@ pub(super) fn drop_specks(drawing: &mut Drawing, metres_per_pixel: f64, speck_m:
     }
 }
 
-/// Drops lettering, dashed lines and the outlines of coloured dots.
+/// Removes lettering, dashed lines and the outlines of coloured dots.
 ///
-/// Lettering and dashed lines are at least three thin short strokes close to each other. A pillar is thicker,
-/// a wall longer.
+/// Lettering and dashed lines are at least three thin short strokes close to each other. A pillar is thicker, a wall
+/// longer.
 pub(super) fn drop_annotation(drawing: &mut Drawing, metres_per_pixel: f64) {
     let pieces = Components::of(&drawing.dark, drawing.width, 1, Neighbours::Eight);
     let in_metres = |px: u32| f64::from(px) * metres_per_pixel;
@@ -55,7 +55,7 @@ pub(super) fn drop_annotation(drawing: &mut Drawing, metres_per_pixel: f64) {
 fn erase(drawing: &mut Drawing, pieces: &Components, piece: &Component) {
     pieces.paint(piece, &mut drawing.dark, drawing.width, 0);
     pieces.paint(piece, &mut drawing.lightness, drawing.width, 255);
-    // The light rim of an anti-aliased stroke goes too: it would pull at walls nearby.
+    // The light rim of an anti-aliased stroke goes too: it would shift walls nearby.
     let (width, height) = (drawing.width, drawing.height);
     for run in pieces.runs(piece) {
         for y in (run.y as usize).saturating_sub(1)..=(run.y as usize + 1).min(height - 1) {
@@ -83,7 +83,7 @@ fn touches_colour(drawing: &Drawing, pieces: &Components, piece: &Component) -> 
     touching as f64 >= COLOURED_SHARE * piece.area as f64
 }
 
-/// Side of the largest square that fits into a piece, pixels.
+/// Side of the largest square that fits into a component, pixels.
 fn thickness(pieces: &Components, piece: &Component) -> u32 {
     let width = piece.size()[0] as usize;
     let mut above = vec![0u32; width];
@@ -105,7 +105,7 @@ fn thickness(pieces: &Components, piece: &Component) -> u32 {
     most
 }
 
-/// Strokes joined over small gaps. Sorted by x, so that only those close by are compared.
+/// Groups strokes over small gaps. Sorting by x limits the comparisons to near strokes.
 fn groups<'a>(strokes: &[&'a Component]) -> Vec<Vec<&'a Component>> {
     let mut order: Vec<&Component> = strokes.to_vec();
     order.sort_by_key(|p| (p.min, p.end));

@@ -1,4 +1,4 @@
-//! Motions as files: reads what others recorded or simulated, and writes motions for other programs.
+//! Trajectory files: reads recordings of other programs and writes motions for them.
 
 mod read;
 mod write;

@@ -1,4 +1,4 @@
-//! Default routes, for plans without any.
+//! Default routes, for scenarios without routes.
 
 use super::draft::RouteDraft;
 use super::ground::Ground;
@@ -7,21 +7,21 @@ use super::{Place, RoutesError, targets};
 use crate::math::vec2;
 use crate::plan::{FloorPlan, Opening};
 
-/// Largest number of places that default routes join: 12 routes, there and back.
+/// Largest number of places joined by default routes: 12 routes, both directions included.
 const MOST_PLACES: usize = 4;
-/// Least area of a part of the floor with default routes, square metres.
+/// Smallest area of a part of the floor with default routes, square metres.
 const LEAST_PART_M2: f64 = 1.0;
-/// Half side of the squares that stand in for openings, metres.
+/// Half side of the squares that replace missing openings, metres.
 const STAND_IN_REACH_M: f64 = 1.5;
-/// They lie where ways of this clearance lead, metres: through doors, but not between chairs, ...
+/// Least clearance of paths to these squares, metres: leads through doors, but not between chairs.
 const ROOMY_M: f64 = 0.34;
-/// ... if that is at least this share of the floor.
+/// Least share of the floor with that clearance; otherwise all of the floor is used.
 const ROOMY_SHARE: f64 = 0.3;
-/// They lie this far apart at least, metres of walking ...
+/// Least walking distance between these squares, metres.
 const LEAST_APART_M: f64 = 2.0;
-/// ... and this share of the longest walk.
+/// Least distance between these squares, as a share of the longest walking distance.
 const APART_SHARE: f64 = 0.3;
-/// Least distance of a stand-in from several openings, as a multiple of their distance from each other.
+/// Least distance of a square from several openings, relative to that between openings.
 const BEYOND_OPENINGS: f64 = 1.5;
 /// Range to which widths are clamped for shares, metres.
 const SHARE_WIDTHS_M: [f64; 2] = [0.6, 8.0];
@@ -33,8 +33,8 @@ struct Endpoint {
     part: u16,
 }
 
-/// Joins the widest openings, all pairs in both directions. Where there are fewer than two, or where they lie close
-/// together at the edge of a large floor, places far apart join them. A pair's share is the product of its widths.
+/// Joins the widest openings, all pairs in both directions. If there are fewer than two, or if they lie close together
+/// at the edge of a large floor, distant places are added. A route's share is the product of the widths at its ends.
 pub(super) fn drafts(
     plan: &FloorPlan,
     ground: &Ground,
@@ -59,7 +59,7 @@ pub(super) fn drafts(
     Ok(drafts)
 }
 
-/// All openings that are wide enough for a person.
+/// Returns all openings that are wide enough for a person.
 fn opening_endpoints(plan: &FloorPlan, ground: &Ground) -> Vec<Endpoint> {
     let endpoint = |(index, opening): (usize, &Opening)| {
         let place = Place::Opening(index);
@@ -70,7 +70,7 @@ fn opening_endpoints(plan: &FloorPlan, ground: &Ground) -> Vec<Endpoint> {
     plan.openings.iter().enumerate().filter_map(endpoint).collect()
 }
 
-/// The widest openings that have another one within walking distance.
+/// Returns the widest openings that have another one within walking distance.
 fn widest_openings(plan: &FloorPlan, ground: &Ground) -> Vec<Endpoint> {
     let mut endpoints = opening_endpoints(plan, ground);
     let width = |s: &Endpoint| match s.place {
@@ -78,12 +78,12 @@ fn widest_openings(plan: &FloorPlan, ground: &Ground) -> Vec<Endpoint> {
         Place::Area(_) => 0.0,
     };
     endpoints.sort_by(|a, b| width(b).total_cmp(&width(a)));
-    // Taking one away may leave its partner without any, so until nothing changes.
+    // Removing one may leave its partner alone, so repeat until stable.
     loop {
         let lonely = |endpoints: &[Endpoint], part: u16| endpoints.iter().filter(|s| s.part == part).count() < 2;
         let among = endpoints.len().min(MOST_PLACES);
         match (0..among).find(|&k| lonely(&endpoints[..among], endpoints[k].part)) {
-            // Lonely among the widest only: its partner is a narrower one, not worth a place.
+            // Its partner is a narrower opening that is not among the widest.
             Some(k) => {
                 endpoints.remove(k);
             }
@@ -94,7 +94,7 @@ fn widest_openings(plan: &FloorPlan, ground: &Ground) -> Vec<Endpoint> {
     endpoints
 }
 
-/// Adds places as far as possible by walking distance from those that there are.
+/// Adds places that are as far as possible from the present ones, by walking distance.
 fn with_far_places(
     plan: &FloorPlan,
     ground: &Ground,
@@ -114,7 +114,7 @@ fn with_far_places(
     }
     let openings = endpoints.len();
     if openings == 0 {
-        // The end of a longest walk: the place farthest from anywhere.
+        // One end of a longest walk: the cell farthest from an arbitrary one.
         let anywhere = targets::cells(plan, ground, stand_in(ground, cells[0]));
         let field = fields.measure(ground, &anywhere)?;
         let far = farthest(&cells, |k| field.of_cell(cells[k]));
@@ -155,8 +155,7 @@ fn with_far_places(
     Ok(endpoints)
 }
 
-/// Where places for everybody may lie: what of a part of the floor can be walked to through ways of [`ROOMY_M`] to
-/// either side, or all of it if that is little.
+/// Returns the largest region of a part with clearance [`ROOMY_M`]. If it is small, returns the whole part.
 fn roomy_cells(ground: &Ground, part: u16) -> Vec<usize> {
     let all: Vec<usize> = (0..ground.lattice.len()).filter(|&c| ground.part(c) == part).collect();
     let is_roomy = |c: usize| ground.part(c) == part && ground.cell_clearance_m(c) >= ROOMY_M;
@@ -179,7 +178,7 @@ fn roomy_cells(ground: &Ground, part: u16) -> Vec<usize> {
     largest
 }
 
-/// The largest connected part of the floor, if it is large enough to walk on.
+/// Returns the largest connected part of the floor, if it is large enough to walk on.
 fn largest_part(ground: &Ground) -> Result<u16, RoutesError> {
     let mut cells = vec![0usize; usize::from(u16::MAX) + 1];
     for cell in (0..ground.lattice.len()).filter(|&c| ground.is_walkable(c)) {
@@ -199,7 +198,7 @@ fn named(place: Place, number: usize, part: u16) -> Endpoint {
     Endpoint { place, name: format!("place {number}"), width_m: 2.0 * STAND_IN_REACH_M, part }
 }
 
-/// The cell of the largest finite value, the first of equals, and the value.
+/// Returns the cell with the largest finite value, the first of equals, and the value.
 fn farthest(cells: &[usize], value: impl Fn(usize) -> f64) -> (usize, f64) {
     let mut best = (cells[0], 0.0);
     for (k, &cell) in cells.iter().enumerate() {
@@ -210,7 +209,7 @@ fn farthest(cells: &[usize], value: impl Fn(usize) -> f64) -> (usize, f64) {
     best
 }
 
-/// A square about the place of most room within a short walk.
+/// Returns a square around the place with the most room within a short walk.
 fn stand_in(ground: &Ground, from: usize) -> Place {
     let start = ground.lattice.centre(from);
     let most_steps = (2.0 * STAND_IN_REACH_M / ground.lattice.cell_m()) as usize;

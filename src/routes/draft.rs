@@ -1,11 +1,11 @@
 use super::legs::{LegEnd, leg_ends};
 use super::{Place, RouteStop, Timetable};
 
-/// A route whose places are known, but not its way.
+/// A route with its places, before its path is found.
 #[derive(Clone, Debug)]
 pub(super) struct RouteDraft {
     pub(super) name: String,
-    /// Names of start, places between, and goal in messages.
+    /// Names of start, via places and goal, for messages.
     pub(super) place_names: Vec<String>,
     pub(super) start: Place,
     pub(super) via: Vec<Place>,

@@ -15,26 +15,26 @@ pub enum RoutesError {
         route: String,
         /// The unknown name.
         name: String,
-        /// The name most like it.
+        /// Most similar known name.
         nearest: Option<String>,
         /// All names.
         openings: Vec<String>,
     },
-    /// A point or an area without a place to stand.
+    /// A point or an area contains no walkable floor.
     #[error("route \"{route}\": {role} {place} (px [{:.0}, {:.0}]) is not on floor{}", at_px[0], at_px[1], nearest_floor(.nearest))]
     NotOnFloor {
         /// The route that uses it.
         route: String,
         /// `from`, `to` or `via`.
         role: &'static str,
-        /// The requested place.
+        /// Place as requested.
         place: String,
-        /// The place, or the middle of the area, in the image, pixels from the top left.
+        /// Point, or centre of the area, pixels from the top left of the image.
         at_px: [f64; 2],
-        /// The nearest place to stand.
+        /// Nearest walkable position.
         nearest: Option<Box<FloorPoint>>,
     },
-    /// A coordinate far beyond any plan, or not a number.
+    /// A coordinate is outside the allowed range, or NaN.
     #[error(
         "route \"{route}\": {role} {place} holds the coordinate {value} m, allowed is -{most} to {most}",
         most = crate::plan::LARGEST_COORDINATE
@@ -44,28 +44,28 @@ pub enum RoutesError {
         route: String,
         /// `from`, `to` or `via`.
         role: &'static str,
-        /// The requested place.
+        /// Place as requested.
         place: String,
         /// The coordinate, metres.
         value: f64,
     },
-    /// Unknown name of a stop.
+    /// The scenario has no stop of this name.
     #[error("route \"{route}\": there is no stop called \"{name}\"")]
     UnknownStop {
         /// The route that uses it.
         route: String,
         /// The unknown name.
         name: String,
-        /// The name most like it.
+        /// Most similar known name.
         nearest: Option<String>,
     },
-    /// Two stops of one name.
+    /// Two stops have the same name.
     #[error("there are two stops called \"{name}\"")]
     SameStop {
         /// The name.
         name: String,
     },
-    /// A value of a stop that is out of range, or does not fit its plan.
+    /// A value of a stop is out of range or does not fit the stop's kind.
     #[error("stop \"{stop}\": {key}: {problem}")]
     StopValue {
         /// The stop.
@@ -75,7 +75,7 @@ pub enum RoutesError {
         /// The problem.
         problem: String,
     },
-    /// An invalid timetable.
+    /// A timetable is invalid.
     #[error("route \"{route}\": arrivals: {key}: {problem}")]
     Timetable {
         /// The route.
@@ -85,7 +85,7 @@ pub enum RoutesError {
         /// The problem.
         problem: String,
     },
-    /// A stop without a place to stand.
+    /// A stop has no walkable floor.
     #[error(
         "stop \"{stop}\": {key}: there is no floor to stand on at [{:.2}, {:.2}]{}", .place_m.x, .place_m.y, nearest_place(.nearest_m)
     )]
@@ -94,34 +94,34 @@ pub enum RoutesError {
         stop: String,
         /// `at` or `queue`.
         key: &'static str,
-        /// Where, metres.
+        /// Requested position, metres.
         place_m: Vec2,
-        /// The nearest place to stand, metres.
+        /// Nearest walkable position, metres.
         nearest_m: Option<Vec2>,
     },
-    /// A stop that walls enclose.
+    /// A stop is enclosed by walls.
     #[error("route \"{route}\": no way leads to the stop \"{stop}\" at [{:.2}, {:.2}]", .place_m.x, .place_m.y)]
     StopUnreachable {
         /// The route that uses it.
         route: String,
         /// The stop.
         stop: String,
-        /// Where, metres.
+        /// Position of the stop, metres.
         place_m: Vec2,
     },
-    /// No way between two places of a route.
+    /// No path joins two places of a route.
     #[error("route \"{route}\": no way leads from {from} to {to}{}", narrow(.gap))]
     Unreachable {
         /// The route.
         route: String,
-        /// Where the way begins.
+        /// Start of the missing path.
         from: Box<FloorPoint>,
-        /// Where it should lead.
+        /// End of the missing path.
         to: Box<FloorPoint>,
-        /// The narrowest place of the widest way between them, if only that is in the way.
+        /// Narrowest point of the widest path between them, if it is merely too narrow.
         gap: Option<Gap>,
     },
-    /// Start and goal coincide, and there is nothing between.
+    /// Start and goal coincide and there are no via places.
     #[error("route \"{route}\": it ends where it begins, at {place}")]
     NoLength {
         /// The route.
@@ -129,7 +129,7 @@ pub enum RoutesError {
         /// Start and goal.
         place: String,
     },
-    /// A share that is negative or not finite.
+    /// A share is negative or not finite.
     #[error("route \"{route}\": the share {share} is not a number of 0 or more")]
     Share {
         /// The route.
@@ -137,38 +137,38 @@ pub enum RoutesError {
         /// The requested share.
         share: f64,
     },
-    /// All shares are 0.
+    /// The shares of all routes are 0.
     #[error("the shares of all {routes} routes are 0")]
     NoShares {
         /// Number of routes.
         routes: usize,
     },
-    /// Too many routes.
+    /// There are too many routes.
     #[error("{routes} routes are requested, at most {most} are possible")]
     TooMany {
         /// Number of routes requested.
         routes: usize,
-        /// The limit.
+        /// Largest allowed number.
         most: usize,
     },
-    /// No floor to walk on.
+    /// The plan has no part of floor that is large enough.
     #[error("the plan has no floor that is large enough to walk on: the largest part has {largest_m2:.2} m2")]
     NoRoom {
-        /// Area of the largest part of the floor where a body has room, square metres.
+        /// Area of the largest walkable part of the floor, square metres.
         largest_m2: f64,
     },
 }
 
-/// A place on the floor, for messages.
+/// A position on the floor, for messages.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FloorPoint {
     /// Name of the place; may be empty.
     pub name: String,
-    /// Where it is, metres.
+    /// Position, metres.
     pub at_m: Vec2,
-    /// Where it is in the image, pixels from the top left.
+    /// Position in the image, pixels from the top left.
     pub at_px: [f64; 2],
-    /// Area of the part of the floor that can be walked to from there, square metres.
+    /// Area of the floor reachable from there, square metres.
     pub part_m2: f64,
 }
 
@@ -183,19 +183,19 @@ impl std::fmt::Display for FloorPoint {
     }
 }
 
-/// A place that is too narrow to pass.
+/// A point of a path that is too narrow to pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gap {
-    /// Where it is, metres.
+    /// Position, metres.
     pub at_m: Vec2,
-    /// Where it is in the image, pixels from the top left.
+    /// Position in the image, pixels from the top left.
     pub at_px: [f64; 2],
     /// Approximate width, metres.
     pub width_m: f64,
 }
 
 impl RoutesError {
-    /// A remedy in words, if there is one.
+    /// Returns the remedy, for the user; `None` if there is none.
     pub fn hint(&self) -> Option<String> {
         match self {
             RoutesError::UnknownOpening { nearest: Some(nearest), .. }
@@ -240,7 +240,7 @@ fn list(openings: &[String]) -> String {
     }
 }
 
-/// The place to stand instead, for messages.
+/// Nearest walkable position, for messages.
 fn nearest_place(nearest_m: &Option<Vec2>) -> String {
     nearest_m.map_or_else(String::new, |p| format!("; the nearest floor is at [{:.2}, {:.2}]", p.x, p.y))
 }

@@ -2,37 +2,37 @@ use super::ground::Ground;
 use crate::math::{Vec2, vec2};
 use crate::progress::{Interrupted, Progress};
 
-/// Walking distance from everywhere to one place: metres, where a metre close to walls counts for more.
+/// Walking distance from every cell to a place, metres; metres near walls cost more.
 ///
-/// Solution of the eikonal equation `|grad d| = cost` with `d = 0` at the place, first-order upwind (Rouy and
-/// Tourin 1992, doi 10.1137/0729053), found in order of distance (Sethian 1996, doi 10.1073/pnas.93.4.1591)
-/// with buckets in place of a heap and every improvement passed on, so that the order decides nothing.
+/// Solution of the eikonal equation `|grad d| = cost` with `d = 0` at the place: first-order upwind (Rouy and Tourin
+/// 1992, doi 10.1137/0729053), solved in order of distance (Sethian 1996, doi 10.1073/pnas.93.4.1591) with buckets
+/// instead of a heap. Every improvement is propagated, so the result does not depend on the order.
 ///
-/// Distances are kept as `f32`. An improvement counts if it is still one after rounding: a cell's distance only ever
-/// falls, by a step of `f32` at least, so that the search ends at any distance.
+/// Distances are stored as `f32`. An improvement counts only if it remains after rounding: a cell's distance falls by
+/// at least one step of `f32`, so the search ends at any distance.
 #[derive(Debug)]
 pub(crate) struct Field {
     distance_m: Vec<f32>,
 }
 
-/// How much more a metre along a wall costs than one in the open.
+/// Additional cost per metre along a wall.
 const WALL_COST: f64 = 0.8;
-/// Clearance from which walls are of no account, metres.
+/// Clearance above which walls add no cost, metres.
 const EASE_M: f64 = 3.0;
-/// How much more it costs to squeeze through a gap that is hardly wide enough.
+/// Additional cost per metre in the narrowest gaps.
 const SQUEEZE_COST: f64 = 4.0;
-/// Clearance from which nobody has to squeeze, metres.
+/// Clearance above which gaps add no cost, metres.
 const SQUEEZE_M: f64 = 0.25;
 
-/// Improvements below this share of a cell are not worth passing on.
+/// Smallest improvement that is propagated, as a share of a cell.
 const LEAST_GAIN: f64 = 1e-4;
 
-/// Buckets in the ring.
+/// Number of buckets in the ring.
 const RING: usize = 16;
 
-/// Cost of a metre at this clearance: `1 + 0.8 (1 - c / 3 m)^3 + 4 (1 - c / 0.25 m)`, each term 0 or more, so that
-/// ways keep off walls where that costs little, the wider of two ways is taken where they are about as long, and
-/// nobody squeezes between chairs to save a few steps.
+/// Cost of a metre at a given clearance. `1 + 0.8 (1 - c / 3 m)^3 + 4 (1 - c / 0.25 m)`, each term at least 0: paths
+/// keep off walls where that costs little, prefer the wider of two paths of similar length, and avoid gaps between
+/// chairs.
 fn cost(clearance_m: f64) -> f64 {
     let near = (1.0 - clearance_m / EASE_M).max(0.0);
     let squeezed = (1.0 - clearance_m / SQUEEZE_M).max(0.0);
@@ -40,13 +40,13 @@ fn cost(clearance_m: f64) -> f64 {
 }
 
 impl Field {
-    /// Distances to the nearest of `goal`'s cells.
+    /// Computes distances to the nearest cell of `goal`.
     pub(crate) fn to(ground: &Ground, goal: &[usize]) -> Field {
         let seeds = goal.iter().map(|&cell| (cell, 0.0)).collect();
         Field::spread(ground, seeds, |_, _| true)
     }
 
-    /// The same, but given up half done once somebody wants the work to stop.
+    /// Like [`Field::to`], but stops when `progress` is interrupted.
     pub(super) fn to_unless_interrupted(
         ground: &Ground,
         goal: &[usize],
@@ -57,12 +57,12 @@ impl Field {
         progress.keep_on().map(|()| field)
     }
 
-    /// The least of `value + distance` over cells with values of 0 or more, in those cells for which `wanted` says so.
+    /// Computes the least `value + distance` over seeds, value >= 0, in cells that are `wanted`.
     pub(super) fn spread(ground: &Ground, mut seeds: Vec<(usize, f32)>, wanted: impl Fn(usize, f64) -> bool) -> Field {
         let lattice = &ground.lattice;
         let cell_m = lattice.cell_m();
         let mut distance = vec![f32::INFINITY; lattice.len()];
-        // A step adds at most `cell_m * (1 + WALL_COST + SQUEEZE_COST)`: a ring of buckets is enough.
+        // A step adds at most `cell_m * (1 + WALL_COST + SQUEEZE_COST)`, so a ring of buckets suffices.
         let width = 0.5 * cell_m;
         let bucket_of = |value: f32| (f64::from(value) / width) as usize;
         let mut buckets: [Vec<u32>; RING] = Default::default();
@@ -88,7 +88,7 @@ impl Field {
                     continue; // reached on a shorter way meanwhile
                 }
                 for beside in lattice.around(cell) {
-                    // What is as near already does not come nearer from here.
+                    // A cell that is no farther cannot improve from here.
                     if beside == usize::MAX || distance[beside] <= distance[cell] || !ground.is_walkable(beside) {
                         continue;
                     }
@@ -109,12 +109,12 @@ impl Field {
         Field { distance_m: distance }
     }
 
-    /// Distance from a cell's middle; infinite where no way leads to the goal.
+    /// Distance from a cell's centre; infinite if the goal cannot be reached.
     pub(crate) fn of_cell(&self, cell: usize) -> f64 {
         f64::from(self.distance_m[cell])
     }
 
-    /// Distance from `p`, interpolated between the walkable cells around; infinite where there are none.
+    /// Distance from `p`, interpolated between walkable cells; infinite without such cells.
     #[inline]
     pub(crate) fn at(&self, ground: &Ground, p: Vec2) -> f64 {
         let (mut sum, mut weights) = (0.0, 0.0);
@@ -132,7 +132,7 @@ impl Field {
         ground.walkable_near(p, 0.5).map_or(f64::INFINITY, |cell| self.of_cell(cell))
     }
 
-    /// The unit vector in which the distance falls fastest in the middle of a cell.
+    /// Unit vector of steepest descent at a cell's centre.
     pub(super) fn slope(&self, ground: &Ground, cell: usize) -> Option<Vec2> {
         let own = self.of_cell(cell);
         let [west, east, south, north] =
@@ -150,7 +150,7 @@ impl Field {
         vec2(axis(west, east), axis(south, north)).normalized()
     }
 
-    /// The unit vector in which the distance falls fastest, or `None` at the goal and where no way leads there.
+    /// Unit vector of steepest descent at `p`; `None` at the goal and where it cannot be reached.
     pub(crate) fn downhill(&self, ground: &Ground, p: Vec2) -> Option<Vec2> {
         let lattice = &ground.lattice;
         let mut slope = Vec2::ZERO;
@@ -164,7 +164,7 @@ impl Field {
         if let Some(unit) = slope.normalized().filter(|_| slope.length() > 0.05) {
             return Some(unit);
         }
-        // Off the walkable cells or on a ridge: towards the best cell within two steps.
+        // Off the walkable cells, or on a ridge: head for the best cell within two steps.
         let here = ground.walkable_near(p, 0.5)?;
         let beside = |c: usize| lattice.around(c).into_iter().filter(|&b| b != usize::MAX && ground.is_walkable(b));
         let best = beside(here)
@@ -175,14 +175,14 @@ impl Field {
     }
 }
 
-/// Whether a distance falls short of one that is kept by a least gain, and still does once it is rounded as that is:
-/// far away the gain is less than a step of `f32`, and a distance that was rounded up would be improved for ever.
+/// Whether a distance improves on the stored one by a least gain, also after rounding. At large distances the gain is
+/// below a step of `f32`, and a distance that was rounded up would be improved forever.
 #[inline]
 fn is_nearer(value: f64, kept: f32, least_gain: f64) -> bool {
     value + least_gain < f64::from(kept) && (value as f32) < kept
 }
 
-/// Upwind solution in a cell whose neighbours (west, east, south, north) have these distances.
+/// Upwind solution in a cell from the distances of its neighbours (west, east, south, north).
 #[inline]
 fn upwind(distance: &[f32], around: [usize; 4], step: f64) -> f64 {
     let at = |cell: usize| if cell == usize::MAX { f64::INFINITY } else { f64::from(distance[cell]) };
@@ -216,7 +216,7 @@ mod tests {
             (0..30).map(|y| if y == 0 || y == 29 { "#".repeat(30) } else { format!("#{}#", ".".repeat(28)) }).collect();
         let ground = ground(&rows.iter().map(String::as_str).collect::<Vec<_>>(), 1.0);
         let centre = vec2(15.0, 15.0);
-        // A disc as the goal: a point would add the first-order scheme's error at the source.
+        // The goal is a disc: a point would add the first-order scheme's error at the source.
         let goal: Vec<usize> =
             (0..ground.lattice.len()).filter(|&c| ground.lattice.centre(c).distance(centre) < 2.0).collect();
         let field = Field::to(&ground, &goal);

@@ -4,53 +4,52 @@ use super::lattice::BLOCK_CELLS;
 use super::sheet::{ConductiveSheet, NONE};
 use crate::math::{Vec2, vec2};
 
-/// Longest detour that the flow spreads over: metres, plus a share of the way.
+/// Longest detour with flow: metres, plus a share of the path length.
 const DETOUR_M: f64 = 4.0;
 const DETOUR_SHARE: f64 = 0.16;
-/// Limit of the sum of both, metres.
+/// Upper bound of their sum, metres.
 const MOST_DETOUR_M: f64 = 24.0;
-/// Along a wall so much less room is used than in the open, from this distance to that one, metres.
+/// Relative conductance along a wall, and the clearances over which it grows to 1, metres.
 const WALL_SHARE: f64 = 0.04;
 const WALL_M: [f64; 2] = [0.15, 0.65];
-/// Nearer to a wall than this, metres, people drift away from it, by this slope right at the wall.
+/// Clearance below which people drift off a wall, metres, and the drift's slope at the wall.
 const OFF_WALLS_M: f64 = 0.4;
 const OFF_WALLS: f64 = 0.5;
-/// How much the way straight down counts against the flow, per metre of a cell's side: it leads out of nooks where
-/// next to nobody passes.
+/// Weight of the steepest descent against the flow, per metre of cell size: it leads out of niches with hardly any
+/// flow.
 const DOWN_SHARE: f64 = 0.003;
 
-/// Slack places are left aside: where the flow falls less steeply than this share of the mean around, next to none of
-/// what the sheet conducts there is left, from the second share on all of it.
+/// Slack places have a smaller slope than the mean around. Conductance falls to `SLACK_LEAVES` at the first share of
+/// the mean and stays full from the second share on.
 const SLACK: [f64; 2] = [0.65, 0.95];
 const SLACK_LEAVES: f64 = 0.02;
-/// Side of the tiles for means around a cell, metres: means reach about 1.5 tiles far.
+/// Side of the tiles for means around a cell, metres; a mean reaches about 1.5 tiles.
 const AROUND_M: f64 = 1.0;
 
-/// Flow of people over all the sensible ways from one place to another: a direction for every cell.
+/// Flow of people from one place to another over all reasonable paths: a direction per cell.
 ///
-/// Potential flow: people set out evenly from the start's cells and spread as a current does in a sheet,
-/// `div(s grad p) = source`, with `p = 0` at the goal. They fill a corridor evenly over its width, fan out in a hall,
-/// divide among the gaps between pillars, take a bend on all of its lanes, and no line draws all of them. The sheet
-/// conducts less the longer a detour is that leads by a place, and less along walls. A current has no dead ends: from
-/// wherever somebody stands in it, it leads to the goal.
+/// Potential flow: people enter evenly over the start's cells and spread like a current in a sheet, `div(s grad p) =
+/// source`, with `p = 0` at the goal. They fill a corridor evenly over its width, fan out in a hall, divide among the
+/// gaps between pillars and use all lanes of a bend. Conductance falls with the length of the detour through a place,
+/// and along walls. A current has no dead ends: from every place in the flow it leads to the goal.
 ///
-/// A current also swells into niches and the mouths of side ways, where people walk straight on. So it is solved twice:
-/// where it is slack the first time, the sheet conducts little the second time.
+/// A current also enters niches and side corridors that people pass. So it is solved twice; where it is slack in the
+/// first solution, conductance is low in the second.
 #[derive(Debug)]
 pub(crate) struct Flow {
-    /// Index in `ahead` at which each of the lattice's blocks begins, or [`NONE`].
+    /// Index in `ahead` of the first cell of each lattice block, or [`NONE`].
     first: Vec<u32>,
-    /// Unit vectors times 127; null beside the flow.
+    /// Unit vectors times 127; zero off the flow.
     ahead: Vec<[i8; 2]>,
 }
 
 impl Flow {
-    /// The flow from some cells down a field. Nothing if no cell leads there.
+    /// Computes the flow from the start cells down a field; empty if the field reaches no start.
     pub(crate) fn new(ground: &Ground, starts: &[usize], to: &Field) -> Flow {
         let seeds: Vec<usize> = starts.iter().copied().filter(|&c| to.of_cell(c).is_finite()).collect();
         let longest_m = seeds.iter().map(|&c| to.of_cell(c)).fold(0.0, f64::max);
         let most_m = (DETOUR_M + DETOUR_SHARE * longest_m).min(MOST_DETOUR_M);
-        // Start and goal distance together, less the distance from the start that was set out from.
+        // Detour: distances to start and goal, minus the distance of the longest direct path.
         let over_m = |cell: usize, walked_m: f64| walked_m + to.of_cell(cell) - longest_m;
         let offsets = seeds.iter().map(|&c| (c, (longest_m - to.of_cell(c)) as f32)).collect();
         let walked = Field::spread(ground, offsets, |cell, value| over_m(cell, value) < most_m);
@@ -91,7 +90,7 @@ impl Flow {
         Flow { first, ahead }
     }
 
-    /// Unit vector along the flow at `p`; `None` beside the flow.
+    /// Unit vector along the flow at `p`; `None` off the flow.
     #[inline]
     pub(crate) fn at(&self, ground: &Ground, p: Vec2) -> Option<Vec2> {
         let mut sum = Vec2::ZERO;
@@ -108,7 +107,7 @@ impl Flow {
     }
 }
 
-/// Conductances of a sheet that had `loose` ones, reduced at slack places.
+/// Returns the conductances `loose` of a sheet, reduced at slack places.
 fn tightened(sheet: &ConductiveSheet, loose: &[f64], potential: &[f64], cell_m: f64) -> Vec<f64> {
     let slopes = sheet.slopes(potential);
     let currents: Vec<f64> = slopes.iter().zip(loose).map(|(slope, conducts)| slope * conducts).collect();
@@ -122,7 +121,7 @@ fn tightened(sheet: &ConductiveSheet, loose: &[f64], potential: &[f64], cell_m: 
     loose.iter().zip(slopes.iter().zip(means)).map(|(conducts, (&slope, mean))| conducts * left(slope, mean)).collect()
 }
 
-/// Away from a near wall: the more the nearer it is, nothing from [`OFF_WALLS_M`] on and half way between two walls.
+/// Direction away from a near wall: zero from [`OFF_WALLS_M`] on and midway between two walls.
 fn off_walls(ground: &Ground, cell: usize) -> Vec2 {
     let own = ground.cell_clearance_m(cell);
     let near = (1.0 - own / OFF_WALLS_M).max(0.0);

@@ -1,17 +1,16 @@
-//! Lays gates across a ribbon, as few as describe it.
+//! Lays the fewest gates across a ribbon that describe it.
 
 use super::Gate;
 use super::ribbon::{STEP_M, Station};
 
-/// Farthest that two gates lie apart, metres.
+/// Largest distance between two gates, metres.
 const SPACING_M: f64 = 3.5;
-/// Largest distance of the straight border between two gates outside of the ribbon's, metres.
+/// Largest distance by which the straight border between two gates leaves the ribbon, metres.
 const TOLERANCE_M: f64 = 0.12;
 /// Cosine of the largest turn between two gates.
 const LEAST_COS: f64 = 0.906; // 25 degrees
 
-/// Gates for the ribbon, first and last station included, and the stations that they lie at. `fixed` stations get
-/// a gate in any case.
+/// Returns gates for the ribbon and their station indices. The first, last and `fixed` stations get a gate.
 pub(super) fn lay(stations: &[Station], fixed: &[usize]) -> (Vec<Gate>, Vec<usize>) {
     let mut at = vec![0];
     let mut from = 0;
@@ -27,7 +26,7 @@ pub(super) fn lay(stations: &[Station], fixed: &[usize]) -> (Vec<Gate>, Vec<usiz
     (gates, at)
 }
 
-/// Whether the straight pieces between two stations' ends keep inside of the ribbon, and the way hardly turns.
+/// Whether the border between two stations stays in the ribbon and the path hardly turns.
 fn describes(stations: &[Station], from: usize, to: usize) -> bool {
     if to == from + 1 {
         return true;
@@ -41,7 +40,7 @@ fn describes(stations: &[Station], from: usize, to: usize) -> bool {
         let across = s.ahead.left();
         (0..2).all(|side| {
             let (p, q) = (a.end(side), b.end(side));
-            // Where the border p..q crosses this station's line across the way.
+            // Intersection of the border p..q with this station's line across the path.
             let along = (q - p).dot(s.ahead);
             if along.abs() < 1e-6 {
                 return false;
@@ -54,12 +53,12 @@ fn describes(stations: &[Station], from: usize, to: usize) -> bool {
     })
 }
 
-/// Takes out gates that cross the one before: at the inner side of sharp bends in the open.
+/// Removes gates that cross the previous one, at the inner side of sharp bends in the open.
 fn drop_crossing(stations: &[Station], fixed: &[usize], at: &mut Vec<usize>) {
     let crosses = |i: usize, j: usize| {
         let (a, b) = (&stations[i], &stations[j]);
         let side = |p: crate::math::Vec2| (p - a.middle_m).dot(a.ahead);
-        // A gate behind lies wholly on the far side.
+        // A gate behind lies entirely on the far side.
         a.ahead.dot(b.ahead) > 0.0 && (side(b.end(0)) < -0.05 || side(b.end(1)) < -0.05)
     };
     let mut kept: Vec<usize> = Vec::with_capacity(at.len());

@@ -7,33 +7,33 @@ use crate::math::{Rect, Vec2, vec2};
 use crate::plan::{FloorPlan, Opening, Side};
 use crate::walls::{APRON_M, Walls};
 
-/// Clearances beyond this are stored as this, metres.
+/// Upper bound of stored clearances, metres.
 pub(crate) const CLEARANCE_LIMIT_M: f64 = 3.0;
-/// Resolution of the ground: side of a cell, and least clearance of the narrowest person.
+/// Resolution of the ground: cell size, and least clearance of the narrowest person.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fineness {
     /// Side of a cell, metres.
     cell_m: f64,
-    /// Least distance of a body's middle from walls on the way, metres.
+    /// Least distance of a person's centre from walls, metres.
     least_clearance_m: f64,
 }
 
-/// Cells are made as fine as this count allows, within [`FINEST_M`] and [`COARSEST_M`].
+/// Wanted number of cells; the cell size follows, from [`FINEST_M`] to [`COARSEST_M`].
 const CELLS_WANTED: f64 = 400_000.0;
 const FINEST_M: f64 = 0.1;
 const COARSEST_M: f64 = 0.25;
-/// Less than half of the narrowest body (0.2 m), so that a passage of 0.44 m still holds a row of cells.
+/// Least clearance, metres: a passage of 0.44 m contains a row of cells.
 const LEAST_CLEARANCE_M: f64 = 0.16;
-/// Somebody who turns sideways passes 0.4 m, but not 0.3 m; cells that can tell the two apart, metres ...
+/// A person turned sideways passes 0.4 m, but not 0.3 m: least clearance and cell size for that, metres.
 const SIDEWAYS_CLEARANCE_M: f64 = 0.165;
 const SIDEWAYS_CELL_M: f64 = 0.06;
-/// ... on floors up to this size, square metres.
+/// Largest floor on which this resolution is tried, square metres.
 const SIDEWAYS_FLOOR_M2: f64 = 15_000.0;
 
 impl Fineness {
-    /// Resolutions to try in order until every route leads to its goal.
+    /// Resolutions to try in order until every route reaches its goal.
     ///
-    /// First cells as coarse as the floor is large, then cells that see every narrow passage, last people who squeeze.
+    /// First cells fit the floor's size, then cells resolve every narrow passage, last people turn sideways.
     pub(crate) fn attempts(plan: &FloorPlan) -> Vec<Fineness> {
         let pixel_m2 = plan.metres_per_pixel * plan.metres_per_pixel;
         let floor_m2 = plan.floor.iter().filter(|&&f| f != 0).count() as f64 * pixel_m2;
@@ -53,26 +53,25 @@ impl Fineness {
 #[derive(Debug)]
 pub(crate) struct Ground {
     pub(crate) lattice: Lattice,
-    /// Distance from the cell's middle to the nearest wall, metres, at most [`CLEARANCE_LIMIT_M`]; 0 where no
-    /// floor is.
+    /// Clearance of the cell's centre, metres, at most [`CLEARANCE_LIMIT_M`]; 0 off the floor.
     clearance_m: Vec<f32>,
-    /// Connected part that a walkable cell belongs to, counted from 1; 0 where no body has room.
+    /// Connected part of a walkable cell, from 1; 0 for other cells.
     part: Vec<u16>,
-    /// Distance from walls that can be kept in each cell, see [`Ground::gap_limit_m`].
+    /// Distance from walls that people can keep in each cell, metres, see [`Ground::gap_limit_m`].
     gap_limit_m: Vec<f32>,
-    /// Plan and aprons, less a margin.
+    /// Plan and aprons, minus a margin.
     extent: Rect,
 }
 
-/// People make themselves narrow from this distance to a narrow place on, metres.
+/// Distance from a narrow place within which people make themselves narrow, metres.
 const GAP_REACH_M: f64 = 0.7;
-/// Clearance from which on walls leave plenty of room, metres.
+/// Clearance above which there is plenty of room, metres.
 const PLENTY_M: f32 = 0.9;
-/// The distance from walls that can be kept there, metres: more than the 0.5 m of the Grime paper.
+/// Distance from walls that people can keep there, metres: more than the 0.5 m of the Grime paper.
 const KEPT_M: f32 = 0.55;
 
 impl Ground {
-    /// Measures a plan.
+    /// Measures the ground of a plan.
     pub(crate) fn new(plan: &FloorPlan, walls: &Walls, fineness: Fineness) -> Ground {
         let Fineness { cell_m, least_clearance_m } = fineness;
         let aprons: Vec<Rect> = plan.openings.iter().map(apron).collect();
@@ -88,28 +87,28 @@ impl Ground {
         Ground { lattice, clearance_m, part, gap_limit_m, extent }
     }
 
-    /// Whether the middle of a narrow body can be in this cell's middle.
+    /// Whether the centre of a narrow person can be in this cell's centre.
     #[inline]
     pub(crate) fn is_walkable(&self, cell: usize) -> bool {
         self.part[cell] != 0
     }
 
-    /// Connected part that a cell belongs to, counted from 1; 0 where no body has room.
+    /// Connected part of a cell, from 1; 0 if it is not walkable.
     pub(crate) fn part(&self, cell: usize) -> u16 {
         self.part[cell]
     }
 
-    /// Distance from a cell's middle to the nearest wall, metres.
+    /// Distance from a cell's centre to the nearest wall, metres.
     #[inline]
     pub(crate) fn cell_clearance_m(&self, cell: usize) -> f64 {
         f64::from(self.clearance_m[cell])
     }
 
-    /// A distance that no wall comes nearer to `p` than, metres; 0 off the floor.
+    /// Lower bound on the distance from `p` to the nearest wall, metres; 0 off the floor.
     #[inline]
     pub(crate) fn clearance_at_least_m(&self, p: Vec2) -> f64 {
         match self.lattice.cell_at(p) {
-            // Half a diagonal, and the hundredths that passing on the nearest points costs.
+            // Half a diagonal, and the small error of propagated nearest points.
             Some(cell) => (self.cell_clearance_m(cell) - 0.75 * self.lattice.cell_m()).max(0.0),
             None => 0.0,
         }
@@ -124,20 +123,20 @@ impl Ground {
             .sum()
     }
 
-    /// The point nearest to `p` that lies no farther out than aprons reach.
+    /// The point nearest to `p` within the reach of the aprons.
     #[inline]
     pub(crate) fn within_aprons(&self, p: Vec2) -> Vec2 {
         vec2(p.x.clamp(self.extent.min.x, self.extent.max.x), p.y.clamp(self.extent.min.y, self.extent.max.y))
     }
 
-    /// The distance from walls that can be kept here even where they stand close on both sides, metres: large in the
-    /// open, 0.15 m in a door of 0.8 m, and everywhere less than the clearance of the nearest walkable cell.
+    /// Distance from walls that people can keep even where walls are close on both sides, metres. Large in the
+    /// open, 0.15 m in a door of 0.8 m, and always less than the clearance of the nearest walkable cell.
     #[inline]
     pub(crate) fn gap_limit_m(&self, p: Vec2) -> f64 {
         self.lattice.cell_at(p).map_or(0.0, |cell| f64::from(self.gap_limit_m[cell]))
     }
 
-    /// The walkable cell nearest to `p` within this many metres.
+    /// The walkable cell nearest to `p` within `within_m` metres.
     pub(crate) fn walkable_near(&self, p: Vec2, within_m: f64) -> Option<usize> {
         if let Some(cell) = self.lattice.cell_at(p)
             && self.is_walkable(cell)
@@ -163,7 +162,7 @@ impl Ground {
         best.map(|b| b.1)
     }
 
-    /// Whether the straight line from `a` to `b` meets no wall; exact, but mostly answered from clearances.
+    /// Whether no wall crosses the line from `a` to `b`; exact, but mostly decided by clearances.
     #[inline]
     pub(crate) fn sight(&self, walls: &Walls, a: Vec2, b: Vec2) -> bool {
         let distance = a.distance(b);
@@ -187,8 +186,8 @@ impl Ground {
 }
 
 impl Ground {
-    /// Whether a body can walk straight from `a` to `b` without coming nearer than `margin_m` to a wall, as well as
-    /// the cells can tell; that no wall is crossed is exact.
+    /// Whether a person can walk straight from `a` to `b` at least `margin_m` from walls. Clearance is as exact as the
+    /// cells; crossing of walls is exact.
     pub(crate) fn is_free(&self, walls: &Walls, a: Vec2, b: Vec2, margin_m: f64) -> bool {
         let distance = a.distance(b);
         let direction = (b - a) / distance.max(1e-9);
@@ -214,12 +213,12 @@ impl Ground {
         cells as f64 * self.lattice.cell_m() * self.lattice.cell_m()
     }
 
-    /// The narrowest place of the widest way between two cells, and about its width, metres: a way so narrow that
-    /// nobody fits through, but not closed.
+    /// The narrowest point of the widest path between two cells, and its approximate width, metres. The path is too
+    /// narrow for a person, but not closed.
     pub(super) fn narrowest_between(&self, from: usize, to: usize) -> Option<(Vec2, f64)> {
         let clearance = |cell: usize| (self.clearance_m[cell] * 1e4) as u32;
         let least = (0.51e4 * self.lattice.cell_m()).min(500.0) as u32;
-        // The least clearance on the widest way to each cell, and where that is.
+        // Cell of least clearance on the widest path to each cell.
         let mut narrowest: Vec<Option<usize>> = vec![None; self.lattice.len()];
         let mut open = BinaryHeap::from([(clearance(from), from, from)]);
         while let Some((width, cell, at)) = open.pop() {
@@ -241,7 +240,7 @@ impl Ground {
     }
 }
 
-/// The rectangle of floor beyond an opening.
+/// The rectangle of the apron beyond an opening.
 pub(crate) fn apron(opening: &Opening) -> Rect {
     let out = opening.side.outward() * APRON_M;
     let edge = Rect::around(opening.from_m, opening.to_m);
@@ -251,7 +250,7 @@ pub(crate) fn apron(opening: &Opening) -> Rect {
     }
 }
 
-/// Whether any pixel under a rectangle is floor.
+/// Whether any pixel in a rectangle is floor.
 fn holds_floor(plan: &FloorPlan, area: Rect) -> bool {
     let [x0, y1] = plan.m_to_px(area.min);
     let [x1, y0] = plan.m_to_px(area.max);
@@ -264,8 +263,8 @@ fn holds_floor(plan: &FloorPlan, area: Rect) -> bool {
         })
 }
 
-/// Distance to the nearest wall for every cell: exact beside walls, from there on by passing the nearest points
-/// to the cells around in order of distance.
+/// Distance to the nearest wall per cell: exact beside walls, elsewhere from nearest points propagated to adjacent
+/// cells in order of distance.
 fn clearances(lattice: &Lattice, inside: &[bool], walls: &Walls) -> Vec<f32> {
     let near = near_walls(lattice, walls);
     let cell_m = lattice.cell_m();
@@ -307,7 +306,7 @@ fn clearances(lattice: &Lattice, inside: &[bool], walls: &Walls) -> Vec<f32> {
     clearance
 }
 
-/// Marks the cells that a wall passes, and those around them.
+/// Marks the cells on a wall and the cells around them.
 fn near_walls(lattice: &Lattice, walls: &Walls) -> Vec<bool> {
     let mut near = vec![false; lattice.len()];
     let mut segments = Vec::new();
@@ -329,9 +328,9 @@ fn near_walls(lattice: &Lattice, walls: &Walls) -> Vec<bool> {
     near
 }
 
-/// Numbers the connected parts of what can be walked, from 1, in the order of their first cells.
+/// Numbers the connected walkable parts from 1, in the order of their first cells.
 fn parts(lattice: &Lattice, clearance_m: &[f32], least_clearance_m: f64) -> Vec<u16> {
-    // Cells on the two sides of a wall must not lie beside each other, so no cell nearer than half a cell.
+    // Cells on both sides of a wall must not be adjacent, so least clearance is half a cell.
     let least = least_clearance_m.max(0.51 * lattice.cell_m()) as f32;
     let mut part = vec![0u16; lattice.len()];
     let mut count = 0u16;
@@ -339,7 +338,7 @@ fn parts(lattice: &Lattice, clearance_m: &[f32], least_clearance_m: f64) -> Vec<
         if part[first] != 0 || clearance_m[first] < least {
             continue;
         }
-        // Slivers beyond the 65 535th share the last number; so many are never places to walk.
+        // Parts beyond the 65 535th share the last number; so many parts are always slivers.
         count = count.saturating_add(1);
         part[first] = count;
         lattice.joined(first, |cell| {
@@ -353,19 +352,19 @@ fn parts(lattice: &Lattice, clearance_m: &[f32], least_clearance_m: f64) -> Vec<
     part
 }
 
-/// Distance from walls that can be kept in each cell, metres: [`KEPT_M`] in the open.
+/// Distance from walls that people can keep in each cell, metres: [`KEPT_M`] in the open.
 ///
-/// Half way between two walls that are `2 c` apart, as in a door, `0.71 c - 0.13` (0.15 m in a door of 0.8 m, so that
-/// two people pass each other), at least 0.1 m, and as much on all ways to there from [`GAP_REACH_M`] on: whoever keeps
-/// half a metre off walls still comes to stand before the door, and through it. At most nine tenths of the clearance in
-/// the cells around, so that whatever counts as walkable can be walked.
+/// Midway between two walls at a distance of `2 c`, as in a door, it is `0.71 c - 0.13`, at least 0.1 m: 0.15 m in a
+/// door of 0.8 m, so that two people pass each other. The same limit holds on all paths from [`GAP_REACH_M`] on, so
+/// that people who keep 0.5 m off walls still reach and pass the door. It is at most 0.9 of the clearance in the cells
+/// around, so that all walkable cells can be reached.
 fn gap_limits(lattice: &Lattice, clearance_m: &[f32], part: &[u16]) -> Vec<f32> {
     let cell_m = lattice.cell_m();
     let at = |p: Vec2| lattice.cell_at(p).map_or(0.0, |other| clearance_m[other]);
     let is_between_walls = |cell: usize| {
         let centre = lattice.centre(cell);
         let reach_m = (2.0 * cell_m).max(0.2);
-        // Half way may lie between two cells.
+        // Midway may be between two cells.
         let less = (0.3 * reach_m) as f32;
         let lower = |x: f64, y: f64| clearance_m[cell] - at(centre + vec2(x, y) * reach_m) >= less;
         [(1.0, 0.0), (0.0, 1.0), (0.7, 0.7), (0.7, -0.7)].iter().any(|&(x, y)| lower(x, y) && lower(-x, -y))
@@ -387,7 +386,7 @@ fn gap_limits(lattice: &Lattice, clearance_m: &[f32], part: &[u16]) -> Vec<f32> 
     let allowed = |(cell, limit): (usize, &f32)| {
         let near = lattice.beside(cell).map(|b| clearance_m[b]);
         let near = near.fold(clearance_m[cell], f32::max);
-        // What no body reaches takes after the nearest cell that one does.
+        // A cell that is not walkable follows the nearest walkable one.
         if near < PLENTY_M { limit.min(0.9 * near).max(0.0) } else { *limit }
     };
     limits.par_iter().enumerate().map(allowed).collect()

@@ -1,14 +1,13 @@
 use crate::math::{Rect, Vec2, vec2};
 
-/// Cells along a block's side.
+/// Cells along the side of a block.
 pub(super) const SIDE: usize = 16;
-/// Cells in a block.
+/// Cells per block.
 pub(crate) const BLOCK_CELLS: usize = SIDE * SIDE;
-/// No block here.
+/// Marks a missing block.
 const NONE: u32 = u32::MAX;
 
-/// A square grid that exists only where there is something to store: blocks of 16 x 16 cells, numbered in the
-/// order of their rows. Values live in plain vectors beside it, indexed by cell.
+/// A sparse square grid of blocks of 16 x 16 cells, numbered by rows. Values are in separate vectors, indexed by cell.
 #[derive(Clone, Debug)]
 pub(crate) struct Lattice {
     origin_m: Vec2,
@@ -16,16 +15,16 @@ pub(crate) struct Lattice {
     cells_per_m: f64,
     blocks_x: usize,
     blocks_y: usize,
-    /// Number of the block at each place, row by row from the least y, or [`NONE`].
+    /// Number of each block, row by row from the least y, or [`NONE`].
     number: Vec<u32>,
-    /// Place of each block: column and row.
+    /// Column and row of each block.
     place: Vec<[u32; 2]>,
-    /// For each block the cell number where the block to the west, east, south, north begins, or [`NONE`].
+    /// First cell of the adjacent blocks to the west, east, south and north, or [`NONE`].
     beside: Vec<[u32; 4]>,
 }
 
 impl Lattice {
-    /// Covers `area` with cells of this size, keeping the blocks that `wanted` asks for.
+    /// Covers `area` with cells of side `cell_m`, with the blocks that `wanted` accepts.
     pub(crate) fn new(area: Rect, cell_m: f64, wanted: impl Fn(Rect) -> bool) -> Lattice {
         let block_m = cell_m * SIDE as f64;
         let blocks_x = (area.width() / block_m).ceil().max(1.0) as usize;
@@ -56,7 +55,7 @@ impl Lattice {
         Lattice { origin_m: area.min, cell_m, cells_per_m: 1.0 / cell_m, blocks_x, blocks_y, number, place, beside }
     }
 
-    /// Larger cells over the same places.
+    /// Returns a lattice of larger cells over the same area.
     pub(crate) fn coarser(&self, cell_m: f64) -> Lattice {
         let block_m = self.cell_m * SIDE as f64;
         let size = vec2(self.blocks_x as f64, self.blocks_y as f64) * block_m;
@@ -75,12 +74,12 @@ impl Lattice {
         self.cell_m
     }
 
-    /// How many cells there are; every value vector has this length.
+    /// Number of cells; every vector of values has this length.
     pub(crate) fn len(&self) -> usize {
         self.place.len() * BLOCK_CELLS
     }
 
-    /// The cell that contains a point, if it exists.
+    /// The cell at a point, if it exists.
     #[inline]
     pub(crate) fn cell_at(&self, p: Vec2) -> Option<usize> {
         let x = (p.x - self.origin_m.x) * self.cells_per_m;
@@ -91,7 +90,7 @@ impl Lattice {
         self.cell_of(x as usize, y as usize)
     }
 
-    /// The cell in this column and row, if it exists.
+    /// The cell in a column and row, if it exists.
     #[inline]
     fn cell_of(&self, x: usize, y: usize) -> Option<usize> {
         let (column, row) = (x / SIDE, y / SIDE);
@@ -109,7 +108,7 @@ impl Lattice {
         [column as usize * SIDE + within % SIDE, row as usize * SIDE + within / SIDE]
     }
 
-    /// The cells whose middles lie within a rectangle, block by block.
+    /// Cells with centres in a rectangle, block by block.
     pub(crate) fn cells_within(&self, area: Rect) -> Vec<usize> {
         let range = |low: f64, high: f64, origin: f64, count: usize| {
             let index = |m: f64| ((m - origin) * self.cells_per_m).clamp(0.0, count as f64) as usize;
@@ -124,7 +123,7 @@ impl Lattice {
         cells
     }
 
-    /// The cell so many columns and rows away, if it exists: the plain way, to test the others against.
+    /// The cell at an offset of columns and rows, if it exists; the naive reference for tests.
     #[cfg(test)]
     fn shifted(&self, cell: usize, columns: i64, rows: i64) -> Option<usize> {
         let [x, y] = self.column_row(cell);
@@ -133,13 +132,13 @@ impl Lattice {
         self.cell_of(x, y)
     }
 
-    /// Middle of a cell, metres.
+    /// Centre of a cell, metres.
     pub(crate) fn centre(&self, cell: usize) -> Vec2 {
         let [x, y] = self.column_row(cell);
         self.origin_m + vec2(x as f64 + 0.5, y as f64 + 0.5) * self.cell_m
     }
 
-    /// The cells to the west, east, south and north; `usize::MAX` where there is none.
+    /// Cells to the west, east, south and north; `usize::MAX` if missing.
     #[inline]
     pub(crate) fn around(&self, cell: usize) -> [usize; 4] {
         let within = cell % BLOCK_CELLS;
@@ -156,12 +155,12 @@ impl Lattice {
         ]
     }
 
-    /// The cells beside a cell that exist.
+    /// Adjacent cells that exist.
     pub(crate) fn beside(&self, cell: usize) -> impl Iterator<Item = usize> {
         self.around(cell).into_iter().filter(|&beside| beside != usize::MAX)
     }
 
-    /// Flood fill: `first`, and all cells joined to it that `take` accepts, each of which it has to accept once only.
+    /// Flood fill: returns `first` and all connected cells that `take` accepts; it must accept each cell only once.
     pub(crate) fn joined(&self, first: usize, mut take: impl FnMut(usize) -> bool) -> Vec<usize> {
         let mut joined = vec![first];
         let mut next = 0;
@@ -172,7 +171,7 @@ impl Lattice {
         joined
     }
 
-    /// The four cells whose middles surround a point, with their bilinear weights.
+    /// The four cells with centres around a point, and their bilinear weights.
     #[inline]
     pub(crate) fn stencil(&self, p: Vec2) -> [(Option<usize>, f64); 4] {
         let x = (p.x - self.origin_m.x) * self.cells_per_m - 0.5;
@@ -197,7 +196,7 @@ mod tests {
     use super::*;
 
     fn lattice() -> Lattice {
-        // 40 x 40 cells of 0.5 m; the block in the upper right corner is left out.
+        // 40 x 40 cells of 0.5 m without the block in the upper right corner.
         let area = Rect { min: vec2(-2.0, 1.0), max: vec2(18.0, 21.0) };
         Lattice::new(area, 0.5, |block| block.min.x < 10.0 || block.min.y < 10.0)
     }

@@ -10,7 +10,7 @@ use super::{Place, targets};
 use crate::plan::FloorPlan;
 use crate::progress::{Interrupted, Progress};
 
-/// A place that a leg leads to, and whether it is the route's last.
+/// End of a leg: a place, and whether it is the route's goal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LegEnd {
     pub(super) place: Place,
@@ -18,7 +18,7 @@ pub(super) struct LegEnd {
 }
 
 impl LegEnd {
-    /// The cells that count as this end.
+    /// Cells of this end.
     pub(super) fn cells(self, plan: &FloorPlan, ground: &Ground) -> Vec<usize> {
         match self.last {
             true => targets::cells(plan, ground, self.place),
@@ -32,7 +32,7 @@ pub(super) fn leg_ends(via: impl Iterator<Item = Place>, goal: Place) -> impl It
     via.map(|place| LegEnd { place, last: false }).chain([LegEnd { place: goal, last: true }])
 }
 
-/// Distance fields of the ends of legs, each made once.
+/// Distance fields of leg ends, each computed once.
 pub(super) struct FieldStore<'p> {
     fields: Vec<(LegEnd, Arc<Field>)>,
     progress: &'p dyn Progress,
@@ -53,7 +53,7 @@ impl FieldStore<'_> {
         Field::to_unless_interrupted(ground, goal, self.progress)
     }
 
-    /// Makes the fields that are missing, in parallel.
+    /// Computes the missing fields in parallel.
     pub(super) fn fill(
         &mut self,
         plan: &FloorPlan,

@@ -1,10 +1,9 @@
 //! Route finding: where people walk through the plan.
 //!
-//! Takes the plan, its walls and what a scenario asks for; gives [`Route`]s: a start, places to pass, a goal, and
-//! gates across the shortest way. [`Navigation`] keeps what the walking itself needs: the ground measured in cells, for
-//! every place that a route leads to the walking distance from everywhere, and for every leg of a route how people
-//! spread over all the sensible ways (a potential flow), so that corridors are walked over their whole width, halls
-//! beside their middle too, and between pillars every gap. No path is searched while people walk.
+//! Takes the plan, its walls and the scenario's requests; returns [`Route`]s: a start, via places, a goal, and gates
+//! across the shortest path. [`Navigation`] holds the data for walking: the ground in cells, the walking distance from
+//! every cell to each place, and a potential flow per leg of a route, which spreads people over all reasonable paths.
+//! They use the full width of corridors, all of a hall, and every gap between pillars. Walking needs no path search.
 
 mod defaults;
 mod draft;

@@ -21,41 +21,40 @@ use crate::{Progress, Silent};
 
 /// Largest number of routes.
 const MOST_ROUTES: usize = 1000;
-/// People keep within this of a place between start and goal that lies in the open, metres.
+/// Radius within which people pass a via place in the open, metres.
 const VIA_REACH_M: f64 = 2.5;
 
-/// Navigation data of a plan and its routes: the ground in cells, and the walking distance from
-/// everywhere to each place that a route leads to. Routes that lead to the same place share it.
+/// Navigation data of a plan and its routes: ground, distance fields, flows. Routes to the same place share a field.
 #[derive(Clone, Debug)]
 pub struct Navigation {
     pub(crate) ground: Arc<Ground>,
     pub(crate) fields: Vec<Arc<Field>>,
     pub(crate) flows: Vec<Arc<Flow>>,
-    /// One for each route, in order.
+    /// One per route, in order.
     pub(crate) ways: Vec<RouteLegs>,
 }
 
-/// A route as the crowd walks it.
+/// Cells and legs of a route, for the crowd.
 #[derive(Clone, Debug)]
 pub(crate) struct RouteLegs {
-    /// Cells on which people may appear.
+    /// Cells where people appear.
     pub(crate) start_cells: Vec<usize>,
-    /// Cells that count as the goal.
+    /// Cells of the goal.
     pub(crate) goal_cells: Vec<usize>,
-    /// To the first place between, ..., to the goal.
+    /// Legs to each via place, and to the goal.
     pub(crate) legs: Vec<Leg>,
 }
 
-/// The way from one place of a route to its next.
+/// A leg: the path from one place of a route to the next.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Leg {
     /// Index of the distance field to its end.
     pub(crate) field: usize,
-    /// Index of the flow that leads there.
+    /// Index of the flow to its end.
     pub(crate) flow: usize,
 }
 
-/// Finds the routes that a scenario asks for, or the default ones.
+/// Finds the requested routes, or the default ones.
 ///
 /// # Errors
 /// Places that the plan does not have, that are inside walls, or that no way joins; see [`RoutesError`].
@@ -76,7 +75,7 @@ pub fn find(plan: &FloorPlan, walls: &Walls, options: &RoutesOptions) -> Result<
 }
 
 impl Navigation {
-    /// Finds the routes, and measures them: what [`find`] and [`Navigation::new`] do, once.
+    /// Finds the routes and their navigation data: [`find`] and [`Navigation::new`] in one pass.
     ///
     /// # Errors
     /// As [`find`].
@@ -88,7 +87,7 @@ impl Navigation {
         Navigation::find_watched(plan, walls, options, &Silent)
     }
 
-    /// The same, given up soon after `progress` says that the user wants it to stop.
+    /// Like [`Navigation::find`], but stops soon after `progress` is interrupted.
     ///
     /// # Errors
     /// As [`find`]; [`RoutesError::Interrupted`].
@@ -106,10 +105,10 @@ impl Navigation {
         })
     }
 
-    /// Measures distance fields and flows of these routes.
+    /// Computes distance fields and flows of these routes.
     ///
     /// # Errors
-    /// Routes that do not belong to this plan.
+    /// A route does not belong to this plan.
     pub fn new(plan: &FloorPlan, walls: &Walls, routes: &[Route]) -> Result<Navigation, RoutesError> {
         first_that_works(plan, |fineness| {
             Navigation::of(plan, Ground::new(plan, walls, fineness), routes, FieldStore::new(&Silent))
@@ -165,7 +164,7 @@ impl Navigation {
     }
 }
 
-/// Tries ever finer measures of the ground while places cannot be reached: coarse cells may close a narrow passage.
+/// Tries finer and finer grounds while places cannot be reached: coarse cells may close narrow passages.
 fn first_that_works<T>(
     plan: &FloorPlan,
     attempt: impl Fn(Fineness) -> Result<T, RoutesError>,
@@ -200,7 +199,7 @@ fn route_legs(route: &Route) -> impl Iterator<Item = LegEnd> {
     leg_ends(route.via.iter().map(|v| v.place), route.goal)
 }
 
-/// Finds the places that a request names.
+/// Finds the places of a request.
 fn draft(
     plan: &FloorPlan,
     ground: &Ground,
@@ -240,7 +239,7 @@ fn draft(
         && via.is_empty()
         && let Some(first) = stops.first()
     {
-        // In, to the stop, and out again: the way leads past the stop.
+        // People enter, go to the stop, and leave: the route passes the stop.
         via.push(first.stop.before(ground));
         names.insert(1, first.stop.name.clone());
     }
@@ -254,7 +253,7 @@ fn draft(
     Ok(RouteDraft { name, place_names: names, start, via, stops, arrivals, goal, share: request.share })
 }
 
-/// The stops that a scenario describes, on the ground.
+/// Finds the scenario's stops on the ground.
 fn stops(plan: &FloorPlan, walls: &Walls, ground: &Ground, options: &RoutesOptions) -> Result<Vec<Stop>, RoutesError> {
     for (index, stop) in options.stops.iter().enumerate() {
         if options.stops[..index].iter().any(|other| other.name == stop.name) {
@@ -264,7 +263,7 @@ fn stops(plan: &FloorPlan, walls: &Walls, ground: &Ground, options: &RoutesOptio
     options.stops.iter().map(|stop| stop.resolve(plan, ground, walls)).collect()
 }
 
-/// Places that a request passes, and its stops: name, share, number of places passed before.
+/// Splits a request into via places and stops: name, share, number of via places before.
 fn split<'r>(
     request: &'r RouteRequest,
     options: &RoutesOptions,
@@ -289,7 +288,7 @@ fn find_stop<'s>(stops: &'s [Stop], route: &str, name: &str) -> Result<&'s Stop,
     })
 }
 
-/// An unknown opening may have been meant as a stop.
+/// Suggests a stop if the unknown opening resembles its name.
 fn or_stop(error: RoutesError, stops: &[Stop]) -> RoutesError {
     if let RoutesError::UnknownOpening { route, name, nearest: None, .. } = &error
         && let Err(unknown @ RoutesError::UnknownStop { nearest: Some(_), .. }) = find_stop(stops, route, name)
@@ -299,7 +298,7 @@ fn or_stop(error: RoutesError, stops: &[Stop]) -> RoutesError {
     error
 }
 
-/// Turns ticket gates the way that the first route goes through them; all routes share them.
+/// Turns ticket gates the way the first route passes them; all routes share the heading.
 fn turn_gates(ground: &Ground, fields: &FieldStore<'_>, drafts: &mut [RouteDraft]) {
     let mut turned: Vec<Stop> = Vec::new();
     for draft in drafts {
@@ -315,7 +314,7 @@ fn turn_gates(ground: &Ground, fields: &FieldStore<'_>, drafts: &mut [RouteDraft
     }
 }
 
-/// Follows a drafted route and lays gates across its way.
+/// Traces a drafted route and lays gates across its path.
 fn lay_out(
     plan: &FloorPlan,
     ground: &Ground,
@@ -368,7 +367,7 @@ fn lay_out(
     })
 }
 
-/// The error that says between which places there is no way, and why.
+/// Returns the error that names two unconnected places and the cause.
 fn no_way(plan: &FloorPlan, ground: &Ground, route: &str, names: [&str; 2], cells: [Option<usize>; 2]) -> RoutesError {
     let spot = |end: usize| {
         Box::new(match cells[end] {
@@ -385,7 +384,7 @@ fn no_way(plan: &FloorPlan, ground: &Ground, route: &str, names: [&str; 2], cell
     RoutesError::Unreachable { route: route.into(), from: spot(0), to: spot(1), gap }
 }
 
-/// Navigation data of one route; pairs of places without a flow are appended.
+/// Navigation data of one route; appends pairs of places without a flow.
 fn way(
     plan: &FloorPlan,
     ground: &Ground,
@@ -393,7 +392,7 @@ fn way(
     route: &Route,
     pairs: &mut Vec<LegEnds>,
 ) -> Result<RouteLegs, RoutesError> {
-    // People come from anywhere in the start.
+    // People come from all cells of the start.
     let mut from = LegEnd { place: route.start, last: true };
     let mut legs = Vec::with_capacity(route.via.len() + 1);
     for to in route_legs(route) {

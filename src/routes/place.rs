@@ -1,16 +1,16 @@
 use crate::math::Vec2;
 
-/// A segment across the shortest way, as wide as people can use around it: not a point, because they spread out.
+/// A segment across the shortest path, as wide as people can use around it.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Gate {
-    /// End on the left of those who walk the route, metres.
+    /// Left end, as seen along the route, metres.
     pub left_m: Vec2,
-    /// End on the right, metres.
+    /// Right end, metres.
     pub right_m: Vec2,
 }
 
 impl Gate {
-    /// The point at this share of the way from the left end to the right one.
+    /// The point at a share of the width, from the left end (0) to the right (1).
     pub fn at(&self, share: f64) -> Vec2 {
         self.left_m.lerp(self.right_m, share)
     }
@@ -21,21 +21,21 @@ impl Gate {
     }
 }
 
-/// Where people appear or vanish.
+/// A place where people appear or vanish.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Place {
-    /// An opening in an image side, by its index in `FloorPlan::openings`: beyond the floor's edge.
+    /// An opening in an image side, beyond the floor's edge: index into `FloorPlan::openings`.
     Opening(usize),
-    /// Anywhere within a rectangle of floor, metres: `[min, max]`.
+    /// A rectangle of floor, metres: `[min, max]`.
     Area([Vec2; 2]),
 }
 
-/// A place between start and goal.
+/// A place that a route passes between start and goal.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Via {
-    /// Where it is.
+    /// The place.
     pub place: Place,
-    /// Index of the gate at it.
+    /// Index of its gate.
     pub gate: usize,
 }

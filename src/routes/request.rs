@@ -3,34 +3,34 @@ use serde::{Deserialize, Serialize};
 use super::{StopRequest, Timetable};
 use crate::plan::PlanPoint;
 
-/// Requested routes and stops. Without any route, routes run between the widest openings.
+/// Requested routes and stops; without routes, the default ones join the widest openings.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RoutesOptions {
     /// Requested routes; empty for the default routes.
     pub routes: Vec<RouteRequest>,
-    /// Places where people may stop; routes name them.
+    /// Stops, which routes refer to by name.
     pub stops: Vec<StopRequest>,
 }
 
-/// A route as a scenario writes it.
+/// A route in a scenario.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RouteRequest {
-    /// Name; left out: made of the places.
+    /// Name; default: from the names of its places.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// Where people appear.
+    /// Place where people appear.
     pub from: PlaceRequest,
-    /// Where they go.
+    /// Place where people vanish.
     pub to: PlaceRequest,
-    /// Places to pass and stops on the way, in order.
+    /// Via places and stops, in order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub via: Vec<ViaRequest>,
-    /// Share of the people who take it, relative to the other routes' shares; 0 or more.
+    /// Share of all people on this route, relative to the other routes' shares; at least 0.
     #[serde(default = "one")]
     pub share: f64,
-    /// Timetable of its people; left out, that of the whole crowd.
+    /// Timetable of its people; default: that of the whole crowd.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arrivals: Option<Timetable>,
 }
@@ -39,7 +39,7 @@ fn one() -> f64 {
     1.0
 }
 
-/// A place as a scenario writes it: an opening's name, a point, or an area.
+/// A place in a scenario: an opening's name, a point, or an area.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged, expecting = "an opening's name, a point [x, y], or an area [[x0, y0], [x1, y1]]")]
 pub enum PlaceRequest {
@@ -51,20 +51,20 @@ pub enum PlaceRequest {
     Area([[f64; 2]; 2]),
 }
 
-/// A place between start and goal, as a scenario writes it.
+/// A via place in a scenario.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     untagged,
     expecting = "an opening's or a stop's name, a point [x, y], an area [[x0, y0], [x1, y1]], or { stop = \"name\", share = 0.2 }"
 )]
 pub enum ViaRequest {
-    /// A stop where only some of the people stop; the others do not go there.
+    /// A stop for a share of the people; the others do not go there.
     Stop(SharedStop),
-    /// A place to pass, or the name of a stop where everybody stops.
+    /// A place to pass, or the name of a stop for all people.
     Place(PlaceRequest),
 }
 
-/// A stop of a route, and the share of people who stop there.
+/// A stop of a route, and the share of people who stop.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SharedStop {
@@ -76,7 +76,7 @@ pub struct SharedStop {
 }
 
 impl ViaRequest {
-    /// Name of the stop among `stops`, and the share of people who stop there; `None` for a place to pass.
+    /// Name of the stop among `stops`, and the share who stop; `None` for a place to pass.
     pub fn stop<'s>(&'s self, stops: &[StopRequest]) -> Option<(&'s str, f64)> {
         match self {
             ViaRequest::Stop(SharedStop { stop, share }) => Some((stop, *share)),
@@ -95,7 +95,7 @@ impl From<PlaceRequest> for ViaRequest {
 }
 
 impl PlaceRequest {
-    /// Name of the place in messages.
+    /// Name of the place, for messages.
     pub(super) fn describe(&self) -> String {
         match self {
             PlaceRequest::Opening(name) => name.clone(),

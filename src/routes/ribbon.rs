@@ -1,51 +1,51 @@
-//! The middle line of a route and the room on both sides of it.
+//! The ribbon of a route: its centre line and the usable width on both sides.
 
 use super::field::Field;
 use super::ground::Ground;
 use crate::math::Vec2;
 
-/// Distance between the places at which the ribbon is measured, metres.
+/// Distance between the stations of a ribbon, metres.
 pub(super) const STEP_M: f64 = 0.25;
-/// Bodies' middles keep this far off the walls at least, metres; less in narrow gaps.
+/// Least distance of persons' centres from walls, metres; less in narrow gaps.
 const WALL_MARGIN_M: f64 = 0.16;
-/// Half width of the ribbon where no wall limits it, metres.
+/// Half width of the ribbon without walls, metres.
 const SPREAD_M: f64 = 5.0;
-/// How much wider, on either side, the used way grows per metre walked: people fan out behind a door, they do not
-/// line up along the wall beside it.
+/// Growth of the used half width per metre walked: people fan out behind a door rather than line up along the wall
+/// beside it.
 const FANNING: f64 = 0.4;
-/// Directions are taken over this distance before and behind, metres.
+/// Range over which directions are smoothed, before and behind, metres.
 const SMOOTHING_M: f64 = 0.75;
 
-/// One place along a route.
+/// A cross-section of a ribbon.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Station {
-    /// On the middle line, metres.
+    /// Point on the centre line, metres.
     pub(super) middle_m: Vec2,
-    /// Unit vector along the way.
+    /// Unit vector along the path.
     pub(super) ahead: Vec2,
-    /// Usable distance to the left and right of the middle line, metres.
+    /// Usable distance to the left and right of the centre line, metres.
     pub(super) extent_m: [f64; 2],
 }
 
 impl Station {
-    /// RibbonEnd of the usable way on the left (0) or right (1).
+    /// End of the usable width on the left (0) or right (1), metres.
     pub(super) fn end(&self, side: usize) -> Vec2 {
         let sign = if side == 0 { 1.0 } else { -1.0 };
         self.middle_m + self.ahead.left() * (sign * self.extent_m[side])
     }
 }
 
-/// Width of a route where it begins or ends, metres.
+/// Width of a ribbon at its start or end, metres.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum RibbonEnd {
-    /// Everybody comes in or goes out over the whole width.
+    /// People enter or leave over the whole width.
     Opening(f64),
-    /// People come from or gather at a place in the open.
+    /// People come from, or gather at, a place in the open.
     Area(f64),
 }
 
 impl RibbonEnd {
-    /// How far to either side people spread at this distance from the end, who would otherwise spread that far.
+    /// Half width at a distance from the end, given the half width without it.
     fn limit(self, otherwise_m: f64, distance_m: f64) -> f64 {
         match self {
             RibbonEnd::Opening(width_m) => otherwise_m.max(0.5 * width_m - FANNING * distance_m),
@@ -54,7 +54,7 @@ impl RibbonEnd {
     }
 }
 
-/// Follows the shortest way from `start` down the field to its goal. `None` if it does not lead there.
+/// Traces the shortest path from `start` down the field; `None` if it does not reach the goal.
 pub(super) fn trace(ground: &Ground, field: &Field, start: Vec2) -> Option<Vec<Vec2>> {
     let cell_m = ground.lattice.cell_m();
     let mut p = start;
@@ -63,7 +63,7 @@ pub(super) fn trace(ground: &Ground, field: &Field, start: Vec2) -> Option<Vec<V
         return None;
     }
     let mut path = vec![p];
-    // Every step comes nearer, so the way cannot be much longer than its distance.
+    // Every step reduces the distance, which limits their number.
     let most_steps = (distance / (0.25 * cell_m)) as usize + 100;
     for _ in 0..most_steps {
         if distance <= 0.75 * cell_m {
@@ -75,7 +75,7 @@ pub(super) fn trace(ground: &Ground, field: &Field, start: Vec2) -> Option<Vec<V
                 && field.at(ground, q) < distance - 0.1 * cell_m
         }) {
             Some(next) => next,
-            // On a ridge or against a wall: to the best of the cells around.
+            // On a ridge or against a wall: step to the best adjacent cell.
             None => {
                 let here = ground.walkable_near(p, 0.5)?;
                 let best = ground
@@ -99,7 +99,7 @@ pub(super) fn trace(ground: &Ground, field: &Field, start: Vec2) -> Option<Vec<V
     None
 }
 
-/// The same line with points every [`STEP_M`] metres; both ends are kept.
+/// Resamples a line at steps of [`STEP_M`] metres; keeps both ends.
 pub(super) fn resample(path: &[Vec2]) -> Vec<Vec2> {
     let length: f64 = path.windows(2).map(|w| w[0].distance(w[1])).sum();
     let pieces = (length / STEP_M).round().max(1.0) as usize;
@@ -118,16 +118,16 @@ pub(super) fn resample(path: &[Vec2]) -> Vec<Vec2> {
     points
 }
 
-/// Measures the room beside a middle line whose points lie [`STEP_M`] apart.
+/// Measures the usable width beside a centre line with points [`STEP_M`] apart.
 ///
-/// `ends` says how wide start and goal are, `pinches` which stations are places in the open that people pass within a
-/// stated distance.
+/// `ends`: widths of start and goal. `pinches`: stations at places in the open, which people pass within the given
+/// distance, metres.
 pub(super) fn measure(ground: &Ground, line: &[Vec2], ends: [RibbonEnd; 2], pinches: &[(usize, f64)]) -> Vec<Station> {
     let reach = (SMOOTHING_M / STEP_M) as usize;
     let count = line.len();
     let smooth: Vec<Vec2> = (0..count)
         .map(|k| {
-            // The same number of points on both sides, so that the ends stay where they are.
+            // Equal numbers of points on both sides keep the ends in place.
             let reach = reach.min(k).min(count - 1 - k);
             let sum = line[k - reach..=k + reach].iter().fold(Vec2::ZERO, |sum, &p| sum + p);
             sum / (2 * reach + 1) as f64
@@ -152,9 +152,9 @@ pub(super) fn measure(ground: &Ground, line: &[Vec2], ends: [RibbonEnd; 2], pinc
     stations
 }
 
-/// Distance to the side that is free of walls, metres.
+/// Free distance to one side, metres.
 fn room_beside(ground: &Ground, from: Vec2, direction: Vec2, limit_m: f64) -> f64 {
-    // In a gap too narrow for the margin, half of what there is.
+    // In a gap too narrow for the margin, use half of the clearance.
     let margin = WALL_MARGIN_M.min(0.5 * ground.clearance_m(from));
     let mut done = 0.0;
     while done < limit_m {
@@ -168,7 +168,7 @@ fn room_beside(ground: &Ground, from: Vec2, direction: Vec2, limit_m: f64) -> f6
     limit_m
 }
 
-/// Lets the extents grow by no more than [`FANNING`] per metre, from both ends.
+/// Limits the growth of the half widths to [`FANNING`] per metre, from both ends.
 fn limit_growth(stations: &mut [Station]) {
     let relax = |from: [f64; 2], to: &mut [f64; 2]| {
         for side in 0..2 {

@@ -2,47 +2,46 @@ use super::lattice::{BLOCK_CELLS, Lattice, SIDE};
 use super::solve::Matrix;
 use crate::math::{Vec2, vec2};
 
-/// Largest number of tiles to which cells are joined.
+/// Largest number of tiles.
 const MOST_TILES: usize = 8_000;
 /// Cells along the side of the largest tiles.
 const LARGEST_TILE: usize = 8;
-/// Rounds of smoothing each time that tiles are divided: enough for what is new at that size.
+/// Relaxation sweeps after each division of the tiles: enough for the detail of that size.
 const SWEEPS: usize = 8;
-/// Steps from tile to neighbouring tile for a mean: a random walk gets 1.5 tiles far.
+/// Steps between adjacent tiles for a mean: a random walk reaches 1.5 tiles.
 const STEPS_AROUND: usize = 6;
-/// Nothing there.
+/// Marks a missing neighbour.
 pub(super) const NONE: u32 = u32::MAX;
-/// The tile of all cells that are earthed.
+/// Tile of all earthed cells.
 const EARTH: u32 = u32::MAX - 1;
 
-/// A sheet of cells that conduct: `div(s grad p) = source` in five points, earthed in some of the cells.
+/// A conductive sheet of cells: `div(s grad p) = source` in five points, partly earthed.
 ///
-/// Large sheets are solved with tiles of up to 8 x 8 joined cells that share a potential; these are divided again and
-/// again, with a few rounds of Gauss and Seidel's relaxation each time. What a tile is too coarse for is local, and
-/// that is what relaxation is quick at.
+/// Large sheets are solved on tiles of up to 8 x 8 cells that share a potential. The tiles are divided repeatedly, each
+/// time with a few sweeps of Gauss-Seidel relaxation. Errors of a tiling are local, which relaxation removes quickly.
 #[derive(Debug)]
 pub(super) struct ConductiveSheet {
-    /// The lattice's cells, ascending.
+    /// Indices of cells in the lattice, ascending.
     cells: Vec<usize>,
-    /// For each cell the places of its neighbours to the west, east, south and north, or [`NONE`].
+    /// Indices of the neighbours to the west, east, south and north, or [`NONE`].
     beside: Vec<[u32; 4]>,
-    /// Conductance to each of them.
+    /// Conductance to each neighbour.
     conductance: Vec<[f32; 4]>,
     is_earthed: Vec<bool>,
-    /// Tilings by which it is solved, the largest tiles first, with their sides in cells.
+    /// Tilings for the solution, largest tiles first, with their sides in cells.
     tilings: Vec<(usize, Tiles)>,
 }
 
-/// Cells joined within squares.
+/// A tiling: cells joined within squares.
 #[derive(Debug)]
 struct Tiles {
-    /// For each cell its tile, or [`EARTH`].
+    /// Tile of each cell, or [`EARTH`].
     of: Vec<u32>,
     count: usize,
 }
 
 impl Tiles {
-    /// The mean of the cells' values, for each tile.
+    /// Mean value of the cells of each tile.
     fn means(&self, values: &[f64]) -> Vec<f64> {
         let mut sums = vec![(0.0, 0.0); self.count];
         for (value, &tile) in values.iter().zip(&self.of) {
@@ -54,7 +53,7 @@ impl Tiles {
     }
 }
 
-/// The sides of the tiles by which so many cells are solved, in cells, from the largest down to 2; or 1 if they are few.
+/// Tile sides for a number of cells, from the largest down to 2; only 1 for few cells.
 fn sides(cells: usize) -> impl Iterator<Item = usize> {
     let mut largest = 1;
     while cells > MOST_TILES * largest * largest && largest < LARGEST_TILE {
@@ -64,7 +63,7 @@ fn sides(cells: usize) -> impl Iterator<Item = usize> {
 }
 
 impl ConductiveSheet {
-    /// Joins cells (ascending) that conduct as well as given, in their order.
+    /// Builds a sheet from cells, ascending, and their conductivities.
     pub(super) fn new(
         lattice: &Lattice,
         cells: Vec<usize>,
@@ -82,20 +81,20 @@ impl ConductiveSheet {
         sheet
     }
 
-    /// The same cells conduct as given from now on.
+    /// Sets the conductivities of the cells.
     pub(super) fn conduct(&mut self, conducts: &[f64]) {
         let to = |a: f64, b: u32| conducts.get(b as usize).map_or(0.0, |&b| 2.0 * a * b / (a + b)) as f32;
         self.conductance = self.beside.iter().zip(conducts).map(|(beside, &a)| beside.map(|b| to(a, b))).collect();
     }
 
-    /// The lattice's cells, ascending.
+    /// Indices of cells in the lattice, ascending.
     pub(super) fn cells(&self) -> &[usize] {
         &self.cells
     }
 
-    /// The potential of each cell: a unit current enters, divided evenly among `starts`.
+    /// Computes the potential per cell for a unit current, divided evenly among `starts`.
     ///
-    /// `guess` is about proportional to it.
+    /// `guess` is roughly proportional to it.
     pub(super) fn potential(&self, starts: &[usize], guess: Vec<f64>) -> Vec<f64> {
         let mut source = vec![0.0; self.cells.len()];
         for start in starts {
@@ -106,7 +105,7 @@ impl ConductiveSheet {
         self.solve(&source, guess)
     }
 
-    /// The current through each cell at a potential.
+    /// Current through each cell for a potential.
     pub(super) fn currents(&self, potential: &[f64]) -> Vec<Vec2> {
         let current = |cell: usize| {
             let out = |side: usize| match self.beside[cell][side] {
@@ -118,7 +117,7 @@ impl ConductiveSheet {
         (0..self.cells.len()).map(current).collect()
     }
 
-    /// Slope of a potential at each cell, per cell's side.
+    /// Slope of a potential at each cell, per cell side.
     pub(super) fn slopes(&self, potential: &[f64]) -> Vec<f64> {
         let slope = |cell: usize| {
             let along = |[back, ahead]: [usize; 2]| {
@@ -134,8 +133,8 @@ impl ConductiveSheet {
         (0..self.cells.len()).map(slope).collect()
     }
 
-    /// For each cell the weighted mean of the values around it, as far as one gets within the sheet in some steps over tiles
-    /// of so many cells a side: within about 1.5 tiles, as a bell curve weighs it.
+    /// Computes the weighted mean of the values around each cell: a bell-shaped average over about 1.5 tiles within the
+    /// sheet, with tiles of `side` cells.
     pub(super) fn means_around(&self, values: &[f64], weights: &[f64], side: usize) -> Vec<f64> {
         let own;
         let tiles = match self.tilings.iter().find(|tiling| tiling.0 == side) {
@@ -194,7 +193,7 @@ impl ConductiveSheet {
             } else {
                 matrix.relax(&sums, &mut values, SWEEPS);
             }
-            // Tiles of twice the side conduct twice as well between each other as they should.
+            // Doubling the side doubles the conductance between tiles, which should not change.
             let scale = if *side > 1 { 2.0 } else { 1.0 };
             for (value, &tile) in potential.iter_mut().zip(&tiles.of) {
                 *value = values.get(tile as usize).map_or(0.0, |v| v * scale);
@@ -207,7 +206,7 @@ impl ConductiveSheet {
         potential
     }
 
-    /// Gauss and Seidel's relaxation of the cells themselves.
+    /// Gauss-Seidel relaxation of single cells.
     fn relax(&self, source: &[f64], potential: &mut [f64]) {
         for _ in 0..SWEEPS {
             for cell in 0..potential.len() {
@@ -228,7 +227,7 @@ impl ConductiveSheet {
         }
     }
 
-    /// Tiles of so many cells a side: what is joined within a square, in the order of the first cells.
+    /// Builds tiles of `side` cells: connected cells of a square, in the order of their first cells.
     fn joined(&self, side: usize) -> Tiles {
         let square = |cell: usize| {
             let within = cell % BLOCK_CELLS;
@@ -257,7 +256,7 @@ impl ConductiveSheet {
         Tiles { of, count: count as usize }
     }
 
-    /// The tiles with what the sides between their cells conduct.
+    /// Matrix of the tiles, with conductances summed over the sides between their cells.
     fn matrix(&self, tiles: &Tiles, conductance: impl Fn(usize, usize) -> f64) -> Matrix {
         let mut edges: Vec<(u32, u32, f64)> = Vec::new();
         let mut earthed = vec![0.0; tiles.count];

@@ -1,26 +1,26 @@
-/// The residual, against the right-hand side, at which a solution is good enough for a crowd.
+/// Residual relative to the right-hand side at which a solution is accurate enough.
 const RESIDUAL: f64 = 2e-3;
-/// Largest number of rounds.
+/// Largest number of iterations.
 const MOST_ROUNDS: usize = 500;
-/// Share of the dropped fill-in that is put on the diagonal instead.
+/// Share of the dropped fill-in that is added to the diagonal.
 const MODIFIED: f64 = 0.97;
 
-/// A symmetric system `diagonal x_i - sum values x_j = b_i`, with the sum over the neighbours j.
+/// A symmetric system `diagonal x_i - sum values x_j = b_i`, summed over the neighbours j.
 #[derive(Debug, Default)]
 pub(super) struct Matrix {
     diagonal: Vec<f64>,
-    /// For each row where its neighbours before it begin, where those behind it begin, and where they end.
+    /// Per row: start of the neighbours before it, start of those after it, and their end.
     bounds: Vec<[u32; 3]>,
     columns: Vec<u32>,
     values: Vec<f64>,
 }
 
 impl Matrix {
-    /// The conductances to earth, and those from row to row (each given in both directions, in any pieces).
+    /// Builds the matrix from conductances to earth and between rows (both directions).
     pub(super) fn new(earthed: &[f64], edges: &[(u32, u32, f64)]) -> Matrix {
         let rows = earthed.len();
         let mut matrix = Matrix { diagonal: earthed.to_vec(), ..Matrix::default() };
-        // Each row's edges together, in the order in which they came: sums are the same then whatever sorts them.
+        // Each row's edges in their original order, so that sums do not depend on sorting.
         let mut starts = vec![0; rows + 1];
         edges.iter().for_each(|edge| starts[edge.0 as usize + 1] += 1);
         (0..rows).for_each(|row| starts[row + 1] += starts[row]);
@@ -50,7 +50,7 @@ impl Matrix {
         matrix
     }
 
-    /// Neighbours of a row: those before it (0), those behind it (1).
+    /// Neighbours of a row: before it (part 0) or after it (part 1).
     #[inline]
     fn neighbours(&self, row: usize, part: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let range = self.bounds[row][part] as usize..self.bounds[row][part + 1] as usize;
@@ -62,8 +62,8 @@ impl Matrix {
         self.neighbours(row, 0).chain(self.neighbours(row, 1))
     }
 
-    /// Solves by conjugate gradients, preconditioned with a modified incomplete Cholesky factor (Gustafsson 1978,
-    /// doi 10.1007/BF01931691).
+    /// Solves by conjugate gradients with a modified incomplete Cholesky factor. (Gustafsson 1978,
+    /// doi 10.1007/BF01931691.)
     pub(super) fn solve(&self, b: &[f64], guess: Vec<f64>) -> Vec<f64> {
         let n = b.len();
         let mut x = guess;
@@ -103,7 +103,7 @@ impl Matrix {
         x
     }
 
-    /// Rounds of Gauss and Seidel's relaxation.
+    /// Gauss-Seidel relaxation.
     pub(super) fn relax(&self, b: &[f64], x: &mut [f64], rounds: usize) {
         for _ in 0..rounds {
             for row in 0..x.len() {
@@ -119,8 +119,8 @@ impl Matrix {
         }
     }
 
-    /// Inverse pivots of the incomplete factor: `d_i = a_ii - sum_j<i a_ij (a_ij + dropped_j) / d_j`, where `dropped_j`
-    /// is what row j would join row i to without there being an entry for it.
+    /// Inverse pivots of the incomplete factor. `d_i = a_ii - sum_j<i a_ij (a_ij + dropped_j) / d_j`, where `dropped_j`
+    /// is the coupling of row i through row j without an entry in the factor.
     fn pivots(&self) -> Vec<f64> {
         let behind: Vec<f64> =
             (0..self.bounds.len()).map(|row| self.neighbours(row, 1).map(|(_, value)| value).sum()).collect();

@@ -1,4 +1,4 @@
-//! Stops on the way: as a scenario writes them, and as found on the ground.
+//! Stops on a route: as written in a scenario, and as found on the ground.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,37 +9,37 @@ use crate::math::{Distribution, Rect, Vec2, sin_cos, vec2};
 use crate::plan::{FloorPlan, LARGEST_COORDINATE, PlanPoint};
 use crate::walls::Walls;
 
-/// Largest distance of a place to stand from the requested one, metres: counters stand at walls.
+/// Largest distance of a standing place from the requested one, metres: counters are at walls.
 const NEAREST_FLOOR_M: f64 = 0.6;
-/// Distance between places at a counter that is given by its middle, metres.
+/// Distance between places at a counter given by its centre, metres.
 const PLACES_APART_M: f64 = 0.9;
-/// Radius within which counters, benches and pictures are looked for, metres.
+/// Radius of the search for counters, benches and pictures, metres.
 const WALL_REACH_M: f64 = 4.0;
-/// Distance before a stop at which routes pass that lead to it alone, metres.
+/// Distance in front of a stop at which routes to it alone pass, metres.
 const BEFORE_M: f64 = 1.5;
-/// Longest stay, seconds: a day.
+/// Longest dwell time, seconds: one day.
 const MOST_DWELL_S: f64 = 86_400.0;
-/// Most places at one stop.
+/// Largest number of places at one stop.
 const MOST_PLACES: u32 = 1000;
 
-/// Kind of a stop: what people do there.
+/// Kind of a stop, by activity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum StopKind {
-    /// Stand around: before a board, a painting, a shop window.
+    /// Stand, for example before a board, painting or shop window.
     #[default]
     Place,
-    /// Queue up before a counter with one or more places, which one line serves.
+    /// Queue in one line before a counter with one or more places.
     Queue,
-    /// The same before a machine: quicker.
+    /// Like `queue`, before a machine, with a shorter dwell time.
     Machine,
     /// Sit down.
     Bench,
-    /// Pass ticket gates one by one, each with a line of its own.
+    /// Pass ticket gates one by one, with a line per gate.
     Gate,
 }
 
-/// A stop as a scenario writes it. Lengths in metres.
+/// A stop in a scenario; lengths in metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StopRequest {
@@ -48,73 +48,73 @@ pub struct StopRequest {
     /// Kind of the stop.
     #[serde(default)]
     pub kind: StopKind,
-    /// Where people stand: a point, or a line along which the places lie; of a `place` two corners of its area.
+    /// Position: a point, or a line of places; for kind `place`, two corners of an area.
     pub at: StopAt,
-    /// A point that they face.
+    /// A point that people face.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub facing: Option<PlanPoint>,
-    /// Or the direction that they face, degrees counter-clockwise from +x.
+    /// Alternatively, the heading that people face, degrees counter-clockwise from +x.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heading_deg: Option<f64>,
-    /// Dwell time: seconds that a person stays, or is served. Left out: by the kind.
+    /// Dwell time or service time of a person, seconds; the default depends on the kind.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dwell: Option<Distribution>,
-    /// Counters, seats or lanes, 1 to 1000.
+    /// Number of counters, seats or lanes, 1 to 1000.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub places: Option<u32>,
-    /// Distance between people in the line, on a bench, or around a place, 0.4 to 5.
+    /// Distance between people in the line, on a bench, or around a place, metres, 0.4 to 5.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spacing: Option<f64>,
-    /// Radius around a `place` given as a point within which people stand, 0.3 to 50.
+    /// Radius around a `place` given as a point, metres, 0.3 to 50.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reach: Option<f64>,
-    /// The line in which people queue, from the counter to its tail. Left out: straight back, and on along walls.
+    /// Line of the queue, from the counter to its tail. Default: straight back, then along walls.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub queue: Vec<PlanPoint>,
 }
 
-/// Where a stop is, as a scenario writes it.
+/// Position of a stop in a scenario.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged, expecting = "a point [x, y], or two of them: [[x0, y0], [x1, y1]]")]
 pub enum StopAt {
     /// A point.
     Point(PlanPoint),
-    /// Two ends of a line, or two corners of an area.
+    /// Both ends of a line, or two corners of an area.
     Line([PlanPoint; 2]),
 }
 
-/// Direction that people at a stop face.
+/// Heading of people at a stop.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Facing {
-    /// A random direction for each person.
+    /// A random heading per person.
     Free,
-    /// This point, metres.
+    /// Towards this point, metres.
     Point(Vec2),
-    /// This direction: a unit vector.
+    /// This heading, as a unit vector.
     Direction(Vec2),
 }
 
-/// A stop on the ground. Routes that share it hold the same value. Metres of the plan frame, seconds.
+/// A stop on the ground, metres and seconds. Routes that share it hold equal values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stop {
-    /// Name; no two stops of a plan share one.
+    /// Name, unique in the plan.
     pub name: String,
     /// Kind of the stop.
     pub kind: StopKind,
-    /// Both ends of the line along which the places lie, or two corners of the area; the same twice for a point.
+    /// Ends of the line of places, or two corners of the area; twice the same point for a point.
     pub at_m: [Vec2; 2],
-    /// Where people stand, sit or are served; for a `place` only the middle.
+    /// Positions where people stand, sit or are served; for kind `place` only the centre.
     pub places_m: Vec<Vec2>,
-    /// Direction that people face.
+    /// Heading of people.
     pub facing: Facing,
-    /// Dwell time of each of them.
+    /// Dwell time of a person, seconds.
     pub dwell_s: Distribution,
-    /// Distance between people.
+    /// Distance between people, metres.
     pub spacing_m: f64,
-    /// Radius around the point of a `place` within which people stand.
+    /// Radius around a `place` given as a point, metres.
     pub reach_m: f64,
-    /// The line in which people queue, from the counter on; empty: found.
+    /// Line of the queue, from the counter on; empty: found automatically.
     pub queue_m: Vec<Vec2>,
 }
 
@@ -125,7 +125,7 @@ pub struct RouteStop {
     pub stop: Stop,
     /// Share of the route's people who stop there, 0 to 1.
     pub share: f64,
-    /// Number of the route's places between start and goal that are passed before.
+    /// Number of via places that the route passes before.
     pub after_via: usize,
 }
 
@@ -150,7 +150,7 @@ impl StopKind {
         }
     }
 
-    /// Whether people queue there.
+    /// Whether people queue at this kind of stop.
     pub(crate) fn has_line(self) -> bool {
         matches!(self, StopKind::Queue | StopKind::Machine | StopKind::Gate)
     }
@@ -160,7 +160,7 @@ impl StopRequest {
     /// Checks every value; an error holds the key and the problem.
     ///
     /// # Errors
-    /// The first value that is not finite, out of its range, or does not go with the kind.
+    /// Reports the first value that is not finite, is out of range, or does not fit the kind.
     pub fn check(&self) -> Result<(), (&'static str, String)> {
         if self.name.trim().is_empty() {
             return Err(("name", "the name is empty".into()));
@@ -197,7 +197,7 @@ impl StopRequest {
         self.check().map_err(wrong)?;
         let finite = |key, point: PlanPoint| {
             let p = point.to_m(plan);
-            // Written so that NaN is out of range.
+            // NaN must be out of range.
             let beyond = [p.x, p.y].into_iter().find(|c| c.is_nan() || c.abs() > LARGEST_COORDINATE);
             match beyond {
                 None => Ok(p),
@@ -252,12 +252,12 @@ impl StopRequest {
         Ok(stop)
     }
 
-    /// Default direction: towards the counter, away from the wall behind a bench; gates are turned later.
+    /// Default heading: towards the counter, or away from the wall behind a bench. Gates are turned later.
     fn usual_facing(&self, walls: &Walls, [from, to]: [Vec2; 2]) -> Facing {
         let middle = from.lerp(to, 0.5);
         let towards_wall =
             walls.nearest(middle, WALL_REACH_M).and_then(|nearest| (nearest.point_m - middle).normalized());
-        // A line stands square before what it is for.
+        // A line of places is parallel to its counter.
         let square = match (towards_wall, (to - from).normalized()) {
             (Some(wall), Some(along)) if along.left().dot(wall) < 0.0 => Some(-along.left()),
             (_, Some(along)) => Some(along.left()),
@@ -303,7 +303,7 @@ impl StopRequest {
 }
 
 impl Stop {
-    /// Unit vector that a person at `p` faces; +y where the direction is free.
+    /// Unit vector of the heading of a person at `p`; +y if free.
     pub(crate) fn facing_from(&self, p: Vec2) -> Vec2 {
         let otherwise = vec2(0.0, 1.0);
         match self.facing {
@@ -313,7 +313,7 @@ impl Stop {
         }
     }
 
-    /// A cell to stand on at the stop, for finding the way there.
+    /// Walkable cells at the stop, for path finding.
     pub(crate) fn cells(&self, ground: &Ground) -> Vec<usize> {
         let area = Rect::around(self.at_m[0], self.at_m[1]);
         let reach_m =
@@ -324,7 +324,7 @@ impl Stop {
         cells
     }
 
-    /// Floor before the stop, which routes pass that lead to the stop alone.
+    /// The area in front of the stop, which routes to it alone pass.
     pub(super) fn before(&self, ground: &Ground) -> Place {
         let middle = self.at_m[0].lerp(self.at_m[1], 0.5);
         let back = middle - self.facing_from(middle) * BEFORE_M;
@@ -334,7 +334,7 @@ impl Stop {
         Place::Area([at - reach, at + reach])
     }
 
-    /// Turns ticket gates that face nowhere yet the way that the field leads.
+    /// Turns ticket gates without a heading along the field.
     pub(super) fn turn_along(&mut self, ground: &Ground, onward: &Field) {
         if self.kind != StopKind::Gate || self.facing != Facing::Free {
             return;

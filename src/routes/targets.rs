@@ -1,4 +1,4 @@
-//! Places of routes: from the names in a scenario to cells of the ground.
+//! Resolves places of routes: from names in a scenario to cells of the ground.
 
 use super::ground::{Ground, apron};
 use super::{FloorPoint, Place, PlaceRequest, RoutesError};
@@ -6,19 +6,19 @@ use crate::math::{Rect, Vec2, vec2};
 use crate::plan::{FloorPlan, LARGEST_COORDINATE};
 use crate::walls::APRON_M;
 
-/// Half the side of the square that a point stands for, metres.
+/// Half side of the square around a point, metres.
 const POINT_REACH_M: f64 = 1.0;
-/// Distances to an opening are counted from this far beyond the floor's edge on, metres.
+/// Distance beyond an opening's edge at which its goal cells begin, metres.
 const OPENING_DEPTH_M: f64 = APRON_M - 0.4;
 
-/// The route that uses a place, and the place's role in it, for messages.
+/// The use of a place by a route, for messages: route name and role.
 #[derive(Clone, Copy)]
 pub(super) struct PlaceUsage<'a> {
     pub(super) route: &'a str,
     pub(super) role: &'static str,
 }
 
-/// Finds the place that a request means.
+/// Finds the place of a request.
 pub(super) fn place(
     plan: &FloorPlan,
     ground: &Ground,
@@ -31,7 +31,7 @@ pub(super) fn place(
             let p = finite(point.to_m(plan), request, usage)?;
             let cell = ground.walkable_near(p, 0.2).ok_or_else(|| not_on_floor(plan, ground, p, request, usage))?;
             let centre = ground.lattice.centre(cell);
-            // A point within the narrow band along a wall counts as the nearest place to stand.
+            // A point in the narrow band along a wall moves to the nearest walkable cell.
             let p = if ground.lattice.cell_at(p) == Some(cell) { p } else { centre };
             let reach = vec2(POINT_REACH_M, POINT_REACH_M);
             Ok(Place::Area([p - reach, p + reach]))
@@ -63,8 +63,7 @@ fn opening(plan: &FloorPlan, name: &str, usage: PlaceUsage<'_>) -> Result<Place,
 }
 
 fn finite(p: Vec2, request: &PlaceRequest, usage: PlaceUsage<'_>) -> Result<Vec2, RoutesError> {
-    // Coordinates far beyond any plan are as useless as NaN, and would overflow the grid's indices.
-    // Written so that NaN is out of range.
+    // Coordinates beyond any plan would overflow the grid's indices; NaN must be out of range.
     match [p.x, p.y].into_iter().find(|c| c.is_nan() || c.abs() > LARGEST_COORDINATE) {
         None => Ok(p),
         Some(value) => {
@@ -90,14 +89,14 @@ fn not_on_floor(
     RoutesError::NotOnFloor { route: usage.route.into(), role: usage.role, place: request.describe(), at_px, nearest }
 }
 
-/// Description of a cell for messages.
+/// Description of a cell, for messages.
 pub(super) fn spot(plan: &FloorPlan, ground: &Ground, cell: usize, name: &str) -> FloorPoint {
     let at_m = ground.lattice.centre(cell);
     let part_m2 = ground.part_area_m2(ground.part(cell));
     FloorPoint { name: name.into(), at_m, at_px: plan.m_to_px(at_m), part_m2 }
 }
 
-/// The cells that count as being there.
+/// Cells that count as the place.
 pub(super) fn cells(plan: &FloorPlan, ground: &Ground, place: Place) -> Vec<usize> {
     match place {
         Place::Opening(index) => plan.openings.get(index).map_or(Vec::new(), |opening| {
@@ -109,8 +108,7 @@ pub(super) fn cells(plan: &FloorPlan, ground: &Ground, place: Place) -> Vec<usiz
     }
 }
 
-/// The cells that count as being at a place between start and goal: all of an area, so that people pass it over its whole
-/// width, and what lies outside an opening.
+/// Cells that count as a via place: the whole area, so that people pass over its full width, or an opening's apron.
 pub(super) fn via_cells(plan: &FloorPlan, ground: &Ground, place: Place) -> Vec<usize> {
     match place {
         Place::Opening(index) => plan.openings.get(index).map_or(Vec::new(), |o| within(ground, apron(o))),
@@ -118,7 +116,7 @@ pub(super) fn via_cells(plan: &FloorPlan, ground: &Ground, place: Place) -> Vec<
     }
 }
 
-/// The cell nearest to the middle of some cells, moved a little to where there is more room.
+/// The cell nearest to the centroid of some cells, shifted towards more room.
 pub(super) fn middle(ground: &Ground, cells: &[usize]) -> Option<Vec2> {
     if cells.is_empty() {
         return None;
@@ -133,15 +131,15 @@ pub(super) fn middle(ground: &Ground, cells: &[usize]) -> Option<Vec2> {
         .map(|c| ground.lattice.centre(c))
 }
 
-/// Walkable cells within a rectangle.
+/// Walkable cells in a rectangle.
 fn within(ground: &Ground, area: Rect) -> Vec<usize> {
     let mut cells = ground.lattice.cells_within(area);
     cells.retain(|&c| ground.is_walkable(c));
     cells
 }
 
-/// Walkable cells of a rectangle that are joined within it: those around its middle, or the most if its middle is
-/// wall. What lies behind a wall does not count.
+/// Walkable cells of a rectangle that are connected within it: those around its centre, or the largest group if the
+/// centre is wall. Cells behind a wall do not count.
 fn area_cells(ground: &Ground, area: Rect) -> Vec<usize> {
     let all = within(ground, area);
     let mut left = vec![false; ground.lattice.len()];

@@ -1,13 +1,13 @@
-//! What a scenario asks for, and what it gets.
+//! Tests of requested and default routes.
 
 use super::*;
 use crate::math::vec2;
 use crate::plan::{FloorPlan, PlanPoint};
 use crate::walls::{Walls, WallsOptions};
 
-/// A plan drawn with characters: `.` floor, anything else wall; a character is a square metre.
+/// A plan drawn with characters: `.` is floor, others are wall; 1 m per character.
 fn plan(rows: &[&str]) -> FloorPlan {
-    // Four pixels a metre, so that walls are thinner than the way is wide.
+    // Four pixels per metre, so that walls are thinner than paths.
     let (width, height) = (rows[0].len() * 4, rows.len() * 4);
     let floor = (0..width * height).map(|i| u8::from(rows[i / width / 4].as_bytes()[i % width / 4] == b'.')).collect();
     FloorPlan::from_mask(width as u32, height as u32, 0.25, floor)
@@ -43,7 +43,7 @@ fn gates_of_a_corridor_lie_across_it_and_span_its_usable_width() {
         assert!((gate.left_m.x - gate.right_m.x).abs() < 0.1, "{gate:?}");
         assert!((gate.width_m() - 2.68).abs() < 0.1, "3 m less 0.16 m on either side: {gate:?}");
     }
-    // Aprons included, less what of them nobody walks.
+    // Aprons included, without their parts beyond start and goal.
     assert!((routes[0].length_m - 17.5).abs() < 0.6, "{}", routes[0].length_m);
 }
 
@@ -73,7 +73,7 @@ fn a_way_through_a_place_between_has_a_gate_there() {
     request.via = vec![ViaRequest::Place(point(6.0, 2.0))];
     let routes = found(&CORRIDOR, vec![request]).expect("a way");
     let via = routes[0].via[0];
-    // A point stands for a square of 2 m; whoever has reached it is there.
+    // A point stands for a square of 2 m; entering it counts as reaching it.
     let gate = routes[0].gates[via.gate].at(0.5);
     assert!((gate.x - 5.0).abs() < 0.3 && (gate.y - 2.5).abs() < 0.3, "{gate:?}");
 }
@@ -121,7 +121,7 @@ fn a_goal_that_walls_enclose_names_the_route_and_both_places() {
     let message = error.to_string();
     assert!(message.contains("\"west to east\": no way leads from west, [-"), "{message}");
     let RoutesError::Unreachable { from, to, gap: None, .. } = error else { panic!("{message}") };
-    // 6 x 2 m and an apron of 3 x 2 m, less a strip along the walls.
+    // 6 x 2 m and an apron of 3 x 2 m, minus a strip along the walls.
     assert!(from.part_m2 > 13.0 && from.part_m2 < 18.0 && to.part_m2 > 13.0 && to.part_m2 < 18.0, "{message}");
     assert!((from.at_px[0] - from.at_m.x * 4.0).abs() < 1e-9, "{message}");
 
@@ -139,7 +139,7 @@ fn a_goal_that_walls_enclose_names_the_route_and_both_places() {
 #[test]
 fn a_door_of_30_cm_is_named_as_what_is_too_narrow() {
     let (width, height) = (120usize, 40usize);
-    // 0.1 m a pixel; a wall at x = 6 m with a door of 0.3 m about y = 2.05 m.
+    // 0.1 m per pixel; a wall at x = 6 m with a door of 0.3 m around y = 2.05 m.
     let is_floor = |x: usize, y: usize| {
         let border = !(2..38).contains(&y);
         let wall = (60..62).contains(&x) && !(18..21).contains(&y);
@@ -183,7 +183,7 @@ fn start_and_goal_in_one_place_are_refused() {
 
 #[test]
 fn a_large_floor_with_a_narrow_door_is_measured_more_finely() {
-    // 130 x 130 m ask for cells of 0.2 m; a door of 0.5 m needs finer ones.
+    // 130 x 130 m give cells of 0.2 m; a door of 0.5 m needs finer ones.
     let (pixels, metres_per_pixel) = (1040usize, 0.125);
     let wall = |x: usize, y: usize| {
         let border = y < 4 || y >= pixels - 4;

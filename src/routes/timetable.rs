@@ -7,7 +7,7 @@ const MOST_PEOPLE: f64 = 5e6;
 /// Latest time, seconds.
 const LATEST_S: f64 = 1e7;
 
-/// Timetable of arrivals, of the whole crowd or of one route. Times in seconds.
+/// Timetable of arrivals, of the whole crowd or of one route; times in seconds.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Timetable {
@@ -16,28 +16,28 @@ pub struct Timetable {
     /// Time of the first arrivals.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_s: Option<f64>,
-    /// Of a rate: people per second. Left out: as many as the entrances let in.
+    /// For a rate: people per second. Default: as many as the entrances admit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub per_second: Option<f64>,
-    /// Of bursts: time from one to the next.
+    /// For bursts: time between bursts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub every_s: Option<f64>,
-    /// Of bursts: number of people in each; or `share`.
+    /// For bursts: number of people per burst; alternative to `share`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub people: Option<u32>,
-    /// Of bursts: share of all people in each; or `people`.
+    /// For bursts: share of all people per burst; alternative to `people`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub share: Option<f64>,
-    /// Of bursts: time over which the people of one come, 0 for all at once.
+    /// For bursts: duration of arrivals, 0 for all at once.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spread_s: Option<f64>,
-    /// Of a list: times with the number of people who come then.
+    /// For a list: times and numbers of people.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub times: Vec<[f64; 2]>,
-    /// Of a list: a CSV file with a time and a number of people in each line.
+    /// For a list: a CSV file with a time and a number of people per line.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<PathBuf>,
-    /// Rows of the file, once it has been read.
+    /// Rows of the file, after it has been read.
     #[serde(skip)]
     pub of_file: Vec<[f64; 2]>,
 }
@@ -46,27 +46,27 @@ pub struct Timetable {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum TimetableKind {
-    /// An even stream.
+    /// A steady stream.
     #[default]
     Rate,
-    /// A train every few minutes, a school bell.
+    /// Regular bursts, such as trains or school bells.
     Bursts,
-    /// At stated times.
+    /// Given times.
     List,
 }
 
 impl Timetable {
-    /// Whether nothing differs from the default.
+    /// Whether all values are the defaults.
     pub fn is_default(&self) -> bool {
         *self == Timetable::default()
     }
 
-    /// The rows of a list, those of the file first.
+    /// Rows of a list, those of the file first.
     pub fn rows(&self) -> impl Iterator<Item = [f64; 2]> {
         self.of_file.iter().chain(&self.times).copied()
     }
 
-    /// Number of people that a list names; `None` for other kinds.
+    /// Total number of people in a list; `None` for other kinds.
     pub(crate) fn listed(&self) -> Option<u64> {
         (self.kind == TimetableKind::List).then(|| self.rows().map(|row| row[1] as u64).sum())
     }
@@ -74,7 +74,7 @@ impl Timetable {
     /// Checks every value; an error holds the key and the problem.
     ///
     /// # Errors
-    /// The first value that is not finite, out of its range, missing, or does not go with the kind.
+    /// Reports the first value that is not finite, is out of range, is missing, or does not fit the kind.
     pub fn check(&self) -> Result<(), (&'static str, String)> {
         use TimetableKind::{Bursts, List, Rate};
         let numbers = [
@@ -120,17 +120,17 @@ impl Timetable {
                 return Err(("times", format!("{people} people are not a whole number of 0 to {MOST_PEOPLE}")));
             }
         }
-        // A file that has not been read yet has no rows.
+        // A file that has not been read has no rows.
         let empty = self.listed() == Some(0) && !(self.file.is_some() && self.of_file.is_empty());
         if empty { Err(("times", "the list holds no people".into())) } else { Ok(()) }
     }
 
-    /// Reads the rows of a CSV file: a time in seconds and a number of people in each line, or a time alone for one
-    /// person. Lines that begin with `#` are skipped, and so is a first line of names.
+    /// Parses the rows of a CSV file: a time in seconds and a number of people, by default 1. Lines that begin with `#`
+    /// and a first line of names are skipped.
     ///
     /// # Errors
-    /// The line, counted from 1, that holds anything else, and what is wrong with it. The line itself is not repeated: the
-    /// file may be a wrong one.
+    /// Returns the number of the first invalid line, from 1, and the problem. The line is not quoted: the file may be
+    /// the wrong one.
     pub(crate) fn rows_of_csv(text: &str) -> Result<Vec<[f64; 2]>, (usize, &'static str)> {
         let mut rows = Vec::new();
         let mut may_be_names = true;
@@ -153,10 +153,10 @@ impl Timetable {
         Ok(rows)
     }
 
-    /// When each of `count` people comes, seconds, in ascending order; `draw` gives a uniform number in `[0, 1)` for
-    /// the person of this index. Without a rate of its own a rate takes `period_s` for all of them.
+    /// Returns the arrival times of `count` people, seconds, ascending. `draw` gives a uniform number in `[0, 1)` per
+    /// person index. A rate without `per_second` spreads them over `period_s`.
     ///
-    /// A list with more or fewer people than `count` keeps its proportions.
+    /// A list with more or fewer people than `count` is scaled in proportion.
     pub fn times_s(&self, count: usize, period_s: f64, draw: impl Fn(usize) -> f64) -> Vec<f64> {
         let first_s = self.first_s.unwrap_or(0.0);
         match self.kind {
@@ -197,7 +197,7 @@ impl Timetable {
     }
 }
 
-/// Whether a cell can be the name of a column, with its unit.
+/// Whether a cell can be a column name with a unit.
 fn is_name(cell: &str) -> bool {
     let is_part = |c: char| c.is_alphanumeric() || " _-.()[]".contains(c);
     cell.starts_with(char::is_alphabetic) && cell.chars().all(is_part)

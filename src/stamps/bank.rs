@@ -1,11 +1,11 @@
-//! The bank: every pattern filtered for the texel density, on first use.
+//! Bank of patterns, filtered for the texel density on first use.
 //!
-//! A pattern is filtered once by a Gaussian of 0.45 texel; a stamp samples it at the texel centres. The Gaussian passes
-//! 0.7 % of a period of one texel, so the sum over a stamp's texels is independent of its sub-texel position at any
-//! angle; a box filter along the pattern's axes would be so only unrotated. With four samples a texel the nearest
-//! sample is at most an eighth of a texel away.
+//! Each pattern is filtered once with a Gaussian of 0.45 texel; a stamp samples the result at texel centres. The
+//! Gaussian passes 0.7 % of a period of one texel, so the sum over a stamp's texels does not depend on its sub-texel
+//! position, at any angle. A box filter along the pattern's axes achieves this only unrotated. With four samples per
+//! texel the nearest sample is at most 1/8 texel away.
 //!
-//! Not imageproc's Gaussian: results must not depend on its version, and it has no deviation per axis.
+//! Not imageproc's Gaussian: results must not depend on its version, and it has one deviation for both axes.
 
 use std::sync::OnceLock;
 
@@ -29,20 +29,19 @@ const SAMPLES_PER_TEXEL: f64 = 4.0;
 /// Least distance of samples, metres: half a pixel of a pattern.
 const FINEST_SAMPLE_M: f64 = 0.0005;
 
-/// Limit on the samples of a pattern in a row.
+/// Largest number of samples along a pattern.
 const MOST_SAMPLES: f64 = 1000.0;
 
 /// Approximate step between smears, metres.
 const SMEAR_STEP_M: f64 = 0.004;
 
-/// The longest smear that a plate is made for, metres of the pattern: 3 cm, on a foot of half the
-/// pattern's size.
+/// Longest smear with a plate, metres of the pattern: 3 cm on a foot of half the pattern's size.
 const LONGEST_SMEAR_M: f64 = 0.06;
 
-/// Texels larger than this count as few per sole, metres.
+/// Texel size above which a sole has few texels, metres.
 const FEW_TEXELS_M: f64 = 0.0126;
 
-/// Zero samples around a plate beyond the filter's reach: a row's span may be a texel too long.
+/// Empty samples around a plate beyond the filter's reach: a row's span may be a texel too long.
 const GUARD: usize = 6;
 
 /// Number of soil coats over which the mean is taken.
@@ -51,15 +50,15 @@ const COATS: u64 = 1024;
 /// Number of blur levels of soil prints.
 const BLURS: usize = 3;
 
-/// A filtered pattern: coverage samples at even distances.
+/// A filtered pattern: coverage samples at equal distances.
 #[derive(Debug)]
 pub(super) struct Plate {
-    /// Samples in a row.
+    /// Samples per row.
     pub(super) columns: usize,
     /// Rows, from the outer edge of a left foot to the inner.
     pub(super) rows: usize,
-    /// Samples in units of `unit`: rows `1 << pitch_bits` apart, a power of two of them. All 8 bits are used, also where
-    /// a thin mark covers no texel fully.
+    /// Samples in units of `unit`, in rows `1 << pitch_bits` apart; their number is a power of two. All 8 bits are
+    /// used, even for a thin mark that covers no texel fully.
     pub(super) samples: Vec<u8>,
     pub(super) pitch_bits: u32,
     /// Coverage of a sample value of 1.
@@ -71,14 +70,14 @@ pub(super) struct Plate {
 }
 
 impl Plate {
-    /// Whether a print at this scale needs interpolated samples: where the samples are coarse, or where a print has too
-    /// few texels for their errors to cancel.
+    /// Whether a print at this scale needs interpolation: its samples are coarse, or its texels too few for errors to
+    /// cancel.
     pub(super) fn needs_smooth_reading(&self, texel_m: f64, scale: f64) -> bool {
         self.sample_m > 0.3 * texel_m / scale || texel_m > FEW_TEXELS_M
     }
 }
 
-/// One pattern at all sizes, blurs and smears.
+/// A pattern with its plates of all sizes, blurs and smears.
 #[derive(Debug)]
 pub(super) struct Printer {
     pub(super) cause: Cause,
@@ -96,13 +95,13 @@ pub(super) struct Printer {
     sizes: Vec<SizePlates>,
 }
 
-/// The plates of a pattern for feet of about one size; on a smaller shoe a texel covers more of the pattern.
+/// Plates of a pattern for feet of similar size. On a smaller shoe a texel covers more of the pattern.
 #[derive(Debug)]
 struct SizePlates {
     sample_m: f64,
     /// Reach of the filter, samples.
     reach: usize,
-    /// Factors on the pressure slopes along and across that keep pressure positive within the filter's reach.
+    /// Factors on the pressure slopes that keep pressure positive within the filter's reach.
     slopes_held: [f32; 2],
     /// Samples between smears.
     smear_step: usize,
@@ -125,14 +124,14 @@ pub(super) struct Lump {
 /// Number of lumps along and across.
 const LUMPS: [usize; 2] = [20, 8];
 
-/// Printers of all floor patterns of a library, by pattern index.
+/// Printers of a library's floor patterns, by pattern index; `None` for wall patterns.
 pub(super) fn printers(library: &PatternLibrary, texel_m: f64, options: &StampOptions) -> Vec<Option<Printer>> {
     let of_floor = |pattern: &Pattern| pattern.cause.on_wall().is_none();
     let printer = |pattern| of_floor(pattern).then(|| Printer::new(pattern, texel_m, options));
     library.patterns.iter().map(printer).collect()
 }
 
-/// Scales at which the bank changes to the next size: half powers of two.
+/// Scales at which the plates change to the next size: half powers of two.
 const SIZE_EDGES: [f64; 10] = [0.210, 0.297, 0.420, 0.595, 0.841, 1.189, 1.682, 2.378, 3.364, 4.757];
 
 impl Printer {
@@ -165,7 +164,7 @@ impl Printer {
         self.length_m / LUMPS[0] as f64
     }
 
-    /// Half the length and half the width of a print with the filter's reach, metres.
+    /// Half length and half width of a print including the filter's reach, metres.
     pub(super) fn half_extent_m(&self, pose: &PrintPose) -> [f64; 2] {
         let size = self.size(pose.scale_across);
         let spread_m = size.reach as f64 * size.sample_m;
@@ -177,7 +176,7 @@ impl Printer {
         self.size(pose.scale_across).slopes_held
     }
 
-    /// Mean share of full coverage that a soil print leaves, over all variation.
+    /// Mean share of full coverage that soil prints leave, over all variation.
     pub(super) fn mean_coat(&self, pose: &PrintPose, options: &StampOptions) -> f32 {
         let size = self.size(pose.scale_across);
         *size.mean_coat.get_or_init(|| {
@@ -208,13 +207,13 @@ impl Printer {
         })
     }
 
-    /// Extent of a print, `more_m` larger on every side.
+    /// Extent of a print, enlarged by `more_m` on every side.
     pub(super) fn extent(&self, pose: &PrintPose, more_m: f64) -> StampExtent {
         let [half_along_m, half_across_m] = self.half_extent_m(pose).map(|half| half + more_m);
         StampExtent { middle_m: pose.place_m, heading: pose.heading, half_along_m, half_across_m }
     }
 
-    /// The floor point under a point of the pattern, which is given in soles along and across.
+    /// Floor position, metres, of a point of the pattern given in soles along and across.
     pub(super) fn point_m(&self, pose: &PrintPose, [along, across]: [f64; 2]) -> Vec2 {
         let right = pose.heading.left() * if pose.mirrored { 1.0 } else { -1.0 };
         pose.place_m
@@ -222,7 +221,7 @@ impl Printer {
             + right * (across * self.width_m * pose.scale_across)
     }
 
-    /// Texels that a print can touch, `more_m` larger on every side.
+    /// Texels that a print can touch, enlarged by `more_m` on every side.
     pub(super) fn bounds(&self, pose: &PrintPose, grid: &TexelGrid, more_m: f64) -> TexelBounds {
         let [half_along, half_across] = self.half_extent_m(pose).map(|half| half + more_m);
         let h = pose.heading;
@@ -237,7 +236,7 @@ impl Printer {
         }
     }
 
-    /// Position on the sole of texels counted from the origin, in soles along and across.
+    /// Position on the sole, in soles along and across, as linear functions of the texel.
     pub(super) fn sole_place(&self, pose: &PrintPose, grid: &TexelGrid) -> [Linear; 2] {
         let [along, across] = pose.along_across(grid, pose.origin(grid));
         let linear = |v: [f64; 3], extent: f64| {
@@ -248,7 +247,7 @@ impl Printer {
         [linear(along, self.length_m), linear(across, self.width_m)]
     }
 
-    /// The plate for a print: `blur` is 0 to 1 from the least to the largest, `smear_m` is measured on the floor.
+    /// Returns the plate for a print. `blur`: 0..=1 from least to largest; `smear_m`: metres on the floor.
     pub(super) fn plate(&self, pose: &PrintPose, blur: f32, smear_m: f64) -> &Plate {
         let size = self.size(pose.scale_across);
         let blur = ((blur * size.filters_m.len() as f32) as usize).min(size.filters_m.len() - 1);
@@ -279,7 +278,7 @@ impl Printer {
             }
         }
         let mut sampled = FloatImage { width: columns, height: rows, pixel_m: size.sample_m, values };
-        // Restores the integral that truncating the filter and sampling change slightly.
+        // Restores the integral, which truncating the filter and sampling change slightly.
         let (mass, _) = sampled.mass_and_centroid();
         if mass > 0.0 {
             let factor = (self.mass_m2 / mass) as f32;
@@ -288,7 +287,7 @@ impl Printer {
         sampled
     }
 
-    /// Smears the heel forward: the mean over shifts of 0 to `samples`. Keeps the integral.
+    /// Smears the heel forward by the mean over shifts of 0 to `samples`; keeps the integral.
     fn smeared(&self, image: &FloatImage, size: &SizePlates, samples: usize) -> Plate {
         let weight: Vec<f32> = (0..image.width)
             .map(|column| {

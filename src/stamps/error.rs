@@ -1,4 +1,4 @@
-/// Error in the options or the grids of the stamps.
+/// Errors in the options or grids of the stamps.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StampsError {
@@ -15,7 +15,7 @@ pub enum StampsError {
         metres: f64,
         /// Texel density, texels per metre.
         texels_per_metre: f64,
-        /// Limit on the texels of a side.
+        /// Largest number of texels per side.
         most: u32,
     },
     /// The walls' texel density is out of range.
@@ -29,7 +29,7 @@ pub enum StampsError {
     WallHeight {
         /// Wall height, metres.
         height_m: f64,
-        /// Largest height allowed, metres.
+        /// Largest allowed height, metres.
         most: f64,
     },
     /// A wall face has too many texels.
@@ -39,7 +39,7 @@ pub enum StampsError {
         length_m: f64,
         /// Texel density, texels per metre.
         texels_per_metre: f64,
-        /// Limit on the texels of a face's length.
+        /// Largest number of texels along a face.
         most: u32,
     },
     /// An option is out of range.
@@ -47,17 +47,17 @@ pub enum StampsError {
     OutOfRange {
         /// Name of the option.
         name: &'static str,
-        /// Its value.
+        /// Given value.
         value: f64,
-        /// Least value allowed.
+        /// Smallest allowed value.
         low: f64,
-        /// Largest value allowed.
+        /// Largest allowed value.
         high: f64,
     },
 }
 
 impl StampsError {
-    /// Hint for the user.
+    /// Returns the remedy, for the user.
     pub fn hint(&self) -> Option<String> {
         match self {
             StampsError::FloorTexelDensity { .. } => Some("100 is one texel a centimetre".into()),

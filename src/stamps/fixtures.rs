@@ -42,7 +42,7 @@ fn pattern(name: &str, cause: Cause, [width, height]: [u32; 2], coverage: impl F
     }
 }
 
-/// A room of a size in metres with walls of 0.1 m all around, drawn at 10 px/m.
+/// A room of the given size, metres, with walls of 0.1 m, drawn at 10 px/m.
 pub(crate) fn room(width_m: f64, height_m: f64) -> Walls {
     let [w, h] = [width_m, height_m].map(|m| (m * 10.0).round() as usize + 2);
     let floor = (0..w * h).map(|k| u8::from(k % w > 0 && k % w < w - 1 && k / w > 0 && k / w < h - 1)).collect();
@@ -54,7 +54,7 @@ pub(crate) fn grid(texels_per_metre: f64, width_m: f64, height_m: f64) -> TexelG
     TexelGrid { texels_per_metre, width: count(width_m), height: count(height_m) }
 }
 
-/// A plain footfall of the library's sole.
+/// A footfall of the library's sole, without variation.
 pub(crate) fn footfall(place_m: Vec2, angle_rad: f64) -> Mark {
     let (sin, cos) = sin_cos(angle_rad);
     Mark {
@@ -74,7 +74,7 @@ pub(crate) fn footfall(place_m: Vec2, angle_rad: f64) -> Mark {
     }
 }
 
-/// Footfalls, every third with soil, and heel marks, evenly over a rectangle and a little beyond.
+/// Footfalls, every third with soil, and heel marks, evenly over and around a rectangle.
 pub(crate) fn crowd(count: usize, width_m: f64, height_m: f64, seed: u64) -> Vec<Mark> {
     let rng = &mut SplitMix64::new(seed);
     (0..count)
@@ -100,12 +100,12 @@ pub(crate) fn crowd(count: usize, width_m: f64, height_m: f64, seed: u64) -> Vec
         .collect()
 }
 
-/// The number of each pattern of [`wall_library`].
+/// Pattern indices of [`wall_library`].
 pub(crate) const CLOUD: u16 = 0;
 pub(crate) const DRAG: u16 = 1;
 pub(crate) const SCUFF: u16 = 2;
 
-/// A hand's soft cloud that is fuller on its right, a hand's drag that fades, a shoe's thin line, and a sole.
+/// A hand's soft cloud, denser on its right; a hand's fading drag; a shoe's thin line; a sole.
 pub(crate) fn wall_library() -> PatternLibrary {
     let soft = |x: f64| (1.0 - x).clamp(0.0, 1.0);
     let cloud = |x: f64, y: f64| {
@@ -128,14 +128,14 @@ pub(crate) fn wall_library() -> PatternLibrary {
     }
 }
 
-/// Walls of these lengths in metres, each closed or open, 2.6 m high.
+/// Walls of the given lengths, metres, each closed or open, 2.6 m high.
 pub(crate) fn wall_grid(texels_per_metre: f64, faces: &[(f64, bool)]) -> WallGrid {
     let texels = |metres: f64| (metres * texels_per_metre - 1e-6).ceil() as u32;
     let span = |&(length_m, closed): &(f64, bool)| FaceSpan { width: texels(length_m), length_m, closed };
     WallGrid { texels_per_metre, height_m: 2.6, height: texels(2.6), faces: faces.iter().map(span).collect() }
 }
 
-/// A cloud of the size of its pattern in the middle of a face.
+/// A cloud of its pattern's size on face 0.
 pub(crate) fn touch(along_m: f64, height_m: f64) -> Contact {
     Contact {
         cause: Cause::Hand,
@@ -152,7 +152,7 @@ pub(crate) fn touch(along_m: f64, height_m: f64) -> Contact {
     }
 }
 
-/// Contacts of all kinds, evenly over the faces of a grid and a little beyond.
+/// Contacts of all kinds, evenly over the faces of a grid and their surroundings.
 pub(crate) fn touches(count: usize, grid: &WallGrid, seed: u64) -> Vec<Contact> {
     let rng = &mut SplitMix64::new(seed);
     let mut one = |k: usize| {

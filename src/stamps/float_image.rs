@@ -3,7 +3,7 @@
 use crate::math::exp;
 use crate::patterns::Pattern;
 
-/// Truncation of filters, standard deviations.
+/// Truncation radius of filters, standard deviations.
 pub(super) const FILTER_REACH: f64 = 2.5;
 
 /// A floating-point image with square pixels.
@@ -24,7 +24,7 @@ impl FloatImage {
         FloatImage { width, height, pixel_m: pattern.length_cm / 100.0 / width.max(1) as f64, values }
     }
 
-    /// Bilinear sample; pixel centres lie at halves; 0 beyond the image.
+    /// Bilinear sample; pixel centres are at half-integers; 0 outside the image.
     pub(super) fn at(&self, x: f64, y: f64) -> f32 {
         let (x, y) = (x - 0.5, y - 0.5);
         let (column, row) = (x.floor(), y.floor());
@@ -39,11 +39,11 @@ impl FloatImage {
         lower * (1.0 - fy) + upper * fy
     }
 
-    /// Reduces to means over squares of pixels that the blur which follows hides.
+    /// Averages squares of pixels that are small against the blur that follows.
     pub(super) fn reduced_for(&self, deviation_m: f64) -> FloatImage {
         let factor = ((deviation_m / self.pixel_m / 2.0) as usize).max(1);
         let (width, height) = (self.width.div_ceil(factor), self.height.div_ceil(factor));
-        // Padding to whole squares is split evenly, so that the middle stays.
+        // Padding to whole squares is split evenly, so that the centre stays.
         let (left, top) = ((width * factor - self.width) / 2, (height * factor - self.height) / 2);
         let mut values = vec![0.0; width * height];
         for (row, line) in self.values.chunks_exact(self.width.max(1)).enumerate() {
@@ -64,12 +64,12 @@ impl FloatImage {
         FloatImage { width, height, pixel_m: self.pixel_m, values }
     }
 
-    /// Gaussian blur of an image whose margin is as wide as the filter; the deviation is in pixels.
+    /// Gaussian blur; the deviation is in pixels. The image needs a margin as wide as the filter.
     pub(super) fn blur(&mut self, deviation: f64) {
         self.blur_axes([deviation; 2]);
     }
 
-    /// Gaussian blur with a standard deviation along rows and one along columns, pixels.
+    /// Gaussian blur with standard deviations along rows and columns, pixels.
     pub(super) fn blur_axes(&mut self, deviations: [f64; 2]) {
         let (width, height) = (self.width, self.height);
         let kernel = gaussian(deviations[0]);
@@ -96,7 +96,7 @@ impl FloatImage {
         }
     }
 
-    /// Integral of the coverage, square metres, and its centroid in shares of length and width from the centre.
+    /// Integral of coverage, square metres; centroid as shares of length and width from the centre.
     pub(super) fn mass_and_centroid(&self) -> (f64, [f64; 2]) {
         let (mut mass, mut x_sum, mut y_sum) = (0.0, 0.0, 0.0);
         for (row, line) in self.values.chunks_exact(self.width.max(1)).enumerate() {

@@ -1,4 +1,4 @@
-//! Heel marks: what a dragged heel or toe adds to `scuff`.
+//! Heel marks: optical density of dragged heels and toes, added to `scuff`.
 
 use super::DENSITY_ONE;
 use super::lanes::{LANES, SumCell};
@@ -13,14 +13,14 @@ use crate::marks::Mark;
 use crate::walls::Walls;
 
 impl Stamper {
-    /// Upper bound on what a mark adds to a texel of `scuff`.
+    /// Upper bound on a mark's value in a texel of `scuff`.
     pub(crate) fn peak_of_scuff(&self, mark: &Mark) -> u32 {
         (mark.strength.clamp(0.0, MOST_DENSITY) * DENSITY_ONE * 1.5 * self.grain_peak) as u32 + 2
     }
 
     /// Adds a heel mark to the texels of a window, as optical density.
     ///
-    /// The mark is bent aside by `4 bend (x^2 - 1/12)` of its length, x from -0.5 to 0.5 along it, and fades towards its
+    /// The mark bends aside by `4 bend (x^2 - 1/12)` of its length, x from -0.5 to 0.5 along it, and fades towards its
     /// end.
     #[allow(clippy::too_many_arguments)]
     pub(crate) fn add_scuff<C: SumCell>(

@@ -1,12 +1,12 @@
-//! Loops over eight texels at a time, in 16-bit integers, written so that compilers vectorise them.
+//! Loops over eight texels at a time in 16-bit integers, written for vectorisation.
 
-/// Number of texels processed at once.
+/// Number of texels per iteration.
 pub(crate) const LANES: usize = 8;
 
-/// Eight texels side by side.
+/// Eight adjacent texels.
 pub(crate) type Lanes<T> = [T; LANES];
 
-/// A cell of a sum: 16 or 32 bits.
+/// Cell of a sum: 16 or 32 bits.
 pub(crate) trait SumCell: Copy + Default {
     /// Adds with saturation.
     fn add(&mut self, amount: u16);
@@ -40,7 +40,7 @@ pub(super) fn upper(a: u16, b: u16) -> u16 {
     ((u32::from(a) * u32::from(b)) >> 16) as u16
 }
 
-/// Fixed-point scaling of a factor to 16 bits, with as many fraction bits as fit.
+/// Fixed-point scaling of a factor to 16 bits with the most fraction bits that fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Scaling {
     /// Fraction bits.
@@ -51,7 +51,7 @@ pub(super) struct Scaling {
 const MOST_FACTOR: f32 = 60_000.0;
 
 impl Scaling {
-    /// The scaling for factors up to `most`, which is at most 60 000.
+    /// Returns the scaling for factors up to `most`, which is at most 60 000.
     #[inline]
     pub(super) fn for_most(most: f32) -> Scaling {
         // 2^shift <= 60 000 / most < 2^(shift + 1): the exponent of the quotient.
@@ -59,7 +59,7 @@ impl Scaling {
         Scaling { shift: exponent.saturating_sub(127).min(14) }
     }
 
-    /// The fixed-point value of 1.
+    /// Fixed-point value of 1.
     #[inline]
     pub(super) fn factor(self) -> f32 {
         (1u32 << self.shift) as f32

@@ -1,6 +1,6 @@
-//! Linear functions of texels.
+//! Linear functions of texel coordinates.
 
-/// A linear function of texels, counted from the print's origin.
+/// A linear function of texel coordinates relative to the print's origin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Linear {
     pub(super) at_origin: f32,
@@ -9,7 +9,7 @@ pub(super) struct Linear {
 }
 
 impl Linear {
-    /// Its value at the start of a row.
+    /// Value at column 0 of row `dj`.
     #[inline]
     pub(super) fn in_row(self, dj: i32) -> f32 {
         self.at_origin + dj as f32 * self.per_j

@@ -1,18 +1,18 @@
-//! Turns marks into small bitmaps of texels: rotated, scaled, blurred and noisy prints and stains.
+//! Rasterises marks as rotated, scaled, blurred and noisy prints and stains.
 //!
-//! A footfall adds to three quantities. `passes` and `soil` show the sole itself; `presence` is a soft kernel along the
-//! heading with the same integral as the sole, so that local means of `passes` and `presence` agree. A heel mark adds
-//! to `scuff`.
+//! A footfall adds to three quantities: `passes` and `soil` hold the sole itself; `presence` holds a soft kernel along
+//! the heading with the same integral as the sole, so that local means of `passes` and `presence` agree. A heel mark
+//! adds to `scuff`.
 //!
-//! Each pattern is filtered once for the texel density and kept at four samples a texel (`bank`). A stamp reads one
-//! sample a texel at any angle, size and sub-texel position. Per-print variation (`variation`) is applied to each row
-//! in a second, vectorised loop.
+//! Each pattern is filtered once for the texel density, with four samples per texel (`bank`). A stamp reads one sample
+//! per texel at any angle, size and sub-texel position. A second, vectorised loop applies per-print variation to each
+//! row (`variation`).
 //!
-//! A stamp is a pure function of the mark, its pattern and the grid. Texels are counted from the mark's own texel, so
-//! a stamp cut by a block's border gives the same integers on both sides as an uncut one.
+//! A stamp is a pure function of the mark, its pattern and the grid. Texels are counted from the mark's own texel, so a
+//! stamp cut by a block's border gives the same integers on both sides as an uncut one.
 //!
 //! Contacts become stains on unrolled wall faces ([`WallGrid`]). A stain stretches, blurs and bends its pattern; drags
-//! fade along their way; the wall's grain, fixed in place, breaks the stain up ([`WallStamper`]).
+//! fade along their path; the wall's grain, fixed in place, breaks the stain up ([`WallStamper`]).
 
 mod bank;
 mod error;

@@ -1,4 +1,4 @@
-//! Periodic tiles of noise in texels; each print reads them at its own offset.
+//! Periodic noise tiles in texels; each print reads them at a separate offset.
 //!
 //! Not imageproc's filters: they do not wrap around.
 
@@ -6,7 +6,7 @@ use super::lanes::{LANES, Lanes};
 use super::window::WINDOW;
 use crate::math::SplitMix64;
 
-/// Fixed-point value of 1 in a tile of [`NoiseTile::grain`].
+/// Fixed-point value of 1 in noise tiles.
 pub(super) const NOISE_ONE: f32 = 16_384.0;
 
 /// A periodic square of noise. Prints shift it by whole [`Lanes`], in step with the texels of a window.
@@ -17,7 +17,7 @@ pub(super) struct NoiseTile {
     lanes: Vec<Lanes<u16>>,
 }
 
-/// A tile read texel by texel.
+/// View of a tile for reading single texels.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NoiseRaster<'a> {
     values: &'a [u16],
@@ -26,7 +26,7 @@ pub(super) struct NoiseRaster<'a> {
 }
 
 impl NoiseRaster<'_> {
-    /// Index of the value at a column and a row, which may be any numbers.
+    /// Index of the value at a column and row; both wrap around.
     #[inline]
     pub(super) fn place(&self, i: u32, j: u32) -> u32 {
         (j & self.mask) << self.bits | i & self.mask
@@ -38,7 +38,7 @@ impl NoiseRaster<'_> {
         self.values.get(place as usize).copied().unwrap_or(0)
     }
 
-    /// Copies values of a row, from a column on.
+    /// Copies values of a row, starting at a column.
     #[inline]
     pub(super) fn copy_row(&self, i: u32, j: u32, mut out: &mut [u16]) {
         let row = &self.values[self.place(0, j) as usize..][..=self.mask as usize];
@@ -59,19 +59,19 @@ pub(super) struct NoiseRow<'a> {
     first: usize,
 }
 
-/// Seed of all tiles, independent of the scenario.
+/// Seed of all tiles; the scenario's seed does not change it.
 const SEED: u64 = 0x6e6f_6973_6521;
 
 impl NoiseTile {
-    /// Blotches and grain of 25, 8 and 2 mm, with mean 1; the tile's side is about a sole's length.
+    /// Noise of mean 1 at 25, 8 and 2 mm; the tile's side is about a sole's length.
     pub(super) fn grain(texels_per_metre: f64, deviation: f64, seed: u64) -> NoiseTile {
         NoiseTile::of_scales(tile_size(texels_per_metre), texels_per_metre, &[0.025, 0.008, 0.002], deviation, seed)
     }
 
-    /// Noise of mean 1 and the given standard deviation, clamped at 2.5 deviations; `size` is a power of two of texels.
+    /// Noise of mean 1 and the given standard deviation, clamped at 2.5 deviations. `size`: texels, a power of two.
     ///
-    /// Each scale in metres adds an octave of blurred white noise, all of equal variance. Octaves below a texel are
-    /// weakened like the mean over a texel.
+    /// Each scale, in metres, adds an octave of blurred white noise; all have equal variance. Octaves below a texel are
+    /// attenuated like the mean over a texel.
     pub(super) fn of_scales(
         size: usize,
         texels_per_metre: f64,
@@ -102,7 +102,7 @@ impl NoiseTile {
         NoiseTile::new(size, &values)
     }
 
-    /// Dither: uniform in `0..65536`, independent from texel to texel, for unbiased rounding.
+    /// Dither: uniform in `0..65536`, independent per texel, for unbiased rounding.
     pub(super) fn dither(texels_per_metre: f64) -> NoiseTile {
         let size = tile_size(texels_per_metre);
         let rng = &mut SplitMix64::new(SEED ^ 0xd17e);
@@ -115,12 +115,12 @@ impl NoiseTile {
         NoiseTile { size, lanes }
     }
 
-    /// The tile for reading texel by texel.
+    /// Returns the view for reading single texels.
     pub(super) fn raster(&self) -> NoiseRaster<'_> {
         NoiseRaster { values: self.lanes.as_flattened(), bits: self.size.trailing_zeros(), mask: self.size as u32 - 1 }
     }
 
-    /// Row `j` of the whole floor from texel `LANES * lanes` on, for a print with the noise offset `at`.
+    /// Row `j` of the floor from texel `LANES * lanes` on, for a print with noise offset `at`.
     #[inline]
     pub(super) fn row(&self, at: [u32; 2], lanes: u32, j: u32) -> NoiseRow<'_> {
         let row = j.wrapping_add(at[1]) as usize & (self.size - 1);
@@ -162,7 +162,7 @@ fn white(size: usize, seed: u64) -> Vec<f64> {
     (0..size * size).map(|_| f64::from(rng.normal())).collect()
 }
 
-/// Three periodic box filters along each axis: close to a Gaussian of the given standard deviation.
+/// Approximates a Gaussian by three periodic box filters along each axis.
 fn blur_periodic(values: &mut [f64], size: usize, deviation: f64) {
     // Three boxes of width 2 r + 1 have the variance ((2 r + 1)^2 - 1) / 4.
     let radius = (((4.0 * deviation * deviation + 1.0).sqrt() - 1.0) * 0.5).round() as usize;

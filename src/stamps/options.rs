@@ -4,23 +4,23 @@ use serde::{Deserialize, Serialize};
 
 use super::StampsError;
 
-/// Variation of prints and stains, and the width of the presence kernel.
+/// Options of stamping: variation of prints and stains, width of the presence kernel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct StampOptions {
     /// Share of soil prints that show only the heel, only the ball or fade to one side, 0 to 1.
     pub partial: f64,
-    /// Standard deviation of the pressure slope over a sole or a stain, as a share of the mean pressure, 0 to 0.4.
+    /// Standard deviation of the pressure slope over a sole or stain, share of the mean, 0 to 0.4.
     ///
-    /// Soles have a slope from heel to toe and one from edge to edge.
+    /// Soles have one slope from heel to toe and one from edge to edge.
     pub pressure: f64,
-    /// Range of the blur of a soil print or a wall stain (standard deviation), metres, 0 to 0.02.
+    /// Range of the standard deviation of a soil print's or wall stain's blur, metres, 0 to 0.02.
     ///
     /// Skin and cloth blur 2.5 times as much. The texel filter is added.
     pub blur_m: [f64; 2],
     /// Standard deviation of the noise in a soil print, as a share of its density, 0 to 0.6.
     ///
-    /// Wall stains have blotches of 1.2 times and grain of 0.8 times this.
+    /// Wall stains have blotches of 1.2 times and grain of 0.8 times this value.
     pub noise: f64,
     /// Standard deviation of the presence kernel across the heading, metres, 0.01 to 1.
     pub presence_across_m: f64,
@@ -42,10 +42,10 @@ impl Default for StampOptions {
 }
 
 impl StampOptions {
-    /// Checks every value against its range.
+    /// Checks that every value is in its range.
     ///
     /// # Errors
-    /// The first value out of its range, by name.
+    /// Names the first value out of its range.
     pub fn check(&self) -> Result<(), StampsError> {
         let ranges = [
             ("partial", self.partial, 0.0, 1.0),
@@ -57,7 +57,7 @@ impl StampOptions {
             ("presence_along_m", self.presence_along_m, 0.01, 1.0),
         ];
         for (name, value, low, high) in ranges {
-            // Written so that NaN is out of range.
+            // NaN must be out of range.
             if !(value >= low && value <= high) {
                 return Err(StampsError::OutOfRange { name, value, low, high });
             }

@@ -7,13 +7,13 @@ use crate::marks::Mark;
 use crate::math::Vec2;
 use crate::patterns::Cause;
 
-/// How far from there a twist is felt, soles.
+/// Radius around the ball that a twist moves, soles.
 pub(super) const BALL_RADIUS: f64 = 0.25;
 
-/// Twists beyond this are cut, radians.
+/// Largest twist, radians; larger ones are clamped.
 pub(super) const WIDEST_TWIST: f32 = 1.0;
 
-/// The pose of a pattern on the floor.
+/// Pose of a pattern on the floor: position, heading, scale.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PrintPose {
     /// Middle of the pattern, metres.
@@ -29,7 +29,7 @@ pub(super) struct PrintPose {
 }
 
 impl PrintPose {
-    /// The pose of a footfall; `None` for a size outside 0.2 to 5 of the pattern's.
+    /// Returns the pose of a footfall; `None` for a scale outside 0.2 to 5.
     pub(super) fn of_sole(mark: &Mark, pattern_length_m: f64) -> Option<PrintPose> {
         let scale = f64::from(mark.length_m) / pattern_length_m;
         (0.2..=5.0).contains(&scale).then_some(PrintPose {
@@ -41,7 +41,7 @@ impl PrintPose {
         })
     }
 
-    /// The pose of a heel mark; `None` for a length outside 0.05 to 20 of the pattern's.
+    /// Returns the pose of a heel mark; `None` for a scale outside 0.05 to 20.
     pub(super) fn of_heel(mark: &Mark, pattern_length_m: f64) -> Option<PrintPose> {
         let scale_along = f64::from(mark.length_m) / pattern_length_m;
         let variation = HeelVariation::new(mark.variation);
@@ -49,14 +49,13 @@ impl PrintPose {
             place_m: mark.place_m,
             heading: mark.heading,
             scale_along,
-            // The mark gives the length of the drag; its width depends on the shoe.
+            // The mark gives the drag's length; the width depends on the shoe.
             scale_across: f64::from(variation.width),
             mirrored: mark.mirrored,
         })
     }
 
-    /// Position of a texel's middle on the pattern along and across, metres of the pattern, with its change per texel
-    /// along i and j.
+    /// Pattern position of a texel's centre along and across, and its change along i and j, metres.
     pub(super) fn along_across(&self, grid: &TexelGrid, origin: [i64; 2]) -> [[f64; 3]; 2] {
         let texel_m = grid.texel_m();
         let from_place = |k: i64, place_m: f64| (k as f64 + 0.5) * texel_m - place_m;
@@ -71,13 +70,13 @@ impl PrintPose {
         ]
     }
 
-    /// The texel that holds the middle of the pattern; a print counts its texels from there.
+    /// The texel that holds the pattern's centre, the origin of the print's texel coordinates.
     pub(super) fn origin(&self, grid: &TexelGrid) -> [i64; 2] {
         [self.place_m.x, self.place_m.y].map(|m| floor(m * grid.texels_per_metre))
     }
 }
 
-/// Distance by which a twist carries a print beyond its outline, metres.
+/// Distance by which a twist extends a print's outline, metres.
 pub(super) fn twist_reach_m(mark: &Mark) -> f64 {
     if mark.twist_rad == 0.0 {
         return 0.0;
@@ -85,7 +84,7 @@ pub(super) fn twist_reach_m(mark: &Mark) -> f64 {
     f64::from(mark.twist_rad.abs().min(WIDEST_TWIST)) * BALL_RADIUS * 2.0 * f64::from(mark.length_m)
 }
 
-/// Distance by which a bend carries the ends of a heel mark aside, metres.
+/// Distance by which a bend displaces the ends of a heel mark, metres.
 pub(super) fn bend_reach_m(mark: &Mark) -> f64 {
     if mark.cause == Cause::Heel { f64::from(MOST_BEND * mark.length_m) } else { 0.0 }
 }

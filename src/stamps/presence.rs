@@ -1,8 +1,8 @@
-//! The soft kernel that a footfall adds to `presence`: the expected print over many passes of the same person.
+//! Presence kernel of a footfall: the expected print over many passes of one person.
 //!
-//! The kernel is `3 / (pi a b) (1 - r^2)^2` on the ellipse `r < 1` along the heading. Its half axes a and b are `sqrt 8`
-//! times the standard deviations. It looks like a Gaussian but has bounded support. Kernels are precomputed for 64
-//! headings over half a turn (a kernel is symmetric) and 4 x 4 positions within a cell.
+//! The kernel is `3 / (pi a b) (1 - r^2)^2` on the ellipse `r < 1` along the heading. Its half axes a and b are `sqrt
+//! 8` times the standard deviations. It resembles a Gaussian with bounded support. Kernels are precomputed for 64
+//! headings over 180 degrees (a kernel is symmetric) and 4 x 4 positions within a cell.
 
 use super::StampOptions;
 use super::lanes::{LANES, Lanes, Scaling, SumCell, add_lanes, upper};
@@ -23,18 +23,18 @@ pub(super) struct Kernels {
     half_across_m: f64,
     kernels: Vec<Kernel>,
     rows: Vec<KernelRow>,
-    /// Shares of the integral, in `1 / unit`.
+    /// Shares of the integral, in units of `1 / unit`.
     values: Vec<Lanes<u16>>,
     unit: f32,
 }
 
-/// One kernel: rows from `j0` on, counted from the cell of the foot.
+/// One kernel: rows from `j0` on, relative to the foot's cell.
 #[derive(Clone, Copy, Debug)]
 struct Kernel {
     j0: i16,
     first_row: u32,
     rows: u16,
-    /// Columns that its rows touch.
+    /// Range of columns of its rows.
     i0: i16,
     i1: i16,
 }
@@ -52,7 +52,7 @@ struct KernelRow {
 pub(crate) struct PlacedKernel {
     cell: [i32; 2],
     number: u16,
-    /// Amount that a value of 65536 adds to a cell, in the scaling.
+    /// Amount that a kernel value of 65536 adds to a cell, in the scaling.
     factor: u16,
     scaling: Scaling,
 }
@@ -80,7 +80,7 @@ impl Kernels {
         bank
     }
 
-    /// Extent of a kernel: a little more than its ellipse, for the rounding of the heading.
+    /// Extent of a kernel: slightly more than its ellipse, for the rounding of the heading.
     pub(super) fn extent(&self, middle_m: Vec2, heading: Vec2) -> StampExtent {
         let turned_aside_m = self.half_along_m * (0.5 * std::f64::consts::PI / HEADINGS as f64);
         StampExtent {
@@ -91,7 +91,7 @@ impl Kernels {
         }
     }
 
-    /// Shares of the cells around a place; `number` encodes the heading and the position within the cell.
+    /// Computes the shares of cells around a position. `number` encodes heading and position in the cell.
     fn shares(&self, number: usize) -> Shares {
         let (sin, cos) = sin_cos(std::f64::consts::PI * (number / (PHASES * PHASES)) as f64 / HEADINGS as f64);
         let phase = |k: usize| (k as f64 + 0.5) / PHASES as f64;
@@ -123,7 +123,7 @@ impl Kernels {
     }
 
     fn push(&mut self, shares: &Shares, unit: f64) {
-        // Carries the rounding remainder on, so that the shares sum up to one.
+        // The rounding remainder is carried on, so that the shares sum to 1.
         let mut remainder = 0.0;
         let whole: Vec<u16> = shares
             .values
@@ -163,7 +163,7 @@ impl Kernels {
         });
     }
 
-    /// Finds the kernel for a place and a heading.
+    /// Finds the kernel for a position and a heading.
     pub(super) fn find(&self, place_m: Vec2, heading: Vec2) -> FoundKernel {
         let turn = atan2(heading.y, heading.x) / std::f64::consts::PI;
         let angle = floor(turn * HEADINGS as f64 + 0.5);
@@ -183,7 +183,7 @@ impl Kernels {
         PlacedKernel { number: found.number, cell: found.cell, factor, scaling }
     }
 
-    /// The cells that a kernel touches.
+    /// Cells that a kernel touches.
     pub(super) fn bounds(&self, found: FoundKernel) -> TexelBounds {
         let kernel = self.kernels[usize::from(found.number)];
         let [i, j] = found.cell.map(i64::from);
@@ -200,7 +200,7 @@ impl Kernels {
         &self.values[row.first_lanes as usize..][..usize::from(row.length).div_ceil(LANES)]
     }
 
-    /// Share of a kernel that lies behind walls.
+    /// Share of a kernel behind walls.
     pub(super) fn share_hidden(&self, found: FoundKernel, shadow: &Shadow) -> f32 {
         let kernel = self.kernels[usize::from(found.number)];
         let mut sum = 0.0;
@@ -217,12 +217,12 @@ impl Kernels {
         sum / self.unit
     }
 
-    /// Upper bound on what a placed kernel adds to a cell.
+    /// Upper bound on a placed kernel's value in a cell.
     pub(super) fn peak(&self, placed: &PlacedKernel) -> u32 {
         (u32::from(placed.factor) >> placed.scaling.shift) + 1
     }
 
-    /// Adds a kernel to the cells of a window, except behind walls.
+    /// Adds a kernel to the cells of a window, except those behind walls.
     pub(super) fn add<C: SumCell>(
         &self,
         placed: &PlacedKernel,
@@ -251,7 +251,7 @@ impl Kernels {
                             shadow.reached([column + window.i0, j + window.j0], &mut reached);
                         }
                         for ((column, amount), reached) in (column..).zip(amounts).zip(reached) {
-                            // A cell cut by a wall shows the part in front of it.
+                            // A cell cut by a wall gets the full amount.
                             if reached > 0.0 && column >= 0 && column < WINDOW as i64 {
                                 cells[column as usize].add(amount);
                             }
@@ -264,7 +264,7 @@ impl Kernels {
 }
 
 impl PlacedKernel {
-    /// Amounts that kernel values add.
+    /// Amounts for a row of kernel values.
     #[inline]
     fn amounts(self, values: &Lanes<u16>) -> Lanes<u16> {
         let (factor, half, shift) = (self.factor, self.scaling.half(), self.scaling.shift);
@@ -272,14 +272,14 @@ impl PlacedKernel {
     }
 }
 
-/// Index of a kernel and the cell that its rows are counted from.
+/// Index of a kernel and the cell of its origin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FoundKernel {
     number: u16,
     cell: [i32; 2],
 }
 
-/// An unrounded kernel: a square of cells around the place.
+/// An unrounded kernel: a square of cells around the position.
 struct Shares {
     reach: i32,
     size: usize,

@@ -1,4 +1,4 @@
-//! A plate placed on the floor: sampling it under texels.
+//! A plate placed on the floor, sampled at texels.
 
 use super::TexelGrid;
 use super::bank::{Plate, Printer};
@@ -9,7 +9,7 @@ use super::window::floor;
 const FRACTION_BITS: u32 = 10;
 const FRACTION: i32 = 1 << FRACTION_BITS;
 
-/// A placed plate. Texels are counted from the one that the mark's place lies in, samples in 1/1024.
+/// A placed plate. Texels are counted from the mark's texel, samples in units of 1/1024.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Print<'a> {
     plate: &'a Plate,
@@ -41,10 +41,10 @@ impl<'a> Print<'a> {
         Print { plate, u0, v0, u_per_i, v_per_i, u_per_j, v_per_j }
     }
 
-    /// Finds the texels on the plate for rows from `dj` on: first and one past the last, within `limits`.
+    /// Finds the range of texels on the plate, within `limits`, for each row from `dj` on.
     ///
     /// Texels are counted from the origin. An empty row ends at or before its start. A row may be a texel too long; the
-    /// plate's guard of empty samples covers it.
+    /// plate's guard of empty samples absorbs that.
     #[inline]
     pub(super) fn spans(&self, dj: i32, limits: [i32; 2], spans: &mut [[i32; 2]]) {
         const SAMPLE: f32 = 1.0 / FRACTION as f32;
@@ -72,7 +72,7 @@ impl<'a> Print<'a> {
         }
     }
 
-    /// Reads the nearest samples under the texels from `di` on in row `dj`, which lie on the plate.
+    /// Reads the nearest samples for the texels from `di` on in row `dj`, which lie on the plate.
     #[inline]
     pub(super) fn read_nearest(&self, di: i32, dj: i32, out: &mut [u8]) {
         let Some(walk) = SampleSteps::new(self, [0, 0], di, dj) else { return };
@@ -83,7 +83,7 @@ impl<'a> Print<'a> {
         }
     }
 
-    /// Reads bilinearly interpolated samples under the same texels.
+    /// Reads bilinearly interpolated samples for the same texels.
     #[inline]
     pub(super) fn read_between(&self, di: i32, dj: i32, out: &mut [u8]) {
         const HALF: i32 = 1 << (FRACTION_BITS - 1);
@@ -102,7 +102,7 @@ impl<'a> Print<'a> {
         }
     }
 
-    /// Interpolated coverage under any texel, shifted by `aside` samples across; 0 beyond the plate.
+    /// Interpolated coverage at any texel, shifted by `aside` samples across; 0 beyond the plate.
     #[inline]
     pub(super) fn read_anywhere(&self, di: i32, dj: i32, aside: f32) -> u8 {
         let u = self.u0 + di * self.u_per_i + dj * self.u_per_j;
@@ -124,8 +124,8 @@ impl<'a> Print<'a> {
 
 /// Steps over a plate's samples along a row of texels.
 ///
-/// One word holds both coordinates: the column with its fraction in the lower half; the row with its fraction, shifted
-/// by the pitch, in the upper.
+/// One word holds both coordinates: column and fraction in the lower half; row and fraction, shifted by the pitch, in
+/// the upper.
 struct SampleSteps<'a> {
     samples: &'a [u8],
     mask: usize,
@@ -138,7 +138,7 @@ impl<'a> SampleSteps<'a> {
     #[inline]
     fn new(print: &Print<'a>, before: [i32; 2], di: i32, dj: i32) -> Option<SampleSteps<'a>> {
         let samples = &print.plate.samples[..];
-        // Their number is a power of two, so that a mask keeps every index within the plate.
+        // The number of samples is a power of two, so a mask keeps every index within the plate.
         let mask = samples.len().checked_sub(1)?;
         let pitch_bits = print.plate.pitch_bits;
         let u = print.u0 + di * print.u_per_i + dj * print.u_per_j - before[0];

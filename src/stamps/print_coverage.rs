@@ -1,4 +1,4 @@
-//! The coverage of one print in one window, read from its plate.
+//! Coverage of one print in one window, read from its plate.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use super::lanes::{LANES, Lanes};
 use super::shadow::Shadow;
 use super::window::{TexelBounds, TexelWindow, WINDOW};
 
-/// Rows of a print's coverage in a window. A buffer that a thread reuses for all its prints.
+/// Rows of a print's coverage in a window; each thread reuses one buffer.
 #[derive(Debug)]
 pub(crate) struct PrintCoverage {
     spans: Vec<[i32; 2]>,
@@ -18,21 +18,21 @@ pub(crate) struct PrintCoverage {
 #[derive(Clone, Debug)]
 struct FilledRow {
     row: usize,
-    /// In lanes.
+    /// Range of the row, in lanes.
     lanes: Range<usize>,
 }
 
 /// A row of coverage with its position.
 pub(super) struct CoverageRow<'a> {
-    /// Row on the whole floor.
+    /// Row of the floor grid.
     pub(super) j: i64,
-    /// First texel and row, counted from the print's origin.
+    /// First texel and row, relative to the print's origin.
     pub(super) di: i32,
     pub(super) dj: i32,
-    /// First lanes on the whole floor.
+    /// Index of the first lane on the floor.
     pub(super) first_lanes: u32,
     pub(super) coverage: &'a [Lanes<u8>],
-    /// The cells that it lies on, in lanes of the window.
+    /// Cells under the row, in lanes of the window.
     pub(super) cells: Range<usize>,
 }
 
@@ -45,10 +45,10 @@ impl PrintCoverage {
         }
     }
 
-    /// Reads the part of a print in a window; the print counts its texels from `origin`.
+    /// Reads the part of a print in a window; texels are counted from `origin`.
     ///
-    /// `spans` finds the texels to read for rows from the given one on, within the given limits; `read` takes the first
-    /// texel of a row and the row.
+    /// `spans` finds the range of texels of each row from a given row on, within limits; `read` takes the first texel
+    /// of a row, the row, and the output.
     #[inline]
     pub(super) fn fill(
         &mut self,
@@ -62,7 +62,7 @@ impl PrintCoverage {
         let first = bounds.j0.max(window.j0);
         let rows = (bounds.j1.min(window.j0 + WINDOW as i64) - first).max(0) as usize;
         let dj = (first - origin[1]) as i32;
-        // The window's columns, counted from the origin.
+        // The window's columns relative to the origin.
         let left = (window.i0 - origin[0]) as i32;
         spans(dj, [left, left + WINDOW as i32], &mut self.spans[..rows]);
         for (k, &[low, high]) in self.spans[..rows].iter().enumerate() {
@@ -81,7 +81,7 @@ impl PrintCoverage {
         }
     }
 
-    /// Clears the coverage behind walls.
+    /// Sets the coverage behind walls to 0.
     pub(super) fn hide(&mut self, shadow: &Shadow, window: TexelWindow) {
         for FilledRow { row, lanes } in &self.filled {
             let columns = lanes.start * LANES..lanes.end * LANES;
@@ -90,7 +90,7 @@ impl PrintCoverage {
         }
     }
 
-    /// The rows that were filled.
+    /// Iterates over the rows that were filled.
     #[inline]
     pub(super) fn rows(&self, origin: [i64; 2], window: TexelWindow) -> impl Iterator<Item = CoverageRow<'_>> {
         self.filled.iter().map(move |FilledRow { row, lanes }| {

@@ -1,29 +1,29 @@
-//! A naive reference for the stamps, for tests and measurements.
+//! Naive reference of the stamps, for tests and measurements.
 
 use super::TexelGrid;
 use crate::marks::Mark;
 use crate::math::vec2;
 use crate::patterns::Pattern;
 
-/// Texels around a print, from the reference.
+/// Texels around a print from the reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReferenceImage {
     /// First column on the grid.
     pub i0: i64,
     /// First row on the grid.
     pub j0: i64,
-    /// Columns.
+    /// Number of columns.
     pub width: usize,
-    /// Row-major, row 0 lowest: mean coverage of each texel, 0 to 1.
+    /// Mean coverage of each texel, 0..=1, row-major, row 0 lowest.
     pub coverage: Vec<f64>,
 }
 
 /// Sample points within a texel along each axis.
 const PLACES: usize = 6;
 
-/// Mean coverage, 0 to 1, of every texel near a mark, from 6 x 6 point samples a texel.
+/// Computes the mean coverage, 0..=1, of texels near a mark from 6 x 6 point samples each.
 ///
-/// The pattern is only rotated, scaled to the mark's length and mirrored. Slow: for tests and measurements.
+/// The pattern is only rotated, scaled to the mark's length and mirrored. Slow; for tests and measurements.
 pub fn stamp_reference(pattern: &Pattern, mark: &Mark, grid: TexelGrid) -> ReferenceImage {
     let pixel_m = pattern.length_cm / 100.0 / f64::from(pattern.width_px.max(1));
     let scale = f64::from(mark.length_m) / (pattern.length_cm / 100.0);

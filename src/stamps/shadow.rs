@@ -1,10 +1,10 @@
-//! Shadows of walls: points behind a wall, seen from the stand of a foot, get no print.
+//! Shadows of walls: texels behind a wall, as seen from the foot, get no print.
 
 use super::window::WINDOW;
 use crate::math::{Rect, Vec2, vec2};
 use crate::walls::Walls;
 
-/// The walls near a place, for finding the grid squares behind them as seen from there.
+/// Walls near a position, for finding grid squares hidden behind them.
 #[derive(Debug)]
 pub(super) struct Shadow {
     place_m: Vec2,
@@ -12,10 +12,10 @@ pub(super) struct Shadow {
     faces: Vec<Blocking>,
 }
 
-/// A wall segment whose floor side faces the place; coordinates from the place, metres.
+/// A wall segment whose floor side faces the viewpoint; coordinates relative to it, metres.
 #[derive(Debug)]
 struct Blocking {
-    /// Ends; the second lies to the right, seen from the place.
+    /// Ends; the second is to the right as seen from the viewpoint.
     left: [f32; 2],
     right: [f32; 2],
     /// Unit normal into the wall.
@@ -25,7 +25,7 @@ struct Blocking {
     half_extent: f32,
 }
 
-/// Oriented rectangle around a print or a kernel.
+/// Oriented rectangle around a print or kernel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StampExtent {
     pub(super) middle_m: Vec2,
@@ -36,26 +36,26 @@ pub(super) struct StampExtent {
 }
 
 impl StampExtent {
-    /// Reach in a direction, measured from a point.
+    /// Extent in a direction, measured from a point.
     fn farthest_m(&self, from: Vec2, direction: Vec2) -> f64 {
         let along = self.half_along_m * self.heading.dot(direction).abs();
         let across = self.half_across_m * self.heading.cross(direction).abs();
         (self.middle_m - from).dot(direction) + along + across
     }
 
-    /// Upper bound on the distance of its corners from a point.
+    /// Upper bound on the distance of the corners from a point.
     pub(super) fn reach_m(&self, from: Vec2) -> f64 {
         vec2(self.half_along_m, self.half_across_m).length() + self.middle_m.distance(from)
     }
 }
 
-/// Tolerance at the rim of a shadow, square metres of the cross product: joined wall segments leave no slit.
+/// Tolerance at a shadow's edge, m^2 of the cross product: joined wall segments leave no gap.
 const RIM: f32 = 1e-5;
 
-/// Distance in front of a wall at which a foot stands whose place lies in the wall, metres.
+/// Distance from a wall of a foot whose position is inside the wall, metres.
 const BEFORE_WALL_M: f64 = 0.002;
 
-/// The stand of a foot: its place, or a point in front of the wall if the place lies in one.
+/// Returns the foot's viewpoint: its position, or a point in front of the wall if inside one.
 pub(super) fn foothold(walls: &Walls, place: Vec2, nearest_m: Vec2) -> Vec2 {
     match (nearest_m - place).normalized() {
         Some(out) if !walls.is_inside(place) => nearest_m + out * BEFORE_WALL_M,
@@ -64,7 +64,7 @@ pub(super) fn foothold(walls: &Walls, place: Vec2, nearest_m: Vec2) -> Vec2 {
 }
 
 impl Shadow {
-    /// The shadow on squares of side `square_m` within an extent, seen from a place; `None` without a wall in between.
+    /// Shadow on squares of side `square_m` in an extent; `None` without a wall in between.
     pub(super) fn new(walls: &Walls, place_m: Vec2, extent: &StampExtent, square_m: f64) -> Option<Shadow> {
         let reach_m = extent.reach_m(place_m) + square_m;
         let mut segments = Vec::new();
@@ -73,7 +73,7 @@ impl Shadow {
         for segment in segments {
             let (a, b) = (segment.a - place_m, segment.b - place_m);
             let Some(along) = (b - a).normalized() else { continue };
-            // The floor lies on the right of a face; walls seen from behind cast no shadow.
+            // The floor is on the right of a face; walls seen from behind cast no shadow.
             let normal = along.left();
             let distance = normal.dot(a);
             let nearest = a + along * (-a.dot(along)).clamp(0.0, (b - a).length());
@@ -94,7 +94,7 @@ impl Shadow {
         (!faces.is_empty()).then_some(Shadow { place_m, square_m, faces })
     }
 
-    /// Visible share, 0 to 1, of the squares in a row from square `[i, j]` on: the minimum over all faces.
+    /// Visible share, 0..=1, of squares in a row from `[i, j]` on: the minimum over all faces.
     pub(super) fn reached(&self, [i, j]: [i64; 2], out: &mut [f32]) {
         let middle = |k: i64, place: f64| ((k as f64 + 0.5) * self.square_m - place) as f32;
         self.reached_from(middle(i, self.place_m.x), middle(j, self.place_m.y), out);
@@ -116,7 +116,7 @@ impl Shadow {
         }
     }
 
-    /// Visible share, 0 to 1, of a square around a point.
+    /// Visible share, 0..=1, of a square around a point.
     pub(super) fn reached_at(&self, point_m: Vec2) -> f32 {
         let offset = point_m - self.place_m;
         let mut out = [0.0];
@@ -124,7 +124,7 @@ impl Shadow {
         out[0]
     }
 
-    /// Clears the coverage of invisible squares from square `[i, j]` on. A texel cut by a wall keeps its coverage.
+    /// Sets the coverage of invisible squares from `[i, j]` on to 0. Texels cut by a wall keep theirs.
     pub(super) fn hide(&self, square: [i64; 2], coverage: &mut [u8]) {
         let mut reached = [0.0; WINDOW];
         let reached = &mut reached[..coverage.len()];
@@ -143,7 +143,7 @@ mod tests {
     use crate::plan::FloorPlan;
     use crate::walls::WallsOptions;
 
-    /// Two rooms of 2 x 3 m side by side, 0.1 m of wall between them, a gap at the top.
+    /// Two rooms of 2 x 3 m with 0.1 m of wall between them and a gap at the top.
     fn rooms() -> Walls {
         let (width, height) = (43, 32);
         let floor = (0..width * height)
@@ -202,7 +202,7 @@ mod tests {
                 let offset = vec2(f64::from(i) * 0.0131 + 0.004, f64::from(j) * 0.0131 + 0.004);
                 let reached = shadow.reached_at(place + offset);
                 let seen = walls.sight(place, place + offset);
-                // The two may differ within the rim of a shadow.
+                // The two may differ at a shadow's edge.
                 if (reached > 0.5) != seen {
                     let moved = [vec2(0.003, 0.0), vec2(-0.003, 0.0), vec2(0.0, 0.003), vec2(0.0, -0.003)];
                     assert!(moved.iter().any(|m| walls.sight(place, place + offset + *m) != seen), "{offset:?}");

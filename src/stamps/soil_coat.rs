@@ -1,4 +1,4 @@
-//! The soil coat of a sole: its partial fade, contrast and worn spots.
+//! Soil coat of a sole: partial fade, contrast and worn spots.
 
 use super::lanes::{Lanes, SumCell};
 use super::linear::Linear;
@@ -7,10 +7,10 @@ use super::print_coverage::CoverageRow;
 use super::variation::{SoleVariation, WornSpots};
 use super::window::WINDOW;
 
-/// Strength of the noise on the rim of a partial print, steps of the fade.
+/// Amplitude of the noise at the edge of a partial print, relative to the fade's step.
 const RAGGED: f32 = 0.4;
 
-/// The soil coat of one sole.
+/// Soil coat of one sole.
 pub(super) struct SoilCoat {
     along: Linear,
     across: Linear,
@@ -21,7 +21,7 @@ pub(super) struct SoilCoat {
 }
 
 impl SoilCoat {
-    /// The coat of a print; the last argument gives the position on the sole, in soles along and across.
+    /// Creates the coat of a print; `[along, across]` gives the position on the sole, in soles.
     pub(super) fn new(variation: &SoleVariation, wear: u32, [along, across]: [Linear; 2]) -> SoilCoat {
         let fade = variation.fade;
         SoilCoat {
@@ -34,14 +34,14 @@ impl SoilCoat {
         }
     }
 
-    /// The coat where texel coordinates are positions on the sole: i along, j across.
+    /// The coat with sole positions as texel coordinates: i along, j across.
     pub(super) fn on_sole(variation: &SoleVariation, wear: u32) -> SoilCoat {
         let along = Linear { at_origin: 0.0, per_i: 1.0, per_j: 0.0 };
         let across = Linear { at_origin: 0.0, per_i: 0.0, per_j: 1.0 };
         SoilCoat::new(variation, wear, [along, across])
     }
 
-    /// Adds a row of soil to cells: coated coverage (in `unit`) times pressure times noise, rounded with dither.
+    /// Adds a row of soil to cells: coated coverage (in `unit`) times pressure times noise, dithered.
     #[inline]
     pub(super) fn add<C: SumCell>(
         &self,
@@ -73,7 +73,7 @@ impl SoilCoat {
         }
     }
 
-    /// Coverage after contrast, fade and wear at a position on the sole; `progress` is that of the fade.
+    /// Coverage after contrast, fade and wear at a position on the sole; `progress` is the fade's.
     #[inline]
     fn coated(&self, coverage: f32, along: f32, across: f32, progress: f32) -> f32 {
         let contrasted = coverage + coverage * self.contrast * (coverage - 1.0);
@@ -81,7 +81,7 @@ impl SoilCoat {
         contrasted * shown * self.wear.left(along, across)
     }
 
-    /// Coated coverage without noise at a position in soles, for a coat from [`SoilCoat::on_sole`].
+    /// Coated coverage without noise at a position in soles, for [`SoilCoat::on_sole`].
     pub(super) fn coated_at(&self, coverage: f32, along: f32, across: f32) -> f32 {
         let progress = self.fade.at_origin + self.fade.per_i * along + self.fade.per_j * across;
         self.coated(coverage, along, across, progress)

@@ -1,4 +1,4 @@
-//! Footfalls: what a sole adds to `passes` and `soil`.
+//! Footfalls: prints of soles in `passes` and `soil`.
 
 use super::bank::{Plate, Printer};
 use super::lanes::{LANES, Scaling, SumCell, add_lanes, upper};
@@ -16,19 +16,19 @@ use crate::marks::Mark;
 use crate::math::{sin_cos, vec2};
 use crate::walls::Walls;
 
-/// Optical density from which a soil print is readable and gets all its variation; fainter ones keep only the mean.
+/// Optical density above which a soil print gets all its variation, fainter ones the mean.
 const READABLE_DENSITY: f32 = 0.015;
 
-/// Limit on the slip of the heel, metres.
+/// Longest slip of the heel, metres.
 const LONGEST_SLIP_M: f32 = 0.03;
 
-/// Middle of the ball, the pivot of a twist, soles from the middle.
+/// Distance of the ball, the pivot of a twist, from the sole's middle, soles.
 const BALL: f64 = 0.22;
 
-/// Limit on the prints that a twist is drawn as.
+/// Largest number of prints that represent a twist.
 const TWIST_PRINTS: usize = 8;
 
-/// A print with its plate and variation, ready to be read.
+/// A print with its plate and variation.
 struct Prepared<'a> {
     printer: &'a Printer,
     pose: PrintPose,
@@ -38,12 +38,12 @@ struct Prepared<'a> {
 }
 
 impl Stamper {
-    /// Upper bound on what a mark adds to a texel of `passes`.
+    /// Upper bound on a mark's value in a texel of `passes`.
     pub(crate) fn peak_of_passes(&self, mark: &Mark) -> u32 {
         (passes(mark) * MOST_PRESSURE * self.faint_peak) as u32 + 2
     }
 
-    /// Upper bound on what a mark adds to a texel of `soil`.
+    /// Upper bound on a mark's value in a texel of `soil`.
     pub(crate) fn peak_of_soil(&self, mark: &Mark) -> u32 {
         (soil(mark) * MOST_PRESSURE * self.grain_peak) as u32 + 2
     }
@@ -73,7 +73,7 @@ impl Stamper {
         self.add_evenly(&prepared, passes(mark), &self.faint, window, sheet, cells);
     }
 
-    /// Adds the soil that a footfall leaves to the texels of a window, as optical density.
+    /// Adds a footfall's soil to the texels of a window, as optical density.
     #[allow(clippy::too_many_arguments)]
     pub(crate) fn add_soil<C: SumCell>(
         &self,
@@ -129,7 +129,7 @@ impl Stamper {
         }
     }
 
-    /// Reads a readable print: interpolated, and rotated about its ball if the foot twisted.
+    /// Reads a readable print: interpolated, and rotated about the ball if the foot twisted.
     fn read_smoothly(
         &self,
         prepared: &Prepared,
@@ -165,10 +165,10 @@ impl Stamper {
         }
     }
 
-    /// Adds coverage times pressure times noise; full coverage is `amount` of the quantity's unit.
+    /// Adds coverage times pressure times noise; full coverage is `amount` in the quantity's unit.
     ///
-    /// Computed in 16 bits: coverage times scaled pressure, times noise. Dither rounds without bias, so that a soil trail
-    /// fades on below the unit of the sums.
+    /// Computed in 16 bits: coverage times scaled pressure, times noise. Dither makes rounding unbiased, so that a soil
+    /// trail fades even below the unit of the sums.
     fn add_evenly<C: SumCell>(
         &self,
         prepared: &Prepared,
@@ -179,7 +179,7 @@ impl Stamper {
         cells: &mut [C],
     ) {
         let Prepared { printer, pose, plate, variation, origin } = prepared;
-        // Each of the two products loses 16 bits; coverage is in 1/257, noise in 1/2^14.
+        // Each of the two products drops 16 bits; coverage is in 1/257, noise in 1/2^14.
         let factor = amount * plate.unit * (262_144.0 / 257.0);
         let scaling = Scaling::for_most(factor * MOST_PRESSURE);
         let sole = printer.sole_place(pose, &self.grid);
@@ -196,7 +196,7 @@ impl Stamper {
             let (mut start, slope) = (start as u16, slope as u16);
             for ((cells, coverage), (noise, dither)) in lanes.zip(noise.iter().zip(dither.iter())) {
                 let amounts = std::array::from_fn(|k| {
-                    // Outside the print pressure may wrap around: coverage is 0 there.
+                    // Outside the print, pressure may wrap around: coverage is 0 there.
                     let pressure = start.wrapping_add(slope.wrapping_mul(k as u16));
                     let coverage = u16::from_ne_bytes([coverage[k]; 2]);
                     let value = upper(upper(coverage, pressure), noise[k]);
@@ -208,7 +208,7 @@ impl Stamper {
         }
     }
 
-    /// Poses of a foot while its ball twists on the floor; one pose for no or an invisible twist.
+    /// Poses of a foot while its ball twists on the floor; one pose if the twist is invisible.
     fn twisted(&self, mark: &Mark, printer: &Printer, pose: &PrintPose) -> Vec<PrintPose> {
         let twist = f64::from(mark.twist_rad.clamp(-WIDEST_TWIST, WIDEST_TWIST));
         let length_m = printer.length_m * pose.scale_along;
@@ -229,19 +229,19 @@ impl Stamper {
     }
 }
 
-/// Amount that a mark adds to `passes` at full coverage.
+/// Value at full coverage that a mark adds to `passes`.
 fn passes(mark: &Mark) -> f32 {
     mark.strength.clamp(0.0, MOST_STRENGTH) * PASSES_ONE
 }
 
-/// Amount that a mark adds to `soil` at full coverage.
+/// Value at full coverage that a mark adds to `soil`.
 fn soil(mark: &Mark) -> f32 {
     mark.soil.clamp(0.0, MOST_DENSITY) * DENSITY_ONE
 }
 
-/// Pressure over the sole, with mean 1 over its coverage, so that uneven pressure leaves as much as even.
+/// Pressure over the sole, with mean 1 over its coverage: uneven pressure keeps the integral.
 ///
-/// Slopes are gentler where coarse texels spread a print far beyond its outline.
+/// Slopes are reduced where coarse texels spread a print far beyond its outline.
 fn pressure(printer: &Printer, pose: &PrintPose, variation: &SoleVariation, [along, across]: [Linear; 2]) -> Linear {
     let [u, v] = printer.centroid.map(|c| c as f32);
     let [hold_along, hold_across] = printer.slopes_held(pose);
@@ -250,7 +250,7 @@ fn pressure(printer: &Printer, pose: &PrintPose, variation: &SoleVariation, [alo
     slope.times(1.0, 1.0 - slopes[0] * u - slopes[1] * v)
 }
 
-/// Finds the texels of rows that any of the prints can touch.
+/// Finds each row's range of texels that any of the prints can touch.
 fn widest_spans(prints: &[Print], dj: i32, limits: [i32; 2], spans: &mut [[i32; 2]]) {
     let mut of_one = vec![[0; 2]; spans.len()];
     spans.fill([0; 2]);
@@ -265,7 +265,7 @@ fn widest_spans(prints: &[Print], dj: i32, limits: [i32; 2], spans: &mut [[i32; 
     }
 }
 
-/// Reads a twisting foot: the ball as the mean over all poses, the rest at the first pose.
+/// Reads a twisting foot: the mean over all poses at the ball, the first pose elsewhere.
 fn read_twisted(prints: &[Print], along: Linear, di: i32, dj: i32, out: &mut [u8]) {
     let start = along.in_row(dj);
     for (di, c) in (di..).zip(out) {

@@ -1,4 +1,4 @@
-//! The floor stamper: patterns, kernels and noise for all marks, and the placing of a mark.
+//! Floor stamper: patterns, kernels and noise for all marks, and the placement of marks.
 
 use super::bank::{Lump, Printer, printers};
 use super::lanes::SumCell;
@@ -13,7 +13,7 @@ use crate::math::{Vec2, vec2};
 use crate::patterns::{Cause, PatternLibrary};
 use crate::walls::Walls;
 
-/// Turns footfalls and heel marks into texels, for one pattern library, grid and set of options.
+/// Rasterises footfalls and heel marks, for one pattern library, grid and set of options.
 #[derive(Debug)]
 pub struct Stamper {
     pub(super) grid: TexelGrid,
@@ -23,7 +23,7 @@ pub struct Stamper {
     /// By pattern index; `None` for wall patterns.
     pub(super) printers: Vec<Option<Printer>>,
     pub(super) kernels: Kernels,
-    /// Noise of `passes`: faint, since single prints cannot be told apart.
+    /// Noise of `passes`: faint, since single prints cannot be distinguished.
     pub(super) faint: NoiseTile,
     /// Noise of `soil` and `scuff`.
     pub(super) grain: NoiseTile,
@@ -32,25 +32,25 @@ pub struct Stamper {
     pub(super) grain_peak: f32,
 }
 
-/// Standard deviation of the noise in `passes`, as a share of that in soil prints.
+/// Noise of `passes` relative to that of soil prints.
 const FAINT: f64 = 0.4;
 
-/// Limits on the strength and the optical density of a mark; larger values are clamped.
+/// Largest strength and optical density of a mark; larger values are clamped.
 pub(super) const MOST_STRENGTH: f32 = 4.0;
 pub(super) const MOST_DENSITY: f32 = 3.0;
 
-/// Limit on the distance of a mark from the plan's origin, metres.
+/// Largest distance of a mark from the plan's origin, metres.
 const FARTHEST_M: f64 = 1e6;
 
-/// Soil below this optical density leaves nothing: a twentieth of the unit of the sums.
+/// Optical density below which soil leaves no print: 1/20 of the unit of the sums.
 pub(super) const LEAST_DENSITY: f32 = 0.05 / 4096.0;
 
-/// A valid mark with its place among the walls.
+/// A valid mark, placed among the walls.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedMark {
     /// Presence kernel of a footfall; unused for heel marks.
     kernel: PlacedKernel,
-    /// Offset from the mark's place to the foot's stand, metres; not zero if the place is in a wall.
+    /// Offset from the mark's position to the foot's viewpoint, metres; non-zero if inside a wall.
     foothold: [f32; 2],
     /// Whether walls cut the print.
     print_cut: bool,
@@ -58,7 +58,7 @@ pub(crate) struct PlacedMark {
     kernel_cut: bool,
 }
 
-/// The texels and cells that a mark can touch.
+/// Texels and presence cells that a mark can touch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MarkBounds {
     /// Texels of the print.
@@ -93,15 +93,15 @@ impl Stamper {
         })
     }
 
-    /// The grid of the stamps.
+    /// Texel grid of the stamps.
     pub fn grid(&self) -> TexelGrid {
         self.grid
     }
 
     /// Places a mark among the walls.
     ///
-    /// `None` for a mark that leaves nothing: its pattern is not in the library or of another cause, or its place,
-    /// heading, length or strength is out of range.
+    /// `None` for an invalid mark: its pattern is not in the library or has another cause, or its position, heading,
+    /// length or strength is out of range.
     pub(crate) fn place(&self, mark: &Mark, walls: &Walls) -> Option<(PlacedMark, MarkBounds)> {
         let printer = self.printer(mark)?;
         let sound = mark.place_m.is_finite()
@@ -178,7 +178,7 @@ impl Stamper {
         Some((placed, MarkBounds { texels, cells: self.kernels.bounds(none), soil: false }))
     }
 
-    /// Share of a sole's print that lies in front of walls.
+    /// Share of a sole's print in front of walls.
     fn share_left(&self, printer: &Printer, pose: &PrintPose, walls: &Walls, from: Vec2) -> f32 {
         let lump_m = printer.lump_m() * pose.scale_along;
         let Some(shadow) = Shadow::new(walls, from, &printer.extent(pose, 0.0), lump_m) else { return 1.0 };
@@ -186,7 +186,7 @@ impl Stamper {
         printer.lumps.iter().map(left).sum()
     }
 
-    /// Upper bound on what a footfall adds to a cell of `presence`.
+    /// Upper bound on a footfall's value in a cell of `presence`.
     pub(crate) fn peak_of_presence(&self, placed: &PlacedMark) -> u32 {
         self.kernels.peak(&placed.kernel)
     }
@@ -210,7 +210,7 @@ impl Stamper {
         self.kernels.add(&placed.kernel, cut.as_ref(), window, cells);
     }
 
-    /// The shadow of the walls that cut a print.
+    /// Returns the shadow of the walls that cut a print.
     pub(super) fn print_shadow(
         &self,
         mark: &Mark,
@@ -229,7 +229,7 @@ impl Stamper {
 }
 
 impl PlacedMark {
-    /// Stores the stand of the foot; returns it after rounding.
+    /// Stores the foot's viewpoint; returns it after rounding.
     fn stand(&mut self, stands: Vec2, mark: &Mark) -> Vec2 {
         let offset = stands - mark.place_m;
         self.foothold = [offset.x as f32, offset.y as f32];

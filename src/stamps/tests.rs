@@ -1,4 +1,4 @@
-//! Prints against the naive reference and against their patterns.
+//! Tests of prints against the naive reference and their patterns.
 
 use super::fixtures::{footfall, grid, library, room};
 use super::variation::HeelVariation;
@@ -10,7 +10,7 @@ use crate::sums::{FloorSums, Quantity};
 
 mod wall;
 
-/// Prints that only differ by where they lie.
+/// Options without variation, so that prints differ only by pose.
 fn plain() -> StampOptions {
     StampOptions { partial: 0.0, pressure: 0.0, blur_m: [0.0, 0.0], noise: 0.0, ..StampOptions::default() }
 }
@@ -33,7 +33,7 @@ fn integral(sums: &FloorSums, quantity: Quantity) -> f64 {
     all(sums, quantity).iter().sum::<f64>() * texel_m * texel_m
 }
 
-/// Integral of a pattern's coverage, square metres, at another length.
+/// Integral of a pattern's coverage, square metres, scaled to another length.
 fn mass_m2(library: &PatternLibrary, mark: &Mark) -> f64 {
     let pattern = &library.patterns[usize::from(mark.pattern)];
     let scale = f64::from(mark.length_m) / (pattern.length_cm / 100.0);
@@ -48,7 +48,7 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
     product(a, ma, b, mb) / (product(a, ma, a, ma) * product(b, mb, b, mb)).sqrt()
 }
 
-/// The reference over the whole grid.
+/// Reference coverage over the whole grid.
 fn reference(library: &PatternLibrary, mark: &Mark, grid: TexelGrid) -> Vec<f64> {
     let image = stamp_reference(&library.patterns[usize::from(mark.pattern)], mark, grid);
     let mut out = vec![0.0; grid.width as usize * grid.height as usize];
@@ -59,7 +59,7 @@ fn reference(library: &PatternLibrary, mark: &Mark, grid: TexelGrid) -> Vec<f64>
     out
 }
 
-/// Footfalls at odd places, angles and sizes, left and right.
+/// Footfalls at odd positions, angles and sizes, left and right.
 fn odd_footfalls(count: usize) -> Vec<Mark> {
     let rng = &mut SplitMix64::new(11);
     let mut draw = |low: f32, high: f32| f64::from(rng.range(low, high));
@@ -214,7 +214,7 @@ fn heel_marks_thinner_than_a_texel_keep_their_density() {
         }
         total
     });
-    // Each mark is as long as it says and as wide as its variation has it.
+    // Each mark has the length it states and the width of its variation.
     let wide = (0..40).map(|k| f64::from(HeelVariation::new(k).width)).sum::<f64>() / 40.0;
     let drawn = mass_m2(&library, &Mark { pattern: 1, length_m: 0.06, ..footfall(Vec2::ZERO, 0.0) });
     let expected = 0.6 * drawn * 0.07 / 0.06 * wide;

@@ -1,4 +1,4 @@
-//! The texel grid of a floor.
+//! Texel grid of a floor.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,24 +8,24 @@ use crate::math::Vec2;
 /// Approximate side of a cell of the presence grid, metres: fine enough for a kernel of 8 cm.
 const PRESENCE_CELL_M: f64 = 0.04;
 
-/// Limit on the texels along a side of a floor: 2 km at 1000 texels per metre.
+/// Largest number of texels along a side of a floor: 2 km at 1000 texels per metre.
 pub const MOST_TEXELS: u32 = 1 << 21;
 
-/// The texel grid of a floor.
+/// Texel grid of a floor.
 ///
-/// Texel (i, j) covers `[i, i+1)/t x [j, j+1)/t` metres from the plan's origin, so j grows upward.
+/// Texel (i, j) covers `[i, i+1)/t x [j, j+1)/t` metres from the plan's origin; j grows upward.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TexelGrid {
     /// Texel density t, texels per metre, 1 to 1000.
     pub texels_per_metre: f64,
-    /// Columns.
+    /// Number of columns.
     pub width: u32,
-    /// Rows.
+    /// Number of rows.
     pub height: u32,
 }
 
 impl TexelGrid {
-    /// The grid of a floor of `width_m` x `height_m` metres.
+    /// Creates the grid of a floor of `width_m` x `height_m` metres.
     ///
     /// # Errors
     /// The texel density is outside 1 to 1000 texels per metre; a side has more than [`MOST_TEXELS`] texels.
@@ -46,7 +46,7 @@ impl TexelGrid {
         Ok(TexelGrid { texels_per_metre, width: texels(width_m)?, height: texels(height_m)? })
     }
 
-    /// Middle of a texel, metres.
+    /// Centre of a texel, metres.
     pub fn centre_m(&self, i: u32, j: u32) -> Vec2 {
         Vec2 { x: (f64::from(i) + 0.5) / self.texels_per_metre, y: (f64::from(j) + 0.5) / self.texels_per_metre }
     }
@@ -56,7 +56,7 @@ impl TexelGrid {
         1.0 / self.texels_per_metre
     }
 
-    /// The grid of `presence`: cells of about 4 cm, a whole number of texels a side and at least one.
+    /// Grid of `presence`, with cells of about 4 cm: a whole number of texels per side, at least one.
     pub fn presence_grid(&self) -> TexelGrid {
         let texels = self.texels_per_presence_cell();
         TexelGrid {
@@ -66,7 +66,7 @@ impl TexelGrid {
         }
     }
 
-    /// Side of a cell of [`TexelGrid::presence_grid`], texels.
+    /// Side of a presence cell, texels; see [`TexelGrid::presence_grid`].
     pub fn texels_per_presence_cell(&self) -> u32 {
         (self.texels_per_metre * PRESENCE_CELL_M).round().clamp(1.0, 4096.0) as u32
     }

@@ -1,27 +1,27 @@
-//! Variation of prints and heel marks, expanded from the random word of a mark.
+//! Variation of prints and heel marks, derived from the mark's random word.
 //!
-//! Positions on a sole are in soles: `along` from -0.5 at the heel's end to 0.5 at the toes, `across` from
-//! -0.5 to 0.5 in image order, so that -0.5 is the outer edge of the left foot that a pattern shows.
+//! Sole positions are in soles: `along` from -0.5 at the heel's end to 0.5 at the toes, `across` from -0.5 to 0.5 in
+//! image order, so that -0.5 is the outer edge of a left foot, which patterns show.
 
 use super::StampOptions;
 use crate::math::SplitMix64;
 
-/// Limit on a pressure slope; keeps pressure positive everywhere on the sole.
+/// Largest pressure slope, for which pressure is positive everywhere on the sole.
 pub(super) const STEEPEST: f32 = 0.6;
 
-/// Largest distance of a print's parts from its centroid up to which pressure stays positive, soles.
+/// Distance from the print's centroid up to which pressure stays positive, soles.
 pub(super) const FARTHEST: f32 = 0.75;
 
 /// Largest factor of uneven pressure.
 pub(super) const MOST_PRESSURE: f32 = 1.0 + 2.0 * FARTHEST * STEEPEST;
 
-/// How much steeper the pressure falls from the ball to the heel of a foot that runs on the ball.
+/// Additional pressure slope from heel to ball at full forefoot load.
 const BALL_SLOPE: f32 = 0.5;
 
-/// From this share of the heel's load on the ball on, the heel hardly touches the floor ...
+/// Forefoot load above which the heel hardly touches the floor.
 const ON_BALL: f32 = 0.9;
 
-/// ... and leaves this share.
+/// Share of the heel's print at that load.
 const HEEL_ON_BALL: f32 = 0.08;
 
 /// Variation of one footfall.
@@ -33,15 +33,15 @@ pub(super) struct SoleVariation {
     pub(super) across: f32,
     /// Offset in the noise tile.
     pub(super) noise_at: [u32; 2],
-    /// Blur, uniform in `[0, 1)` from the least to the largest.
+    /// Blur, 0..1 from the least to the largest, uniformly distributed.
     pub(super) blur: f32,
     /// Contrast of coverage c: `c (1 + contrast (c - 1))`.
     pub(super) contrast: f32,
-    /// The part of the sole that shows.
+    /// The visible part of the sole.
     pub(super) fade: Fade,
 }
 
-/// Partial print: coverage falls from 1 to `floor` along a direction, in a smooth step.
+/// Partial print: coverage falls from 1 to `floor` along a direction in a smooth step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Fade {
     /// Progress of the step in the middle of the sole.
@@ -50,15 +50,15 @@ pub(super) struct Fade {
     pub(super) along: f32,
     /// Slope of the progress from edge to edge.
     pub(super) across: f32,
-    /// Remaining share of the hidden part.
+    /// Remaining share of the faded part.
     pub(super) floor: f32,
 }
 
 impl Fade {
-    /// The whole sole shows.
+    /// The whole sole is visible.
     const NONE: Fade = Fade { at_middle: 1.0, along: 0.0, across: 0.0, floor: 1.0 };
 
-    /// Only the ball shows, from a position along the sole.
+    /// Only the ball is visible, from a position along the sole.
     fn ball(from: f32) -> Fade {
         const SOFT: f32 = 0.2;
         Fade { at_middle: 0.5 - from / SOFT, along: 1.0 / SOFT, across: 0.0, floor: HEEL_ON_BALL }
@@ -82,10 +82,10 @@ impl SoleVariation {
         }
     }
 
-    /// Shifts a share of the heel's load to the ball, 0 to 1: in fast walking the ball presses more; of a runner on the
-    /// ball the heel hardly shows.
+    /// Shifts a share of the heel's load, 0..=1, to the ball: in fast walking the ball presses more; a runner on the
+    /// ball leaves hardly any heel print.
     pub(super) fn over_ball(self, forefoot: f32) -> SoleVariation {
-        // Written so that NaN is 0.
+        // NaN counts as 0.
         let forefoot = if forefoot > 0.0 { forefoot.min(1.0) } else { 0.0 };
         let along = (self.along + BALL_SLOPE * forefoot).clamp(-STEEPEST, STEEPEST);
         let whole = self.fade == Fade::NONE;
@@ -94,12 +94,12 @@ impl SoleVariation {
     }
 }
 
-/// Draws the fade of a print: with probability `partial` heel only, ball only or faded to an edge, in equal shares.
+/// Draws the fade of a print: with probability `partial` heel only, ball only or faded to one edge, equally likely.
 fn fade(rng: &mut SplitMix64, partial: f32) -> Fade {
     let kind = rng.unit() / partial.max(1e-6) * 3.0;
     let (place, softness, floor, side) = (rng.unit(), rng.unit(), rng.unit(), rng.unit());
     let floor = 0.15 * floor * floor;
-    // Progress 0.5 at `edge`, 0 and 1 half a `soft` from it.
+    // Progress is 0.5 at `edge`, and 0 and 1 at `soft` / 2 from it.
     let step = |direction: f32, edge: f32, soft: f32| (0.5 - direction * edge / soft, direction / soft);
     match kind as u32 {
         0 => {
@@ -119,11 +119,11 @@ fn fade(rng: &mut SplitMix64, partial: f32) -> Fade {
     }
 }
 
-/// Worn spots of a pair of shoes that leave less soil: the outer heel and under the ball.
+/// Worn spots of a pair of shoes, which leave less soil: outer heel and below the ball.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct WornSpots(pub(super) [WornSpot; 2]);
 
-/// A worn spot: the print keeps `1 - depth` in its middle, everything from its rim on.
+/// A worn spot: the print keeps a share of `1 - depth` at its centre and all of it from its rim.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct WornSpot {
     pub(super) along: f32,
@@ -148,7 +148,7 @@ impl WornSpots {
         ])
     }
 
-    /// Share of the print that is left at a position on the sole.
+    /// Share of the print that remains at a position on the sole.
     #[inline]
     pub(super) fn left(&self, along: f32, across: f32) -> f32 {
         let [heel, ball] = &self.0;
@@ -170,7 +170,7 @@ impl WornSpot {
 pub(super) struct HeelVariation {
     /// Factor on the pattern's width.
     pub(super) width: f32,
-    /// Offset of the ends from the tangent in the middle, shares of the length.
+    /// Offset of the ends from the tangent at the middle, shares of the length.
     pub(super) bend: f32,
     /// Share of the density lost from the start to the end of the drag.
     pub(super) fade: f32,
@@ -178,7 +178,7 @@ pub(super) struct HeelVariation {
     pub(super) noise_at: [u32; 2],
 }
 
-/// Limit on the bend of a heel mark, shares of its length.
+/// Largest bend of a heel mark, shares of its length.
 pub(super) const MOST_BEND: f32 = 0.3;
 
 impl HeelVariation {

@@ -1,43 +1,43 @@
-//! The texel grid of all walls.
+//! Texel grid of all walls.
 
 use super::StampsError;
 use crate::walls::{Face, Walls};
 
-/// The texel grid of all walls: each face unrolled into a strip.
+/// Texel grid of all walls: each face unrolled into a strip.
 ///
 /// Texel (i, j) of a face covers `[i, i+1)/t` metres of its arc length and `[j, j+1)/t` metres of height above the
-/// floor, so j grows upward.
+/// floor; j grows upward.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WallGrid {
     /// Texel density t, texels per metre, 1 to 1000.
     pub texels_per_metre: f64,
-    /// Height of the walls, metres, above 0 to 100.
+    /// Wall height, metres, above 0 to 100.
     pub height_m: f64,
-    /// Rows: the height, rounded up to whole texels.
+    /// Number of rows: the height, rounded up to whole texels.
     pub height: u32,
-    /// Strip of each face, in the order of [`Walls::faces`].
+    /// Strips of the faces, in the order of [`Walls::faces`].
     pub faces: Vec<FaceSpan>,
 }
 
-/// Extent of a face on its strip.
+/// Extent of a face's strip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceSpan {
-    /// Columns: the length, rounded up to whole texels. The last one may be covered in part.
+    /// Number of columns: the length, rounded up to whole texels. The last may be covered in part.
     pub width: u32,
-    /// Length, metres.
+    /// Length of the face, metres.
     pub length_m: f64,
-    /// Whether the end joins the start.
+    /// Whether the face is closed: its end joins its start.
     pub closed: bool,
 }
 
-/// Limit on the columns of a face: 1000 km at 1000 texels per metre. A maze may be one long face.
+/// Largest number of columns of a face: 1000 km at 1000 texels per metre. A maze may be one face.
 const MOST_COLUMNS: u32 = 1 << 30;
 
-/// Limit on the wall height, metres.
+/// Largest wall height, metres.
 const HIGHEST_M: f64 = 100.0;
 
 impl WallGrid {
-    /// The grid of all wall faces of a plan; `height_m` is the wall height in metres.
+    /// Creates the grid of all wall faces of a plan; `height_m` is the wall height in metres.
     ///
     /// # Errors
     /// The texel density is outside 1 to 1000 texels per metre; the height is out of range; a face has more than

@@ -1,8 +1,8 @@
 //! Wall patterns, filtered for the texels of their stains.
 //!
-//! A contact stretches its pattern by different factors along and across, so a texel covers an ellipse of it. A plate is
-//! the pattern under a Gaussian with one standard deviation along and one across. Deviations are rounded up to half
-//! octaves; each pair is filtered on first use.
+//! A contact stretches its pattern by different factors along and across, so a texel covers an ellipse of it. A plate
+//! is the pattern filtered with a Gaussian with one standard deviation along and one across. Deviations are rounded up
+//! to half octaves; each pair is filtered on first use.
 
 use std::sync::OnceLock;
 
@@ -10,31 +10,31 @@ use super::float_image::{FILTER_REACH, FloatImage};
 use crate::math::ln;
 use crate::patterns::{Cause, Pattern};
 
-/// Least standard deviation of a plate's filter, metres of the pattern: a quarter of a pattern's pixel.
+/// Smallest standard deviation of a plate's filter, metres of the pattern: 1/4 pattern pixel.
 const FINEST_M: f64 = 0.000_25;
 
-/// Number of deviations along and across: up to 11 m, for a texel of 1 m on a pattern squeezed to a twenty-fifth.
+/// Number of deviation levels along and across: up to 11 m, for a texel of 1 m on a pattern squeezed to 1/25.
 const LEVELS: usize = 32;
 
-/// Limit on the difference of the levels along and across, a ratio of 16: keeps the filter from growing far beyond the
+/// Largest difference of the levels along and across, a ratio of 16: keeps the filter from growing far beyond the
 /// image.
 const MOST_APART: usize = 8;
 
 /// Distance of a plate's samples, standard deviations.
 const SAMPLE: f64 = 0.7;
 
-/// Approximate limit on the samples of a plate along an axis.
+/// Approximate largest number of samples of a plate along an axis.
 const MOST_SAMPLES: f64 = 1000.0;
 
-/// One wall pattern with its plates.
+/// A wall pattern with its plates.
 #[derive(Debug)]
 pub(super) struct WallPattern {
     pub(super) cause: Cause,
     /// Length along +x, metres.
     pub(super) length_m: f64,
-    /// StampExtent across, metres.
+    /// Extent across, metres.
     pub(super) breadth_m: f64,
-    /// Centroid of the coverage, in shares of length and breadth from the pattern's middle.
+    /// Centroid of the coverage, as shares of length and breadth from the pattern's middle.
     pub(super) centroid: [f64; 2],
     mass_m2: f64,
     coverage: FloatImage,
@@ -46,14 +46,14 @@ pub(super) struct WallPattern {
 pub(super) struct WallPlate {
     columns: usize,
     rows: usize,
-    /// Per sample from the lowest byte: the sample, the next, and the two below them, in units of `unit`. The outermost
-    /// samples are empty.
+    /// Four bytes per sample, from the lowest: the sample, the next, and the two below, in units of `unit`. The
+    /// outermost samples are empty.
     quads: Vec<u32>,
     /// Coverage of a sample value of 1.
     unit: f32,
     /// Distance of the samples along and across, metres of the pattern.
     pub(super) pitch_m: [f64; 2],
-    /// Reach of the coverage from the pattern's middle, metres of the pattern.
+    /// Extent of the coverage from the pattern's middle, metres of the pattern.
     pub(super) half_extent_m: [f64; 2],
     /// Largest coverage.
     pub(super) peak: f32,
@@ -66,7 +66,7 @@ impl WallPattern {
         let coverage = FloatImage::of(pattern);
         let (mass_m2, centroid) = coverage.mass_and_centroid();
         let [length_m, breadth_m] = [coverage.width, coverage.height].map(|count| count as f64 * coverage.pixel_m);
-        // Written so that NaN is refused.
+        // NaN must be refused.
         let sound = mass_m2 > 0.0 && length_m > 0.0 && length_m.is_finite();
         sound.then(|| WallPattern {
             cause: pattern.cause,
@@ -79,7 +79,7 @@ impl WallPattern {
         })
     }
 
-    /// The plate under filters of at least these deviations along and across, metres of the pattern.
+    /// Returns the plate for at least these filter deviations, metres of the pattern.
     pub(super) fn plate(&self, deviations_m: [f64; 2]) -> &WallPlate {
         let [along, across] = deviations_m.map(level);
         let along = along.max(across.saturating_sub(MOST_APART));
@@ -116,14 +116,14 @@ impl WallPlate {
         let bytes: Vec<u8> = values.iter().map(|v| (v / peak * 255.0 + 0.5) as u8).collect();
         let byte = |k: usize| u32::from(bytes.get(k).copied().unwrap_or(0));
         let quad = |k| byte(k) | byte(k + 1) << 8 | byte(k + columns) << 16 | byte(k + columns + 1) << 24;
-        // Restores the integral that truncating the filter, sampling and rounding change slightly.
+        // Restores the integral, which truncating the filter, sampling and rounding change slightly.
         let sum = bytes.iter().map(|&byte| f64::from(byte)).sum::<f64>() * pitch_m[0] * pitch_m[1];
         let unit = if sum > 0.0 { (mass_m2 / sum) as f32 } else { 0.0 };
         let mut plate =
             WallPlate { columns, rows, quads: Vec::new(), unit, pitch_m, half_extent_m: [0.0; 2], peak: 255.0 * unit };
         let middle = plate.middle();
         for k in (0..bytes.len()).filter(|&k| bytes[k] > 0) {
-            // Interpolation carries a sample as far as the next.
+            // Interpolation extends a sample to the next one.
             for (axis, place) in [k % columns, k / columns].into_iter().enumerate() {
                 let reach_m = ((place as f64 - middle[axis]).abs() + 1.0) * pitch_m[axis];
                 plate.half_extent_m[axis] = plate.half_extent_m[axis].max(reach_m);
@@ -133,12 +133,12 @@ impl WallPlate {
         plate
     }
 
-    /// Position of the pattern's middle, samples.
+    /// Position of the pattern's middle, in samples.
     pub(super) fn middle(&self) -> [f64; 2] {
         [self.columns, self.rows].map(|count| count as f64 * 0.5 - 0.5)
     }
 
-    /// Finds the samples around positions in a row of texels; replaces the positions by their fractions.
+    /// Finds the samples around positions in a row of texels; replaces the positions by fractions.
     #[inline]
     pub(super) fn find(&self, along: &mut [f32], across: &mut [f32], quads: &mut [u32]) {
         // The outermost samples are empty, so positions beyond are clamped to them.
@@ -155,7 +155,7 @@ impl WallPlate {
         }
     }
 
-    /// Bilinear coverage between four samples.
+    /// Interpolates coverage bilinearly between four samples.
     #[inline]
     pub(super) fn between(&self, quad: u32, along: f32, across: f32) -> f32 {
         let byte = |shift: u32| (quad >> shift & 0xff) as i32 as f32;
@@ -165,22 +165,22 @@ impl WallPlate {
     }
 }
 
-/// Adding this rounds to the nearest whole number without a range check, so that loops vectorise.
+/// Adding this rounds to the nearest integer without a range check, so that loops vectorise.
 const ROUND: f32 = 12_582_912.0;
 
-/// Floor of a value up to 4 million; may be one less for whole numbers.
+/// Floor of a value up to 4 million; may be one less for integers.
 #[inline]
 pub(super) fn whole(value: f32) -> f32 {
     (value - 0.5 + ROUND) - ROUND
 }
 
-/// Bits of a whole number from -4 to 4 million, as an integer.
+/// Bits of an integer from -4 to 4 million.
 #[inline]
 pub(super) fn bits_of(whole: f32) -> u32 {
     (whole + ROUND).to_bits().wrapping_sub(ROUND.to_bits())
 }
 
-/// The least level with at least this deviation, or the last.
+/// Smallest level with at least this deviation, or the last one.
 fn level(deviation_m: f64) -> usize {
     const LEVELS_PER_E: f64 = 2.0 / std::f64::consts::LN_2;
     (ln(deviation_m.max(FINEST_M) / FINEST_M) * LEVELS_PER_E).ceil().min((LEVELS - 1) as f64) as usize

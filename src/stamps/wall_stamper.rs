@@ -1,4 +1,4 @@
-//! Turns contacts into texels of unrolled wall faces.
+//! Rasterises contacts on unrolled wall faces.
 
 use super::lanes::SumCell;
 use super::linear::Linear;
@@ -15,44 +15,44 @@ use crate::patterns::{Cause, PatternLibrary};
 /// Standard deviation of the texel filter, texels; as on the floor.
 const TEXEL_FILTER: f64 = 0.45;
 
-/// Range of the length and breadth of a contact, metres.
+/// Smallest and largest length and breadth of a contact, metres.
 const EXTENT_M: [f32; 2] = [0.001, 10.0];
 
-/// Limit on a contact's distance from the start of its face and from the floor, metres.
+/// Largest distance of a contact from its face's start and from the floor, metres.
 const FARTHEST_M: f64 = 1e6;
 
-/// Limit on the turns of a stain round a closed face.
+/// Largest number of turns of a stain around a closed face.
 const MOST_TURNS: f64 = 64.0;
 
 /// Factor on [`StampOptions::blur_m`] for skin and cloth.
 const SOFT: f64 = 2.5;
 
-/// Limit on a stain's blur, as a share of its smaller extent.
+/// Largest blur of a stain, as a share of its smaller extent.
 const MOST_BLUR: f64 = 0.15;
 
-/// Sizes of blotches, metres: uneven grime on a hand.
+/// Sizes of blotches, metres: uneven dirt on a hand.
 const BLOTCHES_M: [f64; 3] = [0.06, 0.02, 0.007];
 
 /// Standard deviation of the blotches, as a share of [`StampOptions::noise`].
 const BLOTCHY: f64 = 1.2;
 
-/// Sizes of the wall's micro texture, metres: the grain of a paint roller.
+/// Sizes of the wall's micro texture, metres: grain of a paint roller.
 const GRAIN_M: [f64; 2] = [0.005, 0.002];
 
 /// Standard deviation of the grain, as a share of [`StampOptions::noise`].
 const GRAINY: f64 = 0.8;
 
-/// Share of the grain's contrast that full coverage hides: a faint touch marks only the tops of the grain.
+/// Share of the grain's contrast hidden at full coverage: a faint touch marks only the grain's peaks.
 const FILLED: f32 = 0.6;
 
-/// Length over breadth of the blotches of a drag.
+/// Aspect ratio of the blotches of a drag.
 const STREAKS: f32 = 4.0;
 
-/// Turns contacts into texels of wall faces, for one pattern library, grid and set of options.
+/// Rasterises contacts on wall faces, for one pattern library, grid and set of options.
 ///
 /// A stain is a pure function of its contact, its pattern and the grid: a stain cut by a block's border gives the same
-/// integers on both sides as an uncut one. It ends at the floor, at the ceiling and at the ends of an open face; on a
-/// closed face it continues across the seam.
+/// integers on both sides as an uncut one. It ends at the floor, the ceiling and the ends of an open face; on a closed
+/// face it continues across the seam.
 #[derive(Debug)]
 pub struct WallStamper {
     grid: WallGrid,
@@ -73,12 +73,12 @@ pub(crate) struct PlacedStain<'a> {
     pub(crate) face: u32,
     /// Texels of the strip that the stain can touch.
     pub(crate) bounds: TexelBounds,
-    /// Upper bound on what a texel gets.
+    /// Upper bound on its value in a texel.
     pub(crate) peak: u16,
     plate: &'a WallPlate,
-    /// The texel from which others are counted.
+    /// Origin of the stain's texel coordinates.
     origin: [i64; 2],
-    /// Position of a texel's middle along and across the stain, metres, with the stain's reach.
+    /// Position of a texel's centre along and across the stain, with its half extents, metres.
     axes_m: [StainAxis; 2],
     /// Position in samples of the plate.
     samples: [Linear; 2],
@@ -93,7 +93,7 @@ pub(crate) struct PlacedStain<'a> {
     dither_at: [u32; 2],
 }
 
-/// A linear function of texels with the half extent of the stain.
+/// A linear function of texel coordinates, and the stain's half extent.
 #[derive(Clone, Copy, Debug)]
 struct StainAxis {
     at_origin: f64,
@@ -102,7 +102,7 @@ struct StainAxis {
     half: f64,
 }
 
-/// Bend of a stain: sideways shift as a cubic of the position along, both in samples.
+/// Bend of a stain: displacement across as a cubic of the position along, both in samples.
 #[derive(Clone, Copy, Debug)]
 struct StainBend {
     middle: f32,
@@ -111,14 +111,14 @@ struct StainBend {
 }
 
 impl WallStamper {
-    /// Prepares a stamper for the wall patterns of a library; uses the options `blur_m`, `pressure` and `noise`.
+    /// Prepares a stamper for a library's wall patterns; uses `blur_m`, `pressure` and `noise`.
     ///
     /// # Errors
     /// An option is out of range, see [`StampOptions::check`].
     pub fn new(library: &PatternLibrary, grid: &WallGrid, options: &StampOptions) -> Result<WallStamper, StampsError> {
         options.check()?;
         let texels_per_metre = grid.texels_per_metre;
-        // About a metre, within limits on the size of a tile.
+        // About a metre, within the limits of a tile's size.
         let size = ((0.8 * texels_per_metre) as usize).clamp(64, 512).next_power_of_two();
         let noise = |scales_m: &[f64], share: f64, seed: u64| {
             NoiseTile::of_scales(size, texels_per_metre, scales_m, options.noise * share, seed)
@@ -135,15 +135,15 @@ impl WallStamper {
         })
     }
 
-    /// The grid of the stamps.
+    /// Texel grid of the stamps.
     pub fn grid(&self) -> &WallGrid {
         &self.grid
     }
 
-    /// Places the stains of a contact: one, and another for each crossing of a closed face's seam.
+    /// Places the stains of a contact: one, plus one per crossing of a closed face's seam.
     ///
-    /// Empty for a contact that leaves nothing: its pattern is not in the library or of another cause, its face is not in
-    /// the grid, or its place, size, direction or strength is out of range.
+    /// Empty for an invalid contact: its pattern is not in the library or has another cause, its face is not in the
+    /// grid, or its position, size, direction or strength is out of range.
     pub(crate) fn place(&self, contact: &Contact) -> Vec<PlacedStain<'_>> {
         let (Some(pattern), Some(face)) = (self.pattern(contact), self.grid.faces.get(contact.face as usize)) else {
             return Vec::new();
@@ -168,7 +168,7 @@ impl WallStamper {
         self.patterns.get(usize::from(contact.pattern))?.as_ref().filter(|p| p.cause == contact.cause)
     }
 
-    /// Places a stain with its middle at `along_m` on the strip; `None` if it does not touch the strip.
+    /// Places a stain with its middle at `along_m` on the strip; `None` if it misses the strip.
     fn stain<'a>(
         &self,
         contact: &Contact,
@@ -232,7 +232,7 @@ impl WallStamper {
         }
     }
 
-    /// Adds a row of a stain to at most [`WINDOW`] cells, the first of which is texel `[i, j]`.
+    /// Adds a row of a stain to at most [`WINDOW`] cells, starting at texel `[i, j]`.
     pub(super) fn add_row<C: SumCell>(
         &self,
         stain: &PlacedStain,
@@ -252,7 +252,7 @@ impl WallStamper {
     }
 }
 
-/// Buffers for a row of texels, in separate arrays so that loops vectorise.
+/// Buffers for a row of texels, as separate arrays for vectorisation.
 #[derive(Debug)]
 pub(super) struct TexelRow {
     along: [f32; WINDOW],
@@ -298,7 +298,7 @@ impl TexelRow {
 }
 
 impl TexelRowSlices<'_> {
-    /// Reads the row from texel `[i, j]` on, which is `[di, dj]` counted from the stain's origin.
+    /// Reads the row from texel `[i, j]` on, which is `[di, dj]` from the stain's origin.
     #[inline]
     fn read(self, stamper: &WallStamper, stain: &PlacedStain, [i, j]: [i64; 2], [di, dj]: [i32; 2]) {
         let [along, across] = stain.samples;
@@ -324,7 +324,7 @@ impl TexelRowSlices<'_> {
         stamper.dither.raster().copy_row(ri, rj, self.rounding);
     }
 
-    /// Adds the row to as many cells.
+    /// Adds the row to the cells.
     #[inline]
     fn add_to<C: SumCell>(self, stain: &PlacedStain, [di, dj]: [i32; 2], cells: &mut [C]) {
         let (density, per_i) = (stain.density.in_row(dj), stain.density.per_i);
@@ -345,9 +345,9 @@ impl TexelRowSlices<'_> {
     }
 }
 
-/// Positions of a stain's middle on its face's strip: one per turn of a closed face that reaches the strip.
+/// Positions of a stain's middle on its face's strip: one per turn of a closed face that touches it.
 fn places_m(along_m: f64, face: &FaceSpan, reach_m: f64, texel_m: f64) -> Vec<f64> {
-    // Written so that NaN is refused.
+    // NaN must be refused.
     if !(face.closed && face.length_m > 0.0 && face.length_m.is_finite()) {
         return vec![along_m];
     }
@@ -358,18 +358,18 @@ fn places_m(along_m: f64, face: &FaceSpan, reach_m: f64, texel_m: f64) -> Vec<f6
     (low..=high).map(|turn| first + f64::from(turn) * face.length_m).collect()
 }
 
-/// A stain without its position.
+/// A stain without position.
 struct StainShape<'a> {
     plate: &'a WallPlate,
     variation: ContactVariation,
     drag: f32,
-    /// Unit vectors along and across, on the strip.
+    /// Unit vectors along and across, in strip coordinates.
     axes: [[f64; 2]; 2],
     /// Length and breadth, metres.
     extent_m: [f64; 2],
-    /// Reach from its middle along and across, metres.
+    /// Half extents along and across, metres.
     half_m: [f64; 2],
-    /// Reach from its middle horizontally and vertically, metres.
+    /// Half extents horizontally and vertically, metres.
     reach_m: [f64; 2],
     /// Samples of the plate per metre of wall.
     samples_per_m: [f64; 2],
@@ -398,7 +398,7 @@ impl<'a> StainShape<'a> {
         let axes = [[cos, sin], [side * sin, -side * cos]];
         let reach = |k: usize| half_m[0] * axes[0][k].abs() + half_m[1] * axes[1][k].abs();
 
-        // Sloping pressure has mean 1 over the coverage.
+        // Sloped pressure has mean 1 over the coverage.
         let slopes = [variation.along, variation.across];
         let mean = 1.0 + slopes[0] * pattern.centroid[0] as f32 + slopes[1] * pattern.centroid[1] as f32;
         let unit = contact.strength.min(MOST_DENSITY) * DENSITY_ONE / mean;
@@ -421,7 +421,7 @@ impl<'a> StainShape<'a> {
 }
 
 impl WallStamper {
-    /// Standard deviation of a stain's filter, metres: the texel filter and its own blur.
+    /// Standard deviation of a stain's filter, metres: texel filter and blur.
     fn filter_m(&self, cause: Cause, blur: f32, extent_m: [f64; 2]) -> f64 {
         let [least, most] = self.options.blur_m;
         let softness = match cause {
@@ -436,7 +436,7 @@ impl WallStamper {
 }
 
 impl ContactVariation {
-    /// Limit on the bend of the stain, shares of its length.
+    /// Upper bound on the bend of the stain, shares of its length.
     fn aside_at_most(&self) -> f64 {
         f64::from(self.bow.abs()) / 6.0 + f64::from(self.wave.abs()) * 0.2
     }
@@ -470,12 +470,12 @@ impl StainAxis {
 }
 
 impl PlacedStain<'_> {
-    /// Columns of a row that the stain can touch, from the strip's start: first and one past the last.
+    /// Range of columns of a row that the stain can touch, from the strip's start.
     fn span(&self, dj: i32) -> [i64; 2] {
         let mut span = [self.bounds.i0 as f64, self.bounds.i1 as f64];
         for axis in &self.axes_m {
             let start = axis.at_origin + f64::from(dj) * axis.per_j - axis.per_i * self.origin[0] as f64;
-            // A texel more on either side, for rounding.
+            // One texel more on either side, for rounding.
             let half = axis.half + axis.per_i.abs();
             let [low, high] = if axis.per_i.abs() > 1e-9 {
                 let [a, b] = [(-half - start) / axis.per_i, (half - start) / axis.per_i];

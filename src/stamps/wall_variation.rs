@@ -1,21 +1,21 @@
-//! Variation of wall stains, expanded from the random word of a contact.
+//! Variation of wall stains, derived from the contact's random word.
 
 use super::StampOptions;
 use super::variation::STEEPEST;
 use crate::math::SplitMix64;
 
-/// Variation of one stain. Positions are shares of its length and breadth from its middle.
+/// Variation of one stain. Positions are shares of length and breadth from the middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ContactVariation {
     /// Pressure slope along the stain, shares of the mean.
     pub(super) along: f32,
     /// Pressure slope across the stain.
     pub(super) across: f32,
-    /// Bend of the stain: aside by `bow (u^2 - 1/12) + wave u (4 u^2 - 1)`, shares of the length.
+    /// Bend of the stain: displacement `bow (u^2 - 1/12) + wave u (4 u^2 - 1)`, shares of the length.
     pub(super) bow: f32,
     /// See `bow`.
     pub(super) wave: f32,
-    /// Blur, uniform in `[0, 1)` from the least to the largest.
+    /// Blur, 0..1 from the least to the largest, uniformly distributed.
     pub(super) blur: f32,
     /// Offset in the tile of blotches.
     pub(super) blotches_at: [u32; 2],
@@ -23,30 +23,30 @@ pub(super) struct ContactVariation {
     pub(super) dither_at: [u32; 2],
 }
 
-/// Length over breadth from which a stain begins to be a drag ...
+/// Ratio of length to breadth above which a stain is partly a drag.
 const DRAG_FROM: f32 = 1.5;
 
-/// ... and from which it is nothing else.
+/// Ratio of length to breadth above which a stain is entirely a drag.
 const DRAG_TO: f32 = 3.5;
 
 /// Range of the share of the mean density that a drag loses from its middle to its end.
 const FADE: [f32; 2] = [0.2, 0.75];
 
-/// Standard deviation and limit of the bow of a drag, shares of its length.
+/// Standard deviation and largest value of the bow of a drag, shares of its length.
 const BOW: f32 = 0.05;
 const MOST_BOW: f32 = 0.1;
 
-/// Standard deviation and limit of the wave of a drag, shares of its length.
+/// Standard deviation and largest value of the wave of a drag, shares of its length.
 const WAVE: f32 = 0.015;
 const MOST_WAVE: f32 = 0.03;
 
-/// Degree to which a stain is a drag by its shape, 0 to 1.
+/// Degree to which a stain is a drag, 0..=1, from its aspect ratio.
 pub(super) fn drag(length_m: f32, breadth_m: f32) -> f32 {
     ((length_m / breadth_m - DRAG_FROM) / (DRAG_TO - DRAG_FROM)).clamp(0.0, 1.0)
 }
 
 impl ContactVariation {
-    /// Draws a variation; `drag` is 0 for a touch and 1 for a drag, which fades along its way and bends more.
+    /// Draws a variation. `drag`: 0 for a touch, 1 for a drag, which fades along its path and bends more.
     pub(super) fn new(word: u64, drag: f32, options: &StampOptions) -> ContactVariation {
         let rng = &mut SplitMix64::new(word);
         let pressure = options.pressure as f32;

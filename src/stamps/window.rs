@@ -3,7 +3,7 @@
 /// Side of a window, texels.
 pub(crate) const WINDOW: usize = 128;
 
-/// A square of texels to which stamps are added at once: [`WINDOW`] texels a side, rows upward.
+/// A square of texels that stamps are added to, [`WINDOW`] texels per side, rows upward.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct TexelWindow {
     /// First column.

@@ -1,4 +1,4 @@
-//! Adding a batch of marks: coarse (marks to blocks), then fine (texels of a block).
+//! Adds batches of marks: coarse (marks to blocks), then fine (texels of a block).
 
 use rayon::prelude::*;
 
@@ -12,7 +12,7 @@ use crate::patterns::Cause;
 use crate::stamps::{MarkBounds, PlacedMark, PrintCoverage, Stamper, SumCell, TexelBounds, TexelGrid, TexelWindow};
 use crate::walls::Walls;
 
-/// A block with the marks that touch it.
+/// A block and the marks that touch it.
 struct Task<'a> {
     quantity: Quantity,
     block: &'a mut SumBlock,
@@ -20,7 +20,7 @@ struct Task<'a> {
     entries: &'a [MarkEntry],
 }
 
-/// The marks of a batch with their places among the walls.
+/// The marks of a batch, placed among the walls.
 struct BatchMarks<'a> {
     stamper: &'a Stamper,
     walls: &'a Walls,
@@ -29,17 +29,17 @@ struct BatchMarks<'a> {
 }
 
 impl FloorSums {
-    /// Adds the stamps of marks, in the current rayon pool.
+    /// Adds the stamps of marks, in parallel in the current rayon pool.
     ///
-    /// The sums do not depend on the order of the marks, their split into calls or the number of threads. Invalid marks
-    /// (a pattern of another cause, a place that is not finite) are skipped. `stamper` must have the same grid; `walls`
-    /// must be the same in all calls.
+    /// The sums do not depend on the order of marks, their split into calls or the number of threads. Invalid marks
+    /// (pattern of another cause, non-finite position) are skipped. `stamper` must have the same grid; `walls` must be
+    /// the same in all calls.
     pub fn add(&mut self, stamper: &Stamper, walls: &Walls, marks: &[Mark]) {
         add(self, stamper, walls, marks);
     }
 }
 
-/// Number of marks that a thread places at once.
+/// Number of marks that a thread places per task.
 const MARKS_OF_A_THREAD: usize = 1 << 12;
 
 fn add(sums: &mut FloorSums, stamper: &Stamper, walls: &Walls, marks: &[Mark]) {
@@ -67,7 +67,7 @@ fn add(sums: &mut FloorSums, stamper: &Stamper, walls: &Walls, marks: &[Mark]) {
     sums.batch = batch;
 }
 
-/// Places every mark and finds the blocks that it touches; sorts the entries.
+/// Places the marks and finds the blocks that each touches; sorts the entries.
 fn bin(sums: &FloorSums, stamper: &Stamper, walls: &Walls, marks: &[Mark], batch: &mut Batch) {
     let parts: Vec<(Vec<Option<PlacedMark>>, Vec<MarkEntry>)> = marks
         .par_chunks(MARKS_OF_A_THREAD)
@@ -117,7 +117,7 @@ fn push_entries(sums: &FloorSums, cause: Cause, touched: &MarkBounds, mark: usiz
     }
 }
 
-/// Pairs blocks with their entries; allocates missing blocks where there is floor.
+/// Pairs blocks with their entries; allocates missing blocks on floor.
 fn tasks<'a>(sums: &'a mut FloorSums, entries: &'a [MarkEntry]) -> Vec<Task<'a>> {
     let (texel_floor, cell_floor) = (&sums.texel_floor, &sums.cell_floor);
     let mut tasks = Vec::new();

@@ -1,4 +1,4 @@
-//! Adding a batch of contacts: coarse (stains to blocks), then fine (texels of a block).
+//! Adds batches of contacts: coarse (stains to blocks), then fine (texels of a block).
 
 use rayon::prelude::*;
 
@@ -19,11 +19,11 @@ struct StainEntry {
 }
 
 impl WallSums {
-    /// Adds the stamps of contacts, in the current rayon pool.
+    /// Adds the stamps of contacts, in parallel in the current rayon pool.
     ///
-    /// The sums do not depend on the order of the contacts, their split into calls or the number of threads. Invalid
-    /// contacts (a pattern of another cause, a face outside the grid, a place that is not finite) are skipped. A stamper
-    /// of another grid adds nothing.
+    /// The sums do not depend on the order of contacts, their split into calls or the number of threads. Invalid
+    /// contacts (pattern of another cause, face outside the grid, non-finite position) are skipped. A stamper with
+    /// another grid adds nothing.
     pub fn add(&mut self, stamper: &WallStamper, contacts: &[Contact]) {
         add(self, stamper, contacts);
     }
@@ -44,7 +44,7 @@ fn add(sums: &mut WallSums, stamper: &WallStamper, contacts: &[Contact]) {
     }
 }
 
-/// The blocks that a stain touches.
+/// Returns the blocks that a stain touches.
 fn entries_of(stain: &PlacedStain, number: usize) -> impl Iterator<Item = StainEntry> + use<> {
     let strip = (stain.cause.on_wall().unwrap_or(0), stain.face);
     let blocks = |low: i64, high: i64| (low / BLOCK as i64) as u32..(high as u64).div_ceil(BLOCK as u64) as u32;

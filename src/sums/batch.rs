@@ -11,11 +11,11 @@ pub(super) struct Batch {
     pub(super) entries: Vec<MarkEntry>,
 }
 
-/// A mark that touches a block, in one word that sorts by quantity, row, column and mark.
+/// A mark that touches a block, as one word that sorts by quantity, row, column and mark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct MarkEntry(u64);
 
-/// Bits of an entry for the mark's index in its batch, and for the block's row and for its column.
+/// Bits of an entry for the mark's index; bits for each of the block's row and column.
 const MARK_BITS: u32 = 16;
 pub(super) const PLACE_BITS: u32 = 23;
 

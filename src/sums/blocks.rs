@@ -1,13 +1,13 @@
-//! Sparse blocks of one quantity.
+//! Sparse blocks of sums of one quantity.
 
 use std::collections::BTreeMap;
 
 use crate::stamps::{TexelGrid, WINDOW};
 
-/// Side of a block, texels (`presence`: cells).
+/// Side of a block: texels, for `presence` cells.
 pub const BLOCK: usize = WINDOW;
 
-/// Key of a block: row and column of blocks, so that keys ascend with rows.
+/// Row and column of a block; keys ascend with rows.
 pub(super) type BlockKey = [u32; 2];
 
 /// Cells of a block: 16 bits each until one needs 32.
@@ -17,7 +17,7 @@ pub(super) enum BlockCells {
     Wide(Box<[u32]>),
 }
 
-/// A square of sums.
+/// A square block of sums.
 #[derive(Debug)]
 pub(super) struct SumBlock {
     key: BlockKey,
@@ -29,7 +29,7 @@ pub(super) struct SumBlock {
 /// Largest value of a narrow cell.
 const NARROW_MOST: u32 = u16::MAX as u32;
 
-/// A cell larger than this widens its block, which saves repeated searches for the peak.
+/// Peak above which a block widens, which avoids repeated searches for the peak.
 const NARROW_ENOUGH: u32 = 48 << 10;
 
 impl SumBlock {
@@ -41,7 +41,7 @@ impl SumBlock {
         self.key
     }
 
-    /// The cells, with room for adding at most `most` to each.
+    /// Returns the cells, widened if adding `most` to each could overflow.
     pub(super) fn cells_for(&mut self, most: u32) -> &mut BlockCells {
         if let BlockCells::Narrow(cells) = &self.cells {
             if self.peak.saturating_add(most) > NARROW_MOST {
@@ -100,13 +100,13 @@ pub(super) struct SparsePlane {
     blocks: Vec<SumBlock>,
 }
 
-/// The part of a rectangle that lies in one block.
+/// The part of a rectangle in one block.
 struct BlockPiece {
     key: BlockKey,
-    /// Rows and columns of the block.
+    /// Rows and columns within the block.
     rows: std::ops::Range<usize>,
     columns: std::ops::Range<usize>,
-    /// Start of the piece in the rectangle.
+    /// First row and column within the rectangle.
     row: usize,
     column: usize,
 }
@@ -116,7 +116,7 @@ impl SparsePlane {
         SparsePlane { width: grid.width, height: grid.height, numbers: BTreeMap::new(), blocks: Vec::new() }
     }
 
-    /// Index of the block with a key; allocates it if missing.
+    /// Index of the block with this key; allocates a missing block.
     fn number(&mut self, key: BlockKey) -> usize {
         *self.numbers.entry(key).or_insert_with(|| {
             self.blocks.push(SumBlock::new(key));
@@ -124,7 +124,7 @@ impl SparsePlane {
         })
     }
 
-    /// The blocks with distinct keys, each with the value of its key; allocates missing blocks.
+    /// Returns the blocks with these distinct keys, each with its value; allocates missing blocks.
     pub(super) fn blocks_at<T>(&mut self, places: impl Iterator<Item = (BlockKey, T)>) -> Vec<(&mut SumBlock, T)> {
         let mut numbered: Vec<(usize, T)> = places.map(|(key, with)| (self.number(key), with)).collect();
         numbered.sort_unstable_by_key(|&(number, _)| number);
@@ -176,7 +176,7 @@ impl SparsePlane {
         }
     }
 
-    /// Splits a rectangle at the block borders; ignores the part beyond the grid.
+    /// Splits a rectangle at block borders; ignores the part outside the grid.
     fn pieces(&self, at: [u32; 2], width: usize, height: usize) -> impl Iterator<Item = BlockPiece> + use<> {
         let size = BLOCK as u64;
         let [i0, j0] = at.map(u64::from);

@@ -1,6 +1,6 @@
 use crate::stamps::{TexelGrid, WallGrid};
 
-/// Error while merging sums.
+/// Errors in merging sums.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SumsError {
@@ -11,23 +11,23 @@ pub enum SumsError {
         w1 = .theirs.width, h1 = .theirs.height, t1 = .theirs.texels_per_metre
     )]
     GridsDiffer {
-        /// The grid of the sums added to.
+        /// Grid of the sums added to.
         ours: TexelGrid,
-        /// The grid of the sums to add.
+        /// Grid of the sums to add.
         theirs: TexelGrid,
     },
     /// The walls differ in texel density, height or number of faces.
     #[error("sums of {theirs} cannot be added to {ours}")]
     WallGridsDiffer {
-        /// The walls of the sums added to.
+        /// Walls of the sums added to.
         ours: WallsOfSums,
-        /// The walls of the sums to add.
+        /// Walls of the sums to add.
         theirs: WallsOfSums,
     },
-    /// A wall face differs.
+    /// The lengths of a wall face differ.
     #[error("wall face {face} is {theirs_m} m long in the sums to add, and {ours_m} m in those that they are added to")]
     WallFacesDiffer {
-        /// The first face that differs.
+        /// Index of the first face that differs.
         face: usize,
         /// Its length in the sums added to, metres.
         ours_m: f64,
@@ -54,7 +54,7 @@ impl std::fmt::Display for WallsOfSums {
 }
 
 impl SumsError {
-    /// The error for two wall grids that differ.
+    /// Returns the error for two wall grids that differ.
     pub(super) fn walls_differ(ours: &WallGrid, theirs: &WallGrid) -> SumsError {
         let walls = |grid: &WallGrid| WallsOfSums {
             faces: grid.faces.len(),
@@ -72,7 +72,7 @@ impl SumsError {
         }
     }
 
-    /// Hint for the user.
+    /// Returns the remedy, for the user.
     pub fn hint(&self) -> Option<String> {
         match self {
             SumsError::GridsDiffer { .. } => Some("bake both from the same plan at the same texels per metre".into()),

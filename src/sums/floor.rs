@@ -1,4 +1,4 @@
-//! Floor masks: a bit for each texel of a block that has floor.
+//! Floor masks: one bit per texel of a block.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,7 +9,7 @@ use crate::math::Vec2;
 use crate::stamps::TexelGrid;
 use crate::walls::Walls;
 
-/// A row of a block: one bit a texel.
+/// A row of a block: one bit per texel.
 type RowBits = u128;
 
 /// The floor mask of a block.
@@ -20,7 +20,7 @@ pub(super) enum FloorMask {
     All,
 }
 
-/// The floor masks of all blocks used so far.
+/// Floor masks of all blocks used so far.
 #[derive(Debug)]
 pub(super) struct FloorMasks {
     grid: TexelGrid,
@@ -68,7 +68,7 @@ impl FloorMask {
         matches!(self, FloorMask::None)
     }
 
-    /// Sets everything outside the floor to zero.
+    /// Sets all cells outside the floor to zero.
     pub(super) fn clear_outside(&self, cells: &mut BlockCells) {
         if let FloorMask::Part(rows) = self {
             match cells {
@@ -81,7 +81,7 @@ impl FloorMask {
 
 fn clear<C: Default + Copy>(rows: &[RowBits], cells: &mut [C]) {
     for (&bits, cells) in rows.iter().zip(cells.chunks_exact_mut(BLOCK)) {
-        // Run by run of texels without floor.
+        // Fill each run of texels without floor.
         let mut outside = !bits;
         while outside != 0 {
             let start = outside.trailing_zeros();
@@ -92,13 +92,13 @@ fn clear<C: Default + Copy>(rows: &[RowBits], cells: &mut [C]) {
     }
 }
 
-/// The blocks on or near the outline of the floor, and those at the end of the grid.
+/// Returns the blocks on or near the floor's outline, and those at the end of the grid.
 fn rim(grid: TexelGrid, walls: &Walls) -> BTreeSet<BlockKey> {
     let block_m = BLOCK as f64 / grid.texels_per_metre;
     let margin_m = 1.0 / grid.texels_per_metre;
     let count = |texels: u32| texels.div_ceil(BLOCK as u32);
     let (columns, rows) = (count(grid.width), count(grid.height));
-    // Blocks from one coordinate to another, a texel more on either side.
+    // Blocks between two coordinates, one texel more on either side.
     let blocks = |a: f64, b: f64, count: u32| {
         let low = ((a.min(b) - margin_m) / block_m).max(0.0) as u32;
         let high = ((a.max(b) + margin_m) / block_m).max(-1.0).floor() as i64;
@@ -124,12 +124,12 @@ fn rim(grid: TexelGrid, walls: &Walls) -> BTreeSet<BlockKey> {
     rim
 }
 
-/// x of an edge that is not level at a height y, clamped to its ends.
+/// x of a non-horizontal edge at height y, clamped to its ends.
 fn x_on([a, b]: [Vec2; 2], y: f64) -> f64 {
     a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)).clamp(0.0, 1.0)
 }
 
-/// The mask of a block away from the outline.
+/// Mask of a block away from the outline, from one texel.
 fn whole(grid: TexelGrid, [row, column]: BlockKey, walls: &Walls) -> FloorMask {
     let middle = |k: u32| i64::from(k) * BLOCK as i64 + BLOCK as i64 / 2;
     let mut coverage = [0.0];
@@ -137,7 +137,7 @@ fn whole(grid: TexelGrid, [row, column]: BlockKey, walls: &Walls) -> FloorMask {
     if coverage[0] > 0.0 { FloorMask::All } else { FloorMask::None }
 }
 
-/// The mask of any block: a texel counts as floor if floor covers any of it.
+/// Mask of any block; a texel counts as floor if any part of it is.
 fn mask(grid: TexelGrid, [row, column]: BlockKey, walls: &Walls, coverage: &mut [f32]) -> FloorMask {
     let (i0, j0) = (i64::from(column) * BLOCK as i64, i64::from(row) * BLOCK as i64);
     walls.coverage(grid.texels_per_metre, i0, j0, BLOCK, BLOCK, coverage);
@@ -158,7 +158,7 @@ fn mask(grid: TexelGrid, [row, column]: BlockKey, walls: &Walls, coverage: &mut 
     }
 }
 
-/// A bit for each texel of a row that floor covers any of.
+/// One bit per texel of a row that is at least partly floor.
 fn bits(row: &[f32]) -> RowBits {
     let (bytes, _) = row.as_chunks::<8>();
     let byte = |texels: &[f32; 8]| texels.iter().enumerate().fold(0, |byte, (k, &c)| byte | u8::from(c > 0.0) << k);

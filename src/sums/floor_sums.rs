@@ -1,4 +1,4 @@
-//! The sums of a floor.
+//! Sums of a floor.
 
 use super::SumsError;
 use super::batch::Batch;
@@ -7,9 +7,9 @@ use super::floor::FloorMasks;
 use super::quantity::Quantity;
 use crate::stamps::TexelGrid;
 
-/// The sums of a floor: saturating `u32` fixed point per quantity, in sparse blocks.
+/// Sums of a floor: saturating `u32` fixed point per quantity, in sparse blocks.
 ///
-/// Sums are zero outside the floor. A texel that is partly floor holds the full value of its floor part, not a share.
+/// Sums are zero outside the floor. A texel that is partly floor holds the full value of its floor part.
 #[derive(Debug)]
 pub struct FloorSums {
     pub(super) grid: TexelGrid,
@@ -24,7 +24,7 @@ pub struct FloorSums {
 }
 
 impl FloorSums {
-    /// Empty sums; blocks are allocated on first use.
+    /// Creates empty sums; blocks are allocated on first use.
     pub fn new(grid: TexelGrid) -> FloorSums {
         let presence_grid = grid.presence_grid();
         FloorSums {
@@ -38,39 +38,39 @@ impl FloorSums {
         }
     }
 
-    /// The texel grid of all quantities except `presence`.
+    /// Texel grid of all quantities except `presence`.
     pub fn grid(&self) -> TexelGrid {
         self.grid
     }
 
-    /// The grid of `presence`: cells of about 4 cm, a whole number of texels a side and at least one.
+    /// Grid of `presence`, with cells of about 4 cm: a whole number of texels per side, at least one.
     pub fn presence_grid(&self) -> TexelGrid {
         self.presence_grid
     }
 
-    /// The grid of a quantity's sums.
+    /// Grid of a quantity's sums.
     pub fn grid_of(&self, quantity: Quantity) -> TexelGrid {
         if quantity == Quantity::Presence { self.presence_grid } else { self.grid }
     }
 
-    /// Copies a rectangle of sums, row 0 lowest: texels, or cells for `presence`. Zero beyond the grid.
+    /// Copies a rectangle of sums, row 0 lowest: texels, for `presence` cells. Zero outside the grid.
     pub fn read(&self, quantity: Quantity, i0: u32, j0: u32, width: usize, height: usize, out: &mut [u32]) {
         self.plane(quantity).read([i0, j0], width, height, out);
     }
 
-    /// Whether a rectangle overlaps an allocated block; it is zero otherwise.
+    /// Whether a rectangle overlaps an allocated block; if not, it is zero.
     pub fn touched(&self, quantity: Quantity, i0: u32, j0: u32, width: usize, height: usize) -> bool {
         self.plane(quantity).touched([i0, j0], width, height)
     }
 
     /// Lower-left texels of all allocated blocks, by ascending row, then column.
     ///
-    /// A block is [`BLOCK`] texels a side, less where the grid ends.
+    /// A block has [`BLOCK`] texels per side, fewer at the grid's end.
     pub fn blocks(&self, quantity: Quantity) -> Vec<[u32; 2]> {
         self.plane(quantity).origins()
     }
 
-    /// Adds a rectangle of sums, row 0 lowest; ignores the part beyond the grid.
+    /// Adds a rectangle of sums, row 0 lowest; ignores the part outside the grid.
     pub fn add_block(&mut self, quantity: Quantity, i0: u32, j0: u32, width: usize, height: usize, values: &[u32]) {
         self.planes[quantity as usize].add_values([i0, j0], width, height, values);
     }

@@ -1,8 +1,8 @@
-//! Adds up stamps: exact integer sums in sparse blocks, identical for any order and number of threads.
+//! Adds stamps as exact integers in sparse blocks, identical for any order or thread count.
 //!
-//! A batch of marks is first binned to the blocks that it touches (coarse). Then every block adds its marks (fine),
+//! A batch of marks is first binned to the blocks that it touches (coarse). Then each block adds its marks (fine),
 //! blocks in parallel. A stamp adds integers that depend only on the mark, its pattern, the nearby walls and the grid,
-//! and integer sums do not depend on their order. Blocks are allocated on first use and hold 16 bits a texel until a
+//! and integer sums do not depend on their order. Blocks are allocated on first use and hold 16 bits per texel until a
 //! texel needs 32, so memory grows with the touched area.
 
 mod add;

@@ -1,17 +1,17 @@
-//! Quantities that are summed up on the floor.
+//! Quantities summed on the floor.
 
 use crate::stamps::{DENSITY_ONE, PASSES_ONE, PRESENCE_ONE};
 
-/// A quantity that is summed up on the floor.
+/// A quantity summed on the floor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Quantity {
-    /// All footfalls: coverage times pressure.
+    /// Coverage times pressure of all footfalls.
     Passes,
-    /// All footfalls: the expectation of `passes`, a soft kernel along the heading, on a coarser grid.
+    /// Expectation of `passes`: a soft kernel along the heading per footfall, on a coarser grid.
     Presence,
-    /// Footfalls of the last people since the floor was mopped: optical density of soil.
+    /// Optical density of soil, from footfalls of the last people since the floor was mopped.
     Soil,
-    /// Heel and toe marks: optical density.
+    /// Optical density of heel and toe marks.
     Scuff,
 }
 
@@ -21,8 +21,8 @@ impl Quantity {
 
     /// Fixed-point unit: the sum for one pass or an optical density of 1.
     ///
-    /// `passes` 256, `presence` 1024, `soil` and `scuff` 4096. A pass is a print of full coverage at mean pressure; the
-    /// transmittance of an optical density D is `exp(-D)`.
+    /// 256 for `passes`, 1024 for `presence`, 4096 for `soil` and `scuff`. A pass is a print of full coverage at mean
+    /// pressure; an optical density D has the transmittance `exp(-D)`.
     pub const fn one(self) -> u32 {
         match self {
             Quantity::Passes => PASSES_ONE as u32,
@@ -31,7 +31,7 @@ impl Quantity {
         }
     }
 
-    /// Name in file and channel names.
+    /// Name of the quantity in files and channels.
     pub const fn name(self) -> &'static str {
         match self {
             Quantity::Passes => "passes",

@@ -1,4 +1,4 @@
-//! What sums promise: any order, any split, any number of threads, any rectangle; nothing outside the floor.
+//! Tests of sums: any order, split, number of threads or rectangle; zero outside the floor.
 
 use proptest::prelude::*;
 
@@ -32,7 +32,7 @@ fn order_split_and_threads_do_not_matter() {
     at_once.add(&stamper, &walls, &marks);
     let expected = everything(&at_once);
     assert!(expected.iter().all(|q| q.iter().any(|&v| v > 0)));
-    // Fisher and Yates.
+    // Fisher-Yates shuffle.
     let rng = &mut SplitMix64::new(9);
     for k in (1..marks.len()).rev() {
         marks.swap(k, (rng.next_u64() % (k as u64 + 1)) as usize);
@@ -62,7 +62,7 @@ fn sums_are_the_sum_of_single_stamps() {
     assert!(merged.merge(&FloorSums::new(TexelGrid { width: 7, ..grid })).is_err());
 }
 
-/// A stamp that a block's border cuts is the same as one that none cuts: moved by whole texels, it does not change.
+/// A stamp cut by a block's border equals an uncut one: moving it by whole texels changes nothing.
 #[test]
 fn blocks_leave_no_seams() {
     let (library, walls) = (library(), room(7.8, 7.8));
@@ -70,7 +70,7 @@ fn blocks_leave_no_seams() {
     let stamper = Stamper::new(&library, grid, &StampOptions::default()).unwrap();
     let print_at = |i: u32, j: u32| {
         let mut sums = FloorSums::new(grid);
-        // Eighths of a texel, so that moving by whole texels rounds nothing.
+        // Eighths of a texel, so that moving by whole texels causes no rounding.
         let place = vec2(f64::from(i) + 0.625, f64::from(j) + 0.375) / 100.0;
         let mark = Mark { soil: 0.3, twist_rad: 0.4, smear_m: 0.01, ..footfall(place, 0.9) };
         sums.add(&stamper, &walls, &[mark]);
@@ -139,7 +139,7 @@ fn nothing_passes_a_thin_wall() {
     for quantity in Quantity::ALL {
         let of = sums.grid_of(quantity);
         let values = all(&sums, quantity);
-        // The wall lies at 2.02 to 2.04 m; a cell of 4 cm may hold both its sides.
+        // The wall is at 2.02 to 2.04 m; a cell of 4 cm may contain both its sides.
         let first = (2.04 * of.texels_per_metre).ceil() as usize;
         let beyond: u32 = values.chunks(of.width as usize).map(|row| row[first..].iter().sum::<u32>()).sum();
         assert_eq!(beyond, 0, "{quantity:?}");
@@ -148,7 +148,7 @@ fn nothing_passes_a_thin_wall() {
     }
 }
 
-/// Means over the floor of `passes` and `presence` between two distances from the walls of a corridor.
+/// Means over floor of `passes` and `presence` between two distances from a corridor's walls.
 fn means(sums: &FloorSums, walls: &Walls, rows_m: [f64; 2]) -> [f64; 2] {
     [Quantity::Passes, Quantity::Presence].map(|quantity| {
         let grid = sums.grid_of(quantity);
@@ -166,7 +166,7 @@ fn means(sums: &FloorSums, walls: &Walls, rows_m: [f64; 2]) -> [f64; 2] {
 
 #[test]
 fn presence_has_the_local_mean_of_passes_also_along_walls() {
-    // 12 x 3 m, closed, inner walls at 0.1 and 3.1 m.
+    // 12 x 3 m, closed, inner faces of the walls at 0.1 and 3.1 m.
     let (library, walls, grid) = (library(), room(12.0, 3.0), grid(100.0, 12.2, 3.2));
     let stamper = Stamper::new(&library, grid, &StampOptions::default()).unwrap();
     for turned in [0.0, 1.3] {

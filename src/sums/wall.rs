@@ -1,4 +1,4 @@
-//! The sums of walls.
+//! Sums of walls.
 
 use std::collections::BTreeMap;
 
@@ -7,31 +7,31 @@ use super::blocks::{BLOCK, SparsePlane};
 use crate::patterns::Cause;
 use crate::stamps::{TexelGrid, WallGrid};
 
-/// The sums of a plan's walls: optical density per cause and face, in sparse blocks.
+/// Sums of a plan's walls: optical density per cause and face, in sparse blocks.
 ///
-/// Values are saturating `u32` fixed point in units of [`crate::stamps::DENSITY_ONE`]. Untouched walls take no memory.
+/// Values are saturating `u32` fixed point in units of [`crate::stamps::DENSITY_ONE`]. Untouched walls use no memory.
 #[derive(Debug)]
 pub struct WallSums {
     pub(super) grid: WallGrid,
-    /// The touched strips.
+    /// Strips with stains.
     pub(super) strips: BTreeMap<StripKey, SparsePlane>,
 }
 
-/// Key of a strip: index of its cause in [`Cause::WALL`], index of its face.
+/// Key of a strip: indices of its cause in [`Cause::WALL`] and of its face.
 pub(super) type StripKey = (usize, u32);
 
 impl WallSums {
-    /// Empty sums; blocks are allocated on first use.
+    /// Creates empty sums; blocks are allocated on first use.
     pub fn new(grid: WallGrid) -> WallSums {
         WallSums { grid, strips: BTreeMap::new() }
     }
 
-    /// The texel grid of the walls.
+    /// Texel grid of the walls.
     pub fn grid(&self) -> &WallGrid {
         &self.grid
     }
 
-    /// Copies a rectangle of a face's sums, row 0 lowest. Zero beyond the face.
+    /// Copies a rectangle of a face's sums, row 0 lowest. Zero outside the face.
     ///
     /// Sums of causes outside [`Cause::WALL`] are zero.
     #[allow(clippy::too_many_arguments)]
@@ -42,21 +42,21 @@ impl WallSums {
         }
     }
 
-    /// Whether a rectangle of a face overlaps an allocated block; it is zero otherwise.
+    /// Whether a rectangle of a face overlaps an allocated block; if not, it is zero.
     pub fn touched(&self, cause: Cause, face: usize, i0: u32, j0: u32, width: usize, height: usize) -> bool {
         self.strip(cause, face).is_some_and(|strip| strip.touched([i0, j0], width, height))
     }
 
-    /// Faces and lower-left texels of all allocated blocks of a cause, by ascending face, row, column.
+    /// Faces and lower-left texels of a cause's allocated blocks, by ascending face, row, column.
     ///
-    /// A block is [`BLOCK`] texels a side, less where the strip ends.
+    /// A block has [`BLOCK`] texels per side, fewer at the strip's end.
     pub fn blocks(&self, cause: Cause) -> Vec<(usize, [u32; 2])> {
         let Some(number) = cause.on_wall() else { return Vec::new() };
         let strips = self.strips.range((number, 0)..=(number, u32::MAX));
         strips.flat_map(|(&(_, face), strip)| strip.origins().into_iter().map(move |at| (face as usize, at))).collect()
     }
 
-    /// Adds a rectangle of sums, row 0 lowest; ignores the part beyond the face.
+    /// Adds a rectangle of sums, row 0 lowest; ignores the part outside the face.
     pub fn add_block(
         &mut self,
         cause: Cause,
@@ -99,7 +99,7 @@ impl WallSums {
         self.strips.get(&(cause.on_wall()?, u32::try_from(face).ok()?))
     }
 
-    /// A strip, allocated on first use. The face must be in the grid.
+    /// Returns a strip, allocated on first use. The face must be in the grid.
     pub(super) fn strip_mut(&mut self, key: StripKey) -> &mut SparsePlane {
         let WallGrid { texels_per_metre, height, faces, .. } = &self.grid;
         let (texels_per_metre, width, height) = (*texels_per_metre, faces[key.1 as usize].width, *height);

@@ -1,4 +1,4 @@
-//! A boundary of the floor in parts: walls, which are fitted, and openings, which are straight.
+//! Boundaries of the floor, split into fitted walls and straight openings.
 
 use super::fit::{Corner, Fitted, SideLine};
 use super::outline::Outline;
@@ -12,7 +12,7 @@ use crate::plan::{FloorPlan, Side};
 #[derive(Debug)]
 pub(super) struct Boundary {
     parts: Vec<Part>,
-    /// Twice the signed area within the pixels' edges, square pixels.
+    /// Twice the signed area inside the pixel edges, square pixels.
     doubled_area: f64,
 }
 
@@ -22,9 +22,9 @@ enum Part {
     Wall(Fitted),
     Opening {
         side: Side,
-        /// From where to where it leads along the image's side, pixels.
+        /// Start and end on the image's side, pixels.
         ends: [Vec2; 2],
-        /// Whether it begins where the opening before it ends, in the image's corner.
+        /// Whether the previous opening ends at its start, in the image's corner.
         from_corner: bool,
     },
 }
@@ -34,13 +34,13 @@ enum Part {
 pub(super) struct Vertex {
     /// Pixels from the top left, y down.
     pub(super) at: Vec2,
-    /// The part of the boundary that it belongs to, and the run within it.
+    /// Index of its part of the boundary, and the run within that part.
     part: usize,
     run: usize,
 }
 
 impl Boundary {
-    /// Fits the walls of a boundary, `tolerance_scale` times as loosely as usual.
+    /// Fits the walls of a boundary, with `tolerance_scale` times the usual tolerance.
     pub(super) fn fit(plan: &FloorPlan, cracks: &CrackLoop, tolerance_scale: f64) -> Boundary {
         let samples = subpixel::samples(plan, cracks, tolerance_scale);
         let sides: Vec<Option<Side>> = (0..cracks.len()).map(|k| side_of(plan, cracks, k)).collect();
@@ -70,7 +70,7 @@ impl Boundary {
         Boundary { parts: parts.collect(), doubled_area }
     }
 
-    /// The corners in order.
+    /// Returns the corners in order.
     pub(super) fn vertices(&self) -> Vec<Vertex> {
         let mut vertices = Vec::new();
         for (part, content) in self.parts.iter().enumerate() {
@@ -86,13 +86,13 @@ impl Boundary {
         vertices
     }
 
-    /// Its outline in metres.
+    /// Converts to an outline in metres.
     pub(super) fn outline(&self, plan: &FloorPlan) -> Outline {
         let vertices = self.vertices();
         let mut openings = Vec::new();
         for (part, content) in self.parts.iter().enumerate() {
             if let &Part::Opening { side, from_corner, .. } = content {
-                // It starts at its own corner, or where the wall before it ends.
+                // The opening starts at its own corner, or where the previous wall ends.
                 let last = if from_corner { part } else { part - 1 };
                 openings.push((vertices.partition_point(|vertex| vertex.part <= last) - 1, side));
             }
@@ -100,14 +100,14 @@ impl Boundary {
         Outline { points_m: vertices.iter().map(|v| plan.px_to_m([v.at.x, v.at.y])).collect(), openings }
     }
 
-    /// Whether corners enclose an area, and floor where the pixels do.
+    /// Whether the corners enclose an area of the same orientation as the pixel edges.
     pub(super) fn encloses(&self, vertices: &[Vertex]) -> bool {
         let count = vertices.len();
         let doubled_area: f64 = (0..count).map(|k| vertices[k].at.cross(vertices[(k + 1) % count].at)).sum();
         count >= 3 && doubled_area * self.doubled_area > 0.0
     }
 
-    /// Whether the edge between two neighbouring corners leads somewhere; an opening's as the pixels do.
+    /// Whether the edge between two consecutive corners has a length; for openings, a forward one.
     pub(super) fn leads_on(&self, a: Vertex, b: Vertex) -> bool {
         match self.opening_between(a, b) {
             Some(along) => (b.at - a.at).dot(along) > 0.0,
@@ -115,7 +115,7 @@ impl Boundary {
         }
     }
 
-    /// Which way the opening leads that two neighbouring corners are the ends of.
+    /// Direction of the opening between two consecutive corners, `None` for a wall.
     fn opening_between(&self, a: Vertex, b: Vertex) -> Option<Vec2> {
         let is_gap = self.parts.len() > 1 && (a.part != b.part || b.run < a.run);
         let from_wall = if is_gap { self.parts.get(a.part + 1) } else { None };
@@ -125,8 +125,7 @@ impl Boundary {
         }
     }
 
-    /// Puts the walls between two neighbouring corners back on the pixels' edges about a place. Says whether anything
-    /// changed.
+    /// Resets the walls between two consecutive corners to the pixel edges near `place`. Returns whether any changed.
     pub(super) fn put_on_edges(&mut self, a: Vertex, b: Vertex, place: Vec2) -> bool {
         let place = [place.x, place.y];
         let is_opening = self.opening_between(a, b).is_some();
@@ -141,7 +140,7 @@ impl Boundary {
             let count = wall.runs.len();
             let to = if to < from { to + count } else { to };
             changed |= wall.put_on_edges(from, to, place) || {
-                // What meets at the corners is to blame.
+                // The runs between are on pixel edges already: the adjacent ones cause the crossing.
                 let from = if wall.runs.closed { from + count - 1 } else { from.saturating_sub(1) };
                 let to = if wall.runs.closed { to + count + 1 } else { (to + 1).min(count) };
                 wall.put_on_edges(from, to, place)
@@ -150,13 +149,13 @@ impl Boundary {
         changed
     }
 
-    /// Puts all walls back on the pixels' edges. Says whether anything changed.
+    /// Resets all walls to the pixel edges. Returns whether any changed.
     pub(super) fn put_all_on_edges(&mut self) -> bool {
         let walls = self.parts.iter_mut().filter_map(|part| match part {
             Part::Wall(wall) => Some(wall),
             Part::Opening { .. } => None,
         });
-        // All of them, not only up to the first that changes.
+        // `fold`, not `any`, which would stop at the first change.
         walls.map(|wall| wall.put_all_on_edges()).fold(false, |any, changed| any | changed)
     }
 }
@@ -181,7 +180,7 @@ impl Stretch {
     }
 }
 
-/// All stretches of a boundary in order, from a wall on if there is one; a single one if it is wall all around.
+/// Splits a boundary into stretches in order, beginning with a wall if there is one.
 fn stretches(sides: &[Option<Side>]) -> Vec<Stretch> {
     let n = sides.len();
     let starts = || (0..n).filter(|&k| sides[k] != sides[(k + n - 1) % n]);
@@ -206,7 +205,7 @@ fn side_line(plan: &FloorPlan, side: Side) -> SideLine {
     }
 }
 
-/// The image side on which crack `k` is part of an opening.
+/// Returns the image side on which crack `k` is part of an opening.
 fn side_of(plan: &FloorPlan, cracks: &CrackLoop, k: usize) -> Option<Side> {
     let [x0, y0] = cracks[k];
     let [x1, y1] = cracks[(k + 1) % cracks.len()];

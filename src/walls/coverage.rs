@@ -1,9 +1,9 @@
 //! Exact area coverage of texels by floor.
 //!
-//! Scan conversion by signed areas with integer cells, as FreeType's and libart's rasterisers do it: every edge
-//! adds, to each texel that it passes, the signed area between itself and the texel's right side, and to
-//! all texels further right its height. Coordinates are rounded to 1/4096 texel first and everything after
-//! that is integer, so that a texel's value cannot depend on the rectangle asked for.
+//! Scan conversion by signed areas with integer cells, as in the rasterisers of FreeType and libart. In each texel that
+//! it crosses, an edge adds the signed area between itself and the texel's right side; to all texels further right it
+//! adds its height. Coordinates are rounded to 1/4096 texel first and all later steps are integer, so a texel's value
+//! does not depend on the requested rectangle.
 
 use super::outline::Outline;
 use crate::math::Vec2;
@@ -15,7 +15,7 @@ const ONE: i64 = 1 << BITS;
 /// Height of a band, metres.
 const BAND_M: f64 = 0.5;
 
-/// The floor's edges, by horizontal bands.
+/// Edges of the floor, in horizontal bands.
 #[derive(Debug)]
 pub(super) struct Edges {
     bottom_m: f64,
@@ -28,7 +28,7 @@ pub(super) struct Edges {
 struct BandEdge {
     a: Vec2,
     b: Vec2,
-    /// The lowest band that holds this edge: where it is counted when several bands are asked for.
+    /// Lowest band that holds this edge; the edge is counted there if several bands are read.
     first_band: u32,
 }
 
@@ -100,7 +100,7 @@ impl BandEdge {
     }
 }
 
-/// Texels in fixed point.
+/// Converts metres to fixed-point texels.
 fn fixed(p: Vec2, texels_per_metre: f64) -> [i64; 2] {
     [p.x, p.y].map(|m| (m * texels_per_metre * ONE as f64).round() as i64)
 }
@@ -111,9 +111,9 @@ struct Accumulator {
     bottom: i64,
     width: usize,
     height: usize,
-    /// Per texel: twice the signed area right of the edges in it, less the full height that `cover` counts.
+    /// Per texel: twice the signed area right of its edges, minus the full height counted in `cover`.
     area: Vec<i64>,
-    /// Per texel and one column before: the signed height of the edges in it.
+    /// Per texel, and one column before: signed height of its edges.
     cover: Vec<i64>,
     /// Differences along y of the signed height of edges left of the rectangle.
     before: Vec<i64>,
@@ -132,7 +132,7 @@ impl Accumulator {
         }
     }
 
-    /// Adds one edge; upward counts positive.
+    /// Adds an edge; upward edges count positive.
     fn add(&mut self, a: [i64; 2], b: [i64; 2]) {
         let (sign, low, high) = if a[1] < b[1] { (1, a, b) } else { (-1, b, a) };
         if low[1] == high[1] {
@@ -145,7 +145,7 @@ impl Accumulator {
             return;
         }
         let y_at = |x: i64| crossing([low[0], low[1]], [high[0], high[1]], x);
-        // The edge in order of x, cut at the rectangle's left and right side.
+        // The edge in order of x, clipped to the rectangle's left and right side.
         let (start, end) = if low[0] <= high[0] { (low, high) } else { (high, low) };
         let right = left + self.width as i64 * ONE;
         if end[0] <= left {
@@ -166,7 +166,7 @@ impl Accumulator {
             self.add_in_column(sign, from, to);
             return;
         }
-        // Column by column.
+        // Split the edge by columns.
         while from[0] < to[0] {
             let next = (from[0].div_euclid(ONE) + 1) * ONE;
             let cut = if next < to[0] { [next, y_at(next)] } else { to };
@@ -175,7 +175,7 @@ impl Accumulator {
         }
     }
 
-    /// Height `low..high` left of the rectangle.
+    /// Adds the height `low..high` of an edge left of the rectangle.
     fn add_before(&mut self, sign: i64, low: i64, high: i64) {
         let bottom = self.bottom * ONE;
         let top = bottom + self.height as i64 * ONE;
@@ -183,7 +183,7 @@ impl Accumulator {
         if low >= high {
             return;
         }
-        // As differences along y: a row's own height, plus what carries over to all rows above.
+        // Differences along y: a row's own height, and the carry to all rows above.
         let (first, last) = (low / ONE, (high - 1) / ONE);
         if first == last {
             self.before[first as usize] += sign * (high - low);
@@ -198,7 +198,7 @@ impl Accumulator {
         }
     }
 
-    /// A piece of an edge that stays within one column of texels.
+    /// Adds a piece of an edge within one column of texels.
     fn add_in_column(&mut self, sign: i64, from: [i64; 2], to: [i64; 2]) {
         let (low, high) = if from[1] <= to[1] { (from, to) } else { (to, from) };
         let bottom = self.bottom * ONE;
@@ -207,7 +207,7 @@ impl Accumulator {
             return;
         }
         let column = from[0].min(to[0]).div_euclid(ONE) - self.left;
-        // A vertical edge on the rectangle's right side is none of its business.
+        // A vertical edge on the rectangle's right side covers no texel.
         if column >= self.width as i64 {
             return;
         }
@@ -228,7 +228,7 @@ impl Accumulator {
             let next = ((row + 1) * ONE).min(end);
             let height = next - y;
             let cell = (row - self.bottom) as usize * self.width + column as usize;
-            // Mean of the two ends' distance to the texel's left side, times two.
+            // Twice the mean distance of both ends to the texel's left side.
             let twice_x = x_at(y) + x_at(next) - 2 * texel_left;
             self.cover[cell] += sign * height;
             self.area[cell] += sign * height * twice_x;
@@ -254,7 +254,7 @@ impl Accumulator {
     }
 }
 
-/// Second coordinate at which the line through `p` and `q` has the first coordinate `at`, which lies between.
+/// Second coordinate of the line `pq` at the first coordinate `at`, which lies between.
 fn crossing(p: [i64; 2], q: [i64; 2], at: i64) -> i64 {
     let rise = (q[1] - p[1]) as f64;
     let run = (q[0] - p[0]) as f64;

@@ -1,21 +1,21 @@
-//! Tells curves from corners, so that a drawn circle is not traced with the corners of its straight pieces.
+//! Distinguishes curves from corners, so that a drawn circle gets no corners.
 
 use super::piece::{Joint, Piece};
 use super::runs::{Runs, Sample};
 
-/// A curve turns by at most this much from one piece to the next: cosine of 100 degrees.
+/// Largest turn of a curve from one piece to the next: cosine of 100 degrees.
 const SHARPEST_TURN: f64 = -0.17;
-/// Beside a curved piece the boundary turns by at most this much: cosine of 60 degrees.
+/// Largest turn of the boundary beside a curved piece: cosine of 60 degrees.
 const MILD_TURN: f64 = 0.5;
-/// Mean squared distance by which a line along pixel edges fits a flat curve better than the curve itself: a
-/// twelfth is what rounding to pixels costs the curve.
+/// Allowed excess mean squared error of a parabola over a line on pixel edges, square pixels. Rounding to pixels alone
+/// costs a flat curve 1/12.
 const POLE_SLACK: f64 = 0.06;
-/// Samples on each side of a joint from which a curve can be told from a corner.
+/// Fewest samples on each side of a joint for telling curve from corner.
 const FEWEST_SAMPLES: usize = 3;
-/// A curve that bulges less than this over a piece is traced straight, pixels.
+/// Least sagitta of a piece that is traced as a curve, pixels.
 const LEAST_SAGITTA: f64 = 0.05;
 
-/// Where a boundary is curved, and points on the curve in place of the corners of its straight pieces.
+/// Curved places of a boundary: points on the curve that replace corners of its pieces.
 #[derive(Debug)]
 pub(super) struct Curves {
     joints: Vec<Option<[f64; 2]>>,
@@ -23,7 +23,7 @@ pub(super) struct Curves {
 }
 
 impl Curves {
-    /// `joints[k]` stands before piece `k`; on an open boundary the first is `None`.
+    /// Finds the curves. `joints[k]` is before piece `k`; on an open boundary the first is `None`.
     pub(super) fn find(runs: &Runs, pieces: &[Piece], joints: &[Option<Joint>]) -> Curves {
         let count = pieces.len();
         let before = |k: usize| (k + count - 1) % count;
@@ -46,7 +46,7 @@ impl Curves {
                 let is_bent_at =
                     |joint: usize| joints[joint].is_some() || is_mild(&pieces[before(joint)], &pieces[joint]);
                 let is_curve = (joints[k].is_some() || joints[after].is_some()) && is_bent_at(k) && is_bent_at(after);
-                // An open boundary's first and last piece have a neighbour on one side only.
+                // The first and last piece of an open boundary have one neighbour only.
                 let has_both = runs.closed || (k > 0 && after > 0);
                 (is_curve && has_both)
                     .then(|| smooth_middle(runs, &pieces[before(k)], &pieces[k], &pieces[after]))
@@ -56,25 +56,25 @@ impl Curves {
         Curves { joints, middles }
     }
 
-    /// The point on the curve that stands for the joint before piece `k`, if that is no corner.
+    /// Returns the curve point that replaces the joint before piece `k`; `None` for a corner.
     pub(super) fn joint(&self, k: usize) -> Option<[f64; 2]> {
         self.joints[k]
     }
 
-    /// The point on the curve amid piece `k`, if the piece is bent.
+    /// Returns the point on the curve in the middle of piece `k`, if the piece is curved.
     pub(super) fn middle(&self, k: usize) -> Option<[f64; 2]> {
         self.middles[k]
     }
 }
 
-/// Whether a boundary turns little enough between two pieces to be bent there.
+/// Whether the turn between two pieces is small enough for a curve.
 fn is_mild(before: &Piece, after: &Piece) -> bool {
     let ([ax, ay], [bx, by]) = (before.line.along, after.line.along);
     ax * bx + ay * by > MILD_TURN
 }
 
-/// Whether a piece along pixel edges is where a curve turns round from rising to falling, by its neighbours: both
-/// turn the same way, a little, and are not much shorter.
+/// Whether a piece along pixel edges is the extremum of a curve: both neighbours turn the same way, a little, and are
+/// not much shorter.
 fn turns_round(runs: &Runs, before: &Piece, piece: &Piece, after: &Piece) -> bool {
     let turn = |a: &Piece, b: &Piece| a.line.along[0] * b.line.along[1] - a.line.along[1] * b.line.along[0];
     piece.exact
@@ -86,8 +86,8 @@ fn turns_round(runs: &Runs, before: &Piece, piece: &Piece, after: &Piece) -> boo
         && piece.length(runs) < 2.0 * (before.length(runs) + after.length(runs))
 }
 
-/// The point of the curve at the joint of two pieces if a parabola fits the samples around it at least as well
-/// as the two lines do, give or take a mean `slack`, square pixels.
+/// Returns the point on the curve at a joint, if a parabola fits as well as the two lines. `slack` is the allowed
+/// excess of the mean squared error, square pixels.
 fn smooth_joint(runs: &Runs, before: &Piece, after: &Piece, slack: f64) -> Option<[f64; 2]> {
     let ([ax, ay], [bx, by]) = (before.line.along, after.line.along);
     if ax * bx + ay * by < SHARPEST_TURN || (before.exact && after.exact) {
@@ -107,13 +107,13 @@ fn smooth_joint(runs: &Runs, before: &Piece, after: &Piece, slack: f64) -> Optio
     smooth.then(|| parabola.nearest(runs.corner(after.from)))
 }
 
-/// How much of a neighbouring piece helps to find a point of a curve: of a short one, which turns a lot, half.
+/// Number of samples of a neighbouring piece used for a curve: half of a short piece, which turns a lot.
 fn share_of(samples: usize) -> usize {
     let share = if samples < 12 { samples / 2 } else { samples * 3 / 4 };
     share.max(FEWEST_SAMPLES).min(samples)
 }
 
-/// The point of the curve amid a piece, by a parabola through it and the nearer halves of its neighbours.
+/// Returns the point on the curve amid a piece: a parabola through it and near parts of its neighbours.
 fn smooth_middle(runs: &Runs, before: &Piece, piece: &Piece, after: &Piece) -> Option<[f64; 2]> {
     let [first, last] = [runs.corner(piece.from), runs.corner(piece.to)];
     let near: Vec<&Sample> = runs.samples_of(before.from, before.to).collect();
@@ -128,7 +128,7 @@ fn smooth_middle(runs: &Runs, before: &Piece, piece: &Piece, after: &Piece) -> O
     is_bent.then(|| parabola.nearest([(first[0] + last[0]) * 0.5, (first[1] + last[1]) * 0.5]))
 }
 
-/// The parabola v = a + b u + bend u^2 of least squares, u along a given direction.
+/// Least-squares parabola v = height + slope u + bend u^2, with u along `along`.
 struct Parabola {
     mean: [f64; 2],
     along: [f64; 2],
@@ -150,10 +150,10 @@ impl Parabola {
         let [cx, cy] = along.map(|c| c / length);
         let local = |s: &Sample| {
             let (x, y) = (s.at[0] - mean[0], s.at[1] - mean[1]);
-            // A left-handed frame on paper: y points down, and so does v where u points right.
+            // v is to the right of u in the image, whose y points down.
             (x * cx + y * cy, y * cx - x * cy)
         };
-        // Normal equations; sums of u and of v vanish around the mean.
+        // Normal equations; the sums of u and v vanish around the mean.
         let (mut u2, mut u3, mut u4, mut uv, mut u2v, mut v2) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         for s in samples {
             let ((u, v), w) = (local(s), s.weight);
@@ -175,7 +175,7 @@ impl Parabola {
         Some(Parabola { mean, along: [cx, cy], height, slope, bend, squares: (v2 - bend * u2v - slope * uv).max(0.0) })
     }
 
-    /// The point of the parabola that lies across its axis from `p`.
+    /// Returns the point of the parabola at the u of `p`.
     fn nearest(&self, p: [f64; 2]) -> [f64; 2] {
         let [cx, cy] = self.along;
         let u = (p[0] - self.mean[0]) * cx + (p[1] - self.mean[1]) * cy;

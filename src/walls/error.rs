@@ -1,53 +1,53 @@
 /// Fewest points of an outline.
 pub(super) const FEWEST_POINTS: usize = 3;
-/// Largest distance that outlines reach over along x or y, metres: a plan's longest side with its walls and aprons.
+/// Largest extent of outlines along x or y, metres: the longest plan side with walls and aprons.
 pub(super) const LARGEST_EXTENT_M: f64 = crate::plan::LARGEST_SIDE_M + 500.0;
-/// Longest length of all outlines together, metres.
+/// Largest total length of all outlines, metres.
 pub(super) const LONGEST_M: f64 = 2e7;
 
-/// Why the `walls` stage cannot go on.
+/// Errors of the `walls` stage.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum WallsError {
-    /// An outline without an area.
+    /// An outline has too few points to enclose an area.
     #[error("outline {outline} has {points} points, allowed are {} or more", FEWEST_POINTS)]
     TooFewPoints {
         /// Index of the outline.
         outline: usize,
-        /// How many points it has.
+        /// Number of points.
         points: usize,
     },
-    /// An opening at an edge that the outline does not have, or out of order.
+    /// An opening's edge index is out of range or out of order.
     #[error("outline {outline} has an opening at edge {edge}, allowed are ascending edges below {points}")]
     Opening {
         /// Index of the outline.
         outline: usize,
-        /// The edge.
+        /// Index of the edge.
         edge: usize,
-        /// How many edges the outline has.
+        /// Number of edges of the outline.
         points: usize,
     },
-    /// Outlines that reach farther than a plan.
+    /// The outlines' extent exceeds that of any plan.
     #[error("the outlines reach over {extent_m} m, allowed are up to {} m", LARGEST_EXTENT_M)]
     TooFar {
         /// The largest distance along x or y, metres; NaN where a coordinate is.
         extent_m: f64,
     },
-    /// More wall than a plan can have.
+    /// The outlines' total length exceeds that of any plan.
     #[error("the outlines are {length_m:.0} m long together, allowed are up to {} m", LONGEST_M)]
     TooLong {
-        /// Their length, metres.
+        /// Total length, metres.
         length_m: f64,
     },
 }
 
 impl WallsError {
-    /// What the user can do about it.
+    /// Returns the remedy, for the user.
     pub fn hint(&self) -> Option<String> {
         Some("bake again".to_string())
     }
 
-    /// The outline that it is about, where it is one.
+    /// Index of the outline at fault, if the error is about one.
     pub(crate) fn outline(&self) -> Option<usize> {
         match self {
             WallsError::TooFewPoints { outline, .. } | WallsError::Opening { outline, .. } => Some(*outline),
@@ -55,7 +55,7 @@ impl WallsError {
         }
     }
 
-    /// The value that is wrong.
+    /// The value that is out of range.
     pub(crate) fn value(&self) -> String {
         match self {
             WallsError::TooFewPoints { points, .. } => format!("a loop of {points} points"),
@@ -65,7 +65,7 @@ impl WallsError {
         }
     }
 
-    /// What is allowed in its place.
+    /// The allowed range.
     pub(crate) fn allowed(&self) -> String {
         match self {
             WallsError::TooFewPoints { .. } => format!("{} points or more", FEWEST_POINTS),

@@ -1,8 +1,8 @@
-//! Wall faces, their segments and the nearest point of a wall.
+//! Wall faces, their segments, and nearest points on walls.
 
 use crate::math::Vec2;
 
-/// Length of the apron: the untextured floor beyond an opening where people appear and vanish, metres.
+/// Length of an apron, metres: untextured floor beyond an opening, where people appear and vanish.
 pub const APRON_M: f64 = 3.0;
 
 /// A wall face: a polyline with the floor on its **right**.
@@ -10,9 +10,9 @@ pub const APRON_M: f64 = 3.0;
 /// Arc length grows to the right for a viewer who stands on the floor and looks at the wall.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Face {
-    /// Whether the last point joins the first (rooms, pillars). The first is not repeated.
+    /// Whether the last point joins the first, as in rooms and around pillars. The first is not repeated.
     pub closed: bool,
-    /// Corners and ends, metres. A closed face starts at its vertex least in (y, x).
+    /// Vertices, metres. A closed face starts at its vertex of least (y, x).
     #[serde(rename = "points")]
     pub points_m: Vec<Vec2>,
 }
@@ -28,10 +28,10 @@ impl Face {
     }
 }
 
-/// The point of a wall nearest to another point.
+/// The point on a wall nearest to a given point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
-    /// Distance from the point to the wall, metres. Never negative; see [`Walls::is_inside`](super::Walls::is_inside).
+    /// Distance to the wall, metres, at least 0; see [`Walls::is_inside`](super::Walls::is_inside).
     pub distance_m: f64,
     /// The point on the wall, metres.
     pub point_m: Vec2,

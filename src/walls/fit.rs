@@ -1,5 +1,5 @@
-//! From a boundary to a polyline: straight pieces, their lines, and the corners where neighbouring lines cross.
-//! Where two polylines would cross, parts of them are put back on the pixels' edges, which never do.
+//! Fits a polyline to a boundary: straight pieces, their lines, and corners at the lines' intersections. Where two
+//! polylines would cross, parts of them are reset to the pixel edges, which never cross.
 
 use super::curve::Curves;
 use super::line::Line;
@@ -15,17 +15,17 @@ pub(super) struct SideLine {
     pub(super) at: f64,
 }
 
-/// A corner may lie this far from the place where the boundary was cut, per cosine of half the turn, pixels.
+/// Largest distance of a corner from its cut, times the cosine of half the turn, pixels.
 const CORNER_REACH: f64 = 0.85;
-/// Ends of an open boundary may slide this far along the image's side, pixels.
+/// Largest shift of an open boundary's end along the image's side, pixels.
 const END_REACH: f64 = 1.5;
-/// Cosine of the turn from which a corner counts as flat: 25 degrees.
+/// Cosine of the turn below which a corner counts as flat: 25 degrees.
 const FLAT: f64 = 0.9;
-/// A point this near to the way past it is no corner, pixels.
+/// Largest distance of a redundant corner from the straight line past it, pixels.
 const STRAIGHT: f64 = 0.01;
-/// Ends of neighbouring pieces closer than this become one point, pixels: less than the smallest drawn step.
+/// Ends of neighbouring pieces closer than this are merged, pixels: less than the smallest drawn step.
 const SAME_POINT: f64 = 0.9;
-/// The same where an oblique boundary goes on, whose pieces may each be off by half a pixel.
+/// The same for an oblique boundary, whose pieces may each be off by half a pixel.
 const SAME_POINT_OBLIQUE: f64 = 1.4;
 
 /// A corner of a fitted boundary.
@@ -33,27 +33,27 @@ const SAME_POINT_OBLIQUE: f64 = 1.4;
 pub(super) struct Corner {
     /// Pixels from the top left, y down.
     pub(super) at: [f64; 2],
-    /// The run that starts there, or amid which it stands; the number of runs at the end of an open boundary.
+    /// Run that starts at or contains the corner; at an open boundary's end, the number of runs.
     pub(super) run: usize,
 }
 
-/// A boundary fitted with straight pieces and curves. Parts of it can be put back on the pixels' edges.
+/// A boundary fitted with straight pieces and curves; parts can be reset to the pixel edges.
 #[derive(Debug)]
 pub(super) struct Fitted {
     pub(super) runs: Runs,
     ends: Option<[SideLine; 2]>,
     pieces: Vec<Piece>,
-    /// How piece `k` meets the one before; `None` at the start of an open boundary.
+    /// Joint of piece `k` with the previous one; `None` at the start of an open boundary.
     joints: Vec<Option<Joint>>,
     curves: Curves,
-    /// Runs that are drawn as the pixels' edges that they are, where the fitted line got in another's way.
+    /// Whether a run is drawn along its pixel edges, since the fitted line crossed another.
     on_edges: Vec<bool>,
-    /// Whether there are any.
+    /// Whether any run is in `on_edges`.
     is_mended: bool,
 }
 
 impl Fitted {
-    /// Fits a boundary. An open one ends on the two image sides given.
+    /// Fits a boundary; an open one ends on the two given image sides.
     pub(super) fn new(runs: Runs, ends: Option<[SideLine; 2]>) -> Fitted {
         let starts = breaks(&runs);
         let end_of = |k: usize| match starts.get(k + 1) {
@@ -72,7 +72,7 @@ impl Fitted {
         Fitted { runs, ends, pieces, joints, curves, on_edges, is_mended: false }
     }
 
-    /// The corners in order, in pixels; those of a closed boundary go round.
+    /// Returns the corners in order, in pixels; a closed boundary wraps around.
     pub(super) fn corners(&self) -> Vec<Corner> {
         let mut corners = Vec::with_capacity(self.pieces.len() + 1);
         for (k, piece) in self.pieces.iter().enumerate() {
@@ -97,12 +97,12 @@ impl Fitted {
         without_straight_corners(corners, self.runs.closed)
     }
 
-    /// Whether a run is drawn as the pixels' edges; a closed boundary goes round.
+    /// Whether a run is drawn along the pixel edges; indices of a closed boundary wrap around.
     fn is_on_edges(&self, run: usize) -> bool {
         self.on_edges[run % self.on_edges.len()]
     }
 
-    /// The piece that a run is part of; a closed boundary goes round.
+    /// Returns the piece that contains a run; indices of a closed boundary wrap around.
     fn piece_of(&self, run: usize) -> &Piece {
         let first = self.pieces[0].from;
         let count = self.runs.len();
@@ -110,8 +110,8 @@ impl Fitted {
         &self.pieces[self.pieces.partition_point(|piece| piece.from <= run).max(1) - 1]
     }
 
-    /// The corners between a run and the one before where either is drawn as the pixels' edges, or both pieces are
-    /// cut off there: from the one line to the pixels' corner, and on to the other line.
+    /// Appends the corners before a run where a fitted line meets pixel edges or both are cut: from one line to the
+    /// pixel corner, and on to the other line.
     fn change_over(&self, run: usize, corners: &mut Vec<Corner>) {
         let count = self.runs.len();
         let [before, after] = [(run + count - 1) % count, run % count];
@@ -127,20 +127,20 @@ impl Fitted {
         right.into_iter().for_each(|piece| push(piece.line.project(cut)));
     }
 
-    /// An end of an open boundary, by the run that starts there (or the number of runs).
+    /// Returns an end of an open boundary, by the run that starts there (or the number of runs).
     fn end(&self, piece: &Piece, run: usize, side: SideLine) -> Corner {
         let corner = self.runs.corner(run);
         let is_cut = self.on_edges[run.min(self.runs.len() - 1)];
         Corner { at: if is_cut { corner } else { end_on_side(&piece.line, corner, side) }, run }
     }
 
-    /// Whether all runs around the joint before piece `k` are fitted, as far as the joint lies from its cut.
+    /// Whether all runs near the joint before piece `k` are fitted.
     fn stands(&self, k: usize, joint: Joint) -> bool {
         if !self.is_mended {
             return true;
         }
         let (count, cut_run) = (self.runs.len(), self.pieces[k].from);
-        // Where walks ahead and back begin, and how far they can go.
+        // Start and greatest length of the walks ahead and back.
         let (last, most) =
             if self.runs.closed { (cut_run + count, [count; 2]) } else { (cut_run, [count - cut_run, cut_run]) };
         let cut = self.runs.corner(cut_run);
@@ -152,8 +152,8 @@ impl Fitted {
         !ahead.chain(behind.map(|run| run - 1)).any(|run| self.is_on_edges(run))
     }
 
-    /// Puts the runs about a place back on the pixels' edges: among `from..to` (which may go round) the nearest one
-    /// that is not yet, and its neighbours. Says whether there was one.
+    /// Resets the fitted run of `from..to` nearest to `place`, with its neighbours, to pixel edges. `to` may wrap
+    /// around. Returns whether there was one.
     pub(super) fn put_on_edges(&mut self, from: usize, to: usize, place: [f64; 2]) -> bool {
         let count = self.runs.len();
         let away = |run: usize| {
@@ -174,7 +174,7 @@ impl Fitted {
         true
     }
 
-    /// Puts all runs back on the pixels' edges. Says whether any was not.
+    /// Resets all runs to the pixel edges. Returns whether any was fitted.
     pub(super) fn put_all_on_edges(&mut self) -> bool {
         let any = self.on_edges.contains(&false);
         self.is_mended = true;
@@ -183,16 +183,16 @@ impl Fitted {
     }
 }
 
-/// Splits pieces that have a single step between neighbours that run along pixel edges.
+/// Splits a piece with a single step if its neighbours are perpendicular and along pixel edges.
 ///
-/// A line with one step may be drawn slightly oblique, or be two walls one pixel apart. In a plan whose walls run
-/// along the pixels it is the latter.
+/// A line with one step may be slightly oblique, or two walls one pixel apart. Among walls along pixel edges it is the
+/// latter.
 fn with_single_steps(runs: &Runs, pieces: Vec<Piece>) -> Vec<Piece> {
     let count = pieces.len();
     let mut split = Vec::with_capacity(count);
     for (k, piece) in pieces.iter().enumerate() {
         let across = runs.main_across(piece.from, piece.to);
-        // Square to this one, and along pixel edges; or an image side.
+        // Perpendicular and along pixel edges; or an image side.
         let is_square = |neighbour: Option<usize>| {
             neighbour.is_none_or(|n| pieces[n].exact && runs.main_across(pieces[n].from, pieces[n].to) != across)
         };
@@ -206,7 +206,7 @@ fn with_single_steps(runs: &Runs, pieces: Vec<Piece>) -> Vec<Piece> {
     split
 }
 
-/// The run that steps, in a piece that has just one step amid its main direction.
+/// Returns the only run of a piece that steps across its main direction.
 fn single_step(runs: &Runs, piece: &Piece) -> Option<usize> {
     let across = runs.main_across(piece.from, piece.to);
     let is_main = |k: &usize| runs.direction(*k).across() == across;
@@ -218,7 +218,7 @@ fn single_step(runs: &Runs, piece: &Piece) -> Option<usize> {
     (hard && steps.next().is_none()).then_some(step)
 }
 
-/// Drops corners at which the polyline does not turn.
+/// Removes corners at which the polyline does not turn.
 fn without_straight_corners(corners: Vec<Corner>, closed: bool) -> Vec<Corner> {
     let mut kept: Vec<Corner> = Vec::with_capacity(corners.len());
     let n = corners.len();
@@ -234,23 +234,23 @@ fn without_straight_corners(corners: Vec<Corner>, closed: bool) -> Vec<Corner> {
     if kept.len() < 3 && closed { corners } else { kept }
 }
 
-/// Whether the way from `a` to `b` over `p` is straight, or `p` is no more than a repetition.
+/// Whether `p` lies on the straight path from `a` to `b`, or repeats `a`.
 fn is_between(a: [f64; 2], p: [f64; 2], b: [f64; 2]) -> bool {
     let ([ux, uy], [vx, vy]) = ([p[0] - a[0], p[1] - a[1]], [b[0] - p[0], b[1] - p[1]]);
     let (ahead, length) = (ux * vx + uy * vy, squared_distance(a, b).sqrt());
     squared_distance(a, p) < 1e-12 || (ahead > 0.0 && (ux * vy - uy * vx).abs() <= STRAIGHT * length)
 }
 
-/// How two neighbouring pieces meet: where their lines cross if that is nearby; if not, square to the lines, as at
-/// the end of a wall one pixel thick or at a step of two pixels.
+/// Joins two pieces where their lines cross nearby, otherwise perpendicularly. The latter occurs at the end of a wall
+/// one pixel thick or at a step of two pixels.
 fn joint(runs: &Runs, before: &Piece, after: &Piece) -> Joint {
     let cut = runs.corner(after.from);
     let (a, b) = (before.line, after.line);
     if let Some(crossing) = a.crossing(&b) {
         let cosine = (a.along[0] * b.along[0] + a.along[1] * b.along[1]).clamp(-1.0, 1.0);
-        // A corner is drawn within half a pixel's diagonal of its place, a sharp one cut off farther back.
+        // A corner lies within half a pixel's diagonal of its cut, a sharp one farther back.
         let sharp = CORNER_REACH / ((1.0 + cosine) * 0.5).sqrt().max(0.25);
-        // Flat corners slide along both lines; they stay within the shorter piece's nearer half.
+        // A flat corner slides along both lines, within the nearer half of the shorter piece.
         let shorter = before.length(runs).min(after.length(runs));
         let reach = if cosine > FLAT { (shorter * 0.5).max(sharp) } else { sharp };
         if squared_distance(crossing, cut) <= reach * reach {
@@ -267,7 +267,7 @@ fn joint(runs: &Runs, before: &Piece, after: &Piece) -> Joint {
     }
 }
 
-/// Where a line meets an image side, near the pixel corner where the boundary does.
+/// Returns the intersection of a line and an image side, near the boundary's pixel corner.
 fn end_on_side(line: &Line, corner: [f64; 2], side: SideLine) -> [f64; 2] {
     let mut end = corner;
     end[side.axis] = side.at;

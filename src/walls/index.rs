@@ -1,4 +1,4 @@
-//! A spatial index of walls: nearest wall, inside test, line of sight.
+//! Spatial index of walls: nearest wall, inside test, line of sight.
 
 use super::face::{Nearest, Segment};
 use super::grid::Grid;
@@ -7,7 +7,7 @@ use crate::math::{Rect, Vec2, vec2};
 /// Side of a cell, metres.
 const CELL_M: f64 = 0.5;
 
-/// Wall segments by cell, and the walked space's edges by row of cells.
+/// Wall segments by cell, and edges of the walkable space by row of cells.
 #[derive(Debug)]
 pub(super) struct Index {
     segments: Vec<Segment>,
@@ -15,7 +15,7 @@ pub(super) struct Index {
     /// Segment numbers of cell `c` are `entries[starts[c]..starts[c + 1]]`.
     starts: Vec<u32>,
     entries: Vec<u32>,
-    /// Edges of the walked space that touch a row of cells.
+    /// Edges of the walkable space that touch each row of cells.
     row_starts: Vec<u32>,
     row_edges: Vec<[Vec2; 2]>,
 }
@@ -100,7 +100,7 @@ impl Index {
         for &[a, b] in &self.row_edges[self.row_starts[row] as usize..self.row_starts[row + 1] as usize] {
             let upward = a.y <= p.y && b.y > p.y;
             let downward = b.y <= p.y && a.y > p.y;
-            // Crossings left of the point: the point lies to the right of an edge that goes up.
+            // Count crossings left of the point: the point is on the right of an upward edge.
             if upward && (b - a).cross(p - a) < 0.0 {
                 winding += 1;
             } else if downward && (b - a).cross(p - a) > 0.0 {
@@ -135,7 +135,7 @@ impl Index {
     }
 }
 
-/// Where the entries of each of `count` lists start, for entries that come sorted by list.
+/// Start offsets of `count` lists whose entries are sorted by list.
 fn counted_starts(count: usize, lists: impl Iterator<Item = u32>) -> Vec<u32> {
     let mut starts = vec![0u32; count + 1];
     for list in lists {
@@ -147,7 +147,7 @@ fn counted_starts(count: usize, lists: impl Iterator<Item = u32>) -> Vec<u32> {
     starts
 }
 
-/// The point of segment `ab` that is nearest to `p`.
+/// Returns the point of segment `ab` nearest to `p`.
 pub(super) fn closest_on(a: Vec2, b: Vec2, p: Vec2) -> Vec2 {
     let along = b - a;
     let squared = along.length_squared();
@@ -157,13 +157,13 @@ pub(super) fn closest_on(a: Vec2, b: Vec2, p: Vec2) -> Vec2 {
     a + along * ((p - a).dot(along) / squared).clamp(0.0, 1.0)
 }
 
-/// Whether the segments `ab` and `cd` cross; touching from one side is no crossing.
+/// Whether the segments `ab` and `cd` cross; touching does not count.
 fn crosses(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> bool {
     let (ab, cd) = (b - a, d - c);
     (ab.cross(c - a) > 0.0) != (ab.cross(d - a) > 0.0) && (cd.cross(a - c) > 0.0) != (cd.cross(b - c) > 0.0)
 }
 
-/// The smallest rectangle that holds both.
+/// Bounding box of two rectangles.
 pub(super) fn union(a: Rect, b: Rect) -> Rect {
     Rect {
         min: vec2(a.min.x.min(b.min.x), a.min.y.min(b.min.y)),

@@ -2,7 +2,7 @@
 
 use super::runs::{Runs, Sample};
 
-/// Sums over samples from which a line and its error follow in constant time.
+/// Sums over samples that give a least-squares line and its error in constant time.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Moments {
     n: f64,
@@ -14,7 +14,7 @@ pub(super) struct Moments {
 }
 
 impl Moments {
-    /// Adds a sample as seen from `origin`.
+    /// Adds a sample relative to `origin`.
     pub(super) fn add(&mut self, sample: &Sample, origin: [f64; 2]) {
         let (x, y, weight) = (sample.at[0] - origin[0], sample.at[1] - origin[1], sample.weight);
         self.n += weight;
@@ -36,7 +36,7 @@ impl Moments {
         }
     }
 
-    /// The line of least squared distances (total least squares: the scatter matrix' main axis).
+    /// Computes the total least-squares line: the principal axis of the scatter matrix.
     pub(super) fn line(&self) -> Fit {
         let n = self.n.max(1.0);
         let through = [self.x / n, self.y / n];
@@ -44,7 +44,7 @@ impl Moments {
             (self.xx - self.x * self.x / n, self.xy - self.x * self.y / n, self.yy - self.y * self.y / n);
         let (half, mean) = ((xx - yy) * 0.5, (xx + yy) * 0.5);
         let root = (half * half + xy * xy).sqrt();
-        // The eigenvector of the larger eigenvalue, from whichever row loses no digits.
+        // The eigenvector of the larger eigenvalue, from the row that loses no digits.
         let along = if half >= 0.0 { [half + root, xy] } else { [xy, root - half] };
         let length = (along[0] * along[0] + along[1] * along[1]).sqrt();
         let along = if length > 0.0 { along.map(|c| c / length) } else { [1.0, 0.0] };
@@ -52,7 +52,7 @@ impl Moments {
     }
 }
 
-/// A line with the sum of squared distances of the samples that it was fitted to.
+/// A fitted line and the sum of squared distances of its samples.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fit {
     pub(super) line: Line,
@@ -73,13 +73,13 @@ impl Line {
         (y - self.through[1]) * self.along[0] - (x - self.through[0]) * self.along[1]
     }
 
-    /// The point of the line that is nearest.
+    /// Returns the nearest point on the line.
     pub(super) fn project(&self, p: [f64; 2]) -> [f64; 2] {
         let d = self.distance(p);
         [p[0] + d * self.along[1], p[1] - d * self.along[0]]
     }
 
-    /// Where two lines cross; `None` for parallel ones.
+    /// Intersection of two lines; `None` if parallel.
     pub(super) fn crossing(&self, other: &Line) -> Option<[f64; 2]> {
         let ([ax, ay], [bx, by]) = (self.along, other.along);
         let sine = ax * by - ay * bx;
@@ -92,16 +92,16 @@ impl Line {
     }
 }
 
-/// Moments of all pieces of a boundary, by prefix sums over its runs.
+/// Moments of any piece of a boundary, by prefix sums over its runs.
 pub(super) struct PieceMoments {
     origin: [f64; 2],
-    /// Sums over the runs before each run; on a closed boundary over two rounds.
+    /// Prefix sums by run; on a closed boundary over two rounds.
     before: Vec<Moments>,
 }
 
 impl PieceMoments {
     pub(super) fn new(runs: &Runs) -> PieceMoments {
-        // From the middle of the boundary, so that differences of sums keep their digits.
+        // The origin is on the boundary, so that differences of sums keep their digits.
         let origin = runs.corner(runs.len() / 2);
         let mut sum = Moments::default();
         let rounds = if runs.closed { 2 } else { 1 };
@@ -115,7 +115,7 @@ impl PieceMoments {
         PieceMoments { origin, before }
     }
 
-    /// The line of the runs `from..to`.
+    /// Fits a line to the runs `from..to`.
     pub(super) fn fit(&self, from: usize, to: usize) -> Fit {
         let mut fit = self.before[to].combined(self.before[from], -1.0).line();
         fit.line.through = [fit.line.through[0] + self.origin[0], fit.line.through[1] + self.origin[1]];

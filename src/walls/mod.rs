@@ -1,4 +1,4 @@
-//! Traces the wall faces of a plan as polylines; finds the nearest wall, lines of sight and floor coverage.
+//! Traces wall faces of a plan as polylines; nearest wall, line of sight, floor coverage.
 
 use rayon::prelude::*;
 
@@ -36,7 +36,7 @@ pub(crate) use outline::check as check_outlines;
 pub(crate) use places::DOOR_HEAD_M;
 pub use places::{Corner, Doorway};
 
-/// Options of tracing walls.
+/// Options of wall tracing.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct WallsOptions {
@@ -50,10 +50,10 @@ impl Default for WallsOptions {
     }
 }
 
-/// The wall faces of a plan with a spatial index.
+/// Wall faces of a plan, with a spatial index.
 #[derive(Debug)]
 pub struct Walls {
-    /// Wall faces, longest first, ties by start.
+    /// Wall faces, longest first, then by start.
     pub faces: Vec<Face>,
     outlines: Vec<Outline>,
     bounds: Rect,
@@ -81,11 +81,11 @@ impl Walls {
         Walls::of(boundaries.iter().map(|boundary| boundary.outline(plan)).collect())
     }
 
-    /// Rebuilds walls from their [`Walls::outlines`].
+    /// Rebuilds walls from outlines, see [`Walls::outlines`].
     ///
     /// # Errors
-    /// Outlines of fewer than three points, with openings at edges that they do not have, that reach farther than any
-    /// plan, or that are longer than all walls of any plan.
+    /// An outline has fewer than three points or an opening at an invalid edge; the outlines' extent or total length
+    /// exceeds that of any plan.
     pub fn from_outlines(outlines: Vec<Outline>) -> Result<Walls, WallsError> {
         check_outlines(&outlines)?;
         Ok(Walls::of(outlines))
@@ -104,17 +104,17 @@ impl Walls {
         }
     }
 
-    /// Closed loops around all floor, floor on the right, aprons not included. Enough to rebuild the walls.
+    /// Closed loops around all floor, floor on the right, without aprons.
     pub fn outlines(&self) -> &[Outline] {
         &self.outlines
     }
 
-    /// The rectangle around all floor, aprons not included.
+    /// Bounding box of all floor, without aprons, metres.
     pub fn bounds_m(&self) -> Rect {
         self.bounds
     }
 
-    /// The wall nearest to `p` that is at most `within_m` away, apron walls included.
+    /// Returns the wall nearest to `p` within `within_m` metres, apron walls included.
     pub fn nearest(&self, p: Vec2, within_m: f64) -> Option<Nearest> {
         self.index.nearest(p, within_m)
     }
@@ -124,7 +124,7 @@ impl Walls {
         self.index.is_inside(p)
     }
 
-    /// Whether no wall crosses the straight line between two points.
+    /// Whether the straight line between two points crosses no wall.
     pub fn sight(&self, a: Vec2, b: Vec2) -> bool {
         self.index.sight(a, b)
     }
@@ -134,10 +134,10 @@ impl Walls {
         self.index.segments_near(area, out);
     }
 
-    /// Exact share, 0 to 1, of each texel that is floor; aprons do not count.
+    /// Computes the exact share of floor in each texel, 0..=1; aprons do not count.
     ///
-    /// Texel (i, j) covers `[i, i+1)/t x [j, j+1)/t` metres of the plan frame; `out` is row-major and its row 0
-    /// is `j0`, the southernmost. The values do not depend on the rectangle asked for.
+    /// Texel (i, j) covers `[i, i+1)/t x [j, j+1)/t` metres of the plan frame; `out` is row-major and its row 0 is
+    /// `j0`, the southernmost. A texel's value does not depend on the requested rectangle.
     pub fn coverage(&self, texels_per_metre: f64, i0: i64, j0: i64, width: usize, height: usize, out: &mut [f32]) {
         self.floor_edges.coverage(texels_per_metre, i0, j0, width, height, out);
     }
@@ -148,7 +148,7 @@ mod tests {
     use super::*;
     use crate::math::vec2;
 
-    /// A plan drawn with characters: `.` floor, anything else wall; a pixel is a metre.
+    /// A plan drawn with characters: `.` is floor, others are wall; 1 m per pixel.
     fn plan(rows: &[&str]) -> FloorPlan {
         let floor = rows.iter().flat_map(|r| r.bytes()).map(|b| u8::from(b == b'.')).collect();
         FloorPlan::from_mask(rows[0].len() as u32, rows.len() as u32, 1.0, floor)

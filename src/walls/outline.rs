@@ -1,4 +1,4 @@
-//! Closed outlines of the floor, and the faces, wall segments and walkable loops made from them.
+//! Outlines of the floor, and the faces, wall segments and walkable loops made from them.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,29 +7,29 @@ use super::face::{APRON_M, Face, Segment};
 use crate::math::{Rect, Vec2, vec2};
 use crate::plan::Side;
 
-/// A closed loop around floor (or around a hole in it), floor on the right.
+/// A closed loop around floor, or around a hole in it, with the floor on its right.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Outline {
-    /// Corners, metres. Edge `k` runs from point `k` to the next; the last edge to point 0.
+    /// Corners, metres. Edge `k` goes from point `k` to the next; the last edge to point 0.
     #[serde(rename = "points")]
     pub points_m: Vec<Vec2>,
-    /// Edges that are no wall but an opening in an image side, with that side, by ascending edge.
+    /// Edges on an image side that are openings rather than walls, ascending, with the side.
     pub openings: Vec<(usize, Side)>,
 }
 
 impl Outline {
-    /// The two ends of edge `k`.
+    /// Both ends of edge `k`, metres.
     pub fn edge(&self, k: usize) -> [Vec2; 2] {
         [self.points_m[k], self.points_m[(k + 1) % self.points_m.len()]]
     }
 
-    /// The image side on which edge `k` is open, or `None` for a wall.
+    /// The image side of the opening at edge `k`; `None` for a wall.
     pub fn opening(&self, k: usize) -> Option<Side> {
         self.openings.binary_search_by_key(&k, |&(edge, _)| edge).ok().map(|i| self.openings[i].1)
     }
 }
 
-/// Checks outlines that were not traced here.
+/// Checks outlines of a file.
 pub(crate) fn check(outlines: &[Outline]) -> Result<(), WallsError> {
     for (index, outline) in outlines.iter().enumerate() {
         let points = outline.points_m.len();
@@ -43,7 +43,7 @@ pub(crate) fn check(outlines: &[Outline]) -> Result<(), WallsError> {
         }
     }
     let all = || outlines.iter().flat_map(|outline| outline.points_m.iter());
-    // Minimum and maximum pass over NaN.
+    // `min` and `max` ignore NaN.
     if let Some(nan) = all().map(|p| p.x + p.y).find(|sum| sum.is_nan()) {
         return Err(WallsError::TooFar { extent_m: nan });
     }
@@ -58,7 +58,7 @@ pub(crate) fn check(outlines: &[Outline]) -> Result<(), WallsError> {
     if length_m > LONGEST_M { Err(WallsError::TooLong { length_m }) } else { Ok(()) }
 }
 
-/// Wall faces: closed loops as they are, others cut at their openings. Longest first, ties by start.
+/// Returns wall faces: closed loops, and loops cut at their openings. Longest first, then by start.
 pub(super) fn faces(outlines: &[Outline]) -> Vec<Face> {
     let mut faces: Vec<Face> = outlines.iter().flat_map(faces_of).collect();
     let key = |f: &Face| (f.length_m(), f.points_m[0]);
@@ -95,7 +95,7 @@ fn faces_of(outline: &Outline) -> Vec<Face> {
     faces
 }
 
-/// All walls as segments: first the faces', then the unseen ones of the aprons.
+/// Returns all walls as segments: those of faces, then the invisible ones of aprons.
 pub(super) fn wall_segments(faces: &[Face], outlines: &[Outline]) -> Vec<Segment> {
     let mut segments = Vec::new();
     for (index, face) in faces.iter().enumerate() {
@@ -118,7 +118,7 @@ pub(super) fn wall_segments(faces: &[Face], outlines: &[Outline]) -> Vec<Segment
     segments
 }
 
-/// The outlines with an apron beyond each opening.
+/// Returns the outlines with an apron beyond each opening.
 pub(super) fn walked_loops(outlines: &[Outline]) -> Vec<Vec<Vec2>> {
     let with_aprons = |outline: &Outline| {
         let mut points = Vec::with_capacity(outline.points_m.len() + 2 * outline.openings.len());
@@ -135,7 +135,7 @@ pub(super) fn walked_loops(outlines: &[Outline]) -> Vec<Vec<Vec2>> {
     outlines.iter().map(with_aprons).collect()
 }
 
-/// The rectangle around all outlines; empty at the origin without any.
+/// Bounding box of all outlines; empty at the origin if there are none.
 pub(super) fn bounds(outlines: &[Outline]) -> Rect {
     let mut points = outlines.iter().flat_map(|o| o.points_m.iter().copied());
     let first = points.next().unwrap_or(Vec2::ZERO);

@@ -3,10 +3,10 @@
 use super::line::{Line, Moments};
 use super::runs::Runs;
 
-/// Pieces of at least this many pixel edges leave out the one at each end, where a corner blurs the edge.
+/// Pieces with at least this many pixel edges ignore one at each end, blurred by the corner.
 const TRIMMED_FROM: usize = 8;
 
-/// A straight piece of a boundary: the runs `from..to` and the line through them, in the direction of the boundary.
+/// A straight piece of a boundary: the runs `from..to` and their line, in the boundary's direction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
     pub(super) from: usize,
@@ -17,7 +17,7 @@ pub(super) struct Piece {
 }
 
 impl Piece {
-    /// The piece of the runs `from..to`.
+    /// Fits a piece to the runs `from..to`.
     pub(super) fn new(runs: &Runs, from: usize, to: usize) -> Piece {
         let (mut line, exact) = line_of(runs, from, to);
         let ([x0, y0], [x1, y1]) = (runs.corner(from), runs.corner(to));
@@ -33,17 +33,17 @@ impl Piece {
     }
 }
 
-/// How two neighbouring pieces meet.
+/// Joint of two neighbouring pieces.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Joint {
-    /// Where their lines cross.
+    /// Intersection of their lines.
     Crossing([f64; 2]),
-    /// Their lines do not cross nearby: the ends of both.
+    /// Ends of both lines, which do not intersect nearby.
     Step([f64; 2], [f64; 2]),
 }
 
 impl Joint {
-    /// The corner, or both ends.
+    /// The intersection, or both ends.
     pub(super) fn points(self) -> impl Iterator<Item = [f64; 2]> {
         let (first, second) = match self {
             Joint::Crossing(at) => (at, None),
@@ -53,7 +53,7 @@ impl Joint {
     }
 }
 
-/// The line of the runs `from..to`, and whether it runs exactly along the pixels' edges, where the samples are.
+/// Fits the line of the runs `from..to`; returns whether it is exactly along pixel edges.
 fn line_of(runs: &Runs, from: usize, to: usize) -> (Line, bool) {
     let (from, to) = without_caps(runs, from, to);
     let edges = runs.edges(from, to);
@@ -76,7 +76,7 @@ fn line_of(runs: &Runs, from: usize, to: usize) -> (Line, bool) {
     (line, false)
 }
 
-/// A piece less the pixel edges across its ends if what remains is one straight stretch: they belong to the corner.
+/// Trims the pixel edges across a piece's ends, if a straight stretch remains: they belong to the corner.
 fn without_caps(runs: &Runs, from: usize, to: usize) -> (usize, usize) {
     let across = runs.main_across(from, to);
     let is_main = |k: &usize| runs.direction(*k).across() == across;

@@ -1,17 +1,17 @@
-//! Cuts a boundary into the fewest straight pieces, and among all ways to do so takes the one that fits best
-//! (Selinger 2003, "Potrace: a polygon-based tracing algorithm", section 2.2).
+//! Splits a boundary into the fewest straight pieces, with the best fit. (Selinger 2003, "Potrace: a polygon-based
+//! tracing algorithm", section 2.2).
 
 use super::line::PieceMoments;
 use super::runs::Runs;
 use super::stabbing::reaches;
 
-/// A piece's ends may lie this far from its line, pixels: a little more than half a pixel's diagonal.
+/// Tolerated distance of a piece's end from its line, pixels: slightly more than half a pixel's diagonal.
 const END_TOLERANCE: f64 = 0.8;
-/// Cost of an end that lies farther away, per pixel.
+/// Cost per pixel of an end beyond the tolerance.
 const END_COST: f64 = 100.0;
 
-/// The runs at which pieces start, ascending. On an open boundary the first is 0; the last piece ends with the
-/// boundary. On a closed one the last piece goes round to the first.
+/// Returns the runs at which pieces start, ascending. On an open boundary, the first is 0 and the last piece ends with
+/// the boundary. On a closed one, the last piece wraps around to the first.
 pub(super) fn breaks(runs: &Runs) -> Vec<usize> {
     let reach = reaches(runs);
     let moments = PieceMoments::new(runs);
@@ -19,15 +19,15 @@ pub(super) fn breaks(runs: &Runs) -> Vec<usize> {
     if !runs.closed || found.len() < 3 {
         return found;
     }
-    // The first pass had to break at run 0. Again from a break that it was free to choose.
+    // The first pass had to break at run 0. Repeat from a break that it chose freely.
     let again = best_from(runs, &reach, &moments, found[found.len() / 2]);
     if again.len() <= found.len() { again } else { found }
 }
 
-/// The best breaks of one round that starts at run `start`.
+/// Returns the best breaks of one round from run `start`.
 fn best_from(runs: &Runs, reach: &[usize], moments: &PieceMoments, start: usize) -> Vec<usize> {
     let count = runs.len();
-    // Runs are counted from the start on; `far(k)` is the end of the longest straight piece from the k-th.
+    // Runs are counted from `start`; `far(k)` is the end of the longest straight piece from the k-th.
     let far = |k: usize| {
         let run = (start + k) % count;
         (k + reach[run] - run).min(count)
@@ -80,7 +80,7 @@ fn pieces_from_start(count: usize, far: impl Fn(usize) -> usize) -> Vec<usize> {
 
 /// Fewest pieces from each run to the end.
 fn pieces_to_end(count: usize, far: impl Fn(usize) -> usize) -> Vec<usize> {
-    // A part of a straight piece is straight, so the longest step is always among the best.
+    // Part of a straight piece is straight, so the longest step is always among the best.
     let mut pieces = vec![0; count + 1];
     for k in (0..count).rev() {
         pieces[k] = 1 + pieces[far(k)];
@@ -88,7 +88,7 @@ fn pieces_to_end(count: usize, far: impl Fn(usize) -> usize) -> Vec<usize> {
     pieces
 }
 
-/// Squared distances of the samples from their line, and of the piece's ends as far as they exceed a tolerance.
+/// Cost of a piece: squared distances of its samples, and the excess distance of its ends.
 fn piece_cost(runs: &Runs, moments: &PieceMoments, from: usize, count: usize) -> f64 {
     let fit = moments.fit(from, from + count);
     let excess = |k: usize| (fit.line.distance(runs.corner(k)).abs() - END_TOLERANCE).max(0.0);

@@ -1,6 +1,6 @@
-//! A boundary as short runs of pixel edges, with the place of the true edge at each.
+//! A boundary as short runs of pixel edges, with a sample of the true edge at each.
 
-/// Which way a pixel edge is followed, in the image (y down).
+/// Direction of a pixel edge in the image, y down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Direction {
     East,
@@ -10,7 +10,7 @@ pub(super) enum Direction {
 }
 
 impl Direction {
-    /// The step in pixels.
+    /// The step, pixels.
     pub(super) fn step(self) -> [i32; 2] {
         match self {
             Direction::East => [1, 0],
@@ -20,12 +20,12 @@ impl Direction {
         }
     }
 
-    /// The axis across it: 1 (y) for east and west, 0 for north and south.
+    /// The perpendicular axis: 1 (y) for east and west, 0 for north and south.
     pub(super) fn across(self) -> usize {
         usize::from(matches!(self, Direction::East | Direction::West))
     }
 
-    /// Of a pixel edge from one lattice point to the next.
+    /// Direction from one lattice point to the next.
     pub(super) fn of(from: [i32; 2], to: [i32; 2]) -> Direction {
         match [to[0] - from[0], to[1] - from[1]] {
             [1, 0] => Direction::East,
@@ -36,25 +36,24 @@ impl Direction {
     }
 }
 
-/// Where the true edge passes a pixel edge.
+/// Position of the true edge beside a pixel edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Sample {
     /// Pixels from the top left, y down.
     pub(super) at: [f64; 2],
-    /// How far a line may pass from it and still be the same edge, pixels.
+    /// Largest distance of a line that still fits the sample, pixels.
     pub(super) tolerance: f64,
-    /// How much it counts when a line is fitted, 0 or 1.
+    /// Weight in line fits, 0 or 1.
     pub(super) weight: f64,
 }
 
 /// Part of a boundary: closed, or from one image side to another.
 ///
-/// A run is a pixel edge, or many in a row in the middle of a long straight stretch: a straight piece may start and
-/// end anywhere but there.
+/// A run is one pixel edge, or many in the middle of a long straight stretch, where no piece may start or end.
 #[derive(Clone, Debug)]
 pub(super) struct Runs {
     pub(super) closed: bool,
-    /// Lattice points where runs start; on an open boundary also where the last ends.
+    /// Lattice points where runs start; on an open boundary also the end of the last.
     corners: Vec<[i32; 2]>,
     directions: Vec<Direction>,
     /// Samples of run `k` are `samples[starts[k]..starts[k + 1]]`.
@@ -63,13 +62,12 @@ pub(super) struct Runs {
 }
 
 impl Runs {
-    /// From the lattice points of a boundary (the first not repeated on a closed one) and its samples, one per
-    /// pixel edge.
+    /// Builds runs from lattice points (first not repeated if closed) and a sample per pixel edge.
     pub(super) fn new(closed: bool, points: &[[i32; 2]], samples: &[Sample]) -> Runs {
         let n = samples.len();
         let point = |k: usize| points[k % points.len()];
         let direction = |k: usize| Direction::of(point(k % n), point(k % n + 1));
-        // A closed boundary is entered at a turn.
+        // A closed boundary starts at a turn.
         let first = if closed { (0..n).find(|&k| direction(k) != direction((k + n - 1) % n)).unwrap_or(0) } else { 0 };
         let mut runs =
             Runs { closed, corners: Vec::new(), directions: Vec::new(), starts: Vec::new(), samples: Vec::new() };
@@ -97,7 +95,7 @@ impl Runs {
         self.directions.len()
     }
 
-    /// The lattice point at which run `k` starts; a closed boundary goes round.
+    /// Lattice point at which run `k` starts; wraps around on a closed boundary.
     pub(super) fn corner(&self, k: usize) -> [f64; 2] {
         self.corners[k % self.corners.len()].map(f64::from)
     }
@@ -106,13 +104,13 @@ impl Runs {
         self.directions[k % self.len()]
     }
 
-    /// Samples of run `k`, in order; a closed boundary goes round.
+    /// Samples of run `k`, in order; wraps around on a closed boundary.
     pub(super) fn samples(&self, k: usize) -> &[Sample] {
         let k = k % self.len();
         &self.samples[self.starts[k]..self.starts[k + 1]]
     }
 
-    /// The axis across which most pixel edges of the runs `from..to` stand: 1 (y) for a rather horizontal piece.
+    /// Axis perpendicular to most pixel edges of the runs `from..to`: 1 (y) for a rather horizontal piece.
     pub(super) fn main_across(&self, from: usize, to: usize) -> usize {
         let horizontal: usize =
             (from..to).filter(|&k| self.direction(k).across() == 1).map(|k| self.samples(k).len()).sum();
@@ -124,14 +122,14 @@ impl Runs {
         (from..to).flat_map(|k| self.samples(k))
     }
 
-    /// Pixel edges in the runs `from..to`.
+    /// Number of pixel edges in the runs `from..to`.
     pub(super) fn edges(&self, from: usize, to: usize) -> usize {
         let before = |k: usize| self.starts[k % self.len()] + k / self.len() * self.samples.len();
         before(to) - before(from)
     }
 }
 
-/// The lengths of the runs of a straight stretch: single pixel edges, and one long run amid a long stretch.
+/// Run lengths of a straight stretch: single pixel edges, and one long run amid a long stretch.
 fn parts(length: usize) -> impl Iterator<Item = usize> {
     const SINGLE_AT_EACH_END: usize = 8;
     let amid = if length > 2 * SINGLE_AT_EACH_END + 1 { length - 2 * SINGLE_AT_EACH_END } else { 1 };

@@ -1,15 +1,15 @@
-//! How far along a boundary one straight line can go.
+//! Computes how far along a boundary one straight line fits.
 //!
-//! A line v = a u + b passes within a tolerance of a sample (u, v) if the point (a, b) lies between two parallel
-//! lines. Adding samples cuts a convex polygon of lines smaller; it is empty when no line is left (O'Rourke
-//! 1981, doi 10.1145/358746.358758). For the boundary of a drawn straight edge and a tolerance of half a pixel
-//! these are exactly the lines that would have been drawn the same.
+//! A line v = a u + b is within tolerance of a sample (u, v) if the point (a, b) lies between two parallel lines. Each
+//! sample clips a convex polygon of lines; it is empty when no line is left (O'Rourke 1981, doi 10.1145/358746.358758).
+//! For the boundary of a drawn straight edge and a tolerance of half a pixel, these are exactly the lines with the same
+//! drawing.
 
 use super::runs::{Direction, Runs};
 
-/// Room for rounding in the comparison with a tolerance that drawn edges use up to the last bit.
+/// Rounding slack of the tolerance, which drawn edges exhaust to the last bit.
 const HAIR: f64 = 1e-6;
-/// Lines this much steeper than the diagonal are left to the other pair of axes.
+/// Largest slope; steeper lines are found with the axes swapped.
 const STEEPEST: f64 = 1.0 + 1e-3;
 const FAR: f64 = 1e6;
 
@@ -24,12 +24,12 @@ impl Lines {
         Lines { corners: vec![[-STEEPEST, -FAR], [STEEPEST, -FAR], [STEEPEST, FAR], [-STEEPEST, FAR]] }
     }
 
-    /// Keeps the lines that are between `low` and `high` at `u`; says whether any is left.
+    /// Keeps the lines between `low` and `high` at `u`; returns whether any is left.
     fn keep(&mut self, u: f64, low: f64, high: f64, spare: &mut Vec<[f64; 2]>) -> bool {
         self.cut(|[a, b]| high - a * u - b, spare) && self.cut(|[a, b]| a * u + b - low, spare)
     }
 
-    /// Cuts off the side where `inside` is negative (Sutherland and Hodgman 1974).
+    /// Clips the side where `inside` is negative (Sutherland and Hodgman 1974).
     fn cut(&mut self, inside: impl Fn([f64; 2]) -> f64, spare: &mut Vec<[f64; 2]>) -> bool {
         if self.corners.iter().all(|&c| inside(c) >= 0.0) {
             return !self.corners.is_empty();
@@ -52,7 +52,7 @@ impl Lines {
         !self.corners.is_empty()
     }
 
-    /// Whether two sets have a line in common: no side of one has the other beyond it.
+    /// Whether two sets share a line: neither lies entirely beyond a side of the other.
     fn meets(&self, other: &Lines) -> bool {
         !self.has_beyond(other) && !other.has_beyond(self)
     }
@@ -67,8 +67,8 @@ impl Lines {
     }
 }
 
-/// For each run, the run after the last of a straight piece that starts with it: `i + 1` at least, up to the
-/// number of runs on an open boundary, up to `i` plus that on a closed one.
+/// Returns, per run, the end of the longest straight piece that starts there: at least `i + 1`, at most the number of
+/// runs, or `i` plus that on a closed boundary.
 pub(super) fn reaches(runs: &Runs) -> Vec<usize> {
     let mut flat = reaches_along(runs, 0);
     let steep = reaches_along(runs, 1);
@@ -78,10 +78,10 @@ pub(super) fn reaches(runs: &Runs) -> Vec<usize> {
     flat
 }
 
-/// The same with lines that are nearer to axis `u` (0: x, 1: y), and never turn back along it.
+/// As [`reaches`], with lines closer to axis `u` (0: x, 1: y) that never turn back along it.
 ///
-/// The window of runs slides; taking its first run out again is done with a stack of the sets of its back part,
-/// so that every run is added twice at most.
+/// A sliding window of runs. A stack of the sets of its back part allows removing the first run, so every run is added
+/// at most twice.
 fn reaches_along(runs: &Runs, u: usize) -> Vec<usize> {
     let count = runs.len();
     let mut result = vec![0; count];
@@ -123,7 +123,7 @@ fn reaches_along(runs: &Runs, u: usize) -> Vec<usize> {
         }
         result[first] = end.max(first + 1);
         if end == first {
-            // Not even one run is straight: it stands alone, and the window starts anew behind it.
+            // Even one run is not straight: it forms a piece, and the window restarts after it.
             end = first + 1;
             back_end = end;
             front = Lines::all();
@@ -135,7 +135,7 @@ fn reaches_along(runs: &Runs, u: usize) -> Vec<usize> {
     result
 }
 
-/// Adds the samples of a run; says whether a line is left.
+/// Adds the samples of a run; returns whether a line is left.
 fn add(lines: &mut Lines, runs: &Runs, k: usize, u: usize, spare: &mut Vec<[f64; 2]>) -> bool {
     let v = 1 - u;
     runs.samples(k).iter().all(|s| {
@@ -144,7 +144,7 @@ fn add(lines: &mut Lines, runs: &Runs, k: usize, u: usize, spare: &mut Vec<[f64;
     })
 }
 
-/// 0 for a run that goes up along axis `u`, 1 for one that goes down.
+/// Returns 0 for a run that goes up along axis `u`, 1 for one that goes down.
 fn way_along(direction: Direction, u: usize) -> Option<usize> {
     let step = direction.step()[u];
     (step != 0).then_some(usize::from(step < 0))

@@ -1,22 +1,22 @@
-//! Where within a pixel the drawn edge lies, from how much of the pixel it darkens.
+//! Finds the drawn edge within a pixel from the pixel's darkness.
 
 use super::runs::{Direction, Sample};
 use crate::plan::FloorPlan;
 use crate::plan::cracks::CrackLoop;
 
-/// How far a line may pass from the middle of a pixel edge where the image is black and white: any straight edge
-/// is drawn the same as long as it stays within half a pixel. A hair less, or steps of two pixels pass for oblique.
+/// Tolerance of a line from the middle of a pixel edge in a black and white image: an edge within half a pixel is drawn
+/// the same. Slightly less, or steps of two pixels would count as oblique.
 const HARD_TOLERANCE: f64 = 0.4999;
-/// The same where anti-aliasing tells the place.
+/// Tolerance where anti-aliasing gives the position.
 const SOFT_TOLERANCE: f64 = 0.35;
-/// And where it tells nothing, since the edge runs nearly along the profile.
+/// Tolerance where the profile is nearly parallel to the edge and gives no position.
 const BLIND_TOLERANCE: f64 = 1.0;
-/// Offsets below this are rounding of grey values.
+/// Smaller offsets are rounding of grey values, pixels.
 const LEAST_OFFSET: f64 = 0.02;
-/// A wall up to this many pixels thick is measured as a whole.
+/// Thickest wall that is measured as a whole, pixels.
 const THIN: usize = 3;
 
-/// One sample for each pixel edge of a boundary.
+/// Returns one sample per pixel edge of a boundary.
 pub(super) fn samples(plan: &FloorPlan, cracks: &CrackLoop, tolerance_scale: f64) -> Vec<Sample> {
     let darkness = Darkness::new(plan);
     (0..cracks.len())
@@ -45,8 +45,8 @@ fn sample(darkness: &Darkness, cracks: &CrackLoop, k: usize) -> Sample {
     }
 }
 
-/// Whether the boundary around a pixel edge runs so steeply against it that the profile across it is nearly
-/// parallel to the drawn edge and tells nothing: a single step of an oblique line.
+/// Whether the profile across a pixel edge is nearly parallel to the drawn edge. It then gives no position: a single
+/// step of an oblique line.
 fn profile_runs_along(cracks: &CrackLoop, k: usize) -> bool {
     const AROUND: usize = 5;
     let n = cracks.len();
@@ -55,7 +55,7 @@ fn profile_runs_along(cracks: &CrackLoop, k: usize) -> bool {
     same * 3 < 2 * AROUND + 1
 }
 
-/// The floor pixel beside a pixel edge, and the step from it into the wall.
+/// Returns the floor pixel beside a pixel edge, and the step from it into the wall.
 fn floor_and_normal([x, y]: [i32; 2], to: [i32; 2]) -> ([i32; 2], [i32; 2]) {
     match Direction::of([x, y], to) {
         Direction::East => ([x, y], [0, -1]),
@@ -65,7 +65,7 @@ fn floor_and_normal([x, y]: [i32; 2], to: [i32; 2]) -> ([i32; 2], [i32; 2]) {
     }
 }
 
-/// How dark pixels are, 0 to 1; beyond the image as the nearest pixel in it.
+/// Darkness of pixels, 0..=1; clamped to the nearest pixel outside the image.
 struct Darkness<'a> {
     plan: &'a FloorPlan,
 }
@@ -86,7 +86,7 @@ impl<'a> Darkness<'a> {
     }
 }
 
-/// The pixels on a line across a pixel edge.
+/// Darkness profile across a pixel edge.
 struct Profile<'a> {
     darkness: &'a Darkness<'a>,
     floor: [i32; 2],
@@ -99,11 +99,11 @@ impl Profile<'_> {
         self.darkness.at([0, 1].map(|axis| self.floor[axis] + k * self.into_wall[axis]))
     }
 
-    /// How far into the wall the edge lies, pixels; negative into the floor.
+    /// Offset of the drawn edge into the wall, pixels; negative into the floor.
     fn offset(&self) -> f64 {
         let beyond = [0, 1].map(|axis| self.floor[axis] + self.into_wall[axis]);
         let (floor, wall) = (self.at(0), self.at(1));
-        // White beyond the edge is floor that nobody reaches: the boundary was cut, not drawn.
+        // White beyond the edge is unreachable floor: this boundary was cut, not drawn.
         if !self.darkness.is_within(beyond) || wall < 0.25 || (floor == 0.0 && wall == 1.0) {
             return 0.0;
         }
@@ -111,7 +111,7 @@ impl Profile<'_> {
         if thickness <= THIN { self.thin(thickness as i32) } else { self.thick() }
     }
 
-    /// A thick wall: what it lacks of black on its own side, less what it darkens on the floor's.
+    /// Offset for a thick wall: missing darkness on its side minus darkness spilt on the floor's.
     fn thick(&self) -> f64 {
         let (w1, w2, w3) = (self.at(1), self.at(2), self.at(3));
         let mut lacks = 1.0 - w1;
@@ -121,7 +121,7 @@ impl Profile<'_> {
         lacks - self.spill(0, -1)
     }
 
-    /// A thin wall as a whole: its darkness is its width, and its centre of darkness its middle.
+    /// Offset for a thin wall: its total darkness is the width, its centre of darkness the middle.
     fn thin(&self, thickness: i32) -> f64 {
         let mut sum = 0.0;
         let mut moment = 0.0;
@@ -140,7 +140,7 @@ impl Profile<'_> {
         moment / sum - sum * 0.5
     }
 
-    /// Darkness that an edge spills over the two pixels from `k` on, as long as it falls.
+    /// Darkness spilt over the two pixels from `k` on, as long as it falls.
     fn spill(&self, k: i32, step: i32) -> f64 {
         let (near, far) = (self.at(k), self.at(k + step));
         if far < near * 0.5 { near + far } else { near }

@@ -5,11 +5,11 @@ use crate::math::{SplitMix64, sin_cos};
 use crate::plan::{self, PlanOptions};
 use proptest::prelude::*;
 
-/// How far a traced face may lie from the drawn edge, pixels.
+/// Largest allowed distance of a traced face from the drawn edge, pixels.
 const TRUTH: f64 = 0.5;
 
-/// A drawing read as a plan of 0.05 m a pixel. A pixel is black by the share of it for which `is_wall` holds,
-/// judged at `fine` x `fine` places (1: not anti-aliased). Coordinates are pixels, y down.
+/// A drawing read as a plan of 0.05 m per pixel. A pixel's darkness is the share of `fine` x `fine` samples with
+/// `is_wall` (1: not anti-aliased). Coordinates are pixels, y down.
 fn draw(width: usize, height: usize, fine: usize, is_wall: impl Fn(f64, f64) -> bool) -> FloorPlan {
     let mut lightness = vec![0u8; width * height];
     for y in 0..height {
@@ -31,14 +31,14 @@ fn trace(plan: &FloorPlan) -> Walls {
     Walls::trace(plan, &WallsOptions::default())
 }
 
-/// The one shape in a drawing that is white around.
+/// The only shape in a drawing with a white border.
 fn only_closed(walls: &Walls) -> &Face {
     let closed: Vec<&Face> = walls.faces.iter().filter(|f| f.closed).collect();
     assert_eq!(closed.len(), 1);
     closed[0]
 }
 
-/// The largest distance, in pixels, of any place on a face from the truth; `distance` takes pixels, y down.
+/// Largest distance of a face from the truth, pixels. `distance` takes pixels, y down.
 fn worst(plan: &FloorPlan, face: &Face, distance: impl Fn(f64, f64) -> f64) -> f64 {
     let n = face.points_m.len();
     let mut worst: f64 = 0.0;

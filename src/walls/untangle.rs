@@ -1,8 +1,8 @@
-//! Keeps outlines from crossing each other and themselves.
+//! Removes crossings of outlines with each other and themselves.
 //!
-//! A fitted line passes up to half a pixel beside the pixels' edges, a corner somewhat more. Where walls of a pixel
-//! and gaps of a pixel lie close together, as in maps that robots make, two of them may come to cross. The pixels'
-//! edges never do: about each crossing the outlines are put back on them, and again until there is none.
+//! A fitted line deviates up to half a pixel from the pixel edges, a corner somewhat more. Where walls and gaps of one
+//! pixel lie close together, as in maps made by robots, two lines may cross. Pixel edges never cross: outlines are
+//! reset to them around each crossing, until there is none.
 
 use rayon::prelude::*;
 
@@ -11,14 +11,14 @@ use super::grid::Grid;
 use super::index::{closest_on, union};
 use crate::math::{Rect, Vec2};
 
-/// Side of a cell of the grid by which near edges are found, pixels.
+/// Cell size of the grid for finding close edges, pixels.
 const CELL_PX: f64 = 4.0;
-/// Edges nearer than this touch, pixels.
+/// Edges closer than this touch, pixels.
 const TOUCH_PX: f64 = 1e-6;
-/// Rounds of local mending, after which boundaries that still cross are put on the pixels' edges as a whole.
+/// Rounds of local repair, after which boundaries that still cross are reset as a whole.
 const LOCAL_ROUNDS: usize = 40;
 
-/// Puts boundaries back on the pixels' edges wherever they would cross or touch, fold back, or enclose nothing.
+/// Resets boundaries to the pixel edges where they cross, touch, fold back or enclose no area.
 pub(super) fn untangle(boundaries: &mut [Boundary]) {
     let mut outlines: Vec<Vec<Vertex>> = boundaries.par_iter().map(Boundary::vertices).collect();
     let mut is_new = vec![true; boundaries.len()];
@@ -45,14 +45,14 @@ pub(super) fn untangle(boundaries: &mut [Boundary]) {
     }
 }
 
-/// An edge of an outline that cannot stay, and where it meets what is in its way.
+/// An edge that must be reset, and the position of its conflict.
 struct Fault {
     outline: usize,
     edge: usize,
     at: Vec2,
 }
 
-/// Edges that cross or touch others, and edges that lead nowhere, in a fixed order.
+/// Returns edges that cross or touch others, and edges without length, in a fixed order.
 fn faults(boundaries: &[Boundary], outlines: &[Vec<Vertex>], is_new: &[bool]) -> Vec<Fault> {
     let mut found = Vec::new();
     for (outline, vertices) in outlines.iter().enumerate().filter(|&(outline, _)| is_new[outline]) {
@@ -101,7 +101,7 @@ impl<'a> Edges<'a> {
         Edges { outlines, is_new, edges: outlines.iter().enumerate().flat_map(of).collect() }
     }
 
-    /// Pairs of edges that cross, touch or fold back on each other, and where. Pairs of which neither is new are left out.
+    /// Returns pairs of edges that cross, touch or fold back, with the position. Skips pairs without a new edge.
     fn crossings(&self) -> Vec<([u32; 2], Vec2)> {
         let Some(first) = self.edges.first() else { return Vec::new() };
         let area = self
@@ -132,7 +132,7 @@ impl<'a> Edges<'a> {
         found
     }
 
-    /// Where two edges cross, touch or fold back on each other.
+    /// Returns where two edges cross, touch or fold back on each other.
     fn meeting(&self, i: u32, j: u32) -> Option<Vec2> {
         let (s, t) = (self.edges[i as usize], self.edges[j as usize]);
         if i == j || !(self.is_new[s.outline as usize] || self.is_new[t.outline as usize]) || !are_near(&s, &t) {
@@ -163,8 +163,7 @@ impl<'a> Edges<'a> {
         (!self.pass_by(&s, &t)).then_some(touched)
     }
 
-    /// Whether two edges have a corner in common at which their outlines only touch, as those of two pixels do that
-    /// meet at a corner.
+    /// Whether two edges share a corner where their outlines only touch, as diagonal pixels do.
     fn pass_by(&self, s: &Edge, t: &Edge) -> bool {
         let corner = |edge: &Edge, end: u32| {
             let vertices = &self.outlines[edge.outline as usize];
@@ -182,7 +181,7 @@ impl<'a> Edges<'a> {
     }
 }
 
-/// On which side of a line a point lies.
+/// The side of a line on which a point lies.
 #[derive(Clone, Copy, PartialEq)]
 enum Side {
     Left,
@@ -202,33 +201,33 @@ impl Side {
     }
 }
 
-/// Whether both ends of an edge lie on the same side, clear of the line.
+/// Whether both ends of an edge lie strictly on the same side.
 fn is_apart([a, b]: [Side; 2]) -> bool {
     a == b && a != Side::On
 }
 
-/// Whether the rectangles around two edges touch.
+/// Whether the bounding boxes of two edges touch.
 fn are_near(s: &Edge, t: &Edge) -> bool {
     Rect::around(s.a, s.b).grown(TOUCH_PX).overlaps(Rect::around(t.a, t.b).grown(TOUCH_PX))
 }
 
-/// Whether the way from `a` over `b` to `c` goes back along itself.
+/// Whether the path from `a` over `b` to `c` reverses along itself.
 fn folds_back(a: Vec2, b: Vec2, c: Vec2) -> bool {
     let (there, back) = (b - a, c - b);
     let shorter = there.length_squared().min(back.length_squared()).sqrt();
-    // Sideways distance of the shorter one's far end from the longer one.
+    // Distance of the shorter one's far end from the longer one.
     let apart = there.cross(back).abs() * shorter;
     there.dot(back) < 0.0 && apart <= TOUCH_PX * there.length() * back.length()
 }
 
-/// Whether `p` lies to one side of the way from `before` over `corner` to `after` or to the other; `None` on it.
+/// Side of the path `before`, `corner`, `after` on which `p` lies; `None` on the path.
 fn is_right_of([before, corner, after]: [Vec2; 3], p: Vec2) -> Option<bool> {
     let (back, ahead, to) = (before - corner, after - corner, p - corner);
     let along = |way: Vec2| way.cross(to).abs() <= TOUCH_PX * to.length() && way.dot(to) > 0.0;
     if along(back) || along(ahead) {
         return None;
     }
-    // Turning left from the way ahead to the way back.
+    // Turning left from the path ahead to the path back.
     let is_between = |from: Vec2, till: Vec2| from.cross(to) > 0.0 && to.cross(till) > 0.0;
     Some(if ahead.cross(back) >= 0.0 { is_between(ahead, back) } else { !is_between(back, ahead) })
 }

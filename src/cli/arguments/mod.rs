@@ -20,7 +20,7 @@ pub use values::{number_within, one_of, within};
 /// Texel density of a quick bake, texels per metre.
 const QUICK_TEXELS_PER_METRE: f64 = 25.0;
 
-/// A scenario and what of it is overridden.
+/// A scenario and its overrides.
 #[derive(Args)]
 pub struct ScenarioArguments {
     /// A scenario (TOML), or a plan alone: PNG, JPEG, BMP, PGM, TIFF, GIF, or the YAML of a ROS map; - reads standard input
@@ -47,18 +47,18 @@ pub struct ScenarioArguments {
     /// A coarse floor of 25 texels per metre: a picture in about a second
     #[arg(long, help_heading = "Scenario", conflicts_with = "texels_per_metre")]
     pub quick: bool,
-    /// The plan, where it came on standard input.
+    /// A copy of the plan, if it came on standard input.
     #[arg(skip)]
     spool: Spool,
 }
 
 impl ScenarioArguments {
-    /// The scenario with the overrides applied.
+    /// Reads the scenario and applies the overrides.
     pub fn scenario(&self) -> anyhow::Result<Scenario> {
         self.with(&self.overrides())
     }
 
-    /// The scenario with these overrides applied; without a file, that of a given motion on open ground.
+    /// Reads the scenario and applies overrides. Without a file it is open ground for a motion.
     pub fn with(&self, overrides: &Overrides) -> anyhow::Result<Scenario> {
         let scenario = match &self.path {
             Some(path) if standard_input::is_meant(path) => return self.read(overrides),
@@ -68,7 +68,7 @@ impl ScenarioArguments {
         Ok(scenario.map_err(trodden::Error::from)?)
     }
 
-    /// The scenario on standard input, with paths from the working directory; or that of the plan there.
+    /// Reads standard input: a scenario with paths from the working directory, or a plan.
     fn read(&self, overrides: &Overrides) -> anyhow::Result<Scenario> {
         let bytes = standard_input::read()?;
         let scenario = match std::str::from_utf8(&bytes) {
@@ -80,17 +80,16 @@ impl ScenarioArguments {
         Ok(scenario.map_err(trodden::Error::from)?)
     }
 
-    /// Whether standard input takes the place of the file.
+    /// Whether the scenario comes from standard input.
     pub fn is_standard_input(&self) -> bool {
         self.path.as_deref().is_some_and(standard_input::is_meant)
     }
 
-    /// An error that names the scenario's files as the user knows them.
+    /// Replaces the path of the copy of standard input in an error.
     pub fn explain(&self, error: trodden::Error) -> anyhow::Error {
         self.spool.explain(error)
     }
 
-    /// What of the scenario is overridden.
     pub fn overrides(&self) -> Overrides {
         Overrides {
             preset: self.preset,
@@ -103,12 +102,10 @@ impl ScenarioArguments {
     }
 }
 
-/// Takes the name of a program that textures are for.
 pub fn target() -> impl TypedValueParser<Value = Target> {
     one_of(Target::ALL, Target::name)
 }
 
-/// Takes the name of a preset.
 pub fn preset() -> impl TypedValueParser<Value = Preset> {
     one_of(Preset::ALL, Preset::name)
 }

@@ -1,4 +1,4 @@
-//! The files that a motion goes to.
+//! Output files of a motion.
 
 use std::path::{Path, PathBuf};
 
@@ -14,7 +14,7 @@ use super::super::{Common, print};
 use super::usage::WrongUsage;
 use super::{number_within, one_of};
 
-/// Where a motion and pictures of it are written.
+/// Output files of a motion: positions, animation, picture of the paths.
 #[derive(Args)]
 pub struct MotionFiles {
     /// Write the motion: .txt is Juelich text, .csv a CSV with named columns, .traj Vadere's steps, each also in .gz;
@@ -74,7 +74,7 @@ impl MotionFiles {
         Ok(())
     }
 
-    /// Makes sure that all files can be written, before the work that they are for.
+    /// Checks, before the work begins, that all files can be written.
     pub fn probe(&self) -> Result<(), trodden::Error> {
         let motion = self.output.as_ref().filter(|_| !self.prints_motion());
         for path in [motion, self.animation.as_ref(), self.paths.as_ref()].into_iter().flatten() {
@@ -83,7 +83,7 @@ impl MotionFiles {
         Ok(())
     }
 
-    /// Whether the motion can be written to the file.
+    /// Checks that the file's name gives a format for the motion.
     fn form(&self) -> Result<(), String> {
         let Some(path) = &self.output else { return Ok(()) };
         if self.prints_motion() {
@@ -101,7 +101,7 @@ impl MotionFiles {
         self.output.as_deref() == Some(Path::new(STANDARD_OUTPUT))
     }
 
-    /// The same for the library, at the motion's own frame rate.
+    /// Returns the outputs for the library, at the motion's own frame rate.
     pub fn outputs(&self) -> WalkOutputs {
         let default = AnimationOptions::default();
         let options = AnimationOptions {
@@ -122,7 +122,7 @@ impl MotionFiles {
         }
     }
 
-    /// Says how it went, as JSON or in words.
+    /// Prints a summary, as JSON or as text.
     pub fn tell(&self, report: &WalkReport, json: bool, common: &Common) -> anyhow::Result<()> {
         if json {
             return self.say(serde_json::to_string_pretty(report)?);
@@ -162,12 +162,11 @@ impl MotionFiles {
         self.say(format!("done in {total:.1} s{memory}"))
     }
 
-    /// Whether there is anything to write.
     pub fn any(&self) -> bool {
         self.output.is_some() || self.animation.is_some() || self.paths.is_some()
     }
 
-    /// Prints a line where the motion does not go.
+    /// Prints a line to standard output, or to standard error if the motion uses that.
     pub fn say(&self, text: String) -> anyhow::Result<()> {
         if self.prints_motion() {
             print::to_stderr(&format!("{text}\n"));
@@ -177,7 +176,7 @@ impl MotionFiles {
     }
 }
 
-/// The file name that means standard output.
+/// File name for standard output.
 pub const STANDARD_OUTPUT: &str = "-";
 
 /// Minutes and seconds.
@@ -196,12 +195,11 @@ fn animation_file(text: &str) -> Result<PathBuf, String> {
     AnimationFormat::of(&path).map(|_| path).map_err(|_| "known endings are .gif, .png or .apng".to_string())
 }
 
-/// Takes the name of a format.
 pub fn recording_format() -> impl TypedValueParser<Value = RecordingFormat> {
     one_of(RecordingFormat::ALL, RecordingFormat::name)
 }
 
-/// Takes frames per second.
+/// Parses a frame rate, frames per second.
 pub fn frame_rate(text: &str) -> Result<f64, String> {
     number_within(text, FRAME_RATES)
 }

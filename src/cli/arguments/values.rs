@@ -1,16 +1,16 @@
-//! Values of options: numbers within a range, names out of a list.
+//! Parsers of option values: numbers in a range, names from a list.
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use trodden::scenario::allowed_range;
 
-/// Reads a number within a range, both ends included.
+/// Parses a number in a range, both ends included.
 pub fn number_within(text: &str, [low, high]: [f64; 2]) -> Result<f64, String> {
-    // Written so that NaN is out of range.
+    // This form also rejects NaN.
     let allowed = |number: &f64| *number >= low && *number <= high;
     text.parse().ok().filter(allowed).ok_or_else(|| format!("allowed is {low} to {high}"))
 }
 
-/// Takes a number within the range of a scenario's key.
+/// Returns a parser of numbers in the range of a scenario's key.
 pub fn within(key: &'static str) -> impl Fn(&str) -> Result<f64, String> + Clone {
     move |text| {
         let number: f64 = text.parse().map_err(|_| "not a number".to_string())?;
@@ -18,7 +18,7 @@ pub fn within(key: &'static str) -> impl Fn(&str) -> Result<f64, String> + Clone
     }
 }
 
-/// Takes the name of one of these.
+/// Returns a parser of the names of these values.
 pub fn one_of<T, const N: usize>(all: [T; N], name: fn(T) -> &'static str) -> impl TypedValueParser<Value = T>
 where
     T: Copy + Send + Sync + 'static,

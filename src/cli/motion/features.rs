@@ -22,9 +22,9 @@ use super::mixing::{self, Mixing};
 use super::output::Outputs;
 
 const FEATURES: &str = "Features";
-/// Most rows of the table.
+/// Most rows of the printed table.
 const MOST_ROWS: usize = 20;
-/// The table ends where components make so much of the motion.
+/// Share of the motion at which the printed table ends.
 const NEARLY_ALL: f64 = 0.999;
 
 /// What a crowd moves like, as a few components; make new motion of them, or mix two crowds
@@ -84,7 +84,7 @@ pub struct Features {
     outputs: Outputs,
 }
 
-/// What was found, as JSON.
+/// Result of the analysis, as JSON.
 #[derive(Serialize)]
 struct Summary {
     method: Method,
@@ -94,26 +94,25 @@ struct Summary {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     mean_neighbours: Vec<f64>,
     kept: usize,
-    /// Root of the mean square distance by which the kept components miss somebody's place, without changes.
+    /// Root mean square error of positions rebuilt from the kept, unchanged components, metres.
     #[serde(skip_serializing_if = "Option::is_none")]
     error_m: Option<f64>,
     components: Vec<Row>,
 }
 
-/// A component in the table.
+/// One component in the table.
 #[derive(Serialize)]
 struct Row {
     #[serde(skip_serializing_if = "Option::is_none")]
     whose: Option<MixSource>,
     #[serde(flatten)]
     component: FeatureComponent,
-    /// The share of its crowd's motion that it makes together with those before it.
+    /// Share of its crowd's motion that this and all earlier components explain.
     cumulated: f64,
-    /// What is missed of its crowd's motion with those up to it, metres.
+    /// Root mean square error of positions rebuilt from the components up to this one, metres.
     error_m: f64,
 }
 
-/// Everything that is printed as JSON.
 #[derive(Serialize)]
 struct Everything<'a> {
     features: &'a Summary,
@@ -153,7 +152,7 @@ impl Features {
         Ok(ExitCode::SUCCESS)
     }
 
-    /// Whether a motion is asked for, rather than a table.
+    /// Whether the options request a motion, not only a table.
     fn changes(&self) -> bool {
         self.components.is_some() || !self.scale.is_empty() || !self.set.is_empty() || self.mixing.mix.is_some()
     }
@@ -171,7 +170,7 @@ impl Features {
         Ok(self.mix([&ensemble, &other], [span, other_span], &modulation, watch)?)
     }
 
-    /// Who is there throughout, and a warning that says how many are not.
+    /// Selects the people present during the whole span, and warns of the number of others.
     fn people(
         &self,
         recording: &Recording,
@@ -265,7 +264,6 @@ impl Features {
         Ok((summary, made))
     }
 
-    /// The table of components, line by line.
     fn table(&self, summary: &Summary) -> Vec<String> {
         let Summary { span, components, .. } = summary;
         let (name, neighbours) = match (summary.method, summary.mean_neighbours.as_slice()) {
@@ -327,7 +325,7 @@ fn set(text: &str) -> Result<Rule, String> {
     Rule::set(text).map_err(|error| said(&error))
 }
 
-/// What is wrong with a rule, and what to do about it.
+/// Formats the error of a rule, with its hint.
 fn said(error: &features::FeaturesError) -> String {
     match error.hint() {
         Some(hint) => format!("{error}\n{hint}"),

@@ -40,7 +40,7 @@ pub struct Formation {
     outputs: Outputs,
 }
 
-/// A formation without a scenario.
+/// Options of a formation without a scenario.
 #[derive(Args)]
 #[command(next_help_heading = "Without a scenario")]
 struct Parts {
@@ -125,7 +125,6 @@ impl Formation {
         Ok(show(&given, &ground, &people, &self.outputs.outputs(), watch)?)
     }
 
-    /// What the options ask for.
     fn request(&self, watch: &Watch) -> anyhow::Result<FormationRequest> {
         let parts = &self.parts;
         let file = parts.example.clone().unwrap_or_default();
@@ -148,7 +147,7 @@ impl Formation {
             avoid: AvoidRequest { distance_m: parts.distance, ..AvoidRequest::default() },
             ..FormationRequest::default()
         };
-        // Without a duration it is the example's, not that of the last formation.
+        // The default duration is the example's, not the time of the last formation.
         if request.duration_s.is_none() {
             let survey = super::input::open(&file, &recording, watch)?;
             let [start_s, end_s] = survey.survey().span_s;

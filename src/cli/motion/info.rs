@@ -59,7 +59,6 @@ impl Info {
     }
 }
 
-/// A survey in words.
 fn told(survey: &Survey) -> String {
     let Survey { fps, people, frames, places, bounds_m, .. } = survey;
     let mut text = format!("format     {}, in {}", survey.format.title(), survey.unit.plural());

@@ -1,4 +1,4 @@
-//! What all motion tools take: a recording, and how it is read.
+//! Input of all motion tools: a recording, its format and its place.
 
 use std::path::PathBuf;
 
@@ -10,14 +10,14 @@ use trodden::{Error, Progress};
 use super::super::arguments::{number_within, one_of, recording_format};
 use super::super::standard_input::{self, Spool};
 
-/// A recording and how it is read.
+/// A recording and the options of reading it.
 #[derive(Args)]
 pub struct RecordingInput {
     /// The motion: Juelich text, JuPedSim database, Vadere, crowd:it, Viswalk, Pathfinder, obsmat, or CSV with names; -
     /// reads standard input
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// The motion, where it came on standard input.
+    /// A copy of the motion, if it came on standard input.
     #[arg(skip)]
     spool: Spool,
     #[command(flatten)]
@@ -27,7 +27,7 @@ pub struct RecordingInput {
 }
 
 impl RecordingInput {
-    /// Looks through the file, and says what a user should know of it.
+    /// Opens the recording and prints its warnings.
     pub fn open(&self, progress: &dyn Progress) -> anyhow::Result<Recording> {
         let file = match standard_input::is_meant(&self.file) {
             true => &self.spool.fill()?,
@@ -38,14 +38,14 @@ impl RecordingInput {
     }
 }
 
-/// Looks through a recording, and says what a user should know of it.
+/// Opens a recording and reports its warnings.
 pub fn open(file: &std::path::Path, options: &RecordingOptions, progress: &dyn Progress) -> Result<Recording, Error> {
     let recording = Recording::open_watched(file, options, progress)?;
     recording.survey().warnings.iter().for_each(|warning| progress.warn(warning));
     Ok(recording)
 }
 
-/// How a recording is read; what is left out is found in the file.
+/// Format options of a recording; missing ones are detected in the file.
 #[derive(Args)]
 #[command(next_help_heading = "Recording")]
 pub struct Reading {
@@ -64,7 +64,6 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// What the library takes.
     pub fn options(&self) -> RecordingOptions {
         RecordingOptions {
             format: self.format,
@@ -76,7 +75,7 @@ impl Reading {
     }
 }
 
-/// Where a recording lies on the plan.
+/// Position of a recording on the plan.
 #[derive(Args)]
 #[command(next_help_heading = "Recording")]
 pub struct Alignment {
@@ -92,7 +91,7 @@ pub struct Alignment {
 }
 
 impl Alignment {
-    /// The same options with this alignment.
+    /// Overrides options by this alignment.
     pub fn over(&self, options: RecordingOptions) -> RecordingOptions {
         RecordingOptions {
             origin: self.origin.unwrap_or(options.origin),
@@ -103,7 +102,7 @@ impl Alignment {
     }
 }
 
-/// A point written as `x,y`.
+/// Parses a point `x,y`.
 pub fn point(text: &str) -> Result<[f64; 2], String> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
     match numbers.as_deref() {
@@ -112,22 +111,21 @@ pub fn point(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
-/// Degrees.
+/// Parses an angle, degrees from -360 to 360.
 pub fn angle(text: &str) -> Result<f64, String> {
     number_within(text, [-360.0, 360.0])
 }
 
-/// Frames per second.
+/// Parses a frame rate, frames per second.
 pub fn rate(text: &str) -> Result<f64, String> {
     number_within(text, [0.01, 1000.0])
 }
 
-/// A unit by its name.
 pub fn unit() -> impl TypedValueParser<Value = LengthUnit> {
     one_of(LengthUnit::ALL, LengthUnit::name)
 }
 
-/// A moment, seconds.
+/// Parses a time, seconds from 0 on.
 pub fn seconds(text: &str) -> Result<f64, String> {
     let allowed = |seconds: &f64| (0.0..=1e9).contains(seconds);
     text.parse().ok().filter(allowed).ok_or_else(|| "seconds from 0 on".to_string())

@@ -1,4 +1,4 @@
-//! The other recording of `trodden motion features --mix`, and how it is read.
+//! The second recording of `trodden motion features --mix`, and its options.
 
 use std::path::PathBuf;
 
@@ -9,13 +9,13 @@ use trodden::recordings::{LengthUnit, Recording, RecordingFormat, RecordingOptio
 use trodden::{Error, Progress, Stage};
 
 use super::super::arguments::{one_of, recording_format};
-use super::super::print::Refused;
+use super::super::print::{OPTION, Refused};
 use super::input;
 
-/// Options of the first recording that the other has too, as `--mix-NAME`.
+/// Options of the first recording that the second has too, as `--mix-NAME`.
 const OPTIONS: [&str; 6] = ["format", "unit", "fps", "columns", "from", "to"];
 
-/// Another crowd whose features are added.
+/// Options of a second crowd whose features are added.
 #[derive(Args)]
 #[command(next_help_heading = "Mixing")]
 pub struct Mixing {
@@ -49,7 +49,7 @@ pub struct Mixing {
 }
 
 impl Mixing {
-    /// Looks through the other recording, if there is one; what is said of it names the options that are about it.
+    /// Opens the second recording, if any. Error messages refer to the `--mix-*` options.
     pub fn open(&self, progress: &dyn Progress) -> anyhow::Result<Option<Recording>> {
         let Some(file) = &self.mix else { return Ok(None) };
         let options = RecordingOptions {
@@ -64,7 +64,7 @@ impl Mixing {
     }
 }
 
-/// A watcher who hears of the other recording's options.
+/// Passes warnings on, with the names of the `--mix-*` options.
 struct OfOther<'a>(&'a dyn Progress);
 
 impl Progress for OfOther<'_> {
@@ -81,7 +81,7 @@ impl Progress for OfOther<'_> {
     }
 }
 
-/// What went wrong with the other recording, with the names of the options that are about it.
+/// Replaces option names in an error of the second recording by `--mix-*`.
 pub fn of_other(error: Error) -> anyhow::Error {
     match error {
         Error::Interrupted(_) => error.into(),
@@ -93,7 +93,8 @@ pub fn of_other(error: Error) -> anyhow::Error {
 }
 
 fn renamed(message: &str) -> String {
-    let rename = |message: String, name: &&str| message.replace(&format!("--{name}"), &format!("--mix-{name}"));
+    let rename =
+        |message: String, name: &&str| message.replace(&format!("{OPTION}{name}"), &format!("{OPTION}mix_{name}"));
     OPTIONS.iter().fold(message.to_string(), rename)
 }
 

@@ -1,4 +1,4 @@
-//! `trodden motion`: recordings and motions made from examples, one file per tool.
+//! `trodden motion`: tools for recordings and for motions made from them, one file per tool.
 
 use std::process::ExitCode;
 

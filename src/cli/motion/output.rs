@@ -1,4 +1,4 @@
-//! What all motion tools write: the motion, an animation, a picture of the paths.
+//! Output of all motion tools: the motion, an animation, a picture of the paths.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ use trodden::{Error, Progress, Stopwatch};
 
 use super::super::arguments::{MotionFiles, within};
 
-/// The files that a motion is written to.
+/// Output options of a motion.
 #[derive(Args)]
 #[command(next_help_heading = "Output")]
 pub struct Outputs {
@@ -34,7 +34,7 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// Writes a motion to all files that were asked for. The files that it was made of, `inputs`, are never replaced.
+    /// Writes a motion to all requested files, but never over one of `inputs`.
     pub fn write(&self, given: &Given, inputs: &[PathBuf], progress: &dyn Progress) -> Result<WalkReport, Error> {
         let overrides = Overrides { metres_per_pixel: self.plan_metres_per_pixel, ..Overrides::default() };
         let scenario = self.plan.as_ref().map(|plan| Scenario::open(plan, &overrides)).transpose()?;
@@ -51,7 +51,6 @@ impl Outputs {
         show(given, &ground, &people, &self.outputs(), progress)
     }
 
-    /// What the library takes.
     pub fn outputs(&self) -> WalkOutputs {
         WalkOutputs { fps: self.output_fps, ..self.files.outputs() }
     }

@@ -49,7 +49,7 @@ pub struct Units {
     json: bool,
 }
 
-/// Where the viewer stands, and what is cut.
+/// Options of the viewer's spot and of cutting.
 #[derive(Args)]
 #[command(next_help_heading = "Cutting")]
 struct SpotArguments {
@@ -147,13 +147,12 @@ impl Units {
         Ok(ExitCode::SUCCESS)
     }
 
-    /// The files that are read.
     fn inputs(&self) -> Vec<PathBuf> {
         let listed = self.list.iter().flatten().flat_map(|folder| files_in(folder));
         listed.chain(self.file.clone()).collect()
     }
 
-    /// Lists a folder, or what is built in.
+    /// Reads the units of a folder, or the built-in ones, and lists them.
     fn listed(&self, folder: Option<&Path>) -> anyhow::Result<Vec<(String, Unit)>> {
         let library = UnitLibrary::open(folder).map_err(Error::from)?;
         let rows: Vec<Row> = library.units.iter().map(|unit| Row::of(unit, None)).collect();
@@ -212,7 +211,7 @@ impl Units {
     }
 }
 
-/// What is told of a unit.
+/// Properties of a unit in the list.
 #[derive(serde::Serialize)]
 struct Row {
     name: String,
@@ -243,7 +242,7 @@ impl Row {
     }
 }
 
-/// Units with names of files for them, without ending: no two are alike, on systems that know no capitals neither.
+/// Gives units unique file names without extension, unique also where case does not count.
 fn named(units: Vec<Unit>) -> Vec<(String, Unit)> {
     let mut taken = BTreeSet::new();
     let name = |unit: Unit| {
@@ -256,7 +255,7 @@ fn named(units: Vec<Unit>) -> Vec<(String, Unit)> {
     units.into_iter().map(name).collect()
 }
 
-/// A unit's name as that of a file, without ending.
+/// Converts a unit's name to a file name without extension.
 fn file_name(name: &str) -> String {
     let plain: String = name.chars().map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' }).collect();
     let plain = plain.trim_matches('_');

@@ -1,4 +1,4 @@
-//! Where the walls lie in textures: geometry only, no pixels.
+//! The wall atlas: where each stretch of wall face lies in the sheets. Geometry only, no pixels.
 
 use crate::stamps::WallGrid;
 use crate::walls::Corner;
@@ -15,28 +15,29 @@ pub use sheet::{Sheet, Strip};
 
 /// All walls of a plan, unrolled into strips of wall height and laid into sheets.
 ///
-/// Strips lie in rows, or, where rows of wall height leave much of a sheet free, also turned by a quarter in the rest
-/// above the rows. Every strip has room for padding around it. The strips of a face hold each of its columns exactly
-/// once. The same walls give the same atlas.
+/// Strips are as tall as the walls and lie in rows. Where rows leave more than a tenth of a sheet free, the space above
+/// them holds strips turned by a quarter. Padding surrounds every strip. Each column of a face lies in exactly one
+/// strip. The same walls give the same atlas.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Atlas {
     /// Texel density, texels per metre.
     pub texels_per_metre: f64,
     /// Height of the walls, metres.
     pub height_m: f64,
-    /// Texels around each strip that belong to nothing else.
+    /// Padding around each strip, texels.
     pub padding_px: u32,
-    /// All sheets. All but the last are of full size.
+    /// All sheets. All but the last have full size.
     pub sheets: Vec<Sheet>,
 }
 
 impl Atlas {
-    /// Lays all faces into sheets of at most `sheet_px` x `sheet_px` texels with `padding_px` texels around each strip.
+    /// Packs all faces into sheets of at most `sheet_px` x `sheet_px` texels.
     ///
-    /// Longest first, ties by start, each into the row that it fills best. A face stays in one piece if it fits in a
-    /// row; a longer one ends at its last corner near the row's end, or else at the row's end. A sheet that is filled
-    /// by less than 85 % that way is filled again with more faces broken at corners of theirs, and, if even that is
-    /// not enough, anywhere. The last sheet is as small as powers of two let it be.
+    /// Each strip has `padding_px` texels of padding on every side. Long faces go first, ties by their start, each into
+    /// the row that it fills best. A face that fits in a row stays in one piece. A longer face is cut at its last
+    /// corner near the row's end, or at the row's end. A sheet filled by less than 85 % is packed again with more faces
+    /// cut at corners, then with cuts anywhere. The last sheet is cut down to the smallest powers of two that hold its
+    /// strips.
     ///
     /// # Errors
     /// A sheet too small for one strip; a size out of range.
@@ -45,7 +46,7 @@ impl Atlas {
         Ok(Atlas { texels_per_metre: grid.texels_per_metre, height_m: grid.height_m, padding_px, sheets })
     }
 
-    /// Checks the size of the sheets against what a target takes.
+    /// Checks that the target accepts textures as large as the sheets.
     ///
     /// # Errors
     /// A sheet that is too large.
@@ -53,13 +54,15 @@ impl Atlas {
         target.check_size(self.sheets.iter().map(|sheet| sheet.width.max(sheet.height)).max().unwrap_or(1))
     }
 
-    /// All strips, each with the index of its sheet.
+    /// Iterates over all strips, each with the index of its sheet.
     pub fn strips(&self) -> impl Iterator<Item = (usize, &Strip)> {
         self.sheets.iter().enumerate().flat_map(|(sheet, s)| s.strips.iter().map(move |strip| (sheet, strip)))
     }
 
-    /// Texture coordinates, from the upper left of the sheet and downward, of a place on a strip: its arc length along
-    /// the face and its height above the floor, metres.
+    /// Returns the texture coordinates of a point on a strip.
+    ///
+    /// The sheet's upper left is (0, 0), v grows downward. `along_m` is the arc length along the face, `height_m` the
+    /// height above the floor, metres.
     pub fn uv(&self, sheet: usize, strip: &Strip, along_m: f64, height_m: f64) -> [f64; 2] {
         let (column, row) = (along_m * self.texels_per_metre - f64::from(strip.i0), height_m * self.texels_per_metre);
         let (x, y) = match strip.turned {

@@ -6,18 +6,18 @@ use crate::export::{ExportError, TileLayout};
 use crate::stamps::WallGrid;
 use crate::walls::Corner;
 
-/// How much of a full sheet strips with their padding have to take.
+/// Least share of a full sheet that strips and their padding have to cover.
 const LEAST_FILLED: f64 = 0.85;
-/// How much of a sheet rows alone have to be able to take; below, strips are turned too.
+/// Where rows cover less than this share of a sheet, the rest holds turned strips.
 const ROWS_ENOUGH: f64 = 0.90;
-/// How much of what rows and columns could take at best is asked for where [`LEAST_FILLED`] is out of reach.
+/// Least share of each bin to fill where [`LEAST_FILLED`] is out of reach.
 const LEAST_OF_BEST: f64 = 0.96;
-/// Shortest piece that a face is broken into, in multiples of the padding.
+/// Length of the shortest piece that a cut may make, in multiples of the padding.
 const LEAST_PIECE: u32 = 4;
-/// How many faces are looked at for one to break.
+/// Number of pieces, longest first, that are tried for a cut.
 const CANDIDATES: usize = 64;
 
-/// Where a face begins, ends or may be broken.
+/// An end of a face, or a place where it may be cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Cut {
     column: u32,
@@ -37,7 +37,7 @@ impl Piece {
         self.to.column - self.from.column
     }
 
-    /// The longest last; of equally long ones the first face last.
+    /// Sort key: by length; of equal lengths the first face comes last.
     fn key(&self) -> Key {
         (self.width(), Reverse((self.face, self.from.column)))
     }
@@ -49,18 +49,18 @@ impl Piece {
 
 type Key = (u32, Reverse<(usize, u32)>);
 
-/// Which faces may be broken.
+/// Which faces may be cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Breaking {
-    /// Those that are longer than a row.
+    /// Faces longer than a row.
     Needed,
-    /// Any, at a corner.
+    /// All faces, at a corner.
     AtCorners,
-    /// Any, anywhere.
+    /// All faces, anywhere.
     Anywhere,
 }
 
-/// A row, or a column of turned strips.
+/// A row of a sheet, or a column of turned strips.
 #[derive(Clone, Copy, Debug)]
 struct Bin {
     /// Lower-left texel, padding included.
@@ -70,15 +70,15 @@ struct Bin {
     turned: bool,
 }
 
-/// What a sheet offers.
+/// The bins of a full sheet, and how far to fill them.
 #[derive(Clone, Debug)]
 struct Shape {
     side: u32,
     padding: u32,
-    /// Rows of a strip without padding.
+    /// Height of a strip without padding, texels.
     strip: u32,
     bins: Vec<Bin>,
-    /// What share of each bin has to be taken.
+    /// Least share of each bin to fill.
     least: f64,
 }
 
@@ -99,12 +99,12 @@ impl Shape {
         Shape { side, padding, strip, bins, least: (LEAST_FILLED / best).min(LEAST_OF_BEST) }
     }
 
-    /// Texels along a bin that a piece of it takes.
+    /// Returns the length that a strip of this width takes in a bin, with its padding, texels.
     fn room(&self, width: u32) -> u32 {
         width + 2 * self.padding
     }
 
-    /// The longest piece that fits in a row.
+    /// Returns the length of the longest piece that fits in a row, texels.
     fn longest(&self) -> u32 {
         self.side - 2 * self.padding
     }
@@ -114,7 +114,7 @@ impl Shape {
     }
 }
 
-/// All faces in sheets of at most `side` texels.
+/// Packs all faces into sheets of at most `side` texels.
 pub(super) fn sheets(grid: &WallGrid, corners: &[Corner], side: u32, padding: u32) -> Result<Vec<Sheet>, ExportError> {
     let (min, max) = (TileLayout::MIN_TILE, TileLayout::MAX_TILE);
     if !(min..=max).contains(&side) {
@@ -137,7 +137,7 @@ pub(super) fn sheets(grid: &WallGrid, corners: &[Corner], side: u32, padding: u3
     Ok(sheets)
 }
 
-/// Cuts a sheet down to powers of two.
+/// Cuts a sheet's size down to powers of two.
 fn cut(sheet: &mut Sheet, padding: u32) {
     let end = |axis: usize| {
         let ends = sheet.strips.iter().map(|strip| [strip.x, strip.y][axis] + strip.size()[axis] + padding);
@@ -147,13 +147,13 @@ fn cut(sheet: &mut Sheet, padding: u32) {
     (sheet.width, sheet.height) = (sheet.width.min(size[0]), sheet.height.min(size[1]));
 }
 
-/// What is still to be laid.
+/// Packs sheet after sheet from a pool of pieces.
 struct Packer {
     texels_per_metre: f64,
     pool: BTreeMap<Key, Piece>,
-    /// By face, where it may be broken well.
+    /// By face, its corners, sorted by arc length.
     corners: Vec<Vec<Cut>>,
-    /// What was done to the pool for the sheet at hand.
+    /// Changes of the pool made for the current sheet, to undo them.
     log: Vec<Step>,
 }
 
@@ -185,7 +185,7 @@ impl Packer {
         Packer { texels_per_metre: grid.texels_per_metre, pool, corners: cuts, log: Vec::new() }
     }
 
-    /// Lays as much as a sheet takes, breaking no more faces than it has to.
+    /// Fills a sheet, with as few cuts as it allows.
     fn sheet(&mut self, shape: &Shape) -> Sheet {
         let mut sheet = Sheet::default();
         for breaking in [Breaking::Needed, Breaking::AtCorners, Breaking::Anywhere] {
@@ -228,7 +228,7 @@ impl Packer {
         }
     }
 
-    /// Takes the piece that fills `room` texels best; where none fits and `wanted` more have to be filled, a part of one.
+    /// Takes the longest piece that fits in `room` texels. If none fits and `wanted` is not 0, cuts off a part of one.
     fn next(&mut self, shape: &Shape, room: u32, wanted: u32, new_row: bool, breaking: Breaking) -> Option<Piece> {
         let longest = *self.pool.last_key_value()?.1;
         if new_row && longest.width() > room {
@@ -254,10 +254,10 @@ impl Packer {
         found.map(|(piece, cut)| self.take_head(&piece, cut))
     }
 
-    /// Where to break a piece that is longer than `room`.
+    /// Returns where to cut a piece that is longer than `room`.
     fn cut_of(&self, piece: &Piece, shape: &Shape, room: u32, wanted: u32) -> Cut {
         self.corner(piece, shape, room, wanted).unwrap_or_else(|| {
-            // The rest should not be a sliver.
+            // The rest should be at least as long as the shortest piece.
             let whole_rest = piece.width().saturating_sub(shape.least_piece());
             let width = if whole_rest >= wanted.max(1) { room.min(whole_rest) } else { room };
             let column = piece.from.column + width;
@@ -265,7 +265,7 @@ impl Packer {
         })
     }
 
-    /// The last corner of a piece at which it fills at least `wanted` of `room` texels.
+    /// Returns the last corner at which a piece fills at least `wanted` of `room` texels.
     fn corner(&self, piece: &Piece, shape: &Shape, room: u32, wanted: u32) -> Option<Cut> {
         let cuts = &self.corners[piece.face];
         let low = piece.from.column + wanted.max(shape.least_piece());
@@ -289,7 +289,7 @@ impl Packer {
     }
 }
 
-/// The share of a sheet that its bins cover.
+/// Returns the share of a sheet that its bins cover.
 fn best(shape: &Shape) -> f64 {
     let taken: f64 = shape.bins.iter().map(|bin| f64::from(bin.length) * f64::from(shape.room(shape.strip))).sum();
     taken / (f64::from(shape.side) * f64::from(shape.side))

@@ -18,7 +18,7 @@ fn fourth(x: f64) -> f64 {
     x * x * x * x
 }
 
-/// Walls as plans have them: longest first, with corners every few metres.
+/// Lengths and corners of faces as in real plans: longest first, a corner every few metres.
 fn plan(seed: u64, count: usize, longest_m: f64) -> (Vec<f64>, Vec<Corner>) {
     let mut random = SplitMix64::new(seed);
     let mut unit = || f64::from(random.unit());
@@ -36,7 +36,7 @@ fn plan(seed: u64, count: usize, longest_m: f64) -> (Vec<f64>, Vec<Corner>) {
     (lengths, corners)
 }
 
-/// Everything that has to hold of any atlas.
+/// Checks the invariants of every atlas.
 fn check(atlas: &Atlas, grid: &WallGrid, corners: &[Corner], side: u32) {
     let padding = atlas.padding_px;
     let mut by_face: Vec<Vec<&Strip>> = vec![Vec::new(); grid.faces.len()];

@@ -5,20 +5,20 @@ use crate::math::ln;
 /// Greatest width and height of a heat map, pixels.
 const LARGEST: usize = 2048;
 
-/// Where two images differ: the largest difference of the texels under each pixel, as a multiple of the tolerance.
+/// A heat map of two images: per pixel, the largest difference divided by the tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
-    /// Texels under a pixel, each way.
+    /// Texels per pixel, along each axis.
     factor: usize,
     texels: [usize; 2],
     width: usize,
     height: usize,
-    /// From above.
+    /// Row by row from above.
     values: Vec<f32>,
 }
 
 impl HeatMap {
-    /// A map of no difference over so many texels.
+    /// Creates a map of zeros for an image of this size in texels.
     pub(super) fn new(width: usize, height: usize) -> HeatMap {
         let factor = width.max(height).div_ceil(LARGEST).max(1);
         let texels = [width, height];
@@ -26,13 +26,13 @@ impl HeatMap {
         HeatMap { factor, texels, width, height, values: vec![0.0; width * height] }
     }
 
-    /// Notes a difference at a texel, counted from the upper left.
+    /// Records the difference at a texel, counted from the upper left.
     pub(super) fn note(&mut self, x: usize, y: usize, times_tolerance: f64) {
         let value = &mut self.values[y / self.factor * self.width + x / self.factor];
         *value = value.max(times_tolerance as f32);
     }
 
-    /// Lays another map over this one, its upper left at a texel and enlarged to a number of texels.
+    /// Merges another map, scaled to a rectangle: upper-left texel, width and height in texels.
     pub(super) fn lay(&mut self, other: &HeatMap, [left, top]: [usize; 2], [width, height]: [usize; 2]) {
         let within = |texel: usize, size: usize, most: usize| texel * most / size.max(1);
         for y in top / self.factor..(top + height).div_ceil(self.factor).min(self.height) {
@@ -47,13 +47,14 @@ impl HeatMap {
         }
     }
 
-    /// Size of what it shows, texels.
+    /// Size of the compared image, texels.
     pub(super) fn texels(&self) -> [usize; 2] {
         self.texels
     }
 
-    /// The picture: black where nothing differs, blue to the tolerance, then red to yellow at a hundred times as much,
-    /// white beyond.
+    /// Draws the map in false colours.
+    ///
+    /// Black: equal. Blue: up to the tolerance. Red to yellow: up to a hundred times the tolerance. White: beyond.
     pub fn picture(&self) -> RgbImage {
         RgbImage::from_fn(self.width as u32, self.height as u32, |x, y| {
             Rgb(colour(self.values[y as usize * self.width + x as usize]))

@@ -1,4 +1,4 @@
-//! Compares two bakes, or two images: images texel by texel, other files byte by byte.
+//! Compares two bakes or two images: images texel by texel, other files byte by byte.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -15,50 +15,50 @@ mod rows;
 pub use heat::HeatMap;
 use rows::ImageRows;
 
-/// When two images count as different: three thresholds, after OpenImageIO's `idiff`.
+/// Thresholds above which two images count as different, after OpenImageIO's `idiff`.
 ///
-/// Values of PNG images are 0 to 1, those of EXR as they are in the file (sums: whole numbers).
+/// PNG values are scaled to 0 to 1; EXR values are used as stored (sums: integers).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct DiffOptions {
-    /// The tolerance: a texel differs if one of its channels differs by more than this.
+    /// The tolerance: a texel differs if one of its channels differs by more.
     pub fail: f64,
-    /// Which share of the texels may differ, 0 to 1.
+    /// Largest allowed share of differing texels, 0 to 1.
     pub fail_share: f64,
-    /// No texel may differ by more than this.
+    /// Largest allowed difference of any texel.
     pub hard_fail: f64,
 }
 
 impl Default for DiffOptions {
-    /// The same to the bit.
+    /// Requires bitwise equality.
     fn default() -> DiffOptions {
         DiffOptions { fail: 0.0, fail_share: 0.0, hard_fail: f64::INFINITY }
     }
 }
 
-/// How two images differ.
+/// Statistics of the difference of two images.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ImageDiff {
-    /// The file, relative to the bake; the second image's path if images were compared.
+    /// Path relative to the bake, or the second image's path if two images were compared.
     pub file: String,
     /// Size, texels.
     pub size_px: [usize; 2],
     /// Largest difference of a channel.
     pub largest: f64,
-    /// The channel of the largest difference.
+    /// Name of the channel with the largest difference.
     pub largest_channel: String,
-    /// The texel of the largest difference, from the upper left.
+    /// Texel with the largest difference, from the upper left.
     pub largest_px: [usize; 2],
     /// Mean difference over all texels and channels.
     pub mean: f64,
     /// Share of the texels that differ by more than the tolerance.
     pub share_over: f64,
-    /// Whether one of the thresholds is passed.
+    /// Whether the difference exceeds a threshold.
     pub failed: bool,
 }
 
 impl ImageDiff {
-    /// No difference.
+    /// Returns the statistics of two equal images.
     fn none(file: &str, size_px: [usize; 2]) -> ImageDiff {
         ImageDiff {
             file: file.to_string(),
@@ -73,32 +73,32 @@ impl ImageDiff {
     }
 }
 
-/// How two bakes, or two images, differ.
+/// The result of comparing two bakes or two images.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
-    /// Images, file by file.
+    /// Statistics of each image that both have.
     pub images: Vec<ImageDiff>,
-    /// Other files of both bakes that differ by any byte, and images of different size or channels.
+    /// Other files of both bakes with different bytes, and images of different size or channels.
     pub different: Vec<String>,
-    /// Files that a manifest lists and that neither bake has.
+    /// Files that a manifest lists and both bakes lack.
     pub missing: Vec<String>,
     /// Files that only the first bake has.
     pub only_in_a: Vec<String>,
     /// Files that only the second bake has.
     pub only_in_b: Vec<String>,
-    /// Where they differ; for bakes over the whole floor, all files taken together.
+    /// Heat map of the images; for bakes, of the whole floor with all its files.
     #[serde(skip)]
     pub heat_map: HeatMap,
 }
 
 impl Comparison {
-    /// Whether they differ by more than the thresholds allow.
+    /// Whether the differences exceed the thresholds, or files differ or are missing.
     pub fn failed(&self) -> bool {
         let lists = [&self.different, &self.missing, &self.only_in_a, &self.only_in_b];
         lists.iter().any(|list| !list.is_empty()) || self.images.iter().any(|image| image.failed)
     }
 
-    /// Largest difference of a channel in any file.
+    /// Returns the largest difference of a channel in any file.
     pub fn largest(&self) -> f64 {
         self.images.iter().map(|image| image.largest).fold(0.0, f64::max)
     }
@@ -106,10 +106,10 @@ impl Comparison {
 
 /// Compares two bakes (folders) or two images (PNG of 8 or 16 bit, EXR).
 ///
-/// Of bakes, all files are compared that a manifest lists or that are there; only `report.json` may differ.
+/// Of bakes, it compares all existing and all listed files except `report.json`.
 ///
 /// # Errors
-/// A file that cannot be read; two images of different size or channels; a folder that is no bake.
+/// Unreadable files, images of different size or channels, folders without a bake.
 pub fn diff(a: &Path, b: &Path, options: &DiffOptions) -> Result<Comparison, ExportError> {
     match (a.is_dir(), b.is_dir()) {
         (false, false) => {
@@ -167,14 +167,13 @@ fn diff_bakes(a: &Path, b: &Path, options: &DiffOptions) -> Result<Comparison, E
     })
 }
 
-/// What comparing a file of two bakes gave.
 enum Found {
     Image(Box<ImageDiff>, Option<HeatMap>),
     Same,
     Different,
 }
 
-/// Compares a file that both bakes have.
+/// Compares a file that exists in both bakes.
 fn diff_files(a: &Path, b: &Path, file: &str, options: &DiffOptions) -> Result<Found, ExportError> {
     let (path_a, path_b) = (a.join(file), b.join(file));
     let same = have_same_bytes(&path_a, &path_b)?;
@@ -192,14 +191,14 @@ fn diff_files(a: &Path, b: &Path, file: &str, options: &DiffOptions) -> Result<F
     }
 }
 
-/// All files below a folder, by their paths in it, with `/` between the parts.
+/// Lists all files below a folder, as relative paths with `/` between the parts.
 fn files_in(folder: &Path) -> Result<BTreeSet<String>, ExportError> {
     let files = entries(folder)?.into_iter().filter(|entry| !entry.kind.is_dir());
     let parts = |path: &Path| Vec::from_iter(path.iter().map(|part| part.to_string_lossy())).join("/");
     Ok(files.map(|entry| parts(&entry.relative)).collect())
 }
 
-/// The heat of all files, each laid over the piece of floor that it shows.
+/// Merges the heat maps of all floor images into one of the whole floor.
 fn floor_heat(manifest: &Manifest, diffs: &[(ImageDiff, Option<HeatMap>)]) -> HeatMap {
     let floor = &manifest.floor;
     let (columns, rows) =
@@ -207,7 +206,7 @@ fn floor_heat(manifest: &Manifest, diffs: &[(ImageDiff, Option<HeatMap>)]) -> He
     let [tile_width, tile_height] = floor.tile_px.map(|px| px as usize);
     let size = [columns as usize * tile_width, rows as usize * tile_height];
     let mut heat = HeatMap::new(size[0].max(1), size[1].max(1));
-    // Pictures show the same floor again, from elsewhere.
+    // Previews show the same floor from other views.
     let of_floor = diffs.iter().filter(|(image, _)| !image.file.starts_with("preview/"));
     for (image, part) in of_floor.filter_map(|(image, part)| Some((image, part.as_ref()?))) {
         let names = |tile: &&super::TileEntry| {
@@ -219,7 +218,7 @@ fn floor_heat(manifest: &Manifest, diffs: &[(ImageDiff, Option<HeatMap>)]) -> He
             let top = (rows - 1 - tile.v) as usize * tile_height;
             heat.lay(part, [tile.u as usize * tile_width, top], [tile_width, tile_height]);
         } else if *image.file == *floor.sums.presence.file {
-            // Presence covers the floor alone, not what fills up the tiles.
+            // The presence grid covers the floor, not the tiles' padding up to full size.
             let grid = [floor.width_px as usize, floor.height_px as usize];
             heat.lay(part, [0, size[1].saturating_sub(grid[1])], grid);
         } else {
@@ -279,7 +278,7 @@ fn diff_images(a: &Path, b: &Path, options: &DiffOptions) -> Result<(ImageDiff, 
     Ok((diff, heat))
 }
 
-/// Infinite where only one of the two is a number.
+/// Returns |a - b|, infinite if exactly one of them is NaN.
 fn difference(a: f64, b: f64) -> f64 {
     match (a.is_nan(), b.is_nan()) {
         (true, true) => 0.0,

@@ -1,4 +1,4 @@
-//! Reads PNG and EXR row by row, so that images larger than memory can be compared.
+//! Reads PNG and EXR row by row, so that `diff` compares images larger than memory.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -11,17 +11,17 @@ use exr::prelude::{SampleType, f16};
 use crate::export::ExportError;
 use crate::files::open_input;
 
-/// Greatest width and height of an image that is compared, pixels.
+/// Greatest width and height of an image to compare, pixels.
 const LARGEST_SIDE_PX: usize = 1 << 18;
-/// Most channels of an image that is compared.
+/// Greatest number of channels of an image to compare.
 const MOST_CHANNELS: usize = 1024;
 
-/// An image whose rows come from above.
+/// An image that is read row by row from above.
 pub(super) struct ImageRows {
     pub(super) path: PathBuf,
     pub(super) width: usize,
     pub(super) height: usize,
-    /// Names of the channels, in the order of the values.
+    /// Channel names, in the order of the values.
     pub(super) channels: Vec<String>,
     source: Source,
 }
@@ -32,7 +32,7 @@ enum Source {
 }
 
 impl ImageRows {
-    /// Opens an image; its name's ending says what it is.
+    /// Opens an image, in the format of its file extension.
     pub(super) fn open(path: &Path) -> Result<ImageRows, ExportError> {
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
         match extension.as_str() {
@@ -42,7 +42,7 @@ impl ImageRows {
         }
     }
 
-    /// Checks what an image's header claims, before memory is taken for it.
+    /// Checks the size in an image's header before allocating memory for it.
     fn check_size(path: &Path, width: usize, height: usize, channels: usize) -> Result<(), ExportError> {
         if width <= LARGEST_SIDE_PX && height <= LARGEST_SIDE_PX && channels <= MOST_CHANNELS {
             return Ok(());
@@ -54,7 +54,7 @@ impl ImageRows {
         Err(ExportError::damaged(path, problem))
     }
 
-    /// Fills `row` with the next row's values, all channels of a pixel together: 0 to 1 in PNG, as they are in EXR.
+    /// Reads the next row into `row`, channels interleaved: 0 to 1 for PNG, as stored for EXR.
     pub(super) fn next_row(&mut self, row: &mut Vec<f64>) -> Result<(), ExportError> {
         row.clear();
         match &mut self.source {
@@ -70,7 +70,7 @@ fn buffered(path: &Path) -> Result<BufReader<File>, ExportError> {
 
 fn open_png(path: &Path) -> Result<ImageRows, ExportError> {
     let mut decoder = png::Decoder::new(buffered(path)?);
-    // Grey and palettes of fewer than 8 bits become 8 bits.
+    // Expands palettes, and grey of fewer than 8 bits, to 8 bits.
     decoder.set_transformations(png::Transformations::EXPAND);
     let reader = decoder.read_info().map_err(|e| ExportError::damaged(path, e))?;
     if reader.info().interlaced {
@@ -105,13 +105,13 @@ fn png_row(reader: &mut png::Reader<BufReader<File>>, path: &Path, row: &mut Vec
     Ok(())
 }
 
-/// Puts the blocks of an EXR together to rows.
+/// Assembles the blocks of an EXR into rows.
 struct ExrRows {
     chunks: AllChunksReader<BufReader<File>>,
     samples: Vec<SampleType>,
     width: usize,
     height: usize,
-    /// Values of the rows of the current blocks, pixel by pixel.
+    /// Rows of the current blocks, channels interleaved.
     band: Vec<f64>,
     band_top: usize,
     band_height: usize,
@@ -154,7 +154,7 @@ impl ExrRows {
         Ok(())
     }
 
-    /// Reads all blocks that lie side by side below the last ones.
+    /// Reads the next row of blocks.
     fn read_band(&mut self, path: &Path) -> Result<(), ExportError> {
         let mut right = 0;
         self.band_top += self.band_height;

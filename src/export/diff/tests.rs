@@ -11,7 +11,7 @@ impl Folder {
         Folder(tempfile::tempdir().unwrap())
     }
 
-    /// An 8-bit image of 10 x 5 pixels of this value, one of them (7, 2) another one in blue.
+    /// Saves an 8-bit image of 10 x 5 pixels of `value`, with blue `one` at pixel (7, 2).
     fn image(&self, name: &str, value: u8, one: u8) -> PathBuf {
         let mut image = ImageBuffer::from_pixel(10, 5, Rgb([value; 3]));
         image.get_pixel_mut(7, 2).0[2] = one;

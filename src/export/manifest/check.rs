@@ -1,7 +1,7 @@
-//! Checks a manifest that was read: each number, count and length against its range and against the others.
+//! Checks a manifest: each number, count and length against its range and against the others.
 //!
-//! A manifest may come from anywhere. What passes here has sizes that memory holds, indices that lie within their lists,
-//! and places on or near the plan. Texts and the values of the look and the scenario are checked where they are used.
+//! A manifest may come from any source. One that passes has sizes that fit in memory, indices within their lists, and
+//! points on or near the plan. Texts, the look and the scenario are checked where they are used.
 
 use std::fmt::Display;
 
@@ -13,29 +13,29 @@ use crate::stamps::TexelGrid;
 
 /// Width and height of a crop, metres.
 pub const CROP_M: [f64; 2] = [6.0, 4.0];
-/// Walls, doors and pictures may reach beyond the plan by so many of its pixels, and by so many metres.
+/// How far walls, doors and pictures may reach beyond the plan: plan pixels plus metres.
 const BEYOND_PX: f64 = 16.0;
 const BEYOND_M: f64 = 10.0;
-/// Range of padding, texels.
+/// Allowed padding, texels.
 const PADDING_PX: [f64; 2] = [0.0, 256.0];
-/// Range of a texel density, texels per metre.
+/// Allowed texel density, texels per metre.
 const DENSITIES: [f64; 2] = [1.0, 1000.0];
-/// Range of the height of walls and of door heads, metres.
+/// Allowed height of walls and of door heads, metres.
 const HEIGHTS_M: [f64; 2] = [1e-3, 100.0];
-/// Largest number in the parts that are only copied: gates, cameras, texture coordinates.
+/// Largest number in parts that are only copied: gates, cameras, texture coordinates.
 const LARGEST_COPIED: f64 = 1e12;
-/// Places that follow from others may differ by this, metres.
+/// Tolerance between a point and the value derived from other fields, metres.
 const SAME_M: f64 = 1e-6;
 
-/// A value of a manifest that is out of its range or does not fit the other values.
+/// A value of a manifest that is out of range or contradicts another value.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("`{field}` is {value}, allowed is {allowed}")]
 pub struct ManifestError {
-    /// Path of the field, as `floor.tiles[3].u`.
+    /// Path of the field, such as `floor.tiles[3].u`.
     pub field: String,
-    /// Its value.
+    /// The value.
     pub value: String,
-    /// What it may be.
+    /// The allowed values.
     pub allowed: String,
 }
 
@@ -45,7 +45,7 @@ impl Manifest {
     /// Checks each number, count and length against its range and against the others.
     ///
     /// # Errors
-    /// The first value that is out of its range or does not fit.
+    /// The first value that is out of range or contradicts another value.
     pub fn check(&self) -> Checked {
         let around = Around::of(&self.plan)?;
         let layout = self.floor.check(&self.plan)?;
@@ -119,7 +119,7 @@ impl Manifest {
 }
 
 impl FloorEntry {
-    /// Checks all but the tiles; gives how the floor is cut.
+    /// Checks all but the tiles, and returns the layout of the tiles.
     fn check(&self, plan: &PlanEntry) -> Result<TileLayout, ManifestError> {
         within("floor.texels_per_metre", self.texels_per_metre, DENSITIES)?;
         within("floor.padding_px", f64::from(self.padding_px), PADDING_PX)?;
@@ -188,7 +188,7 @@ impl WallsEntry {
             within(&format!("walls.sheets[{k}].height_px"), f64::from(sheet.height_px), [1.0, most])?;
             for (n, strip) in sheet.strips.iter().enumerate() {
                 let field = format!("walls.sheets[{k}].strips[{n}]");
-                // That the columns are those of the face is checked where the walls are known.
+                // `read_wall_sums` checks the columns against the face, once the walls are known.
                 let texel_m = 1.0 / self.texels_per_metre;
                 let [_, _, across, up] = strip.rect_px.map(f64::from);
                 let from_m = f64::from(strip.first_column) * texel_m;
@@ -203,7 +203,7 @@ impl WallsEntry {
     }
 }
 
-/// Pictures at the floor's own density are as large as what they show.
+/// Checks a picture's rectangle: near the plan, and a crop's no larger than [`CROP_M`].
 fn check_picture(picture: &PreviewEntry, around: &Around, field: &str) -> Checked {
     around.place(|| format!("{field}.min_m"), picture.min_m)?;
     around.place(|| format!("{field}.max_m"), picture.max_m)?;
@@ -218,7 +218,7 @@ fn check_picture(picture: &PreviewEntry, around: &Around, field: &str) -> Checke
     })
 }
 
-/// The plan's rectangle, and what may reach beyond it.
+/// The plan's rectangle, enlarged by the allowed margin.
 struct Around {
     low_m: f64,
     high_m: Vec2,
@@ -254,7 +254,7 @@ fn within(field: &str, number: f64, [low, high]: [f64; 2]) -> Checked {
     ensure(inside, || (field.to_string(), number.to_string(), format!("{low} to {high}")))
 }
 
-/// A number that is only copied: small enough to stay finite.
+/// Checks a number that is only copied, so that it stays finite.
 fn copied(field: &str, number: f64) -> Checked {
     within(field, number, [-LARGEST_COPIED, LARGEST_COPIED])
 }

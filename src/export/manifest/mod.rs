@@ -26,30 +26,30 @@ pub use walls::{SheetEntry, StripEntry, WallsEntry};
 const FLOOR_PICTURE: &str = "preview/floor.png";
 /// Largest manifest that is read, bytes.
 const LARGEST_BYTES: u64 = 512 << 20;
-/// What `generator` says in every manifest of ours: by this a bake is recognised.
+/// Value of `generator` in every manifest of this program, by which a bake is recognised.
 pub const GENERATOR: &str = "trodden";
-/// The version of the manifest's structure. It grows when an older program could not read the new structure.
+/// Version of the manifest's structure. It grows when an older program cannot read the new structure.
 pub const FORMAT: u32 = 1;
 
-/// What a bake consists of and where everything lies in the plan: `manifest.json`.
+/// Description of a bake: its files, and their places in the plan. Stored as `manifest.json`.
 ///
 /// Metres of the plan frame: origin at the plan image's lower-left corner, x right, y up. The same input gives the
-/// same manifest to the byte: it knows neither times nor threads nor absolute paths.
+/// same bytes: the manifest holds no times, thread counts or absolute paths.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
     /// Always [`GENERATOR`].
     pub generator: String,
-    /// Always [`FORMAT`] in what this version writes.
+    /// [`FORMAT`] of the version that wrote it.
     pub format: u32,
     /// Version of the program.
     pub version: String,
-    /// Seed of all chance.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// How many people walked: simulated, or of the motion that was given.
+    /// Number of people, simulated or recorded.
     pub people: u32,
-    /// The plan that was baked.
+    /// Size and pose of the plan.
     pub plan: PlanEntry,
-    /// What the files were made for, and how the plan lies in its world.
+    /// The target program, and the plan's pose in its world.
     #[serde(default)]
     pub target: TargetEntry,
     /// The floor's textures.
@@ -57,29 +57,29 @@ pub struct Manifest {
     /// The walls' textures.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub walls: Option<WallsEntry>,
-    /// The pictures of `preview/`.
+    /// Overview and crops in `preview/`.
     pub preview: Vec<PreviewEntry>,
-    /// The stills of `preview/`, and where they were taken from.
+    /// The stills in `preview/` and their cameras.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stills: Vec<StillEntry>,
-    /// Where floor meets the plan's sides.
+    /// Where the floor meets the plan's sides.
     pub openings: Vec<Opening>,
-    /// Doors: those that were found in the plan and those that the scenario tells of.
+    /// Doors found in the plan and doors of the scenario. `None` in bakes of earlier versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub doors: Option<Vec<Doorway>>,
-    /// The ways that people took.
+    /// The routes of the people.
     pub routes: Vec<Route>,
-    /// The look, with all its values.
+    /// The look with all its values.
     pub look: serde_json::Value,
-    /// The scenario, with all its values.
+    /// The scenario with all its values.
     pub settings: serde_json::Value,
-    /// Closed loops around the floor, floor on the right, from which walls are rebuilt.
+    /// Outlines of the floor, closed loops with the floor on the right. Walls are rebuilt from them.
     pub outlines: Vec<Outline>,
-    /// Every file of the bake, relative to it, in alphabetical order. Filled in when the bake is published.
+    /// All files of the bake in alphabetical order. Set by [`crate::export::OutputFolder::publish`].
     pub files: Vec<BakePath>,
 }
 
-/// The plan image.
+/// Size and pose of the plan image.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlanEntry {
     /// Width in metres.
@@ -92,39 +92,39 @@ pub struct PlanEntry {
     pub map_from_plan: Pose,
 }
 
-/// All textures of the floor.
+/// The floor's textures: tiles, channels and sums.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FloorEntry {
-    /// Texel density.
+    /// Texel density, texels per metre.
     pub texels_per_metre: f64,
-    /// Columns of the whole floor in texels, without what fills up the last tiles.
+    /// Width of the whole floor, texels, without the rest of the last tiles.
     pub width_px: u32,
-    /// Rows of the whole floor in texels, without what fills up the last tiles.
+    /// Height of the whole floor, texels, without the rest of the last tiles.
     pub height_px: u32,
-    /// Width and height of each tile's images.
+    /// Width and height of each tile's images, texels.
     pub tile_px: [u32; 2],
-    /// How tiles are told apart by their file names.
+    /// Naming scheme of the tiles' files.
     pub naming: Naming,
-    /// How far colour goes on beyond the floor's edge, texels.
+    /// How far colour continues beyond the floor's edge, texels.
     pub padding_px: u32,
-    /// What each channel of the images holds.
+    /// Content of each channel of the images.
     pub channels: Vec<ChannelEntry>,
     /// The tiles that hold floor, row by row from the lower left.
     pub tiles: Vec<TileEntry>,
-    /// The exact sums.
+    /// How to read the exact sums.
     pub sums: SumsEntry,
 }
 
 /// One channel of the images of a kind.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ChannelEntry {
-    /// The kind of image: `basecolor`, `mask`, `orm`, `mask_map` or `layers`; `layers1`, `layers2`, ... where there are several.
+    /// Kind of image: `basecolor`, `mask`, `orm`, `mask_map`, `layers`, or `layers1` and so on.
     pub image: String,
     /// `R`, `G`, `B`, `A`, or the layer's name.
     pub channel: String,
-    /// What it says about the surface.
+    /// The property of the surface that it holds.
     pub holds: String,
-    /// How the value is to be read, such as `1 - exp(-D)`.
+    /// Encoding of the value, such as `1 - exp(-D)`.
     pub encoding: String,
 }
 
@@ -135,70 +135,70 @@ pub struct TileEntry {
     pub u: u32,
     /// Row v, from below.
     pub v: u32,
-    /// The UDIM number, where tiles are named so.
+    /// UDIM number, for [`Naming::Udim`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub udim: Option<u32>,
     /// Lower-left corner in the plan frame, metres.
     pub min_m: Vec2,
     /// Upper-right corner in the plan frame, metres.
     pub max_m: Vec2,
-    /// Where it lies in the target's world.
+    /// Its rectangle in the target's world.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub world: Option<WorldEntry>,
-    /// Base colour, 8 bit sRGB.
+    /// Path of the base colour, 8 bit sRGB.
     pub basecolor: String,
-    /// Packed masks, 8 bit linear: film, prints and scuffs, edge.
+    /// Path of the packed masks, 8 bit linear: film, prints and scuffs, edge.
     pub mask: String,
-    /// The mask of passes, 8 bit linear, grey. Empty in bakes of before the mask had three channels.
+    /// Path of the mask of passes, 8 bit linear grey. Empty in earlier bakes, whose mask has four channels.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub passes: String,
-    /// Occlusion, roughness, metallic, 8 bit linear.
+    /// Path of occlusion, roughness, metallic, 8 bit linear.
     pub orm: String,
-    /// The same as Unity's mask map, for that target: metallic, occlusion, detail, smoothness.
+    /// Path of Unity's mask map, for that target: metallic, occlusion, detail, smoothness.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mask_map: Option<String>,
-    /// All layers, half float, linear: a file, or a list of files; left out where they were not asked for.
+    /// Paths of the layers, half float, linear. In JSON one path, a list, or missing if no layers were written.
     #[serde(default, skip_serializing_if = "Vec::is_empty", with = "one_or_many")]
     pub layers: Vec<String>,
-    /// Exact sums.
+    /// Path of the exact sums.
     pub sums: BakePath,
 }
 
-/// How the sums are to be read.
+/// Encoding of the exact sums of a floor.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SumsEntry {
-    /// What 1 of each quantity is as an integer.
+    /// Integer that stands for 1, by quantity.
     pub one: std::collections::BTreeMap<String, u32>,
-    /// The sum `presence`, on a grid of its own, whole.
+    /// The sum `presence`, one file for the whole floor.
     pub presence: PresenceEntry,
 }
 
-/// The sum `presence`.
+/// The sum `presence` on its own grid.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PresenceEntry {
-    /// The file.
+    /// Path of the sums.
     pub file: BakePath,
-    /// Cells per metre.
+    /// Cell density, cells per metre.
     pub texels_per_metre: f64,
-    /// Columns.
+    /// Number of columns.
     pub width_px: u32,
-    /// Rows.
+    /// Number of rows.
     pub height_px: u32,
 }
 
-/// A picture of `preview/`.
+/// A picture in `preview/` of a rectangle of the floor.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PreviewEntry {
-    /// The file.
+    /// Path of the image.
     pub file: String,
-    /// Lower-left corner of what it shows, metres.
+    /// Lower-left corner of its rectangle, metres.
     pub min_m: Vec2,
-    /// Upper-right corner of what it shows, metres.
+    /// Upper-right corner of its rectangle, metres.
     pub max_m: Vec2,
 }
 
 impl Manifest {
-    /// What a manifest says of the plan and of the program; the rest is still empty.
+    /// Creates a manifest with the entries of plan and program; all other fields are empty.
     pub fn of_plan(plan: &FloorPlan, walls: &Walls, routes: &[Route]) -> Manifest {
         Manifest {
             generator: GENERATOR.to_string(),
@@ -217,40 +217,41 @@ impl Manifest {
         }
     }
 
-    /// The doors of the bake; an earlier version's are found in its walls.
+    /// Returns the doors of the bake. Earlier versions did not store them; they are found in the walls again.
     pub fn doorways(&self) -> Vec<Doorway> {
         let found = || self.walls().map_or_else(|_| Vec::new(), |walls| walls.doorways());
         self.doors.clone().unwrap_or_else(found)
     }
 
-    /// For how many people the touches of walls stand.
+    /// Returns the number of people whose touches the wall sums hold.
     pub fn wall_people(&self) -> u32 {
         self.walls.as_ref().map_or(self.people, |walls| walls.people)
     }
 
-    /// The walls of the bake, rebuilt.
+    /// Rebuilds the walls of the bake from its outlines.
     ///
     /// # Errors
-    /// Outlines that are none; never of a manifest that was read.
+    /// Invalid outlines; [`Manifest::read`] rejects them.
     pub fn walls(&self) -> Result<Walls, WallsError> {
         Walls::from_outlines(self.outlines.clone())
     }
 
-    /// The look of the bake in the folder that the manifest was read from. Images of it are sought by their names in the
-    /// working directory: a manifest knows no folders.
+    /// Reads the look of the bake in the folder `bake`.
+    ///
+    /// Its images are looked up in the working directory, because a manifest stores no folders.
     ///
     /// # Errors
-    /// It cannot be read as a look.
+    /// The value is not a look.
     pub fn look(&self, bake: &Path) -> Result<Look, ExportError> {
         serde_json::from_value(self.look.clone()).map_err(|e| ExportError::damaged(&bake.join(MANIFEST_NAME), e))
     }
 
-    /// Options that write the same textures again. Sheets of walls are not laid anew: see [`WallsEntry::atlas`].
+    /// Returns options that write the same textures. They do not pack sheets: see [`WallsEntry::atlas`].
     pub fn texture_options(&self) -> TextureOptions {
-        // A tile smaller than the setting is a floor smaller than a tile: its power of two is found again.
+        // For a floor smaller than a tile, the layout finds the same power of two again.
         let [width, height] = self.floor.tile_px;
         let written = self.floor.tiles.iter().any(|tile| !tile.layers.is_empty());
-        // What is usual for the target was left to it, and is left to another one as well.
+        // The default of the target stays unset, so that another target uses its own.
         let unusual = (written != self.target.name.wants_layers()).then_some(written);
         TextureOptions {
             tile: width.max(height).max(TileLayout::MIN_TILE),
@@ -261,7 +262,7 @@ impl Manifest {
         }
     }
 
-    /// The manifest as indented JSON.
+    /// Serializes the manifest as indented JSON.
     pub fn to_json(&self) -> Vec<u8> {
         let mut json = serde_json::to_vec_pretty(self).expect("all keys are strings and memory does not fail");
         json.push(b'\n');
@@ -271,8 +272,8 @@ impl Manifest {
     /// Reads the manifest of a bake.
     ///
     /// # Errors
-    /// There is none, it is not ours, it is damaged, a value is out of its range or does not fit the others, or a later
-    /// version wrote it.
+    /// A missing manifest, one of another program or a later version, invalid JSON, a value that is out of range or
+    /// contradicts another value.
     pub fn read(bake: &Path) -> Result<Manifest, ExportError> {
         let path = bake.join(MANIFEST_NAME);
         let json = read_input(&path, LARGEST_BYTES).map_err(ExportError::read(&path))?;
@@ -289,17 +290,17 @@ impl Manifest {
     }
 }
 
-/// What every version's manifest begins with.
+/// The fields that manifests of every version have.
 #[derive(Deserialize)]
 struct Head {
     generator: String,
     format: u32,
 }
 
-/// The files that the manifest in a folder lists, whatever version of this program wrote it.
+/// Lists the files in a folder's manifest, whatever version of this program wrote it.
 ///
 /// # Errors
-/// There is no manifest, it is not ours, or a path in it leads out of the folder.
+/// A missing manifest, one of another program, or a path that leads out of the folder.
 pub(super) fn listed_files(folder: &Path) -> Result<Vec<BakePath>, ExportError> {
     #[derive(Deserialize)]
     struct List {
@@ -315,7 +316,7 @@ pub(super) fn listed_files(folder: &Path) -> Result<Vec<BakePath>, ExportError> 
     Ok(list.files)
 }
 
-/// The program that wrote the manifest in a folder.
+/// Reads `generator` of the manifest in a folder.
 pub(super) fn generator(folder: &Path) -> Result<String, ExportError> {
     let path = folder.join(MANIFEST_NAME);
     let json = read_input(&path, LARGEST_BYTES).map_err(ExportError::read(&path))?;
@@ -330,7 +331,7 @@ struct Generator {
 
 #[cfg(test)]
 impl Manifest {
-    /// The manifest of a bake of nothing, on a plan of this size at a texel a metre.
+    /// Returns the manifest of an empty bake of a plan of this size, at 1 texel per metre.
     pub(in crate::export) fn blank([width_m, height_m]: [f64; 2]) -> Manifest {
         let grid = crate::stamps::TexelGrid::covering(width_m, height_m, 1.0).expect("the plan is small");
         let layout = TileLayout::new(grid, TileLayout::MIN_TILE).expect("the tile size is in range");

@@ -1,4 +1,4 @@
-//! A list that is written as its only item where it has one.
+//! Serializes a list of one item as that item.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 

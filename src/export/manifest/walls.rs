@@ -6,85 +6,87 @@ use crate::export::bake_path::BakePath;
 use crate::export::layout::Naming;
 use crate::math::Vec2;
 
-/// All textures of the walls.
+/// The walls' textures: sheets and channels.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct WallsEntry {
-    /// For how many people the touches stand.
+    /// Number of people whose touches the sums hold.
     pub people: u32,
-    /// Texel density.
+    /// Texel density, texels per metre.
     pub texels_per_metre: f64,
     /// Height of the walls, metres.
     pub height_m: f64,
     /// Height of each strip, texels.
     pub height_px: u32,
-    /// How far colour goes on around each strip, texels.
+    /// How far colour continues around each strip, texels.
     pub padding_px: u32,
-    /// How sheets are told apart by their file names.
+    /// Naming scheme of the sheets' files.
     pub naming: Naming,
-    /// What 1 of a sum is as an integer.
+    /// Integer that stands for 1 in the sums.
     pub sums_one: u32,
-    /// What each channel of the images holds.
+    /// Content of each channel of the images.
     pub channels: Vec<ChannelEntry>,
     /// All sheets.
     pub sheets: Vec<SheetEntry>,
 }
 
-/// One sheet: strips of wall and the images that show them.
+/// One sheet of the wall atlas: its strips and its images.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SheetEntry {
-    /// The UDIM number, where sheets are named so. It tells them apart; each has texture coordinates from 0 to 1.
+    /// UDIM number, for [`Naming::Udim`]. It only names the files: each sheet's texture coordinates are 0 to 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub udim: Option<u32>,
     /// Width, texels.
     pub width_px: u32,
     /// Height, texels.
     pub height_px: u32,
-    /// Base colour, 8 bit sRGB.
+    /// Path of the base colour, 8 bit sRGB.
     pub basecolor: String,
-    /// Packed masks, 8 bit linear: skin, rub, scuff.
+    /// Path of the packed masks, 8 bit linear: skin, rub, scuff.
     pub mask: String,
-    /// The mask of splashes, 8 bit linear, grey. Empty in bakes of before the mask had three channels.
+    /// Path of the mask of splashes, 8 bit linear grey. Empty in earlier bakes, whose mask has four channels.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub splash: String,
-    /// Occlusion, roughness, metallic, 8 bit linear.
+    /// Path of occlusion, roughness, metallic, 8 bit linear.
     pub orm: String,
-    /// The same as Unity's mask map, for that target: metallic, occlusion, detail, smoothness.
+    /// Path of Unity's mask map, for that target: metallic, occlusion, detail, smoothness.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mask_map: Option<String>,
-    /// All layers, half float, linear: a file, or a list of files; left out where they were not asked for.
+    /// Paths of the layers, half float, linear. In JSON one path, a list, or missing if no layers were written.
     #[serde(default, skip_serializing_if = "Vec::is_empty", with = "super::one_or_many")]
     pub layers: Vec<String>,
-    /// Exact sums.
+    /// Path of the exact sums.
     pub sums: BakePath,
-    /// What it shows.
+    /// Its strips.
     pub strips: Vec<StripEntry>,
 }
 
 /// A stretch of a wall face in a sheet.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct StripEntry {
-    /// Number of the face, longest first.
+    /// Index of the face, longest first.
     pub face: usize,
-    /// Arc length along the face at which it begins, metres.
+    /// Arc length along the face where it begins, metres.
     pub from_m: f64,
-    /// Arc length at which it ends, metres.
+    /// Arc length along the face where it ends, metres.
     pub to_m: f64,
-    /// The wall's foot on that stretch, metres of the plan frame; the floor lies on the right.
+    /// Polyline of the wall's foot, metres of the plan frame, with the floor on the right.
     pub points_m: Vec<Vec2>,
-    /// First column of the face in it: column i covers `[i, i + 1) / texels_per_metre` metres of arc length.
+    /// Its first column of the face. Column i covers `[i, i + 1) / texels_per_metre` metres of arc length.
     pub first_column: u32,
-    /// Left, top, width, height in the sheet, texels, without padding; row 0 is the upper one, as in the files.
+    /// Left, top, width, height in the sheet, texels, without padding. Row 0 is the topmost, as in the files.
     pub rect_px: [u32; 4],
-    /// Texture coordinates of the start of the wall's foot and of the end of its top, from the sheet's upper left and
-    /// downward, as glTF has it.
+    /// Texture coordinates of the start of the wall's foot and of the end of its top.
+    ///
+    /// The sheet's upper left is (0, 0), v grows downward, as in glTF.
     pub uv: [[f64; 2]; 2],
-    /// Whether it is turned by a quarter counter-clockwise: arc length grows upward in the image, height to the left.
+    /// Whether it is turned by a quarter counter-clockwise. Arc length then grows upward in the image, height to the
+    /// left.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub turned: bool,
 }
 
 impl WallsEntry {
-    /// The atlas that the sheets were written by.
+    /// Rebuilds the atlas of the sheets.
     pub fn atlas(&self) -> Atlas {
         let strip = |sheet: &SheetEntry, entry: &StripEntry| {
             let [left, top, across, up] = entry.rect_px;

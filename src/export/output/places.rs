@@ -1,4 +1,4 @@
-//! Where an output folder lives while it is replaced, and how the new one takes its place.
+//! Paths of an output folder during its replacement, and the replacement itself.
 
 use std::collections::BTreeSet;
 use std::ffi::OsString;
@@ -29,9 +29,9 @@ pub fn is_bake(folder: &Path) -> bool {
 #[derive(Debug)]
 pub(super) struct Places {
     pub output: PathBuf,
-    /// Results are collected here.
+    /// Hidden folder in which results are collected.
     pub new: PathBuf,
-    /// The earlier bake, while the new one takes its place, where the system cannot exchange folders.
+    /// The earlier bake during the replacement, where the system cannot exchange folders.
     pub old: PathBuf,
     pub lock: PathBuf,
 }
@@ -39,7 +39,7 @@ pub(super) struct Places {
 impl Places {
     pub fn of(shown: &Path) -> Result<Places, ExportError> {
         let folder = |source| ExportError::Folder { path: shown.to_path_buf(), source };
-        // Through a link, the folder that it leads to is replaced, not the link.
+        // Replaces the target of a link, not the link.
         let output = if shown.is_symlink() { fs::canonicalize(shown) } else { absolute(shown) };
         let output = output.map_err(folder)?;
         let (Some(parent), Some(name)) = (output.parent(), output.file_name()) else {
@@ -54,10 +54,10 @@ impl Places {
         Ok(Places { new: beside(".new"), old: beside(".old"), lock: beside(".lock"), output })
     }
 
-    /// Cleans up what a killed run left; needs the lock. An earlier bake that was set aside comes back.
+    /// Cleans up after a killed run and restores an earlier bake that it moved aside. Needs the lock.
     ///
     /// # Errors
-    /// A folder of the user has the name of the hidden one; something cannot be renamed or removed.
+    /// A folder of the user has the name of the hidden one; a rename or a removal fails.
     pub fn recover(&self, shown: &Path) -> Result<(), ExportError> {
         let failed = |source| ExportError::Folder { path: shown.to_path_buf(), source };
         self.bring_back().map_err(failed)?;
@@ -69,20 +69,21 @@ impl Places {
             Ok(_) => return Err(ExportError::InTheWay { path: new.clone() }),
         }
         if new.join(UNFINISHED).is_file() {
-            // What it holds of the user's is in the output as well.
+            // The user's files in it are also in the output.
             fs::remove_dir_all(new).map_err(failed)?;
         } else if is_bake(new) {
-            // Either complete but not in its place yet, or what it replaced.
+            // Either a complete bake that is not published yet, or the bake that it replaced.
             clear(new, &self.output).map_err(failed)?;
         } else {
-            // Empty: killed between two steps. If it is not, it is the user's and stays.
+            // An empty folder is left of a killed run. Any other belongs to the user and stays.
             let _ = fs::remove_dir(new);
         }
         if new.exists() { Err(ExportError::InTheWay { path: new.clone() }) } else { Ok(()) }
     }
 
-    /// Brings back the bake that was set aside, or removes it if the new one has its place; needs the lock. Gives
-    /// whether it came back.
+    /// Restores the bake that was moved aside, or removes it if the output exists. Needs the lock.
+    ///
+    /// Returns whether the bake was restored.
     fn bring_back(&self) -> io::Result<bool> {
         if !is_bake(&self.old) {
             return Ok(false);
@@ -95,10 +96,10 @@ impl Places {
         Ok(true)
     }
 
-    /// Puts the new folder in the output's place; gives where the folder is that it replaced.
+    /// Moves the new folder to the output's place, and returns where the replaced folder is now.
     ///
     /// # Errors
-    /// The system refuses; the output is as it was then.
+    /// The system refuses; the output is then unchanged.
     pub fn put_in_place(&self) -> io::Result<Option<PathBuf>> {
         if fs::symlink_metadata(&self.output).is_err() {
             fs::rename(&self.new, &self.output)?;
@@ -114,10 +115,10 @@ impl Places {
         Ok(replaced)
     }
 
-    /// The same where two folders cannot be exchanged in one step.
+    /// Replaces the output by two renames, where two folders cannot be exchanged.
     pub(super) fn rename_twice(&self) -> io::Result<Option<PathBuf>> {
         if !is_bake(&self.output) {
-            // At most what the system puts into folders, and the new one has it too.
+            // It holds at most the file browser's files, which the new folder has too.
             clear(&self.output, &self.new)?;
             fs::rename(&self.new, &self.output)?;
             return Ok(None);
@@ -144,11 +145,12 @@ fn exchange(_: &Path, _: &Path) -> io::Result<()> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-/// Brings back the bake that a run left as `.NAME.old` when it was killed between two renamings, or removes it if
-/// the new one had taken its place. Gives whether there was something to bring back.
+/// Restores the bake that a killed run left as `.NAME.old`, or removes it if a new one exists.
+///
+/// Returns whether the bake was restored.
 ///
 /// # Errors
-/// It cannot be renamed; another process holds the output for seconds without a bake in it.
+/// The rename fails, or another process holds the lock for seconds while the output has no bake.
 pub fn restore(path: &Path) -> Result<bool, ExportError> {
     let places = Places::of(path)?;
     let folder_error = |source| ExportError::Folder { path: path.to_path_buf(), source };
@@ -156,7 +158,7 @@ pub fn restore(path: &Path) -> Result<bool, ExportError> {
         return Ok(false);
     }
     if places.output.exists() {
-        // Only tidying up: a reader need not wait for it nor have the right to do it.
+        // A reader neither has to wait for the cleaning up nor needs the right to do it.
         if let Ok(_lock) = NameLock::take(&places.lock) {
             let _ = places.bring_back();
         }
@@ -170,27 +172,27 @@ pub fn restore(path: &Path) -> Result<bool, ExportError> {
     }
 }
 
-/// The files that a bake lists, its manifest among them.
+/// Lists the files of a bake, including its manifest.
 pub(super) fn listed(bake: &Path) -> Result<BTreeSet<PathBuf>, ExportError> {
     let files = manifest::listed_files(bake)?;
     Ok(files.iter().map(|file| &**file).chain([MANIFEST_NAME]).map(PathBuf::from).collect())
 }
 
-/// Removes a bake: the files that it lists, and the user's files that are in `other` as well. Anything else of the
-/// user's moves to `other`, or stays where that has another file of its name. No link is followed.
+/// Removes a bake: the files that it lists, and the user's files that `other` has too.
 ///
-/// The manifest goes last, so that the rest of a killed removal is still recognised as a bake.
+/// Other files of the user move to `other`, or stay if `other` has another file of that name. Links are not followed.
+/// The manifest goes last, so that the rest of an interrupted removal is still recognised as a bake.
 ///
 /// # Errors
 /// A file cannot be removed or moved.
 pub(super) fn clear(bake: &Path, other: &Path) -> io::Result<()> {
-    // Of a manifest that cannot be read, no file is known to be ours.
+    // Without a readable manifest, all files count as the user's.
     let listed = listed(bake).unwrap_or_default();
     let manifest = Path::new(MANIFEST_NAME);
     for entry in entries(bake)? {
         let (path, twin) = (bake.join(&entry.relative), other.join(&entry.relative));
         if entry.kind.is_dir() {
-            // One that is not empty holds something that stays.
+            // Fails for a folder that is not empty, which is right.
             let _ = fs::remove_dir(path);
         } else if entry.relative != manifest {
             if listed.contains(&entry.relative) || is_same(&path, &twin)? {
@@ -208,15 +210,15 @@ pub(super) fn clear(bake: &Path, other: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Waits until the files of a bake, and the folders that they lie in, are on the disk.
+/// Waits until the files of a bake and their folders are on the disk.
 ///
 /// # Errors
-/// A file cannot be written to the disk.
+/// A file cannot be synchronised.
 pub(super) fn sync(bake: &Path, files: &[BakePath]) -> io::Result<()> {
     let mut folders = BTreeSet::from([bake.to_path_buf()]);
     for file in files {
         let path = bake.join(file);
-        // Windows only writes back what is open for writing.
+        // Windows only synchronises files that are open for writing.
         File::options().read(true).write(cfg!(windows)).open(&path)?.sync_all()?;
         folders.extend(path.ancestors().skip(1).take_while(|folder| *folder != bake).map(Path::to_path_buf));
     }
@@ -224,7 +226,7 @@ pub(super) fn sync(bake: &Path, files: &[BakePath]) -> io::Result<()> {
     Ok(())
 }
 
-/// Waits until a folder's names are on the disk, where the system can do that.
+/// Waits until a folder's entries are on the disk, where the system supports it.
 fn sync_folder(folder: &Path) {
     if let Ok(open) = File::open(folder) {
         let _ = open.sync_all();

@@ -1,4 +1,4 @@
-//! Reading a bake that another process may replace at the same time.
+//! Reads a bake that another process may replace at the same time.
 
 use std::path::Path;
 use std::thread;
@@ -9,15 +9,16 @@ use same_file::Handle;
 use super::places::restore;
 use crate::export::ExportError;
 
-/// How often a read is begun.
+/// Largest number of attempts to read.
 const TRIES: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(25);
 
-/// Reads bakes as a whole: all that `read` gives is of the earlier or all of the later bake, and a bake that is
-/// replaced meanwhile is no error. `read` may be called again.
+/// Reads bakes consistently: `read` sees all of the earlier bake or all of the later one.
+///
+/// A bake may be replaced during the read: then `read` is called again, at most 20 times in all.
 ///
 /// # Errors
-/// As `read`; a bake that was set aside by a killed run cannot be brought back.
+/// Those of `read`; a bake that a killed run moved aside cannot be restored.
 pub fn settled<T, E: From<ExportError>>(bakes: &[&Path], read: impl Fn() -> Result<T, E>) -> Result<T, E> {
     let folders = || -> Vec<Option<Handle>> { bakes.iter().map(|bake| Handle::from_path(bake).ok()).collect() };
     let mut tries = 1;

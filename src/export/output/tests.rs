@@ -1,7 +1,7 @@
 use super::places::restore;
 use super::*;
 
-/// A folder of our own, and the output `out` in it.
+/// Returns a temporary folder and the path `out` in it.
 fn place() -> (tempfile::TempDir, PathBuf) {
     let dir = tempfile::tempdir().unwrap();
     let out = dir.path().join("out");
@@ -23,7 +23,6 @@ fn content(out: &Path) -> String {
     fs::read_to_string(out.join("floor/a.txt")).unwrap()
 }
 
-/// Everything in a folder, hidden or not.
 fn names(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> =
         fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
@@ -155,7 +154,7 @@ fn a_run_killed_between_two_renamings_is_undone() {
     fs::rename(&out, dir.path().join(".out.old")).unwrap();
     assert!(restore(&out).unwrap());
     assert_eq!(content(&out), "1");
-    // The same at the start of the next bake.
+    // The same when the next bake begins.
     fs::rename(&out, dir.path().join(".out.old")).unwrap();
     assert!(matches!(OutputFolder::begin(&out, false), Err(ExportError::OutputExists { .. })));
     assert_eq!(content(&out), "1");
@@ -185,7 +184,7 @@ fn leftovers_of_a_killed_run_are_cleaned_up() {
         drop(OutputFolder::begin(&out, false).unwrap());
         assert!(names(dir.path()).is_empty());
     }
-    // Killed just before it was renamed.
+    // As if killed just before the rename.
     bake(&new, "1", false);
     bake(&out, "2", false);
     assert_eq!(names(dir.path()), ["out"]);
@@ -272,7 +271,7 @@ fn files_of_the_user_stay_and_those_of_the_earlier_bake_go() {
     assert_eq!(names(&out), [".DS_Store", "empty", "floor", "manifest.json", "notes"]);
     assert_eq!(names(&out.join("floor")), ["a.txt", "a.txt.import", "mine.txt"]);
     assert_eq!(fs::read_to_string(out.join("notes/deep/b.md")).unwrap(), "b");
-    // The manifest lists what the bake made, and nothing else.
+    // The manifest lists only the bake's files.
     assert_eq!(Manifest::read(&out).unwrap().files, ["floor/a.txt", "manifest.json"]);
 }
 
@@ -286,7 +285,7 @@ fn a_file_of_the_user_is_never_replaced() {
     assert!(matches!(folder.create("floor/b.txt/c"), Err(ExportError::UserFile { .. })));
     folder.write("floor/c.txt", b"2").unwrap();
     folder.write("d", b"2").unwrap();
-    // Put there while the bake is at work.
+    // Added while the bake runs.
     fs::create_dir(out.join("d")).unwrap();
     fs::write(out.join("floor/c.txt"), "mine too").unwrap();
     let error = folder.publish(&manifest()).unwrap_err();
@@ -347,7 +346,7 @@ fn where_folders_cannot_be_exchanged_they_are_renamed() {
     assert_eq!(content(&places.old), "1");
     assert!(!restore(&out).unwrap());
     assert_eq!(names(dir.path()), ["out"]);
-    // An empty folder, but for what the system puts into it.
+    // A folder with only a file browser's files counts as empty.
     let empty = dir.path().join("empty");
     for folder in [&empty, &dir.path().join(".empty.new")] {
         fs::create_dir(folder).unwrap();

@@ -1,4 +1,4 @@
-//! Files in a bake that no bake made.
+//! The user's files in the folder of a bake.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -17,7 +17,7 @@ pub(super) struct UserFiles {
 }
 
 impl UserFiles {
-    /// All but what is listed; nothing of a folder that does not exist.
+    /// Collects all files that are not in `listed`; empty if the folder does not exist.
     pub fn of(folder: &Path, listed: &BTreeSet<PathBuf>) -> io::Result<UserFiles> {
         let mut users = UserFiles::default();
         if !folder.exists() {
@@ -37,16 +37,16 @@ impl UserFiles {
         Ok(users)
     }
 
-    /// The user's file or folder that keeps a file of this name from being made.
+    /// Returns the user's file or folder that conflicts with a new file of this name.
     pub fn in_the_way(&self, relative: &Path) -> Option<&Path> {
         let file = self.files.iter().find(|file| relative.starts_with(file) || file.starts_with(relative));
         file.or_else(|| self.folders.iter().find(|folder| folder.starts_with(relative))).map(PathBuf::as_path)
     }
 
-    /// Gives another folder the same files, without taking them away here.
+    /// Links or copies the files into another folder; they also stay here.
     ///
     /// # Errors
-    /// A file cannot be linked or copied.
+    /// A file can neither be linked nor copied.
     pub fn take_over(&self, from: &Path, to: &Path) -> io::Result<()> {
         let mut made = BTreeSet::new();
         for relative in self.files.iter().chain(&self.folders) {
@@ -63,14 +63,14 @@ impl UserFiles {
                 Err(_) => link_or_copy(&from, &to)?,
             }
         }
-        // Innermost first, and last of all: a folder may be closed to writing.
+        // Permissions last and innermost first: a folder may be read-only.
         made.iter()
             .rev()
             .try_for_each(|folder| fs::set_permissions(to.join(folder), fs::metadata(from.join(folder))?.permissions()))
     }
 }
 
-/// Gives a file a second name, or copies it where the disk has no second names. Never replaces a file.
+/// Hard-links a file, or copies it where the disk has no hard links. Never replaces a file.
 pub(super) fn link_or_copy(from: &Path, to: &Path) -> io::Result<()> {
     if fs::hard_link(from, to).is_ok() {
         return Ok(());
@@ -105,7 +105,7 @@ fn link_again(_target: &Path, _from: &Path, _to: &Path) -> io::Result<()> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-/// Whether two names stand for the same file, or for files or links with the same content.
+/// Whether two paths are the same file, or files or links with equal content.
 pub(super) fn is_same(a: &Path, b: &Path) -> io::Result<bool> {
     let (Ok(found_a), Ok(found_b)) = (fs::symlink_metadata(a), fs::symlink_metadata(b)) else { return Ok(false) };
     if found_a.is_symlink() && found_b.is_symlink() {

@@ -1,4 +1,4 @@
-//! One file of sums: an EXR image of whole numbers in blocks, of which only those cost anything that somebody touched.
+//! A file of sums: an EXR of integers in tiles, where untouched tiles take almost no space.
 
 use std::io::BufReader;
 use std::path::Path;
@@ -18,28 +18,27 @@ use crate::export::{ExportError, OutputFile};
 use crate::files::open_input;
 use crate::progress::Progress;
 
-/// What an image of sums shows. Places are columns and rows counted from the image's lower left.
+/// An image of sums. Columns and rows count from its lower left.
 pub(super) trait SumsImage: Sync {
-    /// Width and height.
+    /// Width and height, cells.
     fn size(&self) -> [u32; 2];
 
     /// Names of the channels, sorted.
     fn channels(&self) -> Vec<&'static str>;
 
-    /// Whether anything may be other than zero in a rectangle.
+    /// Whether a rectangle may hold a value other than zero.
     fn touched(&self, at: [u32; 2], size: [usize; 2]) -> bool;
 
-    /// Copies a rectangle of a channel, row 0 lowest.
+    /// Copies a rectangle of a channel into `out`, row 0 lowest.
     fn read(&self, channel: usize, at: [u32; 2], size: [usize; 2], out: &mut [u32]);
 }
 
-/// Lower-left cell and size of the block at a column and a row from above.
+/// Returns the lower-left cell and the size of the block at a column and a row from above.
 fn block([width, height]: [u32; 2], left: usize, top: usize) -> ([u32; 2], [usize; 2]) {
     let size = [BLOCK.min(width as usize - left), BLOCK.min(height as usize - top)];
     ([left as u32, (height as usize - top - size[1]) as u32], size)
 }
 
-/// Writes an image of sums.
 pub(super) fn write_image(
     file: OutputFile,
     image: &impl SumsImage,
@@ -86,14 +85,15 @@ impl SumsEncoder {
     }
 }
 
-/// Tiles that are unpacked at a time.
+/// Number of tiles to unpack in parallel.
 const BATCH: usize = 64;
 
-/// Reads an image of sums of this size, with these channels. `add` takes channel, place, size and values of each block
-/// that holds something.
+/// Reads an image of sums with this size and these channels.
+///
+/// `add` takes channel, place, size and values of each block that is not all zero.
 ///
 /// # Errors
-/// A file that is missing, damaged or another image; what `add` says.
+/// A missing or invalid file, another size or other channels; errors of `add`.
 pub(super) fn read_image(
     path: &Path,
     size: [u32; 2],
@@ -167,7 +167,7 @@ fn check_header(
     Ok(())
 }
 
-/// A tile that was read, row 0 lowest.
+/// An unpacked tile, row 0 lowest.
 struct Block {
     left: usize,
     top: usize,
@@ -175,7 +175,7 @@ struct Block {
     channels: Vec<Vec<u32>>,
 }
 
-/// Unpacks a tile; `None` if it is `blank`, which most are.
+/// Unpacks a tile; `None` if it equals `blank`, as most tiles do.
 fn unpack(chunk: Chunk, meta: &MetaData, blank: &[u8]) -> exr::error::Result<Option<Block>> {
     if matches!(&chunk.compressed_block, CompressedBlock::Tile(tile) if tile.compressed_pixels_le == blank) {
         return Ok(None);

@@ -9,16 +9,16 @@ use crate::progress::Progress;
 use crate::stamps::TexelGrid;
 use crate::sums::{FloorSums, Quantity};
 
-/// The quantities of a tile's file, sorted by name.
+/// Quantities in a tile's file, sorted by name.
 const TILE_QUANTITIES: [Quantity; 3] = [Quantity::Passes, Quantity::Scuff, Quantity::Soil];
 const PRESENCE_FILE: &str = "sums/floor_presence.exr";
 
-/// Writes the exact sums into `sums/`: one file for each tile that was written, and `presence` on its own grid.
+/// Writes the exact sums into `sums/`: a file per written tile, and one for `presence`.
 ///
-/// Whole numbers, a channel per quantity. Only blocks that somebody touched cost anything.
+/// Integers, one channel per quantity. Untouched blocks take almost no space.
 ///
 /// # Errors
-/// A file that cannot be written, an interruption.
+/// A file cannot be written; an interruption.
 pub fn write_sums(
     folder: &OutputFolder,
     sums: &FloorSums,
@@ -47,7 +47,7 @@ fn entry_of<'a>(tile: &Tile, entries: &'a [TileEntry]) -> Option<&'a TileEntry> 
     entries.iter().find(|entry| (entry.u, entry.v) == (tile.u, tile.v))
 }
 
-/// A rectangle of a grid that is one image.
+/// A rectangle of a grid, stored as one image.
 #[derive(Clone, Copy, Debug)]
 struct Area {
     /// Lower-left cell.
@@ -57,7 +57,7 @@ struct Area {
 }
 
 impl Area {
-    /// A cell of the grid by its place in the image, counted from the lower left.
+    /// Returns the grid's cell for a cell of the image, counted from the lower left.
     fn cell(&self, [i, j]: [u32; 2]) -> [u32; 2] {
         [self.at[0] + i, self.at[1] + j]
     }
@@ -67,7 +67,7 @@ impl Area {
     }
 }
 
-/// A rectangle of a floor's sums.
+/// A rectangle of a floor's sums as an image.
 struct FloorImage<'a> {
     sums: &'a FloorSums,
     area: Area,
@@ -93,10 +93,10 @@ impl SumsImage for FloorImage<'_> {
     }
 }
 
-/// Reads the exact sums of a bake, as [`write_sums`] wrote them.
+/// Reads the exact sums of a bake that [`write_sums`] wrote.
 ///
 /// # Errors
-/// A file that is missing or damaged, or that does not fit the manifest.
+/// A file is missing, invalid or contradicts the manifest.
 pub fn read_sums(bake: &Path, manifest: &Manifest) -> Result<FloorSums, ExportError> {
     let floor = &manifest.floor;
     let grid = TexelGrid { texels_per_metre: floor.texels_per_metre, width: floor.width_px, height: floor.height_px };

@@ -1,4 +1,4 @@
-//! Exact sums as files that come back to the bit.
+//! Exact sums as lossless files.
 
 mod file;
 mod floor;

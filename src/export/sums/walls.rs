@@ -10,16 +10,15 @@ use crate::progress::Progress;
 use crate::stamps::{DENSITY_ONE, WallGrid};
 use crate::sums::WallSums;
 
-/// The causes of a sheet's file, sorted by name.
+/// Causes in a sheet's file, sorted by name.
 const SHEET_CAUSES: [Cause; 5] = [Cause::Arm, Cause::Bag, Cause::Hand, Cause::Shoe, Cause::Shoulder];
 
-/// Writes the exact sums of walls into `sums/`: one file for each sheet, with each strip where the sheet's textures
-/// have it, without padding.
+/// Writes the exact sums of walls into `sums/`: a file per sheet, strips as in its textures.
 ///
-/// Whole numbers, a channel per cause. Only blocks that somebody touched cost anything.
+/// Integers, one channel per cause, no padding. Untouched blocks take almost no space.
 ///
 /// # Errors
-/// A file that cannot be written, an interruption.
+/// A file cannot be written; an interruption.
 pub fn write_wall_sums(
     folder: &OutputFolder,
     sums: &WallSums,
@@ -32,10 +31,10 @@ pub fn write_wall_sums(
     Ok(())
 }
 
-/// Reads the exact sums of a bake's walls, as [`write_wall_sums`] wrote them; `None` if the bake has no walls.
+/// Reads the wall sums that [`write_wall_sums`] wrote; `None` if the bake has no walls.
 ///
 /// # Errors
-/// A file that is missing or damaged, or that does not fit the manifest; strips that do not fit the walls.
+/// A file is missing, invalid or contradicts the manifest; strips do not match the walls.
 pub fn read_wall_sums(bake: &Path, manifest: &Manifest) -> Result<Option<WallSums>, ExportError> {
     let Some(entry) = &manifest.walls else { return Ok(None) };
     let in_manifest = |problem: String| ExportError::damaged(&bake.join(MANIFEST_NAME), problem);
@@ -50,7 +49,7 @@ pub fn read_wall_sums(bake: &Path, manifest: &Manifest) -> Result<Option<WallSum
     Ok(Some(sums))
 }
 
-/// Whether a manifest's sheets are of these walls: every strip within its sheet, every column of a face in one strip.
+/// Checks that strips lie within their sheet, and every column of a face in one strip.
 fn check(entry: &WallsEntry, grid: &WallGrid) -> Result<(), String> {
     if entry.sums_one != DENSITY_ONE as u32 {
         return Err(format!("`walls.sums_one` is {}, not {DENSITY_ONE}", entry.sums_one));
@@ -108,7 +107,6 @@ fn read_sheet(path: &Path, sheet: &Sheet, sums: &mut WallSums) -> Result<(), Exp
     })
 }
 
-/// A sheet of walls as an image of sums.
 struct SheetImage<'a> {
     sums: &'a WallSums,
     sheet: &'a Sheet,
@@ -143,21 +141,21 @@ impl SumsImage for SheetImage<'_> {
     }
 }
 
-/// What a rectangle of a sheet shows of a strip.
+/// The part of a strip inside a rectangle of its sheet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Part {
     face: usize,
-    /// First column and row of the face.
+    /// Its first column and row of the face.
     from: [u32; 2],
-    /// Columns and rows of the face.
+    /// Number of columns and rows of the face.
     size: [usize; 2],
-    /// Column and row (upward) of the rectangle at which the part begins.
+    /// Its lower-left column and row (upward) in the rectangle.
     at: [usize; 2],
     turned: bool,
 }
 
 impl Part {
-    /// `None` where the rectangle shows nothing of the strip.
+    /// Intersects a strip with a rectangle; `None` if they are disjoint.
     fn of(strip: &Strip, at: [u32; 2], size: [usize; 2]) -> Option<Part> {
         let (corner, extent) = ([strip.x, strip.y], strip.size());
         let low: [u32; 2] = std::array::from_fn(|k| corner[k].max(at[k]));
@@ -175,13 +173,12 @@ impl Part {
         Some(Part { face: strip.face, from, size, at, turned: strip.turned })
     }
 
-    /// The place of a texel, by column and row of the part, in the rectangle, whose rows have `pitch` texels.
+    /// Returns the index of the part's cell (i, j) in a rectangle with rows of `pitch` cells.
     fn place(&self, i: usize, j: usize, pitch: usize) -> usize {
         let [x, y] = if self.turned { [self.size[1] - 1 - j, i] } else { [i, j] };
         (self.at[1] + y) * pitch + self.at[0] + x
     }
 
-    /// Copies the part's values into the rectangle.
     fn paste(&self, values: &[u32], pitch: usize, rectangle: &mut [u32]) {
         for (j, row) in values.chunks_exact(self.size[0]).enumerate() {
             for (i, &value) in row.iter().enumerate() {
@@ -190,7 +187,7 @@ impl Part {
         }
     }
 
-    /// The part's values from the rectangle.
+    /// Returns the part's values, read from the rectangle.
     fn cut(&self, rectangle: &[u32], pitch: usize) -> Vec<u32> {
         let rows = 0..self.size[1];
         rows.flat_map(|j| (0..self.size[0]).map(move |i| rectangle[self.place(i, j, pitch)])).collect()

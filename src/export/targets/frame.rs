@@ -3,36 +3,38 @@ use serde::{Deserialize, Serialize};
 use super::target::Target;
 use crate::math::{Rect, Vec2};
 
-/// The target's world: how places of the plan become places there.
+/// Coordinate frame of the target's world, and its relation to the plan frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TargetEntry {
-    /// What the files were made for.
+    /// The target program.
     pub name: Target,
-    /// Units of the target in a metre.
+    /// Units of the target per metre.
     pub units_per_metre: f64,
-    /// The axis that points up.
+    /// The target's up axis.
     pub up: String,
-    /// `right` or `left`.
+    /// Handedness: `right` or `left`.
     pub handed: String,
-    /// Three rows, for X, Y and Z of the target in its units: factors of the plan's x, y and height above the floor in
-    /// metres, and what is added. `scene.glb` lies there once the target has read it.
+    /// Affine map from the plan to the target's world: rows for X, Y and Z in its units.
+    ///
+    /// Each row holds the factors of the plan's x, y and height above the floor, metres, and an offset. An imported
+    /// `scene.glb` lies there.
     pub world_from_plan: [[f64; 4]; 3],
-    /// The two axes of which the `world` of a tile speaks.
+    /// The two axes of a tile's `world` rectangle.
     pub uv_axes: [String; 2],
-    /// Where v of that is 0: at the `top` of an image or at its `bottom`, as the target's shaders have it.
+    /// Where v is 0 in the target's shaders: at the `top` or the `bottom` of an image.
     pub v_zero: String,
-    /// What is to be known of normal maps.
+    /// Convention for normal maps.
     pub normals: String,
-    /// The largest side of a texture that the target takes, texels.
+    /// Largest side of a texture for the target, texels.
     pub largest_px: u32,
 }
 
-/// Where a tile lies in the target's world: `uv = (world - origin) / size`, axis by axis.
+/// Rectangle of a tile in the target's world: `uv = (world - origin) / size`, axis by axis.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WorldEntry {
-    /// Place at which uv is (0, 0), units of the target.
+    /// Point with uv (0, 0), units of the target.
     pub origin: [f64; 2],
-    /// What uv grows by 1 over, units of the target. Negative where uv grows against the axis.
+    /// Extent over which uv grows by 1, units of the target. Negative where uv grows against the axis.
     pub size: [f64; 2],
 }
 
@@ -42,16 +44,16 @@ impl Default for TargetEntry {
     }
 }
 
-/// Scale, and for X, Y and Z of the target the axis of the plan (x, y, height) with its sign.
+/// Scale, and for each axis of the target the plan's axis (x, y, height) with its sign.
 struct Frame {
     units_per_metre: f64,
     rows: [(usize, f64); 3],
-    /// Axes of the target that u and v run along.
+    /// Axes of the target along u and v.
     ground: [usize; 2],
     v_from_top: bool,
 }
 
-/// Where an importer of glTF puts the scene, whose places are (x, height, -y).
+/// Returns the frame in which the target imports a glTF scene with points (x, height, -y).
 fn frame(target: Target) -> Frame {
     const X: usize = 0;
     const Y: usize = 1;
@@ -60,18 +62,18 @@ fn frame(target: Target) -> Frame {
         Target::Gltf | Target::Godot => {
             Frame { units_per_metre: 1.0, rows: [(X, 1.0), (HEIGHT, 1.0), (Y, -1.0)], ground: [0, 2], v_from_top: true }
         }
-        // Its importer makes Z the height and keeps the hand.
+        // The importer makes Z the height; the frame stays right-handed.
         Target::Blender => {
             Frame { units_per_metre: 1.0, rows: [(X, 1.0), (Y, 1.0), (HEIGHT, 1.0)], ground: [0, 1], v_from_top: false }
         }
-        // Its importer swaps glTF's Y and Z, which makes the hand left.
+        // The importer swaps glTF's Y and Z, so the frame becomes left-handed.
         Target::Unreal => Frame {
             units_per_metre: 100.0,
             rows: [(X, 1.0), (Y, -1.0), (HEIGHT, 1.0)],
             ground: [0, 1],
             v_from_top: true,
         },
-        // glTFast and UnityGLTF both take glTF's X negative.
+        // glTFast and UnityGLTF both negate glTF's X.
         Target::Unity => Frame {
             units_per_metre: 1.0,
             rows: [(X, -1.0), (HEIGHT, 1.0), (Y, -1.0)],
@@ -82,7 +84,7 @@ fn frame(target: Target) -> Frame {
 }
 
 impl TargetEntry {
-    /// What a manifest says of a target.
+    /// Returns a target's entry for the manifest.
     pub fn of(target: Target) -> TargetEntry {
         let Frame { units_per_metre, rows, ground, v_from_top } = frame(target);
         let (up, handed, normals) = match target {
@@ -109,24 +111,24 @@ impl TargetEntry {
         }
     }
 
-    /// A place of the plan frame, metres, with its height above the floor, in the target's world.
+    /// Maps a point of the plan and its height above the floor, metres, to the target's world.
     pub fn world(&self, p: Vec2, height_m: f64) -> [f64; 3] {
         self.world_from_plan.map(|[x, y, h, one]| x * p.x + y * p.y + h * height_m + one)
     }
 }
 
 impl WorldEntry {
-    /// Where a rectangle of the plan lies in a target's world.
+    /// Maps a rectangle of the plan to a target's world.
     pub(in crate::export) fn of(target: Target, place: Rect) -> WorldEntry {
         let Frame { units_per_metre, rows, ground, v_from_top } = frame(target);
-        // Where an image's texture coordinates are (0, 0) and (1, 1).
+        // Corners with the texture coordinates (0, 0) and (1, 1).
         let (mut zero, mut one) = (place.min, place.max);
         if v_from_top {
             (zero.y, one.y) = (one.y, zero.y);
         }
         let along = |axis: usize, p: Vec2| {
             let (of_plan, sign) = rows[axis];
-            // Adding nothing makes no zero negative.
+            // Adding 0.0 turns -0.0 into 0.0.
             sign * units_per_metre * [p.x, p.y, 0.0][of_plan] + 0.0
         };
         let origin = ground.map(|axis| along(axis, zero));
@@ -134,7 +136,7 @@ impl WorldEntry {
         WorldEntry { origin, size: [end[0] - origin[0], end[1] - origin[1]] }
     }
 
-    /// Texture coordinates of a place of the target's world, along the manifest's `uv_axes`.
+    /// Returns the texture coordinates of a point of the target's world, along `uv_axes`.
     pub fn uv(&self, [a, b]: [f64; 2]) -> [f64; 2] {
         [(a - self.origin[0]) / self.size[0], (b - self.origin[1]) / self.size[1]]
     }

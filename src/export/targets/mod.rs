@@ -1,4 +1,4 @@
-//! What the files are made for: names, packing, axes, and what each program needs to use them.
+//! Target programs: file names, channel packing, axes, and scripts for each program.
 
 use super::band::{Image, LayerFile};
 use super::manifest::ChannelEntry;
@@ -16,7 +16,7 @@ pub use frame::{TargetEntry, WorldEntry};
 pub use scripts::write_target_files;
 pub use target::Target;
 
-/// The number in the name of a texture.
+/// The number in a texture's file name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Number {
     Udim(u32),
@@ -39,7 +39,7 @@ impl Target {
         }
     }
 
-    /// The name of an image, without its folder.
+    /// Returns the file name of an image, without its folder.
     pub(super) fn image_name(self, covered: Covered, image: Image, number: Number) -> String {
         let kind = match (self, image) {
             (Target::Unreal, Image::BaseColor) => "BaseColor",
@@ -48,7 +48,7 @@ impl Target {
             (Target::Unreal | Target::Unity, Image::LoneMask(Covered::Wall)) => "Splash",
             (Target::Unreal | Target::Unity, Image::Orm) => "ORM",
             (Target::Unity, Image::BaseColor) => "BaseMap",
-            // Unity's own mask map is something else.
+            // Unity's own mask map has other channels.
             (Target::Unity, Image::Mask(_)) => "DirtMask",
             (Target::Unity, Image::MaskMap) => "MaskMap",
             (Target::Godot, Image::BaseColor) => "albedo",
@@ -61,7 +61,7 @@ impl Target {
         self.file_name(covered, kind, number, "png")
     }
 
-    /// The name of the `index`-th EXR file, without its folder.
+    /// Returns the file name of the `index`-th EXR file, without its folder.
     pub(super) fn layers_name(self, covered: Covered, index: usize, number: Number) -> String {
         let kind = match self {
             Target::Gltf | Target::Blender => "layers".to_string(),
@@ -77,7 +77,7 @@ impl Target {
             Covered::Wall => ("wall", "Wall"),
         };
         let number = match (self, number) {
-            // Blender and Unreal find the other tiles by this.
+            // Blender and Unreal recognise UDIM tiles by the dot.
             (Target::Gltf | Target::Blender | Target::Unreal, Number::Udim(udim)) => format!(".{udim}"),
             (Target::Unity | Target::Godot, Number::Udim(udim)) => format!("_{udim}"),
             (_, Number::Uv(u, v)) => format!("_u{u:03}_v{v:03}"),
@@ -89,7 +89,7 @@ impl Target {
         }
     }
 
-    /// What the channels of all images hold. `masks` describes a block's four masks, `of_layer` a layer.
+    /// Describes the channels of all images. `masks` and `of_layer` describe masks and layers.
     pub(super) fn channels(
         self,
         covered: Covered,

@@ -2,11 +2,11 @@ use super::Target;
 use crate::export::manifest::Manifest;
 use crate::export::{ExportError, OutputFolder};
 
-/// A file of `shaders/` and what it holds.
+/// A file in `shaders/`: name and content.
 type Script = (&'static str, &'static str);
 
 impl Target {
-    /// What lays the masks over an artist's own floor in this program, and what sets the textures' flags.
+    /// Returns the shaders that lay masks over a floor, and scripts that set texture flags.
     fn scripts(self) -> &'static [Script] {
         match self {
             Target::Gltf => &[("trodden_masks.glsl", include_str!("files/trodden_masks.glsl"))],
@@ -18,7 +18,7 @@ impl Target {
             ],
             Target::Unity => &[
                 ("TroddenDirt.hlsl", include_str!("files/TroddenDirt.hlsl")),
-                // Unity compiles what lies in a folder of this name for the editor only.
+                // Unity compiles files in a folder `Editor` for the editor only.
                 ("Editor/TroddenImporter.cs", include_str!("files/TroddenImporter.cs")),
             ],
             Target::Godot => &[
@@ -29,9 +29,10 @@ impl Target {
     }
 }
 
-/// Writes what the manifest's target needs to use the textures into `shaders/`: shaders that lay the masks over a floor
-/// of one's own in world space, scripts that set the textures' flags. For Godot also the import settings beside each
-/// image. They read the rest from the manifest.
+/// Writes shaders and scripts for the manifest's target into `shaders/`.
+///
+/// Shaders lay the masks over an artist's own floor in world space; scripts set the textures' flags. Godot also gets
+/// import settings beside each image. All read their numbers from the manifest.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -51,10 +52,10 @@ pub fn write_target_files(folder: &OutputFolder, manifest: &Manifest) -> Result<
     Ok(())
 }
 
-/// Folders that hold no assets: Godot would import every image in them, the sums with whole numbers as HDR textures.
+/// Folders for a `.gdignore`: Godot would import every image in them, sums as HDR textures.
 const GODOT_IGNORES: [&str; 2] = ["preview", "sums"];
 
-/// Every image of a bake with its import settings for Godot 4.
+/// Returns every image of a bake with its import settings for Godot 4.
 fn godot_imports(manifest: &Manifest) -> Vec<(&str, String)> {
     let tiles = manifest.floor.tiles.iter();
     let tiles = tiles.map(|tile| ([&tile.basecolor, &tile.mask, &tile.passes, &tile.orm], &tile.layers));
@@ -74,11 +75,11 @@ fn godot_imports(manifest: &Manifest) -> Vec<(&str, String)> {
 enum GodotCompression {
     /// BC7 or ASTC.
     Vram,
-    /// As it is: block compression of half floats has no alpha.
+    /// No compression: block compression of half floats has no alpha.
     None,
 }
 
-/// Full size, mip-maps, alpha as it is; whether numbers are colours is decided by the sampler's hint in a shader.
+/// Returns import settings: full size, mip-maps, alpha unchanged. The shader's sampler hint sets the colour space.
 fn godot_import(compression: GodotCompression) -> String {
     let mode = match compression {
         GodotCompression::Vram => 2,

@@ -64,15 +64,15 @@ fn unreal_takes_8192_and_the_others_16384() {
     }
 }
 
-/// A tile of 10.24 x 5.12 m, one along and two up.
+/// A tile of 10.24 x 5.12 m, in column 1 and row 2.
 const TILE: Rect = Rect { min: vec2(10.24, 10.24), max: vec2(20.48, 15.36) };
 
 #[test]
 fn three_places_of_the_plan_are_found_in_each_world_and_on_the_tile() {
-    // In the plan, metres; then by target the place in its world at a height of 2 m.
+    // Point of the plan, metres, its uv, and its place in each target's world at a height of 2 m.
     type Worlds = [(Target, [f64; 3]); 5];
     let places: [([f64; 2], [f64; 2], Worlds); 3] = [
-        // The tile's lower-left corner: image column 0, row at the very bottom.
+        // The tile's lower-left corner: image column 0, lowest row.
         (
             [10.24, 10.24],
             [0.0, 1.0],
@@ -128,7 +128,7 @@ fn worlds_have_the_hand_that_they_say() {
     for target in Target::ALL {
         let entry = TargetEntry::of(target);
         let [a, b, c] = entry.world_from_plan;
-        // The plan's frame is right-handed.
+        // The plan frame is right-handed.
         let determinant = a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
             + a[2] * (b[0] * c[1] - b[1] * c[0]);
         assert_eq!(determinant > 0.0, entry.handed == "right", "{}", target.name());
@@ -164,7 +164,7 @@ fn manifest(target: Target) -> Manifest {
     manifest
 }
 
-/// The files that a target adds to a bake.
+/// Writes the files that a target adds to a bake.
 fn written(target: Target) -> (tempfile::TempDir, OutputFolder, BTreeSet<String>) {
     let dir = tempfile::tempdir().unwrap();
     let folder = OutputFolder::begin(&dir.path().join("out"), false).unwrap();
@@ -208,7 +208,7 @@ fn import_settings_of_godot_leave_size_and_alpha_as_they_are() {
     assert!(layers.contains("compress/mode=3"));
 }
 
-/// Unity's script knows textures by their names.
+/// Unity's script finds textures by their names.
 #[test]
 fn the_names_that_unitys_importer_looks_for_are_those_that_are_written() {
     let (_dir, folder, _) = written(Target::Unity);

@@ -1,4 +1,4 @@
-//! The textures of floor and walls, as files.
+//! Writes the textures of floor and walls.
 
 use super::bake_path::BakePath;
 use super::band::Image;
@@ -23,32 +23,32 @@ mod wall_tests;
 pub use walls::{WallTextures, wall_textures};
 use writer::{Canvas, TextureWriter};
 
-/// How far the look goes on beyond the floor's edge and around strips of wall, texels.
+/// How far the look continues beyond the floor's edge and around strips of wall, texels.
 pub const PADDING_PX: u32 = 16;
 
 /// What was written of a floor.
 #[derive(Debug)]
 pub struct FloorTextures {
-    /// How the floor was cut.
+    /// Layout of the tiles.
     pub layout: TileLayout,
-    /// The tiles that hold floor; there are no files of the others.
+    /// The tiles that hold floor; other tiles have no files.
     pub tiles: Vec<TileEntry>,
-    /// The program that they are for.
+    /// The target program.
     pub target: Target,
     /// Names of the layers that were written.
     pub layers: Vec<&'static str>,
-    /// Small images of each of `tiles`, if they were asked for.
+    /// Reduced images of each of `tiles`, if requested.
     pub reduced: Vec<Reduced>,
-    /// The floor from above.
+    /// Overview of the floor.
     pub birdseye: Birdseye,
-    /// Seconds that threads spent on resolving.
+    /// Time that threads spent on resolving, seconds.
     pub look_busy_s: f64,
-    /// Seconds that threads spent on compressing and writing.
+    /// Time that threads spent on compressing and writing, seconds.
     pub export_busy_s: f64,
 }
 
 impl FloorTextures {
-    /// The manifest's entry.
+    /// Returns the floor's entry for the manifest.
     pub fn entry(&self, sums: SumsEntry) -> FloorEntry {
         let grid = self.layout.grid;
         let masks = [
@@ -81,13 +81,13 @@ impl FloorTextures {
     }
 }
 
-/// Resolves a floor and writes its textures into `floor/`, a band of blocks at a time from above, on the rayon pool
-/// that it is called in: while one band is compressed and written, the next one is resolved.
+/// Resolves a floor and writes its textures into `floor/`, band by band from above.
 ///
-/// Needs memory for the images of two bands of 256 rows, whatever the size of the floor, and for the reduced images.
+/// Runs on the current rayon pool: it resolves the next band while it compresses and writes one. Memory holds the
+/// images of two bands of 256 rows, whatever the floor's size, and the reduced images.
 ///
 /// # Errors
-/// A tile size out of range or beyond what the target takes, a file that cannot be written, an interruption.
+/// A tile size out of range or beyond the target's limit; a file that cannot be written; an interruption.
 pub fn floor_textures(
     folder: &OutputFolder,
     grid: TexelGrid,

@@ -7,7 +7,7 @@ use crate::look::{Background, Layer, ResolvedBlock};
 use crate::math::SplitMix64;
 use crate::progress::Silent;
 
-/// A floor that is a disc; each texel's value is a pure function of its place.
+/// A floor in the shape of a disc; each texel's value is a pure function of its place.
 struct Disc {
     centre: [i64; 2],
     radius: i64,
@@ -73,7 +73,7 @@ fn grid(width: u32, height: u32) -> TexelGrid {
     TexelGrid { texels_per_metre: 100.0, width, height }
 }
 
-/// The texel (i, j) of the whole floor in the images of a layout.
+/// Returns the texel (i, j) of the whole floor from the written images.
 fn image_texel(out: &Path, written: &FloorTextures, kind: &str, i: u32, j: u32) -> Option<Vec<u8>> {
     let layout = &written.layout;
     let tile = layout.tiles().find(|t| (t.i0..t.i0 + t.width).contains(&i) && (t.j0..t.j0 + t.height).contains(&j))?;
@@ -82,7 +82,7 @@ fn image_texel(out: &Path, written: &FloorTextures, kind: &str, i: u32, j: u32) 
     Some(image.get_pixel(i - tile.i0, tile.height - 1 - (j - tile.j0)).0.to_vec())
 }
 
-/// The four masks of texel (i, j) of the whole floor.
+/// Returns the four masks of texel (i, j) of the whole floor.
 fn masks(out: &Path, written: &FloorTextures, i: u32, j: u32) -> Option<[u8; 4]> {
     let packed = image_texel(out, written, "mask", i, j)?;
     let passes = image_texel(out, written, "passes", i, j)?;

@@ -12,11 +12,11 @@ use crate::walls::{Corner, Walls, WallsOptions};
 const LAYERS: [&str; 5] = ["shoe", "arm", "hand", "bag", "splash"];
 const BACKGROUND: Background = Background { base_color: [1, 2, 3], mask: [4, 5, 6, 7], orm: [255, 9, 0] };
 
-/// Walls whose texels say which face, column and row they are; whole faces are clean now and then.
+/// Walls whose texels encode face, column and row; some faces are clean.
 struct Told<'a>(&'a WallGrid);
 
 impl Told<'_> {
-    /// Face, column and row that a texel shows, or nothing.
+    /// Returns the face, column and row that a texel shows, `None` for a clean one.
     fn texel(&self, face: usize, i: i64, j: i64) -> Option<[u32; 3]> {
         let span = self.0.faces[face];
         let width = i64::from(span.width);
@@ -69,7 +69,7 @@ impl WallSource for Told<'_> {
     }
 }
 
-/// 7 x 5 m: a room with four pillars of different size.
+/// A room of 7 x 5 m with four pillars of different sizes.
 fn walls() -> Walls {
     let pillar = |x: u32, y: u32| (10..60).contains(&x) && (10..40).contains(&y) && x % 12 < 1 + x / 12 && y % 20 < 9;
     let wall = |x: u32, y: u32| x < 2 || y < 2 || x >= 68 || y >= 48 || pillar(x, y);
@@ -77,7 +77,7 @@ fn walls() -> Walls {
     Walls::trace(&FloorPlan::from_mask(70, 50, 0.1, mask), &WallsOptions::default())
 }
 
-/// Every vertex, as if each were a corner.
+/// Returns every vertex as a corner.
 fn corners(walls: &Walls) -> Vec<Corner> {
     let mut corners = Vec::new();
     for (face, wall) in walls.faces.iter().enumerate() {
@@ -133,7 +133,7 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
         .collect()
 }
 
-/// The four masks of a sheet.
+/// Reads the four masks of a sheet.
 fn masks(baked: &Baked, sheet: &SheetEntry) -> image::RgbaImage {
     let packed = image::open(baked.path(&sheet.mask)).unwrap().to_rgb8();
     let splash = image::open(baked.path(&sheet.splash)).unwrap().to_luma8();
@@ -145,7 +145,7 @@ fn masks(baked: &Baked, sheet: &SheetEntry) -> image::RgbaImage {
 
 #[test]
 fn every_texel_of_every_face_lies_where_the_manifest_says_and_padding_goes_on() {
-    // A strip takes 252 texels: two rows of them leave enough of 700 for turned ones.
+    // A strip is 252 texels high: two rows leave space for turned strips in 700.
     for tile in [1024, 512, 700] {
         let baked = bake(100.0, &options(tile));
         let told = Told(&baked.grid);

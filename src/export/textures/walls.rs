@@ -14,33 +14,32 @@ use crate::progress::Progress;
 use crate::stamps::DENSITY_ONE;
 use crate::walls::{Face, Walls};
 
-/// As many sheets as there are UDIM numbers.
+/// Largest number of sheets with UDIM numbers.
 const UDIM_SHEETS: usize = 100;
 
-/// What was written of walls.
+/// The written textures of walls.
 #[derive(Clone, Debug)]
 pub struct WallTextures {
-    /// Where each wall lies in the sheets.
+    /// Places of the walls in the sheets.
     pub atlas: Atlas,
-    /// The sheets' entries for the manifest, as in `atlas`; their strips are filled in by [`WallTextures::entry`].
+    /// Manifest entries of the sheets, in the order of `atlas`. [`WallTextures::entry`] adds their strips.
     pub sheets: Vec<SheetEntry>,
-    /// The program that they are for.
+    /// The target program.
     pub target: Target,
     /// Names of the layers that were written.
     pub layers: Vec<&'static str>,
-    /// Small images of each sheet, if they were asked for.
+    /// Reduced images of each sheet, if requested.
     pub reduced: Vec<Reduced>,
-    /// Seconds that threads spent on resolving.
+    /// Time that threads spent on resolving, seconds.
     pub look_busy_s: f64,
-    /// Seconds that threads spent on compressing and writing.
+    /// Time that threads spent on compressing and writing, seconds.
     pub export_busy_s: f64,
 }
 
-/// Resolves walls and writes a texture for each sheet of the atlas into `walls/`, as [`super::floor_textures`] does
-/// for floors.
+/// Resolves walls and writes a texture per sheet into `walls/`. See [`super::floor_textures`].
 ///
 /// # Errors
-/// A sheet larger than the target takes, a file that cannot be written, an interruption.
+/// A sheet beyond the target's limit; a file that cannot be written; an interruption.
 pub fn wall_textures(
     folder: &OutputFolder,
     atlas: &Atlas,
@@ -89,7 +88,7 @@ fn naming(count: usize) -> Naming {
     if count <= UDIM_SHEETS { Naming::Udim } else { Naming::Uv }
 }
 
-/// A sheet's entry without its strips.
+/// Returns a sheet's manifest entry without its strips.
 fn entry(index: usize, count: usize, canvas: &Canvas) -> Result<SheetEntry, ExportError> {
     let file = |image| canvas.files.image(image).unwrap_or_default();
     let (udim, name) = match number(index, count) {
@@ -112,7 +111,7 @@ fn entry(index: usize, count: usize, canvas: &Canvas) -> Result<SheetEntry, Expo
 }
 
 impl WallTextures {
-    /// The manifest's entry; `walls` are those that the atlas was made for, `people` those for whom the sums stand.
+    /// Returns the walls' manifest entry. `people` is the number of people whose touches the sums hold.
     pub fn entry(&self, walls: &Walls, people: u32) -> WallsEntry {
         let masks =
             ["skin: touches of hands", "rub: arms, shoulders and bags", "scuff: shoes", "edge: splashes and dust"];
@@ -159,9 +158,9 @@ fn strip_entry(atlas: &Atlas, index: usize, strip: &Strip, walls: &Walls) -> Str
     }
 }
 
-/// The polyline of a face between two arc lengths, metres.
+/// Returns the polyline of a face between two arc lengths, metres.
 fn stretch(face: &Face, from_m: f64, to_m: f64) -> Vec<Vec2> {
-    /// Nearer to an end, a vertex is the end.
+    /// Vertices closer to an end than this merge with it, metres.
     const NEAR_M: f64 = 1e-6;
     let joined = face.closed.then(|| face.points_m.first().copied()).flatten();
     let points: Vec<Vec2> = face.points_m.iter().copied().chain(joined).collect();

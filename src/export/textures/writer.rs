@@ -8,7 +8,7 @@ use crate::export::{ExportError, OutputFile, OutputFolder, Reduced, TextureSourc
 use crate::look::ResolvedBlock;
 use crate::progress::{Progress, Stage};
 
-/// A texture to write: a rectangle of what a source shows.
+/// A texture to write: a rectangle of a source.
 #[derive(Clone, Debug)]
 pub(super) struct Canvas {
     /// Lower-left texel.
@@ -16,13 +16,13 @@ pub(super) struct Canvas {
     /// Width and height, texels.
     pub(super) size: [u32; 2],
     pub(super) files: TextureFiles,
-    /// Whether files are made even if nothing is there.
+    /// Whether to write the files even if all blocks are empty.
     pub(super) even_if_empty: bool,
-    /// Which part of all textures it is, from 0 to 1.
+    /// Its share of the progress over all textures, from 0 to 1.
     pub(super) part: [f64; 2],
 }
 
-/// Writes textures, one after the other, a band of blocks at a time from above.
+/// Writes textures one after the other, band by band from above.
 pub(super) struct TextureWriter<'a> {
     folder: &'a OutputFolder,
     progress: &'a dyn Progress,
@@ -33,23 +33,21 @@ pub(super) struct TextureWriter<'a> {
     pub(super) export_busy: BusyTime,
 }
 
-/// A texture that is being written. Its files are made at the first band that is not empty.
+/// A texture that is being written. The first band that is not empty creates its files.
 struct Open<'c> {
     canvas: &'c Canvas,
     writer: Option<TileWriter<OutputFile>>,
     encoder: ImageEncoder,
-    /// The empty bands before the files were made.
+    /// The empty bands before that one.
     blank: Vec<Band>,
     reduced: Option<Reduced>,
 }
 
-/// What became of a texture.
 pub(super) struct Written {
     pub(super) reduced: Option<Reduced>,
 }
 
 impl<'a> TextureWriter<'a> {
-    /// A writer for sources with these layers.
     pub(super) fn new(
         folder: &'a OutputFolder,
         layers: &[&'static str],
@@ -68,7 +66,6 @@ impl<'a> TextureWriter<'a> {
         }
     }
 
-    /// The names of a texture's files, in their folder.
     pub(super) fn files(&self, covered: Covered, number: Number) -> TextureFiles {
         let folder = match covered {
             Covered::Floor => "floor",
@@ -83,8 +80,9 @@ impl<'a> TextureWriter<'a> {
         }
     }
 
-    /// Writes a texture, or nothing if nothing is there; `seen` is shown every block with its lower-left texel and its
-    /// size, by any thread.
+    /// Writes a texture, or nothing if all its blocks are empty.
+    ///
+    /// Any thread may call `seen`, with each block, its lower-left texel and its size.
     pub(super) fn write<S: TextureSource>(
         &self,
         source: &S,
@@ -153,7 +151,7 @@ impl<'a> TextureWriter<'a> {
                 seen([i0, j0], [width, height], &texels);
                 let small = factor.filter(|_| !texels.empty);
                 let reduced = small.map(|factor| ReducedBlock::of(&texels, [width, height], factor));
-                // Packed while they are still in the cache, floats need not wait for the images.
+                // Compressing the floats now, in the cache, frees them before the images are done.
                 let layers = self.layers.as_ref().map(|layers| layers.encode(&texels, width, height));
                 texels.layers = Vec::new();
                 BandBlock { texels, layers: layers.unwrap_or_default(), reduced }
@@ -200,7 +198,7 @@ impl Canvas {
         (self.size[1] as usize).div_ceil(BLOCK)
     }
 
-    /// Lower-left texel and size of a band, counted from above.
+    /// Returns the lower-left texel and the size of a band, counted from above.
     fn band(&self, index: usize) -> ([i64; 2], [usize; 2]) {
         let [width, whole] = self.size.map(|side| side as usize);
         let height = BLOCK.min(whole - index * BLOCK);

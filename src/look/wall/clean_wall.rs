@@ -1,4 +1,4 @@
-//! The clean wall: its colour, its own texture, joints and pores, the skirting board.
+//! Clean wall: colour, texture, joints and pores, skirting board.
 
 use super::dots::{DotSettings, Dots};
 use super::material::WallMaterial;
@@ -10,19 +10,19 @@ use crate::look::lattice::TexelWindow;
 use crate::look::noise::{self, Channel, Noise, NoiseField};
 use crate::math::{exp_f32, srgb};
 
-/// Formwork panels of concrete: width along the wall and height, metres.
+/// Size of concrete formwork panels: width along the wall and height, metres.
 const PANEL_M: [f64; 2] = [1.25, 1.30];
-/// Joints between them: half width at 1/e, metres, and depth as a share of the light taken.
+/// Joints between panels: half width at 1/e, metres, and share of light that they absorb.
 const JOINT_M: f32 = 0.0022;
 const JOINT_DEPTH: f32 = 0.22;
-/// Holes of the formwork's ties, plugged: distance from a panel's sides as a share of it, radius [m], and depth.
+/// Plugged tie holes: distance from a panel's sides as a share of it, radius in metres, depth.
 const TIE_AT: f64 = 0.22;
 const TIE_RADIUS_M: f32 = 0.011;
 const TIE_DEPTH: f32 = 0.28;
-/// Standard deviation of the tone from panel to panel.
+/// Standard deviation of the tone between panels.
 const PANEL_SD: f32 = 0.028;
 
-/// The top of a skirting board: a lip that catches dust, metres, and its own tone.
+/// Lip at the top of a skirting board, which collects dust: height, metres, and tone.
 const LIP_M: f32 = 0.004;
 const LIP_TONE: f32 = 0.82;
 
@@ -52,16 +52,16 @@ pub(super) struct CleanWallWindow<'a> {
     row: usize,
     tone: Vec<NoiseField>,
     tint: Option<NoiseField>,
-    /// Light that pores take, by texel.
+    /// Light absorbed by pores, per texel.
     pores: Vec<f32>,
 }
 
-/// A run of texels of the clean wall.
+/// A row of texels of the clean wall.
 #[derive(Default)]
 pub(super) struct CleanWallRow {
-    /// Linear colour, a plane per channel.
+    /// Linear colour, one plane per channel.
     pub rgb: [Vec<f32>; 3],
-    /// Share of the row that is skirting board.
+    /// Share of skirting board in the row.
     pub board: f32,
 }
 
@@ -73,8 +73,8 @@ impl CleanWall {
         };
         let own = srgb::light_of(wall.colour.unwrap_or(wall.material.properties().colour));
         let noise = |channel, [x, y, sd]: [f64; 3]| Noise::new(seed, channel, [x, y], sd as f32 * wall.texture);
-        // Length along the wall and height of spots, metres; deviation. The last is of the tint. Paint is even: the stipple
-        // of a roller is finer than texels.
+        // Length along the wall and height of spots, metres, and deviation; the last is for the tint. Paint is even:
+        // the stipple of a roller is finer than texels.
         let [fine, middle, coarse, tint] = match wall.material {
             WallMaterial::Matt | WallMaterial::Gloss => [[1.0, 1.0, 0.0]; 4],
             // Grain, blotches, clouds.
@@ -107,12 +107,12 @@ impl CleanWall {
         self.base
     }
 
-    /// True if the wall above the skirting board has one colour.
+    /// Whether the wall above the skirting board has a single colour.
     pub fn is_even(&self) -> bool {
         self.image.is_none() && self.panels.is_none() && self.tone.iter().chain([&self.tint]).all(Noise::is_flat)
     }
 
-    /// True if a row lies above the skirting board.
+    /// Whether a row is above the skirting board.
     pub fn is_above_board(&self, j: i64, texels_per_metre: f64) -> bool {
         j as f32 >= self.board_m * texels_per_metre as f32
     }
@@ -148,7 +148,7 @@ impl CleanWallWindow<'_> {
         }
     }
 
-    /// The texels of the row last begun.
+    /// Reads the texels of the current row.
     pub fn read(&self, out: &mut CleanWallRow) {
         for plane in &mut out.rgb {
             plane.clear();
@@ -162,7 +162,7 @@ impl CleanWallWindow<'_> {
             self.read_wall(j, &mut out.rgb);
         }
         if out.board > 0.0 {
-            // The lip's share of the row, and of the board in it.
+            // The lip's share of the row's board.
             let top = self.plaster.board_m;
             let lip = (top.min(low_m + texel_m) - (top - LIP_M).max(low_m)).max(0.0) / (texel_m * out.board);
             let tone = 1.0 + (LIP_TONE - 1.0) * lip.min(1.0);
@@ -209,7 +209,7 @@ impl Formwork {
     fn add_row(&self, window: &TexelWindow, strip: &FaceStrip, j: i64, tone: &mut [f32]) {
         let texel_m = 1.0 / window.texels_per_metre;
         let length_m = f64::from(strip.width) * texel_m;
-        // A whole number of panels goes round.
+        // A whole number of panels fits a closed face.
         let around = (length_m / PANEL_M[0]).round().max(1.0);
         let [width_m, height_m] = if strip.closed { [length_m / around, PANEL_M[1]] } else { PANEL_M };
         let up = (j as f64 + 0.5) * texel_m;
@@ -231,14 +231,14 @@ impl Formwork {
     }
 }
 
-/// Share of the light that a joint takes at a distance from its middle, as a mean over texels.
+/// Share of light that a joint absorbs at a distance from its centre, as a mean over texels.
 fn line(distance_m: f32, texel_m: f32) -> f32 {
     let spread = (JOINT_M * JOINT_M + texel_m * texel_m / 6.0).sqrt();
     let ratio = distance_m / spread;
     if ratio > 4.0 { 0.0 } else { JOINT_M / spread * exp_f32(-ratio * ratio) }
 }
 
-/// A plugged hole: a disc with a soft rim.
+/// Coverage of a plugged hole: a disc with a soft rim.
 fn hole([x, y]: [f32; 2], texel_m: f32) -> f32 {
     let squared = x * x + y * y;
     let soft = 0.002 + 0.5 * texel_m;

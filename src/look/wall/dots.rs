@@ -1,14 +1,14 @@
-//! Small round spots scattered at random: pores of concrete, droplets.
+//! Small round spots at random positions: pores of concrete, droplets.
 
 use super::strip::FaceStrip;
 use crate::look::lattice::TexelWindow;
 use crate::look::noise;
 use crate::math::{SplitMix64, exp, exp_f32};
 
-/// Side of the squares that spots are drawn for, metres.
+/// Side of the squares in which spots are drawn, metres.
 const SIDE_M: f64 = 0.10;
 
-/// How many spots there are, how large, how deep: least and largest, small ones are more frequent.
+/// Number, radius and depth of spots, least to largest; small ones are more frequent.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DotSettings {
     pub per_m2: f64,
@@ -16,7 +16,7 @@ pub(super) struct DotSettings {
     pub depth: [f32; 2],
 }
 
-/// Scattered spots, without any order: their number in a square is Poisson's.
+/// Random spots: the number per square has a Poisson distribution.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Dots {
     key: u32,
@@ -32,7 +32,7 @@ impl Dots {
     pub fn over(&self, window: &TexelWindow, strip: &FaceStrip) -> Vec<f32> {
         let mut out = vec![0.0; window.texels()];
         let density = strip.texels_per_metre;
-        // A whole number of squares goes round, or covers a strip.
+        // A whole number of squares fits the strip.
         let around = (f64::from(strip.width) / (SIDE_M * density)).round().max(1.0);
         let (across, up) = (f64::from(strip.width) / around, SIDE_M * density);
         let margin = (3.0 * f64::from(self.spread.radius_m[1]) * density) + 2.0;
@@ -61,7 +61,7 @@ impl Dots {
     }
 }
 
-/// A number of events whose mean is `mean`, at most a few hundred.
+/// Draws a Poisson number of the given mean, at most a few hundred.
 pub(super) fn poisson(mean: f64, rng: &mut SplitMix64) -> usize {
     let (limit, mut product, mut count) = (exp(-mean.min(500.0)), 1.0, 0);
     loop {
@@ -73,8 +73,8 @@ pub(super) fn poisson(mean: f64, rng: &mut SplitMix64) -> usize {
     }
 }
 
-/// Takes the larger of what is there and a Gaussian spot at a place in texels of the strip; one that is smaller than
-/// texels keeps its volume.
+/// Applies a Gaussian spot by maximum, at a position in texels of the strip. A spot smaller than texels keeps its
+/// volume.
 pub(super) fn splat(out: &mut [f32], window: &TexelWindow, [x, y]: [f64; 2], radius: f32, depth: f32) {
     // Variance of a disc, and of a texel.
     let variance = radius * radius / 4.0 + 1.0 / 12.0;

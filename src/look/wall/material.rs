@@ -6,29 +6,29 @@ use crate::math::srgb::Srgb8;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum WallMaterial {
-    /// Matt emulsion paint, rolled on: takes up skin grime and keeps it, shows it smoother than the paint.
+    /// Matt emulsion paint, rolled on: absorbs and keeps skin grime, which is smoother than the paint.
     Matt,
-    /// Gloss paint or laminate: is wiped and comes clean, but what is left shows, as dull patches.
+    /// Gloss paint or laminate: wiped clean easily; remaining dirt shows as dull patches.
     Gloss,
-    /// Fair-faced concrete with formwork joints and pores: hardly any skin grime stays, rubber and splashes do.
+    /// Fair-faced concrete with formwork joints and pores: keeps rubber and splashes, hardly any skin grime.
     Concrete,
 }
 
-/// Properties of a material: own values, and factors on the look's settings.
+/// Properties of a material: absolute values, and factors on the look's settings.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct WallProperties {
     pub colour: Srgb8,
     pub roughness: f32,
-    /// Factors on what a touch leaves: skin, cloth, bag, rubber.
+    /// Factors on the residue of a touch: skin, cloth, bag, rubber.
     ///
-    /// Hands leave 28 to 66 % of what they carry on painted surfaces and under 0.01 % on porous ones (Rusin, Maxwell,
-    /// Gerba 2002, J. Appl. Microbiol. 93); concrete that is touched time and again is not quite as clean.
+    /// Hands transfer 28 to 66 % of their load to painted surfaces and under 0.01 % to porous ones (Rusin, Maxwell,
+    /// Gerba 2002, J. Appl. Microbiol. 93); concrete that is touched repeatedly is not quite as clean.
     pub touches: [f32; 4],
-    /// Factor on the history: how much of it washing has left.
+    /// Share of the history that remains after washing.
     pub history: f32,
     pub splash: f32,
     pub dust: f32,
-    /// Changes of the roughness by full skin grime and by full rub of cloth and bags.
+    /// Change of the roughness by full skin grime, and by full rub of cloth and bags.
     pub grime_roughness: f32,
     pub rub_roughness: f32,
 }

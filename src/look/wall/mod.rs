@@ -1,8 +1,8 @@
-//! Resolves the sums of walls: what hands, sleeves, bags and shoes leave, and what the mop throws against their feet.
+//! Resolves sums of walls: marks of hands, sleeves, bags and shoes, and splashes of the mop.
 //!
-//! Dirt lies on a wall by the same law as on the floor: C = wall T + dirt (1 - T), T = exp(-sum D), free of order.
-//! Everything that is uneven lives in the space of the unrolled face (arc length and height), so that it runs on
-//! round corners and over the seam of a closed face.
+//! Dirt covers a wall by the same formula as the floor: C = wall T + dirt (1 - T), T = exp(-sum D), independent of
+//! order. All noise is in the space of the unrolled face (arc length and height), so that it continues around corners
+//! and across the seam of a closed face.
 
 mod dots;
 mod material;

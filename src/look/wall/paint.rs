@@ -20,7 +20,7 @@ use crate::patterns::Cause;
 use crate::stamps::DENSITY_ONE;
 use crate::sums::WallSums;
 
-/// Buffers that a thread uses again from window to window.
+/// Buffers that a thread reuses between windows.
 #[derive(Default)]
 struct WallBuffers {
     known: WallShadeInput,
@@ -31,18 +31,18 @@ thread_local! {
     static BUFFERS: RefCell<WallBuffers> = RefCell::default();
 }
 
-/// Everything that changes from row to row.
+/// Fields that are evaluated row by row.
 struct WallLayout<'a> {
     plaster: CleanWallWindow<'a>,
     /// By cause.
     touches: [Option<TouchFields>; 5],
     splash: Option<SplashWindow>,
     noise: Vec<NoiseField>,
-    /// True if there may be dirt.
+    /// Whether there may be dirt.
     dirty: bool,
 }
 
-/// Walls with their sums and the look that turns them into texels.
+/// Sums of walls, and the look that turns them into texels.
 pub(super) struct WallPainter<'a> {
     pub sums: &'a WallSums,
     pub background: Background,
@@ -50,7 +50,7 @@ pub(super) struct WallPainter<'a> {
     /// By cause.
     stains: [StainLook; 5],
     splash: Splash,
-    /// Unevenness of all dirt.
+    /// Noise of all dirt.
     noise: Vec<Noise>,
     law: WallShader,
     dither: u32,
@@ -78,8 +78,8 @@ impl<'a> WallPainter<'a> {
         })
     }
 
-    /// Shades all texels of a window that lies within the strip, into a block of its size; `false` if all of them show
-    /// the background.
+    /// Shades all texels of a window inside the strip into a block of its size. Returns `false` if all of them have the
+    /// background.
     pub fn paint(&self, strip: &FaceStrip, window: &TexelWindow, block: &mut ResolvedBlock) -> bool {
         BUFFERS.with_borrow_mut(|buffers| {
             let mut layout = WallLayout::over(self, strip, window);
@@ -117,7 +117,7 @@ impl<'a> WallPainter<'a> {
         };
         shaded.write(self.dither ^ strip.salt, window.i0, window.j0 + row as i64, &mut bytes);
         if self.plaster.is_even() {
-            // Without dither, which no file packs.
+            // Without dither, which does not compress.
             let (colour, orm) = known.even_bytes(&self.law);
             for ((total, base_color), out) in shaded.total.iter().zip(&mut *bytes.base_color).zip(&mut *bytes.orm) {
                 if *total == 0.0 {
@@ -133,7 +133,7 @@ impl<'a> WallPainter<'a> {
     }
 }
 
-/// The noises that add up to the wall's three octaves.
+/// Returns the noises of the wall's three octaves.
 fn dirt_noise(look: &Look) -> Vec<Noise> {
     let NoiseLook { fine, middle, coarse } = look.wall.noise;
     let noise = |channel, octave: Octave| Noise::new(look.seed, channel, [octave.size_m; 2], octave.sd);
@@ -176,7 +176,7 @@ impl<'a> WallLayout<'a> {
         }
     }
 
-    /// Everything that the law needs to know of the row last begun.
+    /// Collects the shader's inputs for the current row.
     fn gather(&self, law: &WallShader, window: &TexelWindow, row: usize, buffers: &mut WallBuffers) {
         let WallBuffers { known, .. } = buffers;
         self.plaster.read(&mut known.plaster);

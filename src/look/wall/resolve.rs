@@ -9,17 +9,17 @@ use crate::look::settings::Look;
 use crate::sums::WallSums;
 use crate::walls::Walls;
 
-/// Names of a wall block's float layers, in their order: optical densities by cause, of the splash band, of dust.
+/// Names of a wall block's float layers: optical densities by cause, of splash, of dust.
 pub const WALL_LAYERS: [&str; KINDS] = ["hand", "arm", "shoulder", "bag", "shoe", "splash", "dust"];
 
-/// Resolves any rectangle of any wall face's strip. Shared by threads; every texel's value depends on its place alone.
+/// Resolves rectangles of wall faces' strips, also from several threads. A texel depends on its position only.
 pub struct WallResolver<'a>(WallPainter<'a>);
 
 impl<'a> WallResolver<'a> {
-    /// Prepares to resolve `sums` of `simulated_people` on the faces of `walls`, for which the sums were made.
+    /// Prepares to resolve `sums` of `simulated_people` people on the faces of `walls`.
     ///
     /// # Errors
-    /// Settings out of range, a wall image that cannot be read, sums without simulated people, sums of other walls.
+    /// A setting is out of range; the wall image is unreadable; the sums lack people or belong to other walls.
     pub fn new(
         sums: &'a WallSums,
         walls: &Walls,
@@ -42,13 +42,13 @@ impl<'a> WallResolver<'a> {
         self.0.background
     }
 
-    /// Resolves the texels `i0..i0 + width`, `j0..j0 + height` of the unrolled strip of a face.
+    /// Resolves the texels `i0..i0 + width`, `j0..j0 + height` of a face's unrolled strip.
     ///
-    /// i grows along the face; row 0 is the lowest, at the floor for `j0` = 0.
+    /// i increases along the face; row 0 is the lowest, at the floor for `j0` = 0.
     ///
-    /// Beyond the strip's ends, the floor and the ceiling the texels at the edge go on, which makes the padding of an
-    /// atlas; a closed face goes on at its other end. Where an even wall is clean, the block is empty, all background; also
-    /// where there is no such face.
+    /// Beyond the strip's ends, the floor and the ceiling, the edge texels are repeated, as padding of an atlas; a
+    /// closed face continues at its other end. The block is empty (all background) where an even wall is clean, and for
+    /// unknown faces.
     pub fn resolve(&self, face: usize, i0: i64, j0: i64, width: usize, height: usize) -> ResolvedBlock {
         let mut block = ResolvedBlock::default();
         self.resolve_into(face, i0, j0, width, height, &mut block);
@@ -77,7 +77,7 @@ impl<'a> WallResolver<'a> {
                 let window = strip.window(&run.columns, &rows);
                 painted.resize(window.texels(), &WALL_LAYERS);
                 any |= self.0.paint(&strip, &window, painted);
-                // On an open strip its one run goes on to either side.
+                // On an open strip, the only run is extended to both sides.
                 let end = runs.get(n + 1).map_or(width, |next| next.at);
                 let left = if strip.closed { 0 } else { (window.i0 - i0).clamp(0, width as i64) as usize };
                 for row in 0..height {
@@ -99,15 +99,15 @@ thread_local! {
     static PAINTED: RefCell<ResolvedBlock> = RefCell::default();
 }
 
-/// Rows of a block and of what is copied to it, by their first texels.
+/// First texels of a block's row and of the row copied to it.
 struct RowCopy {
     to: usize,
     from: usize,
 }
 
 impl RowCopy {
-    /// Copies `len` texels to the columns from `at.start + left` on, and continues the first and the last of them over
-    /// the rest of the columns `at`.
+    /// Copies `len` texels to the columns from `at.start + left` on. Repeats the first and last over the rest of the
+    /// columns `at`.
     fn copy(
         &self,
         block: &mut ResolvedBlock,

@@ -7,51 +7,51 @@ use crate::look::colours::{BAG, CLOTH, RUBBER, SKIN, SOIL_WET};
 use crate::look::octaves::{NoiseLook, Octave};
 use crate::math::srgb::Srgb8;
 
-/// The look of walls: the section `[wall]`.
+/// Look of walls: the section `[wall]` of a look file.
 ///
-/// Densities are optical densities D, as on the floor. A stain's density follows from the touches S of its cause and from
-/// their mean E around: n = strength (w E + g (S - E)) with w = total_passes / people for whom touches were drawn, and
-/// g = sqrt(w), at most 8; D = density n / (density + n). Where many have touched, a closed soft patch grows; what one
-/// touch left stays single and faint. Where w is 1 or less, it is n = strength w S.
+/// Densities are optical densities D, as on the floor. A stain's density follows from the touches S of its cause and
+/// their local mean E: n = strength (w E + g (S - E)) with w = total_passes / simulated people and g = sqrt(w), at most
+/// 8; D = density n / (density + n). Frequent touches merge into a soft patch; single touches stay distinct and faint.
+/// For w of at most 1, n = strength w S.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct WallLook {
-    /// Material: colour, texture, roughness, and how stains stay on it.
+    /// Material: colour, texture, roughness, and adhesion of stains.
     pub material: WallMaterial,
-    /// Colour of the clean wall, sRGB; the material's own if left out.
+    /// Colour of the clean wall, sRGB; default: the material's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub colour: Option<Srgb8>,
-    /// How much the clean wall's own texture shows: 0 (dead flat) to 3, 1 as the material has it. Only concrete has one;
-    /// paint is even, so that walls that nobody touches take next to no space in files.
+    /// Contrast of the clean wall's texture, 0 (flat) to 3; 1 is the material's. Only concrete has a texture; paint is
+    /// even, so that untouched walls compress well.
     pub texture: f32,
-    /// An image of the wall, repeated from each face's start at the floor on, instead of the material's colour and
-    /// texture. A path relative to the look file.
+    /// Image of the wall, repeated from each face's start at the floor. It replaces the material's colour and texture.
+    /// The path is relative to the look file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub image: Option<PathBuf>,
-    /// Width and height of the wall that the image shows, metres, 0.01 to 1000.
+    /// Width and height of the wall in the image, metres, 0.01 to 1000.
     pub image_size_m: [f64; 2],
-    /// Roughness of the clean wall, 0 to 1; the material's own if left out.
+    /// Roughness of the clean wall, 0 to 1; default: the material's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub roughness: Option<f32>,
-    /// How many people have passed since the wall was painted or washed; those simulated stand for them. 1 to 1e9.
+    /// Passes since the wall was painted or washed, which the simulated people represent, 1 to 1e9.
     pub total_passes: u64,
-    /// Factor on the simulated touches as they are, painted over each other, 0 to 20: the way of the paper, 0 otherwise.
+    /// Factor on simulated touches painted over each other, 0 to 20: the method of the paper, otherwise 0.
     pub every_touch: f32,
-    /// Of hands.
+    /// Stains of hands.
     pub skin: StainLook,
-    /// Of arms and shoulders.
+    /// Stains of arms and shoulders.
     pub cloth: StainLook,
-    /// Of bags, cases, trolleys.
+    /// Stains of bags, cases and trolleys.
     pub bag: StainLook,
-    /// Of shoes.
+    /// Marks of shoes.
     pub rubber: StainLook,
     /// Splashes of mopping.
     pub splash: SplashLook,
     /// Grey film low on the wall.
     pub dust: WallDustLook,
-    /// The board along the foot of the wall.
+    /// Skirting board along the foot of the wall.
     pub skirting: SkirtingLook,
-    /// Unevenness of all dirt, along the wall and up.
+    /// Noise of all dirt, along the wall and in height.
     pub noise: NoiseLook,
 }
 
@@ -61,10 +61,10 @@ pub struct WallLook {
 pub struct StainLook {
     /// Factor on the simulated touches, 0 to 20.
     pub strength: f32,
-    /// Optical density where the wall takes up no more, 0 to 3.
+    /// Optical density at saturation, 0 to 3.
     pub density: f32,
-    /// How far the simulated touches are evened out (standard deviation of a Gaussian), metres, 0.005 to 0.5: those who
-    /// were not simulated touched beside those who were.
+    /// Standard deviation of the Gaussian that smooths the simulated touches, metres, 0.005 to 0.5. It represents
+    /// people who were not simulated and touched nearby.
     pub spread_m: f64,
     /// Colour, sRGB.
     pub colour: Srgb8,
@@ -80,28 +80,28 @@ pub struct SplashLook {
     pub height_m: f32,
     /// Unevenness along the wall, 0 to 1.5.
     pub unevenness: f32,
-    /// Drips that ran down, per metre of wall, 0 to 20.
+    /// Number of drips per metre of wall, 0 to 20.
     pub drips_per_metre: f32,
     /// Colour, sRGB.
     pub colour: Srgb8,
 }
 
-/// Dust: D = density exp(-h / reach) at the height h up to three times the reach, and D = hands around 1.15 m.
+/// Dust: D = density exp(-h / reach) at heights h up to 3 reach, and D = hands around 1.15 m.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct WallDustLook {
     /// Optical density at the floor, 0 to 3.
     pub density: f32,
-    /// Height in which it falls to 1/e, metres, 0.02 to 3.
+    /// Height over which it falls to 1/e, metres, 0.02 to 3.
     pub reach_m: f32,
-    /// Optical density of a film at hand height along all of the wall, 0 to 3: for walls that have seen far more than the
-    /// simulation tells of.
+    /// Optical density of a film at hand height along all walls, 0 to 3. For walls with a far longer history than
+    /// simulated.
     pub hands: f32,
     /// Colour, sRGB.
     pub colour: Srgb8,
 }
 
-/// A skirting board, painted on.
+/// Skirting board, painted on the wall.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SkirtingLook {
@@ -140,7 +140,7 @@ impl Default for WallLook {
 }
 
 impl Default for StainLook {
-    /// The stain of hands.
+    /// Returns the stain of hands.
     fn default() -> StainLook {
         WallLook::default().skin
     }
@@ -165,7 +165,7 @@ impl Default for SkirtingLook {
 }
 
 impl WallLook {
-    /// The look of a clean wall.
+    /// Returns the look of a clean wall.
     pub(in crate::look) fn clean(&self) -> WallLook {
         let clean = |stain: StainLook| StainLook { strength: 0.0, ..stain };
         WallLook {
@@ -180,7 +180,7 @@ impl WallLook {
         }
     }
 
-    /// Every number with its key, its least and its largest value.
+    /// Returns every number with its key, smallest and largest value.
     pub(in crate::look) fn ranges(&self) -> Vec<(&'static str, f64, f64, f64)> {
         macro_rules! stain {
             ($name:literal, $stain:expr) => {

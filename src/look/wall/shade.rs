@@ -1,6 +1,6 @@
-//! The wall's law, texel by texel: from touches and places to densities, colours and roughness.
+//! Wall shader: computes densities, colours and roughness per texel from touches.
 //!
-//! Causes that left nothing in a window are skipped: most of a wall is clean.
+//! Causes without stains in a window are skipped: most of a wall is clean.
 
 use super::clean_wall::CleanWallRow;
 use super::material::WallProperties;
@@ -11,20 +11,20 @@ use crate::look::planes::{add2, each1, each2, each3};
 use crate::look::settings::Look;
 use crate::math::{exp_f32, srgb};
 
-/// Kinds of dirt, in the order of [`super::WALL_LAYERS`]: five causes, splash, dust.
+/// Number of kinds of dirt, in the order of [`super::WALL_LAYERS`]: five causes, splash, dust.
 pub(super) const KINDS: usize = 7;
 pub(super) const SPLASH: usize = 5;
 pub(super) const DUST: usize = 6;
-/// Which channel of the mask shows each kind: skin, rub, scuff, splash and dust.
+/// Channel of the mask for each kind: skin, rub, scuff, splash and dust.
 const CHANNEL: [usize; KINDS] = [0, 1, 1, 1, 2, 3, 3];
-/// Which of the material's factors on touches holds for each cause: skin, cloth, bag, rubber.
+/// Index of the material's factor on touches for each cause: skin, cloth, bag, rubber.
 const STAIN: [usize; 5] = [0, 1, 1, 2, 3];
 
-/// Least optical density that changes an 8-bit step; less counts as 0, so that clean wall stays even.
+/// Least visible optical density. Smaller ones count as 0, so that clean walls stay even.
 const LEAST: f32 = 0.002;
 /// Largest factor on the stain of one touch.
 const MOST_SINGLE: f32 = 8.0;
-/// Skin grime that hides this share of the wall has changed its roughness in full.
+/// Opacity of skin grime at which its roughness applies in full.
 const FULL_GRIME: f32 = 0.30;
 /// Roughness of rubber, and of loose dirt.
 const RUBBER_ROUGHNESS: f32 = 0.60;
@@ -34,24 +34,24 @@ const BOARD_ROUGHNESS: f32 = 0.40;
 /// Factor on skin and cloth on a skirting board, which is smooth and wiped with the floor.
 const BOARD_TOUCH: f32 = 0.6;
 
-/// Dust ends at so many times its reach.
+/// Multiple of its reach at which dust ends.
 const DUST_END: f32 = 3.0;
-/// The film at hand height: its middle, and its standard deviation up and down, metres.
+/// Film at hand height: centre and standard deviation of its height, metres.
 const HANDS_M: f32 = 1.15;
 const HANDS_SD_M: f32 = 0.22;
 
-/// Everything about a look that is the same for all texels.
+/// Values of a look that are the same for all texels.
 #[derive(Clone, Debug)]
 pub(super) struct WallShader {
-    /// Touches of the whole history per simulated touch, and the factor on the deviation of single ones.
+    /// Touches of the whole history per simulated touch; factor on the deviation of single ones.
     weight: f32,
     residual: f32,
     every_touch: f32,
-    /// By cause: factor on touches, and the density where no more is taken up.
+    /// Per cause: factor on touches, and density at saturation.
     strength: [f32; 5],
     density: [f32; 5],
     pub splash: f32,
-    /// Dust: density at the floor and reach, hands.
+    /// Dust: density at the floor, reach, and density of the film at hand height.
     dust: [f32; 3],
     colours: [[f32; 3]; KINDS],
     darkest: f32,
@@ -61,31 +61,31 @@ pub(super) struct WallShader {
     rub_roughness: f32,
 }
 
-/// Inputs of the wall's law for a row of texels.
+/// Inputs of the shader for a row of texels.
 #[derive(Default)]
 pub(super) struct WallShadeInput {
     pub plaster: CleanWallRow,
-    /// By cause: simulated touches, and their mean around. Empty where there are none.
+    /// Per cause: simulated touches, and their local mean; empty if there are none.
     pub single: [Vec<f32>; 5],
     pub expected: [Vec<f32>; 5],
-    /// Sum of the noises; empty where there are none.
+    /// Sum of the noises; empty without noise.
     pub uneven: Vec<f32>,
-    /// Optical density, factors included; empty where there is none.
+    /// Optical density, including factors; empty if there is none.
     pub splash: Vec<f32>,
-    /// Middle of the row above the floor, metres.
+    /// Height of the row's centre above the floor, metres.
     pub height_m: f32,
 }
 
-/// Results of the wall's law for a row of texels.
+/// Results of the shader for a row of texels.
 #[derive(Default)]
 pub(super) struct WallShadeOutput {
-    /// Optical densities by kind; empty where there is none.
+    /// Optical densities by kind; empty if there is none.
     pub density: [Vec<f32>; KINDS],
     uneven: Vec<f32>,
-    /// By channel of the mask: density, then light that comes through.
+    /// Per channel of the mask: density, then transmittance.
     through: [Vec<f32>; 4],
     pub total: Vec<f32>,
-    /// Share of the wall that is hidden, by density.
+    /// Opacity per optical density.
     hiding: Vec<f32>,
     roughness: Vec<f32>,
     rgb: [Vec<f32>; 3],
@@ -93,12 +93,12 @@ pub(super) struct WallShadeOutput {
 }
 
 impl WallShadeInput {
-    /// True if all texels are clean.
+    /// Whether all texels are clean.
     fn is_clean(&self, dust: f32) -> bool {
         self.single.iter().all(Vec::is_empty) && self.splash.is_empty() && dust == 0.0
     }
 
-    /// The row's clean wall where it is even: colour and orm.
+    /// Colour and ORM bytes of the row's clean wall, if it is even.
     pub fn even_bytes(&self, law: &WallShader) -> ([u8; 3], [u8; 3]) {
         let colour = self.plaster.rgb.each_ref().map(|plane| srgb::encode_f32(plane[0]).round() as u8);
         (colour, [255, (255.0 * law.roughness_with(self.plaster.board)).round() as u8, 0])
@@ -112,7 +112,7 @@ impl WallShader {
         let stains = stains(wall);
         WallShader {
             weight,
-            // With fewer passes than were simulated there is nothing to even out.
+            // With fewer passes than simulated, there is nothing to smooth.
             residual: weight.min(weight.sqrt()).min(MOST_SINGLE),
             every_touch: wall.every_touch,
             strength: std::array::from_fn(|n| stains[n].strength * properties.touches[STAIN[n]]),
@@ -134,12 +134,12 @@ impl WallShader {
         }
     }
 
-    /// True if touches are evened out: the history is longer than the simulation.
+    /// Whether touches are smoothed: the history is longer than the simulation.
     pub fn evens_out(&self) -> bool {
         self.residual < self.weight
     }
 
-    /// True if a cause can leave dirt.
+    /// Whether a cause can leave dirt.
     pub fn takes(&self, cause: usize) -> bool {
         self.strength[cause] > 0.0 && self.density[cause] > 0.0 || self.every_touch > 0.0
     }
@@ -149,13 +149,13 @@ impl WallShader {
         self.roughness
     }
 
-    /// True if there may be dust at a height or above.
+    /// Whether there may be dust at or above a height.
     pub fn dust_from(&self, height_m: f32) -> bool {
         let [density, reach_m, hands] = self.dust;
         density > 0.0 && height_m < DUST_END * reach_m || hands > 0.0 && height_m < HANDS_M + 3.0 * HANDS_SD_M
     }
 
-    /// Dust at a height, before noise.
+    /// Optical density of dust at a height, before noise.
     pub fn dust_at(&self, height_m: f32) -> f32 {
         let [density, reach_m, hands] = self.dust;
         let end = DUST_END * reach_m;
@@ -165,7 +165,7 @@ impl WallShader {
         low + high
     }
 
-    /// Works out a row; `false` where it is clean.
+    /// Computes a row; returns `false` if it is clean.
     pub fn shade(&self, known: &WallShadeInput, out: &mut WallShadeOutput) -> bool {
         let len = known.plaster.rgb[0].len();
         let dust = self.dust_at(known.height_m);
@@ -188,7 +188,7 @@ impl WallShader {
         true
     }
 
-    /// Roughness of the clean wall where a share is skirting board.
+    /// Roughness of a clean row with a share `board` of skirting board.
     fn roughness_with(&self, board: f32) -> f32 {
         self.roughness + board * (BOARD_ROUGHNESS - self.roughness)
     }
@@ -225,7 +225,7 @@ impl WallShader {
         }
     }
 
-    /// Dirt over the wall, and the light that comes through it.
+    /// Computes the colour of dirt over the wall, and the transmittance.
     fn colour(&self, wall: &[Vec<f32>; 3], out: &mut WallShadeOutput) {
         let WallShadeOutput { density, through, total, hiding, rgb, .. } = out;
         for plane in rgb.iter_mut().chain([&mut *total]) {
@@ -249,13 +249,13 @@ impl WallShader {
                 *value = exp_f32(-*value);
             }
         }
-        // What hides the wall, by density: (1 - T) / sum(D).
+        // Opacity per optical density: (1 - T) / sum(D).
         each1(hiding, total, |total| (1.0 - exp_f32(-total)) / total.max(1e-6));
         let darkest = self.darkest;
         for (plane, wall) in rgb.iter_mut().zip(wall) {
             for (((value, hiding), total), wall) in plane.iter_mut().zip(&*hiding).zip(&*total).zip(wall) {
                 let shown = wall * (1.0 - hiding * total) + *value * hiding;
-                // Dirt makes nothing darker than the darkest, nor a wall lighter that is darker by itself.
+                // Dirt darkens no texel below the darkest value, and does not lighten a darker wall to it.
                 *value = shown.max(darkest.min(*wall));
             }
         }
@@ -283,12 +283,12 @@ impl WallShader {
     }
 }
 
-/// A density, or nothing where it is too little to be seen.
+/// Returns the density, or 0 if it is invisible.
 fn seen(density: f32) -> f32 {
     if density < LEAST { 0.0 } else { density }
 }
 
-/// By cause: hand, arm, shoulder, bag, shoe.
+/// Stain settings by cause: hand, arm, shoulder, bag, shoe.
 pub(super) fn stains(wall: &WallLook) -> [StainLook; 5] {
     [wall.skin, wall.cloth, wall.cloth, wall.bag, wall.rubber]
 }

@@ -1,4 +1,4 @@
-//! The splash band: what the mop smears and throws against the foot of a wall, and what runs down from there.
+//! Splash band: smears and splashes of the mop at the foot of a wall, and drips.
 
 use super::dots::{DotSettings, Dots, poisson, splat};
 use super::settings::SplashLook;
@@ -7,48 +7,48 @@ use crate::look::lattice::TexelWindow;
 use crate::look::noise::{self, Channel, Noise, NoiseField};
 use crate::math::{SplitMix64, exp_f32};
 
-/// Dirty water stands and dries at the very foot: falls to 1/e in this height, metres, and its share of the density.
+/// Dried water at the foot: height over which it falls to 1/e, metres, and share of the density.
 const FOOT_M: f32 = 0.012;
 const FOOT_SHARE: f32 = 0.65;
-/// The smear below the band's upper edge, and the line that dries along it: shares of the density, and the line's half
+/// Smear below the band's upper edge, and the line that dries along it: shares of the density, and the line's half
 /// width, metres.
 const SMEAR_SHARE: f32 = 0.55;
 const TIDE_SHARE: f32 = 0.12;
 const TIDE_M: f32 = 0.0035;
-/// Where the band ends on average, as a share of its largest height.
+/// Mean height of the band's edge, as a share of its largest height.
 const MEAN_EDGE: f32 = 0.42;
-/// Droplets end at so many times the band's largest height.
+/// Largest height of droplets, as a multiple of the band's largest height.
 const DROPS_END: f32 = 1.5;
-/// Drips begin at most so high, metres, and are drawn for stretches of the wall of this length.
+/// Largest starting height of drips, and length of wall per random draw of them, metres.
 const DRIP_TOP_M: f64 = 0.34;
 const STRETCH_M: f64 = 1.0;
-/// How far from each other the drips of one splash run, metres.
+/// Distance between the drips of one splash, metres.
 const CLUSTER_M: f32 = 0.07;
 
-/// The splash band of one look.
+/// Splash band of one look.
 pub(super) struct Splash {
     look: SplashLook,
-    /// How dirty the water was, along the wall; ups and downs of the edge in strokes of the mop and smaller.
+    /// Dirtiness of the water along the wall; variation of the edge by mop strokes and smaller.
     stretch: Noise,
     strokes: Noise,
     waves: Noise,
     ripples: Noise,
-    /// What the mop's strings drew.
+    /// Streaks of the mop's strings.
     streaks: Noise,
     drops: Dots,
     drip_key: u32,
 }
 
-/// The band over one window.
+/// Splash band over one window.
 pub(super) struct SplashWindow {
     window: TexelWindow,
     look: SplashLook,
-    /// By column: factor on the density, and where the band ends, metres.
+    /// Per column: factor on the density, and height of the band's edge, metres.
     amount: Vec<f32>,
     edge_m: Vec<f32>,
     streaks: NoiseField,
     streak: Vec<f32>,
-    /// Droplets and drips, by texel.
+    /// Droplets and drips, per texel.
     single: Vec<f32>,
     row: usize,
 }
@@ -71,7 +71,7 @@ impl Splash {
         }
     }
 
-    /// `None` where the window lies above all splashes.
+    /// Lays the band out over a window; `None` above all splashes.
     pub fn over(&self, window: &TexelWindow, strip: &FaceStrip) -> Option<SplashWindow> {
         let drips = self.look.drips_per_metre > 0.0;
         let band = self.look.density > 0.0;
@@ -120,8 +120,8 @@ impl Splash {
         Some(shown)
     }
 
-    /// The drips that may reach a window. Splashes are thrown anywhere along the wall (a Poisson process); each leaves one
-    /// drip, or a few close to each other.
+    /// Returns the drips that may reach a window. Splashes occur anywhere along the wall (a Poisson process); each
+    /// leaves one drip, or a few close together.
     fn drips(&self, window: &TexelWindow, strip: &FaceStrip) -> Vec<Drip> {
         let density = strip.texels_per_metre;
         let around = (f64::from(strip.width) / (STRETCH_M * density)).round().max(1.0);
@@ -129,7 +129,7 @@ impl Splash {
         let margin = (f64::from(CLUSTER_M) + 0.02) * density;
         let first = ((window.i0 as f64 - margin) / side).floor() as i64;
         let last = (((window.i0 + window.width as i64) as f64 + margin) / side).floor() as i64;
-        // Two drips a splash, on average.
+        // Two drips per splash, on average.
         let mean = 0.5 * f64::from(self.look.drips_per_metre) * side / density;
         let mut drips = Vec::new();
         for stretch in first..=last {
@@ -146,21 +146,21 @@ impl Splash {
         drips
     }
 
-    /// Where the drips are that may reach a window, texels along the strip.
+    /// Positions of the drips that may reach a window, texels along the strip.
     #[cfg(test)]
     pub fn places_of_drips(&self, window: &TexelWindow, strip: &FaceStrip) -> Vec<f64> {
         self.drips(window, strip).into_iter().map(|drip| drip.place).collect()
     }
 }
 
-/// What ran down.
+/// A drip.
 struct Drip {
-    /// Texels along the strip.
+    /// Position, texels along the strip.
     place: f64,
-    /// Metres above the floor.
+    /// Heights above the floor, metres.
     top_m: f32,
     end_m: f32,
-    /// Texels.
+    /// Radius, texels.
     radius: f32,
     depth: f32,
     key: u32,
@@ -175,7 +175,7 @@ impl Drip {
         Drip { place, top_m, end_m, radius, depth: rng.range(0.05, 0.20), key: rng.next_u64() as u32 }
     }
 
-    /// Adds the drip to a window: thin and straight but for a little wander, paler upward, a bead where it stopped.
+    /// Adds the drip to a window: thin, nearly straight, paler upward, with a bead at its end.
     fn paint(&self, window: &TexelWindow, density: f64, out: &mut [f32]) {
         // Variance of the run and of a texel.
         let variance = self.radius * self.radius / 4.0 + 1.0 / 12.0;
@@ -203,7 +203,7 @@ impl Drip {
         }
     }
 
-    /// How far the run is off its line, metres: knots every 3 cm.
+    /// Sideways deviation of the run, metres, with knots every 3 cm.
     fn wander_m(&self, height_m: f64) -> f64 {
         let knot = (height_m / 0.03).floor();
         let f = height_m / 0.03 - knot;
@@ -214,7 +214,7 @@ impl Drip {
 }
 
 impl SplashWindow {
-    /// Droplets lie thickest in the band and get rare above it.
+    /// Reduces droplets above the band, where they become rare.
     fn thin_out_drops(&mut self) {
         for row in 0..self.window.height {
             let height_m = self.height_m(row);
@@ -227,7 +227,7 @@ impl SplashWindow {
         }
     }
 
-    /// Middle of a row, metres above the floor.
+    /// Height of a row's centre above the floor, metres.
     fn height_m(&self, row: usize) -> f32 {
         ((self.window.j0 + row as i64) as f64 + 0.5) as f32 / self.window.texels_per_metre as f32
     }
@@ -241,7 +241,7 @@ impl SplashWindow {
         }
     }
 
-    /// Optical density of the row last begun, times `factor`.
+    /// Reads the optical density of the current row, times `factor`.
     pub fn read(&self, factor: f32, out: &mut [f32]) {
         let texel_m = (1.0 / self.window.texels_per_metre) as f32;
         let height_m = self.height_m(self.row);
@@ -252,7 +252,7 @@ impl SplashWindow {
             }
             return;
         }
-        // Means over a texel: the foot may be thinner than that.
+        // Means over a texel: the foot may be thinner.
         let (low, high) = ((height_m - 0.5 * texel_m) / FOOT_M, (height_m + 0.5 * texel_m) / FOOT_M);
         let foot = FOOT_SHARE * (exp_f32(-low) - exp_f32(-high)) / (high - low);
         let tide_m = (TIDE_M * TIDE_M + texel_m * texel_m / 6.0).sqrt();

@@ -1,4 +1,4 @@
-//! One face, unrolled.
+//! The strip of one unrolled face.
 
 use std::ops::Range;
 
@@ -6,25 +6,25 @@ use crate::look::lattice::TexelWindow;
 use crate::look::noise;
 use crate::stamps::WallGrid;
 
-/// What is the same all over a face.
+/// Properties of a face's strip.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FaceStrip {
     pub face: usize,
     pub texels_per_metre: f64,
-    /// Columns and rows.
+    /// Number of columns and rows.
     pub width: u32,
     pub height: u32,
     /// Whether the last column joins the first.
     pub closed: bool,
-    /// Gives each face patterns of its own.
+    /// Key of the face's patterns.
     pub salt: u32,
 }
 
-/// A rectangle of texels on a strip, and where its columns and rows are shown.
+/// A range of columns of a strip, and their position in a block.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ColumnRun {
     pub columns: Range<u32>,
-    /// First column of the block that shows them.
+    /// First column in the block.
     pub at: usize,
 }
 
@@ -51,8 +51,8 @@ impl FaceStrip {
         }
     }
 
-    /// The columns of the strip that a block of columns `i0..i0 + width` shows: round a closed face as often as need be;
-    /// on an open one the part within the strip, at least its first or last column.
+    /// Returns the strip's columns in a block of columns `i0..i0 + width`. A closed face wraps around as often as
+    /// needed; an open one gives its part of the block, at least its first or last column.
     pub fn columns(&self, i0: i64, width: usize) -> Vec<ColumnRun> {
         if !self.closed {
             return vec![ColumnRun { columns: clamped(i0, width, self.width), at: 0 }];
@@ -67,13 +67,13 @@ impl FaceStrip {
         runs
     }
 
-    /// The rows of the strip that a block of rows `j0..j0 + height` shows.
+    /// Returns the strip's rows in a block of rows `j0..j0 + height`.
     pub fn rows(&self, j0: i64, height: usize) -> Range<u32> {
         clamped(j0, height, self.height)
     }
 }
 
-/// The part of `first..first + count` within `0..size`; the end nearest to it if there is none.
+/// The part of `first..first + count` in `0..size`, or the nearest end if there is none.
 fn clamped(first: i64, count: usize, size: u32) -> Range<u32> {
     let last = i64::from(size) - 1;
     let from = first.clamp(0, last);

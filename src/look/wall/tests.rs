@@ -1,4 +1,4 @@
-//! The wall's look measured: what walls must show that people have touched, in numbers.
+//! Quantitative tests of the look of touched walls.
 
 use std::sync::LazyLock;
 
@@ -15,13 +15,13 @@ use crate::sums::WallSums;
 use crate::walls::{Walls, WallsOptions};
 
 const HEIGHT_M: f64 = 2.6;
-/// For so many people touches are drawn.
+/// Number of people for whom touches are drawn.
 const PEOPLE: u32 = 20_000;
 /// Length of the corridor's walls, metres.
 const LENGTH_M: f64 = 8.0;
-/// Where on the corridor's first wall the jamb of a door is, metres along.
+/// Position of the door jamb along the corridor's first wall, metres.
 const JAMB_M: f64 = 4.0;
-/// What W1 leaves out: the splash band and the scuffs in it, metres.
+/// Zone that W1 ignores: splash band and its scuffs, metres.
 const SPLASH_ZONE_M: f64 = 0.15;
 
 /// Walls with their sums.
@@ -37,7 +37,7 @@ static PLAIN: LazyLock<SummedWalls> = LazyLock::new(|| {
     scene
 });
 
-/// The same with people who push themselves through a door in the first wall.
+/// The same corridor with people who push off a door jamb in the first wall.
 static DOOR: LazyLock<SummedWalls> = LazyLock::new(|| {
     let mut scene = corridor(200.0);
     passers_by(&mut scene.sums);
@@ -63,7 +63,7 @@ fn scene(columns: usize, rows: usize, texels_per_metre: f64, is_floor: impl Fn(u
     SummedWalls { sums: WallSums::new(grid), walls }
 }
 
-/// A soft spot on the first face: its middle and its whole size, metres; its density there.
+/// Adds a soft spot to the first face: centre and size, metres, and its density.
 fn touch(sums: &mut WallSums, cause: Cause, middle_m: [f64; 2], size_m: [f64; 2], density: f64) {
     let t = sums.grid().texels_per_metre;
     let [(i0, width), (j0, height)] = [0, 1].map(|axis| {
@@ -71,7 +71,7 @@ fn touch(sums: &mut WallSums, cause: Cause, middle_m: [f64; 2], size_m: [f64; 2]
         (low as u32, (((middle_m[axis] + 0.5 * size_m[axis]) * t).ceil() - low).max(0.0) as usize)
     });
     let height = height.min((sums.grid().height - j0) as usize);
-    // Means over a texel, of 3 x 3 places.
+    // Means over a texel, of 3 x 3 samples.
     let value = |n: usize| {
         let places = (0..9).map(|k| {
             let x = ((f64::from(i0) + (n % width) as f64 + (k % 3) as f64 / 3.0 + 1.0 / 6.0) / t - middle_m[0]) * 2.0;
@@ -86,8 +86,8 @@ fn touch(sums: &mut WallSums, cause: Cause, middle_m: [f64; 2], size_m: [f64; 2]
     sums.add_block(cause, 0, i0, j0, [width, height], &values);
 }
 
-/// What 20 000 people leave who pass a plain wall within reach: 20 hands per metre (0.01 a person and 10 m), 10 bags,
-/// 4 shoes.
+/// Adds the touches of 20 000 people who pass a plain wall within reach: per metre 20 hands (0.01 per person and 10 m),
+/// 10 bags, 4 shoes.
 fn passers_by(sums: &mut WallSums) {
     let mut rng = SplitMix64::new(11);
     let along = |rng: &mut SplitMix64| 0.4 + (LENGTH_M - 0.8) * f64::from(rng.unit());
@@ -107,7 +107,7 @@ fn passers_by(sums: &mut WallSums) {
     }
 }
 
-/// 400 of 10 000 people who pass a door push themselves off its jamb.
+/// Adds the touches of 400 of 10 000 people, who push off the jamb of a door.
 fn jamb(sums: &mut WallSums) {
     let mut rng = SplitMix64::new(12);
     for _ in 0..400 {
@@ -122,7 +122,7 @@ fn look(material: WallMaterial) -> Look {
     look
 }
 
-/// A block with its background written out.
+/// Resolves a block and writes out its background.
 fn resolve(resolver: &WallResolver<'_>, [i0, j0]: [i64; 2], [width, height]: [usize; 2]) -> ResolvedBlock {
     let mut block = resolver.resolve(0, i0, j0, width, height);
     if block.empty {
@@ -132,7 +132,7 @@ fn resolve(resolver: &WallResolver<'_>, [i0, j0]: [i64; 2], [width, height]: [us
     block
 }
 
-/// A part of the first face, resolved, with the same part of the clean wall.
+/// A resolved part of the first face, with the same part of the clean wall.
 struct Resolved {
     width: usize,
     dirty: ResolvedBlock,
@@ -151,7 +151,7 @@ fn resolved(scene: &SummedWalls, look: &Look, along_m: [f64; 2], up_m: [f64; 2])
 }
 
 impl Resolved {
-    /// What dirt changes the lightness by, texel by texel.
+    /// Change of lightness by dirt, per texel.
     fn change(&self) -> Vec<f64> {
         let of = |block: &ResolvedBlock| -> Vec<f64> {
             block.base_color.iter().map(|&colour| lightness(light_of(colour))).collect()
@@ -186,7 +186,7 @@ fn a_plain_wall_is_almost_clean() {
         let dark = share(&wall.change(), |change| change < -3.0);
         println!("{material:?}: {:.2} % of the area more than 3 L* darker", 100.0 * dark);
         assert!(dark < 0.01, "{material:?}: {dark}");
-        // But something is there.
+        // But there is some dirt.
         assert!(material != WallMaterial::Matt || dark > 0.0005, "{material:?}: {dark}");
     }
 }
@@ -199,11 +199,11 @@ fn touches_gather_at_a_jamb() {
     println!("jamb: {dark:.1} L*");
     assert!((-15.0..=-6.0).contains(&dark), "{dark}");
 
-    // A closed patch: no touch stands out of it, none is missing.
+    // A closed patch without distinct touches or gaps.
     let uneven = sd(&wall.change());
     assert!(uneven < 3.0, "the patch varies by {uneven}");
 
-    // Square metres that are visibly dirty, per metre of wall.
+    // Visibly dirty area per metre of wall, square metres.
     let dirty = |scene: &SummedWalls, along_m: [f64; 2]| {
         let wall = resolved(scene, &look(WallMaterial::Matt), along_m, [0.2, HEIGHT_M]);
         (HEIGHT_M - 0.2) * share(&wall.change(), |change| change < -3.0)
@@ -236,7 +236,7 @@ fn stains_have_their_colours_and_roughness() {
         }
     }
     let [skin, rubber] = [Cause::Hand, Cause::Shoe].map(|cause| at(cause, WallMaterial::Matt));
-    // Yellow-grey: it takes more blue than red from the wall; rubber takes of all alike, and more.
+    // Yellow-grey: absorbs more blue than red; rubber absorbs all colours alike, and more.
     let [clean, skin, rubber] =
         [&skin.clean, &skin.dirty, &rubber.dirty].map(|block| [0, 1, 2].map(|n| colour(block, n)));
     println!("clean {clean:.0?}, skin {skin:.0?}, rubber {rubber:.0?}");
@@ -293,7 +293,7 @@ fn the_splash_band_is_low_and_uneven() {
     assert!(rows(13, 30) < 0.02 * rows(0, 2), "{}", rows(13, 30));
     assert!(splash[wall.width * 60..].iter().all(|&density| density == 0.0), "splashes above 30 cm");
 
-    // The upper edge goes up and down, and stretches are missing.
+    // The upper edge varies, and stretches are missing.
     let edge_cm: Vec<f64> = (0..wall.width)
         .map(|i| (0..40).rev().find(|&j| splash[j * wall.width + i] > 0.04).map_or(0.0, |j| 0.5 * (j + 1) as f64))
         .collect();
@@ -325,7 +325,7 @@ fn drips_are_rare_and_never_evenly_spaced() {
     let variation = sd(&gaps) / mean(gaps.iter().copied());
     assert!(variation > 1.0, "gaps vary by {variation}: too even");
 
-    // No distance is more frequent than others, beyond those of one splash.
+    // No distance is more frequent than others, apart from those within one splash.
     let count = |from_m: f64| {
         let mut pairs = 0;
         for (n, place) in places.iter().enumerate() {
@@ -397,7 +397,7 @@ fn a_rectangle_shows_the_same_texels_as_the_whole() {
     }
 }
 
-/// Everything that a block has at a texel.
+/// All values of a block at a texel.
 fn texel(block: &ResolvedBlock, n: usize) -> ([u8; 3], [u8; 4], [u8; 3], Vec<u32>) {
     let layers = block.layers.iter().map(|layer| layer.values[n].to_bits()).collect();
     (block.base_color[n], block.mask[n], block.orm[n], layers)
@@ -413,7 +413,7 @@ fn beyond_an_open_strip_its_edge_goes_on() {
         for n in 0..48 * 48 {
             let (i, j) = (i0 + (n % 48) as i64, j0 + (n / 48) as i64);
             let edge = resolve(&resolver, [i.clamp(0, span - 1), j.clamp(0, rows - 1)], [1, 1]);
-            // Every texel is compared on two lines, some elsewhere: each takes a block of its own.
+            // Compares all texels on two lines and some elsewhere: each needs a separate block.
             if n % 48 == 5 || n / 48 == 7 || n % 97 == 0 {
                 assert_eq!(texel(&block, n), texel(&edge, 0), "{i}, {j}");
             }
@@ -426,7 +426,7 @@ fn a_closed_face_goes_round_without_a_seam() {
     let mut scene = room(100.0);
     let width = scene.sums.grid().faces[0].width;
     assert_eq!(width, 1000);
-    // Hands around the seam, of which the sums hold the parts on either end.
+    // Hands across the seam, with parts at both ends of the strip.
     for _ in 0..30 {
         touch(&mut scene.sums, Cause::Hand, [9.95, 1.2], [0.1, 0.2], 0.02);
         touch(&mut scene.sums, Cause::Hand, [0.05, 1.2], [0.1, 0.2], 0.02);
@@ -441,7 +441,7 @@ fn a_closed_face_goes_round_without_a_seam() {
         let i = (n as i64 % 2400 - 300).rem_euclid(1000) as usize;
         assert_eq!(texel(&twice, n), texel(&once, n / 2400 * 1000 + i), "texel {n}");
     }
-    // Columns next to each other at the seam differ no more than others do.
+    // Adjacent columns at the seam differ no more than others.
     for kind in [0, SPLASH, DUST] {
         let values = &once.layers[kind].values;
         let step = |i: usize| {
@@ -479,7 +479,7 @@ fn the_paper_paints_touches_over_each_other_and_nothing_else() {
     let mut sums = vec![0; 200 * 300];
     DOOR.sums.read(Cause::Hand, 0, 700, 0, 200, 300, &mut sums);
     for (&sum, &density) in sums.iter().zip(wall.layer("hand")) {
-        // What is too little to be seen is none.
+        // Invisible densities count as 0.
         assert!((sum as f32 / DENSITY_ONE - density).abs() < 0.002);
     }
     assert!(sums.iter().any(|&sum| sum > 0));
@@ -495,7 +495,7 @@ fn history_gathers_where_people_do_and_lone_touches_stay_faint() {
     };
     let mut lone = corridor(200.0);
     touch(&mut lone.sums, Cause::Hand, [2.0, 1.2], [0.1, 0.12], 0.05);
-    // Less than was drawn, as much, fifty times as much.
+    // Fewer passes than drawn, as many, fifty times as many.
     let single = [1_000, 20_000, 1_000_000].map(|total| density(&lone, total, [2.0, 1.2]));
     let jamb = [1_000, 20_000, 1_000_000].map(|total| density(&DOOR, total, [JAMB_M, 1.2]));
     println!("one touch {single:.3?}, jamb {jamb:.3?}");
@@ -510,7 +510,7 @@ fn clean_paint_is_all_background() {
         let resolver = WallResolver::new(&scene.sums, &scene.walls, &look(material), PEOPLE).unwrap();
         assert!(resolver.resolve(0, 0, 70, 256, 480).empty, "nobody touched it above the drips");
         assert!(!resolver.resolve(0, 0, 0, 256, 256).empty);
-        // Where there is dirt, what is clean is even: files pack it.
+        // Clean texels are even, so that files compress.
         let resolver = WallResolver::new(&DOOR.sums, &DOOR.walls, &look(material), PEOPLE).unwrap();
         let block = resolver.resolve(0, 0, 0, 1600, 520);
         let clean = resolver.background();

@@ -1,4 +1,4 @@
-//! What the simulated people's touches tell of all those for whom they stand.
+//! Touches of the simulated people, and their local mean.
 
 use super::strip::FaceStrip;
 use crate::look::lattice::{SplineAxis, SplineLattice, TexelWindow};
@@ -9,13 +9,13 @@ use crate::sums::WallSums;
 
 /// Touches of one cause over a window of a strip.
 pub(super) struct TouchFields {
-    /// Sums as they are, texel by texel.
+    /// Sums per texel.
     pub single: Vec<u32>,
-    /// Their mean around; `None` where it is not asked for.
+    /// Local mean of the sums; `None` if not requested.
     mean: Option<SplineLattice>,
 }
 
-/// A strip's texels in groups along one axis.
+/// Texels of a strip, grouped into cells along one axis.
 #[derive(Clone, Copy)]
 struct TexelCells {
     texels: u32,
@@ -29,7 +29,7 @@ impl TexelCells {
         TexelCells { texels, count, closed }
     }
 
-    /// Texels per cell; cells differ by less than one.
+    /// Mean number of texels per cell; cells differ by less than one.
     fn spacing(&self) -> f64 {
         f64::from(self.texels) / self.count as f64
     }
@@ -39,14 +39,14 @@ impl TexelCells {
         (cell * i64::from(self.texels) / self.count) as u32
     }
 
-    /// The cell of the strip that a cell is, which may lie beyond its ends.
+    /// Index on the strip of a cell that may be beyond its ends.
     fn on_strip(&self, cell: i64) -> Option<i64> {
         let inside = (0..self.count).contains(&cell);
         if inside { Some(cell) } else { self.closed.then(|| cell.rem_euclid(self.count)) }
     }
 
-    /// Neighbouring cells of the strip among `first..first + len`: where each run starts in that range, its first cell,
-    /// and how many there are.
+    /// Runs of consecutive cells of the strip in `first..first + len`: position in that range, first cell, number of
+    /// cells.
     fn runs(&self, first: i64, len: usize) -> Vec<(usize, i64, usize)> {
         let mut runs: Vec<(usize, i64, usize)> = Vec::new();
         for at in 0..len {
@@ -61,7 +61,7 @@ impl TexelCells {
 }
 
 impl TouchFields {
-    /// `None` where nobody has touched the wall in the window, nor near it if touches are evened out over `spread_m`.
+    /// Reads touches. `None` if there are none in the window, nor near it when smoothed over `spread_m`.
     pub fn over(
         window: &TexelWindow,
         strip: &FaceStrip,
@@ -95,7 +95,7 @@ impl TouchFields {
         if !any {
             return None;
         }
-        // Beyond the strip nothing is known, so only wall counts in the mean.
+        // Touches beyond the strip are unknown, so only wall counts in the mean.
         let (mut mean, share) = (blurred(&values, &around, &kernel), blurred(&share, &around, &kernel));
         for (mean, share) in mean.iter_mut().zip(share) {
             *mean /= share.max(1e-3);
@@ -104,7 +104,7 @@ impl TouchFields {
         Some(TouchFields { single, mean: Some(SplineLattice::new(x, y, mean)) })
     }
 
-    /// Without a mean around.
+    /// Reads touches without a local mean.
     fn alone(window: &TexelWindow, strip: &FaceStrip, sums: &WallSums, cause: Cause) -> Option<TouchFields> {
         let touched = sums.touched(cause, strip.face, window.i0 as u32, window.j0 as u32, window.width, window.height);
         touched.then(|| TouchFields { single: singles(window, strip, sums, cause), mean: None })
@@ -116,7 +116,7 @@ impl TouchFields {
         }
     }
 
-    /// Mean density around, of the row last begun; 0 where it was not asked for.
+    /// Local mean density of the current row; 0 if not requested.
     pub fn expected(&self, out: &mut [f32]) {
         out.fill(0.0);
         if let Some(mean) = &self.mean {
@@ -125,7 +125,7 @@ impl TouchFields {
     }
 }
 
-/// Sums of a window as they are.
+/// Sums of a window, per texel.
 fn singles(window: &TexelWindow, strip: &FaceStrip, sums: &WallSums, cause: Cause) -> Vec<u32> {
     let mut single = vec![0; window.texels()];
     let TexelWindow { i0, j0, width, height, .. } = *window;
@@ -144,7 +144,7 @@ struct CellBlock<'a> {
 }
 
 impl CellBlock<'_> {
-    /// Writes each cell's mean density from `out[at]` on, in rows of `stride`; `false` where there is nothing.
+    /// Writes cells' mean densities from `out[at]`, in rows of `stride`; `false` if all are zero.
     fn read(&self, sums: &WallSums, out: &mut [f32], at: usize, stride: usize) -> bool {
         let CellBlock { cause, strip, across, up, cells: [i, j], count: [columns, rows] } = self;
         let (i0, i1) = (across.start(*i), across.start(i + *columns as i64));

@@ -360,7 +360,7 @@ fn fitted(
     let (sin, cos) = crate::math::sin_cos(fall_rad);
     let (ahead_m, down_m) = if is_drag { (0.5 * length_m * cos, 0.5 * length_m * sin) } else { (0.0, 0.0) };
     let along_m = stain.along_m + sign * ahead_m;
-    // WallPatterns entirely beyond the ends of an open face are dropped; the others show in part.
+    // A stain entirely beyond the ends of an open face is dropped; others show in part.
     if !closed && (along_m < -0.5 * length_m || along_m > face_m + 0.5 * length_m) {
         return None;
     }

@@ -7,7 +7,7 @@ use crate::motion::BodyOptions;
 use crate::plan::FloorPlan;
 use crate::walls::WallsOptions;
 
-/// A hall without walls nearby: 100 x 100 m from the origin.
+/// A hall of 100 x 100 m from the origin; its walls are far from the paths.
 fn hall() -> Walls {
     walls_of(200, 200, 0.5, |_, _| true)
 }
@@ -20,7 +20,7 @@ fn walls_of(width: u32, height: u32, metres_per_pixel: f64, floor: impl Fn(f64, 
     Walls::trace(&plan, &WallsOptions::default())
 }
 
-/// Everybody the same: no spread in what a test measures.
+/// Bodies without spread in the measured properties.
 fn even_bodies() -> BodyOptions {
     BodyOptions {
         children: 0.0,
@@ -47,7 +47,7 @@ impl Case {
         Footfalls::new(&self.people, &self.walls, &self.library, &self.options, origins).unwrap()
     }
 
-    /// Marks of people who walk `path(id, seconds)` from 0 to `seconds`.
+    /// Returns the marks of people who walk `path(id, seconds)` from 0 to `seconds`.
     fn marks(&self, people: u32, seconds: f64, dt: f64, path: impl Fn(u32, f64) -> Vec2) -> Vec<Mark> {
         let origins = vec![Origin { fresh: true, from_outside: true }; people as usize];
         let mut stage = self.stage(origins);
@@ -62,7 +62,7 @@ impl Case {
     }
 }
 
-/// Straight along y = 50 at a constant speed.
+/// A straight path along y = 50 at a constant speed.
 fn straight(speed: f64) -> impl Fn(u32, f64) -> Vec2 {
     move |_, t| vec2(2.0 + speed * t, 50.0)
 }
@@ -103,7 +103,7 @@ fn first_foot_and_first_phase_are_random() {
     let marks = case.marks(200, 2.5, 0.1, straight(1.34));
     let left = marks.iter().filter(|mark| !mark.mirrored).count() as f64 / marks.len() as f64;
     assert!((left - 0.5).abs() < 0.06, "{left}");
-    // No line at which steps gather: places along the way are even over a step.
+    // Steps do not align across people: their places along the path are even over a step.
     let mut bins = [0.0; 6];
     for mark in &marks {
         let along = (mark.place_m.x - 3.0) / 0.1;
@@ -123,7 +123,7 @@ fn who_stands_prints_both_feet_and_no_more_for_swaying() {
     assert_eq!(case.marks(20, 60.0, 0.1, |_, _| vec2(50.0, 50.0)).len(), 40);
     let swaying = case.marks(20, 60.0, 0.1, sway).len();
     assert!((40..=50).contains(&swaying), "{swaying} prints of 20 people who sway for a minute");
-    // A shift of the weight now and then, not a print a second.
+    // Standing people only shift their weight now and then.
     case.options.shifts_per_minute = 2.5;
     let shifting = case.marks(20, 60.0, 0.1, sway).len();
     assert!((70..=140).contains(&shifting), "{shifting} prints of 20 people who stand for a minute");
@@ -271,7 +271,7 @@ fn only_the_fresh_leave_soil() {
     assert!(out.iter().all(|mark| (mark.soil > 0.0) == (mark.place_m.y > 16.0)));
 }
 
-/// Square metres and the heel marks on them, per quarter turn or straight way.
+/// Heel marks per square metre, straight on and in turns.
 #[test]
 fn heel_marks_are_as_many_as_stated_and_gather_at_turns() {
     let mut case = Case::new(walls_of(40, 400, 0.5, |_, _| true));

@@ -1,6 +1,9 @@
 //! Finds the stain in a photograph: connected parts that differ from the clean wall.
-//!
-//! Not imageproc's connected components: parts grow from seeds above a second, higher threshold.
+
+use image::{GrayImage, Luma};
+use imageproc::distance_transform::Norm;
+use imageproc::morphology::dilate;
+use imageproc::region_labelling::{Connectivity, connected_components};
 
 use super::ImportError;
 use super::raster::{PixelRaster, quantile};
@@ -51,68 +54,56 @@ pub(super) fn find(residual: &PixelRaster, noise: f64) -> Result<StainMask, Impo
         values: near.iter().map(|&near| f32::from(u8::from(near))).collect(),
     };
     let clean = dilated(&all, residual, margin).into_iter().map(|stained| !stained).collect();
-    Ok(StainMask { core, window: window.blurred((margin / 2).max(1), 2), clean })
+    Ok(StainMask { core, window: window.blurred(usize::from(margin / 2).max(1), 2), clean })
 }
 
 /// Width of a stain's soft edge, pixels.
-fn margin(smooth: &PixelRaster) -> usize {
-    (smooth.width.max(smooth.height) / 40).max(3)
+fn margin(smooth: &PixelRaster) -> u8 {
+    (smooth.width.max(smooth.height) / 40).clamp(3, 255) as u8
 }
 
-/// All connected parts that stand out, and those of them that form the stain.
+/// All connected parts that stand out, and those of them that form the stain: a part lies above one threshold
+/// everywhere and above a second, higher one somewhere.
 fn parts(smooth: &PixelRaster, noise: f64) -> (Vec<bool>, Vec<bool>) {
     let lies = LIES * noise;
     let rises = (RISES * noise).max(LEAST_DENSITY);
-    let mut label = vec![0usize; smooth.values.len()];
-    let mut found: Vec<StainPart> = Vec::new();
-    for start in 0..label.len() {
-        if label[start] == 0 && f64::from(smooth.values[start]) > rises {
-            found.push(StainPart::grown(smooth, lies, start, found.len() + 1, &mut label));
-        }
+    let lying = mask(smooth.values.iter().map(|&value| f64::from(value) > lies), smooth);
+    let labels = connected_components(&lying, Connectivity::Four, Luma([0]));
+    let mut found = vec![StainPart::default(); labels.iter().max().map_or(0, |&last| last as usize) + 1];
+    for ((i, j, label), &value) in labels.enumerate_pixels().zip(&smooth.values) {
+        let part = &mut found[label.0[0] as usize];
+        part.mass += f64::from(value);
+        part.rises |= f64::from(value) > rises;
+        part.at_side |= i == 0 || j == 0 || i + 1 == labels.width() || j + 1 == labels.height();
     }
-    let largest = found.iter().map(|part| part.mass).fold(0.0, f64::max);
+    // Label 0 is all that does not stand out.
+    found[0] = StainPart::default();
+    let largest = found.iter().filter(|part| part.rises).map(|part| part.mass).fold(0.0, f64::max);
     let belongs = |part: &StainPart| {
         let least = if part.at_side { LEAST_PART_AT_SIDE } else { LEAST_PART };
-        part.mass >= least * largest
+        part.rises && part.mass >= least * largest
     };
-    let kept: Vec<bool> = std::iter::once(false).chain(found.iter().map(belongs)).collect();
-    (label.iter().map(|&label| label > 0).collect(), label.iter().map(|&label| kept[label]).collect())
+    let marked = |is_marked: &dyn Fn(&StainPart) -> bool| {
+        labels.iter().map(|&label| is_marked(&found[label as usize])).collect::<Vec<bool>>()
+    };
+    (marked(&|part| part.rises), marked(&belongs))
 }
 
 /// A connected part of the residual.
+#[derive(Clone, Copy, Default)]
 struct StainPart {
     mass: f64,
+    rises: bool,
     at_side: bool,
 }
 
-impl StainPart {
-    fn grown(smooth: &PixelRaster, lies: f64, start: usize, number: usize, label: &mut [usize]) -> StainPart {
-        let (width, height) = (smooth.width, smooth.height);
-        let mut part = StainPart { mass: 0.0, at_side: false };
-        let mut open = vec![start];
-        label[start] = number;
-        while let Some(n) = open.pop() {
-            let (i, j) = (n % width, n / width);
-            part.mass += f64::from(smooth.values[n]);
-            part.at_side |= i == 0 || j == 0 || i + 1 == width || j + 1 == height;
-            let sides = [(i > 0, n.wrapping_sub(1)), (i + 1 < width, n + 1)];
-            let ends = [(j > 0, n.wrapping_sub(width)), (j + 1 < height, n + width)];
-            for (_, next) in sides.into_iter().chain(ends).filter(|(is_inside, _)| *is_inside) {
-                if label[next] == 0 && f64::from(smooth.values[next]) > lies {
-                    label[next] = number;
-                    open.push(next);
-                }
-            }
-        }
-        part
-    }
+/// Dilates a mask by `radius` along rows and columns.
+fn dilated(on: &[bool], like: &PixelRaster, radius: u8) -> Vec<bool> {
+    dilate(&mask(on.iter().copied(), like), Norm::LInf, radius).iter().map(|&pixel| pixel > 0).collect()
 }
 
-/// Dilates a mask by `radius` along rows and columns.
-fn dilated(mask: &[bool], like: &PixelRaster, radius: usize) -> Vec<bool> {
-    let values = mask.iter().map(|&on| f32::from(u8::from(on))).collect();
-    let spread = PixelRaster { width: like.width, height: like.height, values }.blurred(radius, 1);
-    // A single pixel of the mask is one of (2 radius + 1)^2 in the mean.
-    let least = 0.5 / ((2 * radius + 1) * (2 * radius + 1)) as f32;
-    spread.values.iter().map(|&share| share > least).collect()
+/// An image of the size of a raster, 255 where `on`.
+fn mask(on: impl Iterator<Item = bool>, like: &PixelRaster) -> GrayImage {
+    let pixels = on.map(|on| if on { u8::MAX } else { 0 }).collect();
+    GrayImage::from_raw(like.width as u32, like.height as u32, pixels).expect("a raster has a value per pixel")
 }

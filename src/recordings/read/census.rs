@@ -1,4 +1,4 @@
-//! What a pass over the rows of a recording finds, in the file's own numbers.
+//! Statistics of one pass over the rows of a recording, in the file's own numbers.
 
 use rustc_hash::FxHashMap;
 
@@ -6,44 +6,44 @@ use super::histogram::Histogram;
 use super::row::TrajectoryRow;
 use crate::math::{Rect, Vec2};
 
-/// Rows of one person over which a speed is taken, so that noise and sway count little.
+/// Rows of one person per speed sample: long enough that noise and body sway count little.
 const STRIDE: u32 = 5;
-/// Two places of one person at one moment are the same if they are this close, in the file's unit.
+/// Distance within which two positions at one moment count as the same, file units.
 pub(super) const SAME: f64 = 1e-3;
 
-/// What was counted.
+/// The counts and histograms of a recording.
 #[derive(Debug, Default)]
 pub(super) struct Census {
     people: FxHashMap<u32, PersonRecord>,
     pub first_time: f64,
     pub last_time: f64,
-    /// When the last step ends, if that is later.
+    /// End of the last step, if it is later than `last_time`.
     pub end_time: f64,
-    /// Number of different moments.
+    /// Number of distinct moments.
     pub moments: usize,
     pub places: usize,
     pub largest_id: u32,
-    /// Around all places, turned.
+    /// Bounding box of all positions after `turn`.
     pub bounds: Option<Rect>,
     turn: Option<Vec2>,
-    /// Times between somebody's places.
+    /// Times between consecutive positions of one person.
     pub intervals: Histogram,
-    /// Times between moments.
+    /// Times between consecutive moments.
     pub moment_intervals: Histogram,
-    /// Speeds over [`STRIDE`] rows; those of 0 apart.
+    /// Speeds over [`STRIDE`] rows; speeds of 0 are counted in `standing`.
     pub speeds: Histogram,
     pub standing: u64,
-    /// Displacement by time and by the file's own velocity: seconds in a unit of time, if that is right.
+    /// Displacement / (time * the file's velocity): seconds per time unit if velocities are in length unit/s.
     pub own_speeds: Histogram,
-    /// How far people walked where they faced, and how far all who faced anywhere did.
+    /// Distance walked along the heading, and distance walked by rows that have a heading.
     pub forward: f64,
     pub faced: f64,
-    /// Way and time over which speeds were taken.
+    /// Total distance and time behind `speeds`.
     pub way: f64,
     pub time: f64,
-    /// Rows that repeat another one.
+    /// Number of rows that repeat another one.
     pub repeated: usize,
-    /// Whether rows say when and where a step ends.
+    /// Whether rows give the end of a step.
     pub steps: bool,
 }
 
@@ -52,23 +52,23 @@ struct PersonRecord {
     time: f64,
     at: Vec2,
     velocity: Option<Vec2>,
-    /// Whether the place is where a step will end.
+    /// Whether the position is the end of a step yet to come.
     ahead: bool,
     anchor: (f64, Vec2),
     rows: u32,
 }
 
-/// What stands in the way of counting on.
+/// Why counting stopped.
 #[derive(Debug)]
 pub(super) enum Objection {
-    /// Rows are not in the order of time.
+    /// Rows are not sorted by time.
     Disorder,
-    /// The person is at this other place too.
+    /// The person has this second position at the same moment.
     Twice(Vec2),
 }
 
 impl Census {
-    /// Nothing yet; bounds will be those of places turned by this, cosine and sine.
+    /// Starts an empty count; `bounds` are taken after a rotation by `turn`, (cos, sin).
     pub fn new(turn: Option<Vec2>) -> Census {
         Census { turn, ..Census::default() }
     }
@@ -82,17 +82,17 @@ impl Census {
         });
     }
 
-    /// Number of people.
+    /// Number of persons.
     pub fn people(&self) -> usize {
         self.people.len()
     }
 
-    /// How long all are present together, gaps up to this included.
+    /// Sum of all persons' times present; gaps up to `longest_gap` are included.
     pub fn present(&mut self, longest_gap: f64) -> f64 {
         self.intervals.sum_up_to(longest_gap * (1.0 + 1e-9))
     }
 
-    /// Counts a row; rows come in the order of time.
+    /// Counts one row; rows must be sorted by time.
     pub fn add(&mut self, row: &TrajectoryRow) -> Result<(), Objection> {
         if self.moments == 0 {
             self.first_time = row.time;
@@ -121,7 +121,7 @@ impl Census {
         Ok(())
     }
 
-    /// Takes somebody's next place; says whether it is a new one.
+    /// Records a person's next position; returns whether it differs from the last one.
     fn place(
         &mut self,
         id: u32,
@@ -172,7 +172,7 @@ impl Census {
         self.standing += u64::from(way == 0.0);
     }
 
-    /// Ends the count: whoever was seen only a few times counts too.
+    /// Ends the count. If no person had [`STRIDE`] rows, speeds are taken over the rows there are.
     pub fn finish(&mut self) {
         if self.time > 0.0 {
             return;
@@ -188,12 +188,12 @@ impl Census {
         }
     }
 
-    /// The speed that half of all are below, those who stand included.
+    /// Median speed, standing persons included.
     pub fn median_speed(&mut self) -> Option<f64> {
         self.speed_quantile(0.5)
     }
 
-    /// The speed that this share of all are below.
+    /// Quantile `share` of all speeds, standing persons included.
     pub fn speed_quantile(&mut self, share: f64) -> Option<f64> {
         let moving = self.speeds.count_above(0.0) as f64;
         let all = moving + self.standing as f64;
@@ -205,7 +205,7 @@ impl Census {
     }
 }
 
-/// Whether two places are the same.
+/// Whether two positions agree to within [`SAME`].
 pub(super) fn same(a: Vec2, b: Vec2) -> bool {
     (a.x - b.x).abs() <= SAME && (a.y - b.y).abs() <= SAME
 }

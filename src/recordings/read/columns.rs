@@ -1,70 +1,70 @@
-//! What columns mean, by their names.
+//! Roles of columns, found from their names.
 
 use super::LengthUnit;
 
-/// What a column holds.
+/// The quantity that a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
-    /// Who it is.
+    /// Id of the person.
     Id,
-    /// A count of frames.
+    /// Frame number.
     Frame,
-    /// A time.
+    /// Time.
     Time,
     X,
     Y,
-    /// The third axis: a height, or the floor's second axis where y points upward.
+    /// The third axis: height, or the floor's second axis in files where y points up.
     Z,
-    /// How tall somebody is.
+    /// Body height.
     Height,
     VelocityX,
     VelocityY,
     HeadingX,
     HeadingY,
-    /// An angle, counter-clockwise from +x.
+    /// Heading as an angle, counter-clockwise from +x.
     HeadingAngle,
-    /// When and where a step ends that begins at time, x, y.
+    /// Time and position of the end of a step that starts at time, x, y.
     EndTime,
     EndX,
     EndY,
-    /// Of no use.
+    /// Ignored.
     Unused,
 }
 
-/// What a column is measured in, if its name says so.
+/// The unit of a column, if its name gives one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum ColumnUnit {
     Length(LengthUnit),
-    /// Seconds in one.
+    /// Seconds per unit.
     Time(f64),
-    /// Radians in one.
+    /// Radians per unit.
     Angle(f64),
 }
 
-/// A column as its name tells it.
+/// Role, unit and sign of a column, from its name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TextColumn {
     pub role: Role,
     pub unit: Option<ColumnUnit>,
-    /// Counted the other way round.
+    /// Whether the sign is reversed.
     pub flipped: bool,
 }
 
 impl TextColumn {
     pub const UNUSED: TextColumn = TextColumn { role: Role::Unused, unit: None, flipped: false };
 
-    /// Whether it may hold people's heights.
+    /// Whether the column may hold body heights.
     pub fn is_height(&self) -> bool {
         matches!(self.role, Role::Z | Role::Height)
     }
 
-    /// Whether no line can do without it.
+    /// Whether every line needs a value for it.
     pub fn is_needed(&self) -> bool {
         self.role != Role::Unused && !self.is_height()
     }
 }
 
-/// Words that stand for a role, by rank: the first in a list is the one to believe where a file has several.
+/// Names of each role by rank: of several matching columns in a file, the first name wins.
 const NAMES: [(Role, &[&str]); 15] = [
     (
         Role::Id,
@@ -237,8 +237,8 @@ const NAMES: [(Role, &[&str]); 15] = [
     (Role::EndY, &["endy"]),
 ];
 
-/// The column that a name tells of, and how far down the list of names it stands. Case, blanks and punctuation do not
-/// matter, a unit may follow: `x/m`, `pos_x [cm]`, `time_ms`.
+/// Returns the column that a name means, and its rank in the list of names. Ignores case, blanks and punctuation; a
+/// unit may follow: `x/m`, `pos_x [cm]`, `time_ms`.
 pub(super) fn column_named(name: &str) -> Option<(TextColumn, usize)> {
     let name = name.trim().trim_matches('"').trim();
     if name == "-" {
@@ -249,7 +249,7 @@ pub(super) fn column_named(name: &str) -> Option<(TextColumn, usize)> {
         None => (false, name),
     };
     let lower = name.to_ascii_lowercase();
-    // Vadere marks the columns of a processor: `startX-PID1`.
+    // Vadere appends the number of a processor: `startX-PID1`.
     let lower = match lower.rfind("-pid") {
         Some(at) if at > 0 && lower[at + 4..].bytes().all(|b| b.is_ascii_digit()) => lower[..at].to_owned(),
         _ => lower,
@@ -257,7 +257,7 @@ pub(super) fn column_named(name: &str) -> Option<(TextColumn, usize)> {
     let (base, unit) = split_unit(&lower);
     let word: String = base.chars().filter(char::is_ascii_alphanumeric).collect();
     let exact = NAMES.iter().find_map(|(role, names)| names.iter().position(|n| *n == word).map(|rank| (*role, rank)));
-    // Telemetry names parts of its objects: `transform.position.x`.
+    // Telemetry uses paths of fields: `transform.position.x`.
     let (role, rank) = exact.or_else(|| {
         let ends = |ending: &str| word.ends_with(ending);
         let of = |axis: char| ["position", "pos", "location"].iter().any(|part| ends(&format!("{part}{axis}")));
@@ -271,14 +271,14 @@ pub(super) fn column_named(name: &str) -> Option<(TextColumn, usize)> {
         (None, "simsec" | "simtime" | "seconds" | "sec" | "secs" | "s") => Some(ColumnUnit::Time(1.0)),
         (unit, _) => unit,
     };
-    // Without a unit it may be anything.
+    // An angle without a unit could be degrees or radians.
     if role == Role::HeadingAngle && !matches!(unit, Some(ColumnUnit::Angle(_))) {
         return None;
     }
     Some((TextColumn { role, unit, flipped }, rank))
 }
 
-/// The unit behind the name of a place's column that is none of those that are known, as `px` in `x [px]`.
+/// Returns the unknown unit behind the name of an x or y column, such as `px` in `x [px]`.
 pub(super) fn strange_unit(name: &str) -> Option<&str> {
     let (column, _) = column_named(name)?;
     if !matches!(column.role, Role::X | Role::Y) || column.unit.is_some() {
@@ -289,7 +289,7 @@ pub(super) fn strange_unit(name: &str) -> Option<&str> {
     (!unit.is_empty()).then_some(unit)
 }
 
-/// Splits a name into what it names and the unit behind it.
+/// Splits a name into quantity and unit.
 fn split_unit(name: &str) -> (&str, Option<ColumnUnit>) {
     for (open, close) in [('[', "]"), ('(', ")"), ('/', "")] {
         if let Some((base, unit)) = name.split_once(open) {
@@ -307,7 +307,7 @@ fn split_unit(name: &str) -> (&str, Option<ColumnUnit>) {
     (name, None)
 }
 
-/// The unit that a word stands for.
+/// Returns the unit that a word names.
 pub(super) fn unit_named(word: &str) -> Option<ColumnUnit> {
     Some(match word.trim().to_ascii_lowercase().as_str() {
         "m" | "meter" | "meters" | "metre" | "metres" => ColumnUnit::Length(LengthUnit::Metre),
@@ -328,8 +328,8 @@ pub(super) fn unit_named(word: &str) -> Option<ColumnUnit> {
     })
 }
 
-/// Gives every column of a header its role, each role once: of several that could have it, the one whose name is more
-/// to be believed; `varies` says of a column of ids whether it only numbers the rows.
+/// Assigns each role to at most one column: the column whose name has the best rank. `numbers_rows` returns whether an
+/// id column only numbers the rows.
 pub(super) fn assign(names: &[&str], numbers_rows: impl Fn(usize) -> bool) -> Vec<TextColumn> {
     let known: Vec<Option<(TextColumn, usize)>> = names.iter().map(|name| column_named(name)).collect();
     let mut columns = vec![TextColumn::UNUSED; names.len()];

@@ -11,7 +11,7 @@ use super::text_rows::TextRows;
 use super::{RecordingError, Survey};
 use crate::motion::Statures;
 
-/// A surveyed recording: all that is needed to read its rows again.
+/// A surveyed recording, with all that is needed to read its rows again.
 #[derive(Debug)]
 pub(super) struct RecordingContent {
     pub path: PathBuf,
@@ -23,7 +23,7 @@ pub(super) struct RecordingContent {
     pub first_time: f64,
 }
 
-/// Where rows come from, as often as they are wanted.
+/// The source of the rows; it can be read several times.
 #[derive(Clone, Debug)]
 pub(super) enum RowSource {
     Text(Arc<TextLayout>, Numbering),

@@ -1,4 +1,4 @@
-//! JuPedSim's databases, versions 1 and 2.
+//! Reader of JuPedSim databases, versions 1 and 2.
 
 use std::path::{Path, PathBuf};
 use std::vec;
@@ -12,19 +12,19 @@ use super::row::{ID_LIMIT, Passed, TrajectoryRow};
 use crate::math::{Vec2, vec2};
 use crate::motion::Statures;
 
-/// How an SQLite file begins.
+/// First bytes of an SQLite file.
 pub(super) const MAGIC: &[u8; 16] = b"SQLite format 3\0";
-/// Rows taken at once.
+/// Rows per query.
 const PAGE: i64 = 8192;
 
-/// What a database says of itself.
+/// Properties that a database states in its metadata and schema.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct About {
     pub fps: Option<f64>,
-    /// What stands where a rate should.
+    /// The stated rate, if it is not a valid number.
     pub bad_fps: Option<String>,
     pub orientations: bool,
-    /// Largest number of a row.
+    /// Largest row number.
     last: i64,
 }
 
@@ -34,7 +34,7 @@ pub(super) struct DatabaseRows {
     database: Connection,
     query: String,
     page: vec::IntoIter<TrajectoryRow>,
-    /// The last row's number.
+    /// Number of the last row read.
     last: i64,
     about: About,
     passed: Passed,
@@ -89,7 +89,7 @@ impl DatabaseRows {
         self.passed
     }
 
-    /// How tall people are, where the database says so: what it says otherwise is passed over.
+    /// Body heights from the table `person_data`; rows that are not numbers are ignored.
     pub fn statures(&self) -> Statures {
         let mut statures = Statures::default();
         let read = |statures: &mut Statures| -> rusqlite::Result<()> {

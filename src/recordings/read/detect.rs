@@ -1,4 +1,4 @@
-//! Finds out from a text's beginning how it is laid out.
+//! Detects the layout of a text from its first lines.
 
 use super::columns::{ColumnUnit, Role, TextColumn, assign, column_named, strange_unit, unit_named};
 use super::error::LINES;
@@ -8,19 +8,19 @@ use super::number::number;
 use super::refusal::Refusal;
 use super::{LengthUnit, RecordingFormat, RecordingOptions};
 
-/// A line with its number, from 1.
+/// Line number, from 1, and line.
 type Numbered<'a> = (u64, &'a [u8]);
 
-/// What comments say.
+/// Properties stated in comments.
 #[derive(Default)]
 struct Comments<'a> {
     fps: Option<f64>,
     unit: Option<LengthUnit>,
-    /// The names of columns.
+    /// Column names.
     columns: Option<Vec<&'a str>>,
 }
 
-/// How a text is laid out that begins so; `whole` if that is all of it.
+/// Detects the layout of a text from its beginning; `whole` if `head` is the entire file.
 pub(super) fn detect(head: &[u8], whole: bool, options: &RecordingOptions) -> Result<TextLayout, Refusal> {
     if head.is_empty() {
         return Err(Refusal::Empty("the file has no content"));
@@ -28,7 +28,7 @@ pub(super) fn detect(head: &[u8], whole: bool, options: &RecordingOptions) -> Re
     refuse_what_is_no_text(head)?;
     let mut lines: Vec<Numbered> = (1..).zip(head.split(|&byte| byte == b'\n')).collect();
     if !whole && lines.len() > 1 {
-        // It may go on.
+        // The last line may be cut off.
         lines.pop();
     }
     let lines: Vec<Numbered> = lines.into_iter().map(|(n, line)| (n, line.trim_ascii())).collect();
@@ -75,7 +75,7 @@ pub(super) fn detect(head: &[u8], whole: bool, options: &RecordingOptions) -> Re
     let strange = named.and_then(|names| names.iter().find_map(|name| strange_unit(name)));
     if let Some(unit) = strange.filter(|_| options.unit.is_none()) {
         layout.warnings.push(format!(
-            "nothing is known of the unit {}: --unit says which it is, m, cm, mm or ft",
+            "the unit {} is unknown: give it with the option `unit`: m, cm, mm or ft",
             shown(unit.as_bytes())
         ));
     }
@@ -92,7 +92,7 @@ pub(super) fn detect(head: &[u8], whole: bool, options: &RecordingOptions) -> Re
     Ok(layout)
 }
 
-/// Says where a refusal without a place belongs. The line is not repeated: the file may be a wrong one.
+/// Adds a line number to a refusal that has none. The line is not quoted: it may be binary.
 fn place(refusal: Refusal, (line, _): Numbered) -> Refusal {
     match refusal {
         Refusal::Unknown { found, hint } => Refusal::Line { line, problem: found, hint },
@@ -106,7 +106,7 @@ fn refuse_what_is_no_text(head: &[u8]) -> Result<(), Refusal> {
     let sample = &head[..head.len().min(4096)];
     let nulls = sample.iter().filter(|&&byte| byte == 0).count();
     let utf16 = head.starts_with(&[0xff, 0xfe]) || head.starts_with(&[0xfe, 0xff]);
-    // Every other byte of plain letters and digits is null.
+    // In UTF-16, every other byte of ASCII text is null.
     if utf16 || (nulls * 5 > sample.len() * 2 && sample.len() >= 16) {
         return found("its text is UTF-16", "save it as UTF-8, or: iconv -f UTF-16 -t UTF-8 FILE");
     }
@@ -127,7 +127,7 @@ fn refuse_what_is_no_text(head: &[u8]) -> Result<(), Refusal> {
     }
 }
 
-/// What comments say; a rate that is none does no harm where another one is asked for.
+/// Reads rate, unit and column names from comments. A bad rate is ignored if `asked` replaces it.
 fn read_comments<'a>(lines: &[Numbered<'a>], asked: Option<f64>) -> Result<Comments<'a>, Refusal> {
     let mut comments = Comments::default();
     for &(number, line) in lines.iter().filter(|(_, line)| line.first() == Some(&b'#')) {
@@ -160,11 +160,11 @@ fn read_comments<'a>(lines: &[Numbered<'a>], asked: Option<f64>) -> Result<Comme
 
 fn bad_rate(line: u64, rate: &str) -> Refusal {
     let problem = format!("the frame rate is {rate}; allowed is above 0, up to {HIGHEST_RATE}");
-    let hint = "give the recording's frames per second with --fps".to_owned();
+    let hint = "give the recording's frames per second with the option `fps`".to_owned();
     Refusal::Line { line, problem, hint }
 }
 
-/// The number behind `framerate`, as `#framerate: 16`, `framerate = 25 fps`; `Err` is what stands there instead.
+/// Returns the number behind `framerate`, as in `#framerate: 16` or `framerate = 25 fps`; `Err` holds other text.
 fn stated_rate(comment: &str) -> Option<Result<f64, &str>> {
     let comment = comment.trim();
     let keys = ["framerate", "frame rate", "frame_rate", "frame-rate", "fps"];
@@ -181,7 +181,7 @@ fn is_column_line(names: &[&str]) -> bool {
     has(Role::X) && has(Role::Y) && (has(Role::Frame) || has(Role::Time))
 }
 
-/// Whether a line names columns: at least two of them known, x and y no numbers.
+/// Whether a line names columns: at least two known names, and no field is a number.
 fn is_header(line: &[u8]) -> bool {
     let names = names_of(line, separator_of_header(line));
     let known = names.iter().filter_map(|name| column_named(name)).filter(|(column, _)| column.role != Role::Unused);
@@ -196,7 +196,7 @@ fn separator_of_header(line: &[u8]) -> Separator {
     [b';', b',', b'\t'].into_iter().find(|byte| line.contains(byte)).map_or(Separator::Blanks, Separator::Byte)
 }
 
-/// A comma stands between numbers, or in them.
+/// Finds the separator of a line of numbers; a comma may also be the decimal mark.
 fn separator_of_numbers(line: &[u8]) -> Separator {
     let byte = [b';', b','].into_iter().find(|byte| {
         let fields = Separator::Byte(*byte).split(line);
@@ -207,7 +207,7 @@ fn separator_of_numbers(line: &[u8]) -> Separator {
 
 type Header<'a> = Option<(Numbered<'a>, Separator)>;
 
-/// Viswalk's files begin with a block that ends with the names of columns behind `$PEDESTRIAN:`.
+/// Finds the header of a Viswalk file: the line `$PEDESTRIAN:` followed by column names.
 fn viswalk_header<'a, 'b>(
     first: Numbered<'a>,
     data: &'b [Numbered<'a>],
@@ -250,11 +250,12 @@ fn columns_of(
             None => Ok(columns),
             Some(what) => Err(Refusal::Unknown {
                 found: format!("the header names no column for {what}"),
-                hint: "--columns id,time,x,y says what each column holds, - for one that is of no use".to_owned(),
+                hint: "name the columns in order with the option `columns = \"id,time,x,y\"`, - for an unused one"
+                    .to_owned(),
             }),
         };
     }
-    // A comment that names more columns than there are may be about something else.
+    // A comment that names more columns than the rows have may describe something else.
     let width = rows.first().map_or(0, |row| separator.split(row).len());
     if let Some(columns) = commented().filter(complete).filter(|columns| columns.len() <= width) {
         return Ok(columns);
@@ -262,7 +263,7 @@ fn columns_of(
     guess::columns(rows, separator, options.format, warnings)
 }
 
-/// The columns of `--columns`.
+/// Parses the value of `--columns`.
 fn asked_columns(asked: &str) -> Result<Vec<TextColumn>, Refusal> {
     let mut columns: Vec<TextColumn> = Vec::new();
     for word in asked.split(',').map(str::trim) {
@@ -280,7 +281,7 @@ fn asked_columns(asked: &str) -> Result<Vec<TextColumn>, Refusal> {
     }
 }
 
-/// What of when and where no column tells.
+/// Returns which of x, y and time has no column.
 fn missing(columns: &[TextColumn]) -> Option<&'static str> {
     let has = |role| columns.iter().any(|column| column.role == role);
     if !has(Role::X) {
@@ -320,7 +321,7 @@ fn format_of(names: Option<&[&str]>, separator: Separator, columns: &[TextColumn
     }
 }
 
-/// Times are believed before frames, unless somebody says how long a frame is.
+/// Chooses the clock: times rather than frames, unless `fps` is given.
 fn clock_of(columns: &[TextColumn], options: &RecordingOptions) -> TimeColumn {
     let of = |role| columns.iter().find(|column| column.role == role);
     match (of(Role::Time), of(Role::Frame)) {
@@ -333,7 +334,7 @@ fn clock_of(columns: &[TextColumn], options: &RecordingOptions) -> TimeColumn {
     }
 }
 
-/// Of two columns that say when, the one that is not believed is of no use.
+/// Ignores the time or frame column that is not the clock.
 fn drop_second_clock(layout: &mut TextLayout) {
     let other = if layout.clock == TimeColumn::Frames { Role::Time } else { Role::Frame };
     if let Some(at) = layout.column(other) {
@@ -341,7 +342,7 @@ fn drop_second_clock(layout: &mut TextLayout) {
     }
 }
 
-/// Pathfinder writes the units below the names.
+/// Reads the row of units that Pathfinder writes below the names.
 fn take_row_of_units(layout: &mut TextLayout, line: &[u8]) {
     let fields = layout.separator.split(line);
     let unit = |role: Role| {

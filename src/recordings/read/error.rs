@@ -5,10 +5,10 @@ use crate::files::FileError;
 use crate::motion::SourceError;
 use crate::progress::Interrupted;
 
-/// What recordings look like.
+/// Hint that describes the rows of a recording.
 pub(super) const LINES: &str = "a recording has a line for everybody in every frame: who, when, x, y";
 
-/// Why a recording cannot be read or written.
+/// Errors of reading and writing recordings.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecordingError {
@@ -17,42 +17,42 @@ pub enum RecordingError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Message of the operating system.
         problem: String,
-        /// What to do about that.
+        /// Remedy.
         hint: &'static str,
     },
-    /// Nobody is in it.
+    /// The file has no positions.
     #[error("{}: the recording is empty: {what}", path.display())]
     Empty {
         /// The file.
         path: PathBuf,
-        /// How empty it is.
+        /// Which part of the content is missing.
         what: &'static str,
     },
-    /// None of the formats.
+    /// The file has an unknown format.
     #[error("{}: this is no recording of people: {found}", path.display())]
     Unknown {
         /// The file.
         path: PathBuf,
-        /// What it looks like.
+        /// Description of the content that was found.
         found: String,
-        /// What to do about that.
+        /// Remedy.
         hint: String,
     },
-    /// A line that makes no sense.
+    /// A line cannot be parsed, or its values are out of range.
     #[error("{}, line {line}: {problem}", path.display())]
     Line {
         /// The file.
         path: PathBuf,
         /// The line, from 1; in a database the row's number.
         line: u64,
-        /// What is wrong, with the value.
+        /// The problem, with the value.
         problem: String,
-        /// What to do about that.
+        /// Remedy.
         hint: String,
     },
-    /// Somebody is at two places at once.
+    /// A person has two positions at one time.
     #[error(
         "{}, line {line}: {who} is at ({:.3}, {:.3}) and at ({:.3}, {:.3}) at {moment}",
         path.display(), places[0][0], places[0][1], places[1][0], places[1][1]
@@ -60,27 +60,27 @@ pub enum RecordingError {
     Twice {
         /// The file.
         path: PathBuf,
-        /// The line of the second place.
+        /// Line of the second position.
         line: u64,
-        /// Who it is.
+        /// The person.
         who: String,
-        /// When, as the file counts.
+        /// Time or frame, in the file's own numbers.
         moment: String,
-        /// Both places, in the file's own unit.
+        /// Both positions, in the file's length unit.
         places: [[f64; 2]; 2],
     },
-    /// The file counts frames, and nothing tells how many make a second.
+    /// The file counts frames but gives no frame rate.
     #[error("{}: nothing tells how many frames make a second", path.display())]
     UnknownRate {
         /// The file.
         path: PathBuf,
     },
-    /// The database is damaged, or another program's.
+    /// The database is damaged or has other tables.
     #[error("{}: {problem}", path.display())]
     Database {
         /// The file.
         path: PathBuf,
-        /// What SQLite says, or what is missing.
+        /// Message of SQLite, or what is missing.
         problem: String,
     },
     /// The user stopped the reading.
@@ -89,35 +89,35 @@ pub enum RecordingError {
     /// An option is out of range.
     #[error("{option} = {value}: {allowed}")]
     Option {
-        /// Which.
+        /// Name of the option.
         option: &'static str,
-        /// What was asked for.
+        /// The given value.
         value: String,
-        /// What is allowed.
+        /// Allowed range.
         allowed: String,
     },
-    /// The file's name says nothing of its format.
+    /// The file name's ending names no known format.
     #[error("{}: a motion is written to a file whose name ends in {endings}", path.display())]
     UnknownEnding {
         /// The file.
         path: PathBuf,
-        /// The endings that are known.
+        /// List of known endings.
         endings: String,
     },
-    /// The format is no text: it can neither be packed nor printed.
+    /// The format is binary: it can be neither gzipped nor printed.
     #[error("a {} can neither be packed by gzip nor printed", format.title())]
     NoText {
         /// The format.
         format: RecordingFormat,
     },
-    /// Frames per second out of range.
+    /// The frame rate is out of range, 1/s.
     #[error("{fps} frames per second; allowed is {low} to {high}")]
     FrameRate {
-        /// Frames per second that were asked for.
+        /// The given rate, 1/s.
         fps: f64,
-        /// Least allowed.
+        /// Smallest allowed rate, 1/s.
         low: f64,
-        /// Most allowed.
+        /// Largest allowed rate, 1/s.
         high: f64,
     },
     /// The file cannot be written.
@@ -132,7 +132,7 @@ impl SourceError for RecordingError {
 }
 
 impl RecordingError {
-    /// What the user can do about it.
+    /// Returns the remedy, for the user.
     pub fn hint(&self) -> Option<String> {
         let text = match self {
             RecordingError::File(error) => return error.hint(),
@@ -144,16 +144,17 @@ impl RecordingError {
             RecordingError::FrameRate { .. } => "10 is the crowd's own rate",
             RecordingError::Unknown { hint, .. } | RecordingError::Line { hint, .. } => hint,
             RecordingError::Twice { .. } => {
-                "ids must be different for different people: if another column tells them apart, name it with --columns"
+                "ids must be different for different people: if another column tells them apart, name it with \
+                 the option `columns`"
             }
             RecordingError::UnknownRate { .. } => {
-                "give the rate with --fps: for most recordings by camera 16, 25 or 30"
+                "give the rate with the option `fps`: for most recordings by camera 16, 25 or 30"
             }
             RecordingError::Database { .. } => {
                 "read are JuPedSim's databases, with the tables trajectory_data (frame, id, pos_x, pos_y) and metadata"
             }
             RecordingError::Option { option: "columns", .. } => {
-                "as --columns id,frame,x,y: a word for each column in turn, - for one that is of no use"
+                "name the columns in order with the option `columns = \"id,frame,x,y\"`, - for an unused one"
             }
             RecordingError::Empty { .. } => LINES,
             RecordingError::Unreadable { hint, .. } => hint,

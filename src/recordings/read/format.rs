@@ -1,10 +1,10 @@
 use serde::{Deserialize, Serialize};
 
-/// A way in which recordings are written.
+/// File format of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RecordingFormat {
-    /// Text after the Juelich data archive: `id frame x y z`.
+    /// Text of the Juelich data archive: `id frame x y z`.
     Juelich,
     /// A JuPedSim database, version 1 or 2 (SQLite).
     Jupedsim,
@@ -16,9 +16,9 @@ pub enum RecordingFormat {
     Viswalk,
     /// Pathfinder's CSV: `id,t,x,y`.
     Pathfinder,
-    /// ETH/UCY: `frame id x z y vx vz vy`.
+    /// Text of the ETH/UCY data sets: `frame id x z y vx vz vy`.
     Obsmat,
-    /// CSV with named columns: somebody, a time or frame, x, y.
+    /// CSV with named columns: id, time or frame, x, y.
     Csv,
 }
 
@@ -35,7 +35,7 @@ impl RecordingFormat {
         RecordingFormat::Csv,
     ];
 
-    /// What it is called in scenarios and on the command line.
+    /// Name in scenarios and on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             RecordingFormat::Juelich => "juelich",
@@ -49,7 +49,7 @@ impl RecordingFormat {
         }
     }
 
-    /// What it is called in a sentence.
+    /// Name in a sentence.
     pub const fn title(self) -> &'static str {
         match self {
             RecordingFormat::Juelich => "Juelich text",
@@ -63,7 +63,7 @@ impl RecordingFormat {
         }
     }
 
-    /// Whether it is text, line by line.
+    /// Whether the format is text, with one record per line.
     pub const fn is_text(self) -> bool {
         !matches!(self, RecordingFormat::Jupedsim)
     }

@@ -1,4 +1,4 @@
-//! What the numbers themselves tell where no names do.
+//! Guesses roles and units of columns from their numbers, for files without names.
 
 use std::collections::{HashMap, HashSet};
 
@@ -8,17 +8,17 @@ use super::layout::{Separator, TextLayout};
 use super::number::{number, stamp};
 use super::refusal::Refusal;
 
-/// Rows looked at.
+/// Largest number of rows that are examined.
 const ROWS: usize = 20_000;
 
-/// Whether a column only numbers the rows: every row has another value, and they grow.
+/// Whether a column only numbers the rows: all values differ and increase.
 pub(super) fn numbers_rows(rows: &[&[u8]], separator: Separator, at: usize) -> bool {
     let values = || rows.iter().take(ROWS).filter_map(|row| separator.split(row).get(at).copied());
     let distinct: HashSet<&[u8]> = values().collect();
     rows.len() > 2 && distinct.len() == rows.len().min(ROWS)
 }
 
-/// The columns of rows that nothing names.
+/// Guesses the columns of a text without column names.
 pub(super) fn columns(
     rows: &[&[u8]],
     separator: Separator,
@@ -29,7 +29,7 @@ pub(super) fn columns(
     let first = rows.first().copied().unwrap_or_default();
     let fields = separator.split(first);
     let width = fields.len();
-    let hint = "--columns id,frame,x,y says what each column holds, - for one that is of no use".to_owned();
+    let hint = "name the columns in order with the option `columns = \"id,frame,x,y\"`, - for an unused one".to_owned();
     if width < 4 {
         let found = if width == 1 { "a line with 1 column".to_owned() } else { format!("a line with {width} columns") };
         let found = format!("{found} where who, when, x and y are needed");
@@ -84,7 +84,7 @@ pub(super) fn columns(
     Ok(columns)
 }
 
-/// The first eight columns of a row, NaN where there are no numbers; `None` without a place.
+/// Parses the first eight fields of a row, NaN if invalid; `None` without fields 3 and 4.
 fn numbers(row: &[u8], separator: Separator) -> Option<Vec<f64>> {
     let mut numbers: Vec<f64> =
         separator.split(row).into_iter().take(8).map(|field| number(field).unwrap_or(f64::NAN)).collect();
@@ -93,8 +93,8 @@ fn numbers(row: &[u8], separator: Separator) -> Option<Vec<f64>> {
     placed.then_some(numbers)
 }
 
-/// Whether the first column counts frames and the second people, rather than the other way round: taken so, people
-/// move less from one of their places to the next.
+/// Whether the first column is the frame and the second the id, rather than the reverse: with the right order, persons
+/// move less per unit of time.
 fn frame_first(table: &[Vec<f64>], place: [usize; 2]) -> bool {
     match (median_step(table, 1, 0, place), median_step(table, 0, 1, place)) {
         (Some(frame_first), Some(id_first)) => frame_first < 0.5 * id_first,
@@ -103,7 +103,7 @@ fn frame_first(table: &[Vec<f64>], place: [usize; 2]) -> bool {
     }
 }
 
-/// How far people usually move per unit of time if these columns say who, when and where.
+/// Median displacement of a person per unit of time, for a given choice of columns.
 fn median_step(table: &[Vec<f64>], who: usize, when: usize, [x, y]: [usize; 2]) -> Option<f64> {
     let mut last: HashMap<u64, &Vec<f64>> = HashMap::new();
     let mut steps = Vec::new();
@@ -118,7 +118,7 @@ fn median_step(table: &[Vec<f64>], who: usize, when: usize, [x, y]: [usize; 2]) 
     (!steps.is_empty()).then(|| *steps.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
-/// Games often count y upward: if what is named y hardly changes while z does, z is the other axis of the floor.
+/// Swaps y and z if y hardly changes and z does, as in exports of game engines with y up.
 pub(super) fn upright_axis(layout: &mut TextLayout, rows: &[&[u8]], asked: bool) {
     let game = matches!(layout.format, RecordingFormat::Csv | RecordingFormat::Pathfinder);
     let (Some(x), Some(y), Some(z)) = (layout.column(Role::X), layout.column(Role::Y), layout.column(Role::Z)) else {
@@ -136,13 +136,13 @@ pub(super) fn upright_axis(layout: &mut TextLayout, rows: &[&[u8]], asked: bool)
     if tall.is_finite() && tall < 0.1 * deep && tall < 0.1 * wide {
         layout.columns[z].role = Role::Y;
         layout.columns[y].role = Role::Z;
-        let told = "y hardly changes and is taken for the height, z for the floor's second axis; --columns says \
-                    otherwise, with -z named -y where z points towards the viewer";
+        let told = "y hardly changes and is taken for the height, z for the floor's second axis; the option `columns` \
+                    overrides it, with -y for z where z points towards the viewer";
         layout.warnings.push(told.to_owned());
     }
 }
 
-/// The unit that heights of heads tell: people are 1 to 2.3 m tall.
+/// Guesses the unit of body heights: people are 1 to 2.3 m tall.
 pub(super) fn unit_of_heights(layout: &TextLayout, rows: &[&[u8]]) -> Option<super::LengthUnit> {
     use super::LengthUnit::{Centimetre, Metre, Millimetre};
     let at = layout.heights_column()?;

@@ -1,15 +1,15 @@
-//! Medians of what streams by.
+//! Quantiles of a stream of numbers.
 
 use std::collections::BTreeMap;
 
-/// Bits of a number's fraction that tell buckets apart: they are 0.1 % wide.
+/// Bits of the fraction that select a bucket: buckets are 0.1 % wide.
 const FRACTION_BITS: u32 = 10;
 
-/// Counts positive numbers by size, in buckets of 0.1 %.
+/// Histogram of positive numbers with buckets of relative width 0.1 %.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Histogram {
     buckets: BTreeMap<u64, Bucket>,
-    /// The bucket of the last number, which is often that of the next one, with what has yet to be added to it.
+    /// Cache of the last bucket, with counts not yet added to `buckets`: the next number often falls there too.
     latest: Option<(u64, Bucket)>,
 }
 
@@ -41,7 +41,7 @@ impl Histogram {
         }
     }
 
-    /// The number that this share of all are below: 0.5 is the median. The mean of its bucket.
+    /// Quantile at `share`, 0.5 for the median: the mean of its bucket.
     pub fn quantile(&mut self, share: f64) -> Option<f64> {
         self.settle();
         let total: u64 = self.buckets.values().map(|bucket| bucket.count).sum();
@@ -53,14 +53,14 @@ impl Histogram {
         found.map(|bucket| bucket.sum / bucket.count as f64)
     }
 
-    /// How many are larger, to 0.1 %.
+    /// Number of values above `limit`, to 0.1 %.
     pub fn count_above(&mut self, limit: f64) -> u64 {
         self.settle();
         let above = self.buckets.values().filter(|bucket| bucket.sum / bucket.count as f64 > limit);
         above.map(|bucket| bucket.count).sum()
     }
 
-    /// The sum of those that are no larger, to 0.1 %.
+    /// Sum of the values up to `limit`, to 0.1 %.
     pub fn sum_up_to(&mut self, limit: f64) -> f64 {
         self.settle();
         let below = self.buckets.values().filter(|bucket| bucket.sum / bucket.count as f64 <= limit);

@@ -1,4 +1,4 @@
-//! The bytes of a recording: lines of a text, packed by gzip or not.
+//! Line reader for text files, plain or gzipped.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -11,25 +11,25 @@ use flate2::bufread::MultiGzDecoder;
 
 use crate::files::open_input;
 
-/// Bytes read at once.
+/// Bytes per read.
 const CHUNK: usize = 1 << 18;
-/// No line is longer than this, bytes.
+/// Longest allowed line, bytes.
 pub(super) const LONGEST_LINE: usize = 1 << 20;
-/// How a gzip file begins.
+/// First bytes of a gzip file.
 pub(super) const GZIP: [u8; 2] = [0x1f, 0x8b];
-/// The mark with which some programs begin UTF-8.
+/// Byte order mark with which some programs begin UTF-8.
 const BOM: [u8; 3] = [0xef, 0xbb, 0xbf];
 
-/// Why there are no more lines.
+/// Errors of the line reader.
 #[derive(Debug)]
 pub(super) enum Trouble {
-    /// What the system says.
+    /// Error of the operating system.
     System(io::Error),
-    /// The packed file ends too early.
+    /// The gzip file is truncated.
     BreaksOff,
-    /// The packed file is damaged.
+    /// The gzip file is damaged.
     Damaged,
-    /// The next line does not end.
+    /// The next line exceeds [`LONGEST_LINE`].
     LongLine,
 }
 
@@ -39,7 +39,7 @@ impl From<io::Error> for Trouble {
     }
 }
 
-/// A file that counts what was read of it.
+/// A file that counts the bytes read.
 struct Counted {
     file: File,
     bytes: Arc<AtomicU64>,
@@ -53,12 +53,12 @@ impl Read for Counted {
     }
 }
 
-/// The lines of a text file, one by one, in a buffer that holds whole lines.
+/// Reads a text file line by line through a buffer that holds whole lines.
 pub(super) struct LineReader {
     input: Box<dyn Read + Send>,
     packed: bool,
     buffer: Vec<u8>,
-    /// Where in the buffer the lines begin that were not given yet, and where its content ends.
+    /// Range of the buffer that was not yet returned.
     rest: Range<usize>,
     ended: bool,
     number: u64,
@@ -88,12 +88,12 @@ impl LineReader {
         Ok(lines)
     }
 
-    /// What is in the buffer: after opening, the file's beginning. Says whether that is all of the file.
+    /// The buffered text, after opening the file's beginning, and whether it is the entire file.
     pub fn head(&self) -> (&[u8], bool) {
         (&self.buffer[self.rest.clone()], self.ended)
     }
 
-    /// The next line without its end, as a place in [`LineReader::text`].
+    /// Returns the next line without its end, as a range of [`LineReader::text`].
     pub fn next(&mut self) -> Result<Option<Range<usize>>, Trouble> {
         loop {
             let unread = &self.buffer[self.rest.clone()];
@@ -128,19 +128,19 @@ impl LineReader {
         self.number
     }
 
-    /// Whether the last line was the file's last and had no end.
+    /// Whether the line read last is the file's last and has no line end.
     pub fn breaks_off(&self) -> bool {
         self.ended && self.rest.is_empty() && self.rest.end > 0 && self.buffer[self.rest.end - 1] != b'\n'
     }
 
-    /// Share of the file that was read.
+    /// Share of the file read so far, 0..=1.
     pub fn share_read(&self) -> f64 {
         let unread = if self.length == 0 { 0 } else { self.rest.len() as u64 };
         let read = self.read.load(Ordering::Relaxed).saturating_sub(unread.min(self.length));
         (read as f64 / self.length.max(1) as f64).min(1.0)
     }
 
-    /// Moves what is left to the front and reads on.
+    /// Moves the unread part to the front and reads on.
     fn fill(&mut self) -> Result<(), Trouble> {
         self.buffer.copy_within(self.rest.clone(), 0);
         self.rest = 0..self.rest.len();

@@ -1,34 +1,34 @@
-//! How a text is laid out, and its lines read by that.
+//! Layout of a text, and the parser of its lines.
 
 use super::columns::{Role, TextColumn};
 use super::number::{number, stamp};
 use super::{LengthUnit, RecordingFormat};
 
-/// Numbers beyond this are no places, frames or times: 1e9 m is farther than the moon.
+/// Largest allowed position, frame or time: 1e15.
 pub(super) const LARGEST: f64 = 1e15;
-/// The most frames per second that a file may say.
+/// Largest frame rate that a file may state, 1/s.
 pub(super) const HIGHEST_RATE: f64 = 10_000.0;
-/// Characters of a value that an error shows.
+/// Length to which error messages shorten a value, characters.
 const SHOWN: usize = 40;
 
-/// What stands between columns.
+/// Separator between columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Separator {
     /// Any number of blanks and tabs.
     Blanks,
-    /// One such byte.
+    /// Exactly one such byte.
     Byte(u8),
 }
 
-/// What the column of moments counts.
+/// Unit of the time column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum TimeColumn {
     Frames,
-    /// Times in units of so many seconds; `None` if nothing tells.
+    /// Times in units of this many seconds; `None` if unknown.
     Times(Option<f64>),
 }
 
-/// How a text is laid out.
+/// Layout of a text file.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TextLayout {
     pub format: RecordingFormat,
@@ -36,34 +36,34 @@ pub(super) struct TextLayout {
     pub decimal_comma: bool,
     pub columns: Vec<TextColumn>,
     pub clock: TimeColumn,
-    /// Number of columns of the first row, useful or not.
+    /// Number of columns of the first row, ignored ones included.
     pub width: usize,
-    /// Lines before the first with a place.
+    /// Number of lines before the first row.
     pub head_lines: u64,
-    /// The line that names the columns, where there is one among the data.
+    /// The header line, if it is not a comment.
     pub header: Option<Vec<u8>>,
-    /// Frames per second, if the file says so.
+    /// Stated frames per second.
     pub fps: Option<f64>,
-    /// Unit of its lengths, if the file says so.
+    /// Stated length unit.
     pub unit: Option<LengthUnit>,
-    /// Unit of people's body heights, where a column holds them.
+    /// Unit of the body heights, if a column holds them.
     pub heights: Option<LengthUnit>,
-    /// What a user should be told.
+    /// Messages for the user.
     pub warnings: Vec<String>,
 }
 
-/// What a line says of somebody, in the file's own numbers.
+/// The values of a line, in the file's own numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TextLine<'a> {
     pub id: &'a [u8],
     pub time: f64,
-    /// The numbers by [`slot`]; NaN where there is none.
+    /// Values by [`slot`]; NaN where missing.
     pub values: [f64; SLOTS],
 }
 
 pub(super) const SLOTS: usize = 11;
 
-/// Where a role's number is kept.
+/// Index of a role's value in [`TextLine::values`].
 pub(super) const fn slot(role: Role) -> usize {
     match role {
         Role::X => 0,
@@ -80,32 +80,32 @@ pub(super) const fn slot(role: Role) -> usize {
     }
 }
 
-/// Why a line cannot be read.
+/// Why a line cannot be parsed.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct LineProblem {
     pub text: String,
     pub hint: &'static str,
-    /// Whether the line may merely have been cut off.
+    /// Whether the line may have been cut off.
     pub short: bool,
 }
 
 impl TextLayout {
-    /// Where a column with this role is.
+    /// Index of the column with this role.
     pub fn column(&self, role: Role) -> Option<usize> {
         self.columns.iter().position(|column| column.role == role)
     }
 
-    /// The column that may hold people's heights.
+    /// Index of the column that may hold body heights.
     pub fn heights_column(&self) -> Option<usize> {
         self.column(Role::Height).or_else(|| self.column(Role::Z))
     }
 
-    /// Whether columns with these roles are all there.
+    /// Whether all these roles have a column.
     pub fn has(&self, roles: &[Role]) -> bool {
         roles.iter().all(|&role| self.column(role).is_some())
     }
 
-    /// Leaves only those columns that are of use: of heights one, if it holds those of bodies, in this unit.
+    /// Sets the unit of body heights and drops surplus columns; without a unit, heights too.
     pub fn with_heights_in(mut self, unit: Option<LengthUnit>) -> TextLayout {
         self.heights = unit;
         let kept = unit.and_then(|_| self.heights_column());
@@ -117,7 +117,7 @@ impl TextLayout {
         self
     }
 
-    /// Reads a line; columns may be missing only behind the last useful one.
+    /// Parses a line; only columns behind the last needed one may be missing.
     pub fn read<'a>(&self, line: &'a [u8]) -> Result<TextLine<'a>, LineProblem> {
         let mut read = TextLine { id: b"1", time: f64::NAN, values: [f64::NAN; SLOTS] };
         let mut rest = line;
@@ -125,7 +125,7 @@ impl TextLayout {
             let field = self.separator.next(&mut rest).or_else(|| self.empty_last(line, at));
             let field = match field {
                 Some(field) => field,
-                // A height is good to have; nobody's place depends on it.
+                // Body heights are optional.
                 None if self.columns[at..].iter().all(|column| !column.is_needed()) => break,
                 None => return Err(self.too_short(at)),
             };
@@ -149,7 +149,7 @@ impl TextLayout {
         Ok(read)
     }
 
-    /// The empty field behind a separator at the end of a line.
+    /// Returns the empty field behind a separator at the end of a line.
     #[cold]
     fn empty_last<'a>(&self, line: &'a [u8], at: usize) -> Option<&'a [u8]> {
         let Separator::Byte(byte) = self.separator else { return None };
@@ -178,7 +178,7 @@ impl TextLayout {
         }
         if frames && value != value.trunc() {
             let text = format!("the frame is {}: frames are whole numbers", shown(field));
-            let hint = "if the column holds seconds, call it time: --columns id,time,x,y";
+            let hint = "if the column holds seconds, call it time, as in the option `columns = \"id,time,x,y\"`";
             return Err(LineProblem { text, hint, short: false });
         }
         Ok(value)
@@ -187,12 +187,12 @@ impl TextLayout {
     fn too_short(&self, found: usize) -> LineProblem {
         let needed = self.columns.iter().rposition(TextColumn::is_needed).map_or(0, |last| last + 1);
         let text = format!("{found} columns instead of at least {needed}");
-        LineProblem { text, hint: "--columns says what each column holds", short: true }
+        LineProblem { text, hint: "name the columns with the option `columns`", short: true }
     }
 }
 
 impl Separator {
-    /// Takes the next field off a line, without blanks and quotes around it; `None` where the line is at its end.
+    /// Takes the next field, without surrounding blanks and quotes; `None` at the end of the line.
     #[inline]
     pub fn next<'a>(self, rest: &mut &'a [u8]) -> Option<&'a [u8]> {
         match self {
@@ -221,7 +221,7 @@ impl Separator {
         }
     }
 
-    /// All fields of a line.
+    /// Splits a line into all its fields.
     pub fn split(self, line: &[u8]) -> Vec<&[u8]> {
         let mut rest = line;
         std::iter::from_fn(|| self.next(&mut rest)).collect()
@@ -243,13 +243,13 @@ fn unquoted(field: &[u8]) -> &[u8] {
 
 fn not_a_number(role: Role, field: &[u8]) -> LineProblem {
     let text = format!("{} is {}, which is no number", named(role), shown(field));
-    LineProblem { text, hint: "--columns says what each column holds", short: true }
+    LineProblem { text, hint: "name the columns with the option `columns`", short: true }
 }
 
 fn too_large(role: Role, field: &[u8]) -> LineProblem {
     let text = format!("{} is {}; allowed is up to {LARGEST:e}", named(role), shown(field));
     let hint = match role {
-        Role::Time | Role::Frame => "--columns says what each column holds",
+        Role::Time | Role::Frame => "name the columns with the option `columns`",
         _ => "a row without a place, where somebody is missing, has `nan` or an empty field",
     };
     LineProblem { text, hint, short: false }
@@ -272,7 +272,7 @@ fn named(role: Role) -> &'static str {
     }
 }
 
-/// A value as an error shows it: quoted, shortened, without control characters.
+/// Formats a value for an error message: quoted, shortened, without control characters.
 pub(super) fn shown(field: &[u8]) -> String {
     let text = String::from_utf8_lossy(&field[..field.len().min(4 * SHOWN)]);
     let text = text.trim();

@@ -1,4 +1,4 @@
-//! Rows held in memory in the order of time: for files that are not.
+//! Rows sorted by time in memory, for files that are not sorted.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -7,13 +7,13 @@ use super::RecordingError;
 use super::row::TrajectoryRow;
 use crate::math::{Vec2, vec2};
 
-/// Rows by time, then id, then their order in the file.
+/// Rows sorted by time, then id, then file order.
 #[derive(Debug, Default)]
 pub(super) struct Sorted {
     rows: Vec<Compact>,
-    /// Lines by the rows' order in the file.
+    /// Line numbers, in file order.
     lines: Vec<u32>,
-    /// What some files have beyond places, by the rows' order in the file; empty where none has.
+    /// Velocities, headings and step ends, in file order; empty if no row has any.
     extras: Vec<Extra>,
 }
 
@@ -37,7 +37,7 @@ impl Sorted {
     /// Adds a row.
     ///
     /// # Errors
-    /// More rows than can be counted.
+    /// More than 4 billion rows.
     pub fn push(&mut self, row: TrajectoryRow, path: &Path) -> Result<(), RecordingError> {
         let Ok(order) = u32::try_from(self.rows.len()) else {
             let (path, hint) = (path.to_path_buf(), "sort it by time first");
@@ -61,7 +61,7 @@ impl Sorted {
         Ok(())
     }
 
-    /// Sorts all rows by time, then id, then their order in the file.
+    /// Sorts all rows by time, then id, then file order.
     pub fn sort(&mut self) {
         self.rows.sort_unstable_by(|a, b| a.time.total_cmp(&b.time).then((a.id, a.order).cmp(&(b.id, b.order))));
     }
@@ -74,7 +74,7 @@ impl Sorted {
     }
 }
 
-/// The rows, one by one.
+/// Iterates over sorted rows.
 pub(super) struct MemoryRows {
     sorted: Arc<Sorted>,
     next: usize,

@@ -1,9 +1,9 @@
-//! Reads what others recorded or simulated: whatever the format, out comes a [`Motion`].
+//! Reads recordings of other programs, in any known format, as a [`Motion`].
 //!
-//! 1. `detect`: how a text is laid out, by its beginning: `columns` knows names, `guess` numbers without names;
-//! 2. `input`, `layout`, `number`: lines, fields, numbers; `rows`: a person's positions, from a text (`text_rows`), a
-//!    `database`, or, if a file is not in the order of time, from `memory`;
-//! 3. `census`: one pass over all rows, which finds what there is; `scale`: what its numbers mean in metres and seconds;
+//! 1. `detect`: the layout of a text, from its beginning: `columns` knows names, `guess` handles unnamed numbers;
+//! 2. `input`, `layout`, `number`: lines, fields, numbers; `rows`: persons' positions, from a text (`text_rows`), a
+//!    `database`, or, if a file is not sorted by time, from `memory`;
+//! 3. `census`: statistics of one pass over all rows; `scale`: the file's units in metres and seconds;
 //! 4. `weave`: frames.
 
 mod census;

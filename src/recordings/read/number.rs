@@ -1,17 +1,17 @@
-//! Numbers in text, read quickly and rounded correctly.
+//! Parses numbers quickly and with correct rounding.
 
-/// Powers of ten that are exact.
+/// Powers of ten that are exact in `f64`.
 const TENS: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20,
     1e21, 1e22,
 ];
-/// Whole numbers below this are exact.
+/// Whole numbers below this are exact in `f64`.
 const EXACT: u64 = 1 << 53;
 
-/// The number that a field says; words for nothing (`nan`, `null`, an empty field) are NaN. `None` for anything else.
+/// Parses a field; `nan`, `null` and an empty field give NaN, other text `None`.
 ///
-/// Short decimals are digits divided by a power of ten: both are exact, so the quotient is the nearest number, as
-/// that of the standard library is (Clinger 1990). Everything else goes there.
+/// Short decimals are digits divided by a power of ten: both are exact, so the quotient is correctly rounded
+/// (Clinger 1990). All other fields go through the standard library.
 pub(super) fn number(field: &[u8]) -> Option<f64> {
     short(field).or_else(|| other(field))
 }
@@ -21,7 +21,7 @@ fn short(field: &[u8]) -> Option<f64> {
         [b'-', rest @ ..] => (true, rest),
         _ => (false, field),
     };
-    // 18 digits cannot overflow.
+    // 18 digits and a point: 18 digits fit into `u64`.
     if digits.is_empty() || digits.len() > 19 {
         return None;
     }
@@ -58,7 +58,7 @@ fn other(field: &[u8]) -> Option<f64> {
     nothing.then_some(f64::NAN)
 }
 
-/// Seconds that a date and time of day say, `2024-05-01T12:00:00.25Z` or `12:00:00.25`; a date counts from 1970.
+/// Parses a timestamp (`2024-05-01T12:00:00.25Z`: seconds since 1970) or time of day, s.
 pub(super) fn stamp(field: &[u8]) -> Option<f64> {
     let text = std::str::from_utf8(field).ok()?.trim();
     let (days, clock) = match text.split_once(['T', ' ']) {
@@ -79,7 +79,7 @@ fn digits(text: &str) -> Option<i64> {
     (!text.is_empty() && text.len() <= 4 && text.bytes().all(|b| b.is_ascii_digit())).then(|| text.parse().ok())?
 }
 
-/// Splits a time of day from its zone; seconds by which the zone is ahead.
+/// Splits a time of day from its zone; returns the zone's offset in seconds, positive if ahead.
 fn zone(clock: &str) -> Option<(&str, f64)> {
     if let Some(clock) = clock.strip_suffix(['Z', 'z']) {
         return Some((clock.trim_end(), 0.0));
@@ -95,7 +95,7 @@ fn zone(clock: &str) -> Option<(&str, f64)> {
     Some((clock, sign * (hours * 3600 + minutes * 60) as f64))
 }
 
-/// Days of the civil calendar (H. Hinnant, "chrono-compatible low-level date algorithms", 2013).
+/// Days since 1970-01-01 (H. Hinnant, "chrono-compatible low-level date algorithms", 2013).
 fn days_since_1970(date: &str) -> Option<i64> {
     let mut parts = date.split(['-', '/']);
     let (year, month, day) = (digits(parts.next()?)?, digits(parts.next()?)?, digits(parts.next()?)?);

@@ -1,4 +1,4 @@
-//! Opens a recording: what it is, what it holds, what its numbers mean.
+//! Opens a recording: detects its format, surveys its rows, finds its units.
 
 use std::io::Read;
 use std::path::Path;
@@ -96,16 +96,20 @@ fn is_database(path: &Path, options: &RecordingOptions) -> Result<bool, Recordin
         Err(RecordingError::Unknown { path: path.to_path_buf(), found: found.to_owned(), hint: hint.to_owned() })
     };
     match (found, options.format) {
-        (false, _) if asked => unknown("it is no SQLite database", "leave --format out: the format is found"),
-        (true, Some(_)) if !asked => unknown("it is an SQLite database", "leave --format out: the format is found"),
+        (false, _) if asked => {
+            unknown("it is no SQLite database", "leave out the option `format`: the content tells the format")
+        }
+        (true, Some(_)) if !asked => {
+            unknown("it is an SQLite database", "leave out the option `format`: the content tells the format")
+        }
         (true, _) if options.columns.is_some() => {
-            unknown("it is a database, whose columns have names", "leave --columns out")
+            unknown("it is a database, whose columns have names", "leave out the option `columns`")
         }
         _ => Ok(found),
     }
 }
 
-/// Finds out how a text is laid out.
+/// Detects the layout of a text file.
 fn read_head(path: &Path, options: &RecordingOptions) -> Result<(TextLayout, Stated), RecordingError> {
     let lines = LineReader::open(path).map_err(|trouble| unreadable(path, trouble, 0))?;
     let (head, whole) = lines.head();
@@ -141,22 +145,22 @@ fn refused(path: &Path, options: &RecordingOptions, refusal: Refusal) -> Recordi
     }
 }
 
-/// Rows between two looks at whether to stop.
+/// Rows between two checks for interruption.
 const OFTEN: u64 = 1 << 16;
 
-/// How rows are counted.
+/// Parameters of a pass over the rows.
 #[derive(Clone, Copy)]
 struct CensusTask<'a> {
     path: &'a Path,
-    /// Whether moments are frames.
+    /// Whether times are frame numbers.
     frames: bool,
-    /// By how much places are turned, for the rectangle around them.
+    /// Rotation of positions before their bounding box is taken, (cos, sin).
     turn: Option<Vec2>,
     progress: &'a dyn Progress,
 }
 
 impl CensusTask<'_> {
-    /// Whether to stop here.
+    /// Reports progress; returns an error if the caller interrupted.
     fn check(&self, rows: &TrajectoryRows) -> Result<(), RecordingError> {
         self.progress.keep_on()?;
         // The motion itself will fill the bar again.
@@ -165,7 +169,7 @@ impl CensusTask<'_> {
     }
 }
 
-/// What counting gave.
+/// Result of counting all rows.
 struct Counting {
     source: RowSource,
     census: Census,
@@ -174,8 +178,8 @@ struct Counting {
     in_order: bool,
 }
 
-/// Counts all rows: as they come; if they are not in the order of time, sorted. If an id is no number, people are
-/// numbered.
+/// Counts all rows. Rows that are not in time order are sorted in memory; if an id is not a whole number, persons are
+/// renumbered.
 fn count(mut source: RowSource, way: CensusTask<'_>) -> Result<Counting, RecordingError> {
     let path = way.path;
     loop {
@@ -215,7 +219,7 @@ fn count(mut source: RowSource, way: CensusTask<'_>) -> Result<Counting, Recordi
     }
 }
 
-/// Reads all rows into memory, in the order of time.
+/// Reads all rows into memory, sorted by time.
 fn sorted(rows: &mut TrajectoryRows, way: CensusTask<'_>) -> Result<Sorted, ReadStop> {
     let mut sorted = Sorted::default();
     for count in 0u64.. {
@@ -236,7 +240,7 @@ fn numbered(source: RowSource) -> RowSource {
     }
 }
 
-/// What stops a count.
+/// Why a count stopped.
 enum Obstacle {
     Name,
     Disorder,

@@ -2,32 +2,32 @@ use serde::{Deserialize, Serialize};
 
 use super::{LengthUnit, RecordingFormat};
 
-/// How a recording is read; what is left out is found in the file.
+/// Options for reading a recording; omitted ones are detected from the file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RecordingOptions {
-    /// How it is written.
+    /// File format.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub format: Option<RecordingFormat>,
-    /// Unit of its lengths.
+    /// Length unit of the file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<LengthUnit>,
-    /// Frames per second, for files that count frames.
+    /// Frames per second of the file, for files that count frames.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fps: Option<f64>,
-    /// What columns mean, in their order, as `id,frame,x,y`; `-` for one that is of no use.
+    /// Roles of the columns in order, such as `id,frame,x,y`; `-` for an ignored one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub columns: Option<String>,
-    /// The point of the recording that stays where it is when it is turned, metres.
+    /// Centre of the rotation, metres, in the recording.
     pub origin: [f64; 2],
-    /// How far it is moved, metres.
+    /// Translation after the rotation, metres.
     pub shift: [f64; 2],
-    /// How far it is turned around `origin`, degrees counter-clockwise.
+    /// Rotation around `origin`, degrees counter-clockwise.
     pub rotation_deg: f64,
 }
 
 impl RecordingOptions {
-    /// These options, with those of `others` that are not left out.
+    /// Returns these options, replaced by those that are set in `others`.
     pub fn overridden_by(&self, others: &RecordingOptions) -> RecordingOptions {
         let default = RecordingOptions::default();
         let pick = |own: [f64; 2], other: [f64; 2], none: [f64; 2]| if other == none { own } else { other };

@@ -8,14 +8,14 @@ use super::{RecordingError, RecordingOptions, Survey};
 use crate::motion::{Ensemble, Motion, MotionError, Statures};
 use crate::progress::{Progress, Silent};
 
-/// A recording: surveyed once, and read as often as is wanted.
+/// A trajectory recording: surveyed once, then read as often as needed.
 #[derive(Clone, Debug)]
 pub struct Recording {
     content: Arc<RecordingContent>,
 }
 
 impl Recording {
-    /// Looks through a file, once; where its rows are not in the order of time, twice, and keeps them.
+    /// Opens a file and surveys it in one pass. Unsorted files take a second pass and stay in memory.
     ///
     /// # Errors
     /// A file that cannot be read or is none of the formats, with the line; a rate that nobody knows; places that are
@@ -36,7 +36,7 @@ impl Recording {
         Recording::open_watched(path, options, &Silent)
     }
 
-    /// The same with progress shown.
+    /// Opens a file like [`Recording::open`] and reports progress.
     ///
     /// # Errors
     /// As [`Recording::open`]; [`RecordingError::Interrupted`].
@@ -48,12 +48,12 @@ impl Recording {
         Ok(Recording { content: Arc::new(open(path, options, progress)?) })
     }
 
-    /// The file.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.content.path
     }
 
-    /// What it holds.
+    /// Survey of the content: numbers of people and frames, span, units, warnings.
     pub fn survey(&self) -> &Survey {
         &self.content.survey
     }
@@ -64,14 +64,14 @@ impl Recording {
         self.content.statures.clone()
     }
 
-    /// Reads it from its start. Times begin at 0 with the first frame; ids are those of the file where they are whole
-    /// numbers below 10 million, else people are numbered from 1 as they appear.
+    /// Reads the recording from its start. Times begin at 0 with the first frame. Ids are the file's if they are whole
+    /// numbers below 10 million; otherwise people are numbered from 1 as they appear.
     ///
-    /// Frames are the file's moments; people who are seen at moments of their own are shown 10 to 60 times a second.
-    /// Whoever is missing for up to a second, or 2.5 of the usual intervals if that is longer, is shown in between;
-    /// whoever is missing for longer left, and is somebody else afterwards.
+    /// The frames are the file's moments; if people have separate moments, frames are interpolated at 10 to 60 Hz. A
+    /// person missing for up to 1 s, or 2.5 of the usual intervals if that is longer, is interpolated. After a longer
+    /// gap, the person returns under a new id.
     ///
-    /// Where rows are in the order of time, no more is held than the people of a gap's length of frames.
+    /// If rows are sorted by time, memory holds only the frames within one gap.
     ///
     /// # Errors
     /// The file cannot be read any more.
@@ -82,10 +82,10 @@ impl Recording {
         Ok(Box::new(weaver))
     }
 
-    /// Those who are there throughout a time, at a rate: `None` is the recording's own.
+    /// Ensemble of the persons present throughout `span_s`. `fps`: `None` is the recording's rate.
     ///
     /// # Errors
-    /// The file cannot be read any more; nobody is there throughout.
+    /// The file cannot be read any more; no person is present throughout.
     pub fn ensemble(&self, fps: Option<f64>, span_s: [f64; 2]) -> Result<Ensemble, MotionError> {
         Ensemble::of_motion(&mut *self.motion()?, fps.unwrap_or(self.survey().fps), span_s)
     }

@@ -1,12 +1,12 @@
-/// Why a text is no recording.
+/// Why a text is not a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Refusal {
-    /// There is nothing, or nothing but a header.
+    /// The file is empty or has only a header.
     Empty(&'static str),
-    /// It is something else.
+    /// The file has another format.
     Unknown { found: String, hint: String },
-    /// A line makes no sense.
+    /// A line cannot be parsed.
     Line { line: u64, problem: String, hint: String },
-    /// `--columns` makes no sense.
+    /// The value of `--columns` is invalid.
     Columns(String),
 }

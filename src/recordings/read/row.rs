@@ -4,46 +4,46 @@ use super::RecordingError;
 use super::layout::shown;
 use crate::math::Vec2;
 
-/// Ids of files are kept where they are whole numbers below this.
+/// Ids of the file are kept if they are whole numbers below this.
 pub(super) const ID_LIMIT: f64 = 1e7;
 
-/// Somebody's place as the file tells it, in its own numbers.
+/// A person's position at one time, in the file's own numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TrajectoryRow {
     pub id: u32,
-    /// Line, from 1; in a database the row's number.
+    /// Line number, from 1; in a database the row number.
     pub line: u64,
     pub time: f64,
     pub at: Vec2,
     pub velocity: Option<Vec2>,
     pub heading: Option<Vec2>,
-    /// When and where a step ends that begins here.
+    /// Time and position of the end of a step that starts here.
     pub until: Option<(f64, Vec2)>,
 }
 
-/// How people are numbered.
+/// Numbering of persons.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Numbering {
-    /// As in the file.
+    /// Ids of the file.
     Own,
-    /// From 1, as they first appear.
+    /// From 1, in order of appearance.
     Appearance,
 }
 
-/// What was passed over.
+/// Rows that were skipped.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Passed {
-    /// Rows without a place, and the line of the first.
+    /// Rows without a position, and the line of the first.
     pub nowhere: u64,
     pub first_nowhere: u64,
-    /// The last line if it breaks off.
+    /// The last line, if it is cut off.
     pub broken: Option<u64>,
 }
 
-/// What stops rows from coming.
+/// Why reading stopped.
 #[derive(Debug)]
 pub(super) enum ReadStop {
-    /// An id that is no whole number below [`ID_LIMIT`]: people have to be numbered.
+    /// An id is not a whole number below [`ID_LIMIT`]: persons must be renumbered.
     Name,
     Error(RecordingError),
 }
@@ -54,7 +54,7 @@ impl From<RecordingError> for ReadStop {
     }
 }
 
-/// Who a row is about, for messages.
+/// Names a person in messages.
 pub(super) fn who(id: u32, numbering: Numbering) -> String {
     match numbering {
         Numbering::Own => format!("person {id}"),
@@ -62,7 +62,7 @@ pub(super) fn who(id: u32, numbering: Numbering) -> String {
     }
 }
 
-/// A value of the file for messages.
+/// Formats a time or frame for messages.
 pub(super) fn moment(time: f64, frames: bool) -> String {
     if frames {
         format!("frame {time}")

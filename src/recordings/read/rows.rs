@@ -1,4 +1,4 @@
-//! Rows of a recording, one by one, from wherever they are.
+//! Rows of a recording, one by one, from any source.
 
 use super::database::DatabaseRows;
 use super::memory::MemoryRows;
@@ -6,7 +6,7 @@ use super::row::{Passed, ReadStop, TrajectoryRow};
 use super::text_rows::TextRows;
 use crate::motion::Statures;
 
-/// Where rows come from.
+/// Source of rows.
 pub(super) enum TrajectoryRows {
     Text(Box<TextRows>),
     Database(Box<DatabaseRows>),
@@ -31,14 +31,14 @@ impl TrajectoryRows {
         }
     }
 
-    /// From now on, notes people's heights as their rows are read.
+    /// Starts to record body heights while rows are read.
     pub fn note_statures(&mut self) {
         if let TrajectoryRows::Text(rows) = self {
             rows.note_statures();
         }
     }
 
-    /// The heights that were noted; a database has them in a table of their own.
+    /// The recorded body heights; a database reads them from a separate table.
     pub fn statures(&self) -> Statures {
         match self {
             TrajectoryRows::Text(rows) => rows.statures(),

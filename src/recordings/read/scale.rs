@@ -1,68 +1,67 @@
-//! From the file's numbers to metres and seconds, where need be by what walking people can do.
+//! Finds the scale of a file in metres and seconds, if need be from plausible walking speeds.
 
 use super::census::Census;
 use super::layout::TimeColumn;
 use super::{LengthUnit, RecordingFormat, RecordingOptions};
 use crate::math::{Rect, Vec2, sin_cos, vec2};
 
-/// Rates of cameras and simulations.
+/// Common rates of cameras and simulations, 1/s.
 const RATES: [f64; 30] = [
     1.0, 2.0, 2.5, 4.0, 5.0, 6.0, 7.5, 8.0, 10.0, 12.0, 12.5, 15.0, 16.0, 20.0, 24.0, 25.0, 29.97, 30.0, 48.0, 50.0,
     59.94, 60.0, 72.0, 75.0, 90.0, 100.0, 120.0, 144.0, 200.0, 240.0,
 ];
-/// A rate found from velocities is one of those if it is within this share of it.
+/// Relative tolerance within which a rate found from velocities snaps to one of [`RATES`].
 const RATE_SLACK: f64 = 0.06;
-/// Rates tried where nothing tells.
+/// Rates that are tried if the file gives no indication, 1/s.
 const GUESSES: [f64; 5] = [10.0, 12.5, 16.0, 25.0, 30.0];
-/// What people walk at, metres per second.
+/// Usual walking speed, metres per second.
 const USUAL_M_S: f64 = 1.2;
-/// Three of four people are slower than this, metres per second, whatever they do: who is faster walks in centimetres.
+/// Plausible bound of the upper quartile of speeds, m/s; a larger value indicates centimetres.
 const FASTEST_M_S: f64 = 15.0;
-/// Median speeds that nobody needs to be warned of, metres per second.
+/// Range of median speeds without a warning, metres per second.
 const PLAUSIBLE_M_S: [f64; 2] = [0.02, 10.0];
-/// Frames without a known rate are hardly fewer a second.
+/// Lowest plausible frame rate of a file without a stated rate, 1/s.
 const SLOWEST_CAMERA: f64 = 8.0;
-/// People who are annotated by hand in the recordings of ETH and UCY, times per second.
+/// Rate of manual annotation in the ETH and UCY recordings, 1/s.
 const ANNOTATED_HZ: f64 = 2.5;
-/// Rate of the older Juelich recordings, whose files have no header.
+/// Rate of the older Juelich recordings, whose files have no header, 1/s.
 const OLD_JUELICH_HZ: f64 = 16.0;
-/// Shortest gap after which somebody is taken to have left, seconds; longer where people are seen seldom: so many of
-/// their intervals.
+/// Gap after which a person has left, seconds; `GAP_INTERVALS` usual intervals if longer.
 const GAP_S: f64 = 1.0;
 const GAP_INTERVALS: f64 = 2.5;
-/// Longest such gap, seconds.
+/// Upper bound of that gap, seconds.
 const LONGEST_GAP_S: f64 = 120.0;
-/// Those whose steps are known stand in between, at most so long, seconds.
+/// Longest time that a person is assumed to stand between two recorded steps, seconds.
 const STAND_S: f64 = 10.0;
-/// Rates at which people are shown who are not seen at common moments.
+/// Range of frame rates for persons without common moments, 1/s.
 const OWN_CLOCK_HZ: [f64; 2] = [10.0, 60.0];
 
-/// People walk at least this share of their way where they face, if their angles are counted as ours are.
+/// Least share of the path walked along the heading, if angles are counter-clockwise from +x.
 const LEAST_FORWARD: f64 = 0.5;
-/// Moments are evenly spaced if nine of ten intervals differ by no more than this share.
+/// Moments are evenly spaced if nine of ten intervals differ by at most this share.
 const EVEN: f64 = 0.02;
 
-/// What the file says of its numbers, or its format.
+/// Properties stated by the file or implied by its format.
 #[derive(Clone, Debug)]
 pub(super) struct Stated {
     pub format: RecordingFormat,
     pub clock: TimeColumn,
     pub fps: Option<f64>,
     pub unit: Option<LengthUnit>,
-    /// By how tall people are in it.
+    /// Length unit found from body heights.
     pub unit_of_heights: Option<LengthUnit>,
-    /// Whether nothing names its columns.
+    /// Whether the columns have no names.
     pub bare: bool,
-    /// Whether people face at angles, which some count from north or clockwise.
+    /// Whether headings are angles, which some programs count from north or clockwise.
     pub angles: bool,
 }
 
-/// How the file's numbers become seconds.
+/// Conversion of the file's times to seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum TimeScale {
-    /// So many make a second.
+    /// Frames per second.
     Frames(f64),
-    /// Each is so many seconds.
+    /// Seconds per unit.
     Times(f64),
 }
 
@@ -76,26 +75,26 @@ impl TimeScale {
     }
 }
 
-/// How the file's numbers are to be taken.
+/// Units of a file, and the choices that follow from its statistics.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Scale {
     pub time: TimeScale,
     pub unit: LengthUnit,
-    /// Frames per second of the motion, the usual rate where it changes.
+    /// Frames per second of the motion; the usual rate if it varies.
     pub fps: f64,
-    /// Whether people are not seen at common moments and have to be shown at `fps`.
+    /// Whether persons have no common moments and are interpolated at `fps`.
     pub own_clock: bool,
-    /// Somebody missing for longer has left, seconds.
+    /// Gap after which a person has left, seconds.
     pub gap_s: f64,
-    /// Somebody missing for longer has not stood where they were, seconds.
+    /// Longest time that a person is assumed to stand between two steps, seconds.
     pub stand_s: Option<f64>,
-    /// Whether the file's own velocities are believed.
+    /// Whether the file's velocities are used.
     pub velocities: bool,
-    /// Whether its headings are.
+    /// Whether the file's headings are used.
     pub headings: bool,
 }
 
-/// Nobody knows how many frames make a second.
+/// Error: the frame rate is unknown.
 #[derive(Debug)]
 pub(super) struct UnknownRate;
 
@@ -112,7 +111,7 @@ impl Scale {
             TimeColumn::Frames => TimeScale::Frames(rate(census, stated, options, unit, own, warnings)?),
             TimeColumn::Times(seconds) => {
                 if options.fps.is_some() {
-                    warnings.push("the recording tells times: --fps is of no use".to_owned());
+                    warnings.push("the recording has times, so the option `fps` is ignored".to_owned());
                 }
                 TimeScale::Times(seconds.unwrap_or_else(|| guessed_time_unit(census, unit, own, warnings)))
             }
@@ -126,7 +125,7 @@ impl Scale {
             };
             warnings.push(format!("the recording's own velocities are not used: they do not fit its places {fits}"));
         }
-        // Rates as somebody would say them.
+        // Rates are rounded to common values.
         let interval = |raw: Option<f64>| raw.map(|raw| time.seconds(raw));
         let of_moments = interval(census.moment_intervals.quantile(0.5));
         let of_people = interval(census.intervals.quantile(0.5));
@@ -136,7 +135,7 @@ impl Scale {
             TimeScale::Frames(fps) => fps,
             TimeScale::Times(_) => OWN_CLOCK_HZ[0],
         };
-        // Steps that all take from one moment to the next, as of a simulation with a fixed time step.
+        // All steps lead from one moment to the next, as in a simulation with a fixed time step.
         let common = !own_clock || census.steps && evenly_stepped(census);
         let fps = if !common {
             let [low, high] = OWN_CLOCK_HZ;
@@ -157,7 +156,7 @@ impl Scale {
     }
 }
 
-/// Whether everybody steps from each moment to the next, and the moments are evenly spaced.
+/// Whether every step leads to the next moment, and moments are evenly spaced.
 fn evenly_stepped(census: &mut Census) -> bool {
     let [low, high] = [0.05, 0.95].map(|share| census.moment_intervals.quantile(share));
     let step = census.intervals.quantile(0.5);
@@ -165,7 +164,7 @@ fn evenly_stepped(census: &mut Census) -> bool {
         if high <= low * (1.0 + EVEN) && (step / low - 1.0).abs() <= EVEN)
 }
 
-/// A rate without the noise of differences.
+/// Rounds a rate to remove noise of differences.
 fn tidy(rate: f64) -> f64 {
     let whole = rate.round();
     if whole > 0.0 && (rate - whole).abs() < 0.004 * whole {
@@ -194,7 +193,7 @@ fn unit(census: &mut Census, stated: &Stated, options: &RecordingOptions, warnin
     };
     if unit != LengthUnit::Metre {
         warnings.push(format!(
-            "nothing tells the unit of lengths: {} are assumed {why}; --unit says otherwise",
+            "the file gives no unit of lengths: {} are assumed {why}; the option `unit` overrides it",
             unit.plural()
         ));
     }
@@ -218,7 +217,7 @@ fn rate(
         let nearest = |best: f64, known: f64| if (rate - known).abs() < (rate - best).abs() { known } else { best };
         let fps = known.map_or(tidy(rate), |first| RATES.into_iter().fold(first, nearest));
         warnings.push(format!(
-            "nothing tells the rate: {fps} frames per second fit the recording's own velocities; --fps says otherwise"
+            "the file gives no rate: {fps} frames per second fit its own velocities; the option `fps` overrides it"
         ));
         return Ok(fps);
     }
@@ -226,8 +225,8 @@ fn rate(
         let step = census.moment_intervals.quantile(0.5).unwrap_or(1.0);
         let fps = ANNOTATED_HZ * step;
         warnings.push(format!(
-            "nothing tells the rate: {ANNOTATED_HZ} annotations per second are assumed, as ETH and UCY have, so {fps} \
-             frames per second; --fps says otherwise"
+            "the file gives no rate: {ANNOTATED_HZ} annotations per second are assumed, as ETH and UCY have, so {fps} \
+             frames per second; the option `fps` overrides it"
         ));
         return Ok(fps);
     }
@@ -243,13 +242,15 @@ fn rate(
     } else {
         (guess, "at which people walk most plausibly")
     };
-    warnings.push(format!("nothing tells the rate: {fps} frames per second are assumed, {why}; --fps says otherwise"));
+    warnings.push(format!(
+        "the file gives no rate: {fps} frames per second are assumed, {why}; the option `fps` overrides it"
+    ));
     Ok(fps)
 }
 
-/// Seconds in a unit of time that nothing names.
+/// Guesses the number of seconds per unit of an unnamed time unit.
 fn guessed_time_unit(census: &mut Census, unit: LengthUnit, own: Option<f64>, warnings: &mut Vec<String>) -> f64 {
-    // Since 1970, as computers count: 2001 to 2286.
+    // Unix times in s, ms, us or ns, of the years 2001 to 2286.
     let since_1970 = [(1e9, 1.0), (1e12, 1e-3), (1e15, 1e-6), (1e18, 1e-9)];
     if let Some((_, seconds)) = since_1970.iter().find(|(start, _)| (1.0..10.0).contains(&(census.first_time / start)))
     {
@@ -262,8 +263,8 @@ fn guessed_time_unit(census: &mut Census, unit: LengthUnit, own: Option<f64>, wa
     let speed = census.speed_quantile(0.75).unwrap_or(0.0) * unit.metres();
     if interval >= 5.0 && interval == interval.round() && speed < 0.05 {
         warnings.push(
-            "nothing tells the unit of times: milliseconds are assumed by the people's speeds; a column named time_s \
-             would say otherwise"
+            "the file gives no unit of times: milliseconds are assumed by the people's speeds; name the column time_s \
+             for seconds"
                 .to_owned(),
         );
         return 1e-3;
@@ -279,8 +280,10 @@ fn warn_of_speeds(census: &mut Census, time: TimeScale, unit: LengthUnit, warnin
         return;
     }
     let options = match time {
-        TimeScale::Frames(fps) => format!("--unit and --fps say otherwise than {} and {fps} a second", unit.plural()),
-        TimeScale::Times(_) => format!("--unit says otherwise than {}", unit.plural()),
+        TimeScale::Frames(fps) => {
+            format!("the option `unit` overrides {}, the option `fps` {fps} frames per second", unit.plural())
+        }
+        TimeScale::Times(_) => format!("the option `unit` overrides {}", unit.plural()),
     };
     warnings.push(format!(
         "half of all people are {} than {speed:.3} m/s: {options}",
@@ -288,7 +291,7 @@ fn warn_of_speeds(census: &mut Census, time: TimeScale, unit: LengthUnit, warnin
     ));
 }
 
-/// Turns and moves places in metres.
+/// Converts positions to metres, rotates and translates them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Alignment {
     unit: LengthUnit,
@@ -303,7 +306,7 @@ impl Alignment {
         Alignment { unit, rotation: rotation(options.rotation_deg), origin, shift }
     }
 
-    /// Where a rectangle around turned raw places lies.
+    /// Converts the bounding box of rotated raw positions to metres.
     pub fn bounds(&self, turned: Rect) -> Rect {
         let fixed = self.rotation.map_or(Vec2::ZERO, |by| self.origin - self.origin.rotated(by)) + self.shift;
         let Rect { min, max } = turned;
@@ -329,10 +332,10 @@ impl Alignment {
     }
 }
 
-/// Cosine and sine of a turn; `None` for none.
+/// Returns cosine and sine of a rotation; `None` for 0 degrees.
 pub(super) fn rotation(degrees: f64) -> Option<Vec2> {
     let degrees = degrees.rem_euclid(360.0);
-    // Quarter turns are exact.
+    // Multiples of 90 degrees are exact.
     match degrees {
         0.0 => None,
         90.0 => Some(vec2(0.0, 1.0)),
@@ -346,7 +349,7 @@ pub(super) fn rotation(degrees: f64) -> Option<Vec2> {
 }
 
 impl LengthUnit {
-    /// Divided where that rounds only once.
+    /// Converts to metres; divides where that rounds only once.
     fn in_metres(self, raw: Vec2) -> Vec2 {
         match self {
             LengthUnit::Metre => raw,
@@ -356,7 +359,7 @@ impl LengthUnit {
         }
     }
 
-    /// Its name for messages.
+    /// Plural of the unit's name, for messages.
     pub fn plural(self) -> &'static str {
         match self {
             LengthUnit::Metre => "metres",

@@ -3,35 +3,35 @@ use serde::Serialize;
 use super::{LengthUnit, RecordingFormat};
 use crate::math::Rect;
 
-/// What a recording holds, found in one pass.
+/// Survey of a recording: its size, span, units and warnings.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Survey {
-    /// How it is written.
+    /// File format.
     pub format: RecordingFormat,
-    /// Unit of its lengths.
+    /// Length unit of the file.
     pub unit: LengthUnit,
-    /// Frames per second of the motion; the usual rate where it changes.
+    /// Frames per second of the motion; the usual rate if it varies.
     pub fps: f64,
     /// Number of people in the file.
     pub people: usize,
-    /// The largest id in the file. Who comes back after a long gap gets one above it.
+    /// Largest id in the file. A person who returns after a long gap gets a larger one.
     pub largest_id: u32,
-    /// How often somebody was missing for longer than a gap, and came back: as another person.
+    /// Number of returns after a gap; each counts as a new person.
     pub returns: u64,
-    /// Number of moments at which anybody is there.
+    /// Number of moments at which at least one person is present.
     pub frames: usize,
-    /// Number of places: people times the moments in which they are there.
+    /// Number of positions, summed over all frames.
     pub places: usize,
-    /// First and last moment, seconds.
+    /// First and last time, seconds.
     pub span_s: [f64; 2],
-    /// Seconds that all are present together.
+    /// Total time present of all persons, seconds.
     pub person_seconds: f64,
-    /// Metres walked in a second of somebody's presence, sway and noise taken out as far as five rows in a row tell.
+    /// Mean walking speed, m/s. Body sway and noise are removed over five consecutive rows.
     pub mean_speed_m_s: f64,
-    /// The rectangle around all places, after the alignment, metres.
+    /// Bounding box of all positions after the alignment, metres.
     pub bounds_m: Rect,
-    /// Whether rows come in the order of time: if not, they are held in memory and sorted.
+    /// Whether rows are sorted by time; unsorted rows are sorted in memory.
     pub in_order: bool,
-    /// What a user should be told, such as a unit or a rate that was assumed.
+    /// Messages for the user, such as an assumed unit or rate.
     pub warnings: Vec<String>,
 }

@@ -21,16 +21,16 @@ pub(super) struct TextRows {
     numbers: HashMap<Box<[u8]>, u32>,
     passed: Passed,
     extras: Extras,
-    /// Metres in the unit of heights, where they are noted.
+    /// Metres per unit of body heights, if they are recorded.
     heights_in_m: Option<f64>,
     statures: Statures,
 }
 
-/// Which columns there are beyond the necessary.
+/// The optional columns that exist.
 struct Extras {
     velocity: bool,
     heading: bool,
-    /// Radians in the unit of an angle.
+    /// Radians per unit of the angle.
     angle: Option<f64>,
     until: bool,
 }
@@ -64,12 +64,12 @@ impl TextRows {
         Ok(rows)
     }
 
-    /// From now on, notes people's heights as their rows are read.
+    /// Starts to record body heights while rows are read.
     pub fn note_statures(&mut self) {
         self.heights_in_m = self.layout.heights.map(|unit| unit.metres());
     }
 
-    /// The heights that were noted.
+    /// The recorded body heights.
     pub fn statures(&self) -> Statures {
         self.statures.clone()
     }
@@ -98,7 +98,7 @@ impl TextRows {
                         continue;
                     }
                     if text.first() == Some(&b'$') {
-                        // The next table of a Viswalk file.
+                        // The next table of a Viswalk file begins here.
                         return Ok(None);
                     }
                     let number = self.lines.number();
@@ -166,14 +166,14 @@ impl TextRows {
         }
     }
 
-    /// Comments, empty lines, and the header where files were joined.
+    /// Whether a line is a comment, empty, or a repeated header, as in joined files.
     #[cold]
     fn may_be_skipped(&self, text: &[u8]) -> bool {
         let text = text.trim_ascii_start();
         text.is_empty() || matches!(text[0], b'#' | b'*') || self.layout.header.as_deref() == Some(text)
     }
 
-    /// Whether this is the last line, and has fewer columns than others: then it was cut off.
+    /// Whether the last line was cut off: it has fewer columns than the others.
     #[cold]
     fn is_cut_off(&self, text: &[u8]) -> bool {
         self.layout.separator.split(text).len() < self.layout.width
@@ -186,7 +186,7 @@ fn direction(angle_rad: f64) -> Option<Vec2> {
     Some(vec2(cos, sin)).filter(|direction| direction.is_finite())
 }
 
-/// What is wrong with a file, of which so many lines were read.
+/// Describes why a file cannot be read, after `lines` lines.
 pub(super) fn unreadable(path: &Path, trouble: Trouble, lines: u64) -> RecordingError {
     let after = if lines > 0 { format!(" (after line {lines})") } else { String::new() };
     let (problem, hint) = match trouble {
@@ -213,7 +213,7 @@ fn hint_of(error: &io::Error) -> &'static str {
     }
 }
 
-/// An id that is a whole number in the range that is kept.
+/// Returns an id that is a whole number below [`ID_LIMIT`].
 #[inline]
 fn whole(id: &[u8]) -> Option<u32> {
     let value = number(id)?;

@@ -22,7 +22,7 @@ impl LengthUnit {
     pub const ALL: [LengthUnit; 4] =
         [LengthUnit::Metre, LengthUnit::Centimetre, LengthUnit::Millimetre, LengthUnit::Foot];
 
-    /// What it is called in scenarios and on the command line.
+    /// Name in scenarios and on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             LengthUnit::Metre => "m",
@@ -32,7 +32,7 @@ impl LengthUnit {
         }
     }
 
-    /// Metres in one of it.
+    /// Metres per unit.
     pub const fn metres(self) -> f64 {
         match self {
             LengthUnit::Metre => 1.0,

@@ -1,4 +1,4 @@
-//! Makes frames of rows that come in the order of time.
+//! Assembles frames from rows that are sorted by time.
 
 use std::collections::BTreeMap;
 
@@ -11,17 +11,17 @@ use super::scale::{Alignment, Scale};
 use crate::math::Vec2;
 use crate::motion::{Frame, Motion, MotionError, Walker};
 
-/// Who would have had to move faster than this while missing has left and come again, metres per second.
+/// A missing person whose mean speed over the gap exceeds this has left, metres per second.
 const FASTEST_M_S: f64 = 12.0;
-/// Nobody moves faster than this between two frames: they were put elsewhere, metres per second.
+/// A person faster than this between two frames was teleported, metres per second.
 const PUT_ELSEWHERE_M_S: f64 = 20.0;
-/// Who stands between two steps is where they were to within this, metres.
+/// Largest displacement between two steps of a standing person, metres.
 const STANDS_M: f64 = 0.05;
-/// Differences of times below this are none, seconds.
+/// Times closer than this are equal, seconds.
 const SAME_S: f64 = 1e-6;
 
-/// A recording as a motion. Frames are given out when whoever is missing from them can have come back: about a second
-/// after they were read; more is not held, however long the recording is.
+/// A recording as a motion. A frame is returned once missing persons can no longer come back within the gap, about 1 s
+/// after it was read; memory holds only these frames.
 pub(super) struct Weaver {
     rows: TrajectoryRows,
     scale: Scale,
@@ -33,31 +33,31 @@ pub(super) struct Weaver {
     tracks: FxHashMap<u32, LastPlace>,
     /// Tracks are looked through when there are so many.
     most_tracks: usize,
-    /// The moments that were not given out yet, by number; without a common clock, the newest stands apart.
+    /// Frames not yet returned, by number; without a common clock, the newest one is in `latest`.
     pending: BTreeMap<u64, PendingFrame>,
     latest: PendingFrame,
-    /// The newest moment's number and time.
+    /// Number and time of the newest frame.
     newest: u64,
     newest_s: f64,
     newest_raw: f64,
-    /// Ids that were given.
+    /// Ids in use.
     known: IdSet,
     next_id: u32,
-    /// The moment that was given out last.
+    /// The frame returned last.
     before: PendingFrame,
-    /// Room for people that is free again.
+    /// Buffer for reuse.
     spare: Vec<(Walker, bool)>,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct LastPlace {
-    /// The id in the motion.
+    /// Id in the motion.
     id: u32,
     number: u64,
     time_s: f64,
     at: Vec2,
     heading: Option<Vec2>,
-    /// Whether it is the end of a step.
+    /// Whether the position is the end of a step.
     ahead: bool,
 }
 
@@ -80,12 +80,12 @@ impl PendingFrame {
     }
 }
 
-/// The ids that were given, a bit for each.
+/// A set of ids, as bits.
 #[derive(Default)]
 struct IdSet(Vec<u64>);
 
 impl IdSet {
-    /// Notes an id; says whether it is a new one.
+    /// Adds an id; returns whether it is new.
     fn insert(&mut self, id: u32) -> bool {
         let (word, bit) = (id as usize / 64, 1 << (id % 64));
         if word >= self.0.len() {
@@ -119,7 +119,7 @@ impl Weaver {
         }
     }
 
-    /// How much later than a moment rows must have come before it is given out, seconds.
+    /// Time by which reading must be ahead of a frame before it is returned, seconds.
     fn look_ahead_s(&self) -> f64 {
         let tick_s = if self.scale.own_clock { 1.0 / self.scale.fps } else { 0.0 };
         self.scale.stand_s.unwrap_or(self.scale.gap_s) + tick_s + 2.0 * SAME_S
@@ -151,7 +151,7 @@ impl Weaver {
         }
     }
 
-    /// Puts the newest moment with those before it.
+    /// Moves the newest frame to the pending ones.
     fn settle_latest(&mut self) {
         if self.newest > 0 && !self.latest.people.is_empty() {
             let spare = PendingFrame { time_s: 0.0, people: std::mem::take(&mut self.spare) };
@@ -160,7 +160,7 @@ impl Weaver {
         }
     }
 
-    /// Takes somebody's next place.
+    /// Adds a person's next position.
     fn place(
         &mut self,
         own_id: u32,
@@ -185,7 +185,7 @@ impl Weaver {
         let stood = (self.scale.stand_s)
             .is_some_and(|most_s| last.ahead && missing_s <= most_s + SAME_S && at.distance(last.at) <= STANDS_M);
         let next_to = !self.scale.own_clock && last.number + 1 == self.newest;
-        // Neighbouring moments far apart are those of a time at which nobody was there.
+        // Consecutive moments may be far apart if no person was present in between.
         let bridged = (stood || missing_s <= self.scale.gap_s + SAME_S)
             && (next_to || at.distance(last.at) <= 1.0 + FASTEST_M_S * missing_s);
         if !bridged {
@@ -208,7 +208,7 @@ impl Weaver {
         }
     }
 
-    /// Somebody comes, or comes back as somebody else.
+    /// Starts a track: of a new person, or of a returned one under a new id.
     fn begin(&mut self, mut now: LastPlace, velocity: Option<Vec2>) {
         let own_id = now.id;
         if !self.known.insert(own_id) {
@@ -235,7 +235,7 @@ impl Weaver {
         self.pending.entry(tick).or_insert_with(|| PendingFrame { time_s, people: Vec::new() })
     }
 
-    /// Shows somebody at the ticks of the clock after one place and up to the next.
+    /// Adds a person to all frames after `last` and up to `now`.
     fn show_between(&mut self, last: &LastPlace, now: &LastPlace) {
         let fps = self.scale.fps;
         let mut tick = ((last.time_s + SAME_S) * fps).floor() as u64 + 1;
@@ -251,7 +251,7 @@ impl Weaver {
         }
     }
 
-    /// Forgets those who will not be connected with anything any more.
+    /// Drops tracks that can no longer be continued.
     fn forget(&mut self) {
         if self.tracks.len() < self.most_tracks {
             return;
@@ -261,7 +261,7 @@ impl Weaver {
         self.most_tracks = 1024.max(2 * self.tracks.len());
     }
 
-    /// Reads until the oldest pending moment cannot change any more.
+    /// Reads until the oldest pending frame is final.
     fn read_ahead(&mut self) -> Result<(), RecordingError> {
         let look_ahead_s = self.look_ahead_s();
         while !self.read {
@@ -273,7 +273,7 @@ impl Weaver {
             match self.rows.next() {
                 Ok(Some(row)) => self.take(&row),
                 Err(ReadStop::Error(error)) => return Err(error),
-                // The survey saw no id that is a name: if one comes, the file was changed since, and ends here.
+                // The survey found only numeric ids: the file has changed since, so reading ends.
                 Ok(None) | Err(ReadStop::Name) => {
                     self.settle_latest();
                     self.read = true;
@@ -322,7 +322,7 @@ impl Motion for Weaver {
     }
 }
 
-/// Another place of somebody, or the present one if they were put there.
+/// Returns the other position, or `here` if the person was teleported.
 fn reachable(here: (f64, Vec2), other: (f64, Vec2)) -> (f64, Vec2) {
     let far = here.1.distance(other.1) > PUT_ELSEWHERE_M_S * (here.0 - other.0).abs() + 0.1;
     if far { here } else { other }
@@ -330,7 +330,7 @@ fn reachable(here: (f64, Vec2), other: (f64, Vec2)) -> (f64, Vec2) {
 
 fn between(a: Option<Vec2>, b: Option<Vec2>, share: f64) -> Option<Vec2> {
     match (a, b) {
-        // Half a turn has no direction in between.
+        // Opposite directions have no mean.
         (Some(a), Some(b)) => a.lerp(b, share).normalized().or(Some(b)),
         (a, b) => b.or(a),
     }

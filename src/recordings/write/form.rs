@@ -2,20 +2,20 @@ use std::path::Path;
 
 use crate::recordings::{RecordingError, RecordingFormat};
 
-/// What a file's name ends in if it is packed by gzip.
+/// File name ending of gzipped files.
 const PACKED: &str = "gz";
 
-/// How a motion is written to a file: in which format, and whether packed by gzip.
+/// File format of a written motion, and whether it is gzipped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RecordForm {
     /// The format.
     pub format: RecordingFormat,
-    /// Whether the file is packed by gzip: texts only.
+    /// Whether the file is gzipped; text formats only.
     pub packed: bool,
 }
 
 impl RecordForm {
-    /// The endings of file names, with the format that each stands for. Behind that of a text, `.gz` may follow.
+    /// File name endings and their formats. `.gz` may follow the ending of a text.
     pub const ENDINGS: [(&str, RecordingFormat); 6] = [
         ("txt", RecordingFormat::Juelich),
         ("csv", RecordingFormat::Csv),
@@ -25,10 +25,10 @@ impl RecordForm {
         ("db", RecordingFormat::Jupedsim),
     ];
 
-    /// The form that a file's name asks for; or, with a format of one's own, any name, of which only `.gz` counts.
+    /// Returns the form for a file name; with `format` given, only the name's `.gz` counts.
     ///
     /// # Errors
-    /// A name with another ending, or none; a database that would have to be packed.
+    /// The name has an unknown ending or none; a database cannot be gzipped.
     pub fn of(path: &Path, format: Option<RecordingFormat>) -> Result<RecordForm, RecordingError> {
         let unknown = || RecordingError::UnknownEnding { path: path.to_path_buf(), endings: RecordForm::endings() };
         let is = |path: &Path, name: &str| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(name));
@@ -43,7 +43,7 @@ impl RecordForm {
         }
     }
 
-    /// All known endings, for messages.
+    /// List of all known endings, for messages.
     pub fn endings() -> String {
         let names: Vec<String> = RecordForm::ENDINGS.iter().map(|(ending, _)| format!(".{ending}")).collect();
         let (last, others) = names.split_last().expect("there are endings");

@@ -9,8 +9,8 @@ use super::wkt;
 use super::world::RecordedWorld;
 use crate::math::Rect;
 
-/// The tables of a JuPedSim database, version 2, as its `sqlite_serialization.py` makes them, and one of our own, which
-/// others pass over: how tall people are.
+/// Tables of a JuPedSim database, version 2, as in its `sqlite_serialization.py`. The table of body heights is ours;
+/// other programs ignore it.
 const TABLES: &str = "
     CREATE TABLE trajectory_data (
         frame INTEGER NOT NULL, id INTEGER NOT NULL,
@@ -22,20 +22,20 @@ const TABLES: &str = "
     CREATE INDEX frame_id_idx ON trajectory_data (frame, id);
     CREATE TABLE person_data (id INTEGER NOT NULL PRIMARY KEY, height_m REAL NOT NULL);";
 
-/// A file that is thrown away if it does not become whole needs no journal; one transaction writes it all.
+/// An incomplete file is deleted, so it needs no journal and one transaction suffices.
 const BEGIN: &str = "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; BEGIN;";
 
 const INSERT_PLACE: &str = "INSERT INTO trajectory_data VALUES (?, ?, ?, ?, ?, ?)";
 const INSERT_FRAME: &str = "INSERT INTO frame_data VALUES (?, ?)";
 
-/// Somebody who left may come back: then the height is there.
+/// `OR IGNORE`, since a person who left may come back.
 const INSERT_PERSON: &str = "INSERT OR IGNORE INTO person_data VALUES (?, ?)";
 
-/// A JuPedSim database, version 2.
+/// Writer of a JuPedSim database, version 2.
 pub(super) struct JupedsimDatabase {
     database: Connection,
     geometry_hash: i64,
-    /// Who was there in the last frame, ascending.
+    /// Ids present in the last frame, ascending.
     before: Vec<u32>,
 }
 
@@ -72,7 +72,7 @@ impl JupedsimDatabase {
 
 impl MotionSink for JupedsimDatabase {
     fn frame(&mut self, number: u64, places: &[RecordedPlace]) -> io::Result<()> {
-        // SQLite's whole numbers have a sign.
+        // SQLite integers are signed.
         let number = number as i64;
         let insert = || {
             self.database.prepare_cached(INSERT_FRAME)?.execute(params![number, self.geometry_hash])?;
@@ -100,7 +100,7 @@ impl MotionSink for JupedsimDatabase {
     }
 }
 
-/// What SQLite says, as an error of the system.
+/// Converts an SQLite error to an I/O error.
 fn explain(error: rusqlite::Error) -> io::Error {
     let kind = match error.sqlite_error_code() {
         Some(ErrorCode::DiskFull) => io::ErrorKind::StorageFull,
@@ -111,7 +111,7 @@ fn explain(error: rusqlite::Error) -> io::Error {
     io::Error::new(kind, error)
 }
 
-/// The FNV-1a hash (Fowler, Noll, Vo): what a geometry is known by. JuPedSim uses Python's, which differs from run to run.
+/// Computes the FNV-1a hash (Fowler, Noll, Vo) of a geometry. JuPedSim uses Python's hash, which varies between runs.
 fn fnv1a(bytes: &[u8]) -> i64 {
     let hash = bytes
         .iter()

@@ -1,7 +1,7 @@
-//! Writes a motion to a file that other programs read: PedPy, JuPedSim, JPSvis, Vadere, game engines.
+//! Writes a motion as a trajectory file for PedPy, JuPedSim, JPSvis, Vadere or game engines.
 //!
-//! `form` tells the format by the file's name; `text` writes lines,
-//! as `rows` (most formats) or `vadere` lay them out, `jupedsim` a database.
+//! `form` finds the format from the file name; `text` writes lines, in the layout of `rows` (most formats) or `vadere`;
+//! `jupedsim` writes a database.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -31,32 +31,31 @@ use text::{LineFormat, Out, Text};
 use vadere::StepFormat;
 pub use world::RecordedWorld;
 
-/// An absence of everybody for longer is passed over, seconds: its frames are not written one by one.
+/// Longest period without people whose empty frames are written, seconds.
 const LONG_ABSENCE_S: f64 = 3600.0;
 
-/// Least and most frames per second of a recording.
+/// Smallest and largest frames per second of a recording.
 pub const FRAME_RATES: [f64; 2] = [0.1, 1000.0];
 
-/// What was recorded.
+/// Summary of a written recording.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Recorded {
-    /// How it was written.
+    /// File format.
     pub format: RecordingFormat,
     /// Frames per second.
     pub fps: f64,
-    /// Number of frames, those without anybody included. Frame `k` shows the moment `k / fps` seconds.
+    /// Number of frames, empty ones included. Frame `k` is at `k / fps` seconds.
     pub frames: u64,
-    /// Number of places written: people times the frames in which they are present.
+    /// Number of positions written, summed over all frames.
     pub places: u64,
-    /// Size of the file.
+    /// Size of the file, bytes.
     pub bytes: u64,
 }
 
-/// Records a motion at a frame rate of its own: between the motion's frames, places are interpolated.
+/// Writes a motion at a given frame rate. Positions are interpolated between the motion's frames.
 ///
-/// Holds only the people present, however long the motion is. The file appears under its name when
-/// [`Recorder::finish`] has put it there, complete; dropped before that, nothing is left of it. The same motion gives
-/// the same bytes.
+/// Holds only the people present, however long the motion is. [`Recorder::finish`] puts the complete file in its place;
+/// if dropped before, the file is deleted. The same motion gives the same bytes.
 pub struct Recorder<'a> {
     world: RecordedWorld<'a>,
     frame_of_map: MapFrame,
@@ -64,17 +63,17 @@ pub struct Recorder<'a> {
     sheet: Box<dyn MotionSink + 'a>,
     file: Option<WholeFile>,
     written: Recorded,
-    /// Who was present in the last frame, and how tall they are.
+    /// Ids present in the last frame, with body heights in metres.
     heights: Vec<(u32, f64)>,
     statures: Statures,
 }
 
 impl<'a> Recorder<'a> {
-    /// Begins a file whose name says its format, see [`RecordForm::ENDINGS`].
+    /// Begins a file; its name gives the format, see [`RecordForm::ENDINGS`].
     ///
     /// # Errors
-    /// An unknown ending, a frame rate out of [`FRAME_RATES`], a file that exists unless `force` is set, or that cannot
-    /// be written.
+    /// The ending is unknown; the frame rate is outside [`FRAME_RATES`]; the file exists and `force` is not set, or
+    /// cannot be written.
     pub fn create(
         path: &Path,
         force: bool,
@@ -84,10 +83,10 @@ impl<'a> Recorder<'a> {
         Recorder::create_as(RecordForm::of(path, None)?, path, force, fps, world)
     }
 
-    /// Begins a file in a form of one's own choice, whatever its name.
+    /// Begins a file in a given form, whatever its name.
     ///
     /// # Errors
-    /// As [`Recorder::create`], but for the ending; a database that would have to be packed.
+    /// As [`Recorder::create`], except for the ending; a database cannot be gzipped.
     pub fn create_as(
         form: RecordForm,
         path: &Path,
@@ -98,10 +97,10 @@ impl<'a> Recorder<'a> {
         Recorder::into_file(form, WholeFile::begin(path, force)?, fps, world)
     }
 
-    /// Begins a file whose place is reserved already.
+    /// Begins a recording in a file that is already reserved.
     ///
     /// # Errors
-    /// As [`Recorder::create_as`], but for the place.
+    /// As [`Recorder::create_as`], except for the path.
     pub fn into_file(
         form: RecordForm,
         file: WholeFile,
@@ -130,10 +129,10 @@ impl<'a> Recorder<'a> {
         Ok(Recorder::new(world, fps, format, sheet, Some(file)))
     }
 
-    /// Writes text to wherever `out` leads.
+    /// Writes a text format to `out`.
     ///
     /// # Errors
-    /// A frame rate out of [`FRAME_RATES`]; a format that is no text; `out` cannot be written to.
+    /// The frame rate is outside [`FRAME_RATES`]; the format is not text; `out` cannot be written to.
     pub fn to_writer(
         out: impl Write + Send + 'a,
         format: RecordingFormat,
@@ -171,13 +170,13 @@ impl<'a> Recorder<'a> {
         Recorder { statures, ..self }
     }
 
-    /// Takes the motion's next frame.
+    /// Adds the motion's next frame.
     ///
     /// # Errors
     /// The file cannot be written.
     pub fn push(&mut self, frame: &Frame) -> Result<(), RecordingError> {
         let absent_s = self.resampler.push(frame);
-        // A short absence is written as it is: databases list its frames.
+        // A short absence is written frame by frame: databases list empty frames.
         if absent_s > LONG_ABSENCE_S {
             self.resampler.pass_over_absence();
         }
@@ -196,15 +195,15 @@ impl<'a> Recorder<'a> {
         Ok(())
     }
 
-    /// Puts the finished file in its place.
+    /// Completes the file and puts it in its place.
     ///
     /// # Errors
-    /// The rest cannot be written.
+    /// The rest of the file cannot be written.
     pub fn finish(self) -> Result<Recorded, RecordingError> {
         let Recorder { sheet, file, mut written, .. } = self;
         written.bytes = sheet.close().map_err(|source| failed(&file, source))?;
         if let Some(file) = file {
-            // Of a stream, only what was counted on the way is known.
+            // The size of a stream is the number of bytes written.
             let is_stream = file.is_stream();
             let size = file.publish()?;
             written.bytes = if is_stream { written.bytes } else { size };
@@ -213,7 +212,7 @@ impl<'a> Recorder<'a> {
     }
 }
 
-/// How a format's text looks; none for the database.
+/// Returns the text layout of a format; `None` for the database.
 fn layout(format: RecordingFormat, fps: f64) -> Option<Box<dyn LineFormat>> {
     match format {
         RecordingFormat::Vadere => Some(Box::new(StepFormat::new(fps))),
@@ -223,7 +222,7 @@ fn layout(format: RecordingFormat, fps: f64) -> Option<Box<dyn LineFormat>> {
 
 fn check(fps: f64) -> Result<(), RecordingError> {
     let [low, high] = FRAME_RATES;
-    // Written so that NaN is out of range.
+    // NaN must be out of range.
     if fps >= low && fps <= high { Ok(()) } else { Err(RecordingError::FrameRate { fps, low, high }) }
 }
 
@@ -238,7 +237,7 @@ fn unnamed(source: io::Error) -> RecordingError {
     FileError::Write { path: "the motion".into(), source }.into()
 }
 
-/// Brings the list of heights up to those who are present now; both are in ascending order of ids.
+/// Updates the heights to the persons present now; both lists ascend by id.
 fn measure_heights(heights: &mut Vec<(u32, f64)>, walkers: &[Walker], height_m_of: impl Fn(u32) -> f64) {
     let before = std::mem::take(heights);
     let mut known = before.iter().peekable();

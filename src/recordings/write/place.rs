@@ -2,7 +2,7 @@ use crate::math::{Vec2, sin_cos, vec2};
 use crate::motion::Walker;
 use crate::plan::Pose;
 
-/// Somebody's place as it is written.
+/// Position, velocity and heading of a person, as written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct RecordedPlace {
     pub id: u32,
@@ -12,15 +12,15 @@ pub(super) struct RecordedPlace {
     pub velocity_m_s: Vec2,
     /// Body height, metres.
     pub height_m: f64,
-    /// Unit vector in which the body faces, map frame.
+    /// Heading: unit vector in the map frame.
     pub facing: Vec2,
 }
 
-/// From the plan frame to the map frame.
+/// Transform from the plan frame to the map frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MapFrame {
     origin_m: Vec2,
-    /// Cosine and sine of the turn.
+    /// Cosine and sine of the rotation.
     turn: Vec2,
 }
 
@@ -46,11 +46,11 @@ impl MapFrame {
     }
 }
 
-/// Decimals of what is written: tenths of a millimetre.
+/// Steps per unit of written values: 0.1 mm.
 pub(super) const PER_UNIT: f64 = 1e4;
 
 fn rounded(p: Vec2) -> Vec2 {
-    // Zero is never written with a sign.
+    // Adding 0.0 turns -0.0 into 0.0.
     let round = |v: f64| (v * PER_UNIT).round() / PER_UNIT + 0.0;
     vec2(round(p.x), round(p.y))
 }

@@ -1,18 +1,18 @@
-//! Formats with a line for everybody in every frame.
+//! Formats with one line per person and frame.
 
 use super::super::RecordingFormat;
 use super::place::RecordedPlace;
 use super::text::{FrameClock, LineBuffer, LineFormat};
 use crate::math::atan2;
 
-/// Such a format.
+/// A format with one line per person and frame.
 pub(super) struct RowFormat {
     head: String,
     row: fn(&mut LineBuffer, FrameStamp, &RecordedPlace),
     clock: FrameClock,
 }
 
-/// A frame as it is numbered and timed.
+/// Number and time of a frame.
 #[derive(Clone, Copy)]
 struct FrameStamp {
     number: u64,
@@ -34,7 +34,7 @@ impl LineFormat for RowFormat {
 }
 
 impl RowFormat {
-    /// The layout of a format; none for those that are no such text.
+    /// Returns the layout of a format; `None` for formats without such rows.
     pub fn of(format: RecordingFormat, fps: f64) -> Option<RowFormat> {
         let (head, row): (String, fn(&mut LineBuffer, FrameStamp, &RecordedPlace)) = match format {
             RecordingFormat::Juelich => (juelich_head(fps), juelich),
@@ -49,7 +49,7 @@ impl RowFormat {
     }
 }
 
-/// The names and units of the columns stand in a form by which PedPy knows that places are in metres.
+/// Writes names and units of columns in the form from which PedPy detects metres.
 fn juelich_head(fps: f64) -> String {
     let version = env!("CARGO_PKG_VERSION");
     let rate = rate(fps);
@@ -58,7 +58,7 @@ fn juelich_head(fps: f64) -> String {
     )
 }
 
-/// A frame rate with two decimals as is the custom, with more where it needs them.
+/// Formats a frame rate with two decimals as usual, or with more where needed.
 fn rate(fps: f64) -> String {
     let short = format!("{fps:.2}");
     if short.parse() == Ok(fps) { short } else { fps.to_string() }
@@ -83,7 +83,7 @@ fn crowdit(line: &mut LineBuffer, moment: FrameStamp, place: &RecordedPlace) {
     line.text(",").metres(place.at.x).text(",").metres(place.at.y);
 }
 
-/// The table's name and columns stand behind `$`, as in all of PTV's files.
+/// As in all PTV files, `$` marks the table's name and columns.
 const VISWALK: &str = "$VISION\n* Pedestrians\n$PEDESTRIAN:NO;SIMSEC;COORDCENTX;COORDCENTY\n";
 
 fn viswalk(line: &mut LineBuffer, moment: FrameStamp, place: &RecordedPlace) {
@@ -96,7 +96,7 @@ fn pathfinder(line: &mut LineBuffer, moment: FrameStamp, place: &RecordedPlace) 
     line.text(",").metres(place.at.x).text(",").metres(place.at.y);
 }
 
-/// Its readers pass over comments, and have to be told the rate.
+/// Readers of this format ignore comments and must be given the rate.
 fn obsmat_head(fps: f64) -> String {
     format!("# framerate: {}\n# frame id x z y vx vz vy\n", rate(fps))
 }

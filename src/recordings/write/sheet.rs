@@ -2,10 +2,10 @@ use std::io;
 
 use super::place::RecordedPlace;
 
-/// A file in the making.
+/// A trajectory file that is being written.
 pub(super) trait MotionSink: Send {
     fn frame(&mut self, number: u64, places: &[RecordedPlace]) -> io::Result<()>;
 
-    /// Writes what is left; gives the number of bytes written if it was counted.
+    /// Writes the rest; returns the number of bytes written, if counted.
     fn close(self: Box<Self>) -> io::Result<u64>;
 }

@@ -9,7 +9,7 @@ use crate::plan::{FloorPlan, Pose};
 
 use crate::walls::{Walls, WallsOptions};
 
-/// A corridor of 6 x 2 m, turned on its map.
+/// A corridor of 6 x 2 m.
 fn world() -> (FloorPlan, Walls, People) {
     let mask = (0..4 * 6).map(|k| u8::from((6..18).contains(&k))).collect();
     let plan = FloorPlan::from_mask(6, 4, 1.0, mask);
@@ -69,7 +69,7 @@ fn at_the_motions_own_rate_every_frame_is_written_as_it_is() {
 #[test]
 fn other_rates_thin_out_or_interpolate() {
     assert_eq!(places(&text_at(5.0).0), [(4, 1, 4.4), (9, 1, 9.4), (4, 2, 4.8)]);
-    // Present are those who are there in the frames before and after.
+    // A person is interpolated if present in the frames before and after.
     let (text, recorded) = text_at(20.0);
     let of_4: Vec<_> = places(&text).into_iter().filter(|place| place.0 == 4).collect();
     assert_eq!(of_4, [2, 3, 4, 5, 6, 7, 8].map(|k| (4, k, 4.0 + 0.1 * k as f64)));

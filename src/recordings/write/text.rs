@@ -1,4 +1,4 @@
-//! Motions as text: the file, its frames' moments, its numbers.
+//! Text formats: the output file, frame times, numbers.
 
 use std::io::{self, Write};
 
@@ -8,19 +8,19 @@ use flate2::write::GzEncoder;
 use super::place::{PER_UNIT, RecordedPlace};
 use super::sheet::MotionSink;
 
-/// How the text of a format looks.
+/// Layout of a text format.
 pub(super) trait LineFormat: Send {
-    /// What stands before the first place.
+    /// Text before the first row.
     fn head(&self) -> String;
 
-    /// The lines that can be written when a frame has come, of which there is none before this one that was not given.
+    /// Appends the lines that are complete with this frame. Every frame must be given, in order.
     fn frame(&mut self, number: u64, places: &[RecordedPlace], lines: &mut LineBuffer);
 
-    /// The lines that are left when all frames have come.
+    /// Appends the lines that are left after the last frame.
     fn rest(&mut self, _lines: &mut LineBuffer) {}
 }
 
-/// A text in the making.
+/// A text file that is being written.
 pub(super) struct Text<W: Write> {
     out: Out<W>,
     layout: Box<dyn LineFormat>,
@@ -58,14 +58,14 @@ impl<W: Write + Send> MotionSink for Text<W> {
     }
 }
 
-/// Where a text goes.
+/// Output of a text, plain or gzipped.
 pub(super) enum Out<W: Write> {
     Plain(W),
     Packed(Box<GzEncoder<W>>),
 }
 
 impl<W: Write> Out<W> {
-    /// Packed by gzip, with neither name nor time in its head: the same text gives the same bytes.
+    /// Gzips the output. The gzip header has no name or time, so the same text gives the same bytes.
     pub fn packed(out: W) -> Out<W> {
         Out::Packed(Box::new(GzEncoder::new(out, Compression::default())))
     }
@@ -85,19 +85,19 @@ impl<W: Write> Out<W> {
     }
 }
 
-/// Numbers frames by time.
+/// Times of frames by number.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FrameClock {
     fps: f64,
-    /// Decimals of a second that are written.
+    /// Decimals of a written second.
     decimals: usize,
 }
 
-/// Most decimals of a second.
+/// Largest number of decimals of a second.
 const MICROSECONDS: usize = 6;
 
 impl FrameClock {
-    /// Times have as many decimals as they need to be exact, up to microseconds.
+    /// Uses as many decimals as exact times need, from two up to microseconds.
     pub fn new(fps: f64) -> FrameClock {
         let exact = |decimals: &usize| {
             let parts = TENS[*decimals] / fps;
@@ -113,10 +113,10 @@ impl FrameClock {
 
 /// Powers of ten.
 const TENS: [f64; 7] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
-/// Numbers below this, in the smallest unit that is written, are written as whole numbers with a point inside.
+/// Values below this, in units of the last decimal, are formatted with integers.
 const EXACT: f64 = 9e15;
 
-/// Lines of text.
+/// A buffer for lines of text.
 #[derive(Debug, Default)]
 pub(super) struct LineBuffer(Vec<u8>);
 
@@ -147,7 +147,7 @@ impl LineBuffer {
         self.decimal(value, TENS[2], 2)
     }
 
-    /// Zero has no sign.
+    /// Appends a number with fixed decimals. Zero has no sign.
     fn decimal(&mut self, value: f64, per_unit: f64, decimals: usize) -> &mut LineBuffer {
         let parts = (value * per_unit).round();
         let _ = if parts.abs() < EXACT {

@@ -2,19 +2,18 @@ use super::place::RecordedPlace;
 use super::text::{FrameClock, LineBuffer, LineFormat};
 use crate::motion::FASTEST_M_S;
 
-/// The columns that Vadere's post-visualisation needs, with the numbers of the processors that write them.
+/// Columns for Vadere's post-visualisation, with the numbers of the processors that write them.
 const HEAD: &str = "pedestrianId simTime endTime-PID1 startX-PID1 startY-PID1 endX-PID1 endY-PID1\n";
 
-/// Vadere's steps: each line leads somebody from one frame to the next.
+/// Writer of Vadere steps: each line leads a person from one frame to the next.
 ///
-/// Whoever is there in one frame only stands until the middle between it and the next: a step without length in time
-/// would be none.
+/// A person present in a single frame gets a step of half a frame: Vadere needs steps with a duration.
 pub(super) struct StepFormat {
     fps: f64,
-    /// Of half frames.
+    /// Clock that counts half frames.
     clock: FrameClock,
     number: u64,
-    /// Those in the last frame, and whether a step has led them there.
+    /// Persons in the last frame, and whether a step led to it.
     before: Vec<(RecordedPlace, bool)>,
 }
 
@@ -45,7 +44,7 @@ impl LineFormat for StepFormat {
         let before = std::mem::take(&mut self.before);
         for (from, stepped) in &before {
             while after.next_if(|place| place.id < from.id).is_some() {}
-            // Who is too far away was put there, as in a corridor without ends.
+            // A person farther away was teleported, as in a periodic corridor.
             let near = |to: &&RecordedPlace| from.at.distance(to.at) * self.fps <= FASTEST_M_S;
             match after.next_if(|place| place.id == from.id).filter(near) {
                 Some(to) => {

@@ -3,8 +3,7 @@ use std::fmt;
 use crate::math::{Rect, Vec2, vec2};
 use crate::walls::{APRON_M, Outline};
 
-/// The floor that people can walk on, as polygons with holes: the plan's, and beyond each opening the apron where
-/// people come and go.
+/// Walkable floor as polygons with holes: the plan's floor and an apron beyond each opening.
 #[derive(Debug)]
 pub(super) struct Floor {
     polygons: Vec<Polygon>,
@@ -19,16 +18,16 @@ struct Polygon {
 }
 
 impl Floor {
-    /// The floor within these outlines, each point moved by `place`, which must turn and shift only.
+    /// Builds the floor within these outlines; `place` must be a rotation and translation.
     pub(super) fn of(outlines: &[Outline], place: impl Fn(Vec2) -> Vec2) -> Floor {
         let loops = outlines.iter().map(|outline| {
-            // Outlines have the floor on their right, polygons their inside on the left.
+            // Outlines have the floor on their right, polygons on their left.
             let mut points: Vec<Vec2> = walked(outline).into_iter().map(&place).collect();
             points.reverse();
             points
         });
         let (mut outsides, holes): (Vec<_>, Vec<_>) = loops.partition(|points| doubled_area(points) > 0.0);
-        // The smallest that a hole lies in is the one that it belongs to: a room may lie within another's pillar.
+        // A hole belongs to the smallest polygon around it: a room may lie within another's pillar.
         outsides.sort_by(|a, b| doubled_area(a).total_cmp(&doubled_area(b)));
         let mut polygons: Vec<Polygon> =
             outsides.into_iter().map(|outside| Polygon { outside, holes: Vec::new() }).collect();
@@ -42,7 +41,7 @@ impl Floor {
         Floor { polygons }
     }
 
-    /// The rectangle around all floor; empty at the origin without any.
+    /// Bounding box of the floor; empty at the origin if there is no floor.
     pub(super) fn bounds(&self) -> Rect {
         let mut points = self.polygons.iter().flat_map(|polygon| &polygon.outside);
         let first = points.next().copied().unwrap_or(Vec2::ZERO);
@@ -53,7 +52,7 @@ impl Floor {
     }
 }
 
-/// Well known text: one `POLYGON`, or a `MULTIPOLYGON` where the floor is in several pieces.
+/// Writes well-known text: a `POLYGON`, or a `MULTIPOLYGON` for several pieces.
 impl fmt::Display for Floor {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.polygons[..] {
@@ -80,7 +79,7 @@ impl fmt::Display for Polygon {
     }
 }
 
-/// A ring, its first point repeated at its end.
+/// Writes a ring, with the first point repeated at the end.
 fn ring(points: &[Vec2], f: &mut fmt::Formatter<'_>) -> fmt::Result {
     for (n, p) in points.iter().chain(points.first()).enumerate() {
         write!(f, "{}{:.4} {:.4}", if n == 0 { "(" } else { ", " }, p.x, p.y)?;
@@ -88,7 +87,7 @@ fn ring(points: &[Vec2], f: &mut fmt::Formatter<'_>) -> fmt::Result {
     write!(f, ")")
 }
 
-/// An outline with an apron beyond each opening.
+/// Returns the points of an outline with an apron beyond each opening.
 fn walked(outline: &Outline) -> Vec<Vec2> {
     let mut points = Vec::with_capacity(outline.points_m.len() + 2 * outline.openings.len());
     for (k, &point) in outline.points_m.iter().enumerate() {
@@ -101,14 +100,14 @@ fn walked(outline: &Outline) -> Vec<Vec2> {
     points
 }
 
-/// Twice the area, negative if the points go round clockwise.
+/// Twice the signed area: negative for clockwise points.
 fn doubled_area(points: &[Vec2]) -> f64 {
     let Some(&last) = points.last() else { return 0.0 };
     let mut before = last;
     points.iter().map(|&p| std::mem::replace(&mut before, p).cross(p)).sum()
 }
 
-/// Whether most of a ring's points lie within another: some may lie on it, where walls touch.
+/// Whether most points of a ring lie within another; where walls touch, some lie on it.
 fn lies_within(ring: &[Vec2], outside: &[Vec2]) -> bool {
     2 * ring.iter().filter(|&&p| is_within(p, outside)).count() > ring.len()
 }

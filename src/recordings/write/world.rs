@@ -2,14 +2,13 @@ use crate::motion::People;
 use crate::plan::FloorPlan;
 use crate::walls::Walls;
 
-/// What a recording says of the world that people walk in. Places are written in the map frame: that of the ROS map
-/// where the plan is one, and the plan frame elsewhere.
+/// The world of a recording. Positions are written in the frame of the ROS map, or else in the plan frame.
 #[derive(Clone, Copy, Debug)]
 pub struct RecordedWorld<'a> {
-    /// Where the plan lies on the map.
+    /// Floor plan, with its pose on the map.
     pub plan: &'a FloorPlan,
-    /// The floor that people can walk on, aprons included.
+    /// Walls around the walkable floor, aprons included.
     pub walls: &'a Walls,
-    /// How tall people are.
+    /// People, for their body heights.
     pub people: &'a People,
 }

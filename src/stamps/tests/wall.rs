@@ -1,4 +1,4 @@
-//! Stains on walls against their patterns.
+//! Tests of stains on walls against their patterns.
 
 use proptest::prelude::*;
 
@@ -16,7 +16,7 @@ fn stamped_on(grid: &WallGrid, options: &StampOptions, contacts: &[Contact]) -> 
     sums
 }
 
-/// Densities of a whole face, all causes together.
+/// Densities of a face, summed over causes.
 fn face(sums: &WallSums, face: usize) -> Vec<f64> {
     let (width, height) = (sums.grid().faces[face].width as usize, sums.grid().height as usize);
     let mut total = vec![0.0; width * height];
@@ -34,7 +34,7 @@ fn integral_of(sums: &WallSums, number: usize) -> f64 {
     face(sums, number).iter().sum::<f64>() * texel_m * texel_m
 }
 
-/// What a contact should leave: its strength times its pattern's coverage, stretched, square metres.
+/// Expected integral of a contact: strength times coverage of the stretched pattern, square metres.
 fn amount_m2(contact: &Contact) -> f64 {
     let pattern = &wall_library().patterns[usize::from(contact.pattern)];
     let mean = pattern.coverage.iter().map(|&c| f64::from(c) / 255.0).sum::<f64>() / pattern.coverage.len() as f64;
@@ -76,7 +76,7 @@ fn blots_and_pressure_change_nothing_in_the_mean() {
     }
 }
 
-/// Middle and deviation of a stain along and across the strip, metres.
+/// Centroid and standard deviation of a stain along and across the strip, metres.
 fn place_and_spread(sums: &WallSums) -> [[f64; 2]; 2] {
     let (texels, grid) = (face(sums, 0), sums.grid());
     let width = grid.faces[0].width as usize;
@@ -103,12 +103,12 @@ fn stains_are_stretched_turned_and_mirrored() {
         assert!((wide / along / f64::from(length) - 1.0).abs() < 0.06, "{wide} {along} {length}");
         assert!((high / across / f64::from(breadth) - 1.0).abs() < 0.06, "{high} {across} {breadth}");
     }
-    // The cloud is fuller on its right: turned upright it is fuller above.
+    // The cloud is denser on its right: turned upright it is denser above.
     let [[x, y], spread] = place_of(Contact { direction_rad: std::f32::consts::FRAC_PI_2, ..plain_touch });
     let [[x0, y0], _] = place_of(plain_touch);
     assert!((y - 1.2 - (x0 - 1.0)).abs() < 0.002 && (x - 1.0).abs() < 0.004 && x0 - 1.0 > 0.008, "{x} {y} {x0} {y0}");
     assert!((spread[0] - across).abs() < 0.004 && (spread[1] - along).abs() < 0.004);
-    // Row 0 of a pattern, above when it goes to the right, is below when it is mirrored.
+    // Row 0 of a pattern is above when it points right, and below when mirrored.
     let lopsided = |mirrored| {
         let mut library = wall_library();
         let cloud = &mut library.patterns[usize::from(CLOUD)];
@@ -174,7 +174,7 @@ fn stains_are_cut_off_at_floor_and_ceiling_and_at_the_ends_of_open_faces() {
     assert_eq!(integral_of(&stamped_on(&grid, &plain(), &[touch(0.0, 1.0)]), 1), 0.0, "the next face is another wall");
 }
 
-/// A face's row is unrolled round its corners: 2 m of wall is 2 m of strip, whatever the corners on its way.
+/// A strip continues around corners: 2 m of wall are 2 m of strip.
 #[test]
 fn a_stain_runs_on_round_a_corner() {
     let floor = |k: usize| u8::from((1..29).contains(&(k % 30)) && (1..19).contains(&(k / 30)));
@@ -203,19 +203,19 @@ fn on_a_closed_face_a_stain_goes_on_across_the_seam() {
         for (row, (a, b)) in across.chunks(400).zip(amid.chunks(400)).enumerate() {
             for k in 0..400 {
                 let (a, b) = (a[(k + 200) % 400], b[k]);
-                // The rounding lies elsewhere, the stain does not.
+                // Rounding may differ; the stain may not.
                 assert!((a - b).abs() <= 1.01 / f64::from(DENSITY_ONE), "{a} {b} at {k}, {row}");
             }
         }
     }
-    // A drag round a pillar that is shorter than it.
+    // A drag longer than the circumference of a pillar.
     let pillar = wall_grid(200.0, &[(0.25, true)]);
     let drag = Contact { pattern: DRAG, length_m: 0.6, breadth_m: 0.08, ..touch(0.1, 1.2) };
     let found = integral_of(&stamped_on(&pillar, &plain(), &[drag]), 0);
     assert!((found / amount_m2(&drag) - 1.0).abs() < 0.02);
 }
 
-/// Rows laid over the whole strip in pieces that are not those of blocks.
+/// Adds rows over the strip in pieces that differ from blocks.
 fn in_other_pieces(stamper: &WallStamper, stain: &PlacedStain, width: usize, height: usize) -> Vec<u32> {
     let mut texels = vec![0u32; width * height];
     let mut buffers = TexelRow::new();
@@ -288,7 +288,7 @@ fn contacts_without_sense_leave_nothing() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
-    /// Whatever a contact says, nothing panics, and what it leaves stays within bounds.
+    /// Contacts of any values cause no panic and stay within bounds.
     #[test]
     fn no_contact_does_harm(
         numbers in prop::array::uniform2(any::<f64>()),
@@ -307,7 +307,7 @@ proptest! {
         let contact = Contact { along_m, height_m, direction_rad, length_m, breadth_m, strength, ..kind };
         let sums = stamped_on(&grid, &StampOptions::default(), &[contact]);
         for number in 0..3 {
-            // A drag that winds round a pillar falls on it many times.
+            // A drag around a pillar overlaps itself many times.
             prop_assert!(face_most(&sums, number) < 16.0 * 130.0);
         }
     }

@@ -1,4 +1,4 @@
-//! The same for walls; and what walls cost that nobody touches.
+//! The same tests for walls; cost of untouched walls.
 
 use super::*;
 use crate::marks::Contact;
@@ -19,7 +19,7 @@ fn all_strips(sums: &WallSums) -> Vec<Vec<u32>> {
     faces.flat_map(|face| Cause::WALL.map(|cause| strip(sums, cause, face))).collect()
 }
 
-/// A long face, a room and a pillar that is shorter than a drag.
+/// A long face, a room, and a pillar with a circumference shorter than a drag.
 fn walls(texels_per_metre: f64) -> WallGrid {
     wall_grid(texels_per_metre, &[(3.113, false), (2.5, true), (0.3071, true)])
 }

@@ -1,4 +1,4 @@
-//! Where faces turn: corners, told from the pieces of a curve and from steps of a pixel.
+//! Finds the corners of faces, apart from turns within curves and steps of a pixel.
 
 use crate::math::{Vec2, atan2};
 use crate::walls::Face;
@@ -12,25 +12,25 @@ pub struct Corner {
     pub along_m: f64,
     /// The vertex, metres.
     pub point_m: Vec2,
-    /// Turn of the face, radians: positive at an inner corner (the floor fills less than a half turn), negative at an
-    /// outer one.
+    /// Turn of the face, radians: positive at an inner corner (less than 180 degrees of floor), negative at an outer
+    /// one.
     pub turn_rad: f64,
 }
 
-/// A face that turns less than this has no corner there, radians: 20 degrees.
+/// Least turn of a corner, radians: 20 degrees.
 const LEAST_TURN_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;
-/// Vertices nearer to the next than this are one corner, metres: the ends of thin walls, rounded and bevelled edges.
+/// Vertices closer than this form one corner, metres: ends of thin walls, rounded and bevelled edges.
 const ONE_CORNER_M: f64 = 0.105;
 /// A row of such vertices longer than this is a curve, metres.
 const LONGEST_CORNER_M: f64 = 0.25;
-/// Pieces of a curve leave it by no more than this, metres: half a pixel of a coarse plan, and a little.
+/// Largest sagitta of a curve's pieces, metres: somewhat more than half a pixel of a coarse plan.
 const MOST_SAGITTA_M: f64 = 0.06;
-/// A curve has at least so many vertices in a row that turn to one side.
+/// Fewest consecutive vertices of a curve that turn to one side.
 const FEWEST_OF_CURVE: usize = 3;
-/// From one vertex of a curve to the next the turn changes by no more than this factor.
+/// Largest ratio of the turns at consecutive vertices of a curve.
 const EVEN_TURN: f64 = 3.5;
 
-/// A vertex of a face, or several in one place.
+/// A vertex of a face, or a cluster of them.
 #[derive(Clone, Copy, Debug)]
 struct Vertex {
     from_m: f64,
@@ -45,7 +45,7 @@ impl Vertex {
     }
 }
 
-/// All corners of a face, by ascending arc length.
+/// Appends all corners of a face, by ascending arc length.
 pub(super) fn of_face(number: usize, face: &Face, out: &mut Vec<Corner>) {
     let length_m = face.length_m();
     let vertices = joined(vertices(face), face.closed.then_some(length_m));
@@ -60,7 +60,7 @@ pub(super) fn of_face(number: usize, face: &Face, out: &mut Vec<Corner>) {
     out[first..].sort_by(|a, b| a.along_m.total_cmp(&b.along_m));
 }
 
-/// How far a face turns between two directions, radians; positive where the floor on its right fills less than a half turn.
+/// Turn between two directions of a face, radians; positive at an inner corner.
 pub(super) fn turn_rad(before: Vec2, after: Vec2) -> f64 {
     -atan2(before.cross(after), before.dot(after))
 }
@@ -83,10 +83,10 @@ fn vertices(face: &Face) -> Vec<Vertex> {
     vertices
 }
 
-/// Joins vertices that are one corner; on a closed face of this length the last may join the first.
+/// Merges vertices that form one corner. `closed_m` is a closed face's length; its seam is merged too.
 fn joined(vertices: Vec<Vertex>, closed_m: Option<f64>) -> Vec<Vertex> {
     let n = vertices.len();
-    // Start behind a gap, so that nothing is cut by the seam.
+    // Start after a gap, so that the seam splits no cluster.
     let gap_before = |k: usize| match (k, closed_m) {
         (0, None) => f64::INFINITY,
         (0, Some(length_m)) => vertices[0].from_m + length_m - vertices[n - 1].from_m,
@@ -109,13 +109,13 @@ fn joined(vertices: Vec<Vertex>, closed_m: Option<f64>) -> Vec<Vertex> {
     rows.into_iter().flat_map(one_of_row).collect()
 }
 
-/// The corner that a row of near vertices is; the row itself if it is a curve.
+/// Merges a row of close vertices into one corner; returns the row itself if it is a curve.
 fn one_of_row(row: Vec<Vertex>) -> Vec<Vertex> {
     let (first, last) = (row[0], row[row.len() - 1]);
     if row.len() == 1 || last.to_m - first.from_m > LONGEST_CORNER_M {
         return row;
     }
-    // The vertex nearest to the middle says where it is; between two, the middle of the edge.
+    // The middle vertex gives the position; for an even number, the middle of the edge.
     let point_m = if row.len().is_multiple_of(2) {
         row[row.len() / 2 - 1].point_m.lerp(row[row.len() / 2].point_m, 0.5)
     } else {
@@ -153,6 +153,6 @@ fn is_of_curve(vertices: &[Vertex], k: usize, closed_m: Option<f64>) -> bool {
         }
         count
     };
-    // Nothing that turns by more than this between two pieces looks round.
+    // A larger turn between two pieces does not look round.
     turn_rad.abs() < 1.1 && run(true) + run(false) + 1 >= FEWEST_OF_CURVE
 }

@@ -1,7 +1,7 @@
-//! Finds doorways: gaps in walls that have the shape of doors.
+//! Finds doorways: gaps in walls with the shape of a door.
 //!
-//! A gap is where the floor is narrowest: two places on walls such that no wall reaches into the disc between them, at
-//! least one of them an outer corner (between two flat walls lies a corridor). It is a door if it is as wide as one, if
+//! A gap is a local minimum of the floor's width: two points on walls with no wall in the disc between them, at least
+//! one of them an outer corner (between two flat walls lies a corridor). A gap is a door if its width is in range and
 //! the floor widens within a wall's thickness on both sides, and stays wide.
 
 use std::f64::consts::TAU;
@@ -14,15 +14,15 @@ use crate::walls::{Face, Segment, Walls};
 /// A doorway: a gap of 0.7 to 2.0 m between two wall ends, with more floor on either side.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Doorway {
-    /// Middles of the two jambs, metres: the line from one to the other is the threshold.
+    /// Middles of the two jambs, metres: the ends of the threshold.
     pub jambs_m: [Vec2; 2],
-    /// Index into [`crate::walls::Walls::faces`] and arc length of each jamb's middle, metres.
+    /// Face and arc length, metres, of each jamb; faces index [`crate::walls::Walls::faces`].
     pub on_faces: [(usize, f64); 2],
     /// Thickness of the wall, metres.
     pub depth_m: f64,
     /// Unit vector through the door, across the threshold.
     pub through: Vec2,
-    /// Height of its head above the floor, metres; default [`DOOR_HEAD_M`].
+    /// Height of the door's head above the floor, metres; default [`DOOR_HEAD_M`].
     pub head_m: f64,
 }
 
@@ -30,50 +30,50 @@ pub struct Doorway {
 pub const DOOR_HEAD_M: f64 = 2.1;
 
 impl Doorway {
-    /// Clear width, metres.
+    /// Clear width between the jambs, metres.
     pub fn width_m(&self) -> f64 {
         self.jambs_m[0].distance(self.jambs_m[1])
     }
 }
 
-/// Range of a door's clear width, metres.
+/// Smallest and largest clear width of a door, metres.
 pub const DOOR_WIDTHS_M: [f64; 2] = [0.7, 2.0];
 
-/// Drawn widths may be off by this much, metres.
+/// Tolerance of drawn widths, metres.
 const DRAWN_M: f64 = 0.03;
-/// Corners that turn less than this bound no gap, radians.
+/// Least turn of a corner that bounds a gap, radians.
 const LEAST_OUTER_RAD: f64 = 0.25;
-/// How much of the disc between the jambs must be free, as a share of its radius.
+/// Radius of the free disc between the jambs, as a share of the gap's half width.
 const FREE: f64 = 0.9;
-/// Thickest wall that a door goes through, metres.
+/// Thickest wall with a door, metres.
 const DEEPEST_M: f64 = 0.65;
-/// Steps in which the way through is looked over, metres.
+/// Sampling step along the path through the door, metres.
 const STEP_M: f64 = 0.05;
-/// The floor has widened once it is so much wider than the gap, metres ...
+/// Least widening of the floor behind a gap, metres.
 const WIDENS_M: f64 = 0.22;
-/// ... or so much, where the gap's other side is a wall that runs straight on: the wall with the door in it is no stub.
+/// Least widening if the other jamb is a straight wall, metres: the wall with the door is longer than a stub.
 const WIDENS_BESIDE_WALL_M: f64 = 0.5;
-/// It must be free for so far behind the door, and still as wide so far behind it unless a wall comes before, metres: a
-/// corridor with doors on its sides widens for less.
+/// Depths behind the door that must be free, and stay wide unless a wall comes first, metres. A corridor with doors on
+/// its sides widens for less.
 const ROOM_M: f64 = 0.45;
 const STAYS_WIDE_M: f64 = 1.1;
-/// A jamb widens if it does so by this much, metres.
+/// Least widening beside a jamb, metres.
 const STEPS_BACK_M: f64 = 0.05;
-/// The wall beside a door goes on for this long, if it is a free-standing piece, metres.
+/// Least length of a free-standing wall beside a door, metres.
 const GOES_ON_M: f64 = 0.7;
-/// Widest gap between a wall's end and a wall that runs straight on, metres.
+/// Widest gap between a wall's end and a straight wall, metres.
 const WIDEST_BESIDE_WALL_M: f64 = 1.5;
-/// How far one looks to either side, metres.
+/// Length of rays to either side, metres.
 const SIGHT_M: f64 = 2.5;
-/// A free-standing thing smaller than this is a pillar or furniture, no wall; smaller than the second, it may be the post
-/// of a double door. Metres.
+/// Size below which a free-standing object is a pillar or furniture, metres. Below `POST_M` it may be the middle post
+/// of a double door.
 const WALL_M: f64 = 1.2;
 const POST_M: f64 = 0.36;
-/// Two doorways nearer to each other than this share of the narrower one's width are the same.
+/// Doorways closer than this share of the narrower one's width are duplicates.
 const SAME: f64 = 0.6;
-/// Directions that are tried for a door given by its middle.
+/// Number of directions tried for a door given by its middle.
 const DIRECTIONS: u32 = 72;
-/// The shortest look for a free disc before a corner, metres, and how far that may be from the middle of its cone.
+/// Probe for a free disc in front of a corner: distance, metres, and directions from the bisector.
 const PROBE_M: f64 = 0.3;
 const PROBE_TURNS_RAD: [f64; 3] = [0.0, 0.75, -0.75];
 
@@ -84,13 +84,13 @@ struct Outer {
     after: Vec2,
 }
 
-/// A doorway, and whether it needs another on the far side of a post.
+/// A doorway, and the post, if any, that needs a second gap on its other side.
 struct Found {
     doorway: Doorway,
     post: Option<usize>,
 }
 
-/// How large a free-standing thing is whose outline a face is; `None` for the walls of a room.
+/// Size of the free-standing object inside a face, metres; `None` for the walls of a room.
 fn island_m(face: &Face) -> Option<f64> {
     if !face.closed {
         return None;
@@ -102,18 +102,18 @@ fn island_m(face: &Face) -> Option<f64> {
         bounds.min = vec2(bounds.min.x.min(a.x), bounds.min.y.min(a.y));
         bounds.max = vec2(bounds.max.x.max(a.x), bounds.max.y.max(a.y));
     }
-    // The floor lies on the right: counter-clockwise goes around a hole in it.
+    // The floor is on the right: a counter-clockwise face is around a hole in it.
     (area_m2 > 0.0).then(|| bounds.width().max(bounds.height()))
 }
 
-/// All doorways of a plan.
+/// Returns all doorways of a plan.
 pub(super) fn find(walls: &Walls) -> Vec<Doorway> {
     let islands: Vec<Option<f64>> = walls.faces.iter().map(island_m).collect();
     let is_pillar = |face: usize| islands[face].is_some_and(|size_m| size_m < WALL_M);
     let mut gaps: Vec<[Vec2; 2]> = Vec::new();
     let mut near = Vec::new();
     for (number, face) in walls.faces.iter().enumerate() {
-        // A gap beside a post is found from the wall on its other side.
+        // A gap beside a post is found from the opposite wall.
         if is_pillar(number) {
             continue;
         }
@@ -121,7 +121,7 @@ pub(super) fn find(walls: &Walls) -> Vec<Doorway> {
             gaps_at(walls, &corner, &mut near, &mut gaps);
         }
     }
-    // The same gap is found from both of its ends.
+    // Each gap is found from both of its ends.
     let key = |gap: &[Vec2; 2]| (gap[0].lerp(gap[1], 0.5), gap[0].distance(gap[1]));
     let ordered = |a: &[Vec2; 2], b: &[Vec2; 2]| {
         let ((pa, wa), (pb, wb)) = (key(a), key(b));
@@ -147,10 +147,10 @@ fn outer_corners(face: &Face) -> impl Iterator<Item = Outer> {
     })
 }
 
-/// The gaps of which a corner is one end.
+/// Appends the gaps that end at a corner.
 fn gaps_at(walls: &Walls, corner: &Outer, near: &mut Vec<Segment>, gaps: &mut Vec<[Vec2; 2]>) {
     let at = corner.point_m;
-    // Where things stand too close for any door nothing else is worth a look.
+    // Skip corners without room for a door in front of them.
     let ahead = (corner.before - corner.after).normalized().unwrap_or(-corner.before.left());
     let has_room = PROBE_TURNS_RAD.iter().any(|&turn_rad| {
         let (sin, cos) = sin_cos(turn_rad);
@@ -186,15 +186,15 @@ fn closest(segment: &Segment, p: Vec2) -> Vec2 {
     if squared <= 0.0 { segment.a } else { segment.a + along * ((p - segment.a).dot(along) / squared).clamp(0.0, 1.0) }
 }
 
-/// How the floor widens on one side of a gap.
+/// The widening of the floor on one side of a gap.
 struct Way {
-    /// Where it has widened, metres from the gap's middle.
+    /// Distance from the gap's middle where the floor has widened, metres.
     from_m: f64,
-    /// By how much on either side of the gap, metres.
+    /// Widening at each end of the gap, metres.
     by_m: [f64; 2],
 }
 
-/// Whether a gap is a doorway.
+/// Returns the doorway at a gap, if the gap is one.
 fn judged(walls: &Walls, [a, b]: [Vec2; 2], islands: &[Option<f64>]) -> Option<Found> {
     let (middle, width_m) = (a.lerp(b, 0.5), a.distance(b));
     let across = (b - a).normalized()?;
@@ -206,7 +206,7 @@ fn judged(walls: &Walls, [a, b]: [Vec2; 2], islands: &[Option<f64>]) -> Option<F
     if depth_m > DEEPEST_M + STEP_M {
         return None;
     }
-    // A jamb is what the floor widens beside on both sides of the door; the other may be a wall that runs straight on.
+    // The floor widens beside a jamb on both sides of the door; the other end may be a straight wall.
     let least_m = [0, 1].map(|side| ahead.by_m[side].min(behind.by_m[side]));
     let most_m = [0, 1].map(|side| ahead.by_m[side].max(behind.by_m[side]));
     let is_jamb = least_m.map(|by_m| by_m >= STEPS_BACK_M);
@@ -221,7 +221,7 @@ fn judged(walls: &Walls, [a, b]: [Vec2; 2], islands: &[Option<f64>]) -> Option<F
     }
     let sizes_m = doorway.on_faces.map(|(face, _)| islands[face].unwrap_or(f64::INFINITY));
     let is_post = |side: usize| sizes_m[side] <= POST_M;
-    // A shelf before a wall leaves a gap, but no door: a piece of wall is in line with what stands on the other side.
+    // A shelf in front of a wall leaves a gap but no door: walls continue in line beyond both jambs.
     let goes_on = |side: usize| {
         let way = if side == 0 { -across } else { across };
         let is_wall = |share: f64| !walls.is_inside(doorway.jambs_m[side] + way * (share * GOES_ON_M));
@@ -238,7 +238,7 @@ fn judged(walls: &Walls, [a, b]: [Vec2; 2], islands: &[Option<f64>]) -> Option<F
     }
 }
 
-/// How the floor widens behind a gap, if it does so within the thickness of a wall and stays wide.
+/// Returns the widening behind a gap, if it lies within a wall's thickness and stays wide.
 fn widening(walls: &Walls, rays: &Rays, middle: Vec2, [across, way]: [Vec2; 2], width_m: f64) -> Option<Way> {
     let half_m = 0.5 * width_m;
     let by_m = |at_m: f64| {
@@ -248,7 +248,7 @@ fn widening(walls: &Walls, rays: &Rays, middle: Vec2, [across, way]: [Vec2; 2], 
     let area = walls.bounds_m();
     let beyond = |at_m: f64| !area.contains(middle + way * at_m);
     let steps = (DEEPEST_M / STEP_M + 1e-9) as u32;
-    // Half a step off, so that no look runs along a drawn line.
+    // Offset by half a step, so that no ray runs along a drawn line.
     let places = (0..=steps).map(|step| (f64::from(step) + 0.5) * STEP_M);
     for at_m in places {
         if beyond(at_m) {
@@ -269,7 +269,7 @@ fn widening(walls: &Walls, rays: &Rays, middle: Vec2, [across, way]: [Vec2; 2], 
     None
 }
 
-/// The doorway around a place, by looks to either side; none if one of them ends on an apron or nowhere.
+/// Returns the doorway around a point, by rays to both sides; `None` unless both hit a face.
 fn doorway(rays: &Rays, middle: Vec2, across: Vec2, depth_m: f64) -> Option<Doorway> {
     let hits: [Hit; 2] = [rays.cast(middle, -across, SIGHT_M)?, rays.cast(middle, across, SIGHT_M)?];
     let on_faces = [(hits[0].face?, hits[0].along_m), (hits[1].face?, hits[1].along_m)];
@@ -277,7 +277,7 @@ fn doorway(rays: &Rays, middle: Vec2, across: Vec2, depth_m: f64) -> Option<Door
     Some(Doorway { jambs_m, on_faces, depth_m, through: across.left(), head_m: DOOR_HEAD_M })
 }
 
-/// Leaves out gaps beside a post that has no other gap on its far side, in line.
+/// Removes gaps beside a post that has no aligned gap on its other side.
 fn with_whole_posts(found: Vec<Found>) -> Vec<Doorway> {
     let is_twin = |a: &Doorway, b: &Doorway| {
         let apart = middle(b) - middle(a);
@@ -296,11 +296,11 @@ fn with_whole_posts(found: Vec<Found>) -> Vec<Doorway> {
     kept.into_iter().map(|k| found[k].doorway).collect()
 }
 
-/// Of doorways that lie on top of each other, the narrowest.
+/// Keeps the narrowest of overlapping doorways.
 fn without_repeats(mut doorways: Vec<Doorway>) -> Vec<Doorway> {
     doorways.sort_by(|a, b| {
         let (pa, pb) = (middle(a), middle(b));
-        // Widths that differ by rounding alone must not decide.
+        // Rounded, so that rounding errors of widths do not decide.
         let width = |door: &Doorway| (door.width_m() * 1e3).round();
         width(a).total_cmp(&width(b)).then(pa.x.total_cmp(&pb.x)).then(pa.y.total_cmp(&pb.y))
     });
@@ -326,7 +326,7 @@ fn cross([a, b]: [Vec2; 2], [c, d]: [Vec2; 2]) -> bool {
     (ab.cross(c - a) > 0.0) != (ab.cross(d - a) > 0.0) && (cd.cross(a - c) > 0.0) != (cd.cross(b - c) > 0.0)
 }
 
-/// The narrowest gap across a place between two walls, each at most `width_m` away.
+/// Returns the narrowest gap across a point between two walls, each at most `width_m` away.
 pub(super) fn across(walls: &Walls, at_m: Vec2, width_m: f64) -> Option<Doorway> {
     if !at_m.is_finite() || !width_m.is_finite() || !walls.is_inside(at_m) {
         return None;
@@ -336,7 +336,7 @@ pub(super) fn across(walls: &Walls, at_m: Vec2, width_m: f64) -> Option<Doorway>
         let (sin, cos) = sin_cos(TAU * f64::from(k) / f64::from(2 * DIRECTIONS));
         let across = vec2(cos, sin);
         let ends = [rays.cast(at_m, -across, width_m)?, rays.cast(at_m, across, width_m)?];
-        // Both must be walls that one can touch, and one of them must stand square to the gap.
+        // Both must be visible walls, and one of them roughly perpendicular to the gap.
         let is_square = ends.iter().any(|end| end.direction.dot(across).abs() < 0.5);
         (is_square && ends.iter().all(|end| end.face.is_some()))
             .then(|| (ends[0].distance_m + ends[1].distance_m, across, ends))

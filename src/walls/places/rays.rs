@@ -1,14 +1,14 @@
-//! Straight looks from a place to the walls around it.
+//! Casts rays from a point to the walls around it.
 
 use super::super::{Segment, Walls};
 use crate::math::{Rect, Vec2, vec2};
 
-/// The walls around a place.
+/// Wall segments around a point.
 pub(super) struct Rays {
     segments: Vec<Segment>,
 }
 
-/// Where a look meets a wall.
+/// Intersection of a ray and a wall.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hit {
     pub distance_m: f64,
@@ -21,7 +21,7 @@ pub(super) struct Hit {
 }
 
 impl Rays {
-    /// The walls within so many metres of a place, by the axes.
+    /// Collects the walls within `within_m` of a point along each axis.
     pub fn around(walls: &Walls, at_m: Vec2, within_m: f64) -> Rays {
         let reach = vec2(within_m, within_m);
         let mut segments = Vec::new();
@@ -29,13 +29,13 @@ impl Rays {
         Rays { segments }
     }
 
-    /// The first wall from a place in a direction, a unit vector, no farther than `limit_m`.
+    /// Returns the first wall in a direction, a unit vector, up to `limit_m`.
     pub fn cast(&self, from_m: Vec2, direction: Vec2, limit_m: f64) -> Option<Hit> {
         let mut found: Option<(f64, &Segment, f64)> = None;
         for segment in &self.segments {
             let along = segment.b - segment.a;
             let across = direction.cross(along);
-            // Whoever looks along a wall looks past it.
+            // A ray parallel to a wall passes it.
             if across.abs() < 1e-12 {
                 continue;
             }
@@ -58,7 +58,7 @@ impl Rays {
         })
     }
 
-    /// How far one sees from a place in a direction, at most `limit_m`.
+    /// Returns the free length in a direction, at most `limit_m`.
     pub fn clear_m(&self, from_m: Vec2, direction: Vec2, limit_m: f64) -> f64 {
         self.cast(from_m, direction, limit_m).map_or(limit_m, |hit| hit.distance_m)
     }

@@ -6,7 +6,7 @@ use crate::plan::FloorPlan;
 /// Side of a pixel of the drawings, metres.
 const PX_M: f64 = 0.05;
 
-/// A plan of so many metres, floor where no wall is.
+/// A plan with floor where no wall is; sizes in metres.
 fn drawn(size_m: [f64; 2], is_wall: impl Fn(Vec2) -> bool) -> Walls {
     let [width, height] = size_m.map(|m| (m / PX_M).round() as usize);
     let mut floor = Vec::with_capacity(width * height);
@@ -24,7 +24,7 @@ fn within(p: Vec2, min: [f64; 2], max: [f64; 2]) -> bool {
     p.x >= min[0] && p.x < max[0] && p.y >= min[1] && p.y < max[1]
 }
 
-/// Two rooms of 5 x 6 m in a wall of 0.2 m, and a wall of a thickness between them, around x = 5, open from `from_m` to `to_m`.
+/// Two rooms of 5 x 6 m in a wall of 0.2 m. The wall between them, at x = 5, is open from `from_m` to `to_m`.
 fn two_rooms(thickness_m: f64, gaps: &'static [[f64; 2]]) -> Walls {
     drawn([10.0, 6.0], move |p| {
         let around = !within(p, [0.2, 0.2], [9.8, 5.8]);
@@ -78,7 +78,7 @@ fn a_door_beside_the_corner_of_a_room_is_found() {
 fn a_double_door_may_have_a_post() {
     let doors = two_rooms(0.1, &[[2.0, 3.0], [3.1, 4.1]]).doorways();
     assert_eq!(doors.len(), 2, "{doors:?}");
-    // The post alone, with more room than a door on its other side, is something in the way.
+    // A post with a wider gap than a door on its other side is an obstacle.
     assert_eq!(two_rooms(0.1, &[[1.0, 2.0], [2.1, 5.0]]).doorways().len(), 0);
 }
 
@@ -107,7 +107,7 @@ fn corridors_niches_and_pillars_are_no_doors() {
         (p.x > 4.0 && p.x < 8.0 && (p.y - 3.0).abs() > 0.75) || !within(p, [0.2, 0.2], [11.8, 5.8])
     });
     assert_eq!(corridor.doorways(), []);
-    // One that runs through the plan.
+    // A corridor across the plan.
     let open = drawn([12.0, 3.0], |p| (p.y - 1.5).abs() > 0.75);
     assert_eq!(open.doorways(), []);
     // A pillar a metre from the wall, and four of them.
@@ -132,7 +132,7 @@ fn shelves_and_doors_on_both_sides_of_a_corridor_make_no_door() {
         shelf || !within(p, [0.2, 0.2], [7.8, 5.8])
     });
     assert_eq!(shelves.doorways(), []);
-    // Two doors, one on either side of a corridor of 1.6 m, one a little farther on: two doors and no third across.
+    // Two offset doors on either side of a corridor of 1.6 m: no third door between them.
     let corridor = drawn([12.0, 8.0], |p| {
         let wall = (p.y - 4.9).abs() < 0.1 || (p.y - 3.1).abs() < 0.1;
         let doors = within(p, [4.0, 4.7], [4.9, 5.1]) || within(p, [5.2, 2.9], [6.1, 3.3]);
@@ -154,7 +154,7 @@ fn a_door_at_the_edge_of_the_plan_leads_outside() {
 
 #[test]
 fn a_door_may_be_given_where_none_is_found() {
-    // A corridor of 1.5 m: no door by itself.
+    // A corridor of 1.5 m is not a door.
     let walls = drawn([12.0, 3.0], |p| (p.y - 1.5).abs() > 0.75);
     let door = walls.doorway_at(vec2(6.0, 1.4), 1.5).unwrap();
     assert_door(&door, [6.0, 1.5], 1.5, 0.0);
@@ -175,7 +175,7 @@ fn corners_turn_inward_or_outward_and_curves_have_none() {
         let near = room.nearest(corner.point_m, 0.01).unwrap();
         assert_eq!(near.face, Some(corner.face));
     }
-    // The end of a thin wall is one corner of a half turn.
+    // The end of a thin wall is one corner of 180 degrees.
     let stub = drawn([6.0, 6.0], |p| !within(p, [0.5, 0.5], [5.5, 5.5]) || within(p, [0.5, 3.0], [3.0, 3.1]));
     let ends: Vec<Corner> = stub.corners().into_iter().filter(|corner| corner.turn_rad < 0.0).collect();
     assert_eq!(ends.len(), 1, "{ends:?}");
@@ -188,7 +188,7 @@ fn corners_turn_inward_or_outward_and_curves_have_none() {
         let pillar = drawn([6.0, 6.0], |p| p.distance(vec2(3.02, 2.97)) < radius_m);
         assert_eq!(turns(&pillar), [0.0; 0], "pillar of {radius_m}");
     }
-    // An oblique wall drawn in steps has none but its own.
+    // Steps of an oblique wall are not corners.
     let oblique = drawn([6.0, 6.0], |p| p.y < 2.0 + 0.31 * p.x && p.x > 1.0);
     assert!(turns(&oblique).len() <= 2, "{:?}", turns(&oblique));
 }

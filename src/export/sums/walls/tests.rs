@@ -49,7 +49,7 @@ fn everything(sums: &WallSums) -> Vec<Vec<u32>> {
     (0..sums.grid().faces.len()).flat_map(|face| Cause::WALL.map(|cause| strip(face, cause))).collect()
 }
 
-/// Writes sums as a bake does, without its textures.
+/// Writes sums as a bake does, without textures.
 fn written(folder: &OutputFolder, sums: &WallSums, (plan, walls): &(FloorPlan, Walls), sheet_px: u32) -> Manifest {
     let atlas = Atlas::pack(sums.grid(), &walls.corners(), sheet_px, 4).unwrap();
     let entry = |(number, sheet): (usize, &Sheet)| SheetEntry {
@@ -121,7 +121,7 @@ fn a_damaged_file_of_walls_is_an_error_that_names_it() {
     super::super::file::assert_damage_is_named(&path, || read_wall_sums(folder.path(), &manifest).map(|_| ()));
 }
 
-/// Something that is wrong with a manifest.
+/// An edit that makes a manifest invalid.
 type Change<'a> = &'a dyn Fn(&mut WallsEntry);
 
 #[test]
