@@ -108,8 +108,11 @@ pub enum FeaturesError {
         most_m: f64,
     },
     /// Two crowds that cannot be mixed.
-    #[error("the two crowds cannot be mixed: {0}")]
-    Mix(&'static str),
+    #[error("the two crowds cannot be mixed: {problem}")]
+    Mix {
+        /// Why not.
+        problem: &'static str,
+    },
     /// An eigenvector iteration that does not converge.
     #[error("the eigenvectors of a matrix of {size} rows were not found")]
     NotConverged {

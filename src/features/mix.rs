@@ -91,11 +91,11 @@ impl Mix {
         let progress = ProgressRange::whole(progress);
         let (apart, other_apart) = (Displacement::of(first)?, Displacement::of(other)?);
         if apart.people().max(other_apart.people()) > MOST_MATCHED {
-            return Err(FeaturesError::Mix("one has more than 1000 people"));
+            return Err(FeaturesError::Mix { problem: "one has more than 1000 people" });
         }
         let moments = first.moments().min(moments_at(other, first.fps));
         if moments < 2 {
-            return Err(FeaturesError::Mix("the other is shorter than two frames of the first"));
+            return Err(FeaturesError::Mix { problem: "the other is shorter than two frames of the first" });
         }
         let pairs = nearest_pairs(&apart.formation_m, &other_apart.formation_m, &progress.range(0.0, 0.1))?;
         let left_out = [first, other].map(|ensemble| ensemble.people() - pairs.len());

@@ -46,11 +46,19 @@ pub enum DistributionError {
         high: f64,
     },
     /// The ends of a range in the wrong order.
-    #[error("the range runs from {0} down to {1}")]
-    Reversed(f64, f64),
+    #[error("the range runs from {start} down to {end}")]
+    Reversed {
+        /// Start of the range.
+        start: f64,
+        /// End of the range.
+        end: f64,
+    },
     /// The standard deviation is negative.
-    #[error("the standard deviation {0} is negative")]
-    NegativeDeviation(f64),
+    #[error("the standard deviation {deviation} is negative")]
+    NegativeDeviation {
+        /// The standard deviation.
+        deviation: f64,
+    },
     /// The range of values exceeds what the quantity allows.
     #[error("it can be as {side} as {value}, allowed is {low} to {high}")]
     OutOfRange {
@@ -116,7 +124,7 @@ impl Distribution {
                 return Err(DistributionError::NotFinite { value, low, high });
             }
             if sd < 0.0 {
-                return Err(DistributionError::NegativeDeviation(sd));
+                return Err(DistributionError::NegativeDeviation { deviation: sd });
             }
         }
         let [least, most] = self.bounds();
@@ -124,7 +132,7 @@ impl Distribution {
             return Err(DistributionError::NotFinite { value, low, high });
         }
         if least > most {
-            return Err(DistributionError::Reversed(least, most));
+            return Err(DistributionError::Reversed { start: least, end: most });
         }
         if least < low {
             return Err(DistributionError::OutOfRange { side: "small", value: least, low, high });

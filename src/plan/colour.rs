@@ -7,8 +7,11 @@ pub struct Colour(pub [u8; 3]);
 
 /// A text that is not a colour.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is no colour; write it as \"#rrggbb\", such as \"#c03030\"")]
-pub struct ColourError(String);
+#[error("`{text}` is no colour; write it as \"#rrggbb\", such as \"#c03030\"")]
+pub struct ColourError {
+    /// The text.
+    pub text: String,
+}
 
 /// Least chroma of a coloured pixel, of 255.
 const LEAST_CHROMA: u8 = 48;
@@ -26,7 +29,7 @@ impl TryFrom<String> for Colour {
         match digits.as_deref() {
             Some(&[r, g, b]) => Ok(Colour([r * 17, g * 17, b * 17])),
             Some(&[r1, r0, g1, g0, b1, b0]) => Ok(Colour([r1 * 16 + r0, g1 * 16 + g0, b1 * 16 + b0])),
-            _ => Err(ColourError(text)),
+            _ => Err(ColourError { text }),
         }
     }
 }
