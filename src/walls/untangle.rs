@@ -15,8 +15,8 @@ use crate::math::{Rect, Vec2};
 const CELL_PX: f64 = 4.0;
 /// Edges nearer than this touch, pixels.
 const TOUCH_PX: f64 = 1e-6;
-/// Corners farther beyond the image than this could go round another boundary, pixels.
-const BEYOND_PX: f64 = TOUCH_PX;
+/// Corners farther beyond the image than this could go round another boundary, which is a pixel wide at least.
+const BEYOND_PX: f64 = 1.0;
 /// Rounds of local mending, after which boundaries that still cross are put on the pixels' edges as a whole.
 const LOCAL_ROUNDS: usize = 40;
 
