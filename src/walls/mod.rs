@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use boundary::Boundary;
 
-use crate::math::{Rect, Vec2};
+use crate::math::{Rect, Vec2, vec2};
 use crate::plan::{FloorPlan, cracks};
 
 mod boundary;
@@ -77,7 +77,7 @@ impl Walls {
         let loops = cracks::trace(&plan.floor, plan.width_px as usize);
         let fit = |l| Boundary::fit(plan, l, options.tolerance_px / 0.5);
         let mut boundaries: Vec<Boundary> = loops.par_iter().map(fit).collect();
-        untangle::untangle(&mut boundaries);
+        untangle::untangle(&mut boundaries, vec2(f64::from(plan.width_px), f64::from(plan.height_px)));
         Walls::of(boundaries.iter().map(|boundary| boundary.outline(plan)).collect())
     }
 
@@ -146,7 +146,6 @@ impl Walls {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::vec2;
 
     /// A plan drawn with characters: `.` is floor, others are wall; 1 m per pixel.
     fn plan(rows: &[&str]) -> FloorPlan {
