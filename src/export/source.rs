@@ -23,6 +23,11 @@ pub trait WallSource: Sync {
     /// What all texels of an empty block show.
     fn background(&self) -> Background;
 
+    /// Texels along a face; `None` where nobody knows.
+    fn columns(&self, _face: usize) -> Option<u32> {
+        None
+    }
+
     /// Resolves a rectangle of `width` x `height` texels of a face with the lower-left texel (i0, j0) into `block`,
     /// row 0 lowest, columns along the face. Beyond the face's ends, below and above the wall, the edge's texels go on;
     /// on a closed face columns wrap.
@@ -50,6 +55,10 @@ impl WallSource for WallResolver<'_> {
 
     fn background(&self) -> Background {
         WallResolver::background(self)
+    }
+
+    fn columns(&self, face: usize) -> Option<u32> {
+        WallResolver::columns(self, face)
     }
 
     fn resolve_into(&self, face: usize, i0: i64, j0: i64, width: usize, height: usize, block: &mut ResolvedBlock) {
