@@ -179,6 +179,11 @@ impl People {
 
     /// The person with an id; the same for every call.
     pub fn person(&self, id: u32) -> Person {
+        self.person_of_stature(id, None)
+    }
+
+    /// The person with an id, whose body height is known, in metres; breadths, feet and steps follow it.
+    pub fn person_of_stature(&self, id: u32, known_m: Option<f64>) -> Person {
         let rng = &mut person_stream(self.seed, id, Purpose::Traits);
         let options = &self.options;
         // Every trait is drawn for every person, used or not, so that one option never shifts the others.
@@ -191,7 +196,7 @@ impl People {
             4..7 => CarrySide::Left,
             _ => CarrySide::Back,
         };
-        let stature_m = if child { statures[2] } else { statures[usize::from(!man)] };
+        let stature_m = known_m.unwrap_or(if child { statures[2] } else { statures[usize::from(!man)] });
         let (shoulder, depth, foot) = if man { (0.291, 0.145, 0.154) } else { (0.277, 0.152, 0.151) };
         let clearance_m = 0.02 + 0.01 * rng.random::<f64>();
         let spread = Distribution::normal(1.0, STEP_SPREAD, 0.85, 1.15).draw(rng);

@@ -127,7 +127,9 @@ impl<'m> CrowdBuilder<'m> {
                 None => {
                     self.people += 1;
                     self.check_people(spot)?;
-                    bodies.push(FormationBody::person(track, FormedPerson { address, rides: false }, avoid));
+                    let stature_m = example.statures().of(example.ids[individual]);
+                    let who = FormedPerson { address, rides: false, stature_m };
+                    bodies.push(FormationBody::person(track, who, avoid));
                 }
                 Some(kind) => {
                     let key = format!("{}.crowd.{kind}", spot.key);
@@ -156,7 +158,8 @@ impl<'m> CrowdBuilder<'m> {
         }
         let rider = request.rider.then(|| {
             let carriers = spot.address.iter().copied().chain([bodies.len() as u32]);
-            BodyMember { offsets: Vec::new(), who: FormedPerson { address: carriers.collect(), rides: true } }
+            let who = FormedPerson { address: carriers.collect(), rides: true, stature_m: None };
+            BodyMember { offsets: Vec::new(), who }
         });
         self.people += usize::from(request.rider);
         for body in &mut bodies {
@@ -348,7 +351,10 @@ fn chosen(example: &Ensemble, people: &[u32], key: &str) -> Result<Ensemble, Req
     let moments = 0..example.moments();
     let places =
         moments.flat_map(|moment| people.iter().map(move |&person| example.places_at(moment)[person as usize]));
-    Ok(Ensemble::new(example.fps, example.start_s, (0..people.len() as u32).collect(), places.collect()))
+    let ids = 0..people.len() as u32;
+    let stature_m = |person: u32| example.statures().of(example.ids[person as usize]);
+    let statures = ids.clone().zip(people).filter_map(|(id, &person)| Some((id, stature_m(person)?))).collect();
+    Ok(Ensemble::new(example.fps, example.start_s, ids.collect(), places.collect()).with_statures(statures))
 }
 
 /// Checks that all positions can be held.

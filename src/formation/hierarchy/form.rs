@@ -47,8 +47,10 @@ pub fn form(request: &FormationRequest, folder: &Path, progress: &dyn Progress) 
             all.push(person.who);
         }
     }
-    let ids = (0..people as u32).collect();
-    Ok(FormedCrowd { ensemble: Ensemble::new(fps, 0.0, ids, places_m), people: all })
+    let ids = 0..people as u32;
+    let statures = ids.clone().zip(&all).filter_map(|(id, who)| Some((id, who.stature_m?))).collect();
+    let ensemble = Ensemble::new(fps, 0.0, ids.collect(), places_m).with_statures(statures);
+    Ok(FormedCrowd { ensemble, people: all })
 }
 
 /// End of the last key formation of all crowds, seconds.

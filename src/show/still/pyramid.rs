@@ -141,7 +141,7 @@ impl<'a> Pyramid<'a> {
         let side = (SIDE as i64) << key.level;
         let [x, y] = [0, 1].map(|axis| {
             let first_beyond = (size[axis].max(0) + side - 1) / side;
-            i64::from([key.x, key.y][axis]).clamp(-1, first_beyond) as i32
+            i64::from([key.x, key.y][axis]).clamp(-2, first_beyond) as i32
         });
         Some(TexelBlockKey { x, y, ..key })
     }
@@ -419,7 +419,7 @@ mod tests {
         assert_eq!(with.blocks.len(), 4);
     }
 
-    /// A wall of some texels that goes on as it ends, and counts how often it is read.
+    /// A wall of some texels that goes on as it ends, with nothing far below it, and counts how often it is read.
     struct Short(std::sync::atomic::AtomicUsize, bool);
 
     impl TexelSource for Short {
@@ -429,6 +429,9 @@ mod tests {
 
         fn read(&self, _: usize, i0: i64, j0: i64) -> TexelBlock {
             self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+            if j0 < -(SIDE as i64) {
+                return TexelBlock::Flat([5; 4]);
+            }
             let value = |i: i64, j: i64| (i.clamp(0, 299) * 97 + j.clamp(0, 39) * 31) as u16;
             TexelBlock::Full(
                 (0..SIDE * SIDE).map(|k| [value(i0 + (k % SIDE) as i64, j0 + (k / SIDE) as i64); 4]).collect(),

@@ -29,8 +29,8 @@ pub(super) trait TexelSource: Sync {
     /// The block whose lower-left texel is `(i0, j0)`. `layer` is a wall's face, 0 for the floor.
     fn read(&self, layer: usize, i0: i64, j0: i64) -> TexelBlock;
 
-    /// Columns and rows of a layer beyond which all blocks are alike, as are those below column and row 0; `None` where
-    /// each block may differ.
+    /// Columns and rows of a layer: of the blocks beyond them, and of those more than a block below column and row 0, one
+    /// may stand for all. `None` where each block may differ.
     fn size(&self, _layer: usize) -> Option<[i64; 2]> {
         None
     }
@@ -104,14 +104,25 @@ impl TexelSource for WallTexels<'_> {
 
     fn read(&self, layer: usize, i0: i64, j0: i64) -> TexelBlock {
         let background = self.source.background();
-        let rows = (self.height_m * self.texels_per_metre).ceil() as i64;
         // What is above the ceiling or below the floor is never seen itself.
-        if j0 >= rows + 2 || j0 + (SIDE as i64) < -2 {
+        if j0 >= self.rows() || j0 + (SIDE as i64) < -2 {
             return TexelBlock::Flat(texel(background.base_color, background.orm));
         }
         let mut block = ResolvedBlock::default();
         self.source.resolve_into(layer, i0, j0, SIDE, SIDE, &mut block);
         if block.empty { TexelBlock::Flat(texel(background.base_color, background.orm)) } else { of_resolved(&block) }
+    }
+
+    /// A closed face goes round, but beyond its end nothing is seen itself.
+    fn size(&self, layer: usize) -> Option<[i64; 2]> {
+        Some([i64::from(self.source.columns(layer)?), self.rows()])
+    }
+}
+
+impl WallTexels<'_> {
+    /// Rows from which on nothing is seen any more.
+    fn rows(&self) -> i64 {
+        (self.height_m * self.texels_per_metre).ceil() as i64 + 2
     }
 }
 
