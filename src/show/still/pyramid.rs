@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::texels::{SIDE, Texel, TexelBlock, TexelSource};
+use crate::export::reduction::rounded_mean;
 
 /// Coarsest level: 2^LEVELS texels a side are one.
 const LEVELS: u32 = 12;
@@ -24,13 +25,16 @@ pub(super) struct TexelBlockKey {
 /// Blocks by their place. Their order is never looked at.
 type Blocks = FxHashMap<TexelBlockKey, TexelBlock>;
 
-/// A texture of which what is seen is held, each place as finely as it is seen.
+/// A mipmap pyramid that holds only the blocks in view, each at the level at which it is seen.
+///
+/// Its own halving, beside [`export::reduction`](crate::export::reduction): blocks are made one by one on demand, and blocks of
+/// one colour stay a single texel. The mean is the same.
 pub(super) struct Pyramid<'a> {
     source: &'a dyn TexelSource,
     blocks: Blocks,
 }
 
-/// What is seen of a texture by a pixel: an ellipse, as a row of discs.
+/// Footprint of a pixel on a texture: an ellipse, sampled as a row of discs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Footprint {
     pub layer: u32,
@@ -84,7 +88,7 @@ impl<'a> Pyramid<'a> {
         }
     }
 
-    /// Makes what is needed and drops the rest. Fine blocks first: coarser ones are made of them.
+    /// Makes the needed blocks and drops all others. Fine blocks first: coarser ones are made of them.
     pub fn hold(&mut self, needed: &BTreeSet<TexelBlockKey>) {
         let mut from = needed.iter().copied().peekable();
         let mut fresh = Blocks::default();
@@ -229,7 +233,7 @@ fn halved(children: &[TexelBlock; 4]) -> TexelBlock {
             TexelBlock::Full(texels) => {
                 let at = (y % HALF * 2) * SIDE + x % HALF * 2;
                 let four = [texels[at], texels[at + 1], texels[at + SIDE], texels[at + SIDE + 1]];
-                std::array::from_fn(|c| (four.iter().map(|t| u32::from(t[c])).sum::<u32>().div_ceil(4)) as u16)
+                std::array::from_fn(|c| rounded_mean(four.iter().map(|texel| u32::from(texel[c])).sum(), 4) as u16)
             }
         }
     };
@@ -263,7 +267,7 @@ impl<'a> Reader<'a> {
             match self.block(level, i.div_euclid(S), j.div_euclid(S)) {
                 Some(TexelBlock::Flat(texel)) => return *texel,
                 Some(TexelBlock::Full(texels)) => return texels[(j.rem_euclid(S) * S + i.rem_euclid(S)) as usize],
-                // Few pixels at edges see what their neighbours did not ask for: a coarser one will do.
+                // A few pixels at edges read blocks that no neighbour asked for: a coarser block will do.
                 None => (i, j) = (i.div_euclid(2), j.div_euclid(2)),
             }
         }

@@ -70,7 +70,7 @@ fn texel(colour: [u8; 3], orm: [u8; 3]) -> Texel {
 pub(super) struct SmallFloor {
     pub picture: RgbImage,
     pub pixels_per_metre: f64,
-    /// Roughness of all of it, 0 to 255, where nothing else is known.
+    /// Roughness of all of it, 0 to 255: the picture has none of its own.
     pub roughness: u8,
 }
 
@@ -104,8 +104,9 @@ impl TexelSource for WallTexels<'_> {
 
     fn read(&self, layer: usize, i0: i64, j0: i64) -> TexelBlock {
         let background = self.source.background();
-        // What is above the ceiling or below the floor is never seen itself.
-        if j0 >= self.rows() || j0 + (SIDE as i64) < -2 {
+        let rows = (self.height_m * self.texels_per_metre).ceil() as i64;
+        // Texels above the ceiling and below the floor are never seen.
+        if j0 >= rows + 2 || j0 + (SIDE as i64) < -2 {
             return TexelBlock::Flat(texel(background.base_color, background.orm));
         }
         let mut block = ResolvedBlock::default();
@@ -159,7 +160,7 @@ impl<'a> SmallWalls<'a> {
         Some((sheet, [0.0, atlas.height_m].map(|height_m| atlas.uv(sheet, strip, along_m, height_m))))
     }
 
-    /// Rows from which on nothing is seen any more.
+    /// Number of rows, with two spare ones for filters.
     fn rows(&self) -> i64 {
         (self.textures.atlas.height_m * self.density()).ceil() as i64 + 2
     }
