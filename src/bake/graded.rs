@@ -243,7 +243,7 @@ pub(super) fn look_entry(look: &Look) -> serde_json::Value {
     for image in look.images().into_iter().flatten() {
         *image = image.file_name().map(PathBuf::from).unwrap_or_default();
     }
-    serde_json::to_value(&look).expect("a look is plain values with keys that are strings")
+    look.settings()
 }
 
 /// What a bake with these settings is called: its plan's image without ending, or the motion's file where there is no plan.

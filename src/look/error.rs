@@ -2,6 +2,7 @@ use std::fmt;
 use std::path::PathBuf;
 
 use super::LOOK_PRESETS;
+use crate::options::OptionError;
 
 /// Why the `look` stage cannot go on.
 #[derive(Debug, thiserror::Error)]
@@ -22,6 +23,8 @@ pub enum LookError {
         place: FilePlace,
         /// Description of the mistake.
         message: String,
+        /// What to write instead.
+        hint: Option<String>,
     },
     /// An unknown preset.
     #[error("{}there is no look preset {name:?}; there are {}", at(.place), LOOK_PRESETS.join(", "))]
@@ -32,10 +35,10 @@ pub enum LookError {
         place: Option<FilePlace>,
     },
     /// A number beyond what is allowed.
-    #[error("{}{range}", at(.place))]
-    Range {
+    #[error("{}{error}", at(.place))]
+    Option {
         /// Which key, which value, which range.
-        range: RangeError,
+        error: OptionError,
         /// Place of the value, if it came from a file.
         place: Option<FilePlace>,
     },
@@ -74,29 +77,9 @@ pub struct FilePlace {
     pub column: usize,
 }
 
-/// A setting out of its range.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RangeError {
-    /// The key with its sections, as in `film.density`.
-    pub key: &'static str,
-    /// Its value.
-    pub value: f64,
-    /// Least value allowed.
-    pub low: f64,
-    /// Largest value allowed.
-    pub high: f64,
-}
-
 impl fmt::Display for FilePlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}:{}", self.path.display(), self.line, self.column)
-    }
-}
-
-impl fmt::Display for RangeError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let RangeError { key, value, low, high } = self;
-        write!(f, "{key} is {value}, allowed is {low} to {high}")
     }
 }
 
@@ -116,10 +99,12 @@ impl LookError {
                 "give a PNG, JPEG, BMP, PGM, TIFF or GIF, at most 16384 px a side, as a path relative to the look file"
                     .to_string(),
             ),
-            LookError::Syntax { .. } => Some("keys that are left out keep the preset's value".to_string()),
+            LookError::Syntax { hint, .. } => {
+                hint.clone().or_else(|| Some("keys that are left out keep the preset's value".to_string()))
+            }
             LookError::OtherWalls { .. } => Some("bake the plan again".to_string()),
             LookError::NoPeople { .. } => Some("bake a crowd of at least one person".to_string()),
-            LookError::Unreadable { .. } | LookError::Range { .. } => None,
+            LookError::Unreadable { .. } | LookError::Option { .. } => None,
         }
     }
 }

@@ -1,4 +1,5 @@
 use crate::math::Vec2;
+use crate::options::OptionError;
 
 /// Errors of the routes stage.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -70,19 +71,17 @@ pub enum RoutesError {
         /// The stop.
         stop: String,
         /// The key, as a scenario writes it.
-        key: &'static str,
+        key: String,
         /// The problem.
         problem: String,
     },
     /// An invalid timetable.
-    #[error("route \"{route}\": arrivals: {key}: {problem}")]
+    #[error("route \"{route}\": arrivals: {error}")]
     Timetable {
         /// The route.
         route: String,
-        /// The key, as a scenario writes it.
-        key: &'static str,
-        /// The problem.
-        problem: String,
+        /// The key and the problem.
+        error: OptionError,
     },
     /// A stop without a place to stand.
     #[error(

@@ -14,7 +14,7 @@ pub struct Route {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stops: Vec<RouteStop>,
     /// When people come, if the route has a timetable of its own.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "crate::options::kept")]
     pub arrivals: Option<Timetable>,
     /// Where they vanish.
     pub goal: Place,

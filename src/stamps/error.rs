@@ -42,18 +42,9 @@ pub enum StampsError {
         /// Limit on the texels of a face's length.
         most: u32,
     },
-    /// An option is out of range.
-    #[error("stamps.{name} is {value}, allowed is {low} to {high}")]
-    OutOfRange {
-        /// Name of the option.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// Least value allowed.
-        low: f64,
-        /// Largest value allowed.
-        high: f64,
-    },
+    /// An option is not allowed.
+    #[error(transparent)]
+    Option(#[from] crate::options::OptionError),
 }
 
 impl StampsError {
@@ -66,7 +57,7 @@ impl StampsError {
             StampsError::TooManyTexels { .. } | StampsError::FaceTooLong { .. } => {
                 Some("lower the texel density, or check the plan's metres per pixel".into())
             }
-            StampsError::OutOfRange { name, .. } => Some(format!("leave `{name}` out to get its default")),
+            StampsError::Option(error) => error.hint(),
         }
     }
 }

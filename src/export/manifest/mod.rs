@@ -255,7 +255,7 @@ impl Manifest {
     /// # Errors
     /// It cannot be read as a look.
     pub fn look(&self, bake: &Path) -> Result<Look, ExportError> {
-        serde_json::from_value(self.look.clone()).map_err(|e| ExportError::damaged(&bake.join(FILE_NAME), e))
+        Look::of_settings(&self.look).map_err(|e| ExportError::damaged(&bake.join(FILE_NAME), e))
     }
 
     /// Options that write the same textures again. Sheets of walls are not laid anew: see [`WallsEntry::atlas`].
@@ -471,7 +471,7 @@ mod tests {
     #[test]
     fn the_look_is_read_back() {
         let look = Look::preset("wet").unwrap();
-        let manifest = Manifest { look: serde_json::to_value(&look).unwrap(), ..Manifest::default() };
+        let manifest = Manifest { look: look.settings(), ..Manifest::default() };
         assert_eq!(manifest.look(Path::new("out")).unwrap(), look);
         let damaged = Manifest { look: serde_json::json!({ "film": 3 }), ..Manifest::default() };
         assert!(damaged.look(Path::new("out")).unwrap_err().to_string().contains("manifest.json"));

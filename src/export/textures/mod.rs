@@ -1,7 +1,5 @@
 //! The textures of floor and walls, as files.
 
-use serde::{Deserialize, Serialize};
-
 use super::band::Image;
 use super::birdseye::Birdseye;
 use super::layout::TileLayout;
@@ -9,6 +7,7 @@ use super::manifest::{BakePath, FloorEntry, Naming, SumsEntry, TileEntry};
 use super::source::TextureSource;
 use super::targets::{Covered, Number, Target, WorldEntry};
 use super::{ExportError, OutputFolder, Reduced};
+use crate::options::{names, options};
 use crate::progress::Progress;
 use crate::stamps::TexelGrid;
 
@@ -26,40 +25,24 @@ use writer::{Canvas, TextureWriter};
 /// How far the look goes on beyond the floor's edge and around strips of wall, texels.
 pub const PADDING_PX: u32 = 16;
 
-/// How textures are written.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct TextureOptions {
-    /// Greatest width and height of a texture, texels: 64 to 16384.
-    pub tile: u32,
-    /// Whether to write the layers as EXR too; left out: as is usual for the target, see [`Target::wants_layers`].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub layers: Option<bool>,
-    /// The program that they are for.
-    pub target: Target,
-    /// Whether walls are made too, and with them the scene, stills and page; the floor alone otherwise.
-    pub walls: bool,
-    /// Whether `scene.glb` carries its textures, reduced, inside.
-    pub embed: bool,
-    /// The greatest width and height of the small images that are kept of each texture; none are without it.
-    #[serde(skip)]
-    pub reduced_px: Option<u32>,
-    /// Whether a bake is made even if it is larger than [`crate::export::LARGE_BYTES`] or than the disk has room for.
-    #[serde(skip)]
-    pub any_size: bool,
-}
-
-impl Default for TextureOptions {
-    fn default() -> TextureOptions {
-        TextureOptions {
-            tile: 8192,
-            layers: None,
-            target: Target::default(),
-            walls: true,
-            embed: false,
-            reduced_px: None,
-            any_size: false,
-        }
+options! {
+    /// How textures are written.
+    pub struct TextureOptions {
+        /// Largest side of a texture; Unreal takes 8192.
+        tile: u32 = 8192, in 64.0..=16384.0, unit "px";
+        /// Whether every layer is an EXR too; left out: for gltf and blender only.
+        layers: Option<bool> = None, eg "true";
+        /// What the files are for: "gltf", "blender", "unreal", "unity" or "godot".
+        target: Target = Target::default();
+        /// Whether walls are made too, and with them the scene, stills and page.
+        walls: bool = true;
+        /// Whether scene.glb carries its textures, reduced, inside.
+        embed: bool = false;
+    } with {
+        /// The greatest width and height of the small images that are kept of each texture; none are without it.
+        reduced_px: Option<u32> = None;
+        /// Whether a bake is made even if it is larger than [`crate::export::LARGE_BYTES`] or than the disk has room for.
+        any_size: bool = false;
     }
 }
 
@@ -81,6 +64,8 @@ impl TextureOptions {
         self.target.check_size(tile)
     }
 }
+
+names!(Target);
 
 /// What was written of a floor.
 #[derive(Debug)]
