@@ -237,7 +237,7 @@ pub(super) fn look_entry(look: &Look) -> serde_json::Value {
     for image in look.images().into_iter().flatten() {
         *image = image.file_name().map(PathBuf::from).unwrap_or_default();
     }
-    serde_json::to_value(&look).expect("a look is plain values with keys that are strings")
+    look.settings()
 }
 
 /// Returns the title of a bake: the file stem of its plan, or of its motion without a plan.

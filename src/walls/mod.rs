@@ -4,7 +4,8 @@ use rayon::prelude::*;
 
 use boundary::Boundary;
 
-use crate::math::{Rect, Vec2, vec2};
+use crate::math::{Rect, Vec2};
+use crate::options::options;
 use crate::plan::{FloorPlan, cracks};
 
 mod boundary;
@@ -36,17 +37,11 @@ pub(crate) use outline::check as check_outlines;
 pub(crate) use places::DOOR_HEAD_M;
 pub use places::{Corner, Doorway};
 
-/// Options of wall tracing.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct WallsOptions {
-    /// Tolerance between the traced boundary and the pixels' boundary, plan pixels.
-    pub tolerance_px: f64,
-}
-
-impl Default for WallsOptions {
-    fn default() -> WallsOptions {
-        WallsOptions { tolerance_px: 0.5 }
+options! {
+    /// Options of tracing walls.
+    pub struct WallsOptions {
+        /// How far traced walls may lie from the drawn ones.
+        tolerance_px: f64 = 0.5, in 0.05..=10.0, unit "pixels of the plan";
     }
 }
 

@@ -16,6 +16,7 @@ use crate::formation::request::{
 };
 use crate::math::{SplitMix64, Vec2, sin_cos, vec2};
 use crate::motion::Ensemble;
+use crate::options::OptionError;
 use crate::progress::Progress;
 use crate::recordings::Recording;
 
@@ -26,8 +27,12 @@ fn check_keys(keys: usize, people: usize, crowd: &str) -> Result<(), FormationEr
         return Ok(());
     }
     let problem = format!("{keys} key formations of {people} people, allowed are {most} for so many people");
-    let hint = Some("make crowds of crowds with [[formation.crowd]]".to_string());
-    Err(RequestError::Value { key: format!("{crowd}.key"), problem, hint }.into())
+    Err(too_many(&format!("{crowd}.key"), problem))
+}
+
+fn too_many(key: &str, problem: String) -> FormationError {
+    let error = OptionError::unfit(key, problem).with_hint("make crowds of crowds with [[formation.crowd]]");
+    RequestError::Option(error).into()
 }
 
 /// Builder of a crowd and the small crowds within it, level by level.
@@ -210,12 +215,8 @@ impl<'m> CrowdBuilder<'m> {
             self.check_example(&key, people, moments)?;
             let kind = request.kind.unwrap_or(ExampleKind::Still);
             if kind == ExampleKind::Wander && people > MOST_WANDERERS {
-                return Err(RequestError::Value {
-                    key,
-                    problem: format!("{people} people wander; allowed are {MOST_WANDERERS} at most"),
-                    hint: Some("make crowds of crowds with [[formation.crowd]]".to_string()),
-                }
-                .into());
+                let problem = format!("{people} people wander; allowed are {MOST_WANDERERS} at most");
+                return Err(too_many(&key, problem));
             }
             let seed = spot.address.iter().fold(request.seed, |seed, &k| {
                 SplitMix64::new(seed.wrapping_add(u64::from(k)).wrapping_add(1)).next_u64()
