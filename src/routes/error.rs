@@ -1,5 +1,6 @@
 use crate::math::Vec2;
 use crate::options::OptionError;
+use crate::progress::Interrupted;
 
 /// Errors of the routes stage.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

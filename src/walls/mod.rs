@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use boundary::Boundary;
 
-use crate::math::{Rect, Vec2};
+use crate::math::{Rect, Vec2, vec2};
 use crate::options::options;
 use crate::plan::{FloorPlan, cracks};
 

@@ -243,7 +243,7 @@ impl Manifest {
     /// # Errors
     /// The value is not a look.
     pub fn look(&self, bake: &Path) -> Result<Look, ExportError> {
-        Look::of_settings(&self.look).map_err(|e| ExportError::damaged(&bake.join(FILE_NAME), e))
+        Look::of_settings(&self.look).map_err(|e| ExportError::damaged(&bake.join(MANIFEST_NAME), e))
     }
 
     /// Returns options that write the same textures. They do not pack sheets: see [`WallsEntry::atlas`].

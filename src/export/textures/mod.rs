@@ -1,5 +1,6 @@
 //! The textures of floor and walls, as files.
 
+use super::bake_path::BakePath;
 use super::band::Image;
 use super::birdseye::Birdseye;
 use super::layout::{Naming, TileLayout};
@@ -8,7 +9,6 @@ use super::options::TextureOptions;
 use super::source::TextureSource;
 use super::targets::{Covered, Number, Target, WorldEntry};
 use super::{ExportError, OutputFolder, Reduced};
-use crate::options::{names, options};
 use crate::progress::Progress;
 use crate::stamps::TexelGrid;
 
@@ -25,48 +25,6 @@ use writer::{Canvas, TextureWriter};
 
 /// How far the look continues beyond the floor's edge and around strips of wall, texels.
 pub const PADDING_PX: u32 = 16;
-
-options! {
-    /// How textures are written.
-    pub struct TextureOptions {
-        /// Largest side of a texture; Unreal takes 8192.
-        tile: u32 = 8192, in 64.0..=16384.0, unit "px";
-        /// Whether every layer is an EXR too; left out: for gltf and blender only.
-        layers: Option<bool> = None, eg "true";
-        /// What the files are for: "gltf", "blender", "unreal", "unity" or "godot".
-        target: Target = Target::default();
-        /// Whether walls are made too, and with them the scene, stills and page.
-        walls: bool = true;
-        /// Whether scene.glb carries its textures, reduced, inside.
-        embed: bool = false;
-    } with {
-        /// The greatest width and height of the small images that are kept of each texture; none are without it.
-        reduced_px: Option<u32> = None;
-        /// Whether a bake is made even if it is larger than [`crate::export::LARGE_BYTES`] or than the disk has room for.
-        any_size: bool = false;
-    }
-}
-
-impl TextureOptions {
-    /// Whether the layers are written.
-    pub fn writes_layers(&self) -> bool {
-        self.layers.unwrap_or_else(|| self.target.wants_layers())
-    }
-
-    /// Checks the size against what the target takes.
-    ///
-    /// # Errors
-    /// A tile size out of range.
-    pub fn check(&self) -> Result<(), ExportError> {
-        let (tile, min, max) = (self.tile, TileLayout::MIN_TILE, TileLayout::MAX_TILE);
-        if !(min..=max).contains(&tile) {
-            return Err(ExportError::TileSize { tile, min, max });
-        }
-        self.target.check_size(tile)
-    }
-}
-
-names!(Target);
 
 /// What was written of a floor.
 #[derive(Debug)]

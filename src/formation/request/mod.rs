@@ -132,6 +132,10 @@ impl FormationRequest {
 }
 
 impl CrowdRequest {
+    pub(super) fn section(&self) -> CrowdSection<'_> {
+        section!(self)
+    }
+
     /// Whether it avoids others as one body.
     pub(super) fn is_as_one(&self) -> bool {
         self.as_one.unwrap_or(self.rider)

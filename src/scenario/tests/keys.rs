@@ -93,7 +93,10 @@ fn limits_are_allowed_and_what_lies_beyond_is_not() {
         let above = if limits.open { limits.high } else { limits.high * 1.001 + step };
         for beyond in [limits.low - step, above, -1e300, 1e300, f64::NAN, f64::INFINITY] {
             let message = shown(&text(beyond));
-            assert!(message.contains(field.name) && message.contains(" --> plans/hall.toml:"), "{path} = {beyond}: {message}");
+            assert!(
+                message.contains(field.name) && message.contains(" --> plans/hall.toml:"),
+                "{path} = {beyond}: {message}"
+            );
         }
         tested += 1;
     }
