@@ -29,8 +29,8 @@ use names::{Destination, Stream};
 ///
 /// It is written beside the place where it will be, under a name that no other file has, and renamed by
 /// [`WholeFile::publish`]. Dropped unpublished, it is removed, and what was there before stays as it was. Through a
-/// link, the file that it leads to is written. What a killed run left beside the same file is removed. A device, a pipe or a descriptor, such as `/dev/stdout`, is written to
-/// as it is: there is nothing to rename.
+/// link, the file that it leads to is written. What a killed run left beside the same file is removed. A device, a pipe
+/// or a descriptor, such as `/dev/stdout`, is written to as it is: there is nothing to rename.
 #[derive(Debug)]
 pub struct WholeFile {
     /// Path as the user gave it, for messages.
