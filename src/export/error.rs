@@ -133,7 +133,7 @@ pub enum ExportError {
         sheet: u32,
     },
     /// The bake is large, or larger than the free disk space.
-    #[error("a bake to {} would write {}", path.display(), estimate.describe(*free))]
+    #[error("a bake to {} would write {amount}", path.display())]
     TooMuch {
         /// Path of the output as the user gave it.
         path: PathBuf,
