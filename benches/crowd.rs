@@ -54,7 +54,7 @@ fn table() {
         let plan = hall(side_m);
         let walls = Walls::trace(&plan, &WallsOptions::default());
         let (routes, navigation) = Navigation::find(&plan, &walls, &crossing(side_m)).expect("ways across");
-        let options = CrowdOptions { model, people, entry_seconds: Some(0.0), ..CrowdOptions::commuters() };
+        let options = CrowdOptions { people, entry_seconds: Some(0.0), ..CrowdOptions::default() };
         let everybody = People::new(1, BodyOptions::default());
         let pools = [1, 2].map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build().expect("a pool"));
         let mut best = [0.0f64; 2];
@@ -107,7 +107,7 @@ fn default_scenario(c: &mut Criterion) {
     group.sample_size(10);
     group.bench_function("1000 people from opening to opening", |b| {
         b.iter(|| {
-            let options = CrowdOptions::commuters();
+            let options = CrowdOptions::default();
             let mut crowd = Simulation::with_navigation(&plan, &walls, &routes, navigation.clone(), &people, &options)
                 .expect("a crowd");
             let mut frame = Frame::default();

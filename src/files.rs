@@ -3,6 +3,7 @@
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use tempfile::TempPath;
 
@@ -26,9 +27,10 @@ use names::{Destination, Stream};
 
 /// A file that appears under its name when it is complete.
 ///
-/// It is written beside its destination under a unique temporary name, and renamed by [`WholeFile::publish`]. Dropping
-/// it unpublished removes it and leaves an earlier file unchanged. A link is followed: its target is written. A device,
-/// a pipe or a descriptor, such as `/dev/stdout`, is written directly.
+/// It is written beside the place where it will be, under a name that no other file has, and renamed by
+/// [`WholeFile::publish`]. Dropped unpublished, it is removed, and what was there before stays as it was. Through a
+/// link, the file that it leads to is written. What a killed run left beside the same file is removed. A device, a pipe or a descriptor, such as `/dev/stdout`, is written to
+/// as it is: there is nothing to rename.
 #[derive(Debug)]
 pub struct WholeFile {
     /// Path as the user gave it, for messages.
@@ -39,14 +41,20 @@ pub struct WholeFile {
 
 #[derive(Debug)]
 enum Place {
-    /// A temporary file to be renamed.
-    Beside { written: TempPath, target: PathBuf },
-    /// A device, pipe or descriptor that is written directly.
+    /// A file to be renamed. It is locked as long as it is held, so that no other run takes it for a leftover.
+    Beside { written: TempPath, held: File, target: PathBuf },
+    /// Something that is written to directly.
     Stream(Stream),
 }
 
-/// Greatest number of characters of a file's name in its temporary name.
-const REPEATED: usize = 60;
+/// The longest part of a file's name that the temporary name repeats, characters.
+const REPEATED: usize = 50;
+/// What stands in temporary names between the file's own name and a few random letters and digits, and after them.
+const OURS: &str = ".trodden-";
+const NEW: &str = ".new";
+const RANDOM: usize = 6;
+/// From this age on a temporary file that nobody holds was left by a killed run.
+const LEFT_AFTER: Duration = Duration::from_secs(3600);
 
 impl WholeFile {
     /// Checks that the file may be written, and creates the temporary file.
@@ -69,8 +77,13 @@ impl WholeFile {
         }
         let start: String = name.to_string_lossy().chars().take(REPEATED).collect();
         let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let written = new_file(folder, &format!(".{start}.")).map_err(failed)?.into_temp_path();
-        Ok(WholeFile { shown, place: Place::Beside { written, target }, force })
+        let start = format!(".{start}{OURS}");
+        remove_leftovers(folder, &start);
+        let (held, written) = new_file(folder, &start).map_err(failed)?.into_parts();
+        // Elsewhere a lock would keep this run itself, or its database, from the file. A disk that cannot lock does no harm.
+        #[cfg(target_os = "linux")]
+        let _ = held.try_lock();
+        Ok(WholeFile { shown, place: Place::Beside { written, held, target }, force })
     }
 
     /// Path to write to until the file is published.
@@ -118,7 +131,8 @@ impl WholeFile {
     /// The file has appeared meanwhile and may not be replaced; error of the system.
     pub fn publish(self) -> Result<u64, FileError> {
         let WholeFile { shown, place, force } = self;
-        let Place::Beside { written, target } = place else { return Ok(0) };
+        let Place::Beside { written, held, target } = place else { return Ok(0) };
+        drop(held);
         let failed = |source| FileError::Write { path: shown.clone(), source };
         let size = fs::metadata(&written).map_err(failed)?.len();
         if !force {
@@ -141,7 +155,7 @@ impl WholeFile {
 /// Creates a file with a unique name in a folder, with default permissions.
 fn new_file(folder: &Path, start: &str) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(start).suffix(".new");
+    builder.prefix(start).rand_bytes(RANDOM).suffix(NEW);
     #[cfg(unix)]
     let rights = std::os::unix::fs::PermissionsExt::from_mode(0o666);
     #[cfg(unix)]
@@ -149,7 +163,28 @@ fn new_file(folder: &Path, start: &str) -> io::Result<tempfile::NamedTempFile> {
     builder.tempfile_in(folder).map_err(plain)
 }
 
-/// Returns the system's error without the temporary file name, which the user does not know.
+/// Removes temporary files whose names begin like this and that killed runs left.
+fn remove_leftovers(folder: &Path, start: &str) {
+    let is_ours = |name: &str| {
+        let random = name.strip_prefix(start).and_then(|rest| rest.strip_suffix(NEW));
+        random.is_some_and(|random| random.len() == RANDOM && random.bytes().all(|byte| byte.is_ascii_alphanumeric()))
+    };
+    let is_left = |entry: &fs::DirEntry| {
+        let is_old = |found: fs::Metadata| {
+            found.is_file() && found.modified().is_ok_and(|at| at.elapsed().is_ok_and(|age| age >= LEFT_AFTER))
+        };
+        let is_free = |file: File| !matches!(file.try_lock(), Err(fs::TryLockError::WouldBlock));
+        entry.metadata().is_ok_and(is_old) && File::open(entry.path()).is_ok_and(is_free)
+    };
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        if entry.file_name().to_str().is_some_and(is_ours) && is_left(&entry) {
+            // Only tidying up: this run does not need it.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// An error of the system without the temporary name, which would tell the user nothing.
 fn plain(error: io::Error) -> io::Error {
     let source = error.get_ref().and_then(|inner| inner.source()).and_then(|source| source.downcast_ref::<io::Error>());
     match source.and_then(io::Error::raw_os_error) {
@@ -229,6 +264,34 @@ mod tests {
         write_whole(&dir.path().join("a.txt"), b"a", false).unwrap();
         assert_eq!(names(dir.path()), [".a.txt.lock", ".a.txt.new", "a.txt"]);
         assert_eq!(fs::read(dir.path().join(".a.txt.lock")).unwrap(), b".a.txt.lock");
+    }
+
+    #[test]
+    fn what_killed_runs_left_is_removed_and_nothing_else() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a.txt");
+        let hours_ago = |path: &Path, hours: u64| {
+            let at = std::time::SystemTime::now() - Duration::from_secs(3600 * hours);
+            File::options().write(true).open(path).unwrap().set_modified(at).unwrap();
+        };
+        let stay =
+            [".a.txt.backup.new", ".a.txt.trodden-mine.new", ".a.txt.trodden-abc-ef.new", ".b.txt.trodden-abcdef.new"];
+        for name in stay.iter().chain(&[".a.txt.trodden-Abc123.new"]) {
+            fs::write(dir.path().join(name), name).unwrap();
+            hours_ago(&dir.path().join(name), 2);
+        }
+        fs::write(dir.path().join(".a.txt.trodden-fresh1.new"), "of a run at work").unwrap();
+        // Another run has been at work for hours.
+        let at_work = WholeFile::begin(&path, false).unwrap();
+        if cfg!(target_os = "linux") {
+            hours_ago(at_work.path(), 5);
+        }
+        write_whole(&path, b"a", false).unwrap();
+        let mut wanted = stay.to_vec();
+        let of_work = at_work.path().file_name().unwrap().to_string_lossy().into_owned();
+        wanted.extend(["a.txt", ".a.txt.trodden-fresh1.new", &of_work]);
+        wanted.sort_unstable();
+        assert_eq!(names(dir.path()), wanted);
     }
 
     #[cfg(unix)]

@@ -20,6 +20,7 @@
 // In the order of the data: a module uses the modules above it.
 mod progress;
 pub mod files;
+pub mod options;
 pub mod math;
 pub mod plan;
 pub mod walls;

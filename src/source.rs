@@ -147,11 +147,13 @@ impl Given {
         people.min(u32::MAX as usize) as u32
     }
 
-    /// Statures of the people whose recording gives them.
+    /// Body heights of those whose recording tells them, by their ids in the motion.
     pub fn statures(&self) -> Statures {
         match &self.content {
             Content::Recording(recording) => recording.statures(),
-            Content::Ensemble(_) | Content::FormedCrowd(_) => Statures::default(),
+            Content::Ensemble(ensemble) | Content::FormedCrowd(FormedCrowd { ensemble, .. }) => {
+                ensemble.statures().clone()
+            }
         }
     }
 
@@ -215,7 +217,7 @@ impl<'a> Source<'a> {
             CoordinateFrame::Plan if !ground.open => Pose::default(),
             CoordinateFrame::Plan | CoordinateFrame::Map => ground.plan.map_from_plan,
         };
-        let placed = Placed::new(given.motion()?, pose, ground);
+        let placed = Placed::new(given, pose, ground)?;
         Ok(Source { mover: Mover::Given(Box::new(placed)), people: given.people(), expected_s: given.end_s() })
     }
 
@@ -263,7 +265,19 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// People who got stuck so far.
+    /// Body heights in metres of those who have appeared in the last frame, by their ids there, where a recording tells
+    /// them.
+    pub fn newcomers_statures(&self) -> impl Iterator<Item = (u32, f64)> {
+        let placed = match &self.mover {
+            Mover::Crowd(_) => None,
+            Mover::Given(placed) => Some(placed),
+        };
+        placed.into_iter().flat_map(|placed| {
+            placed.newcomers.iter().filter_map(|&id| Some((placed.id_in_frame(id), placed.statures.of(id)?)))
+        })
+    }
+
+    /// Who has got stuck so far.
     pub fn stuck(&self) -> &[Stuck] {
         match &self.mover {
             Mover::Crowd(crowd) => crowd.stuck(),
@@ -325,6 +339,9 @@ fn expected_s(arrivals: &[Arrival], routes: &[Route]) -> f64 {
 /// A given motion, transformed to the plan frame.
 struct Placed<'a> {
     motion: Box<dyn Motion + Send + 'a>,
+    statures: Statures,
+    /// Who is in the frame and was not in the one before.
+    newcomers: Vec<u32>,
     plan: &'a FloorPlan,
     origin_m: Vec2,
     /// Cosine and sine of the rotation from the map to the plan.
@@ -338,10 +355,12 @@ struct Placed<'a> {
 }
 
 impl<'a> Placed<'a> {
-    fn new(motion: Box<dyn Motion + Send + 'a>, pose: Pose, ground: &'a Ground) -> Placed<'a> {
+    fn new(given: &'a Given, pose: Pose, ground: &'a Ground) -> Result<Placed<'a>, MotionError> {
         let (sin, cos) = sin_cos(-pose.yaw_rad);
-        Placed {
-            motion,
+        Ok(Placed {
+            motion: given.motion()?,
+            statures: given.statures(),
+            newcomers: Vec::new(),
             plan: &ground.plan,
             origin_m: pose.origin_m,
             turn: vec2(cos, sin),
@@ -350,13 +369,18 @@ impl<'a> Placed<'a> {
             entered: 0,
             places: 0,
             beyond: 0,
-        }
+        })
+    }
+
+    fn id_in_frame(&self, own_id: u32) -> u32 {
+        self.numbers.as_ref().and_then(|numbers| numbers.of(own_id)).unwrap_or(own_id)
     }
 
     fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, MotionError> {
         if !self.motion.next_frame(frame)? {
             // At the end all people have left.
             self.present.clear();
+            self.newcomers.clear();
             return Ok(false);
         }
         for walker in &mut frame.walkers {
@@ -366,8 +390,10 @@ impl<'a> Placed<'a> {
             self.beyond += u64::from(!self.plan.is_floor(walker.position_m));
         }
         self.places += frame.walkers.len() as u64;
-        let newcomers = frame.walkers.iter().filter(|walker| self.present.binary_search(&walker.id).is_err()).count();
-        self.entered += newcomers as u64;
+        let ids = frame.walkers.iter().map(|walker| walker.id);
+        self.newcomers.clear();
+        self.newcomers.extend(ids.filter(|id| self.present.binary_search(id).is_err()));
+        self.entered += self.newcomers.len() as u64;
         self.present.clear();
         self.present.extend(frame.walkers.iter().map(|walker| walker.id));
         if let Some(numbers) = &mut self.numbers {
@@ -386,6 +412,10 @@ struct Numbers {
 }
 
 impl Numbers {
+    fn of(&self, id: u32) -> Option<u32> {
+        self.given.binary_search_by_key(&id, |pair| pair.0).ok().map(|at| self.given[at].1)
+    }
+
     fn give(&mut self, walkers: &mut [Walker]) {
         let before = std::mem::take(&mut self.given);
         for walker in walkers.iter_mut() {

@@ -32,7 +32,7 @@ fn line_m(speed_m_s: f64) -> f64 {
 }
 
 pub fn measure() -> Measured {
-    let commuters = CrowdOptions::commuters().speed;
+    let commuters = CrowdOptions::default().speed;
     let mut points: Vec<[f64; 2]> = DENSITIES.iter().flat_map(|&density| steps(density, commuters)).collect();
     points.extend(steps(HURRIED.0, HURRIED.1));
     let mut table =

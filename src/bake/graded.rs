@@ -9,12 +9,12 @@ use crate::export::{
 use crate::look::{Background, FloorResolver, Look, WallResolver};
 use crate::math::Rect;
 use crate::progress::{Progress, Stage, Stopwatch};
-use crate::show::page::{Page, PageOptions, PageSurface, Viewpoint};
+use crate::show::page::{Page, PageOptions, PageSurface};
 use crate::show::scene::{
     self, GlbImage, GlbOptions, PlainMaterial, Scene, SceneOptions, SurfaceImages, WallStrip, write_glb,
 };
-use crate::show::still::{FarWalls, STILL_SIZE_PX, StillScene, Surfaces, WallSurfaces, write_stills};
-use crate::show::{self, Crop};
+use crate::show::still::{FarWalls, STILL_SIZE_PX, Surfaces, WallSurfaces, write_stills};
+use crate::show::{self, Crop, Rooms};
 use crate::sums::{FloorSums, WallSums};
 use crate::walls::{Doorway, Walls};
 
@@ -100,11 +100,11 @@ impl Graded<'_> {
             let model = Model { graded: self, floor: floor_textures, walls: &textures };
             let scene = model.scene(sums.grid().height_m);
             model.write_glb(&scene, wall.background(), options.embed, folder)?;
-            let studio = StillScene::new(self.walls, self.doorways, sums.grid().height_m);
-            let cameras = [studio.birds_eye(STILL_SIZE_PX), studio.eye_level(&self.sums.floor)];
+            let rooms = Rooms::new(self.walls, self.doorways, sums.grid().height_m);
+            let cameras = [rooms.birds_eye(STILL_SIZE_PX), rooms.eye_level(&self.sums.floor)];
             let (stills, page) = rayon::join(
-                || model.write_stills((floor, &wall), sums, (&studio, cameras), folder, progress),
-                || model.write_page(&scene, floor.background(), wall.background(), &cameras[1], folder),
+                || model.write_stills((floor, &wall), sums, (&rooms, cameras), folder, progress),
+                || model.write_page(&scene, [floor.background(), wall.background()], (&rooms, cameras), folder),
             );
             page.and(stills)
         })?;
@@ -179,7 +179,7 @@ impl Model<'_> {
         &self,
         (floor, wall): (&FloorResolver<'_>, &WallResolver<'_>),
         wall_sums: &WallSums,
-        (studio, cameras): (&StillScene, [Camera; 2]),
+        (rooms, cameras): (&Rooms, [Camera; 2]),
         folder: &OutputFolder,
         progress: &dyn Progress,
     ) -> Result<Vec<StillEntry>, Error> {
@@ -204,31 +204,27 @@ impl Model<'_> {
                 walls: on_walls(&clean_wall, FarWalls::Plain),
             },
         ];
-        Ok(write_stills(folder, studio, cameras, coats, progress)?)
+        Ok(write_stills(folder, rooms, cameras, coats, progress)?)
     }
 
     fn write_page(
         &self,
         scene: &Scene,
-        clean_floor: Background,
-        clean_wall: Background,
-        eyes: &Camera,
+        [clean_floor, clean_wall]: [Background; 2],
+        (rooms, [above, start]): (&Rooms, [Camera; 2]),
         folder: &OutputFolder,
     ) -> Result<(), Error> {
         let look = self.graded.look;
-        let start = Viewpoint {
-            at_m: eyes.place_m(),
-            heading_rad: eyes.heading_deg.to_radians(),
-            pitch_rad: eyes.pitch_deg.to_radians(),
-        };
         let page = Page {
             title: &self.graded.title,
             scene,
             walls: self.graded.walls,
+            rooms,
             wall_height_m: self.walls.atlas.height_m,
             floor: PageSurface::floor(&self.floor.reduced, look, clean_floor),
             wall: PageSurface::wall(&self.walls.reduced, look, clean_wall),
             start,
+            above,
             options: PageOptions::default(),
         };
         Ok(show::page::write_page(folder, &page)?)
@@ -241,7 +237,7 @@ pub(super) fn look_entry(look: &Look) -> serde_json::Value {
     for image in look.images().into_iter().flatten() {
         *image = image.file_name().map(PathBuf::from).unwrap_or_default();
     }
-    serde_json::to_value(&look).expect("a look is plain values with keys that are strings")
+    look.settings()
 }
 
 /// Returns the title of a bake: the file stem of its plan, or of its motion without a plan.

@@ -59,6 +59,9 @@ impl Walk<'_, '_, '_> {
                 self.over = true;
                 break;
             }
+            for (id, stature_m) in self.source.newcomers_statures() {
+                self.footfalls.know_stature(id, stature_m);
+            }
             watch.busy(Stage::Marks, || self.footfalls.push(&self.frame, &mut marks.footfalls));
             self.paths.push(&self.frame);
         }

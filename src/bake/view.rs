@@ -7,7 +7,8 @@ use crate::export::Camera;
 use crate::export::{self, Manifest};
 use crate::look::{FloorResolver, Look, WallResolver};
 use crate::progress::Progress;
-use crate::show::still::{FarWalls, StillScene, Surfaces, WallSurfaces, check_size};
+use crate::show::Rooms;
+use crate::show::still::{FarWalls, Surfaces, WallSurfaces, check_size};
 
 /// Camera and look of a still of a finished bake.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,24 +39,24 @@ pub fn view(bake: &Path, view: &View, progress: &dyn Progress) -> Result<(RgbIma
     let read = || -> Result<_, Error> {
         let manifest = Manifest::read(bake)?;
         let walls = manifest.walls()?;
-        let studio = StillScene::new(&walls, &manifest.doorways(), wall_height_m(&manifest));
-        // An invalid camera should fail before the long work.
+        let rooms = Rooms::new(&walls, &manifest.doorways(), wall_height_m(&manifest));
+        // A camera that cannot be is told of before anything long is done.
         if let Some(camera) = &view.camera {
-            studio.check(&with_fov(*camera, view))?;
+            rooms.check(&with_fov(*camera, view))?;
         }
         let look = match &view.look {
             Some(look) => look.clone(),
             None => manifest.look(bake)?,
         };
         let (sums, wall_sums) = (export::read_sums(bake, &manifest)?, export::read_wall_sums(bake, &manifest)?);
-        Ok((manifest, walls, studio, look, sums, wall_sums))
+        Ok((manifest, walls, rooms, look, sums, wall_sums))
     };
-    let (manifest, walls, studio, look, sums, wall_sums) = export::settled(&[bake], read)?;
+    let (manifest, walls, rooms, look, sums, wall_sums) = export::settled(&[bake], read)?;
     let look = if view.clean { look.clean() } else { look };
     let camera = match view.camera {
         Some(camera) => camera,
-        None if view.birds_eye => studio.birds_eye(view.size_px),
-        None => studio.eye_level(&sums),
+        None if view.birds_eye => rooms.birds_eye(view.size_px),
+        None => rooms.eye_level(&sums),
     };
     let camera = with_fov(camera, view);
     let floor = FloorResolver::new(&sums, &walls, &look, manifest.people)?;
@@ -68,7 +69,7 @@ pub fn view(bake: &Path, view: &View, progress: &dyn Progress) -> Result<(RgbIma
     });
     let floor_texels_per_metre = sums.grid().texels_per_metre;
     let coat = Surfaces { floor: &floor, floor_texels_per_metre, small: None, walls: on_walls };
-    let pictures = studio.draw(&camera, view.size_px, &[coat], progress)?;
+    let pictures = rooms.draw(&camera, view.size_px, &[coat], progress)?;
     let picture = pictures.into_iter().next().expect("there is one picture for each coat");
     Ok((picture, camera))
 }

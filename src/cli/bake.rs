@@ -11,6 +11,7 @@ use super::arguments::{self, ScenarioArguments};
 use super::motion::{Alignment, Reading};
 use super::print::Refused;
 use super::progress::Watch;
+use super::standard_input::{self, Spool};
 use super::{Common, print};
 
 /// Walk a crowd through a plan and write the floor that it leaves
@@ -28,15 +29,20 @@ Examples:
   trodden bake plan.toml --motion paths.txt          recorded people instead of a crowd
   trodden bake --motion paths.txt                    the same on open ground
   draw_plan | trodden bake - -o floor                a plan or a scenario from standard input
+  simulate | trodden bake --motion -                 a recording from there
 
 Of a scenario from standard input, paths start from the working directory.")]
 #[command(mut_arg("path", |argument| argument.required(false).required_unless_present("motion")))]
 pub struct Bake {
     #[command(flatten)]
     scenario: ScenarioArguments,
-    /// Recorded people instead of a crowd; without a plan, on open ground: `trodden motion info` says what is found
+    /// Recorded people instead of a crowd; without a plan, on open ground: `trodden motion info` says what is found; -
+    /// reads standard input
     #[arg(long, value_name = "FILE", help_heading = "Recording")]
     motion: Option<PathBuf>,
+    /// The motion, where it came on standard input.
+    #[arg(skip)]
+    spool: Spool,
     #[command(flatten)]
     reading: Reading,
     #[command(flatten)]
@@ -66,10 +72,32 @@ pub struct Bake {
 
 impl Bake {
     fn named_after(&self) -> Option<&Path> {
-        if self.scenario.is_standard_input() {
-            return Some(Path::new("stdin"));
+        match self.scenario.path.as_deref().or(self.motion.as_deref()) {
+            Some(path) if standard_input::is_meant(path) => Some(Path::new("stdin")),
+            path => path,
         }
-        self.scenario.path.as_deref().or(self.motion.as_deref())
+    }
+
+    /// The recording as a file.
+    fn motion_file(&self) -> anyhow::Result<Option<PathBuf>> {
+        match &self.motion {
+            Some(path) if standard_input::is_meant(path) => {
+                if self.scenario.is_standard_input() {
+                    let message = "the plan and the motion cannot both be read from standard input".to_string();
+                    return Err(Refused { message, hint: Some("give one of them as a file".into()) }.into());
+                }
+                self.spool.fill().map(Some)
+            }
+            path => Ok(path.clone()),
+        }
+    }
+
+    /// An error that names standard input as such.
+    fn explain(&self, error: Error) -> anyhow::Error {
+        match &self.motion {
+            Some(path) if standard_input::is_meant(path) => self.spool.explain(error),
+            _ => self.scenario.explain(error),
+        }
     }
 
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
@@ -79,7 +107,7 @@ impl Bake {
             embed: self.embed.then_some(true),
             any_size: self.yes,
             layers: self.layers.then_some(true),
-            motion_file: self.motion.clone(),
+            motion_file: self.motion_file()?,
             recording: self.alignment.over(self.reading.options()),
             ..self.scenario.overrides()
         };
@@ -90,7 +118,7 @@ impl Bake {
         };
         let output = OutputOptions { folder: folder.clone(), force: self.force };
         let report = bake(&scenario, &output, &Watch::new(common))
-            .map_err(|error| with_remedy(error, |error| self.scenario.explain(error)))?;
+            .map_err(|error| with_remedy(error, |error| self.explain(error)))?;
         if !common.quiet {
             let people = &report.people;
             let (entered, arrived) = (people.entered, people.arrived);

@@ -6,7 +6,7 @@ use clap::Args;
 use trodden::math::Vec2;
 use trodden::plan::Opening;
 use trodden::routes::{Place, PlaceRequest, Route, RouteRequest};
-use trodden::scenario::Scenario;
+use trodden::scenario::{self, Scenario};
 
 use super::arguments::{STANDARD_OUTPUT, ScenarioArguments};
 use super::inspect::Understood;
@@ -20,7 +20,8 @@ use super::{Common, print};
 #[command(after_help = "\
 Examples:
   trodden init plan.png --metres-per-pixel 0.05      to plan.toml
-  trodden init plan.png --preset paper -o paper.toml")]
+  trodden init plan.png --preset paper -o paper.toml
+  trodden init --schema > scenario.schema.json       lets editors complete and check scenarios in this folder")]
 pub struct Init {
     #[command(flatten)]
     scenario: ScenarioArguments,
@@ -30,10 +31,17 @@ pub struct Init {
     /// Replace the file if it is there
     #[arg(long)]
     force: bool,
+    /// Print the JSON Schema of scenarios instead: with it, editors complete and check their keys
+    #[arg(long, exclusive = true)]
+    schema: bool,
 }
 
 impl Init {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
+        if self.schema {
+            print::text(&format!("{:#}\n", scenario::schema()))?;
+            return Ok(ExitCode::SUCCESS);
+        }
         let output = self.file();
         let mut scenario = self.scenario.scenario()?;
         if self.scenario.is_standard_input() && scenario.folder != Path::new("") {
@@ -73,6 +81,7 @@ impl Init {
 }
 
 const HEADER: &str = "\
+#:schema scenario.schema.json
 # A scenario for trodden: what is baked, and how. Every key is written out with the value that it would have anyway;
 # delete what you do not want to change, and it follows the preset again. Metres are those of the plan frame: origin
 # at the image's lower left, y up.

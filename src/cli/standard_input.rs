@@ -22,7 +22,15 @@ pub fn is_meant(path: &Path) -> bool {
     path == Path::new(FILE_NAME)
 }
 
-/// Returns the name of standard input in messages and in names of results.
+/// Whether a text is the YAML of a ROS map rather than a scenario.
+pub fn is_ros_map(text: &str) -> bool {
+    let has = |key: &str| {
+        text.lines().any(|line| line.strip_prefix(key).is_some_and(|rest| rest.trim_start().starts_with(':')))
+    };
+    has("image") && has("resolution")
+}
+
+/// What stands in messages and names of results in the place of a file's name.
 pub fn shown() -> &'static Path {
     Path::new(SHOWN)
 }

@@ -1,45 +1,10 @@
-use crate::math::DistributionError;
-
 /// Errors of the crowd stage.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CrowdError {
-    /// Number of people out of its range.
-    #[error("crowd: {people} people are requested, allowed is 1 to {most}")]
-    People {
-        /// Number of people requested.
-        people: u32,
-        /// The limit.
-        most: u32,
-    },
-    /// A distribution with invalid parameters.
-    #[error("crowd: {name}: {source}")]
-    Distribution {
-        /// The option.
-        name: &'static str,
-        /// The problem.
-        source: DistributionError,
-    },
-    /// A number out of its range.
-    #[error("crowd: {name} is {value}, allowed is {low} to {high}")]
-    Number {
-        /// The option.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// Least value allowed.
-        low: f64,
-        /// Largest value allowed.
-        high: f64,
-    },
-    /// An invalid timetable.
-    #[error("crowd: arrivals: {key}: {problem}")]
-    Timetable {
-        /// The key, as a scenario writes it.
-        key: &'static str,
-        /// The problem.
-        problem: String,
-    },
+    /// An option is not allowed.
+    #[error(transparent)]
+    Option(#[from] crate::options::OptionError),
     /// Empty list of routes.
     #[error("crowd: there is no route to walk")]
     NoRoutes,
@@ -69,14 +34,11 @@ impl CrowdError {
     /// A remedy in words, if there is one.
     pub fn hint(&self) -> Option<String> {
         match self {
-            CrowdError::People { .. } => Some("give a whole number of people, such as 1000".into()),
-            CrowdError::Distribution { .. } => {
-                Some("write a number, a range [0.28, 0.36], or { mean = 1.34, sd = 0.26, min = 0.6, max = 2.1 }".into())
-            }
+            CrowdError::Option(e) => e.hint(),
             CrowdError::Spot { hint, .. } => Some(hint.clone()),
             CrowdError::Units(e) => e.hint(),
             CrowdError::Routes(e) => e.hint(),
-            CrowdError::Number { .. } | CrowdError::Timetable { .. } | CrowdError::NoRoutes => None,
+            CrowdError::NoRoutes => None,
         }
     }
 }

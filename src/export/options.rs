@@ -1,43 +1,26 @@
-use serde::{Deserialize, Serialize};
-
 use super::ExportError;
 use super::layout::TileLayout;
 use super::targets::Target;
+use crate::options::{names, options};
 
-/// How textures are written.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct TextureOptions {
-    /// Greatest width and height of a texture, texels: 64 to 16384.
-    pub tile: u32,
-    /// Whether to write the layers as EXR too; left out: as is usual for the target, see [`Target::wants_layers`].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub layers: Option<bool>,
-    /// The program that they are for.
-    pub target: Target,
-    /// Whether walls are made too, and with them the scene, stills and page; the floor alone otherwise.
-    pub walls: bool,
-    /// Whether `scene.glb` carries its textures, reduced, inside.
-    pub embed: bool,
-    /// The greatest width and height of the small images that are kept of each texture; none are without it.
-    #[serde(skip)]
-    pub reduced_px: Option<u32>,
-    /// Whether a bake is made even if it is larger than [`crate::export::LARGE_BYTES`] or than the disk has room for.
-    #[serde(skip)]
-    pub any_size: bool,
-}
-
-impl Default for TextureOptions {
-    fn default() -> TextureOptions {
-        TextureOptions {
-            tile: 8192,
-            layers: None,
-            target: Target::default(),
-            walls: true,
-            embed: false,
-            reduced_px: None,
-            any_size: false,
-        }
+options! {
+    /// How textures are written.
+    pub struct TextureOptions {
+        /// Largest side of a texture; Unreal takes 8192.
+        tile: u32 = 8192, in 64.0..=16384.0, unit "px";
+        /// Whether every layer is an EXR too; left out: for gltf and blender only.
+        layers: Option<bool> = None, eg "true";
+        /// What the files are for: "gltf", "blender", "unreal", "unity" or "godot".
+        target: Target = Target::default();
+        /// Whether walls are made too, and with them the scene, stills and page.
+        walls: bool = true;
+        /// Whether scene.glb carries its textures, reduced, inside.
+        embed: bool = false;
+    } with {
+        /// The greatest width and height of the small images that are kept of each texture; none are without it.
+        reduced_px: Option<u32> = None;
+        /// Whether a bake is made even if it is larger than [`crate::export::LARGE_BYTES`] or than the disk has room for.
+        any_size: bool = false;
     }
 }
 
@@ -59,3 +42,5 @@ impl TextureOptions {
         self.target.check_size(tile)
     }
 }
+
+names!(Target);

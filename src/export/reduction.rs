@@ -38,8 +38,8 @@ impl LightSum {
     }
 }
 
-/// Returns `sum / count`, rounded to nearest; halves go up.
-pub(super) fn rounded_mean(sum: u32, count: u32) -> u32 {
+/// The mean of `count` whole numbers, rounded to the nearest; halves go up.
+pub(crate) fn rounded_mean(sum: u32, count: u32) -> u32 {
     ((u64::from(sum) + u64::from(count) / 2) / u64::from(count)) as u32
 }
 

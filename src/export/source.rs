@@ -26,10 +26,14 @@ pub trait WallSource: Sync {
     /// Values of all texels of an empty block.
     fn background(&self) -> Background;
 
-    /// Resolves `width` x `height` texels of a face into `block`, from the texel (i0, j0).
-    ///
-    /// Row 0 is the lowest, columns run along the face. Beyond the face's ends, below and above the wall, the texels of
-    /// the edge repeat; on a closed face columns wrap.
+    /// Texels along a face; `None` where nobody knows.
+    fn columns(&self, _face: usize) -> Option<u32> {
+        None
+    }
+
+    /// Resolves a rectangle of `width` x `height` texels of a face with the lower-left texel (i0, j0) into `block`,
+    /// row 0 lowest, columns along the face. Beyond the face's ends, below and above the wall, the edge's texels go on;
+    /// on a closed face columns wrap.
     fn resolve_into(&self, face: usize, i0: i64, j0: i64, width: usize, height: usize, block: &mut ResolvedBlock);
 }
 
@@ -54,6 +58,10 @@ impl WallSource for WallResolver<'_> {
 
     fn background(&self) -> Background {
         WallResolver::background(self)
+    }
+
+    fn columns(&self, face: usize) -> Option<u32> {
+        WallResolver::columns(self, face)
     }
 
     fn resolve_into(&self, face: usize, i0: i64, j0: i64, width: usize, height: usize, block: &mut ResolvedBlock) {

@@ -3,7 +3,7 @@ use nalgebra::{DMatrix, Dyn, Matrix, VecStorage};
 use super::error::FeaturesError;
 use super::method::Method;
 use crate::math::{Vec2, vec2};
-use crate::motion::Ensemble;
+use crate::motion::{Ensemble, Statures};
 
 /// Largest number of positions, people times frames, that are decomposed: about 100 bytes of memory each.
 pub const MOST_FEATURE_PLACES: usize = 10_000_000;
@@ -17,6 +17,7 @@ pub(super) struct Displacement {
     pub(super) fps: f64,
     pub(super) start_s: f64,
     pub(super) ids: Vec<u32>,
+    pub(super) statures: Statures,
     /// Origin of all positions: a person's first one, so that no digits are lost on a map whose origin is far away.
     pub(super) origin_m: Vec2,
     /// The centroid of each frame, metres from `origin_m`.
@@ -54,7 +55,8 @@ impl Displacement {
         }
         formation_m.iter_mut().for_each(|sum| *sum = *sum / moments as f64);
         let Ensemble { fps, start_s, ref ids, .. } = *ensemble;
-        Ok(Displacement { fps, start_s, ids: ids.clone(), origin_m, centroids_m, formation_m })
+        let (ids, statures) = (ids.clone(), ensemble.statures().clone());
+        Ok(Displacement { fps, start_s, ids, statures, origin_m, centroids_m, formation_m })
     }
 
     pub(super) fn people(&self) -> usize {
@@ -101,7 +103,7 @@ impl Displacement {
                 places_m.push(self.origin_m + (centroid + mean + vec2(x, y)));
             }
         }
-        Ensemble::new(self.fps, self.start_s, self.ids.clone(), places_m)
+        Ensemble::new(self.fps, self.start_s, self.ids.clone(), places_m).with_statures(self.statures.clone())
     }
 }
 

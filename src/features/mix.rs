@@ -107,7 +107,7 @@ impl Mix {
             };
             Ensemble::new(first.fps, first.start_s, ids.clone(), (0..moments).flat_map(places).collect())
         };
-        let [first, other] = [taken(first, 0), taken(other, 1)];
+        let [first, other] = [taken(first, 0).with_statures(first.statures().clone()), taken(other, 1)];
         let features = [
             Features::find_part(&first, options, &progress.range(0.1, 0.5))?,
             Features::find_part(&other, options, &progress.range(0.5, 1.0))?,

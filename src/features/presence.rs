@@ -164,7 +164,8 @@ pub fn present_throughout(
     }
     let margin_s = 0.25 / fps;
     let of = [span.from_s - margin_s, span.to_s + margin_s];
-    Ok((Ensemble::of_motion(&mut WatchedMotion { motion: recording.motion()?, progress }, fps, of)?, span))
+    let ensemble = Ensemble::of_motion(&mut WatchedMotion { motion: recording.motion()?, progress }, fps, of)?;
+    Ok((ensemble.with_statures(recording.statures()), span))
 }
 
 /// A motion that reports progress and can be interrupted.

@@ -13,13 +13,15 @@ pub struct FormedCrowd {
 }
 
 /// A person of a formed crowd.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct FormedPerson {
     /// Index of the individual in the whole crowd, in the small crowd in its place, and so on, each from 0. A rider counts
     /// after the carriers.
     pub address: Vec<u32>,
     /// Whether the person is carried and does not touch the floor.
     pub rides: bool,
+    /// Body height in metres, where the recording that the person moves as tells it.
+    pub stature_m: Option<f64>,
 }
 
 impl FormedCrowd {
@@ -31,7 +33,8 @@ impl FormedCrowd {
         let moments = 0..self.ensemble.moments();
         let places = moments.flat_map(|moment| self.ensemble.places_at(moment).iter().enumerate());
         let places = places.filter(|(k, _)| walks[k % people]).map(|(_, place)| *place).collect();
-        Ensemble::new(self.ensemble.fps, self.ensemble.start_s, ids, places)
+        let made = Ensemble::new(self.ensemble.fps, self.ensemble.start_s, ids, places);
+        made.with_statures(self.ensemble.statures().clone())
     }
 
     /// Number of people who are carried.

@@ -89,7 +89,8 @@ pub fn interpolate(
         let share = (number + 1) as f64 / (keys.len() - 1) as f64;
         progress.advance(Stage::Motion, DECOMPOSING + (1.0 - DECOMPOSING) * share);
     }
-    Ok(Ensemble::new(example.fps, example.time_s(span[0]), example.ids.clone(), places_m))
+    let made = Ensemble::new(example.fps, example.time_s(span[0]), example.ids.clone(), places_m);
+    Ok(made.with_statures(example.statures().clone()))
 }
 
 /// Matches keys to each other, without the example.

@@ -2,6 +2,7 @@ use std::fmt;
 use std::path::PathBuf;
 
 use super::LOOK_PRESETS;
+use crate::options::OptionError;
 
 /// Errors of the `look` stage.
 #[derive(Debug, thiserror::Error)]
@@ -22,6 +23,8 @@ pub enum LookError {
         place: FilePlace,
         /// Description of the error.
         message: String,
+        /// What to write instead.
+        hint: Option<String>,
     },
     /// The look has an unknown preset.
     #[error("{}there is no look preset {name:?}; there are {}", at(.place), LOOK_PRESETS.join(", "))]
@@ -31,12 +34,12 @@ pub enum LookError {
         /// Position of the value, if it is from a file.
         place: Option<FilePlace>,
     },
-    /// A number is out of range.
-    #[error("{}{range}", at(.place))]
-    Range {
-        /// Key, value and allowed range.
-        range: RangeError,
-        /// Position of the value, if it is from a file.
+    /// A number beyond what is allowed.
+    #[error("{}{error}", at(.place))]
+    Option {
+        /// Which key, which value, which range.
+        error: OptionError,
+        /// Place of the value, if it came from a file.
         place: Option<FilePlace>,
     },
     /// The image of a floor or wall cannot be used.
@@ -74,29 +77,9 @@ pub struct FilePlace {
     pub column: usize,
 }
 
-/// A setting out of its range.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RangeError {
-    /// Key with its sections, such as `film.density`.
-    pub key: &'static str,
-    /// Given value.
-    pub value: f64,
-    /// Smallest allowed value.
-    pub low: f64,
-    /// Largest allowed value.
-    pub high: f64,
-}
-
 impl fmt::Display for FilePlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}:{}", self.path.display(), self.line, self.column)
-    }
-}
-
-impl fmt::Display for RangeError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let RangeError { key, value, low, high } = self;
-        write!(f, "{key} is {value}, allowed is {low} to {high}")
     }
 }
 
@@ -116,10 +99,12 @@ impl LookError {
                 "give a PNG, JPEG, BMP, PGM, TIFF or GIF, at most 16384 px a side, as a path relative to the look file"
                     .to_string(),
             ),
-            LookError::Syntax { .. } => Some("keys that are left out keep the preset's value".to_string()),
+            LookError::Syntax { hint, .. } => {
+                hint.clone().or_else(|| Some("keys that are left out keep the preset's value".to_string()))
+            }
             LookError::OtherWalls { .. } => Some("bake the plan again".to_string()),
             LookError::NoPeople { .. } => Some("bake a crowd of at least one person".to_string()),
-            LookError::Unreadable { .. } | LookError::Range { .. } => None,
+            LookError::Unreadable { .. } | LookError::Option { .. } => None,
         }
     }
 }

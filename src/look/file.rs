@@ -1,11 +1,13 @@
 use std::path::Path;
 
+use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{FilePlace, LookError};
 use super::image::decode;
 use super::settings::Look;
 use crate::files::read_text;
+use crate::options::{self, Mistake, Options, value_at};
 
 impl Look {
     /// Reads a look file: TOML with the keys of [`Look`].
@@ -24,25 +26,18 @@ impl Look {
     /// # Errors
     /// As [`Look::read`].
     pub fn parse(text: &str, path: &Path) -> Result<Look, LookError> {
-        let at = |offset: usize| place(text, path, offset);
-        let syntax = |error: toml::de::Error| LookError::Syntax {
-            place: at(error.span().map_or(0, |span| span.start)),
-            message: error.message().to_string(),
+        let wrong = |mistake: Mistake| {
+            let (message, hint) = mistake.explain(text);
+            LookError::Syntax { place: place(text, path, mistake.span.start), message, hint }
         };
-        // Parsed twice: directly, so that errors have a position in the file, and merged with the preset.
-        toml::from_str::<Look>(text).map_err(syntax)?;
-        let spans = DeTable::parse(text).map_err(syntax)?;
-        let written: toml::Table = toml::from_str(text).map_err(syntax)?;
-        let place_of = |key: &str| Some(at(offset_of(spans.get_ref(), key)));
+        let table = DeTable::parse(text).map_err(|error| wrong(Mistake::syntax(&error)))?;
+        let place_of = |key: &str| value_at(table.get_ref(), key).map(|value| place(text, path, value.span().start));
 
-        let preset = written.get("preset").and_then(toml::Value::as_str).unwrap_or("commuters");
-        let base = Look::preset(preset)
+        let preset = table.get_ref().get("preset").and_then(|value| value.get_ref().as_str()).unwrap_or("commuters");
+        let mut look = Look::preset(preset)
             .ok_or_else(|| LookError::UnknownPreset { name: preset.to_string(), place: place_of("preset") })?;
-        let mut look = base.overlaid(written).map_err(syntax)?;
-        if let Some(range) = look.first_out_of_range() {
-            let place = place_of(range.key);
-            return Err(LookError::Range { range, place });
-        }
+        look.lay(&Spanned::new(table.span(), DeValue::Table(table.get_ref().clone()))).map_err(wrong)?;
+        look.check_ranges().map_err(|error| LookError::Option { place: place_of(error.key()), error })?;
         if let Some(folder) = path.parent() {
             for image in look.images().into_iter().flatten() {
                 *image = folder.join(&*image);
@@ -59,38 +54,27 @@ impl Look {
         [&self.floor.image, &self.wall.image].into_iter().flatten().try_for_each(|path| decode(path).map(drop))
     }
 
-    /// Returns these settings, overridden by a TOML table.
+    /// Checks every number against its range.
     ///
     /// # Errors
-    /// [`Look`] has no such key, or a key of another type.
-    pub fn overlaid(&self, table: toml::Table) -> Result<Look, toml::de::Error> {
-        let own = toml::Table::try_from(self).map_err(serde::de::Error::custom)?;
-        toml::Value::Table(laid_over(own, table)).try_into()
+    /// [`LookError::Option`] names the key, its value and the range allowed.
+    pub fn check(&self) -> Result<(), LookError> {
+        self.check_ranges().map_err(|error| LookError::Option { error, place: None })
     }
-}
 
-fn laid_over(mut below: toml::Table, above: toml::Table) -> toml::Table {
-    for (key, value) in above {
-        let merged = match (below.remove(&key), value) {
-            (Some(toml::Value::Table(old)), toml::Value::Table(new)) => toml::Value::Table(laid_over(old, new)),
-            (_, value) => value,
-        };
-        below.insert(key, merged);
+    /// All settings, as a manifest keeps them.
+    pub fn settings(&self) -> serde_json::Value {
+        // Only numbers that JSON cannot hold stop it; `check` refuses them.
+        serde_json::to_value(self.table()).unwrap_or_default()
     }
-    below
-}
 
-/// Byte offset of a key's value, such as `film.density`, or of the nearest section that exists.
-fn offset_of(table: &DeTable<'_>, key: &str) -> usize {
-    let (first, rest) = key.split_once('.').unwrap_or((key, ""));
-    let Some((_, value)) = table.iter().find(|(name, _)| name.get_ref() == first) else { return 0 };
-    match (rest, value.get_ref()) {
-        ("", _) => value.span().start,
-        (rest, DeValue::Table(inner)) => match offset_of(inner, rest) {
-            0 => value.span().start,
-            offset => offset,
-        },
-        _ => value.span().start,
+    /// The look of [`Look::settings`].
+    ///
+    /// # Errors
+    /// What is no look, in words.
+    pub fn of_settings(settings: &serde_json::Value) -> Result<Look, String> {
+        let text = toml::Table::try_from(settings).map_err(|error| error.to_string())?.to_string();
+        options::parse(&text).map_err(|mistake| mistake.explain(&text).0)
     }
 }
 
@@ -136,15 +120,15 @@ mod tests {
         for name in super::super::LOOK_PRESETS {
             let look = Look::preset(name).unwrap();
             look.check().unwrap();
-            let text = toml::to_string(&look).unwrap();
+            let text = look.table().to_string();
             assert_eq!(parse(&text).unwrap(), look, "{text}");
         }
     }
 
     #[test]
     fn errors_name_line_and_column() {
-        assert!(message("[film]\ndensty = 0.3\n").starts_with("looks/mine.toml:2:1: unknown field `densty`"));
-        assert!(message("[film]\ndensity = \"much\"\n").starts_with("looks/mine.toml:2:11: invalid type"));
+        assert!(message("[film]\ndensty = 0.3\n").starts_with("looks/mine.toml:2:1: [film] has no key `densty`"));
+        assert!(message("[film]\ndensity = \"much\"\n").starts_with("looks/mine.toml:2:11: `density` takes a number"));
         assert!(message("[film\n").starts_with("looks/mine.toml:1:6:"), "{}", message("[film\n"));
         assert_eq!(
             message("seed = 2\n\n[edge]\nreach_m = 0.04\ncorner = 9.5\n"),
@@ -186,8 +170,8 @@ mod tests {
             message("[wall.noise]\nfine = { size_m = nan, sd = 0.1 }\n"),
             "looks/mine.toml:2:19: wall.noise.fine.size_m is NaN, allowed is 0.002 to 20"
         );
-        assert!(message("[wall]\nskirt = 3\n").starts_with("looks/mine.toml:2:1: unknown field `skirt`"));
-        assert!(message("[wall]\nmaterial = \"silk\"\n").contains("expected one of `matt`, `gloss`, `concrete`"));
+        assert!(message("[wall]\nskirt = 3\n").starts_with("looks/mine.toml:2:1: [wall] has no key `skirt`"));
+        assert!(message("[wall]\nmaterial = \"silk\"\n").contains("one of matt, gloss, concrete"));
     }
 
     #[test]

@@ -30,7 +30,6 @@ mod padding;
 mod paint;
 mod planes;
 mod presets;
-mod ranges;
 mod resolve;
 mod settings;
 mod shade;
@@ -43,7 +42,7 @@ mod tests;
 
 pub use crate::math::srgb::Srgb8;
 pub use block::{Background, Layer, ResolvedBlock};
-pub use error::{FilePlace, LookError, RangeError};
+pub use error::{FilePlace, LookError};
 pub use material::Material;
 pub use octaves::{NoiseLook, Octave};
 pub(crate) use presets::LOOK_PRESETS;

@@ -1,4 +1,3 @@
-use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 use super::colours::{RUBBER, SOIL_DRY, SOIL_WET};
@@ -6,236 +5,158 @@ use super::material::Material;
 use super::octaves::NoiseLook;
 use super::wall::WallLook;
 use crate::math::srgb::Srgb8;
+use crate::options::options;
 
-/// The look: settings that turn sums into textures. Changes need no new simulation.
-///
-/// A look file is TOML with these keys; missing keys have the value of its preset:
-///
-/// ```toml
-/// preset = "heavy"
-/// [floor]
-/// material = "dark"
-/// [film]
-/// density = 0.6
-/// ```
-///
-/// Densities are optical densities D: dirt has the opacity 1 - exp(-D).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Look {
-    /// Preset on which these values are based: one of [`super::LOOK_PRESETS`].
-    pub preset: String,
-    /// Seed of the noise, independent of the crowd's seed.
-    pub seed: u64,
-    /// Passes since the floor was laid or last stripped, which the simulated people represent. 1 to 1e9; 20 000 in the
-    /// presets `commuters`, `heavy` and `wet`.
-    pub total_passes: u64,
-    /// Smallest sRGB value, 0 to 255, to which dirt darkens a texel: indoor dirt is never black.
-    pub darkest: f32,
-    /// The clean floor.
-    pub floor: FloorLook,
-    /// Grey film of all passes together: the lane.
-    pub film: FilmLook,
-    /// Ingrained dirt: continues to darken at very many passes, as on thresholds.
-    pub ingrained: IngrainedLook,
-    /// Readable single prints.
-    pub prints: PrintsLook,
-    /// Black marks of heels and toes.
-    pub scuffs: ScuffsLook,
-    /// Dirty line along the skirting, where no mop reaches.
-    pub edge: EdgeLook,
-    /// Dust beside the lanes.
-    pub dust: DustLook,
-    /// Noise of film and dust, in plan space: independent of the texel density.
-    pub noise: NoiseLook,
-    /// Walls. All other settings but `seed` and `darkest` are for the floor.
-    pub wall: WallLook,
-}
-
-/// The clean floor.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct FloorLook {
-    /// Material: colour, texture, roughness, and adhesion of dirt.
-    pub material: Material,
-    /// Colour of the clean floor, sRGB; default: the material's.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub colour: Option<Srgb8>,
-    /// Contrast of the clean floor's texture, 0 (flat) to 3; 1 is the material's.
-    pub texture: f32,
-    /// Image of the floor, repeated from the plan's origin. It replaces the material's colour and texture. The path is
-    /// relative to the look file.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub image: Option<PathBuf>,
-    /// Width and height of the floor in the image, metres, 0.01 to 1000.
-    pub image_size_m: [f64; 2],
-    /// Roughness of the clean floor, 0 to 1; default: the material's.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub roughness: Option<f32>,
-    /// Roughness on lanes, 0 to 1; default: the material's.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub roughness_trodden: Option<f32>,
-    /// Side of a tile (material `tile`), metres, 0.02 to 5.
-    pub tile_m: f64,
-    /// Width of a joint (material `tile`), metres, 0 to 0.05.
-    pub joint_m: f64,
-}
-
-/// The film: D = density (1 - exp(-per_pass n)) for n passes, times noise.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct FilmLook {
-    /// Optical density of a saturated film, 0 to 3.
-    pub density: f32,
-    /// Share of the missing density that one pass adds, 0 to 1.
-    pub per_pass: f32,
-    /// Standard deviation of the Gaussian that smooths the simulated passes, metres, 0 to 0.5.
+options! {
+    /// The look: settings that turn sums into textures. Changing them needs no new simulation.
     ///
-    /// It represents people who were not simulated and walked nearby. The deviation of single passes remains, scaled by
-    /// 1/sqrt(w).
-    pub spread_m: f64,
-    /// Colour, sRGB.
-    pub colour: Srgb8,
-}
-
-/// Ingrained dirt: the film's formula at a far lower rate.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct IngrainedLook {
-    /// Optical density at saturation, 0 to 3.
-    pub density: f32,
-    /// Share of the missing density that one pass adds, 0 to 1.
-    pub per_pass: f32,
-}
-
-/// Readable prints.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct PrintsLook {
-    /// Factor on the soil of fresh prints, 0 to 20.
-    pub soil: f32,
-    /// Optical density painted by every simulated pass, 0 to 3: the method of the paper, otherwise 0.
-    pub every_pass: f32,
-    /// Colour, sRGB.
-    pub colour: Srgb8,
-}
-
-/// Heel and toe marks.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct ScuffsLook {
-    /// Factor on the marks' optical density, 0 to 20.
-    pub strength: f32,
-    /// Colour, sRGB.
-    pub colour: Srgb8,
-}
-
-/// Skirting line: D = density exp(-d / reach) at distance d from the wall, uneven along the wall.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct EdgeLook {
-    /// Optical density at the wall, 0 to 3.
-    pub density: f32,
-    /// Distance over which it falls to 1/e, metres, 0.005 to 0.5.
-    pub reach_m: f32,
-    /// Relative unevenness along the wall (standard deviation of the logarithm), 0 to 1.5.
-    pub unevenness: f32,
-    /// Factor on the density in a right-angled inner corner, 1 to 4.
-    pub corner: f32,
-    /// Radius of a corner's effect, metres, 0.01 to 0.5.
-    pub corner_radius_m: f32,
-    /// Colour, sRGB.
-    pub colour: Srgb8,
-}
-
-/// Dust: D = density exp(-d / reach), removed by passes as the film grows.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct DustLook {
-    /// Optical density at the wall, 0 to 3.
-    pub density: f32,
-    /// Distance over which it falls to 1/e, metres, 0.02 to 3.
-    pub reach_m: f32,
-    /// Colour, sRGB.
-    pub colour: Srgb8,
-}
-
-impl Default for Look {
-    fn default() -> Look {
-        Look {
-            preset: "commuters".to_string(),
-            seed: 1,
-            total_passes: 20_000,
-            darkest: 50.0,
-            floor: FloorLook::default(),
-            film: FilmLook::default(),
-            ingrained: IngrainedLook::default(),
-            prints: PrintsLook::default(),
-            scuffs: ScuffsLook::default(),
-            edge: EdgeLook::default(),
-            dust: DustLook::default(),
-            noise: NoiseLook::default(),
-            wall: WallLook::default(),
-        }
+    /// A look file is TOML with these keys; keys that it leaves out keep the value of the preset that it names:
+    ///
+    /// ```toml
+    /// preset = "heavy"
+    /// [floor]
+    /// material = "dark"
+    /// [film]
+    /// density = 0.6
+    /// ```
+    ///
+    /// Densities are optical densities D: dirt covers the floor with opacity 1 - exp(-D).
+    pub struct Look {
+        /// "commuters", "heavy", "wet" or "paper": what this section's keys start from.
+        preset: String = "commuters".to_string();
+        /// Another number, another noise.
+        seed: u64 = 1;
+        /// How many people the floor has seen; the simulated ones stand for them.
+        total_passes: u64 = 20_000, in 1.0..=1e9;
+        /// Value in sRGB below which dirt darkens nothing.
+        darkest: f32 = 50.0, in 0.0..=255.0;
+        /// The clean floor.
+        floor: FloorLook = FloorLook::default();
+        /// The grey film that all passes leave together: the lane.
+        film: FilmLook = FilmLook::default();
+        /// Ingrained dirt: goes on darkening where very many pass, as on thresholds.
+        ingrained: IngrainedLook = IngrainedLook::default();
+        /// Single prints that can be read.
+        prints: PrintsLook = PrintsLook::default();
+        /// Black marks of heels and toes.
+        scuffs: ScuffsLook = ScuffsLook::default();
+        /// The dirty line along the skirting, where no mop reaches.
+        edge: EdgeLook = EdgeLook::default();
+        /// Dust off the lanes.
+        dust: DustLook = DustLook::default();
+        /// Unevenness of film and dust, in plan space: it does not move when the texel density changes.
+        noise: NoiseLook = NoiseLook::default();
+        /// The walls: all of the above but `seed` and `darkest` is about the floor.
+        wall: WallLook = WallLook::default();
     }
 }
 
-impl Default for FloorLook {
-    fn default() -> FloorLook {
-        FloorLook {
-            material: Material::Vinyl,
-            colour: None,
-            texture: 1.0,
-            image: None,
-            image_size_m: [2.0, 2.0],
-            roughness: None,
-            roughness_trodden: None,
-            tile_m: 0.3,
-            joint_m: 0.004,
-        }
+options! {
+    /// The clean floor.
+    pub struct FloorLook {
+        /// What is under the dirt.
+        material: Material = Material::Vinyl;
+        /// Colour in sRGB of the clean floor; left out: the material's.
+        colour: Option<Srgb8> = None, eg "[198, 194, 186]";
+        /// How much of the material's own texture shows.
+        ///
+        /// 0 is flat, 1 as the material has it.
+        texture: f32 = 1.0, in 0.0..=3.0;
+        /// Or an image of the clean floor, repeated.
+        image: Option<PathBuf> = None, eg "\"oak.png\"";
+        /// Width and height of the floor that the image shows.
+        image_size_m: [f64; 2] = [2.0, 2.0], in 0.01..=1000.0, unit "m";
+        /// Of the clean floor; left out: the material's.
+        roughness: Option<f32> = None, in 0.0..=1.0, eg "0.35";
+        /// Where many have walked; left out: the material's.
+        roughness_trodden: Option<f32> = None, in 0.0..=1.0, eg "0.5";
+        /// Side of a tile, material "tile".
+        tile_m: f64 = 0.3, in 0.02..=5.0, unit "m";
+        /// Width of a joint, material "tile".
+        joint_m: f64 = 0.004, in 0.0..=0.05, unit "m";
     }
 }
 
-impl Default for FilmLook {
-    fn default() -> FilmLook {
-        FilmLook { density: 0.46, per_pass: 0.035, spread_m: 0.0, colour: SOIL_DRY }
+options! {
+    /// The film: D = density (1 - exp(-per_pass n)) for n passes, times noise.
+    pub struct FilmLook {
+        /// Optical density of the lane, once complete.
+        density: f32 = 0.46, in 0.0..=3.0;
+        /// Share of what is still missing that one pass adds.
+        per_pass: f32 = 0.035, in 0.0..=1.0;
+        /// How far simulated passes are evened out, for those beside them.
+        ///
+        /// Standard deviation of the Gaussian that evens out the simulated passes.
+        ///
+        /// It stands for the people who were not simulated and walked beside. The deviation of single passes is kept,
+        /// scaled by 1/sqrt(w).
+        spread_m: f64 = 0.0, in 0.0..=0.5, unit "m";
+        /// Colour, sRGB.
+        colour: Srgb8 = SOIL_DRY;
     }
 }
 
-impl Default for IngrainedLook {
-    fn default() -> IngrainedLook {
-        IngrainedLook { density: 0.12, per_pass: 0.001 }
+options! {
+    /// Dirt that has worked its way in: the same law as the film's, at a far lower rate.
+    pub struct IngrainedLook {
+        /// What darkens on long after the film is complete.
+        density: f32 = 0.12, in 0.0..=3.0;
+        /// Share of what is still missing that one pass adds.
+        per_pass: f32 = 0.001, in 0.0..=1.0;
     }
 }
 
-impl Default for PrintsLook {
-    fn default() -> PrintsLook {
-        PrintsLook { soil: 4.5, every_pass: 0.0, colour: SOIL_DRY }
+options! {
+    /// Readable prints.
+    pub struct PrintsLook {
+        /// Factor on the soil of fresh prints.
+        soil: f32 = 4.5, in 0.0..=20.0;
+        /// Optical density that every print paints: the paper's way.
+        every_pass: f32 = 0.0, in 0.0..=3.0;
+        /// Colour, sRGB.
+        colour: Srgb8 = SOIL_DRY;
     }
 }
 
-impl Default for ScuffsLook {
-    fn default() -> ScuffsLook {
-        ScuffsLook { strength: 1.8, colour: RUBBER }
+options! {
+    /// Heel and toe marks.
+    pub struct ScuffsLook {
+        /// Factor on heel and toe marks.
+        strength: f32 = 1.8, in 0.0..=20.0;
+        /// Colour, sRGB.
+        colour: Srgb8 = RUBBER;
     }
 }
 
-impl Default for EdgeLook {
-    fn default() -> EdgeLook {
-        EdgeLook {
-            density: 0.30,
-            reach_m: 0.04,
-            unevenness: 0.45,
-            corner: 1.75,
-            corner_radius_m: 0.10,
-            colour: SOIL_WET,
-        }
+options! {
+    /// The skirting line: D = density exp(-d / reach) at the distance d from the wall, broken up along the wall.
+    pub struct EdgeLook {
+        /// Optical density of the skirting line at the wall.
+        density: f32 = 0.30, in 0.0..=3.0;
+        /// Falls to 1/e in this distance.
+        reach_m: f32 = 0.04, in 0.005..=0.5, unit "m";
+        /// How broken the line is.
+        ///
+        /// Relative unevenness along the wall (standard deviation of the logarithm).
+        unevenness: f32 = 0.45, in 0.0..=1.5;
+        /// How many times as much lies in an inner corner.
+        corner: f32 = 1.75, in 1.0..=4.0;
+        /// How far a corner is felt.
+        corner_radius_m: f32 = 0.10, in 0.01..=0.5, unit "m";
+        /// Colour, sRGB.
+        colour: Srgb8 = SOIL_WET;
     }
 }
 
-impl Default for DustLook {
-    fn default() -> DustLook {
-        DustLook { density: 0.10, reach_m: 0.30, colour: SOIL_DRY }
+options! {
+    /// Dust: D = density exp(-d / reach), walked off as the film grows.
+    pub struct DustLook {
+        /// Optical density of dust at the wall.
+        density: f32 = 0.10, in 0.0..=3.0;
+        /// Falls to 1/e in this distance.
+        reach_m: f32 = 0.30, in 0.02..=3.0, unit "m";
+        /// Colour, sRGB.
+        colour: Srgb8 = SOIL_DRY;
     }
 }
 

@@ -1,31 +1,12 @@
 //! Errors of the marks.
 
-use crate::math::DistributionError;
-
 /// Error in the options of the marks, or in the places of contacts.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MarksError {
-    /// A setting is out of range.
-    #[error("marks.{key} is {value}, allowed is {low} to {high}")]
-    OutOfRange {
-        /// Key in a scenario.
-        key: &'static str,
-        /// The value.
-        value: f64,
-        /// Least value allowed.
-        low: f64,
-        /// Largest value allowed.
-        high: f64,
-    },
-    /// A distribution is invalid.
-    #[error("marks.{key}: {problem}")]
-    Distribution {
-        /// Key in a scenario.
-        key: &'static str,
-        /// The problem.
-        problem: DistributionError,
-    },
+    /// An option is not allowed.
+    #[error(transparent)]
+    Option(#[from] crate::options::OptionError),
     /// The pattern library has no sole.
     #[error("the pattern library holds no sole, which footprints need")]
     NoSole,
@@ -47,7 +28,7 @@ pub enum MarksError {
         /// Name in the scenario.
         name: Option<String>,
         /// Key in a scenario.
-        key: &'static str,
+        key: String,
         /// The problem.
         problem: String,
         /// Hint for the user.
@@ -71,7 +52,7 @@ impl MarksError {
             }
             MarksError::NoSole => Some("list at least one pattern with cause = \"sole\"".to_owned()),
             MarksError::Place { hint, .. } => hint.clone(),
-            MarksError::OutOfRange { .. } | MarksError::Distribution { .. } => None,
+            MarksError::Option(error) => error.hint(),
         }
     }
 }

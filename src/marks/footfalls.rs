@@ -4,7 +4,7 @@ use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 
 use crate::math::{Purpose, Rect, SplitMix64, person_stream};
-use crate::motion::{Frame, People, Person, Walker};
+use crate::motion::{Frame, People, Person, Statures, Walker};
 use crate::patterns::{Cause, PatternLibrary};
 use crate::walls::Walls;
 
@@ -38,6 +38,8 @@ pub struct Footfalls<'a> {
     touched: Vec<Contact>,
     contact_count: u64,
     origins: Vec<Origin>,
+    /// Body heights that are known; all others are as tall as the people are drawn.
+    statures: Statures,
     /// By ascending id.
     #[expect(clippy::vec_box, reason = "they are a kilobyte each and move to a new list at every frame")]
     present: Vec<Box<PresentPerson>>,
@@ -118,6 +120,7 @@ impl<'a> Footfalls<'a> {
             touched: Vec::new(),
             contact_count: 0,
             origins,
+            statures: Statures::default(),
             present: Vec::new(),
             count: 0,
         })
@@ -144,6 +147,12 @@ impl<'a> Footfalls<'a> {
     /// Number of contacts so far.
     pub fn contact_count(&self) -> u64 {
         self.contact_count
+    }
+
+    /// Takes the body height of a person who has not appeared yet, metres, where it is known: hands and shoulders touch
+    /// walls at heights that follow it, soles and steps are as long. 0.5 to 2.5 m; another one is ignored.
+    pub fn know_stature(&mut self, id: u32, stature_m: f64) {
+        self.statures.note(id, stature_m);
     }
 
     /// Takes the next frame and appends the marks found to `out`.
@@ -190,7 +199,7 @@ impl<'a> Footfalls<'a> {
     }
 
     fn arrive(&self, time_s: f64, walker: &Walker) -> PresentPerson {
-        let person = self.people.person(walker.id);
+        let person = self.people.person_of_stature(walker.id, self.statures.of(walker.id));
         let seed = self.people.seed();
         let origin = self.origins.get(walker.id as usize).copied().unwrap_or_default();
         let mut rng = person_stream(seed, person.id, Purpose::Marks);

@@ -5,6 +5,7 @@ use rand_distr::StandardNormal;
 use serde::{Deserialize, Serialize};
 
 use super::round_to_grid;
+use crate::options::{Field, Kind, Leaf, Limits, OptionError, Table, Value};
 
 /// Distribution of a quantity that differs from person to person.
 ///
@@ -30,6 +31,30 @@ pub enum Distribution {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         max: Option<f64>,
     },
+}
+
+impl Distribution {
+    const NORMAL: Table = Table {
+        name: "Normal",
+        parts: &[&[
+            Field::plain("mean", f64::kind, true),
+            Field::plain("sd", f64::kind, true),
+            Field::plain("min", f64::kind, false),
+            Field::plain("max", f64::kind, false),
+        ]],
+    };
+}
+
+impl Leaf for Distribution {
+    fn takes() -> Kind {
+        let words = "a number, a range [low, high], or { mean = .., sd = .. }";
+        Kind::AnyOf(words, vec![Kind::Number, <[f64; 2]>::kind(), Kind::Table(Distribution::NORMAL)])
+    }
+
+    fn check_numbers(&self, limits: Limits) -> Result<(), OptionError> {
+        self.check(limits.low, limits.high)
+            .map_err(|problem| OptionError::Spread { key: String::new(), problem: problem.to_string() })
+    }
 }
 
 /// Error in a distribution.

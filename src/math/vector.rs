@@ -4,6 +4,8 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use serde::{Deserialize, Serialize};
 
+use crate::options::{Kind, Leaf, Value};
+
 /// A point or a displacement in the plan frame: metres, x right, y up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(from = "[f64; 2]", into = "[f64; 2]")]
@@ -17,6 +19,12 @@ pub struct Vec2 {
 /// Makes a [`Vec2`] of its components.
 pub const fn vec2(x: f64, y: f64) -> Vec2 {
     Vec2 { x, y }
+}
+
+impl Leaf for Vec2 {
+    fn takes() -> Kind {
+        <[f64; 2]>::kind()
+    }
 }
 
 impl Vec2 {

@@ -1,4 +1,4 @@
-use super::{Frame, Motion, MotionError, Resampler, Walker};
+use super::{Frame, Motion, MotionError, Resampler, Statures, Walker};
 use crate::math::{Rect, Vec2, vec2};
 
 /// Largest number of positions in an ensemble, people times frames.
@@ -17,6 +17,8 @@ pub struct Ensemble {
     pub ids: Vec<u32>,
     /// Positions in metres, frame by frame, in the order of ids.
     places_m: Vec<Vec2>,
+    /// Body heights of those for whom they are known.
+    statures: Statures,
 }
 
 impl Ensemble {
@@ -27,7 +29,7 @@ impl Ensemble {
     pub fn new(fps: f64, start_s: f64, ids: Vec<u32>, places_m: Vec<Vec2>) -> Ensemble {
         let whole = if ids.is_empty() { places_m.is_empty() } else { places_m.len().is_multiple_of(ids.len()) };
         assert!(whole, "{} positions do not fill whole frames of {} people", places_m.len(), ids.len());
-        Ensemble { fps, start_s, ids, places_m }
+        Ensemble { fps, start_s, ids, places_m, statures: Statures::default() }
     }
 
     /// Reads the people of a motion who are present throughout `[from_s, to_s]`, at `fps` frames per second.
@@ -68,7 +70,17 @@ impl Ensemble {
         let moments = stayers.moments;
         let places_m =
             (0..moments).flat_map(|moment| stayers.columns_m.iter().map(move |column| column[moment])).collect();
-        Ok(Ensemble { fps, start_s, ids: stayers.ids, places_m })
+        Ok(Ensemble::new(fps, start_s, stayers.ids, places_m))
+    }
+
+    /// The same with body heights that are known.
+    pub fn with_statures(self, statures: Statures) -> Ensemble {
+        Ensemble { statures, ..self }
+    }
+
+    /// Body heights of those for whom they are known.
+    pub fn statures(&self) -> &Statures {
+        &self.statures
     }
 
     /// Number of people.

@@ -1,50 +1,44 @@
 use rand::RngExt;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::math::{Distribution, Purpose, person_stream};
+use crate::options::options;
 
-/// Distribution of bodies and gaits in a crowd; lengths in metres.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct BodyOptions {
-    /// Share of men among adults, 0 to 1.
-    pub men: f64,
-    /// Share of children in the crowd, 0 to 1.
-    pub children: f64,
-    /// Stature of men (ANSUR II: 1.756 +- 0.069).
-    pub stature_men: Distribution,
-    /// Stature of women (ANSUR II: 1.628 +- 0.064).
-    pub stature_women: Distribution,
-    /// Stature of children.
-    pub stature_children: Distribution,
-    /// Share of people who carry a bag, 0 to 1.
-    pub bags: f64,
-    /// Individual step length, as in the paper: taken in full from 2 m/s, shorter below.
-    ///
-    /// `None`: step length follows speed and stature.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub step_length: Option<Distribution>,
-    /// Distance between the lines of the left and the right foot's middles, of men who walk freely; women's is 0.88 of
-    /// it (Murray 1964, 1970: 0.081 and 0.071).
-    pub step_width: Distribution,
-    /// Angle of the foot outward from the walking direction, degrees, of men; women's is 0.86 of it (Murray 1964, 1970: 7 and 6;
-    /// Morton 1932: most feet 5 to 10).
-    pub toe_out_deg: Distribution,
-}
-
-impl Default for BodyOptions {
-    fn default() -> BodyOptions {
-        BodyOptions {
-            men: 0.5,
-            children: 0.03,
-            stature_men: Distribution::normal(1.756, 0.069, 1.5, 2.05),
-            stature_women: Distribution::normal(1.628, 0.064, 1.4, 1.9),
-            stature_children: Distribution::Uniform([1.1, 1.45]),
-            bags: 0.6,
-            step_length: None,
-            step_width: Distribution::normal(0.081, 0.025, 0.02, 0.16),
-            toe_out_deg: Distribution::normal(7.0, 2.0, 0.0, 14.0),
-        }
+options! {
+    /// Distribution of bodies and gaits in a crowd; lengths in metres.
+    pub struct BodyOptions {
+        /// Share of men among the grown-ups.
+        men: f64 = 0.5, in 0.0..=1.0;
+        /// Share of children among all.
+        children: f64 = 0.03, in 0.0..=1.0;
+        /// Body height.
+        ///
+        /// Stature of men (ANSUR II: 1.756 +- 0.069).
+        stature_men: Distribution = Distribution::normal(1.756, 0.069, 1.5, 2.05), in 0.5..=2.5, unit "m";
+        /// Body height.
+        ///
+        /// Stature of women (ANSUR II: 1.628 +- 0.064).
+        stature_women: Distribution = Distribution::normal(1.628, 0.064, 1.4, 1.9), in 0.5..=2.5, unit "m";
+        /// Body height.
+        stature_children: Distribution = Distribution::Uniform([1.1, 1.45]), in 0.5..=2.5, unit "m";
+        /// Share of people who carry a bag.
+        bags: f64 = 0.6, in 0.0..=1.0;
+        /// A fixed step length; left out: it follows speed and stature.
+        ///
+        /// Individual step length, as in the paper: taken in full from 2 m/s, shorter below.
+        ///
+        /// `None`: step length follows speed and stature.
+        step_length: Option<Distribution> = None, in 0.15..=2.0, unit "m", eg "0.7";
+        /// Between the lines of a man's feet, walking freely; women's: 0.88 of it.
+        ///
+        /// Distance between the lines of the left and the right foot's middles, of men who walk freely; women's is 0.88
+        /// of it (Murray 1964, 1970: 0.081 and 0.071).
+        step_width: Distribution = Distribution::normal(0.081, 0.025, 0.02, 0.16), in 0.0..=0.5, unit "m";
+        /// How far a man's toes point outward; women's: 0.86 of it.
+        ///
+        /// Angle of the foot outward from the walking direction, degrees, of men; women's is 0.86 of it (Murray 1964,
+        /// 1970: 7 and 6; Morton 1932: most feet 5 to 10).
+        toe_out_deg: Distribution = Distribution::normal(7.0, 2.0, 0.0, 14.0), in -45.0..=45.0, unit "degrees";
     }
 }
 
@@ -179,6 +173,11 @@ impl People {
 
     /// The person with an id; the same for every call.
     pub fn person(&self, id: u32) -> Person {
+        self.person_of_stature(id, None)
+    }
+
+    /// The person with an id, whose body height is known, in metres; breadths, feet and steps follow it.
+    pub fn person_of_stature(&self, id: u32, known_m: Option<f64>) -> Person {
         let rng = &mut person_stream(self.seed, id, Purpose::Traits);
         let options = &self.options;
         // Every trait is drawn for every person, used or not, so that one option never shifts the others.
@@ -191,7 +190,7 @@ impl People {
             4..7 => CarrySide::Left,
             _ => CarrySide::Back,
         };
-        let stature_m = if child { statures[2] } else { statures[usize::from(!man)] };
+        let stature_m = known_m.unwrap_or(if child { statures[2] } else { statures[usize::from(!man)] });
         let (shoulder, depth, foot) = if man { (0.291, 0.145, 0.154) } else { (0.277, 0.152, 0.151) };
         let clearance_m = 0.02 + 0.01 * rng.random::<f64>();
         let spread = Distribution::normal(1.0, STEP_SPREAD, 0.85, 1.15).draw(rng);

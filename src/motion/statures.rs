@@ -21,3 +21,12 @@ impl Statures {
         }
     }
 }
+
+impl FromIterator<(u32, f64)> for Statures {
+    /// Of each id the first height in metres that a person may have.
+    fn from_iter<I: IntoIterator<Item = (u32, f64)>>(pairs: I) -> Statures {
+        let mut statures = Statures::default();
+        pairs.into_iter().for_each(|(id, height_m)| statures.note(id, height_m));
+        statures
+    }
+}

@@ -1,6 +1,9 @@
 //! Converts pixels of any format to lightness, and finds wall pixels.
 
+use std::ops::Range;
+
 use image::DynamicImage;
+use rayon::prelude::*;
 
 use super::colour::{Colour, is_saturated, lightness_against, luma};
 use super::ros_map::{Cell, Greys};
@@ -31,8 +34,8 @@ pub(super) struct Drawing {
     pub(super) looks_like_map: bool,
 }
 
-/// Converts an image with the greys of a ROS map.
-pub(super) fn of_map(image: &DynamicImage, greys: &Greys, options: &PlanOptions) -> Drawing {
+/// Reads an image by the greys of a ROS map.
+pub(super) fn of_map(image: DynamicImage, greys: &Greys, options: &PlanOptions) -> Drawing {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let policy = match options.transparent {
         TransparentPolicy::Auto => None,
@@ -51,7 +54,8 @@ pub(super) fn of_map(image: &DynamicImage, greys: &Greys, options: &PlanOptions)
             Cell::Unknown => options.unknown == UnknownPolicy::Wall,
         }
     };
-    let dark: Vec<u8> = map_pixels(image, |pixel| u8::from(is_dark(pixel)));
+    let dark: Vec<u8> = map_pixels(&image, |pixel| u8::from(is_dark(pixel)));
+    drop(image);
     let lightness = dark.iter().map(|&d| (1 - d) * 255).collect();
     Drawing {
         width,
@@ -65,16 +69,18 @@ pub(super) fn of_map(image: &DynamicImage, greys: &Greys, options: &PlanOptions)
     }
 }
 
-/// Converts a plain image: white is floor, black is wall, saturated colour is annotation.
-pub(super) fn of_image(image: &DynamicImage, options: &PlanOptions) -> Drawing {
+/// Reads a plain image: white is floor, black is wall, saturated colour is annotation.
+pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> Drawing {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let coloured = if image.color().has_color() {
-        map_pixels(image, |pixel| u8::from(is_annotation(pixel, options)))
+        map_pixels(&image, |pixel| u8::from(is_annotation(pixel, options)))
     } else {
         Vec::new()
     };
     let coloured = if coloured.contains(&1) { coloured } else { Vec::new() };
-    let mut lightness = map_pixels(image, |pixel| lightness_of(pixel, options));
+    let mut lightness = map_pixels(&image, |pixel| lightness_of(pixel, options));
+    // Of large plans it is the most memory.
+    drop(image);
     let looks_like_map = options.threshold.is_none() && coloured.is_empty() && has_map_greys(&lightness);
     // Unless unknown is floor, a robot's map is wall up to the grey of unknown cells.
     let usual =
@@ -90,20 +96,39 @@ pub(super) fn of_image(image: &DynamicImage, options: &PlanOptions) -> Drawing {
     Drawing { width, height, lightness, dark, coloured, threshold, scanned: looks_like_map, looks_like_map }
 }
 
-/// Computes one byte per pixel, without converting grey images to colour first.
-fn map_pixels(image: &DynamicImage, of: impl Fn([u8; 4]) -> u8) -> Vec<u8> {
+/// One byte per pixel; grey images are not blown up to colour first.
+fn map_pixels(image: &DynamicImage, of: impl Fn([u8; 4]) -> u8 + Sync) -> Vec<u8> {
     match image {
         DynamicImage::ImageLuma8(grey) => {
             let table: Vec<u8> = (0..=255).map(|v| of([v, v, v, 255])).collect();
-            grey.as_raw().iter().map(|&v| table[usize::from(v)]).collect()
+            grey.as_raw().par_iter().map(|&v| table[usize::from(v)]).collect()
         }
-        DynamicImage::ImageRgb8(rgb) => rgb.pixels().map(|p| of([p[0], p[1], p[2], 255])).collect(),
-        DynamicImage::ImageRgba8(rgba) => rgba.pixels().map(|p| of(p.0)).collect(),
-        other => other.to_rgba8().pixels().map(|p| of(p.0)).collect(),
+        DynamicImage::ImageRgb8(rgb) => map_colours(rgb.as_raw(), |[r, g, b]| of([r, g, b, 255])),
+        DynamicImage::ImageRgba8(rgba) => map_colours(rgba.as_raw(), of),
+        other => map_colours(other.to_rgba8().as_raw(), of),
     }
 }
 
-/// Composites a pixel over white paper.
+/// One byte per pixel of `N` bytes. Most pixels are as the one before, and are not worked out again.
+fn map_colours<const N: usize>(bytes: &[u8], of: impl Fn([u8; N]) -> u8 + Sync) -> Vec<u8> {
+    const TOGETHER: usize = 1 << 16;
+    let mut mapped = vec![0; bytes.len() / N];
+    mapped.par_chunks_mut(TOGETHER).zip(bytes.par_chunks(TOGETHER * N)).for_each(|(mapped, bytes)| {
+        let mut last = ([0; N], of([0; N]));
+        for (mapped, pixel) in mapped.iter_mut().zip(bytes.as_chunks().0) {
+            if *pixel != last.0 {
+                last = (*pixel, of(*pixel));
+            }
+            // What is 0 already takes no memory until it is written.
+            if last.1 != 0 {
+                *mapped = last.1;
+            }
+        }
+    });
+    mapped
+}
+
+/// A pixel laid on white paper.
 fn on_paper([r, g, b, a]: [u8; 4]) -> [u8; 3] {
     let alpha = u32::from(a);
     [r, g, b].map(|v| ((u32::from(v) * alpha + 255 * (255 - alpha) + 127) / 255) as u8)
@@ -197,35 +222,47 @@ fn stretch(width: usize, lightness: &mut [u8], dark: &[u8]) {
     }
 }
 
-/// Closes the gaps that a threshold leaves in anti-aliased lines one pixel wide.
+/// Darkness of the first pixel of a torn pair, of 255.
+const PARTLY_DARK: Range<u32> = 64..204;
+
+/// Closes the gaps that a threshold tears into anti-aliased lines one pixel wide.
 ///
 /// Where such a line moves from one row of pixels to the next, both pixels are half covered and may both be lighter
 /// than the threshold. The darker of the two becomes wall if the line continues on both sides.
 fn close_thin_lines(width: usize, lightness: &[u8], dark: &mut [u8]) {
     let height = lightness.len() / width;
-    let mut closed = Vec::new();
-    // Lines nearer to x, then lines nearer to y: `at(along, across)` is a pixel.
-    torn_pairs(width, height, |x, y| y * width + x, lightness, dark, &mut closed);
-    torn_pairs(height, width, |y, x| y * width + x, lightness, dark, &mut closed);
+    // Most rows and columns of most plans are black and white, and have no such pair.
+    let (mut rows, mut columns) = (vec![false; height], vec![false; width]);
+    let pixels = lightness.chunks_exact(width).zip(dark.chunks_exact(width));
+    for (in_row, (lightness, dark)) in rows.iter_mut().zip(pixels) {
+        for ((in_column, &l), &d) in columns.iter_mut().zip(lightness).zip(dark) {
+            let may_be_torn = d == 0 && PARTLY_DARK.contains(&(255 - u32::from(l)));
+            *in_column |= may_be_torn;
+            *in_row |= may_be_torn;
+        }
+    }
+    // Lines that are nearer to x, then those nearer to y: `at(along, across)` is a pixel.
+    let mut closed = torn_pairs(width, &rows, |x, y| y * width + x, lightness, dark);
+    closed.extend(torn_pairs(height, &columns, |y, x| y * width + x, lightness, dark));
     for pixel in closed {
         dark[pixel] = 1;
     }
 }
 
-/// Finds pixels that close gaps of thin lines along the first coordinate of `at`.
+/// What closes the gaps of thin lines that run along the first coordinate of `at`. `may_be_torn` says of each second
+/// coordinate whether a pair may begin there.
 fn torn_pairs(
     length: usize,
-    breadth: usize,
-    at: impl Fn(usize, usize) -> usize,
+    may_be_torn: &[bool],
+    at: impl Fn(usize, usize) -> usize + Sync,
     lightness: &[u8],
     dark: &[u8],
-    closed: &mut Vec<usize>,
-) {
+) -> Vec<usize> {
     let darkness = |a: usize, c: usize| 255 - u32::from(lightness[at(a, c)]);
     let is_torn = |a: usize, c: usize| {
         let (first, second) = (darkness(a, c), darkness(a, c + 1));
-        // Each is partly dark, together they cover nearly one pixel, and both neighbours are light.
-        (64..204).contains(&first)
+        // Each partly dark, together nearly one pixel, and nothing else beside them.
+        PARTLY_DARK.contains(&first)
             && second >= 64
             && first + second >= 204
             && dark[at(a, c)] == 0
@@ -233,7 +270,8 @@ fn torn_pairs(
             && darkness(a, c - 1) < 64
             && darkness(a, c + 2) < 64
     };
-    for c in 1..breadth.saturating_sub(2) {
+    let closed_in = |c: usize| {
+        let mut closed = Vec::new();
         let goes_on = |a: usize| (c - 1..=c + 2).any(|c| dark[at(a, c)] != 0);
         let mut a = 0;
         while a < length {
@@ -248,7 +286,10 @@ fn torn_pairs(
             }
             a += gap + 1;
         }
-    }
+        closed
+    };
+    let last = may_be_torn.len().saturating_sub(2);
+    (1..last).into_par_iter().filter(|&c| may_be_torn[c]).flat_map_iter(closed_in).collect()
 }
 
 #[cfg(test)]
@@ -258,7 +299,7 @@ mod tests {
 
     fn rgb(pixels: &[[u8; 3]], options: &PlanOptions) -> Vec<u8> {
         let image = RgbImage::from_vec(pixels.len() as u32, 1, pixels.concat()).unwrap();
-        of_image(&DynamicImage::ImageRgb8(image), options).dark
+        of_image(DynamicImage::ImageRgb8(image), options).dark
     }
 
     #[test]
@@ -279,7 +320,7 @@ mod tests {
         let image = GrayImage::from_vec(256, 1, (0..=255).collect()).unwrap();
         for threshold in [1, 100, 128, 255] {
             let options = PlanOptions { threshold: Some(threshold), ..PlanOptions::default() };
-            let walls = of_image(&DynamicImage::ImageLuma8(image.clone()), &options).dark;
+            let walls = of_image(DynamicImage::ImageLuma8(image.clone()), &options).dark;
             assert_eq!(walls.iter().filter(|&&d| d == 1).count(), usize::from(threshold));
         }
     }
@@ -288,18 +329,18 @@ mod tests {
     fn transparent_is_paper_or_what_the_setting_says() {
         let image = RgbaImage::from_vec(3, 1, vec![0, 0, 0, 0, 0, 0, 0, 255, 255, 255, 255, 255]).unwrap();
         let image = DynamicImage::ImageRgba8(image);
-        let dark = |transparent| of_image(&image, &PlanOptions { transparent, ..PlanOptions::default() }).dark;
+        let dark = |transparent| of_image(image.clone(), &PlanOptions { transparent, ..PlanOptions::default() }).dark;
         assert_eq!(dark(TransparentPolicy::Auto), [0, 1, 0]);
         assert_eq!(dark(TransparentPolicy::Wall), [1, 1, 0]);
         assert_eq!(dark(TransparentPolicy::Floor), [0, 1, 0]);
         let greys = Greys { mode: Default::default(), negate: false, occupied_at: 0.65, free_at: 0.196 };
-        assert_eq!(of_map(&image, &greys, &PlanOptions::default()).dark, [1, 1, 0]);
+        assert_eq!(of_map(image, &greys, &PlanOptions::default()).dark, [1, 1, 0]);
     }
 
     #[test]
     fn sixteen_bits_are_read_as_eight() {
         let image = image::ImageBuffer::from_vec(2, 1, vec![0x7fffu16, 0x80ff]).unwrap();
-        assert_eq!(of_image(&DynamicImage::ImageLuma16(image), &PlanOptions::default()).dark, [1, 0]);
+        assert_eq!(of_image(DynamicImage::ImageLuma16(image), &PlanOptions::default()).dark, [1, 0]);
     }
 
     #[test]
@@ -317,7 +358,7 @@ mod tests {
     fn a_robots_map_without_its_yaml_is_recognised() {
         let pixels = [vec![254; 60], vec![205; 30], vec![0; 10]].concat();
         let image = DynamicImage::ImageLuma8(GrayImage::from_vec(100, 1, pixels).unwrap());
-        let drawing = of_image(&image, &PlanOptions::default());
+        let drawing = of_image(image.clone(), &PlanOptions::default());
         assert!(drawing.looks_like_map);
         assert_eq!(drawing.dark.iter().filter(|&&d| d == 1).count(), 40);
     }
@@ -332,7 +373,7 @@ mod tests {
         }
         assert!(pixels[10] >= 128 && pixels[17] >= 128);
         let image = DynamicImage::ImageLuma8(GrayImage::from_vec(7, 5, pixels).unwrap());
-        let dark = of_image(&image, &PlanOptions::default()).dark;
+        let dark = of_image(image.clone(), &PlanOptions::default()).dark;
         assert!((0..7).all(|x| dark[7 + x] + dark[14 + x] > 0));
     }
 }

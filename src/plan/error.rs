@@ -153,18 +153,9 @@ pub enum PlanError {
         /// Height, metres.
         height_m: f64,
     },
-    /// A setting is out of range.
-    #[error("plan.{key} is {value}; it must lie between {low} and {high}")]
-    OutOfRange {
-        /// Key in a scenario.
-        key: &'static str,
-        /// Its value.
-        value: f64,
-        /// Least value allowed.
-        low: f64,
-        /// Largest value allowed.
-        high: f64,
-    },
+    /// An option is not allowed.
+    #[error(transparent)]
+    Option(#[from] crate::options::OptionError),
     /// No pixel is floor.
     #[error("the plan has no floor: none of its {pixels} pixels is as light as the threshold, {threshold} of 255")]
     NoFloor {

@@ -1,7 +1,8 @@
 use serde::{Deserialize, Serialize};
 
-use super::{Colour, FloorPlan, PlanError};
+use super::{Colour, FloorPlan};
 use crate::math::{Vec2, vec2};
+use crate::options::{Field, Kind, Leaf, OptionError, Options, Table, Value, names, options};
 
 /// A point as a scenario writes it: `[x, y]` in metres, or `{ px = [x, y] }` in pixels from the image's top left.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,24 +27,45 @@ impl PlanPoint {
     }
 }
 
-/// A known distance in the image, from which the scale follows.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TwoPoints {
-    /// One end; in pixels, because metres are not known yet.
-    pub from: PixelPoint,
-    /// The other end.
-    pub to: PixelPoint,
-    /// Distance between them, metres.
-    pub metres: f64,
+impl PlanPoint {
+    const PIXELS: Table = Table { name: "Pixels", parts: &[&[Field::plain("px", <[f64; 2]>::kind, true)]] };
 }
 
-/// A place in the image: `{ px = [x, y] }`, pixels from the top left, y down.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PixelPoint {
-    /// `[x, y]`.
-    pub px: [f64; 2],
+impl Leaf for PlanPoint {
+    fn takes() -> Kind {
+        let words = "[x, y] in metres or { px = [x, y] } in pixels";
+        Kind::AnyOf(words, vec![<[f64; 2]>::kind(), Kind::Table(PlanPoint::PIXELS)])
+    }
+}
+
+impl Leaf for Colour {
+    fn takes() -> Kind {
+        Kind::AnyOf("a colour as \"#c03030\"", vec![Kind::Text])
+    }
+}
+
+names!(TransparentPolicy, UnknownPolicy);
+
+options! {
+    /// A known distance in the image, from which the scale follows.
+    #[derive(Copy)]
+    pub struct TwoPoints {
+        /// One end; in pixels, because metres are not known yet.
+        from: PixelPoint = PixelPoint::default(), eg "{ px = [120, 40] }", required true;
+        /// The other end.
+        to: PixelPoint = PixelPoint::default(), eg "{ px = [480, 40] }", required true;
+        /// Distance between them.
+        metres: f64 = 0.0, unit "m", required true;
+    }
+}
+
+options! {
+    /// A place in the image: `{ px = [x, y] }`, pixels from the top left, y down.
+    #[derive(Copy)]
+    pub struct PixelPoint {
+        /// `[x, y]`.
+        px: [f64; 2] = [0.0; 2], required true;
+    }
 }
 
 /// Meaning of transparent pixels.
@@ -72,59 +94,37 @@ pub enum UnknownPolicy {
     Floor,
 }
 
-/// Options of reading a plan.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct PlanOptions {
-    /// Side of a pixel, metres. Overrides a ROS map's.
-    pub metres_per_pixel: Option<f64>,
-    /// Scale by two points and their distance, instead of `metres_per_pixel`.
-    pub scale: Option<TwoPoints>,
-    /// Lightness, 0 to 255, at which wall ends and floor begins.
-    pub threshold: Option<u8>,
-    /// Colours (`"#c03030"`) that are wall although saturated colour is annotation otherwise.
-    pub wall_colours: Vec<Colour>,
-    /// Meaning of a ROS map's unknown pixels.
-    pub unknown: UnknownPolicy,
-    /// Meaning of transparent pixels.
-    pub transparent: TransparentPolicy,
-    /// Specks whose larger side is below this are dropped, metres: black ones in the floor, white ones in walls.
-    pub speck_m: f64,
-    /// Whether lettering, dashed lines and the outlines of coloured dots are dropped from drawings.
-    pub drop_annotation: bool,
-    /// Points of the floor: only the regions that hold them are floor. Empty: regions are chosen automatically.
-    pub floor: Vec<PlanPoint>,
-    /// Width of the narrowest person, metres, 0 to 5; narrower passages are unreachable.
-    pub narrowest_m: f64,
-}
-
-impl Default for PlanOptions {
-    fn default() -> PlanOptions {
-        PlanOptions {
-            metres_per_pixel: None,
-            scale: None,
-            threshold: None,
-            wall_colours: Vec::new(),
-            unknown: UnknownPolicy::default(),
-            transparent: TransparentPolicy::default(),
-            speck_m: 0.15,
-            drop_annotation: true,
-            floor: Vec::new(),
-            narrowest_m: 0.4,
-        }
+options! {
+    /// Options of reading a plan.
+    pub struct PlanOptions {
+        /// Side of a pixel.
+        metres_per_pixel: Option<f64> = None, in 0.0005..=10.0, unit "m", eg "0.05";
+        /// Or two points and how far apart they are.
+        scale: Option<TwoPoints> = None, eg "{ from = { px = [120, 40] }, to = { px = [480, 40] }, metres = 36.0 }";
+        /// Lightness at which wall ends and floor begins.
+        threshold: Option<u8> = None, in 1.0..=255.0, eg "128";
+        /// Saturated colours that are wall, as "#c03030"; all others are notes on the floor.
+        ///
+        /// Colours (`"#c03030"`) that are wall although saturated colour is annotation otherwise.
+        wall_colours: Vec<Colour> = Vec::new();
+        /// A ROS map's unknown pixels: "wall" or "floor".
+        unknown: UnknownPolicy = UnknownPolicy::default();
+        /// Transparent pixels: "auto", "paper", "wall" or "floor".
+        transparent: TransparentPolicy = TransparentPolicy::default();
+        /// Smaller specks are dropped as noise.
+        speck_m: f64 = 0.15, in 0.0..=10.0, unit "m";
+        /// Whether lettering, dashed lines and the outlines of coloured dots are dropped.
+        drop_annotation: bool = true;
+        /// Points in the floor, [x, y] in metres or { px = [x, y] }; empty: found.
+        floor: Vec<PlanPoint> = Vec::new();
+        /// Width of the narrowest person: nobody goes where they cannot pass.
+        narrowest_m: f64 = 0.4, in 0.1..=2.0, unit "m";
     }
 }
 
 impl PlanOptions {
     /// Checks all ranges.
-    pub(super) fn check(&self) -> Result<(), PlanError> {
-        for (key, value, low, high) in
-            [("speck_m", self.speck_m, 0.0, 10.0), ("narrowest_m", self.narrowest_m, 0.0, 5.0)]
-        {
-            if !(low..=high).contains(&value) {
-                return Err(PlanError::OutOfRange { key, value, low, high });
-            }
-        }
-        Ok(())
+    pub(super) fn check(&self) -> Result<(), OptionError> {
+        self.check_ranges().map_err(|error| error.within("plan"))
     }
 }

@@ -30,10 +30,9 @@ pub fn read(path: &Path, options: &PlanOptions) -> Result<FloorPlan, PlanError> 
     let image = image_file::decode(map.as_ref().map_or(path, |m| &m.image))?;
     scale::check_size(image.width(), image.height(), metres_per_pixel)?;
     let drawing = match &map {
-        Some(map) if options.threshold.is_none() => drawing::of_map(&image, &map.greys, options),
-        _ => drawing::of_image(&image, options),
+        Some(map) if options.threshold.is_none() => drawing::of_map(image, &map.greys, options),
+        _ => drawing::of_image(image, options),
     };
-    drop(image);
     let mut warnings = Vec::new();
     if assumed {
         warnings.push(assumed_scale(path, metres_per_pixel));

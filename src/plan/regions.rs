@@ -47,7 +47,7 @@ pub(super) fn choose(plan: &mut FloorPlan, narrowest_m: f64, seeds: &[Vec2]) -> 
         }
     }
     let roles = if seeds.is_empty() { roles_by_shape(&spaces) } else { roles_by_seeds(plan, &spaces, seeds)? };
-    plan.regions = list(plan, &spaces, &roles, &white, paper.as_deref());
+    plan.regions = list(plan, &spaces, &roles, &mut white, paper.as_deref());
     let is_floor = |n: u16| n > 0 && roles[usize::from(n) - 1] == RegionRole::Floor;
     white.iter_mut().zip(&spaces.label).for_each(|(pixel, &n)| *pixel = u8::from(is_floor(n)));
     plan.floor = white;
@@ -56,10 +56,10 @@ pub(super) fn choose(plan: &mut FloorPlan, narrowest_m: f64, seeds: &[Vec2]) -> 
 
 /// Lists the 4-connected regions of a floor mask, largest first, all of them floor.
 pub(super) fn of_mask(plan: &FloorPlan) -> Vec<Region> {
-    let white = plan.floor.clone();
+    let mut white = plan.floor.clone();
     let spaces = split(&white, plan.width_px as usize, 1.0, 1.0);
     let roles = vec![RegionRole::Floor; spaces.all.len()];
-    list(plan, &spaces, &roles, &white, None)
+    list(plan, &spaces, &roles, &mut white, None)
 }
 
 /// Finds the paper around a building, if doors connect the building to it.
@@ -170,8 +170,14 @@ fn nearest_space(plan: &FloorPlan, spaces: &Spaces, p: Vec2) -> Option<Vec2> {
         .min_by(|a, b| (*a - p).length_squared().total_cmp(&(*b - p).length_squared()))
 }
 
-/// Lists all regions, largest first.
-fn list(plan: &FloorPlan, spaces: &Spaces, roles: &[RegionRole], white: &[u8], paper: Option<&[u8]>) -> Vec<Region> {
+/// All regions, largest first. Leaves of `white` what belongs to no space.
+fn list(
+    plan: &FloorPlan,
+    spaces: &Spaces,
+    roles: &[RegionRole],
+    white: &mut [u8],
+    paper: Option<&[u8]>,
+) -> Vec<Region> {
     let width = plan.width_px as usize;
     let pixel_m2 = plan.metres_per_pixel * plan.metres_per_pixel;
     let region = |area: usize, inside: usize, role: RegionRole| Region {
@@ -181,9 +187,9 @@ fn list(plan: &FloorPlan, spaces: &Spaces, roles: &[RegionRole], white: &[u8], p
     };
     let deepest = depths::deepest(white, width, &spaces.label, spaces.all.len());
     let mut regions: Vec<Region> = (0..roles.len()).map(|k| region(spaces.all[k].area, deepest[k], roles[k])).collect();
-    // White too narrow for a person, and the paper.
-    let rest: Vec<u8> = spaces.label.iter().zip(white).map(|(&n, &w)| u8::from(n == 0 && w != 0)).collect();
-    for (mask, role) in [(Some(rest.as_slice()), RegionRole::Unreached), (paper, RegionRole::Outside)] {
+    // White in which nobody can stand, and the paper.
+    white.iter_mut().zip(&spaces.label).for_each(|(white, &n)| *white = u8::from(n == 0 && *white != 0));
+    for (mask, role) in [(Some(&*white), RegionRole::Unreached), (paper, RegionRole::Outside)] {
         let Some(mask) = mask else { continue };
         let pieces = Components::of(mask, width, 1, Neighbours::Four);
         for piece in pieces.all.iter().filter(|p| p.area as f64 * pixel_m2 >= LEAST_LISTED_M2) {

@@ -1,4 +1,5 @@
 use crate::math::Vec2;
+use crate::options::OptionError;
 use crate::progress::Interrupted;
 
 /// Errors of the routes stage.
@@ -71,19 +72,17 @@ pub enum RoutesError {
         /// The stop.
         stop: String,
         /// The key, as a scenario writes it.
-        key: &'static str,
+        key: String,
         /// The problem.
         problem: String,
     },
-    /// A timetable is invalid.
-    #[error("route \"{route}\": arrivals: {key}: {problem}")]
+    /// An invalid timetable.
+    #[error("route \"{route}\": arrivals: {error}")]
     Timetable {
         /// The route.
         route: String,
-        /// The key, as a scenario writes it.
-        key: &'static str,
-        /// The problem.
-        problem: String,
+        /// The key and the problem.
+        error: OptionError,
     },
     /// A stop has no walkable floor.
     #[error(

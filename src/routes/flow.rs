@@ -112,7 +112,7 @@ fn tightened(sheet: &ConductiveSheet, loose: &[f64], potential: &[f64], cell_m: 
     let slopes = sheet.slopes(potential);
     let currents: Vec<f64> = slopes.iter().zip(loose).map(|(slope, conducts)| slope * conducts).collect();
     let side =
-        [1, 2, 4, 8, 16].into_iter().rfind(|&side| f64::from(side) * cell_m < std::f64::consts::SQRT_2 * AROUND_M);
+        [1u32, 2, 4, 8, 16].into_iter().rfind(|&side| f64::from(side) * cell_m < std::f64::consts::SQRT_2 * AROUND_M);
     let means = sheet.means_around(&slopes, &currents, side.unwrap_or(1) as usize);
     let left = |slope: f64, mean: f64| {
         let share = if mean > 0.0 { slope / mean } else { 1.0 };

@@ -223,7 +223,7 @@ fn draft(
         let stop = find_stop(stops, &name, stop)?.clone();
         if !(0.0..=1.0).contains(&share) {
             let problem = format!("the share {share} of route \"{name}\" is not within 0 to 1");
-            return Err(RoutesError::StopValue { stop: stop.name, key: "share", problem });
+            return Err(RoutesError::StopValue { stop: stop.name, key: "share".to_string(), problem });
         }
         match stop.cells(ground).iter().find(|&&cell| Some(ground.part(cell)) != part) {
             Some(_) => {
@@ -246,8 +246,8 @@ fn draft(
     if start == goal && via.is_empty() {
         return Err(RoutesError::NoLength { route: name, place: names[0].clone() });
     }
-    if let Some((key, problem)) = request.arrivals.as_ref().and_then(|arrivals| arrivals.check().err()) {
-        return Err(RoutesError::Timetable { route: name, key, problem });
+    if let Some(error) = request.arrivals.as_ref().and_then(|arrivals| arrivals.check().err()) {
+        return Err(RoutesError::Timetable { route: name, error });
     }
     let arrivals = request.arrivals.clone();
     Ok(RouteDraft { name, place_names: names, start, via, stops, arrivals, goal, share: request.share })

@@ -1,42 +1,35 @@
 use serde::{Deserialize, Serialize};
 
 use super::{StopRequest, Timetable};
+use crate::options::{Field, Kind, Leaf, Table, Value, options};
 use crate::plan::PlanPoint;
 
-/// Requested routes and stops; without routes, the default ones join the widest openings.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct RoutesOptions {
-    /// Requested routes; empty for the default routes.
-    pub routes: Vec<RouteRequest>,
-    /// Stops, which routes refer to by name.
-    pub stops: Vec<StopRequest>,
+options! {
+    /// Requested routes and stops. Without any route, routes run between the widest openings.
+    pub struct RoutesOptions {
+        /// Requested routes; empty for the default routes.
+        routes: Vec<RouteRequest> = Vec::new();
+        /// Places where people may stop; routes name them.
+        stops: Vec<StopRequest> = Vec::new();
+    }
 }
 
-/// A route in a scenario.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct RouteRequest {
-    /// Name; default: from the names of its places.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub name: Option<String>,
-    /// Place where people appear.
-    pub from: PlaceRequest,
-    /// Place where people vanish.
-    pub to: PlaceRequest,
-    /// Via places and stops, in order.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub via: Vec<ViaRequest>,
-    /// Share of all people on this route, relative to the other routes' shares; at least 0.
-    #[serde(default = "one")]
-    pub share: f64,
-    /// Timetable of its people; default: that of the whole crowd.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub arrivals: Option<Timetable>,
-}
-
-fn one() -> f64 {
-    1.0
+options! {
+    /// A route as a scenario writes it.
+    pub struct RouteRequest {
+        /// What to call it.
+        name: Option<String> = None, eg "\"west to north\"";
+        /// An opening's name, [x, y] in metres, { px = [x, y] }, or an area [[x0, y0], [x1, y1]].
+        from: PlaceRequest = PlaceRequest::Opening(String::new()), eg "\"west\"", required true;
+        /// As from.
+        to: PlaceRequest = PlaceRequest::Opening(String::new()), eg "\"north\"", required true;
+        /// Places to pass (each as from) and stops, in order; of a stop its name, or which share stops there.
+        via: Vec<ViaRequest> = Vec::new(), eg "[\"ticket office\", { stop = \"bench\", share = 0.2 }]";
+        /// How many take it, relative to the other routes.
+        share: f64 = 1.0, in 1e-6..=1e6;
+        /// When its people come, as [crowd.arrivals]; left out: as all others.
+        arrivals: Option<Timetable> = None, eg "{ kind = \"bursts\", every_s = 360, people = 120, spread_s = 45 }";
+    }
 }
 
 /// A place in a scenario: an opening's name, a point, or an area.
@@ -71,8 +64,35 @@ pub struct SharedStop {
     /// The stop's name.
     pub stop: String,
     /// Share of the route's people who stop, 0 to 1.
-    #[serde(default = "one")]
+    #[serde(default = "everybody")]
     pub share: f64,
+}
+
+fn everybody() -> f64 {
+    1.0
+}
+
+impl Leaf for PlaceRequest {
+    fn takes() -> Kind {
+        let area = Kind::List(Box::new(<[f64; 2]>::kind()), Some(2));
+        let words = "an opening's name, a point [x, y], or an area [[x0, y0], [x1, y1]]";
+        Kind::AnyOf(words, vec![Kind::Text, PlanPoint::kind(), area])
+    }
+}
+
+impl SharedStop {
+    const KEYS: Table = Table {
+        name: "SharedStop",
+        parts: &[&[Field::plain("stop", String::kind, true), Field::plain("share", f64::kind, false)]],
+    };
+}
+
+impl Leaf for ViaRequest {
+    fn takes() -> Kind {
+        let words = "an opening's or a stop's name, a point [x, y], an area [[x0, y0], [x1, y1]], or \
+                     { stop = \"name\", share = 0.2 }";
+        Kind::AnyOf(words, vec![Kind::Table(SharedStop::KEYS), PlaceRequest::kind()])
+    }
 }
 
 impl ViaRequest {

@@ -13,8 +13,8 @@ pub struct Route {
     /// Stops, in order, with the share of people who stop.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stops: Vec<RouteStop>,
-    /// Timetable, if the route has a separate one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// When people come, if the route has a timetable of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "crate::options::kept")]
     pub arrivals: Option<Timetable>,
     /// Place where people vanish.
     pub goal: Place,

@@ -6,6 +6,7 @@ use super::field::Field;
 use super::ground::Ground;
 use super::{Place, RoutesError};
 use crate::math::{Distribution, Rect, Vec2, sin_cos, vec2};
+use crate::options::{Kind, Leaf, OptionError, Options, Value, names, options};
 use crate::plan::{FloorPlan, LARGEST_COORDINATE, PlanPoint};
 use crate::walls::Walls;
 
@@ -17,9 +18,8 @@ const PLACES_APART_M: f64 = 0.9;
 const WALL_REACH_M: f64 = 4.0;
 /// Distance in front of a stop at which routes to it alone pass, metres.
 const BEFORE_M: f64 = 1.5;
-/// Longest dwell time, seconds: one day.
-const MOST_DWELL_S: f64 = 86_400.0;
-/// Largest number of places at one stop.
+
+/// Most places at one stop.
 const MOST_PLACES: u32 = 1000;
 
 /// Kind of a stop, by activity.
@@ -39,38 +39,30 @@ pub enum StopKind {
     Gate,
 }
 
-/// A stop in a scenario; lengths in metres.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct StopRequest {
-    /// Name by which routes refer to it.
-    pub name: String,
-    /// Kind of the stop.
-    #[serde(default)]
-    pub kind: StopKind,
-    /// Position: a point, or a line of places; for kind `place`, two corners of an area.
-    pub at: StopAt,
-    /// A point that people face.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub facing: Option<PlanPoint>,
-    /// Alternatively, the heading that people face, degrees counter-clockwise from +x.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub heading_deg: Option<f64>,
-    /// Dwell time or service time of a person, seconds; the default depends on the kind.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub dwell: Option<Distribution>,
-    /// Number of counters, seats or lanes, 1 to 1000.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub places: Option<u32>,
-    /// Distance between people in the line, on a bench, or around a place, metres, 0.4 to 5.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub spacing: Option<f64>,
-    /// Radius around a `place` given as a point, metres, 0.3 to 50.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub reach: Option<f64>,
-    /// Line of the queue, from the counter to its tail. Default: straight back, then along walls.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub queue: Vec<PlanPoint>,
+options! {
+    /// A stop as a scenario writes it. Lengths in metres.
+    pub struct StopRequest {
+        /// What routes call it in `via`.
+        name: String = String::new(), eg "\"ticket office\"", required true;
+        /// "place" to stand at, "queue" before a counter, "machine", "bench", or ticket "gate".
+        kind: StopKind = StopKind::default(), eg "\"queue\"";
+        /// Where people stand: a point, or a line [[x0, y0], [x1, y1]] of places; of a "place" two corners.
+        at: StopAt = StopAt::Point(PlanPoint::Metres([0.0; 2])), eg "[12.0, 4.5]", required true;
+        /// A point that they face; left out: the nearest wall, from a bench away from it.
+        facing: Option<PlanPoint> = None, eg "[12.0, 3.0]";
+        /// Or the direction that they face.
+        heading_deg: Option<f64> = None, in -360.0..=360.0, unit "degrees from +x", eg "-90.0";
+        /// How long one stays or is served; left out: by the kind.
+        dwell: Option<Distribution> = None, in 0.0..=86400.0, unit "s", eg "{ mean = 30, sd = 15, min = 5, max = 120 }";
+        /// Counters, seats or lanes side by side.
+        places: Option<u32> = None, in 1.0..=1000.0, eg "2";
+        /// From one to the next in the line, on the bench, or around a place.
+        spacing: Option<f64> = None, in 0.4..=5.0, unit "m", eg "0.75";
+        /// How far around the point of a "place" people stand.
+        reach: Option<f64> = None, in 0.3..=50.0, unit "m", eg "1.5";
+        /// The line in which people queue, from the counter on; left out: straight back, along walls.
+        queue: Vec<PlanPoint> = Vec::new(), eg "[[12.0, 5.5], [12.0, 11.0]]";
+    }
 }
 
 /// Position of a stop in a scenario.
@@ -129,6 +121,15 @@ pub struct RouteStop {
     pub after_via: usize,
 }
 
+impl Leaf for StopAt {
+    fn takes() -> Kind {
+        let line = Kind::List(Box::new(PlanPoint::kind()), Some(2));
+        Kind::AnyOf("a point [x, y], or two of them: [[x0, y0], [x1, y1]]", vec![PlanPoint::kind(), line])
+    }
+}
+
+names!(StopKind);
+
 impl StopKind {
     /// Default dwell time, seconds.
     fn dwell_s(self) -> Distribution {
@@ -157,44 +158,44 @@ impl StopKind {
 }
 
 impl StopRequest {
-    /// Checks every value; an error holds the key and the problem.
+    /// Checks every value.
     ///
     /// # Errors
-    /// Reports the first value that is not finite, is out of range, or does not fit the kind.
-    pub fn check(&self) -> Result<(), (&'static str, String)> {
-        if self.name.trim().is_empty() {
-            return Err(("name", "the name is empty".into()));
+    /// The first value that is not finite, out of its range, or does not go with the kind.
+    pub fn check(&self) -> Result<(), OptionError> {
+        self.check_ranges()?;
+        let has_own_line = self.kind.has_line() && self.kind != StopKind::Gate;
+        let problems = [
+            (self.name.trim().is_empty(), "name", "the name is empty"),
+            (
+                self.facing.is_some() && self.heading_deg.is_some(),
+                "heading_deg",
+                "the stop has both `facing` and `heading_deg`",
+            ),
+            (
+                !self.queue.is_empty() && !has_own_line,
+                "queue",
+                "only stops of the kinds \"queue\" and \"machine\" have a line of their own",
+            ),
+            (
+                self.kind == StopKind::Place && self.places.is_some(),
+                "places",
+                "a stop of the kind \"place\" has room for as many as find it",
+            ),
+        ];
+        match problems.into_iter().find(|(wrong, ..)| *wrong) {
+            Some((_, key, problem)) => Err(OptionError::unfit(key, problem)),
+            None => Ok(()),
         }
-        if let Some(dwell) = &self.dwell {
-            dwell.check(0.0, MOST_DWELL_S).map_err(|problem| ("dwell", problem.to_string()))?;
-        }
-        let number = |key, value: Option<f64>, low: f64, high: f64| match value {
-            Some(value) if !(low..=high).contains(&value) => {
-                Err((key, format!("`{key}` is {value}, allowed is {low} to {high}")))
-            }
-            _ => Ok(()),
-        };
-        number("places", self.places.map(f64::from), 1.0, f64::from(MOST_PLACES))?;
-        number("spacing", self.spacing, 0.4, 5.0)?;
-        number("reach", self.reach, 0.3, 50.0)?;
-        number("heading_deg", self.heading_deg, -360.0, 360.0)?;
-        if self.facing.is_some() && self.heading_deg.is_some() {
-            return Err(("heading_deg", "the stop has both `facing` and `heading_deg`".into()));
-        }
-        if !self.queue.is_empty() && (!self.kind.has_line() || self.kind == StopKind::Gate) {
-            return Err(("queue", "only stops of the kinds \"queue\" and \"machine\" have a line of their own".into()));
-        }
-        if self.kind == StopKind::Place && self.places.is_some() {
-            return Err(("places", "a stop of the kind \"place\" has room for as many as find it".into()));
-        }
-        Ok(())
     }
 
     /// Finds the stop on the ground.
     pub(super) fn resolve(&self, plan: &FloorPlan, ground: &Ground, walls: &Walls) -> Result<Stop, RoutesError> {
-        let wrong =
-            |(key, problem): (&'static str, String)| RoutesError::StopValue { stop: self.name.clone(), key, problem };
-        self.check().map_err(wrong)?;
+        let wrong = |(key, problem): (&str, String)| {
+            let key = key.to_string();
+            RoutesError::StopValue { stop: self.name.clone(), key, problem }
+        };
+        self.check().map_err(|error| wrong((error.key(), error.problem())))?;
         let finite = |key, point: PlanPoint| {
             let p = point.to_m(plan);
             // NaN must be out of range.

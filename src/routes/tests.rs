@@ -207,13 +207,13 @@ fn requests_are_read_from_toml() {
         to = [3.0, 2.5]
         via = [{ px = [4, 9] }, [[1.0, 1.0], [2.0, 2.0]]]
     "#;
-    let options: RoutesOptions = toml::from_str(text).expect("valid");
+    let options: RoutesOptions = crate::options::parse(text).ok().expect("valid");
     let request = &options.routes[0];
     assert_eq!(request.share, 1.0);
     assert_eq!(request.to, point(3.0, 2.5));
     assert_eq!(request.via[0], ViaRequest::Place(PlaceRequest::Point(PlanPoint::Pixels { px: [4.0, 9.0] })));
     assert_eq!(request.via[1], ViaRequest::Place(PlaceRequest::Area([[1.0, 1.0], [2.0, 2.0]])));
-    let error =
-        toml::from_str::<RoutesOptions>("[[routes]]\nfrom = 3\nto = \"west\"").expect_err("a number is no place");
-    assert!(error.to_string().contains("an opening's name, a point"), "{error}");
+    let wrong = "[[routes]]\nfrom = 3\nto = \"west\"";
+    let error = crate::options::parse::<RoutesOptions>(wrong).err().expect("a number is no place").explain(wrong).0;
+    assert!(error.contains("an opening's name, a point"), "{error}");
 }

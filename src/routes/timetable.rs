@@ -2,44 +2,38 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use crate::options::{OptionError, Options, names, options};
+
 /// Largest number of people.
 const MOST_PEOPLE: f64 = 5e6;
 /// Latest time, seconds.
 const LATEST_S: f64 = 1e7;
 
-/// Timetable of arrivals, of the whole crowd or of one route; times in seconds.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Timetable {
-    /// Kind of the timetable.
-    pub kind: TimetableKind,
-    /// Time of the first arrivals.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub first_s: Option<f64>,
-    /// For a rate: people per second. Default: as many as the entrances admit.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub per_second: Option<f64>,
-    /// For bursts: time between bursts.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub every_s: Option<f64>,
-    /// For bursts: number of people per burst; alternative to `share`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub people: Option<u32>,
-    /// For bursts: share of all people per burst; alternative to `people`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub share: Option<f64>,
-    /// For bursts: duration of arrivals, 0 for all at once.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub spread_s: Option<f64>,
-    /// For a list: times and numbers of people.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub times: Vec<[f64; 2]>,
-    /// For a list: a CSV file with a time and a number of people per line.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub file: Option<PathBuf>,
-    /// Rows of the file, after it has been read.
-    #[serde(skip)]
-    pub of_file: Vec<[f64; 2]>,
+options! {
+    /// Timetable of arrivals, of the whole crowd or of one route. Times in seconds.
+    pub struct Timetable {
+        /// When people come: "rate" (evenly), "bursts" (a train every few minutes) or "list".
+        kind: TimetableKind = TimetableKind::default();
+        /// Of a rate and of bursts: when the first come.
+        first_s: Option<f64> = None, in 0.0..=1e7, eg "30.0";
+        /// Of a rate: people per second; left out: by entry_rate.
+        per_second: Option<f64> = None, in 1e-4..=1e3, eg "0.5";
+        /// Of bursts: from one to the next.
+        every_s: Option<f64> = None, in 1.0..=1e7, eg "360.0";
+        /// Of bursts: how many come in one.
+        people: Option<u32> = None, in 1.0..=5e6, eg "120";
+        /// Of bursts: or which share of all people comes in one.
+        share: Option<f64> = None, in 1e-6..=1.0, eg "0.25";
+        /// Of bursts: how long the people of one take to come; 0: all at once.
+        spread_s: Option<f64> = None, in 0.0..=1e7, eg "45.0";
+        /// Of a list: times, each with how many come then.
+        times: Vec<[f64; 2]> = Vec::new(), unit "s", eg "[[60, 20], [300, 80]]";
+        /// Of a list: a CSV file of them, relative to this file.
+        file: Option<PathBuf> = None, eg "\"arrivals.csv\"";
+    } with {
+        /// Rows of the file, once it has been read.
+        of_file: Vec<[f64; 2]> = Vec::new();
+    }
 }
 
 /// Kind of a timetable.
@@ -54,6 +48,8 @@ pub enum TimetableKind {
     /// Given times.
     List,
 }
+
+names!(TimetableKind);
 
 impl Timetable {
     /// Whether all values are the defaults.
@@ -71,28 +67,28 @@ impl Timetable {
         (self.kind == TimetableKind::List).then(|| self.rows().map(|row| row[1] as u64).sum())
     }
 
-    /// Checks every value; an error holds the key and the problem.
+    /// Checks every value.
     ///
     /// # Errors
-    /// Reports the first value that is not finite, is out of range, is missing, or does not fit the kind.
-    pub fn check(&self) -> Result<(), (&'static str, String)> {
+    /// The first value that is not finite, out of its range, missing, or does not go with the kind.
+    pub fn check(&self) -> Result<(), OptionError> {
+        self.check_ranges()?;
+        self.check_fit().map_err(|(key, problem)| OptionError::unfit(key, problem))
+    }
+
+    /// Checks what goes with the kind; an error holds the key and the problem.
+    fn check_fit(&self) -> Result<(), (&'static str, String)> {
         use TimetableKind::{Bursts, List, Rate};
-        let numbers = [
-            ("first_s", self.first_s, 0.0, LATEST_S, [Rate, Bursts]),
-            ("per_second", self.per_second, 1e-4, 1e3, [Rate, Rate]),
-            ("every_s", self.every_s, 1.0, LATEST_S, [Bursts, Bursts]),
-            ("people", self.people.map(f64::from), 1.0, MOST_PEOPLE, [Bursts, Bursts]),
-            ("share", self.share, 1e-6, 1.0, [Bursts, Bursts]),
-            ("spread_s", self.spread_s, 0.0, LATEST_S, [Bursts, Bursts]),
+        let kinds = [
+            ("first_s", self.first_s.is_some(), [Rate, Bursts]),
+            ("per_second", self.per_second.is_some(), [Rate, Rate]),
+            ("every_s", self.every_s.is_some(), [Bursts, Bursts]),
+            ("people", self.people.is_some(), [Bursts, Bursts]),
+            ("share", self.share.is_some(), [Bursts, Bursts]),
+            ("spread_s", self.spread_s.is_some(), [Bursts, Bursts]),
         ];
-        for (key, value, low, high, kinds) in numbers {
-            let Some(value) = value else { continue };
-            if !(low..=high).contains(&value) {
-                return Err((key, format!("`{key}` is {value}, allowed is {low} to {high}")));
-            }
-            if !kinds.contains(&self.kind) {
-                return Err((key, format!("`{key}` does not go with the kind {}", self.kind.quoted())));
-            }
+        if let Some((key, ..)) = kinds.into_iter().find(|(_, given, kinds)| *given && !kinds.contains(&self.kind)) {
+            return Err((key, format!("`{key}` does not go with the kind {}", self.kind.quoted())));
         }
         let has_list = !self.times.is_empty() || self.file.is_some();
         match self.kind {
@@ -283,7 +279,7 @@ mod tests {
             (Timetable { kind: TimetableKind::List, times: vec![[1.0, 1.5]], ..rate.clone() }, "times"),
             (Timetable { kind: TimetableKind::List, times: vec![[1.0, 0.0]], ..rate }, "times"),
         ] {
-            assert_eq!(wrong.check().unwrap_err().0, key, "{wrong:?}");
+            assert_eq!(wrong.check().unwrap_err().key(), key, "{wrong:?}");
         }
     }
 }

@@ -1,15 +1,13 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
-use toml::Spanned;
-use toml::de::{DeTable, DeValue, ValueDeserializer};
+use toml::de::{DeTable, DeValue};
 
 use super::error::{ScenarioError, Wrong};
-use super::explain;
 use super::keys;
+use super::model::Parts;
 use super::snippet::Snippet;
+use crate::options::{Explanation, Mistake, Problem, Value, nearest, read_parts, value_at};
 
 /// A scenario file as it was written, with the place of every key and value.
 pub(super) struct Document<'t> {
@@ -18,57 +16,65 @@ pub(super) struct Document<'t> {
     root: DeTable<'t>,
 }
 
-/// A table of the file, on its way into an options struct.
-pub(super) struct Section<'d, 't> {
-    document: &'d Document<'t>,
-    name: &'static str,
-    table: DeTable<'t>,
-    span: Range<usize>,
-    taken: Vec<&'static str>,
-}
-
 impl<'t> Document<'t> {
     /// Reads TOML and checks that it has no sections but those of a scenario.
     pub fn parse(path: &Path, text: &'t str) -> Result<Document<'t>, ScenarioError> {
         let mut document = Document { path: path.to_path_buf(), text, root: DeTable::new() };
-        document.root = DeTable::parse(text).map_err(|error| document.syntax(&error))?.into_inner();
+        document.root = DeTable::parse(text).map_err(|error| document.mistake(&Mistake::syntax(&error)))?.into_inner();
         for (name, value) in document.root.iter() {
-            let name_text = name.get_ref().as_ref();
-            if !keys::SECTIONS.contains(&name_text) {
-                return Err(document.wrong(name.span(), explain::unknown_section(name_text)));
-            }
-            let wants_list = keys::LISTS.contains(&name_text);
-            let is_list = value.get_ref().as_array().is_some_and(|a| a.iter().all(|v| v.get_ref().is_table()));
-            if wants_list && !is_list {
-                return Err(document.wrong(name.span(), explain::not_a_list(name_text)));
-            }
-            if !wants_list && !value.get_ref().is_table() {
-                return Err(document.wrong(name.span(), explain::not_a_section(name_text)));
-            }
+            document
+                .check_section(name.get_ref(), value.get_ref())
+                .map_err(|wrong| document.wrong(name.span(), wrong))?;
         }
         Ok(document)
     }
 
-    /// Whether the file has a section.
-    pub fn has(&self, name: &str) -> bool {
-        find(&self.root, name).is_some()
-    }
-
-    /// A section, empty if the file does not have it.
-    pub fn section(&self, name: &'static str) -> Section<'_, 't> {
-        let found = self.root.iter().find(|(key, _)| key.get_ref() == name);
-        let (table, span) = match found {
-            Some((_, value)) => (value.get_ref().as_table().cloned().unwrap_or_default(), value.span()),
-            None => (DeTable::new(), 0..0),
+    /// Checks that there is a section of this name, and whether it comes once.
+    fn check_section(&self, name: &str, value: &DeValue<'_>) -> Result<(), Explanation> {
+        let Some((_, is_list)) = keys::section(name) else {
+            let headings = || keys::section_names().map(section_heading).collect::<Vec<_>>().join(", ");
+            let hint = match (keys::with_key(name).first(), nearest(name, keys::section_names())) {
+                (Some(section), _) => format!("`{name}` belongs in [{section}]"),
+                (None, Some(known)) => format!("did you mean {}?", section_heading(known)),
+                (None, None) => format!("its sections are {}", headings()),
+            };
+            return Err((format!("a scenario has no section `{name}`"), Some(hint)));
         };
-        Section { document: self, name, table, span, taken: Vec::new() }
+        let fits = match value {
+            DeValue::Array(items) if is_list => items.iter().all(|item| item.get_ref().is_table()),
+            value => !is_list && value.is_table(),
+        };
+        match (fits, is_list) {
+            (true, _) => Ok(()),
+            (false, true) => {
+                let hint = format!("write [[{name}]] with two brackets, once per {name}");
+                Err((format!("`{name}` is a list of sections"), Some(hint)))
+            }
+            (false, false) => {
+                let hint = format!("write [{name}] on a line of its own, its keys below");
+                Err((format!("`{name}` is a section, not a value"), Some(hint)))
+            }
+        }
     }
 
-    /// The list of tables of this name, empty if the file has none.
-    pub fn list<T: DeserializeOwned>(&self, name: &'static str) -> Result<Vec<T>, ScenarioError> {
-        let Some((_, value)) = self.root.iter().find(|(key, _)| key.get_ref() == name) else { return Ok(Vec::new()) };
-        let value = value.clone();
-        Vec::<T>::deserialize(ValueDeserializer::from(value)).map_err(|error| self.of_value(&error, name, &[]))
+    /// The value of a key, if the file writes it.
+    pub fn value<T: Value>(&self, key: &str) -> Result<Option<T>, ScenarioError> {
+        let read = |value| T::of(value).map_err(|mistake| self.mistake(&mistake.within(key)));
+        value_at(&self.root, key).map(read).transpose()
+    }
+
+    /// Reads what a section writes over its values.
+    pub fn read_section(&self, name: &str, parts: Parts<'_>) -> Result<(), ScenarioError> {
+        let Some(table) = value_at(&self.root, name).and_then(|value| value.get_ref().as_table()) else {
+            return Ok(());
+        };
+        read_parts(parts, table).map_err(|mistake| self.mistake(&mistake.within(name)))
+    }
+
+    /// Reads a section that is one value, such as a list.
+    pub fn read_value(&self, name: &str, value: &mut dyn Value) -> Result<(), ScenarioError> {
+        let Some(written) = value_at(&self.root, name) else { return Ok(()) };
+        value.read(written).map_err(|mistake| self.mistake(&mistake.within(name)))
     }
 
     /// What is wrong with the value of a key such as `crowd.people`, shown where the file writes it; without a place
@@ -86,71 +92,34 @@ impl<'t> Document<'t> {
     }
 
     fn span_of(&self, key: &str) -> Option<Range<usize>> {
-        let mut parts = key.split('.');
-        let mut value = find(&self.root, parts.next()?)?;
-        for part in parts {
-            value = match value.get_ref() {
-                DeValue::Table(table) => find(table, part)?,
-                DeValue::Array(items) => items.get(part.parse::<usize>().ok()?)?,
-                _ => return None,
-            };
-        }
-        Some(value.span())
+        Some(value_at(&self.root, key)?.span())
     }
 
-    fn syntax(&self, error: &toml::de::Error) -> ScenarioError {
-        self.wrong(error.span().unwrap_or(0..0), explain::syntax(error.message()))
-    }
-
-    /// What serde did not like about a value.
-    fn of_value(&self, error: &toml::de::Error, section: &str, own_keys: &[&str]) -> ScenarioError {
-        let span = error.span().unwrap_or(0..0);
-        let found = self.text.get(span.clone()).unwrap_or("");
-        let key = self.key_around(&span);
-        let section = self.table_with(&span).unwrap_or_else(|| section.to_string());
-        self.wrong(span, explain::value(error.message(), &section, key.as_deref(), found, own_keys))
-    }
-
-    /// Path of the table that stands at a place or has a key written there, as in `look.film`: what is wrong with a key is
-    /// told at its name, a key that is missing at its table.
-    fn table_with(&self, place: &Range<usize>) -> Option<String> {
-        fn search(table: &DeTable<'_>, place: &Range<usize>, path: &str) -> Option<String> {
-            table.iter().find_map(|(name, value)| {
-                if name.span() == *place {
-                    return Some(path.to_string());
+    /// What is wrong with a key or a value, and where the key belongs if another section has it.
+    fn mistake(&self, mistake: &Mistake) -> ScenarioError {
+        let (message, mut hint) = mistake.explain(self.text);
+        match &mistake.problem {
+            Problem::UnknownKey(name, known) if nearest(name, known.iter().copied()).is_none() => {
+                let elsewhere = keys::with_key(name);
+                if (1..=3).contains(&elsewhere.len()) {
+                    hint = Some(format!("`{name}` belongs in [{}]", elsewhere.join("] or [")));
                 }
-                let path =
-                    if path.is_empty() { name.get_ref().to_string() } else { format!("{path}.{}", name.get_ref()) };
-                let within = |value: &Spanned<DeValue<'_>>| {
-                    let table = value.get_ref().as_table()?;
-                    search(table, place, &path).or_else(|| (value.span() == *place).then(|| path.clone()))
-                };
-                match value.get_ref() {
-                    DeValue::Array(items) => items.iter().find_map(within),
-                    _ => within(value),
-                }
-            })
-        }
-        search(&self.root, place, "").filter(|path| !path.is_empty())
-    }
-
-    /// Name of the innermost key whose value covers a place.
-    fn key_around(&self, span: &Range<usize>) -> Option<String> {
-        fn search(value: &DeValue<'_>, span: &Range<usize>) -> Option<String> {
-            let covers = |outer: Range<usize>| outer.start <= span.start && span.end <= outer.end;
-            match value {
-                DeValue::Table(table) => table.iter().find_map(|(key, value)| {
-                    let inner = search(value.get_ref(), span);
-                    inner.or_else(|| covers(value.span()).then(|| key.get_ref().to_string()))
-                }),
-                DeValue::Array(items) => items.iter().find_map(|item| search(item.get_ref(), span)),
-                _ => None,
             }
+            Problem::Syntax(message) => {
+                let remedy = match message.as_str() {
+                    "duplicate key" => {
+                        "write each key and each section once; only [[route]], [[stop]], [[door]], [[fixture]] and [[unit]] may come again"
+                    }
+                    _ => "texts stand in quotes, lists in [brackets], and a section begins with its [name]",
+                };
+                hint = Some(remedy.to_string());
+            }
+            _ => {}
         }
-        self.root.iter().find_map(|(_, value)| search(value.get_ref(), span))
+        self.wrong(mistake.span.clone(), (message, hint))
     }
 
-    fn wrong(&self, span: Range<usize>, (message, hint): (String, Option<String>)) -> ScenarioError {
+    fn wrong(&self, span: Range<usize>, (message, hint): Explanation) -> ScenarioError {
         let start = self.text.floor_char_boundary(span.start.min(self.text.len()));
         let snippet = Snippet::of(&self.path, self.text, span);
         let snippet = if is_scenario(self.text, start) { snippet } else { snippet.without_line() };
@@ -172,64 +141,12 @@ fn is_scenario(text: &str, at: usize) -> bool {
     let is_header = |line: &str| line.trim_start().starts_with('[');
     let name = name_of(line);
     is_header(line)
-        || keys::SECTIONS.contains(&name.as_str())
-        || !keys::sections_with(&name).is_empty()
-        || text[..line_start].lines().any(|line| is_header(line) && keys::SECTIONS.contains(&name_of(line).as_str()))
+        || keys::section(&name).is_some()
+        || !keys::with_key(&name).is_empty()
+        || text[..line_start].lines().any(|line| is_header(line) && keys::section(&name_of(line)).is_some())
 }
 
-fn find<'d, 't>(table: &'d DeTable<'t>, key: &str) -> Option<&'d Spanned<DeValue<'t>>> {
-    table.iter().find(|(name, _)| name.get_ref() == key).map(|(_, value)| value)
-}
-
-/// Lays written keys over those of a table, within its tables too; a quantity that differs from person to person is
-/// one value, however it is written.
-fn laid_over(mut below: toml::Table, above: toml::Table, path: &str) -> toml::Table {
-    for (key, value) in above {
-        let path = format!("{path}.{key}");
-        let merged = match (below.remove(&key), value) {
-            (Some(toml::Value::Table(old)), toml::Value::Table(new)) if !keys::is_one_value(&path) => {
-                toml::Value::Table(laid_over(old, new, &path))
-            }
-            (_, value) => value,
-        };
-        below.insert(key, merged);
-    }
-    below
-}
-
-impl Section<'_, '_> {
-    /// Takes one key out, which the scenario reads for itself and not for a stage.
-    pub fn take<T: DeserializeOwned>(&mut self, key: &'static str) -> Result<Option<T>, ScenarioError> {
-        self.taken.push(key);
-        let Some((_, value)) = self.table.remove_entry(key) else { return Ok(None) };
-        T::deserialize(ValueDeserializer::from(value))
-            .map(Some)
-            .map_err(|error| self.document.of_value(&error, self.name, &self.taken))
-    }
-
-    /// What is left, as plain values.
-    pub fn into_table<T: DeserializeOwned>(self) -> Result<toml::Table, ScenarioError> {
-        let rest = |table| ValueDeserializer::from(Spanned::new(self.span.clone(), DeValue::Table(table)));
-        // First into the options alone: only there do errors know their place.
-        T::deserialize(rest(self.table.clone()))
-            .and_then(|_| toml::Table::deserialize(rest(self.table.clone())))
-            .map_err(|error| self.document.of_value(&error, self.name, &self.taken))
-    }
-
-    /// What is left, for options that start from nothing.
-    pub fn into_options<T: DeserializeOwned>(self) -> Result<T, ScenarioError> {
-        let value = ValueDeserializer::from(Spanned::new(self.span.clone(), DeValue::Table(self.table)));
-        T::deserialize(value).map_err(|error| self.document.of_value(&error, self.name, &self.taken))
-    }
-
-    /// Lays what is left over `base`: keys that the file does not write keep their values.
-    pub fn over<T: Serialize + DeserializeOwned>(self, base: &T) -> Result<T, ScenarioError> {
-        let (document, name) = (self.document, self.name);
-        let written = self.into_table::<T>()?;
-        let merged = toml::Table::try_from(base).map(|table| laid_over(table, written, name));
-        merged
-            .map_err(|error| error.to_string())
-            .and_then(|table| T::deserialize(table).map_err(|error| error.message().to_string()))
-            .map_err(|message| document.wrong_value(name, message, None))
-    }
+/// A section as a file begins it.
+fn section_heading(name: &str) -> String {
+    if keys::section(name).is_some_and(|(_, list)| list) { format!("[[{name}]]") } else { format!("[{name}]") }
 }

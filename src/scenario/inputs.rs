@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use super::Scenario;
+use super::model::Scenario;
 use crate::files::files_in;
 use crate::plan;
 

@@ -1,10 +1,5 @@
 use serde::{Deserialize, Serialize};
 
-use super::Scenario;
-use crate::crowd::CrowdOptions;
-use crate::look::Look;
-use crate::marks::{ContactOptions, HeelOptions, Weather};
-
 /// What every key of a scenario starts from. Keys that a file writes win over it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -32,23 +27,6 @@ impl Preset {
             Preset::Heavy => "heavy",
             Preset::Wet => "wet",
             Preset::Paper => "paper",
-        }
-    }
-
-    /// Sets what this preset changes in a default scenario.
-    pub(super) fn apply(self, scenario: &mut Scenario) {
-        scenario.preset = self;
-        scenario.look = Look::preset(self.name()).unwrap_or_default();
-        match self {
-            Preset::Commuters | Preset::Heavy => {}
-            Preset::Wet => scenario.marks.soil.weather = Weather::Wet,
-            Preset::Paper => {
-                scenario.crowd = CrowdOptions::paper();
-                scenario.bodies = CrowdOptions::preset_bodies("paper").unwrap_or_default();
-                scenario.marks.shoe = Some("leather_shoe".to_string());
-                scenario.marks.heel = HeelOptions::none();
-                scenario.marks.contact = ContactOptions::paper();
-            }
         }
     }
 }

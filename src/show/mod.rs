@@ -1,16 +1,19 @@
 //! Shows a result to people: pictures from above, stills in perspective, animations, the 3D scene and the page.
 
-pub mod animation;
+mod animation;
 pub mod page;
-pub mod pictures;
+mod pictures;
+mod rooms;
 pub mod scene;
 pub mod still;
 
+pub(crate) use animation::Animation;
 pub use animation::{
-    ANIMATION_SIZES_PX, ANIMATION_SPEEDS, Animation, AnimationColour, AnimationError, AnimationFormat,
-    AnimationOptions, AnimationReport,
+    ANIMATION_SIZES_PX, ANIMATION_SPEEDS, AnimationColour, AnimationError, AnimationFormat, AnimationOptions,
+    AnimationReport,
 };
 pub use pictures::{
-    Crop, PATHS_FILE, Path, PathSample, PathSampler, choose_crops, draw_paths, draw_plan, draw_unit, encode_picture,
-    render_crop, render_floor, write_picture, write_previews,
+    Crop, Path, PathSample, draw_paths, draw_plan, draw_unit, encode_picture, render_crop, render_floor, write_previews,
 };
+pub(crate) use pictures::{PATHS_FILE, PathSampler, choose_crops, write_picture};
+pub use rooms::Rooms;

@@ -42,18 +42,9 @@ pub enum StampsError {
         /// Largest number of texels along a face.
         most: u32,
     },
-    /// An option is out of range.
-    #[error("stamps.{name} is {value}, allowed is {low} to {high}")]
-    OutOfRange {
-        /// Name of the option.
-        name: &'static str,
-        /// Given value.
-        value: f64,
-        /// Smallest allowed value.
-        low: f64,
-        /// Largest allowed value.
-        high: f64,
-    },
+    /// An option is not allowed.
+    #[error(transparent)]
+    Option(#[from] crate::options::OptionError),
 }
 
 impl StampsError {
@@ -66,7 +57,7 @@ impl StampsError {
             StampsError::TooManyTexels { .. } | StampsError::FaceTooLong { .. } => {
                 Some("lower the texel density, or check the plan's metres per pixel".into())
             }
-            StampsError::OutOfRange { name, .. } => Some(format!("leave `{name}` out to get its default")),
+            StampsError::Option(error) => error.hint(),
         }
     }
 }

@@ -4,7 +4,8 @@ use rayon::prelude::*;
 
 use boundary::Boundary;
 
-use crate::math::{Rect, Vec2};
+use crate::math::{Rect, Vec2, vec2};
+use crate::options::options;
 use crate::plan::{FloorPlan, cracks};
 
 mod boundary;
@@ -36,17 +37,11 @@ pub(crate) use outline::check as check_outlines;
 pub(crate) use places::DOOR_HEAD_M;
 pub use places::{Corner, Doorway};
 
-/// Options of wall tracing.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct WallsOptions {
-    /// Tolerance between the traced boundary and the pixels' boundary, plan pixels.
-    pub tolerance_px: f64,
-}
-
-impl Default for WallsOptions {
-    fn default() -> WallsOptions {
-        WallsOptions { tolerance_px: 0.5 }
+options! {
+    /// Options of tracing walls.
+    pub struct WallsOptions {
+        /// How far traced walls may lie from the drawn ones.
+        tolerance_px: f64 = 0.5, in 0.05..=10.0, unit "pixels of the plan";
     }
 }
 
@@ -77,7 +72,7 @@ impl Walls {
         let loops = cracks::trace(&plan.floor, plan.width_px as usize);
         let fit = |l| Boundary::fit(plan, l, options.tolerance_px / 0.5);
         let mut boundaries: Vec<Boundary> = loops.par_iter().map(fit).collect();
-        untangle::untangle(&mut boundaries);
+        untangle::untangle(&mut boundaries, vec2(f64::from(plan.width_px), f64::from(plan.height_px)));
         Walls::of(boundaries.iter().map(|boundary| boundary.outline(plan)).collect())
     }
 
@@ -146,7 +141,6 @@ impl Walls {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::vec2;
 
     /// A plan drawn with characters: `.` is floor, others are wall; 1 m per pixel.
     fn plan(rows: &[&str]) -> FloorPlan {

@@ -15,11 +15,14 @@ use crate::math::{Rect, Vec2};
 const CELL_PX: f64 = 4.0;
 /// Edges closer than this touch, pixels.
 const TOUCH_PX: f64 = 1e-6;
-/// Rounds of local repair, after which boundaries that still cross are reset as a whole.
+/// Corners farther beyond the image than this could go round another boundary, which is a pixel wide at least.
+const BEYOND_PX: f64 = 1.0;
+/// Rounds of local mending, after which boundaries that still cross are put on the pixels' edges as a whole.
 const LOCAL_ROUNDS: usize = 40;
 
-/// Resets boundaries to the pixel edges where they cross, touch, fold back or enclose no area.
-pub(super) fn untangle(boundaries: &mut [Boundary]) {
+/// Puts boundaries back on the pixels' edges wherever they would cross or touch, fold back, enclose nothing, or leave
+/// the image, whose size is `size_px`.
+pub(super) fn untangle(boundaries: &mut [Boundary], size_px: Vec2) {
     let mut outlines: Vec<Vec<Vertex>> = boundaries.par_iter().map(Boundary::vertices).collect();
     let mut is_new = vec![true; boundaries.len()];
     for round in 0.. {
@@ -29,7 +32,7 @@ pub(super) fn untangle(boundaries: &mut [Boundary]) {
                 changed[number] = boundary.put_all_on_edges();
             }
         }
-        for fault in faults(boundaries, &outlines, &is_new) {
+        for fault in faults(boundaries, &outlines, &is_new, size_px) {
             let vertices = &outlines[fault.outline];
             let [a, b] = [vertices[fault.edge], vertices[(fault.edge + 1) % vertices.len()]];
             let boundary = &mut boundaries[fault.outline];
@@ -52,13 +55,17 @@ struct Fault {
     at: Vec2,
 }
 
-/// Returns edges that cross or touch others, and edges without length, in a fixed order.
-fn faults(boundaries: &[Boundary], outlines: &[Vec<Vertex>], is_new: &[bool]) -> Vec<Fault> {
+/// Edges that cross or touch others, edges that lead nowhere, and edges that begin beyond the image, in a fixed order.
+///
+/// Beyond the image an edge goes round another boundary without crossing it: that one's wall would then be seen from
+/// behind.
+fn faults(boundaries: &[Boundary], outlines: &[Vec<Vertex>], is_new: &[bool], size_px: Vec2) -> Vec<Fault> {
+    let is_beyond = |p: Vec2| (-p.x).max(-p.y).max(p.x - size_px.x).max(p.y - size_px.y) > BEYOND_PX;
     let mut found = Vec::new();
     for (outline, vertices) in outlines.iter().enumerate().filter(|&(outline, _)| is_new[outline]) {
         for edge in 0..vertices.len() {
             let [a, b] = [vertices[edge], vertices[(edge + 1) % vertices.len()]];
-            if !boundaries[outline].leads_on(a, b) {
+            if !boundaries[outline].leads_on(a, b) || is_beyond(a.at) {
                 found.push(Fault { outline, edge, at: a.at });
             }
         }

@@ -33,7 +33,9 @@ fn a_stain_is_imported_listed_and_walked_over() {
 
     // Again: the name is taken, and everything stays as it is.
     let again = [&import[..], &["--into", "mine"]].concat();
-    sandbox.run(&again).fails(1, &["mine/patterns.toml already lists wall_1.png", "hint: choose another name"]);
+    sandbox
+        .run(&again)
+        .fails(1, &["mine/patterns.toml already lists wall_1.png", "--name, or replace the pattern with --force"]);
     sandbox.run(&[&again[..], &["--name", "other", "--share", "0.5", "-q"]].concat()).succeeds();
 
     fs::write(sandbox.path("mine/forgotten.png"), "").unwrap();
@@ -67,7 +69,7 @@ fn what_cannot_be_imported_is_explained() {
         .fails(1, &["no form \"palm\"", "leave the form out"]);
     run(&["wall.png", "--cause", "sole", "--scale", "20"]).fails(1, &["is 8 to 45 cm long", "hint: "]);
     run(&["wall.png", "--cause", "arm", "--scale", "20", "--name", "a/b"])
-        .fails(1, &["cannot be the name", "hint: choose another name"]);
+        .fails(1, &["cannot be the name", "hint: choose another name with --name"]);
     run(&["wall.png", "--cause", "arm"]).fails(2, &["--scale <PX_PER_CM>|--length-cm <L>"]);
     run(&["wall.png", "--cause", "arm", "--scale", "20", "--length-cm", "3"]).fails(2, &["cannot be used with"]);
     run(&["wall.png", "--cause", "knee", "--scale", "20"]).fails(2, &["known are sole, heel, hand"]);

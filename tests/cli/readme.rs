@@ -79,3 +79,12 @@ fn docs_scenario_is_what_init_writes() {
     let written = fs::read_to_string(sandbox.path("museum.toml")).unwrap();
     snapbox::assert_data_eq!(written, snapbox::file!["../../docs/scenario.toml"].raw());
 }
+
+/// What editors read, beside it.
+#[test]
+fn init_prints_the_schema_of_the_docs() {
+    let sandbox = Sandbox::new();
+    let schema = sandbox.run(&["init", "--schema"]).succeeds().out;
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/scenario.schema.json");
+    assert_eq!(schema, fs::read_to_string(docs).unwrap());
+}

@@ -123,7 +123,7 @@ fn both_ways(a: PlaceRequest, b: PlaceRequest) -> Vec<RouteRequest> {
 }
 
 fn commuters(people: u32) -> CrowdOptions {
-    CrowdOptions { people, ..CrowdOptions::commuters() }
+    CrowdOptions { people, ..CrowdOptions::default() }
 }
 
 fn paper(people: u32) -> CrowdOptions {

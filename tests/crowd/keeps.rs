@@ -179,7 +179,7 @@ fn a_crowd_that_cannot_go_on_ends_by_itself_and_says_who_and_where() {
 fn options_out_of_range_are_refused() {
     let scene = Scene::corridor(10.0, 3.0, vec![across("west")]);
     let people = People::new(1, BodyOptions::default());
-    let good = CrowdOptions::commuters();
+    let good = CrowdOptions::default();
     let bad = [
         CrowdOptions { people: 0, ..good.clone() },
         CrowdOptions { people: u32::MAX, ..good.clone() },

@@ -89,7 +89,7 @@ pub fn across(from: &str) -> RouteRequest {
 }
 
 pub fn commuters(people: u32) -> CrowdOptions {
-    CrowdOptions { people, ..CrowdOptions::commuters() }
+    CrowdOptions { people, ..CrowdOptions::default() }
 }
 
 /// Everybody is there at once, walks round and round a corridor of this length, for so many seconds.

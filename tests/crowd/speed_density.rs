@@ -44,7 +44,7 @@ fn halving_the_time_step_moves_the_mean_speed_by_less_than_three_percent() {
             let options = CrowdOptions { time_step, ..endless(people(density), LENGTH_M, 60.0) };
             mean_speed_m_s(&scene, &options, 1)
         };
-        let (whole, halved) = (at(CrowdOptions::commuters().time_step), at(0.5 * CrowdOptions::commuters().time_step));
+        let (whole, halved) = (at(CrowdOptions::default().time_step), at(0.5 * CrowdOptions::default().time_step));
         println!("{density:10.1} {whole:7.3} {halved:7.3}  {:+.1} %", 100.0 * (halved / whole - 1.0));
         assert!((halved / whole - 1.0).abs() < 0.03, "{density} persons/m2: {whole} and {halved} m/s");
     }

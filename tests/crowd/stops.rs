@@ -92,7 +92,7 @@ impl Walk {
 }
 
 fn commuters(people: u32, entry_seconds: f64) -> CrowdOptions {
-    CrowdOptions { people, entry_seconds: Some(entry_seconds), ..CrowdOptions::commuters() }
+    CrowdOptions { people, entry_seconds: Some(entry_seconds), ..CrowdOptions::default() }
 }
 
 fn mean(values: impl IntoIterator<Item = f64>) -> f64 {

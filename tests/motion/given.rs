@@ -7,7 +7,8 @@ use std::sync::Mutex;
 use trodden::bake::{OutputOptions, ResolveOptions, bake, resolve};
 use trodden::export::{self, Manifest, Report};
 use trodden::math::{Rect, Vec2, vec2};
-use trodden::recordings::RecordingOptions;
+use trodden::patterns::Cause;
+use trodden::recordings::{Recording, RecordingOptions};
 use trodden::scenario::{Overrides, Scenario};
 use trodden::sums::{FloorSums, Quantity};
 use trodden::walk::{MotionOutput, WalkOutputs, walk};
@@ -234,4 +235,63 @@ fn open_ground_is_seen_in_three_dimensions_under_the_sky() {
     let above = picture("birds_eye.png");
     let [middle, corner] = [[640, 360], [2, 2]].map(|[x, y]| above.get_pixel(x, y).0);
     assert_ne!(middle, corner, "the floor is not the table");
+}
+
+/// Small people walk to and fro along the south wall, tall ones along the north wall: hands touch each wall as high as
+/// those who walk there, and the heights outlast the tools that make motions of a recording.
+#[test]
+fn recorded_heights_decide_how_high_hands_touch() {
+    const STATURES_M: [f64; 2] = [1.2, 1.9];
+    let dir = tempfile::tempdir().unwrap();
+    let at = |name: &str| dir.path().join(name);
+    let corridor = |_, y| image::Luma([if (5..35).contains(&y) { 255 } else { 0 }]);
+    image::GrayImage::from_fn(80, 40, corridor).save(at("plan.png")).unwrap();
+    let mut text = String::from("# framerate: 10\n# id frame x/m y/m z/m\n");
+    for frame in 0..1200 {
+        for id in 1..=24 {
+            let tall = usize::from(id % 2 == 0);
+            let (sin, _) = trodden::math::sin_cos(0.03 * f64::from(frame) + 0.5 * f64::from(id));
+            let (x, y) = (4.0 + 3.5 * sin, [0.8, 3.2][tall]);
+            text += &format!("{id} {frame} {x:.4} {y} {}\n", STATURES_M[tall]);
+        }
+    }
+    fs::write(at("paths.txt"), text).unwrap();
+    let run = |arguments: &[&str]| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_trodden"));
+        let output = command.arg("-q").args(arguments).current_dir(dir.path()).output().unwrap();
+        assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    };
+    run(&["motion", "features", "paths.txt", "-o", "features.txt"]);
+    run(&["motion", "formation", "--example", "paths.txt", "--rate", "2", "-o", "formed.sqlite"]);
+    for name in ["features.txt", "formed.sqlite"] {
+        let statures = Recording::open(&at(name), &RecordingOptions::default()).unwrap().statures();
+        // A formation counts its people from 0.
+        let first = u32::from(name == "features.txt");
+        for number in 0..24 {
+            let wanted_m = STATURES_M[usize::from(number % 2 == 1)];
+            let found_m = statures.of(first + number);
+            assert!(found_m.is_some_and(|m| (m - wanted_m).abs() < 1e-4), "{name}, person {number}: {found_m:?}");
+        }
+    }
+    let overrides =
+        Overrides { metres_per_pixel: Some(0.1), walls: None, ..given(&at("paths.txt"), RecordingOptions::default()) };
+    let scenario = Scenario::open(&at("plan.png"), &overrides).unwrap();
+    bake(&scenario, &OutputOptions { folder: at("out"), force: false }, &Silent).unwrap();
+    let manifest = Manifest::read(&at("out")).unwrap();
+    let (walls, sums) = (manifest.walls().unwrap(), export::read_wall_sums(&at("out"), &manifest).unwrap().unwrap());
+    let height = sums.grid().height as usize;
+    let mut weighed = [[0.0; 2]; 2];
+    for (face, wall) in walls.faces.iter().enumerate() {
+        let width = sums.grid().faces[face].width as usize;
+        let mut densities = vec![0; width * height];
+        sums.read(Cause::Hand, face, 0, 0, width, height, &mut densities);
+        let [sum, moment] = &mut weighed[usize::from(wall.points_m[0].y > 2.0)];
+        for (k, density) in densities.into_iter().enumerate() {
+            *sum += f64::from(density);
+            *moment += f64::from(density) * ((k / width) as f64 + 0.5) / sums.grid().texels_per_metre;
+        }
+    }
+    let [low_m, high_m] = weighed.map(|[sum, moment]| moment / sum);
+    println!("hands at {low_m:.2} m and {high_m:.2} m");
+    assert!(high_m - low_m >= 0.25, "hands of small people at {low_m} m, of tall ones at {high_m} m");
 }

@@ -127,4 +127,9 @@ fn walls_of_many_pillars_on_a_large_plan_are_baked() {
     assert!(ends_within(&mut child, 120), "still bakes after two minutes");
     let output = child.wait_with_output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    // The same pillars in a picture of one's own.
+    let mut command = sandbox.command(&["view", "out", "--birds-eye", "--size", "320x240", "-o", "above.png"]);
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    assert!(ends_within(&mut child, 120), "still draws after two minutes");
+    assert!(child.wait().unwrap().success());
 }

@@ -7,7 +7,8 @@ use trodden::export::{Camera, CameraError};
 use trodden::look::{Background, ResolvedBlock};
 use trodden::math::vec2;
 use trodden::plan::FloorPlan;
-use trodden::show::still::{StillError, StillScene, Surfaces};
+use trodden::show::Rooms;
+use trodden::show::still::{StillError, Surfaces};
 use trodden::sums::FloorSums;
 use trodden::walls::{Walls, WallsOptions};
 
@@ -57,8 +58,8 @@ fn camera(text: &str) -> Camera {
 fn drawn(camera: &Camera, size: [u32; 2], floor: &(impl Fn(i64, i64) -> [u8; 3] + Sync)) -> RgbImage {
     let floor = Painted(floor);
     let coat = Surfaces { floor: &floor, floor_texels_per_metre: DENSITY, small: None, walls: None };
-    let studio = StillScene::new(&corridor(), &[], 2.6);
-    studio.draw(camera, size, &[coat], &Silent).unwrap().remove(0)
+    let rooms = Rooms::new(&corridor(), &[], 2.6);
+    rooms.draw(camera, size, &[coat], &Silent).unwrap().remove(0)
 }
 
 /// A board of squares of half a metre.
@@ -69,7 +70,7 @@ fn board(i: i64, j: i64) -> [u8; 3] {
 #[test]
 fn a_corridor_at_eye_level_and_from_above() {
     assert_golden("still_eye_level", &drawn(&camera("11,2.2,1.7,184,-9"), [112, 63], &board), EXACT);
-    let above = StillScene::new(&corridor(), &[], 2.6).birds_eye([112, 63]);
+    let above = Rooms::new(&corridor(), &[], 2.6).birds_eye([112, 63]);
     assert_golden("still_birds_eye", &drawn(&above, [112, 63], &board), EXACT);
 }
 
@@ -121,14 +122,14 @@ fn a_known_point_is_seen_at_the_known_pixel() {
 
 #[test]
 fn cameras_that_see_nothing_are_refused_with_a_place_that_does() {
-    let studio = StillScene::new(&corridor(), &[], 2.6);
-    let refused = |text: &str| studio.check(&camera(text)).unwrap_err();
+    let rooms = Rooms::new(&corridor(), &[], 2.6);
+    let refused = |text: &str| rooms.check(&camera(text)).unwrap_err();
     // In the pillar, in the wall beside the corridor, far beyond the plan.
     for (text, beyond) in [("7.3,3.3,1.7,0,0", false), ("5,0.4,1.7,0,0", true), ("-40,2,1.7,0,0", true)] {
         let StillError::NotOnFloor { beyond: found, nearest_m, .. } = refused(text) else { panic!("{text}") };
         assert_eq!(found, beyond, "{text}");
         let [x, y] = nearest_m;
-        studio.check(&camera(&format!("{x},{y},1.7,0,0"))).unwrap();
+        rooms.check(&camera(&format!("{x},{y},1.7,0,0"))).unwrap();
         let [from_x, from_y, _] = camera(text).position_m;
         let nearest = vec2(from_x, from_y).distance(vec2(x, y));
         assert!(beyond || nearest < 1.5, "{text}: {nearest_m:?}");
@@ -136,30 +137,30 @@ fn cameras_that_see_nothing_are_refused_with_a_place_that_does() {
         assert!(error.hint().unwrap().contains(&format!("{x:.2},{y:.2}")), "{:?}", error.hint());
     }
     // Above the walls it may be anywhere.
-    studio.check(&camera("7.3,3.3,2.7,0,-45")).unwrap();
-    studio.check(&camera("-40,2,20,0,-30")).unwrap();
+    rooms.check(&camera("7.3,3.3,2.7,0,-45")).unwrap();
+    rooms.check(&camera("-40,2,20,0,-30")).unwrap();
 }
 
 #[test]
 fn automatic_cameras_stand_on_the_floor_away_from_walls() {
     let walls = corridor();
-    let studio = StillScene::new(&walls, &[], 2.6);
+    let rooms = Rooms::new(&walls, &[], 2.6);
     let grid = trodden::stamps::TexelGrid::covering(13.0, 5.0, DENSITY).unwrap();
-    let camera = studio.eye_level(&FloorSums::new(grid));
+    let camera = rooms.eye_level(&FloorSums::new(grid));
     assert_eq!(camera.position_m[2], 1.7);
     assert!(walls.nearest(camera.place_m(), 5.0).unwrap().distance_m >= 0.48, "{camera}");
-    studio.check(&camera).unwrap();
+    rooms.check(&camera).unwrap();
 }
 
 /// All corners of the plan are in the picture, and it fills it.
 #[test]
 fn the_birds_eye_frames_the_plan() {
-    let studio = StillScene::new(&corridor(), &[], 2.6);
+    let rooms = Rooms::new(&corridor(), &[], 2.6);
     for size in [[192, 108], [100, 200], [300, 60]] {
-        let from = studio.birds_eye(size);
+        let from = rooms.birds_eye(size);
         let coat = Painted(|_, _| [255, 0, 0]);
         let coat = Surfaces { floor: &coat, floor_texels_per_metre: DENSITY, small: None, walls: None };
-        let picture = studio.draw(&from, size, &[coat], &Silent).unwrap().remove(0);
+        let picture = rooms.draw(&from, size, &[coat], &Silent).unwrap().remove(0);
         let red: Vec<(u32, u32)> = picture
             .enumerate_pixels()
             .filter(|(.., pixel)| pixel.0[0].saturating_sub(pixel.0[1].max(pixel.0[2])) > 40)
@@ -195,14 +196,14 @@ fn absurd_cameras_and_sizes_are_errors() {
         let error = parse(text);
         assert!(matches!(error, CameraError::Number { name: found, .. } if found == name), "{text}: {error}");
     }
-    let studio = StillScene::new(&corridor(), &[], 2.6);
+    let rooms = Rooms::new(&corridor(), &[], 2.6);
     assert!(matches!(
-        studio.check(&camera("3,2,1.7,0,0").with_fov(f64::NAN)),
+        rooms.check(&camera("3,2,1.7,0,0").with_fov(f64::NAN)),
         Err(StillError::Camera(CameraError::Number { name: "fov", .. }))
     ));
     let coat = Painted(board);
     let coat = Surfaces { floor: &coat, floor_texels_per_metre: DENSITY, small: None, walls: None };
-    assert!(studio.draw(&camera("3,2,1.7,0,0"), [0, 5], &[coat], &Silent).is_err());
+    assert!(rooms.draw(&camera("3,2,1.7,0,0"), [0, 5], &[coat], &Silent).is_err());
     assert_eq!(camera("3, 2,1.7, 0,0").to_string(), "3.00,2.00,1.70,0.0,0.0");
 }
 

@@ -1,11 +1,11 @@
 //! Compares pictures with those in `tests/golden/`.
 //!
-//! A picture that differs leaves `target/golden/NAME.png`: expected, difference and actual side by side.
+//! A picture that differs leaves `target/golden/NAME.html`: expected, difference and actual side by side, in one file.
 //! `BLESS=1 cargo test` rewrites what is expected; look at it before you commit it.
 
 use std::path::PathBuf;
 
-use image::{Rgb, RgbImage};
+use image::{ImageFormat, Rgb, RgbImage};
 
 /// Largest width and height of a golden picture, pixels: each is about one thing.
 const LARGEST_PX: u32 = 256;
@@ -45,10 +45,10 @@ pub fn assert_golden(name: &str, actual: &RgbImage, tolerance: Tolerance) {
         Err(error) => panic!("{}: {error}; BLESS=1 writes what is expected", golden.display()),
     };
     if let Some(problem) = problem(&expected, actual, tolerance) {
-        let report = root.join("target/golden").join(format!("{name}.png"));
-        std::fs::create_dir_all(report.parent().unwrap()).unwrap();
-        side_by_side(&expected, actual).save(&report).unwrap();
-        panic!("{name}: {problem}\nexpected, difference, actual: {}\nBLESS=1 takes the actual one", report.display());
+        let file = root.join("target/golden").join(format!("{name}.html"));
+        std::fs::create_dir_all(file.parent().unwrap()).unwrap();
+        std::fs::write(&file, report(name, &problem, &expected, actual)).unwrap();
+        panic!("{name}: {problem}\nexpected, difference, actual: {}\nBLESS=1 takes the actual one", file.display());
     }
 }
 
@@ -71,25 +71,38 @@ fn largest_difference(a: &Rgb<u8>, b: &Rgb<u8>) -> u8 {
     a.0.iter().zip(b.0).map(|(&a, b)| a.abs_diff(b)).max().unwrap_or(0)
 }
 
-/// Expected, difference (black where there is none, from dark red up) and actual in one picture.
-fn side_by_side(expected: &RgbImage, actual: &RgbImage) -> RgbImage {
-    const GAP: u32 = 4;
-    let width = expected.width().max(actual.width());
-    let height = expected.height().max(actual.height());
-    let mut picture = RgbImage::from_pixel(3 * width + 2 * GAP, height, Rgb([255, 0, 255]));
-    image::imageops::replace(&mut picture, expected, 0, 0);
-    image::imageops::replace(&mut picture, actual, i64::from(2 * (width + GAP)), 0);
-    for y in 0..height {
-        for x in 0..width {
-            let difference = match (expected.get_pixel_checked(x, y), actual.get_pixel_checked(x, y)) {
-                (Some(a), Some(b)) => largest_difference(a, b),
-                _ => 255,
-            };
-            let heat = if difference == 0 { 0 } else { 64 + difference / 4 * 3 };
-            picture.put_pixel(x + width + GAP, y, Rgb([heat, if difference > 127 { heat } else { 0 }, 0]));
-        }
-    }
-    picture
+/// A page of expected, difference and actual picture, each enlarged without smoothing.
+fn report(name: &str, problem: &str, expected: &RgbImage, actual: &RgbImage) -> String {
+    let figure = |(title, picture): (&str, &RgbImage)| {
+        let mut png = std::io::Cursor::new(Vec::new());
+        picture.write_to(&mut png, ImageFormat::Png).unwrap();
+        let bytes: String = png.get_ref().iter().map(|byte| format!("%{byte:02x}")).collect();
+        let [width, height] = [picture.width(), picture.height()];
+        format!(
+            "<figure><figcaption>{title}, {width} x {height} px</figcaption><img src=\"data:image/png,{bytes}\"></figure>\n"
+        )
+    };
+    let difference = difference(expected, actual);
+    let figures = [("expected", expected), ("difference", &difference), ("actual", actual)].map(figure).concat();
+    format!(
+        "<!DOCTYPE html>\n<meta charset=\"utf-8\">\n<title>{name}</title>\n<style>body {{ font: 16px sans-serif; }} \
+         div {{ display: flex; gap: 1em; }} figure {{ flex: 1; margin: 0; }} \
+         img {{ width: 100%; image-rendering: pixelated; }}</style>\n\
+         <h1>{name}</h1>\n<p>{problem}. <code>BLESS=1</code> takes the actual picture.</p>\n<div>\n{figures}</div>\n"
+    )
+}
+
+/// How much each pixel differs: black where it does not, from dark red up to yellow.
+fn difference(expected: &RgbImage, actual: &RgbImage) -> RgbImage {
+    let [width, height] = [expected.width().max(actual.width()), expected.height().max(actual.height())];
+    RgbImage::from_fn(width, height, |x, y| {
+        let difference = match (expected.get_pixel_checked(x, y), actual.get_pixel_checked(x, y)) {
+            (Some(a), Some(b)) => largest_difference(a, b),
+            _ => 255,
+        };
+        let heat = if difference == 0 { 0 } else { 64 + difference / 4 * 3 };
+        Rgb([heat, if difference > 127 { heat } else { 0 }, 0])
+    })
 }
 
 #[test]
@@ -111,10 +124,17 @@ fn the_report_shows_all_three() {
     let expected = RgbImage::from_pixel(4, 4, Rgb([10; 3]));
     let mut actual = expected.clone();
     actual.put_pixel(1, 2, Rgb([250; 3]));
-    let report = side_by_side(&expected, &actual);
-    assert_eq!(report.dimensions(), (20, 4));
-    assert_eq!(report.get_pixel(0, 0).0, [10; 3]);
-    assert_eq!(report.get_pixel(8 + 1, 2).0[0], 64 + 240 / 4 * 3);
-    assert_eq!(report.get_pixel(8, 0).0, [0; 3]);
-    assert_eq!(report.get_pixel(16 + 1, 2).0, [250; 3]);
+    let html = report("spot", "1 pixel differs", &expected, &actual);
+    let pictures: Vec<RgbImage> = html
+        .split("data:image/png,%")
+        .skip(1)
+        .map(|rest| {
+            let bytes = rest.split('"').next().unwrap().split('%').map(|byte| u8::from_str_radix(byte, 16).unwrap());
+            image::load_from_memory(&bytes.collect::<Vec<u8>>()).unwrap().to_rgb8()
+        })
+        .collect();
+    assert_eq!(pictures, [expected.clone(), difference(&expected, &actual), actual]);
+    assert_eq!(pictures[1].get_pixel(1, 2).0[0], 64 + 240 / 4 * 3);
+    assert_eq!(pictures[1].get_pixel(0, 0).0, [0; 3]);
+    assert!(html.contains("1 pixel differs"));
 }

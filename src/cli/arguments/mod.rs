@@ -7,6 +7,7 @@ use clap::builder::TypedValueParser;
 use trodden::export::Target;
 use trodden::scenario::{Overrides, Preset, Scenario, allowed_range};
 
+use super::print::Refused;
 use super::standard_input::{self, Spool};
 
 mod motion_files;
@@ -72,6 +73,11 @@ impl ScenarioArguments {
     fn read(&self, overrides: &Overrides) -> anyhow::Result<Scenario> {
         let bytes = standard_input::read()?;
         let scenario = match std::str::from_utf8(&bytes) {
+            Ok(text) if standard_input::is_ros_map(text) => {
+                let message = "standard input holds the YAML of a ROS map, which names an image beside it".to_string();
+                let hint = Some("give the path of the YAML file instead of -".into());
+                return Err(Refused { message, hint }.into());
+            }
             Ok(text) if image::guess_format(&bytes).is_err() => {
                 Scenario::parse(text, standard_input::shown(), overrides)
             }

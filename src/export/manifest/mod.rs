@@ -243,7 +243,7 @@ impl Manifest {
     /// # Errors
     /// The value is not a look.
     pub fn look(&self, bake: &Path) -> Result<Look, ExportError> {
-        serde_json::from_value(self.look.clone()).map_err(|e| ExportError::damaged(&bake.join(MANIFEST_NAME), e))
+        Look::of_settings(&self.look).map_err(|e| ExportError::damaged(&bake.join(MANIFEST_NAME), e))
     }
 
     /// Returns options that write the same textures. They do not pack sheets: see [`WallsEntry::atlas`].
@@ -459,7 +459,7 @@ mod tests {
     #[test]
     fn the_look_is_read_back() {
         let look = Look::preset("wet").unwrap();
-        let manifest = Manifest { look: serde_json::to_value(&look).unwrap(), ..Manifest::default() };
+        let manifest = Manifest { look: look.settings(), ..Manifest::default() };
         assert_eq!(manifest.look(Path::new("out")).unwrap(), look);
         let damaged = Manifest { look: serde_json::json!({ "film": 3 }), ..Manifest::default() };
         assert!(damaged.look(Path::new("out")).unwrap_err().to_string().contains("manifest.json"));

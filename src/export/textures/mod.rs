@@ -1,4 +1,4 @@
-//! Writes the textures of floor and walls.
+//! The textures of floor and walls, as files.
 
 use super::bake_path::BakePath;
 use super::band::Image;

@@ -6,7 +6,11 @@ use crate::math::{SplitMix64, Vec2, sin_cos, vec2};
 use crate::progress::Progress;
 
 fn person(track: Vec<Vec2>) -> FormationBody {
-    FormationBody::person(track, FormedPerson { address: vec![0], rides: false }, &AvoidRequest::default())
+    FormationBody::person(
+        track,
+        FormedPerson { address: vec![0], rides: false, stature_m: None },
+        &AvoidRequest::default(),
+    )
 }
 
 fn cleared(tracks: Vec<Vec<Vec2>>, fps: f64) -> Vec<Vec<Vec2>> {
@@ -178,7 +182,7 @@ fn neighbours_push_in_inverse_proportion_and_less_at_a_key_formation() {
 #[test]
 fn those_who_keep_together_are_led_past_others_as_one() {
     let avoid = AvoidRequest::default();
-    let who = || FormedPerson { address: vec![0], rides: false };
+    let who = || FormedPerson { address: vec![0], rides: false, stature_m: None };
     let still = |x: f64, y: f64| FormationBody::person(vec![vec2(x, y); 101], who(), &avoid);
     let trio = vec![still(0.0, 0.4), still(-0.35, -0.2), still(0.35, -0.2)];
     let walk = line([-6.0, 0.1], [6.0, 0.1], 101);

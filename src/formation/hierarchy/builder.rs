@@ -16,6 +16,7 @@ use crate::formation::request::{
 };
 use crate::math::{SplitMix64, Vec2, sin_cos, vec2};
 use crate::motion::Ensemble;
+use crate::options::OptionError;
 use crate::progress::Progress;
 use crate::recordings::Recording;
 
@@ -26,8 +27,12 @@ fn check_keys(keys: usize, people: usize, crowd: &str) -> Result<(), FormationEr
         return Ok(());
     }
     let problem = format!("{keys} key formations of {people} people, allowed are {most} for so many people");
-    let hint = Some("make crowds of crowds with [[formation.crowd]]".to_string());
-    Err(RequestError::Value { key: format!("{crowd}.key"), problem, hint }.into())
+    Err(too_many(&format!("{crowd}.key"), problem))
+}
+
+fn too_many(key: &str, problem: String) -> FormationError {
+    let error = OptionError::unfit(key, problem).with_hint("make crowds of crowds with [[formation.crowd]]");
+    RequestError::Option(error).into()
 }
 
 /// Builder of a crowd and the small crowds within it, level by level.
@@ -127,7 +132,9 @@ impl<'m> CrowdBuilder<'m> {
                 None => {
                     self.people += 1;
                     self.check_people(spot)?;
-                    bodies.push(FormationBody::person(track, FormedPerson { address, rides: false }, avoid));
+                    let stature_m = example.statures().of(example.ids[individual]);
+                    let who = FormedPerson { address, rides: false, stature_m };
+                    bodies.push(FormationBody::person(track, who, avoid));
                 }
                 Some(kind) => {
                     let key = format!("{}.crowd.{kind}", spot.key);
@@ -156,7 +163,8 @@ impl<'m> CrowdBuilder<'m> {
         }
         let rider = request.rider.then(|| {
             let carriers = spot.address.iter().copied().chain([bodies.len() as u32]);
-            BodyMember { offsets: Vec::new(), who: FormedPerson { address: carriers.collect(), rides: true } }
+            let who = FormedPerson { address: carriers.collect(), rides: true, stature_m: None };
+            BodyMember { offsets: Vec::new(), who }
         });
         self.people += usize::from(request.rider);
         for body in &mut bodies {
@@ -207,12 +215,8 @@ impl<'m> CrowdBuilder<'m> {
             self.check_example(&key, people, moments)?;
             let kind = request.kind.unwrap_or(ExampleKind::Still);
             if kind == ExampleKind::Wander && people > MOST_WANDERERS {
-                return Err(RequestError::Value {
-                    key,
-                    problem: format!("{people} people wander; allowed are {MOST_WANDERERS} at most"),
-                    hint: Some("make crowds of crowds with [[formation.crowd]]".to_string()),
-                }
-                .into());
+                let problem = format!("{people} people wander; allowed are {MOST_WANDERERS} at most");
+                return Err(too_many(&key, problem));
             }
             let seed = spot.address.iter().fold(request.seed, |seed, &k| {
                 SplitMix64::new(seed.wrapping_add(u64::from(k)).wrapping_add(1)).next_u64()
@@ -348,7 +352,10 @@ fn chosen(example: &Ensemble, people: &[u32], key: &str) -> Result<Ensemble, Req
     let moments = 0..example.moments();
     let places =
         moments.flat_map(|moment| people.iter().map(move |&person| example.places_at(moment)[person as usize]));
-    Ok(Ensemble::new(example.fps, example.start_s, (0..people.len() as u32).collect(), places.collect()))
+    let ids = 0..people.len() as u32;
+    let stature_m = |person: u32| example.statures().of(example.ids[person as usize]);
+    let statures = ids.clone().zip(people).filter_map(|(id, &person)| Some((id, stature_m(person)?))).collect();
+    Ok(Ensemble::new(example.fps, example.start_s, ids.collect(), places.collect()).with_statures(statures))
 }
 
 /// Checks that all positions can be held.

@@ -30,7 +30,7 @@ pub(super) fn lengthened(example: &Ensemble, moments: usize, repeat: Repeat) -> 
             Repeat::Loop => places_m.extend(looped(example, time_s, length_s)),
         }
     }
-    Ensemble::new(fps, 0.0, ids, places_m)
+    Ensemble::new(fps, 0.0, ids, places_m).with_statures(example.statures().clone())
 }
 
 fn turn_s(length_s: f64) -> f64 {

@@ -3,7 +3,7 @@ use std::path::Path;
 use super::builder::{CrowdBuilder, check_size};
 use crate::formation::FormationError;
 use crate::formation::formed::FormedCrowd;
-use crate::formation::request::{CrowdSection, FormationRequest};
+use crate::formation::request::{CrowdSection, FormationRequest, RequestError};
 use crate::math::Vec2;
 use crate::motion::Ensemble;
 use crate::progress::{Progress, Stage};
@@ -19,7 +19,7 @@ const USUAL_S: f64 = 60.0;
 /// [`FormationError::Request`] for values out of range or in conflict, unreadable files, and formations whose number of
 /// positions is not the number of people; recordings that cannot be read; more people or frames than can be held; [`FormationError::Interrupted`].
 pub fn form(request: &FormationRequest, folder: &Path, progress: &dyn Progress) -> Result<FormedCrowd, FormationError> {
-    request.check()?;
+    request.check().map_err(RequestError::Option)?;
     let fps = request.fps.unwrap_or(USUAL_FPS);
     let mut builder = CrowdBuilder::new(folder, fps, progress);
     let duration_s = match (request.duration_s, last_key_s(request)) {
@@ -47,8 +47,10 @@ pub fn form(request: &FormationRequest, folder: &Path, progress: &dyn Progress) 
             all.push(person.who);
         }
     }
-    let ids = (0..people as u32).collect();
-    Ok(FormedCrowd { ensemble: Ensemble::new(fps, 0.0, ids, places_m), people: all })
+    let ids = 0..people as u32;
+    let statures = ids.clone().zip(&all).filter_map(|(id, who)| Some((id, who.stature_m?))).collect();
+    let ensemble = Ensemble::new(fps, 0.0, ids.collect(), places_m).with_statures(statures);
+    Ok(FormedCrowd { ensemble, people: all })
 }
 
 /// End of the last key formation of all crowds, seconds.

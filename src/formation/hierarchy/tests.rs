@@ -10,7 +10,7 @@ use crate::formation::formed::FormedCrowd;
 use crate::math::{Vec2, vec2};
 
 fn request(text: &str) -> FormationRequest {
-    toml::from_str(text).unwrap_or_else(|error| panic!("{error}\n{text}"))
+    crate::options::parse(text).unwrap_or_else(|mistake| panic!("{}\n{text}", mistake.explain(text).0))
 }
 
 fn formed(text: &str) -> FormedCrowd {

@@ -1,38 +1,22 @@
 use super::{
     CrowdRequest, CrowdSection, DEEPEST, ExampleRequest, FARTHEST_M, FormationRequest, FormationShape, KeyRequest,
-    MOST_PEOPLE, Members, RequestError,
+    MOST_PEOPLE, Members,
 };
 use crate::math::Vec2;
-use crate::recordings::FRAME_RATES;
+use crate::options::{OptionError, Options};
 
-/// Longest motion, seconds.
-const LONGEST_S: f64 = 36_000.0;
-
-/// A problem: the key, the message, a hint.
-type Problem = (String, String, Option<String>);
-
-fn wrong(key: &str, problem: impl Into<String>, hint: impl Into<Option<&'static str>>) -> Problem {
-    (key.to_string(), problem.into(), hint.into().map(str::to_string))
+fn wrong(key: &str, problem: impl Into<String>, hint: impl Into<Option<&'static str>>) -> OptionError {
+    OptionError::Unfit { key: key.to_string(), problem: problem.into(), hint: hint.into().map(str::to_string) }
 }
 
 impl FormationRequest {
     /// Checks all values and their consistency, as far as possible without reading files.
     ///
     /// # Errors
-    /// [`RequestError::Value`] for the first value out of range or in conflict, with its key, as `formation.key.2.time_s`.
-    pub fn check(&self) -> Result<(), RequestError> {
-        self.problem().map_or(Ok(()), |(key, problem, hint)| Err(RequestError::Value { key, problem, hint }))
-    }
-
-    fn problem(&self) -> Option<Problem> {
-        self.check_values().err()
-    }
-
-    fn check_values(&self) -> Result<(), Problem> {
+    /// The first value out of range or in conflict, with its key, as `formation.key.2.time_s`.
+    pub fn check(&self) -> Result<(), OptionError> {
         let path = "formation";
-        number(path, "duration_s", self.duration_s, 0.1, LONGEST_S)?;
-        let [low, high] = FRAME_RATES;
-        number(path, "fps", self.fps, low, high)?;
+        self.check_ranges().map_err(|error| error.within(path))?;
         if let Some(way) = &self.way {
             let path = "formation.way";
             let points = way.from.iter().chain(&way.to).chain(&way.path);
@@ -40,8 +24,6 @@ impl FormationRequest {
                 return Err(wrong(path, "the path has no points", "write `from` and `to`, or a `path`"));
             }
             points.into_iter().try_for_each(|&point| place(path, "path", point))?;
-            number(path, "from_s", Some(way.from_s), 0.0, LONGEST_S)?;
-            number(path, "to_s", way.to_s, 0.0, LONGEST_S)?;
             if way.to_s.is_some_and(|to_s| to_s <= way.from_s) {
                 return Err(wrong(&format!("{path}.to_s"), "the path ends before it begins", None));
             }
@@ -51,22 +33,15 @@ impl FormationRequest {
 }
 
 impl CrowdSection<'_> {
-    fn check(&self, path: &str, depth: usize, duration_s: Option<f64>) -> Result<(), Problem> {
+    fn check(&self, path: &str, depth: usize, duration_s: Option<f64>) -> Result<(), OptionError> {
         self.example.check(&format!("{path}.example"))?;
-        number(path, "fluctuation", self.fluctuation, 0.0, 10.0)?;
-        number(path, "sigma_m", self.sigma_m, 1e-3, 1e4)?;
         for (index, group) in self.together.iter().enumerate() {
             members(&format!("{path}.together.{index}"), group, 2)?;
         }
         for (index, edit) in self.adjacency.iter().enumerate() {
             let path = format!("{path}.adjacency.{index}");
             members(&format!("{path}.members"), &edit.members, 2)?;
-            number(&path, "weight", Some(edit.weight), 0.0, 1.0)?;
         }
-        let avoid = format!("{path}.avoid");
-        number(&avoid, "distance_m", self.avoid.distance_m, 0.0, 10.0)?;
-        number(&avoid, "push", self.avoid.push, 0.0, 1.0)?;
-        number(&avoid, "seconds", self.avoid.seconds, 0.1, 10.0)?;
         let mut ends_s = None;
         for (index, key) in self.key.iter().enumerate() {
             let path = format!("{path}.key.{index}");
@@ -96,7 +71,7 @@ impl CrowdSection<'_> {
 }
 
 impl CrowdRequest {
-    fn check(&self, path: &str, depth: usize, duration_s: Option<f64>) -> Result<(), Problem> {
+    fn check(&self, path: &str, depth: usize, duration_s: Option<f64>) -> Result<(), OptionError> {
         if depth > DEEPEST {
             return Err(wrong(path, format!("small crowds are nested {DEEPEST} deep at most"), None));
         }
@@ -117,20 +92,14 @@ impl CrowdRequest {
 }
 
 impl ExampleRequest {
-    fn check(&self, path: &str) -> Result<(), Problem> {
+    fn check(&self, path: &str) -> Result<(), OptionError> {
         if let (Some(_), Some(_)) = (&self.file, self.kind) {
             let hint = "leave one of the two out";
             return Err(wrong(&format!("{path}.kind"), "the example has both a file and a kind", hint));
         }
-        number(path, "from_s", Some(self.from_s), 0.0, 1e7)?;
-        number(path, "to_s", self.to_s, 0.0, 1e7)?;
         if self.to_s.is_some_and(|to_s| to_s <= self.from_s) {
             let problem = format!("the example ends before it begins, at {} s", self.from_s);
             return Err(wrong(&format!("{path}.to_s"), problem, None));
-        }
-        let counts = [("people", self.people), ("rows", self.rows), ("columns", self.columns)];
-        for (name, count) in counts {
-            number(path, name, count.map(f64::from), 1.0, MOST_PEOPLE as f64)?;
         }
         if let (Some(rows), Some(columns)) = (self.rows, self.columns) {
             let product = u64::from(rows) * u64::from(columns);
@@ -143,14 +112,6 @@ impl ExampleRequest {
                 return Err(wrong(&format!("{path}.people"), problem, "leave `people` or `rows` out"));
             }
         }
-        let numbers = [
-            ("spacing_m", Some(self.spacing_m), 0.05, 1e3),
-            ("speed_m_s", self.speed_m_s, 0.0, 10.0),
-            ("heading_deg", Some(self.heading_deg), -360.0, 360.0),
-            ("stray_m", Some(self.stray_m), 0.0, 10.0),
-            ("radius_m", self.radius_m, 0.1, 1e4),
-        ];
-        numbers.into_iter().try_for_each(|(name, value, low, high)| number(path, name, value, low, high))?;
         for (index, list) in self.choose.iter().flat_map(|choice| choice.lists()).enumerate() {
             let key = format!("{path}.choose");
             let key = if matches!(self.choose, Some(super::Choice::Each(_))) { format!("{key}.{index}") } else { key };
@@ -164,7 +125,7 @@ impl ExampleRequest {
 }
 
 impl KeyRequest {
-    fn check(&self, path: &str, in_crowd: bool) -> Result<(), Problem> {
+    fn check(&self, path: &str, in_crowd: bool) -> Result<(), OptionError> {
         let sources = [
             ("shape", self.shape.is_some()),
             ("text", self.text.is_some()),
@@ -183,7 +144,6 @@ impl KeyRequest {
             }
             _ => {}
         }
-        self.check_numbers(path)?;
         self.check_fit(path)?;
         if let Some(letters) = self.text.as_deref() {
             let unknown = super::super::places::unknown_letters(letters);
@@ -206,28 +166,8 @@ impl KeyRequest {
         self.at.map_or(Ok(()), |at| place(path, "at", at))
     }
 
-    fn check_numbers(&self, path: &str) -> Result<(), Problem> {
-        let numbers = [
-            ("time_s", Some(self.time_s), 0.0, LONGEST_S),
-            ("hold_s", Some(self.hold_s), 0.0, LONGEST_S),
-            ("metres_per_pixel", self.metres_per_pixel, 0.0005, 10.0),
-            ("columns", self.columns.map(f64::from), 1.0, MOST_PEOPLE as f64),
-            ("rings", self.rings.map(f64::from), 1.0, 100.0),
-            ("corners", self.corners.map(f64::from), 3.0, 100.0),
-            ("inner", self.inner, 0.05, 1.0),
-            ("angle_deg", self.angle_deg, 0.0, 360.0),
-            ("spacing_m", self.spacing_m, 0.05, 1e3),
-            ("radius_m", self.radius_m, 0.01, 1e4),
-            ("height_m", self.height_m, 0.1, 1e4),
-            ("turn_deg", Some(self.turn_deg), -3600.0, 3600.0),
-            ("wheel_deg", Some(self.wheel_deg), -3600.0, 3600.0),
-            ("scale", self.scale, 1e-3, 1e3),
-        ];
-        numbers.into_iter().try_for_each(|(name, value, low, high)| number(path, name, value, low, high))
-    }
-
     /// Checks that keys for one kind of formation are used with that kind.
-    fn check_fit(&self, path: &str) -> Result<(), Problem> {
+    fn check_fit(&self, path: &str) -> Result<(), OptionError> {
         let is = |shapes: &[FormationShape]| self.shape.is_some_and(|shape| shapes.contains(&shape));
         let fits = [
             ("columns", self.columns.is_some(), is(&[FormationShape::Grid]), "a grid"),
@@ -276,17 +216,7 @@ impl KeyRequest {
     }
 }
 
-fn number(path: &str, name: &str, value: Option<f64>, low: f64, high: f64) -> Result<(), Problem> {
-    match value {
-        // Written so that NaN is out of range.
-        Some(value) if !(value >= low && value <= high) => {
-            Err(wrong(&format!("{path}.{name}"), format!("`{name}` is {value}, allowed is {low} to {high}"), None))
-        }
-        _ => Ok(()),
-    }
-}
-
-fn place(path: &str, name: &str, at: Vec2) -> Result<(), Problem> {
+fn place(path: &str, name: &str, at: Vec2) -> Result<(), OptionError> {
     let beyond = [at.x, at.y].into_iter().find(|number| !(-FARTHEST_M..=FARTHEST_M).contains(number));
     match beyond {
         Some(number) => {
@@ -298,7 +228,7 @@ fn place(path: &str, name: &str, at: Vec2) -> Result<(), Problem> {
 }
 
 /// Checks a list of individuals: its length, and that none is repeated.
-fn members(key: &str, list: &[u32], least: usize) -> Result<(), Problem> {
+fn members(key: &str, list: &[u32], least: usize) -> Result<(), OptionError> {
     if list.len() < least {
         return Err(wrong(key, format!("{} named, at least {least} are needed", list.len()), None));
     }

@@ -6,16 +6,9 @@ use super::MOST_PEOPLE;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RequestError {
-    /// A value out of range or in conflict with others.
-    #[error("{key}: {problem}")]
-    Value {
-        /// Key of the value, as `formation.key.2.time_s`, with lists counted from 0.
-        key: String,
-        /// The problem.
-        problem: String,
-        /// The remedy.
-        hint: Option<String>,
-    },
+    /// An option is not allowed.
+    #[error(transparent)]
+    Option(#[from] crate::options::OptionError),
     /// An unusable file of positions.
     #[error("{}: {problem}", path.display())]
     File {
@@ -88,7 +81,7 @@ impl RequestError {
     /// A remedy that the user can try.
     pub fn hint(&self) -> Option<String> {
         match self {
-            RequestError::Value { hint, .. } => hint.clone(),
+            RequestError::Option(error) => error.hint(),
             RequestError::File { .. } => {
                 Some("a formation is a text of points, `x y` in metres, or a picture of dots".to_string())
             }

@@ -2,81 +2,44 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use crate::options::{Kind, Leaf, Value, names, options};
 use crate::recordings::RecordingOptions;
 
-/// The example of a formation: a recording or a generated motion.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct ExampleRequest {
-    /// Kind of generated motion, if no file is given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub kind: Option<ExampleKind>,
-    /// File of the recording, relative to the scenario.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub file: Option<PathBuf>,
-    /// Options for reading the recording.
-    pub recording: RecordingOptions,
-    /// Start within the recording, seconds.
-    pub from_s: f64,
-    /// End within the recording, seconds; left out: its end.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub to_s: Option<f64>,
-    /// Repetition of an example that is too short.
-    pub repeat: Repeat,
-    /// The people to take, by index from 0; left out: all.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub choose: Option<Choice>,
-    /// Number of people to generate; left out: rows times columns, or the positions of the first key formation.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub people: Option<u32>,
-    /// Number of rows.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub rows: Option<u32>,
-    /// Number of people in a row.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub columns: Option<u32>,
-    /// Distance between neighbours, metres.
-    pub spacing_m: f64,
-    /// Walking speed, metres per second; left out: 1.2 for ranks, 0.9 for wanderers.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub speed_m_s: Option<f64>,
-    /// Heading of ranks, degrees counter-clockwise from +x.
-    pub heading_deg: f64,
-    /// Amplitude of straying from the place in the ranks, metres.
-    pub stray_m: f64,
-    /// Radius within which people wander, metres; left out: three times the squared spacing for each person.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub radius_m: Option<f64>,
-    /// Seed of the generated motion.
-    pub seed: u64,
-}
-
-impl Default for ExampleRequest {
-    fn default() -> ExampleRequest {
-        ExampleRequest {
-            kind: None,
-            file: None,
-            recording: RecordingOptions::default(),
-            from_s: 0.0,
-            to_s: None,
-            repeat: Repeat::default(),
-            choose: None,
-            people: None,
-            rows: None,
-            columns: None,
-            spacing_m: 1.0,
-            speed_m_s: None,
-            heading_deg: 90.0,
-            stray_m: 0.12,
-            radius_m: None,
-            seed: 1,
-        }
-    }
-}
-
-impl ExampleRequest {
-    pub(super) fn is_default(&self) -> bool {
-        *self == ExampleRequest::default()
+options! {
+    /// The example of a formation: a recording or a generated motion.
+    pub struct ExampleRequest {
+        /// What the example does: "still", "sway", "ranks" that march, or "wander".
+        kind: Option<ExampleKind> = None, eg "\"ranks\"";
+        /// Or a recording, relative to this file.
+        file: Option<PathBuf> = None, eg "\"march.txt\"";
+        /// How the recording is read, as [motion].
+        recording: RecordingOptions = RecordingOptions::default(), eg "{ unit = \"cm\", fps = 16 }";
+        /// Where in it to begin.
+        from_s: f64 = 0.0, in 0.0..=1e7, unit "s";
+        /// Where to end; left out: at its end.
+        to_s: Option<f64> = None, in 0.0..=1e7, unit "s", eg "20.0";
+        /// How it goes on if it is too short: "to-and-fro" or "loop".
+        repeat: Repeat = Repeat::default(), eg "\"loop\"";
+        /// Which of its people; of small crowds a list for each.
+        choose: Option<Choice> = None, eg "[[0, 1, 3], [4, 5, 7]]";
+        /// How many are made; left out: by rows and columns, or as a key formation has points.
+        people: Option<u32> = None, in 1.0..=2000.0, eg "9";
+        /// Rows one behind the other.
+        rows: Option<u32> = None, in 1.0..=2000.0, eg "3";
+        /// People side by side.
+        columns: Option<u32> = None, in 1.0..=2000.0, eg "3";
+        /// From one to the next.
+        spacing_m: f64 = 1.0, in 0.05..=1e3, unit "m";
+        /// How fast they walk; left out: ranks 1.2, who wanders 0.9.
+        speed_m_s: Option<f64> = None, in 0.0..=10.0, unit "m/s", eg "1.2";
+        /// Where ranks go.
+        heading_deg: f64 = 90.0, in -360.0..=360.0, unit "degrees from +x";
+        /// How far everybody strays from their place in the ranks.
+        stray_m: f64 = 0.12, in 0.0..=10.0, unit "m";
+        /// How far from their middle people wander; left out: by the spacing.
+        radius_m: Option<f64> = None, in 0.1..=1e4, unit "m", eg "6.0";
+        /// Another number, another example.
+        seed: u64 = 1;
     }
 }
 
@@ -114,6 +77,15 @@ pub enum Choice {
     /// One list per small crowd, repeated from the start if there are more crowds.
     Each(Vec<Vec<u32>>),
 }
+
+impl Leaf for Choice {
+    fn takes() -> Kind {
+        let words = "a list of people from 0 on, or a list of such lists";
+        Kind::AnyOf(words, vec![Vec::<u32>::kind(), Vec::<Vec<u32>>::kind()])
+    }
+}
+
+names!(ExampleKind, Repeat);
 
 impl Choice {
     /// The people for the small crowd of a number.

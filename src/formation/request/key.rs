@@ -4,79 +4,58 @@ use serde::{Deserialize, Serialize};
 
 use super::Assign;
 use crate::math::Vec2;
+use crate::options::{names, options};
 
-/// A key formation: `[[formation.key]]`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct KeyRequest {
-    /// Time at which people are in the formation, seconds.
-    pub time_s: f64,
-    /// Time for which they stay in it, seconds.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub hold_s: f64,
-    /// A named shape; left out if a text, points or a file are given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub shape: Option<FormationShape>,
-    /// Letters along whose strokes people stand.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub text: Option<String>,
-    /// The position of each person, `[x, y]` in metres.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub points: Option<Vec<Vec2>>,
-    /// A picture of dots or of a shape, or points as text; relative to the scenario.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub file: Option<PathBuf>,
-    /// Side of a pixel of the picture, metres; left out: 0.1.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub metres_per_pixel: Option<f64>,
-    /// Whether people fill the shape drawn in the picture, or the inside of a polygon or star.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub filled: Option<bool>,
-    /// Number of people in a row of a grid.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub columns: Option<u32>,
-    /// Number of concentric rings.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub rings: Option<u32>,
-    /// Number of corners of a polygon, or of points of a star.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub corners: Option<u32>,
-    /// Ratio of a star's inner to its outer radius.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub inner: Option<f64>,
-    /// Angle between the two lines of a wedge, degrees.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub angle_deg: Option<f64>,
-    /// Distance between neighbours, metres; left out: 1.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub spacing_m: Option<f64>,
-    /// Radius of rings, discs, polygons and stars, metres; left out: by the spacing.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub radius_m: Option<f64>,
-    /// Height of letters, metres; left out: by the spacing.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub height_m: Option<f64>,
-    /// Centroid of the formation, metres; left out: the origin, or the example's own centroid.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub at: Option<Vec2>,
-    /// Rotation of the formation, counter-clockwise, degrees.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub turn_deg: f64,
-    /// Rotation of the crowd as one body from the key formation before to this one, counter-clockwise, degrees.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub wheel_deg: f64,
-    /// Scale factor.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub scale: Option<f64>,
-    /// Assignment of people to positions; left out: the crowd's default.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub assign: Option<Assign>,
+options! {
+    /// A key formation: `[[formation.key]]`.
+    pub struct KeyRequest {
+        /// When people stand so.
+        time_s: f64 = 0.0, in 0.0..=36000.0, unit "s", eg "20.0", required true;
+        /// How long they stay in it.
+        hold_s: f64 = 0.0, in 0.0..=36000.0, unit "s";
+        /// "example" (as there), "grid", "line", "ring", "disc", "triangle", "polygon", "star" or "wedge"; up is
+        /// forward.
+        shape: Option<FormationShape> = None, eg "\"star\"";
+        /// Or letters that people stand along.
+        text: Option<String> = None, eg "\"HELLO\"";
+        /// Or a place for each.
+        points: Option<Vec<Vec2>> = None, unit "m", eg "[[0.0, 0.0], [1.0, 0.0], [0.5, 0.9]]";
+        /// Or a picture of dots, or a text of points; relative to this file.
+        file: Option<PathBuf> = None, eg "\"dots.png\"";
+        /// Of the picture; left out: 0.1.
+        metres_per_pixel: Option<f64> = None, in 0.0005..=10.0, unit "m", eg "0.1";
+        /// Whether people fill what is drawn, a polygon or a star evenly.
+        filled: Option<bool> = None, eg "true";
+        /// People side by side in a grid.
+        columns: Option<u32> = None, in 1.0..=2000.0, eg "6";
+        /// Rings one in the other.
+        rings: Option<u32> = None, in 1.0..=100.0, eg "2";
+        /// Of a polygon; points of a star.
+        corners: Option<u32> = None, in 3.0..=100.0, eg "5";
+        /// Inner radius of a star over its outer.
+        inner: Option<f64> = None, in 0.05..=1.0, eg "0.45";
+        /// Between the two lines of a wedge.
+        angle_deg: Option<f64> = None, in 0.0..=360.0, unit "degrees", eg "80.0";
+        /// From one to the next.
+        spacing_m: Option<f64> = None, in 0.05..=1e3, unit "m", eg "1.0";
+        /// Of rings, discs, polygons, stars; left out: by the spacing.
+        radius_m: Option<f64> = None, in 0.01..=1e4, unit "m", eg "4.0";
+        /// Of letters; left out: by the spacing.
+        height_m: Option<f64> = None, in 0.1..=1e4, unit "m", eg "5.0";
+        /// Where its middle is.
+        at: Option<Vec2> = None, unit "m", eg "[10.0, 0.0]";
+        /// How far it is turned, counter-clockwise.
+        turn_deg: f64 = 0.0, in -3600.0..=3600.0, unit "degrees";
+        /// How far all wheel as one body on the way to it.
+        wheel_deg: f64 = 0.0, in -3600.0..=3600.0, unit "degrees";
+        /// How many times as large.
+        scale: Option<f64> = None, in 1e-3..=1e3, eg "1.5";
+        /// Who goes where in this one, as above.
+        assign: Option<Assign> = None, eg "\"order\"";
+    }
 }
 
-#[allow(clippy::trivially_copy_pass_by_ref)] // serde gives a reference
-fn is_zero(number: &f64) -> bool {
-    *number == 0.0
-}
+names!(FormationShape);
 
 /// A named formation. Up is forward.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -13,108 +13,84 @@ pub use key::{FormationShape, KeyRequest};
 
 use super::MOST_PEOPLE;
 use crate::math::Vec2;
+use crate::options::{Field, Kind, Leaf, Table, Value, names, options};
 
 /// Largest coordinate of a position, metres.
 pub const FARTHEST_M: f64 = 100_000.0;
 /// Largest nesting depth of small crowds.
 pub const DEEPEST: usize = 8;
 
-/// Declares a section of a scenario that describes a crowd: its own settings around those that all crowds have.
-macro_rules! crowd_section {
-    ($(#[$about:meta])* $Section:ident { $($own:tt)* } around { $($inner:tt)* }) => {
-        $(#[$about])*
-        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-        #[serde(deny_unknown_fields, default)]
-        pub struct $Section {
-            $($own)*
-            /// The example whose motion the individuals take over.
-            #[serde(skip_serializing_if = "ExampleRequest::is_default")]
-            pub example: ExampleRequest,
-            /// Factor on the example's fluctuation, 0 to 10; left out: 1.
-            #[serde(skip_serializing_if = "Option::is_none")]
-            pub fluctuation: Option<f64>,
-            /// How the fluctuation is carried over; left out: with the formation's shapes.
-            #[serde(skip_serializing_if = "Option::is_none")]
-            pub stays_with: Option<Stays>,
-            /// Range of adjacency, metres; left out: the median distance to the nearest person.
-            #[serde(skip_serializing_if = "Option::is_none")]
-            pub sigma_m: Option<f64>,
-            /// Groups of individuals who are adjacent at any distance, so that they keep together.
-            #[serde(skip_serializing_if = "Vec::is_empty")]
-            pub together: Vec<Vec<u32>>,
-            /// Weights of adjacency between individuals.
-            #[serde(skip_serializing_if = "Vec::is_empty")]
-            pub adjacency: Vec<AdjacencyRequest>,
-            /// Default assignment of people to the positions of key formations.
-            #[serde(skip_serializing_if = "Option::is_none")]
-            pub assign: Option<Assign>,
-            /// Easing from one key formation to the next.
-            #[serde(skip_serializing_if = "Option::is_none")]
-            pub pace: Option<Pace>,
-            $($inner)*
-            /// Collision avoidance; a small crowd inherits what it leaves out from the larger one.
-            #[serde(skip_serializing_if = "AvoidRequest::is_default")]
-            pub avoid: AvoidRequest,
-            /// Key formations; those of a small crowd are relative to the individual that it replaces.
-            #[serde(skip_serializing_if = "Vec::is_empty")]
-            pub key: Vec<KeyRequest>,
-            /// Small crowds in the places of individuals.
-            #[serde(skip_serializing_if = "Vec::is_empty")]
-            pub crowd: Vec<CrowdRequest>,
-        }
-
-        impl $Section {
-            /// What it has in common with other crowds.
-            pub(super) fn section(&self) -> CrowdSection<'_> {
-                CrowdSection {
-                    example: &self.example,
-                    fluctuation: self.fluctuation,
-                    stays_with: self.stays_with,
-                    sigma_m: self.sigma_m,
-                    together: &self.together,
-                    adjacency: &self.adjacency,
-                    assign: self.assign,
-                    pace: self.pace,
-                    avoid: &self.avoid,
-                    key: &self.key,
-                    crowd: &self.crowd,
-                }
-            }
-        }
-    };
-}
-
-crowd_section! {
+options! {
     /// A crowd that changes from formation to formation: `[formation]` of a scenario.
-    FormationRequest {
-        /// Duration, seconds; left out: to the last key formation, else as long as the example, else 60 s.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        pub duration_s: Option<f64>,
+    pub struct FormationRequest {
+        /// How long it lasts; left out: to the last key formation.
+        duration_s: Option<f64> = None, in 0.1..=36000.0, unit "s", eg "60.0";
         /// Frames per second; left out: 10.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        pub fps: Option<f64>,
-    } around {
+        fps: Option<f64> = None, in 0.1..=1000.0, eg "10.0";
+        /// The example whose motion the individuals take over.
+        example: ExampleRequest = ExampleRequest::default();
+        /// How strongly the example's own way of moving is kept; left out: 1.
+        fluctuation: Option<f64> = None, in 0.0..=10.0, eg "1.0";
+        /// What that stays with: "shapes" that the formation is made of, or "people".
+        stays_with: Option<Stays> = None, eg "\"people\"";
+        /// How far neighbours feel each other; left out: from how far apart they are.
+        sigma_m: Option<f64> = None, in 1e-3..=1e4, unit "m", eg "1.2";
+        /// Who keeps together wherever they are; people count from 0 in the order of the example.
+        together: Vec<Vec<u32>> = Vec::new(), eg "[[0, 1, 3]]";
+        /// Or how near they feel, from 0, strangers, to 1, as if in one place.
+        adjacency: Vec<AdjacencyRequest> = Vec::new(), eg "[{ members = [0, 1], weight = 0.2 }]";
+        /// Who goes where in a key formation: "shortest" ways for all together, or by "order" (always in the first of
+        /// those who only stand).
+        assign: Option<Assign> = None, eg "\"shortest\"";
+        /// From key to key: "gentle" starts and stops, or "even".
+        pace: Option<Pace> = None, eg "\"gentle\"";
         /// Path of the crowd's centroid.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        pub way: Option<PathRequest>,
+        way: Option<PathRequest> = None;
+        /// Collision avoidance.
+        avoid: AvoidRequest = AvoidRequest::default();
+        /// Key formations.
+        key: Vec<KeyRequest> = Vec::new();
+        /// Small crowds in the places of individuals.
+        crowd: Vec<CrowdRequest> = Vec::new();
     }
 }
 
-crowd_section! {
+options! {
     /// A small crowd in the place of one or several individuals: `[[formation.crowd]]`.
     ///
     /// Small crowds nest: `[[formation.crowd.crowd]]`, and so on.
-    CrowdRequest {
-        /// The individuals that such crowds replace.
-        pub members: Members,
-        /// Whether each crowd carries a rider at its centre.
-        pub rider: bool,
-        /// Whether it avoids others as one body; left out: if it has a rider.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        pub as_one: Option<bool>,
-        /// Whether it turns to its heading: the formations' up points forward.
-        pub follow_heading: bool,
-    } around {}
+    pub struct CrowdRequest {
+        /// In whose places small crowds stand: "all", a list, or { every = 2, from = 0 }.
+        members: Members = Members::default(), eg "[0, 2, 4]";
+        /// Whether one more is carried in the middle of each.
+        rider: bool = false;
+        /// Whether each keeps clear of others as one body; left out: with a rider.
+        as_one: Option<bool> = None, eg "true";
+        /// Whether each turns to where it goes.
+        follow_heading: bool = false;
+        /// How its people move, as [formation.example].
+        example: ExampleRequest = ExampleRequest::default(), eg "{ kind = \"sway\", people = 3 }";
+        /// As in [formation].
+        fluctuation: Option<f64> = None, in 0.0..=10.0, eg "1.0";
+        /// As in [formation].
+        stays_with: Option<Stays> = None, eg "\"people\"";
+        /// As in [formation].
+        sigma_m: Option<f64> = None, in 1e-3..=1e4, eg "0.8";
+        /// As in [formation].
+        together: Vec<Vec<u32>> = Vec::new(), eg "[[0, 1]]";
+        /// As in [formation].
+        adjacency: Vec<AdjacencyRequest> = Vec::new(), eg "[{ members = [0, 1], weight = 0.2 }]";
+        /// As in [formation].
+        assign: Option<Assign> = None, eg "\"order\"";
+        /// As in [formation].
+        pace: Option<Pace> = None, eg "\"even\"";
+        /// As [formation.avoid]; what is left out is as in the larger crowd.
+        avoid: AvoidRequest = AvoidRequest::default(), eg "{ distance_m = 0.3 }";
+        /// Its formations, each in a [[formation.crowd.key]].
+        key: Vec<KeyRequest> = Vec::new(), eg "[{ time_s = 0, shape = \"triangle\" }]";
+        /// Smaller crowds within, each in a [[formation.crowd.crowd]].
+        crowd: Vec<CrowdRequest> = Vec::new(), eg "[]";
+    }
 }
 
 /// The settings that a crowd and the small crowds within it have in common.
@@ -128,12 +104,38 @@ pub(super) struct CrowdSection<'r> {
     pub adjacency: &'r [AdjacencyRequest],
     pub assign: Option<Assign>,
     pub pace: Option<Pace>,
-    pub avoid: &'r AvoidRequest,
     pub key: &'r [KeyRequest],
     pub crowd: &'r [CrowdRequest],
 }
 
+macro_rules! section {
+    ($request:expr) => {
+        CrowdSection {
+            example: &$request.example,
+            fluctuation: $request.fluctuation,
+            stays_with: $request.stays_with,
+            sigma_m: $request.sigma_m,
+            together: &$request.together,
+            adjacency: &$request.adjacency,
+            assign: $request.assign,
+            pace: $request.pace,
+            key: &$request.key,
+            crowd: &$request.crowd,
+        }
+    };
+}
+
+impl FormationRequest {
+    pub(super) fn section(&self) -> CrowdSection<'_> {
+        section!(self)
+    }
+}
+
 impl CrowdRequest {
+    pub(super) fn section(&self) -> CrowdSection<'_> {
+        section!(self)
+    }
+
     /// Whether it avoids others as one body.
     pub(super) fn is_as_one(&self) -> bool {
         self.as_one.unwrap_or(self.rider)
@@ -166,6 +168,22 @@ pub enum MembersWord {
     All,
 }
 
+impl Members {
+    const EVERY: Table = Table {
+        name: "Every",
+        parts: &[&[Field::plain("every", u32::kind, true), Field::plain("from", u32::kind, false)]],
+    };
+}
+
+impl Leaf for Members {
+    fn takes() -> Kind {
+        let words = "\"all\", a list of individuals from 0 on, or { every = 2, from = 0 }";
+        Kind::AnyOf(words, vec![Kind::OneOf(&["all"]), Vec::<u32>::kind(), Kind::Table(Members::EVERY)])
+    }
+}
+
+names!(Assign, Pace, Stays);
+
 impl Default for Members {
     fn default() -> Members {
         Members::Word(MembersWord::All)
@@ -186,14 +204,14 @@ impl Members {
     }
 }
 
-/// A weight of adjacency between individuals.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AdjacencyRequest {
-    /// The individuals; the weight applies to each pair.
-    pub members: Vec<u32>,
-    /// Weight, 0 to 1: 0 as for people far apart, 1 as for people at one position.
-    pub weight: f64,
+options! {
+    /// A weight of adjacency between individuals.
+    pub struct AdjacencyRequest {
+        /// The individuals; the weight applies to each pair.
+        members: Vec<u32> = Vec::new(), required true;
+        /// Weight: 0 as for people far apart, 1 as for people at one position.
+        weight: f64 = 0.0, in 0.0..=1.0, required true;
+    }
 }
 
 /// Assignment of people to the positions of a key formation.
@@ -230,53 +248,45 @@ pub enum Pace {
     Even,
 }
 
-/// Where the middle of the whole goes. Key formations are placed relative to it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct PathRequest {
-    /// Where it begins, metres; left out: the first point of the path.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub from: Option<Vec2>,
-    /// Where it ends.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub to: Option<Vec2>,
-    /// Points on the path, joined by a smooth curve.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub path: Vec<Vec2>,
-    /// Start of the motion along the path, seconds.
-    pub from_s: f64,
-    /// End of the motion along the path, seconds; left out: the end of the formation.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub to_s: Option<f64>,
-    /// Whether the crowd turns to its heading: the formations' up points forward.
-    pub follow_heading: bool,
+options! {
+    /// Where the middle of the whole goes. Key formations are placed relative to it.
+    pub struct PathRequest {
+        /// Where the middle of all begins; key formations are placed relative to it.
+        from: Option<Vec2> = None, unit "m", eg "[0.0, 0.0]";
+        /// Where it ends.
+        to: Option<Vec2> = None, unit "m", eg "[20.0, 0.0]";
+        /// Points on the way, on a smooth curve.
+        path: Vec<Vec2> = Vec::new(), unit "m", eg "[[5.0, 3.0], [12.0, -3.0]]";
+        /// When it begins.
+        from_s: f64 = 0.0, in 0.0..=36000.0, unit "s";
+        /// When it ends; left out: at the end of all.
+        to_s: Option<f64> = None, in 0.0..=36000.0, unit "s", eg "50.0";
+        /// Whether all turn along it: what is up in a formation points forward.
+        follow_heading: bool = false;
+    }
 }
 
-/// Settings of collision avoidance; a small crowd inherits what it leaves out.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct AvoidRequest {
-    /// Whether people keep clear of each other; left out: yes.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub on: Option<bool>,
-    /// Least distance between the centres of two people (mean of both settings), metres; left out: 0.36.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub distance_m: Option<f64>,
-    /// Strength of the push between neighbours, in inverse proportion to their distance; left out: 0.02.
-    ///
-    /// 1 moves a person by 1 m whose neighbour is at 1 m.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub push: Option<f64>,
-    /// Time for which people step aside before and after an encounter, seconds; left out: 0.8.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub seconds: Option<f64>,
+options! {
+    /// Settings of collision avoidance; a small crowd inherits what it leaves out.
+    pub struct AvoidRequest {
+        /// Whether people keep clear of each other.
+        on: Option<bool> = None, eg "true";
+        /// Bodies' middles never come nearer to each other; left out: 0.36.
+        ///
+        /// Least distance between the centres of two people (mean of both settings), metres; left out: 0.36.
+        distance_m: Option<f64> = None, in 0.0..=10.0, unit "m", eg "0.36";
+        /// How strongly neighbours push each other; left out: 0.02.
+        ///
+        /// Strength of the push between neighbours, in inverse proportion to their distance; left out: 0.02.
+        ///
+        /// 1 moves a person by 1 m whose neighbour is at 1 m.
+        push: Option<f64> = None, in 0.0..=1.0, eg "0.02";
+        /// How long before and after people step aside; left out: 0.8.
+        seconds: Option<f64> = None, in 0.1..=10.0, unit "s", eg "0.8";
+    }
 }
 
 impl AvoidRequest {
-    fn is_default(&self) -> bool {
-        *self == AvoidRequest::default()
-    }
-
     /// These settings, completed by those of the larger crowd.
     pub(super) fn over(&self, larger: &AvoidRequest) -> AvoidRequest {
         AvoidRequest {

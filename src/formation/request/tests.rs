@@ -1,12 +1,14 @@
 use super::*;
+use crate::options::{Options, parse};
+
+fn read<T: Options>(text: &str) -> T {
+    parse(text).unwrap_or_else(|mistake| panic!("{}\n{text}", mistake.explain(text).0))
+}
 
 /// What is wrong: the key and the problem.
 fn problem(text: &str) -> (String, String) {
-    let request: FormationRequest = toml::from_str(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    match request.check().unwrap_err() {
-        RequestError::Value { key, problem, .. } => (key, problem),
-        other => panic!("{other}"),
-    }
+    let error = read::<FormationRequest>(text).check().unwrap_err();
+    (error.key().to_string(), error.problem())
 }
 
 #[test]
@@ -66,7 +68,7 @@ fn crowds_are_not_nested_without_end() {
 #[test]
 fn members_are_all_some_or_every_so_many() {
     let members = |text: &str| {
-        let crowd: CrowdRequest = toml::from_str(text).unwrap();
+        let crowd: CrowdRequest = read(text);
         (0..7).filter(|&k| crowd.members.contains(k)).collect::<Vec<_>>()
     };
     assert_eq!(members(""), [0, 1, 2, 3, 4, 5, 6]);
@@ -80,7 +82,7 @@ fn members_are_all_some_or_every_so_many() {
 fn what_is_written_reads_back_the_same() {
     let text = "duration_s = 9.0\nway = { path = [[0, 1], [2, 3]] }\nexample = { kind = \"wander\", people = 4, choose = [[0, 1]] }\n\
                 [[key]]\ntime_s = 0\nshape = \"star\"\nfilled = true\n[[crowd]]\nmembers = { every = 2 }\n[[crowd.crowd]]\nrider = true\n";
-    let request: FormationRequest = toml::from_str(text).unwrap();
-    let written = toml::to_string(&request).unwrap();
-    assert_eq!(toml::from_str::<FormationRequest>(&written).unwrap(), request, "{written}");
+    let request: FormationRequest = read(text);
+    let written = toml::to_string(&request.table()).unwrap();
+    assert_eq!(read::<FormationRequest>(&written), request, "{written}");
 }

@@ -1,6 +1,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::math::srgb::Srgb8;
+use crate::options::names;
+
+names!(WallMaterial);
 
 /// Wall material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

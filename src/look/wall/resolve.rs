@@ -42,7 +42,12 @@ impl<'a> WallResolver<'a> {
         self.0.background
     }
 
-    /// Resolves the texels `i0..i0 + width`, `j0..j0 + height` of a face's unrolled strip.
+    /// Texels along a face, if there is such a face.
+    pub fn columns(&self, face: usize) -> Option<u32> {
+        self.0.sums.grid().faces.get(face).map(|span| span.width)
+    }
+
+    /// Resolves the texels `i0..i0 + width`, `j0..j0 + height` of the unrolled strip of a face.
     ///
     /// i increases along the face; row 0 is the lowest, at the floor for `j0` = 0.
     ///

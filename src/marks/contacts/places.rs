@@ -86,15 +86,15 @@ impl ContactPlaces {
         requests: &[DoorRequest],
     ) -> Result<ContactPlaces, MarksError> {
         for (index, request) in requests.iter().enumerate() {
-            let wrong = |key: &'static str, problem: String, hint: &str| MarksError::Place {
+            let wrong = |key: &str, problem: String, hint: &str| MarksError::Place {
                 list: "door",
                 index,
                 name: request.name.clone(),
-                key,
+                key: key.to_string(),
                 problem,
                 hint: Some(hint.to_owned()),
             };
-            request.check().map_err(|(key, problem)| wrong(key, problem, ""))?;
+            request.check().map_err(|error| wrong(error.key(), error.problem(), ""))?;
             let at_m = request.at.to_m(plan);
             let middle = |door: &Door| door.doorway.jambs_m[0].lerp(door.doorway.jambs_m[1], 0.5);
             let near_m = |door: &Door| middle(door).distance(at_m);
@@ -143,15 +143,15 @@ impl ContactPlaces {
         requests: &[FixtureRequest],
     ) -> Result<ContactPlaces, MarksError> {
         for (index, request) in requests.iter().enumerate() {
-            let wrong = |key: &'static str, problem: String, hint: Option<&str>| MarksError::Place {
+            let wrong = |key: &str, problem: String, hint: Option<&str>| MarksError::Place {
                 list: "fixture",
                 index,
                 name: request.name.clone(),
-                key,
+                key: key.to_string(),
                 problem,
                 hint: hint.map(str::to_owned),
             };
-            request.check().map_err(|(key, problem)| wrong(key, problem, None))?;
+            request.check().map_err(|error| wrong(error.key(), error.problem(), None))?;
             let ends_m = match request.at {
                 FixtureAt::Point(point) => [point.to_m(plan); 2],
                 FixtureAt::Line(points) => points.map(|point: PlanPoint| point.to_m(plan)),

@@ -2,46 +2,25 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::options::{Kind, Leaf, Limits, OptionError, Options, Value, names, options};
 use crate::plan::{LARGEST_COORDINATE, PlanPoint};
 
-/// Range of a door's clear width in a scenario, metres.
-const WIDTHS_M: [f64; 2] = [0.5, 6.0];
-/// Range of a door's height in a scenario, metres.
-const HEIGHTS_M: [f64; 2] = [1.8, 3.5];
-
-/// A door as a scenario writes it. Lengths in metres.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct DoorRequest {
-    /// Name in messages.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub name: Option<String>,
-    /// Middle of the clear width.
-    pub at: PlanPoint,
-    /// Clear width, metres, 0.5 to 6.
-    #[serde(default = "usual_width")]
-    pub width: f64,
-    /// Height, metres, 1.8 to 3.5.
-    #[serde(default = "usual_height")]
-    pub height: f64,
-    /// A point near the hinge jamb; the handle is at the other. `None` for either.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub hinge: Option<PlanPoint>,
-    /// Height of the handle, metres, 0.6 to 1.5.
-    #[serde(default = "usual_handle")]
-    pub handle: f64,
-}
-
-fn usual_width() -> f64 {
-    0.9
-}
-
-fn usual_height() -> f64 {
-    crate::walls::DOOR_HEAD_M
-}
-
-fn usual_handle() -> f64 {
-    1.0
+options! {
+    /// A door as a scenario writes it. Lengths in metres.
+    pub struct DoorRequest {
+        /// What to call it.
+        name: Option<String> = None, eg "\"office\"";
+        /// Its middle, [x, y] in metres or { px = [x, y] }; where walls leave a gap, this says more of that door.
+        at: PlanPoint = PlanPoint::Metres([0.0; 2]), eg "[12.0, 4.5]", required true;
+        /// Clear width.
+        width: f64 = 0.9, in 0.5..=6.0, unit "m";
+        /// Height.
+        height: f64 = crate::walls::DOOR_HEAD_M, in 1.8..=3.5, unit "m";
+        /// A point near the jamb on which the leaf hangs: the handle is at the other; left out: either.
+        hinge: Option<PlanPoint> = None, eg "[12.4, 4.5]";
+        /// Height of the handle.
+        handle: f64 = 1.0, in 0.6..=1.5, unit "m";
+    }
 }
 
 /// Kind of fixture.
@@ -77,38 +56,39 @@ pub enum FixtureAt {
     Line([PlanPoint; 2]),
 }
 
-/// A fixture as a scenario writes it. Lengths in metres.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct FixtureRequest {
-    /// Name in messages.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub name: Option<String>,
-    /// Kind of fixture.
-    pub kind: FixtureKind,
-    /// Position; people touch the nearest wall within 1.5 m.
-    pub at: FixtureAt,
-    /// A point on the side of its users, which selects the face of a thin wall.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub facing: Option<PlanPoint>,
-    /// Width along the wall of a fixture given by its middle, metres, 0.02 to 20; default by kind.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub width: Option<f64>,
+options! {
+    /// A fixture as a scenario writes it. Lengths in metres.
+    pub struct FixtureRequest {
+        /// What to call it.
+        name: Option<String> = None, eg "\"light switch\"";
+        /// "switch", "handle", "counter", "bench", "radiator", "bin", "machine" or "chairs".
+        kind: FixtureKind = FixtureKind::Switch, eg "\"switch\"", required true;
+        /// Where it is at a wall: its middle, or its two ends [[x0, y0], [x1, y1]].
+        at: FixtureAt = FixtureAt::Point(PlanPoint::Metres([0.0; 2])), eg "[12.8, 4.4]", required true;
+        /// A point on the side from which it is reached: of a thin wall, it chooses the face.
+        facing: Option<PlanPoint> = None, eg "[12.8, 6.0]";
+        /// Width along the wall; left out: by the kind.
+        width: Option<f64> = None, in 0.02..=20.0, unit "m", eg "0.1";
+    }
 }
 
-/// An invalid key and its problem.
-type Problem = (&'static str, String);
+impl Leaf for FixtureAt {
+    fn takes() -> Kind {
+        let line = Kind::List(Box::new(PlanPoint::kind()), Some(2));
+        Kind::AnyOf("a point [x, y], or two of them: [[x0, y0], [x1, y1]]", vec![PlanPoint::kind(), line])
+    }
+}
+
+names!(FixtureKind);
 
 impl DoorRequest {
     /// Checks every value.
     ///
     /// # Errors
-    /// The first key whose value is out of range, with the problem.
-    pub fn check(&self) -> Result<(), Problem> {
+    /// The first value out of its range.
+    pub fn check(&self) -> Result<(), OptionError> {
+        self.check_ranges()?;
         check_point("at", self.at)?;
-        check_number("width", self.width, WIDTHS_M)?;
-        check_number("height", self.height, HEIGHTS_M)?;
-        check_number("handle", self.handle, [0.6, 1.5])?;
         self.hinge.map_or(Ok(()), |point| check_point("hinge", point))
     }
 }
@@ -147,39 +127,28 @@ impl FixtureRequest {
     /// Checks every value.
     ///
     /// # Errors
-    /// The first key whose value is out of range, with the problem.
-    pub fn check(&self) -> Result<(), Problem> {
+    /// The first value that is out of its range or does not go with others.
+    pub fn check(&self) -> Result<(), OptionError> {
+        self.check_ranges()?;
         match self.at {
             FixtureAt::Point(point) => check_point("at", point)?,
             FixtureAt::Line([from, to]) => {
                 check_point("at", from)?;
                 check_point("at", to)?;
                 if self.width.is_some() {
-                    return Err(("width", "a fixture given by its two ends takes no `width`".into()));
+                    return Err(OptionError::unfit("width", "a fixture given by its two ends takes no `width`"));
                 }
             }
-        }
-        if let Some(width) = self.width {
-            check_number("width", width, [0.02, 20.0])?;
         }
         self.facing.map_or(Ok(()), |point| check_point("facing", point))
     }
 }
 
-fn check_number(key: &'static str, value: f64, [low, high]: [f64; 2]) -> Result<(), Problem> {
-    // Written so that NaN is out of range.
-    if value >= low && value <= high {
-        Ok(())
-    } else {
-        Err((key, format!("`{key}` is {value}, allowed is {low} to {high}")))
+fn check_point(key: &str, point: PlanPoint) -> Result<(), OptionError> {
+    let (PlanPoint::Metres(at) | PlanPoint::Pixels { px: at }) = point;
+    let limits = Limits { low: -LARGEST_COORDINATE, high: LARGEST_COORDINATE, open: false };
+    match at.into_iter().find(|&coordinate| !limits.hold(coordinate)) {
+        Some(coordinate) => Err(OptionError::beyond(coordinate, limits).within(key)),
+        None => Ok(()),
     }
-}
-
-fn check_point(key: &'static str, point: PlanPoint) -> Result<(), Problem> {
-    let [x, y] = match point {
-        PlanPoint::Metres(at) | PlanPoint::Pixels { px: at } => at,
-    };
-    [x, y]
-        .into_iter()
-        .try_for_each(|coordinate| check_number(key, coordinate, [-LARGEST_COORDINATE, LARGEST_COORDINATE]))
 }

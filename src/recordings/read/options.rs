@@ -1,29 +1,26 @@
-use serde::{Deserialize, Serialize};
-
 use super::{LengthUnit, RecordingFormat};
+use crate::options::{names, options};
 
-/// Options for reading a recording; omitted ones are detected from the file.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct RecordingOptions {
-    /// File format.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub format: Option<RecordingFormat>,
-    /// Length unit of the file.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub unit: Option<LengthUnit>,
-    /// Frames per second of the file, for files that count frames.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub fps: Option<f64>,
-    /// Roles of the columns in order, such as `id,frame,x,y`; `-` for an ignored one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub columns: Option<String>,
-    /// Centre of the rotation, metres, in the recording.
-    pub origin: [f64; 2],
-    /// Translation after the rotation, metres.
-    pub shift: [f64; 2],
-    /// Rotation around `origin`, degrees counter-clockwise.
-    pub rotation_deg: f64,
+names!(LengthUnit, RecordingFormat);
+
+options! {
+    /// How a recording is read; what is left out is found in the file.
+    pub struct RecordingOptions {
+        /// How it is written; left out: found.
+        format: Option<RecordingFormat> = None, eg "\"juelich\"";
+        /// Of its lengths, "m", "cm", "mm" or "ft"; left out: found.
+        unit: Option<LengthUnit> = None, eg "\"cm\"";
+        /// Frames per second, where it counts frames; left out: found.
+        fps: Option<f64> = None, in 0.01..=1000.0, eg "25";
+        /// What its columns mean, in order; - for one of no use.
+        columns: Option<String> = None, eg "\"id,frame,x,y,-\"";
+        /// The point that stays where it is when the recording is turned.
+        origin: [f64; 2] = [0.0; 2], unit "m";
+        /// How far the recording is moved.
+        shift: [f64; 2] = [0.0; 2], unit "m";
+        /// How far it is turned, counter-clockwise.
+        rotation_deg: f64 = 0.0, in -360.0..=360.0, unit "degrees";
+    }
 }
 
 impl RecordingOptions {

@@ -87,6 +87,7 @@ impl Recording {
     /// # Errors
     /// The file cannot be read any more; no person is present throughout.
     pub fn ensemble(&self, fps: Option<f64>, span_s: [f64; 2]) -> Result<Ensemble, MotionError> {
-        Ensemble::of_motion(&mut *self.motion()?, fps.unwrap_or(self.survey().fps), span_s)
+        let ensemble = Ensemble::of_motion(&mut *self.motion()?, fps.unwrap_or(self.survey().fps), span_s)?;
+        Ok(ensemble.with_statures(self.statures()))
     }
 }

@@ -1,13 +1,12 @@
 use std::path::Path;
 
-use serde::de::DeserializeOwned;
-
-use super::check::value_at;
-use super::keys::{Allowed, KEYS, Key, LISTS, SECTIONS};
 use super::*;
+use crate::look::Look;
 use crate::plan::PlanPoint;
+use crate::routes::{PlaceRequest, RouteRequest, ViaRequest};
 
 mod formations;
+mod keys;
 mod mistakes;
 mod places;
 mod stops;
@@ -127,115 +126,6 @@ fn routes() -> Vec<RouteRequest> {
     };
     let name = Some("round".to_string());
     vec![first, RouteRequest { name, from: area, to: opening("south"), via, share: 0.25, arrivals: None }]
-}
-
-#[test]
-fn a_written_scenario_shows_every_key() {
-    let text = Scenario::of_preset(Preset::Commuters).to_toml();
-    // What serde itself lists when it meets a key that nothing has.
-    fn keys_of<T: DeserializeOwned>() -> Vec<String> {
-        let message = toml::from_str::<T>("\"\" = 0").err().unwrap().message().to_string();
-        message.split('`').skip(3).step_by(2).map(str::to_string).collect()
-    }
-    let sections = [
-        ("plan", keys_of::<PlanOptions>()),
-        ("walls", keys_of::<WallsOptions>()),
-        ("texture", keys_of::<TextureOptions>()),
-        ("route", keys_of::<RouteRequest>()),
-        ("stop", keys_of::<StopRequest>()),
-        ("crowd.arrivals", keys_of::<Timetable>()),
-        ("crowd", keys_of::<CrowdOptions>()),
-        ("marks", keys_of::<MarksOptions>()),
-        ("marks.soil", keys_of::<crate::marks::SoilOptions>()),
-        ("marks.heel", keys_of::<crate::marks::HeelOptions>()),
-        ("marks.contact", keys_of::<crate::marks::ContactOptions>()),
-        ("door", keys_of::<DoorRequest>()),
-        ("fixture", keys_of::<FixtureRequest>()),
-        ("stamps", keys_of::<StampOptions>()),
-        ("bodies", keys_of::<BodyOptions>()),
-        ("look", keys_of::<Look>()),
-        ("look.floor", keys_of::<crate::look::FloorLook>()),
-        ("look.film", keys_of::<crate::look::FilmLook>()),
-        ("look.ingrained", keys_of::<crate::look::IngrainedLook>()),
-        ("look.prints", keys_of::<crate::look::PrintsLook>()),
-        ("look.scuffs", keys_of::<crate::look::ScuffsLook>()),
-        ("look.edge", keys_of::<crate::look::EdgeLook>()),
-        ("look.dust", keys_of::<crate::look::DustLook>()),
-        ("look.noise", keys_of::<crate::look::NoiseLook>()),
-    ];
-    for (section, keys) in sections {
-        assert!(!keys.is_empty(), "{section}");
-        for key in keys {
-            let path = format!("{section}.{key}");
-            let nested = KEYS.iter().any(|known| known.section() == path);
-            assert!(nested || KEYS.iter().any(|known| known.path == path), "{path} is not explained");
-        }
-    }
-    for key in KEYS {
-        assert!(SECTIONS.contains(&key.path.split('.').next().unwrap()), "{}", key.path);
-        assert!(text.contains(&format!("{} = ", key.name())), "{} is not written", key.path);
-        assert!(key.about.len() > 3, "{} is not explained", key.path);
-    }
-}
-
-#[test]
-fn every_example_of_a_key_without_a_default_reads() {
-    let of_files = ["look.file", "crowd.arrivals.file"];
-    let read = |key: &&Key| {
-        !key.example.is_empty()
-            && !of_files.contains(&key.path)
-            && !LISTS.contains(&key.section())
-            && !key.path.starts_with("formation.")
-    };
-    for key in KEYS.iter().filter(read) {
-        let (section, name) = (key.section(), key.name());
-        let image = if section == "plan" && name != "image" { "image = \"plan.png\"\n" } else { "" };
-        let plan = if section == "plan" { "" } else { PLAN };
-        let with = stops::companions(key.path);
-        let text = format!("{plan}[{section}]\n{image}{with}{name} = {}\n", key.example);
-        parse(&text).unwrap_or_else(|error| panic!("{error}"));
-    }
-}
-
-/// No key lets a value through that the stage refuses, and none refuses its own limits.
-#[test]
-fn limits_are_allowed_and_what_lies_beyond_is_not() {
-    let defaults = write::table_of(&Scenario::of_preset(Preset::Commuters)).unwrap();
-    for key in KEYS {
-        let (low, high, open) = match key.allowed {
-            _ if LISTS.contains(&key.section()) || key.path.starts_with("formation.") => continue,
-            // Each may be 0, not all of them.
-            _ if key.path == "crowd.groups.shares" => continue,
-            Allowed::Any => continue,
-            Allowed::Number(low, high) | Allowed::Spread(low, high) => (low, high, false),
-            Allowed::Below(low, high) => (low, high, true),
-        };
-        let default = value_at(&defaults, key.path);
-        let whole = default.is_some_and(toml::Value::is_integer)
-            || ["plan.threshold", "crowd.arrivals.people"].contains(&key.path);
-        let list = default.and_then(toml::Value::as_array).map(Vec::len);
-        let text = |value: f64| {
-            let number = if whole { format!("{value}") } else { format!("{value:?}").to_lowercase() };
-            let value = list.map_or(number.clone(), |count| format!("[{}]", vec![number.as_str(); count].join(", ")));
-            let image = if key.section() == "plan" { "image = \"plan.png\"\n" } else { "" };
-            let plan = if key.section() == "plan" { "" } else { PLAN };
-            let with = stops::companions(key.path);
-            format!("{plan}[{}]\n{image}{with}{} = {value}\n", key.section(), key.name())
-        };
-        parse(&text(low)).unwrap_or_else(|error| panic!("{error}"));
-        let step = if whole { 1.0 } else { 1e-6 };
-        parse(&text(if open { high - step } else { high })).unwrap_or_else(|error| panic!("{error}"));
-        for beyond in
-            [low - step, if open { high } else { high * 1.001 + step }, -1e300, 1e300, f64::NAN, f64::INFINITY]
-        {
-            let message = shown(&text(beyond));
-            assert!(
-                message.contains(key.name()) && message.contains(" --> plans/hall.toml:"),
-                "{}: {message}",
-                key.path
-            );
-        }
-    }
 }
 
 mod any_text {

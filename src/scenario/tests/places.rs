@@ -3,6 +3,7 @@
 use snapbox::{assert_data_eq, str};
 
 use super::*;
+use crate::marks::{DoorRequest, FixtureRequest};
 use crate::marks::{FixtureAt, FixtureKind};
 
 pub(super) fn doors() -> Vec<DoorRequest> {

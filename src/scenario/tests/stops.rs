@@ -4,7 +4,7 @@ use snapbox::{assert_data_eq, str};
 
 use super::*;
 use crate::math::Distribution;
-use crate::routes::{StopAt, StopKind, TimetableKind};
+use crate::routes::{StopAt, StopKind, StopRequest, Timetable, TimetableKind};
 
 const ROUTES: &str = "[[route]]\nfrom = \"west\"\nto = \"east\"\n";
 

@@ -22,7 +22,7 @@ const NARROWEST: usize = 420;
 
 /// Half the shoulders' width and half the chest's depth, with clothes, metres.
 const BODY_M: [f64; 2] = [0.24, 0.15];
-/// Nobody is drawn smaller than this, half shoulders, pixels.
+/// Least half shoulder width at which a person is drawn, pixels.
 const SMALLEST_PX: f64 = 3.4;
 /// How strong a tail is at the body.
 const TAIL: f64 = 0.5;
@@ -102,7 +102,7 @@ impl<'a> CrowdView<'a> {
         canvas.picture
     }
 
-    /// Those who are still on their way in are not seen: there is no plan under them.
+    /// People still outside the plan are not drawn.
     fn is_on_plan(&self, place: Vec2) -> bool {
         let [width, height] = self.ground.plan_px.map(|side| side as f64 / self.ground.pixels_per_metre);
         place.x >= 0.0 && place.y >= 0.0 && place.x <= width && place.y <= height

@@ -26,7 +26,7 @@ pub(super) struct LabelPatch {
     pub(super) indices: Vec<u8>,
 }
 
-/// What changes from one picture to the next: a rectangle, in which the pixels that stay are [`UNCHANGED`].
+/// The change from one picture to the next: a rectangle, in which unchanged pixels are [`UNCHANGED`].
 struct FrameDelta {
     at: [u32; 2],
     size: [u32; 2],

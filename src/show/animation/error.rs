@@ -4,7 +4,7 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AnimationError {
-    /// The file's name says nothing of its format.
+    /// The file's name has an ending of no known format.
     #[error("{}: an animation is written to a file whose name ends in .gif, .png or .apng", path.display())]
     UnknownEnding {
         /// The file.

@@ -25,7 +25,7 @@ const MOST_AT_FIXED_SPEED: usize = 7500;
 const MOMENTS: u64 = 4;
 /// Speeds to choose from; ten and a hundred times these follow.
 const SPEEDS: [f64; 9] = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0];
-/// What is expected to last is often exceeded: some room is left, seconds.
+/// Room left because walks often last longer than expected, seconds.
 const ROOM_S: f64 = 3.0;
 
 /// The least round speed at which so many seconds are shown in time.
@@ -93,7 +93,7 @@ impl<'a> Animation<'a> {
         })
     }
 
-    /// Takes the motion's next frame, and everybody who has got stuck so far.
+    /// Takes the motion's next frame, and all people who have got stuck so far.
     pub fn push(&mut self, frame: &Frame, stuck: &[Stuck]) {
         self.resampler.push(frame);
         while let Some((moment, walkers)) = self.resampler.next() {

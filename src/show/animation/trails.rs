@@ -1,12 +1,12 @@
 use crate::math::Vec2;
 use crate::motion::Walker;
 
-/// Places that are kept of everybody: their ways from one picture to the next, and half as far back again.
+/// Number of places kept per person: the way since the last picture, and half as far back again.
 const PLACES: usize = 6;
-/// Who is farther away from one place to the next has been put elsewhere, metres per second.
+/// Speed above which a person has been moved, not walked, metres per second.
 const FASTEST_M_S: f64 = 20.0;
 
-/// Where people have just been: between two pictures they may have walked some metres.
+/// The latest places of each person: between two pictures people may walk some metres.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Trails {
     /// By ascending id, the newest place first.

@@ -1,7 +1,7 @@
-use crate::export::Reduced;
-use crate::look::{Background, Look};
-use crate::math::Vec2;
+use crate::export::{Camera, Reduced};
+use crate::look::{Background, Layer, Look};
 use crate::math::srgb::{Srgb8, from_linear, light_of};
+use crate::show::Rooms;
 use crate::show::scene::Scene;
 use crate::walls::Walls;
 
@@ -12,29 +12,22 @@ pub struct Page<'a> {
     pub title: &'a str,
     /// The triangles.
     pub scene: &'a Scene,
-    /// The walls: for the small map, for light and shade, and to stop the reader at walls.
+    /// The walls: for the small map, for reflections, and to stop the reader at walls.
     pub walls: &'a Walls,
+    /// The rooms between them, with their lamps and light.
+    pub rooms: &'a Rooms,
     /// Height of the ceiling, metres.
     pub wall_height_m: f64,
     /// Textures of the floor tiles.
     pub floor: PageSurface<'a>,
     /// Textures of the wall sheets.
     pub wall: PageSurface<'a>,
-    /// The viewpoint at the start.
-    pub start: Viewpoint,
+    /// The first view of who walks; its height is that of the eyes.
+    pub start: Camera,
+    /// The first view from above.
+    pub above: Camera,
     /// Limits of the images.
     pub options: PageOptions,
-}
-
-/// A viewer's place and direction of sight.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Viewpoint {
-    /// Place of the feet in the plan frame, metres.
-    pub at_m: Vec2,
-    /// Direction of sight, radians counter-clockwise from +x.
-    pub heading_rad: f64,
-    /// Upward is positive, radians.
-    pub pitch_rad: f64,
 }
 
 /// Limits of the images that a page carries.
@@ -79,32 +72,33 @@ impl<'a> PageSurface<'a> {
     pub fn floor(images: &'a [Reduced], look: &Look, background: Background) -> PageSurface<'a> {
         // Edge and dust are one kind and nearly of one colour.
         let edge = mixed(look.edge.colour, look.dust.colour, 0.4);
-        PageSurface {
-            images,
-            clean: background.base_color,
-            roughness: f32::from(background.orm[1]) / 255.0,
-            dirt: vec![
-                DirtKind { name: "Trodden film", colour: look.film.colour },
-                DirtKind { name: "Shoe prints", colour: look.prints.colour },
-                DirtKind { name: "Heel marks", colour: look.scuffs.colour },
-                DirtKind { name: "Edges and dust", colour: edge },
-            ],
-        }
+        let dirt = [
+            ("Trodden film", look.film.colour),
+            ("Shoe prints", look.prints.colour),
+            ("Heel marks", look.scuffs.colour),
+            ("Edges and dust", edge),
+        ];
+        PageSurface::of(images, background, dirt)
     }
 
     /// Walls in the colours of `look`. `background` is the clean wall as its resolver gives it.
     pub fn wall(images: &'a [Reduced], look: &Look, background: Background) -> PageSurface<'a> {
         let wall = &look.wall;
+        let dirt = [
+            ("Hands", wall.skin.colour),
+            ("Clothes and bags", mixed(wall.cloth.colour, wall.bag.colour, 0.5)),
+            ("Shoe scuffs", wall.rubber.colour),
+            ("Splashes and dust", wall.splash.colour),
+        ];
+        PageSurface::of(images, background, dirt)
+    }
+
+    fn of(images: &'a [Reduced], clean: Background, dirt: [(&'static str, Srgb8); Layer::KINDS]) -> PageSurface<'a> {
         PageSurface {
             images,
-            clean: background.base_color,
-            roughness: f32::from(background.orm[1]) / 255.0,
-            dirt: vec![
-                DirtKind { name: "Hands", colour: wall.skin.colour },
-                DirtKind { name: "Clothes and bags", colour: mixed(wall.cloth.colour, wall.bag.colour, 0.5) },
-                DirtKind { name: "Shoe scuffs", colour: wall.rubber.colour },
-                DirtKind { name: "Splashes and dust", colour: wall.splash.colour },
-            ],
+            clean: clean.base_color,
+            roughness: f32::from(clean.orm[1]) / 255.0,
+            dirt: dirt.map(|(name, colour)| DirtKind { name, colour }).to_vec(),
         }
     }
 }

@@ -1,25 +1,27 @@
 //! Puts the page together: one text that holds program, shaders, triangles and images.
 
-use image::ExtendedColorType;
 use serde_json::{Value, json};
 
 use super::content::{Page, PageOptions, PageSurface};
 use super::field::{self, CellGrid, DistanceField};
 use super::images::{self, ImageFiles, PageImages, PixelRect};
-use super::{geometry, lamps, light};
-use crate::export::{ExportError, OutputFolder};
+use super::{geometry, light_grid};
+use crate::export::{Camera, ExportError, OutputFolder};
 use crate::look::Layer;
 use crate::math::Vec2;
-use crate::math::srgb::light_of;
+use crate::math::srgb::{encode, light_of};
+use crate::show::encode_picture;
+use crate::show::rooms::{EXPOSURE_ABOVE, EXPOSURE_INSIDE, Light, Panels, TABLE, WALL_HEIGHTS, glsl, scaled, toned};
 use crate::show::scene::{Mesh, SceneSurface};
+use crate::show::still::STILL_SIZE_PX;
 
 /// Name of the page in a bake's folder.
-pub const PAGE_FILE: &str = "index.html";
+const PAGE_FILE: &str = "index.html";
 
-/// The page without what it shows.
+/// The page's HTML with places for title, style, data and program.
 const TEMPLATE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
-/// In the order in which they stand in the page: one program.
+/// Parts of the one program, in the page's order.
 const PROGRAM: [&str; 8] = [
     include_str!("client/start.js"),
     include_str!("client/vectors.js"),
@@ -36,6 +38,8 @@ const SHADERS: [(&str, &str); 4] = [
     ("plain-vertex", include_str!("client/plain.vert")),
     ("plain-fragment", include_str!("client/plain.frag")),
 ];
+/// Functions of the light model, behind their constants.
+const LIGHT: &str = include_str!("client/light.glsl");
 
 /// Writes the page to a bake's folder.
 ///
@@ -51,13 +55,22 @@ pub fn page_html(page: &Page<'_>) -> String {
     let mut data = json!({
         "title": page.title,
         "height": page.wall_height_m,
-        "start": start(page),
+        "aspect": f64::from(STILL_SIZE_PX[0]) / f64::from(STILL_SIZE_PX[1]),
+        "start": camera(&page.start),
+        "above": camera(&page.above),
+        // Background colours: inside (seen through hairline gaps between triangles) and from above.
+        "around": [
+            shown(scaled(light_of(page.wall.clean), 0.5 * EXPOSURE_INSIDE)),
+            shown(scaled(TABLE, EXPOSURE_ABOVE)),
+        ],
         "outlines": page.walls.outlines().iter().map(outline).collect::<Vec<_>>(),
         "surfaces": { "floor": covering(&page.floor), "wall": covering(&page.wall) },
         "parts": parts(page, &mut blocks),
     });
     surroundings(page, &mut data, &mut blocks);
-    let shaders: String = SHADERS.map(|(name, text)| element("x-shader/x-glsl", name, text)).concat();
+    let light = [&glsl(), LIGHT].concat();
+    let shader = |(name, text)| element("x-shader/x-glsl", name, &fill(text, &[("light", &light)]));
+    let shaders: String = SHADERS.map(shader).concat();
     let blocks: String =
         blocks.iter().map(|(name, bytes)| element("application/base64", name, &base64(bytes))).collect();
     let data = element("application/json", "data", &data.to_string().replace('<', "\\u003c"));
@@ -76,7 +89,7 @@ fn element(kind: &str, name: &str, text: &str) -> String {
     format!("<script type=\"{kind}\" id=\"{name}\">{text}</script>\n")
 }
 
-/// Puts texts in the places `{{name}}` of a template; what they hold themselves is left alone.
+/// Puts texts in the places `{{name}}` of a template. Places within the texts stay as they are.
 fn fill(template: &str, texts: &[(&str, &str)]) -> String {
     let mut filled = String::with_capacity(template.len() + texts.iter().map(|(_, text)| text.len()).sum::<usize>());
     let mut rest = template;
@@ -119,7 +132,7 @@ fn base64(bytes: &[u8]) -> String {
     text
 }
 
-/// Metres to a tenth of a millimetre: what JSON needs to say.
+/// Rounds to four decimals, a tenth of a millimetre, to keep the JSON short.
 fn metres(value: f64) -> f64 {
     (value * 1e4).round() / 1e4
 }
@@ -128,10 +141,15 @@ fn point(p: Vec2) -> [f64; 2] {
     [metres(p.x), metres(p.y)]
 }
 
-fn start(page: &Page<'_>) -> Value {
-    let start = &page.start;
-    let [x, y] = point(start.at_m);
-    json!({ "x": x, "y": y, "heading": metres(start.heading_rad), "pitch": metres(start.pitch_rad) })
+/// A camera as the page has it: metres and radians.
+fn camera(camera: &Camera) -> Value {
+    let [heading, pitch, fov] = [camera.heading_deg, camera.pitch_deg, camera.fov_deg].map(f64::to_radians).map(metres);
+    json!({ "at": camera.position_m.map(metres), "heading": heading, "pitch": pitch, "fov": fov })
+}
+
+/// Exposed light as a canvas shows it, 0 to 1.
+fn shown(light: [f32; 3]) -> [f64; 3] {
+    light.map(|light| metres(encode(toned(f64::from(light)))))
 }
 
 fn outline(outline: &crate::walls::Outline) -> Value {
@@ -238,19 +256,23 @@ fn raster(raster: &CellGrid) -> Value {
 
 /// Distances, lamps and their light.
 fn surroundings(page: &Page<'_>, data: &mut Value, blocks: &mut Vec<(String, Vec<u8>)>) {
-    let field = DistanceField::of(page.walls);
-    let lamps = lamps::hang(page.walls, &field);
-    let light = light::LightGrid::of(page.walls, &lamps, page.wall_height_m);
-    let image = field.image();
-    blocks.push(("field".to_string(), images::png(&image, image.width(), image.height(), ExtendedColorType::L8)));
-    let image = light.image();
-    blocks.push(("light".to_string(), images::png(&image, image.width(), image.height(), ExtendedColorType::Rgba8)));
+    let grid = &page.rooms.grid;
+    let field = DistanceField::of(page.walls, grid);
+    blocks.push(("field".to_string(), encode_picture(&field.image())));
     data["field"] = raster(&field.raster);
     data["field"]["range"] = json!(field::RANGE_M);
-    data["light"] = raster(&light.raster);
-    data["light"]["most"] = json!(light::MOST);
-    data["light"]["heights"] = json!(light::WALL_HEIGHTS);
+    let above = Light::above(grid, page.above.heading_deg);
     // Open ground lies under the sky.
-    data["roofed"] = json!(!page.walls.faces.is_empty());
-    data["lamps"] = json!(lamps.iter().map(|lamp| light::corners(lamp).map(point)).collect::<Vec<_>>());
+    let lights =
+        if grid.is_open() { vec![("above", above)] } else { vec![("inside", Light::inside(grid)), ("above", above)] };
+    for (name, light) in &lights {
+        let light = light_grid::LightGrid::of(page.walls, light);
+        blocks.push((format!("light-{name}"), encode_picture(&light.image())));
+        data["light"] = raster(&light.raster);
+    }
+    data["light"]["most"] = json!(light_grid::MOST);
+    data["light"]["heights"] = json!(WALL_HEIGHTS);
+    data["roofed"] = json!(!grid.is_open());
+    let lamps = lights.iter().filter_map(|(_, light)| light.panels()).flat_map(Panels::all);
+    data["lamps"] = lamps.map(|lamp| json!([point(lamp.centre - lamp.half), point(lamp.centre + lamp.half)])).collect();
 }

@@ -1,9 +1,10 @@
-//! How far the nearest wall is, on a coarse raster: for shade in corners, for reflections of walls, for feet.
+//! How far the nearest wall is and where the day stands in an opening, on a coarse raster: for reflections in the floor.
 
-use image::GrayImage;
+use image::RgbImage;
 use rayon::prelude::*;
 
 use crate::math::{Rect, Vec2, vec2};
+use crate::show::rooms::{QuadKind, RayGrid};
 use crate::walls::Walls;
 
 /// The range of distances that eight bits hold, metres; negative within walls.
@@ -49,29 +50,34 @@ impl CellGrid {
     }
 }
 
-/// Signed distances, negative in walls.
+/// Signed distances, negative in walls and beyond openings.
 #[derive(Clone, Debug)]
 pub(super) struct DistanceField {
     pub raster: CellGrid,
-    /// Metres, within [`RANGE_M`].
-    pub distances_m: Vec<f64>,
+    /// Metres, within [`RANGE_M`]; and whether the plan is open there.
+    cells: Vec<(f64, bool)>,
 }
 
 impl DistanceField {
-    pub fn of(walls: &Walls) -> DistanceField {
+    pub fn of(walls: &Walls, grid: &RayGrid) -> DistanceField {
+        let openings: Vec<_> = grid.pieces.iter().filter(|piece| piece.what == QuadKind::Opening).collect();
         let raster = CellGrid::covering(walls.bounds_m().grown(MARGIN_M), LEAST_CELL_M, MOST_CELLS);
         let [low, high] = RANGE_M;
-        let distances_m = raster.map(|p| {
+        let cells = raster.map(|p| {
             let distance = walls.nearest(p, high).map_or(high, |nearest| nearest.distance_m);
-            if walls.is_inside(p) { distance.min(high) } else { (-distance).max(low) }
+            if walls.is_inside(p) {
+                return (distance.min(high), false);
+            }
+            ((-distance).max(low), openings.iter().any(|opening| opening.hides(p)))
         });
-        DistanceField { raster, distances_m }
+        DistanceField { raster, cells }
     }
 
-    /// Row 0 is the southernmost, as textures have it.
-    pub fn image(&self) -> GrayImage {
+    /// Distance as red, day as green. Row 0 is the southernmost, as textures have it.
+    pub fn image(&self) -> RgbImage {
         let [low, high] = RANGE_M;
-        let bytes = self.distances_m.iter().map(|d| (255.0 * (d - low) / (high - low)).round() as u8).collect();
-        GrayImage::from_raw(self.raster.width, self.raster.height, bytes).unwrap_or_default()
+        let byte = |distance: f64| (255.0 * (distance - low) / (high - low)).round() as u8;
+        let bytes = self.cells.iter().flat_map(|&(distance, day)| [byte(distance), u8::from(day) * 255, 0]).collect();
+        RgbImage::from_raw(self.raster.width, self.raster.height, bytes).unwrap_or_default()
     }
 }

@@ -6,7 +6,7 @@ use crate::show::scene::{Mesh, SceneSurface};
 /// Bytes of a vertex: position (3 x f32), texture coordinates (2 x u16, 0 to 1), normal (3 x i8, one unused).
 pub(super) const VERTEX_BYTES: usize = 20;
 
-/// A part that can be drawn: what is not finite or points nowhere is left out.
+/// True if a part can be drawn: finite positions, an entry per vertex in each list, indices in range.
 pub(super) fn usable(part: &Mesh) -> bool {
     let vertices = part.positions_m.len();
     let textured = matches!(part.surface, SceneSurface::FloorTile(_) | SceneSurface::WallSheet(_));

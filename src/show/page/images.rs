@@ -5,8 +5,9 @@ use image::{ExtendedColorType, GrayImage, ImageEncoder, RgbImage, RgbaImage};
 
 use crate::export::Reduced;
 use crate::export::reduction::{halved_colours, halved_numbers};
+use crate::show::encode_picture;
 
-/// JPEG quality: what is nearly plain shows blocks at less.
+/// JPEG quality, 1 to 100: at less, nearly plain areas show blocks.
 const QUALITY: u8 = 97;
 
 /// A rectangle of an image, pixels.
@@ -87,18 +88,8 @@ pub(super) fn encode(layers: &PageImages) -> ImageFiles {
         file
     };
     let (dirt, (clean, rough)) = rayon::join(
-        || png(&layers.dirt, width, height, ExtendedColorType::Rgba8),
+        || encode_picture(&layers.dirt),
         || (jpeg(&layers.clean, ExtendedColorType::Rgb8), jpeg(&layers.rough, ExtendedColorType::L8)),
     );
     ImageFiles { width, height, dirt, clean, rough }
-}
-
-/// A PNG file.
-pub(super) fn png(pixels: &[u8], width: u32, height: u32, colour: ExtendedColorType) -> Vec<u8> {
-    use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-    let mut file = Vec::new();
-    PngEncoder::new_with_quality(&mut file, CompressionType::Fast, FilterType::Adaptive)
-        .write_image(pixels, width, height, colour)
-        .expect("memory does not fail and the image has the size that it says");
-    file
 }

@@ -8,8 +8,8 @@ mod document;
 mod field;
 mod geometry;
 mod images;
-mod lamps;
-mod light;
+mod light_grid;
 
-pub use content::{DirtKind, Page, PageOptions, PageSurface, Viewpoint};
-pub use document::{PAGE_FILE, page_html, write_page};
+pub use content::{DirtKind, Page, PageOptions, PageSurface};
+pub use document::page_html;
+pub(crate) use document::write_page;

@@ -29,7 +29,7 @@ impl Crop {
     }
 
     /// The crops that an earlier bake chose.
-    pub fn of_manifest(manifest: &Manifest) -> Vec<Crop> {
+    pub(crate) fn of_manifest(manifest: &Manifest) -> Vec<Crop> {
         let name = |file: &str| Some(file.strip_prefix("preview/")?.strip_suffix(".png")?.to_string());
         let known = |name: &String| ["entrance", "junction", "narrow"].contains(&name.as_str());
         (manifest.preview.iter())
@@ -145,7 +145,7 @@ impl TrafficGrid {
     }
 }
 
-/// The first of the best: what has the highest score above zero.
+/// The candidate with the highest score above zero; the first of equal ones.
 fn best<T>(candidates: impl Iterator<Item = (f64, T)>) -> Option<T> {
     let mut best: Option<(f64, T)> = None;
     for (score, candidate) in candidates {
@@ -166,7 +166,7 @@ fn entrance(openings: &[Opening], traffic: &TrafficGrid) -> Option<Rect> {
 fn junction(traffic: &TrafficGrid, entrance: Option<Rect>) -> Option<Rect> {
     let windows = (0..traffic.cells.len()).map(|index| traffic.window(traffic.centre(index)));
     best(windows.filter(|window| !entrance.is_some_and(|taken| taken.overlaps(*window))).map(|window| {
-        // What crosses near the middle counts more than once.
+        // Crossings near the middle count more than once.
         let around = |reach_m: f64| Rect::around(window.centre(), window.centre()).grown(reach_m);
         ([0.5, 1.0, 1.5, 2.0].into_iter().map(|reach_m| traffic.within(around(reach_m)).crossing()).sum(), window)
     }))
@@ -195,7 +195,7 @@ fn clear_way(walls: &Walls, from: Vec2, direction: Vec2) -> f64 {
     let mut way = 0.0;
     while way < PROBE_M {
         match walls.nearest(from + direction * way, PROBE_M) {
-            // Nothing is nearer than this: so far one may go without asking again.
+            // No wall is nearer than this, so the probe may go this far at once.
             Some(nearest) if nearest.distance_m > 0.02 => way += nearest.distance_m,
             Some(_) => return way,
             None => return PROBE_M,

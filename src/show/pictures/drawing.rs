@@ -51,7 +51,7 @@ pub fn draw_plan(plan: &FloorPlan, walls: &Walls, routes: &[Route]) -> RgbImage 
     canvas.picture
 }
 
-/// Draws plan, walls, openings, gates and the ways of people, coloured by their speed. Whoever got stuck is marked with a
+/// Draws plan, walls, openings, gates and the paths of people, coloured by speed. People who got stuck are marked with a
 /// red cross and a number; the legend says who they are.
 pub fn draw_paths(plan: &FloorPlan, walls: &Walls, routes: &[Route], paths: &[Path], stuck: &[Stuck]) -> RgbImage {
     let mut canvas = sheet(plan);

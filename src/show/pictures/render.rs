@@ -46,7 +46,7 @@ pub fn render_crop(source: &impl TextureSource, walls: &Walls, grid: TexelGrid, 
     picture
 }
 
-/// Darkens what is no floor, in linear light and by exact share at the walls.
+/// Blends [`WALL`] over pixels outside the floor, in linear light and by the exact share covered at the walls.
 fn cover(picture: &mut RgbImage, walls: &Walls, pixels_per_metre: f64, [i0, j0]: [i64; 2]) {
     let (width, height) = (picture.width() as usize, picture.height() as usize);
     let mut row_share = vec![0.0f32; width];

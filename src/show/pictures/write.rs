@@ -1,4 +1,5 @@
-use image::{ImageEncoder, RgbImage};
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ImageBuffer, ImageEncoder, PixelWithColorType, RgbImage};
 
 use super::crops::Crop;
 use super::render::{render_crop, render_floor};
@@ -41,15 +42,10 @@ pub fn write_picture(folder: &OutputFolder, relative: &str, picture: &RgbImage) 
 }
 
 /// A picture as an 8-bit PNG.
-pub fn encode_picture(picture: &RgbImage) -> Vec<u8> {
+pub fn encode_picture<P: PixelWithColorType<Subpixel = u8>>(picture: &ImageBuffer<P, Vec<u8>>) -> Vec<u8> {
     let mut png = Vec::new();
-    let encoder = image::codecs::png::PngEncoder::new_with_quality(
-        &mut png,
-        image::codecs::png::CompressionType::Fast,
-        image::codecs::png::FilterType::Adaptive,
-    );
-    encoder
-        .write_image(picture, picture.width(), picture.height(), image::ExtendedColorType::Rgb8)
+    PngEncoder::new_with_quality(&mut png, CompressionType::Fast, FilterType::Adaptive)
+        .write_image(picture, picture.width(), picture.height(), P::COLOR_TYPE)
         .expect("memory does not fail and the picture has the size that it says");
     png
 }

@@ -24,7 +24,7 @@ struct PanelEdge {
     normal: Vec2,
 }
 
-/// Adds the walls' faces by sheet. What no strip covers becomes clean wall.
+/// Adds the walls' faces by sheet. Wall without a strip becomes clean wall.
 pub(super) fn add(faces: &[Face], strips: &[WallStrip], cuts: &TileCuts, height_m: f64, scene: &mut SceneBuilder) {
     let mut by_face: Vec<Vec<&WallStrip>> = vec![Vec::new(); faces.len()];
     for strip in strips.iter().filter(|s| s.along_m.iter().chain(s.uv.iter().flatten()).all(|v| v.is_finite())) {
@@ -117,7 +117,7 @@ fn panels(stretch: [PanelEdge; 2], strips: &[&WallStrip], cuts: &TileCuts) -> Ve
     posts.windows(2).map(|w| [w[0], w[1]]).filter(|[p, q]| q.along_m > p.along_m).collect()
 }
 
-/// Counter-clockwise for who stands on the floor.
+/// Counter-clockwise as seen from the floor.
 fn quad([a, b]: [PanelEdge; 2], strip: Option<WallStrip>, height_m: f64) -> [MeshVertex; 4] {
     let corner = |post: PanelEdge, top: bool| {
         let uv = strip.map_or([0.0; 2], |s| s.uv_at(post.along_m, top));

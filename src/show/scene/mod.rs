@@ -13,6 +13,7 @@ mod tests;
 mod tiles;
 mod tops;
 
-pub use build::{SceneOptions, build};
-pub use glb::{GlbImage, GlbOptions, MOST_EMBEDDED_PX, PlainMaterial, SurfaceImages, write_glb};
-pub use model::{Mesh, Scene, SceneSurface, WallStrip};
+pub(crate) use build::{SceneOptions, build};
+pub(crate) use glb::{GlbImage, GlbOptions, PlainMaterial, SurfaceImages, write_glb};
+pub(crate) use model::WallStrip;
+pub use model::{Mesh, Scene, SceneSurface};

@@ -111,7 +111,7 @@ fn along(p: Vec2, axis: usize) -> f64 {
     if axis == 0 { p.x } else { p.y }
 }
 
-/// Cuts a convex polygon at a coordinate: what lies below and what lies above.
+/// Cuts a convex polygon at a coordinate: the piece below and the piece above.
 fn split(corners: &[Vec2], axis: usize, border: f64) -> [Vec<Vec2>; 2] {
     let mut parts = [Vec::with_capacity(corners.len() + 1), Vec::with_capacity(corners.len() + 1)];
     for (k, &a) in corners.iter().enumerate() {

@@ -1,9 +1,9 @@
 //! Stills of a bake in perspective: the whole plan from above, its rooms from the height of eyes, any other view.
 //!
-//! The plan is taken as it is: upright walls on a level floor. A ray from the camera is followed through a grid of wall
-//! pieces to what it meets; what it meets is lit by lamps in the ceiling (from above: by a soft sky and a large lamp at
-//! one side), darker in corners, and smooth floors mirror lamps and daylight as blurred as they are rough. Nothing is
-//! drawn by chance and nothing depends on threads: the same picture on every machine.
+//! The plan is upright walls on a level floor. Each ray from the camera is followed through a grid of wall pieces to its
+//! first hit. Lamps in the ceiling light the hit (from above: a soft sky and a large lamp at one side), corners are darker,
+//! and smooth floors reflect lamps and daylight, the rougher the more blurred. The picture has no random part and does not
+//! depend on threads: the same bytes on every machine.
 
 use image::RgbImage;
 
@@ -11,29 +11,19 @@ use crate::export::{Birdseye, Camera, ExportError, OutputFolder, StillEntry, Tex
 use crate::look::Background;
 use crate::math::Vec2;
 use crate::progress::{Progress, Stage};
-use crate::show::write_picture;
-use crate::sums::FloorSums;
-use crate::walls::{Doorway, Walls};
+use crate::show::{Rooms, write_picture};
 
 mod error;
-mod lens;
-mod light;
-mod panels;
-mod places;
+mod light_map;
 mod pyramid;
 mod render;
-mod shade;
 mod sampler;
-mod ray_grid;
+mod shade;
 mod texels;
 mod tone;
-mod trace;
-mod footfalls;
 
 pub use error::StillError;
 
-use footfalls::FootfallGrid;
-use ray_grid::RayGrid;
 use render::Renderer;
 use sampler::SurfaceSampler;
 use texels::{FloorTexels, PlainWalls, SmallFloor, SmallWalls, Texel, TexelSource, WallTexels};
@@ -43,12 +33,6 @@ pub const STILL_SIZE_PX: [u32; 2] = [1280, 720];
 /// Least and greatest width or height of a still, pixels.
 pub const STILL_SIZES_PX: [u32; 2] = [16, 8192];
 
-/// The rooms of a plan, ready to be drawn.
-#[derive(Debug)]
-pub struct StillScene {
-    space: RayGrid,
-}
-
 /// Texel sources of floor and walls.
 #[derive(Clone, Copy)]
 pub struct Surfaces<'a, S> {
@@ -56,7 +40,7 @@ pub struct Surfaces<'a, S> {
     pub floor: &'a S,
     /// Texels per metre of the floor.
     pub floor_texels_per_metre: f64,
-    /// The floor made small, for what is far away; without it, all that is seen is resolved.
+    /// The reduced floor, for distant places; without it, every visible texel is resolved.
     pub small: Option<&'a Birdseye>,
     /// The walls; without them, all are plain.
     pub walls: Option<WallSurfaces<'a>>,
@@ -84,24 +68,7 @@ pub enum FarWalls<'a> {
     Plain,
 }
 
-impl StillScene {
-    /// Makes rooms of a plan's walls, `wall_height_m` high, with lintels over its doorways. Without any walls it is a floor
-    /// under the sky.
-    pub fn new(walls: &Walls, doorways: &[Doorway], wall_height_m: f64) -> StillScene {
-        let height_m = if walls.faces.is_empty() { 0.0 } else { wall_height_m };
-        StillScene { space: RayGrid::new(walls, doorways, height_m) }
-    }
-
-    /// The camera from above that has the whole plan in a picture of a size in pixels.
-    pub fn birds_eye(&self, size_px: [u32; 2]) -> Camera {
-        self.space.birds_eye(size_px)
-    }
-
-    /// The camera 1.7 m above the floor where there is most to see.
-    pub fn eye_level(&self, sums: &FloorSums) -> Camera {
-        self.space.eye_level(&FootfallGrid::of(sums))
-    }
-
+impl Rooms {
     /// Checks that a camera below the walls' height stands on the floor.
     ///
     /// # Errors
@@ -109,22 +76,22 @@ impl StillScene {
     pub fn check(&self, camera: &Camera) -> Result<(), StillError> {
         camera.check()?;
         let place = camera.place_m();
-        if camera.position_m[2] >= self.space.height_m || self.space.is_floor(place) {
+        if camera.position_m[2] >= self.grid.height_m || self.grid.is_floor(place) {
             return Ok(());
         }
-        let nearest = self.space.nearest_floor(place);
+        let nearest = self.grid.nearest_floor(place);
         Err(StillError::NotOnFloor {
             place_m: place.into(),
-            beyond: !self.space.block.contains(place),
+            beyond: !self.grid.block.contains(place),
             nearest_m: hundredths(nearest).into(),
-            wall_height_m: self.space.height_m,
+            wall_height_m: self.grid.height_m,
         })
     }
 
     /// Draws the view of a camera, once for each of `coats`, in the current rayon pool.
     ///
     /// # Errors
-    /// As [`StillScene::check`]; a size out of [`STILL_SIZES_PX`]; an interruption.
+    /// As [`Rooms::check`]; a size out of [`STILL_SIZES_PX`]; an interruption.
     pub fn draw<S: TextureSource>(
         &self,
         camera: &Camera,
@@ -135,10 +102,10 @@ impl StillScene {
         self.check(camera)?;
         check_size(size_px)?;
         let sheets: Vec<SurfaceTexels<S>> =
-            coats.iter().map(|coat| SurfaceTexels::of(coat, self.space.height_m)).collect();
+            coats.iter().map(|coat| SurfaceTexels::of(coat, self.grid.height_m)).collect();
         let mut skins: Vec<SurfaceSampler> = sheets.iter().map(SurfaceTexels::skin).collect();
         let done = |share: f64| progress.advance(Stage::Export, share);
-        Ok(Renderer::new(&self.space, camera, size_px).draw(&mut skins, progress, done)?)
+        Ok(Renderer::new(&self.grid, camera, size_px).draw(&mut skins, progress, done)?)
     }
 }
 
@@ -193,7 +160,7 @@ impl<'a, S: TextureSource> SurfaceTexels<'a, S> {
 ///
 /// # Errors
 /// [`StillError::Size`].
-pub fn check_size([width, height]: [u32; 2]) -> Result<(), StillError> {
+pub(crate) fn check_size([width, height]: [u32; 2]) -> Result<(), StillError> {
     let [low, high] = STILL_SIZES_PX;
     let fits = [width, height].iter().all(|side| (low..=high).contains(side));
     fits.then_some(()).ok_or(StillError::Size { width, height, low, high })
@@ -204,16 +171,16 @@ pub fn check_size([width, height]: [u32; 2]) -> Result<(), StillError> {
 ///
 /// # Errors
 /// A file cannot be written; an interruption.
-pub fn write_stills<S: TextureSource>(
+pub(crate) fn write_stills<S: TextureSource>(
     folder: &OutputFolder,
-    studio: &StillScene,
+    rooms: &Rooms,
     [above, inside]: [Camera; 2],
     [trodden, clean]: [Surfaces<S>; 2],
     progress: &dyn Progress,
 ) -> Result<Vec<StillEntry>, StillError> {
     let size = STILL_SIZE_PX;
-    let from_above = studio.draw(&above, size, &[Surfaces { ..trodden }], progress)?;
-    let from_inside = studio.draw(&inside, size, &[trodden, clean], progress)?;
+    let from_above = rooms.draw(&above, size, &[Surfaces { ..trodden }], progress)?;
+    let from_inside = rooms.draw(&inside, size, &[trodden, clean], progress)?;
     let names = ["birds_eye", "eye_level", "eye_level_clean"];
     let cameras = [above, inside, inside];
     let entries: Vec<StillEntry> = names
@@ -228,7 +195,7 @@ pub fn write_stills<S: TextureSource>(
     Ok(entries)
 }
 
-/// To the centimetre, which is what people type.
+/// Rounds to centimetres, for messages.
 fn hundredths(p: Vec2) -> Vec2 {
     Vec2 { x: (p.x * 100.0).round() / 100.0, y: (p.y * 100.0).round() / 100.0 }
 }

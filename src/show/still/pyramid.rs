@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::texels::{SIDE, Texel, TexelBlock, TexelSource};
+use crate::export::reduction::rounded_mean;
 
 /// Coarsest level: 2^LEVELS texels a side are one.
 const LEVELS: u32 = 12;
@@ -24,13 +25,16 @@ pub(super) struct TexelBlockKey {
 /// Blocks by their place. Their order is never looked at.
 type Blocks = FxHashMap<TexelBlockKey, TexelBlock>;
 
-/// A texture of which what is seen is held, each place as finely as it is seen.
+/// A mipmap pyramid that holds only the blocks in view, each at the level at which it is seen.
+///
+/// Its own halving, beside [`export::reduction`](crate::export::reduction): blocks are made one by one on demand, and blocks of
+/// one colour stay a single texel. The mean is the same.
 pub(super) struct Pyramid<'a> {
     source: &'a dyn TexelSource,
     blocks: Blocks,
 }
 
-/// What is seen of a texture by a pixel: an ellipse, as a row of discs.
+/// Footprint of a pixel on a texture: an ellipse, sampled as a row of discs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Footprint {
     pub layer: u32,
@@ -84,7 +88,7 @@ impl<'a> Pyramid<'a> {
         }
     }
 
-    /// Makes what is needed and drops the rest. Fine blocks first: coarser ones are made of them.
+    /// Makes the needed blocks and drops all others. Fine blocks first: coarser ones are made of them.
     pub fn hold(&mut self, needed: &BTreeSet<TexelBlockKey>) {
         let mut from = needed.iter().copied().peekable();
         let mut fresh = Blocks::default();
@@ -141,7 +145,7 @@ impl<'a> Pyramid<'a> {
         let side = (SIDE as i64) << key.level;
         let [x, y] = [0, 1].map(|axis| {
             let first_beyond = (size[axis].max(0) + side - 1) / side;
-            i64::from([key.x, key.y][axis]).clamp(-1, first_beyond) as i32
+            i64::from([key.x, key.y][axis]).clamp(-2, first_beyond) as i32
         });
         Some(TexelBlockKey { x, y, ..key })
     }
@@ -229,7 +233,7 @@ fn halved(children: &[TexelBlock; 4]) -> TexelBlock {
             TexelBlock::Full(texels) => {
                 let at = (y % HALF * 2) * SIDE + x % HALF * 2;
                 let four = [texels[at], texels[at + 1], texels[at + SIDE], texels[at + SIDE + 1]];
-                std::array::from_fn(|c| (four.iter().map(|t| u32::from(t[c])).sum::<u32>().div_ceil(4)) as u16)
+                std::array::from_fn(|c| rounded_mean(four.iter().map(|texel| u32::from(texel[c])).sum(), 4) as u16)
             }
         }
     };
@@ -263,7 +267,7 @@ impl<'a> Reader<'a> {
             match self.block(level, i.div_euclid(S), j.div_euclid(S)) {
                 Some(TexelBlock::Flat(texel)) => return *texel,
                 Some(TexelBlock::Full(texels)) => return texels[(j.rem_euclid(S) * S + i.rem_euclid(S)) as usize],
-                // Few pixels at edges see what their neighbours did not ask for: a coarser one will do.
+                // A few pixels at edges read blocks that no neighbour asked for: a coarser block will do.
                 None => (i, j) = (i.div_euclid(2), j.div_euclid(2)),
             }
         }
@@ -419,7 +423,7 @@ mod tests {
         assert_eq!(with.blocks.len(), 4);
     }
 
-    /// A wall of some texels that goes on as it ends, and counts how often it is read.
+    /// A wall of some texels that goes on as it ends, with nothing far below it, and counts how often it is read.
     struct Short(std::sync::atomic::AtomicUsize, bool);
 
     impl TexelSource for Short {
@@ -429,6 +433,9 @@ mod tests {
 
         fn read(&self, _: usize, i0: i64, j0: i64) -> TexelBlock {
             self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+            if j0 < -(SIDE as i64) {
+                return TexelBlock::Flat([5; 4]);
+            }
             let value = |i: i64, j: i64| (i.clamp(0, 299) * 97 + j.clamp(0, 39) * 31) as u16;
             TexelBlock::Full(
                 (0..SIDE * SIDE).map(|k| [value(i0 + (k % SIDE) as i64, j0 + (k / SIDE) as i64); 4]).collect(),

@@ -5,17 +5,13 @@ use std::collections::BTreeSet;
 use image::RgbImage;
 use rayon::prelude::*;
 
-use super::lens::Lens;
-use super::light::{LightKey, LightMap, Lighting, over_the_shoulder};
-use super::panels::Panels;
-use super::ray_grid::RayGrid;
+use super::light_map::{LightKey, LightMap};
 use super::sampler::{SamplerNeeds, SurfaceSampler, along_m};
-use super::shade::{LinearRgb, Shader};
+use super::shade::Shader;
 use super::tone::Tone;
-use super::trace::{HitSurface, RayHit};
-use crate::export::Camera;
-use crate::export::ExportError;
+use crate::export::{Camera, ExportError};
 use crate::progress::Progress;
+use crate::show::rooms::{HitSurface, Lens, Light, LinearRgb, RayGrid, RayHit};
 
 /// Rows that are worked on at a time.
 const BAND: usize = 144;
@@ -37,11 +33,11 @@ const PLACES: [[f64; 2]; RAYS] = [
 #[derive(Default)]
 struct TracedRow {
     hits: Vec<RayHit>,
-    /// Columns in which surfaces meet, and what their rays hit.
+    /// Columns in which surfaces meet, and the hits of their rays.
     edges: Vec<(u32, [RayHit; RAYS])>,
 }
 
-/// What a band needs.
+/// The texture and light blocks that a band needs.
 #[derive(Default)]
 struct Needs {
     skins: Vec<SamplerNeeds>,
@@ -68,7 +64,7 @@ impl Needs {
     }
 }
 
-/// Draws what a camera sees, once in each skin.
+/// Renders the view of a camera, once with each sampler.
 pub(super) struct Renderer<'a> {
     space: &'a RayGrid,
     lens: Lens,
@@ -81,19 +77,9 @@ pub(super) struct Renderer<'a> {
 impl<'a> Renderer<'a> {
     pub fn new(space: &'a RayGrid, camera: &Camera, size: [u32; 2]) -> Renderer<'a> {
         let above = camera.position_m[2] >= space.height_m;
-        let lighting = match above {
-            true => Lighting::Above(over_the_shoulder(camera.heading_deg)),
-            false => Lighting::Inside(Panels::over(space)),
-        };
-        let light = LightMap::new(space, lighting);
-        Renderer {
-            space,
-            lens: Lens::of(camera, size),
-            size,
-            above,
-            light,
-            tone: Tone::new(if above { 1.12 } else { 1.17 }),
-        }
+        let light = if above { Light::above(space, camera.heading_deg) } else { Light::inside(space) };
+        let tone = Tone::new(light.exposure());
+        Renderer { space, lens: Lens::of(camera, size), size, above, light: LightMap::new(light), tone }
     }
 
     /// The pictures, one per skin.
@@ -174,7 +160,7 @@ impl<'a> Renderer<'a> {
                 let [x, y, _] = hit.point;
                 match hit.surface {
                     HitSurface::Floor | HitSurface::Ceiling => needs.add(self.light.floor_key(x, y)),
-                    HitSurface::Wall(piece) => {
+                    HitSurface::Wall(piece) | HitSurface::Lintel(piece) => {
                         let along = along_m(&self.space.pieces[piece as usize], hit);
                         needs.add(self.light.wall_key(piece, along));
                     }

@@ -3,9 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::pyramid::{Footprint, NeededBlocks, Pyramid, TexelBlockKey};
-use super::ray_grid::{QuadKind, RayGrid, WallQuad};
 use super::texels::{Texel, TexelSource};
-use super::trace::{HitSurface, RayHit};
+use crate::show::rooms::{HitSurface, QuadKind, RayGrid, RayHit, WallQuad};
 
 /// Pixels see a little less than their own width: pictures look soft otherwise.
 const SHARPER: f32 = 0.85;
@@ -18,7 +17,7 @@ pub(super) struct SurfaceSampler<'a> {
     small: Option<Pyramid<'a>>,
     walls: Pyramid<'a>,
     small_walls: Option<Pyramid<'a>>,
-    /// The clean wall, where nothing lies on it.
+    /// Colour of the clean wall, linear light.
     pub plain: [f32; 3],
 }
 
@@ -69,7 +68,7 @@ impl<'a> SurfaceSampler<'a> {
         }
     }
 
-    /// Names what a hit needs.
+    /// Adds the blocks that shading a hit will read.
     pub fn needs(&self, space: &RayGrid, hit: &RayHit, pixel: f32, needs: &mut SamplerNeeds) {
         match hit.surface {
             HitSurface::Floor => {
@@ -113,7 +112,7 @@ impl<'a> SurfaceSampler<'a> {
     }
 }
 
-/// What was made small, where it is fine enough.
+/// The reduced texture, where its texels are fine enough for a footprint.
 fn enough<'p, 'a>(small: &'p Option<Pyramid<'a>>, footprint: &Footprint) -> Option<&'p Pyramid<'a>> {
     small.as_ref().filter(|small| footprint.width * small.density() as f32 > 0.75)
 }

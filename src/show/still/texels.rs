@@ -29,8 +29,8 @@ pub(super) trait TexelSource: Sync {
     /// The block whose lower-left texel is `(i0, j0)`. `layer` is a wall's face, 0 for the floor.
     fn read(&self, layer: usize, i0: i64, j0: i64) -> TexelBlock;
 
-    /// Columns and rows of a layer beyond which all blocks are alike, as are those below column and row 0; `None` where
-    /// each block may differ.
+    /// Columns and rows of a layer: of the blocks beyond them, and of those more than a block below column and row 0, one
+    /// may stand for all. `None` where each block may differ.
     fn size(&self, _layer: usize) -> Option<[i64; 2]> {
         None
     }
@@ -70,7 +70,7 @@ fn texel(colour: [u8; 3], orm: [u8; 3]) -> Texel {
 pub(super) struct SmallFloor {
     pub picture: RgbImage,
     pub pixels_per_metre: f64,
-    /// Roughness of all of it, 0 to 255, where nothing else is known.
+    /// Roughness of all of it, 0 to 255: the picture has none of its own.
     pub roughness: u8,
 }
 
@@ -105,13 +105,25 @@ impl TexelSource for WallTexels<'_> {
     fn read(&self, layer: usize, i0: i64, j0: i64) -> TexelBlock {
         let background = self.source.background();
         let rows = (self.height_m * self.texels_per_metre).ceil() as i64;
-        // What is above the ceiling or below the floor is never seen itself.
+        // Texels above the ceiling and below the floor are never seen.
         if j0 >= rows + 2 || j0 + (SIDE as i64) < -2 {
             return TexelBlock::Flat(texel(background.base_color, background.orm));
         }
         let mut block = ResolvedBlock::default();
         self.source.resolve_into(layer, i0, j0, SIDE, SIDE, &mut block);
         if block.empty { TexelBlock::Flat(texel(background.base_color, background.orm)) } else { of_resolved(&block) }
+    }
+
+    /// A closed face goes round, but beyond its end nothing is seen itself.
+    fn size(&self, layer: usize) -> Option<[i64; 2]> {
+        Some([i64::from(self.source.columns(layer)?), self.rows()])
+    }
+}
+
+impl WallTexels<'_> {
+    /// Rows from which on nothing is seen any more.
+    fn rows(&self) -> i64 {
+        (self.height_m * self.texels_per_metre).ceil() as i64 + 2
     }
 }
 
@@ -148,7 +160,7 @@ impl<'a> SmallWalls<'a> {
         Some((sheet, [0.0, atlas.height_m].map(|height_m| atlas.uv(sheet, strip, along_m, height_m))))
     }
 
-    /// Rows from which on nothing is seen any more.
+    /// Number of rows, with two spare ones for filters.
     fn rows(&self) -> i64 {
         (self.textures.atlas.height_m * self.density()).ceil() as i64 + 2
     }

@@ -1,10 +1,8 @@
 //! From linear light to the picture's bytes.
 
-use super::shade::LinearRgb;
-use crate::math::{SplitMix64, exp, srgb};
+use crate::math::{SplitMix64, srgb};
+use crate::show::rooms::{LinearRgb, toned};
 
-/// Up to here light is kept as it is; above, it comes ever closer to white.
-const STRAIGHT: f64 = 0.62;
 /// Brightest light that is told apart.
 const MOST: f64 = 8.0;
 /// Steps of the table.
@@ -23,11 +21,7 @@ impl Tone {
         let byte = |k: usize| {
             // Steps are finest in the dark: the table runs over the square root.
             let root = k as f64 / (STEPS - 1) as f64;
-            let light = root * root * MOST;
-            let rest = 1.0 - STRAIGHT;
-            let shown =
-                if light <= STRAIGHT { light } else { STRAIGHT + rest * (1.0 - exp(-(light - STRAIGHT) / rest)) };
-            (srgb::encode(shown) * 255.0) as f32
+            (srgb::encode(toned(root * root * MOST)) * 255.0) as f32
         };
         Tone { table: (0..STEPS).map(byte).collect(), exposure }
     }

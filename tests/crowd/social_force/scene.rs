@@ -11,7 +11,7 @@ pub fn social(people: u32, shares: [f64; 4]) -> CrowdOptions {
         model: CrowdModel::SocialForce,
         people,
         groups: GroupOptions { shares, ..GroupOptions::default() },
-        ..CrowdOptions::commuters()
+        ..CrowdOptions::default()
     }
 }
 

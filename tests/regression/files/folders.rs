@@ -3,6 +3,9 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::process::Stdio;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use trodden::export::{ExportError, Manifest, OutputFolder};
 
 use super::{FLOOR, baked, edit, quick};
 use crate::sandbox::Sandbox;
@@ -75,6 +78,38 @@ fn bakes_at_once_leave_a_whole_bake() {
         assert!(done > 0, "every bake found the folder in use");
         whole(&sandbox);
     }
+}
+
+/// The same without the work of a bake: folders are put in their places all the time, so that it shows within a second.
+#[test]
+fn folders_published_at_once_are_whole() {
+    const WRITERS: u32 = 6;
+    let sandbox = baked();
+    let (out, earlier) = (sandbox.path("out"), Manifest::read(&sandbox.path("out")).unwrap());
+    let published = AtomicU32::new(0);
+    std::thread::scope(|scope| {
+        for writer in 0..WRITERS {
+            let (out, earlier, published) = (&out, &earlier, &published);
+            scope.spawn(move || {
+                while published.load(Ordering::SeqCst) < 120 {
+                    let folder = match OutputFolder::begin(out, true) {
+                        Err(ExportError::OutputInUse { .. }) => {
+                            std::thread::yield_now();
+                            continue;
+                        }
+                        begun => begun.unwrap(),
+                    };
+                    let number = published.fetch_add(1, Ordering::SeqCst).to_string();
+                    (0..40).for_each(|k| folder.write(&format!("files/{k}"), number.as_bytes()).unwrap());
+                    folder.publish(&Manifest { people: writer, ..earlier.clone() }).unwrap();
+                }
+            });
+        }
+    });
+    whole(&sandbox);
+    let texts: BTreeSet<String> =
+        (0..40).map(|k| fs::read_to_string(out.join(format!("files/{k}"))).unwrap()).collect();
+    assert_eq!(texts.len(), 1, "files of several bakes: {texts:?}");
 }
 
 /// A bake in `out`, nothing else in it, and nothing else left beside it.

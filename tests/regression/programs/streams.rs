@@ -98,6 +98,35 @@ fn motion_tools_read_standard_input() {
     assert!(!told.err.contains("/stdin"), "{}", told.err);
 }
 
+#[test]
+fn a_bake_reads_its_motion_from_standard_input() {
+    let sandbox = Sandbox::new();
+    sandbox.plan();
+    let text: String =
+        (0..40).map(|frame| format!("3 {frame} {:.1} 1.5 1.7\n", 0.5 + 0.15 * f64::from(frame))).collect();
+    sandbox.write("a.txt", format!("# framerate: 10\n{text}"));
+    let options = ["--quick", "--floor-only"];
+    run_with(&sandbox, &[&["bake", "--motion", "-"][..], &options].concat(), "a.txt").succeeds();
+    sandbox.run(&[&["bake", "--motion", "a.txt", "-o", "b"][..], &options].concat()).succeeds();
+    let floor = |bake: &str| fs::read(sandbox.path(bake).join("floor/floor_basecolor.1001.png")).unwrap();
+    assert!(floor("out/stdin") == floor("b"));
+    let both = ["bake", "-", "--motion", "-", "-o", "c"];
+    run_with(&sandbox, &both, "plan.png").fails(1, &["cannot both be read from standard input", "hint: "]);
+    sandbox.write("wrong.txt", "# framerate: 10\n3 0 1 1 1\n3 1 x 1 1\n");
+    let wrong = run_with(&sandbox, &["bake", "--motion", "-", "-o", "c"], "wrong.txt");
+    assert!(!wrong.fails(1, &["standard input"]).err.contains("/stdin"));
+}
+
+/// It was taken for a scenario with mistakes.
+#[test]
+fn a_ros_map_on_standard_input_is_told_from_a_scenario() {
+    let sandbox = Sandbox::new();
+    sandbox.plan();
+    sandbox.write("map.yaml", "image: plan.png\nresolution: 0.1\norigin: [0, 0, 0]\n");
+    run_with(&sandbox, &["bake", "-", "-o", "c"], "map.yaml")
+        .fails(1, &["the YAML of a ROS map", "hint: give the path"]);
+}
+
 /// The warning about the scale of `--plan` names an option: it is there.
 #[test]
 fn convert_has_the_options_that_its_messages_name() {

@@ -1,12 +1,14 @@
 //! A corridor with a room, drawn by rule: what a page shows without a bake.
 
 use image::{Rgb, RgbImage, Rgba, RgbaImage};
-use trodden::export::Reduced;
+use trodden::export::{Camera, Reduced};
 use trodden::look::Srgb8;
 use trodden::math::{self, SplitMix64, Vec2, vec2};
 use trodden::plan::FloorPlan;
-use trodden::show::page::{DirtKind, Page, PageOptions, PageSurface, Viewpoint};
+use trodden::show::Rooms;
+use trodden::show::page::{DirtKind, Page, PageOptions, PageSurface};
 use trodden::show::scene::{Mesh, Scene, SceneSurface};
+use trodden::show::still::STILL_SIZE_PX;
 use trodden::walls::{Walls, WallsOptions};
 
 /// Half a metre per character, `.` floor.
@@ -43,11 +45,15 @@ const GREY: Srgb8 = [110, 110, 112];
 
 pub struct Corridor {
     pub walls: Walls,
+    pub rooms: Rooms,
     pub scene: Scene,
     pub floor: Vec<Reduced>,
     pub wall: Vec<Reduced>,
     pub clean: [Srgb8; 2],
 }
+
+/// Along the corridor from its west end.
+const START: Camera = Camera { position_m: [1.0, 2.6, 1.7], heading_deg: 3.0, pitch_deg: -7.0, fov_deg: 64.0 };
 
 /// The corridor with a clean floor of that colour.
 pub fn corridor(clean: Srgb8) -> Corridor {
@@ -64,7 +70,8 @@ pub fn corridor(clean: Srgb8) -> Corridor {
     let marks = FloorMarks::new(&walls);
     let floor = (0..tiles).map(|n| floor_image(&marks, n, clean[0])).collect();
     let wall = vec![wall_image(&strips, clean[1])];
-    Corridor { walls, scene, floor, wall, clean }
+    let rooms = Rooms::new(&walls, &[], HEIGHT_M);
+    Corridor { walls, rooms, scene, floor, wall, clean }
 }
 
 impl Corridor {
@@ -75,6 +82,7 @@ impl Corridor {
             title,
             scene: &self.scene,
             walls: &self.walls,
+            rooms: &self.rooms,
             wall_height_m: HEIGHT_M,
             floor: PageSurface {
                 images: &self.floor,
@@ -93,7 +101,8 @@ impl Corridor {
                 roughness: 0.6,
                 dirt: vec![dirt("Hands", SKIN), dirt("Bags", GREY), dirt("Shoes", RUBBER), dirt("Splashes", EDGE)],
             },
-            start: Viewpoint { at_m: vec2(1.0, 2.6), heading_rad: 0.05, pitch_rad: -0.12 },
+            start: START,
+            above: self.rooms.birds_eye(STILL_SIZE_PX),
             options: PageOptions::default(),
         }
     }

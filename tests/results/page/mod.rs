@@ -6,8 +6,12 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use corridor::{Corridor, covered};
+use trodden::Silent;
+use trodden::export::TextureSource;
+use trodden::look::{Background, ResolvedBlock};
 use trodden::show::page::{PageOptions, page_html};
 use trodden::show::scene::{Mesh, Scene};
+use trodden::show::still::Surfaces;
 
 const LIGHT: [u8; 3] = [197, 192, 182];
 const DARK: [u8; 3] = [60, 58, 56];
@@ -200,6 +204,30 @@ fn damaged_scenes_and_images_leave_a_page() {
     assert_eq!(data(&page_html(&nothing.page("")))["parts"].as_array().unwrap().len(), 0);
 }
 
+/// A floor without dirt.
+struct Clean([u8; 3]);
+
+impl TextureSource for Clean {
+    fn layers(&self) -> &[&'static str] {
+        &[]
+    }
+
+    fn background(&self) -> Background {
+        Background { base_color: self.0, mask: [0; 4], orm: [255, 89, 0] }
+    }
+
+    fn resolve(&self, _: i64, _: i64, _: usize, _: usize) -> ResolvedBlock {
+        ResolvedBlock { empty: true, ..ResolvedBlock::default() }
+    }
+}
+
+/// The clean corridor as a still, from the page's first camera or from its first one above.
+fn still(corridor: &Corridor, camera: &trodden::export::Camera) -> image::RgbImage {
+    let floor = Clean(corridor.clean[0]);
+    let surfaces = Surfaces { floor: &floor, floor_texels_per_metre: 32.0, small: None, walls: None };
+    corridor.rooms.draw(camera, [480, 320], &[surfaces], &Silent).unwrap().remove(0)
+}
+
 /// Leaves pages for the browser, with what they have to show.
 #[test]
 fn pages_for_the_browser() {
@@ -208,6 +236,10 @@ fn pages_for_the_browser() {
     for (name, corridor, html) in both() {
         assert!(html.len() < 1 << 20, "{name}: {} bytes", html.len());
         std::fs::write(folder.join(format!("{name}.html")), html).unwrap();
+        let page = corridor.page("Corridor");
+        for (view, camera) in [("start", page.start), ("above", page.above)] {
+            still(corridor, &camera).save(folder.join(format!("{name}-{view}.png"))).unwrap();
+        }
         let image = &corridor.floor[0].base_color;
         // Places on the floor, the colour baked there, and how many pixels a metre has.
         let places: Vec<_> = (0..60)

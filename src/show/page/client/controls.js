@@ -77,7 +77,7 @@ canvas.addEventListener('pointermove', (event) => {
   before.y = event.clientY;
   if (pointers.size === 2) gesture(size);
   else if (!state.inside && (before.button === 2 || before.button === 1 || event.shiftKey)) pan(-dx, dy);
-  // What is under the hand follows it.
+  // The scene follows the hand.
   else if (state.inside) look(dx * 1.5, dy * 1.5);
   else look(-dx * 3, -dy * 3);
   invalidate();

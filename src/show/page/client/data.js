@@ -1,4 +1,4 @@
-// What the page carries: the description, the triangles, the images; and the plan that one walks in.
+// The page's data: the description, the triangles, the images; and the plan that stops a walker at walls.
 
 const data = JSON.parse(element('data').textContent);
 

@@ -1,9 +1,6 @@
 // Draws the scene: a call per part.
 
 const STRIDE = 20;
-/** Light from outside the openings, and what is around the plan seen from above. */
-const OUTSIDE = [0.93, 0.97, 1.0];
-const AROUND = [0.62, 0.64, 0.66];
 
 const geometry = { vertices: bytesOf('vertices'), indices: bytesOf('indices') };
 
@@ -39,12 +36,15 @@ class Drawing {
     const drawing = new Drawing();
     drawing.gl = gl;
     drawing.programs = Object.fromEntries(['FLOOR', 'WALL', 'TOP', 'LINTEL', 'CEILING']
-      .map((kind) => [kind, program(gl, 'surface-vertex', 'surface-fragment', [kind])]));
+      .map((kind) => [kind, program(gl, 'surface-vertex', 'surface-fragment', [`IS_${kind}`])]));
     drawing.plain = program(gl, 'plain-vertex', 'plain-fragment', []);
     drawing.array = drawing.upload();
     drawing.bright = drawing.uploadBright();
-    drawing.field = await texture(gl, await imageOf('field', 'image/png'), 'one', false);
-    drawing.light = await texture(gl, await imageOf('light', 'image/png'), 'four', false);
+    drawing.field = await texture(gl, await imageOf('field', 'image/png'), 'three', false);
+    drawing.light = {};
+    for (const name of data.roofed ? ['inside', 'above'] : ['above']) {
+      drawing.light[name] = await texture(gl, await imageOf(`light-${name}`, 'image/png'), 'four', false);
+    }
     drawing.lamps = lampTexture(gl);
     drawing.none = { dirt: plainTexture(gl, [0, 0, 0, 0]) };
     drawing.images = [];
@@ -87,7 +87,8 @@ class Drawing {
     const { gl } = this;
     const places = [];
     const quad = (a, b, c, d) => places.push(...a, ...b, ...c, ...a, ...c, ...d);
-    for (const corners of data.lamps) quad(...corners.map(([x, y]) => [x, y, data.height - 0.004]));
+    const high = data.height - 0.004;
+    for (const [[x0, y0], [x1, y1]] of data.lamps) quad([x0, y0, high], [x1, y0, high], [x1, y1, high], [x0, y1, high]);
     const lamps = places.length / 3;
     for (const { a, b, open } of plan.edges) {
       if (open) quad([...a, 0], [...b, 0], [...b, data.height], [...a, data.height]);
@@ -105,9 +106,7 @@ class Drawing {
   draw(seen, shown) {
     const { gl } = this;
     gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);
-    // Inside nothing of it is seen but through hairline gaps.
-    const around = shown.lit ? (shown.inside ? data.surfaces.wall.clean.map((light) => 0.5 * light) : AROUND) : [0, 0, 0];
-    gl.clearColor(...around.map((light) => light ** (1 / 2.2)), 1);
+    gl.clearColor(...(shown.lit ? data.around[shown.inside ? 0 : 1] : [0, 0, 0]), 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
     gl.enable(gl.CULL_FACE);
@@ -135,7 +134,7 @@ class Drawing {
     const images = this.images[n] || {};
     const textures = {
       u_dirt: images.dirt || this.none.dirt, u_clean: images.clean || this.none.dirt, u_rough: images.rough || this.none.dirt,
-      u_field: this.field, u_light: this.light, u_lamps: this.lamps.texture,
+      u_field: this.field, u_light: this.light[shown.inside ? 'inside' : 'above'], u_lamps: this.lamps.texture,
     };
     Object.entries(textures).forEach(([name, bound], unit) => {
       if (!uniforms[name]) return;
@@ -153,8 +152,6 @@ class Drawing {
     set('u_colours', 'uniform3fv', [...colours, ...Array(12).fill(0)].slice(0, 12));
     set('u_clean_colour', 'uniform3fv', surface.clean);
     set('u_clean_roughness', 'uniform1f', surface.roughness);
-    set('u_wall_colour', 'uniform3fv', data.surfaces.wall.clean);
-    set('u_floor_colour', 'uniform3fv', data.surfaces.floor.clean);
     set('u_textured', 'uniform1i', images.dirt ? 1 : 0);
     set('u_lit', 'uniform1i', shown.lit ? 1 : 0);
     set('u_inside', 'uniform1i', shown.inside ? 1 : 0);
@@ -174,11 +171,9 @@ class Drawing {
     gl.uniformMatrix4fv(plain.uniforms.u_matrix, false, seen.matrix);
     gl.bindVertexArray(this.bright.array);
     gl.uniform1f(plain.uniforms.u_height, data.height);
-    gl.uniform3fv(plain.uniforms.u_low, [1, 0.995, 0.98]);
-    gl.uniform3fv(plain.uniforms.u_high, [1, 0.995, 0.98]);
+    gl.uniform1i(plain.uniforms.u_lamp, 1);
     gl.drawArrays(gl.TRIANGLES, 0, this.bright.lamps);
-    gl.uniform3fv(plain.uniforms.u_low, OUTSIDE.map((light) => 0.8 * light));
-    gl.uniform3fv(plain.uniforms.u_high, OUTSIDE);
+    gl.uniform1i(plain.uniforms.u_lamp, 0);
     gl.drawArrays(gl.TRIANGLES, this.bright.lamps, this.bright.all - this.bright.lamps);
   }
 }

@@ -1,4 +1,4 @@
-// The elements of the page, and what is said when it cannot be shown.
+// The elements of the page, and the message that replaces a view that cannot be drawn.
 
 const element = (id) => document.getElementById(id);
 const canvas = element('view');

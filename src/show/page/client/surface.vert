@@ -12,7 +12,7 @@ out vec3 v_normal;
 void main() {
   v_place = a_place;
   v_normal = a_normal;
-#ifdef CEILING
+#ifdef IS_CEILING
   v_place.z = u_height;
   v_normal = vec3(0.0, 0.0, -1.0);
 #endif

@@ -73,10 +73,8 @@ function lampTexture(gl) {
   pen.fillStyle = '#000';
   pen.fillRect(0, 0, sheet.width, sheet.height);
   pen.fillStyle = '#fff';
-  for (const corners of data.lamps) {
-    pen.beginPath();
-    corners.forEach(([x, y]) => pen.lineTo((x - origin[0]) * perMetre, (y - origin[1]) * perMetre));
-    pen.fill();
+  for (const [[x0, y0], [x1, y1]] of data.lamps) {
+    pen.fillRect((x0 - origin[0]) * perMetre, (y0 - origin[1]) * perMetre, (x1 - x0) * perMetre, (y1 - y0) * perMetre);
   }
   const made = gl.createTexture();
   gl.bindTexture(gl.TEXTURE_2D, made);

@@ -1,6 +1,5 @@
 // Where one looks from: walking at the height of eyes, or around the plan from above.
 
-const EYE = 1.7;
 /** Half the width of somebody who walks, metres. */
 const RADIUS = 0.25;
 const STEEPEST = 1.45;
@@ -8,44 +7,31 @@ const STEEPEST = 1.45;
 /** A place to stand: the one asked for, or the nearest lamp's if there is no floor. */
 function standing(x, y) {
   if (plan.holds([x, y])) return plan.pushed([x, y], RADIUS);
-  const middles = data.lamps.map((corners) => [0, 1].map((axis) => corners.reduce((sum, p) => sum + p[axis] / 4, 0)));
+  const middles = data.lamps.map(([low, high]) => [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2]);
   middles.sort((a, b) => Math.hypot(a[0] - x, a[1] - y) - Math.hypot(b[0] - x, b[1] - y));
   return middles[0] || [x, y];
 }
 
-const walker = { at: standing(data.start.x, data.start.y), heading: data.start.heading, pitch: data.start.pitch };
+const walker = { at: standing(data.start.at[0], data.start.at[1]), heading: data.start.heading, pitch: data.start.pitch };
 
 const extent = Math.max(plan.high[0] - plan.low[0], plan.high[1] - plan.low[1], 4);
-const orbiter = {
-  target: [(plan.low[0] + plan.high[0]) / 2, (plan.low[1] + plan.high[1]) / 2, 0],
-  heading: Math.PI / 2 - 0.45,
-  pitch: -0.85,
-  distance: 0,
-};
+/** From above one turns about the place on the floor that is seen in the middle. */
+const orbiter = (({ at, heading, pitch }) => {
+  const distance = at[2] / Math.sin(-pitch);
+  return { target: [...add(at, scaled(direction(heading, pitch), distance)).slice(0, 2), 0], heading, pitch, distance };
+})(data.above);
 
 const state = {
   inside: true,
+  orbited: false,
   lit: true,
   amount: 1,
   kinds: { floor: data.surfaces.floor.kinds.map(() => true), wall: data.surfaces.wall.kinds.map(() => true) },
 };
 
-/** The distance from which the whole plan is seen. */
-function wholePlan(aspect) {
-  const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((n) => [
-    (n & 1 ? plan.high : plan.low)[0], (n & 2 ? plan.high : plan.low)[1], n & 4 ? data.height : 0,
-  ]);
-  const fits = (distance) => {
-    const eye = add(orbiter.target, scaled(direction(orbiter.heading, orbiter.pitch), -distance));
-    const { matrix } = camera(eye, orbiter.heading, orbiter.pitch, 0.7, aspect, 1, 2);
-    return corners.every(([x, y, z]) => {
-      const row = (n) => matrix[n] * x + matrix[4 + n] * y + matrix[8 + n] * z + matrix[12 + n];
-      return row(3) > 0 && Math.max(Math.abs(row(0)), Math.abs(row(1))) < 0.92 * row(3);
-    });
-  };
-  let distance = 4;
-  while (distance < 1e4 && !fits(distance)) distance *= 1.05;
-  return distance;
+/** Vertical angle of a view that shows all that a still of that horizontal angle shows, whatever the window's shape. */
+function lens(fov, aspect) {
+  return 2 * Math.atan(Math.tan(fov / 2) / Math.min(aspect, data.aspect));
 }
 
 /** The camera of now. */
@@ -53,12 +39,12 @@ function seenNow() {
   const aspect = Math.max(canvas.width, 1) / Math.max(canvas.height, 1);
   if (state.inside) {
     // Upright phones see enough to both sides.
-    const wide = 2 * Math.atan(Math.tan(0.575) * clamp(1 / aspect, 1, 1.6));
-    return camera([...walker.at, EYE], walker.heading, walker.pitch, wide, aspect, 0.05, 4 * extent + 50);
+    const wide = lens(data.start.fov, Math.max(aspect, 0.6));
+    return camera([...walker.at, data.start.at[2]], walker.heading, walker.pitch, wide, aspect, 0.05, 4 * extent + 50);
   }
-  if (!orbiter.distance) orbiter.distance = wholePlan(aspect);
   const eye = add(orbiter.target, scaled(direction(orbiter.heading, orbiter.pitch), -orbiter.distance));
-  return camera(eye, orbiter.heading, orbiter.pitch, 0.7, aspect, orbiter.distance / 50, orbiter.distance * 3 + 2 * extent);
+  const { heading, pitch, distance } = orbiter;
+  return camera(eye, heading, pitch, lens(data.above.fov, aspect), aspect, distance / 50, distance * 3 + 2 * extent);
 }
 
 function look(by, up) {
@@ -73,7 +59,7 @@ function zoom(factor) {
 
 /** Moves what is orbited by shares of the view's height. */
 function pan(right, up) {
-  const size = 2 * Math.tan(0.35) * orbiter.distance;
+  const size = 2 * orbiter.distance / seenNow().focus;
   const [sine, cosine] = [Math.sin(orbiter.heading), Math.cos(orbiter.heading)];
   const ahead = up / Math.max(0.35, Math.sin(-orbiter.pitch));
   const by = [(sine * right + cosine * ahead) * size, (-cosine * right + sine * ahead) * size];
@@ -104,11 +90,11 @@ function goTo(place) {
   setInside(true);
 }
 
-/** Changes between walking and orbiting; one orbits around the place where one walked. */
+/** Changes between walking and orbiting: at first around the whole plan, later around the place where one walked. */
 function setInside(inside) {
   if (state.inside && !inside) {
-    if (!orbiter.distance) orbiter.distance = wholePlan(canvas.width / Math.max(canvas.height, 1));
-    else orbiter.target = [...walker.at, 0];
+    if (state.orbited) orbiter.target = [...walker.at, 0];
+    state.orbited = true;
   }
   state.inside = inside;
   showMode();

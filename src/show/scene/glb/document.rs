@@ -20,7 +20,7 @@ const LINEAR: u32 = 9729;
 const LINEAR_MIPMAP_LINEAR: u32 = 9987;
 const CLAMP_TO_EDGE: u32 = 33071;
 
-/// The whole file but for its framing. What the binary chunk holds is written part by part, never held whole.
+/// The file's JSON and the source of its binary chunk, which is written part by part and never held whole.
 pub(super) struct GltfDocument<'a> {
     parts: Vec<&'a Mesh>,
     pictures: Vec<Vec<u8>>,

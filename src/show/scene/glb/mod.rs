@@ -7,5 +7,5 @@ mod picture;
 mod tests;
 mod write;
 
-pub use options::{GlbImage, GlbOptions, MOST_EMBEDDED_PX, PlainMaterial, SurfaceImages};
+pub use options::{GlbImage, GlbOptions, PlainMaterial, SurfaceImages};
 pub use write::write_glb;

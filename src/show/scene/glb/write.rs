@@ -11,7 +11,7 @@ use crate::show::scene::model::Scene;
 /// mip-maps. The same input gives the same bytes.
 ///
 /// # Errors
-/// What the writer says; a scene of more than 4 GiB, which the format cannot hold.
+/// The writer's error; a scene of more than 4 GiB, which the format cannot hold.
 pub fn write_glb(out: &mut impl Write, scene: &Scene, options: &GlbOptions) -> io::Result<()> {
     let document = GltfDocument::new(scene, options)?;
     let mut json = document.json();

@@ -3,7 +3,7 @@ use crate::math::sin_cos;
 
 /// A camera that makes rays.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Lens {
+pub(crate) struct Lens {
     pub position: [f64; 3],
     pub forward: [f64; 3],
     /// To the next pixel on the right, at the distance 1.
@@ -58,7 +58,7 @@ impl Lens {
 mod tests {
     use super::*;
 
-    /// Straight ahead is the middle; what lies to the left of the heading is left of it, what lies below is below.
+    /// Straight ahead is the middle; a point to the left of the heading is left of it, a point below is below.
     #[test]
     fn points_are_seen_where_a_pinhole_shows_them() {
         let camera: Camera = "2,3,1.7,90,0".parse().unwrap();

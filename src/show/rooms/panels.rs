@@ -2,15 +2,15 @@
 
 use rayon::prelude::*;
 
-use super::ray_grid::RayGrid;
+use super::ray_grid::{RayGrid, WallQuad};
 use crate::math::{Vec2, vec2};
 
 /// Side of a ceiling tile, metres.
-pub(super) const TILE_M: f64 = 0.6;
+pub(crate) const TILE_M: f64 = 0.6;
 /// Each square of so many tiles has a panel, if it fits.
 const SQUARE_TILES: i64 = 4;
 /// Side of such a square, metres.
-pub(super) const SQUARE_M: f64 = TILE_M * SQUARE_TILES as f64;
+const SQUARE_M: f64 = TILE_M * SQUARE_TILES as f64;
 /// A frame around the light, metres.
 const FRAME_M: f64 = 0.03;
 /// Distance from walls that is enough, metres.
@@ -18,7 +18,7 @@ const CLEAR_M: f64 = 0.9;
 
 /// A lamp.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Panel {
+pub(crate) struct Panel {
     pub centre: Vec2,
     /// Half its size in x and y, metres.
     pub half: Vec2,
@@ -33,7 +33,7 @@ impl Panel {
 
 /// All lamps, by square.
 #[derive(Debug)]
-pub(super) struct Panels {
+pub(crate) struct Panels {
     origin: [i64; 2],
     columns: i64,
     rows: i64,
@@ -51,6 +51,16 @@ impl Panels {
             .map(|k| best_panel(space, [origin[0] + k % columns, origin[1] + k / columns]))
             .collect();
         Panels { origin, columns, rows, squares }
+    }
+
+    /// All panels, row by row.
+    pub fn all(&self) -> impl Iterator<Item = &Panel> {
+        self.squares.iter().flatten()
+    }
+
+    /// The panels of the square that holds a place and of those up to `reach` squares beside it.
+    pub fn around(&self, p: Vec2, reach: i64) -> impl Iterator<Item = Panel> {
+        (-reach..=reach).flat_map(move |dy| (-reach..=reach).filter_map(move |dx| self.near(p, [dx, dy])))
     }
 
     /// The panel of the square that holds a place, or of one `dx`, `dy` squares beside it.
@@ -102,12 +112,12 @@ fn places() -> impl Iterator<Item = [i64; 4]> {
     .filter(|[i, j, across, up]| i + across <= SQUARE_TILES && j + up <= SQUARE_TILES)
 }
 
-/// Distance from a rectangle to the nearest wall, roughly; none if it is not all over floor.
+/// Distance from a rectangle to the nearest wall, approximate; `None` if its centre is not over floor.
 fn clearance(space: &RayGrid, centre: Vec2, half: Vec2) -> Option<f64> {
     if !space.is_floor(centre) {
         return None;
     }
-    let solid = |_: &super::ray_grid::WallQuad, _: f64| true;
+    let solid = |_: &WallQuad, _: f64| true;
     let mut clear = CLEAR_M;
     for (toward, reach) in [
         (vec2(1.0, 0.0), half.x),
@@ -124,4 +134,32 @@ fn clearance(space: &RayGrid, centre: Vec2, half: Vec2) -> Option<f64> {
         }
     }
     Some(clear)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::FloorPlan;
+    use crate::walls::{Walls, WallsOptions};
+
+    fn over(width: u32, height: u32, px_m: f64, floor: Vec<u8>) -> Vec<Panel> {
+        let walls = Walls::trace(&FloorPlan::from_mask(width, height, px_m, floor), &WallsOptions::default());
+        Panels::over(&RayGrid::new(&walls, &[], 2.6)).all().copied().collect()
+    }
+
+    #[test]
+    fn panels_hang_in_the_middle_of_a_corridor_and_along_it() {
+        let rows = ["####################", "....................", "....................", "####################"];
+        let floor = rows.iter().flat_map(|row| row.bytes()).map(|c| u8::from(c == b'.')).collect();
+        let panels = over(20, 4, 1.0, floor);
+        assert!((8..=9).contains(&panels.len()), "{}", panels.len());
+        for panel in &panels {
+            assert!((panel.centre.y - 2.0).abs() < 0.35 && panel.half.x > panel.half.y, "{panel:?}");
+        }
+    }
+
+    #[test]
+    fn nothing_hangs_in_a_gap() {
+        assert_eq!(over(3, 3, 0.5, vec![0, 0, 0, 1, 1, 1, 0, 0, 0]), []);
+    }
 }

@@ -12,10 +12,10 @@ const NUDGE_M: f64 = 1e-7;
 
 /// Kind of an upright quad.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum QuadKind {
+pub(crate) enum QuadKind {
     /// A wall: place in [`Walls::faces`].
     Wall(u32),
-    /// Where floor meets the image's side: nothing is there.
+    /// A gap where the floor meets the image's side.
     Opening,
     /// Above a door: place in the list of doorways.
     Lintel(u32),
@@ -23,7 +23,7 @@ pub(super) enum QuadKind {
 
 /// One upright rectangle, seen from its right side.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct WallQuad {
+pub(crate) struct WallQuad {
     pub a: Vec2,
     /// Unit vector from start to end.
     pub along: Vec2,
@@ -50,6 +50,12 @@ impl WallQuad {
         p.distance(self.a + self.along * along)
     }
 
+    /// True if a place lies straight behind it, away from the floor.
+    pub fn hides(&self, p: Vec2) -> bool {
+        let way = p - self.a;
+        way.dot(self.normal()) <= 0.0 && (0.0..=self.length).contains(&way.dot(self.along))
+    }
+
     fn b(&self) -> Vec2 {
         self.a + self.along * self.length
     }
@@ -57,7 +63,7 @@ impl WallQuad {
 
 /// The crossing of a ray and a quad.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Crossing {
+pub(crate) struct Crossing {
     /// Way from the ray's start, metres.
     pub way_m: f64,
     /// Place in [`RayGrid::pieces`].
@@ -68,7 +74,7 @@ pub(super) struct Crossing {
 
 /// A gap with a lintel over it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Lintel {
+pub(crate) struct Lintel {
     pub low_m: f64,
     centre: Vec2,
     through: Vec2,
@@ -114,12 +120,12 @@ enum CellGround {
 
 /// All upright quads of a plan in a grid of cells.
 #[derive(Debug)]
-pub(super) struct RayGrid {
+pub(crate) struct RayGrid {
     pub pieces: Vec<WallQuad>,
     pub lintels: Vec<Lintel>,
     /// Both ends of each opening.
     pub openings: Vec<[Vec2; 2]>,
-    /// Of walls and ceiling; 0: there are none.
+    /// Height of walls and ceiling, metres; 0 without them.
     pub height_m: f64,
     /// The block that the rooms are cut into.
     pub block: Rect,
@@ -131,7 +137,7 @@ pub(super) struct RayGrid {
     /// Pieces of cell `c` are `entries[starts[c]..starts[c + 1]]`.
     starts: Vec<u32>,
     entries: Vec<u32>,
-    /// What is at each cell's middle.
+    /// The ground at each cell's middle.
     middles: Vec<CellGround>,
     /// Cells all around that hold no piece, in rings; 0 where there is one in the cell itself.
     empty_rings: Vec<u8>,
@@ -261,7 +267,7 @@ impl RayGrid {
         first
     }
 
-    /// Way to the grid; none if the ray misses it.
+    /// Way to the grid, metres; `None` if the ray misses it.
     fn enters(&self, from: Vec2, inverse: Vec2) -> Option<f64> {
         let size = vec2(self.columns as f64, self.rows as f64) * self.cell_m;
         let span = |from: f64, inverse: f64, low: f64, high: f64| {
@@ -377,7 +383,7 @@ fn rings(starts: &[u32], columns: usize, rows: usize) -> Vec<u8> {
     let mut rings: Vec<u8> = starts.windows(2).map(|pair| if pair[1] > pair[0] { 0 } else { 255 }).collect();
     let near = |rings: &[u8], x: i64, y: i64| {
         let inside = x >= 0 && y >= 0 && x < columns as i64 && y < rows as i64;
-        // Beyond the grid nothing is known: rays end at its border anyway.
+        // Rays end at the grid's border, so cells beyond it do not matter.
         if inside { rings[y as usize * columns + x as usize].saturating_add(1) } else { 1 }
     };
     let mut pass = |cell: usize, neighbours: [[i64; 2]; 4]| {

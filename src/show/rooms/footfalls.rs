@@ -4,10 +4,10 @@ use crate::math::Vec2;
 use crate::sums::{BLOCK, FloorSums, Quantity};
 
 /// Side of a cell, metres.
-pub(super) const CELL_M: f64 = 0.25;
+pub(crate) const CELL_M: f64 = 0.25;
 
 /// Wear of each cell by footfalls, 0 to 1.
-pub(super) struct FootfallGrid {
+pub(crate) struct FootfallGrid {
     columns: usize,
     rows: usize,
     trodden: Vec<f32>,

@@ -9,13 +9,13 @@ use super::trace::HitSurface;
 use crate::export::{Camera, DEFAULT_FOV_DEG};
 use crate::math::{Vec2, ln, sin_cos, vec2};
 
-/// Height of the eyes of somebody who stands, metres.
+/// Eye height of a standing person, metres.
 const EYES_M: f64 = 1.7;
 /// Least distance of a camera from walls, metres.
 const CLEAR_M: f64 = 0.5;
 /// Downward from level, degrees: floor fills not quite half of the picture, its detail begins 4 m away.
 const EYE_PITCH_DEG: f64 = -4.5;
-/// The same on open ground, where nothing is to be seen above the horizon.
+/// The same on open ground, where only sky is above the horizon.
 const OPEN_PITCH_DEG: f64 = -20.0;
 /// Headings that are tried.
 const HEADINGS: usize = 24;
@@ -40,7 +40,7 @@ const BRIGHT_M: f64 = 16.0;
 
 impl RayGrid {
     /// The eye-level camera with the best view: trodden floor with margins, depth, walls on both sides.
-    pub(super) fn eye_level(&self, traffic: &FootfallGrid) -> Camera {
+    pub(crate) fn eye_level(&self, traffic: &FootfallGrid) -> Camera {
         let (places, doors) = (self.standing_places(traffic), self.doors());
         let judged: Vec<(f64, Vec2, f64)> = places
             .par_iter()
@@ -77,7 +77,7 @@ impl RayGrid {
         let indoors = |p: Vec2| openings.iter().all(|opening| opening.distance_m(p) >= INDOORS_M);
         let walked = |p: Vec2| traffic.at(p) > 0.05;
         let chosen = |good: &dyn Fn(Vec2) -> bool| clear.iter().copied().filter(|&p| good(p)).collect::<Vec<Vec2>>();
-        // The best that there is: a small plan has nothing far from its openings, an empty one no dirt.
+        // The strictest wish that any place meets: all of a small plan is near its openings, an empty one has no dirt.
         let tries: [&dyn Fn(Vec2) -> bool; 4] = [&|p| walked(p) && indoors(p), &walked, &indoors, &|_| true];
         let walked = tries.into_iter().map(chosen).find(|places| !places.is_empty()).unwrap_or_default();
         let stride = walked.len().div_ceil(MOST_PLACES).max(1);
@@ -116,7 +116,7 @@ impl RayGrid {
             }
             depth += ln(way.max(0.3));
             near_walls += if way > 2.0 && way < 9.0 { 1.0 } else { 0.0 };
-            // A wall before one's nose hides everything.
+            // A wall right before the camera hides everything.
             blocked += if way < 2.0 { 1.0 } else { 0.0 };
         }
         let glances = GLANCES as f64;
@@ -154,7 +154,7 @@ impl RayGrid {
     }
 
     /// From above, all of the plan in the picture, from the side where walls hide least of the floor.
-    pub(super) fn birds_eye(&self, size: [u32; 2]) -> Camera {
+    pub(crate) fn birds_eye(&self, size: [u32; 2]) -> Camera {
         let mut best: Option<(f64, Camera)> = None;
         // Obliquely first: a plan seen straight along its walls looks flat.
         for heading_deg in [60.0, 120.0, 240.0, 300.0, 30.0, 150.0, 210.0, 330.0] {
@@ -223,7 +223,7 @@ impl RayGrid {
     }
 
     /// The nearest place on the floor with some room around it.
-    pub(super) fn nearest_floor(&self, p: Vec2) -> Vec2 {
+    pub(crate) fn nearest_floor(&self, p: Vec2) -> Vec2 {
         let near = |clear_m: f64| {
             let mut best: Option<(f64, Vec2)> = None;
             for place in self.floor_places() {

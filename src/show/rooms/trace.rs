@@ -1,14 +1,14 @@
 //! Which surface a ray from the camera meets.
 
-use super::ray_grid::{QuadKind, RayGrid};
+use super::ray_grid::{QuadKind, RayGrid, WallQuad};
 use crate::math::{Vec2, vec2};
 
-/// Way beyond an opening at which nothing but light is seen, metres.
+/// Distance beyond an opening at which daylight hides everything, metres.
 const OUTSIDE_M: f64 = 14.0;
 
 /// The surface that a ray hits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum HitSurface {
+pub(crate) enum HitSurface {
     Floor,
     Ceiling,
     /// Place in [`RayGrid::pieces`].
@@ -16,11 +16,11 @@ pub(super) enum HitSurface {
     Lintel(u32),
     /// The underside of a lintel.
     Soffit(u32),
-    /// What rooms are cut into, from above.
+    /// The top of the block that the rooms are cut into, as seen from above.
     Top,
-    /// The same from the side.
+    /// The block's outer side.
     Side,
-    /// What the model stands on.
+    /// The table under the block.
     Table,
     /// Light, far beyond an opening.
     Outside,
@@ -29,7 +29,7 @@ pub(super) enum HitSurface {
 
 /// The hit of a ray.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct RayHit {
+pub(crate) struct RayHit {
     pub surface: HitSurface,
     /// x, y in the plan frame and height, metres. Beyond openings the plan goes on as its mirror image.
     pub point: [f32; 3],
@@ -96,7 +96,7 @@ impl Ray {
 }
 
 impl RayGrid {
-    /// What a ray meets from within the rooms, below the ceiling.
+    /// The first hit of a ray from within the rooms, below the ceiling.
     pub fn trace_inside(&self, position: [f64; 3], way: [f64; 3]) -> RayHit {
         let mut ray = Ray::new(position, way);
         loop {
@@ -108,7 +108,7 @@ impl RayGrid {
                 (HitSurface::Outside, 1e6)
             };
             let end = end.clamp(0.0, 1e6);
-            let solid = |piece: &super::ray_grid::WallQuad, way: f64| match piece.what {
+            let solid = |piece: &WallQuad, way: f64| match piece.what {
                 QuadKind::Lintel(number) => self.under_lintel(&ray, number, way).is_some(),
                 _ => true,
             };
@@ -147,7 +147,7 @@ impl RayGrid {
         (ray.height(leaves) > lintel.low_m).then(|| (lintel.low_m - ray.z) / ray.slope)
     }
 
-    /// What a ray meets from above the walls: the rooms lie open, cut into a block on a table.
+    /// The first hit of a ray from above the walls: rooms without a ceiling, cut into a block on a table.
     pub fn trace_above(&self, position: [f64; 3], way: [f64; 3]) -> RayHit {
         let ray = Ray::new(position, way);
         if ray.slope >= -1e-9 {
@@ -169,7 +169,7 @@ impl RayGrid {
         if !self.is_floor(inside) {
             return ray.hit(if enter > top { HitSurface::Side } else { HitSurface::Top }, way);
         }
-        let walls = |piece: &super::ray_grid::WallQuad, _: f64| !matches!(piece.what, QuadKind::Lintel(_));
+        let walls = |piece: &WallQuad, _: f64| !matches!(piece.what, QuadKind::Lintel(_));
         match self.cast(inside, ray.toward, ground - way, walls) {
             None => ray.hit(HitSurface::Floor, ground),
             Some(met) if self.pieces[met.piece].what == QuadKind::Opening => ray.hit(HitSurface::Table, ground),
