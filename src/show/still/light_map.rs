@@ -8,8 +8,10 @@ use rustc_hash::FxHashMap;
 use crate::math::{Vec2, vec2};
 use crate::show::rooms::{Irradiance, Light, OFF_WALL_M, WallQuad};
 
-/// Places per metre at which light is computed.
+/// Places per metre at which light is computed, for cameras that see single metres.
 const PER_METRE: f64 = 8.0;
+/// Places per metre for cameras far away.
+const LEAST_PER_METRE: f64 = 1.0;
 /// Side of a block of such places.
 const SIDE: usize = 16;
 
@@ -25,26 +27,30 @@ pub(super) struct LightKey {
 #[derive(Debug)]
 pub(super) struct LightMap<'a> {
     pub light: Light<'a>,
+    /// Places per metre at which light is computed.
+    per_metre: f64,
     /// Rows of a wall's raster.
     rows: usize,
     blocks: FxHashMap<LightKey, Box<[Irradiance]>>,
 }
 
 impl<'a> LightMap<'a> {
-    pub fn new(light: Light<'a>) -> LightMap<'a> {
-        let rows = (light.space.height_m * PER_METRE).ceil() as usize + 1;
-        LightMap { light, rows, blocks: FxHashMap::default() }
+    /// A map for a camera whose pixels are at least `pixel_m` wide, metres, on every surface.
+    pub fn new(light: Light<'a>, pixel_m: f64) -> LightMap<'a> {
+        let per_metre = places_per_metre(pixel_m);
+        let rows = (light.space.height_m * per_metre).ceil() as usize + 1;
+        LightMap { light, per_metre, rows, blocks: FxHashMap::default() }
     }
 
     /// The block that a place on the floor needs.
     pub fn floor_key(&self, x: f32, y: f32) -> LightKey {
-        let block = |m: f32| (m * PER_METRE as f32 / SIDE as f32).floor() as i32;
+        let block = |m: f32| (m * self.per_metre as f32 / SIDE as f32).floor() as i32;
         LightKey { layer: 0, x: block(x), y: block(y) }
     }
 
     /// The block that a place on a piece of wall needs.
     pub fn wall_key(&self, piece: u32, along_m: f32) -> LightKey {
-        let columns = Columns::of(&self.light.space.pieces[piece as usize]);
+        let columns = Columns::of(&self.light.space.pieces[piece as usize], self.per_metre);
         LightKey { layer: piece + 1, x: (columns.at(along_m).0 / SIDE) as i32, y: 0 }
     }
 
@@ -61,12 +67,12 @@ impl<'a> LightMap<'a> {
             let place = |k: usize| {
                 let [i, j] = [k % (SIDE + 1), k / (SIDE + 1)].map(|k| k as f64);
                 let corner = vec2(f64::from(key.x), f64::from(key.y)) * SIDE as f64;
-                (corner + vec2(i, j)) / PER_METRE
+                (corner + vec2(i, j)) / self.per_metre
             };
             return (0..(SIDE + 1) * (SIDE + 1)).map(|k| self.light.on_floor(place(k))).collect();
         }
         let piece = &self.light.space.pieces[key.layer as usize - 1];
-        let columns = Columns::of(piece);
+        let columns = Columns::of(piece, self.per_metre);
         let mut block = vec![Irradiance::default(); (SIDE + 1) * self.rows];
         let mut column = Vec::new();
         for k in 0..=SIDE {
@@ -95,7 +101,7 @@ impl<'a> LightMap<'a> {
     /// Light on a place of the floor.
     pub fn floor(&self, x: f32, y: f32) -> Irradiance {
         let Some(block) = self.blocks.get(&self.floor_key(x, y)) else { return Irradiance { full: 0.8, open: 0.8 } };
-        let [x, y] = [x, y].map(|m| m * PER_METRE as f32);
+        let [x, y] = [x, y].map(|m| m * self.per_metre as f32);
         let within = |m: f32| m - (m / SIDE as f32).floor() * SIDE as f32;
         between(block, within(x), within(y), SIDE)
     }
@@ -105,11 +111,21 @@ impl<'a> LightMap<'a> {
         let Some(block) = self.blocks.get(&self.wall_key(piece, along_m)) else {
             return Irradiance { full: 0.7, open: 0.7 };
         };
-        let columns = Columns::of(&self.light.space.pieces[piece as usize]);
+        let columns = Columns::of(&self.light.space.pieces[piece as usize], self.per_metre);
         let (column, share) = columns.at(along_m);
         let row = (z / self.light.space.height_m as f32).clamp(0.0, 1.0) * (self.rows - 1) as f32;
         between(block, (column % SIDE) as f32 + share, row, self.rows - 1)
     }
+}
+
+/// Places per metre at which light is computed: up to two pixels apart, so that work grows with the picture and not with
+/// the site.
+fn places_per_metre(pixel_m: f64) -> f64 {
+    let mut per_metre = PER_METRE;
+    while per_metre > LEAST_PER_METRE && 0.5 * per_metre * 2.0 * pixel_m >= 1.0 {
+        per_metre *= 0.5;
+    }
+    per_metre
 }
 
 /// Columns of a wall piece at which light is computed: evenly from end to end.
@@ -119,8 +135,8 @@ struct Columns {
 }
 
 impl Columns {
-    fn of(piece: &WallQuad) -> Columns {
-        Columns { count: (piece.length * PER_METRE).ceil().max(1.0) as usize, length: piece.length }
+    fn of(piece: &WallQuad, per_metre: f64) -> Columns {
+        Columns { count: (piece.length * per_metre).ceil().max(1.0) as usize, length: piece.length }
     }
 
     /// Column left of a place, and how far it is to the next, 0 to 1.
@@ -146,4 +162,19 @@ fn between(block: &[Irradiance], x: f32, y: f32, last_row: usize) -> Irradiance 
     };
     let above = (at + SIDE + 1).min(block.len() - 2);
     mix(mix(block[at], block[at + 1], u), mix(block[above], block[above + 1], u), v)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_up_to_two_pixels_apart() {
+        assert_eq!([0.0, 0.06, 0.125, 0.3, 0.5, 1.0, 1e6].map(places_per_metre), [8.0, 8.0, 4.0, 2.0, 1.0, 1.0, 1.0]);
+        for site_m in [200.0, 500.0, 1000.0] {
+            let pixel_m = site_m / 1280.0;
+            let places_per_pixel = (places_per_metre(pixel_m) * pixel_m).powi(2);
+            assert!((0.25..=1.0).contains(&places_per_pixel), "{site_m} m: {places_per_pixel}");
+        }
+    }
 }

@@ -10,6 +10,7 @@ use super::sampler::{SamplerNeeds, SurfaceSampler, along_m};
 use super::shade::Shader;
 use super::tone::Tone;
 use crate::export::{Camera, ExportError};
+use crate::math::sin_cos;
 use crate::progress::Progress;
 use crate::show::rooms::{HitSurface, Lens, Light, LinearRgb, RayGrid, RayHit};
 
@@ -74,12 +75,19 @@ pub(super) struct Renderer<'a> {
     tone: Tone,
 }
 
+/// Width of a pixel of a camera above all walls on the nearest surface that it can see, metres.
+fn least_pixel_m(space: &RayGrid, camera: &Camera, size: [u32; 2]) -> f64 {
+    let (sine, cosine) = sin_cos(0.5 * camera.fov_deg.to_radians());
+    (camera.position_m[2] - space.height_m) * 2.0 * sine / cosine / f64::from(size[0].max(1))
+}
+
 impl<'a> Renderer<'a> {
     pub fn new(space: &'a RayGrid, camera: &Camera, size: [u32; 2]) -> Renderer<'a> {
         let above = camera.position_m[2] >= space.height_m;
         let light = if above { Light::above(space, camera.heading_deg) } else { Light::inside(space) };
         let tone = Tone::new(light.exposure());
-        Renderer { space, lens: Lens::of(camera, size), size, above, light: LightMap::new(light), tone }
+        let light = LightMap::new(light, if above { least_pixel_m(space, camera, size) } else { 0.0 });
+        Renderer { space, lens: Lens::of(camera, size), size, above, light, tone }
     }
 
     /// The pictures, one per skin.
