@@ -41,7 +41,9 @@ const ORDER: [&str; 25] = [
 /// Longest file, lines.
 const LONGEST: usize = 600;
 /// Rooms whose files still import each other. This list only ever gets shorter.
-const WITH_RINGS: [&str; 4] = ["cli", "export", "files", "plan"];
+const WITH_RINGS: [&str; 0] = [];
+/// Names that a caller of the library can reach. A new one replaces an old one, or says in its commit why it is needed.
+const MOST_PUBLIC_NAMES: usize = 374;
 
 /// A path of names, as `["walls", "Face"]`.
 type Names = Vec<String>;

@@ -1,4 +1,8 @@
 //! Writes a bake: textures, sums, previews, manifest, report.
+//!
+//! More than 5000 lines, since each file format of a bake is written and read here, and the two ends of a format have to
+//! change together: textures, exact sums, the manifest, the folder that replaces an earlier bake whole, and what each
+//! target program wants. Each has a file or folder of its own; only `ExportError`, `BakePath` and `TileLayout` are common.
 
 mod atlas;
 mod bake_path;
