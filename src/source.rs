@@ -148,7 +148,7 @@ impl Given {
     }
 
     /// Body heights of those whose recording tells them, by their ids in the motion.
-    pub(crate) fn statures(&self) -> Statures {
+    pub fn statures(&self) -> Statures {
         match &self.content {
             Content::Recording(recording) => recording.statures(),
             Content::Ensemble(ensemble) | Content::FormedCrowd(FormedCrowd { ensemble, .. }) => {

@@ -43,7 +43,7 @@ const LONGEST: usize = 600;
 /// Rooms whose files still import each other. This list only ever gets shorter.
 const WITH_RINGS: [&str; 0] = [];
 /// Names that a caller of the library can reach. A new one replaces an old one, or says in its commit why it is needed.
-const MOST_PUBLIC_NAMES: usize = 374;
+const MOST_PUBLIC_NAMES: usize = 376;
 
 /// A path of names, as `["walls", "Face"]`.
 type Names = Vec<String>;

@@ -60,7 +60,7 @@ impl Recording {
 
     /// Body heights of those for whom the file tells one: the first that a person may have. Somebody who comes back after
     /// a long gap as another person has none.
-    pub(crate) fn statures(&self) -> Statures {
+    pub fn statures(&self) -> Statures {
         self.content.statures.clone()
     }
 
