@@ -50,6 +50,26 @@ pub struct OutputOptions {
 /// # Errors
 /// Errors of the stages; an output folder that cannot be written or must not be replaced; [`Error::Interrupted`]. After
 /// an error no new files remain and an earlier result is unchanged.
+///
+/// # Example
+/// ```
+/// use trodden::bake::{OutputOptions, bake};
+/// use trodden::scenario::{Overrides, Scenario};
+///
+/// // Three people in the sample museum, at five texels per metre.
+/// let coarse = Overrides {
+///     metres_per_pixel: Some(0.05),
+///     people: Some(3),
+///     texels_per_metre: Some(5.0),
+///     ..Overrides::default()
+/// };
+/// let scenario = Scenario::from_plan("floorplans/museum.png".as_ref(), &coarse)?;
+/// let folder = tempfile::tempdir()?;
+/// let output = OutputOptions { folder: folder.path().join("museum"), force: false };
+/// let report = bake(&scenario, &output, &trodden::Silent)?;
+/// assert!(report.footfalls > 10 && output.folder.join("manifest.json").is_file());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress) -> Result<Report, Error> {
     let watch = Stopwatch::start();
     // Errors in the input should appear before the crowd walks.

@@ -17,6 +17,8 @@
 //!
 //! Units are metres, seconds and radians counter-clockwise from +x unless a name says otherwise. The *plan
 //! frame* has its origin at the lower-left corner of the lower-left pixel, x right, y up.
+#![warn(unnameable_types)]
+
 // In the order of the data: a module uses the modules above it.
 mod progress;
 pub mod files;

@@ -93,6 +93,21 @@ pub struct WalkReport {
 /// # Errors
 /// Errors of the stages; files that exist, that cannot be written or that have an unknown extension;
 /// [`Error::Interrupted`]. After an error no new files remain and earlier files are unchanged.
+///
+/// # Example
+/// ```
+/// use trodden::scenario::{Overrides, Scenario};
+/// use trodden::walk::{MotionOutput, WalkOutputs, walk};
+///
+/// let options = Overrides { metres_per_pixel: Some(0.05), people: Some(3), ..Overrides::default() };
+/// let scenario = Scenario::from_plan("floorplans/museum.png".as_ref(), &options)?;
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("paths.txt");
+/// let outputs = WalkOutputs { motion: Some(MotionOutput::File(path.clone())), ..WalkOutputs::default() };
+/// assert_eq!(walk(&scenario, &outputs, &trodden::Silent)?.people.entered, 3);
+/// assert!(path.is_file());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn walk(scenario: &Scenario, outputs: &WalkOutputs, progress: &dyn Progress) -> Result<WalkReport, Error> {
     let watch = Stopwatch::start();
     outputs.check_not_inputs(&scenario.input_files())?;

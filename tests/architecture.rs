@@ -40,8 +40,8 @@ const ORDER: [&str; 25] = [
 ];
 /// Longest file, lines.
 const LONGEST: usize = 600;
-/// Names that a caller can reach; a new one has to serve callers.
-const MOST_PUBLIC_NAMES: usize = 400;
+/// Names that a caller of the library can reach. A new one replaces an old one, or says in its commit why it is needed.
+const MOST_PUBLIC_NAMES: usize = 376;
 
 /// A path of names, as `["walls", "Face"]`.
 type Names = Vec<String>;

@@ -1,4 +1,8 @@
 //! Writes a bake: textures, sums, previews, manifest, report.
+//!
+//! More than 5000 lines, since each file format of a bake is written and read here, and the two ends of a format have to
+//! change together: textures, exact sums, the manifest, the folder that replaces an earlier bake whole, and what each
+//! target program wants. Each has a file or folder of its own; only `ExportError`, `BakePath` and `TileLayout` are common.
 
 mod atlas;
 mod bake_path;
@@ -45,9 +49,8 @@ pub use output::{OutputFolder, settled};
 pub use reduced::Reduced;
 pub use report::{PeopleReport, Report, StuckReport};
 pub use source::{TextureSource, WallSource};
-pub use sums::read_wall_sums;
 pub(crate) use sums::write_wall_sums;
-pub use sums::{read_sums, write_sums};
+pub use sums::{read_sums, read_wall_sums, write_sums};
 pub(crate) use targets::write_target_files;
 pub use targets::{Target, TargetEntry, WorldEntry};
 pub use textures::{FloorTextures, WallTextures, floor_textures};

@@ -148,7 +148,7 @@ impl OutputFolder {
     ///
     /// # Errors
     /// The file cannot be created, or a file of the user has its name.
-    pub fn create(&self, relative: &str) -> Result<OutputFile, ExportError> {
+    pub(crate) fn create(&self, relative: &str) -> Result<OutputFile, ExportError> {
         let relative = BakePath::new(relative)?;
         self.check_user(&self.users, &relative)?;
         let path = self.places.new.join(&relative);

@@ -17,4 +17,4 @@ pub use frame::{Frame, Motion, Walker};
 pub(crate) use mileage::Mileage;
 pub use person::{Bag, BagKind, BodyOptions, CarrySide, People, Person};
 pub(crate) use resampler::{FASTEST_M_S, Resampler};
-pub(crate) use statures::Statures;
+pub use statures::Statures;
