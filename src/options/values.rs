@@ -165,11 +165,10 @@ impl<T: Leaf> Value for T {
         let known: Vec<&str> = kind.tables().iter().flat_map(Table::fields).map(|field| field.name).collect();
         if let DeValue::Table(written) = value.get_ref()
             && !known.is_empty()
+            && let Some((name, _)) = written.iter().find(|(name, _)| !known.contains(&name.get_ref().as_ref()))
         {
-            if let Some((name, _)) = written.iter().find(|(name, _)| !known.contains(&name.get_ref().as_ref())) {
-                let problem = Problem::UnknownKey(name.get_ref().to_string(), known);
-                return Err(Mistake { span: name.span(), path: String::new(), problem });
-            }
+            let problem = Problem::UnknownKey(name.get_ref().to_string(), known);
+            return Err(Mistake { span: name.span(), path: String::new(), problem });
         }
         T::deserialize(ValueDeserializer::from(value.clone())).map_err(|error| {
             let span = error.span().unwrap_or(value.span());

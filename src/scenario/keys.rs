@@ -19,7 +19,7 @@ use crate::walls::WallsOptions;
 names!(Preset);
 
 options! {
-    struct PlanKeys {
+    pub(super) struct PlanKeys {
         /// The plan: PNG, JPEG, BMP, PGM, TIFF, GIF, or the YAML of a ROS map; relative to this file.
         image: Option<PathBuf> = None, eg "\"plan.png\"";
         /// Height of the walls.
@@ -28,7 +28,7 @@ options! {
 }
 
 options! {
-    struct TextureKeys {
+    pub(super) struct TextureKeys {
         /// Texel density of the floor.
         floor_texels_per_metre: f64 = 100.0, in 1.0..=1000.0;
         /// Texel density of the walls.
@@ -37,7 +37,7 @@ options! {
 }
 
 options! {
-    struct CrowdKeys {
+    pub(super) struct CrowdKeys {
         /// What all other keys start from: "commuters", "heavy", "wet" or "paper".
         preset: Preset = Preset::Commuters;
         /// Another number, another crowd.

@@ -112,18 +112,19 @@ fn parts<'s>(name: &str, own: Vec<&'s mut dyn Value>, stage: Vec<&'s mut dyn Val
 impl Scenario {
     /// The defaults of a preset, without a plan.
     pub fn of_preset(preset: Preset) -> Scenario {
+        let texture = keys::TextureKeys::default();
         let mut scenario = Scenario {
             folder: PathBuf::new(),
             read_from: Vec::new(),
             image: None,
-            wall_height_m: 2.6,
+            wall_height_m: keys::PlanKeys::default().wall_height,
             plan: PlanOptions::default(),
             walls: WallsOptions::default(),
-            floor_texels_per_metre: 100.0,
-            wall_texels_per_metre: 200.0,
+            floor_texels_per_metre: texture.floor_texels_per_metre,
+            wall_texels_per_metre: texture.wall_texels_per_metre,
             texture: TextureOptions::default(),
             preset,
-            seed: 1,
+            seed: keys::CrowdKeys::default().seed,
             crowd: CrowdOptions::default(),
             bodies: BodyOptions::default(),
             motion_file: None,
@@ -142,7 +143,7 @@ impl Scenario {
         scenario
     }
 
-    /// Sets what a preset changes in a default self.
+    /// Sets what a preset changes in a default scenario.
     fn apply(&mut self, preset: Preset) {
         self.preset = preset;
         self.look = Look::preset(preset.name()).unwrap_or_default();

@@ -170,11 +170,11 @@ hint: did you mean "wall"?
     assert_data_eq!(
         shown("[plan]\nimage = \"plan.png\"\nfloor = [[1]]\n"),
         str![[r#"
-`floor` takes [x, y] in metres or { px = [x, y] } in pixels, not [[1]]
- --> plans/hall.toml:3:9
+`floor` takes [x, y] in metres or { px = [x, y] } in pixels, not [1]
+ --> plans/hall.toml:3:10
   |
 3 | floor = [[1]]
-  |         ^^^^^
+  |          ^^^
 
 "#]]
     );
@@ -257,6 +257,7 @@ fn a_value_out_of_range_shows_its_place_and_the_range() {
   |
 4 | stature_men = { mean = 1.7, sd = -1 }
   |               ^^^^^^^^^^^^^^^^^^^^^^^
+hint: write a number, a range [0.28, 0.36], or { mean = 1.34, sd = 0.26, min = 0.6, max = 2.1 }
 
 "#]]
     );
@@ -268,6 +269,7 @@ fn a_value_out_of_range_shows_its_place_and_the_range() {
   |
 4 | stature_men = [1.5, 9]
   |               ^^^^^^^^
+hint: write a number, a range [0.28, 0.36], or { mean = 1.34, sd = 0.26, min = 0.6, max = 2.1 }
 
 "#]]
     );

@@ -158,11 +158,11 @@ hint: did you mean "bench"?
     assert_data_eq!(
         with("[3]", stop),
         str![[r#"
-`via` takes an opening's or a stop's name, a point [x, y], an area [[x0, y0], [x1, y1]], or { stop = "name", share = 0.2 }, not [3]
- --> plans/hall.toml:6:7
+`via` takes an opening's or a stop's name, a point [x, y], an area [[x0, y0], [x1, y1]], or { stop = "name", share = 0.2 }, not 3
+ --> plans/hall.toml:6:8
   |
 6 | via = [3]
-  |       ^^^
+  |        ^
 
 "#]]
     );
@@ -185,6 +185,7 @@ hint: did you mean "bench"?
    |
 10 | dwell = nan
    |         ^^^
+hint: write a number, a range [0.28, 0.36], or { mean = 1.34, sd = 0.26, min = 0.6, max = 2.1 }
 
 "#]]
     );
@@ -196,6 +197,7 @@ hint: did you mean "bench"?
    |
 10 | dwell = { mean = 5, sd = 9, min = -2 }
    |         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+hint: write a number, a range [0.28, 0.36], or { mean = 1.34, sd = 0.26, min = 0.6, max = 2.1 }
 
 "#]]
     );
