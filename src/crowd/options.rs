@@ -127,9 +127,7 @@ impl CrowdOptions {
             self.arrivals.check().map_err(|error| error.within("arrivals"))?;
             match self.groups.shares.iter().sum::<f64>() > 0.0 {
                 true => Ok(()),
-                false => {
-                    Err(OptionError::unfit("groups.shares", "`shares` are all 0: there are no groups of any size"))
-                }
+                false => Err(OptionError::unfit("groups.shares", "the shares together are 0, allowed is above 0")),
             }
         };
         check().map_err(|error: OptionError| CrowdError::Option(error.within("crowd")))

@@ -67,7 +67,7 @@ pub enum RoutesError {
         name: String,
     },
     /// A value of a stop is out of range or does not fit the stop's kind.
-    #[error("stop \"{stop}\": {key}: {problem}")]
+    #[error("stop \"{stop}\": {problem}")]
     StopValue {
         /// The stop.
         stop: String,

@@ -204,7 +204,7 @@ impl StopRequest {
                 None => Ok(p),
                 Some(c) => {
                     let most = LARGEST_COORDINATE;
-                    Err(wrong((key, format!("a coordinate is {c} m, allowed is -{most} to {most}"))))
+                    Err(wrong((key, format!("`{key}`: a coordinate is {c} m, allowed is -{most} to {most}"))))
                 }
             }
         };
@@ -227,7 +227,7 @@ impl StopRequest {
         }
         if let Some(pair) = queue_m.windows(2).find(|pair| !ground.sight(walls, pair[0], pair[1])) {
             let problem = format!(
-                "the line crosses a wall between [{:.2}, {:.2}] and [{:.2}, {:.2}]",
+                "`queue`: the line crosses a wall between [{:.2}, {:.2}] and [{:.2}, {:.2}]",
                 pair[0].x, pair[0].y, pair[1].x, pair[1].y
             );
             return Err(wrong(("queue", problem)));

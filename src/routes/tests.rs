@@ -214,6 +214,6 @@ fn requests_are_read_from_toml() {
     assert_eq!(request.via[0], ViaRequest::Place(PlaceRequest::Point(PlanPoint::Pixels { px: [4.0, 9.0] })));
     assert_eq!(request.via[1], ViaRequest::Place(PlaceRequest::Area([[1.0, 1.0], [2.0, 2.0]])));
     let wrong = "[[routes]]\nfrom = 3\nto = \"west\"";
-    let error = crate::options::parse::<RoutesOptions>(wrong).err().expect("a number is no place").explain(wrong).0;
+    let error = crate::options::parse::<RoutesOptions>(wrong).expect_err("a number is no place").explain(wrong).0;
     assert!(error.contains("an opening's name, a point"), "{error}");
 }

@@ -113,7 +113,10 @@ fn headers_that_lie() {
         parts.iter().for_each(|part| assert!(ran.err.contains(part), "no {part:?} in {}", ran.err));
         assert!(ran.err.starts_with("warning: "), "{}", ran.err);
     };
-    warned(walk().replace("framerate: 10", "framerate: 1000"), &["faster than 133", "--unit and --fps"]);
+    warned(
+        walk().replace("framerate: 10", "framerate: 1000"),
+        &["faster than 133", "--unit overrides metres, --fps 1000 frames per second"],
+    );
     warned(walk().replace("x/m y/m", "x/furlong y/m"), &["nothing is known of the unit `furlong`", "--unit"]);
     warned(walk().replace("x/m y/m", "x/mm y/mm"), &["slower than 0.001 m/s", "--unit"]);
 }
@@ -185,7 +188,7 @@ fn options_that_make_no_sense() {
         }
     }
     for columns in ["id,frame,x", "id,frame,x,y,hat", "id,frame,x,x,y", ""] {
-        let parts = ["columns = ", "hint: as --columns id,frame,x,y"];
+        let parts = ["columns = ", "hint: name the columns in order with --columns id,frame,x,y"];
         sandbox.run(&["motion", "info", "walk.txt", "--columns", columns]).fails(1, &parts);
     }
     sandbox.run(&["motion", "info", "walk.txt", "--format", "jupedsim"]).fails(1, &["no SQLite database", "hint: "]);

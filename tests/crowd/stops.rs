@@ -462,8 +462,8 @@ fn stops_that_cannot_be_are_refused_with_their_name_and_place() {
     let dwell = |dwell| StopRequest { dwell: Some(dwell), ..base.clone() };
     let line = [[13.0, 9.0], [19.0, 9.0]].map(PlanPoint::Metres).to_vec();
     for (wrong, part) in [
-        (dwell(Distribution::Constant(f64::NAN)), "dwell: it is NaN"),
-        (dwell(Distribution::Constant(-3.0)), "dwell: it can be as small as -3"),
+        (dwell(Distribution::Constant(f64::NAN)), "`dwell`: it is NaN"),
+        (dwell(Distribution::Constant(-3.0)), "`dwell`: it can be as small as -3"),
         (StopRequest { places: Some(0), ..base.clone() }, "`places` is 0"),
         (StopRequest { spacing: Some(f64::NAN), ..base.clone() }, "`spacing` is NaN"),
         (

@@ -173,7 +173,7 @@ fn the_other_recording_is_read_as_its_own_options_say() {
     // What is said of it names the options that are about it.
     let (_, said) =
         done(folder.path(), &["dance.txt", "--mix", "guise.txt", "--mix-columns", "x,y,frame,id", "--mix-fps", "10"]);
-    assert!(said.contains("--mix-unit says otherwise") && !said.contains("--unit"), "{said}");
+    assert!(said.contains("--mix-unit overrides it") && !said.contains("--unit"), "{said}");
     let (_, said) = refused(folder.path(), &["dance.txt", "--mix", "guise.txt", "--mix-columns", "who"]);
     assert!(said.contains("hint:") && said.contains("--mix-columns id,frame,x,y"), "{said}");
     let (_, said) = refused(folder.path(), &["dance.txt", "--mix", "dance.txt", "--mix-from", "90", "--mix-to", "95"]);

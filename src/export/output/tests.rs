@@ -66,7 +66,7 @@ fn an_earlier_bake_is_replaced_only_by_force() {
     bake(&out, "1", false);
     let error = OutputFolder::begin(&out, false).unwrap_err();
     assert!(matches!(error, ExportError::OutputExists { .. }));
-    assert!(error.hint().unwrap().contains("--force"));
+    assert!(error.hint().unwrap().contains("the option `force`"));
     bake(&out, "2", true);
     assert_eq!(content(&out), "2");
     assert_eq!(names(dir.path()), ["out"]);

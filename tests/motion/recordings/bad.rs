@@ -117,7 +117,7 @@ fn frame_rates_that_are_none_are_told() {
 fn a_rate_that_nothing_tells_is_asked_for() {
     let error = open_with("1 0 5 5\n1 1 5 5\n2 1 3 3\n", &options()).unwrap_err();
     assert!(matches!(error, RecordingError::UnknownRate { .. }));
-    assert!(error.hint().unwrap().contains("--fps"));
+    assert!(error.hint().unwrap().contains("the option `fps`"));
 }
 
 #[test]

@@ -54,7 +54,11 @@ fn centimetres_are_told_by_the_column_line_or_by_heights() {
     assert_read_with(rows, RecordingFormat::Juelich, &asked);
     let survey = open_with(rows, &RecordingOptions { fps: Some(2.0), ..options() }).unwrap().survey().clone();
     assert_eq!(survey.unit, LengthUnit::Centimetre);
-    assert!(survey.warnings.iter().any(|w| w.contains("heights") && w.contains("--unit")), "{:?}", survey.warnings);
+    assert!(
+        survey.warnings.iter().any(|w| w.contains("heights") && w.contains("the option `unit`")),
+        "{:?}",
+        survey.warnings
+    );
 }
 
 #[test]

@@ -42,7 +42,7 @@ fn a_recording_is_summed_up_and_drawn() {
         "extent     5.00 x 5.00 m, from (-2.50, -2.50) to (2.50, 2.50)",
     ];
     assert_eq!(out.lines().collect::<Vec<_>>(), expected);
-    assert!(err.starts_with("warning: nothing tells the unit of lengths: centimetres are assumed"), "{err}");
+    assert!(err.starts_with("warning: the file gives no unit of lengths: centimetres are assumed"), "{err}");
     let picture = image::open(&picture).unwrap().to_rgb8();
     assert!(picture.width() >= 300 && picture.pixels().any(|pixel| pixel.0[0].abs_diff(pixel.0[2]) > 40));
     let (done, out, _) = info(&file.path, &["--unit", "m", "--json", "-q"]);
@@ -72,7 +72,10 @@ fn what_is_wrong_is_said_with_a_hint() {
     let file = given("#framerate: 10\n1 0 0 0\n1 1 here 0\n1 2 0 0\n");
     let (done, out, err) = info(&file.path, &[]);
     assert!(!done && out.is_empty());
-    assert!(err.contains("recording, line 3: x is `here`, which is no number\nhint: --columns"), "{err}");
+    assert!(
+        err.contains("recording, line 3: x is `here`, which is no number\nhint: name the columns with --columns"),
+        "{err}"
+    );
 }
 
 /// Stops the work after so many looks.

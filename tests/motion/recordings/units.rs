@@ -22,7 +22,7 @@ fn an_unknown_rate_is_assumed_by_how_fast_people_walk() {
     let found = survey(&walk(16.0, 100.0, 1), &options());
     assert_eq!((found.fps, found.unit), (16.0, LengthUnit::Centimetre));
     assert_eq!(found.warnings.len(), 2, "{:?}", found.warnings);
-    assert!(found.warnings.iter().all(|w| w.starts_with("nothing tells the")), "{:?}", found.warnings);
+    assert!(found.warnings.iter().all(|w| w.starts_with("the file gives no")), "{:?}", found.warnings);
     assert!((found.mean_speed_m_s - 1.3).abs() < 0.01);
     let named = format!("# id frame x/m y/m\n{}", walk(30.0, 1.0, 1));
     let found = survey(&named, &options());
@@ -37,14 +37,20 @@ fn what_the_file_says_is_believed_but_absurd_speeds_are_told() {
     let lies = format!("# framerate: 25\n# id frame x/m y/m\n{}", walk(25.0, 100.0, 1));
     let found = survey(&lies, &options());
     assert_eq!(found.unit, LengthUnit::Metre);
-    assert!(found.warnings[0].contains("faster than 130.000 m/s") && found.warnings[0].contains("--unit"), "{found:?}");
+    assert!(
+        found.warnings[0].contains("faster than 130.000 m/s") && found.warnings[0].contains("the option `unit`"),
+        "{found:?}"
+    );
     // The header says 25 frames per second, and so many were counted, but every tenth was kept: 2.5 Hz is right.
     let sparse = format!("# framerate: 25\n# id frame x/m y/m\n{}", walk(2.5, 1.0, 10));
     let found = survey(&sparse, &options());
     assert!(found.warnings.is_empty() && found.fps == 2.5, "{found:?}");
     // Frames were numbered anew, so 25 is a lie; 13 m/s is noticed.
     let found = survey(&sparse.replace("framerate: 25", "framerate: 250"), &options());
-    assert!(found.warnings[0].contains("faster than 13.000 m/s") && found.warnings[0].contains("--fps"), "{found:?}");
+    assert!(
+        found.warnings[0].contains("faster than 13.000 m/s") && found.warnings[0].contains("the option `fps`"),
+        "{found:?}"
+    );
     let slow = "time_s,id,x,y\n0,1,0,0\n100,1,1,0\n200,1,2,0\n";
     assert!(survey(slow, &options()).warnings[0].contains("slower than 0.010 m/s"));
 }
@@ -82,6 +88,6 @@ fn options_out_of_range_are_refused() {
         let asked = RecordingOptions { columns: Some(columns.to_owned()), ..options() };
         let error = open_with(&text, &asked).unwrap_err();
         assert!(error.to_string().contains(problem), "{columns}: {error}");
-        assert!(error.hint().unwrap().contains("--columns id,frame,x,y"));
+        assert!(error.hint().unwrap().contains("the option `columns = \"id,frame,x,y\"`"));
     }
 }
