@@ -127,7 +127,9 @@ impl CrowdOptions {
             self.arrivals.check().map_err(|error| error.within("arrivals"))?;
             match self.groups.shares.iter().sum::<f64>() > 0.0 {
                 true => Ok(()),
-                false => Err(OptionError::unfit("groups.shares", "the shares together are 0, allowed is above 0")),
+                false => {
+                    Err(OptionError::unfit("groups.shares", "the shares together are 0: one at least must be above 0"))
+                }
             }
         };
         check().map_err(|error: OptionError| CrowdError::Option(error.within("crowd")))

@@ -117,7 +117,7 @@ fn headers_that_lie() {
         walk().replace("framerate: 10", "framerate: 1000"),
         &["faster than 133", "--unit overrides metres, --fps 1000 frames per second"],
     );
-    warned(walk().replace("x/m y/m", "x/furlong y/m"), &["nothing is known of the unit `furlong`", "--unit"]);
+    warned(walk().replace("x/m y/m", "x/furlong y/m"), &["the unit `furlong` is unknown", "--unit"]);
     warned(walk().replace("x/m y/m", "x/mm y/mm"), &["slower than 0.001 m/s", "--unit"]);
 }
 

@@ -173,7 +173,8 @@ mod tests {
         assert_eq!([0.0, 0.06, 0.125, 0.3, 0.5, 1.0, 1e6].map(places_per_metre), [8.0, 8.0, 4.0, 2.0, 1.0, 1.0, 1.0]);
         for site_m in [200.0, 500.0, 1000.0] {
             let pixel_m = site_m / 1280.0;
-            let places_per_pixel = (places_per_metre(pixel_m) * pixel_m).powi(2);
+            let along = places_per_metre(pixel_m) * pixel_m;
+            let places_per_pixel = along * along;
             assert!((0.25..=1.0).contains(&places_per_pixel), "{site_m} m: {places_per_pixel}");
         }
     }
