@@ -60,7 +60,7 @@ impl Camera {
     }
 }
 
-/// Parses `x,y,z,heading,pitch`, metres and degrees, with [`DEFAULT_FOV_DEG`].
+/// Parses `x,y,z,heading,pitch`, metres and degrees, with `DEFAULT_FOV_DEG`.
 impl FromStr for Camera {
     type Err = CameraError;
 

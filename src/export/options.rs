@@ -19,7 +19,7 @@ options! {
     } with {
         /// The greatest width and height of the small images that are kept of each texture; none are without it.
         reduced_px: Option<u32> = None;
-        /// Whether a bake is made even if it is larger than [`crate::export::LARGE_BYTES`] or than the disk has room for.
+        /// Whether a bake is made even if it is larger than `LARGE_BYTES` or than the disk has room for.
         any_size: bool = false;
     }
 }

@@ -165,7 +165,7 @@ impl OutputFolder {
     /// Creates a file with this content.
     ///
     /// # Errors
-    /// The same as for [`OutputFolder::create`].
+    /// The same as for `OutputFolder::create`.
     pub fn write(&self, relative: &str, bytes: &[u8]) -> Result<(), ExportError> {
         let mut file = self.create(relative)?;
         file.write_all(bytes).map_err(OutputFile::explain)?;

@@ -48,7 +48,7 @@ impl Features {
     /// (principal components), or of people (Laplacian); 500 people in 2000 frames take about a second.
     ///
     /// # Errors
-    /// Fewer than 2 people or 2 frames; more positions than [`MOST_FEATURE_PLACES`](super::MOST_FEATURE_PLACES) or rows
+    /// Fewer than 2 people or 2 frames; more positions than `MOST_FEATURE_PLACES` or rows
     /// than [`MOST_ROWS`](super::MOST_ROWS); positions out of range; people who do not move relative to their centroid; a
     /// neighbour distance out of range; [`FeaturesError::Interrupted`].
     ///

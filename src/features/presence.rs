@@ -138,7 +138,7 @@ impl Presence {
 ///
 /// # Errors
 /// The recording cannot be read any more; fewer than two people in two frames; more positions than
-/// [`MOST_FEATURE_PLACES`]; [`FeaturesError::Interrupted`].
+/// `MOST_FEATURE_PLACES`; [`FeaturesError::Interrupted`].
 pub fn present_throughout(
     recording: &Recording,
     fps: Option<f64>,

@@ -35,7 +35,7 @@ pub fn open_input_up_to(path: &Path, most: u64) -> io::Result<File> {
 /// Reads a regular file of at most `most` bytes.
 ///
 /// # Errors
-/// The same as for [`open_input_up_to`]; the file cannot be read or does not fit in memory.
+/// The same as for `open_input_up_to`; the file cannot be read or does not fit in memory.
 pub fn read_input(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     // Checked again: some system files report no length.

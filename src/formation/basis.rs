@@ -17,7 +17,7 @@ pub struct Basis {
 }
 
 impl Basis {
-    /// Decomposes a formation: eigenvectors of its [`kirchhoff`] matrix by ascending eigenvalue.
+    /// Decomposes a formation: eigenvectors of its `kirchhoff` matrix by ascending eigenvalue.
     ///
     /// Where people are so far apart that their weights vanish, more eigenvalues than the first are 0; the first vector is
     /// the constant one all the same. That is why not `K` is decomposed but `K + a e_0 e_0^T` with an `a` above all

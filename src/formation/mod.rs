@@ -12,7 +12,7 @@
 //!
 //! Let `X` and `Y` be the coordinates of n people relative to their centroid. The adjacency of each pair is
 //! `w_kl = exp(-d_kl^2 / 2 sigma^2)`; with `A` the matrix of these and `B` the diagonal of its row sums,
-//! [`kirchhoff`] is `K = B - A`. Its unit eigenvectors `e_0, e_1, ... e_(n-1)` by ascending eigenvalue are a [`Basis`]: `e_0`
+//! `kirchhoff` is `K = B - A`. Its unit eigenvectors `e_0, e_1, ... e_(n-1)` by ascending eigenvalue are a [`Basis`]: `e_0`
 //! is constant, `e_1` changes sign once along the longest way through the crowd, the last ones change from each person to the
 //! next. The coefficients `c_i = X . e_i`, `d_i = Y . e_i` are the extent of the crowd in each shape, and the sum
 //! `X = c_0 e_0 + c_1 e_1 + ...` builds the formation from coarse to fine.

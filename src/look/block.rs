@@ -27,14 +27,14 @@ pub struct ResolvedBlock {
     pub mask: Vec<[u8; 4]>,
     /// Occlusion, roughness, metallic; linear, roughness dithered.
     pub orm: Vec<[u8; 3]>,
-    /// Linear float layers, named in [`super::LAYERS`] or [`super::WALL_LAYERS`].
+    /// Linear float layers, named in [`super::LAYERS`] or `super::WALL_LAYERS`.
     pub layers: Vec<Layer>,
 }
 
 /// One float channel of a block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
-    /// Name: one of [`super::LAYERS`] or [`super::WALL_LAYERS`].
+    /// Name: one of [`super::LAYERS`] or `super::WALL_LAYERS`.
     pub name: &'static str,
     /// One value per texel.
     pub values: Vec<f32>,

@@ -7,7 +7,7 @@ use super::wall::{SplashLook, StainLook, WallDustLook, WallLook};
 pub const LOOK_PRESETS: [&str; 4] = ["commuters", "heavy", "wet", "paper"];
 
 impl Look {
-    /// Returns the settings of a preset in [`LOOK_PRESETS`]; `None` for other names.
+    /// Returns the settings of a preset in `LOOK_PRESETS`; `None` for other names.
     ///
     /// - `commuters`: an office or a station in dry weather, mopped daily. The default.
     /// - `heavy`: the same floor long overdue for a deep clean, walls long overdue for a coat of paint.

@@ -37,7 +37,7 @@ impl Ensemble {
     /// A motion that ends earlier ends the ensemble. Positions of other people are dropped once they leave.
     ///
     /// # Errors
-    /// Errors of the motion; [`MotionError::NobodyThroughout`]; [`MotionError::TooLong`] beyond [`MOST_PLACES`].
+    /// Errors of the motion; [`MotionError::NobodyThroughout`]; [`MotionError::TooLong`] beyond `MOST_PLACES`.
     pub fn of_motion(motion: &mut dyn Motion, fps: f64, [from_s, to_s]: [f64; 2]) -> Result<Ensemble, MotionError> {
         let mut resampler = Resampler::new(fps);
         let mut frame = Frame::default();

@@ -136,7 +136,7 @@ impl Person {
     /// From 0.4 m/s, `L = 0.247 + 0.344 v` times the personal factor, measured on congested and free flow in the Juelich
     /// recordings. Below, `L` is proportional to `v`, so that a step takes as long as at 0.4 m/s: in dense flow steps get
     /// shorter, not rarer (Jelic, Appert-Rolland, Lemercier, Pettre 2012, arXiv 1207.0832); at least 0.12 m. An individual
-    /// step length is taken in full from [`STRIDE_SPEED_M_S`]; below, it shrinks in proportion to the measured line, so
+    /// step length is taken in full from `STRIDE_SPEED_M_S`; below, it shrinks in proportion to the measured line, so
     /// that hindered people take more steps over the same distance.
     pub fn step_length_m(&self, speed_m_s: f64) -> f64 {
         let step_m = match self.fixed_step_m {

@@ -15,6 +15,8 @@ macro_rules! options {
         $(with { $($(#[doc = $own_doc:literal])* $own:ident: $own_type:ty = $own_default:expr;)* })?
     ) => {
         $(#[$meta])*
+        // Explanations name sections as TOML does, `[formation]`: these are no links.
+        #[allow(rustdoc::broken_intra_doc_links)]
         #[derive(Clone, Debug, PartialEq)]
         $vis struct $name {
             $(

@@ -12,7 +12,7 @@ impl FloorPlan {
     /// Builds open floor: a rectangle of the map frame grown by 2 m, its sides on whole metres.
     ///
     /// # Errors
-    /// The ground exceeds [`LARGEST_SIDE_M`] on a side.
+    /// The ground exceeds `LARGEST_SIDE_M` on a side.
     pub fn open_ground(around_m: Rect) -> Result<FloorPlan, PlanError> {
         let Rect { min, max } = around_m.grown(MARGIN_M);
         let (min, max) = (vec2(min.x.floor(), min.y.floor()), vec2(max.x.ceil(), max.y.ceil()));

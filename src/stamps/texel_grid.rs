@@ -28,7 +28,7 @@ impl TexelGrid {
     /// Creates the grid of a floor of `width_m` x `height_m` metres.
     ///
     /// # Errors
-    /// The texel density is outside 1 to 1000 texels per metre; a side has more than [`MOST_TEXELS`] texels.
+    /// The texel density is outside 1 to 1000 texels per metre; a side has more than `MOST_TEXELS` texels.
     pub fn covering(width_m: f64, height_m: f64, texels_per_metre: f64) -> Result<TexelGrid, StampsError> {
         if !(1.0..=1000.0).contains(&texels_per_metre) {
             return Err(StampsError::FloorTexelDensity { texels_per_metre });

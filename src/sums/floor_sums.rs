@@ -65,7 +65,7 @@ impl FloorSums {
 
     /// Lower-left texels of all allocated blocks, by ascending row, then column.
     ///
-    /// A block has [`BLOCK`] texels per side, fewer at the grid's end.
+    /// A block has `BLOCK` texels per side, fewer at the grid's end.
     pub fn blocks(&self, quantity: Quantity) -> Vec<[u32; 2]> {
         self.plane(quantity).origins()
     }

@@ -9,7 +9,7 @@ use crate::stamps::{TexelGrid, WallGrid};
 
 /// Sums of a plan's walls: optical density per cause and face, in sparse blocks.
 ///
-/// Values are saturating `u32` fixed point in units of [`crate::stamps::DENSITY_ONE`]. Untouched walls use no memory.
+/// Values are saturating `u32` fixed point in units of `crate::stamps::DENSITY_ONE`. Untouched walls use no memory.
 #[derive(Debug)]
 pub struct WallSums {
     pub(super) grid: WallGrid,
@@ -49,7 +49,7 @@ impl WallSums {
 
     /// Faces and lower-left texels of a cause's allocated blocks, by ascending face, row, column.
     ///
-    /// A block has [`BLOCK`] texels per side, fewer at the strip's end.
+    /// A block has `BLOCK` texels per side, fewer at the strip's end.
     pub fn blocks(&self, cause: Cause) -> Vec<(usize, [u32; 2])> {
         let Some(number) = cause.on_wall() else { return Vec::new() };
         let strips = self.strips.range((number, 0)..=(number, u32::MAX));

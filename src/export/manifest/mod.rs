@@ -37,9 +37,9 @@ pub const FORMAT: u32 = 1;
 /// same bytes: the manifest holds no times, thread counts or absolute paths.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
-    /// Always [`GENERATOR`].
+    /// Always `GENERATOR`.
     pub generator: String,
-    /// [`FORMAT`] of the version that wrote it.
+    /// `FORMAT` of the version that wrote it.
     pub format: u32,
     /// Version of the program.
     pub version: String,

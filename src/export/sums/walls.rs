@@ -31,7 +31,7 @@ pub fn write_wall_sums(
     Ok(())
 }
 
-/// Reads the wall sums that [`write_wall_sums`] wrote; `None` if the bake has no walls.
+/// Reads the wall sums that `write_wall_sums` wrote; `None` if the bake has no walls.
 ///
 /// # Errors
 /// A file is missing, invalid or contradicts the manifest; strips do not match the walls.

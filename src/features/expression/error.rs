@@ -27,7 +27,7 @@ pub enum Mistake {
     /// An empty expression.
     #[error("the expression is empty")]
     Empty,
-    /// An expression longer than [`LONGEST_EXPRESSION`].
+    /// An expression longer than `LONGEST_EXPRESSION`.
     #[error("the expression is longer than {LONGEST_EXPRESSION} characters")]
     TooLong,
     /// Brackets, signs or powers nested too deeply.

@@ -23,7 +23,7 @@ impl Expression {
     /// Parses an expression.
     ///
     /// # Errors
-    /// A syntax error, with its column; text of more than [`LONGEST_EXPRESSION`] bytes; brackets nested too deeply.
+    /// A syntax error, with its column; text of more than `LONGEST_EXPRESSION` bytes; brackets nested too deeply.
     pub fn parse(text: &str) -> Result<Expression, ExpressionError> {
         let instructions = instructions(text)?;
         Ok(Expression { text: text.trim().to_string(), instructions })

@@ -33,7 +33,7 @@ pub struct UnitCut {
     pub start_s: f64,
     /// Ids of its members, in their order.
     pub ids: Vec<u32>,
-    /// Interest of the unit: sum of the entropies of its speeds and headings, bits, see [`Diversity`].
+    /// Interest of the unit: sum of the entropies of its speeds and headings, bits, see `Diversity`.
     pub interest_bits: f64,
 }
 

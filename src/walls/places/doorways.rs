@@ -22,7 +22,7 @@ pub struct Doorway {
     pub depth_m: f64,
     /// Unit vector through the door, across the threshold.
     pub through: Vec2,
-    /// Height of the door's head above the floor, metres; default [`DOOR_HEAD_M`].
+    /// Height of the door's head above the floor, metres; default `DOOR_HEAD_M`.
     pub head_m: f64,
 }
 
