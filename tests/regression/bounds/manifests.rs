@@ -165,7 +165,8 @@ fn a_manifest_with_anything_in_it_is_used_or_refused_in_time_and_memory() {
                 continue;
             }
             used += 1;
-            if begin.elapsed() > ENOUGH {
+            // A busy machine still resolves a few.
+            if begin.elapsed() > ENOUGH && (resolved > 3 || name == "whole") {
                 continue;
             }
             let path = folder.clone();
