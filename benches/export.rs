@@ -94,6 +94,7 @@ impl TextureSource for Corridors {
         }
         let (outside, at) = (self.background(), [i0, j0]);
         ResolvedBlock {
+            relief: Vec::new(),
             empty: false,
             clean: Vec::new(),
             base_color: cut(&self.piece.base_color, outside.base_color, at, width, height),

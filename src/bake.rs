@@ -3,8 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use crate::Error;
-use crate::crowd::Simulation;
-use crate::export::{self, Atlas, Estimate, Manifest, OutputFolder, PADDING_PX, Report, Target, TargetEntry};
+use crate::crowd::{CrowdError, Simulation};
+use crate::export::{
+    self, Atlas, Estimate, LifeReport, Manifest, OutputFolder, PADDING_PX, Report, Target, TargetEntry,
+};
 use crate::look::Look;
 use crate::marks::{ContactPlaces, Footfalls};
 use crate::motion::People;
@@ -93,22 +95,24 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let atlas = watch.busy(Stage::Export, || with_walls.then(pack).transpose())?;
     let library = watch.busy(Stage::Patterns, || PatternLibrary::open(scenario.pattern_path().as_deref()))?;
 
+    let found = match &given {
+        Some(_) => None,
+        None => Some(watch.busy(Stage::Routes, || Navigation::find_watched(plan, walls, &scenario.routes, progress))?),
+    };
+    let (routes, ways) = found.map_or((Vec::new(), None), |(routes, ways)| (routes, Some(ways)));
+    let life = ways.as_ref().and_then(Navigation::life).cloned();
+    let mut lived = life.as_deref().map(LifeReport::of);
+    let scenario = &scenario.lived_in(life.as_deref());
     // Bodies depend on seed and person id only; all arrival times are known before the crowd walks.
     let people = People::new(scenario.seed, scenario.bodies.clone());
-    let routes;
-    let mut source = match &given {
-        Some(given) => {
-            routes = Vec::new();
-            Source::of_given(given, &ground)?.numbered()
-        }
-        None => {
-            let (found, ways) =
-                watch.busy(Stage::Routes, || Navigation::find_watched(plan, walls, &scenario.routes, progress))?;
-            routes = found;
+    let mut source = match (&given, ways) {
+        (Some(given), _) => Source::of_given(given, &ground)?.numbered(),
+        (None, Some(ways)) => {
             let simulated =
                 || Simulation::with_spots(plan, walls, &routes, ways, &people, &scenario.crowd, &scenario.spots());
             Source::of_crowd(watch.busy(Stage::Crowd, simulated)?, &routes)
         }
+        (None, None) => return Err(CrowdError::NoRoutes.into()),
     };
     let origins = source.origins(scenario.marks.fresh_people);
     let places = ContactPlaces::of_walls(walls)
@@ -125,14 +129,18 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let mut paths = PathSampler::new(source.people());
     let mut stamp = |marks: &Marks| {
         sums.floor.add(&stamper, walls, &marks.footfalls);
+        if let (Some(lived), Some(life)) = (&mut lived, &life) {
+            lived.count(life, marks.footfalls.iter().map(|mark| mark.place_m));
+        }
         if let Some(sums) = &mut sums.walls {
             sums.add(&wall_stamper, &marks.contacts);
         }
     };
-    tread(&mut source, &mut footfalls, &mut paths, &mut stamp, &watch, progress)?;
+    tread(&mut source, &mut footfalls, plan, &mut paths, &mut stamp, &watch, progress)?;
     let tally = source.tally();
     let mut warnings = tally.describe(&routes, Some(&output.folder.join(show::PATHS_FILE)));
     warnings.extend(source.warning());
+    warnings.extend(lived.as_ref().and_then(LifeReport::warning));
     warnings.iter().for_each(|warning| progress.warn(warning));
 
     // The look turns sums into texels, block by block, while the files are written.
@@ -142,6 +150,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
         sums: &sums,
         walls,
         doorways: &doorways,
+        ceiling: scenario.ceiling,
         look: &scenario.look,
         people: source.people(),
         wall_people: footfalls.contact_people(),
@@ -161,6 +170,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let report = Report {
         people: source.people_report(&routes),
         warnings,
+        life: lived,
         footfalls: footfalls.count(),
         contacts: footfalls.contact_count(),
         seconds: watch.seconds(),
@@ -202,9 +212,13 @@ pub struct ResolveOptions {
     pub embed: Option<bool>,
     /// Whether to write the layers as EXR too.
     pub layers: Option<bool>,
+    /// Folder to write to, in place of the bake's own: the bake stays as it is.
+    pub folder: Option<PathBuf>,
+    /// Whether to replace an earlier bake in that folder.
+    pub force: bool,
 }
 
-/// Rewrites a finished bake with another look or for another target, without simulating.
+/// Rewrites a finished bake with another look or for another target, without simulating; or writes it so elsewhere.
 ///
 /// The exact sums are resolved to textures and previews again. Sums and all other files stay unchanged.
 ///
@@ -215,7 +229,10 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
     let watch = Stopwatch::start();
     export::settled(&[bake], || Manifest::read(bake))?;
     // From here on the lock keeps other runs from replacing the bake.
-    let folder = OutputFolder::begin(bake, true)?;
+    let folder = match &options.folder {
+        Some(folder) => OutputFolder::begin(folder, options.force)?,
+        None => OutputFolder::begin(bake, true)?,
+    };
     let manifest = Manifest::read(bake)?;
     check_free(&folder, manifest.walls.is_some())?;
     let look = &options.look.clone().map_or_else(|| manifest.look(bake), Ok)?;
@@ -237,6 +254,7 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
         sums: &sums,
         walls: &walls,
         doorways: &manifest.doorways(),
+        ceiling: view::ceiling(&manifest),
         look,
         people: manifest.people,
         wall_people: manifest.wall_people(),
@@ -247,7 +265,7 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
     let crops = Crop::of_manifest(&manifest);
     let written = graded.write(&folder, &textures, &crops, &watch, progress)?;
     for file in manifest.files.iter().filter(|file| is_kept(file)) {
-        folder.keep(file)?;
+        folder.keep(bake, file)?;
     }
 
     let report = Report { seconds: watch.seconds(), peak_memory_mib: export::peak_memory_mib(), ..earlier };

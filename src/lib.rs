@@ -26,6 +26,7 @@ pub mod options;
 pub mod math;
 pub mod plan;
 pub mod walls;
+pub mod rooms;
 pub mod routes;
 pub mod motion;
 pub mod recordings;

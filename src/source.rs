@@ -7,10 +7,10 @@ use crate::formation::{self, FormedCrowd};
 use crate::marks::Origin;
 use crate::math::{Rect, Vec2, sin_cos, vec2};
 use crate::motion::{Ensemble, Frame, Motion, MotionError, Statures, Walker};
-use crate::plan::{self, FloorPlan, Pose};
+use crate::plan::{self, FloorPlan, PlanClass, Pose};
 use crate::progress::{Progress, Stage, Stopwatch};
 use crate::recordings::Recording;
-use crate::routes::Route;
+use crate::routes::{Route, StopAt, StopKind, StopRequest};
 use crate::scenario::Scenario;
 use crate::walls::{Walls, WallsOptions};
 use crate::{Error, export::PeopleReport};
@@ -47,7 +47,15 @@ impl Ground {
         let plan = watch.busy(Stage::Plan, || plan::read(&image, &scenario.plan_options()))?;
         plan.warnings.iter().for_each(|warning| progress.warn(warning));
         let walls = watch.busy(Stage::Walls, || Walls::trace(&plan, &scenario.walls));
-        Ok(Ground { plan, walls, open: false })
+        // One looks over gates and counters, though plans draw them as walls.
+        let served = |stop: &&StopRequest| matches!(stop.kind, StopKind::Gate | StopKind::Queue);
+        let beside = scenario.routes.stops.iter().filter(served).map(|stop| match stop.at {
+            StopAt::Point(point) => [point.to_m(&plan); 2],
+            StopAt::Line(ends) => ends.map(|point| point.to_m(&plan)),
+        });
+        let beside: Vec<[Vec2; 2]> = beside.collect();
+        let height_m = PlanClass::Counter.height_m().unwrap_or(1.0);
+        Ok(Ground { walls: walls.lowered(&beside, height_m), plan, open: false })
     }
 
     /// Builds open ground without walls around a given motion; its frame becomes the map frame.

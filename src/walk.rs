@@ -114,8 +114,8 @@ pub fn walk(scenario: &Scenario, outputs: &WalkOutputs, progress: &dyn Progress)
     let files = Files::begin(outputs)?;
     let given = Given::of_scenario(scenario, &watch, progress)?;
     let ground = Ground::of_scenario(scenario, given.as_ref(), &watch, progress)?;
-    let people = People::new(scenario.seed, scenario.bodies.clone());
     if let Some(given) = &given {
+        let people = People::new(scenario.seed, scenario.bodies.clone());
         let source = Source::of_given(given, &ground)?;
         return Walk { source, ground: &ground, routes: &[], people: &people, statures: given.statures() }.record(
             outputs,
@@ -128,6 +128,8 @@ pub fn walk(scenario: &Scenario, outputs: &WalkOutputs, progress: &dyn Progress)
     let (plan, walls) = (&ground.plan, &ground.walls);
     let (routes, ways) =
         watch.busy(Stage::Routes, || Navigation::find_watched(plan, walls, &scenario.routes, progress))?;
+    let scenario = &scenario.lived_in(ways.life().map(|life| &**life));
+    let people = People::new(scenario.seed, scenario.bodies.clone());
     let crowd = watch.busy(Stage::Crowd, || {
         Simulation::with_spots(plan, walls, &routes, ways, &people, &scenario.crowd, &scenario.spots())
     })?;

@@ -11,13 +11,14 @@ use std::path::{Path, PathBuf};
 use syn::visit::Visit;
 
 /// Every module in the order of the data. A module may use those before it.
-const ORDER: [&str; 25] = [
+const ORDER: [&str; 26] = [
     "progress",
     "files",
     "options",
     "math",
     "plan",
     "walls",
+    "rooms",
     "routes",
     "motion",
     "recordings",
@@ -41,7 +42,7 @@ const ORDER: [&str; 25] = [
 /// Longest file, lines.
 const LONGEST: usize = 600;
 /// Names that a caller of the library can reach. A new one replaces an old one, or says in its commit why it is needed.
-const MOST_PUBLIC_NAMES: usize = 376;
+const MOST_PUBLIC_NAMES: usize = 408;
 
 /// A path of names, as `["walls", "Face"]`.
 type Names = Vec<String>;

@@ -14,7 +14,7 @@ use crate::show::scene::{
     self, GlbImage, GlbOptions, PlainMaterial, Scene, SceneOptions, SurfaceImages, WallStrip, write_glb,
 };
 use crate::show::still::{FarWalls, STILL_SIZE_PX, Surfaces, WallSurfaces, write_stills};
-use crate::show::{self, Crop, Rooms};
+use crate::show::{self, Ceiling, Crop, Rooms};
 use crate::sums::{FloorSums, WallSums};
 use crate::walls::{Doorway, Walls};
 
@@ -32,6 +32,7 @@ pub(super) struct Graded<'a> {
     pub sums: &'a Sums,
     pub walls: &'a Walls,
     pub doorways: &'a [Doorway],
+    pub ceiling: Ceiling,
     pub look: &'a Look,
     /// Number of people, simulated or recorded.
     pub people: u32,
@@ -89,6 +90,7 @@ impl Graded<'_> {
         progress: &dyn Progress,
     ) -> Result<(WallTextures, Vec<StillEntry>), Error> {
         let wall = WallResolver::new(sums, self.walls, self.look, self.wall_people)?;
+        let wall = wall.with_doors(self.walls, self.doorways, self.look);
         let atlas = match &self.atlas {
             Some(atlas) => atlas.clone(),
             None => Atlas::pack(sums.grid(), &self.walls.corners(), options.tile, PADDING_PX)?,
@@ -100,7 +102,8 @@ impl Graded<'_> {
             let model = Model { graded: self, floor: floor_textures, walls: &textures };
             let scene = model.scene(sums.grid().height_m);
             model.write_glb(&scene, wall.background(), options.embed, folder)?;
-            let rooms = Rooms::new(self.walls, self.doorways, sums.grid().height_m);
+            let rooms = Rooms::new(self.walls, self.doorways, sums.grid().height_m).under(self.ceiling);
+            let rooms = rooms.framed(&self.look.wall);
             let cameras = [rooms.birds_eye(STILL_SIZE_PX), rooms.eye_level(&self.sums.floor)];
             let (stills, page) = rayon::join(
                 || model.write_stills((floor, &wall), sums, (&rooms, cameras), folder, progress),
@@ -152,11 +155,15 @@ impl Model<'_> {
                 Some(reduced) => [GlbImage::Embedded(&reduced.base_color), GlbImage::Embedded(&reduced.orm)],
                 None => files.map(GlbImage::File),
             };
-            SurfaceImages { name, base_color, orm }
+            SurfaceImages { name, base_color, orm, normal: None }
         }
+        // glTF wants green to point up; what is embedded is reduced, where the relief evens out.
+        let with_normal = |file: &'_ str| !embed && !file.is_empty() && self.floor.target != export::Target::Unreal;
         let floor = self.floor.tiles.iter().enumerate().map(|(k, tile)| {
             let name = format!("floor_{}_{}", tile.u, tile.v);
-            images(name, [&tile.basecolor, &tile.orm], self.floor.reduced.get(k), embed)
+            let normal = with_normal(&tile.normal).then_some(GlbImage::File(&tile.normal));
+            let images = images(name, [&tile.basecolor, &tile.orm], self.floor.reduced.get(k), embed);
+            SurfaceImages { normal, ..images }
         });
         let walls = self.walls.sheets.iter().enumerate().map(|(k, sheet)| {
             images(format!("walls_{k}"), [&sheet.basecolor, &sheet.orm], self.walls.reduced.get(k), embed)
@@ -183,10 +190,10 @@ impl Model<'_> {
         folder: &OutputFolder,
         progress: &dyn Progress,
     ) -> Result<Vec<StillEntry>, Error> {
-        let Graded { sums, walls, look, people, wall_people, .. } = *self.graded;
+        let Graded { sums, walls, doorways, look, people, wall_people, .. } = *self.graded;
         let look = look.clean();
         let clean = FloorResolver::new(&sums.floor, walls, &look, people)?;
-        let clean_wall = WallResolver::new(wall_sums, walls, &look, wall_people)?;
+        let clean_wall = WallResolver::new(wall_sums, walls, &look, wall_people)?.with_doors(walls, doorways, &look);
         let floor_texels_per_metre = sums.floor.grid().texels_per_metre;
         let texels_per_metre = wall_sums.grid().texels_per_metre;
         let on_walls = |source, far| Some(WallSurfaces { source, texels_per_metre, far });

@@ -1,6 +1,7 @@
 use crate::Error;
 use crate::marks::{Contact, Footfalls, Mark};
 use crate::motion::{Frame, Motion};
+use crate::plan::FloorPlan;
 use crate::progress::{Progress, Stage, Stopwatch};
 use crate::show::PathSampler;
 use crate::source::Source;
@@ -16,16 +17,18 @@ pub(super) struct Marks {
     pub contacts: Vec<Contact>,
 }
 
-/// Passes the marks of a motion to `stamp` in batches, filling the next while stamping one.
+/// Passes the marks of a motion to `stamp` in batches, filling the next while stamping one. Feet on floor that is kept
+/// clean leave none.
 pub(super) fn tread(
     source: &mut Source<'_>,
     footfalls: &mut Footfalls<'_>,
+    plan: &FloorPlan,
     paths: &mut PathSampler,
     stamp: &mut (impl FnMut(&Marks) + Send),
     watch: &Stopwatch,
     progress: &dyn Progress,
 ) -> Result<(), Error> {
-    let mut walked = Walk { source, footfalls, paths, frame: Frame::default(), over: false };
+    let mut walked = Walk { source, footfalls, plan, paths, frame: Frame::default(), over: false };
     let (mut batch, mut next) = (Marks::default(), Marks::default());
     while !walked.over {
         let (walking, ()) =
@@ -44,6 +47,7 @@ pub(super) fn tread(
 struct Walk<'a, 'c, 'f> {
     source: &'a mut Source<'c>,
     footfalls: &'a mut Footfalls<'f>,
+    plan: &'a FloorPlan,
     paths: &'a mut PathSampler,
     frame: Frame,
     over: bool,
@@ -64,6 +68,12 @@ impl Walk<'_, '_, '_> {
             }
             watch.busy(Stage::Marks, || self.footfalls.push(&self.frame, &mut marks.footfalls));
             self.paths.push(&self.frame);
+        }
+        if !self.plan.painted.marks.is_empty() {
+            marks.footfalls.retain(|mark| {
+                let half = mark.heading * (0.5 * f64::from(mark.length_m));
+                ![mark.place_m - half, mark.place_m, mark.place_m + half].iter().any(|&p| self.plan.is_kept_clean(p))
+            });
         }
         self.footfalls.take_contacts(&mut marks.contacts);
         progress.advance(self.source.stage(), self.source.share_done());

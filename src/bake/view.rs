@@ -7,8 +7,8 @@ use crate::export::Camera;
 use crate::export::{self, Manifest};
 use crate::look::{FloorResolver, Look, WallResolver};
 use crate::progress::Progress;
-use crate::show::Rooms;
 use crate::show::still::{FarWalls, Surfaces, WallSurfaces, check_size};
+use crate::show::{Ceiling, Rooms};
 
 /// Camera and look of a still of a finished bake.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,7 +39,7 @@ pub fn view(bake: &Path, view: &View, progress: &dyn Progress) -> Result<(RgbIma
     let read = || -> Result<_, Error> {
         let manifest = Manifest::read(bake)?;
         let walls = manifest.walls()?;
-        let rooms = Rooms::new(&walls, &manifest.doorways(), wall_height_m(&manifest));
+        let rooms = Rooms::new(&walls, &manifest.doorways(), wall_height_m(&manifest)).under(ceiling(&manifest));
         // A camera that cannot be is told of before anything long is done.
         if let Some(camera) = &view.camera {
             rooms.check(&with_fov(*camera, view))?;
@@ -52,6 +52,7 @@ pub fn view(bake: &Path, view: &View, progress: &dyn Progress) -> Result<(RgbIma
         Ok((manifest, walls, rooms, look, sums, wall_sums))
     };
     let (manifest, walls, rooms, look, sums, wall_sums) = export::settled(&[bake], read)?;
+    let rooms = rooms.framed(&look.wall);
     let look = if view.clean { look.clean() } else { look };
     let camera = match view.camera {
         Some(camera) => camera,
@@ -62,6 +63,7 @@ pub fn view(bake: &Path, view: &View, progress: &dyn Progress) -> Result<(RgbIma
     let floor = FloorResolver::new(&sums, &walls, &look, manifest.people)?;
     let wall =
         wall_sums.as_ref().map(|sums| WallResolver::new(sums, &walls, &look, manifest.wall_people())).transpose()?;
+    let wall = wall.map(|wall| wall.with_doors(&walls, &manifest.doorways(), &look));
     let on_walls = wall_sums.as_ref().zip(wall.as_ref()).map(|(sums, source)| WallSurfaces {
         source,
         texels_per_metre: sums.grid().texels_per_metre,
@@ -76,6 +78,11 @@ pub fn view(bake: &Path, view: &View, progress: &dyn Progress) -> Result<(RgbIma
 
 fn with_fov(camera: Camera, view: &View) -> Camera {
     Camera { fov_deg: view.fov_deg.unwrap_or(camera.fov_deg), ..camera }
+}
+
+/// Returns what the scenario has over the rooms. Earlier bakes may lack it.
+pub(super) fn ceiling(manifest: &Manifest) -> Ceiling {
+    serde_json::from_value(manifest.settings["plan"]["ceiling"].clone()).unwrap_or_default()
 }
 
 /// Returns the scenario's wall height, metres. Earlier bakes may lack it.

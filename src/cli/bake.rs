@@ -4,7 +4,7 @@ use std::process::ExitCode;
 use clap::Args;
 use trodden::Error;
 use trodden::bake::{OutputOptions, bake};
-use trodden::export::{ExportError, Report, Target};
+use trodden::export::{ExportError, LifeReport, Report, Target};
 use trodden::scenario::Overrides;
 
 use super::arguments::{self, ScenarioArguments};
@@ -126,10 +126,21 @@ impl Bake {
                 "{entered} people walked, {arrived} arrived; {} footfalls, {} touches of walls",
                 report.footfalls, report.contacts
             ))?;
+            if let Some(life) = &report.life {
+                print::line(tell_life(life))?;
+            }
             summary(&folder, &report, common)?;
         }
         Ok(ExitCode::SUCCESS)
     }
+}
+
+/// How people used the building.
+fn tell_life(life: &LifeReport) -> String {
+    let used = life.rooms.iter().filter(|room| room.footfalls > 0).count();
+    let (rooms, name) = (life.rooms.len(), life.r#use.name());
+    let guessed = if life.guessed { ", by its rooms; --use says otherwise" } else { "" };
+    format!("they used {used} of {rooms} rooms as those of a building for: {name}{guessed}")
 }
 
 /// Adds a hint at `--yes` to an error about the size of a bake.

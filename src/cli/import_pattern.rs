@@ -3,13 +3,12 @@ use std::process::ExitCode;
 
 use clap::{ArgGroup, Args};
 use trodden::Error;
-use trodden::files::{FileError, LARGEST_IMAGE_BYTES, check_not_input, files_in, read_input};
+use trodden::files::{LARGEST_IMAGE_BYTES, check_not_input, files_in, read_input};
 use trodden::patterns::{
     Cause, Form, ImportEntry, ImportError, ImportOptions, ImportedPattern, PatternsError, PhotoScale, SavedPattern,
     import_picture, name_of_photo,
 };
 
-use super::print::Refused;
 use super::{Common, print};
 
 /// Take a stain from a photograph into a folder of patterns
@@ -91,7 +90,7 @@ impl Import {
             print::save_picture(&import_picture(&import), file)?;
         }
         let entry = ImportEntry { name, share: self.share, description: self.description.clone(), force: self.force };
-        let listed = import.save(&self.into, &entry).map_err(with_options)?;
+        let listed = import.save(&self.into, &entry).map_err(ours)?;
         if !common.quiet {
             self.report(&import, &listed)?;
         }
@@ -125,18 +124,6 @@ impl Import {
         }
         Ok(())
     }
-}
-
-/// Names the options that choose another name or replace a pattern.
-fn with_options(error: PatternsError) -> anyhow::Error {
-    let hint = match &error {
-        PatternsError::Import(ImportError::Name { .. }) => "choose another name with --name",
-        PatternsError::Import(ImportError::IsListed { .. } | ImportError::File(FileError::Exists { .. })) => {
-            "choose another name with --name, or replace the pattern with --force"
-        }
-        _ => return Error::from(error).into(),
-    };
-    Refused { message: error.to_string(), hint: Some(hint.into()) }.into()
 }
 
 fn cause(name: &str) -> Result<Cause, String> {

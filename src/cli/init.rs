@@ -51,7 +51,9 @@ impl Init {
         let begin = |path: &PathBuf| print::plan_file(path, self.force, &scenario.input_files());
         let file = output.as_ref().map(begin).transpose()?;
         let understood = Understood::of(&scenario, common).map_err(|error| self.scenario.explain(error))?;
-        if scenario.plan.scale.is_none() && !is_ros_map(&scenario.plan_path()?) {
+        // Maps and drawings tell their own scale, drawings in another unit than pixels.
+        let tells_scale = is_ros_map(&scenario.plan_path()?) || understood.plan.drawn.is_some();
+        if scenario.plan.scale.is_none() && !tells_scale {
             scenario.plan.metres_per_pixel = Some(understood.plan.metres_per_pixel);
         }
         if scenario.routes.routes.is_empty() {
@@ -108,7 +110,8 @@ fn requests(understood: &Understood) -> Vec<RouteRequest> {
         share: (route.share * 1000.0).round() / 1000.0,
         arrivals: None,
     };
-    understood.routes.iter().map(of).collect()
+    // People who live in the building do so without routes.
+    understood.routes.iter().filter(|route| route.life.is_none()).map(of).collect()
 }
 
 fn centimetres(p: Vec2) -> [f64; 2] {
@@ -128,6 +131,7 @@ fn move_to(scenario: &mut Scenario, folder: &Path) -> anyhow::Result<()> {
         std::path::absolute(&path).with_context(|| format!("cannot make {} an absolute path", path.display()))
     };
     scenario.image = scenario.image_path().map(absolute).transpose()?;
+    scenario.plan.paint = scenario.paint_path().map(absolute).transpose()?;
     scenario.motion_file = scenario.given_recording().map(|(file, _)| absolute(file)).transpose()?;
     scenario.pattern_folder = scenario.pattern_path().map(absolute).transpose()?;
     scenario.folder = folder.to_path_buf();

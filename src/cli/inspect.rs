@@ -1,11 +1,15 @@
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use clap::Args;
 use serde::Serialize;
 use trodden::Error;
-use trodden::plan::{self, FloorPlan, Opening, Region, RegionRole};
-use trodden::routes::{self, Route};
+use trodden::plan::PlanClass::{self, Floor, Outside, Wall};
+use trodden::plan::{self, FloorPlan, Opening, Paint, PlanScale, Region, RegionRole};
+use trodden::rooms::{Entrance, Life, Room, Use};
+use trodden::routes::{Navigation, Route};
 use trodden::scenario::Scenario;
 use trodden::show::draw_plan;
 use trodden::walls::{Face, Walls};
@@ -19,9 +23,11 @@ use super::{Common, print};
 Examples:
   trodden inspect plan.png --picture understood.png
   trodden inspect plan.toml --json | jq '.routes[].length_m'
+  trodden inspect plan.png --paint over.png          to be painted over: key plan.paint reads it
 
 In the picture walls that run from side to side of the image are blue, closed ones brown; openings are green and
-named; floor is blue-grey, white that nobody reaches is hatched; routes are dashed, their gates violet.")]
+named; floor is blue-grey, white that nobody reaches is hatched; routes are dashed, their gates violet. Doors, windows,
+furniture and notes have colours that the legend names.")]
 pub struct Inspect {
     #[command(flatten)]
     scenario: ScenarioArguments,
@@ -31,8 +37,11 @@ pub struct Inspect {
     /// Draw it too, as a PNG
     #[arg(long, value_name = "FILE")]
     picture: Option<PathBuf>,
-    /// Replace the picture if it is there
-    #[arg(long, requires = "picture")]
+    /// Write it in class colours too, as a PNG of the plan's size, to be painted over
+    #[arg(long, value_name = "FILE")]
+    paint: Option<PathBuf>,
+    /// Replace the pictures if they are there
+    #[arg(long)]
     force: bool,
 }
 
@@ -41,6 +50,8 @@ pub struct Understood {
     pub plan: FloorPlan,
     pub walls: Walls,
     pub routes: Vec<Route>,
+    /// Its rooms, and what it is for; `None` for a single space.
+    pub life: Option<Arc<Life>>,
 }
 
 #[derive(Serialize)]
@@ -48,12 +59,18 @@ struct Json<'a> {
     width_px: u32,
     height_px: u32,
     metres_per_pixel: f64,
+    scale: &'a PlanScale,
     width_m: f64,
     height_m: f64,
     walls: &'a [Face],
     openings: &'a [Opening],
     regions: &'a [Region],
+    areas_m2: BTreeMap<String, f64>,
     routes: &'a [Route],
+    rooms: &'a [Room],
+    entrances: &'a [Entrance],
+    #[serde(rename = "use")]
+    building: Option<Use>,
     warnings: &'a [String],
 }
 
@@ -67,8 +84,12 @@ impl Understood {
             }
         }
         let walls = Walls::trace(&plan, &scenario.walls);
-        let routes = routes::find(&plan, &walls, &scenario.routes)?;
-        Ok(Understood { plan, walls, routes })
+        if walls.faces.is_empty() && !common.quiet {
+            let message = "no walls were found: all is floor; `[plan] threshold` sets which tones are wall";
+            print::to_stderr(&print::warning(message, common));
+        }
+        let (routes, ways) = Navigation::find(&plan, &walls, &scenario.routes)?;
+        Ok(Understood { plan, walls, routes, life: ways.life().cloned() })
     }
 }
 
@@ -77,19 +98,25 @@ impl Inspect {
         let scenario = self.scenario.scenario()?;
         let begin = |path: &PathBuf| print::plan_file(path, self.force, &scenario.input_files());
         let picture = self.picture.as_ref().map(begin).transpose()?;
+        let paint = self.paint.as_ref().map(begin).transpose()?;
         let understood = Understood::of(&scenario, common).map_err(|error| self.scenario.explain(error))?;
-        let Understood { plan, walls, routes } = &understood;
+        let Understood { plan, walls, routes, life } = &understood;
         if self.json {
             print::line(serde_json::to_string_pretty(&Json {
                 width_px: plan.width_px,
                 height_px: plan.height_px,
                 metres_per_pixel: plan.metres_per_pixel,
+                scale: &plan.scale,
                 width_m: plan.width_m(),
                 height_m: plan.height_m(),
                 walls: &walls.faces,
                 openings: &plan.openings,
                 regions: &plan.regions,
+                areas_m2: areas(plan).into_iter().map(|(class, area_m2)| (name(class), area_m2)).collect(),
                 routes,
+                rooms: life.as_ref().map_or(&[], |life| &life.rooms.rooms),
+                entrances: life.as_ref().map_or(&[], |life| &life.rooms.entrances),
+                building: life.as_ref().map(|life| life.r#use),
                 warnings: &plan.warnings,
             })?)?;
         } else if !common.quiet {
@@ -101,10 +128,16 @@ impl Inspect {
                 print::line(format!("picture   {}", path.display()))?;
             }
         }
+        if let (Some(path), Some(file)) = (&self.paint, paint) {
+            print::save_picture(&plan.painted_picture(), file)?;
+            if !self.json && !common.quiet {
+                print::line(format!("paint     {}: {}", path.display(), legend()))?;
+            }
+        }
         Ok(ExitCode::SUCCESS)
     }
 
-    fn tell(&self, Understood { plan, walls, routes }: &Understood) -> anyhow::Result<()> {
+    fn tell(&self, Understood { plan, walls, routes, life }: &Understood) -> anyhow::Result<()> {
         print::line(format!(
             "size      {:.2} x {:.2} m: {} x {} px at {} m per pixel",
             plan.width_m(),
@@ -113,7 +146,13 @@ impl Inspect {
             plan.height_px,
             plan.metres_per_pixel
         ))?;
+        print::line(format!("scale     {}", scale(&plan.scale)))?;
         print::line(format!("floor     {}", regions(plan)))?;
+        let rest = areas(plan).into_iter().filter(|(class, _)| !matches!(class, Outside | Floor | Wall));
+        let rest: Vec<String> = rest.map(|(class, area_m2)| format!("{} {area_m2:.1} m2", name(class))).collect();
+        if !rest.is_empty() {
+            print::line(format!("found     {}", rest.join(", ")))?;
+        }
         let length: f64 = walls.faces.iter().map(Face::length_m).sum();
         let closed = walls.faces.iter().filter(|face| face.closed).count();
         let open = walls.faces.len() - closed;
@@ -129,6 +168,7 @@ impl Inspect {
                 centre.y
             ))?;
         }
+        life.iter().try_for_each(|life| tell_rooms(life))?;
         for (index, route) in routes.iter().enumerate() {
             print::line(format!(
                 "{:<9} {:<28}  {:5.1} m, {:2.0} % of the people",
@@ -140,6 +180,63 @@ impl Inspect {
         }
         Ok(())
     }
+}
+
+/// Lists the rooms with area, kind and doors, and the doors to the outside.
+fn tell_rooms(life: &Life) -> anyhow::Result<()> {
+    let doors = life.rooms.entrances.iter().filter(|entrance| entrance.opening.is_none());
+    for (index, door) in doors.enumerate() {
+        let head = if index == 0 { "entrances" } else { "" };
+        let at = door.at_m;
+        print::line(format!("{head:<9} {:<12} {:6.2} m wide, at [{:.2}, {:.2}]", door.name, door.width_m, at.x, at.y))?;
+    }
+    for (index, room) in life.rooms.rooms.iter().enumerate() {
+        let head = if index == 0 { "rooms" } else { "" };
+        let (area_m2, kind, doors, at) = (room.area_m2, room.kind.name(), room.doors, room.inside_m);
+        let plural = if doors == 1 { "" } else { "s" };
+        let door = format!("{doors} door{plural}");
+        print::line(format!(
+            "{head:<9} {:<12} {area_m2:6.1} m2, {kind:<8}  {door:<8}  around [{:.2}, {:.2}]",
+            room.name, at.x, at.y
+        ))?;
+    }
+    print::line(format!(
+        "use       {}{}",
+        life.r#use.name(),
+        if life.guessed { ", as far as the rooms tell" } else { "" }
+    ))
+}
+
+/// The colours of the paints.
+fn legend() -> String {
+    let named = |paint: Paint| {
+        let [r, g, b] = paint.colour();
+        format!("{} #{r:02x}{g:02x}{b:02x}", paint.name())
+    };
+    Paint::all().map(named).collect::<Vec<_>>().join(", ")
+}
+
+/// Where the scale comes from, and how sure it is.
+fn scale(scale: &PlanScale) -> String {
+    let source = scale.source.name();
+    if scale.sureness >= 1.0 {
+        return source.to_string();
+    }
+    let evidence = if scale.evidence.is_empty() { String::new() } else { format!(" by {}", scale.evidence) };
+    let [low, high] = scale.range;
+    format!("{source}{evidence}: {:.0} % sure, {low:.4} to {high:.4} m per pixel are possible", scale.sureness * 100.0)
+}
+
+fn name(class: PlanClass) -> String {
+    format!("{class:?}").to_lowercase()
+}
+
+/// Square metres of each class of the plan that there is.
+fn areas(plan: &FloorPlan) -> BTreeMap<PlanClass, f64> {
+    let mut counts = BTreeMap::new();
+    plan.classes.iter().for_each(|&class| *counts.entry(class).or_insert(0usize) += 1);
+    let pixel_m2 = plan.metres_per_pixel * plan.metres_per_pixel;
+    counts.into_iter().map(|(class, count)| (class, count as f64 * pixel_m2)).collect()
 }
 
 /// Describes the area of the floor and of other white regions.

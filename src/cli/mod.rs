@@ -1,8 +1,10 @@
 //! The command line: one file per subcommand, and shared parts. Only this module uses clap, indicatif and anyhow.
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::builder::styling::{AnsiColor, Styles};
+use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 mod arguments;
@@ -10,6 +12,7 @@ mod bake;
 mod common;
 mod crowd;
 mod diff;
+mod edit;
 mod import_pattern;
 mod init;
 mod inspect;
@@ -28,7 +31,7 @@ use common::Common;
 /// Turns a bitmap floor plan into the dirt that people leave in it.
 #[derive(Parser)]
 #[command(name = "trodden", version, styles = STYLES, max_term_width = 100, after_help = EXAMPLES)]
-#[command(arg_required_else_help = true, disable_help_subcommand = true)]
+#[command(arg_required_else_help = true)]
 pub struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -45,6 +48,7 @@ enum Command {
     View(view::ViewCommand),
     Init(init::Init),
     Inspect(inspect::Inspect),
+    Edit(edit::Edit),
     Patterns(patterns::Patterns),
     Diff(diff::Diff),
 }
@@ -63,13 +67,14 @@ Examples:
   trodden resolve out/plan --preset heavy            another look, without simulating again
   trodden crowd plan.toml -o paths.txt               where everybody went, for other programs
   trodden inspect plan.png --picture understood.png  what is understood of the plan
+  trodden edit plan.png                              a page on which a click puts it right
 
 `trodden COMMAND --help` says more about each.";
 
 /// Parses the command line. Prints help, the version or a usage error, and exits, where one applies.
 pub fn parse() -> Cli {
     let mut command = Cli::command();
-    let matches = command.get_matches_mut();
+    let matches = command.try_get_matches_from_mut(std::env::args_os()).unwrap_or_else(|error| with_tip(error).exit());
     let (mut used, mut given) = (&command, &matches);
     while let Some((name, below)) = given.subcommand() {
         (used, given) = (used.find_subcommand(name).unwrap_or(used), below);
@@ -78,6 +83,18 @@ pub fn parse() -> Cli {
     let mut cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     cli.common.flags = flags;
     cli
+}
+
+/// A file where a subcommand should stand is meant to be baked.
+fn with_tip(mut error: clap::Error) -> clap::Error {
+    let Some(ContextValue::String(given)) = error.get(ContextKind::InvalidSubcommand) else { return error };
+    let path = Path::new(given);
+    if path.is_file() || path.extension().is_some() {
+        let tip = format!("`trodden bake {given}` bakes a plan or a scenario");
+        error.insert(ContextKind::SuggestedSubcommand, ContextValue::None);
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
+    }
+    error
 }
 
 impl Cli {
@@ -92,6 +109,7 @@ impl Cli {
             Command::View(view) => view.run(&self.common),
             Command::Init(init) => init.run(&self.common),
             Command::Inspect(inspect) => inspect.run(&self.common),
+            Command::Edit(edit) => edit.run(&self.common),
             Command::Patterns(patterns) => patterns.run(&self.common),
             Command::Diff(diff) => diff.run(&self.common),
         };

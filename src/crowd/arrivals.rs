@@ -1,11 +1,14 @@
 //! Arrival list: time and route of each person, drawn before the walk begins.
 
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
 use rand::RngExt;
 
 use super::CrowdOptions;
-use crate::math::{Purpose, person_stream};
+use crate::math::{Purpose, SplitMix64, person_stream};
 use crate::plan::FloorPlan;
-use crate::routes::{Place, Route};
+use crate::routes::{Place, Route, Stop};
 
 /// Arrival of one person: time and route.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +35,18 @@ const SAME_PLACE_M: f64 = 1.0;
 /// Draws the arrival list. Person `id` enters in the `id`-th of as many equal parts of the entry time, so that the
 /// stream is even over time and each person a function of (seed, id) alone.
 pub(super) fn list(plan: &FloorPlan, routes: &[Route], seed: u64, options: &CrowdOptions) -> Vec<Arrival> {
+    let mut arrivals = drawn(plan, routes, seed, options);
+    if routes.iter().any(|route| route.life.is_some()) {
+        take_turns(&mut arrivals, routes);
+        // Who writes when people come knows the day.
+        if options.arrivals.is_default() && options.entry_seconds.is_none() {
+            by_day(&mut arrivals, routes);
+        }
+    }
+    arrivals
+}
+
+fn drawn(plan: &FloorPlan, routes: &[Route], seed: u64, options: &CrowdOptions) -> Vec<Arrival> {
     if !options.arrivals.is_default() || routes.iter().any(|route| route.arrivals.is_some()) {
         return by_timetables(plan, routes, seed, options);
     }
@@ -42,8 +57,7 @@ pub(super) fn list(plan: &FloorPlan, routes: &[Route], seed: u64, options: &Crow
             let rng = &mut person_stream(seed, id, Purpose::Arrival);
             let time_s = (f64::from(id) + rng.random::<f64>()) * part_s;
             let route = pick(routes, rng.random());
-            let from_outside = matches!(routes[route].start, Place::Opening(_));
-            Arrival { id, time_s, route, from_outside }
+            Arrival { id, time_s, route, from_outside: routes[route].is_from_outside() }
         })
         .collect()
 }
@@ -87,9 +101,47 @@ fn by_timetables(plan: &FloorPlan, routes: &[Route], seed: u64, options: &CrowdO
     times.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let arrival = |(id, (time_s, index)): (usize, (f64, usize))| {
         let route = route_of[index];
-        Arrival { id: id as u32, time_s, route, from_outside: matches!(routes[route].start, Place::Opening(_)) }
+        Arrival { id: id as u32, time_s, route, from_outside: routes[route].is_from_outside() }
     };
     times.into_iter().enumerate().map(arrival).collect()
+}
+
+/// Lets people of default life take its routes in turn, by share: as few people as there are routes take all.
+fn take_turns(arrivals: &mut [Arrival], routes: &[Route]) {
+    // The route that is farthest behind its share comes next; times are whole numbers, which compare exactly.
+    // Equals come in another order each time: everybody to the n-th must not be a sample of a few routes.
+    let turn = |route: usize, taken: u64| {
+        let due = ((taken as f64 + 0.5) / routes[route].share * 1e6) as u64;
+        Reverse((due, SplitMix64::new(taken << 20 | route as u64).next_u64(), route, taken))
+    };
+    let lived = (0..routes.len()).filter(|&route| routes[route].life.is_some() && routes[route].share > 0.0);
+    let mut turns: BinaryHeap<_> = lived.map(|route| turn(route, 0)).collect();
+    for arrival in arrivals.iter_mut().filter(|arrival| routes[arrival.route].life.is_some()) {
+        let Some(mut next) = turns.peek_mut() else { return };
+        let Reverse((.., route, taken)) = *next;
+        *next = turn(route, taken + 1);
+        (arrival.route, arrival.from_outside) = (route, routes[route].is_from_outside());
+    }
+}
+
+/// Crowds the arrivals of default life where the day of the building's use does.
+fn by_day(arrivals: &mut [Arrival], routes: &[Route]) {
+    let period_s = arrivals.last().map_or(0.0, |last| last.time_s);
+    for arrival in arrivals.iter_mut().filter(|_| period_s > 0.0) {
+        let Some(life) = routes[arrival.route].life else { continue };
+        let day = life.r#use.habits().day;
+        let total: f64 = day.iter().sum();
+        let mut left = arrival.time_s / period_s * total;
+        let part = day.iter().position(|&people| {
+            let within = left <= people;
+            left -= if within { 0.0 } else { people };
+            within
+        });
+        let part = part.unwrap_or(day.len() - 1);
+        arrival.time_s = period_s * (part as f64 + (left / day[part]).min(1.0)) / day.len() as f64;
+    }
+    arrivals.sort_by(|a, b| a.time_s.total_cmp(&b.time_s).then(a.id.cmp(&b.id)));
+    (0..).zip(arrivals).for_each(|(id, arrival)| arrival.id = id);
 }
 
 /// Number of people that each route's list takes; `None` for routes without a list.
@@ -127,11 +179,25 @@ fn pick(routes: &[Route], draw: f64) -> usize {
     routes.iter().rposition(|r| r.share > 0.0).unwrap_or(0)
 }
 
+/// Most of the spots of a room that are taken at a time, on average.
+const MOST_TAKEN: f64 = 0.4;
+
+/// Time in which the rooms of default life take everybody, seconds.
+fn stay_seconds(routes: &[Route], people: f64) -> f64 {
+    let stay_s = |stop: &Stop| {
+        let visits = routes.iter().flat_map(|route| route.stops.iter().map(move |on_route| (route.share, on_route)));
+        let own = visits.filter(|(_, on_route)| on_route.stop.name == stop.name);
+        own.map(|(share, on_route)| share * on_route.share * people * stop.dwell_s.mean()).sum::<f64>()
+    };
+    let rooms = Route::each_stop(routes).into_iter().filter(|stop| !stop.spots.is_empty());
+    rooms.map(|stop| stay_s(stop) / (MOST_TAKEN * stop.spots.len() as f64)).fold(0.0, f64::max)
+}
+
 /// Entry time of the whole crowd, seconds: no opening lets in more than the entry rate, and no narrow place on the way
 /// carries more than [`NARROW_RATE`].
 fn entry_seconds(plan: &FloorPlan, routes: &[Route], options: &CrowdOptions) -> f64 {
     let people = f64::from(options.people);
-    let mut seconds: f64 = people / MOST_RATE;
+    let mut seconds: f64 = stay_seconds(routes, people).max(people / MOST_RATE);
     for route in routes {
         let share: f64 = routes.iter().filter(|r| r.start == route.start).map(|r| r.share).sum();
         let width_m = match route.start {

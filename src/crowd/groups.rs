@@ -20,7 +20,7 @@ pub(super) struct Groups {
 }
 
 impl Groups {
-    /// Draws groups for a list of arrivals, and numbers the people anew in the order of arrival.
+    /// Draws groups for a list of arrivals, and numbers the people in the order of arrival.
     ///
     /// Consecutive people of a route become a group and come together, when the first of them does. Their number, by route
     /// and by burst, stays as it was.

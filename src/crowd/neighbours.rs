@@ -60,7 +60,7 @@ impl NeighbourGrid {
         [column.min(self.columns - 1), row.min(self.rows - 1)]
     }
 
-    /// Sorts the bodies anew.
+    /// Sorts the bodies again.
     pub(super) fn rebuild(&mut self, bodies: &[BodyState]) {
         let mut cells = std::mem::take(&mut self.cell_of_slot);
         cells.clear();

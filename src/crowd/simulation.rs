@@ -57,7 +57,7 @@ pub struct Simulation<'a> {
     tally: Tally,
     /// Number of the substep.
     step: u64,
-    /// Slots in the order of ids, sorted anew for every frame.
+    /// Slots in the order of ids; sorted for every frame.
     by_id: Vec<u32>,
 }
 
@@ -277,7 +277,7 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// Goes on to the next arrival, by whole steps, while nobody is present.
+    /// While the plan is empty, skips to the next arrival by whole steps.
     fn skip_idle_time(&mut self) {
         if self.present() == 0
             && let Some(next_s) = self.entrances.next_arrival_s(&self.arrivals)

@@ -58,8 +58,8 @@ impl Wayfinder<'_> {
         &self.0.navigation.fields[self.leg(walk).field]
     }
 
-    fn flow(&self, walk: &WalkState) -> &Flow {
-        &self.0.navigation.flows[self.leg(walk).flow]
+    fn flow(&self, walk: &WalkState) -> Option<&Flow> {
+        self.leg(walk).flow.map(|flow| &*self.0.navigation.flows[flow])
     }
 
     fn is_on_last_leg(&self, walk: &WalkState) -> bool {
@@ -103,19 +103,20 @@ impl Wayfinder<'_> {
         }
         // Agents that get no farther in the flow try the shortest way.
         let at_a_loss = (time_s - walk.improved_s) % RETHINK_S > RETHOUGHT_S;
-        let flow = if at_a_loss {
-            None
-        } else {
-            self.along_the_flow(walk, p).map(|aim| self.towards_lane(walk, traits, p, aim))
+        let ahead = match self.flow(walk) {
+            _ if at_a_loss => None,
+            Some(flow) => self.along_the_flow(flow, p),
+            // Without a flow lanes spread people.
+            None => self.down_the_field(walk, p),
         };
-        let aim = flow.or_else(|| self.down_the_field(walk, p)).unwrap_or(last);
+        let ahead = ahead.map(|aim| self.towards_lane(walk, traits, p, aim));
+        let aim = ahead.or_else(|| self.down_the_field(walk, p)).unwrap_or(last);
         give_way(aim, walk.blocked_s)
     }
 
     /// Direction of a place some way along the flow, in sight.
-    fn along_the_flow(&self, walk: &WalkState, p: Vec2) -> Option<Vec2> {
+    fn along_the_flow(&self, flow: &Flow, p: Vec2) -> Option<Vec2> {
         let ground = self.0.ground();
-        let flow = self.flow(walk);
         let open = ground.clearance_at_least_m(p) > OPEN_M;
         let pieces = if open { PIECES } else { PIECES_AT_WALLS };
         let step_m = AHEAD_M / pieces as f64;

@@ -10,13 +10,11 @@ use super::error::ExportError;
 use super::exr_tiles::{ExrWriter, Samples, TileEncoder};
 use super::layout::BLOCK;
 use super::output::OutputFile;
-use super::png::{Pixels, PngWriter, Strip, StripEncoder};
+use super::png::{Pixels, PngWriter};
 use super::reduced::ReducedBlock;
 use super::targets::Covered;
-use crate::look::{Background, ResolvedBlock};
-
-/// Rows compressed together: few enough for the cache and to keep eight threads busy.
-const STRIP: usize = 32;
+use crate::look::{Background, FLAT, ResolvedBlock};
+use crate::math::exp_f32;
 
 /// A kind of image that a texture consists of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +27,12 @@ pub(super) enum Image {
     Mask(Covered),
     /// The fourth mask, in its own image.
     LoneMask(Covered),
+    /// What rubs on walls, one by one: arms, shoulders, bags as red, green and blue.
+    Rub,
+    /// Wear, heel marks, height of a floor as red, green and blue.
+    Wear,
+    /// The floor's normal; whether green points down, as DirectX has it.
+    Normal(GreenPoints),
     /// Occlusion, roughness, metallic.
     Orm,
     /// Metallic, occlusion, detail, smoothness.
@@ -40,13 +44,13 @@ impl Image {
         match self {
             Image::BaseColor => Pixels::Srgb,
             Image::MaskMap => Pixels::Linear4,
-            Image::Mask(_) | Image::Orm => Pixels::Linear3,
+            Image::Mask(_) | Image::Orm | Image::Rub | Image::Wear | Image::Normal(_) => Pixels::Linear3,
             Image::LoneMask(_) => Pixels::Linear1,
         }
     }
 
     /// Copies the pixels of texels `from..` of a block, as many as `out` holds.
-    fn copy(self, block: &ResolvedBlock, from: usize, out: &mut [u8]) {
+    fn copy(self, BandBlock { texels: block, rub, .. }: &BandBlock, from: usize, out: &mut [u8]) {
         let bytes = self.pixels().bytes();
         let copy = |all: &[u8], out: &mut [u8]| out.copy_from_slice(&all[from * bytes..from * bytes + out.len()]);
         match self {
@@ -61,6 +65,18 @@ impl Image {
                     *pixel = masks[covered.lone_mask()];
                 }
             }
+            Image::Wear => {
+                for (k, pixel) in out.as_chunks_mut().0.iter_mut().enumerate() {
+                    *pixel = wear(block.relief.get(from + k).copied().unwrap_or(FLAT));
+                }
+            }
+            Image::Normal(green) => {
+                for (k, pixel) in out.as_chunks_mut().0.iter_mut().enumerate() {
+                    *pixel = normal(block.relief.get(from + k).copied().unwrap_or(FLAT), green);
+                }
+            }
+            Image::Rub if rub.is_empty() => out.fill(0),
+            Image::Rub => copy(rub.as_flattened(), out),
             Image::Orm => copy(block.orm.as_flattened(), out),
             Image::MaskMap => {
                 for (pixel, &orm) in out.as_chunks_mut().0.iter_mut().zip(&block.orm[from..]) {
@@ -76,15 +92,49 @@ impl Image {
             Image::BaseColor => background.base_color.repeat(BLOCK),
             Image::Mask(covered) => covered.packed_masks().map(|kind| background.mask[kind]).repeat(BLOCK),
             Image::LoneMask(covered) => vec![background.mask[covered.lone_mask()]; BLOCK],
+            Image::Rub => vec![0; 3 * BLOCK],
+            Image::Wear => wear(FLAT).repeat(BLOCK),
+            Image::Normal(green) => normal(FLAT, green).repeat(BLOCK),
             Image::Orm => background.orm.repeat(BLOCK),
             Image::MaskMap => mask_map(background.orm).repeat(BLOCK),
         }
     }
 }
 
+/// Where the green of a normal map points in the image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum GreenPoints {
+    /// As OpenGL has it.
+    Up,
+    /// As DirectX has it.
+    Down,
+}
+
+fn wear([wear, marks, height, ..]: [u8; 6]) -> [u8; 3] {
+    [wear, marks, height]
+}
+
+fn normal([_, _, _, x, y, z]: [u8; 6], green: GreenPoints) -> [u8; 3] {
+    [x, if green == GreenPoints::Up { y } else { u8::MAX - y }, z]
+}
+
 /// Packs Unity's mask map: metallic, occlusion, detail (always 1), smoothness.
 fn mask_map([occlusion, roughness, metallic]: [u8; 3]) -> [u8; 4] {
     [metallic, occlusion, u8::MAX, u8::MAX - roughness]
+}
+
+/// Opacity 1 - exp(-D) of the layers of arms, shoulders and bags; empty where they are clean.
+pub(super) fn rub(block: &ResolvedBlock) -> Vec<[u8; 3]> {
+    let of = |name: &str| block.layers.iter().find(|layer| layer.name == name).map(|layer| layer.values.as_slice());
+    let layers = ["arm", "shoulder", "bag"].map(|name| of(name).unwrap_or_default());
+    if layers.iter().all(|values| values.iter().all(|&density| density == 0.0)) {
+        return Vec::new();
+    }
+    let byte = |values: &[f32], k: usize| {
+        let density = values.get(k).copied().unwrap_or(0.0);
+        if density > 0.0 { (255.0 * (1.0 - exp_f32(-density)) + 0.5) as u8 } else { 0 }
+    };
+    (0..block.orm.len()).map(|k| layers.map(|values| byte(values, k))).collect()
 }
 
 /// Up to [`BLOCK`] rows across a tile, in blocks from the left.
@@ -102,6 +152,8 @@ pub(super) struct BandBlock {
     pub(super) texels: ResolvedBlock,
     /// The layers as a tile of each EXR file.
     pub(super) layers: Vec<Vec<u8>>,
+    /// Opacity of what arms, shoulders and bags left; empty where that is nothing.
+    pub(super) rub: Vec<[u8; 3]>,
     /// Its images, reduced, if requested.
     pub(super) reduced: Option<ReducedBlock>,
 }
@@ -129,7 +181,7 @@ impl Band {
                 out.copy_from_slice(&background[..out.len()]);
             } else {
                 let width = out.len() / image.pixels().bytes();
-                image.copy(&block.texels, (self.height - 1 - y) * width, out);
+                image.copy(block, (self.height - 1 - y) * width, out);
             }
         }
     }
@@ -240,86 +292,6 @@ impl LayerEncoder {
     }
 }
 
-/// Compresses the images of a tile, band by band from above.
-#[derive(Debug)]
-pub(super) struct ImageEncoder {
-    images: Vec<Image>,
-    /// A row of an empty block, image by image.
-    background: Vec<Vec<u8>>,
-    /// The lowest row of the previous band, image by image; `None` at the top of the tile.
-    above: Option<Vec<Vec<u8>>>,
-    /// Whether that row belongs to an empty band.
-    above_empty: bool,
-    pools: Vec<Pool<StripEncoder>>,
-}
-
-impl ImageEncoder {
-    pub(super) fn new(images: Vec<Image>, background: Background) -> ImageEncoder {
-        ImageEncoder {
-            background: images.iter().map(|image| image.background(&background)).collect(),
-            pools: images.iter().map(|_| Pool::default()).collect(),
-            images,
-            above: None,
-            above_empty: false,
-        }
-    }
-
-    /// Compresses the next band and returns its strips from above, image by image.
-    pub(super) fn encode(&mut self, band: &Band, busy: &BusyTime) -> Vec<Vec<Strip>> {
-        let empty = band.is_empty();
-        // Below an empty row all strips of an empty band are alike.
-        let alike = empty && self.above_empty && band.height.is_multiple_of(STRIP);
-        let height = if alike { STRIP } else { band.height };
-        // Images with the widest pixels go first, so that the last tasks are small.
-        let mut widest: Vec<usize> = (0..self.images.len()).collect();
-        widest.sort_by_key(|&image| std::cmp::Reverse(self.images[image].pixels().bytes()));
-        let tasks: Vec<(usize, usize)> =
-            widest.into_iter().flat_map(|image| (0..height).step_by(STRIP).map(move |top| (image, top))).collect();
-        let strips: Vec<Strip> = tasks
-            .par_iter()
-            .with_max_len(1)
-            .map(|&(image, top)| busy.measure(|| self.strip(image, top, band)))
-            .collect();
-        let mut images: Vec<Vec<Strip>> = vec![Vec::new(); self.images.len()];
-        for ((image, _), strip) in tasks.into_iter().zip(strips) {
-            images[image].push(strip);
-        }
-        if alike {
-            for strips in &mut images {
-                *strips = strips.iter().cycle().take(band.height / STRIP).cloned().collect();
-            }
-        }
-        self.keep_lowest_row(band);
-        self.above_empty = empty;
-        images
-    }
-
-    fn strip(&self, index: usize, top: usize, band: &Band) -> Strip {
-        let image = self.images[index];
-        let make = || StripEncoder::new(image.pixels(), band.width);
-        let row = |y: usize, row: &mut [u8]| band.row(image, &self.background[index], y, row);
-        self.pools[index].with(make, |encoder| {
-            match (&self.above, top) {
-                (None, 0) => encoder.begin_at_top(),
-                (Some(above), 0) => encoder.begin_below(|row| row.copy_from_slice(&above[index])),
-                _ => encoder.begin_below(|above| row(top - 1, above)),
-            }
-            for y in top..band.height.min(top + STRIP) {
-                encoder.push(|out| row(y, out));
-            }
-            encoder.finish()
-        })
-    }
-
-    fn keep_lowest_row(&mut self, band: &Band) {
-        let row = |image: &Image| vec![0; band.width * image.pixels().bytes()];
-        let above = self.above.get_or_insert_with(|| self.images.iter().map(row).collect());
-        for ((image, row), background) in self.images.iter().zip(above).zip(&self.background) {
-            band.row(*image, background, band.height - 1, row);
-        }
-    }
-}
-
 /// Paths of a texture's files, relative to the bake.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct TextureFiles {
@@ -335,25 +307,49 @@ impl TextureFiles {
     }
 }
 
-/// Writes the files of one texture.
+/// An image of a texture that is being written.
 #[derive(Debug)]
-pub(super) struct TileWriter<W: Write + Seek> {
-    images: Vec<PngWriter<W>>,
+struct ImageFile<W: Write + Send + 'static> {
+    image: Image,
+    /// A row of an empty block.
+    background: Vec<u8>,
+    /// A row across the texture.
+    row: Vec<u8>,
+    png: PngWriter<W>,
+}
+
+impl<W: Write + Send> ImageFile<W> {
+    /// Appends the rows of a band from above.
+    fn push(&mut self, band: &Band) -> io::Result<()> {
+        (0..band.height).try_for_each(|y| {
+            band.row(self.image, &self.background, y, &mut self.row);
+            self.png.push(&self.row)
+        })
+    }
+}
+
+/// Writes the files of one texture, band by band from above.
+#[derive(Debug)]
+pub(super) struct TileWriter<W: Write + Seek + Send + 'static> {
+    images: Vec<ImageFile<W>>,
     layers: Vec<ExrWriter<W>>,
 }
 
-impl<W: Write + Seek> TileWriter<W> {
+impl<W: Write + Seek + Send> TileWriter<W> {
     /// Creates the files of a texture and writes their headers.
     pub(super) fn begin(
         [width, height]: [usize; 2],
         files: &TextureFiles,
+        background: &Background,
         layers: Option<&LayerEncoder>,
         create: impl Fn(&str) -> Result<W, ExportError>,
     ) -> Result<TileWriter<W>, ExportError> {
         let mut writer = TileWriter { images: Vec::new(), layers: Vec::new() };
-        for (image, name) in &files.images {
-            let begun = PngWriter::begin(create(name)?, image.pixels(), width as u32, height as u32);
-            writer.images.push(begun.map_err(OutputFile::explain)?);
+        for &(image, ref name) in &files.images {
+            let pixels = image.pixels();
+            let png = PngWriter::begin(create(name)?, pixels, width as u32, height as u32);
+            let (row, background) = (vec![0; width * pixels.bytes()], image.background(background));
+            writer.images.push(ImageFile { image, background, row, png: png.map_err(OutputFile::explain)? });
         }
         for (file, name) in layers.map_or(&[][..], LayerEncoder::files).iter().zip(&files.layers) {
             let begun = ExrWriter::begin(create(name)?, Samples::Half, width, height, &file.names());
@@ -362,30 +358,27 @@ impl<W: Write + Seek> TileWriter<W> {
         Ok(writer)
     }
 
-    /// Appends a band.
-    pub(super) fn push(&mut self, band: &Band, strips: &[Vec<Strip>]) -> io::Result<()> {
-        for (image, strips) in self.images.iter_mut().zip(strips) {
-            for strip in strips {
-                image.push(strip)?;
+    /// Appends a band; each image is compressed on a thread of its own.
+    pub(super) fn push(&mut self, band: &Band, busy: &BusyTime) -> io::Result<()> {
+        let compress = |image: &mut ImageFile<W>| busy.measure(|| image.push(band));
+        let pushed: Vec<_> = self.images.par_iter_mut().with_max_len(1).map(compress).collect();
+        pushed.into_iter().collect::<io::Result<()>>()?;
+        busy.measure(|| {
+            for block in &band.blocks {
+                self.layers.iter_mut().zip(&block.layers).try_for_each(|(file, tile)| file.push(tile))?;
             }
-        }
-        for block in &band.blocks {
-            for (file, tile) in self.layers.iter_mut().zip(&block.layers) {
-                file.push(tile)?;
-            }
-        }
-        Ok(())
+            Ok(())
+        })
     }
 
-    /// Finishes the files and returns them; the caller has to close them.
-    pub(super) fn finish(self) -> io::Result<Vec<W>> {
-        let mut files = Vec::new();
+    /// Finishes the files.
+    pub(super) fn finish(self) -> io::Result<()> {
         for image in self.images {
-            files.push(image.finish()?);
+            image.png.finish()?;
         }
         for layers in self.layers {
-            files.push(layers.finish()?);
+            layers.finish()?.flush()?;
         }
-        Ok(files)
+        Ok(())
     }
 }

@@ -1,8 +1,8 @@
 use std::sync::{Mutex, PoisonError};
 
-use image::{Rgb, RgbImage};
+use image::{GrayImage, Luma, Rgb, RgbImage};
 
-use super::reduction::LightSum;
+use super::reduction::{LightSum, rounded_mean};
 use crate::look::ResolvedBlock;
 use crate::stamps::TexelGrid;
 
@@ -18,7 +18,15 @@ pub struct Birdseye {
     width: usize,
     height: usize,
     /// Row 0 is the southernmost.
-    sums: Mutex<Vec<LightSum>>,
+    sums: Mutex<Vec<Seen>>,
+}
+
+/// Light and roughness of a pixel's texels.
+#[derive(Clone, Copy, Debug, Default)]
+struct Seen {
+    light: LightSum,
+    /// Sum of roughness, 0 to 255 each.
+    rough: u32,
 }
 
 impl Birdseye {
@@ -27,7 +35,7 @@ impl Birdseye {
         // At most as many texels per pixel as a `LightSum` holds.
         let factor = grid.width.max(grid.height).div_ceil(LARGEST).clamp(1, 256) as usize;
         let (width, height) = ((grid.width as usize).div_ceil(factor), (grid.height as usize).div_ceil(factor));
-        Birdseye { grid, factor, width, height, sums: Mutex::new(vec![LightSum::default(); width * height]) }
+        Birdseye { grid, factor, width, height, sums: Mutex::new(vec![Seen::default(); width * height]) }
     }
 
     /// Adds a block whose lower-left texel is (i0, j0) of the whole floor.
@@ -43,20 +51,24 @@ impl Birdseye {
         let (left, below) = (i0 / self.factor, j0 / self.factor);
         let cells_across = (i0 + columns - 1) / self.factor - left + 1;
         let cells_up = (j0 + rows - 1) / self.factor - below + 1;
-        let mut cells = vec![LightSum::default(); cells_across * cells_up];
-        for (y, row) in block.base_color.chunks(width).enumerate().take(rows) {
+        let mut cells = vec![Seen::default(); cells_across * cells_up];
+        for (y, (row, orm)) in block.base_color.chunks(width).zip(block.orm.chunks(width)).enumerate().take(rows) {
             let cells = &mut cells[((j0 + y) / self.factor - below) * cells_across..][..cells_across];
             let mut x = 0;
             for (k, cell) in cells.iter_mut().enumerate() {
                 let end = ((left + k + 1) * self.factor - i0).min(columns);
-                row[x..end].iter().for_each(|&colour| cell.add(colour));
+                row[x..end].iter().for_each(|&colour| cell.light.add(colour));
+                cell.rough += orm[x..end].iter().map(|orm| u32::from(orm[1])).sum::<u32>();
                 x = end;
             }
         }
         let mut sums = self.sums.lock().unwrap_or_else(PoisonError::into_inner);
         for (y, row) in cells.chunks(cells_across).enumerate() {
             let sums = &mut sums[(below + y) * self.width + left..][..cells_across];
-            sums.iter_mut().zip(row).for_each(|(sum, cell)| sum.merge(*cell));
+            for (sum, cell) in sums.iter_mut().zip(row) {
+                sum.light.merge(cell.light);
+                sum.rough += cell.rough;
+            }
         }
     }
 
@@ -69,7 +81,16 @@ impl Birdseye {
     pub fn picture(&self, nothing: [u8; 3]) -> RgbImage {
         let sums = self.sums.lock().unwrap_or_else(PoisonError::into_inner);
         RgbImage::from_fn(self.width as u32, self.height as u32, |x, y| {
-            Rgb(sums[(self.height - 1 - y as usize) * self.width + x as usize].mean().unwrap_or(nothing))
+            Rgb(sums[(self.height - 1 - y as usize) * self.width + x as usize].light.mean().unwrap_or(nothing))
+        })
+    }
+
+    /// Roughness of the floor, as [`Birdseye::picture`] shows its colour. Pixels without floor get `nothing`.
+    pub fn roughness(&self, nothing: u8) -> GrayImage {
+        let sums = self.sums.lock().unwrap_or_else(PoisonError::into_inner);
+        GrayImage::from_fn(self.width as u32, self.height as u32, |x, y| {
+            let seen = sums[(self.height - 1 - y as usize) * self.width + x as usize];
+            Luma([seen.light.count().map_or(nothing, |count| rounded_mean(seen.rough, count) as u8)])
         })
     }
 }
@@ -80,7 +101,7 @@ mod tests {
 
     fn block(width: usize, height: usize, colour: impl Fn(usize, usize) -> u8) -> ResolvedBlock {
         let base_color = (0..width * height).map(|k| [colour(k % width, k / width); 3]).collect();
-        ResolvedBlock { base_color, ..ResolvedBlock::default() }
+        ResolvedBlock { base_color, orm: vec![[255, 90, 0]; width * height], ..ResolvedBlock::default() }
     }
 
     #[test]

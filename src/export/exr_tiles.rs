@@ -9,10 +9,10 @@ use exr::meta::attribute::{LevelMode, LineOrder};
 use exr::meta::header::Header;
 use exr::meta::{BlockDescription, MetaData, magic_number};
 use exr::prelude::{ChannelDescription, Compression, SampleType, SmallVec, TileDescription, Vec2};
+use flate2::write::ZlibEncoder;
 use half::f16;
 use half::slice::HalfFloatSliceExt;
 
-use super::deflate::{zlib, zlib_zeros};
 use super::layout::BLOCK;
 
 /// Sample type of an image's channels, with its compression.
@@ -115,7 +115,8 @@ fn io_error(error: exr::error::Error) -> io::Error {
 /// Returns a compressed tile of integers that are all zero.
 pub(super) fn zero_tile(channels: usize, [width, height]: [usize; 2]) -> Vec<u8> {
     let count = 4 * channels * width * height;
-    let tile = zlib_zeros(count);
+    // As small as possible: it is written many times.
+    let tile = zlib(&vec![0; count], flate2::Compression::best());
     // EXR stores data raw where compression does not shrink it.
     if tile.len() < count { tile } else { vec![0; count] }
 }
@@ -200,10 +201,17 @@ fn for_rows_from_above<T>(channels: &[&[T]], width: usize, mut row: impl FnMut(u
     }
 }
 
+/// A zlib stream of some bytes.
+fn zlib(bytes: &[u8], level: flate2::Compression) -> Vec<u8> {
+    let mut stream = ZlibEncoder::new(Vec::with_capacity(bytes.len() / 2), level);
+    let done = stream.write_all(bytes).and_then(|()| stream.finish());
+    done.expect("a vector takes all bytes")
+}
+
 /// Compresses packed bytes, or returns `raw` where they do not shrink, as EXR requires.
 fn smaller(packed: &[u8], raw: impl FnOnce() -> Vec<u8>) -> Vec<u8> {
-    let mut compressed = Vec::with_capacity(packed.len() / 2);
-    zlib(packed, &mut compressed);
+    // The predictor leaves noise around zero with few repeated strings: a longer search gains nothing.
+    let compressed = zlib(packed, flate2::Compression::fast());
     if compressed.len() < packed.len() { compressed } else { raw() }
 }
 

@@ -172,14 +172,14 @@ impl OutputFolder {
         file.close()
     }
 
-    /// Keeps a file of the earlier bake, as a hard link where the disk supports it, else as copy.
+    /// Keeps a file of an earlier bake, as a hard link where the disk supports it, else as copy.
     ///
     /// # Errors
-    /// The earlier bake has no such file, a link leads out of the bake, or the copy fails.
-    pub fn keep(&self, relative: &BakePath) -> Result<(), ExportError> {
-        let shown = self.shown.join(relative);
-        relative.within(&self.shown)?;
-        let from = fs::canonicalize(self.places.output.join(relative)).map_err(ExportError::read(&shown))?;
+    /// The bake has no such file, a link leads out of the bake, or the copy fails.
+    pub fn keep(&self, bake: &Path, relative: &BakePath) -> Result<(), ExportError> {
+        let shown = bake.join(relative);
+        relative.within(bake)?;
+        let from = fs::canonicalize(&shown).map_err(ExportError::read(&shown))?;
         if !from.is_file() {
             return Err(ExportError::Read { path: shown, source: io::ErrorKind::NotFound.into() });
         }

@@ -1,17 +1,13 @@
-//! PNG files made of strips that any thread compresses separately.
-//!
-//! Each strip of rows becomes an `IDAT` chunk; the chunks together are one zlib stream. The bytes depend on the image
-//! only, not on the threads.
+//! PNG files of textures, written row by row.
 
+use std::fmt;
 use std::io::{self, Write};
+use std::sync::{Arc, Mutex, PoisonError};
 
-use super::deflate::{Part, ZLIB_HEADER, adler32, adler32_joined, deflate};
+use png::{BitDepth, ColorType, Compression, Encoder, Filter, SrgbRenderingIntent, StreamWriter};
 
-pub(super) struct Signature;
-
-impl Signature {
-    pub(super) const BYTES: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
-}
+/// Bytes of an `IDAT` chunk.
+const CHUNK_BYTES: usize = 1 << 18;
 
 /// Pixel format and colour space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,211 +32,173 @@ impl Pixels {
     }
 }
 
-/// A compressed run of rows.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Strip {
-    chunk: Vec<u8>,
-    adler: u32,
-    bytes: u64,
+/// Writes a PNG file of 8 bits per channel, row by row from above.
+pub(super) struct PngWriter<W: Write + Send + 'static> {
+    out: SharedWriter<W>,
+    rows: StreamWriter<'static, SharedWriter<W>>,
 }
 
-/// Filters and compresses rows of an image from above.
-#[derive(Debug)]
-pub(super) struct StripEncoder {
-    pixel_bytes: usize,
-    above: Vec<u8>,
-    row: Vec<u8>,
-    filtered: Vec<u8>,
-}
-
-impl StripEncoder {
-    pub(super) fn new(pixels: Pixels, width: usize) -> StripEncoder {
-        let bytes = width * pixels.bytes();
-        StripEncoder { pixel_bytes: pixels.bytes(), above: vec![0; bytes], row: vec![0; bytes], filtered: Vec::new() }
-    }
-
-    /// Begins a strip at the image's top.
-    pub(super) fn begin_at_top(&mut self) {
-        self.begin_below(|row| row.fill(0));
-    }
-
-    /// Begins a strip below the row that `fill` writes.
-    pub(super) fn begin_below(&mut self, fill: impl FnOnce(&mut [u8])) {
-        self.filtered.clear();
-        fill(&mut self.above);
-    }
-
-    /// Adds the row that `fill` writes.
-    pub(super) fn push(&mut self, fill: impl FnOnce(&mut [u8])) {
-        fill(&mut self.row);
-        let at = self.filtered.len();
-        self.filtered.resize(at + 1 + self.row.len(), 0);
-        self.filtered[at] = AVERAGE;
-        filter_average(self.pixel_bytes, &self.above, &self.row, &mut self.filtered[at + 1..]);
-        std::mem::swap(&mut self.above, &mut self.row);
-    }
-
-    /// Compresses the rows added since the strip began.
-    pub(super) fn finish(&mut self) -> Strip {
-        let mut chunk = begin_chunk(b"IDAT", self.filtered.len() / 3);
-        deflate(&self.filtered, Part::Middle, &mut chunk);
-        end_chunk(&mut chunk);
-        Strip { chunk, adler: adler32(&self.filtered), bytes: self.filtered.len() as u64 }
-    }
-}
-
-/// The rendering intent of the sRGB chunk.
-const PERCEPTUAL: u8 = 0;
-/// The filter of each row. For floors it gives files a tenth smaller than `Up`, `Sub` and `Paeth`.
-const AVERAGE: u8 = 3;
-
-fn filter_average(pixel_bytes: usize, above: &[u8], row: &[u8], out: &mut [u8]) {
-    let (first, rest) = out.split_at_mut(pixel_bytes.min(row.len()));
-    for ((out, &value), &above) in first.iter_mut().zip(row).zip(above) {
-        *out = value.wrapping_sub(above / 2);
-    }
-    let (values, above) = (&row[first.len()..], &above[first.len()..]);
-    for (((out, &value), &above), &left) in rest.iter_mut().zip(values).zip(above).zip(row) {
-        *out = value.wrapping_sub(((u16::from(left) + u16::from(above)) / 2) as u8);
-    }
-}
-
-/// Writes strips to a PNG file.
-#[derive(Debug)]
-pub(super) struct PngWriter<W: Write> {
-    out: W,
-    adler: u32,
-}
-
-impl<W: Write> PngWriter<W> {
-    pub(super) fn begin(mut out: W, pixels: Pixels, width: u32, height: u32) -> io::Result<PngWriter<W>> {
-        let colour_type = match pixels {
-            Pixels::Linear1 => 0,
-            Pixels::Srgb | Pixels::Linear3 => 2,
-            Pixels::Linear4 => 6,
-        };
-        let mut head = Signature::BYTES.to_vec();
-        let size = [width.to_be_bytes(), height.to_be_bytes()].concat();
-        chunk(b"IHDR", &[&size[..], &[8, colour_type, 0, 0, 0]].concat(), &mut head);
+impl<W: Write + Send + 'static> PngWriter<W> {
+    /// Writes the header.
+    pub(super) fn begin(out: W, pixels: Pixels, width: u32, height: u32) -> io::Result<PngWriter<W>> {
+        let out = SharedWriter(Arc::new(Mutex::new(Sink { out, failure: None })));
+        let mut encoder = Encoder::new(out.clone(), width, height);
+        encoder.set_depth(BitDepth::Eight);
+        encoder.set_color(match pixels {
+            Pixels::Linear1 => ColorType::Grayscale,
+            Pixels::Srgb | Pixels::Linear3 => ColorType::Rgb,
+            Pixels::Linear4 => ColorType::Rgba,
+        });
         if pixels == Pixels::Srgb {
-            chunk(b"sRGB", &[PERCEPTUAL], &mut head);
+            encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
         }
-        chunk(b"IDAT", &ZLIB_HEADER, &mut head);
-        out.write_all(&head)?;
-        Ok(PngWriter { out, adler: adler32(&[]) })
+        // Measured on a floor of 8192 px: a tenth of the time of level 6, and a file a fifth larger.
+        encoder.set_compression(Compression::Fast);
+        encoder.set_filter(Filter::Adaptive);
+        let begun = encoder.write_header().and_then(|writer| writer.into_stream_writer_with_size(CHUNK_BYTES));
+        match begun {
+            Ok(rows) => Ok(PngWriter { out, rows }),
+            Err(error) => Err(out.failure().unwrap_or_else(|| error.into())),
+        }
     }
 
-    /// Appends the next strip from above.
-    pub(super) fn push(&mut self, strip: &Strip) -> io::Result<()> {
-        self.adler = adler32_joined(self.adler, strip.adler, strip.bytes);
-        self.out.write_all(&strip.chunk)
+    /// Appends whole rows.
+    pub(super) fn push(&mut self, rows: &[u8]) -> io::Result<()> {
+        self.rows.write_all(rows).map_err(|error| self.out.failure().unwrap_or(error))
     }
 
-    /// Finishes the file and returns its writer, not yet flushed.
-    pub(super) fn finish(mut self) -> io::Result<W> {
-        let mut end = Vec::new();
-        deflate(&[], Part::Last, &mut end);
-        end.extend_from_slice(&self.adler.to_be_bytes());
-        let mut tail = Vec::new();
-        chunk(b"IDAT", &end, &mut tail);
-        chunk(b"IEND", &[], &mut tail);
-        self.out.write_all(&tail)?;
-        Ok(self.out)
+    /// Finishes the file and flushes its writer.
+    pub(super) fn finish(self) -> io::Result<()> {
+        let PngWriter { mut out, rows } = self;
+        let finished = rows.finish().map_err(io::Error::from).and_then(|()| out.flush());
+        // The encoder hides failures of the last bytes.
+        out.failure().map_or(finished, Err)
     }
 }
 
-/// Appends a chunk: length, name, data, checksum.
-pub(super) fn chunk(name: &[u8; 4], data: &[u8], out: &mut Vec<u8>) {
-    let mut chunk = begin_chunk(name, data.len());
-    chunk.extend_from_slice(data);
-    end_chunk(&mut chunk);
-    out.append(&mut chunk);
+impl<W: Write + Send + 'static> fmt::Debug for PngWriter<W> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("PngWriter").finish_non_exhaustive()
+    }
 }
 
-fn begin_chunk(name: &[u8; 4], room: usize) -> Vec<u8> {
-    let mut chunk = Vec::with_capacity(room + 12);
-    chunk.extend_from_slice(&[0; 4]);
-    chunk.extend_from_slice(name);
-    chunk
+/// A writer that an encoder owns and that keeps its first failure.
+struct SharedWriter<W>(Arc<Mutex<Sink<W>>>);
+
+struct Sink<W> {
+    out: W,
+    failure: Option<io::Error>,
 }
 
-fn end_chunk(chunk: &mut Vec<u8>) {
-    let length = chunk.len() as u32 - 8;
-    chunk[..4].copy_from_slice(&length.to_be_bytes());
-    let sum = crc32fast::hash(&chunk[4..]);
-    chunk.extend_from_slice(&sum.to_be_bytes());
+impl<W> Clone for SharedWriter<W> {
+    fn clone(&self) -> SharedWriter<W> {
+        SharedWriter(Arc::clone(&self.0))
+    }
+}
+
+impl<W: Write> SharedWriter<W> {
+    fn failure(&self) -> Option<io::Error> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).failure.take()
+    }
+
+    fn with<T>(&self, work: impl FnOnce(&mut W) -> io::Result<T>) -> io::Result<T> {
+        let mut sink = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let done = work(&mut sink.out);
+        match done {
+            Err(error) if error.kind() != io::ErrorKind::Interrupted => {
+                let kind = error.kind();
+                sink.failure.get_or_insert(error);
+                Err(kind.into())
+            }
+            done => done,
+        }
+    }
+}
+
+impl<W: Write> Write for SharedWriter<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.with(|out| out.write(bytes))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.with(Write::flush)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn encoded(pixels: Pixels, width: usize, height: usize, rows_per_strip: usize, image: &[u8]) -> Vec<u8> {
-        let bytes = width * pixels.bytes();
-        let row = |y: usize| &image[y * bytes..(y + 1) * bytes];
-        let mut writer = PngWriter::begin(Vec::new(), pixels, width as u32, height as u32).unwrap();
-        let mut encoder = StripEncoder::new(pixels, width);
-        for top in (0..height).step_by(rows_per_strip) {
-            match top {
-                0 => encoder.begin_at_top(),
-                _ => encoder.begin_below(|out| out.copy_from_slice(row(top - 1))),
-            }
-            for y in top..height.min(top + rows_per_strip) {
-                encoder.push(|out| out.copy_from_slice(row(y)));
-            }
-            writer.push(&encoder.finish()).unwrap();
+    /// A writer that is full after some bytes.
+    #[derive(Clone)]
+    struct Disk(Arc<Mutex<Vec<u8>>>, usize);
+
+    impl Disk {
+        fn of(room: usize) -> Disk {
+            Disk(Arc::default(), room)
         }
-        writer.finish().unwrap()
     }
 
-    #[test]
-    fn another_decoder_reads_back_every_pixel_whatever_the_strips() {
+    impl Write for Disk {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            let mut held = self.0.lock().unwrap();
+            if held.len() + bytes.len() > self.1 {
+                return Err(io::Error::new(io::ErrorKind::StorageFull, "the disk of the test"));
+            }
+            held.extend_from_slice(bytes);
+            Ok(bytes.len())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    fn write(disk: &Disk, pixels: Pixels, [width, height]: [usize; 2], image: &[u8]) -> io::Result<()> {
+        let mut writer = PngWriter::begin(disk.clone(), pixels, width as u32, height as u32)?;
+        for row in image.chunks(width * pixels.bytes()) {
+            writer.push(row)?;
+        }
+        writer.finish()
+    }
+
+    fn image(pixels: Pixels, [width, height]: [usize; 2]) -> Vec<u8> {
         let mut random = crate::math::SplitMix64::new(3);
-        for pixels in [Pixels::Srgb, Pixels::Linear3, Pixels::Linear4] {
-            for (width, height) in [(1, 1), (7, 33), (200, 65)] {
-                let image: Vec<u8> = (0..width * height * pixels.bytes())
-                    .map(|k| ((k / 50) as u8).wrapping_add((random.next_u64() & 3) as u8))
-                    .collect();
-                for rows in [1, 32, 100] {
-                    let file = encoded(pixels, width, height, rows, &image);
-                    let mut reader = png::Decoder::new(io::Cursor::new(file)).read_info().unwrap();
-                    let mut back = vec![0; image.len()];
-                    let info = reader.next_frame(&mut back).unwrap();
-                    assert_eq!((info.width as usize, info.height as usize), (width, height));
-                    assert_eq!(back, image, "{pixels:?} {width} x {height}, {rows} rows a strip");
-                    reader.finish().unwrap();
-                    assert_eq!(reader.info().srgb.is_some(), pixels == Pixels::Srgb);
-                }
+        let value = |k| ((k / 50) as u8).wrapping_add((random.next_u64() & 3) as u8);
+        (0..width * height * pixels.bytes()).map(value).collect()
+    }
+
+    #[test]
+    fn a_decoder_reads_back_every_pixel() {
+        for pixels in [Pixels::Srgb, Pixels::Linear1, Pixels::Linear3, Pixels::Linear4] {
+            for size in [[1, 1], [7, 33], [200, 65]] {
+                let image = image(pixels, size);
+                let disk = Disk::of(usize::MAX);
+                write(&disk, pixels, size, &image).unwrap();
+                let file = disk.0.lock().unwrap().clone();
+                let mut reader = png::Decoder::new(io::Cursor::new(file)).read_info().unwrap();
+                let mut back = vec![0; image.len()];
+                let info = reader.next_frame(&mut back).unwrap();
+                assert_eq!([info.width as usize, info.height as usize], size);
+                assert_eq!(back, image, "{pixels:?} {size:?}");
+                reader.finish().unwrap();
+                let is_colour = pixels == Pixels::Srgb;
+                assert_eq!((reader.info().srgb.is_some(), reader.info().gama_chunk.is_some()), (is_colour, false));
             }
         }
     }
 
+    /// Wherever the disk becomes full, also within the last bytes.
     #[test]
-    fn the_check_sum_is_that_of_the_standard() {
-        assert_eq!(crc32fast::hash(b"123456789"), 0xcbf4_3926);
-        assert_eq!(crc32fast::hash(b"IEND"), 0xae42_6082);
-    }
-
-    #[test]
-    fn a_failing_writer_is_an_error() {
-        struct Full(usize);
-        impl Write for Full {
-            fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-                if self.0 < bytes.len() {
-                    return Err(io::ErrorKind::StorageFull.into());
-                }
-                self.0 -= bytes.len();
-                Ok(bytes.len())
-            }
-            fn flush(&mut self) -> io::Result<()> {
-                Ok(())
-            }
+    fn a_full_disk_is_an_error_at_every_byte() {
+        let (pixels, size) = (Pixels::Srgb, [40, 9]);
+        let image = image(pixels, size);
+        let whole = Disk::of(usize::MAX);
+        write(&whole, pixels, size, &image).unwrap();
+        let length = whole.0.lock().unwrap().len();
+        for room in (0..length).step_by(7).chain([length - 1]) {
+            let error = write(&Disk::of(room), pixels, size, &image).unwrap_err();
+            assert_eq!(error.to_string(), "the disk of the test", "{room} of {length} bytes");
         }
-        assert!(PngWriter::begin(Full(10), Pixels::Srgb, 4, 4).is_err());
-        let mut writer = PngWriter::begin(Full(100), Pixels::Srgb, 400, 1).unwrap();
-        let mut encoder = StripEncoder::new(Pixels::Srgb, 400);
-        encoder.begin_at_top();
-        encoder.push(|row| row.iter_mut().enumerate().for_each(|(k, v)| *v = (k * k) as u8));
-        assert_eq!(writer.push(&encoder.finish()).unwrap_err().kind(), io::ErrorKind::StorageFull);
     }
 }

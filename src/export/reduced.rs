@@ -153,6 +153,7 @@ mod tests {
     fn block(width: usize, height: usize, texel: impl Fn(usize, usize) -> u8) -> ResolvedBlock {
         let values: Vec<u8> = (0..width * height).map(|k| texel(k % width, k / width)).collect();
         ResolvedBlock {
+            relief: Vec::new(),
             empty: false,
             base_color: values.iter().map(|&v| [v, 255 - v, 7]).collect(),
             mask: values.iter().map(|&v| [v, v / 2, 0, 255]).collect(),

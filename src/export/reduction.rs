@@ -31,6 +31,11 @@ impl LightSum {
         self.count += other.count;
     }
 
+    /// Number of texels; `None` for an empty sum.
+    pub(crate) fn count(&self) -> Option<u32> {
+        (self.count > 0).then_some(self.count)
+    }
+
     /// Returns the colour of the mean light; `None` for an empty sum.
     pub(crate) fn mean(&self) -> Option<Srgb8> {
         let mean = |sum: u32| from_linear(rounded_mean(sum, self.count) as u16);

@@ -7,6 +7,7 @@ use super::{ExportError, OutputFolder};
 use crate::crowd::{SpotReport, Stuck, Tally};
 use crate::files::read_input;
 use crate::math::{Vec2, vec2};
+use crate::rooms::{Life, Room, RoomKind, Use};
 use crate::routes::Route;
 
 /// Largest report to read, bytes.
@@ -20,6 +21,9 @@ pub struct Report {
     /// Warnings of the crowd, such as a queue longer than its room, with the name of the place.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<String>,
+    /// How people used the rooms of the building, where they lived in it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub life: Option<LifeReport>,
     /// Number of footfalls.
     pub footfalls: u64,
     /// Number of wall touches.
@@ -29,6 +33,71 @@ pub struct Report {
     pub seconds: BTreeMap<String, f64>,
     /// Peak memory, MiB; `null` where the system does not report it.
     pub peak_memory_mib: Option<f64>,
+}
+
+/// How people used a building.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LifeReport {
+    /// What the building is for.
+    pub r#use: Use,
+    /// Whether that is a guess.
+    pub guessed: bool,
+    /// The rooms, from the top left, row by row.
+    pub rooms: Vec<RoomReport>,
+}
+
+/// How people used a room.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RoomReport {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub kind: RoomKind,
+    /// Area of its floor, square metres.
+    pub area_m2: f64,
+    /// A place in it, metres.
+    pub inside_m: Vec2,
+    /// Number of footfalls in it.
+    pub footfalls: u64,
+}
+
+/// Number of unused rooms that are named one by one.
+const NAMED: usize = 6;
+
+impl LifeReport {
+    /// A report before anybody has walked.
+    pub fn of(life: &Life) -> LifeReport {
+        let room = |room: &Room| RoomReport {
+            name: room.name.clone(),
+            kind: room.kind,
+            area_m2: room.area_m2,
+            inside_m: room.inside_m,
+            footfalls: 0,
+        };
+        LifeReport { r#use: life.r#use, guessed: life.guessed, rooms: life.rooms.rooms.iter().map(room).collect() }
+    }
+
+    /// Counts footfalls at some places, metres.
+    pub fn count(&mut self, life: &Life, places_m: impl Iterator<Item = Vec2>) {
+        for room in places_m.filter_map(|place| life.rooms.at(place)) {
+            self.rooms[room].footfalls += 1;
+        }
+    }
+
+    /// A warning that names the rooms that nobody has used.
+    pub fn warning(&self) -> Option<String> {
+        let unused: Vec<&RoomReport> = self.rooms.iter().filter(|room| room.footfalls == 0).collect();
+        let describe = |room: &&RoomReport| {
+            let Vec2 { x, y } = room.inside_m;
+            format!("{} ({:.1} m2 around [{x:.1}, {y:.1}])", room.name, room.area_m2)
+        };
+        let names: Vec<String> = unused.iter().take(NAMED).map(describe).collect();
+        let others = match unused.len().saturating_sub(NAMED) {
+            0 => String::new(),
+            others => format!(" and {others} others"),
+        };
+        (!unused.is_empty()).then(|| format!("nobody used {}{others}", names.join(", ")))
+    }
 }
 
 /// Counts of people who entered, arrived or got stuck.

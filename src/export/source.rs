@@ -179,6 +179,7 @@ fn blank(texels: usize, background: Background, layers: &[&'static str]) -> Reso
         clean: vec![background.base_color.map(to_linear); texels],
         mask: vec![background.mask; texels],
         orm: vec![background.orm; texels],
+        relief: Vec::new(),
         layers: layers.iter().map(|&name| Layer { name, values: vec![0.0; texels] }).collect(),
     }
 }

@@ -1,11 +1,12 @@
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::DMatrix;
 
 use super::displacement::columns_of;
 use super::error::FeaturesError;
 use super::progress_range::ProgressRange;
+use crate::math::{NoConvergence, eigenvectors};
 
 /// Largest number of rows of a matrix that is decomposed: about half a minute and 0.5 GB.
 pub const MOST_ROWS: usize = 4000;
@@ -34,31 +35,26 @@ pub(super) fn eigenpairs(matrix: DMatrix<f64>, progress: &ProgressRange<'_>) -> 
     if size > MOST_ROWS {
         return Err(FeaturesError::TooLarge { size, most: MOST_ROWS });
     }
-    let found = if size <= QUICK { decompose(matrix) } else { decompose_on_thread(matrix, progress)? };
+    let found = if size <= QUICK { decompose(matrix)? } else { decompose_on_thread(matrix, progress)? };
     progress.advance(1.0);
-    found.ok_or_else(|| FeaturesError::NotConverged { size })
+    Ok(found)
 }
 
-fn decompose(matrix: DMatrix<f64>) -> Option<Eigenpairs> {
-    let size = matrix.nrows();
-    // A few iterations per row are usual; the limit ensures that the loop ends.
-    let SymmetricEigen { eigenvalues, eigenvectors } =
-        SymmetricEigen::try_new(matrix, f64::EPSILON, 100 * size + 1000)?;
-    let mut order: Vec<usize> = (0..size).collect();
-    order.sort_by(|&a, &b| eigenvalues[b].total_cmp(&eigenvalues[a]));
-    let mut vectors = columns_of(&eigenvectors, &order);
+fn decompose(matrix: DMatrix<f64>) -> Result<Eigenpairs, NoConvergence> {
+    let (ascending, mut values) = eigenvectors(matrix)?;
+    values.reverse();
+    let order: Vec<usize> = (0..values.len()).rev().collect();
+    let mut vectors = columns_of(&ascending, &order);
     fix_signs(&mut vectors);
-    Some(Eigenpairs { values: order.iter().map(|&at| eigenvalues[at]).collect(), vectors })
+    Ok(Eigenpairs { values, vectors })
 }
 
-fn decompose_on_thread(
-    matrix: DMatrix<f64>,
-    progress: &ProgressRange<'_>,
-) -> Result<Option<Eigenpairs>, FeaturesError> {
-    let size = matrix.nrows() as f64;
+fn decompose_on_thread(matrix: DMatrix<f64>, progress: &ProgressRange<'_>) -> Result<Eigenpairs, FeaturesError> {
+    let size = matrix.nrows();
+    let rows = size as f64;
     let (sender, receiver) = mpsc::channel();
-    // Measured: 0.6 s for 1000 rows, growing with the cube of the rows. Only the progress bar uses it.
-    let expected_s = 0.6e-9 * size * size * size;
+    // Measured: 0.4 s for 1000 rows, growing with the cube of the rows. Only the progress bar uses it.
+    let expected_s = 0.4e-9 * rows * rows * rows;
     let start = Instant::now();
     std::thread::spawn(move || {
         // After an interruption there is no receiver any more.
@@ -66,8 +62,8 @@ fn decompose_on_thread(
     });
     loop {
         match receiver.recv_timeout(REPORT_INTERVAL) {
-            Ok(found) => return Ok(found),
-            Err(RecvTimeoutError::Disconnected) => return Ok(None),
+            Ok(found) => return Ok(found?),
+            Err(RecvTimeoutError::Disconnected) => return Err(NoConvergence { size, iterations: 0 }.into()),
             Err(RecvTimeoutError::Timeout) => {
                 progress.keep_on()?;
                 let passed = start.elapsed().as_secs_f64() / expected_s;
@@ -86,7 +82,7 @@ pub(super) fn fix_signs(vectors: &mut DMatrix<f64>) {
     }
 }
 
-/// Whether an eigenvector has to be negated: its largest entry shall be positive.
+/// Whether an eigenvector has to be negated so that its largest entry is positive.
 ///
 /// If several entries are equally large but for rounding, the first of them counts.
 fn is_turned(vector: &[f64]) -> bool {

@@ -1,5 +1,6 @@
 use super::component_range::ComponentsError;
 use super::expression::{Expression, ExpressionError};
+use crate::math::NoConvergence;
 use crate::motion::MotionError;
 use crate::progress::Interrupted;
 
@@ -114,11 +115,8 @@ pub enum FeaturesError {
         problem: &'static str,
     },
     /// An eigenvector iteration that does not converge.
-    #[error("the eigenvectors of a matrix of {size} rows were not found")]
-    NotConverged {
-        /// Rows of the matrix.
-        size: usize,
-    },
+    #[error(transparent)]
+    NoConvergence(#[from] NoConvergence),
     /// An error of the motion.
     #[error(transparent)]
     Motion(#[from] MotionError),

@@ -1,8 +1,8 @@
 use nalgebra::DMatrix;
 
 use super::error::check_people;
-use super::symmetric::eigenvectors;
 use super::{AdjacencyEdit, FormationError, kirchhoff};
+use crate::math::eigenvectors;
 use crate::math::{Vec2, vec2};
 
 /// The eigenvectors of a formation's Kirchhoff matrix, from the crowd's coarse shape to the fine.

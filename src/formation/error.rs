@@ -1,4 +1,5 @@
 use super::{LEAST_PEOPLE, MOST_PEOPLE};
+use crate::math::NoConvergence;
 use crate::motion::MotionError;
 use crate::progress::Interrupted;
 use crate::recordings::RecordingError;
@@ -135,13 +136,8 @@ pub enum FormationError {
         problem: String,
     },
     /// An eigenvector iteration that does not converge.
-    #[error("the eigenvectors of {size} x {size} numbers were not found in {iterations} iterations")]
-    NoConvergence {
-        /// Rows of the matrix.
-        size: usize,
-        /// Number of iterations.
-        iterations: usize,
-    },
+    #[error(transparent)]
+    NoConvergence(#[from] NoConvergence),
     /// An error of a recording.
     #[error(transparent)]
     Recording(#[from] RecordingError),
@@ -185,7 +181,7 @@ impl FormationError {
             | FormationError::ExampleTime { .. }
             | FormationError::KeyNumber { .. }
             | FormationError::Option { .. }
-            | FormationError::NoConvergence { .. } => return None,
+            | FormationError::NoConvergence(_) => return None,
         };
         Some(hint)
     }

@@ -21,8 +21,8 @@ const TANGENT_WITHIN: f64 = 1e-4;
 /// rotation; but even with all that matched from one frame to the next, two eigenvalues that come near each
 /// other do not cross: within a step or two their vectors swap roles, a quarter turn. The coefficients swap with them,
 /// metres within a tenth of a second. In the example itself that changes nothing, since basis and coefficients belong together;
-/// but what is carried over to another basis are the coefficients alone, and there it is a lurch of the whole crowd that nobody
-/// in the example made. (25 people walking on a grid: 27 times the energy of their quick motion, where 1 was to be kept.)
+/// but another basis takes over the coefficients alone, and there the whole crowd would lurch, as in no moment of the
+/// example. (25 people walking on a grid: 27 times the energy of their quick motion, where 1 was to be kept.)
 ///
 /// So the basis `E` follows the eigenvectors `V` with a delay. From one decomposition to the next, `dt` later,
 ///

@@ -78,7 +78,6 @@ mod polar;
 mod request;
 mod rotation;
 mod sphere;
-mod symmetric;
 
 pub use basis::Basis;
 pub use error::FormationError;

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DMatrixView, DVector};
 
 use super::FormationError;
-use super::symmetric::eigenvectors;
+use crate::math::eigenvectors;
 
 /// Cosines nearer to each other than this are worked on together. Farther apart, the eigenvectors of the symmetric part
 /// are good to about 1e-16 / 1e-5 by themselves.

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector, SVD};
 
 use super::FormationError;
-use super::symmetric::eigenvectors;
+use crate::math::{NoConvergence, eigenvectors};
 
 /// Share of the largest singular value below which the least one requires a singular value decomposition.
 const NEARLY_SINGULAR: f64 = 1e-5;
@@ -56,12 +56,12 @@ impl Polar {
     pub fn by_svd(matrix: DMatrix<f64>) -> Result<Polar, FormationError> {
         let n = matrix.nrows();
         let iterations = 100 * n.max(10);
-        let failed = || FormationError::NoConvergence { size: n, iterations };
+        let failed = || NoConvergence { size: n, iterations };
         if !matrix.iter().all(|entry| entry.is_finite()) {
-            return Err(FormationError::NoConvergence { size: n, iterations: 0 });
+            return Err(NoConvergence { size: n, iterations: 0 }.into());
         }
         let svd = SVD::try_new(matrix, true, true, f64::EPSILON, iterations).ok_or_else(failed)?;
-        let (Some(u), Some(v_t)) = (svd.u, svd.v_t) else { return Err(failed()) };
+        let (Some(u), Some(v_t)) = (svd.u, svd.v_t) else { return Err(failed().into()) };
         let values = svd.singular_values.iter().copied().enumerate();
         let (at, least) = values.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0));
         Ok(Polar { orthogonal: u * &v_t, least, weakest: v_t.row(at).transpose() })

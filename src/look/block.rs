@@ -2,6 +2,14 @@ use std::ops::Range;
 
 use crate::math::srgb::to_linear;
 
+/// Names of a floor block's float layers, in order.
+///
+/// `passes` and `presence` count the simulated people's footfalls; the rest are optical densities.
+pub const LAYERS: [&str; 7] = ["passes", "presence", "film", "soil", "scuff", "edge", "dust"];
+
+/// Relief of a flat, unworn floor.
+pub(crate) const FLAT: [u8; 6] = [0, 0, 128, 128, 128, 255];
+
 /// Texel values of a clean surface: those beyond a floor's padding, or the mean of a clean wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Background {
@@ -22,11 +30,14 @@ pub struct ResolvedBlock {
     pub base_color: Vec<[u8; 3]>,
     /// Colour of the surface without dirt, linear, 0 to 65 535. Empty if the source does not have it.
     pub clean: Vec<[u16; 3]>,
-    /// Opacity of dirt 1 - exp(-D), linear, dithered. Floor: film, passes (D = per_pass n), fresh prints and scuffs,
+    /// Opacity of dirt 1 - exp(-D), linear, dithered. Floor: film, passes (a logarithm, full at 10 000), fresh prints,
     /// edge and dust. Wall: skin, rub (cloth and bags), scuffs, splash and dust.
     pub mask: Vec<[u8; 4]>,
     /// Occlusion, roughness, metallic; linear, roughness dithered.
     pub orm: Vec<[u8; 3]>,
+    /// Of floors: wear, opacity of heel marks 1 - exp(-D), height (128 is the mean surface, 25 a millimetre); and the
+    /// surface's normal, 0 to 255 for -1 to 1, along the texture's right, its upper side, and outward. Empty for walls.
+    pub relief: Vec<[u8; 6]>,
     /// Linear float layers, named in [`super::LAYERS`] or `super::WALL_LAYERS`.
     pub layers: Vec<Layer>,
 }
@@ -52,7 +63,7 @@ impl Layer {
             "film" | "hand" => Some(0),
             "soil" | "arm" | "shoulder" | "bag" => Some(1),
             "scuff" | "shoe" => Some(2),
-            "edge" | "splash" | "dust" => Some(3),
+            "edge" | "splash" | "dust" | "chip" => Some(3),
             _ => None,
         }
     }
@@ -66,6 +77,7 @@ impl ResolvedBlock {
         self.clean.resize(texels, [0; 3]);
         self.mask.resize(texels, [0; 4]);
         self.orm.resize(texels, [0; 3]);
+        self.relief.resize(if layers == LAYERS { texels } else { 0 }, FLAT);
         if !self.layers.iter().map(|layer| layer.name).eq(layers.iter().copied()) {
             self.layers = layers.iter().map(|&name| Layer { name, values: Vec::new() }).collect();
         }
@@ -81,6 +93,7 @@ impl ResolvedBlock {
         self.clean.clear();
         self.mask.clear();
         self.orm.clear();
+        self.relief.clear();
         for layer in &mut self.layers {
             layer.values.clear();
         }
@@ -92,6 +105,9 @@ impl ResolvedBlock {
         self.clean[to..to + len].copy_from_slice(&other.clean[from..from + len]);
         self.mask[to..to + len].copy_from_slice(&other.mask[from..from + len]);
         self.orm[to..to + len].copy_from_slice(&other.orm[from..from + len]);
+        if !self.relief.is_empty() {
+            self.relief[to..to + len].copy_from_slice(&other.relief[from..from + len]);
+        }
         for (layer, other) in self.layers.iter_mut().zip(&other.layers) {
             layer.values[to..to + len].copy_from_slice(&other.values[from..from + len]);
         }
@@ -112,6 +128,9 @@ impl ResolvedBlock {
         self.clean[texels.clone()].fill(background.base_color.map(to_linear));
         self.mask[texels.clone()].fill(background.mask);
         self.orm[texels.clone()].fill(background.orm);
+        if !self.relief.is_empty() {
+            self.relief[texels.clone()].fill(FLAT);
+        }
         for layer in &mut self.layers {
             layer.values[texels.clone()].fill(0.0);
         }

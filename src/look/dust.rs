@@ -15,12 +15,12 @@ const SIDE: i64 = 8;
 /// Multiple of the reach beyond which there is no dust.
 const END: f64 = 5.0;
 
-/// Computes exp(-distance / reach) to the nearest wall over a window; `None` without dust.
+/// Computes exp(-distance / reach) to the nearest wall over a window; `None` far from walls.
 pub(super) fn over(window: &TexelWindow, walls: &Walls, dust: &DustLook) -> Option<SplineLattice> {
-    if dust.density == 0.0 {
-        return None;
-    }
-    let spacing = SPACING_M * window.texels_per_metre;
+    // Coarse texels need no finer lattice.
+    let spacing_m = SPACING_M.max(0.5 / window.texels_per_metre);
+    let spacing = spacing_m * window.texels_per_metre;
+    let square = |low: [i64; 2], high: [i64; 2]| square(low, high, spacing_m);
     let x = SplineAxis::new(window.i0, window.width, spacing, 0.0);
     let y = SplineAxis::new(window.j0, window.height, spacing, 0.0);
     let reach_m = f64::from(dust.reach_m);
@@ -41,7 +41,7 @@ pub(super) fn over(window: &TexelWindow, walls: &Walls, dust: &DustLook) -> Opti
             }
             for j in j0..last[1] {
                 for i in i0..last[0] {
-                    let p = vec2(i as f64, j as f64) * SPACING_M;
+                    let p = vec2(i as f64, j as f64) * spacing_m;
                     let squared = nearest.iter().map(|s| distance_squared(s, p)).fold(f64::INFINITY, f64::min);
                     let value = (exp(-squared.sqrt() / reach_m) - end).max(0.0);
                     values[(j - y.first) as usize * x.len + (i - x.first) as usize] = value as f32;
@@ -52,8 +52,8 @@ pub(super) fn over(window: &TexelWindow, walls: &Walls, dust: &DustLook) -> Opti
     Some(SplineLattice::new(x, y, values))
 }
 
-fn square(low: [i64; 2], high: [i64; 2]) -> Rect {
-    let point = |[i, j]: [i64; 2]| vec2(i as f64, j as f64) * SPACING_M;
+fn square(low: [i64; 2], high: [i64; 2], spacing_m: f64) -> Rect {
+    let point = |[i, j]: [i64; 2]| vec2(i as f64, j as f64) * spacing_m;
     Rect { min: point(low), max: point(high) }
 }
 
@@ -88,6 +88,5 @@ mod tests {
             let truth = (exp(-distance / 0.3) - exp(-5.0)).max(0.0);
             assert!((f64::from(out[0]) - truth).abs() < 0.01, "{} at {distance} m, not {truth}", out[0]);
         }
-        assert!(over(&window, &walls, &DustLook { density: 0.0, ..dust }).is_none());
     }
 }

@@ -10,7 +10,7 @@ use crate::files::read_text;
 use crate::options::{self, Mistake, Options, value_at};
 
 impl Look {
-    /// Reads a look file: TOML with the keys of [`Look`].
+    /// Reads a look file: TOML with the keys of [`Look`], under `[look]` or without a section.
     /// Missing keys come from its `preset`, by default `commuters`. Paths of images are relative to the file.
     ///
     /// # Errors
@@ -31,12 +31,16 @@ impl Look {
             LookError::Syntax { place: place(text, path, mistake.span.start), message, hint }
         };
         let table = DeTable::parse(text).map_err(|error| wrong(Mistake::syntax(&error)))?;
-        let place_of = |key: &str| value_at(table.get_ref(), key).map(|value| place(text, path, value.span().start));
+        // The keys may stand in a section of their own, as in a scenario.
+        let whole = table.get_ref();
+        let section = whole.get("look").filter(|_| whole.len() == 1).and_then(|look| look.get_ref().as_table());
+        let keys = section.unwrap_or(whole);
+        let place_of = |key: &str| value_at(keys, key).map(|value| place(text, path, value.span().start));
 
-        let preset = table.get_ref().get("preset").and_then(|value| value.get_ref().as_str()).unwrap_or("commuters");
+        let preset = keys.get("preset").and_then(|value| value.get_ref().as_str()).unwrap_or("commuters");
         let mut look = Look::preset(preset)
             .ok_or_else(|| LookError::UnknownPreset { name: preset.to_string(), place: place_of("preset") })?;
-        look.lay(&Spanned::new(table.span(), DeValue::Table(table.get_ref().clone()))).map_err(wrong)?;
+        look.lay(&Spanned::new(table.span(), DeValue::Table(keys.clone()))).map_err(wrong)?;
         look.check_ranges().map_err(|error| LookError::Option { place: place_of(error.key()), error })?;
         if let Some(folder) = path.parent() {
             for image in look.images().into_iter().flatten() {

@@ -67,6 +67,10 @@ pub(super) enum Channel {
     SplashDrop,
     Drip,
     WallDither,
+    Mop,
+    Spots,
+    Masonry,
+    WallChip,
 }
 
 /// Key of a channel for a seed.

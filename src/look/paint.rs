@@ -4,18 +4,21 @@ use std::cell::RefCell;
 
 use super::block::{Background, ResolvedBlock};
 use super::bytes::Bytes;
-use super::clean_floor::{CleanFloor, CleanFloorWindow};
 use super::dust;
 use super::error::LookError;
 use super::lattice::{SplineLattice, TexelWindow};
 use super::material::Properties;
+use super::mopping::Mopping;
 use super::noise::{self, Channel, Noise, NoiseField};
 use super::octaves::{NoiseLook, Octave};
 use super::passes::{self, PassesField};
+use super::planes::each_mut;
 use super::settings::Look;
 use super::shade::{FloorShader, ShadeInput, ShadeOutput};
 use super::skirting::Skirting;
-use crate::math::srgb;
+use super::spots::Spots;
+use super::surface::{Surface, SurfacePlanes};
+use crate::math::{exp_f32, srgb};
 use crate::sums::{FloorSums, Quantity};
 use crate::walls::Walls;
 
@@ -26,6 +29,8 @@ struct FloorBuffers {
     passes: Vec<u32>,
     soil: Vec<u32>,
     scuff: Vec<u32>,
+    surface: SurfacePlanes,
+    spots: Spots,
     known: ShadeInput,
     shaded: ShadeOutput,
     row: Vec<f32>,
@@ -36,12 +41,21 @@ thread_local! {
 }
 
 /// Fields that are evaluated row by row.
-struct FloorLayout<'a> {
+struct FloorLayout {
     traffic: PassesField,
     noise: Vec<NoiseField>,
-    ground: CleanFloorWindow<'a>,
+    mopping: Option<SplineLattice>,
     dust: Option<SplineLattice>,
 }
+
+/// What the optical density of heel marks, gum and rubs tends to where many lie on each other.
+const MOST_MARKS: f32 = 0.5;
+
+/// Occlusion at the foot of a wall, and in a joint.
+const CORNER_SHADE: f32 = 0.45;
+const JOINT_SHADE: f32 = 0.35;
+/// Levels of the height per millimetre.
+const HEIGHT_PER_MM: f32 = 25.0;
 
 /// A run of texels in a row.
 #[derive(Clone, Copy)]
@@ -58,11 +72,13 @@ pub(super) struct FloorPainter<'a> {
     pub background: Background,
     look: Look,
     properties: Properties,
-    ground: CleanFloor,
+    ground: Surface,
+    mopping: Mopping,
     skirting: Skirting<'a>,
     /// Noise of film and dust.
     noise: Vec<Noise>,
     spread_m: f64,
+    simulated_people: u32,
     law: FloorShader,
     dither: u32,
 }
@@ -79,13 +95,14 @@ impl<'a> FloorPainter<'a> {
         let [clean, trodden] = &mut properties.roughness;
         *clean = look.floor.roughness.unwrap_or(*clean);
         *trodden = look.floor.roughness_trodden.unwrap_or(*trodden);
-        let ground = CleanFloor::new(&look.floor, look.seed, texels_per_metre)?;
+        let ground = Surface::new(&look.floor, look.seed, texels_per_metre)?;
         let noise = film_noise(look);
         Ok(FloorPainter {
             sums,
             walls,
             law: FloorShader::new(look, &properties, simulated_people, &noise, texels_per_metre),
             noise,
+            simulated_people,
             spread_m: look.film.spread_m.max(properties.least_spread_m),
             background: Background {
                 base_color: ground.mean().map(|light| srgb::encode_f32(light).round() as u8),
@@ -93,6 +110,7 @@ impl<'a> FloorPainter<'a> {
                 orm: [255, (255.0 * properties.roughness[0]).round() as u8, 0],
             },
             dither: noise::key(look.seed, Channel::Dither),
+            mopping: Mopping::new(walls, &look.mop, look.seed),
             skirting: Skirting::new(walls, look.edge.clone(), look.seed),
             look: look.clone(),
             properties,
@@ -115,19 +133,31 @@ impl<'a> FloorPainter<'a> {
         let mut layout = FloorLayout {
             traffic: PassesField::over(&window, self.sums, self.walls, self.spread_m),
             noise: self.noise.iter().map(|noise| noise.over(&window)).collect(),
-            ground: self.ground.over(&window),
+            mopping: self.mopping.over(&window),
             dust: dust::over(&window, self.walls, &self.look.dust),
         };
         self.skirting.lay_out(&window, wanted, &mut buffers.edge);
         passes::read(self.sums, Quantity::Passes, &window, &mut buffers.passes);
         passes::read(self.sums, Quantity::Soil, &window, &mut buffers.soil);
         passes::read(self.sums, Quantity::Scuff, &window, &mut buffers.scuff);
+        // A texel more to the left and below: slopes are differences to those.
+        let around = TexelWindow {
+            i0: window.i0 - 1,
+            j0: window.j0 - 1,
+            width: window.width + 1,
+            height: window.height + 1,
+            ..window
+        };
+        self.ground.lay_out(&around, &mut buffers.surface);
+        let weight = self.look.total_passes as f32 / self.simulated_people as f32;
+        let passed = |place: [f64; 2]| weight * passes::near(self.sums, place);
+        buffers.spots.lay_out(&window, &self.look.age, self.look.seed, passed);
         for row in 0..window.height {
             let Some((start, len)) = run_of(row, &window, wanted) else { continue };
             let run = RowRun { row, start, len };
             layout.begin_row(row);
             layout.gather(self, &window, run, buffers);
-            self.law.shade(&buffers.known, self.ground.joint, &mut buffers.shaded);
+            self.law.shade(&mut buffers.known, self.ground.joint, &mut buffers.shaded);
             write(self.dither, &window, run, buffers, block);
         }
     }
@@ -159,22 +189,24 @@ fn run_of(row: usize, window: &TexelWindow, wanted: Option<&[bool]>) -> Option<(
     Some((first, last + 1 - first))
 }
 
-impl FloorLayout<'_> {
+impl FloorLayout {
     fn begin_row(&mut self, row: usize) {
         self.traffic.begin_row(row);
-        self.ground.begin_row(row);
         for field in &mut self.noise {
             field.begin_row(row);
         }
         if let Some(dust) = &mut self.dust {
             dust.begin_row(row);
         }
+        if let Some(mopping) = &mut self.mopping {
+            mopping.begin_row(row);
+        }
     }
 
     /// Collects the shader's inputs for a run of the current row.
     fn gather(&self, painter: &FloorPainter<'_>, window: &TexelWindow, run: RowRun, buffers: &mut FloorBuffers) {
         let FloorPainter { look, properties, .. } = painter;
-        let FloorBuffers { edge, passes, soil, scuff, known, row, .. } = buffers;
+        let FloorBuffers { edge, passes, soil, scuff, surface, spots, known, row, .. } = buffers;
         known.clear(run.len);
         let from = run.row * window.width + run.start;
         let scaled = |sums: &[u32], quantity: Quantity, factor: f32, out: &mut [f32]| {
@@ -197,12 +229,41 @@ impl FloorLayout<'_> {
         if let Some(dust) = &self.dust {
             dust.add_to(run.start, &mut known.dust);
         }
-        self.ground.read(run.start, run.len, &mut known.ground);
+        for (out, spot) in known.soil.iter_mut().zip(spots.stains.get(from..).unwrap_or_default()) {
+            *out += spot * properties.spots;
+        }
+        for (out, spot) in known.scuff.iter_mut().zip(spots.marks.get(from..).unwrap_or_default()) {
+            *out += spot * properties.spots;
+        }
+        // Marks on marks go on darkening ever less.
+        each_mut(&mut known.scuff, |density| MOST_MARKS * (1.0 - exp_f32(-density / MOST_MARKS)));
+        match &self.mopping {
+            Some(mopping) => {
+                mopping.add_to(run.start, &mut known.left);
+                painter.mopping.film_left(&mut known.left, &known.dust, look.dust.reach_m);
+            }
+            None => known.left.fill(1.0),
+        }
+        let ShadeInput { ground, .. } = known;
+        let above = in_surface(run, window);
+        let [red, green, blue] = &mut ground.rgb;
+        let [r, g, b] = &surface.rgb;
+        let planes = [(red, r), (green, g), (blue, b), (&mut ground.joint, &surface.joint)];
+        let more = [(&mut ground.height, &surface.height), (&mut ground.rough, &surface.rough)];
+        for (out, plane) in planes.into_iter().chain(more) {
+            out.clear();
+            out.extend_from_slice(&plane[above..above + run.len]);
+        }
     }
 }
 
+/// Place of a run in the planes of the surface, which have a column and a row more.
+fn in_surface(run: RowRun, window: &TexelWindow) -> usize {
+    (run.row + 1) * (window.width + 1) + run.start + 1
+}
+
 fn write(dither: u32, window: &TexelWindow, run: RowRun, buffers: &mut FloorBuffers, block: &mut ResolvedBlock) {
-    let FloorBuffers { known, shaded, .. } = buffers;
+    let FloorBuffers { surface, known, shaded, .. } = buffers;
     let from = run.row * window.width + run.start;
     let texels = from..from + run.len;
     let (i, j) = (window.i0 + run.start as i64, window.j0 + run.row as i64);
@@ -212,6 +273,23 @@ fn write(dither: u32, window: &TexelWindow, run: RowRun, buffers: &mut FloorBuff
         orm: &mut block.orm[texels.clone()],
     };
     shaded.write(dither, i, j, &mut bytes);
+    // Corners at walls and joints see less of the room.
+    for (orm, (dust, joint)) in bytes.orm.iter_mut().zip(known.dust.iter().zip(&known.ground.joint)) {
+        let corner = dust.max(0.0);
+        orm[0] = (255.0 * (1.0 - CORNER_SHADE * corner * corner) * (1.0 - JOINT_SHADE * joint) + 0.5) as u8;
+    }
+    let (above, stride) = (in_surface(run, window), window.width + 1);
+    let per_m = 0.001 * window.texels_per_metre as f32;
+    for (k, relief) in block.relief[texels.clone()].iter_mut().enumerate() {
+        let height = |back: usize| surface.height[above + k - back];
+        let slope = |back: usize| -per_m * (height(0) - height(back));
+        let (x, y) = (slope(1), slope(stride));
+        let length = (x * x + y * y + 1.0).sqrt();
+        let [worn, marks] = shaded.worn(k);
+        let raised = (128.5 + HEIGHT_PER_MM * height(0)).clamp(0.0, 255.0) as u8;
+        let [x, y, z] = [x, y, 1.0].map(|part| (127.5 + 127.5 * part / length).round() as u8);
+        *relief = [worn, marks, raised, x, y, z];
+    }
     block.set_clean(from, &shaded.bare);
     let planes = [&known.passes, &known.presence, &shaded.film, &shaded.soil, &known.scuff, &known.edge, &shaded.dust];
     for (layer, plane) in block.layers.iter_mut().zip(planes) {

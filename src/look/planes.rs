@@ -1,5 +1,11 @@
 //! Loops over a few planes at a time, for vectorisation.
 
+pub(super) fn each_mut(out: &mut [f32], law: impl Fn(f32) -> f32) {
+    for out in out {
+        *out = law(*out);
+    }
+}
+
 pub(super) fn each1(out: &mut [f32], a: &[f32], law: impl Fn(f32) -> f32) {
     for (out, &a) in out.iter_mut().zip(a) {
         *out = law(a);

@@ -1,6 +1,6 @@
 use super::colours::SOIL_WET;
 use super::octaves::{NoiseLook, Octave};
-use super::settings::{EdgeLook, FilmLook, IngrainedLook, Look, PrintsLook, ScuffsLook};
+use super::settings::{AgeLook, EdgeLook, FilmLook, Look, MopLook, PrintsLook, ScuffsLook};
 use super::wall::{SplashLook, StainLook, WallDustLook, WallLook};
 
 /// Names of the presets, in the order of help texts.
@@ -30,18 +30,17 @@ fn heavy() -> Look {
     let look = Look::default();
     Look {
         total_passes: 50_000,
-        film: FilmLook { density: 0.67, colour: [98, 89, 76], ..look.film },
-        ingrained: IngrainedLook { density: 0.20, ..look.ingrained },
-        // Scuffs show less under so dense a film.
-        scuffs: ScuffsLook { strength: 0.9, ..look.scuffs },
-        edge: EdgeLook { density: 0.45, reach_m: 0.05, ..look.edge },
-        wall: heavy_wall(look.wall),
-        // A complete film is even.
+        film: FilmLook { density: 0.92, ..look.film },
+        age: AgeLook { density: 0.13, stains_per_m2: 0.5, gum_per_m2: 0.6, rubs_per_m2: 36.0, grit_per_m2: 20.0 },
+        mop: MopLook { takes: 0.2, unevenness: 1.3, ..look.mop },
+        scuffs: ScuffsLook { strength: 2.2, ..look.scuffs },
         noise: NoiseLook {
             fine: Octave { sd: 0.07, ..look.noise.fine },
-            middle: Octave { sd: 0.06, ..look.noise.middle },
-            coarse: Octave { sd: 0.11, ..look.noise.coarse },
+            middle: Octave { sd: 0.08, ..look.noise.middle },
+            ..look.noise
         },
+        edge: EdgeLook { density: 0.45, reach_m: 0.05, ..look.edge },
+        wall: heavy_wall(look.wall),
         ..look
     }
 }
@@ -50,10 +49,11 @@ fn wet() -> Look {
     let look = Look::default();
     Look {
         film: FilmLook { colour: SOIL_WET, ..look.film },
+        age: AgeLook { stains_per_m2: 0.6, ..look.age },
         prints: PrintsLook { soil: 4.5, colour: SOIL_WET, ..look.prints },
         noise: NoiseLook { middle: Octave { sd: 0.14, ..look.noise.middle }, ..look.noise },
         // Wet floors are mopped more often.
-        wall: WallLook { splash: SplashLook { density: 0.30, drips_per_metre: 0.5, ..look.wall.splash }, ..look.wall },
+        wall: WallLook { splash: SplashLook { density: 0.13, drips_per_metre: 0.25, ..look.wall.splash }, ..look.wall },
         ..look
     }
 }
@@ -61,7 +61,9 @@ fn wet() -> Look {
 fn paper() -> Look {
     let mut look = Look { total_passes: 1, ..Look::default() };
     look.film.density = 0.0;
-    look.ingrained.density = 0.0;
+    look.age = AgeLook::none();
+    look.mop.takes = 0.0;
+    look.wear.strength = 0.0;
     look.prints.soil = 0.0;
     look.prints.every_pass = 0.06;
     look.scuffs.strength = 0.0;
@@ -71,7 +73,7 @@ fn paper() -> Look {
     for octave in [&mut look.noise.fine, &mut look.noise.middle, &mut look.noise.coarse] {
         octave.sd = 0.0;
     }
-    look.wall = WallLook { every_touch: 1.0, texture: 0.0, ..look.wall.clean() };
+    look.wall = WallLook { every_touch: 1.0, ..look.wall.clean().plain() };
     look
 }
 
@@ -83,7 +85,7 @@ fn heavy_wall(wall: WallLook) -> WallLook {
         cloth: denser(wall.cloth, 1.3),
         bag: denser(wall.bag, 1.25),
         rubber: denser(wall.rubber, 1.2),
-        splash: SplashLook { density: 0.34, drips_per_metre: 0.6, ..wall.splash },
+        splash: SplashLook { density: 0.14, drips_per_metre: 0.25, ..wall.splash },
         dust: WallDustLook { density: 0.09, ..wall.dust },
         ..wall
     }

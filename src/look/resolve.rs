@@ -1,6 +1,6 @@
 use std::cell::RefCell;
 
-use super::block::{Background, ResolvedBlock};
+use super::block::{Background, LAYERS, ResolvedBlock};
 use super::coarse::{CoarseFloor, CoarseShare};
 use super::error::LookError;
 use super::lattice::TexelWindow;
@@ -9,11 +9,6 @@ use super::paint::FloorPainter;
 use super::settings::Look;
 use crate::sums::FloorSums;
 use crate::walls::Walls;
-
-/// Names of a floor block's float layers, in order.
-///
-/// `passes` and `presence` count the simulated people's footfalls; the rest are optical densities.
-pub const LAYERS: [&str; 7] = ["passes", "presence", "film", "soil", "scuff", "edge", "dust"];
 
 /// Resolves rectangles of a floor, also from several threads. A texel's value depends on its position only.
 pub struct FloorResolver<'a> {

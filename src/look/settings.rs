@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use super::colours::{RUBBER, SOIL_DRY, SOIL_WET};
+use super::colours::{DUST, RUBBER, SOIL_DRY, SOIL_WET};
 use super::material::Material;
 use super::octaves::NoiseLook;
 use super::wall::WallLook;
@@ -34,8 +34,12 @@ options! {
         floor: FloorLook = FloorLook::default();
         /// The grey film that all passes leave together: the lane.
         film: FilmLook = FilmLook::default();
-        /// Ingrained dirt: goes on darkening where very many pass, as on thresholds.
-        ingrained: IngrainedLook = IngrainedLook::default();
+        /// What lies everywhere, also where nobody walks.
+        age: AgeLook = AgeLook::default();
+        /// What cleaning takes and leaves.
+        mop: MopLook = MopLook::default();
+        /// Wear: lost wax, polish, bare wood.
+        wear: WearLook = WearLook::default();
         /// Single prints that can be read.
         prints: PrintsLook = PrintsLook::default();
         /// Black marks of heels and toes.
@@ -78,12 +82,14 @@ options! {
 }
 
 options! {
-    /// The film: D = density (1 - exp(-per_pass n)) for n passes, times noise.
+    /// The film: D = density ln(1 + per_pass n) / ln(1 + 1000 per_pass) for n passes, times noise.
+    ///
+    /// A logarithm, as every further pass adds less, but a busy lane still shows against a quieter one.
     pub struct FilmLook {
-        /// Optical density of the lane, once complete.
-        density: f32 = 0.46, in 0.0..=3.0;
-        /// Share of what is still missing that one pass adds.
-        per_pass: f32 = 0.035, in 0.0..=1.0;
+        /// Optical density after 1000 passes over a spot.
+        density: f32 = 0.72, in 0.0..=3.0;
+        /// What the first pass adds, relative to the density of an e-fold of passes.
+        per_pass: f32 = 0.03, in 0.0..=1.0;
         /// How far simulated passes are evened out, for those beside them.
         ///
         /// Standard deviation of the Gaussian that evens out the simulated passes.
@@ -97,12 +103,38 @@ options! {
 }
 
 options! {
-    /// Dirt that has worked its way in: the same law as the film's, at a far lower rate.
-    pub struct IngrainedLook {
-        /// What darkens on long after the film is complete.
-        density: f32 = 0.12, in 0.0..=3.0;
-        /// Share of what is still missing that one pass adds.
-        per_pass: f32 = 0.001, in 0.0..=1.0;
+    /// Age: a thin film and single stains everywhere.
+    pub struct AgeLook {
+        /// Optical density of the film where nobody walks.
+        density: f32 = 0.05, in 0.0..=3.0;
+        /// Stains and trails of drips.
+        stains_per_m2: f32 = 0.12, in 0.0..=20.0, unit "1/m2";
+        /// Faint rubs of soles along the way where 1000 have passed; they grow with the square root of passes.
+        rubs_per_m2: f32 = 24.0, in 0.0..=60.0, unit "1/m2";
+        /// Grit, twice that on lanes.
+        grit_per_m2: f32 = 14.0, in 0.0..=60.0, unit "1/m2";
+        /// Trodden chewing gum where 1000 have passed; it grows with the square root of passes.
+        gum_per_m2: f32 = 0.25, in 0.0..=20.0, unit "1/m2";
+    }
+}
+
+options! {
+    /// Cleaning: a mop or machine goes back and forth along the longer way of each place.
+    pub struct MopLook {
+        /// Share of the film that it takes where it passes.
+        takes: f32 = 0.4, in 0.0..=0.95;
+        /// Width of a pass.
+        width_m: f64 = 0.55, in 0.1..=3.0, unit "m";
+        /// How unevenly it takes: streaks, swings and borders of passes.
+        unevenness: f32 = 1.0, in 0.0..=3.0;
+    }
+}
+
+options! {
+    /// Wear, 1 - exp(-n / passes) with the passes that the material stands.
+    pub struct WearLook {
+        /// Factor on wear of colour and gloss.
+        strength: f32 = 1.0, in 0.0..=3.0;
     }
 }
 
@@ -156,7 +188,14 @@ options! {
         /// Falls to 1/e in this distance.
         reach_m: f32 = 0.30, in 0.02..=3.0, unit "m";
         /// Colour, sRGB.
-        colour: Srgb8 = SOIL_DRY;
+        colour: Srgb8 = DUST;
+    }
+}
+
+impl AgeLook {
+    /// A floor without age.
+    pub(super) fn none() -> AgeLook {
+        AgeLook { density: 0.0, stains_per_m2: 0.0, rubs_per_m2: 0.0, grit_per_m2: 0.0, gum_per_m2: 0.0 }
     }
 }
 
@@ -165,9 +204,8 @@ impl Look {
     pub fn clean(&self) -> Look {
         let mut look = Look { wall: self.wall.clean(), ..self.clone() };
         look.film.density = 0.0;
-        // Nor is it worn.
-        look.film.per_pass = 0.0;
-        look.ingrained.density = 0.0;
+        look.age = AgeLook::none();
+        look.wear.strength = 0.0;
         look.prints.soil = 0.0;
         look.prints.every_pass = 0.0;
         look.scuffs.strength = 0.0;

@@ -3,19 +3,21 @@
 //! Works on runs of texels, with a plane per quantity and a loop per step, for vectorisation.
 
 use super::bytes::{Bytes, Rounding, ShadedPlanes};
-use super::clean_floor::CleanFloorRow;
+use super::colours::absorption;
 use super::material::Properties;
 use super::noise::Noise;
 use super::planes::{add2, each1, each2, each3};
 use super::settings::Look;
-use crate::math::{exp_f32, srgb};
+use crate::math::{exp_f32, ln_f32, srgb};
 
 /// Roughness of loose dirt.
 const DIRT_ROUGHNESS: f32 = 0.8;
-
-/// Film in joints, as a share of the look's film: off the lanes, and added on lanes.
-const JOINT_FILM: f32 = 0.75;
-const JOINT_FILM_TRODDEN: f32 = 0.40;
+/// Roughness between a clean stripe and all that a mop may leave.
+const MOP_ROUGHNESS: f32 = 0.12;
+/// Passes after which the film has the density that the look names.
+const FULL_PASSES: f32 = 1000.0;
+/// The mask of passes is full at 10 000: ln(1 + 300) / ln(1 + 30) e-folds with the film's usual rate.
+const MASK_PER_TRODDEN: f32 = 0.6;
 
 /// Values of a look that are the same for all texels.
 #[derive(Clone, Debug)]
@@ -24,34 +26,49 @@ pub(super) struct FloorShader {
     weight: f32,
     /// Factor on the deviation of single passes from their mean.
     residual: f32,
+    /// `per_pass` of the film, and 1 / ln(1 + 1000 per_pass).
     per_pass: f32,
+    per_ln: f32,
     film: f32,
-    ingrained_per_pass: f32,
-    ingrained: f32,
-    joint_film: f32,
+    low_film: f32,
+    age: f32,
+    joint_film: [f32; 2],
     every_pass: f32,
     dust: f32,
+    /// 1 / passes that wear the floor, and the factor on wear.
+    wear_per_pass: f32,
+    wear: f32,
+    worn: [f32; 3],
     /// Logarithm of the divisor that gives the lognormal noise a mean of 1.
     mean_log: f32,
     roughness: [f32; 2],
-    colours: Colours,
+    /// Kinds of dirt: film, prints, scuffs, edge, dust.
+    kinds: [Dirt; 5],
+    darkest: f32,
 }
 
-/// Linear colours of dirt.
-#[derive(Clone, Debug)]
-struct Colours {
-    film: [f32; 3],
-    prints: [f32; 3],
-    scuffs: [f32; 3],
-    edge: [f32; 3],
-    dust: [f32; 3],
-    darkest: f32,
+/// A kind of dirt: linear colour, and what share of the optical density each channel feels.
+#[derive(Clone, Copy, Debug)]
+struct Dirt {
+    colour: [f32; 3],
+    felt: [f32; 3],
+}
+
+/// The clean floor along a run of texels, as in [`SurfacePlanes`](super::surface::SurfacePlanes).
+#[derive(Default)]
+pub(super) struct SurfaceRow {
+    pub rgb: [Vec<f32>; 3],
+    pub joint: Vec<f32>,
+    pub height: Vec<f32>,
+    pub rough: Vec<f32>,
 }
 
 /// Inputs of the shader for a run of texels.
 #[derive(Default)]
 pub(super) struct ShadeInput {
-    pub ground: CleanFloorRow,
+    pub ground: SurfaceRow,
+    /// Share of the film that the mop left.
+    pub left: Vec<f32>,
     /// Simulated passes: expected, and counted.
     pub presence: Vec<f32>,
     pub passes: Vec<f32>,
@@ -72,14 +89,19 @@ pub(super) struct ShadeOutput {
     pub film: Vec<f32>,
     pub soil: Vec<f32>,
     pub dust: Vec<f32>,
-    /// Passes in the whole history, and exp(-per_pass n).
+    /// Passes in the whole history, and the logarithmic share of the film's density that they leave.
     history: Vec<f32>,
-    clean: Vec<f32>,
+    trodden: Vec<f32>,
+    /// Wear, 0 to 1.
+    worn: Vec<f32>,
+    /// Opacity of passes in the mask, as a transmittance.
+    busy: Vec<f32>,
     /// Noise, as a factor.
     uneven: Vec<f32>,
-    /// Transmittance of film; of prints and scuffs; of edge and dust.
-    through: [Vec<f32>; 3],
-    hiding: Vec<f32>,
+    /// Transmittance of film; of prints; of edge and dust; of scuffs.
+    through: [Vec<f32>; 4],
+    /// Sum of densities: a buffer.
+    total: Vec<f32>,
     roughness: Vec<f32>,
     rgb: [Vec<f32>; 3],
     /// Linear colour of the floor without dirt.
@@ -90,8 +112,8 @@ pub(super) struct ShadeOutput {
 
 impl ShadeInput {
     pub fn clear(&mut self, len: usize) {
-        let ShadeInput { ground: _, presence, passes, uneven, soil, scuff, edge, dust } = self;
-        for plane in [presence, passes, uneven, soil, scuff, edge, dust] {
+        let ShadeInput { ground: _, left, presence, passes, uneven, soil, scuff, edge, dust } = self;
+        for plane in [left, presence, passes, uneven, soil, scuff, edge, dust] {
             plane.clear();
             plane.resize(len, 0.0);
         }
@@ -109,94 +131,113 @@ impl FloorShader {
         let weight = (look.total_passes as f64 / f64::from(simulated_people)) as f32;
         // With fewer passes than simulated, there is nothing to smooth.
         let residual = if properties.shows_single_passes { weight.min(weight.sqrt()) } else { 0.0 };
+        let colours = [look.film.colour, look.prints.colour, look.scuffs.colour, look.edge.colour, look.dust.colour];
         FloorShader {
             weight,
             residual,
             per_pass: look.film.per_pass,
+            per_ln: 1.0 / ln_f32(1.0 + FULL_PASSES * look.film.per_pass).max(1e-6),
             film: look.film.density * properties.film,
-            ingrained_per_pass: look.ingrained.per_pass,
-            ingrained: look.ingrained.density * properties.film,
-            joint_film: look.film.density,
+            low_film: properties.low_film,
+            age: look.age.density * properties.film.max(0.5),
+            joint_film: properties.joint_film.map(|share| share * look.film.density),
             every_pass: look.prints.every_pass,
             dust: look.dust.density * properties.dust,
+            wear_per_pass: 1.0 / properties.wear_passes,
+            wear: look.wear.strength,
+            worn: properties.worn,
             mean_log: noise.iter().map(|noise| noise.sd_of_texels(density)).map(|sd| 0.5 * sd * sd).sum(),
             roughness: properties.roughness,
-            colours: Colours {
-                film: srgb::light_of(look.film.colour),
-                prints: srgb::light_of(look.prints.colour),
-                scuffs: srgb::light_of(look.scuffs.colour),
-                edge: srgb::light_of(look.edge.colour),
-                dust: srgb::light_of(look.dust.colour),
-                darkest: srgb::decode(f64::from(look.darkest) / 255.0) as f32,
-            },
+            kinds: colours.map(|colour| {
+                let colour = srgb::light_of(colour);
+                Dirt { colour, felt: absorption(colour) }
+            }),
+            darkest: srgb::decode(f64::from(look.darkest) / 255.0) as f32,
         }
     }
 
     /// Computes a run. Joints, if there are any, have the colour `joint`.
-    pub fn shade(&self, known: &ShadeInput, joint: Option<[f32; 3]>, out: &mut ShadeOutput) {
+    pub fn shade(&self, known: &mut ShadeInput, joint: Option<[f32; 3]>, out: &mut ShadeOutput) {
         out.resize(known.presence.len());
         self.densities(known, out);
-        self.roughness(out);
-        let ShadeOutput { film, soil, dust, through, rgb, bare, hiding, .. } = out;
+        self.roughness(known, out);
+        for (channel, plane) in known.ground.rgb.iter_mut().enumerate() {
+            let change = self.worn[channel] - 1.0;
+            if change != 0.0 {
+                plane.iter_mut().zip(&out.worn).for_each(|(light, worn)| *light *= 1.0 + change * worn);
+            }
+        }
+        let ShadeOutput { film, soil, dust, rgb, bare, total, .. } = out;
         for (bare, floor) in bare.iter_mut().zip(&known.ground.rgb) {
             bare.copy_from_slice(floor);
         }
-        let dirt = DirtPlanes { film, soil, scuff: &known.scuff, edge: &known.edge, dust, through };
-        self.colour(&dirt, &known.ground.rgb, hiding, rgb);
+        let dirt = [&*film, &*soil, &known.scuff, &known.edge, &*dust];
+        self.colour(dirt, &known.ground.rgb, total, rgb);
         if let Some(joint) = joint.filter(|_| known.ground.joint.iter().any(|&share| share > 0.0)) {
             self.fill_joints(known, joint, out);
         }
     }
 
     fn densities(&self, known: &ShadeInput, out: &mut ShadeOutput) {
-        let ShadeOutput { history, clean, uneven, film, soil, dust, through, .. } = out;
-        let [through_film, through_prints, through_edge] = through;
+        let ShadeOutput { history, trodden, worn, busy, uneven, film, soil, dust, through, .. } = out;
+        let [through_film, through_prints, through_edge, through_scuffs] = through;
         each2(history, &known.presence, &known.passes, |expected, counted| {
             (self.weight * expected + self.residual * (counted - expected)).max(0.0)
         });
         each1(uneven, &known.uneven, |noise| exp_f32(noise - self.mean_log));
-        each1(clean, history, |passes| exp_f32(-self.per_pass * passes));
-        each3(film, history, clean, uneven, |passes, clean, uneven| {
-            let ingrained = self.ingrained * (1.0 - exp_f32(-self.ingrained_per_pass * passes));
-            (self.film * (1.0 - clean) + ingrained) * uneven
+        each1(trodden, history, |passes| self.per_ln * ln_f32(1.0 + self.per_pass * passes));
+        each2(worn, history, uneven, |passes, uneven| {
+            self.wear * (1.0 - exp_f32(-self.wear_per_pass * passes * uneven * uneven))
         });
+        each1(busy, trodden, |trodden| 1.0 - (trodden * MASK_PER_TRODDEN).min(1.0));
+        each3(film, trodden, uneven, &known.left, |trodden, uneven, left| {
+            (self.film * trodden * uneven + self.age * (2.0 * uneven - 1.0).max(0.2)) * left
+        });
+        if self.low_film > 0.0 {
+            for (film, height) in film.iter_mut().zip(&known.ground.height) {
+                *film *= 1.0 + (-self.low_film * height).clamp(-0.5, 1.0);
+            }
+        }
         each2(soil, &known.soil, &known.passes, |fresh, passes| fresh + self.every_pass * passes);
-        each3(dust, &known.dust, clean, uneven, |wall, clean, uneven| self.dust * wall.max(0.0) * clean * uneven);
+        each3(dust, &known.dust, trodden, uneven, |wall, trodden, uneven| {
+            self.dust * wall.max(0.0) * exp_f32(-6.0 * trodden) * uneven
+        });
         each1(through_film, film, |film| exp_f32(-film));
-        each2(through_prints, soil, &known.scuff, |soil, scuff| exp_f32(-soil - scuff));
+        each1(through_prints, soil, |soil| exp_f32(-soil));
+        each1(through_scuffs, &known.scuff, |scuff| exp_f32(-scuff));
         each2(through_edge, &known.edge, dust, |edge, dust| exp_f32(-edge - dust));
     }
 
-    fn roughness(&self, out: &mut ShadeOutput) {
-        let ShadeOutput { roughness, clean, uneven, through: [_, prints, edge], hiding: loose, .. } = out;
-        each2(loose, prints, edge, |prints, edge| 1.0 - prints * edge);
+    fn roughness(&self, known: &ShadeInput, out: &mut ShadeOutput) {
+        let ShadeOutput { roughness, history, uneven, through: [_, prints, edge, scuffs], total: loose, .. } = out;
+        each3(loose, prints, edge, scuffs, |prints, edge, scuffs| 1.0 - prints * edge * scuffs);
         let [smooth, worn] = self.roughness;
-        each3(roughness, clean, uneven, loose, |clean, uneven, loose| {
-            let floor = smooth + (worn - smooth) * (1.0 - clean) * (0.7 + 0.3 * uneven.min(2.0));
+        each3(roughness, history, uneven, loose, |passes, uneven, loose| {
+            let dull = 1.0 - exp_f32(-self.per_pass * passes);
+            let floor = smooth + (worn - smooth) * dull * (0.7 + 0.3 * uneven.min(2.0));
             floor + (DIRT_ROUGHNESS.max(floor) - floor) * loose
         });
+        // Where the mop left more, the gloss is dull: swirls show against the light.
+        add2(roughness, &known.left, &known.ground.rough, |left, rough| MOP_ROUGHNESS * (left - 1.0).min(0.6) + rough);
+        roughness.iter_mut().for_each(|roughness| *roughness = roughness.clamp(0.04, 1.0));
     }
 
-    /// Computes the colour of dirt over a floor. `hiding` is a buffer.
-    fn colour(&self, dirt: &DirtPlanes<'_>, floor: &[Vec<f32>; 3], hiding: &mut [f32], rgb: &mut [Vec<f32>; 3]) {
-        let [a, b, c] = dirt.through;
-        // Opacity per optical density: (1 - T) / sum(D).
-        each3(hiding, dirt.film, dirt.soil, dirt.scuff, |film, soil, scuff| film + soil + scuff);
-        add2(hiding, dirt.edge, dirt.dust, |edge, dust| edge + dust);
-        for (((hiding, a), b), c) in hiding.iter_mut().zip(a).zip(b).zip(c) {
-            *hiding = (1.0 - a * b * c) / hiding.max(1e-6);
-        }
-        let colours = &self.colours;
+    /// Computes the colour of dirt over a floor. `total` is a buffer.
+    fn colour(&self, dirt: [&Vec<f32>; 5], floor: &[Vec<f32>; 3], total: &mut [f32], rgb: &mut [Vec<f32>; 3]) {
         for (n, (plane, floor)) in rgb.iter_mut().zip(floor).enumerate() {
-            let [film, soil, scuff] = [colours.film[n], colours.prints[n], colours.scuffs[n]];
-            let [edge, dust] = [colours.edge[n], colours.dust[n]];
-            each3(plane, dirt.film, dirt.soil, dirt.scuff, |f, p, s| f * film + p * soil + s * scuff);
-            add2(plane, dirt.edge, dirt.dust, |e, d| e * edge + d * dust);
-            for (((((plane, hiding), floor), a), b), c) in
-                plane.iter_mut().zip(&*hiding).zip(floor).zip(a).zip(b).zip(c)
-            {
+            total.fill(0.0);
+            plane.fill(0.0);
+            for (density, kind) in dirt.into_iter().zip(&self.kinds) {
+                let (felt, light) = (kind.felt[n], kind.felt[n] * kind.colour[n]);
+                for ((total, plane), density) in total.iter_mut().zip(plane.iter_mut()).zip(density) {
+                    *total += felt * density;
+                    *plane += light * density;
+                }
+            }
+            for ((plane, total), floor) in plane.iter_mut().zip(&*total).zip(floor) {
+                let through = exp_f32(-total);
                 // Dirt darkens no texel below the darkest value, and does not lighten a darker floor to it.
-                *plane = (floor * (a * b * c) + *plane * hiding).max(colours.darkest.min(*floor));
+                *plane = (floor * through + *plane * (1.0 - through) / total.max(1e-6)).max(self.darkest.min(*floor));
             }
         }
     }
@@ -204,41 +245,23 @@ impl FloorShader {
     /// Blends joints, with their film, into the share of each texel that they cover.
     fn fill_joints(&self, known: &ShadeInput, joint: [f32; 3], out: &mut ShadeOutput) {
         let mut film = vec![0.0; known.presence.len()];
-        each2(&mut film, &out.clean, &out.uneven, |clean, uneven| {
-            self.joint_film * (JOINT_FILM + JOINT_FILM_TRODDEN * (1.0 - clean)) * uneven
+        let [everywhere, trodden_too] = self.joint_film;
+        each2(&mut film, &out.trodden, &out.uneven, |trodden, uneven| {
+            (everywhere + trodden_too * trodden) * (0.5 + 0.5 * uneven)
         });
-        let mut through = out.through.clone();
-        each1(&mut through[0], &film, |film| exp_f32(-film));
         let floor = joint.map(|light| vec![light; film.len()]);
-        let dirt = DirtPlanes {
-            film: &film,
-            soil: &out.soil,
-            scuff: &known.scuff,
-            edge: &known.edge,
-            dust: &out.dust,
-            through: &through,
-        };
-        self.colour(&dirt, &floor, &mut out.hiding, &mut out.joint);
-        let [a, b, c] = &out.through;
+        let dirt = [&film, &out.soil, &known.scuff, &known.edge, &out.dust];
+        self.colour(dirt, &floor, &mut out.total, &mut out.joint);
+        let [a, b, c, d] = &out.through;
         for ((plane, joint), bare) in out.rgb.iter_mut().zip(&out.joint).zip(&mut out.bare) {
             for (k, value) in plane.iter_mut().enumerate() {
                 let change = known.ground.joint[k] * (joint[k] - *value);
                 *value += change;
                 // A joint's film counts as part of the floor, so that dirt over the bare floor gives the shown colour.
-                bare[k] = (bare[k] + change / (a[k] * b[k] * c[k]).max(0.02)).max(0.0);
+                bare[k] = (bare[k] + change / (a[k] * b[k] * c[k] * d[k]).max(0.02)).max(0.0);
             }
         }
     }
-}
-
-/// Planes of optical densities, and the transmittance.
-struct DirtPlanes<'a> {
-    film: &'a [f32],
-    soil: &'a [f32],
-    scuff: &'a [f32],
-    edge: &'a [f32],
-    dust: &'a [f32],
-    through: &'a [Vec<f32>; 3],
 }
 
 impl ShadeOutput {
@@ -248,27 +271,34 @@ impl ShadeOutput {
             soil,
             dust,
             history,
-            clean,
+            trodden,
+            worn,
+            busy,
             uneven,
             through,
-            hiding,
+            total,
             roughness,
             rgb,
             bare,
             joint,
             rounding: _,
         } = self;
-        let single = [film, soil, dust, history, clean, uneven, hiding, roughness];
+        let single = [film, soil, dust, history, trodden, worn, busy, uneven, total, roughness];
         for plane in single.into_iter().chain(through).chain(rgb).chain(bare).chain(joint) {
             plane.resize(len, 0.0);
         }
     }
 
+    /// Wear and opacity of heel marks of texel `k`, 0 to 255.
+    pub fn worn(&self, k: usize) -> [u8; 2] {
+        [self.worn[k].min(1.0), 1.0 - self.through[3][k]].map(|share| (255.0 * share + 0.5) as u8)
+    }
+
     /// Rounds a run that starts at texel (i, j) to 8 bits.
     pub fn write(&mut self, dither: u32, i: i64, j: i64, out: &mut Bytes<'_>) {
-        let [film, prints, edge] = &self.through;
+        let [film, prints, edge, _] = &self.through;
         let shown =
-            ShadedPlanes { rgb: &self.rgb, through: [film, &self.clean, prints, edge], roughness: &self.roughness };
+            ShadedPlanes { rgb: &self.rgb, through: [film, &self.busy, prints, edge], roughness: &self.roughness };
         self.rounding.write(dither, i, j, &shown, out);
     }
 }

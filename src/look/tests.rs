@@ -217,10 +217,12 @@ fn a_broad_lane_darkens_by_the_right_amount() {
             of("dust")
         );
         assert!((low..=high).contains(&lane), "{preset}: {lane}");
-        let darkest = floor.lane().concat().into_iter().fold(f64::INFINITY, f64::min) - floor.clean;
-        println!("{preset}: darkest {darkest:.1}");
-        // Heel marks stand out from the lane without being holes; wet prints may be darker.
-        assert!(preset == "wet" || darkest > -25.3, "{preset}: {darkest}");
+        let mut texels = floor.lane().concat();
+        texels.sort_by(f64::total_cmp);
+        let [darkest, film] = [0, texels.len() / 100].map(|n| texels[n] - floor.clean);
+        println!("{preset}: darkest {darkest:.1}, darkest hundredth {film:.1}");
+        // Heel marks, gum and wet prints stand out from the lane without being holes.
+        assert!(film > -25.3 && darkest > -34.0, "{preset}: {film}, {darkest}");
     }
 }
 
@@ -340,6 +342,7 @@ fn roughness_goes_from_clean_to_trodden() {
 fn openings_are_as_trodden_as_the_rest() {
     let mut look = look("commuters", Material::Vinyl);
     look.noise.coarse.sd = 0.0;
+    look.mop.takes = 0.0;
     let floor = resolved(&CORRIDOR, &look);
     let film = floor.layer("film");
     let lane = |columns| mean(floor.cut(film, columns, 150..350).into_iter().map(f64::from));

@@ -278,6 +278,11 @@ impl<'a> Footfalls<'a> {
             };
             let before = self.touched.len();
             contacts.walk(contact_state, self.walls, person, &tick, &mut self.touched);
+            // Furniture ends below the hands that reach over it.
+            let mut new = self.touched.split_off(before);
+            let top_m = |touch: &Contact| self.walls.faces[touch.face as usize].furniture_m.unwrap_or(f64::INFINITY);
+            new.retain(|touch| touch.height_m < top_m(touch));
+            self.touched.append(&mut new);
             self.contact_count += (self.touched.len() - before) as u64;
         }
     }

@@ -14,7 +14,7 @@ impl Statures {
         self.0.get(&id).copied()
     }
 
-    /// Notes a body height in metres, unless the person's is known or nobody has such a height.
+    /// Notes a body height in metres, unless the person has one already or the height is impossible.
     pub(crate) fn note(&mut self, id: u32, height_m: f64) {
         if PLAUSIBLE_M.contains(&height_m) {
             Arc::make_mut(&mut self.0).entry(id).or_insert(height_m);

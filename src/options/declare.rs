@@ -40,7 +40,7 @@ macro_rules! options {
             const TABLE: $crate::options::Table = $crate::options::Table {
                 name: stringify!($name),
                 parts: &[&[$($crate::options::Field {
-                    name: stringify!($field),
+                    name: $crate::options::key(stringify!($field)),
                     docs: &[$($doc),*],
                     kind: <$type as $crate::options::Value>::kind,
                     default: || <$type as $crate::options::Value>::write(&$default),

@@ -55,6 +55,14 @@ pub(crate) struct Table {
     pub parts: &'static [&'static [Field]],
 }
 
+/// The key of a field: `use` of `r#use`.
+pub(crate) const fn key(field: &'static str) -> &'static str {
+    match field.as_bytes() {
+        [b'r', b'#', ..] => field.split_at(2).1,
+        _ => field,
+    }
+}
+
 /// A key, as it was declared.
 pub(crate) struct Field {
     /// Name.

@@ -15,7 +15,7 @@ pub(crate) use declare::options;
 pub use error::OptionError;
 pub(crate) use explain::{Explanation, nearest};
 pub use field::Limits;
-pub(crate) use field::{Field, Kind, Table};
+pub(crate) use field::{Field, Kind, Table, key};
 pub(crate) use read::{Mistake, Problem, Spot, value_at};
 pub(crate) use schema::schema_of;
 pub(crate) use values::{Leaf, Options, Value, check_parts, kept, names, names_of, parse, read_parts, write_parts};

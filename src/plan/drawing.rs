@@ -7,10 +7,8 @@ use rayon::prelude::*;
 
 use super::colour::{Colour, is_saturated, lightness_against, luma};
 use super::ros_map::{Cell, Greys};
-use super::{PlanOptions, TransparentPolicy, UnknownPolicy};
-
-/// Default lightness at which wall ends and floor begins.
-pub(super) const USUAL_THRESHOLD: u8 = 128;
+use super::tones::USUAL_THRESHOLD;
+use super::{PlanOptions, TransparentPolicy, UnknownPolicy, shadow, sheet, tones};
 
 /// Greys of unknown and of free cells as mappers write them.
 const MAP_UNKNOWN: u8 = 205;
@@ -69,31 +67,111 @@ pub(super) fn of_map(image: DynamicImage, greys: &Greys, options: &PlanOptions) 
     }
 }
 
-/// Reads a plain image: white is floor, black is wall, saturated colour is annotation.
-pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> Drawing {
-    let (width, height) = (image.width() as usize, image.height() as usize);
-    let coloured = if image.color().has_color() {
-        map_pixels(&image, |pixel| u8::from(is_annotation(pixel, options)))
-    } else {
-        Vec::new()
+/// Least share of coloured pixels with which colour is the paper's own, not annotation.
+const COLOURED_PAPER: usize = 3;
+
+/// Reads a plain image: white is floor, black is wall, saturated colour is annotation. Returns warnings about what was
+/// put right too.
+///
+/// Sheets in photographs are straightened, uneven light is evened out, light walls on a dark ground are inverted.
+pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, Vec<String>) {
+    let mut warnings = Vec::new();
+    let (mut lightness, mut coloured) = (Vec::new(), Vec::new());
+    if image.color().has_color() {
+        coloured = map_pixels(&image, |pixel| u8::from(is_annotation(pixel, options)));
+    }
+    let share = coloured.iter().filter(|&&c| c != 0).count();
+    if share == 0 {
+        coloured = Vec::new();
+        lightness = map_pixels(&image, |pixel| lightness_of(pixel, options));
+    }
+    let is_unasked = options.threshold.is_none() && options.invert.is_none();
+    let looks_like_map = is_unasked && coloured.is_empty() && has_map_greys(&lightness);
+    let sheet = if looks_like_map { None } else { sheet::find(&image) };
+    let image = match &sheet {
+        Some(found) => {
+            let straight = sheet::straightened(&image, found);
+            warnings.push(told_sheet(found, straight.dimensions()));
+            DynamicImage::ImageRgb8(straight)
+        }
+        None => image,
     };
-    let coloured = if coloured.contains(&1) { coloured } else { Vec::new() };
-    let mut lightness = map_pixels(&image, |pixel| lightness_of(pixel, options));
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    // Coloured pens are ink on a photograph, as are the lines of a blueprint.
+    if sheet.is_some() || share * COLOURED_PAPER > coloured.len() {
+        coloured = Vec::new();
+        lightness = map_pixels(&image, |pixel| luma(on_paper(pixel)));
+    } else if share > 0 {
+        lightness = map_pixels(&image, |pixel| lightness_of(pixel, options));
+    }
     // Of large plans it is the most memory.
     drop(image);
-    let looks_like_map = options.threshold.is_none() && coloured.is_empty() && has_map_greys(&lightness);
-    // Unless unknown is floor, a robot's map is wall up to the grey of unknown cells.
-    let usual =
-        if looks_like_map && options.unknown == UnknownPolicy::Wall { MAP_UNKNOWN + 1 } else { USUAL_THRESHOLD };
-    let threshold = options.threshold.unwrap_or(usual);
-    let mut dark: Vec<u8> = lightness.iter().map(|&l| u8::from(l < threshold)).collect();
+    let threshold = match options.threshold {
+        Some(threshold) => threshold,
+        // Unless unknown is floor, a robot's map is wall up to the grey of unknown cells.
+        None if looks_like_map && options.unknown == UnknownPolicy::Wall => MAP_UNKNOWN + 1,
+        None => USUAL_THRESHOLD,
+    };
+    let mut drawing = Drawing {
+        width,
+        height,
+        lightness: Vec::new(),
+        dark: Vec::new(),
+        coloured,
+        threshold,
+        scanned: looks_like_map,
+        looks_like_map,
+    };
     if looks_like_map {
-        lightness = dark.iter().map(|&d| (1 - d) * 255).collect();
-    } else {
-        stretch(width, &mut lightness, &dark);
-        close_thin_lines(width, &lightness, &mut dark);
+        drawing.dark = lightness.iter().map(|&l| u8::from(l < threshold)).collect();
+        drawing.lightness = drawing.dark.iter().map(|&d| (1 - d) * 255).collect();
+        return (drawing, warnings);
     }
-    Drawing { width, height, lightness, dark, coloured, threshold, scanned: looks_like_map, looks_like_map }
+    settle_tones(&mut drawing, &mut lightness, options, &mut warnings);
+    let mut dark: Vec<u8> = lightness.iter().map(|&l| u8::from(l < drawing.threshold)).collect();
+    stretch(width, &mut lightness, &dark);
+    close_thin_lines(width, &lightness, &mut dark);
+    (drawing.lightness, drawing.dark) = (lightness, dark);
+    (drawing, warnings)
+}
+
+/// Brings light walls on a dark ground and uneven light into the usual form, and finds the threshold.
+fn settle_tones(drawing: &mut Drawing, lightness: &mut [u8], options: &PlanOptions, warnings: &mut Vec<String>) {
+    let (width, coloured) = (drawing.width, &drawing.coloured);
+    let inverted =
+        options.invert.unwrap_or_else(|| options.threshold.is_none() && tones::is_inverted(width, lightness, coloured));
+    if inverted {
+        let plain = lightness.iter_mut().enumerate().filter(|(at, _)| coloured.is_empty() || coloured[*at] == 0);
+        plain.for_each(|(_, l)| *l = 255 - *l);
+        if options.invert.is_none() {
+            warnings.push("walls are light on a dark ground: light was taken for wall; `[plan] invert = false` keeps dark as wall".to_owned());
+        }
+    }
+    if options.threshold.is_some() {
+        return;
+    }
+    if let Some([low, high]) = shadow::even_out(width, lightness) {
+        drawing.threshold = tones::ink_threshold(lightness);
+        warnings
+            .push(format!("the light is uneven: the paper's tone goes from {low} to {high} of 255 and was evened out"));
+        return;
+    }
+    drawing.threshold = tones::wall_threshold(width, lightness, coloured);
+    if drawing.threshold != USUAL_THRESHOLD {
+        warnings.push(format!(
+            "walls are grey or faint: tones below {} of 255 were taken for wall; `[plan] threshold` sets another",
+            drawing.threshold
+        ));
+    }
+}
+
+fn told_sheet(sheet: &sheet::Sheet, (width, height): (u32, u32)) -> String {
+    let corner = |[x, y]: [f64; 2]| format!("[{x:.0}, {y:.0}]");
+    let corners = sheet.corners.map(corner).join(", ");
+    format!(
+        "a sheet of paper was found in a photograph, with corners at {corners}: it was straightened to {width} x {height} \
+         pixels, in which places in pixels count from now on; what lies around it was left out"
+    )
 }
 
 /// One byte per pixel; grey images are not blown up to colour first.
@@ -159,19 +237,11 @@ fn lightness_of(pixel: [u8; 4], options: &PlanOptions) -> u8 {
 
 /// Whether a grey image has a robot's greys: 254 for free and 205 for unknown.
 fn has_map_greys(lightness: &[u8]) -> bool {
-    let counts = histogram(lightness);
+    let counts = tones::histogram(lightness, &[]);
     let light: usize = counts[128..].iter().sum();
     let (unknown, free) = (counts[usize::from(MAP_UNKNOWN)], counts[usize::from(MAP_FREE)]);
     let lightest_but_free = counts[206..].iter().sum::<usize>() - free;
     unknown * 100 >= light && free * 20 >= light && free > lightest_but_free && (unknown + free) * 10 >= light * 6
-}
-
-fn histogram(values: &[u8]) -> [usize; 256] {
-    let mut counts = [0; 256];
-    for &value in values {
-        counts[usize::from(value)] += 1;
-    }
-    counts
 }
 
 /// Stretches lightness so that the plan's wall tone becomes 0 and its floor tone 255.
@@ -299,7 +369,7 @@ mod tests {
 
     fn rgb(pixels: &[[u8; 3]], options: &PlanOptions) -> Vec<u8> {
         let image = RgbImage::from_vec(pixels.len() as u32, 1, pixels.concat()).unwrap();
-        of_image(DynamicImage::ImageRgb8(image), options).dark
+        of_image(DynamicImage::ImageRgb8(image), options).0.dark
     }
 
     #[test]
@@ -320,7 +390,7 @@ mod tests {
         let image = GrayImage::from_vec(256, 1, (0..=255).collect()).unwrap();
         for threshold in [1, 100, 128, 255] {
             let options = PlanOptions { threshold: Some(threshold), ..PlanOptions::default() };
-            let walls = of_image(DynamicImage::ImageLuma8(image.clone()), &options).dark;
+            let walls = of_image(DynamicImage::ImageLuma8(image.clone()), &options).0.dark;
             assert_eq!(walls.iter().filter(|&&d| d == 1).count(), usize::from(threshold));
         }
     }
@@ -329,7 +399,7 @@ mod tests {
     fn transparent_is_paper_or_what_the_setting_says() {
         let image = RgbaImage::from_vec(3, 1, vec![0, 0, 0, 0, 0, 0, 0, 255, 255, 255, 255, 255]).unwrap();
         let image = DynamicImage::ImageRgba8(image);
-        let dark = |transparent| of_image(image.clone(), &PlanOptions { transparent, ..PlanOptions::default() }).dark;
+        let dark = |transparent| of_image(image.clone(), &PlanOptions { transparent, ..PlanOptions::default() }).0.dark;
         assert_eq!(dark(TransparentPolicy::Auto), [0, 1, 0]);
         assert_eq!(dark(TransparentPolicy::Wall), [1, 1, 0]);
         assert_eq!(dark(TransparentPolicy::Floor), [0, 1, 0]);
@@ -340,7 +410,7 @@ mod tests {
     #[test]
     fn sixteen_bits_are_read_as_eight() {
         let image = image::ImageBuffer::from_vec(2, 1, vec![0x7fffu16, 0x80ff]).unwrap();
-        assert_eq!(of_image(DynamicImage::ImageLuma16(image), &PlanOptions::default()).dark, [1, 0]);
+        assert_eq!(of_image(DynamicImage::ImageLuma16(image), &PlanOptions::default()).0.dark, [1, 0]);
     }
 
     #[test]
@@ -358,7 +428,7 @@ mod tests {
     fn a_robots_map_without_its_yaml_is_recognised() {
         let pixels = [vec![254; 60], vec![205; 30], vec![0; 10]].concat();
         let image = DynamicImage::ImageLuma8(GrayImage::from_vec(100, 1, pixels).unwrap());
-        let drawing = of_image(image.clone(), &PlanOptions::default());
+        let drawing = of_image(image.clone(), &PlanOptions::default()).0;
         assert!(drawing.looks_like_map);
         assert_eq!(drawing.dark.iter().filter(|&&d| d == 1).count(), 40);
     }
@@ -373,7 +443,7 @@ mod tests {
         }
         assert!(pixels[10] >= 128 && pixels[17] >= 128);
         let image = DynamicImage::ImageLuma8(GrayImage::from_vec(7, 5, pixels).unwrap());
-        let dark = of_image(image.clone(), &PlanOptions::default()).dark;
+        let dark = of_image(image.clone(), &PlanOptions::default()).0.dark;
         assert!((0..7).all(|x| dark[7 + x] + dark[14 + x] > 0));
     }
 }

@@ -1,6 +1,7 @@
 use std::path::PathBuf;
 
 use super::limits::{LARGEST_AREA_PX, LARGEST_M_PER_PX, LARGEST_SIDE_M, LARGEST_SIDE_PX, SMALLEST_M_PER_PX};
+use super::vector::VectorFormat;
 use crate::math::Vec2;
 
 /// Error while reading a plan.
@@ -96,12 +97,42 @@ pub enum PlanError {
         /// Pixels down.
         height: u32,
     },
+    /// The crop keeps nothing, or cannot be placed.
+    #[error("plan.crop {problem} (the image has {width} x {height} pixels)")]
+    Crop {
+        /// The problem.
+        problem: String,
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+    },
+    /// The paint over the plan cannot be used.
+    #[error("the paint {path} {problem}", path = .path.display())]
+    Paint {
+        /// The painted image.
+        path: PathBuf,
+        /// The problem, with the pixel and its colour.
+        problem: String,
+        /// A remedy.
+        hint: Option<String>,
+    },
     /// The map YAML is invalid.
     #[error("the map {path} cannot be used: {reason}", path = .path.display())]
     Map {
         /// The YAML.
         path: PathBuf,
         /// The problem, with line and column.
+        reason: String,
+    },
+    /// The vector drawing cannot be used.
+    #[error("the {kind} {path} cannot be used: {reason}", kind = .format.name(), path = .path.display())]
+    Drawing {
+        /// The drawing.
+        path: PathBuf,
+        /// Its format.
+        format: VectorFormat,
+        /// The problem.
         reason: String,
     },
     /// The image of a map YAML is missing.
@@ -122,8 +153,8 @@ pub enum PlanError {
         /// Its value, metres per pixel.
         value: f64,
     },
-    /// The scale is given both in metres per pixel and by two points.
-    #[error("the scale is given twice: as metres per pixel and as two points")]
+    /// The scale is given more than once.
+    #[error("the scale is given twice: give metres per pixel, two points or the building's width")]
     ScaleTwice,
     /// The two points do not define a scale.
     #[error("the two points do not define a scale: {reason}")]
@@ -203,7 +234,12 @@ impl PlanError {
     /// Hint for the user.
     pub fn hint(&self) -> Option<String> {
         Some(match self {
-            PlanError::UnknownFormat { .. } => "use PNG, JPEG, BMP, PGM, TIFF or GIF, or the YAML of a ROS map".into(),
+            PlanError::UnknownFormat { .. } => {
+                "use PNG, JPEG, BMP, PGM, TIFF, GIF, SVG, PDF, DXF, the YAML of a ROS map or an Open-RMF building, or a \
+                 Universal VTT map"
+                    .into()
+            }
+            PlanError::Drawing { format, .. } => format.hint().into(),
             PlanError::Empty { .. } | PlanError::Damaged { .. } => "save or copy the file again".into(),
             PlanError::Open { path, source } if source.kind() == std::io::ErrorKind::NotFound => {
                 format!("did you mean {}?", super::similar::similar_file(path)?.display())
@@ -218,8 +254,12 @@ impl PlanError {
             PlanError::MapImageMissing { similar: None, .. } => {
                 "the name after `image:` is relative to the YAML's folder".into()
             }
+            PlanError::Crop { .. } => "crop = [{ px = [40, 30] }, { px = [900, 640] }]".into(),
+            PlanError::Paint { hint, .. } => hint.clone()?,
             PlanError::Scale { .. } => "0.05 means that a pixel is 5 cm wide".into(),
-            PlanError::ScaleTwice => "leave out plan.metres_per_pixel or plan.scale".into(),
+            PlanError::ScaleTwice => {
+                "leave out all but one of plan.metres_per_pixel, plan.scale and plan.width_m".into()
+            }
             PlanError::TwoPoints { .. } => {
                 "scale = { from = { px = [120, 40] }, to = { px = [480, 40] }, metres = 36.0 }".into()
             }

@@ -43,3 +43,30 @@ fn ends_as_jpeg(path: &Path) -> std::io::Result<bool> {
     file.take(TAIL).read_to_end(&mut tail)?;
     Ok(tail.windows(2).any(|marker| marker == [0xff, 0xd9]))
 }
+
+/// How many pixels an inch of the printed image has, as a PNG or a JPEG says it.
+pub(super) fn dots_per_inch(path: &Path) -> Option<f64> {
+    const HEAD: u64 = 64 << 10;
+    let mut head = Vec::new();
+    open_input_up_to(path, LARGEST_IMAGE_BYTES).ok()?.take(HEAD).read_to_end(&mut head).ok()?;
+    let number = |at: usize| Some(u32::from_be_bytes(head.get(at..at + 4)?.try_into().ok()?));
+    let dots = if head.starts_with(b"\x89PNG") {
+        // Chunks: length, name, data, check sum.
+        let mut at = 8;
+        while head.get(at + 4..at + 8)? != b"pHYs" {
+            at += 12 + number(at)? as usize;
+        }
+        let per_metre = (head.get(at + 16) == Some(&1)).then(|| number(at + 8)).flatten()?;
+        f64::from(per_metre) * 0.0254
+    } else if head.starts_with(&[0xff, 0xd8]) && head.get(6..11) == Some(b"JFIF\0") {
+        let across = f64::from(u16::from_be_bytes([*head.get(14)?, *head.get(15)?]));
+        match head.get(13)? {
+            1 => across,
+            2 => across * 2.54,
+            _ => return None,
+        }
+    } else {
+        return None;
+    };
+    (20.0..=4800.0).contains(&dots).then_some(dots)
+}

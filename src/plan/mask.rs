@@ -1,6 +1,6 @@
 //! Plans from ready floor masks.
 
-use super::{FloorPlan, Pose, openings, regions};
+use super::{FloorPlan, Painted, PlanScale, Pose, ScaleSource, openings, regions};
 
 impl FloorPlan {
     /// Builds a plan from a floor mask in image order (row 0 at the top); non-zero bytes are floor.
@@ -16,14 +16,23 @@ impl FloorPlan {
             width_px,
             height_px,
             metres_per_pixel,
+            scale: PlanScale::known(ScaleSource::Given, metres_per_pixel),
             floor,
             lightness,
+            classes: Vec::new(),
+            scanned: false,
+            painted: Painted::default(),
             threshold: 128,
             map_from_plan: Pose::default(),
             regions: Vec::new(),
             openings: Vec::new(),
+            doors: Vec::new(),
+            windows: Vec::new(),
+            furniture: Vec::new(),
             warnings: Vec::new(),
+            drawn: None,
         };
+        plan.classes = plan.plain_classes();
         plan.regions = regions::of_mask(&plan);
         plan.openings = openings::find(&plan);
         plan

@@ -3,41 +3,62 @@
 //! Turns an image (or a ROS map YAML) and a scale into a [`FloorPlan`]: the floor mask, the scale and the openings at
 //! the image's sides.
 
-use crate::math::Vec2;
+use crate::math::{Vec2, sin_cos, vec2};
 
 mod arcs;
+mod class;
 mod clearance;
 mod colour;
+mod guess;
 mod components;
+mod corrections;
 pub(crate) mod cracks;
+mod crop;
 mod depths;
 mod doors;
+mod doubts;
 mod drawing;
 mod error;
 mod image_file;
+mod layer;
+mod likely;
 mod limits;
 mod mask;
 mod open_ground;
 mod openings;
 mod options;
+mod paint;
 mod palette;
+mod parts;
 mod pixels;
 mod read;
 mod regions;
 mod ros_map;
 mod scale;
+mod shadow;
+mod sheet;
 mod similar;
 mod spaces;
 mod symbols;
+mod tones;
+mod understand;
+mod vector;
 
+pub use class::PlanClass;
 pub use colour::{Colour, ColourError};
 pub use error::PlanError;
 pub(crate) use limits::{
     ASSUMED_M_PER_PX, LARGEST_AREA_PX, LARGEST_COORDINATE, LARGEST_M_PER_PX, LARGEST_ORIGIN_M, LARGEST_SIDE_M,
     LARGEST_SIDE_PX, SMALLEST_M_PER_PX,
 };
-pub use options::{PixelPoint, PlanOptions, PlanPoint, TransparentPolicy, TwoPoints, UnknownPolicy};
-pub use read::{files, read};
+pub use options::{
+    DoorAt, DoorToOpen, PixelPoint, PlanOptions, PlanPoint, TransparentPolicy, TwoPoints, UnknownPolicy,
+};
+pub use paint::{Paint, Painted, PaintedEntrance};
+pub use parts::{DoorKind, FurniturePiece, PlanDoor, PlanWindow};
+pub use read::{files, picture, read};
+pub use scale::{PlanScale, ScaleSource};
+pub use vector::VectorFormat;
 
 /// Least width of an opening, metres.
 pub(crate) const NARROWEST_OPENING_M: f64 = 0.6;
@@ -51,12 +72,20 @@ pub struct FloorPlan {
     pub height_px: u32,
     /// Side of a pixel in metres.
     pub metres_per_pixel: f64,
+    /// Where that comes from, and how sure it is.
+    pub scale: PlanScale,
     /// One byte per pixel in image order (row 0 at the top, the largest y): 1 for walkable floor.
     /// White that people cannot reach (outside, hollow walls, closed shafts) is 0.
     pub floor: Vec<u8>,
     /// Lightness of each pixel, 0 (wall) to 255 (floor), in image order. Anti-aliased edges lie in between,
     /// from which `walls` takes sub-pixel positions.
     pub lightness: Vec<u8>,
+    /// What the plan shows at each pixel, in image order.
+    pub classes: Vec<PlanClass>,
+    /// Entrances and floor kept clean, as painted over the plan.
+    pub painted: Painted,
+    /// Whether a robot measured it, rather than somebody drawing it: walls are ragged, rooms partly seen.
+    pub scanned: bool,
     /// Lightness at which wall ends and floor begins, 128 by default.
     pub threshold: u8,
     /// Pose of the plan frame in the map frame; the identity without a ROS map.
@@ -65,11 +94,38 @@ pub struct FloorPlan {
     pub regions: Vec<Region>,
     /// Openings at the image's sides.
     pub openings: Vec<Opening>,
+    /// Doors: gaps between two jambs.
+    pub doors: Vec<PlanDoor>,
+    /// Windows, closed.
+    pub windows: Vec<PlanWindow>,
+    /// Furniture on the floor.
+    pub furniture: Vec<FurniturePiece>,
     /// Warnings for the user, such as an assumed scale.
     pub warnings: Vec<String>,
+    /// What a vector drawing tells beyond pixels; `None` for pictures.
+    pub drawn: Option<Drawn>,
+}
+
+/// What a vector drawing tells beyond pixels, in the plan frame.
+#[derive(Clone, Debug, Default)]
+pub struct Drawn {
+    /// Both jambs of each door, metres.
+    pub doors: Vec<[Vec2; 2]>,
+    /// Ways of robots and people, metres: the lanes of an Open-RMF building.
+    pub lanes: Vec<[Vec2; 2]>,
 }
 
 impl FloorPlan {
+    /// Classes of a plan of floor and walls alone: dark pixels are wall, white that is not floor is outside.
+    fn plain_classes(&self) -> Vec<PlanClass> {
+        let class = |(&floor, &lightness): (&u8, &u8)| match floor {
+            0 if lightness < self.threshold => PlanClass::Wall,
+            0 => PlanClass::Outside,
+            _ => PlanClass::Floor,
+        };
+        self.floor.iter().zip(&self.lightness).map(class).collect()
+    }
+
     /// Width in metres.
     pub fn width_m(&self) -> f64 {
         f64::from(self.width_px) * self.metres_per_pixel
@@ -86,6 +142,14 @@ impl FloorPlan {
         // Comparisons are written so that NaN lands outside.
         let inside = x >= 0.0 && y >= 0.0 && x < f64::from(self.width_px) && y < f64::from(self.height_px);
         inside && self.floor[y as usize * self.width_px as usize + x as usize] != 0
+    }
+
+    /// The class under a point of the plan frame; outside beyond the image.
+    pub fn class_at(&self, p: Vec2) -> PlanClass {
+        let [x, y] = self.m_to_px(p);
+        let inside = x >= 0.0 && y >= 0.0 && x < f64::from(self.width_px) && y < f64::from(self.height_px);
+        let index = || y as usize * self.width_px as usize + x as usize;
+        if inside { self.classes.get(index()).copied().unwrap_or_default() } else { PlanClass::Outside }
     }
 
     /// From pixels (from the top left, y down; whole numbers are pixel edges) to the plan frame.
@@ -106,6 +170,14 @@ pub struct Pose {
     pub origin_m: Vec2,
     /// Radians counter-clockwise.
     pub yaw_rad: f64,
+}
+
+impl Pose {
+    /// The pose of a frame whose origin is at a point of this one.
+    fn moved(self, to_m: Vec2) -> Pose {
+        let (sine, cosine) = sin_cos(self.yaw_rad);
+        Pose { origin_m: self.origin_m + to_m.rotated(vec2(cosine, sine)), ..self }
+    }
 }
 
 /// A connected white region of a plan.

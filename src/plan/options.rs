@@ -1,3 +1,5 @@
+use std::path::PathBuf;
+
 use serde::{Deserialize, Serialize};
 
 use super::{Colour, FloorPlan};
@@ -36,6 +38,42 @@ impl Leaf for PlanPoint {
         let words = "[x, y] in metres or { px = [x, y] } in pixels";
         Kind::AnyOf(words, vec![<[f64; 2]>::kind(), Kind::Table(PlanPoint::PIXELS)])
     }
+}
+
+/// Where a door is, as a scenario writes it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged, expecting = "a point [x, y], or two of them: [[x0, y0], [x1, y1]]")]
+pub enum DoorAt {
+    /// Its middle.
+    Point(PlanPoint),
+    /// Its two jambs.
+    Line([PlanPoint; 2]),
+}
+
+impl DoorAt {
+    /// Its points as written: the middle, or the jambs.
+    pub fn points(&self) -> &[PlanPoint] {
+        match self {
+            DoorAt::Point(point) => std::slice::from_ref(point),
+            DoorAt::Line(ends) => ends,
+        }
+    }
+}
+
+impl Leaf for DoorAt {
+    fn takes() -> Kind {
+        let line = Kind::List(Box::new(PlanPoint::kind()), Some(2));
+        Kind::AnyOf("a point [x, y], or two of them: [[x0, y0], [x1, y1]]", vec![PlanPoint::kind(), line])
+    }
+}
+
+/// A door that is opened where the plan draws it closed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DoorToOpen {
+    /// Where it is.
+    pub at: DoorAt,
+    /// Clear width of a door given by its middle, metres.
+    pub width_m: f64,
 }
 
 impl Leaf for Colour {
@@ -101,8 +139,14 @@ options! {
         metres_per_pixel: Option<f64> = None, in 0.0005..=10.0, unit "m", eg "0.05";
         /// Or two points and how far apart they are.
         scale: Option<TwoPoints> = None, eg "{ from = { px = [120, 40] }, to = { px = [480, 40] }, metres = 36.0 }";
-        /// Lightness at which wall ends and floor begins.
+        /// Or how wide the building is, from its westernmost to its easternmost wall as drawn.
+        ///
+        /// The sheet's margin, frame and dimension lines do not count.
+        width_m: Option<f64> = None, in 0.5..=4000.0, unit "m", eg "30.0";
+        /// Lightness at which wall ends and floor begins; without it, found.
         threshold: Option<u8> = None, in 1.0..=255.0, eg "128";
+        /// Whether walls are light on a dark ground; without it, found.
+        invert: Option<bool> = None, eg "true";
         /// Saturated colours that are wall, as "#c03030"; all others are notes on the floor.
         ///
         /// Colours (`"#c03030"`) that are wall although saturated colour is annotation otherwise.
@@ -119,6 +163,18 @@ options! {
         floor: Vec<PlanPoint> = Vec::new();
         /// Width of the narrowest person: nobody goes where they cannot pass.
         narrowest_m: f64 = 0.4, in 0.1..=2.0, unit "m";
+        /// Two corners, [x, y] in metres or { px = [x, y] }: the image is cut before it is read; all other points count from the cut image.
+        crop: Option<[PlanPoint; 2]> = None, eg "[{ px = [40, 30] }, { px = [900, 640] }]";
+        /// The plan in class colours, painted over; transparent pixels stay as read; relative to this file.
+        paint: Option<PathBuf> = None, eg "\"over.png\"";
+        /// Page of a PDF, level of an Open-RMF building, storey of a building model; left out: the first.
+        page: Option<u32> = None, in 1.0..=10000.0, eg "2";
+    }
+    with {
+        /// Doors that are opened where the plan draws them closed.
+        doors: Vec<DoorToOpen> = Vec::new();
+        /// Whether a plan without floor or walls is no error: it is read to be put right.
+        unfinished: bool = false;
     }
 }
 

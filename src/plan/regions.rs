@@ -21,7 +21,14 @@ const LEAST_LISTED_M2: f64 = 0.1;
 ///
 /// Spaces are found for a person of `narrowest_m`. Floor are the spaces with a point of `seeds`. Without seeds, floor
 /// are the spaces that are not outside and have at least two openings, or if there are none, the largest.
-pub(super) fn choose(plan: &mut FloorPlan, narrowest_m: f64, seeds: &[Vec2]) -> Result<(), PlanError> {
+///
+/// `outside` marks the paper around the building, where it is known already.
+pub(super) fn choose(
+    plan: &mut FloorPlan,
+    narrowest_m: f64,
+    seeds: &[Vec2],
+    outside: Option<&[u8]>,
+) -> Result<(), PlanError> {
     let width = plan.width_px as usize;
     let in_px = |metres: f64| metres / plan.metres_per_pixel;
     let (person_px, opening_px) = (in_px(narrowest_m), in_px(NARROWEST_OPENING_M));
@@ -36,7 +43,12 @@ pub(super) fn choose(plan: &mut FloorPlan, narrowest_m: f64, seeds: &[Vec2]) -> 
         });
     }
     let mut paper = None;
-    if let Some(cut) = paper_around(&white, &spaces, width, in_px(WIDEST_DOOR_M)) {
+    let cut = match outside {
+        Some(outside) => Some(outside.iter().zip(&white).map(|(&o, &w)| o & w).collect()),
+        None => paper_around(&white, &spaces, width, in_px(WIDEST_DOOR_M)),
+    };
+    if let Some(cut) = cut {
+        let cut: Vec<u8> = cut;
         let seed_outside = seeds.iter().any(|&p| pixel_of(plan, p).is_some_and(|at| cut[at] != 0));
         if !seed_outside {
             for (white, &outside) in white.iter_mut().zip(&cut) {
@@ -154,7 +166,7 @@ fn roles_by_seeds(plan: &FloorPlan, spaces: &Spaces, seeds: &[Vec2]) -> Result<V
     Ok(roles)
 }
 
-fn pixel_of(plan: &FloorPlan, p: Vec2) -> Option<usize> {
+pub(super) fn pixel_of(plan: &FloorPlan, p: Vec2) -> Option<usize> {
     let [x, y] = plan.m_to_px(p);
     let within = x >= 0.0 && y >= 0.0 && x < f64::from(plan.width_px) && y < f64::from(plan.height_px);
     within.then(|| y as usize * plan.width_px as usize + x as usize)
@@ -171,7 +183,7 @@ fn nearest_space(plan: &FloorPlan, spaces: &Spaces, p: Vec2) -> Option<Vec2> {
 }
 
 /// All regions, largest first. Leaves of `white` what belongs to no space.
-fn list(
+pub(super) fn list(
     plan: &FloorPlan,
     spaces: &Spaces,
     roles: &[RegionRole],

@@ -10,7 +10,7 @@ const THICKEST_STROKE_M: f64 = 0.12;
 /// Greatest gap between strokes of one group, as a share of the longer stroke.
 const GAP_SHARE: f64 = 0.6;
 /// Least number of strokes in lettering or a dashed line.
-const FEWEST_STROKES: usize = 3;
+pub(super) const FEWEST_STROKES: usize = 3;
 /// Greatest size of a coloured dot's outline, metres.
 const LARGEST_DOT_M: f64 = 1.5;
 /// Least share of an outline's pixels that touch colour.
@@ -106,7 +106,7 @@ fn thickness(pieces: &Components, piece: &Component) -> u32 {
 }
 
 /// Groups strokes over small gaps. Sorting by x limits the comparisons to near strokes.
-fn groups<'a>(strokes: &[&'a Component]) -> Vec<Vec<&'a Component>> {
+pub(super) fn groups<'a>(strokes: &[&'a Component]) -> Vec<Vec<&'a Component>> {
     let mut order: Vec<&Component> = strokes.to_vec();
     order.sort_by_key(|p| (p.min, p.end));
     let widest = order.iter().map(|p| p.larger_side()).max().unwrap_or(0);

@@ -51,6 +51,7 @@ pub(super) fn drafts(
                 via: Vec::new(),
                 stops: Vec::new(),
                 arrivals: None,
+                life: None,
                 goal: to.place,
                 share: from.width_m * to.width_m,
             });
@@ -59,7 +60,7 @@ pub(super) fn drafts(
     Ok(drafts)
 }
 
-/// Returns all openings that are wide enough for a person.
+/// Returns all openings that are wide enough for a person, and the entrances painted in the plan.
 fn opening_endpoints(plan: &FloorPlan, ground: &Ground) -> Vec<Endpoint> {
     let endpoint = |(index, opening): (usize, &Opening)| {
         let place = Place::Opening(index);
@@ -67,7 +68,13 @@ fn opening_endpoints(plan: &FloorPlan, ground: &Ground) -> Vec<Endpoint> {
         let width_m = opening.width_m().clamp(SHARE_WIDTHS_M[0], SHARE_WIDTHS_M[1]);
         Some(Endpoint { place, name: opening.name.clone(), width_m, part: ground.part(cell) })
     };
-    plan.openings.iter().enumerate().filter_map(endpoint).collect()
+    let painted = plan.painted.entrances.iter().filter_map(|entrance| {
+        let place = Place::Area(entrance.area_m);
+        let cell = *targets::cells(plan, ground, place).first()?;
+        let width_m = entrance.area_m[0].distance(entrance.area_m[1]).clamp(SHARE_WIDTHS_M[0], SHARE_WIDTHS_M[1]);
+        Some(Endpoint { place, name: entrance.name.clone(), width_m, part: ground.part(cell) })
+    });
+    plan.openings.iter().enumerate().filter_map(endpoint).chain(painted).collect()
 }
 
 /// Returns the widest openings that have another one within walking distance.
@@ -75,7 +82,7 @@ fn widest_openings(plan: &FloorPlan, ground: &Ground) -> Vec<Endpoint> {
     let mut endpoints = opening_endpoints(plan, ground);
     let width = |s: &Endpoint| match s.place {
         Place::Opening(index) => plan.openings[index].width_m(),
-        Place::Area(_) => 0.0,
+        Place::Area([from, to]) => from.distance(to),
     };
     endpoints.sort_by(|a, b| width(b).total_cmp(&width(a)));
     // Removing one may leave its partner alone, so repeat until stable.

@@ -1,5 +1,5 @@
 use super::legs::{LegEnd, leg_ends};
-use super::{Place, RouteStop, Timetable};
+use super::{Place, RouteLife, RouteStop, Timetable};
 
 /// A route with its places, before its path is found.
 #[derive(Clone, Debug)]
@@ -11,6 +11,7 @@ pub(super) struct RouteDraft {
     pub(super) via: Vec<Place>,
     pub(super) stops: Vec<RouteStop>,
     pub(super) arrivals: Option<Timetable>,
+    pub(super) life: Option<RouteLife>,
     pub(super) goal: Place,
     pub(super) share: f64,
 }

@@ -150,6 +150,16 @@ pub enum RoutesError {
         /// Largest allowed number.
         most: usize,
     },
+    /// A request names no room of the plan.
+    #[error("[[room]]: {problem}{}", how_many(.rooms))]
+    UnknownRoom {
+        /// The problem.
+        problem: String,
+        /// Most similar known name.
+        nearest: Option<String>,
+        /// Number of rooms.
+        rooms: usize,
+    },
     /// The plan has no part of floor that is large enough.
     #[error("the plan has no floor that is large enough to walk on: the largest part has {largest_m2:.2} m2")]
     NoRoom {
@@ -198,11 +208,13 @@ impl RoutesError {
     pub fn hint(&self) -> Option<String> {
         match self {
             RoutesError::UnknownOpening { nearest: Some(nearest), .. }
+            | RoutesError::UnknownRoom { nearest: Some(nearest), .. }
             | RoutesError::UnknownStop { nearest: Some(nearest), .. } => Some(format!("did you mean \"{nearest}\"?")),
             RoutesError::UnknownOpening { .. } => {
                 Some("`trodden inspect PLAN` lists and draws the openings; a point or an area works without one".into())
             }
             RoutesError::UnknownStop { .. } => Some("each [[stop]] has a `name`; routes name it in `via`".into()),
+            RoutesError::UnknownRoom { .. } => Some("`trodden inspect PLAN` lists the rooms; `at` takes a point in one".into()),
             RoutesError::SameStop { .. } => Some("give each [[stop]] a name of its own".into()),
             RoutesError::StopNotOnFloor { nearest_m: Some(p), .. } => Some(format!("use [{:.2}, {:.2}]", p.x, p.y)),
             RoutesError::NotOnFloor { nearest: Some(spot), .. } => {
@@ -237,6 +249,11 @@ fn list(openings: &[String]) -> String {
         [] => "; it has none at all".into(),
         names => format!("; it has {}", names.join(", ")),
     }
+}
+
+fn how_many(count: &usize) -> String {
+    let plural = if *count == 1 { "" } else { "s" };
+    format!("; the plan has {count} room{plural}")
 }
 
 /// Nearest walkable position, for messages.

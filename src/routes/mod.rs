@@ -14,6 +14,7 @@ mod gates;
 mod ground;
 mod lattice;
 mod legs;
+mod life;
 mod navigation;
 mod place;
 mod request;
@@ -31,7 +32,7 @@ pub use error::{FloorPoint, Gap, RoutesError};
 pub use navigation::{Navigation, find};
 pub use place::{Gate, Place, Via};
 pub use request::{PlaceRequest, RouteRequest, RoutesOptions, SharedStop, ViaRequest};
-pub use route::Route;
+pub use route::{Route, RouteLife};
 pub use stop::{Facing, RouteStop, Stop, StopAt, StopKind, StopRequest};
 pub use timetable::{Timetable, TimetableKind};
 

@@ -12,10 +12,11 @@ use super::stop::{RouteStop, Stop};
 use super::targets::{self, PlaceUsage};
 use super::{
     FloorPoint, Gap, Place, PlaceRequest, Route, RouteRequest, RoutesError, RoutesOptions, Via, ViaRequest, defaults,
-    gates, ribbon,
+    gates, life, ribbon,
 };
 use crate::math::Vec2;
 use crate::plan::FloorPlan;
+use crate::rooms::{Life, Use};
 use crate::walls::Walls;
 use crate::{Progress, Silent};
 
@@ -32,6 +33,7 @@ pub struct Navigation {
     pub(crate) flows: Vec<Arc<Flow>>,
     /// One per route, in order.
     pub(crate) ways: Vec<RouteLegs>,
+    life: Option<Arc<Life>>,
 }
 
 /// Cells and legs of a route, for the crowd.
@@ -50,8 +52,8 @@ pub(crate) struct RouteLegs {
 pub(crate) struct Leg {
     /// Index of the distance field to its end.
     pub(crate) field: usize,
-    /// Index of the flow to its end.
-    pub(crate) flow: usize,
+    /// Index of the flow to its end; people of default life follow the field.
+    pub(crate) flow: Option<usize>,
 }
 
 /// Finds the requested routes, or the default ones.
@@ -97,11 +99,19 @@ impl Navigation {
         options: &RoutesOptions,
         progress: &dyn Progress,
     ) -> Result<(Vec<Route>, Navigation), RoutesError> {
+        // A robot's map may have little but narrow ways: people cross it, unless somebody says how it is used.
+        let is_said = options.life.r#use.is_some() || !options.rooms.is_empty() || options.life.share > 0.0;
+        let life = match options.routes.is_empty() || options.life.share > 0.0 {
+            true => Some(Arc::new(life::of(plan, walls, options)?)),
+            false => None,
+        };
+        let life = life.filter(|life| !plan.scanned || is_said || life::is_roomy(life));
         first_that_works(plan, |fineness| {
             let ground = Ground::new(plan, walls, fineness);
-            let (routes, fields) = Navigation::find_on(plan, walls, &ground, options, progress)?;
+            let (routes, fields) = Navigation::find_on(plan, walls, &ground, options, life.as_deref(), progress)?;
             let navigation = Navigation::of(plan, ground, &routes, fields)?;
-            Ok((routes, navigation))
+            let life = life.clone().filter(|_| routes.iter().any(|route| route.life.is_some()));
+            Ok((routes, Navigation { life, ..navigation }))
         })
     }
 
@@ -115,11 +125,17 @@ impl Navigation {
         })
     }
 
+    /// The rooms of the building, and what it is for, where people live in it.
+    pub fn life(&self) -> Option<&Arc<Life>> {
+        self.life.as_ref()
+    }
+
     fn find_on<'p>(
         plan: &FloorPlan,
         walls: &Walls,
         ground: &Ground,
         options: &RoutesOptions,
+        life: Option<&Life>,
         progress: &'p dyn Progress,
     ) -> Result<(Vec<Route>, FieldStore<'p>), RoutesError> {
         let asked = &options.routes;
@@ -127,15 +143,39 @@ impl Navigation {
             return Err(RoutesError::TooMany { routes: asked.len(), most: MOST_ROUTES });
         }
         let mut fields = FieldStore::new(progress);
-        let mut drafts: Vec<RouteDraft> = if asked.is_empty() {
-            defaults::drafts(plan, ground, &mut fields)?
-        } else {
-            let stops = stops(plan, walls, ground, options)?;
-            asked.iter().map(|request| draft(plan, ground, request, options, &stops)).collect::<Result<_, _>>()?
+        // People cross a station; tours would meet in its gates.
+        let crosses = |life: &Life| life.guessed && life.r#use == Use::Station;
+        let life = life.filter(|life| !asked.is_empty() || !crosses(life));
+        let mut drafts: Vec<RouteDraft> = match (asked.is_empty(), life) {
+            (true, Some(life)) if life.has_rooms() => Vec::new(),
+            (true, _) => defaults::drafts(plan, ground, &mut fields)?,
+            (false, _) => {
+                let stops = stops(plan, walls, ground, options)?;
+                asked.iter().map(|request| draft(plan, ground, request, options, &stops)).collect::<Result<_, _>>()?
+            }
         };
-        let total: f64 = drafts.iter().map(|p| p.share).sum();
-        if total <= 0.0 {
+        let mut lived = life.map_or(Vec::new(), |life| life::drafts(plan, ground, life, &options.life));
+        if asked.is_empty() && lived.is_empty() && drafts.is_empty() {
+            drafts = defaults::drafts(plan, ground, &mut fields)?;
+        }
+        if asked.is_empty() && !drafts.is_empty() {
+            fields.fill(plan, ground, drafts.iter().flat_map(RouteDraft::legs))?;
+            match life.is_some_and(|life| life::is_crossed(plan, ground, life, &fields, &drafts)) {
+                true => lived.clear(),
+                false if !lived.is_empty() => drafts.clear(),
+                false => {}
+            }
+        }
+        let mut total: f64 = drafts.iter().map(|p| p.share).sum();
+        if total <= 0.0 && !drafts.is_empty() {
             return Err(RoutesError::NoShares { routes: drafts.len() });
+        }
+        if !lived.is_empty() {
+            let share = if drafts.is_empty() { 1.0 } else { options.life.share };
+            let own: f64 = lived.iter().map(|draft| draft.share).sum();
+            drafts.iter_mut().for_each(|draft| draft.share *= (1.0 - share) / total);
+            drafts.extend(lived.into_iter().map(|draft| RouteDraft { share: draft.share * share / own, ..draft }));
+            total = 1.0;
         }
         fields.fill(plan, ground, drafts.iter().flat_map(RouteDraft::legs))?;
         turn_gates(ground, &fields, &mut drafts);
@@ -160,7 +200,7 @@ impl Navigation {
             Ok(Arc::new(Flow::new(&ground, &starts, fields.get(pair.to))))
         };
         let flows = pairs.par_iter().map(flow).collect::<Result<_, RoutesError>>()?;
-        Ok(Navigation { ground: Arc::new(ground), fields: fields.into_fields(), flows, ways })
+        Ok(Navigation { ground: Arc::new(ground), fields: fields.into_fields(), flows, ways, life: None })
     }
 }
 
@@ -250,7 +290,8 @@ fn draft(
         return Err(RoutesError::Timetable { route: name, error });
     }
     let arrivals = request.arrivals.clone();
-    Ok(RouteDraft { name, place_names: names, start, via, stops, arrivals, goal, share: request.share })
+    let life = None;
+    Ok(RouteDraft { name, place_names: names, start, via, stops, arrivals, life, goal, share: request.share })
 }
 
 /// Finds the scenario's stops on the ground.
@@ -360,6 +401,7 @@ fn lay_out(
         via,
         stops: draft.stops.clone(),
         arrivals: draft.arrivals.clone(),
+        life: draft.life,
         goal: draft.goal,
         share,
         gates,
@@ -396,11 +438,16 @@ fn way(
     let mut from = LegEnd { place: route.start, last: true };
     let mut legs = Vec::with_capacity(route.via.len() + 1);
     for to in route_legs(route) {
-        let pair = LegEnds { from, to };
-        let flow = pairs.iter().position(|p| *p == pair).unwrap_or(pairs.len());
-        if flow == pairs.len() {
-            pairs.push(pair);
-        }
+        // Visits of rooms lead everywhere: a flow for each would take longer than the walk.
+        let visits = route.life.is_some() && !route.via.is_empty();
+        let flow = (!visits).then(|| {
+            let pair = LegEnds { from, to };
+            let flow = pairs.iter().position(|p| *p == pair).unwrap_or(pairs.len());
+            if flow == pairs.len() {
+                pairs.push(pair);
+            }
+            flow
+        });
         legs.push(Leg { field: fields.index(to), flow });
         from = to;
     }

@@ -3,14 +3,19 @@ use serde::{Deserialize, Serialize};
 use super::{StopRequest, Timetable};
 use crate::options::{Field, Kind, Leaf, Table, Value, options};
 use crate::plan::PlanPoint;
+use crate::rooms::{LifeOptions, RoomRequest};
 
 options! {
-    /// Requested routes and stops. Without any route, routes run between the widest openings.
+    /// Requested routes and stops. Without any route, people use the rooms of the building; a single space they cross.
     pub struct RoutesOptions {
         /// Requested routes; empty for the default routes.
         routes: Vec<RouteRequest> = Vec::new();
         /// Places where people may stop; routes name them.
         stops: Vec<StopRequest> = Vec::new();
+        /// How people use the building's rooms, where no routes are written or beside them.
+        life: LifeOptions = LifeOptions::default();
+        /// What the scenario says about rooms.
+        rooms: Vec<RoomRequest> = Vec::new();
     }
 }
 

@@ -1,4 +1,5 @@
 use super::{Gate, Place, RouteStop, Stop, Timetable, Via};
+use crate::rooms::Use;
 
 /// A route from a start to a goal.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -16,6 +17,9 @@ pub struct Route {
     /// When people come, if the route has a timetable of its own.
     #[serde(default, skip_serializing_if = "Option::is_none", with = "crate::options::kept")]
     pub arrivals: Option<Timetable>,
+    /// For routes of people who live in the building, when no routes are written.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub life: Option<RouteLife>,
     /// Place where people vanish.
     pub goal: Place,
     /// Share of all people; the shares of all routes sum to 1.
@@ -26,7 +30,21 @@ pub struct Route {
     pub length_m: f64,
 }
 
+/// What people of a default route do in the building.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct RouteLife {
+    /// What the building is for.
+    pub r#use: Use,
+    /// Whether they come in from outside.
+    pub from_outside: bool,
+}
+
 impl Route {
+    /// Whether people come in from outside: through an opening or a door, rather than from a room.
+    pub(crate) fn is_from_outside(&self) -> bool {
+        matches!(self.start, Place::Opening(_)) || self.life.is_some_and(|life| life.from_outside)
+    }
+
     /// Stops of all routes, each once, in order of the routes.
     pub fn each_stop(routes: &[Route]) -> Vec<&Stop> {
         let mut each: Vec<&Stop> = Vec::new();

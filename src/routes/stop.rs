@@ -8,6 +8,7 @@ use super::{Place, RoutesError};
 use crate::math::{Distribution, Rect, Vec2, sin_cos, vec2};
 use crate::options::{Kind, Leaf, OptionError, Options, Value, names, options};
 use crate::plan::{FloorPlan, LARGEST_COORDINATE, PlanPoint};
+use crate::rooms::Spot;
 use crate::walls::Walls;
 
 /// Largest distance of a standing place from the requested one, metres: counters are at walls.
@@ -108,6 +109,9 @@ pub struct Stop {
     pub reach_m: f64,
     /// Line of the queue, from the counter on; empty: found automatically.
     pub queue_m: Vec<Vec2>,
+    /// Spots of a room in which people stay, by default life.
+    #[serde(skip)]
+    pub spots: Vec<Spot>,
 }
 
 /// A stop on a route.
@@ -242,6 +246,7 @@ impl StopRequest {
             spacing_m: self.spacing.unwrap_or(self.kind.spacing_m()),
             reach_m: self.reach.unwrap_or(1.5),
             queue_m,
+            spots: Vec::new(),
         };
         stop.places_m = self.places_m(&stop);
         for &p in &stop.places_m {

@@ -52,7 +52,12 @@ fn opening(plan: &FloorPlan, name: &str, usage: PlaceUsage<'_>) -> Result<Place,
     if let Some(index) = plan.openings.iter().position(|o| o.name.eq_ignore_ascii_case(wanted)) {
         return Ok(Place::Opening(index));
     }
-    let openings: Vec<String> = plan.openings.iter().map(|o| o.name.clone()).collect();
+    let mut painted = plan.painted.entrances.iter();
+    if let Some(entrance) = painted.find(|entrance| entrance.name.eq_ignore_ascii_case(wanted)) {
+        return Ok(Place::Area(entrance.area_m));
+    }
+    let names = plan.openings.iter().map(|o| &o.name);
+    let openings: Vec<String> = names.chain(plan.painted.entrances.iter().map(|e| &e.name)).cloned().collect();
     let nearest = openings
         .iter()
         .map(|o| (strsim::damerau_levenshtein(&o.to_lowercase(), &wanted.to_lowercase()), o))

@@ -31,6 +31,11 @@ impl Scenario {
             let message = "[plan] has both metres_per_pixel and scale".to_string();
             return Err(wrong("plan.scale", message, Some("leave one of the two out".to_string())));
         }
+        if self.plan.width_m.is_some() && (self.plan.metres_per_pixel.is_some() || self.plan.scale.is_some()) {
+            let other = if self.plan.scale.is_some() { "scale" } else { "metres_per_pixel" };
+            let message = format!("[plan] has both width_m and {other}");
+            return Err(wrong("plan.width_m", message, Some("leave one of the two out".to_string())));
+        }
         if self.motion_file.is_some() && self.formation.is_some() {
             let message = "the scenario has both a recording, in [motion], and a [formation]".to_string();
             let hint = "leave one of the two out; a recording can be the formation's example".to_string();

@@ -110,6 +110,9 @@ impl<'t> Document<'t> {
                     "duplicate key" => {
                         "write each key and each section once; only [[route]], [[stop]], [[door]], [[fixture]] and [[unit]] may come again"
                     }
+                    _ if self.line_at(mistake.span.start).contains('\\') => {
+                        "write the path with slashes, \"plans/office.png\", or in single quotes: 'C:\\plans\\office.png'"
+                    }
                     _ => "texts stand in quotes, lists in [brackets], and a section begins with its [name]",
                 };
                 hint = Some(remedy.to_string());
@@ -117,6 +120,13 @@ impl<'t> Document<'t> {
             _ => {}
         }
         self.wrong(mistake.span.clone(), (message, hint))
+    }
+
+    /// The line that a place of the file lies in.
+    fn line_at(&self, at: usize) -> &'t str {
+        let at = self.text.floor_char_boundary(at.min(self.text.len()));
+        let start = self.text[..at].rfind('\n').map_or(0, |newline| newline + 1);
+        self.text[start..].lines().next().unwrap_or("")
     }
 
     fn wrong(&self, span: Range<usize>, (message, hint): Explanation) -> ScenarioError {

@@ -10,6 +10,7 @@ impl Scenario {
     pub fn input_files(&self) -> Vec<PathBuf> {
         let mut files = self.read_from.clone();
         files.extend(self.image_path().iter().flat_map(|image| plan::files(image)));
+        files.extend(self.paint_path());
         files.extend(self.given_recording().map(|(file, _)| file));
         if let Some(formation) = &self.formation {
             let keys = formation.key.iter().filter_map(|key| key.file.as_ref());

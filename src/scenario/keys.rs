@@ -12,7 +12,9 @@ use crate::motion::BodyOptions;
 use crate::options::{Field, Kind, Options, Table, Value, names, options, schema_of};
 use crate::plan::PlanOptions;
 use crate::recordings::RecordingOptions;
+use crate::rooms::{LifeOptions, RoomRequest};
 use crate::routes::{RouteRequest, StopRequest};
+use crate::show::Ceiling;
 use crate::stamps::StampOptions;
 use crate::walls::WallsOptions;
 
@@ -20,10 +22,12 @@ names!(Preset);
 
 options! {
     pub(super) struct PlanKeys {
-        /// The plan: PNG, JPEG, BMP, PGM, TIFF, GIF, or the YAML of a ROS map; relative to this file.
+        /// The plan: PNG, JPEG, BMP, PGM, TIFF, GIF, SVG, PDF, DXF, VTT, or YAML of ROS or Open-RMF; relative to this file.
         image: Option<PathBuf> = None, eg "\"plan.png\"";
         /// Height of the walls.
         wall_height: f64 = 2.6, in 2.1 .. 3.5, unit "m";
+        /// What stills and the page show over the rooms: "lamps" in a ceiling, or "none": sky and sun.
+        ceiling: Ceiling = Ceiling::Lamps;
     }
 }
 
@@ -81,6 +85,7 @@ const SECTIONS: &[Field] = &[
     section!("walls": WallsOptions),
     section!("texture": TextureKeys, TextureOptions),
     section!("crowd": CrowdKeys, CrowdOptions),
+    section!("life": LifeOptions),
     section!("motion": MotionKeys, RecordingOptions),
     section!("bodies": BodyOptions),
     section!("marks": MarksOptions),
@@ -90,6 +95,7 @@ const SECTIONS: &[Field] = &[
     Field::plain(FORMATION, FormationRequest::kind, false),
     Field::plain(ROUTE, Vec::<RouteRequest>::kind, false),
     Field::plain(STOP, Vec::<StopRequest>::kind, false),
+    Field::plain(ROOM, Vec::<RoomRequest>::kind, false),
     Field::plain(DOOR, Vec::<DoorRequest>::kind, false),
     Field::plain(FIXTURE, Vec::<FixtureRequest>::kind, false),
     Field::plain(UNIT, Vec::<SpotRequest>::kind, false),
@@ -103,6 +109,8 @@ pub(super) const FORMATION: &str = "formation";
 pub(super) const ROUTE: &str = "route";
 /// The section that comes once per stop.
 pub(super) const STOP: &str = "stop";
+/// The section that comes once per room that the scenario says something about.
+pub(super) const ROOM: &str = "room";
 /// The section that comes once per door.
 pub(super) const DOOR: &str = "door";
 /// The section that comes once per fixture.

@@ -12,7 +12,9 @@ use crate::motion::BodyOptions;
 use crate::options::{Field, Options, Value};
 use crate::plan::PlanOptions;
 use crate::recordings::RecordingOptions;
+use crate::rooms::{Life, Use};
 use crate::routes::{PlaceRequest, RoutesOptions, Timetable, ViaRequest};
+use crate::show::Ceiling;
 use crate::stamps::StampOptions;
 use crate::walls::WallsOptions;
 
@@ -28,6 +30,8 @@ pub struct Scenario {
     pub image: Option<PathBuf>,
     /// Height of the walls in metres: at least 2.1, less than 3.5.
     pub wall_height_m: f64,
+    /// What stills and the page show over the rooms.
+    pub(crate) ceiling: Ceiling,
     /// How the plan is read.
     pub plan: PlanOptions,
     /// How walls are traced.
@@ -77,12 +81,24 @@ pub struct Overrides {
     pub preset: Option<Preset>,
     /// Another number of people.
     pub people: Option<u32>,
+    /// What the building is for.
+    pub r#use: Option<Use>,
     /// Another seed.
     pub seed: Option<u64>,
     /// Another texel density of the floor.
     pub texels_per_metre: Option<f64>,
+    /// Whether to bake a first look: 25 texels per metre of floor, 50 of walls, and no layers, where nothing else is asked.
+    pub quick: bool,
     /// Another scale of the plan.
     pub metres_per_pixel: Option<f64>,
+    /// Page, level or storey of the plan.
+    pub page: Option<u32>,
+    /// Another width of the building, from which the scale follows.
+    pub width_m: Option<f64>,
+    /// Another lightness at which walls end.
+    pub threshold: Option<u8>,
+    /// Whether walls are light on a dark ground.
+    pub invert: Option<bool>,
     /// Another program that the textures are for.
     pub target: Option<Target>,
     /// Whether walls are made too.
@@ -118,6 +134,7 @@ impl Scenario {
             read_from: Vec::new(),
             image: None,
             wall_height_m: keys::PlanKeys::default().wall_height,
+            ceiling: keys::PlanKeys::default().ceiling,
             plan: PlanOptions::default(),
             walls: WallsOptions::default(),
             floor_texels_per_metre: texture.floor_texels_per_metre,
@@ -176,6 +193,11 @@ impl Scenario {
         })
     }
 
+    /// The path of the paint over the plan, if there is one.
+    pub fn paint_path(&self) -> Option<PathBuf> {
+        self.plan.paint.as_ref().map(|paint| self.folder.join(paint))
+    }
+
     /// What the scenario is about: the name of its plan, or of the motion that needs none.
     pub fn name(&self) -> PathBuf {
         self.image.clone().or_else(|| self.motion_file.clone()).unwrap_or_default()
@@ -186,9 +208,11 @@ impl Scenario {
         self.motion_file.as_ref().map(|file| (self.folder.join(file), &self.recording))
     }
 
-    /// How the plan is read: `plan`, with the points that routes name as points of the floor.
+    /// How the plan is read: `plan`, with the points that routes name as points of the floor, and doors to open.
     pub fn plan_options(&self) -> PlanOptions {
         let mut options = self.plan.clone();
+        options.paint = self.paint_path();
+        options.doors = self.doors.iter().map(DoorRequest::to_open).collect();
         let places = self.routes.routes.iter().flat_map(|route| {
             let via = route.via.iter().filter_map(|via| match via {
                 ViaRequest::Place(place) => Some(place),
@@ -202,6 +226,26 @@ impl Scenario {
             PlaceRequest::Area(_) | PlaceRequest::Opening(_) => None,
         }));
         options
+    }
+
+    /// The scenario with the people of the building's use: where it has the defaults of bags, children and groups, those
+    /// who use such a building have others.
+    pub fn lived_in(&self, life: Option<&Life>) -> Scenario {
+        let mut scenario = self.clone();
+        let Some(habits) = life.filter(|_| self.preset != Preset::Paper).map(|life| life.r#use.habits()) else {
+            return scenario;
+        };
+        let (bodies, groups) = (BodyOptions::default(), CrowdOptions::default().groups);
+        if self.bodies.bags == bodies.bags {
+            scenario.bodies.bags = habits.bags;
+        }
+        if self.bodies.children == bodies.children {
+            scenario.bodies.children = habits.children;
+        }
+        if self.crowd.groups.shares == groups.shares {
+            scenario.crowd.groups.shares = habits.groups;
+        }
+        scenario
     }
 
     /// The path of the folder with own patterns, if there is one.
@@ -229,10 +273,15 @@ impl Scenario {
         let densities: Vec<&mut dyn Value> = vec![&mut self.floor_texels_per_metre, &mut self.wall_texels_per_metre];
         let of = |(name, own, stage)| (name, parts(name, own, stage));
         [
-            ("plan", vec![&mut self.image as &mut dyn Value, &mut self.wall_height_m], self.plan.values_mut()),
+            (
+                "plan",
+                vec![&mut self.image as &mut dyn Value, &mut self.wall_height_m, &mut self.ceiling],
+                self.plan.values_mut(),
+            ),
             ("walls", Vec::new(), self.walls.values_mut()),
             ("texture", densities, self.texture.values_mut()),
-            ("crowd", vec![&mut self.preset, &mut self.seed], self.crowd.values_mut()),
+            ("crowd", vec![&mut self.preset as &mut dyn Value, &mut self.seed], self.crowd.values_mut()),
+            ("life", Vec::new(), self.routes.life.values_mut()),
             ("motion", vec![&mut self.motion_file], self.recording.values_mut()),
             ("bodies", Vec::new(), self.bodies.values_mut()),
             ("marks", Vec::new(), self.marks.values_mut()),
@@ -246,11 +295,12 @@ impl Scenario {
     }
 
     /// The sections that may be missing or come several times.
-    pub(super) fn lists(&mut self) -> [(&'static str, &mut dyn Value); 6] {
+    pub(super) fn lists(&mut self) -> [(&'static str, &mut dyn Value); 7] {
         [
             (keys::FORMATION, &mut self.formation),
             (keys::ROUTE, &mut self.routes.routes),
             (keys::STOP, &mut self.routes.stops),
+            (keys::ROOM, &mut self.routes.rooms),
             (keys::DOOR, &mut self.doors),
             (keys::FIXTURE, &mut self.fixtures),
             (keys::UNIT, &mut self.units),

@@ -9,6 +9,9 @@ use crate::files::read_text;
 use crate::look::Look;
 use crate::routes::Timetable;
 
+/// Texels per metre of floor and of walls of a first look.
+const QUICK_TEXELS_PER_METRE: (f64, f64) = (25.0, 50.0);
+
 impl Scenario {
     /// A scenario from a file: TOML is read as such, anything else is taken for a plan.
     ///
@@ -135,6 +138,12 @@ impl Scenario {
     fn override_by(&mut self, overrides: &Overrides) {
         self.seed = overrides.seed.unwrap_or(self.seed);
         self.crowd.people = overrides.people.unwrap_or(self.crowd.people);
+        self.routes.life.people = self.crowd.people;
+        self.routes.life.r#use = overrides.r#use.or(self.routes.life.r#use);
+        if overrides.quick {
+            (self.floor_texels_per_metre, self.wall_texels_per_metre) = QUICK_TEXELS_PER_METRE;
+            self.texture.layers = Some(false);
+        }
         self.floor_texels_per_metre = overrides.texels_per_metre.unwrap_or(self.floor_texels_per_metre);
         self.texture.target = overrides.target.unwrap_or(self.texture.target);
         self.texture.walls = overrides.walls.unwrap_or(self.texture.walls);
@@ -147,10 +156,17 @@ impl Scenario {
             self.motion_file = Some(absolute.unwrap_or_else(|| file.clone()));
         }
         self.recording = self.recording.overridden_by(&overrides.recording);
+        self.plan.page = overrides.page.or(self.plan.page);
         if overrides.metres_per_pixel.is_some() {
             self.plan.metres_per_pixel = overrides.metres_per_pixel;
-            self.plan.scale = None;
+            (self.plan.scale, self.plan.width_m) = (None, None);
         }
+        if overrides.width_m.is_some() {
+            self.plan.width_m = overrides.width_m;
+            (self.plan.scale, self.plan.metres_per_pixel) = (None, None);
+        }
+        self.plan.threshold = overrides.threshold.or(self.plan.threshold);
+        self.plan.invert = overrides.invert.or(self.plan.invert);
     }
 
     /// What the section of the look starts from: a preset or a file.

@@ -14,14 +14,18 @@ const WIDTH: usize = 118;
 /// Keys of a table on one line, in the order in which people say them.
 const PAIR_ORDER: [&str; 9] = ["kind", "mean", "size_m", "sd", "min", "max", "from", "to", "metres"];
 /// What stands above the sections that may be missing or come several times.
-const ABOUT: [(&str, &str); 6] = [
+const ABOUT: [(&str, &str); 7] = [
     (
         keys::FORMATION,
         "Formations that a crowd takes up one after another, in the place of one that walks. Key formations stand\n\
          # each in a [[formation.key]], small crowds in the places of individuals each in a [[formation.crowd]]:",
     ),
-    (keys::ROUTE, "Routes, each in a [[route]] of its own. Without any, routes join the widest openings:"),
+    (
+        keys::ROUTE,
+        "Routes, each in a [[route]] of its own. Without any, people use all rooms; a single space they cross:",
+    ),
     (keys::STOP, "Places where people stop, each in a [[stop]] of its own; routes name them in `via`:"),
+    (keys::ROOM, "What is known of rooms, each in a [[room]] of its own; what is left out the plan tells:"),
     (keys::DOOR, "Doors, each in a [[door]] of its own. Gaps of 0.7 to 2.0 m in walls are found without:"),
     (
         keys::FIXTURE,
@@ -57,6 +61,7 @@ impl Scenario {
         let name = |path: &PathBuf| path.file_name().map(PathBuf::from).unwrap_or_default();
         let mut scenario = self.clone();
         scenario.image = self.image.as_ref().map(name);
+        scenario.plan.paint = self.plan.paint.as_ref().map(name);
         scenario.motion_file = self.motion_file.as_ref().map(name);
         scenario.pattern_folder = self.pattern_folder.as_ref().map(name);
         for image in scenario.look.images().into_iter().flatten() {

@@ -99,7 +99,8 @@ mod tests {
         }
         let of_length = |length_m: f64, texels_per_metre| {
             let mut walls = room(3.0, 2.0);
-            walls.faces[0] = Face { closed: false, points_m: vec![vec2(0.0, 0.0), vec2(length_m, 0.0)] };
+            walls.faces[0] =
+                Face { closed: false, points_m: vec![vec2(0.0, 0.0), vec2(length_m, 0.0)], furniture_m: None };
             WallGrid::covering(&walls, 2.6, texels_per_metre)
         };
         let message = of_length(2e6, 1000.0).unwrap_err().to_string();

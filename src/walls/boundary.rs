@@ -97,7 +97,9 @@ impl Boundary {
                 openings.push((vertices.partition_point(|vertex| vertex.part <= last) - 1, side));
             }
         }
-        Outline { points_m: vertices.iter().map(|v| plan.px_to_m([v.at.x, v.at.y])).collect(), openings }
+        let points_m = vertices.iter().map(|v| plan.px_to_m([v.at.x, v.at.y])).collect();
+        let outline = Outline { points_m, openings, furniture_m: None };
+        Outline { furniture_m: outline.height_of_furniture(plan), ..outline }
     }
 
     /// Whether the corners enclose an area of the same orientation as the pixel edges.

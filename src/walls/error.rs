@@ -2,6 +2,8 @@
 pub(super) const FEWEST_POINTS: usize = 3;
 /// Largest extent of outlines along x or y, metres: the longest plan side with walls and aprons.
 pub(super) const LARGEST_EXTENT_M: f64 = crate::plan::LARGEST_SIDE_M + 500.0;
+/// Largest height of furniture, metres.
+pub(super) const HIGHEST_FURNITURE_M: f64 = 100.0;
 /// Largest total length of all outlines, metres.
 pub(super) const LONGEST_M: f64 = 2e7;
 
@@ -27,6 +29,14 @@ pub enum WallsError {
         /// Number of edges of the outline.
         points: usize,
     },
+    /// Furniture without a height.
+    #[error("outline {outline} is furniture of {height_m} m, allowed is more than 0, up to {HIGHEST_FURNITURE_M} m")]
+    Furniture {
+        /// Index of the outline.
+        outline: usize,
+        /// Height, metres.
+        height_m: f64,
+    },
     /// The outlines' extent exceeds that of any plan.
     #[error("the outlines reach over {extent_m} m, allowed are up to {} m", LARGEST_EXTENT_M)]
     TooFar {
@@ -50,7 +60,9 @@ impl WallsError {
     /// Index of the outline at fault, if the error is about one.
     pub(crate) fn outline(&self) -> Option<usize> {
         match self {
-            WallsError::TooFewPoints { outline, .. } | WallsError::Opening { outline, .. } => Some(*outline),
+            WallsError::TooFewPoints { outline, .. }
+            | WallsError::Opening { outline, .. }
+            | WallsError::Furniture { outline, .. } => Some(*outline),
             WallsError::TooFar { .. } | WallsError::TooLong { .. } => None,
         }
     }
@@ -60,6 +72,7 @@ impl WallsError {
         match self {
             WallsError::TooFewPoints { points, .. } => format!("a loop of {points} points"),
             WallsError::Opening { edge, .. } => format!("open at edge {edge}"),
+            WallsError::Furniture { height_m, .. } => format!("furniture of {height_m} m"),
             WallsError::TooFar { extent_m } => format!("{extent_m} m large"),
             WallsError::TooLong { length_m } => format!("{length_m:.0} m long"),
         }
@@ -70,6 +83,7 @@ impl WallsError {
         match self {
             WallsError::TooFewPoints { .. } => format!("{} points or more", FEWEST_POINTS),
             WallsError::Opening { points, .. } => format!("ascending edges below {points}"),
+            WallsError::Furniture { .. } => format!("more than 0, up to {HIGHEST_FURNITURE_M} m"),
             WallsError::TooFar { .. } => format!("up to {} m", LARGEST_EXTENT_M),
             WallsError::TooLong { .. } => format!("up to {} m", LONGEST_M),
         }

@@ -15,6 +15,9 @@ pub struct Face {
     /// Vertices, metres. A closed face starts at its vertex of least (y, x).
     #[serde(rename = "points")]
     pub points_m: Vec<Vec2>,
+    /// Height of the furniture that it belongs to, metres; `None` for walls, up to the ceiling.
+    #[serde(rename = "height_m", skip_serializing_if = "Option::is_none")]
+    pub furniture_m: Option<f64>,
 }
 
 impl Face {

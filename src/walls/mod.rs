@@ -86,6 +86,18 @@ impl Walls {
         Ok(Walls::of(outlines))
     }
 
+    /// The walls with small islands beside these lines as low furniture: cabinets of gates, free-standing counters.
+    pub(crate) fn lowered(self, beside: &[[Vec2; 2]], height_m: f64) -> Walls {
+        let mut outlines = self.outlines.clone();
+        let low = outlines.iter_mut().filter(|outline| outline.furniture_m.is_none() && outline.is_small_island());
+        let mut any = false;
+        for outline in low.filter(|outline| beside.iter().any(|&line| outline.stands_beside(line))) {
+            outline.furniture_m = Some(height_m);
+            any = true;
+        }
+        if any { Walls::of(outlines) } else { self }
+    }
+
     fn of(outlines: Vec<Outline>) -> Walls {
         let faces = outline::faces(&outlines);
         let segments = outline::wall_segments(&faces, &outlines);
@@ -141,6 +153,7 @@ impl Walls {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plan::PlanClass;
 
     /// A plan drawn with characters: `.` is floor, others are wall; 1 m per pixel.
     fn plan(rows: &[&str]) -> FloorPlan {
@@ -168,6 +181,33 @@ mod tests {
         assert!(walls.faces.iter().all(|f| f.closed));
         assert_eq!(walls.faces[1].points_m, [vec2(2.0, 2.0), vec2(4.0, 2.0), vec2(4.0, 3.0), vec2(2.0, 3.0)]);
         assert_eq!(walls.faces[0].points_m[..2], [vec2(1.0, 1.0), vec2(1.0, 4.0)]);
+    }
+
+    /// A room of 8 x 5 m with two tables, 1.2 m apart, that nearly reach the walls.
+    fn two_tables() -> FloorPlan {
+        let table = |x: u32, y: u32| (3..22).contains(&y) && ((12..18).contains(&x) || (24..30).contains(&x));
+        let inside = |x: u32, y: u32| (1..41).contains(&x) && (1..26).contains(&y);
+        let pixels = || (0..27).flat_map(|y| (0..42).map(move |x| (x, y)));
+        let floor = pixels().map(|(x, y)| u8::from(inside(x, y) && !table(x, y))).collect();
+        let mut plan = FloorPlan::from_mask(42, 27, 0.2, floor);
+        for (class, (x, y)) in plan.classes.iter_mut().zip(pixels()) {
+            if table(x, y) {
+                *class = PlanClass::Table;
+            }
+        }
+        plan
+    }
+
+    #[test]
+    fn tables_have_their_height_and_no_doors_between_them() {
+        let walls = Walls::trace(&two_tables(), &WallsOptions::default());
+        assert_eq!(walls.faces.iter().map(|face| face.furniture_m).collect::<Vec<_>>(), [None, Some(0.75), Some(0.75)]);
+        assert!(walls.doorways().is_empty());
+        let again = Walls::from_outlines(walls.outlines().to_vec()).unwrap();
+        assert_eq!(again.faces, walls.faces);
+        let mut wrong = walls.outlines().to_vec();
+        wrong[1].furniture_m = Some(f64::NAN);
+        assert!(matches!(Walls::from_outlines(wrong), Err(WallsError::Furniture { outline: 1, .. })));
     }
 
     #[test]

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::error::{FEWEST_POINTS, LARGEST_EXTENT_M, LONGEST_M, WallsError};
+use super::error::{FEWEST_POINTS, HIGHEST_FURNITURE_M, LARGEST_EXTENT_M, LONGEST_M, WallsError};
 use super::face::{APRON_M, Face, Segment};
 use crate::math::{Rect, Vec2, vec2};
-use crate::plan::Side;
+use crate::plan::{FloorPlan, PlanClass, Side};
 
 /// A closed loop around floor, or around a hole in it, with the floor on its right.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -15,6 +15,9 @@ pub struct Outline {
     pub points_m: Vec<Vec2>,
     /// Edges on an image side that are openings rather than walls, ascending, with the side.
     pub openings: Vec<(usize, Side)>,
+    /// Height of the furniture that it goes around, metres; `None` for walls, up to the ceiling.
+    #[serde(default, rename = "height_m", skip_serializing_if = "Option::is_none")]
+    pub furniture_m: Option<f64>,
 }
 
 impl Outline {
@@ -29,12 +32,80 @@ impl Outline {
     }
 }
 
+/// Longest and broadest island that may be a cabinet or a counter, metres, and least ratio of the two: others are pillars.
+const CABINET_M: [f64; 2] = [8.0, 1.6];
+const LEAST_RATIO: f64 = 1.7;
+/// How far from the line on which people stand its outline may be, metres.
+const BESIDE_M: f64 = 0.75;
+
+impl Outline {
+    /// True around an island as small as a cabinet of a ticket gate or a counter.
+    pub(super) fn is_small_island(&self) -> bool {
+        let edges = || (0..self.points_m.len()).map(|k| self.edge(k));
+        let area_m2 = 0.5 * edges().map(|[a, b]| a.cross(b)).sum::<f64>();
+        let around_m: f64 = edges().map(|[a, b]| a.distance(b)).sum();
+        // The rectangle of this area and circumference.
+        let squared = 0.0625 * around_m * around_m - area_m2;
+        let (middle_m, apart_m) = (0.25 * around_m, squared.max(0.0).sqrt());
+        let (long_m, broad_m) = (middle_m + apart_m, middle_m - apart_m);
+        let fits = long_m <= CABINET_M[0] && broad_m <= CABINET_M[1] && long_m >= LEAST_RATIO * broad_m;
+        self.openings.is_empty() && area_m2 > 0.0 && fits
+    }
+
+    /// True if a corner or the middle of an edge is beside a line on which people stand.
+    pub(super) fn stands_beside(&self, [a, b]: [Vec2; 2]) -> bool {
+        let along = b - a;
+        let squared = along.length_squared();
+        let away = |p: Vec2| {
+            let share = if squared > 0.0 { ((p - a).dot(along) / squared).clamp(0.0, 1.0) } else { 0.0 };
+            p.distance(a + along * share)
+        };
+        (0..self.points_m.len()).any(|k| {
+            let [from, to] = self.edge(k);
+            away(from) < BESIDE_M || away(from.lerp(to, 0.5)) < BESIDE_M
+        })
+    }
+}
+
+/// Least share of an island's outline that is furniture, so that the island is.
+const LEAST_FURNITURE: f64 = 0.8;
+
+impl Outline {
+    /// Height of the island inside the outline, metres, if it is furniture that is lower than the walls.
+    ///
+    /// Each edge counts by its length, for the class of the pixel behind its middle; the commonest class decides.
+    pub(super) fn height_of_furniture(&self, plan: &FloorPlan) -> Option<f64> {
+        let edges = || (0..self.points_m.len()).map(|k| self.edge(k));
+        // The floor is on the right: a counter-clockwise outline is around an island.
+        let is_island = self.openings.is_empty() && edges().map(|[a, b]| a.cross(b)).sum::<f64>() > 0.0;
+        if !is_island {
+            return None;
+        }
+        let mut lengths_m = [0.0; PlanClass::ALL.len()];
+        for [a, b] in edges() {
+            let Some(along) = (b - a).normalized() else { continue };
+            let behind = a.lerp(b, 0.5) + along.left() * (1.5 * plan.metres_per_pixel);
+            lengths_m[plan.class_at(behind) as usize] += a.distance(b);
+        }
+        let share = |class: PlanClass| lengths_m[class as usize];
+        let furniture = || PlanClass::ALL.into_iter().filter(|class| class.height_m().is_some());
+        let is_furniture = furniture().map(share).sum::<f64>() >= LEAST_FURNITURE * lengths_m.iter().sum::<f64>();
+        let commonest = furniture().max_by(|&a, &b| share(a).total_cmp(&share(b)));
+        commonest.filter(|_| is_furniture).and_then(PlanClass::height_m)
+    }
+}
+
 /// Checks outlines of a file.
 pub(crate) fn check(outlines: &[Outline]) -> Result<(), WallsError> {
     for (index, outline) in outlines.iter().enumerate() {
         let points = outline.points_m.len();
         if points < FEWEST_POINTS {
             return Err(WallsError::TooFewPoints { outline: index, points });
+        }
+        if let Some(height_m) =
+            outline.furniture_m.filter(|height_m| !(*height_m > 0.0 && *height_m <= HIGHEST_FURNITURE_M))
+        {
+            return Err(WallsError::Furniture { outline: index, height_m });
         }
         let ascends = outline.openings.is_sorted_by(|a, b| a.0 < b.0);
         let beyond = outline.openings.iter().find(|(edge, _)| *edge >= points || !ascends);
@@ -78,7 +149,7 @@ fn faces_of(outline: &Outline) -> Vec<Face> {
         });
         let start = least.unwrap_or(0);
         let points_m = (0..n).map(|k| outline.points_m[(start + k) % n]).collect();
-        return vec![Face { closed: true, points_m }];
+        return vec![Face { closed: true, points_m, furniture_m: outline.furniture_m }];
     };
     let mut faces = Vec::new();
     let mut points_m: Vec<Vec2> = Vec::new();
@@ -87,7 +158,7 @@ fn faces_of(outline: &Outline) -> Vec<Face> {
         points_m.push(outline.points_m[k]);
         if outline.opening(k).is_some() {
             if points_m.len() > 1 {
-                faces.push(Face { closed: false, points_m: std::mem::take(&mut points_m) });
+                faces.push(Face { closed: false, points_m: std::mem::take(&mut points_m), furniture_m: None });
             }
             points_m.clear();
         }

@@ -14,6 +14,7 @@ fn every_help_text_is_as_it_is_kept() {
         (vec!["resolve", "--help"], file!["help/resolve.txt"]),
         (vec!["init", "--help"], file!["help/init.txt"]),
         (vec!["inspect", "--help"], file!["help/inspect.txt"]),
+        (vec!["edit", "--help"], file!["help/edit.txt"]),
         (vec!["patterns", "--help"], file!["help/patterns.txt"]),
         (vec!["patterns", "import", "--help"], file!["help/patterns_import.txt"]),
         (vec!["diff", "--help"], file!["help/diff.txt"]),

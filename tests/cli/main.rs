@@ -8,6 +8,7 @@ mod bad_images;
 mod bad_numbers;
 mod bad_outputs;
 mod crowd;
+mod edit;
 mod help;
 mod interrupt;
 mod motion;

@@ -20,9 +20,9 @@ fn blocks(language: &str) -> Vec<String> {
 
 #[test]
 fn its_scenario_is_one() {
-    // The second shows what may be added to the first.
+    // The others show what may be added to the first.
     let text = blocks("toml").concat();
-    assert_eq!(blocks("toml").len(), 2);
+    assert_eq!(blocks("toml").len(), 3);
     Scenario::parse(&text, Path::new("station.toml"), &Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
 }
 

@@ -14,6 +14,7 @@ fn inspect_prints_what_was_understood() {
         ran.out,
         snapbox::str![[r#"
 size      8.00 x 4.00 m: 80 x 40 px at 0.1 m per pixel
+scale     given
 floor     24.0 m2 in 1 region
 walls     16.0 m: 2 open and 0 closed faces
 openings  west           3.00 m wide, around [0.00, 2.00]

@@ -8,6 +8,7 @@
 mod counter_flow;
 mod hard_plans;
 mod keeps;
+mod life;
 mod measures;
 mod paper;
 mod rimea;

@@ -70,7 +70,8 @@ struct Walked {
 impl Walk {
     fn new(plan: FloorPlan, stops: Vec<StopRequest>, routes: Vec<RouteRequest>, options: CrowdOptions) -> Walk {
         let walls = Walls::trace(&plan, &WallsOptions::default());
-        let routes = routes::find(&plan, &walls, &RoutesOptions { routes, stops }).unwrap_or_else(|e| panic!("{e}"));
+        let routes = routes::find(&plan, &walls, &RoutesOptions { routes, stops, ..RoutesOptions::default() })
+            .unwrap_or_else(|e| panic!("{e}"));
         Walk { plan, walls, routes, options }
     }
 
@@ -180,7 +181,9 @@ fn whoever_is_served_keeps_the_place_and_faces_the_counter() {
         route("east", "west", vec![to_stop("counter", 0.2)]),
     ];
     let stops = vec![counter(Distribution::Constant(12.0))];
-    walk.routes = routes::find(&walk.plan, &walk.walls, &RoutesOptions { routes: more, stops }).unwrap();
+    walk.routes =
+        routes::find(&walk.plan, &walk.walls, &RoutesOptions { routes: more, stops, ..RoutesOptions::default() })
+            .unwrap();
     let mut seen: Vec<(u32, f64, Vec2, Vec2)> = Vec::new();
     let walked = walk.run(|frame| {
         for walker in &frame.walkers {
@@ -413,7 +416,8 @@ fn a_stop_that_nobody_can_reach_ends_by_itself_and_says_who_and_where() {
     walk.plan = plan;
     walk.walls = Walls::trace(&walk.plan, &WallsOptions::default());
     let routes = vec![route("west", "east", Vec::new())];
-    let mut found = routes::find(&walk.plan, &walk.walls, &RoutesOptions { routes, stops: Vec::new() }).unwrap();
+    let mut found =
+        routes::find(&walk.plan, &walk.walls, &RoutesOptions { routes, ..RoutesOptions::default() }).unwrap();
     found[0].stops = walk.routes[0].stops.clone();
     found[0].stops[0].stop.places_m = vec![vec2(16.0, 9.0)];
     walk.routes = found;
@@ -430,7 +434,7 @@ fn a_stop_that_nobody_can_reach_ends_by_itself_and_says_who_and_where() {
 
 fn refused(plan: &FloorPlan, stops: Vec<StopRequest>, via: Vec<ViaRequest>) -> (String, String) {
     let walls = Walls::trace(plan, &WallsOptions::default());
-    let options = RoutesOptions { routes: vec![route("west", "east", via)], stops };
+    let options = RoutesOptions { routes: vec![route("west", "east", via)], stops, ..RoutesOptions::default() };
     let error: RoutesError = routes::find(plan, &walls, &options).unwrap_err();
     (error.to_string(), error.hint().unwrap_or_default())
 }

@@ -27,7 +27,9 @@ fn plan_path(name: &str, ending: &str) -> PathBuf {
 fn scenario(path: &Path, people: u32, texels_per_metre: f64) -> Scenario {
     let overrides =
         Overrides { people: Some(people), texels_per_metre: Some(texels_per_metre), ..Overrides::default() };
-    Scenario::open(path, &overrides).unwrap()
+    let mut scenario = Scenario::open(path, &overrides).unwrap();
+    scenario.wall_texels_per_metre = 30.0;
+    scenario
 }
 
 fn bake_on(threads: usize, scenario: &Scenario, folder: PathBuf) -> Report {

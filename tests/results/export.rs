@@ -157,7 +157,7 @@ fn the_same_bytes_on_any_number_of_threads() {
         files(&out)
     };
     let one = baked(1);
-    assert_eq!(one.len(), 4 * 6 + 4);
+    assert_eq!(one.len(), 4 * 8 + 4);
     for threads in [2, 16] {
         for (name, bytes) in baked(threads) {
             assert!(one[&name] == bytes, "{} on {threads} threads", name.display());

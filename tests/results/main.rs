@@ -7,8 +7,10 @@ mod bake;
 mod empty_walls;
 mod export;
 mod floorplans;
+mod floors;
 mod hashes;
 mod page;
 #[path = "../support/golden.rs"]
 mod golden;
 mod view;
+mod walls;

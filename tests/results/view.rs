@@ -106,15 +106,15 @@ fn a_fine_pattern_far_away_shows_its_mean() {
 /// The pillar's edges stand where their projection says, to the pixel.
 #[test]
 fn a_known_point_is_seen_at_the_known_pixel() {
-    // Level and along +x, 4 m before the pillar's face, which reaches from y = 3.0 to 3.6: 0.3 m to both sides.
-    let from = camera("3,3.3,1.7,0,0").with_fov(90.0);
+    // Level and along +x, 4 m before the pillar's face, which reaches from y = 3.0 to 3.6 and hides the corner beyond.
+    let from = camera("3,3.1,1.7,0,0").with_fov(90.0);
     let picture = drawn(&from, [400, 300], &|_, _| [200; 3]);
-    // 200 px at the distance 1 with 90 degrees: its edges are 0.3 / 4 * 200 = 15 px beside the middle.
+    // 200 px at the distance 1 with 90 degrees: its edges are 0.5 / 4 * 200 = 25 px and 5 px beside the middle.
     let step = |x: u32| {
         let [a, b] = [x - 1, x].map(|x| i32::from(picture.get_pixel(x, 150).0[1]));
         (a - b).abs()
     };
-    for (expected, around) in [(185, 175..196), (215, 205..226)] {
+    for (expected, around) in [(175, 166..186), (205, 196..216)] {
         let edge = around.max_by_key(|&x| step(x)).unwrap();
         assert!(i64::from(edge).abs_diff(expected) <= 1, "the edge is at {edge}");
     }

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::builder::TypedValueParser;
 use trodden::export::Target;
+use trodden::plan::VectorFormat;
+use trodden::rooms::Use;
 use trodden::scenario::{Overrides, Preset, Scenario, allowed_range};
 
 use super::print::Refused;
@@ -18,22 +20,36 @@ pub use motion_files::{MotionFiles, STANDARD_OUTPUT, frame_rate, recording_forma
 pub use usage::WrongUsage;
 pub use values::{number_within, one_of, within};
 
-/// Texel density of a quick bake, texels per metre.
-const QUICK_TEXELS_PER_METRE: f64 = 25.0;
-
 /// A scenario and its overrides.
 #[derive(Args)]
 pub struct ScenarioArguments {
-    /// A scenario (TOML), or a plan alone: PNG, JPEG, BMP, PGM, TIFF, GIF, or the YAML of a ROS map; - reads standard input
+    /// A scenario (TOML), or a plan alone: PNG, JPEG, BMP, PGM, TIFF, GIF, SVG, PDF, DXF, VTT, or YAML of ROS or Open-RMF; - reads standard input
     #[arg(value_name = "SCENARIO|PLAN", required = true)]
     pub path: Option<PathBuf>,
     /// Side of a pixel of the plan in metres
     #[arg(long, help_heading = "Scenario", value_name = "M", value_parser = within("plan.metres_per_pixel"))]
-    #[arg(allow_negative_numbers = true)]
+    #[arg(alias = "meters-per-pixel", allow_negative_numbers = true)]
     pub metres_per_pixel: Option<f64>,
+    /// Page of a PDF, level of an Open-RMF building, or storey of a building model [default: 1]
+    #[arg(long, help_heading = "Scenario", value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub page: Option<u32>,
+    /// Or how wide the building is in metres, from its westernmost to its easternmost wall as drawn
+    #[arg(long, help_heading = "Scenario", value_name = "M", value_parser = within("plan.width_m"))]
+    #[arg(conflicts_with = "metres_per_pixel", allow_negative_numbers = true)]
+    pub width_m: Option<f64>,
+    /// Lightness at which walls end and floor begins, 1 to 255 [default: found]
+    #[arg(long, help_heading = "Scenario", value_name = "L", allow_negative_numbers = true)]
+    #[arg(value_parser = clap::value_parser!(u8).range(1..))]
+    pub threshold: Option<u8>,
+    /// Walls are light on a dark ground [default: found]
+    #[arg(long, help_heading = "Scenario")]
+    pub invert: bool,
     /// How many people walk
     #[arg(long, help_heading = "Scenario", value_name = "N", value_parser = people, allow_negative_numbers = true)]
     pub people: Option<u32>,
+    /// What the building is for: which rooms draw people, and how long they stay [default: guessed from the plan]
+    #[arg(long = "use", help_heading = "Scenario", value_name = "USE", value_parser = building())]
+    pub r#use: Option<Use>,
     /// Another number, another crowd
     #[arg(long, help_heading = "Scenario", value_name = "N", allow_negative_numbers = true)]
     #[arg(value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
@@ -45,7 +61,7 @@ pub struct ScenarioArguments {
     #[arg(long, help_heading = "Scenario", value_name = "T", value_parser = within("texture.floor_texels_per_metre"))]
     #[arg(allow_negative_numbers = true)]
     pub texels_per_metre: Option<f64>,
-    /// A coarse floor of 25 texels per metre: a picture in about a second
+    /// A first look: 25 texels per metre of floor, 50 of walls, no layers
     #[arg(long, help_heading = "Scenario", conflicts_with = "texels_per_metre")]
     pub quick: bool,
     /// A copy of the plan, if it came on standard input.
@@ -78,7 +94,7 @@ impl ScenarioArguments {
                 let hint = Some("give the path of the YAML file instead of -".into());
                 return Err(Refused { message, hint }.into());
             }
-            Ok(text) if image::guess_format(&bytes).is_err() => {
+            Ok(text) if image::guess_format(&bytes).is_err() && VectorFormat::of(&bytes, "").is_none() => {
                 Scenario::parse(text, standard_input::shown(), overrides)
             }
             _ => Scenario::from_plan(&self.spool.keep(&bytes)?, overrides),
@@ -100,9 +116,15 @@ impl ScenarioArguments {
         Overrides {
             preset: self.preset,
             people: self.people,
+            r#use: self.r#use,
             seed: self.seed,
-            texels_per_metre: self.texels_per_metre.or(self.quick.then_some(QUICK_TEXELS_PER_METRE)),
+            texels_per_metre: self.texels_per_metre,
+            quick: self.quick,
             metres_per_pixel: self.metres_per_pixel,
+            page: self.page,
+            width_m: self.width_m,
+            threshold: self.threshold,
+            invert: self.invert.then_some(true),
             ..Overrides::default()
         }
     }
@@ -110,6 +132,10 @@ impl ScenarioArguments {
 
 pub fn target() -> impl TypedValueParser<Value = Target> {
     one_of(Target::ALL, Target::name)
+}
+
+pub fn building() -> impl TypedValueParser<Value = Use> {
+    one_of(Use::ALL, Use::name)
 }
 
 pub fn preset() -> impl TypedValueParser<Value = Preset> {

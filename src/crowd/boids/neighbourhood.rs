@@ -18,7 +18,7 @@ const FORESIGHT_S: f32 = 1.2;
 const SIDESTEP_M: f32 = 0.08;
 /// Least time in which two people close the gap between them, seconds.
 const CLOSING_S: f32 = 0.35;
-/// Gap beyond which nobody is bumped into, metres.
+/// Gap beyond which people do not collide, metres.
 const BUMPING_M: f32 = 1.2;
 
 /// One quantity of all others.

@@ -5,7 +5,7 @@ use crate::math::{SplitMix64, atan2, exp_f32};
 
 /// Share of the strongest interaction below which others exert no force: natural logarithm of 0.001.
 const LEAST_SHARE_LN: f32 = -6.907_755;
-/// Interval at which the random acceleration is drawn anew, seconds.
+/// Interval between draws of the random acceleration, seconds.
 const FLUCTUATION_S: f64 = 1.0;
 /// Odd number that sets the draws of one interval apart from those of the next.
 const KNOT: u64 = 0xd1b5_4a32_d192_ed03;
@@ -61,7 +61,7 @@ impl Forces {
 
     /// Random acceleration of an agent at a time, the same for any time step.
     ///
-    /// It is drawn anew every [`FLUCTUATION_S`] and interpolated linearly in between.
+    /// It is drawn every [`FLUCTUATION_S`] and interpolated linearly in between.
     pub(super) fn by_chance(&self, wander: u64, time_s: f64) -> [f32; 2] {
         if self.options.fluctuation as f32 == 0.0 {
             return [0.0; 2];

@@ -35,7 +35,7 @@ pub(super) struct BlendedPath {
 }
 
 impl BlendedPath {
-    /// Finds the quickest path into a part within the limits of a human body; `None` if there is none.
+    /// Finds the quickest path into a part within the limits of a human body; `None` if no path keeps them.
     ///
     /// `from` is the person's state in the viewer's frame.
     pub(super) fn find(unit: &Unit, member: usize, mirrored: bool, from: &TrackState) -> Option<BlendedPath> {

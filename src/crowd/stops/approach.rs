@@ -13,7 +13,7 @@ const AHEAD_STEP_M: f64 = 0.2;
 const AT_A_LOSS_S: f64 = 5.0;
 /// Distance at which agents walk straight to their spot, metres.
 const STRAIGHT_M: f64 = 2.0;
-/// Distance at which they go round nobody any more, metres; in a queue [`STRAIGHT_M`], since those ahead wait too.
+/// Distance at which they stop going round others, metres; in a queue [`STRAIGHT_M`], since those ahead wait too.
 const SHUFFLE_M: f64 = 0.5;
 /// Time in which an agent would reach its spot at the current pace, seconds: it slows down on the way.
 const EASING_S: f64 = 0.7;
@@ -64,7 +64,8 @@ impl Stops {
             Some(stop) if !straight => {
                 let ground = perception.environment.ground();
                 let at_a_loss = time_s - walk.improved_s > AT_A_LOSS_S;
-                let spread = along(|at| stop.flow.at(ground, at), perception, p).filter(|_| !at_a_loss);
+                let flow = stop.flow.as_ref().filter(|_| !at_a_loss);
+                let spread = flow.and_then(|flow| along(|at| flow.at(ground, at), perception, p));
                 spread.or_else(|| along(|at| stop.field.downhill(ground, at), perception, p))
             }
             _ => way.normalized(),

@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 
 use super::queue;
-use super::stop_state::{self, Service, StopState};
+use super::stop_state::{self, Service, StopState, WayThere};
 use super::target::VisitTarget;
 use super::update::StopsUpdate;
 use super::visit::{StopTally, Visit};
@@ -41,7 +41,7 @@ pub(in crate::crowd) struct Stops {
     /// Stops of each route.
     of_route: Vec<Vec<StopOnRoute>>,
     visitors: BTreeMap<u32, Visitor>,
-    /// Slots in the order of ids, sorted anew for every update.
+    /// Slots in the order of ids; sorted for every update.
     by_id: Vec<u32>,
     log: Option<Vec<Visit>>,
 }
@@ -55,14 +55,20 @@ impl Stops {
     /// The stops of the routes; stops of one name are one. People stand at least `keep_m` off walls where there is room.
     pub(in crate::crowd) fn new(environment: &Environment<'_>, keep_m: f64) -> Stops {
         let mut stops = Stops::default();
-        for route in environment.routes {
+        for (number, route) in environment.routes.iter().enumerate() {
             let mut of_route = Vec::new();
             for on_route in &route.stops {
                 let known = stops.states.iter().position(|state| state.stop.name == on_route.stop.name);
                 let stop = known.unwrap_or(stops.states.len());
                 if known.is_none() {
-                    let starts = starts_of(environment, &on_route.stop.name);
-                    stops.states.push(StopState::new(environment, &on_route.stop, &starts, keep_m));
+                    let way = match (on_route.stop.spots.is_empty(), on_route.after_via.checked_sub(1)) {
+                        (false, Some(leg)) => {
+                            let leg = environment.navigation.ways[number].legs[leg];
+                            WayThere::Field(environment.navigation.fields[leg.field].clone())
+                        }
+                        _ => WayThere::From(starts_of(environment, &on_route.stop.name)),
+                    };
+                    stops.states.push(StopState::new(environment, &on_route.stop, way, keep_m));
                 }
                 of_route.push(StopOnRoute {
                     stop,
@@ -160,8 +166,13 @@ impl Stops {
         let time_s = update.time_s;
         match visitor.state {
             VisitState::Underway => {
-                let passed = update.walk(slot).leg as usize >= on_route.after_via;
-                if passed {
+                let leg = update.walk(slot).leg as usize;
+                let is_next = leg + 1 == on_route.after_via;
+                let enters = is_next && state.is_entered(update.environment, p);
+                if enters {
+                    update.walk(slot).leg += 1;
+                }
+                if enters || leg >= on_route.after_via {
                     visitor.state = VisitState::Coming { queue: None };
                     update.set(slot, VisitTarget::come(on_route.stop));
                 }
@@ -175,7 +186,10 @@ impl Stops {
                     Service::Standing(standing) => {
                         let (spot_m, facing) =
                             standing.take(update.environment, &state.stop, visitor.id, planned.draw, p);
-                        state.tally.crowd(standing.taken(), standing.room(state.stop.spacing_m));
+                        // Rooms take whom they take.
+                        if state.stop.spots.is_empty() {
+                            state.tally.crowd(standing.taken(), standing.room(state.stop.spacing_m));
+                        }
                         visitor.came_s = time_s;
                         visitor.state = VisitState::Settling { since_s: time_s };
                         update.set(slot, VisitTarget::stand(on_route.stop, spot_m, facing, true));

@@ -98,12 +98,24 @@ pub(super) fn off_walls(environment: &Environment<'_>, spot: Vec2, keep_m: f64) 
     if environment.sight(spot, moved) { moved } else { spot }
 }
 
+/// A seat, or a spot in a room.
+#[derive(Clone, Copy, Debug)]
+struct Seat {
+    place_m: Vec2,
+    /// Unit vector that people face there, if it is one of its own.
+    facing: Option<Vec2>,
+    /// Id of who is there.
+    taken: Option<u32>,
+    /// Number of people who have been there.
+    used: u32,
+}
+
 /// People who stand or sit at a stop without a queue.
 #[derive(Clone, Debug)]
 pub(super) struct StandingArea {
     room: SearchArea,
-    /// Seats, metres, and the id of who sits there.
-    seats: Vec<(Vec2, Option<u32>)>,
+    /// Seats or spots, from the first that is taken on.
+    seats: Vec<Seat>,
     /// Spots by id, metres.
     spots: BTreeMap<u32, Vec2>,
 }
@@ -121,8 +133,13 @@ impl StandingArea {
             false if area.width() > 0.0 && area.height() > 0.0 => SearchArea::Within(area),
             false => SearchArea::Around(middle, stop.reach_m),
         };
-        let seats = if is_bench { stop.places_m.as_slice() } else { &[] };
-        let seats = seats.iter().map(|&seat| (off_walls(environment, seat, keep_m), None)).collect();
+        let seats = if is_bench { stop.places_m.as_slice() } else { &[] }.iter().map(|&seat| (seat, None));
+        let spots = stop.spots.iter().map(|spot| (spot.at_m, spot.facing));
+        let seat = |(place_m, facing)| {
+            let place_m = off_walls(environment, place_m, keep_m);
+            Seat { place_m, facing, taken: None, used: 0 }
+        };
+        let seats = seats.chain(spots).map(seat).collect();
         StandingArea { room, seats, spots: BTreeMap::new() }
     }
 
@@ -156,25 +173,29 @@ impl StandingArea {
         draw: u64,
         p: Vec2,
     ) -> (Vec2, Vec2) {
-        let vacant = self.seats.iter().filter(|seat| seat.1.is_none()).count();
-        let spot = if vacant > 0 {
-            let wanted = (draw % vacant as u64) as usize;
-            let seat = self.seats.iter_mut().filter(|seat| seat.1.is_none()).nth(wanted);
-            seat.map_or(p, |(place_m, taken)| {
-                *taken = Some(id);
-                *place_m
-            })
+        let mut vacant: Vec<&mut Seat> = self.seats.iter_mut().filter(|seat| seat.taken.is_none()).collect();
+        let mut own_facing = None;
+        let spot = if !vacant.is_empty() {
+            // Spots of a room get their turn, so that people use all of it.
+            let wanted = match stop.spots.is_empty() {
+                true => (draw % vacant.len() as u64) as usize,
+                false => (0..vacant.len()).min_by_key(|&k| vacant[k].used).unwrap_or(0),
+            };
+            let seat = &mut *vacant[wanted];
+            (seat.taken, seat.used, own_facing) = (Some(id), seat.used + 1, seat.facing);
+            seat.place_m
         } else {
             let spacing_m = stop.spacing_m.max(0.7);
             let free = |spot: Vec2, apart_m: f64| {
-                let seats = self.seats.iter().map(|seat| &seat.0);
+                let seats = self.seats.iter().map(|seat| &seat.place_m);
                 self.spots.values().chain(seats).all(|other| other.distance(spot) >= apart_m)
             };
             free_spot(environment, self.room, spacing_m, draw, free).unwrap_or(p)
         };
         self.spots.insert(id, spot);
-        let facing = match stop.facing {
-            Facing::Free => any_direction(draw),
+        let facing = match (own_facing, stop.facing) {
+            (Some(facing), _) => about(facing, draw),
+            (None, Facing::Free) => any_direction(draw),
             _ => about(stop.facing_from(spot), draw),
         };
         (spot, facing)
@@ -182,7 +203,7 @@ impl StandingArea {
 
     pub(super) fn leave(&mut self, id: u32) {
         self.spots.remove(&id);
-        self.seats.iter_mut().filter(|seat| seat.1 == Some(id)).for_each(|seat| seat.1 = None);
+        self.seats.iter_mut().filter(|seat| seat.taken == Some(id)).for_each(|seat| seat.taken = None);
     }
 }
 

@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use super::queue::Queue;
 use super::standing::{self, StandingArea};
 use super::visit::StopTally;
@@ -15,14 +17,25 @@ const FROM_BENCH_M: f64 = 0.8;
 const IN_THE_WAY_M: f64 = 0.7;
 const DETOUR_M: f64 = 2.0;
 
+/// Walking distance to the middle of a room, beyond half its size, from which people go to their spot, metres.
+const ROOM_MARGIN_M: f64 = 0.5;
+
+/// How people come to a stop.
+pub(super) enum WayThere {
+    /// From these cells.
+    From(Vec<usize>),
+    /// Into a room, along the route's field to its middle.
+    Field(Arc<Field>),
+}
+
 /// A stop with the people at it.
 #[derive(Debug)]
 pub(super) struct StopState {
     pub(super) stop: Stop,
     /// Walking distance to it.
-    pub(super) field: Field,
-    /// Flow that spreads people over the ways there.
-    pub(super) flow: Flow,
+    pub(super) field: Arc<Field>,
+    /// Flow that spreads people over the ways there; routes lead into rooms by themselves.
+    pub(super) flow: Option<Flow>,
     pub(super) kind: Service,
     pub(super) tally: StopTally,
 }
@@ -37,8 +50,8 @@ pub(super) enum Service {
 }
 
 impl StopState {
-    /// A stop that people come to from these cells.
-    pub(super) fn new(environment: &Environment<'_>, stop: &Stop, starts: &[usize], keep_m: f64) -> StopState {
+    /// A stop that people come to on this way.
+    pub(super) fn new(environment: &Environment<'_>, stop: &Stop, way: WayThere, keep_m: f64) -> StopState {
         let place = |&p: &Vec2| {
             let place_m = standing::off_walls(environment, p, keep_m);
             (place_m, stop.facing_from(place_m))
@@ -53,10 +66,19 @@ impl StopState {
                 Service::Queues(stop.places_m.iter().map(lane).collect())
             }
         };
-        let field = Field::to(environment.ground(), &stop.cells(environment.ground()));
+        let ground = environment.ground();
+        let to_stop = || Arc::new(Field::to(ground, &stop.cells(ground)));
+        let (field, flow) = match way {
+            WayThere::Field(field) => (field, None),
+            WayThere::From(starts) => {
+                let field = to_stop();
+                let flow = Flow::new(ground, &starts, &field);
+                (field, Some(flow))
+            }
+        };
         StopState {
             stop: stop.clone(),
-            flow: Flow::new(environment.ground(), starts, &field),
+            flow,
             field,
             kind,
             tally: StopTally { name: stop.name.clone(), in_line: stop.kind.has_line(), ..StopTally::default() },
@@ -69,6 +91,12 @@ impl StopState {
             Service::Standing(standing) => standing.reach_m(),
             Service::Queues(queues) => queues.iter().map(Queue::reach_m).fold(0.0, f64::max),
         }
+    }
+
+    /// Whether a person at `p` has come into the room that the stop is.
+    pub(super) fn is_entered(&self, environment: &Environment<'_>, p: Vec2) -> bool {
+        let is_room = !self.stop.spots.is_empty();
+        is_room && self.field.at(environment.ground(), p) < self.reach_m() + ROOM_MARGIN_M
     }
 
     /// Removes a person who has left the crowd.

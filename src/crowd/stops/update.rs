@@ -35,7 +35,7 @@ impl StopsUpdate<'_> {
         self.agents.walks[slot].visit.map_or(0.0, |target| target.spot_m().distance(p))
     }
 
-    /// Sends an agent to a new target; the way there is measured anew.
+    /// Sends an agent to a new target; the way there is measured again.
     pub(super) fn set(&mut self, slot: usize, target: VisitTarget) {
         let time_s = self.time_s;
         let walk = self.walk(slot);

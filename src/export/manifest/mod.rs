@@ -147,11 +147,17 @@ pub struct TileEntry {
     pub world: Option<WorldEntry>,
     /// Path of the base colour, 8 bit sRGB.
     pub basecolor: String,
-    /// Path of the packed masks, 8 bit linear: film, prints and scuffs, edge.
+    /// Path of the packed masks, 8 bit linear: film, prints, edge.
     pub mask: String,
     /// Path of the mask of passes, 8 bit linear grey. Empty in earlier bakes, whose mask has four channels.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub passes: String,
+    /// Path of wear, heel marks and height, 8 bit linear. Empty in earlier bakes.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub wear: String,
+    /// Path of the floor's normals, 8 bit linear. Empty in earlier bakes.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub normal: String,
     /// Path of occlusion, roughness, metallic, 8 bit linear.
     pub orm: String,
     /// Path of Unity's mask map, for that target: metallic, occlusion, detail, smoothness.
@@ -381,6 +387,7 @@ mod tests {
             via: Vec::new(),
             stops: Vec::new(),
             arrivals: None,
+            life: None,
             goal: Place::Area([vec2(3.0, 0.5), vec2(3.5, 1.0)]),
             share: 1.0,
             gates: vec![Gate { left_m: vec2(2.0, 1.9), right_m: vec2(2.0, 0.1) }],

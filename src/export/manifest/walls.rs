@@ -41,11 +41,14 @@ pub struct SheetEntry {
     pub height_px: u32,
     /// Path of the base colour, 8 bit sRGB.
     pub basecolor: String,
-    /// Path of the packed masks, 8 bit linear: skin, rub, scuff.
+    /// Path of the packed masks, 8 bit linear: hands; rub of arms, shoulders and bags together; scuffs of shoes.
     pub mask: String,
     /// Path of the mask of splashes, 8 bit linear grey. Empty in earlier bakes, whose mask has four channels.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub splash: String,
+    /// Path of the masks of what rubs, 8 bit linear: arms, shoulders, bags. Empty in earlier bakes.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub rub: String,
     /// Path of occlusion, roughness, metallic, 8 bit linear.
     pub orm: String,
     /// Path of Unity's mask map, for that target: metallic, occlusion, detail, smoothness.

@@ -219,9 +219,9 @@ fn kept_files_are_those_of_the_earlier_bake() {
     let (_dir, out) = place();
     bake(&out, "1", false);
     let folder = OutputFolder::begin(&out, true).unwrap();
-    folder.keep(&BakePath::new("floor/a.txt").unwrap()).unwrap();
+    folder.keep(&out, &BakePath::new("floor/a.txt").unwrap()).unwrap();
     assert!(folder.create("floor/a.txt").is_err(), "it would change the earlier bake");
-    assert!(matches!(folder.keep(&BakePath::new("floor/b.txt").unwrap()), Err(ExportError::Read { .. })));
+    assert!(matches!(folder.keep(&out, &BakePath::new("floor/b.txt").unwrap()), Err(ExportError::Read { .. })));
     folder.publish(&manifest()).unwrap();
     assert_eq!(content(&out), "1");
 }
@@ -329,7 +329,7 @@ fn links_of_the_user_stay_and_are_not_followed() {
     std::os::unix::fs::symlink("../floor", out.join("floor")).unwrap();
     let folder = OutputFolder::begin(&out, true).unwrap();
     assert!(matches!(folder.create("floor/a.txt"), Err(ExportError::UserFile { .. })));
-    let error = folder.keep(&BakePath::new("floor/a.txt").unwrap()).unwrap_err();
+    let error = folder.keep(&out, &BakePath::new("floor/a.txt").unwrap()).unwrap_err();
     assert!(error.to_string().contains("leads out of the bake"), "{error}");
     drop(folder);
     assert_eq!(fs::read_to_string(dir.path().join("floor/a.txt")).unwrap(), "2");

@@ -106,7 +106,7 @@ impl TargetEntry {
             }),
             uv_axes: ground.map(|axis| ["X", "Y", "Z"][axis].to_string()),
             v_zero: if v_from_top { "top" } else { "bottom" }.to_string(),
-            normals: format!("none are written; in the target's own, green points {normals}"),
+            normals: format!("green points {normals}"),
             largest_px: target.largest_px(),
         }
     }

@@ -1,6 +1,6 @@
 //! Target programs: file names, channel packing, axes, and scripts for each program.
 
-use super::band::{Image, LayerFile};
+use super::band::{GreenPoints, Image, LayerFile};
 use super::manifest::ChannelEntry;
 
 mod covered;
@@ -27,8 +27,19 @@ pub(super) enum Number {
 impl Target {
     /// The images of a texture.
     pub(super) fn images(self, covered: Covered) -> impl Iterator<Item = Image> {
-        let all = [Image::BaseColor, Image::Mask(covered), Image::LoneMask(covered), Image::Orm, Image::MaskMap];
-        all.into_iter().filter(move |image| *image != Image::MaskMap || self == Target::Unity)
+        let masks = [Image::Mask(covered), Image::LoneMask(covered), Image::Rub, Image::Wear];
+        let all = [Image::BaseColor].into_iter().chain(masks).chain([Image::Orm, Image::MaskMap, self.normal()]);
+        all.filter(move |image| match image {
+            Image::MaskMap => self == Target::Unity,
+            Image::Rub => covered == Covered::Wall,
+            Image::Wear | Image::Normal(_) => covered == Covered::Floor,
+            _ => true,
+        })
+    }
+
+    /// The normal map as the target reads it.
+    pub(super) fn normal(self) -> Image {
+        Image::Normal(if self == Target::Unreal { GreenPoints::Down } else { GreenPoints::Up })
     }
 
     /// The EXR files of a texture: engines refuse channels of other names than R, G, B and A.
@@ -46,6 +57,9 @@ impl Target {
             (Target::Unreal, Image::Mask(_)) => "Mask",
             (Target::Unreal | Target::Unity, Image::LoneMask(Covered::Floor)) => "Passes",
             (Target::Unreal | Target::Unity, Image::LoneMask(Covered::Wall)) => "Splash",
+            (Target::Unreal | Target::Unity, Image::Rub) => "Rub",
+            (Target::Unreal | Target::Unity, Image::Wear) => "Wear",
+            (Target::Unreal | Target::Unity, Image::Normal(_)) => "Normal",
             (Target::Unreal | Target::Unity, Image::Orm) => "ORM",
             (Target::Unity, Image::BaseColor) => "BaseMap",
             // Unity's own mask map has other channels.
@@ -55,6 +69,9 @@ impl Target {
             (_, Image::BaseColor) => "basecolor",
             (_, Image::Mask(_)) => "mask",
             (_, Image::LoneMask(covered)) => covered.lone_mask_name(),
+            (_, Image::Rub) => "rub",
+            (_, Image::Wear) => "wear",
+            (_, Image::Normal(_)) => "normal",
             (_, Image::Orm) => "orm",
             (_, Image::MaskMap) => "maskmap",
         };
@@ -108,7 +125,26 @@ impl Target {
         let rgba = ["R", "G", "B", "A"];
         let packed = covered.packed_masks().map(|kind| masks[kind]);
         channels.extend(rgba.into_iter().zip(packed).map(|(name, mask)| entry("mask", name, mask, "1 - exp(-D)")));
-        channels.push(entry(covered.lone_mask_name(), "Y", masks[covered.lone_mask()], "1 - exp(-D)"));
+        let how = match covered {
+            Covered::Floor => "0.6 ln(1 + look.film.per_pass n) / ln(1 + 1000 look.film.per_pass), at most 1",
+            Covered::Wall => "1 - exp(-D)",
+        };
+        channels.push(entry(covered.lone_mask_name(), "Y", masks[covered.lone_mask()], how));
+        if covered == Covered::Floor {
+            let packed = [
+                ("wear, 1 is worn through", "linear"),
+                ("heel marks, gum and rubs", "1 - exp(-D)"),
+                ("height over the mean surface", "0.5 + 0.098 per millimetre"),
+            ];
+            let wear = rgba.into_iter().zip(packed).map(|(name, (holds, how))| entry("wear", name, holds, how));
+            channels.extend(wear);
+            let green = if self == Target::Unreal { "DirectX" } else { "OpenGL" };
+            channels.push(entry("normal", "RGB", "normal of the floor", &format!("0.5 + 0.5 n, {green}")));
+        }
+        if covered == Covered::Wall {
+            let packed = ["rub of arms", "rub of shoulders", "rub of bags"];
+            channels.extend(rgba.into_iter().zip(packed).map(|(name, holds)| entry("rub", name, holds, "1 - exp(-D)")));
+        }
         let packed = ["occlusion", "roughness", "metallic"];
         channels.extend(rgba.into_iter().zip(packed).map(|(name, holds)| entry("orm", name, holds, "linear")));
         if self.images(covered).any(|image| image == Image::MaskMap) {

@@ -61,7 +61,13 @@ fn godot_imports(manifest: &Manifest) -> Vec<(&str, String)> {
     let tiles = tiles.map(|tile| ([&tile.basecolor, &tile.mask, &tile.passes, &tile.orm], &tile.layers));
     let sheets = manifest.walls.iter().flat_map(|walls| &walls.sheets);
     let sheets = sheets.map(|sheet| ([&sheet.basecolor, &sheet.mask, &sheet.splash, &sheet.orm], &sheet.layers));
-    let mut imports = Vec::new();
+    let rubs = manifest.walls.iter().flat_map(|walls| &walls.sheets).map(|sheet| sheet.rub.as_str());
+    let relief = manifest.floor.tiles.iter().flat_map(|tile| [tile.wear.as_str(), tile.normal.as_str()]);
+    let mut imports: Vec<_> = rubs
+        .chain(relief)
+        .filter(|file| !file.is_empty())
+        .map(|file| (file, godot_import(GodotCompression::Vram)))
+        .collect();
     for (images, layers) in tiles.chain(sheets) {
         for image in images {
             imports.push((image.as_str(), godot_import(GodotCompression::Vram)));

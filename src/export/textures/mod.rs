@@ -53,8 +53,8 @@ impl FloorTextures {
         let grid = self.layout.grid;
         let masks = [
             "film: dirt of everybody who ever walked",
-            "passes, D = look.film.per_pass x passes",
-            "fresh prints and scuffs",
+            "passes n of everybody who ever walked",
+            "fresh prints, stains and drips",
             "edge and dust: dirt where nobody walks",
         ];
         let of_layer = |layer: &str| match layer {
@@ -128,6 +128,8 @@ pub fn floor_textures(
             basecolor: file(Image::BaseColor),
             mask: file(Image::Mask(Covered::Floor)),
             passes: file(Image::LoneMask(Covered::Floor)),
+            wear: file(Image::Wear),
+            normal: file(options.target.normal()),
             orm: file(Image::Orm),
             mask_map: canvas.files.image(Image::MaskMap),
             layers: canvas.files.layers,

@@ -39,6 +39,7 @@ impl TextureSource for Disc {
         let mask: Vec<[u8; 4]> = texels.iter().map(bytes).collect();
         let film = texels.iter().map(|v| v.map_or(0.0, |v| (v % 2048) as f32)).collect();
         ResolvedBlock {
+            relief: Vec::new(),
             empty: false,
             base_color: mask.iter().map(|m| [m[0], m[1], m[2]]).collect(),
             clean: Vec::new(),
@@ -150,7 +151,7 @@ fn the_same_bytes_on_any_number_of_threads() {
             .map(|entry| entry.unwrap().path())
             .map(|path| (path.file_name().unwrap().to_owned(), std::fs::read(&path).unwrap()))
             .collect();
-        assert_eq!(files.len(), written.tiles.len() * 5);
+        assert_eq!(files.len(), written.tiles.len() * 7);
         (files, written.birdseye.picture([0; 3]))
     };
     let one = bytes(1);

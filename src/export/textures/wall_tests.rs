@@ -51,7 +51,7 @@ impl WallSource for Told<'_> {
         let texels = (0..width * height).map(|k| self.texel(face, i0 + (k % width) as i64, j0 + (k / width) as i64));
         let texels: Option<Vec<[u32; 3]>> = texels.collect();
         let Some(texels) = texels else {
-            *block = ResolvedBlock { empty: true, ..ResolvedBlock::default() };
+            *block = ResolvedBlock { relief: Vec::new(), empty: true, ..ResolvedBlock::default() };
             return;
         };
         let layer = |(k, &name): (usize, &&'static str)| {
@@ -62,6 +62,7 @@ impl WallSource for Told<'_> {
             empty: false,
             base_color: texels.iter().map(|&t| base_color(t)).collect(),
             clean: Vec::new(),
+            relief: Vec::new(),
             mask: texels.iter().map(|&t| mask(t)).collect(),
             orm: texels.iter().map(|&t| orm(t)).collect(),
             layers: LAYERS.iter().enumerate().map(layer).collect(),
@@ -255,7 +256,7 @@ fn the_same_bytes_on_any_number_of_threads_with_small_images_too() {
         (files(&baked.path("walls")), baked.textures.reduced)
     };
     let one = baked(1);
-    assert_eq!(one.0.len(), 5 * one.1.len());
+    assert_eq!(one.0.len(), 6 * one.1.len());
     assert!(one.1.len() > 1);
     for (reduced, sheet) in one.1.iter().zip(&bake(100.0, &options(512)).textures.atlas.sheets) {
         assert_eq!(reduced.factor, (sheet.width.max(sheet.height) / 64).max(1));

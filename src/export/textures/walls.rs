@@ -102,6 +102,7 @@ fn entry(index: usize, count: usize, canvas: &Canvas) -> Result<SheetEntry, Expo
         basecolor: file(Image::BaseColor),
         mask: file(Image::Mask(Covered::Wall)),
         splash: file(Image::LoneMask(Covered::Wall)),
+        rub: file(Image::Rub),
         orm: file(Image::Orm),
         mask_map: canvas.files.image(Image::MaskMap),
         layers: canvas.files.layers.clone(),

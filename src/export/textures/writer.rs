@@ -1,11 +1,11 @@
-use crate::export::band::{Band, BandBlock, ImageEncoder, LayerEncoder, TextureFiles, TileWriter};
+use crate::export::band::{self, Band, BandBlock, Image, LayerEncoder, TextureFiles, TileWriter};
 use crate::export::busy::BusyTime;
 use crate::export::layout::BLOCK;
 use crate::export::options::TextureOptions;
 use crate::export::reduced::ReducedBlock;
 use crate::export::targets::{Covered, Number, Target};
 use crate::export::{ExportError, OutputFile, OutputFolder, Reduced, TextureSource};
-use crate::look::ResolvedBlock;
+use crate::look::{Background, ResolvedBlock};
 use crate::progress::{Progress, Stage};
 
 /// A texture to write: a rectangle of a source.
@@ -37,7 +37,7 @@ pub(super) struct TextureWriter<'a> {
 struct Open<'c> {
     canvas: &'c Canvas,
     writer: Option<TileWriter<OutputFile>>,
-    encoder: ImageEncoder,
+    background: Background,
     /// The empty bands before that one.
     blank: Vec<Band>,
     reduced: Option<Reduced>,
@@ -110,9 +110,7 @@ impl<'a> TextureWriter<'a> {
             self.progress.advance(Stage::Export, begin + share * (end - begin));
         }
         let Some(writer) = open.writer else { return Ok(None) };
-        for file in writer.finish().map_err(OutputFile::explain)? {
-            file.close()?;
-        }
+        writer.finish().map_err(OutputFile::explain)?;
         Ok(Some(Written { reduced: open.reduced }))
     }
 
@@ -121,17 +119,17 @@ impl<'a> TextureWriter<'a> {
         let blank = |largest| Reduced::blank(canvas.size, Reduced::factor(canvas.size, largest), background);
         Ok(Open {
             canvas,
-            writer: if canvas.even_if_empty { Some(self.create(canvas)?) } else { None },
-            encoder: ImageEncoder::new(canvas.files.images.iter().map(|(image, _)| *image).collect(), background),
+            writer: if canvas.even_if_empty { Some(self.create(canvas, &background)?) } else { None },
+            background,
             blank: Vec::new(),
             reduced: self.reduced_px.map(blank),
         })
     }
 
-    fn create(&self, canvas: &Canvas) -> Result<TileWriter<OutputFile>, ExportError> {
+    fn create(&self, canvas: &Canvas, background: &Background) -> Result<TileWriter<OutputFile>, ExportError> {
         let size = canvas.size.map(|side| side as usize);
         let create = |name: &str| self.folder.create(name);
-        TileWriter::begin(size, &canvas.files, self.layers.as_ref(), create)
+        TileWriter::begin(size, &canvas.files, background, self.layers.as_ref(), create)
     }
 
     fn resolve<S: TextureSource>(
@@ -153,8 +151,9 @@ impl<'a> TextureWriter<'a> {
                 let reduced = small.map(|factor| ReducedBlock::of(&texels, [width, height], factor));
                 // Compressing the floats now, in the cache, frees them before the images are done.
                 let layers = self.layers.as_ref().map(|layers| layers.encode(&texels, width, height));
+                let rub = if canvas.files.image(Image::Rub).is_some() { band::rub(&texels) } else { Vec::new() };
                 texels.layers = Vec::new();
-                BandBlock { texels, layers: layers.unwrap_or_default(), reduced }
+                BandBlock { texels, layers: layers.unwrap_or_default(), rub, reduced }
             })
         });
     }
@@ -170,26 +169,20 @@ impl<'a> TextureWriter<'a> {
                 open.blank.push(band.clone());
                 return Ok(());
             }
-            let mut writer = self.create(open.canvas)?;
+            let mut writer = self.create(open.canvas, &open.background)?;
             for blank in std::mem::take(&mut open.blank) {
-                self.push(&blank, &mut open.encoder, &mut writer)?;
+                self.push(&blank, &mut writer)?;
             }
             open.writer = Some(writer);
         }
         match &mut open.writer {
-            Some(writer) => self.push(band, &mut open.encoder, writer),
+            Some(writer) => self.push(band, writer),
             None => Ok(()),
         }
     }
 
-    fn push(
-        &self,
-        band: &Band,
-        encoder: &mut ImageEncoder,
-        writer: &mut TileWriter<OutputFile>,
-    ) -> Result<(), ExportError> {
-        let strips = encoder.encode(band, &self.export_busy);
-        self.export_busy.measure(|| writer.push(band, &strips)).map_err(OutputFile::explain)
+    fn push(&self, band: &Band, writer: &mut TileWriter<OutputFile>) -> Result<(), ExportError> {
+        writer.push(band, &self.export_busy).map_err(OutputFile::explain)
     }
 }
 

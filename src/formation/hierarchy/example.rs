@@ -13,7 +13,7 @@ pub(super) fn lengthened(example: &Ensemble, moments: usize, repeat: Repeat) -> 
     let (fps, ids) = (example.fps, example.ids.clone());
     let length_s = (example.moments().saturating_sub(1)) as f64 / fps;
     let mut places_m = Vec::with_capacity(moments * ids.len());
-    // Where it turns back it has slowed down before its end, where it begins anew it has been faded in.
+    // Where it turns back it has slowed down before its end, where it starts again it has been faded in.
     let whole_s = match repeat {
         _ if moments <= example.moments() => f64::INFINITY,
         Repeat::ToAndFro => length_s - turn_s(length_s),

@@ -1,6 +1,8 @@
-//! Clean wall: colour, texture, joints and pores, skirting board.
+//! Clean wall: colour, texture, joints and pores, bricks and tiles, skirting board.
 
 use super::dots::{DotSettings, Dots};
+use super::frames::Frames;
+use super::masonry::Masonry;
 use super::material::WallMaterial;
 use super::settings::WallLook;
 use super::strip::FaceStrip;
@@ -22,6 +24,10 @@ const TIE_DEPTH: f32 = 0.28;
 /// Standard deviation of the tone between panels.
 const PANEL_SD: f32 = 0.028;
 
+/// Steps of painted walls' tone and roughness: about one byte, and three.
+const TONE_STEP: f32 = 0.0094;
+const ROUGH_STEP: f32 = 0.0118;
+
 /// Lip at the top of a skirting board, which collects dust: height, metres, and tone.
 const LIP_M: f32 = 0.004;
 const LIP_TONE: f32 = 0.82;
@@ -33,8 +39,15 @@ pub(super) struct CleanWall {
     tone: Vec<Noise>,
     tint: Noise,
     panels: Option<Formwork>,
+    masonry: Option<Masonry>,
+    /// Roughness per tone: what stands out is rougher.
+    rough_gain: f32,
+    /// Whether tone and roughness are rounded to steps.
+    stepped: bool,
     board_m: f32,
     board: [f32; 3],
+    pub frames: Frames,
+    roughness: f32,
 }
 
 /// Formwork panels.
@@ -61,8 +74,11 @@ pub(super) struct CleanWallWindow<'a> {
 pub(super) struct CleanWallRow {
     /// Linear colour, one plane per channel.
     pub rgb: [Vec<f32>; 3],
+    /// Added to the roughness, per texel; empty where the wall is even.
+    pub rough: Vec<f32>,
     /// Share of skirting board in the row.
     pub board: f32,
+    fine: Vec<f32>,
 }
 
 impl CleanWall {
@@ -73,10 +89,13 @@ impl CleanWall {
         };
         let own = srgb::light_of(wall.colour.unwrap_or(wall.material.properties().colour));
         let noise = |channel, [x, y, sd]: [f64; 3]| Noise::new(seed, channel, [x, y], sd as f32 * wall.texture);
-        // Length along the wall and height of spots, metres, and deviation; the last is for the tint. Paint is even:
-        // the stipple of a roller is finer than texels.
+        // Length along the wall and height of spots, metres, and deviation; the last is for the tint.
         let [fine, middle, coarse, tint] = match wall.material {
-            WallMaterial::Matt | WallMaterial::Gloss => [[1.0, 1.0, 0.0]; 4],
+            // Stipple of the roller, orange peel, overlapping strokes.
+            WallMaterial::Matt => [[0.004, 0.0045, 0.015], [0.018, 0.024, 0.008], [0.24, 0.8, 0.011], [1.0, 1.0, 0.0]],
+            WallMaterial::Gloss => [[0.005, 0.006, 0.010], [0.018, 0.024, 0.006], [0.24, 0.8, 0.008], [1.0, 1.0, 0.0]],
+            WallMaterial::Brick => [[0.006, 0.005, 0.055], [0.05, 0.03, 0.03], [1.4, 0.9, 0.035], [0.6, 0.4, 0.006]],
+            WallMaterial::Tile => [[0.05, 0.05, 0.004], [0.4, 0.4, 0.004], [1.5, 1.2, 0.006], [1.0, 1.0, 0.0]],
             // Grain, blotches, clouds.
             WallMaterial::Concrete => {
                 [[0.007, 0.007, 0.030], [0.16, 0.12, 0.022], [0.85, 0.55, 0.042], [0.5, 0.4, 0.004]]
@@ -97,8 +116,17 @@ impl CleanWall {
             tone: channels.into_iter().zip([fine, middle, coarse]).map(|(c, spots)| noise(c, spots)).collect(),
             tint: noise(Channel::WallGroundTint, tint),
             panels,
+            masonry: Masonry::of(wall.material, wall.texture, noise::key(seed, Channel::Masonry)),
+            rough_gain: match wall.material {
+                WallMaterial::Matt | WallMaterial::Gloss => 1.6,
+                WallMaterial::Tile => 0.0,
+                WallMaterial::Concrete | WallMaterial::Brick => 0.6,
+            },
+            stepped: matches!(wall.material, WallMaterial::Matt | WallMaterial::Gloss),
             board_m: wall.skirting.height_m,
             board: srgb::light_of(wall.skirting.colour),
+            frames: Frames::default(),
+            roughness: wall.roughness.unwrap_or(wall.material.properties().roughness),
         })
     }
 
@@ -109,7 +137,10 @@ impl CleanWall {
 
     /// Whether the wall above the skirting board has a single colour.
     pub fn is_even(&self) -> bool {
-        self.image.is_none() && self.panels.is_none() && self.tone.iter().chain([&self.tint]).all(Noise::is_flat)
+        self.image.is_none()
+            && self.panels.is_none()
+            && self.masonry.is_none()
+            && self.tone.iter().chain([&self.tint]).all(Noise::is_flat)
     }
 
     /// Whether a row is above the skirting board.
@@ -154,14 +185,16 @@ impl CleanWallWindow<'_> {
             plane.clear();
             plane.resize(self.window.width, 0.0);
         }
+        out.rough.clear();
         let j = self.window.j0 + self.row as i64;
         let texel_m = (1.0 / self.window.texels_per_metre) as f32;
         let low_m = j as f32 * texel_m;
         out.board = ((self.plaster.board_m - low_m) / texel_m).clamp(0.0, 1.0);
         if out.board < 1.0 {
-            self.read_wall(j, &mut out.rgb);
+            self.read_wall(j, out);
         }
         if out.board > 0.0 {
+            out.rough.iter_mut().for_each(|rough| *rough *= 1.0 - out.board);
             // The lip's share of the row's board.
             let top = self.plaster.board_m;
             let lip = (top.min(low_m + texel_m) - (top - LIP_M).max(low_m)).max(0.0) / (texel_m * out.board);
@@ -172,16 +205,26 @@ impl CleanWallWindow<'_> {
                 }
             }
         }
+        let wall = (self.plaster.roughness, out.board);
+        self.plaster.frames.paint((&self.window, &self.strip), j, wall, &mut out.rgb, &mut out.rough);
     }
 
-    fn read_wall(&self, j: i64, rgb: &mut [Vec<f32>; 3]) {
+    fn read_wall(&self, j: i64, out: &mut CleanWallRow) {
+        let CleanWallRow { rgb, rough, fine, .. } = out;
         if let Some(image) = &self.plaster.image {
             image.read_row(self.window.i0, j, rgb);
             return;
         }
         let [tone, _, tint] = &mut *rgb;
-        for field in &self.tone {
-            field.add_to(0, tone);
+        if let Some((first, others)) = self.tone.split_first() {
+            fine.clear();
+            fine.resize(self.window.width, 0.0);
+            first.add_to(0, fine);
+            tone.copy_from_slice(fine);
+            others.iter().for_each(|field| field.add_to(0, tone));
+            if self.plaster.rough_gain > 0.0 {
+                rough.extend(fine.iter().map(|fine| self.plaster.rough_gain * fine));
+            }
         }
         if let Some(field) = &self.tint {
             field.add_to(0, tint);
@@ -193,13 +236,24 @@ impl CleanWallWindow<'_> {
                 *tone -= panels.gain * pores;
             }
         }
+        // Paint in steps of one byte: files of it compress.
+        let stepped = self.plaster.stepped;
+        let even = |tone: f32| if stepped { (tone / TONE_STEP).round() * TONE_STEP } else { tone };
+        if stepped {
+            rough.iter_mut().for_each(|rough| *rough = (*rough / ROUGH_STEP).round() * ROUGH_STEP);
+        }
         let [r0, g0, b0] = self.plaster.base;
         let [red, green, blue] = rgb;
         for ((r, g), b) in red.iter_mut().zip(green).zip(blue) {
-            let (tone, tint) = ((1.0 + *r).max(0.2), *b);
+            let (tone, tint) = ((1.0 + even(*r)).max(0.2), *b);
             *r = r0 * tone * (1.0 + tint);
             *g = g0 * tone;
             *b = b0 * tone * (1.0 - tint);
+        }
+        if let Some(masonry) = &self.plaster.masonry {
+            rough.clear();
+            rough.resize(self.window.width, 0.0);
+            masonry.lay((&self.window, &self.strip), j, fine, rgb, rough);
         }
     }
 }

@@ -15,6 +15,10 @@ pub enum WallMaterial {
     Gloss,
     /// Fair-faced concrete with formwork joints and pores: keeps rubber and splashes, hardly any skin grime.
     Concrete,
+    /// Bricks in running bond with mortar joints: keeps rubber and dust, hides skin grime.
+    Brick,
+    /// Glazed tiles up to 1.5 m, which are wiped clean but for their joints; matt paint above.
+    Tile,
 }
 
 /// Properties of a material: absolute values, and factors on the look's settings.
@@ -68,6 +72,26 @@ impl WallMaterial {
                 dust: 1.3,
                 grime_roughness: -0.08,
                 rub_roughness: -0.06,
+            },
+            WallMaterial::Brick => WallProperties {
+                colour: [146, 92, 72],
+                roughness: 0.84,
+                touches: [0.15, 0.4, 0.8, 1.0],
+                history: 1.0,
+                splash: 1.2,
+                dust: 1.5,
+                grime_roughness: -0.10,
+                rub_roughness: -0.06,
+            },
+            WallMaterial::Tile => WallProperties {
+                colour: [226, 227, 222],
+                roughness: 0.16,
+                touches: [1.0, 0.7, 0.7, 0.8],
+                history: 0.35,
+                splash: 0.8,
+                dust: 0.8,
+                grime_roughness: 0.25,
+                rub_roughness: 0.18,
             },
         }
     }

@@ -4,7 +4,10 @@
 //! order. All noise is in the space of the unrolled face (arc length and height), so that it continues around corners
 //! and across the seam of a closed face.
 
+mod chips;
 mod dots;
+pub(crate) mod frames;
+mod masonry;
 mod material;
 mod paint;
 mod clean_wall;
@@ -17,6 +20,8 @@ mod touches;
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod texture_tests;
 
 pub use material::WallMaterial;
 pub use resolve::{WALL_LAYERS, WallResolver};

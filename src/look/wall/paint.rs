@@ -2,7 +2,10 @@
 
 use std::cell::RefCell;
 
+use super::chips::Chips;
 use super::clean_wall::{CleanWall, CleanWallWindow};
+use super::frames::Frames;
+use super::material::WallMaterial;
 use super::settings::StainLook;
 use super::shade::{WallShadeInput, WallShadeOutput, WallShader, stains};
 use super::splash::{Splash, SplashWindow};
@@ -19,6 +22,7 @@ use crate::math::srgb;
 use crate::patterns::Cause;
 use crate::stamps::DENSITY_ONE;
 use crate::sums::WallSums;
+use crate::walls::{Doorway, Walls};
 
 /// Buffers that a thread reuses between windows.
 #[derive(Default)]
@@ -37,6 +41,8 @@ struct WallLayout<'a> {
     /// By cause.
     touches: [Option<TouchFields>; 5],
     splash: Option<SplashWindow>,
+    /// Per texel; empty without chips.
+    chips: Vec<f32>,
     noise: Vec<NoiseField>,
     /// Whether there may be dirt.
     dirty: bool,
@@ -50,6 +56,7 @@ pub(super) struct WallPainter<'a> {
     /// By cause.
     stains: [StainLook; 5],
     splash: Splash,
+    chips: Chips,
     /// Noise of all dirt.
     noise: Vec<Noise>,
     law: WallShader,
@@ -57,12 +64,21 @@ pub(super) struct WallPainter<'a> {
 }
 
 impl<'a> WallPainter<'a> {
-    pub fn new(sums: &'a WallSums, look: &Look, simulated_people: u32) -> Result<WallPainter<'a>, LookError> {
+    pub fn new(
+        sums: &'a WallSums,
+        walls: &Walls,
+        look: &Look,
+        simulated_people: u32,
+    ) -> Result<WallPainter<'a>, LookError> {
         let (wall, texels_per_metre) = (&look.wall, sums.grid().texels_per_metre);
         let plaster = CleanWall::new(wall, look.seed, texels_per_metre)?;
         let noise = dirt_noise(look);
         let law = WallShader::new(look, &wall.material.properties(), simulated_people, &noise, texels_per_metre);
+        // Bricks have no paint.
+        let chipped = if wall.material == WallMaterial::Brick { 0.0 } else { wall.chips };
+        let history = (wall.total_passes as f64 / f64::from(simulated_people)) as f32;
         Ok(WallPainter {
+            chips: Chips::new(walls, sums, look.seed, chipped * history),
             sums,
             background: Background {
                 base_color: plaster.mean().map(|light| srgb::encode_f32(light).round() as u8),
@@ -78,12 +94,18 @@ impl<'a> WallPainter<'a> {
         })
     }
 
+    /// Adds the frames of doors.
+    pub fn with_doors(mut self, walls: &Walls, doorways: &[Doorway], look: &Look) -> WallPainter<'a> {
+        self.plaster.frames = Frames::new(walls, doorways, &look.wall);
+        self
+    }
+
     /// Shades all texels of a window inside the strip into a block of its size. Returns `false` if all of them have the
     /// background.
     pub fn paint(&self, strip: &FaceStrip, window: &TexelWindow, block: &mut ResolvedBlock) -> bool {
         BUFFERS.with_borrow_mut(|buffers| {
             let mut layout = WallLayout::over(self, strip, window);
-            let even = self.plaster.is_even();
+            let even = self.plaster.is_even() && !self.plaster.frames.touches(window, strip);
             let all_wall = self.plaster.is_above_board(window.j0, window.texels_per_metre);
             if even && all_wall && !layout.dirty {
                 block.clear(0..window.texels(), self.background);
@@ -116,14 +138,16 @@ impl<'a> WallPainter<'a> {
             orm: &mut block.orm[texels.clone()],
         };
         shaded.write(self.dither ^ strip.salt, window.i0, window.j0 + row as i64, &mut bytes);
-        if self.plaster.is_even() {
-            // Without dither, which does not compress.
+        // Clean texels without dither, which does not compress.
+        if self.plaster.is_even() && known.plaster.rough.is_empty() {
             let (colour, orm) = known.even_bytes(&self.law);
             for ((total, base_color), out) in shaded.total.iter().zip(&mut *bytes.base_color).zip(&mut *bytes.orm) {
                 if *total == 0.0 {
                     (*base_color, *out) = (colour, orm);
                 }
             }
+        } else {
+            shaded.write_clean(&mut bytes);
         }
         block.set_clean(texels.start, &known.plaster.rgb);
         for (layer, plane) in block.layers.iter_mut().zip(&shaded.density) {
@@ -152,12 +176,15 @@ impl<'a> WallLayout<'a> {
         });
         let splash = painter.splash.over(window, strip);
         let low_m = (window.j0 as f64 + 0.5) / window.texels_per_metre;
-        let dirty = splash.is_some() || touches.iter().any(Option::is_some) || law.dust_from(low_m as f32);
+        let chips = painter.chips.over(window, strip);
+        let dirty =
+            splash.is_some() || !chips.is_empty() || touches.iter().any(Option::is_some) || law.dust_from(low_m as f32);
         let noise = |noise: &Noise| noise.over_strip(window, strip.salt, strip.width, strip.closed);
         WallLayout {
             plaster: painter.plaster.over(window, strip),
             touches,
             splash,
+            chips,
             noise: if dirty { painter.noise.iter().map(noise).collect() } else { Vec::new() },
             dirty,
         }
@@ -201,6 +228,11 @@ impl<'a> WallLayout<'a> {
             if known.splash.iter().all(|&density| density == 0.0) {
                 known.splash.clear();
             }
+        }
+        known.chips.clear();
+        let chips = self.chips.get(row * window.width..(row + 1) * window.width);
+        if let Some(chips) = chips.filter(|chips| chips.iter().any(|&density| density > 0.0)) {
+            known.chips.extend_from_slice(chips);
         }
         known.uneven.clear();
         known.uneven.resize(if self.noise.is_empty() { 0 } else { window.width }, 0.0);

@@ -7,10 +7,10 @@ use crate::look::block::{Background, ResolvedBlock};
 use crate::look::error::LookError;
 use crate::look::settings::Look;
 use crate::sums::WallSums;
-use crate::walls::Walls;
+use crate::walls::{Doorway, Walls};
 
-/// Names of a wall block's float layers: optical densities by cause, of splash, of dust.
-pub const WALL_LAYERS: [&str; KINDS] = ["hand", "arm", "shoulder", "bag", "shoe", "splash", "dust"];
+/// Names of a wall block's float layers: optical densities by cause, of splash, of dust, of chips in the paint.
+pub const WALL_LAYERS: [&str; KINDS] = ["hand", "arm", "shoulder", "bag", "shoe", "splash", "dust", "chip"];
 
 /// Resolves rectangles of wall faces' strips, also from several threads. A texel depends on its position only.
 pub struct WallResolver<'a>(WallPainter<'a>);
@@ -34,7 +34,12 @@ impl<'a> WallResolver<'a> {
         if summed != faces {
             return Err(LookError::OtherWalls { faces, summed });
         }
-        Ok(WallResolver(WallPainter::new(sums, look, simulated_people)?))
+        Ok(WallResolver(WallPainter::new(sums, walls, look, simulated_people)?))
+    }
+
+    /// Adds the frames of doors, as `look` has them.
+    pub fn with_doors(self, walls: &Walls, doorways: &[Doorway], look: &Look) -> WallResolver<'a> {
+        WallResolver(self.0.with_doors(walls, doorways, look))
     }
 
     /// Mean of the clean wall: the value of all texels of an empty block.

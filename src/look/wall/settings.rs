@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
 use super::material::WallMaterial;
-use crate::look::colours::{BAG, CLOTH, RUBBER, SKIN, SOIL_WET};
+use crate::look::colours::{BAG, CLOTH, SKIN, SOIL_WET};
 use crate::look::octaves::{NoiseLook, Octave};
 use crate::math::srgb::Srgb8;
 use crate::options::options;
@@ -14,13 +14,13 @@ options! {
     /// g = sqrt(w), at most 8; D = density n / (density + n). Where many have touched, a closed soft patch grows; what one
     /// touch left stays single and faint. Where w is 1 or less, it is n = strength w S.
     pub struct WallLook {
-        /// "matt" or "gloss" paint, or "concrete": colour, texture, how stains stay on it.
+        /// "matt" or "gloss" paint, "concrete", "brick", or "tile" up to 1.5 m with paint above: colour, texture, how stains stay on it.
         material: WallMaterial = WallMaterial::Matt;
         /// Colour in sRGB of the clean wall; left out: the material's.
         colour: Option<Srgb8> = None, eg "[228, 227, 223]";
-        /// How much of the material's own texture shows; paint has none.
+        /// How much of the material's own texture shows: the stipple of a roller, formwork, bricks.
         ///
-        /// 0 is dead flat, 1 as the material has it. Only concrete has one; paint is even, so that walls that nobody touches take next to no space in files.
+        /// 0 is dead flat, 1 as the material has it. With 0, painted walls that nobody touches take next to no space in files.
         texture: f32 = 1.0, in 0.0..=3.0;
         /// Or an image of the clean wall, repeated.
         image: Option<PathBuf> = None, eg "\"brick.png\"";
@@ -35,17 +35,23 @@ options! {
         /// Stains of hands.
         skin: StainLook = StainLook::default();
         /// Stains of arms and shoulders.
-        cloth: StainLook = StainLook { density: 0.36, spread_m: 0.07, colour: CLOTH, ..StainLook::default() };
+        cloth: StainLook = StainLook { density: 0.34, spread_m: 0.07, colour: CLOTH, ..StainLook::default() };
         /// Stains of bags, cases, trolleys.
         bag: StainLook = StainLook { density: 0.42, colour: BAG, ..StainLook::default() };
         /// Stains of shoes.
-        rubber: StainLook = StainLook { strength: 0.7, density: 0.95, spread_m: 0.03, colour: RUBBER };
+        rubber: StainLook = StainLook { strength: 3.0, density: 1.1, spread_m: 0.03, colour: [40, 42, 46] };
+        /// Paint that bags and trolleys have knocked off outer corners and jambs; 0: none.
+        chips: f32 = 1.0, in 0.0..=10.0;
         /// Splashes of mopping.
         splash: SplashLook = SplashLook::default();
         /// Grey film low on the wall.
         dust: WallDustLook = WallDustLook::default();
         /// The board along the foot of the wall.
         skirting: SkirtingLook = SkirtingLook::default();
+        /// Width of the frames around doors up to 1.6 m wide, images of frames; 0: none.
+        frame_m: f32 = 0.06, in 0.0..=0.3, unit "m";
+        /// Colour of the frames, sRGB.
+        frame_colour: Srgb8 = [150, 152, 152];
         /// Unevenness of all dirt, along the wall and up.
         noise: NoiseLook = NoiseLook {
             fine: Octave { size_m: 0.012, sd: 0.14 },
@@ -60,14 +66,14 @@ options! {
     #[derive(Copy)]
     pub struct StainLook {
         /// Factor on the touches.
-        strength: f32 = 0.5, in 0.0..=20.0;
+        strength: f32 = 3.0, in 0.0..=20.0;
         /// Optical density where the wall takes up no more of it.
-        density: f32 = 0.70, in 0.0..=3.0;
+        density: f32 = 0.50, in 0.0..=3.0;
         /// How far simulated touches are evened out, for those beside them.
         ///
         /// Standard deviation of a Gaussian.
         spread_m: f64 = 0.06, in 0.005..=0.5, unit "m";
-        /// Colour, sRGB.
+        /// Colour of a thick layer, sRGB: the darker a channel, the more light of it the dirt absorbs.
         colour: Srgb8 = SKIN;
     }
 }
@@ -77,13 +83,13 @@ options! {
     #[derive(Copy)]
     pub struct SplashLook {
         /// Optical density that mopping leaves at the foot of the wall.
-        density: f32 = 0.22, in 0.0..=3.0;
-        /// Where the splash band ends at the highest.
+        density: f32 = 0.09, in 0.0..=3.0;
+        /// Where the splash band is nearly gone; it thins out softly.
         height_m: f32 = 0.12, in 0.01..=1.0, unit "m";
         /// How uneven it is.
         unevenness: f32 = 0.7, in 0.0..=1.5;
         /// Drips that ran down.
-        drips_per_metre: f32 = 0.25, in 0.0..=20.0;
+        drips_per_metre: f32 = 0.1, in 0.0..=20.0;
         /// Colour, sRGB.
         colour: Srgb8 = SOIL_WET;
     }
@@ -100,29 +106,40 @@ options! {
         /// Optical density of a film at hand height along all walls.
         hands: f32 = 0.0, in 0.0..=3.0;
         /// Colour, sRGB.
-        colour: Srgb8 = [124, 116, 104];
+        colour: Srgb8 = [150, 142, 129];
     }
 }
 
 options! {
-    /// A skirting board, painted on.
+    /// A skirting board: an image of one, with dust on its upper edge.
     #[derive(Copy)]
     pub struct SkirtingLook {
         /// Of a skirting board; 0: none.
         ///
         /// Height, metres, 0 (none) to 0.5.
-        height_m: f32 = 0.0, in 0.0..=0.5, unit "m";
+        height_m: f32 = 0.08, in 0.0..=0.5, unit "m";
         /// Colour, sRGB.
-        colour: Srgb8 = [112, 111, 108];
+        colour: Srgb8 = [190, 187, 180];
     }
 }
 
 impl WallLook {
+    /// Returns the look of a wall without texture, skirting board and frames.
+    pub(in crate::look) fn plain(&self) -> WallLook {
+        WallLook {
+            texture: 0.0,
+            skirting: SkirtingLook { height_m: 0.0, ..self.skirting },
+            frame_m: 0.0,
+            ..self.clone()
+        }
+    }
+
     /// Returns the look of a clean wall.
     pub(in crate::look) fn clean(&self) -> WallLook {
         let clean = |stain: StainLook| StainLook { strength: 0.0, ..stain };
         WallLook {
             every_touch: 0.0,
+            chips: 0.0,
             skin: clean(self.skin),
             cloth: clean(self.cloth),
             bag: clean(self.bag),

@@ -6,17 +6,20 @@ use super::clean_wall::CleanWallRow;
 use super::material::WallProperties;
 use super::settings::{StainLook, WallLook};
 use crate::look::bytes::{Bytes, Rounding, ShadedPlanes};
+use crate::look::colours::absorption;
 use crate::look::noise::Noise;
 use crate::look::planes::{add2, each1, each2, each3};
 use crate::look::settings::Look;
 use crate::math::{exp_f32, srgb};
 
-/// Number of kinds of dirt, in the order of [`super::WALL_LAYERS`]: five causes, splash, dust.
-pub(super) const KINDS: usize = 7;
+/// Number of kinds of dirt, in the order of [`super::WALL_LAYERS`]: five causes, splash, dust, chips of paint.
+pub(super) const KINDS: usize = 8;
 pub(super) const SPLASH: usize = 5;
 pub(super) const DUST: usize = 6;
-/// Channel of the mask for each kind: skin, rub, scuff, splash and dust.
-const CHANNEL: [usize; KINDS] = [0, 1, 1, 1, 2, 3, 3];
+pub(super) const CHIP: usize = 7;
+/// Channel of the mask for each kind: skin, rub, scuff, splash and dust; chips have none of these.
+const CHANNEL: [usize; KINDS] = [0, 1, 1, 1, 2, 3, 3, 4];
+const CHANNELS: usize = 5;
 /// Index of the material's factor on touches for each cause: skin, cloth, bag, rubber.
 const STAIN: [usize; 5] = [0, 1, 1, 2, 3];
 
@@ -29,13 +32,21 @@ const FULL_GRIME: f32 = 0.30;
 /// Roughness of rubber, and of loose dirt.
 const RUBBER_ROUGHNESS: f32 = 0.60;
 const DIRT_ROUGHNESS: f32 = 0.88;
-/// Roughness of a skirting board.
-const BOARD_ROUGHNESS: f32 = 0.40;
+/// Roughness of a skirting board, and of plaster under chipped paint.
+const BOARD_ROUGHNESS: f32 = 0.42;
+const CHIP_ROUGHNESS: f32 = 0.92;
+/// Colour of that plaster, sRGB.
+const CHIP_COLOUR: [u8; 3] = [172, 163, 148];
 /// Factor on skin and cloth on a skirting board, which is smooth and wiped with the floor.
 const BOARD_TOUCH: f32 = 0.6;
 
 /// Multiple of its reach at which dust ends.
 const DUST_END: f32 = 3.0;
+/// Dust on the upper edge of a skirting board: density as a multiple of that at the floor, height of the edge, and height
+/// in which the line above it falls to 1/e, metres.
+const LIP: f32 = 7.0;
+const LIP_M: f32 = 0.004;
+const LIP_FALL_M: f32 = 0.006;
 /// Film at hand height: centre and standard deviation of its height, metres.
 const HANDS_M: f32 = 1.15;
 const HANDS_SD_M: f32 = 0.22;
@@ -53,7 +64,12 @@ pub(super) struct WallShader {
     pub splash: f32,
     /// Dust: density at the floor, reach, and density of the film at hand height.
     dust: [f32; 3],
+    /// Height of the skirting board and of a texel, metres.
+    board_m: f32,
+    texel_m: f32,
     colours: [[f32; 3]; KINDS],
+    /// Per kind: optical density of red, green and blue per density.
+    absorbs: [[f32; 3]; KINDS],
     darkest: f32,
     mean_log: f32,
     roughness: f32,
@@ -72,6 +88,8 @@ pub(super) struct WallShadeInput {
     pub uneven: Vec<f32>,
     /// Optical density, including factors; empty if there is none.
     pub splash: Vec<f32>,
+    /// Optical density of chips; empty if there are none.
+    pub chips: Vec<f32>,
     /// Height of the row's centre above the floor, metres.
     pub height_m: f32,
 }
@@ -83,10 +101,10 @@ pub(super) struct WallShadeOutput {
     pub density: [Vec<f32>; KINDS],
     uneven: Vec<f32>,
     /// Per channel of the mask: density, then transmittance.
-    through: [Vec<f32>; 4],
+    through: [Vec<f32>; CHANNELS],
     pub total: Vec<f32>,
-    /// Opacity per optical density.
-    hiding: Vec<f32>,
+    /// Optical density by colour.
+    totals: [Vec<f32>; 3],
     roughness: Vec<f32>,
     rgb: [Vec<f32>; 3],
     rounding: Rounding,
@@ -95,7 +113,7 @@ pub(super) struct WallShadeOutput {
 impl WallShadeInput {
     /// Whether all texels are clean.
     fn is_clean(&self, dust: f32) -> bool {
-        self.single.iter().all(Vec::is_empty) && self.splash.is_empty() && dust == 0.0
+        self.single.iter().all(Vec::is_empty) && self.splash.is_empty() && self.chips.is_empty() && dust == 0.0
     }
 
     /// Colour and ORM bytes of the row's clean wall, if it is even.
@@ -110,6 +128,14 @@ impl WallShader {
         let wall = &look.wall;
         let weight = properties.history * (wall.total_passes as f64 / f64::from(simulated_people)) as f32;
         let stains = stains(wall);
+        let colours: [[f32; 3]; KINDS] = std::array::from_fn(|kind| {
+            srgb::light_of(match kind {
+                SPLASH => wall.splash.colour,
+                DUST => wall.dust.colour,
+                CHIP => CHIP_COLOUR,
+                cause => stains[cause].colour,
+            })
+        });
         WallShader {
             weight,
             // With fewer passes than simulated, there is nothing to smooth.
@@ -119,13 +145,10 @@ impl WallShader {
             density: stains.map(|stain| stain.density),
             splash: properties.splash,
             dust: [wall.dust.density * properties.dust, wall.dust.reach_m, wall.dust.hands * properties.dust],
-            colours: std::array::from_fn(|kind| {
-                srgb::light_of(match kind {
-                    SPLASH => wall.splash.colour,
-                    DUST => wall.dust.colour,
-                    cause => stains[cause].colour,
-                })
-            }),
+            board_m: wall.skirting.height_m,
+            texel_m: (1.0 / density) as f32,
+            absorbs: colours.map(absorption),
+            colours,
             darkest: srgb::decode(f64::from(look.darkest) / 255.0) as f32,
             mean_log: noise.iter().map(|noise| noise.sd_of_texels(density)).map(|sd| 0.5 * sd * sd).sum(),
             roughness: wall.roughness.unwrap_or(properties.roughness),
@@ -152,7 +175,8 @@ impl WallShader {
     /// Whether there may be dust at or above a height.
     pub fn dust_from(&self, height_m: f32) -> bool {
         let [density, reach_m, hands] = self.dust;
-        density > 0.0 && height_m < DUST_END * reach_m || hands > 0.0 && height_m < HANDS_M + 3.0 * HANDS_SD_M
+        let end_m = (DUST_END * reach_m).max(if self.board_m > 0.0 { self.board_m + 5.0 * LIP_FALL_M } else { 0.0 });
+        density > 0.0 && height_m < end_m || hands > 0.0 && height_m < HANDS_M + 3.0 * HANDS_SD_M
     }
 
     /// Optical density of dust at a height, before noise.
@@ -162,7 +186,19 @@ impl WallShader {
         let low = if height_m < end { density * (exp_f32(-height_m / reach_m) - exp_f32(-DUST_END)) } else { 0.0 };
         let from_hands = (height_m - HANDS_M) / HANDS_SD_M;
         let high = if from_hands.abs() < 3.0 { hands * exp_f32(-0.5 * from_hands * from_hands) } else { 0.0 };
-        low + high
+        low + high + density * self.lip_at(height_m)
+    }
+
+    /// Dust on the upper edge of the skirting board, as a mean over a row of texels.
+    fn lip_at(&self, height_m: f32) -> f32 {
+        let half = 0.5 * self.texel_m;
+        let (low, high) = (height_m - half - self.board_m, height_m + half - self.board_m);
+        if self.board_m <= 0.0 || high < -LIP_M || low > 5.0 * LIP_FALL_M {
+            return 0.0;
+        }
+        let edge = (high.min(0.0) - low.max(-LIP_M)).max(0.0);
+        let line = LIP_FALL_M * (exp_f32(-low.max(0.0) / LIP_FALL_M) - exp_f32(-high.max(0.0) / LIP_FALL_M));
+        LIP * (edge + line) / self.texel_m
     }
 
     /// Computes a row; returns `false` if it is clean.
@@ -177,6 +213,9 @@ impl WallShader {
             }
             out.roughness.clear();
             out.roughness.resize(len, self.roughness_with(known.plaster.board));
+            for (roughness, more) in out.roughness.iter_mut().zip(&known.plaster.rough) {
+                *roughness = (*roughness + more).clamp(0.0, 1.0);
+            }
             out.total.clear();
             out.total.resize(len, 0.0);
             return false;
@@ -184,7 +223,7 @@ impl WallShader {
         out.resize(len);
         self.densities(known, dust, out);
         self.colour(&known.plaster.rgb, out);
-        self.roughness(known.plaster.board, out);
+        self.roughness(&known.plaster, out);
         true
     }
 
@@ -223,12 +262,16 @@ impl WallShader {
             density[DUST].resize(len, 0.0);
             each1(&mut density[DUST], uneven, |uneven| seen(dust * uneven));
         }
+        if !known.chips.is_empty() {
+            density[CHIP].extend_from_slice(&known.chips);
+        }
     }
 
-    /// Computes the colour of dirt over the wall, and the transmittance.
+    /// Computes the colour of dirt over the wall, and the transmittance: dirt absorbs each colour as it does, so that a thin
+    /// layer is tinted too.
     fn colour(&self, wall: &[Vec<f32>; 3], out: &mut WallShadeOutput) {
-        let WallShadeOutput { density, through, total, hiding, rgb, .. } = out;
-        for plane in rgb.iter_mut().chain([&mut *total]) {
+        let WallShadeOutput { density, through, total, totals, rgb, .. } = out;
+        for plane in rgb.iter_mut().chain(totals.iter_mut()).chain([&mut *total]) {
             plane.fill(0.0);
         }
         for (kind, density) in density.iter().enumerate().filter(|(_, density)| !density.is_empty()) {
@@ -238,9 +281,11 @@ impl WallShader {
                 *through += density;
                 *total += density;
             }
-            for (plane, colour) in rgb.iter_mut().zip(self.colours[kind]) {
-                for (value, density) in plane.iter_mut().zip(density) {
-                    *value += colour * density;
+            let colours = self.colours[kind].into_iter().zip(self.absorbs[kind]);
+            for ((plane, totals), (colour, absorbs)) in rgb.iter_mut().zip(&mut *totals).zip(colours) {
+                for ((value, total), density) in plane.iter_mut().zip(totals).zip(density) {
+                    *value += colour * absorbs * density;
+                    *total += absorbs * density;
                 }
             }
         }
@@ -249,21 +294,23 @@ impl WallShader {
                 *value = exp_f32(-*value);
             }
         }
-        // Opacity per optical density: (1 - T) / sum(D).
-        each1(hiding, total, |total| (1.0 - exp_f32(-total)) / total.max(1e-6));
         let darkest = self.darkest;
-        for (plane, wall) in rgb.iter_mut().zip(wall) {
-            for (((value, hiding), total), wall) in plane.iter_mut().zip(&*hiding).zip(&*total).zip(wall) {
-                let shown = wall * (1.0 - hiding * total) + *value * hiding;
+        for ((plane, total), wall) in rgb.iter_mut().zip(totals).zip(wall) {
+            for ((value, total), wall) in plane.iter_mut().zip(total).zip(wall) {
+                let through = exp_f32(-*total);
+                let shown = wall * through + *value * (1.0 - through) / total.max(1e-6);
                 // Dirt darkens no texel below the darkest value, and does not lighten a darker wall to it.
                 *value = shown.max(darkest.min(*wall));
             }
         }
     }
 
-    fn roughness(&self, board: f32, out: &mut WallShadeOutput) {
-        let WallShadeOutput { through: [skin, rub, scuff, splash], roughness, .. } = out;
-        roughness.fill(self.roughness_with(board));
+    fn roughness(&self, plaster: &CleanWallRow, out: &mut WallShadeOutput) {
+        let WallShadeOutput { through: [skin, rub, scuff, splash, chip], roughness, .. } = out;
+        roughness.fill(self.roughness_with(plaster.board));
+        for (roughness, more) in roughness.iter_mut().zip(&plaster.rough) {
+            *roughness = (*roughness + more).clamp(0.0, 1.0);
+        }
         if !skin.is_empty() {
             add2(roughness, skin, skin, |skin, _| self.grime_roughness * ((1.0 - skin) / FULL_GRIME).min(1.0));
         }
@@ -279,6 +326,9 @@ impl WallShader {
             for (value, splash) in roughness.iter_mut().zip(&*splash) {
                 *value += (DIRT_ROUGHNESS.max(*value) - *value) * (1.0 - splash);
             }
+        }
+        for (value, chip) in roughness.iter_mut().zip(&*chip) {
+            *value += (CHIP_ROUGHNESS - *value) * (1.0 - chip);
         }
     }
 }
@@ -301,16 +351,25 @@ impl WallShadeOutput {
     }
 
     fn resize(&mut self, len: usize) {
-        let WallShadeOutput { uneven, total, hiding, roughness, rgb, .. } = self;
-        for plane in [uneven, total, hiding, roughness].into_iter().chain(rgb) {
+        let WallShadeOutput { uneven, total, totals, roughness, rgb, .. } = self;
+        for plane in [uneven, total, roughness].into_iter().chain(totals).chain(rgb) {
             plane.resize(len, 0.0);
         }
     }
 
     /// Rounds a row that starts at texel (i, j) to 8 bits.
     pub fn write(&mut self, dither: u32, i: i64, j: i64, out: &mut Bytes<'_>) {
-        let [skin, rub, scuff, splash] = &self.through;
+        let [skin, rub, scuff, splash, _] = &self.through;
         let shown = ShadedPlanes { rgb: &self.rgb, through: [skin, rub, scuff, splash], roughness: &self.roughness };
         self.rounding.write(dither, i, j, &shown, out);
+    }
+
+    /// Rounds clean texels to the nearest.
+    pub fn write_clean(&self, out: &mut Bytes<'_>) {
+        let [red, green, blue] = &self.rgb;
+        for (k, _) in self.total.iter().enumerate().filter(|(_, total)| **total == 0.0) {
+            out.base_color[k] = [red[k], green[k], blue[k]].map(|light| (srgb::encode_f32(light) + 0.5) as u8);
+            out.orm[k][1] = (255.0 * self.roughness[k] + 0.5) as u8;
+        }
     }
 }

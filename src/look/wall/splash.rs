@@ -8,15 +8,14 @@ use crate::look::noise::{self, Channel, Noise, NoiseField};
 use crate::math::{SplitMix64, exp_f32};
 
 /// Dried water at the foot: height over which it falls to 1/e, metres, and share of the density.
-const FOOT_M: f32 = 0.012;
-const FOOT_SHARE: f32 = 0.65;
-/// Smear below the band's upper edge, and the line that dries along it: shares of the density, and the line's half
-/// width, metres.
-const SMEAR_SHARE: f32 = 0.55;
-const TIDE_SHARE: f32 = 0.12;
-const TIDE_M: f32 = 0.0035;
-/// Mean height of the band's edge, as a share of its largest height.
-const MEAN_EDGE: f32 = 0.42;
+const FOOT_M: f32 = 0.014;
+const FOOT_SHARE: f32 = 0.55;
+/// Smear above it: share of the density.
+const SMEAR_SHARE: f32 = 0.60;
+/// Mean height over which the smear falls to 1/e, as a share of the band's height.
+const MEAN_REACH: f32 = 0.36;
+/// How much blotches of the smear vary, more of them the higher.
+const BLOTCHES: f32 = 0.55;
 /// Largest height of droplets, as a multiple of the band's largest height.
 const DROPS_END: f32 = 1.5;
 /// Largest starting height of drips, and length of wall per random draw of them, metres.
@@ -28,11 +27,12 @@ const CLUSTER_M: f32 = 0.07;
 /// Splash band of one look.
 pub(super) struct Splash {
     look: SplashLook,
-    /// Dirtiness of the water along the wall; variation of the edge by mop strokes and smaller.
+    /// Dirtiness of the water along the wall; variation of the height by strokes of the mop and smaller.
     stretch: Noise,
     strokes: Noise,
     waves: Noise,
-    ripples: Noise,
+    /// Blotches of the smear.
+    blotches: Noise,
     /// Streaks of the mop's strings.
     streaks: Noise,
     drops: Dots,
@@ -43,11 +43,13 @@ pub(super) struct Splash {
 pub(super) struct SplashWindow {
     window: TexelWindow,
     look: SplashLook,
-    /// Per column: factor on the density, and height of the band's edge, metres.
+    /// Per column: factor on the density, and height over which the smear falls to 1/e, metres.
     amount: Vec<f32>,
-    edge_m: Vec<f32>,
+    reach_m: Vec<f32>,
     streaks: NoiseField,
     streak: Vec<f32>,
+    blotches: NoiseField,
+    blotch: Vec<f32>,
     /// Droplets and drips, per texel.
     single: Vec<f32>,
     row: usize,
@@ -61,7 +63,7 @@ impl Splash {
             stretch: along(Channel::SplashStretch, 1.1),
             strokes: along(Channel::SplashStroke, 0.62),
             waves: along(Channel::SplashWave, 0.20),
-            ripples: along(Channel::SplashRipple, 0.035),
+            blotches: Noise::new(seed, Channel::SplashRipple, [0.06, 0.03], 1.0),
             streaks: Noise::new(seed, Channel::SplashStreak, [0.12, 0.014], 1.0),
             drops: Dots::new(
                 noise::key(seed, Channel::SplashDrop),
@@ -89,18 +91,20 @@ impl Splash {
             values
         };
         let (stretch, strokes) = (along(&self.stretch), along(&self.strokes));
-        let (waves, ripples) = (along(&self.waves), along(&self.ripples));
+        let waves = along(&self.waves);
         let sd = self.look.unevenness;
         let amount = stretch.iter().zip(&waves).map(|(s, w)| exp_f32(sd * (0.85 * s + 0.35 * w) - 0.42 * sd * sd));
-        let edge_m = strokes.iter().zip(&waves).zip(&ripples).zip(&stretch).map(|(((s, w), r), a)| {
-            let ups = sd * (0.30 * s + 0.17 * w + 0.13 * r + 0.12 * a);
-            self.look.height_m * (MEAN_EDGE + ups).clamp(0.06, 1.0)
+        let reach_m = strokes.iter().zip(&waves).zip(&stretch).map(|((s, w), a)| {
+            let ups = sd * (0.16 * s + 0.06 * w + 0.10 * a);
+            self.look.height_m * soft_limits(MEAN_REACH + ups)
         });
         let mut shown = SplashWindow {
             window: *window,
             look: self.look,
             amount: amount.collect(),
-            edge_m: edge_m.collect(),
+            reach_m: reach_m.collect(),
+            blotches: self.blotches.over_strip(window, strip.salt, strip.width, strip.closed),
+            blotch: vec![0.0; window.width],
             streaks: self.streaks.over_strip(window, strip.salt, strip.width, strip.closed),
             streak: vec![0.0; window.width],
             single: Vec::new(),
@@ -219,8 +223,8 @@ impl SplashWindow {
         for row in 0..self.window.height {
             let height_m = self.height_m(row);
             let line = &mut self.single[row * self.window.width..][..self.window.width];
-            for ((value, edge), amount) in line.iter_mut().zip(&self.edge_m).zip(&self.amount) {
-                let above = ((height_m - edge) / (0.25 * self.look.height_m)).max(0.0);
+            for ((value, reach), amount) in line.iter_mut().zip(&self.reach_m).zip(&self.amount) {
+                let above = ((height_m - reach) / (0.25 * self.look.height_m)).max(0.0);
                 let ends = (2.0 * (DROPS_END - height_m / self.look.height_m)).clamp(0.0, 1.0);
                 *value *= self.look.density * amount.min(2.0) * exp_f32(-above) * ends;
             }
@@ -235,9 +239,12 @@ impl SplashWindow {
     pub fn begin_row(&mut self, row: usize) {
         self.row = row;
         self.streak.fill(0.0);
-        if self.height_m(row) < 1.2 * self.look.height_m {
+        self.blotch.fill(0.0);
+        if self.height_m(row) < DROPS_END * self.look.height_m {
             self.streaks.begin_row(row);
             self.streaks.add_to(0, &mut self.streak);
+            self.blotches.begin_row(row);
+            self.blotches.add_to(0, &mut self.blotch);
         }
     }
 
@@ -246,7 +253,8 @@ impl SplashWindow {
         let texel_m = (1.0 / self.window.texels_per_metre) as f32;
         let height_m = self.height_m(self.row);
         let single = &self.single[self.row * self.window.width..][..out.len()];
-        if height_m - texel_m > 1.05 * self.look.height_m || self.look.density == 0.0 {
+        let end_m = DROPS_END * self.look.height_m;
+        if height_m - texel_m > end_m || self.look.density == 0.0 {
             for (out, single) in out.iter_mut().zip(single) {
                 *out = factor * single;
             }
@@ -255,17 +263,25 @@ impl SplashWindow {
         // Means over a texel: the foot may be thinner.
         let (low, high) = ((height_m - 0.5 * texel_m) / FOOT_M, (height_m + 0.5 * texel_m) / FOOT_M);
         let foot = FOOT_SHARE * (exp_f32(-low) - exp_f32(-high)) / (high - low);
-        let tide_m = (TIDE_M * TIDE_M + texel_m * texel_m / 6.0).sqrt();
-        let soft_m = 0.010 + texel_m;
-        let columns = self.amount.iter().zip(&self.edge_m).zip(&self.streak);
-        for ((out, ((amount, edge), streak)), single) in out.iter_mut().zip(columns).zip(single) {
-            let below = ((edge - height_m) / soft_m + 0.5).clamp(0.0, 1.0);
-            let depth = (1.0 - height_m / edge).max(0.0);
-            let smear = SMEAR_SHARE * below * (0.30 + 0.70 * depth) * (1.0 + 0.28 * streak).max(0.1);
-            let off = (height_m - edge) / tide_m;
-            let tide = TIDE_SHARE * TIDE_M / tide_m * exp_f32(-off * off);
-            let band = self.look.density * amount * (foot * (1.0 + 0.2 * streak) + smear + tide);
+        // Nothing ends in a line: the smear thins out, in blotches.
+        let rest = (1.0 - height_m / end_m).max(0.0);
+        let fade = rest * (2.0 - rest);
+        let columns = self.amount.iter().zip(&self.reach_m).zip(self.streak.iter().zip(&self.blotch));
+        for ((out, ((amount, reach), (streak, blotch))), single) in out.iter_mut().zip(columns).zip(single) {
+            let up = height_m / reach;
+            let blotchy = exp_f32(BLOTCHES * blotch * up.min(1.6) - 0.12 * up.min(1.6));
+            let smear = SMEAR_SHARE * exp_f32(-up * up.sqrt()) * blotchy * (1.0 + 0.2 * streak).max(0.1);
+            let band = self.look.density * amount * fade * (foot * (1.0 + 0.2 * streak) + smear);
             *out = factor * (band + single);
         }
     }
+}
+
+/// A share that nears 0.12 and 0.7 without a kink.
+fn soft_limits(share: f32) -> f32 {
+    let [low, high] = [0.12, 0.7];
+    let middle = 0.5 * (low + high);
+    let half = 0.5 * (high - low);
+    let off = (share - middle) / half;
+    middle + half * off / (1.0 + off * off).sqrt()
 }

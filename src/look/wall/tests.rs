@@ -16,7 +16,7 @@ use crate::walls::{Walls, WallsOptions};
 
 const HEIGHT_M: f64 = 2.6;
 /// Number of people for whom touches are drawn.
-const PEOPLE: u32 = 20_000;
+pub(super) const PEOPLE: u32 = 20_000;
 /// Length of the corridor's walls, metres.
 const LENGTH_M: f64 = 8.0;
 /// Position of the door jamb along the corridor's first wall, metres.
@@ -25,22 +25,22 @@ const JAMB_M: f64 = 4.0;
 const SPLASH_ZONE_M: f64 = 0.15;
 
 /// Walls with their sums.
-struct SummedWalls {
-    walls: Walls,
-    sums: WallSums,
+pub(super) struct SummedWalls {
+    pub walls: Walls,
+    pub sums: WallSums,
 }
 
 /// A corridor of 8 m; people pass its first wall within reach.
 static PLAIN: LazyLock<SummedWalls> = LazyLock::new(|| {
     let mut scene = corridor(200.0);
-    passers_by(&mut scene.sums);
+    passers_by(&mut scene.sums, 10_000);
     scene
 });
 
 /// The same corridor with people who push off a door jamb in the first wall.
 static DOOR: LazyLock<SummedWalls> = LazyLock::new(|| {
     let mut scene = corridor(200.0);
-    passers_by(&mut scene.sums);
+    passers_by(&mut scene.sums, 10_000);
     jamb(&mut scene.sums);
     scene
 });
@@ -55,7 +55,12 @@ fn room(texels_per_metre: f64) -> SummedWalls {
 }
 
 /// Walls of a plan with pixels of 10 cm.
-fn scene(columns: usize, rows: usize, texels_per_metre: f64, is_floor: impl Fn(usize, usize) -> bool) -> SummedWalls {
+pub(super) fn scene(
+    columns: usize,
+    rows: usize,
+    texels_per_metre: f64,
+    is_floor: impl Fn(usize, usize) -> bool,
+) -> SummedWalls {
     let floor = (0..columns * rows).map(|n| u8::from(is_floor(n % columns, n / columns))).collect();
     let plan = FloorPlan::from_mask(columns as u32, rows as u32, 0.1, floor);
     let walls = Walls::trace(&plan, &WallsOptions::default());
@@ -64,7 +69,7 @@ fn scene(columns: usize, rows: usize, texels_per_metre: f64, is_floor: impl Fn(u
 }
 
 /// Adds a soft spot to the first face: centre and size, metres, and its density.
-fn touch(sums: &mut WallSums, cause: Cause, middle_m: [f64; 2], size_m: [f64; 2], density: f64) {
+pub(super) fn touch(sums: &mut WallSums, cause: Cause, middle_m: [f64; 2], size_m: [f64; 2], density: f64) {
     let t = sums.grid().texels_per_metre;
     let [(i0, width), (j0, height)] = [0, 1].map(|axis| {
         let low = ((middle_m[axis] - 0.5 * size_m[axis]) * t).floor().max(0.0);
@@ -86,22 +91,23 @@ fn touch(sums: &mut WallSums, cause: Cause, middle_m: [f64; 2], size_m: [f64; 2]
     sums.add_block(cause, 0, i0, j0, [width, height], &values);
 }
 
-/// Adds the touches of 20 000 people who pass a plain wall within reach: per metre 20 hands (0.01 per person and 10 m),
-/// 10 bags, 4 shoes.
-fn passers_by(sums: &mut WallSums) {
+/// Adds the touches of people who pass a plain wall within reach: per metre and 1000 of them a hand (0.01 per person and
+/// 10 m), half a bag, a fifth of a shoe.
+fn passers_by(sums: &mut WallSums, people: u32) {
+    let length_m = LENGTH_M * f64::from(people) / 1000.0;
     let mut rng = SplitMix64::new(11);
     let along = |rng: &mut SplitMix64| 0.4 + (LENGTH_M - 0.8) * f64::from(rng.unit());
     let load = |rng: &mut SplitMix64, median: f64| median * exp(0.9 * f64::from(rng.normal()));
-    for n in 0..(20.0 * LENGTH_M) as usize {
+    for n in 0..length_m as usize {
         let size_m = if n % 4 == 0 { [0.40, 0.07] } else { [0.09, 0.12] };
         let middle_m = [along(&mut rng), 1.08 + 0.1 * f64::from(rng.normal())];
         touch(sums, Cause::Hand, middle_m, size_m, load(&mut rng, 0.05));
     }
-    for _ in 0..(10.0 * LENGTH_M) as usize {
+    for _ in 0..(0.5 * length_m) as usize {
         let middle_m = [along(&mut rng), f64::from(rng.range(0.2, 0.6))];
         touch(sums, Cause::Bag, middle_m, [0.25, 0.05], load(&mut rng, 0.06));
     }
-    for _ in 0..(4.0 * LENGTH_M) as usize {
+    for _ in 0..(0.2 * length_m) as usize {
         let middle_m = [along(&mut rng), f64::from(rng.range(0.03, 0.14))];
         touch(sums, Cause::Shoe, middle_m, [0.07, 0.02], load(&mut rng, 0.2));
     }
@@ -116,14 +122,14 @@ fn jamb(sums: &mut WallSums) {
     }
 }
 
-fn look(material: WallMaterial) -> Look {
+pub(super) fn look(material: WallMaterial) -> Look {
     let mut look = Look::default();
     look.wall.material = material;
     look
 }
 
 /// Resolves a block and writes out its background.
-fn resolve(resolver: &WallResolver<'_>, [i0, j0]: [i64; 2], [width, height]: [usize; 2]) -> ResolvedBlock {
+pub(super) fn resolve(resolver: &WallResolver<'_>, [i0, j0]: [i64; 2], [width, height]: [usize; 2]) -> ResolvedBlock {
     let mut block = resolver.resolve(0, i0, j0, width, height);
     if block.empty {
         block.resize(width * height, &WALL_LAYERS);
@@ -133,13 +139,13 @@ fn resolve(resolver: &WallResolver<'_>, [i0, j0]: [i64; 2], [width, height]: [us
 }
 
 /// A resolved part of the first face, with the same part of the clean wall.
-struct Resolved {
-    width: usize,
-    dirty: ResolvedBlock,
-    clean: ResolvedBlock,
+pub(super) struct Resolved {
+    pub width: usize,
+    pub dirty: ResolvedBlock,
+    pub clean: ResolvedBlock,
 }
 
-fn resolved(scene: &SummedWalls, look: &Look, along_m: [f64; 2], up_m: [f64; 2]) -> Resolved {
+pub(super) fn resolved(scene: &SummedWalls, look: &Look, along_m: [f64; 2], up_m: [f64; 2]) -> Resolved {
     let t = scene.sums.grid().texels_per_metre;
     let part = |look: &Look| {
         let resolver = WallResolver::new(&scene.sums, &scene.walls, look, PEOPLE).unwrap();
@@ -178,11 +184,15 @@ fn share(values: &[f64], is: impl Fn(f64) -> bool) -> f64 {
 }
 
 const MATERIALS: [WallMaterial; 3] = [WallMaterial::Matt, WallMaterial::Gloss, WallMaterial::Concrete];
+const WITH_MASONRY: [WallMaterial; 5] =
+    [WallMaterial::Matt, WallMaterial::Gloss, WallMaterial::Concrete, WallMaterial::Brick, WallMaterial::Tile];
 
 #[test]
 fn a_plain_wall_is_almost_clean() {
+    let mut scene = corridor(200.0);
+    passers_by(&mut scene.sums, 1000);
     for material in MATERIALS {
-        let wall = resolved(&PLAIN, &look(material), [0.0, LENGTH_M], [SPLASH_ZONE_M, HEIGHT_M]);
+        let wall = resolved(&scene, &look(material), [0.0, LENGTH_M], [SPLASH_ZONE_M, HEIGHT_M]);
         let dark = share(&wall.change(), |change| change < -3.0);
         println!("{material:?}: {:.2} % of the area more than 3 L* darker", 100.0 * dark);
         assert!(dark < 0.01, "{material:?}: {dark}");
@@ -208,7 +218,7 @@ fn touches_gather_at_a_jamb() {
         let wall = resolved(scene, &look(WallMaterial::Matt), along_m, [0.2, HEIGHT_M]);
         (HEIGHT_M - 0.2) * share(&wall.change(), |change| change < -3.0)
     };
-    let (jamb, plain) = (dirty(&DOOR, [JAMB_M - 0.2, JAMB_M + 0.2]), dirty(&PLAIN, [0.4, LENGTH_M - 0.4]));
+    let (jamb, plain) = (dirty(&DOOR, [JAMB_M - 0.1, JAMB_M + 0.1]), dirty(&PLAIN, [0.4, LENGTH_M - 0.4]));
     println!("visibly dirty: jamb {jamb:.3}, plain {plain:.4} m2 a metre");
     assert!(jamb > 10.0 * plain, "jamb {jamb}, plain {plain}");
 }
@@ -288,17 +298,20 @@ fn the_splash_band_is_low_and_uneven() {
     let row = |j: usize| -> Vec<f64> { splash[j * wall.width..][..wall.width].iter().map(|&d| f64::from(d)).collect() };
     let rows = |from_cm: usize, to_cm: usize| mean((2 * from_cm..2 * to_cm).map(|j| mean(row(j))));
     println!("splash by height: {:.3} {:.3} {:.3} {:.4}", rows(0, 2), rows(2, 6), rows(6, 12), rows(13, 30));
-    assert!(rows(0, 2) > 0.1, "{}", rows(0, 2));
+    assert!(rows(0, 2) > 0.04, "{}", rows(0, 2));
     assert!(rows(0, 2) > rows(2, 6) && rows(2, 6) > 1.5 * rows(6, 12));
-    assert!(rows(13, 30) < 0.02 * rows(0, 2), "{}", rows(13, 30));
+    assert!(rows(13, 30) < 0.04 * rows(0, 2), "{}", rows(13, 30));
     assert!(splash[wall.width * 60..].iter().all(|&density| density == 0.0), "splashes above 30 cm");
 
     // The upper edge varies, and stretches are missing.
     let edge_cm: Vec<f64> = (0..wall.width)
-        .map(|i| (0..40).rev().find(|&j| splash[j * wall.width + i] > 0.04).map_or(0.0, |j| 0.5 * (j + 1) as f64))
+        .map(|i| (0..40).rev().find(|&j| splash[j * wall.width + i] > 0.012).map_or(0.0, |j| 0.5 * (j + 1) as f64))
         .collect();
     println!("edge: mean {:.1} cm, sd {:.1} cm", mean(edge_cm.iter().copied()), sd(&edge_cm));
     assert!(sd(&edge_cm) > 1.5);
+    // No height at which it is cut off: neighbouring heights are about as frequent.
+    let most = (1..40).map(|n| share(&edge_cm, |edge| (edge - 0.5 * f64::from(n)).abs() < 0.1)).fold(0.0, f64::max);
+    assert!(most < 0.16, "{most} of the band ends at one height");
     let along = row(10);
     let variation = sd(&along) / mean(along.iter().copied());
     assert!(variation > 0.4, "the band varies by {variation}");
@@ -377,7 +390,7 @@ fn texel_density_does_not_change_the_picture() {
 
 #[test]
 fn a_rectangle_shows_the_same_texels_as_the_whole() {
-    for material in MATERIALS {
+    for material in WITH_MASONRY {
         let mut look = look(material);
         look.wall.skirting.height_m = 0.083;
         look.wall.splash.drips_per_metre = 5.0;
@@ -460,6 +473,7 @@ fn a_clean_look_shows_no_dirt() {
     assert!(dirty.dirty.layers.iter().any(|layer| layer.values.iter().any(|&density| density > 0.0)));
     for preset in crate::look::LOOK_PRESETS {
         let look = Look::preset(preset).unwrap().clean();
+        let look = Look { wall: look.wall.plain(), ..look };
         look.check().unwrap();
         let resolver = WallResolver::new(&DOOR.sums, &DOOR.walls, &look, PEOPLE).unwrap();
         let block = resolve(&resolver, [700, 0], [200, 300]);
@@ -499,7 +513,7 @@ fn history_gathers_where_people_do_and_lone_touches_stay_faint() {
     let single = [1_000, 20_000, 1_000_000].map(|total| density(&lone, total, [2.0, 1.2]));
     let jamb = [1_000, 20_000, 1_000_000].map(|total| density(&DOOR, total, [JAMB_M, 1.2]));
     println!("one touch {single:.3?}, jamb {jamb:.3?}");
-    assert!(single[0] < single[1] && single[1] < 0.06 && single[2] < 0.7 * jamb[2], "{single:?}");
+    assert!(single[0] < single[1] && single[1] < 0.12 && single[2] < 0.85 * jamb[2], "{single:?}");
     assert!(jamb[0] < jamb[1] && jamb[1] > 0.25 && jamb[2] < 0.7, "{jamb:?}");
 }
 
@@ -507,11 +521,13 @@ fn history_gathers_where_people_do_and_lone_touches_stay_faint() {
 fn clean_paint_is_all_background() {
     for material in [WallMaterial::Matt, WallMaterial::Gloss] {
         let scene = room(200.0);
-        let resolver = WallResolver::new(&scene.sums, &scene.walls, &look(material), PEOPLE).unwrap();
+        let mut look = look(material);
+        look.wall = look.wall.plain();
+        let resolver = WallResolver::new(&scene.sums, &scene.walls, &look, PEOPLE).unwrap();
         assert!(resolver.resolve(0, 0, 70, 256, 480).empty, "nobody touched it above the drips");
         assert!(!resolver.resolve(0, 0, 0, 256, 256).empty);
         // Clean texels are even, so that files compress.
-        let resolver = WallResolver::new(&DOOR.sums, &DOOR.walls, &look(material), PEOPLE).unwrap();
+        let resolver = WallResolver::new(&DOOR.sums, &DOOR.walls, &look, PEOPLE).unwrap();
         let block = resolver.resolve(0, 0, 0, 1600, 520);
         let clean = resolver.background();
         let even = (0..1600 * 520).filter(|&n| block.layers.iter().all(|layer| layer.values[n] == 0.0));
@@ -522,6 +538,13 @@ fn clean_paint_is_all_background() {
         println!("{material:?}: {:.0} % of the wall above the splashes is clean", 100.0 * above);
         assert!(above > 0.6, "{above}");
     }
+    // A roller leaves a stipple: 0.6 L* up and down.
+    let resolver = WallResolver::new(&PLAIN.sums, &PLAIN.walls, &look(WallMaterial::Matt), PEOPLE).unwrap();
+    let block = resolver.resolve(0, 0, 400, 1600, 110);
+    let stipple: Vec<f64> = block.base_color.iter().map(|&colour| lightness(light_of(colour))).collect();
+    let rough: Vec<f64> = block.orm.iter().map(|orm| f64::from(orm[1]) / 255.0).collect();
+    println!("stipple {:.2} L*, roughness {:.3}", sd(&stipple), sd(&rough));
+    assert!((0.35..0.9).contains(&sd(&stipple)) && (0.004..0.04).contains(&sd(&rough)));
     // Concrete has a texture.
     let resolver = WallResolver::new(&PLAIN.sums, &PLAIN.walls, &look(WallMaterial::Concrete), PEOPLE).unwrap();
     let block = resolver.resolve(0, 0, 280, 256, 240);
@@ -533,6 +556,7 @@ fn clean_paint_is_all_background() {
 fn a_skirting_board_stands_at_the_foot() {
     let mut look = Look::default();
     look.wall.skirting = SkirtingLook { height_m: 0.08, colour: [60, 60, 60] };
+    look.wall.texture = 0.0;
     let wall = resolved(&PLAIN, &look.clean(), [1.0, 2.0], [0.0, 0.2]);
     let row = |j: usize| mean(wall.clean.base_color[j * 200..(j + 1) * 200].iter().map(|colour| f64::from(colour[1])));
     assert!((58.0..62.0).contains(&row(2)) && (58.0..62.0).contains(&row(14)), "{} {}", row(2), row(14));

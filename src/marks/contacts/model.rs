@@ -29,6 +29,10 @@ const SEEN_M: f64 = 1e-6;
 const AT_HAND_M: [f64; 2] = [0.5, 0.8];
 /// Turns below the first angle count nothing, from the second on fully, radians.
 const TURN_RAD: [f64; 2] = [0.3, 0.9];
+/// Clear width, as a multiple of [`ContactOptions::narrow_m`], below which hands trail along walls more often, and how
+/// many times more.
+const HELD_WIDTH: f64 = 1.25;
+const HELD: f64 = 1.5;
 /// Factor on the reach of a shoulder for people who stand and lean.
 const LEANS: f64 = 2.0;
 
@@ -161,7 +165,10 @@ impl Contacts {
         };
         let walked_m = if side.is_at_side() { step.walked_m } else { 0.0 };
         if share < 1.0 {
-            add(options.hand_per_metre * walked_m * (1.5 - share), BodyPart::Trailing);
+            // Whoever goes through a narrow way holds on to it: a line at the height of hands.
+            let narrow = ((HELD_WIDTH * options.narrow_m - clear_width_m) / (0.3 * options.narrow_m)).clamp(0.0, 1.0);
+            let hands = options.hand_per_metre * (1.0 + HELD * narrow);
+            add(hands * walked_m * (1.5 - share), BodyPart::Trailing);
             add(options.shoe_per_metre * walked_m * 3.0 * (1.0 - share) * (1.0 - share), BodyPart::Shoe);
             if side.has_bag(step.person) {
                 add(options.bag_per_metre * walked_m * (1.5 - share), BodyPart::Bag);

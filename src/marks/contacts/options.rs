@@ -62,7 +62,7 @@ options! {
         /// Belongings against it, with some on that side.
         jamb_bag_per_passage: f64 = 0.03, in 0.0..=10.0;
         /// Shoes against it.
-        jamb_shoe_per_passage: f64 = 0.01, in 0.0..=10.0;
+        jamb_shoe_per_passage: f64 = 0.015, in 0.0..=10.0;
         /// Hands on the corner that one turns round, per turn.
         corner_per_turn: f64 = 0.045, in 0.0..=10.0;
         /// Belongings against it, with some on that side.

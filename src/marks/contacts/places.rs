@@ -95,19 +95,22 @@ impl ContactPlaces {
                 hint: Some(hint.to_owned()),
             };
             request.check().map_err(|error| wrong(error.key(), error.problem(), ""))?;
-            let at_m = request.at.to_m(plan);
+            let points_m: Vec<Vec2> = request.at.points().iter().map(|point| point.to_m(plan)).collect();
+            let (first_m, last_m) = (points_m[0], points_m[points_m.len() - 1]);
+            let at_m = first_m.lerp(last_m, 0.5);
+            let width_m = if points_m.len() > 1 { first_m.distance(last_m) } else { request.width };
             let middle = |door: &Door| door.doorway.jambs_m[0].lerp(door.doorway.jambs_m[1], 0.5);
             let near_m = |door: &Door| middle(door).distance(at_m);
             let found =
                 (0..self.doors.len()).min_by(|&a, &b| near_m(&self.doors[a]).total_cmp(&near_m(&self.doors[b])));
-            let found = found.filter(|&k| near_m(&self.doors[k]) < (0.6 * request.width).max(0.5));
+            let found = found.filter(|&k| near_m(&self.doors[k]) < (0.6 * width_m).max(0.5));
             let number = match found {
                 Some(number) => number,
                 None => {
-                    let doorway = walls.doorway_at(at_m, request.width).ok_or_else(|| {
+                    let doorway = walls.doorway_at(at_m, width_m).ok_or_else(|| {
                         let (x, y) = (at_m.x, at_m.y);
                         let problem = if walls.is_inside(at_m) {
-                            format!("no two jambs stand within {} m of [{x:.2}, {y:.2}]", request.width)
+                            format!("no two jambs stand within {width_m} m of [{x:.2}, {y:.2}]")
                         } else {
                             format!("[{x:.2}, {y:.2}] is not on the floor")
                         };

@@ -3,16 +3,16 @@
 use serde::{Deserialize, Serialize};
 
 use crate::options::{Kind, Leaf, Limits, OptionError, Options, Value, names, options};
-use crate::plan::{LARGEST_COORDINATE, PlanPoint};
+use crate::plan::{DoorAt, DoorToOpen, LARGEST_COORDINATE, PlanPoint};
 
 options! {
     /// A door as a scenario writes it. Lengths in metres.
     pub struct DoorRequest {
         /// What to call it.
         name: Option<String> = None, eg "\"office\"";
-        /// Its middle, [x, y] in metres or { px = [x, y] }; where walls leave a gap, this says more of that door.
-        at: PlanPoint = PlanPoint::Metres([0.0; 2]), eg "[12.0, 4.5]", required true;
-        /// Clear width.
+        /// Its middle, [x, y] in metres or { px = [x, y] }, or its two jambs; a door that the plan draws closed is opened.
+        at: DoorAt = DoorAt::Point(PlanPoint::Metres([0.0; 2])), eg "[12.0, 4.5]", required true;
+        /// Clear width, where `at` is the middle.
         width: f64 = 0.9, in 0.5..=6.0, unit "m";
         /// Height.
         height: f64 = crate::walls::DOOR_HEAD_M, in 1.8..=3.5, unit "m";
@@ -82,13 +82,18 @@ impl Leaf for FixtureAt {
 names!(FixtureKind);
 
 impl DoorRequest {
+    /// The door as the plan is to have it.
+    pub fn to_open(&self) -> DoorToOpen {
+        DoorToOpen { at: self.at, width_m: self.width }
+    }
+
     /// Checks every value.
     ///
     /// # Errors
     /// The first value out of its range.
     pub fn check(&self) -> Result<(), OptionError> {
         self.check_ranges()?;
-        check_point("at", self.at)?;
+        self.at.points().iter().try_for_each(|&point| check_point("at", point))?;
         self.hinge.map_or(Ok(()), |point| check_point("hinge", point))
     }
 }

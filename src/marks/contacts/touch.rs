@@ -23,6 +23,14 @@ const SHOULDER: f64 = 0.82;
 const UPPER_ARM: f64 = 0.73;
 const ELBOW: f64 = 0.629;
 const HIP: f64 = 0.515;
+/// What of an adult's shoulder rubs along a wall: height at the reference stature, change of it per stature, its standard
+/// deviation, the greatest breadth of the stain and the length of one that is not drawn along, metres; and the stature from which people are adults, metres.
+const RUBS_M: f64 = 1.41;
+const RUBS_BY_STATURE: f64 = 0.20;
+const RUBS_SPREAD_M: f64 = 0.016;
+const RUBS_BREADTH_M: f64 = 0.11;
+const RUBS_LENGTH_M: f64 = 0.22;
+const ADULT_M: f64 = 1.42;
 /// Heights at which hands push, trail along and hold a corner, and their standard deviation, metres.
 const PUSH_M: f64 = 1.25;
 const TRAILING_M: f64 = 1.05;
@@ -206,7 +214,12 @@ fn beside(step: &ContactStep, side: &WallSide, part: BodyPart, draw: &mut TouchR
 }
 
 fn shoulder(person: &Person, draw: &mut TouchRandom) -> StainSpec {
-    stain(Cause::Shoulder, None, draw.normal(SHOULDER * person.stature_m, 0.025))
+    let height_m = if person.stature_m < ADULT_M {
+        SHOULDER * person.stature_m
+    } else {
+        RUBS_M + RUBS_BY_STATURE * (person.stature_m - STATURE_M)
+    };
+    stain(Cause::Shoulder, None, draw.normal(height_m, RUBS_SPREAD_M))
 }
 
 fn arm(person: &Person, draw: &mut TouchRandom) -> StainSpec {
@@ -251,7 +264,7 @@ fn leaning(person: &Person, side: &WallSide, draw: &mut TouchRandom) -> StainSpe
     let rucksack = person.bag.is_some_and(|bag| bag.side == CarrySide::Back);
     match u {
         u if u < 0.5 && rucksack => bag(person, draw),
-        u if u < 0.5 => stain(Cause::Shoulder, None, draw.normal(SHOULDER * person.stature_m, 0.04)),
+        u if u < 0.5 => shoulder(person, draw),
         u if u < 0.85 => stain(Cause::Shoe, Some(Form::Sole), draw.within(SOLE_M)),
         _ => stain(Cause::Hand, Some(Form::Palm), draw.normal(0.5 * person.stature_m, 0.07)),
     }
@@ -299,7 +312,8 @@ fn at_fixture(person: &Person, kind: FixtureKind, draw: &mut TouchRandom) -> Sta
             _ => toe(draw.within(TOE_M)),
         },
         FixtureKind::Bench => match u {
-            u if u < 0.35 => stain(Cause::Shoulder, None, draw.normal(0.6 * person.stature_m, 0.06)),
+            // Backs of people who sit.
+            u if u < 0.35 => stain(Cause::Arm, None, draw.normal(0.6 * person.stature_m, 0.06)),
             u if u < 0.6 => stain(Cause::Bag, None, draw.within(CHAIR_BACK_M)),
             u if u < 0.85 => toe(draw.within([0.04, 0.25])),
             _ => palm(draw.normal(0.65, 0.1)),
@@ -337,20 +351,23 @@ fn fitted(
     let stretch = |draw: &mut TouchRandom| f64::from(draw.0.range(STRETCH[0], STRETCH[1]));
     let is_drag = stain.way.is_some() && stain.form != Some(Form::Fingertips) && stain.form != Some(Form::Toe);
     let breadth_m = chosen.breadth_m * stretch(draw);
+    let breadth_m = if stain.cause == Cause::Shoulder { breadth_m.min(RUBS_BREADTH_M) } else { breadth_m };
     let drawn_m = DRAG_M[0] + (DRAG_M[1] - DRAG_M[0]) * draw.unit() * draw.unit();
     let length_m = match stain.cause {
         // Rubber lines and plain touches keep the pattern's length.
         Cause::Shoe => chosen.length_m * stretch(draw) * if is_drag { 1.3 } else { 1.0 },
         _ if is_drag => drawn_m,
+        // A shoulder that only leans or passes a jamb leaves no more than its own breadth.
+        Cause::Shoulder => chosen.length_m.min(RUBS_LENGTH_M) * stretch(draw),
         _ => chosen.length_m * stretch(draw),
     };
     let falls = matches!(stain.cause, Cause::Hand) && stain.way.is_some();
     let fall_rad = f64::from(if falls {
         draw.0.range(FALL_DEG[0], FALL_DEG[1])
     } else if is_drag {
-        draw.0.range(-2.0, 5.0)
+        if stain.cause == Cause::Shoulder { draw.0.range(-1.0, 1.5) } else { draw.0.range(-2.0, 5.0) }
     } else {
-        10.0 * draw.0.normal()
+        (if stain.cause == Cause::Shoulder { 3.0 } else { 10.0 }) * draw.0.normal()
     })
     .to_radians();
     // A drag to the left is rotated by half a turn and mirrored, so that up stays up.

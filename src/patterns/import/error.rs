@@ -153,8 +153,10 @@ impl ImportError {
             ImportError::Extent { .. } => {
                 "check the scale or the length of the stain, and rotate it so that its drag, or the toes, point to the right"
             }
-            ImportError::Name { .. } => "choose another name",
-            ImportError::IsListed { .. } => "choose another name, or allow to replace the pattern",
+            ImportError::Name { .. } => "choose another name with the option `name`",
+            ImportError::IsListed { .. } | ImportError::File(FileError::Exists { .. }) => {
+                "choose another name with the option `name`, or replace the pattern with the option `force`"
+            }
             ImportError::Form { cause, .. } if Form::ALL.iter().all(|form| form.cause() != *cause) => {
                 "leave the form out"
             }

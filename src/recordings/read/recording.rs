@@ -18,7 +18,7 @@ impl Recording {
     /// Opens a file and surveys it in one pass. Unsorted files take a second pass and stay in memory.
     ///
     /// # Errors
-    /// A file that cannot be read or is none of the formats, with the line; a rate that nobody knows; places that are
+    /// A file that cannot be read or has an unknown format, with the line; an unknown rate; places that are
     /// infinite; somebody at two places at once; options out of range.
     ///
     /// # Example

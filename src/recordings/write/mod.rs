@@ -83,7 +83,7 @@ impl<'a> Recorder<'a> {
         Recorder::create_as(RecordForm::of(path, None)?, path, force, fps, world)
     }
 
-    /// Begins a file in a given form, whatever its name.
+    /// Begins a file in a given form; its name does not matter.
     ///
     /// # Errors
     /// As [`Recorder::create`], except for the ending; a database cannot be gzipped.

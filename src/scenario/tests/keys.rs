@@ -9,7 +9,7 @@ use crate::scenario::{Preset, Scenario};
 
 /// Sections that come several times or need not be there, whose keys go with each other.
 fn is_optional(path: &str) -> bool {
-    ["formation", "route", "stop", "door", "fixture", "unit"].contains(&path.split('.').next().unwrap())
+    ["formation", "route", "stop", "door", "fixture", "unit", "room"].contains(&path.split('.').next().unwrap())
 }
 
 /// Every key of the file, and the keys of the small tables that are written on one line.

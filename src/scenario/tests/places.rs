@@ -5,11 +5,12 @@ use snapbox::{assert_data_eq, str};
 use super::*;
 use crate::marks::{DoorRequest, FixtureRequest};
 use crate::marks::{FixtureAt, FixtureKind};
+use crate::plan::DoorAt;
 
 pub(super) fn doors() -> Vec<DoorRequest> {
     let door = DoorRequest {
         name: Some("office".to_string()),
-        at: PlanPoint::Metres([1.0, 2.0]),
+        at: DoorAt::Point(PlanPoint::Metres([1.0, 2.0])),
         width: 1.2,
         height: 2.0,
         hinge: Some(PlanPoint::Pixels { px: [3.0, 4.0] }),

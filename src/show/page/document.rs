@@ -7,11 +7,13 @@ use super::field::{self, CellGrid, DistanceField};
 use super::images::{self, ImageFiles, PageImages, PixelRect};
 use super::{geometry, light_grid};
 use crate::export::{Camera, ExportError, OutputFolder};
-use crate::look::Layer;
+use crate::look::{Layer, absorption};
 use crate::math::Vec2;
 use crate::math::srgb::{encode, light_of};
 use crate::show::encode_picture;
-use crate::show::rooms::{EXPOSURE_ABOVE, EXPOSURE_INSIDE, Light, Panels, TABLE, WALL_HEIGHTS, glsl, scaled, toned};
+use crate::show::rooms::{
+    EXPOSURE_ABOVE, EXPOSURE_INSIDE, EXPOSURE_OUTSIDE, Light, Panels, TABLE, WALL_HEIGHTS, glsl, scaled, sky, toned,
+};
 use crate::show::scene::{Mesh, SceneSurface};
 use crate::show::still::STILL_SIZE_PX;
 
@@ -61,14 +63,16 @@ pub fn page_html(page: &Page<'_>) -> String {
         // Background colours: inside (seen through hairline gaps between triangles) and from above.
         "around": [
             shown(scaled(light_of(page.wall.clean), 0.5 * EXPOSURE_INSIDE)),
-            shown(scaled(TABLE, EXPOSURE_ABOVE)),
+            if is_outside(page) { shown(scaled(sky(0.1), EXPOSURE_OUTSIDE)) } else { shown(scaled(TABLE, EXPOSURE_ABOVE)) },
         ],
         "outlines": page.walls.outlines().iter().map(outline).collect::<Vec<_>>(),
         "surfaces": { "floor": covering(&page.floor), "wall": covering(&page.wall) },
         "parts": parts(page, &mut blocks),
     });
     surroundings(page, &mut data, &mut blocks);
-    let light = [&glsl(), LIGHT].concat();
+    // One constant tells whether sky and sun are the light.
+    let outside = format!("const bool OUTSIDE = {};\n", is_outside(page));
+    let light = [&glsl(), &outside, LIGHT].concat();
     let shader = |(name, text)| element("x-shader/x-glsl", name, &fill(text, &[("light", &light)]));
     let shaders: String = SHADERS.map(shader).concat();
     let blocks: String =
@@ -85,12 +89,17 @@ pub fn page_html(page: &Page<'_>) -> String {
     )
 }
 
-fn element(kind: &str, name: &str, text: &str) -> String {
+/// Whether sky and sun are over the walls.
+fn is_outside(page: &Page<'_>) -> bool {
+    !page.rooms.grid.roofed && !page.rooms.grid.is_open()
+}
+
+pub(in crate::show) fn element(kind: &str, name: &str, text: &str) -> String {
     format!("<script type=\"{kind}\" id=\"{name}\">{text}</script>\n")
 }
 
 /// Puts texts in the places `{{name}}` of a template. Places within the texts stay as they are.
-fn fill(template: &str, texts: &[(&str, &str)]) -> String {
+pub(in crate::show) fn fill(template: &str, texts: &[(&str, &str)]) -> String {
     let mut filled = String::with_capacity(template.len() + texts.iter().map(|(_, text)| text.len()).sum::<usize>());
     let mut rest = template;
     while let Some((before, after)) = rest.split_once("{{") {
@@ -104,7 +113,7 @@ fn fill(template: &str, texts: &[(&str, &str)]) -> String {
 }
 
 /// Text as HTML shows it.
-fn escaped(text: &str) -> String {
+pub(in crate::show) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -119,7 +128,7 @@ fn escaped(text: &str) -> String {
 }
 
 /// Bytes as text (RFC 4648, with padding).
-fn base64(bytes: &[u8]) -> String {
+pub(in crate::show) fn base64(bytes: &[u8]) -> String {
     const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for three in bytes.chunks(3) {
@@ -161,7 +170,10 @@ fn covering(covering: &PageSurface<'_>) -> Value {
     let kinds = &covering.dirt[..covering.dirt.len().min(Layer::KINDS)];
     let kinds: Vec<Value> = kinds
         .iter()
-        .map(|dirt| json!({ "name": dirt.name, "colour": light_of(dirt.colour), "srgb": dirt.colour }))
+        .map(|dirt| {
+            let absorbs = absorption(light_of(dirt.colour));
+            json!({ "name": dirt.name, "colour": light_of(dirt.colour), "srgb": dirt.colour, "absorbs": absorbs })
+        })
         .collect();
     json!({ "clean": light_of(covering.clean), "roughness": covering.roughness, "kinds": kinds })
 }
@@ -261,10 +273,10 @@ fn surroundings(page: &Page<'_>, data: &mut Value, blocks: &mut Vec<(String, Vec
     blocks.push(("field".to_string(), encode_picture(&field.image())));
     data["field"] = raster(&field.raster);
     data["field"]["range"] = json!(field::RANGE_M);
-    let above = Light::above(grid, page.above.heading_deg);
-    // Open ground lies under the sky.
+    let above = if is_outside(page) { Light::inside(grid) } else { Light::above(grid, page.above.heading_deg) };
+    // Open ground and yards lie under the sky.
     let lights =
-        if grid.is_open() { vec![("above", above)] } else { vec![("inside", Light::inside(grid)), ("above", above)] };
+        if !grid.roofed { vec![("above", above)] } else { vec![("inside", Light::inside(grid)), ("above", above)] };
     for (name, light) in &lights {
         let light = light_grid::LightGrid::of(page.walls, light);
         blocks.push((format!("light-{name}"), encode_picture(&light.image())));
@@ -272,7 +284,7 @@ fn surroundings(page: &Page<'_>, data: &mut Value, blocks: &mut Vec<(String, Vec
     }
     data["light"]["most"] = json!(light_grid::MOST);
     data["light"]["heights"] = json!(WALL_HEIGHTS);
-    data["roofed"] = json!(!grid.is_open());
+    data["roofed"] = json!(grid.roofed);
     let lamps = lights.iter().filter_map(|(_, light)| light.panels()).flat_map(Panels::all);
     data["lamps"] = lamps.map(|lamp| json!([point(lamp.centre - lamp.half), point(lamp.centre + lamp.half)])).collect();
 }

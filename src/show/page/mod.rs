@@ -4,7 +4,7 @@
 //! dirt itself, by the look's law, so that a reader can take causes away or have more of them.
 
 mod content;
-mod document;
+pub(super) mod document;
 mod field;
 mod geometry;
 mod images;

@@ -1,3 +1,5 @@
+use std::collections::BTreeSet;
+
 use image::RgbImage;
 
 use super::canvas::{LINE_PX, PlanCanvas, text_width};
@@ -9,7 +11,7 @@ use super::style::{
 use crate::crowd::Stuck;
 use crate::math::srgb::Srgb8;
 use crate::math::{Vec2, vec2};
-use crate::plan::{FloorPlan, RegionRole};
+use crate::plan::{FloorPlan, PlanClass, RegionRole};
 use crate::routes::{Place, Route};
 use crate::walls::Walls;
 
@@ -29,11 +31,12 @@ const UNREACHED: Srgb8 = [214, 130, 0];
 
 /// Draws a plan as it was read: floor, walls, openings and routes.
 ///
-/// Unreached regions are hatched; walls are blue from side to side of the image, brown if closed; openings have their
+/// Doors, windows, furniture and notes have the colours of their classes, which the legend names. Unreached regions are hatched; walls are blue from side to side of the image, brown if closed; openings have their
 /// names, routes their gates.
 pub fn draw_plan(plan: &FloorPlan, walls: &Walls, routes: &[Route]) -> RgbImage {
     let mut canvas = sheet(plan);
     draw_ground(&mut canvas, plan, walls, FLOOR);
+    let classes = draw_classes(&mut canvas, plan);
     hatch_unreached(&mut canvas, plan);
     draw_walls(&mut canvas, walls, true);
     for (n, route) in routes.iter().enumerate() {
@@ -43,6 +46,13 @@ pub fn draw_plan(plan: &FloorPlan, walls: &Walls, routes: &[Route]) -> RgbImage 
     let [left, top] = legend(&canvas);
     let size = format!("{:.1} x {:.1} m, {} walls", plan.width_m(), plan.height_m(), walls.faces.len());
     canvas.text([left, top], &size, TEXT, None);
+    let mut at = left + text_width(&size) + 40;
+    for class in classes {
+        let name = format!("{class:?}").to_lowercase();
+        canvas.fill([at, top], [LINE_PX - 10, LINE_PX - 10], class.colour());
+        canvas.text([at + LINE_PX, top], &name, TEXT, None);
+        at += LINE_PX + text_width(&name) + 30;
+    }
     for (n, route) in routes.iter().enumerate().take(4) {
         let at = [left + (n as i64 % 2) * 620, top + LINE_PX * (1 + n as i64 / 2)];
         canvas.text(at, &route.name, ROUTES[n % ROUTES.len()], None);
@@ -90,6 +100,22 @@ pub(in crate::show) fn draw_ground(canvas: &mut PlanCanvas, plan: &FloorPlan, wa
             canvas.blend(x, y, floor, f64::from(share));
         }
     }
+}
+
+/// Paints what is neither floor nor wall in the colours of its class. Returns the classes that there are.
+fn draw_classes(canvas: &mut PlanCanvas, plan: &FloorPlan) -> BTreeSet<PlanClass> {
+    let ([left, top], [width, height]) = (canvas.corner, canvas.plan_px);
+    let mut found = BTreeSet::new();
+    for at in 0..width * height {
+        let (x, y) = (at % width, at / width);
+        let middle = vec2(x as f64 + 0.5, (height - 1 - y) as f64 + 0.5) / canvas.pixels_per_metre;
+        let class = pixel(plan, middle).and_then(|at| plan.classes.get(at)).copied().unwrap_or_default();
+        if !matches!(class, PlanClass::Floor | PlanClass::Wall | PlanClass::Outside) {
+            canvas.blend((left + x) as i64, (top + y) as i64, class.colour(), 0.85);
+            found.insert(class);
+        }
+    }
+    found
 }
 
 /// Index of the plan's pixel under a point.
@@ -298,6 +324,7 @@ mod tests {
             via: Vec::new(),
             stops: Vec::new(),
             arrivals: None,
+            life: None,
             goal: Place::Opening(0),
             share: 1.0,
             gates,

@@ -7,14 +7,14 @@ use super::lens::Lens;
 use super::ray_grid::{QuadKind, RayGrid, WallQuad};
 use super::trace::HitSurface;
 use crate::export::{Camera, DEFAULT_FOV_DEG};
-use crate::math::{Vec2, ln, sin_cos, vec2};
+use crate::math::{Vec2, sin_cos, vec2};
 
 /// Eye height of a standing person, metres.
 const EYES_M: f64 = 1.7;
 /// Least distance of a camera from walls, metres.
 const CLEAR_M: f64 = 0.5;
-/// Downward from level, degrees: floor fills not quite half of the picture, its detail begins 4 m away.
-const EYE_PITCH_DEG: f64 = -4.5;
+/// Downward from level, degrees: floor fills about half of the picture, its detail begins 3 m away.
+const EYE_PITCH_DEG: f64 = -8.0;
 /// The same on open ground, where only sky is above the horizon.
 const OPEN_PITCH_DEG: f64 = -20.0;
 /// Headings that are tried.
@@ -27,8 +27,15 @@ const BIRD_FOV_DEG: f64 = 30.0;
 
 /// A look along the plan, as it is judged.
 const GLANCES: usize = 17;
-/// Distances at which the floor is looked at, metres.
-const DISTANCES_M: [f64; 7] = [3.0, 4.0, 5.3, 7.0, 9.3, 13.0, 20.0];
+/// Rows of the picture in which the floor is looked at, between its lower side and the horizon.
+const FLOOR_ROWS: usize = 10;
+/// Slope downward of the picture's lower side at [`EYE_PITCH_DEG`], at sixteen to nine: rise over run.
+const LOWEST_SLOPE: f64 = 0.517;
+/// Slope of its upper side, upward.
+const HIGHEST_SLOPE: f64 = 0.201;
+/// Share of the picture that should be floor, and way to the wall that should be ahead, metres.
+const FLOOR_SHARE: f64 = 0.35;
+const DEPTH_M: f64 = 8.0;
 /// How far aside of a place its neighbour is looked at: a lane and its margin, metres.
 const ASIDE_M: f64 = 0.8;
 /// Doors count between these distances, metres.
@@ -92,42 +99,56 @@ impl RayGrid {
     }
 
     fn wall_way(&self, from: Vec2, toward: Vec2, reach_m: f64) -> f64 {
-        let solid = |piece: &WallQuad, _: f64| !matches!(piece.what, QuadKind::Lintel(_));
-        self.cast(from, toward, reach_m, solid).map_or(reach_m, |met| met.way_m)
+        self.cast(from, toward, reach_m, |piece, _| piece.bounds_room()).map_or(reach_m, |met| met.way_m)
     }
 
     /// Score of a view from a place in a direction.
     fn judge(&self, place: Vec2, heading_deg: f64, traffic: &FootfallGrid, doors: &[Vec2]) -> f64 {
         let (mut count, mut trodden, mut contrast) = (0.0, 0.0, 0.0);
-        let (mut depth, mut near_walls, mut blocked, mut glare) = (0.0, 0.0, 0.0, 0.0);
+        let (mut near_walls, mut blocked, mut glare, mut ahead) = (0.0, 0.0, 0.0, 0.0);
         for k in 0..GLANCES {
             let aside = (k as f64 / (GLANCES - 1) as f64 - 0.5) * DEFAULT_FOV_DEG * 0.94;
             let toward = direction(heading_deg + aside);
-            let met = self.cast(place, toward, 45.0, |piece, _| !matches!(piece.what, QuadKind::Lintel(_)));
+            let met = self.cast(place, toward, 45.0, |piece, _| piece.bounds_room());
             let way = met.map_or(45.0, |met| met.way_m);
             let outward = met.is_some_and(|met| self.pieces[met.piece].what == QuadKind::Opening);
-            glare += if outward && way < BRIGHT_M { 1.0 - way / BRIGHT_M } else { 0.0 };
-            for distance in DISTANCES_M.iter().filter(|&&distance| distance < way) {
-                let p = place + toward * *distance;
+            glare += if self.roofed && outward && way < BRIGHT_M { 1.0 - way / BRIGHT_M } else { 0.0 };
+            // The first piece of furniture hides the floor behind it, up to where one looks over it.
+            let low = self.cast(place, toward, way, |piece, _| piece.height_m < EYES_M);
+            let hidden = low.map_or([f64::INFINITY; 2], |met| {
+                [met.way_m, met.way_m * EYES_M / (EYES_M - self.pieces[met.piece].height_m)]
+            });
+            // Rows are evenly spaced in the picture: what is near counts as much as it takes of it.
+            for row in 0..FLOOR_ROWS {
+                let slope = LOWEST_SLOPE * (1.0 - (row as f64 + 0.5) / FLOOR_ROWS as f64);
+                let distance = EYES_M / slope;
+                if distance >= way {
+                    break;
+                }
+                if distance > hidden[0] && distance < hidden[1] {
+                    continue;
+                }
+                let p = place + toward * distance;
                 let here = f64::from(traffic.at(p));
                 let beside = [toward.left(), -toward.left()].map(|side| f64::from(traffic.at(p + side * ASIDE_M)));
                 (count, trodden) = (count + 1.0, trodden + here);
                 contrast += beside.iter().map(|other| (here - other).abs()).sum::<f64>() * 0.5;
             }
-            depth += ln(way.max(0.3));
+            let central = k.abs_diff(GLANCES / 2) <= GLANCES / 8;
+            ahead = if central { f64::max(ahead, way) } else { ahead };
             near_walls += if way > 2.0 && way < 9.0 { 1.0 } else { 0.0 };
             // A wall right before the camera hides everything.
             blocked += if way < 2.0 { 1.0 } else { 0.0 };
         }
         let glances = GLANCES as f64;
-        let floor = f64::max(count, 1.0);
+        let all = glances * FLOOR_ROWS as f64;
         let walls = near_walls / glances;
-        let seen = count / (glances * DISTANCES_M.len() as f64);
-        0.9 * trodden / floor
-            + 3.0 * contrast / floor
-            + 0.7 * seen
-            + 0.18 * depth / glances
-            + 1.2 * walls * (1.0 - walls)
+        let share = count / all * (LOWEST_SLOPE / (LOWEST_SLOPE + HIGHEST_SLOPE));
+        let short = |value: f64, wanted: f64| (1.0 - value / wanted).max(0.0);
+        // Dirt by how much of the picture shows it.
+        1.2 * trodden / all + 6.0 * contrast / all + 1.2 * walls * (1.0 - walls)
+            - 3.0 * short(share, FLOOR_SHARE)
+            - 2.0 * short(ahead, DEPTH_M)
             - 2.5 * blocked / glances
             - 3.0 * glare / glances
             + 0.25 * self.doors_in_view(doors, place, heading_deg).min(2.0)

@@ -1,14 +1,34 @@
-//! The light model: irradiance of floor and walls from lamps or from sky and sun, with bounced light and occlusion.
+//! The light model: irradiance of floor and walls from lamps and windows, or from sky and sun, with bounced light and
+//! occlusion.
 
 use super::panels::{Panel, Panels};
-use super::ray_grid::{QuadKind, RayGrid, WallQuad};
-use super::shades::{EXPOSURE_ABOVE, EXPOSURE_INSIDE, smooth, wall_edges};
-use crate::math::{Vec2, sin_cos, vec2};
+use super::ray_grid::RayGrid;
+use super::shades::{EXPOSURE_ABOVE, EXPOSURE_INSIDE, EXPOSURE_OUTSIDE, smooth, wall_edges};
+use crate::math::{Vec2, exp, sin_cos, vec2};
 
 /// Largest distance of walls that block light, metres.
 const REACH_M: f64 = 6.0;
-/// Light of an endless raster of panels, each the sum over its area, by which light is divided: under it lies 1.
-const FULL_PANELS: f64 = 3.7 * 0.72;
+/// Places of the floor by whose mean light all light is divided, so that every building is well lit.
+const MEASURED: usize = 240;
+/// Limits of that factor: a dark hall stays darker than an office.
+const GAIN: [f64; 2] = [0.5, 3.0];
+/// Light that walls, floor and ceiling throw onto a floor and onto a wall, where nothing is near.
+const BOUNCE: [f64; 2] = [0.34, 0.36];
+/// Light of lamps on the floor under an endless raster of them.
+const LAMPS: f64 = 0.66;
+/// Darkening of the floor along walls: share, and the distance in which it fades, metres.
+const CONTACT: [f64; 2] = [0.34, 0.16];
+/// Daylight that comes in through an opening: factor on the part of the sky that it shows, and how far it is followed,
+/// metres.
+const DAY: f64 = 2.2;
+const DAY_REACH_M: f64 = 14.0;
+/// Places in an opening, as shares of its width, from which daylight comes.
+const DAY_FROM: [f64; 3] = [0.17, 0.5, 0.83];
+/// Direction of the sun in the plan, degrees, and how many metres it falls per metre, outdoors.
+const SUN_DEG: f64 = 218.0;
+const SUN_SLOPE: f64 = 0.95;
+/// The same of the large lamp beside a plan that is seen from above.
+const LAMP_SLOPE: f64 = 1.25;
 /// Least distance of a ray's start from a wall, metres.
 pub(crate) const OFF_WALL_M: f64 = 0.01;
 /// Shares of the ceiling's height at which the page is told the light on a wall; it goes straight between and beyond.
@@ -17,10 +37,12 @@ pub(crate) const WALL_HEIGHTS: [f64; 2] = [0.2, 0.75];
 /// The light sources of a picture.
 #[derive(Debug)]
 pub(crate) enum LightSources {
-    /// Panels in the ceiling.
+    /// Panels in the ceiling, and daylight in openings.
     Inside(Panels),
     /// A soft sky and a large lamp at one side: unit vector toward it.
     Above(Vec2),
+    /// Sky and sun over walls without a ceiling: unit vector toward the sun.
+    Outside(Vec2),
 }
 
 /// Light that falls on a place.
@@ -37,25 +59,36 @@ pub(crate) struct Irradiance {
 pub(crate) struct Light<'a> {
     pub space: &'a RayGrid,
     pub sources: LightSources,
+    /// Factor on light from lamps and openings.
+    gain: f64,
 }
 
 impl<'a> Light<'a> {
-    /// The light of the lamps.
+    /// The light at eye level: of lamps, or of the sky where there is no ceiling.
     pub fn inside(space: &'a RayGrid) -> Light<'a> {
-        Light { space, sources: LightSources::Inside(Panels::over(space)) }
+        if !space.roofed {
+            let (sine, cosine) = sin_cos(SUN_DEG * std::f64::consts::PI / 180.0);
+            return Light { space, sources: LightSources::Outside(vec2(cosine, sine)), gain: 1.0 };
+        }
+        let light = Light { space, sources: LightSources::Inside(Panels::over(space)), gain: 1.0 };
+        let places: Vec<Vec2> = space.floor_places().collect();
+        let stride = places.len().div_ceil(MEASURED).max(1);
+        let seen: Vec<f64> = places.iter().step_by(stride).map(|&p| f64::from(light.on_floor(p).full)).collect();
+        let mean = seen.iter().sum::<f64>() / seen.len().max(1) as f64;
+        Light { gain: (1.0 / mean.max(0.1)).clamp(GAIN[0], GAIN[1]), ..light }
     }
 
     /// The light on rooms without a ceiling, over the left shoulder of a viewer who looks in a direction, degrees.
     pub fn above(space: &'a RayGrid, heading_deg: f64) -> Light<'a> {
         let (sine, cosine) = sin_cos((heading_deg + 125.0) * std::f64::consts::PI / 180.0);
-        Light { space, sources: LightSources::Above(vec2(cosine, sine)) }
+        Light { space, sources: LightSources::Above(vec2(cosine, sine)), gain: 1.0 }
     }
 
     /// The lamps, where there is a ceiling.
     pub fn panels(&self) -> Option<&Panels> {
         match &self.sources {
             LightSources::Inside(panels) => Some(panels),
-            LightSources::Above(_) => None,
+            LightSources::Above(_) | LightSources::Outside(_) => None,
         }
     }
 
@@ -64,6 +97,7 @@ impl<'a> Light<'a> {
         match self.sources {
             LightSources::Inside(_) => EXPOSURE_INSIDE,
             LightSources::Above(_) => EXPOSURE_ABOVE,
+            LightSources::Outside(_) => EXPOSURE_OUTSIDE,
         }
     }
 
@@ -73,27 +107,73 @@ impl<'a> Light<'a> {
         let height_m = self.space.height_m;
         match &self.sources {
             LightSources::Inside(panels) => {
-                let open = self.open_around(p, height_m * 0.55);
+                let (open, near_m) = self.open_around(p, height_m * 0.55);
                 let h2 = height_m * height_m;
                 let lit = self.panels_in_sight(panels, p).map(|(way, distance, panel)| {
-                    let r2 = way.length_squared() + h2;
+                    // Louvres keep the light below the lamp: pools on the floor.
+                    let cosine2 = h2 / (way.length_squared() + h2);
                     let fade = 1.0 - smooth(((distance - 4.0) / (REACH_M - 4.0)).clamp(0.0, 1.0));
-                    panel.area() * fade * (h2 * h2 / (r2 * r2))
+                    panel.area() * fade * cosine2 * cosine2 * cosine2
                 });
-                let direct = lit.sum::<f64>() / FULL_PANELS;
-                Irradiance { full: (0.62 * direct + 0.55 * (0.25 + 0.75 * open)) as f32, open: open as f32 }
+                let direct = LAMPS * lit.sum::<f64>() / Panels::FULL;
+                let [day, _] = self.daylight(p, None);
+                let bounced = BOUNCE[0] * (0.25 + 0.75 * open);
+                let contact = 1.0 - CONTACT[0] * exp(-near_m / CONTACT[1]);
+                Irradiance { full: (self.gain * (direct + bounced + day) * contact) as f32, open: open as f32 }
             }
             LightSources::Above(sun) => {
-                let open = self.open_around(p, height_m);
-                let lit = self.sunlit(p, *sun, height_m);
+                let (open, _) = self.open_around(p, height_m);
+                let lit = self.sunlit(p, *sun, height_m, LAMP_SLOPE, &SPREAD_7);
                 Irradiance { full: (0.12 + 0.48 * open + 0.5 * lit) as f32, open: open as f32 }
+            }
+            LightSources::Outside(sun) => {
+                let (open, near_m) = self.open_around(p, height_m);
+                let lit = self.sunlit(p, *sun, height_m, SUN_SLOPE, &SUN_DISC);
+                let contact = 1.0 - 0.6 * CONTACT[0] * exp(-near_m / CONTACT[1]);
+                Irradiance { full: ((0.08 + 0.26 * open + 0.72 * lit) * contact) as f32, open: open as f32 }
             }
         }
     }
 
+    /// Daylight from the openings: on a place of the floor, in both values, or on a wall with this normal, at both
+    /// [`WALL_HEIGHTS`].
+    fn daylight(&self, p: Vec2, normal: Option<Vec2>) -> [f64; 2] {
+        let height_m = self.space.height_m;
+        let mut sums = [0.0; 2];
+        for &[a, b] in &self.space.openings {
+            let Some(along) = (b - a).normalized() else { continue };
+            let width_m = a.distance(b);
+            for share in DAY_FROM {
+                let way = a + (b - a) * share - p;
+                let distance = way.length();
+                let toward = way / distance.max(1e-6);
+                // The floor is on the right of an opening.
+                let leaves = along.cross(toward).max(0.0);
+                let facing = normal.map_or(1.0, |normal| normal.dot(toward));
+                let is_seen = || self.way(p, toward, distance - 0.02) >= distance - 0.02;
+                if distance > DAY_REACH_M || leaves <= 0.0 || facing <= 0.0 || !is_seen() {
+                    continue;
+                }
+                let d2 = distance * distance + 0.3;
+                let fade = 1.0 - smooth(((distance - 7.0) / (DAY_REACH_M - 7.0)).clamp(0.0, 1.0));
+                let from = leaves * fade * width_m / (DAY_FROM.len() as f64 * d2.sqrt());
+                for (sum, at) in sums.iter_mut().zip(WALL_HEIGHTS) {
+                    // The floor sees the upper part of an opening, a wall all of it, more of it at half its height.
+                    let off = (at - 0.5) * height_m;
+                    *sum += from
+                        * match normal {
+                            None => height_m * height_m / (d2 + height_m * height_m),
+                            Some(_) => facing * height_m * distance / (d2 + off * off + 0.1 * height_m * height_m),
+                        };
+                }
+            }
+        }
+        sums.map(|sum| DAY * sum / std::f64::consts::PI)
+    }
+
     /// The place itself, or the nearest one on the floor that lies a little off the wall.
     fn onto_floor(&self, p: Vec2) -> Option<Vec2> {
-        if self.space.is_floor(p) {
+        if self.space.is_room(p) {
             return Some(p);
         }
         // The raster's neighbours are 0.125 m apart: no farther is floor that asks for this place.
@@ -103,38 +183,38 @@ impl<'a> Light<'a> {
         near.into_iter().find(|&q| self.space.is_floor(q))
     }
 
-    /// Share of the sky over walls of a height that is seen from the floor: by directions, cosine-weighted.
-    fn open_around(&self, p: Vec2, height_m: f64) -> f64 {
+    /// Share of the sky over walls of a height that is seen from the floor: by directions, cosine-weighted. And the
+    /// distance of the nearest wall, metres.
+    fn open_around(&self, p: Vec2, height_m: f64) -> (f64, f64) {
         const COUNT: usize = 12;
-        let seen = DIRECTIONS_12.iter().map(|&[x, y]| {
-            let way = self.way(p, vec2(x, y), REACH_M);
-            way * way / (way * way + height_m * height_m)
-        });
+        let ways = DIRECTIONS_12.map(|[x, y]| self.way(p, vec2(x, y), REACH_M));
+        let seen = ways.iter().map(|way| way * way / (way * way + height_m * height_m));
         // In the open all of it is seen, though rays end.
         let most = REACH_M * REACH_M / (REACH_M * REACH_M + height_m * height_m);
-        seen.sum::<f64>() / (COUNT as f64 * most)
+        (seen.sum::<f64>() / (COUNT as f64 * most), ways.into_iter().fold(REACH_M, f64::min))
     }
 
     /// Way to the nearest wall in a direction, at most `reach_m`.
     fn way(&self, from: Vec2, toward: Vec2, reach_m: f64) -> f64 {
-        let walls = |piece: &WallQuad, _: f64| matches!(piece.what, QuadKind::Wall(_));
-        self.space.cast(from, toward, reach_m, walls).map_or(reach_m, |met| met.way_m.max(0.0))
+        // Light passes over furniture.
+        self.space.cast(from, toward, reach_m, |piece, _| piece.is_wall()).map_or(reach_m, |met| met.way_m.max(0.0))
     }
 
-    /// Share of a large lamp at one side that is seen over walls that are `height_m` higher than the place.
-    fn sunlit(&self, p: Vec2, sun: Vec2, height_m: f64) -> f64 {
-        /// Metres upward per metre toward the light's middle.
-        const SLOPE: f64 = 1.25;
+    /// Share of a large lamp at one side that is seen over walls that are `height_m` higher than the place; it falls
+    /// `slope` metres per metre.
+    fn sunlit(&self, p: Vec2, sun: Vec2, height_m: f64, slope: f64, spread: &[[f64; 2]]) -> f64 {
         if self.space.is_open() {
             return 1.0;
         }
-        let reach = height_m / SLOPE * 2.0;
-        let share = SPREAD_7.iter().map(|&[x, y]| {
+        let reach = height_m / slope * 2.0;
+        let share = spread.iter().map(|&[x, y]| {
             let way = self.way(p, sun.rotated(vec2(x, y)), reach);
-            let over = (way * SLOPE / height_m.max(0.05) - 0.65) / 0.7;
+            // The sun's upper and lower rim differ as much as its left and right one.
+            let rim = 0.7 * spread[0][1].abs() / SPREAD_7[0][1].abs();
+            let over = (way * slope / height_m.max(0.05) - (1.0 - 0.5 * rim)) / rim;
             smooth(over.clamp(0.0, 1.0))
         });
-        share.sum::<f64>() / SPREAD_7.len() as f64
+        share.sum::<f64>() / spread.len() as f64
     }
 
     /// The panels that a place sees: way to each in the plan, its length, and the panel.
@@ -156,9 +236,13 @@ impl<'a> Light<'a> {
             LightSources::Inside(panels) => {
                 self.panels_in_sight(panels, foot).map(|(way, _, panel)| (way, panel.area())).collect()
             }
-            LightSources::Above(_) => Vec::new(),
+            LightSources::Above(_) | LightSources::Outside(_) => Vec::new(),
         };
-        WallLight { light: self, foot, normal, ways, seen }
+        let day = match &self.sources {
+            LightSources::Inside(_) => self.daylight(foot, Some(normal)),
+            LightSources::Above(_) | LightSources::Outside(_) => [0.0; 2],
+        };
+        WallLight { light: self, foot, normal, ways, seen, day }
     }
 }
 
@@ -171,6 +255,8 @@ pub(crate) struct WallLight<'a> {
     ways: [(f64, f64); 8],
     /// Way to the panels in sight, and their area.
     seen: Vec<(Vec2, f64)>,
+    /// Daylight at both [`WALL_HEIGHTS`].
+    day: [f64; 2],
 }
 
 impl WallLight<'_> {
@@ -181,7 +267,7 @@ impl WallLight<'_> {
             LightSources::Inside(_) => {
                 Irradiance { full: even.full * wall_edges(z as f32, self.light.space.height_m as f32), ..even }
             }
-            LightSources::Above(_) => even,
+            LightSources::Above(_) | LightSources::Outside(_) => even,
         }
     }
 
@@ -195,14 +281,33 @@ impl WallLight<'_> {
         let full = match &self.light.sources {
             LightSources::Inside(_) => {
                 let direct: f64 = self.seen.iter().map(|&(way, area)| area * self.of_panel(way, above)).sum();
-                let from_floor = 0.40 + 0.08 * (1.0 - z / height_m);
-                0.42 * (direct / FULL_PANELS).min(1.6) + 1.25 * from_floor * (0.3 + 0.7 * open)
+                let day = self.day[0]
+                    + (self.day[1] - self.day[0])
+                        * ((z / height_m - WALL_HEIGHTS[0]) / (WALL_HEIGHTS[1] - WALL_HEIGHTS[0])).clamp(0.0, 1.0);
+                let bounced = BOUNCE[1] * (1.15 - 0.25 * z / height_m) * (0.25 + 0.75 * open);
+                self.light.gain * (LAMPS * direct / Panels::FULL + bounced + day)
             }
             LightSources::Above(sun) => {
                 let sky = self.ways.iter().map(|(sine, way)| sine * way * way / (way * way + above * above));
                 let facing = self.normal.dot(*sun).max(0.0);
-                let lit = if facing > 0.0 { facing * self.light.sunlit(self.foot, *sun, above.max(0.05)) } else { 0.0 };
+                let above = above.max(0.05);
+                let lit = if facing > 0.0 {
+                    facing * self.light.sunlit(self.foot, *sun, above, LAMP_SLOPE, &SPREAD_7)
+                } else {
+                    0.0
+                };
                 0.20 + 0.30 * sky.sum::<f64>() / weight + 0.55 * lit
+            }
+            LightSources::Outside(sun) => {
+                let sky = self.ways.iter().map(|(sine, way)| sine * way * way / (way * way + above * above));
+                let facing = self.normal.dot(*sun).max(0.0);
+                let above = above.max(0.05);
+                let lit = if facing > 0.0 {
+                    facing * self.light.sunlit(self.foot, *sun, above, SUN_SLOPE, &SUN_DISC)
+                } else {
+                    0.0
+                };
+                0.14 + 0.24 * sky.sum::<f64>() / weight + 0.80 * lit
             }
         };
         Irradiance { full: full as f32, open: open as f32 }
@@ -213,8 +318,10 @@ impl WallLight<'_> {
         let height_m = self.light.space.height_m;
         let facing = way.dot(self.normal).max(0.0);
         // A panel is no point: close to it light does not grow beyond measure.
-        let squared = way.length_squared() + below * below + 1.6;
-        height_m * height_m * facing * (below + 0.15) / (squared * squared)
+        let squared = way.length_squared() + below * below + 0.5;
+        let fade = 1.0 - smooth(((way.length() - 4.0) / (REACH_M - 4.0)).clamp(0.0, 1.0));
+        // Louvres: the light of a lamp falls steeply.
+        fade * height_m * height_m * facing * below * (below + 0.1) / (squared * squared * squared.sqrt())
     }
 }
 
@@ -243,6 +350,13 @@ const SPREAD_7: [[f64; 2]; 7] = [
     [0.990_268_068_741_570_3, 0.139_173_100_960_065_4],
     [0.961_261_695_938_318_9, 0.275_637_355_816_999_2],
     [0.913_545_457_642_600_9, 0.406_736_643_075_800_2],
+];
+
+/// Cosine and sine of -3 to 3 degrees: the sun through thin haze.
+const SUN_DISC: [[f64; 2]; 3] = [
+    [0.998_629_534_754_573_8, -0.052_335_956_242_943_8],
+    [1.0, 0.0],
+    [0.998_629_534_754_573_8, 0.052_335_956_242_943_8],
 ];
 
 /// Cosine and sine of 11.25 to 168.75 degrees.

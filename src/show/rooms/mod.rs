@@ -18,10 +18,27 @@ pub(crate) use ray_grid::{QuadKind, RayGrid, WallQuad};
 pub(crate) use shades::*;
 pub(crate) use trace::{HitSurface, RayHit};
 
+use serde::{Deserialize, Serialize};
+
 use crate::export::Camera;
+use crate::look::WallLook;
+use crate::options::names;
 use crate::sums::FloorSums;
 use crate::walls::{Doorway, Walls};
 use footfalls::FootfallGrid;
+
+names!(Ceiling);
+
+/// What is over the rooms.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Ceiling {
+    /// Tiles with lamps between them.
+    #[default]
+    Lamps,
+    /// Nothing: sky and sun, as in a yard.
+    None,
+}
 
 /// The rooms of a plan, ready to be looked at.
 #[derive(Debug)]
@@ -35,6 +52,18 @@ impl Rooms {
     pub fn new(walls: &Walls, doorways: &[Doorway], wall_height_m: f64) -> Rooms {
         let height_m = if walls.faces.is_empty() { 0.0 } else { wall_height_m };
         Rooms { grid: RayGrid::new(walls, doorways, height_m) }
+    }
+
+    /// The rooms with something else over them.
+    pub(crate) fn under(mut self, ceiling: Ceiling) -> Rooms {
+        self.grid.roofed = ceiling == Ceiling::Lamps && !self.grid.is_open();
+        self
+    }
+
+    /// The rooms with frames around their doors, as the look has them on jambs.
+    pub(crate) fn framed(mut self, look: &WallLook) -> Rooms {
+        self.grid.frame = (look.frame_m > 0.0).then_some((look.frame_m, look.frame_colour));
+        self
     }
 
     /// The camera from above that has the whole plan in a picture of a size in pixels.

@@ -1,7 +1,9 @@
 //! The plan as rays see it: upright faces over a plane, found through a grid of cells.
 
+use crate::look::WIDEST_FRAMED_M;
+use crate::math::srgb::{Srgb8, light_of};
 use crate::math::{Rect, Vec2, vec2};
-use crate::walls::{Doorway, Walls};
+use crate::walls::{Doorway, Outline, Walls};
 
 /// Side of a cell, metres, where the plan is not so large that coarser ones must do.
 const CELL_M: f64 = 0.5;
@@ -31,17 +33,38 @@ pub(crate) struct WallQuad {
     pub what: QuadKind,
     /// Arc length of the start along the wall's face, metres.
     pub along_m: f64,
+    /// Height of furniture, metres; infinite for all others.
+    pub height_m: f64,
+    /// Normals at both ends, as light sees them: shared with the next piece where a wall is round.
+    pub round: [Vec2; 2],
 }
 
 impl WallQuad {
     fn new(a: Vec2, b: Vec2, what: QuadKind, along_m: f64) -> Option<WallQuad> {
         let along = (b - a).normalized()?;
-        Some(WallQuad { a, along, length: a.distance(b), what, along_m })
+        let round = [-along.left(); 2];
+        Some(WallQuad { a, along, length: a.distance(b), what, along_m, height_m: f64::INFINITY, round })
+    }
+
+    /// True for walls up to the ceiling.
+    pub fn is_wall(&self) -> bool {
+        matches!(self.what, QuadKind::Wall(_)) && self.height_m.is_infinite()
+    }
+
+    /// True for walls and openings, up to the ceiling.
+    pub fn bounds_room(&self) -> bool {
+        !matches!(self.what, QuadKind::Lintel(_)) && self.height_m.is_infinite()
     }
 
     /// Unit vector that points to where the floor is: to the right.
     pub fn normal(&self) -> Vec2 {
         -self.along.left()
+    }
+
+    /// Unit vector to where the floor is, for light: turns evenly along a round wall.
+    pub fn round_normal(&self, along_m: f64) -> Vec2 {
+        let [from, to] = self.round;
+        from.lerp(to, (along_m / self.length).clamp(0.0, 1.0)).normalized().unwrap_or(self.normal())
     }
 
     /// Distance of a place to it in the plan, metres.
@@ -112,6 +135,33 @@ impl Lintel {
     }
 }
 
+/// The level top of a piece of furniture.
+#[derive(Clone, Debug)]
+struct FurnitureTop {
+    bounds: Rect,
+    outline: Vec<Vec2>,
+    height_m: f64,
+}
+
+impl FurnitureTop {
+    fn of(outline: &Outline) -> Option<FurnitureTop> {
+        let first = outline.points_m.first()?;
+        let around = |bounds: Rect, &p: &Vec2| Rect {
+            min: vec2(bounds.min.x.min(p.x), bounds.min.y.min(p.y)),
+            max: vec2(bounds.max.x.max(p.x), bounds.max.y.max(p.y)),
+        };
+        let bounds = outline.points_m.iter().fold(Rect { min: *first, max: *first }, around);
+        Some(FurnitureTop { bounds, outline: outline.points_m.clone(), height_m: outline.furniture_m? })
+    }
+
+    fn contains(&self, p: Vec2) -> bool {
+        let edges = self.outline.iter().zip(self.outline.iter().cycle().skip(1));
+        let crossed =
+            edges.filter(|(a, b)| (a.y > p.y) != (b.y > p.y) && (p.y - a.y) / (b.y - a.y) * (b.x - a.x) + a.x > p.x);
+        self.bounds.contains(p) && !crossed.count().is_multiple_of(2)
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum CellGround {
     Solid,
@@ -127,8 +177,15 @@ pub(crate) struct RayGrid {
     pub openings: Vec<[Vec2; 2]>,
     /// Height of walls and ceiling, metres; 0 without them.
     pub height_m: f64,
+    /// Whether there is a ceiling.
+    pub roofed: bool,
+    /// Width, metres, and colour of the frames of doors; `None` without any.
+    pub frame: Option<(f32, Srgb8)>,
     /// The block that the rooms are cut into.
     pub block: Rect,
+    furniture: Vec<FurnitureTop>,
+    /// Heights of the furniture, metres, each once.
+    furniture_heights_m: Vec<f64>,
     origin: Vec2,
     cell_m: f64,
     cells_per_metre: f64,
@@ -154,12 +211,20 @@ impl RayGrid {
         let cell_m = CELL_M.max((area.width() * area.height() / MOST_CELLS).sqrt());
         let count = |metres: f64| (metres / cell_m) as usize + 1;
         let (columns, rows) = (count(area.width()), count(area.height()));
+        let furniture: Vec<FurnitureTop> = walls.outlines().iter().filter_map(FurnitureTop::of).collect();
+        let mut furniture_heights_m: Vec<f64> = furniture.iter().map(|top| top.height_m).collect();
+        furniture_heights_m.sort_by(f64::total_cmp);
+        furniture_heights_m.dedup();
         let mut space = RayGrid {
             openings: opening_pieces(walls).map(|piece| [piece.a, piece.b()]).collect(),
             pieces,
             lintels,
             height_m,
+            roofed: height_m > 0.0,
+            frame: None,
             block: block(walls),
+            furniture,
+            furniture_heights_m,
             origin: area.min,
             cell_m,
             cells_per_metre: 1.0 / cell_m,
@@ -181,6 +246,13 @@ impl RayGrid {
         space
     }
 
+    /// Colour of a door's frame, linear, at a height on its lintel, or at its underside; `None` where there is wall.
+    pub fn frame_at(&self, lintel: u32, height_m: f32) -> Option<[f32; 3]> {
+        let ((width_m, colour), lintel) = (self.frame?, self.lintels.get(lintel as usize)?);
+        let framed = 2.0 * lintel.half.y <= WIDEST_FRAMED_M && height_m < lintel.low_m as f32 + width_m;
+        framed.then(|| light_of(colour))
+    }
+
     /// True for a floor under the sky, without rooms.
     pub fn is_open(&self) -> bool {
         self.height_m <= 0.0
@@ -195,6 +267,29 @@ impl RayGrid {
             !matches!(piece.what, QuadKind::Lintel(_)) && crosses(middle, p, piece.a, piece.b())
         });
         (self.middles[cell] == CellGround::Floor) == crossed.count().is_multiple_of(2)
+    }
+
+    /// True on the floor and under furniture.
+    pub fn is_room(&self, p: Vec2) -> bool {
+        self.is_floor(p) || self.furniture.iter().any(|top| top.contains(p))
+    }
+
+    /// Way to the first top of furniture that a falling ray meets before `limit_m`: `at` and `height` tell the place and
+    /// the height above the floor at a way, `slope` the metres upward per metre of way.
+    pub(super) fn top_on_the_way(&self, [z, slope]: [f64; 2], at: impl Fn(f64) -> Vec2, limit_m: f64) -> Option<f64> {
+        if slope >= 0.0 {
+            return None;
+        }
+        // The highest comes first.
+        self.furniture_heights_m.iter().rev().find_map(|&height_m| {
+            let way = (height_m - z) / slope;
+            if !(0.0..limit_m).contains(&way) {
+                return None;
+            }
+            let p = at(way);
+            let is_top = |top: &FurnitureTop| top.height_m == height_m && top.contains(p);
+            (!self.is_floor(p) && self.furniture.iter().any(is_top)).then_some(way)
+        })
     }
 
     /// The first face that a ray meets from its front, at most `limit_m` away; `toward` is a unit vector. Faces for
@@ -348,14 +443,35 @@ fn wall_pieces(walls: &Walls) -> Vec<WallQuad> {
     let mut pieces = Vec::new();
     for (number, face) in (0..).zip(&walls.faces) {
         let count = face.points_m.len();
+        let first = pieces.len();
         let mut along_m = 0.0;
         for k in 0..if face.closed { count } else { count.saturating_sub(1) } {
             let (a, b) = (face.points_m[k], face.points_m[(k + 1) % count]);
-            pieces.extend(WallQuad::new(a, b, QuadKind::Wall(number), along_m));
+            let piece = WallQuad::new(a, b, QuadKind::Wall(number), along_m);
+            let height_m = face.furniture_m.unwrap_or(f64::INFINITY);
+            pieces.extend(piece.map(|piece| WallQuad { height_m, ..piece }));
             along_m += a.distance(b);
         }
+        smooth(&mut pieces[first..], face.closed);
     }
     pieces
+}
+
+/// Gives neighbouring pieces of a round wall the same normal where they meet.
+fn smooth(pieces: &mut [WallQuad], closed: bool) {
+    /// Cosine of the largest turn within a round wall, and its longest piece, metres.
+    const ROUND_COSINE: f64 = 0.8;
+    const LONGEST_M: f64 = 1.2;
+    let count = pieces.len();
+    for k in 0..if closed { count } else { count.saturating_sub(1) } {
+        let next = (k + 1) % count;
+        let [a, b] = [pieces[k], pieces[next]];
+        let is_round = a.normal().dot(b.normal()) > ROUND_COSINE && a.length.max(b.length) < LONGEST_M;
+        if let Some(normal) = (a.normal() + b.normal()).normalized().filter(|_| is_round && next != k) {
+            pieces[k].round[1] = normal;
+            pieces[next].round[0] = normal;
+        }
+    }
 }
 
 fn opening_pieces(walls: &Walls) -> impl Iterator<Item = WallQuad> {

@@ -3,8 +3,8 @@
 use super::ray_grid::{QuadKind, RayGrid, WallQuad};
 use crate::math::{Vec2, vec2};
 
-/// Distance beyond an opening at which daylight hides everything, metres.
-const OUTSIDE_M: f64 = 14.0;
+/// Distance beyond an opening at which daylight hides everything, metres: in rooms, and outdoors.
+const OUTSIDE_M: [f64; 2] = [14.0, 150.0];
 
 /// The surface that a ray hits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +14,8 @@ pub(crate) enum HitSurface {
     /// Place in [`RayGrid::pieces`].
     Wall(u32),
     Lintel(u32),
+    /// The top of a table, a counter, a seat.
+    Furniture,
     /// The underside of a lintel.
     Soffit(u32),
     /// The top of the block that the rooms are cut into, as seen from above.
@@ -103,16 +105,21 @@ impl RayGrid {
             let (level, end) = if ray.slope < 0.0 {
                 (HitSurface::Floor, -ray.z / ray.slope)
             } else if ray.slope > 0.0 {
-                (HitSurface::Ceiling, (self.height_m - ray.z) / ray.slope)
+                (if self.roofed { HitSurface::Ceiling } else { HitSurface::Sky }, (self.height_m - ray.z) / ray.slope)
             } else {
                 (HitSurface::Outside, 1e6)
             };
             let end = end.clamp(0.0, 1e6);
             let solid = |piece: &WallQuad, way: f64| match piece.what {
                 QuadKind::Lintel(number) => self.under_lintel(&ray, number, way).is_some(),
-                _ => true,
+                _ => ray.height(way) < piece.height_m,
             };
-            let Some(met) = self.cast(ray.from, ray.toward, end, solid) else { return ray.hit(level, end) };
+            let met = self.cast(ray.from, ray.toward, end, solid);
+            let limit_m = met.map_or(end, |met| met.way_m);
+            if let Some(way) = self.top_on_the_way([ray.z, ray.slope], |way| ray.at(way), limit_m) {
+                return ray.hit(HitSurface::Furniture, way);
+            }
+            let Some(met) = met else { return ray.hit(level, end) };
             let piece = &self.pieces[met.piece];
             match piece.what {
                 QuadKind::Wall(_) => return ray.hit(HitSurface::Wall(met.piece as u32), met.way_m),
@@ -125,7 +132,7 @@ impl RayGrid {
                 QuadKind::Opening => {
                     let walked = met.way_m.max(0.0);
                     let beyond = if ray.beyond > 0.0 { ray.beyond + walked } else { 1e-6 };
-                    if beyond > OUTSIDE_M {
+                    if beyond > OUTSIDE_M[usize::from(!self.roofed)] {
                         return ray.hit(HitSurface::Outside, walked);
                     }
                     let normal = piece.normal();
@@ -166,11 +173,18 @@ impl RayGrid {
         }
         // A hair further, so that it lies within the block.
         let inside = ray.at(way + 1e-6);
-        if !self.is_floor(inside) {
+        if !self.is_room(inside) {
             return ray.hit(if enter > top { HitSurface::Side } else { HitSurface::Top }, way);
         }
-        let walls = |piece: &WallQuad, _: f64| !matches!(piece.what, QuadKind::Lintel(_));
-        match self.cast(inside, ray.toward, ground - way, walls) {
+        let walls = |piece: &WallQuad, on: f64| {
+            !matches!(piece.what, QuadKind::Lintel(_)) && ray.height(way + on) < piece.height_m
+        };
+        let met = self.cast(inside, ray.toward, ground - way, walls);
+        let limit_m = met.map_or(ground, |met| way + met.way_m);
+        if let Some(way) = self.top_on_the_way([ray.z, ray.slope], |way| ray.at(way), limit_m) {
+            return ray.hit(HitSurface::Furniture, way);
+        }
+        match met {
             None => ray.hit(HitSurface::Floor, ground),
             Some(met) if self.pieces[met.piece].what == QuadKind::Opening => ray.hit(HitSurface::Table, ground),
             Some(met) => ray.hit(HitSurface::Wall(met.piece as u32), way + met.way_m.max(0.0)),
@@ -190,5 +204,53 @@ impl RayGrid {
         let (y0, y1) = span(ray.from.y, ray.toward.y, self.block.min.y, self.block.max.y);
         let (enter, leave) = (x0.max(y0).max(0.0), x1.min(y1));
         (enter < leave).then_some((enter, leave))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::{FloorPlan, PlanClass};
+    use crate::walls::{Walls, WallsOptions};
+
+    /// A room of 6 x 4 m with a table of 2 x 1 m in its middle.
+    fn room() -> RayGrid {
+        let table = |x: u32, y: u32| (21..41).contains(&x) && (16..26).contains(&y);
+        let inside = |x: u32, y: u32| (1..61).contains(&x) && (1..41).contains(&y);
+        let pixels = || (0..42).flat_map(|y| (0..62).map(move |x| (x, y)));
+        let floor = pixels().map(|(x, y)| u8::from(inside(x, y) && !table(x, y))).collect();
+        let mut plan = FloorPlan::from_mask(62, 42, 0.1, floor);
+        for (class, (x, y)) in plan.classes.iter_mut().zip(pixels()) {
+            if table(x, y) {
+                *class = PlanClass::Table;
+            }
+        }
+        RayGrid::new(&Walls::trace(&plan, &WallsOptions::default()), &[], 2.6)
+    }
+
+    #[test]
+    fn one_looks_over_a_table_and_onto_its_top_and_side() {
+        let space = room();
+        let eye = [0.6, 2.1, 1.6];
+        let seen = |way: [f64; 3]| space.trace_inside(eye, way);
+        // Level: the wall behind the table.
+        let behind = seen([1.0, 0.0, 0.0]);
+        assert!(matches!(behind.surface, HitSurface::Wall(_)) && behind.point[0] > 6.0, "{behind:?}");
+        // Downward: the top, the side, the floor before it.
+        let top = seen([2.0, 0.0, -0.85]);
+        assert_eq!(top.surface, HitSurface::Furniture);
+        assert!((top.point[0] - 2.6).abs() < 1e-6 && (top.point[2] - 0.75).abs() < 1e-6, "{top:?}");
+        let side = seen([1.5, 0.0, -1.2]);
+        assert!(matches!(side.surface, HitSurface::Wall(_)) && (side.point[0] - 2.1).abs() < 1e-6, "{side:?}");
+        assert_eq!(seen([1.0, 0.0, -1.6]).surface, HitSurface::Floor);
+    }
+
+    #[test]
+    fn a_table_is_seen_from_above() {
+        let space = room();
+        let seen = |x: f64, y: f64| space.trace_above([x, y, 30.0], [0.0, 1e-6, -1.0]).surface;
+        assert_eq!(seen(3.1, 2.1), HitSurface::Furniture);
+        assert_eq!(seen(1.0, 1.0), HitSurface::Floor);
+        assert_eq!(seen(0.05, 2.1), HitSurface::Top);
     }
 }

@@ -2,7 +2,7 @@ use super::builder::SceneBuilder;
 use super::model::{Scene, SceneSurface, WallStrip};
 use super::region::PolygonSet;
 use super::tiles::TileCuts;
-use super::tops::Solid;
+use super::tops::{Solid, add_level};
 use super::{faces, floor, lintels};
 use crate::math::Rect;
 use crate::walls::{Doorway, Walls};
@@ -51,7 +51,12 @@ pub fn build(
     let floor = PolygonSet::inside_right(walls.outlines().iter().map(|o| o.points_m.iter().copied()));
     floor::add(&floor, tiles, &cuts, &mut scene);
     faces::add(&walls.faces, strips, &cuts, height_m, &mut scene);
-    let solid = Solid::around(&floor, walls.outlines(), options.rim_m.clamp(0.0, 10.0));
+    let furniture = furniture(walls);
+    let room = furniture.iter().fold(floor.clone(), |room, (_, tops)| room.union(tops));
+    let solid = Solid::around(&room, walls.outlines(), options.rim_m.clamp(0.0, 10.0));
+    for (top_m, tops) in &furniture {
+        add_level(tops, top_m.min(height_m), scene.part(SceneSurface::Lintel));
+    }
     solid.add_tops(height_m, scene.part(SceneSurface::WallTop));
     solid.add_sides(height_m, scene.part(SceneSurface::WallTop));
     let mut heads_m: Vec<f64> =
@@ -63,4 +68,17 @@ pub fn build(
         lintels::add(&floor, walls, alike, [head_m.max(0.0), height_m], &mut scene);
     }
     scene.finish()
+}
+
+/// What furniture covers, by its height in metres.
+fn furniture(walls: &Walls) -> Vec<(f64, PolygonSet)> {
+    let mut heights_m: Vec<f64> = walls.outlines().iter().filter_map(|outline| outline.furniture_m).collect();
+    heights_m.sort_by(f64::total_cmp);
+    heights_m.dedup();
+    let tops = |height_m: f64| {
+        let of_height = walls.outlines().iter().filter(move |outline| outline.furniture_m == Some(height_m));
+        // Outlines have the floor on their right.
+        (height_m, PolygonSet::inside_right(of_height.map(|outline| outline.points_m.iter().rev().copied())))
+    };
+    heights_m.into_iter().map(tops).collect()
 }

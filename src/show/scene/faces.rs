@@ -39,7 +39,8 @@ pub(super) fn add(faces: &[Face], strips: &[WallStrip], cuts: &TileCuts, height_
                 let middle_m = (from.along_m + to.along_m) * 0.5;
                 let strip = strips.iter().rev().find(|s| s.along_m[0] <= middle_m && middle_m <= s.along_m[1]);
                 let surface = strip.map_or(SceneSurface::Lintel, |strip| SceneSurface::WallSheet(strip.sheet));
-                scene.part(surface).polygon(&quad([from, to], strip.map(|s| **s), height_m));
+                let heights_m = [face.furniture_m.map_or(height_m, |low_m| low_m.min(height_m)), height_m];
+                scene.part(surface).polygon(&quad([from, to], strip.map(|s| **s), heights_m));
             }
         }
     }
@@ -117,10 +118,11 @@ fn panels(stretch: [PanelEdge; 2], strips: &[&WallStrip], cuts: &TileCuts) -> Ve
     posts.windows(2).map(|w| [w[0], w[1]]).filter(|[p, q]| q.along_m > p.along_m).collect()
 }
 
-/// Counter-clockwise as seen from the floor.
-fn quad([a, b]: [PanelEdge; 2], strip: Option<WallStrip>, height_m: f64) -> [MeshVertex; 4] {
+/// Counter-clockwise as seen from the floor, up to a height that may be less than that of its strip.
+fn quad([a, b]: [PanelEdge; 2], strip: Option<WallStrip>, [height_m, strip_m]: [f64; 2]) -> [MeshVertex; 4] {
     let corner = |post: PanelEdge, top: bool| {
-        let uv = strip.map_or([0.0; 2], |s| s.uv_at(post.along_m, top));
+        let up = if top { height_m / strip_m } else { 0.0 };
+        let uv = strip.map_or([0.0; 2], |s| s.uv_at(post.along_m, up));
         MeshVertex {
             position_m: [post.point.x, post.point.y, if top { height_m } else { 0.0 }],
             normal: [post.normal.x, post.normal.y, 0.0],

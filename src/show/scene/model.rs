@@ -49,12 +49,11 @@ pub struct WallStrip {
 }
 
 impl WallStrip {
-    /// Texture coordinates at an arc length from the face's start, on the floor or at the wall's top.
-    pub(super) fn uv_at(&self, along_m: f64, top: bool) -> [f64; 2] {
+    /// Texture coordinates at an arc length from the face's start, and at a share of the wall's height.
+    pub(super) fn uv_at(&self, along_m: f64, up: f64) -> [f64; 2] {
         let [from, to] = self.along_m;
         let share = if to > from { ((along_m - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
         let [start, end, above] = self.uv;
-        let up = if top { 1.0 } else { 0.0 };
         [0, 1].map(|k| start[k] + (end[k] - start[k]) * share + (above[k] - start[k]) * up)
     }
 }

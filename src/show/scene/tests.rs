@@ -8,7 +8,7 @@ use super::*;
 use crate::export::TileLayout;
 use crate::math::Rect;
 use crate::math::{Vec2, vec2};
-use crate::plan::FloorPlan;
+use crate::plan::{FloorPlan, PlanClass};
 use crate::stamps::TexelGrid;
 use crate::walls::WallsOptions;
 use crate::walls::{Doorway, Walls};
@@ -455,4 +455,38 @@ proptest! {
         let found = open_length_m(&scene);
         prop_assert!((found - wanted).abs() <= 1e-4 * wanted, "{found} m of outline instead of {wanted}");
     }
+}
+
+/// A room of 6 x 4 m with a table of 2 x 1 m.
+fn room_with_table() -> Walls {
+    let table = |x: u32, y: u32| (20..40).contains(&x) && (16..26).contains(&y);
+    let inside = |x: u32, y: u32| (1..61).contains(&x) && (1..41).contains(&y);
+    let pixels = || (0..42).flat_map(|y| (0..62).map(move |x| (x, y)));
+    let mut plan =
+        FloorPlan::from_mask(62, 42, 0.1, pixels().map(|(x, y)| u8::from(inside(x, y) && !table(x, y))).collect());
+    for (class, (x, y)) in plan.classes.iter_mut().zip(pixels()) {
+        if table(x, y) {
+            *class = PlanClass::Table;
+        }
+    }
+    Walls::trace(&plan, &WallsOptions::default())
+}
+
+#[test]
+fn a_table_is_a_box_of_its_height() {
+    let walls = room_with_table();
+    let scene = scene_of(&walls, 128);
+    check(&scene);
+    let up = [0.0, 0.0, 1.0];
+    // Its top, and nothing else at that height.
+    assert_close(area_towards(part(&scene, SceneSurface::Lintel), up), 2.0, 1e-6);
+    let level = |part: &Mesh, height_m: f64| {
+        part.positions_m.iter().filter(|p| (f64::from(p[2]) - height_m).abs() < 1e-6).count()
+    };
+    assert!(level(part(&scene, SceneSurface::Lintel), 0.75) > 0);
+    // Its sides: 6 m around, 0.75 m high; the walls 20 m around.
+    assert_close(area_m2([part(&scene, SceneSurface::WallSheet(0))]), 20.0 * HEIGHT_M + 6.0 * 0.75, 1e-6);
+    // The rim alone is closed on top.
+    let rim_m2 = area_towards(part(&scene, SceneSurface::WallTop), up);
+    assert_close(rim_m2, 6.4 * 4.4 - 24.0, 1e-3);
 }

@@ -93,7 +93,7 @@ impl<'a> LightMap<'a> {
         let off_end = 0.02_f64.min(piece.length * 0.5);
         let along_m = along_m.clamp(off_end, piece.length - off_end);
         let foot: Vec2 = piece.a + piece.along * along_m + piece.normal() * OFF_WALL_M;
-        let column = self.light.on_wall(foot, piece.normal());
+        let column = self.light.on_wall(foot, piece.round_normal(along_m));
         let height = |row: usize| row as f64 / (self.rows - 1) as f64 * self.light.space.height_m;
         (0..self.rows).map(|row| column.at(height(row))).collect()
     }
@@ -122,7 +122,7 @@ impl<'a> LightMap<'a> {
 /// the site.
 fn places_per_metre(pixel_m: f64) -> f64 {
     let mut per_metre = PER_METRE;
-    while per_metre > LEAST_PER_METRE && 0.5 * per_metre * 2.0 * pixel_m >= 1.0 {
+    while per_metre > LEAST_PER_METRE && per_metre * pixel_m >= 1.0 {
         per_metre *= 0.5;
     }
     per_metre

@@ -128,7 +128,7 @@ impl<'a, S: TextureSource> SurfaceTexels<'a, S> {
             small: coat.small.map(|small| SmallFloor {
                 picture: small.picture(background.base_color),
                 pixels_per_metre: small.pixels_per_metre(),
-                roughness: background.orm[1],
+                roughness: small.roughness(background.orm[1]),
             }),
             walls: match coat.walls {
                 Some(WallSurfaces { source, texels_per_metre, .. }) => {

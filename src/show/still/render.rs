@@ -7,12 +7,11 @@ use rayon::prelude::*;
 
 use super::light_map::{LightKey, LightMap};
 use super::sampler::{SamplerNeeds, SurfaceSampler, along_m};
-use super::shade::Shader;
+use super::shade::{Lit, Shader};
 use super::tone::Tone;
 use crate::export::{Camera, ExportError};
-use crate::math::sin_cos;
 use crate::progress::Progress;
-use crate::show::rooms::{HitSurface, Lens, Light, LinearRgb, RayGrid, RayHit};
+use crate::show::rooms::{HitSurface, Lens, Light, LinearRgb, RayGrid, RayHit, mix};
 
 /// Rows that are worked on at a time.
 const BAND: usize = 144;
@@ -75,19 +74,15 @@ pub(super) struct Renderer<'a> {
     tone: Tone,
 }
 
-/// Width of a pixel of a camera above all walls on the nearest surface that it can see, metres.
-fn least_pixel_m(space: &RayGrid, camera: &Camera, size: [u32; 2]) -> f64 {
-    let (sine, cosine) = sin_cos(0.5 * camera.fov_deg.to_radians());
-    (camera.position_m[2] - space.height_m) * 2.0 * sine / cosine / f64::from(size[0].max(1))
-}
-
 impl<'a> Renderer<'a> {
     pub fn new(space: &'a RayGrid, camera: &Camera, size: [u32; 2]) -> Renderer<'a> {
         let above = camera.position_m[2] >= space.height_m;
         let light = if above { Light::above(space, camera.heading_deg) } else { Light::inside(space) };
         let tone = Tone::new(light.exposure());
-        let light = LightMap::new(light, if above { least_pixel_m(space, camera, size) } else { 0.0 });
-        Renderer { space, lens: Lens::of(camera, size), size, above, light, tone }
+        let lens = Lens::of(camera, size);
+        // From above all walls, nothing is nearer than their tops.
+        let nearest_m = (camera.position_m[2] - space.height_m).max(0.0);
+        Renderer { space, lens, size, above, light: LightMap::new(light, lens.pixel * nearest_m), tone }
     }
 
     /// The pictures, one per skin.
@@ -189,40 +184,80 @@ impl<'a> Renderer<'a> {
         let shader = Shader { space: self.space, light: &self.light, pixel: self.lens.pixel as f32 };
         let shade = |(k, row): (usize, &TracedRow)| {
             let width = row.hits.len();
-            let mut lit = vec![vec![[0.0f32; 3]; width]; skins.len()];
-            let mut colours = vec![[0.0f32; 3]; skins.len()];
+            let mut lit = vec![vec![Lit::default(); width]; skins.len()];
+            let mut seen = vec![Lit::default(); skins.len()];
             let mut edges = row.edges.iter().peekable();
             for (x, hit) in row.hits.iter().enumerate() {
                 if let Some((_, hits)) = edges.next_if(|(column, _)| *column as usize == x) {
                     for hit in hits {
-                        shader.shade(hit, skins, &mut colours);
-                        for (lit, colour) in lit.iter_mut().zip(&colours) {
-                            add_share(&mut lit[x], *colour);
+                        shader.shade(hit, skins, &mut seen);
+                        for (lit, seen) in lit.iter_mut().zip(&seen) {
+                            add_share(&mut lit[x], seen);
                         }
                     }
                 } else {
-                    shader.shade(hit, skins, &mut colours);
-                    for (lit, colour) in lit.iter_mut().zip(&colours) {
-                        lit[x] = *colour;
+                    shader.shade(hit, skins, &mut seen);
+                    for (lit, seen) in lit.iter_mut().zip(&seen) {
+                        lit[x] = *seen;
                     }
                 }
             }
+            let lit = lit.into_iter().map(|row| mirrored(&row));
             let bytes = |row: Vec<LinearRgb>| {
                 let mut bytes = vec![0; width * 3];
                 self.tone.row(&row, (top + k) as u32, self.size, &mut bytes);
                 bytes
             };
-            lit.into_iter().map(bytes).collect()
+            lit.map(bytes).collect()
         };
         rows.par_iter().enumerate().map(shade).collect()
     }
 }
 
 /// Adds one of [`RAYS`] to a pixel. Lamps count as white: their edges would be rough otherwise.
-fn add_share(sum: &mut LinearRgb, colour: LinearRgb) {
-    for (sum, value) in sum.iter_mut().zip(colour) {
-        *sum += value.min(1.6) / RAYS as f32;
+fn add_share(sum: &mut Lit, ray: &Lit) {
+    const SHARE: f32 = 1.0 / RAYS as f32;
+    for (sum, value) in sum.colour.iter_mut().zip(ray.colour) {
+        *sum += value.min(1.6) * SHARE;
     }
+    let gain = ray.gain * SHARE;
+    if gain > 0.0 {
+        // The mean by share of the mirrored light.
+        let part = gain / (sum.gain + gain);
+        sum.shine = mix(sum.shine, ray.shine, part);
+        sum.blur_px += (ray.blur_px - sum.blur_px) * part;
+        sum.gain += gain;
+    }
+}
+
+/// A row's light: what floors mirror is blurred to both sides, as rough floors blur upright edges.
+fn mirrored(row: &[Lit]) -> Vec<LinearRgb> {
+    /// Samples to either side, and of how many times the half width.
+    const ASIDE: i32 = 10;
+    const REACH: f32 = 2.0;
+    let blurred = |x: usize, lit: &Lit| {
+        let step = (REACH * lit.blur_px / ASIDE as f32).max(0.25);
+        let (mut sum, mut weights) = ([0.0; 3], 0.0);
+        for k in -ASIDE..=ASIDE {
+            let place = x as f32 + k as f32 * step;
+            let other = row.get((place + 0.5).max(0.0) as usize).filter(|other| other.gain > 0.0);
+            let Some(other) = other else { continue };
+            let off = k as f32 / ASIDE as f32 * REACH;
+            let weight = (1.0 - 0.25 * off * off).max(0.0);
+            let weight = weight * weight;
+            sum = std::array::from_fn(|c| sum[c] + weight * other.shine[c]);
+            weights += weight;
+        }
+        if weights > 0.0 { sum.map(|sum| sum / weights) } else { lit.shine }
+    };
+    let shown = |(x, lit): (usize, &Lit)| {
+        if lit.gain <= 0.0 {
+            return lit.colour;
+        }
+        let shine = blurred(x, lit);
+        std::array::from_fn(|c| lit.colour[c] + lit.gain * shine[c])
+    };
+    row.iter().enumerate().map(shown).collect()
 }
 
 /// Whether two neighbouring pixels see different things.

@@ -4,9 +4,9 @@ use super::light_map::LightMap;
 use super::sampler::{SampledMaterial, SurfaceSampler, along_m};
 use crate::math::{Vec2, exp_f32, vec2};
 use crate::show::rooms::{
-    CEILING, CEILING_LIGHT, DAYLIGHT, FLOOR_SHINE, HitSurface, Irradiance, JOINT, LAMP, LOBE, LightSources, LinearRgb,
-    MIRROR_REACH_M, MIRRORED_CEILING_LIGHT, MIRRORED_WALL, MIRRORED_WALL_LIGHT, Panels, QuadKind, RayGrid, RayHit,
-    SKY_SHINE, SOFFIT, TABLE, TOP, WALL_SHINE, WallQuad, fresnel, joint, lobe_slope, mix, rise, scaled,
+    CEILING, CEILING_LIGHT, DAYLIGHT, FLOOR_SHINE, HAZE_M, HitSurface, Irradiance, JOINT, LAMP, LOBE, LightSources,
+    LinearRgb, MIRROR_REACH_M, MIRRORED_CEILING_LIGHT, MIRRORED_WALL, MIRRORED_WALL_LIGHT, Panels, QuadKind, RayGrid,
+    RayHit, SKY_SHINE, SOFFIT, TABLE, TOP, WALL_SHINE, fresnel, joint, lobe_slope, mix, rise, scaled, sky, tinted,
 };
 
 /// Shades the hits of rays.
@@ -15,6 +15,24 @@ pub(super) struct Shader<'a> {
     pub light: &'a LightMap<'a>,
     /// Side of a pixel at the distance 1.
     pub pixel: f32,
+}
+
+/// Light of a hit toward the camera.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Lit {
+    /// What it throws back to all sides, and small gloss.
+    pub colour: LinearRgb,
+    /// What a smooth floor mirrors, and its share.
+    pub shine: LinearRgb,
+    pub gain: f32,
+    /// How far the mirrored room is blurred to either side, pixels.
+    pub blur_px: f32,
+}
+
+impl Lit {
+    fn of(colour: LinearRgb) -> Lit {
+        Lit { colour, ..Lit::default() }
+    }
 }
 
 /// Geometry of the reflection in a smooth floor.
@@ -33,53 +51,84 @@ struct Mirror {
 
 impl Shader<'_> {
     /// The light of a hit in each skin.
-    pub fn shade(&self, hit: &RayHit, skins: &[SurfaceSampler], out: &mut [LinearRgb]) {
+    pub fn shade(&self, hit: &RayHit, skins: &[SurfaceSampler], out: &mut [Lit]) {
         match hit.surface {
             HitSurface::Floor => self.floor(hit, skins, out),
             HitSurface::Wall(piece) => self.wall(hit, piece, skins, out),
             HitSurface::Lintel(piece) => {
-                let light = self.wall_light(hit, piece).full;
-                skins.iter().zip(out.iter_mut()).for_each(|(skin, out)| *out = scaled(skin.plain, light));
+                let frame = match self.space.pieces[piece as usize].what {
+                    QuadKind::Lintel(number) => self.space.frame_at(number, hit.point[2]),
+                    _ => None,
+                };
+                self.even(self.wall_light(hit, piece).full, frame, skins, out);
             }
-            HitSurface::Soffit(_) => {
-                skins.iter().zip(out.iter_mut()).for_each(|(skin, out)| *out = scaled(skin.plain, SOFFIT));
-            }
-            other => out.fill(self.plain(hit, other)),
+            HitSurface::Furniture => self.even(self.light.floor(hit.point[0], hit.point[1]).full, None, skins, out),
+            HitSurface::Soffit(number) => self.even(SOFFIT, self.space.frame_at(number, 0.0), skins, out),
+            other => out.fill(Lit::of(self.plain(hit, other))),
         }
         if hit.beyond_m > 0.0 {
-            let clear = exp_f32(-hit.beyond_m / 4.5);
-            out.iter_mut().for_each(|colour| *colour = mix(DAYLIGHT, *colour, clear));
+            let (haze, to) = match self.light.light.sources {
+                LightSources::Outside(_) => (HAZE_M[1], sky(0.0)),
+                _ => (HAZE_M[0], DAYLIGHT),
+            };
+            let clear = exp_f32(-hit.beyond_m / haze);
+            for lit in out {
+                lit.colour = mix(to, lit.colour, clear);
+                lit.gain *= clear;
+            }
         }
     }
 
-    fn floor(&self, hit: &RayHit, skins: &[SurfaceSampler], out: &mut [LinearRgb]) {
+    fn tinted(&self, full: f32) -> LinearRgb {
+        match self.light.light.sources {
+            LightSources::Above(_) => [full; 3],
+            LightSources::Inside(_) => tinted(full, false),
+            LightSources::Outside(_) => tinted(full, true),
+        }
+    }
+
+    /// A plain surface in a colour, or in that of walls.
+    fn even(&self, full: f32, own: Option<LinearRgb>, skins: &[SurfaceSampler], out: &mut [Lit]) {
+        let light = self.tinted(full);
+        for (skin, out) in skins.iter().zip(out) {
+            let colour = own.unwrap_or(skin.plain);
+            *out = Lit::of(std::array::from_fn(|c| colour[c] * light[c]));
+        }
+    }
+
+    fn floor(&self, hit: &RayHit, skins: &[SurfaceSampler], out: &mut [Lit]) {
         let light = self.light.floor(hit.point[0], hit.point[1]);
+        let tinted = self.tinted(light.full);
         let cosine = hit.toward[2].abs();
-        let mirror = match &self.light.light.sources {
-            LightSources::Inside(panels) => Some((self.mirror(hit), panels)),
-            LightSources::Above(_) => None,
-        };
+        let sources = &self.light.light.sources;
+        let mirror = (!matches!(sources, LightSources::Above(_))).then(|| self.mirror(hit));
         for (skin, out) in skins.iter().zip(out) {
             let paint = skin.floor(hit, self.pixel);
             let fresnel = fresnel(cosine, paint.roughness);
-            let shine = match &mirror {
-                Some((mirror, panels)) => self.shine(mirror, panels, paint.roughness),
-                None => [SKY_SHINE; 3],
-            };
             let gain = fresnel * (FLOOR_SHINE[0] + FLOOR_SHINE[1] * light.open);
-            *out = std::array::from_fn(|c| paint.colour[c] * light.full * (1.0 - fresnel) + shine[c] * gain);
+            let colour = std::array::from_fn(|c| paint.colour[c] * tinted[c] * (1.0 - fresnel));
+            *out = match &mirror {
+                None => Lit::of(colour.map(|value| value + SKY_SHINE * gain)),
+                Some(mirror) => {
+                    let away = mirror.wall_m * mirror.stretch;
+                    let slope = lobe_slope(paint.roughness) * away / (f64::from(hit.way_m) + away).max(0.1);
+                    let shine = self.shine(mirror, self.light.light.panels(), paint.roughness);
+                    Lit { colour, shine, gain, blur_px: slope as f32 / self.pixel }
+                }
+            };
         }
     }
 
-    fn wall(&self, hit: &RayHit, number: u32, skins: &[SurfaceSampler], out: &mut [LinearRgb]) {
+    fn wall(&self, hit: &RayHit, number: u32, skins: &[SurfaceSampler], out: &mut [Lit]) {
         let piece = &self.space.pieces[number as usize];
         let light = self.wall_light(hit, number);
+        let tinted = self.tinted(light.full);
         let normal = piece.normal();
         let cosine = (f64::from(hit.toward[0]) * normal.x + f64::from(hit.toward[1]) * normal.y).abs() as f32;
         for (skin, out) in skins.iter().zip(out) {
             let SampledMaterial { colour, roughness } = skin.wall(piece, hit, self.pixel);
-            let shine = fresnel(cosine, roughness) * WALL_SHINE * light.open;
-            *out = std::array::from_fn(|c| colour[c] * light.full + shine);
+            let shine = fresnel(cosine, roughness) * WALL_SHINE * light.open * light.full;
+            *out = Lit::of(std::array::from_fn(|c| colour[c] * tinted[c] + shine));
         }
     }
 
@@ -94,7 +143,9 @@ impl Shader<'_> {
             HitSurface::Top => TOP,
             HitSurface::Side => scaled(TOP, 0.75),
             HitSurface::Table => self.table(x, y, hit.way_m),
-            HitSurface::Outside => DAYLIGHT,
+            HitSurface::Outside if self.space.roofed => DAYLIGHT,
+            HitSurface::Outside => sky(0.0),
+            HitSurface::Sky if !matches!(self.light.light.sources, LightSources::Above(_)) => sky(hit.toward[2]),
             _ => TABLE,
         }
     }
@@ -104,13 +155,14 @@ impl Shader<'_> {
         let LightSources::Inside(panels) = &self.light.light.sources else { return CEILING };
         let [x, y, _] = hit.point;
         let p = vec2(f64::from(x), f64::from(y));
-        let open = self.light.floor(x, y).open;
+        let Irradiance { full, open } = self.light.floor(x, y);
         let width = hit.way_m * self.pixel;
         let stretched = width / hit.toward[2].abs().max(0.02);
         let along = hit.toward[0].abs().max(hit.toward[1].abs());
         let joints = joint(x, width + stretched * hit.toward[0].abs() * along)
             + joint(y, width + stretched * hit.toward[1].abs() * along);
-        let tile = scaled(CEILING, (CEILING_LIGHT[0] + CEILING_LIGHT[1] * open) * (1.0 - JOINT * joints.min(1.0)));
+        let tile =
+            scaled(CEILING, (CEILING_LIGHT[0] * open + CEILING_LIGHT[1] * full) * (1.0 - JOINT * joints.min(1.0)));
         let blur = [hit.toward[0], hit.toward[1]].map(|c| f64::from(width + stretched * c.abs()) * 0.5);
         let lamp = panels.near(p, [0, 0]).map_or(0.0, |panel| covered(panel.centre - p, panel.half, blur));
         mix(tile, LAMP, lamp as f32)
@@ -129,7 +181,7 @@ impl Shader<'_> {
                 let beside = self.beside_block(p + *sun * (0.8 * height)) / (0.8 * height);
                 1.0 - (beside as f32).clamp(0.0, 1.0)
             }
-            LightSources::Inside(_) => 0.0,
+            LightSources::Inside(_) | LightSources::Outside(_) => 0.0,
         };
         let far = exp_f32(-way_m / (40.0 * height as f32));
         let lit = (1.0 - 0.42 * near) * (1.0 - 0.4 * shadow) / 0.95;
@@ -152,8 +204,10 @@ impl Shader<'_> {
         let from = vec2(f64::from(hit.point[0]), f64::from(hit.point[1]));
         let ceiling_m = self.space.height_m / slope;
         let reach = (1.6 * ceiling_m + 0.5).min(f64::from(MIRROR_REACH_M));
-        let solid = |piece: &WallQuad, _: f64| !matches!(piece.what, QuadKind::Lintel(_));
-        let wall_m = self.space.cast(from, toward, reach, solid).map_or(reach, |met| met.way_m.max(0.0));
+        let wall_m = self
+            .space
+            .cast(from, toward, reach, |piece, _| piece.bounds_room())
+            .map_or(reach, |met| met.way_m.max(0.0));
         Mirror {
             wall_m,
             ceiling_m,
@@ -207,18 +261,20 @@ impl Shader<'_> {
     /// True if no wall stands between a place and the end of a way from it.
     fn sees(&self, from: Vec2, way: Vec2) -> bool {
         let distance = way.length();
-        let walls = |piece: &WallQuad, _: f64| matches!(piece.what, QuadKind::Wall(_));
-        self.space.cast(from, way / distance.max(1e-9), distance - 0.02, walls).is_none()
+        self.space.cast(from, way / distance.max(1e-9), distance - 0.02, |piece, _| piece.is_wall()).is_none()
     }
 
     /// The mirrored room, as blurred as the floor is rough.
-    fn shine(&self, mirror: &Mirror, panels: &Panels, roughness: f32) -> LinearRgb {
+    fn shine(&self, mirror: &Mirror, panels: Option<&Panels>, roughness: f32) -> LinearRgb {
         let alpha = lobe_slope(roughness);
         let height = self.space.height_m;
         let blur_wall = alpha * mirror.wall_m * mirror.stretch + 0.02;
         let over = rise((mirror.wall_z - height) / blur_wall) as f32;
         let share = (mirror.wall_z / height).clamp(0.0, 1.0) as f32;
         let wall = scaled(MIRRORED_WALL, MIRRORED_WALL_LIGHT[0] + MIRRORED_WALL_LIGHT[1] * share);
+        let Some(panels) = panels else {
+            return mix(wall, sky((mirror.slope / mirror.stretch) as f32), over);
+        };
         let distance = mirror.ceiling_m.min(mirror.wall_m) * mirror.stretch;
         // The lobe is cut by the ceiling at a flat angle: long the way that one looks.
         let across = 0.7 * alpha * distance;

@@ -1,6 +1,6 @@
 //! Texel sources of surfaces.
 
-use image::RgbImage;
+use image::{GrayImage, RgbImage};
 
 use crate::export::{Strip, TextureSource, WallSource, WallTextures};
 use crate::look::{Background, ResolvedBlock};
@@ -69,9 +69,9 @@ fn texel(colour: [u8; 3], orm: [u8; 3]) -> Texel {
 /// A floor that was made small: row 0 of the picture is the upper one.
 pub(super) struct SmallFloor {
     pub picture: RgbImage,
+    /// Its roughness, pixel by pixel.
+    pub roughness: GrayImage,
     pub pixels_per_metre: f64,
-    /// Roughness of all of it, 0 to 255: the picture has none of its own.
-    pub roughness: u8,
 }
 
 impl TexelSource for SmallFloor {
@@ -84,7 +84,8 @@ impl TexelSource for SmallFloor {
         let pixel = |k: usize| {
             let x = (i0 + (k % SIDE) as i64).clamp(0, width - 1);
             let y = height - 1 - (j0 + (k / SIDE) as i64).clamp(0, height - 1);
-            texel(self.picture.get_pixel(x as u32, y as u32).0, [255, self.roughness, 0])
+            let [rough] = self.roughness.get_pixel(x as u32, y as u32).0;
+            texel(self.picture.get_pixel(x as u32, y as u32).0, [255, rough, 0])
         };
         TexelBlock::Full((0..SIDE * SIDE).map(pixel).collect())
     }

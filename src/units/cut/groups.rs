@@ -18,7 +18,7 @@ const FARTHEST_M: f64 = 4.0;
 pub(super) fn groups(walks: &SpotTracks) -> Vec<u32> {
     let count = walks.all.len();
     let mut leader: Vec<usize> = (0..count).collect();
-    // Sorted by the first frame: who comes after the last one's end meets nobody.
+    // Sorted by the first frame: a person who comes after the last one left meets no one.
     for a in 0..count {
         for b in a + 1..count {
             if walks.all[b].first > walks.all[a].last() {

@@ -114,7 +114,7 @@ pub(super) fn find(walls: &Walls) -> Vec<Doorway> {
     let mut near = Vec::new();
     for (number, face) in walls.faces.iter().enumerate() {
         // A gap beside a post is found from the opposite wall.
-        if is_pillar(number) {
+        if is_pillar(number) || face.furniture_m.is_some() {
             continue;
         }
         for corner in outer_corners(face) {
@@ -164,7 +164,7 @@ fn gaps_at(walls: &Walls, corner: &Outer, near: &mut Vec<Segment>, gaps: &mut Ve
     near.clear();
     walls.segments_near(Rect { min: at, max: at }.grown(most_m), near);
     for segment in near.iter() {
-        if segment.face.is_none() {
+        if segment.face.is_none_or(|face| walls.faces[face].furniture_m.is_some()) {
             continue;
         }
         let across = closest(segment, at) - at;

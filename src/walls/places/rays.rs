@@ -26,6 +26,8 @@ impl Rays {
         let reach = vec2(within_m, within_m);
         let mut segments = Vec::new();
         walls.segments_near(Rect { min: at_m - reach, max: at_m + reach }, &mut segments);
+        // Doors are gaps between walls, not between tables.
+        segments.retain(|segment| segment.face.is_none_or(|face| walls.faces[face].furniture_m.is_none()));
         Rays { segments }
     }
 

@@ -157,6 +157,7 @@ fn people_stop_at_stops_and_groups_stop_together() {
     let options = RoutesOptions {
         routes: vec![RouteRequest { via: vec![to("board"), to("desk")], ..across("west") }],
         stops: vec![stop("board", StopKind::Place, [8.0, 6.0], 10.0), stop("desk", StopKind::Queue, [16.0, 7.8], 3.0)],
+        ..RoutesOptions::default()
     };
     (scene.routes, scene.navigation) = Navigation::find(&scene.plan, &scene.walls, &options).unwrap();
     let options = CrowdOptions { entry_seconds: Some(240.0), ..social(60, MIXED) };

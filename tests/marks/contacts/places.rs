@@ -7,7 +7,7 @@ use trodden::marks::{
 use trodden::math::{Distribution, vec2};
 use trodden::motion::{BodyOptions, Frame, People, Walker};
 use trodden::patterns::{Cause, PatternLibrary};
-use trodden::plan::{FloorPlan, PlanPoint};
+use trodden::plan::{DoorAt, FloorPlan, PlanPoint};
 use trodden::routes::{Facing, Stop, StopKind};
 use trodden::walls::{Walls, WallsOptions};
 
@@ -16,7 +16,14 @@ use super::scene::{NORTH_M, SOUTH_M, metres, rates_times, scene, spread};
 const MIDDLE_M: f64 = 0.5 * (SOUTH_M + NORTH_M);
 
 fn door(x: f64, y: f64) -> DoorRequest {
-    DoorRequest { name: Some("front".into()), at: metres(x, y), width: 1.0, height: 2.0, hinge: None, handle: 1.0 }
+    DoorRequest {
+        name: Some("front".into()),
+        at: DoorAt::Point(metres(x, y)),
+        width: 1.0,
+        height: 2.0,
+        hinge: None,
+        handle: 1.0,
+    }
 }
 
 fn fixture(kind: FixtureKind, at: FixtureAt) -> FixtureRequest {
@@ -131,6 +138,7 @@ fn stops_of_a_scenario_are_fixtures() {
         spacing_m: 0.9,
         reach_m: 1.5,
         queue_m: Vec::new(),
+        spots: Vec::new(),
     };
     let office = stop("office", StopKind::Queue, NORTH_M - 0.5, [0.0, 1.0]);
     let bench = stop("bench", StopKind::Bench, SOUTH_M + 0.3, [0.0, 1.0]);

@@ -76,7 +76,7 @@ pub fn walked(plan: &FloorPlan, walls: &Walls, people: &People, crowd: u32, ends
         PlaceRequest::Area([[at[0] - reach, at[1] - reach], [at[0] + reach, at[1] + reach]])
     });
     let route = RouteRequest { name: None, from, to, via: Vec::new(), share: 1.0, arrivals: None };
-    let request = RoutesOptions { routes: vec![route], stops: Vec::new() };
+    let request = RoutesOptions { routes: vec![route], ..RoutesOptions::default() };
     let routes = routes::find(plan, walls, &request).unwrap_or_else(|error| panic!("{error}"));
     let options =
         CrowdOptions { people: crowd, entry_seconds: Some(f64::from(crowd) * 0.9), ..CrowdOptions::default() };

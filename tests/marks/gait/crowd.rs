@@ -8,7 +8,7 @@ use trodden::math::atan2;
 use trodden::motion::{BodyOptions, Frame, Motion, People};
 use trodden::patterns::PatternLibrary;
 use trodden::plan::FloorPlan;
-use trodden::routes::{self, RoutesOptions};
+use trodden::routes::{self, PlaceRequest, RouteRequest, RoutesOptions};
 use trodden::walls::{Walls, WallsOptions};
 
 use super::measure::{Floor, Path, Step, by_speed, measured_step_m, spread, steps};
@@ -22,8 +22,10 @@ fn congested(time_step: f64) -> (Floor, Vec<Path>) {
     let walls = Walls::trace(&plan, &WallsOptions::default());
     let people = People::new(3, BodyOptions::default());
     let options = CrowdOptions { people: 160, entry_seconds: Some(70.0), time_step, ..CrowdOptions::default() };
-    let mut found = routes::find(&plan, &walls, &RoutesOptions::default()).unwrap();
-    found.retain(|route| route.name.starts_with("west"));
+    let [from, to] = ["west", "east"].map(|side| PlaceRequest::Opening(side.to_owned()));
+    let route = RouteRequest { from, to, ..RouteRequest::default() };
+    let found =
+        routes::find(&plan, &walls, &RoutesOptions { routes: vec![route], ..RoutesOptions::default() }).unwrap();
     let mut paths: BTreeMap<u32, Path> = BTreeMap::new();
     let mut crowd = Simulation::new(&plan, &walls, &found, &people, &options).unwrap();
     let mut frame = Frame::default();

@@ -9,8 +9,10 @@ use crate::sandbox::Sandbox;
 /// Bakes the corridor coarsely.
 fn bake(sandbox: &Sandbox, folder: &str, more: &[&str]) {
     sandbox.plan();
-    let start = ["bake", "plan.png", "--metres-per-pixel", "0.1", "--people", "20", "--quick", "-o", folder];
-    sandbox.run(&[&start[..], more].concat()).succeeds();
+    let start = ["bake", "plan.png", "--metres-per-pixel", "0.1", "--people", "20", "-o", folder];
+    // A quick bake leaves layers out.
+    let coarse: &[&str] = if more.contains(&"--floor-only") { &["--texels-per-metre", "25"] } else { &["--quick"] };
+    sandbox.run(&[&start[..], coarse, more].concat()).succeeds();
 }
 
 fn names(folder: &Path) -> Vec<String> {

@@ -20,5 +20,6 @@ first, second = run(sys.argv[1]), run(sys.argv[1])
 assert first == second, "the function, its inputs and outputs are other ones, or it has more nodes"
 assert not unreal.deleted, unreal.deleted
 kinds = sorted(path.rsplit("_", 2)[-2] for path in unreal.assets if "_Tile" in path)
-assert kinds == ["BaseColor", "BaseColor", "Mask", "Mask", "ORM", "ORM", "Passes", "Splash"], kinds
+assert kinds == [
+    "BaseColor", "BaseColor", "Mask", "Mask", "Normal", "ORM", "ORM", "Passes", "Rub", "Splash", "Wear"], kinds
 print("ok")

@@ -15,7 +15,7 @@ public class TroddenImporter : AssetPostprocessor
 {
     // Floor_BaseMap_1001.png, Wall_DirtMask_1002.png, Floor_Layers1_u012_v000.exr
     private static readonly Regex Texture = new Regex(
-        @"^(Floor|Wall)_(BaseMap|DirtMask|Passes|Splash|ORM|MaskMap|Layers\d+)_(\d{4}|u\d{3}_v\d{3})\.(png|exr)$");
+        @"^(Floor|Wall)_(BaseMap|DirtMask|Passes|Splash|Rub|Wear|Normal|ORM|MaskMap|Layers\d+)_(\d{4}|u\d{3}_v\d{3})\.(png|exr)$");
 
     private void OnPreprocessTexture()
     {
@@ -25,7 +25,8 @@ public class TroddenImporter : AssetPostprocessor
             return;
         }
         var importer = (TextureImporter)assetImporter;
-        importer.textureType = TextureImporterType.Default;
+        bool isNormal = match.Groups[2].Value == "Normal";
+        importer.textureType = isNormal ? TextureImporterType.NormalMap : TextureImporterType.Default;
         // Only base colour is a colour; all others are numbers.
         importer.sRGBTexture = match.Groups[2].Value == "BaseMap";
         importer.alphaIsTransparency = false;
@@ -58,6 +59,7 @@ public class TroddenImporter : AssetPostprocessor
         public int u;
         public int v;
         public string mask;
+        public string wear;
         public World world;
     }
 
@@ -73,7 +75,7 @@ public class TroddenImporter : AssetPostprocessor
         public Floor floor;
     }
 
-    // Copies the selected material, whose shader has _Mask, _Origin and _Size for the Custom Function of
+    // Copies the selected material, whose shader has _Mask, _Wear, _Origin and _Size for the Custom Function of
     // TroddenDirt.hlsl, once for each tile of the bake whose manifest.json is chosen.
     [MenuItem("Assets/Trodden/Floor materials from manifest")]
     private static void MakeMaterials()
@@ -91,6 +93,7 @@ public class TroddenImporter : AssetPostprocessor
         {
             var copy = new Material(material);
             copy.SetTexture("_Mask", AssetDatabase.LoadAssetAtPath<Texture2D>(bake + "/" + tile.mask));
+            copy.SetTexture("_Wear", AssetDatabase.LoadAssetAtPath<Texture2D>(bake + "/" + tile.wear));
             copy.SetVector("_Origin", new Vector4(tile.world.origin[0], tile.world.origin[1], 0f, 0f));
             copy.SetVector("_Size", new Vector4(tile.world.size[0], tile.world.size[1], 0f, 0f));
             string name = string.Format("{0}/{1}_u{2}_v{3}.mat", bake, material.name, tile.u, tile.v);

@@ -8,7 +8,7 @@ What it does:
 - scene.glb is imported, if the bake has one (not with --no-scene): metres, +Z up, the plan's lower-left corner at the
   world's origin;
 - the node group "Trodden dirt NAME" is made: Color and Roughness of a clean floor in, of the dirty floor out. It finds
-  the masks by the place in the world, not by texture coordinates. Sliders scale film, prints and edge;
+  the masks by the place in the world, not by texture coordinates. Sliders scale film, prints, edge and heel marks;
 - each material named with --over gets the group between what feeds its Principled BSDF and the BSDF. With another
   floor height or place of your model nothing has to be done; move the group's input Offset with the model.
 
@@ -24,10 +24,11 @@ from pathlib import Path
 
 import bpy
 
-# Linear colours of dirt: dust and film, and prints, which are half rubber.
-DRY = (0.174647, 0.147027, 0.111932)
-PRINTS = (0.0989, 0.084601, 0.066576)
+# Linear colours of dirt: film, prints and edge; and heel marks.
+SOIL = (0.127438, 0.099899, 0.061246)
+RUBBER = (0.019382, 0.020289, 0.024158)
 DIRT_ROUGHNESS = 0.55
+AMOUNTS = ("Film", "Prints", "Edge", "Marks")
 
 # The property that says from which bake something is, and what it was called there.
 TAG = "trodden"
@@ -170,18 +171,20 @@ def import_scene(bake):
 
 
 def add_masks(nodes, bake, tiles, position):
-    """Film, prints and edge at a place of the world, from all tiles; nothing beyond them."""
-    masks = None
+    """Film, prints, edge and heel marks at a place of the world, from all tiles; nothing beyond them."""
+    masks = {"mask": None, "wear": None}
     for tile in tiles:
         world = tile["world"]
         shifted = nodes.vector("SUBTRACT", position, (*world["origin"], 0.0))
         uv = nodes.vector("DIVIDE", shifted, (*world["size"], 1.0))
-        image = nodes.add("ShaderNodeTexImage", extension="CLIP", image=load_mask(bake / tile["mask"]))
-        nodes.put(image.inputs["Vector"], uv)
-        masks = image.outputs["Color"] if masks is None else nodes.vector("ADD", masks, image.outputs["Color"])
-    split = nodes.add("ShaderNodeSeparateXYZ")
-    nodes.put(split.inputs[0], masks)
-    return split.outputs["X"], split.outputs["Y"], split.outputs["Z"]
+        for kind, sum in masks.items():
+            image = nodes.add("ShaderNodeTexImage", extension="CLIP", image=load_mask(bake / tile[kind]))
+            nodes.put(image.inputs["Vector"], uv)
+            masks[kind] = image.outputs["Color"] if sum is None else nodes.vector("ADD", sum, image.outputs["Color"])
+    split = {kind: nodes.add("ShaderNodeSeparateXYZ") for kind in masks}
+    for kind, sum in masks.items():
+        nodes.put(split[kind].inputs[0], sum)
+    return *(split["mask"].outputs[axis] for axis in "XYZ"), split["wear"].outputs["Y"]
 
 
 def make_group(bake, manifest):
@@ -197,7 +200,7 @@ def make_group(bake, manifest):
 
     socket("Color", in_out="INPUT", socket_type="NodeSocketColor").default_value = (0.5, 0.5, 0.5, 1.0)
     socket("Roughness", in_out="INPUT", socket_type="NodeSocketFloat").default_value = 0.35
-    for amount in ("Film", "Prints", "Edge"):
+    for amount in AMOUNTS:
         slider = socket(amount, in_out="INPUT", socket_type="NodeSocketFloat")
         slider.default_value, slider.min_value, slider.max_value = 1.0, 0.0, 4.0
     socket("Offset", in_out="INPUT", socket_type="NodeSocketVector")
@@ -209,7 +212,7 @@ def make_group(bake, manifest):
     position = nodes.vector("SUBTRACT", nodes.add("ShaderNodeNewGeometry").outputs["Position"], given["Offset"])
     masks = add_masks(nodes, bake, manifest["floor"]["tiles"], position)
     total, dirt = None, None
-    for mask, amount, colour in zip(masks, ("Film", "Prints", "Edge"), (DRY, PRINTS, DRY)):
+    for mask, amount, colour in zip(masks, AMOUNTS, (SOIL, SOIL, SOIL, RUBBER)):
         left = nodes.math("MAXIMUM", nodes.math("SUBTRACT", 1.0, mask), 0.002)
         negative = nodes.math("LOGARITHM", left, 2.718281828)
         density = nodes.math("MULTIPLY", negative, nodes.math("MULTIPLY", given[amount], -1.0))

@@ -21,6 +21,8 @@ func _run() -> void:
 		var material := ShaderMaterial.new()
 		material.shader = shader
 		material.set_shader_parameter("mask", load(bake.path_join(tile["mask"])))
+		if tile.has("wear"):
+			material.set_shader_parameter("wear", load(bake.path_join(tile["wear"])))
 		material.set_shader_parameter("origin", Vector2(tile["world"]["origin"][0], tile["world"]["origin"][1]))
 		material.set_shader_parameter("size", Vector2(tile["world"]["size"][0], tile["world"]["size"][1]))
 		var path := folder.path_join("floor_u%d_v%d.tres" % [tile["u"], tile["v"]])

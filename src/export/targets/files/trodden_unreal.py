@@ -29,6 +29,9 @@ COMPRESSION = {
     "mask": unreal.TextureCompressionSettings.TC_MASKS,
     "passes": unreal.TextureCompressionSettings.TC_GRAYSCALE,
     "splash": unreal.TextureCompressionSettings.TC_GRAYSCALE,
+    "rub": unreal.TextureCompressionSettings.TC_MASKS,
+    "wear": unreal.TextureCompressionSettings.TC_MASKS,
+    "normal": unreal.TextureCompressionSettings.TC_NORMALMAP,
     "orm": unreal.TextureCompressionSettings.TC_MASKS,
     "layers": unreal.TextureCompressionSettings.TC_HDR,
 }
@@ -63,16 +66,17 @@ def import_texture(file, kind):
 
 
 def import_all(entry):
-    """Imports all images of a tile or sheet; gives its mask."""
+    """Imports all images of a tile or sheet; gives its mask and what else is known of it."""
     import_texture(entry["basecolor"], "basecolor")
     import_texture(entry["orm"], "orm")
-    for lone in ("passes", "splash"):
+    others = {}
+    for lone in ("passes", "splash", "rub", "wear", "normal"):
         if lone in entry:
-            import_texture(entry[lone], lone)
+            others[lone] = import_texture(entry[lone], lone)
     layers = entry.get("layers", [])
     for file in [layers] if isinstance(layers, str) else layers:
         import_texture(file, "layers")
-    return import_texture(entry["mask"], "mask")
+    return import_texture(entry["mask"], "mask"), others
 
 
 class Function:
@@ -159,25 +163,26 @@ class Function:
 
 
 def make_function(tiles):
-    """MF_TroddenDirt; `tiles` are entries of the manifest with their masks."""
+    """MF_TroddenDirt; `tiles` are entries of the manifest with their masks and wear."""
     function = Function("MF_TroddenDirt")
     colour = function.input("BaseColor", "VECTOR3", (0.5, 0.5, 0.5, 0.0))
     roughness = function.input("Roughness", "SCALAR", (0.35, 0.0, 0.0, 0.0))
-    amount = function.input("Amount", "VECTOR3", (1.0, 1.0, 1.0, 0.0))
+    amount = function.input("Amount", "VECTOR4", (1.0, 1.0, 1.0, 1.0))
     offset = function.input("Offset", "VECTOR3", (0.0, 0.0, 0.0, 0.0))
     position = function.node(unreal.MaterialExpressionWorldPosition, -900)
     world = function.node(unreal.MaterialExpressionSubtract, -700)
     function.connect(position, world, "A")
     function.connect(offset, world, "B")
     masks = None
-    for entry, mask in tiles:
-        texture = function.node(
-            unreal.MaterialExpressionTextureObject, -600, texture=mask,
-            sampler_type=unreal.MaterialSamplerType.SAMPLERTYPE_MASKS)
+    for entry, mask, wear in tiles:
+        texture, worn = (function.node(
+            unreal.MaterialExpressionTextureObject, -600, texture=image,
+            sampler_type=unreal.MaterialSamplerType.SAMPLERTYPE_MASKS) for image in (mask, wear))
         place = function.node(
             unreal.MaterialExpressionConstant4Vector, -600,
             constant=unreal.LinearColor(*entry["world"]["origin"], *entry["world"]["size"]))
-        tile = function.custom("trodden_dirt.hlsl", -300, {"World": world, "Mask": texture, "Place": place}, 3)
+        pins = {"World": world, "Mask": texture, "Wear": worn, "Place": place}
+        tile = function.custom("trodden_dirt.hlsl", -300, pins, 4)
         if masks is not None:
             both = function.node(unreal.MaterialExpressionAdd, -150)
             function.connect(masks, both, "A")
@@ -201,7 +206,8 @@ def main():
         tiles = []
         for entry in entries:
             task.enter_progress_frame(1)
-            tiles.append((entry, import_all(entry)))
+            mask, others = import_all(entry)
+            tiles.append((entry, mask, others["wear"]))
         for sheet in sheets:
             task.enter_progress_frame(1)
             import_all(sheet)

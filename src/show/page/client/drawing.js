@@ -144,12 +144,14 @@ class Drawing {
     });
     const set = (name, how, ...values) => uniforms[name] && gl[how](uniforms[name], ...values);
     const colours = surface.kinds.flatMap((dirt) => dirt.colour);
+    const absorbs = surface.kinds.flatMap((dirt) => dirt.absorbs);
     const amounts = kind === 'FLOOR' ? shown.floor : shown.wall;
     set('u_matrix', 'uniformMatrix4fv', false, seen.matrix);
     set('u_eye', 'uniform3fv', seen.eye);
     set('u_height', 'uniform1f', data.height);
     set('u_amounts', 'uniform4fv', [...amounts, 0, 0, 0, 0].slice(0, 4));
     set('u_colours', 'uniform3fv', [...colours, ...Array(12).fill(0)].slice(0, 12));
+    set('u_absorbs', 'uniform3fv', [...absorbs, ...Array(12).fill(1)].slice(0, 12));
     set('u_clean_colour', 'uniform3fv', surface.clean);
     set('u_clean_roughness', 'uniform1f', surface.roughness);
     set('u_textured', 'uniform1i', images.dirt ? 1 : 0);

@@ -12,6 +12,10 @@ float wall_edges(float z, float height) {
   return (1.0 - FOOT.x * exp(-z / FOOT.y)) * (1.0 - HEAD.x * exp(-(height - z) / HEAD.y));
 }
 
+vec3 tinted(float full, vec3 dim, vec3 bright) {
+  return mix(dim, bright, smoothstep(0.0, 1.0, full)) * full;
+}
+
 float rise(float t) {
   return smoothstep(-1.5, 1.5, t);
 }
@@ -23,6 +27,7 @@ vec2 joint(vec2 at, vec2 width) {
 }
 
 vec3 toned(vec3 light) {
+  light = CONTRAST.x * pow(max(light, vec3(0.0)) / CONTRAST.x, vec3(CONTRAST.y));
   float rest = 1.0 - STRAIGHT;
   return min(light, STRAIGHT + rest * (1.0 - exp(-max(light - STRAIGHT, vec3(0.0)) / rest)));
 }

@@ -16,6 +16,7 @@ uniform sampler2D u_lamps;  // the ceiling's lamps
 
 uniform vec4 u_amounts;     // times the baked density; 0 where a kind is left out
 uniform vec3 u_colours[4];
+uniform vec3 u_absorbs[4];  // optical density of red, green and blue per density
 uniform vec3 u_clean_colour;
 uniform float u_clean_roughness;
 uniform bool u_textured;
@@ -38,14 +39,20 @@ struct Material {
   float roughness;
 };
 
-// The look's law: C = clean T + sum(D c) / sum(D) (1 - T), T = exp(-sum D), in linear light.
+// The look's law, channel by channel: C = clean T + sum(D c) / sum(D) (1 - T), T = exp(-sum D), in linear light.
 Material material() {
   if (!u_textured) return Material(u_clean_colour, u_clean_roughness);
   vec4 baked = -log(1.0 - min(texture(u_dirt, v_uv), vec4(0.998)));
   vec4 densities = baked * u_amounts;
   float sum = dot(densities, vec4(1.0));
-  float through = exp(-sum);
-  vec3 dirt = (densities.x * u_colours[0] + densities.y * u_colours[1] + densities.z * u_colours[2] + densities.w * u_colours[3]) / max(sum, 1e-6);
+  vec3 each = vec3(0.0);
+  vec3 dirt = vec3(0.0);
+  for (int n = 0; n < 4; n++) {
+    each += densities[n] * u_absorbs[n];
+    dirt += densities[n] * u_absorbs[n] * u_colours[n];
+  }
+  vec3 through = exp(-each);
+  dirt /= max(each, vec3(1e-6));
   vec3 colour = texture(u_clean, v_uv).rgb * through + dirt * (1.0 - through);
   float baked_sum = dot(baked, vec4(1.0));
   float share = min(sum / max(baked_sum, 1e-4), 1.25);
@@ -97,11 +104,17 @@ vec3 mirrored(vec3 ray, float roughness) {
   return mix(mix(wall, ceiling, over), DAYLIGHT, day);
 }
 
+// Lamps are warmer than what walls throw back, the sun is warmer than the sky.
+vec3 lamplight(float full) {
+  if (OUTSIDE) return tinted(full, TINT_SHADE, TINT_SUN);
+  return u_inside ? tinted(full, TINT_DIM, TINT_BRIGHT) : vec3(full);
+}
+
 vec3 lit_floor(Material surface, vec3 view) {
   vec4 light = light_at(v_place.xy);
   float share = fresnel(view.z, surface.roughness);
   vec3 shine = u_inside ? mirrored(vec3(-view.xy, view.z), surface.roughness) : vec3(SKY_SHINE);
-  return surface.colour * light.x * (1.0 - share) + shine * share * (FLOOR_SHINE.x + FLOOR_SHINE.y * light.w);
+  return surface.colour * lamplight(light.x) * (1.0 - share) + shine * share * (FLOOR_SHINE.x + FLOOR_SHINE.y * light.w);
 }
 
 vec3 lit_wall(Material surface, vec3 view) {
@@ -110,14 +123,14 @@ vec3 lit_wall(Material surface, vec3 view) {
   float up = clamp(v_place.z / u_height, 0.0, 1.0);
   float full = max(mix(light.y, light.z, (up - u_light_heights.x) / (u_light_heights.y - u_light_heights.x)), 0.0);
   if (u_inside) full *= wall_edges(v_place.z, u_height);
-  return surface.colour * full + fresnel(dot(normal, view.xy), surface.roughness) * WALL_SHINE * light.w;
+  return surface.colour * lamplight(full) + fresnel(dot(normal, view.xy), surface.roughness) * WALL_SHINE * light.w * full;
 }
 
 // Mineral tiles in a grid of bars.
 vec3 lit_ceiling() {
   vec2 joints = joint(v_place.xy, fwidth(v_place.xy));
-  float open = light_at(v_place.xy).w;
-  return CEILING * (CEILING_LIGHT.x + CEILING_LIGHT.y * open) * (1.0 - JOINT * min(joints.x + joints.y, 1.0));
+  vec4 light = light_at(v_place.xy);
+  return CEILING * (CEILING_LIGHT.x * light.w + CEILING_LIGHT.y * light.x) * (1.0 - JOINT * min(joints.x + joints.y, 1.0));
 }
 
 // A threshold per pixel against bands.
@@ -144,6 +157,6 @@ void main() {
 #else
   colour = u_inside ? surface.colour * 0.5 : TOP * (v_normal.z > 0.5 ? 1.0 : 0.75);
 #endif
-  colour *= u_inside ? EXPOSURE_INSIDE : EXPOSURE_ABOVE;
+  colour *= OUTSIDE ? EXPOSURE_OUTSIDE : u_inside ? EXPOSURE_INSIDE : EXPOSURE_ABOVE;
   o_colour = vec4(srgb(toned(colour)) + threshold() / 255.0, 1.0);
 }

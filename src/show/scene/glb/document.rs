@@ -159,7 +159,7 @@ impl Lists {
             Cover::Textured(images) => {
                 let base_color = self.texture(&images.name, "basecolor", TextureContent::Colour, images.base_color)?;
                 let orm = self.texture(&images.name, "orm", TextureContent::Data, images.orm)?;
-                json!({
+                let mut material = json!({
                     "name": images.name,
                     "pbrMetallicRoughness": {
                         "baseColorTexture": { "index": base_color },
@@ -168,7 +168,12 @@ impl Lists {
                         "roughnessFactor": 1.0,
                     },
                     "occlusionTexture": { "index": orm },
-                })
+                });
+                if let Some(normal) = images.normal {
+                    let normal = self.texture(&images.name, "normal", TextureContent::Data, normal)?;
+                    material["normalTexture"] = json!({ "index": normal });
+                }
+                material
             }
             Cover::Plain(name, plain) => plain_material(name, *plain),
         };

@@ -28,6 +28,8 @@ pub struct SurfaceImages<'a> {
     pub base_color: GlbImage<'a>,
     /// Occlusion, roughness, metallic, linear.
     pub orm: GlbImage<'a>,
+    /// Normals in tangent space, green up; linear.
+    pub normal: Option<GlbImage<'a>>,
 }
 
 /// The source of a texture image: a file or an image in memory.

@@ -68,7 +68,12 @@ fn triangle(surface: SceneSurface) -> Mesh {
 }
 
 fn files<'a>(name: &str, base_color: &'a str, orm: &'a str) -> SurfaceImages<'a> {
-    SurfaceImages { name: name.to_string(), base_color: GlbImage::File(base_color), orm: GlbImage::File(orm) }
+    SurfaceImages {
+        name: name.to_string(),
+        base_color: GlbImage::File(base_color),
+        orm: GlbImage::File(orm),
+        normal: None,
+    }
 }
 
 #[test]
@@ -117,6 +122,7 @@ fn embedded_images_are_whole_files() {
         name: "wall_1001".to_string(),
         base_color: GlbImage::Embedded(&colour),
         orm: GlbImage::Embedded(&orm),
+        normal: None,
     };
     let options = GlbOptions { walls: vec![images], ..GlbOptions::default() };
     let bytes = written(&scene, &options);

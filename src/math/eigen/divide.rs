@@ -1,15 +1,15 @@
 use nalgebra::DMatrix;
 
+use super::error::NoConvergence;
 use super::qr::eigenvectors_by_qr;
 use super::secular::rank_one;
-use crate::formation::FormationError;
 
 /// Up to so many rows it is not divided any more.
 const SMALL: usize = 32;
 
 /// Eigenvectors (columns) and eigenvalues, ascending, of a tridiagonal matrix: it is torn in two halves, and what the halves
 /// have is put together (Cuppen 1981, doi 10.1007/BF01396757).
-pub(super) fn conquer(diagonal: &[f64], beside: &[f64]) -> Result<(DMatrix<f64>, Vec<f64>), FormationError> {
+pub(super) fn conquer(diagonal: &[f64], beside: &[f64]) -> Result<(DMatrix<f64>, Vec<f64>), NoConvergence> {
     let n = diagonal.len();
     if n <= SMALL {
         let mut matrix = DMatrix::zeros(n, n);

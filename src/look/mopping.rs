@@ -1,0 +1,143 @@
+//! Cleaning: what a mop leaves of the film.
+//!
+//! Whoever cleans goes back and forth along the longer way of a place, a pass beside the other, and swings the mop or
+//! drives a machine. Passes differ; between them, where dirty water dries, a line stays; swings leave arcs. Along walls
+//! and in corners nothing is taken. The pattern of the last two cleanings shows; those before have evened out.
+
+use super::cells::{rise, smooth, unit};
+use super::lattice::{SplineAxis, SplineLattice, TexelWindow};
+use super::noise::{self, Channel};
+use super::settings::MopLook;
+use crate::math::exp_f32;
+use crate::walls::Walls;
+
+/// Cells in which the longer way is found, per metre, and how far it is looked for.
+const CELLS_PER_M: f64 = 2.0;
+const LOOK_M: f64 = 8.0;
+/// Distances from walls at which the mop takes nothing, and all it can, metres.
+const MISSED_M: [f32; 2] = [0.05, 0.18];
+/// Length of a swing along the pass, metres.
+const SWING_M: f64 = 0.27;
+/// Spacing of the lattice on which the pattern is laid out, metres.
+const SPACING_M: f64 = 0.025;
+/// Weights of the last cleaning and of the one before.
+const CLEANINGS: [f32; 2] = [0.85, 0.4];
+
+/// Ways of cleaning over a whole floor.
+pub(super) struct Mopping {
+    takes: f32,
+    width_m: f64,
+    unevenness: f32,
+    key: u32,
+    columns: i64,
+    rows: i64,
+    /// Share of passes along x, per cell.
+    along_x: Vec<f32>,
+}
+
+impl Mopping {
+    pub fn new(walls: &Walls, look: &MopLook, seed: u64) -> Mopping {
+        let bounds = walls.bounds_m();
+        let cells = |metres: f64| (metres * CELLS_PER_M).ceil().max(0.0) as i64 + 1;
+        let (columns, rows) = (cells(bounds.max.x), cells(bounds.max.y));
+        let mut share = vec![0.0; (columns * rows) as usize];
+        walls.coverage(CELLS_PER_M, 0, 0, columns as usize, rows as usize, &mut share);
+        let runs = |first: usize, step: usize, count: usize, out: &mut [f32]| {
+            // Length of the run of floor that each cell is in, up to where anybody would turn.
+            let mut from = 0;
+            for k in 0..=count {
+                if k == count || share[first + k * step] < 0.5 {
+                    let length = ((k - from) as f32).min((LOOK_M * CELLS_PER_M) as f32);
+                    (from..k).for_each(|n| out[first + n * step] = length);
+                    from = k + 1;
+                }
+            }
+        };
+        let (mut x, mut y) = (vec![0.0; share.len()], vec![0.0; share.len()]);
+        (0..rows as usize).for_each(|row| runs(row * columns as usize, 1, columns as usize, &mut x));
+        (0..columns as usize).for_each(|column| runs(column, columns as usize, rows as usize, &mut y));
+        let along_x = x.iter().zip(&y).map(|(x, y)| rise(x / (x + y).max(1.0), 0.4, 0.6)).collect();
+        let MopLook { takes, width_m, unevenness } = *look;
+        Mopping { takes, width_m, unevenness, key: noise::key(seed, Channel::Mop), columns, rows, along_x }
+    }
+
+    /// Unevenness of cleaning over a window: 0 where the mop took its mean share, 1 where it took nothing.
+    pub fn over(&self, window: &TexelWindow) -> Option<SplineLattice> {
+        if self.takes == 0.0 {
+            return None;
+        }
+        // Coarse texels even the pattern out.
+        let spacing_m = SPACING_M.max(1.0 / window.texels_per_metre);
+        let shown = (0.5 * self.width_m * window.texels_per_metre).min(1.0) as f32;
+        let axis = |texel0, count| SplineAxis::new(texel0, count, spacing_m * window.texels_per_metre, 0.0);
+        let (x, y) = (axis(window.i0, window.width), axis(window.j0, window.height));
+        let mut values = Vec::with_capacity(x.len * y.len);
+        for j in 0..y.len as i64 {
+            for i in 0..x.len as i64 {
+                let place = [x.first + i, y.first + j].map(|k| k as f64 * spacing_m);
+                values.push(shown * self.unevenness * self.uneven(place, self.along_x(place)));
+            }
+        }
+        Some(SplineLattice::new(x, y, values))
+    }
+
+    /// Share of passes along x at a place, between cells.
+    fn along_x(&self, place: [f64; 2]) -> f32 {
+        let [x, y] = place.map(|metres| metres * CELLS_PER_M - 0.5);
+        let (i, j) = (x.floor(), y.floor());
+        let (f, g) = ((x - i) as f32, (y - j) as f32);
+        let at = |i: i64, j: i64| {
+            let (i, j) = (i.clamp(0, self.columns - 1), j.clamp(0, self.rows - 1));
+            self.along_x[(j * self.columns + i) as usize]
+        };
+        let row = |j: i64| at(i as i64, j) * (1.0 - f) + at(i as i64 + 1, j) * f;
+        row(j as i64) * (1.0 - g) + row(j as i64 + 1) * g
+    }
+
+    fn uneven(&self, [x, y]: [f64; 2], along_x: f32) -> f32 {
+        let mut uneven = 0.0;
+        for (n, weight) in CLEANINGS.into_iter().enumerate() {
+            let key = self.key ^ noise::mix(n as u32);
+            let (x, y) = (x + 0.37 * n as f64, y + 0.63 * n as f64);
+            if along_x > 0.01 {
+                uneven += weight * along_x * self.left(x, y, key);
+            }
+            if along_x < 0.99 {
+                uneven += weight * (1.0 - along_x) * self.left(y, x, key ^ 0xa5);
+            }
+        }
+        uneven
+    }
+
+    /// Turns unevenness into the film that is left, relative to the mean where the mop gets to. `near_wall` is
+    /// exp(-distance / reach_m) to the nearest wall.
+    pub fn film_left(&self, uneven: &mut [f32], near_wall: &[f32], reach_m: f32) {
+        let [near, far] = MISSED_M.map(|metres| exp_f32(-metres / reach_m));
+        for (uneven, &wall) in uneven.iter_mut().zip(near_wall) {
+            let reached = 1.0 - rise(wall, far, near);
+            let taken = self.takes * reached * (1.0 - *uneven).max(0.0);
+            *uneven = (1.0 - taken).max(0.05) / (1.0 - self.takes);
+        }
+    }
+
+    /// How much more or less than the mean is left at a place along and across a pass, relative to what the mop takes.
+    fn left(&self, u: f64, v: f64, key: u32) -> f32 {
+        let wobble = 0.10 * f64::from(smooth(key, 0.35 * u, 0.5 * v));
+        let across = v / self.width_m + wobble;
+        let strip = across.floor();
+        let (f, strip) = ((across - strip) as f32, strip as i64 as i32);
+        let own = 2.0 * unit(key ^ 1, strip, 0) - 1.0;
+        let pressed = smooth(key ^ 2, 0.6 * u, f64::from(strip));
+        // Dirty water dries at the border of a pass, now and then.
+        let border = f.min(1.0 - f) * self.width_m as f32;
+        let line = (1.0 - rise(border, 0.0, 0.025)) * rise(smooth(key ^ 3, 0.5 * u, f64::from(strip) + 0.5), 0.0, 0.6);
+        // Swings: arcs that open towards where the cleaner came from.
+        let bow = 4.0 * (f - 0.5) * (f - 0.5);
+        // Nobody swings to a beat.
+        let turn = 1.3 * f64::from(smooth(key ^ 4, 1.3 * u, f64::from(strip)));
+        let swing = u / SWING_M + f64::from(bow) * 0.9 + turn + f64::from(unit(key ^ 5, strip, 1));
+        let swing = (swing - swing.floor()) as f32;
+        let arc = rise(swing, 0.0, 0.8) * (1.0 - rise(swing, 0.86, 1.0)) - 0.45;
+        0.55 * own + 0.45 * pressed + 0.9 * line + 0.55 * arc
+    }
+}

@@ -1,0 +1,573 @@
+//! The clean floor: colour, relief and joints of each material, or of an artist's image.
+
+use super::cells::{self, again, rise};
+use super::error::LookError;
+use super::image::RepeatedImage;
+use super::lattice::TexelWindow;
+use super::material::Material;
+use super::noise::{self, Channel, Noise};
+use super::settings::FloorLook;
+use crate::math::srgb::{self, Srgb8};
+
+/// The clean floor of one look.
+pub(super) struct Surface {
+    base: [f32; 3],
+    image: Option<Box<RepeatedImage>>,
+    texture: Texture,
+    /// Colour of joints, linear; `None` without joints.
+    pub joint: Option<[f32; 3]>,
+}
+
+/// The clean floor over a window of texels, a plane per quantity.
+#[derive(Default)]
+pub(super) struct SurfacePlanes {
+    /// Linear colour. While it is made: tone, nothing, tint, as relative deviations.
+    pub rgb: [Vec<f32>; 3],
+    /// Share of joints in each texel.
+    pub joint: Vec<f32>,
+    /// Height over the mean surface, millimetres.
+    pub height: Vec<f32>,
+    /// Added to the roughness.
+    pub rough: Vec<f32>,
+}
+
+/// Texture of a material.
+struct Texture {
+    /// Relative deviations in lightness, in colour temperature.
+    tone: Vec<Noise>,
+    tint: Noise,
+    /// Millimetres of height per unit of tone of the finest noise.
+    relief_mm: f32,
+    pieces: Option<Pieces>,
+    chips: Vec<Chips>,
+    grain: Option<Grain>,
+    cracks: Option<Cracks>,
+}
+
+/// Planks, tiles, slabs, sheets.
+struct Pieces {
+    size_m: [f64; 2],
+    gap_m: f64,
+    /// How deep gaps are, millimetres.
+    gap_mm: f32,
+    /// Standard deviations of tone and tint between pieces, and of their roughness.
+    sd: f32,
+    tint_sd: f32,
+    rough_sd: f32,
+    /// Share of pieces that are darker, and by how much.
+    dark: [f32; 2],
+    /// Shift of each row along x: a random one, or this share of a piece.
+    shift: Option<f64>,
+    key: u32,
+}
+
+/// Chips, flecks or pores strewn over the surface.
+struct Chips {
+    /// One chip at most in a square of this side.
+    spacing_m: f64,
+    /// Share of squares with a chip.
+    share: f32,
+    /// Least and greatest radius, in spacings. 0: chips fill the surface as a mosaic, with a gap of the second number.
+    radius: [f32; 2],
+    /// Relative tone and tint of the kinds of chips.
+    kinds: &'static [[f32; 2]],
+    /// Height of a chip, millimetres.
+    height_mm: f32,
+    gain: f32,
+    key: u32,
+}
+
+/// The grain of boards: streaks along x, with the arches of flat-sawn wood.
+struct Grain {
+    gain: f32,
+    key: u32,
+}
+
+/// Hairline cracks.
+struct Cracks {
+    spacing_m: f64,
+    width_m: f32,
+    key: u32,
+}
+
+impl Surface {
+    pub fn new(floor: &FloorLook, seed: u64, texels_per_metre: f64) -> Result<Surface, LookError> {
+        let colour = floor.colour.unwrap_or(floor.material.properties().colour);
+        let mut texture = Texture::of(floor, seed);
+        let image = match &floor.image {
+            Some(path) => Some(Box::new(RepeatedImage::open(path, floor.image_size_m, texels_per_metre)?)),
+            None => None,
+        };
+        if image.is_some() {
+            texture.pieces = None;
+        }
+        let joint = texture.pieces.as_ref().map(|_| srgb::light_of(joint_colour(floor.material)));
+        let base = image.as_ref().map_or(srgb::light_of(colour), |image| image.mean());
+        Ok(Surface { base, image, texture, joint })
+    }
+
+    /// Mean colour of the clean floor, linear.
+    pub fn mean(&self) -> [f32; 3] {
+        self.base
+    }
+
+    /// Lays the floor out over a window.
+    pub fn lay_out(&self, window: &TexelWindow, out: &mut SurfacePlanes) {
+        out.clear(window.texels());
+        let texture = &self.texture;
+        let noises = texture.tone.iter().chain([&texture.tint]);
+        let mut fields: Vec<_> = noises.map(|noise| noise.over(window)).collect();
+        for row in 0..window.height {
+            let texels = row * window.width..(row + 1) * window.width;
+            let j = window.j0 + row as i64;
+            if let Some(image) = &self.image {
+                let mut rgb = std::array::from_fn(|_| vec![0.0; window.width]);
+                image.read_row(window.i0, j, &mut rgb);
+                for (plane, row) in out.rgb.iter_mut().zip(&rgb) {
+                    plane[texels.clone()].copy_from_slice(row);
+                }
+                continue;
+            }
+            fields.iter_mut().for_each(|field| field.begin_row(row));
+            let SurfacePlanes { rgb: [tone, _, tint], joint, height, rough } = out;
+            let mut line = SurfaceLine {
+                window,
+                j,
+                tone: &mut tone[texels.clone()],
+                tint: &mut tint[texels.clone()],
+                joint: &mut joint[texels.clone()],
+                height: &mut height[texels.clone()],
+                rough: &mut rough[texels.clone()],
+            };
+            let (of_tint, of_tone) = fields.split_last().expect("the tint is the last field");
+            for (n, field) in of_tone.iter().enumerate() {
+                field.add_to(0, line.tone);
+                if n == 0 && texture.relief_mm != 0.0 {
+                    line.height.copy_from_slice(line.tone);
+                    line.height.iter_mut().for_each(|height| *height *= texture.relief_mm);
+                }
+            }
+            of_tint.add_to(0, line.tint);
+            texture.chips.iter().for_each(|chips| chips.add_to(&mut line));
+            if let Some(pieces) = &texture.pieces {
+                pieces.add_to(texture.grain.as_ref(), &mut line);
+            }
+            if let Some(cracks) = &texture.cracks {
+                cracks.add_to(&mut line);
+            }
+            self.colour(texels, &mut out.rgb);
+        }
+    }
+
+    /// Converts tone (first plane) and tint (third plane) to colour.
+    fn colour(&self, texels: std::ops::Range<usize>, rgb: &mut [Vec<f32>; 3]) {
+        let [r0, g0, b0] = self.base;
+        let [red, green, blue] = rgb.each_mut().map(|plane| &mut plane[texels.clone()]);
+        for ((r, g), b) in red.iter_mut().zip(green).zip(blue) {
+            let (tone, tint) = ((1.0 + *r).max(0.2), *b);
+            *r = r0 * tone * (1.0 + tint);
+            *g = g0 * tone;
+            *b = b0 * tone * (1.0 - tint);
+        }
+    }
+}
+
+impl SurfacePlanes {
+    fn clear(&mut self, texels: usize) {
+        let SurfacePlanes { rgb, joint, height, rough } = self;
+        for plane in rgb.iter_mut().chain([joint, height, rough]) {
+            plane.clear();
+            plane.resize(texels, 0.0);
+        }
+    }
+}
+
+/// A row of texels of a surface that is being made.
+struct SurfaceLine<'a> {
+    window: &'a TexelWindow,
+    j: i64,
+    tone: &'a mut [f32],
+    tint: &'a mut [f32],
+    joint: &'a mut [f32],
+    height: &'a mut [f32],
+    rough: &'a mut [f32],
+}
+
+impl SurfaceLine<'_> {
+    fn texel_m(&self) -> f64 {
+        1.0 / self.window.texels_per_metre
+    }
+
+    /// Middle of texel `k`, metres.
+    fn place(&self, k: usize) -> [f64; 2] {
+        let texel_m = self.texel_m();
+        [((self.window.i0 + k as i64) as f64 + 0.5) * texel_m, (self.j as f64 + 0.5) * texel_m]
+    }
+}
+
+fn joint_colour(material: Material) -> Srgb8 {
+    match material {
+        Material::Wood => [70, 52, 38],
+        Material::Vinyl => [176, 171, 161],
+        Material::Dark => [50, 48, 46],
+        Material::Terrazzo => [150, 138, 110],
+        Material::Carpet => [92, 94, 99],
+        Material::Concrete => [96, 93, 88],
+        Material::Stone => [158, 150, 136],
+        Material::Asphalt => [62, 60, 58],
+        Material::Paving => [112, 105, 92],
+        Material::Tile => [160, 156, 148],
+    }
+}
+
+impl Texture {
+    fn of(floor: &FloorLook, seed: u64) -> Texture {
+        let gain = floor.texture;
+        let key = |n: u32| noise::key(seed, Channel::Piece).wrapping_add(n.wrapping_mul(0x51_7c_c1));
+        // Length and width of spots, metres, and deviation.
+        type Spots = (f64, f64, f32);
+        let round = |size: f64, sd: f32| (size, size, sd);
+        let tones = |tone: [Spots; 3], tint: Spots, relief_mm: f32| {
+            let noise = |channel, (x, y, sd): Spots| Noise::new(seed, channel, [x, y], sd * gain);
+            let channels = [Channel::Ground, Channel::GroundMiddle, Channel::GroundCoarse];
+            Texture {
+                tone: channels.into_iter().zip(tone).map(|(channel, spots)| noise(channel, spots)).collect(),
+                tint: noise(Channel::GroundTint, tint),
+                relief_mm,
+                pieces: None,
+                chips: Vec::new(),
+                grain: None,
+                cracks: None,
+            }
+        };
+        let pieces = |size_m: [f64; 2], gap_m: f64, sd: f32| Pieces {
+            size_m,
+            gap_m,
+            gap_mm: 1.5,
+            sd: sd * gain,
+            tint_sd: 0.2 * sd * gain,
+            rough_sd: 0.01 * gain,
+            dark: [0.0; 2],
+            shift: Some(0.0),
+            key: key(0),
+        };
+        let chips = |n: u32, spacing_m: f64, share: f32, radius: [f32; 2], kinds, height_mm: f32| Chips {
+            spacing_m,
+            share,
+            radius,
+            kinds,
+            height_mm,
+            gain,
+            key: key(n),
+        };
+        match floor.material {
+            // Sheets of 2 m with welded seams, and flecks.
+            Material::Vinyl => Texture {
+                pieces: Some(Pieces { gap_mm: 0.1, ..pieces([24.0, 2.0], 0.004, 0.012) }),
+                chips: vec![
+                    chips(1, 0.011, 0.7, [0.18, 0.42], &[[-0.09, 0.0], [0.06, 0.0], [-0.05, 0.02]], 0.0),
+                    chips(2, 0.006, 0.6, [0.15, 0.40], &[[-0.05, 0.0], [0.04, -0.01]], 0.0),
+                ],
+                ..tones([round(0.004, 0.016), round(0.05, 0.006), round(1.1, 0.012)], round(0.3, 0.004), 0.6)
+            },
+            // Studded rubber would be a pattern of its own: this is smooth rubber with flecks, in sheets.
+            Material::Dark => Texture {
+                pieces: Some(Pieces { gap_mm: 0.1, ..pieces([24.0, 2.0], 0.003, 0.02) }),
+                chips: vec![chips(1, 0.012, 0.45, [0.15, 0.35], &[[0.5, 0.0], [0.3, 0.04], [-0.3, 0.0]], 0.0)],
+                ..tones([round(0.005, 0.05), round(0.05, 0.015), round(0.9, 0.02)], round(0.01, 0.01), 0.8)
+            },
+            // Chips of 4 to 15 mm in a matrix, and brass strips.
+            Material::Terrazzo => Texture {
+                pieces: Some(Pieces { gap_mm: 0.0, ..pieces([1.8, 1.8], 0.003, 0.015) }),
+                chips: vec![
+                    chips(
+                        1,
+                        0.0065,
+                        0.75,
+                        [0.0, 0.10],
+                        &[[0.10, 0.0], [-0.12, 0.02], [0.03, -0.02], [-0.03, 0.0]],
+                        0.0,
+                    ),
+                    chips(
+                        2,
+                        0.019,
+                        0.62,
+                        [0.22, 0.48],
+                        &[[0.22, 0.0], [-0.45, 0.03], [-0.22, 0.10], [0.10, 0.03], [-0.62, -0.02], [0.18, -0.02]],
+                        0.0,
+                    ),
+                ],
+                ..tones([round(0.004, 0.03), round(0.08, 0.02), round(0.8, 0.015)], round(0.5, 0.006), 0.1)
+            },
+            // Bays with saw cuts, clouds of trowelling, pores, hairline cracks.
+            Material::Concrete => Texture {
+                pieces: Some(Pieces { gap_mm: 3.0, ..pieces([4.8, 4.8], 0.005, 0.03) }),
+                chips: vec![chips(1, 0.05, 0.22, [0.02, 0.07], &[[-0.3, 0.0], [-0.2, 0.0]], -0.8)],
+                cracks: Some(Cracks { spacing_m: 2.9, width_m: 0.0008, key: key(3) }),
+                ..tones([round(0.012, 0.03), round(0.14, 0.03), round(1.3, 0.05)], round(0.8, 0.008), 3.0)
+            },
+            Material::Wood => Texture {
+                pieces: Some(Pieces {
+                    tint_sd: 0.025 * gain,
+                    rough_sd: 0.03 * gain,
+                    shift: None,
+                    ..pieces([1.35, 0.13], 0.0014, 0.085)
+                }),
+                grain: Some(Grain { gain, key: key(4) }),
+                ..tones([(0.30, 0.003, 0.035), (0.9, 0.03, 0.02), round(0.6, 0.01)], (0.9, 0.05, 0.01), 1.2)
+            },
+            // Tiles of 0.5 m with the pile turned from tile to tile.
+            Material::Carpet => Texture {
+                pieces: Some(Pieces { gap_mm: 1.0, tint_sd: 0.01 * gain, ..pieces([0.5, 0.5], 0.0015, 0.030) }),
+                chips: vec![chips(1, 0.005, 1.0, [0.0, 0.16], &[[0.14, 0.0], [-0.16, 0.02], [0.0, -0.03]], 1.5)],
+                ..tones([round(0.009, 0.10), (0.30, 0.01, 0.03), round(0.7, 0.02)], round(0.012, 0.02), 4.0)
+            },
+            Material::Tile => Texture {
+                pieces: Some(Pieces {
+                    dark: [0.04, 0.06 * gain],
+                    rough_sd: 0.03 * gain,
+                    ..pieces([floor.tile_m; 2], floor.joint_m, 0.022)
+                }),
+                chips: vec![chips(1, 0.004, 0.5, [0.15, 0.4], &[[-0.12, 0.0], [0.05, 0.0]], 0.0)],
+                ..tones([round(0.012, 0.012), round(0.08, 0.012), round(0.9, 0.006)], round(0.1, 0.005), 0.2)
+            },
+            // Honed limestone in a running bond.
+            Material::Stone => Texture {
+                pieces: Some(Pieces {
+                    dark: [0.10, 0.10 * gain],
+                    tint_sd: 0.009 * gain,
+                    rough_sd: 0.04 * gain,
+                    shift: Some(0.5),
+                    ..pieces([0.9, 0.6], 0.004, 0.045)
+                }),
+                chips: vec![chips(1, 0.03, 0.35, [0.04, 0.16], &[[-0.12, 0.01], [0.08, 0.0], [-0.2, 0.02]], -0.2)],
+                grain: Some(Grain { gain: 0.6 * gain, key: key(4) }),
+                ..tones([round(0.006, 0.025), (0.20, 0.05, 0.03), round(0.7, 0.02)], round(0.25, 0.01), 0.5)
+            },
+            Material::Asphalt => Texture {
+                pieces: Some(Pieces { gap_mm: 0.5, ..pieces([60.0, 3.5], 0.012, 0.03) }),
+                chips: vec![chips(
+                    1,
+                    0.009,
+                    0.85,
+                    [0.0, 0.12],
+                    &[[0.18, 0.02], [-0.28, 0.0], [-0.06, 0.0], [0.38, 0.01], [-0.42, 0.0]],
+                    2.0,
+                )],
+                cracks: Some(Cracks { spacing_m: 3.7, width_m: 0.004, key: key(3) }),
+                ..tones([round(0.009, 0.10), round(0.12, 0.03), round(1.6, 0.05)], round(0.9, 0.006), 6.0)
+            },
+            Material::Paving => Texture {
+                pieces: Some(Pieces {
+                    gap_mm: 4.0,
+                    dark: [0.12, 0.10 * gain],
+                    tint_sd: 0.012 * gain,
+                    shift: Some(0.5),
+                    ..pieces([0.40, 0.20], 0.005, 0.06)
+                }),
+                chips: vec![chips(1, 0.005, 0.8, [0.0, 0.12], &[[0.16, 0.0], [-0.16, 0.02], [0.04, -0.02]], 0.6)],
+                ..tones([round(0.006, 0.06), round(0.06, 0.03), round(0.8, 0.02)], round(0.2, 0.01), 3.0)
+            },
+        }
+    }
+}
+
+impl Pieces {
+    fn add_to(&self, grain: Option<&Grain>, line: &mut SurfaceLine<'_>) {
+        let texel_m = line.texel_m();
+        let [length, width] = self.size_m;
+        let y = (line.j as f64 + 0.5) * texel_m;
+        let row = (y / width).floor();
+        let shift = match self.shift {
+            None => f64::from(noise::signed(self.key, row as i32, -1)) * 0.5 * length,
+            Some(share) => (row * share).rem_euclid(1.0) * length,
+        };
+        let across = gap_share(line.j as f64 * texel_m, texel_m, width, self.gap_m);
+        let (mut last, mut piece) = (i32::MAX, Piece::default());
+        for k in 0..line.tone.len() {
+            let x = (line.window.i0 + k as i64) as f64 * texel_m + shift;
+            let column = ((x + 0.5 * texel_m) / length).floor() as i32;
+            if column != last {
+                (last, piece) = (column, self.piece(column, row as i32));
+            }
+            line.tone[k] += piece.tone;
+            line.tint[k] += piece.tint;
+            line.rough[k] += piece.rough;
+            let joint = 1.0 - (1.0 - across) * (1.0 - gap_share(x, texel_m, length, self.gap_m));
+            line.joint[k] = joint;
+            line.height[k] -= self.gap_mm * joint;
+            if let Some(grain) = grain {
+                // A piece of its own trunk.
+                let (tone, height) = grain.at(x + piece.origin_m, y + 0.37 * piece.origin_m, piece.word, texel_m);
+                line.tone[k] += tone;
+                line.height[k] += height;
+            }
+        }
+    }
+
+    fn piece(&self, column: i32, row: i32) -> Piece {
+        let word = noise::hash(self.key, column, row);
+        let signed = |n: u32| 2.0 * again(word, n) - 1.0;
+        let [share, by] = self.dark;
+        Piece {
+            word,
+            tone: 1.73 * self.sd * signed(1) - if again(word, 2) < share { by } else { 0.0 },
+            tint: 1.73 * self.tint_sd * signed(3),
+            rough: 1.73 * self.rough_sd * signed(4),
+            origin_m: 50.0 * f64::from(again(word, 5)),
+        }
+    }
+}
+
+#[derive(Clone, Copy, Default)]
+struct Piece {
+    word: u32,
+    tone: f32,
+    tint: f32,
+    rough: f32,
+    origin_m: f64,
+}
+
+impl Grain {
+    /// Tone and height, millimetres, at a place on a board.
+    fn at(&self, x: f64, y: f64, word: u32, texel_m: f64) -> (f32, f32) {
+        let arch = f64::from(cells::smooth(self.key, 0.55 * x, 4.0 * y));
+        let late = 60.0 + 60.0 * f64::from(again(word, 6));
+        // Rings fade where texels are too coarse for them.
+        let shown = (1.0 - rise((late * texel_m) as f32, 0.35, 1.1)) * self.gain;
+        let rings = y * late + 7.0 * arch;
+        let ring = (rings - rings.floor()) as f32;
+        let ring = rise(ring, 0.0, 0.75) * (1.0 - rise(ring, 0.85, 1.0));
+        let streak = cells::smooth(self.key ^ 1, 2.2 * x, 260.0 * y);
+        let soft = cells::smooth(self.key ^ 2, 0.8 * x, 30.0 * y);
+        let fine = (1.0 - rise(260.0 * texel_m as f32, 1.2, 4.0)) * self.gain;
+        let tone = -0.09 * shown * (ring - 0.45) - 0.05 * fine * streak + 0.045 * self.gain * soft;
+        (tone, 0.12 * shown * (ring - 0.45) + 0.06 * fine * streak)
+    }
+}
+
+impl Chips {
+    fn add_to(&self, line: &mut SurfaceLine<'_>) {
+        // Chips smaller than texels even out to a noise, with what is left of their contrast.
+        let texels = (self.spacing_m * line.window.texels_per_metre) as f32;
+        let shown = self.gain / (1.0 + 1.0 / (texels * texels)).sqrt();
+        let [y, per_m] = [line.place(0)[1] / self.spacing_m, 1.0 / self.spacing_m];
+        let soft = 0.6 / texels;
+        for k in 0..line.tone.len() {
+            let x = line.place(k)[0] * per_m;
+            let (cover, word) = if texels < 1.5 {
+                let word = noise::hash(self.key, (line.window.i0 + k as i64) as i32, line.j as i32);
+                (0.7, word)
+            } else if self.radius[0] == 0.0 {
+                let near = cells::nearest(self.key, x, y);
+                (rise(near.second - near.first, self.radius[1] - soft, self.radius[1] + soft + 0.05), near.word)
+            } else {
+                self.strewn(x, y, soft)
+            };
+            if cover > 0.0 && again(word, 1) < self.share {
+                let [tone, tint] = self.kinds[(again(word, 2) * self.kinds.len() as f32) as usize];
+                let deviation = 0.7 + 0.6 * again(word, 3);
+                line.tone[k] += shown * cover * tone * deviation;
+                line.tint[k] += shown * cover * tint;
+                line.height[k] += shown * cover * self.height_mm * deviation;
+            }
+        }
+    }
+
+    /// Share of a texel under a chip that is alone in its square, and the chip's hash.
+    fn strewn(&self, x: f64, y: f64, soft: f32) -> (f32, u32) {
+        let (i, j) = (x.floor(), y.floor());
+        let word = noise::hash(self.key, i as i64 as i32, j as i64 as i32);
+        let [least, most] = self.radius;
+        let radius = least + (most - least) * again(word, 4) * again(word, 5);
+        let room = 0.5 - radius;
+        let centre = |n: u32| 0.5 + room * (2.0 * again(word, n) - 1.0);
+        let (dx, dy) = ((x - i) as f32 - centre(6), (y - j) as f32 - centre(7));
+        // An uneven outline of three and five lobes.
+        let (a, b) = (dx / radius, dy / radius);
+        let lobes = 0.22 * (again(word, 8) * a * b + (2.0 * again(word, 9) - 1.0) * (a * a - b * b));
+        let distance = (dx * dx + dy * dy).sqrt();
+        (1.0 - rise(distance, radius * (0.92 + lobes) - soft, radius * (0.92 + lobes) + soft), word)
+    }
+}
+
+impl Cracks {
+    fn add_to(&self, line: &mut SurfaceLine<'_>) {
+        let texel_m = line.texel_m();
+        for k in 0..line.tone.len() {
+            let [x, y] = line.place(k);
+            // Only some stretches are cracked.
+            let open = rise(cells::smooth(self.key ^ 7, 0.21 * x, 0.21 * y), 0.15, 0.5);
+            if open == 0.0 {
+                continue;
+            }
+            let bend = |n: u32, scale: f64| f64::from(cells::cloudy(self.key ^ n, scale * x, scale * y, 4));
+            let (u, v) = (x + 0.22 * bend(1, 1.7), y + 0.22 * bend(2, 1.7));
+            let near = cells::nearest(self.key, u / self.spacing_m, v / self.spacing_m);
+            let distance = 0.5 * (near.second - near.first) * self.spacing_m as f32;
+            // A crack thinner than a texel takes its share of it.
+            let half = (0.5 * self.width_m).max(0.5 * texel_m as f32);
+            let share = (self.width_m / (2.0 * half)).sqrt();
+            let crack = open * share * (1.0 - rise(distance, 0.5 * half, 1.5 * half));
+            line.tone[k] -= 0.5 * crack;
+            line.height[k] -= 2.0 * crack;
+        }
+    }
+}
+
+/// Share of gaps in `from..from + size`; gaps are centred at multiples of `period`.
+fn gap_share(from: f64, size: f64, period: f64, gap: f64) -> f32 {
+    let before = |x: f64| {
+        let x = x + 0.5 * gap;
+        let whole = (x / period).floor();
+        whole * gap + (x - whole * period).min(gap)
+    };
+    ((before(from + size) - before(from)) / size).clamp(0.0, 1.0) as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gaps_take_up_their_area_wherever_texels_lie() {
+        for texel in [0.001, 0.01, 0.013, 0.04, 0.2] {
+            let count = (6.0 / texel) as usize;
+            let total: f64 = (0..count).map(|k| f64::from(gap_share(k as f64 * texel - 3.0, texel, 0.3, 0.004))).sum();
+            let share = total / count as f64;
+            assert!((share - 0.004 / 0.3).abs() < 8e-4, "{texel}: {share}");
+        }
+        assert_eq!(gap_share(0.0, 0.001, 0.3, 0.004), 1.0);
+        assert_eq!(gap_share(0.1, 0.01, 0.3, 0.004), 0.0);
+    }
+
+    fn laid_out(material: Material, texels_per_metre: f64, at: [i64; 2], side: usize) -> SurfacePlanes {
+        let floor = FloorLook { material, ..FloorLook::default() };
+        let window = TexelWindow { texels_per_metre, i0: at[0], j0: at[1], width: side, height: side };
+        let mut planes = SurfacePlanes::default();
+        Surface::new(&floor, 1, texels_per_metre).unwrap().lay_out(&window, &mut planes);
+        planes
+    }
+
+    #[test]
+    fn the_clean_floor_keeps_its_mean_colour() {
+        for material in Material::ALL {
+            let base = srgb::light_of(material.properties().colour)[1];
+            for texels_per_metre in [100.0, 400.0] {
+                let planes = laid_out(material, texels_per_metre, [0, 0], 600);
+                let mean = planes.rgb[1].iter().sum::<f32>() / 360_000.0;
+                assert!((mean / base - 1.0).abs() < 0.08, "{material:?} {texels_per_metre}: {mean}, not {base}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_texel_is_the_same_in_every_window() {
+        for material in Material::ALL {
+            let (whole, part) = (laid_out(material, 150.0, [-40, 70], 90), laid_out(material, 150.0, [-10, 90], 20));
+            for (j, row) in part.rgb[2].chunks_exact(20).enumerate() {
+                assert_eq!(row, &whole.rgb[2][(j + 20) * 90 + 30..][..20], "{material:?}");
+            }
+        }
+    }
+}

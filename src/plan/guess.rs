@@ -1,0 +1,588 @@
+//! Guesses the scale of a plan from what has a usual size: doors, walls, the printed sheet.
+
+use std::ops::RangeInclusive;
+
+use super::arcs::{Arc, Search};
+use super::clearance::{dilate, erode};
+use super::components::{Component, Components, Neighbours};
+use super::cracks::trace;
+use super::drawing::Drawing;
+use super::likely::{Likelihood, Usual};
+use super::scale::{PlanScale, ScaleSource};
+use super::symbols::{FEWEST_STROKES, groups};
+use super::{ASSUMED_M_PER_PX, understand};
+use crate::math::{ln, sin_cos};
+
+/// How far one scale may be from another to be the same, and how many are tried: a sheet may be 2.5 times as wide as its
+/// building.
+const SAME_SCALE: f64 = 0.12;
+const TRIES: usize = 9;
+/// Usual radius of a door's leaf, and width of a doorway. Gaps are between dashes and pillars too.
+const LEAF: Usual = Usual { metres: 0.865, spread: 0.12, wrong: 0.5 };
+const DOORWAY: Usual = Usual { metres: 0.88, spread: 0.15, wrong: 0.6 };
+/// How many leaves and doorways count at most.
+const MOST_LEAVES: f64 = 5.0;
+const MOST_DOORWAYS: f64 = 4.0;
+/// Usual thickness of inner and outer walls.
+const WALLS: [Usual; 2] =
+    [Usual { metres: 0.13, spread: 0.35, wrong: 0.1 }, Usual { metres: 0.32, spread: 0.3, wrong: 0.1 }];
+/// Usual larger side of a building, and height of letters.
+const BUILDING: Usual = Usual { metres: 22.0, spread: 0.8, wrong: 0.1 };
+const LETTER: Usual = Usual { metres: 0.27, spread: 0.5, wrong: 0.3 };
+/// Largest letter, as a share of the image's longer side.
+const LETTER_SHARE: f64 = 0.03;
+/// Widths of doors that a scale explains, metres.
+const DOOR_RANGE_M: [f64; 2] = [0.68, 1.15];
+/// Least weight of leaves and doorways that decide a scale.
+const FEWEST_LEAVES: f64 = 2.0;
+const FEWEST_DOORS: f64 = 4.0;
+/// Range of the width of a door in thicknesses of a wall that is drawn thick.
+const DOOR_IN_WALLS: [f64; 2] = [1.5, 14.0];
+/// Range of the width of a door as a share of the building's larger side.
+const DOOR_IN_BUILDING: [f64; 2] = [0.008, 0.25];
+/// A guess from few gaps that is less sure than this gives way to the usual scale of indoor maps.
+const UNSURE: f64 = 0.25;
+/// Length of buildings, metres.
+const USUAL_BUILDING_M: RangeInclusive<f64> = 6.0..=150.0;
+/// How far beyond what walls say the usual scale may lie.
+const FAR: f64 = 3.0;
+/// A guess as near to the usual scale of indoor maps takes that.
+const USUAL_REACH: f64 = 0.04;
+/// Least length of a piece of wall, as a share of the image's longer side.
+const LONG_SHARE: f64 = 0.04;
+/// Scales of printed plans, the usual ones first, and how near to the doors' guess one of them must be.
+const PRINTED: [f64; 9] = [100.0, 50.0, 200.0, 75.0, 25.0, 250.0, 20.0, 500.0, 1000.0];
+const PRINTED_REACH: f64 = 0.14;
+/// Resolutions that programs write without meaning them, dots per inch.
+const MEANINGLESS_DPI: [f64; 3] = [72.0, 90.0, 96.0];
+/// Most pixels a side of the picture in which arcs are looked for.
+const MOST_ARC_PX: usize = 1800;
+
+/// What is measured in a drawing, pixels.
+struct Measures {
+    /// Thickness of walls that are drawn thick.
+    wall: Option<f64>,
+    /// Widths of doorways, each with its weight.
+    doorways: Vec<(f64, f64)>,
+    /// Radii of the quarter circles of door leaves, each with its weight.
+    leaves: Vec<(f64, f64)>,
+    /// Bounds of the building: least x and y, then one beyond the greatest.
+    bounds: Option<[[u32; 2]; 2]>,
+    /// Height of letters.
+    letter: Option<f64>,
+}
+
+/// Metres per pixel from the width of the building, if walls are found.
+///
+/// What is building shows once the scale is known: the first scale counts at which the building is as wide as it is.
+/// Dimension lines and the sheet's frame make it too wide at first.
+pub(super) fn of_width(drawing: &Drawing, width_m: f64) -> Option<f64> {
+    let [min, end] = Walls::of(drawing).bounds?;
+    let rough = width_m / f64::from(end[0] - min[0]);
+    let of_building = |scale: f64| {
+        let [min, end] = understand::extent(drawing, scale)?;
+        Some(width_m / f64::from(end[0] - min[0]))
+    };
+    // Those near to what doors say come first: a sheet's frame with its title block looks like a building too.
+    let guess = Measures::of(drawing).likelihood().guess().value;
+    let mut tries: Vec<f64> =
+        std::iter::successors(Some(rough), |tried| Some(tried * (1.0 + SAME_SCALE))).take(TRIES).collect();
+    tries.sort_by(|a, b| ln(a / guess).abs().total_cmp(&ln(b / guess).abs()));
+    let is_same = |scale: &f64, tried: f64| (scale / tried - 1.0).abs() <= SAME_SCALE;
+    let found = tries.into_iter().find_map(|tried| of_building(tried).filter(|scale| is_same(scale, tried)));
+    Some(found.map_or(rough, |scale| of_building(scale).unwrap_or(scale)))
+}
+
+/// Guesses the metres per pixel. `dots_per_inch` is what the file says of its print.
+pub(super) fn guess(drawing: &Drawing, dots_per_inch: Option<f64>) -> (f64, PlanScale) {
+    if drawing.scanned {
+        let (range, evidence) = ([0.01, 0.1], "the usual scale of robots' maps".to_owned());
+        return (ASSUMED_M_PER_PX, PlanScale { source: ScaleSource::Assumed, sureness: 0.5, range, evidence });
+    }
+    let measures = Measures::of(drawing);
+    let dots = dots_per_inch.filter(|dots| MEANINGLESS_DPI.iter().all(|m| (m - dots).abs() > 0.6));
+    // The usual scales come first.
+    let printed = |[low, high]: [f64; 2]| {
+        let dots = dots?;
+        let each = PRINTED.iter().map(|&scale| (scale, rounded(0.0254 / dots * scale)));
+        let (scale, value) = each.into_iter().find(|&(_, value)| (low..=high).contains(&value))?;
+        Some((value, format!("; at 1:{scale}, as the file's {dots:.0} dots per inch allow")))
+    };
+    let scale = |value: f64, source: ScaleSource, sureness: f64, range: [f64; 2], evidence: String| {
+        (value, PlanScale { source, sureness, range, evidence })
+    };
+    let mut likely = measures.likelihood().guess();
+    if let Some((count, width)) = measures.doors(likely.value) {
+        // Where most gaps are none of doors, as in scans, some of a width say little.
+        let share = count / measures.candidates().max(1e-9);
+        // So do few gaps without leaves.
+        let gaps_only = if measures.leaves.is_empty() { count / (count + FEWEST_DOORS) } else { 1.0 };
+        likely.sureness *= (0.4 + 0.6 * share) * gaps_only;
+        if share < 0.5 || gaps_only < 0.6 {
+            likely.range = [likely.range[0].min(likely.value * 0.6), likely.range[1].max(likely.value * 1.6)];
+        }
+        let evidence =
+            format!("{count:.0} doors about {width:.0} pixels wide, taken for {:.2} m", width * likely.value);
+        let [low, high] = likely.range;
+        if likely.sureness < UNSURE && (low..=high).contains(&ASSUMED_M_PER_PX) {
+            return scale(ASSUMED_M_PER_PX, ScaleSource::Assumed, likely.sureness, likely.range, evidence);
+        }
+        let near = [1.0 - PRINTED_REACH, 1.0 + PRINTED_REACH].map(|share| likely.value * share);
+        if let Some((value, print)) = printed(near) {
+            let range = [value * 0.97, value * 1.03];
+            return scale(value, ScaleSource::Guessed, likely.sureness.max(0.9), range, evidence + &print);
+        }
+        let is_usual = (likely.value / ASSUMED_M_PER_PX - 1.0).abs() <= USUAL_REACH;
+        let value = if is_usual { ASSUMED_M_PER_PX } else { rounded(likely.value) };
+        return scale(value, ScaleSource::Guessed, likely.sureness, likely.range, evidence);
+    }
+    let evidence = measures.wall.map_or(String::new(), |wall| format!("walls about {wall:.0} pixels thick"));
+    if let Some((value, print)) = printed(likely.range).filter(|_| measures.wall.is_some()) {
+        return scale(value, ScaleSource::Guessed, likely.sureness.max(0.4), likely.range, evidence + &print);
+    }
+    let [low, high] = likely.range;
+    let range = [low.min(ASSUMED_M_PER_PX * 0.4), high.max(ASSUMED_M_PER_PX * 2.0)];
+    // Walls alone are no measure: masses of wall are as thick as you like. But a building has a usual size.
+    let is_possible = (low / FAR..=high * FAR).contains(&ASSUMED_M_PER_PX);
+    let longest_px = measures.bounds.map_or(0, |[min, end]| (end[0] - min[0]).max(end[1] - min[1]));
+    let is_usual = USUAL_BUILDING_M.contains(&(f64::from(longest_px) * ASSUMED_M_PER_PX));
+    if is_possible || is_usual || measures.wall.is_none() {
+        return scale(ASSUMED_M_PER_PX, ScaleSource::Assumed, likely.sureness.min(0.2), range, evidence);
+    }
+    scale(rounded(likely.value), ScaleSource::Guessed, likely.sureness, likely.range, evidence)
+}
+
+/// Three significant digits: a guess knows no more.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}
+
+/// Walls of a drawing without strokes that are thinner, without what is too short, without frames.
+struct Walls {
+    mask: Vec<u8>,
+    thickness: Option<f64>,
+    bounds: Option<[[u32; 2]; 2]>,
+}
+
+impl Walls {
+    fn of(drawing: &Drawing) -> Walls {
+        let width = drawing.width;
+        let thickness = wall_thickness(drawing);
+        let solid = match thickness {
+            Some(wall) => {
+                let radius = (wall * 0.12).max(1.0);
+                dilate(&erode(&drawing.dark, width, radius), width, radius)
+            }
+            None => drawing.dark.clone(),
+        };
+        let pieces = Components::of(&solid, width, 1, Neighbours::Eight);
+        let long = LONG_SHARE * width.max(drawing.height) as f64;
+        let mut walls: Vec<&Component> =
+            pieces.all.iter().filter(|piece| f64::from(piece.larger_side()) >= long).collect();
+        let frames: Vec<usize> = (0..walls.len()).filter(|&k| is_frame(&pieces, walls[k])).collect();
+        if frames.len() < walls.len() {
+            let mut k = 0;
+            walls.retain(|_| {
+                k += 1;
+                !frames.contains(&(k - 1))
+            });
+        }
+        let mut mask = vec![0; solid.len()];
+        walls.iter().for_each(|piece| pieces.paint(piece, &mut mask, width, 1));
+        Walls { mask, thickness, bounds: bounds(&walls, thickness.is_some()) }
+    }
+}
+
+/// Bounds of all walls that are drawn thick. Among thin lines there are notes: bounds of the piece with the most ink and of
+/// all that reach into them.
+fn bounds(walls: &[&Component], are_thick: bool) -> Option<[[u32; 2]; 2]> {
+    let main = walls.iter().max_by_key(|piece| (piece.area, std::cmp::Reverse(piece.min)))?;
+    let (mut min, mut end) = (main.min, main.end);
+    loop {
+        let before = (min, end);
+        let margin = [0, 1].map(|axis| (end[axis] - min[axis]) / 50);
+        for piece in walls {
+            let reaches =
+                |axis: usize| piece.min[axis] < end[axis] + margin[axis] && piece.end[axis] + margin[axis] > min[axis];
+            if are_thick || (reaches(0) && reaches(1)) {
+                for axis in 0..2 {
+                    min[axis] = min[axis].min(piece.min[axis]);
+                    end[axis] = end[axis].max(piece.end[axis]);
+                }
+            }
+        }
+        if (min, end) == before {
+            return Some([min, end]);
+        }
+    }
+}
+
+/// Whether a piece is a rectangle of thin lines.
+fn is_frame(pieces: &Components, piece: &Component) -> bool {
+    let [width, height] = piece.size();
+    let margin = (width.max(height) / 100).max(3);
+    let ring = 2 * (width + height) as usize * margin as usize;
+    let on_ring = |x: u32, y: u32| {
+        x < piece.min[0] + margin
+            || x + margin >= piece.end[0]
+            || y < piece.min[1] + margin
+            || y + margin >= piece.end[1]
+    };
+    let on = |run: &super::components::Run| (run.from..run.to).filter(|&x| on_ring(x, run.y)).count();
+    piece.area < ring && pieces.runs(piece).iter().map(on).sum::<usize>() * 50 >= piece.area * 49
+}
+
+/// Thickness of the walls, pixels, if they are drawn thick: thicker than strokes are.
+fn wall_thickness(drawing: &Drawing) -> Option<f64> {
+    const MOST_SAMPLES: usize = 20_000;
+    let (width, height) = (drawing.width, drawing.height);
+    let limit = width.max(height) / 8 + 1;
+    let places: Vec<usize> = (0..drawing.dark.len()).filter(|&at| drawing.dark[at] != 0).collect();
+    let run = |at: usize, stride: usize, before: usize, after: usize| {
+        let back = (1..=before.min(limit)).take_while(|k| drawing.dark[at - k * stride] != 0).count();
+        let on = (1..=after.min(limit)).take_while(|k| drawing.dark[at + k * stride] != 0).count();
+        back + on + 1
+    };
+    let step = places.len().div_ceil(MOST_SAMPLES).max(1);
+    let runs = places.iter().step_by(step).map(|&at| {
+        let (x, y) = (at % width, at / width);
+        run(at, 1, x, width - 1 - x).min(run(at, width, y, height - 1 - y))
+    });
+    // Masses of wall around rooms are no walls.
+    let mut runs: Vec<usize> = runs.filter(|&run| run <= limit / 2).collect();
+    runs.sort_unstable();
+    let at = |runs: &[usize], share: f64| runs.get((runs.len() as f64 * share) as usize).copied().unwrap_or(0);
+    // Strokes are thinner than half of what most of the ink is in.
+    let much = at(&runs, 0.7);
+    if much < 4 {
+        return None;
+    }
+    runs.retain(|&run| run * 2 >= much);
+    Some(at(&runs, 0.5) as f64)
+}
+
+impl Measures {
+    fn of(drawing: &Drawing) -> Measures {
+        let walls = Walls::of(drawing);
+        // Between thin lines there are gaps of all kinds.
+        let mut doorways_px = doorways(&walls.mask, drawing.width, |x, y| drawing.dark[y * drawing.width + x] != 0);
+        let turned = turned(&walls.mask, drawing.width);
+        doorways_px.extend(doorways(&turned, drawing.height, |y, x| drawing.dark[y * drawing.width + x] != 0));
+        drop(turned);
+        if walls.thickness.is_none() {
+            doorways_px.clear();
+        }
+        let (dark, letter) = without_letters(&drawing.dark, drawing.width);
+        let leaves = leaves(&dark, drawing.width);
+        Measures { wall: walls.thickness, doorways: doorways_px, leaves, bounds: walls.bounds, letter }.restricted()
+    }
+
+    fn likelihood(&self) -> Likelihood {
+        let mut likelihood = Likelihood::prior();
+        likelihood.add(&self.leaves, &[LEAF], MOST_LEAVES);
+        likelihood.add(&self.doorways, &[DOORWAY], MOST_DOORWAYS);
+        likelihood.add(&self.wall.map(|px| (px, 1.0)).into_iter().collect::<Vec<_>>(), &WALLS, 1.0);
+        likelihood.add(&self.larger_side().map(|px| (px, 1.0)).into_iter().collect::<Vec<_>>(), &[BUILDING], 1.0);
+        likelihood.add(&self.letter.map(|px| (px, 1.0)).into_iter().collect::<Vec<_>>(), &[LETTER], 1.0);
+        likelihood
+    }
+
+    /// Weight of all that may be doors.
+    fn candidates(&self) -> f64 {
+        self.leaves.iter().chain(&self.doorways).map(|door| door.1).sum()
+    }
+
+    fn larger_side(&self) -> Option<f64> {
+        self.bounds.map(|[min, end]| f64::from((end[0] - min[0]).max(end[1] - min[1])))
+    }
+
+    /// Number of the doors that a scale explains and their mean width, pixels; `None` for too few.
+    fn doors(&self, scale: f64) -> Option<(f64, f64)> {
+        let fits = |&&(px, _): &&(f64, f64)| (DOOR_RANGE_M[0]..=DOOR_RANGE_M[1]).contains(&(px * scale));
+        let sum = |doors: &[(f64, f64)]| {
+            doors.iter().filter(fits).fold([0.0, 0.0], |[n, sum], &(px, weight)| [n + weight, sum + px * weight])
+        };
+        let ([leaves, leaf_sum], [gaps, gap_sum]) = (sum(&self.leaves), sum(&self.doorways));
+        let all: f64 = self.leaves.iter().map(|leaf| leaf.1).sum();
+        // Quarter circles of any size are the grain of a scan.
+        let are_doors = leaves >= FEWEST_LEAVES && leaves * 5.0 >= all * 2.0;
+        (are_doors || gaps >= FEWEST_DOORS).then(|| (leaves + gaps, (leaf_sum + gap_sum) / (leaves + gaps)))
+    }
+
+    /// Leaves out widths that are none of doors: beside the walls' thickness and the building's size.
+    fn restricted(mut self) -> Measures {
+        let building =
+            self.larger_side().map_or(0.0..=f64::INFINITY, |px| px * DOOR_IN_BUILDING[0]..=px * DOOR_IN_BUILDING[1]);
+        let in_walls =
+            |px: f64| self.wall.is_none_or(|wall| (DOOR_IN_WALLS[0]..=DOOR_IN_WALLS[1]).contains(&(px / wall)));
+        let is_door = |&(px, _): &(f64, f64)| building.contains(&px) && in_walls(px);
+        self.leaves.retain(is_door);
+        // Arcs of a few pixels are in any clutter.
+        self.leaves.iter_mut().for_each(|leaf| leaf.1 *= ((leaf.0 - 8.0) / 14.0).clamp(0.1, 1.0));
+        self.doorways.retain(is_door);
+        self
+    }
+}
+
+/// Takes lettering out of a drawing: groups of small strokes. Returns the height of letters too, pixels.
+fn without_letters(dark: &[u8], width: usize) -> (Vec<u8>, Option<f64>) {
+    let pieces = Components::of(dark, width, 1, Neighbours::Eight);
+    let largest = LETTER_SHARE * width.max(dark.len() / width) as f64;
+    let small: Vec<&Component> = pieces.all.iter().filter(|p| f64::from(p.larger_side()) <= largest).collect();
+    let mut rest = dark.to_vec();
+    let mut heights = Vec::new();
+    for letter in groups(&small).into_iter().filter(|group| group.len() >= FEWEST_STROKES).flatten() {
+        pieces.paint(letter, &mut rest, width, 0);
+        let [w, h] = letter.size();
+        // Dashes, dots and flakes have no height of letters.
+        if h >= 5 && w * 6 >= h && w <= h * 2 {
+            heights.push(h);
+        }
+    }
+    heights.sort_unstable();
+    let height = heights.get(heights.len() / 2).filter(|_| heights.len() >= 2 * FEWEST_STROKES).map(|&h| f64::from(h));
+    (rest, height)
+}
+
+/// The picture with x and y exchanged.
+fn turned(mask: &[u8], width: usize) -> Vec<u8> {
+    let height = mask.len() / width;
+    let mut turned = vec![0; mask.len()];
+    for (y, row) in mask.chunks_exact(width).enumerate() {
+        row.iter().enumerate().filter(|(_, m)| **m != 0).for_each(|(x, &m)| turned[x * height + y] = m);
+    }
+    turned
+}
+
+/// A stretch of white between two walls in rows that follow each other.
+struct Gap {
+    from: usize,
+    to: usize,
+    first: usize,
+    last: usize,
+}
+
+/// Widths of the gaps in walls that run along the rows, with their weights. `is_ink` is of the drawing with its strokes.
+fn doorways(walls: &[u8], width: usize, is_ink: impl Fn(usize, usize) -> bool) -> Vec<(f64, f64)> {
+    const LEAST_PX: usize = 6;
+    let height = walls.len() / width;
+    let most = width / 4;
+    let mut doors = Vec::new();
+    let mut open: Vec<Gap> = Vec::new();
+    let mut close = |gap: Gap| {
+        let weight = doorway(walls, width, &gap, &is_ink);
+        if weight > 0.0 {
+            doors.push(((gap.to - gap.from) as f64, weight));
+        }
+    };
+    for y in 0..height {
+        let row = &walls[y * width..(y + 1) * width];
+        let mut next: Vec<Gap> = Vec::new();
+        let mut x = row.iter().position(|&m| m != 0).unwrap_or(width);
+        while x < width {
+            let Some(from) = row[x..].iter().position(|&m| m == 0).map(|k| x + k) else { break };
+            let Some(to) = row[from..].iter().position(|&m| m != 0).map(|k| from + k) else { break };
+            if (LEAST_PX..=most).contains(&(to - from)) {
+                let same = |gap: &Gap| gap.from.abs_diff(from) <= 1 && gap.to.abs_diff(to) <= 1;
+                match open.iter().position(same) {
+                    Some(k) => {
+                        let gap = open.swap_remove(k);
+                        next.push(Gap { from: gap.from.max(from), to: gap.to.min(to), last: y, ..gap });
+                    }
+                    None => next.push(Gap { from, to, first: y, last: y }),
+                }
+            }
+            x = to;
+        }
+        open.drain(..).for_each(&mut close);
+        open = next;
+        open.sort_by_key(|gap| gap.from);
+    }
+    open.into_iter().for_each(close);
+    doors
+}
+
+/// The weight of a gap as a door: 1 between two ends of walls, 1/2 between an end and a wall, 0 for what is no door.
+fn doorway(walls: &[u8], width: usize, gap: &Gap, is_ink: impl Fn(usize, usize) -> bool) -> f64 {
+    const BEYOND: usize = 3;
+    let height = walls.len() / width;
+    let (across, deep) = (gap.to - gap.from, gap.last - gap.first + 1);
+    if deep * 5 > across * 4 || gap.first < BEYOND || gap.last + BEYOND >= height {
+        return 0.0;
+    }
+    let free = |x: usize, y: usize| walls[y * width + x] == 0;
+    let reach = (deep / 2).max(2);
+    let (above, below) = (gap.first - BEYOND, gap.last + BEYOND);
+    let is_end = |columns: std::ops::Range<usize>| columns.into_iter().all(|x| free(x, above) && free(x, below));
+    let left = gap.from > reach && is_end(gap.from - reach - 1..gap.from - 1);
+    let right = gap.to + reach < width && is_end(gap.to + 1..gap.to + reach + 1);
+    // Walls run on from the gap: what has only corners there are slanting lines and the grain of scans.
+    let runs_on = |right: bool| {
+        (gap.first.saturating_sub(1)..=gap.last + 1).any(|y| {
+            let row = &walls[y * width..(y + 1) * width];
+            let run = match right {
+                true => row[gap.to..].iter().take_while(|&&m| m != 0).count(),
+                false => row[..gap.from].iter().rev().take_while(|&&m| m != 0).count(),
+            };
+            run * 10 >= across * 3 && run >= deep
+        })
+    };
+    let (left, right) = (left && runs_on(false), right && runs_on(true));
+    // It must lead somewhere on both sides.
+    let middle = (gap.from + gap.to) / 2;
+    if !free(middle, above) || !free(middle, below) {
+        return 0.0;
+    }
+    // Lines along the wall from end to end are a window; a single one is a threshold.
+    let is_line = |y: usize| {
+        let dark = (gap.from + 1..gap.to - 1).filter(|&x| is_ink(x, y)).count();
+        dark * 10 >= (across - 2) * 9
+    };
+    let rows = (gap.first.saturating_sub(1)..=gap.last + 1).map(is_line).collect::<Vec<_>>();
+    let lines = rows.iter().enumerate().filter(|&(k, &line)| line && (k == 0 || !rows[k - 1])).count();
+    let filled = rows.iter().filter(|&&line| line).count() * 2 > rows.len();
+    match (lines >= 2 || filled, left, right) {
+        (false, true, true) => 1.0,
+        (false, true, false) | (false, false, true) => 0.5,
+        _ => 0.0,
+    }
+}
+
+/// Radii of the quarter circles of door leaves, with their weights.
+fn leaves(dark: &[u8], full: usize) -> Vec<(f64, f64)> {
+    let height = dark.len() / full;
+    let factor = full.max(height).div_ceil(MOST_ARC_PX).max(1);
+    let width = full.div_ceil(factor);
+    // A pixel of the small picture is white unless one of its pixels is dark.
+    let mut white = vec![1u8; width * height.div_ceil(factor)];
+    for (y, row) in dark.chunks_exact(full).enumerate() {
+        for (x, _) in row.iter().enumerate().filter(|(_, d)| **d != 0) {
+            white[y / factor * width + x / factor] = 0;
+        }
+    }
+    let most = width.max(white.len() / width) as f64 / 8.0;
+    let mut arcs: Vec<Arc> = Vec::new();
+    for boundary in trace(&white, width).iter().filter(|boundary| boundary.len() >= 20) {
+        let mut least = 10.0;
+        while least < most {
+            let search = Search { radii: [least, (least * 3.0).min(most)], step: ((least * 0.1) as usize).max(2) };
+            search.find(boundary, &mut arcs);
+            least *= 3.0;
+        }
+    }
+    // Both edges of a stroke are found: an arc counts once.
+    let mut found: Vec<Arc> = Vec::new();
+    for arc in arcs {
+        let is_same = |other: &Arc| {
+            let [dx, dy] = [0, 1].map(|k| arc.centre[k] - other.centre[k]);
+            let near = 0.15 * arc.radius + 2.0;
+            dx * dx + dy * dy < near * near && (arc.radius - other.radius).abs() < near
+        };
+        if is_stroke(&white, width, &arc) && has_leaf(&white, width, &arc) && !found.iter().any(is_same) {
+            found.push(arc);
+        }
+    }
+    found.iter().map(|arc| (fitted_radius(&white, width, arc) * factor as f64, 1.0)).collect()
+}
+
+/// Radius of the circle through the middle of an arc's stroke, pixels: an arc that was followed begins in its leaf.
+fn fitted_radius(white: &[u8], width: usize, arc: &Arc) -> f64 {
+    const PLACES: usize = 32;
+    let height = white.len() / width;
+    let is_dark = |[x, y]: [f64; 2]| {
+        let inside = x >= 0.0 && y >= 0.0 && x < width as f64 && y < height as f64;
+        inside && white[y as usize * width + x as usize] == 0
+    };
+    let reach = (arc.radius * 0.2 * 2.0) as i32;
+    let mut points: Vec<[f64; 2]> = Vec::new();
+    for k in 0..PLACES {
+        let angle = arc.from + (arc.to - arc.from) * (0.05 + 0.9 * (k as f64 + 0.5) / PLACES as f64);
+        let ways = (-reach..=reach).map(|d| arc.radius + f64::from(d) * 0.5);
+        let dark: Vec<f64> = ways.filter(|&way| is_dark(arc.place(way, angle))).collect();
+        // Where the leaf is met too, the stroke is not told from it.
+        if let (Some(first), Some(last)) = (dark.first(), dark.last())
+            && last - first <= 4.0 + 0.05 * arc.radius
+        {
+            points.push(arc.place((first + last) * 0.5, angle));
+        }
+    }
+    circle(&points, arc.centre, arc.radius).filter(|r| (0.6..1.4).contains(&(r / arc.radius))).unwrap_or(arc.radius)
+}
+
+/// Radius of the circle that fits points best, by least squares of the distances (Gauss and Newton): of short arcs, fits of
+/// squared distances are too small.
+fn circle(points: &[[f64; 2]], near: [f64; 2], radius: f64) -> Option<f64> {
+    if points.len() < 8 {
+        return None;
+    }
+    let (mut centre, mut r) = (near, radius);
+    for _ in 0..12 {
+        let mut m = [[0.0; 4]; 3];
+        for p in points {
+            let [x, y] = [p[0] - centre[0], p[1] - centre[1]];
+            let way = (x * x + y * y).sqrt().max(1e-9);
+            let row = [x / way, y / way, 1.0];
+            for (i, line) in m.iter_mut().enumerate() {
+                (0..3).for_each(|k| line[k] += row[i] * row[k]);
+                line[3] += row[i] * (way - r);
+            }
+        }
+        // Gauss and Jordan; the matrix is positive.
+        for i in 0..3 {
+            let pivot = m[i][i];
+            if pivot.abs() < 1e-9 {
+                return None;
+            }
+            m[i].iter_mut().for_each(|v| *v /= pivot);
+            let row = m[i];
+            for (_, line) in m.iter_mut().enumerate().filter(|&(k, _)| k != i) {
+                let share = line[i];
+                line.iter_mut().zip(row).for_each(|(v, r)| *v -= share * r);
+            }
+        }
+        centre = [centre[0] + m[0][3], centre[1] + m[1][3]];
+        r += m[2][3];
+    }
+    Some(r)
+}
+
+/// Whether a straight stroke goes from the arc's centre to about one of its ends.
+fn has_leaf(white: &[u8], width: usize, arc: &Arc) -> bool {
+    const TURNS: i32 = 8;
+    const PLACES: usize = 16;
+    let height = white.len() / width;
+    let is_dark = |[x, y]: [f64; 2]| {
+        let inside = x >= 0.0 && y >= 0.0 && x < width as f64 && y < height as f64;
+        inside && white[y as usize * width + x as usize] == 0
+    };
+    let beside = (0.08 * arc.radius).max(1.5);
+    let is_leaf = |angle: f64, aside: f64| {
+        let dark = (0..PLACES).filter(|&k| {
+            let [x, y] = arc.place(arc.radius * (0.2 + 0.7 * (k as f64 + 0.5) / PLACES as f64), angle);
+            let (sine, cosine) = sin_cos(angle);
+            [-0.7, 0.0, 0.7].iter().any(|&d| is_dark([x - (aside + d) * sine, y + (aside + d) * cosine]))
+        });
+        dark.count() * 10 >= PLACES * 8
+    };
+    [arc.from, arc.to].iter().any(|&end| {
+        let turns = (-TURNS..=TURNS).map(|turn| end + arc.missing() * f64::from(turn) / f64::from(TURNS));
+        turns.into_iter().any(|angle| [-1.0, -0.5, 0.0, 0.5, 1.0].iter().any(|&aside| is_leaf(angle, aside * beside)))
+    })
+}
+
+/// Whether an arc is a thin stroke with white on both sides.
+fn is_stroke(white: &[u8], width: usize, arc: &Arc) -> bool {
+    const PLACES: usize = 12;
+    let height = white.len() / width;
+    let is_white = |[x, y]: [f64; 2]| {
+        let inside = x >= 0.0 && y >= 0.0 && x < width as f64 && y < height as f64;
+        inside && white[y as usize * width + x as usize] != 0
+    };
+    let away = (0.12 * arc.radius).max(3.0);
+    let on = (0..PLACES).filter(|&k| {
+        let angle = arc.from + (arc.to - arc.from) * (k as f64 + 0.5) / PLACES as f64;
+        let near = [-1.5, -0.5, 0.5, 1.5].iter().any(|&d| !is_white(arc.place(arc.radius + d, angle)));
+        near && is_white(arc.place(arc.radius - away, angle)) && is_white(arc.place(arc.radius + away, angle))
+    });
+    on.count() * 10 >= PLACES * 7
+}

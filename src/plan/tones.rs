@@ -1,0 +1,395 @@
+//! Finds which tones of a drawing are wall: light lines on a dark ground, grey walls, faint ink.
+//!
+//! The usual threshold stays wherever it finds lines that could be walls, so that clean drawings read as they always did.
+
+use super::components::{Components, Neighbours};
+
+/// Default lightness at which wall ends and floor begins.
+pub(super) const USUAL_THRESHOLD: u8 = 128;
+/// Most pixels that a measure looks at.
+const MOST_SAMPLES: usize = 4096;
+/// Least length of a piece that may be wall, as a share of the image's longer side.
+const LONG_SHARE: f64 = 0.08;
+/// Greatest thickness of walls, as a share of the image's shorter side.
+const THICKEST_WALL: f64 = 0.04;
+/// Least share of the places between lines with lines on three sides of them.
+const ENCLOSED_SHARE: f64 = 0.55;
+/// Cells along the image's longer side in which long pieces are counted.
+const CELLS: usize = 48;
+/// Half the width of a tone's peak in the histogram.
+const PEAK: usize = 5;
+/// Least difference between paper and ink.
+const LEAST_CONTRAST: u8 = 24;
+
+/// Pixels per lightness; coloured pixels do not count.
+pub(super) fn histogram(lightness: &[u8], coloured: &[u8]) -> [usize; 256] {
+    let mut counts = [0; 256];
+    if coloured.is_empty() {
+        lightness.iter().for_each(|&l| counts[usize::from(l)] += 1);
+    } else {
+        let plain = lightness.iter().zip(coloured).filter(|&(_, &c)| c == 0);
+        plain.for_each(|(&l, _)| counts[usize::from(l)] += 1);
+    }
+    counts
+}
+
+/// Whether walls are light on a dark ground: the ground is the majority and lies at the image's sides, the light lines
+/// are thin, long and enclose places.
+pub(super) fn is_inverted(width: usize, lightness: &[u8], coloured: &[u8]) -> bool {
+    let counts = histogram(lightness, coloured);
+    let total: usize = counts.iter().sum();
+    let below = |t: usize| counts[..t].iter().sum::<usize>();
+    let usual = usize::from(USUAL_THRESHOLD);
+    // All tones of a dim drawing may lie on one side of the usual threshold.
+    let has_both = |t: usize| below(t) * 200 >= total && (total - below(t)) * 200 >= total;
+    let split = if has_both(usual) { usual } else { between(&counts) };
+    if total == 0 || below(split) * 2 < total || !has_both(split) {
+        return false;
+    }
+    let split = split as u8;
+    let height = lightness.len() / width;
+    let rim = (0..width).flat_map(|x| [x, (height - 1) * width + x]);
+    let rim = rim.chain((0..height).flat_map(|y| [y * width, y * width + width - 1]));
+    let (mut dark, mut all) = (0usize, 0usize);
+    for at in rim {
+        dark += usize::from(lightness[at] < split);
+        all += 1;
+    }
+    if dark * 20 < all * 17 {
+        return false;
+    }
+    let is_light = |l: u8| l >= split;
+    let (Some(lines), Some(ground)) = (
+        thickness(width, lightness, |at| is_plain(coloured, at) && is_light(lightness[at]), is_light),
+        thickness(width, lightness, |at| !is_light(lightness[at]), |l| !is_light(l)),
+    ) else {
+        return false;
+    };
+    let thickest = (width.min(height) as f64 * THICKEST_WALL * 0.75).max(2.0);
+    if lines > thickest || ground < 2.5 * lines {
+        return false;
+    }
+    let mask: Vec<u8> =
+        lightness.iter().enumerate().map(|(at, &l)| u8::from(is_plain(coloured, at) && is_light(l))).collect();
+    let net = Net::of(&mask, width);
+    net.is_large(width, height) && net.enclosed() >= ENCLOSED_SHARE
+}
+
+fn is_plain(coloured: &[u8], at: usize) -> bool {
+    coloured.is_empty() || coloured[at] == 0
+}
+
+/// The lightness at which walls end: 128, unless it finds no lines that could be walls and another one does.
+pub(super) fn wall_threshold(width: usize, lightness: &[u8], coloured: &[u8]) -> u8 {
+    let counts = histogram(lightness, coloured);
+    let total: usize = counts.iter().sum();
+    let usual = usize::from(USUAL_THRESHOLD);
+    let peak = |at: usize| counts[at.saturating_sub(2)..(at + 3).min(256)].iter().sum::<usize>();
+    let commonest = |from: usize| (from..256).max_by_key(|&l| (peak(l), l)).unwrap_or(255);
+    let any = commonest(0);
+    let light: usize = counts[usual..].iter().sum();
+    let paper = if light * 10 >= total { commonest(usual) } else { any };
+    if paper < usual + usize::from(LEAST_CONTRAST) {
+        // Dim paper: the usual threshold is too near to it, or beyond it.
+        let ink = quantile(&counts[..paper.saturating_sub(usize::from(LEAST_CONTRAST))], 0.25);
+        return match ink {
+            Some(ink) if peak(paper) * 3 >= total => ((ink + paper).div_ceil(2)).clamp(1, 255) as u8,
+            _ => USUAL_THRESHOLD,
+        };
+    }
+    let peaks = grey_peaks(&counts, total, paper);
+    let dark: usize = counts[..usual].iter().sum();
+    if peaks.is_empty() && dark * 1000 >= total {
+        return USUAL_THRESHOLD;
+    }
+    let net_of = |is_in: &dyn Fn(u8) -> bool| {
+        let mask: Vec<u8> =
+            lightness.iter().enumerate().map(|(at, &l)| u8::from(is_plain(coloured, at) && is_in(l))).collect();
+        Net::of(&mask, width)
+    };
+    let height = lightness.len() / width;
+    let thickest = (width.min(height) as f64 * THICKEST_WALL).max(2.0);
+    let is_dark = |l: u8| l < USUAL_THRESHOLD;
+    let dark_net = net_of(&is_dark);
+    let dark_lines = thickness(width, lightness, |at| is_dark(lightness[at]), is_dark);
+    for grey in peaks {
+        let threshold = ((grey + paper).div_ceil(2)) as u8;
+        let is_wall = |l: u8| l < threshold;
+        let near = |l: u8| usize::from(l).abs_diff(grey) <= PEAK;
+        let Some(lines) = thickness(width, lightness, |at| is_plain(coloured, at) && near(lightness[at]), is_wall)
+        else {
+            continue;
+        };
+        if lines > thickest {
+            continue;
+        }
+        // Dark pieces are letters and the like, or lines thinner than the grey ones.
+        let all = net_of(&is_wall);
+        let greys: usize = counts[usual..usize::from(threshold)].iter().sum();
+        let replaces = dark_net.cells() * 4 <= all.cells() && dark * 3 <= greys;
+        let grey_alone = || net_of(&|l| (usize::from(l) + 3 * PEAK >= grey) && l < threshold);
+        let is_thicker = || {
+            let net = grey_alone();
+            lines >= 3.0
+                && dark_lines.is_some_and(|dark| lines >= 1.8 * dark.max(1.0))
+                && net.cells() * 2 >= dark_net.cells()
+                && net.is_large(width, height)
+                && net.enclosed() >= ENCLOSED_SHARE
+        };
+        if all.is_large(width, height) && all.enclosed() >= ENCLOSED_SHARE && (replaces || is_thicker()) {
+            return threshold;
+        }
+    }
+    if dark_net.cells() > 0 || dark * 1000 >= total {
+        return USUAL_THRESHOLD;
+    }
+    // Faint ink of no tone of its own.
+    let faint = quantile(&counts[..paper - usize::from(LEAST_CONTRAST)], 0.25);
+    match faint.map(|ink| (ink + paper).div_ceil(2) as u8) {
+        Some(threshold) if net_of(&|l| l < threshold).is_large(width, height) => threshold,
+        _ => USUAL_THRESHOLD,
+    }
+}
+
+/// The threshold half way between ink and even paper of 255.
+pub(super) fn ink_threshold(lightness: &[u8]) -> u8 {
+    let counts = histogram(lightness, &[]);
+    let ink = quantile(&counts[..208], 0.3).unwrap_or(0);
+    ((ink + 255) / 2).clamp(112, 192) as u8
+}
+
+/// Tones between the usual threshold and the paper that stand out from the histogram, darkest first.
+fn grey_peaks(counts: &[usize; 256], total: usize, paper: usize) -> Vec<usize> {
+    let sum = |from: usize, to: usize| counts[from.min(256)..to.min(256)].iter().sum::<usize>();
+    let mass = |l: usize| sum(l.saturating_sub(PEAK), l + PEAK + 1);
+    let range = usize::from(USUAL_THRESHOLD) - PEAK..paper.saturating_sub(20);
+    let is_peak = |&l: &usize| {
+        let around = sum(l.saturating_sub(3 * PEAK), l.saturating_sub(PEAK)) + sum(l + PEAK + 1, l + 3 * PEAK + 1);
+        mass(l) * 500 >= total && mass(l) * 2 >= around * 3
+    };
+    let mut peaks: Vec<usize> = Vec::new();
+    for l in range.filter(is_peak) {
+        match peaks.last_mut() {
+            Some(last) if l - *last <= 2 * PEAK => {
+                if counts[l] > counts[*last] {
+                    *last = l;
+                }
+            }
+            _ => peaks.push(l),
+        }
+    }
+    peaks.retain(|&l| l >= usize::from(USUAL_THRESHOLD) - PEAK);
+    peaks
+}
+
+/// The tone below which a share of the counted pixels lies.
+fn quantile(counts: &[usize], share: f64) -> Option<usize> {
+    let total: usize = counts.iter().sum();
+    let mut seen = 0;
+    counts.iter().position(|&count| {
+        seen += count;
+        seen > 0 && seen as f64 >= share * total as f64
+    })
+}
+
+/// The threshold that tells two classes of tones best apart (Otsu).
+fn between(counts: &[usize; 256]) -> usize {
+    let weighted = |l: usize| l as f64 * counts[l] as f64;
+    let (total, sum) = (counts.iter().sum::<usize>() as f64, (0..256).map(weighted).sum::<f64>());
+    let (mut below, mut sum_below, mut best) = (0.0, 0.0, (0.0, 128));
+    for t in 1..256 {
+        below += counts[t - 1] as f64;
+        sum_below += weighted(t - 1);
+        let above = total - below;
+        if below > 0.0 && above > 0.0 {
+            let apart = sum_below / below - (sum - sum_below) / above;
+            let score = below * above * apart * apart;
+            if score > best.0 {
+                best = (score, t);
+            }
+        }
+    }
+    best.1
+}
+
+/// Median thickness at chosen pixels of the class that `is_in` describes, pixels: the shorter of the runs across and down.
+fn thickness(
+    width: usize,
+    lightness: &[u8],
+    chosen: impl Fn(usize) -> bool,
+    is_in: impl Fn(u8) -> bool,
+) -> Option<f64> {
+    let places: Vec<usize> = (0..lightness.len()).filter(|&at| chosen(at)).collect();
+    let height = lightness.len() / width;
+    let limit = width.max(height) / 4 + 1;
+    let step = places.len().div_ceil(MOST_SAMPLES).max(1);
+    let run = |at: usize, stride: usize, before: usize, after: usize| {
+        let back = (1..=before.min(limit)).take_while(|k| is_in(lightness[at - k * stride])).count();
+        let on = (1..=after.min(limit)).take_while(|k| is_in(lightness[at + k * stride])).count();
+        back + on + 1
+    };
+    let mut runs: Vec<usize> = places
+        .iter()
+        .step_by(step)
+        .map(|&at| {
+            let (x, y) = (at % width, at / width);
+            run(at, 1, x, width - 1 - x).min(run(at, width, y, height - 1 - y))
+        })
+        .collect();
+    runs.sort_unstable();
+    runs.get(runs.len() / 2).map(|&run| run as f64)
+}
+
+/// The long pieces of a mask.
+struct Net {
+    width: usize,
+    mask: Vec<u8>,
+    min: [usize; 2],
+    end: [usize; 2],
+    touched: Vec<bool>,
+}
+
+impl Net {
+    fn of(mask: &[u8], width: usize) -> Net {
+        let height = mask.len() / width;
+        let side = width.max(height).div_ceil(CELLS).max(1);
+        let mut net = Net {
+            width,
+            mask: vec![0; mask.len()],
+            min: [width, height],
+            end: [0; 2],
+            touched: vec![false; CELLS * CELLS],
+        };
+        let pieces = Components::of(mask, width, 1, Neighbours::Eight);
+        let long = LONG_SHARE * width.max(height) as f64;
+        for piece in pieces.all.iter().filter(|p| f64::from(p.larger_side()) >= long) {
+            pieces.paint(piece, &mut net.mask, width, 1);
+            for axis in 0..2 {
+                net.min[axis] = net.min[axis].min(piece.min[axis] as usize);
+                net.end[axis] = net.end[axis].max(piece.end[axis] as usize);
+            }
+            for run in pieces.runs(piece) {
+                let row = run.y as usize / side * CELLS;
+                net.touched[row + run.from as usize / side..=row + (run.to as usize - 1) / side].fill(true);
+            }
+        }
+        net
+    }
+
+    /// Cells of the image that the pieces touch.
+    fn cells(&self) -> usize {
+        self.touched.iter().filter(|&&t| t).count()
+    }
+
+    /// Whether it spreads over a good part of the image.
+    fn is_large(&self, width: usize, height: usize) -> bool {
+        let size = [self.end[0].saturating_sub(self.min[0]), self.end[1].saturating_sub(self.min[1])];
+        size[0] * 4 >= width && size[1] * 4 >= height
+    }
+
+    /// Share of the places within its bounds from which three of the four axes meet it.
+    fn enclosed(&self) -> f64 {
+        const PLACES: usize = 40;
+        let (mut all, mut enclosed) = (0usize, 0usize);
+        for place in 0..PLACES * PLACES {
+            let at = |k: usize, axis: usize| {
+                self.min[axis] + (2 * k + 1) * self.end[axis].saturating_sub(self.min[axis]) / (2 * PLACES)
+            };
+            let (x, y) = (at(place % PLACES, 0), at(place / PLACES, 1));
+            let is_in = |x: usize, y: usize| self.mask[y * self.width + x] != 0;
+            if x >= self.end[0] || y >= self.end[1] || is_in(x, y) {
+                continue;
+            }
+            let met = [
+                (self.min[0]..x).any(|x| is_in(x, y)),
+                (x..self.end[0]).any(|x| is_in(x, y)),
+                (self.min[1]..y).any(|y| is_in(x, y)),
+                (y..self.end[1]).any(|y| is_in(x, y)),
+            ];
+            all += 1;
+            enclosed += usize::from(met.iter().filter(|&&m| m).count() >= 3);
+        }
+        if all == 0 { 0.0 } else { enclosed as f64 / all as f64 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WIDTH: usize = 300;
+
+    /// Two rows of rooms with doors, walls of 5 pixels, in two tones.
+    fn rooms(paper: u8, wall: u8) -> Vec<u8> {
+        let mut drawing = vec![paper; WIDTH * 200];
+        let mut fill = |x: std::ops::Range<usize>, y: std::ops::Range<usize>, tone: u8| {
+            y.for_each(|y| drawing[y * WIDTH + x.start..y * WIDTH + x.end].fill(tone));
+        };
+        for y in [20, 85, 110, 175] {
+            fill(20..280, y..y + 5, wall);
+        }
+        for x in [20, 84, 148, 212, 275] {
+            fill(x..x + 5, 20..90, wall);
+            fill(x..x + 5, 110..180, wall);
+        }
+        for x in [45, 110, 175, 240] {
+            fill(x..x + 14, 85..90, paper);
+            fill(x..x + 14, 110..115, paper);
+        }
+        drawing
+    }
+
+    #[test]
+    fn black_walls_on_white_keep_the_usual_threshold() {
+        assert_eq!(wall_threshold(WIDTH, &rooms(255, 0), &[]), 128);
+        assert!(!is_inverted(WIDTH, &rooms(255, 0), &[]));
+    }
+
+    #[test]
+    fn grey_walls_are_found_beside_black_letters_and_lines() {
+        for grey in [130, 160, 190, 215] {
+            let mut drawing = rooms(255, grey);
+            for k in 0..60 {
+                drawing[(50 + k / 10 * 7) * WIDTH + 40 + k % 10 * 3] = 0;
+            }
+            // A dimension line and the sheet's frame.
+            drawing[10 * WIDTH + 20..10 * WIDTH + 280].fill(0);
+            drawing[2 * WIDTH + 2..2 * WIDTH + 298].fill(0);
+            drawing[197 * WIDTH + 2..197 * WIDTH + 298].fill(0);
+            let threshold = wall_threshold(WIDTH, &drawing, &[]);
+            assert!((grey + 10..250).contains(&threshold), "{grey}: {threshold}");
+        }
+    }
+
+    #[test]
+    fn grey_furniture_and_grey_rooms_are_no_walls() {
+        let mut drawing = rooms(255, 0);
+        for y in 30..75 {
+            drawing[y * WIDTH + 30..y * WIDTH + 70].fill(170);
+            drawing[y * WIDTH + 160..y * WIDTH + 200].fill(200);
+        }
+        assert_eq!(wall_threshold(WIDTH, &drawing, &[]), 128);
+    }
+
+    #[test]
+    fn light_walls_on_a_dark_ground_are_found() {
+        for (paper, wall) in [(30, 220), (0, 255), (40, 110), (60, 130), (100, 250)] {
+            assert!(is_inverted(WIDTH, &rooms(paper, wall), &[]), "{wall} on {paper}");
+        }
+    }
+
+    #[test]
+    fn white_rooms_in_a_black_mass_are_no_lines() {
+        let mut drawing = vec![0; WIDTH * 200];
+        for (x, y, w, h) in [(30, 30, 240, 30), (30, 30, 30, 140), (240, 30, 30, 140), (30, 140, 240, 30)] {
+            (y..y + h).for_each(|y| drawing[y * WIDTH + x..y * WIDTH + x + w].fill(255));
+        }
+        assert!(!is_inverted(WIDTH, &drawing, &[]));
+    }
+
+    #[test]
+    fn dim_paper_has_its_threshold_below() {
+        let threshold = wall_threshold(WIDTH, &rooms(120, 10), &[]);
+        assert!((30..110).contains(&threshold), "{threshold}");
+    }
+}

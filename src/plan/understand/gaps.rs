@@ -1,0 +1,426 @@
+//! Gaps between wall ends that face each other: doors and windows.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::super::cracks::trace;
+use crate::math::{atan2, sin_cos};
+
+/// A gap in a wall, and what is drawn in it.
+#[derive(Clone, Debug)]
+pub(super) struct Gap {
+    /// The way in which the wall runs.
+    frame: Frame,
+    /// First row of the wall.
+    first: usize,
+    /// The gap in each row.
+    rows: Vec<[usize; 2]>,
+    /// Strokes from jamb to jamb.
+    pub(super) strokes: usize,
+    /// A pixel of each wall end.
+    pub(super) ends: [usize; 2],
+}
+
+impl Gap {
+    /// From where to where the gap's middle row goes, and where the middle of the wall is, in the gap's frame.
+    pub(super) fn middle(&self) -> ([f64; 2], f64) {
+        let across = self.first as f64 + self.rows.len() as f64 * 0.5;
+        (self.rows[self.rows.len() / 2].map(|v| v as f64), across)
+    }
+
+    /// Thickness of the wall, pixels.
+    pub(super) fn thickness(&self) -> f64 {
+        self.rows.len() as f64
+    }
+
+    /// A place of the gap's frame in the image, if it is in there.
+    pub(super) fn pixel(&self, along: f64, across: f64) -> Option<usize> {
+        self.frame.pixel([along, across])
+    }
+
+    /// The middle of both jambs, pixels.
+    pub(super) fn jambs(&self) -> [[f64; 2]; 2] {
+        let ([from, to], across) = self.middle();
+        [from, to].map(|along| self.frame.place([along, across]))
+    }
+
+    pub(super) fn length(&self) -> usize {
+        let [from, to] = self.rows[self.rows.len() / 2];
+        to - from
+    }
+
+    /// All its pixels, as indices.
+    pub(super) fn pixels(&self) -> Vec<usize> {
+        let mut all = Vec::new();
+        // Between slanted rows and upright pixels no leak may stay.
+        let (step, beyond) = if self.frame.is_upright() { (1.0, 0.0) } else { (0.5, 1.0) };
+        let last = self.first + self.rows.len() - 1;
+        for (k, &[from, to]) in self.rows.iter().enumerate() {
+            let mut across = (self.first + k) as f64 + step * 0.5;
+            while across < (self.first + k + 1) as f64 && self.first + k <= last {
+                let mut along = from as f64 - beyond + step * 0.5;
+                while along < to as f64 + beyond {
+                    all.extend(self.frame.pixel([along, across]));
+                    along += step;
+                }
+                across += step;
+            }
+        }
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+}
+
+/// A grid on the image, of any direction.
+#[derive(Clone, Copy, Debug)]
+struct Frame {
+    /// Size of the image and of the grid, pixels.
+    image: [usize; 2],
+    size: [usize; 2],
+    /// Where the grid's corner is in the image, and how one goes along and across its rows.
+    corner: [f64; 2],
+    along: [f64; 2],
+    across: [f64; 2],
+}
+
+impl Frame {
+    fn upright(image: [usize; 2]) -> Frame {
+        Frame { image, size: image, corner: [0.0; 2], along: [1.0, 0.0], across: [0.0, 1.0] }
+    }
+
+    /// A grid around the image whose rows run at an angle, radians.
+    fn turned(image: [usize; 2], angle: f64) -> Frame {
+        let (sine, cosine) = sin_cos(angle);
+        let (along, across) = ([cosine, sine], [-sine, cosine]);
+        let [w, h] = image.map(|side| side as f64);
+        let range = |way: [f64; 2]| {
+            let at = [[0.0, 0.0], [w, 0.0], [0.0, h], [w, h]].map(|[x, y]| x * way[0] + y * way[1]);
+            (at.iter().copied().fold(f64::INFINITY, f64::min), at.iter().copied().fold(f64::NEG_INFINITY, f64::max))
+        };
+        let ((u, u1), (v, v1)) = (range(along), range(across));
+        let corner = [u * along[0] + v * across[0], u * along[1] + v * across[1]];
+        Frame { image, size: [(u1 - u).ceil() as usize, (v1 - v).ceil() as usize], corner, along, across }
+    }
+
+    /// The same with rows and columns exchanged.
+    fn transposed(self) -> Frame {
+        Frame { size: [self.size[1], self.size[0]], along: self.across, across: self.along, ..self }
+    }
+
+    fn is_upright(&self) -> bool {
+        self.along[0] == 0.0 || self.along[1] == 0.0
+    }
+
+    fn place(&self, [u, v]: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|k| self.corner[k] + u * self.along[k] + v * self.across[k])
+    }
+
+    fn pixel(&self, at: [f64; 2]) -> Option<usize> {
+        let [x, y] = self.place(at);
+        let inside = x >= 0.0 && y >= 0.0 && x < self.image[0] as f64 && y < self.image[1] as f64;
+        inside.then(|| y as usize * self.image[0] + x as usize)
+    }
+
+    /// What the grid shows of a mask; of fine strokes, all that lies around a place.
+    fn view(&self, mask: &[u8], is_fine: bool) -> Vec<u8> {
+        const ONE: f64 = 65536.0;
+        let [width, height] = self.image;
+        let [right, down] = [self.along[0] * ONE, self.along[1] * ONE].map(|step| step.round() as i64);
+        let half = if is_fine { 0.0 } else { 0.5 };
+        let mut seen = vec![0; self.size[0] * self.size[1]];
+        seen.par_chunks_mut(self.size[0].max(1)).enumerate().for_each(|(v, row)| {
+            let [x, y] = self.place([0.5, v as f64 + 0.5]);
+            let (mut x, mut y) = (((x - 0.5 + half) * ONE) as i64, ((y - 0.5 + half) * ONE) as i64);
+            for seen in row {
+                let (column, line) = (x >> 16, y >> 16);
+                if column >= 0 && line >= 0 && (column as usize) < width - 1 && (line as usize) < height - 1 {
+                    let at = line as usize * width + column as usize;
+                    *seen = mask[at];
+                    if is_fine {
+                        *seen |= mask[at + 1] | mask[at + width] | mask[at + width + 1];
+                    }
+                }
+                x += right;
+                y += down;
+            }
+        });
+        seen
+    }
+}
+
+/// What gaps may be, pixels.
+pub(super) struct Limits {
+    pub(super) shortest: usize,
+    pub(super) longest: usize,
+    pub(super) thinnest: usize,
+    pub(super) thickest: usize,
+}
+
+/// Finds the gaps of a wall mask, in walls of all directions; strokes are counted in `ink`, both non-zero.
+pub(super) fn find(wall: &[u8], ink: &[u8], width: usize, limits: &Limits) -> Vec<Gap> {
+    let upright = Frame::upright([width, wall.len() / width]);
+    let mut all = Vec::new();
+    let mut add = |frame: Frame, wall_seen: &[u8], ink_seen: &[u8]| {
+        for mut gap in along_rows(wall_seen, ink_seen, limits, frame) {
+            let Some(ends) = ends(&gap, wall) else { continue };
+            // Seen aslant, a gap is longer than it is.
+            if all.iter().any(|other: &Gap| is_same(&gap, other) && other.length() <= gap.length()) {
+                continue;
+            }
+            gap.ends = ends;
+            all.retain(|other| !is_same(&gap, other));
+            all.push(gap);
+        }
+    };
+    let mut both = |frame: Frame, wall: &[u8], ink: &[u8]| {
+        add(frame, wall, ink);
+        add(frame.transposed(), &transposed(wall, frame.size[0]), &transposed(ink, frame.size[0]));
+    };
+    both(upright, wall, ink);
+    for angle in directions(wall, width, limits) {
+        let frame = Frame::turned(upright.image, angle);
+        both(frame, &frame.view(wall, false), &frame.view(ink, true));
+    }
+    without_overlaps(all)
+}
+
+/// Leaves out gaps that lie across shorter ones of another direction.
+fn without_overlaps(mut all: Vec<Gap>) -> Vec<Gap> {
+    if all.iter().all(|gap| gap.frame.is_upright()) {
+        return all;
+    }
+    all.sort_by_key(|gap| (gap.length(), gap.ends));
+    let mut taken = BTreeMap::new();
+    let mut kept: Vec<Gap> = Vec::new();
+    for gap in all {
+        let pixels = gap.pixels();
+        let crossed = |at: &&usize| taken.get(*at).is_some_and(|&along: &[f64; 2]| along != gap.frame.along);
+        if pixels.iter().filter(crossed).count() * 8 > pixels.len() {
+            continue;
+        }
+        taken.extend(pixels.into_iter().map(|at| (at, gap.frame.along)));
+        kept.push(gap);
+    }
+    kept
+}
+
+/// A pixel of the wall at each end of a gap, if there is wall.
+fn ends(gap: &Gap, wall: &[u8]) -> Option<[usize; 2]> {
+    let ([from, to], across) = gap.middle();
+    let across = across.floor() + 0.5;
+    let end = |at: f64, way: f64| {
+        (0..4).find_map(|k| gap.pixel(at + way * (f64::from(k) + 0.5), across).filter(|&at| wall[at] != 0))
+    };
+    Some([end(from, -1.0)?, end(to, 1.0)?])
+}
+
+/// Whether two gaps are the same one, seen in two directions.
+fn is_same(a: &Gap, b: &Gap) -> bool {
+    let middle = |gap: &Gap| {
+        let [p, q] = gap.jambs();
+        [(p[0] + q[0]) * 0.5, (p[1] + q[1]) * 0.5]
+    };
+    if a.frame.along == b.frame.along {
+        return false;
+    }
+    let ([ax, ay], [bx, by]) = (middle(a), middle(b));
+    let near = 0.6 * a.length().min(b.length()) as f64;
+    (ax - bx) * (ax - bx) + (ay - by) * (ay - by) <= near * near
+}
+
+/// The directions of slanted walls, radians between 0 and a right angle: those of the long straight parts of the wall's
+/// outline. Walls at right angles to them are of the same direction.
+fn directions(wall: &[u8], width: usize, limits: &Limits) -> Vec<f64> {
+    const BINS: usize = 45;
+    const MOST: usize = 5;
+    const LEAST_SHARE: f64 = 0.01;
+    /// Directions nearer than this to upright ones or to each other are the same, bins.
+    const SAME: usize = 2;
+    const STEP: usize = 4;
+    let chord = (2 * limits.thinnest).max(12) & !1;
+    let (mut lengths, mut sums) = ([0.0f64; BINS], [0.0f64; BINS]);
+    for boundary in trace(wall, width).iter().filter(|boundary| boundary.len() >= 2 * chord) {
+        let n = boundary.len();
+        let at = |k: usize| {
+            // The mean of some edges is smoother than their ends.
+            let sum = (0..4).map(|j| boundary[(k + j) % n]).fold([0, 0], |s, p| [s[0] + p[0], s[1] + p[1]]);
+            sum.map(|v| f64::from(v) * 0.25)
+        };
+        for k in (0..n).step_by(STEP) {
+            let [a, m, b] = [k, k + chord / 2, k + chord].map(at);
+            let ([dx, dy], [mx, my]) = ([b[0] - a[0], b[1] - a[1]], [m[0] - a[0], m[1] - a[1]]);
+            let length = (dx * dx + dy * dy).sqrt();
+            if length < chord as f64 * 0.5 || (dx * my - dy * mx).abs() > 0.7 * length {
+                continue;
+            }
+            let quarter = std::f64::consts::FRAC_PI_2;
+            let angle = atan2(dy, dx);
+            let angle = angle - (angle / quarter).floor() * quarter;
+            let bin = ((angle / quarter * BINS as f64) as usize).min(BINS - 1);
+            let passed = STEP as f64 * length / chord as f64;
+            lengths[bin] += passed;
+            sums[bin] += passed * angle;
+        }
+    }
+    let least = (3 * limits.shortest) as f64;
+    let least = least.max(LEAST_SHARE * lengths.iter().sum::<f64>());
+    let around = |k: usize| lengths[k - 1] + lengths[k] + lengths[k + 1];
+    let mut bins: Vec<usize> = (SAME..BINS - SAME).filter(|&k| around(k) >= least).collect();
+    bins.sort_by(|&a, &b| around(b).total_cmp(&around(a)).then(a.cmp(&b)));
+    let mut found: Vec<usize> = Vec::new();
+    for bin in bins {
+        if found.len() < MOST && found.iter().all(|&other| bin.abs_diff(other) > SAME) {
+            found.push(bin);
+        }
+    }
+    found.into_iter().map(|k| (sums[k - 1] + sums[k] + sums[k + 1]) / around(k)).collect()
+}
+
+fn transposed(mask: &[u8], width: usize) -> Vec<u8> {
+    let height = mask.len() / width;
+    let mut turned = vec![0; mask.len()];
+    for (y, row) in mask.chunks_exact(width).enumerate() {
+        for (x, &pixel) in row.iter().enumerate() {
+            if pixel != 0 {
+                turned[x * height + y] = pixel;
+            }
+        }
+    }
+    turned
+}
+
+fn along_rows(wall: &[u8], ink: &[u8], limits: &Limits, frame: Frame) -> Vec<Gap> {
+    let [width, height] = frame.size;
+    let slack = (limits.thinnest / 3).max(2);
+    let mut open: Vec<Gap> = Vec::new();
+    let mut found = Vec::new();
+    for y in 0..=height {
+        let gaps = if y < height { gaps_of(&wall[y * width..(y + 1) * width], limits) } else { Vec::new() };
+        let mut taken = vec![false; gaps.len()];
+        let mut going_on = Vec::new();
+        for mut gap in open {
+            let last = gap.rows[gap.rows.len() - 1];
+            let near = |g: &[usize; 2]| g[0].abs_diff(last[0]) <= slack && g[1].abs_diff(last[1]) <= slack;
+            match gaps.iter().position(near) {
+                Some(k) if !taken[k] => {
+                    taken[k] = true;
+                    gap.rows.push(gaps[k]);
+                    going_on.push(gap);
+                }
+                _ => found.push(gap),
+            }
+        }
+        let fresh = gaps.iter().zip(&taken).filter(|(_, taken)| !**taken);
+        going_on.extend(fresh.map(|(&g, _)| Gap { frame, first: y, rows: vec![g], strokes: 0, ends: [0; 2] }));
+        open = going_on;
+    }
+    found.retain(|gap| {
+        (limits.thinnest..=limits.thickest).contains(&gap.rows.len())
+            && is_square(gap)
+            && is_free(wall, width, gap)
+            && has_an_end(wall, width, gap)
+    });
+    for gap in &mut found {
+        gap.strokes = strokes(ink, width, gap);
+    }
+    found
+}
+
+fn gaps_of(row: &[u8], limits: &Limits) -> Vec<[usize; 2]> {
+    let mut gaps = Vec::new();
+    let mut last_wall = None;
+    for (x, &pixel) in row.iter().enumerate() {
+        if pixel != 0 {
+            if let Some(last) = last_wall
+                && (limits.shortest..=limits.longest).contains(&(x - last - 1))
+            {
+                gaps.push([last + 1, x]);
+            }
+            last_wall = Some(x);
+        }
+    }
+    gaps
+}
+
+/// Whether a gap's jambs are about square to it; else they are slanted walls.
+fn is_square(gap: &Gap) -> bool {
+    let (first, last) = (gap.rows[0], gap.rows[gap.rows.len() - 1]);
+    (0..2).all(|k| first[k].abs_diff(last[k]) * 4 <= gap.rows.len() + 4)
+}
+
+/// Whether both sides of a gap lead on, and its ends are ends of a wall at least on one side.
+fn is_free(wall: &[u8], width: usize, gap: &Gap) -> bool {
+    let height = wall.len() / width;
+    let beside = |y: Option<usize>| {
+        let Some(y) = y.filter(|&y| y < height) else { return [0.0, 0.0] };
+        let [from, to] = gap.rows[gap.rows.len() / 2];
+        let count = wall[y * width + from..y * width + to].iter().filter(|&&w| w != 0).count();
+        let ends = [from - 1, to].iter().filter(|&&x| wall[y * width + x] != 0).count();
+        [count as f64 / (to - from) as f64, ends as f64]
+    };
+    let sides = [beside(gap.first.checked_sub(3)), beside(Some(gap.first + gap.rows.len() + 2))];
+    sides.iter().all(|[share, _]| *share <= 0.3) && sides.iter().any(|[_, ends]| *ends < 2.0)
+}
+
+/// Whether the wall on at least one side of a gap is as thick as the gap and goes on; else two faces only lie opposite.
+fn has_an_end(wall: &[u8], width: usize, gap: &Gap) -> bool {
+    let height = wall.len() / width;
+    let thick = gap.rows.len();
+    let [from, to] = gap.rows[thick / 2];
+    let y = gap.first + thick / 2;
+    let is_wall = |x: usize, y: usize| wall[y * width + x] != 0;
+    let depth = |forwards: bool| {
+        let step = |k: usize| if forwards { Some(to + k).filter(|&x| x < width) } else { (from - 1).checked_sub(k) };
+        (0..thick * 2).take_while(|&k| step(k).is_some_and(|x| is_wall(x, y))).count()
+    };
+    let around = |x: usize| {
+        let most = thick * 3;
+        let up = (1..most).take_while(|&k| y >= k && is_wall(x, y - k)).count();
+        let down = (1..most).take_while(|&k| y + k < height && is_wall(x, y + k)).count();
+        [up, down]
+    };
+    [false, true].into_iter().any(|forwards| {
+        let deep = depth(forwards);
+        let cut = |within: usize| around(if forwards { to + within } else { from - 1 - within });
+        let (near, far) = ((deep / 2).min(3), deep.saturating_sub(2).min(thick * 3 / 2));
+        let ([up, down], [far_up, far_down]) = (cut(near), cut(far));
+        // The middle of a wall that runs on aslant moves.
+        let middles = [up as f64 - down as f64, far_up as f64 - far_down as f64];
+        let is_level = far <= near + 2
+            || (far_up + far_down + 1) * 2 > thick * 3 + 4
+            || (middles[0] - middles[1]).abs() * 0.5 <= 0.2 * (far - near) as f64 + 1.0;
+        deep * 5 >= thick * 4 && (up + down + 1) * 2 <= thick * 3 + 4 && is_level
+    })
+}
+
+/// Number of strokes that run through the gap: the second least of seven cuts across.
+fn strokes(ink: &[u8], width: usize, gap: &Gap) -> usize {
+    let height = ink.len() / width;
+    let thick = gap.rows.len();
+    let margin = (thick / 6).max(1);
+    let [from, to] = gap.rows[thick / 2];
+    let mut counts: Vec<usize> = (1..=7)
+        .map(|k| {
+            let x = from + (to - from) * k / 8;
+            let rows = gap.first.saturating_sub(margin)..(gap.first + thick + margin).min(height);
+            let (mut count, mut run) = (0, 0);
+            for y in rows {
+                if ink[y * width + x] != 0 {
+                    run += 1;
+                    count += usize::from(run == 1);
+                    // Blurred lines of a window run together.
+                    if thick >= 4 && run * 5 > thick * 3 {
+                        return 3;
+                    }
+                } else {
+                    run = 0;
+                }
+            }
+            count
+        })
+        .collect();
+    counts.sort_unstable();
+    counts[1]
+}

@@ -1,0 +1,133 @@
+//! Fills walls that are drawn as outlines or by hatches.
+
+use super::super::components::{Component, Components, Neighbours};
+use super::thick::{grow, open};
+
+/// Greatest distance between the lines of a hatch, metres.
+const HATCH_M: f64 = 0.12;
+/// Least length of a hatched wall, metres.
+const HATCHED_M: f64 = 0.9;
+/// Greatest thickness of a hollow wall, metres.
+const THICKEST_M: f64 = 0.62;
+/// Least length of a hollow wall, in its thicknesses and in metres.
+const SLENDER: f64 = 2.2;
+const SHORTEST_M: f64 = 0.5;
+/// Share of its box that a short hollow wall fills, and length from which it may have corners, metres.
+const FULL: f64 = 0.85;
+/// Greatest thickness of a straight hollow wall that stands alone, metres; tables are deeper.
+const THICKEST_BAR_M: f64 = 0.45;
+const NET_M: f64 = 3.0;
+/// Least larger side of the box of a few hollow walls that meet, metres, and greatest share of it that they fill.
+const SMALL_NET_M: f64 = 2.2;
+const SMALL_NET_FILL: f64 = 0.4;
+/// Least side of the box of a hollow wall with a corner, metres.
+const BENT_M: f64 = 1.2;
+
+/// Fills what is too narrow for anything but the space between the lines of a hatch, where many such spaces lie together.
+pub(super) fn fill_hatches(dark: &[u8], width: usize, metres_per_pixel: f64) -> Vec<u8> {
+    let side = ((HATCH_M / metres_per_pixel).round() as usize).max(2);
+    let white: Vec<u8> = dark.iter().map(|&d| u8::from(d == 0)).collect();
+    let wide = open(&white, width, side);
+    let narrow: Vec<u8> = white.iter().zip(&wide).map(|(&white, &wide)| white & (1 - wide)).collect();
+    let mut near = grow(&narrow, width, ((0.03 / metres_per_pixel) as usize).max(1));
+    let places = Components::of(&near, width, 1, Neighbours::Eight);
+    for place in places.all.iter().filter(|p| f64::from(p.larger_side()) * metres_per_pixel < HATCHED_M) {
+        places.paint(place, &mut near, width, 0);
+    }
+    (0..dark.len()).map(|at| dark[at] | (narrow[at] & near[at])).collect()
+}
+
+/// Fills long narrow fields between two lines. Fields in pairs beside each other are windows and stay.
+pub(super) fn fill_outlines(dark: &[u8], width: usize, metres_per_pixel: f64) -> Vec<u8> {
+    let side = ((THICKEST_M / metres_per_pixel).round() as usize).max(3);
+    let white: Vec<u8> = dark.iter().map(|&d| u8::from(d == 0)).collect();
+    let wide = open(&white, width, side);
+    let height = dark.len() / width;
+    let fields = Components::of(&white, width, 1, Neighbours::Four);
+    let is_wall = |field: &&Component| {
+        let runs = fields.runs(field);
+        let is_wide = runs.iter().any(|r| {
+            let row = r.y as usize * width;
+            wide[row + r.from as usize..row + r.to as usize].contains(&1)
+        });
+        let at_side = field.min.contains(&0) || field.end[0] as usize == width || field.end[1] as usize == height;
+        if is_wide || at_side {
+            return false;
+        }
+        let [w, h] = field.size().map(f64::from);
+        // Thickness and length of the rectangle of the same area and outline.
+        let half = outline(&white, width, &fields, field) as f64 * 0.5;
+        let thick = (half - (half * half - 4.0 * field.area as f64).max(0.0).sqrt()) * 0.5;
+        let length = half - thick;
+        let is_bent = length >= 4.0 * thick
+            && w.max(h) * metres_per_pixel >= BENT_M
+            && thick * metres_per_pixel >= 0.05
+            && is_even(&fields, field, thick);
+        let is_bar = field.area as f64 >= FULL * w * h || is_bent;
+        let reach = w.max(h) * metres_per_pixel;
+        let is_net = reach >= NET_M || (reach >= SMALL_NET_M && field.area as f64 <= SMALL_NET_FILL * w * h);
+        let is_thin = thick * metres_per_pixel <= THICKEST_BAR_M;
+        thick * metres_per_pixel >= 0.02
+            && length >= SLENDER * thick
+            && length * metres_per_pixel >= SHORTEST_M
+            && if is_thin { is_net || is_bar } else { is_net && !is_bar }
+    };
+    let walls: Vec<&Component> = fields.all.iter().filter(is_wall).collect();
+    let stroke = ((0.05 / metres_per_pixel).round() as u32).max(3);
+    let beside = |a: &Component, b: &Component| {
+        (0..2).any(|axis| {
+            let across = 1 - axis;
+            let same = a.min[axis].abs_diff(b.min[axis]) <= 2 && a.end[axis].abs_diff(b.end[axis]) <= 2;
+            let apart = b.min[across].saturating_sub(a.end[across]).max(a.min[across].saturating_sub(b.end[across]));
+            let slender = a.size()[axis] > 2 * a.size()[across] && b.size()[axis] > 2 * b.size()[across];
+            same && slender && (1..=stroke).contains(&apart)
+        })
+    };
+    let mut filled = dark.to_vec();
+    for a in &walls {
+        if !walls.iter().any(|b| a.min != b.min && beside(a, b)) {
+            fields.paint(a, &mut filled, width, 1);
+        }
+    }
+    filled
+}
+
+/// Whether a field has straight sides and is about as thick everywhere, as walls with corners are; triangles and tables
+/// with lettering are not.
+fn is_even(fields: &Components, field: &Component, thick: f64) -> bool {
+    let runs = fields.runs(field);
+    let steps = runs
+        .windows(2)
+        .filter(|pair| pair[0].y != pair[1].y && (pair[0].from, pair[0].to) != (pair[1].from, pair[1].to));
+    let [w, h] = field.size().map(|side| side as usize);
+    if steps.count() > 6 + h / 12 {
+        return false;
+    }
+    let mut mask = vec![0u8; w * h];
+    for run in runs {
+        let row = (run.y - field.min[1]) as usize * w;
+        mask[row + (run.from - field.min[0]) as usize..row + (run.to - field.min[0]) as usize].fill(1);
+    }
+    let share = |of: f64| {
+        let kept = open(&mask, w, ((thick * of) as usize).max(1));
+        kept.iter().filter(|&&k| k != 0).count() as f64 / field.area as f64
+    };
+    share(0.75) >= 0.6 && share(1.9) <= 0.3
+}
+
+/// Length of a component's outline, pixel edges.
+fn outline(white: &[u8], width: usize, pieces: &Components, piece: &Component) -> usize {
+    let height = white.len() / width;
+    let mut edges = 0;
+    for run in pieces.runs(piece) {
+        let (y, from, to) = (run.y as usize, run.from as usize, run.to as usize);
+        edges += 2;
+        for row in [y.checked_sub(1), Some(y + 1).filter(|&y| y < height)] {
+            edges += match row {
+                Some(row) => white[row * width + from..row * width + to].iter().filter(|&&w| w == 0).count(),
+                None => to - from,
+            };
+        }
+    }
+    edges
+}

@@ -1,0 +1,377 @@
+//! Understands a drawing: walls, doors, windows, furniture, lettering, lines, and the paper around.
+//!
+//! Walls are the strokes that are thick, or hollow and filled, and that gaps of doors and windows join to a building.
+//! All other strokes are told by where they lie and what they enclose.
+
+mod gaps;
+mod hollow;
+mod leaves;
+mod lines;
+mod net;
+mod pieces;
+mod thick;
+
+use self::gaps::Gap;
+use self::net::Net;
+use self::pieces::Evidence;
+use super::components::{Component, Components, Neighbours};
+use super::drawing::Drawing;
+use super::symbols::{FEWEST_STROKES, groups};
+use super::{DoorKind, FloorPlan, FurniturePiece, PlanClass, PlanDoor, PlanWindow};
+
+/// Largest drawing that is understood as it is, pixels; above, the cost in memory is felt.
+const LARGEST_PX: usize = 20_000_000;
+/// Coarsest scale to which a larger drawing is reduced, metres per pixel: the thinnest walls still have two pixels.
+const COARSEST_M_PER_PX: f64 = 0.03;
+/// Least number of pixels of strokes that make a drawing more than walls.
+const FEWEST_STROKE_PX: usize = 40;
+/// Lightness below which a pixel is surely dark, and below which it may be a fine stroke.
+const SURELY_DARK: u8 = 100;
+const FAINT: u8 = 180;
+/// Least share of a building's floor that its doors connect.
+const CONNECTED: f64 = 0.6;
+/// Largest letter, metres.
+const LARGEST_LETTER_M: f64 = 0.9;
+
+/// What a drawing shows.
+pub(super) struct Understood {
+    /// Class of each pixel that is not simply floor, wall or outside; those are [`PlanClass::Floor`] here.
+    pub(super) classes: Vec<PlanClass>,
+    /// 1 for the paper around the building.
+    pub(super) outside: Vec<u8>,
+    doors: Vec<(Gap, DoorKind)>,
+    windows: Vec<Gap>,
+    furniture: Vec<Evidence>,
+    /// How many pixels of the drawing along a side are one of the places of doors, windows and furniture.
+    factor: usize,
+}
+
+/// Understands a drawing, and leaves only what stands in people's way in it.
+///
+/// `None` for drawings without strokes beside walls, and those whose walls enclose no building.
+pub(super) fn understand(drawing: &mut Drawing, metres_per_pixel: f64) -> Option<Understood> {
+    let factor = factor(drawing);
+    if factor == 1 {
+        let understood = understand_all(drawing, metres_per_pixel)?;
+        redraw(drawing, &understood.classes);
+        return Some(understood);
+    }
+    if metres_per_pixel * factor as f64 > COARSEST_M_PER_PX {
+        return None;
+    }
+    let mut understood = understand_all(&reduced(drawing, factor), metres_per_pixel * factor as f64)?;
+    let small = understood.classes;
+    let across = drawing.width.div_ceil(factor);
+    let outside = std::mem::take(&mut understood.outside);
+    // Within walls all is wall; at their edges, what is dark.
+    let within: Vec<u8> = small.iter().map(|class| u8::from(!class.is_solid())).collect();
+    let rim = thick::grow(&within, across, 1);
+    understood.classes = Vec::with_capacity(drawing.dark.len());
+    for y in 0..drawing.height {
+        for x in 0..drawing.width {
+            let at = y / factor * across + x / factor;
+            let is_light = rim[at] != 0 && drawing.dark[y * drawing.width + x] == 0;
+            let is_wall = small[at] == PlanClass::Wall;
+            understood.outside.push(outside[at]);
+            understood.classes.push(if is_wall && is_light { PlanClass::Floor } else { small[at] });
+        }
+    }
+    understood.factor = factor;
+    redraw(drawing, &understood.classes);
+    Some(understood)
+}
+
+/// By how much a drawing is reduced to be understood.
+fn factor(drawing: &Drawing) -> usize {
+    (1..).find(|factor| drawing.dark.len() / (factor * factor) <= LARGEST_PX).unwrap_or(1)
+}
+
+/// The drawing with `factor` pixels along a side made one, as dark as the darkest stroke that crosses it.
+fn reduced(drawing: &Drawing, factor: usize) -> Drawing {
+    let (width, height) = (drawing.width.div_ceil(factor), drawing.height.div_ceil(factor));
+    let fold = |mask: &[u8], start: u8, pick: fn(u8, u8) -> u8| {
+        let mut small = vec![start; if mask.is_empty() { 0 } else { width * height }];
+        for (y, row) in mask.chunks_exact(drawing.width).enumerate() {
+            let small = &mut small[y / factor * width..][..width];
+            row.iter().enumerate().for_each(|(x, &value)| small[x / factor] = pick(small[x / factor], value));
+        }
+        small
+    };
+    Drawing {
+        width,
+        height,
+        lightness: fold(&drawing.lightness, 255, u8::min),
+        dark: fold(&drawing.dark, 0, u8::max),
+        coloured: fold(&drawing.coloured, 0, u8::max),
+        ..*drawing
+    }
+}
+
+fn understand_all(drawing: &Drawing, metres_per_pixel: f64) -> Option<Understood> {
+    let (width, pixels) = (drawing.width, drawing.dark.len());
+    let (mut ink, net) = ink_and_net(drawing, metres_per_pixel)?;
+    for (ink, &wall) in ink.iter_mut().zip(&net.wall) {
+        *ink &= 1 - wall;
+    }
+    if ink.iter().filter(|&&i| i != 0).count() < FEWEST_STROKE_PX {
+        return None;
+    }
+    let mut classes = vec![PlanClass::Floor; pixels];
+    let kinds: Vec<DoorKind> = net
+        .doors
+        .iter()
+        .map(|gap| {
+            let symbol = leaves::symbol(gap, &ink, metres_per_pixel);
+            for &at in &symbol {
+                ink[at] = 0;
+                classes[at] = PlanClass::Door;
+            }
+            match () {
+                () if !symbol.is_empty() => DoorKind::Leaf,
+                () if gap.strokes > 0 => DoorKind::Line,
+                () => DoorKind::Open,
+            }
+        })
+        .collect();
+    let furniture = pieces::furniture(&ink, &drawing.dark, &net, width, metres_per_pixel, &mut classes);
+    name_strokes(&ink, &net, width, metres_per_pixel, &mut classes);
+    let Net { wall, doors, windows, inside, .. } = net;
+    let doors: Vec<(Gap, DoorKind)> = doors.into_iter().zip(kinds).collect();
+    for at in doors.iter().flat_map(|(gap, _)| gap.pixels()) {
+        classes[at] = PlanClass::Door;
+    }
+    for at in windows.iter().flat_map(|gap| gap.pixels()) {
+        classes[at] = PlanClass::Window;
+    }
+    for (class, &wall) in classes.iter_mut().zip(&wall) {
+        if wall != 0 {
+            *class = PlanClass::Wall;
+        }
+    }
+    if !is_connected(&classes, &inside, width) {
+        return None;
+    }
+    let is_outside = |at: usize| u8::from(inside[at] == 0 && !classes[at].is_solid() && classes[at] != PlanClass::Door);
+    let outside = (0..pixels).map(is_outside).collect();
+    Some(Understood { classes, outside, doors, windows, furniture, factor: 1 })
+}
+
+/// What is drawn at all, and the walls in it.
+fn ink_and_net(drawing: &Drawing, metres_per_pixel: f64) -> Option<(Vec<u8>, Net)> {
+    let pixels = drawing.dark.len();
+    if drawing.scanned {
+        return None;
+    }
+    let coloured = thin_colour(drawing, metres_per_pixel);
+    let is_ink = |at: usize| {
+        u8::from(drawing.dark[at] != 0 || drawing.lightness[at] < FAINT || coloured.get(at).is_some_and(|&c| c != 0))
+    };
+    let ink: Vec<u8> = (0..pixels).map(is_ink).collect();
+    let net = find_net(drawing, &ink, metres_per_pixel)?;
+    Some((ink, net))
+}
+
+/// Bounds of the building: least x and y, then one beyond the greatest, pixels.
+pub(super) fn extent(drawing: &Drawing, metres_per_pixel: f64) -> Option<[[u32; 2]; 2]> {
+    let factor = factor(drawing);
+    let reduced = (factor > 1).then(|| reduced(drawing, factor));
+    let drawing = reduced.as_ref().unwrap_or(drawing);
+    let (_, net) = ink_and_net(drawing, metres_per_pixel * factor as f64)?;
+    let pieces = Components::of(&net.wall, drawing.width, 1, Neighbours::Eight);
+    let of = |pick: fn(u32, u32) -> u32, corner: fn(&Component) -> [u32; 2]| {
+        pieces.all.iter().map(corner).reduce(|a, b| [pick(a[0], b[0]), pick(a[1], b[1])])
+    };
+    let corners = [of(u32::min, |p| p.min)?, of(u32::max, |p| p.end)?];
+    Some(corners.map(|corner| corner.map(|px| px * factor as u32)))
+}
+
+/// Finds the walls: thick ones, else outlines, else hatched ones, else both, else single lines.
+fn find_net(drawing: &Drawing, ink: &[u8], metres_per_pixel: f64) -> Option<Net> {
+    let (dark, width) = (&drawing.dark, drawing.width);
+    let strokes = without_lettering(ink, width, metres_per_pixel);
+    let surely = |at: usize| dark[at] & strokes[at] & u8::from(drawing.lightness[at] < SURELY_DARK);
+    let core: Vec<u8> = (0..dark.len()).map(surely).collect();
+    let net = |core: &[u8], filled: &[u8]| {
+        Net::find(core, filled, dark, ink, width, metres_per_pixel).filter(Net::is_building)
+    };
+    if let Some(net) = net(&core, dark) {
+        return Some(net);
+    }
+    let outlined = hollow::fill_outlines(&strokes, width, metres_per_pixel);
+    if let Some(net) = net(&outlined, &outlined) {
+        return Some(net);
+    }
+    let hatched = hollow::fill_hatches(&strokes, width, metres_per_pixel);
+    if let Some(net) = net(&hatched, &hatched) {
+        return Some(net);
+    }
+    let both = hollow::fill_outlines(&hatched, width, metres_per_pixel);
+    if let Some(net) = net(&both, &both) {
+        return Some(net);
+    }
+    drop((outlined, hatched, both));
+    let (lines, reach) = lines::thickened(&strokes, width, metres_per_pixel);
+    let mut net = net(&lines, &lines)?;
+    // The lines themselves are the walls.
+    let near = thick::grow(&net.inside, width, reach);
+    for at in 0..ink.len() {
+        net.wall[at] &= ink[at];
+        net.inside[at] = near[at] & (1 - net.wall[at]);
+    }
+    for at in net.doors.iter().chain(&net.windows).flat_map(Gap::pixels) {
+        net.inside[at] = 0;
+    }
+    Some(net)
+}
+
+/// Strokes without groups of letters.
+fn without_lettering(ink: &[u8], width: usize, metres_per_pixel: f64) -> Vec<u8> {
+    let pieces = Components::of(ink, width, 1, Neighbours::Eight);
+    let small = |p: &&Component| {
+        let [w, h] = p.size().map(f64::from);
+        let is_block = p.area as f64 >= 0.8 * w * h && w.min(h) * metres_per_pixel >= 0.12;
+        w.max(h) * metres_per_pixel <= LARGEST_LETTER_M && !is_block
+    };
+    let letters: Vec<&Component> = pieces.all.iter().filter(small).collect();
+    let mut strokes = ink.to_vec();
+    for letter in groups(&letters).into_iter().filter(|group| group.len() >= FEWEST_STROKES).flatten() {
+        pieces.paint(letter, &mut strokes, width, 0);
+    }
+    strokes
+}
+
+/// Whether people reach most of the floor inside; if not, doors were not understood.
+fn is_connected(classes: &[PlanClass], inside: &[u8], width: usize) -> bool {
+    let free =
+        |(class, &inside): (&PlanClass, &u8)| u8::from(*class == PlanClass::Door || (inside != 0 && !class.is_solid()));
+    let free: Vec<u8> = classes.iter().zip(inside).map(free).collect();
+    let spaces = Components::of(&free, width, 1, Neighbours::Four);
+    let (mut all, mut largest) = (0, 0);
+    for space in &spaces.all {
+        all += space.area;
+        largest = largest.max(space.area);
+    }
+    largest as f64 >= CONNECTED * all as f64
+}
+
+/// Strokes of saturated colour; broad areas are highlights.
+fn thin_colour(drawing: &Drawing, metres_per_pixel: f64) -> Vec<u8> {
+    if drawing.coloured.is_empty() {
+        return Vec::new();
+    }
+    let side = ((0.1 / metres_per_pixel).round() as usize).max(3);
+    let broad = thick::open(&drawing.coloured, drawing.width, side);
+    drawing.coloured.iter().zip(&broad).map(|(&c, &b)| c & (1 - b)).collect()
+}
+
+/// Names strokes that are neither wall nor furniture: door symbols, lettering, frames, lines.
+fn name_strokes(ink: &[u8], net: &Net, width: usize, metres_per_pixel: f64, classes: &mut [PlanClass]) {
+    let rest: Vec<u8> =
+        ink.iter().zip(classes.iter()).map(|(&i, &c)| u8::from(i != 0 && c == PlanClass::Floor)).collect();
+    let strokes = Components::of(&rest, width, 1, Neighbours::Eight);
+    let mut beside_door = vec![0u8; ink.len()];
+    for at in net.doors.iter().flat_map(|gap| gap.pixels()) {
+        beside_door[at] = 1;
+    }
+    let beside_door = thick::grow(&beside_door, width, 2);
+    let metres = |px: u32| f64::from(px) * metres_per_pixel;
+    let image = [width as u32, (ink.len() / width) as u32];
+    let touches = |stroke: &Component, mask: &[u8]| {
+        strokes.runs(stroke).iter().any(|r| {
+            let row = r.y as usize * width;
+            mask[row + r.from as usize..row + r.to as usize].contains(&1)
+        })
+    };
+    let mut paint = |stroke: &Component, class: PlanClass| {
+        for run in strokes.runs(stroke) {
+            let row = run.y as usize * width;
+            classes[row + run.from as usize..row + run.to as usize].fill(class);
+        }
+    };
+    let mut letters = Vec::new();
+    for stroke in &strokes.all {
+        let [w, h] = stroke.size();
+        let class = if w * 10 >= image[0] * 6 && h * 10 >= image[1] * 6 {
+            PlanClass::Frame
+        } else if metres(w.max(h)) <= 2.0 && touches(stroke, &beside_door) {
+            PlanClass::Door
+        } else {
+            if metres(w.max(h)) <= LARGEST_LETTER_M {
+                letters.push(stroke);
+            }
+            PlanClass::Dimension
+        };
+        paint(stroke, class);
+    }
+    letters.retain(|stroke| !touches(stroke, &beside_door));
+    for group in groups(&letters).into_iter().filter(|group| group.len() >= FEWEST_STROKES) {
+        for stroke in group {
+            paint(stroke, PlanClass::Lettering);
+        }
+    }
+}
+
+/// Leaves in a drawing what stands in people's way, and the edges of walls as they were.
+fn redraw(drawing: &mut Drawing, classes: &[PlanClass]) {
+    let width = drawing.width;
+    let solid: Vec<u8> = classes.iter().map(|class| u8::from(class.is_solid())).collect();
+    let rim = thick::grow(&solid, width, 1);
+    let beside = |at: usize| [at.wrapping_sub(1), at + 1, at.wrapping_sub(width), at + width];
+    let at_edge = |at: usize| beside(at).iter().any(|&b| solid.get(b).is_some_and(|&s| s == 0));
+    for (at, &class) in classes.iter().enumerate() {
+        drawing.lightness[at] = match () {
+            () if class == PlanClass::Wall && (drawing.dark[at] != 0 && at_edge(at)) => drawing.lightness[at],
+            () if class.is_solid() => 0,
+            () if rim[at] != 0 && class == PlanClass::Floor && drawing.dark[at] == 0 => drawing.lightness[at],
+            () => 255,
+        };
+    }
+    drawing.dark = solid;
+    drawing.coloured = Vec::new();
+}
+
+impl Understood {
+    /// Hands over to the plan what was found: doors, windows, furniture, and the classes of its floor and walls.
+    pub(super) fn complete(self, plan: &mut FloorPlan) {
+        let factor = self.factor as f64;
+        let gap = |gap: &Gap, plan: &FloorPlan| gap.jambs().map(|jamb| plan.px_to_m(jamb.map(|place| place * factor)));
+        plan.doors = self
+            .doors
+            .iter()
+            .map(|(door, kind)| {
+                let [from_m, to_m] = gap(door, plan);
+                PlanDoor { from_m, to_m, kind: *kind }
+            })
+            .collect();
+        plan.windows = self
+            .windows
+            .iter()
+            .map(|window| {
+                let [from_m, to_m] = gap(window, plan);
+                PlanWindow { from_m, to_m }
+            })
+            .collect();
+        plan.furniture = self.furniture.iter().map(|piece| furniture_piece(piece, self.factor, plan)).collect();
+        let plain = plan.plain_classes();
+        let class = |((plain, of_drawing), floor): ((PlanClass, PlanClass), u8)| match of_drawing {
+            PlanClass::Floor => plain,
+            PlanClass::Door | PlanClass::Stairs if floor == 0 => PlanClass::Outside,
+            class => class,
+        };
+        let both = plain.into_iter().zip(self.classes).zip(plan.floor.iter().copied());
+        plan.classes = both.map(class).collect();
+    }
+}
+
+fn furniture_piece(piece: &Evidence, factor: usize, plan: &FloorPlan) -> FurniturePiece {
+    let [x0, y0, x1, y1] = piece.around.map(|side| f64::from(side) * factor as f64);
+    let (low, high) = (plan.px_to_m([x0, y1]), plan.px_to_m([x1, y0]));
+    FurniturePiece {
+        class: piece.class,
+        min_m: low,
+        max_m: high,
+        area_m2: (piece.area * factor * factor) as f64 * plan.metres_per_pixel * plan.metres_per_pixel,
+        height_m: piece.class.height_m(),
+        at_wall: piece.at_wall,
+    }
+}

@@ -1,0 +1,254 @@
+//! The net of walls in a drawing: thick strokes, and hollow or hatched ones once filled.
+
+use super::super::components::{Component, Components, Neighbours};
+use super::gaps::{self, Gap, Limits};
+use super::thick::{THINNEST_M, grow, open, wall_square};
+use crate::math::sin_cos;
+
+/// Least share of the least box around a building that is enclosed by its walls.
+const ENCLOSED_SHARE: f64 = 0.45;
+/// Greatest width of a door, metres.
+const WIDEST_DOOR_M: f64 = 2.6;
+/// Greatest width of a gap that only a line closes and that is a door, metres.
+const WIDEST_CLOSED_DOOR_M: f64 = 1.6;
+/// Greatest width of a window that is a single line, metres.
+const WIDEST_PANE_M: f64 = 3.2;
+/// Least side of a column, metres and pixels.
+const LEAST_COLUMN_M: f64 = 0.15;
+const LEAST_COLUMN_PX: f64 = 5.0;
+/// Greatest thickness of a sheet's frame that has little within, metres.
+const FINE_FRAME_M: f64 = 0.12;
+/// Least share of a column that is ink.
+const COLUMN_INK: f64 = 0.85;
+
+/// Walls, and what closes them to a building.
+pub(super) struct Net {
+    /// 1 for wall.
+    pub(super) wall: Vec<u8>,
+    pub(super) doors: Vec<Gap>,
+    pub(super) windows: Vec<Gap>,
+    /// 1 for all that cannot be reached from the image's sides; without walls, doors and windows.
+    pub(super) inside: Vec<u8>,
+    /// Share of the box around the walls that is enclosed.
+    pub(super) enclosed: f64,
+}
+
+impl Net {
+    /// Finds the net among what is surely dark in `core`; `dark` adds its edges.
+    ///
+    /// `raw` is what is dark in the drawing, before hollow walls were filled; `ink` has lighter strokes as well.
+    pub(super) fn find(
+        core: &[u8],
+        dark: &[u8],
+        raw: &[u8],
+        ink: &[u8],
+        width: usize,
+        metres_per_pixel: f64,
+    ) -> Option<Net> {
+        let mut core = core.to_vec();
+        drop_frame(&mut core, ink, width, metres_per_pixel);
+        let (side, thinnest) = wall_square(&core, width, metres_per_pixel)?;
+        let px = |metres: f64| (metres / metres_per_pixel).round() as usize;
+        let mut wall = open(&core, width, side);
+        drop(core);
+        drop_crumbs(&mut wall, width, (thinnest * 0.8).max(LEAST_COLUMN_M / metres_per_pixel).max(LEAST_COLUMN_PX));
+        let limits = Limits {
+            shortest: px(0.5),
+            longest: px(8.0),
+            thinnest: ((thinnest * 0.75) as usize).max(2),
+            thickest: px(0.9).max(4),
+        };
+        let strokes: Vec<u8> = ink.iter().zip(&wall).map(|(&h, &w)| u8::from(h != 0 && w == 0)).collect();
+        let found = gaps::find(&wall, &strokes, width, &limits);
+        drop(strokes);
+        let is_window = |gap: &Gap| {
+            gap.strokes >= 2
+                || (gap.strokes == 1 && gap.length() > px(WIDEST_CLOSED_DOOR_M) && gap.length() <= px(WIDEST_PANE_M))
+        };
+        let (windows, doors): (Vec<Gap>, Vec<Gap>) = found.into_iter().partition(is_window);
+        let mut doors: Vec<Gap> = doors.into_iter().filter(|gap| gap.length() <= px(WIDEST_DOOR_M)).collect();
+        let mut windows = windows;
+        let kept = keep_building(&mut wall, raw, width, &doors, &windows)?;
+        for gaps in [&mut doors, &mut windows] {
+            gaps.retain(|gap| gap.ends.iter().all(|&at| wall[at] != 0));
+        }
+        // The fringe of walls: what an opening by a square takes off slanted walls.
+        let reach = side / 2 + 1;
+        let near = grow(&wall, width, reach);
+        let rest: Vec<u8> = dark.iter().zip(&wall).map(|(&d, &w)| u8::from(d != 0 && w == 0)).collect();
+        let pieces = Components::of(&rest, width, 1, Neighbours::Eight);
+        let touching = grow(&wall, width, 1);
+        for piece in &pieces.all {
+            let pixels = || pieces.runs(piece).iter().flat_map(|r| (r.from..r.to).map(move |x| (r.y, x)));
+            let index = |(y, x): (u32, u32)| y as usize * width + x as usize;
+            if pixels().all(|p| near[index(p)] != 0) && pixels().any(|p| touching[index(p)] != 0) {
+                pieces.paint(piece, &mut wall, width, 1);
+            }
+        }
+        trim(&mut wall, raw, ink, width);
+        let inside = enclosed(&wall, &doors, &windows, width);
+        let area = inside.iter().filter(|&&i| i != 0).count() as f64;
+        let enclosed = area / least_box(&wall, width, kept).max(1.0);
+        Some(Net { wall, doors, windows, inside, enclosed })
+    }
+
+    /// Whether the net encloses rooms as a building does.
+    pub(super) fn is_building(&self) -> bool {
+        self.enclosed >= ENCLOSED_SHARE
+    }
+}
+
+/// Area of the least rectangle of any direction around the walls within a box, square pixels.
+fn least_box(wall: &[u8], width: usize, [x0, y0, x1, y1]: [u32; 4]) -> f64 {
+    const TURNS: i32 = 18;
+    let mut rim: Vec<[f64; 2]> = Vec::new();
+    for y in y0..y1 {
+        let row = &wall[y as usize * width..][x0 as usize..x1 as usize];
+        if let (Some(first), Some(last)) = (row.iter().position(|&w| w != 0), row.iter().rposition(|&w| w != 0)) {
+            rim.extend([first, last + 1].map(|x| [x as f64, f64::from(y)]));
+        }
+    }
+    let side = |way: [f64; 2]| {
+        let at = rim.iter().map(|[x, y]| x * way[0] + y * way[1]);
+        let range = at.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)]);
+        range[1] - range[0]
+    };
+    let turned = (0..TURNS).map(|k| {
+        let (sine, cosine) = sin_cos(std::f64::consts::FRAC_PI_2 * f64::from(k) / f64::from(TURNS));
+        side([cosine, sine]) * side([-sine, cosine])
+    });
+    turned.fold(f64::INFINITY, f64::min)
+}
+
+/// Leaves the pieces of a wall mask that belong to the building: those joined by doors and windows to the most wall,
+/// columns among them, and other buildings. Returns the box around the main one.
+fn keep_building(wall: &mut [u8], raw: &[u8], width: usize, doors: &[Gap], windows: &[Gap]) -> Option<[u32; 4]> {
+    let pieces = Components::of(wall, width, 1, Neighbours::Eight);
+    let mut number = vec![0u32; wall.len()];
+    for (k, piece) in (1..).zip(&pieces.all) {
+        for run in pieces.runs(piece) {
+            let row = run.y as usize * width;
+            number[row + run.from as usize..row + run.to as usize].fill(k);
+        }
+    }
+    let mut group: Vec<usize> = (0..pieces.all.len()).collect();
+    fn top(group: &[usize], mut k: usize) -> usize {
+        while group[k] != k {
+            k = group[k];
+        }
+        k
+    }
+    for gap in doors.iter().chain(windows) {
+        let [a, b] = gap.ends.map(|at| top(&group, number[at] as usize - 1));
+        group[a.max(b)] = a.min(b);
+    }
+    drop(number);
+    let tops: Vec<usize> = (0..group.len()).map(|k| top(&group, k)).collect();
+    let mut area = vec![0usize; group.len()];
+    let mut around = vec![[u32::MAX, u32::MAX, 0, 0]; group.len()];
+    for (piece, &top) in pieces.all.iter().zip(&tops) {
+        area[top] += piece.area;
+        let b = &mut around[top];
+        *b = [b[0].min(piece.min[0]), b[1].min(piece.min[1]), b[2].max(piece.end[0]), b[3].max(piece.end[1])];
+    }
+    let mut order: Vec<usize> = (0..area.len()).filter(|&k| area[k] > 0).collect();
+    order.sort_by_key(|&k| (std::cmp::Reverse(area[k]), k));
+    let main = *order.first()?;
+    let box_of = around[main];
+    let inside = |p: &Component| {
+        p.min[0] >= box_of[0] && p.min[1] >= box_of[1] && p.end[0] <= box_of[2] && p.end[1] <= box_of[3]
+    };
+    for (piece, &top) in pieces.all.iter().zip(&tops) {
+        let ink = || {
+            let dark = |r: &super::super::components::Run| {
+                let row = r.y as usize * width;
+                raw[row + r.from as usize..row + r.to as usize].iter().filter(|&&d| d != 0).count()
+            };
+            pieces.runs(piece).iter().map(dark).sum::<usize>() as f64
+        };
+        let other_building = area[top] * 5 >= area[main];
+        let column = inside(piece) && ink() >= COLUMN_INK * piece.area as f64;
+        if top != main && !other_building && !column {
+            pieces.paint(piece, wall, width, 0);
+        }
+    }
+    Some(box_of)
+}
+
+/// Takes off the rim of filled walls where it is ink but not dark: less than half of such a pixel is wall.
+fn trim(wall: &mut [u8], raw: &[u8], ink: &[u8], width: usize) {
+    let is_rim = |at: usize| {
+        let beside = [at.wrapping_sub(1), at + 1, at.wrapping_sub(width), at + width];
+        wall[at] != 0 && raw[at] == 0 && ink[at] != 0 && beside.iter().any(|&b| wall.get(b).is_some_and(|&w| w == 0))
+    };
+    let rim: Vec<usize> = (0..wall.len()).filter(|&at| is_rim(at)).collect();
+    for at in rim {
+        wall[at] = 0;
+    }
+}
+
+/// Takes off what is smaller than a square of `side`: crossings of strokes.
+fn drop_crumbs(wall: &mut [u8], width: usize, side: f64) {
+    let pieces = Components::of(wall, width, 1, Neighbours::Eight);
+    for piece in pieces.all.iter().filter(|p| (p.area as f64) < side * side) {
+        pieces.paint(piece, wall, width, 0);
+    }
+}
+
+/// Takes off the frame of a sheet: strokes around all others that have less area than those within.
+fn drop_frame(core: &mut [u8], ink: &[u8], width: usize, metres_per_pixel: f64) {
+    let thick = open(core, width, ((THINNEST_M / metres_per_pixel).ceil() as usize).max(2));
+    let pieces = Components::of(&thick, width, 1, Neighbours::Eight);
+    let mut largest: Vec<&Component> = pieces.all.iter().collect();
+    largest.sort_by_key(|p| std::cmp::Reverse(u64::from(p.size()[0]) * u64::from(p.size()[1])));
+    for piece in largest.into_iter().take(3) {
+        let within = |p: &&Component| (0..2).all(|axis| p.min[axis] > piece.min[axis] && p.end[axis] < piece.end[axis]);
+        let inner: usize = pieces.all.iter().filter(within).map(|p| p.area).sum();
+        let [w, h] = piece.size().map(f64::from);
+        let stroke = piece.area as f64 / (2.0 * (w + h));
+        let is_fine = stroke <= (FINE_FRAME_M / metres_per_pixel).max(3.6);
+        let strokes = || {
+            let rows = piece.min[1] as usize + 4..(piece.end[1] as usize).saturating_sub(4);
+            let columns =
+                piece.min[0] as usize + 4..(piece.end[0] as usize).saturating_sub(4).max(piece.min[0] as usize + 4);
+            rows.map(|y| ink[y * width..][columns.clone()].iter().filter(|&&i| i != 0).count()).sum::<usize>()
+        };
+        if inner <= piece.area && !(is_fine && strokes() * 10 >= piece.area * 3) {
+            continue;
+        }
+        let mut mask = vec![0u8; core.len()];
+        pieces.paint(piece, &mut mask, width, 1);
+        if frame_sides(&mask, width, [piece.min[0], piece.min[1], piece.end[0], piece.end[1]]) {
+            pieces.paint(piece, core, width, 0);
+        }
+    }
+}
+
+/// Whether a piece covers all four sides of its box without a gap.
+fn frame_sides(mask: &[u8], width: usize, [x0, y0, x1, y1]: [u32; 4]) -> bool {
+    let dark = |x: u32, y: u32| mask[y as usize * width + x as usize] != 0;
+    let side = |length: u32, at: &dyn Fn(u32) -> bool| {
+        (0..length).filter(|&k| at(k)).count() as f64 >= 0.97 * f64::from(length)
+    };
+    side(x1 - x0, &|k| dark(x0 + k, y0 + 1) || dark(x0 + k, y0))
+        && side(x1 - x0, &|k| dark(x0 + k, y1 - 1) || dark(x0 + k, y1.max(2) - 2))
+        && side(y1 - y0, &|k| dark(x0, y0 + k) || dark(x0 + 1, y0 + k))
+        && side(y1 - y0, &|k| dark(x1 - 1, y0 + k) || dark(x1.max(2) - 2, y0 + k))
+}
+
+/// Marks what neither walls nor doors nor windows are and what the image's sides do not reach.
+fn enclosed(wall: &[u8], doors: &[Gap], windows: &[Gap], width: usize) -> Vec<u8> {
+    let height = wall.len() / width;
+    let mut free: Vec<u8> = wall.iter().map(|&w| u8::from(w == 0)).collect();
+    for at in doors.iter().chain(windows).flat_map(|gap| gap.pixels()) {
+        free[at] = 0;
+    }
+    let pieces = Components::of(&free, width, 1, Neighbours::Four);
+    for piece in &pieces.all {
+        let at_side = piece.min.contains(&0) || piece.end[0] as usize == width || piece.end[1] as usize == height;
+        if at_side {
+            pieces.paint(piece, &mut free, width, 0);
+        }
+    }
+    free
+}

@@ -1,0 +1,199 @@
+//! Furniture, lettering and lines: what is drawn within and around a building.
+
+use super::super::PlanClass;
+use super::super::components::{Component, Components, Neighbours};
+use super::net::Net;
+use super::thick::grow;
+
+/// What is known of a piece of ink or of furniture.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Evidence {
+    /// Bounding box: least x and y, one beyond the greatest, pixels.
+    pub(super) around: [u32; 4],
+    /// Number of its pixels.
+    pub(super) area: usize,
+    /// Share of its outline at walls.
+    pub(super) at_wall: f64,
+    /// Number of fields that its strokes divide it into.
+    pub(super) fields: usize,
+    /// Greatest number of fields of about the same size and of that of treads.
+    pub(super) alike: usize,
+    /// Share of its box that it fills.
+    pub(super) fill: f64,
+    pub(super) class: PlanClass,
+}
+
+/// Largest field of a piece of furniture, square metres, and its greatest depth, metres.
+const LARGEST_FIELD_M2: f64 = 7.0;
+const DEEPEST_FIELD_M: f64 = 2.6;
+/// Depth from which a field between walls is a part of the room, metres.
+const DEEP_M: f64 = 0.75;
+/// Least side and area of a piece of furniture, metres and square metres.
+const LEAST_SIDE_M: f64 = 0.3;
+const LEAST_AREA_M2: f64 = 0.085;
+const LARGEST_AREA_M2: f64 = 16.0;
+/// Least share of its box that a piece of furniture fills.
+const LEAST_FILL: f64 = 0.5;
+
+/// What lies at a pixel.
+const STROKE: u8 = 1;
+const SOLID: u8 = 2;
+const DOOR: u8 = 3;
+const PAPER: u8 = 4;
+
+/// Finds furniture among the strokes (1 in `ink`) inside a net, and paints it into `classes`.
+pub(super) fn furniture(
+    ink: &[u8],
+    dark: &[u8],
+    net: &Net,
+    width: usize,
+    metres_per_pixel: f64,
+    classes: &mut [PlanClass],
+) -> Vec<Evidence> {
+    let m2 = metres_per_pixel * metres_per_pixel;
+    let mut what = vec![0u8; ink.len()];
+    // The blurred edge of a wall is no stroke.
+    let rim = grow(&net.wall, width, 1);
+    for (at, what) in what.iter_mut().enumerate() {
+        *what = match () {
+            () if net.wall[at] != 0 || (rim[at] != 0 && ink[at] != 0 && dark[at] == 0) => SOLID,
+            () if ink[at] != 0 => STROKE,
+            () if net.inside[at] == 0 => PAPER,
+            () => 0,
+        };
+    }
+    for at in net.windows.iter().flat_map(|gap| gap.pixels()) {
+        what[at] = SOLID;
+    }
+    for at in net.doors.iter().flat_map(|gap| gap.pixels()) {
+        what[at] = DOOR;
+    }
+    let fields = Components::of(&what, width, 0, Neighbours::Four);
+    let mut solid = vec![0u8; ink.len()];
+    let mut field_of = Vec::new();
+    for field in &fields.all {
+        let [w, h] = field.size().map(|side| f64::from(side) * metres_per_pixel);
+        let depth = w.min(h);
+        if field.area as f64 * m2 > LARGEST_FIELD_M2 || depth > DEEPEST_FIELD_M {
+            continue;
+        }
+        let beside = beside(&what, width, &fields, field);
+        let all: usize = beside.iter().sum();
+        let share = beside[usize::from(STROKE)] as f64 / all.max(1) as f64;
+        let least = if depth > DEEP_M { 0.48 } else { 0.35 };
+        let at_door = beside[usize::from(DOOR)] as f64 * metres_per_pixel > 0.1;
+        if share >= least && !at_door && beside[usize::from(PAPER)] == 0 {
+            fields.paint(field, &mut solid, width, 1);
+            field_of.push(field);
+        }
+    }
+    let stroke = ((0.04 / metres_per_pixel).round() as usize).max(2);
+    let near = grow(&solid, width, stroke);
+    for at in 0..solid.len() {
+        solid[at] |= u8::from(what[at] == STROKE && near[at] != 0 && net.inside[at] != 0);
+    }
+    let objects = Components::of(&solid, width, 1, Neighbours::Eight);
+    let mut found = Vec::new();
+    for object in &objects.all {
+        let [w, h] = object.size();
+        let sides = [w, h].map(|side| f64::from(side) * metres_per_pixel);
+        let area = object.area as f64 * m2;
+        let fill = object.area as f64 / (f64::from(w) * f64::from(h));
+        if sides[0].min(sides[1]) < LEAST_SIDE_M
+            || !(LEAST_AREA_M2..=LARGEST_AREA_M2).contains(&area)
+            || fill < LEAST_FILL
+        {
+            continue;
+        }
+        let within = |f: &&Component| {
+            f.min[0] >= object.min[0]
+                && f.min[1] >= object.min[1]
+                && f.end[0] <= object.end[0]
+                && f.end[1] <= object.end[1]
+        };
+        let parts: Vec<&Component> = field_of.iter().copied().filter(within).collect();
+        let is_tread = |f: &&&Component| {
+            let [w, h] = f.size().map(|side| f64::from(side) * metres_per_pixel);
+            (0.18..=0.42).contains(&w.min(h)) && w.max(h) >= 0.7
+        };
+        let alike = |a: &&&Component| {
+            parts
+                .iter()
+                .filter(|b| b.size()[0].abs_diff(a.size()[0]) <= 3 && b.size()[1].abs_diff(a.size()[1]) <= 3)
+                .count()
+        };
+        let at_wall = at_wall(&what, width, &objects, object, stroke + 1);
+        let mut piece = Evidence {
+            around: [object.min[0], object.min[1], object.end[0], object.end[1]],
+            area: object.area,
+            at_wall,
+            fields: parts.len(),
+            alike: parts.iter().filter(is_tread).map(|p| alike(&p)).max().unwrap_or(0),
+            fill,
+            class: PlanClass::Table,
+        };
+        piece.class = class(&piece, sides);
+        for run in objects.runs(object) {
+            let row = run.y as usize * width;
+            classes[row + run.from as usize..row + run.to as usize].fill(piece.class);
+        }
+        found.push(piece);
+    }
+    found
+}
+
+/// Counts what lies beside a component.
+fn beside(what: &[u8], width: usize, pieces: &Components, piece: &Component) -> [usize; 5] {
+    let height = what.len() / width;
+    let mut counts = [0; 5];
+    for run in pieces.runs(piece) {
+        let (y, from, to) = (run.y as usize, run.from as usize, run.to as usize);
+        for row in [y.checked_sub(1), Some(y + 1).filter(|&y| y < height)].into_iter().flatten() {
+            for &w in &what[row * width + from..row * width + to] {
+                counts[usize::from(w)] += 1;
+            }
+        }
+        for x in [from.checked_sub(1), Some(to).filter(|&x| x < width)].into_iter().flatten() {
+            counts[usize::from(what[y * width + x])] += 1;
+        }
+    }
+    counts[0] = 0;
+    counts
+}
+
+/// The greatest share of a side of a component's box that lies at a wall.
+fn at_wall(what: &[u8], width: usize, _pieces: &Components, piece: &Component, reach: usize) -> f64 {
+    let height = what.len() / width;
+    let ([x0, y0], [x1, y1]) = (piece.min.map(|v| v as usize), piece.end.map(|v| v as usize));
+    let solid = |x: Option<usize>, y: Option<usize>| match (x, y) {
+        (Some(x), Some(y)) if x < width && y < height => what[y * width + x] == SOLID,
+        _ => false,
+    };
+    let rows = |dx: &dyn Fn(usize) -> Option<usize>| {
+        (y0..y1).filter(|&y| (0..=reach).any(|k| solid(dx(k), Some(y)))).count() as f64 / (y1 - y0) as f64
+    };
+    let columns = |dy: &dyn Fn(usize) -> Option<usize>| {
+        (x0..x1).filter(|&x| (0..=reach).any(|k| solid(Some(x), dy(k)))).count() as f64 / (x1 - x0) as f64
+    };
+    let long = if x1 - x0 >= y1 - y0 {
+        [columns(&|k| y0.checked_sub(k)), columns(&|k| Some(y1 - 1 + k))]
+    } else {
+        [rows(&|k| x0.checked_sub(k)), rows(&|k| Some(x1 - 1 + k))]
+    };
+    long[0].max(long[1])
+}
+
+/// Tells furniture by its size and shape. `sides` are those of its box, metres.
+fn class(piece: &Evidence, sides: [f64; 2]) -> PlanClass {
+    let (depth, length) = (sides[0].min(sides[1]), sides[0].max(sides[1]));
+    let (is_at_wall, is_round) = (piece.at_wall >= 0.5, piece.fill < 0.87);
+    match () {
+        () if piece.alike >= 4 && depth >= 0.7 => PlanClass::Stairs,
+        () if length <= 0.85 && is_round && piece.fields >= 2 => PlanClass::Fixture,
+        () if is_at_wall && depth <= 0.52 && length >= 0.8 => PlanClass::Shelf,
+        () if is_at_wall && depth <= 0.8 && length >= 1.0 && piece.fields < 3 => PlanClass::Counter,
+        () if length <= 0.85 => PlanClass::Seat,
+        () if depth >= 0.6 && length >= 1.4 && piece.fields >= 2 => PlanClass::Seat,
+        () => PlanClass::Table,
+    }
+}

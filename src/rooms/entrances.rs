@@ -1,0 +1,105 @@
+//! Where the building begins: openings at the image's sides, and doors to the outside.
+
+use serde::Serialize;
+
+use super::divide::NONE;
+use super::grid::{BLOCKED, Grid, OUTSIDE, WALL};
+use crate::math::{Rect, Vec2, vec2};
+use crate::plan::FloorPlan;
+
+/// Widths of a door to the outside, metres.
+const DOOR_M: [f64; 2] = [0.6, 8.0];
+/// Distance from an opening's edge at which its room is looked up, metres.
+const INSIDE_M: [f64; 3] = [0.1, 0.4, 1.0];
+/// Most entrances: the widest.
+const MOST: usize = 12;
+
+/// A way into the building: an opening at the image's side, or a door to the outside; never a window.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Entrance {
+    /// The name of the opening or of the painted entrance, or "door 1", ...
+    pub name: String,
+    /// Index into [`FloorPlan::openings`]; `None` for a painted entrance or a door to the outside.
+    pub opening: Option<usize>,
+    /// Its middle, metres.
+    pub at_m: Vec2,
+    /// Clear width, metres.
+    pub width_m: f64,
+    /// Index of the room that it leads into.
+    pub room: usize,
+}
+
+/// Finds the entrances: openings in their order, painted entrances, then doors row by row.
+pub(super) fn find(plan: &FloorPlan, grid: &Grid, room: &[u16]) -> Vec<Entrance> {
+    let mut entrances = Vec::new();
+    for (index, opening) in plan.openings.iter().enumerate() {
+        let within = |by_m: f64| grid.cell_at(opening.centre_m() - opening.side.outward() * by_m);
+        let rooms = INSIDE_M.iter().filter_map(|&by_m| within(by_m)).map(|cell| room[cell]);
+        if let Some(room) = rooms.into_iter().find(|&room| room != NONE) {
+            let (name, width_m) = (opening.name.clone(), opening.width_m());
+            let (at_m, room) = (opening.centre_m(), usize::from(room));
+            entrances.push(Entrance { name, opening: Some(index), at_m, width_m, room });
+        }
+    }
+    for painted in &plan.painted.entrances {
+        let [min, max] = painted.area_m;
+        let at_m = min.lerp(max, 0.5);
+        if let Some(room) = grid.cell_at(at_m).map(|cell| room[cell]).filter(|&room| room != NONE) {
+            let width_m = (max.x - min.x).max(max.y - min.y);
+            entrances.push(Entrance {
+                name: painted.name.clone(),
+                opening: None,
+                at_m,
+                width_m,
+                room: usize::from(room),
+            });
+        }
+    }
+    let mut doors = doors(grid, room);
+    doors.sort_by(|a, b| b.1.total_cmp(&a.1));
+    doors.truncate(MOST.saturating_sub(entrances.len()));
+    doors.sort_by_key(|door| door.3);
+    for (number, (at_m, width_m, room, _)) in doors.into_iter().enumerate() {
+        entrances.push(Entrance { name: format!("door {}", number + 1), opening: None, at_m, width_m, room });
+    }
+    entrances
+}
+
+/// Gaps through which floor meets the outside: middle, width, room and first cell.
+fn doors(grid: &Grid, room: &[u16]) -> Vec<(Vec2, f64, usize, usize)> {
+    let is_out = |cell: usize| grid.has(cell, OUTSIDE) && grid.has(cell, BLOCKED) && !grid.has(cell, WALL);
+    let is_edge = |cell: usize| room[cell] != NONE && grid.beside(cell).any(is_out);
+    let mut seen = vec![false; grid.len()];
+    let mut doors = Vec::new();
+    for first in 0..grid.len() {
+        if seen[first] || !is_edge(first) {
+            continue;
+        }
+        seen[first] = true;
+        let (mut members, mut next) = (vec![first], 0);
+        while let Some(&cell) = members.get(next) {
+            next += 1;
+            let joined: Vec<usize> =
+                grid.around(cell, 1).filter(|&b| is_edge(b) && !std::mem::replace(&mut seen[b], true)).collect();
+            members.extend(joined);
+        }
+        let mut bounds = Rect::around(grid.centre(first), grid.centre(first));
+        for &cell in &members {
+            let p = grid.centre(cell);
+            bounds.min = vec2(bounds.min.x.min(p.x), bounds.min.y.min(p.y));
+            bounds.max = vec2(bounds.max.x.max(p.x), bounds.max.y.max(p.y));
+        }
+        let width_m = bounds.min.distance(bounds.max) + grid.cell_m;
+        if !(DOOR_M[0]..=DOOR_M[1]).contains(&width_m) {
+            continue;
+        }
+        let middle = bounds.centre();
+        let nearest = members.iter().min_by(|&&a, &&b| {
+            grid.centre(a).distance(middle).total_cmp(&grid.centre(b).distance(middle)).then(a.cmp(&b))
+        });
+        if let Some(&cell) = nearest {
+            doors.push((grid.centre(cell), width_m, usize::from(room[cell]), first));
+        }
+    }
+    doors
+}

@@ -1,0 +1,80 @@
+use serde::{Deserialize, Serialize};
+
+use crate::options::names;
+
+/// What a room is, by its shape and by what stands in it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum RoomKind {
+    /// A room like others.
+    #[default]
+    Room,
+    /// Long and narrow, or with many doors: people pass through.
+    Corridor,
+    /// Large.
+    Hall,
+    /// Small, or with a WC or a basin.
+    Toilet,
+    /// Stairs.
+    Stairs,
+}
+
+names!(RoomKind);
+
+/// Measures of a room, by which its kind is told. Lengths in metres.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Measures {
+    pub(super) area_m2: f64,
+    /// Four times the mean distance from walls: of a long corridor its width, of a square two thirds of its side.
+    pub(super) width_m: f64,
+    pub(super) doors: usize,
+    pub(super) fixtures_m2: f64,
+    pub(super) stairs_m2: f64,
+}
+
+/// Largest area of a room that is a toilet by its size alone, and of one with fixtures, square metres.
+const TOILET_M2: [f64; 2] = [5.0, 16.0];
+/// Least area of fixtures in a toilet: a WC or a basin, square metres.
+const FIXTURE_M2: f64 = 0.12;
+/// Widest corridor, metres, and its least area in squares of its width: by its shape alone, and with many doors.
+const CORRIDOR_M: f64 = 4.5;
+const CORRIDOR_SQUARES: [f64; 2] = [4.5, 3.4];
+/// Doors of a room that many pass through.
+const MANY_DOORS: usize = 4;
+/// Least area of a hall, square metres.
+const HALL_M2: f64 = 80.0;
+/// Least share of stairs in a staircase.
+const STAIRS_SHARE: f64 = 0.3;
+
+impl RoomKind {
+    pub(super) fn of(measures: &Measures) -> RoomKind {
+        let Measures { area_m2, width_m, doors, fixtures_m2, stairs_m2 } = *measures;
+        let squares = area_m2 / (width_m * width_m).max(0.01);
+        let long =
+            squares >= CORRIDOR_SQUARES[0] && doors >= 2 || squares >= CORRIDOR_SQUARES[1] && doors >= MANY_DOORS;
+        if stairs_m2 >= STAIRS_SHARE * area_m2 && stairs_m2 > 0.0 {
+            RoomKind::Stairs
+        } else if fixtures_m2 >= FIXTURE_M2 && area_m2 <= TOILET_M2[1] {
+            RoomKind::Toilet
+        } else if width_m <= CORRIDOR_M && long {
+            RoomKind::Corridor
+        } else if area_m2 <= TOILET_M2[0] && doors <= 1 {
+            RoomKind::Toilet
+        } else if area_m2 >= HALL_M2 {
+            RoomKind::Hall
+        } else {
+            RoomKind::Room
+        }
+    }
+
+    /// Its name, as scenarios write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            RoomKind::Room => "room",
+            RoomKind::Corridor => "corridor",
+            RoomKind::Hall => "hall",
+            RoomKind::Toilet => "toilet",
+            RoomKind::Stairs => "stairs",
+        }
+    }
+}

@@ -1,0 +1,254 @@
+//! What buildings are for, and what people do in them: one table.
+
+use serde::{Deserialize, Serialize};
+
+use super::find::Rooms;
+use super::kind::RoomKind;
+use crate::options::names;
+
+/// What a building is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[allow(missing_docs)]
+pub enum Use {
+    Office,
+    School,
+    Station,
+    Shop,
+    Museum,
+    Hospital,
+    Home,
+    Hall,
+}
+
+names!(Use);
+
+/// What people do in a building.
+///
+/// Stays are far shorter than those of life: a floor wears by steps, and an hour at a desk has hardly more of them than a
+/// minute. What counts is how often people come, where they stand, and the ways between.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Habits {
+    /// Share of people who only pass from one entrance to another, where there are several.
+    pub(crate) pass: f64,
+    /// Least and largest number of rooms that a person visits.
+    pub(crate) visits: [usize; 2],
+    pub(crate) room: RoomHabits,
+    pub(crate) corridor: RoomHabits,
+    pub(crate) hall: RoomHabits,
+    pub(crate) toilet: RoomHabits,
+    pub(crate) stairs: RoomHabits,
+    /// People who come in each sixth of the day, relative to each other.
+    pub(crate) day: [f64; 6],
+    /// Shares of people alone, in pairs, in threes and fours, where people walk in groups.
+    pub(crate) groups: [f64; 4],
+    /// Share of people with a bag.
+    pub(crate) bags: f64,
+    /// Share of children.
+    pub(crate) children: f64,
+}
+
+/// What people do in rooms of a kind.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RoomHabits {
+    /// How many go there, relative to rooms of other kinds of the same size.
+    pub(crate) draws: f64,
+    /// Mean length of a stay, seconds.
+    pub(crate) stay_s: f64,
+    /// Spots at which a person stays, one after the other.
+    pub(crate) spots: usize,
+}
+
+const fn habits(draws: f64, stay_s: f64, spots: usize) -> RoomHabits {
+    RoomHabits { draws, stay_s, spots }
+}
+
+/// A corridor draws nobody by itself: a few stop at a board or wait at a door.
+const PASSED: RoomHabits = habits(0.15, 2.0, 1);
+/// Stairs are passed: people go up, and others come down.
+const CLIMBED: RoomHabits = habits(1.0, 2.0, 1);
+
+impl Use {
+    /// All uses, in the order in which they are told.
+    pub const ALL: [Use; 8] =
+        [Use::Office, Use::School, Use::Station, Use::Shop, Use::Museum, Use::Hospital, Use::Home, Use::Hall];
+
+    /// Its name, as scenarios write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Use::Office => "office",
+            Use::School => "school",
+            Use::Station => "station",
+            Use::Shop => "shop",
+            Use::Museum => "museum",
+            Use::Hospital => "hospital",
+            Use::Home => "home",
+            Use::Hall => "hall",
+        }
+    }
+
+    /// What people do there.
+    pub(crate) fn habits(self) -> Habits {
+        match self {
+            // A desk, then a colleague, a meeting or the kitchen; a toilet is small and draws as much as an office.
+            Use::Office => Habits {
+                pass: 0.05,
+                visits: [1, 3],
+                room: habits(1.0, 9.0, 1),
+                corridor: PASSED,
+                hall: habits(0.8, 5.0, 2),
+                toilet: habits(1.5, 5.0, 1),
+                stairs: CLIMBED,
+                // Most come before nine, and after lunch.
+                day: [3.0, 1.5, 0.7, 2.0, 0.8, 0.5],
+                groups: [0.8, 0.15, 0.04, 0.01],
+                bags: 0.7,
+                children: 0.0,
+            },
+            // One classroom, sometimes a second; everybody comes before the bell.
+            Use::School => Habits {
+                pass: 0.05,
+                visits: [1, 2],
+                room: habits(1.0, 12.0, 1),
+                corridor: PASSED,
+                hall: habits(0.8, 6.0, 2),
+                toilet: habits(1.5, 5.0, 1),
+                stairs: CLIMBED,
+                day: [4.0, 0.5, 1.5, 0.5, 1.5, 0.5],
+                groups: [0.3, 0.35, 0.2, 0.15],
+                bags: 0.9,
+                children: 0.9,
+            },
+            // Two of three go from door to door; others wait, buy something or look for a train.
+            Use::Station => Habits {
+                pass: 0.67,
+                visits: [1, 2],
+                room: habits(1.0, 7.0, 1),
+                corridor: habits(0.3, 5.0, 1),
+                hall: habits(1.0, 9.0, 1),
+                toilet: habits(1.5, 5.0, 1),
+                stairs: habits(2.0, 2.0, 1),
+                day: [2.0, 1.0, 0.8, 0.8, 2.0, 1.0],
+                groups: [0.7, 0.2, 0.06, 0.04],
+                bags: 0.8,
+                children: 0.05,
+            },
+            // From shelf to shelf, most in the largest room.
+            Use::Shop => Habits {
+                pass: 0.05,
+                visits: [2, 3],
+                room: habits(0.6, 4.0, 2),
+                corridor: habits(0.4, 4.0, 1),
+                hall: habits(1.5, 3.0, 4),
+                toilet: habits(0.5, 5.0, 1),
+                stairs: CLIMBED,
+                day: [0.7, 1.0, 1.5, 1.0, 1.5, 0.7],
+                groups: [0.6, 0.3, 0.06, 0.04],
+                bags: 0.8,
+                children: 0.08,
+            },
+            // Room after room, a few works in each.
+            Use::Museum => Habits {
+                pass: 0.02,
+                visits: [3, 5],
+                room: habits(1.0, 3.0, 2),
+                corridor: habits(0.4, 3.0, 1),
+                hall: habits(1.2, 4.0, 2),
+                toilet: habits(0.5, 5.0, 1),
+                stairs: CLIMBED,
+                day: [0.7, 1.5, 1.2, 1.5, 1.0, 0.2],
+                groups: [0.4, 0.4, 0.1, 0.1],
+                bags: 0.4,
+                children: 0.12,
+            },
+            // Wards and treatment; visitors and patients wait in halls and corridors.
+            Use::Hospital => Habits {
+                pass: 0.05,
+                visits: [1, 3],
+                room: habits(1.0, 5.0, 2),
+                corridor: habits(0.3, 5.0, 1),
+                hall: habits(1.2, 9.0, 1),
+                toilet: habits(1.0, 5.0, 1),
+                stairs: CLIMBED,
+                day: [1.5, 1.5, 1.0, 1.5, 1.0, 0.7],
+                groups: [0.6, 0.3, 0.06, 0.04],
+                bags: 0.4,
+                children: 0.06,
+            },
+            // All rooms in turn, many times a day.
+            Use::Home => Habits {
+                pass: 0.0,
+                visits: [3, 5],
+                room: habits(1.0, 4.0, 2),
+                corridor: habits(0.3, 2.0, 1),
+                hall: habits(1.0, 4.0, 2),
+                toilet: habits(1.2, 4.0, 1),
+                stairs: CLIMBED,
+                day: [1.5, 0.7, 0.7, 1.0, 1.5, 1.5],
+                groups: [0.9, 0.1, 0.0, 0.0],
+                bags: 0.2,
+                children: 0.25,
+            },
+            // People spread over the large rooms; the small ones serve them.
+            Use::Hall => Habits {
+                pass: 0.3,
+                visits: [1, 2],
+                room: habits(0.6, 5.0, 1),
+                corridor: PASSED,
+                hall: habits(2.0, 5.0, 2),
+                toilet: habits(1.5, 5.0, 1),
+                stairs: CLIMBED,
+                day: [2.0, 2.0, 1.0, 0.5, 0.5, 0.5],
+                groups: [0.5, 0.3, 0.1, 0.1],
+                bags: 0.5,
+                children: 0.05,
+            },
+        }
+    }
+
+    /// What a building with such rooms is for, as far as they tell.
+    ///
+    /// Few small rooms are a home; many at corridors an office, a school (large ones) or a hospital (very many); large
+    /// rooms that lead into each other a museum; one large room with small ones a shop, or with wide openings a station.
+    pub(crate) fn guess(rooms: &Rooms) -> Use {
+        let of = |kind: RoomKind| rooms.rooms.iter().filter(move |room| room.kind == kind);
+        let area_m2 = |kind: RoomKind| of(kind).map(|room| room.area_m2).sum::<f64>();
+        let total_m2: f64 = rooms.rooms.iter().map(|room| room.area_m2).sum();
+        let mut areas: Vec<f64> = of(RoomKind::Room).chain(of(RoomKind::Hall)).map(|room| room.area_m2).collect();
+        areas.sort_by(f64::total_cmp);
+        let median_m2 = areas.get(areas.len() / 2).copied().unwrap_or(0.0);
+        let largest_m2 = areas.last().copied().unwrap_or(0.0);
+        let wide = rooms.entrances.iter().filter(|entrance| entrance.width_m >= 2.5).count();
+        let corridor_share = area_m2(RoomKind::Corridor) / total_m2.max(0.01);
+        if wide >= 3 && (area_m2(RoomKind::Hall) + area_m2(RoomKind::Corridor)) >= 0.5 * total_m2 {
+            Use::Station
+        } else if total_m2 < 220.0 && median_m2 < 30.0 && largest_m2 < 80.0 {
+            Use::Home
+        } else if areas.len() <= 4 && largest_m2 >= 0.5 * total_m2 {
+            if total_m2 >= 600.0 { Use::Hall } else { Use::Shop }
+        } else if corridor_share >= 0.08 {
+            match areas.len() {
+                _ if median_m2 >= 45.0 => Use::School,
+                40.. if median_m2 < 25.0 => Use::Hospital,
+                _ => Use::Office,
+            }
+        } else if median_m2 >= 40.0 {
+            Use::Museum
+        } else {
+            Use::Office
+        }
+    }
+}
+
+impl Habits {
+    /// What people do in rooms of a kind.
+    pub(crate) fn of(&self, kind: RoomKind) -> RoomHabits {
+        match kind {
+            RoomKind::Room => self.room,
+            RoomKind::Corridor => self.corridor,
+            RoomKind::Hall => self.hall,
+            RoomKind::Toilet => self.toilet,
+            RoomKind::Stairs => self.stairs,
+        }
+    }
+}

@@ -1,0 +1,267 @@
+//! Default life: people come in, use every room, and leave.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use trodden::crowd::{CrowdOptions, Simulation, Tally};
+use trodden::marks::{Footfalls, MarksOptions, Origin};
+use trodden::math::{Vec2, vec2};
+use trodden::motion::{BodyOptions, Frame, Motion, People};
+use trodden::patterns::{Cause, PatternLibrary};
+use trodden::plan::{self, FloorPlan, PlanOptions};
+use trodden::rooms::{LifeOptions, RoomKind, RoomRequest, Rooms, Use};
+use trodden::routes::{Navigation, Place, PlaceRequest, Route, RouteRequest, RoutesOptions};
+use trodden::walls::{Walls, WallsOptions};
+
+/// Least share of a room's floor that people have trodden, by texels of 5 cm under at least one sole.
+const LEAST_TRODDEN: f64 = 0.3;
+/// Least share of people who arrive.
+const LEAST_ARRIVED: f64 = 0.995;
+/// Largest distance from where people vanish to the place where they were going, metres.
+const NEAR_END_M: f64 = 1.0;
+
+/// An office of 30 x 18 m: six rooms on either side of a corridor, doors of 0.9 m, one entrance in the west.
+fn office() -> FloorPlan {
+    let floor = |p: Vec2| {
+        let inside = p.x > 0.2 && p.x < 29.8 && p.y > 0.2 && p.y < 17.8;
+        let corridor = p.y > 8.0 && p.y < 10.0;
+        let entrance = p.x <= 0.2 && (p.y - 9.0).abs() < 0.45;
+        // Walls between rooms every 5 m, doors in their middle.
+        let across = (p.x % 5.0 - 0.05).abs() < 0.1 && !corridor;
+        let along = (p.y - 7.95).abs() < 0.05 || (p.y - 10.05).abs() < 0.05;
+        let door = along && (p.x % 5.0 - 2.5).abs() < 0.45;
+        inside && !across && !along || door || entrance
+    };
+    let (width, height) = (600, 360);
+    let middle = |i: u32| vec2(f64::from(i % width) + 0.5, f64::from(height - 1 - i / width) + 0.5) * 0.05;
+    FloorPlan::from_mask(width, height, 0.05, (0..width * height).map(|i| u8::from(floor(middle(i)))).collect())
+}
+
+fn sample(name: &str) -> FloorPlan {
+    let options = PlanOptions { metres_per_pixel: Some(0.05), ..PlanOptions::default() };
+    plan::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("floorplans").join(name), &options).unwrap()
+}
+
+/// What people did in a building.
+struct Lived {
+    rooms: Rooms,
+    routes: Vec<Route>,
+    tally: Tally,
+    people: usize,
+    /// Share of each room's floor that soles have touched.
+    trodden: Vec<f64>,
+    /// Where each person was last seen, and the route.
+    ends: Vec<(Vec2, usize)>,
+    seconds: f64,
+    plan: FloorPlan,
+}
+
+const TEXEL_M: f64 = 0.05;
+
+fn live(plan: FloorPlan, people: u32, options: RoutesOptions) -> Lived {
+    let walls = Walls::trace(&plan, &WallsOptions::default());
+    let life = LifeOptions { people, ..options.life.clone() };
+    let (routes, ways) = Navigation::find(&plan, &walls, &RoutesOptions { life, ..options }).unwrap();
+    let rooms = ways.life().expect("rooms to live in").rooms.clone();
+    let bodies = People::new(1, BodyOptions::default());
+    let crowd_options = CrowdOptions { people, ..CrowdOptions::default() };
+    let mut crowd = Simulation::with_navigation(&plan, &walls, &routes, ways, &bodies, &crowd_options).unwrap();
+    let library = PatternLibrary::built_in();
+    let origins = Origin::of_arrivals(crowd.arrivals().iter().map(|arrival| arrival.from_outside), 0);
+    let mut footfalls = Footfalls::new(&bodies, &walls, &library, &MarksOptions::default(), origins).unwrap();
+    let (columns, rows) = ((plan.width_m() / TEXEL_M) as usize + 1, (plan.height_m() / TEXEL_M) as usize + 1);
+    let mut texels = vec![false; columns * rows];
+    let (mut frame, mut marks) = (Frame::default(), Vec::new());
+    let mut last: BTreeMap<u32, Vec2> = BTreeMap::new();
+    let mut tread = |marks: &mut Vec<trodden::marks::Mark>| {
+        for mark in marks.drain(..).filter(|mark| mark.cause == Cause::Sole) {
+            let (half_m, across) = (0.5 * f64::from(mark.length_m), mark.heading.left());
+            for along in -4..=4 {
+                for aside in -1..=1 {
+                    let p = mark.place_m
+                        + mark.heading * (half_m * f64::from(along) / 4.0)
+                        + across * (0.035 * f64::from(aside));
+                    let (x, y) = ((p.x / TEXEL_M) as usize, (p.y / TEXEL_M) as usize);
+                    if p.x >= 0.0 && p.y >= 0.0 && x < columns && y < rows {
+                        texels[y * columns + x] = true;
+                    }
+                }
+            }
+        }
+    };
+    while crowd.next_frame(&mut frame).unwrap() {
+        footfalls.push(&frame, &mut marks);
+        tread(&mut marks);
+        last.extend(frame.walkers.iter().map(|walker| (walker.id, walker.position_m)));
+    }
+    footfalls.finish(&mut marks);
+    tread(&mut marks);
+    let mut counts = vec![[0usize; 2]; rooms.rooms.len()];
+    for (at, trodden) in texels.iter().enumerate() {
+        let p = vec2((at % columns) as f64 + 0.5, (at / columns) as f64 + 0.5) * TEXEL_M;
+        if let Some(room) = rooms.at(p) {
+            counts[room][0] += 1;
+            counts[room][1] += usize::from(*trodden);
+        }
+    }
+    let route_of = |id: u32| crowd.arrivals()[id as usize].route;
+    let ends = last.iter().map(|(&id, &p)| (p, route_of(id))).collect();
+    let (tally, seconds, count) = (crowd.tally(), crowd.time_s(), crowd.arrivals().len());
+    let trodden = counts.iter().map(|[all, trodden]| *trodden as f64 / (*all).max(1) as f64).collect();
+    drop(crowd);
+    Lived { rooms, routes, tally, people: count, trodden, ends, seconds, plan }
+}
+
+impl Lived {
+    /// Distance of a place from where a route ends, metres.
+    fn off_the_end_m(&self, p: Vec2, route: usize) -> f64 {
+        match self.routes[route].goal {
+            Place::Opening(index) => {
+                let opening = &self.plan.openings[index];
+                // Beyond the edge people are out.
+                (opening.from_m - p).dot(opening.side.outward()).max(0.0)
+            }
+            Place::Area([min, max]) => {
+                let inside = vec2(p.x.clamp(min.x, max.x), p.y.clamp(min.y, max.y));
+                inside.distance(p)
+            }
+        }
+    }
+
+    fn print(&self, name: &str) {
+        println!("{name}: {} people in {:.0} s, {} stuck", self.people, self.seconds, self.tally.stuck.len());
+        for (room, trodden) in self.rooms.rooms.iter().zip(&self.trodden) {
+            let (name, kind, doors) = (&room.name, room.kind.name(), room.doors);
+            println!("  {name:<9} {kind:<9} {:6.1} m2 {doors} doors, {:3.0} % trodden", room.area_m2, 100.0 * trodden);
+        }
+    }
+
+    fn check_all_came_and_went(&self) {
+        let arrived = self.tally.arrived as f64 / self.people as f64;
+        assert!(arrived >= LEAST_ARRIVED, "{} of {} arrived: {:?}", self.tally.arrived, self.people, self.tally.stuck);
+        let mut off: Vec<f64> = self.ends.iter().map(|&(p, route)| self.off_the_end_m(p, route)).collect();
+        off.sort_by(f64::total_cmp);
+        let most_m = off.last().copied().unwrap_or(0.0);
+        let stuck = self.tally.stuck.len();
+        let within = off.iter().filter(|m| **m <= NEAR_END_M).count();
+        assert!(within + stuck >= off.len(), "somebody vanished {most_m:.2} m from the end of the route");
+    }
+
+    fn check_rooms(&self, least: f64) {
+        for (room, &trodden) in self.rooms.rooms.iter().zip(&self.trodden) {
+            assert!(trodden >= least, "{} of {:.1} m2: {:.1} % trodden", room.name, room.area_m2, 100.0 * trodden);
+        }
+    }
+}
+
+#[test]
+fn an_office_has_its_rooms_and_one_entrance() {
+    let plan = office();
+    let rooms = Rooms::find(&plan, &Walls::trace(&plan, &WallsOptions::default()));
+    let of = |kind: RoomKind| rooms.rooms.iter().filter(|room| room.kind == kind).count();
+    assert_eq!((of(RoomKind::Room), of(RoomKind::Corridor), rooms.doors.len()), (12, 1, 12), "{:?}", rooms.rooms);
+    assert_eq!(rooms.entrances.len(), 1);
+    for room in rooms.rooms.iter().filter(|room| room.kind == RoomKind::Room) {
+        assert!((room.area_m2 - 37.0).abs() < 3.0 && room.doors == 1, "{room:?}");
+    }
+}
+
+#[test]
+fn every_room_of_an_office_is_used() {
+    for people in [1000, 10_000] {
+        let lived = live(office(), people, RoutesOptions::default());
+        lived.print("office");
+        assert_eq!(lived.routes[0].life.map(|life| life.r#use), Some(Use::Office));
+        lived.check_all_came_and_went();
+        lived.check_rooms(LEAST_TRODDEN);
+    }
+}
+
+#[test]
+fn few_people_go_to_every_room_too() {
+    let lived = live(office(), 4, RoutesOptions::default());
+    lived.print("office");
+    lived.check_all_came_and_went();
+    lived.check_rooms(0.002);
+}
+
+#[test]
+fn every_room_of_the_school_is_used() {
+    let lived = live(sample("school.png"), 1000, RoutesOptions::default());
+    lived.print("school");
+    lived.check_all_came_and_went();
+    lived.check_rooms(LEAST_TRODDEN);
+}
+
+#[test]
+fn in_a_closed_plan_people_begin_and_end_in_rooms() {
+    let mut plan = office();
+    plan = FloorPlan::from_mask(
+        plan.width_px,
+        plan.height_px,
+        plan.metres_per_pixel,
+        plan.floor.iter().enumerate().map(|(at, &floor)| if at % 600 < 4 { 0 } else { floor }).collect(),
+    );
+    let lived = live(plan, 300, RoutesOptions::default());
+    lived.print("closed office");
+    assert!(lived.rooms.entrances.is_empty());
+    lived.check_all_came_and_went();
+    lived.check_rooms(LEAST_TRODDEN);
+}
+
+/// The office on a sheet of paper: its only way in is a door in the outer wall.
+#[test]
+fn people_come_in_by_the_door_of_a_building_on_paper() {
+    let inner = office();
+    let (margin, width, height) = (60, inner.width_px, inner.height_px);
+    let shade = |x: u32, y: u32| {
+        let (x, y) = (x.wrapping_sub(margin), y.wrapping_sub(margin));
+        let is_wall = x < width && y < height && inner.floor[(y * width + x) as usize] == 0;
+        image::Luma([if is_wall { 0u8 } else { 255 }])
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("office.png");
+    image::GrayImage::from_fn(width + 2 * margin, height + 2 * margin, shade).save(&path).unwrap();
+    let options = PlanOptions { metres_per_pixel: Some(0.05), ..PlanOptions::default() };
+    let lived = live(plan::read(&path, &options).unwrap(), 300, RoutesOptions::default());
+    lived.print("office on paper");
+    let [door] = lived.rooms.entrances.as_slice() else { panic!("{:?}", lived.rooms.entrances) };
+    assert!(door.opening.is_none() && door.at_m.distance(vec2(3.2, 12.0)) < 0.5, "{door:?}");
+    assert!((door.width_m - 0.9).abs() < 0.15, "{door:?}");
+    lived.check_all_came_and_went();
+    lived.check_rooms(0.15);
+}
+
+#[test]
+fn written_routes_and_life_mix_by_share() {
+    let walls_of = |plan: &FloorPlan| Walls::trace(plan, &WallsOptions::default());
+    let plan = sample("school.png");
+    let route = RouteRequest {
+        from: PlaceRequest::Opening("south".into()),
+        to: PlaceRequest::Opening("east".into()),
+        ..RouteRequest::default()
+    };
+    let life = LifeOptions { share: 0.25, ..LifeOptions::default() };
+    let options = RoutesOptions { routes: vec![route], life, ..RoutesOptions::default() };
+    let (routes, _) = Navigation::find(&plan, &walls_of(&plan), &options).unwrap();
+    let share = |lived: bool| {
+        let own = routes.iter().filter(|route| route.life.is_some() == lived);
+        own.map(|route| route.share).sum::<f64>()
+    };
+    assert!((share(true) - 0.25).abs() < 1e-9 && (share(false) - 0.75).abs() < 1e-9, "{}", share(true));
+}
+
+#[test]
+fn what_the_scenario_says_of_a_room_counts() {
+    let said = |weight: f64| RoutesOptions {
+        rooms: vec![RoomRequest { name: Some("Room 3".into()), weight: Some(weight), ..RoomRequest::default() }],
+        ..RoutesOptions::default()
+    };
+    let visits = |lived: &Lived| {
+        let shares = lived.routes.iter().filter(|route| route.stops.iter().any(|stop| stop.stop.name == "room 3"));
+        shares.map(|route| route.share).sum::<f64>()
+    };
+    let [never, often] = [0.0, 8.0].map(|weight| live(office(), 200, said(weight)));
+    assert_eq!(visits(&never), 0.0);
+    assert!(visits(&often) > 0.5, "{}", visits(&often));
+}

@@ -1,0 +1,99 @@
+//! Plans as people draw them: what is read of each.
+
+#![allow(dead_code, clippy::disallowed_methods, clippy::unwrap_used)]
+
+mod buildings;
+mod canvas;
+mod measure;
+mod photographs;
+mod scales;
+mod styles;
+
+use self::measure::{HEAD, Measured, measure, row};
+
+/// The style that is not read to the level of the others: walls without thickness below axes and dimension lines.
+const HARD: &str = "walls of one pixel";
+/// Styles whose walls are hollow: some furniture at walls is taken for wall.
+const HOLLOW: [&str; 2] = ["outline walls", "hatched walls"];
+/// The style whose walls are slanted: furniture that stands aslant is often left as lines, and some doors are missed.
+const TURNED: &str = "turned 24 degrees";
+/// Robots' maps, in which the unknown is wall.
+const MAPS: [&str; 3] = ["robot's map", "negated map", "noisy map turned 7 degrees"];
+
+#[test]
+fn drawings_hold_what_they_should() {
+    for style in styles::STYLES.into_iter().filter(|style| style.px_per_m < 100.0) {
+        let drawn = styles::draw(&styles::Case { style, building: buildings::flat, seed: 0 });
+        let truth = &drawn.truth;
+        assert_eq!(truth.wall.len(), (drawn.image.width() * drawn.image.height()) as usize);
+        let numbers: std::collections::BTreeSet<u8> = truth.rooms.iter().copied().collect();
+        assert_eq!(numbers.len(), truth.room_names.len() + 1, "{}", style.name);
+        assert_eq!(truth.doors.len(), 8, "{}", style.name);
+    }
+}
+
+fn check(m: &Measured) {
+    let what = row(m);
+    assert_eq!(m.error, None, "{what}");
+    assert_eq!(m.rooms[0], m.rooms[1], "rooms: {what}");
+    assert!(m.paper_m2 < 0.5, "paper: {what}");
+    if MAPS.contains(&m.style) {
+        return;
+    }
+    let doors = if m.style == TURNED { 90 } else { 95 };
+    assert!(m.doors[0] * 100 >= m.doors[1] * doors, "doors: {what}");
+    if HOLLOW.contains(&m.style) {
+        assert!(m.wall_iou >= 0.85, "walls: {what}");
+        return;
+    }
+    assert!(m.false_doors * 10 <= m.doors[1], "doors that are none: {what}");
+    assert!(m.wall_iou >= if m.clean { 0.95 } else { 0.85 }, "walls: {what}");
+    assert!(m.notes_as_wall_m2 < if m.clean { 0.01 } else { 0.1 }, "letters or furniture as wall: {what}");
+    assert!(m.furniture >= if m.style == TURNED { 0.7 } else { 0.95 }, "furniture: {what}");
+}
+
+/// An office in all styles that are drawn at up to 50 pixels a metre.
+#[test]
+fn an_office_is_read_however_it_is_drawn() {
+    let is_read = |case: &&styles::Case| {
+        (case.building)().name == "office" && case.style.px_per_m < 100.0 && case.style.name != HARD
+    };
+    for case in styles::cases().iter().filter(is_read) {
+        check(&measure(case));
+    }
+}
+
+/// All buildings in all styles, as the table of `docs/plans.md`:
+/// `cargo test --test plans -- --ignored --nocapture table > table.md`.
+#[test]
+#[ignore = "takes minutes"]
+fn table() {
+    println!("{HEAD}");
+    for case in styles::cases() {
+        println!("{}", row(&measure(&case)));
+    }
+}
+
+/// Writes all drawings into the folder that `PLANS_OUT` names: `cargo test --test plans -- --ignored draw_all`.
+#[test]
+#[ignore = "writes pictures to look at"]
+fn draw_all() {
+    let out = std::path::PathBuf::from(std::env::var("PLANS_OUT").expect("PLANS_OUT names a folder"));
+    for case in styles::cases() {
+        let folder = out.join(format!("{}-{}", (case.building)().name, case.style.name.replace(['/', ' ', '\''], "_")));
+        std::fs::create_dir_all(&folder).unwrap();
+        styles::draw(&case).save(&folder);
+    }
+}
+
+/// Writes the two plans of the README into the folder that `PLANS_OUT` names.
+#[test]
+#[ignore = "writes pictures for the README"]
+fn draw_examples() {
+    let out = std::path::PathBuf::from(std::env::var("PLANS_OUT").expect("PLANS_OUT names a folder"));
+    std::fs::create_dir_all(&out).unwrap();
+    let case = styles::cases().into_iter().find(|case| case.style.name == "CAD export").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::copy(styles::draw(&case).save(folder.path()), out.join("cad.png")).unwrap();
+    std::fs::write(out.join("sketch.jpg"), photographs::sketch()).unwrap();
+}

@@ -1,0 +1,71 @@
+//! The scale that is guessed where nobody gives one.
+
+use trodden::plan::{PlanOptions, ScaleSource, read};
+
+use super::HARD;
+use super::buildings::{flat, office};
+use super::styles::{Case, STYLES, draw};
+
+/// Drawings without a scale of their own; the finest take long.
+fn unscaled(buildings: &[fn() -> super::buildings::Building]) -> Vec<Case> {
+    let styles = || STYLES.into_iter().filter(|style| style.px_per_m <= 50.0 && style.px_per_m != 20.0);
+    buildings.iter().flat_map(|&building| styles().map(move |style| Case { style, building, seed: 0 })).collect()
+}
+
+#[test]
+fn scales_are_guessed_within_a_tenth() {
+    let (mut all, mut near, mut told, mut missed) = (0, 0, 0, Vec::new());
+    // The office in some styles: it is large.
+    let of_office = unscaled(&[office]).into_iter().step_by(5);
+    for case in unscaled(&[flat]).into_iter().chain(of_office) {
+        let drawn = draw(&case);
+        let folder = tempfile::tempdir().unwrap();
+        let path = drawn.save(folder.path());
+        let name = format!("{}, {}", (case.building)().name, case.style.name);
+        let Ok(plan) = read(&path, &PlanOptions::default()) else {
+            missed.push(format!("{name}: not read"));
+            all += 1;
+            continue;
+        };
+        let (found, truth) = (plan.metres_per_pixel, drawn.truth.metres_per_pixel);
+        let is_near = (found / truth - 1.0).abs() <= 0.1;
+        let [low, high] = plan.scale.range;
+        all += 1;
+        near += usize::from(is_near);
+        told += usize::from((low..=high).contains(&truth));
+        println!("{name}: {:+.1} %", (found / truth - 1.0) * 100.0);
+        if !is_near || !(low..=high).contains(&truth) {
+            missed.push(format!("{name}: {found} for {truth:.5}, {low:.5} to {high:.5}, by {}", plan.scale.evidence));
+        }
+        assert_ne!(plan.scale.source, ScaleSource::Given);
+        assert!(plan.warnings.iter().any(|w| w.contains("no scale was given")), "{name}");
+    }
+    println!("{near} of {all} near, {told} of {all} within the range\n{}", missed.join("\n"));
+    assert!(near * 10 >= all * 9, "{near} of {all} within a tenth:\n{}", missed.join("\n"));
+    assert!(told * 20 >= all * 19, "{told} of {all} within the range:\n{}", missed.join("\n"));
+}
+
+/// Single lines below axes and dimension lines are not told from them yet.
+#[test]
+fn the_buildings_width_gives_the_scale() {
+    let (mut all, mut near, mut missed) = (0, 0, Vec::new());
+    for case in unscaled(&[flat]).into_iter().filter(|case| case.style.name != HARD) {
+        let drawn = draw(&case);
+        let folder = tempfile::tempdir().unwrap();
+        let path = drawn.save(folder.path());
+        let width = drawn.image.width() as usize;
+        let columns: Vec<usize> =
+            (0..drawn.truth.wall.len()).filter(|&at| drawn.truth.wall[at] != 0).map(|at| at % width).collect();
+        let extent = columns.iter().max().unwrap() + 1 - columns.iter().min().unwrap();
+        let width_m = extent as f64 * drawn.truth.metres_per_pixel;
+        let options = PlanOptions { width_m: Some(width_m), ..PlanOptions::default() };
+        let name = format!("{}, {}", (case.building)().name, case.style.name);
+        all += 1;
+        match read(&path, &options) {
+            Ok(plan) if (plan.metres_per_pixel / drawn.truth.metres_per_pixel - 1.0).abs() <= 0.02 => near += 1,
+            Ok(plan) => missed.push(format!("{name}: {} for {}", plan.metres_per_pixel, drawn.truth.metres_per_pixel)),
+            Err(error) => missed.push(format!("{name}: {error}")),
+        }
+    }
+    assert!(near * 20 >= all * 19, "{near} of {all} within 2 %:\n{}", missed.join("\n"));
+}

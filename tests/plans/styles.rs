@@ -1,0 +1,577 @@
+//! The ways in which people draw a plan, and what is truly on each drawing.
+
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+
+use image::codecs::jpeg::JpegEncoder;
+use image::{DynamicImage, ImageFormat, RgbImage, Rgba, RgbaImage};
+
+use super::buildings::{Building, Hole, HoleKind, Kind, Piece, Wall, flat, office, school};
+use super::canvas::{Canvas, Point, Polygon, arc, ellipse, line, lines, outline, rectangle, text};
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Walls {
+    Solid,
+    Outline,
+    Hatched,
+    OnePixel,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Doors {
+    Open,
+    LeafAndArc,
+    ClosedLine,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Tones {
+    Black,
+    Layers,
+    Brochure,
+    Grey,
+    Dark,
+    Map,
+    NegatedMap,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum File {
+    Png,
+    Transparent,
+    Jpeg,
+}
+
+/// A way to draw a plan.
+#[derive(Clone, Copy, Debug)]
+pub struct Style {
+    pub name: &'static str,
+    pub walls: Walls,
+    pub doors: Doors,
+    pub tones: Tones,
+    pub file: File,
+    /// Room names and areas, dimensions, axes, north arrow, title block, sheet frame.
+    pub sheet: bool,
+    /// Room names and areas.
+    pub names: bool,
+    pub furniture: bool,
+    /// Turn of the drawing, degrees.
+    pub turn_deg: f64,
+    /// Share of the wall that a scanner missed.
+    pub noise: f64,
+    pub px_per_m: f64,
+    /// Whether the drawing is sharp, so that nothing of it may be misread.
+    pub clean: bool,
+}
+
+const CAD: Style = Style {
+    name: "CAD export",
+    walls: Walls::Solid,
+    doors: Doors::LeafAndArc,
+    tones: Tones::Black,
+    file: File::Png,
+    sheet: true,
+    names: true,
+    furniture: true,
+    turn_deg: 0.0,
+    noise: 0.0,
+    px_per_m: 50.0,
+    clean: true,
+};
+
+/// Walls, windows and doors alone.
+const PLAIN: Style = Style { name: "plain", doors: Doors::Open, sheet: false, names: false, furniture: false, ..CAD };
+
+/// All styles.
+pub const STYLES: [Style; 20] = [
+    PLAIN,
+    CAD,
+    Style { name: "outline walls", walls: Walls::Outline, ..CAD },
+    Style { name: "hatched walls", walls: Walls::Hatched, ..CAD },
+    Style { name: "walls of one pixel", walls: Walls::OnePixel, ..CAD },
+    Style { name: "30 px/m", px_per_m: 30.0, ..CAD },
+    Style { name: "118 px/m", px_per_m: 118.0, ..CAD },
+    Style { name: "transparent", file: File::Transparent, ..CAD },
+    Style { name: "layer colours", tones: Tones::Layers, ..CAD },
+    Style { name: "JPEG", file: File::Jpeg, px_per_m: 0.0, clean: false, ..CAD },
+    Style { name: "doors closed by a line", doors: Doors::ClosedLine, sheet: false, ..CAD },
+    Style { name: "doors with leaf and arc", doors: Doors::LeafAndArc, ..PLAIN },
+    Style { name: "brochure", tones: Tones::Brochure, sheet: false, ..CAD },
+    Style { name: "grey walls", tones: Tones::Grey, sheet: false, ..CAD },
+    Style { name: "dark background", tones: Tones::Dark, sheet: false, ..CAD },
+    Style { name: "robot's map", tones: Tones::Map, px_per_m: 20.0, clean: false, ..PLAIN },
+    Style { name: "negated map", tones: Tones::NegatedMap, px_per_m: 20.0, clean: false, ..PLAIN },
+    Style {
+        name: "noisy map turned 7 degrees",
+        tones: Tones::Map,
+        px_per_m: 20.0,
+        turn_deg: 7.0,
+        noise: 0.04,
+        clean: false,
+        ..PLAIN
+    },
+    Style { name: "CAD without furniture", furniture: false, ..CAD },
+    Style { name: "turned 24 degrees", turn_deg: 24.0, sheet: false, px_per_m: 43.0, ..CAD },
+];
+
+/// A plan to be read: a style, a building and a seed of noise.
+#[derive(Clone, Copy)]
+pub struct Case {
+    pub style: Style,
+    pub building: fn() -> Building,
+    pub seed: u64,
+}
+
+/// All styles of each building; robots' maps with two seeds.
+pub fn cases() -> Vec<Case> {
+    let buildings: [fn() -> Building; 3] = [office, flat, school];
+    let mut all = Vec::new();
+    for building in buildings {
+        for style in STYLES {
+            for seed in 0..if style.noise > 0.0 { 2 } else { 1 } {
+                all.push(Case { style, building, seed });
+            }
+        }
+    }
+    all
+}
+
+/// A door as drawn: the ends of its jambs, pixels from the top left.
+#[derive(Clone, Copy, Debug)]
+pub struct TrueDoor {
+    pub from: Point,
+    pub to: Point,
+}
+
+/// What is on a drawing, one byte per pixel.
+pub struct Truth {
+    pub metres_per_pixel: f64,
+    pub wall: Vec<u8>,
+    pub window: Vec<u8>,
+    /// Floor inside the building, below furniture and in doors too.
+    pub floor: Vec<u8>,
+    /// Number of the room from 1 on.
+    pub rooms: Vec<u8>,
+    pub room_names: Vec<&'static str>,
+    pub doors: Vec<TrueDoor>,
+    pub furniture: Vec<u8>,
+    /// Letters, dimensions, frames.
+    pub notes: Vec<u8>,
+}
+
+pub struct Drawn {
+    pub image: DynamicImage,
+    /// The YAML of a robot's map.
+    pub yaml: Option<String>,
+    pub truth: Truth,
+    file: File,
+}
+
+impl Drawn {
+    /// Writes the plan into a folder. Returns the path to read.
+    pub fn save(&self, folder: &Path) -> PathBuf {
+        let path = folder.join(if self.file == File::Jpeg { "plan.jpg" } else { "plan.png" });
+        if self.file == File::Jpeg {
+            let mut bytes = Cursor::new(Vec::new());
+            JpegEncoder::new_with_quality(&mut bytes, 75).encode_image(&self.image).unwrap();
+            std::fs::write(&path, bytes.into_inner()).unwrap();
+        } else {
+            self.image.save_with_format(&path, ImageFormat::Png).unwrap();
+        }
+        match &self.yaml {
+            Some(yaml) => {
+                std::fs::write(folder.join("plan.yaml"), yaml).unwrap();
+                folder.join("plan.yaml")
+            }
+            None => path,
+        }
+    }
+}
+
+/// The drawing that a photograph or a scan starts from: thick lines, room names, without a sheet.
+pub fn hand_drawing(building: fn() -> Building) -> Drawn {
+    draw(&Case { style: Style { names: true, ..PLAIN }, building, seed: 0 })
+}
+
+/// Colours of the parts of a drawing.
+struct Palette {
+    paper: [u8; 3],
+    wall: [u8; 3],
+    window: [u8; 3],
+    door: [u8; 3],
+    furniture: [u8; 3],
+    words: [u8; 3],
+    notes: [u8; 3],
+}
+
+fn palette(tones: Tones) -> Palette {
+    let all = |paper, ink| Palette { paper, wall: ink, window: ink, door: ink, furniture: ink, words: ink, notes: ink };
+    match tones {
+        Tones::Black => all([255; 3], [0; 3]),
+        Tones::Grey => Palette { words: [0x70; 3], ..all([255; 3], [0xa0; 3]) },
+        Tones::Dark => all([0x1e, 0x21, 0x28], [235; 3]),
+        Tones::Map => all([205; 3], [0; 3]),
+        Tones::NegatedMap => all([50; 3], [255; 3]),
+        Tones::Layers => Palette {
+            window: [0, 255, 255],
+            door: [0, 170, 0],
+            furniture: [200, 0, 200],
+            words: [220, 0, 0],
+            notes: [0, 90, 220],
+            ..all([255; 3], [0; 3])
+        },
+        Tones::Brochure => Palette {
+            wall: [0x38; 3],
+            window: [0x60; 3],
+            door: [0x50; 3],
+            furniture: [0x40; 3],
+            words: [0x30; 3],
+            ..all([255; 3], [0x38; 3])
+        },
+    }
+}
+
+/// Draws a case.
+pub fn draw(case: &Case) -> Drawn {
+    let (style, building) = (case.style, (case.building)());
+    let [w, h] = building.size;
+    let turn = style.turn_deg.to_radians();
+    // A turned drawing needs more paper; scanned maps end where the scanner saw no more.
+    let turned = if style.noise > 0.0 { 0.0 } else { turn.sin() * w.max(h) * 0.5 };
+    let margin = if style.sheet { [4.5, 4.5, 4.5, 5.5] } else { [1.2 + turned; 4] };
+    let size = [w + margin[0] + margin[2], h + margin[1] + margin[3]];
+    let px_per_m = if style.px_per_m > 0.0 { style.px_per_m } else { 800.0 / size[0] };
+    let tones = palette(style.tones);
+    let mut canvas = Canvas::new(size, [-margin[0], -margin[1]], px_per_m, turn, tones.paper);
+    let thin = (0.02f64).max(1.0 / px_per_m);
+    let mut truth = truth(&canvas, &building, &style);
+    let interior: Vec<Polygon> = parts(&building);
+    match style.tones {
+        Tones::Map => canvas.fill(&[interior, building.hole_polygons(true)].concat(), [254; 3]),
+        Tones::NegatedMap => canvas.fill(&[interior, building.hole_polygons(true)].concat(), [1; 3]),
+        Tones::Brochure => {
+            let colours = [[247, 233, 206], [222, 236, 246], [230, 242, 218], [250, 224, 220], [238, 228, 246]];
+            canvas.fill(&building.hole_polygons(true), [235, 232, 226]);
+            for (k, room) in building.rooms.iter().enumerate() {
+                let parts: Vec<Polygon> =
+                    room.parts.iter().map(|&[x0, y0, x1, y1]| rectangle([x0, y0], [x1, y1])).collect();
+                canvas.fill(&parts, colours[k % colours.len()]);
+            }
+        }
+        _ => {}
+    }
+    if style.furniture {
+        for piece in &building.furniture {
+            let (shape, strokes) = symbol(piece, thin);
+            if style.tones == Tones::Brochure {
+                canvas.fill(&[shape], [232, 214, 184]);
+            }
+            canvas.fill(&strokes, tones.furniture);
+        }
+    }
+    if style.sheet || style.names {
+        let words = words(&building, thin);
+        add(&mut truth.notes, &canvas.mask(&words));
+        canvas.fill(&words, tones.words);
+    }
+    if style.sheet {
+        let notes = sheet(&building, size, [-margin[0], -margin[1]], thin);
+        add(&mut truth.notes, &canvas.mask(&notes));
+        canvas.fill(&notes, tones.notes);
+    }
+    draw_walls(&mut canvas, &building, &style, tones.wall, tones.paper, thin);
+    for (wall, hole) in building.holes() {
+        match hole.kind {
+            HoleKind::Window if style.walls == Walls::OnePixel => {
+                canvas.fill(&window(wall, hole, 0.12, thin), tones.window)
+            }
+            HoleKind::Window => canvas.fill(&window(wall, hole, wall.thick, thin), tones.window),
+            HoleKind::Door { hinge_first, left } => {
+                canvas.fill(&door(wall, hole, hinge_first, left, style.doors, thin), tones.door);
+            }
+        }
+    }
+    if style.noise > 0.0 {
+        scan(&mut canvas, style.noise, case.seed);
+    }
+    let rgb: Vec<u8> = canvas.pixels.iter().flatten().map(|v| v.round() as u8).collect();
+    let rgb = RgbImage::from_vec(canvas.width as u32, canvas.height as u32, rgb).unwrap();
+    let image = match style.file {
+        File::Transparent => {
+            let alpha = |x: u32, y: u32| Rgba([0, 0, 0, 255 - rgb.get_pixel(x, y)[0]]);
+            DynamicImage::ImageRgba8(RgbaImage::from_fn(rgb.width(), rgb.height(), alpha))
+        }
+        _ if matches!(style.tones, Tones::Map | Tones::NegatedMap) => DynamicImage::ImageRgb8(rgb).into_luma8().into(),
+        _ => DynamicImage::ImageRgb8(rgb),
+    };
+    let yaml = matches!(style.tones, Tones::Map | Tones::NegatedMap).then(|| {
+        format!(
+            "image: plan.png\nresolution: {}\norigin: [0, 0, 0]\nnegate: {}\noccupied_thresh: 0.65\nfree_thresh: 0.196\n",
+            1.0 / px_per_m,
+            u8::from(style.tones == Tones::NegatedMap)
+        )
+    });
+    Drawn { image, yaml, truth, file: style.file }
+}
+
+fn add(mask: &mut [u8], other: &[u8]) {
+    mask.iter_mut().zip(other).for_each(|(m, &o)| *m |= o);
+}
+
+fn parts(building: &Building) -> Vec<Polygon> {
+    let part = |&[x0, y0, x1, y1]: &[f64; 4]| rectangle([x0, y0], [x1, y1]);
+    building.rooms.iter().flat_map(|room| room.parts.iter().map(part)).collect()
+}
+
+fn centre_lines(building: &Building, thick: f64) -> Vec<Polygon> {
+    let stretches = |wall: &Wall| -> Vec<Polygon> {
+        let within = |[from, to]: [f64; 2]| [from.max(0.0), to.min(wall.length())];
+        let ends = |[from, to]: [f64; 2]| line(wall.place(from, 0.0), wall.place(to, 0.0), thick);
+        wall.solid().into_iter().map(within).map(ends).collect()
+    };
+    building.walls.iter().flat_map(stretches).collect()
+}
+
+fn truth(canvas: &Canvas, building: &Building, style: &Style) -> Truth {
+    let wall = match style.walls {
+        Walls::OnePixel => canvas.mask(&centre_lines(building, 1.0 / canvas.px_per_m)),
+        _ => canvas.mask(&building.solid(0.0)),
+    };
+    let window = canvas.mask(&building.hole_polygons(false));
+    let doors = canvas.mask(&building.hole_polygons(true));
+    let mut rooms = vec![0u8; wall.len()];
+    for (k, room) in (1..).zip(&building.rooms) {
+        let parts: Vec<Polygon> = room.parts.iter().map(|&[x0, y0, x1, y1]| rectangle([x0, y0], [x1, y1])).collect();
+        let mask = canvas.mask(&parts);
+        for (at, number) in rooms.iter_mut().enumerate() {
+            if mask[at] != 0 && wall[at] == 0 && window[at] == 0 && (doors[at] == 0 || style.walls == Walls::OnePixel) {
+                *number = k;
+            }
+        }
+    }
+    let is_floor = |at: usize| u8::from(rooms[at] != 0 || doors[at] != 0);
+    let floor = (0..wall.len()).map(is_floor).collect();
+    let shapes: Vec<Polygon> = building.furniture.iter().map(|piece| symbol(piece, 0.02).0).collect();
+    let furniture = if style.furniture { canvas.mask(&shapes) } else { vec![0; wall.len()] };
+    let ends = |(wall, hole): (&Wall, &Hole)| TrueDoor {
+        from: canvas.px(wall.place(hole.at, 0.0)),
+        to: canvas.px(wall.place(hole.at + hole.width, 0.0)),
+    };
+    Truth {
+        metres_per_pixel: 1.0 / canvas.px_per_m,
+        notes: vec![0; wall.len()],
+        wall,
+        window,
+        floor,
+        rooms,
+        room_names: building.rooms.iter().map(|room| room.name).collect(),
+        doors: building.holes().filter(|(_, hole)| hole.kind != HoleKind::Window).map(ends).collect(),
+        furniture,
+    }
+}
+
+fn draw_walls(canvas: &mut Canvas, building: &Building, style: &Style, ink: [u8; 3], paper: [u8; 3], thin: f64) {
+    match style.walls {
+        Walls::Solid => canvas.fill(&building.solid(0.0), ink),
+        Walls::OnePixel => canvas.fill(&centre_lines(building, 1.0 / canvas.px_per_m), ink),
+        Walls::Outline | Walls::Hatched => {
+            canvas.fill(&building.solid(0.0), ink);
+            let within = canvas.samples(&building.solid(-thin));
+            canvas.paint(&within, paper);
+            if style.walls == Walls::Hatched {
+                let [w, h] = building.size;
+                let every = 0.12;
+                let count = ((w + h + 2.0) / every) as i32;
+                let hatch: Vec<Polygon> = (0..count)
+                    .map(|k| {
+                        let x = f64::from(k) * every - 1.0;
+                        line([x, -1.0], [x - h - 2.0, h + 1.0], thin * 0.7)
+                    })
+                    .collect();
+                let hatch = canvas.samples(&hatch);
+                let both = within.iter().zip(&hatch).map(|(a, b)| a & b).collect();
+                canvas.paint(&both, ink);
+            }
+        }
+    }
+}
+
+fn window(wall: &Wall, hole: &Hole, thick: f64, thin: f64) -> Vec<Polygon> {
+    let (from, to) = (hole.at, hole.at + hole.width);
+    let across = (thick - thin) * 0.5;
+    [-across, 0.0, across].map(|left| line(wall.place(from, left), wall.place(to, left), thin)).to_vec()
+}
+
+fn door(wall: &Wall, hole: &Hole, hinge_first: bool, left: bool, doors: Doors, thin: f64) -> Vec<Polygon> {
+    let (hinge, strike) = if hinge_first { (hole.at, hole.at + hole.width) } else { (hole.at + hole.width, hole.at) };
+    let side = if left { 1.0 } else { -1.0 };
+    match doors {
+        Doors::Open => Vec::new(),
+        Doors::ClosedLine => vec![line(wall.place(hinge, 0.0), wall.place(strike, 0.0), thin)],
+        Doors::LeafAndArc => {
+            let face = side * wall.thick * 0.5;
+            let (centre, tip) = (wall.place(hinge, face), wall.place(hinge, face + side * hole.width));
+            let end = wall.place(strike, face);
+            let angle = |p: Point| (p[1] - centre[1]).atan2(p[0] - centre[0]);
+            let (from, mut to) = (angle(tip), angle(end));
+            let turn = std::f64::consts::TAU;
+            if to - from > turn * 0.5 {
+                to -= turn;
+            } else if to - from < -turn * 0.5 {
+                to += turn;
+            }
+            let mut all = lines(&arc(centre, hole.width, from, to), thin);
+            all.push(line(centre, tip, thin * 1.5));
+            all
+        }
+    }
+}
+
+/// The shape of a piece of furniture, and its strokes.
+fn symbol(piece: &Piece, thin: f64) -> (Polygon, Vec<Polygon>) {
+    let [x0, y0] = piece.min;
+    let [x1, y1] = piece.max;
+    let (middle, half) = ([(x0 + x1) * 0.5, (y0 + y1) * 0.5], [(x1 - x0) * 0.5, (y1 - y0) * 0.5]);
+    let shape = if piece.round { ellipse(middle, half) } else { rectangle(piece.min, piece.max) };
+    let mut strokes = outline(&shape, thin);
+    match piece.kind {
+        Kind::Seat => strokes.push(line([x0, y0 + 0.08], [x1, y0 + 0.08], thin)),
+        Kind::Shelf => strokes.push(line(piece.min, piece.max, thin)),
+        Kind::Bed => {
+            strokes.extend(outline(&rectangle([x0 + 0.1, y0 + 0.1], [x0 + 0.45, y1 - 0.1]), thin));
+            strokes.push(line([x0 + 0.7, y0], [x0 + 0.7, y1], thin));
+        }
+        Kind::Wc | Kind::Basin => strokes.extend(outline(&ellipse(middle, half.map(|v| v * 0.6)), thin)),
+        Kind::Table | Kind::Counter => {}
+    }
+    (shape, strokes)
+}
+
+/// Room names and areas.
+fn words(building: &Building, thin: f64) -> Vec<Polygon> {
+    let mut all = Vec::new();
+    for room in &building.rooms {
+        let area: f64 = room.parts.iter().map(|[x0, y0, x1, y1]| (x1 - x0) * (y1 - y0)).sum();
+        let [x, y] = room.label;
+        let small = room.parts[0][3] - room.parts[0][1] < 2.1;
+        let size = if small { 0.22 } else { 0.3 };
+        all.extend(text(room.name, [x, y - size * 0.8], size, thin));
+        all.extend(text(&format!("{area:.1} m2"), [x, y + size * 0.8], size * 0.85, thin));
+    }
+    all
+}
+
+/// Dimension lines, axes, north arrow, title block and frame.
+fn sheet(building: &Building, size: Point, origin: Point, thin: f64) -> Vec<Polygon> {
+    let [w, h] = building.size;
+    let mut all = Vec::new();
+    let tick = |p: Point| line([p[0] - 0.12, p[1] + 0.12], [p[0] + 0.12, p[1] - 0.12], thin * 1.5);
+    // Dimensions outside: a chain and the whole, with extension lines that touch the walls.
+    for pair in building.stations.windows(2) {
+        all.push(line([pair[0], -1.2], [pair[1], -1.2], thin));
+        all.extend(text(&format!("{:.2}", pair[1] - pair[0]), [(pair[0] + pair[1]) * 0.5, -1.42], 0.24, thin));
+    }
+    for &x in &building.stations {
+        all.push(line([x, -1.4], [x, -0.1], thin));
+        all.push(tick([x, -1.2]));
+    }
+    all.push(line([0.0, -2.0], [w, -2.0], thin));
+    all.extend([tick([0.0, -2.0]), tick([w, -2.0])]);
+    all.extend(text(&format!("{w:.2}"), [w * 0.5, -2.22], 0.24, thin));
+    all.push(line([-1.4, 0.0], [-1.4, h], thin));
+    all.extend([tick([-1.4, 0.0]), tick([-1.4, h])]);
+    all.extend([line([-1.6, 0.0], [-0.1, 0.0], thin), line([-1.6, h], [-0.1, h], thin)]);
+    all.extend(text(&format!("{h:.2}"), [-2.1, h * 0.5], 0.24, thin));
+    // A dimension inside the first room, from wall to wall.
+    let [x0, y0, x1, y1] = building.rooms[0].parts[0];
+    let y = y0 + (y1 - y0) * 0.8;
+    all.push(line([x0, y], [x1, y], thin));
+    all.extend([tick([x0 + 0.2, y]), tick([x1 - 0.1, y])]);
+    all.extend(text(&format!("{:.2}", x1 - x0 - 0.2), [x0 + (x1 - x0) * 0.3, y - 0.22], 0.2, thin));
+    // Axes: dash and dot across the building, with a balloon.
+    for (k, &x) in building.stations.iter().enumerate() {
+        let mut y = -2.9;
+        while y < h + 1.0 {
+            all.push(line([x, y], [x, (y + 0.8).min(h + 1.0)], thin));
+            all.push(line([x, y + 0.95], [x, y + 1.0], thin));
+            y += 1.15;
+        }
+        all.extend(outline(&ellipse([x, -3.3], [0.4, 0.4]), thin));
+        all.extend(text(&format!("{}", (b'A' + k as u8) as char), [x, -3.3], 0.32, thin));
+    }
+    // A north arrow.
+    let [right, below] = [origin[0] + size[0], origin[1] + size[1]];
+    let north = [right - 1.9, origin[1] + 2.3];
+    all.extend(outline(&ellipse(north, [0.7, 0.7]), thin));
+    all.push(vec![[north[0], north[1] - 0.7], [north[0] + 0.25, north[1] + 0.4], [north[0], north[1] + 0.15]]);
+    all.extend(text("N", [north[0], north[1] - 1.05], 0.35, thin));
+    // A scale bar of 5 m.
+    for k in 0..5 {
+        let x = origin[0] + 2.0 + f64::from(k);
+        let bar = rectangle([x, below - 1.6], [x + 1.0, below - 1.45]);
+        if k % 2 == 0 {
+            all.push(bar);
+        } else {
+            all.extend(outline(&bar, thin));
+        }
+    }
+    all.extend(text("0", [origin[0] + 2.0, below - 1.85], 0.24, thin));
+    all.extend(text("5 m", [origin[0] + 7.0, below - 1.85], 0.24, thin));
+    // The frame and the title block.
+    let frame = rectangle([origin[0] + 0.5, origin[1] + 0.5], [right - 0.5, below - 0.5]);
+    all.extend(outline(&frame, thin * 3.0));
+    let (corner, end) = ([right - 7.5, below - 3.2], [right - 0.5, below - 0.5]);
+    all.extend(outline(&rectangle(corner, end), thin * 2.0));
+    all.push(line([corner[0], corner[1] + 0.9], [end[0], corner[1] + 0.9], thin));
+    all.push(line([corner[0], corner[1] + 1.8], [end[0], corner[1] + 1.8], thin));
+    all.push(line([corner[0] + 3.5, corner[1] + 0.9], [corner[0] + 3.5, end[1]], thin));
+    all.extend(text("GROUND FLOOR", [corner[0] + 3.2, corner[1] + 0.45], 0.4, thin * 1.5));
+    all.extend(text("1:100", [corner[0] + 1.6, corner[1] + 1.35], 0.28, thin));
+    all.extend(text("12.03.2024", [corner[0] + 5.2, corner[1] + 1.35], 0.28, thin));
+    all.extend(text("PLAN 7-B", [corner[0] + 1.6, corner[1] + 2.25], 0.28, thin));
+    all
+}
+
+/// Noise of a scanner: walls with holes and fringes, specks on the floor.
+fn scan(canvas: &mut Canvas, share: f64, seed: u64) {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(0x1234_5678_9abc_def1);
+    let mut random = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let (width, height) = (canvas.width, canvas.height);
+    let before = canvas.pixels.clone();
+    let value = |tone: f32| {
+        if tone < 128.0 {
+            0.0
+        } else if tone < 230.0 {
+            205.0
+        } else {
+            254.0
+        }
+    };
+    for y in 1..height - 1 {
+        for x in 1..width - 1 {
+            let at = y * width + x;
+            let near = [at - 1, at + 1, at - width, at + width];
+            let wall = value(before[at][0]) == 0.0;
+            let beside = near.iter().any(|&n| value(before[n][0]) == 0.0);
+            let draw = random();
+            let tone = match value(before[at][0]) {
+                _ if wall && draw < share => 205.0,
+                tone if !wall && beside && draw < share * 2.0 => {
+                    if draw < share {
+                        0.0
+                    } else {
+                        tone
+                    }
+                }
+                254.0 if draw < share * 0.02 => 0.0,
+                tone => tone,
+            };
+            canvas.pixels[at] = [tone; 3];
+        }
+    }
+}

@@ -1,0 +1,242 @@
+//! Floors of two sample plans, walked whole: what an artist sees between a busy gate and an untrodden corner.
+
+use std::path::Path;
+use std::sync::LazyLock;
+
+use trodden::crowd::Simulation;
+use trodden::look::{FloorResolver, Look};
+use trodden::marks::{Footfalls, Origin};
+use trodden::math::srgb::light;
+use trodden::math::{Vec2, vec2};
+use trodden::motion::{Frame, Motion, People};
+use trodden::patterns::PatternLibrary;
+use trodden::scenario::{Overrides, Scenario};
+use trodden::stamps::{Stamper, TexelGrid};
+use trodden::sums::FloorSums;
+use trodden::walls::Walls;
+
+const TEXELS_PER_M: usize = 100;
+/// Side of the squares that are compared, texels.
+const SQUARE: usize = 20;
+
+struct Trodden {
+    walls: Walls,
+    sums: FloorSums,
+    people: u32,
+    look: Look,
+}
+
+fn walked(name: &str, people: u32) -> Trodden {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("floorplans").join(name);
+    let scenario = Scenario::open(&path, &Overrides { people: Some(people), ..Overrides::default() }).unwrap();
+    let plan = trodden::plan::read(&scenario.plan_path().unwrap(), &scenario.plan_options()).unwrap();
+    let walls = Walls::trace(&plan, &scenario.walls);
+    let routes = trodden::routes::find(&plan, &walls, &scenario.routes).unwrap();
+    let library = PatternLibrary::built_in();
+    let bodies = People::new(scenario.seed, scenario.bodies.clone());
+    let mut crowd = Simulation::new(&plan, &walls, &routes, &bodies, &scenario.crowd).unwrap();
+    let origins = Origin::of_arrivals(crowd.arrivals().iter().map(|arrival| arrival.from_outside), 300);
+    let mut footfalls = Footfalls::new(&bodies, &walls, &library, &scenario.marks, origins).unwrap();
+    let grid = TexelGrid::covering(plan.width_m(), plan.height_m(), TEXELS_PER_M as f64).unwrap();
+    let (stamper, mut sums) = (Stamper::new(&library, grid, &scenario.stamps).unwrap(), FloorSums::new(grid));
+    let (mut frame, mut marks) = (Frame::default(), Vec::new());
+    while crowd.next_frame(&mut frame).unwrap() {
+        footfalls.push(&frame, &mut marks);
+    }
+    footfalls.finish(&mut marks);
+    sums.add(&stamper, &walls, &marks);
+    Trodden { walls, sums, people, look: scenario.look }
+}
+
+/// The station's gates, 1000 people.
+static STATION: LazyLock<Trodden> = LazyLock::new(|| walked("station.toml", 1000));
+/// Corridors of 5 m, 400 people.
+static CORRIDORS: LazyLock<Trodden> = LazyLock::new(|| walked("corridors.toml", 400));
+
+/// L*, a*, b* of linear sRGB.
+fn lab(rgb: [f64; 3]) -> [f64; 3] {
+    let row = |m: [f64; 3], white: f64| {
+        let t = (m[0] * rgb[0] + m[1] * rgb[1] + m[2] * rgb[2]) / white;
+        if t > 0.008_856 { libm::cbrt(t) } else { (903.3 * t + 16.0) / 116.0 }
+    };
+    let x = row([0.4124, 0.3576, 0.1805], 0.9505);
+    let y = row([0.2126, 0.7152, 0.0722], 1.0);
+    let z = row([0.0193, 0.1192, 0.9505], 1.089);
+    [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+}
+
+/// A square of floor away from walls.
+struct Square {
+    /// Passes in the whole history.
+    passes: f64,
+    lab: [f64; 3],
+}
+
+struct Floor {
+    squares: Vec<Square>,
+    clean: [f64; 3],
+    lightness: Vec<f64>,
+    width: usize,
+}
+
+/// Resolves a piece of the floor: lower left corner, width and height, metres.
+fn resolved(trodden: &Trodden, look: &Look, [x, y, width, height]: [f64; 4]) -> Floor {
+    let resolver = FloorResolver::new(&trodden.sums, &trodden.walls, look, trodden.people).unwrap();
+    let texels = |metres: f64| (metres * TEXELS_PER_M as f64) as usize;
+    let (columns, rows) = (texels(width), texels(height));
+    let block = resolver.resolve(texels(x) as i64, texels(y) as i64, columns, rows);
+    let presence = &block.layers.iter().find(|layer| layer.name == "presence").unwrap().values;
+    let weight = look.total_passes as f64 / f64::from(trodden.people);
+    let linear = |k: usize| block.base_color[k].map(|byte| f64::from(light(byte)));
+    let mut squares = Vec::new();
+    for j in (0..rows - SQUARE).step_by(SQUARE) {
+        for i in (0..columns - SQUARE).step_by(SQUARE) {
+            let middle =
+                vec2(x, y) + vec2((i + SQUARE / 2) as f64, (j + SQUARE / 2) as f64) * (1.0 / TEXELS_PER_M as f64);
+            let near = trodden.walls.nearest(middle, 2.0).map_or(2.0, |nearest| nearest.distance_m);
+            if !trodden.walls.is_inside(middle) || near < 0.4 {
+                continue;
+            }
+            let within = || (0..SQUARE * SQUARE).map(|n| (j + n / SQUARE) * columns + i + n % SQUARE);
+            let count = (SQUARE * SQUARE) as f64;
+            let mean = |channel: usize| within().map(|k| linear(k)[channel]).sum::<f64>() / count;
+            let passes = weight * within().map(|k| f64::from(presence[k])).sum::<f64>() / count;
+            squares.push(Square { passes, lab: lab([mean(0), mean(1), mean(2)]) });
+        }
+    }
+    let clean = lab(resolver.background().base_color.map(|byte| f64::from(light(byte))));
+    let lightness = (0..columns * rows).map(|k| lab(linear(k))[0]).collect();
+    Floor { squares, clean, lightness, width: columns }
+}
+
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0usize), |(sum, count), value| (sum + value, count + 1));
+    assert!(count >= 5, "only {count} squares");
+    sum / count as f64
+}
+
+impl Floor {
+    fn of(&self, passes: std::ops::Range<f64>, part: usize) -> f64 {
+        mean(self.squares.iter().filter(|square| passes.contains(&square.passes)).map(|square| square.lab[part]))
+    }
+}
+
+const GATES: [f64; 4] = [20.0, 12.0, 14.0, 14.0];
+
+#[test]
+fn busy_and_quiet_ways_are_told_apart_and_untrodden_floor_has_aged() {
+    let floor = resolved(&STATION, &STATION.look, GATES);
+    let (side, busy) = (floor.of(38.0..60.0, 0), floor.of(330.0..560.0, 0));
+    let untrodden = floor.of(0.0..2.0, 0);
+    println!("clean {:.1}, untrodden {untrodden:.1}, 48 passes {side:.1}, 430 passes {busy:.1}", floor.clean[0]);
+    assert!(side - busy >= 7.0, "48 and 430 passes differ by {:.1} L*", side - busy);
+    assert!(untrodden - side >= 1.5, "{untrodden:.1}, {side:.1}");
+    assert!((0.4..4.0).contains(&(floor.clean[0] - untrodden)), "untrodden floor is {untrodden:.1}");
+}
+
+#[test]
+fn lanes_are_warm() {
+    let floor = resolved(&STATION, &STATION.look, GATES);
+    let dark = floor.squares.iter().filter(|square| (8.0..10.0).contains(&(floor.clean[0] - square.lab[0])));
+    let warmer = mean(dark.map(|square| square.lab[2])) - floor.clean[2];
+    println!("b* {warmer:+.1} at L* -9");
+    assert!((2.0..5.0).contains(&warmer), "b* {warmer:+.1}");
+}
+
+#[test]
+fn heavy_is_heavier_everywhere() {
+    let commuters = resolved(&STATION, &STATION.look, GATES);
+    let heavy =
+        resolved(&STATION, &Look { total_passes: STATION.look.total_passes, ..Look::preset("heavy").unwrap() }, GATES);
+    for (light, dirty) in commuters.squares.iter().zip(&heavy.squares) {
+        assert!(dirty.lab[0] < light.lab[0] + 1.0, "{:.1} {:.1}", dirty.lab[0], light.lab[0]);
+    }
+    let darker = mean(commuters.squares.iter().zip(&heavy.squares).map(|(a, b)| a.lab[0] - b.lab[0]));
+    assert!(darker > 2.0, "heavy is {darker:.1} L* darker");
+}
+
+#[test]
+fn joints_of_tiles_are_far_dirtier_than_tiles() {
+    let mut look = STATION.look.clone();
+    look.floor.material = trodden::look::Material::Tile;
+    let [dirty, clean] = [look.clone(), look.clean()].map(|look| resolved(&STATION, &look, GATES));
+    // Joints lie at multiples of 30 cm: on two texels, of which each has half of the joint's 4 mm.
+    const SHARE: f64 = 0.2;
+    let luminance = |lightness: f64| libm::pow((lightness + 16.0) / 116.0, 3.0);
+    let [clean, dirty] = [&clean, &dirty].map(|floor| {
+        let (mut joints, mut tiles) = (Vec::new(), Vec::new());
+        for (k, &lightness) in floor.lightness.iter().enumerate() {
+            let [x, y] = [k % floor.width + 2000, k / floor.width + 1200].map(|n| n % 30);
+            let is_amid = |n: usize| (8..22).contains(&n);
+            if (([0, 29].contains(&x)) && is_amid(y)) || ([0, 29].contains(&y) && is_amid(x)) {
+                joints.push(luminance(lightness));
+            } else if is_amid(x) && is_amid(y) {
+                tiles.push(luminance(lightness));
+            }
+        }
+        let [joint, tile] = [joints, tiles].map(|values| values.iter().sum::<f64>() / values.len() as f64);
+        let joint = (joint - (1.0 - SHARE) * tile) / SHARE;
+        [joint, tile].map(|light| 116.0 * libm::cbrt(light) - 16.0)
+    });
+    let [joint, tile] = [clean[0] - dirty[0], clean[1] - dirty[1]];
+    println!("joints {joint:.1}, tiles {tile:.1}: {:.1} times", joint / tile);
+    // A joint of 4 mm takes 0.4 of a texel of a centimetre, which is then three to five times as dirty as a tile's.
+    let texel = 0.4 * joint + 0.6 * tile;
+    assert!((3.0..5.0).contains(&(texel / tile)), "{joint:.1} and {tile:.1}");
+}
+
+/// Lightness over clean along a stretch of wall of 2 m: of the first 4 cm, and of 10 to 25 cm.
+fn beside(resolver: &FloorResolver<'_>, walls: &Walls, middle: Vec2, along: Vec2) -> Option<[f64; 2]> {
+    let clean = lab(resolver.background().base_color.map(|byte| f64::from(light(byte))))[0];
+    let inward = [along.left(), along.left() * -1.0].into_iter().find(|n| walls.is_inside(middle + *n * 0.2))?;
+    let side = 260;
+    let [i0, j0] = [middle.x, middle.y].map(|metres| (metres * TEXELS_PER_M as f64) as i64 - side / 2);
+    let block = resolver.resolve(i0, j0, side as usize, side as usize);
+    let band = |from: f64, to: f64| {
+        let mut values = Vec::new();
+        for step in 0..200 {
+            for depth in 0..((to - from) * TEXELS_PER_M as f64).round() as usize {
+                let out = from + (depth as f64 + 0.5) / TEXELS_PER_M as f64;
+                let p = middle + along * (f64::from(step) / 100.0 - 1.0) + inward * out;
+                let [i, j] = [p.x, p.y].map(|metres| (metres * TEXELS_PER_M as f64) as i64);
+                let texel = block.base_color[((j - j0) * side + i - i0) as usize];
+                values.push(lab(texel.map(|byte| f64::from(light(byte))))[0] - clean);
+            }
+        }
+        values.iter().sum::<f64>() / values.len() as f64
+    };
+    Some([band(0.0, 0.04), band(0.10, 0.25)])
+}
+
+#[test]
+fn corridors_have_a_quiet_margin_and_a_dirty_line_at_the_skirting() {
+    let trodden = &*CORRIDORS;
+    for (preset, margin_at_least) in [("commuters", -3.0), ("heavy", -6.0)] {
+        let look = Look::preset(preset).unwrap();
+        let resolver = FloorResolver::new(&trodden.sums, &trodden.walls, &look, trodden.people).unwrap();
+        let (mut margins, mut lines) = (Vec::new(), Vec::new());
+        for outline in trodden.walls.outlines() {
+            for k in 0..outline.points_m.len() {
+                let [a, b] = outline.edge(k);
+                let (length, Some(along)) = (a.distance(b), (b - a).normalized()) else { continue };
+                if length < 6.0 || outline.opening(k).is_some() {
+                    continue;
+                }
+                // Far from corners.
+                let Some([line, margin]) = beside(&resolver, &trodden.walls, a.lerp(b, 0.37), along) else { continue };
+                margins.push(margin);
+                lines.push(line - margin);
+            }
+        }
+        margins.sort_by(f64::total_cmp);
+        let dirty = lines.iter().filter(|line| **line <= -5.0).count();
+        let middle = margins[margins.len() / 2];
+        println!(
+            "{preset}: {} stretches, margin {middle:.1} ({:.1} at worst), line on {dirty}",
+            lines.len(),
+            margins[0]
+        );
+        assert!(lines.len() >= 10 && middle >= margin_at_least, "{preset}: {middle:.1}");
+        assert!(dirty * 10 >= lines.len() * 9, "{preset}: {lines:.1?}");
+    }
+}
