@@ -1,5 +1,5 @@
 use super::{AdjacencyEdit, FormationError};
-use crate::math::Vec2;
+use crate::math::{Vec2, smoothstep};
 
 /// A key formation: the positions of all people at a time.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,7 +25,7 @@ impl Ease {
     pub fn share(self, time: f64) -> f64 {
         match self {
             Ease::Even => time,
-            Ease::Rest => time * time * (3.0 - 2.0 * time),
+            Ease::Rest => smoothstep(time),
         }
     }
 }

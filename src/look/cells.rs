@@ -2,6 +2,7 @@
 //! at a place for any window, without storage.
 
 use super::noise;
+use crate::math::smoothstep_f32;
 
 /// A hashed number from 0 to 1.
 pub(super) fn unit(key: u32, i: i32, j: i32) -> f32 {
@@ -15,15 +16,14 @@ pub(super) fn again(word: u32, n: u32) -> f32 {
 
 /// Rises smoothly from 0 to 1 while `x` goes from `from` to `to`.
 pub(super) fn rise(x: f32, from: f32, to: f32) -> f32 {
-    let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
+    smoothstep_f32((x - from) / (to - from))
 }
 
 /// Smooth noise from -1 to 1 with a spot per unit, for patterns that turn or shift from piece to piece.
 pub(super) fn smooth(key: u32, x: f64, y: f64) -> f32 {
     let (i, j) = (x.floor(), y.floor());
     let (f, g) = ((x - i) as f32, (y - j) as f32);
-    let (f, g) = (f * f * (3.0 - 2.0 * f), g * g * (3.0 - 2.0 * g));
+    let (f, g) = (smoothstep_f32(f), smoothstep_f32(g));
     let (i, j) = (i as i64 as i32, j as i64 as i32);
     let row = |j: i32| {
         let (a, b) = (noise::signed(key, i, j), noise::signed(key, i.wrapping_add(1), j));

@@ -17,6 +17,7 @@ mod block;
 mod bytes;
 mod coarse;
 mod colours;
+mod dirt;
 mod dust;
 mod error;
 mod segment;

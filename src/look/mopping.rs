@@ -36,7 +36,11 @@ pub(super) struct Mopping {
 }
 
 impl Mopping {
-    pub fn new(walls: &Walls, look: &MopLook, seed: u64) -> Mopping {
+    /// Returns nothing if the mop takes nothing.
+    pub fn new(walls: &Walls, look: &MopLook, seed: u64) -> Option<Mopping> {
+        if look.takes == 0.0 {
+            return None;
+        }
         let bounds = walls.bounds_m();
         let cells = |metres: f64| (metres * CELLS_PER_M).ceil().max(0.0) as i64 + 1;
         let (columns, rows) = (cells(bounds.max.x), cells(bounds.max.y));
@@ -58,14 +62,11 @@ impl Mopping {
         (0..columns as usize).for_each(|column| runs(column, columns as usize, rows as usize, &mut y));
         let along_x = x.iter().zip(&y).map(|(x, y)| rise(x / (x + y).max(1.0), 0.4, 0.6)).collect();
         let MopLook { takes, width_m, unevenness } = *look;
-        Mopping { takes, width_m, unevenness, key: noise::key(seed, Channel::Mop), columns, rows, along_x }
+        Some(Mopping { takes, width_m, unevenness, key: noise::key(seed, Channel::Mop), columns, rows, along_x })
     }
 
     /// Unevenness of cleaning over a window: 0 where the mop took its mean share, 1 where it took nothing.
-    pub fn over(&self, window: &TexelWindow) -> Option<SplineLattice> {
-        if self.takes == 0.0 {
-            return None;
-        }
+    pub fn over(&self, window: &TexelWindow) -> SplineLattice {
         // Coarse texels even the pattern out.
         let spacing_m = SPACING_M.max(1.0 / window.texels_per_metre);
         let shown = (0.5 * self.width_m * window.texels_per_metre).min(1.0) as f32;
@@ -78,7 +79,7 @@ impl Mopping {
                 values.push(shown * self.unevenness * self.uneven(place, self.along_x(place)));
             }
         }
-        Some(SplineLattice::new(x, y, values))
+        SplineLattice::new(x, y, values)
     }
 
     /// Share of passes along x at a place, between cells.

@@ -73,12 +73,11 @@ pub(super) struct FloorPainter<'a> {
     look: Look,
     properties: Properties,
     ground: Surface,
-    mopping: Mopping,
+    mopping: Option<Mopping>,
     skirting: Skirting<'a>,
     /// Noise of film and dust.
     noise: Vec<Noise>,
     spread_m: f64,
-    simulated_people: u32,
     law: FloorShader,
     dither: u32,
 }
@@ -102,7 +101,6 @@ impl<'a> FloorPainter<'a> {
             walls,
             law: FloorShader::new(look, &properties, simulated_people, &noise, texels_per_metre),
             noise,
-            simulated_people,
             spread_m: look.film.spread_m.max(properties.least_spread_m),
             background: Background {
                 base_color: ground.mean().map(|light| srgb::encode_f32(light).round() as u8),
@@ -133,7 +131,7 @@ impl<'a> FloorPainter<'a> {
         let mut layout = FloorLayout {
             traffic: PassesField::over(&window, self.sums, self.walls, self.spread_m),
             noise: self.noise.iter().map(|noise| noise.over(&window)).collect(),
-            mopping: self.mopping.over(&window),
+            mopping: self.mopping.as_ref().map(|mopping| mopping.over(&window)),
             dust: dust::over(&window, self.walls, &self.look.dust),
         };
         self.skirting.lay_out(&window, wanted, &mut buffers.edge);
@@ -149,8 +147,7 @@ impl<'a> FloorPainter<'a> {
             ..window
         };
         self.ground.lay_out(&around, &mut buffers.surface);
-        let weight = self.look.total_passes as f32 / self.simulated_people as f32;
-        let passed = |place: [f64; 2]| weight * passes::near(self.sums, place);
+        let passed = |place: [f64; 2]| self.law.weight * passes::near(self.sums, place);
         buffers.spots.lay_out(&window, &self.look.age, self.look.seed, passed);
         for row in 0..window.height {
             let Some((start, len)) = run_of(row, &window, wanted) else { continue };
@@ -237,12 +234,12 @@ impl FloorLayout {
         }
         // Marks on marks go on darkening ever less.
         each_mut(&mut known.scuff, |density| MOST_MARKS * (1.0 - exp_f32(-density / MOST_MARKS)));
-        match &self.mopping {
-            Some(mopping) => {
-                mopping.add_to(run.start, &mut known.left);
-                painter.mopping.film_left(&mut known.left, &known.dust, look.dust.reach_m);
+        match (&self.mopping, &painter.mopping) {
+            (Some(pattern), Some(mopping)) => {
+                pattern.add_to(run.start, &mut known.left);
+                mopping.film_left(&mut known.left, &known.dust, look.dust.reach_m);
             }
-            None => known.left.fill(1.0),
+            _ => known.left.fill(1.0),
         }
         let ShadeInput { ground, .. } = known;
         let above = in_surface(run, window);

@@ -1,7 +1,7 @@
 //! Wall segments relative to the texels near them.
 
 use super::noise;
-use crate::math::{Vec2, vec2};
+use crate::math::{Vec2, smoothstep_f32, vec2};
 use crate::walls::Segment;
 
 /// Side of the squares of texels that share a list of near walls.
@@ -111,7 +111,7 @@ impl SegmentNoise {
             let u = (self.start + places.along[k].max(0.0).min(face.length) / self.size[0]).max(0.0);
             let v = places.distance[k] / self.size[1];
             let (i, j) = ((u as usize).min(self.columns - 2), (v as usize).min(rows - 2));
-            let (f, g) = (smooth(u - i as f32), smooth((v - j as f32).min(1.0)));
+            let (f, g) = (smoothstep_f32(u - i as f32), smoothstep_f32(v - j as f32));
             let at = j * self.columns + i;
             let (low, high) = (&self.values[at..at + 2], &self.values[at + self.columns..at + self.columns + 2]);
             let below = low[0] + f * (low[1] - low[0]);
@@ -120,10 +120,6 @@ impl SegmentNoise {
             *out += weights[k] * (below + g * (above - below)) * (1.732 / 0.743);
         }
     }
-}
-
-fn smooth(t: f32) -> f32 {
-    t * t * (3.0 - 2.0 * t)
 }
 
 /// Arc tangent with error below 2e-4 (Abramowitz & Stegun 4.4.47), identical on every machine.

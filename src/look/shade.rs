@@ -3,7 +3,7 @@
 //! Works on runs of texels, with a plane per quantity and a loop per step, for vectorisation.
 
 use super::bytes::{Bytes, Rounding, ShadedPlanes};
-use super::colours::absorption;
+use super::dirt::{self, Dirt};
 use super::material::Properties;
 use super::noise::Noise;
 use super::planes::{add2, each1, each2, each3};
@@ -23,7 +23,7 @@ const MASK_PER_TRODDEN: f32 = 0.6;
 #[derive(Clone, Debug)]
 pub(super) struct FloorShader {
     /// Passes of the whole history per simulated pass.
-    weight: f32,
+    pub weight: f32,
     /// Factor on the deviation of single passes from their mean.
     residual: f32,
     /// `per_pass` of the film, and 1 / ln(1 + 1000 per_pass).
@@ -45,13 +45,6 @@ pub(super) struct FloorShader {
     /// Kinds of dirt: film, prints, scuffs, edge, dust.
     kinds: [Dirt; 5],
     darkest: f32,
-}
-
-/// A kind of dirt: linear colour, and what share of the optical density each channel feels.
-#[derive(Clone, Copy, Debug)]
-struct Dirt {
-    colour: [f32; 3],
-    felt: [f32; 3],
 }
 
 /// The clean floor along a run of texels, as in [`SurfacePlanes`](super::surface::SurfacePlanes).
@@ -148,10 +141,7 @@ impl FloorShader {
             worn: properties.worn,
             mean_log: noise.iter().map(|noise| noise.sd_of_texels(density)).map(|sd| 0.5 * sd * sd).sum(),
             roughness: properties.roughness,
-            kinds: colours.map(|colour| {
-                let colour = srgb::light_of(colour);
-                Dirt { colour, felt: absorption(colour) }
-            }),
+            kinds: colours.map(|colour| Dirt::of(srgb::light_of(colour))),
             darkest: srgb::decode(f64::from(look.darkest) / 255.0) as f32,
         }
     }
@@ -228,17 +218,9 @@ impl FloorShader {
             total.fill(0.0);
             plane.fill(0.0);
             for (density, kind) in dirt.into_iter().zip(&self.kinds) {
-                let (felt, light) = (kind.felt[n], kind.felt[n] * kind.colour[n]);
-                for ((total, plane), density) in total.iter_mut().zip(plane.iter_mut()).zip(density) {
-                    *total += felt * density;
-                    *plane += light * density;
-                }
+                kind.add_to(n, density, total, plane);
             }
-            for ((plane, total), floor) in plane.iter_mut().zip(&*total).zip(floor) {
-                let through = exp_f32(-total);
-                // Dirt darkens no texel below the darkest value, and does not lighten a darker floor to it.
-                *plane = (floor * through + *plane * (1.0 - through) / total.max(1e-6)).max(self.darkest.min(*floor));
-            }
+            dirt::cover(floor, total, plane, self.darkest);
         }
     }
 

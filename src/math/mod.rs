@@ -43,6 +43,19 @@ pub fn pow(base: f64, exponent: f64) -> f64 {
     libm::pow(base, exponent)
 }
 
+/// From 0 at 0 to 1 at 1 without a kink at either end: 3 t^2 - 2 t^3, constant beyond.
+pub(crate) fn smoothstep(t: f64) -> f64 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// [`smoothstep`] in single precision.
+#[inline]
+pub(crate) fn smoothstep_f32(t: f32) -> f32 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
 /// `e^x` in single precision for inner loops, branch-free so that it vectorises.
 ///
 /// Relative error below 4e-7 over `[-87, 88]`; arguments beyond are clamped to that range.

@@ -13,11 +13,12 @@ use super::float_image::{FILTER_REACH, FloatImage};
 use super::linear::Linear;
 use super::pose::PrintPose;
 use super::shadow::StampExtent;
-use super::soil_coat::{SoilCoat, smooth_step};
+use super::soil_coat::SoilCoat;
 use super::variation::{FARTHEST, SoleVariation};
 use super::window::{TexelBounds, floor};
 use super::{StampOptions, TexelGrid};
 use crate::math::Vec2;
+use crate::math::smoothstep_f32;
 use crate::patterns::{Cause, Pattern, PatternLibrary};
 
 /// Standard deviation of the texel filter, texels.
@@ -292,7 +293,7 @@ impl Printer {
         let weight: Vec<f32> = (0..image.width)
             .map(|column| {
                 let along = (column as f64 + 0.5 - size.margin() as f64) * size.sample_m / self.length_m - 0.5;
-                1.0 - smooth_step((along as f32 + 0.28) / 0.12)
+                1.0 - smoothstep_f32((along as f32 + 0.28) / 0.12)
             })
             .collect();
         let mut values = Vec::with_capacity(image.values.len());

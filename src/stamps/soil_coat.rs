@@ -6,6 +6,7 @@ use super::noise::{NOISE_ONE, NoiseRow};
 use super::print_coverage::CoverageRow;
 use super::variation::{SoleVariation, WornSpots};
 use super::window::WINDOW;
+use crate::math::smoothstep_f32;
 
 /// Amplitude of the noise at the edge of a partial print, relative to the fade's step.
 const RAGGED: f32 = 0.4;
@@ -77,7 +78,7 @@ impl SoilCoat {
     #[inline]
     fn coated(&self, coverage: f32, along: f32, across: f32, progress: f32) -> f32 {
         let contrasted = coverage + coverage * self.contrast * (coverage - 1.0);
-        let shown = self.fade_floor + (1.0 - self.fade_floor) * smooth_step(progress);
+        let shown = self.fade_floor + (1.0 - self.fade_floor) * smoothstep_f32(progress);
         contrasted * shown * self.wear.left(along, across)
     }
 
@@ -86,11 +87,4 @@ impl SoilCoat {
         let progress = self.fade.at_origin + self.fade.per_i * along + self.fade.per_j * across;
         self.coated(coverage, along, across, progress)
     }
-}
-
-/// Smooth step from 0 at 0 to 1 at 1, with zero slope at both ends.
-#[inline]
-pub(super) fn smooth_step(x: f32) -> f32 {
-    let x = x.clamp(0.0, 1.0);
-    x * x * (3.0 - 2.0 * x)
 }

@@ -7,12 +7,13 @@ use super::noise::{NOISE_ONE, NoiseTile};
 use super::pose::{BALL_RADIUS, PrintPose, WIDEST_TWIST, twist_reach_m};
 use super::print::Print;
 use super::print_coverage::PrintCoverage;
-use super::soil_coat::{SoilCoat, smooth_step};
+use super::soil_coat::SoilCoat;
 use super::stamper::{MOST_DENSITY, MOST_STRENGTH, PlacedMark, Stamper};
 use super::variation::{MOST_PRESSURE, SoleVariation};
 use super::window::TexelWindow;
 use super::{DENSITY_ONE, PASSES_ONE};
 use crate::marks::Mark;
+use crate::math::smoothstep_f32;
 use crate::math::{sin_cos, vec2};
 use crate::walls::Walls;
 
@@ -269,7 +270,7 @@ fn widest_spans(prints: &[Print], dj: i32, limits: [i32; 2], spans: &mut [[i32; 
 fn read_twisted(prints: &[Print], along: Linear, di: i32, dj: i32, out: &mut [u8]) {
     let start = along.in_row(dj);
     for (di, c) in (di..).zip(out) {
-        let ball = smooth_step((start + di as f32 * along.per_i + 0.1) * 5.0);
+        let ball = smoothstep_f32((start + di as f32 * along.per_i + 0.1) * 5.0);
         let at = |print: &Print| f32::from(print.read_anywhere(di, dj, 0.0));
         let mean = prints.iter().map(at).sum::<f32>() / prints.len() as f32;
         let still = at(&prints[0]);

@@ -1,6 +1,6 @@
 use super::super::places::centroid;
 use super::super::request::Repeat;
-use crate::math::Vec2;
+use crate::math::{Vec2, smoothstep};
 use crate::motion::Ensemble;
 
 /// Time for turning back in a to-and-fro repetition, seconds before and after the end.
@@ -75,15 +75,9 @@ fn looped(example: &Ensemble, time_s: f64, length_s: f64) -> Vec<Vec2> {
     if passage < 1.0 || within_s >= fade_s {
         return here.collect();
     }
-    let share = eased(within_s / fade_s);
+    let share = smoothstep(within_s / fade_s);
     let before = sampled(example, within_s + period_s).into_iter().map(|place| place + advance * (passage - 1.0));
     before.zip(here).map(|(before, here)| before.lerp(here, share)).collect()
-}
-
-/// Smoothstep from 0 to 1: 3 s^2 - 2 s^3.
-pub(super) fn eased(share: f64) -> f64 {
-    let share = share.clamp(0.0, 1.0);
-    share * share * (3.0 - 2.0 * share)
 }
 
 /// Positions at a time between frames (Catmull-Rom interpolation).

@@ -1,6 +1,5 @@
 use super::super::request::PathRequest;
-use super::example::eased;
-use crate::math::{Vec2, vec2};
+use crate::math::{Vec2, smoothstep, vec2};
 
 /// Points of the curve between two given points.
 const STEPS: usize = 32;
@@ -85,7 +84,7 @@ pub(in super::super) fn angles(given: &[(usize, f64)], moments: usize) -> Vec<f6
             (None, None) => 0.0,
             (Some((_, angle)), None) | (None, Some(&(_, angle))) => angle,
             (Some((from, start)), Some(&(to, end))) => {
-                start + (end - start) * eased((moment - from) as f64 / (to - from) as f64)
+                start + (end - start) * smoothstep((moment - from) as f64 / (to - from) as f64)
             }
         }
     };

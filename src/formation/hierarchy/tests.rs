@@ -147,7 +147,7 @@ fn small_crowds_stand_in_the_places_of_individuals_at_any_depth() {
     assert!(formed.people[4].rides && formed.people[10].rides);
     for moment in 0..=60 {
         let here = formed.ensemble.places_at(moment);
-        let y = 6.0 * example::eased(f64::from(moment as u32) / 60.0);
+        let y = 6.0 * crate::math::smoothstep(f64::from(moment as u32) / 60.0);
         assert!(here[0].distance(vec2(-4.0, y)) < 0.02, "{moment}: {:?}", here[0]);
         assert!(here[5].distance(vec2(20.0, y)) < 0.02, "{moment}: {:?} for {y}", here[5]);
         // The rider is in the middle of the three, and they where the individual would be.

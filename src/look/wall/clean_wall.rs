@@ -10,7 +10,7 @@ use crate::look::error::LookError;
 use crate::look::image::RepeatedImage;
 use crate::look::lattice::TexelWindow;
 use crate::look::noise::{self, Channel, Noise, NoiseField};
-use crate::math::{exp_f32, srgb};
+use crate::math::{exp_f32, smoothstep_f32, srgb};
 
 /// Size of concrete formwork panels: width along the wall and height, metres.
 const PANEL_M: [f64; 2] = [1.25, 1.30];
@@ -299,6 +299,5 @@ fn hole([x, y]: [f32; 2], texel_m: f32) -> f32 {
     if squared > (TIE_RADIUS_M + soft) * (TIE_RADIUS_M + soft) {
         return 0.0;
     }
-    let rim = ((TIE_RADIUS_M + soft - squared.sqrt()) / (2.0 * soft)).clamp(0.0, 1.0);
-    rim * rim * (3.0 - 2.0 * rim)
+    smoothstep_f32((TIE_RADIUS_M + soft - squared.sqrt()) / (2.0 * soft))
 }

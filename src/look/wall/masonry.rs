@@ -4,6 +4,7 @@ use super::material::WallMaterial;
 use super::strip::FaceStrip;
 use crate::look::lattice::TexelWindow;
 use crate::look::noise;
+use crate::math::smoothstep_f32;
 use crate::math::srgb::{Srgb8, light_of};
 
 /// Height up to which tiles reach, metres; paint is above.
@@ -106,8 +107,7 @@ impl Masonry {
             // Share of the texel that is joint: its edge may be ragged.
             let edge = 0.5 * self.joint_m + self.ragged_m * (25.0 * fine).clamp(-1.5, 1.5);
             let soft = 0.5 * texel + 0.0006;
-            let joint = ((edge + soft - from_level.min(from_side)) / (2.0 * soft)).clamp(0.0, 1.0);
-            let joint = joint * joint * (3.0 - 2.0 * joint) * self.gain.min(1.0);
+            let joint = smoothstep_f32((edge + soft - from_level.min(from_side)) / (2.0 * soft)) * self.gain.min(1.0);
             let draw = |n: u32| {
                 let word = noise::mix(n.wrapping_mul(0x9e37_79b9));
                 1.73 * noise::signed(self.key ^ strip.salt ^ word, number as i32, course as i32)

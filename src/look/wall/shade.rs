@@ -6,7 +6,7 @@ use super::clean_wall::CleanWallRow;
 use super::material::WallProperties;
 use super::settings::{StainLook, WallLook};
 use crate::look::bytes::{Bytes, Rounding, ShadedPlanes};
-use crate::look::colours::absorption;
+use crate::look::dirt::{self, Dirt};
 use crate::look::noise::Noise;
 use crate::look::planes::{add2, each1, each2, each3};
 use crate::look::settings::Look;
@@ -67,9 +67,7 @@ pub(super) struct WallShader {
     /// Height of the skirting board and of a texel, metres.
     board_m: f32,
     texel_m: f32,
-    colours: [[f32; 3]; KINDS],
-    /// Per kind: optical density of red, green and blue per density.
-    absorbs: [[f32; 3]; KINDS],
+    kinds: [Dirt; KINDS],
     darkest: f32,
     mean_log: f32,
     roughness: f32,
@@ -128,13 +126,13 @@ impl WallShader {
         let wall = &look.wall;
         let weight = properties.history * (wall.total_passes as f64 / f64::from(simulated_people)) as f32;
         let stains = stains(wall);
-        let colours: [[f32; 3]; KINDS] = std::array::from_fn(|kind| {
-            srgb::light_of(match kind {
+        let kinds = std::array::from_fn(|kind| {
+            Dirt::of(srgb::light_of(match kind {
                 SPLASH => wall.splash.colour,
                 DUST => wall.dust.colour,
                 CHIP => CHIP_COLOUR,
                 cause => stains[cause].colour,
-            })
+            }))
         });
         WallShader {
             weight,
@@ -147,8 +145,7 @@ impl WallShader {
             dust: [wall.dust.density * properties.dust, wall.dust.reach_m, wall.dust.hands * properties.dust],
             board_m: wall.skirting.height_m,
             texel_m: (1.0 / density) as f32,
-            absorbs: colours.map(absorption),
-            colours,
+            kinds,
             darkest: srgb::decode(f64::from(look.darkest) / 255.0) as f32,
             mean_log: noise.iter().map(|noise| noise.sd_of_texels(density)).map(|sd| 0.5 * sd * sd).sum(),
             roughness: wall.roughness.unwrap_or(properties.roughness),
@@ -281,12 +278,8 @@ impl WallShader {
                 *through += density;
                 *total += density;
             }
-            let colours = self.colours[kind].into_iter().zip(self.absorbs[kind]);
-            for ((plane, totals), (colour, absorbs)) in rgb.iter_mut().zip(&mut *totals).zip(colours) {
-                for ((value, total), density) in plane.iter_mut().zip(totals).zip(density) {
-                    *value += colour * absorbs * density;
-                    *total += absorbs * density;
-                }
+            for (channel, (plane, total)) in rgb.iter_mut().zip(&mut *totals).enumerate() {
+                self.kinds[kind].add_to(channel, density, total, plane);
             }
         }
         for through in through {
@@ -294,14 +287,8 @@ impl WallShader {
                 *value = exp_f32(-*value);
             }
         }
-        let darkest = self.darkest;
         for ((plane, total), wall) in rgb.iter_mut().zip(totals).zip(wall) {
-            for ((value, total), wall) in plane.iter_mut().zip(total).zip(wall) {
-                let through = exp_f32(-*total);
-                let shown = wall * through + *value * (1.0 - through) / total.max(1e-6);
-                // Dirt darkens no texel below the darkest value, and does not lighten a darker wall to it.
-                *value = shown.max(darkest.min(*wall));
-            }
+            dirt::cover(wall, total, plane, self.darkest);
         }
     }
 

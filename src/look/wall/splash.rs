@@ -5,7 +5,7 @@ use super::settings::SplashLook;
 use super::strip::FaceStrip;
 use crate::look::lattice::TexelWindow;
 use crate::look::noise::{self, Channel, Noise, NoiseField};
-use crate::math::{SplitMix64, exp_f32};
+use crate::math::{SplitMix64, exp_f32, smoothstep};
 
 /// Dried water at the foot: height over which it falls to 1/e, metres, and share of the density.
 const FOOT_M: f32 = 0.014;
@@ -212,8 +212,7 @@ impl Drip {
         let knot = (height_m / 0.03).floor();
         let f = height_m / 0.03 - knot;
         let at = |knot: f64| f64::from(noise::signed(self.key, knot as i32, 0));
-        let smooth = f * f * (3.0 - 2.0 * f);
-        0.0022 * (at(knot) + (at(knot + 1.0) - at(knot)) * smooth)
+        0.0022 * (at(knot) + (at(knot + 1.0) - at(knot)) * smoothstep(f))
     }
 }
 

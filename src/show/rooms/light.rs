@@ -3,8 +3,8 @@
 
 use super::panels::{Panel, Panels};
 use super::ray_grid::RayGrid;
-use super::shades::{EXPOSURE_ABOVE, EXPOSURE_INSIDE, EXPOSURE_OUTSIDE, smooth, wall_edges};
-use crate::math::{Vec2, exp, sin_cos, vec2};
+use super::shades::{EXPOSURE_ABOVE, EXPOSURE_INSIDE, EXPOSURE_OUTSIDE, wall_edges};
+use crate::math::{Vec2, exp, sin_cos, smoothstep, vec2};
 
 /// Largest distance of walls that block light, metres.
 const REACH_M: f64 = 6.0;
@@ -112,7 +112,7 @@ impl<'a> Light<'a> {
                 let lit = self.panels_in_sight(panels, p).map(|(way, distance, panel)| {
                     // Louvres keep the light below the lamp: pools on the floor.
                     let cosine2 = h2 / (way.length_squared() + h2);
-                    let fade = 1.0 - smooth(((distance - 4.0) / (REACH_M - 4.0)).clamp(0.0, 1.0));
+                    let fade = 1.0 - smoothstep((distance - 4.0) / (REACH_M - 4.0));
                     panel.area() * fade * cosine2 * cosine2 * cosine2
                 });
                 let direct = LAMPS * lit.sum::<f64>() / Panels::FULL;
@@ -155,7 +155,7 @@ impl<'a> Light<'a> {
                     continue;
                 }
                 let d2 = distance * distance + 0.3;
-                let fade = 1.0 - smooth(((distance - 7.0) / (DAY_REACH_M - 7.0)).clamp(0.0, 1.0));
+                let fade = 1.0 - smoothstep((distance - 7.0) / (DAY_REACH_M - 7.0));
                 let from = leaves * fade * width_m / (DAY_FROM.len() as f64 * d2.sqrt());
                 for (sum, at) in sums.iter_mut().zip(WALL_HEIGHTS) {
                     // The floor sees the upper part of an opening, a wall all of it, more of it at half its height.
@@ -212,7 +212,7 @@ impl<'a> Light<'a> {
             // The sun's upper and lower rim differ as much as its left and right one.
             let rim = 0.7 * spread[0][1].abs() / SPREAD_7[0][1].abs();
             let over = (way * slope / height_m.max(0.05) - (1.0 - 0.5 * rim)) / rim;
-            smooth(over.clamp(0.0, 1.0))
+            smoothstep(over)
         });
         share.sum::<f64>() / spread.len() as f64
     }
@@ -319,7 +319,7 @@ impl WallLight<'_> {
         let facing = way.dot(self.normal).max(0.0);
         // A panel is no point: close to it light does not grow beyond measure.
         let squared = way.length_squared() + below * below + 0.5;
-        let fade = 1.0 - smooth(((way.length() - 4.0) / (REACH_M - 4.0)).clamp(0.0, 1.0));
+        let fade = 1.0 - smoothstep((way.length() - 4.0) / (REACH_M - 4.0));
         // Louvres: the light of a lamp falls steeply.
         fade * height_m * height_m * facing * below * (below + 0.1) / (squared * squared * squared.sqrt())
     }

@@ -4,7 +4,7 @@
 //! in `page/client/light.glsl`: a change here is a change there.
 
 use super::panels::TILE_M;
-use crate::math::{exp, exp_f32, pow};
+use crate::math::{exp, exp_f32, pow, smoothstep};
 
 /// Linear light, red, green, blue.
 pub(crate) type LinearRgb = [f32; 3];
@@ -128,7 +128,7 @@ pub(crate) fn wall_edges(z: f32, height_m: f32) -> f32 {
 /// Colour of an irradiance: lamps are warmer than what walls throw back, the sun is warmer than the sky.
 pub(crate) fn tinted(full: f32, outside: bool) -> LinearRgb {
     let [dim, bright] = if outside { TINT_OUTSIDE } else { TINT_INSIDE };
-    scaled(mix(dim, bright, smooth(f64::from(full).clamp(0.0, 1.0)) as f32), full)
+    scaled(mix(dim, bright, smoothstep(f64::from(full)) as f32), full)
 }
 
 /// The sky in a direction, by the sine of its height.
@@ -138,12 +138,7 @@ pub(crate) fn sky(up: f32) -> LinearRgb {
 
 /// From 0 to 1 between -1.5 and 1.5: close to the integral of a bell of width 0.6.
 pub(crate) fn rise(t: f64) -> f64 {
-    smooth((t / 3.0 + 0.5).clamp(0.0, 1.0))
-}
-
-/// From 0 to 1 without a kink at either end.
-pub(super) fn smooth(t: f64) -> f64 {
-    t * t * (3.0 - 2.0 * t)
+    smoothstep(t / 3.0 + 0.5)
 }
 
 /// Share of a pixel of a `width` in metres that a joint between the ceiling's tiles takes.

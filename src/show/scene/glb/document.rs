@@ -22,7 +22,7 @@ const CLAMP_TO_EDGE: u32 = 33071;
 
 /// The file's JSON and the source of its binary chunk, which is written part by part and never held whole.
 pub(super) struct GltfDocument<'a> {
-    parts: Vec<&'a Mesh>,
+    parts: Vec<(&'a Mesh, Cover<'a>)>,
     pictures: Vec<Vec<u8>>,
     root: Value,
     length: usize,
@@ -44,15 +44,16 @@ struct Lists {
 }
 
 impl<'a> GltfDocument<'a> {
-    pub fn new(scene: &'a Scene, options: &GlbOptions) -> io::Result<GltfDocument<'a>> {
-        let parts: Vec<&Mesh> = scene.meshes.iter().filter(|part| !part.indices.is_empty()).collect();
+    pub fn new(scene: &'a Scene, options: &'a GlbOptions) -> io::Result<GltfDocument<'a>> {
+        let parts = scene.meshes.iter().filter(|part| !part.indices.is_empty());
+        let parts: Vec<(&Mesh, Cover)> = parts.map(|part| (part, Cover::of(part.surface, options))).collect();
         let mut lists = Lists::default();
-        for part in &parts {
-            lists.add_part(part, &Cover::of(part.surface, options));
+        for (part, cover) in &parts {
+            lists.add_part(part, cover);
         }
         // Images follow the parts in the binary chunk.
-        for (index, part) in parts.iter().enumerate() {
-            lists.add_material(index, &Cover::of(part.surface, options))?;
+        for (index, (_, cover)) in parts.iter().enumerate() {
+            lists.add_material(index, cover)?;
         }
         let extras = json!({ "generator": GENERATOR, "version": env!("CARGO_PKG_VERSION"), "seed": options.seed });
         let mut whole = json!({ "name": options.name, "extras": extras });
@@ -80,7 +81,7 @@ impl<'a> GltfDocument<'a> {
 
     /// Writes what the lists describe, in the same order.
     pub fn write_binary(&self, out: &mut impl Write) -> io::Result<()> {
-        for part in &self.parts {
+        for (part, cover) in &self.parts {
             if has_short_indices(part) {
                 let bytes: Vec<u8> = part.indices.iter().flat_map(|&i| (i as u16).to_le_bytes()).collect();
                 write_padded(out, &bytes)?;
@@ -90,6 +91,9 @@ impl<'a> GltfDocument<'a> {
             write_floats(out, part.positions_m.iter().copied().map(y_up))?;
             write_floats(out, part.normals.iter().copied().map(y_up))?;
             write_floats(out, part.uvs.iter().copied())?;
+            if cover.has_normals() {
+                write_floats(out, tangents(part).into_iter())?;
+            }
         }
         self.pictures.iter().try_for_each(|picture| write_padded(out, picture))
     }
@@ -124,7 +128,7 @@ impl Lists {
 
     fn floats<const N: usize>(&mut self, count: usize, bounds: Option<[[f32; N]; 2]>) -> usize {
         let view = self.view(count * N * 4, Some(ARRAY_BUFFER));
-        let kind = if N == 2 { "VEC2" } else { "VEC3" };
+        let kind = format!("VEC{N}");
         let mut accessor = json!({ "bufferView": view, "componentType": FLOAT, "count": count, "type": kind });
         if let Some([least, greatest]) = bounds {
             accessor["min"] = least.to_vec().into();
@@ -147,6 +151,9 @@ impl Lists {
         let mut attributes = json!({ "POSITION": position, "NORMAL": normal });
         if !part.uvs.is_empty() {
             attributes["TEXCOORD_0"] = self.floats::<2>(count, None).into();
+        }
+        if cover.has_normals() {
+            attributes["TANGENT"] = self.floats::<4>(count, None).into();
         }
         let primitive = json!({ "attributes": attributes, "indices": indices, "material": self.meshes.len() });
         self.nodes.push(json!({ "name": cover.name(), "mesh": self.meshes.len() }));
@@ -255,6 +262,31 @@ fn y_up([x, y, height]: [f32; 3]) -> [f32; 3] {
     [x, height, -y + 0.0]
 }
 
+/// Which way u grows on a part's surface, by vertex, in glTF's frame; last, the side on which v shrinks (1: as
+/// normal x tangent). A vertex serves one flat piece, so that any of its triangles tells.
+fn tangents(part: &Mesh) -> Vec<[f32; 4]> {
+    let mut tangents = vec![[1.0, 0.0, 0.0, 1.0]; part.positions_m.len()];
+    for corners in part.indices.chunks_exact(3) {
+        let [a, b, c] = [0, 1, 2].map(|n| corners[n] as usize);
+        let place = |n: usize| y_up(part.positions_m[n]);
+        let [p, q] = [b, c].map(|n| [0, 1, 2].map(|k| place(n)[k] - place(a)[k]));
+        let [s, t] = [b, c].map(|n| [0, 1].map(|k| part.uvs[n][k] - part.uvs[a][k]));
+        let turn = s[0] * t[1] - s[1] * t[0];
+        let along = [0, 1, 2].map(|k| (p[k] * t[1] - q[k] * s[1]) * turn.signum());
+        let length = along.iter().map(|value| value * value).sum::<f32>().sqrt();
+        if turn == 0.0 || length == 0.0 {
+            continue;
+        }
+        let [x, y, z] = along.map(|value| value / length);
+        // Triangles are counter-clockwise from their front; v grows downward.
+        let side = if turn < 0.0 { 1.0 } else { -1.0 };
+        for n in [a, b, c] {
+            tangents[n] = [x, y, z, side];
+        }
+    }
+    tangents
+}
+
 /// Whether 16 bits are enough for a part's indices; 65535 has a meaning of its own.
 fn has_short_indices(part: &Mesh) -> bool {
     part.positions_m.len() <= usize::from(u16::MAX)
@@ -281,6 +313,10 @@ impl<'a> Cover<'a> {
         };
         let plain = if surface == SceneSurface::WallTop { options.wall_top } else { options.clean_wall };
         textured.map_or(Cover::Plain(name, plain), Cover::Textured)
+    }
+
+    fn has_normals(&self) -> bool {
+        matches!(self, Cover::Textured(images) if images.normal.is_some())
     }
 
     fn name(&self) -> &str {

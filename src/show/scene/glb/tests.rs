@@ -49,7 +49,8 @@ impl Parsed {
         let each = match accessor["type"].as_str().unwrap() {
             "SCALAR" => 1,
             "VEC2" => 2,
-            _ => 3,
+            "VEC3" => 3,
+            _ => 4,
         };
         assert_eq!(numbers.len() as u64, accessor["count"].as_u64().unwrap() * each);
         numbers
@@ -111,6 +112,29 @@ fn a_part_is_found_again_with_y_up() {
     assert_eq!(whole["children"], serde_json::json!([0, 1]));
     assert_eq!(json["nodes"][1]["name"], "wall_tops");
     assert!(json["asset"]["generator"].as_str().unwrap().starts_with("trodden "));
+}
+
+/// Bump maps look the same in every program only with tangents in the file.
+#[test]
+fn surfaces_with_normals_have_tangents() {
+    // A wall in the plane x = 3 that is seen from the west; its strip is turned: u grows upward, v toward the north.
+    let wall = Mesh {
+        surface: SceneSurface::WallSheet(0),
+        positions_m: vec![[3.0, 4.0, 0.0], [3.0, 2.0, 0.0], [3.0, 2.0, 2.5]],
+        normals: vec![[-1.0, 0.0, 0.0]; 3],
+        uvs: vec![[0.0, 0.8], [0.0, 0.0], [1.0, 0.0]],
+        indices: vec![0, 1, 2],
+    };
+    let scene = Scene { meshes: vec![triangle(SceneSurface::FloorTile(0)), wall] };
+    let bumpy = |name| SurfaceImages { normal: Some(GlbImage::File("n.png")), ..files(name, "b.png", "o.png") };
+    let (floor, walls) = (vec![bumpy("floor_1001")], vec![bumpy("wall_1001")]);
+    let file = parsed(&written(&scene, &GlbOptions { floor, walls, ..GlbOptions::default() }));
+    let tangent =
+        |mesh: usize| file.numbers(&file.json["meshes"][mesh]["primitives"][0]["attributes"]["TANGENT"])[..4].to_vec();
+    let [along, side] = [tangent(0)[0], tangent(0)[3]];
+    assert!(along > 0.99 && side == 1.0, "{:?}", tangent(0));
+    assert_eq!(tangent(1), [0.0, 1.0, 0.0, -1.0]);
+    assert_eq!(file.json["materials"][1]["normalTexture"]["index"], 5);
 }
 
 #[test]
