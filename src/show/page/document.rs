@@ -12,7 +12,7 @@ use crate::math::Vec2;
 use crate::math::srgb::{encode, light_of};
 use crate::show::encode_picture;
 use crate::show::rooms::{
-    EXPOSURE_ABOVE, EXPOSURE_INSIDE, EXPOSURE_OUTSIDE, Light, Panels, TABLE, WALL_HEIGHTS, glsl, scaled, sky, toned,
+    EXPOSURE_ABOVE, EXPOSURE_INSIDE, EXPOSURE_OUTSIDE, Light, Panels, TABLE, glsl, scaled, sky, toned,
 };
 use crate::show::scene::{Mesh, SceneSurface};
 use crate::show::still::STILL_SIZE_PX;
@@ -279,11 +279,13 @@ fn surroundings(page: &Page<'_>, data: &mut Value, blocks: &mut Vec<(String, Vec
         if !grid.roofed { vec![("above", above)] } else { vec![("inside", Light::inside(grid)), ("above", above)] };
     for (name, light) in &lights {
         let light = light_grid::LightGrid::of(page.walls, light);
-        blocks.push((format!("light-{name}"), encode_picture(&light.image())));
+        let (floor, walls) = light.images();
+        blocks.push((format!("light-{name}"), encode_picture(&floor)));
+        blocks.push((format!("light-walls-{name}"), encode_picture(&walls)));
         data["light"] = raster(&light.raster);
     }
     data["light"]["most"] = json!(light_grid::MOST);
-    data["light"]["heights"] = json!(WALL_HEIGHTS);
+    data["light"]["heights"] = json!(light_grid::WALL_HEIGHTS);
     data["roofed"] = json!(grid.roofed);
     let lamps = lights.iter().filter_map(|(_, light)| light.panels()).flat_map(Panels::all);
     data["lamps"] = lamps.map(|lamp| json!([point(lamp.centre - lamp.half), point(lamp.centre + lamp.half)])).collect();

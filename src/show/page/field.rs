@@ -65,7 +65,8 @@ impl DistanceField {
         let [low, high] = RANGE_M;
         let cells = raster.map(|p| {
             let distance = walls.nearest(p, high).map_or(high, |nearest| nearest.distance_m);
-            if walls.is_inside(p) {
+            // Aprons beyond openings are no room.
+            if grid.is_room(p) {
                 return (distance.min(high), false);
             }
             ((-distance).max(low), openings.iter().any(|opening| opening.hides(p)))

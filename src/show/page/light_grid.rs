@@ -1,10 +1,10 @@
 //! The light of the rooms on a coarse raster, as the page's shader reads it.
 
-use image::RgbaImage;
+use image::{RgbImage, RgbaImage};
 
 use super::field::CellGrid;
 use crate::math::Vec2;
-use crate::show::rooms::{Light, OFF_WALL_M, WALL_HEIGHTS};
+use crate::show::rooms::{Light, OFF_WALL_M};
 use crate::walls::Walls;
 
 /// Cells at least so large, metres, and how many at most along a side.
@@ -12,13 +12,17 @@ const LEAST_CELL_M: f64 = 0.2;
 const MOST_CELLS: f64 = 512.0;
 /// The irradiance that eight bits hold at most; kept as a square root, finer where it is dark.
 pub(super) const MOST: f32 = 2.0;
+/// Shares of the ceiling's height at which the page is told the light on a wall: enough for the pool under a lamp. It goes
+/// straight between them, and stays beyond.
+pub(super) const WALL_HEIGHTS: [f64; 4] = [0.08, 0.36, 0.64, 0.92];
 
-/// Irradiance of the floor, of the nearest wall at both [`WALL_HEIGHTS`], and the share of the surroundings that is open.
+/// Irradiance of the floor, the share of the surroundings that is open, and irradiance of the nearest wall at
+/// [`WALL_HEIGHTS`].
 #[derive(Clone, Debug)]
 pub(super) struct LightGrid {
     pub raster: CellGrid,
     /// `None` away from floor.
-    values: Vec<Option<[f32; 4]>>,
+    values: Vec<Option<[f32; 6]>>,
 }
 
 impl LightGrid {
@@ -43,27 +47,34 @@ impl LightGrid {
                     continue;
                 }
                 let beside = (-1..=1).flat_map(|dj| (-1..=1).map(move |di| (i + di, j + dj)));
-                let lit: Vec<[f32; 4]> = beside
+                let lit: Vec<[f32; 6]> = beside
                     .filter(|&(i, j)| (0..width).contains(&i) && (0..height).contains(&j))
                     .filter_map(|(i, j)| before[(j * width + i) as usize])
                     .collect();
                 if !lit.is_empty() {
                     let mean = |n: usize| lit.iter().map(|value| value[n]).sum::<f32>() / lit.len() as f32;
-                    self.values[here] = Some([mean(0), mean(1), mean(2), mean(3)]);
+                    self.values[here] = Some(std::array::from_fn(mean));
                 }
             }
         }
     }
 
-    /// Square roots of the values over [`MOST`]; row 0 is the southernmost.
-    pub fn image(&self) -> RgbaImage {
+    /// Square roots of the values over [`MOST`]: floor and open share in red and green, and walls; row 0 is the
+    /// southernmost.
+    pub fn images(&self) -> (RgbImage, RgbaImage) {
         let byte = |value: f32| (255.0 * (value / MOST).clamp(0.0, 1.0).sqrt()).round() as u8;
-        let bytes = self.values.iter().flat_map(|value| value.unwrap_or_default().map(byte)).collect();
-        RgbaImage::from_raw(self.raster.width, self.raster.height, bytes).unwrap_or_default()
+        let bytes = || self.values.iter().map(|value| value.unwrap_or_default().map(byte));
+        let floor = bytes().flat_map(|[floor, open, ..]| [floor, open, 0]).collect();
+        let walls = bytes().flat_map(|[_, _, walls @ ..]| walls).collect();
+        let (width, height) = (self.raster.width, self.raster.height);
+        (
+            RgbImage::from_raw(width, height, floor).unwrap_or_default(),
+            RgbaImage::from_raw(width, height, walls).unwrap_or_default(),
+        )
     }
 }
 
-fn at(walls: &Walls, light: &Light, p: Vec2) -> [f32; 4] {
+fn at(walls: &Walls, light: &Light, p: Vec2) -> [f32; 6] {
     let floor = light.on_floor(p);
     let wall = walls.nearest(p, 2.0).and_then(|wall| {
         let normal = (p - wall.point_m).normalized()?;
@@ -71,6 +82,6 @@ fn at(walls: &Walls, light: &Light, p: Vec2) -> [f32; 4] {
         Some(WALL_HEIGHTS.map(|share| line.even(share * light.space.height_m).full))
     });
     // Filters reach no farther than a cell beyond those that walls are lit by.
-    let [low, high] = wall.unwrap_or([floor.full; 2]);
-    [floor.full, low, high, floor.open]
+    let [a, b, c, d] = wall.unwrap_or([floor.full; 4]);
+    [floor.full, floor.open, a, b, c, d]
 }

@@ -31,8 +31,8 @@ const SUN_SLOPE: f64 = 0.95;
 const LAMP_SLOPE: f64 = 1.25;
 /// Least distance of a ray's start from a wall, metres.
 pub(crate) const OFF_WALL_M: f64 = 0.01;
-/// Shares of the ceiling's height at which the page is told the light on a wall; it goes straight between and beyond.
-pub(crate) const WALL_HEIGHTS: [f64; 2] = [0.2, 0.75];
+/// Shares of the ceiling's height at which daylight on a wall is computed; it goes straight between them.
+const WALL_HEIGHTS: [f64; 2] = [0.2, 0.75];
 
 /// The light sources of a picture.
 #[derive(Debug)]

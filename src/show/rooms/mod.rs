@@ -12,7 +12,7 @@ mod shades;
 mod trace;
 
 pub(crate) use lens::Lens;
-pub(crate) use light::{Irradiance, Light, LightSources, OFF_WALL_M, WALL_HEIGHTS};
+pub(crate) use light::{Irradiance, Light, LightSources, OFF_WALL_M};
 pub(crate) use panels::Panels;
 pub(crate) use ray_grid::{QuadKind, RayGrid, WallQuad};
 pub(crate) use shades::*;

@@ -7,11 +7,11 @@ use std::sync::LazyLock;
 
 use corridor::{Corridor, covered};
 use trodden::Silent;
-use trodden::export::TextureSource;
+use trodden::export::{TextureSource, WallSource};
 use trodden::look::{Background, ResolvedBlock};
 use trodden::show::page::{PageOptions, page_html};
 use trodden::show::scene::{Mesh, Scene};
-use trodden::show::still::Surfaces;
+use trodden::show::still::{FarWalls, Surfaces, WallSurfaces};
 
 const LIGHT: [u8; 3] = [197, 192, 182];
 const DARK: [u8; 3] = [60, 58, 56];
@@ -204,8 +204,22 @@ fn damaged_scenes_and_images_leave_a_page() {
     assert_eq!(data(&page_html(&nothing.page("")))["parts"].as_array().unwrap().len(), 0);
 }
 
-/// A floor without dirt.
+/// A floor or wall without dirt.
 struct Clean([u8; 3]);
+
+impl WallSource for Clean {
+    fn layers(&self) -> &[&'static str] {
+        &[]
+    }
+
+    fn background(&self) -> Background {
+        Background { base_color: self.0, mask: [0; 4], orm: [255, 153, 0] }
+    }
+
+    fn resolve_into(&self, _: usize, _: i64, _: i64, _: usize, _: usize, block: &mut ResolvedBlock) {
+        *block = ResolvedBlock { empty: true, ..ResolvedBlock::default() };
+    }
+}
 
 impl TextureSource for Clean {
     fn layers(&self) -> &[&'static str] {
@@ -223,8 +237,9 @@ impl TextureSource for Clean {
 
 /// The clean corridor as a still, from the page's first camera or from its first one above.
 fn still(corridor: &Corridor, camera: &trodden::export::Camera) -> image::RgbImage {
-    let floor = Clean(corridor.clean[0]);
-    let surfaces = Surfaces { floor: &floor, floor_texels_per_metre: 32.0, small: None, walls: None };
+    let [floor, wall] = corridor.clean.map(Clean);
+    let walls = Some(WallSurfaces { source: &wall, texels_per_metre: 32.0, far: FarWalls::Plain });
+    let surfaces = Surfaces { floor: &floor, floor_texels_per_metre: 32.0, small: None, walls };
     corridor.rooms.draw(camera, [480, 320], &[surfaces], &Silent).unwrap().remove(0)
 }
 

@@ -43,7 +43,10 @@ class Drawing {
     drawing.field = await texture(gl, await imageOf('field', 'image/png'), 'three', false);
     drawing.light = {};
     for (const name of data.roofed ? ['inside', 'above'] : ['above']) {
-      drawing.light[name] = await texture(gl, await imageOf(`light-${name}`, 'image/png'), 'four', false);
+      drawing.light[name] = {
+        floor: await texture(gl, await imageOf(`light-${name}`, 'image/png'), 'three', false),
+        walls: await texture(gl, await imageOf(`light-walls-${name}`, 'image/png'), 'four', false),
+      };
     }
     drawing.lamps = lampTexture(gl);
     drawing.none = { dirt: plainTexture(gl, [0, 0, 0, 0]) };
@@ -132,9 +135,10 @@ class Drawing {
     gl.useProgram(made);
     const surface = kind === 'FLOOR' || kind === 'CEILING' ? data.surfaces.floor : data.surfaces.wall;
     const images = this.images[n] || {};
+    const light = this.light[shown.inside ? 'inside' : 'above'];
     const textures = {
       u_dirt: images.dirt || this.none.dirt, u_clean: images.clean || this.none.dirt, u_rough: images.rough || this.none.dirt,
-      u_field: this.field, u_light: this.light[shown.inside ? 'inside' : 'above'], u_lamps: this.lamps.texture,
+      u_field: this.field, u_light: light.floor, u_light_walls: light.walls, u_lamps: this.lamps.texture,
     };
     Object.entries(textures).forEach(([name, bound], unit) => {
       if (!uniforms[name]) return;
@@ -161,7 +165,7 @@ class Drawing {
     set('u_field_range', 'uniform2fv', data.field.range);
     set('u_light_place', 'uniform4fv', placeOf(data.light));
     set('u_light_most', 'uniform1f', data.light.most);
-    set('u_light_heights', 'uniform2fv', data.light.heights);
+    set('u_light_heights', 'uniform4fv', data.light.heights);
     set('u_lamps_place', 'uniform4fv', this.lamps.place);
     this.pointers(part.vertices[0]);
     gl.drawElements(gl.TRIANGLES, part.indices[1], gl.UNSIGNED_INT, part.indices[0] * 4);

@@ -11,7 +11,8 @@ uniform sampler2D u_dirt;   // 1 - exp(-D), a channel per kind
 uniform sampler2D u_clean;  // base colour without dirt
 uniform sampler2D u_rough;  // roughness as baked
 uniform sampler2D u_field;  // distance to the nearest wall; day beyond openings
-uniform sampler2D u_light;  // irradiance: floor, wall low, wall high; share of the surroundings that is open
+uniform sampler2D u_light;  // irradiance of the floor; share of the surroundings that is open
+uniform sampler2D u_light_walls;  // irradiance of the nearest wall at u_light_heights
 uniform sampler2D u_lamps;  // the ceiling's lamps
 
 uniform vec4 u_amounts;     // times the baked density; 0 where a kind is left out
@@ -29,7 +30,7 @@ uniform vec4 u_field_place;
 uniform vec2 u_field_range;
 uniform vec4 u_light_place;
 uniform float u_light_most;
-uniform vec2 u_light_heights;
+uniform vec4 u_light_heights;
 uniform vec4 u_lamps_place;
 
 {{light}}
@@ -65,10 +66,18 @@ float wall_distance(vec2 place) {
   return mix(u_field_range.x, u_field_range.y, value);
 }
 
-// Irradiance of the floor, of walls low, of walls high, and how open the surroundings are.
-vec4 light_at(vec2 place) {
-  vec4 root = textureLod(u_light, (place - u_light_place.xy) * u_light_place.zw, 0.0);
+// Irradiance of the floor, and how open the surroundings are.
+vec2 light_at(vec2 place) {
+  vec2 root = textureLod(u_light, (place - u_light_place.xy) * u_light_place.zw, 0.0).rg;
   return root * root * u_light_most;
+}
+
+// Irradiance of the nearest wall at a share of its height.
+float wall_light_at(vec2 place, float up) {
+  vec4 root = textureLod(u_light_walls, (place - u_light_place.xy) * u_light_place.zw, 0.0);
+  vec4 light = root * root * u_light_most;
+  vec3 share = clamp((up - u_light_heights.xyz) / (u_light_heights.yzw - u_light_heights.xyz), 0.0, 1.0);
+  return light.x + dot(share, light.yzw - light.xyz);
 }
 
 // The room in a smooth floor (as `mirror` and `shine` of src/show/still/shade.rs): walls are met by marching through the
@@ -111,26 +120,26 @@ vec3 lamplight(float full) {
 }
 
 vec3 lit_floor(Material surface, vec3 view) {
-  vec4 light = light_at(v_place.xy);
+  vec2 light = light_at(v_place.xy);
   float share = fresnel(view.z, surface.roughness);
   vec3 shine = u_inside ? mirrored(vec3(-view.xy, view.z), surface.roughness) : vec3(SKY_SHINE);
-  return surface.colour * lamplight(light.x) * (1.0 - share) + shine * share * (FLOOR_SHINE.x + FLOOR_SHINE.y * light.w);
+  return surface.colour * lamplight(light.x) * (1.0 - share) + shine * share * (FLOOR_SHINE.x + FLOOR_SHINE.y * light.y);
 }
 
 vec3 lit_wall(Material surface, vec3 view) {
   vec2 normal = normalize(v_normal.xy + vec2(1e-6, 0.0));
-  vec4 light = light_at(v_place.xy + 0.22 * normal);
-  float up = clamp(v_place.z / u_height, 0.0, 1.0);
-  float full = max(mix(light.y, light.z, (up - u_light_heights.x) / (u_light_heights.y - u_light_heights.x)), 0.0);
+  vec2 beside = v_place.xy + 0.22 * normal;
+  float open = light_at(beside).y;
+  float full = wall_light_at(beside, clamp(v_place.z / u_height, 0.0, 1.0));
   if (u_inside) full *= wall_edges(v_place.z, u_height);
-  return surface.colour * lamplight(full) + fresnel(dot(normal, view.xy), surface.roughness) * WALL_SHINE * light.w * full;
+  return surface.colour * lamplight(full) + fresnel(dot(normal, view.xy), surface.roughness) * WALL_SHINE * open * full;
 }
 
 // Mineral tiles in a grid of bars.
 vec3 lit_ceiling() {
   vec2 joints = joint(v_place.xy, fwidth(v_place.xy));
-  vec4 light = light_at(v_place.xy);
-  return CEILING * (CEILING_LIGHT.x * light.w + CEILING_LIGHT.y * light.x) * (1.0 - JOINT * min(joints.x + joints.y, 1.0));
+  vec2 light = light_at(v_place.xy);
+  return CEILING * (CEILING_LIGHT.x * light.y + CEILING_LIGHT.y * light.x) * (1.0 - JOINT * min(joints.x + joints.y, 1.0));
 }
 
 // A threshold per pixel against bands.
