@@ -39,10 +39,10 @@ function drawPlan(file) {
 
 const run = (...words) => execFileSync(program, words, { cwd: folder, encoding: 'utf8' });
 
-/** Mean of a channel of the floor's mask over a rectangle of plan pixels. */
-function mean(out, channel, [left, top, right, bottom]) {
+/** Mean of the floor's passes, a logarithm up to 255, over a rectangle of plan pixels. */
+function passes(out, [left, top, right, bottom]) {
   const { floor } = JSON.parse(fs.readFileSync(path.join(out, 'manifest.json')));
-  const file = fs.readdirSync(path.join(out, 'floor')).find((name) => /mask.*1001\.png$/.test(name));
+  const file = fs.readdirSync(path.join(out, 'floor')).find((name) => /passes.*1001\.png$/.test(name));
   const png = PNG.sync.read(fs.readFileSync(path.join(out, 'floor', file)));
   const texels = (floor.texels_per_metre ?? 25) * SCALE_M;
   let [sum, count] = [0, 0];
@@ -50,7 +50,7 @@ function mean(out, channel, [left, top, right, bottom]) {
   const rows = [bottom, top].map((y) => png.height - (SIZE.height - y) * texels);
   for (let y = Math.ceil(rows[1]); y < rows[0]; y++) {
     for (let x = Math.ceil(left * texels); x < right * texels; x++) {
-      sum += png.data[4 * (y * png.width + x) + channel];
+      sum += png.data[4 * (y * png.width + x)];
       count++;
     }
   }
@@ -141,9 +141,9 @@ async function save(tab) {
 
   // What was saved is baked; the floor of the desk is trodden, that of the table is not.
   run('bake', 'plan.toml', '--quick', '--people', '100', '-o', 'out', '--quiet');
-  const film = (box) => mean(path.join(folder, 'out'), 0, box);
-  const [desk, table, corner] = [film([152, 62, 164, 82]), film([182, 112, 198, 118]), film([196, 30, 212, 50])];
-  console.log(`  film, of 255: ${desk.toFixed(1)} where the desk was, ${table.toFixed(1)} under the table, ${corner.toFixed(1)} in a corner`);
+  const boxes = [[152, 62, 164, 82], [182, 112, 198, 118], [196, 30, 212, 50]];
+  const [desk, table, corner] = boxes.map((box) => passes(path.join(folder, 'out'), box));
+  console.log(`  passes, of 255: ${desk.toFixed(1)} where the desk was, ${table.toFixed(1)} under the table, ${corner.toFixed(1)} in a corner`);
   assert.ok(desk > 30 && corner < 1 && table === 0);
 
   // The page goes on from what it saved, and a save without changes is the same.
