@@ -20,12 +20,14 @@ use crate::stamps::{Stamper, TexelGrid, WallGrid, WallStamper};
 use crate::sums::{FloorSums, WallSums};
 
 mod graded;
+mod series;
 mod tread;
 mod view;
 
+pub use series::resolve_series;
 pub use view::{View, view};
 
-use graded::{Graded, Sums, look_entry, title};
+use graded::{Graded, Sums, keep_look, title};
 use tread::{Marks, tread};
 
 /// Files in every bake.
@@ -85,6 +87,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let given = Given::of_scenario(scenario, &watch, progress)?.map(Given::on_foot);
     let ground = Ground::of_scenario(scenario, given.as_ref(), &watch, progress)?;
     let (plan, walls) = (&ground.plan, &ground.walls);
+    scenario.look.check_areas(walls)?;
     let grid = TexelGrid::covering(plan.width_m(), plan.height_m(), scenario.floor_texels_per_metre)?;
     let wall_grid = WallGrid::covering(walls, scenario.wall_height_m, scenario.wall_texels_per_metre)?;
     let with_walls = scenario.texture.walls;
@@ -177,6 +180,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
         peak_memory_mib: export::peak_memory_mib(),
     };
     report.write(&folder)?;
+    let look = keep_look(&scenario.look, &folder)?;
     let manifest = Manifest {
         seed: scenario.seed,
         people: source.people(),
@@ -185,7 +189,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
         walls: written.walls.map(|textures| textures.entry(walls, footfalls.contact_people())),
         preview: written.pictures,
         stills: written.stills,
-        look: look_entry(&scenario.look),
+        look,
         doors: Some(doorways),
         settings,
         ..Manifest::of_plan(plan, walls, &routes)
@@ -270,13 +274,14 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
 
     let report = Report { seconds: watch.seconds(), peak_memory_mib: export::peak_memory_mib(), ..earlier };
     report.write(&folder)?;
+    let look = keep_look(look, &folder)?;
     let manifest = Manifest {
         target: TargetEntry::of(textures.target),
         floor: written.floor.entry(manifest.floor.sums.clone()),
         walls: written.walls.map(|textures| textures.entry(&walls, graded.wall_people)),
         preview: written.pictures,
         stills: written.stills,
-        look: look_entry(look),
+        look,
         ..manifest
     };
     export::write_target_files(&folder, &manifest)?;

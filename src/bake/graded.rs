@@ -1,12 +1,13 @@
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::Error;
 use crate::export::{
     self, Atlas, Camera, FloorTextures, OutputFile, OutputFolder, PADDING_PX, PreviewEntry, StillEntry, TextureOptions,
     WallTextures,
 };
-use crate::look::{Background, FloorResolver, Look, WallResolver};
+use crate::files::{LARGEST_IMAGE_BYTES, read_input};
+use crate::look::{Background, FloorResolver, Look, LookError, WallResolver, look_files};
 use crate::math::Rect;
 use crate::progress::{Progress, Stage, Stopwatch};
 use crate::show::page::{Page, PageOptions, PageSurface};
@@ -238,13 +239,21 @@ impl Model<'_> {
     }
 }
 
-/// Converts a look to JSON without the folders of its images, which belong to the machine.
-pub(super) fn look_entry(look: &Look) -> serde_json::Value {
+/// Copies the images of a look to `look/` in the bake, so that it can be resolved anywhere, and returns the look as JSON.
+pub(super) fn keep_look(look: &Look, folder: &OutputFolder) -> Result<serde_json::Value, Error> {
     let mut look = look.clone();
-    for image in look.images().into_iter().flatten() {
-        *image = image.file_name().map(PathBuf::from).unwrap_or_default();
+    let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    for (number, image) in (1..).zip(look.images().into_iter().flatten()) {
+        let kept = format!("look/{number}/{}", name(image));
+        for file in look_files(image)? {
+            let relative = if image.is_dir() { format!("{kept}/{}", name(&file)) } else { kept.clone() };
+            let bytes = read_input(&file, LARGEST_IMAGE_BYTES)
+                .map_err(|error| LookError::Image { path: file, message: error.to_string() })?;
+            folder.write(&relative, &bytes)?;
+        }
+        *image = PathBuf::from(kept);
     }
-    look.settings()
+    Ok(look.settings())
 }
 
 /// Returns the title of a bake: the file stem of its plan, or of its motion without a plan.

@@ -3,7 +3,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use trodden::Error;
-use trodden::bake::{ResolveOptions, resolve};
+use trodden::bake::{ResolveOptions, resolve, resolve_series};
 use trodden::export::Target;
 use trodden::look::Look;
 use trodden::scenario::Preset;
@@ -22,13 +22,14 @@ Examples:
   trodden resolve out/station --look vinyl.toml
   trodden resolve out/station --preset wet
   trodden resolve out/station --preset heavy -o out/heavy   the bake stays as it is
+  trodden resolve out/station --passes 1e3,1e4,1e5 -o out/ages   the same floor at three ages
   trodden resolve out/station --target unity")]
 pub struct Resolve {
     /// The folder that a bake left
     #[arg(value_name = "BAKE")]
     bake: PathBuf,
     /// A look file: TOML with the keys of a scenario's [look]
-    #[arg(long, value_name = "FILE", required_unless_present_any = ["preset", "target", "embed", "layers", "output"])]
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["preset", "target", "embed", "layers", "output", "passes"])]
     look: Option<PathBuf>,
     /// Or the look of a preset
     #[arg(long, value_name = "NAME", value_parser = arguments::preset(), conflicts_with = "look")]
@@ -42,6 +43,9 @@ pub struct Resolve {
     /// Put the textures, reduced, into scene.glb
     #[arg(long)]
     embed: bool,
+    /// Ages, as numbers of people who have walked: one bake for each in --output, and a flip-book of every picture
+    #[arg(long, value_name = "N,N,...", value_delimiter = ',', value_parser = passes, requires = "output")]
+    passes: Vec<u64>,
     /// Write to this folder, and leave the bake as it is
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
@@ -64,10 +68,25 @@ impl Resolve {
             folder: self.output.clone(),
             force: self.force,
         };
+        if let (Some(folder), false) = (&self.output, self.passes.is_empty()) {
+            let reports = resolve_series(&self.bake, &options, &self.passes, folder, &Watch::new(common))?;
+            for (total_passes, report) in self.passes.iter().zip(&reports).filter(|_| !common.quiet) {
+                bake::summary(&folder.join(format!("passes_{total_passes}")), report, common)?;
+            }
+            return Ok(ExitCode::SUCCESS);
+        }
         let report = resolve(&self.bake, &options, &Watch::new(common))?;
         if !common.quiet {
             bake::summary(self.output.as_deref().unwrap_or(&self.bake), &report, common)?;
         }
         Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// A number of people, such as `20000` or `1e5`.
+fn passes(text: &str) -> Result<u64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(number) if (1.0..=1e9).contains(&number) && number.fract() == 0.0 => Ok(number as u64),
+        _ => Err("give a whole number from 1 to 1e9, such as 20000 or 1e5".to_string()),
     }
 }

@@ -68,9 +68,10 @@ impl ViewCommand {
         };
         let output = self.output.clone().unwrap_or_else(|| beside(&self.bake));
         let watch = Watch::new(common);
-        let look_images = view_from.look.clone().map(|mut look| look.images().map(|image| image.cloned()));
-        let look_files = self.look.clone().into_iter().chain(look_images.into_iter().flatten().flatten());
-        let inputs: Vec<PathBuf> = print::files_of(&self.bake).into_iter().chain(look_files).collect();
+        let mut inputs: Vec<PathBuf> = print::files_of(&self.bake).into_iter().chain(self.look.clone()).collect();
+        if let Some(mut look) = view_from.look.clone() {
+            inputs.extend(look.images().into_iter().flatten().map(|image| image.clone()));
+        }
         let file = print::plan_file(&output, self.force, &inputs)?;
         let (picture, camera) = view(&self.bake, &view_from, &watch)?;
         watch.advance(Stage::Export, 1.0);

@@ -50,6 +50,22 @@ pub enum LookError {
         /// Description of the error.
         message: String,
     },
+    /// An area of the floor has neither an outline nor a room.
+    #[error("look.area {number} has an outline of {corners} corners and no room")]
+    NoOutline {
+        /// Number of the area, from 1.
+        number: usize,
+        /// Number of corners.
+        corners: usize,
+    },
+    /// The place of an area's room is not on the floor.
+    #[error("look.area {number}: there is no floor at ({}, {}) m", place_m[0], place_m[1])]
+    NotInRoom {
+        /// Number of the area, from 1.
+        number: usize,
+        /// The place, metres.
+        place_m: [f64; 2],
+    },
     /// The sums belong to other walls.
     #[error("the sums are those of {summed} wall faces, but the plan has {faces}")]
     OtherWalls {
@@ -99,6 +115,14 @@ impl LookError {
                 "give a PNG, JPEG, BMP, PGM, TIFF or GIF, at most 16384 px a side, as a path relative to the look file"
                     .to_string(),
             ),
+            LookError::NoOutline { .. } => Some(
+                "give outline = [[2.0, 1.0], [6.5, 4.0]] (two opposite corners, or three and more in a row, metres), or \
+                 room = [3.0, 2.5]"
+                    .to_string(),
+            ),
+            LookError::NotInRoom { .. } => {
+                Some("give a place in the room, in metres from the plan's lower left corner".to_string())
+            }
             LookError::Syntax { hint, .. } => {
                 hint.clone().or_else(|| Some("keys that are left out keep the preset's value".to_string()))
             }

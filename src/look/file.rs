@@ -5,7 +5,8 @@ use toml::de::{DeTable, DeValue};
 
 use super::error::{FilePlace, LookError};
 use super::image::decode;
-use super::settings::Look;
+use super::image_set::look_files;
+use super::settings::{AreaLook, Look};
 use crate::files::read_text;
 use crate::options::{self, Mistake, Options, value_at};
 
@@ -55,15 +56,24 @@ impl Look {
     /// # Errors
     /// An image is missing, damaged, too large or of an unknown format.
     pub fn check_images(&self) -> Result<(), LookError> {
-        [&self.floor.image, &self.wall.image].into_iter().flatten().try_for_each(|path| decode(path).map(drop))
+        let floors = self.area.iter().map(|area| &area.floor).chain([&self.floor]).map(|floor| &floor.image);
+        floors
+            .chain([&self.wall.image])
+            .flatten()
+            .try_for_each(|path| look_files(path)?.iter().try_for_each(|file| decode(file).map(drop)))
     }
 
     /// Checks every number against its range.
     ///
     /// # Errors
-    /// [`LookError::Option`] names the key, its value and the range allowed.
+    /// [`LookError::Option`] names the key, its value and the range allowed; an area without an outline.
     pub fn check(&self) -> Result<(), LookError> {
-        self.check_ranges().map_err(|error| LookError::Option { error, place: None })
+        self.check_ranges().map_err(|error| LookError::Option { error, place: None })?;
+        let unknown = |area: &AreaLook| area.room.is_none() && area.outline.len() < 2;
+        match self.area.iter().position(unknown) {
+            Some(index) => Err(LookError::NoOutline { number: index + 1, corners: self.area[index].outline.len() }),
+            None => Ok(()),
+        }
     }
 
     /// All settings, as a manifest keeps them.

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use super::error::LookError;
 use crate::files::{LARGEST_IMAGE_BYTES, open_input_up_to};
-use crate::math::srgb;
 
 /// Pixels kept per texel and axis; a texel shows their mean.
 const PIXELS_PER_TEXEL: f64 = 3.0;
@@ -44,10 +43,16 @@ pub(super) struct RepeatedImage {
 }
 
 impl RepeatedImage {
-    pub fn open(path: &Path, size_m: [f64; 2], texels_per_metre: f64) -> Result<RepeatedImage, LookError> {
+    /// Opens an image that shows `size_m`; `value` tells what the bytes of a pixel mean.
+    pub fn open(
+        path: &Path,
+        size_m: [f64; 2],
+        texels_per_metre: f64,
+        value: impl Fn([u8; 3]) -> [f32; 3],
+    ) -> Result<RepeatedImage, LookError> {
         let image = decode(path)?;
         let (width, height) = (image.width() as usize, image.height() as usize);
-        let rows = image.rows().map(|row| row.map(|p| srgb::light_of(p.0)).collect());
+        let rows = image.rows().map(|row| row.map(|p| value(p.0)).collect());
         Ok(RepeatedImage::new(rows, [width, height], size_m, texels_per_metre))
     }
 

@@ -13,6 +13,7 @@
 //! The result does not depend on the order of deposits, and dirt may be lighter than a dark floor. Walls use the same
 //! formula with other kinds of dirt, see [`WallLook`].
 
+mod areas;
 mod block;
 mod bytes;
 mod coarse;
@@ -27,6 +28,7 @@ mod mopping;
 mod spots;
 mod surface;
 mod image;
+mod image_set;
 mod lattice;
 mod material;
 mod noise;
@@ -50,11 +52,14 @@ pub(crate) use block::FLAT;
 pub use block::{Background, LAYERS, Layer, ResolvedBlock};
 pub(crate) use colours::absorption;
 pub use error::{FilePlace, LookError};
+pub(crate) use image_set::look_files;
 pub use material::Material;
 pub use octaves::{NoiseLook, Octave};
 pub(crate) use presets::LOOK_PRESETS;
 pub use resolve::FloorResolver;
-pub use settings::{AgeLook, DustLook, EdgeLook, FilmLook, FloorLook, Look, MopLook, PrintsLook, ScuffsLook, WearLook};
+pub use settings::{
+    AgeLook, AreaLook, DustLook, EdgeLook, FilmLook, FloorLook, Look, MopLook, PrintsLook, ScuffsLook, WearLook,
+};
 pub(crate) use wall::WALL_LAYERS;
 pub(crate) use wall::frames::WIDEST_FRAMED_M;
 pub use wall::{SkirtingLook, SplashLook, StainLook, WallDustLook, WallLook, WallMaterial, WallResolver};

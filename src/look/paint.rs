@@ -95,6 +95,11 @@ impl<'a> FloorPainter<'a> {
         *clean = look.floor.roughness.unwrap_or(*clean);
         *trodden = look.floor.roughness_trodden.unwrap_or(*trodden);
         let ground = Surface::new(&look.floor, look.seed, texels_per_metre)?;
+        if let (Some(mean), None) = (ground.mean_roughness(), look.floor.roughness) {
+            let change =
+                look.floor.roughness_trodden.map_or(properties.roughness[1] - properties.roughness[0], |to| to - mean);
+            properties.roughness = [mean, (mean + change).clamp(0.0, 1.0)];
+        }
         let noise = film_noise(look);
         Ok(FloorPainter {
             sums,
@@ -280,7 +285,8 @@ fn write(dither: u32, window: &TexelWindow, run: RowRun, buffers: &mut FloorBuff
     for (k, relief) in block.relief[texels.clone()].iter_mut().enumerate() {
         let height = |back: usize| surface.height[above + k - back];
         let slope = |back: usize| -per_m * (height(0) - height(back));
-        let (x, y) = (slope(1), slope(stride));
+        let lean = surface.lean.each_ref().map(|plane| plane.get(above + k).copied());
+        let (x, y) = (lean[0].unwrap_or_else(|| slope(1)), lean[1].unwrap_or_else(|| slope(stride)));
         let length = (x * x + y * y + 1.0).sqrt();
         let [worn, marks] = shaded.worn(k);
         let raised = (128.5 + HEIGHT_PER_MM * height(0)).clamp(0.0, 255.0) as u8;

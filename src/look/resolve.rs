@@ -1,5 +1,6 @@
 use std::cell::RefCell;
 
+use super::areas::FloorArea;
 use super::block::{Background, LAYERS, ResolvedBlock};
 use super::coarse::{CoarseFloor, CoarseShare};
 use super::error::LookError;
@@ -13,6 +14,7 @@ use crate::walls::Walls;
 /// Resolves rectangles of a floor, also from several threads. A texel's value depends on its position only.
 pub struct FloorResolver<'a> {
     painter: FloorPainter<'a>,
+    areas: Vec<FloorArea<'a>>,
     coarse: CoarseFloor,
 }
 
@@ -20,7 +22,8 @@ impl<'a> FloorResolver<'a> {
     /// Prepares to resolve `sums` of `simulated_people` people.
     ///
     /// # Errors
-    /// Settings out of range, a floor image that cannot be read, sums without simulated people.
+    /// Settings out of range, a floor image that cannot be read, an area's room that is not on the floor, sums without
+    /// simulated people.
     ///
     /// # Example
     /// ```
@@ -53,6 +56,10 @@ impl<'a> FloorResolver<'a> {
         let grid = sums.grid();
         Ok(FloorResolver {
             painter: FloorPainter::new(sums, walls, look, simulated_people)?,
+            areas: (1..)
+                .zip(&look.area)
+                .map(|area| FloorArea::new(area, sums, walls, look, simulated_people))
+                .collect::<Result<_, _>>()?,
             coarse: CoarseFloor::of(walls, grid.texels_per_metre, grid.width, grid.height),
         })
     }
@@ -77,10 +84,15 @@ impl<'a> FloorResolver<'a> {
             CoarseShare::Nothing => block.become_empty(),
             CoarseShare::All => {
                 block.resize(rect.texels(), &LAYERS);
-                self.painter.paint(rect, None, block);
+                self.paint(rect, None, block);
             }
             CoarseShare::Some => self.with_padding(rect, block),
         }
+    }
+
+    fn paint(&self, window: TexelWindow, wanted: Option<&[bool]>, block: &mut ResolvedBlock) {
+        self.painter.paint(window, wanted, block);
+        self.areas.iter().for_each(|area| area.paint(window, wanted, block));
     }
 
     /// Resolves a rectangle that contains the floor's edge.
@@ -112,7 +124,7 @@ impl<'a> FloorResolver<'a> {
         }
         PAINTED.with_borrow_mut(|painted| {
             painted.resize(window.texels(), &LAYERS);
-            self.painter.paint(window, Some(&wanted), painted);
+            self.paint(window, Some(&wanted), painted);
             block.resize(rect.texels(), &LAYERS);
             let mut n = 0;
             while n < shown.len() {

@@ -52,6 +52,8 @@ options! {
         noise: NoiseLook = NoiseLook::default();
         /// The walls: all of the above but `seed` and `darkest` is about the floor.
         wall: WallLook = WallLook::default();
+        /// Parts of the floor with a material of their own; later ones lie over earlier ones.
+        area: Vec<AreaLook> = Vec::new();
     }
 }
 
@@ -66,10 +68,15 @@ options! {
         ///
         /// 0 is flat, 1 as the material has it.
         texture: f32 = 1.0, in 0.0..=3.0;
-        /// Or an image of the clean floor, repeated.
+        /// Or an image of the clean floor, repeated; or a folder with images of colour, roughness, height and normals.
+        ///
+        /// Images of a folder are known by their names, as libraries of materials give them: `wood_diff.jpg`,
+        /// `wood_rough.jpg`, `wood_disp.png`, `wood_nor_gl.png`, or `Wood_Color.png`, `Wood_NormalDX.png` and so on.
         image: Option<PathBuf> = None, eg "\"oak.png\"";
         /// Width and height of the floor that the image shows.
         image_size_m: [f64; 2] = [2.0, 2.0], in 0.01..=1000.0, unit "m";
+        /// How far a folder's image of the height goes from black to white.
+        image_height_mm: f32 = 2.0, in 0.0..=100.0, unit "mm";
         /// Of the clean floor; left out: the material's.
         roughness: Option<f32> = None, in 0.0..=1.0, eg "0.35";
         /// Where many have walked; left out: the material's.
@@ -78,6 +85,18 @@ options! {
         tile_m: f64 = 0.3, in 0.02..=5.0, unit "m";
         /// Width of a joint, material "tile".
         joint_m: f64 = 0.004, in 0.0..=0.05, unit "m";
+    }
+}
+
+options! {
+    /// A part of the floor with a material of its own: give its outline, or a place in the room that has it.
+    pub struct AreaLook {
+        /// Its outline: two opposite corners, or three and more corners in a row, [x, y] in metres.
+        outline: Vec<[f64; 2]> = Vec::new(), in -10000.0..=10000.0, unit "m", eg "[[2.0, 1.0], [6.5, 4.0]]";
+        /// Or a place in a room, which ends at walls and doorways.
+        room: Option<[f64; 2]> = None, in -10000.0..=10000.0, unit "m", eg "[3.0, 2.5]";
+        /// The clean floor there.
+        floor: FloorLook = FloorLook::default();
     }
 }
 
@@ -214,8 +233,9 @@ impl Look {
         look
     }
 
-    /// Paths of the images of floor and wall.
-    pub fn images(&mut self) -> [Option<&mut PathBuf>; 2] {
-        [self.floor.image.as_mut(), self.wall.image.as_mut()]
+    /// Paths of the images, or of folders of images, of floor, wall and areas.
+    pub fn images(&mut self) -> Vec<Option<&mut PathBuf>> {
+        let areas = self.area.iter_mut().map(|area| area.floor.image.as_mut());
+        [self.floor.image.as_mut(), self.wall.image.as_mut()].into_iter().chain(areas).collect()
     }
 }

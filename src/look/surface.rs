@@ -3,16 +3,21 @@
 use super::cells::{self, again, rise};
 use super::error::LookError;
 use super::image::RepeatedImage;
+use super::image_set::SurfaceImages;
 use super::lattice::TexelWindow;
-use super::material::Material;
-use super::noise::{self, Channel, Noise};
+use super::noise;
+use super::planes::each1;
 use super::settings::FloorLook;
-use crate::math::srgb::{self, Srgb8};
+use crate::math::srgb;
+
+mod textures;
+
+use textures::{Chips, Cracks, Grain, Pieces, Texture, joint_colour};
 
 /// The clean floor of one look.
 pub(super) struct Surface {
     base: [f32; 3],
-    image: Option<Box<RepeatedImage>>,
+    images: Option<Box<SurfaceImages>>,
     texture: Texture,
     /// Colour of joints, linear; `None` without joints.
     pub joint: Option<[f32; 3]>,
@@ -29,86 +34,32 @@ pub(super) struct SurfacePlanes {
     pub height: Vec<f32>,
     /// Added to the roughness.
     pub rough: Vec<f32>,
-}
-
-/// Texture of a material.
-struct Texture {
-    /// Relative deviations in lightness, in colour temperature.
-    tone: Vec<Noise>,
-    tint: Noise,
-    /// Millimetres of height per unit of tone of the finest noise.
-    relief_mm: f32,
-    pieces: Option<Pieces>,
-    chips: Vec<Chips>,
-    grain: Option<Grain>,
-    cracks: Option<Cracks>,
-}
-
-/// Planks, tiles, slabs, sheets.
-struct Pieces {
-    size_m: [f64; 2],
-    gap_m: f64,
-    /// How deep gaps are, millimetres.
-    gap_mm: f32,
-    /// Standard deviations of tone and tint between pieces, and of their roughness.
-    sd: f32,
-    tint_sd: f32,
-    rough_sd: f32,
-    /// Share of pieces that are darker, and by how much.
-    dark: [f32; 2],
-    /// Shift of each row along x: a random one, or this share of a piece.
-    shift: Option<f64>,
-    key: u32,
-}
-
-/// Chips, flecks or pores strewn over the surface.
-struct Chips {
-    /// One chip at most in a square of this side.
-    spacing_m: f64,
-    /// Share of squares with a chip.
-    share: f32,
-    /// Least and greatest radius, in spacings. 0: chips fill the surface as a mosaic, with a gap of the second number.
-    radius: [f32; 2],
-    /// Relative tone and tint of the kinds of chips.
-    kinds: &'static [[f32; 2]],
-    /// Height of a chip, millimetres.
-    height_mm: f32,
-    gain: f32,
-    key: u32,
-}
-
-/// The grain of boards: streaks along x, with the arches of flat-sawn wood.
-struct Grain {
-    gain: f32,
-    key: u32,
-}
-
-/// Hairline cracks.
-struct Cracks {
-    spacing_m: f64,
-    width_m: f32,
-    key: u32,
+    /// Normals of an image, x and y over z; empty where the height gives them.
+    pub lean: [Vec<f32>; 2],
 }
 
 impl Surface {
     pub fn new(floor: &FloorLook, seed: u64, texels_per_metre: f64) -> Result<Surface, LookError> {
         let colour = floor.colour.unwrap_or(floor.material.properties().colour);
         let mut texture = Texture::of(floor, seed);
-        let image = match &floor.image {
-            Some(path) => Some(Box::new(RepeatedImage::open(path, floor.image_size_m, texels_per_metre)?)),
-            None => None,
-        };
-        if image.is_some() {
+        let open = |path| SurfaceImages::open(path, floor.image_size_m, floor.image_height_mm, texels_per_metre);
+        let images = floor.image.as_deref().map(open).transpose()?.map(Box::new);
+        if images.is_some() {
             texture.pieces = None;
         }
         let joint = texture.pieces.as_ref().map(|_| srgb::light_of(joint_colour(floor.material)));
-        let base = image.as_ref().map_or(srgb::light_of(colour), |image| image.mean());
-        Ok(Surface { base, image, texture, joint })
+        let base = images.as_ref().map_or(srgb::light_of(colour), |images| images.colour.mean());
+        Ok(Surface { base, images, texture, joint })
     }
 
     /// Mean colour of the clean floor, linear.
     pub fn mean(&self) -> [f32; 3] {
         self.base
+    }
+
+    /// Mean roughness that its images show.
+    pub fn mean_roughness(&self) -> Option<f32> {
+        Some(self.images.as_ref()?.roughness.as_ref()?.mean()[0])
     }
 
     /// Lays the floor out over a window.
@@ -120,16 +71,12 @@ impl Surface {
         for row in 0..window.height {
             let texels = row * window.width..(row + 1) * window.width;
             let j = window.j0 + row as i64;
-            if let Some(image) = &self.image {
-                let mut rgb = std::array::from_fn(|_| vec![0.0; window.width]);
-                image.read_row(window.i0, j, &mut rgb);
-                for (plane, row) in out.rgb.iter_mut().zip(&rgb) {
-                    plane[texels.clone()].copy_from_slice(row);
-                }
+            if let Some(images) = &self.images {
+                out.read_images(images, window, row);
                 continue;
             }
             fields.iter_mut().for_each(|field| field.begin_row(row));
-            let SurfacePlanes { rgb: [tone, _, tint], joint, height, rough } = out;
+            let SurfacePlanes { rgb: [tone, _, tint], joint, height, rough, .. } = out;
             let mut line = SurfaceLine {
                 window,
                 j,
@@ -174,10 +121,41 @@ impl Surface {
 
 impl SurfacePlanes {
     fn clear(&mut self, texels: usize) {
-        let SurfacePlanes { rgb, joint, height, rough } = self;
+        let SurfacePlanes { rgb, joint, height, rough, lean } = self;
         for plane in rgb.iter_mut().chain([joint, height, rough]) {
             plane.clear();
             plane.resize(texels, 0.0);
+        }
+        lean.iter_mut().for_each(Vec::clear);
+    }
+
+    /// Reads a row of texels from an artist's images.
+    fn read_images(&mut self, images: &SurfaceImages, window: &TexelWindow, row: usize) {
+        let texels = row * window.width..(row + 1) * window.width;
+        let mut values: [Vec<f32>; 3] = std::array::from_fn(|_| vec![0.0; window.width]);
+        let mut read = |image: &RepeatedImage| {
+            image.read_row(window.i0, window.j0 + row as i64, &mut values);
+            values.clone()
+        };
+        for (plane, row) in self.rgb.iter_mut().zip(read(&images.colour)) {
+            plane[texels.clone()].copy_from_slice(&row);
+        }
+        if let Some(image) = &images.roughness {
+            let mean = image.mean()[0];
+            each1(&mut self.rough[texels.clone()], &read(image)[0], |value| value - mean);
+        }
+        if let Some((image, height_mm)) = &images.height {
+            let mean = image.mean()[0];
+            each1(&mut self.height[texels.clone()], &read(image)[0], |value| height_mm * (value - mean));
+        }
+        if let Some((image, up)) = &images.normal {
+            let [x, y, z] = read(image).map(|plane| plane.into_iter().map(|value| 2.0 * value - 1.0));
+            let [right, above] = &mut self.lean;
+            for ((x, y), z) in x.zip(y).zip(z) {
+                let z = z.max(0.05);
+                right.push(x / z);
+                above.push(up * y / z);
+            }
         }
     }
 }
@@ -202,173 +180,6 @@ impl SurfaceLine<'_> {
     fn place(&self, k: usize) -> [f64; 2] {
         let texel_m = self.texel_m();
         [((self.window.i0 + k as i64) as f64 + 0.5) * texel_m, (self.j as f64 + 0.5) * texel_m]
-    }
-}
-
-fn joint_colour(material: Material) -> Srgb8 {
-    match material {
-        Material::Wood => [70, 52, 38],
-        Material::Vinyl => [176, 171, 161],
-        Material::Dark => [50, 48, 46],
-        Material::Terrazzo => [150, 138, 110],
-        Material::Carpet => [92, 94, 99],
-        Material::Concrete => [96, 93, 88],
-        Material::Stone => [158, 150, 136],
-        Material::Asphalt => [62, 60, 58],
-        Material::Paving => [112, 105, 92],
-        Material::Tile => [160, 156, 148],
-    }
-}
-
-impl Texture {
-    fn of(floor: &FloorLook, seed: u64) -> Texture {
-        let gain = floor.texture;
-        let key = |n: u32| noise::key(seed, Channel::Piece).wrapping_add(n.wrapping_mul(0x51_7c_c1));
-        // Length and width of spots, metres, and deviation.
-        type Spots = (f64, f64, f32);
-        let round = |size: f64, sd: f32| (size, size, sd);
-        let tones = |tone: [Spots; 3], tint: Spots, relief_mm: f32| {
-            let noise = |channel, (x, y, sd): Spots| Noise::new(seed, channel, [x, y], sd * gain);
-            let channels = [Channel::Ground, Channel::GroundMiddle, Channel::GroundCoarse];
-            Texture {
-                tone: channels.into_iter().zip(tone).map(|(channel, spots)| noise(channel, spots)).collect(),
-                tint: noise(Channel::GroundTint, tint),
-                relief_mm,
-                pieces: None,
-                chips: Vec::new(),
-                grain: None,
-                cracks: None,
-            }
-        };
-        let pieces = |size_m: [f64; 2], gap_m: f64, sd: f32| Pieces {
-            size_m,
-            gap_m,
-            gap_mm: 1.5,
-            sd: sd * gain,
-            tint_sd: 0.2 * sd * gain,
-            rough_sd: 0.01 * gain,
-            dark: [0.0; 2],
-            shift: Some(0.0),
-            key: key(0),
-        };
-        let chips = |n: u32, spacing_m: f64, share: f32, radius: [f32; 2], kinds, height_mm: f32| Chips {
-            spacing_m,
-            share,
-            radius,
-            kinds,
-            height_mm,
-            gain,
-            key: key(n),
-        };
-        match floor.material {
-            // Sheets of 2 m with welded seams, and flecks.
-            Material::Vinyl => Texture {
-                pieces: Some(Pieces { gap_mm: 0.1, ..pieces([24.0, 2.0], 0.004, 0.012) }),
-                chips: vec![
-                    chips(1, 0.011, 0.7, [0.18, 0.42], &[[-0.09, 0.0], [0.06, 0.0], [-0.05, 0.02]], 0.0),
-                    chips(2, 0.006, 0.6, [0.15, 0.40], &[[-0.05, 0.0], [0.04, -0.01]], 0.0),
-                ],
-                ..tones([round(0.004, 0.016), round(0.05, 0.006), round(1.1, 0.012)], round(0.3, 0.004), 0.6)
-            },
-            // Studded rubber would be a pattern of its own: this is smooth rubber with flecks, in sheets.
-            Material::Dark => Texture {
-                pieces: Some(Pieces { gap_mm: 0.1, ..pieces([24.0, 2.0], 0.003, 0.02) }),
-                chips: vec![chips(1, 0.012, 0.45, [0.15, 0.35], &[[0.5, 0.0], [0.3, 0.04], [-0.3, 0.0]], 0.0)],
-                ..tones([round(0.005, 0.05), round(0.05, 0.015), round(0.9, 0.02)], round(0.01, 0.01), 0.8)
-            },
-            // Chips of 4 to 15 mm in a matrix, and brass strips.
-            Material::Terrazzo => Texture {
-                pieces: Some(Pieces { gap_mm: 0.0, ..pieces([1.8, 1.8], 0.003, 0.015) }),
-                chips: vec![
-                    chips(
-                        1,
-                        0.0065,
-                        0.75,
-                        [0.0, 0.10],
-                        &[[0.10, 0.0], [-0.12, 0.02], [0.03, -0.02], [-0.03, 0.0]],
-                        0.0,
-                    ),
-                    chips(
-                        2,
-                        0.019,
-                        0.62,
-                        [0.22, 0.48],
-                        &[[0.22, 0.0], [-0.45, 0.03], [-0.22, 0.10], [0.10, 0.03], [-0.62, -0.02], [0.18, -0.02]],
-                        0.0,
-                    ),
-                ],
-                ..tones([round(0.004, 0.03), round(0.08, 0.02), round(0.8, 0.015)], round(0.5, 0.006), 0.1)
-            },
-            // Bays with saw cuts, clouds of trowelling, pores, hairline cracks.
-            Material::Concrete => Texture {
-                pieces: Some(Pieces { gap_mm: 3.0, ..pieces([4.8, 4.8], 0.005, 0.03) }),
-                chips: vec![chips(1, 0.05, 0.22, [0.02, 0.07], &[[-0.3, 0.0], [-0.2, 0.0]], -0.8)],
-                cracks: Some(Cracks { spacing_m: 2.9, width_m: 0.0008, key: key(3) }),
-                ..tones([round(0.012, 0.03), round(0.14, 0.03), round(1.3, 0.05)], round(0.8, 0.008), 3.0)
-            },
-            Material::Wood => Texture {
-                pieces: Some(Pieces {
-                    tint_sd: 0.025 * gain,
-                    rough_sd: 0.03 * gain,
-                    shift: None,
-                    ..pieces([1.35, 0.13], 0.0014, 0.085)
-                }),
-                grain: Some(Grain { gain, key: key(4) }),
-                ..tones([(0.30, 0.003, 0.035), (0.9, 0.03, 0.02), round(0.6, 0.01)], (0.9, 0.05, 0.01), 1.2)
-            },
-            // Tiles of 0.5 m with the pile turned from tile to tile.
-            Material::Carpet => Texture {
-                pieces: Some(Pieces { gap_mm: 1.0, tint_sd: 0.01 * gain, ..pieces([0.5, 0.5], 0.0015, 0.030) }),
-                chips: vec![chips(1, 0.005, 1.0, [0.0, 0.16], &[[0.14, 0.0], [-0.16, 0.02], [0.0, -0.03]], 1.5)],
-                ..tones([round(0.009, 0.10), (0.30, 0.01, 0.03), round(0.7, 0.02)], round(0.012, 0.02), 4.0)
-            },
-            Material::Tile => Texture {
-                pieces: Some(Pieces {
-                    dark: [0.04, 0.06 * gain],
-                    rough_sd: 0.03 * gain,
-                    ..pieces([floor.tile_m; 2], floor.joint_m, 0.022)
-                }),
-                chips: vec![chips(1, 0.004, 0.5, [0.15, 0.4], &[[-0.12, 0.0], [0.05, 0.0]], 0.0)],
-                ..tones([round(0.012, 0.012), round(0.08, 0.012), round(0.9, 0.006)], round(0.1, 0.005), 0.2)
-            },
-            // Honed limestone in a running bond.
-            Material::Stone => Texture {
-                pieces: Some(Pieces {
-                    dark: [0.10, 0.10 * gain],
-                    tint_sd: 0.009 * gain,
-                    rough_sd: 0.04 * gain,
-                    shift: Some(0.5),
-                    ..pieces([0.9, 0.6], 0.004, 0.045)
-                }),
-                chips: vec![chips(1, 0.03, 0.35, [0.04, 0.16], &[[-0.12, 0.01], [0.08, 0.0], [-0.2, 0.02]], -0.2)],
-                grain: Some(Grain { gain: 0.6 * gain, key: key(4) }),
-                ..tones([round(0.006, 0.025), (0.20, 0.05, 0.03), round(0.7, 0.02)], round(0.25, 0.01), 0.5)
-            },
-            Material::Asphalt => Texture {
-                pieces: Some(Pieces { gap_mm: 0.5, ..pieces([60.0, 3.5], 0.012, 0.03) }),
-                chips: vec![chips(
-                    1,
-                    0.009,
-                    0.85,
-                    [0.0, 0.12],
-                    &[[0.18, 0.02], [-0.28, 0.0], [-0.06, 0.0], [0.38, 0.01], [-0.42, 0.0]],
-                    2.0,
-                )],
-                cracks: Some(Cracks { spacing_m: 3.7, width_m: 0.004, key: key(3) }),
-                ..tones([round(0.009, 0.10), round(0.12, 0.03), round(1.6, 0.05)], round(0.9, 0.006), 6.0)
-            },
-            Material::Paving => Texture {
-                pieces: Some(Pieces {
-                    gap_mm: 4.0,
-                    dark: [0.12, 0.10 * gain],
-                    tint_sd: 0.012 * gain,
-                    shift: Some(0.5),
-                    ..pieces([0.40, 0.20], 0.005, 0.06)
-                }),
-                chips: vec![chips(1, 0.005, 0.8, [0.0, 0.12], &[[0.16, 0.0], [-0.16, 0.02], [0.04, -0.02]], 0.6)],
-                ..tones([round(0.006, 0.06), round(0.06, 0.03), round(0.8, 0.02)], round(0.2, 0.01), 3.0)
-            },
-        }
     }
 }
 
@@ -528,6 +339,7 @@ fn gap_share(from: f64, size: f64, period: f64, gap: f64) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::look::Material;
 
     #[test]
     fn gaps_take_up_their_area_wherever_texels_lie() {

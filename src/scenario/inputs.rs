@@ -19,7 +19,9 @@ impl Scenario {
         let own = self.routes.routes.iter().filter_map(|route| route.arrivals.as_ref());
         let timetables = own.chain([&self.crowd.arrivals]).filter_map(|timetable| timetable.file.as_ref());
         files.extend(timetables.map(|file| self.folder.join(file)));
-        files.extend(self.look.clone().images().into_iter().flatten().map(|image| image.clone()));
+        for image in self.look.clone().images().into_iter().flatten() {
+            files.extend(if image.is_dir() { files_in(image) } else { vec![image.clone()] });
+        }
         let units = self.spots().into_iter().filter_map(|spot| spot.folder);
         files.extend(self.pattern_path().into_iter().chain(units).flat_map(|folder| files_in(&folder)));
         files

@@ -81,7 +81,8 @@ impl Scenario {
         (scenario.preset, scenario.look.preset) = base;
         let own = ["look.floor.image", "look.wall.image"].map(|key| document.text_of(key).is_some());
         let folder = scenario.folder.clone();
-        for (image, own) in scenario.look.images().into_iter().zip(own) {
+        let areas = std::iter::repeat(document.text_of("look.area").is_some());
+        for (image, own) in scenario.look.images().into_iter().zip(own.into_iter().chain(areas)) {
             if let Some(image) = image.filter(|_| own) {
                 *image = folder.join(&*image);
             }

@@ -93,7 +93,23 @@ fn push_section(text: &mut String, section: &Field, path: &str, around: &Table) 
         push_commented(text, &line, &comment(field));
     }
     for field in fields.fields().filter(|field| field.section().is_some()) {
-        push_section(text, field, &format!("{path}.{}", field.name), table);
+        let inner = format!("{path}.{}", field.name);
+        match field.section() {
+            Some((_, true)) => {
+                push_explained(text, field, &inner);
+                // Items of an inner list, behind what they may have.
+                let own = table.get(field.name).filter(|list| list.as_array().is_some_and(|list| !list.is_empty()));
+                let nested = own.map(|list| {
+                    inner
+                        .rsplit('.')
+                        .fold(list.clone(), |value, name| Table::from_iter([(name.to_string(), value)]).into())
+                });
+                if let Some(nested) = nested {
+                    let _ = write!(text, "\n{}", toml::to_string(&nested).unwrap_or_default());
+                }
+            }
+            _ => push_section(text, field, &inner, table),
+        }
     }
 }
 

@@ -16,6 +16,6 @@ pub use animation::{
 pub use pictures::{
     Crop, Path, PathSample, draw_paths, draw_plan, draw_unit, encode_picture, render_crop, render_floor, write_previews,
 };
-pub(crate) use pictures::{PATHS_FILE, PathSampler, choose_crops, write_picture};
+pub(crate) use pictures::{PATHS_FILE, PathSampler, choose_crops, write_flipbook, write_picture};
 pub(crate) use rooms::Ceiling;
 pub use rooms::Rooms;

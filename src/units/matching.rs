@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 
 use super::areas::{AreaSide, Areas};
 use super::assignment::assign_allowed;
-use super::error::UnitsError;
 use super::track::TrackState;
 use super::unit::Unit;
 use crate::math::Vec2;
@@ -56,30 +55,6 @@ impl Default for MatchOptions {
             most_place_m: 1.6,
             most_turn_deg: 60.0,
             most: 2.0,
-        }
-    }
-}
-
-impl MatchOptions {
-    /// Checks every value.
-    ///
-    /// # Errors
-    /// The first value that is not a number or out of its range.
-    pub fn check(&self) -> Result<(), UnitsError> {
-        let numbers = [
-            ("place", self.place, 0.0, 1e3),
-            ("speed", self.speed, 0.0, 1e3),
-            ("heading", self.heading, 0.0, 1e3),
-            ("end", self.end, 0.0, 1e3),
-            ("again", self.again, 0.0, 1e3),
-            ("left", self.left, 0.0, 1e6),
-            ("most_place_m", self.most_place_m, 0.0, 10.0),
-            ("most_turn_deg", self.most_turn_deg, 0.0, 180.0),
-            ("most", self.most, 0.0, 1e6),
-        ];
-        match numbers.into_iter().find(|&(_, value, low, high)| !(value >= low && value <= high)) {
-            Some((name, value, low, high)) => Err(UnitsError::Number { name, value, low, high }),
-            None => Ok(()),
         }
     }
 }

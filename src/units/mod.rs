@@ -2,7 +2,7 @@
 //!
 //! After Matsumoto, Mori, Toyama: *Example-based Composition of Crowd Movement in VR*. A [`Unit`] is
 //! `u = { p(t), a, T, c_j(t), g_k }`: the viewer's path, the area, the duration, the members' paths and their groups. A
-//! [`UnitLibrary`] holds many units, [`rank`] finds those that fit the people present, [`cut`] cuts new ones out of any
+//! [`UnitLibrary`] holds many units, which are ranked by how they fit the people present, [`cut`] cuts new ones out of any
 //! motion.
 
 mod areas;
@@ -23,7 +23,7 @@ pub(crate) use diversity::Diversity;
 pub use diversity::DiversityReport;
 pub use error::{UnitAt, UnitsError};
 pub use library::UnitLibrary;
-pub use matching::{Candidate, MatchOptions, Party, Ranking, rank};
+pub(crate) use matching::{Candidate, MatchOptions, Party, rank};
 pub use track::{TrackSample, TrackState, UnitTrack};
 pub(crate) use unit::{LEAST_APART_M, LONGEST_S};
 pub use unit::{Member, Unit};

@@ -9,6 +9,7 @@ mod export;
 mod floorplans;
 mod floors;
 mod hashes;
+mod looks;
 mod page;
 #[path = "../support/golden.rs"]
 mod golden;

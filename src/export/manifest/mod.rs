@@ -244,12 +244,18 @@ impl Manifest {
 
     /// Reads the look of the bake in the folder `bake`.
     ///
-    /// Its images are looked up in the working directory, because a manifest stores no folders.
+    /// The bake holds its images.
     ///
     /// # Errors
-    /// The value is not a look.
+    /// The value is not a look, or an image of it lies beyond the bake.
     pub fn look(&self, bake: &Path) -> Result<Look, ExportError> {
-        Look::of_settings(&self.look).map_err(|e| ExportError::damaged(&bake.join(MANIFEST_NAME), e))
+        let damaged = |message: String| ExportError::damaged(&bake.join(MANIFEST_NAME), message);
+        let mut look = Look::of_settings(&self.look).map_err(damaged)?;
+        for image in look.images().into_iter().flatten() {
+            let inside = BakePath::new(image.to_string_lossy().into_owned());
+            *image = bake.join(inside.map_err(|error| damaged(error.to_string()))?);
+        }
+        Ok(look)
     }
 
     /// Returns options that write the same textures. They do not pack sheets: see [`WallsEntry::atlas`].

@@ -8,6 +8,7 @@ use super::settings::WallLook;
 use super::strip::FaceStrip;
 use crate::look::error::LookError;
 use crate::look::image::RepeatedImage;
+use crate::look::image_set::ImageSet;
 use crate::look::lattice::TexelWindow;
 use crate::look::noise::{self, Channel, Noise, NoiseField};
 use crate::math::{exp_f32, smoothstep_f32, srgb};
@@ -84,7 +85,12 @@ pub(super) struct CleanWallRow {
 impl CleanWall {
     pub fn new(wall: &WallLook, seed: u64, texels_per_metre: f64) -> Result<CleanWall, LookError> {
         let image = match &wall.image {
-            Some(path) => Some(Box::new(RepeatedImage::open(path, wall.image_size_m, texels_per_metre)?)),
+            Some(path) => Some(Box::new(RepeatedImage::open(
+                &ImageSet::find(path)?.colour,
+                wall.image_size_m,
+                texels_per_metre,
+                srgb::light_of,
+            )?)),
             None => None,
         };
         let own = srgb::light_of(wall.colour.unwrap_or(wall.material.properties().colour));

@@ -9,7 +9,8 @@ use crate::scenario::{Preset, Scenario};
 
 /// Sections that come several times or need not be there, whose keys go with each other.
 fn is_optional(path: &str) -> bool {
-    ["formation", "route", "stop", "door", "fixture", "unit", "room"].contains(&path.split('.').next().unwrap())
+    let several = ["formation", "route", "stop", "door", "fixture", "unit", "room"];
+    several.contains(&path.split('.').next().unwrap()) || path.starts_with("look.area.")
 }
 
 /// Every key of the file, and the keys of the small tables that are written on one line.
@@ -29,9 +30,13 @@ fn text_with(path: &str, value: &str) -> String {
     let plan = if section == "plan" { "" } else { PLAN };
     let image = if section == "plan" && name != "image" { "image = \"plan.png\"\n" } else { "" };
     let with = stops::companions(path);
-    let is_list =
-        is_optional(path) && !["formation", "example", "way", "avoid"].iter().any(|end| section.ends_with(end));
-    let heading = if is_list { format!("[[{section}]]") } else { format!("[{section}]") };
+    let is_list = is_optional(path)
+        && !["formation", "example", "way", "avoid", "floor"].iter().any(|end| section.ends_with(end));
+    let heading = match section {
+        "look.area.floor" => "[[look.area]]\nroom = [1.0, 1.0]\n[look.area.floor]".to_string(),
+        _ if is_list => format!("[[{section}]]"),
+        _ => format!("[{section}]"),
+    };
     // What else the section requires, as its examples write it.
     let of_section = all()
         .into_iter()

@@ -3,6 +3,7 @@
 pub(super) mod canvas;
 mod crops;
 pub(super) mod drawing;
+mod flipbook;
 mod paths;
 mod render;
 pub(super) mod stuck;
@@ -12,6 +13,7 @@ mod write;
 
 pub use crops::{Crop, choose_crops};
 pub use drawing::{draw_paths, draw_plan};
+pub use flipbook::write_flipbook;
 pub use paths::{Path, PathSample, PathSampler};
 pub use render::{render_crop, render_floor};
 pub use units::draw_unit;
