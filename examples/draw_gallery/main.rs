@@ -4,7 +4,12 @@
 //! cargo run --release --example draw_gallery -- BAKE OUT.jpg X,Y,SIDE PX
 //! ```
 //!
-//! `X,Y` is the lower left corner of the piece and `SIDE` its side, metres; each piece is `PX` pixels wide.
+//! `X,Y` is the lower left corner of the piece and `SIDE` its side, metres; each piece is `PX` pixels wide. Or lays pictures of
+//! one size side by side, three to a row:
+//!
+//! ```text
+//! cargo run --release --example draw_gallery -- sheet OUT.jpg PICTURE...
+//! ```
 
 use std::path::Path;
 
@@ -19,11 +24,18 @@ const MATERIALS: [&str; 10] =
 /// Columns: the preset, and whether the floor is clean.
 const COLUMNS: [(&str, bool); 4] = [("commuters", true), ("commuters", false), ("heavy", false), ("wet", false)];
 const GAP_PX: u32 = 6;
+/// Pictures in a row of a sheet.
+const ROW_OF: usize = 3;
 /// Colour under walls.
 const WALL: Rgb<u8> = Rgb([58, 57, 62]);
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if let [word, out, pictures @ ..] = arguments.as_slice()
+        && word == "sheet"
+    {
+        return sheet(out, pictures);
+    }
     let [bake, out, place, px] = arguments.as_slice() else { return Err("usage: BAKE OUT.jpg X,Y,SIDE PX".into()) };
     let place = place.split(',').map(str::parse).collect::<Result<Vec<f64>, _>>()?;
     let [x, y, side] = place.as_slice() else { return Err("the piece is X,Y,SIDE".into()) };
@@ -53,6 +65,22 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let place = [column, row].map(|n| n as i64 * i64::from(px + GAP_PX));
             image::imageops::replace(&mut sheet, &piece, place[0], place[1]);
         }
+    }
+    sheet.save(out)?;
+    Ok(())
+}
+
+fn sheet(out: &str, pictures: &[String]) -> Result<(), Box<dyn std::error::Error>> {
+    let pictures =
+        pictures.iter().map(|path| Ok(image::open(path)?.to_rgb8())).collect::<image::ImageResult<Vec<_>>>()?;
+    let (width, height) = pictures.first().map_or((0, 0), |picture| picture.dimensions());
+    let size = [ROW_OF, pictures.len().div_ceil(ROW_OF)];
+    let [columns, rows] = size.map(|count| count as u32);
+    let all = [columns * (width + GAP_PX) - GAP_PX, rows * (height + GAP_PX) - GAP_PX];
+    let mut sheet = RgbImage::from_pixel(all[0], all[1], Rgb([255; 3]));
+    for (n, picture) in pictures.iter().enumerate() {
+        let place = [(n % ROW_OF) as u32 * (width + GAP_PX), (n / ROW_OF) as u32 * (height + GAP_PX)];
+        image::imageops::replace(&mut sheet, picture, i64::from(place[0]), i64::from(place[1]));
     }
     sheet.save(out)?;
     Ok(())
