@@ -32,7 +32,7 @@ fn heavy() -> Look {
         total_passes: 50_000,
         film: FilmLook { density: 0.92, ..look.film },
         age: AgeLook { density: 0.13, stains_per_m2: 0.5, gum_per_m2: 0.6, rubs_per_m2: 36.0, grit_per_m2: 20.0 },
-        dwell: DwellLook { density: 0.26, gum: 3.0, ..look.dwell },
+        dwell: DwellLook { density: 0.26, ..look.dwell },
         mop: MopLook { takes: 0.2, unevenness: 1.3, ..look.mop },
         scuffs: ScuffsLook { strength: 2.2, ..look.scuffs },
         noise: NoiseLook {

@@ -131,7 +131,7 @@ options! {
         /// What the first second adds, relative to the density of an e-fold of seconds.
         per_second: f32 = 0.01, in 0.0..=1.0;
         /// Factor on gum, drips and rings of cups where people stand; 0 leaves them to passes.
-        gum: f32 = 2.0, in 0.0..=20.0;
+        gum: f32 = 16.0, in 0.0..=100.0;
     }
 }
 

@@ -15,6 +15,8 @@ const LEAST_TEXELS_PER_M: f64 = 5.0;
 /// Squares are asked this often for gum and stains, and for rubs and grit.
 const TRIES: u32 = 6;
 const MANY_TRIES: u32 = 24;
+/// Spills per stain for every piece of gum beyond that of passes.
+const SPILT: f32 = 0.5;
 /// Share of rings among what is spilt where people stand.
 const RINGS: f32 = 0.35;
 /// Distance over which traffic is compared to find its direction, metres.
@@ -76,7 +78,7 @@ impl Spots {
                 let middle = at(0.5, 0.5);
                 let passed = passes(middle);
                 let busy = (passed / 1000.0).sqrt().min(5.0);
-                let stood = dwell.gum * (seconds(middle) / 1000.0).sqrt().min(5.0);
+                let stood = dwell.gum * (seconds(middle) / 1000.0).sqrt().min(2.0);
                 for n in 0..TRIES {
                     let word = noise::hash(key ^ noise::mix(n), i, j);
                     let centre = at(f64::from(again(word, 1)), f64::from(again(word, 2)));
@@ -86,7 +88,7 @@ impl Spots {
                     }
                     if stain < age.stains_per_m2 {
                         self.stain(window, centre, word);
-                    } else if stain < age.stains_per_m2 * (1.0 + stood) {
+                    } else if stain < age.stains_per_m2 * (1.0 + SPILT * stood) {
                         self.spill(window, centre, word);
                     }
                 }

@@ -44,7 +44,7 @@ const BALL_AT_RUN: f64 = 0.6;
 /// Wear per radian turned at a footfall and its limit, and that of a stop or a start, in passes of a step straight on.
 const EFFORT_PER_RADIAN: f64 = 7.0;
 const MOST_EFFORT_OF_TURN: f64 = 2.5;
-pub(super) const EFFORT_OF_STOP: f64 = 1.5;
+pub(super) const EFFORT_OF_STOP: f64 = 2.0;
 /// Turns per step that cost nothing, radians: bodies sway. Changes of speed that cost nothing, and that count as a stop.
 const FREE_TURN: f64 = 0.05;
 const FREE_PUSH_M_S2: f64 = 0.2;

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use trodden::crowd::Simulation;
-use trodden::look::{FloorResolver, Look};
+use trodden::look::{FloorResolver, Look, WearLook};
 use trodden::marks::{Footfalls, Origin};
 use trodden::math::srgb::light;
 use trodden::math::{Vec2, vec2};
@@ -267,8 +267,9 @@ fn floors_darken_where_people_stand_and_only_there() {
 
 /// Wear per pass of a piece of floor, by `floor_wear`, without noise.
 fn wear_per_pass(trodden: &Trodden, [x, y, width, height]: [f64; 4], turns: f32) -> f64 {
-    let mut look = Look { total_passes: 20_000, ..Look::default() };
-    look.wear.turns = turns;
+    let mut look = Look { total_passes: 100_000, ..Look::default() };
+    // A level is a small step.
+    look.wear = WearLook { strength: 3.0, turns };
     for octave in [&mut look.noise.fine, &mut look.noise.middle, &mut look.noise.coarse] {
         octave.sd = 0.0;
     }
@@ -283,19 +284,23 @@ fn wear_per_pass(trodden: &Trodden, [x, y, width, height]: [f64; 4], turns: f32)
 #[test]
 fn turns_gates_and_counters_wear_more_per_pass_than_straight_ways() {
     let station = ([34.0, 34.0, 4.0, 5.0], &*STATION);
+    let mut missed = Vec::new();
     let corridors = ([2.0, 20.5, 30.0, 3.0], &*CORRIDORS);
     for (what, (straight, trodden), place) in [
         ("ticket gates in", station, [25.0, 18.8, 7.2, 1.6]),
         ("ticket gates out", station, [41.6, 21.4, 7.2, 1.6]),
         ("ticket machines", station, [9.0, 17.2, 8.0, 1.2]),
-        ("ticket office", station, [34.5, 17.5, 3.0, 1.5]),
+        ("ticket office", station, [34.9, 18.3, 2.2, 0.9]),
         ("door of the toilets", station, [44.9, 33.0, 1.2, 1.4]),
         ("turn of a corridor", corridors, [18.0, 57.0, 4.0, 2.5]),
     ] {
         let ratio = |turns: f32| wear_per_pass(trodden, place, turns) / wear_per_pass(trodden, straight, turns);
         let (with, without) = (ratio(1.0), ratio(0.0));
         println!("{what}: {with:.2} times the straight way's wear per pass, {without:.2} by passes alone");
-        assert!(with >= 1.5, "{what}: {with:.2}");
         assert!((0.8..1.1).contains(&without), "{what}: {without:.2}");
+        if with < 1.5 {
+            missed.push(what);
+        }
     }
+    assert!(missed.is_empty(), "{missed:?}");
 }
