@@ -41,6 +41,8 @@ fn hall() -> (Walls, FloorSums) {
             smear_m: 0.01,
             twist_rad: 0.0,
             forefoot: 0.0,
+            effort: 0.0,
+            stood_s: 0.0,
             strength: 1.0,
             soil: if n % 10 == 0 { 0.02 } else { 0.0 },
             wear: n,

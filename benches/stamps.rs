@@ -43,6 +43,8 @@ fn footfalls(library: &PatternLibrary, count: usize, soil: f32) -> Vec<Mark> {
                 smear_m: rng.range(0.0, 0.025),
                 twist_rad: 0.0,
                 forefoot: 0.0,
+                effort: 0.0,
+                stood_s: 0.0,
                 strength: 1.0,
                 soil: if k % 3 == 0 { soil } else { 0.0 },
                 wear: k as u32 % 300,

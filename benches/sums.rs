@@ -68,6 +68,8 @@ fn walks(library: &PatternLibrary, count: usize) -> Vec<Mark> {
                 smear_m: rng.range(0.0, 0.025),
                 twist_rad: 0.0,
                 forefoot: 0.0,
+                effort: 0.0,
+                stood_s: 0.0,
                 strength: rng.range(0.9, 1.1),
                 soil: (load * 2.68 / (step as f64 * 0.5 + 2.68)) as f32,
                 wear: person,

@@ -58,7 +58,8 @@ pub use octaves::{NoiseLook, Octave};
 pub(crate) use presets::LOOK_PRESETS;
 pub use resolve::FloorResolver;
 pub use settings::{
-    AgeLook, AreaLook, DustLook, EdgeLook, FilmLook, FloorLook, Look, MopLook, PrintsLook, ScuffsLook, WearLook,
+    AgeLook, AreaLook, DustLook, DwellLook, EdgeLook, FilmLook, FloorLook, Look, MopLook, PrintsLook, ScuffsLook,
+    WearLook,
 };
 pub(crate) use wall::WALL_LAYERS;
 pub(crate) use wall::frames::WIDEST_FRAMED_M;

@@ -42,7 +42,8 @@ thread_local! {
 
 /// Fields that are evaluated row by row.
 struct FloorLayout {
-    traffic: PassesField,
+    /// Presence, standing time, and effort beyond straight steps; `None` where there is none.
+    traffic: [Option<PassesField>; 3],
     noise: Vec<NoiseField>,
     mopping: Option<SplineLattice>,
     dust: Option<SplineLattice>,
@@ -50,6 +51,9 @@ struct FloorLayout {
 
 /// What the optical density of heel marks, gum and rubs tends to where many lie on each other.
 const MOST_MARKS: f32 = 0.5;
+
+/// Standard deviation of the Gaussian that evens out where people stood, metres: the simulated ones stand for many.
+const STANDING_SPREAD_M: f64 = 0.1;
 
 /// Occlusion at the foot of a wall, and in a joint.
 const CORNER_SHADE: f32 = 0.45;
@@ -134,7 +138,12 @@ impl<'a> FloorPainter<'a> {
         block: &mut ResolvedBlock,
     ) {
         let mut layout = FloorLayout {
-            traffic: PassesField::over(&window, self.sums, self.walls, self.spread_m),
+            traffic: [
+                (Quantity::Presence, self.spread_m),
+                (Quantity::Dwell, self.spread_m.max(STANDING_SPREAD_M)),
+                (Quantity::Grind, self.spread_m),
+            ]
+            .map(|(quantity, spread_m)| PassesField::over(&window, (self.sums, quantity), self.walls, spread_m)),
             noise: self.noise.iter().map(|noise| noise.over(&window)).collect(),
             mopping: self.mopping.as_ref().map(|mopping| mopping.over(&window)),
             dust: dust::over(&window, self.walls, &self.look.dust),
@@ -152,8 +161,9 @@ impl<'a> FloorPainter<'a> {
             ..window
         };
         self.ground.lay_out(&around, &mut buffers.surface);
-        let passed = |place: [f64; 2]| self.law.weight * passes::near(self.sums, place);
-        buffers.spots.lay_out(&window, &self.look.age, self.look.seed, passed);
+        let near = |quantity: Quantity| move |place| self.law.weight * passes::near(self.sums, quantity, place);
+        let traffic = (near(Quantity::Presence), near(Quantity::Dwell));
+        buffers.spots.lay_out(&window, (&self.look.age, &self.look.dwell), self.look.seed, traffic);
         for row in 0..window.height {
             let Some((start, len)) = run_of(row, &window, wanted) else { continue };
             let run = RowRun { row, start, len };
@@ -193,7 +203,9 @@ fn run_of(row: usize, window: &TexelWindow, wanted: Option<&[bool]>) -> Option<(
 
 impl FloorLayout {
     fn begin_row(&mut self, row: usize) {
-        self.traffic.begin_row(row);
+        for field in self.traffic.iter_mut().flatten() {
+            field.begin_row(row);
+        }
         for field in &mut self.noise {
             field.begin_row(row);
         }
@@ -218,7 +230,11 @@ impl FloorLayout {
                 *out = sum as f32 * unit;
             }
         };
-        self.traffic.presence(run.start, &mut known.presence, row);
+        for (field, out) in self.traffic.iter().zip([&mut known.presence, &mut known.dwell, &mut known.grind]) {
+            if let Some(field) = field {
+                field.values(run.start, out, row);
+            }
+        }
         scaled(passes, Quantity::Passes, 1.0, &mut known.passes);
         scaled(soil, Quantity::Soil, look.prints.soil * properties.prints, &mut known.soil);
         scaled(scuff, Quantity::Scuff, look.scuffs.strength * properties.scuffs, &mut known.scuff);
@@ -294,7 +310,8 @@ fn write(dither: u32, window: &TexelWindow, run: RowRun, buffers: &mut FloorBuff
         *relief = [worn, marks, raised, x, y, z];
     }
     block.set_clean(from, &shaded.bare);
-    let planes = [&known.passes, &known.presence, &shaded.film, &shaded.soil, &known.scuff, &known.edge, &shaded.dust];
+    let ShadeInput { passes, presence, dwell, grind, scuff, edge, .. } = &*known;
+    let planes = [passes, presence, dwell, grind, &shaded.film, &shaded.soil, scuff, edge, &shaded.dust];
     for (layer, plane) in block.layers.iter_mut().zip(planes) {
         layer.values[texels.clone()].copy_from_slice(plane);
     }

@@ -1,4 +1,4 @@
-//! Expected passes of the simulated people per texel.
+//! Expected passes, standing time and effort of the simulated people per texel.
 
 use super::lattice::{SplineAxis, SplineLattice, TexelWindow};
 use crate::math;
@@ -6,9 +6,9 @@ use crate::stamps::TexelGrid;
 use crate::sums::{FloorSums, Quantity};
 use crate::walls::Walls;
 
-/// Passes of the simulated people over one window.
+/// A coarse quantity of the simulated people over one window.
 pub(super) struct PassesField {
-    /// Presence times the share of floor in each cell, and that share. Presence is unknown off the floor, so only floor
+    /// The quantity times the share of floor in each cell, and that share. It is unknown off the floor, so only floor
     /// counts in the mean: lanes reach openings and door jambs undiminished.
     weighted: SplineLattice,
     /// `None` if all cells are floor.
@@ -16,7 +16,13 @@ pub(super) struct PassesField {
 }
 
 impl PassesField {
-    pub fn over(window: &TexelWindow, sums: &FloorSums, walls: &Walls, blur_m: f64) -> PassesField {
+    /// Evens the quantity out by a Gaussian of `blur_m`; `None` if the sums near the window are zero.
+    pub fn over(
+        window: &TexelWindow,
+        (sums, quantity): (&FloorSums, Quantity),
+        walls: &Walls,
+        blur_m: f64,
+    ) -> Option<PassesField> {
         let cells_per_metre = sums.presence_grid().texels_per_metre;
         let texels_per_cell = window.texels_per_metre / cells_per_metre;
         let axis = |texel0, count| SplineAxis::new(texel0, count, texels_per_cell, 0.5);
@@ -27,9 +33,9 @@ impl PassesField {
         let cells =
             TexelWindow { texels_per_metre: cells_per_metre, i0: x.first, j0: y.first, width: x.len, height: y.len };
         let around = cells.grown(reach);
+        let mut weighted = cells_of(sums, quantity, &around)?;
         let mut share = vec![0.0; around.texels()];
         walls.coverage(cells_per_metre, around.i0, around.j0, around.width, around.height, &mut share);
-        let mut weighted = presence(sums, &around);
         for (value, share) in weighted.iter_mut().zip(&share) {
             *value *= share;
         }
@@ -39,7 +45,7 @@ impl PassesField {
         }
         let all_floor = share.iter().all(|&share| share == 1.0);
         let share = (!all_floor).then(|| SplineLattice::new(x.clone(), y.clone(), share));
-        PassesField { weighted: SplineLattice::new(x, y, weighted), share }
+        Some(PassesField { weighted: SplineLattice::new(x, y, weighted), share })
     }
 
     pub fn begin_row(&mut self, row: usize) {
@@ -49,8 +55,8 @@ impl PassesField {
         }
     }
 
-    /// Expected passes at the texels `start..start + out.len()` of the current row.
-    pub fn presence(&self, start: usize, out: &mut [f32], scratch: &mut Vec<f32>) {
+    /// The quantity at the texels `start..start + out.len()` of the current row.
+    pub fn values(&self, start: usize, out: &mut [f32], scratch: &mut Vec<f32>) {
         out.fill(0.0);
         self.weighted.add_to(start, out);
         if let Some(share) = &self.share {
@@ -64,28 +70,25 @@ impl PassesField {
     }
 }
 
-/// Presence of the cells of a window.
-fn presence(sums: &FloorSums, window: &TexelWindow) -> Vec<f32> {
-    let unit = 1.0 / Quantity::Presence.one() as f32;
+/// A coarse quantity in the cells of a window; `None` if it is zero.
+fn cells_of(sums: &FloorSums, quantity: Quantity, window: &TexelWindow) -> Option<Vec<f32>> {
+    let unit = 1.0 / quantity.one() as f32;
     let mut values = Vec::new();
-    if read(sums, Quantity::Presence, window, &mut values) {
-        values.into_iter().map(|sum| sum as f32 * unit).collect()
-    } else {
-        vec![0.0; window.texels()]
-    }
+    let any = read(sums, quantity, window, &mut values);
+    any.then(|| values.into_iter().map(|sum| sum as f32 * unit).collect())
 }
 
-/// Expected passes of the simulated people near a place, metres: the mean over a fifth of a metre.
-pub(super) fn near(sums: &FloorSums, place: [f64; 2]) -> f32 {
+/// A coarse quantity of the simulated people near a place, metres: the mean over a fifth of a metre.
+pub(super) fn near(sums: &FloorSums, quantity: Quantity, place: [f64; 2]) -> f32 {
     let TexelGrid { texels_per_metre, width, height } = sums.presence_grid();
     let [i, j] = place.map(|metres| (metres * texels_per_metre).floor() as i64 - 2);
     let inside = |from: i64, size: u32| (0..i64::from(size) - 4).contains(&from);
     let mut cells = [0; 25];
-    if !inside(i, width) || !inside(j, height) || !sums.touched(Quantity::Presence, i as u32, j as u32, 5, 5) {
+    if !inside(i, width) || !inside(j, height) || !sums.touched(quantity, i as u32, j as u32, 5, 5) {
         return 0.0;
     }
-    sums.read(Quantity::Presence, i as u32, j as u32, 5, 5, &mut cells);
-    cells.iter().map(|&sum| sum as f32).sum::<f32>() / (25.0 * Quantity::Presence.one() as f32)
+    sums.read(quantity, i as u32, j as u32, 5, 5, &mut cells);
+    cells.iter().map(|&sum| sum as f32).sum::<f32>() / (25.0 * quantity.one() as f32)
 }
 
 /// Reads sums over a window, 0 outside the grid; `false` if all are zero.

@@ -24,6 +24,12 @@ pub(super) fn each3(out: &mut [f32], a: &[f32], b: &[f32], c: &[f32], law: impl 
     }
 }
 
+pub(super) fn add1(out: &mut [f32], a: &[f32], law: impl Fn(f32) -> f32) {
+    for (out, &a) in out.iter_mut().zip(a) {
+        *out += law(a);
+    }
+}
+
 pub(super) fn add2(out: &mut [f32], a: &[f32], b: &[f32], law: impl Fn(f32, f32) -> f32) {
     for ((out, &a), &b) in out.iter_mut().zip(a).zip(b) {
         *out += law(a, b);

@@ -6,7 +6,7 @@ use super::bytes::{Bytes, Rounding, ShadedPlanes};
 use super::dirt::{self, Dirt};
 use super::material::Properties;
 use super::noise::Noise;
-use super::planes::{add2, each1, each2, each3};
+use super::planes::{add1, add2, each1, each2, each3};
 use super::settings::Look;
 use crate::math::{exp_f32, ln_f32, srgb};
 
@@ -16,6 +16,8 @@ const DIRT_ROUGHNESS: f32 = 0.8;
 const MOP_ROUGHNESS: f32 = 0.12;
 /// Passes after which the film has the density that the look names.
 const FULL_PASSES: f32 = 1000.0;
+/// Seconds after which the film of standing has the density that the look names.
+const FULL_SECONDS: f32 = 1000.0;
 /// The mask of passes is full at 10 000: ln(1 + 300) / ln(1 + 30) e-folds with the film's usual rate.
 const MASK_PER_TRODDEN: f32 = 0.6;
 
@@ -31,6 +33,9 @@ pub(super) struct FloorShader {
     per_ln: f32,
     film: f32,
     low_film: f32,
+    /// Film per e-fold of standing time, and its rate per second of the simulated people.
+    dwell: f32,
+    per_second: f32,
     age: f32,
     joint_film: [f32; 2],
     every_pass: f32,
@@ -38,6 +43,8 @@ pub(super) struct FloorShader {
     /// 1 / passes that wear the floor, and the factor on wear.
     wear_per_pass: f32,
     wear: f32,
+    /// Weight of the effort of turns and stops.
+    turns: f32,
     worn: [f32; 3],
     /// Logarithm of the divisor that gives the lognormal noise a mean of 1.
     mean_log: f32,
@@ -65,6 +72,9 @@ pub(super) struct ShadeInput {
     /// Simulated passes: expected, and counted.
     pub presence: Vec<f32>,
     pub passes: Vec<f32>,
+    /// Seconds that they stood, and passes of wear that turns and stops add.
+    pub dwell: Vec<f32>,
+    pub grind: Vec<f32>,
     /// Sum of the noises.
     pub uneven: Vec<f32>,
     /// Optical densities, including factors of look and material.
@@ -85,6 +95,10 @@ pub(super) struct ShadeOutput {
     /// Passes in the whole history, and the logarithmic share of the film's density that they leave.
     history: Vec<f32>,
     trodden: Vec<f32>,
+    /// Film of passes and standing, before noise and mop.
+    laid: Vec<f32>,
+    /// Passes of the whole history that wear the floor.
+    wearing: Vec<f32>,
     /// Wear, 0 to 1.
     worn: Vec<f32>,
     /// Opacity of passes in the mask, as a transmittance.
@@ -105,8 +119,8 @@ pub(super) struct ShadeOutput {
 
 impl ShadeInput {
     pub fn clear(&mut self, len: usize) {
-        let ShadeInput { ground: _, left, presence, passes, uneven, soil, scuff, edge, dust } = self;
-        for plane in [left, presence, passes, uneven, soil, scuff, edge, dust] {
+        let ShadeInput { ground: _, left, presence, passes, dwell, grind, uneven, soil, scuff, edge, dust } = self;
+        for plane in [left, presence, passes, dwell, grind, uneven, soil, scuff, edge, dust] {
             plane.clear();
             plane.resize(len, 0.0);
         }
@@ -132,12 +146,15 @@ impl FloorShader {
             per_ln: 1.0 / ln_f32(1.0 + FULL_PASSES * look.film.per_pass).max(1e-6),
             film: look.film.density * properties.film,
             low_film: properties.low_film,
+            dwell: look.dwell.density * properties.film / ln_f32(1.0 + FULL_SECONDS * look.dwell.per_second).max(1e-6),
+            per_second: weight * look.dwell.per_second,
             age: look.age.density * properties.film.max(0.5),
             joint_film: properties.joint_film.map(|share| share * look.film.density),
             every_pass: look.prints.every_pass,
             dust: look.dust.density * properties.dust,
             wear_per_pass: 1.0 / properties.wear_passes,
             wear: look.wear.strength,
+            turns: weight * look.wear.turns,
             worn: properties.worn,
             mean_log: noise.iter().map(|noise| noise.sd_of_texels(density)).map(|sd| 0.5 * sd * sd).sum(),
             roughness: properties.roughness,
@@ -169,19 +186,24 @@ impl FloorShader {
     }
 
     fn densities(&self, known: &ShadeInput, out: &mut ShadeOutput) {
-        let ShadeOutput { history, trodden, worn, busy, uneven, film, soil, dust, through, .. } = out;
+        let ShadeOutput { history, trodden, laid, wearing, worn, busy, uneven, film, soil, dust, through, .. } = out;
         let [through_film, through_prints, through_edge, through_scuffs] = through;
         each2(history, &known.presence, &known.passes, |expected, counted| {
             (self.weight * expected + self.residual * (counted - expected)).max(0.0)
         });
         each1(uneven, &known.uneven, |noise| exp_f32(noise - self.mean_log));
         each1(trodden, history, |passes| self.per_ln * ln_f32(1.0 + self.per_pass * passes));
-        each2(worn, history, uneven, |passes, uneven| {
+        each2(wearing, history, &known.grind, |passes, effort| passes + self.turns * effort.max(0.0));
+        each2(worn, wearing, uneven, |passes, uneven| {
             self.wear * (1.0 - exp_f32(-self.wear_per_pass * passes * uneven * uneven))
         });
         each1(busy, trodden, |trodden| 1.0 - (trodden * MASK_PER_TRODDEN).min(1.0));
-        each3(film, trodden, uneven, &known.left, |trodden, uneven, left| {
-            (self.film * trodden * uneven + self.age * (2.0 * uneven - 1.0).max(0.2)) * left
+        each1(laid, trodden, |trodden| self.film * trodden);
+        if self.dwell > 0.0 && known.dwell.iter().any(|&seconds| seconds > 0.0) {
+            add1(laid, &known.dwell, |seconds| self.dwell * ln_f32(1.0 + self.per_second * seconds.max(0.0)));
+        }
+        each3(film, laid, uneven, &known.left, |laid, uneven, left| {
+            (laid * uneven + self.age * (2.0 * uneven - 1.0).max(0.2)) * left
         });
         if self.low_film > 0.0 {
             for (film, height) in film.iter_mut().zip(&known.ground.height) {
@@ -199,10 +221,10 @@ impl FloorShader {
     }
 
     fn roughness(&self, known: &ShadeInput, out: &mut ShadeOutput) {
-        let ShadeOutput { roughness, history, uneven, through: [_, prints, edge, scuffs], total: loose, .. } = out;
+        let ShadeOutput { roughness, wearing, uneven, through: [_, prints, edge, scuffs], total: loose, .. } = out;
         each3(loose, prints, edge, scuffs, |prints, edge, scuffs| 1.0 - prints * edge * scuffs);
         let [smooth, worn] = self.roughness;
-        each3(roughness, history, uneven, loose, |passes, uneven, loose| {
+        each3(roughness, wearing, uneven, loose, |passes, uneven, loose| {
             let dull = 1.0 - exp_f32(-self.per_pass * passes);
             let floor = smooth + (worn - smooth) * dull * (0.7 + 0.3 * uneven.min(2.0));
             floor + (DIRT_ROUGHNESS.max(floor) - floor) * loose
@@ -254,6 +276,8 @@ impl ShadeOutput {
             dust,
             history,
             trodden,
+            laid,
+            wearing,
             worn,
             busy,
             uneven,
@@ -265,7 +289,7 @@ impl ShadeOutput {
             joint,
             rounding: _,
         } = self;
-        let single = [film, soil, dust, history, trodden, worn, busy, uneven, total, roughness];
+        let single = [film, soil, dust, history, trodden, laid, wearing, worn, busy, uneven, total, roughness];
         for plane in single.into_iter().chain(through).chain(rgb).chain(bare).chain(joint) {
             plane.resize(len, 0.0);
         }

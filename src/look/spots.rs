@@ -4,7 +4,7 @@
 use super::cells::{again, rise, smooth};
 use super::lattice::TexelWindow;
 use super::noise::{self, Channel};
-use super::settings::AgeLook;
+use super::settings::{AgeLook, DwellLook};
 use crate::math::sin_cos;
 
 /// Side of the squares that hold spots, metres, and how far a spot may reach out of its square.
@@ -15,6 +15,10 @@ const LEAST_TEXELS_PER_M: f64 = 5.0;
 /// Squares are asked this often for gum and stains, and for rubs and grit.
 const TRIES: u32 = 6;
 const MANY_TRIES: u32 = 24;
+/// Spills per stain for every piece of gum beyond that of passes.
+const SPILT: f32 = 0.5;
+/// Share of rings among what is spilt where people stand.
+const RINGS: f32 = 0.35;
 /// Distance over which traffic is compared to find its direction, metres.
 const ASIDE_M: f64 = 0.3;
 
@@ -49,8 +53,14 @@ struct Rub {
 }
 
 impl Spots {
-    /// Lays spots out over a window; `passes` tells how many have passed a place.
-    pub fn lay_out(&mut self, window: &TexelWindow, age: &AgeLook, seed: u64, passes: impl Fn([f64; 2]) -> f32) {
+    /// Lays spots out over a window; `passes` tells how many have passed a place, `seconds` how long people stood there.
+    pub fn lay_out(
+        &mut self,
+        window: &TexelWindow,
+        (age, dwell): (&AgeLook, &DwellLook),
+        seed: u64,
+        (passes, seconds): (impl Fn([f64; 2]) -> f32, impl Fn([f64; 2]) -> f32),
+    ) {
         self.stains.clear();
         self.marks.clear();
         if window.texels_per_metre < LEAST_TEXELS_PER_M {
@@ -68,15 +78,18 @@ impl Spots {
                 let middle = at(0.5, 0.5);
                 let passed = passes(middle);
                 let busy = (passed / 1000.0).sqrt().min(5.0);
+                let stood = dwell.gum * (seconds(middle) / 1000.0).sqrt().min(2.0);
                 for n in 0..TRIES {
                     let word = noise::hash(key ^ noise::mix(n), i, j);
                     let centre = at(f64::from(again(word, 1)), f64::from(again(word, 2)));
                     let [gum, stain] = [3, 4].map(|n| again(word, n) * TRIES as f32 / per_square);
-                    if gum < age.gum_per_m2 * busy {
+                    if gum < age.gum_per_m2 * (busy + stood) {
                         self.gum(window, centre, word);
                     }
                     if stain < age.stains_per_m2 {
                         self.stain(window, centre, word);
+                    } else if stain < age.stains_per_m2 * (1.0 + SPILT * stood) {
+                        self.spill(window, centre, word);
                     }
                 }
                 let way = (age.rubs_per_m2 * busy > 0.0).then(|| heading(middle, passed, &passes)).flatten();
@@ -101,6 +114,16 @@ impl Spots {
         let radius_m = 0.008 + 0.012 * f64::from(again(word, 5) * again(word, 6));
         let density = 0.25 + 0.75 * again(word, 7) * again(word, 8);
         Spot { centre, radius_m, density, rim: 0.1, word }.add_to(window, &mut self.marks);
+    }
+
+    /// The ring of a cup or a bottle, or what dripped from it.
+    fn spill(&mut self, window: &TexelWindow, centre: [f64; 2], word: u32) {
+        if again(word, 12) > RINGS {
+            return self.stain(window, centre, word);
+        }
+        let radius_m = 0.03 + 0.012 * f64::from(again(word, 5));
+        let rim = 0.05 + 0.25 * again(word, 6) * again(word, 7);
+        Spot { centre, radius_m, density: 0.01, rim, word }.add_to(window, &mut self.stains);
     }
 
     /// A pale stain with a rim where it dried, or a trail of drips.

@@ -41,6 +41,15 @@ const RUNS_M_S: f64 = 2.1;
 const BALL_AT_FAST_WALK: f64 = 0.35;
 const BALL_AT_RUN: f64 = 0.6;
 
+/// Wear per radian turned at a footfall and its limit, and that of a stop or a start, in passes of a step straight on.
+const EFFORT_PER_RADIAN: f64 = 7.0;
+const MOST_EFFORT_OF_TURN: f64 = 2.5;
+pub(super) const EFFORT_OF_STOP: f64 = 2.0;
+/// Turns per step that cost nothing, radians: bodies sway. Changes of speed that cost nothing, and that count as a stop.
+const FREE_TURN: f64 = 0.05;
+const FREE_PUSH_M_S2: f64 = 0.2;
+const FULL_PUSH_M_S2: f64 = 0.8;
+
 /// A footfall of one foot.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FootPlacement {
@@ -54,6 +63,8 @@ pub(super) struct FootPlacement {
     pub twist_rad: f64,
     /// Share of the heel's load that the ball carries, 0 to 1.
     pub forefoot: f64,
+    /// Wear beyond that of a step straight on, in passes.
+    pub effort: f64,
 }
 
 /// The body at the moment of a footfall.
@@ -143,6 +154,7 @@ impl Feet {
             smear_m: slip_m.min(MOST_SLIP_M),
             twist_rad: if twists { (TWIST_SHARE * landing.turn_rad).clamp(-MOST_TWIST, MOST_TWIST) } else { 0.0 },
             forefoot: self.forefoot(landing.speed_m_s),
+            effort: landing.effort(),
         }
     }
 
@@ -163,6 +175,15 @@ impl Feet {
         }
         let fast = ((speed_m_s - FREE_SPEED_M_S) / (RUNS_M_S - FREE_SPEED_M_S)).max(0.0);
         BALL_AT_FAST_WALK * fast
+    }
+}
+
+impl Landing {
+    /// Wear beyond that of a step straight on, in passes: soles grind when the body turns, brakes or sets out.
+    fn effort(&self) -> f64 {
+        let turn = EFFORT_PER_RADIAN * (self.turn_rad.abs() - FREE_TURN);
+        let push = (self.braking_m_s2.abs() - FREE_PUSH_M_S2) / (FULL_PUSH_M_S2 - FREE_PUSH_M_S2);
+        turn.clamp(0.0, MOST_EFFORT_OF_TURN) + EFFORT_OF_STOP * push.clamp(0.0, 1.0)
     }
 }
 

@@ -13,6 +13,7 @@ use super::feet::FootPlacement;
 use super::gait::GaitState;
 use super::heels::{self, HeelMarks};
 use super::soil::Shoes;
+use super::standing::Standing;
 use super::track::{SmoothedPath, TrackSample};
 use super::{Contact, ContactPlaces, Mark, MarksError, MarksOptions, Origin};
 
@@ -37,6 +38,8 @@ pub struct Footfalls<'a> {
     /// Contacts that the caller has not taken yet.
     touched: Vec<Contact>,
     contact_count: u64,
+    /// Whiles of standing that the caller has not taken yet.
+    stood: Vec<Mark>,
     origins: Vec<Origin>,
     /// Body heights that are known; all others are as tall as the people are drawn.
     statures: Statures,
@@ -53,6 +56,7 @@ struct PresentPerson {
     gait: GaitState,
     feet: ShoeState,
     contact_state: ContactState,
+    standing: Standing,
 }
 
 /// The shoes of a person and their marks.
@@ -119,6 +123,7 @@ impl<'a> Footfalls<'a> {
             contacts: None,
             touched: Vec::new(),
             contact_count: 0,
+            stood: Vec::new(),
             origins,
             statures: Statures::default(),
             present: Vec::new(),
@@ -142,6 +147,11 @@ impl<'a> Footfalls<'a> {
     /// Moves the contacts found so far to the end of `out`, in the order of marks.
     pub fn take_contacts(&mut self, out: &mut Vec<Contact>) {
         out.append(&mut self.touched);
+    }
+
+    /// Moves the whiles of standing found so far to the end of `out`: marks with `stood_s`, in the order of marks.
+    pub fn take_standing(&mut self, out: &mut Vec<Mark>) {
+        out.append(&mut self.stood);
     }
 
     /// Number of contacts so far.
@@ -221,26 +231,30 @@ impl<'a> Footfalls<'a> {
             gait,
             feet,
             contact_state,
+            standing: Standing::default(),
             person,
         }
     }
 
     fn walk_on(&mut self, present: &mut PresentPerson, time_s: f64, walker: &Walker, out: &mut Vec<Mark>) {
-        let PresentPerson { person, track, gait, feet, contact_state } = present;
-        let mut advance = |sample: TrackSample| self.advance(person, gait, (feet, contact_state), sample, out);
+        let PresentPerson { person, track, gait, feet, contact_state, standing } = present;
+        let mut advance =
+            |sample: TrackSample| self.advance(person, gait, (feet, contact_state, standing), sample, out);
         if track.continues(time_s, walker.position_m) {
             track.push(time_s, walker.position_m, walker.heading, advance);
         } else {
             track.finish(&mut advance);
             gait.interrupt();
             contact_state.interrupt();
+            standing.end(&mut self.stood);
             *track = SmoothedPath::new(time_s, walker.position_m, walker.heading);
         }
     }
 
     fn leave(&mut self, mut present: Box<PresentPerson>, out: &mut Vec<Mark>) {
-        let PresentPerson { person, track, gait, feet, contact_state } = &mut *present;
-        track.finish(|sample| self.advance(person, gait, (feet, contact_state), sample, out));
+        let PresentPerson { person, track, gait, feet, contact_state, standing } = &mut *present;
+        track.finish(|sample| self.advance(person, gait, (feet, contact_state, standing), sample, out));
+        standing.end(&mut self.stood);
     }
 
     /// Processes a tick of a smoothed path: footfalls, heel marks, contacts.
@@ -248,7 +262,7 @@ impl<'a> Footfalls<'a> {
         &mut self,
         person: &Person,
         gait: &mut GaitState,
-        (feet, contact_state): (&mut ShoeState, &mut ContactState),
+        (feet, contact_state, standing): (&mut ShoeState, &mut ContactState, &mut Standing),
         sample: TrackSample,
         out: &mut Vec<Mark>,
     ) {
@@ -258,6 +272,7 @@ impl<'a> Footfalls<'a> {
             out.push(feet.footfall(&step, person.sole_length_m, inside));
             feet.last = Some(step);
         });
+        standing.pass(sample.position_m, gait.heading(), progress.stood_s, &mut self.stood);
         if let Some(shoes) = feet.shoes.as_mut().filter(|_| self.plan_m.contains(sample.position_m)) {
             shoes.walk(progress.walked_m);
         }
@@ -304,6 +319,8 @@ impl ShoeState {
             smear_m: step.smear_m as f32,
             twist_rad: step.twist_rad as f32,
             forefoot: step.forefoot as f32,
+            effort: step.effort as f32,
+            stood_s: 0.0,
             strength: step.pressure as f32,
             soil: soil as f32,
             wear: self.wear,

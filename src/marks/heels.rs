@@ -144,6 +144,8 @@ impl HeelMarks {
             smear_m: 0.0,
             twist_rad: 0.0,
             forefoot: 0.0,
+            effort: 0.0,
+            stood_s: 0.0,
             strength: density.min(MOST_DENSITY) as f32,
             soil: 0.0,
             wear,

@@ -7,7 +7,8 @@
 //! 2. `gait`: a phase that grows by one per step length walked; at every whole step `feet` sets down the left or the
 //!    right foot in turn. `rest` draws the feet of a person who stops together and shifts them while standing;
 //! 3. `soil` and `heels`: soil prints and heel marks;
-//! 4. `contacts`: touches of walls.
+//! 4. `contacts`: touches of walls;
+//! 5. `standing`: whiles of standing.
 //!
 //! Random events have rates per metre walked, per radian turned, per second stood or per event, so the number of marks
 //! does not depend on the source's time step.
@@ -22,6 +23,7 @@ mod heels;
 mod options;
 mod rest;
 mod soil;
+mod standing;
 mod track;
 
 pub use contact::Contact;
@@ -35,7 +37,7 @@ pub use options::{HeelOptions, MarksOptions, SoilOptions, Weather};
 use crate::math::Vec2;
 use crate::patterns::Cause;
 
-/// A footfall or a heel mark.
+/// A footfall, a heel mark, or a while of standing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
     /// Cause: sole or heel.
@@ -56,6 +58,11 @@ pub struct Mark {
     pub twist_rad: f32,
     /// Share of the heel's load carried by the ball, 0 to 1; grows with speed, 1 for a runner on the ball.
     pub forefoot: f32,
+    /// Wear beyond that of a step straight on, in passes: footfalls that turn, stop or set out.
+    pub effort: f32,
+    /// Seconds that a person stood here, facing across `heading`; 0 for footfalls and heel marks. A while of standing
+    /// adds to `dwell` alone.
+    pub stood_s: f32,
     /// Footfalls: pressure, about 1, added to `passes` and `presence` as a factor. Heel marks: optical density.
     pub strength: f32,
     /// Optical density of soil at full coverage; 0 for people without soil on their shoes.

@@ -5,7 +5,7 @@ use rand::rngs::ChaCha8Rng;
 
 use crate::math::{Vec2, ln};
 
-use super::feet::{Feet, FootPlacement, Landing, normal};
+use super::feet::{EFFORT_OF_STOP, Feet, FootPlacement, Landing, normal};
 use super::track::TICK_S;
 
 /// Time without walking or turning after which a person stands, seconds.
@@ -145,12 +145,17 @@ fn close(feet: &mut Feet, rng: &mut ChaCha8Rng, tick: &RestTick, each: &mut impl
     let beside_m = stays_m.unwrap_or(0.0);
     if trailing_m.is_none_or(|ahead_m| (ahead_m - beside_m).abs() > BESIDE_M) {
         let landing = standing(feet, tick, tick.body_m + facing * beside_m, 0.0);
-        each(feet.set_down(rng, trailing_left, &landing));
+        each(stopped(feet.set_down(rng, trailing_left, &landing)));
     }
     if stays_m.is_none() {
         let landing = standing(feet, tick, tick.body_m, 0.0);
-        each(feet.set_down(rng, !trailing_left, &landing));
+        each(stopped(feet.set_down(rng, !trailing_left, &landing)));
     }
+}
+
+/// A footfall that ends a walk.
+fn stopped(step: FootPlacement) -> FootPlacement {
+    FootPlacement { effort: EFFORT_OF_STOP, ..step }
 }
 
 /// The landing of a foot under a standing body.

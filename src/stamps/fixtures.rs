@@ -67,6 +67,8 @@ pub(crate) fn footfall(place_m: Vec2, angle_rad: f64) -> Mark {
         smear_m: 0.0,
         twist_rad: 0.0,
         forefoot: 0.0,
+        effort: 0.0,
+        stood_s: 0.0,
         strength: 1.0,
         soil: 0.0,
         wear: 0,
@@ -74,7 +76,7 @@ pub(crate) fn footfall(place_m: Vec2, angle_rad: f64) -> Mark {
     }
 }
 
-/// Footfalls, every third with soil, and heel marks, evenly over and around a rectangle.
+/// Footfalls, every third with soil, every fifth with effort, whiles of standing and heel marks, evenly over and around a rectangle.
 pub(crate) fn crowd(count: usize, width_m: f64, height_m: f64, seed: u64) -> Vec<Mark> {
     let rng = &mut SplitMix64::new(seed);
     (0..count)
@@ -91,6 +93,12 @@ pub(crate) fn crowd(count: usize, width_m: f64, height_m: f64, seed: u64) -> Vec
             mark.wear = rng.next_u64() as u32 % 20;
             if k % 3 == 0 {
                 mark.soil = rng.range(0.0, 0.1);
+            }
+            if k % 5 == 2 {
+                mark.effort = 1.5;
+            }
+            if k % 10 == 7 {
+                mark.stood_s = 3.0;
             }
             if k % 10 == 0 {
                 mark = Mark { cause: Cause::Heel, pattern: 1, length_m: mark.length_m * 0.25, ..mark };

@@ -2,7 +2,7 @@
 //!
 //! A footfall adds to three quantities: `passes` and `soil` hold the sole itself; `presence` holds a soft kernel along
 //! the heading with the same integral as the sole, so that local means of `passes` and `presence` agree. A heel mark
-//! adds to `scuff`.
+//! adds to `scuff`. A footfall that turns or stops adds to `grind`, a while of standing to `dwell`, both as `presence`.
 //!
 //! Each pattern is filtered once for the texel density, with four samples per texel (`bank`). A stamp reads one sample
 //! per texel at any angle, size and sub-texel position. A second, vectorised loop applies per-print variation to each
@@ -45,7 +45,7 @@ mod wall_variation;
 mod window;
 
 pub use error::StampsError;
-pub(crate) use fixed_point::{DENSITY_ONE, PASSES_ONE, PRESENCE_ONE};
+pub(crate) use fixed_point::{DENSITY_ONE, DWELL_ONE, PASSES_ONE, PRESENCE_ONE};
 pub(crate) use lanes::SumCell;
 pub use options::StampOptions;
 pub(crate) use print_coverage::PrintCoverage;

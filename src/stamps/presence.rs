@@ -268,7 +268,7 @@ impl PlacedKernel {
     #[inline]
     fn amounts(self, values: &Lanes<u16>) -> Lanes<u16> {
         let (factor, half, shift) = (self.factor, self.scaling.half(), self.scaling.shift);
-        values.map(|value| (upper(value, factor) + half) >> shift)
+        values.map(|value| upper(value, factor).saturating_add(half) >> shift)
     }
 }
 

@@ -7,7 +7,7 @@ use super::pose::{PrintPose, bend_reach_m, twist_reach_m};
 use super::presence::{Kernels, PlacedKernel};
 use super::shadow::{Shadow, StampExtent, foothold};
 use super::window::{TexelBounds, TexelWindow};
-use super::{PRESENCE_ONE, StampOptions, StampsError, TexelGrid};
+use super::{DWELL_ONE, PRESENCE_ONE, StampOptions, StampsError, TexelGrid};
 use crate::marks::Mark;
 use crate::math::{Vec2, vec2};
 use crate::patterns::{Cause, PatternLibrary};
@@ -39,6 +39,12 @@ const FAINT: f64 = 0.4;
 pub(super) const MOST_STRENGTH: f32 = 4.0;
 pub(super) const MOST_DENSITY: f32 = 3.0;
 
+/// Largest effort of a footfall, and longest while of a mark, seconds.
+const MOST_EFFORT: f32 = 20.0;
+const LONGEST_S: f32 = 60.0;
+/// Area of the two soles of a person who stands, square metres.
+const STANDING_M2: f64 = 0.04;
+
 /// Largest distance of a mark from the plan's origin, metres.
 const FARTHEST_M: f64 = 1e6;
 
@@ -48,8 +54,10 @@ pub(super) const LEAST_DENSITY: f32 = 0.05 / 4096.0;
 /// A valid mark, placed among the walls.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedMark {
-    /// Presence kernel of a footfall; unused for heel marks.
+    /// Presence kernel of a footfall, dwell kernel of a while of standing; unused for heel marks.
     kernel: PlacedKernel,
+    /// The same kernel, times the footfall's effort.
+    grind: PlacedKernel,
     /// Offset from the mark's position to the foot's viewpoint, metres; non-zero if inside a wall.
     foothold: [f32; 2],
     /// Whether walls cut the print.
@@ -103,12 +111,14 @@ impl Stamper {
     /// `None` for an invalid mark: its pattern is not in the library or has another cause, or its position, heading,
     /// length or strength is out of range.
     pub(crate) fn place(&self, mark: &Mark, walls: &Walls) -> Option<(PlacedMark, MarkBounds)> {
-        let printer = self.printer(mark)?;
-        let sound = mark.place_m.is_finite()
+        let somewhere = mark.place_m.is_finite()
             && mark.place_m.x.abs().max(mark.place_m.y.abs()) < FARTHEST_M
-            && (mark.heading.length_squared() - 1.0).abs() < 1e-3
-            && (mark.strength > 0.0 || mark.soil > 0.0)
-            && mark.length_m > 0.0;
+            && (mark.heading.length_squared() - 1.0).abs() < 1e-3;
+        if mark.stood_s > 0.0 && mark.cause == Cause::Sole {
+            return somewhere.then(|| self.place_standing(mark, walls));
+        }
+        let printer = self.printer(mark)?;
+        let sound = somewhere && (mark.strength > 0.0 || mark.soil > 0.0) && mark.length_m > 0.0;
         if !sound {
             return None;
         }
@@ -136,6 +146,7 @@ impl Stamper {
         let print_extent = self.print_extent(mark, printer, &pose);
         let mut placed = PlacedMark {
             kernel: self.kernels.place(found, amount),
+            grind: self.kernels.place(found, 0.0),
             foothold: [0.0; 2],
             print_cut: false,
             kernel_cut: false,
@@ -155,9 +166,32 @@ impl Stamper {
             }
             placed.kernel = self.kernels.place(found, amount);
         }
+        placed.grind = self.kernels.place(found, amount * mark.effort.clamp(0.0, MOST_EFFORT));
         let texels = printer.bounds(&pose, &self.grid, twist_reach_m(mark));
         let touched = MarkBounds { texels, cells: self.kernels.bounds(found), soil: mark.soil > LEAST_DENSITY };
         Some((placed, touched))
+    }
+
+    /// A while of standing: the kernel of presence, across the body, so that it is as wide as one.
+    fn place_standing(&self, mark: &Mark, walls: &Walls) -> (PlacedMark, MarkBounds) {
+        let found = self.kernels.find(mark.place_m, mark.heading);
+        let extent = self.kernels.extent(mark.place_m, mark.heading);
+        let soles_cells = (STANDING_M2 / (self.cell_m * self.cell_m)) as f32;
+        let mut amount = mark.stood_s.min(LONGEST_S) * soles_cells * DWELL_ONE;
+        let none = self.kernels.place(found, 0.0);
+        let mut placed =
+            PlacedMark { kernel: none, grind: none, foothold: [0.0; 2], print_cut: false, kernel_cut: false };
+        if let Some(wall) = walls.nearest(mark.place_m, extent.reach_m(mark.place_m)) {
+            let stands = placed.stand(foothold(walls, mark.place_m, wall.point_m), mark);
+            if let Some(shadow) = Shadow::new(walls, stands, &extent, self.cell_m) {
+                let hidden = self.kernels.share_hidden(found, &shadow);
+                placed.kernel_cut = hidden > 0.0;
+                amount /= (1.0 - hidden).max(0.05);
+            }
+        }
+        placed.kernel = self.kernels.place(found, amount);
+        let cells = self.kernels.bounds(found);
+        (placed, MarkBounds { texels: TexelBounds { i0: 0, i1: 0, j0: 0, j1: 0 }, cells, soil: false })
     }
 
     fn place_heel(&self, mark: &Mark, printer: &Printer, walls: &Walls) -> Option<(PlacedMark, MarkBounds)> {
@@ -165,6 +199,7 @@ impl Stamper {
         let none = self.kernels.find(mark.place_m, mark.heading);
         let mut placed = PlacedMark {
             kernel: self.kernels.place(none, 0.0),
+            grind: self.kernels.place(none, 0.0),
             foothold: [0.0; 2],
             print_cut: false,
             kernel_cut: false,
@@ -186,12 +221,17 @@ impl Stamper {
         printer.lumps.iter().map(left).sum()
     }
 
-    /// Upper bound on a footfall's value in a cell of `presence`.
+    /// Upper bound on a mark's value in a cell of `presence` or `dwell`.
     pub(crate) fn peak_of_presence(&self, placed: &PlacedMark) -> u32 {
         self.kernels.peak(&placed.kernel)
     }
 
-    /// Adds a footfall's kernel to the presence cells of a window.
+    /// Upper bound on a footfall's value in a cell of `grind`.
+    pub(crate) fn peak_of_grind(&self, placed: &PlacedMark) -> u32 {
+        self.kernels.peak(&placed.grind)
+    }
+
+    /// Adds a mark's kernel to the `presence` or `dwell` cells of a window.
     pub(crate) fn add_presence<C: SumCell>(
         &self,
         mark: &Mark,
@@ -200,14 +240,33 @@ impl Stamper {
         window: TexelWindow,
         cells: &mut [C],
     ) {
-        let cut = placed.kernel_cut.then(|| {
+        self.kernels.add(&placed.kernel, self.kernel_shadow(mark, placed, walls).as_ref(), window, cells);
+    }
+
+    /// Adds a footfall's kernel, times its effort, to the `grind` cells of a window.
+    pub(crate) fn add_grind<C: SumCell>(
+        &self,
+        mark: &Mark,
+        placed: &PlacedMark,
+        walls: &Walls,
+        window: TexelWindow,
+        cells: &mut [C],
+    ) {
+        self.kernels.add(&placed.grind, self.kernel_shadow(mark, placed, walls).as_ref(), window, cells);
+    }
+
+    /// Returns the shadow of the walls that cut a kernel.
+    fn kernel_shadow(&self, mark: &Mark, placed: &PlacedMark, walls: &Walls) -> Option<Shadow> {
+        if !placed.kernel_cut {
+            return None;
+        }
+        let middle = if mark.stood_s > 0.0 {
+            mark.place_m
+        } else {
             let printer = self.printer(mark)?;
-            let middle = printer.point_m(&PrintPose::of_sole(mark, printer.length_m)?, printer.centroid);
-            let extent = self.kernels.extent(middle, mark.heading);
-            Shadow::new(walls, placed.stands(mark), &extent, self.cell_m)
-        });
-        let cut = cut.flatten();
-        self.kernels.add(&placed.kernel, cut.as_ref(), window, cells);
+            printer.point_m(&PrintPose::of_sole(mark, printer.length_m)?, printer.centroid)
+        };
+        Shadow::new(walls, placed.stands(mark), &self.kernels.extent(middle, mark.heading), self.cell_m)
     }
 
     /// Returns the shadow of the walls that cut a print.

@@ -39,6 +39,9 @@ impl FloorSums {
     }
 }
 
+/// Effort below which a footfall wears as any other, passes.
+const LEAST_EFFORT: f32 = 0.05;
+
 /// Number of marks that a thread places per task.
 const MARKS_OF_A_THREAD: usize = 1 << 12;
 
@@ -46,8 +49,8 @@ fn add(sums: &mut FloorSums, stamper: &Stamper, walls: &Walls, marks: &[Mark]) {
     let mut batch = std::mem::take(&mut sums.batch);
     for marks in marks.chunks(MARKS_AT_A_TIME) {
         bin(sums, stamper, walls, marks, &mut batch);
-        let of = |presence: bool| {
-            let is_wanted = move |e: &MarkEntry| (e.quantity() == Quantity::Presence as usize) == presence;
+        let of = |coarse: bool| {
+            let is_wanted = move |e: &MarkEntry| Quantity::ALL[e.quantity()].is_coarse() == coarse;
             batch
                 .entries
                 .chunk_by(MarkEntry::same_block)
@@ -76,7 +79,7 @@ fn bin(sums: &FloorSums, stamper: &Stamper, walls: &Walls, marks: &[Mark], batch
             let mut entries = Vec::with_capacity(4 * marks.len());
             let placed = marks.iter().enumerate().map(|(k, mark)| {
                 let (placed, touched) = stamper.place(mark, walls)?;
-                push_entries(sums, mark.cause, &touched, part * MARKS_OF_A_THREAD + k, &mut entries);
+                push_entries(sums, mark, &touched, part * MARKS_OF_A_THREAD + k, &mut entries);
                 Some(placed)
             });
             (placed.collect(), entries)
@@ -91,7 +94,7 @@ fn bin(sums: &FloorSums, stamper: &Stamper, walls: &Walls, marks: &[Mark], batch
     batch.entries.par_sort_unstable();
 }
 
-fn push_entries(sums: &FloorSums, cause: Cause, touched: &MarkBounds, mark: usize, entries: &mut Vec<MarkEntry>) {
+fn push_entries(sums: &FloorSums, mark: &Mark, touched: &MarkBounds, number: usize, entries: &mut Vec<MarkEntry>) {
     let mut push = |quantity: Quantity, grid: TexelGrid, bounds: TexelBounds| {
         let blocks = |low: i64, high: i64, count: u32| {
             let size = BLOCK as i64;
@@ -100,14 +103,18 @@ fn push_entries(sums: &FloorSums, cause: Cause, touched: &MarkBounds, mark: usiz
         };
         for row in blocks(bounds.j0, bounds.j1, grid.height) {
             for column in blocks(bounds.i0, bounds.i1, grid.width) {
-                entries.push(MarkEntry::new(quantity, [row, column], mark));
+                entries.push(MarkEntry::new(quantity, [row, column], number));
             }
         }
     };
-    match cause {
+    match mark.cause {
+        Cause::Sole if mark.stood_s > 0.0 => push(Quantity::Dwell, sums.presence_grid, touched.cells),
         Cause::Sole => {
             push(Quantity::Passes, sums.grid, touched.texels);
             push(Quantity::Presence, sums.presence_grid, touched.cells);
+            if mark.effort >= LEAST_EFFORT {
+                push(Quantity::Grind, sums.presence_grid, touched.cells);
+            }
             if touched.soil {
                 push(Quantity::Soil, sums.grid, touched.texels);
             }
@@ -122,7 +129,7 @@ fn tasks<'a>(sums: &'a mut FloorSums, entries: &'a [MarkEntry]) -> Vec<Task<'a>>
     let (texel_floor, cell_floor) = (&sums.texel_floor, &sums.cell_floor);
     let mut tasks = Vec::new();
     for (quantity, plane) in Quantity::ALL.into_iter().zip(&mut sums.planes) {
-        let floor = if quantity == Quantity::Presence { cell_floor } else { texel_floor };
+        let floor = if quantity.is_coarse() { cell_floor } else { texel_floor };
         let first = entries.partition_point(|e| e.quantity() < quantity as usize);
         let end = entries.partition_point(|e| e.quantity() <= quantity as usize);
         let of_blocks = entries[first..end]
@@ -147,7 +154,8 @@ fn fine(task: Task, marks: &BatchMarks, sheet: &mut PrintCoverage) {
         let Some(placed) = &marks.placed[entry.mark()] else { continue };
         let peak = match quantity {
             Quantity::Passes => marks.stamper.peak_of_passes(mark),
-            Quantity::Presence => marks.stamper.peak_of_presence(placed),
+            Quantity::Presence | Quantity::Dwell => marks.stamper.peak_of_presence(placed),
+            Quantity::Grind => marks.stamper.peak_of_grind(placed),
             Quantity::Soil => marks.stamper.peak_of_soil(mark),
             Quantity::Scuff => marks.stamper.peak_of_scuff(mark),
         };
@@ -172,7 +180,8 @@ fn stamp<C: SumCell>(
     let BatchMarks { stamper, walls, .. } = *marks;
     match quantity {
         Quantity::Passes => stamper.add_passes(mark, placed, walls, window, sheet, cells),
-        Quantity::Presence => stamper.add_presence(mark, placed, walls, window, cells),
+        Quantity::Presence | Quantity::Dwell => stamper.add_presence(mark, placed, walls, window, cells),
+        Quantity::Grind => stamper.add_grind(mark, placed, walls, window, cells),
         Quantity::Soil => stamper.add_soil(mark, placed, walls, window, sheet, cells),
         Quantity::Scuff => stamper.add_scuff(mark, placed, walls, window, sheet, cells),
     }

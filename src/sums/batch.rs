@@ -17,7 +17,7 @@ pub(super) struct MarkEntry(u64);
 
 /// Bits of an entry for the mark's index; bits for each of the block's row and column.
 const MARK_BITS: u32 = 16;
-pub(super) const PLACE_BITS: u32 = 23;
+pub(super) const PLACE_BITS: u32 = 22;
 
 /// Number of marks in a batch.
 pub(super) const MARKS_AT_A_TIME: usize = 1 << MARK_BITS;

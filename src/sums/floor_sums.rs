@@ -14,7 +14,7 @@ use crate::stamps::TexelGrid;
 pub struct FloorSums {
     pub(super) grid: TexelGrid,
     pub(super) presence_grid: TexelGrid,
-    pub(super) planes: [SparsePlane; 4],
+    pub(super) planes: [SparsePlane; 6],
     /// Floor masks in texels.
     pub(super) texel_floor: FloorMasks,
     /// Floor masks in cells of the presence grid.
@@ -31,29 +31,29 @@ impl FloorSums {
             grid,
             presence_grid,
             planes: Quantity::ALL
-                .map(|quantity| SparsePlane::new(if quantity == Quantity::Presence { presence_grid } else { grid })),
+                .map(|quantity| SparsePlane::new(if quantity.is_coarse() { presence_grid } else { grid })),
             texel_floor: FloorMasks::new(grid),
             cell_floor: FloorMasks::new(presence_grid),
             batch: Batch::default(),
         }
     }
 
-    /// Texel grid of all quantities except `presence`.
+    /// Texel grid of all quantities except the coarse ones.
     pub fn grid(&self) -> TexelGrid {
         self.grid
     }
 
-    /// Grid of `presence`, with cells of about 4 cm: a whole number of texels per side, at least one.
+    /// Grid of the coarse quantities such as `presence`, with cells of about 4 cm: a whole number of texels per side, at least one.
     pub fn presence_grid(&self) -> TexelGrid {
         self.presence_grid
     }
 
     /// Grid of a quantity's sums.
     pub fn grid_of(&self, quantity: Quantity) -> TexelGrid {
-        if quantity == Quantity::Presence { self.presence_grid } else { self.grid }
+        if quantity.is_coarse() { self.presence_grid } else { self.grid }
     }
 
-    /// Copies a rectangle of sums, row 0 lowest: texels, for `presence` cells. Zero outside the grid.
+    /// Copies a rectangle of sums, row 0 lowest: texels, of coarse quantities cells. Zero outside the grid.
     pub fn read(&self, quantity: Quantity, i0: u32, j0: u32, width: usize, height: usize, out: &mut [u32]) {
         self.plane(quantity).read([i0, j0], width, height, out);
     }

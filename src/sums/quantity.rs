@@ -1,6 +1,6 @@
 //! Quantities summed on the floor.
 
-use crate::stamps::{DENSITY_ONE, PASSES_ONE, PRESENCE_ONE};
+use crate::stamps::{DENSITY_ONE, DWELL_ONE, PASSES_ONE, PRESENCE_ONE};
 
 /// A quantity summed on the floor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -13,20 +13,31 @@ pub enum Quantity {
     Soil,
     /// Optical density of heel and toe marks.
     Scuff,
+    /// Seconds that soles stood, on the grid of `presence`.
+    Dwell,
+    /// Wear of turns, stops and starts beyond that of steps straight on, in passes, on the grid of `presence`.
+    Grind,
 }
 
 impl Quantity {
     /// Every quantity.
-    pub const ALL: [Quantity; 4] = [Quantity::Passes, Quantity::Presence, Quantity::Soil, Quantity::Scuff];
+    pub const ALL: [Quantity; 6] =
+        [Quantity::Passes, Quantity::Presence, Quantity::Soil, Quantity::Scuff, Quantity::Dwell, Quantity::Grind];
+
+    /// Whether the quantity has the coarse grid of `presence`.
+    pub const fn is_coarse(self) -> bool {
+        matches!(self, Quantity::Presence | Quantity::Dwell | Quantity::Grind)
+    }
 
     /// Fixed-point unit: the sum for one pass or an optical density of 1.
     ///
-    /// 256 for `passes`, 1024 for `presence`, 4096 for `soil` and `scuff`. A pass is a print of full coverage at mean
+    /// 256 for `passes` and `dwell`, 1024 for `presence` and `grind`, 4096 for `soil` and `scuff`. A pass is a print of full coverage at mean
     /// pressure; an optical density D has the transmittance `exp(-D)`.
     pub const fn one(self) -> u32 {
         match self {
             Quantity::Passes => PASSES_ONE as u32,
-            Quantity::Presence => PRESENCE_ONE as u32,
+            Quantity::Dwell => DWELL_ONE as u32,
+            Quantity::Presence | Quantity::Grind => PRESENCE_ONE as u32,
             Quantity::Soil | Quantity::Scuff => DENSITY_ONE as u32,
         }
     }
@@ -38,6 +49,8 @@ impl Quantity {
             Quantity::Presence => "presence",
             Quantity::Soil => "soil",
             Quantity::Scuff => "scuff",
+            Quantity::Dwell => "dwell",
+            Quantity::Grind => "grind",
         }
     }
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use trodden::crowd::Simulation;
-use trodden::look::{FloorResolver, Look};
+use trodden::look::{FloorResolver, Look, WearLook};
 use trodden::marks::{Footfalls, Origin};
 use trodden::math::srgb::light;
 use trodden::math::{Vec2, vec2};
@@ -44,6 +44,7 @@ fn walked(name: &str, people: u32) -> Trodden {
         footfalls.push(&frame, &mut marks);
     }
     footfalls.finish(&mut marks);
+    footfalls.take_standing(&mut marks);
     sums.add(&stamper, &walls, &marks);
     Trodden { walls, sums, people, look: scenario.look }
 }
@@ -69,6 +70,8 @@ fn lab(rgb: [f64; 3]) -> [f64; 3] {
 struct Square {
     /// Passes in the whole history.
     passes: f64,
+    /// Seconds that soles stood in the whole history.
+    stood_s: f64,
     lab: [f64; 3],
 }
 
@@ -85,7 +88,8 @@ fn resolved(trodden: &Trodden, look: &Look, [x, y, width, height]: [f64; 4]) -> 
     let texels = |metres: f64| (metres * TEXELS_PER_M as f64) as usize;
     let (columns, rows) = (texels(width), texels(height));
     let block = resolver.resolve(texels(x) as i64, texels(y) as i64, columns, rows);
-    let presence = &block.layers.iter().find(|layer| layer.name == "presence").unwrap().values;
+    let layer = |name: &str| &block.layers.iter().find(|layer| layer.name == name).unwrap().values;
+    let (presence, dwell) = (layer("presence"), layer("dwell"));
     let weight = look.total_passes as f64 / f64::from(trodden.people);
     let linear = |k: usize| block.base_color[k].map(|byte| f64::from(light(byte)));
     let mut squares = Vec::new();
@@ -100,8 +104,9 @@ fn resolved(trodden: &Trodden, look: &Look, [x, y, width, height]: [f64; 4]) -> 
             let within = || (0..SQUARE * SQUARE).map(|n| (j + n / SQUARE) * columns + i + n % SQUARE);
             let count = (SQUARE * SQUARE) as f64;
             let mean = |channel: usize| within().map(|k| linear(k)[channel]).sum::<f64>() / count;
-            let passes = weight * within().map(|k| f64::from(presence[k])).sum::<f64>() / count;
-            squares.push(Square { passes, lab: lab([mean(0), mean(1), mean(2)]) });
+            let whole = |layer: &[f32]| weight * within().map(|k| f64::from(layer[k])).sum::<f64>() / count;
+            let (passes, stood_s) = (whole(presence), whole(dwell));
+            squares.push(Square { passes, stood_s, lab: lab([mean(0), mean(1), mean(2)]) });
         }
     }
     let clean = lab(resolver.background().base_color.map(|byte| f64::from(light(byte))));
@@ -239,4 +244,63 @@ fn corridors_have_a_quiet_margin_and_a_dirty_line_at_the_skirting() {
         assert!(lines.len() >= 10 && middle >= margin_at_least, "{preset}: {middle:.1}");
         assert!(dirty * 10 >= lines.len() * 9, "{preset}: {lines:.1?}");
     }
+}
+
+/// The ticket machines and the lines before them.
+const MACHINES: [f64; 4] = [8.0, 15.0, 10.0, 4.0];
+
+#[test]
+fn floors_darken_where_people_stand_and_only_there() {
+    let with = &STATION.look;
+    let mut without = with.clone();
+    (without.dwell.density, without.dwell.gum) = (0.0, 0.0);
+    let [with, without] = [with, &without].map(|look| resolved(&STATION, look, MACHINES));
+    let darker = |seconds: std::ops::Range<f64>| {
+        let squares = with.squares.iter().zip(&without.squares).filter(|(square, _)| seconds.contains(&square.stood_s));
+        mean(squares.map(|(with, without)| without.lab[0] - with.lab[0]))
+    };
+    let (stood, passed_by) = (darker(200.0..f64::INFINITY), darker(0.0..1.0));
+    println!("{stood:.1} L* darker where people stood, {passed_by:.2} elsewhere");
+    assert!((3.0..12.0).contains(&stood), "{stood:.1}");
+    assert!((0.0..0.3).contains(&passed_by), "{passed_by:.2}");
+}
+
+/// Wear per pass of a piece of floor, by `floor_wear`, without noise.
+fn wear_per_pass(trodden: &Trodden, [x, y, width, height]: [f64; 4], turns: f32) -> f64 {
+    let mut look = Look { total_passes: 100_000, ..Look::default() };
+    // A level is a small step.
+    look.wear = WearLook { strength: 3.0, turns };
+    for octave in [&mut look.noise.fine, &mut look.noise.middle, &mut look.noise.coarse] {
+        octave.sd = 0.0;
+    }
+    let resolver = FloorResolver::new(&trodden.sums, &trodden.walls, &look, trodden.people).unwrap();
+    let texels = |metres: f64| (metres * TEXELS_PER_M as f64) as usize;
+    let block = resolver.resolve(texels(x) as i64, texels(y) as i64, texels(width), texels(height));
+    let wear: f64 = block.relief.iter().map(|relief| f64::from(relief[0])).sum();
+    let presence = block.layers.iter().find(|layer| layer.name == "presence").unwrap();
+    wear / presence.values.iter().map(|&passes| f64::from(passes)).sum::<f64>()
+}
+
+#[test]
+fn turns_gates_and_counters_wear_more_per_pass_than_straight_ways() {
+    let station = ([34.0, 34.0, 4.0, 5.0], &*STATION);
+    let mut missed = Vec::new();
+    let corridors = ([2.0, 20.5, 30.0, 3.0], &*CORRIDORS);
+    for (what, (straight, trodden), place) in [
+        ("ticket gates in", station, [25.0, 18.8, 7.2, 1.6]),
+        ("ticket gates out", station, [41.6, 21.4, 7.2, 1.6]),
+        ("ticket machines", station, [9.0, 17.2, 8.0, 1.2]),
+        ("ticket office", station, [34.9, 18.3, 2.2, 0.9]),
+        ("door of the toilets", station, [44.9, 33.0, 1.2, 1.4]),
+        ("turn of a corridor", corridors, [18.0, 57.0, 4.0, 2.5]),
+    ] {
+        let ratio = |turns: f32| wear_per_pass(trodden, place, turns) / wear_per_pass(trodden, straight, turns);
+        let (with, without) = (ratio(1.0), ratio(0.0));
+        println!("{what}: {with:.2} times the straight way's wear per pass, {without:.2} by passes alone");
+        assert!((0.8..1.1).contains(&without), "{what}: {without:.2}");
+        if with < 1.5 {
+            missed.push(what);
+        }
+    }
+    assert!(missed.is_empty(), "{missed:?}");
 }

@@ -175,11 +175,11 @@ pub struct TileEntry {
 pub struct SumsEntry {
     /// Integer that stands for 1, by quantity.
     pub one: std::collections::BTreeMap<String, u32>,
-    /// The sum `presence`, one file for the whole floor.
+    /// The sum `presence`, one file for the whole floor; `dwell` and `grind` lie in it too if `one` has them.
     pub presence: PresenceEntry,
 }
 
-/// The sum `presence` on its own grid.
+/// The sum `presence`, and those that share its grid.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PresenceEntry {
     /// Path of the sums.

@@ -11,9 +11,11 @@ use crate::sums::{FloorSums, Quantity};
 
 /// Quantities in a tile's file, sorted by name.
 const TILE_QUANTITIES: [Quantity; 3] = [Quantity::Passes, Quantity::Scuff, Quantity::Soil];
+/// Quantities in the file of `presence`, sorted by name; bakes of earlier versions have `presence` alone.
+const COARSE_QUANTITIES: [Quantity; 3] = [Quantity::Dwell, Quantity::Grind, Quantity::Presence];
 const PRESENCE_FILE: &str = "sums/floor_presence.exr";
 
-/// Writes the exact sums into `sums/`: a file per written tile, and one for `presence`.
+/// Writes the exact sums into `sums/`: a file per written tile, and one for `presence` and the other coarse quantities.
 ///
 /// Integers, one channel per quantity. Untouched blocks take almost no space.
 ///
@@ -30,7 +32,7 @@ pub fn write_sums(
         write_image(folder.create(&entry.sums)?, &FloorImage { sums, area }, progress)?;
     }
     let TexelGrid { texels_per_metre, width, height } = sums.presence_grid();
-    let area = Area { at: [0, 0], size: [width, height], quantities: &[Quantity::Presence] };
+    let area = Area { at: [0, 0], size: [width, height], quantities: &COARSE_QUANTITIES };
     write_image(folder.create(PRESENCE_FILE)?, &FloorImage { sums, area }, progress)?;
     Ok(SumsEntry {
         one: Quantity::ALL.iter().map(|quantity| (quantity.name().to_string(), quantity.one())).collect(),
@@ -101,7 +103,10 @@ pub fn read_sums(bake: &Path, manifest: &Manifest) -> Result<FloorSums, ExportEr
     let floor = &manifest.floor;
     let grid = TexelGrid { texels_per_metre: floor.texels_per_metre, width: floor.width_px, height: floor.height_px };
     let in_manifest = |problem: &str| ExportError::damaged(&bake.join(MANIFEST_NAME), problem);
-    for quantity in Quantity::ALL {
+    let has_all = COARSE_QUANTITIES.iter().all(|quantity| floor.sums.one.contains_key(quantity.name()));
+    let coarse: &[Quantity] = if has_all { &COARSE_QUANTITIES } else { &[Quantity::Presence] };
+    let here = |quantity: &Quantity| !quantity.is_coarse() || coarse.contains(quantity);
+    for quantity in Quantity::ALL.into_iter().filter(here) {
         if floor.sums.one.get(quantity.name()) != Some(&quantity.one()) {
             return Err(in_manifest(&format!("`floor.sums.one.{}` is not {}", quantity.name(), quantity.one())));
         }
@@ -126,7 +131,7 @@ pub fn read_sums(bake: &Path, manifest: &Manifest) -> Result<FloorSums, ExportEr
     if [presence.width, presence.height] != [floor.sums.presence.width_px, floor.sums.presence.height_px] {
         return Err(in_manifest("`floor.sums.presence` has another size than follows from the floor's"));
     }
-    let area = Area { at: [0, 0], size: [presence.width, presence.height], quantities: &[Quantity::Presence] };
+    let area = Area { at: [0, 0], size: [presence.width, presence.height], quantities: coarse };
     read_area(&floor.sums.presence.file.within(bake)?, &mut sums, area)?;
     Ok(sums)
 }
@@ -218,6 +223,24 @@ mod tests {
                 assert_eq!(before, after, "{} with tiles of {tile}", quantity.name());
             }
         }
+    }
+
+    #[test]
+    fn sums_of_earlier_versions_have_no_dwell_and_no_grind() {
+        let sums = some_sums(TexelGrid { texels_per_metre: 100.0, width: 300, height: 300 });
+        let dir = tempfile::tempdir().unwrap();
+        let folder = OutputFolder::begin(&dir.path().join("out"), false).unwrap();
+        let mut manifest = Manifest { floor: written(&folder, &sums, 512), ..Manifest::default() };
+        let one = &mut manifest.floor.sums.one;
+        assert!(one.remove("dwell").is_some() && one.remove("grind").is_some());
+        assert!(read_sums(folder.path(), &manifest).is_err(), "it has channels that the manifest does not name");
+        let TexelGrid { width, height, .. } = sums.presence_grid();
+        let area = Area { at: [0, 0], size: [width, height], quantities: &[Quantity::Presence] };
+        std::fs::remove_file(folder.path().join(PRESENCE_FILE)).unwrap();
+        write_image(folder.create(PRESENCE_FILE).unwrap(), &FloorImage { sums: &sums, area }, &Silent).unwrap();
+        let back = read_sums(folder.path(), &manifest).unwrap();
+        assert!(!back.blocks(Quantity::Presence).is_empty());
+        assert!([Quantity::Dwell, Quantity::Grind].iter().all(|&quantity| back.blocks(quantity).is_empty()));
     }
 
     #[test]

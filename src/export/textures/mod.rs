@@ -59,6 +59,8 @@ impl FloorTextures {
         ];
         let of_layer = |layer: &str| match layer {
             "passes" | "presence" => "footfalls of the simulated people",
+            "dwell" => "seconds that the simulated people stood",
+            "grind" => "passes of wear that turns and stops of the simulated people add",
             _ => "optical density D",
         };
         FloorEntry {
