@@ -40,6 +40,23 @@ fn svg_of_real_size_without_a_name_and_compressed() {
 }
 
 #[test]
+fn svg_of_a_building_model_has_the_models_scale_and_storeys() {
+    let truth = office();
+    let seen = Seen::of("floors.svg", write::svg_of_model(&truth), [30.0, 30.0]);
+    // The building's own scale, though its doors are drawn in pieces of 5 cm.
+    assert!(seen.iou(&truth) > 0.98 && seen.scale().iter().all(|scale| (scale - 1.0).abs() < 1e-3));
+    assert_eq!(seen.rooms_reached(&truth), 12);
+    // The two outer doors end the floor: people come and go there.
+    assert_eq!(seen.open_doors(&truth), [12, 12]);
+    says(&seen, "storey 1 of 2");
+    let upper = PlanOptions { page: Some(2), ..PlanOptions::default() };
+    let upper = read_with("floors.svg", write::svg_of_model(&truth), &upper).unwrap();
+    let floor = upper.floor.iter().filter(|&&floor| floor == 1).count() as f64;
+    let floor_m2 = floor * upper.metres_per_pixel * upper.metres_per_pixel;
+    assert!((floor_m2 - 8.4 * 5.4).abs() < 1.0, "{floor_m2} m2");
+}
+
+#[test]
 fn dxf_with_blocks_hatches_and_texts() {
     let truth = office();
     // In the metres of a national grid, as surveyors have it.

@@ -217,6 +217,46 @@ fn centre(wall: &Rect, b: &Building) -> [[f64; 2]; 2] {
     }
 }
 
+/// An SVG of a building model's two storeys, as IfcConvert writes them at 1:100 on a paper of 1 m: the upper one is a shed.
+/// Doors are cut at 1.2 m: frames and leaves, piece by piece, without swings.
+pub fn svg_of_model(b: &Building) -> String {
+    let at = |[x, y]: [f64; 2]| format!("{:.3},{:.3}", 300.0 + 10.0 * x, 700.0 - 10.0 * y);
+    let shape = |r: &Rect| {
+        let [a, b, c, d] = [[r[0], r[1]], [r[2], r[1]], [r[2], r[3]], [r[0], r[3]]].map(at);
+        format!("<path d=\"M{a} L{b} L{c} L{d} L{a}\"/>\n")
+    };
+    let thing = |class: &str, shapes: &[Rect]| {
+        let shapes: String = shapes.iter().map(shape).collect();
+        format!("<g id=\"product-{class}-{}\" class=\"{class}\">\n{shapes}</g>\n", shapes.len())
+    };
+    let storey = |name: &str, content: String| {
+        format!(
+            "<g class=\"IfcBuildingStorey\" data-name=\"{name}\" \
+             data-matrix3=\"[[10.000000,0.000000,300.000000],[0.000000,10.000000,700.000000],[0.0,0.0,1.0]]\">\n{content}</g>\n"
+        )
+    };
+    let mut ground: String = b.solid_walls().iter().map(|wall| thing("IfcWall", &[*wall])).collect();
+    ground.extend(b.windows.iter().map(|window| thing("IfcWindow", &[*window])));
+    ground.extend(b.doors.iter().map(|door| {
+        let [x0, y0, x1, y1] = *door;
+        let across = x1 - x0 > y1 - y0;
+        let (mx, my) = ((x0 + x1) * 0.5, (y0 + y1) * 0.5);
+        let [first, last, leaf] = if across {
+            [[x0, y0, x0 + 0.05, y1], [x1 - 0.05, y0, x1, y1], [x0 + 0.05, my - 0.02, x1 - 0.05, my + 0.02]]
+        } else {
+            [[x0, y0, x1, y0 + 0.05], [x0, y1 - 0.05, x1, y1], [mx - 0.02, y0 + 0.05, mx + 0.02, y1 - 0.05]]
+        };
+        thing("IfcDoor", &[first, last, leaf])
+    }));
+    let shed = [[0.0, 0.0, 9.0, 0.3], [0.0, 5.7, 9.0, 6.0], [0.0, 0.3, 0.3, 5.7], [8.7, 0.3, 9.0, 5.7]];
+    let upper = storey("First", shed.iter().map(|wall| thing("IfcWall", &[*wall])).collect());
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"1000mm\" height=\"1000mm\" viewBox=\"0 0 1000 1000\">\n\
+         <style>path {{ stroke: #222222; fill: #444444; }} .IfcDoor path {{ fill: none; }}</style>\n{}{upper}</svg>\n",
+        storey("Ground", ground)
+    )
+}
+
 /// A PDF at 1:100 with layers, or without and with the scale printed on it.
 pub fn pdf(b: &Building, layers: bool) -> Vec<u8> {
     let pt = 72.0 / 0.0254 / 100.0;

@@ -55,6 +55,7 @@ pub(super) fn read(bytes: &[u8], storey: Option<u32>) -> Result<VectorPlan, Stri
     plan.unit = match plan.unit {
         Unit::Paper(scale) => Unit::Paper(scale * 0.0254 / 96.0),
         Unit::Metres(scale) => Unit::Metres(scale * 0.0254 / 96.0),
+        Unit::Sure(scale) => Unit::Sure(scale * 0.0254 / 96.0),
         unknown => unknown,
     };
     Ok(plan)
@@ -152,9 +153,11 @@ fn unit(root: roxmltree::Node, storey: Option<roxmltree::Node>) -> Unit {
     let matrix = storey.and_then(|node| node.attributes().find(|a| a.name().ends_with("matrix3"))).map(|a| a.value());
     let per_metre = matrix.and_then(|text| text.trim_start_matches('[').split(',').next()?.trim().parse::<f64>().ok());
     let of_model = per_metre.map(|mm| 1000.0 / mm).filter(|scale| (0.1..=1e5).contains(scale));
-    match of_model.or_else(|| root.attribute("data-scale").and_then(ratio)) {
-        Some(scale) => Unit::Metres(scale),
-        None => Unit::Paper(1.0),
+    match (of_model, root.attribute("data-scale").and_then(ratio)) {
+        // Doors of models are drawn with their frames, piece by piece: they tell no better.
+        (Some(scale), _) => Unit::Sure(scale),
+        (None, Some(scale)) => Unit::Metres(scale),
+        (None, None) => Unit::Paper(1.0),
     }
 }
 
