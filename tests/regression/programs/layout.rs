@@ -61,7 +61,10 @@ fn channels_of_layers_belong_to_layers() {
     let path = sandbox.path("out/floor/floor_layers.1001.exr");
     let image = exr::prelude::read_first_flat_layer_from_file(path).unwrap();
     let channels: Vec<String> = image.layer_data.channel_data.list.iter().map(|c| c.name.to_string()).collect();
-    assert_eq!(channels, ["dust.V", "edge.V", "film.V", "passes.V", "presence.V", "scuff.V", "soil.V"]);
+    assert_eq!(
+        channels,
+        ["dust.V", "dwell.V", "edge.V", "film.V", "grind.V", "passes.V", "presence.V", "scuff.V", "soil.V"]
+    );
     let manifest = manifest(&sandbox.path("out"));
     let told: Vec<&str> = (manifest["floor"]["channels"].as_array().unwrap().iter())
         .filter(|channel| channel["image"] == "layers")
@@ -81,7 +84,8 @@ fn game_engines_get_layers_only_if_asked() {
     };
     assert_eq!(layers(&sandbox), 0);
     sandbox.run(&["resolve", "out", "--layers"]).succeeds();
-    assert_eq!(layers(&sandbox), 2);
+    // Nine channels, four to a file.
+    assert_eq!(layers(&sandbox), 3);
     sandbox.run(&["resolve", "out", "--target", "gltf"]).succeeds();
     assert_eq!(layers(&sandbox), 1);
     // What was not asked for follows the target.
