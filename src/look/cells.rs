@@ -33,6 +33,15 @@ pub(super) fn smooth(key: u32, x: f64, y: f64) -> f32 {
     below + g * (above - below)
 }
 
+/// [`smooth`] along the row `j`.
+pub(super) fn smooth_along(key: u32, x: f64, j: i32) -> f32 {
+    let i = x.floor();
+    let f = smoothstep_f32((x - i) as f32);
+    let i = i as i64 as i32;
+    let (a, b) = (noise::signed(key, i, j), noise::signed(key, i.wrapping_add(1), j));
+    a + f * (b - a)
+}
+
 /// Smooth noise of `octaves` halving sizes.
 pub(super) fn cloudy(key: u32, x: f64, y: f64, octaves: u32) -> f32 {
     let (mut sum, mut size, mut gain) = (0.0, 1.0, 0.55);

@@ -4,7 +4,7 @@
 //! drives a machine. Passes differ; between them, where dirty water dries, a line stays; swings leave arcs. Along walls
 //! and in corners nothing is taken. The pattern of the last two cleanings shows; those before have evened out.
 
-use super::cells::{rise, smooth, unit};
+use super::cells::{rise, smooth, smooth_along, unit};
 use super::lattice::{SplineAxis, SplineLattice, TexelWindow};
 use super::noise::{self, Channel};
 use super::settings::MopLook;
@@ -128,17 +128,20 @@ impl Mopping {
         let strip = across.floor();
         let (f, strip) = ((across - strip) as f32, strip as i64 as i32);
         let own = 2.0 * unit(key ^ 1, strip, 0) - 1.0;
-        let pressed = smooth(key ^ 2, 0.6 * u, f64::from(strip));
+        let pressed = smooth_along(key ^ 2, 0.6 * u, strip);
         // Dirty water dries at the border of a pass, now and then.
-        let border = f.min(1.0 - f) * self.width_m as f32;
-        let line = (1.0 - rise(border, 0.0, 0.025)) * rise(smooth(key ^ 3, 0.5 * u, f64::from(strip) + 0.5), 0.0, 0.6);
+        let border = 1.0 - rise(f.min(1.0 - f) * self.width_m as f32, 0.0, 0.025);
+        let wet = || rise(smooth(key ^ 3, 0.5 * u, f64::from(strip) + 0.5), 0.0, 0.6);
+        let line = if border > 0.0 { border * wet() } else { 0.0 };
         // Swings: arcs that open towards where the cleaner came from.
         let bow = 4.0 * (f - 0.5) * (f - 0.5);
         // Nobody swings to a beat.
-        let turn = 1.3 * f64::from(smooth(key ^ 4, 1.3 * u, f64::from(strip)));
+        let turn = 1.3 * f64::from(smooth_along(key ^ 4, 1.3 * u, strip));
         let swing = u / SWING_M + f64::from(bow) * 0.9 + turn + f64::from(unit(key ^ 5, strip, 1));
         let swing = (swing - swing.floor()) as f32;
         let arc = rise(swing, 0.0, 0.8) * (1.0 - rise(swing, 0.86, 1.0)) - 0.45;
+        // Swings show where the cleaner pressed hard.
+        let arc = arc * (0.2 + 0.8 * rise(pressed, -0.3, 0.6));
         0.55 * own + 0.45 * pressed + 0.9 * line + 0.55 * arc
     }
 }

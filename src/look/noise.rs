@@ -71,6 +71,8 @@ pub(super) enum Channel {
     Spots,
     Masonry,
     WallChip,
+    Puddle,
+    PuddleBays,
 }
 
 /// Key of a channel for a seed.

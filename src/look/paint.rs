@@ -18,6 +18,7 @@ use super::shade::{FloorShader, ShadeInput, ShadeOutput};
 use super::skirting::Skirting;
 use super::spots::Spots;
 use super::surface::{Surface, SurfacePlanes};
+use super::wet::{WetFloor, WetWindow};
 use crate::math::{exp_f32, srgb};
 use crate::sums::{FloorSums, Quantity};
 use crate::walls::Walls;
@@ -47,6 +48,7 @@ struct FloorLayout {
     noise: Vec<NoiseField>,
     mopping: Option<SplineLattice>,
     dust: Option<SplineLattice>,
+    wet: Option<WetWindow>,
 }
 
 /// What the optical density of heel marks, gum and rubs tends to where many lie on each other.
@@ -78,6 +80,7 @@ pub(super) struct FloorPainter<'a> {
     properties: Properties,
     ground: Surface,
     mopping: Option<Mopping>,
+    wet: Option<WetFloor>,
     skirting: Skirting<'a>,
     /// Noise of film and dust.
     noise: Vec<Noise>,
@@ -118,6 +121,7 @@ impl<'a> FloorPainter<'a> {
             },
             dither: noise::key(look.seed, Channel::Dither),
             mopping: Mopping::new(walls, &look.mop, look.seed),
+            wet: WetFloor::new(look, &properties),
             skirting: Skirting::new(walls, look.edge.clone(), look.seed),
             look: look.clone(),
             properties,
@@ -147,6 +151,7 @@ impl<'a> FloorPainter<'a> {
             noise: self.noise.iter().map(|noise| noise.over(&window)).collect(),
             mopping: self.mopping.as_ref().map(|mopping| mopping.over(&window)),
             dust: dust::over(&window, self.walls, &self.look.dust),
+            wet: self.wet.as_ref().and_then(|wet| wet.over(&window, self.sums, self.walls)),
         };
         self.skirting.lay_out(&window, wanted, &mut buffers.edge);
         passes::read(self.sums, Quantity::Passes, &window, &mut buffers.passes);
@@ -215,6 +220,9 @@ impl FloorLayout {
         if let Some(mopping) = &mut self.mopping {
             mopping.begin_row(row);
         }
+        if let Some(wet) = &mut self.wet {
+            wet.begin_row(row);
+        }
     }
 
     /// Collects the shader's inputs for a run of the current row.
@@ -252,6 +260,9 @@ impl FloorLayout {
         }
         for (out, spot) in known.scuff.iter_mut().zip(spots.marks.get(from..).unwrap_or_default()) {
             *out += spot * properties.spots;
+        }
+        if let (Some(window), Some(wet)) = (&self.wet, &painter.wet) {
+            wet.add_to(window, run.start, &mut known.soil, &mut known.water, row);
         }
         // Marks on marks go on darkening ever less.
         each_mut(&mut known.scuff, |density| MOST_MARKS * (1.0 - exp_f32(-density / MOST_MARKS)));

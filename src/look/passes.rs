@@ -6,7 +6,7 @@ use crate::stamps::TexelGrid;
 use crate::sums::{FloorSums, Quantity};
 use crate::walls::Walls;
 
-/// A coarse quantity of the simulated people over one window.
+/// A quantity of the simulated people over one window, in coarse cells.
 pub(super) struct PassesField {
     /// The quantity times the share of floor in each cell, and that share. It is unknown off the floor, so only floor
     /// counts in the mean: lanes reach openings and door jambs undiminished.
@@ -70,12 +70,34 @@ impl PassesField {
     }
 }
 
-/// A coarse quantity in the cells of a window; `None` if it is zero.
-fn cells_of(sums: &FloorSums, quantity: Quantity, window: &TexelWindow) -> Option<Vec<f32>> {
+/// A quantity in the coarse cells of a window: the mean of each cell's texels; `None` if it is zero.
+fn cells_of(sums: &FloorSums, quantity: Quantity, cells: &TexelWindow) -> Option<Vec<f32>> {
     let unit = 1.0 / quantity.one() as f32;
     let mut values = Vec::new();
-    let any = read(sums, quantity, window, &mut values);
-    any.then(|| values.into_iter().map(|sum| sum as f32 * unit).collect())
+    if quantity.is_coarse() {
+        let any = read(sums, quantity, cells, &mut values);
+        return any.then(|| values.into_iter().map(|sum| sum as f32 * unit).collect());
+    }
+    let side = (sums.grid().texels_per_metre / sums.presence_grid().texels_per_metre).round() as usize;
+    let row_of_cells = TexelWindow {
+        texels_per_metre: sums.grid().texels_per_metre,
+        i0: cells.i0 * side as i64,
+        j0: 0,
+        width: cells.width * side,
+        height: side,
+    };
+    let mut means = vec![0.0; cells.texels()];
+    let mut any = false;
+    for (row, means) in means.chunks_exact_mut(cells.width).enumerate() {
+        let texels = TexelWindow { j0: (cells.j0 + row as i64) * side as i64, ..row_of_cells };
+        if read(sums, quantity, &texels, &mut values) {
+            any = true;
+            for (k, &sum) in values.iter().enumerate() {
+                means[k % texels.width / side] += sum as f32 * unit / (side * side) as f32;
+            }
+        }
+    }
+    any.then_some(means)
 }
 
 /// A coarse quantity of the simulated people near a place, metres: the mean over a fifth of a metre.

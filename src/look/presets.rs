@@ -1,6 +1,6 @@
 use super::colours::SOIL_WET;
 use super::octaves::{NoiseLook, Octave};
-use super::settings::{AgeLook, DwellLook, EdgeLook, FilmLook, Look, MopLook, PrintsLook, ScuffsLook};
+use super::settings::{AgeLook, DwellLook, EdgeLook, FilmLook, Look, MopLook, PrintsLook, ScuffsLook, WetLook};
 use super::wall::{SplashLook, StainLook, WallDustLook, WallLook};
 
 /// Names of the presets, in the order of help texts.
@@ -51,7 +51,9 @@ fn wet() -> Look {
     Look {
         film: FilmLook { colour: SOIL_WET, ..look.film },
         age: AgeLook { stains_per_m2: 0.6, ..look.age },
-        prints: PrintsLook { soil: 4.5, colour: SOIL_WET, ..look.prints },
+        // Rain lays the dust.
+        prints: PrintsLook { soil: 2.0, colour: SOIL_WET, ..look.prints },
+        wet: WetLook { tracks: 3.0, water: 0.9, puddles: 0.3 },
         noise: NoiseLook { middle: Octave { sd: 0.14, ..look.noise.middle }, ..look.noise },
         // Wet floors are mopped more often.
         wall: WallLook { splash: SplashLook { density: 0.13, drips_per_metre: 0.25, ..look.wall.splash }, ..look.wall },

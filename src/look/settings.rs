@@ -44,6 +44,8 @@ options! {
         wear: WearLook = WearLook::default();
         /// Single prints that can be read.
         prints: PrintsLook = PrintsLook::default();
+        /// Rain outside: what wet shoes bring in.
+        wet: WetLook = WetLook::default();
         /// Black marks of heels and toes.
         scuffs: ScuffsLook = ScuffsLook::default();
         /// The dirty line along the skirting, where no mop reaches.
@@ -186,6 +188,18 @@ options! {
 }
 
 options! {
+    /// Rain outside: tracks of wet shoes, from the entrances from outside inwards, and puddles.
+    pub struct WetLook {
+        /// Factor on the dirt of wet tracks; 0: a dry day.
+        tracks: f32 = 0.0, in 0.0..=20.0;
+        /// How much of the water has not dried: it shines, and darkens floors that take it up.
+        water: f32 = 0.0, in 0.0..=1.0;
+        /// Optical density of the line at the edge of puddles, which stand where many wet shoes came.
+        puddles: f32 = 0.0, in 0.0..=3.0;
+    }
+}
+
+options! {
     /// Heel and toe marks.
     pub struct ScuffsLook {
         /// Factor on heel and toe marks.
@@ -244,6 +258,7 @@ impl Look {
         look.wear.strength = 0.0;
         look.prints.soil = 0.0;
         look.prints.every_pass = 0.0;
+        look.wet = WetLook::default();
         look.scuffs.strength = 0.0;
         look.edge.density = 0.0;
         look.dust.density = 0.0;

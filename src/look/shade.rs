@@ -14,6 +14,8 @@ use crate::math::{exp_f32, ln_f32, srgb};
 const DIRT_ROUGHNESS: f32 = 0.8;
 /// Roughness between a clean stripe and all that a mop may leave.
 const MOP_ROUGHNESS: f32 = 0.12;
+/// Roughness of standing water.
+const WATER_ROUGHNESS: f32 = 0.06;
 /// Passes after which the film has the density that the look names.
 const FULL_PASSES: f32 = 1000.0;
 /// Seconds after which the film of standing has the density that the look names.
@@ -83,6 +85,8 @@ pub(super) struct ShadeInput {
     pub edge: Vec<f32>,
     /// exp(-distance / reach) to the nearest wall.
     pub dust: Vec<f32>,
+    /// Share of the texel that water covers.
+    pub water: Vec<f32>,
 }
 
 /// Results of the shader for a run of texels.
@@ -119,8 +123,9 @@ pub(super) struct ShadeOutput {
 
 impl ShadeInput {
     pub fn clear(&mut self, len: usize) {
-        let ShadeInput { ground: _, left, presence, passes, dwell, grind, uneven, soil, scuff, edge, dust } = self;
-        for plane in [left, presence, passes, dwell, grind, uneven, soil, scuff, edge, dust] {
+        let ShadeInput { ground: _, left, presence, passes, dwell, grind, uneven, soil, scuff, edge, dust, water } =
+            self;
+        for plane in [left, presence, passes, dwell, grind, uneven, soil, scuff, edge, dust, water] {
             plane.clear();
             plane.resize(len, 0.0);
         }
@@ -231,7 +236,10 @@ impl FloorShader {
         });
         // Where the mop left more, the gloss is dull: swirls show against the light.
         add2(roughness, &known.left, &known.ground.rough, |left, rough| MOP_ROUGHNESS * (left - 1.0).min(0.6) + rough);
-        roughness.iter_mut().for_each(|roughness| *roughness = roughness.clamp(0.04, 1.0));
+        for (roughness, water) in roughness.iter_mut().zip(&known.water) {
+            let dry = roughness.clamp(0.04, 1.0);
+            *roughness = dry + (WATER_ROUGHNESS.min(dry) - dry) * water;
+        }
     }
 
     /// Computes the colour of dirt over a floor. `total` is a buffer.

@@ -101,6 +101,7 @@ fn people(library: &PatternLibrary) -> Vec<Mark> {
                 stood_s: 0.0,
                 strength: rng.range(0.85, 1.15),
                 soil: (load * 2.68 / (f64::from(step / 2) + 2.68)) as f32,
+                wet: 0.0,
                 wear,
                 variation: rng.next_u64(),
             });
@@ -126,6 +127,7 @@ fn people(library: &PatternLibrary) -> Vec<Mark> {
             stood_s: 0.0,
             strength,
             soil: 0.0,
+            wet: 0.0,
             wear: 0,
             variation: rng.next_u64(),
         };

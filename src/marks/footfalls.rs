@@ -308,7 +308,8 @@ impl ShoeState {
     fn footfall(&mut self, step: &FootPlacement, sole_length_m: f64, inside: bool) -> Mark {
         let variation: u64 = self.rng.random();
         let deviation = f64::from(SplitMix64::new(variation ^ u64::from(self.wear)).normal());
-        let soil = self.shoes.as_mut().filter(|_| inside).map_or(0.0, |shoes| shoes.step(step.left, deviation));
+        let shoes = self.shoes.as_mut().filter(|_| inside);
+        let [soil, wet] = shoes.map_or([0.0; 2], |shoes| shoes.step(step.left, deviation));
         Mark {
             cause: Cause::Sole,
             place_m: step.place_m,
@@ -323,6 +324,7 @@ impl ShoeState {
             stood_s: 0.0,
             strength: step.pressure as f32,
             soil: soil as f32,
+            wet: wet as f32,
             wear: self.wear,
             variation,
         }

@@ -148,6 +148,7 @@ impl HeelMarks {
             stood_s: 0.0,
             strength: density.min(MOST_DENSITY) as f32,
             soil: 0.0,
+            wet: 0.0,
             wear,
             variation: draw.next_u64(),
         })

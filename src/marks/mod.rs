@@ -67,10 +67,19 @@ pub struct Mark {
     pub strength: f32,
     /// Optical density of soil at full coverage; 0 for people without soil on their shoes.
     pub soil: f32,
+    /// The same if it rains outside.
+    pub wet: f32,
     /// Random word of the pair of shoes, expanded into worn spots by the stamp.
     pub wear: u32,
     /// Random word of the mark, expanded into partial prints, blur, noise and bend by the stamp.
     pub variation: u64,
+}
+
+impl Mark {
+    /// The footfall as it would be in rain.
+    pub(crate) fn with_wet_soil(&self) -> Mark {
+        Mark { soil: self.wet, ..*self }
+    }
 }
 
 /// Origin of a person, which decides the soil on the shoes.

@@ -54,6 +54,7 @@ impl Standing {
                 stood_s: stood_s as f32,
                 strength: 0.0,
                 soil: 0.0,
+                wet: 0.0,
                 wear: 0,
                 variation: 0,
             });

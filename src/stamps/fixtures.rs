@@ -71,6 +71,7 @@ pub(crate) fn footfall(place_m: Vec2, angle_rad: f64) -> Mark {
         stood_s: 0.0,
         strength: 1.0,
         soil: 0.0,
+        wet: 0.0,
         wear: 0,
         variation: 1,
     }
@@ -93,6 +94,7 @@ pub(crate) fn crowd(count: usize, width_m: f64, height_m: f64, seed: u64) -> Vec
             mark.wear = rng.next_u64() as u32 % 20;
             if k % 3 == 0 {
                 mark.soil = rng.range(0.0, 0.1);
+                mark.wet = 2.0 * mark.soil;
             }
             if k % 5 == 2 {
                 mark.effort = 1.5;

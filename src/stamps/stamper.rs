@@ -75,6 +75,8 @@ pub(crate) struct MarkBounds {
     pub(crate) cells: TexelBounds,
     /// Whether the print leaves soil.
     pub(crate) soil: bool,
+    /// Whether it does in rain.
+    pub(crate) wet: bool,
 }
 
 impl Stamper {
@@ -168,7 +170,8 @@ impl Stamper {
         }
         placed.grind = self.kernels.place(found, amount * mark.effort.clamp(0.0, MOST_EFFORT));
         let texels = printer.bounds(&pose, &self.grid, twist_reach_m(mark));
-        let touched = MarkBounds { texels, cells: self.kernels.bounds(found), soil: mark.soil > LEAST_DENSITY };
+        let [soil, wet] = [mark.soil, mark.wet].map(|density| density > LEAST_DENSITY);
+        let touched = MarkBounds { texels, cells: self.kernels.bounds(found), soil, wet };
         Some((placed, touched))
     }
 
@@ -191,7 +194,7 @@ impl Stamper {
         }
         placed.kernel = self.kernels.place(found, amount);
         let cells = self.kernels.bounds(found);
-        (placed, MarkBounds { texels: TexelBounds { i0: 0, i1: 0, j0: 0, j1: 0 }, cells, soil: false })
+        (placed, MarkBounds { texels: TexelBounds { i0: 0, i1: 0, j0: 0, j1: 0 }, cells, soil: false, wet: false })
     }
 
     fn place_heel(&self, mark: &Mark, printer: &Printer, walls: &Walls) -> Option<(PlacedMark, MarkBounds)> {
@@ -210,7 +213,7 @@ impl Stamper {
             placed.print_cut = true;
         }
         let texels = printer.bounds(&pose, &self.grid, bend_reach_m(mark));
-        Some((placed, MarkBounds { texels, cells: self.kernels.bounds(none), soil: false }))
+        Some((placed, MarkBounds { texels, cells: self.kernels.bounds(none), soil: false, wet: false }))
     }
 
     /// Share of a sole's print in front of walls.

@@ -118,6 +118,9 @@ fn push_entries(sums: &FloorSums, mark: &Mark, touched: &MarkBounds, number: usi
             if touched.soil {
                 push(Quantity::Soil, sums.grid, touched.texels);
             }
+            if touched.wet {
+                push(Quantity::Wet, sums.grid, touched.texels);
+            }
         }
         Cause::Heel => push(Quantity::Scuff, sums.grid, touched.texels),
         Cause::Hand | Cause::Arm | Cause::Shoulder | Cause::Bag | Cause::Shoe => {}
@@ -157,6 +160,7 @@ fn fine(task: Task, marks: &BatchMarks, sheet: &mut PrintCoverage) {
             Quantity::Presence | Quantity::Dwell => marks.stamper.peak_of_presence(placed),
             Quantity::Grind => marks.stamper.peak_of_grind(placed),
             Quantity::Soil => marks.stamper.peak_of_soil(mark),
+            Quantity::Wet => marks.stamper.peak_of_soil(&mark.with_wet_soil()),
             Quantity::Scuff => marks.stamper.peak_of_scuff(mark),
         };
         match block.cells_for(peak) {
@@ -183,6 +187,7 @@ fn stamp<C: SumCell>(
         Quantity::Presence | Quantity::Dwell => stamper.add_presence(mark, placed, walls, window, cells),
         Quantity::Grind => stamper.add_grind(mark, placed, walls, window, cells),
         Quantity::Soil => stamper.add_soil(mark, placed, walls, window, sheet, cells),
+        Quantity::Wet => stamper.add_soil(&mark.with_wet_soil(), placed, walls, window, sheet, cells),
         Quantity::Scuff => stamper.add_scuff(mark, placed, walls, window, sheet, cells),
     }
 }

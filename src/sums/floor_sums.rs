@@ -14,7 +14,7 @@ use crate::stamps::TexelGrid;
 pub struct FloorSums {
     pub(super) grid: TexelGrid,
     pub(super) presence_grid: TexelGrid,
-    pub(super) planes: [SparsePlane; 6],
+    pub(super) planes: [SparsePlane; Quantity::ALL.len()],
     /// Floor masks in texels.
     pub(super) texel_floor: FloorMasks,
     /// Floor masks in cells of the presence grid.

@@ -17,12 +17,21 @@ pub enum Quantity {
     Dwell,
     /// Wear of turns, stops and starts beyond that of steps straight on, in passes, on the grid of `presence`.
     Grind,
+    /// Optical density of what the shoes of the same people would leave that came in from the rain.
+    Wet,
 }
 
 impl Quantity {
     /// Every quantity.
-    pub const ALL: [Quantity; 6] =
-        [Quantity::Passes, Quantity::Presence, Quantity::Soil, Quantity::Scuff, Quantity::Dwell, Quantity::Grind];
+    pub const ALL: [Quantity; 7] = [
+        Quantity::Passes,
+        Quantity::Presence,
+        Quantity::Soil,
+        Quantity::Scuff,
+        Quantity::Dwell,
+        Quantity::Grind,
+        Quantity::Wet,
+    ];
 
     /// Whether the quantity has the coarse grid of `presence`.
     pub const fn is_coarse(self) -> bool {
@@ -31,14 +40,14 @@ impl Quantity {
 
     /// Fixed-point unit: the sum for one pass or an optical density of 1.
     ///
-    /// 256 for `passes` and `dwell`, 1024 for `presence` and `grind`, 4096 for `soil` and `scuff`. A pass is a print of full coverage at mean
+    /// 256 for `passes` and `dwell`, 1024 for `presence` and `grind`, 4096 for `soil`, `scuff` and `wet`. A pass is a print of full coverage at mean
     /// pressure; an optical density D has the transmittance `exp(-D)`.
     pub const fn one(self) -> u32 {
         match self {
             Quantity::Passes => PASSES_ONE as u32,
             Quantity::Dwell => DWELL_ONE as u32,
             Quantity::Presence | Quantity::Grind => PRESENCE_ONE as u32,
-            Quantity::Soil | Quantity::Scuff => DENSITY_ONE as u32,
+            Quantity::Soil | Quantity::Scuff | Quantity::Wet => DENSITY_ONE as u32,
         }
     }
 
@@ -51,6 +60,7 @@ impl Quantity {
             Quantity::Scuff => "scuff",
             Quantity::Dwell => "dwell",
             Quantity::Grind => "grind",
+            Quantity::Wet => "wet",
         }
     }
 }

@@ -1,5 +1,7 @@
 //! What walls cost that nobody touches.
 
+use std::process::Command;
+
 use trodden::marks::Contact;
 use trodden::patterns::{Cause, PatternLibrary};
 use trodden::plan::FloorPlan;
@@ -47,11 +49,22 @@ fn touch(face: u32, along_m: f64) -> Contact {
     }
 }
 
-/// Both in one test, one after the other: memory is the process's.
+/// Set for the process that has the test to itself.
+const ALONE: &str = "TRODDEN_TEST_ALONE";
+
+/// In a process of its own: what it holds in memory would count the tests beside it.
 #[test]
 fn walls_cost_where_they_are_touched() {
-    ten_kilometres();
-    a_hundred_thousand_pillars();
+    if std::env::var_os(ALONE).is_some() {
+        ten_kilometres();
+        a_hundred_thousand_pillars();
+        return;
+    }
+    let name = "empty_walls::walls_cost_where_they_are_touched";
+    let mut alone = Command::new(std::env::current_exe().unwrap());
+    let output = alone.args(["--exact", name, "--nocapture"]).env(ALONE, "").output().unwrap();
+    let told = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success() && told.contains("1 passed"), "{told}{}", String::from_utf8_lossy(&output.stderr));
 }
 
 fn ten_kilometres() {

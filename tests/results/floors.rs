@@ -265,6 +265,32 @@ fn floors_darken_where_people_stand_and_only_there() {
     assert!((0.0..0.3).contains(&passed_by), "{passed_by:.2}");
 }
 
+/// Entrance from the street, its first 12 m inwards.
+const ENTRANCE: [f64; 4] = [14.5, 0.1, 4.5, 12.0];
+
+#[test]
+fn rain_comes_in_at_the_entrance_and_ends_after_a_few_steps() {
+    let wet = Look::preset("wet").unwrap();
+    let dry = Look { wet: Look::default().wet, ..wet.clone() };
+    let [x, y, width, height] = ENTRANCE.map(|metres| metres * TEXELS_PER_M as f64);
+    let [wet, dry] = [&wet, &dry].map(|look| {
+        let resolver = FloorResolver::new(&STATION.sums, &STATION.walls, look, STATION.people).unwrap();
+        resolver.resolve(x as i64, y as i64, width as usize, height as usize)
+    });
+    let shares = |from_m: f64, to_m: f64| {
+        let texels = || (from_m * TEXELS_PER_M as f64 * width) as usize..(to_m * TEXELS_PER_M as f64 * width) as usize;
+        let lightness = |rgb: [u8; 3]| lab(rgb.map(|byte| f64::from(light(byte))))[0];
+        let darker = texels().filter(|&k| lightness(wet.base_color[k]) < lightness(dry.base_color[k]) - 3.0).count();
+        let shining = texels().filter(|&k| f64::from(wet.orm[k][1]) < 0.8 * f64::from(dry.orm[k][1])).count();
+        [darker, shining].map(|count| count as f64 / texels().len() as f64)
+    };
+    let [door, inside, far] = [shares(0.0, 1.5), shares(3.0, 5.0), shares(9.0, 12.0)];
+    println!("darker and shining: {door:.3?} at the door, {inside:.3?} after 3 to 5 m, {far:.4?} after 9 m");
+    assert!(door.iter().all(|share| (0.1..0.6).contains(share)), "{door:?}");
+    assert!(inside.iter().all(|share| (0.005..0.1).contains(share)), "{inside:?}");
+    assert!(far.iter().all(|&share| share < 0.001), "{far:?}");
+}
+
 /// Wear per pass of a piece of floor, by `floor_wear`, without noise.
 fn wear_per_pass(trodden: &Trodden, [x, y, width, height]: [f64; 4], turns: f32) -> f64 {
     let mut look = Look { total_passes: 100_000, ..Look::default() };

@@ -10,9 +10,11 @@ use crate::stamps::TexelGrid;
 use crate::sums::{FloorSums, Quantity};
 
 /// Quantities in a tile's file, sorted by name.
-const TILE_QUANTITIES: [Quantity; 3] = [Quantity::Passes, Quantity::Scuff, Quantity::Soil];
-/// Quantities in the file of `presence`, sorted by name; bakes of earlier versions have `presence` alone.
+const TILE_QUANTITIES: [Quantity; 4] = [Quantity::Passes, Quantity::Scuff, Quantity::Soil, Quantity::Wet];
+/// Quantities in the file of `presence`, sorted by name.
 const COARSE_QUANTITIES: [Quantity; 3] = [Quantity::Dwell, Quantity::Grind, Quantity::Presence];
+/// Quantities that bakes of earlier versions lack.
+const LATER_QUANTITIES: [Quantity; 3] = [Quantity::Dwell, Quantity::Grind, Quantity::Wet];
 const PRESENCE_FILE: &str = "sums/floor_presence.exr";
 
 /// Writes the exact sums into `sums/`: a file per written tile, and one for `presence` and the other coarse quantities.
@@ -51,14 +53,14 @@ fn entry_of<'a>(tile: &Tile, entries: &'a [TileEntry]) -> Option<&'a TileEntry> 
 
 /// A rectangle of a grid, stored as one image.
 #[derive(Clone, Copy, Debug)]
-struct Area {
+struct Area<'a> {
     /// Lower-left cell.
     at: [u32; 2],
     size: [u32; 2],
-    quantities: &'static [Quantity],
+    quantities: &'a [Quantity],
 }
 
-impl Area {
+impl Area<'_> {
     /// Returns the grid's cell for a cell of the image, counted from the lower left.
     fn cell(&self, [i, j]: [u32; 2]) -> [u32; 2] {
         [self.at[0] + i, self.at[1] + j]
@@ -72,7 +74,7 @@ impl Area {
 /// A rectangle of a floor's sums as an image.
 struct FloorImage<'a> {
     sums: &'a FloorSums,
-    area: Area,
+    area: Area<'a>,
 }
 
 impl SumsImage for FloorImage<'_> {
@@ -103,10 +105,9 @@ pub fn read_sums(bake: &Path, manifest: &Manifest) -> Result<FloorSums, ExportEr
     let floor = &manifest.floor;
     let grid = TexelGrid { texels_per_metre: floor.texels_per_metre, width: floor.width_px, height: floor.height_px };
     let in_manifest = |problem: &str| ExportError::damaged(&bake.join(MANIFEST_NAME), problem);
-    let has_all = COARSE_QUANTITIES.iter().all(|quantity| floor.sums.one.contains_key(quantity.name()));
-    let coarse: &[Quantity] = if has_all { &COARSE_QUANTITIES } else { &[Quantity::Presence] };
-    let here = |quantity: &Quantity| !quantity.is_coarse() || coarse.contains(quantity);
-    for quantity in Quantity::ALL.into_iter().filter(here) {
+    let is_here =
+        |quantity: &Quantity| !LATER_QUANTITIES.contains(quantity) || floor.sums.one.contains_key(quantity.name());
+    for quantity in Quantity::ALL.into_iter().filter(is_here) {
         if floor.sums.one.get(quantity.name()) != Some(&quantity.one()) {
             return Err(in_manifest(&format!("`floor.sums.one.{}` is not {}", quantity.name(), quantity.one())));
         }
@@ -121,22 +122,24 @@ pub fn read_sums(bake: &Path, manifest: &Manifest) -> Result<FloorSums, ExportEr
     if width == 0 || height == 0 {
         return Err(in_manifest("`floor.tile_px` is zero"));
     }
+    let [of_tiles, coarse] =
+        [&TILE_QUANTITIES[..], &COARSE_QUANTITIES].map(|all| all.iter().copied().filter(is_here).collect::<Vec<_>>());
     for entry in &floor.tiles {
         let [i0, j0] = [entry.u.checked_mul(layout.width), entry.v.checked_mul(layout.height)];
         let (Some(i0), Some(j0)) = (i0, j0) else { return Err(in_manifest("a tile lies beyond the floor")) };
-        let area = Area { at: [i0, j0], size: [width, height], quantities: &TILE_QUANTITIES };
+        let area = Area { at: [i0, j0], size: [width, height], quantities: &of_tiles };
         read_area(&entry.sums.within(bake)?, &mut sums, area)?;
     }
     let presence = sums.presence_grid();
     if [presence.width, presence.height] != [floor.sums.presence.width_px, floor.sums.presence.height_px] {
         return Err(in_manifest("`floor.sums.presence` has another size than follows from the floor's"));
     }
-    let area = Area { at: [0, 0], size: [presence.width, presence.height], quantities: coarse };
+    let area = Area { at: [0, 0], size: [presence.width, presence.height], quantities: &coarse };
     read_area(&floor.sums.presence.file.within(bake)?, &mut sums, area)?;
     Ok(sums)
 }
 
-fn read_area(path: &Path, sums: &mut FloorSums, area: Area) -> Result<(), ExportError> {
+fn read_area(path: &Path, sums: &mut FloorSums, area: Area<'_>) -> Result<(), ExportError> {
     read_image(path, area.size, &area.channels(), |channel, at, [width, height], values| {
         let [i0, j0] = area.cell(at);
         sums.add_block(area.quantities[channel], i0, j0, width, height, values);
@@ -226,21 +229,27 @@ mod tests {
     }
 
     #[test]
-    fn sums_of_earlier_versions_have_no_dwell_and_no_grind() {
+    fn sums_of_earlier_versions_lack_later_quantities() {
         let sums = some_sums(TexelGrid { texels_per_metre: 100.0, width: 300, height: 300 });
         let dir = tempfile::tempdir().unwrap();
         let folder = OutputFolder::begin(&dir.path().join("out"), false).unwrap();
         let mut manifest = Manifest { floor: written(&folder, &sums, 512), ..Manifest::default() };
         let one = &mut manifest.floor.sums.one;
-        assert!(one.remove("dwell").is_some() && one.remove("grind").is_some());
+        assert!(LATER_QUANTITIES.iter().all(|quantity| one.remove(quantity.name()).is_some()));
         assert!(read_sums(folder.path(), &manifest).is_err(), "it has channels that the manifest does not name");
+        let file = manifest.floor.tiles[0].sums.within(folder.path()).unwrap();
+        let area = Area { at: [0, 0], size: manifest.floor.tile_px, quantities: &TILE_QUANTITIES[..3] };
+        std::fs::remove_file(&file).unwrap();
+        write_image(folder.create(&manifest.floor.tiles[0].sums).unwrap(), &FloorImage { sums: &sums, area }, &Silent)
+            .unwrap();
         let TexelGrid { width, height, .. } = sums.presence_grid();
         let area = Area { at: [0, 0], size: [width, height], quantities: &[Quantity::Presence] };
         std::fs::remove_file(folder.path().join(PRESENCE_FILE)).unwrap();
         write_image(folder.create(PRESENCE_FILE).unwrap(), &FloorImage { sums: &sums, area }, &Silent).unwrap();
         let back = read_sums(folder.path(), &manifest).unwrap();
         assert!(!back.blocks(Quantity::Presence).is_empty());
-        assert!([Quantity::Dwell, Quantity::Grind].iter().all(|&quantity| back.blocks(quantity).is_empty()));
+        assert!(LATER_QUANTITIES.iter().all(|&quantity| back.blocks(quantity).is_empty()));
+        assert!(!back.blocks(Quantity::Soil).is_empty());
     }
 
     #[test]
