@@ -140,8 +140,6 @@ impl Mopping {
         let swing = u / SWING_M + f64::from(bow) * 0.9 + turn + f64::from(unit(key ^ 5, strip, 1));
         let swing = (swing - swing.floor()) as f32;
         let arc = rise(swing, 0.0, 0.8) * (1.0 - rise(swing, 0.86, 1.0)) - 0.45;
-        // Swings show where the cleaner pressed hard.
-        let arc = arc * (0.2 + 0.8 * rise(pressed, -0.3, 0.6));
         0.55 * own + 0.45 * pressed + 0.9 * line + 0.55 * arc
     }
 }

@@ -84,7 +84,7 @@ fn paper() -> Look {
 fn heavy_wall(wall: WallLook) -> WallLook {
     let denser = |stain: StainLook, by: f32| StainLook { density: by * stain.density, ..stain };
     WallLook {
-        total_passes: 100_000,
+        total_passes: 500_000,
         skin: denser(wall.skin, 1.3),
         cloth: denser(wall.cloth, 1.3),
         bag: denser(wall.bag, 1.25),

@@ -9,10 +9,7 @@ pub mod scene;
 pub mod still;
 
 pub(crate) use animation::Animation;
-pub use animation::{
-    ANIMATION_SIZES_PX, ANIMATION_SPEEDS, AnimationColour, AnimationError, AnimationFormat, AnimationOptions,
-    AnimationReport,
-};
+pub use animation::{AnimationColour, AnimationError, AnimationFormat, AnimationOptions, AnimationReport};
 pub use pictures::{
     Crop, Path, PathSample, draw_paths, draw_plan, draw_unit, encode_picture, render_crop, render_floor, write_previews,
 };

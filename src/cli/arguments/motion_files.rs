@@ -7,7 +7,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use trodden::files::{WholeFile, same_file};
 use trodden::recordings::{FRAME_RATES, RecordForm, RecordingFormat};
-use trodden::show::{ANIMATION_SIZES_PX, ANIMATION_SPEEDS, AnimationColour, AnimationFormat, AnimationOptions};
+use trodden::show::{AnimationColour, AnimationFormat, AnimationOptions};
 use trodden::walk::{MotionOutput, WalkOutputs, WalkReport};
 
 use super::super::{Common, print};
@@ -32,7 +32,7 @@ pub struct MotionFiles {
     animation_speed: Option<f64>,
     /// Longer side of the animation in pixels, 200 to 2000 [default: 960]
     #[arg(long, value_name = "PX", requires = "animation", allow_negative_numbers = true)]
-    #[arg(value_parser = clap::value_parser!(u32).range(ANIMATION_SIZES_PX[0] as i64..=ANIMATION_SIZES_PX[1] as i64))]
+    #[arg(value_parser = clap::value_parser!(u32).range(AnimationOptions::SIZES_PX[0] as i64..=AnimationOptions::SIZES_PX[1] as i64))]
     animation_size: Option<u32>,
     /// What people's colours say [default: speed]
     #[arg(long, value_name = "WHAT", requires = "animation", value_parser = colour())]
@@ -205,7 +205,7 @@ pub fn frame_rate(text: &str) -> Result<f64, String> {
 }
 
 fn speed(text: &str) -> Result<f64, String> {
-    number_within(text, ANIMATION_SPEEDS)
+    number_within(text, AnimationOptions::SPEEDS)
 }
 
 fn colour() -> impl TypedValueParser<Value = AnimationColour> {

@@ -20,7 +20,7 @@ const COUNTED_TO_M: f64 = 1.2;
 /// Where chips sit: most at the height of trolleys and cases, metres.
 const HEIGHTS_M: [f32; 2] = [0.09, 1.25];
 /// Chips for a corner per square metre of optical density that bags and shoes have left, and most of them.
-const PER_DIRT: f32 = 2600.0;
+const PER_DIRT: f32 = 700.0;
 const MOST: f32 = 42.0;
 /// Radius of chips, metres: small ones are more frequent.
 const RADIUS_M: [f32; 2] = [0.0016, 0.013];

@@ -29,7 +29,9 @@ options! {
         /// Of the clean wall; left out: the material's.
         roughness: Option<f32> = None, in 0.0..=1.0, eg "0.85";
         /// How many people have passed since it was painted or washed.
-        total_passes: u64 = 20_000, in 1.0..=1e9;
+        ///
+        /// Walls are painted far less often than floors are cleaned to the ground.
+        total_passes: u64 = 200_000, in 1.0..=1e9;
         /// Factor on simulated touches as they are: the paper's way.
         every_touch: f32 = 0.0, in 0.0..=20.0;
         /// Stains of hands.

@@ -125,6 +125,8 @@ fn jamb(sums: &mut WallSums) {
 pub(super) fn look(material: WallMaterial) -> Look {
     let mut look = Look::default();
     look.wall.material = material;
+    // The people of the sums are the wall's whole history.
+    look.wall.total_passes = u64::from(PEOPLE);
     look
 }
 

@@ -32,7 +32,7 @@ options! {
         ///
         /// In a crowd of fewer than `people`, each person's contact rate is scaled up, at most 64 times. The look
         /// accounts for the number of people that the sums stand for.
-        people: f64 = 20_000.0, in 1.0..=1e9;
+        people: f64 = 60_000.0, in 1.0..=1e9;
         /// How far hands and belongings reach from the body's side.
         reach_m: f64 = 0.7, in 0.1..=1.0, unit "m";
         /// How near shoulders, arms and hips come to touch.

@@ -25,10 +25,10 @@ const ELBOW: f64 = 0.629;
 const HIP: f64 = 0.515;
 /// What of an adult's shoulder rubs along a wall: height at the reference stature, change of it per stature, its standard
 /// deviation, the greatest breadth of the stain and the length of one that is not drawn along, metres; and the stature from which people are adults, metres.
-const RUBS_M: f64 = 1.41;
-const RUBS_BY_STATURE: f64 = 0.20;
-const RUBS_SPREAD_M: f64 = 0.016;
-const RUBS_BREADTH_M: f64 = 0.11;
+const RUBS_M: f64 = 1.395;
+const RUBS_BY_STATURE: f64 = 0.12;
+const RUBS_SPREAD_M: f64 = 0.012;
+const RUBS_BREADTH_M: f64 = 0.08;
 const RUBS_LENGTH_M: f64 = 0.22;
 const ADULT_M: f64 = 1.42;
 /// Heights at which hands push, trail along and hold a corner, and their standard deviation, metres.

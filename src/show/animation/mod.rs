@@ -12,5 +12,5 @@ mod trails;
 mod tests;
 
 pub use error::AnimationError;
-pub use options::{ANIMATION_SIZES_PX, ANIMATION_SPEEDS, AnimationColour, AnimationFormat, AnimationOptions};
+pub use options::{AnimationColour, AnimationFormat, AnimationOptions};
 pub use recorder::{Animation, AnimationReport};

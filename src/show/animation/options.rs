@@ -4,11 +4,6 @@ use serde::{Deserialize, Serialize};
 
 use super::error::AnimationError;
 
-/// Least and largest value of [`AnimationOptions::size_px`].
-pub const ANIMATION_SIZES_PX: [u32; 2] = [200, 2000];
-/// Least and largest value of [`AnimationOptions::speed`].
-pub const ANIMATION_SPEEDS: [f64; 2] = [0.1, 1000.0];
-
 /// Speed, size and colours of an animation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AnimationOptions {
@@ -68,10 +63,15 @@ impl AnimationFormat {
 }
 
 impl AnimationOptions {
+    /// Least and largest value of [`AnimationOptions::size_px`].
+    pub const SIZES_PX: [u32; 2] = [200, 2000];
+    /// Least and largest value of [`AnimationOptions::speed`].
+    pub const SPEEDS: [f64; 2] = [0.1, 1000.0];
+
     /// Checks size and speed against their ranges.
     pub(super) fn check(&self) -> Result<(), AnimationError> {
-        check("size", f64::from(self.size_px), ANIMATION_SIZES_PX.map(f64::from))?;
-        self.speed.map_or(Ok(()), |speed| check("speed", speed, ANIMATION_SPEEDS))
+        check("size", f64::from(self.size_px), Self::SIZES_PX.map(f64::from))?;
+        self.speed.map_or(Ok(()), |speed| check("speed", speed, Self::SPEEDS))
     }
 }
 

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::crowd_view::CrowdView;
 use super::encode::{self, EncoderInput, LabelPatch};
 use super::error::AnimationError;
-use super::options::{ANIMATION_SPEEDS, AnimationFormat, AnimationOptions};
+use super::options::{AnimationFormat, AnimationOptions};
 use super::packed_frames::PackedFrames;
 use super::palette::Palette;
 use super::trails::Trails;
@@ -32,7 +32,7 @@ const ROOM_S: f64 = 3.0;
 pub(super) fn round_speed(expected_s: f64) -> f64 {
     let most_s = MOST_PICTURES as f64 / RATE - ROOM_S;
     let mut speeds = [1.0, 10.0, 100.0].into_iter().flat_map(|tens| SPEEDS.map(|speed| tens * speed));
-    let [_, fastest] = ANIMATION_SPEEDS;
+    let [_, fastest] = AnimationOptions::SPEEDS;
     speeds.find(|speed| expected_s / speed <= most_s).unwrap_or(fastest)
 }
 
