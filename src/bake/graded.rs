@@ -167,7 +167,10 @@ impl Model<'_> {
             SurfaceImages { normal, ..images }
         });
         let walls = self.walls.sheets.iter().enumerate().map(|(k, sheet)| {
-            images(format!("walls_{k}"), [&sheet.basecolor, &sheet.orm], self.walls.reduced.get(k), embed)
+            let normal = with_normal(&sheet.normal).then_some(GlbImage::File(&sheet.normal));
+            let files = [&sheet.basecolor, &sheet.orm].map(String::as_str);
+            let images = images(format!("walls_{k}"), files, self.walls.reduced.get(k), embed);
+            SurfaceImages { normal, ..images }
         });
         let clean_wall = PlainMaterial { colour: clean.base_color, roughness: f32::from(clean.orm[1]) / 255.0 };
         let options = GlbOptions {

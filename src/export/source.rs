@@ -1,5 +1,5 @@
 use super::atlas::{Sheet, Strip};
-use crate::look::{Background, FloorResolver, LAYERS, Layer, ResolvedBlock, WALL_LAYERS, WallResolver};
+use crate::look::{Background, FLAT, FloorResolver, LAYERS, Layer, ResolvedBlock, WALL_LAYERS, WallResolver};
 use crate::math::srgb::to_linear;
 
 /// The texels of a floor or a sheet.
@@ -167,6 +167,11 @@ fn turn(block: &mut ResolvedBlock, width: usize) {
     turned(&mut block.clean, width);
     turned(&mut block.mask, width);
     turned(&mut block.orm, width);
+    turned(&mut block.relief, width);
+    // What pointed right points up, and what pointed up points left.
+    for [_, _, _, x, y, _] in &mut block.relief {
+        (*x, *y) = ((256 - u16::from(*y)).min(255) as u8, *x);
+    }
     for layer in &mut block.layers {
         turned(&mut layer.values, width);
     }
@@ -179,7 +184,7 @@ fn blank(texels: usize, background: Background, layers: &[&'static str]) -> Reso
         clean: vec![background.base_color.map(to_linear); texels],
         mask: vec![background.mask; texels],
         orm: vec![background.orm; texels],
-        relief: Vec::new(),
+        relief: vec![FLAT; texels],
         layers: layers.iter().map(|&name| Layer { name, values: vec![0.0; texels] }).collect(),
     }
 }
@@ -197,6 +202,9 @@ fn paste(part: &ResolvedBlock, seen: &Rect, block: &mut ResolvedBlock, whole: &R
         }
         block.mask[to.clone()].copy_from_slice(&part.mask[from.clone()]);
         block.orm[to.clone()].copy_from_slice(&part.orm[from.clone()]);
+        if !part.relief.is_empty() {
+            block.relief[to.clone()].copy_from_slice(&part.relief[from.clone()]);
+        }
         for (layer, part) in block.layers.iter_mut().zip(&part.layers) {
             layer.values[to.clone()].copy_from_slice(&part.values[from.clone()]);
         }

@@ -8,7 +8,7 @@ use crate::math::srgb::to_linear;
 /// of wear that turns and stops add; the rest are optical densities.
 pub const LAYERS: [&str; 9] = ["passes", "presence", "dwell", "grind", "film", "soil", "scuff", "edge", "dust"];
 
-/// Relief of a flat, unworn floor.
+/// Relief of a flat, unworn surface.
 pub(crate) const FLAT: [u8; 6] = [0, 0, 128, 128, 128, 255];
 
 /// Texel values of a clean surface: those beyond a floor's padding, or the mean of a clean wall.
@@ -36,8 +36,8 @@ pub struct ResolvedBlock {
     pub mask: Vec<[u8; 4]>,
     /// Occlusion, roughness, metallic; linear, roughness dithered.
     pub orm: Vec<[u8; 3]>,
-    /// Of floors: wear, opacity of heel marks 1 - exp(-D), height (128 is the mean surface, 25 a millimetre); and the
-    /// surface's normal, 0 to 255 for -1 to 1, along the texture's right, its upper side, and outward. Empty for walls.
+    /// Wear, opacity of heel marks 1 - exp(-D), height (128 is the mean surface, 25 a millimetre), all of floors only; and
+    /// the surface's normal, 0 to 255 for -1 to 1, along the texture's right, its upper side, and outward.
     pub relief: Vec<[u8; 6]>,
     /// Linear float layers, named in [`super::LAYERS`] or `super::WALL_LAYERS`.
     pub layers: Vec<Layer>,
@@ -78,7 +78,7 @@ impl ResolvedBlock {
         self.clean.resize(texels, [0; 3]);
         self.mask.resize(texels, [0; 4]);
         self.orm.resize(texels, [0; 3]);
-        self.relief.resize(if layers == LAYERS { texels } else { 0 }, FLAT);
+        self.relief.resize(texels, FLAT);
         if !self.layers.iter().map(|layer| layer.name).eq(layers.iter().copied()) {
             self.layers = layers.iter().map(|&name| Layer { name, values: Vec::new() }).collect();
         }
@@ -106,9 +106,7 @@ impl ResolvedBlock {
         self.clean[to..to + len].copy_from_slice(&other.clean[from..from + len]);
         self.mask[to..to + len].copy_from_slice(&other.mask[from..from + len]);
         self.orm[to..to + len].copy_from_slice(&other.orm[from..from + len]);
-        if !self.relief.is_empty() {
-            self.relief[to..to + len].copy_from_slice(&other.relief[from..from + len]);
-        }
+        self.relief[to..to + len].copy_from_slice(&other.relief[from..from + len]);
         for (layer, other) in self.layers.iter_mut().zip(&other.layers) {
             layer.values[to..to + len].copy_from_slice(&other.values[from..from + len]);
         }
@@ -123,15 +121,21 @@ impl ResolvedBlock {
         }
     }
 
+    /// Sets the normal of texel `k` from its slope along the texture's right and its upper side.
+    pub(super) fn set_normal(&mut self, k: usize, [x, y]: [f32; 2]) {
+        let length = (x * x + y * y + 1.0).sqrt();
+        for (byte, part) in self.relief[k][3..].iter_mut().zip([-x, -y, 1.0]) {
+            *byte = (127.5 + 127.5 * part / length).round() as u8;
+        }
+    }
+
     /// Sets texels to the background.
     pub(super) fn clear(&mut self, texels: Range<usize>, background: Background) {
         self.base_color[texels.clone()].fill(background.base_color);
         self.clean[texels.clone()].fill(background.base_color.map(to_linear));
         self.mask[texels.clone()].fill(background.mask);
         self.orm[texels.clone()].fill(background.orm);
-        if !self.relief.is_empty() {
-            self.relief[texels.clone()].fill(FLAT);
-        }
+        self.relief[texels.clone()].fill(FLAT);
         for layer in &mut self.layers {
             layer.values[texels.clone()].fill(0.0);
         }

@@ -309,16 +309,15 @@ fn write(dither: u32, window: &TexelWindow, run: RowRun, buffers: &mut FloorBuff
     }
     let (above, stride) = (in_surface(run, window), window.width + 1);
     let per_m = 0.001 * window.texels_per_metre as f32;
-    for (k, relief) in block.relief[texels.clone()].iter_mut().enumerate() {
+    for k in 0..run.len {
         let height = |back: usize| surface.height[above + k - back];
-        let slope = |back: usize| -per_m * (height(0) - height(back));
-        let lean = surface.lean.each_ref().map(|plane| plane.get(above + k).copied());
+        let slope = |back: usize| per_m * (height(0) - height(back));
+        let lean = surface.lean.each_ref().map(|plane| plane.get(above + k).map(|lean| -lean));
         let (x, y) = (lean[0].unwrap_or_else(|| slope(1)), lean[1].unwrap_or_else(|| slope(stride)));
-        let length = (x * x + y * y + 1.0).sqrt();
         let [worn, marks] = shaded.worn(k);
         let raised = (128.5 + HEIGHT_PER_MM * height(0)).clamp(0.0, 255.0) as u8;
-        let [x, y, z] = [x, y, 1.0].map(|part| (127.5 + 127.5 * part / length).round() as u8);
-        *relief = [worn, marks, raised, x, y, z];
+        block.relief[from + k][..3].copy_from_slice(&[worn, marks, raised]);
+        block.set_normal(from + k, [x, y]);
     }
     block.set_clean(from, &shaded.bare);
     let ShadeInput { passes, presence, dwell, grind, scuff, edge, .. } = &*known;

@@ -49,6 +49,9 @@ pub struct SheetEntry {
     /// Path of the masks of what rubs, 8 bit linear: arms, shoulders, bags. Empty in earlier bakes.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub rub: String,
+    /// Path of the wall's normals, 8 bit linear. Empty in earlier bakes.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub normal: String,
     /// Path of occlusion, roughness, metallic, 8 bit linear.
     pub orm: String,
     /// Path of Unity's mask map, for that target: metallic, occlusion, detail, smoothness.

@@ -32,7 +32,7 @@ impl Target {
         all.filter(move |image| match image {
             Image::MaskMap => self == Target::Unity,
             Image::Rub => covered == Covered::Wall,
-            Image::Wear | Image::Normal(_) => covered == Covered::Floor,
+            Image::Wear => covered == Covered::Floor,
             _ => true,
         })
     }
@@ -138,9 +138,9 @@ impl Target {
             ];
             let wear = rgba.into_iter().zip(packed).map(|(name, (holds, how))| entry("wear", name, holds, how));
             channels.extend(wear);
-            let green = if self == Target::Unreal { "DirectX" } else { "OpenGL" };
-            channels.push(entry("normal", "RGB", "normal of the floor", &format!("0.5 + 0.5 n, {green}")));
         }
+        let green = if self == Target::Unreal { "DirectX" } else { "OpenGL" };
+        channels.push(entry("normal", "RGB", "normal of the surface", &format!("0.5 + 0.5 n, {green}")));
         if covered == Covered::Wall {
             let packed = ["rub of arms", "rub of shoulders", "rub of bags"];
             channels.extend(rgba.into_iter().zip(packed).map(|(name, holds)| entry("rub", name, holds, "1 - exp(-D)")));

@@ -61,7 +61,8 @@ fn godot_imports(manifest: &Manifest) -> Vec<(&str, String)> {
     let tiles = tiles.map(|tile| ([&tile.basecolor, &tile.mask, &tile.passes, &tile.orm], &tile.layers));
     let sheets = manifest.walls.iter().flat_map(|walls| &walls.sheets);
     let sheets = sheets.map(|sheet| ([&sheet.basecolor, &sheet.mask, &sheet.splash, &sheet.orm], &sheet.layers));
-    let rubs = manifest.walls.iter().flat_map(|walls| &walls.sheets).map(|sheet| sheet.rub.as_str());
+    let sheets_too = manifest.walls.iter().flat_map(|walls| &walls.sheets);
+    let rubs = sheets_too.flat_map(|sheet| [sheet.rub.as_str(), sheet.normal.as_str()]);
     let relief = manifest.floor.tiles.iter().flat_map(|tile| [tile.wear.as_str(), tile.normal.as_str()]);
     let mut imports: Vec<_> = rubs
         .chain(relief)

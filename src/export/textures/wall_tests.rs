@@ -62,7 +62,7 @@ impl WallSource for Told<'_> {
             empty: false,
             base_color: texels.iter().map(|&t| base_color(t)).collect(),
             clean: Vec::new(),
-            relief: Vec::new(),
+            relief: vec![[0, 0, 0, 100, 200, 230]; texels.len()],
             mask: texels.iter().map(|&t| mask(t)).collect(),
             orm: texels.iter().map(|&t| orm(t)).collect(),
             layers: LAYERS.iter().enumerate().map(layer).collect(),
@@ -153,6 +153,7 @@ fn every_texel_of_every_face_lies_where_the_manifest_says_and_padding_goes_on() 
         let mut turned = 0;
         for sheet in &baked.entry.sheets {
             let image = masks(&baked, sheet);
+            let normals = image::open(baked.path(&sheet.normal)).unwrap().to_rgb8();
             assert_eq!(image.dimensions(), (sheet.width_px, sheet.height_px));
             for strip in &sheet.strips {
                 turned += usize::from(strip.turned);
@@ -166,6 +167,10 @@ fn every_texel_of_every_face_lies_where_the_manifest_says_and_padding_goes_on() 
                         let shown = told.texel(strip.face, i64::from(strip.first_column) + i, j);
                         let found = image.get_pixel(x as u32, y as u32).0;
                         assert_eq!(found, shown.map_or(BACKGROUND.mask, mask), "{strip:?} at {x}, {y}");
+                        // Up the wall is to the left in a turned strip.
+                        let normal = if strip.turned { [56, 100, 230] } else { [100, 200, 230] };
+                        let found = normals.get_pixel(x as u32, y as u32).0;
+                        assert_eq!(found, shown.map_or([128, 128, 255], |_| normal), "{strip:?} at {x}, {y}");
                     }
                 }
             }

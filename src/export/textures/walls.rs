@@ -63,7 +63,7 @@ pub fn wall_textures(
         };
         let texels = SheetSource::new(source, sheet, atlas.padding_px);
         reduced.extend(writer.write(&texels, &canvas, &|_, _, _: &_| ())?.and_then(|written| written.reduced));
-        sheets.push(entry(index, count, &canvas)?);
+        sheets.push(entry(index, count, &canvas, options.target)?);
     }
     let seconds = BusyTime::seconds;
     Ok(WallTextures {
@@ -89,7 +89,7 @@ fn naming(count: usize) -> Naming {
 }
 
 /// Returns a sheet's manifest entry without its strips.
-fn entry(index: usize, count: usize, canvas: &Canvas) -> Result<SheetEntry, ExportError> {
+fn entry(index: usize, count: usize, canvas: &Canvas, target: Target) -> Result<SheetEntry, ExportError> {
     let file = |image| canvas.files.image(image).unwrap_or_default();
     let (udim, name) = match number(index, count) {
         Number::Udim(udim) => (Some(udim), format!(".{udim}")),
@@ -103,6 +103,7 @@ fn entry(index: usize, count: usize, canvas: &Canvas) -> Result<SheetEntry, Expo
         mask: file(Image::Mask(Covered::Wall)),
         splash: file(Image::LoneMask(Covered::Wall)),
         rub: file(Image::Rub),
+        normal: file(target.normal()),
         orm: file(Image::Orm),
         mask_map: canvas.files.image(Image::MaskMap),
         layers: canvas.files.layers.clone(),

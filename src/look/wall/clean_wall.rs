@@ -29,6 +29,10 @@ const PANEL_SD: f32 = 0.028;
 const TONE_STEP: f32 = 0.0094;
 const ROUGH_STEP: f32 = 0.0118;
 
+/// Thickness of a skirting board, and depth per tone of joints and pores in concrete, millimetres.
+const BOARD_MM: f32 = 10.0;
+const CONCRETE_MM: f32 = 7.0;
+
 /// Lip at the top of a skirting board, which collects dust: height, metres, and tone.
 const LIP_M: f32 = 0.004;
 const LIP_TONE: f32 = 0.82;
@@ -43,6 +47,8 @@ pub(super) struct CleanWall {
     masonry: Option<Masonry>,
     /// Roughness per tone: what stands out is rougher.
     rough_gain: f32,
+    /// Height per tone of the grain, and of joints and pores of concrete, millimetres.
+    grain_mm: f32,
     /// Whether tone and roughness are rounded to steps.
     stepped: bool,
     board_m: f32,
@@ -77,9 +83,20 @@ pub(super) struct CleanWallRow {
     pub rgb: [Vec<f32>; 3],
     /// Added to the roughness, per texel; empty where the wall is even.
     pub rough: Vec<f32>,
+    /// Height over the mean surface, millimetres.
+    pub height: Vec<f32>,
     /// Share of skirting board in the row.
     pub board: f32,
     fine: Vec<f32>,
+}
+
+impl CleanWallRow {
+    /// Drops the first texel of all but the height.
+    pub fn drop_first(&mut self) {
+        for plane in self.rgb.iter_mut().chain([&mut self.rough]).filter(|plane| !plane.is_empty()) {
+            plane.remove(0);
+        }
+    }
 }
 
 impl CleanWall {
@@ -127,6 +144,12 @@ impl CleanWall {
                 WallMaterial::Matt | WallMaterial::Gloss => 1.6,
                 WallMaterial::Tile => 0.0,
                 WallMaterial::Concrete | WallMaterial::Brick => 0.6,
+            },
+            grain_mm: match wall.material {
+                WallMaterial::Matt => 5.0,
+                WallMaterial::Gloss => 7.0,
+                WallMaterial::Brick | WallMaterial::Concrete => 6.0,
+                WallMaterial::Tile => 0.0,
             },
             stepped: matches!(wall.material, WallMaterial::Matt | WallMaterial::Gloss),
             board_m: wall.skirting.height_m,
@@ -192,6 +215,8 @@ impl CleanWallWindow<'_> {
             plane.resize(self.window.width, 0.0);
         }
         out.rough.clear();
+        out.height.clear();
+        out.height.resize(self.window.width, 0.0);
         let j = self.window.j0 + self.row as i64;
         let texel_m = (1.0 / self.window.texels_per_metre) as f32;
         let low_m = j as f32 * texel_m;
@@ -201,6 +226,7 @@ impl CleanWallWindow<'_> {
         }
         if out.board > 0.0 {
             out.rough.iter_mut().for_each(|rough| *rough *= 1.0 - out.board);
+            out.height.iter_mut().for_each(|height| *height += out.board * (BOARD_MM - *height));
             // The lip's share of the row's board.
             let top = self.plaster.board_m;
             let lip = (top.min(low_m + texel_m) - (top - LIP_M).max(low_m)).max(0.0) / (texel_m * out.board);
@@ -212,11 +238,12 @@ impl CleanWallWindow<'_> {
             }
         }
         let wall = (self.plaster.roughness, out.board);
-        self.plaster.frames.paint((&self.window, &self.strip), j, wall, &mut out.rgb, &mut out.rough);
+        let planes = (&mut out.rgb, &mut out.rough, &mut out.height[..]);
+        self.plaster.frames.paint((&self.window, &self.strip), j, wall, planes);
     }
 
     fn read_wall(&self, j: i64, out: &mut CleanWallRow) {
-        let CleanWallRow { rgb, rough, fine, .. } = out;
+        let CleanWallRow { rgb, rough, height, fine, .. } = out;
         if let Some(image) = &self.plaster.image {
             image.read_row(self.window.i0, j, rgb);
             return;
@@ -228,6 +255,7 @@ impl CleanWallWindow<'_> {
             first.add_to(0, fine);
             tone.copy_from_slice(fine);
             others.iter().for_each(|field| field.add_to(0, tone));
+            height.iter_mut().zip(&*fine).for_each(|(height, fine)| *height = self.plaster.grain_mm * fine);
             if self.plaster.rough_gain > 0.0 {
                 rough.extend(fine.iter().map(|fine| self.plaster.rough_gain * fine));
             }
@@ -236,11 +264,15 @@ impl CleanWallWindow<'_> {
             field.add_to(0, tint);
         }
         if let Some(panels) = &self.plaster.panels {
+            // Joints, holes and pores are as deep as they are dark.
+            let deep = CONCRETE_MM;
+            height.iter_mut().zip(&*tone).for_each(|(height, tone)| *height -= deep * tone);
             panels.add_row(&self.window, &self.strip, j, tone);
             for (tone, pores) in tone.iter_mut().zip(self.pores.get(self.row * self.window.width..).unwrap_or_default())
             {
                 *tone -= panels.gain * pores;
             }
+            height.iter_mut().zip(&*tone).for_each(|(height, tone)| *height += deep * tone);
         }
         // Paint in steps of one byte: files of it compress.
         let stepped = self.plaster.stepped;
@@ -259,7 +291,7 @@ impl CleanWallWindow<'_> {
         if let Some(masonry) = &self.plaster.masonry {
             rough.clear();
             rough.resize(self.window.width, 0.0);
-            masonry.lay((&self.window, &self.strip), j, fine, rgb, rough);
+            masonry.lay((&self.window, &self.strip), j, fine, (rgb, rough, height));
         }
     }
 }

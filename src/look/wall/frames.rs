@@ -13,6 +13,9 @@ const ROUGHNESS: f32 = 0.38;
 /// Joint between frame and wall: width, metres, and share of light that it absorbs.
 const JOINT_M: f32 = 0.004;
 const JOINT_DEPTH: f32 = 0.45;
+/// Thickness of a frame, and how deep its joint is per share of light, millimetres.
+const FRAME_MM: f32 = 8.0;
+const JOINT_MM: f32 = 9.0;
 
 /// A frame's side on a face.
 #[derive(Clone, Copy, Debug)]
@@ -58,8 +61,7 @@ impl Frames {
         (window, strip): (&TexelWindow, &FaceStrip),
         j: i64,
         (roughness, board): (f32, f32),
-        rgb: &mut [Vec<f32>; 3],
-        rough: &mut Vec<f32>,
+        (rgb, rough, height): (&mut [Vec<f32>; 3], &mut Vec<f32>, &mut [f32]),
     ) {
         let texel_m = (1.0 / window.texels_per_metre) as f32;
         let low_m = j as f32 * texel_m;
@@ -74,6 +76,7 @@ impl Frames {
                 let frame = up * ((from_side_m as f32) / texel_m + 0.5).clamp(0.0, 1.0);
                 let joint =
                     JOINT_DEPTH * (JOINT_M / texel_m).min(1.0) * (1.0 - edge_m / JOINT_M.max(texel_m)).clamp(0.0, 1.0);
+                height[k] += frame * (FRAME_MM - JOINT_MM * joint - height[k]);
                 for (plane, colour) in rgb.iter_mut().zip(self.colour) {
                     plane[k] += frame * (colour * (1.0 - joint) - plane[k]);
                 }

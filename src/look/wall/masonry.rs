@@ -12,6 +12,8 @@ const TILED_M: f64 = 1.5;
 /// Colour and roughness of the paint above tiles.
 const PAINT: Srgb8 = [228, 227, 223];
 const PAINT_ROUGHNESS: f32 = 0.85;
+/// Height of its grain per tone, millimetres.
+const PAINT_MM: f32 = 8.0;
 /// Roughness of mortar and of joints between tiles.
 const JOINT_ROUGHNESS: f32 = 0.93;
 
@@ -32,6 +34,9 @@ pub(super) struct Masonry {
     /// How much edges of pieces wander, metres.
     ragged_m: f32,
     roughness: f32,
+    /// How far joints lie back, and deviation of the height between pieces, millimetres.
+    joint_mm: f32,
+    height_sd_mm: f32,
     /// Where the pieces end, metres.
     top_m: f64,
 }
@@ -49,6 +54,8 @@ impl Masonry {
             tint_sd: 0.045,
             ragged_m: 0.0011,
             roughness: 0.84,
+            joint_mm: 4.0,
+            height_sd_mm: 0.7,
             top_m: f64::INFINITY,
         };
         match material {
@@ -62,6 +69,8 @@ impl Masonry {
                 tint_sd: 0.004,
                 ragged_m: 0.0,
                 roughness: 0.16,
+                joint_mm: 0.8,
+                height_sd_mm: 0.15,
                 top_m: TILED_M,
                 ..bricks
             }),
@@ -69,15 +78,14 @@ impl Masonry {
         }
     }
 
-    /// Lays the pieces over row `j`: changes the base colour, and adds to the roughness. `fine` is grain in the row, which
-    /// makes edges ragged.
+    /// Lays the pieces over row `j`: changes the base colour, and adds to the roughness and the height. `fine` is grain in
+    /// the row, which makes edges ragged.
     pub fn lay(
         &self,
         (window, strip): (&TexelWindow, &FaceStrip),
         j: i64,
         fine: &[f32],
-        rgb: &mut [Vec<f32>; 3],
-        rough: &mut [f32],
+        (rgb, rough, height): (&mut [Vec<f32>; 3], &mut [f32], &mut [f32]),
     ) {
         let texel_m = 1.0 / window.texels_per_metre;
         let up = (j as f64 + 0.5) * texel_m;
@@ -87,6 +95,7 @@ impl Masonry {
                 plane.iter_mut().zip(fine).for_each(|(value, fine)| *value = paint * (1.0 + 0.3 * fine));
             }
             rough.fill(PAINT_ROUGHNESS - self.roughness);
+            height.iter_mut().zip(fine).for_each(|(height, fine)| *height = PAINT_MM * fine);
             return;
         }
         let length_m = f64::from(strip.width) * texel_m;
@@ -119,6 +128,7 @@ impl Masonry {
                 let value = plane[k] * piece;
                 plane[k] = value + joint * (mortar * (1.0 + 2.0 * fine) - value);
             }
+            height[k] += self.gain * self.height_sd_mm * draw(3) * (1.0 - joint) - self.joint_mm * joint;
             rough[k] = joint * (JOINT_ROUGHNESS - self.roughness) + 0.5 * fine;
         }
     }

@@ -29,6 +29,8 @@ use crate::walls::{Doorway, Walls};
 struct WallBuffers {
     known: WallShadeInput,
     shaded: WallShadeOutput,
+    /// Heights of the row below, millimetres.
+    below: Vec<f32>,
 }
 
 thread_local! {
@@ -112,6 +114,7 @@ impl<'a> WallPainter<'a> {
                 return false;
             }
             let mut any = !(even && all_wall);
+            buffers.below = layout.plaster_below(&mut buffers.known);
             for row in 0..window.height {
                 layout.begin_row(row);
                 layout.gather(&self.law, window, row, buffers);
@@ -130,7 +133,7 @@ impl<'a> WallPainter<'a> {
         buffers: &mut WallBuffers,
         block: &mut ResolvedBlock,
     ) {
-        let WallBuffers { known, shaded } = buffers;
+        let WallBuffers { known, shaded, below } = buffers;
         let texels = row * window.width..(row + 1) * window.width;
         let mut bytes = Bytes {
             base_color: &mut block.base_color[texels.clone()],
@@ -150,11 +153,24 @@ impl<'a> WallPainter<'a> {
             shaded.write_clean(&mut bytes);
         }
         block.set_clean(texels.start, &known.plaster.rgb);
+        let per_m = 0.001 * window.texels_per_metre as f32;
+        let height = &known.plaster.height;
+        for (k, own) in height.iter().enumerate().skip(1) {
+            let slopes = [own - height[k - 1], own - below[k]].map(|step_mm| per_m * step_mm);
+            block.set_normal(texels.start + k - 1, slopes);
+        }
+        std::mem::swap(below, &mut known.plaster.height);
         for (layer, plane) in block.layers.iter_mut().zip(&shaded.density) {
             let values = &mut layer.values[texels.clone()];
             if plane.is_empty() { values.fill(0.0) } else { values.copy_from_slice(plane) }
         }
     }
+}
+
+/// A texel more to the left and below: slopes are differences to those.
+fn with_below(window: &TexelWindow) -> TexelWindow {
+    let TexelWindow { i0, j0, width, height, .. } = *window;
+    TexelWindow { i0: i0 - 1, j0: j0 - 1, width: width + 1, height: height + 1, ..*window }
 }
 
 /// Returns the noises of the wall's three octaves.
@@ -181,7 +197,7 @@ impl<'a> WallLayout<'a> {
             splash.is_some() || !chips.is_empty() || touches.iter().any(Option::is_some) || law.dust_from(low_m as f32);
         let noise = |noise: &Noise| noise.over_strip(window, strip.salt, strip.width, strip.closed);
         WallLayout {
-            plaster: painter.plaster.over(window, strip),
+            plaster: painter.plaster.over(&with_below(window), strip),
             touches,
             splash,
             chips,
@@ -190,8 +206,15 @@ impl<'a> WallLayout<'a> {
         }
     }
 
+    /// The heights of the row below the window.
+    fn plaster_below(&mut self, known: &mut WallShadeInput) -> Vec<f32> {
+        self.plaster.begin_row(0);
+        self.plaster.read(&mut known.plaster);
+        std::mem::take(&mut known.plaster.height)
+    }
+
     fn begin_row(&mut self, row: usize) {
-        self.plaster.begin_row(row);
+        self.plaster.begin_row(row + 1);
         for touches in self.touches.iter_mut().flatten() {
             touches.begin_row(row);
         }
@@ -207,6 +230,7 @@ impl<'a> WallLayout<'a> {
     fn gather(&self, law: &WallShader, window: &TexelWindow, row: usize, buffers: &mut WallBuffers) {
         let WallBuffers { known, .. } = buffers;
         self.plaster.read(&mut known.plaster);
+        known.plaster.drop_first();
         known.height_m = ((window.j0 + row as i64) as f64 + 0.5) as f32 / window.texels_per_metre as f32;
         let unit = 1.0 / DENSITY_ONE;
         for ((touches, single), expected) in self.touches.iter().zip(&mut known.single).zip(&mut known.expected) {
