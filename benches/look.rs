@@ -43,6 +43,7 @@ fn hall() -> (Walls, FloorSums) {
             forefoot: 0.0,
             effort: 0.0,
             stood_s: 0.0,
+            wheel_m: 0.0,
             strength: 1.0,
             soil: if n % 10 == 0 { 0.02 } else { 0.0 },
             wear: n,

@@ -45,6 +45,7 @@ fn footfalls(library: &PatternLibrary, count: usize, soil: f32) -> Vec<Mark> {
                 forefoot: 0.0,
                 effort: 0.0,
                 stood_s: 0.0,
+                wheel_m: 0.0,
                 strength: 1.0,
                 soil: if k % 3 == 0 { soil } else { 0.0 },
                 wear: k as u32 % 300,

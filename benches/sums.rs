@@ -70,6 +70,7 @@ fn walks(library: &PatternLibrary, count: usize) -> Vec<Mark> {
                 forefoot: 0.0,
                 effort: 0.0,
                 stood_s: 0.0,
+                wheel_m: 0.0,
                 strength: rng.range(0.9, 1.1),
                 soil: (load * 2.68 / (step as f64 * 0.5 + 2.68)) as f32,
                 wear: person,

@@ -69,7 +69,7 @@ impl Walk<'_, '_, '_> {
             watch.busy(Stage::Marks, || self.footfalls.push(&self.frame, &mut marks.footfalls));
             self.paths.push(&self.frame);
         }
-        self.footfalls.take_standing(&mut marks.footfalls);
+        self.footfalls.take_lasting(&mut marks.footfalls);
         if !self.plan.painted.marks.is_empty() {
             marks.footfalls.retain(|mark| {
                 let half = mark.heading * (0.5 * f64::from(mark.length_m));

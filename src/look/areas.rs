@@ -1,6 +1,7 @@
 //! Parts of the floor with a material of their own.
 
 use std::cell::RefCell;
+use std::sync::Arc;
 
 use super::block::{LAYERS, ResolvedBlock};
 use super::error::LookError;
@@ -44,7 +45,7 @@ impl<'a> FloorArea<'a> {
     /// Prepares area `number`, from 1.
     pub fn new(
         (number, area): (usize, &AreaLook),
-        sums: &'a FloorSums,
+        sums: (&'a FloorSums, &Arc<FloorSums>),
         walls: &'a Walls,
         look: &Look,
         simulated_people: u32,

@@ -5,8 +5,9 @@ use crate::math::srgb::to_linear;
 /// Names of a floor block's float layers, in order.
 ///
 /// `passes` and `presence` count the simulated people's footfalls, `dwell` the seconds that they stood, `grind` the passes
-/// of wear that turns and stops add; the rest are optical densities.
-pub const LAYERS: [&str; 9] = ["passes", "presence", "dwell", "grind", "film", "soil", "scuff", "edge", "dust"];
+/// of wear that turns and stops add, `wheels` their wheels; the rest are optical densities. `film` has the lines of wheels.
+pub const LAYERS: [&str; 10] =
+    ["passes", "presence", "dwell", "grind", "wheels", "film", "soil", "scuff", "edge", "dust"];
 
 /// Relief of a flat, unworn surface.
 pub(crate) const FLAT: [u8; 6] = [0, 0, 128, 128, 128, 255];

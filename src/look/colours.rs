@@ -9,6 +9,8 @@ pub const SOIL_DRY: Srgb8 = [100, 89, 70];
 pub const SOIL_WET: Srgb8 = [80, 69, 52];
 /// Black rubber of heels.
 pub const RUBBER: Srgb8 = [38, 39, 43];
+/// What wheels leave: dust with the rubber of their treads.
+pub const WHEELS: Srgb8 = [106, 99, 88];
 /// Skin grease with dirt, yellow-grey, from hands.
 pub const SKIN: Srgb8 = [121, 103, 74];
 /// Dirt from sleeves and shoulders.

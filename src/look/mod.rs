@@ -60,7 +60,7 @@ pub(crate) use presets::LOOK_PRESETS;
 pub use resolve::FloorResolver;
 pub use settings::{
     AgeLook, AreaLook, DustLook, DwellLook, EdgeLook, FilmLook, FloorLook, Look, MopLook, PrintsLook, ScuffsLook,
-    WearLook, WetLook,
+    WearLook, WetLook, WheelsLook,
 };
 pub(crate) use wall::WALL_LAYERS;
 pub(crate) use wall::frames::WIDEST_FRAMED_M;

@@ -1,6 +1,7 @@
 //! Shades the texels of a window of the floor, row by row.
 
 use std::cell::RefCell;
+use std::sync::Arc;
 
 use super::block::{Background, ResolvedBlock};
 use super::bytes::Bytes;
@@ -30,6 +31,7 @@ struct FloorBuffers {
     passes: Vec<u32>,
     soil: Vec<u32>,
     scuff: Vec<u32>,
+    wheels: Vec<u32>,
     surface: SurfacePlanes,
     spots: Spots,
     known: ShadeInput,
@@ -43,8 +45,8 @@ thread_local! {
 
 /// Fields that are evaluated row by row.
 struct FloorLayout {
-    /// Presence, standing time, and effort beyond straight steps; `None` where there is none.
-    traffic: [Option<PassesField>; 3],
+    /// Presence, standing time, effort beyond straight steps, and wheels; `None` where there is none.
+    traffic: [Option<PassesField>; 4],
     noise: Vec<NoiseField>,
     mopping: Option<SplineLattice>,
     dust: Option<SplineLattice>,
@@ -56,6 +58,9 @@ const MOST_MARKS: f32 = 0.5;
 
 /// Standard deviation of the Gaussian that evens out where people stood, metres: the simulated ones stand for many.
 const STANDING_SPREAD_M: f64 = 0.1;
+
+/// The same for wheels: those who were not simulated rolled beside.
+const ROLLING_SPREAD_M: f64 = 0.25;
 
 /// Occlusion at the foot of a wall, and in a joint.
 const CORNER_SHADE: f32 = 0.45;
@@ -74,6 +79,8 @@ struct RowRun {
 /// A floor's sums, and the look that turns them into texels.
 pub(super) struct FloorPainter<'a> {
     pub sums: &'a FloorSums,
+    /// Wheels in coarse cells, see [`passes::coarse_wheels`].
+    rolled: Arc<FloorSums>,
     pub walls: &'a Walls,
     pub background: Background,
     look: Look,
@@ -91,7 +98,7 @@ pub(super) struct FloorPainter<'a> {
 
 impl<'a> FloorPainter<'a> {
     pub fn new(
-        sums: &'a FloorSums,
+        (sums, rolled): (&'a FloorSums, &Arc<FloorSums>),
         walls: &'a Walls,
         look: &Look,
         simulated_people: u32,
@@ -110,6 +117,7 @@ impl<'a> FloorPainter<'a> {
         let noise = film_noise(look);
         Ok(FloorPainter {
             sums,
+            rolled: Arc::clone(rolled),
             walls,
             law: FloorShader::new(look, &properties, simulated_people, &noise, texels_per_metre),
             noise,
@@ -143,11 +151,12 @@ impl<'a> FloorPainter<'a> {
     ) {
         let mut layout = FloorLayout {
             traffic: [
-                (Quantity::Presence, self.spread_m),
-                (Quantity::Dwell, self.spread_m.max(STANDING_SPREAD_M)),
-                (Quantity::Grind, self.spread_m),
+                (self.sums, Quantity::Presence, self.spread_m),
+                (self.sums, Quantity::Dwell, self.spread_m.max(STANDING_SPREAD_M)),
+                (self.sums, Quantity::Grind, self.spread_m),
+                (&*self.rolled, passes::COARSE_WHEELS, self.spread_m.max(ROLLING_SPREAD_M)),
             ]
-            .map(|(quantity, spread_m)| PassesField::over(&window, (self.sums, quantity), self.walls, spread_m)),
+            .map(|(sums, quantity, spread_m)| PassesField::over(&window, (sums, quantity), self.walls, spread_m)),
             noise: self.noise.iter().map(|noise| noise.over(&window)).collect(),
             mopping: self.mopping.as_ref().map(|mopping| mopping.over(&window)),
             dust: dust::over(&window, self.walls, &self.look.dust),
@@ -157,6 +166,7 @@ impl<'a> FloorPainter<'a> {
         passes::read(self.sums, Quantity::Passes, &window, &mut buffers.passes);
         passes::read(self.sums, Quantity::Soil, &window, &mut buffers.soil);
         passes::read(self.sums, Quantity::Scuff, &window, &mut buffers.scuff);
+        passes::read(self.sums, Quantity::Wheels, &window, &mut buffers.wheels);
         // A texel more to the left and below: slopes are differences to those.
         let around = TexelWindow {
             i0: window.i0 - 1,
@@ -228,7 +238,7 @@ impl FloorLayout {
     /// Collects the shader's inputs for a run of the current row.
     fn gather(&self, painter: &FloorPainter<'_>, window: &TexelWindow, run: RowRun, buffers: &mut FloorBuffers) {
         let FloorPainter { look, properties, .. } = painter;
-        let FloorBuffers { edge, passes, soil, scuff, surface, spots, known, row, .. } = buffers;
+        let FloorBuffers { edge, passes, soil, scuff, wheels, surface, spots, known, row, .. } = buffers;
         known.clear(run.len);
         let from = run.row * window.width + run.start;
         let scaled = |sums: &[u32], quantity: Quantity, factor: f32, out: &mut [f32]| {
@@ -238,12 +248,14 @@ impl FloorLayout {
                 *out = sum as f32 * unit;
             }
         };
-        for (field, out) in self.traffic.iter().zip([&mut known.presence, &mut known.dwell, &mut known.grind]) {
+        let planes = [&mut known.presence, &mut known.dwell, &mut known.grind, &mut known.rolled];
+        for (field, out) in self.traffic.iter().zip(planes) {
             if let Some(field) = field {
                 field.values(run.start, out, row);
             }
         }
         scaled(passes, Quantity::Passes, 1.0, &mut known.passes);
+        scaled(wheels, Quantity::Wheels, 1.0, &mut known.wheels);
         scaled(soil, Quantity::Soil, look.prints.soil * properties.prints, &mut known.soil);
         scaled(scuff, Quantity::Scuff, look.scuffs.strength * properties.scuffs, &mut known.scuff);
         for (out, edge) in known.edge.iter_mut().zip(edge.get(from..).unwrap_or_default()) {
@@ -320,8 +332,8 @@ fn write(dither: u32, window: &TexelWindow, run: RowRun, buffers: &mut FloorBuff
         block.set_normal(from + k, [x, y]);
     }
     block.set_clean(from, &shaded.bare);
-    let ShadeInput { passes, presence, dwell, grind, scuff, edge, .. } = &*known;
-    let planes = [passes, presence, dwell, grind, &shaded.film, &shaded.soil, scuff, edge, &shaded.dust];
+    let ShadeInput { passes, presence, dwell, grind, wheels, scuff, edge, .. } = &*known;
+    let planes = [passes, presence, dwell, grind, wheels, &shaded.film, &shaded.soil, scuff, edge, &shaded.dust];
     for (layer, plane) in block.layers.iter_mut().zip(planes) {
         layer.values[texels.clone()].copy_from_slice(plane);
     }

@@ -3,7 +3,7 @@
 use super::lattice::{SplineAxis, SplineLattice, TexelWindow};
 use crate::math;
 use crate::stamps::TexelGrid;
-use crate::sums::{FloorSums, Quantity};
+use crate::sums::{BLOCK, FloorSums, Quantity};
 use crate::walls::Walls;
 
 /// A quantity of the simulated people over one window, in coarse cells.
@@ -68,6 +68,34 @@ impl PassesField {
             }
         }
     }
+}
+
+/// The quantity in whose place [`coarse_wheels`] has the wheels.
+pub(super) const COARSE_WHEELS: Quantity = Quantity::Presence;
+
+/// The mean of `wheels` in each cell of the coarse grid, as that quantity: the sums hold it in texels alone.
+pub(super) fn coarse_wheels(sums: &FloorSums) -> FloorSums {
+    let mut coarse = FloorSums::new(sums.grid());
+    let side = sums.grid().texels_per_presence_cell();
+    let unit = f64::from(COARSE_WHEELS.one()) / f64::from(Quantity::Wheels.one()) / (f64::from(side) * f64::from(side));
+    let mut texels = vec![0; BLOCK * BLOCK];
+    for [i0, j0] in sums.blocks(Quantity::Wheels) {
+        sums.read(Quantity::Wheels, i0, j0, BLOCK, BLOCK, &mut texels);
+        // Cells that the block shares with another one get a part from each.
+        let cells_of = |k: u32| (k / side, ((k + BLOCK as u32 - 1) / side - k / side + 1) as usize);
+        let ((left, columns), (low, rows)) = (cells_of(i0), cells_of(j0));
+        let mut cells = vec![0u64; columns * rows];
+        for (row, j) in texels.chunks_exact(BLOCK).zip(j0..) {
+            let cells = &mut cells[(j / side - low) as usize * columns..][..columns];
+            for (&sum, i) in row.iter().zip(i0..).filter(|(sum, _)| **sum > 0) {
+                cells[(i / side - left) as usize] += u64::from(sum);
+            }
+        }
+        let means: Vec<u32> =
+            cells.into_iter().map(|sum| (sum as f64 * unit + 0.5).min(f64::from(u32::MAX)) as u32).collect();
+        coarse.add_block(COARSE_WHEELS, left, low, columns, rows, &means);
+    }
+    coarse
 }
 
 /// A quantity in the coarse cells of a window: the mean of each cell's texels; `None` if it is zero.

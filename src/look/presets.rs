@@ -1,6 +1,8 @@
 use super::colours::SOIL_WET;
 use super::octaves::{NoiseLook, Octave};
-use super::settings::{AgeLook, DwellLook, EdgeLook, FilmLook, Look, MopLook, PrintsLook, ScuffsLook, WetLook};
+use super::settings::{
+    AgeLook, DwellLook, EdgeLook, FilmLook, Look, MopLook, PrintsLook, ScuffsLook, WetLook, WheelsLook,
+};
 use super::wall::{SplashLook, StainLook, WallDustLook, WallLook};
 
 /// Names of the presets, in the order of help texts.
@@ -33,6 +35,7 @@ fn heavy() -> Look {
         film: FilmLook { density: 0.92, ..look.film },
         age: AgeLook { density: 0.13, stains_per_m2: 0.5, gum_per_m2: 0.6, rubs_per_m2: 36.0, grit_per_m2: 20.0 },
         dwell: DwellLook { density: 0.26, ..look.dwell },
+        wheels: WheelsLook { density: 0.28, ..look.wheels },
         mop: MopLook { takes: 0.2, unevenness: 1.3, ..look.mop },
         scuffs: ScuffsLook { strength: 2.2, ..look.scuffs },
         noise: NoiseLook {
@@ -65,6 +68,7 @@ fn paper() -> Look {
     let mut look = Look { total_passes: 1, ..Look::default() };
     look.film.density = 0.0;
     look.dwell.density = 0.0;
+    look.wheels.density = 0.0;
     look.age = AgeLook::none();
     look.mop.takes = 0.0;
     look.wear.strength = 0.0;

@@ -1,4 +1,5 @@
 use std::cell::RefCell;
+use std::sync::Arc;
 
 use super::areas::FloorArea;
 use super::block::{Background, LAYERS, ResolvedBlock};
@@ -7,6 +8,7 @@ use super::error::LookError;
 use super::lattice::TexelWindow;
 use super::padding::{PADDING, sources};
 use super::paint::FloorPainter;
+use super::passes::coarse_wheels;
 use super::settings::Look;
 use crate::sums::FloorSums;
 use crate::walls::Walls;
@@ -54,11 +56,12 @@ impl<'a> FloorResolver<'a> {
             return Err(LookError::NoPeople { total_passes: look.total_passes });
         }
         let grid = sums.grid();
+        let rolled = Arc::new(coarse_wheels(sums));
         Ok(FloorResolver {
-            painter: FloorPainter::new(sums, walls, look, simulated_people)?,
+            painter: FloorPainter::new((sums, &rolled), walls, look, simulated_people)?,
             areas: (1..)
                 .zip(&look.area)
-                .map(|area| FloorArea::new(area, sums, walls, look, simulated_people))
+                .map(|area| FloorArea::new(area, (sums, &rolled), walls, look, simulated_people))
                 .collect::<Result<_, _>>()?,
             coarse: CoarseFloor::of(walls, grid.texels_per_metre, grid.width, grid.height),
         })

@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use super::colours::{DUST, RUBBER, SOIL_DRY, SOIL_WET};
+use super::colours::{DUST, RUBBER, SOIL_DRY, SOIL_WET, WHEELS};
 use super::material::Material;
 use super::octaves::NoiseLook;
 use super::wall::WallLook;
@@ -36,6 +36,8 @@ options! {
         film: FilmLook = FilmLook::default();
         /// What people leave where they stand: in lines, at counters and machines, by benches.
         dwell: DwellLook = DwellLook::default();
+        /// Lines of cases on wheels, trolleys, prams and wheelchairs.
+        wheels: WheelsLook = WheelsLook::default();
         /// What lies everywhere, also where nobody walks.
         age: AgeLook = AgeLook::default();
         /// What cleaning takes and leaves.
@@ -134,6 +136,18 @@ options! {
         per_second: f32 = 0.01, in 0.0..=1.0;
         /// Factor on gum, drips and rings of cups where people stand; 0 leaves them to passes.
         gum: f32 = 16.0, in 0.0..=100.0;
+    }
+}
+
+options! {
+    /// Wheels: D = density (1 - exp(-per_wheel n)) for n wheels. One leaves a line; the lines of many are a soft band.
+    pub struct WheelsLook {
+        /// Optical density where many wheels have rolled; 0: none.
+        density: f32 = 0.22, in 0.0..=3.0;
+        /// What a wheel adds, of what is still missing.
+        per_wheel: f32 = 0.2, in 0.0..=1.0;
+        /// Colour, sRGB.
+        colour: Srgb8 = WHEELS;
     }
 }
 
@@ -254,6 +268,7 @@ impl Look {
         let mut look = Look { wall: self.wall.clean(), ..self.clone() };
         look.film.density = 0.0;
         look.dwell.density = 0.0;
+        look.wheels.density = 0.0;
         look.age = AgeLook::none();
         look.wear.strength = 0.0;
         look.prints.soil = 0.0;

@@ -20,6 +20,8 @@ const WATER_ROUGHNESS: f32 = 0.06;
 const FULL_PASSES: f32 = 1000.0;
 /// Seconds after which the film of standing has the density that the look names.
 const FULL_SECONDS: f32 = 1000.0;
+/// Share of the lines of all wheels that soles and mops have not worn off.
+const LINES_LEFT: f32 = 0.4;
 /// The mask of passes is full at 10 000: ln(1 + 300) / ln(1 + 30) e-folds with the film's usual rate.
 const MASK_PER_TRODDEN: f32 = 0.6;
 
@@ -38,6 +40,9 @@ pub(super) struct FloorShader {
     /// Film per e-fold of standing time, and its rate per second of the simulated people.
     dwell: f32,
     per_second: f32,
+    /// Film of many wheels, and the share that each adds.
+    wheels: f32,
+    per_wheel: f32,
     age: f32,
     joint_film: [f32; 2],
     every_pass: f32,
@@ -51,8 +56,8 @@ pub(super) struct FloorShader {
     /// Logarithm of the divisor that gives the lognormal noise a mean of 1.
     mean_log: f32,
     roughness: [f32; 2],
-    /// Kinds of dirt: film, prints, scuffs, edge, dust.
-    kinds: [Dirt; 5],
+    /// Kinds of dirt: film, prints, scuffs, edge, dust, wheels.
+    kinds: [Dirt; 6],
     darkest: f32,
 }
 
@@ -77,6 +82,9 @@ pub(super) struct ShadeInput {
     /// Seconds that they stood, and passes of wear that turns and stops add.
     pub dwell: Vec<f32>,
     pub grind: Vec<f32>,
+    /// Wheels that rolled over: expected, and counted.
+    pub rolled: Vec<f32>,
+    pub wheels: Vec<f32>,
     /// Sum of the noises.
     pub uneven: Vec<f32>,
     /// Optical densities, including factors of look and material.
@@ -92,8 +100,9 @@ pub(super) struct ShadeInput {
 /// Results of the shader for a run of texels.
 #[derive(Default)]
 pub(super) struct ShadeOutput {
-    /// Optical densities.
+    /// Optical densities. In the end the film has that of wheels.
     pub film: Vec<f32>,
+    wheels: Vec<f32>,
     pub soil: Vec<f32>,
     pub dust: Vec<f32>,
     /// Passes in the whole history, and the logarithmic share of the film's density that they leave.
@@ -123,9 +132,23 @@ pub(super) struct ShadeOutput {
 
 impl ShadeInput {
     pub fn clear(&mut self, len: usize) {
-        let ShadeInput { ground: _, left, presence, passes, dwell, grind, uneven, soil, scuff, edge, dust, water } =
-            self;
-        for plane in [left, presence, passes, dwell, grind, uneven, soil, scuff, edge, dust, water] {
+        let ShadeInput {
+            left,
+            presence,
+            passes,
+            dwell,
+            grind,
+            rolled,
+            wheels,
+            uneven,
+            soil,
+            scuff,
+            edge,
+            dust,
+            water,
+            ..
+        } = self;
+        for plane in [left, presence, passes, dwell, grind, rolled, wheels, uneven, soil, scuff, edge, dust, water] {
             plane.clear();
             plane.resize(len, 0.0);
         }
@@ -143,7 +166,14 @@ impl FloorShader {
         let weight = (look.total_passes as f64 / f64::from(simulated_people)) as f32;
         // With fewer passes than simulated, there is nothing to smooth.
         let residual = if properties.shows_single_passes { weight.min(weight.sqrt()) } else { 0.0 };
-        let colours = [look.film.colour, look.prints.colour, look.scuffs.colour, look.edge.colour, look.dust.colour];
+        let colours = [
+            look.film.colour,
+            look.prints.colour,
+            look.scuffs.colour,
+            look.edge.colour,
+            look.dust.colour,
+            look.wheels.colour,
+        ];
         FloorShader {
             weight,
             residual,
@@ -153,6 +183,8 @@ impl FloorShader {
             low_film: properties.low_film,
             dwell: look.dwell.density * properties.film / ln_f32(1.0 + FULL_SECONDS * look.dwell.per_second).max(1e-6),
             per_second: weight * look.dwell.per_second,
+            wheels: look.wheels.density * properties.film,
+            per_wheel: look.wheels.per_wheel,
             age: look.age.density * properties.film.max(0.5),
             joint_film: properties.joint_film.map(|share| share * look.film.density),
             every_pass: look.prints.every_pass,
@@ -179,19 +211,22 @@ impl FloorShader {
                 plane.iter_mut().zip(&out.worn).for_each(|(light, worn)| *light *= 1.0 + change * worn);
             }
         }
-        let ShadeOutput { film, soil, dust, rgb, bare, total, .. } = out;
+        let ShadeOutput { film, soil, dust, wheels, rgb, bare, total, .. } = out;
         for (bare, floor) in bare.iter_mut().zip(&known.ground.rgb) {
             bare.copy_from_slice(floor);
         }
-        let dirt = [&*film, &*soil, &known.scuff, &known.edge, &*dust];
+        let dirt = [&*film, &*soil, &known.scuff, &known.edge, &*dust, &*wheels];
         self.colour(dirt, &known.ground.rgb, total, rgb);
         if let Some(joint) = joint.filter(|_| known.ground.joint.iter().any(|&share| share > 0.0)) {
             self.fill_joints(known, joint, out);
         }
+        add1(&mut out.film, &out.wheels, |wheels| wheels);
     }
 
     fn densities(&self, known: &ShadeInput, out: &mut ShadeOutput) {
-        let ShadeOutput { history, trodden, laid, wearing, worn, busy, uneven, film, soil, dust, through, .. } = out;
+        let ShadeOutput {
+            history, trodden, laid, wearing, worn, busy, uneven, film, wheels, soil, dust, through, ..
+        } = out;
         let [through_film, through_prints, through_edge, through_scuffs] = through;
         each2(history, &known.presence, &known.passes, |expected, counted| {
             (self.weight * expected + self.residual * (counted - expected)).max(0.0)
@@ -215,14 +250,28 @@ impl FloorShader {
                 *film *= 1.0 + (-self.low_film * height).clamp(-0.5, 1.0);
             }
         }
+        self.lines(known, uneven, wheels);
         each2(soil, &known.soil, &known.passes, |fresh, passes| fresh + self.every_pass * passes);
         each3(dust, &known.dust, trodden, uneven, |wall, trodden, uneven| {
             self.dust * wall.max(0.0) * exp_f32(-6.0 * trodden) * uneven
         });
-        each1(through_film, film, |film| exp_f32(-film));
+        each2(through_film, film, wheels, |film, wheels| exp_f32(-film - wheels));
         each1(through_prints, soil, |soil| exp_f32(-soil));
         each1(through_scuffs, &known.scuff, |scuff| exp_f32(-scuff));
         each2(through_edge, &known.edge, dust, |edge, dust| exp_f32(-edge - dust));
+    }
+
+    /// Density of the lines of wheels: of the whole history, the simulated ones stand out as single passes do.
+    fn lines(&self, known: &ShadeInput, uneven: &[f32], wheels: &mut [f32]) {
+        wheels.fill(0.0);
+        if self.wheels <= 0.0 || known.rolled.iter().all(|&wheels| wheels <= 0.0) {
+            return;
+        }
+        each2(wheels, &known.rolled, &known.wheels, |expected, counted| {
+            let rolled = LINES_LEFT * self.weight * expected + self.residual * (counted - expected);
+            self.wheels * (1.0 - exp_f32(-self.per_wheel * rolled.max(0.0)))
+        });
+        wheels.iter_mut().zip(uneven).zip(&known.left).for_each(|((wheels, uneven), left)| *wheels *= uneven * left);
     }
 
     fn roughness(&self, known: &ShadeInput, out: &mut ShadeOutput) {
@@ -243,7 +292,7 @@ impl FloorShader {
     }
 
     /// Computes the colour of dirt over a floor. `total` is a buffer.
-    fn colour(&self, dirt: [&Vec<f32>; 5], floor: &[Vec<f32>; 3], total: &mut [f32], rgb: &mut [Vec<f32>; 3]) {
+    fn colour(&self, dirt: [&Vec<f32>; 6], floor: &[Vec<f32>; 3], total: &mut [f32], rgb: &mut [Vec<f32>; 3]) {
         for (n, (plane, floor)) in rgb.iter_mut().zip(floor).enumerate() {
             total.fill(0.0);
             plane.fill(0.0);
@@ -262,7 +311,7 @@ impl FloorShader {
             (everywhere + trodden_too * trodden) * (0.5 + 0.5 * uneven)
         });
         let floor = joint.map(|light| vec![light; film.len()]);
-        let dirt = [&film, &out.soil, &known.scuff, &known.edge, &out.dust];
+        let dirt = [&film, &out.soil, &known.scuff, &known.edge, &out.dust, &out.wheels];
         self.colour(dirt, &floor, &mut out.total, &mut out.joint);
         let [a, b, c, d] = &out.through;
         for ((plane, joint), bare) in out.rgb.iter_mut().zip(&out.joint).zip(&mut out.bare) {
@@ -280,6 +329,7 @@ impl ShadeOutput {
     fn resize(&mut self, len: usize) {
         let ShadeOutput {
             film,
+            wheels,
             soil,
             dust,
             history,
@@ -297,7 +347,7 @@ impl ShadeOutput {
             joint,
             rounding: _,
         } = self;
-        let single = [film, soil, dust, history, trodden, laid, wearing, worn, busy, uneven, total, roughness];
+        let single = [film, wheels, soil, dust, history, trodden, laid, wearing, worn, busy, uneven, total, roughness];
         for plane in single.into_iter().chain(through).chain(rgb).chain(bare).chain(joint) {
             plane.resize(len, 0.0);
         }

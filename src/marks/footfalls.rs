@@ -15,6 +15,7 @@ use super::heels::{self, HeelMarks};
 use super::soil::Shoes;
 use super::standing::Standing;
 use super::track::{SmoothedPath, TrackSample};
+use super::wheels::Wheels;
 use super::{Contact, ContactPlaces, Mark, MarksError, MarksOptions, Origin};
 
 /// Limit on frame times, seconds (30 years): the clock of the paths counts ticks of 0.1 s.
@@ -38,8 +39,8 @@ pub struct Footfalls<'a> {
     /// Contacts that the caller has not taken yet.
     touched: Vec<Contact>,
     contact_count: u64,
-    /// Whiles of standing that the caller has not taken yet.
-    stood: Vec<Mark>,
+    /// Whiles of standing and lines of wheels that the caller has not taken yet.
+    lasting: Vec<Mark>,
     origins: Vec<Origin>,
     /// Body heights that are known; all others are as tall as the people are drawn.
     statures: Statures,
@@ -57,6 +58,7 @@ struct PresentPerson {
     feet: ShoeState,
     contact_state: ContactState,
     standing: Standing,
+    wheels: Option<Box<Wheels>>,
 }
 
 /// The shoes of a person and their marks.
@@ -123,7 +125,7 @@ impl<'a> Footfalls<'a> {
             contacts: None,
             touched: Vec::new(),
             contact_count: 0,
-            stood: Vec::new(),
+            lasting: Vec::new(),
             origins,
             statures: Statures::default(),
             present: Vec::new(),
@@ -149,9 +151,10 @@ impl<'a> Footfalls<'a> {
         out.append(&mut self.touched);
     }
 
-    /// Moves the whiles of standing found so far to the end of `out`: marks with `stood_s`, in the order of marks.
-    pub fn take_standing(&mut self, out: &mut Vec<Mark>) {
-        out.append(&mut self.stood);
+    /// Moves the whiles of standing and the lines of wheels found so far to the end of `out`: marks with `stood_s` or
+    /// `wheel_m`, in the order of marks.
+    pub fn take_lasting(&mut self, out: &mut Vec<Mark>) {
+        out.append(&mut self.lasting);
     }
 
     /// Number of contacts so far.
@@ -232,37 +235,45 @@ impl<'a> Footfalls<'a> {
             feet,
             contact_state,
             standing: Standing::default(),
+            wheels: Wheels::of(seed, &person),
             person,
         }
     }
 
     fn walk_on(&mut self, present: &mut PresentPerson, time_s: f64, walker: &Walker, out: &mut Vec<Mark>) {
-        let PresentPerson { person, track, gait, feet, contact_state, standing } = present;
+        let PresentPerson { person, track, gait, feet, contact_state, standing, wheels } = present;
         let mut advance =
-            |sample: TrackSample| self.advance(person, gait, (feet, contact_state, standing), sample, out);
+            |sample: TrackSample| self.advance(person, gait, (feet, contact_state, standing, wheels), sample, out);
         if track.continues(time_s, walker.position_m) {
             track.push(time_s, walker.position_m, walker.heading, advance);
         } else {
             track.finish(&mut advance);
             gait.interrupt();
             contact_state.interrupt();
-            standing.end(&mut self.stood);
+            standing.end(&mut self.lasting);
+            wheels.iter_mut().for_each(|wheels| wheels.lift(&mut self.lasting));
             *track = SmoothedPath::new(time_s, walker.position_m, walker.heading);
         }
     }
 
     fn leave(&mut self, mut present: Box<PresentPerson>, out: &mut Vec<Mark>) {
-        let PresentPerson { person, track, gait, feet, contact_state, standing } = &mut *present;
-        track.finish(|sample| self.advance(person, gait, (feet, contact_state, standing), sample, out));
-        standing.end(&mut self.stood);
+        let PresentPerson { person, track, gait, feet, contact_state, standing, wheels } = &mut *present;
+        track.finish(|sample| self.advance(person, gait, (feet, contact_state, standing, wheels), sample, out));
+        standing.end(&mut self.lasting);
+        wheels.iter_mut().for_each(|wheels| wheels.lift(&mut self.lasting));
     }
 
-    /// Processes a tick of a smoothed path: footfalls, heel marks, contacts.
+    /// Processes a tick of a smoothed path: footfalls, heel marks, standing, wheels, contacts.
     fn advance(
         &mut self,
         person: &Person,
         gait: &mut GaitState,
-        (feet, contact_state, standing): (&mut ShoeState, &mut ContactState, &mut Standing),
+        (feet, contact_state, standing, wheels): (
+            &mut ShoeState,
+            &mut ContactState,
+            &mut Standing,
+            &mut Option<Box<Wheels>>,
+        ),
         sample: TrackSample,
         out: &mut Vec<Mark>,
     ) {
@@ -272,7 +283,10 @@ impl<'a> Footfalls<'a> {
             out.push(feet.footfall(&step, person.sole_length_m, inside));
             feet.last = Some(step);
         });
-        standing.pass(sample.position_m, gait.heading(), progress.stood_s, &mut self.stood);
+        standing.pass(sample.position_m, gait.heading(), progress.stood_s, &mut self.lasting);
+        if let Some(wheels) = wheels {
+            wheels.roll(&sample, gait.heading(), &progress, self.walls, &mut self.lasting);
+        }
         if let Some(shoes) = feet.shoes.as_mut().filter(|_| self.plan_m.contains(sample.position_m)) {
             shoes.walk(progress.walked_m);
         }
@@ -322,6 +336,7 @@ impl ShoeState {
             forefoot: step.forefoot as f32,
             effort: step.effort as f32,
             stood_s: 0.0,
+            wheel_m: 0.0,
             strength: step.pressure as f32,
             soil: soil as f32,
             wet: wet as f32,

@@ -146,6 +146,7 @@ impl HeelMarks {
             forefoot: 0.0,
             effort: 0.0,
             stood_s: 0.0,
+            wheel_m: 0.0,
             strength: density.min(MOST_DENSITY) as f32,
             soil: 0.0,
             wet: 0.0,

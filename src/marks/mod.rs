@@ -8,7 +8,8 @@
 //!    right foot in turn. `rest` draws the feet of a person who stops together and shifts them while standing;
 //! 3. `soil` and `heels`: soil prints and heel marks;
 //! 4. `contacts`: touches of walls;
-//! 5. `standing`: whiles of standing.
+//! 5. `standing`: whiles of standing;
+//! 6. `wheels`: lines of cases that are pulled and of trolleys that are pushed.
 //!
 //! Random events have rates per metre walked, per radian turned, per second stood or per event, so the number of marks
 //! does not depend on the source's time step.
@@ -25,6 +26,7 @@ mod rest;
 mod soil;
 mod standing;
 mod track;
+mod wheels;
 
 pub use contact::Contact;
 pub use contacts::{
@@ -37,7 +39,7 @@ pub use options::{HeelOptions, MarksOptions, SoilOptions, Weather};
 use crate::math::Vec2;
 use crate::patterns::Cause;
 
-/// A footfall, a heel mark, or a while of standing.
+/// A footfall, a heel mark, a while of standing, or a stretch that a wheel rolled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
     /// Cause: sole or heel.
@@ -63,6 +65,10 @@ pub struct Mark {
     /// Seconds that a person stood here, facing across `heading`; 0 for footfalls and heel marks. A while of standing
     /// adds to `dwell` alone.
     pub stood_s: f32,
+    /// Breadth of the line that a wheel left along `heading`, turning by `twist_rad`, metres; 0 for all other marks. A
+    /// wheel adds `strength` passes to `wheels` alone (of cause heel: optical density of rubber to `scuff`), and over its
+    /// length that grows by `effort`.
+    pub wheel_m: f32,
     /// Footfalls: pressure, about 1, added to `passes` and `presence` as a factor. Heel marks: optical density.
     pub strength: f32,
     /// Optical density of soil at full coverage; 0 for people without soil on their shoes.

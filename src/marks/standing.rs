@@ -52,6 +52,7 @@ impl Standing {
                 forefoot: 0.0,
                 effort: 0.0,
                 stood_s: stood_s as f32,
+                wheel_m: 0.0,
                 strength: 0.0,
                 soil: 0.0,
                 wet: 0.0,

@@ -27,6 +27,8 @@ pub enum Purpose {
     Contacts = 8,
     /// Group sizes.
     Groups = 9,
+    /// What is pulled or pushed on wheels, and its rubber marks.
+    Wheels = 10,
 }
 
 /// The random stream of one person for one purpose: a pure function of its arguments.

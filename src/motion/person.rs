@@ -23,6 +23,10 @@ options! {
         stature_children: Distribution = Distribution::Uniform([1.1, 1.45]), in 0.5..=2.5, unit "m";
         /// Share of people who carry a bag.
         bags: f64 = 0.6, in 0.0..=1.0;
+        /// Share of those with a bag who pull it behind them, as a case on wheels.
+        pull: f64 = 0.1, in 0.0..=1.0;
+        /// Share of those with a bag who push a trolley, a pram or a wheelchair instead.
+        push: f64 = 0.02, in 0.0..=1.0;
         /// A fixed step length; left out: it follows speed and stature.
         ///
         /// Individual step length, as in the paper: taken in full from 2 m/s, shorter below.
@@ -71,13 +75,14 @@ pub enum BagKind {
     Case,
     /// On wheels, with a bar to pull it by.
     Trolley,
+    /// A trolley, a pram or a wheelchair, pushed ahead.
+    Pushed,
     /// On the back.
     Rucksack,
 }
 
-/// Shares of cases and of trolleys among bags carried on a side.
+/// Share of cases among bags carried on a side.
 const CASES: f64 = 0.25;
-const TROLLEYS: f64 = 0.15;
 
 /// A person's body and gait: a pure function of (seed, id).
 #[derive(Clone, Debug, PartialEq)]
@@ -200,12 +205,17 @@ impl People {
         let toe_out_rad = toe_out * options.toe_out_deg.draw(rng).to_radians();
         let shoe_draw = rng.random();
         let runs_on_ball = rng.random::<f64>() < RUN_ON_BALL;
-        let kind = match (side, rng.random::<f64>()) {
-            (CarrySide::Back, _) => BagKind::Rucksack,
-            (_, draw) if draw < CASES => BagKind::Case,
-            (_, draw) if draw < CASES + TROLLEYS => BagKind::Trolley,
+        let (carried, rolls) = (rng.random::<f64>(), rng.random::<f64>());
+        let kind = match side {
+            _ if !child && rolls < options.pull => BagKind::Trolley,
+            _ if !child && rolls < options.pull + options.push => BagKind::Pushed,
+            CarrySide::Back => BagKind::Rucksack,
+            _ if carried < CASES => BagKind::Case,
             _ => BagKind::Bag,
         };
+        // Nobody has wheels on the back.
+        let on_wheels = matches!(kind, BagKind::Trolley | BagKind::Pushed);
+        let side = if on_wheels && side == CarrySide::Back { CarrySide::Right } else { side };
         Person {
             id,
             stature_m,

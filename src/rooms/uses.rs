@@ -44,6 +44,8 @@ pub(crate) struct Habits {
     pub(crate) groups: [f64; 4],
     /// Share of people with a bag.
     pub(crate) bags: f64,
+    /// Shares of those who pull a bag on wheels, and of those who push a trolley, a pram or a wheelchair.
+    pub(crate) wheels: [f64; 2],
     /// Share of children.
     pub(crate) children: f64,
 }
@@ -103,6 +105,7 @@ impl Use {
                 day: [3.0, 1.5, 0.7, 2.0, 0.8, 0.5],
                 groups: [0.8, 0.15, 0.04, 0.01],
                 bags: 0.7,
+                wheels: [0.05, 0.02],
                 children: 0.0,
             },
             // One classroom, sometimes a second; everybody comes before the bell.
@@ -117,6 +120,7 @@ impl Use {
                 day: [4.0, 0.5, 1.5, 0.5, 1.5, 0.5],
                 groups: [0.3, 0.35, 0.2, 0.15],
                 bags: 0.9,
+                wheels: [0.03, 0.01],
                 children: 0.9,
             },
             // Two of three go from door to door; others wait, buy something or look for a train.
@@ -131,6 +135,7 @@ impl Use {
                 day: [2.0, 1.0, 0.8, 0.8, 2.0, 1.0],
                 groups: [0.7, 0.2, 0.06, 0.04],
                 bags: 0.8,
+                wheels: [0.18, 0.03],
                 children: 0.05,
             },
             // From shelf to shelf, most in the largest room.
@@ -145,6 +150,7 @@ impl Use {
                 day: [0.7, 1.0, 1.5, 1.0, 1.5, 0.7],
                 groups: [0.6, 0.3, 0.06, 0.04],
                 bags: 0.8,
+                wheels: [0.04, 0.2],
                 children: 0.08,
             },
             // Room after room, a few works in each.
@@ -159,6 +165,7 @@ impl Use {
                 day: [0.7, 1.5, 1.2, 1.5, 1.0, 0.2],
                 groups: [0.4, 0.4, 0.1, 0.1],
                 bags: 0.4,
+                wheels: [0.04, 0.1],
                 children: 0.12,
             },
             // Wards and treatment; visitors and patients wait in halls and corridors.
@@ -173,6 +180,7 @@ impl Use {
                 day: [1.5, 1.5, 1.0, 1.5, 1.0, 0.7],
                 groups: [0.6, 0.3, 0.06, 0.04],
                 bags: 0.4,
+                wheels: [0.1, 0.2],
                 children: 0.06,
             },
             // All rooms in turn, many times a day.
@@ -187,6 +195,7 @@ impl Use {
                 day: [1.5, 0.7, 0.7, 1.0, 1.5, 1.5],
                 groups: [0.9, 0.1, 0.0, 0.0],
                 bags: 0.2,
+                wheels: [0.03, 0.03],
                 children: 0.25,
             },
             // People spread over the large rooms; the small ones serve them.
@@ -201,6 +210,7 @@ impl Use {
                 day: [2.0, 2.0, 1.0, 0.5, 0.5, 0.5],
                 groups: [0.5, 0.3, 0.1, 0.1],
                 bags: 0.5,
+                wheels: [0.12, 0.04],
                 children: 0.05,
             },
         }

@@ -228,8 +228,8 @@ impl Scenario {
         options
     }
 
-    /// The scenario with the people of the building's use: where it has the defaults of bags, children and groups, those
-    /// who use such a building have others.
+    /// The scenario with the people of the building's use: where it has the defaults of bags, wheels, children and
+    /// groups, those who use such a building have others.
     pub fn lived_in(&self, life: Option<&Life>) -> Scenario {
         let mut scenario = self.clone();
         let Some(habits) = life.filter(|_| self.preset != Preset::Paper).map(|life| life.r#use.habits()) else {
@@ -238,6 +238,9 @@ impl Scenario {
         let (bodies, groups) = (BodyOptions::default(), CrowdOptions::default().groups);
         if self.bodies.bags == bodies.bags {
             scenario.bodies.bags = habits.bags;
+        }
+        if (self.bodies.pull, self.bodies.push) == (bodies.pull, bodies.push) {
+            [scenario.bodies.pull, scenario.bodies.push] = habits.wheels;
         }
         if self.bodies.children == bodies.children {
             scenario.bodies.children = habits.children;

@@ -3,6 +3,9 @@
 /// Sum of `passes` for one print of full coverage at mean pressure.
 pub const PASSES_ONE: f32 = 256.0;
 
+/// Sum of `wheels` for one wheel.
+pub const WHEELS_ONE: f32 = 256.0;
+
 /// Sum of `presence` for one pass.
 pub const PRESENCE_ONE: f32 = 1024.0;
 

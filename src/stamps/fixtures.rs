@@ -69,6 +69,7 @@ pub(crate) fn footfall(place_m: Vec2, angle_rad: f64) -> Mark {
         forefoot: 0.0,
         effort: 0.0,
         stood_s: 0.0,
+        wheel_m: 0.0,
         strength: 1.0,
         soil: 0.0,
         wet: 0.0,
@@ -77,7 +78,8 @@ pub(crate) fn footfall(place_m: Vec2, angle_rad: f64) -> Mark {
     }
 }
 
-/// Footfalls, every third with soil, every fifth with effort, whiles of standing and heel marks, evenly over and around a rectangle.
+/// Footfalls, every third with soil, every fifth with effort, whiles of standing, wheels and heel marks, evenly over and
+/// around a rectangle.
 pub(crate) fn crowd(count: usize, width_m: f64, height_m: f64, seed: u64) -> Vec<Mark> {
     let rng = &mut SplitMix64::new(seed);
     (0..count)
@@ -101,6 +103,9 @@ pub(crate) fn crowd(count: usize, width_m: f64, height_m: f64, seed: u64) -> Vec
             }
             if k % 10 == 7 {
                 mark.stood_s = 3.0;
+            }
+            if k % 10 == 4 {
+                mark.wheel_m = 0.015;
             }
             if k % 10 == 0 {
                 mark = Mark { cause: Cause::Heel, pattern: 1, length_m: mark.length_m * 0.25, ..mark };

@@ -15,6 +15,9 @@ use crate::walls::Walls;
 impl Stamper {
     /// Upper bound on a mark's value in a texel of `scuff`.
     pub(crate) fn peak_of_scuff(&self, mark: &Mark) -> u32 {
+        if mark.wheel_m > 0.0 {
+            return self.peak_of_wheel(mark);
+        }
         (mark.strength.clamp(0.0, MOST_DENSITY) * DENSITY_ONE * 1.5 * self.grain_peak) as u32 + 2
     }
 
@@ -32,6 +35,9 @@ impl Stamper {
         sheet: &mut PrintCoverage,
         cells: &mut [C],
     ) {
+        if mark.wheel_m > 0.0 {
+            return self.add_wheel(mark, placed, walls, window, sheet, cells);
+        }
         let Some(printer) = self.printer(mark) else { return };
         let Some(pose) = PrintPose::of_heel(mark, printer.length_m) else { return };
         let variation = HeelVariation::new(mark.variation);

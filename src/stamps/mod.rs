@@ -2,7 +2,8 @@
 //!
 //! A footfall adds to three quantities: `passes` and `soil` hold the sole itself; `presence` holds a soft kernel along
 //! the heading with the same integral as the sole, so that local means of `passes` and `presence` agree. A heel mark
-//! adds to `scuff`. A footfall that turns or stops adds to `grind`, a while of standing to `dwell`, both as `presence`.
+//! adds to `scuff`. A footfall that turns or stops adds to `grind`, a while of standing to `dwell`, both as `presence`. A
+//! wheel adds a thin line to `wheels`.
 //!
 //! Each pattern is filtered once for the texel density, with four samples per texel (`bank`). A stamp reads one sample
 //! per texel at any angle, size and sub-texel position. A second, vectorised loop applies per-print variation to each
@@ -42,10 +43,11 @@ mod wall_grid;
 mod wall_plate;
 mod wall_stamper;
 mod wall_variation;
+mod wheel;
 mod window;
 
 pub use error::StampsError;
-pub(crate) use fixed_point::{DENSITY_ONE, DWELL_ONE, PASSES_ONE, PRESENCE_ONE};
+pub(crate) use fixed_point::{DENSITY_ONE, DWELL_ONE, PASSES_ONE, PRESENCE_ONE, WHEELS_ONE};
 pub(crate) use lanes::SumCell;
 pub use options::StampOptions;
 pub(crate) use print_coverage::PrintCoverage;

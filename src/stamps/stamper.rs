@@ -119,6 +119,9 @@ impl Stamper {
         if mark.stood_s > 0.0 && mark.cause == Cause::Sole {
             return somewhere.then(|| self.place_standing(mark, walls));
         }
+        if mark.wheel_m > 0.0 {
+            return if somewhere { self.place_wheel(mark, walls) } else { None };
+        }
         let printer = self.printer(mark)?;
         let sound = somewhere && (mark.strength > 0.0 || mark.soil > 0.0) && mark.length_m > 0.0;
         if !sound {
@@ -199,6 +202,18 @@ impl Stamper {
 
     fn place_heel(&self, mark: &Mark, printer: &Printer, walls: &Walls) -> Option<(PlacedMark, MarkBounds)> {
         let pose = PrintPose::of_heel(mark, printer.length_m)?;
+        let reach_m = self.print_extent(mark, printer, &pose).reach_m(mark.place_m);
+        Some(self.place_flat(mark, printer.bounds(&pose, &self.grid, bend_reach_m(mark)), reach_m, walls))
+    }
+
+    /// Places a mark without kernel that reaches this far from its place.
+    pub(super) fn place_flat(
+        &self,
+        mark: &Mark,
+        texels: TexelBounds,
+        reach_m: f64,
+        walls: &Walls,
+    ) -> (PlacedMark, MarkBounds) {
         let none = self.kernels.find(mark.place_m, mark.heading);
         let mut placed = PlacedMark {
             kernel: self.kernels.place(none, 0.0),
@@ -207,13 +222,11 @@ impl Stamper {
             print_cut: false,
             kernel_cut: false,
         };
-        let reach = self.print_extent(mark, printer, &pose).reach_m(mark.place_m);
-        if let Some(wall) = walls.nearest(mark.place_m, reach) {
+        if let Some(wall) = walls.nearest(mark.place_m, reach_m) {
             placed.stand(foothold(walls, mark.place_m, wall.point_m), mark);
             placed.print_cut = true;
         }
-        let texels = printer.bounds(&pose, &self.grid, bend_reach_m(mark));
-        Some((placed, MarkBounds { texels, cells: self.kernels.bounds(none), soil: false, wet: false }))
+        (placed, MarkBounds { texels, cells: self.kernels.bounds(none), soil: false, wet: false })
     }
 
     /// Share of a sole's print in front of walls.
@@ -298,7 +311,12 @@ impl PlacedMark {
         self.stands(mark)
     }
 
-    fn stands(&self, mark: &Mark) -> Vec2 {
+    /// Whether walls cut the print.
+    pub(super) fn is_cut(&self) -> bool {
+        self.print_cut
+    }
+
+    pub(super) fn stands(&self, mark: &Mark) -> Vec2 {
         mark.place_m + vec2(f64::from(self.foothold[0]), f64::from(self.foothold[1]))
     }
 }

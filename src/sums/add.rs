@@ -109,6 +109,7 @@ fn push_entries(sums: &FloorSums, mark: &Mark, touched: &MarkBounds, number: usi
     };
     match mark.cause {
         Cause::Sole if mark.stood_s > 0.0 => push(Quantity::Dwell, sums.presence_grid, touched.cells),
+        Cause::Sole if mark.wheel_m > 0.0 => push(Quantity::Wheels, sums.grid, touched.texels),
         Cause::Sole => {
             push(Quantity::Passes, sums.grid, touched.texels);
             push(Quantity::Presence, sums.presence_grid, touched.cells);
@@ -162,6 +163,7 @@ fn fine(task: Task, marks: &BatchMarks, sheet: &mut PrintCoverage) {
             Quantity::Soil => marks.stamper.peak_of_soil(mark),
             Quantity::Wet => marks.stamper.peak_of_soil(&mark.with_wet_soil()),
             Quantity::Scuff => marks.stamper.peak_of_scuff(mark),
+            Quantity::Wheels => marks.stamper.peak_of_wheel(mark),
         };
         match block.cells_for(peak) {
             BlockCells::Narrow(cells) => stamp(quantity, mark, placed, marks, window, sheet, cells),
@@ -189,5 +191,6 @@ fn stamp<C: SumCell>(
         Quantity::Soil => stamper.add_soil(mark, placed, walls, window, sheet, cells),
         Quantity::Wet => stamper.add_soil(&mark.with_wet_soil(), placed, walls, window, sheet, cells),
         Quantity::Scuff => stamper.add_scuff(mark, placed, walls, window, sheet, cells),
+        Quantity::Wheels => stamper.add_wheel(mark, placed, walls, window, sheet, cells),
     }
 }

@@ -1,6 +1,6 @@
 //! Quantities summed on the floor.
 
-use crate::stamps::{DENSITY_ONE, DWELL_ONE, PASSES_ONE, PRESENCE_ONE};
+use crate::stamps::{DENSITY_ONE, DWELL_ONE, PASSES_ONE, PRESENCE_ONE, WHEELS_ONE};
 
 /// A quantity summed on the floor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -19,11 +19,13 @@ pub enum Quantity {
     Grind,
     /// Optical density of what the shoes of the same people would leave that came in from the rain.
     Wet,
+    /// Wheels that rolled over, more where they scrub in curves.
+    Wheels,
 }
 
 impl Quantity {
     /// Every quantity.
-    pub const ALL: [Quantity; 7] = [
+    pub const ALL: [Quantity; 8] = [
         Quantity::Passes,
         Quantity::Presence,
         Quantity::Soil,
@@ -31,6 +33,7 @@ impl Quantity {
         Quantity::Dwell,
         Quantity::Grind,
         Quantity::Wet,
+        Quantity::Wheels,
     ];
 
     /// Whether the quantity has the coarse grid of `presence`.
@@ -40,12 +43,13 @@ impl Quantity {
 
     /// Fixed-point unit: the sum for one pass or an optical density of 1.
     ///
-    /// 256 for `passes` and `dwell`, 1024 for `presence` and `grind`, 4096 for `soil`, `scuff` and `wet`. A pass is a print of full coverage at mean
-    /// pressure; an optical density D has the transmittance `exp(-D)`.
+    /// 256 for `passes`, `dwell` and `wheels`, 1024 for `presence` and `grind`, 4096 for `soil`, `scuff` and `wet`. A pass is
+    /// a print of full coverage at mean pressure; an optical density D has the transmittance `exp(-D)`.
     pub const fn one(self) -> u32 {
         match self {
             Quantity::Passes => PASSES_ONE as u32,
             Quantity::Dwell => DWELL_ONE as u32,
+            Quantity::Wheels => WHEELS_ONE as u32,
             Quantity::Presence | Quantity::Grind => PRESENCE_ONE as u32,
             Quantity::Soil | Quantity::Scuff | Quantity::Wet => DENSITY_ONE as u32,
         }
@@ -61,6 +65,7 @@ impl Quantity {
             Quantity::Dwell => "dwell",
             Quantity::Grind => "grind",
             Quantity::Wet => "wet",
+            Quantity::Wheels => "wheels",
         }
     }
 }

@@ -7,3 +7,4 @@ mod contacts;
 mod gait;
 mod import;
 mod patterns;
+mod wheels;

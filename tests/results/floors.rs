@@ -44,7 +44,7 @@ fn walked(name: &str, people: u32) -> Trodden {
         footfalls.push(&frame, &mut marks);
     }
     footfalls.finish(&mut marks);
-    footfalls.take_standing(&mut marks);
+    footfalls.take_lasting(&mut marks);
     sums.add(&stamper, &walls, &marks);
     Trodden { walls, sums, people, look: scenario.look }
 }
@@ -329,4 +329,46 @@ fn turns_gates_and_counters_wear_more_per_pass_than_straight_ways() {
         }
     }
     assert!(missed.is_empty(), "{missed:?}");
+}
+
+/// Lightness of lines of single wheels over that of the floor beside them, where `passes` people have walked.
+fn lines_beside(trodden: &Trodden, look: &Look, place: [f64; 4], passes: std::ops::Range<f64>) -> f64 {
+    let [x, y, width, height] = place.map(|metres| (metres * TEXELS_PER_M as f64) as usize);
+    let resolver = FloorResolver::new(&trodden.sums, &trodden.walls, look, trodden.people).unwrap();
+    let block = resolver.resolve(x as i64, y as i64, width, height);
+    let layer = |name: &str| &block.layers.iter().find(|layer| layer.name == name).unwrap().values;
+    let (wheels, presence) = (layer("wheels"), layer("presence"));
+    let weight = look.total_passes as f64 / f64::from(trodden.people);
+    let lightness = |k: usize| lab(block.base_color[k].map(|byte| f64::from(light(byte))))[0];
+    const BESIDE: usize = 6;
+    let mut darker = Vec::new();
+    for j in BESIDE..height - BESIDE {
+        for i in BESIDE..width - BESIDE {
+            let k = j * width + i;
+            if wheels[k] < 0.7 || !passes.contains(&(weight * f64::from(presence[k]))) {
+                continue;
+            }
+            // To both sides of a line there is floor that no wheel touched.
+            let pairs = [[k - BESIDE, k + BESIDE], [k - BESIDE * width, k + BESIDE * width]];
+            if let Some(pair) = pairs.into_iter().find(|pair| pair.iter().all(|&k| wheels[k] == 0.0)) {
+                darker.push(lightness(k) - 0.5 * (lightness(pair[0]) + lightness(pair[1])));
+            }
+        }
+    }
+    assert!(darker.len() > 300, "only {} texels", darker.len());
+    mean(darker.into_iter())
+}
+
+#[test]
+fn single_wheels_leave_lines_that_fade_into_busy_ways() {
+    const FOYER: [f64; 4] = [10.0, 10.0, 30.0, 26.0];
+    let mut without = STATION.look.clone();
+    without.wheels.density = 0.0;
+    let beside = |look: &Look, passes| lines_beside(&STATION, look, FOYER, passes);
+    let quiet = beside(&STATION.look, 0.0..25.0);
+    let (busy, none) = (beside(&STATION.look, 250.0..600.0), beside(&without, 0.0..25.0));
+    println!("lines {quiet:.1} L* where few walk, {busy:.1} where many do; {none:.1} without wheels in the look");
+    assert!((-8.0..-2.0).contains(&quiet), "{quiet:.1} L*");
+    assert!(busy > 0.6 * quiet, "{busy:.1} L*");
+    assert!(none.abs() < 0.4, "{none:.1} L*");
 }

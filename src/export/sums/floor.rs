@@ -10,11 +10,12 @@ use crate::stamps::TexelGrid;
 use crate::sums::{FloorSums, Quantity};
 
 /// Quantities in a tile's file, sorted by name.
-const TILE_QUANTITIES: [Quantity; 4] = [Quantity::Passes, Quantity::Scuff, Quantity::Soil, Quantity::Wet];
+const TILE_QUANTITIES: [Quantity; 5] =
+    [Quantity::Passes, Quantity::Scuff, Quantity::Soil, Quantity::Wet, Quantity::Wheels];
 /// Quantities in the file of `presence`, sorted by name.
 const COARSE_QUANTITIES: [Quantity; 3] = [Quantity::Dwell, Quantity::Grind, Quantity::Presence];
 /// Quantities that bakes of earlier versions lack.
-const LATER_QUANTITIES: [Quantity; 3] = [Quantity::Dwell, Quantity::Grind, Quantity::Wet];
+const LATER_QUANTITIES: [Quantity; 4] = [Quantity::Dwell, Quantity::Grind, Quantity::Wet, Quantity::Wheels];
 const PRESENCE_FILE: &str = "sums/floor_presence.exr";
 
 /// Writes the exact sums into `sums/`: a file per written tile, and one for `presence` and the other coarse quantities.

@@ -61,6 +61,7 @@ impl FloorTextures {
             "passes" | "presence" => "footfalls of the simulated people",
             "dwell" => "seconds that the simulated people stood",
             "grind" => "passes of wear that turns and stops of the simulated people add",
+            "wheels" => "wheels of the simulated people that rolled over, more where they turn",
             _ => "optical density D",
         };
         FloorEntry {

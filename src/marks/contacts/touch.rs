@@ -235,7 +235,7 @@ fn bag(person: &Person, draw: &mut TouchRandom) -> StainSpec {
     let kind = person.bag.map_or(BagKind::Bag, |bag| bag.kind);
     let height_m = match kind {
         BagKind::Bag | BagKind::Case => draw.within(CASE_M),
-        BagKind::Trolley => {
+        BagKind::Trolley | BagKind::Pushed => {
             let end = usize::from(draw.unit() < 0.4);
             draw.within(TROLLEY_M[end])
         }

@@ -63,7 +63,7 @@ fn channels_of_layers_belong_to_layers() {
     let channels: Vec<String> = image.layer_data.channel_data.list.iter().map(|c| c.name.to_string()).collect();
     assert_eq!(
         channels,
-        ["dust.V", "dwell.V", "edge.V", "film.V", "grind.V", "passes.V", "presence.V", "scuff.V", "soil.V"]
+        ["dust.V", "dwell.V", "edge.V", "film.V", "grind.V", "passes.V", "presence.V", "scuff.V", "soil.V", "wheels.V"]
     );
     let manifest = manifest(&sandbox.path("out"));
     let told: Vec<&str> = (manifest["floor"]["channels"].as_array().unwrap().iter())
