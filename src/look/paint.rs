@@ -79,7 +79,7 @@ struct RowRun {
 /// A floor's sums, and the look that turns them into texels.
 pub(super) struct FloorPainter<'a> {
     pub sums: &'a FloorSums,
-    /// Wheels in coarse cells, see [`passes::coarse_wheels`].
+    /// Wheels in coarse cells, see [`passes::coarse`].
     rolled: Arc<FloorSums>,
     pub walls: &'a Walls,
     pub background: Background,
@@ -129,7 +129,7 @@ impl<'a> FloorPainter<'a> {
             },
             dither: noise::key(look.seed, Channel::Dither),
             mopping: Mopping::new(walls, &look.mop, look.seed),
-            wet: WetFloor::new(look, &properties),
+            wet: WetFloor::new(look, &properties, sums),
             skirting: Skirting::new(walls, look.edge.clone(), look.seed),
             look: look.clone(),
             properties,
@@ -154,7 +154,7 @@ impl<'a> FloorPainter<'a> {
                 (self.sums, Quantity::Presence, self.spread_m),
                 (self.sums, Quantity::Dwell, self.spread_m.max(STANDING_SPREAD_M)),
                 (self.sums, Quantity::Grind, self.spread_m),
-                (&*self.rolled, passes::COARSE_WHEELS, self.spread_m.max(ROLLING_SPREAD_M)),
+                (&*self.rolled, passes::COARSE, self.spread_m.max(ROLLING_SPREAD_M)),
             ]
             .map(|(sums, quantity, spread_m)| PassesField::over(&window, (sums, quantity), self.walls, spread_m)),
             noise: self.noise.iter().map(|noise| noise.over(&window)).collect(),

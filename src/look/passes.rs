@@ -6,7 +6,7 @@ use crate::stamps::TexelGrid;
 use crate::sums::{BLOCK, FloorSums, Quantity};
 use crate::walls::Walls;
 
-/// A quantity of the simulated people over one window, in coarse cells.
+/// A coarse quantity of the simulated people over one window.
 pub(super) struct PassesField {
     /// The quantity times the share of floor in each cell, and that share. It is unknown off the floor, so only floor
     /// counts in the mean: lanes reach openings and door jambs undiminished.
@@ -70,17 +70,17 @@ impl PassesField {
     }
 }
 
-/// The quantity in whose place [`coarse_wheels`] has the wheels.
-pub(super) const COARSE_WHEELS: Quantity = Quantity::Presence;
+/// The quantity in whose place [`coarse`] has another one.
+pub(super) const COARSE: Quantity = Quantity::Presence;
 
-/// The mean of `wheels` in each cell of the coarse grid, as that quantity: the sums hold it in texels alone.
-pub(super) fn coarse_wheels(sums: &FloorSums) -> FloorSums {
+/// `gain` times the mean of a quantity in each cell of the coarse grid, as [`COARSE`]: the sums hold it in texels alone.
+pub(super) fn coarse(sums: &FloorSums, quantity: Quantity, gain: f64) -> FloorSums {
     let mut coarse = FloorSums::new(sums.grid());
     let side = sums.grid().texels_per_presence_cell();
-    let unit = f64::from(COARSE_WHEELS.one()) / f64::from(Quantity::Wheels.one()) / (f64::from(side) * f64::from(side));
+    let unit = gain * f64::from(COARSE.one()) / f64::from(quantity.one()) / (f64::from(side) * f64::from(side));
     let mut texels = vec![0; BLOCK * BLOCK];
-    for [i0, j0] in sums.blocks(Quantity::Wheels) {
-        sums.read(Quantity::Wheels, i0, j0, BLOCK, BLOCK, &mut texels);
+    for [i0, j0] in sums.blocks(quantity) {
+        sums.read(quantity, i0, j0, BLOCK, BLOCK, &mut texels);
         // Cells that the block shares with another one get a part from each.
         let cells_of = |k: u32| (k / side, ((k + BLOCK as u32 - 1) / side - k / side + 1) as usize);
         let ((left, columns), (low, rows)) = (cells_of(i0), cells_of(j0));
@@ -93,39 +93,17 @@ pub(super) fn coarse_wheels(sums: &FloorSums) -> FloorSums {
         }
         let means: Vec<u32> =
             cells.into_iter().map(|sum| (sum as f64 * unit + 0.5).min(f64::from(u32::MAX)) as u32).collect();
-        coarse.add_block(COARSE_WHEELS, left, low, columns, rows, &means);
+        coarse.add_block(COARSE, left, low, columns, rows, &means);
     }
     coarse
 }
 
-/// A quantity in the coarse cells of a window: the mean of each cell's texels; `None` if it is zero.
-fn cells_of(sums: &FloorSums, quantity: Quantity, cells: &TexelWindow) -> Option<Vec<f32>> {
+/// A coarse quantity in the cells of a window; `None` if it is zero.
+fn cells_of(sums: &FloorSums, quantity: Quantity, window: &TexelWindow) -> Option<Vec<f32>> {
     let unit = 1.0 / quantity.one() as f32;
     let mut values = Vec::new();
-    if quantity.is_coarse() {
-        let any = read(sums, quantity, cells, &mut values);
-        return any.then(|| values.into_iter().map(|sum| sum as f32 * unit).collect());
-    }
-    let side = (sums.grid().texels_per_metre / sums.presence_grid().texels_per_metre).round() as usize;
-    let row_of_cells = TexelWindow {
-        texels_per_metre: sums.grid().texels_per_metre,
-        i0: cells.i0 * side as i64,
-        j0: 0,
-        width: cells.width * side,
-        height: side,
-    };
-    let mut means = vec![0.0; cells.texels()];
-    let mut any = false;
-    for (row, means) in means.chunks_exact_mut(cells.width).enumerate() {
-        let texels = TexelWindow { j0: (cells.j0 + row as i64) * side as i64, ..row_of_cells };
-        if read(sums, quantity, &texels, &mut values) {
-            any = true;
-            for (k, &sum) in values.iter().enumerate() {
-                means[k % texels.width / side] += sum as f32 * unit / (side * side) as f32;
-            }
-        }
-    }
-    any.then_some(means)
+    let any = read(sums, quantity, window, &mut values);
+    any.then(|| values.into_iter().map(|sum| sum as f32 * unit).collect())
 }
 
 /// A coarse quantity of the simulated people near a place, metres: the mean over a fifth of a metre.

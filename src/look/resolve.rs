@@ -8,9 +8,9 @@ use super::error::LookError;
 use super::lattice::TexelWindow;
 use super::padding::{PADDING, sources};
 use super::paint::FloorPainter;
-use super::passes::coarse_wheels;
+use super::passes::coarse;
 use super::settings::Look;
-use crate::sums::FloorSums;
+use crate::sums::{FloorSums, Quantity};
 use crate::walls::Walls;
 
 /// Resolves rectangles of a floor, also from several threads. A texel's value depends on its position only.
@@ -56,7 +56,7 @@ impl<'a> FloorResolver<'a> {
             return Err(LookError::NoPeople { total_passes: look.total_passes });
         }
         let grid = sums.grid();
-        let rolled = Arc::new(coarse_wheels(sums));
+        let rolled = Arc::new(coarse(sums, Quantity::Wheels, 1.0));
         Ok(FloorResolver {
             painter: FloorPainter::new((sums, &rolled), walls, look, simulated_people)?,
             areas: (1..)

@@ -10,6 +10,8 @@ use crate::math::{exp_f32, ln_f32};
 use crate::sums::{FloorSums, Quantity};
 use crate::walls::Walls;
 
+/// Factor on optical densities in coarse cells, which are coarse numbers too.
+const FINER: f64 = 64.0;
 /// How far the water of prints runs together, metres.
 const RUNS_M: f64 = 0.3;
 /// Mean optical density of wet prints that gives puddles a chance, and the level above which water stands, in e-folds.
@@ -38,6 +40,8 @@ pub(super) struct WetFloor {
     water: f32,
     puddles: f32,
     soaked: f32,
+    /// Wet prints in coarse cells.
+    level: FloorSums,
     noise: [Noise; 2],
 }
 
@@ -55,7 +59,7 @@ pub(super) struct WetWindow {
 
 impl WetFloor {
     /// Returns nothing on a dry day.
-    pub fn new(look: &Look, properties: &Properties) -> Option<WetFloor> {
+    pub fn new(look: &Look, properties: &Properties, sums: &FloorSums) -> Option<WetFloor> {
         let wet = &look.wet;
         let is_dry = wet.tracks == 0.0 && wet.water == 0.0 && wet.puddles == 0.0;
         let noise = |channel, n: usize| Noise::new(look.seed, channel, [PUDDLE_M[n]; 2], PUDDLE_SD[n]);
@@ -64,13 +68,14 @@ impl WetFloor {
             water: wet.water,
             puddles: wet.puddles * properties.prints,
             soaked: SOAKED * wet.water * rise(properties.roughness[0], TAKES_UP[0], TAKES_UP[1]),
+            level: passes::coarse(sums, Quantity::Wet, FINER),
             noise: [noise(Channel::Puddle, 0), noise(Channel::PuddleBays, 1)],
         })
     }
 
     /// Lays tracks and puddles out over a window; `None` if nobody came in there.
     pub fn over(&self, window: &TexelWindow, sums: &FloorSums, walls: &Walls) -> Option<WetWindow> {
-        let level = PassesField::over(window, (sums, Quantity::Wet), walls, RUNS_M)?;
+        let level = PassesField::over(window, (&self.level, passes::COARSE), walls, RUNS_M)?;
         let mut texels = Vec::new();
         passes::read(sums, Quantity::Wet, window, &mut texels);
         let rim = RIM.max(0.5 * FALL_PER_M / window.texels_per_metre as f32);
@@ -98,7 +103,7 @@ impl WetFloor {
             let mut covered = 1.0 - exp_f32(-WATER_PER_DENSITY * print);
             *soil += self.tracks * print;
             if self.puddles > 0.0 && level[k] > 0.0 {
-                let level = ln_f32(1.0 + level[k].max(0.0) / PUDDLE_DENSITY) + noise[k] - STANDS_FROM;
+                let level = ln_f32(1.0 + level[k].max(0.0) / (FINER as f32 * PUDDLE_DENSITY)) + noise[k] - STANDS_FROM;
                 // Dirt is carried to the edge: sharp outside, fading inwards.
                 let off = level / window.rim;
                 let line = exp_f32(-off * off * if off < 0.0 { 1.0 } else { INWARDS });
