@@ -46,6 +46,7 @@ fn hall() -> (Walls, FloorSums) {
             wheel_m: 0.0,
             strength: 1.0,
             soil: if n % 10 == 0 { 0.02 } else { 0.0 },
+            wet: 0.0,
             wear: n,
             variation: rng.next_u64(),
         })

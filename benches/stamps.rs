@@ -48,6 +48,7 @@ fn footfalls(library: &PatternLibrary, count: usize, soil: f32) -> Vec<Mark> {
                 wheel_m: 0.0,
                 strength: 1.0,
                 soil: if k % 3 == 0 { soil } else { 0.0 },
+                wet: 0.0,
                 wear: k as u32 % 300,
                 variation: rng.next_u64(),
             }

@@ -73,6 +73,7 @@ fn walks(library: &PatternLibrary, count: usize) -> Vec<Mark> {
                 wheel_m: 0.0,
                 strength: rng.range(0.9, 1.1),
                 soil: (load * 2.68 / (step as f64 * 0.5 + 2.68)) as f32,
+                wet: 0.0,
                 wear: person,
                 variation: rng.next_u64(),
             };

@@ -112,13 +112,13 @@ impl WheelPiece {
         for (row, span) in (dj..).zip(spans) {
             let at = self.place(0, row);
             let (mut low, mut high) = (limits[0] as f32, limits[1] as f32);
-            for axis in 0..2 {
-                let (reach, per) = (self.reach[axis] + margin, self.per_i[axis]);
+            for ((at, reach), per) in at.into_iter().zip(self.reach).zip(self.per_i) {
+                let reach = reach + margin;
                 if per.abs() > 1e-3 * margin {
-                    let ends = [(-reach - at[axis]) / per, (reach - at[axis]) / per];
+                    let ends = [(-reach - at) / per, (reach - at) / per];
                     low = low.max(ends[0].min(ends[1]).floor());
                     high = high.min(ends[0].max(ends[1]).ceil() + 1.0);
-                } else if at[axis].abs() > reach + margin {
+                } else if at.abs() > reach + margin {
                     high = limits[0] as f32;
                 }
             }
