@@ -35,6 +35,16 @@ pub enum Tones {
     NegatedMap,
 }
 
+/// What ends dimension lines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ends {
+    Slanted,
+    Arrows,
+    Dots,
+    /// No dimensions at all, only axes.
+    None,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum File {
     Png,
@@ -52,6 +62,7 @@ pub struct Style {
     pub file: File,
     /// Room names and areas, dimensions, axes, north arrow, title block, sheet frame.
     pub sheet: bool,
+    pub ends: Ends,
     /// Room names and areas.
     pub names: bool,
     pub furniture: bool,
@@ -71,6 +82,7 @@ const CAD: Style = Style {
     tones: Tones::Black,
     file: File::Png,
     sheet: true,
+    ends: Ends::Slanted,
     names: true,
     furniture: true,
     turn_deg: 0.0,
@@ -83,12 +95,15 @@ const CAD: Style = Style {
 const PLAIN: Style = Style { name: "plain", doors: Doors::Open, sheet: false, names: false, furniture: false, ..CAD };
 
 /// All styles.
-pub const STYLES: [Style; 20] = [
+pub const STYLES: [Style; 23] = [
     PLAIN,
     CAD,
     Style { name: "outline walls", walls: Walls::Outline, ..CAD },
     Style { name: "hatched walls", walls: Walls::Hatched, ..CAD },
     Style { name: "walls of one pixel", walls: Walls::OnePixel, ..CAD },
+    Style { name: "walls of one pixel, arrows", walls: Walls::OnePixel, ends: Ends::Arrows, ..CAD },
+    Style { name: "walls of one pixel, dots", walls: Walls::OnePixel, ends: Ends::Dots, ..CAD },
+    Style { name: "walls of one pixel, axes alone", walls: Walls::OnePixel, ends: Ends::None, ..CAD },
     Style { name: "30 px/m", px_per_m: 30.0, ..CAD },
     Style { name: "118 px/m", px_per_m: 118.0, ..CAD },
     Style { name: "transparent", file: File::Transparent, ..CAD },
@@ -275,7 +290,7 @@ pub fn draw(case: &Case) -> Drawn {
         canvas.fill(&words, tones.words);
     }
     if style.sheet {
-        let notes = sheet(&building, size, [-margin[0], -margin[1]], thin);
+        let notes = sheet(&building, style.ends, size, [-margin[0], -margin[1]], thin);
         add(&mut truth.notes, &canvas.mask(&notes));
         canvas.fill(&notes, tones.notes);
     }
@@ -461,33 +476,56 @@ fn words(building: &Building, thin: f64) -> Vec<Polygon> {
     all
 }
 
-/// Dimension lines, axes, north arrow, title block and frame.
-fn sheet(building: &Building, size: Point, origin: Point, thin: f64) -> Vec<Polygon> {
+/// Dimension lines with what ends them, numbers and extension lines that touch the walls.
+fn dimensions(building: &Building, ends: Ends, thin: f64) -> Vec<Polygon> {
     let [w, h] = building.size;
     let mut all = Vec::new();
-    let tick = |p: Point| line([p[0] - 0.12, p[1] + 0.12], [p[0] + 0.12, p[1] - 0.12], thin * 1.5);
-    // Dimensions outside: a chain and the whole, with extension lines that touch the walls.
-    for pair in building.stations.windows(2) {
-        all.push(line([pair[0], -1.2], [pair[1], -1.2], thin));
-        all.extend(text(&format!("{:.2}", pair[1] - pair[0]), [(pair[0] + pair[1]) * 0.5, -1.42], 0.24, thin));
-    }
-    for &x in &building.stations {
-        all.push(line([x, -1.4], [x, -0.1], thin));
-        all.push(tick([x, -1.2]));
-    }
-    all.push(line([0.0, -2.0], [w, -2.0], thin));
-    all.extend([tick([0.0, -2.0]), tick([w, -2.0])]);
-    all.extend(text(&format!("{w:.2}"), [w * 0.5, -2.22], 0.24, thin));
-    all.push(line([-1.4, 0.0], [-1.4, h], thin));
-    all.extend([tick([-1.4, 0.0]), tick([-1.4, h])]);
-    all.extend([line([-1.6, 0.0], [-0.1, 0.0], thin), line([-1.6, h], [-0.1, h], thin)]);
-    all.extend(text(&format!("{h:.2}"), [-2.1, h * 0.5], 0.24, thin));
+    // What ends a line at a place; `way` points along the line, out of it.
+    let mark = |[x, y]: Point, [dx, dy]: Point| match ends {
+        Ends::Slanted => line([x - 0.12, y + 0.12], [x + 0.12, y - 0.12], thin * 1.5),
+        Ends::Dots => ellipse([x, y], [0.07, 0.07]),
+        _ => {
+            let back = [x - dx * 0.25, y - dy * 0.25];
+            vec![[x, y], [back[0] - dy * 0.05, back[1] + dx * 0.05], [back[0] + dy * 0.05, back[1] - dx * 0.05]]
+        }
+    };
+    let mut measured = |from: Point, to: Point| {
+        let length = (to[0] - from[0]).abs() + (to[1] - from[1]).abs();
+        let way = [(to[0] - from[0]) / length, (to[1] - from[1]) / length];
+        all.push(line(from, to, thin));
+        all.push(mark(from, way.map(|v| -v)));
+        all.push(mark(to, way));
+    };
+    // Outside: a chain and the whole.
+    building.stations.windows(2).for_each(|pair| measured([pair[0], -1.2], [pair[1], -1.2]));
+    measured([0.0, -2.0], [w, -2.0]);
+    measured([-1.4, 0.0], [-1.4, h]);
     // A dimension inside the first room, from wall to wall.
     let [x0, y0, x1, y1] = building.rooms[0].parts[0];
-    let y = y0 + (y1 - y0) * 0.8;
-    all.push(line([x0, y], [x1, y], thin));
-    all.extend([tick([x0 + 0.2, y]), tick([x1 - 0.1, y])]);
+    let is_free = |y: f64| building.furniture.iter().all(|piece| y < piece.min[1] - 0.1 || y > piece.max[1] + 0.1);
+    let ways = [0.8, 0.76, 0.72, 0.68].map(|share| y0 + (y1 - y0) * share);
+    let y = ways.into_iter().find(|&y| ends == Ends::Slanted || is_free(y)).unwrap_or(ways[0]);
+    if ends == Ends::Slanted {
+        all.push(line([x0, y], [x1, y], thin));
+        all.extend([mark([x0 + 0.2, y], [-1.0, 0.0]), mark([x1 - 0.1, y], [1.0, 0.0])]);
+    } else {
+        measured([x0, y], [x1, y]);
+    }
+    all.extend(building.stations.iter().map(|&x| line([x, -1.4], [x, -0.1], thin)));
+    all.extend([0.0, h].map(|y| line([-1.6, y], [-0.1, y], thin)));
+    for pair in building.stations.windows(2) {
+        all.extend(text(&format!("{:.2}", pair[1] - pair[0]), [(pair[0] + pair[1]) * 0.5, -1.42], 0.24, thin));
+    }
+    all.extend(text(&format!("{w:.2}"), [w * 0.5, -2.22], 0.24, thin));
+    all.extend(text(&format!("{h:.2}"), [-2.1, h * 0.5], 0.24, thin));
     all.extend(text(&format!("{:.2}", x1 - x0 - 0.2), [x0 + (x1 - x0) * 0.3, y - 0.22], 0.2, thin));
+    all
+}
+
+/// Dimension lines, axes, north arrow, title block and frame.
+fn sheet(building: &Building, ends: Ends, size: Point, origin: Point, thin: f64) -> Vec<Polygon> {
+    let h = building.size[1];
+    let mut all = if ends == Ends::None { Vec::new() } else { dimensions(building, ends, thin) };
     // Axes: dash and dot across the building, with a balloon.
     for (k, &x) in building.stations.iter().enumerate() {
         let mut y = -2.9;
