@@ -225,8 +225,12 @@ fn drop_axes(masks: [&mut Vec<u8>; 2], ink: &[u8], width: usize, metres_per_pixe
             }
             has_axes = true;
             // Dashes have a dot at both ends; what is longer is a wall below the axis.
-            let whole =
-                dots.iter().filter(|&&k| dots.contains(&(k + 2))).map(|&k| runs[k + 1].len()).min().unwrap_or(0);
+            let whole = dots
+                .iter()
+                .filter(|&&k| dots.binary_search(&(k + 2)).is_ok())
+                .map(|&k| runs[k + 1].len())
+                .min()
+                .unwrap_or(0);
             for run in dots.iter().flat_map(|&k| [&runs[k - 1], &runs[k + 1]]).filter(|run| run.len() <= whole + 2) {
                 run.clone().for_each(|k| mask[at(k)] = 0);
             }
