@@ -5,6 +5,7 @@
 mod buildings;
 mod canvas;
 mod measure;
+mod notes;
 mod photographs;
 mod scales;
 mod styles;
