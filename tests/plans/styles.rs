@@ -8,6 +8,7 @@ use image::{DynamicImage, ImageFormat, RgbImage, Rgba, RgbaImage};
 
 use super::buildings::{Building, Hole, HoleKind, Kind, Piece, Wall, flat, office, school};
 use super::canvas::{Canvas, Point, Polygon, arc, ellipse, line, lines, outline, rectangle, text};
+use super::notes::sheet;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Walls {
@@ -35,6 +36,16 @@ pub enum Tones {
     NegatedMap,
 }
 
+/// What ends dimension lines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ends {
+    Slanted,
+    Arrows,
+    Dots,
+    /// No dimensions at all, only axes.
+    None,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum File {
     Png,
@@ -52,6 +63,7 @@ pub struct Style {
     pub file: File,
     /// Room names and areas, dimensions, axes, north arrow, title block, sheet frame.
     pub sheet: bool,
+    pub ends: Ends,
     /// Room names and areas.
     pub names: bool,
     pub furniture: bool,
@@ -71,6 +83,7 @@ const CAD: Style = Style {
     tones: Tones::Black,
     file: File::Png,
     sheet: true,
+    ends: Ends::Slanted,
     names: true,
     furniture: true,
     turn_deg: 0.0,
@@ -83,12 +96,15 @@ const CAD: Style = Style {
 const PLAIN: Style = Style { name: "plain", doors: Doors::Open, sheet: false, names: false, furniture: false, ..CAD };
 
 /// All styles.
-pub const STYLES: [Style; 20] = [
+pub const STYLES: [Style; 23] = [
     PLAIN,
     CAD,
     Style { name: "outline walls", walls: Walls::Outline, ..CAD },
     Style { name: "hatched walls", walls: Walls::Hatched, ..CAD },
     Style { name: "walls of one pixel", walls: Walls::OnePixel, ..CAD },
+    Style { name: "walls of one pixel, arrows", walls: Walls::OnePixel, ends: Ends::Arrows, ..CAD },
+    Style { name: "walls of one pixel, dots", walls: Walls::OnePixel, ends: Ends::Dots, ..CAD },
+    Style { name: "walls of one pixel, axes alone", walls: Walls::OnePixel, ends: Ends::None, ..CAD },
     Style { name: "30 px/m", px_per_m: 30.0, ..CAD },
     Style { name: "118 px/m", px_per_m: 118.0, ..CAD },
     Style { name: "transparent", file: File::Transparent, ..CAD },
@@ -275,7 +291,7 @@ pub fn draw(case: &Case) -> Drawn {
         canvas.fill(&words, tones.words);
     }
     if style.sheet {
-        let notes = sheet(&building, size, [-margin[0], -margin[1]], thin);
+        let notes = sheet(&building, style.ends, size, [-margin[0], -margin[1]], thin);
         add(&mut truth.notes, &canvas.mask(&notes));
         canvas.fill(&notes, tones.notes);
     }
@@ -458,77 +474,6 @@ fn words(building: &Building, thin: f64) -> Vec<Polygon> {
         all.extend(text(room.name, [x, y - size * 0.8], size, thin));
         all.extend(text(&format!("{area:.1} m2"), [x, y + size * 0.8], size * 0.85, thin));
     }
-    all
-}
-
-/// Dimension lines, axes, north arrow, title block and frame.
-fn sheet(building: &Building, size: Point, origin: Point, thin: f64) -> Vec<Polygon> {
-    let [w, h] = building.size;
-    let mut all = Vec::new();
-    let tick = |p: Point| line([p[0] - 0.12, p[1] + 0.12], [p[0] + 0.12, p[1] - 0.12], thin * 1.5);
-    // Dimensions outside: a chain and the whole, with extension lines that touch the walls.
-    for pair in building.stations.windows(2) {
-        all.push(line([pair[0], -1.2], [pair[1], -1.2], thin));
-        all.extend(text(&format!("{:.2}", pair[1] - pair[0]), [(pair[0] + pair[1]) * 0.5, -1.42], 0.24, thin));
-    }
-    for &x in &building.stations {
-        all.push(line([x, -1.4], [x, -0.1], thin));
-        all.push(tick([x, -1.2]));
-    }
-    all.push(line([0.0, -2.0], [w, -2.0], thin));
-    all.extend([tick([0.0, -2.0]), tick([w, -2.0])]);
-    all.extend(text(&format!("{w:.2}"), [w * 0.5, -2.22], 0.24, thin));
-    all.push(line([-1.4, 0.0], [-1.4, h], thin));
-    all.extend([tick([-1.4, 0.0]), tick([-1.4, h])]);
-    all.extend([line([-1.6, 0.0], [-0.1, 0.0], thin), line([-1.6, h], [-0.1, h], thin)]);
-    all.extend(text(&format!("{h:.2}"), [-2.1, h * 0.5], 0.24, thin));
-    // A dimension inside the first room, from wall to wall.
-    let [x0, y0, x1, y1] = building.rooms[0].parts[0];
-    let y = y0 + (y1 - y0) * 0.8;
-    all.push(line([x0, y], [x1, y], thin));
-    all.extend([tick([x0 + 0.2, y]), tick([x1 - 0.1, y])]);
-    all.extend(text(&format!("{:.2}", x1 - x0 - 0.2), [x0 + (x1 - x0) * 0.3, y - 0.22], 0.2, thin));
-    // Axes: dash and dot across the building, with a balloon.
-    for (k, &x) in building.stations.iter().enumerate() {
-        let mut y = -2.9;
-        while y < h + 1.0 {
-            all.push(line([x, y], [x, (y + 0.8).min(h + 1.0)], thin));
-            all.push(line([x, y + 0.95], [x, y + 1.0], thin));
-            y += 1.15;
-        }
-        all.extend(outline(&ellipse([x, -3.3], [0.4, 0.4]), thin));
-        all.extend(text(&format!("{}", (b'A' + k as u8) as char), [x, -3.3], 0.32, thin));
-    }
-    // A north arrow.
-    let [right, below] = [origin[0] + size[0], origin[1] + size[1]];
-    let north = [right - 1.9, origin[1] + 2.3];
-    all.extend(outline(&ellipse(north, [0.7, 0.7]), thin));
-    all.push(vec![[north[0], north[1] - 0.7], [north[0] + 0.25, north[1] + 0.4], [north[0], north[1] + 0.15]]);
-    all.extend(text("N", [north[0], north[1] - 1.05], 0.35, thin));
-    // A scale bar of 5 m.
-    for k in 0..5 {
-        let x = origin[0] + 2.0 + f64::from(k);
-        let bar = rectangle([x, below - 1.6], [x + 1.0, below - 1.45]);
-        if k % 2 == 0 {
-            all.push(bar);
-        } else {
-            all.extend(outline(&bar, thin));
-        }
-    }
-    all.extend(text("0", [origin[0] + 2.0, below - 1.85], 0.24, thin));
-    all.extend(text("5 m", [origin[0] + 7.0, below - 1.85], 0.24, thin));
-    // The frame and the title block.
-    let frame = rectangle([origin[0] + 0.5, origin[1] + 0.5], [right - 0.5, below - 0.5]);
-    all.extend(outline(&frame, thin * 3.0));
-    let (corner, end) = ([right - 7.5, below - 3.2], [right - 0.5, below - 0.5]);
-    all.extend(outline(&rectangle(corner, end), thin * 2.0));
-    all.push(line([corner[0], corner[1] + 0.9], [end[0], corner[1] + 0.9], thin));
-    all.push(line([corner[0], corner[1] + 1.8], [end[0], corner[1] + 1.8], thin));
-    all.push(line([corner[0] + 3.5, corner[1] + 0.9], [corner[0] + 3.5, end[1]], thin));
-    all.extend(text("GROUND FLOOR", [corner[0] + 3.2, corner[1] + 0.45], 0.4, thin * 1.5));
-    all.extend(text("1:100", [corner[0] + 1.6, corner[1] + 1.35], 0.28, thin));
-    all.extend(text("12.03.2024", [corner[0] + 5.2, corner[1] + 1.35], 0.28, thin));
-    all.extend(text("PLAN 7-B", [corner[0] + 1.6, corner[1] + 2.25], 0.28, thin));
     all
 }
 

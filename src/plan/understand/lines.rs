@@ -18,12 +18,19 @@ const LARGEST_FIELD_M2: f64 = 7.0;
 const FURNITURE_SHARE: f64 = 0.8;
 /// How far from its wall's line the arc of a door may be, metres, and share of the gap that the dashes of an axis fill.
 const BESIDE_M: f64 = 0.25;
-const DASHED: std::ops::Range<f64> = 0.4..0.97;
+const DASHED: Range<f64> = 0.4..0.97;
+/// How far a leaf is from the side of its arc's box, metres.
+const LEAF_M: f64 = 0.06;
 /// Largest tick of a dimension line, and how near to the line's end it is, metres.
 const TICK_M: f64 = 0.4;
+/// By how much the two ticks of a line differ at most, pixels.
+const ALIKE_PX: u32 = 2;
 
-/// Finds lines that may be walls among strokes without lettering, and makes them thick. Returns how far they grew too, pixels.
-pub(super) fn thickened(strokes: &[u8], width: usize, metres_per_pixel: f64) -> (Vec<u8>, usize) {
+/// Finds lines that may be walls among strokes without lettering, and makes them thick. Returns how far they grew too,
+/// pixels.
+///
+/// `ink` is all that is drawn.
+pub(super) fn thickened(strokes: &[u8], ink: &[u8], width: usize, metres_per_pixel: f64) -> (Vec<u8>, usize) {
     let px = |metres: f64| (metres / metres_per_pixel).round() as usize;
     let least = px(SHORTEST_M).max(6);
     let mut level = long_runs(strokes, width, 1, least);
@@ -33,17 +40,31 @@ pub(super) fn thickened(strokes: &[u8], width: usize, metres_per_pixel: f64) -> 
     let pieces = Components::of(&rest, width, 1, Neighbours::Eight);
     let metres = |side: u32| f64::from(side) * metres_per_pixel;
     let height = strokes.len() / width;
-    // Leaves lie in the boxes of their arcs; walls do not.
+    // What is drawn between lines that end: dashes of axes, but neither leaves nor what lies in doors.
+    let mut between = ink.to_vec();
+    // Leaves lie along the sides of their arcs' boxes; furniture may reach into them.
+    let beside_leaf = px(LEAF_M).max(2);
     for arc in &pieces.all {
         let [w, h] = arc.size().map(metres);
         if w.min(h) >= ARC_M[0] && w.max(h) <= ARC_M[1] && w.min(h) >= SQUARE * w.max(h) {
-            let range = |axis: usize, side: usize| {
-                (arc.min[axis] as usize).saturating_sub(2)..(arc.end[axis] as usize + 2).min(side)
+            let around =
+                |at: u32, side: usize| (at as usize).saturating_sub(beside_leaf)..(at as usize + beside_leaf).min(side);
+            let range = |axis: usize, side: usize| around(arc.min[axis], side).start..around(arc.end[axis], side).end;
+            let is_side = |axis: usize, side: usize, at: usize| {
+                around(arc.min[axis], side).contains(&at) || around(arc.end[axis], side).contains(&at)
             };
             for y in range(1, height) {
                 let row = y * width;
-                level[row..][range(0, width)].fill(0);
-                upright[row..][range(0, width)].fill(0);
+                for x in range(0, width) {
+                    if is_side(0, width, x) {
+                        upright[row + x] = 0;
+                        between[row + x] = 0;
+                    }
+                    if is_side(1, height, y) {
+                        level[row + x] = 0;
+                        between[row + x] = 0;
+                    }
+                }
             }
             // The dashes of an axis along the wall fill the gap beside the arc.
             let beside = |axis: usize, side: usize| {
@@ -57,58 +78,165 @@ pub(super) fn thickened(strokes: &[u8], width: usize, metres_per_pixel: f64) -> 
             };
             for x in beside(0, width) {
                 if is_dashed(&spans[1], &|y| y * width + x) {
-                    spans[1].clone().for_each(|y| upright[y * width + x] = 0);
+                    for y in spans[1].clone() {
+                        upright[y * width + x] = 0;
+                        between[y * width + x] = 0;
+                    }
                 }
             }
             for y in beside(1, height) {
                 if is_dashed(&spans[0], &|x| y * width + x) {
                     level[y * width..][spans[0].clone()].fill(0);
+                    between[y * width..][spans[0].clone()].fill(0);
                 }
             }
         }
     }
     drop_frame(&mut level, &mut upright, width);
-    let ticks: Vec<[f64; 2]> = pieces
-        .all
-        .iter()
+    let is_tick = |tick: &&Component| {
         // Aslant: dots and dashes of axes are level or upright.
-        .filter(|tick| metres(tick.larger_side()) <= TICK_M && tick.size().iter().all(|&side| side >= 3))
-        .map(|tick| [0, 1].map(|axis| f64::from(tick.min[axis] + tick.end[axis]) * 0.5))
-        .collect();
+        metres(tick.larger_side()) <= TICK_M && tick.size().iter().all(|&side| side >= 3)
+    };
+    let ticks: Vec<&Component> = pieces.all.iter().filter(is_tick).collect();
     let near_px = px(TICK_M) as f64;
     let has_ticks = |line: &Component, along: usize| {
         let across = 1 - along;
-        let at_end = |end: f64| {
-            let middle = f64::from(line.min[across] + line.end[across]) * 0.5;
-            ticks.iter().any(|t| (t[along] - end).abs() <= near_px && (t[across] - middle).abs() <= near_px * 0.5)
+        let centre = |piece: &Component, axis: usize| f64::from(piece.min[axis] + piece.end[axis]) * 0.5;
+        let at_end = |end: u32| {
+            let is_near = move |tick: &&&Component| {
+                (centre(tick, along) - f64::from(end)).abs() <= near_px
+                    && (centre(tick, across) - centre(line, across)).abs() <= near_px * 0.5
+            };
+            ticks.iter().filter(is_near)
         };
-        at_end(f64::from(line.min[along])) && at_end(f64::from(line.end[along]))
+        // Both are of one size, as letters that lie on a line are not.
+        let is_alike =
+            |a: &Component, b: &Component| (0..2).all(|axis| a.size()[axis].abs_diff(b.size()[axis]) <= ALIKE_PX);
+        at_end(line.min[along]).any(|first| at_end(line.end[along]).any(|last| is_alike(first, last)))
     };
-    let mut has_dimensions = false;
+    let has_axes = drop_axes([&mut level, &mut upright], ink, width, metres_per_pixel);
+    let heads = Heads::new(&pieces, strokes.len(), width, metres_per_pixel);
+    let mut has_notes = false;
     for (mask, along) in [(&mut level, 0), (&mut upright, 1)] {
         let lines = Components::of(mask, width, 1, Neighbours::Eight);
-        for line in lines.all.iter().filter(|line| has_ticks(line, along)) {
+        for line in lines.all.iter().filter(|line| has_ticks(line, along) || heads.end(line, along)) {
             lines.paint(line, mask, width, 0);
-            has_dimensions = true;
+            has_notes = true;
         }
     }
-    // Without dimensions a line that ends freely may well be a wall: mazes have such.
-    if has_dimensions {
-        prune(&mut level, &mut upright, width, metres_per_pixel);
+    // Without dimensions and axes a line that ends freely may well be a wall: mazes have such.
+    if has_notes || has_axes {
+        prune(&mut level, &mut upright, &between, width, metres_per_pixel);
     }
     let lines: Vec<u8> = level.iter().zip(&upright).map(|(&a, &b)| a | b).collect();
     let fields = small_fields(&lines, width, LARGEST_FIELD_M2 / (metres_per_pixel * metres_per_pixel));
     let mut walls = vec![0u8; strokes.len()];
     for (mask, along) in [(&level, 0), (&upright, 1)] {
-        let lines = Components::of(mask, width, 1, Neighbours::Eight);
-        for line in &lines.all {
-            if !is_furniture(line, along, &fields, width, height) {
-                lines.paint(line, &mut walls, width, 1);
+        let pieces = Components::of(mask, width, 1, Neighbours::Eight);
+        for line in &pieces.all {
+            if !is_furniture(line, along, &fields, &lines, width) {
+                pieces.paint(line, &mut walls, width, 1);
             }
         }
     }
     let reach = px(THICK_M * 0.5).max(1);
     (grow(&walls, width, reach), reach)
+}
+
+/// Small strokes that may be the arrow heads or dots at the ends of dimension lines.
+struct Heads {
+    /// 1 for their pixels, beside all long lines.
+    mask: Vec<u8>,
+    width: usize,
+    reach: usize,
+}
+
+impl Heads {
+    fn new(pieces: &Components, pixels: usize, width: usize, metres_per_pixel: f64) -> Heads {
+        let reach = (TICK_M / metres_per_pixel).round() as usize;
+        let mut mask = vec![0u8; pixels];
+        for piece in pieces.all.iter().filter(|piece| piece.larger_side() as usize <= reach) {
+            pieces.paint(piece, &mut mask, width, 1);
+        }
+        Heads { mask, width, reach }
+    }
+
+    /// Whether a line has about as much of them on both sides of both of its ends.
+    fn end(&self, line: &Component, along: usize) -> bool {
+        /// Least ink on a side, pixels, and how many times as much another may have.
+        const LEAST_PX: usize = 3;
+        const UNLIKE: usize = 2;
+        let across = 1 - along;
+        let sizes = [self.width, self.mask.len() / self.width];
+        let ink = |end: usize, side: Range<usize>| {
+            let columns = end.saturating_sub(self.reach)..(end + self.reach / 4).min(sizes[along]);
+            let rows = side.start..side.end.min(sizes[across]);
+            let at = |column: usize, row: usize| {
+                if along == 0 { row * self.width + column } else { column * self.width + row }
+            };
+            rows.map(|row| columns.clone().filter(|&column| self.mask[at(column, row)] != 0).count()).sum::<usize>()
+        };
+        let (first, last) = (line.min[across] as usize, line.end[across] as usize);
+        let beside = (self.reach / 4).max(2);
+        let sides = |end: usize| [ink(end, first.saturating_sub(beside)..first), ink(end, last..last + beside)];
+        // Before the first end as much counts as beyond the last one.
+        let [a, b] = sides(line.min[along] as usize + self.reach * 3 / 4);
+        let [c, d] = sides(line.end[along] as usize);
+        let least = a.min(b).min(c).min(d);
+        least >= LEAST_PX && a.max(b).max(c).max(d) <= UNLIKE * least
+    }
+}
+
+/// Takes dashes of axes off level and upright lines. Returns whether there are axes: rows or columns in which dashes and
+/// dots take turns, with even gaps.
+fn drop_axes(masks: [&mut Vec<u8>; 2], ink: &[u8], width: usize, metres_per_pixel: f64) -> bool {
+    /// Longest dot and longest gap, and least dash, metres; the fewest dots of an axis.
+    const DOT_M: f64 = 0.2;
+    const GAP_M: f64 = 0.4;
+    const DASH_M: f64 = 0.3;
+    const FEWEST: usize = 3;
+    let px = |metres: f64| ((metres / metres_per_pixel).round() as usize).max(2);
+    let (dot, longest, least) = (px(DOT_M), px(GAP_M), px(DASH_M));
+    let height = ink.len() / width;
+    let mut has_axes = false;
+    for (along, mask) in masks.into_iter().enumerate() {
+        let (lines, length) = if along == 0 { (height, width) } else { (width, height) };
+        let mut runs: Vec<Range<usize>> = Vec::new();
+        for line in 0..lines {
+            let at = |k: usize| if along == 0 { line * width + k } else { k * width + line };
+            runs.clear();
+            for k in (0..length).filter(|&k| ink[at(k)] != 0) {
+                match runs.last_mut() {
+                    Some(run) if run.end == k => run.end += 1,
+                    _ => runs.push(k..k + 1),
+                }
+            }
+            let is_dot = |k: usize| {
+                let (before, own, after) = (&runs[k - 1], &runs[k], &runs[k + 1]);
+                let gaps = [own.start - before.end, after.start - own.end];
+                own.len() <= dot
+                    && gaps.iter().all(|gap| (2..=longest).contains(gap))
+                    && gaps[0].abs_diff(gaps[1]) <= 2
+                    && before.len().min(after.len()) >= least.max(2 * gaps[0].max(gaps[1]))
+            };
+            let dots: Vec<usize> = (1..runs.len().saturating_sub(1)).filter(|&k| is_dot(k)).collect();
+            if dots.len() < FEWEST {
+                continue;
+            }
+            has_axes = true;
+            // Dashes have a dot at both ends; what is longer is a wall below the axis.
+            let whole = dots
+                .iter()
+                .filter(|&&k| dots.binary_search(&(k + 2)).is_ok())
+                .map(|&k| runs[k + 1].len())
+                .min()
+                .unwrap_or(0);
+            for run in dots.iter().flat_map(|&k| [&runs[k - 1], &runs[k + 1]]).filter(|run| run.len() <= whole + 2) {
+                run.clone().for_each(|k| mask[at(k)] = 0);
+            }
+        }
+    }
+    has_axes
 }
 
 /// A level or upright line: its two ends along itself, and the two sides across, pixels.
@@ -119,11 +247,13 @@ struct Line {
 }
 
 /// Takes off dashes of axes, and what goes on beyond the last wall that a line meets: axes and the extension lines of
-/// dimensions end freely. A wall that ends at a door goes on behind it.
-fn prune(level: &mut [u8], upright: &mut [u8], width: usize, metres_per_pixel: f64) {
-    /// Longest dash, and widest door or opening behind which a wall goes on, metres.
+/// dimensions end freely. A wall that ends at a door goes on behind it; where an axis goes on, `between` shows its dashes.
+fn prune(level: &mut [u8], upright: &mut [u8], between: &[u8], width: usize, metres_per_pixel: f64) {
+    /// Longest dash, and narrowest and widest door or opening behind which a wall goes on, metres.
     const DASH_M: f64 = 1.2;
-    const GAP_M: f64 = 2.2;
+    const GAP_M: Range<f64> = 0.5..2.2;
+    /// Share of a gap from which what is drawn in it are dashes.
+    const DASHES: f64 = 0.25;
     /// More lines are no drawing of walls.
     const MOST: usize = 3000;
     /// How far off lines still meet, pixels.
@@ -138,6 +268,18 @@ fn prune(level: &mut [u8], upright: &mut [u8], width: usize, metres_per_pixel: f
     if lines.iter().any(|lines| lines.len() > MOST) {
         return;
     }
+    let is_gap = |px_wide: i64| (px(GAP_M.start)..=px(GAP_M.end)).contains(&px_wide);
+    // Whether a gap in the line of a wall, beyond one of its ends, is free of dashes.
+    let is_open = |axis: usize, line: &Line, [from, to]: [i64; 2]| {
+        let dark = |along: i64| {
+            (line.across[0]..=line.across[1]).any(|across| {
+                let [x, y] = if axis == 0 { [along, across] } else { [across, along] };
+                between.get(y as usize * width + x as usize).is_some_and(|&ink| ink != 0)
+            })
+        };
+        let within = from + NEAR..to - NEAR;
+        is_gap(to - from) && (within.clone().filter(|&k| dark(k)).count() as f64) < DASHES * within.count() as f64
+    };
     for _ in 0..20 {
         let before = lines.clone();
         for axis in 0..2 {
@@ -155,9 +297,9 @@ fn prune(level: &mut [u8], upright: &mut [u8], width: usize, metres_per_pixel: f
                         first = first.min(other.across[0]);
                         last = last.max(other.across[1]);
                     } else if other.across[1] < from {
-                        goes_on[0] |= from - other.across[1] <= px(GAP_M);
+                        goes_on[0] = goes_on[0] || is_open(axis, line, [other.across[1] + 1, from]);
                     } else {
-                        goes_on[1] |= other.across[0] - to <= px(GAP_M);
+                        goes_on[1] = goes_on[1] || is_open(axis, line, [to + 1, other.across[0]]);
                     }
                 }
                 if first > last {
@@ -169,8 +311,8 @@ fn prune(level: &mut [u8], upright: &mut [u8], width: usize, metres_per_pixel: f
                 for other in own.iter().enumerate().filter(|&(k, other)| k != n && other.along[0] <= other.along[1]) {
                     let other = other.1;
                     if other.across[0] - NEAR <= line.across[1] && other.across[1] + NEAR >= line.across[0] {
-                        goes_on[0] |= (1..=px(GAP_M)).contains(&(from - other.along[1]));
-                        goes_on[1] |= (1..=px(GAP_M)).contains(&(other.along[0] - to));
+                        goes_on[0] = goes_on[0] || is_open(axis, line, [other.along[1] + 1, from]);
+                        goes_on[1] = goes_on[1] || is_open(axis, line, [to + 1, other.along[0]]);
                     }
                 }
                 if !goes_on[0] {
@@ -178,6 +320,10 @@ fn prune(level: &mut [u8], upright: &mut [u8], width: usize, metres_per_pixel: f
                 }
                 if !goes_on[1] {
                     line.along[1] = to.min(last);
+                }
+                // What is left of a dash at furniture.
+                if line.along != [from, to] && line.along[1] - line.along[0] < px(DASH_M * 0.5) {
+                    line.along = [1, 0];
                 }
             }
         }
@@ -269,18 +415,18 @@ fn small_fields(lines: &[u8], width: usize, largest: f64) -> Vec<u8> {
     small
 }
 
-/// Whether a line has small fields along one of its sides.
-fn is_furniture(line: &Component, along: usize, fields: &[u8], width: usize, height: usize) -> bool {
+/// Whether a line has small fields along one of its sides; what meets it there, in `drawn`, does not count.
+fn is_furniture(line: &Component, along: usize, fields: &[u8], drawn: &[u8], width: usize) -> bool {
     let across = 1 - along;
+    let sizes = [width, fields.len() / width];
     let length = line.size()[along] as usize;
-    let side = |at: Option<usize>, end: usize| {
-        let Some(at) = at.filter(|&at| at < end) else { return 0 };
+    let share = |at: Option<usize>| {
+        let Some(at) = at.filter(|&at| at < sizes[across]) else { return 0.0 };
         let first = line.min[along] as usize;
         let pixel = |k: usize| if along == 0 { at * width + first + k } else { (first + k) * width + at };
-        (0..length).filter(|&k| fields[pixel(k)] != 0).count()
+        let free = (0..length).filter(|&k| drawn[pixel(k)] == 0).count();
+        (0..length).filter(|&k| fields[pixel(k)] != 0).count() as f64 / free.max(length / 2).max(1) as f64
     };
-    let end = if along == 0 { height } else { width };
-    let before = side((line.min[across] as usize).checked_sub(1), end);
-    let after = side(Some(line.end[across] as usize), end);
-    before.max(after) as f64 >= FURNITURE_SHARE * length as f64
+    let sides = [(line.min[across] as usize).checked_sub(1), Some(line.end[across] as usize)];
+    sides.into_iter().any(|side| share(side) >= FURNITURE_SHARE)
 }

@@ -30,6 +30,8 @@ const SURELY_DARK: u8 = 100;
 const FAINT: u8 = 180;
 /// Least share of a building's floor that its doors connect.
 const CONNECTED: f64 = 0.6;
+/// Greatest thickness of walls with doors, metres.
+const THICKEST_WALL_M: f64 = 0.9;
 /// Largest letter, metres.
 const LARGEST_LETTER_M: f64 = 0.9;
 
@@ -191,9 +193,11 @@ fn find_net(drawing: &Drawing, ink: &[u8], metres_per_pixel: f64) -> Option<Net>
     let strokes = without_lettering(ink, width, metres_per_pixel);
     let surely = |at: usize| dark[at] & strokes[at] & u8::from(drawing.lightness[at] < SURELY_DARK);
     let core: Vec<u8> = (0..dark.len()).map(surely).collect();
-    let net = |core: &[u8], filled: &[u8]| {
-        Net::find(core, filled, dark, ink, width, metres_per_pixel).filter(Net::is_building)
+    let net_of = |core: &[u8], filled: &[u8], thickest: usize| {
+        Net::find(core, filled, dark, ink, width, metres_per_pixel, thickest).filter(Net::is_building)
     };
+    let thickest = ((THICKEST_WALL_M / metres_per_pixel).round() as usize).max(4);
+    let net = |core: &[u8], filled: &[u8]| net_of(core, filled, thickest);
     if let Some(net) = net(&core, dark) {
         return Some(net);
     }
@@ -210,8 +214,9 @@ fn find_net(drawing: &Drawing, ink: &[u8], metres_per_pixel: f64) -> Option<Net>
         return Some(net);
     }
     drop((outlined, hatched, both));
-    let (lines, reach) = lines::thickened(&strokes, width, metres_per_pixel);
-    let mut net = net(&lines, &lines)?;
+    let (lines, reach) = lines::thickened(&strokes, ink, width, metres_per_pixel);
+    // Of lines a gap is as deep as they grew; a stub of wall across its end is no deeper end.
+    let mut net = net_of(&lines, &lines, 3 * (2 * reach + 1))?;
     // The lines themselves are the walls.
     let near = thick::grow(&net.inside, width, reach);
     for at in 0..ink.len() {

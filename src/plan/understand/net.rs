@@ -36,7 +36,8 @@ pub(super) struct Net {
 impl Net {
     /// Finds the net among what is surely dark in `core`; `dark` adds its edges.
     ///
-    /// `raw` is what is dark in the drawing, before hollow walls were filled; `ink` has lighter strokes as well.
+    /// `raw` is what is dark in the drawing, before hollow walls were filled; `ink` has lighter strokes as well. Gaps are
+    /// up to `thickest` pixels deep.
     pub(super) fn find(
         core: &[u8],
         dark: &[u8],
@@ -44,6 +45,7 @@ impl Net {
         ink: &[u8],
         width: usize,
         metres_per_pixel: f64,
+        thickest: usize,
     ) -> Option<Net> {
         let mut core = core.to_vec();
         drop_frame(&mut core, ink, width, metres_per_pixel);
@@ -52,12 +54,8 @@ impl Net {
         let mut wall = open(&core, width, side);
         drop(core);
         drop_crumbs(&mut wall, width, (thinnest * 0.8).max(LEAST_COLUMN_M / metres_per_pixel).max(LEAST_COLUMN_PX));
-        let limits = Limits {
-            shortest: px(0.5),
-            longest: px(8.0),
-            thinnest: ((thinnest * 0.75) as usize).max(2),
-            thickest: px(0.9).max(4),
-        };
+        let limits =
+            Limits { shortest: px(0.5), longest: px(8.0), thinnest: ((thinnest * 0.75) as usize).max(2), thickest };
         let strokes: Vec<u8> = ink.iter().zip(&wall).map(|(&h, &w)| u8::from(h != 0 && w == 0)).collect();
         let found = gaps::find(&wall, &strokes, width, &limits);
         drop(strokes);
