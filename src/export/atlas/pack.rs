@@ -221,7 +221,8 @@ impl Packer {
         let mut used = 0;
         while let Some(room) = (bin.length - used).checked_sub(2 * shape.padding).filter(|&room| room > 0) {
             let least = (f64::from(bin.length) * shape.least).ceil() as u32;
-            let wanted = least.saturating_sub(used + 2 * shape.padding);
+            // The padding of a further strip counts, but without that strip there is none.
+            let wanted = if used < least { least.saturating_sub(used + 2 * shape.padding).max(1) } else { 0 };
             let Some(piece) = self.next(shape, room, wanted, used == 0 && !bin.turned, breaking) else { break };
             strips.push(placed(&piece, shape, bin, used));
             used += shape.room(piece.width());

@@ -89,6 +89,16 @@ fn no_overlap(sheet: &Sheet, padding: u32) {
     }
 }
 
+/// A row that lacked less than a strip's padding counted as full: 0.848 of a sheet was covered.
+#[test]
+fn rows_that_lack_less_than_a_padding_are_filled() {
+    let (lengths, corners) = plan(10_152_642_895_237_265_349, 136, 127.195_036_246_753_62);
+    let grid = grid(921.046_449_747_223_8, 2.922_582_811_393_547, &lengths);
+    let atlas = Atlas::pack(&grid, &corners, 8192, 16).unwrap();
+    check(&atlas, &grid, &corners, 8192);
+    assert!(atlas.sheets.iter().rev().skip(1).all(|sheet| sheet.filled(16) >= 0.85));
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 256, ..ProptestConfig::default() })]
 

@@ -261,7 +261,7 @@ fn the_same_bytes_on_any_number_of_threads_with_small_images_too() {
         (files(&baked.path("walls")), baked.textures.reduced)
     };
     let one = baked(1);
-    assert_eq!(one.0.len(), 6 * one.1.len());
+    assert_eq!(one.0.len(), 7 * one.1.len());
     assert!(one.1.len() > 1);
     for (reduced, sheet) in one.1.iter().zip(&bake(100.0, &options(512)).textures.atlas.sheets) {
         assert_eq!(reduced.factor, (sheet.width.max(sheet.height) / 64).max(1));

@@ -38,10 +38,11 @@ pub(super) fn thickened(strokes: &[u8], ink: &[u8], width: usize, metres_per_pix
     let is_rest = |at: usize| strokes[at] & (1 - level[at]) & (1 - upright[at]);
     let rest: Vec<u8> = (0..strokes.len()).map(is_rest).collect();
     let pieces = Components::of(&rest, width, 1, Neighbours::Eight);
+    drop(rest);
     let metres = |side: u32| f64::from(side) * metres_per_pixel;
     let height = strokes.len() / width;
-    // What is drawn between lines that end: dashes of axes, but neither leaves nor what lies in doors.
-    let mut between = ink.to_vec();
+    // Pixels of leaves, and of what lies in doors: not what is drawn between lines that end, as dashes of axes are.
+    let mut in_doors = Vec::new();
     // Leaves lie along the sides of their arcs' boxes; furniture may reach into them.
     let beside_leaf = px(LEAF_M).max(2);
     for arc in &pieces.all {
@@ -58,11 +59,11 @@ pub(super) fn thickened(strokes: &[u8], ink: &[u8], width: usize, metres_per_pix
                 for x in range(0, width) {
                     if is_side(0, width, x) {
                         upright[row + x] = 0;
-                        between[row + x] = 0;
+                        in_doors.push(row + x);
                     }
                     if is_side(1, height, y) {
                         level[row + x] = 0;
-                        between[row + x] = 0;
+                        in_doors.push(row + x);
                     }
                 }
             }
@@ -80,14 +81,14 @@ pub(super) fn thickened(strokes: &[u8], ink: &[u8], width: usize, metres_per_pix
                 if is_dashed(&spans[1], &|y| y * width + x) {
                     for y in spans[1].clone() {
                         upright[y * width + x] = 0;
-                        between[y * width + x] = 0;
+                        in_doors.push(y * width + x);
                     }
                 }
             }
             for y in beside(1, height) {
                 if is_dashed(&spans[0], &|x| y * width + x) {
                     level[y * width..][spans[0].clone()].fill(0);
-                    between[y * width..][spans[0].clone()].fill(0);
+                    in_doors.extend(spans[0].clone().map(|x| y * width + x));
                 }
             }
         }
@@ -125,7 +126,10 @@ pub(super) fn thickened(strokes: &[u8], ink: &[u8], width: usize, metres_per_pix
         }
     }
     // Without dimensions and axes a line that ends freely may well be a wall: mazes have such.
+    drop((heads, pieces));
     if has_notes || has_axes {
+        let mut between = ink.to_vec();
+        in_doors.into_iter().for_each(|at| between[at] = 0);
         prune(&mut level, &mut upright, &between, width, metres_per_pixel);
     }
     let lines: Vec<u8> = level.iter().zip(&upright).map(|(&a, &b)| a | b).collect();

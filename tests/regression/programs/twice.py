@@ -21,5 +21,5 @@ assert first == second, "the function, its inputs and outputs are other ones, or
 assert not unreal.deleted, unreal.deleted
 kinds = sorted(path.rsplit("_", 2)[-2] for path in unreal.assets if "_Tile" in path)
 assert kinds == [
-    "BaseColor", "BaseColor", "Mask", "Mask", "Normal", "ORM", "ORM", "Passes", "Rub", "Splash", "Wear"], kinds
+    "BaseColor", "BaseColor", "Mask", "Mask", "Normal", "Normal", "ORM", "ORM", "Passes", "Rub", "Splash", "Wear"], kinds
 print("ok")
