@@ -1,5 +1,7 @@
 //! The net of walls in a drawing: thick strokes, and hollow or hatched ones once filled.
 
+use std::collections::BTreeMap;
+
 use super::super::components::{Component, Components, Neighbours};
 use super::gaps::{self, Gap, Limits};
 use super::thick::{THINNEST_M, grow, open, wall_square};
@@ -122,11 +124,14 @@ fn least_box(wall: &[u8], width: usize, [x0, y0, x1, y1]: [u32; 4]) -> f64 {
 /// columns among them, and other buildings. Returns the box around the main one.
 fn keep_building(wall: &mut [u8], raw: &[u8], width: usize, doors: &[Gap], windows: &[Gap]) -> Option<[u32; 4]> {
     let pieces = Components::of(wall, width, 1, Neighbours::Eight);
-    let mut number = vec![0u32; wall.len()];
-    for (k, piece) in (1..).zip(&pieces.all) {
+    let mut ends: Vec<usize> = doors.iter().chain(windows).flat_map(|gap| gap.ends).collect();
+    ends.sort_unstable();
+    let mut piece_at = BTreeMap::new();
+    for (k, piece) in pieces.all.iter().enumerate() {
         for run in pieces.runs(piece) {
-            let row = run.y as usize * width;
-            number[row + run.from as usize..row + run.to as usize].fill(k);
+            let [from, to] = [run.from, run.to].map(|x| run.y as usize * width + x as usize);
+            let within = &ends[ends.partition_point(|&at| at < from)..ends.partition_point(|&at| at < to)];
+            piece_at.extend(within.iter().map(|&at| (at, k)));
         }
     }
     let mut group: Vec<usize> = (0..pieces.all.len()).collect();
@@ -137,10 +142,11 @@ fn keep_building(wall: &mut [u8], raw: &[u8], width: usize, doors: &[Gap], windo
         k
     }
     for gap in doors.iter().chain(windows) {
-        let [a, b] = gap.ends.map(|at| top(&group, number[at] as usize - 1));
-        group[a.max(b)] = a.min(b);
+        if let [Some(&a), Some(&b)] = gap.ends.map(|at| piece_at.get(&at)) {
+            let [a, b] = [a, b].map(|k| top(&group, k));
+            group[a.max(b)] = a.min(b);
+        }
     }
-    drop(number);
     let tops: Vec<usize> = (0..group.len()).map(|k| top(&group, k)).collect();
     let mut area = vec![0usize; group.len()];
     let mut around = vec![[u32::MAX, u32::MAX, 0, 0]; group.len()];
