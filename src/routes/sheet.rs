@@ -269,6 +269,6 @@ impl ConductiveSheet {
                 }
             }
         }
-        Matrix::new(&earthed, &edges)
+        Matrix::new(earthed, edges)
     }
 }

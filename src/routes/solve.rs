@@ -17,19 +17,20 @@ pub(super) struct Matrix {
 
 impl Matrix {
     /// Builds the matrix from conductances to earth and between rows (both directions).
-    pub(super) fn new(earthed: &[f64], edges: &[(u32, u32, f64)]) -> Matrix {
+    pub(super) fn new(earthed: Vec<f64>, edges: Vec<(u32, u32, f64)>) -> Matrix {
         let rows = earthed.len();
-        let mut matrix = Matrix { diagonal: earthed.to_vec(), ..Matrix::default() };
+        let mut matrix = Matrix { diagonal: earthed, ..Matrix::default() };
         // Each row's edges in their original order, so that sums do not depend on sorting.
         let mut starts = vec![0; rows + 1];
         edges.iter().for_each(|edge| starts[edge.0 as usize + 1] += 1);
         (0..rows).for_each(|row| starts[row + 1] += starts[row]);
         let mut next = starts.clone();
         let mut sorted = vec![(0, 0.0); edges.len()];
-        for &(row, column, value) in edges {
+        for &(row, column, value) in &edges {
             sorted[next[row as usize]] = (column, value);
             next[row as usize] += 1;
         }
+        drop((next, edges));
         for row in 0..rows {
             let own = &mut sorted[starts[row]..starts[row + 1]];
             own.sort_by_key(|edge| edge.0);
@@ -171,7 +172,7 @@ mod tests {
             }
         }
         let earthed: Vec<f64> = (0..side * side).map(|k| f64::from(u8::from(k % side == 0))).collect();
-        Matrix::new(&earthed, &edges)
+        Matrix::new(earthed, edges)
     }
 
     #[test]
