@@ -45,6 +45,8 @@ pub(super) struct Weaver {
     next_id: u32,
     /// The frame returned last.
     before: PendingFrame,
+    /// Time of the last frame returned, seconds.
+    returned_s: f64,
     /// Buffer for reuse.
     spare: Vec<(Walker, bool)>,
 }
@@ -115,6 +117,7 @@ impl Weaver {
             known: IdSet::default(),
             next_id: largest_id.saturating_add(1),
             before: PendingFrame::default(),
+            returned_s: f64::NEG_INFINITY,
             spare: Vec::new(),
         }
     }
@@ -286,8 +289,15 @@ impl Weaver {
 
 impl Motion for Weaver {
     fn next_frame(&mut self, frame: &mut Frame) -> Result<bool, MotionError> {
-        self.read_ahead().map_err(MotionError::of_source)?;
-        let Some((_, mut now)) = self.pending.pop_first() else { return Ok(false) };
+        let mut now = loop {
+            self.read_ahead().map_err(MotionError::of_source)?;
+            let Some((_, now)) = self.pending.pop_first() else { return Ok(false) };
+            // Ages from 0, frames lie closer than numbers do.
+            if now.time_s > self.returned_s {
+                break now;
+            }
+        };
+        self.returned_s = now.time_s;
         now.sort();
         if let Some(mut next) = self.pending.first_entry() {
             next.get_mut().sort();
