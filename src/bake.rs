@@ -133,14 +133,8 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let mut stamp = |marks: &Marks| {
         sums.floor.add(&stamper, walls, &marks.footfalls);
         if let (Some(lived), Some(life)) = (&mut lived, &life) {
-            lived.count(
-                life,
-                marks
-                    .footfalls
-                    .iter()
-                    .filter(|mark| mark.stood_s == 0.0 && mark.wheel_m == 0.0)
-                    .map(|mark| mark.place_m),
-            );
+            let steps = marks.footfalls.iter().filter(|mark| mark.is_of_step());
+            lived.count(life, steps.map(|mark| mark.place_m));
         }
         if let Some(sums) = &mut sums.walls {
             sums.add(&wall_stamper, &marks.contacts);

@@ -21,15 +21,10 @@ pub(super) fn rise(x: f32, from: f32, to: f32) -> f32 {
 
 /// Smooth noise from -1 to 1 with a spot per unit, for patterns that turn or shift from piece to piece.
 pub(super) fn smooth(key: u32, x: f64, y: f64) -> f32 {
-    let (i, j) = (x.floor(), y.floor());
-    let (f, g) = ((x - i) as f32, (y - j) as f32);
-    let (f, g) = (smoothstep_f32(f), smoothstep_f32(g));
-    let (i, j) = (i as i64 as i32, j as i64 as i32);
-    let row = |j: i32| {
-        let (a, b) = (noise::signed(key, i, j), noise::signed(key, i.wrapping_add(1), j));
-        a + f * (b - a)
-    };
-    let (below, above) = (row(j), row(j.wrapping_add(1)));
+    let floor = y.floor();
+    let g = smoothstep_f32((y - floor) as f32);
+    let j = floor as i64 as i32;
+    let (below, above) = (smooth_along(key, x, j), smooth_along(key, x, j.wrapping_add(1)));
     below + g * (above - below)
 }
 

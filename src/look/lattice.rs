@@ -38,6 +38,11 @@ impl TexelWindow {
         rows.any(|row| mask[row * self.width..][columns.clone()].contains(&true))
     }
 
+    /// Returns the window with a texel more to the left and below: slopes are differences to those.
+    pub fn with_neighbours(&self) -> TexelWindow {
+        TexelWindow { i0: self.i0 - 1, j0: self.j0 - 1, width: self.width + 1, height: self.height + 1, ..*self }
+    }
+
     /// Returns the window enlarged by `by` texels on every side.
     pub fn grown(&self, by: usize) -> TexelWindow {
         TexelWindow {

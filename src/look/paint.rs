@@ -167,15 +167,7 @@ impl<'a> FloorPainter<'a> {
         passes::read(self.sums, Quantity::Soil, &window, &mut buffers.soil);
         passes::read(self.sums, Quantity::Scuff, &window, &mut buffers.scuff);
         passes::read(self.sums, Quantity::Wheels, &window, &mut buffers.wheels);
-        // A texel more to the left and below: slopes are differences to those.
-        let around = TexelWindow {
-            i0: window.i0 - 1,
-            j0: window.j0 - 1,
-            width: window.width + 1,
-            height: window.height + 1,
-            ..window
-        };
-        self.ground.lay_out(&around, &mut buffers.surface);
+        self.ground.lay_out(&window.with_neighbours(), &mut buffers.surface);
         let near = |quantity: Quantity| move |place| self.law.weight * passes::near(self.sums, quantity, place);
         let traffic = (near(Quantity::Presence), near(Quantity::Dwell));
         buffers.spots.lay_out(&window, (&self.look.age, &self.look.dwell), self.look.seed, traffic);

@@ -103,7 +103,7 @@ impl WetFloor {
             let mut covered = 1.0 - exp_f32(-WATER_PER_DENSITY * print);
             *soil += self.tracks * print;
             if self.puddles > 0.0 && level[k] > 0.0 {
-                let level = ln_f32(1.0 + level[k].max(0.0) / (FINER as f32 * PUDDLE_DENSITY)) + noise[k] - STANDS_FROM;
+                let level = ln_f32(1.0 + level[k] / (FINER as f32 * PUDDLE_DENSITY)) + noise[k] - STANDS_FROM;
                 // Dirt is carried to the edge: sharp outside, fading inwards.
                 let off = level / window.rim;
                 let line = exp_f32(-off * off * if off < 0.0 { 1.0 } else { INWARDS });

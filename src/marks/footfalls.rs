@@ -50,13 +50,18 @@ pub struct Footfalls<'a> {
     count: u64,
 }
 
-/// The state of a person who is present.
+/// A person who is present.
 struct PresentPerson {
-    person: Person,
     track: SmoothedPath,
+    state: WalkerState,
+}
+
+/// What the ticks of a person's path change.
+struct WalkerState {
+    person: Person,
     gait: GaitState,
     feet: ShoeState,
-    contact_state: ContactState,
+    contacts: ContactState,
     standing: Standing,
     wheels: Option<Box<Wheels>>,
 }
@@ -182,10 +187,10 @@ impl<'a> Footfalls<'a> {
         let mut before = std::mem::take(&mut self.present).into_iter().peekable();
         let mut now = Vec::with_capacity(frame.walkers.len());
         for walker in frame.walkers.iter().filter(|walker| walker.position_m.is_finite()) {
-            while let Some(left) = before.next_if(|present| present.person.id < walker.id) {
+            while let Some(left) = before.next_if(|present| present.state.person.id < walker.id) {
                 self.leave(left, out);
             }
-            match before.next_if(|present| present.person.id == walker.id) {
+            match before.next_if(|present| present.state.person.id == walker.id) {
                 Some(mut present) => {
                     self.walk_on(&mut present, frame.time_s, walker, out);
                     now.push(present);
@@ -228,55 +233,36 @@ impl<'a> Footfalls<'a> {
             last: None,
         };
         let gait = GaitState::new(seed, &person, self.options.shifts_per_minute / 60.0);
-        let contact_state = ContactState::new(seed, &person);
+        let contacts = ContactState::new(seed, &person);
+        let (standing, wheels) = (Standing::default(), Wheels::of(seed, &person));
         PresentPerson {
             track: SmoothedPath::new(time_s, walker.position_m, walker.heading),
-            gait,
-            feet,
-            contact_state,
-            standing: Standing::default(),
-            wheels: Wheels::of(seed, &person),
-            person,
+            state: WalkerState { person, gait, feet, contacts, standing, wheels },
         }
     }
 
     fn walk_on(&mut self, present: &mut PresentPerson, time_s: f64, walker: &Walker, out: &mut Vec<Mark>) {
-        let PresentPerson { person, track, gait, feet, contact_state, standing, wheels } = present;
-        let mut advance =
-            |sample: TrackSample| self.advance(person, gait, (feet, contact_state, standing, wheels), sample, out);
+        let PresentPerson { track, state } = present;
         if track.continues(time_s, walker.position_m) {
-            track.push(time_s, walker.position_m, walker.heading, advance);
+            track.push(time_s, walker.position_m, walker.heading, |sample| self.advance(state, sample, out));
         } else {
-            track.finish(&mut advance);
-            gait.interrupt();
-            contact_state.interrupt();
-            standing.end(&mut self.lasting);
-            wheels.iter_mut().for_each(|wheels| wheels.lift(&mut self.lasting));
+            track.finish(|sample| self.advance(state, sample, out));
+            state.gait.interrupt();
+            state.contacts.interrupt();
+            state.end_lasting(&mut self.lasting);
             *track = SmoothedPath::new(time_s, walker.position_m, walker.heading);
         }
     }
 
     fn leave(&mut self, mut present: Box<PresentPerson>, out: &mut Vec<Mark>) {
-        let PresentPerson { person, track, gait, feet, contact_state, standing, wheels } = &mut *present;
-        track.finish(|sample| self.advance(person, gait, (feet, contact_state, standing, wheels), sample, out));
-        standing.end(&mut self.lasting);
-        wheels.iter_mut().for_each(|wheels| wheels.lift(&mut self.lasting));
+        let PresentPerson { track, state } = &mut *present;
+        track.finish(|sample| self.advance(state, sample, out));
+        state.end_lasting(&mut self.lasting);
     }
 
     /// Processes a tick of a smoothed path: footfalls, heel marks, standing, wheels, contacts.
-    fn advance(
-        &mut self,
-        person: &Person,
-        gait: &mut GaitState,
-        (feet, contact_state, standing, wheels): (
-            &mut ShoeState,
-            &mut ContactState,
-            &mut Standing,
-            &mut Option<Box<Wheels>>,
-        ),
-        sample: TrackSample,
-        out: &mut Vec<Mark>,
-    ) {
+    fn advance(&mut self, state: &mut WalkerState, sample: TrackSample, out: &mut Vec<Mark>) {
+        let WalkerState { person, gait, feet, contacts: contact_state, standing, wheels } = state;
         let progress = gait.walk(person, sample, |step| {
             self.count += 1;
             let inside = self.plan_m.contains(step.place_m);
@@ -313,6 +299,16 @@ impl<'a> Footfalls<'a> {
             new.retain(|touch| touch.height_m < top_m(touch));
             self.touched.append(&mut new);
             self.contact_count += (self.touched.len() - before) as u64;
+        }
+    }
+}
+
+impl WalkerState {
+    /// Ends a while of standing and the lines of wheels; appends them to `out`.
+    fn end_lasting(&mut self, out: &mut Vec<Mark>) {
+        self.standing.end(out);
+        if let Some(wheels) = &mut self.wheels {
+            wheels.lift(out);
         }
     }
 }

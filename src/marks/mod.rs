@@ -82,9 +82,9 @@ pub struct Mark {
 }
 
 impl Mark {
-    /// The footfall as it would be in rain.
-    pub(crate) fn with_wet_soil(&self) -> Mark {
-        Mark { soil: self.wet, ..*self }
+    /// Whether a step left it: a footfall or a heel mark, not a while of standing nor a wheel.
+    pub(crate) fn is_of_step(&self) -> bool {
+        self.stood_s == 0.0 && self.wheel_m == 0.0
     }
 }
 

@@ -58,9 +58,9 @@ impl Shoes {
         // Both kinds of start are drawn, so that the origin of a person shifts no other draw.
         let entering = options.steps_before_entering.draw(rng);
         let indoors = options.steps_before_indoors.draw(rng);
+        let weather_factor = if options.weather == Weather::Wet { WET_FACTOR } else { 1.0 };
         let feet = [0, 1].map(|_| {
             let shoe = exp(options.shoe_sigma * normal(rng));
-            let weather_factor = if options.weather == Weather::Wet { WET_FACTOR } else { 1.0 };
             Shoe {
                 load: (weather_factor * person_load * shoe).min(MOST_DENSITY),
                 wet_load: (MUD_FACTOR * person_wet_load * shoe).min(MOST_DENSITY),

@@ -66,13 +66,30 @@ impl Stamper {
             sheet.hide(&shadow, window);
         }
         let unit = mark.strength.clamp(0.0, MOST_DENSITY) * DENSITY_ONE * plate.unit / NOISE_ONE;
+        let amount = |di: i32, dj: i32| 1.0 - variation.fade * at(di, dj);
+        self.add_along(sheet, origin, window, variation.noise_at, unit, amount, cells);
+    }
+
+    /// Adds coverage times `unit`, an amount that changes along the mark, and noise from a place of its own.
+    #[allow(clippy::too_many_arguments)]
+    pub(super) fn add_along<C: SumCell>(
+        &self,
+        sheet: &PrintCoverage,
+        origin: [i64; 2],
+        window: TexelWindow,
+        noise_at: [u32; 2],
+        unit: f32,
+        amount: impl Fn(i32, i32) -> f32,
+        cells: &mut [C],
+    ) {
         let (cells, _) = cells.as_chunks_mut::<LANES>();
         for row in sheet.rows(origin, window) {
-            let noise = self.grain.row(variation.noise_at, row.first_lanes, row.j as u32);
+            let noise = self.grain.row(noise_at, row.first_lanes, row.j as u32);
             let texels = cells[row.cells.clone()].as_flattened_mut().iter_mut().zip(row.coverage.as_flattened());
             for (di, ((cell, &c), &n)) in (row.di..).zip(texels.zip(noise.iter().flatten())) {
-                let tapered = 1.0 - variation.fade * at(di, row.dj);
-                cell.add((f32::from(c) * unit * tapered * f32::from(n) + 0.5) as u16);
+                if c > 0 {
+                    cell.add((f32::from(c) * unit * amount(di, row.dj) * f32::from(n) + 0.5) as u16);
+                }
             }
         }
     }

@@ -44,9 +44,9 @@ impl Stamper {
         (passes(mark) * MOST_PRESSURE * self.faint_peak) as u32 + 2
     }
 
-    /// Upper bound on a mark's value in a texel of `soil`.
-    pub(crate) fn peak_of_soil(&self, mark: &Mark) -> u32 {
-        (soil(mark) * MOST_PRESSURE * self.grain_peak) as u32 + 2
+    /// Upper bound on the value of a print of soil in a texel.
+    pub(crate) fn peak_of_soil(&self, density: f32) -> u32 {
+        (soil(density) * MOST_PRESSURE * self.grain_peak) as u32 + 2
     }
 
     fn prepare(&self, mark: &Mark, blurred: bool) -> Option<Prepared<'_>> {
@@ -74,29 +74,30 @@ impl Stamper {
         self.add_evenly(&prepared, passes(mark), &self.faint, window, sheet, cells);
     }
 
-    /// Adds a footfall's soil to the texels of a window, as optical density.
+    /// Adds a footfall's soil to the texels of a window: optical density, `density` at full coverage.
     #[allow(clippy::too_many_arguments)]
     pub(crate) fn add_soil<C: SumCell>(
         &self,
         mark: &Mark,
+        density: f32,
         placed: &PlacedMark,
         walls: &Walls,
         window: TexelWindow,
         sheet: &mut PrintCoverage,
         cells: &mut [C],
     ) {
-        if mark.soil < READABLE_DENSITY {
+        if density < READABLE_DENSITY {
             let Some(prepared) = self.prepare(mark, false) else { return };
             self.read(&prepared, mark, placed, walls, window, sheet);
             let left = prepared.printer.mean_coat(&prepared.pose, &self.options);
-            self.add_evenly(&prepared, soil(mark) * left, &self.grain, window, sheet, cells);
+            self.add_evenly(&prepared, soil(density) * left, &self.grain, window, sheet, cells);
             return;
         }
         let Some(prepared) = self.prepare(mark, true) else { return };
         self.read_smoothly(&prepared, mark, placed, walls, window, sheet);
         let Prepared { printer, pose, plate, variation, origin } = &prepared;
         let sole = printer.sole_place(pose, &self.grid);
-        let pressure = pressure(printer, pose, variation, sole).times(soil(mark) / NOISE_ONE, 0.0);
+        let pressure = pressure(printer, pose, variation, sole).times(soil(density) / NOISE_ONE, 0.0);
         let coat = SoilCoat::new(variation, mark.wear, sole);
         let (cells, _) = cells.as_chunks_mut::<LANES>();
         for row in sheet.rows(*origin, window) {
@@ -235,9 +236,9 @@ fn passes(mark: &Mark) -> f32 {
     mark.strength.clamp(0.0, MOST_STRENGTH) * PASSES_ONE
 }
 
-/// Value at full coverage that a mark adds to `soil`.
-fn soil(mark: &Mark) -> f32 {
-    mark.soil.clamp(0.0, MOST_DENSITY) * DENSITY_ONE
+/// Value at full coverage of a print of soil.
+fn soil(density: f32) -> f32 {
+    density.clamp(0.0, MOST_DENSITY) * DENSITY_ONE
 }
 
 /// Pressure over the sole, with mean 1 over its coverage: uneven pressure keeps the integral.

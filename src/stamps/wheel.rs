@@ -1,6 +1,6 @@
 //! Lines of wheels: a piece of a line that bends a little, added to `wheels`, or as rubber to `scuff`.
 
-use super::lanes::{LANES, SumCell};
+use super::lanes::SumCell;
 use super::noise::NOISE_ONE;
 use super::print_coverage::PrintCoverage;
 use super::shadow::{Shadow, StampExtent};
@@ -172,18 +172,11 @@ impl Stamper {
         let noise_at = [word as u32, (word >> 32) as u32];
         let unit = one(mark) / (255.0 * NOISE_ONE);
         let per_m = mark.effort / mark.length_m;
-        let (cells, _) = cells.as_chunks_mut::<LANES>();
-        for row in sheet.rows(piece.origin, window) {
-            let noise = self.grain.row(noise_at, row.first_lanes, row.j as u32);
-            let texels = cells[row.cells.clone()].as_flattened_mut().iter_mut().zip(row.coverage.as_flattened());
-            for (di, ((cell, &c), &n)) in (row.di..).zip(texels.zip(noise.iter().flatten())) {
-                if c > 0 {
-                    let along = piece.place(di, row.dj)[0].clamp(-piece.half_length, piece.half_length);
-                    let amount = (mark.strength + per_m * along).clamp(0.0, MOST_AMOUNT);
-                    cell.add((f32::from(c) * unit * amount * f32::from(n) + 0.5) as u16);
-                }
-            }
-        }
+        let amount = |di: i32, dj: i32| {
+            let along = piece.place(di, dj)[0].clamp(-piece.half_length, piece.half_length);
+            (mark.strength + per_m * along).clamp(0.0, MOST_AMOUNT)
+        };
+        self.add_along(sheet, piece.origin, window, noise_at, unit, amount, cells);
     }
 }
 

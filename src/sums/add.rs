@@ -160,8 +160,8 @@ fn fine(task: Task, marks: &BatchMarks, sheet: &mut PrintCoverage) {
             Quantity::Passes => marks.stamper.peak_of_passes(mark),
             Quantity::Presence | Quantity::Dwell => marks.stamper.peak_of_presence(placed),
             Quantity::Grind => marks.stamper.peak_of_grind(placed),
-            Quantity::Soil => marks.stamper.peak_of_soil(mark),
-            Quantity::Wet => marks.stamper.peak_of_soil(&mark.with_wet_soil()),
+            Quantity::Soil => marks.stamper.peak_of_soil(mark.soil),
+            Quantity::Wet => marks.stamper.peak_of_soil(mark.wet),
             Quantity::Scuff => marks.stamper.peak_of_scuff(mark),
             Quantity::Wheels => marks.stamper.peak_of_wheel(mark),
         };
@@ -188,8 +188,8 @@ fn stamp<C: SumCell>(
         Quantity::Passes => stamper.add_passes(mark, placed, walls, window, sheet, cells),
         Quantity::Presence | Quantity::Dwell => stamper.add_presence(mark, placed, walls, window, cells),
         Quantity::Grind => stamper.add_grind(mark, placed, walls, window, cells),
-        Quantity::Soil => stamper.add_soil(mark, placed, walls, window, sheet, cells),
-        Quantity::Wet => stamper.add_soil(&mark.with_wet_soil(), placed, walls, window, sheet, cells),
+        Quantity::Soil => stamper.add_soil(mark, mark.soil, placed, walls, window, sheet, cells),
+        Quantity::Wet => stamper.add_soil(mark, mark.wet, placed, walls, window, sheet, cells),
         Quantity::Scuff => stamper.add_scuff(mark, placed, walls, window, sheet, cells),
         Quantity::Wheels => stamper.add_wheel(mark, placed, walls, window, sheet, cells),
     }

@@ -210,9 +210,7 @@ fn floor_heat(manifest: &Manifest, diffs: &[(ImageDiff, Option<HeatMap>)]) -> He
     let of_floor = diffs.iter().filter(|(image, _)| !image.file.starts_with("preview/"));
     for (image, part) in of_floor.filter_map(|(image, part)| Some((image, part.as_ref()?))) {
         let names = |tile: &&super::TileEntry| {
-            let files = [&tile.basecolor, &tile.mask, &tile.passes, &tile.wear, &tile.normal, &tile.orm];
-            let mut files = files.into_iter().chain(&tile.layers).chain(&tile.mask_map);
-            *tile.sums == *image.file || files.any(|file| *file == image.file)
+            *tile.sums == *image.file || tile.images().chain(&tile.layers).any(|file| *file == image.file)
         };
         if let Some(tile) = floor.tiles.iter().find(names) {
             let top = (rows - 1 - tile.v) as usize * tile_height;

@@ -170,6 +170,14 @@ pub struct TileEntry {
     pub sums: BakePath,
 }
 
+impl TileEntry {
+    /// Its images of 8 bits a channel.
+    pub(crate) fn images(&self) -> impl Iterator<Item = &String> {
+        let images = [&self.basecolor, &self.mask, &self.passes, &self.wear, &self.normal, &self.orm];
+        images.into_iter().chain(&self.mask_map).filter(|file| !file.is_empty())
+    }
+}
+
 /// Encoding of the exact sums of a floor.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SumsEntry {

@@ -66,6 +66,14 @@ pub struct SheetEntry {
     pub strips: Vec<StripEntry>,
 }
 
+impl SheetEntry {
+    /// Its images of 8 bits a channel.
+    pub(crate) fn images(&self) -> impl Iterator<Item = &String> {
+        let images = [&self.basecolor, &self.mask, &self.splash, &self.rub, &self.normal, &self.orm];
+        images.into_iter().chain(&self.mask_map).filter(|file| !file.is_empty())
+    }
+}
+
 /// A stretch of a wall face in a sheet.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct StripEntry {

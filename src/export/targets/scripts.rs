@@ -1,5 +1,5 @@
 use super::Target;
-use crate::export::manifest::Manifest;
+use crate::export::manifest::{Manifest, SheetEntry, TileEntry};
 use crate::export::{ExportError, OutputFolder};
 
 /// A file in `shaders/`: name and content.
@@ -57,25 +57,12 @@ const GODOT_IGNORES: [&str; 2] = ["preview", "sums"];
 
 /// Returns every image of a bake with its import settings for Godot 4.
 fn godot_imports(manifest: &Manifest) -> Vec<(&str, String)> {
-    let tiles = manifest.floor.tiles.iter();
-    let tiles = tiles.map(|tile| ([&tile.basecolor, &tile.mask, &tile.passes, &tile.orm], &tile.layers));
-    let sheets = manifest.walls.iter().flat_map(|walls| &walls.sheets);
-    let sheets = sheets.map(|sheet| ([&sheet.basecolor, &sheet.mask, &sheet.splash, &sheet.orm], &sheet.layers));
-    let sheets_too = manifest.walls.iter().flat_map(|walls| &walls.sheets);
-    let rubs = sheets_too.flat_map(|sheet| [sheet.rub.as_str(), sheet.normal.as_str()]);
-    let relief = manifest.floor.tiles.iter().flat_map(|tile| [tile.wear.as_str(), tile.normal.as_str()]);
-    let mut imports: Vec<_> = rubs
-        .chain(relief)
-        .filter(|file| !file.is_empty())
-        .map(|file| (file, godot_import(GodotCompression::Vram)))
-        .collect();
-    for (images, layers) in tiles.chain(sheets) {
-        for image in images {
-            imports.push((image.as_str(), godot_import(GodotCompression::Vram)));
-        }
-        imports.extend(layers.iter().map(|file| (file.as_str(), godot_import(GodotCompression::None))));
-    }
-    imports
+    let (tiles, sheets) = (&manifest.floor.tiles, manifest.walls.iter().flat_map(|walls| &walls.sheets));
+    let images = tiles.iter().flat_map(TileEntry::images).chain(sheets.clone().flat_map(SheetEntry::images));
+    let layers = tiles.iter().flat_map(|tile| &tile.layers).chain(sheets.flat_map(|sheet| &sheet.layers));
+    let images = images.map(|file| (file.as_str(), godot_import(GodotCompression::Vram)));
+    let layers = layers.map(|file| (file.as_str(), godot_import(GodotCompression::None)));
+    images.chain(layers).collect()
 }
 
 #[derive(Clone, Copy)]

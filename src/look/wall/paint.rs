@@ -167,12 +167,6 @@ impl<'a> WallPainter<'a> {
     }
 }
 
-/// A texel more to the left and below: slopes are differences to those.
-fn with_below(window: &TexelWindow) -> TexelWindow {
-    let TexelWindow { i0, j0, width, height, .. } = *window;
-    TexelWindow { i0: i0 - 1, j0: j0 - 1, width: width + 1, height: height + 1, ..*window }
-}
-
 /// Returns the noises of the wall's three octaves.
 fn dirt_noise(look: &Look) -> Vec<Noise> {
     let NoiseLook { fine, middle, coarse } = look.wall.noise;
@@ -197,7 +191,7 @@ impl<'a> WallLayout<'a> {
             splash.is_some() || !chips.is_empty() || touches.iter().any(Option::is_some) || law.dust_from(low_m as f32);
         let noise = |noise: &Noise| noise.over_strip(window, strip.salt, strip.width, strip.closed);
         WallLayout {
-            plaster: painter.plaster.over(&with_below(window), strip),
+            plaster: painter.plaster.over(&window.with_neighbours(), strip),
             touches,
             splash,
             chips,

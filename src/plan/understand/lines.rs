@@ -39,94 +39,22 @@ pub(super) fn thickened(strokes: &[u8], ink: &[u8], width: usize, metres_per_pix
     let rest: Vec<u8> = (0..strokes.len()).map(is_rest).collect();
     let pieces = Components::of(&rest, width, 1, Neighbours::Eight);
     drop(rest);
-    let metres = |side: u32| f64::from(side) * metres_per_pixel;
-    let height = strokes.len() / width;
-    // Pixels of leaves, and of what lies in doors: not what is drawn between lines that end, as dashes of axes are.
-    let mut in_doors = Vec::new();
-    // Leaves lie along the sides of their arcs' boxes; furniture may reach into them.
-    let beside_leaf = px(LEAF_M).max(2);
-    for arc in &pieces.all {
-        let [w, h] = arc.size().map(metres);
-        if w.min(h) >= ARC_M[0] && w.max(h) <= ARC_M[1] && w.min(h) >= SQUARE * w.max(h) {
-            let around =
-                |at: u32, side: usize| (at as usize).saturating_sub(beside_leaf)..(at as usize + beside_leaf).min(side);
-            let range = |axis: usize, side: usize| around(arc.min[axis], side).start..around(arc.end[axis], side).end;
-            let is_side = |axis: usize, side: usize, at: usize| {
-                around(arc.min[axis], side).contains(&at) || around(arc.end[axis], side).contains(&at)
-            };
-            for y in range(1, height) {
-                let row = y * width;
-                for x in range(0, width) {
-                    if is_side(0, width, x) {
-                        upright[row + x] = 0;
-                        in_doors.push(row + x);
-                    }
-                    if is_side(1, height, y) {
-                        level[row + x] = 0;
-                        in_doors.push(row + x);
-                    }
-                }
-            }
-            // The dashes of an axis along the wall fill the gap beside the arc.
-            let beside = |axis: usize, side: usize| {
-                let reach = px(BESIDE_M);
-                (arc.min[axis] as usize).saturating_sub(reach)..(arc.end[axis] as usize + reach).min(side)
-            };
-            let spans = [0, 1].map(|axis| arc.min[axis] as usize..arc.end[axis] as usize);
-            let is_dashed = |span: &Range<usize>, at: &dyn Fn(usize) -> usize| {
-                let dark = span.clone().filter(|&k| strokes[at(k)] != 0).count() as f64;
-                DASHED.contains(&(dark / span.len().max(1) as f64))
-            };
-            for x in beside(0, width) {
-                if is_dashed(&spans[1], &|y| y * width + x) {
-                    for y in spans[1].clone() {
-                        upright[y * width + x] = 0;
-                        in_doors.push(y * width + x);
-                    }
-                }
-            }
-            for y in beside(1, height) {
-                if is_dashed(&spans[0], &|x| y * width + x) {
-                    level[y * width..][spans[0].clone()].fill(0);
-                    in_doors.extend(spans[0].clone().map(|x| y * width + x));
-                }
-            }
-        }
-    }
+    let in_doors = take_doors(strokes, &pieces, [&mut level, &mut upright], width, metres_per_pixel);
     drop_frame(&mut level, &mut upright, width);
-    let is_tick = |tick: &&Component| {
-        // Aslant: dots and dashes of axes are level or upright.
-        metres(tick.larger_side()) <= TICK_M && tick.size().iter().all(|&side| side >= 3)
-    };
-    let ticks: Vec<&Component> = pieces.all.iter().filter(is_tick).collect();
-    let near_px = px(TICK_M) as f64;
-    let has_ticks = |line: &Component, along: usize| {
-        let across = 1 - along;
-        let centre = |piece: &Component, axis: usize| f64::from(piece.min[axis] + piece.end[axis]) * 0.5;
-        let at_end = |end: u32| {
-            let is_near = move |tick: &&&Component| {
-                (centre(tick, along) - f64::from(end)).abs() <= near_px
-                    && (centre(tick, across) - centre(line, across)).abs() <= near_px * 0.5
-            };
-            ticks.iter().filter(is_near)
-        };
-        // Both are of one size, as letters that lie on a line are not.
-        let is_alike =
-            |a: &Component, b: &Component| (0..2).all(|axis| a.size()[axis].abs_diff(b.size()[axis]) <= ALIKE_PX);
-        at_end(line.min[along]).any(|first| at_end(line.end[along]).any(|last| is_alike(first, last)))
-    };
+    let ticks = Ticks::new(&pieces, metres_per_pixel);
     let has_axes = drop_axes([&mut level, &mut upright], ink, width, metres_per_pixel);
     let heads = Heads::new(&pieces, strokes.len(), width, metres_per_pixel);
     let mut has_notes = false;
     for (mask, along) in [(&mut level, 0), (&mut upright, 1)] {
         let lines = Components::of(mask, width, 1, Neighbours::Eight);
-        for line in lines.all.iter().filter(|line| has_ticks(line, along) || heads.end(line, along)) {
+        for line in lines.all.iter().filter(|line| ticks.end(line, along) || heads.end(line, along)) {
             lines.paint(line, mask, width, 0);
             has_notes = true;
         }
     }
+    drop((ticks, heads));
+    drop(pieces);
     // Without dimensions and axes a line that ends freely may well be a wall: mazes have such.
-    drop((heads, pieces));
     if has_notes || has_axes {
         let mut between = ink.to_vec();
         in_doors.into_iter().for_each(|at| between[at] = 0);
@@ -145,6 +73,94 @@ pub(super) fn thickened(strokes: &[u8], ink: &[u8], width: usize, metres_per_pix
     }
     let reach = px(THICK_M * 0.5).max(1);
     (grow(&walls, width, reach), reach)
+}
+
+/// Takes the leaves of doors off level and upright lines, and the dashes of axes that fill the gaps beside their arcs.
+/// Returns the pixels of leaves and of what lies in doors: not what is drawn between lines that end, as dashes of axes are.
+fn take_doors(
+    strokes: &[u8],
+    pieces: &Components,
+    [level, upright]: [&mut [u8]; 2],
+    width: usize,
+    metres_per_pixel: f64,
+) -> Vec<usize> {
+    let px = |metres: f64| (metres / metres_per_pixel).round() as usize;
+    let height = strokes.len() / width;
+    let mut in_doors = Vec::new();
+    // Leaves lie along the sides of their arcs' boxes; furniture may reach into them.
+    let beside_leaf = px(LEAF_M).max(2);
+    let is_arc = |arc: &&Component| {
+        let [w, h] = arc.size().map(|side| f64::from(side) * metres_per_pixel);
+        w.min(h) >= ARC_M[0] && w.max(h) <= ARC_M[1] && w.min(h) >= SQUARE * w.max(h)
+    };
+    for arc in pieces.all.iter().filter(is_arc) {
+        let around =
+            |at: u32, side: usize| (at as usize).saturating_sub(beside_leaf)..(at as usize + beside_leaf).min(side);
+        let ends = |axis: usize, side: usize| [around(arc.min[axis], side), around(arc.end[axis], side)];
+        let [columns, rows] = [ends(0, width), ends(1, height)];
+        let is_side = |ends: &[Range<usize>; 2], at: usize| ends.iter().any(|end| end.contains(&at));
+        for y in rows[0].start..rows[1].end {
+            for x in columns[0].start..columns[1].end {
+                for (mask, is_side) in [(&mut *upright, is_side(&columns, x)), (&mut *level, is_side(&rows, y))] {
+                    if is_side {
+                        mask[y * width + x] = 0;
+                        in_doors.push(y * width + x);
+                    }
+                }
+            }
+        }
+        // The dashes of an axis along the wall fill the gap beside the arc.
+        let beside = |axis: usize, side: usize| {
+            let reach = px(BESIDE_M);
+            (arc.min[axis] as usize).saturating_sub(reach)..(arc.end[axis] as usize + reach).min(side)
+        };
+        let [across, down] = [0, 1].map(|axis| arc.min[axis] as usize..arc.end[axis] as usize);
+        let mut take_dashes = |mask: &mut [u8], line: Vec<usize>| {
+            let dark = line.iter().filter(|&&at| strokes[at] != 0).count() as f64;
+            if DASHED.contains(&(dark / line.len().max(1) as f64)) {
+                line.iter().for_each(|&at| mask[at] = 0);
+                in_doors.extend(line);
+            }
+        };
+        for x in beside(0, width) {
+            take_dashes(upright, down.clone().map(|y| y * width + x).collect());
+        }
+        for y in beside(1, height) {
+            take_dashes(level, across.clone().map(|x| y * width + x).collect());
+        }
+    }
+    in_doors
+}
+
+/// Small strokes aslant, at the ends of dimension lines: dots and dashes of axes are level or upright.
+struct Ticks<'a> {
+    all: Vec<&'a Component>,
+    near_px: f64,
+}
+
+impl Ticks<'_> {
+    fn new(pieces: &Components, metres_per_pixel: f64) -> Ticks<'_> {
+        let is_tick = |tick: &&Component| {
+            f64::from(tick.larger_side()) * metres_per_pixel <= TICK_M && tick.size().iter().all(|&side| side >= 3)
+        };
+        Ticks { all: pieces.all.iter().filter(is_tick).collect(), near_px: (TICK_M / metres_per_pixel).round() }
+    }
+
+    /// Whether a line has one at both ends, of one size, as letters that lie on a line are not.
+    fn end(&self, line: &Component, along: usize) -> bool {
+        let across = 1 - along;
+        let centre = |piece: &Component, axis: usize| f64::from(piece.min[axis] + piece.end[axis]) * 0.5;
+        let at_end = |end: u32| {
+            let is_near = move |tick: &&&Component| {
+                (centre(tick, along) - f64::from(end)).abs() <= self.near_px
+                    && (centre(tick, across) - centre(line, across)).abs() <= self.near_px * 0.5
+            };
+            self.all.iter().filter(is_near)
+        };
+        let is_alike =
+            |a: &Component, b: &Component| (0..2).all(|axis| a.size()[axis].abs_diff(b.size()[axis]) <= ALIKE_PX);
+        at_end(line.min[along]).any(|first| at_end(line.end[along]).any(|last| is_alike(first, last)))
+    }
 }
 
 /// Small strokes that may be the arrow heads or dots at the ends of dimension lines.
