@@ -25,6 +25,9 @@ pub struct Arrival {
 
 /// Flow through narrow places, people per second and metre: less than openings let in.
 const NARROW_RATE: f64 = 0.45;
+/// How many times as long the people of default life take to come as these flows would allow: they go both ways through
+/// doors of rooms, and most of them at some hours of the day. Twice as long still locks buildings; longer costs nothing.
+const LIFE_TAKES: f64 = 3.0;
 /// Largest flow through all openings together, people per second.
 const MOST_RATE: f64 = 5.0;
 /// Width from which on a place limits no flow, metres.
@@ -197,9 +200,10 @@ fn stay_seconds(routes: &[Route], people: f64) -> f64 {
 /// carries more than [`NARROW_RATE`].
 fn entry_seconds(plan: &FloorPlan, routes: &[Route], options: &CrowdOptions) -> f64 {
     let people = f64::from(options.people);
+    let load = |route: &Route| route.share * if route.life.is_some() { LIFE_TAKES } else { 1.0 };
     let mut seconds: f64 = stay_seconds(routes, people).max(people / MOST_RATE);
     for route in routes {
-        let share: f64 = routes.iter().filter(|r| r.start == route.start).map(|r| r.share).sum();
+        let share: f64 = routes.iter().filter(|r| r.start == route.start).map(load).sum();
         let width_m = match route.start {
             Place::Opening(index) => plan.openings.get(index).map_or(1.0, |o| o.width_m()),
             Place::Area([min, max]) => ((max.x - min.x) * (max.y - min.y)).max(0.25).sqrt(),
@@ -216,7 +220,7 @@ fn entry_seconds(plan: &FloorPlan, routes: &[Route], options: &CrowdOptions) -> 
         for &(place, width_m) in gates {
             let passing = |(index, others): (usize, &Vec<_>)| {
                 let here = others.iter().any(|&(p, _): &(crate::math::Vec2, f64)| p.distance(place) < SAME_PLACE_M);
-                if here { routes[index].share } else { 0.0 }
+                if here { load(&routes[index]) } else { 0.0 }
             };
             let share: f64 = narrow.iter().enumerate().map(passing).sum();
             seconds = seconds.max(people * share / (NARROW_RATE * width_m));

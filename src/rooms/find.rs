@@ -166,10 +166,4 @@ impl Rooms {
         let reach = (reach_m / self.grid.cell_m).ceil() as usize;
         self.grid.cell_at(p).is_some_and(|cell| part[cell] || self.grid.around(cell, reach).any(|near| part[near]))
     }
-
-    /// Share of the floor that a part of it takes.
-    pub(crate) fn share_of(&self, part: &[bool]) -> f64 {
-        let floor = self.room.iter().filter(|room| **room != NONE).count();
-        part.iter().filter(|own| **own).count() as f64 / floor.max(1) as f64
-    }
 }

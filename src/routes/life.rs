@@ -45,18 +45,11 @@ const MOST_CELLS: usize = 6_000_000;
 const STAYS: [f64; 3] = [0.5, 0.3, 2.5];
 
 /// In scanned maps beams of the scanner look like ways. People come in where floor goes on as wide as this on both sides
-/// of a way, and go to rooms where two can pass each other, metres; the wide floor takes at least this share of all.
+/// of a way, and go to rooms where two can pass each other, metres.
 const WIDE_ENTRY_M: f64 = 0.6;
 const WIDE_WAY_M: f64 = 0.35;
-const WIDE_SHARE: f64 = 0.2;
 /// How near to wide floor entrances and the middles of zones are, metres.
 const NEAR_WIDE_M: f64 = 0.8;
-
-/// Whether people can live in a scanned map: most of it is no labyrinth of narrow ways, in which those who come meet those
-/// who go.
-pub(super) fn is_roomy(life: &Life) -> bool {
-    life.rooms.share_of(&life.rooms.wide_part(WIDE_ENTRY_M)) >= WIDE_SHARE
-}
 
 /// Finds the rooms of a plan as the options say.
 pub(super) fn of(plan: &FloorPlan, walls: &Walls, options: &RoutesOptions) -> Result<Life, RoutesError> {

@@ -99,13 +99,10 @@ impl Navigation {
         options: &RoutesOptions,
         progress: &dyn Progress,
     ) -> Result<(Vec<Route>, Navigation), RoutesError> {
-        // A robot's map may have little but narrow ways: people cross it, unless somebody says how it is used.
-        let is_said = options.life.r#use.is_some() || !options.rooms.is_empty() || options.life.share > 0.0;
         let life = match options.routes.is_empty() || options.life.share > 0.0 {
             true => Some(Arc::new(life::of(plan, walls, options)?)),
             false => None,
         };
-        let life = life.filter(|life| !plan.scanned || is_said || life::is_roomy(life));
         first_that_works(plan, |fineness| {
             let ground = Ground::new(plan, walls, fineness);
             let (routes, fields) = Navigation::find_on(plan, walls, &ground, options, life.as_deref(), progress)?;

@@ -193,18 +193,78 @@ fn every_room_of_the_school_is_used() {
     lived.check_rooms(LEAST_TRODDEN);
 }
 
+/// The office without its entrance.
+fn closed_office() -> FloorPlan {
+    let FloorPlan { width_px, height_px, metres_per_pixel, floor, .. } = office();
+    let closed = floor.iter().enumerate().map(|(at, &floor)| if at % 600 < 4 { 0 } else { floor });
+    FloorPlan::from_mask(width_px, height_px, metres_per_pixel, closed.collect())
+}
+
 #[test]
 fn in_a_closed_plan_people_begin_and_end_in_rooms() {
-    let mut plan = office();
-    plan = FloorPlan::from_mask(
-        plan.width_px,
-        plan.height_px,
-        plan.metres_per_pixel,
-        plan.floor.iter().enumerate().map(|(at, &floor)| if at % 600 < 4 { 0 } else { floor }).collect(),
-    );
-    let lived = live(plan, 300, RoutesOptions::default());
-    lived.print("closed office");
-    assert!(lived.rooms.entrances.is_empty());
+    for people in [300, 3000] {
+        let lived = live(closed_office(), people, RoutesOptions::default());
+        lived.print("closed office");
+        assert!(lived.rooms.entrances.is_empty());
+        lived.check_all_came_and_went();
+        lived.check_rooms(LEAST_TRODDEN);
+    }
+}
+
+/// A flat of 10 x 8 m: five rooms about a hall of 1.2 m, doors of 0.8 m, an entrance of 0.9 m.
+fn flat() -> FloorPlan {
+    let floor = |p: Vec2| {
+        let inside = p.x > 0.2 && p.x < 9.8 && p.y > 0.2 && p.y < 7.8;
+        let hall = p.y > 3.4 && p.y < 4.6;
+        let walls = if p.y > 4.0 { [3.5, 6.5] } else { [5.0, 20.0] };
+        let across = walls.iter().any(|x| (p.x - x).abs() < 0.05) && !hall;
+        let along = (p.y - 3.35).abs() < 0.05 || (p.y - 4.65).abs() < 0.05;
+        let doors = if p.y > 4.0 { [1.7, 5.0, 8.2] } else { [2.5, 7.5, 7.5] };
+        let door = along && doors.iter().any(|x| (p.x - x).abs() < 0.4);
+        let entrance = p.x <= 0.2 && (p.y - 4.0).abs() < 0.45;
+        inside && !across && !along || door || entrance
+    };
+    let middle = |i: u32| vec2(f64::from(i % 200) + 0.5, f64::from(159 - i / 200) + 0.5) * 0.05;
+    FloorPlan::from_mask(200, 160, 0.05, (0..200 * 160).map(|i| u8::from(floor(middle(i)))).collect())
+}
+
+#[test]
+fn in_a_flat_people_let_each_other_pass() {
+    let lived = live(flat(), 3000, RoutesOptions::default());
+    lived.print("flat");
+    assert_eq!(lived.rooms.rooms.len(), 6);
+    lived.check_all_came_and_went();
+    lived.check_rooms(LEAST_TRODDEN);
+}
+
+/// The closed office as a robot draws it: free floor, walls of two cells, unknown beyond.
+#[test]
+fn every_room_of_a_robots_map_is_used() {
+    let plan = closed_office();
+    let (width, height) = (plan.width_px as i64, plan.height_px as i64);
+    let is_floor = |x: i64, y: i64| {
+        (0..width).contains(&x) && (0..height).contains(&y) && plan.floor[(y * width + x) as usize] != 0
+    };
+    let shade = |x: u32, y: u32| {
+        let (x, y) = (i64::from(x), i64::from(y));
+        let is_seen = (-2..=2).any(|dy| (-2..=2).any(|dx| is_floor(x + dx, y + dy)));
+        image::Luma([if is_floor(x, y) {
+            254u8
+        } else if is_seen {
+            0
+        } else {
+            205
+        }])
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("map.png");
+    image::GrayImage::from_fn(plan.width_px, plan.height_px, shade).save(&path).unwrap();
+    let options = PlanOptions { metres_per_pixel: Some(0.05), ..PlanOptions::default() };
+    let plan = plan::read(&path, &options).unwrap();
+    assert!(plan.scanned);
+    let lived = live(plan, 1000, RoutesOptions::default());
+    lived.print("robot's map");
+    assert_eq!(lived.rooms.rooms.len(), 13);
     lived.check_all_came_and_went();
     lived.check_rooms(LEAST_TRODDEN);
 }
