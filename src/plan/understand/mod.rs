@@ -173,15 +173,30 @@ fn ink_and_net(drawing: &Drawing, metres_per_pixel: f64) -> Option<(Vec<u8>, Net
     Some((ink, net))
 }
 
+/// How far from the floor of rooms walls of the building reach at most, metres.
+const BESIDE_ROOMS_M: f64 = 0.1;
+
 /// Bounds of the building: least x and y, then one beyond the greatest, pixels.
 pub(super) fn extent(drawing: &Drawing, metres_per_pixel: f64) -> Option<[[u32; 2]; 2]> {
     let factor = factor(drawing);
     let reduced = (factor > 1).then(|| reduced(drawing, factor));
     let drawing = reduced.as_ref().unwrap_or(drawing);
-    let (_, net) = ink_and_net(drawing, metres_per_pixel * factor as f64)?;
+    let metres_per_pixel = metres_per_pixel * factor as f64;
+    let (_, net) = ink_and_net(drawing, metres_per_pixel)?;
     let pieces = Components::of(&net.wall, drawing.width, 1, Neighbours::Eight);
+    // Lines of dimensions that were taken for walls lie beyond the building.
+    let beside = ((BESIDE_ROOMS_M / metres_per_pixel) as usize).max(2);
+    let is_inside = |x: usize, y: usize| net.inside.get(y * drawing.width + x).is_some_and(|&inside| inside != 0);
+    let walls = pieces.all.iter().filter(|piece| {
+        pieces.runs(piece).iter().any(|run| {
+            let [from, to, y] = [run.from, run.to - 1, run.y].map(|px| px as usize);
+            let ends = [(from.saturating_sub(beside), y), ((to + beside).min(drawing.width - 1), y)];
+            let sides = [from, to].map(|x| [(x, y.saturating_sub(beside)), (x, y + beside)]);
+            ends.into_iter().chain(sides.into_iter().flatten()).any(|(x, y)| is_inside(x, y))
+        })
+    });
     let of = |pick: fn(u32, u32) -> u32, corner: fn(&Component) -> [u32; 2]| {
-        pieces.all.iter().map(corner).reduce(|a, b| [pick(a[0], b[0]), pick(a[1], b[1])])
+        walls.clone().map(corner).reduce(|a, b| [pick(a[0], b[0]), pick(a[1], b[1])])
     };
     let corners = [of(u32::min, |p| p.min)?, of(u32::max, |p| p.end)?];
     Some(corners.map(|corner| corner.map(|px| px * factor as u32)))
