@@ -31,22 +31,22 @@ impl Grid {
     pub(super) fn of(plan: &FloorPlan) -> Grid {
         let (width_m, height_m) = (plan.width_m(), plan.height_m());
         let cell_m = (width_m * height_m / CELLS_WANTED).sqrt().max(FINEST_M).max(plan.metres_per_pixel);
-        let count = |metres: f64| ((metres / cell_m).ceil() as usize).max(1);
-        let (columns, rows) = (count(width_m), count(height_m));
-        let mut holds = vec![0u8; columns * rows];
         let per_px = plan.metres_per_pixel / cell_m;
-        let place = |px: usize, count: usize| (((px as f64 + 0.5) * per_px) as usize).min(count - 1);
+        let place = |px: usize| ((px as f64 + 0.5) * per_px) as usize;
+        // The middle of the last pixel lies in the last cell: one without any would pass for floor.
         let width_px = plan.width_px as usize;
-        let columns_of: Vec<usize> = (0..width_px).map(|x| place(x, columns)).collect();
+        let [columns, rows] = [width_px, plan.height_px as usize].map(|count| place(count.max(1) - 1) + 1);
+        let mut holds = vec![0u8; columns * rows];
+        let columns_of: Vec<usize> = (0..width_px).map(place).collect();
         for (y, (floor, classes)) in plan.floor.chunks(width_px).zip(plan.classes.chunks(width_px)).enumerate() {
-            let row = place(y, rows) * columns;
+            let row = place(y) * columns;
             for ((&floor, &class), &column) in floor.iter().zip(classes).zip(&columns_of) {
                 if floor == 0 || class != PlanClass::Floor {
                     holds[row + column] |= of_class(class) | u8::from(floor == 0);
                 }
             }
         }
-        // Cells smaller than a pixel do not exist; the last row and column may hold no pixel's middle.
+        // Cells smaller than a pixel do not exist.
         Grid { cell_m, columns, rows, height_m, holds }
     }
 
@@ -61,8 +61,9 @@ impl Grid {
     pub(super) fn cell_at(&self, p: Vec2) -> Option<usize> {
         let (x, y) = (p.x / self.cell_m, (self.height_m - p.y) / self.cell_m);
         // Comparisons are written so that NaN lands outside.
-        let inside = x >= 0.0 && y >= 0.0 && x < self.columns as f64 && y < self.rows as f64;
-        inside.then(|| y as usize * self.columns + x as usize)
+        let inside = x >= 0.0 && y >= 0.0 && x < self.columns as f64 + 1.0 && y < self.rows as f64 + 1.0;
+        // The plan's rim may lie beyond the last cell.
+        inside.then(|| (y as usize).min(self.rows - 1) * self.columns + (x as usize).min(self.columns - 1))
     }
 
     pub(super) fn centre(&self, cell: usize) -> Vec2 {
@@ -141,5 +142,23 @@ fn of_class(class: PlanClass) -> u8 {
         PlanClass::Seat | PlanClass::Table | PlanClass::Counter => FURNITURE,
         PlanClass::Fixture => FIXTURE,
         PlanClass::Floor | PlanClass::Lettering | PlanClass::Dimension | PlanClass::Frame => 0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_at_the_rim_hold_pixels_too() {
+        for (width, height, metres_per_pixel) in [(1620, 1020, 0.0192), (829, 786, 0.0245), (40, 30, 0.1), (7, 5, 0.3)]
+        {
+            let wall = vec![0; (width * height) as usize];
+            let plan = FloorPlan::from_mask(width, height, metres_per_pixel, wall);
+            let grid = Grid::of(&plan);
+            assert!((0..grid.len()).all(|cell| grid.has(cell, BLOCKED)), "{width} x {height} at {metres_per_pixel}");
+            let corner = vec2(plan.width_m(), 0.0);
+            assert_eq!(grid.cell_at(corner), Some(grid.len() - 1));
+        }
     }
 }
