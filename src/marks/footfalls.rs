@@ -8,6 +8,7 @@ use crate::motion::{Frame, People, Person, Statures, Walker};
 use crate::patterns::{Cause, PatternLibrary};
 use crate::walls::Walls;
 
+use super::chairs::Sitting;
 use super::contacts::{ContactState, ContactTick, Contacts};
 use super::feet::FootPlacement;
 use super::gait::GaitState;
@@ -63,6 +64,7 @@ struct WalkerState {
     feet: ShoeState,
     contacts: ContactState,
     standing: Standing,
+    sitting: Sitting,
     wheels: Option<Box<Wheels>>,
 }
 
@@ -234,10 +236,10 @@ impl<'a> Footfalls<'a> {
         };
         let gait = GaitState::new(seed, &person, self.options.shifts_per_minute / 60.0);
         let contacts = ContactState::new(seed, &person);
-        let (standing, wheels) = (Standing::default(), Wheels::of(seed, &person));
+        let (standing, sitting, wheels) = (Standing::default(), Sitting::default(), Wheels::of(seed, &person));
         PresentPerson {
             track: SmoothedPath::new(time_s, walker.position_m, walker.heading),
-            state: WalkerState { person, gait, feet, contacts, standing, wheels },
+            state: WalkerState { person, gait, feet, contacts, standing, sitting, wheels },
         }
     }
 
@@ -262,7 +264,7 @@ impl<'a> Footfalls<'a> {
 
     /// Processes a tick of a smoothed path: footfalls, heel marks, standing, wheels, contacts.
     fn advance(&mut self, state: &mut WalkerState, sample: TrackSample, out: &mut Vec<Mark>) {
-        let WalkerState { person, gait, feet, contacts: contact_state, standing, wheels } = state;
+        let WalkerState { person, gait, feet, contacts: contact_state, standing, sitting, wheels } = state;
         let progress = gait.walk(person, sample, |step| {
             self.count += 1;
             let inside = self.plan_m.contains(step.place_m);
@@ -270,6 +272,8 @@ impl<'a> Footfalls<'a> {
             feet.last = Some(step);
         });
         standing.pass(sample.position_m, gait.heading(), progress.stood_s, &mut self.lasting);
+        let drags = (feet.wear, self.heel_marks.drags_per_sitting());
+        sitting.pass(sample.position_m, progress.stood_s, self.walls, drags, &mut self.lasting);
         if let Some(wheels) = wheels {
             wheels.roll(&sample, gait.heading(), &progress, self.walls, &mut self.lasting);
         }

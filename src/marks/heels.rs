@@ -76,6 +76,11 @@ impl HeelMarks {
         HeelMarks { options: options.clone(), scale, bent: if bent.is_empty() { all.clone() } else { bent }, all }
     }
 
+    /// Expected number of drags each time that somebody sits down or gets up.
+    pub fn drags_per_sitting(&self) -> f64 {
+        self.scale * self.options.per_sitting
+    }
+
     /// Advances a person by a tick; calls `each` with the turn (0 for straight on) of each mark.
     pub fn walk(
         &self,

@@ -14,6 +14,7 @@
 //! Random events have rates per metre walked, per radian turned, per second stood or per event, so the number of marks
 //! does not depend on the source's time step.
 
+mod chairs;
 mod contact;
 mod contacts;
 mod error;
@@ -65,7 +66,7 @@ pub struct Mark {
     /// Seconds that a person stood here, facing across `heading`; 0 for footfalls and heel marks. A while of standing
     /// adds to `dwell` alone.
     pub stood_s: f32,
-    /// Breadth of the line that a wheel left along `heading`, turning by `twist_rad`, metres; 0 for all other marks. A
+    /// Breadth of the line that a wheel or the leg of a chair left along `heading`, turning by `twist_rad`, metres; 0 for all other marks. A
     /// wheel adds `strength` passes to `wheels` alone (of cause heel: optical density of rubber to `scuff`), and over its
     /// length that grows by `effort`.
     pub wheel_m: f32,

@@ -86,6 +86,8 @@ options! {
         per_second_stood: f64 = 0.000_05, in 0.0..=1.0;
         /// Per passage of a door or another narrow place.
         per_passage: f64 = 0.006, in 0.0..=10.0;
+        /// Drags of the chair each time that somebody sits down or gets up.
+        per_sitting: f64 = 0.12, in 0.0..=10.0;
         /// What counts as narrow.
         narrow_m: f64 = 1.6, in 0.0..=5.0, unit "m";
         /// Optical density of a mark.
@@ -108,6 +110,7 @@ impl HeelOptions {
             per_stop: 0.0,
             per_second_stood: 0.0,
             per_passage: 0.0,
+            per_sitting: 0.0,
             ..HeelOptions::default()
         }
     }

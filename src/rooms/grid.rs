@@ -14,6 +14,8 @@ pub(super) const STAIRS: u8 = 16;
 /// Seats, tables and counters.
 pub(super) const FURNITURE: u8 = 32;
 pub(super) const FIXTURE: u8 = 64;
+/// Seats and fixtures: what one person uses at a time.
+pub(super) const SEAT: u8 = 128;
 
 /// A plan in square cells, row by row from the top left.
 #[derive(Clone, Debug)]
@@ -139,8 +141,9 @@ fn of_class(class: PlanClass) -> u8 {
         PlanClass::Wall | PlanClass::Window | PlanClass::Shelf => WALL,
         PlanClass::Door => DOOR,
         PlanClass::Stairs => STAIRS,
-        PlanClass::Seat | PlanClass::Table | PlanClass::Counter => FURNITURE,
-        PlanClass::Fixture => FIXTURE,
+        PlanClass::Seat => FURNITURE | SEAT,
+        PlanClass::Table | PlanClass::Counter => FURNITURE,
+        PlanClass::Fixture => FIXTURE | SEAT,
         PlanClass::Floor | PlanClass::Lettering | PlanClass::Dimension | PlanClass::Frame => 0,
     }
 }

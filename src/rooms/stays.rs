@@ -2,7 +2,7 @@
 
 use super::divide::NONE;
 use super::find::Rooms;
-use super::grid::{FIXTURE, FURNITURE};
+use super::grid::{FIXTURE, FURNITURE, SEAT};
 use crate::math::{Rect, Vec2, vec2};
 
 /// Distance between the places that are looked at, metres.
@@ -23,6 +23,13 @@ const APART_M: f64 = 0.75;
 /// Floor per spot, square metres, and least and largest number of spots in a zone.
 const PER_SPOT_M2: f64 = 1.6;
 const SPOTS: [usize; 2] = [4, 48];
+/// Floor that the seat of a person takes, square metres, and most people on a bench or a sofa.
+const SEAT_M2: f64 = 0.35;
+const MOST_ON_SEAT: usize = 4;
+/// How much nearer to a seat, as a share of how much nearer to the desk, a place has to be for people to take it.
+const BEHIND: f64 = 0.5;
+/// Rooms with seats: spots at other furniture, and these with spots where people stand, for each seat.
+const OTHERS_PER_SEAT: [f64; 2] = [0.5, 0.75];
 /// Distance from furniture within which people sit or stand at it, metres.
 const AT_FURNITURE_M: f64 = 0.8;
 
@@ -67,6 +74,7 @@ impl Rooms {
         let place_m2 = (every as f64 * grid.cell_m) * (every as f64 * grid.cell_m);
         let total_m2: f64 = self.rooms.iter().map(|room| room.area_m2).sum();
         let reach_m = (total_m2 / (std::f64::consts::PI * ZONES_WANTED)).sqrt().max(ZONE_M);
+        let seated = self.rooms_with_seats();
         let mut zones = Vec::new();
         for (room, mut left) in places.into_iter().enumerate() {
             let least_m2 = (LEAST_ZONE_SHARE * self.rooms[room].area_m2).clamp(LEAST_ZONE_M2[0], LEAST_ZONE_M2[1]);
@@ -85,7 +93,7 @@ impl Rooms {
                 number += 1;
                 let name = &self.rooms[room].name;
                 let name = if number > 1 { format!("{name} ({number})") } else { name.clone() };
-                let spots = self.spots(&own, middle, area_m2);
+                let spots = self.spots(&own, middle, area_m2, seated[room]);
                 let (at_m, area_m) = (self.grid.centre(middle), self.square(middle, reach_m));
                 zones.push(Zone { room, name, at_m, area_m, area_m2, spots });
             }
@@ -154,7 +162,7 @@ impl Rooms {
     }
 
     /// Spots among some places.
-    fn spots(&self, places: &[usize], middle: usize, area_m2: f64) -> Vec<Spot> {
+    fn spots(&self, places: &[usize], middle: usize, area_m2: f64, is_seated: bool) -> Vec<Spot> {
         let grid = &self.grid;
         let doors: Vec<Vec2> =
             self.doors.iter().map(|door| door.0).chain(self.entrances.iter().map(|entrance| entrance.at_m)).collect();
@@ -177,10 +185,16 @@ impl Rooms {
         let mut spots: Vec<Spot> = Vec::new();
         let middle_m = grid.centre(middle);
         let facing = |cell: usize| at_furniture.iter().find(|at| at.0 == cell).map(|at| at.1);
-        let seats: Vec<usize> = at_furniture.iter().map(|at| at.0).collect();
-        // Where people sit there is less room to stand.
-        let kinds =
-            if seats.is_empty() { [(&free, most), (&free, most)] } else { [(&seats, most), (&free, most * 4 / 3)] };
+        let beside: Vec<usize> = at_furniture.iter().map(|at| at.0).collect();
+        // People go to where they sit, each from the door: that is what wears ways into a room.
+        spots.extend(self.seats(&beside));
+        let seats = spots.len();
+        let of_seats = |part: f64| seats + ((part * seats as f64).ceil() as usize).max(1);
+        let kinds = match (is_seated, beside.is_empty()) {
+            (true, _) => [(&beside, of_seats(OTHERS_PER_SEAT[0])), (&free, of_seats(OTHERS_PER_SEAT[1]))],
+            (false, true) => [(&free, most), (&free, most)],
+            (false, false) => [(&beside, most), (&free, most * 4 / 3)],
+        };
         for (places, most) in kinds {
             let mut far_m: Vec<f64> = places
                 .iter()
@@ -204,6 +218,64 @@ impl Rooms {
         spots
     }
 
+    /// Which rooms have seats.
+    fn rooms_with_seats(&self) -> Vec<bool> {
+        let reach = (AT_FURNITURE_M / self.grid.cell_m) as usize;
+        let mut seated = vec![false; self.rooms.len()];
+        for seat in (0..self.grid.len()).filter(|&cell| self.grid.has(cell, SEAT)) {
+            for near in self.grid.around(seat, reach).filter(|&near| self.room[near] != NONE) {
+                seated[usize::from(self.room[near])] = true;
+            }
+        }
+        seated
+    }
+
+    /// Spots of those who sit, at the places beside furniture: one for each seat, some for benches and sofas.
+    fn seats(&self, beside: &[usize]) -> Vec<Spot> {
+        let grid = &self.grid;
+        let reach = (AT_FURNITURE_M / grid.cell_m) as usize;
+        let mut seen = std::collections::BTreeSet::new();
+        let mut spots: Vec<Spot> = Vec::new();
+        for &place in beside {
+            for first in grid.around(place, reach).filter(|&cell| grid.has(cell, SEAT)) {
+                if !seen.insert(first) {
+                    continue;
+                }
+                let mut seat = vec![first];
+                let mut next = 0;
+                while let Some(&cell) = seat.get(next) {
+                    next += 1;
+                    seat.extend(grid.beside(cell).filter(|&near| grid.has(near, SEAT) && seen.insert(near)));
+                }
+                let area_m2 = seat.len() as f64 * grid.cell_m * grid.cell_m;
+                let people = ((area_m2 / SEAT_M2) as usize).clamp(1, MOST_ON_SEAT);
+                let near_m =
+                    |p: Vec2| seat.iter().map(|&cell| grid.centre(cell).distance(p)).fold(f64::INFINITY, f64::min);
+                // People come to a chair from behind: the desk is before it.
+                let off_desk_m = |cell: usize| {
+                    let desks =
+                        grid.around(cell, reach).filter(|&near| grid.has(near, FURNITURE) && !grid.has(near, SEAT));
+                    desks.map(|near| grid.centre(near).distance(grid.centre(cell))).fold(AT_FURNITURE_M, f64::min)
+                };
+                let place = |&cell: &usize| {
+                    let p = grid.centre(cell);
+                    let near_m = near_m(p);
+                    (near_m <= AT_FURNITURE_M).then(|| (near_m - BEHIND * off_desk_m(cell), p))
+                };
+                let mut at: Vec<(f64, Vec2)> = beside.iter().filter_map(place).collect();
+                at.sort_by(|a, b| a.0.total_cmp(&b.0));
+                let before = spots.len();
+                for (_, at_m) in at {
+                    let is_free = spots.iter().all(|spot| spot.at_m.distance(at_m) >= APART_M);
+                    if is_free && spots.len() < before + people {
+                        spots.push(Spot { at_m, facing: grid.cell_at(at_m).and_then(|cell| self.furniture_at(cell)) });
+                    }
+                }
+            }
+        }
+        spots
+    }
+
     /// Direction of the furniture nearest to a cell, if there is any at hand.
     fn furniture_at(&self, cell: usize) -> Option<Vec2> {
         let grid = &self.grid;
@@ -212,5 +284,55 @@ impl Rooms {
         let all = grid.around(cell, reach).filter(|&other| grid.has(other, FURNITURE | FIXTURE));
         let nearest = all.map(|other| grid.centre(other)).min_by(|a, b| a.distance(p).total_cmp(&b.distance(p)))?;
         (nearest - p).normalized().filter(|_| nearest.distance(p) <= AT_FURNITURE_M)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::{FloorPlan, PlanClass};
+    use crate::walls::Walls;
+
+    /// A room of 6 x 6 m with furniture: class, and left, lower, right and upper edge, metres.
+    fn spots(furniture: &[(PlanClass, [f64; 4])]) -> Vec<Spot> {
+        let middle = |k: usize| vec2((k % 64) as f64 - 1.5, 61.5 - (k / 64) as f64) * 0.1;
+        let class = |p: Vec2| {
+            let inside = Rect { min: Vec2::ZERO, max: vec2(6.0, 6.0) }.contains(p);
+            let holds = |[x, y, right, top]: [f64; 4]| Rect { min: vec2(x, y), max: vec2(right, top) }.contains(p);
+            let piece = furniture.iter().find(|piece| holds(piece.1)).map_or(PlanClass::Floor, |piece| piece.0);
+            if inside { piece } else { PlanClass::Wall }
+        };
+        let classes: Vec<PlanClass> = (0..64 * 64).map(middle).map(class).collect();
+        let floor = classes.iter().map(|class| u8::from(*class == PlanClass::Floor)).collect();
+        let plan = FloorPlan { classes, ..FloorPlan::from_mask(64, 64, 0.1, floor) };
+        let zones = Rooms::find(&plan, &Walls::trace(&plan, &Default::default())).zones();
+        zones.into_iter().flat_map(|zone| zone.spots).collect()
+    }
+
+    #[test]
+    fn people_sit_at_desks_and_few_stand() {
+        let chairs = [[1.0, 3.5, 1.5, 4.0], [4.5, 3.5, 5.0, 4.0]];
+        let desks = [[0.5, 4.2, 2.0, 5.0], [4.0, 4.2, 5.5, 5.0]];
+        let pieces = chairs.map(|c| (PlanClass::Seat, c)).into_iter().chain(desks.map(|d| (PlanClass::Table, d)));
+        let spots = spots(&Vec::from_iter(pieces));
+        // The plan's corner lies at (-0.2, -0.2).
+        let off_m = |spot: &Spot, [x, y, right, top]: [f64; 4]| {
+            let p = spot.at_m - vec2(0.2, 0.2);
+            p.distance(vec2(p.x.clamp(x, right), p.y.clamp(y, top)))
+        };
+        for chair in chairs {
+            let nearest_m = spots.iter().map(|spot| off_m(spot, chair)).fold(f64::INFINITY, f64::min);
+            assert!(nearest_m < 0.5, "{nearest_m} m from the chair: {spots:?}");
+        }
+        let at_furniture = spots.iter().filter(|spot| spot.facing.is_some()).count();
+        assert!(spots.len() <= 6 && at_furniture * 2 > spots.len(), "{spots:?}");
+    }
+
+    #[test]
+    fn in_a_bare_room_people_stay_all_over() {
+        let spots = spots(&[]);
+        let far_m = |p: Vec2| spots.iter().map(|spot| spot.at_m.distance(p)).fold(f64::INFINITY, f64::min);
+        let farthest_m = (0..36).map(|k| far_m(vec2(0.7 + (k % 6) as f64, 0.7 + (k / 6) as f64))).fold(0.0, f64::max);
+        assert!(spots.len() >= 15 && farthest_m < 1.2, "{} spots, {farthest_m} m", spots.len());
     }
 }
