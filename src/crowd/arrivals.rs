@@ -28,6 +28,10 @@ const NARROW_RATE: f64 = 0.45;
 /// How many times as long the people of default life take to come as these flows would allow: they go both ways through
 /// doors of rooms, and most of them at some hours of the day. Twice as long still locks buildings; longer costs nothing.
 const LIFE_TAKES: f64 = 3.0;
+/// Most people of a burst by share, per second and metre of the opening, over the burst's spread, seconds: half of what an
+/// opening of that width carries.
+const BURST_RATE: f64 = 0.75;
+const LEAST_SPREAD_S: f64 = 30.0;
 /// Largest flow through all openings together, people per second.
 const MOST_RATE: f64 = 5.0;
 /// Width from which on a place limits no flow, metres.
@@ -98,7 +102,10 @@ fn by_timetables(plan: &FloorPlan, routes: &[Route], seed: u64, options: &CrowdO
     let mut times: Vec<(f64, usize)> = Vec::with_capacity(people);
     for (route, members) in members.iter().enumerate() {
         let timetable = routes.get(route).and_then(|route| route.arrivals.as_ref()).unwrap_or(&options.arrivals);
-        let of_members = timetable.times_s(members.len(), period_s, |k| draws[members[k]][0]);
+        let width_m = routes.get(route).map_or(f64::INFINITY, |route| width_m(plan, route));
+        let spread_s = timetable.spread_s.unwrap_or(0.0).max(LEAST_SPREAD_S);
+        let most_in_burst = (BURST_RATE * width_m * spread_s) as usize;
+        let of_members = timetable.times_s(members.len(), period_s, most_in_burst, |k| draws[members[k]][0]);
         times.extend(of_members.into_iter().zip(members.iter().copied()));
     }
     times.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -196,6 +203,14 @@ fn stay_seconds(routes: &[Route], people: f64) -> f64 {
     rooms.map(|stop| stay_s(stop) / (MOST_TAKEN * stop.spots.len() as f64)).fold(0.0, f64::max)
 }
 
+/// Width through which the people of a route come in, metres.
+fn width_m(plan: &FloorPlan, route: &Route) -> f64 {
+    match route.start {
+        Place::Opening(index) => plan.openings.get(index).map_or(1.0, |o| o.width_m()),
+        Place::Area([min, max]) => ((max.x - min.x) * (max.y - min.y)).max(0.25).sqrt(),
+    }
+}
+
 /// Entry time of the whole crowd, seconds: no opening lets in more than the entry rate, and no narrow place on the way
 /// carries more than [`NARROW_RATE`].
 fn entry_seconds(plan: &FloorPlan, routes: &[Route], options: &CrowdOptions) -> f64 {
@@ -204,11 +219,7 @@ fn entry_seconds(plan: &FloorPlan, routes: &[Route], options: &CrowdOptions) -> 
     let mut seconds: f64 = stay_seconds(routes, people).max(people / MOST_RATE);
     for route in routes {
         let share: f64 = routes.iter().filter(|r| r.start == route.start).map(load).sum();
-        let width_m = match route.start {
-            Place::Opening(index) => plan.openings.get(index).map_or(1.0, |o| o.width_m()),
-            Place::Area([min, max]) => ((max.x - min.x) * (max.y - min.y)).max(0.25).sqrt(),
-        };
-        seconds = seconds.max(people * share / (options.entry_rate * width_m));
+        seconds = seconds.max(people * share / (options.entry_rate * width_m(plan, route)));
     }
     let narrow = |route: &Route| {
         // Gates keep off the walls by about 0.15 m on either side.

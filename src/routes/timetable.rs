@@ -23,6 +23,8 @@ options! {
         /// Of bursts: how many come in one.
         people: Option<u32> = None, in 1.0..=5e6, eg "120";
         /// Of bursts: or which share of all people comes in one.
+        ///
+        /// More people than an opening lets in meanwhile come in more bursts.
         share: Option<f64> = None, in 1e-6..=1.0, eg "0.25";
         /// Of bursts: how long the people of one take to come; 0: all at once.
         spread_s: Option<f64> = None, in 0.0..=1e7, eg "45.0";
@@ -150,10 +152,11 @@ impl Timetable {
     }
 
     /// Returns the arrival times of `count` people, seconds, ascending. `draw` gives a uniform number in `[0, 1)` per
-    /// person index. A rate without `per_second` spreads them over `period_s`.
+    /// person index. A rate without `per_second` spreads them over `period_s`. Bursts by `share` have at most
+    /// `most_in_burst` people: more people take longer, they do not stand denser.
     ///
     /// A list with more or fewer people than `count` is scaled in proportion.
-    pub fn times_s(&self, count: usize, period_s: f64, draw: impl Fn(usize) -> f64) -> Vec<f64> {
+    pub fn times_s(&self, count: usize, period_s: f64, most_in_burst: usize, draw: impl Fn(usize) -> f64) -> Vec<f64> {
         let first_s = self.first_s.unwrap_or(0.0);
         match self.kind {
             TimetableKind::Rate => {
@@ -162,7 +165,8 @@ impl Timetable {
             }
             TimetableKind::Bursts => {
                 let share = self.share.unwrap_or(1.0) * count as f64;
-                let size = self.people.map_or(share.ceil() as usize, |people| people as usize).max(1);
+                let size =
+                    self.people.map_or((share.ceil() as usize).min(most_in_burst), |people| people as usize).max(1);
                 let (every_s, spread_s) = (self.every_s.unwrap_or(1.0), self.spread_s.unwrap_or(0.0));
                 let time_s = |k: usize| {
                     let (burst, within) = (k / size, k % size);
@@ -224,7 +228,7 @@ mod tests {
             ..Timetable::default()
         };
         timetable.check().unwrap();
-        let times = timetable.times_s(100, 1.0, |k| (k % 10) as f64 / 10.0);
+        let times = timetable.times_s(100, 1.0, usize::MAX, |k| (k % 10) as f64 / 10.0);
         for burst in 0..3 {
             let from = 30.0 + 360.0 * f64::from(burst);
             let within = times.iter().filter(|t| (from..from + 20.0).contains(*t)).count();
@@ -232,8 +236,10 @@ mod tests {
         }
         let by_share = Timetable { people: None, share: Some(0.25), ..timetable };
         by_share.check().unwrap();
-        let times = by_share.times_s(100, 1.0, |_| 0.5);
+        let times = by_share.times_s(100, 1.0, usize::MAX, |_| 0.5);
         assert_eq!(times.iter().filter(|t| **t < 100.0).count(), 25);
+        let times = by_share.times_s(100, 1.0, 20, |_| 0.5);
+        assert!((0..5).all(|burst| times[20 * burst] > 360.0 * burst as f64), "five bursts of 20: {times:?}");
     }
 
     #[test]
@@ -245,9 +251,9 @@ mod tests {
         };
         list.check().unwrap();
         assert_eq!(list.listed(), Some(100));
-        let times = list.times_s(100, 1.0, |_| 0.9);
+        let times = list.times_s(100, 1.0, usize::MAX, |_| 0.9);
         assert!(times[..20].iter().all(|t| *t == 60.0) && times[20..].iter().all(|t| *t == 300.0));
-        let tenth = list.times_s(10, 1.0, |_| 0.0);
+        let tenth = list.times_s(10, 1.0, usize::MAX, |_| 0.0);
         assert_eq!(tenth.iter().filter(|t| **t == 60.0).count(), 2);
     }
 

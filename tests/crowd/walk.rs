@@ -9,7 +9,11 @@ use trodden::show::AnimationOptions;
 use trodden::walk::{MotionOutput, WalkOutputs, WalkReport, walk};
 
 fn school(people: u32) -> Scenario {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("floorplans/school.toml");
+    sample("school.toml", people)
+}
+
+fn sample(name: &str, people: u32) -> Scenario {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("floorplans").join(name);
     Scenario::open(&path, &Overrides { people: Some(people), ..Overrides::default() }).unwrap()
 }
 
@@ -69,4 +73,16 @@ fn the_crowd_is_that_of_any_other_output() {
     }
     assert_eq!(last.len(), 60);
     assert!((metres / written.metres - 1.0).abs() < 1e-3, "{metres} {}", written.metres);
+}
+
+#[test]
+fn more_people_take_longer_and_stand_no_denser() {
+    let walked = |people: u32| walk_on(2, &sample("station.toml", people), &WalkOutputs::default());
+    let (day, crowded) = (walked(1500), walked(4000));
+    for report in [&day, &crowded] {
+        println!("{} arrived in {:.0} s, {:.2} m/s", report.people.arrived, report.duration_s, report.mean_speed_m_s);
+    }
+    assert_eq!(crowded.people.arrived, 4000);
+    // Trains by share would bring three times as many at once, who stand before the gates for hours (0.22 m/s).
+    assert!(crowded.mean_speed_m_s > 0.9 * day.mean_speed_m_s, "{} m/s", crowded.mean_speed_m_s);
 }
