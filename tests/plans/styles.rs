@@ -23,6 +23,8 @@ pub enum Doors {
     Open,
     LeafAndArc,
     ClosedLine,
+    /// Leaf, arc, and lines along both faces of the wall.
+    LeafAndSill,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,7 +98,7 @@ const CAD: Style = Style {
 const PLAIN: Style = Style { name: "plain", doors: Doors::Open, sheet: false, names: false, furniture: false, ..CAD };
 
 /// All styles.
-pub const STYLES: [Style; 23] = [
+pub const STYLES: [Style; 24] = [
     PLAIN,
     CAD,
     Style { name: "outline walls", walls: Walls::Outline, ..CAD },
@@ -112,6 +114,7 @@ pub const STYLES: [Style; 23] = [
     Style { name: "JPEG", file: File::Jpeg, px_per_m: 0.0, clean: false, ..CAD },
     Style { name: "doors closed by a line", doors: Doors::ClosedLine, sheet: false, ..CAD },
     Style { name: "doors with leaf and arc", doors: Doors::LeafAndArc, ..PLAIN },
+    Style { name: "doors with leaf and sill", doors: Doors::LeafAndSill, sheet: false, ..CAD },
     Style { name: "brochure", tones: Tones::Brochure, sheet: false, ..CAD },
     Style { name: "grey walls", tones: Tones::Grey, sheet: false, ..CAD },
     Style { name: "dark background", tones: Tones::Dark, sheet: false, ..CAD },
@@ -424,6 +427,13 @@ fn door(wall: &Wall, hole: &Hole, hinge_first: bool, left: bool, doors: Doors, t
     match doors {
         Doors::Open => Vec::new(),
         Doors::ClosedLine => vec![line(wall.place(hinge, 0.0), wall.place(strike, 0.0), thin)],
+        Doors::LeafAndSill => {
+            let across = (wall.thick - thin) * 0.5;
+            let sill = |left: f64| line(wall.place(hinge, left), wall.place(strike, left), thin);
+            let mut all = door(wall, hole, hinge_first, left, Doors::LeafAndArc, thin);
+            all.extend([sill(across), sill(-across)]);
+            all
+        }
         Doors::LeafAndArc => {
             let face = side * wall.thick * 0.5;
             let (centre, tip) = (wall.place(hinge, face), wall.place(hinge, face + side * hole.width));

@@ -20,29 +20,34 @@ pub(super) fn symbol(gap: &Gap, ink: &[u8], metres_per_pixel: f64) -> Vec<usize>
     let mut found = Vec::new();
     for (hinge, way) in [(from, 1.0), (to, -1.0)] {
         for side in [-1.0, 1.0] {
-            // The hinge may be at the wall's face or at its middle.
-            let tries = [0.5, 0.0]
+            // The hinge may be at either face of the wall or between: what lies in the wall is not drawn.
+            let tries = [0.5, 0.0, 0.25, -0.25, -0.5]
                 .into_iter()
                 .flat_map(|face| RADII.map(|share| (middle + side * thick * face, length * share)));
             let drawn = |&(across, radius): &(f64, f64)| {
-                let on_arc = |k: usize| {
+                let (mut seen, mut inked) = (0usize, 0usize);
+                for k in 0..PLACES {
                     let (sine, cosine) = sin_cos(std::f64::consts::FRAC_PI_2 * (k as f64 + 0.5) / PLACES as f64);
-                    (-3..=3).any(|step| {
+                    if side * (across - middle) + radius * sine < 0.5 * thick {
+                        continue;
+                    }
+                    seen += 1;
+                    inked += usize::from((-3..=3).any(|step| {
                         let r = radius + slack * f64::from(step) / 3.0;
                         is_ink(hinge + way * r * cosine, across + side * r * sine)
-                    })
-                };
-                (0..PLACES).filter(|&k| on_arc(k)).count()
+                    }));
+                }
+                if 2 * seen < PLACES { 0.0 } else { inked as f64 / seen as f64 }
             };
-            let mut best = (0, (0.0, 0.0));
+            let mut best = (0.0, (0.0, 0.0));
             for arc in tries {
-                let count = drawn(&arc);
-                if count > best.0 {
-                    best = (count, arc);
+                let share = drawn(&arc);
+                if share > best.0 {
+                    best = (share, arc);
                 }
             }
-            let (count, (across, radius)) = best;
-            if (count as f64) < DRAWN * PLACES as f64 {
+            let (share, (across, radius)) = best;
+            if share < DRAWN {
                 continue;
             }
             // The ring, and the leaf that is swung open.

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::super::components::{Component, Components, Neighbours};
 use super::gaps::{self, Gap, Limits};
+use super::leaves;
 use super::thick::{THINNEST_M, grow, open, wall_square};
 use crate::math::sin_cos;
 
@@ -60,12 +61,17 @@ impl Net {
             Limits { shortest: px(0.5), longest: px(8.0), thinnest: ((thinnest * 0.75) as usize).max(2), thickest };
         let strokes: Vec<u8> = ink.iter().zip(&wall).map(|(&h, &w)| u8::from(h != 0 && w == 0)).collect();
         let found = gaps::find(&wall, &strokes, width, &limits);
-        drop(strokes);
+        // A door may be closed by lines along both faces of the wall; its leaf tells it from a window.
+        let has_leaf = |gap: &Gap| {
+            gap.length() <= px(WIDEST_DOOR_M) && !leaves::symbol(gap, &strokes, metres_per_pixel).is_empty()
+        };
         let is_window = |gap: &Gap| {
-            gap.strokes >= 2
-                || (gap.strokes == 1 && gap.length() > px(WIDEST_CLOSED_DOOR_M) && gap.length() <= px(WIDEST_PANE_M))
+            (gap.strokes >= 2
+                || gap.strokes == 1 && gap.length() > px(WIDEST_CLOSED_DOOR_M) && gap.length() <= px(WIDEST_PANE_M))
+                && !has_leaf(gap)
         };
         let (windows, doors): (Vec<Gap>, Vec<Gap>) = found.into_iter().partition(is_window);
+        drop(strokes);
         let mut doors: Vec<Gap> = doors.into_iter().filter(|gap| gap.length() <= px(WIDEST_DOOR_M)).collect();
         let mut windows = windows;
         let kept = keep_building(&mut wall, raw, width, &doors, &windows)?;
