@@ -94,8 +94,12 @@ struct Obstacles {
     dy: Column,
     vx: Column,
     vy: Column,
+    /// Squared distance, square metres.
+    distance_m2: Column,
     /// Squared distance less the squared distance at which the two touch, square metres.
     gap_m2: Column,
+    /// Which of them is farthest, once there is no room for more.
+    farthest: usize,
 }
 
 impl Perception<'_> {
@@ -179,7 +183,7 @@ impl Perception<'_> {
                     }
                 }
                 let as_fast = body.vx * wanted[0] + body.vy * wanted[1] > AS_FAST * speed_m_s;
-                if !ahead || as_fast || distance_m2 > HORIZON_M * HORIZON_M {
+                if !ahead || as_fast || distance_m2 > HORIZON_M * HORIZON_M || !others.has_room(distance_m2) {
                     continue;
                 }
                 let clear_m = me.clearance_m + body.clearance_m;
@@ -213,39 +217,41 @@ impl Perception<'_> {
 }
 
 impl Obstacles {
-    /// Adds an obstacle; when there is no room for more, in place of the farthest if that is farther.
+    /// Whether an obstacle at this squared distance is weighed: when there are many, only the nearest are.
+    #[inline]
+    fn has_room(&self, distance_m2: f32) -> bool {
+        self.count < MOST_WEIGHED || distance_m2 < self.distance_m2.as_flattened()[self.farthest]
+    }
+
+    /// Adds an obstacle for which there is room; when there are as many as are weighed, in place of the farthest.
     fn add(&mut self, dx: f32, dy: f32, body: &BodyState, distance_m2: f32, touching_m: f32) {
-        let at = if self.count < MOST_WEIGHED {
-            self.count += 1;
-            self.count - 1
-        } else {
-            let squared = |k: usize| {
-                let (x, y) = (self.dx.as_flattened()[k], self.dy.as_flattened()[k]);
-                x * x + y * y
-            };
-            let farthest = (0..MOST_WEIGHED).max_by(|&a, &b| squared(a).total_cmp(&squared(b))).unwrap_or(0);
-            if squared(farthest) <= distance_m2 {
-                return;
-            }
-            farthest
-        };
-        self.set(at, dx, dy, [body.vx, body.vy], distance_m2 - touching_m * touching_m);
+        let is_full = self.count == MOST_WEIGHED;
+        let at = if is_full { self.farthest } else { self.count };
+        self.set(at, dx, dy, [body.vx, body.vy], distance_m2, distance_m2 - touching_m * touching_m);
+        self.count = (self.count + 1).min(MOST_WEIGHED);
+        if self.count == MOST_WEIGHED {
+            let all = self.distance_m2.as_flattened();
+            let most = self.distance_m2.iter().fold(f32x8::ZERO, |most, &row| most.fast_max(f32x8::new(row)));
+            let most_m2 = most.to_array().into_iter().fold(0.0, f32::max);
+            self.farthest = all.iter().rposition(|&m2| m2 == most_m2).unwrap_or(0);
+        }
     }
 
     #[inline]
-    fn set(&mut self, at: usize, dx: f32, dy: f32, [vx, vy]: [f32; 2], gap_m2: f32) {
+    fn set(&mut self, at: usize, dx: f32, dy: f32, [vx, vy]: [f32; 2], distance_m2: f32, gap_m2: f32) {
         let (row, lane) = (at / LANES, at % LANES);
         self.dx[row][lane] = dx;
         self.dy[row][lane] = dy;
         self.vx[row][lane] = vx;
         self.vy[row][lane] = vy;
+        self.distance_m2[row][lane] = distance_m2;
         self.gap_m2[row][lane] = gap_m2;
     }
 
     /// Fills the unused lanes with an obstacle out of reach.
     fn fill_up(&mut self) {
         for at in self.count..self.count.next_multiple_of(LANES) {
-            self.set(at, NOWHERE_M, 0.0, [0.0; 2], NOWHERE_M * NOWHERE_M);
+            self.set(at, NOWHERE_M, 0.0, [0.0; 2], NOWHERE_M * NOWHERE_M, NOWHERE_M * NOWHERE_M);
         }
     }
 
@@ -278,7 +284,10 @@ mod tests {
     fn others(list: &[[f32; 4]]) -> Obstacles {
         let mut others = Obstacles::default();
         for &[dx, dy, vx, vy] in list {
-            others.add(dx, dy, &BodyState { vx, vy, ..BodyState::default() }, dx * dx + dy * dy, 0.5);
+            let distance_m2 = dx * dx + dy * dy;
+            if others.has_room(distance_m2) {
+                others.add(dx, dy, &BodyState { vx, vy, ..BodyState::default() }, distance_m2, 0.5);
+            }
         }
         others.fill_up();
         others
