@@ -1,5 +1,7 @@
 //! A canvas in metres: polygons, lines and letters, smoothed by 4 x 4 samples a pixel.
 
+use std::ops::Range;
+
 /// A point in metres, x right, y down.
 pub type Point = [f64; 2];
 
@@ -36,12 +38,17 @@ impl Canvas {
 
     /// The samples that at least one polygon covers.
     pub fn samples(&self, polygons: &[Polygon]) -> Samples {
-        let mut samples = vec![0u16; self.width * self.height];
+        self.samples_of_rows(polygons, 0..self.height)
+    }
+
+    fn samples_of_rows(&self, polygons: &[Polygon], within: Range<usize>) -> Samples {
+        let mut samples = vec![0u16; self.width * within.len()];
         for polygon in polygons {
             let points: Vec<Point> = polygon.iter().map(|&p| self.px(p).map(|v| v * 4.0)).collect();
             let low = points.iter().map(|p| p[1]).fold(f64::INFINITY, f64::min);
             let high = points.iter().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max);
-            let rows = [low, high].map(|y| (y - 0.5).ceil().clamp(0.0, self.height as f64 * 4.0) as usize);
+            let reach = [within.start, within.end].map(|row| row as f64 * 4.0);
+            let rows = [low, high].map(|y| (y - 0.5).ceil().clamp(reach[0], reach[1]) as usize);
             for row in rows[0]..rows[1] {
                 let y = row as f64 + 0.5;
                 let mut crossings: Vec<f64> = (0..points.len())
@@ -54,7 +61,7 @@ impl Canvas {
                 for pair in crossings.chunks_exact(2) {
                     let [from, to] = [pair[0], pair[1]].map(|x| (x - 0.5).ceil().clamp(0.0, self.width as f64 * 4.0));
                     for x in from as usize..to as usize {
-                        samples[row / 4 * self.width + x / 4] |= 1 << (row % 4 * 4 + x % 4);
+                        samples[(row / 4 - within.start) * self.width + x / 4] |= 1 << (row % 4 * 4 + x % 4);
                     }
                 }
             }
@@ -64,22 +71,33 @@ impl Canvas {
 
     /// Lays a colour on samples.
     pub fn paint(&mut self, samples: &Samples, colour: [u8; 3]) {
-        for (pixel, bits) in self.pixels.iter_mut().zip(samples) {
-            let share = bits.count_ones() as f32 / 16.0;
-            for (value, to) in pixel.iter_mut().zip(colour) {
-                *value += (f32::from(to) - *value) * share;
-            }
+        for (pixel, &bits) in self.pixels.iter_mut().zip(samples).filter(|(_, bits)| **bits != 0) {
+            lay(pixel, bits, colour);
         }
     }
 
+    /// Lays a colour on polygons; looks only at the rows that they reach.
     pub fn fill(&mut self, polygons: &[Polygon], colour: [u8; 3]) {
-        let samples = self.samples(polygons);
-        self.paint(&samples, colour);
+        let rows = polygons.iter().flatten().map(|&p| self.px(p)[1]);
+        let [low, high] = rows.fold([f64::INFINITY, 0.0], |[low, high], y| [low.min(y), high.max(y)]);
+        let (top, bottom) = (low.max(0.0) as usize, (high.ceil() as usize).min(self.height));
+        let samples = self.samples_of_rows(polygons, top..bottom.max(top));
+        for (pixel, bits) in self.pixels[top.min(self.height) * self.width..].iter_mut().zip(samples) {
+            lay(pixel, bits, colour);
+        }
     }
 
     /// 1 where more than half of a pixel is covered.
     pub fn mask(&self, polygons: &[Polygon]) -> Vec<u8> {
         self.samples(polygons).iter().map(|bits| u8::from(bits.count_ones() > 8)).collect()
+    }
+}
+
+/// Lays a colour on the covered share of a pixel.
+fn lay(pixel: &mut [f32; 3], bits: u16, colour: [u8; 3]) {
+    let share = bits.count_ones() as f32 / 16.0;
+    for (value, to) in pixel.iter_mut().zip(colour) {
+        *value += (f32::from(to) - *value) * share;
     }
 }
 

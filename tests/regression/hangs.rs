@@ -119,7 +119,7 @@ fn walls_of_many_pillars_on_a_large_plan_are_baked() {
     let plan = GrayImage::from_fn(400, 400, |x, y| Luma([if is_wall(x, y) { 0 } else { 255 }]));
     plan.save(sandbox.path("plan.png")).unwrap();
     let scenario = "[plan]\nimage = \"plan.png\"\nmetres_per_pixel = 1.0\n\
-                    [texture]\nfloor_texels_per_metre = 1\nwall_texels_per_metre = 10\nlayers = false\n\
+                    [texture]\nfloor_texels_per_metre = 1\nwall_texels_per_metre = 4\nlayers = false\n\
                     [crowd]\npeople = 1\n";
     sandbox.write("plan.toml", scenario);
     let mut command = sandbox.command(&["bake", "plan.toml", "-o", "out"]);

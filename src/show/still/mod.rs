@@ -30,6 +30,9 @@ use texels::{FloorTexels, PlainWalls, SmallFloor, SmallWalls, Texel, TexelSource
 
 /// Width and height of a bake's stills, pixels.
 pub const STILL_SIZE_PX: [u32; 2] = [1280, 720];
+/// The same of a first look: a floor coarser than this many texels per metre has little for larger ones to show.
+const COARSE_STILL_SIZE_PX: [u32; 2] = [800, 450];
+const COARSE_TEXELS_PER_METRE: f64 = 50.0;
 /// Least and greatest width or height of a still, pixels.
 pub const STILL_SIZES_PX: [u32; 2] = [16, 8192];
 
@@ -178,7 +181,8 @@ pub(crate) fn write_stills<S: TextureSource>(
     [trodden, clean]: [Surfaces<S>; 2],
     progress: &dyn Progress,
 ) -> Result<Vec<StillEntry>, StillError> {
-    let size = STILL_SIZE_PX;
+    let is_coarse = trodden.floor_texels_per_metre < COARSE_TEXELS_PER_METRE;
+    let size = if is_coarse { COARSE_STILL_SIZE_PX } else { STILL_SIZE_PX };
     let from_above = rooms.draw(&above, size, &[Surfaces { ..trodden }], progress)?;
     let from_inside = rooms.draw(&inside, size, &[trodden, clean], progress)?;
     let names = ["birds_eye", "eye_level", "eye_level_clean"];

@@ -280,25 +280,28 @@ impl<'a> Reader<'a> {
         let [x, y] = at.map(|c| c * scale - 0.5);
         let (i, j) = (down(x), down(y));
         let (u, v) = (x - i as f32, y - j as f32);
-        let four = self.four(level, i, j);
+        let [[a, b], [c, d]] = self.square(level, i, j);
         let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v];
-        std::array::from_fn(|c| (0..4).map(|n| f32::from(four[n][c]) * weights[n]).sum())
+        std::array::from_fn(|n| {
+            [a[n], b[n], c[n], d[n]].into_iter().zip(weights).map(|(texel, weight)| f32::from(texel) * weight).sum()
+        })
     }
 
-    fn four(&mut self, level: u32, i: i32, j: i32) -> [Texel; 4] {
+    /// `N` x `N` texels from a lower left one up, row by row.
+    fn square<const N: usize>(&mut self, level: u32, i: i32, j: i32) -> [[Texel; N]; N] {
         const S: i32 = SIDE as i32;
         let (within_i, within_j) = (i.rem_euclid(S), j.rem_euclid(S));
-        if within_i < S - 1 && within_j < S - 1 {
+        if within_i <= S - N as i32 && within_j <= S - N as i32 {
             match self.block(level, i.div_euclid(S), j.div_euclid(S)) {
-                Some(TexelBlock::Flat(texel)) => return [*texel; 4],
+                Some(TexelBlock::Flat(texel)) => return [[*texel; N]; N],
                 Some(TexelBlock::Full(texels)) => {
-                    let at = (within_j * S + within_i) as usize;
-                    return [texels[at], texels[at + 1], texels[at + SIDE], texels[at + SIDE + 1]];
+                    let first = (within_j * S + within_i) as usize;
+                    return std::array::from_fn(|row| std::array::from_fn(|k| texels[first + row * SIDE + k]));
                 }
                 None => {}
             }
         }
-        [[i, j], [i + 1, j], [i, j + 1], [i + 1, j + 1]].map(|[i, j]| self.texel(level, i, j))
+        std::array::from_fn(|row| std::array::from_fn(|k| self.texel(level, i + k as i32, j + row as i32)))
     }
 
     /// Smooth between the sixteen texels around a place: Mitchell and Netravali's filter with B = C = 1/3 (Computer
@@ -308,9 +311,8 @@ impl<'a> Reader<'a> {
         let (i, j) = (down(x), down(y));
         let (across, up) = (cubic_weights(x - i as f32), cubic_weights(y - j as f32));
         let mut sum = [0.0f32; 4];
-        for (row, weight_y) in (0..).zip(up) {
-            for (column, weight_x) in (0..).zip(across) {
-                let texel = self.texel(0, i - 1 + column, j - 1 + row);
+        for (row, weight_y) in self.square::<4>(0, i - 1, j - 1).into_iter().zip(up) {
+            for (texel, weight_x) in row.into_iter().zip(across) {
                 (0..4).for_each(|c| sum[c] += f32::from(texel[c]) * weight_x * weight_y);
             }
         }
