@@ -15,8 +15,8 @@ const LEAST_ZONE_M2: [f64; 2] = [1.0, 6.0];
 const LEAST_ZONE_SHARE: f64 = 0.08;
 /// Zones that are tried in a room: a labyrinth has corners without end.
 const MOST_TRIES: usize = 80;
-/// Distance of spots from walls, metres: wanted, and least.
-const OFF_WALLS_M: [f64; 2] = [0.4, 0.27];
+/// Distance of spots from walls, metres: wanted, as desks and cupboards stand there, and least.
+const OFF_WALLS_M: [f64; 2] = [0.7, 0.27];
 /// Distance of spots from doors, and from each other, metres.
 const OFF_DOORS_M: f64 = 0.9;
 const APART_M: f64 = 0.75;
@@ -201,8 +201,9 @@ impl Rooms {
                 .map(|&cell| {
                     let p = grid.centre(cell);
                     let others = spots.iter().map(|spot| spot.at_m.distance(p));
-                    // The first is the one farthest from the middle.
-                    others.reduce(f64::min).unwrap_or(100.0 + p.distance(middle_m))
+                    // The first is the one farthest from the doors, then from the middle.
+                    let off_doors = doors.iter().map(|door| door.distance(p)).reduce(f64::min);
+                    others.reduce(f64::min).unwrap_or(100.0 + off_doors.unwrap_or(p.distance(middle_m)))
                 })
                 .collect();
             while spots.len() < most {

@@ -15,6 +15,8 @@ const CLOSEST: f64 = 0.7;
 const WIDER: [f64; 4] = [1.0, 1.6, 2.5, 4.0];
 /// Distance from walls, metres.
 const MARGIN_M: f64 = 0.3;
+/// How far from a spot of bare floor people stand at most, metres.
+const ABOUT_SPOT_M: f64 = 0.35;
 /// Largest turn from the wanted direction, as the sine of the angle.
 const TURN: f64 = 0.2;
 
@@ -110,6 +112,16 @@ struct Seat {
     used: u32,
 }
 
+impl Seat {
+    /// When it is this seat's turn: the least is next. Those at furniture get their turns evenly, so that people use all of
+    /// them. Of bare floor people like some places more, the n-th of them by 1 / (n + 1): most people go the same ways, and
+    /// few go to the rest.
+    fn turn(&self, number: usize) -> u64 {
+        let liked_less = if self.facing.is_some() { 1 } else { number as u64 + 2 };
+        (u64::from(self.used) + 1) * liked_less
+    }
+}
+
 /// People who stand or sit at a stop without a queue.
 #[derive(Clone, Debug)]
 pub(super) struct StandingArea {
@@ -173,17 +185,19 @@ impl StandingArea {
         draw: u64,
         p: Vec2,
     ) -> (Vec2, Vec2) {
-        let mut vacant: Vec<&mut Seat> = self.seats.iter_mut().filter(|seat| seat.taken.is_none()).collect();
+        let seats = self.seats.iter_mut().enumerate();
+        let mut vacant: Vec<(usize, &mut Seat)> = seats.filter(|(_, seat)| seat.taken.is_none()).collect();
         let mut own_facing = None;
         let spot = if !vacant.is_empty() {
-            // Spots of a room get their turn, so that people use all of it.
             let wanted = match stop.spots.is_empty() {
                 true => (draw % vacant.len() as u64) as usize,
-                false => (0..vacant.len()).min_by_key(|&k| vacant[k].used).unwrap_or(0),
+                false => (0..vacant.len()).min_by_key(|&k| vacant[k].1.turn(vacant[k].0)).unwrap_or(0),
             };
-            let seat = &mut *vacant[wanted];
+            let seat = &mut *vacant[wanted].1;
             (seat.taken, seat.used, own_facing) = (Some(id), seat.used + 1, seat.facing);
-            seat.place_m
+            let place_m = seat.place_m;
+            let is_bare = !stop.spots.is_empty() && own_facing.is_none();
+            if is_bare { self.near(environment, place_m, draw) } else { place_m }
         } else {
             let spacing_m = stop.spacing_m.max(0.7);
             let free = |spot: Vec2, apart_m: f64| {
@@ -201,6 +215,14 @@ impl StandingArea {
         (spot, facing)
     }
 
+    /// A place about a spot of bare floor: two people hardly stand on the same.
+    fn near(&self, environment: &Environment<'_>, spot: Vec2, draw: u64) -> Vec2 {
+        let place = SearchArea::Around(spot, ABOUT_SPOT_M).draw(&mut SplitMix64::new(draw), 1.0).unwrap_or(spot);
+        let is_free = self.spots.values().all(|other| other.distance(place) >= 2.0 * ABOUT_SPOT_M);
+        let fits = is_free && stands(environment, place, MARGIN_M) && environment.sight(spot, place);
+        if fits { place } else { spot }
+    }
+
     pub(super) fn leave(&mut self, id: u32) {
         self.spots.remove(&id);
         self.seats.iter_mut().filter(|seat| seat.taken == Some(id)).for_each(|seat| seat.taken = None);
@@ -216,4 +238,25 @@ fn any_direction(draw: u64) -> Vec2 {
         }
     }
     vec2(1.0, 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_bare_floor_some_places_are_liked_and_all_are_used_but_desks_are_used_evenly() {
+        let used = |facing: Option<Vec2>| {
+            let seat = Seat { place_m: Vec2::ZERO, facing, taken: None, used: 0 };
+            let mut seats = vec![seat; 24];
+            for _ in 0..480 {
+                let next = (0..seats.len()).min_by_key(|&k| seats[k].turn(k)).unwrap();
+                seats[next].used += 1;
+            }
+            Vec::from_iter(seats.iter().map(|seat| seat.used))
+        };
+        let bare = used(None);
+        assert!(bare[0] >= 8 * bare[23] && bare[23] >= 4 && bare[..4].iter().sum::<u32>() > 480 * 2 / 5, "{bare:?}");
+        assert_eq!(used(Some(vec2(1.0, 0.0))), [20; 24]);
+    }
 }
