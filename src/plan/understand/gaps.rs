@@ -18,6 +18,8 @@ pub(super) struct Gap {
     rows: Vec<[usize; 2]>,
     /// Strokes from jamb to jamb.
     pub(super) strokes: usize,
+    /// Whether bars lie in it along the wall, none of which reaches from jamb to jamb: the leaves of a sliding door.
+    pub(super) slides: bool,
     /// A pixel of each wall end.
     pub(super) ends: [usize; 2],
 }
@@ -43,6 +45,11 @@ impl Gap {
     pub(super) fn jambs(&self) -> [[f64; 2]; 2] {
         let ([from, to], across) = self.middle();
         [from, to].map(|along| self.frame.place([along, across]))
+    }
+
+    /// The way in which the wall runs, in the image.
+    pub(super) fn along(&self) -> [f64; 2] {
+        self.frame.along
     }
 
     pub(super) fn length(&self) -> usize {
@@ -313,7 +320,14 @@ fn along_rows(wall: &[u8], ink: &[u8], limits: &Limits, frame: Frame) -> Vec<Gap
             }
         }
         let fresh = gaps.iter().zip(&taken).filter(|(_, taken)| !**taken);
-        going_on.extend(fresh.map(|(&g, _)| Gap { frame, first: y, rows: vec![g], strokes: 0, ends: [0; 2] }));
+        going_on.extend(fresh.map(|(&g, _)| Gap {
+            frame,
+            first: y,
+            rows: vec![g],
+            strokes: 0,
+            slides: false,
+            ends: [0; 2],
+        }));
         open = going_on;
     }
     found.retain(|gap| {
@@ -324,6 +338,7 @@ fn along_rows(wall: &[u8], ink: &[u8], limits: &Limits, frame: Frame) -> Vec<Gap
     });
     for gap in &mut found {
         gap.strokes = strokes(ink, width, gap);
+        gap.slides = slides(ink, width, gap);
     }
     found
 }
@@ -386,12 +401,14 @@ fn has_an_end(wall: &[u8], width: usize, gap: &Gap) -> bool {
         let cut = |within: usize| around(if forwards { to + within } else { from - 1 - within });
         let (near, far) = ((deep / 2).min(3), deep.saturating_sub(2).min(thick * 3 / 2));
         let ([up, down], [far_up, far_down]) = (cut(near), cut(far));
+        // A short wall before the end of one across it, as between two doors beside a corner, is not the gap's wall.
+        let is_stub = (far_up + far_down + 1) * 3 < thick;
         // The middle of a wall that runs on aslant moves.
         let middles = [up as f64 - down as f64, far_up as f64 - far_down as f64];
         let is_level = far <= near + 2
             || (far_up + far_down + 1) * 2 > thick * 3 + 4
             || (middles[0] - middles[1]).abs() * 0.5 <= 0.2 * (far - near) as f64 + 1.0;
-        deep * 5 >= thick * 4 && (up + down + 1) * 2 <= thick * 3 + 4 && is_level
+        deep * 5 >= thick * 4 && (up + down + 1) * 2 <= thick * 3 + 4 && is_level && !is_stub
     })
 }
 
@@ -423,4 +440,39 @@ fn strokes(ink: &[u8], width: usize, gap: &Gap) -> usize {
         .collect();
     counts.sort_unstable();
     counts[1]
+}
+
+/// Whether bars along the wall cover much of a gap, and none of them all of it: sliding doors have leaves beside each other
+/// or before fixed panes, windows have lines from jamb to jamb.
+fn slides(ink: &[u8], width: usize, gap: &Gap) -> bool {
+    /// Least length of a leaf, share of the gap that leaves cover, and share from which a line goes through; of the gap.
+    const LEAF: f64 = 0.2;
+    const COVERED: f64 = 0.5;
+    const THROUGH: f64 = 0.9;
+    let height = ink.len() / width;
+    let thick = gap.rows.len();
+    let margin = (thick / 6).max(1);
+    let [from, to] = gap.rows[thick / 2];
+    let length = (to - from) as f64;
+    // Lines that run aslant to the grid go over from row to row.
+    let rows = if gap.frame.is_upright() { 2 } else { 3 };
+    let mut covered = vec![false; to - from];
+    for y in gap.first.saturating_sub(margin)..(gap.first + thick + margin).min(height) {
+        let is_ink = |k: usize| (y..(y + rows).min(height)).any(|y| ink[y * width + from + k] != 0);
+        if (0..to - from).filter(|&k| is_ink(k)).count() as f64 >= THROUGH * length {
+            return false;
+        }
+        let mut run = 0;
+        for (k, &pixel) in ink[y * width + from..y * width + to].iter().chain(&[0]).enumerate() {
+            if pixel != 0 {
+                run += 1;
+                continue;
+            }
+            if run as f64 >= LEAF * length {
+                covered[k - run..k].fill(true);
+            }
+            run = 0;
+        }
+    }
+    covered.iter().filter(|&&covered| covered).count() as f64 >= COVERED * length
 }
