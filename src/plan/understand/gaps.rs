@@ -1,11 +1,16 @@
 //! Gaps between wall ends that face each other: doors and windows.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use rayon::prelude::*;
 
 use super::super::cracks::trace;
 use crate::math::{atan2, sin_cos};
+
+/// How much thicker than a gap the wall at one of its ends may be, and that at both ends of an entrance; of the gap's depth.
+const ONE_END: f64 = 0.5;
+const BOTH_ENDS: f64 = 0.2;
 
 /// A gap in a wall, and what is drawn in it.
 #[derive(Clone, Debug)]
@@ -334,11 +339,12 @@ fn along_rows(wall: &[u8], ink: &[u8], limits: &Limits, frame: Frame) -> Vec<Gap
         (limits.thinnest..=limits.thickest).contains(&gap.rows.len())
             && is_square(gap)
             && is_free(wall, width, gap)
-            && has_an_end(wall, width, gap)
+            && [false, true].into_iter().any(|forwards| is_end(wall, width, gap, forwards, ONE_END))
     });
     for gap in &mut found {
         gap.strokes = strokes(ink, width, gap);
-        gap.slides = slides(ink, width, gap);
+        let has_ends = [false, true].into_iter().all(|forwards| is_end(wall, width, gap, forwards, BOTH_ENDS));
+        gap.slides = has_ends && slides(ink, width, gap);
     }
     found
 }
@@ -379,37 +385,36 @@ fn is_free(wall: &[u8], width: usize, gap: &Gap) -> bool {
     sides.iter().all(|[share, _]| *share <= 0.3) && sides.iter().any(|[_, ends]| *ends < 2.0)
 }
 
-/// Whether the wall on at least one side of a gap is as thick as the gap and goes on; else two faces only lie opposite.
-fn has_an_end(wall: &[u8], width: usize, gap: &Gap) -> bool {
+/// Whether the wall on one side of a gap is as thick as the gap and goes on, `slack` of its thickness apart. Else two faces
+/// only lie opposite.
+fn is_end(wall: &[u8], width: usize, gap: &Gap, forwards: bool, slack: f64) -> bool {
     let height = wall.len() / width;
     let thick = gap.rows.len();
     let [from, to] = gap.rows[thick / 2];
     let y = gap.first + thick / 2;
     let is_wall = |x: usize, y: usize| wall[y * width + x] != 0;
-    let depth = |forwards: bool| {
-        let step = |k: usize| if forwards { Some(to + k).filter(|&x| x < width) } else { (from - 1).checked_sub(k) };
-        (0..thick * 2).take_while(|&k| step(k).is_some_and(|x| is_wall(x, y))).count()
-    };
+    let step = |k: usize| if forwards { Some(to + k).filter(|&x| x < width) } else { (from - 1).checked_sub(k) };
+    let deep = (0..thick * 2).take_while(|&k| step(k).is_some_and(|x| is_wall(x, y))).count();
     let around = |x: usize| {
         let most = thick * 3;
         let up = (1..most).take_while(|&k| y >= k && is_wall(x, y - k)).count();
         let down = (1..most).take_while(|&k| y + k < height && is_wall(x, y + k)).count();
         [up, down]
     };
-    [false, true].into_iter().any(|forwards| {
-        let deep = depth(forwards);
-        let cut = |within: usize| around(if forwards { to + within } else { from - 1 - within });
-        let (near, far) = ((deep / 2).min(3), deep.saturating_sub(2).min(thick * 3 / 2));
-        let ([up, down], [far_up, far_down]) = (cut(near), cut(far));
-        // A short wall before the end of one across it, as between two doors beside a corner, is not the gap's wall.
-        let is_stub = (far_up + far_down + 1) * 3 < thick;
-        // The middle of a wall that runs on aslant moves.
-        let middles = [up as f64 - down as f64, far_up as f64 - far_down as f64];
-        let is_level = far <= near + 2
-            || (far_up + far_down + 1) * 2 > thick * 3 + 4
-            || (middles[0] - middles[1]).abs() * 0.5 <= 0.2 * (far - near) as f64 + 1.0;
-        deep * 5 >= thick * 4 && (up + down + 1) * 2 <= thick * 3 + 4 && is_level && !is_stub
-    })
+    let cut = |within: usize| around(if forwards { to + within } else { from - 1 - within });
+    let (near, far) = ((deep / 2).min(3), deep.saturating_sub(2).min(thick * 3 / 2));
+    if deep * 5 < thick * 4 {
+        return false;
+    }
+    let ([up, down], [far_up, far_down]) = (cut(near), cut(far));
+    // A short wall before the end of one across it, as between two doors beside a corner, is not the gap's wall.
+    let is_stub = (far_up + far_down + 1) * 3 < thick;
+    // The middle of a wall that runs on aslant moves.
+    let middles = [up as f64 - down as f64, far_up as f64 - far_down as f64];
+    let is_level = far <= near + 2
+        || (far_up + far_down + 1) * 2 > thick * 3 + 4
+        || (middles[0] - middles[1]).abs() * 0.5 <= 0.2 * (far - near) as f64 + 1.0;
+    (up + down) as f64 <= (1.0 + slack) * thick as f64 + 1.0 && is_level && !is_stub
 }
 
 /// Number of strokes that run through the gap: the second least of seven cuts across.
@@ -449,30 +454,35 @@ fn slides(ink: &[u8], width: usize, gap: &Gap) -> bool {
     const LEAF: f64 = 0.2;
     const COVERED: f64 = 0.5;
     const THROUGH: f64 = 0.9;
+    /// Longest break of a line that goes through, pixels.
+    const BREAK_PX: usize = 2;
     let height = ink.len() / width;
     let thick = gap.rows.len();
     let margin = (thick / 6).max(1);
     let [from, to] = gap.rows[thick / 2];
-    let length = (to - from) as f64;
+    let length = to - from;
     // Lines that run aslant to the grid go over from row to row.
-    let rows = if gap.frame.is_upright() { 2 } else { 3 };
-    let mut covered = vec![false; to - from];
+    let rows = if gap.frame.is_upright() { 1 } else { 2 };
+    let mut covered = vec![false; length];
     for y in gap.first.saturating_sub(margin)..(gap.first + thick + margin).min(height) {
-        let is_ink = |k: usize| (y..(y + rows).min(height)).any(|y| ink[y * width + from + k] != 0);
-        if (0..to - from).filter(|&k| is_ink(k)).count() as f64 >= THROUGH * length {
+        let is_ink = |k: usize, rows: usize| (y..(y + rows).min(height)).any(|y| ink[y * width + from + k] != 0);
+        if runs(length, BREAK_PX, |k| is_ink(k, rows)).any(|run| run.len() as f64 >= THROUGH * length as f64) {
             return false;
         }
-        let mut run = 0;
-        for (k, &pixel) in ink[y * width + from..y * width + to].iter().chain(&[0]).enumerate() {
-            if pixel != 0 {
-                run += 1;
-                continue;
-            }
-            if run as f64 >= LEAF * length {
-                covered[k - run..k].fill(true);
-            }
-            run = 0;
+        let leaves = runs(length, 0, |k| is_ink(k, 1)).filter(|run| run.len() as f64 >= LEAF * length as f64);
+        leaves.for_each(|leaf| covered[leaf].fill(true));
+    }
+    covered.iter().filter(|&&covered| covered).count() as f64 >= COVERED * length as f64
+}
+
+/// Stretches below `length` that are on, with breaks of up to `longest` places within.
+fn runs(length: usize, longest: usize, is_on: impl Fn(usize) -> bool) -> impl Iterator<Item = Range<usize>> {
+    let mut all: Vec<Range<usize>> = Vec::new();
+    for k in (0..length).filter(|&k| is_on(k)) {
+        match all.last_mut() {
+            Some(run) if k - run.end <= longest => run.end = k + 1,
+            _ => all.push(k..k + 1),
         }
     }
-    covered.iter().filter(|&&covered| covered).count() as f64 >= COVERED * length
+    all.into_iter()
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::super::components::{Component, Components, Neighbours};
+use super::super::doors::bend;
 use super::gaps::{self, Gap, Limits};
 use super::leaves;
 use super::thick::{THINNEST_M, grow, open, wall_square};
@@ -14,8 +15,9 @@ const ENCLOSED_SHARE: f64 = 0.45;
 const WIDEST_DOOR_M: f64 = 2.6;
 /// Greatest width of a gap that only a line closes and that is a door, metres.
 const WIDEST_CLOSED_DOOR_M: f64 = 1.6;
-/// Least and greatest width of a sliding entrance, metres, and greatest thickness of its leaves, in walls.
+/// Least and greatest width of a sliding entrance, metres, and greatest thickness of its leaves, metres and walls.
 const ENTRANCE_M: [f64; 2] = [1.2, 6.0];
+const THICKEST_LEAF_M: f64 = 0.3;
 const LEAF_IN_WALLS: f64 = 0.75;
 /// Greatest width of a window that is a single line, metres.
 const WIDEST_PANE_M: f64 = 3.2;
@@ -65,7 +67,7 @@ impl Net {
         let limits =
             Limits { shortest: px(0.5), longest: px(8.0), thinnest: ((thinnest * 0.75) as usize).max(2), thickest };
         let is_entrance = |gap: &Gap| gap.slides && (px(ENTRANCE_M[0])..=px(ENTRANCE_M[1])).contains(&gap.length());
-        drop_leaves(&mut wall, ink, width, &limits, px(ENTRANCE_M[1]), is_entrance);
+        drop_leaves(&mut wall, ink, width, &limits, [ENTRANCE_M[1], THICKEST_LEAF_M].map(px), is_entrance);
         let strokes = strokes_of(ink, &wall);
         let found = gaps::find(&wall, &strokes, width, &limits);
         // A door may be closed by lines along both faces of the wall; its leaf tells it from a window.
@@ -119,27 +121,24 @@ fn strokes_of(ink: &[u8], wall: &[u8]) -> Vec<u8> {
     ink.iter().zip(wall).map(|(&i, &w)| u8::from(i != 0 && w == 0)).collect()
 }
 
-/// Takes the leaves of sliding entrances off a wall mask: bars that stand alone, up to `longest` pixels, in a gap of a
-/// thicker wall.
+/// Takes the leaves of sliding entrances off a wall mask: bars that stand alone in a gap of a thicker wall. They are
+/// up to so long and thick, pixels.
 fn drop_leaves(
     wall: &mut [u8],
     ink: &[u8],
     width: usize,
     limits: &Limits,
-    longest: usize,
+    [longest, thickest]: [usize; 2],
     is_entrance: impl Fn(&Gap) -> bool,
 ) {
     /// Least length of a leaf in its thicknesses, and share of it that lies within the gap.
     const SLENDER: f64 = 3.0;
     const WITHIN: f64 = 0.95;
     let pieces = Components::of(wall, width, 1, Neighbours::Eight);
-    let length = |piece: &Component| {
-        let [w, h] = piece.size().map(f64::from);
-        (w * w + h * h).sqrt()
-    };
     let is_bar = |piece: &&Component| {
-        let length = length(piece);
-        length <= longest as f64 && length * length >= SLENDER * piece.area as f64
+        let [w, h] = piece.size().map(f64::from);
+        let (length, thick) = ((w * w + h * h).sqrt(), bend(pieces.runs(piece)));
+        length <= longest as f64 && thick <= thickest as f64 && length >= SLENDER * thick
     };
     let bars: Vec<&Component> = pieces.all.iter().filter(is_bar).collect();
     if bars.is_empty() {
@@ -155,8 +154,7 @@ fn drop_leaves(
                 row + run.from as usize..row + run.to as usize
             });
             let inside = pixels.filter(|at| within.contains(at)).count() as f64;
-            let thick = bar.area as f64 / length(bar);
-            if inside >= WITHIN * bar.area as f64 && thick <= LEAF_IN_WALLS * gap.thickness() {
+            if inside >= WITHIN * bar.area as f64 && bend(pieces.runs(bar)) <= LEAF_IN_WALLS * gap.thickness() {
                 pieces.paint(bar, wall, width, 0);
             }
         }
