@@ -72,7 +72,7 @@ fn drop_bent_strokes(drawing: &mut Drawing, sizes: &Sizes, thick: &[u8]) {
 }
 
 /// Computes the breadth of a component across its main axis, pixels.
-fn bend(runs: &[Run]) -> f64 {
+pub(super) fn bend(runs: &[Run]) -> f64 {
     let mut moments = [0.0; 6];
     let pixels = || runs.iter().flat_map(|r| (r.from..r.to).map(|x| [f64::from(x), f64::from(r.y)]));
     for [x, y] in pixels() {

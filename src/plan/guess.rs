@@ -99,7 +99,7 @@ pub(super) fn guess(drawing: &Drawing, dots_per_inch: Option<f64>) -> (f64, Plan
         let (range, evidence) = ([0.01, 0.1], "the usual scale of robots' maps".to_owned());
         return (ASSUMED_M_PER_PX, PlanScale { source: ScaleSource::Assumed, sureness: 0.5, range, evidence });
     }
-    let measures = Measures::of(drawing);
+    let mut measures = Measures::of(drawing);
     let dots = dots_per_inch.filter(|dots| MEANINGLESS_DPI.iter().all(|m| (m - dots).abs() > 0.6));
     // The usual scales come first.
     let printed = |[low, high]: [f64; 2]| {
@@ -112,6 +112,12 @@ pub(super) fn guess(drawing: &Drawing, dots_per_inch: Option<f64>) -> (f64, Plan
         (value, PlanScale { source, sureness, range, evidence })
     };
     let mut likely = measures.likelihood().guess();
+    if measures.wall.is_some() && measures.doors(likely.value).is_none() {
+        // Leaves that hang in gaps of walls are told from other arcs.
+        let hung = understand::leaf_lengths(drawing, likely.value);
+        measures.leaves.extend(hung.into_iter().map(|length| (length, 1.0)));
+        likely = measures.likelihood().guess();
+    }
     if let Some((count, width)) = measures.doors(likely.value) {
         // Where most gaps are none of doors, as in scans, some of a width say little.
         let share = count / measures.candidates().max(1e-9);

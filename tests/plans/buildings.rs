@@ -1,4 +1,4 @@
-//! Three buildings, known exactly: metres, origin at the upper left of the outer walls' centre lines, y down.
+//! Buildings, known exactly: metres, origin at the upper left of the outer walls' centre lines, y down.
 
 use super::canvas::{Point, Polygon, rectangle};
 
@@ -19,6 +19,17 @@ pub enum HoleKind {
         hinge_first: bool,
         left: bool,
     },
+    /// A sliding door that people come in by.
+    Entrance(Leaves),
+}
+
+/// How the leaves of a sliding door are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Leaves {
+    /// Two black bars that meet, thinner than the wall, between two boxes.
+    Bars,
+    /// Panes of two lines: one before the other.
+    Panes,
 }
 
 /// A straight wall along x or y.
@@ -35,6 +46,11 @@ pub struct Wall {
 impl Wall {
     fn door(mut self, at: f64, width: f64, hinge_first: bool, left: bool) -> Wall {
         self.holes.push(Hole { at, width, kind: HoleKind::Door { hinge_first, left } });
+        self
+    }
+
+    fn entrance(mut self, at: f64, width: f64, leaves: Leaves) -> Wall {
+        self.holes.push(Hole { at, width, kind: HoleKind::Entrance(leaves) });
         self
     }
 
@@ -251,6 +267,33 @@ pub fn flat() -> Building {
         piece(Kind::Table, 5.4, 8.1, 1.2, 0.6),
     ];
     Building { name: "flat", size: [12.0, 11.0], walls, rooms, furniture, stations: vec![0.0, 5.0, 8.2, 12.0] }
+}
+
+/// A lobby with a sliding entrance of 5 m and one of 2.4 m, and two rooms behind it. No axis lies in an entrance.
+fn lobby(leaves: Leaves) -> Building {
+    let walls = vec![
+        outer([0.0, 0.0], [14.0, 0.0], 0.36).windows(&[(2.0, 1.8), (9.0, 1.8)]),
+        outer([14.0, 0.0], [14.0, 11.0], 0.36).entrance(6.6, 2.4, leaves),
+        outer([0.0, 11.0], [14.0, 11.0], 0.36).entrance(4.5, 5.0, leaves),
+        outer([0.0, 0.0], [0.0, 11.0], 0.36).windows(&[(1.6, 1.6), (7.0, 1.6)]),
+        inner([0.0, 5.0], [14.0, 5.0], 0.12).door(1.0, 0.9, true, true).door(11.0, 0.9, false, true),
+        inner([6.0, 0.0], [6.0, 5.0], 0.12),
+    ];
+    let rooms = vec![
+        room("SHOP", [0.0, 0.0, 6.0, 5.0]),
+        room("OFFICE", [6.0, 0.0, 14.0, 5.0]),
+        room("LOBBY", [0.0, 5.0, 14.0, 11.0]),
+    ];
+    let furniture = vec![piece(Kind::Shelf, 3.0, 4.5, 2.0, 0.4), piece(Kind::Table, 9.0, 2.0, 1.6, 0.8)];
+    Building { name: "lobby", size: [14.0, 11.0], walls, rooms, furniture, stations: vec![0.0, 6.0] }
+}
+
+pub fn lobby_with_bars() -> Building {
+    lobby(Leaves::Bars)
+}
+
+pub fn lobby_with_panes() -> Building {
+    lobby(Leaves::Panes)
 }
 
 /// A school's floor of 48 x 20 m with 20 rooms.

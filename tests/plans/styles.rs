@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use image::codecs::jpeg::JpegEncoder;
 use image::{DynamicImage, ImageFormat, RgbImage, Rgba, RgbaImage};
 
-use super::buildings::{Building, Hole, HoleKind, Kind, Piece, Wall, flat, office, school};
+use super::buildings::{Building, Hole, HoleKind, Kind, Leaves, Piece, Wall, flat, office, school};
 use super::canvas::{Canvas, Point, Polygon, arc, ellipse, line, lines, outline, rectangle, text};
 use super::notes::sheet;
 
@@ -305,6 +305,11 @@ pub fn draw(case: &Case) -> Drawn {
                 canvas.fill(&window(wall, hole, 0.12, thin), tones.window)
             }
             HoleKind::Window => canvas.fill(&window(wall, hole, wall.thick, thin), tones.window),
+            HoleKind::Entrance(leaves) => {
+                let (bars, lines) = sliding(wall, hole, leaves, thin);
+                canvas.fill(&lines, tones.door);
+                canvas.fill(&bars, tones.wall);
+            }
             HoleKind::Door { hinge_first, left } => {
                 canvas.fill(&door(wall, hole, hinge_first, left, style.doors, thin), tones.door);
             }
@@ -419,6 +424,28 @@ fn window(wall: &Wall, hole: &Hole, thick: f64, thin: f64) -> Vec<Polygon> {
     let (from, to) = (hole.at, hole.at + hole.width);
     let across = (thick - thin) * 0.5;
     [-across, 0.0, across].map(|left| line(wall.place(from, left), wall.place(to, left), thin)).to_vec()
+}
+
+/// A sliding door: its bars, and its lines.
+fn sliding(wall: &Wall, hole: &Hole, leaves: Leaves, thin: f64) -> (Vec<Polygon>, Vec<Polygon>) {
+    // From where to where as shares of the width; how far off the wall's middle and how thick as shares of the wall.
+    let part = |from: f64, to: f64, left: f64, thick: f64| {
+        let corner = |share: f64, left: f64| wall.place(hole.at + share * hole.width, left * wall.thick);
+        let (p, q) = (corner(from, left + thick * 0.5), corner(to, left - thick * 0.5));
+        rectangle([p[0].min(q[0]), p[1].min(q[1])], [p[0].max(q[0]), p[1].max(q[1])])
+    };
+    let outlines = |shapes: &[Polygon]| shapes.iter().flat_map(|shape| outline(shape, thin)).collect();
+    match leaves {
+        Leaves::Bars => {
+            let bars = vec![part(0.17, 0.497, 0.0, 0.6), part(0.503, 0.83, 0.0, 0.6)];
+            (bars, outlines(&[part(0.0, 0.31, 0.0, 1.15), part(0.69, 1.0, 0.0, 1.15)]))
+        }
+        Leaves::Panes => {
+            let fixed = [part(0.0, 0.27, 0.2, 0.2), part(0.73, 1.0, 0.2, 0.2)];
+            let sliding = [part(0.24, 0.5, -0.2, 0.2), part(0.5, 0.76, -0.2, 0.2)];
+            (Vec::new(), outlines(&[fixed, sliding].concat()))
+        }
+    }
 }
 
 fn door(wall: &Wall, hole: &Hole, hinge_first: bool, left: bool, doors: Doors, thin: f64) -> Vec<Polygon> {

@@ -1,11 +1,16 @@
 //! Gaps between wall ends that face each other: doors and windows.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use rayon::prelude::*;
 
 use super::super::cracks::trace;
 use crate::math::{atan2, sin_cos};
+
+/// How much thicker than a gap the wall at one of its ends may be, and that at both ends of an entrance; of the gap's depth.
+const ONE_END: f64 = 0.5;
+const BOTH_ENDS: f64 = 0.2;
 
 /// A gap in a wall, and what is drawn in it.
 #[derive(Clone, Debug)]
@@ -18,6 +23,8 @@ pub(super) struct Gap {
     rows: Vec<[usize; 2]>,
     /// Strokes from jamb to jamb.
     pub(super) strokes: usize,
+    /// Whether bars lie in it along the wall, none of which reaches from jamb to jamb: the leaves of a sliding door.
+    pub(super) slides: bool,
     /// A pixel of each wall end.
     pub(super) ends: [usize; 2],
 }
@@ -43,6 +50,11 @@ impl Gap {
     pub(super) fn jambs(&self) -> [[f64; 2]; 2] {
         let ([from, to], across) = self.middle();
         [from, to].map(|along| self.frame.place([along, across]))
+    }
+
+    /// The way in which the wall runs, in the image.
+    pub(super) fn along(&self) -> [f64; 2] {
+        self.frame.along
     }
 
     pub(super) fn length(&self) -> usize {
@@ -313,17 +325,26 @@ fn along_rows(wall: &[u8], ink: &[u8], limits: &Limits, frame: Frame) -> Vec<Gap
             }
         }
         let fresh = gaps.iter().zip(&taken).filter(|(_, taken)| !**taken);
-        going_on.extend(fresh.map(|(&g, _)| Gap { frame, first: y, rows: vec![g], strokes: 0, ends: [0; 2] }));
+        going_on.extend(fresh.map(|(&g, _)| Gap {
+            frame,
+            first: y,
+            rows: vec![g],
+            strokes: 0,
+            slides: false,
+            ends: [0; 2],
+        }));
         open = going_on;
     }
     found.retain(|gap| {
         (limits.thinnest..=limits.thickest).contains(&gap.rows.len())
             && is_square(gap)
             && is_free(wall, width, gap)
-            && has_an_end(wall, width, gap)
+            && [false, true].into_iter().any(|forwards| is_end(wall, width, gap, forwards, ONE_END))
     });
     for gap in &mut found {
         gap.strokes = strokes(ink, width, gap);
+        let has_ends = [false, true].into_iter().all(|forwards| is_end(wall, width, gap, forwards, BOTH_ENDS));
+        gap.slides = has_ends && slides(ink, width, gap);
     }
     found
 }
@@ -364,35 +385,36 @@ fn is_free(wall: &[u8], width: usize, gap: &Gap) -> bool {
     sides.iter().all(|[share, _]| *share <= 0.3) && sides.iter().any(|[_, ends]| *ends < 2.0)
 }
 
-/// Whether the wall on at least one side of a gap is as thick as the gap and goes on; else two faces only lie opposite.
-fn has_an_end(wall: &[u8], width: usize, gap: &Gap) -> bool {
+/// Whether the wall on one side of a gap is as thick as the gap and goes on, `slack` of its thickness apart. Else two faces
+/// only lie opposite.
+fn is_end(wall: &[u8], width: usize, gap: &Gap, forwards: bool, slack: f64) -> bool {
     let height = wall.len() / width;
     let thick = gap.rows.len();
     let [from, to] = gap.rows[thick / 2];
     let y = gap.first + thick / 2;
     let is_wall = |x: usize, y: usize| wall[y * width + x] != 0;
-    let depth = |forwards: bool| {
-        let step = |k: usize| if forwards { Some(to + k).filter(|&x| x < width) } else { (from - 1).checked_sub(k) };
-        (0..thick * 2).take_while(|&k| step(k).is_some_and(|x| is_wall(x, y))).count()
-    };
+    let step = |k: usize| if forwards { Some(to + k).filter(|&x| x < width) } else { (from - 1).checked_sub(k) };
+    let deep = (0..thick * 2).take_while(|&k| step(k).is_some_and(|x| is_wall(x, y))).count();
     let around = |x: usize| {
         let most = thick * 3;
         let up = (1..most).take_while(|&k| y >= k && is_wall(x, y - k)).count();
         let down = (1..most).take_while(|&k| y + k < height && is_wall(x, y + k)).count();
         [up, down]
     };
-    [false, true].into_iter().any(|forwards| {
-        let deep = depth(forwards);
-        let cut = |within: usize| around(if forwards { to + within } else { from - 1 - within });
-        let (near, far) = ((deep / 2).min(3), deep.saturating_sub(2).min(thick * 3 / 2));
-        let ([up, down], [far_up, far_down]) = (cut(near), cut(far));
-        // The middle of a wall that runs on aslant moves.
-        let middles = [up as f64 - down as f64, far_up as f64 - far_down as f64];
-        let is_level = far <= near + 2
-            || (far_up + far_down + 1) * 2 > thick * 3 + 4
-            || (middles[0] - middles[1]).abs() * 0.5 <= 0.2 * (far - near) as f64 + 1.0;
-        deep * 5 >= thick * 4 && (up + down + 1) * 2 <= thick * 3 + 4 && is_level
-    })
+    let cut = |within: usize| around(if forwards { to + within } else { from - 1 - within });
+    let (near, far) = ((deep / 2).min(3), deep.saturating_sub(2).min(thick * 3 / 2));
+    if deep * 5 < thick * 4 {
+        return false;
+    }
+    let ([up, down], [far_up, far_down]) = (cut(near), cut(far));
+    // A short wall before the end of one across it, as between two doors beside a corner, is not the gap's wall.
+    let is_stub = (far_up + far_down + 1) * 3 < thick;
+    // The middle of a wall that runs on aslant moves.
+    let middles = [up as f64 - down as f64, far_up as f64 - far_down as f64];
+    let is_level = far <= near + 2
+        || (far_up + far_down + 1) * 2 > thick * 3 + 4
+        || (middles[0] - middles[1]).abs() * 0.5 <= 0.2 * (far - near) as f64 + 1.0;
+    (up + down) as f64 <= (1.0 + slack) * thick as f64 + 1.0 && is_level && !is_stub
 }
 
 /// Number of strokes that run through the gap: the second least of seven cuts across.
@@ -423,4 +445,44 @@ fn strokes(ink: &[u8], width: usize, gap: &Gap) -> usize {
         .collect();
     counts.sort_unstable();
     counts[1]
+}
+
+/// Whether bars along the wall cover much of a gap, and none of them all of it: sliding doors have leaves beside each other
+/// or before fixed panes, windows have lines from jamb to jamb.
+fn slides(ink: &[u8], width: usize, gap: &Gap) -> bool {
+    /// Least length of a leaf, share of the gap that leaves cover, and share from which a line goes through; of the gap.
+    const LEAF: f64 = 0.2;
+    const COVERED: f64 = 0.5;
+    const THROUGH: f64 = 0.9;
+    /// Longest break of a line that goes through, pixels.
+    const BREAK_PX: usize = 2;
+    let height = ink.len() / width;
+    let thick = gap.rows.len();
+    let margin = (thick / 6).max(1);
+    let [from, to] = gap.rows[thick / 2];
+    let length = to - from;
+    // Lines that run aslant to the grid go over from row to row.
+    let rows = if gap.frame.is_upright() { 1 } else { 2 };
+    let mut covered = vec![false; length];
+    for y in gap.first.saturating_sub(margin)..(gap.first + thick + margin).min(height) {
+        let is_ink = |k: usize, rows: usize| (y..(y + rows).min(height)).any(|y| ink[y * width + from + k] != 0);
+        if runs(length, BREAK_PX, |k| is_ink(k, rows)).any(|run| run.len() as f64 >= THROUGH * length as f64) {
+            return false;
+        }
+        let leaves = runs(length, 0, |k| is_ink(k, 1)).filter(|run| run.len() as f64 >= LEAF * length as f64);
+        leaves.for_each(|leaf| covered[leaf].fill(true));
+    }
+    covered.iter().filter(|&&covered| covered).count() as f64 >= COVERED * length as f64
+}
+
+/// Stretches below `length` that are on, with breaks of up to `longest` places within.
+fn runs(length: usize, longest: usize, is_on: impl Fn(usize) -> bool) -> impl Iterator<Item = Range<usize>> {
+    let mut all: Vec<Range<usize>> = Vec::new();
+    for k in (0..length).filter(|&k| is_on(k)) {
+        match all.last_mut() {
+            Some(run) if k - run.end <= longest => run.end = k + 1,
+            _ => all.push(k..k + 1),
+        }
+    }
+    all.into_iter()
 }

@@ -10,21 +10,33 @@ const RADII: [f64; 9] = [1.0, 0.95, 1.05, 0.9, 1.1, 0.5, 0.47, 0.53, 0.85];
 /// Places along an arc that are looked at.
 const PLACES: usize = 24;
 
-/// Lists the pixels of a door's leaves and arcs: quarter circles about an end of the gap, and the way to their far end.
-pub(super) fn symbol(gap: &Gap, ink: &[u8], metres_per_pixel: f64) -> Vec<usize> {
+/// Least share of a leaf that is drawn, and of its arc, where lines close the gap as in a window.
+const LEAF_DRAWN: f64 = 0.85;
+const ARC_DRAWN: f64 = 0.9;
+/// How far a leaf is from the line through its hinge, metres and pixels.
+const LEAF_M: f64 = 0.07;
+const LEAF_PX: f64 = 2.5;
+
+/// A quarter circle of ink about an end of a gap, in the gap's frame.
+struct Arc {
+    /// Where the hinge is along the wall and across it.
+    hinge: [f64; 2],
+    /// 1 or -1: the way along the wall in which the closed leaf lies, and across it that in which it opens.
+    ways: [f64; 2],
+    radius: f64,
+    /// Share that is drawn of what lies beyond the wall's face.
+    drawn: f64,
+}
+
+/// Finds the arcs of a door's leaves: the best one for each hinge and side of the wall.
+fn arcs(gap: &Gap, ink: &[u8], metres_per_pixel: f64) -> Vec<Arc> {
     let ([from, to], middle) = gap.middle();
     let (length, thick) = (to - from, gap.thickness());
-    let slack = (0.03 / metres_per_pixel).max(1.5);
-    let at = |along: f64, across: f64| gap.pixel(along, across);
-    let is_ink = |along: f64, across: f64| at(along, across).is_some_and(|at| ink[at] != 0);
+    let slack = slack(metres_per_pixel);
     let mut found = Vec::new();
     for (hinge, way) in [(from, 1.0), (to, -1.0)] {
         for side in [-1.0, 1.0] {
-            // The hinge may be at either face of the wall or between: what lies in the wall is not drawn.
-            let tries = [0.5, 0.0, 0.25, -0.25, -0.5]
-                .into_iter()
-                .flat_map(|face| RADII.map(|share| (middle + side * thick * face, length * share)));
-            let drawn = |&(across, radius): &(f64, f64)| {
+            let drawn = |across: f64, radius: f64| {
                 let (mut seen, mut inked) = (0usize, 0usize);
                 for k in 0..PLACES {
                     let (sine, cosine) = sin_cos(std::f64::consts::FRAC_PI_2 * (k as f64 + 0.5) / PLACES as f64);
@@ -34,39 +46,79 @@ pub(super) fn symbol(gap: &Gap, ink: &[u8], metres_per_pixel: f64) -> Vec<usize>
                     seen += 1;
                     inked += usize::from((-3..=3).any(|step| {
                         let r = radius + slack * f64::from(step) / 3.0;
-                        is_ink(hinge + way * r * cosine, across + side * r * sine)
+                        gap.pixel(hinge + way * r * cosine, across + side * r * sine).is_some_and(|at| ink[at] != 0)
                     }));
                 }
                 if 2 * seen < PLACES { 0.0 } else { inked as f64 / seen as f64 }
             };
-            let mut best = (0.0, (0.0, 0.0));
-            for arc in tries {
-                let share = drawn(&arc);
-                if share > best.0 {
-                    best = (share, arc);
+            let mut best = Arc { hinge: [hinge, middle], ways: [way, side], radius: 0.0, drawn: 0.0 };
+            // The hinge may be at either face of the wall or between: what lies in the wall is not drawn.
+            for face in [0.5, 0.0, 0.25, -0.25, -0.5] {
+                for radius in RADII.map(|share| length * share) {
+                    let across = middle + side * thick * face;
+                    let share = drawn(across, radius);
+                    if share > best.drawn {
+                        best = Arc { hinge: [hinge, across], radius, drawn: share, ..best };
+                    }
                 }
             }
-            let (share, (across, radius)) = best;
-            if share < DRAWN {
-                continue;
+            if best.drawn >= DRAWN {
+                found.push(best);
             }
-            // The ring, and the leaf that is swung open.
-            let reach = radius + 2.0 * slack + 2.0;
-            let (wide, leaf) = (slack + 1.5, (0.07 / metres_per_pixel).max(2.5));
-            let steps = reach.ceil() as i32 + 3;
-            // Half steps, so that slanted grids meet all pixels.
-            for a in -6..=2 * steps {
-                for b in -6..=2 * steps {
-                    let (a, b) = (f64::from(a) * 0.5, f64::from(b) * 0.5);
-                    let distance = (a * a + b * b).sqrt();
-                    let on_ring = (distance - radius).abs() <= wide;
-                    let on_leaf = a <= leaf && b <= reach;
-                    if (on_ring || on_leaf)
-                        && let Some(at) = at(hinge + way * a, across + side * b)
-                        && ink[at] != 0
-                    {
-                        found.push(at);
-                    }
+        }
+    }
+    found
+}
+
+/// How far from an arc its stroke may be, pixels.
+fn slack(metres_per_pixel: f64) -> f64 {
+    (0.03 / metres_per_pixel).max(1.5)
+}
+
+/// Lengths of a gap's leaves, pixels: those with an arc and the straight stroke from the hinge to its far end. Furniture
+/// behind a window may look like an arc.
+pub(super) fn hung(gap: &Gap, ink: &[u8], metres_per_pixel: f64) -> Vec<f64> {
+    let (_, middle) = gap.middle();
+    let beside = (LEAF_M / metres_per_pixel).max(LEAF_PX).round() as i32;
+    let has_leaf = |arc: &&Arc| {
+        let ([hinge, across], [way, side]) = (arc.hinge, arc.ways);
+        // Beyond the wall's face.
+        let least = (0.5 * gap.thickness() - side * (across - middle)).max(0.0) + 1.0;
+        let places = || (0..PLACES).map(|k| least + (0.95 * arc.radius - least) * (k as f64 + 0.5) / PLACES as f64);
+        let on_line = |aside: i32, place: f64| {
+            let at = gap.pixel(hinge + way * f64::from(aside), across + side * place);
+            at.is_some_and(|at| ink[at] != 0)
+        };
+        let share = |aside: i32| {
+            places().filter(|&place| on_line(aside, place) || on_line(aside + 1, place)).count() as f64 / PLACES as f64
+        };
+        (-beside..beside).any(|aside| share(aside) >= LEAF_DRAWN)
+    };
+    let arcs = arcs(gap, ink, metres_per_pixel);
+    arcs.iter().filter(|arc| arc.drawn >= ARC_DRAWN).filter(has_leaf).map(|arc| arc.radius).collect()
+}
+
+/// Lists the pixels of a door's leaves and arcs: quarter circles about an end of the gap, and the way to their far end.
+pub(super) fn symbol(gap: &Gap, ink: &[u8], metres_per_pixel: f64) -> Vec<usize> {
+    let slack = slack(metres_per_pixel);
+    let mut found = Vec::new();
+    for Arc { hinge: [hinge, across], ways: [way, side], radius, .. } in arcs(gap, ink, metres_per_pixel) {
+        // The ring, and the leaf that is swung open.
+        let reach = radius + 2.0 * slack + 2.0;
+        let (wide, leaf) = (slack + 1.5, (LEAF_M / metres_per_pixel).max(LEAF_PX));
+        let steps = reach.ceil() as i32 + 3;
+        // Half steps, so that slanted grids meet all pixels.
+        for a in -6..=2 * steps {
+            for b in -6..=2 * steps {
+                let (a, b) = (f64::from(a) * 0.5, f64::from(b) * 0.5);
+                let distance = (a * a + b * b).sqrt();
+                let on_ring = (distance - radius).abs() <= wide;
+                let on_leaf = a <= leaf && b <= reach;
+                if (on_ring || on_leaf)
+                    && let Some(at) = gap.pixel(hinge + way * a, across + side * b)
+                    && ink[at] != 0
+                {
+                    found.push(at);
                 }
             }
         }

@@ -130,7 +130,7 @@ fn understand_all(drawing: &Drawing, metres_per_pixel: f64) -> Option<Understood
             }
             match () {
                 () if !symbol.is_empty() => DoorKind::Leaf,
-                () if gap.strokes > 0 => DoorKind::Line,
+                () if gap.strokes > 0 || gap.slides => DoorKind::Line,
                 () => DoorKind::Open,
             }
         })
@@ -200,6 +200,19 @@ pub(super) fn extent(drawing: &Drawing, metres_per_pixel: f64) -> Option<[[u32; 
     };
     let corners = [of(u32::min, |p| p.min)?, of(u32::max, |p| p.end)?];
     Some(corners.map(|corner| corner.map(|px| px * factor as u32)))
+}
+
+/// Lengths of the leaves that hang in the gaps of walls, pixels, as read at a scale that is about right.
+pub(super) fn leaf_lengths(drawing: &Drawing, metres_per_pixel: f64) -> Vec<f64> {
+    let factor = factor(drawing);
+    let reduced = (factor > 1).then(|| reduced(drawing, factor));
+    let metres_per_pixel = metres_per_pixel * factor as f64;
+    let Some((mut ink, net)) = ink_and_net(reduced.as_ref().unwrap_or(drawing), metres_per_pixel) else {
+        return Vec::new();
+    };
+    ink.iter_mut().zip(&net.wall).for_each(|(ink, &wall)| *ink &= 1 - wall);
+    let lengths = net.doors.iter().flat_map(|gap| leaves::hung(gap, &ink, metres_per_pixel));
+    lengths.map(|length| length * factor as f64).collect()
 }
 
 /// Finds the walls: thick ones, else outlines, else hatched ones, else both, else single lines.

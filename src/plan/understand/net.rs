@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::super::components::{Component, Components, Neighbours};
+use super::super::doors::bend;
 use super::gaps::{self, Gap, Limits};
 use super::leaves;
 use super::thick::{THINNEST_M, grow, open, wall_square};
@@ -14,8 +15,14 @@ const ENCLOSED_SHARE: f64 = 0.45;
 const WIDEST_DOOR_M: f64 = 2.6;
 /// Greatest width of a gap that only a line closes and that is a door, metres.
 const WIDEST_CLOSED_DOOR_M: f64 = 1.6;
+/// Least and greatest width of a sliding entrance, metres, and greatest thickness of its leaves, metres and walls.
+const ENTRANCE_M: [f64; 2] = [1.2, 6.0];
+const THICKEST_LEAF_M: f64 = 0.3;
+const LEAF_IN_WALLS: f64 = 0.75;
 /// Greatest width of a window that is a single line, metres.
 const WIDEST_PANE_M: f64 = 3.2;
+/// Largest column or piece of furniture that is drawn as thick as walls, metres.
+const COLUMN_M: f64 = 0.75;
 /// Least side of a column, metres and pixels.
 const LEAST_COLUMN_M: f64 = 0.15;
 const LEAST_COLUMN_PX: f64 = 5.0;
@@ -59,20 +66,25 @@ impl Net {
         drop_crumbs(&mut wall, width, (thinnest * 0.8).max(LEAST_COLUMN_M / metres_per_pixel).max(LEAST_COLUMN_PX));
         let limits =
             Limits { shortest: px(0.5), longest: px(8.0), thinnest: ((thinnest * 0.75) as usize).max(2), thickest };
-        let strokes: Vec<u8> = ink.iter().zip(&wall).map(|(&h, &w)| u8::from(h != 0 && w == 0)).collect();
+        let is_entrance = |gap: &Gap| gap.slides && (px(ENTRANCE_M[0])..=px(ENTRANCE_M[1])).contains(&gap.length());
+        drop_leaves(&mut wall, ink, width, &limits, [ENTRANCE_M[1], THICKEST_LEAF_M].map(px), is_entrance);
+        let strokes = strokes_of(ink, &wall);
         let found = gaps::find(&wall, &strokes, width, &limits);
         // A door may be closed by lines along both faces of the wall; its leaf tells it from a window.
-        let has_leaf = |gap: &Gap| {
-            gap.length() <= px(WIDEST_DOOR_M) && !leaves::symbol(gap, &strokes, metres_per_pixel).is_empty()
-        };
+        let has_leaf =
+            |gap: &Gap| gap.length() <= px(WIDEST_DOOR_M) && !leaves::hung(gap, &strokes, metres_per_pixel).is_empty();
         let is_window = |gap: &Gap| {
             (gap.strokes >= 2
                 || gap.strokes == 1 && gap.length() > px(WIDEST_CLOSED_DOOR_M) && gap.length() <= px(WIDEST_PANE_M))
+                && !is_entrance(gap)
                 && !has_leaf(gap)
         };
         let (windows, doors): (Vec<Gap>, Vec<Gap>) = found.into_iter().partition(is_window);
+        let is_door = |gap: &Gap| gap.length() <= px(WIDEST_DOOR_M) || is_entrance(gap);
+        let mut doors: Vec<Gap> = doors.into_iter().filter(is_door).collect();
+        let is_bare = |gap: &Gap| gap.strokes == 0 && !has_leaf(gap);
+        drop_beside_furniture(&mut doors, &windows, &wall, width, px(COLUMN_M), is_bare);
         drop(strokes);
-        let mut doors: Vec<Gap> = doors.into_iter().filter(|gap| gap.length() <= px(WIDEST_DOOR_M)).collect();
         let mut windows = windows;
         let kept = keep_building(&mut wall, raw, width, &doors, &windows)?;
         for gaps in [&mut doors, &mut windows] {
@@ -102,6 +114,92 @@ impl Net {
     pub(super) fn is_building(&self) -> bool {
         self.enclosed >= ENCLOSED_SHARE
     }
+}
+
+/// What is drawn beside walls.
+fn strokes_of(ink: &[u8], wall: &[u8]) -> Vec<u8> {
+    ink.iter().zip(wall).map(|(&i, &w)| u8::from(i != 0 && w == 0)).collect()
+}
+
+/// Takes the leaves of sliding entrances off a wall mask: bars that stand alone in a gap of a thicker wall. They are
+/// up to so long and thick, pixels.
+fn drop_leaves(
+    wall: &mut [u8],
+    ink: &[u8],
+    width: usize,
+    limits: &Limits,
+    [longest, thickest]: [usize; 2],
+    is_entrance: impl Fn(&Gap) -> bool,
+) {
+    /// Least length of a leaf in its thicknesses, and share of it that lies within the gap.
+    const SLENDER: f64 = 3.0;
+    const WITHIN: f64 = 0.95;
+    let pieces = Components::of(wall, width, 1, Neighbours::Eight);
+    let is_bar = |piece: &&Component| {
+        let [w, h] = piece.size().map(f64::from);
+        let (length, thick) = ((w * w + h * h).sqrt(), bend(pieces.runs(piece)));
+        length <= longest as f64 && thick <= thickest as f64 && length >= SLENDER * thick
+    };
+    let bars: Vec<&Component> = pieces.all.iter().filter(is_bar).collect();
+    if bars.is_empty() {
+        return;
+    }
+    let mut rest = wall.to_vec();
+    bars.iter().for_each(|bar| pieces.paint(bar, &mut rest, width, 0));
+    for gap in gaps::find(&rest, &strokes_of(ink, &rest), width, limits).iter().filter(|gap| is_entrance(gap)) {
+        let within: std::collections::BTreeSet<usize> = gap.pixels().into_iter().collect();
+        for bar in &bars {
+            let pixels = pieces.runs(bar).iter().flat_map(|run| {
+                let row = run.y as usize * width;
+                row + run.from as usize..row + run.to as usize
+            });
+            let inside = pixels.filter(|at| within.contains(at)).count() as f64;
+            if inside >= WITHIN * bar.area as f64 && bend(pieces.runs(bar)) <= LEAF_IN_WALLS * gap.thickness() {
+                pieces.paint(bar, wall, width, 0);
+            }
+        }
+    }
+}
+
+/// Takes off bare doors that end at a small piece of wall, up to `largest` pixels, without another gap straight on behind
+/// it, as a pier between two doors has: columns and dark furniture are no jambs.
+fn drop_beside_furniture(
+    doors: &mut Vec<Gap>,
+    windows: &[Gap],
+    wall: &[u8],
+    width: usize,
+    largest: usize,
+    is_bare: impl Fn(&Gap) -> bool,
+) {
+    let pieces = Components::of(wall, width, 1, Neighbours::Eight);
+    let mut small = wall.to_vec();
+    for piece in pieces.all.iter().filter(|piece| piece.larger_side() as usize > largest) {
+        pieces.paint(piece, &mut small, width, 0);
+    }
+    let small = Components::of(&small, width, 1, Neighbours::Eight);
+    let piece_at = |at: usize| {
+        let (x, y) = ((at % width) as u32, (at / width) as u32);
+        small.all.iter().position(|piece| small.runs(piece).iter().any(|r| r.y == y && (r.from..r.to).contains(&x)))
+    };
+    let at_pieces = |gap: &Gap| (gap.ends.map(piece_at), gap.along());
+    let gaps: Vec<_> = doors.iter().chain(windows).map(at_pieces).collect();
+    let bare: Vec<bool> = doors.iter().map(is_bare).collect();
+    let mut kept = vec![true; gaps.len()];
+    loop {
+        let goes_on = |k: usize, end: usize| {
+            let (pieces, along) = &gaps[k];
+            let is_next = |j: &usize| kept[*j] && gaps[*j].1 == *along && gaps[*j].0[1 - end] == pieces[end];
+            pieces[end].is_none() || (0..gaps.len()).any(|j| is_next(&j))
+        };
+        let gone: Vec<usize> =
+            (0..doors.len()).filter(|&k| kept[k] && bare[k] && !(goes_on(k, 0) && goes_on(k, 1))).collect();
+        if gone.is_empty() {
+            break;
+        }
+        gone.into_iter().for_each(|k| kept[k] = false);
+    }
+    let mut kept = kept.into_iter();
+    doors.retain(|_| kept.next().unwrap_or(true));
 }
 
 /// Area of the least rectangle of any direction around the walls within a box, square pixels.
