@@ -132,7 +132,7 @@ pub fn ellipse(centre: Point, half: Point) -> Polygon {
 /// Strokes of letters on a grid 4 wide and 6 high: points as pairs of digits, strokes apart by a space.
 fn strokes(letter: char) -> &'static str {
     match letter {
-        '0' => "1030414536160501 10",
+        '0' => "103041453616050110",
         '1' => "112026 1636",
         '2' => "01103041420646",
         '3' => "0110304142334445361605 3313",

@@ -289,7 +289,7 @@ pub fn draw(case: &Case) -> Drawn {
         }
     }
     if style.sheet || style.names {
-        let words = words(&building, thin);
+        let words = words(&building, &truth, thin);
         add(&mut truth.notes, &canvas.mask(&words));
         canvas.fill(&words, tones.words);
     }
@@ -473,11 +473,12 @@ fn symbol(piece: &Piece, thin: f64) -> (Polygon, Vec<Polygon>) {
     (shape, strokes)
 }
 
-/// Room names and areas.
-fn words(building: &Building, thin: f64) -> Vec<Polygon> {
+/// Room names, and areas from wall to wall.
+fn words(building: &Building, truth: &Truth, thin: f64) -> Vec<Polygon> {
     let mut all = Vec::new();
-    for room in &building.rooms {
-        let area: f64 = room.parts.iter().map(|[x0, y0, x1, y1]| (x1 - x0) * (y1 - y0)).sum();
+    for (k, room) in (1..).zip(&building.rooms) {
+        let pixels = truth.rooms.iter().filter(|&&number| number == k).count();
+        let area = pixels as f64 * truth.metres_per_pixel * truth.metres_per_pixel;
         let [x, y] = room.label;
         let small = room.parts[0][3] - room.parts[0][1] < 2.1;
         let size = if small { 0.22 } else { 0.3 };
