@@ -49,7 +49,7 @@ impl ScaleSource {
             ScaleSource::Points => "from two points",
             ScaleSource::Drawing => "from the drawing's unit",
             ScaleSource::Width => "from the building's width",
-            ScaleSource::Printed => "printed on the plan,",
+            ScaleSource::Printed => "read from the plan",
             ScaleSource::Guessed => "guessed",
             ScaleSource::Assumed => "assumed",
         }

@@ -149,7 +149,9 @@ pub(super) fn bars(page: &Page, numbers: &[Number]) -> Vec<(f64, f64)> {
             (bar.x[0] - x).abs() <= height && (0..=2 * height).contains(&apart) && bar.height() <= 2 * height
         };
         let at_end = |bar: &Area, end: &&Number| {
-            end.value > 0.0 && (end.area.middle()[1] - y).abs() <= height / 2 && (end.area.middle()[0] - bar.x[1]).abs() <= height
+            end.value > 0.0
+                && (end.area.middle()[1] - y).abs() <= height / 2
+                && (end.area.middle()[0] - bar.x[1]).abs() <= height
         };
         let bar = wide.iter().filter(is_bar).find_map(|bar| Some((bar, numbers.iter().find(|end| at_end(bar, end))?)));
         // The ends of a ruled line are in the middle of its strokes: to a pixel that is the same.

@@ -180,26 +180,54 @@ fn vote(measures: &[Measure], sane: [f64; 2]) -> Option<(f64, PlanScale)> {
         seen += m.pixels;
         seen >= half
     })?;
-    let value = middle.scale();
+    // Four significant digits: text and lines are measured to a pixel.
+    let value = format!("{:.3e}", middle.scale()).parse().unwrap_or(middle.scale());
     let range = [value * (1.0 - OFF), value * (1.0 + OFF)];
     let share = ((count - FEWEST) as f64 / (MANY - FEWEST as f64)).min(1.0);
     let sureness = SURENESS[0] + (SURENESS[1] - SURENESS[0]) * share;
     Some((value, PlanScale { source: ScaleSource::Printed, sureness, range, evidence: told(best) }))
 }
 
-/// What measures are of: "7 areas of rooms and 3 dimensions".
+/// What measures are of: "7 printed room areas, 1 printed scale bar".
 fn told(measures: &[Measure]) -> String {
     let names = [
-        (Kind::Area, "area of a room", "areas of rooms"),
-        (Kind::Size, "size of a room", "sizes of rooms"),
-        (Kind::Dimension, "dimension", "dimensions"),
-        (Kind::Bar, "scale bar", "scale bars"),
+        (Kind::Area, "room area"),
+        (Kind::Size, "room size"),
+        (Kind::Dimension, "dimension"),
+        (Kind::Bar, "scale bar"),
     ];
-    let named = names.into_iter().filter_map(|(kind, one, many)| {
+    let named = names.into_iter().filter_map(|(kind, name)| {
         let mut numbers: Vec<usize> = measures.iter().filter(|m| m.kind == kind).map(|m| m.number).collect();
         numbers.sort_unstable();
         numbers.dedup();
-        (!numbers.is_empty()).then(|| format!("{} {}", numbers.len(), if numbers.len() == 1 { one } else { many }))
+        let plural = if numbers.len() == 1 { "" } else { "s" };
+        (!numbers.is_empty()).then(|| format!("{} printed {name}{plural}", numbers.len()))
     });
     named.collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(scales: &[f64]) -> Option<f64> {
+        let measure = |(number, scale)| Measure { number, kind: Kind::Dimension, metres: 100.0 * scale, pixels: 100.0 };
+        let measures: Vec<Measure> = scales.iter().copied().enumerate().map(measure).collect();
+        vote(&measures, [0.015, 0.03]).map(|(value, _)| value)
+    }
+
+    #[test]
+    fn three_that_agree_outvote_a_few_and_contradictions_say_nothing() {
+        assert_eq!(found(&[0.02, 0.0201, 0.0199, 0.027, 0.016]), Some(0.02));
+        assert_eq!(found(&[0.02, 0.0201, 0.027, 0.016]), None);
+        assert_eq!(found(&[0.02, 0.0201, 0.0199, 0.027, 0.016, 0.0235, 0.0175, 0.0285]), None);
+        // As far from the doors as no door is.
+        assert_eq!(found(&[0.05; 9]), None);
+    }
+
+    #[test]
+    fn one_number_is_one_vote() {
+        let twice = Measure { number: 1, kind: Kind::Dimension, metres: 2.0, pixels: 100.0 };
+        assert!(vote(&[twice; 5], [0.01, 0.03]).is_none());
+    }
 }

@@ -5,14 +5,15 @@
 const THINNED_PX: usize = 30;
 /// Shares of a glyph's greatest darkness from which a pixel belongs to its strokes. What is a letter at two of them, and
 /// no other at the third, is that letter: blurred strokes break at one and close at another.
-const STROKES: [f32; 3] = [0.3, 0.42, 0.55];
+const STROKES: [f32; 3] = [0.42, 0.3, 0.55];
 /// Least area of a hole, as a share of the glyph's box.
 const LEAST_HOLE: f32 = 0.004;
 /// Width of all glyphs in heights; those narrower than `NARROW` heights stay narrow.
 const WIDTH: f32 = 0.62;
 const NARROW: f32 = 0.33;
-/// Number of points of a shape that are compared.
-const POINTS: usize = 56;
+/// Number of points of a shape that are compared, and of those at once.
+const POINTS: usize = 40;
+const LANES: usize = 8;
 /// What a hole more or less counts, in heights.
 const HOLE: f32 = 0.05;
 /// Greatest distance of a glyph from its letter in heights, and how much nearer that is than any other.
@@ -72,8 +73,9 @@ const LETTERS: [(char, &str); 46] = [
 ];
 
 /// The middle lines of a glyph's strokes in its box, heights of the glyph.
-pub(super) struct Shape {
-    points: Vec<[f32; 2]>,
+struct Shape {
+    x: [f32; POINTS],
+    y: [f32; POINTS],
     holes: usize,
 }
 
@@ -86,19 +88,27 @@ impl Alphabet {
         Alphabet(LETTERS.iter().flat_map(each).collect())
     }
 
-    /// The letter among some that a glyph is; `None` if it is like none or like two.
-    pub(super) fn letter(&self, shapes: &[Shape], among: &str) -> Option<char> {
-        let mut letters: Vec<char> = shapes.iter().filter_map(|shape| self.one(shape, among)).collect();
-        let count = letters.len();
-        letters.dedup();
-        letters.first().copied().filter(|_| letters.len() == 1 && count >= 2)
+    /// The letter among some that a glyph is by the darkness of its pixels; `None` if it is like none or like two.
+    pub(super) fn letter(&self, darkness: &[u8], width: usize, among: &str) -> Option<char> {
+        let (mut found, mut count, mut unlike) = (None, 0, 0);
+        for share in STROKES {
+            match Shape::of(darkness, width, share).and_then(|shape| self.one(&shape, among)) {
+                Some(letter) if found.is_none_or(|found| found == letter) => (found, count) = (Some(letter), count + 1),
+                Some(_) => return None,
+                None => unlike += 1,
+            }
+            if unlike > 1 {
+                return None;
+            }
+        }
+        found.filter(|_| count >= 2)
     }
 
     fn one(&self, shape: &Shape, among: &str) -> Option<char> {
         let mut best = (f32::INFINITY, ' ');
         let mut second = f32::INFINITY;
         for (letter, known) in self.0.iter().filter(|(letter, _)| among.contains(*letter)) {
-            let apart = shape.apart(known);
+            let apart = shape.apart(known, NEAR * NEARER);
             if apart < best.0 {
                 if best.1 != *letter {
                     second = best.0;
@@ -108,7 +118,6 @@ impl Alphabet {
                 second = second.min(apart);
             }
         }
-        if std::env::var("TRODDEN_GLYPH").is_ok() { eprintln!("glyph {best:?} second {second} holes {}", shape.holes); }
         (best.0 <= NEAR && second >= best.0 * NEARER).then_some(best.1)
     }
 }
@@ -138,17 +147,12 @@ impl Shape {
         Shape::normal(points, holes)
     }
 
-    /// The shapes of a glyph from the darkness of its pixels.
-    pub(super) fn of(darkness: &[u8], width: usize) -> Vec<Shape> {
-        STROKES.iter().filter_map(|&share| Shape::at(darkness, width, share)).collect()
-    }
-
-    fn at(darkness: &[u8], width: usize, share: f32) -> Option<Shape> {
+    /// The shape of a glyph from the darkness of its pixels, of which a share of the greatest belongs to strokes.
+    fn of(darkness: &[u8], width: usize, share: f32) -> Option<Shape> {
         let (strokes, across) = enlarged(darkness, width, share);
         let holes = holes(&strokes, across);
         let thin = thinned(strokes, across);
-        let points: Vec<[f32; 2]> =
-            (0..thin.len()).filter(|&at| thin[at]).map(|at| [(at % across) as f32, (at / across) as f32]).collect();
+        let points: Vec<[f32; 2]> = thin.iter().map(|at| [(at % across) as f32, (at / across) as f32]).collect();
         (points.len() >= THINNED_PX / 2).then(|| Shape::normal(points, holes))
     }
 
@@ -161,42 +165,52 @@ impl Shape {
         let across = WIDTH / aspect.max(NARROW) / height;
         let middle = (low[0] + high[0]) * 0.5;
         points.iter_mut().for_each(|p| *p = [(p[0] - middle) * across, (p[1] - low[1]) / height]);
-        Shape { points: even(points), holes }
+        let points = even(&points);
+        Shape { x: points.map(|p| p[0]), y: points.map(|p| p[1]), holes }
     }
 
-    /// How far apart two shapes are: the root of the mean squared distance of points to the other shape, heights.
-    fn apart(&self, other: &Shape) -> f32 {
-        let mut nearest = vec![f32::INFINITY; other.points.len()];
-        let mut sum = 0.0;
-        for p in &self.points {
-            let mut least = f32::INFINITY;
-            for (q, nearest) in other.points.iter().zip(&mut nearest) {
-                let [dx, dy] = [p[0] - q[0], p[1] - q[1]];
-                let squared = dx * dx + dy * dy;
-                least = least.min(squared);
-                *nearest = nearest.min(squared);
-            }
-            sum += least;
+    /// How far apart two shapes are: the root of the mean squared distance of points to the other shape, heights. Infinite
+    /// where holes alone are more than `most`.
+    fn apart(&self, other: &Shape, most: f32) -> f32 {
+        let holes = HOLE * self.holes.abs_diff(other.holes) as f32;
+        if holes >= most {
+            return f32::INFINITY;
         }
-        let mean = sum / self.points.len() as f32 + nearest.iter().sum::<f32>() / nearest.len().max(1) as f32;
-        (mean * 0.5).sqrt() + HOLE * self.holes.abs_diff(other.holes) as f32
+        let less = |a: f32, b: f32| if a < b { a } else { b };
+        let mut nearest = [f32::INFINITY; POINTS];
+        let mut sum = 0.0;
+        for (x, y) in self.x.iter().zip(&self.y) {
+            let mut least = [f32::INFINITY; LANES];
+            for first in (0..POINTS).step_by(LANES) {
+                for k in 0..LANES {
+                    let [dx, dy] = [x - other.x[first + k], y - other.y[first + k]];
+                    let squared = dx * dx + dy * dy;
+                    least[k] = less(least[k], squared);
+                    nearest[first + k] = less(nearest[first + k], squared);
+                }
+            }
+            sum += least.into_iter().fold(f32::INFINITY, less);
+        }
+        let mean = (sum + nearest.iter().sum::<f32>()) / POINTS as f32;
+        (mean * 0.5).sqrt() + holes
     }
 }
 
 /// Points that lie about evenly: each the farthest from those before it.
-fn even(points: Vec<[f32; 2]>) -> Vec<[f32; 2]> {
+fn even(points: &[[f32; 2]]) -> [[f32; 2]; POINTS] {
     let mut apart = vec![f32::INFINITY; points.len()];
-    let mut kept: Vec<[f32; 2]> = Vec::new();
     let mut next = 0;
-    while kept.len() < POINTS.min(points.len()) {
+    std::array::from_fn(|_| {
         let [x, y] = points[next];
-        kept.push([x, y]);
-        for (p, apart) in points.iter().zip(&mut apart) {
-            *apart = apart.min((p[0] - x) * (p[0] - x) + (p[1] - y) * (p[1] - y));
+        next = 0;
+        for (k, p) in points.iter().enumerate() {
+            apart[k] = apart[k].min((p[0] - x) * (p[0] - x) + (p[1] - y) * (p[1] - y));
+            if apart[k] > apart[next] {
+                next = k;
+            }
         }
-        next = (0..points.len()).max_by(|&a, &b| apart[a].total_cmp(&apart[b])).unwrap_or(0);
-    }
-    kept
+        [x, y]
+    })
 }
 
 /// The strokes of a glyph, with an empty rim, enlarged to at least [`THINNED_PX`] high. Returns their width too.
@@ -247,36 +261,35 @@ fn holes(strokes: &[bool], width: usize) -> usize {
     count
 }
 
-/// Thins strokes to their middle lines, one pixel wide (Zhang and Suen 1984, doi 10.1145/357994.358023).
-fn thinned(mut strokes: Vec<bool>, width: usize) -> Vec<bool> {
-    let inner: Vec<usize> = (width..strokes.len() - width).filter(|at| strokes[*at]).collect();
+/// Whether a pixel of a stroke goes in one of the two steps of thinning, by which of its neighbours are strokes: one bit
+/// each, clockwise from above.
+fn goes(around: u8, step: usize) -> bool {
+    let is = |k: u32| around >> (k % 8) & 1 != 0;
+    let turns = (0..8).filter(|&k| !is(k) && is(k + 1)).count();
+    let [n, e, s, w] = [0, 2, 4, 6].map(is);
+    let side = if step == 0 { !(n && e && s) && !(e && s && w) } else { !(n && e && w) && !(n && s && w) };
+    (2..=6).contains(&around.count_ones()) && turns == 1 && side
+}
+
+/// The middle lines of strokes, one pixel wide, as places of pixels (Zhang and Suen 1984, doi 10.1145/357994.358023).
+fn thinned(mut strokes: Vec<bool>, width: usize) -> Vec<usize> {
+    let goes: [[bool; 256]; 2] = std::array::from_fn(|step| std::array::from_fn(|around| goes(around as u8, step)));
+    let mut left: Vec<usize> = (width..strokes.len() - width).filter(|at| strokes[*at]).collect();
     loop {
-        let before = strokes.iter().filter(|&&s| s).count();
-        for step in 0..2 {
-            let goes = |&at: &usize| {
-                // Clockwise from above.
-                let around = [
-                    at - width,
-                    at - width + 1,
-                    at + 1,
-                    at + width + 1,
-                    at + width,
-                    at + width - 1,
-                    at - 1,
-                    at - width - 1,
-                ]
-                .map(|at| strokes[at]);
-                let count = around.iter().filter(|&&s| s).count();
-                let turns = (0..8).filter(|&k| !around[k] && around[(k + 1) % 8]).count();
-                let [n, e, s, w] = [around[0], around[2], around[4], around[6]];
-                let side = if step == 0 { !(n && e && s) && !(e && s && w) } else { !(n && e && w) && !(n && s && w) };
-                strokes[at] && (2..=6).contains(&count) && turns == 1 && side
+        let before = left.len();
+        for goes in &goes {
+            let is_gone = |&&at: &&usize| {
+                let [above, below] = [at - width, at + width];
+                let around = [above, above + 1, at + 1, below + 1, below, below - 1, at - 1, above - 1];
+                let bits = around.iter().rev().fold(0, |bits, &at| bits << 1 | usize::from(strokes[at]));
+                goes[bits]
             };
-            let gone: Vec<usize> = inner.iter().copied().filter(goes).collect();
+            let gone: Vec<usize> = left.iter().filter(is_gone).copied().collect();
             gone.into_iter().for_each(|at| strokes[at] = false);
+            left.retain(|&at| strokes[at]);
         }
-        if strokes.iter().filter(|&&s| s).count() == before {
-            return strokes;
+        if left.len() == before {
+            return left;
         }
     }
 }

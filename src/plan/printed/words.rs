@@ -1,7 +1,7 @@
 //! Numbers in the lettering of a page, with their units.
 
 use super::page::{Area, Mark, Page};
-use super::shape::{Alphabet, Shape};
+use super::shape::Alphabet;
 
 /// Feet in metres.
 const FOOT_M: f64 = 0.3048;
@@ -39,17 +39,16 @@ pub(super) struct Number {
 struct Reader<'a> {
     page: &'a Page<'a>,
     alphabet: &'a Alphabet,
-    shapes: Vec<Option<Vec<Shape>>>,
+    wide: Vec<Area>,
 }
 
 /// All numbers of a page, from left to right.
 pub(super) fn numbers(page: &Page, alphabet: &Alphabet) -> Vec<Number> {
-    let shapes = page.marks.iter().map(|_| None).collect();
-    let mut reader = Reader { page, alphabet, shapes };
+    let reader = Reader { page, alphabet, wide: page.wide() };
     let mut found: Vec<Number> = Vec::new();
     let mut after = vec![false; page.marks.len()];
     for k in 0..page.marks.len() {
-        if after[k] || reader.digit(k).is_none() || !reader.is_free(k) {
+        if after[k] || !Page::is_tall(&page.marks[k]) || !reader.is_free(k) || reader.digit(k).is_none() {
             continue;
         }
         let (number, read) = reader.number(k);
@@ -60,22 +59,26 @@ pub(super) fn numbers(page: &Page, alphabet: &Alphabet) -> Vec<Number> {
 }
 
 impl Reader<'_> {
-    fn letter(&mut self, k: usize, among: &str) -> Option<char> {
+    fn letter(&self, k: usize, among: &str) -> Option<char> {
         let mark = &self.page.marks[k];
-        let shape =
-            self.shapes[k].get_or_insert_with(|| Shape::of(&self.page.darkness_of(mark), mark.area.width() as usize));
-        self.alphabet.letter(shape, among)
+        self.alphabet.letter(&self.page.darkness_of(mark), mark.area.width() as usize, among)
     }
 
-    fn digit(&mut self, k: usize) -> Option<char> {
+    fn digit(&self, k: usize) -> Option<char> {
         if Page::is_tall(&self.page.marks[k]) { self.letter(k, DIGITS) } else { None }
     }
 
-    /// Whether nothing lies before a mark: the digits before it may be unread.
+    /// Whether nothing lies before a mark, where unread digits may be, and something behind it or a scale bar at it.
     fn is_free(&self, k: usize) -> bool {
-        let Area { x, y } = self.page.marks[k].area;
-        let reach = (f64::from(y[1] - y[0]) * WIDE_GAP) as i32;
-        self.page.is_blank([x[0] - reach, x[0] - 1], y)
+        let area = self.page.marks[k].area;
+        let height = area.height();
+        let reach = (f64::from(height) * WIDE_GAP) as i32;
+        let at_bar = |bar: &Area| {
+            let [apart, along] = [bar.middle()[1] - area.middle()[1], bar.x[0] - area.middle()[0]].map(i32::abs);
+            apart <= 3 * height && along <= height
+        };
+        self.page.is_blank([area.x[0] - reach, area.x[0] - 1], area.y)
+            && (self.next(k, &area, SPACE).is_some() || self.wide.iter().any(at_bar))
     }
 
     /// The mark that follows another on a line of digits.
@@ -98,7 +101,7 @@ impl Reader<'_> {
     }
 
     /// The number that begins at a mark; the marks that were read too.
-    fn number(&mut self, first: usize) -> (Option<Number>, Vec<usize>) {
+    fn number(&self, first: usize) -> (Option<Number>, Vec<usize>) {
         let line = self.page.marks[first].area;
         let mut area = line;
         let (mut text, mut read, mut last) = (String::new(), vec![first], first);
@@ -151,7 +154,7 @@ impl Reader<'_> {
     }
 
     /// A digit, point, dash or sign for feet on a line of digits.
-    fn part(&mut self, k: usize, line: &Area) -> Option<char> {
+    fn part(&self, k: usize, line: &Area) -> Option<char> {
         let area = self.page.marks[k].area;
         let height = f64::from(line.height());
         let [w, h] = [area.width(), area.height()].map(f64::from);
@@ -168,7 +171,7 @@ impl Reader<'_> {
     }
 
     /// The unit behind a mark, `x` at its end for a factor that follows; `None` where the number itself goes on.
-    fn unit(&mut self, mut last: usize, line: &Area) -> (Option<&'static str>, Vec<usize>) {
+    fn unit(&self, mut last: usize, line: &Area) -> (Option<&'static str>, Vec<usize>) {
         let (mut text, mut read, mut reach) = (String::new(), Vec::new(), SPACE);
         let end = self.page.marks[last].area.x[1];
         let clear = (f64::from(line.height()) * SPACE) as i32;
@@ -195,7 +198,7 @@ impl Reader<'_> {
         (Some(unit.unwrap_or("")), if unit.is_some() { read } else { Vec::new() })
     }
 
-    fn unit_letter(&mut self, k: usize, line: &Area) -> Option<char> {
+    fn unit_letter(&self, k: usize, line: &Area) -> Option<char> {
         let mark = &self.page.marks[k];
         let height = f64::from(line.height());
         let [w, h] = [mark.area.width(), mark.area.height()].map(f64::from);
@@ -207,7 +210,9 @@ impl Reader<'_> {
             () if is_low => self.letter(k, "xs"),
             () if near(h - height, 0.15) && near(below, 0.1) => self.letter(k, "2MxftsFTQ"),
             () if h <= 0.3 * height + 1.0 && w <= 0.3 * height + 1.0 && near(below, 0.1) => Some('.'),
-            () if (0.3..=0.88).contains(&(h / height)) && below <= -0.12 * height && above >= -0.4 * height => Some('2'),
+            () if (0.3..=0.88).contains(&(h / height)) && below <= -0.12 * height && above >= -0.4 * height => {
+                Some('2')
+            }
             () if below > 0.12 * height && h >= 0.6 * height => self.letter(k, "q"),
             () => None,
         }
