@@ -226,13 +226,13 @@ fn legs(darkness: &[u8], mark: &Mark) -> usize {
     let column = |x: usize| rows.clone().map(|y| f64::from(darkness[y * width + x])).sum::<f64>();
     let columns: Vec<f64> = (0..width).map(column).collect();
     let most = columns.iter().copied().fold(0.0, f64::max);
-    // A leg begins where it grows dark, and ends where it is light by a quarter.
-    let (mut count, mut is_leg) = (0, false);
+    // A leg begins where it grows darker by a third than the gap before it, and ends as it grows lighter.
+    let (mut count, mut is_leg, mut turn) = (0, false, 0.0);
     for value in columns {
-        if !is_leg && value > 0.6 * most {
-            (count, is_leg) = (count + 1, true);
-        } else if is_leg && value < 0.5 * most {
-            is_leg = false;
+        turn = if is_leg { value.max(turn) } else { value.min(turn) };
+        if (value - turn).abs() > 0.3 * most {
+            (is_leg, turn) = (!is_leg, value);
+            count += usize::from(is_leg);
         }
     }
     count
