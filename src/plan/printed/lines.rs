@@ -101,11 +101,17 @@ fn end(page: &Page, line: Line, from: i32, way: i32, height: i32) -> Option<f64>
         if columns.len() as f64 > LONGEST_END * f64::from(height) {
             return None;
         }
-        if !goes_on || white >= 2 {
-            let ends = !goes_on && white < 2;
+        // The tip of an arrow is as thin as the line: what it points at comes later.
+        let is_arrow = is_arrow(&columns, reach, way);
+        let patience = if is_arrow { columns.len() as i32 + 2 } else { 2 };
+        if !goes_on || white >= patience {
             let all: i32 = columns.iter().map(|(_, ink)| ink[0] + ink[1]).sum();
             if all >= 3 {
-                return Some(place(&columns, reach, ends, way));
+                return match (is_arrow, goes_on) {
+                    (true, true) => None,
+                    (true, false) => Some(f64::from(x - way)),
+                    (false, _) => Some(place(&columns, reach)),
+                };
             }
             if !goes_on {
                 return None;
@@ -116,24 +122,26 @@ fn end(page: &Page, line: Line, from: i32, way: i32, height: i32) -> Option<f64>
     }
 }
 
-/// The place that the columns of a line's end mean.
-fn place(columns: &[(i32, [i32; 2])], reach: i32, ends: bool, way: i32) -> f64 {
-    let mean = |all: &[i32]| f64::from(all.iter().sum::<i32>()) / all.len() as f64;
+/// Whether the columns of a line's end are the head of an arrow, widest at its back, and no line across it.
+fn is_arrow(columns: &[(i32, [i32; 2])], reach: i32, way: i32) -> bool {
+    let (Some((first, _)), Some((last, _))) = (columns.first(), columns.last()) else { return false };
+    let ink: i32 = columns.iter().map(|(_, ink)| ink[0] + ink[1]).sum();
+    let centre = columns.iter().map(|(x, ink)| f64::from(x * (ink[0] + ink[1]))).sum::<f64>() / f64::from(ink);
+    let behind = (f64::from(first + last) * 0.5 - centre) * f64::from(way);
+    columns.iter().all(|(_, ink)| ink[0] < reach && ink[1] < reach) && behind > 0.12 * f64::from((last - first).abs())
+}
+
+/// The place that the columns of a line's end mean: the line across it, else their middle.
+fn place(columns: &[(i32, [i32; 2])], reach: i32) -> f64 {
     let across = |is: fn([i32; 2], i32) -> bool| -> Vec<i32> {
         columns.iter().filter(|(_, ink)| is(*ink, reach)).map(|(x, _)| *x).collect()
     };
     let both = across(|ink, reach| ink == [reach; 2]);
     let one = across(|ink, reach| ink[0] == reach || ink[1] == reach);
-    if let Some(line) = [both, one].into_iter().find(|line| !line.is_empty()) {
-        return mean(&line);
+    match [both, one].into_iter().find(|line| !line.is_empty()) {
+        Some(line) => f64::from(line.iter().sum::<i32>()) / line.len() as f64,
+        None => f64::from(columns[0].0 + columns[columns.len() - 1].0) * 0.5,
     }
-    let (first, last) = (columns[0].0, columns[columns.len() - 1].0);
-    let middle = f64::from(first + last) * 0.5;
-    let ink: i32 = columns.iter().map(|(_, ink)| ink[0] + ink[1]).sum();
-    let centre = columns.iter().map(|(x, ink)| f64::from(x * (ink[0] + ink[1]))).sum::<f64>() / f64::from(ink);
-    // The head of an arrow is widest at its back.
-    let is_arrow = (middle - centre) * f64::from(way) > 0.12 * f64::from((last - first).abs());
-    if ends && is_arrow { f64::from(last) } else { middle }
 }
 
 /// Lengths of scale bars: what stands at their far ends, metres, and pixels. A bar runs below or above its numbers, from the

@@ -182,10 +182,10 @@ impl Shape {
         for (x, y) in self.x.iter().zip(&self.y) {
             let mut least = [f32::INFINITY; LANES];
             for first in (0..POINTS).step_by(LANES) {
-                for k in 0..LANES {
+                for (k, least) in least.iter_mut().enumerate() {
                     let [dx, dy] = [x - other.x[first + k], y - other.y[first + k]];
                     let squared = dx * dx + dy * dy;
-                    least[k] = less(least[k], squared);
+                    *least = less(*least, squared);
                     nearest[first + k] = less(nearest[first + k], squared);
                 }
             }
@@ -267,7 +267,7 @@ fn goes(around: u8, step: usize) -> bool {
     let is = |k: u32| around >> (k % 8) & 1 != 0;
     let turns = (0..8).filter(|&k| !is(k) && is(k + 1)).count();
     let [n, e, s, w] = [0, 2, 4, 6].map(is);
-    let side = if step == 0 { !(n && e && s) && !(e && s && w) } else { !(n && e && w) && !(n && s && w) };
+    let side = if step == 0 { !(e && s && (n || w)) } else { !(n && w && (e || s)) };
     (2..=6).contains(&around.count_ones()) && turns == 1 && side
 }
 
