@@ -101,13 +101,13 @@ fn end(page: &Page, line: Line, from: i32, way: i32, height: i32) -> Option<f64>
         if columns.len() as f64 > LONGEST_END * f64::from(height) {
             return None;
         }
-        // The tip of an arrow is as thin as the line: what it points at comes later.
-        let is_arrow = is_arrow(&columns, reach, way);
-        let patience = if is_arrow { columns.len() as i32 + 2 } else { 2 };
+        // The tip of an arrow is as thin as the line: the line that it points at comes later.
+        let is_crossed = columns.iter().any(|(_, ink)| ink[0] == reach || ink[1] == reach);
+        let patience = if is_crossed { 2 } else { height * 5 / 4 };
         if !goes_on || white >= patience {
             let all: i32 = columns.iter().map(|(_, ink)| ink[0] + ink[1]).sum();
             if all >= 3 {
-                return match (is_arrow, goes_on) {
+                return match (is_arrow(&columns, reach, way), goes_on) {
                     (true, true) => None,
                     (true, false) => Some(f64::from(x - way)),
                     (false, _) => Some(place(&columns, reach)),
