@@ -31,6 +31,7 @@ mod paint;
 mod palette;
 mod parts;
 mod pixels;
+mod printed;
 mod read;
 mod regions;
 mod ros_map;

@@ -12,7 +12,7 @@ use super::tones::USUAL_THRESHOLD;
 use super::vector::{self, Layers, Vector};
 use super::{
     Drawn, FloorPlan, PlanClass, PlanError, PlanOptions, Pose, corrections, crop, doors, doubts, guess, image_file,
-    openings, regions, ros_map, scale, symbols, understand,
+    openings, printed, regions, ros_map, scale, symbols, understand,
 };
 use crate::math::vec2;
 
@@ -342,7 +342,9 @@ fn found_scale(
             (value, PlanScale::known(ScaleSource::Width, value))
         }
         None => {
-            let (value, scale) = guess::guess(drawing, dots_per_inch);
+            let (guess, by_guess) = guess::guess(drawing, dots_per_inch);
+            let printed = if drawing.scanned { None } else { printed::scale(drawing, guess, by_guess.range) };
+            let (value, scale) = printed.unwrap_or((guess, by_guess));
             warnings.push(told_guess(file, value, &scale));
             (value, scale)
         }

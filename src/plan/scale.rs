@@ -32,6 +32,8 @@ pub enum ScaleSource {
     Width,
     /// The unit of a vector drawing.
     Drawing,
+    /// Numbers on the plan: areas and sizes of rooms, dimensions, scale bars.
+    Printed,
     /// Doors, walls or the sheet say it.
     Guessed,
     /// Nothing says it: the usual scale of indoor maps.
@@ -47,6 +49,7 @@ impl ScaleSource {
             ScaleSource::Points => "from two points",
             ScaleSource::Drawing => "from the drawing's unit",
             ScaleSource::Width => "from the building's width",
+            ScaleSource::Printed => "read from the plan",
             ScaleSource::Guessed => "guessed",
             ScaleSource::Assumed => "assumed",
         }
@@ -88,7 +91,7 @@ pub(super) fn check(source: ScaleSource, value: f64) -> Result<(), PlanError> {
         ScaleSource::Drawing => "the drawing's unit",
         ScaleSource::Points => "the scale that follows from two points",
         ScaleSource::Width => "the scale that follows from the building's width",
-        ScaleSource::Given | ScaleSource::Guessed | ScaleSource::Assumed => "the scale",
+        ScaleSource::Given | ScaleSource::Printed | ScaleSource::Guessed | ScaleSource::Assumed => "the scale",
     };
     Err(PlanError::Scale { what: what.to_owned(), value })
 }

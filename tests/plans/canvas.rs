@@ -150,7 +150,7 @@ pub fn ellipse(centre: Point, half: Point) -> Polygon {
 /// Strokes of letters on a grid 4 wide and 6 high: points as pairs of digits, strokes apart by a space.
 fn strokes(letter: char) -> &'static str {
     match letter {
-        '0' => "1030414536160501 10",
+        '0' => "103041453616050110",
         '1' => "112026 1636",
         '2' => "01103041420646",
         '3' => "0110304142334445361605 3313",
@@ -186,7 +186,7 @@ fn strokes(letter: char) -> &'static str {
         'X' => "0046 4006",
         'Y' => "002340 2326",
         'Z' => "00400646",
-        'm' => "0602 0312223336 2326 334346",
+        'm' => "0602 03122326 23324346",
         '.' => "16161525261616",
         ',' => "2507",
         '-' => "0343",

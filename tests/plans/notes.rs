@@ -33,11 +33,13 @@ fn dimensions(building: &Building, ends: Ends, thin: f64) -> Vec<Polygon> {
     let is_free = |y: f64| building.furniture.iter().all(|piece| y < piece.min[1] - 0.1 || y > piece.max[1] + 0.1);
     let ways = [0.8, 0.76, 0.72, 0.68].map(|share| y0 + (y1 - y0) * share);
     let y = ways.into_iter().find(|&y| ends == Ends::Slanted || is_free(y)).unwrap_or(ways[0]);
+    // Ticks keep clear of the walls.
+    let [from, to] = if ends == Ends::Slanted { [x0 + 0.2, x1 - 0.1] } else { [x0, x1] };
     if ends == Ends::Slanted {
         all.push(line([x0, y], [x1, y], thin));
-        all.extend([mark([x0 + 0.2, y], [-1.0, 0.0]), mark([x1 - 0.1, y], [1.0, 0.0])]);
+        all.extend([mark([from, y], [-1.0, 0.0]), mark([to, y], [1.0, 0.0])]);
     } else {
-        measured([x0, y], [x1, y]);
+        measured([from, y], [to, y]);
     }
     all.extend(building.stations.iter().map(|&x| line([x, -1.4], [x, -0.1], thin)));
     all.extend([0.0, h].map(|y| line([-1.6, y], [-0.1, y], thin)));
@@ -46,7 +48,7 @@ fn dimensions(building: &Building, ends: Ends, thin: f64) -> Vec<Polygon> {
     }
     all.extend(text(&format!("{w:.2}"), [w * 0.5, -2.22], 0.24, thin));
     all.extend(text(&format!("{h:.2}"), [-2.1, h * 0.5], 0.24, thin));
-    all.extend(text(&format!("{:.2}", x1 - x0 - 0.2), [x0 + (x1 - x0) * 0.3, y - 0.22], 0.2, thin));
+    all.extend(text(&format!("{:.2}", to - from), [x0 + (x1 - x0) * 0.3, y - 0.22], 0.2, thin));
     all
 }
 

@@ -3,7 +3,7 @@
 use trodden::plan::{PlanOptions, ScaleSource, read};
 
 use super::buildings::{flat, office};
-use super::styles::{Case, STYLES, draw};
+use super::styles::{Case, STYLES, Style, draw};
 
 /// Drawings without a scale of their own; the finest take long.
 fn unscaled(buildings: &[fn() -> super::buildings::Building]) -> Vec<Case> {
@@ -42,6 +42,41 @@ fn scales_are_guessed_within_a_tenth() {
     println!("{near} of {all} near, {told} of {all} within the range\n{}", missed.join("\n"));
     assert!(near * 10 >= all * 9, "{near} of {all} within a tenth:\n{}", missed.join("\n"));
     assert!(told * 20 >= all * 19, "{told} of {all} within the range:\n{}", missed.join("\n"));
+}
+
+/// Styles with printed numbers, at a scale that doors alone do not tell: digits are 9 pixels high and more.
+fn numbered(building: fn() -> super::buildings::Building, names: &[&str]) -> Vec<Case> {
+    let styles = STYLES.into_iter().filter(|style| names.contains(&style.name));
+    styles.map(|style| Case { style: Style { px_per_m: 53.0, ..style }, building, seed: 0 }).collect()
+}
+
+fn scale_of(case: &Case) -> (f64, trodden::plan::PlanScale) {
+    let drawn = draw(case);
+    let folder = tempfile::tempdir().unwrap();
+    let plan = read(&drawn.save(folder.path()), &PlanOptions::default()).unwrap();
+    (plan.metres_per_pixel / drawn.truth.metres_per_pixel - 1.0, plan.scale)
+}
+
+#[test]
+fn printed_dimensions_and_areas_give_the_scale_to_two_percent() {
+    let dimensions = ["CAD export", "layer colours", "walls of one pixel, arrows", "walls of one pixel, dots"];
+    let areas = ["doors closed by a line", "dark background", "brochure"];
+    for case in numbered(office, &[&dimensions[..], &areas].concat()) {
+        let (off, scale) = scale_of(&case);
+        println!("{}: {:+.2} %, by {}", case.style.name, off * 100.0, scale.evidence);
+        assert!(off.abs() <= 0.02, "{}: {off}, {scale:?}", case.style.name);
+        assert_eq!(scale.source, ScaleSource::Printed, "{}: {scale:?}", case.style.name);
+    }
+}
+
+#[test]
+fn numbers_that_contradict_each_other_do_not_change_the_scale() {
+    let case = numbered(office, &["doors closed by a line"])[0];
+    let without = Style { names: false, ..case.style };
+    let wrong = Style { wrong_areas: true, ..case.style };
+    let [without, wrong] = [without, wrong].map(|style| scale_of(&Case { style, ..case }));
+    assert_eq!(wrong.1.source, ScaleSource::Guessed, "{wrong:?}");
+    assert!((wrong.0 - without.0).abs() < 0.03, "{wrong:?} and {without:?}");
 }
 
 #[test]

@@ -9,11 +9,13 @@ mod leaves;
 mod lines;
 mod net;
 mod pieces;
+mod rooms;
 mod thick;
 
 use self::gaps::Gap;
 use self::net::Net;
 use self::pieces::Evidence;
+use self::rooms::Rooms;
 use super::components::{Component, Components, Neighbours};
 use super::drawing::Drawing;
 use super::symbols::{FEWEST_STROKES, groups};
@@ -176,21 +178,34 @@ fn ink_and_net(drawing: &Drawing, metres_per_pixel: f64) -> Option<(Vec<u8>, Net
 /// How far from the floor of rooms walls of the building reach at most, metres.
 const BESIDE_ROOMS_M: f64 = 0.1;
 
-/// Bounds of the building: least x and y, then one beyond the greatest, pixels.
-pub(super) fn extent(drawing: &Drawing, metres_per_pixel: f64) -> Option<[[u32; 2]; 2]> {
+/// The walls in a drawing that may be too large to be understood as it is: its width, and how many of its pixels along a
+/// side are one.
+fn net_of_all(drawing: &Drawing, metres_per_pixel: f64) -> Option<(Net, usize, usize)> {
     let factor = factor(drawing);
     let reduced = (factor > 1).then(|| reduced(drawing, factor));
     let drawing = reduced.as_ref().unwrap_or(drawing);
+    let (_, net) = ink_and_net(drawing, metres_per_pixel * factor as f64)?;
+    Some((net, drawing.width, factor))
+}
+
+/// Finds the rooms of a drawing, if its walls enclose a building.
+pub(super) fn rooms(drawing: &Drawing, metres_per_pixel: f64) -> Option<Rooms> {
+    let (net, width, factor) = net_of_all(drawing, metres_per_pixel)?;
+    Some(Rooms::of(&net.inside, width, factor))
+}
+
+/// Bounds of the building: least x and y, then one beyond the greatest, pixels.
+pub(super) fn extent(drawing: &Drawing, metres_per_pixel: f64) -> Option<[[u32; 2]; 2]> {
+    let (net, width, factor) = net_of_all(drawing, metres_per_pixel)?;
     let metres_per_pixel = metres_per_pixel * factor as f64;
-    let (_, net) = ink_and_net(drawing, metres_per_pixel)?;
-    let pieces = Components::of(&net.wall, drawing.width, 1, Neighbours::Eight);
+    let pieces = Components::of(&net.wall, width, 1, Neighbours::Eight);
     // Lines of dimensions that were taken for walls lie beyond the building.
     let beside = ((BESIDE_ROOMS_M / metres_per_pixel) as usize).max(2);
-    let is_inside = |x: usize, y: usize| net.inside.get(y * drawing.width + x).is_some_and(|&inside| inside != 0);
+    let is_inside = |x: usize, y: usize| net.inside.get(y * width + x).is_some_and(|&inside| inside != 0);
     let walls = pieces.all.iter().filter(|piece| {
         pieces.runs(piece).iter().any(|run| {
             let [from, to, y] = [run.from, run.to - 1, run.y].map(|px| px as usize);
-            let ends = [(from.saturating_sub(beside), y), ((to + beside).min(drawing.width - 1), y)];
+            let ends = [(from.saturating_sub(beside), y), ((to + beside).min(width - 1), y)];
             let sides = [from, to].map(|x| [(x, y.saturating_sub(beside)), (x, y + beside)]);
             ends.into_iter().chain(sides.into_iter().flatten()).any(|(x, y)| is_inside(x, y))
         })

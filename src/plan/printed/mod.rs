@@ -1,0 +1,233 @@
+//! The scale that is printed on a plan: areas and sizes of rooms, dimensions, scale bars.
+//!
+//! Each number that is read, together with what it measures, says a scale. Only a scale on which several agree counts.
+
+mod lines;
+mod page;
+mod shape;
+mod words;
+
+use self::page::{Ink, Page};
+use self::shape::Alphabet;
+use self::words::{Number, Unit};
+use super::drawing::Drawing;
+use super::scale::{PlanScale, ScaleSource};
+use super::understand;
+
+/// How far scales that agree may lie apart: their ratio.
+const AGREE: f64 = 1.04;
+/// Least number of measures that agree, and their least share of all measures.
+const FEWEST: usize = 3;
+const LEAST_SHARE: f64 = 0.4;
+/// Votes of a scale bar: both of its ends stand below numbers.
+const BAR_VOTES: usize = 2;
+/// How far a printed scale may lie from the one that doors say.
+const FAR: f64 = 1.5;
+/// How sure a printed scale is where few and where many measures agree, and how far it may be off.
+const SURENESS: [f64; 2] = [0.9, 0.99];
+const MANY: f64 = 10.0;
+const OFF: f64 = 0.02;
+/// Lengths and areas that plans are labelled with, metres and square metres.
+const LENGTHS_M: [f64; 2] = [0.3, 200.0];
+const AREAS_M2: [f64; 2] = [0.5, 5000.0];
+
+/// What a printed number measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Dimension,
+    Bar,
+    Size,
+    Area,
+}
+
+/// A scale that a printed number says.
+#[derive(Clone, Copy, Debug)]
+struct Measure {
+    /// Which number: one may be in millimetres or in centimetres.
+    number: usize,
+    kind: Kind,
+    metres: f64,
+    pixels: f64,
+}
+
+impl Measure {
+    fn scale(&self) -> f64 {
+        self.metres / self.pixels
+    }
+}
+
+/// A printed number about the room in which it stands.
+struct RoomNumber {
+    number: Number,
+    at: [usize; 2],
+}
+
+/// Returns the metres per pixel that several printed numbers agree on, near to a guess or within what is possible.
+pub(super) fn scale(drawing: &Drawing, guess: f64, possible: [f64; 2]) -> Option<(f64, PlanScale)> {
+    let sane = [possible[0].min(guess / FAR), possible[1].max(guess * FAR)];
+    let (mut measures, in_rooms) = read(drawing);
+    if let Some(found) = vote(&measures, sane) {
+        return Some(found);
+    }
+    // Rooms take longer to find.
+    let votes: usize = measures.iter().map(|m| if m.kind == Kind::Bar { BAR_VOTES } else { 1 }).sum();
+    if in_rooms.is_empty() || in_rooms.len() + votes < FEWEST {
+        return None;
+    }
+    measures.extend(measured_rooms(drawing, guess, &in_rooms));
+    vote(&measures, sane)
+}
+
+/// Reads both pages of a drawing, upright and turned: lengths, and numbers about rooms.
+fn read(drawing: &Drawing) -> (Vec<Measure>, Vec<RoomNumber>) {
+    let ink = Ink::of(drawing);
+    let alphabet = Alphabet::new();
+    let (mut measures, mut in_rooms) = (Vec::new(), Vec::new());
+    let mut count = 0;
+    for is_turned in [false, true] {
+        let page = Page::of(&ink, is_turned);
+        let numbers = words::numbers(&page, &alphabet);
+        for (metres, pixels) in lines::bars(&page, &numbers) {
+            count += 1;
+            measures.push(Measure { number: count, kind: Kind::Bar, metres, pixels });
+        }
+        for number in numbers {
+            count += 1;
+            let [x, y] = page.pixel(number.area.middle()).map(|place| place.max(0) as usize);
+            if number.unit == Unit::Area || number.times.is_some() {
+                in_rooms.push(RoomNumber { number, at: [x, y] });
+                continue;
+            }
+            let pixels = lines::dimensions(&page, &number.area);
+            let each = metres(&number).into_iter().flat_map(|metres| pixels.iter().map(move |&px| (metres, px)));
+            let kind = Kind::Dimension;
+            measures.extend(each.map(|(metres, pixels)| Measure { number: count, kind, metres, pixels }));
+        }
+    }
+    (measures, in_rooms)
+}
+
+/// The lengths that a number may mean, metres.
+fn metres(number: &Number) -> Vec<f64> {
+    let values = match number.unit {
+        Unit::Length => vec![number.value],
+        Unit::None if number.is_decimal => vec![number.value],
+        Unit::None if number.value >= 100.0 => vec![number.value / 1000.0, number.value / 100.0],
+        _ => Vec::new(),
+    };
+    values.into_iter().filter(|metres| (LENGTHS_M[0]..=LENGTHS_M[1]).contains(metres)).collect()
+}
+
+/// What the numbers in rooms say, by the rooms that a guessed scale shows.
+fn measured_rooms(drawing: &Drawing, guess: f64, numbers: &[RoomNumber]) -> Vec<Measure> {
+    let Some(rooms) = understand::rooms(drawing, guess) else { return Vec::new() };
+    let room_of: Vec<Option<usize>> = numbers.iter().map(|number| rooms.at(number.at)).collect();
+    let mut found = Vec::new();
+    for (k, (RoomNumber { number, .. }, room)) in numbers.iter().zip(&room_of).enumerate() {
+        let Some(room) = *room else { continue };
+        let is_alone = room_of.iter().filter(|other| **other == Some(room)).count() == 1;
+        let (area, [w, h]) = rooms.area_and_size(room);
+        // The numbers of pages begin at 1.
+        let mut add = |kind: Kind, metres: f64, pixels: f64| {
+            found.push(Measure { number: usize::MAX - k, kind, metres, pixels });
+        };
+        match &number.times {
+            None if is_alone && (AREAS_M2[0]..=AREAS_M2[1]).contains(&number.value) => {
+                add(Kind::Area, number.value.sqrt(), area.sqrt());
+            }
+            Some(other) => {
+                for first in metres(number) {
+                    for second in metres(other) {
+                        let pairs = [(first / w, second / h, w + h), (second / w, first / h, w + h)];
+                        for (a, b, pixels) in pairs {
+                            if (a / b).max(b / a) <= AGREE {
+                                add(Kind::Size, first + second, pixels);
+                            }
+                        }
+                    }
+                }
+            }
+            None => {}
+        }
+    }
+    found
+}
+
+/// The scale that most measures agree on, if those are enough.
+fn vote(measures: &[Measure], sane: [f64; 2]) -> Option<(f64, PlanScale)> {
+    let mut all: Vec<Measure> = measures.iter().copied().filter(|m| (sane[0]..=sane[1]).contains(&m.scale())).collect();
+    all.sort_by(|a, b| a.scale().total_cmp(&b.scale()));
+    let votes = |some: &[Measure]| {
+        let votes = |m: &Measure| if m.kind == Kind::Bar { BAR_VOTES } else { 1 };
+        let mut numbers: Vec<(usize, usize)> = some.iter().map(|m| (m.number, votes(m))).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        numbers.iter().map(|(_, votes)| votes).sum::<usize>()
+    };
+    let window = |first: usize| {
+        let end = all.partition_point(|m| m.scale() <= all[first].scale() * AGREE);
+        &all[first..end]
+    };
+    let best = (0..all.len()).map(window).max_by_key(|some| votes(some))?;
+    let count = votes(best);
+    if count < FEWEST || (count as f64) < LEAST_SHARE * votes(&all) as f64 {
+        return None;
+    }
+    // Long measures are surer.
+    let half = best.iter().map(|m| m.pixels).sum::<f64>() * 0.5;
+    let mut seen = 0.0;
+    let middle = best.iter().find(|m| {
+        seen += m.pixels;
+        seen >= half
+    })?;
+    // Four significant digits: text and lines are measured to a pixel.
+    let value = format!("{:.3e}", middle.scale()).parse().unwrap_or(middle.scale());
+    let range = [value * (1.0 - OFF), value * (1.0 + OFF)];
+    let share = ((count - FEWEST) as f64 / (MANY - FEWEST as f64)).min(1.0);
+    let sureness = SURENESS[0] + (SURENESS[1] - SURENESS[0]) * share;
+    Some((value, PlanScale { source: ScaleSource::Printed, sureness, range, evidence: told(best) }))
+}
+
+/// What measures are of: "7 printed room areas, 1 printed scale bar".
+fn told(measures: &[Measure]) -> String {
+    let names = [
+        (Kind::Area, "room area"),
+        (Kind::Size, "room size"),
+        (Kind::Dimension, "dimension"),
+        (Kind::Bar, "scale bar"),
+    ];
+    let named = names.into_iter().filter_map(|(kind, name)| {
+        let mut numbers: Vec<usize> = measures.iter().filter(|m| m.kind == kind).map(|m| m.number).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        let plural = if numbers.len() == 1 { "" } else { "s" };
+        (!numbers.is_empty()).then(|| format!("{} printed {name}{plural}", numbers.len()))
+    });
+    named.collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(scales: &[f64]) -> Option<f64> {
+        let measure = |(number, scale)| Measure { number, kind: Kind::Dimension, metres: 100.0 * scale, pixels: 100.0 };
+        let measures: Vec<Measure> = scales.iter().copied().enumerate().map(measure).collect();
+        vote(&measures, [0.015, 0.03]).map(|(value, _)| value)
+    }
+
+    #[test]
+    fn three_that_agree_outvote_a_few_and_contradictions_say_nothing() {
+        assert_eq!(found(&[0.02, 0.0201, 0.0199, 0.027, 0.016]), Some(0.02));
+        assert_eq!(found(&[0.02, 0.0201, 0.027, 0.016]), None);
+        assert_eq!(found(&[0.02, 0.0201, 0.0199, 0.027, 0.016, 0.0235, 0.0175, 0.0285]), None);
+        // As far from the doors as no door is.
+        assert_eq!(found(&[0.05; 9]), None);
+    }
+
+    #[test]
+    fn one_number_is_one_vote() {
+        let twice = Measure { number: 1, kind: Kind::Dimension, metres: 2.0, pixels: 100.0 };
+        assert!(vote(&[twice; 5], [0.01, 0.03]).is_none());
+    }
+}
