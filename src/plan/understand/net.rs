@@ -83,6 +83,7 @@ impl Net {
         let is_door = |gap: &Gap| gap.length() <= px(WIDEST_DOOR_M) || is_entrance(gap);
         let mut doors: Vec<Gap> = doors.into_iter().filter(is_door).collect();
         let is_bare = |gap: &Gap| gap.strokes == 0 && !has_leaf(gap);
+        drop_thicker_than_walls(&mut doors, &windows, has_leaf);
         drop_beside_furniture(&mut doors, &windows, &wall, width, px(COLUMN_M), is_bare);
         drop(strokes);
         let mut windows = windows;
@@ -159,6 +160,20 @@ fn drop_leaves(
             }
         }
     }
+}
+
+/// Takes off doors without a leaf that are thicker than the walls in which windows and leaves are: baths and desks that are
+/// drawn as outline walls are do not end walls.
+fn drop_thicker_than_walls(doors: &mut Vec<Gap>, windows: &[Gap], has_leaf: impl Fn(&Gap) -> bool) {
+    /// Fewest gaps of walls that say how thick walls are, and how much thicker a wall may be.
+    const FEWEST: usize = 3;
+    const THICKER: f64 = 1.25;
+    let hung: Vec<bool> = doors.iter().map(has_leaf).collect();
+    let of_leaves = doors.iter().zip(&hung).filter(|(_, hung)| **hung).map(|(gap, _)| gap);
+    let thick: Vec<f64> = of_leaves.chain(windows).map(Gap::thickness).collect();
+    let most = thick.iter().copied().fold(0.0, f64::max) * THICKER + 1.0;
+    let mut hung = hung.into_iter();
+    doors.retain(|gap| hung.next() == Some(true) || thick.len() < FEWEST || gap.thickness() <= most);
 }
 
 /// Takes off bare doors that end at a small piece of wall, up to `largest` pixels, without another gap straight on behind
