@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::colour::{Colour, is_saturated, lightness_against, luma};
 use super::ros_map::{Cell, Greys};
 use super::tones::USUAL_THRESHOLD;
-use super::{PlanOptions, TransparentPolicy, UnknownPolicy, shadow, sheet, tones};
+use super::{PlanOptions, TransparentPolicy, UnknownPolicy, paving, shadow, sheet, tones};
 
 /// Greys of unknown and of free cells as mappers write them.
 const MAP_UNKNOWN: u8 = 205;
@@ -132,6 +132,7 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
     stretch(width, &mut lightness, &dark);
     close_thin_lines(width, &lightness, &mut dark);
     (drawing.lightness, drawing.dark) = (lightness, dark);
+    paving::drop_paving(&mut drawing);
     (drawing, warnings)
 }
 

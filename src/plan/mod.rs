@@ -30,6 +30,7 @@ mod options;
 mod paint;
 mod palette;
 mod parts;
+mod paving;
 mod pixels;
 mod printed;
 mod read;
