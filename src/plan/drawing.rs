@@ -13,6 +13,8 @@ use super::{PlanOptions, TransparentPolicy, UnknownPolicy, paving, shadow, sheet
 /// Greys of unknown and of free cells as mappers write them.
 const MAP_UNKNOWN: u8 = 205;
 const MAP_FREE: u8 = 254;
+/// Lightness below which a pixel may be of a fine line.
+const FAINT: u8 = 180;
 
 /// The pixels of a plan image by lightness, wall and colour.
 pub(super) struct Drawing {
@@ -132,8 +134,26 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
     stretch(width, &mut lightness, &dark);
     close_thin_lines(width, &lightness, &mut dark);
     (drawing.lightness, drawing.dark) = (lightness, dark);
-    paving::drop_paving(&mut drawing);
+    drop_paving(&mut drawing);
     (drawing, warnings)
+}
+
+/// Takes the lines of floor coverings off.
+fn drop_paving(drawing: &mut Drawing) {
+    let dark = (0..drawing.dark.len()).map(|at| {
+        let lightness = drawing.lightness[at];
+        let is_coloured = drawing.coloured.get(at).is_some_and(|&c| c != 0);
+        let is_ink = drawing.dark[at] != 0 || lightness < FAINT || is_coloured;
+        if is_ink { (255 - lightness).max(255 - FAINT) } else { 0 }
+    });
+    let ink = paving::Ink { dark: dark.collect(), width: drawing.width };
+    for at in paving::lines(&ink) {
+        drawing.dark[at] = 0;
+        drawing.lightness[at] = 255;
+        if let Some(coloured) = drawing.coloured.get_mut(at) {
+            *coloured = 0;
+        }
+    }
 }
 
 /// Brings light walls on a dark ground and uneven light into the usual form, and finds the threshold.

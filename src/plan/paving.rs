@@ -5,27 +5,36 @@
 
 use std::collections::BTreeMap;
 
-use super::components::{Components, Neighbours};
-use super::drawing::Drawing;
+use super::components::{Component, Components, Neighbours};
 use crate::math::{atan2, sin_cos};
 
-/// Lightness below which a pixel may be a fine line.
-const FAINT: u8 = 180;
 /// Largest drawing that is searched, pixels.
 const LARGEST_PX: usize = 40_000_000;
 /// Least side of a cell, pixels, and greatest, as a share of the drawing's larger side.
-const LEAST_SIDE_PX: u32 = 4;
+const LEAST_SIDE_PX: u32 = 2;
 const GREATEST_SIDE: f64 = 0.2;
 /// Greatest thickness of a line, pixels, and as a share of a cell's lesser side.
 const THICKEST_PX: usize = 6;
 const THICKEST: f64 = 0.34;
+/// How many times one line of a covering may be as dark, across it, as another, and as what crosses it.
+const DARKER: f64 = 1.6;
+const CROSSING: f64 = 2.2;
+/// Least agreement of the lines of a covering on two directions, 0 to 1, and how far a line may be off them, radians.
+const AGREED: f64 = 0.8;
+const OFF_RAD: f64 = 0.17;
+/// Least length of a plank, in its widths.
+const LONG: f64 = 1.5;
+/// Least length of the line between two cells, in lesser sides of a cell.
+const CONTACT: f64 = 0.25;
 /// By how much cells of one size differ, as a share of their area or of their lesser side.
 const ALIKE: f64 = 0.12;
 /// Fewest cells like it around a cell in the middle of a covering, and fewest such cells of a covering.
 const FEWEST_AROUND: usize = 4;
 const FEWEST_MIDDLES: usize = 6;
+/// Fewest cells of a covering that another room has as well.
+const FEWEST_IN_SMALL_ROOM: usize = 3;
 /// How far lines are followed from between two whole cells to what cuts the covering, in longer sides of a cell.
-const FOLLOWED: f64 = 1.5;
+const FOLLOWED: f64 = 3.0;
 /// Stretch of a line before its end that is left, pixels: it may be the outline of what stands there.
 const END_PX: usize = 4;
 /// Least length of the line between a cell and one that is cut off, in lesser sides of the whole one.
@@ -34,7 +43,7 @@ const CUT_CONTACT: f64 = 0.4;
 /// A cell of light between lines.
 struct Cell {
     area: f64,
-    /// Lesser and greater side of its box, pixels.
+    /// Its width and length, pixels.
     sides: [f64; 2],
     /// Whether it lies along the image's rows rather than its columns.
     lies: bool,
@@ -44,8 +53,7 @@ impl Cell {
     /// Whether two cells may be of one covering: tiles have one area, planks one width and one direction.
     fn is_like(&self, other: &Cell) -> bool {
         let near = |a: f64, b: f64| (a - b).abs() <= ALIKE * a.max(b) + 1.0;
-        let is_long = |cell: &Cell| cell.sides[1] >= 1.5 * cell.sides[0];
-        let are_planks = is_long(self) && is_long(other) && self.lies == other.lies;
+        let are_planks = self.is_long() && other.is_long() && self.lies == other.lies;
         let areas = (self.area - other.area).abs() <= ALIKE * self.area.max(other.area) + self.sides[1];
         near(self.sides[0], other.sides[0]) && (are_planks || near(self.sides[1], other.sides[1]) && areas)
     }
@@ -55,147 +63,261 @@ impl Cell {
         let most = 1.0 + ALIKE;
         self.sides[0] <= most * whole.sides[0] + 1.0 && self.area <= most * whole.area + whole.sides[1]
     }
+
+    /// Whether it is a plank rather than a tile.
+    fn is_long(&self) -> bool {
+        self.sides[1] >= LONG * self.sides[0]
+    }
 }
 
-/// Takes the lines of floor coverings off a drawing.
-pub(super) fn drop_paving(drawing: &mut Drawing) {
-    let (width, pixels) = (drawing.width, drawing.dark.len());
-    if pixels > LARGEST_PX {
-        return;
+/// What is drawn.
+pub(super) struct Ink {
+    /// How dark each pixel is that may be of a line, row by row; 0 for light.
+    pub dark: Vec<u8>,
+    /// Pixels of a row.
+    pub width: usize,
+}
+
+impl Ink {
+    fn height(&self) -> usize {
+        self.dark.len() / self.width
     }
-    let ink: Vec<u8> = (0..pixels)
-        .map(|at| {
-            let coloured = drawing.coloured.get(at).is_some_and(|&c| c != 0);
-            u8::from(drawing.dark[at] != 0 || drawing.lightness[at] < FAINT || coloured)
-        })
+
+    /// Ink of some pixels, in black ones.
+    fn sum(&self, pixels: impl IntoIterator<Item = usize>) -> f64 {
+        pixels.into_iter().map(|at| f64::from(self.dark[at])).sum::<f64>() / 255.0
+    }
+
+    /// The pixel at a place, pixels.
+    fn pixel(&self, [x, y]: [f64; 2]) -> Option<usize> {
+        let (x, y) = (x.round(), y.round());
+        let inside = x >= 0.0 && y >= 0.0 && x < self.width as f64 && y < self.height() as f64;
+        inside.then(|| y as usize * self.width + x as usize)
+    }
+}
+
+/// Pixels of the lines of floor coverings.
+pub(super) fn lines(ink: &Ink) -> Vec<usize> {
+    if ink.dark.len() > LARGEST_PX {
+        return Vec::new();
+    }
+    let Some((cells, label)) = cells(ink) else { return Vec::new() };
+    let between = between(&label, ink, &cells);
+    let covering = coverings(&cells, &between);
+    let straight: BTreeMap<[usize; 2], Straight> = between
+        .iter()
+        .filter(|(pair, _)| pair.iter().any(|&k| covering[k].is_some()))
+        .map(|(&pair, line)| (pair, Straight::of(&line.pixels, ink.width)))
         .collect();
-    for at in lines(&ink, width) {
-        drawing.dark[at] = 0;
-        drawing.lightness[at] = 255;
-        if let Some(coloured) = drawing.coloured.get_mut(at) {
-            *coloured = 0;
-        }
-    }
-}
-
-/// Pixels of the lines of coverings.
-fn lines(ink: &[u8], width: usize) -> Vec<usize> {
-    let Some((cells, label)) = cells(ink, width) else { return Vec::new() };
-    let between = between(&label, ink, width, &cells);
-    let is_whole = coverings(&cells, &between);
+    let ways = Ways::of(&straight, &covering);
     let mut found = Vec::new();
-    for (&[a, b], line) in &between {
-        let whole = match [a, b].map(|k| is_whole[k]) {
-            [true, _] => &cells[a],
-            [_, true] => &cells[b],
+    for (pair, straight) in &straight {
+        let &[a, b] = pair;
+        let (whole, number) = match [a, b].map(|k| covering[k]) {
+            [Some(number), _] => (&cells[a], number),
+            [_, Some(number)] => (&cells[b], number),
             _ => continue,
         };
-        let straight = Straight::of(line, width);
-        let both = is_whole[a] && is_whole[b];
+        let both = pair.iter().all(|&k| covering[k].is_some());
         let is_cut_off =
-            || [a, b].iter().all(|&k| cells[k].fits_in(whole)) && straight.length >= CUT_CONTACT * whole.sides[0];
-        if straight.is_straight() && (both || is_cut_off()) {
-            found.extend_from_slice(line);
-            let fits = |at: usize| label[at].checked_sub(1).is_some_and(|k| cells[k as usize].fits_in(whole));
-            follow(&straight, ink, width, FOLLOWED * whole.sides[1], fits, &mut found);
+            || pair.iter().all(|&k| cells[k].fits_in(whole)) && straight.length >= CUT_CONTACT * whole.sides[0];
+        // A line across planks that goes on in the next row is no joint: a leaf of a door.
+        let is_across = whole.is_long() && (straight.way[0].abs() > straight.way[1].abs()) != whole.lies;
+        let is_leaf = || {
+            let goes_on = |sign: f64| {
+                let beyond = sign * (straight.length * 0.5 + 2.0 * straight.breadth + 1.0);
+                let at = ink.pixel([0, 1].map(|k| straight.middle[k] + beyond * straight.way[k]));
+                at.is_some_and(|at| ink.dark[at] != 0)
+            };
+            is_across && (goes_on(-1.0) || goes_on(1.0))
+        };
+        if straight.is_straight() && ways.have(number, straight) && (both || is_cut_off()) && !is_leaf() {
+            let line = &between[pair];
+            found.extend_from_slice(&line.pixels);
+            let fits = |at: usize| match label[at] {
+                0 => false,
+                SLIM => true,
+                k => cells[k as usize - 1].fits_in(whole),
+            };
+            if !is_across {
+                follow(straight, ink, line.thickness(), FOLLOWED * whole.sides[1], fits, &mut found);
+            }
         }
     }
     found
 }
 
-/// The cells that may be of a covering, and for each pixel one more than the index of its cell, or 0. None if they are few.
-fn cells(ink: &[u8], width: usize) -> Option<(Vec<Cell>, Vec<u32>)> {
-    let all = Components::of(ink, width, 0, Neighbours::Four);
-    let greatest = GREATEST_SIDE * width.max(ink.len() / width) as f64;
-    let small = all.all.iter().filter(|piece| {
-        let [w, h] = piece.size();
-        w.min(h) >= LEAST_SIDE_PX && f64::from(w.max(h)) <= greatest
-    });
-    let small: Vec<_> = small.collect();
-    if small.len() < FEWEST_MIDDLES + 2 * FEWEST_AROUND {
+/// The two directions at right angles of the lines of each covering, where they have such.
+struct Ways(Vec<Option<f64>>);
+
+impl Ways {
+    fn of(straight: &BTreeMap<[usize; 2], Straight>, covering: &[Option<usize>]) -> Ways {
+        let count = covering.iter().flatten().max().map_or(0, |&last| last + 1);
+        let mut sums = vec![[0.0; 3]; count];
+        for (pair, line) in straight {
+            if let [Some(number), Some(_)] = pair.map(|k| covering[k]) {
+                let (sine, cosine) = sin_cos(4.0 * atan2(line.way[1], line.way[0]));
+                let sum = &mut sums[number];
+                *sum = [sum[0] + line.length * cosine, sum[1] + line.length * sine, sum[2] + line.length];
+            }
+        }
+        let agreed = |[x, y, all]: [f64; 3]| (x * x + y * y).sqrt() >= AGREED * all;
+        Ways(sums.into_iter().map(|sum| agreed(sum).then(|| 0.25 * atan2(sum[1], sum[0]))).collect())
+    }
+
+    /// Whether a line runs as those of a covering.
+    fn have(&self, covering: usize, line: &Straight) -> bool {
+        let Some(way) = self.0[covering] else { return true };
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let off = (atan2(line.way[1], line.way[0]) - way) / quarter;
+        // Short lines have no exact direction.
+        (off - off.round()).abs() * quarter <= OFF_RAD.max(1.0 / line.length)
+    }
+}
+
+/// Marks the pixels of cells that are too slim to be told.
+const SLIM: u32 = u32::MAX;
+
+/// The cells that may be of a covering, and for each pixel one more than the index of its cell, 0, or [`SLIM`]. None if they
+/// are few.
+fn cells(ink: &Ink) -> Option<(Vec<Cell>, Vec<u32>)> {
+    let all = Components::of(&ink.dark, ink.width, 0, Neighbours::Four);
+    let greatest = GREATEST_SIDE * ink.width.max(ink.height()) as f64;
+    let is_slim = |piece: &Component| piece.size().into_iter().min() < Some(LEAST_SIDE_PX);
+    let small: Vec<&Component> = all.all.iter().filter(|piece| f64::from(piece.larger_side()) <= greatest).collect();
+    if small.iter().filter(|piece| !is_slim(piece)).count() < FEWEST_MIDDLES + 2 * FEWEST_AROUND {
         return None;
     }
-    let mut label = vec![0; ink.len()];
+    let mut label = vec![0; ink.dark.len()];
     let mut cells = Vec::with_capacity(small.len());
     for piece in small {
         let [w, h] = piece.size().map(f64::from);
-        cells.push(Cell { area: piece.area as f64, sides: [w.min(h), w.max(h)], lies: w > h });
+        let slim = is_slim(piece);
+        if !slim {
+            let area = piece.area as f64;
+            // Planks of two rooms that meet in a door make one cell with a step in it.
+            let lesser = if w.max(h) >= LONG * w.min(h) { area / w.max(h) } else { w.min(h) };
+            cells.push(Cell { area, sides: [lesser, w.max(h)], lies: w > h });
+        }
         for run in all.runs(piece) {
-            let row = run.y as usize * width;
-            label[row + run.from as usize..row + run.to as usize].fill(cells.len() as u32);
+            let row = run.y as usize * ink.width;
+            label[row + run.from as usize..row + run.to as usize].fill(if slim { SLIM } else { cells.len() as u32 });
         }
     }
     Some((cells, label))
 }
 
-/// The pixels of the thin line between each two cells that lie beside each other, lower index first.
-fn between(label: &[u32], ink: &[u8], width: usize, cells: &[Cell]) -> BTreeMap<[usize; 2], Vec<usize>> {
-    let height = label.len() / width;
-    let mut between: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
+/// What is between two cells.
+#[derive(Default)]
+struct Line {
+    pixels: Vec<usize>,
+    /// How many rows and columns cross it, and the ink in all of them, black pixels.
+    crossed: usize,
+    ink: f64,
+}
+
+impl Line {
+    /// Mean ink across it, black pixels.
+    fn thickness(&self) -> f64 {
+        self.ink / self.crossed.max(1) as f64
+    }
+}
+
+/// The thin lines between each two cells that lie beside each other, lower index first.
+fn between(label: &[u32], ink: &Ink, cells: &[Cell]) -> BTreeMap<[usize; 2], Line> {
+    let mut between: BTreeMap<[usize; 2], Line> = BTreeMap::new();
     let mut scan = |start: usize, step: usize, count: usize| {
         let mut last: Option<(usize, u32)> = None;
         for k in 0..count {
             let at = start + k * step;
-            if ink[at] != 0 {
+            if ink.dark[at] != 0 {
                 continue;
             }
             let here = label[at];
             if let Some((from, there)) = last
-                && here != 0
-                && there != 0
                 && here != there
+                && ![0, SLIM].contains(&here)
+                && ![0, SLIM].contains(&there)
             {
                 let [a, b] = [here.min(there), here.max(there)].map(|label| label as usize - 1);
                 let thick = k - from - 1;
-                if thick <= THICKEST_PX && thick as f64 <= THICKEST * cells[a].sides[0].min(cells[b].sides[0]) + 1.0 {
-                    between.entry([a, b]).or_default().extend((from + 1..k).map(|k| start + k * step));
+                if thick <= THICKEST_PX && thick as f64 <= THICKEST * cells[a].sides[0].max(cells[b].sides[0]) + 1.0 {
+                    let line = between.entry([a, b]).or_default();
+                    let pixels = (from + 1..k).map(|k| start + k * step);
+                    line.ink += ink.sum(pixels.clone());
+                    line.pixels.extend(pixels);
+                    line.crossed += 1;
                 }
             }
             last = Some((k, here));
         }
     };
-    (0..height).for_each(|y| scan(y * width, 1, width));
-    (0..width).for_each(|x| scan(x, width, height));
+    (0..ink.height()).for_each(|y| scan(y * ink.width, 1, ink.width));
+    (0..ink.width).for_each(|x| scan(x, ink.width, ink.height()));
+    // Lines of a covering are as thin as the thinnest around a cell; walls are thicker.
+    let mut thinnest = vec![f64::INFINITY; cells.len()];
+    for (pair, line) in between.iter().filter(|(pair, line)| is_contact(**pair, line, cells)) {
+        for &k in pair {
+            thinnest[k] = thinnest[k].min(line.thickness());
+        }
+    }
+    between.retain(|pair, line| pair.iter().all(|&k| line.thickness() <= DARKER * thinnest[k] + 0.2));
     between
 }
 
-/// For each cell, whether it is a whole one of a covering.
-fn coverings(cells: &[Cell], between: &BTreeMap<[usize; 2], Vec<usize>>) -> Vec<bool> {
+/// Whether two cells lie beside each other over much of a side.
+fn is_contact([a, b]: [usize; 2], line: &Line, cells: &[Cell]) -> bool {
+    line.crossed as f64 >= CONTACT * cells[a].sides[0].min(cells[b].sides[0])
+}
+
+/// For each cell, of which covering it is a whole one, if it is.
+fn coverings(cells: &[Cell], between: &BTreeMap<[usize; 2], Line>) -> Vec<Option<usize>> {
     let mut around: Vec<Vec<usize>> = vec![Vec::new(); cells.len()];
     for (&[a, b], line) in between {
-        let least = 0.25 * cells[a].sides[0].min(cells[b].sides[0]);
-        if cells[a].is_like(&cells[b]) && line.len() as f64 >= least {
+        if cells[a].is_like(&cells[b]) && is_contact([a, b], line, cells) {
             around[a].push(b);
             around[b].push(a);
         }
     }
     let is_middle = |k: usize| around[k].len() >= FEWEST_AROUND;
     let mut seen = vec![false; cells.len()];
-    let mut whole = vec![false; cells.len()];
-    for first in (0..cells.len()).filter(|&k| is_middle(k)) {
-        if std::mem::replace(&mut seen[first], true) {
-            continue;
-        }
-        let mut group = vec![first];
-        let mut next = 0;
-        while let Some(&k) = group.get(next) {
-            next += 1;
-            for &near in around[k].iter().filter(|&&near| is_middle(near)) {
-                if !std::mem::replace(&mut seen[near], true) {
-                    group.push(near);
-                }
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for first in 0..cells.len() {
+        if !around[first].is_empty() && !std::mem::replace(&mut seen[first], true) {
+            let mut group = vec![first];
+            let mut next = 0;
+            while let Some(&k) = group.get(next) {
+                group.extend(around[k].iter().filter(|&&near| !std::mem::replace(&mut seen[near], true)));
+                next += 1;
             }
-        }
-        if group.len() >= FEWEST_MIDDLES {
-            // From the middle on, all that is like its neighbour.
-            while let Some(k) = group.pop() {
-                if !std::mem::replace(&mut whole[k], true) {
-                    group.extend_from_slice(&around[k]);
-                }
-            }
+            groups.push(group);
         }
     }
-    whole
+    let (large, small): (Vec<Vec<usize>>, Vec<Vec<usize>>) =
+        groups.into_iter().partition(|group| group.iter().filter(|&&k| is_middle(k)).count() >= FEWEST_MIDDLES);
+    let mut covering = vec![None; cells.len()];
+    for (number, group) in large.iter().enumerate() {
+        group.iter().for_each(|&k| covering[k] = Some(number));
+    }
+    // Small rooms have the covering of others.
+    let usual: Vec<&Cell> = large.iter().map(|group| usual(cells, group)).collect();
+    for group in small {
+        let found = usual.iter().enumerate().find_map(|(number, usual)| {
+            let like: Vec<usize> = group.iter().copied().filter(|&k| cells[k].is_like(usual)).collect();
+            (like.len() >= FEWEST_IN_SMALL_ROOM).then_some((number, like))
+        });
+        if let Some((number, like)) = found {
+            like.into_iter().for_each(|k| covering[k] = Some(number));
+        }
+    }
+    covering
+}
+
+/// The cell of the middle area.
+fn usual<'a>(cells: &'a [Cell], group: &[usize]) -> &'a Cell {
+    let mut order = group.to_vec();
+    order.sort_by(|&a, &b| cells[a].area.total_cmp(&cells[b].area).then(a.cmp(&b)));
+    &cells[order[order.len() / 2]]
 }
 
 /// The straight line through some pixels.
@@ -229,57 +351,57 @@ impl Straight {
     }
 }
 
-/// Follows a line beyond both its ends, up to `reach` pixels: through crossing lines, up to where it ends or meets what is
-/// thicker.
+/// Follows a line beyond both its ends, up to `reach` pixels, through what crosses it and past what covers it. The cells on
+/// both its sides have to fit.
 fn follow(
     straight: &Straight,
-    ink: &[u8],
-    width: usize,
+    ink: &Ink,
+    thickness: f64,
     reach: f64,
     fits: impl Fn(usize) -> bool,
     found: &mut Vec<usize>,
 ) {
-    let height = ink.len() / width;
     let [across_x, across_y] = [-straight.way[1], straight.way[0]];
-    let pixel = |x: f64, y: f64| {
-        let (x, y) = (x.round(), y.round());
-        let inside = x >= 0.0 && y >= 0.0 && x < width as f64 && y < height as f64;
-        inside.then(|| y as usize * width + x as usize)
-    };
     for sign in [-1.0, 1.0] {
-        let mut waiting: Vec<usize> = Vec::new();
-        let mut crossing = 0;
-        let mut ends_in_light = false;
-        let mut passed: Vec<Vec<usize>> = Vec::new();
-        let last = (straight.length * 0.5 + reach) as usize;
-        for step in (straight.length * 0.5) as usize..=last {
+        // Pixels of a stretch that is as thin as the line, and of what crosses it.
+        let mut stretch: Vec<Vec<usize>> = Vec::new();
+        let mut crossing: Vec<usize> = Vec::new();
+        let mut starts = true;
+        let mut close = |stretch: &mut Vec<Vec<usize>>, starts: bool, ends: bool| {
+            let own = stretch.len().saturating_sub(if ends { END_PX } else { 0 });
+            let from = if starts { 0 } else { END_PX };
+            found.extend(stretch.drain(..).take(own).skip(from).flatten());
+        };
+        for step in (straight.length * 0.5) as usize..=(straight.length * 0.5 + reach) as usize {
             let [x, y] = [0, 1].map(|k| straight.middle[k] + sign * step as f64 * straight.way[k]);
-            let place = |k: i32| pixel(x + f64::from(k) * across_x, y + f64::from(k) * across_y);
-            let here = |k: i32| place(k).filter(|&at| ink[at] != 0);
+            let place = |k: i32| ink.pixel([x + f64::from(k) * across_x, y + f64::from(k) * across_y]);
+            let here = |k: i32| place(k).filter(|&at| ink.dark[at] != 0);
             let Some(centre) = [0, 1, -1].into_iter().find(|&k| here(k).is_some()) else {
-                ends_in_light = true;
+                close(&mut stretch, starts, true);
                 break;
             };
             let side = |way: i32| (1..=THICKEST_PX as i32 + 1).map_while(move |k| here(centre + way * k));
             let [before, after] = [-1, 1].map(|way| side(way).count() as i32);
-            if (before + 1 + after) as usize <= THICKEST_PX.min(straight.breadth as usize + 2) {
-                crossing = 0;
+            let cut = || (centre - before..=centre + after).filter_map(here);
+            if ink.sum(cut()) <= DARKER * thickness + 0.2 {
                 let beside = [place(centre - before - 1), place(centre + after + 1)];
-                if beside.into_iter().flatten().all(&fits) {
-                    waiting.extend((centre - before..=centre + after).filter_map(here));
+                let is_own = beside.into_iter().flatten().all(&fits);
+                if !is_own || stretch.is_empty() && !starts {
+                    crossing.clear();
                 }
-                passed.push(std::mem::take(&mut waiting));
+                if is_own {
+                    crossing.extend(cut());
+                }
+                stretch.push(std::mem::take(&mut crossing));
             } else {
-                crossing += 1;
-                if crossing > THICKEST_PX + 1 {
-                    break;
+                crossing.extend(here(centre));
+                if ink.sum(crossing.iter().copied()) > CROSSING * thickness + 0.5 {
+                    close(&mut stretch, starts, false);
+                    crossing.clear();
+                    starts = true;
                 }
-                let thick = straight.breadth as i32 / 2;
-                waiting.extend((-thick..=thick).filter_map(here));
             }
         }
-        // What the line ends at is not its own.
-        let own = passed.len().saturating_sub(if ends_in_light { END_PX } else { 0 });
-        found.extend(passed.into_iter().take(own).flatten());
+        close(&mut stretch, starts, false);
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::grid::{BLOCKED, DOOR, Grid};
+use super::grid::{BLOCKED, DOOR, FIXTURE, FURNITURE, Grid, WALL};
 use crate::math::Vec2;
 use crate::walls::{Doorway, Walls};
 
@@ -56,17 +56,25 @@ pub(super) fn divide(grid: &Grid, walls: &Walls) -> Division {
             rooms += 1;
         }
     }
-    grow(grid, &mut room);
+    // Thresholds and niches belong to the rooms beside them.
+    grow(grid, &mut room, |cell| !grid.has(cell, BLOCKED));
     let doors = doors(grid, &room, &doorways);
     Division { room, rooms: usize::from(rooms), doors }
 }
 
-/// Gives thresholds and niches to the rooms beside them.
-fn grow(grid: &Grid, room: &mut [u16]) {
+/// The room of each cell, with the furniture and the fixtures that stand in it.
+pub(super) fn with_furniture(grid: &Grid, room: &[u16]) -> Vec<u16> {
+    let mut room = room.to_vec();
+    grow(grid, &mut room, |cell| grid.has(cell, FURNITURE | FIXTURE) && !grid.has(cell, WALL));
+    room
+}
+
+/// Gives cells to the rooms beside them.
+fn grow(grid: &Grid, room: &mut [u16], may: impl Fn(usize) -> bool) {
     let mut border: VecDeque<usize> = (0..grid.len()).filter(|&cell| room[cell] != NONE).collect();
     while let Some(cell) = border.pop_front() {
         for beside in grid.beside(cell) {
-            if room[beside] == NONE && !grid.has(beside, BLOCKED) {
+            if room[beside] == NONE && may(beside) {
                 room[beside] = room[cell];
                 border.push_back(beside);
             }
@@ -112,11 +120,12 @@ fn doors(grid: &Grid, room: &[u16], doorways: &[Doorway]) -> Vec<(Vec2, [u16; 2]
         let sum = members.iter().fold(Vec2::ZERO, |sum, &cell| sum + grid.centre(cell));
         let middle = sum / members.len() as f64;
         rooms.sort_unstable();
-        if let [a, b, ..] = rooms[..]
-            && doors.iter().all(|door| door.0.distance(middle) > SAME_DOOR_M)
-        {
-            doors.push((middle, [a, b]));
-        }
+        let pairs = rooms.iter().enumerate().flat_map(|(k, &a)| rooms[k + 1..].iter().map(move |&b| [a, b]));
+        let is_new = |pair: &[u16; 2]| {
+            doors.iter().all(|(at, [a, b])| at.distance(middle) > SAME_DOOR_M || [*a.min(b), *a.max(b)] != *pair)
+        };
+        let fresh: Vec<_> = pairs.filter(is_new).map(|pair| (middle, pair)).collect();
+        doors.extend(fresh);
     }
     doors
 }

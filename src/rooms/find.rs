@@ -8,9 +8,6 @@ use crate::math::{Rect, Vec2};
 use crate::plan::FloorPlan;
 use crate::walls::Walls;
 
-/// Distance around a room's floor within which fixtures are its own, metres.
-const BESIDE_M: f64 = 0.35;
-
 /// A room: floor that doors divide from other floor.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Room {
@@ -18,7 +15,7 @@ pub struct Room {
     pub name: String,
     /// What it is.
     pub kind: RoomKind,
-    /// Area of its floor, square metres.
+    /// Area of its floor, furniture included, square metres.
     pub area_m2: f64,
     /// Number of doors to other rooms and to the outside.
     pub doors: usize,
@@ -93,7 +90,7 @@ impl Rooms {
         let mut bounds: Vec<Option<Rect>> = vec![None; count];
         for cell in (0..grid.len()).filter(|&cell| room[cell] != NONE) {
             let own = usize::from(room[cell]);
-            measures[own].area_m2 += cell_m2;
+            measures[own].free_m2 += cell_m2;
             clear_m[own] += f64::from(clearance[cell]) * grid.cell_m * cell_m2;
             measures[own].stairs_m2 += if grid.has(cell, STAIRS) { cell_m2 } else { 0.0 };
             if deepest[own].is_none_or(|best| clearance[cell] > clearance[best]) {
@@ -104,18 +101,18 @@ impl Rooms {
             b.min = Vec2 { x: b.min.x.min(p.x), y: b.min.y.min(p.y) };
             b.max = Vec2 { x: b.max.x.max(p.x), y: b.max.y.max(p.y) };
         }
-        let reach = (BESIDE_M / grid.cell_m).ceil() as usize;
-        for cell in (0..grid.len()).filter(|&cell| grid.has(cell, FIXTURE)) {
-            if let Some(beside) = grid.around(cell, reach).find(|&beside| room[beside] != NONE) {
-                measures[usize::from(room[beside])].fixtures_m2 += cell_m2;
-            }
+        for (cell, own) in divide::with_furniture(&grid, &room).into_iter().enumerate().filter(|(_, own)| *own != NONE)
+        {
+            let measures = &mut measures[usize::from(own)];
+            measures.area_m2 += cell_m2;
+            measures.fixtures_m2 += if grid.has(cell, FIXTURE) { cell_m2 } else { 0.0 };
         }
         let doors: Vec<(Vec2, [usize; 2])> = doors.into_iter().map(|(at, ends)| (at, ends.map(usize::from))).collect();
         doors.iter().flat_map(|door| door.1).for_each(|end| measures[end].doors += 1);
         entrances.iter().for_each(|entrance| measures[entrance.room].doors += 1);
         let rooms = (0..count).filter_map(|index| {
             let (deepest, measures) = (deepest[index]?, &mut measures[index]);
-            measures.width_m = 4.0 * clear_m[index] / measures.area_m2;
+            measures.width_m = 4.0 * clear_m[index] / measures.free_m2;
             Some(Room {
                 name: format!("room {}", index + 1),
                 kind: RoomKind::of(measures),

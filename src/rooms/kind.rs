@@ -24,7 +24,9 @@ names!(RoomKind);
 /// Measures of a room, by which its kind is told. Lengths in metres.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Measures {
+    /// With furniture, and without.
     pub(super) area_m2: f64,
+    pub(super) free_m2: f64,
     /// Four times the mean distance from walls: of a long corridor its width, of a square two thirds of its side.
     pub(super) width_m: f64,
     pub(super) doors: usize,
@@ -48,8 +50,8 @@ const STAIRS_SHARE: f64 = 0.3;
 
 impl RoomKind {
     pub(super) fn of(measures: &Measures) -> RoomKind {
-        let Measures { area_m2, width_m, doors, fixtures_m2, stairs_m2 } = *measures;
-        let squares = area_m2 / (width_m * width_m).max(0.01);
+        let Measures { area_m2, free_m2, width_m, doors, fixtures_m2, stairs_m2 } = *measures;
+        let squares = free_m2 / (width_m * width_m).max(0.01);
         let long =
             squares >= CORRIDOR_SQUARES[0] && doors >= 2 || squares >= CORRIDOR_SQUARES[1] && doors >= MANY_DOORS;
         if stairs_m2 >= STAIRS_SHARE * area_m2 && stairs_m2 > 0.0 {

@@ -296,6 +296,14 @@ pub fn lobby_with_panes() -> Building {
     lobby(Leaves::Panes)
 }
 
+/// A school's floor whose partitions end at every other window.
+pub fn school_with_ribbons() -> Building {
+    let mut building = school();
+    let ribbons: Vec<(f64, f64)> = (0..5).map(|k| (9.6 * f64::from(k) + 0.7, 8.2)).collect();
+    building.walls[0] = outer([0.0, 0.0], [48.0, 0.0], 0.4).windows(&ribbons);
+    building
+}
+
 /// A school's floor of 48 x 20 m with 20 rooms.
 pub fn school() -> Building {
     let top: Vec<f64> = (0..=10).map(|k| 4.8 * f64::from(k)).collect();

@@ -18,6 +18,10 @@ const THIN: &str = "walls of one pixel";
 const HOLLOW: [&str; 2] = ["outline walls", "hatched walls"];
 /// The style whose walls are slanted: furniture that stands aslant is often left as lines, and some doors are missed.
 const TURNED: &str = "turned 24 degrees";
+/// Styles with lines on the floors that are as dark as the furniture: some of it is not told from them.
+const COVERED: [&str; 3] = ["tiles", "planks", DENSE];
+/// Tiles of ten pixels.
+const DENSE: &str = "tiles, 30 px/m";
 /// Robots' maps, in which the unknown is wall.
 const MAPS: [&str; 3] = ["robot's map", "negated map", "noisy map turned 7 degrees"];
 
@@ -53,10 +57,12 @@ fn check(m: &Measured) {
         assert!(m.false_doors <= 1, "doors that are none: {what}");
         return;
     }
-    assert!(m.false_doors * 10 <= if m.clean { 0 } else { m.doors[1] }, "doors that are none: {what}");
-    assert!(m.wall_iou >= if m.clean { 0.95 } else { 0.85 }, "walls: {what}");
-    assert!(m.notes_as_wall_m2 < if m.clean { 0.01 } else { 0.1 }, "letters or furniture as wall: {what}");
-    assert!(m.furniture >= if m.style == TURNED { 0.7 } else { 0.95 }, "furniture: {what}");
+    let clean = m.clean && m.style != DENSE;
+    assert!(m.false_doors * 10 <= if clean { 0 } else { m.doors[1] }, "doors that are none: {what}");
+    assert!(m.wall_iou >= if clean { 0.95 } else { 0.85 }, "walls: {what}");
+    assert!(m.notes_as_wall_m2 < if clean { 0.01 } else { 0.1 }, "letters or furniture as wall: {what}");
+    let furniture = if m.style == TURNED || COVERED.contains(&m.style) { 0.7 } else { 0.95 };
+    assert!(m.furniture >= furniture, "furniture: {what}");
 }
 
 /// An office in all styles that are drawn at up to 50 pixels a metre.
@@ -84,6 +90,22 @@ fn sliding_entrances_are_doors() {
             assert_eq!((m.rooms[0], m.doors[0], m.false_doors), (m.rooms[1], m.doors[1], 0), "{what}");
             assert!(m.wall_iou >= 0.9 && m.paper_m2 < 0.5, "{what}");
         }
+    }
+}
+
+#[test]
+fn partitions_may_end_at_windows() {
+    for name in ["plain", "CAD export", "grey walls", "doors with leaf and sill"] {
+        let style = styles::STYLES.into_iter().find(|style| style.name == name).unwrap();
+        check(&measure(&styles::Case { style, building: buildings::school_with_ribbons, seed: 0 }));
+    }
+}
+
+/// Small rooms, a corridor and doors of which every side has other furniture near. The office is measured in all styles.
+#[test]
+fn tiles_and_planks_are_no_furniture() {
+    for style in styles::STYLES.into_iter().filter(|style| COVERED[..2].contains(&style.name)) {
+        check(&measure(&styles::Case { style, building: buildings::flat, seed: 0 }));
     }
 }
 

@@ -1,8 +1,8 @@
-//! What stands on a sheet around a building: dimensions, axes, a north arrow, the title block and the frame.
+//! What stands on a sheet besides a building: dimensions, axes, a north arrow, the title block, the frame, floor coverings.
 
 use super::buildings::Building;
 use super::canvas::{Point, Polygon, ellipse, line, outline, rectangle, text};
-use super::styles::Ends;
+use super::styles::{Cover, Ends};
 
 /// Dimension lines with what ends them, numbers and extension lines that touch the walls.
 fn dimensions(building: &Building, ends: Ends, thin: f64) -> Vec<Polygon> {
@@ -97,5 +97,23 @@ pub fn sheet(building: &Building, ends: Ends, size: Point, origin: Point, thin: 
     all.extend(text("1:100", [corner[0] + 1.6, corner[1] + 1.35], 0.28, thin));
     all.extend(text("12.03.2024", [corner[0] + 5.2, corner[1] + 1.35], 0.28, thin));
     all.extend(text("PLAN 7-B", [corner[0] + 1.6, corner[1] + 2.25], 0.28, thin));
+    all
+}
+
+/// Lines of tiles or planks on a part of a floor. They are laid from a corner of the room; the first are half as wide.
+pub fn joints(corner: [f64; 2], [x0, y0, x1, y1]: [f64; 4], cover: Cover, thin: f64) -> Vec<Polygon> {
+    let [along, across] = if cover == Cover::Tiles { [0.33, 0.33] } else { [1.1, 0.14] };
+    let steps =
+        |from: f64, to: f64, by: f64| (0..).map(move |k| from + by * f64::from(k)).take_while(move |&at| at < to);
+    let mut all = Vec::new();
+    for (row, y) in steps(corner[1] - 0.5 * across, y1, across).enumerate() {
+        let shift = if cover == Cover::Tiles { 0.5 * along } else { (0.41 * row as f64) % along };
+        if y > y0 {
+            all.push(line([x0, y], [x1, y], thin));
+        }
+        let ends = [y.max(y0), (y + across).min(y1)];
+        let joints = steps(corner[0] + shift, x1, along).filter(|&x| x > x0 && ends[1] > ends[0]);
+        all.extend(joints.map(|x| line([x, ends[0]], [x, ends[1]], thin)));
+    }
     all
 }

@@ -8,7 +8,7 @@ use image::{DynamicImage, ImageFormat, RgbImage, Rgba, RgbaImage};
 
 use super::buildings::{Building, Hole, HoleKind, Kind, Leaves, Piece, Wall, flat, office, school};
 use super::canvas::{Canvas, Point, Polygon, arc, ellipse, line, lines, outline, rectangle, text};
-use super::notes::sheet;
+use super::notes::{joints, sheet};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Walls {
@@ -48,6 +48,16 @@ pub enum Ends {
     None,
 }
 
+/// What is drawn on the floor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cover {
+    None,
+    /// Square tiles.
+    Tiles,
+    /// Planks that end anywhere.
+    Planks,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum File {
     Png,
@@ -71,6 +81,7 @@ pub struct Style {
     /// Whether the printed areas are wrong, each in its own way.
     pub wrong_areas: bool,
     pub furniture: bool,
+    pub cover: Cover,
     /// Turn of the drawing, degrees.
     pub turn_deg: f64,
     /// Share of the wall that a scanner missed.
@@ -91,6 +102,7 @@ const CAD: Style = Style {
     names: true,
     wrong_areas: false,
     furniture: true,
+    cover: Cover::None,
     turn_deg: 0.0,
     noise: 0.0,
     px_per_m: 50.0,
@@ -101,7 +113,7 @@ const CAD: Style = Style {
 const PLAIN: Style = Style { name: "plain", doors: Doors::Open, sheet: false, names: false, furniture: false, ..CAD };
 
 /// All styles.
-pub const STYLES: [Style; 24] = [
+pub const STYLES: [Style; 27] = [
     PLAIN,
     CAD,
     Style { name: "outline walls", walls: Walls::Outline, ..CAD },
@@ -133,6 +145,9 @@ pub const STYLES: [Style; 24] = [
         ..PLAIN
     },
     Style { name: "CAD without furniture", furniture: false, ..CAD },
+    Style { name: "tiles", cover: Cover::Tiles, ..CAD },
+    Style { name: "planks", cover: Cover::Planks, sheet: false, tones: Tones::Brochure, ..CAD },
+    Style { name: "tiles, 30 px/m", cover: Cover::Tiles, px_per_m: 30.0, ..CAD },
     Style { name: "turned 24 degrees", turn_deg: 24.0, sheet: false, px_per_m: 43.0, ..CAD },
 ];
 
@@ -282,11 +297,19 @@ pub fn draw(case: &Case) -> Drawn {
         }
         _ => {}
     }
+    for room in building.rooms.iter().filter(|_| style.cover != Cover::None) {
+        let corner = [0, 1].map(|k| room.parts.iter().map(|part| part[k]).fold(f64::INFINITY, f64::min));
+        let joints: Vec<Polygon> =
+            room.parts.iter().flat_map(|&part| joints(corner, part, style.cover, thin)).collect();
+        canvas.fill(&joints, tones.words);
+    }
     if style.furniture {
         for piece in &building.furniture {
             let (shape, strokes) = symbol(piece, thin);
             if style.tones == Tones::Brochure {
                 canvas.fill(&[shape], [232, 214, 184]);
+            } else if style.cover != Cover::None {
+                canvas.fill(&[shape], tones.paper);
             }
             canvas.fill(&strokes, tones.furniture);
         }

@@ -175,9 +175,14 @@ pub(super) fn find(wall: &[u8], ink: &[u8], width: usize, limits: &Limits) -> Ve
     let upright = Frame::upright([width, wall.len() / width]);
     let mut all = Vec::new();
     let mut add = |frame: Frame, wall_seen: &[u8], ink_seen: &[u8]| {
-        for mut gap in along_rows(wall_seen, ink_seen, limits, frame) {
+        let plain = along_rows(wall_seen, ink_seen, limits, frame);
+        let met = met_by_walls(wall_seen, ink_seen, limits, frame, &plain);
+        for mut gap in plain.into_iter().chain(met) {
             let Some(ends) = ends(&gap, wall) else { continue };
-            // Seen aslant, a gap is longer than it is.
+            // Seen aslant, a gap is longer than it is, or reaches from a wall that ends in it.
+            if all.iter().any(|other: &Gap| other.strokes >= 2 && is_within(&gap, other)) {
+                continue;
+            }
             if all.iter().any(|other: &Gap| is_same(&gap, other) && other.length() <= gap.length()) {
                 continue;
             }
@@ -240,6 +245,18 @@ fn is_same(a: &Gap, b: &Gap) -> bool {
     let ([ax, ay], [bx, by]) = (middle(a), middle(b));
     let near = 0.6 * a.length().min(b.length()) as f64;
     (ax - bx) * (ax - bx) + (ay - by) * (ay - by) <= near * near
+}
+
+/// Whether both jambs of a gap lie in another one of another direction.
+fn is_within(gap: &Gap, other: &Gap) -> bool {
+    let ([ax, ay], [from, _]) = (other.frame.along, other.jambs());
+    let (length, thickness) = (other.length() as f64, other.thickness());
+    gap.frame.along != other.frame.along
+        && gap.jambs().into_iter().all(|[x, y]| {
+            let (dx, dy) = (x - from[0], y - from[1]);
+            let (along, across) = (dx * ax + dy * ay, dy * ax - dx * ay);
+            (-thickness..=length + thickness).contains(&along) && across.abs() <= thickness
+        })
 }
 
 /// The directions of slanted walls, radians between 0 and a right angle: those of the long straight parts of the wall's
@@ -346,6 +363,24 @@ fn along_rows(wall: &[u8], ink: &[u8], limits: &Limits, frame: Frame) -> Vec<Gap
         let has_ends = [false, true].into_iter().all(|forwards| is_end(wall, width, gap, forwards, BOTH_ENDS));
         gap.slides = has_ends && slides(ink, width, gap);
     }
+    found
+}
+
+/// Windows into which the end of a wall across them reaches, as partitions that end at a mullion do.
+fn met_by_walls(wall: &[u8], ink: &[u8], limits: &Limits, frame: Frame, plain: &[Gap]) -> Vec<Gap> {
+    let width = frame.size[0];
+    let mut along = wall.to_vec();
+    for row in along.chunks_exact_mut(width.max(1)) {
+        let thin: Vec<Range<usize>> =
+            runs(width, 1, |x| row[x] != 0).filter(|run| run.len() <= 2 * limits.thinnest).collect();
+        thin.into_iter().for_each(|run| row[run].fill(0));
+    }
+    let mut found = along_rows(&along, ink, limits, frame);
+    let overlaps = |a: &Gap, b: &Gap| {
+        let ([p, q], [r, s]) = (a.middle().0, b.middle().0);
+        a.first < b.first + b.rows.len() && b.first < a.first + a.rows.len() && p < s && r < q
+    };
+    found.retain(|gap| gap.strokes >= 2 && !plain.iter().any(|other| overlaps(gap, other)));
     found
 }
 

@@ -65,7 +65,7 @@ impl Net {
         drop(core);
         drop_crumbs(&mut wall, width, (thinnest * 0.8).max(LEAST_COLUMN_M / metres_per_pixel).max(LEAST_COLUMN_PX));
         let limits =
-            Limits { shortest: px(0.5), longest: px(8.0), thinnest: ((thinnest * 0.75) as usize).max(2), thickest };
+            Limits { shortest: px(0.5), longest: px(16.0), thinnest: ((thinnest * 0.75) as usize).max(2), thickest };
         let is_entrance = |gap: &Gap| gap.slides && (px(ENTRANCE_M[0])..=px(ENTRANCE_M[1])).contains(&gap.length());
         drop_leaves(&mut wall, ink, width, &limits, [ENTRANCE_M[1], THICKEST_LEAF_M].map(px), is_entrance);
         let strokes = strokes_of(ink, &wall);
