@@ -80,7 +80,7 @@ pub(super) struct Ink {
 
 impl Ink {
     fn height(&self) -> usize {
-        self.dark.len() / self.width
+        self.dark.len() / self.width.max(1)
     }
 
     /// Ink of some pixels, in black ones.
@@ -351,8 +351,8 @@ impl Straight {
     }
 }
 
-/// Follows a line beyond both its ends, up to `reach` pixels, through what crosses it and past what covers it. The cells on
-/// both its sides have to fit.
+/// Follows a line beyond both its ends, up to `reach` pixels, through what crosses it, up to where it ends. The cells on both
+/// its sides have to fit.
 fn follow(
     straight: &Straight,
     ink: &Ink,
@@ -363,21 +363,15 @@ fn follow(
 ) {
     let [across_x, across_y] = [-straight.way[1], straight.way[0]];
     for sign in [-1.0, 1.0] {
-        // Pixels of a stretch that is as thin as the line, and of what crosses it.
+        // Pixels of a stretch that is as thin as the line, step by step, and of what crosses it.
         let mut stretch: Vec<Vec<usize>> = Vec::new();
         let mut crossing: Vec<usize> = Vec::new();
-        let mut starts = true;
-        let mut close = |stretch: &mut Vec<Vec<usize>>, starts: bool, ends: bool| {
-            let own = stretch.len().saturating_sub(if ends { END_PX } else { 0 });
-            let from = if starts { 0 } else { END_PX };
-            found.extend(stretch.drain(..).take(own).skip(from).flatten());
-        };
         for step in (straight.length * 0.5) as usize..=(straight.length * 0.5 + reach) as usize {
             let [x, y] = [0, 1].map(|k| straight.middle[k] + sign * step as f64 * straight.way[k]);
             let place = |k: i32| ink.pixel([x + f64::from(k) * across_x, y + f64::from(k) * across_y]);
             let here = |k: i32| place(k).filter(|&at| ink.dark[at] != 0);
             let Some(centre) = [0, 1, -1].into_iter().find(|&k| here(k).is_some()) else {
-                close(&mut stretch, starts, true);
+                stretch.truncate(stretch.len().saturating_sub(END_PX));
                 break;
             };
             let side = |way: i32| (1..=THICKEST_PX as i32 + 1).map_while(move |k| here(centre + way * k));
@@ -385,23 +379,20 @@ fn follow(
             let cut = || (centre - before..=centre + after).filter_map(here);
             if ink.sum(cut()) <= DARKER * thickness + 0.2 {
                 let beside = [place(centre - before - 1), place(centre + after + 1)];
-                let is_own = beside.into_iter().flatten().all(&fits);
-                if !is_own || stretch.is_empty() && !starts {
-                    crossing.clear();
-                }
-                if is_own {
+                if beside.into_iter().flatten().all(&fits) {
                     crossing.extend(cut());
+                } else {
+                    crossing.clear();
                 }
                 stretch.push(std::mem::take(&mut crossing));
             } else {
                 crossing.extend(here(centre));
                 if ink.sum(crossing.iter().copied()) > CROSSING * thickness + 0.5 {
-                    close(&mut stretch, starts, false);
+                    found.extend(stretch.drain(..).flatten());
                     crossing.clear();
-                    starts = true;
                 }
             }
         }
-        close(&mut stretch, starts, false);
+        found.extend(stretch.into_iter().flatten());
     }
 }

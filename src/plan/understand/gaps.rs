@@ -1,5 +1,6 @@
 //! Gaps between wall ends that face each other: doors and windows.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -174,9 +175,9 @@ pub(super) struct Limits {
 pub(super) fn find(wall: &[u8], ink: &[u8], width: usize, limits: &Limits) -> Vec<Gap> {
     let upright = Frame::upright([width, wall.len() / width]);
     let mut all = Vec::new();
-    let mut add = |frame: Frame, wall_seen: &[u8], ink_seen: &[u8]| {
-        let plain = along_rows(wall_seen, ink_seen, limits, frame);
-        let met = met_by_walls(wall_seen, ink_seen, limits, frame, &plain);
+    let mut add = |frame: Frame, wall_seen: Cow<'_, [u8]>, ink_seen: &[u8]| {
+        let plain = along_rows(&wall_seen, ink_seen, limits, frame);
+        let met = met_by_walls(wall_seen.into_owned(), ink_seen, limits, frame, &plain);
         for mut gap in plain.into_iter().chain(met) {
             let Some(ends) = ends(&gap, wall) else { continue };
             // Seen aslant, a gap is longer than it is, or reaches from a wall that ends in it.
@@ -192,8 +193,8 @@ pub(super) fn find(wall: &[u8], ink: &[u8], width: usize, limits: &Limits) -> Ve
         }
     };
     let mut both = |frame: Frame, wall: &[u8], ink: &[u8]| {
-        add(frame, wall, ink);
-        add(frame.transposed(), &transposed(wall, frame.size[0]), &transposed(ink, frame.size[0]));
+        add(frame, Cow::Borrowed(wall), ink);
+        add(frame.transposed(), Cow::Owned(transposed(wall, frame.size[0])), &transposed(ink, frame.size[0]));
     };
     both(upright, wall, ink);
     for angle in directions(wall, width, limits) {
@@ -367,15 +368,14 @@ fn along_rows(wall: &[u8], ink: &[u8], limits: &Limits, frame: Frame) -> Vec<Gap
 }
 
 /// Windows into which the end of a wall across them reaches, as partitions that end at a mullion do.
-fn met_by_walls(wall: &[u8], ink: &[u8], limits: &Limits, frame: Frame, plain: &[Gap]) -> Vec<Gap> {
+fn met_by_walls(mut wall: Vec<u8>, ink: &[u8], limits: &Limits, frame: Frame, plain: &[Gap]) -> Vec<Gap> {
     let width = frame.size[0];
-    let mut along = wall.to_vec();
-    for row in along.chunks_exact_mut(width.max(1)) {
+    for row in wall.chunks_exact_mut(width.max(1)) {
         let thin: Vec<Range<usize>> =
             runs(width, 1, |x| row[x] != 0).filter(|run| run.len() <= 2 * limits.thinnest).collect();
         thin.into_iter().for_each(|run| row[run].fill(0));
     }
-    let mut found = along_rows(&along, ink, limits, frame);
+    let mut found = along_rows(&wall, ink, limits, frame);
     let overlaps = |a: &Gap, b: &Gap| {
         let ([p, q], [r, s]) = (a.middle().0, b.middle().0);
         a.first < b.first + b.rows.len() && b.first < a.first + a.rows.len() && p < s && r < q
