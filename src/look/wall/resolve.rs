@@ -85,8 +85,11 @@ impl<'a> WallResolver<'a> {
             let mut any = false;
             for (n, run) in runs.iter().enumerate() {
                 let window = strip.window(&run.columns, &rows);
-                painted.resize(window.texels(), &WALL_LAYERS);
-                any |= self.0.paint(&strip, &window, painted);
+                // A short closed face goes round several times: once is enough.
+                if n == 0 || runs[n - 1].columns != run.columns {
+                    painted.resize(window.texels(), &WALL_LAYERS);
+                    any |= self.0.paint(&strip, &window, painted);
+                }
                 // On an open strip, the only run is extended to both sides.
                 let end = runs.get(n + 1).map_or(width, |next| next.at);
                 let left = if strip.closed { 0 } else { (window.i0 - i0).clamp(0, width as i64) as usize };

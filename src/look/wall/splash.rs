@@ -98,24 +98,27 @@ impl Splash {
             let ups = sd * (0.16 * s + 0.06 * w + 0.10 * a);
             self.look.height_m * soft_limits(MEAN_REACH + ups)
         });
+        // At a coarse density the band is a few rows of a high window; nothing is worked out above it.
+        let end_m = f64::from(DROPS_END * self.look.height_m);
+        let rows = (end_m * window.texels_per_metre).ceil() as i64 - window.j0;
+        let foot = TexelWindow { height: rows.clamp(1, window.height as i64) as usize, ..*window };
         let mut shown = SplashWindow {
             window: *window,
             look: self.look,
             amount: amount.collect(),
             reach_m: reach_m.collect(),
-            blotches: self.blotches.over_strip(window, strip.salt, strip.width, strip.closed),
+            blotches: self.blotches.over_strip(&foot, strip.salt, strip.width, strip.closed),
             blotch: vec![0.0; window.width],
-            streaks: self.streaks.over_strip(window, strip.salt, strip.width, strip.closed),
+            streaks: self.streaks.over_strip(&foot, strip.salt, strip.width, strip.closed),
             streak: vec![0.0; window.width],
             single: Vec::new(),
             row: 0,
         };
         if band {
-            shown.single = self.drops.over(window, strip);
+            shown.single = self.drops.over(&foot, strip);
             shown.thin_out_drops();
-        } else {
-            shown.single.resize(window.texels(), 0.0);
         }
+        shown.single.resize(window.texels(), 0.0);
         if drips {
             for drip in self.drips(window, strip) {
                 drip.paint(window, strip.texels_per_metre, &mut shown.single);
@@ -219,7 +222,7 @@ impl Drip {
 impl SplashWindow {
     /// Reduces droplets above the band, where they become rare.
     fn thin_out_drops(&mut self) {
-        for row in 0..self.window.height {
+        for row in 0..self.single.len() / self.window.width {
             let height_m = self.height_m(row);
             let line = &mut self.single[row * self.window.width..][..self.window.width];
             for ((value, reach), amount) in line.iter_mut().zip(&self.reach_m).zip(&self.amount) {

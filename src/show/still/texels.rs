@@ -105,14 +105,23 @@ impl TexelSource for WallTexels<'_> {
 
     fn read(&self, layer: usize, i0: i64, j0: i64) -> TexelBlock {
         let background = self.source.background();
-        let rows = (self.height_m * self.texels_per_metre).ceil() as i64;
         // Texels above the ceiling and below the floor are never seen.
-        if j0 >= rows + 2 || j0 + (SIDE as i64) < -2 {
+        let rows = (self.rows() - j0).clamp(0, SIDE as i64) as usize;
+        if rows == 0 || j0 + (SIDE as i64) < -2 {
             return TexelBlock::Flat(texel(background.base_color, background.orm));
         }
         let mut block = ResolvedBlock::default();
-        self.source.resolve_into(layer, i0, j0, SIDE, SIDE, &mut block);
-        if block.empty { TexelBlock::Flat(texel(background.base_color, background.orm)) } else { of_resolved(&block) }
+        self.source.resolve_into(layer, i0, j0, SIDE, rows, &mut block);
+        if block.empty {
+            return TexelBlock::Flat(texel(background.base_color, background.orm));
+        }
+        // Above the ceiling the last row goes on.
+        let last = (rows - 1) * SIDE;
+        (rows..SIDE).for_each(|_| {
+            block.base_color.extend_from_within(last..last + SIDE);
+            block.orm.extend_from_within(last..last + SIDE);
+        });
+        of_resolved(&block)
     }
 
     /// A closed face goes round, but beyond its end nothing is seen itself.
