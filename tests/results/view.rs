@@ -74,6 +74,43 @@ fn a_corridor_at_eye_level_and_from_above() {
     assert_golden("still_birds_eye", &drawn(&above, [112, 63], &board), EXACT);
 }
 
+/// Daylight falls evenly through a wide opening, without spots and without a dark sill; and before it the exposure is
+/// such that a floor's pattern is still seen.
+#[test]
+fn an_entrance_is_lit_evenly_and_not_overexposed() {
+    // A hall 12 m long and 10 m wide that is open in the west.
+    let floor = (0..130 * 120).map(|k| u8::from(k % 130 < 120 && (10..110).contains(&(k / 130)))).collect();
+    let plan = FloorPlan::from_mask(130, 120, 0.1, floor);
+    let rooms = Rooms::new(&Walls::trace(&plan, &WallsOptions::default()), &[], 2.6);
+    let grey = |_: i64, _: i64| [197, 192, 182];
+    // West is up; a pixel is 4 cm of the floor.
+    let shown = |floor: &(dyn Fn(i64, i64) -> [u8; 3] + Sync), camera: &str| {
+        let floor = Painted(|i, j| floor(i, j));
+        let coat = Surfaces { floor: &floor, floor_texels_per_metre: DENSITY, small: None, walls: None };
+        rooms
+            .draw(&Camera { fov_deg: 90.0, ..camera.parse().unwrap() }, [120, 120], &[coat], &Silent)
+            .unwrap()
+            .remove(0)
+    };
+    let down = shown(&grey, "1,6,2.4,180,-89");
+    let level = |x: u32, y: u32| i32::from(down.get_pixel(x, y).0[1]);
+    // From the opening to 2 m before it, 3 m along it.
+    for y in 36..84 {
+        let row: Vec<i32> = (24..96).map(|x| level(x, y)).collect();
+        let [least, most] = [row.iter().min().unwrap(), row.iter().max().unwrap()];
+        assert!(most - least <= 14, "row {y}: {least} to {most}");
+    }
+    let column: Vec<i32> = (28..84).rev().map(|y| level(60, y)).collect();
+    assert!(column.windows(4).all(|near| near[3] >= near[0] - 6), "{column:?}");
+
+    let squares = shown(&board, "3,6,1.7,180,-40");
+    let mut seen: Vec<u8> =
+        (40..120).flat_map(|y| (0..120).map(move |x| (x, y))).map(|(x, y)| squares[(x, y)].0[1]).collect();
+    seen.sort_unstable();
+    let [dark, light] = [seen[seen.len() / 10], seen[seen.len() * 9 / 10]];
+    assert!(light <= 235 && light - dark >= 60, "squares of L* 36 and 80 are shown as {dark} and {light}");
+}
+
 #[test]
 fn the_same_bytes_on_any_number_of_threads() {
     let on = |threads: usize| {

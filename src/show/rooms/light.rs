@@ -4,7 +4,7 @@
 use super::panels::{Panel, Panels};
 use super::ray_grid::RayGrid;
 use super::shades::{EXPOSURE_ABOVE, EXPOSURE_INSIDE, EXPOSURE_OUTSIDE, wall_edges};
-use crate::math::{Vec2, exp, sin_cos, smoothstep, vec2};
+use crate::math::{Vec2, atan2, exp, sin_cos, smoothstep, vec2};
 
 /// Largest distance of walls that block light, metres.
 const REACH_M: f64 = 6.0;
@@ -22,6 +22,8 @@ const CONTACT: [f64; 2] = [0.34, 0.16];
 /// metres.
 const DAY: f64 = 2.2;
 const DAY_REACH_M: f64 = 14.0;
+/// How far beyond an opening its light is the same, metres.
+const DAY_BEYOND_M: f64 = 3.0;
 /// Places in an opening, as shares of its width, from which daylight comes.
 const DAY_FROM: [f64; 3] = [0.17, 0.5, 0.83];
 /// Direction of the sun in the plan, degrees, and how many metres it falls per metre, outdoors.
@@ -103,8 +105,11 @@ impl<'a> Light<'a> {
 
     /// Light on a place of the floor, or on the nearest one a little off the wall.
     pub fn on_floor(&self, p: Vec2) -> Irradiance {
-        let Some(p) = self.onto_floor(p) else { return Irradiance { full: 0.6, open: 0.5 } };
         let height_m = self.space.height_m;
+        let Some(p) = self.onto_floor(p) else {
+            let day = if self.panels().is_some() { self.gain * self.daylight_on_floor(p) } else { 0.0 };
+            return Irradiance { full: day.max(0.6) as f32, open: 0.5 };
+        };
         match &self.sources {
             LightSources::Inside(panels) => {
                 let (open, near_m) = self.open_around(p, height_m * 0.55);
@@ -116,7 +121,7 @@ impl<'a> Light<'a> {
                     panel.area() * fade * cosine2 * cosine2 * cosine2
                 });
                 let direct = LAMPS * lit.sum::<f64>() / Panels::FULL;
-                let [day, _] = self.daylight(p, None);
+                let day = self.daylight_on_floor(p);
                 let bounced = BOUNCE[0] * (0.25 + 0.75 * open);
                 let contact = 1.0 - CONTACT[0] * exp(-near_m / CONTACT[1]);
                 Irradiance { full: (self.gain * (direct + bounced + day) * contact) as f32, open: open as f32 }
@@ -135,9 +140,35 @@ impl<'a> Light<'a> {
         }
     }
 
-    /// Daylight from the openings: on a place of the floor, in both values, or on a wall with this normal, at both
-    /// [`WALL_HEIGHTS`].
-    fn daylight(&self, p: Vec2, normal: Option<Vec2>) -> [f64; 2] {
+    /// Daylight from the openings on a place of the floor: each is an upright bright rectangle, seen from a level place
+    /// before its foot (Howell, A catalog of radiation heat transfer configuration factors, B-3). Beyond an opening it is
+    /// as bright as in it.
+    fn daylight_on_floor(&self, p: Vec2) -> f64 {
+        let height_m = self.space.height_m;
+        let of_opening = |&[a, b]: &[Vec2; 2]| {
+            let Some(along) = (b - a).normalized() else { return 0.0 };
+            let (width_m, x) = (a.distance(b), (p - a).dot(along));
+            // The floor is on the right of an opening.
+            let off_m = along.cross(a - p);
+            if off_m > DAY_REACH_M || off_m < -DAY_BEYOND_M {
+                return 0.0;
+            }
+            let seen = DAY_FROM.map(|share| {
+                let way = a + (b - a) * share - p;
+                let distance = way.length();
+                let is_seen = off_m <= 0.0 || self.way(p, way / distance.max(1e-6), distance - 0.02) >= distance - 0.02;
+                if is_seen { 1.0 - smoothstep((distance - 7.0) / (DAY_REACH_M - 7.0)) } else { 0.0 }
+            });
+            let off_m = off_m.max(0.0);
+            let edge_m = (off_m * off_m + height_m * height_m).sqrt();
+            let half = |side_m: f64| atan2(side_m, off_m) - off_m / edge_m * atan2(side_m, edge_m);
+            seen.iter().sum::<f64>() / seen.len() as f64 * (half(x) + half(width_m - x))
+        };
+        DAY * self.space.openings.iter().map(of_opening).sum::<f64>() / std::f64::consts::PI
+    }
+
+    /// Daylight from the openings on a wall with this normal, at both [`WALL_HEIGHTS`].
+    fn daylight_on_wall(&self, p: Vec2, normal: Vec2) -> [f64; 2] {
         let height_m = self.space.height_m;
         let mut sums = [0.0; 2];
         for &[a, b] in &self.space.openings {
@@ -147,9 +178,8 @@ impl<'a> Light<'a> {
                 let way = a + (b - a) * share - p;
                 let distance = way.length();
                 let toward = way / distance.max(1e-6);
-                // The floor is on the right of an opening.
                 let leaves = along.cross(toward).max(0.0);
-                let facing = normal.map_or(1.0, |normal| normal.dot(toward));
+                let facing = normal.dot(toward);
                 let is_seen = || self.way(p, toward, distance - 0.02) >= distance - 0.02;
                 if distance > DAY_REACH_M || leaves <= 0.0 || facing <= 0.0 || !is_seen() {
                     continue;
@@ -158,13 +188,9 @@ impl<'a> Light<'a> {
                 let fade = 1.0 - smoothstep((distance - 7.0) / (DAY_REACH_M - 7.0));
                 let from = leaves * fade * width_m / (DAY_FROM.len() as f64 * d2.sqrt());
                 for (sum, at) in sums.iter_mut().zip(WALL_HEIGHTS) {
-                    // The floor sees the upper part of an opening, a wall all of it, more of it at half its height.
+                    // A wall sees all of an opening, more of it at half its height.
                     let off = (at - 0.5) * height_m;
-                    *sum += from
-                        * match normal {
-                            None => height_m * height_m / (d2 + height_m * height_m),
-                            Some(_) => facing * height_m * distance / (d2 + off * off + 0.1 * height_m * height_m),
-                        };
+                    *sum += from * facing * height_m * distance / (d2 + off * off + 0.1 * height_m * height_m);
                 }
             }
         }
@@ -239,7 +265,7 @@ impl<'a> Light<'a> {
             LightSources::Above(_) | LightSources::Outside(_) => Vec::new(),
         };
         let day = match &self.sources {
-            LightSources::Inside(_) => self.daylight(foot, Some(normal)),
+            LightSources::Inside(_) => self.daylight_on_wall(foot, normal),
             LightSources::Above(_) | LightSources::Outside(_) => [0.0; 2],
         };
         WallLight { light: self, foot, normal, ways, seen, day }

@@ -10,8 +10,9 @@ use super::sampler::{SamplerNeeds, SurfaceSampler, along_m};
 use super::shade::{Lit, Shader};
 use super::tone::Tone;
 use crate::export::{Camera, ExportError};
+use crate::math::vec2;
 use crate::progress::Progress;
-use crate::show::rooms::{HitSurface, Lens, Light, LinearRgb, RayGrid, RayHit, mix};
+use crate::show::rooms::{DAYLIGHT, HitSurface, Lens, Light, LinearRgb, OFF_WALL_M, RayGrid, RayHit, mix};
 
 /// Rows that are worked on at a time.
 const BAND: usize = 144;
@@ -28,6 +29,11 @@ const PLACES: [[f64; 2]; RAYS] = [
     [0.8125, 0.0625],
     [0.9375, 0.5625],
 ];
+
+/// Rays of the light meter across and down a picture.
+const METERED: usize = 20;
+/// Where three quarters of what is seen are lit less than this, the exposure is as always; brighter pictures get less.
+const GLARE: f32 = 1.3;
 
 /// A row of a picture before it is shaded.
 #[derive(Default)]
@@ -78,8 +84,9 @@ impl<'a> Renderer<'a> {
     pub fn new(space: &'a RayGrid, camera: &Camera, size: [u32; 2]) -> Renderer<'a> {
         let above = camera.position_m[2] >= space.height_m;
         let light = if above { Light::above(space, camera.heading_deg) } else { Light::inside(space) };
-        let tone = Tone::new(light.exposure());
         let lens = Lens::of(camera, size);
+        let glare = if above { 1.0 } else { brightness(space, &lens, &light, size) / GLARE };
+        let tone = Tone::new(light.exposure() / glare.max(1.0));
         // From above all walls, nothing is nearer than their tops.
         let nearest_m = (camera.position_m[2] - space.height_m).max(0.0);
         Renderer { space, lens, size, above, light: LightMap::new(light, lens.pixel * nearest_m), tone }
@@ -214,11 +221,32 @@ impl<'a> Renderer<'a> {
     }
 }
 
-/// Adds one of [`RAYS`] to a pixel. Lamps count as white: their edges would be rough otherwise.
+/// Irradiance that most of the floor and walls in a picture stay below, as a camera's light meter sees it.
+fn brightness(space: &RayGrid, lens: &Lens, light: &Light, [width, height]: [u32; 2]) -> f32 {
+    let mut seen = Vec::with_capacity(METERED * METERED);
+    for k in 0..METERED * METERED {
+        let place = |k: usize, size: u32| (k as f64 + 0.5) / METERED as f64 * f64::from(size);
+        let hit = space.trace_inside(lens.position, lens.ray(place(k % METERED, width), place(k / METERED, height)));
+        let [x, y, z] = hit.point.map(f64::from);
+        match hit.surface {
+            HitSurface::Floor => seen.push(light.on_floor(vec2(x, y)).full),
+            HitSurface::Wall(piece) => {
+                let piece = &space.pieces[piece as usize];
+                let normal = piece.round_normal(f64::from(along_m(piece, &hit)));
+                seen.push(light.on_wall(vec2(x, y) + normal * OFF_WALL_M, normal).at(z).full);
+            }
+            _ => {}
+        }
+    }
+    seen.sort_by(f32::total_cmp);
+    seen.get(seen.len() * 3 / 4).copied().unwrap_or(0.0)
+}
+
+/// Adds one of [`RAYS`] to a pixel. Lamps count as daylight: their edges would be rough otherwise.
 fn add_share(sum: &mut Lit, ray: &Lit) {
     const SHARE: f32 = 1.0 / RAYS as f32;
     for (sum, value) in sum.colour.iter_mut().zip(ray.colour) {
-        *sum += value.min(1.6) * SHARE;
+        *sum += value.min(DAYLIGHT[2]) * SHARE;
     }
     let gain = ray.gain * SHARE;
     if gain > 0.0 {
