@@ -91,7 +91,7 @@ fn with_tip(mut error: clap::Error) -> clap::Error {
     let path = Path::new(given);
     if path.is_file() || path.extension().is_some() {
         let tip = format!("`trodden bake {given}` bakes a plan or a scenario");
-        error.insert(ContextKind::SuggestedSubcommand, ContextValue::None);
+        error.remove(ContextKind::SuggestedSubcommand);
         error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
     }
     error

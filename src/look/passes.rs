@@ -165,10 +165,12 @@ pub(super) fn blurred(values: &[f32], window: &TexelWindow, half_kernel: &[f32])
     let (width, height) = (window.width - 2 * reach, window.height - 2 * reach);
     let mut across = vec![0.0; width * window.height];
     for (out, row) in across.chunks_exact_mut(width).zip(values.chunks_exact(window.width)) {
-        for (k, out) in out.iter_mut().enumerate() {
-            *out = row[k + reach] * half_kernel[0];
-            for (offset, weight) in half_kernel.iter().enumerate().skip(1) {
-                *out += weight * (row[k + reach - offset] + row[k + reach + offset]);
+        for (out, value) in out.iter_mut().zip(&row[reach..]) {
+            *out = value * half_kernel[0];
+        }
+        for (offset, weight) in half_kernel.iter().enumerate().skip(1) {
+            for ((out, a), b) in out.iter_mut().zip(&row[reach - offset..]).zip(&row[reach + offset..]) {
+                *out += weight * (a + b);
             }
         }
     }
