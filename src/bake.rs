@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::Error;
 use crate::crowd::{CrowdError, Simulation};
 use crate::export::{
-    self, Atlas, Estimate, LifeReport, Manifest, OutputFolder, PADDING_PX, Report, Target, TargetEntry,
+    self, Atlas, Estimate, LifeReport, Manifest, OutputFolder, PADDING_PX, PeopleReport, Report, Target, TargetEntry,
 };
 use crate::look::Look;
 use crate::marks::{ContactPlaces, Footfalls};
@@ -28,7 +28,7 @@ pub use series::resolve_series;
 pub use view::{View, view};
 
 use graded::{Graded, Sums, keep_look, title};
-use tread::{Marks, tread};
+use tread::{Day, Marks, tread};
 
 /// Files in every bake.
 const ALWAYS_MADE: [&str; 5] =
@@ -106,30 +106,37 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let life = ways.as_ref().and_then(Navigation::life).cloned();
     let mut lived = life.as_deref().map(LifeReport::of);
     let scenario = &scenario.lived_in(life.as_deref());
-    // Bodies depend on seed and person id only; all arrival times are known before the crowd walks.
-    let people = People::new(scenario.seed, scenario.bodies.clone());
-    let mut source = match (&given, ways) {
-        (Some(given), _) => Source::of_given(given, &ground)?.numbered(),
-        (None, Some(ways)) => {
-            let simulated =
-                || Simulation::with_spots(plan, walls, &routes, ways, &people, &scenario.crowd, &scenario.spots());
-            Source::of_crowd(watch.busy(Stage::Crowd, simulated)?, &routes)
-        }
-        (None, None) => return Err(CrowdError::NoRoutes.into()),
-    };
-    let origins = source.origins(scenario.marks.fresh_people);
+    // Bodies depend on seed and person id only; all arrival times of a day are known before its crowd walks.
+    let days = if given.is_some() { 1 } else { scenario.days };
+    let crowds: Vec<People> = (0..days).map(|day| scenario.people_of_day(day)).collect();
     let places = ContactPlaces::of_walls(walls)
         .with_doors(plan, walls, &scenario.doors)?
         .with_fixtures(plan, walls, &scenario.fixtures)?
         .with_stops(walls, Route::each_stop(&routes));
     let doorways = places.doorways();
-    let mut footfalls = Footfalls::new(&people, walls, &library, &scenario.marks, origins)?.with_contacts(places);
+    let begin = |day: u32| -> Result<Day<'_>, Error> {
+        let people = &crowds[day as usize];
+        let source = match (&given, &ways) {
+            (Some(given), _) => Source::of_given(given, &ground)?.numbered(),
+            (None, Some(ways)) => {
+                let (ways, spots) = (ways.clone(), scenario.spots());
+                let simulated = || Simulation::with_spots(plan, walls, &routes, ways, people, &scenario.crowd, &spots);
+                Source::of_crowd(watch.busy(Stage::Crowd, simulated)?, &routes)
+            }
+            (None, None) => return Err(CrowdError::NoRoutes.into()),
+        };
+        // The last people of the last day leave fresh prints.
+        let origins = source.origins(if day + 1 == days { scenario.marks.fresh_people } else { 0 });
+        let crowd = origins.len() * days as usize;
+        let footfalls = Footfalls::new(people, walls, &library, &scenario.marks, origins)?;
+        let paths = PathSampler::new(source.people());
+        Ok(Day { source, footfalls: footfalls.among(crowd).with_contacts(places.clone()), paths })
+    };
 
     // Frames become marks, marks become stamps, and stamps are added to sums. Only the sums stay in memory.
     let stamper = watch.busy(Stage::Stamps, || Stamper::new(&library, grid, &scenario.stamps))?;
     let wall_stamper = watch.busy(Stage::Stamps, || WallStamper::new(&library, &wall_grid, &scenario.stamps))?;
     let mut sums = Sums { floor: FloorSums::new(grid), walls: with_walls.then(|| WallSums::new(wall_grid)) };
-    let mut paths = PathSampler::new(source.people());
     let mut stamp = |marks: &Marks| {
         sums.floor.add(&stamper, walls, &marks.footfalls);
         if let (Some(lived), Some(life)) = (&mut lived, &life) {
@@ -140,15 +147,15 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
             sums.add(&wall_stamper, &marks.contacts);
         }
     };
-    tread(&mut source, &mut footfalls, plan, &mut paths, &mut stamp, &watch, progress)?;
-    let tally = source.tally();
-    let mut warnings = tally.describe(&routes, Some(&output.folder.join(show::PATHS_FILE)));
-    warnings.extend(source.warning());
+    let walked = tread(days, begin, plan, &mut stamp, &watch, progress)?;
+    let mut warnings = walked.tally.describe(&routes, Some(&output.folder.join(show::PATHS_FILE)));
+    warnings.extend(walked.warning);
+    warnings.extend((days < scenario.days).then(|| "days are of simulated crowds: this motion was walked once".into()));
     warnings.extend(lived.as_ref().and_then(LifeReport::warning));
     warnings.iter().for_each(|warning| progress.warn(warning));
 
     // The look turns sums into texels, block by block, while the files are written.
-    let crops = show::choose_crops(walls.bounds_m(), &plan.openings, walls, paths.paths());
+    let crops = show::choose_crops(walls.bounds_m(), &plan.openings, walls, &walked.paths);
     let settings = scenario.settings();
     let graded = Graded {
         sums: &sums,
@@ -156,8 +163,8 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
         doorways: &doorways,
         ceiling: scenario.ceiling,
         look: &scenario.look,
-        people: source.people(),
-        wall_people: footfalls.contact_people(),
+        people: walked.people,
+        wall_people: walked.contact_people,
         title: title(&settings),
         seed: scenario.seed,
         atlas,
@@ -168,15 +175,16 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     if let (Some(sums), Some(textures)) = (&sums.walls, &written.walls) {
         watch.busy(Stage::Export, || export::write_wall_sums(&folder, sums, textures, progress))?;
     }
-    let picture = watch.busy(Stage::Export, || show::draw_paths(plan, walls, &routes, paths.paths(), &tally.stuck));
+    let picture =
+        watch.busy(Stage::Export, || show::draw_paths(plan, walls, &routes, &walked.paths, &walked.tally.stuck));
     show::write_picture(&folder, show::PATHS_FILE, &picture)?;
 
     let report = Report {
-        people: source.people_report(&routes),
+        people: PeopleReport::of(&walked.tally, &routes),
         warnings,
         life: lived,
-        footfalls: footfalls.count(),
-        contacts: footfalls.contact_count(),
+        footfalls: walked.footfalls,
+        contacts: walked.contacts,
         seconds: watch.seconds(),
         peak_memory_mib: export::peak_memory_mib(),
     };
@@ -184,10 +192,10 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let look = keep_look(&scenario.look, &folder)?;
     let manifest = Manifest {
         seed: scenario.seed,
-        people: source.people(),
+        people: walked.people,
         target: TargetEntry::of(scenario.texture.target),
         floor: written.floor.entry(sums_entry),
-        walls: written.walls.map(|textures| textures.entry(walls, footfalls.contact_people())),
+        walls: written.walls.map(|textures| textures.entry(walls, walked.contact_people)),
         preview: written.pictures,
         stills: written.stills,
         look,

@@ -1,9 +1,12 @@
+use rayon::prelude::*;
+
 use crate::Error;
+use crate::crowd::Tally;
 use crate::marks::{Contact, Footfalls, Mark};
 use crate::motion::{Frame, Motion};
 use crate::plan::FloorPlan;
 use crate::progress::{Progress, Stage, Stopwatch};
-use crate::show::PathSampler;
+use crate::show::{Path, PathSampler};
 use crate::source::Source;
 
 /// Footfalls in a batch: enough to stamp blocks in parallel, few enough to keep all cores busy.
@@ -17,67 +20,119 @@ pub(super) struct Marks {
     pub contacts: Vec<Contact>,
 }
 
-/// Passes the marks of a motion to `stamp` in batches, filling the next while stamping one. Feet on floor that is kept
-/// clean leave none.
-pub(super) fn tread(
-    source: &mut Source<'_>,
-    footfalls: &mut Footfalls<'_>,
+/// A day: its people's motion, and the marks that they leave.
+pub(super) struct Day<'a> {
+    pub source: Source<'a>,
+    pub footfalls: Footfalls<'a>,
+    /// The paths of some of them.
+    pub paths: PathSampler,
+}
+
+/// What has come of all days.
+#[derive(Default)]
+pub(super) struct Walked {
+    pub tally: Tally,
+    pub people: u32,
+    /// Number of people whose touches the wall sums hold.
+    pub contact_people: u32,
+    pub footfalls: u64,
+    pub contacts: u64,
+    /// Paths of the first day.
+    pub paths: Vec<Path>,
+    /// A warning about the motion.
+    pub warning: Option<String>,
+}
+
+/// Passes the marks of all days to `stamp` in batches, filling the next ones while stamping some. As many days are walked
+/// at once as there are threads: their order does not matter, as sums are exact. Feet on floor that is kept clean leave no
+/// marks.
+pub(super) fn tread<'a>(
+    days: u32,
+    begin: impl Fn(u32) -> Result<Day<'a>, Error>,
     plan: &FloorPlan,
-    paths: &mut PathSampler,
     stamp: &mut (impl FnMut(&Marks) + Send),
     watch: &Stopwatch,
     progress: &dyn Progress,
-) -> Result<(), Error> {
-    let mut walked = Walk { source, footfalls, plan, paths, frame: Frame::default(), over: false };
-    let (mut batch, mut next) = (Marks::default(), Marks::default());
-    while !walked.over {
-        let (walking, ()) =
-            rayon::join(|| walked.fill(&mut next, watch, progress), || watch.busy(Stage::Stamps, || stamp(&batch)));
-        walking?;
-        std::mem::swap(&mut batch, &mut next);
-        next.footfalls.clear();
-        next.contacts.clear();
+) -> Result<Walked, Error> {
+    let open_day =
+        |number| Ok::<_, Error>(OpenDay { number, day: begin(number)?, frame: Frame::default(), is_over: false });
+    let at_once = days.min(rayon::current_num_threads() as u32);
+    let mut open = (0..at_once).map(open_day).collect::<Result<Vec<OpenDay>, Error>>()?;
+    let mut rest = at_once..days;
+    let mut ended: Vec<OpenDay> = Vec::new();
+    let mut batches: Vec<Marks> = Vec::new();
+    while let Some(stage) = open.first().map(|open| open.day.source.stage()) {
+        let (filled, ()) = rayon::join(
+            || open.par_iter_mut().map(|open| open.fill(plan, watch, progress)).collect::<Result<Vec<Marks>, Error>>(),
+            || watch.busy(Stage::Stamps, || batches.iter().for_each(&mut *stamp)),
+        );
+        batches = filled?;
+        let walked: f64 = open.iter().map(|open| open.day.source.share_done()).sum();
+        progress.advance(stage, (walked + ended.len() as f64) / f64::from(days));
+        ended.extend(open.extract_if(.., |open| open.is_over));
+        let fresh = rest.by_ref().take(at_once as usize - open.len()).map(open_day);
+        open.extend(fresh.collect::<Result<Vec<OpenDay>, Error>>()?);
     }
-    watch.busy(Stage::Stamps, || stamp(&batch));
-    progress.advance(source.stage(), 1.0);
-    Ok(())
+    watch.busy(Stage::Stamps, || batches.iter().for_each(stamp));
+    // Days end in any order.
+    ended.sort_unstable_by_key(|ended| ended.number);
+    let mut walked = Walked::default();
+    ended.into_iter().for_each(|ended| walked.add(ended.day));
+    Ok(walked)
 }
 
-/// Generates marks from frames.
-struct Walk<'a, 'c, 'f> {
-    source: &'a mut Source<'c>,
-    footfalls: &'a mut Footfalls<'f>,
-    plan: &'a FloorPlan,
-    paths: &'a mut PathSampler,
+/// A day that is being walked.
+struct OpenDay<'a> {
+    number: u32,
+    day: Day<'a>,
     frame: Frame,
-    over: bool,
+    is_over: bool,
 }
 
-impl Walk<'_, '_, '_> {
-    /// Fills a batch, up to the end of the motion.
-    fn fill(&mut self, marks: &mut Marks, watch: &Stopwatch, progress: &dyn Progress) -> Result<(), Error> {
+impl OpenDay<'_> {
+    /// The next batch of marks, up to the end of the motion.
+    fn fill(&mut self, plan: &FloorPlan, watch: &Stopwatch, progress: &dyn Progress) -> Result<Marks, Error> {
+        let Day { source, footfalls, paths } = &mut self.day;
+        let mut marks = Marks::default();
         while marks.footfalls.len() < BATCH {
             progress.keep_on()?;
-            if !watch.busy(self.source.stage(), || self.source.next_frame(&mut self.frame))? {
-                watch.busy(Stage::Marks, || self.footfalls.finish(&mut marks.footfalls));
-                self.over = true;
+            if !watch.busy(source.stage(), || source.next_frame(&mut self.frame))? {
+                watch.busy(Stage::Marks, || footfalls.finish(&mut marks.footfalls));
+                self.is_over = true;
                 break;
             }
-            for (id, stature_m) in self.source.newcomers_statures() {
-                self.footfalls.know_stature(id, stature_m);
+            for (id, stature_m) in source.newcomers_statures() {
+                footfalls.know_stature(id, stature_m);
             }
-            watch.busy(Stage::Marks, || self.footfalls.push(&self.frame, &mut marks.footfalls));
-            self.paths.push(&self.frame);
+            watch.busy(Stage::Marks, || footfalls.push(&self.frame, &mut marks.footfalls));
+            if self.number == 0 {
+                paths.push(&self.frame);
+            }
         }
-        self.footfalls.take_lasting(&mut marks.footfalls);
-        if !self.plan.painted.marks.is_empty() {
+        footfalls.take_lasting(&mut marks.footfalls);
+        if !plan.painted.marks.is_empty() {
             marks.footfalls.retain(|mark| {
                 let half = mark.heading * (0.5 * f64::from(mark.length_m));
-                ![mark.place_m - half, mark.place_m, mark.place_m + half].iter().any(|&p| self.plan.is_kept_clean(p))
+                ![mark.place_m - half, mark.place_m, mark.place_m + half].iter().any(|&p| plan.is_kept_clean(p))
             });
         }
-        self.footfalls.take_contacts(&mut marks.contacts);
-        progress.advance(self.source.stage(), self.source.share_done());
-        Ok(())
+        footfalls.take_contacts(&mut marks.contacts);
+        Ok(marks)
+    }
+}
+
+impl Walked {
+    /// Adds the next day.
+    fn add(&mut self, day: Day<'_>) {
+        let Day { source, footfalls, paths } = day;
+        self.tally.add(source.tally());
+        self.people = self.people.saturating_add(source.people());
+        self.contact_people = footfalls.contact_people();
+        self.footfalls += footfalls.count();
+        self.contacts += footfalls.contact_count();
+        if self.paths.is_empty() {
+            self.paths = paths.into_paths();
+        }
+        self.warning = self.warning.take().or(source.warning());
     }
 }

@@ -47,6 +47,10 @@ pub struct Bake {
     reading: Reading,
     #[command(flatten)]
     alignment: Alignment,
+    /// Days that people walk, each with as many others at the same times: more prints, an evener floor [default: 1]
+    #[arg(long, help_heading = "Scenario", value_name = "N", allow_negative_numbers = true)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    days: Option<u32>,
     /// The folder to make [default: out/ and the scenario's name]
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
@@ -102,6 +106,7 @@ impl Bake {
 
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
         let overrides = Overrides {
+            days: self.days,
             target: self.target,
             walls: self.floor_only.then_some(false),
             embed: self.embed.then_some(true),

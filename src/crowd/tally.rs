@@ -26,6 +26,16 @@ pub struct Tally {
 }
 
 impl Tally {
+    /// Adds the people of another day. Stops and spots stay those of the first.
+    pub fn add(&mut self, other: Tally) {
+        self.entered += other.entered;
+        self.arrived += other.arrived;
+        self.stuck.extend(other.stuck);
+        if self.stops.is_empty() && self.spots.is_empty() {
+            (self.stops, self.spots) = (other.stops, other.spots);
+        }
+    }
+
     /// Warnings: who got stuck where, which picture shows it, at which stops there was not enough room.
     pub fn describe(&self, routes: &[Route], picture: Option<&Path>) -> Vec<String> {
         let mut lines: Vec<String> = self.stuck.iter().take(NAMED).map(|stuck| stuck.describe(routes)).collect();

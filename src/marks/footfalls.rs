@@ -43,6 +43,8 @@ pub struct Footfalls<'a> {
     /// Whiles of standing and lines of wheels that the caller has not taken yet.
     lasting: Vec<Mark>,
     origins: Vec<Origin>,
+    /// Number of people of all days.
+    crowd: usize,
     /// Body heights that are known; all others are as tall as the people are drawn.
     statures: Statures,
     /// By ascending id.
@@ -129,6 +131,7 @@ impl<'a> Footfalls<'a> {
             uniform: options.shoe.as_deref().map(|name| sole_named(library, name)).transpose()?,
             options: options.clone(),
             heel_marks: HeelMarks::new(library, &options.heel, origins.len()),
+            crowd: origins.len(),
             contacts: None,
             touched: Vec::new(),
             contact_count: 0,
@@ -140,16 +143,23 @@ impl<'a> Footfalls<'a> {
         })
     }
 
+    /// Says that these people are some of a larger crowd, those of a day: what is rare is drawn more often for a small
+    /// crowd.
+    pub fn among(mut self, people: usize) -> Footfalls<'a> {
+        self.crowd = people;
+        self.heel_marks = HeelMarks::new(self.library, &self.options.heel, people);
+        self
+    }
+
     /// Replaces the doors, corners and fixtures found in the walls.
     pub fn with_contacts(mut self, places: ContactPlaces) -> Footfalls<'a> {
-        self.contacts =
-            Some(Contacts::new(self.walls, self.library, &self.options.contact, self.origins.len(), || places));
+        self.contacts = Some(Contacts::new(self.walls, self.library, &self.options.contact, self.crowd, || places));
         self
     }
 
     /// Number of people that the contacts stand for, see [`super::ContactOptions::people`].
     pub fn contact_people(&self) -> u32 {
-        let crowd = self.origins.len();
+        let crowd = self.crowd;
         (self.options.contact.rate_factor(crowd) * crowd as f64).round() as u32
     }
 
@@ -183,7 +193,7 @@ impl<'a> Footfalls<'a> {
         if !frame.time_s.is_finite() || frame.time_s.abs() > MOST_TIME_S {
             return;
         }
-        let (walls, library, options, crowd) = (self.walls, self.library, &self.options.contact, self.origins.len());
+        let (walls, library, options, crowd) = (self.walls, self.library, &self.options.contact, self.crowd);
         let of_walls = || Contacts::new(walls, library, options, crowd, || ContactPlaces::of_walls(walls));
         self.contacts.get_or_insert_with(of_walls);
         let mut before = std::mem::take(&mut self.present).into_iter().peekable();

@@ -46,6 +46,8 @@ options! {
         preset: Preset = Preset::Commuters;
         /// Another number, another crowd.
         seed: u64 = 1;
+        /// Days that are baked, each with as many other people at the same times; `trodden crowd` walks the first.
+        days: u32 = 1, in 1.0..=1e4;
     }
 }
 

@@ -8,7 +8,8 @@ use crate::export::{Target, TextureOptions};
 use crate::formation::FormationRequest;
 use crate::look::Look;
 use crate::marks::{ContactOptions, DoorRequest, FixtureRequest, HeelOptions, MarksOptions, Weather};
-use crate::motion::BodyOptions;
+use crate::math::SplitMix64;
+use crate::motion::{BodyOptions, People};
 use crate::options::{Field, Options, Value};
 use crate::plan::PlanOptions;
 use crate::recordings::RecordingOptions;
@@ -46,6 +47,8 @@ pub struct Scenario {
     pub preset: Preset,
     /// The number that everything random is drawn from.
     pub seed: u64,
+    /// Days that are walked: each has its own people, [`Scenario::people_of_day`].
+    pub days: u32,
     /// How many people walk, and how.
     pub crowd: CrowdOptions,
     /// What people's bodies are like.
@@ -85,6 +88,8 @@ pub struct Overrides {
     pub r#use: Option<Use>,
     /// Another seed.
     pub seed: Option<u64>,
+    /// Another number of days.
+    pub days: Option<u32>,
     /// Another texel density of the floor.
     pub texels_per_metre: Option<f64>,
     /// Whether to bake a first look: 25 texels per metre of floor, 50 of walls, and no layers, where nothing else is asked.
@@ -142,6 +147,7 @@ impl Scenario {
             texture: TextureOptions::default(),
             preset,
             seed: keys::CrowdKeys::default().seed,
+            days: keys::CrowdKeys::default().days,
             crowd: CrowdOptions::default(),
             bodies: BodyOptions::default(),
             motion_file: None,
@@ -251,6 +257,12 @@ impl Scenario {
         scenario
     }
 
+    /// The people of a day, counted from 0. Those of the first are drawn from the seed itself.
+    pub fn people_of_day(&self, day: u32) -> People {
+        let word = SplitMix64::new(self.seed ^ u64::from(day).rotate_left(32)).next_u64();
+        People::new(if day == 0 { self.seed } else { word }, self.bodies.clone())
+    }
+
     /// The path of the folder with own patterns, if there is one.
     pub fn pattern_path(&self) -> Option<PathBuf> {
         self.pattern_folder.as_ref().map(|folder| self.folder.join(folder))
@@ -283,7 +295,11 @@ impl Scenario {
             ),
             ("walls", Vec::new(), self.walls.values_mut()),
             ("texture", densities, self.texture.values_mut()),
-            ("crowd", vec![&mut self.preset as &mut dyn Value, &mut self.seed], self.crowd.values_mut()),
+            (
+                "crowd",
+                vec![&mut self.preset as &mut dyn Value, &mut self.seed, &mut self.days],
+                self.crowd.values_mut(),
+            ),
             ("life", Vec::new(), self.routes.life.values_mut()),
             ("motion", vec![&mut self.motion_file], self.recording.values_mut()),
             ("bodies", Vec::new(), self.bodies.values_mut()),

@@ -138,6 +138,7 @@ impl Scenario {
 
     fn override_by(&mut self, overrides: &Overrides) {
         self.seed = overrides.seed.unwrap_or(self.seed);
+        self.days = overrides.days.unwrap_or(self.days);
         self.crowd.people = overrides.people.unwrap_or(self.crowd.people);
         self.routes.life.people = self.crowd.people;
         self.routes.life.r#use = overrides.r#use.or(self.routes.life.r#use);

@@ -54,6 +54,11 @@ impl PathSampler {
         }
     }
 
+    /// The ways, by ascending id.
+    pub fn into_paths(self) -> Vec<Path> {
+        self.paths
+    }
+
     /// The ways so far, by ascending id.
     pub fn paths(&self) -> &[Path] {
         &self.paths
