@@ -150,7 +150,7 @@ impl<'a> Light<'a> {
             let (width_m, x) = (a.distance(b), (p - a).dot(along));
             // The floor is on the right of an opening.
             let off_m = along.cross(a - p);
-            if off_m > DAY_REACH_M || off_m < -DAY_BEYOND_M {
+            if !(-DAY_BEYOND_M..=DAY_REACH_M).contains(&off_m) {
                 return 0.0;
             }
             let seen = DAY_FROM.map(|share| {
