@@ -115,7 +115,7 @@ pub fn walk(scenario: &Scenario, outputs: &WalkOutputs, progress: &dyn Progress)
     let given = Given::of_scenario(scenario, &watch, progress)?;
     let ground = Ground::of_scenario(scenario, given.as_ref(), &watch, progress)?;
     if let Some(given) = &given {
-        let people = People::new(scenario.seed, scenario.bodies.clone());
+        let people = scenario.people_of_day(0);
         let source = Source::of_given(given, &ground)?;
         return Walk { source, ground: &ground, routes: &[], people: &people, statures: given.statures() }.record(
             outputs,
@@ -129,7 +129,7 @@ pub fn walk(scenario: &Scenario, outputs: &WalkOutputs, progress: &dyn Progress)
     let (routes, ways) =
         watch.busy(Stage::Routes, || Navigation::find_watched(plan, walls, &scenario.routes, progress))?;
     let scenario = &scenario.lived_in(ways.life().map(|life| &**life));
-    let people = People::new(scenario.seed, scenario.bodies.clone());
+    let people = scenario.people_of_day(0);
     let crowd = watch.busy(Stage::Crowd, || {
         Simulation::with_spots(plan, walls, &routes, ways, &people, &scenario.crowd, &scenario.spots())
     })?;

@@ -1,8 +1,10 @@
 //! Wayfinding: along the flow that spreads people over all sensible ways, see [`Flow`](crate::routes).
 
+use std::f64::consts::TAU;
+
 use super::environment::Environment;
 use super::state::{AgentMut, Traits, WalkState};
-use crate::math::Vec2;
+use crate::math::{Vec2, sin_cos};
 use crate::plan::Opening;
 use crate::routes::{Field, Flow, Leg, Place, RouteLegs};
 
@@ -24,6 +26,22 @@ const MOST_SLOPE: f64 = 0.2;
 const BESIDE_M: f64 = 2.5;
 /// Distance of walls beyond which there are no lanes, metres.
 const WIDEST_M: f64 = 6.0;
+/// Share of the straight way in the direction that people take where it is free, with that much left to walk and less,
+/// metres, and the distance from which on there is none: from far away people do not make for a door yet.
+const STRAIGHT: f64 = 0.8;
+/// Width up to which the end of a leg draws people straight there, metres; over wider ones they spread.
+const NARROW_M: f64 = 2.0;
+const STRAIGHT_M: [f64; 2] = [28.0, 44.0];
+/// Distance that has to be free, metres and as a share of the whole, and the clearance that a straight way keeps, metres.
+const FREE_M: f64 = 12.0;
+const FREE_SHARE: f64 = 0.8;
+const FREE_CLEAR_M: f64 = 0.3;
+/// Clearance from which on straight ways are looked for, metres: in narrow places there is nothing to choose.
+const ROOM_M: f64 = 0.6;
+/// Waves of the ways that people take through halls: length along the way, metres, and slope at its steepest.
+const WAVES: [(f64, f64); 2] = [(26.0, 0.16), (11.0, 0.08)];
+/// Walking distance to the end of the leg over which ways come together, metres.
+const TOGETHER_M: f64 = 6.0;
 /// Distance down the distance field at which agents aim, metres.
 const FIELD_AIM_M: f64 = 1.2;
 /// Time without progress after which anywhere in a goal area is good enough, seconds.
@@ -105,7 +123,7 @@ impl Wayfinder<'_> {
         let at_a_loss = (time_s - walk.improved_s) % RETHINK_S > RETHOUGHT_S;
         let ahead = match self.flow(walk) {
             _ if at_a_loss => None,
-            Some(flow) => self.along_the_flow(flow, p),
+            Some(flow) => self.along_the_flow(flow, walk, traits, p),
             // Without a flow lanes spread people.
             None => self.down_the_field(walk, p),
         };
@@ -114,8 +132,9 @@ impl Wayfinder<'_> {
         give_way(aim, walk.blocked_s)
     }
 
-    /// Direction of a place some way along the flow, in sight.
-    fn along_the_flow(&self, flow: &Flow, p: Vec2) -> Option<Vec2> {
+    /// Direction of a place some way along the flow, in sight; where the end of the leg is in sight, mostly straight there,
+    /// and elsewhere in halls with a curve of the person's own.
+    fn along_the_flow(&self, flow: &Flow, walk: &WalkState, traits: &Traits, p: Vec2) -> Option<Vec2> {
         let ground = self.0.ground();
         let open = ground.clearance_at_least_m(p) > OPEN_M;
         let pieces = if open { PIECES } else { PIECES_AT_WALLS };
@@ -132,7 +151,39 @@ impl Wayfinder<'_> {
             }
             at = next;
         }
-        (at - p).normalized()
+        let ahead = (at - p).normalized()?;
+        let left_m = self.left_m(walk, p);
+        let straight = match self.straight(walk, p, left_m) {
+            Some(straight) => {
+                let [near_m, far_m] = STRAIGHT_M;
+                let share = STRAIGHT * ((far_m - left_m) / (far_m - near_m)).clamp(0.0, 1.0);
+                ahead + (straight - ahead) * share
+            }
+            None if open => ahead + ahead.left() * own_curve(traits, left_m),
+            None => ahead,
+        };
+        straight.normalized()
+    }
+
+    /// Width of the end of the leg, metres.
+    fn end_width_m(&self, walk: &WalkState) -> f64 {
+        let route = &self.0.routes[walk.route as usize];
+        match route.via.get(walk.leg as usize).map_or(route.goal, |via| via.place) {
+            Place::Opening(index) => self.0.plan.openings.get(index).map_or(0.0, Opening::width_m),
+            Place::Area([min, max]) => (max.x - min.x).max(max.y - min.y),
+        }
+    }
+
+    /// Direction of the shortest way to the end of the leg, where it is straight and free.
+    fn straight(&self, walk: &WalkState, p: Vec2, left_m: f64) -> Option<Vec2> {
+        if left_m > STRAIGHT_M[1]
+            || self.end_width_m(walk) > NARROW_M
+            || self.0.ground().clearance_at_least_m(p) < ROOM_M
+        {
+            return None;
+        }
+        let down = self.field(walk).downhill(self.0.ground(), p)?;
+        self.0.is_free(p, p + down * (FREE_SHARE * left_m).min(FREE_M), FREE_CLEAR_M).then_some(down)
     }
 
     /// Turns the direction towards the agent's lane in a corridor: after a bend people spread again.
@@ -235,6 +286,18 @@ impl Wayfinder<'_> {
             }
         }
     }
+}
+
+/// Slope of the person's own way against everybody's, at a walking distance from the end of the leg.
+pub(super) fn own_curve(traits: &Traits, left_m: f64) -> f64 {
+    if !left_m.is_finite() {
+        return 0.0;
+    }
+    let wave = |(&(length_m, steepest), start): (&(f64, f64), f32)| {
+        steepest * sin_cos(TAU * (left_m / length_m + f64::from(start))).0
+    };
+    let together = (left_m / TOGETHER_M).min(1.0);
+    together * WAVES.iter().zip([traits.lane, traits.goal_draw]).map(wave).sum::<f64>()
 }
 
 /// Turns a blocked agent to its right, the more the longer it has been blocked.

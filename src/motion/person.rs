@@ -29,7 +29,8 @@ options! {
         push: f64 = 0.02, in 0.0..=1.0;
         /// A fixed step length; left out: it follows speed and stature.
         ///
-        /// Individual step length, as in the paper: taken in full from 2 m/s, shorter below.
+        /// Individual step length, as in the paper: taken in full at the person's own free speed, and shorter as somebody
+        /// is slowed.
         ///
         /// `None`: step length follows speed and stature.
         step_length: Option<Distribution> = None, in 0.15..=2.0, unit "m", eg "0.7";
@@ -103,6 +104,8 @@ pub struct Person {
     pub bag: Option<Bag>,
     /// Individual step length, metres, if the scenario sets one.
     pub fixed_step_m: Option<f64>,
+    /// Speed at which the person walks when nobody hinders, metres per second, if it is known.
+    pub free_speed_m_s: Option<f64>,
     /// Personal factor on the step length, about 1: tall people take longer steps.
     pub step_factor: f64,
     /// Distance between the lines of the feet when walking freely, metres.
@@ -141,11 +144,18 @@ impl Person {
     /// From 0.4 m/s, `L = 0.247 + 0.344 v` times the personal factor, measured on congested and free flow in the Juelich
     /// recordings. Below, `L` is proportional to `v`, so that a step takes as long as at 0.4 m/s: in dense flow steps get
     /// shorter, not rarer (Jelic, Appert-Rolland, Lemercier, Pettre 2012, arXiv 1207.0832); at least 0.12 m. An individual
-    /// step length is taken in full from `STRIDE_SPEED_M_S`; below, it shrinks in proportion to the measured line, so
-    /// that hindered people take more steps over the same distance.
+    /// step length is taken in full at the free speed and is proportional to the speed below: a person who is slowed keeps
+    /// the cadence and takes more steps over the same distance, as the Grime paper says. Where the free speed is not known,
+    /// it is taken in full from `STRIDE_SPEED_M_S`, and shrinks in proportion to the measured line.
     pub fn step_length_m(&self, speed_m_s: f64) -> f64 {
         let step_m = match self.fixed_step_m {
-            Some(stride_m) => stride_m * (measured_step_m(speed_m_s) / measured_step_m(STRIDE_SPEED_M_S)).min(1.0),
+            Some(stride_m) => {
+                let share = match self.free_speed_m_s {
+                    Some(free_m_s) => speed_m_s / free_m_s,
+                    None => measured_step_m(speed_m_s) / measured_step_m(STRIDE_SPEED_M_S),
+                };
+                stride_m * share.min(1.0)
+            }
             None => measured_step_m(speed_m_s) * self.step_factor,
         };
         step_m.max(SHORTEST_STEP_M)
@@ -163,12 +173,18 @@ fn measured_step_m(speed_m_s: f64) -> f64 {
 pub struct People {
     seed: u64,
     options: BodyOptions,
+    speed: Option<Distribution>,
 }
 
 impl People {
     /// Makes people with these bodies from a seed.
     pub fn new(seed: u64, options: BodyOptions) -> People {
-        People { seed, options }
+        People { seed, options, speed: None }
+    }
+
+    /// The same people, who are known to walk at these free speeds, metres per second: those that the crowd draws too.
+    pub fn with_free_speed(self, speed: Distribution) -> People {
+        People { speed: Some(speed), ..self }
     }
 
     /// The seed from which all personal traits are drawn.
@@ -225,6 +241,8 @@ impl People {
             child,
             bag: bag.map(|()| Bag { side, kind }),
             fixed_step_m,
+            // The first draw of the stream that the crowd draws a person's walk from.
+            free_speed_m_s: self.speed.as_ref().map(|d| d.draw(&mut person_stream(self.seed, id, Purpose::Walk))),
             step_factor: stature_m / REFERENCE_STATURE_M * spread,
             step_width_m,
             toe_out_rad,

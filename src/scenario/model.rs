@@ -260,7 +260,9 @@ impl Scenario {
     /// The people of a day, counted from 0. Those of the first are drawn from the seed itself.
     pub fn people_of_day(&self, day: u32) -> People {
         let word = SplitMix64::new(self.seed ^ u64::from(day).rotate_left(32)).next_u64();
-        People::new(if day == 0 { self.seed } else { word }, self.bodies.clone())
+        let people = People::new(if day == 0 { self.seed } else { word }, self.bodies.clone());
+        // Of recorded people it is not known how fast they would have walked.
+        if self.motion_file.is_some() { people } else { people.with_free_speed(self.crowd.speed.clone()) }
     }
 
     /// The path of the folder with own patterns, if there is one.

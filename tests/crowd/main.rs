@@ -15,6 +15,7 @@ mod rimea;
 mod scene;
 mod social_force;
 mod speed_density;
+mod spread;
 mod stops;
 mod walk;
 mod walls;

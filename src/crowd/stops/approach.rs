@@ -4,11 +4,14 @@ use super::service::Stops;
 use super::target::{ApproachMode, VisitTarget};
 use crate::crowd::perception::Perception;
 use crate::crowd::state::AgentMut;
+use crate::crowd::wayfinding::own_curve;
 use crate::math::Vec2;
 
 /// Distance over which agents follow flow or field ahead, metres, and its steps.
 const AHEAD_M: f64 = 0.8;
 const AHEAD_STEP_M: f64 = 0.2;
+/// Clearance of open floor, metres.
+const OPEN_M: f64 = 1.2;
 /// Time without progress after which an agent follows the shortest way instead of the flow, seconds.
 const AT_A_LOSS_S: f64 = 5.0;
 /// Distance at which agents walk straight to their spot, metres.
@@ -66,7 +69,10 @@ impl Stops {
                 let at_a_loss = time_s - walk.improved_s > AT_A_LOSS_S;
                 let flow = stop.flow.as_ref().filter(|_| !at_a_loss);
                 let spread = flow.and_then(|flow| along(|at| flow.at(ground, at), perception, p));
-                spread.or_else(|| along(|at| stop.field.downhill(ground, at), perception, p))
+                let ahead = spread.or_else(|| along(|at| stop.field.downhill(ground, at), perception, p));
+                let open = f64::from(body.clearance_m) > OPEN_M;
+                let slope = if open { own_curve(traits, left_m) } else { 0.0 };
+                ahead.and_then(|ahead| (ahead + ahead.left() * slope).normalized())
             }
             _ => way.normalized(),
         };

@@ -26,6 +26,9 @@ const LET_GO_FIRST_M: [f64; 2] = [2.0, 1.0];
 const WALK_M_S: f64 = 1.2;
 /// Advantage of the queue that is chosen already, seconds.
 const HABIT_S: f64 = 2.0;
+/// Longest wait that people put up with for a queue that they like better, seconds: otherwise all who come from one side
+/// would take the nearest ticket gate.
+const LIKING_S: f64 = 6.0;
 
 /// Places that serve one queue, and the people in it.
 #[derive(Clone, Debug)]
@@ -120,6 +123,11 @@ impl Queue {
         let steps = (self.reach_m() / step_m) as usize;
         let along = (0..=steps).rev().map(|k| self.path.at(k as f64 * step_m).0);
         [tail_m].into_iter().chain(along.filter(|_| !self.path.points().is_empty())).find(free)
+    }
+
+    /// A free place, metres.
+    pub(super) fn vacant_m(&self) -> Option<Vec2> {
+        self.places.iter().find(|place| place.taken.is_none()).map(|place| place.place_m)
     }
 
     /// The free place that is nearest to `p`.
@@ -238,9 +246,12 @@ impl Queue {
     }
 }
 
-/// Index of the quickest queue for a person at `p`; the one chosen already has a small advantage.
-pub(super) fn choose(queues: &[Queue], chosen: Option<usize>, p: Vec2, mean_s: f64) -> usize {
-    let wait_s = |queue: usize| queues[queue].wait_s(p, mean_s) - if chosen == Some(queue) { HABIT_S } else { 0.0 };
+/// Index of the quickest queue for a person at `p`; the one chosen already has a small advantage, and everybody likes
+/// some queues better than others, by the person's `draw`.
+pub(super) fn choose(queues: &[Queue], chosen: Option<usize>, p: Vec2, mean_s: f64, draw: u64) -> usize {
+    let liked_less_s = |queue: usize| LIKING_S * f64::from(SplitMix64::new(draw ^ (queue as u64 + 1)).unit());
+    let habit_s = |queue: usize| if chosen == Some(queue) { HABIT_S } else { 0.0 };
+    let wait_s = |queue: usize| queues[queue].wait_s(p, mean_s) + liked_less_s(queue) - habit_s(queue);
     let mut best = 0;
     for queue in 1..queues.len() {
         if wait_s(queue) < wait_s(best) {

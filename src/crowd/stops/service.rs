@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 
-use super::queue;
+use super::queue::{self, Queue};
 use super::stop_state::{self, Service, StopState, WayThere};
 use super::target::VisitTarget;
 use super::update::StopsUpdate;
@@ -195,7 +195,7 @@ impl Stops {
                         update.set(slot, VisitTarget::stand(on_route.stop, spot_m, facing, true));
                     }
                     Service::Queues(queues) => {
-                        let queue = queue::choose(queues, queue, p, state.stop.dwell_s.mean());
+                        let queue = queue::choose(queues, queue, p, state.stop.dwell_s.mean(), planned.draw);
                         visitor.state = VisitState::Coming { queue: Some(queue) };
                         let tail_m = queues[queue].tail_m(planned.draw);
                         let idle_s = time_s - update.walk(slot).improved_s;
@@ -339,6 +339,9 @@ impl Stops {
         for (index, state) in self.states.iter_mut().enumerate() {
             let stop = &state.stop;
             let Service::Queues(queues) = &mut state.kind else { continue };
+            if stop.kind == StopKind::Gate {
+                let_nearest_go(queues, update);
+            }
             for (number, queue) in queues.iter_mut().enumerate() {
                 while let Some(&id) = queue.order.front() {
                     let found = update.slot(id).and_then(|slot| {
@@ -368,6 +371,22 @@ impl Stops {
                     update.set_waiting(slot, VisitTarget::stand(index, spot_m, facing, false));
                 }
             }
+        }
+    }
+}
+
+/// Puts those who wait before ticket gates at the head of the lane that is free next to them: before gates people stand
+/// in a bulk, and who is nearest takes the free lane.
+fn let_nearest_go(queues: &mut [Queue], update: &StopsUpdate<'_>) {
+    for lane in 0..queues.len() {
+        let Some(place_m) = queues[lane].vacant_m() else { continue };
+        let waiting = queues.iter().enumerate().flat_map(|(from, queue)| queue.order.iter().map(move |&id| (from, id)));
+        let distances = waiting.filter_map(|(from, id)| Some((update.place_of(id)?.1.distance(place_m), id, from)));
+        let nearest = distances.filter(|nearest| nearest.0 < NEAR_M);
+        let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        if let Some((_, id, from)) = nearest {
+            queues[from].forget(id);
+            queues[lane].order.push_front(id);
         }
     }
 }
