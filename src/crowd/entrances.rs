@@ -288,7 +288,7 @@ impl Admission<'_> {
             visit: self.stops.enter(self.seed, [id, self.agents.groups.first(id)], route),
             ..WalkState::new(id, Heading::new(1.0, 0.0))
         };
-        let wayfinder = Wayfinder(self.environment);
+        let wayfinder = Wayfinder::new(self.environment);
         wayfinder.advance(&mut walk, p, self.time_s);
         let gate = self.environment.routes[route].gates.first();
         let ahead = gate.and_then(|g| (g.right_m - g.left_m).left().normalized()).unwrap_or(vec2(1.0, 0.0));

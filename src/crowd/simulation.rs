@@ -337,7 +337,7 @@ impl<'a> Simulation<'a> {
         let most_speed = self.settings.most_speed;
         let places = self.collisions.correct(&self.moves, &self.neighbours, &self.environment);
         let (ground, indices) = (self.environment.ground(), &self.neighbours.index_of_slot);
-        let wayfinder = Wayfinder(&self.environment);
+        let wayfinder = Wayfinder::new(&self.environment);
         let some_arrived = AtomicBool::new(false);
         self.agents.for_each(|slot, agent| {
             let (body, walk) = (agent.body, agent.walk);

@@ -36,8 +36,8 @@ const STRAIGHT_M: [f64; 2] = [28.0, 44.0];
 const FREE_M: f64 = 12.0;
 const FREE_SHARE: f64 = 0.8;
 const FREE_CLEAR_M: f64 = 0.3;
-/// Clearance from which on straight ways are looked for, metres: in narrow places there is nothing to choose.
-const ROOM_M: f64 = 0.6;
+/// Clearance here or ahead from which on straight ways are looked for, metres: in corridors there is nothing to choose.
+const HALL_M: f64 = 1.3;
 /// Waves of the ways that people take through halls: length along the way, metres, and slope at its steepest.
 const WAVES: [(f64, f64); 2] = [(26.0, 0.16), (11.0, 0.08)];
 /// Walking distance to the end of the leg over which ways come together, metres.
@@ -60,11 +60,24 @@ const EASING_M: f64 = 1.2;
 const MARGIN_SHARE: f64 = 0.15;
 
 /// Finds the way along the routes of an environment.
-pub(super) struct Wayfinder<'e>(pub(super) &'e Environment<'e>);
+pub(super) struct Wayfinder<'e> {
+    environment: &'e Environment<'e>,
+    /// How much ways through halls curve: 1, or 0 for agents that wander by themselves.
+    curves: f64,
+}
 
-impl Wayfinder<'_> {
+impl<'e> Wayfinder<'e> {
+    pub(super) fn new(environment: &'e Environment<'e>) -> Wayfinder<'e> {
+        Wayfinder { environment, curves: 1.0 }
+    }
+
+    /// The same for agents that wander by themselves.
+    pub(super) fn of_wanderers(environment: &'e Environment<'e>) -> Wayfinder<'e> {
+        Wayfinder { environment, curves: 0.0 }
+    }
+
     fn way(&self, walk: &WalkState) -> &RouteLegs {
-        &self.0.navigation.ways[walk.route as usize]
+        &self.environment.navigation.ways[walk.route as usize]
     }
 
     fn leg(&self, walk: &WalkState) -> Leg {
@@ -73,11 +86,11 @@ impl Wayfinder<'_> {
     }
 
     fn field(&self, walk: &WalkState) -> &Field {
-        &self.0.navigation.fields[self.leg(walk).field]
+        &self.environment.navigation.fields[self.leg(walk).field]
     }
 
     fn flow(&self, walk: &WalkState) -> Option<&Flow> {
-        self.leg(walk).flow.map(|flow| &*self.0.navigation.flows[flow])
+        self.leg(walk).flow.map(|flow| &*self.environment.navigation.flows[flow])
     }
 
     fn is_on_last_leg(&self, walk: &WalkState) -> bool {
@@ -86,7 +99,7 @@ impl Wayfinder<'_> {
 
     /// Walking distance to the end of the leg, metres.
     fn left_m(&self, walk: &WalkState, p: Vec2) -> f64 {
-        self.field(walk).at(self.0.ground(), p)
+        self.field(walk).at(self.environment.ground(), p)
     }
 
     /// Goes on to the next leg where one is done, and notes the progress.
@@ -135,7 +148,7 @@ impl Wayfinder<'_> {
     /// Direction of a place some way along the flow, in sight; where the end of the leg is in sight, mostly straight there,
     /// and elsewhere in halls with a curve of the person's own.
     fn along_the_flow(&self, flow: &Flow, walk: &WalkState, traits: &Traits, p: Vec2) -> Option<Vec2> {
-        let ground = self.0.ground();
+        let ground = self.environment.ground();
         let open = ground.clearance_at_least_m(p) > OPEN_M;
         let pieces = if open { PIECES } else { PIECES_AT_WALLS };
         let step_m = AHEAD_M / pieces as f64;
@@ -146,7 +159,7 @@ impl Wayfinder<'_> {
         for _ in 1..pieces {
             let Some(ahead) = flow.at(ground, at) else { break };
             let next = at + ahead * step_m;
-            if !open && !self.0.is_free(p, next, margin_m) {
+            if !open && !self.environment.is_free(p, next, margin_m) {
                 break;
             }
             at = next;
@@ -159,7 +172,7 @@ impl Wayfinder<'_> {
                 let share = STRAIGHT * ((far_m - left_m) / (far_m - near_m)).clamp(0.0, 1.0);
                 ahead + (straight - ahead) * share
             }
-            None if open => ahead + ahead.left() * own_curve(traits, left_m),
+            None if open => ahead + ahead.left() * (self.curves * own_curve(traits, left_m)),
             None => ahead,
         };
         straight.normalized()
@@ -167,23 +180,25 @@ impl Wayfinder<'_> {
 
     /// Width of the end of the leg, metres.
     fn end_width_m(&self, walk: &WalkState) -> f64 {
-        let route = &self.0.routes[walk.route as usize];
+        let route = &self.environment.routes[walk.route as usize];
         match route.via.get(walk.leg as usize).map_or(route.goal, |via| via.place) {
-            Place::Opening(index) => self.0.plan.openings.get(index).map_or(0.0, Opening::width_m),
+            Place::Opening(index) => self.environment.plan.openings.get(index).map_or(0.0, Opening::width_m),
             Place::Area([min, max]) => (max.x - min.x).max(max.y - min.y),
         }
     }
 
     /// Direction of the shortest way to the end of the leg, where it is straight and free.
     fn straight(&self, walk: &WalkState, p: Vec2, left_m: f64) -> Option<Vec2> {
-        if left_m > STRAIGHT_M[1]
-            || self.end_width_m(walk) > NARROW_M
-            || self.0.ground().clearance_at_least_m(p) < ROOM_M
-        {
+        if left_m > STRAIGHT_M[1] || self.end_width_m(walk) > NARROW_M {
             return None;
         }
-        let down = self.field(walk).downhill(self.0.ground(), p)?;
-        self.0.is_free(p, p + down * (FREE_SHARE * left_m).min(FREE_M), FREE_CLEAR_M).then_some(down)
+        let ground = self.environment.ground();
+        let down = self.field(walk).downhill(ground, p)?;
+        let is_hall = |p: Vec2| ground.clearance_at_least_m(p) > HALL_M;
+        if !is_hall(p) && !is_hall(p + down * AHEAD_M) {
+            return None;
+        }
+        self.environment.is_free(p, p + down * (FREE_SHARE * left_m).min(FREE_M), FREE_CLEAR_M).then_some(down)
     }
 
     /// Turns the direction towards the agent's lane in a corridor: after a bend people spread again.
@@ -207,7 +222,7 @@ impl Wayfinder<'_> {
 
     /// Distance of the wall in a direction, metres, if it is no farther than corridors are wide.
     fn room_m(&self, p: Vec2, direction: Vec2) -> Option<f64> {
-        let ground = self.0.ground();
+        let ground = self.environment.ground();
         let mut done_m = 0.0;
         while done_m < WIDEST_M {
             let free_m = ground.clearance_at_least_m(p + direction * done_m);
@@ -223,14 +238,14 @@ impl Wayfinder<'_> {
     /// Direction of a place some way down the distance field, in sight.
     fn down_the_field(&self, walk: &WalkState, p: Vec2) -> Option<Vec2> {
         let field = self.field(walk);
-        let ground = self.0.ground();
+        let ground = self.environment.ground();
         let step = 0.15;
         let mut at = p;
         let mut aim = None;
         for _ in 0..(FIELD_AIM_M / step) as usize {
             let Some(down) = field.downhill(ground, at) else { break };
             at += down * step;
-            if aim.is_some() && !self.0.sight(p, at) {
+            if aim.is_some() && !self.environment.sight(p, at) {
                 break;
             }
             aim = (at - p).normalized().or(aim);
@@ -244,13 +259,15 @@ impl Wayfinder<'_> {
             return None;
         }
         let left_m = self.left_m(walk, p);
-        match self.0.routes[walk.route as usize].goal {
-            Place::Opening(index) if left_m <= 0.0 => self.0.plan.openings.get(index).map(|o| o.side.outward()),
+        match self.environment.routes[walk.route as usize].goal {
+            Place::Opening(index) if left_m <= 0.0 => {
+                self.environment.plan.openings.get(index).map(|o| o.side.outward())
+            }
             Place::Area(_) if left_m <= HOMING_M => {
-                let ground = self.0.ground();
+                let ground = self.environment.ground();
                 let margin_m = f64::from(traits.wall_exclusion_m).min(ground.gap_limit_m(p));
                 let margin_m = (0.9 * margin_m).min(ground.clearance_at_least_m(p)).max(0.08);
-                let free = left_m <= 0.0 || self.0.is_free(p, walk.end_m, margin_m);
+                let free = left_m <= 0.0 || self.environment.is_free(p, walk.end_m, margin_m);
                 (walk.end_m - p).normalized().filter(|_| free)
             }
             _ => None,
@@ -259,7 +276,7 @@ impl Wayfinder<'_> {
 
     /// Wanted share of the speed: 1 on the way, less near the end.
     fn pace(&self, walk: &WalkState, p: Vec2) -> f32 {
-        match self.0.routes[walk.route as usize].goal {
+        match self.environment.routes[walk.route as usize].goal {
             Place::Area(_) if self.is_on_last_leg(walk) => ((walk.end_m.distance(p) / EASING_M) as f32).clamp(0.3, 1.0),
             _ => 1.0,
         }
@@ -270,9 +287,9 @@ impl Wayfinder<'_> {
         if !self.is_on_last_leg(walk) {
             return false;
         }
-        match self.0.routes[walk.route as usize].goal {
+        match self.environment.routes[walk.route as usize].goal {
             Place::Opening(index) => {
-                let Some(opening) = self.0.plan.openings.get(index) else { return true };
+                let Some(opening) = self.environment.plan.openings.get(index) else { return true };
                 let along = (opening.to_m - opening.from_m) / opening.width_m().max(1e-9);
                 let beside = !(0.0..=opening.width_m()).contains(&(p - opening.from_m).dot(along));
                 !beside && (p - opening.from_m).dot(opening.side.outward()) > walk.end_m.x

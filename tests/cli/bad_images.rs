@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use image::{DynamicImage, GrayImage, ImageFormat, Luma, RgbImage};
 
-use crate::sandbox::{Sandbox, corridor};
+use super::sandbox::{Sandbox, corridor};
 
 /// A good plan in every format that is read: name, bytes, length of the header that says what it is.
 fn every_format() -> Vec<(&'static str, Vec<u8>, usize)> {

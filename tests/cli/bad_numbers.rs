@@ -1,6 +1,6 @@
 //! Numbers that are none, or make no sense.
 
-use crate::sandbox::Sandbox;
+use super::sandbox::Sandbox;
 
 #[test]
 fn options_refuse_absurd_numbers() {

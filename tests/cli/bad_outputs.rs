@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::sandbox::Sandbox;
+use super::sandbox::Sandbox;
 
 /// A bake that takes next to no time.
 const QUICK: [&str; 8] = ["bake", "plan.png", "--metres-per-pixel", "0.1", "--people", "5", "--quick", "-o"];

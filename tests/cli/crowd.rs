@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Stdio;
 
-use crate::sandbox::{Ran, Sandbox};
+use super::sandbox::{Ran, Sandbox};
 
 /// A crowd that takes next to no time.
 const QUICK: [&str; 6] = ["crowd", "plan.png", "--metres-per-pixel", "0.1", "--people", "5"];

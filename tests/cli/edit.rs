@@ -2,7 +2,7 @@
 
 use image::{GrayImage, Luma, Rgba, RgbaImage};
 
-use crate::sandbox::Sandbox;
+use super::sandbox::Sandbox;
 
 const SCALE: &str = "[plan]\nimage = \"plan.png\"\nmetres_per_pixel = 0.1\n";
 

@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Stdio;
 
-use crate::sandbox::Sandbox;
+use super::sandbox::Sandbox;
 
 /// Five people who walk side by side along x at 1.3 m/s, 2 m apart, with some sway, for 6 s.
 pub fn walk() -> String {

@@ -2,8 +2,8 @@
 
 use std::io::Write;
 
-use crate::motion::walk;
-use crate::sandbox::Sandbox;
+use super::motion::walk;
+use super::sandbox::Sandbox;
 
 /// All that read a recording; each would write or replace a file.
 const READERS: [&[&str]; 6] = [

@@ -5,7 +5,7 @@ use std::io::Cursor;
 
 use image::{ImageFormat, Rgb, RgbImage};
 
-use crate::sandbox::Sandbox;
+use super::sandbox::Sandbox;
 
 /// A wall in light from the left, with a drop of 6 cm at 20 px/cm on it, or without.
 fn photograph(stained: bool) -> Vec<u8> {

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use trodden::scenario::{Overrides, Scenario};
 
-use crate::sandbox::Sandbox;
+use super::sandbox::Sandbox;
 
 fn readme() -> String {
     fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap()

@@ -1,6 +1,6 @@
 //! `trodden view`: pictures of a finished bake.
 
-use crate::sandbox::Sandbox;
+use super::sandbox::Sandbox;
 
 fn baked() -> Sandbox {
     let sandbox = Sandbox::new();

@@ -8,7 +8,7 @@ mod sizes;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::sandbox::Sandbox;
+use super::sandbox::Sandbox;
 
 /// How a run under watch ended.
 struct Watched {

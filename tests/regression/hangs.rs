@@ -13,7 +13,7 @@ use trodden::routes::{Navigation, RoutesError, RoutesOptions};
 use trodden::walls::{Walls, WallsOptions};
 use trodden::{Error, Interrupted, Progress, Stage};
 
-use crate::sandbox::Sandbox;
+use super::sandbox::Sandbox;
 
 /// Asks the work to stop after a while, or after it has been asked so many times.
 struct Deadline {

@@ -60,9 +60,11 @@ fn walls_cost_where_they_are_touched() {
         a_hundred_thousand_pillars();
         return;
     }
-    let name = "empty_walls::walls_cost_where_they_are_touched";
+    // Without the name of the program, as tests are named.
+    let (_, module) = module_path!().split_once("::").unwrap();
+    let name = format!("{module}::walls_cost_where_they_are_touched");
     let mut alone = Command::new(std::env::current_exe().unwrap());
-    let output = alone.args(["--exact", name, "--nocapture"]).env(ALONE, "").output().unwrap();
+    let output = alone.args(["--exact", &name, "--nocapture"]).env(ALONE, "").output().unwrap();
     let told = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success() && told.contains("1 passed"), "{told}{}", String::from_utf8_lossy(&output.stderr));
 }

@@ -17,7 +17,7 @@ use trodden::stamps::TexelGrid;
 use trodden::sums::{FloorSums, Quantity};
 use trodden::walls::{Walls, WallsOptions};
 
-use crate::golden::{EXACT, RESAMPLED, assert_golden};
+use super::golden::{EXACT, RESAMPLED, assert_golden};
 
 const PEOPLE: u32 = 100;
 

@@ -130,7 +130,9 @@ const GATES: [f64; 4] = [20.0, 12.0, 14.0, 14.0];
 
 #[test]
 fn busy_and_quiet_ways_are_told_apart_and_untrodden_floor_has_aged() {
-    let floor = resolved(&STATION, &STATION.look, GATES);
+    // A longer history, so that many places have seen 430 people.
+    let look = Look { total_passes: 2 * STATION.look.total_passes, ..STATION.look.clone() };
+    let floor = resolved(&STATION, &look, GATES);
     let (side, busy) = (floor.of(38.0..60.0, 0), floor.of(330.0..560.0, 0));
     let untrodden = floor.of(0.0..2.0, 0);
     println!("clean {:.1}, untrodden {untrodden:.1}, 48 passes {side:.1}, 430 passes {busy:.1}", floor.clean[0]);

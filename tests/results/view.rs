@@ -12,7 +12,7 @@ use trodden::show::still::{StillError, Surfaces};
 use trodden::sums::FloorSums;
 use trodden::walls::{Walls, WallsOptions};
 
-use crate::golden::{EXACT, assert_golden};
+use super::golden::{EXACT, assert_golden};
 
 /// Texels per metre.
 const DENSITY: f64 = 20.0;

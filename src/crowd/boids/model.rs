@@ -58,7 +58,7 @@ impl SteeringModel for Boids {
     fn turn(&self, mut agent: AgentMut<'_>, perception: &Perception<'_>) -> bool {
         agent.walk.looks = agent.walk.looks.wrapping_add(1);
         if agent.body.clearance_m < OPEN_GROUND_M || agent.walk.looks.is_multiple_of(OPEN_GROUND_LOOKS) {
-            Wayfinder(perception.environment).look(&mut agent, perception.time_s);
+            Wayfinder::new(perception.environment).look(&mut agent, perception.time_s);
         }
         let wanted = agent.walk.wanted;
         let detour = perception.detour(agent.body, agent.traits.speed_m_s, wanted);

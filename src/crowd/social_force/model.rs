@@ -50,7 +50,7 @@ impl SteeringModel for SocialForce {
     }
 
     fn turn(&self, mut agent: AgentMut<'_>, perception: &Perception<'_>) -> bool {
-        Wayfinder(perception.environment).look(&mut agent, perception.time_s);
+        Wayfinder::of_wanderers(perception.environment).look(&mut agent, perception.time_s);
         [agent.body.aim_x, agent.body.aim_y] = agent.walk.wanted;
         meets(perception, agent.body)
     }

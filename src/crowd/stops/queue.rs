@@ -28,7 +28,7 @@ const WALK_M_S: f64 = 1.2;
 const HABIT_S: f64 = 2.0;
 /// Longest wait that people put up with for a queue that they like better, seconds: otherwise all who come from one side
 /// would take the nearest ticket gate.
-const LIKING_S: f64 = 6.0;
+const LIKING_S: f64 = 5.0;
 
 /// Places that serve one queue, and the people in it.
 #[derive(Clone, Debug)]

@@ -5,8 +5,8 @@ use std::process::Command;
 
 use image::GrayImage;
 
+use super::super::sandbox::Sandbox;
 use super::watched;
-use crate::sandbox::Sandbox;
 
 /// A scenario for the corridor with something behind it.
 fn scenario(rest: &str) -> String {
@@ -101,7 +101,7 @@ fn a_large_plan_takes_few_bytes_a_pixel() {
 #[test]
 fn a_plan_with_a_palette_as_tiff_is_read() {
     let sandbox = Sandbox::new();
-    let corridor = crate::sandbox::corridor();
+    let corridor = super::super::sandbox::corridor();
     corridor.save(sandbox.path("grey.png")).unwrap();
     let says = |name: &str| sandbox.run(&["inspect", name, "--metres-per-pixel", "0.1", "--json"]).succeeds().out;
     let expected = says("grey.png");

@@ -14,7 +14,7 @@ use trodden::plan::Side;
 use trodden::scenario::{Overrides, Scenario};
 use trodden::walls::{Outline, Walls, WallsError};
 
-use crate::sandbox::Sandbox;
+use super::super::sandbox::Sandbox;
 
 /// The most time for a manifest that is refused or used, and the most memory for all of them together.
 const MOST_TIME: Duration = Duration::from_secs(10);

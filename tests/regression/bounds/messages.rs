@@ -4,7 +4,7 @@ use std::fs;
 
 use image::GrayImage;
 
-use crate::sandbox::Sandbox;
+use super::super::sandbox::Sandbox;
 
 fn scenario(rest: &str) -> String {
     format!("[plan]\nimage = \"plan.png\"\nmetres_per_pixel = 0.1\n{rest}")

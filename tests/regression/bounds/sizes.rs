@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
+use super::super::sandbox::Sandbox;
 use super::watched;
-use crate::sandbox::Sandbox;
 
 #[test]
 fn a_recording_with_a_gap_of_a_hundred_million_frames_costs_nothing_for_it() {

@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use trodden::export::{ExportError, Manifest, OutputFolder};
 
+use super::super::sandbox::Sandbox;
 use super::{FLOOR, baked, edit, quick};
-use crate::sandbox::Sandbox;
 
 const RESOLVE: [&str; 5] = ["-q", "resolve", "out", "--preset", "wet"];
 

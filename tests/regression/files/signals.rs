@@ -6,7 +6,7 @@ use std::os::unix::process::ExitStatusExt;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::sandbox::Sandbox;
+use super::super::sandbox::Sandbox;
 
 const LONG: [&str; 9] = ["-q", "bake", "plan.png", "--metres-per-pixel", "0.1", "--people", "200000", "-o", "out"];
 

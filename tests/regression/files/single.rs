@@ -3,8 +3,8 @@
 use std::fs;
 use std::process::Stdio;
 
+use super::super::sandbox::Sandbox;
 use super::baked;
-use crate::sandbox::Sandbox;
 
 /// Everybody walks through the plan in no time.
 const CROWD: [&str; 7] = ["-q", "crowd", "plan.png", "--metres-per-pixel", "0.1", "--people", "3"];

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::sandbox::Sandbox;
+use super::super::sandbox::Sandbox;
 
 /// Two bakes that are the same.
 fn twins() -> Sandbox {

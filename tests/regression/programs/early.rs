@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::sandbox::{Ran, Sandbox};
+use super::super::sandbox::{Ran, Sandbox};
 
 /// A crowd that takes minutes.
 const MANY: [&str; 4] = ["--people", "200000", "--metres-per-pixel", "0.1"];

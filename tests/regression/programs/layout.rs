@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use crate::sandbox::Sandbox;
+use super::super::sandbox::Sandbox;
 
 /// Bakes the corridor coarsely.
 fn bake(sandbox: &Sandbox, folder: &str, more: &[&str]) {

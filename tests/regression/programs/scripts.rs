@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::sandbox::Sandbox;
+use super::super::sandbox::Sandbox;
 
 fn bake(target: &str) -> Sandbox {
     let sandbox = Sandbox::new();

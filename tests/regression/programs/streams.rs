@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 
-use crate::sandbox::{Ran, Sandbox};
+use super::super::sandbox::{Ran, Sandbox};
 
 /// Runs a command with a file on its standard input.
 fn run_with(sandbox: &Sandbox, arguments: &[&str], input: &str) -> Ran {
