@@ -380,7 +380,11 @@ impl Stops {
 fn let_nearest_go(queues: &mut [Queue], update: &StopsUpdate<'_>) {
     for lane in 0..queues.len() {
         let Some(place_m) = queues[lane].vacant_m() else { continue };
-        let waiting = queues.iter().enumerate().flat_map(|(from, queue)| queue.order.iter().map(move |&id| (from, id)));
+        let waiting = queues.iter().enumerate().flat_map(|(from, queue)| {
+            // Who is first at a free lane of its own stays there.
+            let stay = usize::from(from != lane && queue.vacant_m().is_some());
+            queue.order.iter().skip(stay).map(move |&id| (from, id))
+        });
         let distances = waiting.filter_map(|(from, id)| Some((update.place_of(id)?.1.distance(place_m), id, from)));
         let nearest = distances.filter(|nearest| nearest.0 < NEAR_M);
         let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
