@@ -6,9 +6,9 @@ use image::{DynamicImage, GenericImageView};
 use rayon::prelude::*;
 
 use super::colour::{Colour, is_saturated, lightness_against, luma};
+use super::ink::{self, Ink};
 use super::ros_map::{Cell, Greys};
 use super::tones::USUAL_THRESHOLD;
-use super::ink::{self, Ink};
 use super::{PlanOptions, TransparentPolicy, UnknownPolicy, paving, shadow, sheet, tones};
 
 /// Greys of unknown and of free cells as mappers write them.
