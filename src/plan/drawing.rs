@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
-use image::DynamicImage;
+use image::{DynamicImage, GenericImageView};
 use rayon::prelude::*;
 
 use super::colour::{Colour, is_saturated, lightness_against, luma};
+use super::ink::{self, Ink};
 use super::ros_map::{Cell, Greys};
 use super::tones::USUAL_THRESHOLD;
 use super::{PlanOptions, TransparentPolicy, UnknownPolicy, paving, shadow, sheet, tones};
@@ -99,10 +100,17 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
         None => image,
     };
     let (width, height) = (image.width() as usize, image.height() as usize);
+    let may_be_inked = is_unasked && share > 0 && sheet.is_none() && options.wall_colours.is_empty();
+    let inked = may_be_inked.then(|| ink_of(&image, &coloured)).flatten();
     // Coloured pens are ink on a photograph, as are the lines of a blueprint.
-    if sheet.is_some() || share * COLOURED_PAPER > coloured.len() {
+    if sheet.is_some() || share * COLOURED_PAPER > coloured.len() || inked == Some(Ink::OnTintedPaper) {
         coloured = Vec::new();
         lightness = map_pixels(&image, |pixel| luma(on_paper(pixel)));
+    } else if let Some(Ink::OfColour(colour)) = inked {
+        warnings.push(told_colour(colour));
+        let options = PlanOptions { wall_colours: vec![colour], ..options.clone() };
+        coloured = map_pixels(&image, |pixel| u8::from(is_annotation(pixel, &options)));
+        lightness = map_pixels(&image, |pixel| lightness_of(pixel, &options));
     } else if share > 0 {
         lightness = map_pixels(&image, |pixel| lightness_of(pixel, options));
     }
@@ -184,6 +192,19 @@ fn settle_tones(drawing: &mut Drawing, lightness: &mut [u8], options: &PlanOptio
             drawing.threshold
         ));
     }
+}
+
+/// The coloured ink of a drawing, if its walls are of such.
+fn ink_of(image: &DynamicImage, coloured: &[u8]) -> Option<Ink> {
+    let luma = map_pixels(image, |pixel| luma(on_paper(pixel)));
+    let width = image.width();
+    let pixel = |at: usize| on_paper(image.get_pixel(at as u32 % width, at as u32 / width).0);
+    ink::of(width as usize, &luma, coloured, pixel)
+}
+
+fn told_colour(colour: Colour) -> String {
+    let name = String::from(colour);
+    format!("walls are coloured: {name} was taken for wall; `[plan] wall_colours` names other colours")
 }
 
 fn told_sheet(sheet: &sheet::Sheet, (width, height): (u32, u32)) -> String {

@@ -36,6 +36,8 @@ const DOOR_RANGE_M: [f64; 2] = [0.68, 1.15];
 /// Least weight of leaves and doorways that decide a scale.
 const FEWEST_LEAVES: f64 = 2.0;
 const FEWEST_DOORS: f64 = 4.0;
+/// Lightness below which a pixel may be of an arc thinner than a pixel.
+const FINE: u8 = 180;
 /// Range of the width of a door in thicknesses of a wall that is drawn thick.
 const DOOR_IN_WALLS: [f64; 2] = [1.5, 14.0];
 /// Range of the width of a door as a share of the building's larger side.
@@ -279,7 +281,11 @@ impl Measures {
             doorways_px.clear();
         }
         let (dark, letter) = without_letters(&drawing.dark, drawing.width);
-        let leaves = leaves(&dark, drawing.width);
+        let mut leaves = leaves_of(&dark, drawing.width);
+        if (leaves.len() as f64) < FEWEST_LEAVES && !drawing.scanned {
+            let fine: Vec<u8> = drawing.lightness.iter().map(|&l| u8::from(l < FINE)).collect();
+            leaves = leaves_of(&without_letters(&fine, drawing.width).0, drawing.width);
+        }
         Measures { wall: walls.thickness, doorways: doorways_px, leaves, bounds: walls.bounds, letter }.restricted()
     }
 
@@ -455,7 +461,7 @@ fn doorway(walls: &[u8], width: usize, gap: &Gap, is_ink: impl Fn(usize, usize) 
 }
 
 /// Radii of the quarter circles of door leaves, with their weights.
-fn leaves(dark: &[u8], full: usize) -> Vec<(f64, f64)> {
+fn leaves_of(dark: &[u8], full: usize) -> Vec<(f64, f64)> {
     let height = dark.len() / full;
     let factor = full.max(height).div_ceil(MOST_ARC_PX).max(1);
     let width = full.div_ceil(factor);

@@ -20,6 +20,7 @@ mod doubts;
 mod drawing;
 mod error;
 mod image_file;
+mod ink;
 mod layer;
 mod likely;
 mod limits;

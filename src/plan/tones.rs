@@ -75,6 +75,29 @@ pub(super) fn is_inverted(width: usize, lightness: &[u8], coloured: &[u8]) -> bo
     net.is_large(width, height) && net.enclosed() >= ENCLOSED_SHARE
 }
 
+/// Whether walls are of saturated colour: what is dark and coloured is as thin as walls, encloses places, and covers more
+/// of the image than what is dark and grey. `luma` is of the colours as they are.
+pub(super) fn walls_are_coloured(width: usize, luma: &[u8], coloured: &[u8]) -> bool {
+    let is_dark = |l: u8| l < USUAL_THRESHOLD;
+    let is_ink = |at: usize| is_dark(luma[at]) && coloured[at] != 0;
+    let count = (0..luma.len()).filter(|&at| is_ink(at)).count();
+    if count * 200 < luma.len() {
+        return false;
+    }
+    let height = luma.len() / width;
+    let thickest = (width.min(height) as f64 * THICKEST_WALL).max(2.0);
+    if thickness(width, luma, is_ink, is_dark).is_none_or(|lines| lines > thickest) {
+        return false;
+    }
+    let net_of = |is_in: &dyn Fn(usize) -> bool| {
+        let mask: Vec<u8> = (0..luma.len()).map(|at| u8::from(is_in(at))).collect();
+        Net::of(&mask, width)
+    };
+    let plain = net_of(&|at| is_dark(luma[at]) && coloured[at] == 0);
+    let all = net_of(&|at| is_dark(luma[at]));
+    plain.cells() * 2 <= all.cells() && all.is_large(width, height) && all.enclosed() >= ENCLOSED_SHARE
+}
+
 fn is_plain(coloured: &[u8], at: usize) -> bool {
     coloured.is_empty() || coloured[at] == 0
 }

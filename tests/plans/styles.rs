@@ -16,6 +16,8 @@ pub enum Walls {
     Outline,
     Hatched,
     OnePixel,
+    /// Solid outer walls; lines of two pixels between rooms.
+    LinesWithin,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +38,10 @@ pub enum Tones {
     Dark,
     Map,
     NegatedMap,
+    /// Walls, words and lines in one dark blue.
+    Navy,
+    /// Brown ink on the tinted paper of an old print.
+    Sepia,
 }
 
 /// What ends dimension lines.
@@ -113,7 +119,7 @@ const CAD: Style = Style {
 const PLAIN: Style = Style { name: "plain", doors: Doors::Open, sheet: false, names: false, furniture: false, ..CAD };
 
 /// All styles.
-pub const STYLES: [Style; 27] = [
+pub const STYLES: [Style; 30] = [
     PLAIN,
     CAD,
     Style { name: "outline walls", walls: Walls::Outline, ..CAD },
@@ -148,6 +154,9 @@ pub const STYLES: [Style; 27] = [
     Style { name: "tiles", cover: Cover::Tiles, ..CAD },
     Style { name: "planks", cover: Cover::Planks, sheet: false, tones: Tones::Brochure, ..CAD },
     Style { name: "tiles, 30 px/m", cover: Cover::Tiles, px_per_m: 30.0, ..CAD },
+    Style { name: "partitions as lines", walls: Walls::LinesWithin, sheet: false, ..CAD },
+    Style { name: "dark blue walls", tones: Tones::Navy, ..CAD },
+    Style { name: "brown ink on old paper", tones: Tones::Sepia, sheet: false, file: File::Jpeg, clean: false, ..CAD },
     Style { name: "turned 24 degrees", turn_deg: 24.0, sheet: false, px_per_m: 43.0, ..CAD },
 ];
 
@@ -247,6 +256,8 @@ fn palette(tones: Tones) -> Palette {
         Tones::Black => all([255; 3], [0; 3]),
         Tones::Grey => Palette { words: [0x70; 3], ..all([255; 3], [0xa0; 3]) },
         Tones::Dark => all([0x1e, 0x21, 0x28], [235; 3]),
+        Tones::Navy => Palette { furniture: [60, 84, 150], ..all([255; 3], [16, 32, 96]) },
+        Tones::Sepia => all([222, 196, 150], [74, 48, 26]),
         Tones::Map => all([205; 3], [0; 3]),
         Tones::NegatedMap => all([50; 3], [255; 3]),
         Tones::Layers => Palette {
@@ -270,7 +281,10 @@ fn palette(tones: Tones) -> Palette {
 
 /// Draws a case.
 pub fn draw(case: &Case) -> Drawn {
-    let (style, building) = (case.style, (case.building)());
+    let (style, mut building) = (case.style, (case.building)());
+    if style.walls == Walls::LinesWithin {
+        building.walls.iter_mut().filter(|wall| !wall.outer).for_each(|wall| wall.thick = 2.0 / style.px_per_m);
+    }
     let [w, h] = building.size;
     let turn = style.turn_deg.to_radians();
     // A turned drawing needs more paper; scanned maps end where the scanner saw no more.
@@ -422,7 +436,7 @@ fn truth(canvas: &Canvas, building: &Building, style: &Style) -> Truth {
 
 fn draw_walls(canvas: &mut Canvas, building: &Building, style: &Style, ink: [u8; 3], paper: [u8; 3], thin: f64) {
     match style.walls {
-        Walls::Solid => canvas.fill(&building.solid(0.0), ink),
+        Walls::Solid | Walls::LinesWithin => canvas.fill(&building.solid(0.0), ink),
         Walls::OnePixel => canvas.fill(&centre_lines(building, 1.0 / canvas.px_per_m), ink),
         Walls::Outline | Walls::Hatched => {
             canvas.fill(&building.solid(0.0), ink);

@@ -37,6 +37,12 @@ impl Gap {
         (self.rows[self.rows.len() / 2].map(|v| v as f64), across)
     }
 
+    /// The same gap with both jambs moved back by some pixels.
+    pub(super) fn widened(&self, by: usize) -> Gap {
+        let rows = self.rows.iter().map(|[from, to]| [from.saturating_sub(by), to + by]).collect();
+        Gap { rows, ..self.clone() }
+    }
+
     /// Thickness of the wall, pixels.
     pub(super) fn thickness(&self) -> f64 {
         self.rows.len() as f64

@@ -1,6 +1,6 @@
 //! Fills walls that are drawn as outlines or by hatches.
 
-use super::super::components::{Component, Components, Neighbours};
+use super::super::components::{Component, Components, Neighbours, Run};
 use super::thick::{grow, open};
 
 /// Greatest distance between the lines of a hatch, metres.
@@ -96,9 +96,10 @@ pub(super) fn fill_outlines(dark: &[u8], width: usize, metres_per_pixel: f64) ->
 /// with lettering are not.
 fn is_even(fields: &Components, field: &Component, thick: f64) -> bool {
     let runs = fields.runs(field);
-    let steps = runs
-        .windows(2)
-        .filter(|pair| pair[0].y != pair[1].y && (pair[0].from, pair[0].to) != (pair[1].from, pair[1].to));
+    // Rows may have several runs, as where walls meet at a corner: a side has a step where a run goes on differently.
+    let goes_on = |run: &Run, rows: &[Run]| rows.iter().any(|next| (next.from, next.to) == (run.from, run.to));
+    let rows: Vec<&[Run]> = runs.chunk_by(|a, b| a.y == b.y).collect();
+    let steps = rows.windows(2).filter(|pair| !pair[0].iter().all(|run| goes_on(run, pair[1])));
     let [w, h] = field.size().map(|side| side as usize);
     if steps.count() > 6 + h / 12 {
         return false;

@@ -8,6 +8,7 @@ mod hollow;
 mod leaves;
 mod lines;
 mod net;
+mod partitions;
 mod pieces;
 mod rooms;
 mod thick;
@@ -234,7 +235,8 @@ pub(super) fn leaf_lengths(drawing: &Drawing, metres_per_pixel: f64) -> Vec<f64>
 fn find_net(drawing: &Drawing, ink: &[u8], metres_per_pixel: f64) -> Option<Net> {
     let (dark, width) = (&drawing.dark, drawing.width);
     let strokes = without_lettering(ink, width, metres_per_pixel);
-    let surely = |at: usize| dark[at] & strokes[at] & u8::from(drawing.lightness[at] < SURELY_DARK);
+    // Fills of grey walls ring beside black outlines, and are a little lighter than the threshold there.
+    let surely = |at: usize| strokes[at] & u8::from(drawing.lightness[at] < SURELY_DARK);
     let core: Vec<u8> = (0..dark.len()).map(surely).collect();
     let net_of = |core: &[u8], filled: &[u8], thickest: usize| {
         Net::find(core, filled, dark, ink, width, metres_per_pixel, thickest).filter(Net::is_building)
@@ -242,7 +244,8 @@ fn find_net(drawing: &Drawing, ink: &[u8], metres_per_pixel: f64) -> Option<Net>
     let thickest = ((THICKEST_WALL_M / metres_per_pixel).round() as usize).max(4);
     let net = |core: &[u8], filled: &[u8]| net_of(core, filled, thickest);
     if let Some(net) = net(&core, dark) {
-        return Some(net);
+        let search = |core: &[u8], thickest: usize| net_of(core, core, thickest);
+        return Some(partitions::added(net, &strokes, ink, width, metres_per_pixel, search));
     }
     let outlined = hollow::fill_outlines(&strokes, width, metres_per_pixel);
     if let Some(net) = net(&outlined, &outlined) {

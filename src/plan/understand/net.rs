@@ -28,6 +28,8 @@ const LEAST_COLUMN_M: f64 = 0.15;
 const LEAST_COLUMN_PX: f64 = 5.0;
 /// Greatest thickness of a sheet's frame that has little within, metres.
 const FINE_FRAME_M: f64 = 0.12;
+/// Share of its box above which a piece encloses no rooms.
+const MASS_FILL: f64 = 0.7;
 /// Least share of a column that is ink.
 const COLUMN_INK: f64 = 0.85;
 
@@ -274,8 +276,13 @@ fn keep_building(wall: &mut [u8], raw: &[u8], width: usize, doors: &[Gap], windo
         let b = &mut around[top];
         *b = [b[0].min(piece.min[0]), b[1].min(piece.min[1]), b[2].max(piece.end[0]), b[3].max(piece.end[1])];
     }
+    // Panels of a screen and filled boxes enclose nothing.
+    let is_mass = |k: usize| {
+        let [x0, y0, x1, y1] = around[k].map(f64::from);
+        area[k] as f64 > MASS_FILL * (x1 - x0) * (y1 - y0)
+    };
     let mut order: Vec<usize> = (0..area.len()).filter(|&k| area[k] > 0).collect();
-    order.sort_by_key(|&k| (std::cmp::Reverse(area[k]), k));
+    order.sort_by_key(|&k| (is_mass(k), std::cmp::Reverse(area[k]), k));
     let main = *order.first()?;
     let box_of = around[main];
     let inside = |p: &Component| {
@@ -289,7 +296,7 @@ fn keep_building(wall: &mut [u8], raw: &[u8], width: usize, doors: &[Gap], windo
             };
             pieces.runs(piece).iter().map(dark).sum::<usize>() as f64
         };
-        let other_building = area[top] * 5 >= area[main];
+        let other_building = area[top] * 5 >= area[main] && !is_mass(top);
         let column = inside(piece) && ink() >= COLUMN_INK * piece.area as f64;
         if top != main && !other_building && !column {
             pieces.paint(piece, wall, width, 0);

@@ -3,7 +3,7 @@
 use super::super::PlanClass;
 use super::super::components::{Component, Components, Neighbours};
 use super::net::Net;
-use super::thick::grow;
+use super::thick::{grow, open};
 
 /// What is known of a piece of ink or of furniture.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +32,10 @@ const DEEP_M: f64 = 0.75;
 const LEAST_SIDE_M: f64 = 0.3;
 const LEAST_AREA_M2: f64 = 0.085;
 const LARGEST_AREA_M2: f64 = 16.0;
-/// Least share of its box that a piece of furniture fills.
+/// Least and greatest depth of a counter that goes round a corner, and least side of the box around it, metres.
+const COUNTER_DEPTH_M: [f64; 2] = [0.4, 0.85];
+const LEAST_TURN_M: f64 = 1.2;
+/// Least share of its box that a piece of furniture fills, unless it goes round a corner.
 const LEAST_FILL: f64 = 0.5;
 
 /// What lies at a pixel.
@@ -99,10 +102,11 @@ pub(super) fn furniture(
         let sides = [w, h].map(|side| f64::from(side) * metres_per_pixel);
         let area = object.area as f64 * m2;
         let fill = object.area as f64 / (f64::from(w) * f64::from(h));
-        if sides[0].min(sides[1]) < LEAST_SIDE_M
-            || !(LEAST_AREA_M2..=LARGEST_AREA_M2).contains(&area)
-            || fill < LEAST_FILL
-        {
+        if sides[0].min(sides[1]) < LEAST_SIDE_M || !(LEAST_AREA_M2..=LARGEST_AREA_M2).contains(&area) {
+            continue;
+        }
+        let is_corner = fill < LEAST_FILL;
+        if is_corner && !goes_round(&objects, object, metres_per_pixel) {
             continue;
         }
         let within = |f: &&Component| {
@@ -132,7 +136,7 @@ pub(super) fn furniture(
             fill,
             class: PlanClass::Table,
         };
-        piece.class = class(&piece, sides);
+        piece.class = if is_corner { PlanClass::Counter } else { class(&piece, sides) };
         for run in objects.runs(object) {
             let row = run.y as usize * width;
             classes[row + run.from as usize..row + run.to as usize].fill(piece.class);
@@ -140,6 +144,23 @@ pub(super) fn furniture(
         found.push(piece);
     }
     found
+}
+
+/// Whether a piece goes round a corner and is everywhere about as deep as counters, as in a kitchen.
+fn goes_round(pieces: &Components, piece: &Component, metres_per_pixel: f64) -> bool {
+    let [w, h] = piece.size().map(|side| side as usize);
+    let mut mask = vec![0u8; w * h];
+    for run in pieces.runs(piece) {
+        let row = (run.y - piece.min[1]) as usize * w;
+        mask[row + (run.from - piece.min[0]) as usize..row + (run.to - piece.min[0]) as usize].fill(1);
+    }
+    let share = |depth_m: f64| {
+        let kept = open(&mask, w, ((depth_m / metres_per_pixel).round() as usize).max(2));
+        kept.iter().filter(|&&kept| kept != 0).count() as f64 / piece.area as f64
+    };
+    let [least, most] = COUNTER_DEPTH_M;
+    let is_long = w.min(h) as f64 * metres_per_pixel >= LEAST_TURN_M;
+    is_long && share(least) >= 0.85 && share(most) <= 0.15
 }
 
 /// Counts what lies beside a component.
@@ -192,6 +213,8 @@ fn class(piece: &Evidence, sides: [f64; 2]) -> PlanClass {
         () if length <= 0.85 && is_round && piece.fields >= 2 => PlanClass::Fixture,
         () if is_at_wall && depth <= 0.52 && length >= 0.8 => PlanClass::Shelf,
         () if is_at_wall && depth <= 0.8 && length >= 1.0 && piece.fields < 3 => PlanClass::Counter,
+        // Sinks and hobs divide it into many fields.
+        () if is_at_wall && depth <= 0.7 && length >= 1.8 => PlanClass::Counter,
         () if length <= 0.85 => PlanClass::Seat,
         () if depth >= 0.6 && length >= 1.4 && piece.fields >= 2 => PlanClass::Seat,
         () => PlanClass::Table,

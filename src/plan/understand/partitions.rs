@@ -1,0 +1,94 @@
+//! Partitions that are drawn as single lines between thick walls.
+
+use super::super::components::{Component, Components, Neighbours};
+use super::gaps::Gap;
+use super::leaves;
+use super::lines;
+use super::net::Net;
+use super::thick::grow;
+
+/// Least length of the leaf of a door with one leaf, as a share of the gap.
+const ONE_LEAF: f64 = 0.8;
+
+/// Adds the partitions to a net of thick walls, if there are any: lines that end at a gap in which the leaf of a door hangs,
+/// and all that they join.
+///
+/// `search` finds a net in a mask of walls, with gaps up to so many pixels deep.
+pub(super) fn added(
+    net: Net,
+    strokes: &[u8],
+    ink: &[u8],
+    width: usize,
+    metres_per_pixel: f64,
+    search: impl Fn(&[u8], usize) -> Option<Net>,
+) -> Net {
+    let free: Vec<u8> = ink.iter().zip(&net.wall).map(|(&i, &w)| i & (1 - w)).collect();
+    // The panes of windows and the leaves of doors in thick walls are no partitions.
+    let mut strokes = strokes.to_vec();
+    let mut in_gaps = vec![0u8; ink.len()];
+    let gaps = || net.doors.iter().chain(&net.windows);
+    gaps().flat_map(Gap::pixels).for_each(|at| in_gaps[at] = 1);
+    strokes.iter_mut().zip(grow(&in_gaps, width, 1)).for_each(|(stroke, near)| *stroke &= 1 - near);
+    for at in net.doors.iter().flat_map(|gap| leaves::symbol(gap, &free, metres_per_pixel)) {
+        strokes[at] = 0;
+    }
+    let (lines, reach) = lines::thickened(&strokes, ink, width, metres_per_pixel);
+    let mut lines: Vec<u8> = lines.iter().zip(&net.inside).map(|(&line, &inside)| line & inside).collect();
+    let thickest = gaps().map(Gap::thickness).fold(0.0, f64::max) as usize + 2;
+    let with = |lines: &[u8]| -> Option<Net> {
+        let both: Vec<u8> = net.wall.iter().zip(lines).map(|(&wall, &line)| wall | line).collect();
+        search(&both, thickest.max(3 * (2 * reach + 1)))
+    };
+    let Some(mut found) = with(&lines) else { return net };
+    // Lines beside a door in a thick wall have its leaf too, and lines of a floor have leaves of all kinds.
+    let is_new = |door: &&Gap| {
+        let is_same = |gap: &Gap| {
+            let ([ax, ay], [bx, by]) = (middle(gap), middle(door));
+            let near = gap.length() as f64 * 0.7;
+            (ax - bx) * (ax - bx) + (ay - by) * (ay - by) < near * near
+        };
+        let is_single = |gap: &Gap| {
+            leaves::hung(gap, &free, metres_per_pixel).iter().any(|&leaf| leaf >= ONE_LEAF * gap.length() as f64)
+        };
+        !gaps().any(is_same) && [0, reach, reach + 1].into_iter().any(|by| is_single(&door.widened(by)))
+    };
+    let ends: Vec<usize> = found.doors.iter().filter(is_new).flat_map(|gap| gap.ends).collect();
+    let ends: Vec<usize> = ends.into_iter().filter(|&at| lines[at] != 0).collect();
+    if ends.is_empty() {
+        return net;
+    }
+    let pieces = Components::of(&lines, width, 1, Neighbours::Eight);
+    let has_door = |piece: &&Component| {
+        pieces.runs(piece).iter().any(|run| {
+            let row = run.y as usize * width;
+            ends.iter().any(|end| (row + run.from as usize..row + run.to as usize).contains(end))
+        })
+    };
+    let others: Vec<&Component> = pieces.all.iter().filter(|piece| !has_door(piece)).collect();
+    if !others.is_empty() {
+        others.into_iter().for_each(|piece| pieces.paint(piece, &mut lines, width, 0));
+        match with(&lines) {
+            Some(fewer) => found = fewer,
+            None => return net,
+        }
+    }
+    // The lines themselves are the walls, and end where they are drawn to end.
+    let near = grow(&found.inside, width, reach);
+    for at in 0..ink.len() {
+        found.wall[at] &= net.wall[at] | ink[at];
+        found.inside[at] = near[at] & (1 - found.wall[at]);
+    }
+    for door in found.doors.iter_mut().filter(|door| door.ends.iter().all(|&end| lines[end] != 0)) {
+        *door = door.widened(reach);
+    }
+    for at in found.doors.iter().chain(&found.windows).flat_map(Gap::pixels) {
+        found.inside[at] = 0;
+    }
+    found
+}
+
+/// The middle of a gap, pixels.
+fn middle(gap: &Gap) -> [f64; 2] {
+    let [[ax, ay], [bx, by]] = gap.jambs();
+    [(ax + bx) * 0.5, (ay + by) * 0.5]
+}
