@@ -134,6 +134,8 @@ fn of_layers(layers: Layers, options: &PlanOptions, warnings: Vec<String>) -> Re
         corrections::apply(&mut plan, white, layer.as_ref(), &options.doors, options.narrowest_m, &seeds);
     }
     plan.openings = openings::find(&plan);
+    let doubts = doubts::doubts(&plan, options.narrowest_m, false);
+    plan.warnings.extend(doubts);
     Ok(plan)
 }
 
@@ -270,9 +272,9 @@ fn find_floor(
         return Err(lack);
     }
     plan.openings = openings::find(&plan);
-    // Maps and plain masks hold shafts and yards that nobody means to reach.
-    if is_drawing {
-        let doubts = doubts::doubts(&plan, options.narrowest_m);
+    // Robots' maps hold rooms that the robot looked into.
+    if !plan.scanned {
+        let doubts = doubts::doubts(&plan, options.narrowest_m, !is_drawing);
         plan.warnings.extend(doubts);
     }
     Ok(plan)

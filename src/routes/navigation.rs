@@ -141,11 +141,12 @@ impl Navigation {
         }
         let mut fields = FieldStore::new(progress);
         // People cross a station; tours would meet in its gates.
+        let entrances = life.map_or(&[][..], |life| &life.rooms.entrances);
         let crosses = |life: &Life| life.guessed && life.r#use == Use::Station;
         let life = life.filter(|life| !asked.is_empty() || !crosses(life));
         let mut drafts: Vec<RouteDraft> = match (asked.is_empty(), life) {
             (true, Some(life)) if life.has_rooms() => Vec::new(),
-            (true, _) => defaults::drafts(plan, ground, &mut fields)?,
+            (true, _) => defaults::drafts(plan, ground, &mut fields, entrances)?,
             (false, _) => {
                 let stops = stops(plan, walls, ground, options)?;
                 asked.iter().map(|request| draft(plan, ground, request, options, &stops)).collect::<Result<_, _>>()?
@@ -153,7 +154,7 @@ impl Navigation {
         };
         let mut lived = life.map_or(Vec::new(), |life| life::drafts(plan, ground, life, &options.life));
         if asked.is_empty() && lived.is_empty() && drafts.is_empty() {
-            drafts = defaults::drafts(plan, ground, &mut fields)?;
+            drafts = defaults::drafts(plan, ground, &mut fields, entrances)?;
         }
         if asked.is_empty() && !drafts.is_empty() {
             fields.fill(plan, ground, drafts.iter().flat_map(RouteDraft::legs))?;
