@@ -54,7 +54,7 @@ pub(crate) use limits::{
     LARGEST_SIDE_PX, SMALLEST_M_PER_PX,
 };
 pub use options::{
-    DoorAt, DoorToOpen, PixelPoint, PlanOptions, PlanPoint, TransparentPolicy, TwoPoints, UnknownPolicy,
+    DoorAt, DoorToOpen, PixelPoint, PlanLayers, PlanOptions, PlanPoint, TransparentPolicy, TwoPoints, UnknownPolicy,
 };
 pub use paint::{Paint, Painted, PaintedEntrance};
 pub use parts::{DoorKind, FurniturePiece, PlanDoor, PlanWindow};

@@ -50,9 +50,10 @@ pub(super) fn choose(
     // With the width of the widest door, where that has told the paper.
     let cut: Option<(Vec<u8>, f64)> = match outside {
         Some(outside) => Some((outside.iter().zip(&white).map(|(&o, &w)| o & w).collect(), 0.0)),
-        None => WIDEST_DOORS_M.into_iter().map(in_px).find_map(|door_px| {
-            paper_around(&white, &spaces, width, door_px).map(|paper| (paper, door_px))
-        }),
+        None => WIDEST_DOORS_M
+            .into_iter()
+            .map(in_px)
+            .find_map(|door_px| paper_around(&white, &spaces, width, door_px).map(|paper| (paper, door_px))),
     };
     let mut is_entered = Vec::new();
     if let Some((cut, door_px)) = cut {
