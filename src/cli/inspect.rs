@@ -6,9 +6,10 @@ use std::sync::Arc;
 use clap::Args;
 use serde::Serialize;
 use trodden::Error;
+use trodden::math::Vec2;
 use trodden::plan::PlanClass::{self, Floor, Outside, Wall};
-use trodden::plan::{self, FloorPlan, Opening, Paint, PlanScale, Region, RegionRole};
-use trodden::rooms::{Entrance, Life, Room, Use};
+use trodden::plan::{self, FloorPlan, FurniturePiece, Opening, Paint, PlanScale, PlanWindow, Region, RegionRole};
+use trodden::rooms::{Entrance, Life, Room, Rooms, Use};
 use trodden::routes::{Navigation, Route};
 use trodden::scenario::Scenario;
 use trodden::show::draw_plan;
@@ -50,8 +51,15 @@ pub struct Understood {
     pub plan: FloorPlan,
     pub walls: Walls,
     pub routes: Vec<Route>,
-    /// Its rooms, and what it is for; `None` for a single space.
+    /// Its rooms, and what it is for; `None` where people only cross it.
     pub life: Option<Arc<Life>>,
+}
+
+/// A door, by its middle.
+#[derive(Serialize)]
+struct Door {
+    at_m: Vec2,
+    width_m: f64,
 }
 
 #[derive(Serialize)]
@@ -67,6 +75,9 @@ struct Json<'a> {
     regions: &'a [Region],
     areas_m2: BTreeMap<String, f64>,
     routes: &'a [Route],
+    doors: Vec<Door>,
+    windows: &'a [PlanWindow],
+    furniture: &'a [FurniturePiece],
     rooms: &'a [Room],
     entrances: &'a [Entrance],
     #[serde(rename = "use")]
@@ -101,6 +112,14 @@ impl Inspect {
         let paint = self.paint.as_ref().map(begin).transpose()?;
         let understood = Understood::of(&scenario, common).map_err(|error| self.scenario.explain(error))?;
         let Understood { plan, walls, routes, life } = &understood;
+        let found;
+        let rooms = match life {
+            Some(life) => &life.rooms,
+            None => {
+                found = Rooms::find(plan, walls);
+                &found
+            }
+        };
         if self.json {
             print::line(serde_json::to_string_pretty(&Json {
                 width_px: plan.width_px,
@@ -114,13 +133,16 @@ impl Inspect {
                 regions: &plan.regions,
                 areas_m2: areas(plan).into_iter().map(|(class, area_m2)| (name(class), area_m2)).collect(),
                 routes,
-                rooms: life.as_ref().map_or(&[], |life| &life.rooms.rooms),
-                entrances: life.as_ref().map_or(&[], |life| &life.rooms.entrances),
+                doors: doors(plan),
+                windows: &plan.windows,
+                furniture: &plan.furniture,
+                rooms: &rooms.rooms,
+                entrances: &rooms.entrances,
                 building: life.as_ref().map(|life| life.r#use),
                 warnings: &plan.warnings,
             })?)?;
         } else if !common.quiet {
-            self.tell(&understood)?;
+            self.tell(&understood, rooms)?;
         }
         if let (Some(path), Some(file)) = (&self.picture, picture) {
             print::save_picture(&draw_plan(plan, walls, routes), file)?;
@@ -137,7 +159,7 @@ impl Inspect {
         Ok(ExitCode::SUCCESS)
     }
 
-    fn tell(&self, Understood { plan, walls, routes, life }: &Understood) -> anyhow::Result<()> {
+    fn tell(&self, Understood { plan, walls, routes, life }: &Understood, rooms: &Rooms) -> anyhow::Result<()> {
         print::line(format!(
             "size      {:.2} x {:.2} m: {} x {} px at {} m per pixel",
             plan.width_m(),
@@ -152,6 +174,9 @@ impl Inspect {
         let rest: Vec<String> = rest.map(|(class, area_m2)| format!("{} {area_m2:.1} m2", name(class))).collect();
         if !rest.is_empty() {
             print::line(format!("found     {}", rest.join(", ")))?;
+        }
+        for line in [told_doors(plan), told_windows(plan), told_furniture(plan)].into_iter().flatten() {
+            print::line(line)?;
         }
         let length: f64 = walls.faces.iter().map(Face::length_m).sum();
         let closed = walls.faces.iter().filter(|face| face.closed).count();
@@ -168,7 +193,11 @@ impl Inspect {
                 centre.y
             ))?;
         }
-        life.iter().try_for_each(|life| tell_rooms(life))?;
+        tell_rooms(rooms)?;
+        if let Some(life) = life {
+            let how = if life.guessed { ", as far as the rooms tell" } else { "" };
+            print::line(format!("use       {}{how}", life.r#use.name()))?;
+        }
         for (index, route) in routes.iter().enumerate() {
             print::line(format!(
                 "{:<9} {:<28}  {:5.1} m, {:2.0} % of the people",
@@ -183,14 +212,14 @@ impl Inspect {
 }
 
 /// Lists the rooms with area, kind and doors, and the doors to the outside.
-fn tell_rooms(life: &Life) -> anyhow::Result<()> {
-    let doors = life.rooms.entrances.iter().filter(|entrance| entrance.opening.is_none());
+fn tell_rooms(rooms: &Rooms) -> anyhow::Result<()> {
+    let doors = rooms.entrances.iter().filter(|entrance| entrance.opening.is_none());
     for (index, door) in doors.enumerate() {
         let head = if index == 0 { "entrances" } else { "" };
         let at = door.at_m;
         print::line(format!("{head:<9} {:<12} {:6.2} m wide, at [{:.2}, {:.2}]", door.name, door.width_m, at.x, at.y))?;
     }
-    for (index, room) in life.rooms.rooms.iter().enumerate() {
+    for (index, room) in rooms.rooms.iter().enumerate() {
         let head = if index == 0 { "rooms" } else { "" };
         let (area_m2, kind, doors, at) = (room.area_m2, room.kind.name(), room.doors, room.inside_m);
         let plural = if doors == 1 { "" } else { "s" };
@@ -200,11 +229,34 @@ fn tell_rooms(life: &Life) -> anyhow::Result<()> {
             room.name, at.x, at.y
         ))?;
     }
-    print::line(format!(
-        "use       {}{}",
-        life.r#use.name(),
-        if life.guessed { ", as far as the rooms tell" } else { "" }
-    ))
+    Ok(())
+}
+
+/// Doors, as pictures and drawings show them.
+fn doors(plan: &FloorPlan) -> Vec<Door> {
+    let drawn = plan.drawn.iter().flat_map(|drawn| drawn.doors.iter().copied());
+    let jambs = plan.doors.iter().map(|door| [door.from_m, door.to_m]).chain(drawn);
+    jambs.map(|[a, b]| Door { at_m: a.lerp(b, 0.5), width_m: a.distance(b) }).collect()
+}
+
+fn told_doors(plan: &FloorPlan) -> Option<String> {
+    let widths: Vec<f64> = doors(plan).iter().map(|door| door.width_m).collect();
+    let (least_m, most_m) = (widths.iter().copied().reduce(f64::min)?, widths.iter().copied().reduce(f64::max)?);
+    Some(format!("doors     {}, {least_m:.2} to {most_m:.2} m wide", widths.len()))
+}
+
+fn told_windows(plan: &FloorPlan) -> Option<String> {
+    let length_m: f64 = plan.windows.iter().map(|window| window.from_m.distance(window.to_m)).sum();
+    (!plan.windows.is_empty()).then(|| format!("windows   {}, {length_m:.1} m in all", plan.windows.len()))
+}
+
+fn told_furniture(plan: &FloorPlan) -> Option<String> {
+    let mut counts = BTreeMap::new();
+    plan.furniture.iter().for_each(|piece| *counts.entry(piece.class).or_insert(0usize) += 1);
+    let height = |class: PlanClass| class.height_m().map_or("to the ceiling".to_string(), |m| format!("{m} m high"));
+    let told = |(&class, count): (&PlanClass, &usize)| format!("{count} {} ({})", name(class), height(class));
+    let told: Vec<String> = counts.iter().map(told).collect();
+    (!told.is_empty()).then(|| format!("furniture {}", told.join(", ")))
 }
 
 /// The colours of the paints.

@@ -63,7 +63,7 @@ const EXAMPLES: &str = "\
 Examples:
   trodden bake plan.png --metres-per-pixel 0.05      a plan alone is enough
   trodden init plan.png                              write plan.toml, with every default to edit
-  trodden bake plan.toml --quick                     a coarse bake in about a second
+  trodden bake plan.toml --quick                     a coarse bake, in seconds
   trodden resolve out/plan --preset heavy            another look, without simulating again
   trodden crowd plan.toml -o paths.txt               where everybody went, for other programs
   trodden inspect plan.png --picture understood.png  what is understood of the plan

@@ -241,6 +241,11 @@ impl PlanError {
             }
             PlanError::Drawing { format, .. } => format.hint().into(),
             PlanError::Empty { .. } | PlanError::Damaged { .. } => "save or copy the file again".into(),
+            PlanError::Open { path, .. } if path.to_string_lossy().contains(char::is_control) => {
+                "in double quotes, \\t is a tab and \\n a line break: write the path with slashes, \"plans/office.png\", or in \
+                 single quotes"
+                    .into()
+            }
             PlanError::Open { path, source } if source.kind() == std::io::ErrorKind::NotFound => {
                 format!("did you mean {}?", super::similar::similar_file(path)?.display())
             }

@@ -55,10 +55,11 @@ pub(crate) use limits::{
     LARGEST_SIDE_PX, SMALLEST_M_PER_PX,
 };
 pub use options::{
-    DoorAt, DoorToOpen, PixelPoint, PlanOptions, PlanPoint, TransparentPolicy, TwoPoints, UnknownPolicy,
+    DoorAt, DoorToOpen, PixelPoint, PlanLayers, PlanOptions, PlanPoint, TransparentPolicy, TwoPoints, UnknownPolicy,
 };
 pub use paint::{Paint, Painted, PaintedEntrance};
-pub use parts::{DoorKind, FurniturePiece, PlanDoor, PlanWindow};
+pub(crate) use parts::DoorKind;
+pub use parts::{FurniturePiece, PlanDoor, PlanWindow};
 pub use read::{files, picture, read};
 pub use scale::{PlanScale, ScaleSource};
 pub use vector::VectorFormat;

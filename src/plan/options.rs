@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Colour, FloorPlan};
+use super::{Colour, FloorPlan, PlanClass};
 use crate::math::{Vec2, vec2};
 use crate::options::{Field, Kind, Leaf, OptionError, Options, Table, Value, names, options};
 
@@ -106,6 +106,58 @@ options! {
     }
 }
 
+options! {
+    /// Names of a drawing's layers, classes or blocks, by what is drawn there: in any case, `*` at the end for all that
+    /// begin so.
+    pub struct PlanLayers {
+        /// Walls and columns.
+        wall: Vec<String> = Vec::new();
+        /// Windows.
+        window: Vec<String> = Vec::new();
+        /// Doors, with leaf and swing.
+        door: Vec<String> = Vec::new();
+        /// Stairs.
+        stairs: Vec<String> = Vec::new();
+        /// Chairs, sofas, benches, beds.
+        seat: Vec<String> = Vec::new();
+        /// Tables and desks.
+        table: Vec<String> = Vec::new();
+        /// Counters, gates and low cupboards.
+        counter: Vec<String> = Vec::new();
+        /// Shelves and wardrobes up to the ceiling.
+        shelf: Vec<String> = Vec::new();
+        /// WCs, basins, baths, cookers.
+        fixture: Vec<String> = Vec::new();
+        /// What is left out of the plan.
+        leave_out: Vec<String> = Vec::new();
+    }
+}
+
+impl PlanLayers {
+    /// What a scenario says of a layer, if it says anything.
+    pub(super) fn class_of(&self, name: &str) -> Option<PlanClass> {
+        use PlanClass::{Counter, Dimension, Door, Fixture, Seat, Shelf, Stairs, Table, Wall, Window};
+        let name = name.trim().to_lowercase();
+        let is_meant = |said: &String| match said.trim().to_lowercase().strip_suffix('*') {
+            Some(start) => name.starts_with(start),
+            None => name == said.trim().to_lowercase(),
+        };
+        let all = [
+            (&self.wall, Wall),
+            (&self.window, Window),
+            (&self.door, Door),
+            (&self.stairs, Stairs),
+            (&self.seat, Seat),
+            (&self.table, Table),
+            (&self.counter, Counter),
+            (&self.shelf, Shelf),
+            (&self.fixture, Fixture),
+            (&self.leave_out, Dimension),
+        ];
+        all.into_iter().find(|(names, _)| names.iter().any(is_meant)).map(|(_, class)| class)
+    }
+}
+
 /// Meaning of transparent pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -169,6 +221,8 @@ options! {
         paint: Option<PathBuf> = None, eg "\"over.png\"";
         /// Page of a PDF, level of an Open-RMF building, storey of a building model; left out: the first.
         page: Option<u32> = None, in 1.0..=10000.0, eg "2";
+        /// What the layers of a drawing hold whose names say nothing known.
+        layers: Option<PlanLayers> = None, eg "{ wall = [\"X-12\"], door = [\"L7*\"] }";
     }
     with {
         /// Doors that are opened where the plan draws them closed.

@@ -6,7 +6,7 @@ use crate::math::Vec2;
 /// How a door is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum DoorKind {
+pub(crate) enum DoorKind {
     /// A gap in a wall.
     Open,
     /// A gap with a leaf, an arc or both.
@@ -23,7 +23,7 @@ pub struct PlanDoor {
     /// Middle of the other jamb, metres.
     pub to_m: Vec2,
     /// How it is drawn.
-    pub kind: DoorKind,
+    pub(crate) kind: DoorKind,
 }
 
 impl PlanDoor {

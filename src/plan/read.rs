@@ -101,7 +101,7 @@ fn of_layers(layers: Layers, options: &PlanOptions, warnings: Vec<String>) -> Re
         width_px: layers.width as u32,
         height_px: layers.height as u32,
         metres_per_pixel: layers.metres_per_pixel,
-        scale: PlanScale::known(ScaleSource::Drawing, layers.metres_per_pixel),
+        scale: layers.scale,
         floor: layers.lightness.iter().map(|light| u8::from(*light >= USUAL_THRESHOLD)).collect(),
         lightness: layers.lightness,
         classes: layers.classes,
@@ -134,6 +134,8 @@ fn of_layers(layers: Layers, options: &PlanOptions, warnings: Vec<String>) -> Re
         corrections::apply(&mut plan, white, layer.as_ref(), &options.doors, options.narrowest_m, &seeds);
     }
     plan.openings = openings::find(&plan);
+    let doubts = doubts::doubts(&plan, options.narrowest_m, false);
+    plan.warnings.extend(doubts);
     Ok(plan)
 }
 
@@ -166,7 +168,7 @@ fn close_doors(plan: &mut FloorPlan) {
 /// The plan of a drawing that was drawn as a picture.
 fn of_picture(
     image: DynamicImage,
-    scale: Option<f64>,
+    scale: Option<(f64, PlanScale)>,
     path: &Path,
     options: &PlanOptions,
     mut warnings: Vec<String>,
@@ -174,7 +176,7 @@ fn of_picture(
     let (drawing, found) = drawing::of_image(image, options);
     warnings.extend(found);
     let scale = match scale {
-        Some(value) => (value, PlanScale::known(ScaleSource::Drawing, value)),
+        Some(scale) => scale,
         None => found_scale(&drawing, options, (path, None), &mut warnings)?,
     };
     scale::check_size(drawing.width as u32, drawing.height as u32, scale.0)?;
@@ -270,9 +272,9 @@ fn find_floor(
         return Err(lack);
     }
     plan.openings = openings::find(&plan);
-    // Maps and plain masks hold shafts and yards that nobody means to reach.
-    if is_drawing {
-        let doubts = doubts::doubts(&plan, options.narrowest_m);
+    // Robots' maps hold rooms that the robot looked into.
+    if !plan.scanned {
+        let doubts = doubts::doubts(&plan, options.narrowest_m, !is_drawing);
         plan.warnings.extend(doubts);
     }
     Ok(plan)
@@ -374,12 +376,12 @@ fn told_guess(path: &Path, metres_per_pixel: f64, scale: &PlanScale) -> String {
     )
 }
 
-/// A number with two significant digits.
+/// A number with three significant digits.
 struct Digits(f64);
 
 impl std::fmt::Display for Digits {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let two: f64 = format!("{:.1e}", self.0).parse().unwrap_or(self.0);
-        write!(f, "{two}")
+        let rounded: f64 = format!("{:.2e}", self.0).parse().unwrap_or(self.0);
+        write!(f, "{rounded}")
     }
 }

@@ -8,8 +8,11 @@ use crate::math::Vec2;
 
 /// Share of its area that other spaces need for a space with an image corner to be outside.
 const BUILDING_SHARE: f64 = 0.3;
-/// Greatest width of a door between the building and the paper around it, metres.
-const WIDEST_DOOR_M: f64 = 2.0;
+/// Greatest widths of doors between the building and the paper around it, metres: those of most buildings, then those
+/// of halls, if without them no building is told from the paper.
+const WIDEST_DOORS_M: [f64; 3] = [2.0, 3.5, 5.0];
+/// Least area of a building beside the largest, with doors of its own, square metres.
+const LEAST_BUILDING_M2: f64 = 4.0;
 /// Least share of the image's sides that the paper covers.
 const PAPER_SHARE: f64 = 0.5;
 /// Least number of the image's corners that the paper covers.
@@ -20,7 +23,8 @@ const LEAST_LISTED_M2: f64 = 0.1;
 /// Fills in `floor` and `regions` of a plan whose `floor` holds all white.
 ///
 /// Spaces are found for a person of `narrowest_m`. Floor are the spaces with a point of `seeds`. Without seeds, floor
-/// are the spaces that are not outside and have at least two openings, or if there are none, the largest.
+/// are the spaces that are not outside and have at least two openings, or if there are none, the largest; and others
+/// with a door to the paper around.
 ///
 /// `outside` marks the paper around the building, where it is known already.
 pub(super) fn choose(
@@ -43,22 +47,34 @@ pub(super) fn choose(
         });
     }
     let mut paper = None;
-    let cut = match outside {
-        Some(outside) => Some(outside.iter().zip(&white).map(|(&o, &w)| o & w).collect()),
-        None => paper_around(&white, &spaces, width, in_px(WIDEST_DOOR_M)),
+    // With the width of the widest door, where that has told the paper.
+    let cut: Option<(Vec<u8>, f64)> = match outside {
+        Some(outside) => Some((outside.iter().zip(&white).map(|(&o, &w)| o & w).collect(), 0.0)),
+        None => WIDEST_DOORS_M
+            .into_iter()
+            .map(in_px)
+            .find_map(|door_px| paper_around(&white, &spaces, width, door_px).map(|paper| (paper, door_px))),
     };
-    if let Some(cut) = cut {
-        let cut: Vec<u8> = cut;
+    let mut is_entered = Vec::new();
+    if let Some((cut, door_px)) = cut {
         let seed_outside = seeds.iter().any(|&p| pixel_of(plan, p).is_some_and(|at| cut[at] != 0));
         if !seed_outside {
             for (white, &outside) in white.iter_mut().zip(&cut) {
                 *white &= 1 - outside;
             }
             spaces = split(&white, width, person_px, opening_px);
+            if !plan.scanned && seeds.is_empty() {
+                let least_px = LEAST_BUILDING_M2 / (plan.metres_per_pixel * plan.metres_per_pixel);
+                is_entered = entered(&white, &spaces, &cut, width, door_px);
+                is_entered.iter_mut().zip(&spaces.all).for_each(|(is, space)| *is &= space.area as f64 >= least_px);
+            }
             paper = Some(cut);
         }
     }
-    let roles = if seeds.is_empty() { roles_by_shape(&spaces) } else { roles_by_seeds(plan, &spaces, seeds)? };
+    let mut roles = if seeds.is_empty() { roles_by_shape(&spaces) } else { roles_by_seeds(plan, &spaces, seeds)? };
+    for (role, _) in roles.iter_mut().zip(is_entered).filter(|(role, is)| *is && **role == RegionRole::Unreached) {
+        *role = RegionRole::Floor;
+    }
     plan.regions = list(plan, &spaces, &roles, &mut white, paper.as_deref());
     let is_floor = |n: u16| n > 0 && roles[usize::from(n) - 1] == RegionRole::Floor;
     white.iter_mut().zip(&spaces.label).for_each(|(pixel, &n)| *pixel = u8::from(is_floor(n)));
@@ -124,6 +140,22 @@ fn paper_around(white: &[u8], spaces: &Spaces, width: usize, door_px: f64) -> Op
     let apart: usize =
         spaces.all.iter().zip(&touched).filter(|(s, t)| s.corners == 0 && !**t).map(|(s, _)| s.area).sum();
     (largest > 0 && (largest + apart) as f64 >= BUILDING_SHARE * area as f64).then_some(paper)
+}
+
+/// Which spaces have a door to the paper, and room for a disc as wide as a door: the disc has not come in from the paper.
+/// What is only too narrow for it lies between buildings.
+fn entered(white: &[u8], spaces: &Spaces, paper: &[u8], width: usize, door_px: f64) -> Vec<bool> {
+    let roomy = erode(white, width, (door_px * 0.5).max(1.0));
+    let [mut has_door, mut is_roomy] = [(); 2].map(|()| vec![false; spaces.all.len()]);
+    for (at, &number) in spaces.label.iter().enumerate().filter(|(_, number)| **number > 0) {
+        let space = usize::from(number) - 1;
+        is_roomy[space] |= roomy[at] != 0;
+        let x = at % width;
+        let beside = [(x > 0).then(|| at - 1), (x + 1 < width).then_some(at + 1)];
+        let across = [at.checked_sub(width), Some(at + width).filter(|at| *at < paper.len())];
+        has_door[space] |= beside.into_iter().chain(across).flatten().any(|at| paper[at] != 0);
+    }
+    has_door.into_iter().zip(is_roomy).map(|(door, roomy)| door && roomy).collect()
 }
 
 fn roles_by_shape(spaces: &Spaces) -> Vec<RegionRole> {

@@ -61,6 +61,11 @@ impl PlanScale {
     pub(super) fn known(source: ScaleSource, metres_per_pixel: f64) -> PlanScale {
         PlanScale { source, sureness: 1.0, range: [metres_per_pixel; 2], evidence: String::new() }
     }
+
+    /// The same of pixels that are larger by a factor.
+    pub(super) fn scaled(self, factor: f64) -> PlanScale {
+        PlanScale { range: self.range.map(|metres| metres * factor), ..self }
+    }
 }
 
 /// Returns the metres per pixel that options or the map give. Options override the map.

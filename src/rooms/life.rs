@@ -1,4 +1,5 @@
 use super::find::{Room, Rooms};
+use super::kind::RoomKind;
 use super::request::{LifeOptions, RoomRequest, UnfitRoom};
 use super::uses::Use;
 use crate::plan::FloorPlan;
@@ -32,11 +33,16 @@ impl Life {
         Ok(Life { rooms, r#use, guessed: options.r#use.is_none() })
     }
 
-    /// Whether there are rooms to live in: a single space, and few that lie between entrances, are crossed.
+    /// Whether there are rooms to live in: a single space without seats, unless it has one door and no other, and few
+    /// that lie between entrances, are crossed.
     pub(crate) fn has_rooms(&self) -> bool {
         let Rooms { rooms, entrances, .. } = &self.rooms;
         let is_dead_end = |room: &Room| room.doors < 2;
-        rooms.len() > 1 && (entrances.len() < 2 || rooms.len() > MOST_CROSSED || rooms.iter().any(is_dead_end))
+        match rooms.len() {
+            0 => false,
+            1 => entrances.len() == 1 && rooms[0].kind != RoomKind::Corridor || self.rooms.has_seats(),
+            count => entrances.len() < 2 || count > MOST_CROSSED || rooms.iter().any(is_dead_end),
+        }
     }
 
     /// A line for users: what the building is taken for.

@@ -219,6 +219,11 @@ impl Rooms {
         spots
     }
 
+    /// Whether any room has seats.
+    pub(super) fn has_seats(&self) -> bool {
+        self.rooms_with_seats().contains(&true)
+    }
+
     /// Which rooms have seats.
     fn rooms_with_seats(&self) -> Vec<bool> {
         let reach = (AT_FURNITURE_M / self.grid.cell_m) as usize;

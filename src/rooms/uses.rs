@@ -48,6 +48,8 @@ pub(crate) struct Habits {
     pub(crate) wheels: [f64; 2],
     /// Share of children.
     pub(crate) children: f64,
+    /// Share of the film that a cleaning takes.
+    pub(crate) mop: f32,
 }
 
 /// What people do in rooms of a kind.
@@ -107,6 +109,7 @@ impl Use {
                 bags: 0.7,
                 wheels: [0.05, 0.02],
                 children: 0.0,
+                mop: 0.4,
             },
             // One classroom, sometimes a second; everybody comes before the bell.
             Use::School => Habits {
@@ -122,6 +125,7 @@ impl Use {
                 bags: 0.9,
                 wheels: [0.03, 0.01],
                 children: 0.9,
+                mop: 0.35,
             },
             // Two of three go from door to door; others wait, buy something or look for a train.
             Use::Station => Habits {
@@ -137,6 +141,7 @@ impl Use {
                 bags: 0.8,
                 wheels: [0.18, 0.03],
                 children: 0.05,
+                mop: 0.45,
             },
             // From shelf to shelf, most in the largest room.
             Use::Shop => Habits {
@@ -152,6 +157,7 @@ impl Use {
                 bags: 0.8,
                 wheels: [0.04, 0.2],
                 children: 0.08,
+                mop: 0.45,
             },
             // Room after room, a few works in each.
             Use::Museum => Habits {
@@ -167,6 +173,7 @@ impl Use {
                 bags: 0.4,
                 wheels: [0.04, 0.1],
                 children: 0.12,
+                mop: 0.5,
             },
             // Wards and treatment; visitors and patients wait in halls and corridors.
             Use::Hospital => Habits {
@@ -182,6 +189,7 @@ impl Use {
                 bags: 0.4,
                 wheels: [0.1, 0.2],
                 children: 0.06,
+                mop: 0.65,
             },
             // All rooms in turn, many times a day.
             Use::Home => Habits {
@@ -197,6 +205,7 @@ impl Use {
                 bags: 0.2,
                 wheels: [0.03, 0.03],
                 children: 0.25,
+                mop: 0.3,
             },
             // People spread over the large rooms; the small ones serve them.
             Use::Hall => Habits {
@@ -212,6 +221,7 @@ impl Use {
                 bags: 0.5,
                 wheels: [0.12, 0.04],
                 children: 0.05,
+                mop: 0.35,
             },
         }
     }

@@ -3,9 +3,10 @@
 use super::draft::RouteDraft;
 use super::ground::Ground;
 use super::legs::{FieldStore, LegEnd};
-use super::{Place, RoutesError, targets};
+use super::{Place, RoutesError, life, targets};
 use crate::math::vec2;
 use crate::plan::{FloorPlan, Opening};
+use crate::rooms::Entrance;
 
 /// Largest number of places joined by default routes: 12 routes, both directions included.
 const MOST_PLACES: usize = 4;
@@ -26,6 +27,7 @@ const BEYOND_OPENINGS: f64 = 1.5;
 /// Range to which widths are clamped for shares, metres.
 const SHARE_WIDTHS_M: [f64; 2] = [0.6, 8.0];
 
+#[derive(Clone)]
 struct Endpoint {
     place: Place,
     name: String,
@@ -33,14 +35,16 @@ struct Endpoint {
     part: u16,
 }
 
-/// Joins the widest openings, all pairs in both directions. If there are fewer than two, or if they lie close together
+/// Joins the widest openings and doors to the outside, all pairs in both directions. If there are fewer than two, or if they lie close together
 /// at the edge of a large floor, distant places are added. A route's share is the product of the widths at its ends.
 pub(super) fn drafts(
     plan: &FloorPlan,
     ground: &Ground,
     fields: &mut FieldStore<'_>,
+    entrances: &[Entrance],
 ) -> Result<Vec<RouteDraft>, RoutesError> {
-    let endpoints = with_far_places(plan, ground, fields, widest_openings(plan, ground))?;
+    let all = entrance_endpoints(plan, ground, entrances);
+    let endpoints = with_far_places(plan, ground, fields, &all)?;
     let mut drafts = Vec::new();
     for from in &endpoints {
         for to in endpoints.iter().filter(|to| to.part == from.part && to.place != from.place) {
@@ -60,8 +64,8 @@ pub(super) fn drafts(
     Ok(drafts)
 }
 
-/// Returns all openings that are wide enough for a person, and the entrances painted in the plan.
-fn opening_endpoints(plan: &FloorPlan, ground: &Ground) -> Vec<Endpoint> {
+/// Returns all openings that are wide enough for a person, the entrances painted in the plan, and doors to the outside.
+fn entrance_endpoints(plan: &FloorPlan, ground: &Ground, entrances: &[Entrance]) -> Vec<Endpoint> {
     let endpoint = |(index, opening): (usize, &Opening)| {
         let place = Place::Opening(index);
         let cell = *targets::cells(plan, ground, place).first()?;
@@ -74,15 +78,20 @@ fn opening_endpoints(plan: &FloorPlan, ground: &Ground) -> Vec<Endpoint> {
         let width_m = entrance.area_m[0].distance(entrance.area_m[1]).clamp(SHARE_WIDTHS_M[0], SHARE_WIDTHS_M[1]);
         Some(Endpoint { place, name: entrance.name.clone(), width_m, part: ground.part(cell) })
     });
-    plan.openings.iter().enumerate().filter_map(endpoint).chain(painted).collect()
+    let is_painted = |entrance: &&Entrance| plan.painted.entrances.iter().any(|painted| painted.name == entrance.name);
+    let doors = entrances.iter().filter(|entrance| entrance.opening.is_none() && !is_painted(entrance));
+    let doors = doors.filter_map(|door| {
+        let life::End { place, name, width_m, part, .. } = life::end(plan, ground, door)?;
+        Some(Endpoint { place, name, width_m, part })
+    });
+    plan.openings.iter().enumerate().filter_map(endpoint).chain(painted).chain(doors).collect()
 }
 
-/// Returns the widest openings that have another one within walking distance.
-fn widest_openings(plan: &FloorPlan, ground: &Ground) -> Vec<Endpoint> {
-    let mut endpoints = opening_endpoints(plan, ground);
+/// Returns the widest of them that have another one within walking distance.
+fn widest(plan: &FloorPlan, mut endpoints: Vec<Endpoint>) -> Vec<Endpoint> {
     let width = |s: &Endpoint| match s.place {
         Place::Opening(index) => plan.openings[index].width_m(),
-        Place::Area([from, to]) => from.distance(to),
+        Place::Area(_) => s.width_m,
     };
     endpoints.sort_by(|a, b| width(b).total_cmp(&width(a)));
     // Removing one may leave its partner alone, so repeat until stable.
@@ -101,13 +110,14 @@ fn widest_openings(plan: &FloorPlan, ground: &Ground) -> Vec<Endpoint> {
     endpoints
 }
 
-/// Adds places that are as far as possible from the present ones, by walking distance.
+/// The widest entrances, and places that are as far as possible from them, by walking distance.
 fn with_far_places(
     plan: &FloorPlan,
     ground: &Ground,
     fields: &mut FieldStore<'_>,
-    mut endpoints: Vec<Endpoint>,
+    entrances: &[Endpoint],
 ) -> Result<Vec<Endpoint>, RoutesError> {
+    let mut endpoints = widest(plan, entrances.to_vec());
     let part = match endpoints.first() {
         Some(endpoint) => endpoint.part,
         None => largest_part(ground)?,
@@ -117,7 +127,7 @@ fn with_far_places(
     }
     let cells = roomy_cells(ground, part);
     if endpoints.is_empty() {
-        endpoints.extend(lone_opening(plan, ground, part));
+        endpoints.extend(entrances.iter().find(|endpoint| endpoint.part == part).cloned());
     }
     let openings = endpoints.len();
     if openings == 0 {
@@ -194,11 +204,6 @@ fn largest_part(ground: &Ground) -> Result<u16, RoutesError> {
     let part = (1..cells.len()).max_by_key(|&p| (cells[p], usize::MAX - p)).unwrap_or(1) as u16;
     let largest_m2 = ground.part_area_m2(part);
     if largest_m2 < LEAST_PART_M2 { Err(RoutesError::NoRoom { largest_m2 }) } else { Ok(part) }
-}
-
-/// The only opening of a part of the floor.
-fn lone_opening(plan: &FloorPlan, ground: &Ground, part: u16) -> Option<Endpoint> {
-    opening_endpoints(plan, ground).into_iter().find(|endpoint| endpoint.part == part)
 }
 
 fn named(place: Place, number: usize, part: u16) -> Endpoint {

@@ -11,7 +11,7 @@ use super::{Facing, Place, RouteLife, RouteStop, RoutesError, RoutesOptions, Sto
 use crate::math::{Distribution, Rect, Vec2, vec2};
 use crate::options::nearest;
 use crate::plan::FloorPlan;
-use crate::rooms::{Habits, Life, LifeOptions, RoomKind, Spot, UnfitRoom, Zone};
+use crate::rooms::{Entrance, Habits, Life, LifeOptions, RoomKind, Spot, UnfitRoom, Zone};
 use crate::walls::Walls;
 
 /// Least and largest number of tours.
@@ -98,12 +98,12 @@ pub(super) fn is_crossed(
 }
 
 /// An entrance on the ground.
-struct End {
-    place: Place,
-    name: String,
+pub(super) struct End {
+    pub(super) place: Place,
+    pub(super) name: String,
     at_m: Vec2,
-    width_m: f64,
-    part: u16,
+    pub(super) width_m: f64,
+    pub(super) part: u16,
 }
 
 /// A zone of a room on the ground.
@@ -163,7 +163,8 @@ pub(super) fn drafts(plan: &FloorPlan, ground: &Ground, life: &Life, options: &L
     drafts
 }
 
-fn end(plan: &FloorPlan, ground: &Ground, entrance: &crate::rooms::Entrance) -> Option<End> {
+/// Where people come and go at an entrance, unless it is too narrow for anybody.
+pub(super) fn end(plan: &FloorPlan, ground: &Ground, entrance: &Entrance) -> Option<End> {
     let area = |middle: Vec2| {
         let reach = vec2(DOOR_REACH_M, DOOR_REACH_M);
         Place::Area([middle - reach, middle + reach])

@@ -13,6 +13,7 @@ mod flow;
 mod gates;
 mod ground;
 mod lattice;
+mod lanes;
 mod legs;
 mod life;
 mod navigation;

@@ -12,7 +12,7 @@ use super::stop::{RouteStop, Stop};
 use super::targets::{self, PlaceUsage};
 use super::{
     FloorPoint, Gap, Place, PlaceRequest, Route, RouteRequest, RoutesError, RoutesOptions, Via, ViaRequest, defaults,
-    gates, life, ribbon,
+    gates, lanes, life, ribbon,
 };
 use crate::math::Vec2;
 use crate::plan::FloorPlan;
@@ -20,6 +20,8 @@ use crate::rooms::{Life, Use};
 use crate::walls::Walls;
 use crate::{Progress, Silent};
 
+/// Share of people who use the rooms of a building whose drawing has lanes.
+const BESIDE_LANES: f64 = 0.5;
 /// Largest number of routes.
 const MOST_ROUTES: usize = 1000;
 /// Radius within which people pass a via place in the open, metres.
@@ -141,11 +143,15 @@ impl Navigation {
         }
         let mut fields = FieldStore::new(progress);
         // People cross a station; tours would meet in its gates.
+        let entrances = life.map_or(&[][..], |life| &life.rooms.entrances);
         let crosses = |life: &Life| life.guessed && life.r#use == Use::Station;
         let life = life.filter(|life| !asked.is_empty() || !crosses(life));
+        let lanes = if asked.is_empty() { lanes::drafts(plan, ground) } else { Vec::new() };
+        let has_lanes = !lanes.is_empty();
         let mut drafts: Vec<RouteDraft> = match (asked.is_empty(), life) {
+            (true, _) if has_lanes => lanes,
             (true, Some(life)) if life.has_rooms() => Vec::new(),
-            (true, _) => defaults::drafts(plan, ground, &mut fields)?,
+            (true, _) => defaults::drafts(plan, ground, &mut fields, entrances)?,
             (false, _) => {
                 let stops = stops(plan, walls, ground, options)?;
                 asked.iter().map(|request| draft(plan, ground, request, options, &stops)).collect::<Result<_, _>>()?
@@ -153,9 +159,9 @@ impl Navigation {
         };
         let mut lived = life.map_or(Vec::new(), |life| life::drafts(plan, ground, life, &options.life));
         if asked.is_empty() && lived.is_empty() && drafts.is_empty() {
-            drafts = defaults::drafts(plan, ground, &mut fields)?;
+            drafts = defaults::drafts(plan, ground, &mut fields, entrances)?;
         }
-        if asked.is_empty() && !drafts.is_empty() {
+        if asked.is_empty() && !has_lanes && !drafts.is_empty() {
             fields.fill(plan, ground, drafts.iter().flat_map(RouteDraft::legs))?;
             match life.is_some_and(|life| life::is_crossed(plan, ground, life, &fields, &drafts)) {
                 true => lived.clear(),
@@ -168,7 +174,11 @@ impl Navigation {
             return Err(RoutesError::NoShares { routes: drafts.len() });
         }
         if !lived.is_empty() {
-            let share = if drafts.is_empty() { 1.0 } else { options.life.share };
+            let share = match () {
+                () if drafts.is_empty() => 1.0,
+                () if has_lanes => BESIDE_LANES,
+                () => options.life.share,
+            };
             let own: f64 = lived.iter().map(|draft| draft.share).sum();
             drafts.iter_mut().for_each(|draft| draft.share *= (1.0 - share) / total);
             drafts.extend(lived.into_iter().map(|draft| RouteDraft { share: draft.share * share / own, ..draft }));

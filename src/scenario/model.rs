@@ -6,7 +6,7 @@ use super::preset::Preset;
 use crate::crowd::{CrowdOptions, SpotRequest};
 use crate::export::{Target, TextureOptions};
 use crate::formation::FormationRequest;
-use crate::look::Look;
+use crate::look::{Look, MopLook};
 use crate::marks::{ContactOptions, DoorRequest, FixtureRequest, HeelOptions, MarksOptions, Weather};
 use crate::math::SplitMix64;
 use crate::motion::{BodyOptions, People};
@@ -234,8 +234,8 @@ impl Scenario {
         options
     }
 
-    /// The scenario with the people of the building's use: where it has the defaults of bags, wheels, children and
-    /// groups, those who use such a building have others.
+    /// The scenario with the people of the building's use: where it has the defaults of bags, wheels, children, groups and
+    /// cleaning, such a building has others.
     pub fn lived_in(&self, life: Option<&Life>) -> Scenario {
         let mut scenario = self.clone();
         let Some(habits) = life.filter(|_| self.preset != Preset::Paper).map(|life| life.r#use.habits()) else {
@@ -253,6 +253,9 @@ impl Scenario {
         }
         if self.crowd.groups.shares == groups.shares {
             scenario.crowd.groups.shares = habits.groups;
+        }
+        if self.look.mop.takes == MopLook::default().takes {
+            scenario.look.mop.takes = habits.mop;
         }
         scenario
     }

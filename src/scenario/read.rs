@@ -10,7 +10,9 @@ use crate::look::Look;
 use crate::routes::Timetable;
 
 /// Texels per metre of floor and of walls of a first look.
-const QUICK_TEXELS_PER_METRE: (f64, f64) = (25.0, 50.0);
+const QUICK_TEXELS_PER_METRE: f64 = 25.0;
+/// How many people walk on a first look, unless a scenario says how many.
+const QUICK_PEOPLE: u32 = 400;
 
 impl Scenario {
     /// A scenario from a file: TOML is read as such, anything else is taken for a plan.
@@ -139,11 +141,15 @@ impl Scenario {
     fn override_by(&mut self, overrides: &Overrides) {
         self.seed = overrides.seed.unwrap_or(self.seed);
         self.days = overrides.days.unwrap_or(self.days);
+        if overrides.quick && self.crowd.people == crate::crowd::CrowdOptions::default().people {
+            self.crowd.people = QUICK_PEOPLE;
+        }
         self.crowd.people = overrides.people.unwrap_or(self.crowd.people);
         self.routes.life.people = self.crowd.people;
         self.routes.life.r#use = overrides.r#use.or(self.routes.life.r#use);
         if overrides.quick {
-            (self.floor_texels_per_metre, self.wall_texels_per_metre) = QUICK_TEXELS_PER_METRE;
+            (self.floor_texels_per_metre, self.wall_texels_per_metre) =
+                (QUICK_TEXELS_PER_METRE, QUICK_TEXELS_PER_METRE);
             self.texture.layers = Some(false);
         }
         self.floor_texels_per_metre = overrides.texels_per_metre.unwrap_or(self.floor_texels_per_metre);

@@ -19,6 +19,7 @@ floor     24.0 m2 in 1 region
 walls     16.0 m: 2 open and 0 closed faces
 openings  west           3.00 m wide, around [0.00, 2.00]
           east           3.00 m wide, around [8.00, 2.00]
+rooms     room 1         24.0 m2, room      2 doors   around [0.05, 2.05]
 routes    west to east                   13.4 m, 50 % of the people
           east to west                   13.5 m, 50 % of the people
 
@@ -50,6 +51,30 @@ fn inspect_prints_json_in_metres_of_the_plan_frame() {
     assert_eq!(names, ["west", "east"]);
     assert_eq!(json["regions"][0]["role"], "floor");
     assert_eq!(json["routes"][0]["name"], "west to east");
+}
+
+#[test]
+fn inspect_lists_what_a_drawing_shows() {
+    let sandbox = Sandbox::new();
+    sandbox.write("plan.png", fs::read("docs/images/plan-cad.png").unwrap());
+    let ran = sandbox.run(&["inspect", "plan.png"]).succeeds();
+    for part in
+        ["\ndoors     13, 0.90 to 1.20 m wide\n", "\nwindows   11, ", "seat (0.45 m high)", "\nrooms     room 1 "]
+    {
+        assert!(ran.out.contains(part), "{part:?} is missing in\n{}", ran.out);
+    }
+    let ran = sandbox.run(&["inspect", "plan.png", "--json"]).succeeds();
+    let json: serde_json::Value = serde_json::from_str(&ran.out).unwrap();
+    let count = |key: &str| json[key].as_array().map_or(0, Vec::len);
+    assert_eq!([count("doors"), count("windows"), count("rooms")], [13, 11, 12]);
+    assert!(count("furniture") > 40 && json["doors"][0]["width_m"].as_f64().unwrap() > 0.8);
+}
+
+#[test]
+fn a_backslash_that_became_a_tab_is_told() {
+    let sandbox = Sandbox::new();
+    sandbox.write("plan.toml", "[plan]\nimage = \"plans\\tables.png\"\n");
+    sandbox.run(&["inspect", "plan.toml"]).fails(1, &["cannot read the plan", "\\t is a tab", "with slashes"]);
 }
 
 #[test]

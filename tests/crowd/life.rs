@@ -11,6 +11,7 @@ use trodden::patterns::{Cause, PatternLibrary};
 use trodden::plan::{self, FloorPlan, PlanOptions};
 use trodden::rooms::{LifeOptions, RoomKind, RoomRequest, Rooms, Use};
 use trodden::routes::{Navigation, Place, PlaceRequest, Route, RouteRequest, RoutesOptions};
+use trodden::scenario::{Overrides, Scenario};
 use trodden::walls::{Walls, WallsOptions};
 
 /// Least share of a room's floor that people have trodden, by texels of 5 cm under at least one sole.
@@ -268,6 +269,114 @@ fn every_room_of_a_robots_map_is_used() {
     assert_eq!(lived.rooms.rooms.len(), 13);
     lived.check_all_came_and_went();
     lived.check_rooms(LEAST_TRODDEN);
+}
+
+/// Buildings on a sheet of paper of so many metres: each with the place of its lower-left corner.
+fn on_paper(size_m: [f64; 2], buildings: &[(FloorPlan, Vec2)]) -> FloorPlan {
+    let size = size_m.map(|metres| (metres / 0.05) as u32);
+    let mut sheet = image::GrayImage::from_pixel(size[0], size[1], image::Luma([255]));
+    for (building, at) in buildings {
+        let (left, top) = ((at.x / 0.05) as u32, size[1] - (at.y / 0.05) as u32 - building.height_px);
+        for (k, _) in building.floor.iter().enumerate().filter(|(_, floor)| **floor == 0) {
+            let (x, y) = (k as u32 % building.width_px, k as u32 / building.width_px);
+            sheet.put_pixel(left + x, top + y, image::Luma([0]));
+        }
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("sheet.png");
+    sheet.save(&path).unwrap();
+    let options = PlanOptions { metres_per_pixel: Some(0.05), ..PlanOptions::default() };
+    plan::read(&path, &options).unwrap()
+}
+
+/// A space of so many metres within walls of 0.3 m, with openings: squares around places, metres.
+fn space(size_m: [f64; 2], openings: &[(Vec2, f64)]) -> FloorPlan {
+    let [width, height] = size_m.map(|metres| (metres / 0.05) as u32);
+    let floor = |p: Vec2| {
+        let inside = p.x > 0.3 && p.x < size_m[0] - 0.3 && p.y > 0.3 && p.y < size_m[1] - 0.3;
+        inside || openings.iter().any(|(at, wide)| (p.x - at.x).abs() < 0.5 * wide && (p.y - at.y).abs() < 0.5 * wide)
+    };
+    let middle = |i: u32| vec2(f64::from(i % width) + 0.5, f64::from(height - 1 - i / width) + 0.5) * 0.05;
+    FloorPlan::from_mask(width, height, 0.05, (0..width * height).map(|i| u8::from(floor(middle(i)))).collect())
+}
+
+#[test]
+fn buildings_beside_each_other_are_all_lived_in() {
+    let lived =
+        live(on_paper([28.0, 13.0], &[(flat(), vec2(2.5, 2.5)), (flat(), vec2(15.5, 2.5))]), 600, Default::default());
+    lived.print("two flats");
+    assert_eq!((lived.rooms.rooms.len(), lived.rooms.entrances.len()), (12, 2));
+    lived.check_all_came_and_went();
+    lived.check_rooms(0.15);
+    assert!(lived.plan.warnings.is_empty(), "{:?}", lived.plan.warnings);
+}
+
+#[test]
+fn a_building_without_a_door_is_told() {
+    let shut = space([10.0, 8.0], &[]);
+    let plan = on_paper([28.0, 13.0], &[(flat(), vec2(2.5, 2.5)), (shut, vec2(15.5, 2.5))]);
+    assert!(plan.warnings.iter().any(|told| told.contains("nobody can reach closed rooms")), "{:?}", plan.warnings);
+    assert!(plan.warnings.iter().any(|told| told.contains("are doors closed?")), "{:?}", plan.warnings);
+}
+
+#[test]
+fn people_come_into_a_single_room_by_its_door_and_stay() {
+    let room = space([12.0, 9.0], &[(vec2(0.15, 4.0), 0.9)]);
+    let lived = live(on_paper([17.0, 14.0], &[(room, vec2(2.5, 2.5))]), 300, Default::default());
+    lived.print("one room");
+    assert!(lived.routes.iter().all(|route| route.life.is_some() && !route.stops.is_empty()), "{:?}", lived.routes[0]);
+    lived.check_all_came_and_went();
+    lived.check_rooms(LEAST_TRODDEN);
+}
+
+/// Doors of 3 m are told from the paper, and people come and go by them.
+#[test]
+fn people_cross_a_hall_from_door_to_door() {
+    let hall = space([40.0, 25.0], &[(vec2(0.15, 12.0), 3.0), (vec2(39.85, 8.0), 3.0), (vec2(20.0, 0.15), 3.0)]);
+    let plan = on_paper([46.0, 31.0], &[(hall, vec2(3.0, 3.0))]);
+    let floor_m2: f64 = plan.floor.iter().map(|&floor| f64::from(floor)).sum::<f64>() * 0.05 * 0.05;
+    assert!((floor_m2 - 39.4 * 24.4).abs() < 15.0 && plan.openings.is_empty(), "{floor_m2} m2");
+    let lived_from_doors = Navigation::find(&plan, &Walls::trace(&plan, &WallsOptions::default()), &Default::default());
+    let names: Vec<String> = lived_from_doors.unwrap().0.into_iter().map(|route| route.name).collect();
+    assert!(names.iter().all(|name| name.starts_with("door ")) && names.len() >= 6, "{names:?}");
+}
+
+/// Bags, wheels, children, groups and cleaning of each use differ, and so do the ways that people go.
+#[test]
+fn each_use_has_people_and_cleaning_of_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("plan.png");
+    let office = office();
+    let shade = |x: u32, y: u32| image::Luma([255 * office.floor[(y * office.width_px + x) as usize]]);
+    image::GrayImage::from_fn(office.width_px, office.height_px, shade).save(&path).unwrap();
+    let walls = Walls::trace(&office, &WallsOptions::default());
+    let mut all: Vec<(Use, Vec<f64>)> = Vec::new();
+    for r#use in Use::ALL {
+        let overrides = Overrides { metres_per_pixel: Some(0.05), r#use: Some(r#use), ..Overrides::default() };
+        let scenario = Scenario::from_plan(&path, &overrides).unwrap();
+        let (routes, ways) = Navigation::find(&office, &walls, &scenario.routes).unwrap();
+        let lived = scenario.lived_in(ways.life().map(|life| &**life));
+        let stops = routes.iter().map(|route| route.share * route.stops.len() as f64).sum::<f64>();
+        let length_m = routes.iter().map(|route| route.share * route.length_m).sum::<f64>();
+        let groups = lived.crowd.groups.shares;
+        let bodies = [lived.bodies.bags, lived.bodies.pull, lived.bodies.push, lived.bodies.children, groups[0]];
+        let measures = bodies.into_iter().chain([f64::from(lived.look.mop.takes), stops / 10.0, length_m / 100.0]);
+        all.push((r#use, measures.collect()));
+    }
+    for (k, (one, own)) in all.iter().enumerate() {
+        for (other, others) in &all[k + 1..] {
+            let apart = own.iter().zip(others).map(|(a, b)| (a - b).abs()).sum::<f64>();
+            assert!(apart > 0.2, "{one:?} {own:?} and {other:?} {others:?} are alike");
+        }
+    }
+    let mop = |r#use: Use| all.iter().find(|(own, _)| *own == r#use).map(|(_, measures)| measures[5]).unwrap();
+    assert!(mop(Use::Hospital) > mop(Use::Home) + 0.25);
+    // What a scenario says stays.
+    let mut own =
+        Scenario::from_plan(&path, &Overrides { metres_per_pixel: Some(0.05), ..Overrides::default() }).unwrap();
+    own.look.mop.takes = 0.1;
+    let (_, ways) = Navigation::find(&office, &walls, &own.routes).unwrap();
+    assert_eq!(own.lived_in(ways.life().map(|life| &**life)).look.mop.takes, 0.1);
 }
 
 /// The office on a sheet of paper: its only way in is a door in the outer wall.

@@ -28,7 +28,12 @@ pub struct Seen {
 impl Seen {
     /// Reads a drawing whose building begins at a place of the drawing's frame, metres.
     pub fn of(name: &str, bytes: impl AsRef<[u8]>, begins_m: [f64; 2]) -> Seen {
-        let plan = read_with(name, bytes, &PlanOptions::default()).unwrap();
+        Seen::with(name, bytes, begins_m, &PlanOptions::default())
+    }
+
+    /// Reads such a drawing with options.
+    pub fn with(name: &str, bytes: impl AsRef<[u8]>, begins_m: [f64; 2], options: &PlanOptions) -> Seen {
+        let plan = read_with(name, bytes, options).unwrap();
         let origin = plan.map_from_plan.origin_m;
         Seen { corner_m: Vec2 { x: begins_m[0] - origin.x, y: begins_m[1] - origin.y }, plan }
     }

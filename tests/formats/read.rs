@@ -1,6 +1,8 @@
 //! Each format gives the building that was written.
 
-use trodden::plan::{PlanClass, PlanOptions};
+use trodden::plan::{PlanClass, PlanLayers, PlanOptions, ScaleSource};
+use trodden::routes;
+use trodden::walls::Walls as TracedWalls;
 
 use super::building::Building;
 use super::measure::{Seen, read_with};
@@ -145,4 +147,69 @@ fn a_given_scale_goes_before_the_drawings_own() {
     // 60 m of building and two margins.
     assert!((seen.width_m() - 65.0).abs() < 0.1, "{}", seen.width_m());
     assert!(seen.classes.contains(&PlanClass::Wall));
+}
+
+/// Names that say nothing are listed, and a scenario says what they hold.
+#[test]
+fn layers_whose_names_say_nothing_are_listed_and_said() {
+    let truth = office();
+    let meaningless = |mut text: String, names: &[(&str, &str)]| {
+        names.iter().for_each(|(name, code)| text = text.replace(name, code));
+        text
+    };
+    let svg = [("Walls", "X-2"), ("\"wall", "\"k2"), (".wall", ".k2"), ("Fenster", "X-4"), ("Türen", "X-3")];
+    let svg = meaningless(write::svg(&truth, 100.0), &[&svg[..], &[("\"furniture\"", "\"X-51\"")]].concat());
+    let unread = read_with("plan.svg", &svg, &PlanOptions::default()).unwrap();
+    let told = unread.warnings.iter().find(|warning| warning.contains("`[plan] layers`"));
+    assert!(
+        told.is_some_and(|told| ["\"X-2\"", "\"X-3\"", "\"X-51\""].iter().all(|name| told.contains(name))),
+        "{told:?}"
+    );
+    let names = |names: &[&str]| names.iter().map(|name| name.to_string()).collect::<Vec<String>>();
+    let layers = PlanLayers {
+        wall: names(&["x-2", "k2"]),
+        window: names(&["X-4"]),
+        door: names(&["X-3"]),
+        table: names(&["X-5*"]),
+        ..PlanLayers::default()
+    };
+    let options = PlanOptions { layers: Some(layers), ..PlanOptions::default() };
+    let seen = Seen::with("plan.svg", &svg, [2.0, 2.0], &options);
+    seen.check(&truth, "SVG whose layers are said");
+    assert_eq!((seen.closed_windows(&truth), seen.desks(&truth)), (12, 12));
+}
+
+#[test]
+fn the_buildings_width_scales_a_drawing() {
+    let truth = office();
+    let options = PlanOptions { width_m: Some(60.0), ..PlanOptions::default() };
+    let seen = read_with("plan.svg", write::svg(&truth, 100.0), &options).unwrap();
+    assert_eq!(seen.scale.source, ScaleSource::Width);
+    // Twice the size, and two margins.
+    assert!((seen.width_m() - 65.0).abs() < 0.1, "{}", seen.width_m());
+}
+
+#[test]
+fn a_scale_that_doors_tell_is_a_guess() {
+    let truth = office();
+    let seen = Seen::of("plan.dxf", write::dxf(&truth, 0.01, 0, Walls::Lines, [0.0, 0.0]), [0.0, 0.0]);
+    let scale = &seen.plan.scale;
+    assert!(scale.source == ScaleSource::Guessed && (0.5..0.95).contains(&scale.sureness), "{scale:?}");
+    let [least, most] = scale.range;
+    assert!(least < seen.plan.metres_per_pixel && most > seen.plan.metres_per_pixel, "{scale:?}");
+    let sure = Seen::of("plan.dxf", write::dxf(&truth, 0.001, 4, Walls::Lines, [0.0, 0.0]), [0.0, 0.0]);
+    assert_eq!((sure.plan.scale.source, sure.plan.scale.sureness), (ScaleSource::Drawing, 1.0));
+}
+
+/// Half of the people go along the lanes of an Open-RMF building.
+#[test]
+fn lanes_are_routes() {
+    let seen = Seen::of("office.building.yaml", write::rmf(&of_lines()), [4.0, -36.0]);
+    let walls = TracedWalls::trace(&seen.plan, &Default::default());
+    let found = routes::find(&seen.plan, &walls, &Default::default()).unwrap();
+    let along: Vec<_> = found.iter().filter(|route| route.name.starts_with("lane ")).collect();
+    assert_eq!(along.iter().map(|route| &route.name[..]).collect::<Vec<_>>(), ["lane 1 to lane 2", "lane 2 to lane 1"]);
+    let share: f64 = along.iter().map(|route| route.share).sum();
+    assert!((share - 0.5).abs() < 1e-9, "{share}");
+    assert!(along.iter().all(|route| (route.length_m - 28.0).abs() < 2.5), "{}", along[0].length_m);
 }

@@ -61,7 +61,7 @@ pub struct ScenarioArguments {
     #[arg(long, help_heading = "Scenario", value_name = "T", value_parser = within("texture.floor_texels_per_metre"))]
     #[arg(allow_negative_numbers = true)]
     pub texels_per_metre: Option<f64>,
-    /// A first look: 25 texels per metre of floor, 50 of walls, no layers
+    /// A first look: 25 texels per metre, 400 people if nothing says how many, no layers
     #[arg(long, help_heading = "Scenario", conflicts_with = "texels_per_metre")]
     pub quick: bool,
     /// A copy of the plan, if it came on standard input.

@@ -8,7 +8,7 @@ use super::piece::{Piece, Stroke, VectorPlan, bounds_of};
 use super::solid::{Curves, box_along, hull, shapes};
 use super::unit::metres_per_unit;
 use crate::math::{Rect, Vec2, vec2};
-use crate::plan::{LARGEST_SIDE_M, LARGEST_SIDE_PX, PlanClass, PlanError, PlanOptions};
+use crate::plan::{LARGEST_SIDE_M, LARGEST_SIDE_PX, PlanClass, PlanError, PlanScale, ScaleSource};
 
 /// Side of a pixel, metres; coarser for large sites.
 const FINEST_M: f64 = 0.02;
@@ -25,8 +25,6 @@ const LARGEST_THING_M: f64 = 5.0;
 /// Lines of a thing are closer than this, metres.
 const TOUCH_M: f64 = 0.03;
 
-/// Layers that a warning lists.
-const LISTED: usize = 6;
 const NOWHERE: Rect = Rect { min: Vec2::ZERO, max: Vec2::ZERO };
 
 /// What a drawing gives.
@@ -34,7 +32,7 @@ pub(super) enum Built {
     /// Walls, doors and furniture by the names of layers.
     Layers(Layers),
     /// A picture for the reader of pictures, and the metres of a pixel if they are known.
-    Picture(DynamicImage, Option<f64>),
+    Picture(DynamicImage, Option<(f64, PlanScale)>),
 }
 
 /// A plan by the names of its layers.
@@ -42,6 +40,8 @@ pub(in crate::plan) struct Layers {
     pub(in crate::plan) width: usize,
     pub(in crate::plan) height: usize,
     pub(in crate::plan) metres_per_pixel: f64,
+    /// Where its size comes from.
+    pub(in crate::plan) scale: PlanScale,
     /// Place of the plan's lower-left corner in the drawing's frame, metres.
     pub(in crate::plan) origin_m: Vec2,
     /// 0 where all is solid, 255 where nothing is.
@@ -54,28 +54,47 @@ pub(in crate::plan) struct Layers {
 }
 
 /// Builds a plan from a drawing, with its warnings.
-pub(super) fn build(mut plan: VectorPlan, given: Option<f64>, warnings: &mut Vec<String>) -> Result<Built, PlanError> {
+pub(super) fn build(
+    mut plan: VectorPlan,
+    given: Option<(f64, PlanScale)>,
+    width_m: Option<f64>,
+    warnings: &mut Vec<String>,
+) -> Result<Built, PlanError> {
     let has_walls = plan.pieces.iter().any(|piece| piece.class == Some(PlanClass::Wall));
-    let scale = match given {
-        Some(given) => Some(given),
-        None => {
+    let scale = match (given, width_m) {
+        (Some(given), _) => Some(given),
+        (None, Some(width_m)) if has_walls => of_width(&plan, width_m),
+        // The reader of pictures finds the width of the building.
+        (None, Some(_)) => None,
+        (None, None) => {
             let (scale, warning) = metres_per_unit(&plan);
             warnings.extend(warning);
             scale
         }
     };
     if !has_walls {
-        warnings.push("no layer is named after walls: the drawing is read as a picture".to_owned());
+        let layers = plan.unknown("; say what layers hold by `[plan] layers`: ");
+        warnings.push(format!("no layer is named after walls: the drawing is read as a picture{layers}"));
         return picture(&plan, scale).map(|(image, scale)| Built::Picture(image, scale));
     }
-    let Some(scale) = scale else {
+    let Some((scale, told)) = scale else {
         warnings.push("no layer tells the scale: the drawing is read as a picture".to_owned());
         return picture(&plan, None).map(|(image, scale)| Built::Picture(image, scale));
     };
     let origin_m = to_metres(&mut plan, scale);
     let mut layers = layers(&plan, warnings)?;
     layers.origin_m += origin_m;
+    // Of the drawing's units, as of the plan's pixels.
+    layers.scale = told.scaled(layers.metres_per_pixel / scale);
     Ok(Built::Layers(layers))
+}
+
+/// The metres of a unit, from the width of the building.
+fn of_width(plan: &VectorPlan, width_m: f64) -> Option<(f64, PlanScale)> {
+    let is_of_building = |piece: &&Piece| matches!(piece.class, Some(PlanClass::Wall | PlanClass::Window));
+    let bounds = bounds_of(plan.pieces.iter().filter(is_of_building).flat_map(Piece::points))?;
+    let metres = width_m / bounds.width();
+    metres.is_finite().then(|| (metres, PlanScale::known(ScaleSource::Width, metres)))
 }
 
 /// Turns units into metres, from a place in the building on: coordinates of surveyors leave few digits. Returns that
@@ -157,10 +176,9 @@ fn layers(plan: &VectorPlan, warnings: &mut Vec<String>) -> Result<Layers, PlanE
     }
     let nameless = plan.pieces.iter().filter(|piece| piece.class.is_none()).count();
     if nameless > 0 {
-        let names: Vec<&str> = plan.unknown_layers.keys().take(LISTED).map(String::as_str).collect();
-        let names = if names.is_empty() { String::new() } else { format!(", such as {}", names.join(", ")) };
+        let layers = plan.unknown("; say what layers hold by `[plan] layers`: ");
         let shapes = if nameless == 1 { "shape" } else { "shapes" };
-        warnings.push(format!("left out of layers that are named after nothing known{names}: {nameless} {shapes}"));
+        warnings.push(format!("left out of layers that are named after nothing known: {nameless} {shapes}{layers}"));
     }
     let drawn_doors = of(PlanClass::Door).len();
     if drawn_doors > 0 && doors.is_empty() {
@@ -171,6 +189,7 @@ fn layers(plan: &VectorPlan, warnings: &mut Vec<String>) -> Result<Layers, PlanE
         width: grid.width,
         height: grid.height,
         metres_per_pixel: grid.metres_per_pixel,
+        scale: PlanScale::default(),
         origin_m: bounds.min,
         lightness,
         classes,
@@ -259,13 +278,16 @@ fn things(pieces: &[&Piece]) -> Vec<(PlanClass, Vec<Vec<Vec2>>)> {
 }
 
 /// Draws all shapes in their colours on white paper. Returns the metres of a pixel if those of a unit are known.
-fn picture(plan: &VectorPlan, scale: Option<f64>) -> Result<(DynamicImage, Option<f64>), PlanError> {
+fn picture(
+    plan: &VectorPlan,
+    scale: Option<(f64, PlanScale)>,
+) -> Result<(DynamicImage, Option<(f64, PlanScale)>), PlanError> {
     let points = plan.pieces.iter().flat_map(|piece| piece.points());
     let drawn = plan.bounds.or_else(|| bounds_of(points)).unwrap_or(Rect::around(Vec2::ZERO, vec2(1.0, 1.0)));
     let side = drawn.width().max(drawn.height()).max(1e-9);
     let bounds = drawn.grown(0.02 * side);
     let area = bounds.width() * bounds.height();
-    let usual = scale.map_or(side / PICTURE_PX, |scale| FINEST_M / scale);
+    let usual = scale.as_ref().map_or(side / PICTURE_PX, |(scale, _)| FINEST_M / scale);
     // Neither beyond the limits nor a picture of a few pixels.
     let units_per_px =
         usual.max((area / MOST_PIXELS).sqrt()).max(side / f64::from(LARGEST_SIDE_PX) * 1.1).min(side / 300.0);
@@ -289,7 +311,7 @@ fn picture(plan: &VectorPlan, scale: Option<f64>) -> Result<(DynamicImage, Optio
             }
         }
     }
-    Ok((DynamicImage::ImageRgb8(image), scale.map(|scale| scale * units_per_px)))
+    Ok((DynamicImage::ImageRgb8(image), scale.map(|(scale, told)| (scale * units_per_px, told.scaled(units_per_px)))))
 }
 
 /// Lays a colour over what loops in pixels cover.
@@ -302,9 +324,4 @@ fn blend(image: &mut RgbImage, loops: &[Vec<Vec2>], colour: [u8; 3]) {
             *channel = (old + (f32::from(new) - old) * share + 0.5) as u8;
         }
     });
-}
-
-/// The metres of a unit that the options give.
-pub(super) fn given_scale(options: &PlanOptions) -> Result<Option<f64>, PlanError> {
-    Ok(crate::plan::scale::given(options, None)?.map(|(scale, _)| scale))
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use image::DynamicImage;
 
-use super::{PlanError, PlanOptions};
+use super::{PlanError, PlanOptions, PlanScale, scale};
 use crate::files::read_input;
 
 mod area;
@@ -35,8 +35,8 @@ const LARGEST_BYTES: u64 = 256 << 20;
 pub(super) enum Vector {
     /// Walls, doors and furniture by the names of layers.
     Layers(Layers, Vec<String>),
-    /// A picture, and the metres of its pixels if they are known.
-    Picture(DynamicImage, Option<f64>, Vec<String>),
+    /// A picture, and the metres of its pixels if they are known, with where they come from.
+    Picture(DynamicImage, Option<(f64, PlanScale)>, Vec<String>),
 }
 
 /// The vector format of a file, by its content and its name; `None` for pictures, and for what cannot be read.
@@ -63,10 +63,11 @@ pub(super) fn read(path: &Path, format: VectorFormat, options: &PlanOptions) -> 
         let text = std::str::from_utf8(bytes).map_err(|_| refuse("it is not UTF-8 text".to_owned()))?;
         Ok::<_, PlanError>(text.trim_start_matches('\u{feff}').to_owned())
     };
+    let said = options.layers.clone().unwrap_or_default();
     let plan = match format {
-        VectorFormat::Svg => svg::read(&bytes, options.page),
-        VectorFormat::Pdf => pdf::read(bytes, options.page),
-        VectorFormat::Dxf => dxf::read(&bytes),
+        VectorFormat::Svg => svg::read(&bytes, options.page, &said),
+        VectorFormat::Pdf => pdf::read(bytes, options.page, &said),
+        VectorFormat::Dxf => dxf::read(&bytes, &said),
         VectorFormat::OpenRmf => rmf::read(&text(&bytes)?, options.page),
         VectorFormat::Vtt => vtt::read(&text(&bytes)?),
         VectorFormat::Dwg | VectorFormat::Ifc => Err("its format is not read".to_owned()),
@@ -75,8 +76,8 @@ pub(super) fn read(path: &Path, format: VectorFormat, options: &PlanOptions) -> 
     let mut warnings = plan.warnings.clone();
     warnings.extend(plan.left_out());
     let per_unit = if plan.units_per_pixel > 0.0 { 1.0 / plan.units_per_pixel } else { 1.0 };
-    let given = build::given_scale(options)?.map(|metres| metres * per_unit);
-    Ok(match build::build(plan, given, &mut warnings)? {
+    let given = scale::given(options, None)?.map(|(metres, scale)| (metres * per_unit, scale.scaled(per_unit)));
+    Ok(match build::build(plan, given, options.width_m, &mut warnings)? {
         build::Built::Layers(layers) => Vector::Layers(layers, warnings),
         build::Built::Picture(image, scale) => Vector::Picture(image, scale, warnings),
     })

@@ -7,10 +7,9 @@ use hayro_syntax::object::{Array, Dict, Name, Number, Object, ObjectIdentifier, 
 use hayro_syntax::page::Resources;
 use rustc_hash::FxHashSet;
 
-use super::names::class_of;
 use super::piece::{Map, Path, Stroke, TOO_MANY, TooMany, Unit, VectorPlan};
 use crate::math::{Rect, Vec2, vec2};
-use crate::plan::PlanClass;
+use crate::plan::{PlanClass, PlanLayers};
 
 /// Metres of a point of paper.
 const POINT_M: f64 = 0.0254 / 72.0;
@@ -23,7 +22,7 @@ const MOST_INSTRUCTIONS: usize = 20_000_000;
 const LONGEST_TEXT: usize = 1 << 20;
 
 /// Reads a page, counted from 1.
-pub(super) fn read(bytes: Vec<u8>, page: Option<u32>) -> Result<VectorPlan, String> {
+pub(super) fn read(bytes: Vec<u8>, page: Option<u32>, said: &PlanLayers) -> Result<VectorPlan, String> {
     let pdf = Pdf::new(bytes).map_err(|error| match error {
         hayro_syntax::LoadPdfError::Decryption(_) => "it is locked by a password".to_owned(),
         hayro_syntax::LoadPdfError::Invalid => "it is damaged".to_owned(),
@@ -32,7 +31,7 @@ pub(super) fn read(bytes: Vec<u8>, page: Option<u32>) -> Result<VectorPlan, Stri
     let wanted = page.unwrap_or(1) as usize;
     let chosen = wanted.checked_sub(1).and_then(|at| pages.get(at));
     let page = chosen.ok_or_else(|| format!("page {wanted} was asked for; it has {}", pages.iter().count()))?;
-    let mut plan = VectorPlan::of(Unit::Paper(POINT_M));
+    let mut plan = VectorPlan::of(Unit::Paper(POINT_M), said);
     if pages.iter().count() > 1 {
         plan.warnings.push(format!("page {wanted} of {} was read", pages.iter().count()));
     }
@@ -245,11 +244,8 @@ impl Reader {
     }
 
     /// Whether a layer is seen, and what it is named after.
-    fn layer(&self, dict: &Dict, id: Option<ObjectIdentifier>) -> (bool, Option<PlanClass>) {
-        let name = |dict: &Dict| {
-            let name = dict.get::<Text>(keys::NAME)?;
-            class_of(&text_of(name.as_bytes()))
-        };
+    fn layer(&mut self, dict: &Dict, id: Option<ObjectIdentifier>) -> (bool, Option<PlanClass>) {
+        let name = |dict: &Dict| Some(text_of(dict.get::<Text>(keys::NAME)?.as_bytes()));
         // A membership stands for one group or several.
         let groups: Vec<Dict> = match dict.get::<Array>(keys::OCGS) {
             Some(groups) => groups.iter::<Dict>().collect(),
@@ -265,7 +261,12 @@ impl Reader {
             },
         };
         let seen = ids.is_empty() || ids.iter().any(|id| !self.off.contains(id));
-        (seen, name(dict).or_else(|| groups.iter().find_map(name)))
+        let names: Vec<String> = [dict].into_iter().chain(&groups).filter_map(name).collect();
+        let class = names.iter().find_map(|name| self.plan.class_of(name));
+        if let (None, Some(name)) = (class, names.first()) {
+            self.plan.add_unknown(name);
+        }
+        (seen, class)
     }
 
     fn object(&mut self, object: &Stream, resources: &Resources, state: State, depth: usize) -> Result<(), TooMany> {

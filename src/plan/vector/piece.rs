@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use super::names;
 use crate::math::{Rect, Vec2, sin_cos, vec2};
-use crate::plan::PlanClass;
+use crate::plan::{PlanClass, PlanLayers};
 
 /// Most corners of all shapes of a drawing.
 pub(super) const MOST_CORNERS: usize = 2_000_000;
@@ -11,6 +12,9 @@ pub(super) const MOST_CORNERS: usize = 2_000_000;
 const FARTHEST: f64 = 1e8;
 /// Angle between two corners of a circle that becomes a polyline, radians: 2 degrees, at 10 m radius 1.5 mm off.
 const STEP_RAD: f64 = std::f64::consts::PI / 90.0;
+
+/// Layers that a warning lists.
+const LISTED: usize = 6;
 
 /// A vector drawing: shapes in the drawing's own unit, y up.
 #[derive(Debug, Default)]
@@ -24,10 +28,12 @@ pub(super) struct VectorPlan {
     /// What was left out, by its names `one|many`.
     left_out: BTreeMap<&'static str, usize>,
     /// Names of layers that say nothing known.
-    pub(super) unknown_layers: BTreeMap<String, usize>,
+    unknown_layers: BTreeMap<String, usize>,
     /// Units of a pixel of the map that is drawn with it.
     pub(super) units_per_pixel: f64,
     pub(super) warnings: Vec<String>,
+    /// What a scenario says of layers.
+    said: PlanLayers,
     corners: usize,
 }
 
@@ -104,8 +110,25 @@ pub(super) const TOO_MANY: &str = "it has more corners than any plan";
 
 impl VectorPlan {
     /// A drawing without shapes.
-    pub(super) fn of(unit: Unit) -> VectorPlan {
-        VectorPlan { unit, ..VectorPlan::default() }
+    pub(super) fn of(unit: Unit, said: &PlanLayers) -> VectorPlan {
+        VectorPlan { unit, said: said.clone(), ..VectorPlan::default() }
+    }
+
+    /// What a layer, class or block holds: as the scenario says, or by its name.
+    pub(super) fn class_of(&self, name: &str) -> Option<PlanClass> {
+        self.said.class_of(name).or_else(|| names::class_of(name))
+    }
+
+    /// Counts a layer whose name says nothing known.
+    pub(super) fn add_unknown(&mut self, layer: &str) {
+        *self.unknown_layers.entry(layer.to_owned()).or_default() += 1;
+    }
+
+    /// The first layers whose names say nothing known, after `lead`; empty without any.
+    pub(super) fn unknown(&self, lead: &str) -> String {
+        let names: Vec<String> = self.unknown_layers.keys().take(LISTED).map(|name| format!("\"{name}\"")).collect();
+        let more = if self.unknown_layers.len() > LISTED { ", ..." } else { "" };
+        if names.is_empty() { String::new() } else { format!("{lead}{}{more}", names.join(", ")) }
     }
 
     /// Adds a shape unless its coordinates are no plan's.

@@ -7,10 +7,9 @@ use rustc_hash::FxHashMap;
 use usvg::roxmltree;
 use usvg::tiny_skia_path::PathSegment;
 
-use super::names::class_of;
 use super::piece::{Path, Stroke, TOO_MANY, TooMany, Unit, VectorPlan};
 use crate::math::{Vec2, vec2};
-use crate::plan::PlanClass;
+use crate::plan::{PlanClass, PlanLayers};
 
 /// Largest text of a compressed SVG, bytes.
 const LARGEST_TEXT: u64 = 256 << 20;
@@ -22,7 +21,7 @@ const DEEPEST: usize = 200;
 const OURS: &str = "trodden-";
 
 /// Reads an SVG or SVGZ file. Of a building model's storeys it reads one, counted from 1.
-pub(super) fn read(bytes: &[u8], storey: Option<u32>) -> Result<VectorPlan, String> {
+pub(super) fn read(bytes: &[u8], storey: Option<u32>, said: &PlanLayers) -> Result<VectorPlan, String> {
     let unpacked;
     let bytes = if bytes.starts_with(&[0x1f, 0x8b]) {
         let mut text = Vec::new();
@@ -37,7 +36,7 @@ pub(super) fn read(bytes: &[u8], storey: Option<u32>) -> Result<VectorPlan, Stri
         bytes
     };
     let text = std::str::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())?;
-    let mut plan = VectorPlan::default();
+    let mut plan = VectorPlan::of(Unit::Unknown, said);
     let (text, names) = named(text, storey, &mut plan)?;
     let resolver =
         usvg::ImageHrefResolver { resolve_data: Box::new(|_, _, _| None), resolve_string: Box::new(|_, _| None) };
@@ -103,7 +102,15 @@ fn named(text: &str, storey: Option<u32>, plan: &mut VectorPlan) -> Result<(Stri
         let label = node.attributes().find(|attribute| attribute.name() == "label" && attribute.namespace().is_some());
         let id = node.attribute("id").filter(|id| !id.is_empty());
         let said = [label.map(|label| label.value()), node.attribute("data-name"), node.attribute("class"), id];
-        let class = said.into_iter().flatten().find_map(class_of);
+        let class = said.into_iter().flatten().find_map(|name| plan.class_of(name));
+        let holds_shapes =
+            || tag == "g" && node.children().any(|child| child.is_element() && child.tag_name().name() != "g");
+        if class.is_none()
+            && holds_shapes()
+            && let Some(layer) = said.into_iter().flatten().find(|name| !name.is_empty())
+        {
+            plan.add_unknown(layer);
+        }
         let Some(id) = id else {
             // Elements of entities have no place of their own in the text.
             let name = text[start..].strip_prefix('<').and_then(|rest| rest.find([' ', '\t', '\r', '\n', '>', '/']));

@@ -3,7 +3,7 @@
 use super::doors::{arc_of, long_axis};
 use super::piece::{Unit, VectorPlan, bounds_of};
 use super::solid::thickness;
-use crate::plan::PlanClass;
+use crate::plan::{PlanClass, PlanScale, ScaleSource};
 
 /// Scales of drawings on paper.
 const PAPER_SCALES: [f64; 15] =
@@ -17,6 +17,11 @@ const WALL_M: f64 = 0.17;
 const BUILDING_M: [f64; 2] = [3.0, 500.0];
 /// A known unit is doubted if doors come out beyond this, metres.
 const DOOR_DOUBT_M: std::ops::RangeInclusive<f64> = 0.45..=2.2;
+/// How sure a scale is, and by which factor it may be off: doors are 0.7 to 1.2 m wide, walls 0.1 to 0.4 m thick.
+const SURE_BY_DOORS: f64 = 0.85;
+const SURE_BY_WALLS: f64 = 0.5;
+const DOORS_OFF: f64 = 1.3;
+const WALLS_OFF: f64 = 2.0;
 
 /// What of a drawing tells its size, in its own units.
 #[derive(Debug)]
@@ -27,12 +32,14 @@ struct Evidence {
 }
 
 /// Metres of a unit, and what to tell the user about it.
-pub(super) fn metres_per_unit(plan: &VectorPlan) -> (Option<f64>, Option<String>) {
+pub(super) fn metres_per_unit(plan: &VectorPlan) -> (Option<(f64, PlanScale)>, Option<String>) {
     let evidence = Evidence::of(plan);
     let guess = |candidates: &mut dyn Iterator<Item = f64>| evidence.best(candidates);
     let everything = || UNITS_M.into_iter().chain(PAPER_SCALES.map(|scale| scale * 0.0254 / 96.0));
+    let sure = |metres: f64| Some((metres, PlanScale::known(ScaleSource::Drawing, metres)));
+    let guessed = |metres: f64| Some((metres, evidence.guessed(metres)));
     match plan.unit {
-        Unit::Sure(metres) => (Some(metres), None),
+        Unit::Sure(metres) => (sure(metres), None),
         Unit::Metres(metres) => {
             let door = evidence.door.map(|door| door * metres);
             let side = evidence.longer_side * metres;
@@ -44,21 +51,21 @@ pub(super) fn metres_per_unit(plan: &VectorPlan) -> (Option<f64>, Option<String>
                         None => format!("the building would be {side:.1} m long"),
                     };
                     let warning = format!("the drawing's unit of {metres} m cannot be: {found}; {better} m was taken");
-                    (Some(better), Some(warning))
+                    (guessed(better), Some(warning))
                 }
-                None => (Some(metres), None),
+                None => (sure(metres), None),
             }
         }
         Unit::Paper(metres) => match guess(&mut PAPER_SCALES.map(|scale| scale * metres).into_iter()) {
             Some(guess) => {
                 let scale = (guess / metres).round();
-                (Some(guess), Some(format!("the scale was taken for 1:{scale}, {}", evidence.says(guess))))
+                (guessed(guess), Some(format!("the scale was taken for 1:{scale}, {}", evidence.says(guess))))
             }
             None => (None, None),
         },
         Unit::Unknown => match guess(&mut everything()) {
             Some(guess) => (
-                Some(guess),
+                guessed(guess),
                 Some(format!("the drawing has no unit: {guess:.6} m was taken, {}", evidence.says(guess))),
             ),
             None => (None, None),
@@ -107,6 +114,16 @@ impl Evidence {
             (None, Some(wall)) => format!("at which walls are {:.2} m thick", wall * m),
             (None, None) => String::new(),
         }
+    }
+
+    /// How sure a scale is that doors or walls tell: these differ more.
+    fn guessed(&self, m: f64) -> PlanScale {
+        let (evidence, sureness, off) = match (self.door, self.wall) {
+            (Some(door), _) => (format!("doors, {:.2} m wide", door * m), SURE_BY_DOORS, DOORS_OFF),
+            (None, Some(wall)) => (format!("walls, {:.2} m thick", wall * m), SURE_BY_WALLS, WALLS_OFF),
+            (None, None) => (String::new(), 0.0, WALLS_OFF),
+        };
+        PlanScale { source: ScaleSource::Guessed, sureness, range: [m / off, m * off], evidence }
     }
 }
 

@@ -21,7 +21,7 @@ pub(super) fn read(text: &str) -> Result<VectorPlan, String> {
     let origin = resolution.get("map_origin").and_then(place).unwrap_or(Vec2::ZERO);
     // Rows go down from the map's origin.
     let up = |p: Vec2| vec2(p.x - origin.x, size.y - (p.y - origin.y));
-    let mut plan = VectorPlan::of(Unit::Sure(SQUARE_M));
+    let mut plan = VectorPlan::of(Unit::Sure(SQUARE_M), &Default::default());
     plan.units_per_pixel = number(resolution, "pixels_per_grid").filter(|n| *n > 0.0).map_or(1.0, |n| 1.0 / n);
     plan.bounds = Some(Rect { min: Vec2::ZERO, max: size });
     plan.warnings.push(format!("a square of the map was taken for {SQUARE_M} m"));

@@ -2,10 +2,9 @@
 
 use rustc_hash::FxHashMap;
 
-use super::names::class_of;
 use super::piece::{Map, Piece, TOO_MANY, TooMany, Unit, VectorPlan, arc};
 use crate::math::{Vec2, sin_cos, vec2};
-use crate::plan::PlanClass;
+use crate::plan::{PlanClass, PlanLayers};
 
 mod pairs;
 
@@ -21,11 +20,11 @@ const SPLINE_STEPS: usize = 96;
 const MOST_CONTROLS: usize = 20_000;
 
 /// Reads a drawing.
-pub(super) fn read(bytes: &[u8]) -> Result<VectorPlan, String> {
+pub(super) fn read(bytes: &[u8], said: &PlanLayers) -> Result<VectorPlan, String> {
     let text = pairs::decode(bytes);
     let pairs = pairs::pairs(bytes, &text)?;
     let drawing = Drawing::of(&pairs);
-    let mut plan = VectorPlan::of(drawing.unit);
+    let mut plan = VectorPlan::of(drawing.unit, said);
     let mut reader = Reader { drawing: &drawing, plan: &mut plan, inserts: 0, blocks: Vec::new() };
     let top = Place { map: Map::IDENTITY, layer: "0", class: None, group: 0 };
     reader.entities(&drawing.entities, top).map_err(|TooMany| TOO_MANY.to_owned())?;
@@ -197,14 +196,14 @@ impl<'a> Reader<'a, '_> {
             self.plan.leave_out("hidden entity|hidden entities", 1);
             return None;
         }
-        let by_layer = class_of(layer);
+        let by_layer = self.plan.class_of(layer);
         let class = match (by_layer, place.class) {
             (Some(layer), Some(block)) if layer.is_furniture() && block.is_furniture() => Some(block),
             (Some(layer), _) => Some(layer),
             (None, block) => block,
         };
         if class.is_none() {
-            *self.plan.unknown_layers.entry(layer.to_owned()).or_default() += 1;
+            self.plan.add_unknown(layer);
         }
         Some((layer, class))
     }
@@ -397,7 +396,7 @@ impl<'a> Reader<'a, '_> {
         let flip = if entity.number(230, 1.0) < 0.0 { -1.0 } else { 1.0 };
         let own = |p: Vec2| vec2(p.x * flip, p.y);
         // Anonymous blocks have no name that says anything.
-        let named = if name.starts_with('*') { None } else { class_of(name) };
+        let named = if name.starts_with('*') { None } else { self.plan.class_of(name) };
         let class = match (class, named) {
             (Some(layer), Some(block)) if layer.is_furniture() && block.is_furniture() => Some(block),
             (None, block) => block,
