@@ -98,8 +98,10 @@ impl Boundary {
             }
         }
         let points_m = vertices.iter().map(|v| plan.px_to_m([v.at.x, v.at.y])).collect();
-        let outline = Outline { points_m, openings, furniture_m: None };
-        Outline { furniture_m: outline.height_of_furniture(plan), ..outline }
+        let outline = Outline { points_m, openings, furniture_m: None, windows_m: Vec::new() };
+        let furniture_m = outline.height_of_furniture(plan);
+        let windows_m = if furniture_m.is_some() { Vec::new() } else { outline.windows_of(plan) };
+        Outline { furniture_m, windows_m, ..outline }
     }
 
     /// Whether the corners enclose an area of the same orientation as the pixel edges.

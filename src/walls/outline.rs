@@ -18,6 +18,9 @@ pub struct Outline {
     /// Height of the furniture that it goes around, metres; `None` for walls, up to the ceiling.
     #[serde(default, rename = "height_m", skip_serializing_if = "Option::is_none")]
     pub furniture_m: Option<f64>,
+    /// Both ends of each window in it, metres, floor on the right.
+    #[serde(default, rename = "windows", skip_serializing_if = "Vec::is_empty")]
+    pub windows_m: Vec<[Vec2; 2]>,
 }
 
 impl Outline {
@@ -95,6 +98,47 @@ impl Outline {
     }
 }
 
+/// Shortest window, metres, and step at which walls are searched for them, pixels of the plan.
+const SHORTEST_WINDOW_M: f64 = 0.35;
+const WINDOW_STEP_PX: f64 = 0.5;
+
+impl Outline {
+    /// The parts of its walls behind which the plan shows a window.
+    pub(super) fn windows_of(&self, plan: &FloorPlan) -> Vec<[Vec2; 2]> {
+        let px = plan.metres_per_pixel;
+        let mut windows = Vec::new();
+        for k in (0..self.points_m.len()).filter(|&k| self.opening(k).is_none()) {
+            let [a, b] = self.edge(k);
+            let Some(along) = (b - a).normalized() else { continue };
+            let length_m = a.distance(b);
+            if length_m < SHORTEST_WINDOW_M {
+                continue;
+            }
+            let is_window = |at_m: f64| {
+                let on = a + along * at_m + along.left() * (1.5 * px);
+                plan.class_at(on) == PlanClass::Window
+            };
+            let steps = (length_m / (WINDOW_STEP_PX * px)).ceil().max(1.0) as usize;
+            let at_m = |step: usize| length_m * step as f64 / steps as f64;
+            let mut from = None;
+            for step in 0..=steps + 1 {
+                match (step <= steps && is_window(at_m(step)), from) {
+                    (true, None) => from = Some(step),
+                    (false, Some(first)) => {
+                        let ends_m = [at_m(first), at_m(step - 1)];
+                        if ends_m[1] - ends_m[0] >= SHORTEST_WINDOW_M {
+                            windows.push(ends_m.map(|at_m| a + along * at_m));
+                        }
+                        from = None;
+                    }
+                    _ => {}
+                }
+            }
+        }
+        windows
+    }
+}
+
 /// Checks outlines of a file.
 pub(crate) fn check(outlines: &[Outline]) -> Result<(), WallsError> {
     for (index, outline) in outlines.iter().enumerate() {
@@ -113,7 +157,7 @@ pub(crate) fn check(outlines: &[Outline]) -> Result<(), WallsError> {
             return Err(WallsError::Opening { outline: index, edge, points });
         }
     }
-    let all = || outlines.iter().flat_map(|outline| outline.points_m.iter());
+    let all = || outlines.iter().flat_map(|outline| outline.points_m.iter().chain(outline.windows_m.iter().flatten()));
     // `min` and `max` ignore NaN.
     if let Some(nan) = all().map(|p| p.x + p.y).find(|sum| sum.is_nan()) {
         return Err(WallsError::TooFar { extent_m: nan });

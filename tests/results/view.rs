@@ -6,7 +6,7 @@ use trodden::export::TextureSource;
 use trodden::export::{Camera, CameraError};
 use trodden::look::{Background, ResolvedBlock};
 use trodden::math::vec2;
-use trodden::plan::FloorPlan;
+use trodden::plan::{FloorPlan, PlanClass};
 use trodden::show::Rooms;
 use trodden::show::still::{StillError, Surfaces};
 use trodden::sums::FloorSums;
@@ -19,6 +19,166 @@ const DENSITY: f64 = 20.0;
 
 /// A floor whose texels are a pure function of their place.
 struct Painted<F>(F);
+
+/// A grey floor of a roughness, 0 to 255.
+struct Plain(u8);
+
+impl TextureSource for Plain {
+    fn layers(&self) -> &[&'static str] {
+        &[]
+    }
+
+    fn background(&self) -> Background {
+        Background { base_color: [150, 150, 150], mask: [0; 4], orm: [255, self.0, 0] }
+    }
+
+    fn resolve(&self, _: i64, _: i64, width: usize, height: usize) -> ResolvedBlock {
+        ResolvedBlock {
+            base_color: vec![[150; 3]; width * height],
+            orm: vec![[255, self.0, 0]; width * height],
+            ..ResolvedBlock::default()
+        }
+    }
+}
+
+fn on_plain(rooms: &Rooms, from: &Camera, roughness: u8) -> RgbImage {
+    let floor = Plain(roughness);
+    let coat = Surfaces { floor: &floor, floor_texels_per_metre: DENSITY, small: None, walls: None };
+    rooms.draw(from, [320, 180], &[coat], &Silent).unwrap().remove(0)
+}
+
+fn level(pixel: &image::Rgb<u8>) -> f64 {
+    pixel.0.iter().map(|&c| f64::from(c)).sum::<f64>() / 3.0
+}
+
+/// A plan of 10 cm to a pixel: where it is floor, and what the rest is.
+fn walls_of(size: [usize; 2], class: impl Fn(usize, usize) -> PlanClass) -> Walls {
+    let [width, height] = size;
+    let classes: Vec<PlanClass> = (0..width * height).map(|k| class(k % width, k / width)).collect();
+    let floor = classes.iter().map(|class| u8::from(*class == PlanClass::Floor)).collect();
+    let mut plan = FloorPlan::from_mask(width as u32, height as u32, 0.1, floor);
+    plan.classes = classes;
+    Walls::trace(&plan, &WallsOptions::default())
+}
+
+/// Two rooms with a door between them: its leaf stands open in one of them, in wood, beside the way through.
+#[test]
+fn a_door_has_a_leaf_that_stands_open() {
+    let walls = walls_of([130, 60], |x, y| {
+        let room = (5..62).contains(&x) || (64..125).contains(&x);
+        let is_floor = (room && (5..55).contains(&y)) || ((62..64).contains(&x) && (34..43).contains(&y));
+        if is_floor { PlanClass::Floor } else { PlanClass::Wall }
+    });
+    let doorways = walls.doorways();
+    assert_eq!(doorways.len(), 1);
+    let wood = |rooms: &Rooms, from: &str| {
+        let picture = on_plain(rooms, &camera(from), 220);
+        let is_wood = |pixel: &&image::Rgb<u8>| pixel.0[0] > 90 && f64::from(pixel.0[0]) > 1.2 * f64::from(pixel.0[2]);
+        picture.pixels().filter(is_wood).count() as f64 / f64::from(picture.width() * picture.height())
+    };
+    let views = ["2.2,3.0,1.7,-10,-8", "10.4,3.0,1.7,190,-8"];
+    let [hung, bare] = [&doorways[..], &[]].map(|doorways| {
+        let rooms = Rooms::new(&walls, doorways, 2.6);
+        views.map(|from| wood(&rooms, from)).into_iter().fold(0.0, f64::max)
+    });
+    assert!(hung > 0.02 && bare < 0.002, "{hung} of the picture is a leaf, {bare} without doors");
+}
+
+/// A ceiling is tiles of unlike tone with lamps between them.
+#[test]
+fn a_ceiling_has_lamps_and_tiles() {
+    let walls = walls_of([120, 90], |x, y| {
+        if (5..115).contains(&x) && (5..85).contains(&y) { PlanClass::Floor } else { PlanClass::Wall }
+    });
+    let picture = on_plain(&Rooms::new(&walls, &[], 2.6), &camera("2,4.5,1.0,0,50"), 220);
+    let levels: Vec<f64> = picture.pixels().map(level).collect();
+    let lamps = levels.iter().filter(|level| **level > 246.0).count() as f64 / levels.len() as f64;
+    assert!((0.01..0.3).contains(&lamps), "{lamps} of the ceiling are lamps");
+    // Away from lamps, neighbouring patches differ: by tiles, joints and light.
+    let mean = |i: usize, j: usize| {
+        let patch = (0..64).map(|k| levels[(j * 8 + k / 8) * 320 + i * 8 + k % 8]);
+        patch.sum::<f64>() / 64.0
+    };
+    let patches: Vec<f64> = (0..22).flat_map(|j| (0..40).map(move |i| (i, j))).map(|(i, j)| mean(i, j)).collect();
+    let tiles: Vec<f64> = patches.into_iter().filter(|level| *level < 225.0).collect();
+    let middle = tiles.iter().sum::<f64>() / tiles.len() as f64;
+    let spread =
+        (tiles.iter().map(|level| (level - middle) * (level - middle)).sum::<f64>() / tiles.len() as f64).sqrt();
+    assert!((130.0..215.0).contains(&middle) && (3.0..30.0).contains(&spread), "{middle} +- {spread}");
+}
+
+/// A smooth floor mirrors lamps as soft streaks: clearly brighter than a matt one, without razor edges.
+#[test]
+fn smooth_floors_mirror_lamps_softly() {
+    let walls = walls_of([200, 90], |x, y| {
+        if (5..195).contains(&x) && (5..85).contains(&y) { PlanClass::Floor } else { PlanClass::Wall }
+    });
+    let rooms = Rooms::new(&walls, &[], 2.6);
+    let [smooth, matt] = [90, 250].map(|roughness| on_plain(&rooms, &camera("1.5,4.5,1.7,0,-14"), roughness));
+    let gain = |x: u32, y: u32| level(smooth.get_pixel(x, y)) - level(matt.get_pixel(x, y));
+    let floor = || (70..178).flat_map(|y| (20..300).map(move |x| (x, y)));
+    let most = floor().map(|(x, y)| gain(x, y)).fold(f64::NEG_INFINITY, f64::max);
+    let edge = floor().map(|(x, y)| (gain(x, y) - gain(x + 1, y)).abs().max((gain(x, y) - gain(x, y + 1)).abs()));
+    let edge = edge.fold(0.0, f64::max);
+    assert!(most > 25.0 && edge < 0.45 * most, "lamps lighten by {most}, at an edge by {edge}");
+}
+
+/// A window is a bright pane, and lights the floor before it.
+#[test]
+fn windows_are_bright_and_light_the_floor() {
+    let walls = |with: bool| {
+        walls_of([130, 90], |x, y| match (x, y) {
+            (8..122, 8..82) => PlanClass::Floor,
+            (50..80, ..8) if with => PlanClass::Window,
+            _ => PlanClass::Wall,
+        })
+    };
+    let [with, without] = [true, false].map(|with| Rooms::new(&walls(with), &[], 2.6));
+    // The image's upper side is north.
+    let from = camera("6.5,2.6,1.7,90,-14");
+    let [with, without] = [with, without].map(|rooms| on_plain(&rooms, &from, 240));
+    let bright = |picture: &RgbImage| {
+        let pane = (110..210).flat_map(|x| (20..80).map(move |y| (x, y)));
+        pane.filter(|&(x, y)| level(picture.get_pixel(x, y)) > 228.0).count()
+    };
+    assert!(bright(&with) > 1000 && bright(&without) < 100, "{} and {}", bright(&with), bright(&without));
+    let floor = |picture: &RgbImage, rows: std::ops::Range<u32>| {
+        let sum: f64 = rows
+            .clone()
+            .flat_map(|y| (140..180).map(move |x| (x, y)))
+            .map(|(x, y)| level(picture.get_pixel(x, y)))
+            .sum();
+        sum / (f64::from(rows.end - rows.start) * 40.0)
+    };
+    let before = |picture: &RgbImage| floor(picture, 104..112) / floor(picture, 165..175);
+    assert!(before(&with) > 1.06 * before(&without), "{} and {}", before(&with), before(&without));
+}
+
+/// The automatic camera sees floor, and far, though pillars and tables stand about.
+#[test]
+fn automatic_cameras_see_floor_and_depth() {
+    let walls = walls_of([240, 130], |x, y| {
+        let inside = (5..235).contains(&x) && (5..125).contains(&y);
+        let pillar = (x + 20) % 45 < 6 && (y + 10) % 45 < 6;
+        let table = (x % 60) < 16 && (30..38).contains(&(y % 60));
+        match (inside, pillar, table) {
+            (true, true, _) | (false, ..) => PlanClass::Wall,
+            (true, false, true) => PlanClass::Table,
+            _ => PlanClass::Floor,
+        }
+    });
+    let rooms = Rooms::new(&walls, &[], 2.6);
+    let grid = trodden::stamps::TexelGrid::covering(24.0, 13.0, DENSITY).unwrap();
+    let from = rooms.eye_level(&FloorSums::new(grid));
+    let red = Painted(|_, _| [255, 0, 0]);
+    let coat = Surfaces { floor: &red, floor_texels_per_metre: DENSITY, small: None, walls: None };
+    let picture = rooms.draw(&from, [320, 180], &[coat], &Silent).unwrap().remove(0);
+    let is_floor = |pixel: &&image::Rgb<u8>| pixel.0[0] > 60 && pixel.0[0].saturating_sub(pixel.0[1]) > 45;
+    let share = picture.pixels().filter(is_floor).count() as f64 / f64::from(320 * 180);
+    assert!(share >= 0.35, "{share} of what {from} sees is floor");
+    let ahead = vec2(from.heading_deg.to_radians().cos(), from.heading_deg.to_radians().sin());
+    assert!(walls.sight(from.place_m(), from.place_m() + ahead * 8.0), "{from} looks against something near");
+}
 
 impl<F: Fn(i64, i64) -> [u8; 3] + Sync> TextureSource for Painted<F> {
     fn layers(&self) -> &[&'static str] {

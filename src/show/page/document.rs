@@ -12,7 +12,7 @@ use crate::math::Vec2;
 use crate::math::srgb::{encode, light_of};
 use crate::show::encode_picture;
 use crate::show::rooms::{
-    EXPOSURE_ABOVE, EXPOSURE_INSIDE, EXPOSURE_OUTSIDE, Light, Panels, TABLE, glsl, scaled, sky, toned,
+    EXPOSURE_ABOVE, EXPOSURE_INSIDE, EXPOSURE_OUTSIDE, Finish, Light, Panels, TABLE, glsl, scaled, sky, toned,
 };
 use crate::show::scene::{Mesh, SceneSurface};
 use crate::show::still::STILL_SIZE_PX;
@@ -190,7 +190,7 @@ fn part_image(page: &Page<'_>, part: &Mesh) -> Option<PartImage> {
     let images = match part.surface {
         SceneSurface::FloorTile(n) => page.floor.images.get(n),
         SceneSurface::WallSheet(n) => page.wall.images.get(n),
-        SceneSurface::WallTop | SceneSurface::Lintel => None,
+        SceneSurface::WallTop | SceneSurface::Lintel | SceneSurface::Fitting(_) => None,
     }?;
     let (width, height) = images.clean.dimensions();
     let fits = images.dirt.dimensions() == (width, height) && images.orm.dimensions() == (width, height);
@@ -224,9 +224,17 @@ fn parts(page: &Page<'_>, blocks: &mut Vec<(String, Vec<u8>)>) -> Vec<Value> {
             SceneSurface::WallSheet(_) => "wall",
             SceneSurface::WallTop => "top",
             SceneSurface::Lintel => "lintel",
+            SceneSurface::Fitting(finish) if finish == Finish::Pane as usize => "pane",
+            SceneSurface::Fitting(_) => "fitting",
+        };
+        let finish = match part.surface {
+            SceneSurface::Fitting(finish) => Finish::ALL.get(finish),
+            _ => None,
         };
         described.push(json!({
             "surface": kind,
+            "colour": finish.map(|finish| light_of(finish.colour())),
+            "roughness": finish.map(|finish| finish.roughness()),
             "image": image,
             "vertices": [starts[0], part.positions_m.len()],
             "indices": [starts[1], part.indices.len()],

@@ -33,6 +33,12 @@ const FLOOR_ROWS: usize = 10;
 const LOWEST_SLOPE: f64 = 0.517;
 /// Slope of its upper side, upward.
 const HIGHEST_SLOPE: f64 = 0.201;
+/// So many views are looked at as pictures, of this size, with so many columns for depth.
+const MOST_PICTURES: usize = 80;
+const PICTURE_PX: [u32; 2] = [48, 27];
+const COLUMNS: usize = 20;
+/// What is nearer than this stands in the way, metres.
+const NEAR_M: f32 = 2.2;
 /// Share of the picture that should be floor, and way to the wall that should be ahead, metres.
 const FLOOR_SHARE: f64 = 0.35;
 const DEPTH_M: f64 = 8.0;
@@ -59,16 +65,67 @@ impl RayGrid {
                 views.fold((f64::NEG_INFINITY, place, 0.0), |best, view| if view.0 > best.0 { view } else { best })
             })
             .collect();
-        let start = (f64::NEG_INFINITY, self.block.centre(), 0.0);
-        let (_, place, heading_deg) =
-            judged.into_iter().fold(start, |best, view| if view.0 > best.0 { view } else { best });
         let height_m = if self.is_open() { EYES_M } else { EYES_M.min(self.height_m - 0.2) };
-        Camera {
+        let camera = |&(_, place, heading_deg): &(f64, Vec2, f64)| Camera {
             position_m: [place.x, place.y, height_m],
             heading_deg,
             pitch_deg: if self.is_open() { OPEN_PITCH_DEG } else { EYE_PITCH_DEG },
             fov_deg: DEFAULT_FOV_DEG,
+        };
+        let mut best = judged;
+        best.sort_by(|a, b| b.0.total_cmp(&a.0));
+        best.truncate(if self.is_open() { 1 } else { MOST_PICTURES });
+        let cameras: Vec<Camera> = best.iter().map(camera).collect();
+        let scores: Vec<f64> = cameras.par_iter().map(|camera| self.picture_score(camera, traffic)).collect();
+        let best = cameras.into_iter().zip(scores).reduce(|best, other| if other.1 > best.1 { other } else { best });
+        best.map_or_else(|| camera(&(0.0, self.block.centre(), 0.0)), |(camera, _)| camera)
+    }
+
+    /// Score of a camera by a small picture of what it sees: trodden floor with margins, depth, doors and furniture;
+    /// nothing near in the way.
+    fn picture_score(&self, camera: &Camera, traffic: &FootfallGrid) -> f64 {
+        let lens = Lens::of(camera, PICTURE_PX);
+        let [width, height] = PICTURE_PX.map(|px| px as usize);
+        let all = (width * height) as f64;
+        let (mut floor, mut trodden, mut squared) = (0.0, 0.0, 0.0);
+        let (mut near, mut outside, mut things) = (0.0, 0.0, 0.0);
+        for k in 0..width * height {
+            let hit = self.trace_inside(lens.position, lens.ray((k % width) as f64 + 0.5, (k / width) as f64 + 0.5));
+            let beyond = hit.beyond_m > 0.0;
+            match hit.surface {
+                _ if beyond => outside += 1.0,
+                HitSurface::Floor => {
+                    let here = f64::from(traffic.at(vec2(f64::from(hit.point[0]), f64::from(hit.point[1]))));
+                    (floor, trodden, squared) = (floor + 1.0, trodden + here, squared + here * here);
+                }
+                HitSurface::Fitting(..) | HitSurface::Lintel(_) | HitSurface::Soffit(_) => things += 1.0,
+                _ => {}
+            }
+            let is_near = !matches!(hit.surface, HitSurface::Floor | HitSurface::Ceiling) && hit.way_m < NEAR_M;
+            near += if is_near { 1.0 } else { 0.0 };
         }
+        // How far it is to what stands in the picture, by column.
+        let level = |k: usize| {
+            let [x, y, _] = lens.ray((k as f64 + 0.5) * PICTURE_PX[0] as f64 / COLUMNS as f64, 0.5 * height as f64);
+            let toward = vec2(x, y).normalized().unwrap_or(vec2(1.0, 0.0));
+            self.cast(camera.place_m(), toward, 45.0, |piece, _| {
+                piece.bounds_room() || matches!(piece.what, QuadKind::Fitting(..)) && piece.height_m > EYES_M
+            })
+            .map_or(45.0, |met| met.way_m)
+        };
+        let mut ways: Vec<f64> = (0..COLUMNS).map(level).collect();
+        let central_m = ways[COLUMNS * 2 / 5..COLUMNS * 3 / 5].iter().copied().fold(f64::INFINITY, f64::min);
+        ways.sort_by(f64::total_cmp);
+        let deep_m = ways[COLUMNS * 3 / 4];
+        let short = |value: f64, wanted: f64| (1.0 - value / wanted).max(0.0);
+        let mean = trodden / f64::max(floor, 1.0);
+        let contrast = (squared / f64::max(floor, 1.0) - mean * mean).max(0.0).sqrt();
+        1.5 * trodden / all + 4.0 * contrast * floor / all + 0.6 * (things / all / 0.12).min(1.0)
+            - 4.0 * short(floor / all, FLOOR_SHARE)
+            - 2.0 * short(deep_m, DEPTH_M)
+            - 1.2 * short(central_m, 0.6 * DEPTH_M)
+            - 6.0 * (near / all - 0.06).max(0.0)
+            - 5.0 * (outside / all - 0.03).max(0.0)
     }
 
     /// Candidate places a metre apart, on walked floor if there is some.

@@ -26,9 +26,11 @@ const DAY_REACH_M: f64 = 14.0;
 const DAY_BEYOND_M: f64 = 3.0;
 /// Places in an opening, as shares of its width, from which daylight comes.
 const DAY_FROM: [f64; 3] = [0.17, 0.5, 0.83];
+/// Light outdoors: thrown back from all around, of the sky, of the sun.
+const OUTDOORS: [f64; 3] = [0.07, 0.27, 0.92];
 /// Direction of the sun in the plan, degrees, and how many metres it falls per metre, outdoors.
 const SUN_DEG: f64 = 218.0;
-const SUN_SLOPE: f64 = 0.95;
+const SUN_SLOPE: f64 = 0.80;
 /// The same of the large lamp beside a plan that is seen from above.
 const LAMP_SLOPE: f64 = 1.25;
 /// Least distance of a ray's start from a wall, metres.
@@ -54,6 +56,15 @@ pub(crate) struct Irradiance {
     pub full: f32,
     /// Share of the surroundings that is open, 0 to 1.
     pub open: f32,
+    /// Share of it that furniture leaves on the floor.
+    pub shade: f32,
+}
+
+impl Irradiance {
+    /// Of a surface that no furniture darkens.
+    pub fn new(full: f32, open: f32) -> Irradiance {
+        Irradiance { full, open, shade: 1.0 }
+    }
 }
 
 /// The light in the rooms of a plan.
@@ -105,10 +116,16 @@ impl<'a> Light<'a> {
 
     /// Light on a place of the floor, or on the nearest one a little off the wall.
     pub fn on_floor(&self, p: Vec2) -> Irradiance {
+        let shade = self.space.fittings.under_boards(self.space.shades_at(p), p) as f32;
+        Irradiance { shade, ..self.over_floor(p) }
+    }
+
+    /// The same without furniture.
+    fn over_floor(&self, p: Vec2) -> Irradiance {
         let height_m = self.space.height_m;
         let Some(p) = self.onto_floor(p) else {
             let day = if self.panels().is_some() { self.gain * self.daylight_on_floor(p) } else { 0.0 };
-            return Irradiance { full: day.max(0.6) as f32, open: 0.5 };
+            return Irradiance::new(day.max(0.6) as f32, 0.5);
         };
         match &self.sources {
             LightSources::Inside(panels) => {
@@ -124,18 +141,18 @@ impl<'a> Light<'a> {
                 let day = self.daylight_on_floor(p);
                 let bounced = BOUNCE[0] * (0.25 + 0.75 * open);
                 let contact = 1.0 - CONTACT[0] * exp(-near_m / CONTACT[1]);
-                Irradiance { full: (self.gain * (direct + bounced + day) * contact) as f32, open: open as f32 }
+                Irradiance::new((self.gain * (direct + bounced + day) * contact) as f32, open as f32)
             }
             LightSources::Above(sun) => {
                 let (open, _) = self.open_around(p, height_m);
                 let lit = self.sunlit(p, *sun, height_m, LAMP_SLOPE, &SPREAD_7);
-                Irradiance { full: (0.12 + 0.48 * open + 0.5 * lit) as f32, open: open as f32 }
+                Irradiance::new((0.12 + 0.48 * open + 0.5 * lit) as f32, open as f32)
             }
             LightSources::Outside(sun) => {
                 let (open, near_m) = self.open_around(p, height_m);
                 let lit = self.sunlit(p, *sun, height_m, SUN_SLOPE, &SUN_DISC);
                 let contact = 1.0 - 0.6 * CONTACT[0] * exp(-near_m / CONTACT[1]);
-                Irradiance { full: ((0.08 + 0.26 * open + 0.72 * lit) * contact) as f32, open: open as f32 }
+                Irradiance::new(((OUTDOORS[0] + OUTDOORS[1] * open + OUTDOORS[2] * lit) * contact) as f32, open as f32)
             }
         }
     }
@@ -144,13 +161,13 @@ impl<'a> Light<'a> {
     /// before its foot (Howell, A catalog of radiation heat transfer configuration factors, B-3). Beyond an opening it is
     /// as bright as in it.
     fn daylight_on_floor(&self, p: Vec2) -> f64 {
-        let height_m = self.space.height_m;
-        let of_opening = |&[a, b]: &[Vec2; 2]| {
+        let of_opening = |([a, b], [low_m, high_m]): ([Vec2; 2], [f64; 2])| {
             let Some(along) = (b - a).normalized() else { return 0.0 };
             let (width_m, x) = (a.distance(b), (p - a).dot(along));
             // The floor is on the right of an opening.
             let off_m = along.cross(a - p);
-            if !(-DAY_BEYOND_M..=DAY_REACH_M).contains(&off_m) {
+            let beyond_m = if low_m > 0.0 { 0.0 } else { DAY_BEYOND_M };
+            if !(-beyond_m..=DAY_REACH_M).contains(&off_m) {
                 return 0.0;
             }
             let seen = DAY_FROM.map(|share| {
@@ -160,20 +177,30 @@ impl<'a> Light<'a> {
                 if is_seen { 1.0 - smoothstep((distance - 7.0) / (DAY_REACH_M - 7.0)) } else { 0.0 }
             });
             let off_m = off_m.max(0.0);
-            let edge_m = (off_m * off_m + height_m * height_m).sqrt();
-            let half = |side_m: f64| atan2(side_m, off_m) - off_m / edge_m * atan2(side_m, edge_m);
-            seen.iter().sum::<f64>() / seen.len() as f64 * (half(x) + half(width_m - x))
+            let up_to = |top_m: f64| {
+                let edge_m = (off_m * off_m + top_m * top_m).sqrt();
+                let half = |side_m: f64| atan2(side_m, off_m) - off_m / edge_m * atan2(side_m, edge_m);
+                half(x) + half(width_m - x)
+            };
+            let below = if low_m > 0.0 { up_to(low_m) } else { 0.0 };
+            seen.iter().sum::<f64>() / seen.len() as f64 * (up_to(high_m) - below)
         };
-        DAY * self.space.openings.iter().map(of_opening).sum::<f64>() / std::f64::consts::PI
+        DAY * self.daylight_from().map(of_opening).sum::<f64>() / std::f64::consts::PI
+    }
+
+    /// Where daylight comes in: both ends of openings and windows, and their lower and upper sides.
+    fn daylight_from(&self) -> impl Iterator<Item = ([Vec2; 2], [f64; 2])> + '_ {
+        let openings = self.space.openings.iter().map(|&ends| (ends, [0.0, self.space.height_m]));
+        openings.chain(self.space.fittings.windows.iter().map(|window| (window.ends, window.span_m)))
     }
 
     /// Daylight from the openings on a wall with this normal, at both [`WALL_HEIGHTS`].
     fn daylight_on_wall(&self, p: Vec2, normal: Vec2) -> [f64; 2] {
         let height_m = self.space.height_m;
         let mut sums = [0.0; 2];
-        for &[a, b] in &self.space.openings {
+        for ([a, b], [low_m, high_m]) in self.daylight_from() {
             let Some(along) = (b - a).normalized() else { continue };
-            let width_m = a.distance(b);
+            let (width_m, share_up) = (a.distance(b), (high_m - low_m) / height_m);
             for share in DAY_FROM {
                 let way = a + (b - a) * share - p;
                 let distance = way.length();
@@ -186,7 +213,7 @@ impl<'a> Light<'a> {
                 }
                 let d2 = distance * distance + 0.3;
                 let fade = 1.0 - smoothstep((distance - 7.0) / (DAY_REACH_M - 7.0));
-                let from = leaves * fade * width_m / (DAY_FROM.len() as f64 * d2.sqrt());
+                let from = share_up * leaves * fade * width_m / (DAY_FROM.len() as f64 * d2.sqrt());
                 for (sum, at) in sums.iter_mut().zip(WALL_HEIGHTS) {
                     // A wall sees all of an opening, more of it at half its height.
                     let off = (at - 0.5) * height_m;
@@ -333,10 +360,12 @@ impl WallLight<'_> {
                 } else {
                     0.0
                 };
-                0.14 + 0.24 * sky.sum::<f64>() / weight + 0.80 * lit
+                // A sunlit floor throws light onto walls, most onto their feet.
+                let thrown = OUTDOORS[0] + 0.07 * (1.0 - z / height_m.max(0.1));
+                thrown + OUTDOORS[1] * sky.sum::<f64>() / weight + 1.1 * OUTDOORS[2] * lit
             }
         };
-        Irradiance { full: full as f32, open: open as f32 }
+        Irradiance::new(full as f32, open as f32)
     }
 
     /// Light of a panel by its area, `below` metres under the ceiling.

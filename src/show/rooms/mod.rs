@@ -3,6 +3,7 @@
 //! Stills and the page take rays, lamps, light and cameras from here, and nowhere else.
 
 mod cameras;
+mod fittings;
 mod footfalls;
 mod lens;
 mod light;
@@ -11,9 +12,10 @@ mod ray_grid;
 mod shades;
 mod trace;
 
+pub(crate) use fittings::{Finish, Fittings};
 pub(crate) use lens::Lens;
 pub(crate) use light::{Irradiance, Light, LightSources, OFF_WALL_M};
-pub(crate) use panels::Panels;
+pub(crate) use panels::{Panels, TILE_M};
 pub(crate) use ray_grid::{QuadKind, RayGrid, WallQuad};
 pub(crate) use shades::*;
 pub(crate) use trace::{HitSurface, RayHit};

@@ -1,9 +1,10 @@
 //! The plan as rays see it: upright faces over a plane, found through a grid of cells.
 
+use super::fittings::{Fitting, Fittings};
 use crate::look::WIDEST_FRAMED_M;
 use crate::math::srgb::{Srgb8, light_of};
 use crate::math::{Rect, Vec2, vec2};
-use crate::walls::{Doorway, Outline, Walls};
+use crate::walls::{Doorway, Face, Walls};
 
 /// Side of a cell, metres, where the plan is not so large that coarser ones must do.
 const CELL_M: f64 = 0.5;
@@ -21,6 +22,15 @@ pub(crate) enum QuadKind {
     Opening,
     /// Above a door: place in the list of doorways.
     Lintel(u32),
+    /// A side of a prism: place in the list of [`Fittings`], and which side.
+    Fitting(u32, u8),
+}
+
+impl QuadKind {
+    /// Whether it parts floor from what is no floor.
+    fn bounds_floor(self) -> bool {
+        matches!(self, QuadKind::Wall(_) | QuadKind::Opening)
+    }
 }
 
 /// One upright rectangle, seen from its right side.
@@ -53,7 +63,7 @@ impl WallQuad {
 
     /// True for walls and openings, up to the ceiling.
     pub fn bounds_room(&self) -> bool {
-        !matches!(self.what, QuadKind::Lintel(_)) && self.height_m.is_infinite()
+        self.what.bounds_floor() && self.height_m.is_infinite()
     }
 
     /// Unit vector that points to where the floor is: to the right.
@@ -65,6 +75,11 @@ impl WallQuad {
     pub fn round_normal(&self, along_m: f64) -> Vec2 {
         let [from, to] = self.round;
         from.lerp(to, (along_m / self.length).clamp(0.0, 1.0)).normalized().unwrap_or(self.normal())
+    }
+
+    /// Whether a place lies on its line, but for rounding.
+    pub fn is_on(&self, p: Vec2) -> bool {
+        (p - self.a).cross(self.along).abs() < 1e-5
     }
 
     /// Distance of a place to it in the plan, metres.
@@ -87,7 +102,7 @@ impl WallQuad {
 /// The crossing of a ray and a quad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Crossing {
-    /// Way from the ray's start, metres.
+    /// Way from the ray's start to what it meets, metres.
     pub way_m: f64,
     /// Place in [`RayGrid::pieces`].
     pub piece: usize,
@@ -141,17 +156,19 @@ struct FurnitureTop {
     bounds: Rect,
     outline: Vec<Vec2>,
     height_m: f64,
+    /// Whether prisms stand for it, and its top is none.
+    replaced: bool,
 }
 
 impl FurnitureTop {
-    fn of(outline: &Outline) -> Option<FurnitureTop> {
+    fn of((outline, &replaced): (&Face, &bool)) -> Option<FurnitureTop> {
         let first = outline.points_m.first()?;
         let around = |bounds: Rect, &p: &Vec2| Rect {
             min: vec2(bounds.min.x.min(p.x), bounds.min.y.min(p.y)),
             max: vec2(bounds.max.x.max(p.x), bounds.max.y.max(p.y)),
         };
         let bounds = outline.points_m.iter().fold(Rect { min: *first, max: *first }, around);
-        Some(FurnitureTop { bounds, outline: outline.points_m.clone(), height_m: outline.furniture_m? })
+        Some(FurnitureTop { bounds, outline: outline.points_m.clone(), height_m: outline.furniture_m?, replaced })
     }
 
     fn contains(&self, p: Vec2) -> bool {
@@ -183,6 +200,11 @@ pub(crate) struct RayGrid {
     pub frame: Option<(f32, Srgb8)>,
     /// The block that the rooms are cut into.
     pub block: Rect,
+    /// What stands in the rooms.
+    pub fittings: Fittings,
+    /// What darkens the floor of cell `c`: `shades[shade_starts[c]..shade_starts[c + 1]]`.
+    shade_starts: Vec<u32>,
+    shades: Vec<u32>,
     furniture: Vec<FurnitureTop>,
     /// Heights of the furniture, metres, each once.
     furniture_heights_m: Vec<f64>,
@@ -203,16 +225,20 @@ pub(crate) struct RayGrid {
 impl RayGrid {
     pub fn new(walls: &Walls, doorways: &[Doorway], height_m: f64) -> RayGrid {
         let lintels: Vec<Lintel> = doorways.iter().map(|door| Lintel::new(door, height_m)).collect();
-        let mut pieces = wall_pieces(walls);
+        let fittings = Fittings::of(walls, doorways, height_m);
+        let mut pieces = wall_pieces(walls, &fittings.replaced);
         pieces.extend(opening_pieces(walls));
         pieces.extend((0..).zip(&lintels).flat_map(|(n, lintel)| lintel.pieces(n)));
+        pieces.extend((0..).zip(&fittings.all).flat_map(|(n, fitting)| fitting_pieces(n, fitting)));
         let bounds = walls.bounds_m();
         let area = bounds.grown(2.0 * CELL_M);
         let cell_m = CELL_M.max((area.width() * area.height() / MOST_CELLS).sqrt());
         let count = |metres: f64| (metres / cell_m) as usize + 1;
         let (columns, rows) = (count(area.width()), count(area.height()));
-        let furniture: Vec<FurnitureTop> = walls.outlines().iter().filter_map(FurnitureTop::of).collect();
-        let mut furniture_heights_m: Vec<f64> = furniture.iter().map(|top| top.height_m).collect();
+        let furniture: Vec<FurnitureTop> =
+            walls.faces.iter().zip(&fittings.replaced).filter_map(FurnitureTop::of).collect();
+        let mut furniture_heights_m: Vec<f64> =
+            furniture.iter().filter(|top| !top.replaced).map(|top| top.height_m).collect();
         furniture_heights_m.sort_by(f64::total_cmp);
         furniture_heights_m.dedup();
         let mut space = RayGrid {
@@ -223,6 +249,9 @@ impl RayGrid {
             roofed: height_m > 0.0,
             frame: None,
             block: block(walls),
+            fittings,
+            shade_starts: Vec::new(),
+            shades: Vec::new(),
             furniture,
             furniture_heights_m,
             origin: area.min,
@@ -236,6 +265,7 @@ impl RayGrid {
             empty_rings: Vec::new(),
         };
         space.sort_into_cells();
+        space.sort_shades();
         space.middles = (0..columns * rows)
             .map(|cell| {
                 let middle = space.middle(cell);
@@ -264,7 +294,7 @@ impl RayGrid {
         let middle = self.middle(cell);
         let crossed = self.cell(cell).iter().filter(|&&n| {
             let piece = &self.pieces[n as usize];
-            !matches!(piece.what, QuadKind::Lintel(_)) && crosses(middle, p, piece.a, piece.b())
+            piece.what.bounds_floor() && crosses(middle, p, piece.a, piece.b())
         });
         (self.middles[cell] == CellGround::Floor) == crossed.count().is_multiple_of(2)
     }
@@ -287,7 +317,7 @@ impl RayGrid {
                 return None;
             }
             let p = at(way);
-            let is_top = |top: &FurnitureTop| top.height_m == height_m && top.contains(p);
+            let is_top = |top: &FurnitureTop| !top.replaced && top.height_m == height_m && top.contains(p);
             (!self.is_floor(p) && self.furniture.iter().any(is_top)).then_some(way)
         })
     }
@@ -301,13 +331,25 @@ impl RayGrid {
         limit_m: f64,
         solid: impl Fn(&WallQuad, f64) -> bool,
     ) -> Option<Crossing> {
+        self.nearest(from, toward, limit_m, |piece, way| solid(piece, way).then_some(way))
+    }
+
+    /// The nearest of what a ray meets behind faces: `meets` tells the way to it by the way to the face, if there is any.
+    pub fn nearest(
+        &self,
+        from: Vec2,
+        toward: Vec2,
+        limit_m: f64,
+        meets: impl Fn(&WallQuad, f64) -> Option<f64>,
+    ) -> Option<Crossing> {
         let inverse = vec2(1.0 / toward.x, 1.0 / toward.y);
         let mut way = self.enters(from, inverse)?;
-        while way <= limit_m {
+        let mut first: Option<Crossing> = None;
+        while way <= first.map_or(limit_m, |first| first.way_m) {
             let p = from + toward * (way + NUDGE_M);
             let [column, row] = [p.x - self.origin.x, p.y - self.origin.y].map(|m| m * self.cells_per_metre);
             if !(column >= 0.0 && row >= 0.0 && column < self.columns as f64 && row < self.rows as f64) {
-                return None;
+                return first;
             }
             // Within the grid both are positive: whole numbers by truncation, which is faster than rounding down.
             let (column, row) = (column as usize, row as usize);
@@ -323,25 +365,24 @@ impl RayGrid {
             let leave_y = if toward.y == 0.0 { f64::INFINITY } else { leaves((y - from.y) * inverse.y) };
             let leave = leave_x.min(leave_y).max(way + NUDGE_M);
             if rings == 0.0 {
-                let met = self.first_in(cell, from, toward, limit_m, &solid);
-                if let Some(met) = met.filter(|met| met.way_m <= leave + 2.0 * NUDGE_M) {
-                    return Some(met);
+                self.first_in(cell, [from, toward], limit_m, &meets, &mut first);
+                if first.is_some_and(|first| first.way_m <= leave + 2.0 * NUDGE_M) {
+                    return first;
                 }
             }
             way = leave;
         }
-        None
+        first
     }
 
     fn first_in(
         &self,
         cell: usize,
-        from: Vec2,
-        toward: Vec2,
+        [from, toward]: [Vec2; 2],
         limit_m: f64,
-        solid: &impl Fn(&WallQuad, f64) -> bool,
-    ) -> Option<Crossing> {
-        let mut first: Option<Crossing> = None;
+        meets: &impl Fn(&WallQuad, f64) -> Option<f64>,
+        first: &mut Option<Crossing>,
+    ) {
         for &number in self.cell(cell) {
             let piece = &self.pieces[number as usize];
             let against = toward.x * piece.along.y - toward.y * piece.along.x;
@@ -355,11 +396,14 @@ impl RayGrid {
                 continue;
             }
             let along_m = (from + toward * way_m - piece.a).dot(piece.along);
-            if along_m >= -NUDGE_M && along_m <= piece.length + NUDGE_M && solid(piece, way_m) {
-                first = Some(Crossing { way_m, piece: number as usize, along_m });
+            if along_m < -NUDGE_M || along_m > piece.length + NUDGE_M {
+                continue;
+            }
+            let met = meets(piece, way_m).filter(|way_m| *way_m <= limit_m);
+            if let Some(way_m) = met.filter(|way_m| first.is_none_or(|first| *way_m < first.way_m)) {
+                *first = Some(Crossing { way_m, piece: number as usize, along_m });
             }
         }
-        first
     }
 
     /// Way to the grid, metres; `None` if the ray misses it.
@@ -385,6 +429,12 @@ impl RayGrid {
         self.middles.iter().enumerate().filter(floor).map(|(cell, _)| self.middle(cell))
     }
 
+    /// Numbers of what darkens the floor around a place.
+    pub fn shades_at(&self, p: Vec2) -> &[u32] {
+        self.cell_of(p)
+            .map_or(&[], |cell| &self.shades[self.shade_starts[cell] as usize..self.shade_starts[cell + 1] as usize])
+    }
+
     fn cell(&self, cell: usize) -> &[u32] {
         &self.entries[self.starts[cell] as usize..self.starts[cell + 1] as usize]
     }
@@ -406,15 +456,20 @@ impl RayGrid {
         for (number, piece) in (0..).zip(&self.pieces) {
             self.cells_along(piece.a, piece.b(), |cell| pairs.push((cell as u32, number)));
         }
-        pairs.sort_unstable();
-        pairs.dedup();
-        let mut starts = vec![0u32; self.columns * self.rows + 1];
-        pairs.iter().for_each(|pair| starts[pair.0 as usize + 1] += 1);
-        for cell in 1..starts.len() {
-            starts[cell] += starts[cell - 1];
+        (self.starts, self.entries) = by_cell(pairs, self.columns * self.rows);
+    }
+
+    fn sort_shades(&mut self) {
+        let mut pairs: Vec<(u32, u32)> = Vec::new();
+        for (number, area) in (0..).zip(self.fittings.shaded()) {
+            let limit = |at: f64, most: usize| ((at / self.cell_m).floor().max(0.0) as usize).min(most - 1);
+            let [low, high] = [area.min - self.origin, area.max - self.origin];
+            for row in limit(low.y, self.rows)..=limit(high.y, self.rows) {
+                let columns = limit(low.x, self.columns)..=limit(high.x, self.columns);
+                pairs.extend(columns.map(|column| ((row * self.columns + column) as u32, number)));
+            }
         }
-        self.starts = starts;
-        self.entries = pairs.into_iter().map(|pair| pair.1).collect();
+        (self.shade_starts, self.shades) = by_cell(pairs, self.columns * self.rows);
     }
 
     /// Every cell that comes within a hair of a segment.
@@ -439,16 +494,38 @@ impl RayGrid {
     }
 }
 
-fn wall_pieces(walls: &Walls) -> Vec<WallQuad> {
+/// Sorts pairs of a cell and a number by cell: where each cell's numbers start, and all numbers.
+fn by_cell(mut pairs: Vec<(u32, u32)>, cells: usize) -> (Vec<u32>, Vec<u32>) {
+    pairs.sort_unstable();
+    pairs.dedup();
+    let mut starts = vec![0u32; cells + 1];
+    pairs.iter().for_each(|pair| starts[pair.0 as usize + 1] += 1);
+    for cell in 1..starts.len() {
+        starts[cell] += starts[cell - 1];
+    }
+    (starts, pairs.into_iter().map(|pair| pair.1).collect())
+}
+
+/// The sides of a prism, seen from outside.
+fn fitting_pieces(number: u32, fitting: &Fitting) -> impl Iterator<Item = WallQuad> + '_ {
+    let edges = fitting.footprint.iter().zip(fitting.footprint.iter().cycle().skip(1));
+    (0..).zip(edges).filter_map(move |(side, (&a, &b))| {
+        let piece = WallQuad::new(a, b, QuadKind::Fitting(number, side), 0.0)?;
+        Some(WallQuad { height_m: fitting.span_m[1], ..piece })
+    })
+}
+
+fn wall_pieces(walls: &Walls, replaced: &[bool]) -> Vec<WallQuad> {
     let mut pieces = Vec::new();
-    for (number, face) in (0..).zip(&walls.faces) {
+    for ((number, face), &replaced) in (0..).zip(&walls.faces).zip(replaced) {
         let count = face.points_m.len();
         let first = pieces.len();
         let mut along_m = 0.0;
         for k in 0..if face.closed { count } else { count.saturating_sub(1) } {
             let (a, b) = (face.points_m[k], face.points_m[(k + 1) % count]);
             let piece = WallQuad::new(a, b, QuadKind::Wall(number), along_m);
-            let height_m = face.furniture_m.unwrap_or(f64::INFINITY);
+            // Rays pass where prisms stand for it.
+            let height_m = if replaced { 0.0 } else { face.furniture_m.unwrap_or(f64::INFINITY) };
             pieces.extend(piece.map(|piece| WallQuad { height_m, ..piece }));
             along_m += a.distance(b);
         }

@@ -16,7 +16,7 @@ pub(crate) const DAYLIGHT: LinearRgb = [1.75, 1.85, 2.0];
 /// The ceiling's tiles.
 pub(crate) const CEILING: LinearRgb = [0.74, 0.735, 0.72];
 /// Light on the ceiling: `[0] * open + [1] * full` of the floor below.
-pub(crate) const CEILING_LIGHT: [f32; 2] = [0.24, 0.25];
+pub(crate) const CEILING_LIGHT: [f32; 2] = [0.31, 0.31];
 /// Darkening of the joints between the ceiling's tiles.
 pub(crate) const JOINT: f32 = 0.28;
 /// Half the width of a joint, metres.
@@ -27,6 +27,10 @@ pub(crate) const TOP: LinearRgb = [0.052, 0.052, 0.058];
 pub(crate) const TABLE: LinearRgb = [0.532, 0.527_25, 0.513];
 /// Light on the underside of a lintel.
 pub(crate) const SOFFIT: f32 = 0.42;
+/// Light on furniture, by that over it: on its top, its sides, its underside.
+pub(crate) const FITTING_LIGHT: [f32; 3] = [0.98, 0.80, 0.30];
+/// How much of it depends on which way a side looks.
+pub(crate) const FITTING_TURN: [f32; 2] = [0.10, 0.07];
 /// Reflectance of smooth surfaces at a right angle (Fresnel).
 const F0: f32 = 0.04;
 /// Factor on a floor's reflection: `[0] + [1] * open`, less in corners.
@@ -39,6 +43,9 @@ pub(crate) const SKY_SHINE: f32 = 0.75;
 pub(crate) const MIRRORED_WALL: LinearRgb = [0.66, 0.64, 0.60];
 /// Light on mirrored walls: `[0] + [1] * height / ceiling`.
 pub(crate) const MIRRORED_WALL_LIGHT: [f32; 2] = [0.62, 0.20];
+/// Radiance of lamps as floors mirror them: film shows lamps darker than they are. And that of daylight, by its own.
+pub(crate) const MIRRORED_LAMP: LinearRgb = [13.0, 12.7, 12.0];
+pub(crate) const MIRRORED_DAY: f32 = 1.7;
 /// Light on the mirrored ceiling.
 pub(crate) const MIRRORED_CEILING_LIGHT: f32 = 0.42;
 /// Distance up to which walls are searched for a reflection, metres.
@@ -66,7 +73,7 @@ const STRAIGHT: f32 = 0.50;
 
 /// The constants as GLSL declarations.
 pub(crate) fn glsl() -> String {
-    let constants: [(&str, &[f32]); 31] = [
+    let constants: [(&str, &[f32]); 36] = [
         ("LAMP", &LAMP),
         ("DAYLIGHT", &DAYLIGHT),
         ("CEILING", &CEILING),
@@ -76,15 +83,20 @@ pub(crate) fn glsl() -> String {
         ("TILE_M", &[TILE_M as f32]),
         ("TOP", &TOP),
         ("SOFFIT", &[SOFFIT]),
+        ("FITTING_LIGHT", &FITTING_LIGHT),
+        ("FITTING_TURN", &FITTING_TURN),
         ("F0", &[F0]),
         ("FLOOR_SHINE", &FLOOR_SHINE),
         ("WALL_SHINE", &[WALL_SHINE]),
         ("SKY_SHINE", &[SKY_SHINE]),
         ("MIRRORED_WALL", &MIRRORED_WALL),
         ("MIRRORED_WALL_LIGHT", &MIRRORED_WALL_LIGHT),
+        ("MIRRORED_LAMP", &MIRRORED_LAMP),
+        ("MIRRORED_DAY", &[MIRRORED_DAY]),
         ("MIRRORED_CEILING_LIGHT", &[MIRRORED_CEILING_LIGHT]),
         ("MIRROR_REACH_M", &[MIRROR_REACH_M]),
         ("LOBE", &[LOBE]),
+        ("LOBE_WIDTH", &[LOBE_WIDTH]),
         ("FOOT", &FOOT),
         ("HEAD", &HEAD),
         ("EXPOSURE_INSIDE", &[EXPOSURE_INSIDE]),
@@ -107,6 +119,9 @@ pub(crate) fn glsl() -> String {
     constants.iter().map(declared).collect()
 }
 
+/// Width of a floor's lobe by its roughness squared: coats of wax and lacquer are smoother than what lies under them.
+const LOBE_WIDTH: f32 = 0.6;
+
 /// Share of light that is thrown back (Schlick 1994, Computer Graphics Forum 13(3); rough surfaces as Lagarde 2011).
 pub(crate) fn fresnel(cosine: f32, roughness: f32) -> f32 {
     let c = 1.0 - cosine.clamp(0.0, 1.0);
@@ -116,13 +131,36 @@ pub(crate) fn fresnel(cosine: f32, roughness: f32) -> f32 {
 
 /// Slope within which half of a rough surface's mirrored light lies (Walter et al. 2007, Microfacet models for refraction).
 pub(crate) fn lobe_slope(roughness: f32) -> f64 {
-    f64::from(roughness * roughness).max(0.002)
+    f64::from(LOBE_WIDTH * roughness * roughness).max(0.002)
 }
 
 /// Light left on a wall near the floor and near the ceiling, 0 to 1.
 pub(crate) fn wall_edges(z: f32, height_m: f32) -> f32 {
     let dark = |way: f32, [share, reach]: [f32; 2]| 1.0 - share * exp_f32(-way / reach);
     dark(z, FOOT) * dark(height_m - z, HEAD)
+}
+
+/// Share of the light over a fitting that a face of it gets, by its normal, at a height.
+pub(crate) fn fitting_light([x, y, z]: [f32; 3], height_m: f32) -> f32 {
+    let [top, side, under] = FITTING_LIGHT;
+    if z > 0.5 {
+        return top;
+    }
+    let foot = 1.0 - FOOT[0] * exp_f32(-height_m / FOOT[1]);
+    if z < -0.5 { under } else { (side + FITTING_TURN[0] * x + FITTING_TURN[1] * y) * foot }
+}
+
+/// What a window shows in a direction: ground, trees far away, sky; brighter than the room.
+pub(crate) fn day_behind([x, y, z]: [f32; 3]) -> LinearRgb {
+    let across = (x * x + y * y).sqrt().max(1e-4);
+    let up = z / across;
+    let turn = f64::from(y / (x.abs() + y.abs()).max(1e-4)) * if x < 0.0 { -1.0 } else { 1.0 };
+    let wave = |times: f64, from: f64| crate::math::sin_cos(turn * times + from).0 as f32;
+    let trees = 0.07 + 0.03 * wave(7.0, 0.4) + 0.02 * wave(17.0, 1.3) + 0.012 * wave(41.0, 2.0);
+    let soft = |edge: f32, width: f32| smoothstep(f64::from((up - edge) / width + 0.5)) as f32;
+    let ground = mix([0.88, 0.92, 0.80], [1.05, 1.08, 1.0], soft(-0.35, 0.6));
+    let behind = mix(ground, [0.62, 0.72, 0.60], soft(-0.015, 0.02));
+    mix(behind, mix([1.75, 1.82, 1.92], [1.35, 1.60, 2.05], up.clamp(0.0, 1.0)), soft(trees, 0.035))
 }
 
 /// Colour of an irradiance: lamps are warmer than what walls throw back, the sun is warmer than the sky.
@@ -156,6 +194,24 @@ pub(crate) fn toned(light: f64) -> f64 {
     let straight = f64::from(STRAIGHT);
     let rest = 1.0 - straight;
     if light <= straight { light } else { straight + rest * (1.0 - exp(-(light - straight) / rest)) }
+}
+
+/// Smooth noise of a plane, -1 to 1, one to a unit.
+pub(crate) fn noise(u: f32, v: f32) -> f32 {
+    let (i, j) = (u.floor(), v.floor());
+    let (s, t) = (u - i, v - j);
+    let at = |di: i32, dj: i32| unevenness(i as i32 + di, j as i32 + dj);
+    let (s, t) = (s * s * (3.0 - 2.0 * s), t * t * (3.0 - 2.0 * t));
+    let row = |dj: i32| at(0, dj) + (at(1, dj) - at(0, dj)) * s;
+    row(0) + (row(1) - row(0)) * t
+}
+
+/// A number from -1 to 1 for a pair of numbers.
+pub(crate) fn unevenness(i: i32, j: i32) -> f32 {
+    let word = (i as u32).wrapping_mul(0x9e37_79b1) ^ (j as u32).wrapping_mul(0x85eb_ca77);
+    let word = (word ^ word >> 15).wrapping_mul(0x2c1b_3c6d);
+    let word = (word ^ word >> 12).wrapping_mul(0x297a_2d39);
+    ((word ^ word >> 15) >> 8) as f32 / 8_388_608.0 - 1.0
 }
 
 pub(crate) fn scaled(colour: LinearRgb, by: f32) -> LinearRgb {

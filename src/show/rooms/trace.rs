@@ -14,8 +14,10 @@ pub(crate) enum HitSurface {
     /// Place in [`RayGrid::pieces`].
     Wall(u32),
     Lintel(u32),
-    /// The top of a table, a counter, a seat.
+    /// The top of furniture that is a block.
     Furniture,
+    /// A prism: place in the list of fittings, and which face of it: 0 the top, 1 the underside, 2 + n the side n.
+    Fitting(u32, u8),
     /// The underside of a lintel.
     Soffit(u32),
     /// The top of the block that the rooms are cut into, as seen from above.
@@ -83,6 +85,12 @@ impl Ray {
         self.z + self.slope * way
     }
 
+    /// Which face of a prism is met at `way`, if its shadow entered through a side.
+    fn face(&self, piece: &WallQuad, number: u32, side: u8, way: f64) -> HitSurface {
+        let level = if self.slope < 0.0 { 0 } else { 1 };
+        HitSurface::Fitting(number, if piece.is_on(self.at(way)) { side.saturating_add(2) } else { level })
+    }
+
     fn hit(&self, surface: HitSurface, way: f64) -> RayHit {
         let p = self.at(way);
         let scale = 1.0 / self.stretch;
@@ -110,11 +118,12 @@ impl RayGrid {
                 (HitSurface::Outside, 1e6)
             };
             let end = end.clamp(0.0, 1e6);
-            let solid = |piece: &WallQuad, way: f64| match piece.what {
-                QuadKind::Lintel(number) => self.under_lintel(&ray, number, way).is_some(),
-                _ => ray.height(way) < piece.height_m,
+            let meets = |piece: &WallQuad, way: f64| match piece.what {
+                QuadKind::Lintel(number) => self.under_lintel(&ray, number, way),
+                QuadKind::Fitting(number, _) => self.on_fitting(&ray, number, way),
+                _ => (ray.height(way) < piece.height_m).then_some(way),
             };
-            let met = self.cast(ray.from, ray.toward, end, solid);
+            let met = self.nearest(ray.from, ray.toward, end, meets);
             let limit_m = met.map_or(end, |met| met.way_m);
             if let Some(way) = self.top_on_the_way([ray.z, ray.slope], |way| ray.at(way), limit_m) {
                 return ray.hit(HitSurface::Furniture, way);
@@ -124,10 +133,12 @@ impl RayGrid {
             match piece.what {
                 QuadKind::Wall(_) => return ray.hit(HitSurface::Wall(met.piece as u32), met.way_m),
                 QuadKind::Lintel(number) => {
-                    let way = self.under_lintel(&ray, number, met.way_m).unwrap_or(met.way_m);
-                    let face = way <= met.way_m;
+                    let face = piece.is_on(ray.at(met.way_m));
                     let surface = if face { HitSurface::Lintel(met.piece as u32) } else { HitSurface::Soffit(number) };
-                    return ray.hit(surface, way);
+                    return ray.hit(surface, met.way_m);
+                }
+                QuadKind::Fitting(number, side) => {
+                    return ray.hit(ray.face(piece, number, side, met.way_m), met.way_m);
                 }
                 QuadKind::Opening => {
                     let walked = met.way_m.max(0.0);
@@ -154,6 +165,25 @@ impl RayGrid {
         (ray.height(leaves) > lintel.low_m).then(|| (lintel.low_m - ray.z) / ray.slope)
     }
 
+    /// Where a ray whose shadow enters a prism's footprint at `way` meets it, if it does.
+    fn on_fitting(&self, ray: &Ray, number: u32, way: f64) -> Option<f64> {
+        let fitting = &self.fittings.all[number as usize];
+        let [low_m, high_m] = fitting.span_m;
+        let height_m = ray.height(way);
+        if (low_m..=high_m).contains(&height_m) {
+            return Some(way);
+        }
+        let level_m = if height_m > high_m { high_m } else { low_m };
+        let there = (level_m - ray.z) / ray.slope;
+        if !(there > way && there.is_finite()) {
+            return None;
+        }
+        let p = ray.at(there);
+        let edges = fitting.footprint.iter().zip(fitting.footprint.iter().cycle().skip(1));
+        let mut all = edges.map(|(&a, &b)| (b - a).cross(p - a) >= 0.0);
+        all.all(|inside| inside).then_some(there)
+    }
+
     /// The first hit of a ray from above the walls: rooms without a ceiling, cut into a block on a table.
     pub fn trace_above(&self, position: [f64; 3], way: [f64; 3]) -> RayHit {
         let ray = Ray::new(position, way);
@@ -176,13 +206,21 @@ impl RayGrid {
         if !self.is_room(inside) {
             return ray.hit(if enter > top { HitSurface::Side } else { HitSurface::Top }, way);
         }
-        let walls = |piece: &WallQuad, on: f64| {
-            !matches!(piece.what, QuadKind::Lintel(_)) && ray.height(way + on) < piece.height_m
+        let meets = |piece: &WallQuad, on: f64| match piece.what {
+            QuadKind::Lintel(_) => None,
+            QuadKind::Fitting(number, _) => self.on_fitting(&ray, number, way + on).map(|there| there - way),
+            _ => (ray.height(way + on) < piece.height_m).then_some(on),
         };
-        let met = self.cast(inside, ray.toward, ground - way, walls);
+        let met = self.nearest(inside, ray.toward, ground - way, meets);
         let limit_m = met.map_or(ground, |met| way + met.way_m);
         if let Some(way) = self.top_on_the_way([ray.z, ray.slope], |way| ray.at(way), limit_m) {
             return ray.hit(HitSurface::Furniture, way);
+        }
+        if let Some((met, piece)) = met.map(|met| (met, &self.pieces[met.piece]))
+            && let QuadKind::Fitting(number, side) = piece.what
+        {
+            let there = way + met.way_m;
+            return ray.hit(ray.face(piece, number, side, there), there);
         }
         match met {
             None => ray.hit(HitSurface::Floor, ground),
@@ -229,19 +267,21 @@ mod tests {
     }
 
     #[test]
-    fn one_looks_over_a_table_and_onto_its_top_and_side() {
+    fn one_looks_over_a_table_onto_its_top_and_under_it() {
         let space = room();
         let eye = [0.6, 2.1, 1.6];
         let seen = |way: [f64; 3]| space.trace_inside(eye, way);
         // Level: the wall behind the table.
         let behind = seen([1.0, 0.0, 0.0]);
         assert!(matches!(behind.surface, HitSurface::Wall(_)) && behind.point[0] > 6.0, "{behind:?}");
-        // Downward: the top, the side, the floor before it.
+        // Downward: the top, its edge, the floor under it, the floor before it.
         let top = seen([2.0, 0.0, -0.85]);
-        assert_eq!(top.surface, HitSurface::Furniture);
+        assert!(matches!(top.surface, HitSurface::Fitting(_, 0)), "{top:?}");
         assert!((top.point[0] - 2.6).abs() < 1e-6 && (top.point[2] - 0.75).abs() < 1e-6, "{top:?}");
-        let side = seen([1.5, 0.0, -1.2]);
-        assert!(matches!(side.surface, HitSurface::Wall(_)) && (side.point[0] - 2.1).abs() < 1e-6, "{side:?}");
+        let edge = seen([1.5, 0.0, -0.86]);
+        assert!(matches!(edge.surface, HitSurface::Fitting(_, 2..)) && (edge.point[0] - 2.1).abs() < 1e-6, "{edge:?}");
+        let under = seen([1.5, 0.0, -1.2]);
+        assert!(under.surface == HitSurface::Floor && (under.point[0] - 2.6).abs() < 1e-6, "{under:?}");
         assert_eq!(seen([1.0, 0.0, -1.6]).surface, HitSurface::Floor);
     }
 
@@ -249,8 +289,20 @@ mod tests {
     fn a_table_is_seen_from_above() {
         let space = room();
         let seen = |x: f64, y: f64| space.trace_above([x, y, 30.0], [0.0, 1e-6, -1.0]).surface;
-        assert_eq!(seen(3.1, 2.1), HitSurface::Furniture);
+        assert!(matches!(seen(3.1, 2.1), HitSurface::Fitting(_, 0)));
         assert_eq!(seen(1.0, 1.0), HitSurface::Floor);
         assert_eq!(seen(0.05, 2.1), HitSurface::Top);
+    }
+
+    /// Under a table is shade, at its legs there is a shadow, away from it there is neither.
+    #[test]
+    fn furniture_takes_light_from_the_floor() {
+        let space = room();
+        let light = crate::show::rooms::Light::inside(&space);
+        let shade = |x: f64, y: f64| light.on_floor(vec2(x, y)).shade;
+        assert!(shade(3.1, 2.1) < 0.6 && shade(3.1, 1.45) < 0.9, "{} {}", shade(3.1, 2.1), shade(3.1, 1.45));
+        assert!(shade(1.0, 1.0) > 0.97);
+        let feet = |x: f64, y: f64| space.fittings.beside_feet(space.shades_at(vec2(x, y)), vec2(x, y));
+        assert!(feet(2.13, 1.66) < 0.75 && feet(2.13, 2.1) > 0.97, "{} {}", feet(2.13, 1.66), feet(2.13, 2.1));
     }
 }

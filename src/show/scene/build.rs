@@ -3,8 +3,9 @@ use super::model::{Scene, SceneSurface, WallStrip};
 use super::region::PolygonSet;
 use super::tiles::TileCuts;
 use super::tops::{Solid, add_level};
-use super::{faces, floor, lintels};
+use super::{faces, fittings, floor, lintels};
 use crate::math::Rect;
+use crate::show::rooms::{Finish, Fittings};
 use crate::walls::{Doorway, Walls};
 
 /// Sizes that a plan does not contain.
@@ -49,13 +50,17 @@ pub fn build(
     let mut scene = SceneBuilder::default();
     let cuts = TileCuts::new(tiles);
     let floor = PolygonSet::inside_right(walls.outlines().iter().map(|o| o.points_m.iter().copied()));
-    floor::add(&floor, tiles, &cuts, &mut scene);
-    faces::add(&walls.faces, strips, &cuts, height_m, &mut scene);
-    let furniture = furniture(walls);
-    let room = furniture.iter().fold(floor.clone(), |room, (_, tops)| room.union(tops));
+    let standing = Fittings::of(walls, doorways, height_m);
+    let [under, furniture] = [true, false].map(|replaced| furniture(walls, &standing.replaced, replaced));
+    // The floor goes on under tables.
+    let covered = under.iter().fold(floor.clone(), |room, (_, tops)| room.union(tops));
+    floor::add(&covered, tiles, &cuts, &mut scene);
+    faces::add(&walls.faces, &standing.replaced, strips, &cuts, height_m, &mut scene);
+    fittings::add(&standing, &mut scene);
+    let room = furniture.iter().fold(covered, |room, (_, tops)| room.union(tops));
     let solid = Solid::around(&room, walls.outlines(), options.rim_m.clamp(0.0, 10.0));
     for (top_m, tops) in &furniture {
-        add_level(tops, top_m.min(height_m), scene.part(SceneSurface::Lintel));
+        add_level(tops, top_m.min(height_m), scene.part(SceneSurface::Fitting(Finish::of_block(*top_m) as usize)));
     }
     solid.add_tops(height_m, scene.part(SceneSurface::WallTop));
     solid.add_sides(height_m, scene.part(SceneSurface::WallTop));
@@ -70,15 +75,16 @@ pub fn build(
     scene.finish()
 }
 
-/// What furniture covers, by its height in metres.
-fn furniture(walls: &Walls) -> Vec<(f64, PolygonSet)> {
-    let mut heights_m: Vec<f64> = walls.outlines().iter().filter_map(|outline| outline.furniture_m).collect();
+/// What furniture covers, by its height in metres: that for which fittings stand, or that which stays a block.
+fn furniture(walls: &Walls, fitted: &[bool], wanted: bool) -> Vec<(f64, PolygonSet)> {
+    let wanted = || walls.faces.iter().zip(fitted).filter(move |(_, fitted)| **fitted == wanted).map(|(face, _)| face);
+    let mut heights_m: Vec<f64> = wanted().filter_map(|face| face.furniture_m).collect();
     heights_m.sort_by(f64::total_cmp);
     heights_m.dedup();
     let tops = |height_m: f64| {
-        let of_height = walls.outlines().iter().filter(move |outline| outline.furniture_m == Some(height_m));
-        // Outlines have the floor on their right.
-        (height_m, PolygonSet::inside_right(of_height.map(|outline| outline.points_m.iter().rev().copied())))
+        let of_height = wanted().filter(move |face| face.furniture_m == Some(height_m));
+        // Faces have the floor on their right.
+        (height_m, PolygonSet::inside_right(of_height.map(|face| face.points_m.iter().rev().copied())))
     };
     heights_m.into_iter().map(tops).collect()
 }

@@ -24,15 +24,22 @@ struct PanelEdge {
     normal: Vec2,
 }
 
-/// Adds the walls' faces by sheet. Wall without a strip becomes clean wall.
-pub(super) fn add(faces: &[Face], strips: &[WallStrip], cuts: &TileCuts, height_m: f64, scene: &mut SceneBuilder) {
+/// Adds the walls' faces by sheet, but for those for which fittings stand. Wall without a strip becomes clean wall.
+pub(super) fn add(
+    faces: &[Face],
+    fitted: &[bool],
+    strips: &[WallStrip],
+    cuts: &TileCuts,
+    height_m: f64,
+    scene: &mut SceneBuilder,
+) {
     let mut by_face: Vec<Vec<&WallStrip>> = vec![Vec::new(); faces.len()];
     for strip in strips.iter().filter(|s| s.along_m.iter().chain(s.uv.iter().flatten()).all(|v| v.is_finite())) {
         if let Some(of_face) = by_face.get_mut(strip.face) {
             of_face.push(strip);
         }
     }
-    for (face, mut strips) in faces.iter().zip(by_face) {
+    for ((face, mut strips), _) in faces.iter().zip(by_face).zip(fitted).filter(|(_, fitted)| !**fitted) {
         strips.sort_by(|a, b| a.along_m[0].total_cmp(&b.along_m[0]));
         for stretch in stretches(face) {
             for [from, to] in panels(stretch, &strips, cuts) {

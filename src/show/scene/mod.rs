@@ -3,6 +3,7 @@
 mod build;
 mod builder;
 mod faces;
+mod fittings;
 mod floor;
 mod glb;
 mod lintels;

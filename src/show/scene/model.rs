@@ -9,6 +9,8 @@ pub enum SceneSurface {
     WallTop,
     /// Clean wall: above a door, with its underside, and wherever a wall has no texture.
     Lintel,
+    /// Furniture, doors and windows of one material: its place in the list of those.
+    Fitting(usize),
 }
 
 /// Triangles that share a surface. All lists but `indices` have an entry per vertex.

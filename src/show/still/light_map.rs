@@ -100,7 +100,7 @@ impl<'a> LightMap<'a> {
 
     /// Light on a place of the floor.
     pub fn floor(&self, x: f32, y: f32) -> Irradiance {
-        let Some(block) = self.blocks.get(&self.floor_key(x, y)) else { return Irradiance { full: 0.8, open: 0.8 } };
+        let Some(block) = self.blocks.get(&self.floor_key(x, y)) else { return Irradiance::new(0.8, 0.8) };
         let [x, y] = [x, y].map(|m| m * self.per_metre as f32);
         let within = |m: f32| m - (m / SIDE as f32).floor() * SIDE as f32;
         between(block, within(x), within(y), SIDE)
@@ -109,7 +109,7 @@ impl<'a> LightMap<'a> {
     /// Light on a place of a piece of wall.
     pub fn wall(&self, piece: u32, along_m: f32, z: f32) -> Irradiance {
         let Some(block) = self.blocks.get(&self.wall_key(piece, along_m)) else {
-            return Irradiance { full: 0.7, open: 0.7 };
+            return Irradiance::new(0.7, 0.7);
         };
         let columns = Columns::of(&self.light.space.pieces[piece as usize], self.per_metre);
         let (column, share) = columns.at(along_m);
@@ -159,6 +159,7 @@ fn between(block: &[Irradiance], x: f32, y: f32, last_row: usize) -> Irradiance 
     let mix = |a: Irradiance, b: Irradiance, t: f32| Irradiance {
         full: a.full + (b.full - a.full) * t,
         open: a.open + (b.open - a.open) * t,
+        shade: a.shade + (b.shade - a.shade) * t,
     };
     let above = (at + SIDE + 1).min(block.len() - 2);
     mix(mix(block[at], block[at + 1], u), mix(block[above], block[above + 1], u), v)

@@ -14,6 +14,7 @@ use crate::progress::{Progress, Stage};
 use crate::show::{Rooms, write_picture};
 
 mod error;
+mod glow;
 mod light_map;
 mod pyramid;
 mod render;

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use image::RgbImage;
 use rayon::prelude::*;
 
+use super::glow::{Exposed, Glow};
 use super::light_map::{LightKey, LightMap};
 use super::sampler::{SamplerNeeds, SurfaceSampler, along_m};
 use super::shade::{Lit, Shader};
@@ -103,21 +104,31 @@ impl<'a> Renderer<'a> {
         done: impl Fn(f64),
     ) -> Result<Vec<RgbImage>, ExportError> {
         let [width, height] = self.size;
-        let mut pictures = vec![RgbImage::new(width, height); skins.len()];
+        let mut lights: Vec<Exposed> = skins.iter().map(|_| Exposed::new(self.size)).collect();
         for top in (0..height as usize).step_by(BAND).rev() {
             progress.keep_on()?;
             let rows = self.trace_band(top, BAND.min(height as usize - top));
             self.hold(&rows, skins);
-            let shaded = self.shade_band(&rows, top, skins);
-            for (k, row) in shaded.into_iter().enumerate() {
-                for (picture, bytes) in pictures.iter_mut().zip(row) {
-                    let at = (top + k) * width as usize * 3;
-                    picture.as_flat_samples_mut().samples[at..at + bytes.len()].copy_from_slice(&bytes);
-                }
+            for (k, row) in self.shade_band(&rows, skins).into_iter().enumerate() {
+                lights.iter_mut().zip(row).for_each(|(light, row)| light.put(top + k, &row));
             }
             done(1.0 - top as f64 / f64::from(height));
         }
-        Ok(pictures)
+        let picture = |light: Exposed| {
+            let glow = Glow::of(&light, self.tone.exposure);
+            let mut picture = RgbImage::new(width, height);
+            let rows = picture.as_flat_samples_mut().samples.par_chunks_exact_mut(width as usize * 3).enumerate();
+            rows.for_each(|(y, bytes)| {
+                let glowing = |(x, light): (usize, LinearRgb)| {
+                    let glow = glow.at(x, y);
+                    std::array::from_fn(|c| light[c] + glow[c])
+                };
+                let row: Vec<LinearRgb> = light.row(y).enumerate().map(glowing).collect();
+                self.tone.row(&row, y as u32, self.size, bytes);
+            });
+            picture
+        };
+        Ok(lights.into_iter().map(picture).collect())
     }
 
     fn trace(&self, x: f64, y: f64) -> RayHit {
@@ -169,7 +180,9 @@ impl<'a> Renderer<'a> {
                 }
                 let [x, y, _] = hit.point;
                 match hit.surface {
-                    HitSurface::Floor | HitSurface::Ceiling => needs.add(self.light.floor_key(x, y)),
+                    HitSurface::Floor | HitSurface::Ceiling | HitSurface::Furniture | HitSurface::Fitting(..) => {
+                        needs.add(self.light.floor_key(x, y))
+                    }
                     HitSurface::Wall(piece) | HitSurface::Lintel(piece) => {
                         let along = along_m(&self.space.pieces[piece as usize], hit);
                         needs.add(self.light.wall_key(piece, along));
@@ -186,10 +199,10 @@ impl<'a> Renderer<'a> {
         }
     }
 
-    /// Bytes by row and skin.
-    fn shade_band(&self, rows: &[TracedRow], top: usize, skins: &[SurfaceSampler]) -> Vec<Vec<Vec<u8>>> {
+    /// Light by row and skin.
+    fn shade_band(&self, rows: &[TracedRow], skins: &[SurfaceSampler]) -> Vec<Vec<Vec<LinearRgb>>> {
         let shader = Shader { space: self.space, light: &self.light, pixel: self.lens.pixel as f32 };
-        let shade = |(k, row): (usize, &TracedRow)| {
+        let shade = |row: &TracedRow| {
             let width = row.hits.len();
             let mut lit = vec![vec![Lit::default(); width]; skins.len()];
             let mut seen = vec![Lit::default(); skins.len()];
@@ -209,15 +222,9 @@ impl<'a> Renderer<'a> {
                     }
                 }
             }
-            let lit = lit.into_iter().map(|row| mirrored(&row));
-            let bytes = |row: Vec<LinearRgb>| {
-                let mut bytes = vec![0; width * 3];
-                self.tone.row(&row, (top + k) as u32, self.size, &mut bytes);
-                bytes
-            };
-            lit.map(bytes).collect()
+            lit.into_iter().map(|row| mirrored(&row)).collect()
         };
-        rows.par_iter().enumerate().map(shade).collect()
+        rows.par_iter().map(shade).collect()
     }
 }
 
@@ -229,7 +236,7 @@ fn brightness(space: &RayGrid, lens: &Lens, light: &Light, [width, height]: [u32
         let hit = space.trace_inside(lens.position, lens.ray(place(k % METERED, width), place(k / METERED, height)));
         let [x, y, z] = hit.point.map(f64::from);
         match hit.surface {
-            HitSurface::Floor => seen.push(light.on_floor(vec2(x, y)).full),
+            HitSurface::Floor | HitSurface::Fitting(..) => seen.push(light.on_floor(vec2(x, y)).full),
             HitSurface::Wall(piece) => {
                 let piece = &space.pieces[piece as usize];
                 let normal = piece.round_normal(f64::from(along_m(piece, &hit)));

@@ -2,11 +2,13 @@
 
 use super::light_map::LightMap;
 use super::sampler::{SampledMaterial, SurfaceSampler, along_m};
+use crate::math::srgb::light_of;
 use crate::math::{Vec2, exp_f32, vec2};
 use crate::show::rooms::{
-    CEILING, CEILING_LIGHT, DAYLIGHT, FLOOR_SHINE, HAZE_M, HitSurface, Irradiance, JOINT, LAMP, LOBE, LightSources,
-    LinearRgb, MIRROR_REACH_M, MIRRORED_CEILING_LIGHT, MIRRORED_WALL, MIRRORED_WALL_LIGHT, Panels, QuadKind, RayGrid,
-    RayHit, SKY_SHINE, SOFFIT, TABLE, TOP, WALL_SHINE, fresnel, joint, lobe_slope, mix, rise, scaled, sky, tinted,
+    CEILING, CEILING_LIGHT, DAYLIGHT, FLOOR_SHINE, Finish, HAZE_M, HitSurface, Irradiance, JOINT, LAMP, LOBE,
+    LightSources, LinearRgb, MIRROR_REACH_M, MIRRORED_CEILING_LIGHT, MIRRORED_DAY, MIRRORED_LAMP, MIRRORED_WALL,
+    MIRRORED_WALL_LIGHT, Panels, QuadKind, RayGrid, RayHit, SKY_SHINE, SOFFIT, TABLE, TILE_M, TOP, WALL_SHINE,
+    day_behind, fitting_light, fresnel, joint, lobe_slope, mix, noise, rise, scaled, sky, tinted, unevenness,
 };
 
 /// Shades the hits of rays.
@@ -49,6 +51,19 @@ struct Mirror {
     toward: Vec2,
 }
 
+/// Things in a reflection: their mean colour and way, and which share of it they take.
+#[derive(Clone, Copy, Debug, Default)]
+struct Things {
+    colour: LinearRgb,
+    share: f32,
+    way_m: f64,
+}
+
+/// Furniture from this height on is painted as walls are, metres.
+const COUNTER_M: f64 = 0.95;
+/// Floors that are looked at more steeply mirror too little for things to be seen: sine.
+const STEEP: f32 = 0.5;
+
 impl Shader<'_> {
     /// The light of a hit in each skin.
     pub fn shade(&self, hit: &RayHit, skins: &[SurfaceSampler], out: &mut [Lit]) {
@@ -62,7 +77,12 @@ impl Shader<'_> {
                 };
                 self.even(self.wall_light(hit, piece).full, frame, skins, out);
             }
-            HitSurface::Furniture => self.even(self.light.floor(hit.point[0], hit.point[1]).full, None, skins, out),
+            HitSurface::Furniture => {
+                let light = self.light.floor(hit.point[0], hit.point[1]).full * fitting_light([0.0, 0.0, 1.0], 1.0);
+                let finish = Finish::of_block(f64::from(hit.point[2]) - 0.01);
+                self.even(light, Some(light_of(finish.colour())), skins, out);
+            }
+            HitSurface::Fitting(number, face) => out.fill(Lit::of(self.fitting(hit, number, face))),
             HitSurface::Soffit(number) => self.even(SOFFIT, self.space.frame_at(number, 0.0), skins, out),
             other => out.fill(Lit::of(self.plain(hit, other))),
         }
@@ -98,25 +118,72 @@ impl Shader<'_> {
 
     fn floor(&self, hit: &RayHit, skins: &[SurfaceSampler], out: &mut [Lit]) {
         let light = self.light.floor(hit.point[0], hit.point[1]);
-        let tinted = self.tinted(light.full);
+        let p = vec2(f64::from(hit.point[0]), f64::from(hit.point[1]));
+        let shade = light.shade * self.space.fittings.beside_feet(self.space.shades_at(p), p) as f32;
+        let tinted = self.tinted(light.full * shade);
         let cosine = hit.toward[2].abs();
         let sources = &self.light.light.sources;
         let mirror = (!matches!(sources, LightSources::Above(_))).then(|| self.mirror(hit));
+        let things = mirror.as_ref().map_or(Things::default(), |mirror| self.mirrored_things(hit, mirror));
         for (skin, out) in skins.iter().zip(out) {
             let paint = skin.floor(hit, self.pixel);
             let fresnel = fresnel(cosine, paint.roughness);
-            let gain = fresnel * (FLOOR_SHINE[0] + FLOOR_SHINE[1] * light.open);
+            let gain = fresnel * (FLOOR_SHINE[0] + FLOOR_SHINE[1] * light.open) * (0.4 + 0.6 * shade);
             let colour = std::array::from_fn(|c| paint.colour[c] * tinted[c] * (1.0 - fresnel));
             *out = match &mirror {
                 None => Lit::of(colour.map(|value| value + SKY_SHINE * gain)),
                 Some(mirror) => {
-                    let away = mirror.wall_m * mirror.stretch;
+                    let wall_m = mirror.wall_m + (things.way_m - mirror.wall_m) * f64::from(things.share);
+                    let away = wall_m * mirror.stretch;
                     let slope = lobe_slope(paint.roughness) * away / (f64::from(hit.way_m) + away).max(0.1);
-                    let shine = self.shine(mirror, self.light.light.panels(), paint.roughness);
+                    let room = self.shine(mirror, self.light.light.panels(), paint.roughness);
+                    let shine = mix(room, things.colour, things.share);
                     Lit { colour, shine, gain, blur_px: slope as f32 / self.pixel }
                 }
             };
         }
+    }
+
+    /// Furniture, a door leaf, a part of a window.
+    fn fitting(&self, hit: &RayHit, number: u32, face: u8) -> LinearRgb {
+        let fitting = &self.space.fittings.all[number as usize];
+        if fitting.finish == Finish::Pane {
+            return day_behind(hit.toward);
+        }
+        let [x, y, z] = hit.point;
+        let light = self.light.floor(x, y);
+        let corners = &fitting.footprint;
+        let edge = |k: usize| (corners[(k + 1) % corners.len()] - corners[k % corners.len()]).normalized();
+        let (normal, lengthwise) = match face.checked_sub(2) {
+            None => ([0.0, 0.0, if face == 0 { 1.0 } else { -1.0 }], edge(0)),
+            Some(side) => {
+                let along = edge(usize::from(side)).unwrap_or(vec2(1.0, 0.0));
+                ([along.y as f32, -along.x as f32, 0.0], Some(along))
+            }
+        };
+        // What is low stands in the shade of boards over it.
+        let shade = light.shade + (1.0 - light.shade) * (z / 0.7).clamp(0.0, 1.0);
+        let full = light.full * shade * fitting_light(normal, z);
+        let along = lengthwise.unwrap_or(vec2(1.0, 0.0));
+        let p = vec2(f64::from(x), f64::from(y)) - corners[0];
+        let (u, v) = (p.dot(along) as f32, if face < 2 { along.cross(p) as f32 } else { z });
+        // Grain runs along boards, and upward on doors and sides.
+        let (fine, coarse) = if fitting.finish == Finish::Door {
+            ([u * 90.0, v * 2.2], [u * 14.0, v * 0.7])
+        } else {
+            ([v * 110.0, u * 3.0], [v * 16.0, u * 0.8])
+        };
+        let fades = (1.0 - hit.way_m * self.pixel * 60.0).clamp(0.0, 1.0);
+        let number = number as f32 * 7.31;
+        let grain =
+            0.5 * fades * noise(fine[0] + number, fine[1]) + 0.5 * noise(coarse[0] + number, coarse[1] + number);
+        let tone = 1.0 + fitting.finish.grain() * grain;
+        let colour = scaled(light_of(fitting.finish.colour()), tone);
+        let [a, b, c] = hit.toward;
+        let cosine = (a * normal[0] + b * normal[1] + c * normal[2]).abs();
+        let shine = fresnel(cosine, fitting.finish.roughness()) * WALL_SHINE * light.open * light.full * shade;
+        let tinted = self.tinted(full);
+        std::array::from_fn(|c| colour[c] * tinted[c] + shine)
     }
 
     fn wall(&self, hit: &RayHit, number: u32, skins: &[SurfaceSampler], out: &mut [Lit]) {
@@ -125,8 +192,14 @@ impl Shader<'_> {
         let tinted = self.tinted(light.full);
         let normal = piece.normal();
         let cosine = (f64::from(hit.toward[0]) * normal.x + f64::from(hit.toward[1]) * normal.y).abs() as f32;
+        // The sides of furniture that is drawn as a block have its colour, under the dirt of walls.
+        let block =
+            Some(piece.height_m).filter(|top_m| *top_m < COUNTER_M).map(|m| light_of(Finish::of_block(m).colour()));
         for (skin, out) in skins.iter().zip(out) {
-            let SampledMaterial { colour, roughness } = skin.wall(piece, hit, self.pixel);
+            let SampledMaterial { mut colour, roughness } = skin.wall(piece, hit, self.pixel);
+            if let Some(block) = block {
+                colour = std::array::from_fn(|c| block[c] * (colour[c] / skin.plain[c].max(0.01)).min(1.0));
+            }
             let shine = fresnel(cosine, roughness) * WALL_SHINE * light.open * light.full;
             *out = Lit::of(std::array::from_fn(|c| colour[c] * tinted[c] + shine));
         }
@@ -155,17 +228,27 @@ impl Shader<'_> {
         let LightSources::Inside(panels) = &self.light.light.sources else { return CEILING };
         let [x, y, _] = hit.point;
         let p = vec2(f64::from(x), f64::from(y));
-        let Irradiance { full, open } = self.light.floor(x, y);
+        let Irradiance { full, open, .. } = self.light.floor(x, y);
         let width = hit.way_m * self.pixel;
         let stretched = width / hit.toward[2].abs().max(0.02);
         let along = hit.toward[0].abs().max(hit.toward[1].abs());
         let joints = joint(x, width + stretched * hit.toward[0].abs() * along)
             + joint(y, width + stretched * hit.toward[1].abs() * along);
-        let tile =
-            scaled(CEILING, (CEILING_LIGHT[0] * open + CEILING_LIGHT[1] * full) * (1.0 - JOINT * joints.min(1.0)));
+        // No two tiles are quite alike, and their fibres cast small shadows.
+        let number = [x, y].map(|m| (m / TILE_M as f32).floor() as i32);
+        let fibres = (1.0 - width * 90.0).clamp(0.0, 1.0) * 0.05 * noise(x * 130.0, y * 130.0).min(0.2);
+        let tone = (1.0 + 0.022 * unevenness(number[0], number[1]) + fibres) * (1.0 - JOINT * joints.min(1.0));
+        let tile = scaled(CEILING, (CEILING_LIGHT[0] * open + CEILING_LIGHT[1] * full) * tone);
         let blur = [hit.toward[0], hit.toward[1]].map(|c| f64::from(width + stretched * c.abs()) * 0.5);
-        let lamp = panels.near(p, [0, 0]).map_or(0.0, |panel| covered(panel.centre - p, panel.half, blur));
-        mix(tile, LAMP, lamp as f32)
+        let Some(panel) = panels.near(p, [0, 0]) else { return tile };
+        let away = panel.centre - p;
+        let rim = vec2(0.03, 0.03);
+        let frame = covered(away, panel.half + rim, blur) as f32;
+        let lamp = covered(away, panel.half, blur) as f32;
+        // Two tubes behind the pane.
+        let across = if panel.half.x < panel.half.y { away.x / panel.half.x } else { away.y / panel.half.y };
+        let tubes = 1.0 - 0.45 * ((across.abs() - 0.45).abs() as f32 / 0.55).min(1.0);
+        mix(mix(tile, scaled(tile, 0.62), frame), scaled(LAMP, tubes), lamp)
     }
 
     fn table(&self, x: f32, y: f32, way_m: f32) -> LinearRgb {
@@ -217,6 +300,49 @@ impl Shader<'_> {
             daylight: self.daylight(from, toward, slope),
             ceiling: from + toward * ceiling_m.min(wall_m),
             toward,
+        }
+    }
+
+    /// What stands in the reflection of a floor, but for walls: doors, furniture, windows.
+    fn mirrored_things(&self, hit: &RayHit, mirror: &Mirror) -> Things {
+        /// Looks at different heights of the lobe, as shares of a usual floor's.
+        const LOOKS: [f64; 3] = [-0.75, 0.0, 0.75];
+        let mut things = Things::default();
+        if hit.toward[2].abs() > STEEP {
+            return things;
+        }
+        let [x, y, _] = hit.point.map(f64::from);
+        for look in LOOKS {
+            let slope = (mirror.slope + look * f64::from(LOBE) * mirror.slope.max(0.12)).max(0.004);
+            let met = self.space.trace_inside([x, y, 0.001], [mirror.toward.x, mirror.toward.y, slope]);
+            let Some(colour) = self.mirrored_thing(&met).filter(|_| met.way_m < MIRROR_REACH_M) else { continue };
+            things.colour = std::array::from_fn(|c| things.colour[c] + colour[c]);
+            things.share += 1.0;
+            things.way_m += f64::from(met.way_m) / mirror.stretch;
+        }
+        if things.share > 0.0 {
+            things.colour = scaled(things.colour, 1.0 / things.share);
+            things.way_m /= f64::from(things.share);
+            things.share /= LOOKS.len() as f32;
+        }
+        things
+    }
+
+    fn mirrored_thing(&self, met: &RayHit) -> Option<LinearRgb> {
+        let [x, y, z] = met.toward;
+        match met.surface {
+            HitSurface::Fitting(number, _) => Some(match self.space.fittings.all[number as usize].finish {
+                Finish::Pane => scaled(day_behind([x, y, z]), MIRRORED_DAY),
+                finish => scaled(light_of(finish.colour()), MIRRORED_WALL_LIGHT[0]),
+            }),
+            HitSurface::Lintel(_) | HitSurface::Soffit(_) => {
+                let frame = self.space.frame_at(0, met.point[2]);
+                frame.map(|frame| scaled(frame, MIRRORED_WALL_LIGHT[0]))
+            }
+            HitSurface::Wall(piece) if self.space.pieces[piece as usize].height_m.is_finite() => {
+                Some(scaled(MIRRORED_WALL, MIRRORED_WALL_LIGHT[0]))
+            }
+            _ => None,
         }
     }
 
@@ -288,8 +414,8 @@ impl Shader<'_> {
         let reach = if blur[0].max(blur[1]) > 0.5 { 2 } else { 1 };
         let lamps =
             panels.around(mirror.ceiling, reach).map(|panel| covered(panel.centre - mirror.ceiling, panel.half, blur));
-        let ceiling = mix(scaled(CEILING, MIRRORED_CEILING_LIGHT), LAMP, (lamps.sum::<f64>() as f32).min(1.0));
-        mix(mix(wall, ceiling, over), DAYLIGHT, mirror.daylight)
+        let ceiling = mix(scaled(CEILING, MIRRORED_CEILING_LIGHT), MIRRORED_LAMP, (lamps.sum::<f64>() as f32).min(1.0));
+        mix(mix(wall, ceiling, over), scaled(DAYLIGHT, MIRRORED_DAY), mirror.daylight)
     }
 }
 

@@ -4,7 +4,7 @@ use crate::math::{SplitMix64, srgb};
 use crate::show::rooms::{LinearRgb, toned};
 
 /// Brightest light that is told apart.
-const MOST: f64 = 8.0;
+pub(super) const MOST: f64 = 8.0;
 /// Steps of the table.
 const STEPS: usize = 16_384;
 /// Relative darkening of the picture's corners.
@@ -13,7 +13,7 @@ const VIGNETTE: f32 = 0.13;
 /// A table from light to sRGB, 0 to 255.
 pub(super) struct Tone {
     table: Vec<f32>,
-    exposure: f32,
+    pub exposure: f32,
 }
 
 impl Tone {

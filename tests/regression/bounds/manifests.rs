@@ -219,7 +219,13 @@ fn what_is_wrong_in_a_manifest_is_named_with_its_value_and_range() {
 fn outlines_that_are_none_are_an_error() {
     let square = [[0.0, 0.0], [0.0, 4.0], [4.0, 4.0], [4.0, 0.0]].map(|[x, y]| vec2(x, y));
     let of = |points: &[trodden::math::Vec2], openings: Vec<(usize, Side)>| {
-        Walls::from_outlines(vec![Outline { points_m: points.to_vec(), openings, furniture_m: None }]).map(|_| ())
+        Walls::from_outlines(vec![Outline {
+            points_m: points.to_vec(),
+            openings,
+            furniture_m: None,
+            windows_m: Vec::new(),
+        }])
+        .map(|_| ())
     };
     of(&square, vec![(1, Side::East)]).unwrap();
     for points in [&square[..0], &square[..1], &square[..2]] {

@@ -35,7 +35,7 @@ class Drawing {
   static async on(gl) {
     const drawing = new Drawing();
     drawing.gl = gl;
-    drawing.programs = Object.fromEntries(['FLOOR', 'WALL', 'TOP', 'LINTEL', 'CEILING']
+    drawing.programs = Object.fromEntries(['FLOOR', 'WALL', 'TOP', 'LINTEL', 'CEILING', 'FITTING', 'PANE']
       .map((kind) => [kind, program(gl, 'surface-vertex', 'surface-fragment', [`IS_${kind}`])]));
     drawing.plain = program(gl, 'plain-vertex', 'plain-fragment', []);
     drawing.array = drawing.upload();
@@ -117,7 +117,7 @@ class Drawing {
     gl.bindVertexArray(this.array);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
     data.parts.forEach((part, n) => {
-      const kind = { floor: 'FLOOR', wall: 'WALL', top: 'TOP', lintel: 'LINTEL' }[part.surface];
+      const kind = part.surface.toUpperCase();
       this.part(n, part, kind, seen, shown);
     });
     if (shown.inside && shown.lit) {
@@ -156,8 +156,8 @@ class Drawing {
     set('u_amounts', 'uniform4fv', [...amounts, 0, 0, 0, 0].slice(0, 4));
     set('u_colours', 'uniform3fv', [...colours, ...Array(12).fill(0)].slice(0, 12));
     set('u_absorbs', 'uniform3fv', [...absorbs, ...Array(12).fill(1)].slice(0, 12));
-    set('u_clean_colour', 'uniform3fv', surface.clean);
-    set('u_clean_roughness', 'uniform1f', surface.roughness);
+    set('u_clean_colour', 'uniform3fv', part.colour || surface.clean);
+    set('u_clean_roughness', 'uniform1f', part.colour ? part.roughness : surface.roughness);
     set('u_textured', 'uniform1i', images.dirt ? 1 : 0);
     set('u_lit', 'uniform1i', shown.lit ? 1 : 0);
     set('u_inside', 'uniform1i', shown.inside ? 1 : 0);

@@ -5,11 +5,17 @@ float fresnel(float cosine, float roughness) {
 }
 
 float lobe_slope(float roughness) {
-  return max(roughness * roughness, 0.002);
+  return max(LOBE_WIDTH * roughness * roughness, 0.002);
 }
 
 float wall_edges(float z, float height) {
   return (1.0 - FOOT.x * exp(-z / FOOT.y)) * (1.0 - HEAD.x * exp(-(height - z) / HEAD.y));
+}
+
+float fitting_light(vec3 normal, float height) {
+  if (normal.z > 0.5) return FITTING_LIGHT.x;
+  if (normal.z < -0.5) return FITTING_LIGHT.z;
+  return (FITTING_LIGHT.y + dot(FITTING_TURN, normal.xy)) * (1.0 - FOOT.x * exp(-height / FOOT.y));
 }
 
 vec3 tinted(float full, vec3 dim, vec3 bright) {

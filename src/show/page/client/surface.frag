@@ -11,7 +11,7 @@ uniform sampler2D u_dirt;   // 1 - exp(-D), a channel per kind
 uniform sampler2D u_clean;  // base colour without dirt
 uniform sampler2D u_rough;  // roughness as baked
 uniform sampler2D u_field;  // distance to the nearest wall; day beyond openings
-uniform sampler2D u_light;  // irradiance of the floor; share of the surroundings that is open
+uniform sampler2D u_light;  // irradiance of the floor; share of the surroundings that is open; light over furniture
 uniform sampler2D u_light_walls;  // irradiance of the nearest wall at u_light_heights
 uniform sampler2D u_lamps;  // the ceiling's lamps
 
@@ -66,9 +66,9 @@ float wall_distance(vec2 place) {
   return mix(u_field_range.x, u_field_range.y, value);
 }
 
-// Irradiance of the floor, and how open the surroundings are.
-vec2 light_at(vec2 place) {
-  vec2 root = textureLod(u_light, (place - u_light_place.xy) * u_light_place.zw, 0.0).rg;
+// Irradiance of the floor, how open the surroundings are, and light over the furniture.
+vec3 light_at(vec2 place) {
+  vec3 root = textureLod(u_light, (place - u_light_place.xy) * u_light_place.zw, 0.0).rgb;
   return root * root * u_light_most;
 }
 
@@ -107,10 +107,10 @@ vec3 mirrored(vec3 ray, float roughness) {
   vec2 ahead = along * min(blur * stretch / slope, 12.0);
   vec2 aside = vec2(-along.y, along.x) * blur;
   float lamps = textureGrad(u_lamps, (above - u_lamps_place.xy) * u_lamps_place.zw, ahead * u_lamps_place.zw, aside * u_lamps_place.zw).r;
-  vec3 ceiling = mix(CEILING * MIRRORED_CEILING_LIGHT, LAMP, lamps);
+  vec3 ceiling = mix(CEILING * MIRRORED_CEILING_LIGHT, MIRRORED_LAMP, lamps);
   float day = textureLod(u_field, (v_place.xy + along * (wall_m + 0.1) - u_field_place.xy) * u_field_place.zw, 0.0).g;
   day *= 1.0 - rise((wall_z - u_height) / (0.5 * u_height + LOBE * wall_m));
-  return mix(mix(wall, ceiling, over), DAYLIGHT, day);
+  return mix(mix(wall, ceiling, over), DAYLIGHT * MIRRORED_DAY, day);
 }
 
 // Lamps are warmer than what walls throw back, the sun is warmer than the sky.
@@ -120,7 +120,7 @@ vec3 lamplight(float full) {
 }
 
 vec3 lit_floor(Material surface, vec3 view) {
-  vec2 light = light_at(v_place.xy);
+  vec3 light = light_at(v_place.xy);
   float share = fresnel(view.z, surface.roughness);
   vec3 shine = u_inside ? mirrored(vec3(-view.xy, view.z), surface.roughness) : vec3(SKY_SHINE);
   return surface.colour * lamplight(light.x) * (1.0 - share) + shine * share * (FLOOR_SHINE.x + FLOOR_SHINE.y * light.y);
@@ -138,8 +138,16 @@ vec3 lit_wall(Material surface, vec3 view) {
 // Mineral tiles in a grid of bars.
 vec3 lit_ceiling() {
   vec2 joints = joint(v_place.xy, fwidth(v_place.xy));
-  vec2 light = light_at(v_place.xy);
-  return CEILING * (CEILING_LIGHT.x * light.y + CEILING_LIGHT.y * light.x) * (1.0 - JOINT * min(joints.x + joints.y, 1.0));
+  vec3 light = light_at(v_place.xy);
+  return CEILING * (CEILING_LIGHT.x * light.y + CEILING_LIGHT.y * light.z) * (1.0 - JOINT * min(joints.x + joints.y, 1.0));
+}
+
+vec3 lit_fitting(Material surface, vec3 view) {
+  vec3 light = light_at(v_place.xy);
+  // What is low stands in the shade of boards over it.
+  float full = mix(light.x, light.z, clamp(v_place.z / 0.7, 0.0, 1.0));
+  float shine = fresnel(dot(v_normal, view), surface.roughness) * WALL_SHINE * light.y * full;
+  return surface.colour * lamplight(full * fitting_light(v_normal, v_place.z)) + shine;
 }
 
 // A threshold per pixel against bands.
@@ -161,6 +169,10 @@ void main() {
   colour = lit_wall(surface, view);
 #elif defined(IS_CEILING)
   colour = lit_ceiling();
+#elif defined(IS_FITTING)
+  colour = lit_fitting(surface, view);
+#elif defined(IS_PANE)
+  colour = u_inside ? DAYLIGHT : surface.colour;
 #elif defined(IS_LINTEL)
   colour = abs(v_normal.z) > 0.5 ? surface.colour * SOFFIT : lit_wall(surface, view);
 #else

@@ -8,6 +8,7 @@ use super::options::{GlbImage, GlbOptions, PlainMaterial, SurfaceImages};
 use super::picture::{self, TextureContent};
 use crate::export::GENERATOR;
 use crate::math::srgb;
+use crate::show::rooms::Finish;
 use crate::show::scene::model::{Mesh, Scene, SceneSurface};
 
 // Numbers that glTF 2.0 has for them.
@@ -303,15 +304,22 @@ impl<'a> Cover<'a> {
         let textured = match surface {
             SceneSurface::FloorTile(tile) => options.floor.get(tile),
             SceneSurface::WallSheet(sheet) => options.walls.get(sheet),
-            SceneSurface::WallTop | SceneSurface::Lintel => None,
+            SceneSurface::WallTop | SceneSurface::Lintel | SceneSurface::Fitting(_) => None,
         };
         let name = match surface {
             SceneSurface::FloorTile(_) => "floor",
             SceneSurface::WallSheet(_) => "wall",
             SceneSurface::WallTop => "wall_tops",
             SceneSurface::Lintel => "clean_wall",
+            SceneSurface::Fitting(finish) => Finish::ALL.get(finish).map_or("fitting", |finish| finish.name()),
         };
-        let plain = if surface == SceneSurface::WallTop { options.wall_top } else { options.clean_wall };
+        let plain = match surface {
+            SceneSurface::WallTop => options.wall_top,
+            SceneSurface::Fitting(finish) => Finish::ALL.get(finish).map_or(PlainMaterial::PAINT, |finish| {
+                PlainMaterial { colour: finish.colour(), roughness: finish.roughness() }
+            }),
+            _ => options.clean_wall,
+        };
         textured.map_or(Cover::Plain(name, plain), Cover::Textured)
     }
 

@@ -1,0 +1,29 @@
+//! Furniture, door leaves and windows as prisms.
+
+use super::builder::{MeshBuilder, MeshVertex, SceneBuilder};
+use super::model::SceneSurface;
+use super::tops::add_upright;
+use crate::math::Vec2;
+use crate::show::rooms::Fittings;
+
+/// Adds all fittings by material.
+pub(super) fn add(fittings: &Fittings, scene: &mut SceneBuilder) {
+    for fitting in &fittings.all {
+        let part = scene.part(SceneSurface::Fitting(fitting.finish as usize));
+        let corners = &fitting.footprint;
+        for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+            add_upright([a, b], fitting.span_m, part);
+        }
+        let [low_m, high_m] = fitting.span_m;
+        add_face(corners.iter().copied(), high_m, 1.0, part);
+        if low_m > 0.0 {
+            add_face(corners.iter().rev().copied(), low_m, -1.0, part);
+        }
+    }
+}
+
+fn add_face(corners: impl Iterator<Item = Vec2>, height_m: f64, up: f64, part: &mut MeshBuilder) {
+    let corner = |p: Vec2| MeshVertex { position_m: [p.x, p.y, height_m], normal: [0.0, 0.0, up], uv: [0.0; 2] };
+    let corners: Vec<MeshVertex> = corners.map(corner).collect();
+    part.polygon(&corners);
+}
