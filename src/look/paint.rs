@@ -128,7 +128,7 @@ impl<'a> FloorPainter<'a> {
                 orm: [255, (255.0 * properties.roughness[0]).round() as u8, 0],
             },
             dither: noise::key(look.seed, Channel::Dither),
-            mopping: Mopping::new(walls, &look.mop, look.seed),
+            mopping: Mopping::new(walls, &look.mop, (look.seed, look.total_passes)),
             wet: WetFloor::new(look, &properties, sums),
             skirting: Skirting::new(walls, look.edge.clone(), look.seed),
             look: look.clone(),
@@ -322,6 +322,11 @@ fn write(dither: u32, window: &TexelWindow, run: RowRun, buffers: &mut FloorBuff
         let [worn, marks] = shaded.worn(k);
         let raised = (128.5 + HEIGHT_PER_MM * height(0)).clamp(0.0, 255.0) as u8;
         block.relief[from + k][..3].copy_from_slice(&[worn, marks, raised]);
+        if let Some(fine) = block.fine.get_mut(from + k) {
+            let raised = 0.5 + HEIGHT_PER_MM / 255.0 * height(0);
+            let [passes, worn] = shaded.passes_and_wear(k);
+            *fine = [passes, worn, raised].map(|share| (65_535.0 * share.clamp(0.0, 1.0) + 0.5) as u16);
+        }
         block.set_normal(from + k, [x, y]);
     }
     block.set_clean(from, &shaded.bare);

@@ -271,7 +271,7 @@ impl Pieces {
 /// Length of a loop of carpet and width of its row, metres.
 const LOOP_M: [f64; 2] = [0.009, 0.006];
 /// Share of boards with a knot, and its radius, metres.
-const KNOTTY: f32 = 0.22;
+const KNOTTY: f32 = 0.12;
 const KNOT_M: f64 = 0.009;
 
 #[derive(Clone, Copy, Default)]
@@ -303,7 +303,7 @@ impl Grain {
             if squared < 30.0 {
                 let bent = f64::from(exp_f32(-0.25 * squared as f32));
                 rings += 3.0 * bent * v.signum();
-                dark = 0.3 * (1.0 - rise(squared as f32, 0.35, 1.2)) + 0.10 * bent as f32;
+                dark = 0.22 * (1.0 - rise(squared as f32, 0.35, 1.2)) + 0.10 * bent as f32;
             }
         }
         let own = cells::unit(word ^ 3, rings.floor() as i64 as i32, 0);
@@ -452,6 +452,18 @@ mod tests {
             for (j, row) in part.rgb[2].chunks_exact(20).enumerate() {
                 assert_eq!(row, &whole.rgb[2][(j + 20) * 90 + 30..][..20], "{material:?}");
             }
+        }
+    }
+
+    /// Pores and pits are small and alone, wherever their squares end.
+    #[test]
+    fn pores_take_up_little_of_the_floor() {
+        for material in [Material::Concrete, Material::Stone] {
+            let planes = laid_out(material, 400.0, [0, 0], 800);
+            let deep =
+                planes.height.iter().zip(&planes.joint).filter(|(height, joint)| **height < -0.12 && **joint == 0.0);
+            let share = deep.count() as f32 / planes.height.len() as f32;
+            assert!((0.0005..0.015).contains(&share), "{material:?}: {share}");
         }
     }
 }
