@@ -436,7 +436,7 @@ mod tests {
                     ..SumsEntry::default()
                 },
                 channels: Target::Gltf.channels(
-                    Covered::Floor,
+                    (Covered::Floor, 8),
                     "floor",
                     ["film"; 4],
                     &["passes", "dust"],
