@@ -225,6 +225,8 @@ pub struct ResolveOptions {
     pub embed: Option<bool>,
     /// Whether to write the layers as EXR too.
     pub layers: Option<bool>,
+    /// Bits per channel of masks, wear and height: 8 or 16.
+    pub bits: Option<u32>,
     /// Folder to write to, in place of the bake's own: the bake stays as it is.
     pub folder: Option<PathBuf>,
     /// Whether to replace an earlier bake in that folder.
@@ -255,6 +257,7 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
     textures.target = options.target.unwrap_or(textures.target);
     textures.embed = options.embed.unwrap_or(textures.embed);
     textures.layers = options.layers.or(textures.layers);
+    textures.bits = options.bits.unwrap_or(textures.bits);
     textures.check()?;
     let atlas = manifest.walls.as_ref().map(|walls| walls.atlas());
     atlas.iter().try_for_each(|atlas| atlas.check(textures.target))?;

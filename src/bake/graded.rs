@@ -65,7 +65,8 @@ impl Graded<'_> {
     ) -> Result<Written, Error> {
         let options =
             &TextureOptions { reduced_px: self.sums.walls.is_some().then_some(REDUCED_PX), ..options.clone() };
-        let floor = FloorResolver::new(&self.sums.floor, self.walls, self.look, self.people)?;
+        let floor =
+            FloorResolver::new(&self.sums.floor, self.walls, self.look, self.people)?.finely(options.bits == 16);
         let textures = export::floor_textures(folder, self.sums.floor.grid(), &floor, options, progress)?;
         watch.add(Stage::Look, textures.look_busy_s);
         watch.add(Stage::Export, textures.export_busy_s);

@@ -63,6 +63,9 @@ pub struct Bake {
     /// Write every layer on its own too, as EXR: game engines get them only if asked for
     #[arg(long)]
     layers: bool,
+    /// Bits per channel of masks, wear and height; 16 are not dithered [default: 8]
+    #[arg(long, value_name = "8|16", value_parser = arguments::bits())]
+    bits: Option<u32>,
     /// Put the textures, reduced, into scene.glb
     #[arg(long)]
     embed: bool,
@@ -112,6 +115,7 @@ impl Bake {
             embed: self.embed.then_some(true),
             any_size: self.yes,
             layers: self.layers.then_some(true),
+            bits: self.bits,
             motion_file: self.motion_file()?,
             recording: self.alignment.over(self.reading.options()),
             ..self.scenario.overrides()

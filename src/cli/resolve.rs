@@ -29,7 +29,7 @@ pub struct Resolve {
     #[arg(value_name = "BAKE")]
     bake: PathBuf,
     /// A look file: TOML with the keys of a scenario's [look]
-    #[arg(long, value_name = "FILE", required_unless_present_any = ["preset", "target", "embed", "layers", "output", "passes"])]
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["preset", "target", "embed", "layers", "bits", "output", "passes"])]
     look: Option<PathBuf>,
     /// Or the look of a preset
     #[arg(long, value_name = "NAME", value_parser = arguments::preset(), conflicts_with = "look")]
@@ -40,6 +40,9 @@ pub struct Resolve {
     /// Write every layer on its own too, as EXR: game engines get them only if asked for
     #[arg(long)]
     layers: bool,
+    /// Bits per channel of masks, wear and height; 16 are not dithered [default: as before]
+    #[arg(long, value_name = "8|16", value_parser = arguments::bits())]
+    bits: Option<u32>,
     /// Put the textures, reduced, into scene.glb
     #[arg(long)]
     embed: bool,
@@ -65,6 +68,7 @@ impl Resolve {
             target: self.target,
             embed: self.embed.then_some(true),
             layers: self.layers.then_some(true),
+            bits: self.bits,
             folder: self.output.clone(),
             force: self.force,
         };

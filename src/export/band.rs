@@ -154,6 +154,8 @@ pub(super) struct BandBlock {
     pub(super) layers: Vec<Vec<u8>>,
     /// Opacity of what arms, shoulders and bags left; empty where that is nothing.
     pub(super) rub: Vec<[u8; 3]>,
+    /// Its masks with 16 bits, if requested.
+    pub(super) fine: Vec<(Image, Vec<u8>)>,
     /// Its images, reduced, if requested.
     pub(super) reduced: Option<ReducedBlock>,
 }
@@ -175,10 +177,13 @@ impl Band {
     }
 
     /// Writes the pixels of one row, counted from above. `background` is a row of an empty block.
-    fn row(&self, image: Image, background: &[u8], y: usize, out: &mut [u8]) {
-        for (block, out) in self.blocks.iter().zip(out.chunks_mut(BLOCK * image.pixels().bytes())) {
+    fn row(&self, image: Image, pixels: Pixels, background: &[u8], y: usize, out: &mut [u8]) {
+        for (block, out) in self.blocks.iter().zip(out.chunks_mut(BLOCK * pixels.bytes())) {
             if block.texels.empty {
                 out.copy_from_slice(&background[..out.len()]);
+            } else if let Some((_, fine)) = block.fine.iter().find(|(fine, _)| *fine == image) {
+                let from = (self.height - 1 - y) * out.len();
+                out.copy_from_slice(&fine[from..from + out.len()]);
             } else {
                 let width = out.len() / image.pixels().bytes();
                 image.copy(block, (self.height - 1 - y) * width, out);
@@ -311,6 +316,7 @@ impl TextureFiles {
 #[derive(Debug)]
 struct ImageFile<W: Write + Send + 'static> {
     image: Image,
+    pixels: Pixels,
     /// A row of an empty block.
     background: Vec<u8>,
     /// A row across the texture.
@@ -322,11 +328,14 @@ impl<W: Write + Send> ImageFile<W> {
     /// Appends the rows of a band from above.
     fn push(&mut self, band: &Band) -> io::Result<()> {
         (0..band.height).try_for_each(|y| {
-            band.row(self.image, &self.background, y, &mut self.row);
+            band.row(self.image, self.pixels, &self.background, y, &mut self.row);
             self.png.push(&self.row)
         })
     }
 }
+
+/// Pixels of an image with 16 bits, and a row of an empty block.
+pub(super) type FineForm = (Pixels, Vec<u8>);
 
 /// Writes the files of one texture, band by band from above.
 #[derive(Debug)]
@@ -341,15 +350,15 @@ impl<W: Write + Seek + Send> TileWriter<W> {
         [width, height]: [usize; 2],
         files: &TextureFiles,
         background: &Background,
-        layers: Option<&LayerEncoder>,
+        (layers, fine): (Option<&LayerEncoder>, &dyn Fn(Image) -> Option<FineForm>),
         create: impl Fn(&str) -> Result<W, ExportError>,
     ) -> Result<TileWriter<W>, ExportError> {
         let mut writer = TileWriter { images: Vec::new(), layers: Vec::new() };
         for &(image, ref name) in &files.images {
-            let pixels = image.pixels();
+            let (pixels, background) = fine(image).unwrap_or_else(|| (image.pixels(), image.background(background)));
             let png = PngWriter::begin(create(name)?, pixels, width as u32, height as u32);
-            let (row, background) = (vec![0; width * pixels.bytes()], image.background(background));
-            writer.images.push(ImageFile { image, background, row, png: png.map_err(OutputFile::explain)? });
+            let row = vec![0; width * pixels.bytes()];
+            writer.images.push(ImageFile { image, pixels, background, row, png: png.map_err(OutputFile::explain)? });
         }
         for (file, name) in layers.map_or(&[][..], LayerEncoder::files).iter().zip(&files.layers) {
             let begun = ExrWriter::begin(create(name)?, Samples::Half, width, height, &file.names());

@@ -97,6 +97,12 @@ pub enum ExportError {
         /// Latest format that this version reads.
         known: u32,
     },
+    /// Masks of so many bits cannot be written.
+    #[error("[texture] bits is {bits}, masks have 8 or 16")]
+    Bits {
+        /// As the user gave them.
+        bits: u32,
+    },
     /// The tile size is out of range.
     #[error("the tile size is {tile} px; it has to be {min} to {max} px")]
     TileSize {
@@ -208,6 +214,7 @@ impl ExportError {
             }
             ExportError::NewerFormat { .. } => Some("bake again, or use the newer version of trodden".to_string()),
             ExportError::Damaged { .. } => Some("bake again, into a new folder".to_string()),
+            ExportError::Bits { .. } => Some("8 is enough for most, 16 for masks that are stretched".to_string()),
             ExportError::TileSize { .. } => Some("engines want powers of two, such as 4096 or 8192".to_string()),
             ExportError::TileTooLargeFor { max, .. } => Some(format!("set texture.tile to {max} or less")),
             ExportError::WallTooHigh { needed, .. } => Some(format!(

@@ -14,6 +14,7 @@ pub mod diff;
 mod error;
 mod estimate;
 mod exr_tiles;
+mod fine;
 mod layout;
 mod manifest;
 mod memory;

@@ -10,6 +10,8 @@ options! {
         tile: u32 = 8192, in 64.0..=16384.0, unit "px";
         /// Whether every layer is an EXR too; left out: for gltf and blender only.
         layers: Option<bool> = None, eg "true";
+        /// Bits per channel of masks, wear and height: 8, or 16 without dither.
+        bits: u32 = 8, in 8.0..=16.0;
         /// What the files are for: "gltf", "blender", "unreal", "unity" or "godot".
         target: Target = Target::default();
         /// Whether walls are made too, and with them the scene, stills and page.
@@ -30,14 +32,22 @@ impl TextureOptions {
         self.layers.unwrap_or_else(|| self.target.wants_layers())
     }
 
-    /// Checks the size against what the target takes.
+    /// Whether masks have 16 bits.
+    pub(super) fn is_fine(&self) -> bool {
+        self.bits == 16
+    }
+
+    /// Checks the size against what the target takes, and the bits.
     ///
     /// # Errors
-    /// A tile size out of range.
+    /// A tile size out of range, bits other than 8 and 16.
     pub fn check(&self) -> Result<(), ExportError> {
         let (tile, min, max) = (self.tile, TileLayout::MIN_TILE, TileLayout::MAX_TILE);
         if !(min..=max).contains(&tile) {
             return Err(ExportError::TileSize { tile, min, max });
+        }
+        if ![8, 16].contains(&self.bits) {
+            return Err(ExportError::Bits { bits: self.bits });
         }
         self.target.check_size(tile)
     }

@@ -20,6 +20,9 @@ pub(super) enum Pixels {
     Linear3,
     /// Four linear values.
     Linear4,
+    /// One linear value, and three, of 16 bits, big-endian.
+    Fine1,
+    Fine3,
 }
 
 impl Pixels {
@@ -28,11 +31,13 @@ impl Pixels {
             Pixels::Linear1 => 1,
             Pixels::Srgb | Pixels::Linear3 => 3,
             Pixels::Linear4 => 4,
+            Pixels::Fine1 => 2,
+            Pixels::Fine3 => 6,
         }
     }
 }
 
-/// Writes a PNG file of 8 bits per channel, row by row from above.
+/// Writes a PNG file, row by row from above.
 pub(super) struct PngWriter<W: Write + Send + 'static> {
     out: SharedWriter<W>,
     rows: StreamWriter<'static, SharedWriter<W>>,
@@ -43,10 +48,11 @@ impl<W: Write + Send + 'static> PngWriter<W> {
     pub(super) fn begin(out: W, pixels: Pixels, width: u32, height: u32) -> io::Result<PngWriter<W>> {
         let out = SharedWriter(Arc::new(Mutex::new(Sink { out, failure: None })));
         let mut encoder = Encoder::new(out.clone(), width, height);
-        encoder.set_depth(BitDepth::Eight);
+        let is_fine = matches!(pixels, Pixels::Fine1 | Pixels::Fine3);
+        encoder.set_depth(if is_fine { BitDepth::Sixteen } else { BitDepth::Eight });
         encoder.set_color(match pixels {
-            Pixels::Linear1 => ColorType::Grayscale,
-            Pixels::Srgb | Pixels::Linear3 => ColorType::Rgb,
+            Pixels::Linear1 | Pixels::Fine1 => ColorType::Grayscale,
+            Pixels::Srgb | Pixels::Linear3 | Pixels::Fine3 => ColorType::Rgb,
             Pixels::Linear4 => ColorType::Rgba,
         });
         if pixels == Pixels::Srgb {

@@ -154,6 +154,7 @@ mod tests {
         let values: Vec<u8> = (0..width * height).map(|k| texel(k % width, k / width)).collect();
         ResolvedBlock {
             relief: Vec::new(),
+            fine: Vec::new(),
             empty: false,
             base_color: values.iter().map(|&v| [v, 255 - v, 7]).collect(),
             mask: values.iter().map(|&v| [v, v / 2, 0, 255]).collect(),

@@ -185,6 +185,7 @@ fn blank(texels: usize, background: Background, layers: &[&'static str]) -> Reso
         mask: vec![background.mask; texels],
         orm: vec![background.orm; texels],
         relief: vec![FLAT; texels],
+        fine: Vec::new(),
         layers: layers.iter().map(|&name| Layer { name, values: vec![0.0; texels] }).collect(),
     }
 }

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use super::block::{LAYERS, ResolvedBlock};
+use super::block::{FLAT_FINELY, LAYERS, ResolvedBlock};
 use super::error::LookError;
 use super::lattice::TexelWindow;
 use super::paint::FloorPainter;
@@ -74,6 +74,7 @@ impl<'a> FloorArea<'a> {
         }
         PAINTED.with_borrow_mut(|painted| {
             painted.resize(window.texels(), &LAYERS);
+            painted.fine.resize(block.fine.len(), FLAT_FINELY);
             self.painter.paint(window, Some(&inside), painted);
             let mut n = 0;
             while n < inside.len() {

@@ -12,6 +12,9 @@ pub const LAYERS: [&str; 10] =
 /// Relief of a flat, unworn surface.
 pub(crate) const FLAT: [u8; 6] = [0, 0, 128, 128, 128, 255];
 
+/// Passes, wear and height of such a surface with 16 bits.
+pub(crate) const FLAT_FINELY: [u16; 3] = [0, 0, 1 << 15];
+
 /// Texel values of a clean surface: those beyond a floor's padding, or the mean of a clean wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Background {
@@ -40,6 +43,9 @@ pub struct ResolvedBlock {
     /// Wear, opacity of heel marks 1 - exp(-D), height (128 is the mean surface, 25 a millimetre), all of floors only; and
     /// the surface's normal, 0 to 255 for -1 to 1, along the texture's right, its upper side, and outward.
     pub relief: Vec<[u8; 6]>,
+    /// Passes, wear and height of floors as in `mask` and `relief`, 0 to 65 535 and without dither; empty unless
+    /// [`FloorResolver::finely`](super::FloorResolver::finely) asks for them.
+    pub fine: Vec<[u16; 3]>,
     /// Linear float layers, named in [`super::LAYERS`] or `super::WALL_LAYERS`.
     pub layers: Vec<Layer>,
 }
@@ -80,6 +86,7 @@ impl ResolvedBlock {
         self.mask.resize(texels, [0; 4]);
         self.orm.resize(texels, [0; 3]);
         self.relief.resize(texels, FLAT);
+        self.fine.clear();
         if !self.layers.iter().map(|layer| layer.name).eq(layers.iter().copied()) {
             self.layers = layers.iter().map(|&name| Layer { name, values: Vec::new() }).collect();
         }
@@ -96,6 +103,7 @@ impl ResolvedBlock {
         self.mask.clear();
         self.orm.clear();
         self.relief.clear();
+        self.fine.clear();
         for layer in &mut self.layers {
             layer.values.clear();
         }
@@ -108,6 +116,9 @@ impl ResolvedBlock {
         self.mask[to..to + len].copy_from_slice(&other.mask[from..from + len]);
         self.orm[to..to + len].copy_from_slice(&other.orm[from..from + len]);
         self.relief[to..to + len].copy_from_slice(&other.relief[from..from + len]);
+        if !self.fine.is_empty() && !other.fine.is_empty() {
+            self.fine[to..to + len].copy_from_slice(&other.fine[from..from + len]);
+        }
         for (layer, other) in self.layers.iter_mut().zip(&other.layers) {
             layer.values[to..to + len].copy_from_slice(&other.values[from..from + len]);
         }
@@ -137,6 +148,9 @@ impl ResolvedBlock {
         self.mask[texels.clone()].fill(background.mask);
         self.orm[texels.clone()].fill(background.orm);
         self.relief[texels.clone()].fill(FLAT);
+        if !self.fine.is_empty() {
+            self.fine[texels.clone()].fill(FLAT_FINELY);
+        }
         for layer in &mut self.layers {
             layer.values[texels.clone()].fill(0.0);
         }

@@ -93,12 +93,13 @@ impl Material {
         };
         let mineral = Properties { joint_film: [2.0, 3.4], ..plain };
         match self {
-            Material::Vinyl => Properties { low_film: 3.0, ..plain },
+            Material::Vinyl => Properties { low_film: 12.0, ..plain },
             Material::Dark => Properties { colour: [60, 58, 56], film: 0.75, ..plain },
             Material::Terrazzo => Properties {
                 colour: [186, 181, 172],
                 roughness: [0.30, 0.20],
-                film: 0.6,
+                film: 0.66,
+                low_film: 10.0,
                 scuffs: 0.7,
                 joint_film: [0.0, 0.6],
                 ..plain
@@ -106,7 +107,7 @@ impl Material {
             Material::Concrete => Properties {
                 colour: [158, 154, 147],
                 roughness: [0.75, 0.55],
-                low_film: 0.4,
+                low_film: 1.2,
                 prints: 0.8,
                 scuffs: 0.8,
                 wear_passes: 12_000.0,
@@ -116,7 +117,7 @@ impl Material {
                 colour: [172, 132, 92],
                 roughness: [0.40, 0.62],
                 film: 0.9,
-                low_film: 1.5,
+                low_film: 3.0,
                 worn: [1.06, 1.14, 1.28],
                 wear_passes: 3000.0,
                 joint_film: [0.6, 1.2],
@@ -126,7 +127,7 @@ impl Material {
                 colour: [122, 124, 130],
                 roughness: [0.95, 0.95],
                 film: 0.9,
-                low_film: 0.12,
+                low_film: 0.2,
                 prints: 0.0,
                 scuffs: 0.0,
                 spots: 0.35,
@@ -138,13 +139,13 @@ impl Material {
             },
             Material::Tile => Properties { colour: [206, 203, 196], roughness: [0.18, 0.24], film: 0.35, ..mineral },
             Material::Stone => {
-                Properties { colour: [188, 179, 162], roughness: [0.45, 0.28], film: 0.7, low_film: 1.0, ..mineral }
+                Properties { colour: [188, 179, 162], roughness: [0.45, 0.28], film: 0.7, low_film: 2.5, ..mineral }
             }
             Material::Asphalt => Properties {
                 colour: [82, 80, 78],
                 roughness: [0.92, 0.80],
                 film: 0.45,
-                low_film: 0.08,
+                low_film: 0.16,
                 edge: 0.7,
                 prints: 0.5,
                 scuffs: 0.4,
@@ -155,7 +156,7 @@ impl Material {
                 colour: [156, 148, 136],
                 roughness: [0.85, 0.70],
                 film: 0.75,
-                low_film: 0.25,
+                low_film: 0.6,
                 prints: 0.8,
                 scuffs: 0.6,
                 wear_passes: 12_000.0,

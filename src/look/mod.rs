@@ -49,8 +49,8 @@ mod wet;
 mod tests;
 
 pub use crate::math::srgb::Srgb8;
-pub(crate) use block::FLAT;
 pub use block::{Background, LAYERS, Layer, ResolvedBlock};
+pub(crate) use block::{FLAT, FLAT_FINELY};
 pub(crate) use colours::absorption;
 pub use error::{FilePlace, LookError};
 pub(crate) use image_set::look_files;

@@ -23,6 +23,21 @@ const SPACING_M: f64 = 0.025;
 /// Weights of the last cleaning and of the one before.
 const CLEANINGS: [f32; 2] = [0.85, 0.4];
 
+/// Cleaning of which the look's film is, people from one to the next.
+const USUALLY_EVERY: f32 = 1000.0;
+/// Share of the film that is trodden in, and that no mop takes.
+const TRODDEN_IN: f32 = 0.3;
+
+impl MopLook {
+    /// How many passes' film lies on the floor, relative to the usual cleaning. What can be taken tends to that of
+    /// `every / takes` people; it is never more than that of all.
+    pub(super) fn passes_left(&self, total_passes: u64) -> f32 {
+        let lying = |every: f32| (every / self.takes.max(0.05)).min(total_passes as f32);
+        let loose = lying(self.every) / lying(USUALLY_EVERY).max(1.0);
+        if self.every == USUALLY_EVERY { 1.0 } else { TRODDEN_IN + (1.0 - TRODDEN_IN) * loose }
+    }
+}
+
 /// Ways of cleaning over a whole floor.
 pub(super) struct Mopping {
     takes: f32,
@@ -37,7 +52,7 @@ pub(super) struct Mopping {
 
 impl Mopping {
     /// Returns nothing if the mop takes nothing.
-    pub fn new(walls: &Walls, look: &MopLook, seed: u64) -> Option<Mopping> {
+    pub fn new(walls: &Walls, look: &MopLook, (seed, total_passes): (u64, u64)) -> Option<Mopping> {
         if look.takes == 0.0 {
             return None;
         }
@@ -61,7 +76,9 @@ impl Mopping {
         (0..rows as usize).for_each(|row| runs(row * columns as usize, 1, columns as usize, &mut x));
         (0..columns as usize).for_each(|column| runs(column, columns as usize, rows as usize, &mut y));
         let along_x = x.iter().zip(&y).map(|(x, y)| rise(x / (x + y).max(1.0), 0.4, 0.6)).collect();
-        let MopLook { takes, width_m, unevenness } = *look;
+        let MopLook { width_m, unevenness, .. } = *look;
+        // Before the first cleaning nothing is taken.
+        let takes = look.takes * (total_passes as f32 / look.every).min(1.0);
         Some(Mopping { takes, width_m, unevenness, key: noise::key(seed, Channel::Mop), columns, rows, along_x })
     }
 

@@ -73,6 +73,7 @@ pub(super) enum Channel {
     WallChip,
     Puddle,
     PuddleBays,
+    FineDetail,
 }
 
 /// Key of a channel for a seed.

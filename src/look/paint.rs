@@ -114,7 +114,7 @@ impl<'a> FloorPainter<'a> {
                 look.floor.roughness_trodden.map_or(properties.roughness[1] - properties.roughness[0], |to| to - mean);
             properties.roughness = [mean, (mean + change).clamp(0.0, 1.0)];
         }
-        let noise = film_noise(look);
+        let noise = film_noise(look, texels_per_metre);
         Ok(FloorPainter {
             sums,
             rolled: Arc::clone(rolled),
@@ -128,7 +128,7 @@ impl<'a> FloorPainter<'a> {
                 orm: [255, (255.0 * properties.roughness[0]).round() as u8, 0],
             },
             dither: noise::key(look.seed, Channel::Dither),
-            mopping: Mopping::new(walls, &look.mop, look.seed),
+            mopping: Mopping::new(walls, &look.mop, (look.seed, look.total_passes)),
             wet: WetFloor::new(look, &properties, sums),
             skirting: Skirting::new(walls, look.edge.clone(), look.seed),
             look: look.clone(),
@@ -183,14 +183,15 @@ impl<'a> FloorPainter<'a> {
 }
 
 /// Returns the noises of the look's three octaves. Coarse and middle octaves have detail: a third of their variance is
-/// in spots 0.4 times as large.
-fn film_noise(look: &Look) -> Vec<Noise> {
+/// in spots 0.4 times as large. The grain has grain of its own, where texels show it.
+fn film_noise(look: &Look, texels_per_metre: f64) -> Vec<Noise> {
     let noise = |channel, octave: Octave, size: f64, variance: f32| {
         Noise::new(look.seed, channel, [size * octave.size_m; 2], variance.sqrt() * octave.sd)
     };
     let NoiseLook { fine, middle, coarse } = look.noise;
     let all = [
         noise(Channel::Fine, fine, 1.0, 1.0),
+        noise(Channel::FineDetail, fine, 0.22, if 0.22 * fine.size_m * texels_per_metre < 1.0 { 0.0 } else { 1.0 }),
         noise(Channel::Middle, middle, 1.0, 2.0 / 3.0),
         noise(Channel::MiddleDetail, middle, 0.4, 1.0 / 3.0),
         noise(Channel::Coarse, coarse, 1.0, 2.0 / 3.0),
@@ -321,6 +322,11 @@ fn write(dither: u32, window: &TexelWindow, run: RowRun, buffers: &mut FloorBuff
         let [worn, marks] = shaded.worn(k);
         let raised = (128.5 + HEIGHT_PER_MM * height(0)).clamp(0.0, 255.0) as u8;
         block.relief[from + k][..3].copy_from_slice(&[worn, marks, raised]);
+        if let Some(fine) = block.fine.get_mut(from + k) {
+            let raised = 0.5 + HEIGHT_PER_MM / 255.0 * height(0);
+            let [passes, worn] = shaded.passes_and_wear(k);
+            *fine = [passes, worn, raised].map(|share| (65_535.0 * share.clamp(0.0, 1.0) + 0.5) as u16);
+        }
         block.set_normal(from + k, [x, y]);
     }
     block.set_clean(from, &shaded.bare);

@@ -2,7 +2,7 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 use super::areas::FloorArea;
-use super::block::{Background, LAYERS, ResolvedBlock};
+use super::block::{Background, FLAT_FINELY, LAYERS, ResolvedBlock};
 use super::coarse::{CoarseFloor, CoarseShare};
 use super::error::LookError;
 use super::lattice::TexelWindow;
@@ -18,6 +18,7 @@ pub struct FloorResolver<'a> {
     painter: FloorPainter<'a>,
     areas: Vec<FloorArea<'a>>,
     coarse: CoarseFloor,
+    finely: bool,
 }
 
 impl<'a> FloorResolver<'a> {
@@ -64,7 +65,19 @@ impl<'a> FloorResolver<'a> {
                 .map(|area| FloorArea::new(area, (sums, &rolled), walls, look, simulated_people))
                 .collect::<Result<_, _>>()?,
             coarse: CoarseFloor::of(walls, grid.texels_per_metre, grid.width, grid.height),
+            finely: false,
         })
+    }
+
+    /// Resolves passes, wear and height with 16 bits too, see [`ResolvedBlock::fine`].
+    pub fn finely(mut self, finely: bool) -> FloorResolver<'a> {
+        self.finely = finely;
+        self
+    }
+
+    fn begin(&self, block: &mut ResolvedBlock, texels: usize) {
+        block.resize(texels, &LAYERS);
+        block.fine.resize(if self.finely { texels } else { 0 }, FLAT_FINELY);
     }
 
     /// Texel values beyond floor and padding, and of all texels of an empty block.
@@ -86,7 +99,7 @@ impl<'a> FloorResolver<'a> {
         match self.coarse.of_window(&rect) {
             CoarseShare::Nothing => block.become_empty(),
             CoarseShare::All => {
-                block.resize(rect.texels(), &LAYERS);
+                self.begin(block, rect.texels());
                 self.paint(rect, None, block);
             }
             CoarseShare::Some => self.with_padding(rect, block),
@@ -126,9 +139,9 @@ impl<'a> FloorResolver<'a> {
             wanted[place_of(place)] = true;
         }
         PAINTED.with_borrow_mut(|painted| {
-            painted.resize(window.texels(), &LAYERS);
+            self.begin(painted, window.texels());
             self.paint(window, Some(&wanted), painted);
-            block.resize(rect.texels(), &LAYERS);
+            self.begin(block, rect.texels());
             let mut n = 0;
             while n < shown.len() {
                 // Adjacent texels mostly copy adjacent texels.

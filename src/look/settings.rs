@@ -172,6 +172,10 @@ options! {
     pub struct MopLook {
         /// Share of the film that it takes where it passes.
         takes: f32 = 0.4, in 0.0..=0.95;
+        /// People who walk between two cleanings: fewer keep lanes lighter.
+        ///
+        /// People who walk between two cleanings: what can be taken of the film tends to that of `every` / `takes` people.
+        every: f32 = 1000.0, in 1.0..=1e9, unit "people";
         /// Width of a pass.
         width_m: f64 = 0.55, in 0.1..=3.0, unit "m";
         /// How unevenly it takes: streaks, swings and borders of passes.

@@ -35,6 +35,8 @@ pub(super) struct FloorShader {
     /// `per_pass` of the film, and 1 / ln(1 + 1000 per_pass).
     per_pass: f32,
     per_ln: f32,
+    /// `per_pass` of the film that cleaning leaves.
+    left_per_pass: f32,
     film: f32,
     low_film: f32,
     /// Film per e-fold of standing time, and its rate per second of the simulated people.
@@ -179,6 +181,7 @@ impl FloorShader {
             residual,
             per_pass: look.film.per_pass,
             per_ln: 1.0 / ln_f32(1.0 + FULL_PASSES * look.film.per_pass).max(1e-6),
+            left_per_pass: look.film.per_pass * look.mop.passes_left(look.total_passes),
             film: look.film.density * properties.film,
             low_film: properties.low_film,
             dwell: look.dwell.density * properties.film / ln_f32(1.0 + FULL_SECONDS * look.dwell.per_second).max(1e-6),
@@ -232,12 +235,17 @@ impl FloorShader {
             (self.weight * expected + self.residual * (counted - expected)).max(0.0)
         });
         each1(uneven, &known.uneven, |noise| exp_f32(noise - self.mean_log));
-        each1(trodden, history, |passes| self.per_ln * ln_f32(1.0 + self.per_pass * passes));
+        each1(trodden, history, |passes| self.per_ln * ln_f32(1.0 + self.left_per_pass * passes));
         each2(wearing, history, &known.grind, |passes, effort| passes + self.turns * effort.max(0.0));
         each2(worn, wearing, uneven, |passes, uneven| {
             self.wear * (1.0 - exp_f32(-self.wear_per_pass * passes * uneven * uneven))
         });
-        each1(busy, trodden, |trodden| 1.0 - (trodden * MASK_PER_TRODDEN).min(1.0));
+        if self.left_per_pass == self.per_pass {
+            each1(busy, trodden, |trodden| 1.0 - (trodden * MASK_PER_TRODDEN).min(1.0));
+        } else {
+            let per_ln = MASK_PER_TRODDEN * self.per_ln;
+            each1(busy, history, |passes| 1.0 - (per_ln * ln_f32(1.0 + self.per_pass * passes)).min(1.0));
+        }
         each1(laid, trodden, |trodden| self.film * trodden);
         if self.dwell > 0.0 && known.dwell.iter().any(|&seconds| seconds > 0.0) {
             add1(laid, &known.dwell, |seconds| self.dwell * ln_f32(1.0 + self.per_second * seconds.max(0.0)));
@@ -358,6 +366,11 @@ impl ShadeOutput {
     /// Wear and opacity of heel marks of texel `k`, 0 to 255.
     pub fn worn(&self, k: usize) -> [u8; 2] {
         [self.worn[k].min(1.0), 1.0 - self.through[3][k]].map(|share| (255.0 * share + 0.5) as u8)
+    }
+
+    /// Opacity of passes in the mask, and wear, of texel `k`.
+    pub fn passes_and_wear(&self, k: usize) -> [f32; 2] {
+        [1.0 - self.busy[k], self.worn[k]]
     }
 
     /// Rounds a run that starts at texel (i, j) to 8 bits.

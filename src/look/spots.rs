@@ -38,6 +38,8 @@ struct Spot {
     density: f32,
     /// Additional density of a dried rim.
     rim: f32,
+    /// How far its outline bulges, of its radius: the ring of a cup does not.
+    bulge: f32,
     word: u32,
 }
 
@@ -82,14 +84,15 @@ impl Spots {
                 for n in 0..TRIES {
                     let word = noise::hash(key ^ noise::mix(n), i, j);
                     let centre = at(f64::from(again(word, 1)), f64::from(again(word, 2)));
+                    let apart = at(f64::from(again(word, 13)), f64::from(again(word, 14)));
                     let [gum, stain] = [3, 4].map(|n| again(word, n) * TRIES as f32 / per_square);
                     if gum < age.gum_per_m2 * (busy + stood) {
                         self.gum(window, centre, word);
                     }
                     if stain < age.stains_per_m2 {
-                        self.stain(window, centre, word);
+                        self.stain(window, apart, word);
                     } else if stain < age.stains_per_m2 * (1.0 + SPILT * stood) {
-                        self.spill(window, centre, word);
+                        self.spill(window, apart, word);
                     }
                 }
                 let way = (age.rubs_per_m2 * busy > 0.0).then(|| heading(middle, passed, &passes)).flatten();
@@ -102,7 +105,8 @@ impl Spots {
                     }
                     if grit < age.grit_per_m2 * (0.25 + busy) {
                         let radius_m = 0.0012 + 0.0035 * f64::from(again(word, 5) * again(word, 6));
-                        Spot { centre, radius_m, density: 0.9, rim: 0.0, word }.add_to(window, &mut self.marks);
+                        Spot { centre, radius_m, density: 0.9, rim: 0.0, bulge: 0.2, word }
+                            .add_to(window, &mut self.marks);
                     }
                 }
             }
@@ -113,7 +117,7 @@ impl Spots {
     fn gum(&mut self, window: &TexelWindow, centre: [f64; 2], word: u32) {
         let radius_m = 0.008 + 0.012 * f64::from(again(word, 5) * again(word, 6));
         let density = 0.25 + 0.75 * again(word, 7) * again(word, 8);
-        Spot { centre, radius_m, density, rim: 0.1, word }.add_to(window, &mut self.marks);
+        Spot { centre, radius_m, density, rim: 0.06, bulge: 0.16, word }.add_to(window, &mut self.marks);
     }
 
     /// The ring of a cup or a bottle, or what dripped from it.
@@ -123,7 +127,7 @@ impl Spots {
         }
         let radius_m = 0.03 + 0.012 * f64::from(again(word, 5));
         let rim = 0.05 + 0.25 * again(word, 6) * again(word, 7);
-        Spot { centre, radius_m, density: 0.01, rim, word }.add_to(window, &mut self.stains);
+        Spot { centre, radius_m, density: 0.01, rim, bulge: 0.0, word }.add_to(window, &mut self.stains);
     }
 
     /// A pale stain with a rim where it dried, or a trail of drips.
@@ -131,7 +135,8 @@ impl Spots {
         let faint = again(word, 5) * again(word, 5);
         if again(word, 9) < 0.45 {
             let radius_m = 0.02 + 0.09 * f64::from(again(word, 6) * again(word, 7));
-            let spot = Spot { centre, radius_m, density: 0.02 + 0.10 * faint, rim: 0.03 + 0.16 * faint, word };
+            let (density, rim) = (0.02 + 0.10 * faint, 0.03 + 0.16 * faint);
+            let spot = Spot { centre, radius_m, density, rim, bulge: 0.3, word };
             return spot.add_to(window, &mut self.stains);
         }
         let turn = again(word, 10) * std::f32::consts::TAU;
@@ -143,7 +148,8 @@ impl Spots {
             let aside = 0.05 * (f64::from(again(word, 2)) - 0.5);
             let centre = [centre[0] + way * along[0] - aside * along[1], centre[1] + way * along[1] + aside * along[0]];
             let radius_m = 0.003 + 0.009 * f64::from(again(word, 3) * again(word, 4));
-            Spot { centre, radius_m, density: 0.08 + 0.30 * faint, rim: 0.1, word }.add_to(window, &mut self.stains);
+            let density = 0.08 + 0.30 * faint;
+            Spot { centre, radius_m, density, rim: 0.1, bulge: 0.12, word }.add_to(window, &mut self.stains);
         }
     }
 }
@@ -218,22 +224,33 @@ fn texels_near(
 impl Spot {
     fn add_to(&self, window: &TexelWindow, plane: &mut Vec<f32>) {
         let density = window.texels_per_metre;
-        let reach = 1.35 * self.radius_m + 1.0 / density;
+        let reach = (1.0 + 2.0 * self.bulge as f64) * 1.1 * self.radius_m + 1.0 / density;
         let Some((columns, rows)) = texels_near(window, self.centre, reach) else { return };
         plane.resize(window.texels(), 0.0);
         // A spot smaller than a texel takes its share of it.
         let radius = self.radius_m.max(0.5 / density);
         let share = (self.radius_m / radius) * (self.radius_m / radius);
-        let soft = (0.5 / (density * radius)).max(0.08) as f32;
+        let soft = (0.5 / (density * radius)).max(0.05) as f32;
+        let signed = |n: u32| 2.0 * again(self.word, n) - 1.0;
+        let [two, three] = [[20, 21], [22, 23]].map(|of| of.map(signed));
         for row in rows {
             for column in columns.clone() {
                 let x = ((window.i0 + column as i64) as f64 + 0.5) / density - self.centre[0];
                 let y = ((window.j0 + row as i64) as f64 + 0.5) / density - self.centre[1];
                 let (u, v) = (x / radius, y / radius);
-                let lobes = 0.16 * smooth(self.word, 1.3 * u + 9.0, 1.3 * v + 9.0);
-                let distance = ((u * u + v * v).sqrt() as f32) * (1.0 + lobes);
+                let from_centre = ((u * u + v * v).sqrt() as f32).max(1e-4);
+                if from_centre > 1.2 + 2.0 * self.bulge + soft {
+                    continue;
+                }
+                // Two and three lobes, and bays.
+                let (c, s) = (u as f32 / from_centre, v as f32 / from_centre);
+                let lobes = two[0] * (c * c - s * s) + two[1] * 2.0 * c * s;
+                let thirds = three[0] * c * (c * c - 3.0 * s * s) + three[1] * s * (3.0 * c * c - s * s);
+                let bays = smooth(self.word, 2.3 * f64::from(c) + 9.0 + 0.7 * u, 2.3 * f64::from(s) + 9.0 + 0.7 * v);
+                let distance = from_centre / (1.0 + self.bulge * (0.6 * lobes + 0.5 * thirds + 0.7 * bays)).max(0.4);
                 let inside = 1.0 - rise(distance, 1.0 - soft, 1.0 + soft);
-                let rim = rise(distance, 0.72, 0.95) * inside;
+                // A rim dries unevenly.
+                let rim = rise(distance, 0.78, 0.96) * inside * (1.0 + 0.8 * bays).max(0.0);
                 plane[row * window.width + column] += (self.density * inside + self.rim * rim) * share as f32;
             }
         }

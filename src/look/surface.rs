@@ -8,7 +8,7 @@ use super::lattice::TexelWindow;
 use super::noise;
 use super::planes::each1;
 use super::settings::FloorLook;
-use crate::math::srgb;
+use crate::math::{exp_f32, srgb};
 
 mod textures;
 
@@ -194,6 +194,7 @@ impl Pieces {
             Some(share) => (row * share).rem_euclid(1.0) * length,
         };
         let across = gap_share(line.j as f64 * texel_m, texel_m, width, self.gap_m);
+        let nearly = gap_share(line.j as f64 * texel_m, texel_m, width, self.gap_m + 2.0 * self.bevel_m);
         let (mut last, mut piece) = (i32::MAX, Piece::default());
         for k in 0..line.tone.len() {
             let x = (line.window.i0 + k as i64) as f64 * texel_m + shift;
@@ -204,12 +205,31 @@ impl Pieces {
             line.tone[k] += piece.tone;
             line.tint[k] += piece.tint;
             line.rough[k] += piece.rough;
-            let joint = 1.0 - (1.0 - across) * (1.0 - gap_share(x, texel_m, length, self.gap_m));
+            let mut joint = 1.0 - (1.0 - across) * (1.0 - gap_share(x, texel_m, length, self.gap_m));
+            if self.bevel_m > 0.0 {
+                let wide = self.gap_m + 2.0 * self.bevel_m;
+                let near = 1.0 - (1.0 - nearly) * (1.0 - gap_share(x, texel_m, length, wide));
+                if near > 0.0 {
+                    // Edges are worn unevenly, and lower than the middle.
+                    let worn = cells::smooth(self.key ^ 11, 90.0 * x, 90.0 * y)
+                        + cells::smooth(self.key ^ 12, 25.0 * x, 25.0 * y);
+                    joint += (near - joint) * (0.5 * worn).max(0.0);
+                    line.height[k] -= 0.35 * self.gap_mm * (near - joint);
+                }
+            }
             line.joint[k] = joint;
             line.height[k] -= self.gap_mm * joint;
             if let Some(grain) = grain {
                 // A piece of its own trunk.
-                let (tone, height) = grain.at(x + piece.origin_m, y + 0.37 * piece.origin_m, piece.word, texel_m);
+                let knot = piece.knot_m.map(|[u, v]| [x - f64::from(column) * length - u, y - row * width - v]);
+                let (tone, height) =
+                    grain.at([x + piece.origin_m, y + 0.37 * piece.origin_m], piece.word, knot, texel_m);
+                line.tone[k] += tone;
+                line.height[k] += height;
+            }
+            if self.loops > 0.0 {
+                let [along, aside] = if piece.word & 1 == 0 { [x, y] } else { [y, x] };
+                let (tone, height) = self.loop_at(along, aside, texel_m);
                 line.tone[k] += tone;
                 line.height[k] += height;
             }
@@ -226,9 +246,33 @@ impl Pieces {
             tint: 1.73 * self.tint_sd * signed(3),
             rough: 1.73 * self.rough_sd * signed(4),
             origin_m: 50.0 * f64::from(again(word, 5)),
+            knot_m: (again(word, 7) < KNOTTY)
+                .then(|| [0.1 + 0.8 * f64::from(again(word, 8)), 0.2 + 0.6 * f64::from(again(word, 9))])
+                .map(|[u, v]| [u * self.size_m[0], v * self.size_m[1]]),
         }
     }
+
+    /// Tone and height, millimetres, of the loops of a pile, at a place along and across their rows.
+    fn loop_at(&self, along: f64, aside: f64, texel_m: f64) -> (f32, f32) {
+        let shown = self.loops * (1.0 - rise((texel_m / LOOP_M[1]) as f32, 0.3, 0.9));
+        if shown <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let aside = aside / LOOP_M[1];
+        let row = aside.floor();
+        let along = along / LOOP_M[0] + 0.5 * row + 0.2 * f64::from(noise::signed(self.key ^ 13, row as i32, 7));
+        let [u, v] = [along - along.floor(), aside - row].map(|share| 2.0 * share as f32 - 1.0);
+        let yarn = cells::unit(self.key ^ 14, along.floor() as i32, row as i32) - 0.5;
+        let bulge = (1.0 - u * u) * (1.0 - v * v) - 0.44;
+        (shown * (0.34 * bulge + 0.16 * yarn), 1.2 * shown * bulge)
+    }
 }
+
+/// Length of a loop of carpet and width of its row, metres.
+const LOOP_M: [f64; 2] = [0.009, 0.006];
+/// Share of boards with a knot, and its radius, metres.
+const KNOTTY: f32 = 0.12;
+const KNOT_M: f64 = 0.009;
 
 #[derive(Clone, Copy, Default)]
 struct Piece {
@@ -237,23 +281,42 @@ struct Piece {
     tint: f32,
     rough: f32,
     origin_m: f64,
+    /// A knot of a board, from the piece's corner.
+    knot_m: Option<[f64; 2]>,
 }
 
 impl Grain {
     /// Tone and height, millimetres, at a place on a board.
-    fn at(&self, x: f64, y: f64, word: u32, texel_m: f64) -> (f32, f32) {
+    fn at(&self, [x, y]: [f64; 2], word: u32, knot: Option<[f64; 2]>, texel_m: f64) -> (f32, f32) {
+        // Where the saw ran through the middle of the trunk, rings lie close and straight; elsewhere they arch.
+        let flat = f64::from(again(word, 10));
         let arch = f64::from(cells::smooth(self.key, 0.55 * x, 4.0 * y));
-        let late = 60.0 + 60.0 * f64::from(again(word, 6));
+        let sway = f64::from(cells::smooth(self.key ^ 4, 1.7 * x, 11.0 * y));
+        let late = 130.0 - 90.0 * flat;
         // Rings fade where texels are too coarse for them.
         let shown = (1.0 - rise((late * texel_m) as f32, 0.35, 1.1)) * self.gain;
-        let rings = y * late + 7.0 * arch;
+        let mut rings = y * late + (3.0 + 9.0 * flat) * arch + 0.8 * sway;
+        let mut dark = 0.0;
+        if let Some([u, v]) = knot {
+            let [u, v] = [u / (2.4 * KNOT_M), v / KNOT_M];
+            let squared = u * u + v * v;
+            if squared < 30.0 {
+                let bent = f64::from(exp_f32(-0.25 * squared as f32));
+                rings += 3.0 * bent * v.signum();
+                dark = 0.22 * (1.0 - rise(squared as f32, 0.35, 1.2)) + 0.10 * bent as f32;
+            }
+        }
+        let own = cells::unit(word ^ 3, rings.floor() as i64 as i32, 0);
         let ring = (rings - rings.floor()) as f32;
-        let ring = rise(ring, 0.0, 0.75) * (1.0 - rise(ring, 0.85, 1.0));
+        let ring = (rise(ring, 0.0, 0.75) * (1.0 - rise(ring, 0.85, 1.0)) - 0.45) * (0.35 + 1.3 * own);
         let streak = cells::smooth(self.key ^ 1, 2.2 * x, 260.0 * y);
+        // Pores are short, and lie close in some places.
+        let pores = rise(cells::smooth(self.key ^ 5, 14.0 * x, 420.0 * y), 0.35, 0.9);
         let soft = cells::smooth(self.key ^ 2, 0.8 * x, 30.0 * y);
         let fine = (1.0 - rise(260.0 * texel_m as f32, 1.2, 4.0)) * self.gain;
-        let tone = -0.09 * shown * (ring - 0.45) - 0.05 * fine * streak + 0.045 * self.gain * soft;
-        (tone, 0.12 * shown * (ring - 0.45) + 0.06 * fine * streak)
+        let tone =
+            -0.09 * shown * ring - fine * (0.04 * streak + 0.12 * pores) + self.gain * (0.045 * soft + 0.015 - dark);
+        (tone, 0.12 * shown * ring + fine * (0.05 * streak - 0.12 * pores))
     }
 }
 
@@ -263,9 +326,11 @@ impl Chips {
         let texels = (self.spacing_m * line.window.texels_per_metre) as f32;
         let shown = self.gain / (1.0 + 1.0 / (texels * texels)).sqrt();
         let [y, per_m] = [line.place(0)[1] / self.spacing_m, 1.0 / self.spacing_m];
+        // Rows of squares are shifted, so that no columns show.
+        let shift = if self.radius[0] == 0.0 { 0.0 } else { cells::unit(self.key ^ 9, y.floor() as i64 as i32, 0) };
         let soft = 0.6 / texels;
         for k in 0..line.tone.len() {
-            let x = line.place(k)[0] * per_m;
+            let x = line.place(k)[0] * per_m + f64::from(shift);
             let (cover, word) = if texels < 1.5 {
                 let word = noise::hash(self.key, (line.window.i0 + k as i64) as i32, line.j as i32);
                 (0.7, word)
@@ -294,11 +359,18 @@ impl Chips {
         let room = 0.5 - radius;
         let centre = |n: u32| 0.5 + room * (2.0 * again(word, n) - 1.0);
         let (dx, dy) = ((x - i) as f32 - centre(6), (y - j) as f32 - centre(7));
-        // An uneven outline of three and five lobes.
-        let (a, b) = (dx / radius, dy / radius);
-        let lobes = 0.22 * (again(word, 8) * a * b + (2.0 * again(word, 9) - 1.0) * (a * a - b * b));
         let distance = (dx * dx + dy * dy).sqrt();
-        (1.0 - rise(distance, radius * (0.92 + lobes) - soft, radius * (0.92 + lobes) + soft), word)
+        if distance > 1.3 * radius + soft {
+            return (0.0, word);
+        }
+        // An oblong, at any angle.
+        let (a, b) = (dx / distance.max(1e-6), dy / distance.max(1e-6));
+        let lobes =
+            0.28 * ((2.0 * again(word, 8) - 1.0) * 2.0 * a * b + (2.0 * again(word, 9) - 1.0) * (a * a - b * b));
+        let outline = radius * (0.95 + lobes);
+        // A chip thinner than a texel takes its share of it.
+        let share = (radius / soft.min(0.5)).min(1.0);
+        (share * share * (1.0 - rise(distance, outline - soft, outline + soft)), word)
     }
 }
 
@@ -380,6 +452,18 @@ mod tests {
             for (j, row) in part.rgb[2].chunks_exact(20).enumerate() {
                 assert_eq!(row, &whole.rgb[2][(j + 20) * 90 + 30..][..20], "{material:?}");
             }
+        }
+    }
+
+    /// Pores and pits are small and alone, wherever their squares end.
+    #[test]
+    fn pores_take_up_little_of_the_floor() {
+        for material in [Material::Concrete, Material::Stone] {
+            let planes = laid_out(material, 400.0, [0, 0], 800);
+            let deep =
+                planes.height.iter().zip(&planes.joint).filter(|(height, joint)| **height < -0.12 && **joint == 0.0);
+            let share = deep.count() as f32 / planes.height.len() as f32;
+            assert!((0.0005..0.015).contains(&share), "{material:?}: {share}");
         }
     }
 }

@@ -112,6 +112,8 @@ pub struct Overrides {
     pub embed: Option<bool>,
     /// Whether a bake of any size is made: see [`TextureOptions::any_size`].
     pub any_size: bool,
+    /// Other bits per channel of masks.
+    pub bits: Option<u32>,
     /// Whether every layer is written on its own too.
     pub layers: Option<bool>,
     /// A recording that takes the crowd's place, relative to the working directory.

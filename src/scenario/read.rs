@@ -158,6 +158,7 @@ impl Scenario {
         self.texture.embed = overrides.embed.unwrap_or(self.texture.embed);
         self.texture.any_size |= overrides.any_size;
         self.texture.layers = overrides.layers.or(self.texture.layers);
+        self.texture.bits = overrides.bits.unwrap_or(self.texture.bits);
         if let Some(file) = &overrides.motion_file {
             // Paths of the command line start from the working directory, those of the scenario from its folder.
             let absolute = std::path::absolute(file).ok().filter(|_| !self.folder.as_os_str().is_empty());

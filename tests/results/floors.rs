@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use trodden::crowd::Simulation;
-use trodden::look::{FloorResolver, Look, WearLook};
+use trodden::look::{FloorResolver, Look, MopLook, WearLook};
 use trodden::marks::{Footfalls, Origin};
 use trodden::math::srgb::light;
 use trodden::math::{Vec2, vec2};
@@ -73,12 +73,16 @@ struct Square {
     /// Seconds that soles stood in the whole history.
     stood_s: f64,
     lab: [f64; 3],
+    /// Mean level of each mask.
+    mask: [f64; 4],
 }
 
 struct Floor {
     squares: Vec<Square>,
     clean: [f64; 3],
     lightness: Vec<f64>,
+    /// The mask of passes.
+    passes: Vec<u8>,
     width: usize,
 }
 
@@ -106,12 +110,14 @@ fn resolved(trodden: &Trodden, look: &Look, [x, y, width, height]: [f64; 4]) -> 
             let mean = |channel: usize| within().map(|k| linear(k)[channel]).sum::<f64>() / count;
             let whole = |layer: &[f32]| weight * within().map(|k| f64::from(layer[k])).sum::<f64>() / count;
             let (passes, stood_s) = (whole(presence), whole(dwell));
-            squares.push(Square { passes, stood_s, lab: lab([mean(0), mean(1), mean(2)]) });
+            let mask = [0, 1, 2, 3].map(|n| within().map(|k| f64::from(block.mask[k][n])).sum::<f64>() / count);
+            squares.push(Square { passes, stood_s, lab: lab([mean(0), mean(1), mean(2)]), mask });
         }
     }
     let clean = lab(resolver.background().base_color.map(|byte| f64::from(light(byte))));
     let lightness = (0..columns * rows).map(|k| lab(linear(k))[0]).collect();
-    Floor { squares, clean, lightness, width: columns }
+    let passes = block.mask.iter().map(|mask| mask[1]).collect();
+    Floor { squares, clean, lightness, passes, width: columns }
 }
 
 fn mean(values: impl Iterator<Item = f64>) -> f64 {
@@ -139,6 +145,39 @@ fn busy_and_quiet_ways_are_told_apart_and_untrodden_floor_has_aged() {
     assert!(side - busy >= 7.0, "48 and 430 passes differ by {:.1} L*", side - busy);
     assert!(untrodden - side >= 1.5, "{untrodden:.1}, {side:.1}");
     assert!((0.4..4.0).contains(&(floor.clean[0] - untrodden)), "untrodden floor is {untrodden:.1}");
+}
+
+#[test]
+fn floors_that_are_mopped_more_often_are_lighter_where_people_walk() {
+    let every = |every: f32| {
+        let look = &STATION.look;
+        resolved(&STATION, &Look { mop: MopLook { every, ..look.mop.clone() }, ..look.clone() }, GATES)
+    };
+    let [often, usual, seldom] = [100.0, 1000.0, 5000.0].map(every);
+    let lane = |floor: &Floor| floor.of(330.0..560.0, 0);
+    println!("lanes {:.1}, {:.1}, {:.1}", lane(&often), lane(&usual), lane(&seldom));
+    assert!(lane(&often) - lane(&usual) >= 2.5 && lane(&usual) - lane(&seldom) >= 2.5);
+    // An untrodden corner has nothing to take, and what is trodden in stays.
+    let corner = |floor: &Floor| floor.of(0.0..2.0, 0);
+    assert!((corner(&often) - corner(&seldom)).abs() < 1.0, "{}, {}", corner(&often), corner(&seldom));
+    assert!(often.of(38.0..60.0, 0) - lane(&often) >= 4.0, "lanes are gone");
+    // Passes are counted, not cleaned.
+    assert_eq!(often.passes, seldom.passes);
+}
+
+/// Levels of film and of passes that shaders get.
+#[test]
+fn masks_use_their_range() {
+    let floor = resolved(&STATION, &STATION.look, GATES);
+    let level = |passes: std::ops::Range<f64>, mask: usize| {
+        mean(floor.squares.iter().filter(|square| passes.contains(&square.passes)).map(|square| square.mask[mask]))
+    };
+    let [film, passes] = [0, 1].map(|mask| (level(38.0..60.0, mask), level(330.0..560.0, mask)));
+    println!("film {film:?}, passes {passes:?}");
+    assert!(film.1 > 100.0 && film.1 - film.0 > 40.0, "film of 48 and 430 passes: {film:?}");
+    assert!(passes.1 - passes.0 > 40.0 && passes.1 < 200.0, "passes of 48 and 430: {passes:?}");
+    let full = floor.passes.iter().filter(|&&level| level == 255).count();
+    assert_eq!(full, 0, "the mask of passes is full at {full} texels");
 }
 
 #[test]
@@ -373,4 +412,51 @@ fn single_wheels_leave_lines_that_fade_into_busy_ways() {
     assert!((-8.0..-2.0).contains(&quiet), "{quiet:.1} L*");
     assert!(busy > 0.6 * quiet, "{busy:.1} L*");
     assert!(none.abs() < 0.4, "{none:.1} L*");
+}
+
+/// Opacity from which a mark is seen: 5 L* on vinyl.
+const SEEN: u8 = 40;
+
+/// Marks of rubber that are seen, 2 cm long and more, per square metre of a piece of floor.
+fn black_marks_per_m2(look: &Look, [x, y, width, height]: [f64; 4]) -> f64 {
+    let resolver = FloorResolver::new(&STATION.sums, &STATION.walls, look, STATION.people).unwrap();
+    let texels = |metres: f64| (metres * TEXELS_PER_M as f64) as usize;
+    let (columns, rows) = (texels(width), texels(height));
+    let block = resolver.resolve(texels(x) as i64, texels(y) as i64, columns, rows);
+    let mut dark: Vec<bool> = block.relief.iter().map(|relief| relief[1] > SEEN).collect();
+    let (mut count, mut next) = (0, Vec::new());
+    for first in 0..dark.len() {
+        let (mut low, mut high) = ([usize::MAX; 2], [0; 2]);
+        next.push(first);
+        while let Some(texel) = next.pop() {
+            if !std::mem::take(&mut dark[texel]) {
+                continue;
+            }
+            let at = [texel % columns, texel / columns];
+            (0..2).for_each(|axis| (low[axis], high[axis]) = (low[axis].min(at[axis]), high[axis].max(at[axis])));
+            let beside = (-1..=1).flat_map(|dj| (-1..=1).map(move |di| (at[0] as i64 + di, at[1] as i64 + dj)));
+            let inside = |&(i, j): &(i64, i64)| i >= 0 && j >= 0 && i < columns as i64 && j < rows as i64;
+            next.extend(beside.filter(inside).map(|(i, j)| j as usize * columns + i as usize));
+        }
+        count += usize::from((0..2).any(|axis| high[axis].saturating_sub(low[axis]) >= 2 && low[axis] < usize::MAX));
+    }
+    count as f64 / (width * height)
+}
+
+/// In front of the ticket gates.
+const BEFORE_GATES: [f64; 4] = [21.5, 17.0, 6.0, 2.5];
+
+#[test]
+fn black_marks_gather_at_gates_and_grow_with_the_root_of_the_history() {
+    let aged = |total_passes: u64| Look { total_passes, ..STATION.look.clone() };
+    let [young, old] = [5_000, 80_000].map(|passes| black_marks_per_m2(&aged(passes), BEFORE_GATES));
+    let ways = [[4.0, 8.0, 8.0, 4.0], [14.0, 8.0, 10.0, 6.0]].map(|place| black_marks_per_m2(&STATION.look, place));
+    let gates = black_marks_per_m2(&STATION.look, BEFORE_GATES);
+    let heavy = black_marks_per_m2(&Look::preset("heavy").unwrap(), BEFORE_GATES);
+    println!("in the hall {ways:.2?}, at gates {gates:.2}, of 5000 {young:.2}, of 80 000 {old:.2}, heavy {heavy:.2}");
+    assert!((0.2..0.6).contains(&ways[1]), "{ways:?} per m2 on ways");
+    assert!(gates > 5.0 * ways[0] && gates > 2.0 * ways[1], "{gates} per m2 at gates, {ways:?} on ways");
+    // Sixteen times the people: four times the marks, some of which lie on each other.
+    assert!((2.0..5.0).contains(&(old / young)), "{young} grew to {old}");
+    assert!(heavy > 1.15 * gates && heavy < 5.0, "heavy has {heavy}, commuters {gates}");
 }

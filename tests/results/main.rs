@@ -11,6 +11,7 @@ mod floorplans;
 mod floors;
 mod hashes;
 mod looks;
+mod masks;
 mod page;
 #[path = "../support/golden.rs"]
 mod golden;

@@ -134,6 +134,10 @@ pub fn target() -> impl TypedValueParser<Value = Target> {
     one_of(Target::ALL, Target::name)
 }
 
+pub fn bits() -> impl TypedValueParser<Value = u32> {
+    one_of([8, 16], |bits| if bits == 16 { "16" } else { "8" })
+}
+
 pub fn building() -> impl TypedValueParser<Value = Use> {
     one_of(Use::ALL, Use::name)
 }

@@ -126,6 +126,14 @@ pub struct ChannelEntry {
     pub holds: String,
     /// Encoding of the value, such as `1 - exp(-D)`.
     pub encoding: String,
+    /// Bits of a value.
+    #[serde(default = "usual_bits")]
+    pub bits: u32,
+}
+
+/// Bits of a channel in bakes that do not say.
+fn usual_bits() -> u32 {
+    TextureOptions::default().bits
 }
 
 /// One tile: a rectangle of the floor and its images.
@@ -272,10 +280,12 @@ impl Manifest {
         let [width, height] = self.floor.tile_px;
         let written = self.floor.tiles.iter().any(|tile| !tile.layers.is_empty());
         // The default of the target stays unset, so that another target uses its own.
+        let fine = self.floor.channels.iter().any(|channel| channel.image == "mask" && channel.bits == 16);
         let unusual = (written != self.target.name.wants_layers()).then_some(written);
         TextureOptions {
             tile: width.max(height).max(TileLayout::MIN_TILE),
             layers: self.settings["texture"]["layers"].as_bool().or(unusual),
+            bits: if fine { 16 } else { usual_bits() },
             target: self.target.name,
             embed: self.settings["texture"]["embed"].as_bool().unwrap_or_default(),
             ..TextureOptions::default()
@@ -426,7 +436,7 @@ mod tests {
                     ..SumsEntry::default()
                 },
                 channels: Target::Gltf.channels(
-                    Covered::Floor,
+                    (Covered::Floor, 8),
                     "floor",
                     ["film"; 4],
                     &["passes", "dust"],

@@ -199,6 +199,7 @@ mod tests {
             layout,
             tiles,
             target: crate::export::Target::Gltf,
+            bits: 8,
             layers: Vec::new(),
             reduced: Vec::new(),
             birdseye,

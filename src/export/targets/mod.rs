@@ -16,6 +16,10 @@ pub use frame::{TargetEntry, WorldEntry};
 pub use scripts::write_target_files;
 pub use target::Target;
 
+/// What the manifest calls the images that may have 16 bits per channel, and what the others have. Layers are half floats.
+const FINE_IMAGES: [&str; 5] = ["mask", "passes", "splash", "rub", "wear"];
+const USUAL_BITS: u32 = 8;
+
 /// The number in a texture's file name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Number {
@@ -109,7 +113,7 @@ impl Target {
     /// Describes the channels of all images. `masks` and `of_layer` describe masks and layers.
     pub(super) fn channels(
         self,
-        covered: Covered,
+        (covered, bits): (Covered, u32),
         colour: &str,
         masks: [&str; 4],
         layers: &[&'static str],
@@ -120,6 +124,7 @@ impl Target {
             channel: channel.to_string(),
             holds: holds.to_string(),
             encoding: encoding.to_string(),
+            bits: if FINE_IMAGES.contains(&image) { bits } else { USUAL_BITS },
         };
         let mut channels = vec![entry("basecolor", "RGB", colour, "sRGB")];
         let rgba = ["R", "G", "B", "A"];
@@ -161,7 +166,7 @@ impl Target {
                     Some(layer) => format!("{layer}: {}", of_layer(layer)),
                     None => "nothing".to_string(),
                 };
-                channels.push(entry(&image, name, &holds, "linear"));
+                channels.push(ChannelEntry { bits: 16, ..entry(&image, name, &holds, "linear, half float") });
             }
         }
         channels

@@ -35,6 +35,8 @@ pub struct FloorTextures {
     pub tiles: Vec<TileEntry>,
     /// The target program.
     pub target: Target,
+    /// Bits per channel of masks, wear and height.
+    pub bits: u32,
     /// Names of the layers that were written.
     pub layers: Vec<&'static str>,
     /// Reduced images of each of `tiles`, if requested.
@@ -72,7 +74,7 @@ impl FloorTextures {
             naming: self.layout.naming(),
             padding_px: PADDING_PX,
             channels: self.target.channels(
-                Covered::Floor,
+                (Covered::Floor, self.bits),
                 "colour of the trodden floor",
                 masks,
                 &self.layers,
@@ -143,6 +145,7 @@ pub fn floor_textures(
         layout,
         tiles,
         target: options.target,
+        bits: options.bits,
         layers: if options.writes_layers() { source.layers().to_vec() } else { Vec::new() },
         reduced,
         look_busy_s: writer.look_busy.seconds(),

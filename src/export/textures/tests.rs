@@ -40,6 +40,7 @@ impl TextureSource for Disc {
         let film = texels.iter().map(|v| v.map_or(0.0, |v| (v % 2048) as f32)).collect();
         ResolvedBlock {
             relief: Vec::new(),
+            fine: Vec::new(),
             empty: false,
             base_color: mask.iter().map(|m| [m[0], m[1], m[2]]).collect(),
             clean: Vec::new(),

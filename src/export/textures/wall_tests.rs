@@ -62,6 +62,7 @@ impl WallSource for Told<'_> {
             empty: false,
             base_color: texels.iter().map(|&t| base_color(t)).collect(),
             clean: Vec::new(),
+            fine: Vec::new(),
             relief: vec![[0, 0, 0, 100, 200, 230]; texels.len()],
             mask: texels.iter().map(|&t| mask(t)).collect(),
             orm: texels.iter().map(|&t| orm(t)).collect(),

@@ -26,6 +26,8 @@ pub struct WallTextures {
     pub sheets: Vec<SheetEntry>,
     /// The target program.
     pub target: Target,
+    /// Bits per channel of masks, wear and height.
+    pub bits: u32,
     /// Names of the layers that were written.
     pub layers: Vec<&'static str>,
     /// Reduced images of each sheet, if requested.
@@ -70,6 +72,7 @@ pub fn wall_textures(
         atlas: atlas.clone(),
         sheets,
         target: options.target,
+        bits: options.bits,
         layers: if options.writes_layers() { source.layers().to_vec() } else { Vec::new() },
         reduced,
         look_busy_s: seconds(&writer.look_busy),
@@ -134,7 +137,7 @@ impl WallTextures {
             naming: naming(atlas.sheets.len()),
             sums_one: DENSITY_ONE as u32,
             channels: self.target.channels(
-                Covered::Wall,
+                (Covered::Wall, self.bits),
                 "colour of the touched wall",
                 masks,
                 &self.layers,

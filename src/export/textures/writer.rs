@@ -1,5 +1,6 @@
 use crate::export::band::{self, Band, BandBlock, Image, LayerEncoder, TextureFiles, TileWriter};
 use crate::export::busy::BusyTime;
+use crate::export::fine;
 use crate::export::layout::BLOCK;
 use crate::export::options::TextureOptions;
 use crate::export::reduced::ReducedBlock;
@@ -29,6 +30,7 @@ pub(super) struct TextureWriter<'a> {
     target: Target,
     layers: Option<LayerEncoder>,
     reduced_px: Option<u32>,
+    is_fine: bool,
     pub(super) look_busy: BusyTime,
     pub(super) export_busy: BusyTime,
 }
@@ -61,6 +63,7 @@ impl<'a> TextureWriter<'a> {
             target: options.target,
             layers: (options.writes_layers() && !layers.is_empty()).then(|| LayerEncoder::new(files)),
             reduced_px: options.reduced_px,
+            is_fine: options.is_fine(),
             look_busy: BusyTime::default(),
             export_busy: BusyTime::default(),
         }
@@ -129,7 +132,8 @@ impl<'a> TextureWriter<'a> {
     fn create(&self, canvas: &Canvas, background: &Background) -> Result<TileWriter<OutputFile>, ExportError> {
         let size = canvas.size.map(|side| side as usize);
         let create = |name: &str| self.folder.create(name);
-        TileWriter::begin(size, &canvas.files, background, self.layers.as_ref(), create)
+        let fine = |image| if self.is_fine { fine::form(image) } else { None };
+        TileWriter::begin(size, &canvas.files, background, (self.layers.as_ref(), &fine), create)
     }
 
     fn resolve<S: TextureSource>(
@@ -152,8 +156,11 @@ impl<'a> TextureWriter<'a> {
                 // Compressing the floats now, in the cache, frees them before the images are done.
                 let layers = self.layers.as_ref().map(|layers| layers.encode(&texels, width, height));
                 let rub = if canvas.files.image(Image::Rub).is_some() { band::rub(&texels) } else { Vec::new() };
-                texels.layers = Vec::new();
-                BandBlock { texels, layers: layers.unwrap_or_default(), rub, reduced }
+                let images = canvas.files.images.iter().filter(|(image, _)| fine::form(*image).is_some());
+                let with_bytes = |&(image, _): &(Image, _)| (image, fine::bytes(image, &texels));
+                let fine = if self.is_fine && !texels.empty { images.map(with_bytes).collect() } else { Vec::new() };
+                (texels.layers, texels.fine) = (Vec::new(), Vec::new());
+                BandBlock { texels, layers: layers.unwrap_or_default(), rub, fine, reduced }
             })
         });
     }

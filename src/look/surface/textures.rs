@@ -30,6 +30,10 @@ pub(super) struct Pieces {
     pub rough_sd: f32,
     /// Share of pieces that are darker, and by how much.
     pub dark: [f32; 2],
+    /// How far worn edges reach beside a gap, metres: 0 are sharp ones.
+    pub bevel_m: f64,
+    /// How much the loops of a pile show.
+    pub loops: f32,
     /// Shift of each row along x: a random one, or this share of a piece.
     pub shift: Option<f64>,
     pub key: u32,
@@ -108,6 +112,8 @@ impl Texture {
             tint_sd: 0.2 * sd * gain,
             rough_sd: 0.01 * gain,
             dark: [0.0; 2],
+            bevel_m: 0.0,
+            loops: 0.0,
             shift: Some(0.0),
             key: key(0),
         };
@@ -146,15 +152,24 @@ impl Texture {
                         0.75,
                         [0.0, 0.10],
                         &[[0.10, 0.0], [-0.12, 0.02], [0.03, -0.02], [-0.03, 0.0]],
-                        0.0,
+                        0.01,
                     ),
+                    // Broken marble: edges, and every size up to 2 cm.
                     chips(
                         2,
-                        0.019,
-                        0.62,
-                        [0.22, 0.48],
-                        &[[0.22, 0.0], [-0.45, 0.03], [-0.22, 0.10], [0.10, 0.03], [-0.62, -0.02], [0.18, -0.02]],
-                        0.0,
+                        0.013,
+                        0.42,
+                        [0.0, 0.20],
+                        &[[0.20, 0.0], [-0.38, 0.03], [-0.20, 0.08], [0.12, 0.03], [-0.55, -0.02], [0.18, -0.02]],
+                        0.02,
+                    ),
+                    chips(
+                        3,
+                        0.026,
+                        0.22,
+                        [0.0, 0.30],
+                        &[[0.22, 0.0], [-0.42, 0.02], [-0.24, 0.08], [0.16, 0.04], [-0.58, -0.01]],
+                        0.02,
                     ),
                 ],
                 ..tones([round(0.004, 0.03), round(0.08, 0.02), round(0.8, 0.015)], round(0.5, 0.006), 0.1)
@@ -162,7 +177,12 @@ impl Texture {
             // Bays with saw cuts, clouds of trowelling, pores, hairline cracks.
             Material::Concrete => Texture {
                 pieces: Some(Pieces { gap_mm: 3.0, ..pieces([4.8, 4.8], 0.005, 0.03) }),
-                chips: vec![chips(1, 0.05, 0.22, [0.02, 0.07], &[[-0.3, 0.0], [-0.2, 0.0]], -0.8)],
+                chips: vec![
+                    // Bubbles, most of them small, and grains of sand.
+                    chips(1, 0.05, 0.5, [0.015, 0.11], &[[-0.34, 0.0], [-0.22, 0.0]], -0.8),
+                    chips(2, 0.017, 0.45, [0.03, 0.11], &[[-0.26, 0.0], [-0.16, 0.0]], -0.4),
+                    chips(4, 0.0045, 0.8, [0.0, 0.15], &[[0.05, 0.01], [-0.06, 0.0], [0.02, -0.01]], 0.04),
+                ],
                 cracks: Some(Cracks { spacing_m: 2.9, width_m: 0.0008, key: key(3) }),
                 ..tones([round(0.012, 0.03), round(0.14, 0.03), round(1.3, 0.05)], round(0.8, 0.008), 3.0)
             },
@@ -178,7 +198,12 @@ impl Texture {
             },
             // Tiles of 0.5 m with the pile turned from tile to tile.
             Material::Carpet => Texture {
-                pieces: Some(Pieces { gap_mm: 1.0, tint_sd: 0.01 * gain, ..pieces([0.5, 0.5], 0.0015, 0.030) }),
+                pieces: Some(Pieces {
+                    gap_mm: 1.0,
+                    tint_sd: 0.01 * gain,
+                    loops: gain,
+                    ..pieces([0.5, 0.5], 0.0015, 0.030)
+                }),
                 chips: vec![chips(1, 0.005, 1.0, [0.0, 0.16], &[[0.14, 0.0], [-0.16, 0.02], [0.0, -0.03]], 1.5)],
                 ..tones([round(0.009, 0.10), (0.30, 0.01, 0.03), round(0.7, 0.02)], round(0.012, 0.02), 4.0)
             },
@@ -186,6 +211,7 @@ impl Texture {
                 pieces: Some(Pieces {
                     dark: [0.04, 0.06 * gain],
                     rough_sd: 0.03 * gain,
+                    bevel_m: 0.0015,
                     ..pieces([floor.tile_m; 2], floor.joint_m, 0.022)
                 }),
                 chips: vec![chips(1, 0.004, 0.5, [0.15, 0.4], &[[-0.12, 0.0], [0.05, 0.0]], 0.0)],
@@ -197,23 +223,32 @@ impl Texture {
                     dark: [0.10, 0.10 * gain],
                     tint_sd: 0.009 * gain,
                     rough_sd: 0.04 * gain,
+                    bevel_m: 0.004,
                     shift: Some(0.5),
                     ..pieces([0.9, 0.6], 0.004, 0.045)
                 }),
-                chips: vec![chips(1, 0.03, 0.35, [0.04, 0.16], &[[-0.12, 0.01], [0.08, 0.0], [-0.2, 0.02]], -0.2)],
+                chips: vec![
+                    // Shells and pits.
+                    chips(1, 0.03, 0.5, [0.03, 0.17], &[[-0.12, 0.01], [0.08, 0.0], [-0.2, 0.02]], -0.2),
+                    chips(2, 0.008, 0.4, [0.06, 0.22], &[[-0.10, 0.01], [0.05, 0.0], [-0.16, 0.01]], -0.15),
+                ],
                 grain: Some(Grain { gain: 0.6 * gain, key: key(4) }),
                 ..tones([round(0.006, 0.025), (0.20, 0.05, 0.03), round(0.7, 0.02)], round(0.25, 0.01), 0.5)
             },
             Material::Asphalt => Texture {
                 pieces: Some(Pieces { gap_mm: 0.5, ..pieces([60.0, 3.5], 0.012, 0.03) }),
-                chips: vec![chips(
-                    1,
-                    0.009,
-                    0.85,
-                    [0.0, 0.12],
-                    &[[0.18, 0.02], [-0.28, 0.0], [-0.06, 0.0], [0.38, 0.01], [-0.42, 0.0]],
-                    2.0,
-                )],
+                chips: vec![
+                    chips(
+                        1,
+                        0.009,
+                        0.85,
+                        [0.0, 0.12],
+                        &[[0.18, 0.02], [-0.28, 0.0], [-0.06, 0.0], [0.38, 0.01], [-0.42, 0.0]],
+                        2.0,
+                    ),
+                    // Single stones that stand out of the tar.
+                    chips(2, 0.017, 0.4, [0.0, 0.26], &[[0.42, 0.02], [0.22, 0.0], [-0.30, 0.0], [0.60, 0.03]], 1.2),
+                ],
                 cracks: Some(Cracks { spacing_m: 3.7, width_m: 0.004, key: key(3) }),
                 ..tones([round(0.009, 0.10), round(0.12, 0.03), round(1.6, 0.05)], round(0.9, 0.006), 6.0)
             },
@@ -222,6 +257,7 @@ impl Texture {
                     gap_mm: 4.0,
                     dark: [0.12, 0.10 * gain],
                     tint_sd: 0.012 * gain,
+                    bevel_m: 0.004,
                     shift: Some(0.5),
                     ..pieces([0.40, 0.20], 0.005, 0.06)
                 }),

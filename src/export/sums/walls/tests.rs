@@ -62,6 +62,7 @@ fn written(folder: &OutputFolder, sums: &WallSums, (plan, walls): &(FloorPlan, W
         sheets: atlas.sheets.iter().enumerate().map(entry).collect(),
         atlas,
         target: Target::default(),
+        bits: 8,
         layers: Vec::new(),
         reduced: Vec::new(),
         look_busy_s: 0.0,
