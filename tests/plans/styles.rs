@@ -40,8 +40,6 @@ pub enum Tones {
     NegatedMap,
     /// Walls, words and lines in one dark blue.
     Navy,
-    /// Brown ink on the tinted paper of an old print.
-    Sepia,
 }
 
 /// What ends dimension lines.
@@ -119,7 +117,7 @@ const CAD: Style = Style {
 const PLAIN: Style = Style { name: "plain", doors: Doors::Open, sheet: false, names: false, furniture: false, ..CAD };
 
 /// All styles.
-pub const STYLES: [Style; 30] = [
+pub const STYLES: [Style; 29] = [
     PLAIN,
     CAD,
     Style { name: "outline walls", walls: Walls::Outline, ..CAD },
@@ -156,7 +154,6 @@ pub const STYLES: [Style; 30] = [
     Style { name: "tiles, 30 px/m", cover: Cover::Tiles, px_per_m: 30.0, ..CAD },
     Style { name: "partitions as lines", walls: Walls::LinesWithin, sheet: false, ..CAD },
     Style { name: "dark blue walls", tones: Tones::Navy, ..CAD },
-    Style { name: "brown ink on old paper", tones: Tones::Sepia, sheet: false, file: File::Jpeg, clean: false, ..CAD },
     Style { name: "turned 24 degrees", turn_deg: 24.0, sheet: false, px_per_m: 43.0, ..CAD },
 ];
 
@@ -257,7 +254,6 @@ fn palette(tones: Tones) -> Palette {
         Tones::Grey => Palette { words: [0x70; 3], ..all([255; 3], [0xa0; 3]) },
         Tones::Dark => all([0x1e, 0x21, 0x28], [235; 3]),
         Tones::Navy => Palette { furniture: [60, 84, 150], ..all([255; 3], [16, 32, 96]) },
-        Tones::Sepia => all([222, 196, 150], [74, 48, 26]),
         Tones::Map => all([205; 3], [0; 3]),
         Tones::NegatedMap => all([50; 3], [255; 3]),
         Tones::Layers => Palette {

@@ -10,6 +10,10 @@ use super::thick::grow;
 /// Least length of the leaf of a door with one leaf, as a share of the gap.
 const ONE_LEAF: f64 = 0.8;
 
+/// Fewest doors by which partitions are known, and least area of a room that one leads to, square metres.
+const FEWEST_DOORS: usize = 2;
+const LEAST_ROOM_M2: f64 = 2.0;
+
 /// Adds the partitions to a net of thick walls, if there are any: lines that end at a gap in which the leaf of a door hangs,
 /// and all that they join.
 ///
@@ -52,11 +56,18 @@ pub(super) fn added(
         };
         !gaps().any(is_same) && [0, reach, reach + 1].into_iter().any(|by| is_single(&door.widened(by)))
     };
-    let ends: Vec<usize> = found.doors.iter().filter(is_new).flat_map(|gap| gap.ends).collect();
-    let ends: Vec<usize> = ends.into_iter().filter(|&at| lines[at] != 0).collect();
-    if ends.is_empty() {
+    let is_of_lines = |door: &&Gap| door.ends.iter().any(|&end| lines[end] != 0);
+    let hung: Vec<&Gap> = found.doors.iter().filter(is_of_lines).filter(is_new).collect();
+    let rooms = |net: &Net| {
+        let spaces = Components::of(&net.inside, width, 1, Neighbours::Four);
+        let is_room = |space: &&Component| space.area as f64 * metres_per_pixel * metres_per_pixel >= LEAST_ROOM_M2;
+        spaces.all.iter().filter(is_room).count()
+    };
+    // Doors lead to rooms: what looks like leaves among the lines of beds and stairs does not.
+    if hung.len() < FEWEST_DOORS || rooms(&found) < rooms(&net) + hung.len() / 2 {
         return net;
     }
+    let ends: Vec<usize> = hung.into_iter().flat_map(|gap| gap.ends).filter(|&at| lines[at] != 0).collect();
     let pieces = Components::of(&lines, width, 1, Neighbours::Eight);
     let has_door = |piece: &&Component| {
         pieces.runs(piece).iter().any(|run| {
