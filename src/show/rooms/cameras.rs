@@ -34,11 +34,13 @@ const LOWEST_SLOPE: f64 = 0.517;
 /// Slope of its upper side, upward.
 const HIGHEST_SLOPE: f64 = 0.201;
 /// So many views are looked at as pictures, of this size, with so many columns for depth.
-const MOST_PICTURES: usize = 80;
-const PICTURE_PX: [u32; 2] = [48, 27];
+const MOST_PICTURES: usize = 240;
+const PICTURE_PX: [u32; 2] = [32, 18];
 const COLUMNS: usize = 20;
+/// Columns that end nearer than this are half blocked, metres.
+const HALF_WAY_M: f64 = 4.2;
 /// What is nearer than this stands in the way, metres.
-const NEAR_M: f32 = 2.2;
+const NEAR_M: f32 = 1.6;
 /// Share of the picture that should be floor, and way to the wall that should be ahead, metres.
 const FLOOR_SHARE: f64 = 0.35;
 const DEPTH_M: f64 = 8.0;
@@ -93,7 +95,7 @@ impl RayGrid {
             let hit = self.trace_inside(lens.position, lens.ray((k % width) as f64 + 0.5, (k / width) as f64 + 0.5));
             let beyond = hit.beyond_m > 0.0;
             match hit.surface {
-                _ if beyond => outside += 1.0,
+                _ if beyond => outside += if self.roofed { 1.0 } else { 0.0 },
                 HitSurface::Floor => {
                     let here = f64::from(traffic.at(vec2(f64::from(hit.point[0]), f64::from(hit.point[1]))));
                     (floor, trodden, squared) = (floor + 1.0, trodden + here, squared + here * here);
@@ -117,15 +119,17 @@ impl RayGrid {
         let central_m = ways[COLUMNS * 2 / 5..COLUMNS * 3 / 5].iter().copied().fold(f64::INFINITY, f64::min);
         ways.sort_by(f64::total_cmp);
         let deep_m = ways[COLUMNS * 3 / 4];
+        let blocked = ways.iter().filter(|way| **way < HALF_WAY_M).count() as f64 / COLUMNS as f64;
         let short = |value: f64, wanted: f64| (1.0 - value / wanted).max(0.0);
         let mean = trodden / f64::max(floor, 1.0);
         let contrast = (squared / f64::max(floor, 1.0) - mean * mean).max(0.0).sqrt();
-        1.5 * trodden / all + 4.0 * contrast * floor / all + 0.6 * (things / all / 0.12).min(1.0)
+        1.5 * trodden / all + 4.0 * contrast * floor / all + (things / all / 0.10).min(1.0)
             - 4.0 * short(floor / all, FLOOR_SHARE)
             - 2.0 * short(deep_m, DEPTH_M)
             - 1.2 * short(central_m, 0.6 * DEPTH_M)
+            - 2.0 * (blocked - 0.25).max(0.0)
             - 6.0 * (near / all - 0.06).max(0.0)
-            - 5.0 * (outside / all - 0.03).max(0.0)
+            - 8.0 * (outside / all - 0.02).max(0.0)
     }
 
     /// Candidate places a metre apart, on walked floor if there is some.

@@ -276,11 +276,11 @@ impl RayGrid {
         space
     }
 
-    /// Colour of a door's frame, linear, at a height on its lintel, or at its underside; `None` where there is wall.
-    pub fn frame_at(&self, lintel: u32, height_m: f32) -> Option<[f32; 3]> {
+    /// Height of a door's frame, metres, and its linear colour; `None` without one.
+    pub fn frame_of(&self, lintel: u32) -> Option<(f32, [f32; 3])> {
         let ((width_m, colour), lintel) = (self.frame?, self.lintels.get(lintel as usize)?);
-        let framed = 2.0 * lintel.half.y <= WIDEST_FRAMED_M && height_m < lintel.low_m as f32 + width_m;
-        framed.then(|| light_of(colour))
+        let framed = 2.0 * lintel.half.y <= WIDEST_FRAMED_M;
+        framed.then(|| (lintel.low_m as f32 + width_m, light_of(colour)))
     }
 
     /// True for a floor under the sky, without rooms.
@@ -427,6 +427,23 @@ impl RayGrid {
     pub fn floor_places(&self) -> impl Iterator<Item = Vec2> {
         let floor = |&(_, ground): &(usize, &CellGround)| *ground == CellGround::Floor;
         self.middles.iter().enumerate().filter(floor).map(|(cell, _)| self.middle(cell))
+    }
+
+    /// The place itself on the floor; under furniture its mirror image beside it: nothing is known of the floor there.
+    pub fn floor_beside(&self, [x, y]: [f32; 2]) -> [f32; 2] {
+        let p = vec2(f64::from(x), f64::from(y));
+        if self.shades_at(p).is_empty() || self.is_floor(p) {
+            return [x, y];
+        }
+        let Some(over) = self.furniture.iter().find(|top| top.contains(p)) else { return [x, y] };
+        let edges = over.outline.iter().zip(over.outline.iter().cycle().skip(1));
+        let nearest = edges.map(|(&a, &b)| {
+            let along = b - a;
+            a + along * ((p - a).dot(along) / along.length_squared().max(1e-12)).clamp(0.0, 1.0)
+        });
+        let edge = nearest.min_by(|a, b| a.distance(p).total_cmp(&b.distance(p))).unwrap_or(p);
+        let mirrored = edge * 2.0 - p;
+        if self.is_floor(mirrored) { [mirrored.x as f32, mirrored.y as f32] } else { [edge.x as f32, edge.y as f32] }
     }
 
     /// Numbers of what darkens the floor around a place.

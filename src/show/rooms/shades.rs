@@ -45,7 +45,7 @@ pub(crate) const MIRRORED_WALL: LinearRgb = [0.66, 0.64, 0.60];
 pub(crate) const MIRRORED_WALL_LIGHT: [f32; 2] = [0.62, 0.20];
 /// Radiance of lamps as floors mirror them: film shows lamps darker than they are. And that of daylight, by its own.
 pub(crate) const MIRRORED_LAMP: LinearRgb = [13.0, 12.7, 12.0];
-pub(crate) const MIRRORED_DAY: f32 = 1.7;
+pub(crate) const MIRRORED_DAY: f32 = 1.2;
 /// Light on the mirrored ceiling.
 pub(crate) const MIRRORED_CEILING_LIGHT: f32 = 0.42;
 /// Distance up to which walls are searched for a reflection, metres.
@@ -56,18 +56,18 @@ pub(crate) const LOBE: f32 = 0.11;
 const FOOT: [f32; 2] = [0.34, 0.12];
 const HEAD: [f32; 2] = [0.20, 0.30];
 /// Sky at the horizon and overhead, where there is no ceiling.
-const SKY: [LinearRgb; 2] = [[0.93, 1.0, 1.08], [0.30, 0.47, 0.80]];
+const SKY: [LinearRgb; 2] = [[0.86, 0.97, 1.10], [0.17, 0.36, 0.78]];
 /// Colour of light by its strength: dim and bright, under lamps and outdoors.
 const TINT_INSIDE: [LinearRgb; 2] = [[0.975, 0.995, 1.03], [1.02, 1.0, 0.965]];
 const TINT_OUTSIDE: [LinearRgb; 2] = [[0.84, 0.98, 1.20], [1.06, 1.0, 0.90]];
 /// Haze: way in which what lies beyond an opening fades to daylight, metres, in rooms and outdoors.
-pub(crate) const HAZE_M: [f32; 2] = [3.0, 45.0];
+pub(crate) const HAZE_M: [f32; 2] = [3.0, 140.0];
 /// How bright an irradiance of 1 is shown: in rooms, from above, outdoors.
-pub(crate) const EXPOSURE_INSIDE: f32 = 1.0;
+pub(crate) const EXPOSURE_INSIDE: f32 = 0.88;
 pub(crate) const EXPOSURE_ABOVE: f32 = 1.12;
-pub(crate) const EXPOSURE_OUTSIDE: f32 = 0.86;
+pub(crate) const EXPOSURE_OUTSIDE: f32 = 0.94;
 /// Contrast, as of film: light at the first number stays, all other light goes away from it by the second as a power.
-const CONTRAST: [f32; 2] = [0.40, 1.20];
+const CONTRAST: [f32; 2] = [0.40, 1.25];
 /// Up to here light is shown as it is; above, it comes ever closer to white.
 const STRAIGHT: f32 = 0.50;
 
@@ -158,9 +158,10 @@ pub(crate) fn day_behind([x, y, z]: [f32; 3]) -> LinearRgb {
     let wave = |times: f64, from: f64| crate::math::sin_cos(turn * times + from).0 as f32;
     let trees = 0.07 + 0.03 * wave(7.0, 0.4) + 0.02 * wave(17.0, 1.3) + 0.012 * wave(41.0, 2.0);
     let soft = |edge: f32, width: f32| smoothstep(f64::from((up - edge) / width + 0.5)) as f32;
-    let ground = mix([0.88, 0.92, 0.80], [1.05, 1.08, 1.0], soft(-0.35, 0.6));
-    let behind = mix(ground, [0.62, 0.72, 0.60], soft(-0.015, 0.02));
-    mix(behind, mix([1.75, 1.82, 1.92], [1.35, 1.60, 2.05], up.clamp(0.0, 1.0)), soft(trees, 0.035))
+    // Film that is exposed for the room shows little of it.
+    let ground = mix([1.30, 1.32, 1.24], [1.55, 1.58, 1.52], soft(-0.35, 0.6));
+    let behind = mix(ground, [1.02, 1.12, 1.04], soft(-0.01, 0.05));
+    mix(behind, mix([2.2, 2.25, 2.3], [1.7, 1.9, 2.3], up.clamp(0.0, 1.0)), soft(trees, 0.09))
 }
 
 /// Colour of an irradiance: lamps are warmer than what walls throw back, the sun is warmer than the sky.
@@ -172,6 +173,21 @@ pub(crate) fn tinted(full: f32, outside: bool) -> LinearRgb {
 /// The sky in a direction, by the sine of its height.
 pub(crate) fn sky(up: f32) -> LinearRgb {
     mix(SKY[0], SKY[1], up.clamp(0.0, 1.0).sqrt())
+}
+
+/// The sky with thin clouds, in a direction.
+pub(crate) fn clouded(toward: [f32; 3]) -> LinearRgb {
+    let [x, y, z] = toward;
+    let over = z.max(0.03) + 0.06;
+    let (u, v) = (x / over, y / over);
+    // Drawn out by the wind, and torn.
+    let torn = 0.6 * noise(1.7 * u + 9.0, 1.7 * v);
+    let octave = |times: f32, from: f32| {
+        noise(times * (0.55 * u + 0.3 * v) + torn + from, times * (v - 0.35 * u) + from) / times.sqrt()
+    };
+    let thick = octave(0.8, 3.0) + octave(1.9, 7.0) + octave(4.1, 1.0) + octave(8.7, 5.0);
+    let share = 0.62 * smoothstep(f64::from(0.8 * thick + 0.35)) as f32 * smoothstep(f64::from(z / 0.16)) as f32;
+    mix(sky(z), [1.12, 1.12, 1.11], share)
 }
 
 /// From 0 to 1 between -1.5 and 1.5: close to the integral of a bell of width 0.6.

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::glow::{Exposed, Glow};
 use super::light_map::{LightKey, LightMap};
 use super::sampler::{SamplerNeeds, SurfaceSampler, along_m};
-use super::shade::{Lit, Shader};
+use super::shade::{Lit, Shader, lit_at};
 use super::tone::Tone;
 use crate::export::{Camera, ExportError};
 use crate::math::vec2;
@@ -34,7 +34,9 @@ const PLACES: [[f64; 2]; RAYS] = [
 /// Rays of the light meter across and down a picture.
 const METERED: usize = 20;
 /// Where three quarters of what is seen are lit less than this, the exposure is as always; brighter pictures get less.
-const GLARE: f32 = 1.3;
+const GLARE: f32 = 1.12;
+/// The same outdoors: sunlit walls are meant to be bright.
+const GLARE_OUTSIDE: f32 = 1.5;
 
 /// A row of a picture before it is shaded.
 #[derive(Default)]
@@ -86,7 +88,8 @@ impl<'a> Renderer<'a> {
         let above = camera.position_m[2] >= space.height_m;
         let light = if above { Light::above(space, camera.heading_deg) } else { Light::inside(space) };
         let lens = Lens::of(camera, size);
-        let glare = if above { 1.0 } else { brightness(space, &lens, &light, size) / GLARE };
+        let usual = if space.roofed { GLARE } else { GLARE_OUTSIDE };
+        let glare = if above { 1.0 } else { brightness(space, &lens, &light, size) / usual };
         let tone = Tone::new(light.exposure() / glare.max(1.0));
         // From above all walls, nothing is nearer than their tops.
         let nearest_m = (camera.position_m[2] - space.height_m).max(0.0);
@@ -180,8 +183,12 @@ impl<'a> Renderer<'a> {
                 }
                 let [x, y, _] = hit.point;
                 match hit.surface {
-                    HitSurface::Floor | HitSurface::Ceiling | HitSurface::Furniture | HitSurface::Fitting(..) => {
-                        needs.add(self.light.floor_key(x, y))
+                    HitSurface::Floor | HitSurface::Ceiling | HitSurface::Furniture => {
+                        needs.add(self.light.floor_key(x, y));
+                    }
+                    HitSurface::Fitting(number, face) => {
+                        let [x, y] = lit_at(&self.space.fittings, hit, number, face);
+                        needs.add(self.light.floor_key(x, y));
                     }
                     HitSurface::Wall(piece) | HitSurface::Lintel(piece) => {
                         let along = along_m(&self.space.pieces[piece as usize], hit);

@@ -5,9 +5,9 @@ use super::sampler::{SampledMaterial, SurfaceSampler, along_m};
 use crate::math::srgb::light_of;
 use crate::math::{Vec2, exp_f32, vec2};
 use crate::show::rooms::{
-    CEILING, CEILING_LIGHT, DAYLIGHT, FLOOR_SHINE, Finish, HAZE_M, HitSurface, Irradiance, JOINT, LAMP, LOBE,
+    CEILING, CEILING_LIGHT, DAYLIGHT, FLOOR_SHINE, Finish, Fittings, HAZE_M, HitSurface, Irradiance, JOINT, LAMP, LOBE,
     LightSources, LinearRgb, MIRROR_REACH_M, MIRRORED_CEILING_LIGHT, MIRRORED_DAY, MIRRORED_LAMP, MIRRORED_WALL,
-    MIRRORED_WALL_LIGHT, Panels, QuadKind, RayGrid, RayHit, SKY_SHINE, SOFFIT, TABLE, TILE_M, TOP, WALL_SHINE,
+    MIRRORED_WALL_LIGHT, Panels, QuadKind, RayGrid, RayHit, SKY_SHINE, SOFFIT, TABLE, TILE_M, TOP, WALL_SHINE, clouded,
     day_behind, fitting_light, fresnel, joint, lobe_slope, mix, noise, rise, scaled, sky, tinted, unevenness,
 };
 
@@ -59,10 +59,23 @@ struct Things {
     way_m: f64,
 }
 
+/// Up to this height a lintel is mirrored as a door's frame, metres.
+const MIRRORED_FRAME_M: f32 = 2.2;
 /// Furniture from this height on is painted as walls are, metres.
 const COUNTER_M: f64 = 0.95;
 /// Floors that are looked at more steeply mirror too little for things to be seen: sine.
 const STEEP: f32 = 0.5;
+
+/// Where the light of a face of a fitting is found on the floor: a little before its sides.
+pub(super) fn lit_at(fittings: &Fittings, hit: &RayHit, number: u32, face: u8) -> [f32; 2] {
+    /// Way before a side, metres.
+    const BEFORE_M: f64 = 0.3;
+    let [x, y, _] = hit.point;
+    let corners = &fittings.all[number as usize].footprint;
+    let Some(side) = face.checked_sub(2).map(usize::from) else { return [x, y] };
+    let along = (corners[(side + 1) % corners.len()] - corners[side % corners.len()]).normalized();
+    along.map_or([x, y], |along| [x + (along.y * BEFORE_M) as f32, y - (along.x * BEFORE_M) as f32])
+}
 
 impl Shader<'_> {
     /// The light of a hit in each skin.
@@ -70,20 +83,16 @@ impl Shader<'_> {
         match hit.surface {
             HitSurface::Floor => self.floor(hit, skins, out),
             HitSurface::Wall(piece) => self.wall(hit, piece, skins, out),
-            HitSurface::Lintel(piece) => {
-                let frame = match self.space.pieces[piece as usize].what {
-                    QuadKind::Lintel(number) => self.space.frame_at(number, hit.point[2]),
-                    _ => None,
-                };
-                self.even(self.wall_light(hit, piece).full, frame, skins, out);
-            }
+            HitSurface::Lintel(piece) => self.lintel(hit, piece, skins, out),
             HitSurface::Furniture => {
                 let light = self.light.floor(hit.point[0], hit.point[1]).full * fitting_light([0.0, 0.0, 1.0], 1.0);
                 let finish = Finish::of_block(f64::from(hit.point[2]) - 0.01);
                 self.even(light, Some(light_of(finish.colour())), skins, out);
             }
             HitSurface::Fitting(number, face) => out.fill(Lit::of(self.fitting(hit, number, face))),
-            HitSurface::Soffit(number) => self.even(SOFFIT, self.space.frame_at(number, 0.0), skins, out),
+            HitSurface::Soffit(number) => {
+                self.even(SOFFIT, self.space.frame_of(number).map(|(_, colour)| colour), skins, out)
+            }
             other => out.fill(Lit::of(self.plain(hit, other))),
         }
         if hit.beyond_m > 0.0 {
@@ -126,7 +135,7 @@ impl Shader<'_> {
         let mirror = (!matches!(sources, LightSources::Above(_))).then(|| self.mirror(hit));
         let things = mirror.as_ref().map_or(Things::default(), |mirror| self.mirrored_things(hit, mirror));
         for (skin, out) in skins.iter().zip(out) {
-            let paint = skin.floor(hit, self.pixel);
+            let paint = skin.floor(self.space, hit, self.pixel);
             let fresnel = fresnel(cosine, paint.roughness);
             let gain = fresnel * (FLOOR_SHINE[0] + FLOOR_SHINE[1] * light.open) * (0.4 + 0.6 * shade);
             let colour = std::array::from_fn(|c| paint.colour[c] * tinted[c] * (1.0 - fresnel));
@@ -144,14 +153,27 @@ impl Shader<'_> {
         }
     }
 
+    /// Wall over a door, with the frame at its foot.
+    fn lintel(&self, hit: &RayHit, piece: u32, skins: &[SurfaceSampler], out: &mut [Lit]) {
+        let full = self.wall_light(hit, piece).full;
+        self.even(full, None, skins, out);
+        let QuadKind::Lintel(number) = self.space.pieces[piece as usize].what else { return };
+        let Some((top_m, frame)) = self.space.frame_of(number) else { return };
+        // Its upper edge is as soft as a pixel is high.
+        let share = ((top_m - hit.point[2]) / (hit.way_m * self.pixel).max(1e-5) + 0.5).clamp(0.0, 1.0);
+        let light = self.tinted(full);
+        let frame: LinearRgb = std::array::from_fn(|c| frame[c] * light[c]);
+        out.iter_mut().for_each(|lit| lit.colour = mix(lit.colour, frame, share));
+    }
+
     /// Furniture, a door leaf, a part of a window.
     fn fitting(&self, hit: &RayHit, number: u32, face: u8) -> LinearRgb {
         let fitting = &self.space.fittings.all[number as usize];
         if fitting.finish == Finish::Pane {
             return day_behind(hit.toward);
         }
-        let [x, y, z] = hit.point;
-        let light = self.light.floor(x, y);
+        let ([x, y, z], [beside_x, beside_y]) = (hit.point, lit_at(&self.space.fittings, hit, number, face));
+        let light = self.light.floor(beside_x, beside_y);
         let corners = &fitting.footprint;
         let edge = |k: usize| (corners[(k + 1) % corners.len()] - corners[k % corners.len()]).normalized();
         let (normal, lengthwise) = match face.checked_sub(2) {
@@ -218,7 +240,7 @@ impl Shader<'_> {
             HitSurface::Table => self.table(x, y, hit.way_m),
             HitSurface::Outside if self.space.roofed => DAYLIGHT,
             HitSurface::Outside => sky(0.0),
-            HitSurface::Sky if !matches!(self.light.light.sources, LightSources::Above(_)) => sky(hit.toward[2]),
+            HitSurface::Sky if !matches!(self.light.light.sources, LightSources::Above(_)) => clouded(hit.toward),
             _ => TABLE,
         }
     }
@@ -336,8 +358,8 @@ impl Shader<'_> {
                 finish => scaled(light_of(finish.colour()), MIRRORED_WALL_LIGHT[0]),
             }),
             HitSurface::Lintel(_) | HitSurface::Soffit(_) => {
-                let frame = self.space.frame_at(0, met.point[2]);
-                frame.map(|frame| scaled(frame, MIRRORED_WALL_LIGHT[0]))
+                let frame = self.space.frame.map(|(_, colour)| light_of(colour));
+                frame.filter(|_| met.point[2] < MIRRORED_FRAME_M).map(|frame| scaled(frame, MIRRORED_WALL_LIGHT[0]))
             }
             HitSurface::Wall(piece) if self.space.pieces[piece as usize].height_m.is_finite() => {
                 Some(scaled(MIRRORED_WALL, MIRRORED_WALL_LIGHT[0]))
