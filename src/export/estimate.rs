@@ -17,8 +17,8 @@ const FLOOR_BYTES: f64 = 2.0;
 const WALL_BYTES: f64 = 0.8;
 /// Factor for bakes that also write the layers as EXR.
 const WITH_LAYERS: f64 = 2.0;
-/// Factor for bakes whose masks have 16 bits.
-const WITH_FINE_MASKS: f64 = 1.8;
+/// What is added to that factor where masks have 16 bits.
+const FINE_MASKS: f64 = 1.2;
 
 /// How much a bake will write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,7 +52,7 @@ impl Estimate {
             grid.faces.iter().map(|face| f64::from(face.width)).sum::<f64>() * f64::from(grid.height)
         });
         let layers = if options.writes_layers() { WITH_LAYERS } else { 1.0 };
-        let factor = layers * if options.is_fine() { WITH_FINE_MASKS } else { 1.0 };
+        let factor = layers + if options.is_fine() { FINE_MASKS } else { 0.0 };
         Ok(Estimate {
             tiles: u64::from(layout.columns()) * u64::from(layout.rows()),
             sheets: (wall_texels / (f64::from(options.tile) * f64::from(options.tile))).ceil() as u64,

@@ -86,13 +86,15 @@ impl Spots {
                     let centre = at(f64::from(again(word, 1)), f64::from(again(word, 2)));
                     let apart = at(f64::from(again(word, 13)), f64::from(again(word, 14)));
                     let [gum, stain] = [3, 4].map(|n| again(word, n) * TRIES as f32 / per_square);
-                    if gum < age.gum_per_m2 * (busy + stood) {
+                    let most_gum = age.gum_per_m2 * (busy + stood);
+                    if gum < most_gum {
                         self.gum(window, centre, word);
                     }
+                    let centre = if gum < most_gum { apart } else { centre };
                     if stain < age.stains_per_m2 {
-                        self.stain(window, apart, word);
+                        self.stain(window, centre, word);
                     } else if stain < age.stains_per_m2 * (1.0 + SPILT * stood) {
-                        self.spill(window, apart, word);
+                        self.spill(window, centre, word);
                     }
                 }
                 let way = (age.rubs_per_m2 * busy > 0.0).then(|| heading(middle, passed, &passes)).flatten();
