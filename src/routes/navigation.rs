@@ -1,3 +1,4 @@
+use std::cell::LazyCell;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -16,7 +17,7 @@ use super::{
 };
 use crate::math::Vec2;
 use crate::plan::FloorPlan;
-use crate::rooms::{Life, Use};
+use crate::rooms::{Entrance, Life, Rooms, Use};
 use crate::walls::Walls;
 use crate::{Progress, Silent};
 
@@ -154,7 +155,9 @@ impl Navigation {
             (true, _) => defaults::drafts(plan, ground, &mut fields, entrances)?,
             (false, _) => {
                 let stops = stops(plan, walls, ground, options)?;
-                asked.iter().map(|request| draft(plan, ground, request, options, &stops)).collect::<Result<_, _>>()?
+                let doors = LazyCell::new(|| Rooms::find(plan, walls).entrances);
+                let of = |request| draft(plan, ground, request, options, &stops, &doors);
+                asked.iter().map(of).collect::<Result<_, _>>()?
             }
         };
         let mut lived = life.map_or(Vec::new(), |life| life::drafts(plan, ground, life, &options.life));
@@ -246,6 +249,18 @@ fn route_legs(route: &Route) -> impl Iterator<Item = LegEnd> {
     leg_ends(route.via.iter().map(|v| v.place), route.goal)
 }
 
+/// The door to the outside that an unknown opening's name means.
+fn or_door(plan: &FloorPlan, ground: &Ground, error: RoutesError, doors: &[Entrance]) -> Result<Place, RoutesError> {
+    let RoutesError::UnknownOpening { route, name, nearest, openings } = error else { return Err(error) };
+    let doors: Vec<&Entrance> = doors.iter().filter(|door| door.opening.is_none()).collect();
+    let meant = doors.iter().find(|door| door.name.eq_ignore_ascii_case(name.trim()));
+    if let Some(end) = meant.and_then(|door| life::end(plan, ground, door)) {
+        return Ok(end.place);
+    }
+    let others = doors.iter().map(|door| door.name.clone()).filter(|door| !openings.contains(door)).collect::<Vec<_>>();
+    Err(RoutesError::UnknownOpening { route, name, nearest, openings: [openings, others].concat() })
+}
+
 /// Finds the places of a request.
 fn draft(
     plan: &FloorPlan,
@@ -253,6 +268,7 @@ fn draft(
     request: &RouteRequest,
     options: &RoutesOptions,
     stops: &[Stop],
+    doors: &LazyCell<Vec<Entrance>, impl FnOnce() -> Vec<Entrance>>,
 ) -> Result<RouteDraft, RoutesError> {
     let (passed, stopped) = split(request, options);
     let mut names: Vec<String> =
@@ -261,7 +277,10 @@ fn draft(
     if !(request.share >= 0.0 && request.share.is_finite()) {
         return Err(RoutesError::Share { route: name, share: request.share });
     }
-    let place = |request, role| targets::place(plan, ground, request, PlaceUsage { route: &name, role });
+    let place = |request, role| {
+        let found = targets::place(plan, ground, request, PlaceUsage { route: &name, role });
+        found.or_else(|error| or_door(plan, ground, error, doors))
+    };
     let start = place(&request.from, "from")?;
     let via = passed.into_iter().map(|p| place(p, "via").map_err(|error| or_stop(error, stops)));
     let mut via = via.collect::<Result<Vec<_>, _>>()?;

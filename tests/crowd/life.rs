@@ -339,6 +339,18 @@ fn people_cross_a_hall_from_door_to_door() {
     let lived_from_doors = Navigation::find(&plan, &Walls::trace(&plan, &WallsOptions::default()), &Default::default());
     let names: Vec<String> = lived_from_doors.unwrap().0.into_iter().map(|route| route.name).collect();
     assert!(names.iter().all(|name| name.starts_with("door ")) && names.len() >= 6, "{names:?}");
+    // Routes name them too.
+    let route = |from: &str| {
+        let [from, to] = [from, "Door 3"].map(|name| PlaceRequest::Opening(name.into()));
+        let options = RoutesOptions {
+            routes: vec![RouteRequest { from, to, ..RouteRequest::default() }],
+            ..RoutesOptions::default()
+        };
+        Navigation::find(&plan, &Walls::trace(&plan, &WallsOptions::default()), &options).map(|found| found.0)
+    };
+    let written = route("door 1").unwrap();
+    assert!(written.len() == 1 && written[0].length_m > 15.0, "{written:?}");
+    assert!(route("dor 9").unwrap_err().to_string().contains("it has door 1, door 2, door 3"));
 }
 
 /// Bags, wheels, children, groups and cleaning of each use differ, and so do the ways that people go.
