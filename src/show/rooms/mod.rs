@@ -3,6 +3,7 @@
 //! Stills and the page take rays, lamps, light and cameras from here, and nowhere else.
 
 mod cameras;
+mod cells;
 mod fittings;
 mod footfalls;
 mod lens;

@@ -1,5 +1,6 @@
 //! The plan as rays see it: upright faces over a plane, found through a grid of cells.
 
+use super::cells::by_cell;
 use super::fittings::{Fitting, Fittings};
 use crate::look::WIDEST_FRAMED_M;
 use crate::math::srgb::{Srgb8, light_of};
@@ -509,18 +510,6 @@ impl RayGrid {
             }
         }
     }
-}
-
-/// Sorts pairs of a cell and a number by cell: where each cell's numbers start, and all numbers.
-fn by_cell(mut pairs: Vec<(u32, u32)>, cells: usize) -> (Vec<u32>, Vec<u32>) {
-    pairs.sort_unstable();
-    pairs.dedup();
-    let mut starts = vec![0u32; cells + 1];
-    pairs.iter().for_each(|pair| starts[pair.0 as usize + 1] += 1);
-    for cell in 1..starts.len() {
-        starts[cell] += starts[cell - 1];
-    }
-    (starts, pairs.into_iter().map(|pair| pair.1).collect())
 }
 
 /// The sides of a prism, seen from outside.

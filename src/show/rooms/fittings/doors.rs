@@ -1,7 +1,8 @@
 //! Door leaves that stand open.
 
+use super::finish::Finish;
+use super::prism::Fitting;
 use super::shape::{Block, contains};
-use super::{Finish, Fitting};
 use crate::look::WIDEST_FRAMED_M;
 use crate::math::{Vec2, sin_cos};
 use crate::walls::{Doorway, Walls};

@@ -1,8 +1,8 @@
 //! Furniture as boards on legs and upholstered blocks, by height and size.
 
-use super::finish::{FIXTURES_M, SEATS_M, TABLES_M};
-use super::shape::{Block, area_m2, hull, shrunk, smallest_block};
-use super::{Finish, Fitting, Fittings};
+use super::finish::{FIXTURES_M, Finish, SEATS_M, TABLES_M};
+use super::prism::Fitting;
+use super::shape::{Block, area_m2, bounds, hull, shrunk, smallest_block};
 use crate::math::Vec2;
 use crate::walls::{Face, Walls};
 
@@ -22,11 +22,16 @@ struct Piece {
 }
 
 /// Adds all furniture; `blocks` gets outline and height of what stays as it is drawn.
-pub(super) fn add(walls: &Walls, height_m: f64, fittings: &mut Fittings, blocks: &mut Vec<(Vec<Vec2>, f64)>) {
+pub(super) fn add(
+    walls: &Walls,
+    height_m: f64,
+    (all, replaced): (&mut Vec<Fitting>, &mut [bool]),
+    blocks: &mut Vec<(Vec<Vec2>, f64)>,
+) {
     let faces = || walls.faces.iter().enumerate().filter(|(_, face)| face.closed && face.furniture_m.is_some());
     let tables: Vec<Vec2> = faces()
         .filter(|(_, face)| face.furniture_m.is_some_and(|m| (SEATS_M..TABLES_M).contains(&m)))
-        .map(|(_, face)| super::bounds(&face.points_m).centre())
+        .map(|(_, face)| bounds(&face.points_m).centre())
         .collect();
     for (number, face) in faces() {
         let Some(piece) = Piece::of(face, height_m) else {
@@ -40,12 +45,12 @@ pub(super) fn add(walls: &Walls, height_m: f64, fittings: &mut Fittings, blocks:
             _ => {
                 // Sides keep their texture: hands and bags have been there.
                 blocks.push((piece.outline.clone(), piece.top_m));
-                fittings.all.push(piece.counter_top());
+                all.push(piece.counter_top());
                 continue;
             }
         };
-        fittings.replaced[number] = true;
-        fittings.all.extend(parts);
+        replaced[number] = true;
+        all.extend(parts);
     }
 }
 

@@ -3,25 +3,17 @@
 mod doors;
 mod finish;
 mod furniture;
+mod prism;
 mod shape;
 mod windows;
 
 pub(crate) use finish::Finish;
+pub(crate) use prism::Fitting;
 pub(crate) use windows::Window;
 
 use crate::math::{Vec2, exp};
 use crate::walls::{Doorway, Walls};
 use shape::{bounds, contains, distance_m};
-
-/// An upright prism over a convex footprint.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Fitting {
-    /// Corners, counter-clockwise, metres.
-    pub footprint: Vec<Vec2>,
-    /// Heights of its underside and of its top, metres.
-    pub span_m: [f64; 2],
-    pub finish: Finish,
-}
 
 /// What takes light from the floor: a footprint and the height of its underside, metres.
 #[derive(Clone, Debug)]
@@ -60,7 +52,7 @@ impl Fittings {
             return fittings;
         }
         let mut blocks = Vec::new();
-        furniture::add(walls, height_m, &mut fittings, &mut blocks);
+        furniture::add(walls, height_m, (&mut fittings.all, &mut fittings.replaced), &mut blocks);
         fittings.all.extend(doors::leaves(walls, doorways, height_m));
         fittings.windows = windows::of(walls, height_m);
         fittings.all.extend(fittings.windows.iter().flat_map(Window::parts));

@@ -1,6 +1,7 @@
 //! Convex outlines and oriented boxes.
 
-use super::{Finish, Fitting};
+use super::finish::Finish;
+use super::prism::Fitting;
 use crate::math::{Rect, Vec2, vec2};
 
 /// A rectangle in any direction.

@@ -1,7 +1,8 @@
 //! Windows in walls: a pane, its frame and its sill.
 
+use super::finish::Finish;
+use super::prism::Fitting;
 use super::shape::Block;
-use super::{Finish, Fitting};
 use crate::math::Vec2;
 use crate::walls::Walls;
 
