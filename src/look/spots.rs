@@ -138,7 +138,7 @@ impl Spots {
         if again(word, 9) < 0.45 {
             let radius_m = 0.02 + 0.09 * f64::from(again(word, 6) * again(word, 7));
             let (density, rim) = (0.02 + 0.10 * faint, 0.03 + 0.16 * faint);
-            let spot = Spot { centre, radius_m, density, rim, bulge: 0.3, word };
+            let spot = Spot { centre, radius_m, density, rim, bulge: 0.2, word };
             return spot.add_to(window, &mut self.stains);
         }
         let turn = again(word, 10) * std::f32::consts::TAU;
