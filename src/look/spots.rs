@@ -252,7 +252,7 @@ impl Spot {
                 let distance = from_centre / (1.0 + self.bulge * (0.6 * lobes + 0.5 * thirds + 0.7 * bays)).max(0.4);
                 let inside = 1.0 - rise(distance, 1.0 - soft, 1.0 + soft);
                 // A rim dries unevenly.
-                let rim = rise(distance, 0.78, 0.96) * inside * (1.0 + 0.8 * bays).max(0.0);
+                let rim = rise(distance, 0.72, 0.95) * inside * (1.0 + 0.4 * bays);
                 plane[row * window.width + column] += (self.density * inside + self.rim * rim) * share as f32;
             }
         }
