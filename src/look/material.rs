@@ -93,7 +93,7 @@ impl Material {
         };
         let mineral = Properties { joint_film: [2.0, 3.4], ..plain };
         match self {
-            Material::Vinyl => Properties { low_film: 5.0, ..plain },
+            Material::Vinyl => Properties { low_film: 3.0, ..plain },
             Material::Dark => Properties { colour: [60, 58, 56], film: 0.75, ..plain },
             Material::Terrazzo => Properties {
                 colour: [186, 181, 172],

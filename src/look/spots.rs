@@ -138,7 +138,7 @@ impl Spots {
         if again(word, 9) < 0.45 {
             let radius_m = 0.02 + 0.09 * f64::from(again(word, 6) * again(word, 7));
             let (density, rim) = (0.02 + 0.10 * faint, 0.03 + 0.16 * faint);
-            let spot = Spot { centre, radius_m, density, rim, bulge: 0.3, word };
+            let spot = Spot { centre, radius_m, density, rim, bulge: 0.2, word };
             return spot.add_to(window, &mut self.stains);
         }
         let turn = again(word, 10) * std::f32::consts::TAU;
@@ -252,7 +252,7 @@ impl Spot {
                 let distance = from_centre / (1.0 + self.bulge * (0.6 * lobes + 0.5 * thirds + 0.7 * bays)).max(0.4);
                 let inside = 1.0 - rise(distance, 1.0 - soft, 1.0 + soft);
                 // A rim dries unevenly.
-                let rim = rise(distance, 0.78, 0.96) * inside * (1.0 + 0.8 * bays).max(0.0);
+                let rim = rise(distance, 0.72, 0.95) * inside * (1.0 + 0.4 * bays);
                 plane[row * window.width + column] += (self.density * inside + self.rim * rim) * share as f32;
             }
         }

@@ -455,15 +455,12 @@ mod tests {
         }
     }
 
-    /// Pores and pits are small and alone, wherever their squares end.
+    /// Pores are small and alone, wherever their squares end.
     #[test]
-    fn pores_take_up_little_of_the_floor() {
-        for (material, deep_mm) in [(Material::Concrete, -0.3), (Material::Stone, -0.12)] {
-            let planes = laid_out(material, 400.0, [0, 0], 800);
-            let deep =
-                planes.height.iter().zip(&planes.joint).filter(|(height, joint)| **height < deep_mm && **joint == 0.0);
-            let share = deep.count() as f32 / planes.height.len() as f32;
-            assert!((0.0005..0.015).contains(&share), "{material:?}: {share}");
-        }
+    fn pores_take_up_little_of_the_concrete() {
+        let planes = laid_out(Material::Concrete, 400.0, [0, 0], 800);
+        let deep = planes.height.iter().zip(&planes.joint).filter(|(height, joint)| **height < -0.3 && **joint == 0.0);
+        let share = deep.count() as f32 / planes.height.len() as f32;
+        assert!((0.0005..0.015).contains(&share), "{share}");
     }
 }
