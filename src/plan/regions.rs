@@ -9,12 +9,11 @@ use crate::math::Vec2;
 /// Share of its area that other spaces need for a space with an image corner to be outside.
 const BUILDING_SHARE: f64 = 0.3;
 /// Greatest widths of doors between the building and the paper around it, metres: those of most buildings, then those
-/// of halls, if without them no building is told from the paper.
-const WIDEST_DOORS_M: [f64; 3] = [2.0, 3.5, 5.0];
+/// of halls, if without them no building is told from the paper. With each goes the least share of the image's sides that
+/// the paper covers: behind wide gaps lies a building only if the paper is all around it.
+const WIDEST_DOORS_M: [(f64, f64); 3] = [(2.0, 0.5), (3.5, 0.95), (5.0, 0.95)];
 /// Least area of a building beside the largest, with doors of its own, square metres.
 const LEAST_BUILDING_M2: f64 = 4.0;
-/// Least share of the image's sides that the paper covers.
-const PAPER_SHARE: f64 = 0.5;
 /// Least number of the image's corners that the paper covers.
 const PAPER_CORNERS: usize = 3;
 /// Least area of white too narrow for a person to be listed, square metres.
@@ -50,10 +49,10 @@ pub(super) fn choose(
     // With the width of the widest door, where that has told the paper.
     let cut: Option<(Vec<u8>, f64)> = match outside {
         Some(outside) => Some((outside.iter().zip(&white).map(|(&o, &w)| o & w).collect(), 0.0)),
-        None => WIDEST_DOORS_M
-            .into_iter()
-            .map(in_px)
-            .find_map(|door_px| paper_around(&white, &spaces, width, door_px).map(|paper| (paper, door_px))),
+        None => WIDEST_DOORS_M.into_iter().find_map(|(door_m, share)| {
+            let door_px = in_px(door_m);
+            paper_around(&white, &spaces, width, door_px, share).map(|paper| (paper, door_px))
+        }),
     };
     let mut is_entered = Vec::new();
     if let Some((cut, door_px)) = cut {
@@ -93,8 +92,8 @@ pub(super) fn of_mask(plan: &FloorPlan) -> Vec<Region> {
 /// Finds the paper around a building, if doors connect the building to it.
 ///
 /// The paper is the white that a disc as wide as a wide door reaches from the image's corners. It must cover three
-/// corners and at least half of the image's sides, and leave a building of at least 0.3 of its area.
-fn paper_around(white: &[u8], spaces: &Spaces, width: usize, door_px: f64) -> Option<Vec<u8>> {
+/// corners and at least a share of the image's sides, and leave a building of at least 0.3 of its area.
+fn paper_around(white: &[u8], spaces: &Spaces, width: usize, door_px: f64, share: f64) -> Option<Vec<u8>> {
     let height = white.len() / width;
     if !spaces.all.iter().any(|s| s.corners > 0) {
         return None;
@@ -123,7 +122,7 @@ fn paper_around(white: &[u8], spaces: &Spaces, width: usize, door_px: f64) -> Op
         paper[at] != 0 && (x == 0 || x == width - 1 || y == 0 || y == height - 1)
     });
     if corners.iter().filter(|&&at| paper[at] != 0).count() < PAPER_CORNERS
-        || (on_sides.count() as f64) < PAPER_SHARE * (2 * (width + height)) as f64
+        || (on_sides.count() as f64) < share * (2 * (width + height)) as f64
     {
         return None;
     }

@@ -353,9 +353,8 @@ impl RayGrid {
                 return first;
             }
             // Within the grid both are positive: whole numbers by truncation, which is faster than rounding down.
-            let (column, row) = (column as usize, row as usize);
-            let cell = row * self.columns + column;
-            let (column, row) = (column as f64, row as f64);
+            let cell = row as usize * self.columns + column as usize;
+            let (column, row) = (column as usize as f64, row as usize as f64);
             let rings = f64::from(self.empty_rings[cell]);
             let wide = (rings - 1.0).max(0.0);
             let x = self.origin.x + (if toward.x > 0.0 { column + 1.0 + wide } else { column - wide }) * self.cell_m;

@@ -1,10 +1,12 @@
 //! Which surface a ray from the camera meets.
 
-use super::ray_grid::{QuadKind, RayGrid, WallQuad};
+use super::ray_grid::{Crossing, QuadKind, RayGrid, WallQuad};
 use crate::math::{Vec2, vec2};
 
 /// Distance beyond an opening at which daylight hides everything, metres: in rooms, and outdoors.
 const OUTSIDE_M: [f64; 2] = [14.0, 150.0];
+/// Widest fitting that a ray may come down onto from above, metres.
+const WIDEST_FITTING_M: f64 = 6.0;
 
 /// The surface that a ray hits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -206,12 +208,16 @@ impl RayGrid {
         if !self.is_room(inside) {
             return ray.hit(if enter > top { HitSurface::Side } else { HitSurface::Top }, way);
         }
+        // What the ray is above already when it comes below the walls' tops lies behind that place.
+        let before = way - WIDEST_FITTING_M;
         let meets = |piece: &WallQuad, on: f64| match piece.what {
             QuadKind::Lintel(_) => None,
-            QuadKind::Fitting(number, _) => self.on_fitting(&ray, number, way + on).map(|there| there - way),
-            _ => (ray.height(way + on) < piece.height_m).then_some(on),
+            QuadKind::Fitting(number, _) => self.on_fitting(&ray, number, before + on).map(|there| there - before),
+            _ => (on >= WIDEST_FITTING_M && ray.height(before + on) < piece.height_m).then_some(on),
         };
-        let met = self.nearest(inside, ray.toward, ground - way, meets);
+        let from = inside - ray.toward * WIDEST_FITTING_M;
+        let met = self.nearest(from, ray.toward, ground - before, meets);
+        let met = met.map(|met| Crossing { way_m: met.way_m - WIDEST_FITTING_M, ..met });
         let limit_m = met.map_or(ground, |met| way + met.way_m);
         if let Some(way) = self.top_on_the_way([ray.z, ray.slope], |way| ray.at(way), limit_m) {
             return ray.hit(HitSurface::Furniture, way);
