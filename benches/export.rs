@@ -97,6 +97,7 @@ impl TextureSource for Corridors {
             relief: Vec::new(),
             empty: false,
             clean: Vec::new(),
+            fine: Vec::new(),
             base_color: cut(&self.piece.base_color, outside.base_color, at, width, height),
             mask: cut(&self.piece.mask, outside.mask, at, width, height),
             orm: cut(&self.piece.orm, outside.orm, at, width, height),

@@ -2,6 +2,9 @@
 //!
 //! Each folder is a program of its own as well, for those who work on one: `cargo test --test crowd`.
 
+// Folders share `support`.
+#![allow(clippy::duplicate_mod)]
+
 #[path = "cli/main.rs"]
 mod cli;
 #[path = "crowd/main.rs"]

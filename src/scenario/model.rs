@@ -267,7 +267,7 @@ impl Scenario {
         let word = SplitMix64::new(self.seed ^ u64::from(day).rotate_left(32)).next_u64();
         let people = People::new(if day == 0 { self.seed } else { word }, self.bodies.clone());
         // Of recorded people it is not known how fast they would have walked.
-        if self.motion_file.is_some() { people } else { people.with_free_speed(self.crowd.speed.clone()) }
+        if self.motion_file.is_some() { people } else { people.with_free_speed(self.crowd.speed) }
     }
 
     /// The path of the folder with own patterns, if there is one.

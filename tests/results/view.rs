@@ -182,7 +182,7 @@ fn automatic_cameras_see_floor_and_depth() {
         !(5..235).contains(&x) || !(5..125).contains(&y) || ((x + 20) % 45 < 6 && (y + 10) % 45 < 6)
     };
     let reaches = |turn_deg: i32| {
-        let (sine, cosine) = (from.heading_deg + f64::from(turn_deg)).to_radians().sin_cos();
+        let (sine, cosine) = trodden::math::sin_cos((from.heading_deg + f64::from(turn_deg)).to_radians());
         (1..=80).all(|k| !is_high(from.place_m() + vec2(cosine, sine) * (f64::from(k) * 0.1)))
     };
     let deep = (-30..=30).step_by(2).filter(|turn_deg| reaches(*turn_deg)).count();
@@ -254,7 +254,7 @@ fn an_entrance_is_lit_evenly_and_not_overexposed() {
     let grey = |_: i64, _: i64| [197, 192, 182];
     // West is up; a pixel is 4 cm of the floor.
     let shown = |floor: &(dyn Fn(i64, i64) -> [u8; 3] + Sync), camera: &str| {
-        let floor = Painted(|i, j| floor(i, j));
+        let floor = Painted(floor);
         let coat = Surfaces { floor: &floor, floor_texels_per_metre: DENSITY, small: None, walls: None };
         rooms
             .draw(&Camera { fov_deg: 90.0, ..camera.parse().unwrap() }, [120, 120], &[coat], &Silent)
