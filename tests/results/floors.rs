@@ -134,11 +134,14 @@ impl Floor {
 
 const GATES: [f64; 4] = [20.0, 12.0, 14.0, 14.0];
 
+/// The station's look after a history so long that many places have seen 430 people.
+fn busy_look() -> Look {
+    Look { total_passes: 2 * STATION.look.total_passes, ..STATION.look.clone() }
+}
+
 #[test]
 fn busy_and_quiet_ways_are_told_apart_and_untrodden_floor_has_aged() {
-    // A longer history, so that many places have seen 430 people.
-    let look = Look { total_passes: 2 * STATION.look.total_passes, ..STATION.look.clone() };
-    let floor = resolved(&STATION, &look, GATES);
+    let floor = resolved(&STATION, &busy_look(), GATES);
     let (side, busy) = (floor.of(38.0..60.0, 0), floor.of(330.0..560.0, 0));
     let untrodden = floor.of(0.0..2.0, 0);
     println!("clean {:.1}, untrodden {untrodden:.1}, 48 passes {side:.1}, 430 passes {busy:.1}", floor.clean[0]);
@@ -150,8 +153,8 @@ fn busy_and_quiet_ways_are_told_apart_and_untrodden_floor_has_aged() {
 #[test]
 fn floors_that_are_mopped_more_often_are_lighter_where_people_walk() {
     let every = |every: f32| {
-        let look = &STATION.look;
-        resolved(&STATION, &Look { mop: MopLook { every, ..look.mop.clone() }, ..look.clone() }, GATES)
+        let look = busy_look();
+        resolved(&STATION, &Look { mop: MopLook { every, ..look.mop.clone() }, ..look }, GATES)
     };
     let [often, usual, seldom] = [100.0, 1000.0, 5000.0].map(every);
     let lane = |floor: &Floor| floor.of(330.0..560.0, 0);
@@ -168,7 +171,7 @@ fn floors_that_are_mopped_more_often_are_lighter_where_people_walk() {
 /// Levels of film and of passes that shaders get.
 #[test]
 fn masks_use_their_range() {
-    let floor = resolved(&STATION, &STATION.look, GATES);
+    let floor = resolved(&STATION, &busy_look(), GATES);
     let level = |passes: std::ops::Range<f64>, mask: usize| {
         mean(floor.squares.iter().filter(|square| passes.contains(&square.passes)).map(|square| square.mask[mask]))
     };
@@ -357,7 +360,7 @@ fn turns_gates_and_counters_wear_more_per_pass_than_straight_ways() {
         ("ticket gates in", station, [25.0, 18.8, 7.2, 1.6]),
         ("ticket gates out", station, [41.6, 21.4, 7.2, 1.6]),
         ("ticket machines", station, [9.0, 17.2, 8.0, 1.2]),
-        ("ticket office", station, [34.9, 18.3, 2.2, 0.9]),
+        ("ticket office", station, [35.0, 18.8, 2.0, 0.8]),
         ("door of the toilets", station, [44.9, 33.0, 1.2, 1.4]),
         ("turn of a corridor", corridors, [18.0, 57.0, 4.0, 2.5]),
     ] {
