@@ -31,6 +31,8 @@ const FEWEST_STROKE_PX: usize = 40;
 /// Lightness below which a pixel is surely dark, and below which it may be a fine stroke.
 const SURELY_DARK: u8 = 100;
 const FAINT: u8 = 180;
+/// How far from a ring in the fill of a wall dark pixels are at most, on both of its sides.
+const RING_PX: usize = 2;
 /// Least share of a building's floor that its doors connect.
 const CONNECTED: f64 = 0.6;
 /// Greatest thickness of walls with doors, metres.
@@ -235,8 +237,16 @@ pub(super) fn leaf_lengths(drawing: &Drawing, metres_per_pixel: f64) -> Vec<f64>
 fn find_net(drawing: &Drawing, ink: &[u8], metres_per_pixel: f64) -> Option<Net> {
     let (dark, width) = (&drawing.dark, drawing.width);
     let strokes = without_lettering(ink, width, metres_per_pixel);
-    // Fills of grey walls ring beside black outlines, and are a little lighter than the threshold there.
-    let surely = |at: usize| strokes[at] & u8::from(drawing.lightness[at] < SURELY_DARK);
+    let is_dark = |at: usize| dark.get(at).is_some_and(|&d| d != 0);
+    // Fills of grey walls ring beside black outlines, and are a little lighter than the threshold there. Treads and rails of
+    // stairs that are as light have dark on one side at most.
+    let is_ring = |at: usize| {
+        let is_near =
+            |beside: fn(usize, usize) -> usize, step: usize| (1..=RING_PX).any(|k| is_dark(beside(at, k * step)));
+        [1, width].into_iter().any(|step| is_near(usize::wrapping_sub, step) && is_near(usize::wrapping_add, step))
+    };
+    let surely =
+        |at: usize| strokes[at] & u8::from(drawing.lightness[at] < SURELY_DARK && (is_dark(at) || is_ring(at)));
     let core: Vec<u8> = (0..dark.len()).map(surely).collect();
     let net_of = |core: &[u8], filled: &[u8], thickest: usize| {
         Net::find(core, filled, dark, ink, width, metres_per_pixel, thickest).filter(Net::is_building)
