@@ -35,7 +35,7 @@ impl Scenario {
         let mut scenario = Scenario::of_preset(overrides.preset.unwrap_or_default());
         scenario.folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
         scenario.image = path.file_name().map(PathBuf::from);
-        scenario.override_by(overrides);
+        scenario.override_by(overrides, false);
         scenario.check(None)?;
         Ok(scenario)
     }
@@ -46,7 +46,7 @@ impl Scenario {
     /// Overrides that name no motion, or are beyond what is allowed.
     pub fn of_motion(overrides: &Overrides) -> Result<Scenario, ScenarioError> {
         let mut scenario = Scenario::of_preset(overrides.preset.unwrap_or_default());
-        scenario.override_by(overrides);
+        scenario.override_by(overrides, false);
         scenario.check(None)?;
         Ok(scenario)
     }
@@ -92,14 +92,15 @@ impl Scenario {
         if !scenario.units.is_empty() && document.text_of("crowd.model").is_none() {
             scenario.crowd.model = CrowdModel::SocialForce;
         }
-        scenario.read_timetables(document)?;
-        scenario.override_by(overrides);
+        let listed = scenario.read_timetables(document)?;
+        let says_people = document.text_of("crowd.people").is_some() || listed;
+        scenario.override_by(overrides, says_people);
         scenario.check(Some(document))?;
         Ok(scenario)
     }
 
-    /// Reads the files of timetables; where lists name everybody and nobody says how many walk, they do.
-    fn read_timetables(&mut self, document: &Document<'_>) -> Result<(), ScenarioError> {
+    /// Reads the files of timetables; where lists name everybody and nobody says how many walk, they do: whether so.
+    fn read_timetables(&mut self, document: &Document<'_>) -> Result<bool, ScenarioError> {
         let folder = self.folder.clone();
         let places: Vec<String> = ["crowd.arrivals.file".to_string()]
             .into_iter()
@@ -132,16 +133,16 @@ impl Scenario {
             _ if !own.is_empty() => own.into_iter().sum::<Option<u64>>(),
             _ => None,
         };
-        if let Some(listed) = listed.filter(|_| document.text_of("crowd.people").is_none()) {
-            self.crowd.people = u32::try_from(listed).unwrap_or(u32::MAX);
-        }
-        Ok(())
+        let listed = listed.filter(|_| document.text_of("crowd.people").is_none());
+        self.crowd.people = listed.map_or(self.crowd.people, |listed| u32::try_from(listed).unwrap_or(u32::MAX));
+        Ok(listed.is_some())
     }
 
-    fn override_by(&mut self, overrides: &Overrides) {
+    /// Applies the command line's values; `says_people`: whether the scenario itself says how many walk.
+    fn override_by(&mut self, overrides: &Overrides, says_people: bool) {
         self.seed = overrides.seed.unwrap_or(self.seed);
         self.days = overrides.days.unwrap_or(self.days);
-        if overrides.quick && self.crowd.people == crate::crowd::CrowdOptions::default().people {
+        if overrides.quick && !says_people {
             self.crowd.people = QUICK_PEOPLE;
         }
         self.crowd.people = overrides.people.unwrap_or(self.crowd.people);

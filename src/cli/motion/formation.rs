@@ -3,7 +3,6 @@ use std::process::ExitCode;
 
 use clap::Args;
 use trodden::formation::{Assign, AvoidRequest, ExampleRequest, FormationRequest, KeyRequest, form, is_picture};
-use trodden::motion::People;
 use trodden::scenario::{Overrides, Scenario};
 use trodden::source::{Given, Ground};
 use trodden::walk::show;
@@ -121,7 +120,7 @@ impl Formation {
         }
         self.outputs.outputs().check_not_inputs(&scenario.input_files()).map_err(Error::from)?;
         let ground = Ground::of_scenario(&scenario, Some(&given), &Stopwatch::start(), watch)?;
-        let people = People::new(scenario.seed, scenario.bodies.clone());
+        let people = scenario.people_of_day(0);
         Ok(show(&given, &ground, &people, &self.outputs.outputs(), watch)?)
     }
 

@@ -45,7 +45,7 @@ impl Outputs {
             None => Ground::around(given)?,
         };
         let people = match &scenario {
-            Some(scenario) => People::new(scenario.seed, scenario.bodies.clone()),
+            Some(scenario) => scenario.people_of_day(0),
             None => People::new(1, Default::default()),
         };
         show(given, &ground, &people, &self.outputs(), progress)

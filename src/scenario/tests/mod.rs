@@ -161,6 +161,8 @@ fn a_first_look_is_coarse_and_has_few_people_unless_a_scenario_says_how_many() {
     assert_eq!((first.floor_texels_per_metre, first.wall_texels_per_metre), (25.0, 25.0));
     assert_eq!((first.crowd.people, first.routes.life.people, first.texture.layers), (400, 400, Some(false)));
     assert_eq!(of(&format!("{PLAN}[crowd]\npeople = 1500\n")).crowd.people, 1500);
+    // The default counts as well, where it is written.
+    assert_eq!(of(&format!("{PLAN}[crowd]\npeople = 1000\n")).crowd.people, 1000);
     let said = Scenario::parse(PLAN, Path::new("plans/hall.toml"), &Overrides { people: Some(30), ..quick }).unwrap();
     assert_eq!(said.crowd.people, 30);
 }

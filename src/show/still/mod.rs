@@ -32,7 +32,7 @@ use texels::{FloorTexels, PlainWalls, SmallFloor, SmallWalls, Texel, TexelSource
 /// Width and height of a bake's stills, pixels.
 pub const STILL_SIZE_PX: [u32; 2] = [1280, 720];
 /// The same of a first look: a floor coarser than this many texels per metre has little for larger ones to show.
-const COARSE_STILL_SIZE_PX: [u32; 2] = [800, 450];
+const COARSE_STILL_SIZE_PX: [u32; 2] = [480, 270];
 const COARSE_TEXELS_PER_METRE: f64 = 50.0;
 /// Least and greatest width or height of a still, pixels.
 pub const STILL_SIZES_PX: [u32; 2] = [16, 8192];
