@@ -17,7 +17,7 @@ use super::{
 };
 use crate::math::Vec2;
 use crate::plan::FloorPlan;
-use crate::rooms::{Entrance, Life, Rooms, Use};
+use crate::rooms::{Entrance, Life, Rooms};
 use crate::walls::Walls;
 use crate::{Progress, Silent};
 
@@ -143,10 +143,7 @@ impl Navigation {
             return Err(RoutesError::TooMany { routes: asked.len(), most: MOST_ROUTES });
         }
         let mut fields = FieldStore::new(progress);
-        // People cross a station; tours would meet in its gates.
         let entrances = life.map_or(&[][..], |life| &life.rooms.entrances);
-        let crosses = |life: &Life| life.guessed && life.r#use == Use::Station;
-        let life = life.filter(|life| !asked.is_empty() || !crosses(life));
         let lanes = if asked.is_empty() { lanes::drafts(plan, ground) } else { Vec::new() };
         let has_lanes = !lanes.is_empty();
         let mut drafts: Vec<RouteDraft> = match (asked.is_empty(), life) {

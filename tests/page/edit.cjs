@@ -25,6 +25,10 @@ function isWall(x, y) {
 /** Metres per pixel that the page is told: the plan alone would be taken for another scale. */
 const SCALE_M = 0.1;
 
+/** A drawing with doors, and places on one of them, in pixels; beside its arc; and in the room that it opens into. */
+const CAD = path.join(__dirname, '../../docs/images/plan-cad.png');
+const [GAP, LEAF, ARC, BESIDE, ROOM] = [[225, 675], [262, 705], [292, 696], [298, 694], [310, 655]];
+
 function drawPlan(file) {
   const png = new PNG(SIZE);
   for (let y = 0; y < SIZE.height; y++) {
@@ -139,8 +143,15 @@ async function save(tab) {
   assert.deepEqual(await save(tab), ['plan-paint.png', 'plan.toml']);
   assert.deepEqual(page.complaints, []);
 
-  // What was saved is baked; the floor of the desk is trodden, that of the table is not.
-  run('bake', 'plan.toml', '--quick', '--people', '100', '-o', 'out', '--quiet');
+  // What was saved is baked: beside the route people use both rooms.
+  const saved = fs.readFileSync(path.join(folder, 'plan.toml'), 'utf8');
+  assert.match(saved, /\n\[life\]\nshare = 0.5\n/);
+  run('bake', 'plan.toml', '--quick', '--people', '100', '-o', 'lived', '--quiet');
+  const { life } = JSON.parse(fs.readFileSync(path.join(folder, 'lived', 'report.json')));
+  assert.ok(life.rooms.length === 2 && life.rooms.every((room) => room.footfalls > 100), JSON.stringify(life));
+  // On the route alone the floor of the desk is trodden, that of the table is not.
+  fs.writeFileSync(path.join(folder, 'route.toml'), saved.replace('share = 0.5', 'share = 0.0'));
+  run('bake', 'route.toml', '--quick', '--people', '100', '-o', 'out', '--quiet');
   const boxes = [[152, 62, 164, 82], [182, 112, 198, 118], [196, 30, 212, 50]];
   const [desk, table, corner] = boxes.map((box) => passes(path.join(folder, 'out'), box));
   console.log(`  passes, of 255: ${desk.toFixed(1)} where the desk was, ${table.toFixed(1)} under the table, ${corner.toFixed(1)} in a corner`);
@@ -170,6 +181,28 @@ async function save(tab) {
   const cross = await again.tab.evaluate(() => document.getElementById('status').textContent);
   assert.match(cross, /wall/);
   assert.deepEqual(again.complaints, []);
+
+  // A click on a door's gap, its leaf, or beside its arc catches the door: wall closes it between its jambs.
+  fs.copyFileSync(CAD, path.join(folder, 'cad.png'));
+  run('edit', 'cad.png', '--quiet');
+  const cad = await openPage(browser, path.join(folder, 'cad-edit.html'));
+  const names = () => Promise.all([GAP, LEAF, ARC, BESIDE].map((at) => cad.nameAt(...at)));
+  assert.deepEqual(await names(), ['door', 'door', 'door', 'floor']);
+  for (const at of [GAP, LEAF, BESIDE]) {
+    await cad.tab.keyboard.press('w');
+    await cad.click(at[0] + 0.5, at[1] + 0.5);
+    assert.deepEqual(await names(), ['wall', 'door', 'door', 'floor'], `click at ${at}`);
+    await cad.tab.getByRole('button', { name: 'Undo' }).click();
+  }
+  // Floor takes leaf and arc too, and a click well off the door means the room.
+  await cad.tab.keyboard.press('f');
+  await cad.click(ARC[0], ARC[1]);
+  assert.deepEqual(await names(), ['floor', 'floor', 'floor', 'floor']);
+  await cad.tab.getByRole('button', { name: 'Undo' }).click();
+  await cad.tab.keyboard.press('o');
+  await cad.click(...ROOM);
+  assert.deepEqual(await names(), ['door', 'door', 'door', 'outside']);
+  assert.deepEqual(cad.complaints, []);
   await browser.close();
   console.log('ok      a raw plan is put right by clicks and baked');
 })().catch((error) => {

@@ -45,7 +45,8 @@ impl Outputs {
             None => Ground::around(given)?,
         };
         let people = match &scenario {
-            Some(scenario) => scenario.people_of_day(0),
+            // Of given people it is not known how fast they would have walked.
+            Some(scenario) => People::new(scenario.seed, scenario.bodies.clone()),
             None => People::new(1, Default::default()),
         };
         show(given, &ground, &people, &self.outputs(), progress)

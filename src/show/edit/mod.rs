@@ -79,6 +79,7 @@ pub fn edit_page_html(page: &EditPage<'_>) -> String {
         "warnings": plan.warnings,
         "lack": page.lack,
         "written": page.routes_are_written,
+        "doors": doors(plan),
         "openings": openings.map(|o| json!({ "name": o.name, "ends": [point(plan, o.from_m), point(plan, o.to_m)] })).collect::<Vec<_>>(),
         "ways": page.routes.iter().map(|route| way(plan, route)).collect::<Vec<_>>(),
     });
@@ -136,6 +137,13 @@ fn numbers(plan: &FloorPlan) -> GrayImage {
     let number = |pixel: &image::Rgb<u8>| colours.iter().position(|colour| *colour == pixel.0).unwrap_or(0) as u8;
     let numbers = plan.painted_picture().pixels().map(number).collect();
     GrayImage::from_raw(plan.width_px, plan.height_px, numbers).unwrap_or_default()
+}
+
+/// The jambs of each door.
+fn doors(plan: &FloorPlan) -> Vec<[[f64; 2]; 2]> {
+    let drawn = plan.drawn.iter().flat_map(|drawn| drawn.doors.iter().copied());
+    let jambs = plan.doors.iter().map(|door| [door.from_m, door.to_m]).chain(drawn);
+    jambs.map(|ends| ends.map(|end| point(plan, end))).collect()
 }
 
 /// A point in pixels, to a tenth.

@@ -107,7 +107,7 @@ function drawNow() {
   board.drawImage(classes, ...place);
   board.globalAlpha = 1;
   if (element('ways').checked) {
-    for (const way of placed.routes.length && !data.written ? [] : data.ways) line(way.points, { colour: '#3465c4', width: 1.5, dash: [7, 5] });
+    for (const way of data.ways) line(way.points, { colour: '#3465c4', width: 1.5, dash: [7, 5] });
     for (const { name, ends } of data.openings) {
       line(ends, { colour: '#0a8a2a', width: 5 });
       label(name, toScreen([(ends[0][0] + ends[1][0]) / 2, (ends[0][1] + ends[1][1]) / 2]));

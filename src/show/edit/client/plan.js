@@ -4,7 +4,7 @@ const element = (id) => document.getElementById(id);
 const data = JSON.parse(element('data').textContent);
 const { width: WIDTH, height: HEIGHT, paints: PAINTS } = data;
 const numberOf = (name) => PAINTS.findIndex((paint) => paint.name === name);
-const [FLOOR, OUTSIDE, ENTRANCE] = ['floor', 'outside', 'entrance'].map(numberOf);
+const [FLOOR, OUTSIDE, ENTRANCE, DOOR] = ['floor', 'outside', 'entrance', 'door'].map(numberOf);
 
 /** Decodes an image of the page into a canvas of its size. */
 async function canvasOf(id) {
@@ -87,10 +87,10 @@ function step(from, to, side) {
 const undo = () => step(past, future, 'before');
 const redo = () => step(future, past, 'after');
 
-/** The connected pixels of one paint around a pixel. What stands joins over corners, what people walk on does not. */
+/** The connected pixels of one paint around a pixel. What stands and doors, whose arcs are thin, join over corners. */
 function pieceAt(x, y) {
   const own = now[y * WIDTH + x];
-  const corners = PAINTS[own].solid ? 1 : 0;
+  const corners = PAINTS[own].solid || own === DOOR ? 1 : 0;
   const seen = new Uint8Array(now.length);
   const [found, open] = [[], [[x, y]]];
   const free = (at) => !seen[at] && now[at] === own;
@@ -115,6 +115,36 @@ function pieceAt(x, y) {
     }
   }
   return found;
+}
+
+/** The nearest pixel of a door within a radius of a place; `null` for none. */
+function doorNear(at, radius) {
+  const doors = strokeOf(at, at, radius).filter((pixel) => now[pixel] === DOOR).map((pixel) => [pixel % WIDTH, Math.floor(pixel / WIDTH)]);
+  const off = ([x, y]) => Math.hypot(x + 0.5 - at[0], y + 0.5 - at[1]);
+  return doors.reduce((best, pixel) => (best && off(best) <= off(pixel) ? best : pixel), null);
+}
+
+/** Of the pixels of a door those between its jambs, as deep as the wall: leaf and arc lie beside it. All if it has none. */
+function gapOf(pixels) {
+  const own = new Set(pixels);
+  const found = [];
+  for (const [from, to] of data.doors) {
+    const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
+    const along = [(to[0] - from[0]) / length, (to[1] - from[1]) / length];
+    // Half pixels leave no holes in doors that stand askew.
+    const row = (off) => Array.from({ length: Math.ceil(2 * length) }, (_, k) => {
+      const [x, y] = [from[0] + along[0] * (k + 0.5) / 2 - along[1] * off, from[1] + along[1] * (k + 0.5) / 2 + along[0] * off];
+      return Math.floor(y) * WIDTH + Math.floor(x);
+    });
+    for (const side of [-0.5, 0.5]) {
+      for (let off = side; Math.abs(off) < length; off += side) {
+        const within = row(off).filter((at) => own.has(at));
+        if (within.length < 0.6 * 2 * length) break;
+        found.push(...within);
+      }
+    }
+  }
+  return found.length ? [...new Set(found)] : pixels;
 }
 
 /** The pixels within a radius of a line between two places. */

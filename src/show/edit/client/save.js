@@ -4,12 +4,15 @@ const quoted = (text) => JSON.stringify(text).replace(/\u007f/g, '\\u007f');
 const px = ([x, y]) => `{ px = [${x.toFixed(1)}, ${y.toFixed(1)}] }`;
 const placeText = ({ at, opening, stop }) => (stop !== undefined || opening !== undefined ? quoted(stop ?? opening) : px(at));
 
-/** Sets keys of [plan] in the text of a scenario; `null` takes a key away. */
-function withPlanKeys(text, keys) {
+/** Share of people who use the rooms beside the first routes. */
+const ROUTES_LEAVE = 0.5;
+
+/** Sets keys of a table in the text of a scenario; `null` takes a key away. */
+function withKeys(text, table, keys) {
   const lines = text.split('\n');
-  let start = lines.findIndex((row) => /^\s*\[\s*plan\s*\]/.test(row));
+  let start = lines.findIndex((row) => new RegExp(`^\\s*\\[\\s*${table}\\s*\\]`).test(row));
   if (start < 0) {
-    lines.unshift('[plan]');
+    lines.unshift(`[${table}]`);
     start = 0;
   }
   let end = lines.findIndex((row, n) => n > start && /^\s*\[/.test(row));
@@ -17,6 +20,14 @@ function withPlanKeys(text, keys) {
   const own = lines.slice(start + 1, end).filter((row) => !Object.keys(keys).some((key) => new RegExp(`^\\s*${key}\\s*=`).test(row)));
   const set = Object.entries(keys).filter(([, value]) => value !== null).map(([key, value]) => `${key} = ${value}`);
   return [...lines.slice(0, start + 1), ...set, ...own, ...lines.slice(end)].join('\n');
+}
+
+/** Leaves the rooms in use beside the first routes, unless the scenario says how much. */
+function withLife(text) {
+  const table = text.match(/^[ \t]*\[[ \t]*life[ \t]*\][^\[]*/m)?.[0];
+  if (/^[ \t]*life[ \t]*[.=]/m.test(text) || /^[ \t]*share[ \t]*=/m.test(table ?? '')) return text;
+  // A new table stands last: keys without a table have to stay at the top.
+  return withKeys(table ? text : `${text.trimEnd()}\n\n[life]\n`, 'life', { share: ROUTES_LEAVE });
 }
 
 /** The scenario as TOML. */
@@ -29,7 +40,9 @@ function scenarioText(hasPaint) {
   } else if (data.writesScale) {
     keys.metres_per_pixel = String(data.metresPerPixel);
   }
-  let text = withPlanKeys(data.toml || `[plan]\nimage = ${quoted(data.image)}\n`, keys).trimEnd() + '\n';
+  let text = data.toml || `[plan]\nimage = ${quoted(data.image)}\n`;
+  if (placed.routes.length && !data.written) text = withLife(text);
+  text = withKeys(text, 'plan', keys).trimEnd() + '\n';
   for (const { at, name, kind } of placed.stops) text += `\n[[stop]]\nname = ${quoted(name)}\nkind = "${kind}"\nat = ${px(at)}\n`;
   for (const { name, places } of placed.routes) {
     const via = places.slice(1, -1).map(placeText);

@@ -15,16 +15,18 @@ let route = [];
 
 /** Screen distance within which a click means what is there. */
 const NEAR_PX = 12;
+/** The same of doors, whose lines are thin but lie in rooms that are clicked too. */
+const DOOR_PX = 5;
 const KINDS = { place: 'stand', queue: 'queue at a counter', machine: 'machine', bench: 'bench', gate: 'ticket gate' };
 
 const TOOLS = {
-  piece: { name: 'Piece', help: 'Choose a paint, then click a connected piece: it becomes that.', paints: true },
+  piece: { name: 'Piece', help: 'Choose a paint, then click a connected piece: it becomes that. A door catches the click.', paints: true },
   brush: { name: 'Brush', help: 'Choose a paint and draw over the plan. A click with Shift draws a straight line from the last place.', paints: true, row: 'brush' },
   box: { name: 'Box', help: 'Choose a paint and drag a rectangle.', paints: true },
   scale: { name: 'Scale', help: 'Drag between two points whose distance you know, and type the metres.', row: 'metres' },
   entrance: { name: 'Entrance', help: 'Click where people come in and go out, at an outer door.' },
   stop: { name: 'Stop', help: 'Click where people stop; then let a route pass it.', row: 'name', kinds: true },
-  route: { name: 'Route', help: 'Click where people start, where they pass, and twice where they end. Entrances, openings and stops catch the click. Without routes, ways are found.', row: 'name' },
+  route: { name: 'Route', help: 'Click where people start, where they pass, and twice where they end. Entrances, openings and stops catch the click. Half of the people take routes, the others use the rooms.', row: 'name' },
   room: { name: 'Room', help: 'Click into a room and type its name.', row: 'name' },
 };
 if (!data.rooms) delete TOOLS.room;
@@ -119,7 +121,18 @@ function finishRoute() {
 
 /** What each tool does with a press at a place, a drag from there, and the release. */
 const ACTIONS = {
-  piece: { press(at) { const pixel = pixelAt(at); if (pixel) paintAndTell(pieceAt(...pixel)); } },
+  piece: {
+    press(at) {
+      const pixel = pixelAt(at);
+      if (!pixel) return;
+      const is = now[pixel[1] * WIDTH + pixel[0]];
+      // Arcs and leaves are thin, and what lies behind them is a whole room.
+      const door = is === DOOR || PAINTS[is].solid ? null : doorNear(at, DOOR_PX / view.zoom);
+      const piece = pieceAt(...(door ?? pixel));
+      // A closed door is wall between its jambs, not along its leaf.
+      paintAndTell(PAINTS[chosen].solid && (door || is === DOOR) ? gapOf(piece) : piece);
+    },
+  },
   brush: {
     last: null,
     press(at, event) {
