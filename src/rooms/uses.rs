@@ -131,7 +131,8 @@ impl Use {
             Use::Station => Habits {
                 pass: 0.67,
                 visits: [1, 2],
-                room: habits(1.0, 7.0, 1),
+                // A shop or an office for tickets draws far more than as much of the hall.
+                room: habits(4.0, 7.0, 1),
                 corridor: habits(0.3, 5.0, 1),
                 hall: habits(1.0, 9.0, 1),
                 toilet: habits(1.5, 5.0, 1),

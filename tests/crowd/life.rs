@@ -332,7 +332,7 @@ fn people_come_into_a_single_room_by_its_door_and_stay() {
 /// A plan that looks like a station: its gates are no obstacle to those who stay in the hall or go to its rooms.
 #[test]
 fn people_wait_in_a_guessed_station_and_use_its_rooms() {
-    let lived = live(sample("station.png"), 400, Default::default());
+    let lived = live(sample("station.png"), 1000, Default::default());
     lived.print("station");
     let staying = lived.routes.iter().filter(|route| !route.stops.is_empty()).map(|route| route.share).sum::<f64>();
     assert!((0.25..0.5).contains(&staying), "{staying}");
