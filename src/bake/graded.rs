@@ -100,19 +100,22 @@ impl Graded<'_> {
         let textures = export::wall_textures(folder, &atlas, &wall, options, progress)?;
         watch.add(Stage::Look, textures.look_busy_s);
         watch.add(Stage::Export, textures.export_busy_s);
-        let stills = watch.busy(Stage::Export, || {
-            let model = Model { graded: self, floor: floor_textures, walls: &textures };
+        let model = Model { graded: self, floor: floor_textures, walls: &textures };
+        let scene = watch.busy(Stage::Scene, || {
             let scene = model.scene(sums.grid().height_m);
-            model.write_glb(&scene, wall.background(), options.embed, folder)?;
+            model.write_glb(&scene, wall.background(), options.embed, folder).map(|()| scene)
+        })?;
+        let (rooms, cameras) = watch.busy(Stage::Stills, || {
             let rooms = Rooms::new(self.walls, self.doorways, sums.grid().height_m).under(self.ceiling);
             let rooms = rooms.framed(&self.look.wall);
             let cameras = [rooms.birds_eye(STILL_SIZE_PX), rooms.eye_level(&self.sums.floor)];
-            let (stills, page) = rayon::join(
-                || model.write_stills((floor, &wall), sums, (&rooms, cameras), folder, progress),
-                || model.write_page(&scene, [floor.background(), wall.background()], (&rooms, cameras), folder),
-            );
-            page.and(stills)
-        })?;
+            (rooms, cameras)
+        });
+        let clean = [floor.background(), wall.background()];
+        let draw = || model.write_stills((floor, &wall), sums, (&rooms, cameras), folder, progress);
+        let page = || model.write_page(&scene, clean, (&rooms, cameras), folder);
+        let (stills, page) = rayon::join(|| watch.busy(Stage::Stills, draw), || watch.busy(Stage::Page, page));
+        let stills = page.and(stills)?;
         Ok((textures, stills))
     }
 }

@@ -74,7 +74,7 @@ impl ViewCommand {
         }
         let file = print::plan_file(&output, self.force, &inputs)?;
         let (picture, camera) = view(&self.bake, &view_from, &watch)?;
-        watch.advance(Stage::Export, 1.0);
+        watch.advance(Stage::Stills, 1.0);
         print::save_picture(&picture, file)?;
         if !common.quiet {
             tell(&output, &camera)?;

@@ -20,11 +20,14 @@ pub enum Stage {
     Sums,
     Look,
     Export,
+    Scene,
+    Stills,
+    Page,
 }
 
 impl Stage {
     /// All stages, in the order in which the data goes.
-    pub const ALL: [Stage; 11] = [
+    pub const ALL: [Stage; 14] = [
         Stage::Plan,
         Stage::Walls,
         Stage::Routes,
@@ -36,6 +39,9 @@ impl Stage {
         Stage::Sums,
         Stage::Look,
         Stage::Export,
+        Stage::Scene,
+        Stage::Stills,
+        Stage::Page,
     ];
 
     /// The stage's name: that of its module.
@@ -52,6 +58,9 @@ impl Stage {
             Stage::Sums => "sums",
             Stage::Look => "look",
             Stage::Export => "export",
+            Stage::Scene => "scene",
+            Stage::Stills => "stills",
+            Stage::Page => "page",
         }
     }
 }

@@ -108,7 +108,7 @@ impl Rooms {
         let sheets: Vec<SurfaceTexels<S>> =
             coats.iter().map(|coat| SurfaceTexels::of(coat, self.grid.height_m)).collect();
         let mut skins: Vec<SurfaceSampler> = sheets.iter().map(SurfaceTexels::skin).collect();
-        let done = |share: f64| progress.advance(Stage::Export, share);
+        let done = |share: f64| progress.advance(Stage::Stills, share);
         Ok(Renderer::new(&self.grid, camera, size_px).draw(&mut skins, progress, done)?)
     }
 }
