@@ -107,7 +107,7 @@ impl Graded<'_> {
         })?;
         let (rooms, cameras) = watch.busy(Stage::Stills, || {
             let rooms = Rooms::new(self.walls, self.doorways, sums.grid().height_m).under(self.ceiling);
-            let rooms = rooms.framed(&self.look.wall);
+            let rooms = rooms.framed(&self.look.wall).walked(&self.sums.floor);
             let cameras = [rooms.birds_eye(STILL_SIZE_PX), rooms.eye_level(&self.sums.floor)];
             (rooms, cameras)
         });

@@ -52,7 +52,7 @@ pub fn view(bake: &Path, view: &View, progress: &dyn Progress) -> Result<(RgbIma
         Ok((manifest, walls, rooms, look, sums, wall_sums))
     };
     let (manifest, walls, rooms, look, sums, wall_sums) = export::settled(&[bake], read)?;
-    let rooms = rooms.framed(&look.wall);
+    let rooms = rooms.framed(&look.wall).walked(&sums);
     let look = if view.clean { look.clean() } else { look };
     let camera = match view.camera {
         Some(camera) => camera,

@@ -1,5 +1,7 @@
 use super::atlas::{Sheet, Strip};
-use crate::look::{Background, FLAT, FloorResolver, LAYERS, Layer, ResolvedBlock, WALL_LAYERS, WallResolver};
+use crate::look::{
+    Background, FLAT, FloorResolver, LAYERS, Layer, ResolvedBlock, StainLook, WALL_LAYERS, WallResolver,
+};
 use crate::math::srgb::to_linear;
 
 /// The texels of a floor or a sheet.
@@ -28,6 +30,11 @@ pub trait WallSource: Sync {
 
     /// Texels along a face; `None` where nobody knows.
     fn columns(&self, _face: usize) -> Option<u32> {
+        None
+    }
+
+    /// Stains of hands and of shoes on door leaves beside the walls, if there are any.
+    fn leaf_stains(&self) -> Option<[StainLook; 2]> {
         None
     }
 
@@ -62,6 +69,10 @@ impl WallSource for WallResolver<'_> {
 
     fn columns(&self, face: usize) -> Option<u32> {
         WallResolver::columns(self, face)
+    }
+
+    fn leaf_stains(&self) -> Option<[StainLook; 2]> {
+        Some(WallResolver::leaf_stains(self))
     }
 
     fn resolve_into(&self, face: usize, i0: i64, j0: i64, width: usize, height: usize, block: &mut ResolvedBlock) {

@@ -24,6 +24,8 @@ pub struct PlanDoor {
     pub to_m: Vec2,
     /// How it is drawn.
     pub(crate) kind: DoorKind,
+    /// Hinge and far end of its leaf as it is drawn open, metres; of two leaves the clearer one.
+    pub leaf_m: Option<[Vec2; 2]>,
 }
 
 impl PlanDoor {

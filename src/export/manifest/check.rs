@@ -84,6 +84,9 @@ impl Manifest {
             for jamb in door.jambs_m {
                 around.place(|| format!("doors[{k}].jambs_m"), jamb)?;
             }
+            for end in door.leaf_m.into_iter().flatten() {
+                around.place(|| format!("doors[{k}].leaf_m"), end)?;
+            }
             for (_, along_m) in door.on_faces {
                 copied(&format!("doors[{k}].on_faces"), along_m)?;
             }

@@ -56,7 +56,7 @@ pub(super) struct WallPainter<'a> {
     pub background: Background,
     plaster: CleanWall,
     /// By cause.
-    stains: [StainLook; 5],
+    pub stains: [StainLook; 5],
     splash: Splash,
     chips: Chips,
     /// Noise of all dirt.

@@ -1,6 +1,7 @@
 use std::cell::RefCell;
 
 use super::paint::WallPainter;
+use super::settings::StainLook;
 use super::shade::KINDS;
 use super::strip::{ColumnRun, FaceStrip};
 use crate::look::block::{Background, ResolvedBlock};
@@ -50,6 +51,12 @@ impl<'a> WallResolver<'a> {
     /// Texels along a face, if there is such a face.
     pub fn columns(&self, face: usize) -> Option<u32> {
         self.0.sums.grid().faces.get(face).map(|span| span.width)
+    }
+
+    /// Stains of hands and of shoes, as this look has them.
+    pub fn leaf_stains(&self) -> [StainLook; 2] {
+        let [hand, .., shoe] = self.0.stains;
+        [hand, shoe]
     }
 
     /// Resolves the texels `i0..i0 + width`, `j0..j0 + height` of the unrolled strip of a face.

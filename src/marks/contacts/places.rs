@@ -2,7 +2,7 @@
 
 use crate::marks::MarksError;
 use crate::math::{Vec2, vec2};
-use crate::plan::{FloorPlan, PlanPoint};
+use crate::plan::{FloorPlan, PlanDoor, PlanPoint};
 use crate::routes::{Facing, Stop, StopKind};
 use crate::walls::{Corner, Doorway, Nearest, Walls};
 
@@ -85,6 +85,14 @@ impl ContactPlaces {
         walls: &Walls,
         requests: &[DoorRequest],
     ) -> Result<ContactPlaces, MarksError> {
+        for door in &mut self.doors {
+            let middle = door.doorway.jambs_m[0].lerp(door.doorway.jambs_m[1], 0.5);
+            let away_m = |drawn: &PlanDoor| drawn.from_m.lerp(drawn.to_m, 0.5).distance(middle);
+            let drawn = plan.doors.iter().filter(|drawn| drawn.leaf_m.is_some());
+            let nearest = drawn.min_by(|a, b| away_m(a).total_cmp(&away_m(b)));
+            let same = nearest.filter(|drawn| away_m(drawn) < 0.4 * door.doorway.width_m());
+            door.doorway.leaf_m = same.and_then(|drawn| drawn.leaf_m);
+        }
         for (index, request) in requests.iter().enumerate() {
             let wrong = |key: &str, problem: String, hint: &str| MarksError::Place {
                 list: "door",
@@ -128,6 +136,7 @@ impl ContactPlaces {
             known.handle_m = Some(request.handle);
             known.latch = request.hinge.map(|hinge| {
                 let hinge_m = hinge.to_m(plan);
+                known.doorway.leaf_m = Some([hinge_m; 2]);
                 let [a, b] = known.doorway.jambs_m.map(|jamb| jamb.distance(hinge_m));
                 usize::from(a <= b)
             });

@@ -53,6 +53,11 @@ impl Gap {
         self.frame.pixel([along, across])
     }
 
+    /// A place of the gap's frame, pixels of the image.
+    pub(super) fn place(&self, at: [f64; 2]) -> [f64; 2] {
+        self.frame.place(at)
+    }
+
     /// The middle of both jambs, pixels.
     pub(super) fn jambs(&self) -> [[f64; 2]; 2] {
         let ([from, to], across) = self.middle();

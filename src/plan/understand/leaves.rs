@@ -98,6 +98,14 @@ pub(super) fn hung(gap: &Gap, ink: &[u8], metres_per_pixel: f64) -> Vec<f64> {
     arcs.iter().filter(|arc| arc.drawn >= ARC_DRAWN).filter(has_leaf).map(|arc| arc.radius).collect()
 }
 
+/// The hinge and the far end of the open leaf whose arc is drawn best, pixels of the image.
+pub(super) fn open_leaf(gap: &Gap, ink: &[u8], metres_per_pixel: f64) -> Option<[[f64; 2]; 2]> {
+    let arcs = arcs(gap, ink, metres_per_pixel);
+    let best = arcs.iter().reduce(|best, arc| if arc.drawn > best.drawn { arc } else { best })?;
+    let [hinge, across] = best.hinge;
+    Some([[hinge, across], [hinge, across + best.ways[1] * best.radius]].map(|at| gap.place(at)))
+}
+
 /// Lists the pixels of a door's leaves and arcs: quarter circles about an end of the gap, and the way to their far end.
 pub(super) fn symbol(gap: &Gap, ink: &[u8], metres_per_pixel: f64) -> Vec<usize> {
     let slack = slack(metres_per_pixel);

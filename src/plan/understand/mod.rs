@@ -40,13 +40,16 @@ const THICKEST_WALL_M: f64 = 0.9;
 /// Largest letter, metres.
 const LARGEST_LETTER_M: f64 = 0.9;
 
+/// A door's gap, how it is drawn, and its open leaf, pixels of the image.
+struct FoundDoor(Gap, DoorKind, Option<[[f64; 2]; 2]>);
+
 /// What a drawing shows.
 pub(super) struct Understood {
     /// Class of each pixel that is not simply floor, wall or outside; those are [`PlanClass::Floor`] here.
     pub(super) classes: Vec<PlanClass>,
     /// 1 for the paper around the building.
     pub(super) outside: Vec<u8>,
-    doors: Vec<(Gap, DoorKind)>,
+    doors: Vec<FoundDoor>,
     windows: Vec<Gap>,
     furniture: Vec<Evidence>,
     /// How many pixels of the drawing along a side are one of the places of doors, windows and furniture.
@@ -124,27 +127,30 @@ fn understand_all(drawing: &Drawing, metres_per_pixel: f64) -> Option<Understood
         return None;
     }
     let mut classes = vec![PlanClass::Floor; pixels];
-    let kinds: Vec<DoorKind> = net
+    let kinds: Vec<(DoorKind, Option<[[f64; 2]; 2]>)> = net
         .doors
         .iter()
         .map(|gap| {
+            let leaf = leaves::open_leaf(gap, &ink, metres_per_pixel);
             let symbol = leaves::symbol(gap, &ink, metres_per_pixel);
             for &at in &symbol {
                 ink[at] = 0;
                 classes[at] = PlanClass::Door;
             }
-            match () {
+            let kind = match () {
                 () if !symbol.is_empty() => DoorKind::Leaf,
                 () if gap.strokes > 0 || gap.slides => DoorKind::Line,
                 () => DoorKind::Open,
-            }
+            };
+            (kind, leaf)
         })
         .collect();
     let furniture = pieces::furniture(&ink, &drawing.dark, &net, width, metres_per_pixel, &mut classes);
     name_strokes(&ink, &net, width, metres_per_pixel, &mut classes);
     let Net { wall, doors, windows, inside, .. } = net;
-    let doors: Vec<(Gap, DoorKind)> = doors.into_iter().zip(kinds).collect();
-    for at in doors.iter().flat_map(|(gap, _)| gap.pixels()) {
+    let with_kind = |(gap, (kind, leaf))| FoundDoor(gap, kind, leaf);
+    let doors: Vec<FoundDoor> = doors.into_iter().zip(kinds).map(with_kind).collect();
+    for at in doors.iter().flat_map(|FoundDoor(gap, ..)| gap.pixels()) {
         classes[at] = PlanClass::Door;
     }
     for at in windows.iter().flat_map(|gap| gap.pixels()) {
@@ -395,13 +401,15 @@ impl Understood {
     /// Hands over to the plan what was found: doors, windows, furniture, and the classes of its floor and walls.
     pub(super) fn complete(self, plan: &mut FloorPlan) {
         let factor = self.factor as f64;
-        let gap = |gap: &Gap, plan: &FloorPlan| gap.jambs().map(|jamb| plan.px_to_m(jamb.map(|place| place * factor)));
+        let to_m = |plan: &FloorPlan, px: [f64; 2]| plan.px_to_m(px.map(|place| place * factor));
+        let gap = |gap: &Gap, plan: &FloorPlan| gap.jambs().map(|jamb| to_m(plan, jamb));
         plan.doors = self
             .doors
             .iter()
-            .map(|(door, kind)| {
-                let [from_m, to_m] = gap(door, plan);
-                PlanDoor { from_m, to_m, kind: *kind }
+            .map(|FoundDoor(door, kind, leaf)| {
+                let [from_m, to] = gap(door, plan);
+                let leaf_m = leaf.map(|ends| ends.map(|end| to_m(plan, end)));
+                PlanDoor { from_m, to_m: to, kind: *kind, leaf_m }
             })
             .collect();
         plan.windows = self

@@ -13,7 +13,7 @@ mod ray_grid;
 mod shades;
 mod trace;
 
-pub(crate) use fittings::{Finish, Fittings};
+pub(crate) use fittings::{Finish, Fittings, LeafUse};
 pub(crate) use lens::Lens;
 pub(crate) use light::{Irradiance, Light, LightSources, OFF_WALL_M};
 pub(crate) use panels::{Panels, TILE_M};
@@ -25,6 +25,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::export::Camera;
 use crate::look::WallLook;
+use crate::math::vec2;
 use crate::options::names;
 use crate::sums::FloorSums;
 use crate::walls::{Doorway, Walls};
@@ -66,6 +67,17 @@ impl Rooms {
     /// The rooms with frames around their doors, as the look has them on jambs.
     pub(crate) fn framed(mut self, look: &WallLook) -> Rooms {
         self.grid.frame = (look.frame_m > 0.0).then_some((look.frame_m, look.frame_colour));
+        self
+    }
+
+    /// The rooms with door leaves as dirty as people walk through their doors.
+    pub(crate) fn walked(mut self, sums: &FloorSums) -> Rooms {
+        let traffic = FootfallGrid::of(sums);
+        for leaf in self.grid.fittings.all.iter_mut().filter_map(|fitting| fitting.leaf.as_mut()) {
+            let around = (0..64).map(|k| vec2(f64::from(k % 8) - 3.5, f64::from(k / 8) - 3.5) * (0.25 * leaf.length_m));
+            let near = around.filter(|away| away.length() < leaf.length_m);
+            leaf.used = near.map(|away| traffic.at(leaf.hinge + away)).fold(0.0, f32::max);
+        }
         self
     }
 

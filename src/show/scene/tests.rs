@@ -375,7 +375,7 @@ fn two_rooms() -> (Walls, Doorway) {
     let face = walls.faces.iter().position(|f| f.closed).unwrap();
     let jambs_m = [vec2(4.75, 2.5), vec2(4.75, 3.5)];
     let on_faces = jambs_m.map(|p| (face, walls.nearest(p, 1.0).unwrap().along_m));
-    (walls, Doorway { jambs_m, on_faces, depth_m: 0.5, through: vec2(1.0, 0.0), head_m: 2.1 })
+    (walls, Doorway { jambs_m, on_faces, depth_m: 0.5, through: vec2(1.0, 0.0), head_m: 2.1, leaf_m: None })
 }
 
 #[test]
@@ -441,7 +441,7 @@ proptest! {
         let doorways: Vec<Doorway> = (0..2).map(|k| {
             let at = |n: u64| vec2(plan.width_m() * (n % 97) as f64 / 97.0, plan.height_m() * (n % 89) as f64 / 89.0);
             let jambs_m = [at(seed >> (8 * k)), at(seed >> (8 * k + 5))];
-            Doorway { jambs_m, on_faces: [(0, 0.0); 2], depth_m: 0.3, through: vec2(1.0, 0.0), head_m: 2.1 }
+            Doorway { jambs_m, on_faces: [(0, 0.0); 2], depth_m: 0.3, through: vec2(1.0, 0.0), head_m: 2.1, leaf_m: None }
         }).collect();
         let scene = build(&walls, &tiles_over(&walls, tile), &strips_of(&walls), &doorways, &options());
         check(&scene);

@@ -8,13 +8,14 @@
 use image::RgbImage;
 
 use crate::export::{Birdseye, Camera, ExportError, OutputFolder, StillEntry, TextureSource, WallSource, WallTextures};
-use crate::look::Background;
+use crate::look::{Background, StainLook};
 use crate::math::Vec2;
 use crate::progress::{Progress, Stage};
 use crate::show::{Rooms, write_picture};
 
 mod error;
 mod glow;
+mod leaf_dirt;
 mod light_map;
 mod pyramid;
 mod render;
@@ -120,6 +121,7 @@ struct SurfaceTexels<'a, S> {
     walls: Box<dyn TexelSource + 'a>,
     plain_wall: Texel,
     far_walls: Option<Box<dyn TexelSource + 'a>>,
+    leaf_stains: Option<[StainLook; 2]>,
 }
 
 impl<'a, S: TextureSource> SurfaceTexels<'a, S> {
@@ -140,6 +142,7 @@ impl<'a, S: TextureSource> SurfaceTexels<'a, S> {
                 }
                 None => plain(unknown, 100.0),
             },
+            leaf_stains: coat.walls.and_then(|walls| walls.source.leaf_stains()),
             plain_wall: PlainWalls::of(coat.walls.map_or(unknown, |walls| walls.source.background()), 1.0).texel,
             far_walls: coat.walls.and_then(|walls| {
                 let background = walls.source.background();
@@ -156,7 +159,10 @@ impl<'a, S: TextureSource> SurfaceTexels<'a, S> {
 
     fn skin(&self) -> SurfaceSampler<'_> {
         let small = self.small.as_ref().map(|small| small as &dyn TexelSource);
-        SurfaceSampler::new([&self.floor, &*self.walls], [small, self.far_walls.as_deref()], self.plain_wall)
+        let mut skin =
+            SurfaceSampler::new([&self.floor, &*self.walls], [small, self.far_walls.as_deref()], self.plain_wall);
+        skin.leaf_stains = self.leaf_stains;
+        skin
     }
 }
 

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::pyramid::{Footprint, NeededBlocks, Pyramid, TexelBlockKey};
 use super::texels::{Texel, TexelSource};
+use crate::look::StainLook;
 use crate::show::rooms::{HitSurface, QuadKind, RayGrid, RayHit, WallQuad};
 
 /// Pixels see a little less than their own width: pictures look soft otherwise.
@@ -19,6 +20,8 @@ pub(super) struct SurfaceSampler<'a> {
     small_walls: Option<Pyramid<'a>>,
     /// Colour of the clean wall, linear light.
     pub plain: [f32; 3],
+    /// Stains of hands and of shoes on door leaves.
+    pub leaf_stains: Option<[StainLook; 2]>,
 }
 
 /// Blocks of a skin.
@@ -65,6 +68,7 @@ impl<'a> SurfaceSampler<'a> {
             walls: Pyramid::new(walls),
             small_walls: small_walls.map(Pyramid::new),
             plain: [plain[0], plain[1], plain[2]].map(|value| f32::from(value) / 65_535.0),
+            leaf_stains: None,
         }
     }
 

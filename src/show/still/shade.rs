@@ -1,5 +1,6 @@
 //! Radiance of a ray's hit toward the camera.
 
+use super::leaf_dirt::LeafPlace;
 use super::light_map::LightMap;
 use super::sampler::{SampledMaterial, SurfaceSampler, along_m};
 use crate::math::srgb::light_of;
@@ -89,7 +90,7 @@ impl Shader<'_> {
                 let finish = Finish::of_block(f64::from(hit.point[2]) - 0.01);
                 self.even(light, Some(light_of(finish.colour())), skins, out);
             }
-            HitSurface::Fitting(number, face) => out.fill(Lit::of(self.fitting(hit, number, face))),
+            HitSurface::Fitting(number, face) => self.fitting(hit, (number, face), skins, out),
             HitSurface::Soffit(number) => {
                 self.even(SOFFIT, self.space.frame_of(number).map(|(_, colour)| colour), skins, out)
             }
@@ -167,10 +168,10 @@ impl Shader<'_> {
     }
 
     /// Furniture, a door leaf, a part of a window.
-    fn fitting(&self, hit: &RayHit, number: u32, face: u8) -> LinearRgb {
+    fn fitting(&self, hit: &RayHit, (number, face): (u32, u8), skins: &[SurfaceSampler], out: &mut [Lit]) {
         let fitting = &self.space.fittings.all[number as usize];
         if fitting.finish == Finish::Pane {
-            return day_behind(hit.toward);
+            return out.fill(Lit::of(day_behind(hit.toward)));
         }
         let ([x, y, z], [beside_x, beside_y]) = (hit.point, lit_at(&self.space.fittings, hit, number, face));
         let light = self.light.floor(beside_x, beside_y);
@@ -196,16 +197,25 @@ impl Shader<'_> {
             ([v * 110.0, u * 3.0], [v * 16.0, u * 0.8])
         };
         let fades = (1.0 - hit.way_m * self.pixel * 60.0).clamp(0.0, 1.0);
-        let number = number as f32 * 7.31;
-        let grain =
-            0.5 * fades * noise(fine[0] + number, fine[1]) + 0.5 * noise(coarse[0] + number, coarse[1] + number);
+        let seed = number as f32 * 7.31;
+        let grain = 0.5 * fades * noise(fine[0] + seed, fine[1]) + 0.5 * noise(coarse[0] + seed, coarse[1] + seed);
         let tone = 1.0 + fitting.finish.grain() * grain;
         let colour = scaled(light_of(fitting.finish.colour()), tone);
         let [a, b, c] = hit.toward;
         let cosine = (a * normal[0] + b * normal[1] + c * normal[2]).abs();
         let shine = fresnel(cosine, fitting.finish.roughness()) * WALL_SHINE * light.open * light.full * shade;
         let tinted = self.tinted(full);
-        std::array::from_fn(|c| colour[c] * tinted[c] + shine)
+        // Only the two faces of a leaf are soiled: the one with the hinge is pushed.
+        let soiled = fitting.leaf.as_ref().filter(|_| matches!(face, 2 | 4)).map(|leaf| {
+            let from_hinge = vec2(f64::from(x), f64::from(y)) - leaf.hinge;
+            let along_m = from_hinge.dot(along).abs() as f32;
+            LeafPlace { leaf, pushed: from_hinge.cross(along).abs() < 0.01, along_m, height_m: z, seed: number as f32 }
+        });
+        for (skin, out) in skins.iter().zip(out) {
+            let stains = skin.leaf_stains.as_ref().zip(soiled.as_ref());
+            let colour = stains.map_or(colour, |(stains, place)| place.soiled(colour, stains));
+            *out = Lit::of(std::array::from_fn(|c| colour[c] * tinted[c] + shine));
+        }
     }
 
     fn wall(&self, hit: &RayHit, number: u32, skins: &[SurfaceSampler], out: &mut [Lit]) {

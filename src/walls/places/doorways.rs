@@ -24,6 +24,9 @@ pub struct Doorway {
     pub through: Vec2,
     /// Height of the door's head above the floor, metres; default `DOOR_HEAD_M`.
     pub head_m: f64,
+    /// Hinge and far end of its open leaf, metres, where a plan or a scenario tells; both the same if the side is unknown.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub leaf_m: Option<[Vec2; 2]>,
 }
 
 /// Default height of a door's head above the floor, metres.
@@ -274,7 +277,7 @@ fn doorway(rays: &Rays, middle: Vec2, across: Vec2, depth_m: f64) -> Option<Door
     let hits: [Hit; 2] = [rays.cast(middle, -across, SIGHT_M)?, rays.cast(middle, across, SIGHT_M)?];
     let on_faces = [(hits[0].face?, hits[0].along_m), (hits[1].face?, hits[1].along_m)];
     let jambs_m = hits.map(|hit| hit.point_m);
-    Some(Doorway { jambs_m, on_faces, depth_m, through: across.left(), head_m: DOOR_HEAD_M })
+    Some(Doorway { jambs_m, on_faces, depth_m, through: across.left(), head_m: DOOR_HEAD_M, leaf_m: None })
 }
 
 /// Removes gaps beside a post that has no aligned gap on its other side.

@@ -1,7 +1,7 @@
 //! Door leaves that stand open.
 
 use super::finish::Finish;
-use super::prism::Fitting;
+use super::prism::{Fitting, LeafUse};
 use super::shape::{Block, contains};
 use crate::look::WIDEST_FRAMED_M;
 use crate::math::{Vec2, sin_cos};
@@ -46,7 +46,7 @@ pub(super) fn leaves(walls: &Walls, doorways: &[Doorway], height_m: f64) -> Vec<
     standing
 }
 
-/// How a door's leaves stand open: into the deeper room, hinged at the side where a wall is nearest.
+/// How a door's leaves stand open: as they are drawn; else into the deeper room, hinged where a wall is nearest.
 fn hung(walls: &Walls, door: &Doorway, others: &[&Doorway], standing: &[Fitting]) -> Vec<Leaf> {
     let middle = door.jambs_m[0].lerp(door.jambs_m[1], 0.5);
     let free_m = |from: Vec2, way: Vec2| {
@@ -63,6 +63,10 @@ fn hung(walls: &Walls, door: &Doorway, others: &[&Doorway], standing: &[Fitting]
         if inner(way) { turned.into_iter().fold(f64::INFINITY, f64::min) } else { -1.0 }
     };
     sides.sort_by(|a, b| depth_m(*b).total_cmp(&depth_m(*a)));
+    if let Some([hinge, end]) = door.leaf_m {
+        // A stable sort: a leaf whose side is unknown leaves the order.
+        sides.sort_by_key(|way| way.dot(end - hinge) < 0.0);
+    }
     let is_free = |leaf: &Leaf| leaf.is_free(walls, others, standing);
     for side in sides {
         for angle_deg in ANGLES_DEG {
@@ -78,7 +82,11 @@ fn hung(walls: &Walls, door: &Doorway, others: &[&Doorway], standing: &[Fitting]
                 let way = (door.jambs_m[jamb] - middle).normalized().unwrap_or(side.left());
                 free_m(door.jambs_m[jamb] + side * (0.5 * door.depth_m + 0.3), way)
             };
-            let first = usize::from(aside_m(1) < aside_m(0));
+            let [first_m, second_m] = match door.leaf_m {
+                Some([hinge, _]) => door.jambs_m.map(|jamb| jamb.distance(hinge)),
+                None => [aside_m(0), aside_m(1)],
+            };
+            let first = usize::from(second_m < first_m);
             if let Some(leaf) = [first, 1 - first].into_iter().filter_map(|hinge| leaf(hinge, 1.0)).find(is_free) {
                 return vec![leaf];
             }
@@ -123,15 +131,17 @@ impl Leaf {
         })
     }
 
-    /// The leaf and a handle on both of its faces.
+    /// The leaf, pushed on its front, and a handle on both of its faces.
     fn parts(&self, head_m: f64) -> Vec<Fitting> {
         let block = |[from, to]: [f64; 2], [front, back]: [f64; 2], span_m, finish| {
             let centre = self.at(0.5 * (from + to), 0.5 * (front + back));
             let half = [0.5 * (to - from), 0.5 * (back - front)];
-            Fitting { footprint: Block { centre, along: self.along, half }.corners(), span_m, finish }
+            Fitting { footprint: Block { centre, along: self.along, half }.corners(), span_m, finish, leaf: None }
         };
         let end = self.length_m;
-        let mut parts = vec![block([GAP_M, end], [0.0, THICK_M], [0.008, head_m - GAP_M], Finish::Door)];
+        let leaf = block([GAP_M, end], [0.0, THICK_M], [0.008, head_m - GAP_M], Finish::Door);
+        let hung = LeafUse { hinge: self.at(GAP_M, 0.0), length_m: end - GAP_M, used: 0.0 };
+        let mut parts = vec![Fitting { leaf: Some(hung), ..leaf }];
         for (plate, lever) in
             [([-0.008, 0.0], [-0.055, -0.037]), ([THICK_M, THICK_M + 0.008], [THICK_M + 0.037, THICK_M + 0.055])]
         {

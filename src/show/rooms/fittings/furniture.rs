@@ -66,7 +66,7 @@ impl Piece {
 
     fn prism(&self, share: f64, span_m: [f64; 2], finish: Finish) -> Fitting {
         let outline = if self.is_square { self.block.corners() } else { self.outline.clone() };
-        Fitting { footprint: shrunk(&outline, self.block.centre, share), span_m, finish }
+        Fitting { footprint: shrunk(&outline, self.block.centre, share), span_m, finish, leaf: None }
     }
 
     /// A board on four legs with rails between them, or on a pillar.

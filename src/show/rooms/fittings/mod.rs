@@ -8,7 +8,7 @@ mod shape;
 mod windows;
 
 pub(crate) use finish::Finish;
-pub(crate) use prism::Fitting;
+pub(crate) use prism::{Fitting, LeafUse};
 pub(crate) use windows::Window;
 
 use crate::math::{Vec2, exp};

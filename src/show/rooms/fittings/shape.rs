@@ -27,7 +27,7 @@ impl Block {
     /// The part of it between shares of length and of breadth, -1 to 1.
     pub fn part(&self, [x0, x1]: [f64; 2], [y0, y1]: [f64; 2], span_m: [f64; 2], finish: Finish) -> Fitting {
         let footprint = vec![self.at(x0, y0), self.at(x1, y0), self.at(x1, y1), self.at(x0, y1)];
-        Fitting { footprint, span_m, finish }
+        Fitting { footprint, span_m, finish, leaf: None }
     }
 
     /// Square legs under its corners, `inset_m` from the sides and `thick_m` across.

@@ -43,6 +43,7 @@ impl Window {
                 footprint: Block { centre, along, half: [0.5 * (to - from), 0.5 * depth_m] }.corners(),
                 span_m,
                 finish,
+                leaf: None,
             }
         };
         let mut parts = vec![
