@@ -139,7 +139,11 @@ impl Texture {
             // Studded rubber would be a pattern of its own: this is smooth rubber with flecks, in sheets.
             Material::Dark => Texture {
                 pieces: Some(Pieces { gap_mm: 0.1, ..pieces([24.0, 2.0], 0.003, 0.02) }),
-                chips: vec![chips(1, 0.012, 0.45, [0.15, 0.35], &[[0.5, 0.0], [0.3, 0.04], [-0.3, 0.0]], 0.0)],
+                // Through a lane's film half of their contrast is left.
+                chips: vec![
+                    chips(1, 0.012, 0.5, [0.15, 0.38], &[[1.3, 0.0], [0.5, 0.06], [-0.6, 0.0], [-0.6, 0.0]], 0.0),
+                    chips(2, 0.006, 0.5, [0.12, 0.36], &[[0.4, 0.0], [-0.35, 0.0]], 0.0),
+                ],
                 ..tones([round(0.005, 0.05), round(0.05, 0.015), round(0.9, 0.02)], round(0.01, 0.01), 0.8)
             },
             // Chips of 4 to 15 mm in a matrix, and brass strips.
@@ -200,11 +204,11 @@ impl Texture {
             Material::Carpet => Texture {
                 pieces: Some(Pieces {
                     gap_mm: 1.0,
-                    tint_sd: 0.01 * gain,
+                    tint_sd: 0.02 * gain,
                     loops: gain,
                     ..pieces([0.5, 0.5], 0.0015, 0.030)
                 }),
-                chips: vec![chips(1, 0.005, 1.0, [0.0, 0.16], &[[0.14, 0.0], [-0.16, 0.02], [0.0, -0.03]], 1.5)],
+                chips: vec![chips(1, 0.005, 1.0, [0.0, 0.16], &[[0.24, 0.0], [-0.26, 0.02], [0.0, -0.03]], 1.5)],
                 ..tones([round(0.009, 0.10), (0.30, 0.01, 0.03), round(0.7, 0.02)], round(0.012, 0.02), 4.0)
             },
             Material::Tile => Texture {
@@ -243,7 +247,7 @@ impl Texture {
                         0.009,
                         0.85,
                         [0.0, 0.12],
-                        &[[0.18, 0.02], [-0.28, 0.0], [-0.06, 0.0], [0.38, 0.01], [-0.42, 0.0]],
+                        &[[0.26, 0.02], [-0.36, 0.0], [-0.08, 0.0], [0.45, 0.01], [-0.52, 0.0]],
                         2.0,
                     ),
                     // Single stones that stand out of the tar.
@@ -252,7 +256,7 @@ impl Texture {
                         0.017,
                         0.4,
                         [0.0, 0.26],
-                        &[[0.42, 0.02], [0.14, 0.0], [-0.34, 0.0], [0.28, 0.03], [-0.38, 0.0]],
+                        &[[0.60, 0.02], [0.14, 0.0], [-0.46, 0.0], [0.36, 0.03], [-0.52, 0.0]],
                         1.2,
                     ),
                 ],
