@@ -237,9 +237,12 @@ impl Scenario {
     }
 
     /// The scenario with the people of the building's use: where it has the defaults of bags, wheels, children, groups and
-    /// cleaning, such a building has others.
+    /// cleaning, such a building has others. Between several days the floor is mopped.
     pub fn lived_in(&self, life: Option<&Life>) -> Scenario {
         let mut scenario = self.clone();
+        if self.days > 1 && self.motion_file.is_none() && self.look.mop.every == MopLook::default().every {
+            scenario.look.mop.every = self.crowd.people as f32;
+        }
         let Some(habits) = life.filter(|_| self.preset != Preset::Paper).map(|life| life.r#use.habits()) else {
             return scenario;
         };
