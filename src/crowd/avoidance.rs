@@ -18,6 +18,9 @@ const CENTRE_M: f32 = 2.2;
 const PASSING_M: f32 = 0.12;
 /// Share of the own speed at which others who go the same way need no detour.
 const AS_FAST: f32 = 0.9;
+/// Own speed up to which nobody overtakes, and from which on everybody does who may, metres per second: in a jam, ways
+/// round those ahead lead nowhere, and who tries them stands across the way of others.
+const OVERTAKING_M_S: [f32; 2] = [0.2, 0.8];
 /// Largest number of obstacles that are weighed.
 const MOST_WEIGHED: usize = 48;
 /// Headings that are weighed against the straight one, from the least turn to the largest: cosine and sine.
@@ -166,6 +169,7 @@ impl Perception<'_> {
         let mut others = Obstacles::default();
         let (cx, cy) = (me.x + wanted[0] * CENTRE_M, me.y + wanted[1] * CENTRE_M);
         let (mut left, mut company, mut against) = (0.0, 0.5, 0.0);
+        let as_fast_m_s = AS_FAST * speed_m_s * overtaking(me.vx * wanted[0] + me.vy * wanted[1]);
         self.neighbours.around(cx, cy, |range, shift| {
             for body in &self.neighbours.bodies[range] {
                 let (dx, dy) = (body.x + shift - me.x, body.y - me.y);
@@ -182,7 +186,7 @@ impl Perception<'_> {
                         against += weight;
                     }
                 }
-                let as_fast = body.vx * wanted[0] + body.vy * wanted[1] > AS_FAST * speed_m_s;
+                let as_fast = body.vx * wanted[0] + body.vy * wanted[1] > as_fast_m_s;
                 if !ahead || as_fast || distance_m2 > HORIZON_M * HORIZON_M || !others.has_room(distance_m2) {
                     continue;
                 }
@@ -214,6 +218,12 @@ impl Perception<'_> {
         }
         far
     }
+}
+
+/// Share of the wish to overtake those ahead that is left at this own speed.
+fn overtaking(speed_m_s: f32) -> f32 {
+    let [none, full] = OVERTAKING_M_S;
+    ((speed_m_s - none) / (full - none)).clamp(0.0, 1.0)
 }
 
 impl Obstacles {

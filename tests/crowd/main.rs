@@ -10,6 +10,7 @@ mod hard_plans;
 mod keeps;
 mod life;
 mod measures;
+mod no_gridlock;
 mod paper;
 mod rimea;
 mod scene;

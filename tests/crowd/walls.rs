@@ -61,7 +61,8 @@ fn a_door_of_120_cm_carries_what_doors_carry() {
         let flow = 80.0 / (passed[90] - passed[10]) / 1.2;
         let longest_s = passed.windows(2).map(|w| w[1] - w[0]).fold(0.0, f64::max);
         println!("door of 1.2 m, seed {seed}: {flow:.2} persons/(m s), longest pause {longest_s:.1} s");
-        assert!((1.0..=1.6).contains(&flow), "seed {seed}: {flow} persons/(m s)");
+        // Seyfried et al. 2009 measured 1.9, building codes assume 1.3.
+        assert!((1.2..=1.9).contains(&flow), "seed {seed}: {flow} persons/(m s)");
         assert!(longest_s < 5.0, "seed {seed}: an arch stood for {longest_s} s");
     }
 }

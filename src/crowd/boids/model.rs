@@ -2,7 +2,7 @@
 
 use super::floor::FloorMoments;
 use super::neighbourhood::Neighbourhood;
-use super::speed::{LEAST_SPEED_M_S, SpeedTable};
+use super::speed::SpeedTable;
 use crate::crowd::CrowdOptions;
 use crate::crowd::agents::Agents;
 use crate::crowd::environment::Environment;
@@ -92,7 +92,8 @@ impl Boids {
         let people_per_m2 = around.count / self.floor.ahead_m2(at, me.clearance_m, [me.aim_x, me.aim_y]);
         let wanted_speed = traits.speed_m_s * pace * bend(me);
         // A dense crowd alone brings no agent to rest, but agents that want to stand do.
-        let most_speed = (wanted_speed * self.speeds.factor(people_per_m2)).max(wanted_speed.min(LEAST_SPEED_M_S));
+        let least_speed = wanted_speed.min(SpeedTable::least_m_s(people_per_m2));
+        let most_speed = (wanted_speed * self.speeds.factor(people_per_m2)).max(least_speed);
 
         let mut ax = (me.aim_x * most_speed - me.vx) / RELAXATION_S;
         let mut ay = (me.aim_y * most_speed - me.vy) / RELAXATION_S;

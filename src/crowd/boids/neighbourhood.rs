@@ -10,6 +10,10 @@ use crate::crowd::state::{BodyState, Traits};
 const MOST_SEEN: usize = 96;
 /// Cosine between headings from which on two go the same way.
 const ALIKE: f32 = 0.3;
+/// Weight of those who come the other way in the density ahead: people walk behind others, but dodge those who come.
+///
+/// Counter flow passes about as many people as one-way flow (Zhang et al. 2012, J. Stat. Mech. P02002).
+const AGAINST: f32 = 0.3;
 /// People per square metre at which the acceptable distance is half way down to the exclusion distance.
 const CROWDED: f32 = 1.2;
 /// Time over which people foresee others, seconds.
@@ -110,8 +114,9 @@ impl Neighbourhood {
             let inside = (f32x8::ONE - d2 * f32x8::splat((1.0 / (SENSE_M * SENSE_M)) as f32)).fast_max(f32x8::ZERO);
             let ahead = (dx * aim_x + dy * aim_y) / d2.sqrt().fast_max(f32x8::splat(1e-4));
             let weight = inside * inside * f32x8::HALF * (f32x8::ONE + ahead);
-            count += weight;
             let agree = f32x8::new(self.aim_x[row]) * aim_x + f32x8::new(self.aim_y[row]) * aim_y;
+            let against = agree.simd_lt(f32x8::splat(-ALIKE)) & weight;
+            count += weight - f32x8::splat(1.0 - AGAINST) * against;
             let weight = agree.simd_gt(f32x8::splat(ALIKE)) & weight;
             alike += weight;
             alike_vx += weight * f32x8::new(self.vx[row]);

@@ -6,8 +6,10 @@ use crate::crowd::SpeedLaw;
 const LINEAR_JAM: f64 = 4.0;
 /// People per square metre at which Weidmann's law comes to rest.
 const WEIDMANN_JAM: f64 = 5.4;
-/// Least speed in a dense crowd, metres per second: an arch before a door must dissolve.
-pub(super) const LEAST_SPEED_M_S: f32 = 0.08;
+/// Least speed in a dense crowd up to so many people per square metre ahead, and at Weidmann's jam, metres per second:
+/// an arch before a door must dissolve, and a jam must pass a gap at the flow that is measured.
+const LEAST_SPEED_M_S: [f32; 2] = [0.2, 0.13];
+const LEAST_UP_TO: f32 = 4.0;
 
 /// A speed law as a table over people per square metre.
 #[derive(Clone, Debug)]
@@ -35,5 +37,12 @@ impl SpeedTable {
         let k = at as usize;
         let (a, b) = (self.factors[k], self.factors[k + 1]);
         a + (b - a) * (at - k as f32)
+    }
+
+    /// Speed that a dense crowd leaves to everybody who wants to walk, metres per second.
+    pub(super) fn least_m_s(people_per_m2: f32) -> f32 {
+        let [most, least] = LEAST_SPEED_M_S;
+        let share = ((people_per_m2 - LEAST_UP_TO) / (WEIDMANN_JAM as f32 - LEAST_UP_TO)).clamp(0.0, 1.0);
+        most + (least - most) * share
     }
 }
