@@ -22,6 +22,7 @@ mod print;
 mod progress;
 mod resolve;
 mod signals;
+mod shell;
 mod standard_input;
 mod view;
 
@@ -51,6 +52,8 @@ enum Command {
     Edit(edit::Edit),
     Patterns(patterns::Patterns),
     Diff(diff::Diff),
+    Completions(shell::Completions),
+    Man(shell::Man),
 }
 
 const STYLES: Styles = Styles::styled()
@@ -112,6 +115,8 @@ impl Cli {
             Command::Edit(edit) => edit.run(&self.common),
             Command::Patterns(patterns) => patterns.run(&self.common),
             Command::Diff(diff) => diff.run(&self.common),
+            Command::Completions(completions) => completions.run(Cli::command()),
+            Command::Man(man) => man.run(Cli::command()),
         };
         if let Some(usage) = ran.as_ref().err().and_then(|error| error.downcast_ref()) {
             refuse(usage);

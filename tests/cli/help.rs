@@ -27,6 +27,23 @@ fn every_help_text_is_as_it_is_kept() {
 }
 
 #[test]
+fn shells_and_manuals_know_every_subcommand() {
+    let sandbox = Sandbox::new();
+    let names = ["bake", "crowd", "motion", "resolve", "view", "init", "inspect", "edit", "patterns", "diff"];
+    for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
+        let script = sandbox.run(&["completions", shell]).succeeds().out;
+        let missing: Vec<_> = names.iter().filter(|name| !script.contains(**name)).collect();
+        assert!(missing.is_empty() && script.contains("texels-per-metre"), "{shell}: {missing:?}");
+    }
+    sandbox.run(&["man", "pages"]).succeeds();
+    for name in names {
+        let page = std::fs::read_to_string(sandbox.path(&format!("pages/trodden-{name}.1"))).expect("a page");
+        assert!(page.contains(".SH OPTIONS"), "{name}: {page}");
+    }
+    assert!(sandbox.run(&["man"]).succeeds().out.contains(".TH trodden 1"));
+}
+
+#[test]
 fn without_arguments_help_goes_to_standard_error() {
     let sandbox = Sandbox::new();
     let ran = sandbox.run(&[]);
