@@ -3,32 +3,26 @@
 use std::path::{Path, PathBuf};
 
 use crate::Error;
-use crate::crowd::{CrowdError, Simulation};
-use crate::export::{
-    self, Atlas, Estimate, LifeReport, Manifest, OutputFolder, PADDING_PX, PeopleReport, Report, Target, TargetEntry,
-};
+use crate::export::{self, LifeReport, Manifest, OutputFolder, PeopleReport, Report, Target, TargetEntry};
 use crate::look::Look;
-use crate::marks::{ContactPlaces, Footfalls};
-use crate::motion::People;
-use crate::patterns::PatternLibrary;
 use crate::progress::{Progress, Stage, Stopwatch};
-use crate::routes::{Navigation, Route};
 use crate::scenario::Scenario;
-use crate::show::{self, Crop, PathSampler};
-use crate::source::{Given, Ground, Source};
-use crate::stamps::{Stamper, TexelGrid, WallGrid, WallStamper};
-use crate::sums::{FloorSums, WallSums};
+use crate::show::{self, Crop};
 
 mod graded;
+mod part_file;
+mod parts;
 mod series;
+mod site;
 mod tread;
 mod view;
 
+pub use parts::{Part, bake_part, merge};
 pub use series::resolve_series;
 pub use view::{View, view};
 
 use graded::{Graded, Sums, keep_look, title};
-use tread::{Day, Marks, tread};
+use site::{Site, Trodden};
 
 /// Files in every bake.
 const ALWAYS_MADE: [&str; 5] =
@@ -76,87 +70,45 @@ pub struct OutputOptions {
 /// ```
 pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress) -> Result<Report, Error> {
     let watch = Stopwatch::start();
-    // Errors in the input should appear before the crowd walks.
+    let folder = begin(scenario, output)?;
+    // Plan, walls, routes, doors, patterns: what all days share.
+    let site = Site::find(scenario, Some(&folder), &watch, progress)?;
+    // Frames become marks, marks become stamps, and stamps are added to sums. Only the sums stay in memory.
+    let trodden = site.walk(0..site.days, &watch, progress)?;
+    finish(&site, trodden, folder, output, &watch, progress)
+}
+
+/// Checks look, textures and output folder: errors in the input should appear before the crowd walks.
+fn begin(scenario: &Scenario, output: &OutputOptions) -> Result<OutputFolder, Error> {
     scenario.look.check_images()?;
     scenario.texture.check()?;
     let folder = OutputFolder::begin(&output.folder, output.force)?;
     check_free(&folder, scenario.texture.walls)?;
     folder.check_not_inputs(&scenario.input_files())?;
+    Ok(folder)
+}
 
-    // A given motion replaces the simulation; without a plan, its floor is open ground.
-    let given = Given::of_scenario(scenario, &watch, progress)?.map(Given::on_foot);
-    let ground = Ground::of_scenario(scenario, given.as_ref(), &watch, progress)?;
+/// Turns the sums of all days into a bake: the look turns sums into texels, block by block, while the files are written.
+fn finish(
+    site: &Site,
+    trodden: Trodden,
+    folder: OutputFolder,
+    output: &OutputOptions,
+    watch: &Stopwatch,
+    progress: &dyn Progress,
+) -> Result<Report, Error> {
+    let Trodden { sums, walked, life } = trodden;
+    let Site { scenario, ground, routes, .. } = site;
     let (plan, walls) = (&ground.plan, &ground.walls);
-    scenario.look.check_areas(walls)?;
-    let grid = TexelGrid::covering(plan.width_m(), plan.height_m(), scenario.floor_texels_per_metre)?;
-    let wall_grid = WallGrid::covering(walls, scenario.wall_height_m, scenario.wall_texels_per_metre)?;
-    let with_walls = scenario.texture.walls;
-    let estimate = Estimate::of(plan, grid, with_walls.then_some(&wall_grid), &scenario.texture)?;
-    let told = estimate.check(folder.path(), folder.shown(), scenario.texture.any_size)?;
-    told.iter().for_each(|told| progress.warn(told));
-    let pack = || Atlas::pack(&wall_grid, &walls.corners(), scenario.texture.tile, PADDING_PX);
-    let atlas = watch.busy(Stage::Export, || with_walls.then(pack).transpose())?;
-    let library = watch.busy(Stage::Patterns, || PatternLibrary::open(scenario.pattern_path().as_deref()))?;
-
-    let found = match &given {
-        Some(_) => None,
-        None => Some(watch.busy(Stage::Routes, || Navigation::find_watched(plan, walls, &scenario.routes, progress))?),
-    };
-    let (routes, ways) = found.map_or((Vec::new(), None), |(routes, ways)| (routes, Some(ways)));
-    let life = ways.as_ref().and_then(Navigation::life).cloned();
-    let mut lived = life.as_deref().map(LifeReport::of);
-    let scenario = &scenario.lived_in(life.as_deref());
-    // Bodies depend on seed and person id only; all arrival times of a day are known before its crowd walks.
-    let days = if given.is_some() { 1 } else { scenario.days };
-    let crowds: Vec<People> = (0..days).map(|day| scenario.people_of_day(day)).collect();
-    let places = ContactPlaces::of_walls(walls)
-        .with_doors(plan, walls, &scenario.doors)?
-        .with_fixtures(plan, walls, &scenario.fixtures)?
-        .with_stops(walls, Route::each_stop(&routes));
-    let doorways = places.doorways();
-    let begin = |day: u32| -> Result<Day<'_>, Error> {
-        let people = &crowds[day as usize];
-        let source = match (&given, &ways) {
-            (Some(given), _) => Source::of_given(given, &ground)?.numbered(),
-            (None, Some(ways)) => {
-                let (ways, spots) = (ways.clone(), scenario.spots());
-                let simulated = || Simulation::with_spots(plan, walls, &routes, ways, people, &scenario.crowd, &spots);
-                Source::of_crowd(watch.busy(Stage::Crowd, simulated)?, &routes)
-            }
-            (None, None) => return Err(CrowdError::NoRoutes.into()),
-        };
-        // The last people of the last day leave fresh prints.
-        let origins = source.origins(if day + 1 == days { scenario.marks.fresh_people } else { 0 });
-        let crowd = origins.len() * days as usize;
-        let footfalls = Footfalls::new(people, walls, &library, &scenario.marks, origins)?;
-        let paths = PathSampler::new(source.people());
-        Ok(Day { source, footfalls: footfalls.among(crowd).with_contacts(places.clone()), paths })
-    };
-
-    // Frames become marks, marks become stamps, and stamps are added to sums. Only the sums stay in memory.
-    let stamper = watch.busy(Stage::Stamps, || Stamper::new(&library, grid, &scenario.stamps))?;
-    let wall_stamper = watch.busy(Stage::Stamps, || WallStamper::new(&library, &wall_grid, &scenario.stamps))?;
-    let mut sums = Sums { floor: FloorSums::new(grid), walls: with_walls.then(|| WallSums::new(wall_grid)) };
-    let mut stamp = |marks: &Marks| {
-        sums.floor.add(&stamper, walls, &marks.footfalls);
-        if let (Some(lived), Some(life)) = (&mut lived, &life) {
-            let steps = marks.footfalls.iter().filter(|mark| mark.is_of_step());
-            lived.count(life, steps.map(|mark| mark.place_m));
-        }
-        if let Some(sums) = &mut sums.walls {
-            sums.add(&wall_stamper, &marks.contacts);
-        }
-    };
-    let walked = tread(days, begin, plan, &mut stamp, &watch, progress)?;
-    let mut warnings = walked.tally.describe(&routes, Some(&output.folder.join(show::PATHS_FILE)));
+    let mut warnings = walked.tally.describe(routes, Some(&output.folder.join(show::PATHS_FILE)));
     warnings.extend(walked.warning);
-    warnings.extend((days < scenario.days).then(|| "days are of simulated crowds: this motion was walked once".into()));
-    warnings.extend(lived.as_ref().and_then(LifeReport::warning));
+    let walked_once = || "days are of simulated crowds: this motion was walked once".into();
+    warnings.extend((site.days < scenario.days).then(walked_once));
+    warnings.extend(life.as_ref().and_then(LifeReport::warning));
     warnings.iter().for_each(|warning| progress.warn(warning));
 
-    // The look turns sums into texels, block by block, while the files are written.
     let crops = show::choose_crops(walls.bounds_m(), &plan.openings, walls, &walked.paths);
-    let settings = scenario.settings();
+    let (settings, doorways) = (scenario.settings(), site.places.doorways());
     let graded = Graded {
         sums: &sums,
         walls,
@@ -167,22 +119,22 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
         wall_people: walked.contact_people,
         title: title(&settings),
         seed: scenario.seed,
-        atlas,
+        atlas: site.atlas.clone(),
     };
-    let written = graded.write(&folder, &scenario.texture, &crops, &watch, progress)?;
+    let written = graded.write(&folder, &scenario.texture, &crops, watch, progress)?;
     let sums_entry =
         watch.busy(Stage::Export, || export::write_sums(&folder, &sums.floor, &written.floor, progress))?;
     if let (Some(sums), Some(textures)) = (&sums.walls, &written.walls) {
         watch.busy(Stage::Export, || export::write_wall_sums(&folder, sums, textures, progress))?;
     }
     let picture =
-        watch.busy(Stage::Export, || show::draw_paths(plan, walls, &routes, &walked.paths, &walked.tally.stuck));
+        watch.busy(Stage::Export, || show::draw_paths(plan, walls, routes, &walked.paths, &walked.tally.stuck));
     show::write_picture(&folder, show::PATHS_FILE, &picture)?;
 
     let report = Report {
-        people: PeopleReport::of(&walked.tally, &routes),
+        people: PeopleReport::of(&walked.tally, routes),
         warnings,
-        life: lived,
+        life,
         footfalls: walked.footfalls,
         contacts: walked.contacts,
         seconds: watch.seconds(),
@@ -201,7 +153,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
         look,
         doors: Some(doorways),
         settings,
-        ..Manifest::of_plan(plan, walls, &routes)
+        ..Manifest::of_plan(plan, walls, routes)
     };
     export::write_target_files(&folder, &manifest)?;
     folder.publish(&manifest)?;

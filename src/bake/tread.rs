@@ -1,4 +1,7 @@
+use std::ops::Range;
+
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::Error;
 use crate::crowd::Tally;
@@ -28,8 +31,8 @@ pub(super) struct Day<'a> {
     pub paths: PathSampler,
 }
 
-/// What has come of all days.
-#[derive(Default)]
+/// What has come of some days, beside their marks.
+#[derive(Default, Serialize, Deserialize)]
 pub(super) struct Walked {
     pub tally: Tally,
     pub people: u32,
@@ -43,11 +46,11 @@ pub(super) struct Walked {
     pub warning: Option<String>,
 }
 
-/// Passes the marks of all days to `stamp` in batches, filling the next ones while stamping some. As many days are walked
-/// at once as there are threads: their order does not matter, as sums are exact. Feet on floor that is kept clean leave no
-/// marks.
+/// Passes the marks of these days to `stamp` in batches, filling the next ones while stamping some. As many days are
+/// walked at once as there are threads: their order does not matter, as sums are exact. Of a day that is over only counts
+/// stay. Feet on floor that is kept clean leave no marks.
 pub(super) fn tread<'a>(
-    days: u32,
+    days: Range<u32>,
     begin: impl Fn(u32) -> Result<Day<'a>, Error>,
     plan: &FloorPlan,
     stamp: &mut (impl FnMut(&Marks) + Send),
@@ -56,10 +59,10 @@ pub(super) fn tread<'a>(
 ) -> Result<Walked, Error> {
     let open_day =
         |number| Ok::<_, Error>(OpenDay { number, day: begin(number)?, frame: Frame::default(), is_over: false });
-    let at_once = days.min(rayon::current_num_threads() as u32);
-    let mut open = (0..at_once).map(open_day).collect::<Result<Vec<OpenDay>, Error>>()?;
-    let mut rest = at_once..days;
-    let mut ended: Vec<OpenDay> = Vec::new();
+    let (count, mut rest) = (days.len(), days);
+    let at_once = count.min(rayon::current_num_threads());
+    let mut open = rest.by_ref().take(at_once).map(open_day).collect::<Result<Vec<OpenDay>, Error>>()?;
+    let mut ended: Vec<(u32, Walked)> = Vec::new();
     let mut batches: Vec<Marks> = Vec::new();
     while let Some(stage) = open.first().map(|open| open.day.source.stage()) {
         let (filled, ()) = rayon::join(
@@ -68,16 +71,17 @@ pub(super) fn tread<'a>(
         );
         batches = filled?;
         let walked: f64 = open.iter().map(|open| open.day.source.share_done()).sum();
-        progress.advance(stage, (walked + ended.len() as f64) / f64::from(days));
-        ended.extend(open.extract_if(.., |open| open.is_over));
-        let fresh = rest.by_ref().take(at_once as usize - open.len()).map(open_day);
+        progress.advance(stage, (walked + ended.len() as f64) / count as f64);
+        let over = open.extract_if(.., |open| open.is_over);
+        ended.extend(over.map(|over| (over.number, Walked::of_day(over.day))));
+        let fresh = rest.by_ref().take(at_once - open.len()).map(open_day);
         open.extend(fresh.collect::<Result<Vec<OpenDay>, Error>>()?);
     }
     watch.busy(Stage::Stamps, || batches.iter().for_each(stamp));
     // Days end in any order.
-    ended.sort_unstable_by_key(|ended| ended.number);
+    ended.sort_unstable_by_key(|(number, _)| *number);
     let mut walked = Walked::default();
-    ended.into_iter().for_each(|ended| walked.add(ended.day));
+    ended.into_iter().for_each(|(_, day)| walked.add(day));
     Ok(walked)
 }
 
@@ -122,17 +126,28 @@ impl OpenDay<'_> {
 }
 
 impl Walked {
-    /// Adds the next day.
-    fn add(&mut self, day: Day<'_>) {
-        let Day { source, footfalls, paths } = day;
-        self.tally.add(source.tally());
-        self.people = self.people.saturating_add(source.people());
-        self.contact_people = footfalls.contact_people();
-        self.footfalls += footfalls.count();
-        self.contacts += footfalls.contact_count();
-        if self.paths.is_empty() {
-            self.paths = paths.into_paths();
+    fn of_day(Day { source, footfalls, paths }: Day<'_>) -> Walked {
+        Walked {
+            tally: source.tally(),
+            people: source.people(),
+            contact_people: footfalls.contact_people(),
+            footfalls: footfalls.count(),
+            contacts: footfalls.contact_count(),
+            paths: paths.into_paths(),
+            warning: source.warning(),
         }
-        self.warning = self.warning.take().or(source.warning());
+    }
+
+    /// Adds the days that follow.
+    pub fn add(&mut self, later: Walked) {
+        self.tally.add(later.tally);
+        self.people = self.people.saturating_add(later.people);
+        self.contact_people = later.contact_people;
+        self.footfalls += later.footfalls;
+        self.contacts += later.contacts;
+        if self.paths.is_empty() {
+            self.paths = later.paths;
+        }
+        self.warning = self.warning.take().or(later.warning);
     }
 }

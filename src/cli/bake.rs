@@ -2,12 +2,14 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
+use clap::error::ErrorKind;
 use trodden::Error;
-use trodden::bake::{OutputOptions, bake};
+use trodden::bake::{OutputOptions, bake, bake_part};
 use trodden::export::{ExportError, LifeReport, Report, Target};
-use trodden::scenario::Overrides;
+use trodden::scenario::{Overrides, Scenario};
 
-use super::arguments::{self, ScenarioArguments};
+use super::arguments::{self, ScenarioArguments, WrongUsage};
+use super::farm::{self, Days, Form};
 use super::motion::{Alignment, Reading};
 use super::print::Refused;
 use super::progress::Watch;
@@ -48,9 +50,17 @@ pub struct Bake {
     #[command(flatten)]
     alignment: Alignment,
     /// Days that people walk, each with as many others at the same times: more prints, an evener floor [default: 1]
-    #[arg(long, help_heading = "Scenario", value_name = "N", allow_negative_numbers = true)]
-    #[arg(value_parser = clap::value_parser!(u32).range(1..=10_000))]
-    days: Option<u32>,
+    ///
+    /// With --part-of some of them: 17..32 of the scenario's, 17..32/160 of 160
+    #[arg(long, help_heading = "Scenario", value_name = "N|A..B[/N]", value_parser = farm::days, allow_hyphen_values = true)]
+    days: Option<Days>,
+    /// Bake the sums of these days alone, to a file in this folder: `trodden merge` makes a bake of all parts. A part that
+    /// is there is not baked again
+    #[arg(long, value_name = "FOLDER", help_heading = "Parts", conflicts_with_all = ["output", "motion"])]
+    part_of: Option<PathBuf>,
+    /// Tell progress and failures of a part in this form too
+    #[arg(long, value_name = "FORM", help_heading = "Parts", requires = "part_of", value_parser = farm::form())]
+    messages: Option<Form>,
     /// The folder to make [default: out/ and the scenario's name]
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
@@ -107,9 +117,10 @@ impl Bake {
         }
     }
 
-    pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
+    /// The scenario with what the command line says.
+    fn read(&self) -> anyhow::Result<Scenario> {
         let overrides = Overrides {
-            days: self.days,
+            days: self.days.and_then(|days| days.all),
             target: self.target,
             walls: self.floor_only.then_some(false),
             embed: self.embed.then_some(true),
@@ -120,7 +131,42 @@ impl Bake {
             recording: self.alignment.over(self.reading.options()),
             ..self.scenario.overrides()
         };
-        let scenario = self.scenario.with(&overrides)?;
+        self.scenario.with(&overrides)
+    }
+
+    /// Bakes a part.
+    fn bake_part(&self, job: &Path, common: &Common) -> anyhow::Result<()> {
+        let scenario = self.read()?;
+        let days = self.days.and_then(|days| days.some).unwrap_or([1, scenario.days]);
+        let watch = Watch::telling(common, self.messages);
+        let part = bake_part(&scenario, days[0]..=days[1], job, self.force, &watch)?;
+        if !common.quiet {
+            let file = part.file.display();
+            print::line(match &part.report {
+                Some(report) => {
+                    format!("{file}: {} people walked, {} footfalls", report.people.entered, report.footfalls)
+                }
+                None => format!("{file} is there already"),
+            })?;
+        }
+        Ok(())
+    }
+
+    pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
+        let usage = |message: &str| {
+            let kind = ErrorKind::ArgumentConflict;
+            Err(WrongUsage { command: &["bake"], kind, message: message.to_string() }.into())
+        };
+        if let Some(job) = &self.part_of {
+            if self.scenario.is_standard_input() {
+                return usage("a part needs a scenario or a plan that can be read again, not standard input");
+            }
+            return farm::attempt(common, self.messages, || self.bake_part(job, common));
+        }
+        if self.days.is_some_and(|days| days.some.is_some()) {
+            return usage("some of the days are a part: say with --part-of in which folder");
+        }
+        let scenario = self.read()?;
         let folder = match &self.output {
             Some(folder) => folder.clone(),
             None => Path::new("out").join(self.named_after().and_then(Path::file_stem).unwrap_or_default()),

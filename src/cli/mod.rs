@@ -13,9 +13,11 @@ mod common;
 mod crowd;
 mod diff;
 mod edit;
+mod farm;
 mod import_pattern;
 mod init;
 mod inspect;
+mod merge;
 mod motion;
 mod patterns;
 mod print;
@@ -45,6 +47,7 @@ enum Command {
     Bake(bake::Bake),
     Crowd(crowd::Crowd),
     Motion(Box<motion::Motion>),
+    Merge(merge::Merge),
     Resolve(resolve::Resolve),
     View(view::ViewCommand),
     Init(init::Init),
@@ -108,6 +111,7 @@ impl Cli {
             Command::Bake(bake) => bake.run(&self.common),
             Command::Crowd(crowd) => crowd.run(&self.common),
             Command::Motion(motion) => motion.run(&self.common),
+            Command::Merge(merge) => merge.run(&self.common),
             Command::Resolve(resolve) => resolve.run(&self.common),
             Command::View(view) => view.run(&self.common),
             Command::Init(init) => init.run(&self.common),

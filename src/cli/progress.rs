@@ -7,6 +7,7 @@ use std::sync::Mutex;
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use trodden::{Progress, Stage};
 
+use super::farm::Form;
 use super::{Common, print, signals};
 
 /// Steps of a full bar.
@@ -17,15 +18,29 @@ pub struct Watch<'a> {
     common: &'a Common,
     bars: MultiProgress,
     by_stage: Mutex<BTreeMap<Stage, ProgressBar>>,
+    /// The form of a render farm in which progress is told too, and the stage and percent that were told last.
+    form: Option<Form>,
+    told: Mutex<Option<(Stage, u32)>>,
 }
 
 impl<'a> Watch<'a> {
     /// Starts to listen for signals: the first one stops the work, the second ends the program.
     pub fn new(common: &'a Common) -> Watch<'a> {
+        Watch::telling(common, None)
+    }
+
+    /// The same, telling progress to a render farm too.
+    pub fn telling(common: &'a Common, form: Option<Form>) -> Watch<'a> {
         signals::listen();
         let shown = !common.quiet && io::stderr().is_terminal();
         let target = if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
-        Watch { common, bars: MultiProgress::with_draw_target(target), by_stage: Mutex::default() }
+        Watch {
+            common,
+            bars: MultiProgress::with_draw_target(target),
+            by_stage: Mutex::default(),
+            form,
+            told: Mutex::default(),
+        }
     }
 
     fn bar(&self, stage: Stage) -> ProgressBar {
@@ -48,6 +63,16 @@ impl Drop for Watch<'_> {
 
 impl Progress for Watch<'_> {
     fn advance(&self, stage: Stage, share: f64) {
+        if let Some(form) = self.form {
+            let mut told = self.told.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+            let percent = (100.0 * share.clamp(0.0, 1.0)) as u32;
+            if *told != Some((stage, percent)) {
+                let is_new = told.is_none_or(|(last, _)| last != stage);
+                // A farm that no longer listens does not stop the work.
+                let _ = print::line(form.progress(is_new.then_some(stage.name()), percent));
+                *told = Some((stage, percent));
+            }
+        }
         if self.bars.is_hidden() {
             return;
         }

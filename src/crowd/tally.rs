@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use serde::{Deserialize, Serialize};
+
 use super::spots::SpotReport;
 use super::stops::StopTally;
 use crate::math::Vec2;
@@ -11,7 +13,7 @@ use crate::routes::Route;
 const NAMED: usize = 5;
 
 /// Counts of people, stops and units of a simulation.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Tally {
     /// Number of people who entered.
     pub entered: u64,
@@ -52,7 +54,7 @@ impl Tally {
 }
 
 /// A person who got stuck: no progress for longer than the patience.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stuck {
     /// Number of the person.
     pub id: u32,

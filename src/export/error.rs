@@ -170,6 +170,24 @@ pub enum ExportError {
         /// Its channels.
         b_channels: String,
     },
+    /// A part of a bake is none, or does not go with the others.
+    #[error("{}: {problem}", path.display())]
+    Part {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        problem: String,
+        /// What to do about it.
+        hint: String,
+    },
+    /// Days of a bake are in none of its parts.
+    #[error("{}: no part has {days}", path.display())]
+    PartsMissing {
+        /// The folder of the parts.
+        path: PathBuf,
+        /// The days, and of how many, in words.
+        days: String,
+    },
     /// One side of a comparison is a bake, the other an image.
     #[error("{} is a folder, {} is a file", folder.display(), file.display())]
     NotAlike {
@@ -225,6 +243,8 @@ impl ExportError {
             ExportError::SizesDiffer { .. } | ExportError::ChannelsDiffer { .. } => {
                 Some("only bakes of the same plan, texel density and tile size can be compared".to_string())
             }
+            ExportError::Part { hint, .. } => Some(hint.clone()),
+            ExportError::PartsMissing { .. } => Some("bake these days, and merge again".to_string()),
             ExportError::NotAlike { .. } => Some("compare two bakes or two images".to_string()),
             _ => None,
         }

@@ -1,3 +1,5 @@
+use serde::{Deserialize, Serialize};
+
 use crate::math::Vec2;
 use crate::motion::Frame;
 
@@ -7,7 +9,7 @@ const INTERVAL_S: f64 = 0.5;
 const FOLLOWED: u32 = 300;
 
 /// The path of one person.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Path {
     /// Id of the person.
     pub id: u32,
@@ -16,7 +18,7 @@ pub struct Path {
 }
 
 /// A person's place and speed at a moment.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PathSample {
     /// Plan frame, metres.
     pub position_m: Vec2,
