@@ -117,10 +117,10 @@ impl Bake {
         }
     }
 
-    /// The scenario with what the command line says.
-    fn read(&self) -> anyhow::Result<Scenario> {
+    /// The scenario with what the command line says; `days` if it says nothing of them.
+    pub fn read(&self, days: Option<u32>) -> anyhow::Result<Scenario> {
         let overrides = Overrides {
-            days: self.days.and_then(|days| days.all),
+            days: self.days.map_or(days, |given| given.all),
             target: self.target,
             walls: self.floor_only.then_some(false),
             embed: self.embed.then_some(true),
@@ -136,7 +136,7 @@ impl Bake {
 
     /// Bakes a part.
     fn bake_part(&self, job: &Path, common: &Common) -> anyhow::Result<()> {
-        let scenario = self.read()?;
+        let scenario = self.read(None)?;
         let days = self.days.and_then(|days| days.some).unwrap_or([1, scenario.days]);
         let watch = Watch::telling(common, self.messages);
         let part = bake_part(&scenario, days[0]..=days[1], job, self.force, &watch)?;
@@ -166,7 +166,7 @@ impl Bake {
         if self.days.is_some_and(|days| days.some.is_some()) {
             return usage("some of the days are a part: say with --part-of in which folder");
         }
-        let scenario = self.read()?;
+        let scenario = self.read(None)?;
         let folder = match &self.output {
             Some(folder) => folder.clone(),
             None => Path::new("out").join(self.named_after().and_then(Path::file_stem).unwrap_or_default()),

@@ -17,6 +17,7 @@ mod farm;
 mod import_pattern;
 mod init;
 mod inspect;
+mod job;
 mod merge;
 mod motion;
 mod patterns;
@@ -48,6 +49,7 @@ enum Command {
     Crowd(crowd::Crowd),
     Motion(Box<motion::Motion>),
     Merge(merge::Merge),
+    Job(Box<job::Job>),
     Resolve(resolve::Resolve),
     View(view::ViewCommand),
     Init(init::Init),
@@ -111,6 +113,7 @@ impl Cli {
             Command::Bake(bake) => bake.run(&self.common),
             Command::Crowd(crowd) => crowd.run(&self.common),
             Command::Motion(motion) => motion.run(&self.common),
+            Command::Job(job) => job.run(&self.common),
             Command::Merge(merge) => merge.run(&self.common),
             Command::Resolve(resolve) => resolve.run(&self.common),
             Command::View(view) => view.run(&self.common),

@@ -11,6 +11,7 @@ fn every_help_text_is_as_it_is_kept() {
         (vec!["--help"], file!["help/trodden.txt"]),
         (vec!["bake", "--help"], file!["help/bake.txt"]),
         (vec!["crowd", "--help"], file!["help/crowd.txt"]),
+        (vec!["job", "--help"], file!["help/job.txt"]),
         (vec!["merge", "--help"], file!["help/merge.txt"]),
         (vec!["resolve", "--help"], file!["help/resolve.txt"]),
         (vec!["init", "--help"], file!["help/init.txt"]),

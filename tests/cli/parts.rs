@@ -231,6 +231,39 @@ fn mistakes_are_told_with_an_exit_code_that_says_whether_to_try_again() {
     sandbox.run(&[merge, &["--force"]].concat()).succeeds();
 }
 
+/// `tests/openjd/run` and `tests/slurm/run` run what is written here.
+#[test]
+fn a_job_is_written_for_a_farm_and_a_cluster() {
+    let sandbox = corridor();
+    let job = |more: &[&'static str]| sandbox.run(&[&["job", "plan.toml"][..], more].concat());
+    job(&["--parts", "4", "--openjd", "farm", "--slurm", "cluster", "--", "--seed", "3", "--use", "home"]).succeeds();
+    let text = |name: &str| fs::read_to_string(sandbox.path(name)).unwrap();
+    let template = text("farm/template.yaml");
+    for part in
+        ["range: \"1-6\"", "defaultTaskCount: 2", "{{Task.Param.Days}}/6", "default: \"plan.toml\"", "- \"home\""]
+    {
+        assert!(template.contains(part), "no {part} in {template}");
+    }
+    let script = text("cluster/bake.sbatch");
+    for part in ["--array=0-3\n", "part * 6 / 4 + 1", "/plan.toml --days", "--seed 3 --use home\n"] {
+        assert!(script.contains(part), "no {part} in {script}");
+    }
+    assert!(text("cluster/submit").contains("[ 4 -gt "));
+    for name in ["farm/template.yaml", "cluster/bake.sbatch", "cluster/merge.sbatch", "cluster/submit"] {
+        let is_open = |key| text(name).contains(&format!("@{key}@"));
+        let keys = ["NAME", "SCENARIO", "DAYS", "PARTS", "LAST", "CHUNK", "OPTIONS"];
+        assert!(!keys.into_iter().any(is_open), "{name} is not filled in");
+    }
+
+    job(&["--parts", "4", "--openjd", "farm"]).fails(1, &["farm/template.yaml", "--force"]);
+    job(&["--parts", "4", "--openjd", "farm", "--force", "--days", "9"]).succeeds();
+    assert!(text("farm/template.yaml").contains("range: \"1-9\""));
+    job(&["--parts", "7", "--openjd", "more"]).fails(2, &["7 parts of 6 days; allowed are 1 to 6"]);
+    job(&["--parts", "2"]).fails(2, &["--openjd", "--slurm"]);
+    job(&["--parts", "2", "--openjd", "more", "--", "--output", "x"]).fails(2, &["--output"]);
+    job(&["--parts", "2", "--openjd", "more", "--", "--motion", "x"]).fails(2, &["--motion"]);
+}
+
 /// Lines that Open Job Description reads from standard output.
 #[test]
 fn a_farm_is_told_of_progress_and_failures_in_its_form() {
