@@ -137,7 +137,8 @@ impl Site {
                 sums.add(&wall_stamper, &marks.contacts);
             }
         };
-        let walked = tread(days, begin, plan, &mut stamp, watch, progress)?;
+        let stage = if self.given.is_some() { Stage::Motion } else { Stage::Crowd };
+        let walked = tread(days, stage, begin, plan, &mut stamp, watch, progress)?;
         Ok(Trodden { sums, walked, life: lived })
     }
 }

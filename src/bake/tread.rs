@@ -1,4 +1,5 @@
 use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -47,42 +48,50 @@ pub(super) struct Walked {
 }
 
 /// Passes the marks of these days to `stamp` in batches, filling the next ones while stamping some. As many days are
-/// walked at once as there are threads: their order does not matter, as sums are exact. Of a day that is over only counts
-/// stay. Feet on floor that is kept clean leave no marks.
+/// begun and walked at once as there are threads: their order does not matter, as sums are exact. Of a day that is over
+/// only counts stay. Feet on floor that is kept clean leave no marks.
 pub(super) fn tread<'a>(
     days: Range<u32>,
-    begin: impl Fn(u32) -> Result<Day<'a>, Error>,
+    stage: Stage,
+    begin: impl Fn(u32) -> Result<Day<'a>, Error> + Sync,
     plan: &FloorPlan,
     stamp: &mut (impl FnMut(&Marks) + Send),
     watch: &Stopwatch,
     progress: &dyn Progress,
 ) -> Result<Walked, Error> {
-    let open_day =
-        |number| Ok::<_, Error>(OpenDay { number, day: begin(number)?, frame: Frame::default(), is_over: false });
-    let (count, mut rest) = (days.len(), days);
-    let at_once = count.min(rayon::current_num_threads());
-    let mut open = rest.by_ref().take(at_once).map(open_day).collect::<Result<Vec<OpenDay>, Error>>()?;
-    let mut ended: Vec<(u32, Walked)> = Vec::new();
+    let count = days.len();
+    let mut lanes: Vec<Lane> = (0..count.min(rayon::current_num_threads())).map(|_| Lane::default()).collect();
+    let rest = Mutex::new(days);
+    let rest = || rest.lock().unwrap_or_else(PoisonError::into_inner);
+    let open_next = || {
+        let next = rest().next();
+        next.map(|number| begin(number).map(|day| OpenDay { number, day, frame: Frame::default() })).transpose()
+    };
     let mut batches: Vec<Marks> = Vec::new();
-    while let Some(stage) = open.first().map(|open| open.day.source.stage()) {
+    while !rest().is_empty() || lanes.iter().any(|lane| lane.open.is_some()) {
+        let fill = |lane: &mut Lane<'a>| lane.fill(open_next, plan, watch, progress);
         let (filled, ()) = rayon::join(
-            || open.par_iter_mut().map(|open| open.fill(plan, watch, progress)).collect::<Result<Vec<Marks>, Error>>(),
+            || lanes.par_iter_mut().with_max_len(1).map(fill).collect::<Result<Vec<Marks>, Error>>(),
             || watch.busy(Stage::Stamps, || batches.iter().for_each(&mut *stamp)),
         );
         batches = filled?;
-        let walked: f64 = open.iter().map(|open| open.day.source.share_done()).sum();
-        progress.advance(stage, (walked + ended.len() as f64) / count as f64);
-        let over = open.extract_if(.., |open| open.is_over);
-        ended.extend(over.map(|over| (over.number, Walked::of_day(over.day))));
-        let fresh = rest.by_ref().take(at_once - open.len()).map(open_day);
-        open.extend(fresh.collect::<Result<Vec<OpenDay>, Error>>()?);
+        progress.advance(stage, lanes.iter().map(Lane::days_done).sum::<f64>() / count as f64);
     }
     watch.busy(Stage::Stamps, || batches.iter().for_each(stamp));
     // Days end in any order.
+    let mut ended: Vec<(u32, Walked)> = lanes.into_iter().flat_map(|lane| lane.ended).collect();
     ended.sort_unstable_by_key(|(number, _)| *number);
     let mut walked = Walked::default();
     ended.into_iter().for_each(|(_, day)| walked.add(day));
     Ok(walked)
+}
+
+/// Days that are walked one after another, beside those of other lanes.
+#[derive(Default)]
+struct Lane<'a> {
+    open: Option<OpenDay<'a>>,
+    /// Days that are over, by number.
+    ended: Vec<(u32, Walked)>,
 }
 
 /// A day that is being walked.
@@ -90,38 +99,70 @@ struct OpenDay<'a> {
     number: u32,
     day: Day<'a>,
     frame: Frame,
-    is_over: bool,
 }
 
-impl OpenDay<'_> {
-    /// The next batch of marks, up to the end of the motion.
-    fn fill(&mut self, plan: &FloorPlan, watch: &Stopwatch, progress: &dyn Progress) -> Result<Marks, Error> {
-        let Day { source, footfalls, paths } = &mut self.day;
+impl<'a> Lane<'a> {
+    /// The next batch of marks, up to the end of all days.
+    fn fill(
+        &mut self,
+        open_next: impl Fn() -> Result<Option<OpenDay<'a>>, Error>,
+        plan: &FloorPlan,
+        watch: &Stopwatch,
+        progress: &dyn Progress,
+    ) -> Result<Marks, Error> {
         let mut marks = Marks::default();
         while marks.footfalls.len() < BATCH {
-            progress.keep_on()?;
-            if !watch.busy(source.stage(), || source.next_frame(&mut self.frame))? {
-                watch.busy(Stage::Marks, || footfalls.finish(&mut marks.footfalls));
-                self.is_over = true;
-                break;
-            }
-            for (id, stature_m) in source.newcomers_statures() {
-                footfalls.know_stature(id, stature_m);
-            }
-            watch.busy(Stage::Marks, || footfalls.push(&self.frame, &mut marks.footfalls));
-            if self.number == 0 {
-                paths.push(&self.frame);
+            let mut open = match self.open.take() {
+                Some(open) => open,
+                None => match open_next()? {
+                    Some(open) => open,
+                    None => break,
+                },
+            };
+            if open.fill(&mut marks, watch, progress)? {
+                self.ended.push((open.number, Walked::of_day(open.day)));
+            } else {
+                self.open = Some(open);
             }
         }
-        footfalls.take_lasting(&mut marks.footfalls);
         if !plan.painted.marks.is_empty() {
             marks.footfalls.retain(|mark| {
                 let half = mark.heading * (0.5 * f64::from(mark.length_m));
                 ![mark.place_m - half, mark.place_m, mark.place_m + half].iter().any(|&p| plan.is_kept_clean(p))
             });
         }
-        footfalls.take_contacts(&mut marks.contacts);
         Ok(marks)
+    }
+
+    /// Number of days walked, the open one in part.
+    fn days_done(&self) -> f64 {
+        self.ended.len() as f64 + self.open.as_ref().map_or(0.0, |open| open.day.source.share_done())
+    }
+}
+
+impl OpenDay<'_> {
+    /// Adds the next marks, up to the end of the motion: whether that is reached.
+    fn fill(&mut self, marks: &mut Marks, watch: &Stopwatch, progress: &dyn Progress) -> Result<bool, Error> {
+        let Day { source, footfalls, paths } = &mut self.day;
+        let mut is_over = false;
+        while !is_over && marks.footfalls.len() < BATCH {
+            progress.keep_on()?;
+            if watch.busy(source.stage(), || source.next_frame(&mut self.frame))? {
+                for (id, stature_m) in source.newcomers_statures() {
+                    footfalls.know_stature(id, stature_m);
+                }
+                watch.busy(Stage::Marks, || footfalls.push(&self.frame, &mut marks.footfalls));
+                if self.number == 0 {
+                    paths.push(&self.frame);
+                }
+            } else {
+                watch.busy(Stage::Marks, || footfalls.finish(&mut marks.footfalls));
+                is_over = true;
+            }
+        }
+        footfalls.take_lasting(&mut marks.footfalls);
+        footfalls.take_contacts(&mut marks.contacts);
+        Ok(is_over)
     }
 }
 
