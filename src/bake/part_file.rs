@@ -133,6 +133,11 @@ fn difference(ours: &Value, theirs: &Value, key: &str) -> Option<String> {
         };
         return keys.filter_map(within).next();
     }
+    if let (Value::Array(a), Value::Array(b)) = (ours, theirs) {
+        let within = |(number, (a, b)): (usize, (&Value, &Value))| difference(a, b, &format!("{key}[{number}]"));
+        let longer = || (a.len() != b.len()).then(|| format!("`{key}` has {} entries, not {}", a.len(), b.len()));
+        return a.iter().zip(b).enumerate().filter_map(within).next().or_else(longer);
+    }
     let shown = |value: &Value| if value.is_null() { "left out".to_string() } else { value.to_string() };
     (ours != theirs).then(|| format!("`{key}` is {}, not {}", shown(ours), shown(theirs)))
 }
@@ -320,4 +325,53 @@ fn add(records: Vec<Record>, trodden: &mut Trodden) -> io::Result<()> {
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn assert_comes_back(scenario: &Scenario) {
+        let head = Head::of(scenario, 1..=1).unwrap();
+        let back = head.scenario(None).unwrap_or_else(|error| panic!("{error}\n{}", head.scenario));
+        assert_eq!(head.difference(&Head::of(&back, 1..=1).unwrap()), None, "{}", head.scenario);
+    }
+
+    #[test]
+    fn a_head_gives_the_scenario_back() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let samples = std::fs::read_dir(root.join("floorplans")).unwrap().map(|entry| entry.unwrap().path());
+        let samples: Vec<PathBuf> = samples.filter(|path| path.extension().is_some_and(|it| it == "toml")).collect();
+        assert!(samples.len() >= 5);
+        for path in samples {
+            for overrides in [Overrides::default(), Overrides { quick: true, seed: Some(9), ..Overrides::default() }] {
+                assert_comes_back(&Scenario::read(&path, &overrides).unwrap());
+            }
+        }
+    }
+
+    #[test]
+    fn files_beside_a_scenario_are_part_of_it() {
+        let dir = tempfile::tempdir().unwrap();
+        let write = |name: &str, text: &str| std::fs::write(dir.path().join(name), text).unwrap();
+        write("plan.png", "not looked at");
+        write("tile.png", "nor this");
+        write("look.toml", "total_passes = 777\n[floor]\nmaterial = \"wood\"\n");
+        write("times.csv", "0, 4\n60, 20\n");
+        let text = "[plan]\nimage = \"plan.png\"\n[crowd]\narrivals = { kind = \"list\", file = \"times.csv\" }\n[look]\nfile = \"look.toml\"\n\
+                    [[look.area]]\noutline = [[1, 1], [2, 2]]\nfloor = { image = \"tile.png\" }\n";
+        write("scenario.toml", text);
+        let read = || Scenario::read(&dir.path().join("scenario.toml"), &Overrides::default()).unwrap();
+        let scenario = read();
+        assert_comes_back(&scenario);
+        let before = Head::of(&scenario, 1..=1).unwrap();
+        let names: Vec<&str> = before.inputs.iter().map(|(name, _)| &**name).collect();
+        assert_eq!(names, ["plan.png", "tile.png", "times.csv"]);
+        write("tile.png", "another");
+        let difference = Head::of(&scenario, 1..=1).unwrap().difference(&before).unwrap();
+        assert_eq!(difference, "it is of another tile.png: the file has changed");
+        write("look.toml", "total_passes = 778\n");
+        let difference = Head::of(&read(), 1..=1).unwrap().difference(&before).unwrap();
+        assert!(difference.starts_with("it is of another scenario: `look."), "{difference}");
+    }
 }

@@ -231,6 +231,21 @@ fn mistakes_are_told_with_an_exit_code_that_says_whether_to_try_again() {
     sandbox.run(&[merge, &["--force"]].concat()).succeeds();
 }
 
+#[cfg(unix)]
+#[test]
+fn an_interrupted_part_leaves_nothing() {
+    let sandbox = corridor();
+    let before = sandbox.contents();
+    let run = ["bake", "plan.toml", "--people", "200000", "--part-of", "parts"];
+    let piped = std::process::Stdio::piped;
+    let child = sandbox.command(&run).stdout(piped()).stderr(piped()).spawn().unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(1500));
+    let kill = ["-INT", &child.id().to_string()];
+    assert!(std::process::Command::new("kill").args(kill).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    sandbox.ran(before, output).fails(130, &["interrupted"]);
+}
+
 /// `tests/openjd/run` and `tests/slurm/run` run what is written here.
 #[test]
 fn a_job_is_written_for_a_farm_and_a_cluster() {
