@@ -1,7 +1,7 @@
 //! `trodden`: the command line. Parse, call, print the error with its hint, exit.
 //!
 //! Exit codes: 0 done, 1 it could not be done (or `diff` found a difference), 2 the command line is wrong (or `diff` could
-//! not compare).
+//! not compare, or a part of a bake or a merge would fail again).
 
 use std::process::ExitCode;
 

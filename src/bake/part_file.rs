@@ -248,9 +248,13 @@ impl PartFile {
         Ok(PartFile { path: path.to_path_buf(), head, content })
     }
 
-    /// Whether all of the file is there, as it was written.
-    pub fn is_whole(mut self) -> bool {
-        self.each_batch(|_| Ok(())).is_ok()
+    /// Checks that all of the file is there, as it was written.
+    ///
+    /// # Errors
+    /// A file that is cut short or damaged.
+    pub fn check(mut self) -> Result<(), ExportError> {
+        let path = self.path.clone();
+        self.each_batch(|_| Ok(())).map_err(read(&path))
     }
 
     /// Adds sums and counts.

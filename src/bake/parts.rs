@@ -52,7 +52,7 @@ pub fn bake_part(
             return Err(ExportError::Part { path: file, problem, hint }.into());
         }
         // A copy that was cut short is replaced.
-        if found.is_whole() {
+        if found.check().is_ok() {
             return Ok(Part { file, report: None });
         }
     }
