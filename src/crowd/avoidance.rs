@@ -7,7 +7,7 @@ use wide::f32x8;
 
 use super::neighbours::{LANES, NOWHERE_M};
 use super::perception::Perception;
-use super::state::BodyState;
+use super::state::{BodyState, Traits};
 use crate::math::vec2;
 
 /// Distance up to which others are avoided, metres.
@@ -16,6 +16,10 @@ const HORIZON_M: f32 = 4.5;
 const CENTRE_M: f32 = 2.2;
 /// Wanted gap between two who pass each other, metres beyond their exclusion distance.
 const PASSING_M: f32 = 0.12;
+/// Least distance that detours keep off walls, metres.
+const LEAST_OFF_WALLS_M: f32 = 0.15;
+/// Share of the distance from somebody touched within which runners take headings for blocked: the others lead past.
+const ROLL_OFF: f32 = 0.8;
 /// Share of the own speed at which others who go the same way need no detour.
 const AS_FAST: f32 = 0.9;
 /// Own speed up to which nobody overtakes, and from which on everybody does who may, metres per second: in a jam, ways
@@ -106,9 +110,10 @@ struct Obstacles {
 }
 
 impl Perception<'_> {
-    /// The best detour of an agent that wants to go along the unit vector `wanted` at this speed.
-    pub(super) fn detour(&self, me: &BodyState, speed_m_s: f32, wanted: [f32; 2]) -> Detour {
-        let others = self.in_the_way(me, speed_m_s, wanted);
+    /// The best detour of an agent that wants to go along the unit vector `wanted`.
+    pub(super) fn detour(&self, me: &BodyState, traits: &Traits, wanted: [f32; 2]) -> Detour {
+        let speed_m_s = traits.speed_m_s;
+        let others = self.in_the_way(me, traits, wanted);
         if others.count == 0 {
             return Detour::NONE;
         }
@@ -125,6 +130,8 @@ impl Perception<'_> {
                 let detour = Detour { cos, sin, against: others.against };
                 let u = detour.of(wanted);
                 let cost = |free_m: f32| {
+                    // Farther on, the heading leads away from there again: runners would rather stand than step aside.
+                    let free_m = if traits.runs() { free_m.min(HORIZON_M * cos) } else { free_m };
                     // Squared distance from where the heading leads to where straight on would lead.
                     let left_over = HORIZON_M * HORIZON_M + free_m * free_m - 2.0 * HORIZON_M * free_m * cos;
                     let left = if sin > 0.0 { LEFT } else { 0.0 };
@@ -135,7 +142,7 @@ impl Perception<'_> {
                 let free_m = others.free_m(u, speed_m_s);
                 // Walls are looked up only for headings that would be taken.
                 if cost(free_m) < best.0 {
-                    let cost = cost(self.free_of_walls_m(me, u, free_m));
+                    let cost = cost(self.free_of_walls_m(me, traits.wall_exclusion_m, u, free_m));
                     if cost < best.0 {
                         best = (cost, detour);
                     }
@@ -165,7 +172,8 @@ impl Perception<'_> {
     }
 
     /// Collects those ahead who do not go the same way as fast.
-    fn in_the_way(&self, me: &BodyState, speed_m_s: f32, wanted: [f32; 2]) -> Obstacles {
+    fn in_the_way(&self, me: &BodyState, traits: &Traits, wanted: [f32; 2]) -> Obstacles {
+        let speed_m_s = traits.speed_m_s;
         let mut others = Obstacles::default();
         let (cx, cy) = (me.x + wanted[0] * CENTRE_M, me.y + wanted[1] * CENTRE_M);
         let (mut left, mut company, mut against) = (0.0, 0.5, 0.0);
@@ -194,7 +202,10 @@ impl Perception<'_> {
                 if distance_m2 > clear_m * clear_m && !self.sees(me, dx, dy) {
                     continue;
                 }
-                let touching_m = me.half_exclusion_m + body.half_exclusion_m + PASSING_M;
+                let mut touching_m = me.half_exclusion_m + body.half_exclusion_m + PASSING_M;
+                if traits.runs() {
+                    touching_m = touching_m.min(ROLL_OFF * distance_m2.sqrt());
+                }
                 others.add(dx, dy, body, distance_m2, touching_m);
             }
         });
@@ -206,11 +217,15 @@ impl Perception<'_> {
     }
 
     /// Distance along `u` that is free of walls, at most `far`, metres.
-    fn free_of_walls_m(&self, me: &BodyState, u: [f32; 2], far: f32) -> f32 {
-        let mut done = me.clearance_m;
+    fn free_of_walls_m(&self, me: &BodyState, wall_exclusion_m: f32, u: [f32; 2], far: f32) -> f32 {
+        let ground = self.environment.ground();
+        let keep_m = (wall_exclusion_m - 0.1).max(LEAST_OFF_WALLS_M);
+        let mut done = (me.clearance_m - (keep_m - LEAST_OFF_WALLS_M)).max(0.0);
         while done < far {
             let at = me.position() + vec2(f64::from(u[0]), f64::from(u[1])) * f64::from(done);
-            let free = self.environment.ground().clearance_m(at) as f32 - 0.15;
+            // In gaps, as far off as there is room.
+            let free = ground.clearance_m(at) as f32
+                - keep_m.min((ground.gap_limit_m(at) as f32 - 0.1).max(LEAST_OFF_WALLS_M));
             if free < 0.03 {
                 return done;
             }

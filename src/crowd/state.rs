@@ -68,7 +68,15 @@ pub(super) struct Traits {
     pub(super) wander: u64,
 }
 
+/// Speed from which on people run, metres per second (Alexander 1989, doi 10.1152/physrev.1989.69.4.1199).
+const RUNNING_M_S: f32 = 2.1;
+
 impl Traits {
+    /// Whether the person runs: faster than people walk.
+    pub(super) fn runs(&self) -> bool {
+        self.speed_m_s > RUNNING_M_S
+    }
+
     pub(super) fn draw(seed: u64, id: u32, options: &CrowdOptions) -> Traits {
         let rng = &mut person_stream(seed, id, Purpose::Walk);
         let mut draw = |d: &Distribution| d.draw(rng) as f32;

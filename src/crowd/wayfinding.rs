@@ -12,6 +12,8 @@ use crate::routes::{Field, Flow, Leg, Place, RouteLegs};
 const PASSED_M: f64 = 0.3;
 /// Distance over which agents follow the flow ahead, metres: it swerves into niches, people do not.
 const AHEAD_M: f64 = 2.4;
+/// Time over which runners follow the flow ahead, seconds: seen later, a bend would carry them to its outer wall.
+const RUNNERS_AHEAD_S: f64 = 3.0;
 /// Pieces of that distance on open floor, and near walls.
 const PIECES: usize = 3;
 const PIECES_AT_WALLS: usize = 6;
@@ -151,7 +153,8 @@ impl<'e> Wayfinder<'e> {
         let ground = self.environment.ground();
         let open = ground.clearance_at_least_m(p) > OPEN_M;
         let pieces = if open { PIECES } else { PIECES_AT_WALLS };
-        let step_m = AHEAD_M / pieces as f64;
+        let ahead_m = if traits.runs() { RUNNERS_AHEAD_S * f64::from(traits.speed_m_s) } else { AHEAD_M };
+        let step_m = ahead_m / pieces as f64;
         // Corners are cut no closer than that, but agents nearer to a wall may walk on.
         let margin_m = CORNER_M.min(0.9 * ground.clearance_at_least_m(p)).max(0.05);
         let first = flow.at(ground, p)?;

@@ -12,6 +12,7 @@ mod life;
 mod measures;
 mod no_gridlock;
 mod paper;
+mod paper_walls;
 mod rimea;
 mod scene;
 mod social_force;

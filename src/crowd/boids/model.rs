@@ -61,7 +61,7 @@ impl SteeringModel for Boids {
             Wayfinder::new(perception.environment).look(&mut agent, perception.time_s);
         }
         let wanted = agent.walk.wanted;
-        let detour = perception.detour(agent.body, agent.traits.speed_m_s, wanted);
+        let detour = perception.detour(agent.body, agent.traits, wanted);
         [agent.body.aim_x, agent.body.aim_y] = detour.turn(wanted, [agent.body.aim_x, agent.body.aim_y]);
         detour.against
     }

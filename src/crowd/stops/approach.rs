@@ -80,7 +80,7 @@ impl Stops {
         let straight_m = if target.squeezes { SHUFFLE_M } else { STRAIGHT_M };
         let shuffles = target.mode == ApproachMode::Stand && distance_m < straight_m;
         [body.aim_x, body.aim_y] =
-            if shuffles { wanted } else { perception.detour(body, traits.speed_m_s, wanted).turn(wanted, last) };
+            if shuffles { wanted } else { perception.detour(body, traits, wanted).turn(wanted, last) };
         walk.wanted = wanted;
         let speed_m_s = f64::from(traits.speed_m_s);
         walk.pace = match target.mode {
