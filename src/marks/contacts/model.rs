@@ -95,6 +95,7 @@ impl Contacts {
             at_m: tick.at_m,
             facing: tick.facing,
             way: way.unwrap_or(tick.facing),
+            velocity_m_s: tick.velocity_m_s,
             walked_m: std::mem::take(&mut state.walked_m),
             stood_s: std::mem::take(&mut state.stood_s),
         };
@@ -223,7 +224,9 @@ impl Contacts {
                 let on_left = step.way.cross(jambs_m[jamb] - at_m) > 0.0;
                 let mut add = |rate: f64, part: BodyPart| {
                     if rate * near > 0.0 {
-                        state.chances.push((rate * near / split, Touch::Jamb { door: number, jamb, onward, part }));
+                        state
+                            .chances
+                            .push((rate * near / split, Touch::Jamb { door: number, jamb, onward, part, near }));
                     }
                 };
                 add(options.jamb_hand_per_passage, BodyPart::Hand);
@@ -255,7 +258,7 @@ impl Contacts {
             let near = at_hand(passed.least_m - 0.5 * step.person.shoulder_width_m) * turned;
             let mut add = |rate: f64, part: BodyPart| {
                 if rate * near > 0.0 {
-                    chances.push((rate * near, Touch::Corner { corner: passed.corner, part }));
+                    chances.push((rate * near, Touch::Corner { corner: passed.corner, part, near }));
                 }
             };
             add(options.corner_per_turn, BodyPart::Hand);

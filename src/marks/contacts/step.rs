@@ -14,6 +14,7 @@ pub(super) struct ContactStep<'a> {
     pub facing: Vec2,
     /// Unit vector of the walking direction.
     pub way: Vec2,
+    pub velocity_m_s: Vec2,
     pub walked_m: f64,
     pub stood_s: f64,
 }

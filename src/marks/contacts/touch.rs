@@ -31,15 +31,24 @@ const RUBS_SPREAD_M: f64 = 0.012;
 const RUBS_BREADTH_M: f64 = 0.08;
 const RUBS_LENGTH_M: f64 = 0.22;
 const ADULT_M: f64 = 1.42;
-/// Heights at which hands push, trail along and hold a corner, and their standard deviation, metres.
+/// Heights at which hands push and hold a corner, and their standard deviation, metres.
 const PUSH_M: f64 = 1.25;
-const TRAILING_M: f64 = 1.05;
 const AT_CORNER_M: f64 = 1.15;
 const HAND_SPREAD_M: f64 = 0.08;
 /// Range of heights of buttons and switches, metres.
 const SWITCH_M: [f64; 2] = [1.05, 1.2];
-/// Ranges of the length of a drag, metres, and of the fall of a dragged hand, degrees.
-const DRAG_M: [f64; 2] = [0.2, 0.8];
+/// How far the upper arm is lifted sideways where a trailing hand just reaches the wall, as a sine, and the standard deviation
+/// of the hand's height, metres.
+const LIFTED: f64 = 0.95;
+const TRAILING_SPREAD_M: f64 = 0.03;
+/// Depth of a contact from which a hand lies flat; farther off only its fingertips touch.
+const FLAT_HAND: f64 = 0.35;
+/// Time for which a part at the wall stays on it, seconds: most of a step. Least length of what is drawn along, metres.
+const LASTS_S: f64 = 0.38;
+const LEAST_DRAG_M: f64 = 0.2;
+/// How strongly a part presses that comes as near as it can, over the median.
+const PRESS: f64 = 1.7;
+/// Range of the fall of a dragged hand, degrees.
 const FALL_DEG: [f32; 2] = [5.0, 15.0];
 /// Range of the factors on a pattern's length and breadth.
 const STRETCH: [f32; 2] = [0.85, 1.2];
@@ -79,9 +88,11 @@ pub(crate) enum Touch {
     /// The wall beside the body.
     Beside { side: WallSide, part: BodyPart },
     /// A jamb of a passed door; `onward` if passed along its `through`.
-    Jamb { door: u32, jamb: usize, onward: bool, part: BodyPart },
-    /// A corner.
-    Corner { corner: u32, part: BodyPart },
+    ///
+    /// `near` is 1 for a jamb at hand, down to 0 where it is out of reach.
+    Jamb { door: u32, jamb: usize, onward: bool, part: BodyPart, near: f64 },
+    /// A corner, as near as a jamb.
+    Corner { corner: u32, part: BodyPart, near: f64 },
     /// A fixture.
     Fixture { fixture: u32 },
 }
@@ -95,6 +106,8 @@ struct StainSpec {
     height_m: f64,
     /// Direction of a drag along the face, 1 or -1; `None` for a plain touch.
     way: Option<f64>,
+    /// Length of a drag, metres.
+    drawn_m: f64,
     /// Factor on the median density.
     hard: f64,
 }
@@ -143,8 +156,8 @@ pub(super) fn contact(
 ) -> Option<Contact> {
     let draw = &mut TouchRandom(SplitMix64::new(word));
     let stain = match *touch {
-        Touch::Beside { side, part } => beside(step, &side, part, draw)?,
-        Touch::Jamb { door, jamb, onward, part } => {
+        Touch::Beside { side, part } => beside(options, step, &side, part, draw)?,
+        Touch::Jamb { door, jamb, onward, part, near } => {
             let door = &places.doors()[door as usize];
             let (face, along_m) = door.doorway.on_faces[jamb];
             // Most people hold the edge ahead, some the edge behind.
@@ -158,12 +171,13 @@ pub(super) fn contact(
                 stain.height_m = draw.normal(door.handle_height_m(), HAND_SPREAD_M);
                 stain.form = Some(if draw.unit() < 0.6 { Form::Fingertips } else { Form::Palm });
             }
-            StainSpec { face, along_m: along_m + sign * edge_m, ..stain }
+            StainSpec { face, along_m: along_m + sign * edge_m, hard: near * stain.hard, ..stain }
         }
-        Touch::Corner { corner, part } => {
+        Touch::Corner { corner, part, near } => {
             let corner = &places.corners()[corner as usize];
             let stain = at_edge(step.person, part, AT_CORNER_M, draw);
-            StainSpec { face: corner.face, along_m: draw.normal(corner.along_m, ROUND_A_CORNER_M), ..stain }
+            let along_m = draw.normal(corner.along_m, ROUND_A_CORNER_M);
+            StainSpec { face: corner.face, along_m, hard: near * stain.hard, ..stain }
         }
         Touch::Fixture { fixture } => {
             let fixture = &places.fixtures()[fixture as usize];
@@ -187,30 +201,52 @@ fn hand_m(person: &Person, mean_m: f64, draw: &mut TouchRandom) -> f64 {
 }
 
 fn stain(cause: Cause, form: Option<Form>, height_m: f64) -> StainSpec {
-    StainSpec { cause, form, face: 0, along_m: 0.0, height_m, way: None, hard: 1.0 }
+    StainSpec { cause, form, face: 0, along_m: 0.0, height_m, way: None, drawn_m: 0.0, hard: 1.0 }
 }
 
-/// The stain on a wall beside the body.
-fn beside(step: &ContactStep, side: &WallSide, part: BodyPart, draw: &mut TouchRandom) -> Option<StainSpec> {
+/// The stain on a wall beside the body, from the contact itself.
+///
+/// With the depth `d`, 1 at the wall and 0 where the part just reaches it: a swinging part stays on the wall for
+/// `LASTS_S sqrt(d)` and draws as long a stain as the body goes along the wall in that time; it presses as `PRESS sqrt(d)`. A hand
+/// is as high as the elbow, which rises as the arm reaches out; of the arm, the elbow juts out farthest, the hip least.
+///
+/// Random are the height within a few centimetres, the place within 6 cm, and which phase of the step a shoe is in.
+fn beside(
+    options: &ContactOptions,
+    step: &ContactStep,
+    side: &WallSide,
+    part: BodyPart,
+    draw: &mut TouchRandom,
+) -> Option<StainSpec> {
     let person = step.person;
-    let onward = step.way.dot(side.direction());
-    let way = (step.walked_m > 0.0 && onward != 0.0).then(|| onward.signum());
+    let reach_m = if matches!(part, BodyPart::Arm | BodyPart::Shoulder) { options.close_m } else { options.reach_m };
+    let depth = (1.0 - side.gap_m.max(0.0) / reach_m.max(1e-3)).clamp(0.05, 1.0);
     let found = match part {
         BodyPart::Trailing | BodyPart::Hand => {
-            let form = if draw.unit() < 0.55 { Form::Drag } else { Form::Fingertips };
-            let height_m = hand_m(person, TRAILING_M, draw);
-            StainSpec { way, ..stain(Cause::Hand, Some(form), height_m) }
+            let form = if depth > FLAT_HAND { Form::Drag } else { Form::Fingertips };
+            let lifted = LIFTED * (1.0 - depth);
+            let height = SHOULDER - (SHOULDER - ELBOW) * (1.0 - lifted * lifted).sqrt();
+            stain(Cause::Hand, Some(form), draw.normal(height * person.stature_m, TRAILING_SPREAD_M))
         }
-        BodyPart::Arm => StainSpec { way, ..arm(person, draw) },
-        BodyPart::Shoulder => StainSpec { way, ..shoulder(person, draw) },
-        BodyPart::Bag => StainSpec { way, ..bag(person, draw) },
+        BodyPart::Arm => arm(person, depth, draw),
+        BodyPart::Shoulder => shoulder(person, draw),
+        BodyPart::Bag => bag(person, draw),
         BodyPart::Shoe => {
             let form = if draw.unit() < 0.7 { Form::Toe } else { Form::HeelLine };
-            StainSpec { way, ..stain(Cause::Shoe, Some(form), draw.within(TOE_M)) }
+            stain(Cause::Shoe, Some(form), draw.within(TOE_M))
         }
         BodyPart::Lean => leaning(person, side, draw),
     };
-    Some(StainSpec { face: side.face?, along_m: draw.normal(side.along_m, 0.06), ..found })
+    let onward_m_s = step.velocity_m_s.dot(side.direction());
+    let is_drawn = step.walked_m > 0.0 && onward_m_s != 0.0 && part != BodyPart::Lean;
+    Some(StainSpec {
+        face: side.face?,
+        along_m: draw.normal(side.along_m, 0.06),
+        way: is_drawn.then(|| onward_m_s.signum()),
+        drawn_m: (onward_m_s.abs() * LASTS_S * depth.sqrt()).max(LEAST_DRAG_M),
+        hard: if part == BodyPart::Lean { 1.0 } else { PRESS * depth.sqrt() },
+        ..found
+    })
 }
 
 fn shoulder(person: &Person, draw: &mut TouchRandom) -> StainSpec {
@@ -222,13 +258,14 @@ fn shoulder(person: &Person, draw: &mut TouchRandom) -> StainSpec {
     stain(Cause::Shoulder, None, draw.normal(height_m, RUBS_SPREAD_M))
 }
 
-fn arm(person: &Person, draw: &mut TouchRandom) -> StainSpec {
-    let height = match draw.unit() {
+/// The stain of an arm, `near` 0 where the elbow just touches, 1 where the hip does.
+fn arm(person: &Person, near: f64, draw: &mut TouchRandom) -> StainSpec {
+    let height = match near {
         u if u < 0.55 => ELBOW,
         u if u < 0.8 => UPPER_ARM,
         _ => HIP,
     };
-    stain(Cause::Arm, None, draw.normal(height * person.stature_m, 0.04))
+    stain(Cause::Arm, None, draw.normal(height * person.stature_m, 0.03))
 }
 
 fn bag(person: &Person, draw: &mut TouchRandom) -> StainSpec {
@@ -250,7 +287,7 @@ fn leaning(person: &Person, side: &WallSide, draw: &mut TouchRandom) -> StainSpe
     if side.is_at_side() {
         return match u {
             u if u < 0.5 => shoulder(person, draw),
-            u if u < 0.7 => arm(person, draw),
+            u if u < 0.7 => arm(person, draw.unit(), draw),
             u if u < 0.9 => stain(Cause::Hand, Some(Form::Palm), hand_m(person, PUSH_M, draw)),
             _ => stain(Cause::Shoe, Some(Form::Toe), draw.within(TOE_M)),
         };
@@ -282,10 +319,10 @@ fn at_edge(person: &Person, part: BodyPart, hand_height_m: f64, draw: &mut Touch
             if draw.unit() < 0.6 {
                 shoulder(person, draw)
             } else {
-                arm(person, draw)
+                arm(person, draw.unit(), draw)
             }
         }
-        BodyPart::Arm => arm(person, draw),
+        BodyPart::Arm => arm(person, draw.unit(), draw),
         BodyPart::Hand | BodyPart::Trailing | BodyPart::Lean => {
             let form = if draw.unit() < 0.75 { Form::Palm } else { Form::Fingertips };
             stain(Cause::Hand, Some(form), hand_m(person, hand_height_m, draw))
@@ -352,11 +389,10 @@ fn fitted(
     let is_drag = stain.way.is_some() && stain.form != Some(Form::Fingertips) && stain.form != Some(Form::Toe);
     let breadth_m = chosen.breadth_m * stretch(draw);
     let breadth_m = if stain.cause == Cause::Shoulder { breadth_m.min(RUBS_BREADTH_M) } else { breadth_m };
-    let drawn_m = DRAG_M[0] + (DRAG_M[1] - DRAG_M[0]) * draw.unit() * draw.unit();
     let length_m = match stain.cause {
         // Rubber lines and plain touches keep the pattern's length.
         Cause::Shoe => chosen.length_m * stretch(draw) * if is_drag { 1.3 } else { 1.0 },
-        _ if is_drag => drawn_m,
+        _ if is_drag => stain.drawn_m,
         // A shoulder that only leans or passes a jamb leaves no more than its own breadth.
         Cause::Shoulder => chosen.length_m.min(RUBS_LENGTH_M) * stretch(draw),
         _ => chosen.length_m * stretch(draw),

@@ -1,5 +1,6 @@
 //! What a crowd touches: where, how often, how high; measured on a corridor with doors, a narrow stretch and a turn.
 
+mod computed;
 mod heights;
 mod places;
 mod plans;
