@@ -73,7 +73,7 @@ fn paper() -> Look {
     look.mop.takes = 0.0;
     look.wear.strength = 0.0;
     look.prints.soil = 0.0;
-    look.prints.every_pass = 0.06;
+    look.prints.every_pass = 0.8;
     look.scuffs.strength = 0.0;
     look.edge.density = 0.0;
     look.dust.density = 0.0;

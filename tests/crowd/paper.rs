@@ -4,7 +4,9 @@
 use std::path::Path;
 
 use trodden::crowd::Simulation;
+use trodden::look::FloorResolver;
 use trodden::marks::{Footfalls, Mark, Origin};
+use trodden::math::srgb::light;
 use trodden::math::{Rect, Vec2, vec2};
 use trodden::motion::{Frame, Motion};
 use trodden::patterns::{Cause, PatternLibrary};
@@ -59,6 +61,11 @@ struct Seen {
 
 struct Walked {
     sums: FloorSums,
+    /// L* of each straight part, seen from above, and of one that is on nobody's way.
+    lightness: Vec<f64>,
+    untrodden: f64,
+    /// How often each cause of [`Cause::WALL`] touched a wall.
+    touches: Vec<usize>,
     parts: Vec<Seen>,
     junctions: Vec<Seen>,
     /// Least distance of a body's middle from a wall on straight parts, metres.
@@ -73,9 +80,10 @@ fn junctions() -> Vec<(Part, &'static str)> {
     ]
 }
 
-fn walk(people: u32) -> Walked {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("floorplans/corridors.toml");
-    let overrides = Overrides { preset: Some(Preset::Paper), people: Some(people), ..Overrides::default() };
+fn walk(sample: &str, seed: u64, people: u32) -> Walked {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("floorplans").join(sample);
+    let overrides =
+        Overrides { preset: Some(Preset::Paper), people: Some(people), seed: Some(seed), ..Overrides::default() };
     let scenario = Scenario::open(&path, &overrides).unwrap();
     let plan = plan::read(&scenario.plan_path().unwrap(), &scenario.plan_options()).unwrap();
     let walls = Walls::trace(&plan, &scenario.walls);
@@ -92,11 +100,14 @@ fn walk(people: u32) -> Walked {
     let junctions: Vec<Part> = junctions().into_iter().map(|(junction, _)| junction).collect();
     let mut walked = Walked {
         sums: FloorSums::new(grid),
+        lightness: Vec::new(),
+        untrodden: 0.0,
+        touches: Vec::new(),
         parts: vec![Seen::default(); parts.len()],
         junctions: vec![Seen::default(); junctions.len()],
         least_wall_m: f64::INFINITY,
     };
-    let (mut frame, mut marks) = (Frame::default(), Vec::new());
+    let (mut frame, mut marks, mut contacts) = (Frame::default(), Vec::new(), Vec::new());
     let mut before_s = 0.0;
     while crowd.next_frame(&mut frame).unwrap() {
         let step_s = frame.time_s - before_s;
@@ -115,8 +126,13 @@ fn walk(people: u32) -> Walked {
         footfalls.push(&frame, &mut marks);
     }
     footfalls.finish(&mut marks);
+    footfalls.take_contacts(&mut contacts);
+    walked.touches = Cause::WALL.iter().map(|&cause| contacts.iter().filter(|c| c.cause == cause).count()).collect();
     assert_eq!(crowd.tally().arrived, u64::from(people));
     walked.sums.add(&stamper, &walls, &marks);
+    let floor = FloorResolver::new(&walked.sums, &walls, &scenario.look, people).unwrap();
+    walked.lightness = parts.iter().map(|part| lightness(&floor, grid, part.area)).collect();
+    walked.untrodden = lightness(&floor, grid, part("western, south", UP, [15.5, 3.0], [20.5, 16.0]).area);
     for mark in marks.iter().filter(|mark: &&Mark| mark.cause == Cause::Sole) {
         let places = parts.iter().zip(&mut walked.parts).chain(junctions.iter().zip(&mut walked.junctions));
         for (part, seen) in places.filter(|(part, _)| part.area.contains(mark.place_m)) {
@@ -138,6 +154,19 @@ fn passes_per_m2(sums: &FloorSums, area: Rect) -> f64 {
     total as f64 / f64::from(Quantity::Passes.one()) / values.len() as f64
 }
 
+/// L* of the mean light of an area.
+fn lightness(floor: &FloorResolver<'_>, grid: TexelGrid, area: Rect) -> f64 {
+    let texel = |metres: f64| (metres * grid.texels_per_metre).round() as usize;
+    let (width, height) = (texel(area.width()), texel(area.height()));
+    let block = floor.resolve(texel(area.min.x) as i64, texel(area.min.y) as i64, width, height);
+    let luminance = |rgb: &[u8; 3]| {
+        let [r, g, b] = rgb.map(|byte| f64::from(light(byte)));
+        0.2126 * r + 0.7152 * g + 0.0722 * b
+    };
+    let mean = block.base_color.iter().map(luminance).sum::<f64>() / block.base_color.len() as f64;
+    116.0 * libm::cbrt(mean) - 16.0
+}
+
 fn correlation(pairs: &[(f64, f64)]) -> f64 {
     let n = pairs.len() as f64;
     let (mx, my) = (pairs.iter().map(|p| p.0).sum::<f64>() / n, pairs.iter().map(|p| p.1).sum::<f64>() / n);
@@ -147,7 +176,7 @@ fn correlation(pairs: &[(f64, f64)]) -> f64 {
 
 #[test]
 fn grime_is_what_the_paper_found() {
-    let walked = walk(1000);
+    let walked = walk("corridors.toml", 1, 1000);
     let parts = straight_parts();
 
     // On straight parts grime is proportional to the number that passed.
@@ -180,5 +209,32 @@ fn grime_is_what_the_paper_found() {
         let spread_m = across[across.len() - 1 - across.len() / 200] - across[across.len() / 200];
         println!("{:<28} prints over {:.0} % of the width", part.name, 100.0 * spread_m / (width_m - 1.0));
         assert!(spread_m >= 0.8 * (width_m - 1.0), "{}: prints over {spread_m:.2} m of {width_m} m", part.name);
+    }
+}
+
+/// The paper's figure 7, at the strength that the preset paints with.
+#[test]
+fn from_above_the_sample_is_as_dark_as_many_have_passed() {
+    for seed in 1..=3 {
+        let walked = walk("paper.toml", seed, 1000);
+        let mut pairs: Vec<(f64, f64)> =
+            walked.parts.iter().zip(&walked.lightness).map(|(seen, &l)| (seen.people.len() as f64, l)).collect();
+        let trodden = -correlation(&pairs);
+        pairs.push((0.0, walked.untrodden));
+        println!("seed {seed}: people and L* {pairs:.1?}, touches {:?}", walked.touches);
+        let r = -correlation(&pairs);
+        let darkest = walked.lightness.iter().copied().fold(f64::INFINITY, f64::min);
+        println!(
+            "seed {seed}: correlation {r:.3}, {trodden:.3} where people walk, {:.1} L*",
+            walked.untrodden - darkest
+        );
+        assert!(r.min(trodden) > 0.95, "seed {seed}: passers and luminance correlate by {r:.3} and {trodden:.3}");
+        assert!(walked.untrodden - darkest > 15.0, "seed {seed}: L* from {darkest:.1} to {:.1}", walked.untrodden);
+        // Each route is taken by a third: 3 standard deviations are 45.
+        let routes = ["southern, after the split", "middle", "eastern"];
+        for (part, seen) in straight_parts().iter().zip(&walked.parts).filter(|(part, _)| routes.contains(&part.name)) {
+            assert!(seen.people.len().abs_diff(333) < 45, "seed {seed}: {} on {}", seen.people.len(), part.name);
+        }
+        assert!(walked.touches.iter().all(|&count| count > 0), "seed {seed}: touches {:?}", walked.touches);
     }
 }

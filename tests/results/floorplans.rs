@@ -13,6 +13,8 @@ mod draw_floorplans;
 
 /// Samples whose floor is open ground around a motion that they make.
 const WITHOUT_A_PLAN: [&str; 2] = ["cavalry.toml", "swimming.toml"];
+/// Samples on the plan of another.
+const ON_ANOTHERS_PLAN: [&str; 1] = ["paper"];
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("floorplans")
@@ -41,13 +43,14 @@ fn every_image_has_a_scenario_and_none_is_left_over() {
     let mut expected: Vec<String> =
         draw_floorplans::PLANS.iter().flat_map(|(name, _)| [format!("{name}.png"), format!("{name}.toml")]).collect();
     expected.extend(WITHOUT_A_PLAN.map(str::to_string));
+    expected.extend(ON_ANOTHERS_PLAN.map(|name| format!("{name}.toml")));
     expected.sort();
     assert_eq!(names, expected);
 }
 
 #[test]
 fn every_route_of_every_scenario_is_found() {
-    for (name, _) in draw_floorplans::PLANS {
+    for name in draw_floorplans::PLANS.map(|(name, _)| name).into_iter().chain(ON_ANOTHERS_PLAN) {
         let path = folder().join(name).with_extension("toml");
         let scenario = Scenario::open(&path, &Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
         let plan = plan::read(&scenario.plan_path().unwrap(), &scenario.plan_options())
