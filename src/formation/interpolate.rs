@@ -18,7 +18,8 @@ const DECOMPOSING: f64 = 0.9;
 /// Interpolates key formations, while people keep moving as in the example.
 ///
 /// The result has the example's people and its frames from the first key's to the last key's. At each key people are in its
-/// positions; see the [module](super) for the motion in between. Degenerate formations are allowed: people at one point, in
+/// positions; see the [module](super) for the motion in between. Between two keys with the same positions nobody gets farther
+/// than 0.25 m from them. Degenerate formations are allowed: people at one point, in
 /// a line, on a grid or ring, in groups so far apart that their weights vanish.
 ///
 /// # Errors
@@ -139,6 +140,21 @@ impl<'a> KeyTransition<'a> {
         let basis = rotation.into_planes(&from.vectors);
         Ok(KeyTransition { keys: [from, to], rotation, basis, coefficients: [from.coefficients(), to.coefficients()] })
     }
+
+    /// Whether everybody is at the same place at both keys.
+    fn is_hold(&self) -> bool {
+        let [from, to] = self.keys;
+        from.centroid_m == to.centroid_m && from.relative_m == to.relative_m
+    }
+}
+
+/// Farthest that people get from their places while a formation is held, metres.
+const MOST_OFF_HELD_M: f64 = 0.25;
+
+/// A place, drawn to the one that is held: small distances stay, large ones come near [`MOST_OFF_HELD_M`].
+fn kept_near(held_m: Vec2, place_m: Vec2) -> Vec2 {
+    let off_m = place_m - held_m;
+    held_m + off_m * (MOST_OFF_HELD_M / (MOST_OFF_HELD_M * MOST_OFF_HELD_M + off_m.length_squared()).sqrt())
 }
 
 /// Composes the frames between two keys.
@@ -180,6 +196,12 @@ impl Interpolator<'_> {
             let middle = self.middle(transition, start + k);
             for (place, relative) in places_m.iter_mut().zip(as_vectors(&relative, 2 * k)) {
                 *place = middle + relative;
+            }
+            if transition.is_hold() {
+                let [held, _] = transition.keys;
+                places_m.iter_mut().zip(&held.relative_m).for_each(|(place, own)| {
+                    *place = kept_near(held.centroid_m + *own, *place);
+                });
             }
         }
     }

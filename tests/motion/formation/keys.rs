@@ -3,6 +3,7 @@
 use trodden::Silent;
 use trodden::formation::{Carry, Ease, FormationOptions, KeyFormation, interpolate};
 use trodden::math::{Vec2, vec2};
+use trodden::motion::Ensemble;
 
 use super::crowds::{farthest_m, grid, line, ring, scattered, triangle, walking};
 
@@ -44,6 +45,46 @@ fn every_key_comes_back() {
                 let off_m = farthest_m(motion.places_at(5 * k), places_m);
                 assert!(off_m < 1e-6, "{people} people, {name}: off by {off_m:e} m");
             }
+        }
+    }
+}
+
+/// Twelve people who wander up to 2 m about hold a ring for ten seconds of twenty.
+#[test]
+fn a_held_formation_is_kept_within_a_quarter_of_a_metre() {
+    for seed in 1..=3 {
+        let turn = |x: f64| trodden::math::sin_cos(x).0;
+        let person = |k: u32| f64::from(k) * 1.7 + f64::from(seed);
+        let wander = |n: u32, k: u32| {
+            let t = 0.1 * f64::from(n);
+            vec2(2.0 * turn(0.3 * t + person(k)), 2.0 * turn(0.23 * t + 2.0 * person(k)))
+        };
+        let wanders = (0..201).flat_map(|n| (0..12).map(move |k| wander(n, k))).collect();
+        let example = Ensemble::new(10.0, 0.0, (0..12).collect(), wanders);
+        let ring: Vec<Vec2> = (0..12)
+            .map(|k| {
+                vec2(3.0, 0.0).rotated({
+                    let (sin, cos) = trodden::math::sin_cos(f64::from(k) * 0.5236);
+                    vec2(cos, sin)
+                })
+            })
+            .collect();
+        let key = |time_s, places_m: &[Vec2]| KeyFormation { time_s, places_m: places_m.to_vec() };
+        let row: Vec<Vec2> = (0..12).map(|k| vec2(f64::from(k), 0.0)).collect();
+        let keys = [key(0.0, &row), key(5.0, &ring), key(15.0, &ring), key(20.0, &row)];
+        let made = interpolate(&example, &keys, &FormationOptions::default(), &Silent).unwrap();
+        let off_m = |n: usize| made.places_at(n).iter().zip(&ring).map(|(a, b)| a.distance(*b)).collect::<Vec<f64>>();
+        let all: Vec<f64> = (50..=150).flat_map(off_m).collect();
+        let [mean_m, most_m] = [all.iter().sum::<f64>() / all.len() as f64, all.iter().copied().fold(0.0, f64::max)];
+        println!("seed {seed}: {mean_m:.3} m off in the mean, {most_m:.3} m at most");
+        assert!(mean_m > 0.1 && mean_m < 0.25 && most_m <= 0.25, "seed {seed}: {mean_m} m, at most {most_m} m");
+        // Nobody jumps where the hold begins and ends.
+        let options = FormationOptions { carry: Carry::People, ease: Ease::Rest, ..FormationOptions::default() };
+        let made = interpolate(&example, &keys, &options, &Silent).unwrap();
+        let step = |n: usize, k: usize| made.places_at(n + 1)[k] - made.places_at(n)[k];
+        for (n, k) in [49, 50, 149, 150].into_iter().flat_map(|n| (0..12).map(move |k| (n, k))) {
+            let jump_m = (step(n, k) - step(n - 1, k)).length();
+            assert!(jump_m < 0.06, "seed {seed}: a step of person {k} changes by {jump_m} m at {n}");
         }
     }
 }
