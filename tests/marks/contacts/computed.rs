@@ -61,7 +61,9 @@ fn tall_people_touch_higher() {
         let of = |id: u32| {
             let hands = along_the_wall(&people, id, 0.4, 1.2).into_iter().filter(|c| c.cause == Cause::Hand);
             // A drag's middle lies below its beginning.
-            let heights = hands.map(|c| c.height_m + 0.5 * f64::from(c.length_m * c.direction_rad.sin().abs()));
+            let heights = hands.map(|c| {
+                c.height_m + 0.5 * f64::from(c.length_m) * trodden::math::sin_cos(f64::from(c.direction_rad)).0.abs()
+            });
             heights.map(|height_m| (people.person(id).stature_m, height_m)).collect::<Vec<_>>()
         };
         let pairs: Vec<(f64, f64)> = (0..60).flat_map(of).collect();

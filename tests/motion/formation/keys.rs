@@ -64,7 +64,7 @@ fn a_held_formation_is_kept_within_a_quarter_of_a_metre() {
         let ring: Vec<Vec2> = (0..12)
             .map(|k| {
                 vec2(3.0, 0.0).rotated({
-                    let (sin, cos) = trodden::math::sin_cos(f64::from(k) * 0.5236);
+                    let (sin, cos) = trodden::math::sin_cos(f64::from(k) * std::f64::consts::FRAC_PI_6);
                     vec2(cos, sin)
                 })
             })
