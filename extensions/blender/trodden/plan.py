@@ -82,7 +82,8 @@ def outline(triangles, metres_per_pixel, height=None):
         raise ValueError(f"no face points up near the height {height:.2f} m")
     least, most = floors[:, :, :2].min(axis=(0, 1)), floors[:, :, :2].max(axis=(0, 1))
     origin = least - MARGIN
-    size = numpy.ceil((most + MARGIN - origin) / metres_per_pixel).astype(int)
+    # Less a hair's breadth, so that a whole number of pixels stays one.
+    size = numpy.ceil((most + MARGIN - origin) / metres_per_pixel - 1e-4).astype(int)
     if size.max() > LARGEST:
         raise ValueError(f"the plan would have {size.max()} pixels, more than {LARGEST}: use more metres per pixel")
     free = numpy.zeros((size[1], size[0]), dtype=bool)

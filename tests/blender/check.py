@@ -1,0 +1,248 @@
+"""Checks the extension in Blender as a module: `check.py trodden.zip FOLDER [PICTURES]`, called by `run`.
+
+PICTURES, if given, is a folder that gets the rendered pictures.
+"""
+
+import importlib
+import math
+import os
+import pathlib
+import sys
+import threading
+import time
+
+import bpy
+import numpy
+
+ARCHIVE, OUT = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+PICTURES = pathlib.Path(sys.argv[3]).resolve() if len(sys.argv) > 3 and sys.argv[3] else OUT / "pictures"
+MODULE = "bl_ext.user_default.trodden"
+failed = []
+
+
+def check(right, what):
+    print(f"{'ok  ' if right else 'BAD '} {what}", flush=True)
+    if not right:
+        failed.append(what)
+
+
+def traces():
+    """What an add-on could leave behind."""
+    found = {f"class {name}" for name in dir(bpy.types) if "trodden" in name.lower()}
+    found |= {f"operator {name}" for name in dir(bpy.ops) if name == "trodden" and dir(bpy.ops.trodden)}
+    found |= {f"property {name}" for name in dir(bpy.types.Scene) if name == "trodden"}
+    for name in dir(bpy.app.handlers):
+        handlers = getattr(bpy.app.handlers, name)
+        found |= {f"handler {each}" for each in handlers if MODULE in each.__module__} if type(handlers) is list else set()
+    return found
+
+
+def fails(operator, **values):
+    """The words with which an operator fails."""
+    try:
+        operator(**values)
+    except RuntimeError as error:
+        return str(error)
+    return ""
+
+
+def room(module):
+    """A plan of 9 x 6 m, open in the west and the east, with a pillar."""
+    plan = numpy.zeros((120, 180), dtype=bool)
+    plan[10:110, 10:170] = True
+    plan[45:75, :] = True
+    plan[54:66, 84:96] = False
+    file = OUT / "room.png"
+    module.write_png(file, plan)
+    return file
+
+
+def look_down(width, height, middle):
+    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+    camera.data.type, camera.data.ortho_scale = "ORTHO", max(width, height)
+    camera.location = (*middle, 30.0)
+    bpy.context.scene.collection.objects.link(camera)
+    scene = bpy.context.scene
+    scene.camera = camera
+    scene.render.resolution_x, scene.render.resolution_y = round(width * 20), round(height * 20)
+    scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 4, False
+    scene.view_settings.view_transform = "Standard"
+    scene.world = bpy.data.worlds.new("sky")
+    scene.world.use_nodes = True
+    background = next(node for node in scene.world.node_tree.nodes if node.type == "BACKGROUND")
+    background.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+
+
+def grey(file):
+    """Lightness of a picture, row 0 at the bottom."""
+    image = bpy.data.images.load(str(file))
+    pixels = numpy.empty(image.size[0] * image.size[1] * 4, dtype=numpy.float32)
+    image.pixels.foreach_get(pixels)
+    pixels = pixels.reshape(image.size[1], image.size[0], 4)[:, :, :3].mean(axis=2)
+    bpy.data.images.remove(image)
+    return pixels
+
+
+def render(name):
+    bpy.context.scene.render.filepath = str(PICTURES / f"{name}.png")
+    bpy.ops.render.render(write_still=True)
+    return grey(PICTURES / f"{name}.png")
+
+
+def blocks(picture, rows, columns):
+    """Means of a picture's blocks."""
+    height, width = picture.shape
+    return numpy.array([[picture[i * height // rows:(i + 1) * height // rows, k * width // columns:(k + 1) * width // columns].mean()
+                         for k in range(columns)] for i in range(rows)])
+
+
+def counts():
+    return {kind: len(getattr(bpy.data, kind)) for kind in ("objects", "meshes", "materials", "images", "node_groups")}
+
+
+def settle():
+    """The first bake and import: how the plan's dirt looks in Blender."""
+    settings = bpy.context.scene.trodden
+    words = fails(bpy.ops.trodden.bake)
+    check("choose a plan" in words, f"without a plan: {words.strip()}")
+    (OUT / "broken.png").write_bytes(b"no image")
+    settings.plan = str(OUT / "broken.png")
+    words = fails(bpy.ops.trodden.bake)
+    check("broken.png" in words, f"with a broken plan: {words.strip()}")
+
+    plan = importlib.import_module(f"{MODULE}.plan")
+    settings.plan = str(room(plan))
+    # 180 pixels from side to side are 9 m.
+    bpy.ops.trodden.set_scale(x0=0, y0=60, x1=180, y1=60, metres=9.0)
+    check(math.isclose(settings.metres_per_pixel, 0.05, rel_tol=1e-6), "two points and 9 m give the scale")
+    check("far apart" in fails(bpy.ops.trodden.set_scale, x0=1, y0=1, x1=1, y1=1), "one point twice is refused")
+    settings.people, settings.use, settings.passes = 60, "hall", 60000
+    check(bpy.ops.trodden.bake() == {"FINISHED"}, "the plan is baked and imported")
+    names = sorted(thing.name for thing in bpy.data.objects)
+    check({"room", "floor_0_0", "walls_0"} <= set(names), f"objects: {', '.join(names)}")
+    floor = bpy.data.objects["floor_0_0"]
+    width, height = floor.dimensions[:2]
+    check(abs(width - 9.0) < 0.2 and abs(height - 5.0) < 0.2, f"the floor is {width:.2f} x {height:.2f} m")
+    return floor
+
+
+def compare(floor):
+    """The render from above against the program's own still."""
+    for thing in bpy.data.objects:
+        thing.hide_render = thing.type == "MESH" and thing != floor
+    look_down(9.0, 6.0, (4.5, 3.0))
+    baked = render("baked")
+    still = grey(OUT / "bakes/room/preview/floor.png")
+    # Blocks of 0.5 m; those that walls touch are left out.
+    ours, theirs = blocks(baked, 12, 18)[2:10, 2:16], blocks(still, 12, 18)[2:10, 2:16]
+    pillar = numpy.zeros(ours.shape, dtype=bool)
+    pillar[2:6, 5:9] = True
+    ours, theirs = ours[~pillar], theirs[~pillar]
+    agreement = numpy.corrcoef(ours, theirs)[0, 1]
+    check(agreement > 0.9, f"render and still agree block by block: correlation {agreement:.3f}")
+    check(abs(ours - theirs).mean() < 0.1, f"mean difference of render and still {abs(ours - theirs).mean():.3f}")
+
+
+def slide(settings):
+    settings.live = True
+    dirty = render("live")
+    settings.film = settings.prints = settings.edge = settings.marks = 0.0
+    clean = render("clean")
+    settings.film = 2.0
+    film = render("film")
+    settings.film = settings.prints = settings.edge = settings.marks = 1.0
+    inner = (slice(10, 110), slice(15, 165))
+    check(clean[inner].mean() - dirty[inner].mean() > 0.03,
+          f"sliders move the dirt: clean {clean[inner].mean():.3f}, dirty {dirty[inner].mean():.3f}")
+    # The lane between the openings against the room's corners.
+    def lane(picture):
+        return picture[30:36, 10:60].mean() - picture[12:18, 15:45].mean()
+    check(lane(film) < lane(clean) - 0.02, f"film alone darkens the lane: {lane(film):.3f}, clean {lane(clean):.3f}")
+    settings.live = False
+    check(abs(render("again")[inner] - dirty[inner]).mean() > 0.0, "the baked floor is back")
+
+
+def update(settings, floor):
+    before, mesh = counts(), floor.data.name
+    bpy.ops.trodden.update()
+    check(counts() == before, f"an update makes no doubles: {counts()}")
+    settings.people = 20
+    bpy.ops.trodden.bake()
+    check(counts() == before and bpy.data.objects["floor_0_0"].data.name == mesh, "another bake neither")
+
+
+def outline(settings):
+    """A floor that stands 2 m up, away from the origin, and is turned; a box stands on it."""
+    bpy.ops.mesh.primitive_plane_add(size=1.0, location=(40.0, 30.0, 2.0), rotation=(0.0, 0.0, math.radians(90)))
+    slab = bpy.context.object
+    slab.name, slab.scale = "slab", (4.0, 6.0, 1.0)
+    bpy.ops.mesh.primitive_cube_add(size=1.0, location=(40.0, 30.0, 2.5))
+    box = bpy.context.object
+    slab.select_set(True)
+    bpy.context.view_layer.update()
+    plan = importlib.import_module(f"{MODULE}.plan")
+    scene = importlib.import_module(f"{MODULE}.scene")
+    drawn, (x, y), height = plan.outline(scene.triangles([slab, box]), 0.05)
+    check(drawn.shape == (100, 140) and abs(drawn.sum() * 0.05 ** 2 - 23.0) < 0.3 and abs(height - 2.0) < 1e-4,
+          f"outline: {drawn.shape}, {drawn.sum() * 0.05 ** 2:.2f} m2 at {height:.2f} m")
+    settings.source, settings.name, settings.people = "MESH", "slab", 30
+    check(bpy.ops.trodden.bake() == {"FINISHED"}, "a floor of meshes is baked")
+    near = [a - b for a, b in zip(settings.origin, (36.5, 27.5, 2.0))]
+    check(max(map(abs, near)) < 1e-3, f"the dirt stands where the mesh does: {tuple(settings.origin)}")
+    check(any(node.type == "GROUP" for node in slab.material_slots[0].material.node_tree.nodes), "it lies on the mesh")
+
+    box.select_set(False)
+    slab.select_set(True)
+    check("UV" in fails(bpy.ops.trodden.project) if not slab.data.uv_layers else True, "no UV map is told")
+    settings.size = 256
+    bpy.ops.trodden.project()
+    picture = grey(OUT / "bakes/projected/slab_trodden.png")
+    check(picture.min() > 0.0 and picture.std() > 0.004, f"dirt on its own UVs: spread {picture.std():.4f}")
+    settings.source, settings.name = "PLAN", ""
+
+
+def cancel(settings):
+    """Progress is seen and a cancelled bake leaves the earlier one."""
+    program = importlib.import_module(f"{MODULE}.program")
+    bake = importlib.import_module(f"{MODULE}.bake")
+    settings.people, settings.quick = 5000, False
+    before = (OUT / "bakes/room/manifest.json").stat().st_mtime_ns
+    command, _folder, _origin = bake.prepare(bpy.context)
+    run = program.Run(command)
+    shares = []
+    threading.Timer(4.0, run.cancel).start()
+    while run.running():
+        shares.append(run.share)
+        time.sleep(0.05)
+    check(shares == sorted(shares) and len(set(shares)) > 2, f"progress grows: {len(set(shares))} steps to {shares[-1]:.2f}")
+    check(run.process.returncode != 0, "a cancelled bake ends early")
+    left = sorted(path.name for path in (OUT / "bakes").iterdir())
+    check((OUT / "bakes/room/manifest.json").stat().st_mtime_ns == before and not [name for name in left if name[0] == "."],
+          f"the earlier bake stays, nothing half done: {', '.join(left)}")
+
+
+def main():
+    PICTURES.mkdir(parents=True, exist_ok=True)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    before = traces()
+    bpy.ops.extensions.package_install_files(filepath=str(ARCHIVE), repo="user_default", enable_on_install=True)
+    check(hasattr(bpy.types.Scene, "trodden"), f"installed into Blender {bpy.app.version_string}")
+    bpy.context.preferences.addons[MODULE].preferences.program = os.environ["TRODDEN"]
+    settings = bpy.context.scene.trodden
+    settings.folder = str(OUT / "bakes")
+    floor = settle()
+    compare(floor)
+    slide(settings)
+    update(settings, floor)
+    outline(settings)
+    cancel(settings)
+    bpy.ops.preferences.addon_disable(module=MODULE)
+    check(traces() <= before, f"nothing stays behind: {', '.join(sorted(traces() - before)) or 'nothing'}")
+    bpy.ops.preferences.addon_enable(module=MODULE)
+    check(hasattr(bpy.types.Scene, "trodden"), "it can be enabled again")
+    print(f"{len(failed)} failed" if failed else "all is well")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
