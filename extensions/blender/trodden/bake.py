@@ -63,6 +63,7 @@ class TRODDEN_OT_bake(bpy.types.Operator):
     """Walk a crowd through the plan and bring in the dirt that it leaves"""
     bl_idname = "trodden.bake"
     bl_label = "Bake"
+    bl_options = {"UNDO"}
 
     timer = None
 
@@ -132,8 +133,11 @@ class TRODDEN_OT_bake(bpy.types.Operator):
         for warning in warnings:
             self.report({"WARNING"}, warning)
         settings = context.scene.trodden
+        # The place of a plan is the user's, unless meshes were baked before.
+        if self.of_meshes or settings.of_meshes:
+            settings.bake = ""
+            settings.origin = self.origin
         settings.bake, settings.of_meshes = str(self.bake), self.of_meshes
-        settings.origin = self.origin
         meshes = [bpy.data.objects[name] for name in self.meshes if name in bpy.data.objects]
         return bring_in(self, context, meshes)
 

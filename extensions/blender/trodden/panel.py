@@ -28,8 +28,7 @@ def draw_panel(self, context):
     if bake.current is None:
         layout.operator("trodden.bake", icon="PLAY")
     else:
-        run = bake.current
-        layout.progress(factor=run.share, text=f"{run.stage}, {run.seconds():.0f} s")
+        layout.progress(factor=bake.current.share, text=bake.current.said())
         layout.operator("trodden.cancel", icon="CANCEL")
     layout.separator()
     layout.prop(settings, "bake")

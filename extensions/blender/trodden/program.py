@@ -1,5 +1,6 @@
 """Runs the trodden program and reads what it prints. Knows nothing of Blender."""
 
+import codecs
 import json
 import os
 import re
@@ -47,12 +48,11 @@ class Run:
     """A bake that runs beside Blender. `share` and `stage` tell how far it is."""
 
     def __init__(self, command):
-        self.share, self.stage, self.text = 0.0, "plan", ""
+        self.share, self.stage, self.text = 0.0, "", ""
         self.cancelled = False
         self.started = time.monotonic()
         read, write = self._channel()
-        options = {"creationflags": subprocess.CREATE_NEW_PROCESS_GROUP | subprocess.CREATE_NO_WINDOW} \
-            if sys.platform == "win32" else {"start_new_session": True}
+        options = {"creationflags": subprocess.CREATE_NO_WINDOW} if sys.platform == "win32" else {"start_new_session": True}
         self.process = subprocess.Popen(
             command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=write or subprocess.PIPE, **options)
         if write:
@@ -76,6 +76,7 @@ class Run:
         return read, write
 
     def _read(self):
+        decoder = codecs.getincrementaldecoder("utf-8")("replace")
         while True:
             try:
                 piece = self.source.read(4096)
@@ -83,7 +84,7 @@ class Run:
                 break
             if not piece:
                 break
-            self.text = (self.text + piece.decode("utf-8", "replace"))[-100_000:]
+            self.text = (self.text + decoder.decode(piece))[-100_000:]
             for stage, percent in BAR.findall(ESCAPES.sub("", self.text[-4000:])):
                 self._advance(stage, int(percent) / 100)
         self.source.close()
@@ -101,14 +102,20 @@ class Run:
     def running(self):
         return self.process.poll() is None
 
-    def seconds(self):
-        return time.monotonic() - self.started
+    def said(self):
+        """The stage, if the program shows it, and the time so far."""
+        return " ".join(filter(None, (self.stage, f"{time.monotonic() - self.started:.0f} s")))
 
     def cancel(self):
         """Asks the program to stop, as Ctrl-C does: it leaves nothing behind."""
         self.cancelled = True
-        if self.running():
-            self.process.send_signal(signal.CTRL_BREAK_EVENT if sys.platform == "win32" else signal.SIGINT)
+        if not self.running():
+            return
+        if sys.platform == "win32":
+            # Ctrl-C reaches only programs of the same console, and Blender has none.
+            self.process.terminate()
+        else:
+            self.process.send_signal(signal.SIGINT)
 
     def end(self, patience=10.0):
         """Waits for the end of a cancelled run, and forces it if it does not come."""

@@ -11,8 +11,8 @@ from . import trodden_blender as dirt
 
 GROUP = "Trodden dirt "
 LIVE = "Trodden floor "
-# Where an imported object was before the plan was moved to its place.
-HOME = "trodden_home"
+# How far an imported object has been moved from the world's origin by the plan's place; the rest is the user's.
+PLACED = "trodden_placed"
 
 
 def triangles(objects):
@@ -56,12 +56,16 @@ def bring_in(bake, origin, with_scene):
     manifest = read_manifest(bake)
     if with_scene and (bake / "scene.glb").is_file():
         dirt.import_scene(bake)
-        for thing in objects_of(bake):
-            if thing.parent is None:
-                if HOME not in thing:
-                    thing[HOME] = thing.location[:]
-                thing.location = Vector(thing[HOME]) + Vector(origin)
+        place(bake, origin)
     return dirt.make_group(bake, manifest)
+
+
+def place(bake, origin):
+    """Moves what was imported of a bake with the plan's place."""
+    for thing in objects_of(bake):
+        if thing.parent is None:
+            thing.location += Vector(origin) - Vector(thing.get(PLACED, (0.0, 0.0, 0.0)))
+            thing[PLACED] = origin[:]
 
 
 def group_of(bake):
@@ -78,12 +82,14 @@ def group_nodes(group=None):
 
 
 def set_amounts(settings):
-    """Gives all nodes of the bake what the sliders and the place say."""
+    """Gives all nodes of the bake, and its objects, what the sliders and the place say."""
     group = group_of(settings.bake)
     for node in group_nodes(group) if group else ():
         for name in dirt.AMOUNTS:
             node.inputs[name].default_value = getattr(settings, name.lower())
         node.inputs["Offset"].default_value = settings.origin
+    if group:
+        place(Path(settings.bake), settings.origin)
 
 
 def new_material(name, colour):
