@@ -34,7 +34,8 @@ def traces():
     found |= {f"property {name}" for name in dir(bpy.types.Scene) if name == "trodden"}
     for name in dir(bpy.app.handlers):
         handlers = getattr(bpy.app.handlers, name)
-        found |= {f"handler {each}" for each in handlers if MODULE in each.__module__} if type(handlers) is list else set()
+        if type(handlers) is list:
+            found |= {f"handler {each}" for each in handlers if MODULE in each.__module__}
     return found
 
 
@@ -93,8 +94,8 @@ def render(name):
 def blocks(picture, rows, columns):
     """Means of a picture's blocks."""
     height, width = picture.shape
-    return numpy.array([[picture[i * height // rows:(i + 1) * height // rows, k * width // columns:(k + 1) * width // columns].mean()
-                         for k in range(columns)] for i in range(rows)])
+    down, across = ([k * size // count for k in range(count + 1)] for size, count in ((height, rows), (width, columns)))
+    return numpy.array([[picture[a:b, c:d].mean() for c, d in zip(across, across[1:])] for a, b in zip(down, down[1:])])
 
 
 def counts():
@@ -139,6 +140,60 @@ def draw():
         check({wanted, "trodden.bake", "film"} <= set(shown.layout.drawn), f"the panel of {area} has its parts")
     bpy.ops.trodden.show_plan()
     check(any(image.name == "room.png" for image in bpy.data.images), "the plan can be shown")
+
+
+def stand_in(operator):
+    """An operator's functions on a plain object: Blender makes operators itself, and modal ones only in a window."""
+    made = type("StandIn", (), {name: value for name, value in vars(operator).items() if name[:2] != "__"})()
+    made.said = []
+    made.report = lambda kind, words: made.said.append((kind, words))
+    return made
+
+
+def event(kind, value="NOTHING", x=0, y=0):
+    return types.SimpleNamespace(type=kind, value=value, mouse_x=x, mouse_y=y)
+
+
+def click():
+    """Two clicks in an image editor whose picture is shown at 2 screen pixels per pixel, 100 from the left."""
+    tools = importlib.import_module(f"{MODULE}.tools")
+    settings = bpy.context.scene.trodden
+    view = types.SimpleNamespace(region_to_view=lambda x, y: (x / 360, y / 240))
+    region = types.SimpleNamespace(type="WINDOW", x=100, y=0, view2d=view)
+    headers = []
+    context = types.SimpleNamespace(
+        area=types.SimpleNamespace(regions=[region], header_text_set=headers.append),
+        space_data=types.SimpleNamespace(image=bpy.data.images["room.png"]),
+        window_manager=types.SimpleNamespace(modal_handler_add=lambda _operator: None))
+    scale = stand_in(tools.TRODDEN_OT_scale)
+    before = settings.metres_per_pixel
+    results = [scale.invoke(context, None), scale.modal(context, event("MOUSEMOVE")),
+               scale.modal(context, event("LEFTMOUSE", "PRESS", 110, 30)),
+               scale.modal(context, event("LEFTMOUSE", "PRESS", 150, 60))]
+    # 20 and 15 pixels; the dialog's default is a metre.
+    right = math.isclose(settings.metres_per_pixel, 1 / 25, rel_tol=1e-5)
+    check(right and results[-1] == {"FINISHED"} and headers[-1] is None,
+          f"two clicks give {settings.metres_per_pixel:.4f} m per pixel")
+    settings.metres_per_pixel = before
+
+
+def run_modal():
+    """A bake beside a window: it is asked by a timer, and the panel shows how far it is."""
+    bake, panel = (importlib.import_module(f"{MODULE}.{name}") for name in ("bake", "panel"))
+    manager = types.SimpleNamespace(windows=[], event_timer_remove=lambda _timer: None)
+    context = types.SimpleNamespace(
+        scene=bpy.context.scene, preferences=bpy.context.preferences, window_manager=manager, selected_objects=[],
+        area=types.SimpleNamespace(type="VIEW_3D"))
+    operator = stand_in(bake.TRODDEN_OT_bake)
+    started, result, words = operator.start(context), {"PASS_THROUGH"}, set()
+    while started and result == {"PASS_THROUGH"}:
+        shown = types.SimpleNamespace(layout=Layout())
+        panel.draw_panel(shown, context)
+        words |= {text for text in shown.layout.drawn if text.endswith(" s")}
+        time.sleep(0.05)
+        result = operator.modal(context, event("TIMER"))
+    check(result == {"FINISHED"} and len(words) > 1, f"beside a window: {', '.join(sorted(words))}")
+    check(bake.TRODDEN_OT_bake.poll(context), "another bake can follow")
 
 
 def settle():
@@ -284,7 +339,8 @@ def cancel(settings):
     watcher.start()
     result = bpy.ops.trodden.bake()
     watcher.join()
-    check(shares == sorted(shares) and len(set(shares)) > 1, f"progress grows: {len(set(shares))} steps to {shares[-1]:.2f}")
+    steps = len(set(shares))
+    check(shares == sorted(shares) and steps > 1, f"progress grows: {steps} steps to {shares[-1]:.2f}")
     check(result == {"CANCELLED"} and bake.current is None, "a cancelled bake ends")
     left = sorted(path.name for path in (OUT / "bakes").iterdir())
     check(manifest.stat().st_mtime_ns == before and not [name for name in left if name[0] == "."],
@@ -304,6 +360,8 @@ def main():
     slide(settings, compare(floor))
     update(settings, floor)
     draw()
+    click()
+    run_modal()
     outline(settings)
     cancel(settings)
     bpy.ops.preferences.addon_disable(module=MODULE)

@@ -52,7 +52,8 @@ class Run:
         self.cancelled = False
         self.started = time.monotonic()
         read, write = self._channel()
-        options = {"creationflags": subprocess.CREATE_NO_WINDOW} if sys.platform == "win32" else {"start_new_session": True}
+        windows = sys.platform == "win32"
+        options = {"creationflags": subprocess.CREATE_NO_WINDOW} if windows else {"start_new_session": True}
         self.process = subprocess.Popen(
             command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=write or subprocess.PIPE, **options)
         if write:

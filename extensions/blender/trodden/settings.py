@@ -51,7 +51,8 @@ class TroddenSettings(bpy.types.PropertyGroup):
         update=lambda settings, _context: scene.set_amounts(settings))
     of_meshes: BoolProperty(options={"HIDDEN"})
     live: BoolProperty(
-        name="Sliders on the imported floor", description="Lays the dirt over a clean floor instead of the baked colours",
+        name="Sliders on the imported floor",
+        description="Lays the dirt over a clean floor instead of the baked colours",
         update=lambda settings, _context: scene.show_floor(settings))
     colour: FloatVectorProperty(
         name="Clean floor", subtype="COLOR", min=0.0, max=1.0, default=(0.565, 0.539, 0.491),

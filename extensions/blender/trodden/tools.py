@@ -115,7 +115,8 @@ class TRODDEN_OT_set_scale(bpy.types.Operator):
     metres: FloatProperty(name="Metres", min=0.0, default=1.0, precision=3)
 
     def invoke(self, context, _event):
-        return context.window_manager.invoke_props_dialog(self)
+        # Without a window there is nobody to ask.
+        return self.execute(context) if bpy.app.background else context.window_manager.invoke_props_dialog(self)
 
     def execute(self, context):
         try:
