@@ -301,6 +301,7 @@ def outline(settings):
     near = [a - b for a, b in zip(settings.origin, (36.5, 27.5, 2.0))]
     check(max(map(abs, near)) < 1e-3, f"the dirt stands where the mesh does: {tuple(settings.origin)}")
     check(any(node.type == "GROUP" for node in slab.material_slots[0].material.node_tree.nodes), "it lies on the mesh")
+    check(not box.material_slots, "what stands on it keeps its material")
 
     layers = box.data.uv_layers
     layers.remove(layers[0])

@@ -23,14 +23,14 @@ def chosen_meshes(context):
 
 
 def prepare(context):
-    """Writes the scenario; returns the command, the bake's folder and the plan's place in the world."""
+    """Writes the scenario; returns the command, the bake's folder, the plan's place, and the meshes that are floor."""
     settings = context.scene.trodden
     preferences = context.preferences.addons[__package__].preferences
     executable = program.find(bpy.path.abspath(preferences.program))
     if executable is None:
         raise ValueError("the trodden program was not found: choose it in this add-on's preferences")
     folder = folder_of(settings)
-    origin, metres_per_pixel = (0.0, 0.0, 0.0), settings.metres_per_pixel or None
+    origin, metres_per_pixel, floors = (0.0, 0.0, 0.0), settings.metres_per_pixel or None, []
     if settings.source == "MESH":
         meshes = chosen_meshes(context)
         if not meshes:
@@ -38,6 +38,8 @@ def prepare(context):
         metres_per_pixel = settings.outline_metres_per_pixel
         drawn, (x, y), height = plan.outline(scene.triangles(meshes), metres_per_pixel)
         name, origin = settings.name or bpy.path.clean_name(meshes[0].name), (x, y, height)
+        # What stands on the floor keeps its material: the dirt is known from above only.
+        floors = [thing for thing in meshes if len(plan.floor_of(scene.triangles([thing]), height))]
         folder.mkdir(parents=True, exist_ok=True)
         source = folder / f"{name}.outline.png"
         plan.write_png(source, drawn)
@@ -56,7 +58,7 @@ def prepare(context):
             encoding="utf-8")
         source = file
     command = [executable, "bake", str(source), "--target", "blender", "--force", "--color", "never", "-o", str(bake)]
-    return command + (["--quick"] if settings.quick else []), bake, origin
+    return command + (["--quick"] if settings.quick else []), bake, origin, floors
 
 
 class TRODDEN_OT_bake(bpy.types.Operator):
@@ -74,13 +76,14 @@ class TRODDEN_OT_bake(bpy.types.Operator):
     def start(self, context):
         global current
         try:
-            command, self.bake, self.origin = prepare(context)
+            command, self.bake, self.origin, floors = prepare(context)
             current = program.Run(command)
         except (ValueError, OSError) as error:
             self.report({"ERROR"}, str(error))
             return False
         self.of_meshes = context.scene.trodden.source == "MESH"
-        self.meshes = [thing.name for thing in chosen_meshes(context)] if self.of_meshes else []
+        # By name: an undo while the program runs makes all objects anew.
+        self.meshes = [thing.name for thing in floors]
         return True
 
     def execute(self, context):

@@ -45,6 +45,12 @@ def floor_height(triangles):
     return float(numpy.average(heights[bins == best], weights=area[flat][bins == best]))
 
 
+def floor_of(triangles, height):
+    """The triangles that point up near a height."""
+    up, area = _normals(triangles)
+    return triangles[(up > UP) & (numpy.abs(triangles[:, :, 2].mean(axis=1) - height) < STEP) & (area > 0)]
+
+
 def _fill(mask, corners):
     """Sets the pixels whose centres lie in a triangle; corners in pixels."""
     low = numpy.maximum(numpy.floor(corners.min(axis=0)).astype(int), 0)
@@ -76,8 +82,7 @@ def outline(triangles, metres_per_pixel, height=None):
     """
     triangles = numpy.asarray(triangles, dtype=float)
     height = floor_height(triangles) if height is None else height
-    up, area = _normals(triangles)
-    floors = triangles[(up > UP) & (numpy.abs(triangles[:, :, 2].mean(axis=1) - height) < STEP) & (area > 0)]
+    floors = floor_of(triangles, height)
     if len(floors) == 0:
         raise ValueError(f"no face points up near the height {height:.2f} m")
     least, most = floors[:, :, :2].min(axis=(0, 1)), floors[:, :, :2].max(axis=(0, 1))
