@@ -56,25 +56,19 @@ impl Image {
         match self {
             Image::BaseColor => copy(block.base_color.as_flattened(), out),
             Image::Mask(covered) => {
+                let [red, green, blue] = covered.packed_masks();
                 for (pixel, masks) in out.as_chunks_mut().0.iter_mut().zip(&block.mask[from..]) {
-                    *pixel = covered.packed_masks().map(|kind| masks[kind]);
+                    *pixel = [masks[red], masks[green], masks[blue]];
                 }
             }
             Image::LoneMask(covered) => {
+                let kind = covered.lone_mask();
                 for (pixel, masks) in out.iter_mut().zip(&block.mask[from..]) {
-                    *pixel = masks[covered.lone_mask()];
+                    *pixel = masks[kind];
                 }
             }
-            Image::Wear => {
-                for (k, pixel) in out.as_chunks_mut().0.iter_mut().enumerate() {
-                    *pixel = wear(block.relief.get(from + k).copied().unwrap_or(FLAT));
-                }
-            }
-            Image::Normal(green) => {
-                for (k, pixel) in out.as_chunks_mut().0.iter_mut().enumerate() {
-                    *pixel = normal(block.relief.get(from + k).copied().unwrap_or(FLAT), green);
-                }
-            }
+            Image::Wear => copy_relief(&block.relief, from, out, wear),
+            Image::Normal(green) => copy_relief(&block.relief, from, out, |relief| normal(relief, green)),
             Image::Rub if rub.is_empty() => out.fill(0),
             Image::Rub => copy(rub.as_flattened(), out),
             Image::Orm => copy(block.orm.as_flattened(), out),
@@ -108,6 +102,16 @@ pub(super) enum GreenPoints {
     Up,
     /// As DirectX has it.
     Down,
+}
+
+/// Sets pixels from the relief of texels from `from` on; without any the surface is flat.
+fn copy_relief(relief: &[[u8; 6]], from: usize, out: &mut [u8], pixel: impl Fn([u8; 6]) -> [u8; 3]) {
+    let pixels = out.as_chunks_mut().0;
+    if relief.is_empty() {
+        pixels.fill(pixel(FLAT));
+    } else {
+        pixels.iter_mut().zip(&relief[from..]).for_each(|(out, relief)| *out = pixel(*relief));
+    }
 }
 
 fn wear([wear, marks, height, ..]: [u8; 6]) -> [u8; 3] {

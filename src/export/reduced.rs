@@ -95,11 +95,13 @@ impl ReducedBlock {
             for (column, sums) in sums.iter_mut().enumerate() {
                 let texels = column * factor..width.min((column + 1) * factor);
                 sums.count += texels.len() as u32;
-                for texel in row + texels.start..row + texels.end {
-                    sums.base_color.add(block.base_color[texel]);
-                    block.clean.get(texel).iter().for_each(|light| sums.clean.add_linear(**light));
-                    for (sum, value) in sums.orm.iter_mut().zip(block.orm[texel]) {
-                        *sum += u32::from(value);
+                let of_row = row + texels.start..row + texels.end;
+                block.base_color[of_row.clone()].iter().for_each(|colour| sums.base_color.add(*colour));
+                let clean = block.clean.get(of_row.clone()).unwrap_or_default();
+                clean.iter().for_each(|light| sums.clean.add_linear(*light));
+                for orm in &block.orm[of_row] {
+                    for (sum, value) in sums.orm.iter_mut().zip(orm) {
+                        *sum += u32::from(*value);
                     }
                 }
                 for (sum, opacity) in sums.dirt.iter_mut().zip(&opacity) {

@@ -14,14 +14,17 @@ pub(crate) struct LightSum {
 }
 
 impl LightSum {
+    #[inline]
     pub(crate) fn add(&mut self, colour: Srgb8) {
-        self.add_linear(colour.map(to_linear));
+        let [red, green, blue] = colour;
+        self.add_linear([to_linear(red), to_linear(green), to_linear(blue)]);
     }
 
     /// Adds linear light, 0 to 65 535.
+    #[inline]
     pub(crate) fn add_linear(&mut self, light: [u16; 3]) {
-        for (sum, value) in self.light.iter_mut().zip(light) {
-            *sum += u32::from(value);
+        for (sum, value) in self.light.iter_mut().zip(&light) {
+            *sum += u32::from(*value);
         }
         self.count += 1;
     }
@@ -44,6 +47,7 @@ impl LightSum {
 }
 
 /// The mean of `count` whole numbers, rounded to the nearest; halves go up.
+#[inline]
 pub(crate) fn rounded_mean(sum: u32, count: u32) -> u32 {
     ((u64::from(sum) + u64::from(count) / 2) / u64::from(count)) as u32
 }

@@ -134,11 +134,13 @@ impl ResolvedBlock {
     }
 
     /// Sets the normal of texel `k` from its slope along the texture's right and its upper side.
+    #[inline]
     pub(super) fn set_normal(&mut self, k: usize, [x, y]: [f32; 2]) {
         let length = (x * x + y * y + 1.0).sqrt();
-        for (byte, part) in self.relief[k][3..].iter_mut().zip([-x, -y, 1.0]) {
-            *byte = (127.5 + 127.5 * part / length).round() as u8;
-        }
+        // Rounds: all of it is positive.
+        let byte = |part: f32| (127.5 + 127.5 * part / length + 0.5) as u8;
+        let [_, _, _, right, up, out] = &mut self.relief[k];
+        (*right, *up, *out) = (byte(-x), byte(-y), byte(1.0));
     }
 
     /// Sets texels to the background.

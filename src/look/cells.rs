@@ -5,16 +5,19 @@ use super::noise;
 use crate::math::smoothstep_f32;
 
 /// A hashed number from 0 to 1.
+#[inline]
 pub(super) fn unit(key: u32, i: i32, j: i32) -> f32 {
     (noise::hash(key, i, j) >> 8) as f32 / 16_777_216.0
 }
 
 /// Another number from 0 to 1 of the same piece.
+#[inline]
 pub(super) fn again(word: u32, n: u32) -> f32 {
     (noise::mix(word ^ n.wrapping_mul(0x9e37_79b9)) >> 8) as f32 / 16_777_216.0
 }
 
 /// Rises smoothly from 0 to 1 while `x` goes from `from` to `to`.
+#[inline]
 pub(super) fn rise(x: f32, from: f32, to: f32) -> f32 {
     smoothstep_f32((x - from) / (to - from))
 }
@@ -29,6 +32,7 @@ pub(super) fn smooth(key: u32, x: f64, y: f64) -> f32 {
 }
 
 /// [`smooth`] along the row `j`.
+#[inline]
 pub(super) fn smooth_along(key: u32, x: f64, j: i32) -> f32 {
     let i = x.floor();
     let f = smoothstep_f32((x - i) as f32);

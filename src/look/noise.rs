@@ -4,6 +4,7 @@
 use super::lattice::{SplineAxis, SplineLattice, TexelWindow};
 
 /// Mixes the bits of a 32-bit word (Wellons' `lowbias32`).
+#[inline]
 pub(super) fn mix(mut x: u32) -> u32 {
     x ^= x >> 16;
     x = x.wrapping_mul(0x7feb_352d);
@@ -13,21 +14,25 @@ pub(super) fn mix(mut x: u32) -> u32 {
 }
 
 /// Hash of a lattice point.
+#[inline]
 pub(super) fn hash(key: u32, i: i32, j: i32) -> u32 {
     mix(column_word(i) ^ row_key(key, j))
 }
 
 /// Part of [`hash`] that is constant along a row.
+#[inline]
 pub(super) fn row_key(key: u32, j: i32) -> u32 {
     mix((j as u32).wrapping_add(key))
 }
 
 /// Part of [`hash`] that varies along a row.
+#[inline]
 pub(super) fn column_word(i: i32) -> u32 {
     (i as u32).wrapping_mul(0x9e37_79b1)
 }
 
 /// Hash of a lattice point as a number in `[-1, 1)`.
+#[inline]
 pub(super) fn signed(key: u32, i: i32, j: i32) -> f32 {
     hash(key, i, j) as i32 as f32 / 2_147_483_648.0
 }

@@ -44,6 +44,7 @@ pub fn pow(base: f64, exponent: f64) -> f64 {
 }
 
 /// From 0 at 0 to 1 at 1 without a kink at either end: 3 t^2 - 2 t^3, constant beyond.
+#[inline]
 pub(crate) fn smoothstep(t: f64) -> f64 {
     let t = t.clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
@@ -60,6 +61,7 @@ pub(crate) fn smoothstep_f32(t: f32) -> f32 {
 ///
 /// Relative error below 4e-7 over `[-87, 88]`; arguments beyond are clamped to that range.
 /// Formula: `2^n * p(r)` with `x = n ln 2 + r`, `|r| <= ln 2 / 2`, `p` the Taylor polynomial of degree 6.
+#[inline]
 pub(crate) fn exp_f32(x: f32) -> f32 {
     const LN2_HIGH: f32 = 0.693_359_4;
     const LN2_LOW: f32 = -2.121_944_4e-4;
@@ -80,6 +82,7 @@ pub(crate) fn exp_f32(x: f32) -> f32 {
 ///
 /// Error below 3e-7 of the larger of 1 and the result. Formula: `n ln 2 + 2 artanh s` with `x = 2^n m`,
 /// `sqrt(1/2) <= m < sqrt 2`, `s = (m - 1) / (m + 1)`, by the series of artanh to `s^9`.
+#[inline]
 pub(crate) fn ln_f32(x: f32) -> f32 {
     const SQRT_HALF: u32 = 0x3f35_04f3;
     let shifted = x.to_bits().wrapping_sub(SQRT_HALF);

@@ -21,6 +21,7 @@ pub(crate) fn encode(light: f64) -> f64 {
 ///
 /// A polynomial in the fourth root (the curve is 1.055 root^(5/3) - 0.055), fitted at Chebyshev points: off by less than
 /// 0.003 of an 8-bit step, and compilers vectorise it.
+#[inline]
 pub(crate) fn encode_f32(light: f32) -> f32 {
     let light = light.clamp(0.0, 1.0);
     let t = light.sqrt().sqrt();
@@ -54,11 +55,13 @@ pub(crate) fn light_of(colour: Srgb8) -> [f32; 3] {
 }
 
 /// Linear light of an sRGB byte, 0 to 65 535: sums of it do not depend on their order.
+#[inline]
 pub(crate) fn to_linear(byte: u8) -> u16 {
     LINEAR[usize::from(byte)]
 }
 
 /// The sRGB byte nearest to a linear light of 0 to 65 535.
+#[inline]
 pub(crate) fn from_linear(linear: u16) -> u8 {
     NEAREST[usize::from(linear)]
 }

@@ -118,8 +118,9 @@ impl<'a> WallPainter<'a> {
             for row in 0..window.height {
                 layout.begin_row(row);
                 layout.gather(&self.law, window, row, buffers);
-                any |= self.law.shade(&buffers.known, &mut buffers.shaded);
-                self.write(strip, window, row, buffers, block);
+                let is_dirty = self.law.shade(&buffers.known, &mut buffers.shaded);
+                any |= is_dirty;
+                self.write(strip, window, (row, is_dirty), buffers, block);
             }
             any
         })
@@ -129,7 +130,7 @@ impl<'a> WallPainter<'a> {
         &self,
         strip: &FaceStrip,
         window: &TexelWindow,
-        row: usize,
+        (row, is_dirty): (usize, bool),
         buffers: &mut WallBuffers,
         block: &mut ResolvedBlock,
     ) {
@@ -140,7 +141,12 @@ impl<'a> WallPainter<'a> {
             mask: &mut block.mask[texels.clone()],
             orm: &mut block.orm[texels.clone()],
         };
-        shaded.write(self.dither ^ strip.salt, window.i0, window.j0 + row as i64, &mut bytes);
+        if is_dirty {
+            shaded.write(self.dither ^ strip.salt, window.i0, window.j0 + row as i64, &mut bytes);
+        } else {
+            bytes.mask.fill([0; 4]);
+            bytes.orm.fill([255, 0, 0]);
+        }
         // Clean texels without dither, which does not compress.
         if self.plaster.is_even() && known.plaster.rough.is_empty() {
             let (colour, orm) = known.even_bytes(&self.law);

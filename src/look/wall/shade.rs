@@ -354,8 +354,9 @@ impl WallShadeOutput {
     /// Rounds clean texels to the nearest.
     pub fn write_clean(&self, out: &mut Bytes<'_>) {
         let [red, green, blue] = &self.rgb;
+        let byte = |light: f32| (srgb::encode_f32(light) + 0.5) as u8;
         for (k, _) in self.total.iter().enumerate().filter(|(_, total)| **total == 0.0) {
-            out.base_color[k] = [red[k], green[k], blue[k]].map(|light| (srgb::encode_f32(light) + 0.5) as u8);
+            out.base_color[k] = [byte(red[k]), byte(green[k]), byte(blue[k])];
             out.orm[k][1] = (255.0 * self.roughness[k] + 0.5) as u8;
         }
     }

@@ -211,6 +211,7 @@ fn block_of(texel: f32) -> i32 {
 }
 
 /// Rounded down; faster than by the machine's library.
+#[inline]
 fn down(value: f32) -> i32 {
     let whole = value as i32;
     whole - i32::from(value < whole as f32)
@@ -226,14 +227,19 @@ fn halved(children: &[TexelBlock; 4]) -> TexelBlock {
         return TexelBlock::Flat(*a);
     }
     const HALF: usize = SIDE / 2;
+    let mean = |sum: u32| rounded_mean(sum, 4) as u16;
     let texel = |k: usize| -> Texel {
         let (x, y) = (k % SIDE, k / SIDE);
         match &children[y / HALF * 2 + x / HALF] {
             TexelBlock::Flat(texel) => *texel,
             TexelBlock::Full(texels) => {
                 let at = (y % HALF * 2) * SIDE + x % HALF * 2;
-                let four = [texels[at], texels[at + 1], texels[at + SIDE], texels[at + SIDE + 1]];
-                std::array::from_fn(|c| rounded_mean(four.iter().map(|texel| u32::from(texel[c])).sum(), 4) as u16)
+                let mut sum = [0u32; 4];
+                for texel in [&texels[at], &texels[at + 1], &texels[at + SIDE], &texels[at + SIDE + 1]] {
+                    sum.iter_mut().zip(texel).for_each(|(sum, value)| *sum += u32::from(*value));
+                }
+                let [red, green, blue, rough] = sum;
+                [mean(red), mean(green), mean(blue), mean(rough)]
             }
         }
     };
@@ -281,10 +287,12 @@ impl<'a> Reader<'a> {
         let (i, j) = (down(x), down(y));
         let (u, v) = (x - i as f32, y - j as f32);
         let [[a, b], [c, d]] = self.square(level, i, j);
-        let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v];
-        std::array::from_fn(|n| {
-            [a[n], b[n], c[n], d[n]].into_iter().zip(weights).map(|(texel, weight)| f32::from(texel) * weight).sum()
-        })
+        let [of_a, of_b, of_c, of_d] = [(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v];
+        let mut sum = [0.0; 4];
+        for (n, sum) in sum.iter_mut().enumerate() {
+            *sum = f32::from(a[n]) * of_a + f32::from(b[n]) * of_b + f32::from(c[n]) * of_c + f32::from(d[n]) * of_d;
+        }
+        sum
     }
 
     /// `N` x `N` texels from a lower left one up, row by row.
@@ -313,7 +321,9 @@ impl<'a> Reader<'a> {
         let mut sum = [0.0f32; 4];
         for (row, weight_y) in self.square::<4>(0, i - 1, j - 1).into_iter().zip(up) {
             for (texel, weight_x) in row.into_iter().zip(across) {
-                (0..4).for_each(|c| sum[c] += f32::from(texel[c]) * weight_x * weight_y);
+                for (sum, texel) in sum.iter_mut().zip(texel) {
+                    *sum += f32::from(texel) * weight_x * weight_y;
+                }
             }
         }
         sum.map(|c| c.clamp(0.0, 65_535.0))

@@ -62,8 +62,8 @@ fn of_resolved(block: &ResolvedBlock) -> TexelBlock {
 }
 
 fn texel(colour: [u8; 3], orm: [u8; 3]) -> Texel {
-    let [red, green, blue] = colour.map(to_linear);
-    [red, green, blue, u16::from(orm[1]) * 257]
+    let [red, green, blue] = colour;
+    [to_linear(red), to_linear(green), to_linear(blue), u16::from(orm[1]) * 257]
 }
 
 /// A floor that was made small: row 0 of the picture is the upper one.
