@@ -15,6 +15,10 @@ pub enum Walls {
     Solid,
     Outline,
     Hatched,
+    /// Outlines around a fill of light grey.
+    Poche,
+    /// Outlines; thick walls hold the zigzag of an insulation.
+    Insulated,
     OnePixel,
     /// Solid outer walls; lines of two pixels between rooms.
     LinesWithin,
@@ -40,6 +44,8 @@ pub enum Tones {
     NegatedMap,
     /// Walls, words and lines in one dark blue.
     Navy,
+    /// All in one mid grey.
+    Pencil,
 }
 
 /// What ends dimension lines.
@@ -117,7 +123,7 @@ const CAD: Style = Style {
 const PLAIN: Style = Style { name: "plain", doors: Doors::Open, sheet: false, names: false, furniture: false, ..CAD };
 
 /// All styles.
-pub const STYLES: [Style; 29] = [
+pub const STYLES: [Style; 32] = [
     PLAIN,
     CAD,
     Style { name: "outline walls", walls: Walls::Outline, ..CAD },
@@ -154,6 +160,9 @@ pub const STYLES: [Style; 29] = [
     Style { name: "tiles, 30 px/m", cover: Cover::Tiles, px_per_m: 30.0, ..CAD },
     Style { name: "partitions as lines", walls: Walls::LinesWithin, sheet: false, ..CAD },
     Style { name: "dark blue walls", tones: Tones::Navy, ..CAD },
+    Style { name: "light poche", walls: Walls::Poche, ..CAD },
+    Style { name: "insulation", walls: Walls::Insulated, ..CAD },
+    Style { name: "grey outlines", walls: Walls::Outline, tones: Tones::Pencil, ..CAD },
     Style { name: "turned 24 degrees", turn_deg: 24.0, sheet: false, px_per_m: 43.0, ..CAD },
 ];
 
@@ -254,6 +263,7 @@ fn palette(tones: Tones) -> Palette {
         Tones::Grey => Palette { words: [0x70; 3], ..all([255; 3], [0xa0; 3]) },
         Tones::Dark => all([0x1e, 0x21, 0x28], [235; 3]),
         Tones::Navy => Palette { furniture: [60, 84, 150], ..all([255; 3], [16, 32, 96]) },
+        Tones::Pencil => all([255; 3], [0x88; 3]),
         Tones::Map => all([205; 3], [0; 3]),
         Tones::NegatedMap => all([50; 3], [255; 3]),
         Tones::Layers => Palette {
@@ -434,10 +444,29 @@ fn draw_walls(canvas: &mut Canvas, building: &Building, style: &Style, ink: [u8;
     match style.walls {
         Walls::Solid | Walls::LinesWithin => canvas.fill(&building.solid(0.0), ink),
         Walls::OnePixel => canvas.fill(&centre_lines(building, 1.0 / canvas.px_per_m), ink),
-        Walls::Outline | Walls::Hatched => {
+        Walls::Outline | Walls::Hatched | Walls::Poche | Walls::Insulated => {
             canvas.fill(&building.solid(0.0), ink);
             let within = canvas.samples(&building.solid(-thin));
-            canvas.paint(&within, paper);
+            canvas.paint(&within, if style.walls == Walls::Poche { [0xd2; 3] } else { paper });
+            if style.walls == Walls::Insulated {
+                let waves = |wall: &Wall| -> Vec<Polygon> {
+                    let zig = |[from, to]: [f64; 2]| -> Vec<Polygon> {
+                        let step = wall.thick * 0.5;
+                        let count = ((to - from) / step) as i32;
+                        let place = |k: i32| {
+                            let left = (wall.thick * 0.5 - thin) * if k % 2 == 0 { 1.0 } else { -1.0 };
+                            wall.place(from + f64::from(k) * step, left)
+                        };
+                        (0..count).map(|k| line(place(k), place(k + 1), thin * 0.7)).collect()
+                    };
+                    wall.solid().into_iter().flat_map(zig).collect()
+                };
+                let thick = building.walls.iter().filter(|wall| wall.thick >= 0.2);
+                let all: Vec<Polygon> = thick.flat_map(waves).collect();
+                let waves = canvas.samples(&all);
+                let both = within.iter().zip(&waves).map(|(a, b)| a & b).collect();
+                canvas.paint(&both, ink);
+            }
             if style.walls == Walls::Hatched {
                 let [w, h] = building.size;
                 let every = 0.12;

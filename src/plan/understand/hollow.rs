@@ -7,6 +7,15 @@ use super::thick::{grow, open};
 const HATCH_M: f64 = 0.12;
 /// Least length of a hatched wall, metres.
 const HATCHED_M: f64 = 0.9;
+/// Share of its box that a field between an outline and the zigzag of an insulation fills: it is a triangle, or two with a
+/// blunt tip at an end.
+const TOOTH: [f64; 2] = [0.3, 0.72];
+/// How far its middle is off that of its box at least, in larger sides; a sixth in a triangle as high as it is wide.
+const LOPSIDED: f64 = 0.09;
+/// Fewest of them in a row; most are found twice, with and without their outermost pixels.
+const FEWEST_TEETH: usize = 6;
+/// Larger side of such a field, metres; halves of crossed wardrobes are larger.
+const LARGEST_TOOTH_M: f64 = 0.45;
 /// Greatest thickness of a hollow wall, metres.
 const THICKEST_M: f64 = 0.62;
 /// Least length of a hollow wall, in its thicknesses and in metres.
@@ -35,6 +44,71 @@ pub(super) fn fill_hatches(dark: &[u8], width: usize, metres_per_pixel: f64) -> 
         places.paint(place, &mut near, width, 0);
     }
     (0..dark.len()).map(|at| dark[at] | (narrow[at] & near[at])).collect()
+}
+
+/// Fills the fields between the outlines of a wall and the zigzag of its insulation: many triangles in a row, and what is
+/// left at its ends and where thin walls meet it.
+pub(super) fn fill_teeth(dark: &[u8], width: usize, metres_per_pixel: f64) -> Vec<u8> {
+    let white = |dark: &[u8]| dark.iter().map(|&d| u8::from(d == 0)).collect::<Vec<u8>>();
+    let (mut teeth, mut starts) = (vec![0u8; dark.len()], vec![0u8; dark.len()]);
+    // Tips of a zigzag may end a pixel before the outline.
+    for fields in [white(dark), white(&grow(dark, width, 1))].map(|w| Components::of(&w, width, 1, Neighbours::Four)) {
+        for field in &fields.all {
+            let [w, h] = field.size().map(f64::from);
+            let is_triangle = w.min(h) >= 2.0 && (TOOTH[0]..=TOOTH[1]).contains(&(field.area as f64 / (w * h)));
+            if is_triangle && is_lopsided(&fields, field) && w.max(h) * metres_per_pixel <= LARGEST_TOOTH_M {
+                fields.paint(field, &mut teeth, width, 1);
+                let first = fields.runs(field)[0];
+                starts[first.y as usize * width + first.from as usize] = 1;
+            }
+        }
+    }
+    // Teeth that a stroke parts are one row.
+    let stroke = ((0.02 / metres_per_pixel).round() as usize).max(2) + 1;
+    let mut near = grow(&teeth, width, stroke);
+    let rows = Components::of(&near, width, 1, Neighbours::Eight);
+    for row in &rows.all {
+        let teeth = rows.runs(row).iter().flat_map(|run| {
+            let line = run.y as usize * width;
+            &starts[line + run.from as usize..line + run.to as usize]
+        });
+        let count: usize = teeth.map(|&start| usize::from(start)).sum();
+        if count < FEWEST_TEETH || f64::from(row.larger_side()) * metres_per_pixel < HATCHED_M {
+            rows.paint(row, &mut near, width, 0);
+        }
+    }
+    let mut filled: Vec<u8> = teeth.iter().zip(&near).map(|(&tooth, &near)| tooth & near).collect();
+    let fill_beside = |white: &[u8], most_m: f64, filled: &mut Vec<u8>| {
+        let rests = Components::of(white, width, 1, Neighbours::Four);
+        for rest in rests.all.iter().filter(|rest| f64::from(rest.larger_side()) * metres_per_pixel <= most_m) {
+            let is_beside = rests.runs(rest).iter().any(|run| {
+                let row = run.y as usize * width;
+                near[row + run.from as usize..row + run.to as usize].contains(&1)
+            });
+            if is_beside {
+                rests.paint(rest, filled, width, 1);
+            }
+        }
+    };
+    // The heads of thin walls' fields, which open into a tooth.
+    let broad = open(&white(dark), width, ((HATCH_M / metres_per_pixel).round() as usize).max(3));
+    fill_beside(&broad, LARGEST_TOOTH_M, &mut filled);
+    let mut filled: Vec<u8> = dark.iter().zip(grow(&filled, width, 1)).map(|(&dark, filled)| dark | filled).collect();
+    // Crumbs at the tips.
+    fill_beside(&white(&filled), HATCH_M, &mut filled);
+    filled
+}
+
+/// Whether a field's middle lies off that of its box, as in triangles and not in the stripes of a hatch.
+fn is_lopsided(fields: &Components, field: &Component) -> bool {
+    let (mut x, mut y) = (0.0, 0.0);
+    for run in fields.runs(field) {
+        let count = f64::from(run.to - run.from);
+        x += count * 0.5 * f64::from(run.from + run.to);
+        y += count * (f64::from(run.y) + 0.5);
+    }
+    let off = |sum: f64, axis: usize| sum / field.area as f64 - 0.5 * f64::from(field.min[axis] + field.end[axis]);
+    off(x, 0).hypot(off(y, 1)) >= LOPSIDED * f64::from(field.larger_side())
 }
 
 /// Fills long narrow fields between two lines. Fields in pairs beside each other are windows and stay.

@@ -263,6 +263,7 @@ fn find_net(drawing: &Drawing, ink: &[u8], metres_per_pixel: f64) -> Option<Net>
         let search = |core: &[u8], thickest: usize| net_of(core, core, thickest);
         return Some(partitions::added(net, &strokes, ink, width, metres_per_pixel, search));
     }
+    let strokes = hollow::fill_teeth(&strokes, width, metres_per_pixel);
     let outlined = hollow::fill_outlines(&strokes, width, metres_per_pixel);
     if let Some(net) = net(&outlined, &outlined) {
         return Some(net);
