@@ -1,14 +1,51 @@
-//! Ctrl-C.
+//! Ctrl-C, and a program that is killed.
 
 #![cfg(unix)]
 
+use std::collections::BTreeMap;
 use std::os::unix::process::ExitStatusExt;
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use super::sandbox::Sandbox;
 
 const SIGINT: i32 = 2;
+
+/// What a bake left in the folder `out`, without its measured times.
+fn baked(sandbox: &Sandbox) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut files = sandbox.contents();
+    let out = sandbox.path("out");
+    files.retain(|path, _| path.starts_with(&out) && !path.ends_with("report.json"));
+    files
+}
+
+#[test]
+fn a_killed_bake_leaves_the_earlier_one_or_its_own_and_the_next_cleans_up() {
+    const MOMENTS: u32 = 8;
+    let sandbox = Sandbox::new();
+    sandbox.plan();
+    let bake = ["bake", "plan.png", "--metres-per-pixel", "0.1", "--quick", "--force", "-o", "out", "--people", "5"];
+    let run = |seed: &'static str| [&bake[..], &["--seed", seed]].concat();
+    sandbox.run(&run("2")).succeeds();
+    let new = baked(&sandbox);
+    sandbox.run(&run("1")).succeeds();
+    let (old, all) = (baked(&sandbox), sandbox.contents().len());
+    assert_ne!(old, new);
+    let begun = Instant::now();
+    sandbox.run(&run("1")).succeeds();
+    let took = begun.elapsed();
+    for moment in 0..MOMENTS {
+        let mut child = sandbox.command(&run("2")).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        std::thread::sleep(took * (2 * moment + 1) / (2 * MOMENTS));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let left = baked(&sandbox);
+        assert!(left == old || left == new, "killed at {moment} of {MOMENTS}: neither the old bake nor the new one");
+        sandbox.run(&run("1")).succeeds();
+        assert!(baked(&sandbox) == old && sandbox.contents().len() == all, "the next bake left something behind");
+    }
+}
 
 fn interrupted_after(wait: Duration) {
     let sandbox = Sandbox::new();

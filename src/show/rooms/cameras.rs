@@ -39,8 +39,8 @@ const PICTURE_PX: [u32; 2] = [32, 18];
 const COLUMNS: usize = 20;
 /// Columns that end nearer than this are half blocked, metres.
 const HALF_WAY_M: f64 = 4.2;
-/// What is nearer than this stands in the way, metres.
-const NEAR_M: f32 = 1.6;
+/// What is nearer than this stands in the way, metres, and doors and furniture that are farther make a picture richer.
+const NEAR_M: f32 = 2.5;
 /// Share of the picture that should be floor, and way to the wall that should be ahead, metres.
 const FLOOR_SHARE: f64 = 0.35;
 const DEPTH_M: f64 = 8.0;
@@ -100,7 +100,9 @@ impl RayGrid {
                     let here = f64::from(traffic.at(vec2(f64::from(hit.point[0]), f64::from(hit.point[1]))));
                     (floor, trodden, squared) = (floor + 1.0, trodden + here, squared + here * here);
                 }
-                HitSurface::Fitting(..) | HitSurface::Lintel(_) | HitSurface::Soffit(_) => things += 1.0,
+                HitSurface::Fitting(..) | HitSurface::Lintel(_) | HitSurface::Soffit(_) if hit.way_m > NEAR_M => {
+                    things += 1.0;
+                }
                 _ => {}
             }
             let is_near = !matches!(hit.surface, HitSurface::Floor | HitSurface::Ceiling) && hit.way_m < NEAR_M;
@@ -128,7 +130,7 @@ impl RayGrid {
             - 2.0 * short(deep_m, DEPTH_M)
             - 1.2 * short(central_m, 0.6 * DEPTH_M)
             - 2.0 * (blocked - 0.25).max(0.0)
-            - 6.0 * (near / all - 0.06).max(0.0)
+            - 6.0 * (near / all - 0.03).max(0.0)
             - 8.0 * (outside / all - 0.02).max(0.0)
     }
 
