@@ -6,6 +6,7 @@ mod buildings;
 mod canvas;
 mod measure;
 mod notes;
+mod openings;
 mod photographs;
 mod scales;
 mod styles;

@@ -2,6 +2,7 @@
 
 use super::super::components::{Component, Components, Neighbours, Run};
 use super::thick::{grow, open};
+use crate::math::vec2;
 
 /// Greatest distance between the lines of a hatch, metres.
 const HATCH_M: f64 = 0.12;
@@ -108,7 +109,7 @@ fn is_lopsided(fields: &Components, field: &Component) -> bool {
         y += count * (f64::from(run.y) + 0.5);
     }
     let off = |sum: f64, axis: usize| sum / field.area as f64 - 0.5 * f64::from(field.min[axis] + field.end[axis]);
-    off(x, 0).hypot(off(y, 1)) >= LOPSIDED * f64::from(field.larger_side())
+    vec2(off(x, 0), off(y, 1)).length() >= LOPSIDED * f64::from(field.larger_side())
 }
 
 /// Fills long narrow fields between two lines. Fields in pairs beside each other are windows and stay.
