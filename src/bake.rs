@@ -80,12 +80,16 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
 
 /// Checks look, textures and output folder: errors in the input should appear before the crowd walks.
 fn begin(scenario: &Scenario, output: &OutputOptions) -> Result<OutputFolder, Error> {
-    scenario.look.check_images()?;
-    scenario.texture.check()?;
+    check_look(scenario)?;
     let folder = OutputFolder::begin(&output.folder, output.force)?;
     check_free(&folder, scenario.texture.walls)?;
     folder.check_not_inputs(&scenario.input_files())?;
     Ok(folder)
+}
+
+fn check_look(scenario: &Scenario) -> Result<(), Error> {
+    scenario.look.check_images()?;
+    Ok(scenario.texture.check()?)
 }
 
 /// Turns the sums of all days into a bake: the look turns sums into texels, block by block, while the files are written.

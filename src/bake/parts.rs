@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::part_file::{self, Head, PartFile};
 use super::site::Site;
-use super::{OutputOptions, begin, finish};
+use super::{OutputOptions, begin, check_look, finish};
 use crate::Error;
 use crate::export::{self, ExportError, PeopleReport, Report};
 use crate::files::{WholeFile, files_in};
@@ -40,8 +40,7 @@ pub fn bake_part(
 ) -> Result<Part, Error> {
     let watch = Stopwatch::start();
     check_days(scenario, &days)?;
-    scenario.look.check_images()?;
-    scenario.texture.check()?;
+    check_look(scenario)?;
     let (first, last) = (*days.start(), *days.end());
     let file = job.join(format!("days_{first:05}-{last:05}.{ENDING}"));
     let head = Head::of(scenario, days)?;

@@ -80,10 +80,10 @@ impl Job {
         }
         let mut files: Vec<(PathBuf, String)> = Vec::new();
         if let Some(folder) = &self.openjd {
-            files.push((folder.join("template.yaml"), self.fill(OPENJD, days, &path, yaml)));
+            files.push((folder.join("template.yaml"), self.fill(OPENJD, days, &path, Language::Yaml)));
         }
         if let Some(folder) = &self.slurm {
-            files.extend(SLURM.map(|(name, text)| (folder.join(name), self.fill(text, days, &path, shell))));
+            files.extend(SLURM.map(|(name, text)| (folder.join(name), self.fill(text, days, &path, Language::Shell))));
         }
         let planned = files.iter().map(|(file, _)| {
             fs::create_dir_all(file.parent().unwrap_or(Path::new(".")))?;
@@ -99,14 +99,17 @@ impl Job {
         Ok(ExitCode::SUCCESS)
     }
 
-    /// Fills in what the files leave open; `quoted` writes a text as their language does.
-    fn fill(&self, text: &str, days: u32, path: &Path, quoted: fn(&str) -> String) -> String {
-        let is_yaml = text == OPENJD;
+    /// Fills in what a file leaves open.
+    fn fill(&self, text: &str, days: u32, path: &Path, language: Language) -> String {
         let of = |name: Option<&std::ffi::OsStr>| name.unwrap_or_default().to_string_lossy().into_owned();
-        let scenario = if is_yaml { of(path.file_name()) } else { path.to_string_lossy().into_owned() };
-        let option = |option: &String| match is_yaml {
-            true => format!("            - {}\n", quoted(option)),
-            false => format!(" {}", quoted(option)),
+        // A farm brings the scenario's folder to its machines; a cluster shares it.
+        let (scenario, quoted): (String, fn(&str) -> String) = match language {
+            Language::Yaml => (of(path.file_name()), yaml),
+            Language::Shell => (path.to_string_lossy().into_owned(), shell),
+        };
+        let option = |option: &String| match language {
+            Language::Yaml => format!("            - {}\n", quoted(option)),
+            Language::Shell => format!(" {}", quoted(option)),
         };
         text.replace("@NAME@", &quoted(&format!("trodden {}", of(path.file_stem()))))
             .replace("@SCENARIO@", &quoted(&scenario))
@@ -131,6 +134,13 @@ impl Job {
         }
         Ok(())
     }
+}
+
+/// Language of a file that a job writes.
+#[derive(Clone, Copy)]
+enum Language {
+    Yaml,
+    Shell,
 }
 
 /// A text in quotes that YAML and JSON share.

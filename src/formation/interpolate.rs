@@ -19,8 +19,8 @@ const DECOMPOSING: f64 = 0.9;
 ///
 /// The result has the example's people and its frames from the first key's to the last key's. At each key people are in its
 /// positions; see the [module](super) for the motion in between. Between two keys with the same positions nobody gets farther
-/// than 0.25 m from them. Degenerate formations are allowed: people at one point, in
-/// a line, on a grid or ring, in groups so far apart that their weights vanish.
+/// than 0.25 m from them. Degenerate formations are allowed: people at one point, in a line, on a grid or ring, in groups so
+/// far apart that their weights vanish.
 ///
 /// # Errors
 /// Fewer than two people or more than [`MOST_PEOPLE`](super::MOST_PEOPLE); fewer than two keys; a key whose number of

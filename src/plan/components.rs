@@ -77,12 +77,23 @@ impl Components {
         &self.runs[component.runs.clone()]
     }
 
-    /// Sets the pixels of a component to `value`.
-    pub(super) fn paint(&self, component: &Component, pixels: &mut [u8], width: usize, value: u8) {
-        for run in self.runs(component) {
+    /// The runs of a component as ranges of pixels.
+    pub(super) fn ranges(&self, component: &Component, width: usize) -> impl Iterator<Item = Range<usize>> {
+        let range = move |run: &Run| {
             let row = run.y as usize * width;
-            pixels[row + run.from as usize..row + run.to as usize].fill(value);
-        }
+            row + run.from as usize..row + run.to as usize
+        };
+        self.runs(component).iter().map(range)
+    }
+
+    /// Sets the pixels of a component to `value`.
+    pub(super) fn paint<T: Copy>(&self, component: &Component, pixels: &mut [T], width: usize, value: T) {
+        self.ranges(component, width).for_each(|range| pixels[range].fill(value));
+    }
+
+    /// Whether the mask has a 1 under a component.
+    pub(super) fn touches(&self, component: &Component, mask: &[u8], width: usize) -> bool {
+        self.ranges(component, width).any(|range| mask[range].contains(&1))
     }
 }
 

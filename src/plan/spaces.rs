@@ -47,10 +47,7 @@ pub(super) fn split(white: &[u8], width: usize, person_px: f64, opening_px: f64)
     keep_largest(&mut pieces.all, MOST_SPACES);
     let mut label = vec![0u16; white.len()];
     for (number, piece) in (1..).zip(&pieces.all) {
-        for run in pieces.runs(piece) {
-            let row = run.y as usize * width;
-            label[row + run.from as usize..row + run.to as usize].fill(number);
-        }
+        pieces.paint(piece, &mut label, width, number);
     }
     if radius > 1.0 {
         share_out(white, width, &mut label, radius * REACH_HALF_WIDTHS);

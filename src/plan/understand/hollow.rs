@@ -33,10 +33,15 @@ const SMALL_NET_FILL: f64 = 0.4;
 /// Least side of the box of a hollow wall with a corner, metres.
 const BENT_M: f64 = 1.2;
 
+/// 1 where a mask is 0.
+fn inverted(mask: &[u8]) -> Vec<u8> {
+    mask.iter().map(|&value| u8::from(value == 0)).collect()
+}
+
 /// Fills what is too narrow for anything but the space between the lines of a hatch, where many such spaces lie together.
 pub(super) fn fill_hatches(dark: &[u8], width: usize, metres_per_pixel: f64) -> Vec<u8> {
     let side = ((HATCH_M / metres_per_pixel).round() as usize).max(2);
-    let white: Vec<u8> = dark.iter().map(|&d| u8::from(d == 0)).collect();
+    let white = inverted(dark);
     let wide = open(&white, width, side);
     let narrow: Vec<u8> = white.iter().zip(&wide).map(|(&white, &wide)| white & (1 - wide)).collect();
     let mut near = grow(&narrow, width, ((0.03 / metres_per_pixel) as usize).max(1));
@@ -50,10 +55,11 @@ pub(super) fn fill_hatches(dark: &[u8], width: usize, metres_per_pixel: f64) -> 
 /// Fills the fields between the outlines of a wall and the zigzag of its insulation: many triangles in a row, and what is
 /// left at its ends and where thin walls meet it.
 pub(super) fn fill_teeth(dark: &[u8], width: usize, metres_per_pixel: f64) -> Vec<u8> {
-    let white = |dark: &[u8]| dark.iter().map(|&d| u8::from(d == 0)).collect::<Vec<u8>>();
     let (mut teeth, mut starts) = (vec![0u8; dark.len()], vec![0u8; dark.len()]);
     // Tips of a zigzag may end a pixel before the outline.
-    for fields in [white(dark), white(&grow(dark, width, 1))].map(|w| Components::of(&w, width, 1, Neighbours::Four)) {
+    for fields in
+        [inverted(dark), inverted(&grow(dark, width, 1))].map(|w| Components::of(&w, width, 1, Neighbours::Four))
+    {
         for field in &fields.all {
             let [w, h] = field.size().map(f64::from);
             let is_triangle = w.min(h) >= 2.0 && (TOOTH[0]..=TOOTH[1]).contains(&(field.area as f64 / (w * h)));
@@ -69,11 +75,8 @@ pub(super) fn fill_teeth(dark: &[u8], width: usize, metres_per_pixel: f64) -> Ve
     let mut near = grow(&teeth, width, stroke);
     let rows = Components::of(&near, width, 1, Neighbours::Eight);
     for row in &rows.all {
-        let teeth = rows.runs(row).iter().flat_map(|run| {
-            let line = run.y as usize * width;
-            &starts[line + run.from as usize..line + run.to as usize]
-        });
-        let count: usize = teeth.map(|&start| usize::from(start)).sum();
+        let count: usize =
+            rows.ranges(row, width).flat_map(|range| &starts[range]).map(|&start| usize::from(start)).sum();
         if count < FEWEST_TEETH || f64::from(row.larger_side()) * metres_per_pixel < HATCHED_M {
             rows.paint(row, &mut near, width, 0);
         }
@@ -82,21 +85,17 @@ pub(super) fn fill_teeth(dark: &[u8], width: usize, metres_per_pixel: f64) -> Ve
     let fill_beside = |white: &[u8], most_m: f64, filled: &mut Vec<u8>| {
         let rests = Components::of(white, width, 1, Neighbours::Four);
         for rest in rests.all.iter().filter(|rest| f64::from(rest.larger_side()) * metres_per_pixel <= most_m) {
-            let is_beside = rests.runs(rest).iter().any(|run| {
-                let row = run.y as usize * width;
-                near[row + run.from as usize..row + run.to as usize].contains(&1)
-            });
-            if is_beside {
+            if rests.touches(rest, &near, width) {
                 rests.paint(rest, filled, width, 1);
             }
         }
     };
     // The heads of thin walls' fields, which open into a tooth.
-    let broad = open(&white(dark), width, ((HATCH_M / metres_per_pixel).round() as usize).max(3));
+    let broad = open(&inverted(dark), width, ((HATCH_M / metres_per_pixel).round() as usize).max(3));
     fill_beside(&broad, LARGEST_TOOTH_M, &mut filled);
     let mut filled: Vec<u8> = dark.iter().zip(grow(&filled, width, 1)).map(|(&dark, filled)| dark | filled).collect();
     // Crumbs at the tips.
-    fill_beside(&white(&filled), HATCH_M, &mut filled);
+    fill_beside(&inverted(&filled), HATCH_M, &mut filled);
     filled
 }
 
@@ -115,16 +114,12 @@ fn is_lopsided(fields: &Components, field: &Component) -> bool {
 /// Fills long narrow fields between two lines. Fields in pairs beside each other are windows and stay.
 pub(super) fn fill_outlines(dark: &[u8], width: usize, metres_per_pixel: f64) -> Vec<u8> {
     let side = ((THICKEST_M / metres_per_pixel).round() as usize).max(3);
-    let white: Vec<u8> = dark.iter().map(|&d| u8::from(d == 0)).collect();
+    let white = inverted(dark);
     let wide = open(&white, width, side);
     let height = dark.len() / width;
     let fields = Components::of(&white, width, 1, Neighbours::Four);
     let is_wall = |field: &&Component| {
-        let runs = fields.runs(field);
-        let is_wide = runs.iter().any(|r| {
-            let row = r.y as usize * width;
-            wide[row + r.from as usize..row + r.to as usize].contains(&1)
-        });
+        let is_wide = fields.touches(field, &wide, width);
         let at_side = field.min.contains(&0) || field.end[0] as usize == width || field.end[1] as usize == height;
         if is_wide || at_side {
             return false;

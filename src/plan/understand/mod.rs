@@ -344,24 +344,12 @@ fn name_strokes(ink: &[u8], net: &Net, width: usize, metres_per_pixel: f64, clas
     let beside_door = thick::grow(&beside_door, width, 2);
     let metres = |px: u32| f64::from(px) * metres_per_pixel;
     let image = [width as u32, (ink.len() / width) as u32];
-    let touches = |stroke: &Component, mask: &[u8]| {
-        strokes.runs(stroke).iter().any(|r| {
-            let row = r.y as usize * width;
-            mask[row + r.from as usize..row + r.to as usize].contains(&1)
-        })
-    };
-    let mut paint = |stroke: &Component, class: PlanClass| {
-        for run in strokes.runs(stroke) {
-            let row = run.y as usize * width;
-            classes[row + run.from as usize..row + run.to as usize].fill(class);
-        }
-    };
     let mut letters = Vec::new();
     for stroke in &strokes.all {
         let [w, h] = stroke.size();
         let class = if w * 10 >= image[0] * 6 && h * 10 >= image[1] * 6 {
             PlanClass::Frame
-        } else if metres(w.max(h)) <= 2.0 && touches(stroke, &beside_door) {
+        } else if metres(w.max(h)) <= 2.0 && strokes.touches(stroke, &beside_door, width) {
             PlanClass::Door
         } else {
             if metres(w.max(h)) <= LARGEST_LETTER_M {
@@ -369,12 +357,12 @@ fn name_strokes(ink: &[u8], net: &Net, width: usize, metres_per_pixel: f64, clas
             }
             PlanClass::Dimension
         };
-        paint(stroke, class);
+        strokes.paint(stroke, classes, width, class);
     }
-    letters.retain(|stroke| !touches(stroke, &beside_door));
+    letters.retain(|stroke| !strokes.touches(stroke, &beside_door, width));
     for group in groups(&letters).into_iter().filter(|group| group.len() >= FEWEST_STROKES) {
         for stroke in group {
-            paint(stroke, PlanClass::Lettering);
+            strokes.paint(stroke, classes, width, PlanClass::Lettering);
         }
     }
 }

@@ -70,12 +70,8 @@ pub(super) fn added(
     }
     let ends: Vec<usize> = hung.into_iter().flat_map(|gap| gap.ends).filter(|&at| lines[at] != 0).collect();
     let pieces = Components::of(&lines, width, 1, Neighbours::Eight);
-    let has_door = |piece: &&Component| {
-        pieces.runs(piece).iter().any(|run| {
-            let row = run.y as usize * width;
-            ends.iter().any(|end| (row + run.from as usize..row + run.to as usize).contains(end))
-        })
-    };
+    let has_door =
+        |piece: &&Component| pieces.ranges(piece, width).any(|range| ends.iter().any(|end| range.contains(end)));
     let others: Vec<&Component> = pieces.all.iter().filter(|piece| !has_door(piece)).collect();
     if !others.is_empty() {
         others.into_iter().for_each(|piece| pieces.paint(piece, &mut lines, width, 0));

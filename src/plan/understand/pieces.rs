@@ -137,10 +137,7 @@ pub(super) fn furniture(
             class: PlanClass::Table,
         };
         piece.class = if is_corner { PlanClass::Counter } else { class(&piece, sides) };
-        for run in objects.runs(object) {
-            let row = run.y as usize * width;
-            classes[row + run.from as usize..row + run.to as usize].fill(piece.class);
-        }
+        objects.paint(object, classes, width, piece.class);
         found.push(piece);
     }
     found
