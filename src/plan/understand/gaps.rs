@@ -185,34 +185,41 @@ pub(super) struct Limits {
 /// Finds the gaps of a wall mask, in walls of all directions; strokes are counted in `ink`, both non-zero.
 pub(super) fn find(wall: &[u8], ink: &[u8], width: usize, limits: &Limits) -> Vec<Gap> {
     let upright = Frame::upright([width, wall.len() / width]);
-    let mut all = Vec::new();
-    let mut add = |frame: Frame, wall_seen: Cow<'_, [u8]>, ink_seen: &[u8]| {
-        let plain = along_rows(&wall_seen, ink_seen, limits, frame);
-        let met = met_by_walls(wall_seen.into_owned(), ink_seen, limits, frame, &plain);
-        for mut gap in plain.into_iter().chain(met) {
-            let Some(ends) = ends(&gap, wall) else { continue };
-            // Seen aslant, a gap is longer than it is, or reaches from a wall that ends in it.
-            if all.iter().any(|other: &Gap| other.strokes >= 2 && is_within(&gap, other)) {
-                continue;
-            }
-            if all.iter().any(|other: &Gap| is_same(&gap, other) && other.length() <= gap.length()) {
-                continue;
-            }
-            gap.ends = ends;
-            all.retain(|other| !is_same(&gap, other));
-            all.push(gap);
+    let turned = directions(wall, width, limits).into_iter().map(|angle| Frame::turned(upright.image, angle));
+    let frames: Vec<Frame> = std::iter::once(upright).chain(turned).collect();
+    let seen = frames.into_par_iter().flat_map_iter(|frame| {
+        let view = |mask, is_fine| match frame.is_upright() {
+            true => Cow::Borrowed(mask),
+            false => Cow::Owned(frame.view(mask, is_fine)),
+        };
+        let (wall, ink) = (view(wall, false), view(ink, true));
+        let columns = transposed(&wall, frame.size[0]);
+        let in_columns = in_grid(frame.transposed(), columns, &transposed(&ink, frame.size[0]), limits);
+        in_grid(frame, wall.into_owned(), &ink, limits).into_iter().chain(in_columns)
+    });
+    let mut all: Vec<Gap> = Vec::new();
+    for mut gap in seen.collect::<Vec<Gap>>() {
+        let Some(ends) = ends(&gap, wall) else { continue };
+        // Seen aslant, a gap is longer than it is, or reaches from a wall that ends in it.
+        if all.iter().any(|other| other.strokes >= 2 && is_within(&gap, other)) {
+            continue;
         }
-    };
-    let mut both = |frame: Frame, wall: &[u8], ink: &[u8]| {
-        add(frame, Cow::Borrowed(wall), ink);
-        add(frame.transposed(), Cow::Owned(transposed(wall, frame.size[0])), &transposed(ink, frame.size[0]));
-    };
-    both(upright, wall, ink);
-    for angle in directions(wall, width, limits) {
-        let frame = Frame::turned(upright.image, angle);
-        both(frame, &frame.view(wall, false), &frame.view(ink, true));
+        if all.iter().any(|other| is_same(&gap, other) && other.length() <= gap.length()) {
+            continue;
+        }
+        gap.ends = ends;
+        all.retain(|other| !is_same(&gap, other));
+        all.push(gap);
     }
     without_overlaps(all)
+}
+
+/// The gaps along the rows of a grid that shows walls and strokes.
+fn in_grid(frame: Frame, wall: Vec<u8>, ink: &[u8], limits: &Limits) -> Vec<Gap> {
+    let mut found = along_rows(&wall, ink, limits, frame);
+    let met = met_by_walls(wall, ink, limits, frame, &found);
+    found.extend(met);
+    found
 }
 
 /// Leaves out gaps that lie across shorter ones of another direction.

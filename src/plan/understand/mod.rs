@@ -269,11 +269,17 @@ fn find_net(drawing: &Drawing, ink: &[u8], metres_per_pixel: f64) -> Option<Net>
         return Some(net);
     }
     let hatched = hollow::fill_hatches(&strokes, width, metres_per_pixel);
-    if let Some(net) = net(&hatched, &hatched) {
+    let both = hollow::fill_outlines(&hatched, width, metres_per_pixel);
+    // Where there is nothing to fill, the search ends as before.
+    if hatched != outlined
+        && let Some(net) = net(&hatched, &hatched)
+    {
         return Some(net);
     }
-    let both = hollow::fill_outlines(&hatched, width, metres_per_pixel);
-    if let Some(net) = net(&both, &both) {
+    if both != outlined
+        && both != hatched
+        && let Some(net) = net(&both, &both)
+    {
         return Some(net);
     }
     drop((outlined, hatched, both));
