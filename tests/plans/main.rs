@@ -111,6 +111,16 @@ fn partitions_may_end_at_windows() {
     }
 }
 
+/// The windows of thick walls are no openings of the lines that end beside them.
+#[test]
+fn lines_may_part_long_rows_of_rooms() {
+    let style = styles::STYLES.into_iter().find(|style| style.name == LINES_WITHIN).unwrap();
+    let m = measure(&styles::Case { style, building: buildings::school, seed: 0 });
+    let what = row(&m);
+    assert_eq!((m.rooms[0], m.doors[0], m.false_doors), (m.rooms[1], m.doors[1], 0), "{what}");
+    assert!(m.wall_iou >= 0.95 && m.furniture >= 0.95, "{what}");
+}
+
 /// Small rooms, a corridor and doors of which every side has other furniture near. The office is measured in all styles.
 #[test]
 fn tiles_and_planks_are_no_furniture() {

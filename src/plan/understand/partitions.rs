@@ -39,25 +39,21 @@ pub(super) fn added(
     let (lines, reach) = lines::thickened(&strokes, ink, width, metres_per_pixel);
     let mut lines: Vec<u8> = lines.iter().zip(&net.inside).map(|(&line, &inside)| line & inside).collect();
     let thickest = gaps().map(Gap::thickness).fold(0.0, f64::max) as usize + 2;
+    // The gaps of thick walls are known: closed, they cannot be taken for others beside so thin walls.
     let with = |lines: &[u8]| -> Option<Net> {
-        let both: Vec<u8> = net.wall.iter().zip(lines).map(|(&wall, &line)| wall | line).collect();
+        let closed = |at: usize| net.wall[at] | in_gaps[at] | lines[at];
+        let both: Vec<u8> = (0..lines.len()).map(closed).collect();
         search(&both, thickest.max(3 * (2 * reach + 1)))
     };
     let Some(mut found) = with(&lines) else { return net };
-    // Lines beside a door in a thick wall have its leaf too, and lines of a floor have leaves of all kinds.
-    let is_new = |door: &&Gap| {
-        let is_same = |gap: &Gap| {
-            let ([ax, ay], [bx, by]) = (middle(gap), middle(door));
-            let near = gap.length() as f64 * 0.7;
-            (ax - bx) * (ax - bx) + (ay - by) * (ay - by) < near * near
-        };
-        let is_single = |gap: &Gap| {
-            leaves::hung(gap, &free, metres_per_pixel).iter().any(|&leaf| leaf >= ONE_LEAF * gap.length() as f64)
-        };
-        !gaps().any(is_same) && [0, reach, reach + 1].into_iter().any(|by| is_single(&door.widened(by)))
+    // Lines of a floor have leaves of all kinds.
+    let is_single = |gap: &&Gap| {
+        let is_long = |leaf: f64| leaf >= ONE_LEAF * gap.length() as f64;
+        let leaves = |by: usize| leaves::hung(&gap.widened(by), &free, metres_per_pixel);
+        [0, reach, reach + 1].into_iter().any(|by| leaves(by).into_iter().any(is_long))
     };
     let is_of_lines = |door: &&Gap| door.ends.iter().any(|&end| lines[end] != 0);
-    let hung: Vec<&Gap> = found.doors.iter().filter(is_of_lines).filter(is_new).collect();
+    let hung: Vec<&Gap> = found.doors.iter().filter(is_of_lines).filter(is_single).collect();
     let rooms = |net: &Net| {
         let spaces = Components::of(&net.inside, width, 1, Neighbours::Four);
         let is_room = |space: &&Component| space.area as f64 * metres_per_pixel * metres_per_pixel >= LEAST_ROOM_M2;
@@ -83,20 +79,16 @@ pub(super) fn added(
     // The lines themselves are the walls, and end where they are drawn to end.
     let near = grow(&found.inside, width, reach);
     for at in 0..ink.len() {
-        found.wall[at] &= net.wall[at] | ink[at];
+        found.wall[at] &= (net.wall[at] | ink[at]) & (1 - in_gaps[at]);
         found.inside[at] = near[at] & (1 - found.wall[at]);
     }
     for door in found.doors.iter_mut().filter(|door| door.ends.iter().all(|&end| lines[end] != 0)) {
         *door = door.widened(reach);
     }
+    found.doors.splice(0..0, net.doors);
+    found.windows.splice(0..0, net.windows);
     for at in found.doors.iter().chain(&found.windows).flat_map(Gap::pixels) {
         found.inside[at] = 0;
     }
     found
-}
-
-/// The middle of a gap, pixels.
-fn middle(gap: &Gap) -> [f64; 2] {
-    let [[ax, ay], [bx, by]] = gap.jambs();
-    [(ax + bx) * 0.5, (ay + by) * 0.5]
 }
