@@ -2,7 +2,7 @@
 //!
 //! A source is a simulated crowd on a plan, or a given motion (recording, formation) on a plan or on open ground.
 
-use crate::crowd::{Arrival, Simulation, Stuck, Tally};
+use crate::crowd::{Arrival, Simulation, Standstill, Stuck, Tally};
 use crate::formation::{self, FormedCrowd};
 use crate::marks::Origin;
 use crate::math::{Rect, Vec2, sin_cos, vec2};
@@ -289,6 +289,14 @@ impl<'a> Source<'a> {
     pub fn stuck(&self) -> &[Stuck] {
         match &self.mover {
             Mover::Crowd(crowd) => crowd.stuck(),
+            Mover::Given(_) => &[],
+        }
+    }
+
+    /// Who has waited where so far while a simulated crowd hardly got on.
+    pub(crate) fn standstills(&self) -> &[Standstill] {
+        match &self.mover {
+            Mover::Crowd(crowd) => crowd.standstills(),
             Mover::Given(_) => &[],
         }
     }

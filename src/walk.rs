@@ -130,9 +130,11 @@ pub fn walk(scenario: &Scenario, outputs: &WalkOutputs, progress: &dyn Progress)
         watch.busy(Stage::Routes, || Navigation::find_watched(plan, walls, &scenario.routes, progress))?;
     let scenario = &scenario.lived_in(ways.life().map(|life| &**life));
     let people = scenario.people_of_day(0);
-    let crowd = watch.busy(Stage::Crowd, || {
+    let mut crowd = watch.busy(Stage::Crowd, || {
         Simulation::with_spots(plan, walls, &routes, ways, &people, &scenario.crowd, &scenario.spots())
     })?;
+    let overloads = watch.busy(Stage::Crowd, || crowd.foresee());
+    overloads.iter().for_each(|overload| progress.warn(&overload.to_string()));
     let source = Source::of_crowd(crowd, &routes);
     let fps = 1.0 / scenario.crowd.time_step;
     let walk = Walk { source, ground: &ground, routes: &routes, people: &people, statures: Statures::default() };
@@ -235,7 +237,8 @@ impl Walk<'_> {
             paths: outputs.paths.as_ref().map(|_| PathSampler::new(source.people())),
             mileage: Mileage::default(),
         };
-        let duration_s = onlookers.watch(&mut source, watch, progress)?;
+        // On a thread of the pool: handing each step to it from outside would cost more than many a step.
+        let duration_s = rayon::scope(|_| onlookers.watch(&mut source, watch, progress))?;
         let tally = source.tally();
         tally.describe(routes, outputs.paths.as_deref()).iter().for_each(|warning| progress.warn(warning));
         source.warning().iter().for_each(|warning| progress.warn(warning));
@@ -308,6 +311,7 @@ impl Onlookers<'_> {
         let mut stuck: Vec<Stuck> = Vec::new();
         // A crowd has no people before its first frame; a given motion starts with its first frame, possibly at 0 s.
         let mut begun = source.stage() == Stage::Crowd;
+        let mut told = 0;
         loop {
             progress.keep_on()?;
             let (goes_on, looked) = rayon::join(
@@ -325,6 +329,8 @@ impl Onlookers<'_> {
             if newly.len() > stuck.len() {
                 stuck.extend_from_slice(&newly[stuck.len()..]);
             }
+            source.standstills()[told..].iter().for_each(|standstill| progress.warn(&standstill.to_string()));
+            told = source.standstills().len();
             progress.advance(source.stage(), source.share_done());
         }
     }

@@ -62,11 +62,15 @@ impl Site {
         let grid = TexelGrid::covering(plan.width_m(), plan.height_m(), scenario.floor_texels_per_metre)?;
         let wall_grid = WallGrid::covering(walls, scenario.wall_height_m, scenario.wall_texels_per_metre)?;
         let with_walls = scenario.texture.walls;
-        if let Some(folder) = folder {
+        let estimate = if let Some(folder) = folder {
             let estimate = Estimate::of(plan, grid, with_walls.then_some(&wall_grid), &scenario.texture)?;
-            let told = estimate.check(folder.path(), folder.shown(), scenario.texture.any_size)?;
-            told.iter().for_each(|told| progress.warn(told));
-        }
+            if !scenario.texture.any_size {
+                estimate.check(folder.path(), folder.shown())?;
+            }
+            Some(estimate)
+        } else {
+            None
+        };
         let pack = || Atlas::pack(&wall_grid, &walls.corners(), scenario.texture.tile, PADDING_PX);
         let atlas = watch.busy(Stage::Export, || with_walls.then(pack).transpose())?;
         let library = watch.busy(Stage::Patterns, || PatternLibrary::open(scenario.pattern_path().as_deref()))?;
@@ -85,6 +89,11 @@ impl Site {
             .with_fixtures(plan, walls, &scenario.fixtures)?
             .with_stops(walls, Route::each_stop(&routes));
         let days = if given.is_some() { 1 } else { scenario.days };
+        if let (Some(estimate), Some(folder)) = (estimate, folder) {
+            let walked_s = f64::from(scenario.crowd.people) * f64::from(days) * Route::mean_seconds(&routes);
+            let told = estimate.tell(folder.path(), walked_s, rayon::current_num_threads());
+            told.iter().for_each(|told| progress.warn(told));
+        }
         Ok(Site { scenario, given, ground, grid, wall_grid, atlas, library, routes, ways, life, places, days })
     }
 
@@ -111,7 +120,12 @@ impl Site {
                     let (ways, spots) = (ways.clone(), scenario.spots());
                     let simulated =
                         || Simulation::with_spots(plan, walls, routes, ways, people, &scenario.crowd, &spots);
-                    Source::of_crowd(watch.busy(Stage::Crowd, simulated)?, routes)
+                    let mut crowd = watch.busy(Stage::Crowd, simulated)?;
+                    if day == first {
+                        let overloads = watch.busy(Stage::Crowd, || crowd.foresee());
+                        overloads.iter().for_each(|overload| progress.warn(&overload.to_string()));
+                    }
+                    Source::of_crowd(crowd, routes)
                 }
                 (None, None) => return Err(CrowdError::NoRoutes.into()),
             };

@@ -59,13 +59,17 @@ pub(super) fn tread<'a>(
     watch: &Stopwatch,
     progress: &dyn Progress,
 ) -> Result<Walked, Error> {
-    let count = days.len();
+    let (first, count) = (days.start, days.len());
     let mut lanes: Vec<Lane> = (0..count.min(rayon::current_num_threads())).map(|_| Lane::default()).collect();
     let rest = Mutex::new(days);
     let rest = || rest.lock().unwrap_or_else(PoisonError::into_inner);
     let open_next = || {
         let next = rest().next();
-        next.map(|number| begin(number).map(|day| OpenDay { number, day, frame: Frame::default() })).transpose()
+        let open = |number: u32| {
+            let is_first = number == first;
+            begin(number).map(|day| OpenDay { number, is_first, day, frame: Frame::default(), told: 0 })
+        };
+        next.map(open).transpose()
     };
     let mut batches: Vec<Marks> = Vec::new();
     while !rest().is_empty() || lanes.iter().any(|lane| lane.open.is_some()) {
@@ -97,8 +101,12 @@ struct Lane<'a> {
 /// A day that is being walked.
 struct OpenDay<'a> {
     number: u32,
+    /// Whether it is the first one of those that are walked.
+    is_first: bool,
     day: Day<'a>,
     frame: Frame,
+    /// Number of standstills that have been told.
+    told: usize,
 }
 
 impl<'a> Lane<'a> {
@@ -154,6 +162,12 @@ impl OpenDay<'_> {
                 watch.busy(Stage::Marks, || footfalls.push(&self.frame, &mut marks.footfalls));
                 if self.number == 0 {
                     paths.push(&self.frame);
+                }
+                // Days are alike: what stands in one stands in all.
+                if self.is_first {
+                    let standstills = source.standstills();
+                    standstills[self.told..].iter().for_each(|standstill| progress.warn(&standstill.to_string()));
+                    self.told = standstills.len();
                 }
             } else {
                 watch.busy(Stage::Marks, || footfalls.finish(&mut marks.footfalls));

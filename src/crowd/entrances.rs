@@ -289,10 +289,10 @@ impl Admission<'_> {
             ..WalkState::new(id, Heading::new(1.0, 0.0))
         };
         let wayfinder = Wayfinder::new(self.environment);
-        wayfinder.advance(&mut walk, p, self.time_s);
+        let left_m = wayfinder.advance(&mut walk, p, self.time_s);
         let gate = self.environment.routes[route].gates.first();
         let ahead = gate.and_then(|g| (g.right_m - g.left_m).left().normalized()).unwrap_or(vec2(1.0, 0.0));
-        let aim = wayfinder.aim(&walk, &traits, p, ahead, self.time_s);
+        let aim = wayfinder.aim(&walk, &traits, (p, left_m), ahead, self.time_s);
         let (aim_x, aim_y) = (aim.x as f32, aim.y as f32);
         walk.heading = Heading::new(aim_x, aim_y);
         walk.wanted = [aim_x, aim_y];

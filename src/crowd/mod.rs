@@ -42,6 +42,8 @@ mod collisions;
 mod tally;
 mod entrances;
 mod departures;
+mod capacity;
+mod standstill;
 mod simulation;
 
 pub use agents::AgentSnapshot;
@@ -53,3 +55,6 @@ pub use social_force::{GroupOptions, SocialForceOptions};
 pub use spots::{MeanAndMax, SpotReport, SpotRequest};
 pub use stops::{StopTally, Visit};
 pub use tally::{Stuck, Tally};
+
+pub(crate) use capacity::Overload;
+pub(crate) use standstill::Standstill;

@@ -5,6 +5,7 @@ use std::sync::atomic::Ordering::Relaxed;
 use super::agents::{AgentSnapshot, Agents, in_chunks};
 use super::arrivals::{self, Arrival};
 use super::boids::Boids;
+use super::capacity::{self, Overload};
 use super::collisions::Collisions;
 use super::departures::{Departures, StepEnd};
 use super::entrances::{Admission, Entrances};
@@ -17,6 +18,7 @@ use super::options::CrowdModel;
 use super::perception::{OPEN_M, Perception, SENSE_M};
 use super::social_force::SocialForce;
 use super::spots::{SpotRequest, Spots};
+use super::standstill::{Standstill, StandstillWatch};
 use super::stops::{Stops, Visit};
 use super::tally::{Stuck, Tally};
 use super::wayfinding::Wayfinder;
@@ -55,6 +57,7 @@ pub struct Simulation<'a> {
     stops: Stops,
     spots: Spots,
     tally: Tally,
+    standstill: StandstillWatch,
     /// Number of the substep.
     step: u64,
     /// Slots in the order of ids; sorted for every frame.
@@ -157,6 +160,7 @@ impl<'a> Simulation<'a> {
             collisions: Collisions::default(),
             stops: Stops::new(&environment, keep_m),
             tally: Tally::default(),
+            standstill: StandstillWatch::default(),
             step: 0,
             by_id: Vec::new(),
             options: CrowdOptions { time_step: options.time_step / substeps, ..options.clone() },
@@ -185,6 +189,20 @@ impl<'a> Simulation<'a> {
     /// People who have got stuck so far.
     pub fn stuck(&self) -> &[Stuck] {
         &self.tally.stuck
+    }
+
+    /// Works out where more people will come than can pass: at openings, narrow places, gates and counters, from the arrival
+    /// list. The tally holds it from then on.
+    pub fn foresee(&mut self) -> &[Overload] {
+        let first_of_group = |id| self.agents.group_of(id).start;
+        let Simulation { environment, arrivals, stops, seed, .. } = &*self;
+        self.tally.overloads = capacity::overloads(environment, arrivals, stops, *seed, first_of_group);
+        &self.tally.overloads
+    }
+
+    /// Who has waited where so far while the crowd hardly got on, each place once.
+    pub fn standstills(&self) -> &[Standstill] {
+        &self.tally.standstills
     }
 
     /// Keeps every visit of a stop that ends from now on, for [`Simulation::visits`]: memory grows with them.
@@ -274,6 +292,14 @@ impl<'a> Simulation<'a> {
             let end = StepEnd { step: self.step, time_step_s: self.options.time_step, some_arrived };
             let patience_s = self.options.patience_seconds;
             self.departures.let_go(end, patience_s, &mut self.agents, &self.stops, &mut self.tally);
+            let known = &mut self.tally.standstills;
+            self.standstill.look(
+                (self.step, self.options.time_step),
+                self.environment.routes,
+                &self.agents,
+                &self.stops,
+                known,
+            );
         }
     }
 

@@ -4,7 +4,9 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::capacity::Overload;
 use super::spots::SpotReport;
+use super::standstill::Standstill;
 use super::stops::StopTally;
 use crate::math::Vec2;
 use crate::routes::Route;
@@ -25,10 +27,14 @@ pub struct Tally {
     pub stops: Vec<StopTally>,
     /// Reports of the units played, spot by spot.
     pub spots: Vec<SpotReport>,
+    /// Places to which more people come than can pass, as foreseen; those with the longest wait first.
+    pub overloads: Vec<Overload>,
+    /// Who waited where while the crowd hardly got on, each place once.
+    pub standstills: Vec<Standstill>,
 }
 
 impl Tally {
-    /// Adds the people of another day. Stops and spots stay those of the first.
+    /// Adds the people of another day. Stops and spots stay those of the first, and what was foreseen.
     pub fn add(&mut self, other: Tally) {
         self.entered += other.entered;
         self.arrived += other.arrived;
@@ -36,6 +42,11 @@ impl Tally {
         if self.stops.is_empty() && self.spots.is_empty() {
             (self.stops, self.spots) = (other.stops, other.spots);
         }
+        if self.overloads.is_empty() {
+            self.overloads = other.overloads;
+        }
+        let new = |there: &Standstill| !self.standstills.iter().any(|known| known.is_at(there));
+        self.standstills.extend(other.standstills.into_iter().filter(new).collect::<Vec<_>>());
     }
 
     /// Warnings: who got stuck where, which picture shows it, at which stops there was not enough room.

@@ -104,8 +104,9 @@ impl<'e> Wayfinder<'e> {
         self.field(walk).at(self.environment.ground(), p)
     }
 
-    /// Goes on to the next leg where one is done, and notes the progress.
-    pub(super) fn advance(&self, walk: &mut WalkState, p: Vec2, time_s: f64) {
+    /// Goes on to the next leg where one is done, notes the progress, and returns the walking distance to the end of the
+    /// leg, metres.
+    pub(super) fn advance(&self, walk: &mut WalkState, p: Vec2, time_s: f64) -> f64 {
         let mut left_m = self.left_m(walk, p);
         while left_m < PASSED_M && !self.is_on_last_leg(walk) {
             walk.leg += 1;
@@ -118,27 +119,35 @@ impl<'e> Wayfinder<'e> {
             walk.least_left_m = total;
             walk.improved_s = time_s;
         }
+        left_m
     }
 
     /// Sets the direction and the pace at which an agent wants to walk on.
     pub(super) fn look(&self, agent: &mut AgentMut<'_>, time_s: f64) {
         let p = agent.body.position();
-        self.advance(agent.walk, p, time_s);
-        let aim = self.aim(agent.walk, agent.traits, p, agent.body.aim(), time_s);
+        let left_m = self.advance(agent.walk, p, time_s);
+        let aim = self.aim(agent.walk, agent.traits, (p, left_m), agent.body.aim(), time_s);
         agent.walk.wanted = [aim.x as f32, aim.y as f32];
         agent.walk.pace = self.pace(agent.walk, p);
     }
 
-    /// The unit vector in which the person wants to walk.
-    pub(super) fn aim(&self, walk: &WalkState, traits: &Traits, p: Vec2, last: Vec2, time_s: f64) -> Vec2 {
-        if let Some(end) = self.to_the_end(walk, traits, p) {
+    /// The unit vector in which a person wants to walk, at a place with that much left to the end of the leg, metres.
+    pub(super) fn aim(
+        &self,
+        walk: &WalkState,
+        traits: &Traits,
+        (p, left_m): (Vec2, f64),
+        last: Vec2,
+        time_s: f64,
+    ) -> Vec2 {
+        if let Some(end) = self.to_the_end(walk, traits, p, left_m) {
             return end;
         }
         // Agents that get no farther in the flow try the shortest way.
         let at_a_loss = (time_s - walk.improved_s) % RETHINK_S > RETHOUGHT_S;
         let ahead = match self.flow(walk) {
             _ if at_a_loss => None,
-            Some(flow) => self.along_the_flow(flow, walk, traits, p),
+            Some(flow) => self.along_the_flow(flow, walk, traits, p, left_m),
             // Without a flow lanes spread people.
             None => self.down_the_field(walk, p),
         };
@@ -149,7 +158,7 @@ impl<'e> Wayfinder<'e> {
 
     /// Direction of a place some way along the flow, in sight; where the end of the leg is in sight, mostly straight there,
     /// and elsewhere in halls with a curve of the person's own.
-    fn along_the_flow(&self, flow: &Flow, walk: &WalkState, traits: &Traits, p: Vec2) -> Option<Vec2> {
+    fn along_the_flow(&self, flow: &Flow, walk: &WalkState, traits: &Traits, p: Vec2, left_m: f64) -> Option<Vec2> {
         let ground = self.environment.ground();
         let open = ground.clearance_at_least_m(p) > OPEN_M;
         let pieces = if open { PIECES } else { PIECES_AT_WALLS };
@@ -168,7 +177,6 @@ impl<'e> Wayfinder<'e> {
             at = next;
         }
         let ahead = (at - p).normalized()?;
-        let left_m = self.left_m(walk, p);
         let straight = match self.straight(walk, p, left_m) {
             Some(straight) => {
                 let [near_m, far_m] = STRAIGHT_M;
@@ -257,11 +265,10 @@ impl<'e> Wayfinder<'e> {
     }
 
     /// Direction out of the opening that has been reached, or to the visible place in the goal area nearby.
-    fn to_the_end(&self, walk: &WalkState, traits: &Traits, p: Vec2) -> Option<Vec2> {
+    fn to_the_end(&self, walk: &WalkState, traits: &Traits, p: Vec2, left_m: f64) -> Option<Vec2> {
         if !self.is_on_last_leg(walk) || f64::from(walk.least_left_m) > HOMING_M + 1.0 {
             return None;
         }
-        let left_m = self.left_m(walk, p);
         match self.environment.routes[walk.route as usize].goal {
             Place::Opening(index) if left_m <= 0.0 => {
                 self.environment.plan.openings.get(index).map(|o| o.side.outward())

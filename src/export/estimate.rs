@@ -20,6 +20,13 @@ const WITH_LAYERS: f64 = 2.0;
 /// What is added to that factor where masks have 16 bits.
 const FINE_MASKS: f64 = 1.2;
 
+/// From which size on a bake is told before it starts, bytes, and from which time on, seconds.
+const MUCH_BYTES: u64 = 2_000_000_000;
+const MUCH_S: f64 = 120.0;
+/// Processor seconds for a byte that is written, and for a second that a person walks, on a machine of 2024.
+const SECONDS_PER_BYTE: f64 = 1.3e-7;
+const SECONDS_PER_PERSON_S: f64 = 1.2e-5;
+
 /// How much a bake will write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Estimate {
@@ -63,18 +70,23 @@ impl Estimate {
 
     /// Refuses a bake that is large or exceeds the free space on the disk of `folder`.
     ///
-    /// With `any_size` it returns a message about the size instead; `None` if the bake is small enough.
-    ///
     /// # Errors
     /// [`ExportError::TooMuch`].
-    pub fn check(&self, folder: &Path, shown: &Path, any_size: bool) -> Result<Option<String>, ExportError> {
+    pub fn check(&self, folder: &Path, shown: &Path) -> Result<(), ExportError> {
         let free = free_bytes(folder);
         let fits = self.bytes <= LARGE_BYTES && free.is_none_or(|free| self.bytes <= free);
-        if fits {
-            return Ok(None);
-        }
-        let too_much = ExportError::TooMuch { path: shown.to_path_buf(), amount: self.describe(free) };
-        if any_size { Ok(Some(too_much.to_string())) } else { Err(too_much) }
+        let too_much = || ExportError::TooMuch { path: shown.to_path_buf(), amount: self.describe(free) };
+        if fits { Ok(()) } else { Err(too_much()) }
+    }
+
+    /// What to expect of a bake in which people walk for so many seconds in all, on so many threads; `None` if that is
+    /// not much.
+    pub fn tell(&self, folder: &Path, person_seconds: f64, threads: usize) -> Option<String> {
+        let work_s = SECONDS_PER_BYTE * self.bytes as f64 + SECONDS_PER_PERSON_S * person_seconds;
+        let seconds = work_s / threads.max(1) as f64;
+        let time = if seconds < 120.0 { format!("{seconds:.0} s") } else { format!("{:.0} min", seconds / 60.0) };
+        let is_much = self.bytes >= MUCH_BYTES || seconds >= MUCH_S;
+        is_much.then(|| format!("this bake is large: {}, in about {time}", self.describe(free_bytes(folder))))
     }
 
     /// The numbers in words.
@@ -121,10 +133,15 @@ mod tests {
         let large = estimate(1000.0);
         assert_eq!((large.tiles, large.sheets), (62 * 62, 0));
         let folder = tempfile::tempdir().unwrap();
-        let error = large.check(folder.path(), Path::new("out"), false).unwrap_err();
+        let error = large.check(folder.path(), Path::new("out")).unwrap_err();
         let message = error.to_string();
         assert!(message.contains("3844 floor tiles") && message.contains("998 GB"), "{message}");
-        assert!(large.check(folder.path(), Path::new("out"), true).unwrap().unwrap().contains("3844 floor tiles"));
-        assert_eq!(estimate(1.0).check(folder.path(), Path::new("out"), false).unwrap(), None);
+        let told = large.tell(folder.path(), 0.0, 2).unwrap();
+        assert!(told.contains("3844 floor tiles") && told.contains("are free, in about"), "{told}");
+        let small = estimate(1.0);
+        small.check(folder.path(), Path::new("out")).unwrap();
+        assert_eq!(small.tell(folder.path(), 1e5, 2), None);
+        // A small floor on which people walk for a year.
+        assert!(small.tell(folder.path(), 3e9, 2).unwrap().contains(" min"));
     }
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::{ExportError, OutputFolder};
-use crate::crowd::{SpotReport, Stuck, Tally};
+use crate::crowd::{Overload, SpotReport, Standstill, Stuck, Tally};
 use crate::files::read_input;
 use crate::math::{Vec2, vec2};
 use crate::rooms::{Life, Room, RoomKind, Use};
@@ -115,6 +115,12 @@ pub struct PeopleReport {
     /// Units played at each spot.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub spots: Vec<SpotReport>,
+    /// Places to which more people come than can pass, as foreseen before the walk.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub overloads: Vec<Overload>,
+    /// Who waited where while the crowd hardly got on.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub standstills: Vec<Standstill>,
 }
 
 impl PeopleReport {
@@ -126,6 +132,8 @@ impl PeopleReport {
             stuck: tally.stuck.len() as u64,
             stuck_people: tally.stuck.iter().map(|stuck| StuckReport::of(stuck, routes)).collect(),
             spots: tally.spots.clone(),
+            overloads: tally.overloads.clone(),
+            standstills: tally.standstills.clone(),
         }
     }
 }

@@ -90,6 +90,12 @@ impl Flow {
         Flow { first, ahead }
     }
 
+    /// Whether people of the flow pass a cell.
+    pub(super) fn holds(&self, cell: usize) -> bool {
+        let first = self.first[cell / BLOCK_CELLS];
+        first != NONE && self.ahead[first as usize + cell % BLOCK_CELLS] != [0, 0]
+    }
+
     /// Unit vector along the flow at `p`; `None` off the flow.
     #[inline]
     pub(crate) fn at(&self, ground: &Ground, p: Vec2) -> Option<Vec2> {

@@ -45,6 +45,13 @@ impl Route {
         matches!(self.start, Place::Opening(_)) || self.life.is_some_and(|life| life.from_outside)
     }
 
+    /// Mean time that a person takes who walks one of these routes, without delays, seconds.
+    pub(crate) fn mean_seconds(routes: &[Route]) -> f64 {
+        const USUAL_M_S: f64 = 1.25;
+        let stays_s = |route: &Route| route.stops.iter().map(|on| on.share * on.stop.dwell_s.mean()).sum::<f64>();
+        routes.iter().map(|route| route.share * (route.length_m / USUAL_M_S + stays_s(route))).sum()
+    }
+
     /// Stops of all routes, each once, in order of the routes.
     pub fn each_stop(routes: &[Route]) -> Vec<&Stop> {
         let mut each: Vec<&Stop> = Vec::new();

@@ -217,6 +217,43 @@ fn whoever_gets_stuck_is_named_and_marked() {
     assert_eq!(report["people"]["stuck_people"], json["people"]["stuck_people"]);
 }
 
+/// A door of 0.8 m to which three people come in a second, in a plan whose other places are wide.
+#[test]
+fn more_people_than_can_pass_are_told_before_and_who_waits_while_they_stand() {
+    let sandbox = sandbox();
+    let image = image::GrayImage::from_fn(160, 64, |x, y| {
+        let wall = !(2..62).contains(&y) || (79..81).contains(&x) && !(28..36).contains(&y);
+        image::Luma([if wall { 0 } else { 255 }])
+    });
+    image.save(sandbox.path("door.png")).unwrap();
+    let scenario = |seconds: u32| {
+        format!(
+            "[plan]\nimage = \"door.png\"\nmetres_per_pixel = 0.1\n[crowd]\npeople = 300\nentry_seconds = {seconds}\n\
+             [[route]]\nfrom = \"west\"\nto = \"east\"\n"
+        )
+    };
+    sandbox.write("many.toml", scenario(60));
+    sandbox.write("few.toml", scenario(600));
+    let ran = sandbox.run(&["crowd", "many.toml", "--json"]).succeeds();
+    let json: serde_json::Value = serde_json::from_str(&ran.out).unwrap();
+    assert_eq!(json["people"]["overloads"].as_array().map(Vec::len), Some(1), "{}", ran.out);
+    assert_eq!(json["people"]["standstills"].as_array().map(Vec::len), Some(1), "{}", ran.out);
+    let [before, waits] = [" a second pass: the last wait ", "wait around ["].map(|said| ran.err.find(said));
+    assert!(before.is_some() && before < waits, "{}", ran.err);
+    assert_eq!(ran.err.matches("wait around [").count(), 1, "{}", ran.err);
+    assert_eq!(sandbox.run(&["crowd", "many.toml", "-q"]).succeeds().err, "");
+    let calm = sandbox.run(&["crowd", "few.toml"]).succeeds().err;
+    assert!(!calm.contains("a second pass") && !calm.contains("wait around"), "{calm}");
+
+    let ran = sandbox.run(&["bake", "many.toml", "--quick", "--floor-only", "-o", "out"]).succeeds();
+    assert!(ran.err.contains(" a second pass: ") && ran.err.contains("wait around ["), "{}", ran.err);
+    let report: serde_json::Value =
+        serde_json::from_slice(&fs::read(sandbox.path("out/report.json")).unwrap()).unwrap();
+    for key in ["overloads", "standstills"] {
+        assert_eq!(report["people"][key], json["people"][key]);
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn an_interrupted_walk_leaves_nothing() {

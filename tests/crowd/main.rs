@@ -5,6 +5,7 @@
 
 #![allow(clippy::unwrap_used)] // a test may panic
 
+mod capacity;
 mod counter_flow;
 mod hard_plans;
 mod keeps;

@@ -9,7 +9,7 @@ use super::visitor::{StopOnRoute, VisitState, Visitor};
 use crate::crowd::agents::Agents;
 use crate::crowd::environment::Environment;
 use crate::math::Rect;
-use crate::routes::{Field, Place, StopKind};
+use crate::routes::{Field, Place, Stop, StopKind};
 
 /// Interval at which stops are updated, seconds.
 const UPDATE_S: f64 = 0.2;
@@ -94,6 +94,17 @@ impl Stops {
         first.filter(|stop| stop.after_via == 0).map(|stop| VisitTarget::come(stop.stop))
     }
 
+    /// All stops, each once.
+    pub(in crate::crowd) fn all(&self) -> impl Iterator<Item = &Stop> {
+        self.states.iter().map(|state| &state.stop)
+    }
+
+    /// How long a person stays at a stop of the route, seconds; `None` for those who do not stop there.
+    pub(in crate::crowd) fn dwell_s(&self, seed: u64, ids: [u32; 2], route: usize, stop: usize) -> Option<f64> {
+        let visitor = Visitor::new(seed, ids, route, self.of_route.get(route)?)?;
+        visitor.plan.iter().find(|visit| visit.stop == stop).map(|visit| visit.dwell_s)
+    }
+
     /// Counts of visits, stop by stop.
     pub(in crate::crowd) fn tally(&self) -> Vec<StopTally> {
         self.states.iter().map(|state| state.tally.clone()).collect()
@@ -112,6 +123,11 @@ impl Stops {
     /// The name of a target's stop, for messages.
     pub(in crate::crowd) fn name_of(&self, target: &VisitTarget) -> Option<String> {
         self.get(target.stop()).map(|state| state.stop.name.clone())
+    }
+
+    /// Whether a target's stop is a ticket gate.
+    pub(in crate::crowd) fn is_gate(&self, target: &VisitTarget) -> bool {
+        self.get(target.stop()).is_some_and(|state| state.stop.kind == StopKind::Gate)
     }
 
     /// Moves queues on and ends stays, if an update is due at this step.
