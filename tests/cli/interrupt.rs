@@ -22,7 +22,17 @@ fn baked(sandbox: &Sandbox) -> BTreeMap<PathBuf, Vec<u8>> {
 
 #[test]
 fn a_killed_bake_leaves_the_earlier_one_or_its_own_and_the_next_cleans_up() {
-    const MOMENTS: u32 = 8;
+    killed_at(8);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn a_bake_killed_at_any_moment_leaves_the_earlier_one_or_its_own() {
+    killed_at(50);
+}
+
+/// Kills a bake over an earlier one at so many moments, evenly over its time.
+fn killed_at(moments: u32) {
     let sandbox = Sandbox::new();
     sandbox.plan();
     let bake = ["bake", "plan.png", "--metres-per-pixel", "0.1", "--quick", "--force", "-o", "out", "--people", "5"];
@@ -35,13 +45,13 @@ fn a_killed_bake_leaves_the_earlier_one_or_its_own_and_the_next_cleans_up() {
     let begun = Instant::now();
     sandbox.run(&run("1")).succeeds();
     let took = begun.elapsed();
-    for moment in 0..MOMENTS {
+    for moment in 0..moments {
         let mut child = sandbox.command(&run("2")).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-        std::thread::sleep(took * (2 * moment + 1) / (2 * MOMENTS));
+        std::thread::sleep(took * (2 * moment + 1) / (2 * moments));
         child.kill().unwrap();
         child.wait().unwrap();
         let left = baked(&sandbox);
-        assert!(left == old || left == new, "killed at {moment} of {MOMENTS}: neither the old bake nor the new one");
+        assert!(left == old || left == new, "killed at {moment} of {moments}: neither the old bake nor the new one");
         sandbox.run(&run("1")).succeeds();
         assert!(baked(&sandbox) == old && sandbox.contents().len() == all, "the next bake left something behind");
     }

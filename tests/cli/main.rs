@@ -13,6 +13,7 @@ mod help;
 mod interrupt;
 mod motion;
 mod motion_mistakes;
+mod names;
 mod parts;
 mod patterns;
 mod readme;

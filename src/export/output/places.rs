@@ -1,7 +1,8 @@
 //! Paths of an output folder during its replacement, and the replacement itself.
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -23,6 +24,21 @@ const LONGEST_WAIT: Duration = Duration::from_secs(5);
 /// Whether the folder holds a bake of ours, as its manifest's `generator` says.
 pub fn is_bake(folder: &Path) -> bool {
     manifest::generator(folder).is_ok_and(|generator| generator == manifest::GENERATOR)
+}
+
+/// Longest name of an output that hidden names repeat whole, bytes; file systems allow 255.
+const LONGEST_NAME: usize = 240;
+
+/// The name, or its beginning and a check sum that tells it from others that begin so.
+fn short(name: &OsStr) -> Cow<'_, OsStr> {
+    let bytes = name.as_encoded_bytes();
+    if bytes.len() <= LONGEST_NAME {
+        return name.into();
+    }
+    let mut sum = flate2::Crc::new();
+    sum.update(bytes);
+    let start: String = name.to_string_lossy().chars().take(50).collect();
+    OsString::from(format!("{start}-{:08x}", sum.sum())).into()
 }
 
 /// The output and what lies beside it while it is replaced.
@@ -47,7 +63,7 @@ impl Places {
         };
         let beside = |suffix: &str| {
             let mut hidden = OsString::from(".");
-            hidden.push(name);
+            hidden.push(short(name));
             hidden.push(suffix);
             parent.join(hidden)
         };
