@@ -48,13 +48,12 @@ mod simulation;
 
 pub use agents::AgentSnapshot;
 pub use arrivals::Arrival;
+pub use capacity::Overload;
 pub use error::CrowdError;
 pub use options::{CrowdModel, CrowdOptions, SpeedLaw};
 pub use simulation::Simulation;
 pub use social_force::{GroupOptions, SocialForceOptions};
 pub use spots::{MeanAndMax, SpotReport, SpotRequest};
+pub use standstill::Standstill;
 pub use stops::{StopTally, Visit};
 pub use tally::{Stuck, Tally};
-
-pub(crate) use capacity::Overload;
-pub(crate) use standstill::Standstill;

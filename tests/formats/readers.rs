@@ -158,7 +158,8 @@ fn corridor(format: ImageFormat) -> Vec<u8> {
 /// A dark spot on a light, slightly uneven ground.
 fn stain() -> Vec<u8> {
     let value = |x: u32, y: u32| {
-        let off = (f64::from(x) - 60.0).powi(2) + 4.0 * (f64::from(y) - 24.0).powi(2);
+        let (dx, dy) = (f64::from(x) - 60.0, f64::from(y) - 24.0);
+        let off = dx * dx + 4.0 * dy * dy;
         200 + ((x * 7 + y * 13) % 5) as u8 - if off < 900.0 { 110 } else { 0 }
     };
     encoded(&GrayImage::from_fn(120, 48, |x, y| Luma([value(x, y)])).into(), ImageFormat::Png)
