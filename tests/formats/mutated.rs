@@ -10,10 +10,10 @@ use super::readers::{Bench, READERS};
 
 /// Longest time for a small input, also on a busy machine.
 const LONGEST: Duration = Duration::from_secs(20);
-/// Time for all damaged inputs of a reader; a slow one is given fewer.
-const INPUTS: usize = 40;
-/// Of a bake of a part, which takes as long as all others together.
-const COSTLY: usize = 8;
+/// Damaged inputs of a reader.
+const INPUTS: usize = 24;
+/// Of the reader of parts, each of which ends in a bake.
+const COSTLY: usize = 6;
 
 const NUMBERS: [&str; 8] = ["0", "-1", "1e308", "-1e-308", "nan", "4294967296", "18446744073709551615", "0.1"];
 

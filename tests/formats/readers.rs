@@ -6,7 +6,7 @@ use std::fs;
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
 
-use image::{GrayImage, ImageFormat, ImageReader, Luma, Rgb, RgbImage};
+use image::{DynamicImage, GrayImage, ImageFormat, ImageReader, Luma, Rgb, RgbImage};
 use trodden::Silent;
 use trodden::bake::{OutputOptions, bake, bake_part, merge};
 use trodden::export::diff::{DiffOptions, diff};
@@ -142,7 +142,7 @@ impl Bench {
     }
 }
 
-fn encoded(picture: &image::DynamicImage, format: ImageFormat) -> Vec<u8> {
+fn encoded(picture: &DynamicImage, format: ImageFormat) -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
     picture.write_to(&mut bytes, format).unwrap();
     bytes.into_inner()
@@ -152,7 +152,8 @@ fn encoded(picture: &image::DynamicImage, format: ImageFormat) -> Vec<u8> {
 fn corridor(format: ImageFormat) -> Vec<u8> {
     let is_floor = |x: u32, y: u32| (5..35).contains(&y) && (x != 40 || (12..24).contains(&y));
     let picture = GrayImage::from_fn(80, 40, |x, y| Luma([if is_floor(x, y) { 255 } else { 0 }]));
-    encoded(&picture.into(), format)
+    // GIF knows no grey.
+    encoded(&DynamicImage::from(picture).to_rgb8().into(), format)
 }
 
 /// A dark spot on a light, slightly uneven ground.
