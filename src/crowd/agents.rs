@@ -200,6 +200,11 @@ impl Agents {
         true
     }
 
+    /// The slots of those who are led, onlookers included, in the order of ids.
+    pub(super) fn led_slots(&self) -> impl Iterator<Item = usize> + '_ {
+        self.led.keys().filter_map(|&id| self.slot(id))
+    }
+
     /// Lets a led agent walk on by the model, see [`Simulation::release`](super::Simulation::release).
     pub(super) fn release(&mut self, id: u32, time_s: f64) -> bool {
         if self.is_onlooker(id) || self.led.remove(&id).is_none() {

@@ -53,6 +53,45 @@ impl Forces {
         [strength * (along * t[0] + across * n[0]), strength * (along * t[1] + across * n[1])]
     }
 
+    /// Acceleration out of the way of somebody who gives way to nobody, at the offset `d` and the relative velocity `w`.
+    ///
+    /// It points away from where they will be nearest, until they pass at `apart_m`, middle to middle.
+    pub(super) fn out_of_the_way(d: [f32; 2], w: [f32; 2], apart_m: f32) -> [f32; 2] {
+        let closing = -(d[0] * w[0] + d[1] * w[1]);
+        let w2 = w[0] * w[0] + w[1] * w[1];
+        if closing <= 0.0 || closing > w2 * FORESEEN_S {
+            return [0.0; 2];
+        }
+        let nearest_s = closing / w2;
+        let miss = [d[0] + w[0] * nearest_s, d[1] + w[1] * nearest_s];
+        let miss_m = (miss[0] * miss[0] + miss[1] * miss[1]).sqrt();
+        if miss_m >= apart_m {
+            return [0.0; 2];
+        }
+        // Head on, to the right.
+        let length = w2.sqrt();
+        let away = match miss_m > HEAD_ON_M {
+            true => [-miss[0] / miss_m, -miss[1] / miss_m],
+            false => [-w[1] / length, w[0] / length],
+        };
+        let needed_m_s = (apart_m - miss_m) / nearest_s.max(SOONEST_S);
+        away.map(|axis| axis * needed_m_s * EAGERNESS_PER_S)
+    }
+
+    /// Acceleration that keeps somebody from running into another, `gap_m` away, at the offset `d` and the relative velocity
+    /// `w`: as hard as is needed, once it is needed.
+    pub(super) fn brake(d: [f32; 2], w: [f32; 2], gap_m: f32) -> [f32; 2] {
+        let distance_m = (d[0] * d[0] + d[1] * d[1]).sqrt().max(1e-3);
+        let e = [d[0] / distance_m, d[1] / distance_m];
+        let closing_m_s = -(e[0] * w[0] + e[1] * w[1]);
+        let needed = closing_m_s * closing_m_s / (2.0 * gap_m.max(LEAST_GAP_M));
+        if closing_m_s <= 0.0 || needed < BRAKES_M_S2 {
+            [0.0; 2]
+        } else {
+            e.map(|axis| -axis * needed.min(MOST_BRAKING))
+        }
+    }
+
     /// Side on which another is: 1 on the left, -1 on the right, in between straight ahead.
     fn side(&self, theta: f32, range_m: f32) -> f32 {
         let comes = (range_m - self.options.range as f32).max(0.0);
@@ -131,6 +170,18 @@ fn angle(sin: f32, cos: f32) -> f32 {
 ///
 /// Ours; Moussaid et al. 2009 have such a bias too, for everybody: `theta + epsilon B`, epsilon about 0.005.
 const LEFT_RAD_M: f32 = 0.01;
+/// How far ahead people foresee who gives way to nobody, and the least time that they reckon with, seconds.
+const FORESEEN_S: f32 = 3.0;
+const SOONEST_S: f32 = 0.3;
+/// How quickly they take up the velocity that leads them past, per second.
+const EAGERNESS_PER_S: f32 = 8.0;
+/// Distance at which others pass up to which they come head on, metres.
+const HEAD_ON_M: f32 = 0.05;
+/// Gap that braking reckons with at least, metres, and the deceleration from which on people brake, and the hardest, metres
+/// per second squared.
+const LEAST_GAP_M: f32 = 0.03;
+const BRAKES_M_S2: f32 = 1.5;
+const MOST_BRAKING: f32 = 8.0;
 /// Angle from straight ahead over which one side blends into the other, radians: a step would make followers swerve.
 const STRAIGHT_RAD: f32 = 0.02;
 
@@ -177,6 +228,18 @@ mod tests {
         let [ahead, _] = forces.by_person([0.8, 0.0], [0.0, 0.0], [1.0, 0.0]);
         let [behind, _] = forces.by_person([-0.8, 0.0], [0.0, 0.0], [1.0, 0.0]);
         assert!((behind / -ahead - 0.06).abs() < 1e-3, "{behind} {ahead}");
+    }
+
+    #[test]
+    fn who_gives_way_to_nobody_is_passed_in_time_and_nobody_is_run_into() {
+        let [ax, ay] = Forces::out_of_the_way([3.0, 0.0], [-2.4, 0.0], 0.6);
+        assert!(ax.abs() < 1e-6 && ay < -2.0, "{ax} {ay}");
+        assert!(Forces::out_of_the_way([3.0, 0.2], [-2.4, 0.0], 0.6)[1] < -1.0);
+        assert_eq!(Forces::out_of_the_way([3.0, 0.7], [-2.4, 0.0], 0.6), [0.0; 2]);
+        assert_eq!(Forces::out_of_the_way([3.0, 0.0], [2.4, 0.0], 0.6), [0.0; 2]);
+        assert_eq!(Forces::brake([1.0, 0.0], [-1.0, 0.0], 0.7), [0.0; 2]);
+        assert!((Forces::brake([1.0, 0.0], [-2.0, 0.0], 0.5)[0] + 4.0).abs() < 1e-5);
+        assert_eq!(Forces::brake([1.0, 0.0], [2.0, 0.0], 0.5), [0.0; 2]);
     }
 
     #[test]

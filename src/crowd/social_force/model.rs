@@ -19,6 +19,11 @@ const CONTACT_M: f32 = 0.3;
 const LEAST_SPEED_M_S: f32 = 0.1;
 /// Distance up to which those who come the other way are noticed, metres.
 const AHEAD_M: f32 = 4.0;
+/// Distance up to which people see somebody come who is led, and the gap at which they pass them, metres.
+const LED_REACH_M: f32 = 9.0;
+const PASSING_M: f32 = 0.25;
+/// Gap below which they brake for anybody, metres.
+const BRAKING_M: f32 = 0.8;
 /// Distance beyond which members of a group have lost each other, metres.
 const LOST_M: f32 = 8.0;
 
@@ -35,6 +40,13 @@ impl SocialForce {
             most_speed: options.social_force.most_speed as f32,
         }
     }
+}
+
+/// Others whom an agent heeds in ways of their own, as indices of the neighbours' grid.
+#[derive(Clone, Copy)]
+struct Others<'a> {
+    led: &'a [u32],
+    own_group: &'a [u32],
 }
 
 impl SteeringModel for SocialForce {
@@ -56,28 +68,31 @@ impl SteeringModel for SocialForce {
     }
 
     fn next_moves(&self, agents: &Agents, perception: &Perception<'_>, first: usize, moves: &mut [Move]) {
+        let led: Vec<u32> = agents.led_slots().map(|slot| perception.neighbours.index_of_slot[slot]).collect();
         for (index, next) in (first..).zip(moves) {
             let slot = perception.neighbours.slots[index] as usize;
             let (mates, count) = mates(agents, perception, slot);
-            *next = self.next(perception, index, &agents.traits[slot], agents.walks[slot].pace, &mates[..count]);
+            let others = Others { led: &led, own_group: &mates[..count] };
+            *next = self.next(perception, index, &agents.traits[slot], agents.walks[slot].pace, others);
         }
     }
 }
 
 impl SocialForce {
-    /// The next move of the body at this index of the neighbours' grid; `own_group` holds the indices of its group.
-    fn next(&self, perception: &Perception<'_>, index: usize, traits: &Traits, pace: f32, own_group: &[u32]) -> Move {
+    /// The next move of the body at this index of the neighbours' grid.
+    fn next(&self, perception: &Perception<'_>, index: usize, traits: &Traits, pace: f32, others: Others<'_>) -> Move {
         let me = &perception.neighbours.bodies[index];
         let aim = [me.aim_x, me.aim_y];
         let wanted_speed = traits.speed_m_s * pace;
         let mut next = Move { wall_limit_m: traits.wall_exclusion_m, ..Move::default() };
-        let [px, py] = self.by_others(perception, index, own_group, &mut next);
-        let [gx, gy] = self.by_group(perception, me, own_group);
+        let [px, py] = self.by_others(perception, index, others.own_group, &mut next);
+        let [gx, gy] = self.by_group(perception, me, others.own_group);
+        let [lx, ly] = by_led(perception, index, others);
         // Agents that stand, or walk up to a spot, heed the spot more than others.
         let heed = pace.min(1.0);
         let [rx, ry] = self.forces.by_chance(traits.wander, perception.time_s);
-        let mut ax = (aim[0] * wanted_speed - me.vx) / self.forces.relaxation_s() + heed * (px + gx + rx);
-        let mut ay = (aim[1] * wanted_speed - me.vy) / self.forces.relaxation_s() + heed * (py + gy + ry);
+        let mut ax = (aim[0] * wanted_speed - me.vx) / self.forces.relaxation_s() + heed * (px + gx + rx) + lx;
+        let mut ay = (aim[1] * wanted_speed - me.vy) / self.forces.relaxation_s() + heed * (py + gy + ry) + ly;
         if let Some([wx, wy]) = self.by_wall(perception, me, &mut next) {
             ax += heed * wx;
             ay += heed * wy;
@@ -87,7 +102,8 @@ impl SocialForce {
         let [mut vx, mut vy] = [me.vx + ax * ease * perception.dt, me.vy + ay * ease * perception.dt];
         let short = wanted_speed.min(LEAST_SPEED_M_S) - (vx * aim[0] + vy * aim[1]);
         let own = me.vx * aim[0] + me.vy * aim[1];
-        if short > 0.0 && own > -LEAST_SPEED_M_S {
+        // Not into those whom it makes way for.
+        if short > 0.0 && own > -LEAST_SPEED_M_S && lx * aim[0] + ly * aim[1] >= 0.0 {
             vx += short * aim[0];
             vy += short * aim[1];
         }
@@ -172,6 +188,41 @@ impl SocialForce {
         let push = self.forces.by_wall(nearest.distance_m as f32 - next.wall_limit_m);
         Some([push * away.x as f32, push * away.y as f32])
     }
+}
+
+/// Acceleration out of the way of those who are led: they give way to nobody.
+///
+/// Whoever sees somebody led steps aside for them, and runs into nobody else meanwhile.
+fn by_led(perception: &Perception<'_>, index: usize, others: Others<'_>) -> [f32; 2] {
+    let neighbours = perception.neighbours;
+    let me = &neighbours.bodies[index];
+    let (mut sum, mut some_led) = ([0.0f32; 2], false);
+    for &other in others.led.iter().filter(|&&other| other as usize != index) {
+        let body = &neighbours.bodies[other as usize];
+        let d = [neighbours.dx(me.x, body.x), body.y - me.y];
+        if d[0] * d[0] + d[1] * d[1] < LED_REACH_M * LED_REACH_M && perception.sees(me, d[0], d[1]) {
+            some_led = true;
+            let apart_m = me.half_exclusion_m + body.half_exclusion_m + PASSING_M;
+            let [ax, ay] = Forces::out_of_the_way(d, [body.vx - me.vx, body.vy - me.vy], apart_m);
+            sum = [sum[0] + ax, sum[1] + ay];
+        }
+    }
+    if some_led {
+        neighbours.within(me.x, me.y, NEAR_M, |range, shift| {
+            let start = range.start;
+            for (k, body) in neighbours.bodies[range].iter().enumerate().filter(|(k, _)| start + k != index) {
+                let d = [body.x + shift - me.x, body.y - me.y];
+                let gap_m = (d[0] * d[0] + d[1] * d[1]).sqrt() - me.half_exclusion_m - body.half_exclusion_m;
+                if gap_m < BRAKING_M && perception.sees(me, d[0], d[1]) {
+                    // Others who are not led do half of it.
+                    let share = if others.led.contains(&((start + k) as u32)) { 1.0 } else { 0.5 };
+                    let [ax, ay] = Forces::brake(d, [body.vx - me.vx, body.vy - me.vy], gap_m);
+                    sum = [sum[0] + share * ax, sum[1] + share * ay];
+                }
+            }
+        });
+    }
+    sum
 }
 
 /// The others of an agent's group who walk along, as indices of the neighbours' grid, and their number.

@@ -4,4 +4,5 @@ mod drawn;
 mod played;
 mod refused;
 mod scene;
+mod shoved;
 mod spliced;
