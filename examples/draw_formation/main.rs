@@ -8,18 +8,19 @@
 //! ```
 //!
 //! Without a recording, three people walk who are made for it. In a recording, neighbours are looked for who keep one
-//! pattern of adjacency for two seconds and more; how far rotation and recording differ in all of them is printed.
+//! pattern of adjacency for two seconds and more; how far rotation and recording differ in all of them, `trodden motion formation --check` prints.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-use trodden::formation::{Basis, SphereTracks, default_sigma_m, sphere_tracks};
+use trodden::Silent;
+use trodden::formation::{Agreement, Basis, SphereTracks, default_sigma_m, sphere_tracks};
 use trodden::math::{Vec2, sin_cos, vec2};
 use trodden::motion::Ensemble;
+use trodden::recordings::{Recording, RecordingOptions};
 
 mod changes;
 mod chart;
-mod neighbours;
 
 use chart::{BLUE, Chart, GREEN, GREY, LIGHT, ORANGE, RED};
 
@@ -30,7 +31,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let example = match arguments.next() {
         Some(recording) => {
             let fps = arguments.next().map(|fps| fps.parse()).transpose()?;
-            neighbours::with_one_pattern(Path::new(&recording), fps)?
+            let options = RecordingOptions { fps, ..RecordingOptions::default() };
+            let agreement = Agreement::of(&Recording::open(Path::new(&recording), &options)?, &Silent)?;
+            agreement.turned_farthest.ok_or("no three people keep one pattern of adjacency")?
         }
         None => made(),
     };

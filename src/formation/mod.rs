@@ -56,6 +56,8 @@
 //! Results are the same for any number of threads. They are promised to be the same on one machine only: nalgebra's products
 //! use the processor's instructions.
 
+mod agreement;
+mod apart;
 mod assignment;
 mod avoidance;
 mod basis;
@@ -79,6 +81,8 @@ mod request;
 mod rotation;
 mod sphere;
 
+pub use agreement::Agreement;
+pub use apart::keep_apart;
 pub use basis::Basis;
 pub use error::FormationError;
 pub use example::{ExampleCoefficients, example_coefficients};

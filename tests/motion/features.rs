@@ -100,7 +100,7 @@ fn a_recording_in_which_people_come_and_go_gives_something_useful() {
 fn coefficients_are_changed_and_pictures_are_drawn() {
     let folder = tempfile::tempdir().unwrap();
     dance(&folder.path().join("dance.txt"));
-    done(folder.path(), &["dance.txt", "--scale", "all=2", "-o", "twice.txt", "--paths", "twice.png"]);
+    done(folder.path(), &["dance.txt", "--scale", "all=2", "--no-avoid", "-o", "twice.txt", "--paths", "twice.png"]);
     assert!(image::open(folder.path().join("twice.png")).unwrap().width() > 200);
     let (once, twice) = (read(&folder.path().join("dance.txt")), read(&folder.path().join("twice.txt")));
     for moment in 0..once.moments() - 1 {
@@ -116,6 +116,66 @@ fn coefficients_are_changed_and_pictures_are_drawn() {
     assert_eq!(frozen["written"]["motion"]["format"], "jupedsim");
     assert!(frozen["features"]["error_m"].as_f64().unwrap() > 0.01);
     assert!(frozen["features"]["mean_neighbours"][0].as_f64().unwrap() > 0.5);
+}
+
+/// The nearest that two people come, metres.
+fn nearest_m(of: &Ensemble) -> f64 {
+    let at = |moment: usize| {
+        let places = of.places_at(moment);
+        let pairs = (0..places.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
+        pairs.map(|(a, b)| places[a].distance(places[b])).fold(f64::INFINITY, f64::min)
+    };
+    (0..of.moments()).map(at).fold(f64::INFINITY, f64::min)
+}
+
+/// Six pairs, who walk towards each other and back again.
+fn meetings(path: &Path, apart_m: f64) {
+    recording(path, 12, 80, |id, t| {
+        let (sway, _) = sin_cos(t * (0.9 + 0.05 * f64::from(id / 2)));
+        let side = if id % 2 == 0 { 1.0 } else { -1.0 };
+        Some(vec2(side * (0.5 * apart_m - 0.4 * sway.abs()), 2.0 * f64::from((id - 1) / 2) + 0.01 * f64::from(id)))
+    });
+}
+
+#[test]
+fn people_of_a_new_motion_step_aside() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    meetings(&path("meet.txt"), 1.22);
+    let (_, said) = done(folder.path(), &["meet.txt", "--scale", "all=2", "--no-avoid", "-o", "through.txt"]);
+    assert!(!said.contains("too dense"), "{said}");
+    let (_, said) = done(folder.path(), &["meet.txt", "--scale", "all=2", "-o", "aside.txt"]);
+    assert!(!said.contains("too dense"), "{said}");
+    let [before, through, aside] = ["meet.txt", "through.txt", "aside.txt"].map(|name| read(&path(name)));
+    let gaps = [&before, &through, &aside].map(nearest_m);
+    assert!(gaps[0] > 0.4 && gaps[1] < 0.2 && gaps[2] > 0.359, "{gaps:?}");
+    // They go the same ways but for stepping aside, without a jump.
+    for moment in 1..aside.moments() {
+        for k in 0..12 {
+            let off = |moment: usize| aside.places_at(moment)[k] - through.places_at(moment)[k];
+            assert!(off(moment).length() < 0.3 && off(moment).distance(off(moment - 1)) < 0.12, "{k} at {moment}");
+        }
+    }
+    let (_, said) = done(folder.path(), &["meet.txt", "--scale", "all=2", "--distance", "0.2", "-o", "nearer.txt"]);
+    let nearer_m = nearest_m(&read(&path("nearer.txt")));
+    assert!((0.199..0.3).contains(&nearer_m), "{nearer_m} {said}");
+    // The motion as it was is left alone.
+    done(folder.path(), &["meet.txt", "--distance", "2", "-o", "same.txt"]);
+    assert!((nearest_m(&read(&path("same.txt"))) - gaps[0]).abs() < 1e-3);
+}
+
+#[test]
+fn where_it_is_too_crowded_a_warning_says_where_and_when() {
+    let folder = tempfile::tempdir().unwrap();
+    // A hundred people who wait far from each other, and half-way leap into one place for a tenth of a second.
+    recording(&folder.path().join("leap.txt"), 60, 81, |id, t| {
+        let home = vec2(3.0 * f64::from(id), 0.0);
+        Some(if (t - 4.0).abs() < 0.01 { home.lerp(vec2(90.0, 1.0), 0.5) } else { home })
+    });
+    let (_, said) = done(folder.path(), &["leap.txt", "--scale", "all=2", "-o", "all.txt"]);
+    assert!(said.contains("too dense: at 4.0 s near ["), "{said}");
+    let (_, said) = done(folder.path(), &["leap.txt", "--scale", "all=2", "--no-avoid", "-o", "none.txt"]);
+    assert!(!said.contains("too dense"), "{said}");
 }
 
 #[test]

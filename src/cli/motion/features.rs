@@ -8,13 +8,14 @@ use trodden::features::{
     self, FeatureComponent, FeaturesOptions, Method, Mix, MixOptions, MixSource, Modulation, NEIGHBOUR_DISTANCES_M,
     PresenceSpan, Rule,
 };
+use trodden::formation::{AvoidRequest, keep_apart};
 use trodden::motion::Ensemble;
 use trodden::recordings::Recording;
 use trodden::source::{CoordinateFrame, Given};
 use trodden::walk::WalkReport;
 use trodden::{Error, Progress};
 
-use super::super::arguments::{frame_rate, number_within, one_of};
+use super::super::arguments::{frame_rate, number_within, one_of, within};
 use super::super::progress::Watch;
 use super::Common;
 use super::input::{RecordingInput, seconds};
@@ -49,7 +50,8 @@ min max clamp, the constants pi tau e, and
   duration  seconds from start to end        c    its coefficient at the moment, metres
                                              sd   standard deviation of its coefficient, metres
 
-Only people who are there throughout can be worked on. Without --from and --to it is the time that holds most places of
+In a new motion people step aside who would come nearer to each other than bodies do; where it is too crowded for that, a
+warning says where and when. Only people who are there throughout can be worked on. Without --from and --to it is the time that holds most places of
 such people. The new motion begins at 0 s.")]
 pub struct Features {
     #[command(flatten)]
@@ -78,6 +80,13 @@ pub struct Features {
     /// Moments per second that are worked on [default: the recording's own]
     #[arg(long, help_heading = FEATURES, value_name = "N", value_parser = frame_rate, allow_negative_numbers = true)]
     rate: Option<f64>,
+    /// Let people come as near to each other as the new motion leads them
+    #[arg(long, help_heading = FEATURES)]
+    no_avoid: bool,
+    /// How near bodies' middles may come to each other in a new motion, metres [default: 0.36]
+    #[arg(long, help_heading = FEATURES, value_name = "M", value_parser = within("formation.avoid.distance_m"))]
+    #[arg(allow_negative_numbers = true, conflicts_with = "no_avoid")]
+    distance: Option<f64>,
     #[command(flatten)]
     mixing: Mixing,
     #[command(flatten, next_help_heading = "Output")]
@@ -128,6 +137,10 @@ impl Features {
         let watch = Watch::new(common);
         let (summary, mut made) = self.make(&watch)?;
         made.start_s = 0.0;
+        if files.any() && self.changes() && !self.no_avoid {
+            let avoid = AvoidRequest { distance_m: self.distance, ..AvoidRequest::default() };
+            made = keep_apart(made, &avoid, &watch).map_err(Error::from)?;
+        }
         if !json && !common.quiet {
             self.table(&summary).into_iter().try_for_each(|line| files.say(line))?;
         }

@@ -2,11 +2,14 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use trodden::formation::{Assign, AvoidRequest, ExampleRequest, FormationRequest, KeyRequest, form, is_picture};
+use serde::Serialize;
+use trodden::formation::{
+    Agreement, Assign, AvoidRequest, ExampleRequest, FormationRequest, KeyRequest, form, is_picture,
+};
 use trodden::scenario::{Overrides, Scenario};
 use trodden::source::{Given, Ground};
 use trodden::walk::show;
-use trodden::{Error, Stopwatch};
+use trodden::{Error, Progress, Stopwatch};
 
 use super::super::arguments::within;
 use super::super::progress::Watch;
@@ -24,11 +27,16 @@ Examples:
   trodden motion formation floorplans/cavalry.toml --animation battle.gif
   trodden motion formation floorplans/swimming.toml -o routine.txt --paths ways.png
   trodden motion formation --example march.txt --first triangle.txt --last ring.png -o out.txt
-  trodden motion formation --example march.txt --key 12.5=star.png --metres-per-pixel 0.05 --animation star.gif")]
+  trodden motion formation --example march.txt --key 12.5=star.png --metres-per-pixel 0.05 --animation star.gif
+  trodden motion formation --check paths.txt      how well the method describes your own recording")]
 pub struct Formation {
     /// A scenario with a [formation]
-    #[arg(value_name = "SCENARIO", required_unless_present = "example", conflicts_with = "example")]
+    #[arg(value_name = "SCENARIO", required_unless_present_any = ["example", "check"])]
+    #[arg(conflicts_with_all = ["example", "check"])]
     scenario: Option<PathBuf>,
+    /// Make nothing, but say how nearly people of this recording turn as an interpolation turns them
+    #[arg(long, value_name = "RECORDING", conflicts_with_all = ["example", "output", "animation", "paths"])]
+    check: Option<PathBuf>,
     #[command(flatten)]
     parts: Parts,
     #[command(flatten)]
@@ -92,6 +100,9 @@ struct Parts {
 
 impl Formation {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
+        if let Some(path) = &self.check {
+            return self.check_recording(path, common);
+        }
         self.outputs.files.check(&["motion", "formation"], self.outputs.json)?;
         self.outputs.files.probe()?;
         let watch = Watch::new(common);
@@ -106,6 +117,37 @@ impl Formation {
             }
         };
         self.outputs.files.tell(&report, self.outputs.json, common)?;
+        Ok(ExitCode::SUCCESS)
+    }
+
+    fn check_recording(&self, path: &Path, common: &Common) -> anyhow::Result<ExitCode> {
+        let (files, watch) = (&self.outputs.files, Watch::new(common));
+        let recording = super::input::open(path, &self.alignment.over(self.reading.options()), &watch)?;
+        let found = Agreement::of(&recording, &watch).map_err(Error::from)?;
+        let whiles = ["no pair is near", "one pair is near", "two pairs are near", "all three pairs are near"];
+        let rows: Vec<AngleRow> = whiles
+            .into_iter()
+            .zip(&found.one_pattern_deg)
+            .chain([("anything goes", &found.any_deg)])
+            .map(AngleRow::of)
+            .collect();
+        if self.outputs.json {
+            files.say(serde_json::to_string_pretty(&serde_json::json!({ "angles": rows }))?)?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        if found.any_deg.is_empty() {
+            watch.warn("nobody is there for 5 s together with two others: there is nothing to compare");
+        }
+        files.say(
+            "angles between eigenvectors of three neighbours, as recorded and as turned evenly from start to end"
+                .to_string(),
+        )?;
+        files.say(format!("{:<26}vectors    mean  median  nine tenths below", "while"))?;
+        for row in rows {
+            let degrees = |angle: Option<f64>| angle.map_or("-".to_string(), |angle| format!("{angle:.1}"));
+            let [mean, median, most] = [row.mean_deg, row.median_deg, row.nine_tenths_deg].map(degrees);
+            files.say(format!("{:<26}{:>7}  {mean:>6}  {median:>6}  {most:>6} degrees", row.pattern, row.vectors))?;
+        }
         Ok(ExitCode::SUCCESS)
     }
 
@@ -171,6 +213,24 @@ impl Formation {
             filled: (self.parts.filled && picture).then_some(true),
             ..KeyRequest::default()
         }
+    }
+}
+
+/// Angles of all threes with a pattern of adjacency, as JSON.
+#[derive(Serialize)]
+struct AngleRow {
+    pattern: &'static str,
+    vectors: usize,
+    mean_deg: Option<f64>,
+    median_deg: Option<f64>,
+    nine_tenths_deg: Option<f64>,
+}
+
+impl AngleRow {
+    fn of((pattern, degrees): (&'static str, &Vec<f64>)) -> AngleRow {
+        let at = |share: f64| degrees.get((share * degrees.len() as f64) as usize).copied();
+        let mean_deg = (!degrees.is_empty()).then(|| degrees.iter().sum::<f64>() / degrees.len() as f64);
+        AngleRow { pattern, vectors: degrees.len(), mean_deg, median_deg: at(0.5), nine_tenths_deg: at(0.9) }
     }
 }
 

@@ -18,6 +18,8 @@ pub(in super::super) struct AvoidanceSettings {
     pub fps: f64,
     /// Frames of the key formations.
     pub keys: Vec<usize>,
+    /// What to do about a crowd that is too dense, for the warning.
+    pub hint: &'static str,
 }
 
 impl AvoidanceSettings {
@@ -29,6 +31,7 @@ impl AvoidanceSettings {
             seconds: request.seconds.unwrap_or(USUAL_SECONDS),
             fps,
             keys: keys.to_vec(),
+            hint: "spread the key formations, leave more time between them, or set a smaller `avoid.distance_m`",
         }
     }
 }

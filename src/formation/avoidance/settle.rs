@@ -54,7 +54,7 @@ pub(super) fn settle(
     }
     let sure = separated(crowd, &ways, avoidance.fps);
     let settled = softened(crowd, &ways, sure, avoidance.fps);
-    if let Some(warning) = crowding(crowd, &settled, avoidance.fps) {
+    if let Some(warning) = crowding(crowd, &settled, avoidance) {
         progress.warn(&warning);
     }
     Ok(settled)
@@ -149,15 +149,15 @@ fn hardest_m_s2(offsets: &[Vec2], body: usize, width: usize, fps: f64) -> f64 {
 }
 
 /// The warning that a crowd was too dense, with place and time; `None` if it was not.
-fn crowding(crowd: &BodyTracks<'_>, offsets: &[Vec2], fps: f64) -> Option<String> {
-    const HINT: &str = "spread the key formations, leave more time between them, or set a smaller `avoid.distance_m`";
+fn crowding(crowd: &BodyTracks<'_>, offsets: &[Vec2], avoidance: &AvoidanceSettings) -> Option<String> {
+    let AvoidanceSettings { fps, hint, .. } = avoidance;
     let at =
         |moment: usize, place: Vec2| format!("at {:.1} s near [{:.1}, {:.1}] m", moment as f64 / fps, place.x, place.y);
     if let Some((moment, [apart_m, kept_m], place)) = nearest(crowd, offsets) {
         let where_and_when = at(moment, place);
         return Some(format!(
             "the crowd is too dense: {where_and_when}, two people come within {apart_m:.2} m of each other instead of \
-             {kept_m:.2} m; {HINT}"
+             {kept_m:.2} m; {hint}"
         ));
     }
     let width = crowd.bodies;
@@ -165,7 +165,7 @@ fn crowding(crowd: &BodyTracks<'_>, offsets: &[Vec2], fps: f64) -> Option<String
     let most = (0..offsets.len()).filter(|&k| far(k) > FAR).max_by(|&a, &b| far(a).total_cmp(&far(b)))?;
     let where_and_when = at(most / width, crowd.places[most]);
     Some(format!(
-        "the crowd is too dense: {where_and_when}, a person has to stay {:.1} m away; {HINT}",
+        "the crowd is too dense: {where_and_when}, a person has to stay {:.1} m away; {hint}",
         offsets[most].length()
     ))
 }

@@ -52,3 +52,36 @@ fn patterns_change_where_somebody_comes_near() {
     let example = Ensemble::new(1.0, 0.0, vec![1, 2], places);
     assert_eq!(one_pattern(&example, 1.0), [0..2, 2..4, 4..5]);
 }
+
+/// `--check` on the three as a recording of their own: as near as above. Three who change places keep to no rotation.
+#[test]
+fn a_users_own_recording_is_checked() {
+    let folder = tempfile::tempdir().unwrap();
+    let check = |crowd: &Ensemble, more: &[&str]| {
+        let mut text = String::from("# framerate: 25\n# id frame x/m y/m\n");
+        for moment in 0..crowd.moments() {
+            for (id, place) in crowd.places_at(moment).iter().enumerate() {
+                text += &format!("{} {moment} {:.4} {:.4}\n", id + 1, place.x, place.y);
+            }
+        }
+        std::fs::write(folder.path().join("three.txt"), text).unwrap();
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_trodden"));
+        let command = command.args(["motion", "formation", "--check", "three.txt"]).args(more);
+        let output = command.current_dir(folder.path()).output().unwrap();
+        assert!(output.status.success(), "{output:?}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let slowly = |share: f64| vec![vec2(0.0, 0.9 + 0.35 * share), vec2(0.0, 0.0), vec2(0.0, -1.25 + 0.35 * share)];
+    let there = |share: f64| {
+        let (sine, cosine) = trodden::math::sin_cos(40.0 * share);
+        vec![vec2(0.0, 0.0), vec2(1.2 * cosine, 1.2 * sine), vec2(1.6 + 0.9 * sine, 0.0)]
+    };
+    let mean = |crowd: &Ensemble| -> f64 {
+        let found: serde_json::Value = serde_json::from_str(&check(crowd, &["--json"])).unwrap();
+        found["angles"].as_array().unwrap().last().unwrap()["mean_deg"].as_f64().unwrap()
+    };
+    let [slow, wild] = [mean(&walking_between(slowly, 25.0, 6.0, 1)), mean(&walking_between(there, 25.0, 6.0, 1))];
+    assert!(slow < 5.0 && wild > 2.0 * slow, "{slow} {wild}");
+    let text = check(&walking_between(slowly, 25.0, 6.0, 1), &[]);
+    assert!(text.contains("two pairs are near") && text.lines().count() == 7, "{text}");
+}
