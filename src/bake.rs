@@ -16,10 +16,12 @@ mod series;
 mod site;
 mod tread;
 mod view;
+mod why;
 
 pub use parts::{Part, bake_part, merge};
 pub use series::resolve_series;
 pub use view::{View, view};
+pub use why::{Reason, RouteHere, WallHere, Why, why};
 
 use graded::{Graded, Sums, keep_look, title};
 use site::{Site, Trodden};

@@ -28,6 +28,7 @@ mod signals;
 mod shell;
 mod standard_input;
 mod view;
+mod why;
 
 use arguments::WrongUsage;
 use common::Common;
@@ -52,6 +53,7 @@ enum Command {
     Job(Box<job::Job>),
     Resolve(resolve::Resolve),
     View(view::ViewCommand),
+    Why(why::WhyCommand),
     Init(init::Init),
     Inspect(inspect::Inspect),
     Edit(edit::Edit),
@@ -117,6 +119,7 @@ impl Cli {
             Command::Merge(merge) => merge.run(&self.common),
             Command::Resolve(resolve) => resolve.run(&self.common),
             Command::View(view) => view.run(&self.common),
+            Command::Why(why) => why.run(&self.common),
             Command::Init(init) => init.run(&self.common),
             Command::Inspect(inspect) => inspect.run(&self.common),
             Command::Edit(edit) => edit.run(&self.common),

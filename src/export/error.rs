@@ -199,6 +199,25 @@ pub enum ExportError {
     /// The user interrupted the run.
     #[error(transparent)]
     Interrupted(#[from] Interrupted),
+    /// A place to explain lies beyond the plan, or neither on the floor nor near a wall.
+    #[error(
+        "[{:.2}, {:.2}] {}", place_m[0], place_m[1],
+        if *beyond {
+            format!("lies beyond the plan; allowed is 0 to {:.2} and 0 to {:.2} m", size_m[0], size_m[1])
+        } else {
+            "is neither on the floor nor near a wall".to_string()
+        }
+    )]
+    NoSuchPlace {
+        /// The place, metres.
+        place_m: [f64; 2],
+        /// Whether it lies beyond the plan.
+        beyond: bool,
+        /// Width and height of the plan, metres.
+        size_m: [f64; 2],
+        /// The nearest place of the floor, metres.
+        nearest_m: [f64; 2],
+    },
 }
 
 impl From<Unreadable> for ExportError {
@@ -245,6 +264,9 @@ impl ExportError {
             }
             ExportError::Part { hint, .. } => Some(hint.clone()),
             ExportError::PartsMissing { .. } => Some("bake these days, and merge again".to_string()),
+            ExportError::NoSuchPlace { nearest_m: [x, y], .. } => Some(format!(
+                "places are metres from the plan's lower left corner, y upward; the nearest floor is at [{x:.2}, {y:.2}]"
+            )),
             ExportError::NotAlike { .. } => Some("compare two bakes or two images".to_string()),
             _ => None,
         }

@@ -148,7 +148,7 @@ fn counted_starts(count: usize, lists: impl Iterator<Item = u32>) -> Vec<u32> {
 }
 
 /// Returns the point of segment `ab` nearest to `p`.
-pub(super) fn closest_on(a: Vec2, b: Vec2, p: Vec2) -> Vec2 {
+pub(crate) fn closest_on(a: Vec2, b: Vec2, p: Vec2) -> Vec2 {
     let along = b - a;
     let squared = along.length_squared();
     if squared <= 0.0 {

@@ -32,6 +32,7 @@ mod truth_tests;
 pub use error::WallsError;
 pub(crate) use face::{APRON_M, Segment};
 pub use face::{Face, Nearest};
+pub(crate) use index::closest_on;
 pub use outline::Outline;
 pub(crate) use outline::check as check_outlines;
 pub(crate) use places::DOOR_HEAD_M;

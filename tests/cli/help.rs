@@ -20,6 +20,7 @@ fn every_help_text_is_as_it_is_kept() {
         (vec!["patterns", "--help"], file!["help/patterns.txt"]),
         (vec!["patterns", "import", "--help"], file!["help/patterns_import.txt"]),
         (vec!["diff", "--help"], file!["help/diff.txt"]),
+        (vec!["why", "--help"], file!["help/why.txt"]),
         (vec!["motion", "--help"], file!["help/motion.txt"]),
         (vec!["motion", "info", "--help"], file!["help/motion_info.txt"]),
         (vec!["motion", "convert", "--help"], file!["help/motion_convert.txt"]),
@@ -31,7 +32,7 @@ fn every_help_text_is_as_it_is_kept() {
 #[test]
 fn shells_and_manuals_know_every_subcommand() {
     let sandbox = Sandbox::new();
-    let names = ["bake", "crowd", "motion", "resolve", "view", "init", "inspect", "edit", "patterns", "diff"];
+    let names = ["bake", "crowd", "motion", "resolve", "view", "why", "init", "inspect", "edit", "patterns", "diff"];
     for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
         let script = sandbox.run(&["completions", shell]).succeeds().out;
         let missing: Vec<_> = names.iter().filter(|name| !script.contains(**name)).collect();

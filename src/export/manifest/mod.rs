@@ -37,9 +37,9 @@ pub const FORMAT: u32 = 1;
 /// same bytes: the manifest holds no times, thread counts or absolute paths.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
-    /// Always `GENERATOR`.
+    /// Always `trodden`.
     pub generator: String,
-    /// `FORMAT` of the version that wrote it.
+    /// Version of the structure, 1. It grows when an older program cannot read the new structure.
     pub format: u32,
     /// Version of the program.
     pub version: String,
@@ -64,7 +64,7 @@ pub struct Manifest {
     pub stills: Vec<StillEntry>,
     /// Where the floor meets the plan's sides.
     pub openings: Vec<Opening>,
-    /// Doors found in the plan and doors of the scenario. `None` in bakes of earlier versions.
+    /// Doors found in the plan and doors of the scenario. Missing in bakes of earlier versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub doors: Option<Vec<Doorway>>,
     /// The routes of the people.
@@ -75,7 +75,7 @@ pub struct Manifest {
     pub settings: serde_json::Value,
     /// Outlines of the floor, closed loops with the floor on the right. Walls are rebuilt from them.
     pub outlines: Vec<Outline>,
-    /// All files of the bake in alphabetical order. Set by [`crate::export::OutputFolder::publish`].
+    /// All files of the bake in alphabetical order.
     pub files: Vec<BakePath>,
 }
 
@@ -143,7 +143,7 @@ pub struct TileEntry {
     pub u: u32,
     /// Row v, from below.
     pub v: u32,
-    /// UDIM number, for [`Naming::Udim`].
+    /// UDIM number, if `naming` is `udim`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub udim: Option<u32>,
     /// Lower-left corner in the plan frame, metres.
@@ -157,13 +157,13 @@ pub struct TileEntry {
     pub basecolor: String,
     /// Path of the packed masks, 8 bit linear: film, prints, edge.
     pub mask: String,
-    /// Path of the mask of passes, 8 bit linear grey. Empty in earlier bakes, whose mask has four channels.
+    /// Path of the mask of passes, 8 bit linear grey. Missing in earlier bakes, whose mask has four channels.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub passes: String,
-    /// Path of wear, heel marks and height, 8 bit linear. Empty in earlier bakes.
+    /// Path of wear, heel marks and height, 8 bit linear. Missing in earlier bakes.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub wear: String,
-    /// Path of the floor's normals, 8 bit linear. Empty in earlier bakes.
+    /// Path of the floor's normals, 8 bit linear. Missing in earlier bakes.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub normal: String,
     /// Path of occlusion, roughness, metallic, 8 bit linear.
@@ -171,7 +171,7 @@ pub struct TileEntry {
     /// Path of Unity's mask map, for that target: metallic, occlusion, detail, smoothness.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mask_map: Option<String>,
-    /// Paths of the layers, half float, linear. In JSON one path, a list, or missing if no layers were written.
+    /// Paths of the layers, half float, linear: one path, or a list. Missing if no layers were written.
     #[serde(default, skip_serializing_if = "Vec::is_empty", with = "one_or_many")]
     pub layers: Vec<String>,
     /// Path of the exact sums.

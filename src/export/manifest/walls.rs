@@ -32,7 +32,7 @@ pub struct WallsEntry {
 /// One sheet of the wall atlas: its strips and its images.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SheetEntry {
-    /// UDIM number, for [`Naming::Udim`]. It only names the files: each sheet's texture coordinates are 0 to 1.
+    /// UDIM number, if `naming` is `udim`. It only names the files: each sheet's texture coordinates are 0 to 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub udim: Option<u32>,
     /// Width, texels.
@@ -43,13 +43,13 @@ pub struct SheetEntry {
     pub basecolor: String,
     /// Path of the packed masks, 8 bit linear: hands; rub of arms, shoulders and bags together; scuffs of shoes.
     pub mask: String,
-    /// Path of the mask of splashes, 8 bit linear grey. Empty in earlier bakes, whose mask has four channels.
+    /// Path of the mask of splashes, 8 bit linear grey. Missing in earlier bakes, whose mask has four channels.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub splash: String,
-    /// Path of the masks of what rubs, 8 bit linear: arms, shoulders, bags. Empty in earlier bakes.
+    /// Path of the masks of what rubs, 8 bit linear: arms, shoulders, bags. Missing in earlier bakes.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub rub: String,
-    /// Path of the wall's normals, 8 bit linear. Empty in earlier bakes.
+    /// Path of the wall's normals, 8 bit linear. Missing in earlier bakes.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub normal: String,
     /// Path of occlusion, roughness, metallic, 8 bit linear.
@@ -57,7 +57,7 @@ pub struct SheetEntry {
     /// Path of Unity's mask map, for that target: metallic, occlusion, detail, smoothness.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mask_map: Option<String>,
-    /// Paths of the layers, half float, linear. In JSON one path, a list, or missing if no layers were written.
+    /// Paths of the layers, half float, linear: one path, or a list. Missing if no layers were written.
     #[serde(default, skip_serializing_if = "Vec::is_empty", with = "super::one_or_many")]
     pub layers: Vec<String>,
     /// Path of the exact sums.
