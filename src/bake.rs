@@ -9,6 +9,7 @@ use crate::progress::{Progress, Stage, Stopwatch};
 use crate::scenario::Scenario;
 use crate::show::{self, Crop};
 
+mod batch;
 mod graded;
 mod part_file;
 mod parts;
@@ -18,6 +19,7 @@ mod tread;
 mod view;
 mod why;
 
+pub use batch::{Batch, batch};
 pub use parts::{Part, bake_part, merge};
 pub use series::resolve_series;
 pub use view::{View, view};
@@ -77,7 +79,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
     let site = Site::find(scenario, Some(&folder), &watch, progress)?;
     // Frames become marks, marks become stamps, and stamps are added to sums. Only the sums stay in memory.
     let trodden = site.walk(0..site.days, &watch, progress)?;
-    finish(&site, trodden, folder, output, &watch, progress)
+    finish(&site, &trodden, folder, output, &watch, progress)
 }
 
 /// Checks look, textures and output folder: errors in the input should appear before the crowd walks.
@@ -97,7 +99,7 @@ fn check_look(scenario: &Scenario) -> Result<(), Error> {
 /// Turns the sums of all days into a bake: the look turns sums into texels, block by block, while the files are written.
 fn finish(
     site: &Site,
-    trodden: Trodden,
+    trodden: &Trodden,
     folder: OutputFolder,
     output: &OutputOptions,
     watch: &Stopwatch,
@@ -107,7 +109,7 @@ fn finish(
     let Site { scenario, ground, routes, .. } = site;
     let (plan, walls) = (&ground.plan, &ground.walls);
     let mut warnings = walked.tally.describe(routes, Some(&output.folder.join(show::PATHS_FILE)));
-    warnings.extend(walked.warning);
+    warnings.extend(walked.warning.clone());
     let walked_once = || "days are of simulated crowds: this motion was walked once".into();
     warnings.extend((site.days < scenario.days).then(walked_once));
     warnings.extend(life.as_ref().and_then(LifeReport::warning));
@@ -116,7 +118,7 @@ fn finish(
     let crops = show::choose_crops(walls.bounds_m(), &plan.openings, walls, &walked.paths);
     let (settings, doorways) = (scenario.settings(), site.places.doorways());
     let graded = Graded {
-        sums: &sums,
+        sums,
         walls,
         doorways: &doorways,
         ceiling: scenario.ceiling,
@@ -140,7 +142,7 @@ fn finish(
     let report = Report {
         people: PeopleReport::of(&walked.tally, routes),
         warnings,
-        life,
+        life: life.clone(),
         footfalls: walked.footfalls,
         contacts: walked.contacts,
         seconds: watch.seconds(),

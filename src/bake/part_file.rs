@@ -45,9 +45,9 @@ pub(super) struct Head {
     /// Number of days of the whole bake.
     pub of: u32,
     /// The scenario with all its values.
-    settings: Value,
+    pub settings: Value,
     /// The files that it reads, plan, patterns, images, and a number that tells their content.
-    inputs: Vec<(String, String)>,
+    pub inputs: Vec<(String, String)>,
     /// The scenario as a file, and the folder that its paths start from.
     scenario: String,
     folder: PathBuf,
@@ -124,7 +124,7 @@ fn fingerprint(path: &Path) -> io::Result<String> {
 }
 
 /// The first value that two settings do not share.
-fn difference(ours: &Value, theirs: &Value, key: &str) -> Option<String> {
+pub(super) fn difference(ours: &Value, theirs: &Value, key: &str) -> Option<String> {
     if let (Value::Object(a), Value::Object(b)) = (ours, theirs) {
         let keys = a.keys().chain(b.keys().filter(|key| !a.contains_key(*key)));
         let within = |name: &String| {

@@ -131,7 +131,7 @@ pub fn merge(
         watch.busy(Stage::Sums, || part.add_to(&mut trodden))?;
     }
     progress.advance(Stage::Sums, 1.0);
-    finish(&site, trodden, folder, output, &watch, progress)
+    finish(&site, &trodden, folder, output, &watch, progress)
 }
 
 /// The files of parts, those of a folder by their ending.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::{ResolveOptions, resolve};
 use crate::Error;
 use crate::export::{self, Manifest, Report};
-use crate::look::LookError;
+use crate::look::{Look, LookError};
 use crate::progress::Progress;
 use crate::show;
 
@@ -28,14 +28,7 @@ pub fn resolve_series(
         Some(look) => look.clone(),
         None => export::settled(&[bake], || Manifest::read(bake))?.look(bake)?,
     };
-    let looks = passes.iter().map(|&total_passes| {
-        let mut aged = look.clone();
-        let older = total_passes as f64 / look.total_passes.max(1) as f64;
-        aged.total_passes = total_passes;
-        aged.wall.total_passes = ((look.wall.total_passes as f64 * older).round() as u64).max(1);
-        aged.check().map(|()| aged)
-    });
-    let looks = looks.collect::<Result<Vec<_>, LookError>>()?;
+    let looks = passes.iter().map(|&total_passes| aged(&look, total_passes)).collect::<Result<Vec<_>, _>>()?;
     let folders: Vec<PathBuf> =
         passes.iter().map(|total_passes| folder.join(format!("passes_{total_passes}"))).collect();
     let mut reports = Vec::new();
@@ -52,4 +45,13 @@ pub fn resolve_series(
         show::write_flipbook(&pictures, &folder.join(file.trim_start_matches("preview/")), options.force)?;
     }
     Ok(reports)
+}
+
+/// The look after another number of people; walls age with the floor.
+pub(super) fn aged(look: &Look, total_passes: u64) -> Result<Look, LookError> {
+    let mut aged = look.clone();
+    let older = total_passes as f64 / look.total_passes.max(1) as f64;
+    aged.total_passes = total_passes;
+    aged.wall.total_passes = ((look.wall.total_passes as f64 * older).round() as u64).max(1);
+    aged.check().map(|()| aged)
 }

@@ -97,6 +97,13 @@ impl Site {
         Ok(Site { scenario, given, ground, grid, wall_grid, atlas, library, routes, ways, life, places, days })
     }
 
+    /// Takes the look of another scenario, which differs from this one in nothing else.
+    pub fn look_as(&mut self, scenario: &Scenario) -> Result<(), Error> {
+        scenario.look.check_areas(&self.ground.walls)?;
+        self.scenario = scenario.lived_in(self.life.as_deref());
+        Ok(())
+    }
+
     /// Sums and counts before anybody has walked.
     pub fn untrodden(&self) -> Trodden {
         let walls = self.atlas.is_some().then(|| WallSums::new(self.wall_grid.clone()));

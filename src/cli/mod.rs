@@ -9,6 +9,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 mod arguments;
 mod bake;
+mod batch;
 mod common;
 mod crowd;
 mod diff;
@@ -47,6 +48,7 @@ pub struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Bake(bake::Bake),
+    Batch(Box<batch::BatchCommand>),
     Crowd(crowd::Crowd),
     Motion(Box<motion::Motion>),
     Merge(merge::Merge),
@@ -113,6 +115,7 @@ impl Cli {
         self.common.start_threads()?;
         let ran = match &self.command {
             Command::Bake(bake) => bake.run(&self.common),
+            Command::Batch(batch) => batch.run(&self.common),
             Command::Crowd(crowd) => crowd.run(&self.common),
             Command::Motion(motion) => motion.run(&self.common),
             Command::Job(job) => job.run(&self.common),

@@ -88,7 +88,7 @@ impl Resolve {
 }
 
 /// A number of people, such as `20000` or `1e5`.
-fn passes(text: &str) -> Result<u64, String> {
+pub fn passes(text: &str) -> Result<u64, String> {
     match text.trim().parse::<f64>() {
         Ok(number) if (1.0..=1e9).contains(&number) && number.fract() == 0.0 => Ok(number as u64),
         _ => Err("give a whole number from 1 to 1e9, such as 20000 or 1e5".to_string()),

@@ -19,6 +19,7 @@ fn every_help_text_is_as_it_is_kept() {
         (vec!["edit", "--help"], file!["help/edit.txt"]),
         (vec!["patterns", "--help"], file!["help/patterns.txt"]),
         (vec!["patterns", "import", "--help"], file!["help/patterns_import.txt"]),
+        (vec!["batch", "--help"], file!["help/batch.txt"]),
         (vec!["diff", "--help"], file!["help/diff.txt"]),
         (vec!["why", "--help"], file!["help/why.txt"]),
         (vec!["motion", "--help"], file!["help/motion.txt"]),
@@ -32,7 +33,8 @@ fn every_help_text_is_as_it_is_kept() {
 #[test]
 fn shells_and_manuals_know_every_subcommand() {
     let sandbox = Sandbox::new();
-    let names = ["bake", "crowd", "motion", "resolve", "view", "why", "init", "inspect", "edit", "patterns", "diff"];
+    let names =
+        ["bake", "crowd", "motion", "resolve", "view", "why", "batch", "init", "inspect", "edit", "patterns", "diff"];
     for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
         let script = sandbox.run(&["completions", shell]).succeeds().out;
         let missing: Vec<_> = names.iter().filter(|name| !script.contains(**name)).collect();

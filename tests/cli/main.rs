@@ -7,6 +7,7 @@
 mod bad_images;
 mod bad_numbers;
 mod bad_outputs;
+mod batch;
 mod crowd;
 mod edit;
 mod help;
