@@ -113,7 +113,7 @@ For more information, try '--help'.
         str![[r#"
 error: unrecognized subcommand 'backe'
 
-  tip: a similar subcommand exists: 'bake'
+  tip: some similar subcommands exist: 'batch', 'bake'
 
 Usage: trodden [OPTIONS] <COMMAND>
 
