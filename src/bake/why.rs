@@ -217,8 +217,11 @@ impl FloorHere {
     }
 }
 
+/// Takes a cause from a look.
+type Take = fn(&mut Look);
+
 /// The causes of a floor's dirt, and how a look loses each.
-const CAUSES: [(&str, fn(&mut Look)); 11] = [
+const CAUSES: [(&str, Take); 11] = [
     ("film of all passes", |look| look.film.density = 0.0),
     ("standing", |look| look.dwell.density = 0.0),
     ("wheels", |look| look.wheels.density = 0.0),
