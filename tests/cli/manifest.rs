@@ -255,7 +255,7 @@ impl Types {
             let place =
                 known.iter().chain(&below).find(|(name, _)| Some(name) == object.as_ref()).map(|(_, path)| path);
             let at = place.unwrap_or(&inside).replace('.', "");
-            let told = if object.is_some() { format!("[{told}](#{})", at.replace('_', "_")) } else { told };
+            let told = if object.is_some() { format!("[{told}](#{})", at) } else { told };
             let missing = if field.optional { " *May be missing.*" } else { "" };
             writeln!(text, "| `{}` | {told} | {}{missing} |", field.name, field.about).unwrap();
             if let (Some(object), None) = (object, place) {
