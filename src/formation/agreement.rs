@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use super::{FormationError, default_sigma_m, one_pattern, sphere_tracks};
+use super::{FormationError, default_sigma_m, sphere_tracks};
+use crate::math::Vec2;
 use crate::motion::Ensemble;
 use crate::progress::Progress;
 use crate::recordings::Recording;
@@ -45,7 +46,7 @@ impl Agreement {
                 let whole = part(&ensemble, people, 0..ensemble.moments());
                 found.any_deg.extend(degrees(&whole)?.0);
                 let reach_m = HALF * default_sigma_m(whole.places_at(whole.moments() / 2));
-                for stretch in one_pattern(&whole, reach_m) {
+                for stretch in Agreement::one_pattern(&whole, reach_m) {
                     if (stretch.len() as f64) < LEAST_S * whole.fps {
                         continue;
                     }
@@ -61,6 +62,32 @@ impl Agreement {
         }
         found.one_pattern_deg.iter_mut().chain([&mut found.any_deg]).for_each(|all| all.sort_by(f64::total_cmp));
         Ok(found)
+    }
+
+    /// The ranges of frames with one pattern of adjacency: the same pairs of people within `reach_m`.
+    ///
+    /// At `reach_m` = 1.18 sigma the Gaussian weight is one half.
+    pub fn one_pattern(example: &Ensemble, reach_m: f64) -> Vec<Range<usize>> {
+        let pattern = |moment: usize| -> Vec<bool> {
+            let places_m = example.places_at(moment);
+            let near = |(k, place): (usize, &Vec2)| {
+                let place = *place;
+                places_m[..k].iter().map(move |other| other.distance(place) < reach_m).collect::<Vec<bool>>()
+            };
+            places_m.iter().enumerate().flat_map(near).collect()
+        };
+        let mut stretches = Vec::new();
+        let mut start = 0;
+        let mut now = if example.moments() > 0 { pattern(0) } else { return stretches };
+        for moment in 1..example.moments() {
+            let next = pattern(moment);
+            if next != now {
+                stretches.push(start..moment);
+                (start, now) = (moment, next);
+            }
+        }
+        stretches.push(start..example.moments());
+        stretches
     }
 }
 

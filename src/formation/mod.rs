@@ -82,7 +82,6 @@ mod rotation;
 mod sphere;
 
 pub use agreement::Agreement;
-pub use apart::keep_apart;
 pub use basis::Basis;
 pub use error::FormationError;
 pub use example::{ExampleCoefficients, example_coefficients};
@@ -102,4 +101,4 @@ pub use request::{
     FormationShape, KeyRequest, Members, MembersWord, Pace, PathRequest, Repeat, RequestError, Stays,
 };
 pub use rotation::Rotation;
-pub use sphere::{SphereTracks, one_pattern, sphere_tracks};
+pub use sphere::{SphereTracks, sphere_tracks};

@@ -1,5 +1,3 @@
-use std::ops::Range;
-
 use nalgebra::DMatrix;
 
 use super::basis::{as_columns, relative_to_centroid};
@@ -80,30 +78,4 @@ pub fn sphere_tracks(example: &Ensemble, sigma_m: Option<f64>) -> Result<SphereT
     let points = |basis: &DMatrix<f64>| [1, 2].map(|vector| [0, 1, 2].map(|k| basis[(k, vector)]));
     let turned = (0..bases.len()).map(|moment| points(&rotation.apply(first, moment as f64 / parts))).collect();
     Ok(SphereTracks { recorded: bases.iter().map(points).collect(), turned, coefficients_m })
-}
-
-/// The ranges of frames with one pattern of adjacency: the same pairs of people within `reach_m`.
-///
-/// At `reach_m` = 1.18 sigma the Gaussian weight is one half.
-pub fn one_pattern(example: &Ensemble, reach_m: f64) -> Vec<Range<usize>> {
-    let pattern = |moment: usize| -> Vec<bool> {
-        let places_m = example.places_at(moment);
-        let near = |(k, place): (usize, &crate::math::Vec2)| {
-            let place = *place;
-            places_m[..k].iter().map(move |other| other.distance(place) < reach_m).collect::<Vec<bool>>()
-        };
-        places_m.iter().enumerate().flat_map(near).collect()
-    };
-    let mut stretches = Vec::new();
-    let mut start = 0;
-    let mut now = if example.moments() > 0 { pattern(0) } else { return stretches };
-    for moment in 1..example.moments() {
-        let next = pattern(moment);
-        if next != now {
-            stretches.push(start..moment);
-            (start, now) = (moment, next);
-        }
-    }
-    stretches.push(start..example.moments());
-    stretches
 }

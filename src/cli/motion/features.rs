@@ -8,7 +8,7 @@ use trodden::features::{
     self, FeatureComponent, FeaturesOptions, Method, Mix, MixOptions, MixSource, Modulation, NEIGHBOUR_DISTANCES_M,
     PresenceSpan, Rule,
 };
-use trodden::formation::{AvoidRequest, keep_apart};
+use trodden::formation::AvoidRequest;
 use trodden::motion::Ensemble;
 use trodden::recordings::Recording;
 use trodden::source::{CoordinateFrame, Given};
@@ -139,7 +139,7 @@ impl Features {
         made.start_s = 0.0;
         if files.any() && self.changes() && !self.no_avoid {
             let avoid = AvoidRequest { distance_m: self.distance, ..AvoidRequest::default() };
-            made = keep_apart(made, &avoid, &watch).map_err(Error::from)?;
+            made = avoid.keep_apart(made, &watch).map_err(Error::from)?;
         }
         if !json && !common.quiet {
             self.table(&summary).into_iter().try_for_each(|line| files.say(line))?;

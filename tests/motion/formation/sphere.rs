@@ -1,6 +1,6 @@
 //! Three people: eigenvectors as recorded, and as a rotation from the first to the last has them.
 
-use trodden::formation::{one_pattern, sphere_tracks};
+use trodden::formation::{Agreement, sphere_tracks};
 use trodden::math::{Vec2, vec2};
 use trodden::motion::Ensemble;
 
@@ -20,7 +20,7 @@ fn moving_over(seed: u64) -> Ensemble {
 fn turned_vectors_are_near_the_recorded_ones() {
     for seed in 0..10 {
         let example = moving_over(seed);
-        assert_eq!(one_pattern(&example, 1.55).len(), 1, "one pattern of adjacency throughout");
+        assert_eq!(Agreement::one_pattern(&example, 1.55).len(), 1, "one pattern of adjacency throughout");
         let tracks = sphere_tracks(&example, None).unwrap();
         let degrees = tracks.mean_angles_rad().map(f64::to_degrees);
         assert!(degrees.iter().all(|&mean| mean < 5.0), "seed {seed}: {degrees:?} degrees");
@@ -50,7 +50,7 @@ fn ends_are_the_recorded_ones() {
 fn patterns_change_where_somebody_comes_near() {
     let places = [3.0, 2.0, 0.9, 0.8, 2.0].iter().flat_map(|&x| [vec2(0.0, 0.0), vec2(x, 0.0)]).collect();
     let example = Ensemble::new(1.0, 0.0, vec![1, 2], places);
-    assert_eq!(one_pattern(&example, 1.0), [0..2, 2..4, 4..5]);
+    assert_eq!(Agreement::one_pattern(&example, 1.0), [0..2, 2..4, 4..5]);
 }
 
 /// `--check` on the three as a recording of their own: as near as above. Three who change places keep to no rotation.
