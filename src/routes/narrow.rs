@@ -1,5 +1,7 @@
 //! Narrow cross-sections of ways: where everybody who goes from one place of a route to the next has to pass.
 
+use std::collections::BinaryHeap;
+
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
@@ -133,14 +135,12 @@ fn narrowest(sections: &[(Narrow, f64)]) -> Vec<&(Narrow, f64)> {
 fn cross_sections(ground: &Ground, field: &Field, flow: &Flow, starts: &[usize]) -> Vec<(Narrow, f64)> {
     let lattice = &ground.lattice;
     let first_m = starts.iter().map(|&cell| field.of_cell(cell)).fold(f64::INFINITY, f64::min);
+    let reached_m = reached(ground, field, flow, starts);
     let mut fronts: Vec<Vec<usize>> = Vec::new();
     let mut widest_m: Vec<f64> = Vec::new();
-    for cell in (0..lattice.len()).filter(|&cell| flow.holds(cell)) {
-        let own_m = field.of_cell(cell);
+    for cell in 0..lattice.len() {
+        let Some(&own_m) = reached_m.get(&cell).filter(|own_m| **own_m < first_m) else { continue };
         let least_m = lattice.beside(cell).map(|beside| field.of_cell(beside)).fold(own_m, f64::min);
-        if !own_m.is_finite() || own_m >= first_m {
-            continue;
-        }
         // Lines of equal distance between this cell and the nearest one beside it.
         for line in (least_m / STEP_M).ceil() as usize..(own_m / STEP_M).ceil() as usize {
             if line >= fronts.len() {
@@ -159,6 +159,29 @@ fn cross_sections(ground: &Ground, field: &Field, flow: &Flow, starts: &[usize])
     lines.map(|(line, front)| (section(ground, front), line as f64 * STEP_M)).collect()
 }
 
+/// For each cell of a flow the largest distance left, metres, that people from the start need not fall below before they
+/// get there.
+///
+/// It is less than the cell's own distance in pockets beside the far side of a gap: nobody passes there on the way to it.
+fn reached(ground: &Ground, field: &Field, flow: &Flow, starts: &[usize]) -> FxHashMap<usize, f64> {
+    // Distances are not negative, so that their bits compare as they do.
+    let bits = |cell: usize| field.of_cell(cell).to_bits();
+    let is_passed = |cell: usize| flow.holds(cell) && field.of_cell(cell).is_finite();
+    let mut reached_m = FxHashMap::default();
+    let mut open: BinaryHeap<(u64, usize)> =
+        starts.iter().filter(|&&cell| is_passed(cell)).map(|&cell| (bits(cell), cell)).collect();
+    while let Some((left, cell)) = open.pop() {
+        if reached_m.contains_key(&cell) {
+            continue;
+        }
+        reached_m.insert(cell, f64::from_bits(left));
+        open.extend(
+            ground.lattice.beside(cell).filter(|&cell| is_passed(cell)).map(|cell| (left.min(bits(cell)), cell)),
+        );
+    }
+    reached_m
+}
+
 /// The gaps that the cells along a line of equal distance lie in.
 ///
 /// Lines run on along the walls beside a gap, where nobody walks: only what has about as much room as the widest counts.
@@ -175,7 +198,8 @@ fn section(ground: &Ground, front: &[usize]) -> Narrow {
                 .fold([Vec2 { x: f64::MAX, y: f64::MAX }, Vec2 { x: f64::MIN, y: f64::MIN }], |[low, high], p| {
                     [vec2(low.x.min(p.x), low.y.min(p.y)), vec2(high.x.max(p.x), high.y.max(p.y))]
                 });
-            width_m += low.distance(high) + 2.0 * core_m;
+            // From the outermost cells it is as far to the walls as they are clear of them.
+            width_m += low.distance(high) + 2.0 * gap.iter().map(clearance_m).fold(f64::INFINITY, f64::min);
             gaps_m.push(low.lerp(high, 0.5));
         }
     }
