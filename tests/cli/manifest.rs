@@ -492,11 +492,13 @@ fn manifests_and_reports_of_every_kind_of_bake_keep_to_the_schema() {
     let door =
         people("preset = \"wet\"\n[[door]]\nat = [4.0, 2.0]\nhinge = [4.0, 1.5]\n").replace("plan.png", "rooms.png");
     sandbox.write("door.toml", door);
+    let bursts = people("arrivals = { kind = \"bursts\", every_s = 20.0, people = 300 }\n");
+    sandbox.write("crowded.toml", bursts.replace("plan.png", "rooms.png"));
     (5..35).for_each(|y| rooms.put_pixel(79, y, image::Luma([0])));
     rooms.save(sandbox.path("home.png")).unwrap();
     sandbox.write("home.toml", people("").replace("plan.png", "home.png"));
     let museum = format!("{}/floorplans/museum.toml", env!("CARGO_MANIFEST_DIR"));
-    let bakes: [(&str, &[&str]); 8] = [
+    let bakes: [(&str, &[&str]); 9] = [
         ("usual", &["plan.toml"]),
         ("floor", &["plan.toml", "--floor-only"]),
         ("stops", &["stops.toml"]),
@@ -505,6 +507,7 @@ fn manifests_and_reports_of_every_kind_of_bake_keep_to_the_schema() {
         ("unreal", &["tiles.toml", "--target", "unreal"]),
         ("museum", &[&museum, "--people", "20", "--floor-only"]),
         ("home", &["home.toml", "--floor-only"]),
+        ("crowded", &["crowded.toml", "--people", "300", "--floor-only"]),
     ];
     let mut seen = String::new();
     for (name, arguments) in bakes {
