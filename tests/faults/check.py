@@ -134,13 +134,16 @@ def main():
         (base / "plan.toml").write_text(SCENARIO)
         for arguments in (
             ["bake", "plan.toml", "-o", "out"],
-            ["bake", "plan.toml", "--seed", "3", "--days", "1", "--part-of", "parts"],
-            ["bake", "plan.toml", "--seed", "3", "--days", "2", "--part-of", "parts"],
+            ["bake", "plan.toml", "--seed", "3", "--days", "1..1", "--part-of", "parts"],
+            ["bake", "plan.toml", "--seed", "3", "--days", "2..2", "--part-of", "parts"],
         ):
             made = trodden(base, *arguments)
             assert made.returncode == 0, made.stderr
-        wrong = [problem for name, run in RUNS.items() for problem in check(name, run, base, work)]
-    print("\n".join(wrong))
+        wrong = 0
+        for name, run in RUNS.items():
+            for problem in check(name, run, base, work):
+                wrong += 1
+                print(problem, flush=True)
     sys.exit(bool(wrong))
 
 
