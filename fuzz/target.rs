@@ -32,4 +32,6 @@ fn keep_seeds() {
     }
 }
 
-fuzz_target!(init: keep_seeds(), |bytes: &[u8]| (READER.read)(&BENCH, bytes));
+fuzz_target!(init: keep_seeds(), |bytes: &[u8]| {
+    (READER.read)(&BENCH, bytes);
+});
