@@ -1,9 +1,10 @@
 //! The pipeline in one function, [`bake`]: from a scenario to textures, scene and report.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::Error;
-use crate::export::{self, LifeReport, Manifest, OutputFolder, PeopleReport, Report, Target, TargetEntry};
+use crate::export::{self, ExportError, LifeReport, Manifest, OutputFolder, PeopleReport, Report, Target, TargetEntry};
 use crate::look::Look;
 use crate::progress::{Progress, Stage, Stopwatch};
 use crate::scenario::Scenario;
@@ -94,6 +95,11 @@ fn begin(scenario: &Scenario, output: &OutputOptions) -> Result<OutputFolder, Er
 fn check_look(scenario: &Scenario) -> Result<(), Error> {
     scenario.look.check_images()?;
     Ok(scenario.texture.check()?)
+}
+
+/// Makes the folder for the bakes of a batch, or for the parts of a bake.
+fn make_folder(folder: &Path) -> Result<(), ExportError> {
+    fs::create_dir_all(folder).map_err(|source| ExportError::Folder { path: folder.to_path_buf(), source })
 }
 
 /// Turns the sums of all days into a bake: the look turns sums into texels, block by block, while the files are written.

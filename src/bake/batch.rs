@@ -1,7 +1,6 @@
 //! Many bakes of one scenario, for domain randomisation: seeds x looks x passes, one walk for each seed.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -9,7 +8,7 @@ use serde_json::{Value, json};
 use super::part_file::{Head, difference};
 use super::series::aged;
 use super::site::Site;
-use super::{OutputOptions, begin, check_look, finish};
+use super::{OutputOptions, begin, check_look, finish, make_folder};
 use crate::Error;
 use crate::export::{ExportError, GENERATOR, Manifest};
 use crate::files::{read_input, write_whole};
@@ -171,8 +170,4 @@ fn keep_list(list: &Value, batch: &Batch) -> Result<(), Error> {
     json.push(b'\n');
     write_whole(&path, &json, true)?;
     Ok(())
-}
-
-fn make_folder(folder: &Path) -> Result<(), ExportError> {
-    fs::create_dir_all(folder).map_err(|source| ExportError::Folder { path: folder.to_path_buf(), source })
 }

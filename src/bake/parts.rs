@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::part_file::{self, Head, PartFile};
 use super::site::Site;
-use super::{OutputOptions, begin, check_look, finish};
+use super::{OutputOptions, begin, check_look, finish, make_folder};
 use crate::Error;
 use crate::export::{self, ExportError, PeopleReport, Report};
 use crate::files::{WholeFile, files_in};
@@ -57,7 +57,7 @@ pub fn bake_part(
     }
     let site = Site::find(scenario, None, &watch, progress)?;
     let walk = || {
-        fs::create_dir_all(job).map_err(|source| ExportError::Folder { path: job.to_path_buf(), source })?;
+        make_folder(job)?;
         let whole = WholeFile::begin(&file, true)?;
         let trodden = site.walk(first - 1..last, &watch, progress)?;
         watch.busy(Stage::Sums, || part_file::write(&whole, &head, &trodden, progress))?;

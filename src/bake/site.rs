@@ -62,15 +62,14 @@ impl Site {
         let grid = TexelGrid::covering(plan.width_m(), plan.height_m(), scenario.floor_texels_per_metre)?;
         let wall_grid = WallGrid::covering(walls, scenario.wall_height_m, scenario.wall_texels_per_metre)?;
         let with_walls = scenario.texture.walls;
-        let estimate = if let Some(folder) = folder {
+        let estimate = |folder: &OutputFolder| {
             let estimate = Estimate::of(plan, grid, with_walls.then_some(&wall_grid), &scenario.texture)?;
             if !scenario.texture.any_size {
                 estimate.check(folder.path(), folder.shown())?;
             }
-            Some(estimate)
-        } else {
-            None
+            Ok::<_, Error>(estimate)
         };
+        let estimate = folder.map(estimate).transpose()?;
         let pack = || Atlas::pack(&wall_grid, &walls.corners(), scenario.texture.tile, PADDING_PX);
         let atlas = watch.busy(Stage::Export, || with_walls.then(pack).transpose())?;
         let library = watch.busy(Stage::Patterns, || PatternLibrary::open(scenario.pattern_path().as_deref()))?;
@@ -89,7 +88,7 @@ impl Site {
             .with_fixtures(plan, walls, &scenario.fixtures)?
             .with_stops(walls, Route::each_stop(&routes));
         let days = if given.is_some() { 1 } else { scenario.days };
-        if let (Some(estimate), Some(folder)) = (estimate, folder) {
+        if let (Some(folder), Some(estimate)) = (folder, estimate) {
             let walked_s = f64::from(scenario.crowd.people) * f64::from(days) * Route::mean_seconds(&routes);
             let told = estimate.tell(folder.path(), walked_s, rayon::current_num_threads());
             told.iter().for_each(|told| progress.warn(told));

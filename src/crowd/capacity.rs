@@ -10,13 +10,12 @@ use super::arrivals::Arrival;
 use super::environment::Environment;
 use super::stops::Stops;
 use crate::math::Vec2;
-use crate::plan::FloorPlan;
-use crate::routes::{Narrow, NarrowPlaces, StopKind};
+use crate::plan::{FloorPlan, Opening};
+use crate::routes::{Narrow, NarrowPlaces, Route, StopKind, USUAL_M_S};
+use crate::walls::closest_on;
 
 /// People per second and metre of width who pass a gap while the crowd keeps moving, measured in `docs/crowd.md`.
 const FLOW_PER_M_S: f64 = 1.3;
-/// Usual speed, metres per second, by which people reach the next narrow place.
-const USUAL_M_S: f64 = 1.25;
 /// Wait of the last in a row from which on a place is too narrow, seconds; lines at counters are usual.
 const LONG_S: f64 = 30.0;
 const LONG_AT_COUNTER_S: f64 = 300.0;
@@ -158,7 +157,7 @@ fn passages(
         Server::new(format!("\"{}\"", stop.name), stop.at_m[0].lerp(stop.at_m[1], 0.5), pass_per_s, long_s)
     }));
     let ground = environment.ground();
-    let of_route = |(number, route): (usize, &crate::routes::Route)| {
+    let of_route = |(number, route): (usize, &Route)| {
         let way = &environment.navigation.ways[number];
         let mut passages = Vec::new();
         let mut from_m: Option<f64> = None;
@@ -205,11 +204,8 @@ fn middle(narrow: &Narrow) -> Vec2 {
 
 fn describe(plan: &FloorPlan, narrow: &Narrow) -> String {
     let at_m = middle(narrow);
-    let opening = plan.openings.iter().find(|opening| {
-        let along = opening.to_m - opening.from_m;
-        let share = ((at_m - opening.from_m).dot(along) / along.length_squared().max(1e-9)).clamp(0.0, 1.0);
-        opening.from_m.lerp(opening.to_m, share).distance(at_m) < OPENING_M
-    });
+    let is_here = |opening: &&Opening| closest_on(opening.from_m, opening.to_m, at_m).distance(at_m) < OPENING_M;
+    let opening = plan.openings.iter().find(is_here);
     let width_m = narrow.width_m;
     match (opening, narrow.gaps_m.len()) {
         (Some(opening), 1) => format!("the opening \"{}\", {width_m:.1} m wide,", opening.name),

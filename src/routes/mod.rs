@@ -44,3 +44,4 @@ pub(crate) use ground::Ground;
 pub(crate) use lattice::Lattice;
 pub(crate) use narrow::{Narrow, NarrowPlaces};
 pub(crate) use navigation::{Leg, RouteLegs};
+pub(crate) use route::USUAL_M_S;

@@ -1,6 +1,9 @@
 use super::{Gate, Place, RouteStop, Stop, Timetable, Via};
 use crate::rooms::Use;
 
+/// Usual speed of people, metres per second, for estimates before anybody walks.
+pub(crate) const USUAL_M_S: f64 = 1.25;
+
 /// A route from a start to a goal.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Route {
@@ -47,7 +50,6 @@ impl Route {
 
     /// Mean time that a person takes who walks one of these routes, without delays, seconds.
     pub(crate) fn mean_seconds(routes: &[Route]) -> f64 {
-        const USUAL_M_S: f64 = 1.25;
         let stays_s = |route: &Route| route.stops.iter().map(|on| on.share * on.stop.dwell_s.mean()).sum::<f64>();
         routes.iter().map(|route| route.share * (route.length_m / USUAL_M_S + stays_s(route))).sum()
     }

@@ -4,9 +4,9 @@ use rand::RngExt;
 
 use crate::motion::Person;
 use crate::patterns::PatternLibrary;
-use crate::walls::Walls;
+use crate::walls::{Walls, closest_on};
 
-use super::place_index::{PlaceIndex, closest_on, crossing};
+use super::place_index::{PlaceIndex, crossing};
 use super::places::{self, NEAR_M};
 use super::state::{ContactState, ContactTick, PassedCorner};
 use super::step::{ContactStep, carries};
@@ -289,7 +289,10 @@ impl Contacts {
         let options = &self.options;
         self.place_index.fixtures.around(step.at_m, LOOK_OUT_M, &mut state.numbers);
         let ContactState { visiting, numbers, chances, .. } = state;
-        let nearest = |fixture: u32| closest_on(self.place_index.ends_m[fixture as usize], step.at_m);
+        let nearest = |fixture: u32| {
+            let [a, b] = self.place_index.ends_m[fixture as usize];
+            closest_on(a, b, step.at_m)
+        };
         let in_reach = |fixture: u32| {
             let reach_m = self.places.fixtures()[fixture as usize].reach_m;
             nearest(fixture).distance(step.at_m) <= reach_m

@@ -79,13 +79,6 @@ fn cells_of(area: Rect) -> (RangeInclusive<i32>, RangeInclusive<i32>) {
     (cell(area.min.y)..=cell(area.max.y), cell(area.min.x)..=cell(area.max.x))
 }
 
-/// The point of a segment nearest to another point.
-pub(super) fn closest_on([a, b]: [Vec2; 2], p: Vec2) -> Vec2 {
-    let along = b - a;
-    let squared = along.length_squared();
-    if squared <= 0.0 { a } else { a + along * ((p - a).dot(along) / squared).clamp(0.0, 1.0) }
-}
-
 /// The point where a path from one point to another crosses a segment.
 pub(super) fn crossing(from: Vec2, to: Vec2, [a, b]: [Vec2; 2]) -> Option<Vec2> {
     let (way, across) = (to - from, b - a);
