@@ -113,14 +113,16 @@ impl Rooms {
         let rooms = (0..count).filter_map(|index| {
             let (deepest, measures) = (deepest[index]?, &mut measures[index]);
             measures.width_m = 4.0 * clear_m[index] / measures.free_m2;
+            let bounds_m =
+                bounds[index].map_or(Rect { min: Vec2::ZERO, max: Vec2::ZERO }, |b| b.grown(0.5 * grid.cell_m));
+            measures.box_m = [bounds_m.max.x - bounds_m.min.x, bounds_m.max.y - bounds_m.min.y];
             Some(Room {
                 name: format!("room {}", index + 1),
                 kind: RoomKind::of(measures),
                 area_m2: (measures.area_m2 * 100.0).round() / 100.0,
                 doors: measures.doors,
                 inside_m: grid.centre(deepest),
-                bounds_m: bounds[index]
-                    .map_or(Rect { min: Vec2::ZERO, max: Vec2::ZERO }, |b| b.grown(0.5 * grid.cell_m)),
+                bounds_m,
                 said: Said::default(),
             })
         });

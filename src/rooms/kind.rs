@@ -29,6 +29,8 @@ pub(super) struct Measures {
     pub(super) free_m2: f64,
     /// Four times the mean distance from walls: of a long corridor its width, of a square two thirds of its side.
     pub(super) width_m: f64,
+    /// Sides of the box around it.
+    pub(super) box_m: [f64; 2],
     pub(super) doors: usize,
     pub(super) fixtures_m2: f64,
     pub(super) stairs_m2: f64,
@@ -41,6 +43,8 @@ const FIXTURE_M2: f64 = 0.12;
 /// Widest corridor, metres, and its least area in squares of its width: by its shape alone, and with many doors.
 const CORRIDOR_M: f64 = 4.5;
 const CORRIDOR_SQUARES: [f64; 2] = [4.5, 3.4];
+/// Least share of its box that a room fills whose furniture alone makes its ways narrow.
+const FILLS_BOX: f64 = 0.6;
 /// Doors of a room that many pass through.
 const MANY_DOORS: usize = 4;
 /// Least area of a hall, square metres.
@@ -50,15 +54,16 @@ const STAIRS_SHARE: f64 = 0.3;
 
 impl RoomKind {
     pub(super) fn of(measures: &Measures) -> RoomKind {
-        let Measures { area_m2, free_m2, width_m, doors, fixtures_m2, stairs_m2 } = *measures;
+        let Measures { area_m2, free_m2, width_m, box_m: [w, h], doors, fixtures_m2, stairs_m2 } = *measures;
         let squares = free_m2 / (width_m * width_m).max(0.01);
         let long =
             squares >= CORRIDOR_SQUARES[0] && doors >= 2 || squares >= CORRIDOR_SQUARES[1] && doors >= MANY_DOORS;
+        let is_wide = w.min(h) > CORRIDOR_M && area_m2 >= FILLS_BOX * w * h;
         if stairs_m2 >= STAIRS_SHARE * area_m2 && stairs_m2 > 0.0 {
             RoomKind::Stairs
         } else if fixtures_m2 >= FIXTURE_M2 && area_m2 <= TOILET_M2[1] {
             RoomKind::Toilet
-        } else if width_m <= CORRIDOR_M && long {
+        } else if width_m <= CORRIDOR_M && long && !is_wide {
             RoomKind::Corridor
         } else if area_m2 <= TOILET_M2[0] && doors <= 1 {
             RoomKind::Toilet
@@ -78,5 +83,26 @@ impl RoomKind {
             RoomKind::Toilet => "toilet",
             RoomKind::Stairs => "stairs",
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_make_no_corridor_of_a_wide_room() {
+        // A dining room of 12 m with tables, and a ring of corridors of 2 m about a core.
+        let dining = Measures {
+            area_m2: 136.0,
+            free_m2: 108.0,
+            width_m: 2.6,
+            box_m: [11.8; 2],
+            doors: 3,
+            ..Measures::default()
+        };
+        assert_eq!(RoomKind::of(&dining), RoomKind::Hall);
+        let ring = Measures { area_m2: 80.0, free_m2: 80.0, width_m: 2.0, box_m: [12.0; 2], ..dining };
+        assert_eq!(RoomKind::of(&ring), RoomKind::Corridor);
     }
 }

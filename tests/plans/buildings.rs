@@ -296,10 +296,32 @@ pub fn lobby_with_panes() -> Building {
     lobby(Leaves::Panes)
 }
 
+/// A cafe of 14 x 10 m: the end of an open door's leaf is 9 cm from the bar.
+pub fn cafe() -> Building {
+    let walls = vec![
+        outer([0.0, 0.0], [14.0, 0.0], 0.3).windows(&[(1.0, 3.0), (5.0, 3.0)]),
+        outer([14.0, 0.0], [14.0, 10.0], 0.3),
+        outer([0.0, 10.0], [14.0, 10.0], 0.3).door(3.0, 1.0, true, true),
+        outer([0.0, 0.0], [0.0, 10.0], 0.3),
+        inner([10.0, 0.0], [10.0, 10.0], 0.12).door(1.5, 1.0, true, false).door(8.0, 0.9, true, true),
+    ];
+    let mut furniture = vec![piece(Kind::Table, 8.15, 0.9, 0.7, 5.0), piece(Kind::Counter, 13.2, 3.0, 0.6, 4.0)];
+    for k in 0..6 {
+        let (x, y) = (1.5 + 2.2 * f64::from(k % 3), 2.0 + 3.0 * f64::from(k / 3));
+        furniture.push(piece(Kind::Table, x, y, 0.9, 0.9));
+        furniture.extend([-0.65, 1.05].map(|aside| piece(Kind::Seat, x + 0.2, y + aside, 0.5, 0.5)));
+    }
+    let rooms = vec![room("GUESTS", [0.0, 0.0, 10.0, 10.0]), room("KITCHEN", [10.0, 0.0, 14.0, 10.0])];
+    Building { name: "cafe", size: [14.0, 10.0], walls, rooms, furniture, stations: vec![0.0, 10.0, 14.0] }
+}
+
 /// A school's floor whose partitions end at every other window.
 pub fn school_with_ribbons() -> Building {
     let mut building = school();
-    let ribbons: Vec<(f64, f64)> = (0..5).map(|k| (9.6 * f64::from(k) + 0.7, 8.2)).collect();
+    // Every other one begins 0.45 m before the partition.
+    let ribbon = |k| if k % 2 == 0 { (0.7, 8.2) } else { (4.25, 4.65) };
+    let ribbons: Vec<(f64, f64)> =
+        (0..5).map(|k| (ribbon(k), 9.6 * f64::from(k))).map(|((at, width), from)| (from + at, width)).collect();
     building.walls[0] = outer([0.0, 0.0], [48.0, 0.0], 0.4).windows(&ribbons);
     building
 }

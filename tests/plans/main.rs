@@ -111,6 +111,15 @@ fn partitions_may_end_at_windows() {
     }
 }
 
+/// The bar beside a door's open leaf is furniture as a whole.
+#[test]
+fn furniture_at_the_end_of_a_leaf_is_whole() {
+    for name in ["CAD export", "30 px/m", "grey walls", "doors with leaf and sill"] {
+        let style = styles::STYLES.into_iter().find(|style| style.name == name).unwrap();
+        check(&measure(&styles::Case { style, building: buildings::cafe, seed: 0 }));
+    }
+}
+
 /// The windows of thick walls are no openings of the lines that end beside them.
 #[test]
 fn lines_may_part_long_rows_of_rooms() {

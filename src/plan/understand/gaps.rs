@@ -218,6 +218,8 @@ pub(super) fn find(wall: &[u8], ink: &[u8], width: usize, limits: &Limits) -> Ve
 fn in_grid(frame: Frame, wall: Vec<u8>, ink: &[u8], limits: &Limits) -> Vec<Gap> {
     let mut found = along_rows(&wall, ink, limits, frame);
     let met = met_by_walls(wall, ink, limits, frame, &found);
+    // A window takes in the pieces of it that were found on one side of the wall that ends in it.
+    found.retain(|gap| !met.iter().any(|window| overlaps(gap, window)));
     found.extend(met);
     found
 }
@@ -394,12 +396,19 @@ fn met_by_walls(mut wall: Vec<u8>, ink: &[u8], limits: &Limits, frame: Frame, pl
         thin.into_iter().for_each(|run| row[run].fill(0));
     }
     let mut found = along_rows(&wall, ink, limits, frame);
-    let overlaps = |a: &Gap, b: &Gap| {
-        let ([p, q], [r, s]) = (a.middle().0, b.middle().0);
-        a.first < b.first + b.rows.len() && b.first < a.first + a.rows.len() && p < s && r < q
-    };
-    found.retain(|gap| gap.strokes >= 2 && !plain.iter().any(|other| overlaps(gap, other)));
+    found.retain(|gap| {
+        let pieces: Vec<&Gap> = plain.iter().filter(|other| overlaps(gap, other)).collect();
+        let known: usize = pieces.iter().map(|piece| piece.length() + 2 * limits.thinnest).sum();
+        // A piece too short for a gap of its own would let the room out.
+        gap.strokes >= 2 && pieces.iter().all(|piece| piece.strokes >= 2) && known < gap.length()
+    });
     found
+}
+
+/// Whether two gaps of one frame have places in common.
+fn overlaps(a: &Gap, b: &Gap) -> bool {
+    let ([p, q], [r, s]) = (a.middle().0, b.middle().0);
+    a.first < b.first + b.rows.len() && b.first < a.first + a.rows.len() && p < s && r < q
 }
 
 fn gaps_of(row: &[u8], limits: &Limits) -> Vec<[usize; 2]> {

@@ -115,16 +115,20 @@ pub(super) fn symbol(gap: &Gap, ink: &[u8], metres_per_pixel: f64) -> Vec<usize>
         let reach = radius + 2.0 * slack + 2.0;
         let (wide, leaf) = (slack + 1.5, (LEAF_M / metres_per_pixel).max(LEAF_PX));
         let steps = reach.ceil() as i32 + 3;
+        let pixel = |a: f64, b: f64| gap.pixel(hinge + way * a, across + side * b).filter(|&at| ink[at] != 0);
+        // What stands near the leaf's end is no part of it.
+        let is_drawn = |b: f64| (-6..=(2.0 * leaf) as i32).any(|a| pixel(f64::from(a) * 0.5, b).is_some());
+        let mut beyond = (0..).map(|k| radius + 0.5 * f64::from(k)).take_while(|&b| b <= reach);
+        let end = beyond.find(|&b| !is_drawn(b)).unwrap_or(reach);
         // Half steps, so that slanted grids meet all pixels.
         for a in -6..=2 * steps {
             for b in -6..=2 * steps {
                 let (a, b) = (f64::from(a) * 0.5, f64::from(b) * 0.5);
                 let distance = (a * a + b * b).sqrt();
                 let on_ring = (distance - radius).abs() <= wide;
-                let on_leaf = a <= leaf && b <= reach;
+                let on_leaf = a <= leaf && b <= end;
                 if (on_ring || on_leaf)
-                    && let Some(at) = gap.pixel(hinge + way * a, across + side * b)
-                    && ink[at] != 0
+                    && let Some(at) = pixel(a, b)
                 {
                     found.push(at);
                 }
