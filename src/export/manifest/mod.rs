@@ -6,7 +6,7 @@ use super::ExportError;
 use super::bake_path::{BakePath, MANIFEST_NAME};
 use super::camera::StillEntry;
 use super::layout::{Naming, TileLayout};
-use super::options::TextureOptions;
+use super::options::{TextureOptions, USD_FILE};
 use super::targets::{TargetEntry, WorldEntry};
 use crate::files::read_input;
 use crate::look::Look;
@@ -288,6 +288,7 @@ impl Manifest {
             bits: if fine { 16 } else { usual_bits() },
             target: self.target.name,
             embed: self.settings["texture"]["embed"].as_bool().unwrap_or_default(),
+            usd: self.files.iter().any(|file| **file == *USD_FILE),
             ..TextureOptions::default()
         }
     }

@@ -59,3 +59,15 @@ impl WallStrip {
         [0, 1].map(|k| start[k] + (end[k] - start[k]) * share + (above[k] - start[k]) * up)
     }
 }
+
+/// The least and the greatest coordinates of some points.
+pub(super) fn bounds(points: impl Iterator<Item = [f32; 3]>) -> Option<[[f32; 3]; 2]> {
+    points.fold(None, |bounds, p| {
+        let [mut least, mut greatest] = bounds.unwrap_or([p, p]);
+        for k in 0..3 {
+            least[k] = least[k].min(p[k]);
+            greatest[k] = greatest[k].max(p[k]);
+        }
+        Some([least, greatest])
+    })
+}
