@@ -192,6 +192,8 @@ pub struct ResolveOptions {
     pub target: Option<Target>,
     /// Whether `scene.glb` embeds its textures.
     pub embed: Option<bool>,
+    /// Whether `scene.glb` has the lamps of the stills.
+    pub lamps: Option<bool>,
     /// Whether the scene is also written as `scene.usda`.
     pub usd: Option<bool>,
     /// Whether to write the layers as EXR too.
@@ -226,6 +228,7 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
     let mut textures = manifest.texture_options();
     textures.target = options.target.unwrap_or(textures.target);
     textures.embed = options.embed.unwrap_or(textures.embed);
+    textures.lamps = options.lamps.unwrap_or(textures.lamps);
     textures.usd = options.usd.unwrap_or(textures.usd);
     textures.layers = options.layers.or(textures.layers);
     textures.bits = options.bits.unwrap_or(textures.bits);

@@ -12,7 +12,7 @@ use crate::math::Rect;
 use crate::progress::{Progress, Stage, Stopwatch};
 use crate::show::page::{Page, PageOptions, PageSurface};
 use crate::show::scene::{
-    self, PlainMaterial, Scene, SceneFile, SceneOptions, SurfaceImages, WallStrip, write_glb, write_usda,
+    self, PlainMaterial, Scene, SceneFile, SceneLamp, SceneOptions, SurfaceImages, WallStrip, write_glb, write_usda,
 };
 use crate::show::still::{FarWalls, STILL_SIZE_PX, Surfaces, WallSurfaces, write_stills};
 use crate::show::{self, Ceiling, Crop, Rooms};
@@ -101,16 +101,16 @@ impl Graded<'_> {
         watch.add(Stage::Look, textures.look_busy_s);
         watch.add(Stage::Export, textures.export_busy_s);
         let model = Model { graded: self, floor: floor_textures, walls: &textures };
-        let scene = watch.busy(Stage::Scene, || {
-            let scene = model.scene(sums.grid().height_m);
-            model.write_scene(&scene, wall.background(), options, folder).map(|()| scene)
-        })?;
         let (rooms, cameras) = watch.busy(Stage::Stills, || {
             let rooms = Rooms::new(self.walls, self.doorways, sums.grid().height_m).under(self.ceiling);
             let rooms = rooms.framed(&self.look.wall).walked(&self.sums.floor);
             let cameras = [rooms.birds_eye(STILL_SIZE_PX), rooms.eye_level(&self.sums.floor)];
             (rooms, cameras)
         });
+        let scene = watch.busy(Stage::Scene, || {
+            let scene = model.scene(sums.grid().height_m);
+            model.write_scene(&scene, wall.background(), (&rooms, cameras), options, folder).map(|()| scene)
+        })?;
         let clean = [floor.background(), wall.background()];
         let draw = || model.write_stills((floor, &wall), sums, (&rooms, cameras), folder, progress);
         let page = || model.write_page(&scene, clean, (&rooms, cameras), folder);
@@ -148,6 +148,7 @@ impl Model<'_> {
         &self,
         scene: &Scene,
         clean: Background,
+        (rooms, [above, inside]): (&Rooms, [Camera; 2]),
         options: &TextureOptions,
         folder: &OutputFolder,
     ) -> Result<(), export::ExportError> {
@@ -167,6 +168,9 @@ impl Model<'_> {
             floor: floor.collect(),
             walls: walls.collect(),
             clean_wall: PlainMaterial { colour: clean.base_color, roughness: f32::from(clean.orm[1]) / 255.0 },
+            cameras: vec![("birds_eye", above), ("eye_level", inside)],
+            picture_px: STILL_SIZE_PX,
+            lamps: if options.lamps { SceneLamp::all(rooms) } else { Vec::new() },
             ..SceneFile::default()
         };
         let mut out = folder.create("scene.glb")?;

@@ -79,6 +79,9 @@ pub struct Bake {
     /// Put the textures, reduced, into scene.glb
     #[arg(long)]
     embed: bool,
+    /// Put the lamps of the stills into scene.glb, to be lit like them
+    #[arg(long)]
+    lamps: bool,
     /// Write the scene as scene.usda too, for Omniverse, Isaac Sim and Houdini
     #[arg(long, conflicts_with = "floor_only")]
     usd: bool,
@@ -127,6 +130,7 @@ impl Bake {
             target: self.target,
             walls: self.floor_only.then_some(false),
             embed: self.embed.then_some(true),
+            lamps: self.lamps.then_some(true),
             usd: self.usd.then_some(true),
             any_size: self.yes,
             layers: self.layers.then_some(true),

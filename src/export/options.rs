@@ -21,6 +21,8 @@ options! {
         walls: bool = true;
         /// Whether scene.glb carries its textures, reduced, inside.
         embed: bool = false;
+        /// Whether scene.glb has the lamps of the stills.
+        lamps: bool = false;
         /// Whether the scene is also written as scene.usda.
         usd: bool = false;
     } with {

@@ -288,6 +288,7 @@ impl Manifest {
             bits: if fine { 16 } else { usual_bits() },
             target: self.target.name,
             embed: self.settings["texture"]["embed"].as_bool().unwrap_or_default(),
+            lamps: self.settings["texture"]["lamps"].as_bool().unwrap_or_default(),
             usd: self.files.iter().any(|file| **file == *USD_FILE),
             ..TextureOptions::default()
         }

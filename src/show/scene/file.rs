@@ -1,8 +1,9 @@
 use image::RgbImage;
 
 use super::model::SceneSurface;
+use crate::export::Camera;
 use crate::math::srgb::Srgb8;
-use crate::show::rooms::Finish;
+use crate::show::rooms::{Finish, Panel, Rooms};
 
 /// What a file of a scene holds beside its triangles: names, and a material for each surface.
 #[derive(Clone, Debug)]
@@ -19,6 +20,34 @@ pub struct SceneFile<'a> {
     pub wall_top: PlainMaterial,
     /// [`SceneSurface::Lintel`]: the clean wall.
     pub clean_wall: PlainMaterial,
+    /// Cameras with their names.
+    pub cameras: Vec<(&'a str, Camera)>,
+    /// Width and height of their pictures, pixels.
+    pub picture_px: [u32; 2],
+    /// Lamps in the ceiling, shining down.
+    pub lamps: Vec<SceneLamp>,
+}
+
+/// A lamp in the ceiling.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SceneLamp {
+    /// x and y in the plan frame and height above the floor, metres.
+    pub place_m: [f64; 3],
+    /// Area of its light, square metres.
+    pub area_m2: f64,
+}
+
+/// Lamps hang so far below the ceiling, metres: clear of one that somebody adds.
+const BELOW_CEILING_M: f64 = 0.02;
+
+impl SceneLamp {
+    /// The lamps in the ceiling of rooms.
+    pub fn all(rooms: &Rooms) -> Vec<SceneLamp> {
+        let height_m = rooms.grid.height_m - BELOW_CEILING_M;
+        let lamp =
+            |panel: Panel| SceneLamp { place_m: [panel.centre.x, panel.centre.y, height_m], area_m2: panel.area() };
+        rooms.panels().into_iter().map(lamp).collect()
+    }
 }
 
 /// The textures of one tile or sheet: paths relative to the scene's folder, with `/` between their parts.
@@ -66,6 +95,9 @@ impl Default for SceneFile<'_> {
             walls: Vec::new(),
             wall_top: PlainMaterial::CUT,
             clean_wall: PlainMaterial::PAINT,
+            cameras: Vec::new(),
+            picture_px: [1, 1],
+            lamps: Vec::new(),
         }
     }
 }

@@ -17,7 +17,7 @@ mod tops;
 mod usda;
 
 pub(crate) use build::{SceneOptions, build};
-pub(crate) use file::{PlainMaterial, SceneFile, SurfaceImages};
+pub(crate) use file::{PlainMaterial, SceneFile, SceneLamp, SurfaceImages};
 pub(crate) use glb::write_glb;
 pub(crate) use model::WallStrip;
 pub use model::{Mesh, Scene, SceneSurface};

@@ -22,11 +22,14 @@ pub struct Mesh {
     pub positions_m: Vec<[f32; 3]>,
     /// Unit vectors in the same frame.
     pub normals: Vec<[f32; 3]>,
-    /// Texture coordinates from 0 to 1 within the tile or sheet, from its upper left, v downward; empty for surfaces
-    /// without a texture.
+    /// Texture coordinates from 0 to 1 within the tile or sheet, from its upper left, v downward; metres along and
+    /// against the surface's height or the plan's y for surfaces without a texture.
     pub uvs: Vec<[f32; 2]>,
     /// Three per triangle, counter-clockwise seen from its front.
     pub indices: Vec<u32>,
+    /// Of a wall sheet: wall faces ([`Walls::faces`](crate::walls::Walls::faces)), each with the first of the triangles
+    /// that show it.
+    pub faces: Vec<[u32; 2]>,
 }
 
 /// A whole plan as triangles.

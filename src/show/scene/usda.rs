@@ -190,6 +190,7 @@ mod tests {
             normals: vec![[0.0, 0.0, 1.0]; 3],
             uvs: vec![[0.0, 1.0], [1.0, 1.0], [1.0, 0.25]],
             indices: vec![0, 1, 2],
+            faces: Vec::new(),
         };
         let floor = SurfaceImages {
             name: "floor_0_0".to_string(),

@@ -6,6 +6,7 @@ use image::RgbImage;
 use serde_json::{Value, json};
 
 use super::picture::{self, TextureContent};
+use super::views;
 use crate::export::GENERATOR;
 use crate::math::srgb;
 use crate::show::scene::file::{Cover, PlainMaterial, SceneFile};
@@ -42,7 +43,9 @@ struct Part<'a> {
 struct Lists {
     accessors: Vec<Value>,
     buffer_views: Vec<Value>,
+    cameras: Vec<Value>,
     images: Vec<Value>,
+    lights: Vec<Value>,
     materials: Vec<Value>,
     meshes: Vec<Value>,
     nodes: Vec<Value>,
@@ -63,6 +66,22 @@ impl<'a> GltfDocument<'a> {
         // Images follow the parts in the binary chunk.
         for (index, part) in parts.iter().enumerate() {
             lists.add_material(index, part)?;
+        }
+        for (name, camera) in &file.cameras {
+            let mut node = views::node(name, camera.position_m, [camera.heading_deg, camera.pitch_deg]);
+            node["camera"] = lists.cameras.len().into();
+            lists.nodes.push(node);
+            lists.cameras.push(views::camera(camera, file.picture_px));
+        }
+        for (number, lamp) in file.lamps.iter().enumerate() {
+            let light = views::light(lamp);
+            let index = lists.lights.iter().position(|known| *known == light).unwrap_or(lists.lights.len());
+            if index == lists.lights.len() {
+                lists.lights.push(light);
+            }
+            let mut node = views::node(&format!("lamp_{number}"), lamp.place_m, [90.0, -90.0]);
+            node["extensions"][views::LIGHTS] = json!({ "light": index });
+            lists.nodes.push(node);
         }
         let extras = json!({ "generator": GENERATOR, "version": env!("CARGO_PKG_VERSION"), "seed": file.seed });
         let mut whole = json!({ "name": file.name, "extras": extras });
@@ -177,7 +196,13 @@ impl Lists {
             attributes["TANGENT"] = self.floats::<4>(count, None).into();
         }
         let primitive = json!({ "attributes": attributes, "indices": indices, "material": self.meshes.len() });
-        self.nodes.push(json!({ "name": cover.name(), "mesh": self.meshes.len() }));
+        let mut node = json!({ "name": cover.name(), "mesh": self.meshes.len() });
+        if !mesh.faces.is_empty() {
+            // Two lists of numbers: what Blender, Unreal and Unity keep of extras.
+            let column = |k: usize| mesh.faces.iter().map(|face| face[k]).collect::<Vec<u32>>();
+            node["extras"] = json!({ "wall_faces": column(0), "first_triangles": column(1) });
+        }
+        self.nodes.push(node);
         self.meshes.push(json!({ "name": cover.name(), "primitives": [primitive] }));
     }
 
@@ -237,6 +262,10 @@ impl Lists {
         if self.length > 0 {
             root["buffers"] = json!([{ "byteLength": self.length }]);
         }
+        if !self.lights.is_empty() {
+            root["extensionsUsed"] = json!([views::LIGHTS]);
+            root["extensions"][views::LIGHTS] = json!({ "lights": self.lights });
+        }
         if !self.textures.is_empty() {
             root["samplers"] = json!([{
                 "magFilter": LINEAR,
@@ -248,6 +277,7 @@ impl Lists {
         let lists = [
             ("accessors", self.accessors),
             ("bufferViews", self.buffer_views),
+            ("cameras", self.cameras),
             ("images", self.images),
             ("materials", self.materials),
             ("meshes", self.meshes),

@@ -4,6 +4,7 @@ mod document;
 mod picture;
 #[cfg(test)]
 mod tests;
+mod views;
 mod write;
 
 pub use write::write_glb;

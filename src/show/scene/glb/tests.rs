@@ -66,6 +66,7 @@ fn triangle(surface: SceneSurface) -> Mesh {
         normals: vec![[0.0, 0.0, 1.0]; 3],
         uvs: if textured { vec![[0.0, 1.0], [1.0, 1.0], [1.0, 0.25]] } else { Vec::new() },
         indices: vec![0, 1, 2],
+        faces: Vec::new(),
     }
 }
 
@@ -120,6 +121,7 @@ fn surfaces_with_normals_have_tangents() {
         normals: vec![[-1.0, 0.0, 0.0]; 3],
         uvs: vec![[0.0, 0.8], [0.0, 0.0], [1.0, 0.0]],
         indices: vec![0, 1, 2],
+        faces: Vec::new(),
     };
     let scene = Scene { meshes: vec![triangle(SceneSurface::FloorTile(0)), wall] };
     let bumpy = |name| SurfaceImages { normal: Some("n.png"), ..files(name, "b.png", "o.png") };
