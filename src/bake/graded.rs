@@ -1,6 +1,8 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
+
 use crate::Error;
 use crate::export::{
     self, Atlas, Camera, FloorTextures, OutputFile, OutputFolder, PADDING_PX, PreviewEntry, StillEntry, TextureOptions,
@@ -174,7 +176,13 @@ impl Model<'_> {
             ..SceneFile::default()
         };
         let mut out = folder.create("scene.glb")?;
-        write_glb(&mut out, scene, &file).and_then(|()| out.flush()).map_err(OutputFile::explain)?;
+        let light_mapped = match options.lightmap {
+            0 => None,
+            size_px => Some(Scene { meshes: scene.meshes.par_iter().map(|mesh| mesh.light_mapped(size_px)).collect() }),
+        };
+        write_glb(&mut out, light_mapped.as_ref().unwrap_or(scene), &file)
+            .and_then(|()| out.flush())
+            .map_err(OutputFile::explain)?;
         out.close()?;
         if options.usd {
             let mut out = folder.create(USD_FILE)?;

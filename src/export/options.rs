@@ -21,6 +21,8 @@ options! {
         walls: bool = true;
         /// Whether scene.glb carries its textures, reduced, inside.
         embed: bool = false;
+        /// Side of the light maps for which scene.glb has a second set of texture coordinates; 0 leaves them out.
+        lightmap: u32 = 1024, in 0.0..=8192.0, unit "px";
         /// Whether scene.glb has the lamps of the stills.
         lamps: bool = false;
         /// Whether the scene is also written as scene.usda.

@@ -282,7 +282,9 @@ impl Manifest {
         // The default of the target stays unset, so that another target uses its own.
         let fine = self.floor.channels.iter().any(|channel| channel.image == "mask" && channel.bits == 16);
         let unusual = (written != self.target.name.wants_layers()).then_some(written);
+        let lightmap = self.settings["texture"]["lightmap"].as_u64().and_then(|px| u32::try_from(px).ok());
         TextureOptions {
+            lightmap: lightmap.unwrap_or(TextureOptions::default().lightmap),
             tile: width.max(height).max(TileLayout::MIN_TILE),
             layers: self.settings["texture"]["layers"].as_bool().or(unusual),
             bits: if fine { 16 } else { usual_bits() },

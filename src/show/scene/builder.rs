@@ -43,7 +43,8 @@ pub(super) struct MeshBuilder {
 impl MeshBuilder {
     fn new(surface: SceneSurface) -> MeshBuilder {
         let (positions_m, normals, uvs) = (Vec::new(), Vec::new(), Vec::new());
-        let part = Mesh { surface, positions_m, normals, uvs, indices: Vec::new(), faces: Vec::new() };
+        let part =
+            Mesh { surface, positions_m, normals, uvs, indices: Vec::new(), faces: Vec::new(), light_uvs: Vec::new() };
         MeshBuilder { part, known: HashMap::new() }
     }
 

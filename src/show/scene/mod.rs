@@ -7,6 +7,7 @@ mod file;
 mod fittings;
 mod floor;
 mod glb;
+mod light_map;
 mod lintels;
 mod model;
 mod region;

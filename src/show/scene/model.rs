@@ -30,6 +30,8 @@ pub struct Mesh {
     /// Of a wall sheet: wall faces ([`Walls::faces`](crate::walls::Walls::faces)), each with the first of the triangles
     /// that show it.
     pub faces: Vec<[u32; 2]>,
+    /// Texture coordinates from 0 to 1 within a light map of the mesh; empty without one.
+    pub light_uvs: Vec<[f32; 2]>,
 }
 
 /// A whole plan as triangles.

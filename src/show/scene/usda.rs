@@ -191,6 +191,7 @@ mod tests {
             uvs: vec![[0.0, 1.0], [1.0, 1.0], [1.0, 0.25]],
             indices: vec![0, 1, 2],
             faces: Vec::new(),
+            light_uvs: Vec::new(),
         };
         let floor = SurfaceImages {
             name: "floor_0_0".to_string(),

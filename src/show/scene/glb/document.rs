@@ -119,6 +119,7 @@ impl<'a> GltfDocument<'a> {
             write_floats(out, mesh.positions_m.iter().copied().map(y_up))?;
             write_floats(out, mesh.normals.iter().copied().map(y_up))?;
             write_floats(out, mesh.uvs.iter().copied())?;
+            write_floats(out, mesh.light_uvs.iter().copied())?;
             if normal.is_some() {
                 write_floats(out, tangents(mesh).into_iter())?;
             }
@@ -191,6 +192,9 @@ impl Lists {
         let mut attributes = json!({ "POSITION": position, "NORMAL": normals });
         if !mesh.uvs.is_empty() {
             attributes["TEXCOORD_0"] = self.floats::<2>(count, None).into();
+        }
+        if !mesh.light_uvs.is_empty() {
+            attributes["TEXCOORD_1"] = self.floats::<2>(count, None).into();
         }
         if normal.is_some() {
             attributes["TANGENT"] = self.floats::<4>(count, None).into();

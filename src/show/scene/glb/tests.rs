@@ -67,6 +67,7 @@ fn triangle(surface: SceneSurface) -> Mesh {
         uvs: if textured { vec![[0.0, 1.0], [1.0, 1.0], [1.0, 0.25]] } else { Vec::new() },
         indices: vec![0, 1, 2],
         faces: Vec::new(),
+        light_uvs: Vec::new(),
     }
 }
 
@@ -122,6 +123,7 @@ fn surfaces_with_normals_have_tangents() {
         uvs: vec![[0.0, 0.8], [0.0, 0.0], [1.0, 0.0]],
         indices: vec![0, 1, 2],
         faces: Vec::new(),
+        light_uvs: Vec::new(),
     };
     let scene = Scene { meshes: vec![triangle(SceneSurface::FloorTile(0)), wall] };
     let bumpy = |name| SurfaceImages { normal: Some("n.png"), ..files(name, "b.png", "o.png") };
