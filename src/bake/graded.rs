@@ -23,6 +23,8 @@ use crate::walls::{Doorway, Walls};
 
 /// Greatest side of the reduced images in the page and in a model with textures, pixels.
 const REDUCED_PX: u32 = 2048;
+/// Godot gives a mesh of such a name a static body with its triangles, and takes this off the name.
+const GODOT_COLLIDER: &str = "-col";
 
 pub(super) struct Sums {
     pub floor: FloorSums,
@@ -170,6 +172,7 @@ impl Model<'_> {
             floor: floor.collect(),
             walls: walls.collect(),
             clean_wall: PlainMaterial { colour: clean.base_color, roughness: f32::from(clean.orm[1]) / 255.0 },
+            node_suffix: if self.floor.target == export::Target::Godot { GODOT_COLLIDER } else { "" },
             cameras: vec![("birds_eye", above), ("eye_level", inside)],
             picture_px: STILL_SIZE_PX,
             lamps: if options.lamps { SceneLamp::all(rooms) } else { Vec::new() },

@@ -46,6 +46,8 @@ def parts(scene, kind):
     found = {}
     for node in sorted(scene.graph.nodes_geometry):
         transform, name = scene.graph[node]
+        # Godot makes colliders of nodes of such names.
+        node = node.removesuffix("-col")
         if node.startswith(kind):
             mesh = scene.geometry[name].copy().apply_transform(transform)
             x, height, minus_y = mesh.vertices.T
@@ -109,7 +111,7 @@ def outside(mesh, sheet):
 
 def wall_faces(check, bake, sheets, manifest):
     """Extras say which wall face a triangle shows: their areas are those of the manifest's strips."""
-    nodes = {node["name"]: node for node in document(bake)["nodes"]}
+    nodes = {node["name"].removesuffix("-col"): node for node in document(bake)["nodes"]}
     height = manifest["walls"]["height_m"]
     for number, sheet in enumerate(manifest["walls"]["sheets"]):
         wanted, found = {}, {}
@@ -134,6 +136,32 @@ def plain(check, scene):
         a, b = texels[:, 1] - texels[:, 0], texels[:, 2] - texels[:, 0]
         area = 0.5 * np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
         check.near(f"{name} in its coordinates, m2", area.sum(), mesh.area, 1e-3)
+
+
+def light_maps(check, bake):
+    """Second coordinates: within the light map, and as dense everywhere in it."""
+    gltf, binary = parts_of_file(bake)
+    for mesh in gltf["meshes"]:
+        attributes = mesh["primitives"][0]["attributes"]
+        place, uv = (read(gltf, binary, attributes[name]) for name in ("POSITION", "TEXCOORD_1"))
+        corners = read(gltf, binary, mesh["primitives"][0]["indices"]).reshape(-1, 3)
+        a, b = place[corners[:, 1]] - place[corners[:, 0]], place[corners[:, 2]] - place[corners[:, 0]]
+        area = 0.5 * np.linalg.norm(np.cross(a, b), axis=1)
+        texels = uv[corners] * 1024
+        a, b = texels[:, 1] - texels[:, 0], texels[:, 2] - texels[:, 0]
+        density = np.sqrt(0.5 * np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])[area > 0.01] / area[area > 0.01])
+        check.right(f"light map of {mesh['name']}: {density.min():.2f} to {density.max():.2f} texels per metre",
+                    uv.min() >= 0.0 and uv.max() <= 1.0 and density.max() < 1.05 * density.min())
+
+
+def read(gltf, binary, index):
+    """The numbers of an accessor."""
+    accessor = gltf["accessors"][index]
+    kind = {5126: "<f4", 5125: "<u4", 5123: "<u2"}[accessor["componentType"]]
+    each = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}[accessor["type"]]
+    start = gltf["bufferViews"][accessor["bufferView"]]["byteOffset"]
+    numbers = np.frombuffer(binary, kind, accessor["count"] * each, start)
+    return numbers if each == 1 else numbers.reshape(-1, each).astype(float)
 
 
 def cameras(check, bake, manifest):
@@ -173,10 +201,15 @@ def lamps(check, bake, tiles, manifest, wanted):
             check.right(f"{node['name']} hangs over the floor and shines down", False)
 
 
-def document(bake):
-    """The JSON of scene.glb."""
+def parts_of_file(bake):
+    """JSON and binary chunk of scene.glb."""
     file = (bake / "scene.glb").read_bytes()
-    return json.loads(file[20:20 + int.from_bytes(file[12:16], "little")])
+    binary = 20 + int.from_bytes(file[12:16], "little")
+    return json.loads(file[20:binary]), file[binary + 8:]
+
+
+def document(bake):
+    return parts_of_file(bake)[0]
 
 
 def images(check, meshes, bake, manifest, embedded):
@@ -212,6 +245,10 @@ def main(bakes):
         tiles, sheets = parts(scene, "floor"), parts(scene, "walls_")
         floor(check, tiles, manifest)
         walls(check, sheets, manifest)
+        meshes = [node["name"] for node in document(bake)["nodes"] if "mesh" in node]
+        check.right(f"{len(meshes)} meshes, colliders for Godot only",
+                    all(name.endswith("-col") == (bake.name == "godot") for name in meshes))
+        light_maps(check, bake)
         wall_faces(check, bake, sheets, manifest)
         plain(check, scene)
         cameras(check, bake, manifest)

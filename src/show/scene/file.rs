@@ -20,6 +20,8 @@ pub struct SceneFile<'a> {
     pub wall_top: PlainMaterial,
     /// [`SceneSurface::Lintel`]: the clean wall.
     pub clean_wall: PlainMaterial,
+    /// What the name of each mesh's node ends with: a sign to the program that reads it.
+    pub node_suffix: &'a str,
     /// Cameras with their names.
     pub cameras: Vec<(&'a str, Camera)>,
     /// Width and height of their pictures, pixels.
@@ -95,6 +97,7 @@ impl Default for SceneFile<'_> {
             walls: Vec::new(),
             wall_top: PlainMaterial::CUT,
             clean_wall: PlainMaterial::PAINT,
+            node_suffix: "",
             cameras: Vec::new(),
             picture_px: [1, 1],
             lamps: Vec::new(),

@@ -61,7 +61,7 @@ impl<'a> GltfDocument<'a> {
         let parts: Vec<Part> = meshes.map(|mesh| Part::of(mesh, file)).collect();
         let mut lists = Lists::default();
         for part in &parts {
-            lists.add_part(part);
+            lists.add_part(part, file.node_suffix);
         }
         // Images follow the parts in the binary chunk.
         for (index, part) in parts.iter().enumerate() {
@@ -179,7 +179,7 @@ impl Lists {
     }
 
     /// Node and mesh of a part; its material has the part's number.
-    fn add_part(&mut self, Part { mesh, cover, normal }: &Part) {
+    fn add_part(&mut self, Part { mesh, cover, normal }: &Part, node_suffix: &str) {
         let short = has_short_indices(mesh);
         let (kind, size) = if short { (UNSIGNED_SHORT, 2) } else { (UNSIGNED_INT, 4) };
         let view = self.view(mesh.indices.len() * size, Some(ELEMENT_ARRAY_BUFFER));
@@ -200,7 +200,7 @@ impl Lists {
             attributes["TANGENT"] = self.floats::<4>(count, None).into();
         }
         let primitive = json!({ "attributes": attributes, "indices": indices, "material": self.meshes.len() });
-        let mut node = json!({ "name": cover.name(), "mesh": self.meshes.len() });
+        let mut node = json!({ "name": format!("{}{node_suffix}", cover.name()), "mesh": self.meshes.len() });
         if !mesh.faces.is_empty() {
             // Two lists of numbers: what Blender, Unreal and Unity keep of extras.
             let column = |k: usize| mesh.faces.iter().map(|face| face[k]).collect::<Vec<u32>>();
