@@ -4,7 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::Error;
-use crate::export::{self, ExportError, LifeReport, Manifest, OutputFolder, PeopleReport, Report, Target, TargetEntry};
+use crate::export::{
+    self, ExportError, LifeReport, Manifest, OutputFolder, PeopleReport, Report, Target, TargetEntry, TextureOptions,
+    USD_FILE,
+};
 use crate::look::Look;
 use crate::progress::{Progress, Stage, Stopwatch};
 use crate::scenario::Scenario;
@@ -87,7 +90,7 @@ pub fn bake(scenario: &Scenario, output: &OutputOptions, progress: &dyn Progress
 fn begin(scenario: &Scenario, output: &OutputOptions) -> Result<OutputFolder, Error> {
     check_look(scenario)?;
     let folder = OutputFolder::begin(&output.folder, output.force)?;
-    check_free(&folder, scenario.texture.walls)?;
+    check_free(&folder, scenario.texture.walls, &scenario.texture)?;
     folder.check_not_inputs(&scenario.input_files())?;
     Ok(folder)
 }
@@ -189,6 +192,10 @@ pub struct ResolveOptions {
     pub target: Option<Target>,
     /// Whether `scene.glb` embeds its textures.
     pub embed: Option<bool>,
+    /// Whether `scene.glb` has the lamps of the stills.
+    pub lamps: Option<bool>,
+    /// Whether the scene is also written as `scene.usda`.
+    pub usd: Option<bool>,
     /// Whether to write the layers as EXR too.
     pub layers: Option<bool>,
     /// Bits per channel of masks, wear and height: 8 or 16.
@@ -215,16 +222,18 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
         None => OutputFolder::begin(bake, true)?,
     };
     let manifest = Manifest::read(bake)?;
-    check_free(&folder, manifest.walls.is_some())?;
     let look = &options.look.clone().map_or_else(|| manifest.look(bake), Ok)?;
     look.check()?;
     look.check_images()?;
     let mut textures = manifest.texture_options();
     textures.target = options.target.unwrap_or(textures.target);
     textures.embed = options.embed.unwrap_or(textures.embed);
+    textures.lamps = options.lamps.unwrap_or(textures.lamps);
+    textures.usd = options.usd.unwrap_or(textures.usd);
     textures.layers = options.layers.or(textures.layers);
     textures.bits = options.bits.unwrap_or(textures.bits);
     textures.check()?;
+    check_free(&folder, manifest.walls.is_some(), &textures)?;
     let atlas = manifest.walls.as_ref().map(|walls| walls.atlas());
     atlas.iter().try_for_each(|atlas| atlas.check(textures.target))?;
     let earlier = Report::read(bake)?;
@@ -268,7 +277,11 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
 }
 
 /// Checks, before any work, that no file of the user has the name of an output.
-fn check_free(folder: &OutputFolder, with_walls: bool) -> Result<(), export::ExportError> {
+fn check_free(folder: &OutputFolder, with_walls: bool, options: &TextureOptions) -> Result<(), export::ExportError> {
     folder.check_free(&ALWAYS_MADE)?;
-    if with_walls { folder.check_free(&MADE_WITH_WALLS) } else { Ok(()) }
+    if !with_walls {
+        return Ok(());
+    }
+    folder.check_free(&MADE_WITH_WALLS)?;
+    if options.usd { folder.check_free(&[USD_FILE]) } else { Ok(()) }
 }

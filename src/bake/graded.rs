@@ -1,10 +1,12 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
+
 use crate::Error;
 use crate::export::{
     self, Atlas, Camera, FloorTextures, OutputFile, OutputFolder, PADDING_PX, PreviewEntry, StillEntry, TextureOptions,
-    WallTextures,
+    USD_FILE, WallTextures,
 };
 use crate::files::{LARGEST_IMAGE_BYTES, read_input};
 use crate::look::{Background, FloorResolver, Look, LookError, WallResolver, look_files};
@@ -12,7 +14,7 @@ use crate::math::Rect;
 use crate::progress::{Progress, Stage, Stopwatch};
 use crate::show::page::{Page, PageOptions, PageSurface};
 use crate::show::scene::{
-    self, GlbImage, GlbOptions, PlainMaterial, Scene, SceneOptions, SurfaceImages, WallStrip, write_glb,
+    self, PlainMaterial, Scene, SceneFile, SceneLamp, SceneOptions, SurfaceImages, WallStrip, write_glb, write_usda,
 };
 use crate::show::still::{FarWalls, STILL_SIZE_PX, Surfaces, WallSurfaces, write_stills};
 use crate::show::{self, Ceiling, Crop, Rooms};
@@ -21,6 +23,8 @@ use crate::walls::{Doorway, Walls};
 
 /// Greatest side of the reduced images in the page and in a model with textures, pixels.
 const REDUCED_PX: u32 = 2048;
+/// Godot gives a mesh of such a name a static body with its triangles, and takes this off the name.
+const GODOT_COLLIDER: &str = "-col";
 
 pub(super) struct Sums {
     pub floor: FloorSums,
@@ -101,16 +105,16 @@ impl Graded<'_> {
         watch.add(Stage::Look, textures.look_busy_s);
         watch.add(Stage::Export, textures.export_busy_s);
         let model = Model { graded: self, floor: floor_textures, walls: &textures };
-        let scene = watch.busy(Stage::Scene, || {
-            let scene = model.scene(sums.grid().height_m);
-            model.write_glb(&scene, wall.background(), options.embed, folder).map(|()| scene)
-        })?;
         let (rooms, cameras) = watch.busy(Stage::Stills, || {
             let rooms = Rooms::new(self.walls, self.doorways, sums.grid().height_m).under(self.ceiling);
             let rooms = rooms.framed(&self.look.wall).walked(&self.sums.floor);
             let cameras = [rooms.birds_eye(STILL_SIZE_PX), rooms.eye_level(&self.sums.floor)];
             (rooms, cameras)
         });
+        let scene = watch.busy(Stage::Scene, || {
+            let scene = model.scene(sums.grid().height_m);
+            model.write_scene(&scene, wall.background(), (&rooms, cameras), options, folder).map(|()| scene)
+        })?;
         let clean = [floor.background(), wall.background()];
         let draw = || model.write_stills((floor, &wall), sums, (&rooms, cameras), folder, progress);
         let page = || model.write_page(&scene, clean, (&rooms, cameras), folder);
@@ -143,51 +147,64 @@ impl Model<'_> {
         scene::build(self.graded.walls, &tiles, &strips, self.graded.doorways, &options)
     }
 
-    fn write_glb(
+    /// Writes the scene to the files that are asked for.
+    fn write_scene(
         &self,
         scene: &Scene,
         clean: Background,
-        embed: bool,
+        (rooms, [above, inside]): (&Rooms, [Camera; 2]),
+        options: &TextureOptions,
         folder: &OutputFolder,
     ) -> Result<(), export::ExportError> {
-        fn images<'a>(
-            name: String,
-            files: [&'a str; 2],
-            reduced: Option<&'a export::Reduced>,
-            embed: bool,
-        ) -> SurfaceImages<'a> {
-            let [base_color, orm] = match reduced.filter(|_| embed) {
-                Some(reduced) => [GlbImage::Embedded(&reduced.base_color), GlbImage::Embedded(&reduced.orm)],
-                None => files.map(GlbImage::File),
-            };
-            SurfaceImages { name, base_color, orm, normal: None }
-        }
-        // glTF wants green to point up; what is embedded is reduced, where the relief evens out.
-        let with_normal = |file: &'_ str| !embed && !file.is_empty() && self.floor.target != export::Target::Unreal;
+        let [small_floor, small_walls] =
+            [&self.floor.reduced, &self.walls.reduced].map(|reduced| if options.embed { &reduced[..] } else { &[] });
         let floor = self.floor.tiles.iter().enumerate().map(|(k, tile)| {
             let name = format!("floor_{}_{}", tile.u, tile.v);
-            let normal = with_normal(&tile.normal).then_some(GlbImage::File(&tile.normal));
-            let images = images(name, [&tile.basecolor, &tile.orm], self.floor.reduced.get(k), embed);
-            SurfaceImages { normal, ..images }
+            self.images(name, [&tile.basecolor, &tile.orm, &tile.normal], small_floor.get(k))
         });
         let walls = self.walls.sheets.iter().enumerate().map(|(k, sheet)| {
-            let normal = with_normal(&sheet.normal).then_some(GlbImage::File(&sheet.normal));
-            let files = [&sheet.basecolor, &sheet.orm].map(String::as_str);
-            let images = images(format!("walls_{k}"), files, self.walls.reduced.get(k), embed);
-            SurfaceImages { normal, ..images }
+            let files = [&sheet.basecolor, &sheet.orm, &sheet.normal];
+            self.images(format!("walls_{k}"), files, small_walls.get(k))
         });
-        let clean_wall = PlainMaterial { colour: clean.base_color, roughness: f32::from(clean.orm[1]) / 255.0 };
-        let options = GlbOptions {
+        let file = SceneFile {
             name: self.graded.title.clone(),
             seed: self.graded.seed,
             floor: floor.collect(),
             walls: walls.collect(),
-            clean_wall,
-            ..GlbOptions::default()
+            clean_wall: PlainMaterial { colour: clean.base_color, roughness: f32::from(clean.orm[1]) / 255.0 },
+            node_suffix: if self.floor.target == export::Target::Godot { GODOT_COLLIDER } else { "" },
+            cameras: vec![("birds_eye", above), ("eye_level", inside)],
+            picture_px: STILL_SIZE_PX,
+            lamps: if options.lamps { SceneLamp::all(rooms) } else { Vec::new() },
+            ..SceneFile::default()
         };
-        let mut file = folder.create("scene.glb")?;
-        write_glb(&mut file, scene, &options).and_then(|()| file.flush()).map_err(OutputFile::explain)?;
-        file.close()
+        let mut out = folder.create("scene.glb")?;
+        let light_mapped = match options.lightmap {
+            0 => None,
+            size_px => Some(Scene { meshes: scene.meshes.par_iter().map(|mesh| mesh.light_mapped(size_px)).collect() }),
+        };
+        write_glb(&mut out, light_mapped.as_ref().unwrap_or(scene), &file)
+            .and_then(|()| out.flush())
+            .map_err(OutputFile::explain)?;
+        out.close()?;
+        if options.usd {
+            let mut out = folder.create(USD_FILE)?;
+            write_usda(&mut out, scene, &file).and_then(|()| out.flush()).map_err(OutputFile::explain)?;
+            out.close()?;
+        }
+        Ok(())
+    }
+
+    fn images<'a>(
+        &self,
+        name: String,
+        [base_color, orm, normal]: [&'a String; 3],
+        embedded: Option<&'a export::Reduced>,
+    ) -> SurfaceImages<'a> {
+        // glTF and USD want green to point up.
+        let with_normal = !normal.is_empty() && self.floor.target != export::Target::Unreal;
+        let embedded = embedded.map(|reduced| [&reduced.base_color, &reduced.orm]);
+        SurfaceImages { name, base_color, orm, normal: with_normal.then_some(normal.as_str()), embedded }
     }
 
     fn write_stills(

@@ -79,6 +79,12 @@ pub struct Bake {
     /// Put the textures, reduced, into scene.glb
     #[arg(long)]
     embed: bool,
+    /// Put the lamps of the stills into scene.glb, to be lit like them
+    #[arg(long)]
+    lamps: bool,
+    /// Write the scene as scene.usda too, for Omniverse, Isaac Sim and Houdini
+    #[arg(long, conflicts_with = "floor_only")]
+    usd: bool,
     /// Bake even if the files will take more than 20 GB, or more than is free on the disk
     #[arg(long)]
     yes: bool,
@@ -124,6 +130,8 @@ impl Bake {
             target: self.target,
             walls: self.floor_only.then_some(false),
             embed: self.embed.then_some(true),
+            lamps: self.lamps.then_some(true),
+            usd: self.usd.then_some(true),
             any_size: self.yes,
             layers: self.layers.then_some(true),
             bits: self.bits,

@@ -29,7 +29,7 @@ pub struct Resolve {
     #[arg(value_name = "BAKE")]
     bake: PathBuf,
     /// A look file: TOML with the keys of a scenario's [look]
-    #[arg(long, value_name = "FILE", required_unless_present_any = ["preset", "target", "embed", "layers", "bits", "output", "passes"])]
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["preset", "target", "embed", "lamps", "usd", "layers", "bits", "output", "passes"])]
     look: Option<PathBuf>,
     /// Or the look of a preset
     #[arg(long, value_name = "NAME", value_parser = arguments::preset(), conflicts_with = "look")]
@@ -46,6 +46,12 @@ pub struct Resolve {
     /// Put the textures, reduced, into scene.glb
     #[arg(long)]
     embed: bool,
+    /// Put the lamps of the stills into scene.glb, to be lit like them
+    #[arg(long)]
+    lamps: bool,
+    /// Write the scene as scene.usda too, for Omniverse, Isaac Sim and Houdini
+    #[arg(long)]
+    usd: bool,
     /// Ages, as numbers of people who have walked: one bake for each in --output, and a flip-book of every picture
     #[arg(long, value_name = "N,N,...", value_delimiter = ',', value_parser = passes, requires = "output")]
     passes: Vec<u64>,
@@ -67,6 +73,8 @@ impl Resolve {
             look,
             target: self.target,
             embed: self.embed.then_some(true),
+            lamps: self.lamps.then_some(true),
+            usd: self.usd.then_some(true),
             layers: self.layers.then_some(true),
             bits: self.bits,
             folder: self.output.clone(),

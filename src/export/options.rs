@@ -3,6 +3,9 @@ use super::layout::TileLayout;
 use super::targets::Target;
 use crate::options::{names, options};
 
+/// The scene in Universal Scene Description.
+pub(crate) const USD_FILE: &str = "scene.usda";
+
 options! {
     /// How textures are written.
     pub struct TextureOptions {
@@ -18,6 +21,12 @@ options! {
         walls: bool = true;
         /// Whether scene.glb carries its textures, reduced, inside.
         embed: bool = false;
+        /// Side of the light maps for which scene.glb has a second set of texture coordinates; 0 leaves them out.
+        lightmap: u32 = 1024, in 0.0..=8192.0, unit "px";
+        /// Whether scene.glb has the lamps of the stills.
+        lamps: bool = false;
+        /// Whether the scene is also written as scene.usda.
+        usd: bool = false;
     } with {
         /// The greatest width and height of the small images that are kept of each texture; none are without it.
         reduced_px: Option<u32> = None;

@@ -110,6 +110,10 @@ pub struct Overrides {
     pub walls: Option<bool>,
     /// Whether the model carries its textures.
     pub embed: Option<bool>,
+    /// Whether `scene.glb` has the lamps of the stills.
+    pub lamps: Option<bool>,
+    /// Whether the scene is also written as `scene.usda`.
+    pub usd: Option<bool>,
     /// Whether a bake of any size is made: see [`TextureOptions::any_size`].
     pub any_size: bool,
     /// Other bits per channel of masks.

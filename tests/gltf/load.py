@@ -46,6 +46,8 @@ def parts(scene, kind):
     found = {}
     for node in sorted(scene.graph.nodes_geometry):
         transform, name = scene.graph[node]
+        # Godot makes colliders of nodes of such names.
+        node = node.removesuffix("-col")
         if node.startswith(kind):
             mesh = scene.geometry[name].copy().apply_transform(transform)
             x, height, minus_y = mesh.vertices.T
@@ -107,6 +109,109 @@ def outside(mesh, sheet):
     return max(beyond.max(), 0.0)
 
 
+def wall_faces(check, bake, sheets, manifest):
+    """Extras say which wall face a triangle shows: their areas are those of the manifest's strips."""
+    nodes = {node["name"].removesuffix("-col"): node for node in document(bake)["nodes"]}
+    height = manifest["walls"]["height_m"]
+    for number, sheet in enumerate(manifest["walls"]["sheets"]):
+        wanted, found = {}, {}
+        for strip in sheet["strips"]:
+            wanted[strip["face"]] = wanted.get(strip["face"], 0.0) + (strip["to_m"] - strip["from_m"]) * height
+        extras = nodes[f"walls_{number}"]["extras"]
+        areas = np.split(sheets[f"walls_{number}"].area_faces, extras["first_triangles"][1:])
+        for face, area in zip(extras["wall_faces"], areas):
+            found[face] = found.get(face, 0.0) + area.sum()
+        off = max(abs(found.get(face, 0.0) - area) for face, area in wanted.items())
+        check.right(f"extras of walls_{number} tell its {len(wanted)} wall faces, to {off:.4f} m2",
+                    set(found) == set(wanted) and off < 0.02)
+
+
+def plain(check, scene):
+    """Coordinates of surfaces without an image are metres: a tiling material has its size."""
+    for name in ("wall_tops", "clean_wall"):
+        mesh = scene.geometry.get(name)
+        if mesh is None:
+            continue
+        texels = mesh.visual.uv[mesh.faces]
+        a, b = texels[:, 1] - texels[:, 0], texels[:, 2] - texels[:, 0]
+        area = 0.5 * np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+        check.near(f"{name} in its coordinates, m2", area.sum(), mesh.area, 1e-3)
+
+
+def light_maps(check, bake):
+    """Second coordinates: within the light map, and as dense everywhere in it."""
+    gltf, binary = parts_of_file(bake)
+    for mesh in gltf["meshes"]:
+        attributes = mesh["primitives"][0]["attributes"]
+        place, uv = (read(gltf, binary, attributes[name]) for name in ("POSITION", "TEXCOORD_1"))
+        corners = read(gltf, binary, mesh["primitives"][0]["indices"]).reshape(-1, 3)
+        a, b = place[corners[:, 1]] - place[corners[:, 0]], place[corners[:, 2]] - place[corners[:, 0]]
+        area = 0.5 * np.linalg.norm(np.cross(a, b), axis=1)
+        texels = uv[corners] * 1024
+        a, b = texels[:, 1] - texels[:, 0], texels[:, 2] - texels[:, 0]
+        density = np.sqrt(0.5 * np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])[area > 0.01] / area[area > 0.01])
+        check.right(f"light map of {mesh['name']}: {density.min():.2f} to {density.max():.2f} texels per metre",
+                    uv.min() >= 0.0 and uv.max() <= 1.0 and density.max() < 1.05 * density.min())
+
+
+def read(gltf, binary, index):
+    """The numbers of an accessor."""
+    accessor = gltf["accessors"][index]
+    kind = {5126: "<f4", 5125: "<u4", 5123: "<u2"}[accessor["componentType"]]
+    each = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}[accessor["type"]]
+    start = gltf["bufferViews"][accessor["bufferView"]]["byteOffset"]
+    numbers = np.frombuffer(binary, kind, accessor["count"] * each, start)
+    return numbers if each == 1 else numbers.reshape(-1, each).astype(float)
+
+
+def cameras(check, bake, manifest):
+    """Each still has its camera: place, direction and angle of view."""
+    gltf = document(bake)
+    for still in manifest["stills"]:
+        name, camera = pathlib.Path(still["file"]).stem, still["camera"]
+        node = next((node for node in gltf["nodes"] if node["name"] == name), None)
+        if node is None:
+            # The clean twin has the camera of the dirty one.
+            check.right(f"{name} has a camera", name.endswith("_clean"))
+            continue
+        place = trimesh.transformations.quaternion_matrix(np.roll(node["rotation"], 1))
+        heading, pitch = np.radians([camera["heading_deg"], camera["pitch_deg"]])
+        x, y, z = camera["position_m"]
+        ahead = [np.cos(heading) * np.cos(pitch), np.sin(pitch), -np.sin(heading) * np.cos(pitch)]
+        right = np.abs(place[:3, :3] @ [0, 0, -1] - ahead).max() < 1e-6 and place[:3, :3] @ [0, 1, 0] @ [0, 1, 0] > 0.0
+        right = right and np.allclose(node["translation"], [x, z, -y])
+        lens = gltf["cameras"][node["camera"]]["perspective"]
+        width = 2 * np.degrees(np.arctan(np.tan(lens["yfov"] / 2) * lens["aspectRatio"]))
+        check.right(f"{name} has its camera, {width:.2f} degrees wide", right and abs(width - camera["fov_deg"]) < 1e-6)
+
+
+def lamps(check, bake, tiles, manifest, wanted):
+    """Lamps hang below the walls' height over the floor and shine down."""
+    gltf = document(bake)
+    nodes = [node for node in gltf["nodes"] if "KHR_lights_punctual" in node.get("extensions", {})]
+    check.right(f"{len(nodes)} lamps", (len(nodes) > 10) == wanted)
+    for node in nodes:
+        x, height, minus_y = node["translation"]
+        corners = np.concatenate([mesh.triangles[:, :, :2] for mesh in tiles.values()]) - [x, -minus_y]
+        # On the left of all three sides of a triangle.
+        over = np.any(np.all(np.cross(corners, np.roll(corners, -1, axis=1)) >= 0.0, axis=1))
+        down = trimesh.transformations.quaternion_matrix(np.roll(node["rotation"], 1))[:3, :3] @ [0, 0, -1]
+        right = over and down[1] < -0.999999 and 0 < manifest["walls"]["height_m"] - height < 0.05
+        if not right:
+            check.right(f"{node['name']} hangs over the floor and shines down", False)
+
+
+def parts_of_file(bake):
+    """JSON and binary chunk of scene.glb."""
+    file = (bake / "scene.glb").read_bytes()
+    binary = 20 + int.from_bytes(file[12:16], "little")
+    return json.loads(file[20:binary]), file[binary + 8:]
+
+
+def document(bake):
+    return parts_of_file(bake)[0]
+
+
 def images(check, meshes, bake, manifest, embedded):
     """Base colour and ORM of every part are there; those beside the scene are files that the manifest names."""
     entries = manifest["floor"]["tiles"] + manifest["walls"]["sheets"]
@@ -137,10 +242,17 @@ def main(bakes):
         low, high = np.array([least[0], -greatest[2]]), np.array([greatest[0], -least[2]])
         size = np.array([manifest["plan"]["width_m"], manifest["plan"]["height_m"]])
         check.right(f"it lies where the plan does: {low} to {high} m", np.all(low > -0.5) and np.all(high < size + 0.5))
-        tiles, sheets = parts(scene, "floor"), parts(scene, "wall")
-        sheets = {node: mesh for node, mesh in sheets.items() if getattr(mesh.visual, "uv", None) is not None}
+        tiles, sheets = parts(scene, "floor"), parts(scene, "walls_")
         floor(check, tiles, manifest)
         walls(check, sheets, manifest)
+        meshes = [node["name"] for node in document(bake)["nodes"] if "mesh" in node]
+        check.right(f"{len(meshes)} meshes, colliders for Godot only",
+                    all(name.endswith("-col") == (bake.name == "godot") for name in meshes))
+        light_maps(check, bake)
+        wall_faces(check, bake, sheets, manifest)
+        plain(check, scene)
+        cameras(check, bake, manifest)
+        lamps(check, bake, tiles, manifest, wanted=bake.name == "lamps")
         images(check, tiles | sheets, bake, manifest, embedded=bake.name == "embedded")
     return check.failures
 

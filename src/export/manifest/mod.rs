@@ -6,7 +6,7 @@ use super::ExportError;
 use super::bake_path::{BakePath, MANIFEST_NAME};
 use super::camera::StillEntry;
 use super::layout::{Naming, TileLayout};
-use super::options::TextureOptions;
+use super::options::{TextureOptions, USD_FILE};
 use super::targets::{TargetEntry, WorldEntry};
 use crate::files::read_input;
 use crate::look::Look;
@@ -282,12 +282,16 @@ impl Manifest {
         // The default of the target stays unset, so that another target uses its own.
         let fine = self.floor.channels.iter().any(|channel| channel.image == "mask" && channel.bits == 16);
         let unusual = (written != self.target.name.wants_layers()).then_some(written);
+        let lightmap = self.settings["texture"]["lightmap"].as_u64().and_then(|px| u32::try_from(px).ok());
         TextureOptions {
+            lightmap: lightmap.unwrap_or(TextureOptions::default().lightmap),
             tile: width.max(height).max(TileLayout::MIN_TILE),
             layers: self.settings["texture"]["layers"].as_bool().or(unusual),
             bits: if fine { 16 } else { usual_bits() },
             target: self.target.name,
             embed: self.settings["texture"]["embed"].as_bool().unwrap_or_default(),
+            lamps: self.settings["texture"]["lamps"].as_bool().unwrap_or_default(),
+            usd: self.files.iter().any(|file| **file == *USD_FILE),
             ..TextureOptions::default()
         }
     }

@@ -41,7 +41,7 @@ pub(super) fn vertices(part: &Mesh, crop: Option<(PixelRect, [u32; 2])>, out: &m
                 (uv[0] * size[0] as f32 - crop.x as f32) / crop.width as f32,
                 (uv[1] * size[1] as f32 - crop.y as f32) / crop.height as f32,
             ],
-            None => uv,
+            None => [0.0; 2],
         };
         within.iter().for_each(|value| out.extend(((65535.0 * value.clamp(0.0, 1.0)).round() as u16).to_le_bytes()));
         let normal = part.normals[n].map(|value| (127.0 * value.clamp(-1.0, 1.0)).round() as i8);

@@ -16,7 +16,7 @@ mod trace;
 pub(crate) use fittings::{Finish, Fittings, LeafUse};
 pub(crate) use lens::Lens;
 pub(crate) use light::{Irradiance, Light, LightSources, OFF_WALL_M};
-pub(crate) use panels::{Panels, TILE_M};
+pub(crate) use panels::{Panel, Panels, TILE_M};
 pub(crate) use ray_grid::{QuadKind, RayGrid, WallQuad};
 pub(crate) use shades::*;
 pub(crate) use trace::{HitSurface, RayHit};
@@ -79,6 +79,11 @@ impl Rooms {
             leaf.used = near.map(|away| traffic.at(leaf.hinge + away)).fold(0.0, f32::max);
         }
         self
+    }
+
+    /// The lamps, where there is a ceiling.
+    pub(crate) fn panels(&self) -> Vec<Panel> {
+        if self.grid.roofed { Panels::over(&self.grid).all().copied().collect() } else { Vec::new() }
     }
 
     /// The camera from above that has the whole plan in a picture of a size in pixels.

@@ -28,7 +28,7 @@ pub(super) struct MeshVertex {
     /// Plan frame and height, metres.
     pub position_m: [f64; 3],
     pub normal: [f64; 3],
-    /// Ignored by surfaces without a texture.
+    /// As in [`Mesh::uvs`].
     pub uv: [f64; 2],
 }
 
@@ -36,16 +36,25 @@ pub(super) struct MeshVertex {
 #[derive(Debug)]
 pub(super) struct MeshBuilder {
     part: Mesh,
-    textured: bool,
     /// By the bits of all its numbers.
     known: HashMap<[u32; 8], u32>,
 }
 
 impl MeshBuilder {
     fn new(surface: SceneSurface) -> MeshBuilder {
-        let textured = matches!(surface, SceneSurface::FloorTile(_) | SceneSurface::WallSheet(_));
-        let part = Mesh { surface, positions_m: Vec::new(), normals: Vec::new(), uvs: Vec::new(), indices: Vec::new() };
-        MeshBuilder { part, textured, known: HashMap::new() }
+        let (positions_m, normals, uvs) = (Vec::new(), Vec::new(), Vec::new());
+        let part =
+            Mesh { surface, positions_m, normals, uvs, indices: Vec::new(), faces: Vec::new(), light_uvs: Vec::new() };
+        MeshBuilder { part, known: HashMap::new() }
+    }
+
+    /// Adds a convex polygon of a wall face to a wall sheet.
+    pub fn wall(&mut self, face: usize, corners: &[MeshVertex]) {
+        let [face, first] = [face, self.part.indices.len() / 3].map(|number| number as u32);
+        if self.part.faces.last().is_none_or(|[last, _]| *last != face) {
+            self.part.faces.push([face, first]);
+        }
+        self.polygon(corners);
     }
 
     /// Adds a triangle, counter-clockwise seen from its front, unless it has no area in single precision.
@@ -70,7 +79,7 @@ impl MeshBuilder {
     fn vertex(&mut self, vertex: &MeshVertex) -> u32 {
         let position = single(vertex.position_m);
         let normal = single(vertex.normal);
-        let uv = if self.textured { single(vertex.uv) } else { [0.0; 2] };
+        let uv = single(vertex.uv);
         let [x, y, z] = position.map(f32::to_bits);
         let [nx, ny, nz] = normal.map(f32::to_bits);
         let [u, v] = uv.map(f32::to_bits);
@@ -78,9 +87,7 @@ impl MeshBuilder {
         *self.known.entry([x, y, z, nx, ny, nz, u, v]).or_insert_with(|| {
             part.positions_m.push(position);
             part.normals.push(normal);
-            if self.textured {
-                part.uvs.push(uv);
-            }
+            part.uvs.push(uv);
             (part.positions_m.len() - 1) as u32
         })
     }

@@ -39,15 +39,20 @@ pub(super) fn add(
             of_face.push(strip);
         }
     }
-    for ((face, mut strips), _) in faces.iter().zip(by_face).zip(fitted).filter(|(_, fitted)| !**fitted) {
+    for (((number, face), mut strips), _) in
+        faces.iter().enumerate().zip(by_face).zip(fitted).filter(|(_, fitted)| !**fitted)
+    {
         strips.sort_by(|a, b| a.along_m[0].total_cmp(&b.along_m[0]));
         for stretch in stretches(face) {
             for [from, to] in panels(stretch, &strips, cuts) {
                 let middle_m = (from.along_m + to.along_m) * 0.5;
                 let strip = strips.iter().rev().find(|s| s.along_m[0] <= middle_m && middle_m <= s.along_m[1]);
-                let surface = strip.map_or(SceneSurface::Lintel, |strip| SceneSurface::WallSheet(strip.sheet));
                 let heights_m = [face.furniture_m.map_or(height_m, |low_m| low_m.min(height_m)), height_m];
-                scene.part(surface).polygon(&quad([from, to], strip.map(|s| **s), heights_m));
+                let corners = quad([from, to], strip.map(|s| **s), heights_m);
+                match strip {
+                    Some(strip) => scene.part(SceneSurface::WallSheet(strip.sheet)).wall(number, &corners),
+                    None => scene.part(SceneSurface::Lintel).polygon(&corners),
+                }
             }
         }
     }
@@ -128,12 +133,12 @@ fn panels(stretch: [PanelEdge; 2], strips: &[&WallStrip], cuts: &TileCuts) -> Ve
 /// Counter-clockwise as seen from the floor, up to a height that may be less than that of its strip.
 fn quad([a, b]: [PanelEdge; 2], strip: Option<WallStrip>, [height_m, strip_m]: [f64; 2]) -> [MeshVertex; 4] {
     let corner = |post: PanelEdge, top: bool| {
-        let up = if top { height_m / strip_m } else { 0.0 };
-        let uv = strip.map_or([0.0; 2], |s| s.uv_at(post.along_m, up));
+        let z = if top { height_m } else { 0.0 };
+        let on_strip = |s: WallStrip| s.uv_at(post.along_m, z / strip_m).map(|v| v.clamp(0.0, 1.0));
         MeshVertex {
-            position_m: [post.point.x, post.point.y, if top { height_m } else { 0.0 }],
+            position_m: [post.point.x, post.point.y, z],
             normal: [post.normal.x, post.normal.y, 0.0],
-            uv: uv.map(|v| v.clamp(0.0, 1.0)),
+            uv: strip.map_or([post.along_m, -z], on_strip),
         }
     };
     [corner(a, false), corner(b, false), corner(b, true), corner(a, true)]

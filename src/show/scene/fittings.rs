@@ -23,7 +23,8 @@ pub(super) fn add(fittings: &Fittings, scene: &mut SceneBuilder) {
 }
 
 fn add_face(corners: impl Iterator<Item = Vec2>, height_m: f64, up: f64, part: &mut MeshBuilder) {
-    let corner = |p: Vec2| MeshVertex { position_m: [p.x, p.y, height_m], normal: [0.0, 0.0, up], uv: [0.0; 2] };
+    let corner =
+        |p: Vec2| MeshVertex { position_m: [p.x, p.y, height_m], normal: [0.0, 0.0, up], uv: [p.x, -up * p.y] };
     let corners: Vec<MeshVertex> = corners.map(corner).collect();
     part.polygon(&corners);
 }

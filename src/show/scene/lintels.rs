@@ -25,7 +25,7 @@ pub(super) fn add<'d>(
     let gaps = floor.intersection(&PolygonSet::inside_right(doorways.filter_map(gap)));
     for corners in gaps.triangles().corners {
         let [a, b, c] =
-            corners.map(|p| MeshVertex { position_m: [p.x, p.y, door_m], normal: [0.0, 0.0, -1.0], uv: [0.0; 2] });
+            corners.map(|p| MeshVertex { position_m: [p.x, p.y, door_m], normal: [0.0, 0.0, -1.0], uv: [p.x, p.y] });
         scene.part(SceneSurface::Lintel).triangle([a, c, b]);
     }
     for points in gaps.loops() {

@@ -3,9 +3,11 @@
 mod build;
 mod builder;
 mod faces;
+mod file;
 mod fittings;
 mod floor;
 mod glb;
+mod light_map;
 mod lintels;
 mod model;
 mod region;
@@ -13,8 +15,11 @@ mod region;
 mod tests;
 mod tiles;
 mod tops;
+mod usda;
 
 pub(crate) use build::{SceneOptions, build};
-pub(crate) use glb::{GlbImage, GlbOptions, PlainMaterial, SurfaceImages, write_glb};
+pub(crate) use file::{PlainMaterial, SceneFile, SceneLamp, SurfaceImages};
+pub(crate) use glb::write_glb;
 pub(crate) use model::WallStrip;
 pub use model::{Mesh, Scene, SceneSurface};
+pub(crate) use usda::write_usda;

@@ -22,11 +22,16 @@ pub struct Mesh {
     pub positions_m: Vec<[f32; 3]>,
     /// Unit vectors in the same frame.
     pub normals: Vec<[f32; 3]>,
-    /// Texture coordinates from 0 to 1 within the tile or sheet, from its upper left, v downward; empty for surfaces
-    /// without a texture.
+    /// Texture coordinates from 0 to 1 within the tile or sheet, from its upper left, v downward; metres along and
+    /// against the surface's height or the plan's y for surfaces without a texture.
     pub uvs: Vec<[f32; 2]>,
     /// Three per triangle, counter-clockwise seen from its front.
     pub indices: Vec<u32>,
+    /// Of a wall sheet: wall faces ([`Walls::faces`](crate::walls::Walls::faces)), each with the first of the triangles
+    /// that show it.
+    pub faces: Vec<[u32; 2]>,
+    /// Texture coordinates from 0 to 1 within a light map of the mesh; empty without one.
+    pub light_uvs: Vec<[f32; 2]>,
 }
 
 /// A whole plan as triangles.
@@ -58,4 +63,16 @@ impl WallStrip {
         let [start, end, above] = self.uv;
         [0, 1].map(|k| start[k] + (end[k] - start[k]) * share + (above[k] - start[k]) * up)
     }
+}
+
+/// The least and the greatest coordinates of some points.
+pub(super) fn bounds(points: impl Iterator<Item = [f32; 3]>) -> Option<[[f32; 3]; 2]> {
+    points.fold(None, |bounds, p| {
+        let [mut least, mut greatest] = bounds.unwrap_or([p, p]);
+        for k in 0..3 {
+            least[k] = least[k].min(p[k]);
+            greatest[k] = greatest[k].max(p[k]);
+        }
+        Some([least, greatest])
+    })
 }

@@ -122,11 +122,11 @@ fn check(scene: &Scene) {
         let count = part.positions_m.len();
         assert_eq!(part.normals.len(), count);
         let textured = matches!(part.surface, SceneSurface::FloorTile(_) | SceneSurface::WallSheet(_));
-        assert_eq!(part.uvs.len(), if textured { count } else { 0 });
+        assert_eq!(part.uvs.len(), count);
         assert!(!part.indices.is_empty() && part.indices.len() % 3 == 0);
         assert!(part.indices.iter().all(|&i| (i as usize) < count));
         assert!(part.positions_m.iter().flatten().all(|v| v.is_finite()));
-        assert!(part.uvs.iter().flatten().all(|v| (0.0..=1.0).contains(v)));
+        assert!(!textured || part.uvs.iter().flatten().all(|v| (0.0..=1.0).contains(v)));
         let lengths = part.normals.iter().map(|n| n.iter().map(|v| v * v).sum::<f32>().sqrt());
         assert!(lengths.into_iter().all(|length| (length - 1.0).abs() < 1e-5));
         for (corners, indices) in triangles(part).zip(part.indices.chunks(3)) {
@@ -490,4 +490,67 @@ fn a_table_stands_at_its_height() {
     // The rim alone is closed on top.
     let rim_m2 = area_towards(part(&scene, SceneSurface::WallTop), up);
     assert_close(rim_m2, 6.4 * 4.4 - 24.0, 1e-3);
+}
+
+/// Light maps: no texel is shown twice, and the light of one piece does not bleed into another.
+#[test]
+fn every_place_has_texels_of_its_own_on_a_light_map() {
+    const SIZE_PX: u32 = 512;
+    let walls = museum();
+    let options = SceneOptions { wall_height_m: HEIGHT_M, ..SceneOptions::default() };
+    let scene = build(&walls, &tiles_over(&walls, 1024), &strips_of(&walls), &[], &options);
+    for mesh in &scene.meshes {
+        let mapped = mesh.light_mapped(SIZE_PX);
+        assert_eq!(mapped.light_uvs.len(), mapped.positions_m.len());
+        let corners = |mesh: &Mesh| triangles(mesh).collect::<Vec<_>>();
+        assert_eq!(corners(mesh), corners(&mapped));
+        // Pieces hang together by their vertices.
+        let mut piece: Vec<usize> = (0..mapped.positions_m.len()).collect();
+        for _ in 0..piece.len() {
+            let before = piece.clone();
+            for corners in mapped.indices.chunks(3).map(|c| c.iter().map(|&i| i as usize)) {
+                let least = corners.clone().map(|i| piece[i]).min().unwrap();
+                corners.for_each(|i| piece[i] = least);
+            }
+            if piece == before {
+                break;
+            }
+        }
+        // Four samples a texel: the piece that each shows.
+        let (side, mut shown, mut covered, mut scales) = (2 * SIZE_PX as usize, HashMap::new(), 0.0, Vec::new());
+        for (corners, places) in mapped.indices.chunks(3).zip(triangles(&mapped)) {
+            let [a, b, c] = [0, 1, 2].map(|k| mapped.light_uvs[corners[k] as usize].map(f64::from)).map(|[u, v]| {
+                assert!((0.0..=1.0).contains(&u) && (0.0..=1.0).contains(&v));
+                vec2(u, v) * side as f64
+            });
+            let area = (b - a).cross(c - a);
+            let in_space = area_vector(places);
+            covered += area.abs() * 0.5;
+            if dot(in_space, in_space) > 1e-4 {
+                scales.push(area.abs() / dot(in_space, in_space).sqrt());
+            }
+            let range = |values: [f64; 3]| {
+                let ends = [values.into_iter().fold(side as f64, f64::min), values.into_iter().fold(0.0, f64::max)];
+                ends[0].floor() as usize..(ends[1].ceil() as usize).min(side)
+            };
+            for (x, y) in range([a.x, b.x, c.x]).flat_map(|x| range([a.y, b.y, c.y]).map(move |y| (x, y))) {
+                let p = vec2(x as f64 + 0.5, y as f64 + 0.5);
+                let inside = [(a, b), (b, c), (c, a)].map(|(a, b)| (b - a).cross(p - a) * area.signum());
+                if inside.iter().all(|side| *side > 1e-6 * area.abs()) {
+                    let other = shown.insert((x, y), piece[corners[0] as usize]);
+                    assert_eq!(other, None, "{:?}: two triangles at {x}, {y}", mesh.surface);
+                }
+            }
+        }
+        for (&(x, y), own) in &shown {
+            for (i, j) in (0..=3).flat_map(|i| (0..=3).map(move |j| (x + i, y + j))) {
+                assert!(shown.get(&(i, j)).is_none_or(|other| other == own), "{:?} at {x}, {y}", mesh.surface);
+            }
+        }
+        let share = covered / (side * side) as f64;
+        let (least, most) =
+            (scales.iter().copied().fold(f64::INFINITY, f64::min), scales.iter().copied().fold(0.0, f64::max));
+        assert!(share > 0.15, "{:?} uses {share} of its light map", mesh.surface);
+        assert!(most < 1.02 * least, "{:?} is stretched: {least} to {most}", mesh.surface);
+    }
 }

@@ -108,7 +108,7 @@ pub(super) fn add_level(region: &PolygonSet, height_m: f64, part: &mut MeshBuild
         part.triangle(corners.map(|p| MeshVertex {
             position_m: [p.x, p.y, height_m],
             normal: [0.0, 0.0, 1.0],
-            uv: [0.0; 2],
+            uv: [p.x, -p.y],
         }));
     }
 }
@@ -117,7 +117,10 @@ pub(super) fn add_level(region: &PolygonSet, height_m: f64, part: &mut MeshBuild
 pub(super) fn add_upright([a, b]: [Vec2; 2], [low, high]: [f64; 2], part: &mut MeshBuilder) {
     let Some(direction) = (b - a).normalized() else { return };
     let normal = -direction.left();
-    let corner =
-        |p: Vec2, z: f64| MeshVertex { position_m: [p.x, p.y, z], normal: [normal.x, normal.y, 0.0], uv: [0.0; 2] };
+    let corner = |p: Vec2, z: f64| MeshVertex {
+        position_m: [p.x, p.y, z],
+        normal: [normal.x, normal.y, 0.0],
+        uv: [p.dot(direction), -z],
+    };
     part.polygon(&[corner(a, low), corner(b, low), corner(b, high), corner(a, high)]);
 }

@@ -130,7 +130,15 @@ fn runs(plan: &FloorPlan, of: impl Fn(u32, u32) -> bool) -> Vec<[Vec2; 2]> {
 }
 
 fn part(surface: SceneSurface) -> Mesh {
-    Mesh { surface, positions_m: vec![], normals: vec![], uvs: vec![], indices: vec![] }
+    Mesh {
+        surface,
+        positions_m: vec![],
+        normals: vec![],
+        uvs: vec![],
+        indices: vec![],
+        faces: vec![],
+        light_uvs: vec![],
+    }
 }
 
 fn quad(part: &mut Mesh, corners: [[f64; 3]; 4], normal: [f64; 3], uvs: Option<[[f64; 2]; 4]>) {

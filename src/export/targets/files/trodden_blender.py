@@ -144,8 +144,13 @@ def update_material(old, new):
 
 
 def update_object(old, new):
-    """Keeps an object where it is: its mesh is the new one already."""
+    """Keeps an object where it is: its mesh is the new one already. Cameras and lamps go where the new bake has them."""
+    data = new.data if new.type in ("CAMERA", "LIGHT") else None
+    if data:
+        old.matrix_local = new.matrix_local.copy()
     bpy.data.objects.remove(new)
+    if data:
+        bpy.data.batch_remove([data])
 
 
 def import_scene(bake):

@@ -2,14 +2,15 @@
 
 use std::io::{self, Write};
 
+use image::RgbImage;
 use serde_json::{Value, json};
 
-use super::options::{GlbImage, GlbOptions, PlainMaterial, SurfaceImages};
 use super::picture::{self, TextureContent};
+use super::views;
 use crate::export::GENERATOR;
 use crate::math::srgb;
-use crate::show::rooms::Finish;
-use crate::show::scene::model::{Mesh, Scene, SceneSurface};
+use crate::show::scene::file::{Cover, PlainMaterial, SceneFile};
+use crate::show::scene::model::{Mesh, Scene, bounds};
 
 // Numbers that glTF 2.0 has for them.
 const FLOAT: u32 = 5126;
@@ -23,10 +24,18 @@ const CLAMP_TO_EDGE: u32 = 33071;
 
 /// The file's JSON and the source of its binary chunk, which is written part by part and never held whole.
 pub(super) struct GltfDocument<'a> {
-    parts: Vec<(&'a Mesh, Cover<'a>)>,
+    parts: Vec<Part<'a>>,
     pictures: Vec<Vec<u8>>,
     root: Value,
     length: usize,
+}
+
+/// A mesh with its material.
+struct Part<'a> {
+    mesh: &'a Mesh,
+    cover: Cover<'a>,
+    /// The file of its normals, if the material has any.
+    normal: Option<&'a str>,
 }
 
 /// The lists of a document, as they grow.
@@ -34,7 +43,9 @@ pub(super) struct GltfDocument<'a> {
 struct Lists {
     accessors: Vec<Value>,
     buffer_views: Vec<Value>,
+    cameras: Vec<Value>,
     images: Vec<Value>,
+    lights: Vec<Value>,
     materials: Vec<Value>,
     meshes: Vec<Value>,
     nodes: Vec<Value>,
@@ -45,19 +56,35 @@ struct Lists {
 }
 
 impl<'a> GltfDocument<'a> {
-    pub fn new(scene: &'a Scene, options: &'a GlbOptions) -> io::Result<GltfDocument<'a>> {
-        let parts = scene.meshes.iter().filter(|part| !part.indices.is_empty());
-        let parts: Vec<(&Mesh, Cover)> = parts.map(|part| (part, Cover::of(part.surface, options))).collect();
+    pub fn new(scene: &'a Scene, file: &'a SceneFile) -> io::Result<GltfDocument<'a>> {
+        let meshes = scene.meshes.iter().filter(|mesh| !mesh.indices.is_empty());
+        let parts: Vec<Part> = meshes.map(|mesh| Part::of(mesh, file)).collect();
         let mut lists = Lists::default();
-        for (part, cover) in &parts {
-            lists.add_part(part, cover);
+        for part in &parts {
+            lists.add_part(part, file.node_suffix);
         }
         // Images follow the parts in the binary chunk.
-        for (index, (_, cover)) in parts.iter().enumerate() {
-            lists.add_material(index, cover)?;
+        for (index, part) in parts.iter().enumerate() {
+            lists.add_material(index, part)?;
         }
-        let extras = json!({ "generator": GENERATOR, "version": env!("CARGO_PKG_VERSION"), "seed": options.seed });
-        let mut whole = json!({ "name": options.name, "extras": extras });
+        for (name, camera) in &file.cameras {
+            let mut node = views::node(name, camera.position_m, [camera.heading_deg, camera.pitch_deg]);
+            node["camera"] = lists.cameras.len().into();
+            lists.nodes.push(node);
+            lists.cameras.push(views::camera(camera, file.picture_px));
+        }
+        for (number, lamp) in file.lamps.iter().enumerate() {
+            let light = views::light(lamp);
+            let index = lists.lights.iter().position(|known| *known == light).unwrap_or(lists.lights.len());
+            if index == lists.lights.len() {
+                lists.lights.push(light);
+            }
+            let mut node = views::node(&format!("lamp_{number}"), lamp.place_m, [90.0, -90.0]);
+            node["extensions"][views::LIGHTS] = json!({ "light": index });
+            lists.nodes.push(node);
+        }
+        let extras = json!({ "generator": GENERATOR, "version": env!("CARGO_PKG_VERSION"), "seed": file.seed });
+        let mut whole = json!({ "name": file.name, "extras": extras });
         if !lists.nodes.is_empty() {
             whole["children"] = (0..lists.nodes.len()).collect();
         }
@@ -65,7 +92,7 @@ impl<'a> GltfDocument<'a> {
         let root = json!({
             "asset": { "version": "2.0", "generator": concat!("trodden ", env!("CARGO_PKG_VERSION")) },
             "scene": 0,
-            "scenes": [{ "name": options.name, "nodes": [lists.nodes.len() - 1] }],
+            "scenes": [{ "name": file.name, "nodes": [lists.nodes.len() - 1] }],
         });
         let (length, pictures) = (lists.length, std::mem::take(&mut lists.pictures));
         Ok(GltfDocument { parts, pictures, root: lists.into_root(root), length })
@@ -82,21 +109,34 @@ impl<'a> GltfDocument<'a> {
 
     /// Writes what the lists describe, in the same order.
     pub fn write_binary(&self, out: &mut impl Write) -> io::Result<()> {
-        for (part, cover) in &self.parts {
-            if has_short_indices(part) {
-                let bytes: Vec<u8> = part.indices.iter().flat_map(|&i| (i as u16).to_le_bytes()).collect();
+        for Part { mesh, normal, .. } in &self.parts {
+            if has_short_indices(mesh) {
+                let bytes: Vec<u8> = mesh.indices.iter().flat_map(|&i| (i as u16).to_le_bytes()).collect();
                 write_padded(out, &bytes)?;
             } else {
-                write_padded(out, &part.indices.iter().flat_map(|i| i.to_le_bytes()).collect::<Vec<u8>>())?;
+                write_padded(out, &mesh.indices.iter().flat_map(|i| i.to_le_bytes()).collect::<Vec<u8>>())?;
             }
-            write_floats(out, part.positions_m.iter().copied().map(y_up))?;
-            write_floats(out, part.normals.iter().copied().map(y_up))?;
-            write_floats(out, part.uvs.iter().copied())?;
-            if cover.has_normals() {
-                write_floats(out, tangents(part).into_iter())?;
+            write_floats(out, mesh.positions_m.iter().copied().map(y_up))?;
+            write_floats(out, mesh.normals.iter().copied().map(y_up))?;
+            write_floats(out, mesh.uvs.iter().copied())?;
+            write_floats(out, mesh.light_uvs.iter().copied())?;
+            if normal.is_some() {
+                write_floats(out, tangents(mesh).into_iter())?;
             }
         }
         self.pictures.iter().try_for_each(|picture| write_padded(out, picture))
+    }
+}
+
+impl<'a> Part<'a> {
+    fn of(mesh: &'a Mesh, file: &'a SceneFile) -> Part<'a> {
+        let cover = Cover::of(mesh.surface, file);
+        // What is embedded is reduced, where the relief evens out.
+        let normal = match &cover {
+            Cover::Textured(images) if images.embedded.is_none() => images.normal,
+            _ => None,
+        };
+        Part { mesh, cover, normal }
     }
 }
 
@@ -139,34 +179,45 @@ impl Lists {
     }
 
     /// Node and mesh of a part; its material has the part's number.
-    fn add_part(&mut self, part: &Mesh, cover: &Cover) {
-        let short = has_short_indices(part);
+    fn add_part(&mut self, Part { mesh, cover, normal }: &Part, node_suffix: &str) {
+        let short = has_short_indices(mesh);
         let (kind, size) = if short { (UNSIGNED_SHORT, 2) } else { (UNSIGNED_INT, 4) };
-        let view = self.view(part.indices.len() * size, Some(ELEMENT_ARRAY_BUFFER));
+        let view = self.view(mesh.indices.len() * size, Some(ELEMENT_ARRAY_BUFFER));
         let indices = self.accessor(
-            json!({ "bufferView": view, "componentType": kind, "count": part.indices.len(), "type": "SCALAR" }),
+            json!({ "bufferView": view, "componentType": kind, "count": mesh.indices.len(), "type": "SCALAR" }),
         );
-        let count = part.positions_m.len();
-        let position = self.floats(count, bounds(part.positions_m.iter().copied().map(y_up)));
-        let normal = self.floats::<3>(count, None);
-        let mut attributes = json!({ "POSITION": position, "NORMAL": normal });
-        if !part.uvs.is_empty() {
+        let count = mesh.positions_m.len();
+        let position = self.floats(count, bounds(mesh.positions_m.iter().copied().map(y_up)));
+        let normals = self.floats::<3>(count, None);
+        let mut attributes = json!({ "POSITION": position, "NORMAL": normals });
+        if !mesh.uvs.is_empty() {
             attributes["TEXCOORD_0"] = self.floats::<2>(count, None).into();
         }
-        if cover.has_normals() {
+        if !mesh.light_uvs.is_empty() {
+            attributes["TEXCOORD_1"] = self.floats::<2>(count, None).into();
+        }
+        if normal.is_some() {
             attributes["TANGENT"] = self.floats::<4>(count, None).into();
         }
         let primitive = json!({ "attributes": attributes, "indices": indices, "material": self.meshes.len() });
-        self.nodes.push(json!({ "name": cover.name(), "mesh": self.meshes.len() }));
+        let mut node = json!({ "name": format!("{}{node_suffix}", cover.name()), "mesh": self.meshes.len() });
+        if !mesh.faces.is_empty() {
+            // Two lists of numbers: what Blender, Unreal and Unity keep of extras.
+            let column = |k: usize| mesh.faces.iter().map(|face| face[k]).collect::<Vec<u32>>();
+            node["extras"] = json!({ "wall_faces": column(0), "first_triangles": column(1) });
+        }
+        self.nodes.push(node);
         self.meshes.push(json!({ "name": cover.name(), "primitives": [primitive] }));
     }
 
-    fn add_material(&mut self, part: usize, cover: &Cover) -> io::Result<()> {
-        debug_assert_eq!(part, self.materials.len());
+    fn add_material(&mut self, index: usize, Part { cover, normal, .. }: &Part) -> io::Result<()> {
+        debug_assert_eq!(index, self.materials.len());
         let material = match cover {
             Cover::Textured(images) => {
-                let base_color = self.texture(&images.name, "basecolor", TextureContent::Colour, images.base_color)?;
-                let orm = self.texture(&images.name, "orm", TextureContent::Data, images.orm)?;
+                let [colour, data] = images.embedded.map_or([None; 2], |embedded| embedded.map(Some));
+                let base_color = (images.base_color, colour);
+                let base_color = self.texture(&images.name, "basecolor", TextureContent::Colour, base_color)?;
+                let orm = self.texture(&images.name, "orm", TextureContent::Data, (images.orm, data))?;
                 let mut material = json!({
                     "name": images.name,
                     "pbrMetallicRoughness": {
@@ -177,8 +228,8 @@ impl Lists {
                     },
                     "occlusionTexture": { "index": orm },
                 });
-                if let Some(normal) = images.normal {
-                    let normal = self.texture(&images.name, "normal", TextureContent::Data, normal)?;
+                if let Some(file) = normal {
+                    let normal = self.texture(&images.name, "normal", TextureContent::Data, (file, None))?;
                     material["normalTexture"] = json!({ "index": normal });
                 }
                 material
@@ -189,10 +240,16 @@ impl Lists {
         Ok(())
     }
 
-    fn texture(&mut self, name: &str, kind: &str, picture: TextureContent, image: GlbImage) -> io::Result<usize> {
-        let image = match image {
-            GlbImage::File(path) => json!({ "name": format!("{name}_{kind}"), "uri": picture::uri(path) }),
-            GlbImage::Embedded(image) => {
+    fn texture(
+        &mut self,
+        name: &str,
+        kind: &str,
+        picture: TextureContent,
+        (path, embedded): (&str, Option<&RgbImage>),
+    ) -> io::Result<usize> {
+        let image = match embedded {
+            None => json!({ "name": format!("{name}_{kind}"), "uri": picture::uri(path) }),
+            Some(image) => {
                 let (mime, bytes) = picture.encode(image)?;
                 let view = self.view(bytes.len(), None);
                 self.pictures.push(bytes);
@@ -209,6 +266,10 @@ impl Lists {
         if self.length > 0 {
             root["buffers"] = json!([{ "byteLength": self.length }]);
         }
+        if !self.lights.is_empty() {
+            root["extensionsUsed"] = json!([views::LIGHTS]);
+            root["extensions"][views::LIGHTS] = json!({ "lights": self.lights });
+        }
         if !self.textures.is_empty() {
             root["samplers"] = json!([{
                 "magFilter": LINEAR,
@@ -220,6 +281,7 @@ impl Lists {
         let lists = [
             ("accessors", self.accessors),
             ("bufferViews", self.buffer_views),
+            ("cameras", self.cameras),
             ("images", self.images),
             ("materials", self.materials),
             ("meshes", self.meshes),
@@ -235,25 +297,13 @@ impl Lists {
 
 fn plain_material(name: &str, plain: PlainMaterial) -> Value {
     let [red, green, blue] = srgb::light_of(plain.colour);
-    let roughness = if plain.roughness.is_finite() { plain.roughness.clamp(0.0, 1.0) } else { 1.0 };
     json!({
         "name": name,
         "pbrMetallicRoughness": {
             "baseColorFactor": [red, green, blue, 1.0],
             "metallicFactor": 0.0,
-            "roughnessFactor": roughness,
+            "roughnessFactor": plain.sound_roughness(),
         },
-    })
-}
-
-fn bounds(points: impl Iterator<Item = [f32; 3]>) -> Option<[[f32; 3]; 2]> {
-    points.fold(None, |bounds, p| {
-        let [mut least, mut greatest] = bounds.unwrap_or([p, p]);
-        for k in 0..3 {
-            least[k] = least[k].min(p[k]);
-            greatest[k] = greatest[k].max(p[k]);
-        }
-        Some([least, greatest])
     })
 }
 
@@ -291,46 +341,4 @@ fn tangents(part: &Mesh) -> Vec<[f32; 4]> {
 /// Whether 16 bits are enough for a part's indices; 65535 has a meaning of its own.
 fn has_short_indices(part: &Mesh) -> bool {
     part.positions_m.len() <= usize::from(u16::MAX)
-}
-
-/// The material of a surface in the file.
-enum Cover<'a> {
-    Textured(&'a SurfaceImages<'a>),
-    Plain(&'static str, PlainMaterial),
-}
-
-impl<'a> Cover<'a> {
-    fn of(surface: SceneSurface, options: &'a GlbOptions<'a>) -> Cover<'a> {
-        let textured = match surface {
-            SceneSurface::FloorTile(tile) => options.floor.get(tile),
-            SceneSurface::WallSheet(sheet) => options.walls.get(sheet),
-            SceneSurface::WallTop | SceneSurface::Lintel | SceneSurface::Fitting(_) => None,
-        };
-        let name = match surface {
-            SceneSurface::FloorTile(_) => "floor",
-            SceneSurface::WallSheet(_) => "wall",
-            SceneSurface::WallTop => "wall_tops",
-            SceneSurface::Lintel => "clean_wall",
-            SceneSurface::Fitting(finish) => Finish::ALL.get(finish).map_or("fitting", |finish| finish.name()),
-        };
-        let plain = match surface {
-            SceneSurface::WallTop => options.wall_top,
-            SceneSurface::Fitting(finish) => Finish::ALL.get(finish).map_or(PlainMaterial::PAINT, |finish| {
-                PlainMaterial { colour: finish.colour(), roughness: finish.roughness() }
-            }),
-            _ => options.clean_wall,
-        };
-        textured.map_or(Cover::Plain(name, plain), Cover::Textured)
-    }
-
-    fn has_normals(&self) -> bool {
-        matches!(self, Cover::Textured(images) if images.normal.is_some())
-    }
-
-    fn name(&self) -> &str {
-        match self {
-            Cover::Textured(images) => &images.name,
-            Cover::Plain(name, _) => name,
-        }
-    }
 }

@@ -1,11 +1,10 @@
 //! A scene as glTF 2.0 in one binary file (Khronos Group, "glTF 2.0 Specification", section 4.4).
 
 mod document;
-mod options;
 mod picture;
 #[cfg(test)]
 mod tests;
+mod views;
 mod write;
 
-pub use options::{GlbImage, GlbOptions, PlainMaterial, SurfaceImages};
 pub use write::write_glb;

@@ -5,9 +5,10 @@ use std::io::{self, Cursor};
 use image::codecs::jpeg::JpegEncoder;
 use image::{ImageFormat, RgbImage};
 
-use super::options::MOST_EMBEDDED_PX;
 use crate::export::reduction::{halved_colours, halved_numbers};
 
+/// Greatest width and height of an image within the scene, texels. A larger one is halved until it fits.
+const MOST_EMBEDDED_PX: u32 = 2048;
 /// Quality of base colour within the scene, 1 to 100.
 const JPEG_QUALITY: u8 = 92;
 

@@ -2,6 +2,7 @@ use image::RgbImage;
 use serde_json::Value;
 
 use super::*;
+use crate::show::scene::file::{PlainMaterial, SceneFile, SurfaceImages};
 use crate::show::scene::{Mesh, Scene, SceneSurface};
 
 /// A file taken apart again.
@@ -10,7 +11,7 @@ struct Parsed {
     binary: Vec<u8>,
 }
 
-fn written(scene: &Scene, options: &GlbOptions) -> Vec<u8> {
+fn written(scene: &Scene, options: &SceneFile) -> Vec<u8> {
     let mut bytes = Vec::new();
     write_glb(&mut bytes, scene, options).unwrap();
     bytes
@@ -65,23 +66,20 @@ fn triangle(surface: SceneSurface) -> Mesh {
         normals: vec![[0.0, 0.0, 1.0]; 3],
         uvs: if textured { vec![[0.0, 1.0], [1.0, 1.0], [1.0, 0.25]] } else { Vec::new() },
         indices: vec![0, 1, 2],
+        faces: Vec::new(),
+        light_uvs: Vec::new(),
     }
 }
 
 fn files<'a>(name: &str, base_color: &'a str, orm: &'a str) -> SurfaceImages<'a> {
-    SurfaceImages {
-        name: name.to_string(),
-        base_color: GlbImage::File(base_color),
-        orm: GlbImage::File(orm),
-        normal: None,
-    }
+    SurfaceImages { name: name.to_string(), base_color, orm, normal: None, embedded: None }
 }
 
 #[test]
 fn a_part_is_found_again_with_y_up() {
     let scene = Scene { meshes: vec![triangle(SceneSurface::FloorTile(0)), triangle(SceneSurface::WallTop)] };
     let floor = vec![files("floor_1001", "floor/floor base.1001.png", "floor/floor_orm.1001.png")];
-    let options = GlbOptions { name: "Hall \"A\"".to_string(), seed: u64::MAX, floor, ..GlbOptions::default() };
+    let options = SceneFile { name: "Hall \"A\"".to_string(), seed: u64::MAX, floor, ..SceneFile::default() };
     let file = parsed(&written(&scene, &options));
     let json = &file.json;
 
@@ -124,11 +122,13 @@ fn surfaces_with_normals_have_tangents() {
         normals: vec![[-1.0, 0.0, 0.0]; 3],
         uvs: vec![[0.0, 0.8], [0.0, 0.0], [1.0, 0.0]],
         indices: vec![0, 1, 2],
+        faces: Vec::new(),
+        light_uvs: Vec::new(),
     };
     let scene = Scene { meshes: vec![triangle(SceneSurface::FloorTile(0)), wall] };
-    let bumpy = |name| SurfaceImages { normal: Some(GlbImage::File("n.png")), ..files(name, "b.png", "o.png") };
+    let bumpy = |name| SurfaceImages { normal: Some("n.png"), ..files(name, "b.png", "o.png") };
     let (floor, walls) = (vec![bumpy("floor_1001")], vec![bumpy("wall_1001")]);
-    let file = parsed(&written(&scene, &GlbOptions { floor, walls, ..GlbOptions::default() }));
+    let file = parsed(&written(&scene, &SceneFile { floor, walls, ..SceneFile::default() }));
     let tangent =
         |mesh: usize| file.numbers(&file.json["meshes"][mesh]["primitives"][0]["attributes"]["TANGENT"])[..4].to_vec();
     let [along, side] = [tangent(0)[0], tangent(0)[3]];
@@ -143,12 +143,11 @@ fn embedded_images_are_whole_files() {
     let colour = RgbImage::from_fn(64, 32, |x, y| image::Rgb([x as u8 * 3, y as u8 * 7, 90]));
     let orm = RgbImage::from_fn(31, 17, |x, y| image::Rgb([255, (x * y) as u8, 0]));
     let images = SurfaceImages {
-        name: "wall_1001".to_string(),
-        base_color: GlbImage::Embedded(&colour),
-        orm: GlbImage::Embedded(&orm),
-        normal: None,
+        normal: Some("n.png"),
+        embedded: Some([&colour, &orm]),
+        ..files("wall_1001", "b.png", "o.png")
     };
-    let options = GlbOptions { walls: vec![images], ..GlbOptions::default() };
+    let options = SceneFile { walls: vec![images], ..SceneFile::default() };
     let bytes = written(&scene, &options);
     assert_eq!(bytes, written(&scene, &options));
     let file = parsed(&bytes);
@@ -169,7 +168,7 @@ fn embedded_images_are_whole_files() {
 fn indices_have_16_bits_where_that_is_enough() {
     let mut part = triangle(SceneSurface::Lintel);
     let kind = |part: &Mesh| {
-        let file = parsed(&written(&Scene { meshes: vec![part.clone()] }, &GlbOptions::default()));
+        let file = parsed(&written(&Scene { meshes: vec![part.clone()] }, &SceneFile::default()));
         let primitive = &file.json["meshes"][0]["primitives"][0];
         assert_eq!(file.numbers(&primitive["indices"]), part.indices.iter().map(|&i| f64::from(i)).collect::<Vec<_>>());
         file.json["accessors"][0]["componentType"].as_u64().unwrap()
@@ -189,7 +188,7 @@ fn surfaces_without_images_are_plain() {
     let parts =
         vec![triangle(SceneSurface::FloorTile(3)), triangle(SceneSurface::WallTop), triangle(SceneSurface::Lintel)];
     let wall_top = PlainMaterial { colour: [0, 255, 188], roughness: f32::NAN };
-    let options = GlbOptions { wall_top, ..GlbOptions::default() };
+    let options = SceneFile { wall_top, ..SceneFile::default() };
     let json = parsed(&written(&Scene { meshes: parts }, &options)).json;
     assert_eq!((json.get("images"), json.get("samplers")), (None, None));
     let top = &json["materials"][1]["pbrMetallicRoughness"];
@@ -201,7 +200,7 @@ fn surfaces_without_images_are_plain() {
 
 #[test]
 fn an_empty_scene_is_a_file_too() {
-    let file = parsed(&written(&Scene::default(), &GlbOptions::default()));
+    let file = parsed(&written(&Scene::default(), &SceneFile::default()));
     assert!(file.binary.is_empty());
     assert_eq!((file.json.get("meshes"), file.json.get("buffers")), (None, None));
     assert_eq!(file.json["nodes"].as_array().unwrap().len(), 1);

@@ -1,7 +1,7 @@
 use std::io::{self, Write};
 
 use super::document::GltfDocument;
-use super::options::GlbOptions;
+use crate::show::scene::file::SceneFile;
 use crate::show::scene::model::Scene;
 
 /// Writes a scene as one glTF 2.0 binary: +Y up, metres, plan (x, y) and height h at `(x, h, -y)`.
@@ -12,8 +12,8 @@ use crate::show::scene::model::Scene;
 ///
 /// # Errors
 /// The writer's error; a scene of more than 4 GiB, which the format cannot hold.
-pub fn write_glb(out: &mut impl Write, scene: &Scene, options: &GlbOptions) -> io::Result<()> {
-    let document = GltfDocument::new(scene, options)?;
+pub fn write_glb(out: &mut impl Write, scene: &Scene, file: &SceneFile) -> io::Result<()> {
+    let document = GltfDocument::new(scene, file)?;
     let mut json = document.json();
     json.resize(json.len().next_multiple_of(4), b' ');
     let binary_length = document.binary_length();
