@@ -23,12 +23,12 @@ struct Case {
 }
 
 const CASES: [Case; 6] = [
-    Case { name: "floor of 60 x 40 m, 1000 people", inputs: building, cpu_s: 1.0, memory_mib: 1.0 },
-    Case { name: "site of 200 m", inputs: |folder| site(folder, 2000, 0.1, 20), cpu_s: 1.0, memory_mib: 1.0 },
-    Case { name: "site of 500 m", inputs: |folder| site(folder, 2500, 0.2, 10), cpu_s: 1.0, memory_mib: 1.0 },
-    Case { name: "100 000 walls", inputs: pillars, cpu_s: 1.0, memory_mib: 1.0 },
-    Case { name: "200 routes", inputs: routes, cpu_s: 1.0, memory_mib: 1.0 },
-    Case { name: "recording of a million rows", inputs: recording, cpu_s: 1.0, memory_mib: 1.0 },
+    Case { name: "floor of 60 x 40 m, 1000 people", inputs: building, cpu_s: 10.0, memory_mib: 470.0 },
+    Case { name: "site of 200 m", inputs: |folder| site(folder, 2000, 0.1, 20), cpu_s: 14.0, memory_mib: 480.0 },
+    Case { name: "site of 500 m", inputs: |folder| site(folder, 2500, 0.2, 10), cpu_s: 36.0, memory_mib: 880.0 },
+    Case { name: "100 000 walls", inputs: pillars, cpu_s: 22.0, memory_mib: 295.0 },
+    Case { name: "200 routes", inputs: routes, cpu_s: 15.5, memory_mib: 390.0 },
+    Case { name: "recording of a million rows", inputs: recording, cpu_s: 1.5, memory_mib: 130.0 },
 ];
 
 /// Draws a plan, and writes a scenario that begins with it.
@@ -72,7 +72,7 @@ fn routes(folder: &Path) {
     let mut rest = String::from("[texture]\nfloor_texels_per_metre = 20\n[crowd]\npeople = 1000\n");
     for k in 0..200 {
         let (x, y) = (2.0 + 2.8 * f64::from(k % 20), 2.0 + 3.6 * f64::from(k / 20));
-        writeln!(rest, "[[route]]\nfrom = [{x:.1}, {y:.1}]\nto = [{:.1}, {:.1}]", 60.0 - x, 40.0 - y)
+        writeln!(rest, "[[route]]\nfrom = [{x:.1}, {y:.1}]\nto = [{:.1}, {:.1}]", 58.0 - x, 38.0 - y)
             .expect("a string");
     }
     let is_wall = |x: u32, y: u32| x < 5 || y < 5 || x >= 595 || y >= 395;
