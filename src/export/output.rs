@@ -273,7 +273,9 @@ fn earlier(shown: &Path, output: &Path, force: bool) -> Result<BTreeSet<PathBuf>
     }
     match names.iter().min() {
         None => Ok(BTreeSet::new()),
-        Some(found) if !is_bake(output) => Err(ExportError::NotABake { path, found: found.clone() }),
+        Some(found) if !is_bake(output).map_err(folder_error)? => {
+            Err(ExportError::NotABake { path, found: found.clone() })
+        }
         Some(_) if !force => Err(ExportError::OutputExists { path }),
         Some(_) => places::listed(output),
     }

@@ -135,6 +135,12 @@ pub enum PlanError {
         /// The problem.
         reason: String,
     },
+    /// The shapes of a vector drawing lie over each other in too many layers.
+    #[error("the shapes of the drawing lie over each other: they cover it more than {times} times")]
+    PaintedOver {
+        /// How often they cover the whole drawing before reading ends.
+        times: u64,
+    },
     /// The image of a map YAML is missing.
     #[error("the map {map} names the image {image}, which does not exist", map = .map.display(), image = .image.display())]
     MapImageMissing {
@@ -240,6 +246,7 @@ impl PlanError {
                     .into()
             }
             PlanError::Drawing { format, .. } => format.hint().into(),
+            PlanError::PaintedOver { .. } => "leave out what lies under other shapes, or save the drawing as a picture".into(),
             PlanError::Empty { .. } | PlanError::Damaged { .. } => "save or copy the file again".into(),
             PlanError::Open { path, .. } if path.to_string_lossy().contains(char::is_control) => {
                 "in double quotes, \\t is a tab and \\n a line break: write the path with slashes, \"plans/office.png\", or in \

@@ -1,5 +1,6 @@
 //! Ordinary plans of any size and scale end in reasonable time, with walls that do not cross.
 
+mod drawings;
 mod outlines;
 
 use std::process::{Child, Stdio};

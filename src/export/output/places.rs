@@ -22,8 +22,23 @@ pub(super) const UNFINISHED: &str = ".unfinished";
 const LONGEST_WAIT: Duration = Duration::from_secs(5);
 
 /// Whether the folder holds a bake of ours, as its manifest's `generator` says.
-pub fn is_bake(folder: &Path) -> bool {
-    manifest::generator(folder).is_ok_and(|generator| generator == manifest::GENERATOR)
+///
+/// # Errors
+/// The system refuses to read the manifest.
+pub fn is_bake(folder: &Path) -> io::Result<bool> {
+    match manifest::generator(folder) {
+        Ok(generator) => Ok(generator == manifest::GENERATOR),
+        Err(error) => refused(error).map_or(Ok(false), Err),
+    }
+}
+
+/// The error of a system that refuses to read a manifest; none for a manifest that is missing or somebody else's.
+fn refused(error: ExportError) -> Option<io::Error> {
+    use io::ErrorKind::{FileTooLarge, InvalidInput, IsADirectory, NotADirectory, NotFound};
+    let ExportError::Read { source, .. } = &error else { return None };
+    let kind = source.kind();
+    let says_other = matches!(kind, NotFound | NotADirectory | IsADirectory | InvalidInput | FileTooLarge);
+    (!says_other).then(|| io::Error::new(kind, error))
 }
 
 /// Longest name of an output that hidden names repeat whole, bytes; file systems allow 255.
@@ -87,7 +102,7 @@ impl Places {
         if new.join(UNFINISHED).is_file() {
             // The user's files in it are also in the output.
             fs::remove_dir_all(new).map_err(failed)?;
-        } else if is_bake(new) {
+        } else if is_bake(new).map_err(failed)? {
             // Either a complete bake that is not published yet, or the bake that it replaced.
             clear(new, &self.output).map_err(failed)?;
         } else {
@@ -101,7 +116,7 @@ impl Places {
     ///
     /// Returns whether the bake was restored.
     fn bring_back(&self) -> io::Result<bool> {
-        if !is_bake(&self.old) {
+        if !is_bake(&self.old)? {
             return Ok(false);
         }
         if self.output.exists() {
@@ -133,7 +148,7 @@ impl Places {
 
     /// Replaces the output by two renames, where two folders cannot be exchanged.
     pub(super) fn rename_twice(&self) -> io::Result<Option<PathBuf>> {
-        if !is_bake(&self.output) {
+        if !is_bake(&self.output)? {
             // It holds at most the file browser's files, which the new folder has too.
             clear(&self.output, &self.new)?;
             fs::rename(&self.new, &self.output)?;
@@ -170,7 +185,7 @@ fn exchange(_: &Path, _: &Path) -> io::Result<()> {
 pub fn restore(path: &Path) -> Result<bool, ExportError> {
     let places = Places::of(path)?;
     let folder_error = |source| ExportError::Folder { path: path.to_path_buf(), source };
-    if !is_bake(&places.old) {
+    if !is_bake(&places.old).map_err(folder_error)? {
         return Ok(false);
     }
     if places.output.exists() {
@@ -202,8 +217,8 @@ pub(super) fn listed(bake: &Path) -> Result<BTreeSet<PathBuf>, ExportError> {
 /// # Errors
 /// A file cannot be removed or moved.
 pub(super) fn clear(bake: &Path, other: &Path) -> io::Result<()> {
-    // Without a readable manifest, all files count as the user's.
-    let listed = listed(bake).unwrap_or_default();
+    // Without a manifest of ours, all files count as the user's.
+    let listed = listed(bake).or_else(|error| refused(error).map_or_else(|| Ok(BTreeSet::new()), Err))?;
     let manifest = Path::new(MANIFEST_NAME);
     for entry in entries(bake)? {
         let (path, twin) = (bake.join(&entry.relative), other.join(&entry.relative));

@@ -37,7 +37,7 @@ fn a_published_folder_is_whole_and_nothing_else_is_left() {
     assert_eq!(names(dir.path()), ["out"]);
     assert_eq!(names(&out), ["floor", "manifest.json"]);
     assert_eq!(Manifest::read(&out).unwrap().files, ["floor/a.txt", "manifest.json"]);
-    assert!(is_bake(&out));
+    assert!(is_bake(&out).unwrap());
 }
 
 #[test]
@@ -107,6 +107,26 @@ fn what_is_no_bake_is_never_replaced() {
     }
     assert_eq!(names(dir.path()), ["out"]);
     assert_eq!(names(&out), ["holiday.jpg", "manifest.json"]);
+}
+
+#[test]
+#[cfg(unix)]
+fn a_manifest_that_the_system_refuses_to_read_is_named() {
+    let (dir, out) = place();
+    let old = dir.path().join(".out.old");
+    bake(&out, "1", false);
+    fs::remove_file(out.join(MANIFEST_NAME)).unwrap();
+    // Who looks for its end gets the system's error.
+    std::os::unix::fs::symlink(MANIFEST_NAME, out.join(MANIFEST_NAME)).unwrap();
+    let error = OutputFolder::begin(&out, true).unwrap_err();
+    assert!(error.to_string().contains("cannot read") && error.to_string().contains("out/manifest.json"), "{error}");
+    assert!(matches!(error, ExportError::Folder { .. }), "{error}");
+    // Nothing says whose the folder is that may be an earlier bake: it stays.
+    fs::rename(&out, &old).unwrap();
+    assert!(restore(&out).unwrap_err().to_string().contains(".out.old/manifest.json"));
+    assert!(OutputFolder::begin(&out, true).is_err());
+    assert_eq!(names(dir.path()), [".out.old"]);
+    assert_eq!(content(&old), "1");
 }
 
 #[test]

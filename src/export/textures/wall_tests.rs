@@ -113,7 +113,7 @@ fn bake(texels_per_metre: f64, options: &TextureOptions) -> Baked {
     };
     folder.publish(&manifest).unwrap();
     let read = Manifest::read(&out.path().join("out")).unwrap();
-    assert!(crate::export::output::is_bake(&out.path().join("out")));
+    assert!(crate::export::output::is_bake(&out.path().join("out")).unwrap());
     assert_eq!(read.walls, manifest.walls);
     Baked { out, entry: read.walls.unwrap(), textures, grid }
 }

@@ -114,12 +114,27 @@ impl Grid {
     }
 }
 
-/// The rows of a picture that shapes cover, and how much of each pixel.
+/// How much of each pixel shapes cover. Of each row of pixels it holds the stretch that their edges reach.
 pub(super) struct Coverage {
-    /// Least column and row, and one beyond the greatest.
-    pub(super) from: [usize; 2],
-    pub(super) to: [usize; 2],
+    rows: Vec<Stretch>,
     share: Vec<f32>,
+}
+
+/// Pixels of a row, one after the other in image order.
+struct Stretch {
+    row: usize,
+    column: usize,
+    /// Its place among the shares.
+    start: usize,
+    end: usize,
+}
+
+/// A piece of an edge within one row: from `x0` to `x1`, `tall` of the row's height.
+struct Step {
+    row: usize,
+    x0: f64,
+    x1: f64,
+    tall: f64,
 }
 
 impl Coverage {
@@ -133,44 +148,59 @@ impl Coverage {
         let most = |of: fn(&Vec2) -> f64, end: usize| all().map(of).fold(0.0, f64::max).min(end as f64).ceil() as usize;
         let from = [(least(|p| p.x) as usize).min(width), (least(|p| p.y) as usize).min(height)];
         let to = [most(|p| p.x, width).max(from[0]), most(|p| p.y, height).max(from[1])];
-        let columns = to[0] - from[0];
-        // One more column takes what lies right of the last.
-        let stride = columns + 2;
-        let mut rows = vec![0f32; stride * (to[1] - from[1])];
-        for points in loops {
-            for k in 0..points.len() {
-                add_edge(&mut rows, stride, from, to, points[k], points[(k + 1) % points.len()]);
+        let each_step = |each: &mut dyn FnMut(Step)| {
+            for points in loops {
+                (0..points.len()).for_each(|k| cut(from, to, points[k], points[(k + 1) % points.len()], each));
             }
+        };
+        let mut reach = vec![[usize::MAX, 0]; to[1] - from[1]];
+        each_step(&mut |step| {
+            let [first, last] = &mut reach[step.row];
+            (*first, *last) = ((*first).min(step.x0 as usize), (*last).max(step.x1 as usize + 1));
+        });
+        let mut rows = Vec::with_capacity(reach.len());
+        let mut start = 0;
+        for (row, [first, last]) in reach.into_iter().enumerate() {
+            let column = first.min(last);
+            let end = start + last + 1 - column;
+            rows.push(Stretch { row: from[1] + row, column, start, end });
+            start = end;
         }
-        let mut share = Vec::with_capacity(columns * (to[1] - from[1]));
-        for row in rows.chunks_exact(stride) {
+        let mut share = vec![0f32; start];
+        each_step(&mut |step| {
+            let stretch = &rows[step.row];
+            add(&mut share[stretch.start..stretch.end], stretch.column, &step);
+        });
+        for stretch in &mut rows {
             let mut sum = 0.0;
-            share.extend(row[..columns].iter().map(|step| {
-                sum += step;
-                sum.abs().min(1.0)
-            }));
+            for step in &mut share[stretch.start..stretch.end] {
+                sum += *step;
+                *step = sum.abs().min(1.0);
+            }
+            // Columns beyond the last take what lies right of all edges.
+            stretch.end = stretch.end.min(stretch.start + (to[0] - from[0]).saturating_sub(stretch.column));
+            stretch.column += from[0];
         }
-        Coverage { from, to, share }
+        Coverage { rows, share }
+    }
+
+    /// Number of pixels that it holds.
+    pub(super) fn pixels(&self) -> usize {
+        self.share.len()
     }
 
     /// Calls with the index of each pixel that is covered, and its share.
     pub(super) fn for_each(&self, width: usize, mut each: impl FnMut(usize, f32)) {
-        let columns = self.to[0] - self.from[0];
-        if columns == 0 {
-            return;
-        }
-        for (row, shares) in self.share.chunks_exact(columns).enumerate() {
-            let start = (self.from[1] + row) * width + self.from[0];
-            shares
-                .iter()
-                .enumerate()
-                .filter(|(_, share)| **share > 1e-3)
-                .for_each(|(k, share)| each(start + k, *share));
+        for stretch in &self.rows {
+            let start = stretch.row * width + stretch.column;
+            let shares = self.share[stretch.start..stretch.end].iter().enumerate();
+            shares.filter(|(_, share)| **share > 1e-3).for_each(|(k, share)| each(start + k, *share));
         }
     }
 }
 
-fn add_edge(rows: &mut [f32], stride: usize, from: [usize; 2], to: [usize; 2], a: Vec2, b: Vec2) {
+/// Cuts an edge into its pieces in the rows `from..to`, columns counted from the first.
+fn cut(from: [usize; 2], to: [usize; 2], a: Vec2, b: Vec2, each: &mut dyn FnMut(Step)) {
     let (sign, top, bottom) = if a.y < b.y { (1.0, a, b) } else { (-1.0, b, a) };
     let height = bottom.y - top.y;
     if height <= 0.0 {
@@ -189,34 +219,32 @@ fn add_edge(rows: &mut [f32], stride: usize, from: [usize; 2], to: [usize; 2], a
         let next = ((row + 1) as f64).min(turns);
         let at = |y: f64| (top.x + (y - top.y) * slope).clamp(left, right) - left;
         let (x0, x1) = (at(y), at(next));
-        add_row(&mut rows[(row - from[1]) * stride..][..stride], x0.min(x1), x0.max(x1), sign * (next - y));
+        each(Step { row: row - from[1], x0: x0.min(x1), x1: x0.max(x1), tall: sign * (next - y) });
         y = next;
     }
 }
 
-/// Adds an edge that goes from `x0` to `x1` within one row and covers `tall` of its height.
-fn add_row(row: &mut [f32], x0: f64, x1: f64, tall: f64) {
+/// Adds a piece of an edge to a stretch of its row that begins at a column.
+fn add(shares: &mut [f32], column: usize, &Step { x0, x1, tall, .. }: &Step) {
     let (first, last) = (x0 as usize, x1 as usize);
     if first == last {
         // Right of the edge lies all of the pixel but the mean of its ends.
         let beyond = 1.0 - ((x0 + x1) * 0.5 - first as f64);
-        row[first] += (tall * beyond) as f32;
-        row[first + 1] += (tall * (1.0 - beyond)) as f32;
+        shares[first - column] += (tall * beyond) as f32;
+        shares[first + 1 - column] += (tall * (1.0 - beyond)) as f32;
         return;
     }
     let per_x = tall / (x1 - x0);
     let mut before = 0.0;
-    for column in first..=last.min(row.len() - 1) {
-        let (from, to) = (x0.max(column as f64), x1.min((column + 1) as f64));
+    for pixel in first..=last {
+        let (from, to) = (x0.max(pixel as f64), x1.min((pixel + 1) as f64));
         let share = (to - from) * per_x;
-        let beyond = share * (1.0 - ((from + to) * 0.5 - column as f64));
+        let beyond = share * (1.0 - ((from + to) * 0.5 - pixel as f64));
         // This pixel gets what lies right of the edge in it, and all of what crossed before.
-        row[column] += (beyond + before) as f32;
+        shares[pixel - column] += (beyond + before) as f32;
         before = share - beyond;
     }
-    if last + 1 < row.len() {
-        row[last + 1] += before as f32;
-    }
+    shares[last + 1 - column] += before as f32;
 }
 
 #[cfg(test)]
@@ -243,6 +271,19 @@ mod tests {
         for (got, want) in got.iter().zip([1.0, 0.75, 0.25, 0.0, 0.25, 0.0, 0.0, 0.0]) {
             assert!((got - want).abs() < 1e-6, "{got} instead of {want}, cut on the left");
         }
+    }
+
+    #[test]
+    fn a_thin_slanted_line_holds_the_pixels_beside_it_only() {
+        let band = vec![vec2(0.0, 0.0), vec2(2.0, 0.0), vec2(2000.0, 1000.0), vec2(1998.0, 1000.0)];
+        let coverage = Coverage::of(&[band], 2000, 1000);
+        assert!(coverage.pixels() < 8000, "{} of 2 million", coverage.pixels());
+        let mut all = 0.0;
+        coverage.for_each(2000, |at, share| {
+            assert!((at % 2000).abs_diff(at / 2000 * 2) < 6);
+            all += f64::from(share);
+        });
+        assert!((all - 2000.0).abs() < 1.0, "{all}");
     }
 
     #[test]

@@ -14,6 +14,8 @@ use crate::plan::{LARGEST_SIDE_M, LARGEST_SIDE_PX, PlanClass, PlanError, PlanSca
 const FINEST_M: f64 = 0.02;
 /// Most pixels of a plan.
 const MOST_PIXELS: f64 = 24e6;
+/// Most pixels of all shapes together, also of those that lie under others: a large plan 50 times.
+const MOST_PAINTED_PIXELS: u64 = 50 * MOST_PIXELS as u64;
 /// Longer side of a picture whose scale is not known, pixels.
 const PICTURE_PX: f64 = 3000.0;
 /// Paper around a building, metres: wider than any door, so that it is told from rooms.
@@ -152,9 +154,11 @@ fn layers(plan: &VectorPlan, warnings: &mut Vec<String>) -> Result<Layers, PlanE
     let mut lightness: Vec<u8> = paint(&grid, outlines.clone());
     lightness.iter_mut().for_each(|l| *l = 255 - *l);
     let mut classes = vec![PlanClass::Floor; lightness.len()];
+    let mut painted = Painted::default();
     let mut mark = |class: PlanClass, loops: Vec<Vec<Vec2>>, least: f32, over: &dyn Fn(PlanClass, u8) -> bool| {
         let loops: Vec<Vec<Vec2>> = loops.iter().map(|l| l.iter().map(|p| grid.px(*p)).collect()).collect();
-        Coverage::of(&loops, grid.width, grid.height).for_each(grid.width, |at, share| {
+        let coverage = painted.coverage(&loops, grid.width, grid.height)?;
+        coverage.for_each(grid.width, |at, share| {
             if share >= least && over(classes[at], lightness[at]) {
                 classes[at] = class;
                 if class.is_furniture() {
@@ -162,17 +166,18 @@ fn layers(plan: &VectorPlan, warnings: &mut Vec<String>) -> Result<Layers, PlanE
                 }
             }
         });
+        Ok::<(), PlanError>(())
     };
     for stairs in things(&of(PlanClass::Stairs)) {
-        mark(PlanClass::Stairs, stairs.1, 0.5, &|_, _| true);
+        mark(PlanClass::Stairs, stairs.1, 0.5, &|_, _| true)?;
     }
     for (class, loops) in furniture(plan) {
-        mark(class, loops, 0.02, &|_, light| light >= 128);
+        mark(class, loops, 0.02, &|_, light| light >= 128)?;
     }
-    mark(PlanClass::Wall, outlines.clone(), 0.5, &|_, _| true);
-    mark(PlanClass::Window, window.loops().collect(), 0.4, &|_, light| light < 128);
+    mark(PlanClass::Wall, outlines.clone(), 0.5, &|_, _| true)?;
+    mark(PlanClass::Window, window.loops().collect(), 0.4, &|_, light| light < 128)?;
     for Opening { area, .. } in &doors {
-        mark(PlanClass::Door, vec![area.clone()], 0.5, &|class, light| light >= 128 && !class.is_furniture());
+        mark(PlanClass::Door, vec![area.clone()], 0.5, &|class, light| light >= 128 && !class.is_furniture())?;
     }
     let nameless = plan.pieces.iter().filter(|piece| piece.class.is_none()).count();
     if nameless > 0 {
@@ -297,17 +302,18 @@ fn picture(
     let mut image = RgbImage::from_pixel(grid.width as u32, grid.height as u32, image::Rgb([255; 3]));
     let px =
         |loops: &[Vec<Vec2>]| loops.iter().map(|l| l.iter().map(|p| grid.px(*p)).collect()).collect::<Vec<Vec<Vec2>>>();
+    let mut painted = Painted::default();
     for piece in &plan.pieces {
         if let Some(colour) = piece.fill {
             let area: Vec<Vec<Vec2>> = Area::union([px(&piece.loops)]).loops().collect();
-            blend(&mut image, &area, colour);
+            blend(&mut image, &area, colour, &mut painted)?;
         }
         if let Some(Stroke { width, colour }) = piece.stroke {
             // Thinner lines than a pixel and a half fade.
             let half = 0.5 * width.max(1.5 * units_per_px);
             for [a, b] in piece.segments() {
                 let out = (b - a).normalized().unwrap_or(vec2(1.0, 0.0)) * (half * 0.5);
-                blend(&mut image, &px(&[box_along(a - out, b + out, half)]), colour);
+                blend(&mut image, &px(&[box_along(a - out, b + out, half)]), colour, &mut painted)?;
             }
         }
     }
@@ -315,13 +321,47 @@ fn picture(
 }
 
 /// Lays a colour over what loops in pixels cover.
-fn blend(image: &mut RgbImage, loops: &[Vec<Vec2>], colour: [u8; 3]) {
+fn blend(image: &mut RgbImage, loops: &[Vec<Vec2>], colour: [u8; 3], painted: &mut Painted) -> Result<(), PlanError> {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let bytes: &mut [u8] = image;
-    Coverage::of(loops, width, height).for_each(width, |at, share| {
+    painted.coverage(loops, width, height)?.for_each(width, |at, share| {
         for (channel, new) in bytes[3 * at..][..3].iter_mut().zip(colour) {
             let old = f32::from(*channel);
             *channel = (old + (f32::from(new) - old) * share + 0.5) as u8;
         }
     });
+    Ok(())
+}
+
+/// Counts the pixels of all shapes that are painted, one over the other.
+#[derive(Default)]
+struct Painted {
+    pixels: u64,
+}
+
+impl Painted {
+    fn coverage(&mut self, loops: &[Vec<Vec2>], width: usize, height: usize) -> Result<Coverage, PlanError> {
+        let coverage = Coverage::of(loops, width, height);
+        self.pixels += coverage.pixels() as u64;
+        let times = self.pixels / (width * height).max(1) as u64;
+        if self.pixels > MOST_PAINTED_PIXELS { Err(PlanError::PaintedOver { times }) } else { Ok(coverage) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shapes_that_lie_over_each_other_without_end_are_refused() {
+        let square = [vec![vec2(0.0, 0.0), vec2(10.0, 0.0), vec2(10.0, 10.0), vec2(0.0, 10.0)]];
+        let mut painted = Painted { pixels: MOST_PAINTED_PIXELS - 150 };
+        assert!(painted.coverage(&square, 20, 20).is_ok());
+        let error = painted.coverage(&square, 20, 20).map(|_| ()).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "the shapes of the drawing lie over each other: they cover it more than 3000000 times"
+        );
+        assert!(error.hint().unwrap().contains("as a picture"));
+    }
 }

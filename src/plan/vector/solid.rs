@@ -25,10 +25,15 @@ const PARALLEL: f64 = 0.07;
 const PAIRED: f64 = 0.3;
 /// Ends of lines closer than this meet, metres.
 const MEET_M: f64 = 0.01;
+/// Most ends in one place that make its corner full.
+const MOST_MEETING: usize = 1000;
 /// Side of a cell of the grid that finds neighbours, metres.
 const CELL_M: f64 = 1.0;
 /// Most entries of that grid.
 const MOST_CELLS: usize = 8_000_000;
+
+/// Most lines that are compared with all lines in their cells. So many, long and close, are no walls.
+const MOST_COMPARED: usize = 300_000_000;
 
 /// Whether curves count: windows and doors are drawn with swings, walls are not.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,7 +98,8 @@ pub(super) fn thickness(piece: &Piece) -> Option<f64> {
 
 /// Fills what lies between lines that run side by side. Returns the lines without another beside them.
 fn pairs(lines: &[[Vec2; 2]], shapes: &mut Vec<Vec<Vec<Vec2>>>) -> Vec<[Vec2; 2]> {
-    let Some(cells) = Cells::of(lines) else { return lines.to_vec() };
+    let Some(mut cells) = Cells::of(lines) else { return lines.to_vec() };
+    let before = shapes.len();
     let mut paired = vec![false; lines.len()];
     let mut widest = 0.0f64;
     for (k, &[a, b]) in lines.iter().enumerate() {
@@ -101,7 +107,11 @@ fn pairs(lines: &[[Vec2; 2]], shapes: &mut Vec<Vec<Vec<Vec2>>>) -> Vec<[Vec2; 2]
         let along = (b - a) / length;
         // By side: the lines beside this one as stretches of it, and their distances at both ends.
         let mut beside: [Vec<Stretch>; 2] = Default::default();
-        for other in cells.near(a, b) {
+        let Some(near) = cells.near(a, b) else {
+            shapes.truncate(before);
+            return lines.to_vec();
+        };
+        for other in near {
             let [c, d] = lines[other];
             let (c, d) = if (d - c).dot(along) < 0.0 { (d, c) } else { (c, d) };
             let direction = (d - c) / c.distance(d);
@@ -189,7 +199,7 @@ fn bands(lines: &[([Vec2; 2], f64)], shapes: &mut Vec<Vec<Vec<Vec2>>>) {
                 let tangent = if cosine > -0.999 { sine / (1.0 + cosine) } else { 0.0 };
                 half.max(lines[other / 2].1 * 0.5) * tangent.min(1.2)
             };
-            ends.at(end).filter(|&other| other / 2 != k).map(corner).fold(0.0, f64::max)
+            ends.at(end).take(MOST_MEETING).filter(|&other| other / 2 != k).map(corner).fold(0.0, f64::max)
         };
         let (a, b) = (a - along * longer(a, -along), b + along * longer(b, along));
         let side = along.left() * half;
@@ -235,12 +245,16 @@ fn cell(p: Vec2, side: f64) -> [i64; 2] {
 /// Lines by the cells that they pass.
 struct Cells {
     lines: FxHashMap<[i64; 2], Vec<u32>>,
+    /// By line, the number of the last search that found it.
+    found: Vec<u32>,
+    searches: u32,
+    compared: usize,
 }
 
 impl Cells {
     /// `None` if the lines are too long to be walls.
     fn of(lines: &[[Vec2; 2]]) -> Option<Cells> {
-        let mut cells = Cells { lines: FxHashMap::default() };
+        let mut cells = Cells { lines: FxHashMap::default(), found: vec![0; lines.len()], searches: 0, compared: 0 };
         let mut entries = 0;
         for (k, &[a, b]) in lines.iter().enumerate() {
             for cell in passed(a, b) {
@@ -254,17 +268,32 @@ impl Cells {
         Some(cells)
     }
 
-    /// Lines near a line, ascending.
-    fn near(&self, a: Vec2, b: Vec2) -> Vec<usize> {
+    /// Lines near a line, ascending; `None` once too many were compared.
+    fn near(&mut self, a: Vec2, b: Vec2) -> Option<Vec<usize>> {
+        self.searches += 1;
         let mut near: Vec<usize> = Vec::new();
+        let mut before = None;
         for [x, y] in passed(a, b) {
             for cell in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x + dx, y + dy])) {
-                near.extend(self.lines.get(&cell).into_iter().flatten().map(|k| *k as usize));
+                // Those around the cell before were looked at.
+                if before.is_some_and(|[p, q]: [i64; 2]| (cell[0] - p).abs() <= 1 && (cell[1] - q).abs() <= 1) {
+                    continue;
+                }
+                let lines = self.lines.get(&cell).map_or(&[][..], Vec::as_slice);
+                self.compared += lines.len();
+                for &line in lines {
+                    if std::mem::replace(&mut self.found[line as usize], self.searches) != self.searches {
+                        near.push(line as usize);
+                    }
+                }
             }
+            if self.compared > MOST_COMPARED {
+                return None;
+            }
+            before = Some([x, y]);
         }
         near.sort_unstable();
-        near.dedup();
-        near
+        Some(near)
     }
 }
 
