@@ -1,7 +1,8 @@
 //! What large inputs may cost: processor time and peak memory of whole runs of the program, which fail above their budget by
 //! half.
 //!
-//! The budgets are what was measured on two cores of an AMD EPYC under Linux, rustc 1.95. Other machines need other seconds; `BUDGETS_TIMES=2 cargo bench --bench budgets` doubles them. Memory is the same everywhere.
+//! The budgets are what was measured on two cores of an AMD EPYC under Linux, rustc 1.95. Other machines need other seconds;
+//! `BUDGETS_TIMES=2 cargo bench --bench budgets` doubles them. Memory is the same everywhere.
 
 use std::fmt::Write as _;
 use std::fs;
