@@ -1,12 +1,11 @@
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
 use crate::Error;
 use crate::export::{
-    self, Atlas, Camera, FloorTextures, OutputFile, OutputFolder, PADDING_PX, PreviewEntry, StillEntry, TextureOptions,
-    USD_FILE, WallTextures,
+    self, Atlas, Camera, FloorTextures, OutputFolder, PADDING_PX, PreviewEntry, StillEntry, TextureOptions, USD_FILE,
+    WallTextures,
 };
 use crate::files::{LARGEST_IMAGE_BYTES, read_input};
 use crate::look::{Background, FloorResolver, Look, LookError, WallResolver, look_files};
@@ -178,21 +177,12 @@ impl Model<'_> {
             lamps: if options.lamps { SceneLamp::all(rooms) } else { Vec::new() },
             ..SceneFile::default()
         };
-        let mut out = folder.create("scene.glb")?;
         let light_mapped = match options.lightmap {
             0 => None,
             size_px => Some(Scene { meshes: scene.meshes.par_iter().map(|mesh| mesh.light_mapped(size_px)).collect() }),
         };
-        write_glb(&mut out, light_mapped.as_ref().unwrap_or(scene), &file)
-            .and_then(|()| out.flush())
-            .map_err(OutputFile::explain)?;
-        out.close()?;
-        if options.usd {
-            let mut out = folder.create(USD_FILE)?;
-            write_usda(&mut out, scene, &file).and_then(|()| out.flush()).map_err(OutputFile::explain)?;
-            out.close()?;
-        }
-        Ok(())
+        folder.write_with("scene.glb", |out| write_glb(out, light_mapped.as_ref().unwrap_or(scene), &file))?;
+        if options.usd { folder.write_with(USD_FILE, |out| write_usda(out, scene, &file)) } else { Ok(()) }
     }
 
     fn images<'a>(

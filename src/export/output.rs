@@ -167,8 +167,20 @@ impl OutputFolder {
     /// # Errors
     /// The same as for `OutputFolder::create`.
     pub fn write(&self, relative: &str, bytes: &[u8]) -> Result<(), ExportError> {
+        self.write_with(relative, |file| file.write_all(bytes))
+    }
+
+    /// Creates a file with what `write` gives.
+    ///
+    /// # Errors
+    /// The same as for `OutputFolder::create`.
+    pub(crate) fn write_with(
+        &self,
+        relative: &str,
+        write: impl FnOnce(&mut OutputFile) -> io::Result<()>,
+    ) -> Result<(), ExportError> {
         let mut file = self.create(relative)?;
-        file.write_all(bytes).map_err(OutputFile::explain)?;
+        write(&mut file).map_err(OutputFile::explain)?;
         file.close()
     }
 

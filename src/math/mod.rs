@@ -4,6 +4,7 @@
 //! multiply-add, and values from `rand_distr` are rounded to a coarse grid.
 
 mod assignment;
+mod disjoint;
 mod distribution;
 mod eigen;
 mod random;
@@ -11,6 +12,7 @@ pub mod srgb;
 mod vector;
 
 pub(crate) use assignment::assign;
+pub(crate) use disjoint::DisjointSets;
 pub use distribution::{Distribution, DistributionError};
 pub use eigen::NoConvergence;
 pub(crate) use eigen::eigenvectors;

@@ -4,6 +4,8 @@
 
 use std::ops::Range;
 
+use crate::math::DisjointSets;
+
 /// A horizontal run of pixels, `from..to` in row `y`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Run {
@@ -54,14 +56,15 @@ impl Components {
     /// Finds the components of the pixels with `value`.
     pub(super) fn of(pixels: &[u8], width: usize, value: u8, neighbours: Neighbours) -> Components {
         let (runs, row_starts) = find_runs(pixels, width, value);
-        let mut parents: Vec<u32> = (0..runs.len() as u32).collect();
+        // A component's first run is its least: components keep the order of these.
+        let mut joined = DisjointSets::new(runs.len());
         let reach = u32::from(neighbours == Neighbours::Eight);
         for rows in row_starts.windows(3) {
             let (mut above, mut below) = (rows[0], rows[1]);
             while above < rows[1] && below < rows[2] {
                 let (a, b) = (runs[above], runs[below]);
                 if a.from < b.to + reach && b.from < a.to + reach {
-                    join(&mut parents, above as u32, below as u32);
+                    joined.join(above, below);
                 }
                 if a.to < b.to {
                     above += 1;
@@ -70,7 +73,7 @@ impl Components {
                 }
             }
         }
-        group(runs, &mut parents)
+        group(runs, joined)
     }
 
     pub(super) fn runs(&self, component: &Component) -> &[Run] {
@@ -114,27 +117,12 @@ fn find_runs(pixels: &[u8], width: usize, value: u8) -> (Vec<Run>, Vec<usize>) {
     (runs, row_starts)
 }
 
-fn root(parents: &mut [u32], mut at: u32) -> u32 {
-    while parents[at as usize] != at {
-        let up = parents[parents[at as usize] as usize];
-        parents[at as usize] = up;
-        at = up;
-    }
-    at
-}
-
-/// Joins two trees. The smaller index becomes the root, so that components keep the order of their first runs.
-fn join(parents: &mut [u32], a: u32, b: u32) {
-    let (a, b) = (root(parents, a), root(parents, b));
-    parents[a.max(b) as usize] = a.min(b);
-}
-
-fn group(runs: Vec<Run>, parents: &mut [u32]) -> Components {
+fn group(runs: Vec<Run>, mut joined: DisjointSets) -> Components {
     const NONE: u32 = u32::MAX;
     let mut number_of = vec![NONE; runs.len()];
     let mut counts: Vec<usize> = Vec::new();
     for k in 0..runs.len() {
-        let top = root(parents, k as u32) as usize;
+        let top = joined.least(k);
         if number_of[top] == NONE {
             number_of[top] = counts.len() as u32;
             counts.push(0);

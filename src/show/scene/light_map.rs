@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::model::Mesh;
+use crate::math::DisjointSets;
 
 /// Free texels around each chart: charts lie twice as far apart.
 const MARGIN_PX: f64 = 1.0;
@@ -207,24 +208,16 @@ impl Wall {
 
 /// Of each level triangle, the first triangle of its piece; pieces hang together by sides.
 fn level_pieces(triangles: &[[u32; 3]], normals: &[[f64; 3]]) -> Vec<usize> {
-    fn root(of: &mut [usize], mut n: usize) -> usize {
-        while of[n] != n {
-            of[n] = of[of[n]];
-            n = of[n];
-        }
-        n
-    }
-    let mut of: Vec<usize> = (0..triangles.len()).collect();
+    let mut joined = DisjointSets::new(triangles.len());
     let mut sides = HashMap::new();
     for (number, corners) in triangles.iter().enumerate().filter(|(number, _)| is_level(normals[*number])) {
         for k in 0..3 {
             let (a, b) = (corners[k], corners[(k + 1) % 3]);
             let other = *sides.entry((a.min(b), a.max(b))).or_insert(number);
-            let (a, b) = (root(&mut of, number), root(&mut of, other));
-            of[a.max(b)] = a.min(b);
+            joined.join(number, other);
         }
     }
-    (0..of.len()).map(|number| root(&mut of, number)).collect()
+    (0..triangles.len()).map(|number| joined.least(number)).collect()
 }
 
 fn is_level(normal: [f64; 3]) -> bool {

@@ -1,4 +1,5 @@
 use super::walks::{FPS, SpotTrack, SpotTracks};
+use crate::math::DisjointSets;
 
 /// Members of a group are mostly this near, metres, ...
 const NEAR_M: f64 = 1.6;
@@ -17,7 +18,7 @@ const FARTHEST_M: f64 = 4.0;
 /// (doi 10.1371/journal.pone.0010047) describe groups: side by side, about 0.8 m apart, at one speed.
 pub(super) fn groups(walks: &SpotTracks) -> Vec<u32> {
     let count = walks.all.len();
-    let mut leader: Vec<usize> = (0..count).collect();
+    let mut linked = DisjointSets::new(count);
     // Sorted by the first frame: a person who comes after the last one left meets no one.
     for a in 0..count {
         for b in a + 1..count {
@@ -25,19 +26,11 @@ pub(super) fn groups(walks: &SpotTracks) -> Vec<u32> {
                 break;
             }
             if walks.all[a].id != walks.all[b].id && together(&walks.all[a], &walks.all[b]) {
-                let (one, other) = (root(&leader, a), root(&leader, b));
-                leader[one.max(other)] = one.min(other);
+                linked.join(a, b);
             }
         }
     }
-    (0..count).map(|walk| root(&leader, walk) as u32).collect()
-}
-
-fn root(leader: &[usize], mut walk: usize) -> usize {
-    while leader[walk] != walk {
-        walk = leader[walk];
-    }
-    walk
+    (0..count).map(|walk| linked.least(walk) as u32).collect()
 }
 
 fn together(a: &SpotTrack, b: &SpotTrack) -> bool {
