@@ -8,6 +8,8 @@ use crate::walls::{Doorway, Walls};
 
 /// Least area of a room, square metres: less is a niche between two doors.
 const LEAST_ROOM_M2: f64 = 1.2;
+/// Share of a place's rim that is drawn as door from which on the place is where a leaf swings.
+const SWING_SHARE: f64 = 0.9;
 /// Length by which a threshold is drawn into its jambs, metres.
 const INTO_JAMBS_M: f64 = 0.12;
 /// Distance beyond a threshold at which a door's rooms are looked up, metres.
@@ -51,7 +53,12 @@ pub(super) fn divide(grid: &Grid, walls: &Walls) -> Division {
             members.push(cell);
             stack.extend(grid.beside(cell).filter(|&b| is_free(b) && !std::mem::replace(&mut seen[b], true)));
         }
-        if members.len() as f64 * grid.cell_m * grid.cell_m >= LEAST_ROOM_M2 {
+        let is_swing = || {
+            let rim = || members.iter().flat_map(|&cell| grid.beside(cell)).filter(|&b| !is_free(b));
+            let doors = rim().filter(|&b| grid.has(b, DOOR)).count();
+            doors as f64 >= SWING_SHARE * rim().count() as f64
+        };
+        if members.len() as f64 * grid.cell_m * grid.cell_m >= LEAST_ROOM_M2 && !is_swing() {
             members.iter().for_each(|&cell| room[cell] = rooms);
             rooms += 1;
         }

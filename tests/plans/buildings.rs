@@ -315,6 +315,35 @@ pub fn cafe() -> Building {
     Building { name: "cafe", size: [14.0, 10.0], walls, rooms, furniture, stations: vec![0.0, 10.0, 14.0] }
 }
 
+/// An inn of 16 x 9 m: doors face each other across a corridor of 1.4 m, its entrance has a single leaf of 1.6 m.
+pub fn inn() -> Building {
+    let stations = [0.0, 4.0, 8.0, 12.0, 16.0];
+    let middles = |aside: f64| -> Vec<(f64, f64)> { stations[..4].iter().map(|x| (x + aside, 1.4)).collect() };
+    let (mut north, mut south) = (inner([0.0, 3.8], [16.0, 3.8], 0.12), inner([0.0, 5.2], [16.0, 5.2], 0.12));
+    for (x, aside) in stations[..4].iter().zip([0.0, 0.3, -0.4, 0.8]) {
+        north = north.door(x + 1.6, 0.9, true, true);
+        south = south.door(x + 1.6 + aside, 0.9, true, false);
+    }
+    let mut walls = vec![
+        outer([0.0, 0.0], [16.0, 0.0], 0.3).windows(&middles(1.3)),
+        outer([16.0, 0.0], [16.0, 9.0], 0.3).door(3.95, 1.1, true, false),
+        outer([0.0, 9.0], [16.0, 9.0], 0.3).windows(&middles(1.3)[1..]).door(1.2, 1.6, true, true),
+        outer([0.0, 0.0], [0.0, 9.0], 0.3),
+        north,
+        south,
+    ];
+    walls.extend(
+        stations[1..4].iter().flat_map(|&x| [[0.0, 3.8], [5.2, 9.0]].map(|[y, to]| inner([x, y], [x, to], 0.12))),
+    );
+    let names = [["ROOM 1", "ROOM 2", "ROOM 3", "ROOM 4"], ["DINING", "ROOM 5", "ROOM 6", "ROOM 7"]];
+    let mut rooms = vec![room("HALL", [0.0, 3.8, 16.0, 5.2])];
+    for (row, [y, to]) in names.into_iter().zip([[0.0, 3.8], [5.2, 9.0]]) {
+        rooms.extend(row.into_iter().zip(stations).map(|(name, x)| room(name, [x, y, x + 4.0, to])));
+    }
+    let furniture = stations[..4].iter().map(|x| piece(Kind::Bed, x + 0.4, 0.4, 0.9, 2.0)).collect();
+    Building { name: "inn", size: [16.0, 9.0], walls, rooms, furniture, stations: stations.to_vec() }
+}
+
 /// A school's floor whose partitions end at every other window.
 pub fn school_with_ribbons() -> Building {
     let mut building = school();

@@ -120,6 +120,26 @@ fn furniture_at_the_end_of_a_leaf_is_whole() {
     }
 }
 
+/// Doors that face each other across a corridor do not divide it, the swing of a wide leaf is no room, and soft edges of walls
+/// join no doors.
+#[test]
+fn floors_are_divided_at_doors_alone() {
+    let names = [
+        "CAD export",
+        "layer colours",
+        "brochure",
+        "doors closed by a line",
+        "doors with leaf and arc",
+        "dark background",
+    ];
+    for name in names {
+        let style = styles::STYLES.into_iter().find(|style| style.name == name).unwrap();
+        let m = measure(&styles::Case { style, building: buildings::inn, seed: 0 });
+        check(&m);
+        assert_eq!((m.divided, m.false_rooms), (9, 0), "{}", row(&m));
+    }
+}
+
 /// The windows of thick walls are no openings of the lines that end beside them.
 #[test]
 fn lines_may_part_long_rows_of_rooms() {
@@ -145,6 +165,8 @@ fn thin_walls_are_told_from_axes_and_dimensions() {
         // The office is measured in all styles, arrows and dots of the large school in the table alone.
         "office" => false,
         "flat" => case.style.name.starts_with(THIN),
+        // Of walls without thickness, the end of a corridor as wide as its door is not told from an opening.
+        "inn" => false,
         _ => [THIN, "walls of one pixel, axes alone"].contains(&case.style.name),
     };
     for case in styles::cases().iter().filter(is_read) {

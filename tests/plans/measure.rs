@@ -1,6 +1,8 @@
 //! How well a plan was read.
 
 use trodden::plan::{FloorPlan, PlanClass, PlanOptions, read};
+use trodden::rooms::Rooms;
+use trodden::walls::{Walls, WallsOptions};
 
 use super::styles::{Case, Drawn, Truth, draw};
 
@@ -15,6 +17,9 @@ pub struct Measured {
     pub clean: bool,
     pub rooms: [usize; 2],
     pub missing_rooms: Vec<&'static str>,
+    /// Rooms that the floor is divided into as the building is, and those that are rooms of the floor but none of the building.
+    pub divided: usize,
+    pub false_rooms: usize,
     pub wall_iou: f64,
     pub doors: [usize; 2],
     /// Doors that are none.
@@ -63,6 +68,7 @@ fn compare(plan: &FloorPlan, truth: &Truth, measured: &mut Measured) {
             measured.missing_rooms.push(name);
         }
     }
+    divide(plan, truth, measured);
     let width = plan.width_px as usize;
     let height = plan.height_px as usize;
     let near = |at: usize, reach: usize, of: &dyn Fn(usize) -> bool| {
@@ -102,17 +108,44 @@ fn compare(plan: &FloorPlan, truth: &Truth, measured: &mut Measured) {
         count(&|at| plan.floor[at] != 0 && truth.floor[at] == 0 && !near(at, 3, &|at| truth.floor[at] != 0)) * m2;
 }
 
+/// Compares the rooms into which doors divide the floor.
+fn divide(plan: &FloorPlan, truth: &Truth, measured: &mut Measured) {
+    let found = Rooms::find(plan, &Walls::trace(plan, &WallsOptions::default()));
+    // Pixels of each true room, the last for what lies in none, by found room.
+    let mut shared = vec![vec![0usize; found.rooms.len()]; truth.room_names.len() + 1];
+    for at in (0..truth.wall.len()).filter(|&at| plan.floor[at] != 0) {
+        let (x, y) = (at % plan.width_px as usize, at / plan.width_px as usize);
+        if let Some(room) = found.at(plan.px_to_m([x as f64 + 0.5, y as f64 + 0.5])) {
+            let own = usize::from(truth.rooms[at]).checked_sub(1).unwrap_or(truth.room_names.len());
+            shared[own][room] += 1;
+        }
+    }
+    let total = |room: usize| shared.iter().map(|row| row[room]).sum::<usize>();
+    let mut right = vec![false; found.rooms.len()];
+    for row in &shared[..truth.room_names.len()] {
+        let Some(best) = (0..row.len()).max_by_key(|&room| row[room]) else { continue };
+        let is_whole = |part: usize, all: usize| part as f64 >= ROOM_SHARE * all as f64;
+        if is_whole(row[best], row.iter().sum()) && is_whole(row[best], total(best)) {
+            measured.divided += 1;
+            right[best] = true;
+        }
+    }
+    measured.false_rooms = right.iter().filter(|right| !**right).count();
+}
+
 /// One line of the table.
 pub fn row(m: &Measured) -> String {
     if let Some(error) = &m.error {
-        return format!("| {} | {} | {error} | | | | | |", m.style, m.building);
+        return format!("| {} | {} | {error} | | | | | | |", m.style, m.building);
     }
     format!(
-        "| {} | {} | {} of {} | {:.3} | {} of {} ({}) | {:.2} | {:.0} % | {:.1} |{}",
+        "| {} | {} | {} of {} | {} ({}) | {:.3} | {} of {} ({}) | {:.2} | {:.0} % | {:.1} |{}",
         m.style,
         m.building,
         m.rooms[0],
         m.rooms[1],
+        m.divided,
+        m.false_rooms,
         m.wall_iou,
         m.doors[0],
         m.doors[1],
@@ -124,4 +157,4 @@ pub fn row(m: &Measured) -> String {
     )
 }
 
-pub const HEAD: &str = "| plan | building | rooms | walls, IoU | doors (false) | notes as wall, m2 | furniture | paper as floor, m2 |\n|---|---|---|---|---|---|---|---|";
+pub const HEAD: &str = "| plan | building | rooms | divided (false) | walls, IoU | doors (false) | notes as wall, m2 | furniture | paper as floor, m2 |\n|---|---|---|---|---|---|---|---|---|";

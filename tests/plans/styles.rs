@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use image::codecs::jpeg::JpegEncoder;
 use image::{DynamicImage, ImageFormat, RgbImage, Rgba, RgbaImage};
 
-use super::buildings::{Building, Hole, HoleKind, Kind, Piece, Wall, flat, office, school};
+use super::buildings::{Building, Hole, HoleKind, Kind, Piece, Wall, flat, inn, office, school};
 use super::canvas::{Canvas, Point, Polygon, ellipse, line, outline, rectangle, text};
 use super::notes::{joints, sheet};
 use super::openings::{door, sliding, window};
@@ -177,7 +177,7 @@ pub struct Case {
 
 /// All styles of each building; robots' maps with two seeds.
 pub fn cases() -> Vec<Case> {
-    let buildings: [fn() -> Building; 3] = [office, flat, school];
+    let buildings: [fn() -> Building; 4] = [office, flat, school, inn];
     let mut all = Vec::new();
     for building in buildings {
         for style in STYLES {

@@ -13,6 +13,7 @@ use self::words::{Number, Unit};
 use super::drawing::Drawing;
 use super::scale::{PlanScale, ScaleSource};
 use super::understand;
+use crate::math::ln;
 
 /// How far scales that agree may lie apart: their ratio.
 const AGREE: f64 = 1.04;
@@ -66,7 +67,7 @@ struct RoomNumber {
 pub(super) fn scale(drawing: &Drawing, guess: f64, possible: [f64; 2]) -> Option<(f64, PlanScale)> {
     let sane = [possible[0].min(guess / FAR), possible[1].max(guess * FAR)];
     let (mut measures, in_rooms) = read(drawing);
-    if let Some(found) = vote(&measures, sane) {
+    if let Some(found) = vote(&measures, guess, sane) {
         return Some(found);
     }
     // Rooms take longer to find.
@@ -75,7 +76,7 @@ pub(super) fn scale(drawing: &Drawing, guess: f64, possible: [f64; 2]) -> Option
         return None;
     }
     measures.extend(measured_rooms(drawing, guess, &in_rooms));
-    vote(&measures, sane)
+    vote(&measures, guess, sane)
 }
 
 /// Reads both pages of a drawing, upright and turned: lengths, and numbers about rooms.
@@ -153,8 +154,9 @@ fn measured_rooms(drawing: &Drawing, guess: f64, numbers: &[RoomNumber]) -> Vec<
     found
 }
 
-/// The scale that most measures agree on, if those are enough.
-fn vote(measures: &[Measure], sane: [f64; 2]) -> Option<(f64, PlanScale)> {
+/// The scale that most measures agree on, if those are enough. Of two, as of millimetres and centimetres, the nearer to the
+/// guess.
+fn vote(measures: &[Measure], guess: f64, sane: [f64; 2]) -> Option<(f64, PlanScale)> {
     let mut all: Vec<Measure> = measures.iter().copied().filter(|m| (sane[0]..=sane[1]).contains(&m.scale())).collect();
     all.sort_by(|a, b| a.scale().total_cmp(&b.scale()));
     let votes = |some: &[Measure]| {
@@ -168,7 +170,9 @@ fn vote(measures: &[Measure], sane: [f64; 2]) -> Option<(f64, PlanScale)> {
         let end = all.partition_point(|m| m.scale() <= all[first].scale() * AGREE);
         &all[first..end]
     };
-    let best = (0..all.len()).map(window).max_by_key(|some| votes(some))?;
+    let nearness = |some: &[Measure]| some.first().map_or(0.0, |m| -ln(m.scale() / guess).abs());
+    let windows = (0..all.len()).map(window);
+    let best = windows.max_by(|a, b| votes(a).cmp(&votes(b)).then(nearness(a).total_cmp(&nearness(b))))?;
     let count = votes(best);
     if count < FEWEST || (count as f64) < LEAST_SHARE * votes(&all) as f64 {
         return None;
@@ -213,7 +217,7 @@ mod tests {
     fn found(scales: &[f64]) -> Option<f64> {
         let measure = |(number, scale)| Measure { number, kind: Kind::Dimension, metres: 100.0 * scale, pixels: 100.0 };
         let measures: Vec<Measure> = scales.iter().copied().enumerate().map(measure).collect();
-        vote(&measures, [0.015, 0.03]).map(|(value, _)| value)
+        vote(&measures, 0.02, [0.015, 0.03]).map(|(value, _)| value)
     }
 
     #[test]
@@ -226,8 +230,17 @@ mod tests {
     }
 
     #[test]
+    fn numbers_without_a_unit_take_the_one_nearer_to_the_guess() {
+        let measure =
+            |number| [6.0, 60.0].map(|metres| Measure { number, kind: Kind::Dimension, metres, pixels: 300.0 });
+        let measures: Vec<Measure> = (0..3).flat_map(measure).collect();
+        let found = |guess| vote(&measures, guess, [0.005, 0.5]).map(|(value, _)| value);
+        assert_eq!((found(0.05), found(0.15)), (Some(0.02), Some(0.2)));
+    }
+
+    #[test]
     fn one_number_is_one_vote() {
         let twice = Measure { number: 1, kind: Kind::Dimension, metres: 2.0, pixels: 100.0 };
-        assert!(vote(&[twice; 5], [0.01, 0.03]).is_none());
+        assert!(vote(&[twice; 5], 0.02, [0.01, 0.03]).is_none());
     }
 }

@@ -340,8 +340,14 @@ fn thin_colour(drawing: &Drawing, metres_per_pixel: f64) -> Vec<u8> {
 
 /// Names strokes that are neither wall nor furniture: door symbols, lettering, frames, lines.
 fn name_strokes(ink: &[u8], net: &Net, width: usize, metres_per_pixel: f64, classes: &mut [PlanClass]) {
-    let rest: Vec<u8> =
+    let mut rest: Vec<u8> =
         ink.iter().zip(classes.iter()).map(|(&i, &c)| u8::from(i != 0 && c == PlanClass::Floor)).collect();
+    // The soft or rough edge of a wall joins no strokes.
+    for (at, _) in thick::grow(&net.wall, width, 1).into_iter().enumerate().filter(|(_, by_wall)| *by_wall != 0) {
+        if std::mem::take(&mut rest[at]) != 0 {
+            classes[at] = PlanClass::Dimension;
+        }
+    }
     let strokes = Components::of(&rest, width, 1, Neighbours::Eight);
     let mut beside_door = vec![0u8; ink.len()];
     for at in net.doors.iter().flat_map(|gap| gap.pixels()) {

@@ -62,6 +62,13 @@ const ROOM_M: f64 = 0.45;
 const STAYS_WIDE_M: f64 = 1.1;
 /// Least widening beside a jamb, metres.
 const STEPS_BACK_M: f64 = 0.05;
+/// Widest gap that is a door's even where walls are too rough to tell their ends, metres.
+const SINGLE_M: f64 = 1.0;
+/// Cosine of the least angle between a gap and the face of a jamb that stands across it.
+const SQUARE: f64 = 0.5;
+/// Distances behind a jamb and beside the wall's end at which there is floor, metres.
+const BEHIND_JAMB_M: f64 = 0.08;
+const BESIDE_END_M: f64 = 0.12;
 /// Least length of a free-standing wall beside a door, metres.
 const GOES_ON_M: f64 = 0.7;
 /// Widest gap between a wall's end and a straight wall, metres.
@@ -218,7 +225,7 @@ fn judged(walls: &Walls, [a, b]: [Vec2; 2], islands: &[Option<f64>]) -> Option<F
     if is_jamb == [false, false] || is_stub {
         return None;
     }
-    let doorway = doorway(&rays, middle + through * (0.5 * (ahead.from_m - behind.from_m)), across, depth_m)?;
+    let (doorway, along) = doorway(&rays, middle + through * (0.5 * (ahead.from_m - behind.from_m)), across, depth_m)?;
     if !(DOOR_WIDTHS_M[0] - DRAWN_M..=DOOR_WIDTHS_M[1] + DRAWN_M).contains(&doorway.width_m()) {
         return None;
     }
@@ -230,6 +237,18 @@ fn judged(walls: &Walls, [a, b]: [Vec2; 2], islands: &[Option<f64>]) -> Option<F
         let is_wall = |share: f64| !walls.is_inside(doorway.jambs_m[side] + way * (share * GOES_ON_M));
         is_post(side) || [0.2, 0.4, 0.6, 0.8, 1.0].into_iter().all(is_wall)
     };
+    // Between the jambs of doors that face each other across a corridor, neither is a wall's end with floor on both sides.
+    let is_end = |side: usize| {
+        let (outwards, along) = (if side == 0 { -across } else { across }, along[side]);
+        let into_wall = if along.left().dot(outwards) > 0.0 { along.left() } else { -along.left() };
+        let beyond = doorway.jambs_m[side] + into_wall * BEHIND_JAMB_M;
+        let beside_m = 0.5 * depth_m + BESIDE_END_M;
+        let is_free = |place: Vec2| walls.is_inside(place) || !walls.bounds_m().contains(place);
+        along.dot(across).abs() < SQUARE && [-along, along].iter().all(|&way| is_free(beyond + way * beside_m))
+    };
+    if doorway.width_m() > SINGLE_M && !is_end(0) && !is_end(1) {
+        return None;
+    }
     let is_free_standing = sizes_m.iter().any(|size_m| size_m.is_finite());
     if is_free_standing && !(is_jamb == [true, true] && goes_on(0) && goes_on(1)) {
         return None;
@@ -272,12 +291,14 @@ fn widening(walls: &Walls, rays: &Rays, middle: Vec2, [across, way]: [Vec2; 2], 
     None
 }
 
-/// Returns the doorway around a point, by rays to both sides; `None` unless both hit a face.
-fn doorway(rays: &Rays, middle: Vec2, across: Vec2, depth_m: f64) -> Option<Doorway> {
+/// Returns the doorway around a point, by rays to both sides, and the unit vectors along the walls that they hit; `None` unless
+/// both hit a face.
+fn doorway(rays: &Rays, middle: Vec2, across: Vec2, depth_m: f64) -> Option<(Doorway, [Vec2; 2])> {
     let hits: [Hit; 2] = [rays.cast(middle, -across, SIGHT_M)?, rays.cast(middle, across, SIGHT_M)?];
     let on_faces = [(hits[0].face?, hits[0].along_m), (hits[1].face?, hits[1].along_m)];
+    let along = [hits[0].direction, hits[1].direction];
     let jambs_m = hits.map(|hit| hit.point_m);
-    Some(Doorway { jambs_m, on_faces, depth_m, through: across.left(), head_m: DOOR_HEAD_M, leaf_m: None })
+    Some((Doorway { jambs_m, on_faces, depth_m, through: across.left(), head_m: DOOR_HEAD_M, leaf_m: None }, along))
 }
 
 /// Removes gaps beside a post that has no aligned gap on its other side.
@@ -353,5 +374,5 @@ pub(super) fn across(walls: &Walls, at_m: Vec2, width_m: f64) -> Option<Doorway>
         (Some(ahead), Some(behind)) => ahead.from_m + behind.from_m,
         _ => 0.0,
     };
-    doorway(&rays, middle, across, depth_m)
+    doorway(&rays, middle, across, depth_m).map(|(doorway, _)| doorway)
 }

@@ -141,6 +141,21 @@ fn shelves_and_doors_on_both_sides_of_a_corridor_make_no_door() {
     let found: Vec<Vec2> = corridor.doorways().iter().map(|door| door.jambs_m[0].lerp(door.jambs_m[1], 0.5)).collect();
     assert_eq!(found.len(), 2, "{found:?}");
     assert!(found.iter().all(|at| (at.y - 4.0).abs() > 0.8), "{found:?}");
+    // Doors that face each other, more or less, across corridors of 1.2 to 1.8 m.
+    for width_m in [1.2, 1.4, 1.6, 1.8] {
+        for aside_m in [0.0, 0.2, -0.4, 0.6, -0.8] {
+            let corridor = drawn([12.0, 8.0], move |p| {
+                let (above, below) = (4.08 + 0.5 * width_m, 3.92 - 0.5 * width_m);
+                let wall = (p.y - above).abs() < 0.08 || (p.y - below).abs() < 0.08;
+                let from = 5.0 + if p.y > 4.0 { 0.0 } else { aside_m };
+                (wall && !(p.x >= from && p.x < from + 0.9)) || !within(p, [0.2, 0.2], [11.8, 7.8])
+            });
+            let found: Vec<Vec2> =
+                corridor.doorways().iter().map(|door| door.jambs_m[0].lerp(door.jambs_m[1], 0.5)).collect();
+            let beside = found.iter().filter(|at| (at.y - 4.0).abs() > 0.4 * width_m).count();
+            assert_eq!((found.len(), beside), (2, 2), "{width_m} m wide, {aside_m} m aside: {found:?}");
+        }
+    }
 }
 
 #[test]
