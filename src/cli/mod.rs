@@ -19,6 +19,7 @@ mod import_pattern;
 mod init;
 mod inspect;
 mod job;
+mod look;
 mod merge;
 mod motion;
 mod patterns;
@@ -54,6 +55,7 @@ enum Command {
     Merge(merge::Merge),
     Job(Box<job::Job>),
     Resolve(resolve::Resolve),
+    Look(look::LookCommand),
     View(view::ViewCommand),
     Why(why::WhyCommand),
     Init(init::Init),
@@ -121,6 +123,7 @@ impl Cli {
             Command::Job(job) => job.run(&self.common),
             Command::Merge(merge) => merge.run(&self.common),
             Command::Resolve(resolve) => resolve.run(&self.common),
+            Command::Look(look) => look.run(&self.common),
             Command::View(view) => view.run(&self.common),
             Command::Why(why) => why.run(&self.common),
             Command::Init(init) => init.run(&self.common),

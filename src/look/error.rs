@@ -3,6 +3,7 @@ use std::path::PathBuf;
 
 use super::LOOK_PRESETS;
 use crate::options::OptionError;
+use crate::patterns::ImportError;
 
 /// Errors of the `look` stage.
 #[derive(Debug, thiserror::Error)]
@@ -49,6 +50,24 @@ pub enum LookError {
         path: PathBuf,
         /// Description of the error.
         message: String,
+    },
+    /// The photograph of a floor cannot be read.
+    #[error("{path}: {source}", path = .path.display())]
+    Photo {
+        /// The photograph.
+        path: PathBuf,
+        /// Description of the error.
+        source: ImportError,
+    },
+    /// A look cannot be measured in the photograph of a floor.
+    #[error("{path}: {message}", path = .path.display())]
+    Fit {
+        /// The photograph.
+        path: PathBuf,
+        /// Description of the error.
+        message: String,
+        /// What to do.
+        hint: &'static str,
     },
     /// An area of the floor has neither an outline nor a room.
     #[error("look.area {number} has an outline of {corners} corners and no room")]
@@ -115,6 +134,11 @@ impl LookError {
                 "give a PNG, JPEG, BMP, PGM, TIFF or GIF, at most 16384 px a side, as a path relative to the look file"
                     .to_string(),
             ),
+            LookError::Photo { source: ImportError::Size { .. }, .. } => {
+                Some("photograph the floor with 32 px a side at least, 64 million in all".to_string())
+            }
+            LookError::Photo { source, .. } => source.hint(),
+            LookError::Fit { hint, .. } => Some(hint.to_string()),
             LookError::NoOutline { .. } => Some(
                 "give outline = [[2.0, 1.0], [6.5, 4.0]] (two opposite corners, or three and more in a row, metres), or \
                  room = [3.0, 2.5]"

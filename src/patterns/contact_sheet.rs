@@ -1,6 +1,6 @@
 //! The contact sheet: all patterns of a library on one page, to scale.
 
-use image::{GrayImage, Rgb, RgbImage};
+use image::{GrayImage, Rgb, RgbImage, imageops};
 use imageproc::drawing::draw_filled_rect_mut;
 use imageproc::rect::Rect;
 
@@ -9,15 +9,15 @@ use crate::math;
 
 /// Colours of a light floor and a light wall, sRGB.
 const FLOOR: [u8; 3] = [222, 219, 212];
-pub(super) const WALL: [u8; 3] = [231, 228, 219];
+const WALL: [u8; 3] = [231, 228, 219];
 const INK: [u8; 3] = [90, 90, 90];
 /// Width of the page and gap between patterns, pixels (10 px are 1 cm).
 const PAGE: u32 = 1500;
-pub(super) const GAP: u32 = 30;
+const GAP: u32 = 30;
 /// Side of a dot of a label, pixels.
 const DOT: u32 = 2;
 /// Height of a line of a label, pixels.
-pub(super) const LINE: u32 = (font::HEIGHT + 3) * DOT;
+const LINE: u32 = (font::HEIGHT + 3) * DOT;
 
 /// Draws the contact sheet of a library at 10 px/cm: every pattern with name, size and share.
 ///
@@ -176,11 +176,26 @@ fn blend(
     }
 }
 
-pub(super) fn text_width(text: &str) -> u32 {
+/// Draws pictures in a row on a wall's colour, each below its label.
+pub(crate) fn side_by_side(parts: &[(&str, RgbImage)]) -> RgbImage {
+    let column = |(label, part): &(&str, RgbImage)| part.width().max(text_width(label)) + GAP;
+    let width = parts.iter().map(column).sum::<u32>() + GAP;
+    let height = parts.iter().map(|(_, part)| part.height()).fold(0, u32::max) + 3 * GAP + LINE;
+    let mut page = RgbImage::from_pixel(width, height, Rgb(WALL));
+    let mut left = GAP;
+    for labelled in parts {
+        write(&mut page, labelled.0, left, GAP);
+        imageops::replace(&mut page, &labelled.1, i64::from(left), i64::from(GAP + LINE + GAP / 2));
+        left += column(labelled);
+    }
+    page
+}
+
+fn text_width(text: &str) -> u32 {
     text.chars().count() as u32 * (font::WIDTH + 1) * DOT
 }
 
-pub(super) fn write(page: &mut RgbImage, text: &str, left: u32, top: u32) {
+fn write(page: &mut RgbImage, text: &str, left: u32, top: u32) {
     for (n, character) in text.chars().enumerate() {
         let left = left + n as u32 * (font::WIDTH + 1) * DOT;
         for (row, bits) in (0..).zip(font::rows(character)) {

@@ -18,11 +18,13 @@ mod pattern;
 
 pub use cause::{Cause, Form};
 pub use contact_sheet::contact_sheet;
+pub(crate) use contact_sheet::side_by_side;
 pub use error::{ListedAt, PatternsError};
 pub use folder::PatternFolder;
 pub use import::{
     ImportEntry, ImportError, ImportOptions, ImportedPattern, PhotoScale, SavedPattern, import_picture, name_of_photo,
 };
+pub(crate) use import::{PixelRaster, decode_photo, quantile};
 pub use library::PatternLibrary;
 pub(crate) use pattern::PATTERN_PX_PER_CM;
 pub use pattern::Pattern;

@@ -62,6 +62,7 @@ pub(crate) use parts::DoorKind;
 pub use parts::{FurniturePiece, PlanDoor, PlanWindow};
 pub use read::{files, picture, read};
 pub use scale::{PlanScale, ScaleSource};
+pub(crate) use sheet::{homography, mapped};
 pub use vector::VectorFormat;
 
 /// Least width of an opening, metres.

@@ -465,7 +465,7 @@ fn aspect(corners: [Point; 4], [width, height]: [f64; 2]) -> f64 {
 }
 
 /// Maps the unit square to a quadrilateral (Heckbert 1989): `[x, y] = [a u + b v + c, d u + e v + f] / (g u + h v + 1)`.
-pub(super) fn homography([p0, p1, p2, p3]: [Point; 4]) -> [f64; 8] {
+pub(crate) fn homography([p0, p1, p2, p3]: [Point; 4]) -> [f64; 8] {
     let sum = [0, 1].map(|k| p0[k] - p1[k] + p2[k] - p3[k]);
     let (d1, d2) = ([p1[0] - p2[0], p1[1] - p2[1]], [p3[0] - p2[0], p3[1] - p2[1]]);
     let turn = d1[0] * d2[1] - d1[1] * d2[0];
@@ -483,7 +483,7 @@ pub(super) fn homography([p0, p1, p2, p3]: [Point; 4]) -> [f64; 8] {
     ]
 }
 
-pub(super) fn mapped([a, b, c, d, e, f, g, h]: [f64; 8], [u, v]: Point) -> Point {
+pub(crate) fn mapped([a, b, c, d, e, f, g, h]: [f64; 8], [u, v]: Point) -> Point {
     let w = g * u + h * v + 1.0;
     [(a * u + b * v + c) / w, (d * u + e * v + f) / w]
 }

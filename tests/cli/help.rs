@@ -14,6 +14,7 @@ fn every_help_text_is_as_it_is_kept() {
         (vec!["job", "--help"], file!["help/job.txt"]),
         (vec!["merge", "--help"], file!["help/merge.txt"]),
         (vec!["resolve", "--help"], file!["help/resolve.txt"]),
+        (vec!["look", "fit", "--help"], file!["help/look_fit.txt"]),
         (vec!["init", "--help"], file!["help/init.txt"]),
         (vec!["inspect", "--help"], file!["help/inspect.txt"]),
         (vec!["edit", "--help"], file!["help/edit.txt"]),
@@ -33,8 +34,10 @@ fn every_help_text_is_as_it_is_kept() {
 #[test]
 fn shells_and_manuals_know_every_subcommand() {
     let sandbox = Sandbox::new();
-    let names =
-        ["bake", "crowd", "motion", "resolve", "view", "why", "batch", "init", "inspect", "edit", "patterns", "diff"];
+    let names = [
+        "bake", "crowd", "motion", "resolve", "look", "view", "why", "batch", "init", "inspect", "edit", "patterns",
+        "diff",
+    ];
     for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
         let script = sandbox.run(&["completions", shell]).succeeds().out;
         let missing: Vec<_> = names.iter().filter(|name| !script.contains(**name)).collect();

@@ -12,6 +12,7 @@ mod crowd;
 mod edit;
 mod help;
 mod interrupt;
+mod look_fit;
 mod manifest;
 mod motion;
 mod motion_mistakes;

@@ -28,5 +28,7 @@ mod surface;
 pub use error::ImportError;
 pub use imported::ImportedPattern;
 pub use options::{ImportOptions, PhotoScale};
+pub(crate) use photo::decode as decode_photo;
 pub use preview::import_picture;
+pub(crate) use raster::{PixelRaster, quantile};
 pub use save::{ImportEntry, SavedPattern, name_of_photo};

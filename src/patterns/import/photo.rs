@@ -52,7 +52,7 @@ pub(super) fn read(bytes: &[u8], options: &ImportOptions) -> Result<Photo, Impor
 }
 
 /// Decodes an image and applies the orientation stored in it.
-fn decode(bytes: &[u8]) -> Result<DynamicImage, ImportError> {
+pub(crate) fn decode(bytes: &[u8]) -> Result<DynamicImage, ImportError> {
     let unreadable = |reason: String| ImportError::Unreadable { reason };
     if bytes.is_empty() {
         return Err(unreadable("the file is empty".to_owned()));

@@ -3,7 +3,7 @@
 use image::{Rgb, RgbImage, imageops};
 
 use super::ImportedPattern;
-use crate::patterns::contact_sheet::{self, GAP, LINE};
+use crate::patterns::contact_sheet;
 
 /// Longest side of each picture, pixels.
 const SIDE: u32 = 700;
@@ -16,18 +16,7 @@ pub fn import_picture(import: &ImportedPattern) -> RgbImage {
         Rgb([(value.clamp(0.0, 1.0) * 255.0).round() as u8; 3])
     }));
     let result = contact_sheet::on_ground(&import.coverage, import.cause);
-    let parts = [("photograph", photo), ("density", density), ("pattern, 10 px/cm", result)];
-    let width =
-        parts.iter().map(|(label, part)| part.width().max(contact_sheet::text_width(label)) + GAP).sum::<u32>() + GAP;
-    let height = parts.iter().map(|(_, part)| part.height()).fold(0, u32::max) + 3 * GAP + LINE;
-    let mut page = RgbImage::from_pixel(width, height, Rgb(contact_sheet::WALL));
-    let mut left = GAP;
-    for (label, part) in parts {
-        contact_sheet::write(&mut page, label, left, GAP);
-        imageops::replace(&mut page, &part, i64::from(left), i64::from(GAP + LINE + GAP / 2));
-        left += part.width().max(contact_sheet::text_width(label)) + GAP;
-    }
-    page
+    contact_sheet::side_by_side(&[("photograph", photo), ("density", density), ("pattern, 10 px/cm", result)])
 }
 
 fn shrunk(picture: &RgbImage) -> RgbImage {

@@ -4,7 +4,7 @@
 
 /// A raster of values in image order, row 0 on top.
 #[derive(Clone, Debug)]
-pub(super) struct PixelRaster {
+pub(crate) struct PixelRaster {
     pub width: usize,
     pub height: usize,
     pub values: Vec<f32>,
@@ -82,7 +82,7 @@ impl PixelRaster {
 }
 
 /// Quantile of the values at `rank`, 0 to 1; 0 without values.
-pub(super) fn quantile(values: impl Iterator<Item = f32>, rank: f64) -> f64 {
+pub(crate) fn quantile(values: impl Iterator<Item = f32>, rank: f64) -> f64 {
     let mut values: Vec<f32> = values.collect();
     if values.is_empty() {
         return 0.0;
