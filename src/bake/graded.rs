@@ -13,7 +13,8 @@ use crate::math::Rect;
 use crate::progress::{Progress, Stage, Stopwatch};
 use crate::show::page::{Page, PageOptions, PageSurface};
 use crate::show::scene::{
-    self, PlainMaterial, Scene, SceneFile, SceneLamp, SceneOptions, SurfaceImages, WallStrip, write_glb, write_usda,
+    self, Mesh, PlainMaterial, Scene, SceneFile, SceneLamp, SceneOptions, SurfaceImages, WallStrip, write_glb,
+    write_usda,
 };
 use crate::show::still::{FarWalls, STILL_SIZE_PX, Surfaces, WallSurfaces, write_stills};
 use crate::show::{self, Ceiling, Crop, Rooms};
@@ -131,9 +132,13 @@ struct Model<'a> {
 }
 
 impl Model<'_> {
+    /// Places of the floor's tiles, metres.
+    fn tiles(&self) -> Vec<Rect> {
+        self.floor.tiles.iter().map(|tile| Rect { min: tile.min_m, max: tile.max_m }).collect()
+    }
+
     fn scene(&self, wall_height_m: f64) -> Scene {
         let atlas = &self.walls.atlas;
-        let tiles: Vec<Rect> = self.floor.tiles.iter().map(|tile| Rect { min: tile.min_m, max: tile.max_m }).collect();
         let strip = |(sheet, strip): (usize, &export::Strip)| WallStrip {
             face: strip.face,
             sheet,
@@ -143,7 +148,13 @@ impl Model<'_> {
         };
         let strips: Vec<WallStrip> = atlas.strips().map(strip).collect();
         let options = SceneOptions { wall_height_m, ..SceneOptions::default() };
-        scene::build(self.graded.walls, &tiles, &strips, self.graded.doorways, &options)
+        scene::build(self.graded.walls, &self.tiles(), &strips, self.graded.doorways, &options)
+    }
+
+    /// The collision shapes of the scene.
+    fn hulls(&self, scene: &Scene, rooms: &Rooms) -> Vec<Mesh> {
+        let options = SceneOptions { wall_height_m: rooms.grid.height_m, ..SceneOptions::default() };
+        scene::hulls(self.graded.walls, &self.tiles(), self.graded.doorways, &options, scene)
     }
 
     /// Writes the scene to the files that are asked for.
@@ -171,6 +182,7 @@ impl Model<'_> {
             floor: floor.collect(),
             walls: walls.collect(),
             clean_wall: PlainMaterial { colour: clean.base_color, roughness: f32::from(clean.orm[1]) / 255.0 },
+            hulls: if self.floor.target == export::Target::Unreal { self.hulls(scene, rooms) } else { Vec::new() },
             node_suffix: if self.floor.target == export::Target::Godot { GODOT_COLLIDER } else { "" },
             cameras: vec![("birds_eye", above), ("eye_level", inside)],
             picture_px: STILL_SIZE_PX,

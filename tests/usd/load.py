@@ -36,6 +36,8 @@ def meshes_of_glb(file):
     scene, found = trimesh.load_scene(file, process=False), {}
     for node in scene.graph.nodes_geometry:
         transform, name = scene.graph[node]
+        if name.startswith("UCX_"):  # Unreal's collision hulls.
+            continue
         mesh = scene.geometry[name].copy().apply_transform(transform)
         x, height, minus_y = mesh.vertices.T
         mesh.vertices = np.column_stack([x, -minus_y, height])

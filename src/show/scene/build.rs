@@ -49,30 +49,56 @@ pub fn build(
     let height_m = options.wall_height_m;
     let mut scene = SceneBuilder::default();
     let cuts = TileCuts::new(tiles);
-    let floor = PolygonSet::inside_right(walls.outlines().iter().map(|o| o.points_m.iter().copied()));
-    let standing = Fittings::of(walls, doorways, height_m);
-    let [under, furniture] = [true, false].map(|replaced| furniture(walls, &standing.replaced, replaced));
+    let bodies = Bodies::of(walls, doorways, options);
     // The floor goes on under tables.
-    let covered = under.iter().fold(floor.clone(), |room, (_, tops)| room.union(tops));
-    floor::add(&covered, tiles, &cuts, &mut scene);
-    faces::add(&walls.faces, &standing.replaced, strips, &cuts, height_m, &mut scene);
-    fittings::add(&standing, &mut scene);
-    let room = furniture.iter().fold(covered, |room, (_, tops)| room.union(tops));
-    let solid = Solid::around(&room, walls.outlines(), options.rim_m.clamp(0.0, 10.0));
-    for (top_m, tops) in &furniture {
+    floor::add(&bodies.covered, tiles, &cuts, &mut scene);
+    faces::add(&walls.faces, &bodies.standing.replaced, strips, &cuts, height_m, &mut scene);
+    fittings::add(&bodies.standing, &mut scene);
+    for (top_m, tops) in &bodies.blocks {
         add_level(tops, top_m.min(height_m), scene.part(SceneSurface::Fitting(Finish::of_block(*top_m) as usize)));
     }
-    solid.add_tops(height_m, scene.part(SceneSurface::WallTop));
-    solid.add_sides(height_m, scene.part(SceneSurface::WallTop));
-    let mut heads_m: Vec<f64> =
-        doorways.iter().map(|door| door.head_m).filter(|head_m| height_m - head_m >= LOWEST_LINTEL_M).collect();
-    heads_m.sort_by(f64::total_cmp);
-    heads_m.dedup();
-    for head_m in heads_m {
-        let alike = doorways.iter().filter(|door| door.head_m == head_m);
-        lintels::add(&floor, walls, alike, [head_m.max(0.0), height_m], &mut scene);
+    bodies.solid.add_tops(height_m, scene.part(SceneSurface::WallTop));
+    bodies.solid.add_sides(height_m, scene.part(SceneSurface::WallTop));
+    for (head_m, gaps) in &bodies.lintels {
+        lintels::add(gaps, walls, [*head_m, height_m], &mut scene);
     }
     scene.finish()
+}
+
+/// What stands on a plan, as seen from above.
+pub(super) struct Bodies {
+    /// Floor, also under what fittings stand for.
+    pub covered: PolygonSet,
+    pub standing: Fittings,
+    /// Furniture by its height, metres: that for which fittings stand.
+    pub fitted: Vec<(f64, PolygonSet)>,
+    /// Furniture by its height, metres: that which stays a block.
+    pub blocks: Vec<(f64, PolygonSet)>,
+    pub solid: Solid,
+    /// Gaps of doors by the height of their heads, metres.
+    pub lintels: Vec<(f64, PolygonSet)>,
+}
+
+impl Bodies {
+    pub fn of(walls: &Walls, doorways: &[Doorway], options: &SceneOptions) -> Bodies {
+        let height_m = options.wall_height_m;
+        let floor = PolygonSet::inside_right(walls.outlines().iter().map(|o| o.points_m.iter().copied()));
+        let standing = Fittings::of(walls, doorways, height_m);
+        let [fitted, blocks] = [true, false].map(|replaced| furniture(walls, &standing.replaced, replaced));
+        let covered = fitted.iter().fold(floor.clone(), |room, (_, tops)| room.union(tops));
+        let room = blocks.iter().fold(covered.clone(), |room, (_, tops)| room.union(tops));
+        let solid = Solid::around(&room, walls.outlines(), options.rim_m.clamp(0.0, 10.0));
+        let mut heads_m: Vec<f64> =
+            doorways.iter().map(|door| door.head_m).filter(|head_m| height_m - head_m >= LOWEST_LINTEL_M).collect();
+        heads_m.sort_by(f64::total_cmp);
+        heads_m.dedup();
+        let gaps = |head_m: f64| {
+            let alike = doorways.iter().filter(|door| door.head_m == head_m);
+            (head_m.max(0.0), lintels::gaps(&floor, alike))
+        };
+        let lintels = heads_m.into_iter().map(gaps).collect();
+        Bodies { covered, standing, fitted, blocks, solid, lintels }
+    }
 }
 
 /// What furniture covers, by its height in metres: that for which fittings stand, or that which stays a block.

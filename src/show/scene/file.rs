@@ -1,6 +1,6 @@
 use image::RgbImage;
 
-use super::model::SceneSurface;
+use super::model::{Mesh, SceneSurface};
 use crate::export::Camera;
 use crate::math::srgb::Srgb8;
 use crate::show::rooms::{Finish, Panel, Rooms};
@@ -22,6 +22,8 @@ pub struct SceneFile<'a> {
     pub clean_wall: PlainMaterial,
     /// What the name of each mesh's node ends with: a sign to the program that reads it.
     pub node_suffix: &'a str,
+    /// Convex collision shapes, each with the surface of the mesh that it belongs to, where the format can.
+    pub hulls: Vec<Mesh>,
     /// Cameras with their names.
     pub cameras: Vec<(&'a str, Camera)>,
     /// Width and height of their pictures, pixels.
@@ -98,6 +100,7 @@ impl Default for SceneFile<'_> {
             wall_top: PlainMaterial::CUT,
             clean_wall: PlainMaterial::PAINT,
             node_suffix: "",
+            hulls: Vec::new(),
             cameras: Vec::new(),
             picture_px: [1, 1],
             lamps: Vec::new(),

@@ -10,15 +10,18 @@ use crate::show::rooms::Fittings;
 pub(super) fn add(fittings: &Fittings, scene: &mut SceneBuilder) {
     for fitting in &fittings.all {
         let part = scene.part(SceneSurface::Fitting(fitting.finish as usize));
-        let corners = &fitting.footprint;
-        for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-            add_upright([a, b], fitting.span_m, part);
-        }
-        let [low_m, high_m] = fitting.span_m;
-        add_face(corners.iter().copied(), high_m, 1.0, part);
-        if low_m > 0.0 {
-            add_face(corners.iter().rev().copied(), low_m, -1.0, part);
-        }
+        add_prism(&fitting.footprint, fitting.span_m, fitting.span_m[0] > 0.0, part);
+    }
+}
+
+/// Adds a prism over a convex polygon, with its underside or without.
+pub(super) fn add_prism(corners: &[Vec2], [low_m, high_m]: [f64; 2], closed: bool, part: &mut MeshBuilder) {
+    for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+        add_upright([a, b], [low_m, high_m], part);
+    }
+    add_face(corners.iter().copied(), high_m, 1.0, part);
+    if closed {
+        add_face(corners.iter().rev().copied(), low_m, -1.0, part);
     }
 }
 

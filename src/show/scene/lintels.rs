@@ -14,15 +14,13 @@ const THINNEST_M: f64 = 0.02;
 /// How far beyond a side of a lintel is looked whether there is wall or air, metres.
 const PROBE_M: f64 = 0.002;
 
-/// Adds lintels over doorways, from a door's height to the walls'.
-pub(super) fn add<'d>(
-    floor: &PolygonSet,
-    walls: &Walls,
-    doorways: impl Iterator<Item = &'d Doorway>,
-    [door_m, height_m]: [f64; 2],
-    scene: &mut SceneBuilder,
-) {
-    let gaps = floor.intersection(&PolygonSet::inside_right(doorways.filter_map(gap)));
+/// The floor in the gaps of doorways, which lintels span.
+pub(super) fn gaps<'d>(floor: &PolygonSet, doorways: impl Iterator<Item = &'d Doorway>) -> PolygonSet {
+    floor.intersection(&PolygonSet::inside_right(doorways.filter_map(gap)))
+}
+
+/// Adds lintels over gaps, from a door's height to the walls'.
+pub(super) fn add(gaps: &PolygonSet, walls: &Walls, [door_m, height_m]: [f64; 2], scene: &mut SceneBuilder) {
     for corners in gaps.triangles().corners {
         let [a, b, c] =
             corners.map(|p| MeshVertex { position_m: [p.x, p.y, door_m], normal: [0.0, 0.0, -1.0], uv: [p.x, p.y] });
@@ -38,7 +36,7 @@ pub(super) fn add<'d>(
             }
         }
     }
-    add_level(&gaps, height_m, scene.part(SceneSurface::WallTop));
+    add_level(gaps, height_m, scene.part(SceneSurface::WallTop));
 }
 
 /// The gap of a doorway, a little wider than it is, clockwise.

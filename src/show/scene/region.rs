@@ -131,6 +131,13 @@ impl PolygonSet {
         };
         Triangles { corners: mesh.triangles().filter_map(oriented).collect() }
     }
+
+    /// Counter-clockwise convex polygons that fill it: Delaunay's triangles, joined where they stay convex.
+    pub fn convex_pieces(&self) -> Vec<Vec<Vec2>> {
+        let validation = Validation { fill_rule: FillRule::Positive, options: Default::default() };
+        let pieces = self.shapes.custom_triangulate(validation).into_delaunay().to_convex_polygons();
+        pieces.into_iter().map(|piece| piece.into_iter().map(metres).collect()).collect()
+    }
 }
 
 /// Corners in a straight line stay: other surfaces may end there.

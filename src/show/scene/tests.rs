@@ -554,3 +554,34 @@ fn every_place_has_texels_of_its_own_on_a_light_map() {
         assert!(most < 1.02 * least, "{:?} is stretched: {least} to {most}", mesh.surface);
     }
 }
+
+/// Every hull is convex; those of the walls cover the walls' tops and no floor.
+#[test]
+fn hulls_are_convex_and_fill_the_walls() {
+    for (walls, doorways) in [(museum(), Vec::new()), (two_rooms().0, vec![two_rooms().1])] {
+        let tiles = tiles_over(&walls, 512);
+        let scene = build(&walls, &tiles, &strips_of(&walls), &doorways, &options());
+        let hulls = hulls(&walls, &tiles, &doorways, &options(), &scene);
+        for hull in &hulls {
+            for [a, b, c] in triangles(hull) {
+                let across = area_vector([a, b, c]);
+                let size = dot(across, across).sqrt();
+                let above = |p: &[f32; 3]| dot(across, [0, 1, 2].map(|k| f64::from(p[k]) - a[k])) / size;
+                assert!(hull.positions_m.iter().all(|p| above(p) < 3e-3), "{hull:?}");
+            }
+        }
+        let up = |surface: SceneSurface| {
+            hulls.iter().filter(|h| h.surface == surface).map(|h| area_towards(h, [0.0, 0.0, 1.0])).sum::<f64>()
+        };
+        let lintels = doorways.len() as f64 * 0.5;
+        let tops = area_towards(part(&scene, SceneSurface::WallTop), [0.0, 0.0, 1.0]) - lintels;
+        assert_close(up(SceneSurface::WallTop), tops, 0.01);
+        assert_close(up(SceneSurface::Lintel), lintels, 1e-5);
+        for hull in hulls.iter().filter(|hull| hull.surface == SceneSurface::WallTop) {
+            for [a, b, c] in triangles(hull).filter(|c| c.iter().all(|p| p[2] > 1.0)) {
+                let middle = [0, 1].map(|k| (a[k] + b[k] + c[k]) / 3.0);
+                assert!(!walls.is_inside(vec2(middle[0], middle[1])), "a wall's hull over floor");
+            }
+        }
+    }
+}

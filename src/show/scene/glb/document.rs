@@ -36,6 +36,8 @@ struct Part<'a> {
     cover: Cover<'a>,
     /// The file of its normals, if the material has any.
     normal: Option<&'a str>,
+    /// Of a hull: its number among those of its part, from 1. It has no material.
+    hull: Option<usize>,
 }
 
 /// The lists of a document, as they grow.
@@ -58,13 +60,18 @@ struct Lists {
 impl<'a> GltfDocument<'a> {
     pub fn new(scene: &'a Scene, file: &'a SceneFile) -> io::Result<GltfDocument<'a>> {
         let meshes = scene.meshes.iter().filter(|mesh| !mesh.indices.is_empty());
-        let parts: Vec<Part> = meshes.map(|mesh| Part::of(mesh, file)).collect();
+        let mut parts: Vec<Part> = meshes.map(|mesh| Part::of(mesh, file)).collect();
+        let textured = parts.len();
+        for mesh in &file.hulls {
+            let before = parts.iter().filter(|part| part.hull.is_some() && part.mesh.surface == mesh.surface).count();
+            parts.push(Part { normal: None, hull: Some(before + 1), ..Part::of(mesh, file) });
+        }
         let mut lists = Lists::default();
         for part in &parts {
             lists.add_part(part, file.node_suffix);
         }
         // Images follow the parts in the binary chunk.
-        for (index, part) in parts.iter().enumerate() {
+        for (index, part) in parts.iter().take(textured).enumerate() {
             lists.add_material(index, part)?;
         }
         for (name, camera) in &file.cameras {
@@ -136,7 +143,7 @@ impl<'a> Part<'a> {
             Cover::Textured(images) if images.embedded.is_none() => images.normal,
             _ => None,
         };
-        Part { mesh, cover, normal }
+        Part { mesh, cover, normal, hull: None }
     }
 }
 
@@ -179,7 +186,7 @@ impl Lists {
     }
 
     /// Node and mesh of a part; its material has the part's number.
-    fn add_part(&mut self, Part { mesh, cover, normal }: &Part, node_suffix: &str) {
+    fn add_part(&mut self, Part { mesh, cover, normal, hull }: &Part, node_suffix: &str) {
         let short = has_short_indices(mesh);
         let (kind, size) = if short { (UNSIGNED_SHORT, 2) } else { (UNSIGNED_INT, 4) };
         let view = self.view(mesh.indices.len() * size, Some(ELEMENT_ARRAY_BUFFER));
@@ -199,15 +206,21 @@ impl Lists {
         if normal.is_some() {
             attributes["TANGENT"] = self.floats::<4>(count, None).into();
         }
-        let primitive = json!({ "attributes": attributes, "indices": indices, "material": self.meshes.len() });
-        let mut node = json!({ "name": format!("{}{node_suffix}", cover.name()), "mesh": self.meshes.len() });
+        let mut primitive = json!({ "attributes": attributes, "indices": indices });
+        // Unreal takes a mesh named `UCX_<render mesh>_NN` as a convex collision shape of the render mesh, which it finds
+        // between the first and the last underscore (Interchange, "Import Collisions According To Mesh Name").
+        let name = hull.map_or(cover.name().to_string(), |number| format!("UCX_{}_{number:02}", cover.name()));
+        if hull.is_none() {
+            primitive["material"] = self.meshes.len().into();
+        }
+        let mut node = json!({ "name": format!("{name}{node_suffix}"), "mesh": self.meshes.len() });
         if !mesh.faces.is_empty() {
             // Two lists of numbers: what Blender, Unreal and Unity keep of extras.
             let column = |k: usize| mesh.faces.iter().map(|face| face[k]).collect::<Vec<u32>>();
             node["extras"] = json!({ "wall_faces": column(0), "first_triangles": column(1) });
         }
         self.nodes.push(node);
-        self.meshes.push(json!({ "name": cover.name(), "primitives": [primitive] }));
+        self.meshes.push(json!({ "name": name, "primitives": [primitive] }));
     }
 
     fn add_material(&mut self, index: usize, Part { cover, normal, .. }: &Part) -> io::Result<()> {
