@@ -64,7 +64,7 @@ struct Fit {
     /// The look to write
     #[arg(short, long, value_name = "LOOK.toml")]
     output: PathBuf,
-    /// The photograph and our floor beside each other, as a PNG [default: the look's name and .png]
+    /// The photograph and our floor beside each other, as a PNG [default: the look's name and _fit.png]
     #[arg(long, value_name = "FILE")]
     picture: Option<PathBuf>,
     /// Print JSON
@@ -115,7 +115,10 @@ impl LookCommand {
 impl Fit {
     fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
         let inputs = [self.photo.clone()];
-        let picture_path = self.picture.clone().unwrap_or_else(|| self.output.with_extension("png"));
+        let picture_path = self.picture.clone().unwrap_or_else(|| {
+            let name = self.output.file_stem().unwrap_or_default().to_string_lossy();
+            self.output.with_file_name(format!("{name}_fit.png"))
+        });
         if picture_path == self.output {
             let message = format!("look and picture would be one file, {}", self.output.display());
             return Err(Refused {

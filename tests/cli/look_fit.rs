@@ -198,7 +198,7 @@ impl Fitted {
         let given = ["look", "fit", "floor.png", "--metres", "6,4", "--json", "-o", "fit.toml", "--corners"];
         let ran = sandbox.run(&[&given[..], &corners, more].concat()).succeeds();
         if let Ok(out) = std::env::var("FIT_OUT") {
-            for file in ["floor.png", "fit.png", "fit.toml"] {
+            for file in ["floor.png", "fit_fit.png", "fit.toml"] {
                 std::fs::copy(sandbox.path(file), PathBuf::from(&out).join(format!("{name}-{file}"))).unwrap();
             }
         }
@@ -274,7 +274,7 @@ fn a_light_floor_comes_back() {
         ["bake", "plan.png", "--metres-per-pixel", "0.1", "--people", "5", "--texels-per-metre", "16", "-o", "out"];
     sandbox.run(&bake).succeeds();
     sandbox.run(&["resolve", "out", "--look", "fit.toml", "-o", "graded"]).succeeds();
-    let picture = image::open(sandbox.path("fit.png")).unwrap();
+    let picture = image::open(sandbox.path("fit_fit.png")).unwrap();
     assert!(picture.width() > 2 * picture.height(), "{} x {}", picture.width(), picture.height());
 }
 
@@ -360,7 +360,7 @@ fn what_is_no_floor_is_refused() {
     let metres = sandbox.run(&["look", "fit", "even.png", "--metres", "4", "-o", "fit.toml"]).fails(2, &["2 numbers"]);
     assert!(!metres.err.contains("panicked"));
     for (output, parts) in [("even.png", "even.png"), ("one.png", "one file")] {
-        let given = ["look", "fit", "even.png", "--metres", "4,3", "--force", "-o", output];
+        let given = ["look", "fit", "even.png", "--metres", "4,3", "--force", "--picture", "one.png", "-o", output];
         sandbox.run(&given).fails(1, &[parts, if output == "one.png" { "hint: name the look" } else { "error: " }]);
     }
 }

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::measure::{GRAIN_TEXELS_PER_M, Measured, Uneven, lightness, luminance};
 use super::options::FitOptions;
 use super::photo::FloorPicture;
-use super::search::Search;
+use super::search::{SEEDS, Search};
 use crate::look::error::LookError;
 use crate::look::settings::{AgeLook, Look};
 use crate::math::srgb;
@@ -65,7 +65,7 @@ const KEPT: [[&str; 2]; 10] = [
 pub(super) fn report(search: Search<'_>, options: &FitOptions, photo: &FloorPicture) -> Result<FittedLook, LookError> {
     let (target, target_marks) = (search.target, search.target_marks);
     let [shown, _] = search.shown(&search.look)?;
-    let (ours, _) = search.measured(&search.look)?;
+    let (ours, _) = search.measured(&search.look, SEEDS)?;
     let marks = [target_marks, search.marks_of(&search.look)?];
     let texels_per_metre = photo.texels_per_metre;
     let shows_grain = texels_per_metre >= GRAIN_TEXELS_PER_M;

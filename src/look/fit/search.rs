@@ -16,7 +16,7 @@ const UNEVEN_ROUNDS: usize = 2;
 /// How far a colour of soil goes towards what the lane asks for: its density follows its colour.
 const DAMPED: f64 = 0.6;
 /// Floors of ours, of other seeds, over which measures are averaged.
-const SEEDS: u64 = 4;
+pub(super) const SEEDS: u64 = 4;
 /// Least and greatest change of a density in a round.
 const CHANGE: [f64; 2] = [0.3, 3.0];
 /// Rounds of changing marks.
@@ -98,12 +98,12 @@ impl<'a> Search<'a> {
     }
 
     /// Measures of our floor in the mean over seeds, and of the margin's linear colour without dirt.
-    pub fn measured(&self, look: &Look) -> Result<(Measured, [f64; 3]), LookError> {
+    pub fn measured(&self, look: &Look, seeds: u64) -> Result<(Measured, [f64; 3]), LookError> {
         let of = |seed: u64| {
             let [shown, bare] = self.shown(&Look { seed, ..look.clone() })?;
             Ok((Measured::of(&shown, self.parts), colour(&bare, &self.parts.margin)))
         };
-        let all = (1..=SEEDS).into_par_iter().map(of).collect::<Result<Vec<_>, LookError>>()?;
+        let all = (1..=seeds).into_par_iter().map(of).collect::<Result<Vec<_>, LookError>>()?;
         let (measured, bare): (Vec<_>, Vec<_>) = all.into_iter().unzip();
         let bare = [0, 1, 2].map(|k| bare.iter().map(|bare: &[f64; 3]| bare[k]).sum::<f64>() / bare.len() as f64);
         Ok((Measured::mean(&measured), bare))
@@ -125,10 +125,12 @@ impl<'a> Search<'a> {
 
     /// Changes the colours of floor and film, and the densities of film, age and edge.
     fn colours(&mut self, rounds: usize) -> Result<(), LookError> {
-        for _ in 0..rounds {
+        for round in 0..rounds {
             self.look.floor.colour = Some(rounded(self.floor));
             self.look.film.colour = rounded(self.soil);
-            let (ours, bare) = self.measured(&self.look)?;
+            // The way there needs no mean.
+            let seeds = if round + ROUNDS[1] < rounds { 1 } else { SEEDS };
+            let (ours, bare) = self.measured(&self.look, seeds)?;
             let target = self.target;
             let soil = self.soil_light;
             // The part without dirt is the floor's own colour; otherwise the margin has the age that the look has.
@@ -184,7 +186,7 @@ impl<'a> Search<'a> {
         flat.noise.fine.sd = 0.0;
         flat.noise.middle.sd = 0.0;
         flat.mop.unevenness = 0.0;
-        let ((without, _), (with, _)) = (self.measured(&flat)?, self.measured(&self.look)?);
+        let ((without, _), (with, _)) = (self.measured(&flat, SEEDS)?, self.measured(&self.look, SEEDS)?);
         let factor = |target: Uneven, without: Uneven, with: Uneven| {
             let [wanted, has] = [target, with].map(|uneven| uneven.beyond - without.beyond);
             let is_told = has > 0.0 && wanted > LEAST_FILM_SHARE * target.lane;
