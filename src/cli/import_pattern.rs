@@ -9,7 +9,7 @@ use trodden::patterns::{
     import_picture, name_of_photo,
 };
 
-use super::{Common, print};
+use super::{Common, arguments, print};
 
 /// Take a stain from a photograph into a folder of patterns
 ///
@@ -137,7 +137,5 @@ fn form(name: &str) -> Result<Form, String> {
 }
 
 fn crop(text: &str) -> Result<[u32; 4], String> {
-    let numbers: Vec<u32> =
-        text.split(',').map(|part| part.trim().parse().ok()).collect::<Option<_>>().unwrap_or_default();
-    numbers.try_into().map_err(|_| "four whole numbers are wanted: left,top,width,height".to_owned())
+    arguments::listed(text).ok_or_else(|| "four whole numbers are wanted: left,top,width,height".to_owned())
 }

@@ -172,9 +172,8 @@ fn table(fitted: &FittedLook) -> anyhow::Result<()> {
 }
 
 fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
-    let parts: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
-    let finite = parts.filter(|parts| parts.iter().all(|number| number.is_finite()));
-    finite.and_then(|parts| parts.try_into().ok()).ok_or_else(|| format!("{N} numbers are wanted, with commas"))
+    let finite = arguments::listed(text).filter(|parts: &[f64; N]| parts.iter().all(|number| number.is_finite()));
+    finite.ok_or_else(|| format!("{N} numbers are wanted, with commas"))
 }
 
 fn material(name: &str) -> Result<Material, String> {

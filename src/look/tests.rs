@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::marks::Mark;
-use crate::math::srgb::light_of;
+use crate::math::srgb::{self, light_of};
 use crate::math::{SplitMix64, Vec2, exp, vec2};
 use crate::patterns::{Cause, PatternLibrary};
 use crate::plan::FloorPlan;
@@ -21,8 +21,7 @@ const PEOPLE: u32 = 1000;
 
 /// CIE L* of linear luminance.
 pub(in crate::look) fn lightness(linear: [f32; 3]) -> f64 {
-    let y = 0.2126 * f64::from(linear[0]) + 0.7152 * f64::from(linear[1]) + 0.0722 * f64::from(linear[2]);
-    if y > 216.0 / 24389.0 { 116.0 * libm::cbrt(y) - 16.0 } else { y * 24389.0 / 27.0 }
+    srgb::lightness(srgb::luminance(linear.map(f64::from)))
 }
 
 #[test]

@@ -66,6 +66,16 @@ pub(crate) fn from_linear(linear: u16) -> u8 {
     NEAREST[usize::from(linear)]
 }
 
+/// Luminance of linear light (Rec. 709 primaries), 0 to 1.
+pub(crate) fn luminance([r, g, b]: [f64; 3]) -> f64 {
+    0.2126 * r + 0.7152 * g + 0.0722 * b
+}
+
+/// CIE L* of a luminance.
+pub(crate) fn lightness(y: f64) -> f64 {
+    if y > 216.0 / 24389.0 { 116.0 * libm::cbrt(y) - 16.0 } else { y * 24389.0 / 27.0 }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

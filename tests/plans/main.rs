@@ -106,7 +106,7 @@ fn sliding_entrances_are_doors() {
 #[test]
 fn partitions_may_end_at_windows() {
     for name in ["plain", "CAD export", "grey walls", "doors with leaf and sill"] {
-        let style = styles::STYLES.into_iter().find(|style| style.name == name).unwrap();
+        let style = styles::named(name);
         check(&measure(&styles::Case { style, building: buildings::school_with_ribbons, seed: 0 }));
     }
 }
@@ -115,7 +115,7 @@ fn partitions_may_end_at_windows() {
 #[test]
 fn furniture_at_the_end_of_a_leaf_is_whole() {
     for name in ["CAD export", "30 px/m", "grey walls", "doors with leaf and sill"] {
-        let style = styles::STYLES.into_iter().find(|style| style.name == name).unwrap();
+        let style = styles::named(name);
         check(&measure(&styles::Case { style, building: buildings::cafe, seed: 0 }));
     }
 }
@@ -133,7 +133,7 @@ fn floors_are_divided_at_doors_alone() {
         "dark background",
     ];
     for name in names {
-        let style = styles::STYLES.into_iter().find(|style| style.name == name).unwrap();
+        let style = styles::named(name);
         let m = measure(&styles::Case { style, building: buildings::inn, seed: 0 });
         check(&m);
         assert_eq!((m.divided, m.false_rooms), (9, 0), "{}", row(&m));
@@ -143,7 +143,7 @@ fn floors_are_divided_at_doors_alone() {
 /// The windows of thick walls are no openings of the lines that end beside them.
 #[test]
 fn lines_may_part_long_rows_of_rooms() {
-    let style = styles::STYLES.into_iter().find(|style| style.name == LINES_WITHIN).unwrap();
+    let style = styles::named(LINES_WITHIN);
     let m = measure(&styles::Case { style, building: buildings::school, seed: 0 });
     let what = row(&m);
     assert_eq!((m.rooms[0], m.doors[0], m.false_doors), (m.rooms[1], m.doors[1], 0), "{what}");

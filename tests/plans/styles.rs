@@ -167,6 +167,10 @@ pub const STYLES: [Style; 32] = [
     Style { name: "turned 24 degrees", turn_deg: 24.0, sheet: false, px_per_m: 43.0, ..CAD },
 ];
 
+pub fn named(name: &str) -> Style {
+    STYLES.into_iter().find(|style| style.name == name).unwrap()
+}
+
 /// A plan to be read: a style, a building and a seed of noise.
 #[derive(Clone, Copy)]
 pub struct Case {

@@ -18,7 +18,7 @@ mod values;
 
 pub use motion_files::{MotionFiles, STANDARD_OUTPUT, frame_rate, recording_format};
 pub use usage::WrongUsage;
-pub use values::{number_within, one_of, within};
+pub use values::{listed, number_within, one_of, within};
 
 /// A scenario and its overrides.
 #[derive(Args)]

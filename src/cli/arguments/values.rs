@@ -1,5 +1,7 @@
 //! Parsers of option values: numbers in a range, names from a list.
 
+use std::str::FromStr;
+
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use trodden::scenario::allowed_range;
 
@@ -8,6 +10,12 @@ pub fn number_within(text: &str, [low, high]: [f64; 2]) -> Result<f64, String> {
     // This form also rejects NaN.
     let allowed = |number: &f64| *number >= low && *number <= high;
     text.parse().ok().filter(allowed).ok_or_else(|| format!("allowed is {low} to {high}"))
+}
+
+/// Parses numbers with commas between them; `None` unless there are so many.
+pub fn listed<T: FromStr, const N: usize>(text: &str) -> Option<[T; N]> {
+    let numbers: Option<Vec<T>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    numbers?.try_into().ok()
 }
 
 /// Returns a parser of numbers in the range of a scenario's key.

@@ -7,7 +7,7 @@ use clap::builder::TypedValueParser;
 use trodden::recordings::{LengthUnit, Recording, RecordingFormat, RecordingOptions};
 use trodden::{Error, Progress};
 
-use super::super::arguments::{number_within, one_of, recording_format};
+use super::super::arguments::{listed, number_within, one_of, recording_format};
 use super::super::standard_input::{self, Spool};
 
 /// A recording and the options of reading it.
@@ -104,9 +104,8 @@ impl Alignment {
 
 /// Parses a point `x,y`.
 pub fn point(text: &str) -> Result<[f64; 2], String> {
-    let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
-    match numbers.as_deref() {
-        Some(&[x, y]) if x.is_finite() && y.is_finite() => Ok([x, y]),
+    match listed::<f64, 2>(text) {
+        Some([x, y]) if x.is_finite() && y.is_finite() => Ok([x, y]),
         _ => Err("write two numbers of metres, as 12.5,-3".to_string()),
     }
 }

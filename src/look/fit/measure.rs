@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 
 use super::photo::FloorPicture;
-use crate::math::{ln, sin_cos, smoothstep_f32, srgb};
+use crate::math::srgb::{self, lightness, luminance};
+use crate::math::{ln, sin_cos, smoothstep_f32};
 use crate::patterns::{PixelRaster, quantile};
 
 /// Distance over which the floor is evened out to find lanes, metres.
@@ -33,15 +34,6 @@ const LONGEST_MARK_M: f64 = 0.25;
 const LEAST_MARK: f64 = 7.0;
 /// Distances from a wall: its line, what lies beside it, and the floor that both are compared with, metres.
 const BANDS_M: [[f64; 2]; 3] = [[0.0, 0.04], [0.04, 0.1], [0.18, 0.3]];
-
-pub(super) fn luminance([r, g, b]: [f64; 3]) -> f64 {
-    0.2126 * r + 0.7152 * g + 0.0722 * b
-}
-
-/// CIE L* of a luminance.
-pub(super) fn lightness(y: f64) -> f64 {
-    if y > 216.0 / 24389.0 { 116.0 * libm::cbrt(y) - 16.0 } else { y * 24389.0 / 27.0 }
-}
 
 /// Optical density of soil that turns one luminance into another.
 pub(super) fn density(soil: f64, clean: f64, shown: f64) -> f64 {

@@ -16,9 +16,10 @@ use std::path::Path;
 
 use super::error::LookError;
 use super::settings::Look;
-use crate::math::{exp, ln, srgb};
+use crate::math::srgb::{self, luminance};
+use crate::math::{exp, ln};
 use crate::patterns::PixelRaster;
-use measure::{Measured, Parts, luminance, marks_per_m2};
+use measure::{Measured, Parts, marks_per_m2};
 pub use options::FitOptions;
 use ours::OurFloor;
 use photo::Straightened;

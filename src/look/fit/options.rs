@@ -3,7 +3,7 @@ use std::path::Path;
 use crate::look::error::LookError;
 use crate::look::material::Material;
 use crate::look::settings::Look;
-use crate::math::{Vec2, vec2};
+use crate::math::vec2;
 
 /// Longest and shortest side of the floor in a photograph, metres.
 const SIDES_M: [f64; 2] = [0.3, 50.0];
@@ -65,8 +65,8 @@ impl FitOptions {
             return Err(refused(message, "corners are pixels from the photograph's upper left"));
         }
         let p = corners.map(|[x, y]| vec2(x, y));
-        let turn = |k: usize| cross(p[(k + 1) % 4] - p[k], p[(k + 2) % 4] - p[(k + 1) % 4]);
-        let area = 0.5 * (cross(p[1] - p[0], p[2] - p[0]) + cross(p[2] - p[0], p[3] - p[0]));
+        let turn = |k: usize| (p[(k + 1) % 4] - p[k]).cross(p[(k + 2) % 4] - p[(k + 1) % 4]);
+        let area = 0.5 * ((p[1] - p[0]).cross(p[2] - p[0]) + (p[2] - p[0]).cross(p[3] - p[0]));
         let least_turn = 1e-3 * width * height * LEAST_SHARE;
         if area < LEAST_SHARE * width * height || (0..4).any(|k| turn(k) < least_turn) {
             let listed: Vec<String> = corners.iter().map(|[x, y]| format!("{x},{y}")).collect();
@@ -78,8 +78,4 @@ impl FitOptions {
         }
         Ok(corners)
     }
-}
-
-fn cross(a: Vec2, b: Vec2) -> f64 {
-    a.x * b.y - a.y * b.x
 }

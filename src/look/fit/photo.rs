@@ -34,13 +34,17 @@ impl FloorPicture {
         [self.rgb[0].width, self.rgb[0].height]
     }
 
-    /// Luminance as an sRGB value, 0 to 255, as eyes and cameras grade it.
-    pub fn tone(&self) -> PixelRaster {
+    fn luminance(&self) -> PixelRaster {
         let [width, height] = self.size();
         PixelRaster::from_fn(width, height, |x, y| {
             let [r, g, b] = self.rgb.each_ref().map(|plane| plane.values[y * width + x]);
-            srgb::encode_f32(0.2126 * r + 0.7152 * g + 0.0722 * b)
+            0.2126 * r + 0.7152 * g + 0.0722 * b
         })
+    }
+
+    /// Luminance as an sRGB value, 0 to 255, as eyes and cameras grade it.
+    pub fn tone(&self) -> PixelRaster {
+        self.luminance().map(srgb::encode_f32)
     }
 
     pub fn picture(&self) -> RgbImage {
@@ -184,19 +188,13 @@ fn sampled(photo: &RgbImage, [x, y]: [f64; 2]) -> [f32; 3] {
 
 /// How the light falls off over a floor: a slope of ln light per texel along x and y, that of the cleanest floor.
 ///
-/// `ignored` texels do not count. Dirt only darkens a light floor, so that a plane is laid over the brightest places (under the darkest, of a dark one)
-/// by least squares that weigh what is on the other side little.
+/// `ignored` texels do not count. Dirt only darkens a light floor, so that a plane is laid over the brightest places (under
+/// the darkest, of a dark one) by least squares that weigh what is on the other side little.
 pub(super) fn slope_of_light(floor: &FloorPicture, is_darker: bool, ignored: Option<&[bool]>) -> [f64; 2] {
     /// Weight of cells on the side of dirt.
     const DIRTY: f64 = 0.02;
     let cell = (0.1 * floor.texels_per_metre).ceil() as usize;
-    let luminance = {
-        let [width, height] = floor.size();
-        PixelRaster::from_fn(width, height, |x, y| {
-            let [r, g, b] = floor.rgb.each_ref().map(|plane| plane.values[y * width + x]);
-            0.2126 * r + 0.7152 * g + 0.0722 * b
-        })
-    };
+    let luminance = floor.luminance();
     let cells = luminance.reduced(cell);
     let middle = [cells.width, cells.height].map(|count| 0.5 * (count as f64 - 1.0));
     let is_ignored = |at: usize| {

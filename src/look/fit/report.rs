@@ -3,13 +3,13 @@
 use image::{RgbImage, imageops};
 use serde::Serialize;
 
-use super::measure::{GRAIN_TEXELS_PER_M, Measured, Uneven, lightness, luminance};
+use super::measure::{GRAIN_TEXELS_PER_M, Measured, Uneven};
 use super::options::FitOptions;
 use super::photo::FloorPicture;
-use super::search::{SEEDS, Search};
+use super::search::Search;
 use crate::look::error::LookError;
 use crate::look::settings::{AgeLook, Look};
-use crate::math::srgb;
+use crate::math::srgb::{self, lightness, luminance};
 use crate::patterns::side_by_side;
 
 /// Longest side of each picture, pixels.
@@ -65,8 +65,8 @@ const KEPT: [[&str; 2]; 10] = [
 pub(super) fn report(search: Search<'_>, options: &FitOptions, photo: &FloorPicture) -> Result<FittedLook, LookError> {
     let (target, target_marks) = (search.target, search.target_marks);
     let [shown, _] = search.shown(&search.look)?;
-    let (ours, _) = search.measured(&search.look, SEEDS)?;
-    let marks = [target_marks, search.marks_of(&search.look)?];
+    let (ours, our_marks) = search.measured_with_marks()?;
+    let marks = [target_marks, our_marks];
     let texels_per_metre = photo.texels_per_metre;
     let shows_grain = texels_per_metre >= GRAIN_TEXELS_PER_M;
     let mut kept = KEPT.to_vec();

@@ -2,12 +2,12 @@
 
 use rayon::prelude::*;
 
-use super::measure::{GRAIN_TEXELS_PER_M, Measured, Parts, Uneven, colour, density, luminance, marks_per_m2};
+use super::measure::{GRAIN_TEXELS_PER_M, Measured, Parts, Uneven, colour, density, marks_per_m2};
 use super::ours::OurFloor;
 use super::photo::FloorPicture;
 use crate::look::error::LookError;
 use crate::look::settings::{AgeLook, Look};
-use crate::math::srgb;
+use crate::math::srgb::{self, luminance};
 
 /// Rounds of changing colours and densities: at first, and after each other change.
 const ROUNDS: [usize; 2] = [7, 2];
@@ -16,7 +16,7 @@ const UNEVEN_ROUNDS: usize = 2;
 /// How far a colour of soil goes towards what the lane asks for: its density follows its colour.
 const DAMPED: f64 = 0.6;
 /// Floors of ours, of other seeds, over which measures are averaged.
-pub(super) const SEEDS: u64 = 4;
+const SEEDS: u64 = 4;
 /// Least and greatest change of a density in a round.
 const CHANGE: [f64; 2] = [0.3, 3.0];
 /// Rounds of changing marks.
@@ -98,25 +98,41 @@ impl<'a> Search<'a> {
     }
 
     /// Measures of our floor in the mean over seeds, and of the margin's linear colour without dirt.
-    pub fn measured(&self, look: &Look, seeds: u64) -> Result<(Measured, [f64; 3]), LookError> {
-        let of = |seed: u64| {
-            let [shown, bare] = self.shown(&Look { seed, ..look.clone() })?;
-            Ok((Measured::of(&shown, self.parts), colour(&bare, &self.parts.margin)))
+    fn measured(&self, look: &Look, seeds: u64) -> Result<(Measured, [f64; 3]), LookError> {
+        let of = |shown: &FloorPicture, bare: &FloorPicture| {
+            (Measured::of(shown, self.parts), colour(bare, &self.parts.margin))
         };
-        let all = (1..=seeds).into_par_iter().map(of).collect::<Result<Vec<_>, LookError>>()?;
-        let (measured, bare): (Vec<_>, Vec<_>) = all.into_iter().unzip();
+        let (measured, bare): (Vec<_>, Vec<_>) = self.over_seeds(look, seeds, of)?.into_iter().unzip();
         let bare = [0, 1, 2].map(|k| bare.iter().map(|bare: &[f64; 3]| bare[k]).sum::<f64>() / bare.len() as f64);
         Ok((Measured::mean(&measured), bare))
     }
 
     /// Marks of our floor in the mean over seeds.
-    pub fn marks_of(&self, look: &Look) -> Result<f64, LookError> {
-        let of = |seed: u64| {
-            let [shown, _] = self.shown(&Look { seed, ..look.clone() })?;
-            Ok(marks_per_m2(&shown, self.parts))
-        };
-        let all = (1..=SEEDS).into_par_iter().map(of).collect::<Result<Vec<f64>, LookError>>()?;
+    fn marks_of(&self, look: &Look) -> Result<f64, LookError> {
+        let all = self.over_seeds(look, SEEDS, |shown, _| marks_per_m2(shown, self.parts))?;
         Ok(all.iter().sum::<f64>() / SEEDS as f64)
+    }
+
+    /// Measures of our floor and its marks, in the mean over seeds.
+    pub fn measured_with_marks(&self) -> Result<(Measured, f64), LookError> {
+        let of =
+            |shown: &FloorPicture, _: &FloorPicture| (Measured::of(shown, self.parts), marks_per_m2(shown, self.parts));
+        let (measured, marks): (Vec<_>, Vec<_>) = self.over_seeds(&self.look, SEEDS, of)?.into_iter().unzip();
+        Ok((Measured::mean(&measured), marks.iter().sum::<f64>() / SEEDS as f64))
+    }
+
+    /// What `measure` finds on our floor, and on the same place without dirt, with each of so many seeds.
+    fn over_seeds<T: Send>(
+        &self,
+        look: &Look,
+        seeds: u64,
+        measure: impl Fn(&FloorPicture, &FloorPicture) -> T + Sync,
+    ) -> Result<Vec<T>, LookError> {
+        let of = |seed: u64| {
+            let [shown, bare] = self.shown(&Look { seed, ..look.clone() })?;
+            Ok(measure(&shown, &bare))
+        };
+        (1..=seeds).into_par_iter().map(of).collect()
     }
 
     pub fn has_walls(&self) -> bool {

@@ -343,9 +343,9 @@ fn name_strokes(ink: &[u8], net: &Net, width: usize, metres_per_pixel: f64, clas
     let mut rest: Vec<u8> =
         ink.iter().zip(classes.iter()).map(|(&i, &c)| u8::from(i != 0 && c == PlanClass::Floor)).collect();
     // The soft or rough edge of a wall joins no strokes.
-    for (at, _) in thick::grow(&net.wall, width, 1).into_iter().enumerate().filter(|(_, by_wall)| *by_wall != 0) {
-        if std::mem::take(&mut rest[at]) != 0 {
-            classes[at] = PlanClass::Dimension;
+    for ((rest, class), by_wall) in rest.iter_mut().zip(classes.iter_mut()).zip(thick::grow(&net.wall, width, 1)) {
+        if by_wall != 0 && std::mem::take(rest) != 0 {
+            *class = PlanClass::Dimension;
         }
     }
     let strokes = Components::of(&rest, width, 1, Neighbours::Eight);

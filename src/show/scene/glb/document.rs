@@ -1,5 +1,6 @@
 //! The JSON and binary chunks of a glTF file.
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use image::RgbImage;
@@ -62,9 +63,11 @@ impl<'a> GltfDocument<'a> {
         let meshes = scene.meshes.iter().filter(|mesh| !mesh.indices.is_empty());
         let mut parts: Vec<Part> = meshes.map(|mesh| Part::of(mesh, file)).collect();
         let textured = parts.len();
+        let mut numbers = BTreeMap::new();
         for mesh in &file.hulls {
-            let before = parts.iter().filter(|part| part.hull.is_some() && part.mesh.surface == mesh.surface).count();
-            parts.push(Part { normal: None, hull: Some(before + 1), ..Part::of(mesh, file) });
+            let number = numbers.entry(mesh.surface).or_insert(0usize);
+            *number += 1;
+            parts.push(Part { normal: None, hull: Some(*number), ..Part::of(mesh, file) });
         }
         let mut lists = Lists::default();
         for part in &parts {
