@@ -7,7 +7,7 @@
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 
-use crate::math::{Purpose, Vec2, atan2, exp, person_stream};
+use crate::math::{Purpose, SplitMix64, Vec2, atan2, exp, person_stream};
 use crate::motion::{BagKind, CarrySide, Person};
 use crate::patterns::Cause;
 use crate::walls::Walls;
@@ -42,9 +42,15 @@ const MOST_STEPS: f64 = 40.0;
 /// Clearance of a wheel from walls, metres.
 const CLEAR_M: f64 = 0.03;
 
-/// Standard deviation of the logarithm of the dirt on wheels, which is 1 in the mean, and its limit.
-const LOAD_SIGMA: f64 = 0.7;
-const MOST_LOAD: f64 = 3.5;
+/// Standard deviation of the logarithm of the dirt on the wheels of people, which is 1 in the mean, and its limit.
+const LOAD_SIGMA: f64 = 1.0;
+const MOST_LOAD: f64 = 5.0;
+/// A tread takes dirt up and loses it again: the standard deviation of the logarithm of what it leaves along its way, which
+/// is 1 in the mean, and the way between two values, which goes straight between them, metres.
+const TREAD_SIGMA: f64 = 0.9;
+const TREAD_M: f64 = 0.9;
+/// How far the treads of an axle's wheels are from each other, so that they differ: no way is as long, metres.
+const APART_M: f64 = 1e6;
 /// What a bend of one radian per metre adds to a line, relative to a straight one, the bend from which it adds no more, and
 /// the largest bend that counts at all.
 const SCRUB: f64 = 1.5;
@@ -96,6 +102,24 @@ struct Ink {
     variation: u64,
 }
 
+impl Ink {
+    /// Dirt on the tread of a wheel that has rolled so far, relative to the person's wheels.
+    fn on_tread(&self, rolled_m: f64) -> f64 {
+        let at = rolled_m / TREAD_M;
+        let value = |k: u64| {
+            // The sum of four even numbers is close to normal.
+            let word = SplitMix64::new(self.variation.wrapping_add(k)).next_u64();
+            let sum = (0..4).map(|n| (word >> (16 * n) & 0xffff) as f64 / 65_535.0 - 0.5).sum::<f64>();
+            sum * 3f64.sqrt()
+        };
+        let k = at as u64;
+        let (from, to) = (value(k), value(k + 1));
+        let bell = from + (to - from) * (at - at.floor());
+        // Between two values it varies less: 2/3 in the mean.
+        exp(TREAD_SIGMA * bell - TREAD_SIGMA * TREAD_SIGMA / 3.0)
+    }
+}
+
 #[derive(Clone, Copy)]
 struct Body {
     place_m: Vec2,
@@ -115,6 +139,8 @@ struct Axle {
 struct Line {
     /// The piece that is not finished.
     piece: Option<Piece>,
+    /// Way that the wheel has rolled since the person came, metres; the two wheels of an axle start apart.
+    rolled_m: f64,
     /// Bend, radians per metre, evened out.
     bend_per_m: f64,
     /// Turn of the axle that no step of the wheel has taken up yet, radians.
@@ -170,7 +196,7 @@ impl Wheels {
             rng,
             body: None,
             axle: None,
-            lines: [Line::default(), Line::default()],
+            lines: [0.0, APART_M].map(Line::after),
         }))
     }
 
@@ -271,7 +297,8 @@ impl Wheels {
     fn set_aside(&mut self, out: &mut Vec<Mark>) {
         self.axle = None;
         for line in &mut self.lines {
-            if let Some(piece) = std::mem::take(line).piece {
+            let rolled_m = line.rolled_m;
+            if let Some(piece) = std::mem::replace(line, Line::after(rolled_m)).piece {
                 piece.finish(piece.last_way, &self.ink, out);
             }
         }
@@ -279,10 +306,16 @@ impl Wheels {
 }
 
 impl Line {
+    /// The line of a wheel that has rolled so far and stands nowhere.
+    fn after(rolled_m: f64) -> Line {
+        Line { rolled_m, ..Line::default() }
+    }
+
     /// Rolls the wheel to a place while its axle turns.
     fn roll_to(&mut self, to: Vec2, turned_rad: f64, rng: &mut ChaCha8Rng, ink: &Ink, out: &mut Vec<Mark>) {
         let Some(piece) = &mut self.piece else {
-            self.piece = Some(Piece::begin(to, None, Laid { passes: ink.load, rubber: 0.0 }));
+            let passes = ink.load * ink.on_tread(self.rolled_m);
+            self.piece = Some(Piece::begin(to, None, Laid { passes, rubber: 0.0 }));
             return;
         };
         let step = to - piece.last_m;
@@ -300,8 +333,10 @@ impl Line {
         }
         self.tight = self.bend_per_m > TIGHT[0] * if self.tight { 0.7 } else { 1.0 };
         let tight = ((self.bend_per_m - TIGHT[0]) / (TIGHT[1] - TIGHT[0])).clamp(0.0, 1.0);
+        self.rolled_m += length_m;
+        let load = ink.load * ink.on_tread(self.rolled_m);
         let laid =
-            Laid { passes: ink.load * (1.0 + SCRUB * self.bend_per_m.min(MOST_SCRUBBED)), rubber: self.rubber * tight };
+            Laid { passes: load * (1.0 + SCRUB * self.bend_per_m.min(MOST_SCRUBBED)), rubber: self.rubber * tight };
 
         let way = step / length_m;
         let (ahead, aside) = (piece.last_way.dot(way), piece.last_way.cross(way).abs());

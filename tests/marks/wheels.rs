@@ -151,21 +151,18 @@ fn cases_cut_corners() {
 fn lines_are_heavier_in_curves_and_black_in_tight_turns() {
     for (pull, push) in [(1.0, 0.0), (0.0, 1.0)] {
         let hall = Hall::new(pull, push);
-        let (mut turn, mut ahead) = (Vec::new(), Vec::new());
-        for id in 0..20 {
-            let marks = hall.rolled(id, 10.0, 18.0, corner);
-            let sums = hall.sums(&marks);
-            for (middle, of) in [(CORNER, &mut turn), (vec2(14.0, 20.0), &mut ahead)] {
-                let [length_m, area] = lines(&marks, middle, 0.8);
-                assert!(length_m > 1.0, "{length_m} m of person {id}");
-                of.push([laid(&sums, middle, 0.8) / length_m, area / length_m]);
-            }
-        }
-        let mean = |of: &[[f64; 2]], n: usize| of.iter().map(|v| v[n]).sum::<f64>() / of.len() as f64;
-        let ratio = mean(&turn, 0) / mean(&ahead, 0);
+        // Dirt on treads differs along a way: the mean of many people counts.
+        let marks: Vec<Mark> = (0..120).flat_map(|id| hall.rolled(id, 10.0, 18.0, corner)).collect();
+        let sums = hall.sums(&marks);
+        let [turn, ahead] = [CORNER, vec2(14.0, 20.0)].map(|middle| {
+            let [length_m, area] = lines(&marks, middle, 0.8);
+            assert!(length_m > 120.0, "{length_m} m");
+            [laid(&sums, middle, 0.8) / length_m, area / length_m]
+        });
+        let ratio = turn[0] / ahead[0];
         println!(
             "per metre of line {ratio:.2} times as much as straight on, {:.2} times the breadth there",
-            mean(&ahead, 0) / mean(&ahead, 1)
+            ahead[0] / ahead[1]
         );
         assert!((1.5..4.0).contains(&ratio), "{ratio:.2}");
     }
@@ -212,4 +209,28 @@ fn lines_do_not_depend_on_the_frame_rate() {
             assert!((other / fine - 1.0).abs() < 0.02, "{other:.4}, {fine:.4} at 30 Hz");
         }
     }
+}
+
+/// Lines come and go: what a tread leaves at two places a few metres apart has little to do with each other, and is as much in
+/// the mean as if it were even.
+#[test]
+fn treads_leave_more_here_and_less_there() {
+    let hall = Hall::new(1.0, 0.0);
+    let passes = |id: u32| -> Vec<f64> {
+        let marks = hall.rolled(id, 10.0, 24.0, straight);
+        let long = marks.iter().filter(|mark| mark.cause == Cause::Sole && mark.length_m > 0.3);
+        long.map(|mark| f64::from(mark.strength)).collect()
+    };
+    let (mut spread, mut all) = (Vec::new(), Vec::new());
+    for id in 0..60 {
+        let passes = passes(id);
+        let mean = passes.iter().sum::<f64>() / passes.len() as f64;
+        let square = passes.iter().map(|p| (p / mean - 1.0) * (p / mean - 1.0)).sum::<f64>() / passes.len() as f64;
+        spread.push(square.sqrt());
+        all.extend(passes);
+    }
+    let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len() as f64;
+    println!("a line varies by {:.2} of its mean, all are {:.2} in the mean", mean(&spread), mean(&all));
+    assert!((0.45..1.0).contains(&mean(&spread)), "{:.2}", mean(&spread));
+    assert!((0.75..1.3).contains(&mean(&all)), "{:.2}", mean(&all));
 }

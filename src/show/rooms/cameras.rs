@@ -13,8 +13,8 @@ use crate::math::{Vec2, sin_cos, vec2};
 const EYES_M: f64 = 1.7;
 /// Least distance of a camera from walls, metres.
 const CLEAR_M: f64 = 0.5;
-/// Downward from level, degrees: floor fills about half of the picture, its detail begins 3 m away.
-const EYE_PITCH_DEG: f64 = -8.0;
+/// Downward from level, degrees: floor fills most of the picture, its detail begins 2.8 m away.
+const EYE_PITCH_DEG: f64 = -12.0;
 /// The same on open ground, where only sky is above the horizon.
 const OPEN_PITCH_DEG: f64 = -20.0;
 /// Headings that are tried.
@@ -30,9 +30,9 @@ const GLANCES: usize = 17;
 /// Rows of the picture in which the floor is looked at, between its lower side and the horizon.
 const FLOOR_ROWS: usize = 10;
 /// Slope downward of the picture's lower side at [`EYE_PITCH_DEG`], at sixteen to nine: rise over run.
-const LOWEST_SLOPE: f64 = 0.517;
+const LOWEST_SLOPE: f64 = 0.610;
 /// Slope of its upper side, upward.
-const HIGHEST_SLOPE: f64 = 0.201;
+const HIGHEST_SLOPE: f64 = 0.129;
 /// So many views are looked at as pictures, of this size, with so many columns for depth.
 const MOST_PICTURES: usize = 240;
 const PICTURE_PX: [u32; 2] = [32, 18];
@@ -41,6 +41,10 @@ const COLUMNS: usize = 20;
 const HALF_WAY_M: f64 = 4.2;
 /// What is nearer than this stands in the way, metres, and doors and furniture that are farther make a picture richer.
 const NEAR_M: f32 = 2.5;
+/// How far before a wall people walk who touch it, metres.
+const TOUCH_M: f64 = 0.4;
+/// Share of the picture that door leaves may take: more hides the room.
+const LEAF_SHARE: f64 = 0.02;
 /// Share of the picture that should be floor, and way to the wall that should be ahead, metres.
 const FLOOR_SHARE: f64 = 0.35;
 const DEPTH_M: f64 = 8.0;
@@ -83,14 +87,14 @@ impl RayGrid {
         best.map_or_else(|| camera(&(0.0, self.block.centre(), 0.0)), |(camera, _)| camera)
     }
 
-    /// Score of a camera by a small picture of what it sees: trodden floor with margins, depth, doors and furniture;
-    /// nothing near in the way.
+    /// Score of a camera by a small picture of what it sees: trodden floor with margins, walls that people brush, depth,
+    /// gates, doors and furniture; nothing near in the way, no large door leaf.
     fn picture_score(&self, camera: &Camera, traffic: &FootfallGrid) -> f64 {
         let lens = Lens::of(camera, PICTURE_PX);
         let [width, height] = PICTURE_PX.map(|px| px as usize);
         let all = (width * height) as f64;
         let (mut floor, mut trodden, mut squared) = (0.0, 0.0, 0.0);
-        let (mut near, mut outside, mut things) = (0.0, 0.0, 0.0);
+        let (mut near, mut outside, mut things, mut leaves, mut touched) = (0.0, 0.0, 0.0, 0.0, 0.0);
         for k in 0..width * height {
             let hit = self.trace_inside(lens.position, lens.ray((k % width) as f64 + 0.5, (k / width) as f64 + 0.5));
             let beyond = hit.beyond_m > 0.0;
@@ -100,8 +104,15 @@ impl RayGrid {
                     let here = f64::from(traffic.at(vec2(f64::from(hit.point[0]), f64::from(hit.point[1]))));
                     (floor, trodden, squared) = (floor + 1.0, trodden + here, squared + here * here);
                 }
+                HitSurface::Fitting(number, _) if self.fittings.all[number as usize].leaf.is_some() => leaves += 1.0,
                 HitSurface::Fitting(..) | HitSurface::Lintel(_) | HitSurface::Soffit(_) if hit.way_m > NEAR_M => {
                     things += 1.0;
+                }
+                HitSurface::Wall(number) if hit.way_m > NEAR_M => {
+                    let before = vec2(f64::from(hit.point[0]), f64::from(hit.point[1]))
+                        + self.pieces[number as usize].normal() * TOUCH_M;
+                    touched += f64::from(traffic.at(before));
+                    things += if self.pieces[number as usize].height_m < EYES_M { 1.0 } else { 0.0 };
                 }
                 _ => {}
             }
@@ -125,7 +136,8 @@ impl RayGrid {
         let short = |value: f64, wanted: f64| (1.0 - value / wanted).max(0.0);
         let mean = trodden / f64::max(floor, 1.0);
         let contrast = (squared / f64::max(floor, 1.0) - mean * mean).max(0.0).sqrt();
-        1.5 * trodden / all + 4.0 * contrast * floor / all + (things / all / 0.10).min(1.0)
+        1.5 * trodden / all + 4.0 * contrast * floor / all + 1.2 * touched / all + (things / all / 0.10).min(1.0)
+            - 6.0 * (leaves / all - LEAF_SHARE).max(0.0)
             - 4.0 * short(floor / all, FLOOR_SHARE)
             - 2.0 * short(deep_m, DEPTH_M)
             - 1.2 * short(central_m, 0.6 * DEPTH_M)
