@@ -26,6 +26,8 @@ pub(super) struct Gap {
     pub(super) strokes: usize,
     /// Whether bars lie in it along the wall, none of which reaches from jamb to jamb: the leaves of a sliding door.
     pub(super) slides: bool,
+    /// Whether it lies across the end of a corridor of its width, where a mouth without a door looks the same.
+    pub(super) at_end: bool,
     /// A pixel of each wall end.
     pub(super) ends: [usize; 2],
 }
@@ -369,22 +371,59 @@ fn along_rows(wall: &[u8], ink: &[u8], limits: &Limits, frame: Frame) -> Vec<Gap
             rows: vec![g],
             strokes: 0,
             slides: false,
+            at_end: false,
             ends: [0; 2],
         }));
         open = going_on;
     }
-    found.retain(|gap| {
-        (limits.thinnest..=limits.thickest).contains(&gap.rows.len())
-            && is_square(gap)
-            && is_free(wall, width, gap)
-            && [false, true].into_iter().any(|forwards| is_end(wall, width, gap, forwards, ONE_END))
-    });
+    let is_thick = |gap: &Gap| (limits.thinnest..=limits.thickest).contains(&gap.rows.len());
+    let is_open = |gap: &Gap| is_thick(gap) && is_square(gap) && is_free(wall, width, gap);
+    let has_end = |gap: &Gap| [false, true].into_iter().any(|forwards| is_end(wall, width, gap, forwards, ONE_END));
+    let at_ends: Vec<Gap> = found.iter().flat_map(|gap| at_ends(wall, width, gap, limits)).filter(is_open).collect();
+    found.retain(|gap| is_open(gap) && has_end(gap));
+    found.extend(at_ends);
     for gap in &mut found {
         gap.strokes = strokes(ink, width, gap);
         let has_ends = [false, true].into_iter().all(|forwards| is_end(wall, width, gap, forwards, BOTH_ENDS));
         gap.slides = has_ends && slides(ink, width, gap);
     }
     found
+}
+
+/// The gaps in the walls across both ends of a corridor that is as wide as they are: rows of the corridor, in which the walls
+/// beside it are thin, go on as rows of a wall that runs on to both sides.
+fn at_ends(wall: &[u8], width: usize, gap: &Gap, limits: &Limits) -> Vec<Gap> {
+    if gap.rows.len() <= limits.thickest {
+        return Vec::new();
+    }
+    let longest = 4 * limits.thickest;
+    let depths = |k: usize| {
+        let row = &wall[(gap.first + k) * width..][..width];
+        let [from, to] = gap.rows[k];
+        [
+            row[..from].iter().rev().take(longest).take_while(|&&w| w != 0).count(),
+            row[to..].iter().take(longest).take_while(|&&w| w != 0).count(),
+        ]
+    };
+    let all: Vec<[usize; 2]> = (0..gap.rows.len()).map(depths).collect();
+    let thin = [0, 1].map(|end| {
+        let mut depths: Vec<usize> = all.iter().map(|depths| depths[end]).collect();
+        let middle = depths.len() / 2;
+        *depths.select_nth_unstable(middle).1
+    });
+    let is_deep = |k: usize| (0..2).all(|end| all[k][end] >= 2 * thin[end] + limits.thinnest);
+    let of_end = |rows: Range<usize>| {
+        let first = gap.first + rows.start;
+        Gap { first, rows: gap.rows[rows].to_vec(), at_end: true, ..gap.clone() }
+    };
+    let count = all.len();
+    let before = (0..count).take_while(|&k| is_deep(k)).count();
+    let after = (0..count).rev().take_while(|&k| is_deep(k)).count();
+    [0..before, count - after..count]
+        .into_iter()
+        .filter(|rows| !rows.is_empty() && rows.len() < count)
+        .map(of_end)
+        .collect()
 }
 
 /// Windows into which the end of a wall across them reaches, as partitions that end at a mullion do.
