@@ -121,7 +121,7 @@ fn furniture_at_the_end_of_a_leaf_is_whole() {
 }
 
 /// Doors that face each other across a corridor do not divide it, the swing of a wide leaf is no room, and soft edges of walls
-/// join no doors.
+/// join no doors. One door lies across the end of the corridor and is nearly as wide.
 #[test]
 fn floors_are_divided_at_doors_alone() {
     let names = [
@@ -131,6 +131,8 @@ fn floors_are_divided_at_doors_alone() {
         "doors closed by a line",
         "doors with leaf and arc",
         "dark background",
+        "30 px/m",
+        "planks",
     ];
     for name in names {
         let style = styles::named(name);
@@ -165,15 +167,15 @@ fn thin_walls_are_told_from_axes_and_dimensions() {
         // The office is measured in all styles, arrows and dots of the large school in the table alone.
         "office" => false,
         "flat" => case.style.name.starts_with(THIN),
-        // Of walls without thickness, the end of a corridor as wide as its door is not told from an opening.
-        "inn" => false,
+        "inn" => case.style.name == THIN,
         _ => [THIN, "walls of one pixel, axes alone"].contains(&case.style.name),
     };
     for case in styles::cases().iter().filter(is_read) {
         let m = measure(case);
         let what = row(&m);
         assert_eq!((m.rooms[0], m.doors[0]), (m.rooms[1], m.doors[1]), "{what}");
-        assert_eq!(m.false_doors, 0, "doors that are none: {what}");
+        // The end of a corridor as wide as its door is not told from an opening.
+        assert!(m.false_doors <= usize::from(m.building == "inn"), "doors that are none: {what}");
         assert!(m.paper_m2 < 6.0 && m.notes_as_wall_m2 < 0.15 && m.furniture > 0.95, "{what}");
     }
 }

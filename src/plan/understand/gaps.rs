@@ -376,12 +376,12 @@ fn along_rows(wall: &[u8], ink: &[u8], limits: &Limits, frame: Frame) -> Vec<Gap
         }));
         open = going_on;
     }
-    let is_thick = |gap: &Gap| (limits.thinnest..=limits.thickest).contains(&gap.rows.len());
-    let is_open = |gap: &Gap| is_thick(gap) && is_square(gap) && is_free(wall, width, gap);
+    let is_open = |gap: &Gap| {
+        (limits.thinnest..=limits.thickest).contains(&gap.rows.len()) && is_square(gap) && is_free(wall, width, gap)
+    };
     let has_end = |gap: &Gap| [false, true].into_iter().any(|forwards| is_end(wall, width, gap, forwards, ONE_END));
-    let at_ends: Vec<Gap> = found.iter().flat_map(|gap| at_ends(wall, width, gap, limits)).filter(is_open).collect();
-    found.retain(|gap| is_open(gap) && has_end(gap));
-    found.extend(at_ends);
+    let (mut found, others): (Vec<Gap>, Vec<Gap>) = found.into_iter().partition(|gap| is_open(gap) && has_end(gap));
+    found.extend(others.iter().flat_map(|gap| at_ends(wall, width, gap, limits)).filter(is_open));
     for gap in &mut found {
         gap.strokes = strokes(ink, width, gap);
         let has_ends = [false, true].into_iter().all(|forwards| is_end(wall, width, gap, forwards, BOTH_ENDS));
@@ -390,40 +390,31 @@ fn along_rows(wall: &[u8], ink: &[u8], limits: &Limits, frame: Frame) -> Vec<Gap
     found
 }
 
-/// The gaps in the walls across both ends of a corridor that is as wide as they are: rows of the corridor, in which the walls
-/// beside it are thin, go on as rows of a wall that runs on to both sides.
+/// The gaps in the walls across the ends of a corridor: rows of it that go on as a wall to both sides, where the walls beside
+/// the corridor are thin; or all rows, where the corridor is a little wider than the gap.
 fn at_ends(wall: &[u8], width: usize, gap: &Gap, limits: &Limits) -> Vec<Gap> {
-    if gap.rows.len() <= limits.thickest {
-        return Vec::new();
-    }
     let longest = 4 * limits.thickest;
     let depths = |k: usize| {
         let row = &wall[(gap.first + k) * width..][..width];
         let [from, to] = gap.rows[k];
-        [
-            row[..from].iter().rev().take(longest).take_while(|&&w| w != 0).count(),
-            row[to..].iter().take(longest).take_while(|&&w| w != 0).count(),
-        ]
+        let depth = |pixels: &mut dyn Iterator<Item = &u8>| pixels.take(longest).take_while(|&&w| w != 0).count();
+        [depth(&mut row[..from].iter().rev()), depth(&mut row[to..].iter())]
     };
     let all: Vec<[usize; 2]> = (0..gap.rows.len()).map(depths).collect();
-    let thin = [0, 1].map(|end| {
+    let count = all.len();
+    let least = [0, 1].map(|end| {
         let mut depths: Vec<usize> = all.iter().map(|depths| depths[end]).collect();
-        let middle = depths.len() / 2;
-        *depths.select_nth_unstable(middle).1
+        2 * *depths.select_nth_unstable(count / 2).1 + limits.thinnest
     });
-    let is_deep = |k: usize| (0..2).all(|end| all[k][end] >= 2 * thin[end] + limits.thinnest);
-    let of_end = |rows: Range<usize>| {
+    let is_deep = |k: usize| (0..2).all(|end| all[k][end] >= least[end]);
+    let before = (0..count).take_while(|&k| is_deep(k)).count();
+    let after = (0..count).rev().take_while(|&k| is_deep(k)).count();
+    let whole = if all.iter().flatten().all(|&depth| depth >= count) { count } else { 0 };
+    let at_end = |rows: Range<usize>| {
         let first = gap.first + rows.start;
         Gap { first, rows: gap.rows[rows].to_vec(), at_end: true, ..gap.clone() }
     };
-    let count = all.len();
-    let before = (0..count).take_while(|&k| is_deep(k)).count();
-    let after = (0..count).rev().take_while(|&k| is_deep(k)).count();
-    [0..before, count - after..count]
-        .into_iter()
-        .filter(|rows| !rows.is_empty() && rows.len() < count)
-        .map(of_end)
-        .collect()
+    [0..before, count - after..count, 0..whole].into_iter().filter(|rows| !rows.is_empty()).map(at_end).collect()
 }
 
 /// Windows into which the end of a wall across them reaches, as partitions that end at a mullion do.

@@ -82,8 +82,9 @@ impl Net {
                 && !has_leaf(gap)
         };
         let (windows, doors): (Vec<Gap>, Vec<Gap>) = found.into_iter().partition(is_window);
+        let is_hung = |gap: &Gap| !leaves::symbol(gap, &strokes, metres_per_pixel).is_empty();
         let is_door =
-            |gap: &Gap| (gap.length() <= px(WIDEST_DOOR_M) || is_entrance(gap)) && (!gap.at_end || has_leaf(gap));
+            |gap: &Gap| (gap.length() <= px(WIDEST_DOOR_M) || is_entrance(gap)) && (!gap.at_end || is_hung(gap));
         let mut doors: Vec<Gap> = doors.into_iter().filter(is_door).collect();
         let is_bare = |gap: &Gap| gap.strokes == 0 && !has_leaf(gap);
         drop_thicker_than_walls(&mut doors, &windows, has_leaf);
