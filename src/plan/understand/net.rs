@@ -13,6 +13,8 @@ use crate::math::sin_cos;
 const ENCLOSED_SHARE: f64 = 0.45;
 /// Greatest width of a door, metres.
 const WIDEST_DOOR_M: f64 = 2.6;
+/// Narrowest door across the end of a corridor, metres: between pieces of furniture are narrower gaps.
+const NARROWEST_END_M: f64 = 0.7;
 /// Greatest width of a gap that only a line closes and that is a door, metres.
 const WIDEST_CLOSED_DOOR_M: f64 = 1.6;
 /// Least and greatest width of a sliding entrance, metres, and greatest thickness of its leaves, metres and walls.
@@ -82,7 +84,9 @@ impl Net {
                 && !has_leaf(gap)
         };
         let (windows, doors): (Vec<Gap>, Vec<Gap>) = found.into_iter().partition(is_window);
-        let is_hung = |gap: &Gap| !leaves::symbol(gap, &strokes, metres_per_pixel).is_empty();
+        let is_hung = |gap: &Gap| {
+            gap.length() >= px(NARROWEST_END_M) && !leaves::symbol(gap, &strokes, metres_per_pixel).is_empty()
+        };
         let is_door =
             |gap: &Gap| (gap.length() <= px(WIDEST_DOOR_M) || is_entrance(gap)) && (!gap.at_end || is_hung(gap));
         let mut doors: Vec<Gap> = doors.into_iter().filter(is_door).collect();
