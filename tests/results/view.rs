@@ -20,8 +20,8 @@ const DENSITY: f64 = 20.0;
 /// A floor whose texels are a pure function of their place.
 struct Painted<F>(F);
 
-/// A grey floor of a roughness, 0 to 255.
-struct Plain(u8);
+/// A floor of one colour and a roughness, 0 to 255.
+struct Plain([u8; 3], u8);
 
 impl TextureSource for Plain {
     fn layers(&self) -> &[&'static str] {
@@ -29,20 +29,24 @@ impl TextureSource for Plain {
     }
 
     fn background(&self) -> Background {
-        Background { base_color: [150, 150, 150], mask: [0; 4], orm: [255, self.0, 0] }
+        Background { base_color: self.0, mask: [0; 4], orm: [255, self.1, 0] }
     }
 
     fn resolve(&self, _: i64, _: i64, width: usize, height: usize) -> ResolvedBlock {
         ResolvedBlock {
-            base_color: vec![[150; 3]; width * height],
-            orm: vec![[255, self.0, 0]; width * height],
+            base_color: vec![self.0; width * height],
+            orm: vec![[255, self.1, 0]; width * height],
             ..ResolvedBlock::default()
         }
     }
 }
 
 fn on_plain(rooms: &Rooms, from: &Camera, roughness: u8) -> RgbImage {
-    let floor = Plain(roughness);
+    on_colour(rooms, from, [150; 3], roughness)
+}
+
+fn on_colour(rooms: &Rooms, from: &Camera, colour: [u8; 3], roughness: u8) -> RgbImage {
+    let floor = Plain(colour, roughness);
     let coat = Surfaces { floor: &floor, floor_texels_per_metre: DENSITY, small: None, walls: None };
     rooms.draw(from, [320, 180], &[coat], &Silent).unwrap().remove(0)
 }
@@ -59,6 +63,30 @@ fn walls_of(size: [usize; 2], class: impl Fn(usize, usize) -> PlanClass) -> Wall
     let mut plan = FloorPlan::from_mask(width as u32, height as u32, 0.1, floor);
     plan.classes = classes;
     Walls::trace(&plan, &WallsOptions::default())
+}
+
+/// A floor of wood makes walls warm, most at their feet, and the ceiling warmer; a grey floor leaves them as they are.
+#[test]
+fn floors_throw_their_colour_onto_walls_and_ceiling() {
+    let walls = walls_of([160, 90], |x, y| {
+        if (5..155).contains(&x) && (5..85).contains(&y) { PlanClass::Floor } else { PlanClass::Wall }
+    });
+    let rooms = Rooms::new(&walls, &[], 2.6);
+    // The wall ahead is 8 m away: its foot, its head and the ceiling over it, in 180 rows.
+    let warmth = |colour: [u8; 3]| {
+        let picture = on_colour(&rooms, &camera("7.3,4.5,1.3,0,0"), colour, 255);
+        [104..112, 72..78, 40..56].map(|rows: std::ops::Range<u32>| {
+            let all = rows.flat_map(|y| (60..260).map(move |x| (x, y)));
+            let [red, blue] = all.fold([0.0, 0.0], |[red, blue], (x, y)| {
+                let pixel = picture.get_pixel(x, y).0;
+                [red + f64::from(pixel[0]), blue + f64::from(pixel[2])]
+            });
+            red / blue
+        })
+    };
+    let (wood, grey) = (warmth([168, 120, 76]), warmth([150; 3]));
+    let [foot, head, ceiling] = [0, 1, 2].map(|k| wood[k] / grey[k]);
+    assert!(foot > 1.15 && head > 1.05 && foot > head + 0.04 && ceiling > 1.2, "{foot:.3} {head:.3} {ceiling:.3}");
 }
 
 /// Two rooms with a door between them: its leaf stands open in one of them, in wood, beside the way through.

@@ -12,7 +12,8 @@ use crate::math::Vec2;
 use crate::math::srgb::{encode, light_of};
 use crate::show::encode_picture;
 use crate::show::rooms::{
-    EXPOSURE_ABOVE, EXPOSURE_INSIDE, EXPOSURE_OUTSIDE, Finish, Light, Panels, TABLE, glsl, scaled, sky, toned,
+    EXPOSURE_ABOVE, EXPOSURE_INSIDE, EXPOSURE_OUTSIDE, Finish, Light, Panels, TABLE, floor_tint, glsl, scaled, sky,
+    toned,
 };
 use crate::show::scene::{Mesh, SceneSurface};
 use crate::show::still::STILL_SIZE_PX;
@@ -70,9 +71,11 @@ pub fn page_html(page: &Page<'_>) -> String {
         "parts": parts(page, &mut blocks),
     });
     surroundings(page, &mut data, &mut blocks);
-    // One constant tells whether sky and sun are the light.
-    let outside = format!("const bool OUTSIDE = {};\n", is_outside(page));
-    let light = [&glsl(), &outside, LIGHT].concat();
+    // Whether sky and sun are the light, and the tint of what the floor throws back.
+    let [r, g, b] = floor_tint(light_of(page.floor.clean));
+    let of_plan =
+        format!("const bool OUTSIDE = {};\nconst vec3 FLOOR_TINT = vec3({r:?}, {g:?}, {b:?});\n", is_outside(page));
+    let light = [&glsl(), &of_plan, LIGHT].concat();
     let shader = |(name, text)| element("x-shader/x-glsl", name, &fill(text, &[("light", &light)]));
     let shaders: String = SHADERS.map(shader).concat();
     let blocks: String =

@@ -4,6 +4,7 @@
 //! in `page/client/light.glsl`: a change here is a change there.
 
 use super::panels::TILE_M;
+use crate::math::srgb::luminance;
 use crate::math::{exp, exp_f32, pow, smoothstep};
 
 /// Linear light, red, green, blue.
@@ -60,6 +61,8 @@ const SKY: [LinearRgb; 2] = [[0.86, 0.97, 1.10], [0.17, 0.36, 0.78]];
 /// Colour of light by its strength: dim and bright, under lamps and outdoors.
 const TINT_INSIDE: [LinearRgb; 2] = [[0.975, 0.995, 1.03], [1.02, 1.0, 0.965]];
 const TINT_OUTSIDE: [LinearRgb; 2] = [[0.84, 0.98, 1.20], [1.06, 1.0, 0.90]];
+/// Share of the light on a wall at its foot, on one at the ceiling, and on the ceiling that the floor throws back in its colour.
+const BOUNCED: [f32; 3] = [0.40, 0.20, 0.65];
 /// Haze: way in which what lies beyond an opening fades to daylight, metres, in rooms and outdoors.
 pub(crate) const HAZE_M: [f32; 2] = [3.0, 140.0];
 /// How bright an irradiance of 1 is shown: in rooms, from above, outdoors.
@@ -73,7 +76,7 @@ const STRAIGHT: f32 = 0.50;
 
 /// The constants as GLSL declarations.
 pub(crate) fn glsl() -> String {
-    let constants: [(&str, &[f32]); 36] = [
+    let constants: [(&str, &[f32]); 37] = [
         ("LAMP", &LAMP),
         ("DAYLIGHT", &DAYLIGHT),
         ("CEILING", &CEILING),
@@ -108,6 +111,7 @@ pub(crate) fn glsl() -> String {
         ("TINT_BRIGHT", &TINT_INSIDE[1]),
         ("TINT_SHADE", &TINT_OUTSIDE[0]),
         ("TINT_SUN", &TINT_OUTSIDE[1]),
+        ("BOUNCED", &BOUNCED),
         ("CONTRAST", &CONTRAST),
         ("STRAIGHT", &[STRAIGHT]),
     ];
@@ -168,6 +172,21 @@ pub(crate) fn day_behind([x, y, z]: [f32; 3]) -> LinearRgb {
 pub(crate) fn tinted(full: f32, outside: bool) -> LinearRgb {
     let [dim, bright] = if outside { TINT_OUTSIDE } else { TINT_INSIDE };
     scaled(mix(dim, bright, smoothstep(f64::from(full)) as f32), full)
+}
+
+/// What a floor of a mean colour makes of white light, at the same luminance.
+pub(crate) fn floor_tint(mean: LinearRgb) -> LinearRgb {
+    scaled(mean, 1.0 / luminance(mean.map(f64::from)).max(0.01) as f32)
+}
+
+/// Tint of the light on a wall at a height, as a share of the ceiling's.
+pub(crate) fn wall_tint(floor: LinearRgb, height: f32) -> LinearRgb {
+    mix([1.0; 3], floor, BOUNCED[0] + (BOUNCED[1] - BOUNCED[0]) * height.clamp(0.0, 1.0))
+}
+
+/// Tint of the light on the ceiling.
+pub(crate) fn ceiling_tint(floor: LinearRgb) -> LinearRgb {
+    mix([1.0; 3], floor, BOUNCED[2])
 }
 
 /// The sky in a direction, by the sine of its height.

@@ -10,7 +10,9 @@ use image::RgbImage;
 use crate::export::{Birdseye, Camera, ExportError, OutputFolder, StillEntry, TextureSource, WallSource, WallTextures};
 use crate::look::{Background, StainLook};
 use crate::math::Vec2;
+use crate::math::srgb::light_of;
 use crate::progress::{Progress, Stage};
+use crate::show::rooms::floor_tint;
 use crate::show::{Rooms, write_picture};
 
 mod error;
@@ -162,6 +164,7 @@ impl<'a, S: TextureSource> SurfaceTexels<'a, S> {
         let mut skin =
             SurfaceSampler::new([&self.floor, &*self.walls], [small, self.far_walls.as_deref()], self.plain_wall);
         skin.leaf_stains = self.leaf_stains;
+        skin.floor_tint = floor_tint(light_of(self.floor.source.background().base_color));
         skin
     }
 }

@@ -20,6 +20,8 @@ pub(super) struct SurfaceSampler<'a> {
     small_walls: Option<Pyramid<'a>>,
     /// Colour of the clean wall, linear light.
     pub plain: [f32; 3],
+    /// Tint of the light that the clean floor throws back.
+    pub floor_tint: [f32; 3],
     /// Stains of hands and of shoes on door leaves.
     pub leaf_stains: Option<[StainLook; 2]>,
 }
@@ -68,6 +70,7 @@ impl<'a> SurfaceSampler<'a> {
             walls: Pyramid::new(walls),
             small_walls: small_walls.map(Pyramid::new),
             plain: [plain[0], plain[1], plain[2]].map(|value| f32::from(value) / 65_535.0),
+            floor_tint: [1.0; 3],
             leaf_stains: None,
         }
     }

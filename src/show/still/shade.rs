@@ -8,8 +8,9 @@ use crate::math::{Vec2, exp_f32, vec2};
 use crate::show::rooms::{
     CEILING, CEILING_LIGHT, DAYLIGHT, FLOOR_SHINE, Finish, Fittings, HAZE_M, HitSurface, Irradiance, JOINT, LAMP, LOBE,
     LightSources, LinearRgb, MIRROR_REACH_M, MIRRORED_CEILING_LIGHT, MIRRORED_DAY, MIRRORED_LAMP, MIRRORED_WALL,
-    MIRRORED_WALL_LIGHT, Panels, QuadKind, RayGrid, RayHit, SKY_SHINE, SOFFIT, TABLE, TILE_M, TOP, WALL_SHINE, clouded,
-    day_behind, fitting_light, fresnel, joint, lobe_slope, mix, noise, rise, scaled, sky, tinted, unevenness,
+    MIRRORED_WALL_LIGHT, Panels, QuadKind, RayGrid, RayHit, SKY_SHINE, SOFFIT, TABLE, TILE_M, TOP, WALL_SHINE,
+    ceiling_tint, clouded, day_behind, fitting_light, fresnel, joint, lobe_slope, mix, noise, rise, scaled, sky,
+    tinted, unevenness, wall_tint,
 };
 
 /// Shades the hits of rays.
@@ -94,6 +95,13 @@ impl Shader<'_> {
             HitSurface::Soffit(number) => {
                 self.even(SOFFIT, self.space.frame_of(number).map(|(_, colour)| colour), skins, out)
             }
+            HitSurface::Ceiling => {
+                let [tile, lamp] = self.ceiling(hit);
+                for (skin, out) in skins.iter().zip(out.iter_mut()) {
+                    let tint = ceiling_tint(skin.floor_tint);
+                    *out = Lit::of(std::array::from_fn(|c| tile[c] * tint[c] + lamp[c]));
+                }
+            }
             other => out.fill(Lit::of(self.plain(hit, other))),
         }
         if hit.beyond_m > 0.0 {
@@ -158,6 +166,10 @@ impl Shader<'_> {
     fn lintel(&self, hit: &RayHit, piece: u32, skins: &[SurfaceSampler], out: &mut [Lit]) {
         let full = self.wall_light(hit, piece).full;
         self.even(full, None, skins, out);
+        for (skin, out) in skins.iter().zip(out.iter_mut()) {
+            let bounced = self.wall_tint(hit, skin);
+            out.colour = std::array::from_fn(|c| out.colour[c] * bounced[c]);
+        }
         let QuadKind::Lintel(number) = self.space.pieces[piece as usize].what else { return };
         let Some((top_m, frame)) = self.space.frame_of(number) else { return };
         // Its upper edge is as soft as a pixel is high.
@@ -233,7 +245,16 @@ impl Shader<'_> {
                 colour = std::array::from_fn(|c| block[c] * (colour[c] / skin.plain[c].max(0.01)).min(1.0));
             }
             let shine = fresnel(cosine, roughness) * WALL_SHINE * light.open * light.full;
-            *out = Lit::of(std::array::from_fn(|c| colour[c] * tinted[c] + shine));
+            let bounced = self.wall_tint(hit, skin);
+            *out = Lit::of(std::array::from_fn(|c| colour[c] * tinted[c] * bounced[c] + shine));
+        }
+    }
+
+    /// Tint of the light on a wall: of what the floor throws back.
+    fn wall_tint(&self, hit: &RayHit, skin: &SurfaceSampler) -> LinearRgb {
+        match self.light.light.sources {
+            LightSources::Above(_) => [1.0; 3],
+            _ => wall_tint(skin.floor_tint, hit.point[2] / self.space.height_m as f32),
         }
     }
 
@@ -244,7 +265,6 @@ impl Shader<'_> {
     fn plain(&self, hit: &RayHit, surface: HitSurface) -> LinearRgb {
         let [x, y, _] = hit.point;
         match surface {
-            HitSurface::Ceiling => self.ceiling(hit),
             HitSurface::Top => TOP,
             HitSurface::Side => scaled(TOP, 0.75),
             HitSurface::Table => self.table(x, y, hit.way_m),
@@ -255,9 +275,9 @@ impl Shader<'_> {
         }
     }
 
-    /// Tiles with fine joints, and the lamps between them.
-    fn ceiling(&self, hit: &RayHit) -> LinearRgb {
-        let LightSources::Inside(panels) = &self.light.light.sources else { return CEILING };
+    /// Tiles with fine joints, under white light from the floor, and the lamps between them.
+    fn ceiling(&self, hit: &RayHit) -> [LinearRgb; 2] {
+        let LightSources::Inside(panels) = &self.light.light.sources else { return [CEILING, [0.0; 3]] };
         let [x, y, _] = hit.point;
         let p = vec2(f64::from(x), f64::from(y));
         let Irradiance { full, open, .. } = self.light.floor(x, y);
@@ -272,7 +292,7 @@ impl Shader<'_> {
         let tone = (1.0 + 0.022 * unevenness(number[0], number[1]) + fibres) * (1.0 - JOINT * joints.min(1.0));
         let tile = scaled(CEILING, (CEILING_LIGHT[0] * open + CEILING_LIGHT[1] * full) * tone);
         let blur = [hit.toward[0], hit.toward[1]].map(|c| f64::from(width + stretched * c.abs()) * 0.5);
-        let Some(panel) = panels.near(p, [0, 0]) else { return tile };
+        let Some(panel) = panels.near(p, [0, 0]) else { return [tile, [0.0; 3]] };
         let away = panel.centre - p;
         let rim = vec2(0.03, 0.03);
         let frame = covered(away, panel.half + rim, blur) as f32;
@@ -280,7 +300,7 @@ impl Shader<'_> {
         // Two tubes behind the pane.
         let across = if panel.half.x < panel.half.y { away.x / panel.half.x } else { away.y / panel.half.y };
         let tubes = 1.0 - 0.45 * ((across.abs() - 0.45).abs() as f32 / 0.55).min(1.0);
-        mix(mix(tile, scaled(tile, 0.62), frame), scaled(LAMP, tubes), lamp)
+        [scaled(tile, (1.0 - 0.38 * frame) * (1.0 - lamp)), scaled(LAMP, tubes * lamp)]
     }
 
     fn table(&self, x: f32, y: f32, way_m: f32) -> LinearRgb {

@@ -22,6 +22,14 @@ vec3 tinted(float full, vec3 dim, vec3 bright) {
   return mix(dim, bright, smoothstep(0.0, 1.0, full)) * full;
 }
 
+vec3 wall_tint(float height) {
+  return mix(vec3(1.0), FLOOR_TINT, mix(BOUNCED.x, BOUNCED.y, clamp(height, 0.0, 1.0)));
+}
+
+vec3 ceiling_tint() {
+  return mix(vec3(1.0), FLOOR_TINT, BOUNCED.z);
+}
+
 float rise(float t) {
   return smoothstep(-1.5, 1.5, t);
 }

@@ -132,14 +132,16 @@ vec3 lit_wall(Material surface, vec3 view) {
   float open = light_at(beside).y;
   float full = wall_light_at(beside, clamp(v_place.z / u_height, 0.0, 1.0));
   if (u_inside) full *= wall_edges(v_place.z, u_height);
-  return surface.colour * lamplight(full) + fresnel(dot(normal, view.xy), surface.roughness) * WALL_SHINE * open * full;
+  vec3 light = lamplight(full);
+  if (u_inside) light *= wall_tint(v_place.z / u_height);
+  return surface.colour * light + fresnel(dot(normal, view.xy), surface.roughness) * WALL_SHINE * open * full;
 }
 
 // Mineral tiles in a grid of bars.
 vec3 lit_ceiling() {
   vec2 joints = joint(v_place.xy, fwidth(v_place.xy));
   vec3 light = light_at(v_place.xy);
-  return CEILING * (CEILING_LIGHT.x * light.y + CEILING_LIGHT.y * light.z) * (1.0 - JOINT * min(joints.x + joints.y, 1.0));
+  return CEILING * ceiling_tint() * (CEILING_LIGHT.x * light.y + CEILING_LIGHT.y * light.z) * (1.0 - JOINT * min(joints.x + joints.y, 1.0));
 }
 
 vec3 lit_fitting(Material surface, vec3 view) {
