@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use crate::Error;
 use crate::export::{
-    self, ExportError, LifeReport, Manifest, OutputFolder, PeopleReport, Report, Target, TargetEntry, TextureOptions,
-    USD_FILE,
+    self, ExportError, LifeReport, Manifest, OutputFolder, PeopleReport, Report, SDF_FILE, Target, TargetEntry,
+    TextureOptions, USD_FILE,
 };
 use crate::look::Look;
 use crate::progress::{Progress, Stage, Stopwatch};
@@ -196,6 +196,8 @@ pub struct ResolveOptions {
     pub lamps: Option<bool>,
     /// Whether the scene is also written as `scene.usda`.
     pub usd: Option<bool>,
+    /// Whether `scene.sdf`, a world for Gazebo, is written too.
+    pub sdf: Option<bool>,
     /// Whether to write the layers as EXR too.
     pub layers: Option<bool>,
     /// Bits per channel of masks, wear and height: 8 or 16.
@@ -230,6 +232,7 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
     textures.embed = options.embed.unwrap_or(textures.embed);
     textures.lamps = options.lamps.unwrap_or(textures.lamps);
     textures.usd = options.usd.unwrap_or(textures.usd);
+    textures.sdf = options.sdf.unwrap_or(textures.sdf);
     textures.layers = options.layers.or(textures.layers);
     textures.bits = options.bits.unwrap_or(textures.bits);
     textures.check()?;
@@ -283,5 +286,6 @@ fn check_free(folder: &OutputFolder, with_walls: bool, options: &TextureOptions)
         return Ok(());
     }
     folder.check_free(&MADE_WITH_WALLS)?;
-    if options.usd { folder.check_free(&[USD_FILE]) } else { Ok(()) }
+    let asked = [(options.usd, USD_FILE), (options.sdf, SDF_FILE)];
+    asked.iter().filter(|(asked, _)| *asked).try_for_each(|(_, file)| folder.check_free(&[file]))
 }

@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use crate::Error;
 use crate::export::{
-    self, Atlas, Camera, FloorTextures, OutputFolder, PADDING_PX, PreviewEntry, StillEntry, TextureOptions, USD_FILE,
-    WallTextures,
+    self, Atlas, Camera, FloorTextures, OutputFolder, PADDING_PX, PreviewEntry, SDF_FILE, StillEntry, TextureOptions,
+    USD_FILE, WallTextures,
 };
 use crate::files::{LARGEST_IMAGE_BYTES, read_input};
 use crate::look::{Background, FloorResolver, Look, LookError, WallResolver, look_files};
@@ -13,8 +13,8 @@ use crate::math::Rect;
 use crate::progress::{Progress, Stage, Stopwatch};
 use crate::show::page::{Page, PageOptions, PageSurface};
 use crate::show::scene::{
-    self, Mesh, PlainMaterial, Scene, SceneFile, SceneLamp, SceneOptions, SurfaceImages, WallStrip, write_glb,
-    write_usda,
+    self, PlainMaterial, Prism, Scene, SceneFile, SceneLamp, SceneOptions, SurfaceImages, WallStrip, write_glb,
+    write_sdf, write_usda,
 };
 use crate::show::still::{FarWalls, STILL_SIZE_PX, Surfaces, WallSurfaces, write_stills};
 use crate::show::{self, Ceiling, Crop, Rooms};
@@ -152,7 +152,7 @@ impl Model<'_> {
     }
 
     /// The collision shapes of the scene.
-    fn hulls(&self, scene: &Scene, rooms: &Rooms) -> Vec<Mesh> {
+    fn hulls(&self, scene: &Scene, rooms: &Rooms) -> Vec<Prism> {
         let options = SceneOptions { wall_height_m: rooms.grid.height_m, ..SceneOptions::default() };
         scene::hulls(self.graded.walls, &self.tiles(), self.graded.doorways, &options, scene)
     }
@@ -176,13 +176,15 @@ impl Model<'_> {
             let files = [&sheet.basecolor, &sheet.orm, &sheet.normal];
             self.images(format!("walls_{k}"), files, small_walls.get(k))
         });
+        let for_unreal = self.floor.target == export::Target::Unreal;
+        let hulls = if for_unreal || options.sdf { self.hulls(scene, rooms) } else { Vec::new() };
         let file = SceneFile {
             name: self.graded.title.clone(),
             seed: self.graded.seed,
             floor: floor.collect(),
             walls: walls.collect(),
             clean_wall: PlainMaterial { colour: clean.base_color, roughness: f32::from(clean.orm[1]) / 255.0 },
-            hulls: if self.floor.target == export::Target::Unreal { self.hulls(scene, rooms) } else { Vec::new() },
+            hulls: if for_unreal { hulls.iter().filter_map(Prism::mesh).collect() } else { Vec::new() },
             node_suffix: if self.floor.target == export::Target::Godot { GODOT_COLLIDER } else { "" },
             cameras: vec![("birds_eye", above), ("eye_level", inside)],
             picture_px: STILL_SIZE_PX,
@@ -194,7 +196,10 @@ impl Model<'_> {
             size_px => Some(Scene { meshes: scene.meshes.par_iter().map(|mesh| mesh.light_mapped(size_px)).collect() }),
         };
         folder.write_with("scene.glb", |out| write_glb(out, light_mapped.as_ref().unwrap_or(scene), &file))?;
-        if options.usd { folder.write_with(USD_FILE, |out| write_usda(out, scene, &file)) } else { Ok(()) }
+        if options.usd {
+            folder.write_with(USD_FILE, |out| write_usda(out, scene, &file))?;
+        }
+        if options.sdf { folder.write_with(SDF_FILE, |out| write_sdf(out, scene, &file, &hulls)) } else { Ok(()) }
     }
 
     fn images<'a>(

@@ -85,6 +85,9 @@ pub struct Bake {
     /// Write the scene as scene.usda too, for Omniverse, Isaac Sim and Houdini
     #[arg(long, conflicts_with = "floor_only")]
     usd: bool,
+    /// Write scene.sdf too, a world for Gazebo: the scene, and what robots run into
+    #[arg(long, conflicts_with = "floor_only")]
+    sdf: bool,
     /// Bake even if the files will take more than 20 GB, or more than is free on the disk
     #[arg(long)]
     yes: bool,
@@ -132,6 +135,7 @@ impl Bake {
             embed: self.embed.then_some(true),
             lamps: self.lamps.then_some(true),
             usd: self.usd.then_some(true),
+            sdf: self.sdf.then_some(true),
             any_size: self.yes,
             layers: self.layers.then_some(true),
             bits: self.bits,

@@ -29,7 +29,7 @@ pub struct Resolve {
     #[arg(value_name = "BAKE")]
     bake: PathBuf,
     /// A look file: TOML with the keys of a scenario's [look]
-    #[arg(long, value_name = "FILE", required_unless_present_any = ["preset", "target", "embed", "lamps", "usd", "layers", "bits", "output", "passes"])]
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["preset", "target", "embed", "lamps", "usd", "sdf", "layers", "bits", "output", "passes"])]
     look: Option<PathBuf>,
     /// Or the look of a preset
     #[arg(long, value_name = "NAME", value_parser = arguments::preset(), conflicts_with = "look")]
@@ -52,6 +52,9 @@ pub struct Resolve {
     /// Write the scene as scene.usda too, for Omniverse, Isaac Sim and Houdini
     #[arg(long)]
     usd: bool,
+    /// Write scene.sdf too, a world for Gazebo: the scene, and what robots run into
+    #[arg(long)]
+    sdf: bool,
     /// Ages, as numbers of people who have walked: one bake for each in --output, and a flip-book of every picture
     #[arg(long, value_name = "N,N,...", value_delimiter = ',', value_parser = passes, requires = "output")]
     passes: Vec<u64>,
@@ -75,6 +78,7 @@ impl Resolve {
             embed: self.embed.then_some(true),
             lamps: self.lamps.then_some(true),
             usd: self.usd.then_some(true),
+            sdf: self.sdf.then_some(true),
             layers: self.layers.then_some(true),
             bits: self.bits,
             folder: self.output.clone(),

@@ -44,7 +44,7 @@ pub use manifest::{
 };
 pub use memory::peak_memory_mib;
 pub use options::TextureOptions;
-pub(crate) use options::USD_FILE;
+pub(crate) use options::{SDF_FILE, USD_FILE};
 pub(crate) use output::OutputFile;
 pub use output::{OutputFolder, settled};
 pub use reduced::Reduced;

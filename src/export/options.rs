@@ -5,6 +5,8 @@ use crate::options::{names, options};
 
 /// The scene in Universal Scene Description.
 pub(crate) const USD_FILE: &str = "scene.usda";
+/// The scene as a world for Gazebo.
+pub(crate) const SDF_FILE: &str = "scene.sdf";
 
 options! {
     /// How textures are written.
@@ -27,6 +29,8 @@ options! {
         lamps: bool = false;
         /// Whether the scene is also written as scene.usda.
         usd: bool = false;
+        /// Whether scene.sdf, a world for Gazebo, is written too.
+        sdf: bool = false;
     } with {
         /// The greatest width and height of the small images that are kept of each texture; none are without it.
         reduced_px: Option<u32> = None;

@@ -114,6 +114,8 @@ pub struct Overrides {
     pub lamps: Option<bool>,
     /// Whether the scene is also written as `scene.usda`.
     pub usd: Option<bool>,
+    /// Whether `scene.sdf`, a world for Gazebo, is written too.
+    pub sdf: Option<bool>,
     /// Whether a bake of any size is made: see [`TextureOptions::any_size`].
     pub any_size: bool,
     /// Other bits per channel of masks.

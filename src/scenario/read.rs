@@ -159,6 +159,7 @@ impl Scenario {
         self.texture.embed = overrides.embed.unwrap_or(self.texture.embed);
         self.texture.lamps = overrides.lamps.unwrap_or(self.texture.lamps);
         self.texture.usd = overrides.usd.unwrap_or(self.texture.usd);
+        self.texture.sdf = overrides.sdf.unwrap_or(self.texture.sdf);
         self.texture.any_size |= overrides.any_size;
         self.texture.layers = overrides.layers.or(self.texture.layers);
         self.texture.bits = overrides.bits.unwrap_or(self.texture.bits);

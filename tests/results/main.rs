@@ -13,6 +13,7 @@ mod hashes;
 mod looks;
 mod masks;
 mod page;
+mod sdf;
 #[path = "../support/golden.rs"]
 mod golden;
 mod view;

@@ -6,7 +6,7 @@ use super::ExportError;
 use super::bake_path::{BakePath, MANIFEST_NAME};
 use super::camera::StillEntry;
 use super::layout::{Naming, TileLayout};
-use super::options::{TextureOptions, USD_FILE};
+use super::options::{SDF_FILE, TextureOptions, USD_FILE};
 use super::targets::{TargetEntry, WorldEntry};
 use crate::files::read_input;
 use crate::look::Look;
@@ -292,6 +292,7 @@ impl Manifest {
             embed: self.settings["texture"]["embed"].as_bool().unwrap_or_default(),
             lamps: self.settings["texture"]["lamps"].as_bool().unwrap_or_default(),
             usd: self.files.iter().any(|file| **file == *USD_FILE),
+            sdf: self.files.iter().any(|file| **file == *SDF_FILE),
             ..TextureOptions::default()
         }
     }

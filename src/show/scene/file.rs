@@ -145,3 +145,10 @@ impl<'a> Cover<'a> {
         }
     }
 }
+
+/// A name for programs: letters, digits and `_`, no digit first.
+pub(super) fn identifier(name: &str) -> String {
+    let plain = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
+    let digit_first = name.chars().next().is_none_or(|c| c.is_ascii_digit());
+    digit_first.then_some('_').into_iter().chain(plain).collect()
+}

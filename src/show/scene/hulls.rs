@@ -15,11 +15,22 @@ const GROUND_M: f64 = 0.5;
 /// Greatest distance of a corner from the line between those beside it that goes, metres.
 const STRAIGHT_M: f64 = 0.002;
 
-/// Convex shapes that fill what is solid in the scene of a plan, each a closed mesh with the surface of the mesh of
-/// `scene` that it belongs to. Floor goes on under walls and ends at the tiles' borders.
+/// An upright convex prism.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prism {
+    /// The surface of the mesh that it belongs to.
+    pub surface: SceneSurface,
+    /// Its outline in the plan frame, counter-clockwise, metres.
+    pub corners: Vec<Vec2>,
+    /// Where it begins and ends above the floor, metres.
+    pub span_m: [f64; 2],
+}
+
+/// Convex shapes that fill what is solid in the scene of a plan, each with the surface of the mesh of `scene` that it
+/// belongs to. Floor goes on under walls and ends at the tiles' borders.
 ///
 /// The same shapes in the same order on every machine.
-pub fn hulls(walls: &Walls, tiles: &[Rect], doorways: &[Doorway], options: &SceneOptions, scene: &Scene) -> Vec<Mesh> {
+pub fn hulls(walls: &Walls, tiles: &[Rect], doorways: &[Doorway], options: &SceneOptions, scene: &Scene) -> Vec<Prism> {
     let height_m = options.wall_height_m;
     let bodies = Bodies::of(walls, doorways, options);
     let mut hulls = Vec::new();
@@ -27,7 +38,7 @@ pub fn hulls(walls: &Walls, tiles: &[Rect], doorways: &[Doorway], options: &Scen
     let mut add = |surface: SceneSurface, pieces: Vec<Vec<Vec2>>, span_m: [f64; 2]| {
         // A shape without its mesh would be drawn.
         let Some(surface) = [surface, SceneSurface::WallTop].into_iter().find(|&surface| has(surface)) else { return };
-        hulls.extend(pieces.iter().filter_map(|piece| prism(surface, piece, span_m)));
+        hulls.extend(pieces.iter().filter_map(|piece| Prism::over(surface, piece, span_m)));
     };
     let whole = bodies.covered.union(&bodies.solid.whole);
     for (k, tile) in tiles.iter().enumerate() {
@@ -48,16 +59,21 @@ pub fn hulls(walls: &Walls, tiles: &[Rect], doorways: &[Doorway], options: &Scen
     hulls
 }
 
-/// A closed prism over a convex polygon; nothing if it has no volume.
-fn prism(surface: SceneSurface, corners: &[Vec2], span_m: [f64; 2]) -> Option<Mesh> {
-    let mut scene = SceneBuilder::default();
-    let corners = without_straight(corners);
-    if span_m[1] > span_m[0] && corners.len() > 2 {
-        add_prism(&corners, span_m, true, scene.part(surface));
+impl Prism {
+    /// The prism over a convex polygon; nothing if it has no volume.
+    fn over(surface: SceneSurface, corners: &[Vec2], span_m: [f64; 2]) -> Option<Prism> {
+        let corners = without_straight(corners);
+        (span_m[1] > span_m[0] && corners.len() > 2).then_some(Prism { surface, corners, span_m })
     }
-    let mut mesh = scene.finish().meshes.pop()?;
-    mesh.uvs.clear();
-    Some(mesh)
+
+    /// The prism as a closed mesh, without texture coordinates.
+    pub fn mesh(&self) -> Option<Mesh> {
+        let mut scene = SceneBuilder::default();
+        add_prism(&self.corners, self.span_m, true, scene.part(self.surface));
+        let mut mesh = scene.finish().meshes.pop()?;
+        mesh.uvs.clear();
+        Some(mesh)
+    }
 }
 
 /// A polygon without the corners that are hardly any: faces a millimetre wide point anywhere once rounded.

@@ -12,6 +12,7 @@ mod light_map;
 mod lintels;
 mod model;
 mod region;
+mod sdf;
 #[cfg(test)]
 mod tests;
 mod tiles;
@@ -21,7 +22,8 @@ mod usda;
 pub(crate) use build::{SceneOptions, build};
 pub(crate) use file::{PlainMaterial, SceneFile, SceneLamp, SurfaceImages};
 pub(crate) use glb::write_glb;
-pub(crate) use hulls::hulls;
+pub(crate) use hulls::{Prism, hulls};
 pub(crate) use model::WallStrip;
 pub use model::{Mesh, Scene, SceneSurface};
+pub(crate) use sdf::write_sdf;
 pub(crate) use usda::write_usda;

@@ -562,6 +562,7 @@ fn hulls_are_convex_and_fill_the_walls() {
         let tiles = tiles_over(&walls, 512);
         let scene = build(&walls, &tiles, &strips_of(&walls), &doorways, &options());
         let hulls = hulls(&walls, &tiles, &doorways, &options(), &scene);
+        let hulls: Vec<Mesh> = hulls.iter().filter_map(Prism::mesh).collect();
         for hull in &hulls {
             for [a, b, c] in triangles(hull) {
                 let across = area_vector([a, b, c]);

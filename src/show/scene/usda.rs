@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::io::{self, Write};
 
-use super::file::{Cover, PlainMaterial, SceneFile, SurfaceImages};
+use super::file::{Cover, PlainMaterial, SceneFile, SurfaceImages, identifier};
 use super::model::{Mesh, Scene, bounds};
 use crate::export::GENERATOR;
 use crate::math::srgb;
@@ -161,13 +161,6 @@ fn write_shader(out: &mut impl Write, name: &str, id: &str, inputs: &[String], m
         writeln!(out, "                {line}")?;
     }
     writeln!(out, "            }}\n")
-}
-
-/// The name of a prim: letters, digits and `_`, no digit first.
-fn identifier(name: &str) -> String {
-    let plain = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
-    let digit_first = name.chars().next().is_none_or(|c| c.is_ascii_digit());
-    digit_first.then_some('_').into_iter().chain(plain).collect()
 }
 
 /// The content of a quoted text.
