@@ -380,8 +380,15 @@ fn along_rows(wall: &[u8], ink: &[u8], limits: &Limits, frame: Frame) -> Vec<Gap
         (limits.thinnest..=limits.thickest).contains(&gap.rows.len()) && is_square(gap) && is_free(wall, width, gap)
     };
     let has_end = |gap: &Gap| [false, true].into_iter().any(|forwards| is_end(wall, width, gap, forwards, ONE_END));
-    let (mut found, others): (Vec<Gap>, Vec<Gap>) = found.into_iter().partition(|gap| is_open(gap) && has_end(gap));
-    found.extend(others.iter().flat_map(|gap| at_ends(wall, width, gap, limits)).filter(is_open));
+    let mut across_ends = Vec::new();
+    found.retain(|gap| {
+        let is_gap = is_open(gap) && has_end(gap);
+        if !is_gap {
+            across_ends.extend(at_ends(wall, width, gap, limits).filter(is_open));
+        }
+        is_gap
+    });
+    found.extend(across_ends);
     for gap in &mut found {
         gap.strokes = strokes(ink, width, gap);
         let has_ends = [false, true].into_iter().all(|forwards| is_end(wall, width, gap, forwards, BOTH_ENDS));
@@ -392,7 +399,7 @@ fn along_rows(wall: &[u8], ink: &[u8], limits: &Limits, frame: Frame) -> Vec<Gap
 
 /// The gaps in the walls across the ends of a corridor: rows of it that go on as a wall to both sides, where the walls beside
 /// the corridor are thin; or all rows, where the corridor is a little wider than the gap.
-fn at_ends(wall: &[u8], width: usize, gap: &Gap, limits: &Limits) -> Vec<Gap> {
+fn at_ends(wall: &[u8], width: usize, gap: &Gap, limits: &Limits) -> impl Iterator<Item = Gap> {
     let longest = 4 * limits.thickest;
     let depths = |k: usize| {
         let row = &wall[(gap.first + k) * width..][..width];
@@ -410,11 +417,17 @@ fn at_ends(wall: &[u8], width: usize, gap: &Gap, limits: &Limits) -> Vec<Gap> {
     let before = (0..count).take_while(|&k| is_deep(k)).count();
     let after = (0..count).rev().take_while(|&k| is_deep(k)).count();
     let whole = if all.iter().flatten().all(|&depth| depth >= count) { count } else { 0 };
-    let at_end = |rows: Range<usize>| {
-        let first = gap.first + rows.start;
-        Gap { first, rows: gap.rows[rows].to_vec(), at_end: true, ..gap.clone() }
+    let at_end = |rows: Range<usize>| Gap {
+        frame: gap.frame,
+        first: gap.first + rows.start,
+        rows: gap.rows[rows].to_vec(),
+        strokes: 0,
+        slides: false,
+        at_end: true,
+        ends: [0; 2],
     };
-    [0..before, count - after..count, 0..whole].into_iter().filter(|rows| !rows.is_empty()).map(at_end).collect()
+    let found = [0..before, count - after..count, 0..whole];
+    found.map(|rows| (!rows.is_empty()).then(|| at_end(rows))).into_iter().flatten()
 }
 
 /// Windows into which the end of a wall across them reaches, as partitions that end at a mullion do.
