@@ -202,6 +202,8 @@ pub struct ResolveOptions {
     pub layers: Option<bool>,
     /// Bits per channel of masks, wear and height: 8 or 16.
     pub bits: Option<u32>,
+    /// Whether PNG files are compressed harder.
+    pub small_png: Option<bool>,
     /// Folder to write to, in place of the bake's own: the bake stays as it is.
     pub folder: Option<PathBuf>,
     /// Whether to replace an earlier bake in that folder.
@@ -235,6 +237,7 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
     textures.sdf = options.sdf.unwrap_or(textures.sdf);
     textures.layers = options.layers.or(textures.layers);
     textures.bits = options.bits.unwrap_or(textures.bits);
+    textures.small_png = options.small_png.unwrap_or(textures.small_png);
     textures.check()?;
     check_free(&folder, manifest.walls.is_some(), &textures)?;
     let atlas = manifest.walls.as_ref().map(|walls| walls.atlas());

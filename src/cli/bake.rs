@@ -76,6 +76,9 @@ pub struct Bake {
     /// Bits per channel of masks, wear and height; 16 are not dithered [default: 8]
     #[arg(long, value_name = "8|16", value_parser = arguments::bits())]
     bits: Option<u32>,
+    /// How PNG textures are compressed: small takes a third off, and half as long again [default: fast]
+    #[arg(long, value_name = "small|fast", value_parser = arguments::png())]
+    png: Option<bool>,
     /// Put the textures, reduced, into scene.glb
     #[arg(long)]
     embed: bool,
@@ -139,6 +142,7 @@ impl Bake {
             any_size: self.yes,
             layers: self.layers.then_some(true),
             bits: self.bits,
+            small_png: self.png,
             motion_file: self.motion_file()?,
             recording: self.alignment.over(self.reading.options()),
             ..self.scenario.overrides()

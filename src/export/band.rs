@@ -349,18 +349,18 @@ pub(super) struct TileWriter<W: Write + Seek + Send + 'static> {
 }
 
 impl<W: Write + Seek + Send> TileWriter<W> {
-    /// Creates the files of a texture and writes their headers.
+    /// Creates the files of a texture and writes their headers. `is_small` is whether its PNG files are to be small.
     pub(super) fn begin(
         [width, height]: [usize; 2],
         files: &TextureFiles,
         background: &Background,
-        (layers, fine): (Option<&LayerEncoder>, &dyn Fn(Image) -> Option<FineForm>),
+        (layers, fine, is_small): (Option<&LayerEncoder>, &dyn Fn(Image) -> Option<FineForm>, bool),
         create: impl Fn(&str) -> Result<W, ExportError>,
     ) -> Result<TileWriter<W>, ExportError> {
         let mut writer = TileWriter { images: Vec::new(), layers: Vec::new() };
         for &(image, ref name) in &files.images {
             let (pixels, background) = fine(image).unwrap_or_else(|| (image.pixels(), image.background(background)));
-            let png = PngWriter::begin(create(name)?, pixels, width as u32, height as u32);
+            let png = PngWriter::begin(create(name)?, pixels, [width as u32, height as u32], is_small);
             let row = vec![0; width * pixels.bytes()];
             writer.images.push(ImageFile { image, pixels, background, row, png: png.map_err(OutputFile::explain)? });
         }

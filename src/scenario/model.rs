@@ -120,6 +120,8 @@ pub struct Overrides {
     pub any_size: bool,
     /// Other bits per channel of masks.
     pub bits: Option<u32>,
+    /// Whether PNG files are compressed harder.
+    pub small_png: Option<bool>,
     /// Whether every layer is written on its own too.
     pub layers: Option<bool>,
     /// A recording that takes the crowd's place, relative to the working directory.

@@ -163,6 +163,7 @@ impl Scenario {
         self.texture.any_size |= overrides.any_size;
         self.texture.layers = overrides.layers.or(self.texture.layers);
         self.texture.bits = overrides.bits.unwrap_or(self.texture.bits);
+        self.texture.small_png = overrides.small_png.unwrap_or(self.texture.small_png);
         if let Some(file) = &overrides.motion_file {
             // Paths of the command line start from the working directory, those of the scenario from its folder.
             let absolute = std::path::absolute(file).ok().filter(|_| !self.folder.as_os_str().is_empty());

@@ -138,6 +138,10 @@ pub fn bits() -> impl TypedValueParser<Value = u32> {
     one_of([8, 16], |bits| if bits == 16 { "16" } else { "8" })
 }
 
+pub fn png() -> impl TypedValueParser<Value = bool> {
+    one_of([true, false], |small| if small { "small" } else { "fast" })
+}
+
 pub fn building() -> impl TypedValueParser<Value = Use> {
     one_of(Use::ALL, Use::name)
 }

@@ -288,6 +288,7 @@ impl Manifest {
             tile: width.max(height).max(TileLayout::MIN_TILE),
             layers: self.settings["texture"]["layers"].as_bool().or(unusual),
             bits: if fine { 16 } else { usual_bits() },
+            small_png: self.settings["texture"]["small_png"].as_bool().unwrap_or_default(),
             target: self.target.name,
             embed: self.settings["texture"]["embed"].as_bool().unwrap_or_default(),
             lamps: self.settings["texture"]["lamps"].as_bool().unwrap_or_default(),

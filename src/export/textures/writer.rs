@@ -31,6 +31,7 @@ pub(super) struct TextureWriter<'a> {
     layers: Option<LayerEncoder>,
     reduced_px: Option<u32>,
     is_fine: bool,
+    is_small: bool,
     pub(super) look_busy: BusyTime,
     pub(super) export_busy: BusyTime,
 }
@@ -64,6 +65,7 @@ impl<'a> TextureWriter<'a> {
             layers: (options.writes_layers() && !layers.is_empty()).then(|| LayerEncoder::new(files)),
             reduced_px: options.reduced_px,
             is_fine: options.is_fine(),
+            is_small: options.small_png,
             look_busy: BusyTime::default(),
             export_busy: BusyTime::default(),
         }
@@ -133,7 +135,7 @@ impl<'a> TextureWriter<'a> {
         let size = canvas.size.map(|side| side as usize);
         let create = |name: &str| self.folder.create(name);
         let fine = |image| if self.is_fine { fine::form(image) } else { None };
-        TileWriter::begin(size, &canvas.files, background, (self.layers.as_ref(), &fine), create)
+        TileWriter::begin(size, &canvas.files, background, (self.layers.as_ref(), &fine, self.is_small), create)
     }
 
     fn resolve<S: TextureSource>(
