@@ -194,6 +194,8 @@ pub struct ResolveOptions {
     pub embed: Option<bool>,
     /// Whether `scene.glb` has the lamps of the stills.
     pub lamps: Option<bool>,
+    /// Whether the scene has a ceiling where the plan has one.
+    pub ceiling: Option<bool>,
     /// Whether the scene is also written as `scene.usda`.
     pub usd: Option<bool>,
     /// Whether `scene.sdf`, a world for Gazebo, is written too.
@@ -233,6 +235,7 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
     textures.target = options.target.unwrap_or(textures.target);
     textures.embed = options.embed.unwrap_or(textures.embed);
     textures.lamps = options.lamps.unwrap_or(textures.lamps);
+    textures.ceiling = options.ceiling.unwrap_or(textures.ceiling);
     textures.usd = options.usd.unwrap_or(textures.usd);
     textures.sdf = options.sdf.unwrap_or(textures.sdf);
     textures.layers = options.layers.or(textures.layers);

@@ -13,7 +13,7 @@ use crate::math::Rect;
 use crate::progress::{Progress, Stage, Stopwatch};
 use crate::show::page::{Page, PageOptions, PageSurface};
 use crate::show::scene::{
-    self, PlainMaterial, Prism, Scene, SceneFile, SceneLamp, SceneOptions, SurfaceImages, WallStrip, write_glb,
+    self, Mesh, PlainMaterial, Prism, Scene, SceneFile, SceneLamp, SceneOptions, SurfaceImages, WallStrip, write_glb,
     write_sdf, write_usda,
 };
 use crate::show::still::{FarWalls, STILL_SIZE_PX, Surfaces, WallSurfaces, write_stills};
@@ -112,8 +112,15 @@ impl Graded<'_> {
             (rooms, cameras)
         });
         let scene = watch.busy(Stage::Scene, || {
-            let scene = model.scene(sums.grid().height_m);
-            model.write_scene(&scene, wall.background(), (&rooms, cameras), options, folder).map(|()| scene)
+            let mut scene = model.scene(sums.grid().height_m);
+            let shown = scene.meshes.len();
+            if options.ceiling && rooms.grid.roofed {
+                scene.meshes.extend(model.ceiling(sums.grid().height_m));
+            }
+            model.write_scene(&scene, wall.background(), (&rooms, cameras), options, folder)?;
+            // The page looks in from above.
+            scene.meshes.truncate(shown);
+            Ok::<Scene, export::ExportError>(scene)
         })?;
         let clean = [floor.background(), wall.background()];
         let draw = || model.write_stills((floor, &wall), sums, (&rooms, cameras), folder, progress);
@@ -149,6 +156,11 @@ impl Model<'_> {
         let strips: Vec<WallStrip> = atlas.strips().map(strip).collect();
         let options = SceneOptions { wall_height_m, ..SceneOptions::default() };
         scene::build(self.graded.walls, &self.tiles(), &strips, self.graded.doorways, &options)
+    }
+
+    fn ceiling(&self, wall_height_m: f64) -> Option<Mesh> {
+        let options = SceneOptions { wall_height_m, ..SceneOptions::default() };
+        scene::ceiling(self.graded.walls, self.graded.doorways, &options)
     }
 
     /// The collision shapes of the scene.

@@ -85,6 +85,9 @@ pub struct Bake {
     /// Put the lamps of the stills into scene.glb, to be lit like them
     #[arg(long)]
     lamps: bool,
+    /// Close the rooms of the scene with a ceiling, to be lit inside
+    #[arg(long, conflicts_with = "floor_only")]
+    ceiling: bool,
     /// Write the scene as scene.usda too, for Omniverse, Isaac Sim and Houdini
     #[arg(long, conflicts_with = "floor_only")]
     usd: bool,
@@ -137,6 +140,7 @@ impl Bake {
             walls: self.floor_only.then_some(false),
             embed: self.embed.then_some(true),
             lamps: self.lamps.then_some(true),
+            ceiling: self.ceiling.then_some(true),
             usd: self.usd.then_some(true),
             sdf: self.sdf.then_some(true),
             any_size: self.yes,

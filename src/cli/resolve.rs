@@ -29,7 +29,7 @@ pub struct Resolve {
     #[arg(value_name = "BAKE")]
     bake: PathBuf,
     /// A look file: TOML with the keys of a scenario's [look]
-    #[arg(long, value_name = "FILE", required_unless_present_any = ["preset", "target", "embed", "lamps", "usd", "sdf", "layers", "bits", "png", "output", "passes"])]
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["preset", "target", "embed", "lamps", "ceiling", "usd", "sdf", "layers", "bits", "png", "output", "passes"])]
     look: Option<PathBuf>,
     /// Or the look of a preset
     #[arg(long, value_name = "NAME", value_parser = arguments::preset(), conflicts_with = "look")]
@@ -52,6 +52,9 @@ pub struct Resolve {
     /// Put the lamps of the stills into scene.glb, to be lit like them
     #[arg(long)]
     lamps: bool,
+    /// Close the rooms of the scene with a ceiling, to be lit inside
+    #[arg(long)]
+    ceiling: bool,
     /// Write the scene as scene.usda too, for Omniverse, Isaac Sim and Houdini
     #[arg(long)]
     usd: bool,
@@ -80,6 +83,7 @@ impl Resolve {
             target: self.target,
             embed: self.embed.then_some(true),
             lamps: self.lamps.then_some(true),
+            ceiling: self.ceiling.then_some(true),
             usd: self.usd.then_some(true),
             sdf: self.sdf.then_some(true),
             layers: self.layers.then_some(true),

@@ -29,6 +29,8 @@ options! {
         lightmap: u32 = 1024, in 0.0..=8192.0, unit "px";
         /// Whether scene.glb has the lamps of the stills.
         lamps: bool = false;
+        /// Whether the scene has a ceiling where the plan has one.
+        ceiling: bool = false;
         /// Whether the scene is also written as scene.usda.
         usd: bool = false;
         /// Whether scene.sdf, a world for Gazebo, is written too.

@@ -112,6 +112,8 @@ pub struct Overrides {
     pub embed: Option<bool>,
     /// Whether `scene.glb` has the lamps of the stills.
     pub lamps: Option<bool>,
+    /// Whether the scene has a ceiling where the plan has one.
+    pub ceiling: Option<bool>,
     /// Whether the scene is also written as `scene.usda`.
     pub usd: Option<bool>,
     /// Whether `scene.sdf`, a world for Gazebo, is written too.

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod bake;
+mod ceiling;
 mod days;
 mod empty_walls;
 mod export;

@@ -292,6 +292,7 @@ impl Manifest {
             target: self.target.name,
             embed: self.settings["texture"]["embed"].as_bool().unwrap_or_default(),
             lamps: self.settings["texture"]["lamps"].as_bool().unwrap_or_default(),
+            ceiling: self.settings["texture"]["ceiling"].as_bool().unwrap_or_default(),
             usd: self.files.iter().any(|file| **file == *USD_FILE),
             sdf: self.files.iter().any(|file| **file == *SDF_FILE),
             ..TextureOptions::default()

@@ -193,7 +193,7 @@ fn part_image(page: &Page<'_>, part: &Mesh) -> Option<PartImage> {
     let images = match part.surface {
         SceneSurface::FloorTile(n) => page.floor.images.get(n),
         SceneSurface::WallSheet(n) => page.wall.images.get(n),
-        SceneSurface::WallTop | SceneSurface::Lintel | SceneSurface::Fitting(_) => None,
+        SceneSurface::WallTop | SceneSurface::Lintel | SceneSurface::Fitting(_) | SceneSurface::Ceiling => None,
     }?;
     let (width, height) = images.clean.dimensions();
     let fits = images.dirt.dimensions() == (width, height) && images.orm.dimensions() == (width, height);
@@ -226,7 +226,7 @@ fn parts(page: &Page<'_>, blocks: &mut Vec<(String, Vec<u8>)>) -> Vec<Value> {
             SceneSurface::FloorTile(_) => "floor",
             SceneSurface::WallSheet(_) => "wall",
             SceneSurface::WallTop => "top",
-            SceneSurface::Lintel => "lintel",
+            SceneSurface::Lintel | SceneSurface::Ceiling => "lintel",
             SceneSurface::Fitting(finish) if finish == Finish::Pane as usize => "pane",
             SceneSurface::Fitting(_) => "fitting",
         };

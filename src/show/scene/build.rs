@@ -1,8 +1,8 @@
 use super::builder::SceneBuilder;
-use super::model::{Scene, SceneSurface, WallStrip};
+use super::model::{Mesh, Scene, SceneSurface, WallStrip};
 use super::region::PolygonSet;
 use super::tiles::TileCuts;
-use super::tops::{Solid, add_level};
+use super::tops::{Solid, add_level, add_underside};
 use super::{faces, fittings, floor, lintels};
 use crate::math::Rect;
 use crate::show::rooms::{Finish, Fittings};
@@ -63,6 +63,16 @@ pub fn build(
         lintels::add(gaps, walls, [*head_m, height_m], &mut scene);
     }
     scene.finish()
+}
+
+/// A ceiling at the walls' height: over floor and furniture, but for doors that have a lintel, whose tops are there.
+pub fn ceiling(walls: &Walls, doorways: &[Doorway], options: &SceneOptions) -> Option<Mesh> {
+    let bodies = Bodies::of(walls, doorways, options);
+    let room = bodies.blocks.iter().fold(bodies.covered, |room, (_, tops)| room.union(tops));
+    let below = bodies.lintels.iter().fold(room, |room, (_, gaps)| room.minus(gaps));
+    let mut scene = SceneBuilder::default();
+    add_underside(&below, options.wall_height_m, scene.part(SceneSurface::Ceiling));
+    scene.finish().meshes.pop()
 }
 
 /// What stands on a plan, as seen from above.

@@ -41,7 +41,7 @@ pub struct SceneLamp {
     pub area_m2: f64,
 }
 
-/// Lamps hang so far below the ceiling, metres: clear of one that somebody adds.
+/// Lamps hang so far below the ceiling, metres: clear of it, and of one that somebody adds.
 const BELOW_CEILING_M: f64 = 0.02;
 
 impl SceneLamp {
@@ -119,17 +119,19 @@ impl<'a> Cover<'a> {
         let textured = match surface {
             SceneSurface::FloorTile(tile) => file.floor.get(tile),
             SceneSurface::WallSheet(sheet) => file.walls.get(sheet),
-            SceneSurface::WallTop | SceneSurface::Lintel | SceneSurface::Fitting(_) => None,
+            SceneSurface::WallTop | SceneSurface::Lintel | SceneSurface::Fitting(_) | SceneSurface::Ceiling => None,
         };
         let name = match surface {
             SceneSurface::FloorTile(_) => "floor",
             SceneSurface::WallSheet(_) => "wall",
             SceneSurface::WallTop => "wall_tops",
             SceneSurface::Lintel => "clean_wall",
+            SceneSurface::Ceiling => "ceiling",
             SceneSurface::Fitting(finish) => Finish::ALL.get(finish).map_or("fitting", |finish| finish.name()),
         };
         let plain = match surface {
             SceneSurface::WallTop => file.wall_top,
+            SceneSurface::Ceiling => PlainMaterial::PAINT,
             SceneSurface::Fitting(finish) => Finish::ALL.get(finish).map_or(PlainMaterial::PAINT, |finish| {
                 PlainMaterial { colour: finish.colour(), roughness: finish.roughness() }
             }),

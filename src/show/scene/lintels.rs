@@ -1,9 +1,9 @@
 //! Lintels: the walls above doors.
 
-use super::builder::{MeshVertex, SceneBuilder};
+use super::builder::SceneBuilder;
 use super::model::SceneSurface;
 use super::region::PolygonSet;
-use super::tops::{add_level, add_upright};
+use super::tops::{add_level, add_underside, add_upright};
 use crate::math::Vec2;
 use crate::walls::{Doorway, Walls};
 
@@ -21,11 +21,7 @@ pub(super) fn gaps<'d>(floor: &PolygonSet, doorways: impl Iterator<Item = &'d Do
 
 /// Adds lintels over gaps, from a door's height to the walls'.
 pub(super) fn add(gaps: &PolygonSet, walls: &Walls, [door_m, height_m]: [f64; 2], scene: &mut SceneBuilder) {
-    for corners in gaps.triangles().corners {
-        let [a, b, c] =
-            corners.map(|p| MeshVertex { position_m: [p.x, p.y, door_m], normal: [0.0, 0.0, -1.0], uv: [p.x, p.y] });
-        scene.part(SceneSurface::Lintel).triangle([a, c, b]);
-    }
+    add_underside(gaps, door_m, scene.part(SceneSurface::Lintel));
     for points in gaps.loops() {
         let points: Vec<Vec2> = points.collect();
         for (k, &a) in points.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! The baked plan as triangles: floor, walls, their tops, lintels over doors.
+//! The baked plan as triangles: floor, walls, their tops, lintels over doors, a ceiling.
 
 mod build;
 mod builder;
@@ -19,7 +19,7 @@ mod tiles;
 mod tops;
 mod usda;
 
-pub(crate) use build::{SceneOptions, build};
+pub(crate) use build::{SceneOptions, build, ceiling};
 pub(crate) use file::{PlainMaterial, SceneFile, SceneLamp, SurfaceImages};
 pub(crate) use glb::write_glb;
 pub(crate) use hulls::{Prism, hulls};

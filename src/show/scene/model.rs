@@ -11,6 +11,8 @@ pub enum SceneSurface {
     Lintel,
     /// Furniture, doors and windows of one material: its place in the list of those.
     Fitting(usize),
+    /// Ceiling over the floor.
+    Ceiling,
 }
 
 /// Triangles that share a surface. All lists but `indices` have an entry per vertex.

@@ -113,6 +113,15 @@ pub(super) fn add_level(region: &PolygonSet, height_m: f64, part: &mut MeshBuild
     }
 }
 
+/// A level area, seen from below.
+pub(super) fn add_underside(region: &PolygonSet, height_m: f64, part: &mut MeshBuilder) {
+    for corners in region.triangles().corners {
+        let [a, b, c] =
+            corners.map(|p| MeshVertex { position_m: [p.x, p.y, height_m], normal: [0.0, 0.0, -1.0], uv: [p.x, p.y] });
+        part.triangle([a, c, b]);
+    }
+}
+
 /// An upright quad over an edge, seen from its right.
 pub(super) fn add_upright([a, b]: [Vec2; 2], [low, high]: [f64; 2], part: &mut MeshBuilder) {
     let Some(direction) = (b - a).normalized() else { return };
