@@ -14,6 +14,7 @@ mod measures;
 mod no_gridlock;
 mod paper;
 mod paper_walls;
+mod reality;
 mod rimea;
 mod scene;
 mod social_force;
