@@ -159,6 +159,6 @@ impl Mopping {
         let arc = rise(swing, 0.0, 0.8) * (1.0 - rise(swing, 0.86, 1.0)) - 0.45;
         // Where the mop is wrung out or the floor dries evenly they do not show.
         let shown = rise(smooth_along(key ^ 6, 0.55 * u, strip), -0.35, 0.6);
-        0.55 * own + 0.45 * pressed + 0.9 * line + 0.65 * shown * arc
+        0.55 * own + 0.45 * pressed + 0.9 * line + 0.75 * shown * arc
     }
 }
