@@ -157,8 +157,6 @@ impl Mopping {
         let swing = u / SWING_M + f64::from(bow) * 0.9 + turn + f64::from(unit(key ^ 5, strip, 1));
         let swing = (swing - swing.floor()) as f32;
         let arc = rise(swing, 0.0, 0.8) * (1.0 - rise(swing, 0.86, 1.0)) - 0.45;
-        // Where the mop is wrung out or the floor dries evenly they do not show.
-        let shown = rise(smooth_along(key ^ 6, 0.55 * u, strip), -0.35, 0.6);
-        0.55 * own + 0.45 * pressed + 0.9 * line + 0.75 * shown * arc
+        0.55 * own + 0.45 * pressed + 0.9 * line + 0.55 * arc
     }
 }

@@ -12,6 +12,10 @@ const BUILDING_SHARE: f64 = 0.3;
 /// of halls, if without them no building is told from the paper. With each goes the least share of the image's sides that
 /// the paper covers: behind wide gaps lies a building only if the paper is all around it.
 const WIDEST_DOORS_M: [(f64, f64); 3] = [(2.0, 0.5), (3.5, 0.95), (5.0, 0.95)];
+/// The least share where the paper has to be thought on beyond the image.
+const CROPPED_SHARE: f64 = 0.95;
+/// Most of a building's outline that may be doors there: a place between pillars is open nearly all around.
+const OPEN_SHARE: f64 = 0.25;
 /// Least area of a building beside the largest, with doors of its own, square metres.
 const LEAST_BUILDING_M2: f64 = 4.0;
 /// Least number of the image's corners that the paper covers.
@@ -49,10 +53,17 @@ pub(super) fn choose(
     // With the width of the widest door, where that has told the paper.
     let cut: Option<(Vec<u8>, f64)> = match outside {
         Some(outside) => Some((outside.iter().zip(&white).map(|(&o, &w)| o & w).collect(), 0.0)),
-        None => WIDEST_DOORS_M.into_iter().find_map(|(door_m, share)| {
-            let door_px = in_px(door_m);
-            paper_around(&white, &spaces, width, door_px, share).map(|paper| (paper, door_px))
-        }),
+        None => {
+            let find = |door_m: f64, share: f64, goes_on: bool| {
+                let door_px = in_px(door_m);
+                paper_around(&white, &spaces, width, door_px, share, goes_on).map(|paper| (paper, door_px))
+            };
+            let within = || WIDEST_DOORS_M.into_iter().find_map(|(door_m, share)| find(door_m, share, false));
+            // A picture that is cropped near the walls has no place for a disc as wide as a door.
+            let is_cropped = || !plan.scanned && seeds.is_empty() && white_sides(&white, width) >= CROPPED_SHARE;
+            let beyond = || WIDEST_DOORS_M.into_iter().find_map(|(door_m, _)| find(door_m, CROPPED_SHARE, true));
+            within().or_else(|| is_cropped().then(beyond).flatten())
+        }
     };
     let mut is_entered = Vec::new();
     if let Some((cut, door_px)) = cut {
@@ -92,29 +103,32 @@ pub(super) fn of_mask(plan: &FloorPlan) -> Vec<Region> {
 /// Finds the paper around a building, if doors connect the building to it.
 ///
 /// The paper is the white that a disc as wide as a wide door reaches from the image's corners. It must cover three
-/// corners and at least a share of the image's sides, and leave a building of at least 0.3 of its area.
-fn paper_around(white: &[u8], spaces: &Spaces, width: usize, door_px: f64, share: f64) -> Option<Vec<u8>> {
+/// corners and at least a share of the image's sides, and leave a building of at least 0.3 of its area. Where the paper
+/// `goes_on`, the disc may come from beyond the image.
+fn paper_around(
+    white: &[u8],
+    spaces: &Spaces,
+    width: usize,
+    door_px: f64,
+    share: f64,
+    goes_on: bool,
+) -> Option<Vec<u8>> {
     let height = white.len() / width;
     if !spaces.all.iter().any(|s| s.corners > 0) {
         return None;
     }
     let radius = (door_px * 0.5).max(1.0);
-    let wide = erode(white, width, radius);
-    let pieces = Components::of(&wide, width, 1, Neighbours::Four);
-    drop(wide);
-    let mut core = vec![0u8; white.len()];
-    let corner = |x: u32, y: u32| (x == 0 || x == width as u32 - 1) && (y == 0 || y == height as u32 - 1);
-    for piece in &pieces.all {
-        let holds_corner = pieces.runs(piece).iter().any(|r| corner(r.from, r.y) || corner(r.to - 1, r.y));
-        if holds_corner {
-            pieces.paint(piece, &mut core, width, 1);
-        }
-    }
-    let mut paper = dilate(&core, width, radius);
-    drop(core);
-    for (paper, &white) in paper.iter_mut().zip(white) {
-        *paper &= white;
-    }
+    let paper = if goes_on {
+        let margin = radius.ceil() as usize + 1;
+        let wider = width + 2 * margin;
+        let mut large = vec![1u8; wider * (height + 2 * margin)];
+        let start = |y: usize| (y + margin) * wider + margin;
+        white.chunks_exact(width).enumerate().for_each(|(y, row)| large[start(y)..][..width].copy_from_slice(row));
+        let paper = from_corners(&large, wider, radius);
+        (0..height).flat_map(|y| paper[start(y)..][..width].iter().copied()).collect()
+    } else {
+        from_corners(white, width, radius)
+    };
     let area = paper.iter().filter(|&&p| p != 0).count();
     let corners = [0, width - 1, (height - 1) * width, height * width - 1];
     let on_sides = (0..paper.len()).filter(|&at| {
@@ -135,10 +149,63 @@ fn paper_around(white: &[u8], spaces: &Spaces, width: usize, door_px: f64, share
     }
     let is_left = |at: usize| paper[at] == 0 && spaces.label[at] > 0 && touched[spaces.label[at] as usize - 1];
     let left: Vec<u8> = (0..white.len()).map(|at| u8::from(is_left(at))).collect();
+    if goes_on && open_share(white, &paper, &left, width) > OPEN_SHARE {
+        return None;
+    }
     let largest = Components::of(&left, width, 1, Neighbours::Four).all.iter().map(|p| p.area).max().unwrap_or(0);
     let apart: usize =
         spaces.all.iter().zip(&touched).filter(|(s, t)| s.corners == 0 && !**t).map(|(s, _)| s.area).sum();
     (largest > 0 && (largest + apart) as f64 >= BUILDING_SHARE * area as f64).then_some(paper)
+}
+
+/// The white that a disc reaches from the image's corners.
+fn from_corners(white: &[u8], width: usize, radius: f64) -> Vec<u8> {
+    let height = white.len() / width;
+    let wide = erode(white, width, radius);
+    let pieces = Components::of(&wide, width, 1, Neighbours::Four);
+    drop(wide);
+    let mut core = vec![0u8; white.len()];
+    let corner = |x: u32, y: u32| (x == 0 || x == width as u32 - 1) && (y == 0 || y == height as u32 - 1);
+    for piece in &pieces.all {
+        let holds_corner = pieces.runs(piece).iter().any(|r| corner(r.from, r.y) || corner(r.to - 1, r.y));
+        if holds_corner {
+            pieces.paint(piece, &mut core, width, 1);
+        }
+    }
+    let mut reached = dilate(&core, width, radius);
+    for (reached, &white) in reached.iter_mut().zip(white) {
+        *reached &= white;
+    }
+    reached
+}
+
+/// Share of the paper's inner edge behind which the white goes on into the building.
+fn open_share(white: &[u8], paper: &[u8], building: &[u8], width: usize) -> f64 {
+    let (mut open, mut closed) = (0usize, 0usize);
+    let mut beside = |a: usize, b: usize| {
+        if (paper[a] != 0) != (paper[b] != 0) {
+            let other = if paper[a] != 0 { b } else { a };
+            open += usize::from(building[other] != 0);
+            closed += usize::from(white[other] == 0);
+        }
+    };
+    for at in 0..white.len() {
+        if at % width + 1 < width {
+            beside(at, at + 1);
+        }
+        if at + width < white.len() {
+            beside(at, at + width);
+        }
+    }
+    open as f64 / (open + closed).max(1) as f64
+}
+
+/// Share of the image's sides that is white.
+fn white_sides(white: &[u8], width: usize) -> f64 {
+    let height = white.len() / width;
+    let level = [0, height - 1].into_iter().flat_map(|y| (0..width).map(move |x| y * width + x));
+    let upright = [0, width - 1].into_iter().flat_map(|x| (0..height).map(move |y| y * width + x));
+    level.chain(upright).filter(|&at| white[at] != 0).count() as f64 / (2 * (width + height)) as f64
 }
 
 /// Which spaces have a door to the paper, and room for a disc as wide as a door: the disc has not come in from the paper.

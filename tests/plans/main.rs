@@ -4,6 +4,7 @@
 
 mod buildings;
 mod canvas;
+mod cropped;
 mod measure;
 mod notes;
 mod openings;
