@@ -12,6 +12,10 @@ const MOST_SAMPLES: usize = 4096;
 const LONG_SHARE: f64 = 0.08;
 /// Greatest thickness of walls, as a share of the image's shorter side.
 const THICKEST_WALL: f64 = 0.04;
+/// The same beside thin lines, which white rooms in a black mass have not.
+const THICKEST_BESIDE_LINES: f64 = 0.08;
+/// Least share of light pixels in such lines.
+const LINES_SHARE: f64 = 0.02;
 /// Least share of the places between lines with lines on three sides of them.
 const ENCLOSED_SHARE: f64 = 0.55;
 /// Cells along the image's longer side in which long pieces are counted.
@@ -59,14 +63,13 @@ pub(super) fn is_inverted(width: usize, lightness: &[u8], coloured: &[u8]) -> bo
         return false;
     }
     let is_light = |l: u8| l >= split;
-    let (Some(lines), Some(ground)) = (
-        thickness(width, lightness, |at| is_plain(coloured, at) && is_light(lightness[at]), is_light),
-        thickness(width, lightness, |at| !is_light(lightness[at]), |l| !is_light(l)),
-    ) else {
-        return false;
-    };
-    let thickest = (width.min(height) as f64 * THICKEST_WALL * 0.75).max(2.0);
-    if lines > thickest || ground < 2.5 * lines {
+    let light = runs(width, lightness, |at| is_plain(coloured, at) && is_light(lightness[at]), is_light);
+    let ground = thickness(width, lightness, |at| !is_light(lightness[at]), |l| !is_light(l));
+    let (Some(lines), Some(ground)) = (median(&light), ground) else { return false };
+    let in_lines = light.iter().filter(|&&[short, long]| 3.0 * short as f64 <= lines && long as f64 >= 1.5 * lines);
+    let has_lines = in_lines.count() as f64 >= LINES_SHARE * light.len() as f64;
+    let share = if has_lines { THICKEST_BESIDE_LINES } else { THICKEST_WALL * 0.75 };
+    if lines > (width.min(height) as f64 * share).max(2.0) || ground < 2.5 * lines {
         return false;
     }
     let mask: Vec<u8> =
@@ -235,13 +238,24 @@ fn between(counts: &[usize; 256]) -> usize {
     best.1
 }
 
-/// Median thickness at chosen pixels of the class that `is_in` describes, pixels: the shorter of the runs across and down.
+/// Median thickness at chosen pixels of the class that `is_in` describes, pixels.
 fn thickness(
     width: usize,
     lightness: &[u8],
     chosen: impl Fn(usize) -> bool,
     is_in: impl Fn(u8) -> bool,
 ) -> Option<f64> {
+    median(&runs(width, lightness, chosen, is_in))
+}
+
+/// Median of the shorter runs.
+fn median(runs: &[[usize; 2]]) -> Option<f64> {
+    runs.get(runs.len() / 2).map(|&[short, _]| short as f64)
+}
+
+/// The shorter and the longer of the runs across and down at chosen pixels of the class that `is_in` describes, pixels;
+/// the shortest first.
+fn runs(width: usize, lightness: &[u8], chosen: impl Fn(usize) -> bool, is_in: impl Fn(u8) -> bool) -> Vec<[usize; 2]> {
     let places: Vec<usize> = (0..lightness.len()).filter(|&at| chosen(at)).collect();
     let height = lightness.len() / width;
     let limit = width.max(height) / 4 + 1;
@@ -251,16 +265,14 @@ fn thickness(
         let on = (1..=after.min(limit)).take_while(|k| is_in(lightness[at + k * stride])).count();
         back + on + 1
     };
-    let mut runs: Vec<usize> = places
-        .iter()
-        .step_by(step)
-        .map(|&at| {
-            let (x, y) = (at % width, at / width);
-            run(at, 1, x, width - 1 - x).min(run(at, width, y, height - 1 - y))
-        })
-        .collect();
+    let at_place = |&at: &usize| {
+        let (x, y) = (at % width, at / width);
+        let (across, down) = (run(at, 1, x, width - 1 - x), run(at, width, y, height - 1 - y));
+        [across.min(down), across.max(down)]
+    };
+    let mut runs: Vec<[usize; 2]> = places.iter().step_by(step).map(at_place).collect();
     runs.sort_unstable();
-    runs.get(runs.len() / 2).map(|&run| run as f64)
+    runs
 }
 
 /// The long pieces of a mask.
@@ -399,6 +411,36 @@ mod tests {
         for (paper, wall) in [(30, 220), (0, 255), (40, 110), (60, 130), (100, 250)] {
             assert!(is_inverted(WIDTH, &rooms(paper, wall), &[]), "{wall} on {paper}");
         }
+    }
+
+    /// Thick walls about two rooms and a corridor, with leaves of doors and panes of windows in thin lines if there are such.
+    fn small_flat(paper: u8, wall: u8, has_lines: bool) -> Vec<u8> {
+        let mut drawing = vec![paper; WIDTH * 200];
+        let mut fill = |x: std::ops::Range<usize>, y: std::ops::Range<usize>, tone: u8| {
+            y.for_each(|y| drawing[y * WIDTH + x.start..y * WIDTH + x.end].fill(tone));
+        };
+        for y in [20, 110, 170] {
+            fill(20..280, y..y + 12, wall);
+        }
+        for (x, y) in [(20, 20..182), (268, 20..182), (140, 20..110)] {
+            fill(x..x + 12, y, wall);
+        }
+        for x in [60, 190] {
+            fill(x..x + 30, 110..122, paper);
+            if has_lines {
+                fill(x..x + 2, 80..110, wall);
+                fill(x..x + 40, 20..32, paper);
+                [20, 25, 30].into_iter().for_each(|y| fill(x..x + 40, y..y + 2, wall));
+            }
+        }
+        drawing
+    }
+
+    #[test]
+    fn thick_light_walls_beside_thin_lines_are_a_blueprint_and_alone_are_corridors() {
+        assert!(is_inverted(WIDTH, &small_flat(60, 240, true), &[]));
+        assert!(!is_inverted(WIDTH, &small_flat(60, 240, false), &[]));
+        assert!(!is_inverted(WIDTH, &small_flat(240, 60, true), &[]));
     }
 
     #[test]
