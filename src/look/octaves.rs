@@ -9,7 +9,7 @@ options! {
         /// Grain: size of a spot, deviation of the logarithm.
         fine: Octave = Octave { size_m: 0.02, sd: 0.10 }, eg "{ size_m = 0.02, sd = 0.1 }";
         /// Blotches.
-        middle: Octave = Octave { size_m: 0.15, sd: 0.12 }, eg "{ size_m = 0.15, sd = 0.12 }";
+        middle: Octave = Octave { size_m: 0.15, sd: 0.075 }, eg "{ size_m = 0.15, sd = 0.075 }";
         /// Clouds.
         coarse: Octave = Octave { size_m: 1.2, sd: 0.15 }, eg "{ size_m = 1.2, sd = 0.15 }";
     }

@@ -38,11 +38,7 @@ fn heavy() -> Look {
         wheels: WheelsLook { density: 0.28, ..look.wheels },
         mop: MopLook { takes: 0.2, unevenness: 1.3, ..look.mop },
         scuffs: ScuffsLook { strength: 2.2, ..look.scuffs },
-        noise: NoiseLook {
-            fine: Octave { sd: 0.07, ..look.noise.fine },
-            middle: Octave { sd: 0.08, ..look.noise.middle },
-            ..look.noise
-        },
+        noise: NoiseLook { fine: Octave { sd: 0.07, ..look.noise.fine }, ..look.noise },
         edge: EdgeLook { density: 0.45, reach_m: 0.05, ..look.edge },
         wall: heavy_wall(look.wall),
         ..look
@@ -57,7 +53,7 @@ fn wet() -> Look {
         // Rain lays the dust.
         prints: PrintsLook { soil: 2.0, colour: SOIL_WET, ..look.prints },
         wet: WetLook { tracks: 3.0, water: 0.9, puddles: 0.3 },
-        noise: NoiseLook { middle: Octave { sd: 0.14, ..look.noise.middle }, ..look.noise },
+        noise: NoiseLook { middle: Octave { sd: 0.1, ..look.noise.middle }, ..look.noise },
         // Wet floors are mopped more often.
         wall: WallLook { splash: SplashLook { density: 0.13, drips_per_metre: 0.25, ..look.wall.splash }, ..look.wall },
         ..look

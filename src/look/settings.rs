@@ -179,7 +179,7 @@ options! {
         /// Width of a pass.
         width_m: f64 = 0.55, in 0.1..=3.0, unit "m";
         /// How unevenly it takes: streaks, swings and borders of passes.
-        unevenness: f32 = 1.0, in 0.0..=3.0;
+        unevenness: f32 = 0.625, in 0.0..=3.0;
     }
 }
 

@@ -20,7 +20,27 @@ pub struct Face {
     pub furniture_m: Option<f64>,
 }
 
+/// Furniture of this height and higher is a counter, metres.
+pub(crate) const COUNTER_M: f64 = 0.95;
+/// A counter that is narrower is a gate's cabinet, metres.
+const GATE_M: f64 = 0.5;
+
 impl Face {
+    /// Whether it is of a counter or a gate.
+    pub(crate) fn is_counter(&self) -> bool {
+        self.furniture_m.is_some_and(|top_m| top_m >= COUNTER_M)
+    }
+
+    /// Whether it is of a gate's cabinet: a narrow counter.
+    pub(crate) fn is_gate(&self) -> bool {
+        // Breadth of the rectangle with its length and its area.
+        let half = 0.25 * self.length_m();
+        let next = self.points_m.iter().cycle().skip(1);
+        let area: f64 = self.points_m.iter().zip(next).map(|(a, b)| 0.5 * (a.x * b.y - b.x * a.y)).sum();
+        let breadth_m = half - (half * half - area.abs()).max(0.0).sqrt();
+        self.closed && self.is_counter() && breadth_m < GATE_M
+    }
+
     /// Length of the polyline, metres.
     pub fn length_m(&self) -> f64 {
         let open: f64 = self.points_m.windows(2).map(|w| w[0].distance(w[1])).sum();

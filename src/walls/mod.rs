@@ -30,6 +30,7 @@ mod untangle;
 mod truth_tests;
 
 pub use error::WallsError;
+pub(crate) use face::COUNTER_M;
 pub(crate) use face::{APRON_M, Segment};
 pub use face::{Face, Nearest};
 pub(crate) use index::closest_on;

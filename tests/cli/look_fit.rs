@@ -246,7 +246,7 @@ impl Fitted {
     }
 }
 
-/// A look of a material, whose film and grain are not those of the preset.
+/// A look of a material, whose film, grain and blotches are not those of the preset.
 fn look(material: Material, colour: [u8; 3], density: f32, film: [u8; 3], grain: f32) -> Look {
     let mut look = Look { seed: 7, ..Look::default() };
     look.floor.material = material;
@@ -254,6 +254,7 @@ fn look(material: Material, colour: [u8; 3], density: f32, film: [u8; 3], grain:
     look.film.density = density;
     look.film.colour = film;
     look.noise.fine.sd = grain;
+    (look.noise.middle.sd, look.mop.unevenness) = (0.12, 1.0);
     look
 }
 

@@ -5,6 +5,7 @@
 //! and across the seam of a closed face.
 
 mod chips;
+mod cladding;
 mod dots;
 pub(crate) mod frames;
 mod masonry;

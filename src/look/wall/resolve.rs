@@ -1,11 +1,13 @@
 use std::cell::RefCell;
 
+use super::cladding::Cladding;
 use super::paint::WallPainter;
 use super::settings::StainLook;
 use super::shade::KINDS;
 use super::strip::{ColumnRun, FaceStrip};
 use crate::look::block::{Background, ResolvedBlock};
 use crate::look::error::LookError;
+use crate::look::lattice::TexelWindow;
 use crate::look::settings::Look;
 use crate::sums::WallSums;
 use crate::walls::{Doorway, Walls};
@@ -14,7 +16,12 @@ use crate::walls::{Doorway, Walls};
 pub const WALL_LAYERS: [&str; KINDS] = ["hand", "arm", "shoulder", "bag", "shoe", "splash", "dust", "chip"];
 
 /// Resolves rectangles of wall faces' strips, also from several threads. A texel depends on its position only.
-pub struct WallResolver<'a>(WallPainter<'a>);
+pub struct WallResolver<'a> {
+    walls: WallPainter<'a>,
+    /// By cladding, of those that there are.
+    furniture: Vec<(Cladding, WallPainter<'a>)>,
+    of_face: Vec<Option<Cladding>>,
+}
 
 impl<'a> WallResolver<'a> {
     /// Prepares to resolve `sums` of `simulated_people` people on the faces of `walls`.
@@ -35,27 +42,47 @@ impl<'a> WallResolver<'a> {
         if summed != faces {
             return Err(LookError::OtherWalls { faces, summed });
         }
-        Ok(WallResolver(WallPainter::new(sums, walls, look, simulated_people)?))
+        let of_face: Vec<Option<Cladding>> = walls.faces.iter().map(Cladding::of).collect();
+        let painter = |look: &Look| WallPainter::new(sums, walls, look, simulated_people);
+        let of_cladding = |cladding: Cladding| {
+            let look = Look { wall: cladding.look(&look.wall), ..look.clone() };
+            Ok((cladding, painter(&look)?))
+        };
+        let there = Cladding::ALL.into_iter().filter(|cladding| of_face.contains(&Some(*cladding)));
+        let furniture = there.map(of_cladding).collect::<Result<_, LookError>>()?;
+        Ok(WallResolver { walls: painter(look)?, furniture, of_face })
+    }
+
+    /// Shades a window of a strip into a block. Returns `false` if all of it has the background.
+    fn paint(&self, strip: &FaceStrip, window: &TexelWindow, block: &mut ResolvedBlock) -> bool {
+        let cladding = self.of_face[strip.face];
+        match self.furniture.iter().find(|(of, _)| Some(*of) == cladding) {
+            Some((_, painter)) => {
+                painter.paint(strip, window, block);
+                true
+            }
+            None => self.walls.paint(strip, window, block),
+        }
     }
 
     /// Adds the frames of doors, as `look` has them.
     pub fn with_doors(self, walls: &Walls, doorways: &[Doorway], look: &Look) -> WallResolver<'a> {
-        WallResolver(self.0.with_doors(walls, doorways, look))
+        WallResolver { walls: self.walls.with_doors(walls, doorways, look), ..self }
     }
 
     /// Mean of the clean wall: the value of all texels of an empty block.
     pub fn background(&self) -> Background {
-        self.0.background
+        self.walls.background
     }
 
     /// Texels along a face, if there is such a face.
     pub fn columns(&self, face: usize) -> Option<u32> {
-        self.0.sums.grid().faces.get(face).map(|span| span.width)
+        self.walls.sums.grid().faces.get(face).map(|span| span.width)
     }
 
     /// Stains of hands and of shoes, as this look has them.
     pub fn leaf_stains(&self) -> [StainLook; 2] {
-        let [hand, .., shoe] = self.0.stains;
+        let [hand, .., shoe] = self.walls.stains;
         [hand, shoe]
     }
 
@@ -74,7 +101,7 @@ impl<'a> WallResolver<'a> {
 
     /// As [`WallResolver::resolve`], into a block whose memory is reused.
     pub fn resolve_into(&self, face: usize, i0: i64, j0: i64, width: usize, height: usize, block: &mut ResolvedBlock) {
-        let Some(strip) = FaceStrip::of(self.0.sums.grid(), face).filter(|_| width > 0 && height > 0) else {
+        let Some(strip) = FaceStrip::of(self.walls.sums.grid(), face).filter(|_| width > 0 && height > 0) else {
             block.become_empty();
             return;
         };
@@ -83,7 +110,7 @@ impl<'a> WallResolver<'a> {
         let runs = strip.columns(i0, width);
         let whole = ColumnRun { columns: i0.max(0) as u32..i0.max(0) as u32 + width as u32, at: 0 };
         if i0 >= 0 && runs == [whole] && i64::from(rows.start) == j0 && rows.len() == height {
-            if !self.0.paint(&strip, &strip.window(&runs[0].columns, &rows), block) {
+            if !self.paint(&strip, &strip.window(&runs[0].columns, &rows), block) {
                 block.become_empty();
             }
             return;
@@ -95,7 +122,7 @@ impl<'a> WallResolver<'a> {
                 // A short closed face goes round several times: once is enough.
                 if n == 0 || runs[n - 1].columns != run.columns {
                     painted.resize(window.texels(), &WALL_LAYERS);
-                    any |= self.0.paint(&strip, &window, painted);
+                    any |= self.paint(&strip, &window, painted);
                 }
                 // On an open strip, the only run is extended to both sides.
                 let end = runs.get(n + 1).map_or(width, |next| next.at);

@@ -54,6 +54,10 @@ options! {
         frame_m: f32 = 0.06, in 0.0..=0.3, unit "m";
         /// Colour of the frames, sRGB.
         frame_colour: Srgb8 = [150, 152, 152];
+        /// Colour of the sides of counters, sRGB.
+        counter_colour: Srgb8 = [150, 128, 102];
+        /// Colour of the sides of gates, sRGB: counters that are narrower than half a metre.
+        gate_colour: Srgb8 = [172, 175, 177];
         /// Unevenness of all dirt, along the wall and up.
         noise: NoiseLook = NoiseLook {
             fine: Octave { size_m: 0.012, sd: 0.14 },

@@ -26,8 +26,8 @@ const HIP: f64 = 0.515;
 /// What of an adult's shoulder rubs along a wall: height at the reference stature, change of it per stature, its standard
 /// deviation, the greatest breadth of the stain and the length of one that is not drawn along, metres; and the stature from which people are adults, metres.
 const RUBS_M: f64 = 1.395;
-const RUBS_BY_STATURE: f64 = 0.12;
-const RUBS_SPREAD_M: f64 = 0.012;
+const RUBS_BY_STATURE: f64 = 0.25;
+const RUBS_SPREAD_M: f64 = 0.03;
 const RUBS_BREADTH_M: f64 = 0.08;
 const RUBS_LENGTH_M: f64 = 0.22;
 const ADULT_M: f64 = 1.42;

@@ -12,6 +12,7 @@ use crate::show::rooms::{
     ceiling_tint, clouded, day_behind, fitting_light, fresnel, joint, lobe_slope, mix, noise, rise, scaled, sky,
     tinted, unevenness, wall_tint,
 };
+use crate::walls::COUNTER_M;
 
 /// Shades the hits of rays.
 pub(super) struct Shader<'a> {
@@ -63,8 +64,6 @@ struct Things {
 
 /// Up to this height a lintel is mirrored as a door's frame, metres.
 const MIRRORED_FRAME_M: f32 = 2.2;
-/// Furniture from this height on is painted as walls are, metres.
-const COUNTER_M: f64 = 0.95;
 /// Floors that are looked at more steeply mirror too little for things to be seen: sine.
 const STEEP: f32 = 0.5;
 

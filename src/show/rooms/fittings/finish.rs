@@ -1,11 +1,11 @@
 //! Materials of furniture, doors and windows.
 
 use crate::math::srgb::Srgb8;
+use crate::walls::COUNTER_M;
 
-/// Heights up to which furniture is a seat, a table, a fixture, metres: others are counters and gates.
+/// Heights up to which furniture is a seat and a table, metres: others are fixtures, up to counters and gates.
 pub(super) const SEATS_M: f64 = 0.6;
 pub(super) const TABLES_M: f64 = 0.8;
-pub(super) const FIXTURES_M: f64 = 0.95;
 
 /// What a fitting is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -55,7 +55,7 @@ impl Finish {
         match top_m {
             top if top < SEATS_M => Finish::Upholstery,
             top if top < TABLES_M => Finish::Wood,
-            top if top < FIXTURES_M => Finish::Ceramic,
+            top if top < COUNTER_M => Finish::Ceramic,
             _ => Finish::Counter,
         }
     }

@@ -1,17 +1,17 @@
 //! Furniture as boards on legs and upholstered blocks, by height and size.
 
-use super::finish::{FIXTURES_M, Finish, SEATS_M, TABLES_M};
+use super::finish::{Finish, SEATS_M, TABLES_M};
 use super::prism::Fitting;
 use super::shape::{Block, area_m2, bounds, hull, shrunk, smallest_block};
 use crate::math::Vec2;
-use crate::walls::{Face, Walls};
+use crate::walls::{COUNTER_M, Face, Walls};
 
 /// Least share of its hull that furniture with a top of its own fills: others stay as they are drawn.
 const CONVEX: f64 = 0.92;
 /// Least share of its smallest rectangle that a rectangular piece fills.
 const SQUARE: f64 = 0.93;
-/// A counter that is narrower is a gate's cabinet, metres.
-const GATE_M: f64 = 0.5;
+/// Shares of a gate's half length between which each of its card readers lies.
+const READER: [f64; 2] = [0.66, 0.86];
 
 /// A piece of furniture: its outline, its rectangle if it has the form of one, and its height.
 struct Piece {
@@ -41,11 +41,11 @@ pub(super) fn add(
         let parts = match piece.top_m {
             top if top < SEATS_M => piece.seat(walls, &tables),
             top if top < TABLES_M => piece.table(),
-            top if top < FIXTURES_M => piece.fixture(),
+            top if top < COUNTER_M => piece.fixture(),
             _ => {
                 // Sides keep their texture: hands and bags have been there.
                 blocks.push((piece.outline.clone(), piece.top_m));
-                all.push(piece.counter_top());
+                all.extend(if face.is_gate() { piece.gate_top() } else { vec![piece.board(Finish::Counter)] });
                 continue;
             }
         };
@@ -206,9 +206,15 @@ impl Piece {
         ]
     }
 
-    fn counter_top(&self) -> Fitting {
-        let is_gate = 2.0 * self.block.half[1] < GATE_M;
-        let finish = if is_gate { Finish::Metal } else { Finish::Counter };
+    /// A metal board with a card reader for either direction.
+    fn gate_top(&self) -> Vec<Fitting> {
+        let [from, to] = READER;
+        let [low_m, high_m] = [self.top_m + 0.028, self.top_m + 0.055];
+        let reader = |along, across| self.block.part(along, across, [low_m, high_m], Finish::Steel);
+        vec![self.board(Finish::Metal), reader([from, to], [-0.8, -0.1]), reader([-to, -from], [0.1, 0.8])]
+    }
+
+    fn board(&self, finish: Finish) -> Fitting {
         let grown = 1.0 + 0.012 / self.block.half[1];
         self.prism(grown, [self.top_m - 0.012, self.top_m + 0.028], finish)
     }
