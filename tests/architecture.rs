@@ -42,7 +42,7 @@ const ORDER: [&str; 26] = [
 /// Longest file, lines.
 const LONGEST: usize = 600;
 /// Names that a caller of the library can reach. A new one replaces an old one, or says in its commit why it is needed.
-const MOST_PUBLIC_NAMES: usize = 421;
+const MOST_PUBLIC_NAMES: usize = 422;
 
 /// A path of names, as `["walls", "Face"]`.
 type Names = Vec<String>;

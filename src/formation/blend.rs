@@ -1,8 +1,9 @@
 //! From key formation to key formation, in a crowd of any size.
 
+use super::basis::relative_to_centroid;
 use super::hierarchy::angles;
 use super::request::{CrowdSection, ExampleKind, Pace, Stays};
-use super::{AdjacencyEdit, Carry, Ease, FormationOptions, KeyFormation, interpolate};
+use super::{AdjacencyEdit, Carry, Ease, FormationOptions, KeyFormation, default_sigma_m, interpolate};
 use crate::formation::FormationError;
 use crate::math::{Vec2, sin_cos, vec2};
 use crate::motion::Ensemble;
@@ -11,6 +12,9 @@ use crate::progress::Progress;
 /// At how many moments an example is decomposed whose people change places among themselves. Where they keep a formation,
 /// those of the keys are better still; see [`FormationOptions::following_s`].
 const DECOMPOSITIONS: usize = 100;
+/// An example takes up key formations itself whose people are on the mean no farther from their own places than this share of
+/// the distance to which neighbours feel each other.
+const OWN: f64 = 0.25;
 
 /// Everybody's places at a moment, and how far the whole has been wheeled until then.
 #[derive(Clone, Debug)]
@@ -41,7 +45,13 @@ pub(super) fn between(
         .collect();
     let mut tracks = match example.people() {
         1 => alone(example, &formations, section),
-        _ => interpolate(example, &formations, &options(section), progress)?,
+        _ => {
+            let mut options = options(section);
+            if takes_up(example, &formations) {
+                options.decompositions = None;
+            }
+            interpolate(example, &formations, &options, progress)?
+        }
     };
     if wheels {
         let given: Vec<(usize, f64)> = keys.iter().map(|key| (key.moment, key.wheel_rad)).collect();
@@ -51,6 +61,17 @@ pub(super) fn between(
         }
     }
     Ok(tracks)
+}
+
+/// Whether an example takes up key formations itself: then it changes from one to the next as the new crowd does.
+fn takes_up(example: &Ensemble, keys: &[KeyFormation]) -> bool {
+    keys.iter().all(|key| {
+        let moment = ((key.time_s - example.start_s) * example.fps).round() as usize;
+        let own_m = relative_to_centroid(example.places_at(moment));
+        let pairs = relative_to_centroid(&key.places_m).into_iter().zip(own_m);
+        let off_m = pairs.map(|(place, own)| place.distance(own)).sum::<f64>() / key.places_m.len() as f64;
+        off_m <= OWN * default_sigma_m(&key.places_m)
+    })
 }
 
 /// Places turned around their middle.

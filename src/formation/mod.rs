@@ -66,6 +66,7 @@ mod error;
 mod example;
 mod follow;
 mod formed;
+mod found;
 mod hierarchy;
 mod interpolate;
 mod keys;

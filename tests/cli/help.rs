@@ -26,6 +26,7 @@ fn every_help_text_is_as_it_is_kept() {
         (vec!["motion", "--help"], file!["help/motion.txt"]),
         (vec!["motion", "info", "--help"], file!["help/motion_info.txt"]),
         (vec!["motion", "convert", "--help"], file!["help/motion_convert.txt"]),
+        (vec!["motion", "formation", "keys", "--help"], file!["help/motion_formation_keys.txt"]),
     ] {
         assert_data_eq!(sandbox.run(&arguments).succeeds().out, kept.raw());
     }

@@ -48,11 +48,7 @@ fn a_motion_goes_from_format_to_format_and_back() {
         );
         from = to;
     }
-    let [before, after] = ["walk.txt", "back.txt"].map(|name| {
-        let text = fs::read_to_string(sandbox.path(name)).unwrap();
-        let rows = text.lines().filter(|line| !line.starts_with('#'));
-        rows.map(|row| row.split(' ').map(|field| field.parse().unwrap()).collect::<Vec<f64>>()).collect::<Vec<_>>()
-    });
+    let [before, after] = ["walk.txt", "back.txt"].map(|name| rows(&fs::read_to_string(sandbox.path(name)).unwrap()));
     assert_eq!(before.len(), after.len());
     for (a, b) in before.iter().zip(&after) {
         assert_eq!(a[..2], b[..2]);
@@ -120,6 +116,54 @@ fn tools_chain_by_files() {
     let bake = ["bake", "--motion", "turned.db", "--texels-per-metre", "10", "-q", "-o", "baked"];
     sandbox.run(&bake).succeeds();
     assert!(sandbox.path("baked/floor").is_dir());
+}
+
+/// Rows `id frame x y z` of a text.
+fn rows(text: &str) -> Vec<Vec<f64>> {
+    let rows = text.lines().filter(|line| !line.starts_with('#'));
+    rows.map(|row| row.split(' ').map(|field| field.parse().unwrap()).collect()).collect()
+}
+
+/// Who led people from formation to formation at 14 and 25 s is found out from their motion alone.
+#[test]
+fn key_formations_are_found_and_give_the_motion_back() {
+    let sandbox = sandbox();
+    for (pace, seed, most_m) in [("gentle", 1, 0.2), ("even", 2, 0.02)] {
+        sandbox.write(
+            "led.toml",
+            format!(
+                "[formation]\nduration_s = 40\nfps = 10\npace = \"{pace}\"\n\
+                 example = {{ kind = \"sway\", people = 16, spacing_m = 1.2, seed = {seed} }}\n\
+                 key = [\n{{ time_s = 0, shape = \"grid\" }},\n{{ time_s = 14, shape = \"star\", at = [8, 0] }},\n\
+                 {{ time_s = 25, shape = \"line\", at = [8, 8] }},\n{{ time_s = 40, shape = \"ring\", at = [0, 8] }}]\n"
+            ),
+        );
+        sandbox.run(&["motion", "formation", "led.toml", "-o", "led.txt", "--force", "-q"]).succeeds();
+        let keys = ["motion", "formation", "keys", "led.txt", "-o", "found.toml", "--picture", "keys.png", "--json"];
+        let found = sandbox.run(&[&keys[..], &["--force", "-q"]].concat()).succeeds();
+        let json: serde_json::Value = serde_json::from_str(&found.out).unwrap();
+        let times_s: Vec<f64> = json["times_s"].as_array().unwrap().iter().map(|time| time.as_f64().unwrap()).collect();
+        println!("{pace}: {times_s:?} s, {}", json["off"]);
+        for wanted_s in [0.0, 14.0, 25.0, 40.0] {
+            assert!(times_s.iter().any(|time_s| (time_s - wanted_s).abs() <= 0.3), "{pace}: {times_s:?}");
+        }
+        assert!(times_s.len() <= 5, "{pace}: {times_s:?}");
+        assert_eq!(json["pace"], pace);
+        // Two keys miss it by metres.
+        let off = json["off"].as_array().unwrap();
+        assert!(off[0]["mean_m"].as_f64().unwrap() > 10.0 * off[off.len() - 1]["mean_m"].as_f64().unwrap());
+
+        sandbox.run(&["motion", "formation", "found.toml", "-o", "again.txt", "--force", "-q"]).succeeds();
+        let [before, after] =
+            ["led.txt", "again.txt"].map(|name| rows(&fs::read_to_string(sandbox.path(name)).unwrap()));
+        assert_eq!(before.len(), after.len());
+        let pairs = before.iter().zip(&after);
+        let sum_m: f64 = pairs.map(|(a, b)| ((a[2] - b[2]).powi(2) + (a[3] - b[3]).powi(2)).sqrt()).sum();
+        let off_m = sum_m / before.len() as f64;
+        println!("{pace}: {off_m:.3} m off");
+        assert!(off_m < most_m, "{pace}: {off_m} m");
+        assert!(image::open(sandbox.path("keys.png")).unwrap().width() > 900);
+    }
 }
 
 #[test]

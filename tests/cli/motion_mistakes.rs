@@ -239,8 +239,23 @@ fn one_person_alone() {
     let text: String = (0..20).map(|k| format!("1,0.{k:02},0.{:03},0\n", 13 * k)).collect();
     sandbox.write("one.csv", format!("id,time_s,x,y\n{text}"));
     sandbox.run(&["motion", "features", "one.csv"]).fails(1, &["at least 2 are needed", "hint: "]);
+    sandbox.run(&["motion", "formation", "keys", "one.csv"]).fails(1, &["at least 2 are needed", "hint: "]);
     sandbox.write("goal.txt", "5 5\n");
     sandbox.run(&["motion", "formation", "--example", "one.csv", "--last", "goal.txt", "-o", "led.txt"]).succeeds();
+}
+
+#[test]
+fn key_formations_that_cannot_be_found() {
+    let sandbox = sandbox();
+    let keys = |more: &[&str]| sandbox.run(&[&["motion", "formation", "keys"][..], more].concat());
+    keys(&["nowhere.txt"]).fails(1, &["nowhere.txt", "hint: "]);
+    keys(&["walk.txt", "--span", "50,60"]).fails(1, &["from 50.00", "hint: "]);
+    keys(&["walk.txt", "--span", "1,1.01"]).fails(1, &["one moment"]);
+    keys(&["walk.txt", "--most", "1"]).fails(2, &["--most", "2..=100"]);
+    keys(&["walk.txt", "--off", "-1"]).fails(2, &["--off"]);
+    keys(&["walk.txt", "-o", "walk.txt", "--force"]).fails(1, &["walk.txt"]);
+    keys(&["walk.txt", "--example", "walk.txt"]).fails(2, &["--example"]);
+    sandbox.run(&["motion", "formation"]).fails(2, &["SCENARIO"]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::Args;
+use clap::{Args, Subcommand};
 use serde::Serialize;
 use trodden::formation::{
     Agreement, Assign, AvoidRequest, ExampleRequest, FormationRequest, KeyRequest, form, is_picture,
@@ -22,6 +22,7 @@ use super::output::Outputs;
 /// What is wanted stands in the [formation] of a scenario, or is given by options: an example's motion, and formations at
 /// chosen times, each a text of points, `x y` in metres, or a picture of dots.
 #[derive(Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 #[command(after_help = "\
 Examples:
   trodden motion formation floorplans/cavalry.toml --animation battle.gif
@@ -30,6 +31,8 @@ Examples:
   trodden motion formation --example march.txt --key 12.5=star.png --metres-per-pixel 0.05 --animation star.gif
   trodden motion formation --check paths.txt      how well the method describes your own recording")]
 pub struct Formation {
+    #[command(subcommand)]
+    finder: Option<Finder>,
     /// A scenario with a [formation]
     #[arg(value_name = "SCENARIO", required_unless_present_any = ["example", "check"])]
     #[arg(conflicts_with_all = ["example", "check"])]
@@ -45,6 +48,11 @@ pub struct Formation {
     alignment: Alignment,
     #[command(flatten)]
     outputs: Outputs,
+}
+
+#[derive(Subcommand)]
+enum Finder {
+    Keys(super::keys::Keys),
 }
 
 /// Options of a formation without a scenario.
@@ -100,6 +108,9 @@ struct Parts {
 
 impl Formation {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
+        if let Some(Finder::Keys(keys)) = &self.finder {
+            return keys.run(common);
+        }
         if let Some(path) = &self.check {
             return self.check_recording(path, common);
         }
@@ -245,7 +256,7 @@ fn key(text: &str) -> Result<(f64, PathBuf), String> {
     }
 }
 
-fn span(text: &str) -> Result<[f64; 2], String> {
+pub(super) fn span(text: &str) -> Result<[f64; 2], String> {
     let [from_s, to_s] = super::input::point(text).map_err(|_| "write two times in seconds, as 2,20".to_string())?;
     if from_s >= 0.0 && to_s > from_s { Ok([from_s, to_s]) } else { Err("the end comes after the start".to_string()) }
 }

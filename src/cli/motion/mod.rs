@@ -11,6 +11,7 @@ mod features;
 mod formation;
 mod info;
 mod input;
+mod keys;
 mod mixing;
 mod output;
 mod units;
