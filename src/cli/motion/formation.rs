@@ -14,7 +14,7 @@ use trodden::{Error, Progress, Stopwatch};
 use super::super::arguments::within;
 use super::super::progress::Watch;
 use super::Common;
-use super::input::{Alignment, Reading};
+use super::input::{Alignment, Reading, span};
 use super::output::Outputs;
 
 /// Lead a crowd from formation to formation, while everybody keeps moving as in an example
@@ -254,9 +254,4 @@ fn key(text: &str) -> Result<(f64, PathBuf), String> {
     } else {
         Err(wanted())
     }
-}
-
-pub(super) fn span(text: &str) -> Result<[f64; 2], String> {
-    let [from_s, to_s] = super::input::point(text).map_err(|_| "write two times in seconds, as 2,20".to_string())?;
-    if from_s >= 0.0 && to_s > from_s { Ok([from_s, to_s]) } else { Err("the end comes after the start".to_string()) }
 }

@@ -110,6 +110,12 @@ pub fn point(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
+/// Parses a span of time `from,to`, seconds.
+pub fn span(text: &str) -> Result<[f64; 2], String> {
+    let [from_s, to_s] = point(text).map_err(|_| "write two times in seconds, as 2,20".to_string())?;
+    if from_s >= 0.0 && to_s > from_s { Ok([from_s, to_s]) } else { Err("the end comes after the start".to_string()) }
+}
+
 /// Parses an angle, degrees from -360 to 360.
 pub fn angle(text: &str) -> Result<f64, String> {
     number_within(text, [-360.0, 360.0])

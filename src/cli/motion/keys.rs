@@ -13,8 +13,8 @@ use super::super::arguments::number_within;
 use super::super::print;
 use super::super::progress::Watch;
 use super::Common;
-use super::formation::span;
-use super::input::{Alignment, Reading};
+
+use super::input::{Alignment, Reading, span};
 
 /// Find key formations in a recording: the few moments from which the rest follows
 ///
