@@ -204,6 +204,8 @@ pub struct ResolveOptions {
     pub layers: Option<bool>,
     /// Bits per channel of masks, wear and height: 8 or 16.
     pub bits: Option<u32>,
+    /// Whether the clean surface and the dirt on it are images of their own too.
+    pub dirt: Option<bool>,
     /// Whether PNG files are compressed harder.
     pub small_png: Option<bool>,
     /// Folder to write to, in place of the bake's own: the bake stays as it is.
@@ -240,6 +242,7 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
     textures.sdf = options.sdf.unwrap_or(textures.sdf);
     textures.layers = options.layers.or(textures.layers);
     textures.bits = options.bits.unwrap_or(textures.bits);
+    textures.dirt = options.dirt.unwrap_or(textures.dirt);
     textures.small_png = options.small_png.unwrap_or(textures.small_png);
     textures.check()?;
     check_free(&folder, manifest.walls.is_some(), &textures)?;

@@ -76,6 +76,9 @@ pub struct Bake {
     /// Bits per channel of masks, wear and height; 16 are not dithered [default: 8]
     #[arg(long, value_name = "8|16", value_parser = arguments::bits())]
     bits: Option<u32>,
+    /// Write the clean surface and the dirt on it, with its opacity, as images of their own too: to lay it on another surface
+    #[arg(long)]
+    dirt: bool,
     /// How PNG textures are compressed: small takes a third off, and half as long again [default: fast]
     #[arg(long, value_name = "small|fast", value_parser = arguments::png())]
     png: Option<bool>,
@@ -146,6 +149,7 @@ impl Bake {
             any_size: self.yes,
             layers: self.layers.then_some(true),
             bits: self.bits,
+            dirt: self.dirt.then_some(true),
             small_png: self.png,
             motion_file: self.motion_file()?,
             recording: self.alignment.over(self.reading.options()),

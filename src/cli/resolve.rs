@@ -29,7 +29,7 @@ pub struct Resolve {
     #[arg(value_name = "BAKE")]
     bake: PathBuf,
     /// A look file: TOML with the keys of a scenario's [look]
-    #[arg(long, value_name = "FILE", required_unless_present_any = ["preset", "target", "embed", "lamps", "ceiling", "usd", "sdf", "layers", "bits", "png", "output", "passes"])]
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["preset", "target", "embed", "lamps", "ceiling", "usd", "sdf", "layers", "bits", "dirt", "png", "output", "passes"])]
     look: Option<PathBuf>,
     /// Or the look of a preset
     #[arg(long, value_name = "NAME", value_parser = arguments::preset(), conflicts_with = "look")]
@@ -43,6 +43,9 @@ pub struct Resolve {
     /// Bits per channel of masks, wear and height; 16 are not dithered [default: as before]
     #[arg(long, value_name = "8|16", value_parser = arguments::bits())]
     bits: Option<u32>,
+    /// Write the clean surface and the dirt on it, with its opacity, as images of their own too: to lay it on another surface
+    #[arg(long)]
+    dirt: bool,
     /// How PNG textures are compressed: small takes a third off, and half as long again [default: as before]
     #[arg(long, value_name = "small|fast", value_parser = arguments::png())]
     png: Option<bool>,
@@ -88,6 +91,7 @@ impl Resolve {
             sdf: self.sdf.then_some(true),
             layers: self.layers.then_some(true),
             bits: self.bits,
+            dirt: self.dirt.then_some(true),
             small_png: self.png,
             folder: self.output.clone(),
             force: self.force,

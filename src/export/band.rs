@@ -15,6 +15,7 @@ use super::reduced::ReducedBlock;
 use super::targets::Covered;
 use crate::look::{Background, FLAT, ResolvedBlock};
 use crate::math::exp_f32;
+use crate::math::srgb::{from_linear, to_linear};
 
 /// A kind of image that a texture consists of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,12 +38,17 @@ pub(super) enum Image {
     Orm,
     /// Metallic, occlusion, detail, smoothness.
     MaskMap,
+    /// Colour of the surface without dirt, sRGB.
+    Clean,
+    /// Colour of the dirt on it, sRGB, and its opacity.
+    Dirt,
 }
 
 impl Image {
     pub(super) fn pixels(self) -> Pixels {
         match self {
-            Image::BaseColor => Pixels::Srgb,
+            Image::BaseColor | Image::Clean => Pixels::Srgb,
+            Image::Dirt => Pixels::Srgb4,
             Image::MaskMap => Pixels::Linear4,
             Image::Mask(_) | Image::Orm | Image::Rub | Image::Wear | Image::Normal(_) => Pixels::Linear3,
             Image::LoneMask(_) => Pixels::Linear1,
@@ -77,6 +83,16 @@ impl Image {
                     *pixel = mask_map(orm);
                 }
             }
+            Image::Clean => {
+                for (k, pixel) in (from..).zip(out.as_chunks_mut().0) {
+                    *pixel = clean(block, k);
+                }
+            }
+            Image::Dirt => {
+                for (k, pixel) in (from..).zip(out.as_chunks_mut().0) {
+                    *pixel = dirt(block.base_color[k], clean(block, k));
+                }
+            }
         }
     }
 
@@ -91,6 +107,8 @@ impl Image {
             Image::Normal(green) => normal(FLAT, green).repeat(BLOCK),
             Image::Orm => background.orm.repeat(BLOCK),
             Image::MaskMap => mask_map(background.orm).repeat(BLOCK),
+            Image::Clean => background.base_color.repeat(BLOCK),
+            Image::Dirt => dirt(background.base_color, background.base_color).repeat(BLOCK),
         }
     }
 }
@@ -120,6 +138,43 @@ fn wear([wear, marks, height, ..]: [u8; 6]) -> [u8; 3] {
 
 fn normal([_, _, _, x, y, z]: [u8; 6], green: GreenPoints) -> [u8; 3] {
     [x, if green == GreenPoints::Up { y } else { u8::MAX - y }, z]
+}
+
+/// Colour of the surface without dirt, as far as the block tells it.
+fn clean(block: &ResolvedBlock, k: usize) -> [u8; 3] {
+    block.clean.get(k).map_or(block.base_color[k], |light| light.map(from_linear))
+}
+
+/// How dark, and how light, thick dirt is beside the surface under it: of that, and of what that lacks to white.
+const THICK: [f32; 2] = [0.3, 0.3];
+
+/// Colour and opacity of dirt that make `clean` the colour that is `shown`, laid over in linear light.
+///
+/// Many pairs do. This is the least opacity for which no channel of the dirt is farther from the clean one than thick dirt
+/// is, so that it is dirt on other surfaces too.
+fn dirt(shown: [u8; 3], clean: [u8; 3]) -> [u8; 4] {
+    const MOST: f32 = 65_535.0;
+    // What is lighter by two levels is dither.
+    let is_dither =
+        |k: usize| shown[k].abs_diff(clean[k]) <= 1 || (clean[k]..=clean[k].saturating_add(2)).contains(&shown[k]);
+    let [light, ground] = [shown, clean].map(|colour| colour.map(|byte| f32::from(to_linear(byte)) / MOST));
+    let thick = |k: usize, is_lighter: bool| match is_lighter {
+        true => ground[k] + THICK[1] * (1.0 - ground[k]),
+        false => THICK[0] * ground[k],
+    };
+    let needed = |k: usize| match light[k] - ground[k] {
+        _ if is_dither(k) => 0.0,
+        change => change / (thick(k, change > 0.0) - ground[k]),
+    };
+    let opacity = (0..3).map(needed).fold(0.0, f32::max).min(1.0);
+    let alpha = (255.0 * opacity).ceil();
+    let share = alpha / 255.0;
+    let colour = |k: usize| match alpha {
+        0.0 => thick(k, false),
+        _ => (ground[k] + (light[k] - ground[k]) / share).clamp(0.0, 1.0),
+    };
+    let [red, green, blue] = [0, 1, 2].map(|k| from_linear((MOST * colour(k) + 0.5) as u16));
+    [red, green, blue, alpha as u8]
 }
 
 /// Packs Unity's mask map: metallic, occlusion, detail (always 1), smoothness.
@@ -393,5 +448,32 @@ impl<W: Write + Seek + Send> TileWriter<W> {
             layers.finish()?.flush()?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::SplitMix64;
+
+    #[test]
+    fn dirt_over_the_clean_colour_is_the_shown_one() {
+        let mut random = SplitMix64::new(5);
+        let mut byte = move || (random.unit() * 256.0) as u8;
+        for _ in 0..20_000 {
+            let [shown, clean]: [[u8; 3]; 2] = std::array::from_fn(|_| std::array::from_fn(|_| byte()));
+            let [colour @ .., alpha] = dirt(shown, clean);
+            for k in 0..3 {
+                let [ground, over] = [clean[k], colour[k]].map(|byte| f64::from(to_linear(byte)));
+                let laid = from_linear((ground + (over - ground) * f64::from(alpha) / 255.0 + 0.5) as u16);
+                assert!(laid.abs_diff(shown[k]) <= 2, "{laid} for {shown:?} on {clean:?}: {colour:?} {alpha}");
+            }
+        }
+        // What is dither is no dirt; black rubber hides the floor.
+        assert_eq!(dirt([200, 199, 201], [199, 199, 199])[3], 0);
+        assert_eq!(dirt([20, 20, 20], [200, 200, 200])[3], 255);
+        // Soil on vinyl takes no more than it needs, and has a colour that shows on a dark floor.
+        let [red, _, _, alpha] = dirt([170, 165, 155], [197, 192, 181]);
+        assert!((80..130).contains(&alpha) && (100..130).contains(&red), "{red} {alpha}");
     }
 }

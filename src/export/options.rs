@@ -17,6 +17,8 @@ options! {
         layers: Option<bool> = None, eg "true";
         /// Bits per channel of masks, wear and height: 8, or 16 without dither.
         bits: u32 = 8, in 8.0..=16.0;
+        /// Whether the clean surface and the dirt on it are images of their own too, to lay the dirt on another surface.
+        dirt: bool = false;
         /// Whether PNG files are compressed harder: a third smaller, a bake takes half as long again.
         small_png: bool = false;
         /// What the files are for: "gltf", "blender", "unreal", "unity" or "godot".

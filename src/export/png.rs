@@ -25,6 +25,8 @@ const SHARING_ROWS: usize = 16;
 pub(super) enum Pixels {
     /// Red, green, blue in sRGB, with an `sRGB` chunk.
     Srgb,
+    /// The same with alpha, not multiplied.
+    Srgb4,
     /// One linear value, stored as grey.
     Linear1,
     /// Three linear values, without a `gAMA` chunk: some readers would apply a gamma to the data.
@@ -41,7 +43,7 @@ impl Pixels {
         match self {
             Pixels::Linear1 => 1,
             Pixels::Srgb | Pixels::Linear3 => 3,
-            Pixels::Linear4 => 4,
+            Pixels::Linear4 | Pixels::Srgb4 => 4,
             Pixels::Fine1 => 2,
             Pixels::Fine3 => 6,
         }
@@ -70,9 +72,9 @@ impl<W: Write + Send + 'static> PngWriter<W> {
         encoder.set_color(match pixels {
             Pixels::Linear1 | Pixels::Fine1 => ColorType::Grayscale,
             Pixels::Srgb | Pixels::Linear3 | Pixels::Fine3 => ColorType::Rgb,
-            Pixels::Linear4 => ColorType::Rgba,
+            Pixels::Linear4 | Pixels::Srgb4 => ColorType::Rgba,
         });
-        if pixels == Pixels::Srgb {
+        if matches!(pixels, Pixels::Srgb | Pixels::Srgb4) {
             encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
         }
         // Level 9 takes 5 to 15 times as long as level 6, `Balanced`, for files smaller by 1 to 4 %.

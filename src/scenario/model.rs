@@ -108,6 +108,8 @@ pub struct Overrides {
     pub target: Option<Target>,
     /// Whether walls are made too.
     pub walls: Option<bool>,
+    /// Whether the clean surface and the dirt on it are images of their own too.
+    pub dirt: Option<bool>,
     /// Whether the model carries its textures.
     pub embed: Option<bool>,
     /// Whether `scene.glb` has the lamps of the stills.

@@ -158,6 +158,7 @@ impl Scenario {
         self.texture.walls = overrides.walls.unwrap_or(self.texture.walls);
         self.texture.embed = overrides.embed.unwrap_or(self.texture.embed);
         self.texture.lamps = overrides.lamps.unwrap_or(self.texture.lamps);
+        self.texture.dirt = overrides.dirt.unwrap_or(self.texture.dirt);
         self.texture.ceiling = overrides.ceiling.unwrap_or(self.texture.ceiling);
         self.texture.usd = overrides.usd.unwrap_or(self.texture.usd);
         self.texture.sdf = overrides.sdf.unwrap_or(self.texture.sdf);

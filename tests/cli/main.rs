@@ -9,6 +9,7 @@ mod bad_numbers;
 mod bad_outputs;
 mod batch;
 mod crowd;
+mod dirt;
 mod edit;
 mod help;
 mod interrupt;

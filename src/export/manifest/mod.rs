@@ -118,7 +118,7 @@ pub struct FloorEntry {
 /// One channel of the images of a kind.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ChannelEntry {
-    /// Kind of image: `basecolor`, `mask`, `orm`, `mask_map`, `layers`, or `layers1` and so on.
+    /// Kind of image: `basecolor`, `mask`, `orm`, `mask_map`, `clean`, `dirt`, `layers`, or `layers1` and so on.
     pub image: String,
     /// `R`, `G`, `B`, `A`, or the layer's name.
     pub channel: String,
@@ -171,6 +171,12 @@ pub struct TileEntry {
     /// Path of Unity's mask map, for that target: metallic, occlusion, detail, smoothness.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mask_map: Option<String>,
+    /// Path of the clean surface's colour, 8 bit sRGB, if it was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clean: Option<String>,
+    /// Path of the dirt on it: colour, 8 bit sRGB, and opacity as alpha.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dirt: Option<String>,
     /// Paths of the layers, half float, linear: one path, or a list. Missing if no layers were written.
     #[serde(default, skip_serializing_if = "Vec::is_empty", with = "one_or_many")]
     pub layers: Vec<String>,
@@ -182,7 +188,7 @@ impl TileEntry {
     /// Its images of 8 bits a channel.
     pub(crate) fn images(&self) -> impl Iterator<Item = &String> {
         let images = [&self.basecolor, &self.mask, &self.passes, &self.wear, &self.normal, &self.orm];
-        images.into_iter().chain(&self.mask_map).filter(|file| !file.is_empty())
+        images.into_iter().chain(&self.mask_map).chain(&self.clean).chain(&self.dirt).filter(|file| !file.is_empty())
     }
 }
 
@@ -288,6 +294,7 @@ impl Manifest {
             tile: width.max(height).max(TileLayout::MIN_TILE),
             layers: self.settings["texture"]["layers"].as_bool().or(unusual),
             bits: if fine { 16 } else { usual_bits() },
+            dirt: self.floor.tiles.iter().any(|tile| tile.dirt.is_some()),
             small_png: self.settings["texture"]["small_png"].as_bool().unwrap_or_default(),
             target: self.target.name,
             embed: self.settings["texture"]["embed"].as_bool().unwrap_or_default(),
@@ -443,7 +450,7 @@ mod tests {
                     ..SumsEntry::default()
                 },
                 channels: Target::Gltf.channels(
-                    (Covered::Floor, 8),
+                    (Covered::Floor, 8, false),
                     "floor",
                     ["film"; 4],
                     &["passes", "dust"],

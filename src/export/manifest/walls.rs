@@ -57,6 +57,12 @@ pub struct SheetEntry {
     /// Path of Unity's mask map, for that target: metallic, occlusion, detail, smoothness.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mask_map: Option<String>,
+    /// Path of the clean surface's colour, 8 bit sRGB, if it was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clean: Option<String>,
+    /// Path of the dirt on it: colour, 8 bit sRGB, and opacity as alpha.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dirt: Option<String>,
     /// Paths of the layers, half float, linear: one path, or a list. Missing if no layers were written.
     #[serde(default, skip_serializing_if = "Vec::is_empty", with = "super::one_or_many")]
     pub layers: Vec<String>,
@@ -70,7 +76,7 @@ impl SheetEntry {
     /// Its images of 8 bits a channel.
     pub(crate) fn images(&self) -> impl Iterator<Item = &String> {
         let images = [&self.basecolor, &self.mask, &self.splash, &self.rub, &self.normal, &self.orm];
-        images.into_iter().chain(&self.mask_map).filter(|file| !file.is_empty())
+        images.into_iter().chain(&self.mask_map).chain(&self.clean).chain(&self.dirt).filter(|file| !file.is_empty())
     }
 }
 

@@ -200,6 +200,7 @@ mod tests {
             tiles,
             target: crate::export::Target::Gltf,
             bits: 8,
+            dirt: false,
             layers: Vec::new(),
             reduced: Vec::new(),
             birdseye,

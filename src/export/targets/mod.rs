@@ -30,9 +30,10 @@ pub(super) enum Number {
 
 impl Target {
     /// The images of a texture.
-    pub(super) fn images(self, covered: Covered) -> impl Iterator<Item = Image> {
+    pub(super) fn images(self, covered: Covered, dirt: bool) -> impl Iterator<Item = Image> {
         let masks = [Image::Mask(covered), Image::LoneMask(covered), Image::Rub, Image::Wear];
         let all = [Image::BaseColor].into_iter().chain(masks).chain([Image::Orm, Image::MaskMap, self.normal()]);
+        let all = all.chain([Image::Clean, Image::Dirt].into_iter().filter(move |_| dirt));
         all.filter(move |image| match image {
             Image::MaskMap => self == Target::Unity,
             Image::Rub => covered == Covered::Wall,
@@ -65,6 +66,8 @@ impl Target {
             (Target::Unreal | Target::Unity, Image::Wear) => "Wear",
             (Target::Unreal | Target::Unity, Image::Normal(_)) => "Normal",
             (Target::Unreal | Target::Unity, Image::Orm) => "ORM",
+            (Target::Unreal | Target::Unity, Image::Clean) => "Clean",
+            (Target::Unreal | Target::Unity, Image::Dirt) => "Dirt",
             (Target::Unity, Image::BaseColor) => "BaseMap",
             // Unity's own mask map has other channels.
             (Target::Unity, Image::Mask(_)) => "DirtMask",
@@ -78,6 +81,8 @@ impl Target {
             (_, Image::Normal(_)) => "normal",
             (_, Image::Orm) => "orm",
             (_, Image::MaskMap) => "maskmap",
+            (_, Image::Clean) => "clean",
+            (_, Image::Dirt) => "dirt",
         };
         self.file_name(covered, kind, number, "png")
     }
@@ -113,7 +118,7 @@ impl Target {
     /// Describes the channels of all images. `masks` and `of_layer` describe masks and layers.
     pub(super) fn channels(
         self,
-        (covered, bits): (Covered, u32),
+        (covered, bits, dirt): (Covered, u32, bool),
         colour: &str,
         masks: [&str; 4],
         layers: &[&'static str],
@@ -152,7 +157,12 @@ impl Target {
         }
         let packed = ["occlusion", "roughness", "metallic"];
         channels.extend(rgba.into_iter().zip(packed).map(|(name, holds)| entry("orm", name, holds, "linear")));
-        if self.images(covered).any(|image| image == Image::MaskMap) {
+        if dirt {
+            channels.push(entry("clean", "RGB", "colour of the surface without dirt", "sRGB"));
+            channels.push(entry("dirt", "RGB", "colour of the dirt", "sRGB"));
+            channels.push(entry("dirt", "A", "opacity of the dirt, laid over in linear light", "linear"));
+        }
+        if self.images(covered, dirt).any(|image| image == Image::MaskMap) {
             let packed = ["metallic", "occlusion", "detail: 1 everywhere", "smoothness: 1 - roughness"];
             let map = rgba.into_iter().zip(packed).map(|(name, holds)| entry("mask_map", name, holds, "linear"));
             channels.extend(map);

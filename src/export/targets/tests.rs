@@ -7,7 +7,7 @@ use crate::math::{Rect, vec2};
 fn names(target: Target) -> Vec<String> {
     let udim = Number::Udim(1012);
     let image = |image| target.image_name(Covered::Floor, image, udim);
-    let mut names: Vec<String> = target.images(Covered::Floor).map(image).collect();
+    let mut names: Vec<String> = target.images(Covered::Floor, false).map(image).collect();
     names.push(target.layers_name(Covered::Wall, 1, udim));
     names.push(target.image_name(Covered::Wall, Image::Mask(Covered::Wall), Number::Uv(12, 3)));
     names.push(target.image_name(Covered::Wall, Image::LoneMask(Covered::Wall), udim));

@@ -37,6 +37,8 @@ pub struct FloorTextures {
     pub target: Target,
     /// Bits per channel of masks, wear and height.
     pub bits: u32,
+    /// Whether the clean surface and the dirt on it are images of their own.
+    pub dirt: bool,
     /// Names of the layers that were written.
     pub layers: Vec<&'static str>,
     /// Reduced images of each of `tiles`, if requested.
@@ -74,7 +76,7 @@ impl FloorTextures {
             naming: self.layout.naming(),
             padding_px: PADDING_PX,
             channels: self.target.channels(
-                (Covered::Floor, self.bits),
+                (Covered::Floor, self.bits, self.dirt),
                 "colour of the trodden floor",
                 masks,
                 &self.layers,
@@ -137,6 +139,8 @@ pub fn floor_textures(
             normal: file(options.target.normal()),
             orm: file(Image::Orm),
             mask_map: canvas.files.image(Image::MaskMap),
+            clean: canvas.files.image(Image::Clean),
+            dirt: canvas.files.image(Image::Dirt),
             layers: canvas.files.layers,
             sums: BakePath::new(format!("sums/{}", layout.file_name(&tile, "sums", "exr")))?,
         });
@@ -146,6 +150,7 @@ pub fn floor_textures(
         tiles,
         target: options.target,
         bits: options.bits,
+        dirt: options.dirt,
         layers: if options.writes_layers() { source.layers().to_vec() } else { Vec::new() },
         reduced,
         look_busy_s: writer.look_busy.seconds(),

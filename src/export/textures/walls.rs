@@ -28,6 +28,8 @@ pub struct WallTextures {
     pub target: Target,
     /// Bits per channel of masks, wear and height.
     pub bits: u32,
+    /// Whether the clean surface and the dirt on it are images of their own.
+    pub dirt: bool,
     /// Names of the layers that were written.
     pub layers: Vec<&'static str>,
     /// Reduced images of each sheet, if requested.
@@ -73,6 +75,7 @@ pub fn wall_textures(
         sheets,
         target: options.target,
         bits: options.bits,
+        dirt: options.dirt,
         layers: if options.writes_layers() { source.layers().to_vec() } else { Vec::new() },
         reduced,
         look_busy_s: seconds(&writer.look_busy),
@@ -109,6 +112,8 @@ fn entry(index: usize, count: usize, canvas: &Canvas, target: Target) -> Result<
         normal: file(target.normal()),
         orm: file(Image::Orm),
         mask_map: canvas.files.image(Image::MaskMap),
+        clean: canvas.files.image(Image::Clean),
+        dirt: canvas.files.image(Image::Dirt),
         layers: canvas.files.layers.clone(),
         sums: BakePath::new(format!("sums/wall_sums{name}.exr"))?,
         strips: Vec::new(),
@@ -137,7 +142,7 @@ impl WallTextures {
             naming: naming(atlas.sheets.len()),
             sums_one: DENSITY_ONE as u32,
             channels: self.target.channels(
-                (Covered::Wall, self.bits),
+                (Covered::Wall, self.bits, self.dirt),
                 "colour of the touched wall",
                 masks,
                 &self.layers,

@@ -32,6 +32,7 @@ pub(super) struct TextureWriter<'a> {
     reduced_px: Option<u32>,
     is_fine: bool,
     is_small: bool,
+    dirt: bool,
     pub(super) look_busy: BusyTime,
     pub(super) export_busy: BusyTime,
 }
@@ -66,6 +67,7 @@ impl<'a> TextureWriter<'a> {
             reduced_px: options.reduced_px,
             is_fine: options.is_fine(),
             is_small: options.small_png,
+            dirt: options.dirt,
             look_busy: BusyTime::default(),
             export_busy: BusyTime::default(),
         }
@@ -80,7 +82,7 @@ impl<'a> TextureWriter<'a> {
         let layers = |k| format!("{folder}/{}", self.target.layers_name(covered, k, number));
         let count = self.layers.as_ref().map_or(0, |layers| layers.files().len());
         TextureFiles {
-            images: self.target.images(covered).map(image).collect(),
+            images: self.target.images(covered, self.dirt).map(image).collect(),
             layers: (0..count).map(layers).collect(),
         }
     }

@@ -38,7 +38,7 @@ hint: `seed` belongs in [crowd] or [look] or [formation.example]
   |
 4 | colour = 3
   | ^^^^^^
-hint: its keys are floor_texels_per_metre, wall_texels_per_metre, tile, layers, bits, small_png, target, walls, embed, lightmap, lamps, ceiling, usd, sdf
+hint: its keys are floor_texels_per_metre, wall_texels_per_metre, tile, layers, bits, dirt, small_png, target, walls, embed, lightmap, lamps, ceiling, usd, sdf
 
 "#]]
     );

@@ -63,6 +63,7 @@ fn written(folder: &OutputFolder, sums: &WallSums, (plan, walls): &(FloorPlan, W
         atlas,
         target: Target::default(),
         bits: 8,
+        dirt: false,
         layers: Vec::new(),
         reduced: Vec::new(),
         look_busy_s: 0.0,
