@@ -8,7 +8,7 @@ use super::sandbox::Sandbox;
 
 fn light(byte: u8) -> f64 {
     let s = f64::from(byte) / 255.0;
-    if s <= 0.04045 { s / 12.92 } else { ((s + 0.055) / 1.055).powf(2.4) }
+    if s <= 0.04045 { s / 12.92 } else { libm::pow((s + 0.055) / 1.055, 2.4) }
 }
 
 fn lightness(rgb: [f64; 3]) -> f64 {

@@ -3,6 +3,8 @@
 use std::fs;
 use std::process::Stdio;
 
+use trodden::math::vec2;
+
 use super::sandbox::Sandbox;
 
 /// Five people who walk side by side along x at 1.3 m/s, 2 m apart, with some sway, for 6 s.
@@ -158,12 +160,30 @@ fn key_formations_are_found_and_give_the_motion_back() {
             ["led.txt", "again.txt"].map(|name| rows(&fs::read_to_string(sandbox.path(name)).unwrap()));
         assert_eq!(before.len(), after.len());
         let pairs = before.iter().zip(&after);
-        let sum_m: f64 = pairs.map(|(a, b)| ((a[2] - b[2]).powi(2) + (a[3] - b[3]).powi(2)).sqrt()).sum();
+        let apart = |(a, b): (&Vec<f64>, &Vec<f64>)| vec2(a[2], a[3]).distance(vec2(b[2], b[3]));
+        let sum_m: f64 = pairs.map(apart).sum();
         let off_m = sum_m / before.len() as f64;
         println!("{pace}: {off_m:.3} m off");
         assert!(off_m < most_m, "{pace}: {off_m} m");
         assert!(image::open(sandbox.path("keys.png")).unwrap().width() > 900);
     }
+}
+
+/// Where nobody is there throughout, key formations are those of the people who are together for longest.
+#[test]
+fn key_formations_of_people_who_come_and_go() {
+    let sandbox = Sandbox::new();
+    let mut text = "# framerate: 10\n# id frame x/m y/m z/m\n".to_string();
+    for frame in 0..100 {
+        // Each stays for 5 s, and comes 1 s after the one before: two are together for 4 s, three for 3 s, four for 2 s.
+        for id in (0..7).filter(|id| (10 * id..10 * id + 50).contains(&frame)) {
+            text += &format!("{} {frame} {:.3} {id}.0 1.7\n", id + 1, 0.12 * f64::from(frame - 10 * id));
+        }
+    }
+    sandbox.write("passers.txt", text);
+    let found = sandbox.run(&["motion", "formation", "keys", "passers.txt"]).succeeds();
+    assert!(found.err.contains("3 of 7 people are there from "), "{}", found.err);
+    assert!(found.out.starts_with("2 key formations, at "), "{}", found.out);
 }
 
 #[test]

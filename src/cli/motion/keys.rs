@@ -1,11 +1,14 @@
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::ensure;
 use clap::Args;
+use rayon::prelude::*;
 use trodden::formation::{Ease, KeyFormation};
-use trodden::motion::Ensemble;
+use trodden::motion::{Ensemble, Frame};
+use trodden::recordings::Recording;
 use trodden::show::draw_keys;
 use trodden::{Error, Progress};
 
@@ -31,7 +34,7 @@ pub struct Keys {
     /// The recording; of its people those count who are there throughout
     #[arg(value_name = "RECORDING")]
     file: PathBuf,
-    /// The part of it that is searched, seconds [default: all]
+    /// The part of it that is searched, seconds [default: when most people are there for longest]
     #[arg(long, value_name = "FROM,TO", value_parser = span)]
     span: Option<[f64; 2]>,
     /// The most key formations, with the first and the last
@@ -90,6 +93,36 @@ fn pace(ease: Ease) -> &'static str {
     }
 }
 
+/// When most people are there together for longest: the greatest product of people and seconds.
+fn together_s(recording: &Recording) -> Result<[f64; 2], Error> {
+    /// Ends of a span that are tried at most, and what a span is longer than the frames in it, seconds.
+    const MOST_ENDS: usize = 1000;
+    const BESIDE_S: f64 = 1e-6;
+    let (mut motion, mut frame) = (recording.motion()?, Frame::default());
+    let mut stays: BTreeMap<u32, [f64; 2]> = BTreeMap::new();
+    while motion.next_frame(&mut frame)? {
+        for walker in &frame.walkers {
+            stays.entry(walker.id).or_insert([frame.time_s; 2])[1] = frame.time_s;
+        }
+    }
+    let mut stays: Vec<[f64; 2]> = stays.into_values().collect();
+    stays.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let mut ends: Vec<f64> = stays.iter().map(|stay| stay[1]).collect();
+    ends.sort_by(|a, b| b.total_cmp(a));
+    ends.dedup();
+    let (mut best, mut most) = ([0.0, f64::INFINITY], 0.0);
+    for &end_s in ends.iter().step_by(ends.len().div_ceil(MOST_ENDS).max(1)) {
+        let there = stays.iter().filter(|[from_s, to_s]| *from_s < end_s && *to_s >= end_s);
+        for (before, [from_s, _]) in there.enumerate() {
+            let worth = (before + 1) as f64 * (end_s - from_s);
+            if before > 0 && worth > most {
+                (best, most) = ([from_s - BESIDE_S, end_s + BESIDE_S], worth);
+            }
+        }
+    }
+    Ok(best)
+}
+
 fn distance(text: &str) -> Result<f64, String> {
     number_within(text, [0.0, 1000.0])
 }
@@ -102,20 +135,27 @@ impl Keys {
         let watch = Watch::new(common);
         let options = self.alignment.over(self.reading.options());
         let recording = super::input::open(&self.file, &options, &watch)?;
-        let [from_s, to_s] = self.span.unwrap_or([0.0, f64::INFINITY]);
+        let [from_s, to_s] = match self.span {
+            Some(span) => span,
+            None => together_s(&recording)?,
+        };
         let motion = recording.ensemble(None, [from_s, to_s]).map_err(Error::from)?;
         let (led, all) = (motion.people(), recording.survey().people);
         ensure!(motion.moments() >= 2, "{}: there is one moment from {from_s} s on", self.file.display());
         if led < all {
-            watch.warn(&format!("{} of {all} people are not there throughout, and are left out", all - led));
+            let [from_s, to_s] = [0, motion.moments() - 1].map(|moment| motion.time_s(moment));
+            watch.warn(&format!(
+                "{led} of {all} people are there from {from_s:.2} to {to_s:.2} s; the others are left out, as they come or go meanwhile"
+            ));
         }
         let searched = |ease: Ease| -> Result<Found, Error> {
             let steps = KeyFormation::find(&motion, ease, usize::from(self.most), self.off, &watch)?;
             let off_m = |keys: &Vec<KeyFormation>| KeyFormation::distances_m(&motion, keys, ease, &watch);
-            let off_m = steps.iter().map(off_m).collect::<Result<_, _>>()?;
+            let off_m = steps.par_iter().map(off_m).collect::<Result<_, _>>()?;
             Ok(Found { ease, keys: steps.into_iter().next_back().unwrap_or_default(), off_m })
         };
-        let (even, gentle) = (searched(Ease::Even)?, searched(Ease::Rest)?);
+        let (even, gentle) = rayon::join(|| searched(Ease::Even), || searched(Ease::Rest));
+        let (even, gentle) = (even?, gentle?);
         let found = if gentle.is_better_than(&even) { gentle } else { even };
         if let Some(file) = picture {
             print::save_picture(&draw_keys(&motion, &found.keys, found.last_off_m()), file)?;

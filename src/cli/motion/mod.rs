@@ -32,7 +32,7 @@ pub struct Motion {
 enum Tool {
     Info(info::Info),
     Convert(convert::Convert),
-    Formation(formation::Formation),
+    Formation(Box<formation::Formation>),
     Features(Box<features::Features>),
     Units(units::Units),
 }
