@@ -9,7 +9,7 @@ use crate::progress::{Progress, Silent, Stage};
 
 /// A search looks at so many moments, and so many people, at most.
 const MOST_MOMENTS: usize = 400;
-const MOST_SEARCHED: usize = 120;
+const MOST_SEARCHED: usize = 60;
 /// A key is worth it that takes these shares off the distance that was left, and off that of two keys; so many more are
 /// tried in vain.
 const WORTH: [f64; 2] = [0.1, 0.02];
@@ -23,7 +23,7 @@ impl KeyFormation {
     /// distance over all moments falls. It ends when no moment is farther off than `error_m`, when the next key
     /// takes off less than a tenth of the distance or less than a fiftieth of that of two keys, or with `most` keys.
     ///
-    /// Of long motions 400 moments are looked at, of large crowds 120 people.
+    /// Of long motions 400 moments are looked at, of large crowds 60 people.
     ///
     /// # Errors
     /// Fewer than two people or two frames; numbers that are not finite; [`FormationError::Interrupted`].
