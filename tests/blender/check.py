@@ -7,6 +7,7 @@ import importlib
 import math
 import os
 import pathlib
+import subprocess
 import sys
 import threading
 import time
@@ -264,6 +265,57 @@ def slide(settings, baked):
     check(abs(render("again") - baked).mean() < 0.01, "the baked floor comes back")
 
 
+def dress(settings):
+    """The walls in a material of one's own, under the bake's dirt, against the bake's own colours."""
+    dirt, scene = (importlib.import_module(f"{MODULE}.{name}") for name in ("trodden_blender", "scene"))
+    bake, walls = pathlib.Path(settings.bake), bpy.data.objects["walls_0"]
+    baked, walls.hide_render = walls.data.materials[0], False
+    own = scene.new_material("plaster", (0.8, 0.8, 0.8))
+    group = dirt.make_wall_group(bake, scene.read_manifest(bake))
+    dirt.dress_walls(bake, own, group)
+    dirt.dress_walls(bake, own, group)
+    check([material.name for material in bpy.data.materials if material.name.startswith("plaster")]
+          == ["plaster", "plaster room walls 0"], "walls get one copy of a material")
+    theirs = grey(next((bake / "walls").glob("wall_basecolor.1001.png")))
+    side = max(theirs.shape)
+    theirs = theirs.repeat(side // theirs.shape[0], axis=0).repeat(side // theirs.shape[1], axis=1)
+    ours = grey(scene.project(bpy.context, walls, side, OUT / "dressed"))
+    # Where the wall is touched, and where it is clean; the image holds more than the strips.
+    seen = ours > 0.1
+    soiled, clean = seen & (theirs < numpy.median(theirs[seen]) - 0.06), seen & (theirs > numpy.median(theirs[seen]) - 0.01)
+    fall = ours[clean].mean() - ours[soiled].mean()
+    check(soiled.sum() > 100 and 0.05 < fall, f"the dirt is on them: darker by {fall:.3f} at {soiled.sum()} texels")
+    walls.data.materials[0], walls.hide_render = baked, True
+
+
+def tiles(module):
+    """A floor of many tiles: one image of each kind, and the dirt where it was baked."""
+    dirt, scene = (importlib.import_module(f"{MODULE}.{name}") for name in ("trodden_blender", "scene"))
+    bake = OUT / "bakes/tiles"
+    scenario = OUT / "tiles.toml"
+    scenario.write_text(
+        f'[plan]\nimage = "{room(module).as_posix()}"\nmetres_per_pixel = 0.05\n[crowd]\npeople = 40\n'
+        '[texture]\nfloor_texels_per_metre = 20\ntile = 64\ntarget = "blender"\n[look]\ntotal_passes = 60000\n')
+    subprocess.run([os.environ["TRODDEN"], "bake", scenario, "-o", bake, "--floor-only", "--quiet"], check=True)
+    group = dirt.make_group(bake, scene.read_manifest(bake))
+    dirt.make_group(bake, scene.read_manifest(bake))
+    images = [node.image for node in group.nodes if node.type == "TEX_IMAGE"]
+    found = [(image.source, len(image.tiles)) for image in images]
+    check(found == [("TILED", 6), ("TILED", 6)], f"images of a floor of 6 tiles: {found}")
+    bpy.ops.mesh.primitive_plane_add(size=1.0, location=(4.5, 3.0, 8.0))
+    plane = bpy.context.object
+    plane.scale = (9.0, 6.0, 1.0)
+    plane.data.materials.append(scene.new_material("tiled", (0.6, 0.6, 0.6)))
+    dirt.lay_over(plane.data.materials[0], group)
+    ours = blocks(render("tiles"), 12, 18)[2:10, 2:16]
+    theirs = blocks(grey(bake / "preview/floor.png"), 12, 18)[2:10, 2:16]
+    open_floor = numpy.ones(ours.shape, dtype=bool)
+    open_floor[2:6, 5:9] = False
+    agreement = numpy.corrcoef(ours[open_floor], theirs[open_floor])[0, 1]
+    check(agreement > 0.9, f"dirt over tiles lies where it was baked: correlation {agreement:.3f}")
+    bpy.data.objects.remove(plane)
+
+
 def update(settings, floor):
     before, mesh = counts(), floor.data.name
     bpy.ops.trodden.update()
@@ -359,6 +411,8 @@ def main():
     settings.folder = str(OUT / "bakes")
     floor = settle()
     slide(settings, compare(floor))
+    dress(settings)
+    tiles(importlib.import_module(f"{MODULE}.plan"))
     update(settings, floor)
     draw()
     click()

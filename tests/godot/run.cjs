@@ -39,10 +39,12 @@ async function main() {
   try {
     const tab = await browser.newPage();
     let complaints = 0;
+    let begun = false;
     const wrong = new Promise((done, fail) => {
       tab.on('console', (message) => {
         if (message.location().url.endsWith('favicon.ico')) return;
-        complaints += message.type() === 'error';
+        begun ||= message.text() === 'checks begin';
+        complaints += begun && message.type() === 'error';
         console.log(message.text());
         const last = /^wrong: (\d+)$/.exec(message.text());
         if (last) done(Number(last[1]));

@@ -355,6 +355,45 @@ const checks = {
     assert.equal(await tab.evaluate(() => document.getElementById('view').width), 520);
     return complaints;
   },
+
+  async 'the shader of a bake'() {
+    const file = path.join(__dirname, '../../src/export/targets/files/trodden_masks.glsl');
+    const tab = await (await browser.newContext()).newPage();
+    const shown = await tab.evaluate((law) => {
+      const gl = document.createElement('canvas').getContext('webgl2');
+      const program = gl.createProgram();
+      const add = (type, text) => {
+        const shader = gl.createShader(type);
+        gl.shaderSource(shader, `#version 300 es\nprecision highp float;\n${text}`);
+        gl.compileShader(shader);
+        gl.attachShader(program, shader);
+        return gl.getShaderInfoLog(shader);
+      };
+      const told = add(gl.VERTEX_SHADER, 'void main() { gl_Position = vec4(0, 0, 0, 1); gl_PointSize = 500.0; }')
+        + add(gl.FRAGMENT_SHADER, `${law}
+          uniform sampler2D none;
+          out vec4 colour;
+          void main() {
+            // Skin of density 0.7 and scuffs of 0.3 on a light wall; heel marks of 0.5 on a grey floor; nothing beyond a tile.
+            vec4 wall = troddenWallDirt(1.0 - exp(-vec4(0.7, 0.0, 0.3, 0.0)), vec4(1.0), vec3(0.8), 0.5);
+            vec4 ground = troddenDirt(1.0 - exp(-vec4(0.0, 0.0, 0.0, 0.5)), vec4(1.0), vec3(0.4), 0.5);
+            vec4 outside = troddenMasks(none, none, vec2(1.5)) + 0.0 * troddenWallMasks(none, none, vec2(0.5));
+            colour = vec4(wall.r, wall.b, ground.r, outside.r);
+          }`);
+      gl.linkProgram(program);
+      if (!gl.getProgramParameter(program, gl.LINK_STATUS)) return told + gl.getProgramInfoLog(program);
+      gl.useProgram(program);
+      gl.drawArrays(gl.POINTS, 0, 1);
+      const pixel = new Uint8Array(4);
+      gl.readPixels(100, 100, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+      return [...pixel].map((byte) => byte / 255);
+    }, fs.readFileSync(file, 'utf8'));
+    // Linear light of the wall's red and blue, and of the floor's red.
+    const over = (clean, dirt, total) => dirt + (clean - dirt) * Math.exp(-total);
+    const wanted = [over(0.8, 0.7 * 0.191202 + 0.3 * 0.019382, 1), over(0.8, 0.7 * 0.068478 + 0.3 * 0.024158, 1), over(0.4, 0.019382, 0.5), 0];
+    assert.ok(Array.isArray(shown) && shown.every((value, k) => Math.abs(value - wanted[k]) < 0.005), `${shown}; wanted ${wanted}`);
+    return [];
+  },
 };
 
 (async () => {

@@ -57,6 +57,7 @@ def bring_in(bake, origin, with_scene):
     if with_scene and (bake / "scene.glb").is_file():
         dirt.import_scene(bake)
         place(bake, origin)
+    dirt.make_wall_group(bake, manifest)
     return dirt.make_group(bake, manifest)
 
 

@@ -14,6 +14,7 @@ impl Target {
             Target::Unreal => &[
                 ("trodden_dirt.hlsl", include_str!("files/trodden_dirt.hlsl")),
                 ("trodden_mix.hlsl", include_str!("files/trodden_mix.hlsl")),
+                ("trodden_wall.hlsl", include_str!("files/trodden_wall.hlsl")),
                 ("trodden_unreal.py", include_str!("files/trodden_unreal.py")),
             ],
             Target::Unity => &[
@@ -23,6 +24,7 @@ impl Target {
             ],
             Target::Godot => &[
                 ("trodden_floor.gdshader", include_str!("files/trodden_floor.gdshader")),
+                ("trodden_wall.gdshader", include_str!("files/trodden_wall.gdshader")),
                 ("trodden_setup.gd", include_str!("files/trodden_setup.gd")),
             ],
         }

@@ -7,7 +7,7 @@ use crate::math::{Rect, vec2};
 fn names(target: Target) -> Vec<String> {
     let udim = Number::Udim(1012);
     let image = |image| target.image_name(Covered::Floor, image, udim);
-    let mut names: Vec<String> = target.images(Covered::Floor, false).map(image).collect();
+    let mut names: Vec<String> = target.images(Covered::Floor, true).map(image).collect();
     names.push(target.layers_name(Covered::Wall, 1, udim));
     names.push(target.image_name(Covered::Wall, Image::Mask(Covered::Wall), Number::Uv(12, 3)));
     names.push(target.image_name(Covered::Wall, Image::LoneMask(Covered::Wall), udim));
@@ -19,23 +19,23 @@ fn names_are_those_that_each_program_is_used_to() {
     let expected = [
         (
             Target::Gltf,
-            "floor_basecolor.1012.png floor_mask.1012.png floor_passes.1012.png floor_wear.1012.png floor_orm.1012.png floor_normal.1012.png wall_layers.1012.exr wall_mask_u012_v003.png wall_splash.1012.png",
+            "floor_basecolor.1012.png floor_mask.1012.png floor_passes.1012.png floor_wear.1012.png floor_orm.1012.png floor_normal.1012.png floor_clean.1012.png floor_dirt.1012.png wall_layers.1012.exr wall_mask_u012_v003.png wall_splash.1012.png",
         ),
         (
             Target::Blender,
-            "floor_basecolor.1012.png floor_mask.1012.png floor_passes.1012.png floor_wear.1012.png floor_orm.1012.png floor_normal.1012.png wall_layers.1012.exr wall_mask_u012_v003.png wall_splash.1012.png",
+            "floor_basecolor.1012.png floor_mask.1012.png floor_passes.1012.png floor_wear.1012.png floor_orm.1012.png floor_normal.1012.png floor_clean.1012.png floor_dirt.1012.png wall_layers.1012.exr wall_mask_u012_v003.png wall_splash.1012.png",
         ),
         (
             Target::Unreal,
-            "T_Floor_BaseColor.1012.png T_Floor_Mask.1012.png T_Floor_Passes.1012.png T_Floor_Wear.1012.png T_Floor_ORM.1012.png T_Floor_Normal.1012.png T_Wall_Layers2.1012.exr T_Wall_Mask_u012_v003.png T_Wall_Splash.1012.png",
+            "T_Floor_BaseColor.1012.png T_Floor_Mask.1012.png T_Floor_Passes.1012.png T_Floor_Wear.1012.png T_Floor_ORM.1012.png T_Floor_Normal.1012.png T_Floor_Clean.1012.png T_Floor_Dirt.1012.png T_Wall_Layers2.1012.exr T_Wall_Mask_u012_v003.png T_Wall_Splash.1012.png",
         ),
         (
             Target::Unity,
-            "Floor_BaseMap_1012.png Floor_DirtMask_1012.png Floor_Passes_1012.png Floor_Wear_1012.png Floor_ORM_1012.png Floor_MaskMap_1012.png Floor_Normal_1012.png Wall_Layers2_1012.exr Wall_DirtMask_u012_v003.png Wall_Splash_1012.png",
+            "Floor_BaseMap_1012.png Floor_DirtMask_1012.png Floor_Passes_1012.png Floor_Wear_1012.png Floor_ORM_1012.png Floor_MaskMap_1012.png Floor_Normal_1012.png Floor_Clean_1012.png Floor_Dirt_1012.png Wall_Layers2_1012.exr Wall_DirtMask_u012_v003.png Wall_Splash_1012.png",
         ),
         (
             Target::Godot,
-            "floor_albedo_1012.png floor_mask_1012.png floor_passes_1012.png floor_wear_1012.png floor_orm_1012.png floor_normal_1012.png wall_layers2_1012.exr wall_mask_u012_v003.png wall_splash_1012.png",
+            "floor_albedo_1012.png floor_mask_1012.png floor_passes_1012.png floor_wear_1012.png floor_orm_1012.png floor_normal_1012.png floor_clean_1012.png floor_dirt_1012.png wall_layers2_1012.exr wall_mask_u012_v003.png wall_splash_1012.png",
         ),
     ];
     for (target, expected) in expected {
@@ -189,11 +189,14 @@ fn each_target_gets_its_shader_and_what_sets_the_flags() {
     let files = |target| written(target).2.into_iter().collect::<Vec<_>>().join(" ");
     assert_eq!(files(Target::Gltf), "shaders/trodden_masks.glsl");
     assert_eq!(files(Target::Blender), "shaders/trodden_blender.py");
-    assert_eq!(files(Target::Unreal), "shaders/trodden_dirt.hlsl shaders/trodden_mix.hlsl shaders/trodden_unreal.py");
+    assert_eq!(
+        files(Target::Unreal),
+        "shaders/trodden_dirt.hlsl shaders/trodden_mix.hlsl shaders/trodden_unreal.py shaders/trodden_wall.hlsl"
+    );
     assert_eq!(files(Target::Unity), "shaders/Editor/TroddenImporter.cs shaders/TroddenDirt.hlsl");
     let godot = "floor/b.png.import floor/l1.exr.import floor/l2.exr.import floor/m.png.import floor/o.png.import \
-                 floor/p.png.import preview/.gdignore shaders/trodden_floor.gdshader shaders/trodden_setup.gd sums/.gdignore \
-                 walls/b.png.import walls/m.png.import walls/o.png.import walls/s.png.import";
+                 floor/p.png.import preview/.gdignore shaders/trodden_floor.gdshader shaders/trodden_setup.gd shaders/trodden_wall.gdshader \
+                 sums/.gdignore walls/b.png.import walls/m.png.import walls/o.png.import walls/s.png.import";
     assert_eq!(files(Target::Godot), godot);
 }
 

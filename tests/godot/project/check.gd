@@ -13,10 +13,14 @@ var _imported: Dictionary[String, Resource] = {}
 
 
 func _ready() -> void:
+	# In its first frame the engine may complain of itself, of an object's number that nobody has set.
+	await get_tree().process_frame
+	print("checks begin")
 	_folders_that_are_no_bakes()
 	_a_bake_with_a_scene()
 	_a_bake_of_the_floor()
 	await _the_menu()
+	_dirt_over_own_surfaces()
 	print("wrong: %d" % _wrong)
 
 
@@ -100,6 +104,31 @@ func _a_bake_of_the_floor() -> void:
 	for tile: Dictionary in tiles:
 		_check_tile(shown["floor_%d_%d" % [tile["u"], tile["v"]]], tile, bake)
 	world.free()
+
+
+## The bake's own shaders, and the script that makes materials with them: it is a script of the editor, which is not here.
+func _dirt_over_own_surfaces() -> void:
+	_copy("school", "plan")
+	var bake := Bake.new("user://plan")
+	var script := GDScript.new()
+	script.source_code = FileAccess.get_file_as_string("res://bakes/school/shaders/trodden_setup.gd").replace(
+		"extends EditorScript", "extends RefCounted")
+	_right("the bake's script can be read", script.reload() == OK)
+	script.new().make(bake.folder, bake.manifest)
+	var tiles: Array = bake.manifest["floor"]["tiles"]
+	var sheets: Array = bake.manifest["walls"]["sheets"]
+	var names := PackedStringArray()
+	for tile: Dictionary in tiles:
+		names.append("floor_%d_%d" % [tile["u"], tile["v"]])
+	for number in sheets.size():
+		names.append("walls_%d" % number)
+	for mesh in names:
+		var material: ShaderMaterial = load(bake.folder.path_join("materials/dirt_%s.tres" % mesh))
+		# A shader that does not compile has no uniforms.
+		var uniforms := material.shader.get_shader_uniform_list().map(func(each: Dictionary) -> String: return each["name"])
+		var second := "wear" if mesh.begins_with("floor") else "splash"
+		_right("dirt of %s: a shader with %d uniforms" % [mesh, uniforms.size()], uniforms.has("mask") and uniforms.size() > 10
+			and material.get_shader_parameter("mask") is Texture2D and material.get_shader_parameter(second) is Texture2D)
 
 
 ## The entries of the menu, in a stand-in for the editor.

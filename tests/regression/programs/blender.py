@@ -6,7 +6,7 @@ import sys
 import bpy
 
 script = sys.argv[1]
-sys.argv = [script, "--", "--over", "Mine"]
+sys.argv = [script, "--", "--over", "Mine", "--walls", "Plaster"]
 KINDS = ("objects", "meshes", "materials", "images", "node_groups")
 
 
@@ -21,6 +21,7 @@ def group_node():
 bpy.ops.wm.read_factory_settings(use_empty=True)
 mine = bpy.data.materials.new("Mine")
 mine.use_nodes = True
+bpy.data.materials.new("Plaster").use_nodes = True
 runpy.run_path(script, run_name="__main__")
 first = there()
 node = group_node()
@@ -37,5 +38,5 @@ assert first == second, f"{first}\n{second}"
 assert group_node().inputs["Film"].default_value == 2.5 and group_node().outputs["Color"].is_linked
 assert moved.location.x == 3.0 and bpy.data.objects[name].data.materials[0] == mine
 assert all(len(thing.data.materials) > 0 for thing in bpy.data.objects if thing.type == "MESH")
-assert all(image.size[0] > 0 for image in bpy.data.images if image.source == "FILE"), "an image cannot be read"
+assert all(image.size[0] > 0 for image in bpy.data.images if image.source in ("FILE", "TILED")), "an image cannot be read"
 print("ok")

@@ -9,9 +9,8 @@ use super::super::sandbox::Sandbox;
 fn bake(target: &str) -> Sandbox {
     let sandbox = Sandbox::new();
     sandbox.plan();
-    let bake =
-        ["bake", "plan.png", "--metres-per-pixel", "0.1", "--people", "10", "--quick", "--target", target, "-o", "out"];
-    sandbox.run(&bake).succeeds();
+    let bake = ["bake", "plan.png", "--metres-per-pixel", "0.1", "--people", "10", "--quick", "--dirt", "-o", "out"];
+    sandbox.run(&[&bake[..], &["--target", target]].concat()).succeeds();
     sandbox
 }
 

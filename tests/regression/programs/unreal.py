@@ -27,7 +27,7 @@ class MaterialExpression(Thing):
     pass
 
 
-KINDS = ["FunctionInput", "FunctionOutput", "WorldPosition", "Subtract", "TextureObject", "Constant4Vector", "Add", "Custom",
+KINDS = ["FunctionInput", "FunctionOutput", "WorldPosition", "Subtract", "TextureObject", "TextureCoordinate", "Constant4Vector", "Add", "Custom",
          "ComponentMask"]
 for kind in KINDS:
     globals()[f"MaterialExpression{kind}"] = type(f"MaterialExpression{kind}", (MaterialExpression,), {})

@@ -10,13 +10,16 @@ What it does:
 - the node group "Trodden dirt NAME" is made: Color and Roughness of a clean floor in, of the dirty floor out. It finds
   the masks by the place in the world, not by texture coordinates. Sliders scale film, prints, edge and heel marks;
 - each material named with --over gets the group between what feeds its Principled BSDF and the BSDF. With another
-  floor height or place of your model nothing has to be done; move the group's input Offset with the model.
+  floor height or place of your model nothing has to be done; move the group's input Offset with the model;
+- the node group "Trodden wall dirt NAME" does the same for walls, by the texture coordinates of the scene's walls. With
+  --walls "My plaster" the scene's walls get copies of that material of yours, one for each sheet, with the dirt over it.
 
 Masks come as Non-Color, at full size. Run it again after another bake to the same folder: what it made before is
 updated in its place, and your own changes of materials and of objects' places stay.
 """
 
 import argparse
+import functools
 import json
 import re
 import sys
@@ -24,11 +27,17 @@ from pathlib import Path
 
 import bpy
 
-# Linear colours of dirt: film, prints and edge; and heel marks.
+# Linear colours of dirt: film, prints and edge of a floor; its heel marks; skin, clothes and splashes on walls.
 SOIL = (0.127438, 0.099899, 0.061246)
 RUBBER = (0.019382, 0.020289, 0.024158)
+SKIN = (0.191202, 0.135633, 0.068478)
+CLOTH = (0.162029, 0.144128, 0.124772)
+SPLASH = (0.080220, 0.059511, 0.034340)
 DIRT_ROUGHNESS = 0.55
 AMOUNTS = ("Film", "Prints", "Edge", "Marks")
+COLOURS = (SOIL, SOIL, SOIL, RUBBER)
+WALL_AMOUNTS = ("Skin", "Rub", "Scuff", "Splash")
+WALL_COLOURS = (SKIN, CLOTH, RUBBER, SPLASH)
 
 # The property that says from which bake something is, and what it was called there.
 TAG = "trodden"
@@ -98,6 +107,27 @@ def load_mask(path):
     image = bpy.data.images.load(str(path), check_existing=True)
     image.reload()
     image.colorspace_settings.name = "Non-Color"
+    return image
+
+
+def is_udim(files):
+    return all(re.search(r"[.][0-9]{4}[.]png$", file) for file in files)
+
+
+def load_tiles(bake, files):
+    """One UDIM image of all masks of a kind, NAME.1001.png and so on: Eevee takes 32 images in a material, no more."""
+    path = re.sub(r"[0-9]{4}[.]png$", "<UDIM>.png", str(bake / files[0]))
+    image = next((image for image in bpy.data.images if image.filepath == path), None)
+    if image is None:
+        image = bpy.data.images.load(str(bake / files[0]))
+        image.source, image.filepath = "TILED", path
+        image.colorspace_settings.name = "Non-Color"
+    numbers = {int(file.split(".")[-2]) for file in files}
+    for number in sorted(numbers - {tile.number for tile in image.tiles}):
+        image.tiles.new(number)
+    for tile in [tile for tile in image.tiles if tile.number not in numbers]:
+        image.tiles.remove(tile)
+    image.reload()
     return image
 
 
@@ -175,26 +205,42 @@ def import_scene(bake):
         bpy.data.objects.remove(thing)
 
 
+def add_image(nodes, image, uv):
+    """The colour of an image at texture coordinates, as three numbers; nothing beyond it."""
+    node = nodes.add("ShaderNodeTexImage", extension="CLIP", image=image)
+    nodes.put(node.inputs["Vector"], uv)
+    return node.outputs["Color"]
+
+
+def split(nodes, colour):
+    node = nodes.add("ShaderNodeSeparateXYZ")
+    nodes.put(node.inputs[0], colour)
+    return node.outputs
+
+
 def add_masks(nodes, bake, tiles, position):
     """Film, prints, edge and heel marks at a place of the world, from all tiles; nothing beyond them."""
-    masks = {"mask": None, "wear": None}
-    for tile in tiles:
-        world = tile["world"]
-        shifted = nodes.vector("SUBTRACT", position, (*world["origin"], 0.0))
-        uv = nodes.vector("DIVIDE", shifted, (*world["size"], 1.0))
-        for kind, sum in masks.items():
-            image = nodes.add("ShaderNodeTexImage", extension="CLIP", image=load_mask(bake / tile[kind]))
-            nodes.put(image.inputs["Vector"], uv)
-            masks[kind] = image.outputs["Color"] if sum is None else nodes.vector("ADD", sum, image.outputs["Color"])
-    split = {kind: nodes.add("ShaderNodeSeparateXYZ") for kind in masks}
-    for kind, sum in masks.items():
-        nodes.put(split[kind].inputs[0], sum)
-    return *(split["mask"].outputs[axis] for axis in "XYZ"), split["wear"].outputs["Y"]
+    def uv(tile):
+        shifted = nodes.vector("SUBTRACT", position, (*tile["world"]["origin"], 0.0))
+        return nodes.vector("DIVIDE", shifted, (*tile["world"]["size"], 1.0))
+
+    masks = {}
+    for kind in ("mask", "wear"):
+        files = [tile[kind] for tile in tiles]
+        if is_udim(files):
+            # All tiles have one size.
+            across = nodes.vector("ADD", uv(tiles[0]), (tiles[0]["u"], tiles[0]["v"], 0.0))
+            masks[kind] = add_image(nodes, load_tiles(bake, files), across)
+        else:
+            # More than 10 x 10 tiles: an image for each, which Cycles takes.
+            parts = [add_image(nodes, load_mask(bake / tile[kind]), uv(tile)) for tile in tiles]
+            masks[kind] = functools.reduce(lambda sum, part: nodes.vector("ADD", sum, part), parts)
+    mask, wear = (split(nodes, masks[kind]) for kind in ("mask", "wear"))
+    return *(mask[axis] for axis in "XYZ"), wear["Y"]
 
 
-def make_group(bake, manifest):
-    """The node group of the dirt. Masks hold 1 - exp(-density)."""
-    name = f"Trodden dirt {bake.name}"
+def make_tree(name, amounts, others):
+    """A node group with the inputs Color, Roughness, amounts of dirt and others (name, type); its nodes, none yet."""
     group = bpy.data.node_groups.get(name) or bpy.data.node_groups.new(name, "ShaderNodeTree")
     # In the same group: materials that use it keep their links and their sliders.
     group.nodes.clear()
@@ -205,19 +251,20 @@ def make_group(bake, manifest):
 
     socket("Color", in_out="INPUT", socket_type="NodeSocketColor").default_value = (0.5, 0.5, 0.5, 1.0)
     socket("Roughness", in_out="INPUT", socket_type="NodeSocketFloat").default_value = 0.35
-    for amount in AMOUNTS:
+    for amount in amounts:
         slider = socket(amount, in_out="INPUT", socket_type="NodeSocketFloat")
         slider.default_value, slider.min_value, slider.max_value = 1.0, 0.0, 4.0
-    socket("Offset", in_out="INPUT", socket_type="NodeSocketVector")
+    for other, kind in others:
+        socket(other, in_out="INPUT", socket_type=kind)
     socket("Color", in_out="OUTPUT", socket_type="NodeSocketColor")
     socket("Roughness", in_out="OUTPUT", socket_type="NodeSocketFloat")
+    return group, Nodes(group)
 
-    nodes = Nodes(group)
-    given = nodes.add("NodeGroupInput").outputs
-    position = nodes.vector("SUBTRACT", nodes.add("ShaderNodeNewGeometry").outputs["Position"], given["Offset"])
-    masks = add_masks(nodes, bake, manifest["floor"]["tiles"], position)
+
+def mix_dirt(nodes, given, masks, amounts, colours):
+    """Lays dirt over the group's Color and Roughness. Masks hold 1 - exp(-density)."""
     total, dirt = None, None
-    for mask, amount, colour in zip(masks, AMOUNTS, (SOIL, SOIL, SOIL, RUBBER)):
+    for mask, amount, colour in zip(masks, amounts, colours):
         left = nodes.math("MAXIMUM", nodes.math("SUBTRACT", 1.0, mask), 0.002)
         negative = nodes.math("LOGARITHM", left, 2.718281828)
         density = nodes.math("MULTIPLY", negative, nodes.math("MULTIPLY", given[amount], -1.0))
@@ -229,7 +276,54 @@ def make_group(bake, manifest):
     result = nodes.add("NodeGroupOutput").inputs
     nodes.put(result["Color"], nodes.mix(through, dirt, given["Color"], "RGBA"))
     nodes.put(result["Roughness"], nodes.mix(through, DIRT_ROUGHNESS, given["Roughness"], "FLOAT"))
+
+
+def make_group(bake, manifest):
+    """The node group of the floor's dirt."""
+    group, nodes = make_tree(f"Trodden dirt {bake.name}", AMOUNTS, [("Offset", "NodeSocketVector")])
+    given = nodes.add("NodeGroupInput").outputs
+    position = nodes.vector("SUBTRACT", nodes.add("ShaderNodeNewGeometry").outputs["Position"], given["Offset"])
+    masks = add_masks(nodes, bake, manifest["floor"]["tiles"], position)
+    mix_dirt(nodes, given, masks, AMOUNTS, COLOURS)
     return group
+
+
+def make_wall_group(bake, manifest):
+    """The node group of the walls' dirt, by the texture coordinates of the scene's walls; None without walls."""
+    sheets = (manifest.get("walls") or {}).get("sheets", [])
+    kinds = {kind: [sheet[kind] for sheet in sheets] for kind in ("mask", "splash")}
+    if not sheets or not is_udim(kinds["mask"]):
+        return None
+    group, nodes = make_tree(f"Trodden wall dirt {bake.name}", WALL_AMOUNTS, [("Sheet", "NodeSocketFloat")])
+    given = nodes.add("NodeGroupInput").outputs
+    place = nodes.add("ShaderNodeUVMap", uv_map="UVMap").outputs["UV"]
+
+    # Sheet 0 lies in the tile 1001, sheet 10 above it.
+    row = nodes.math("FLOOR", nodes.math("DIVIDE", given["Sheet"], 10.0))
+    shift = nodes.add("ShaderNodeCombineXYZ")
+    nodes.put(shift.inputs["X"], nodes.math("SUBTRACT", given["Sheet"], nodes.math("MULTIPLY", row, 10.0)))
+    nodes.put(shift.inputs["Y"], row)
+    uv = nodes.vector("ADD", place, shift.outputs[0])
+    mask, splash = (split(nodes, add_image(nodes, load_tiles(bake, files), uv)) for files in kinds.values())
+    mix_dirt(nodes, given, (*(mask[axis] for axis in "XYZ"), splash["X"]), WALL_AMOUNTS, WALL_COLOURS)
+    return group
+
+
+def dress_walls(bake, material, group):
+    """Gives the scene's walls copies of a material with the dirt over it, one for each sheet."""
+    for thing in bpy.data.objects:
+        place = re.fullmatch(rf"{re.escape(bake.name)}/walls_([0-9]+)", thing.get(TAG, ""))
+        if place is None or thing.type != "MESH":
+            continue
+        name = f"{material.name} {bake.name} walls {place[1]}"
+        copy = bpy.data.materials.get(name)
+        if copy is None:
+            copy = material.copy()
+            copy.name = name
+        lay_over(copy, group)
+        next(node for node in copy.node_tree.nodes if node.type == "GROUP" and node.node_tree == group).inputs[
+            "Sheet"].default_value = int(place[1])
+        thing.data.materials[0] = copy
 
 
 def lay_over(material, group):
@@ -255,6 +349,7 @@ def lay_over(material, group):
 def main():
     parser = argparse.ArgumentParser(prog="trodden_blender.py")
     parser.add_argument("--over", action="append", default=[], metavar="MATERIAL", help="lay the dirt over it")
+    parser.add_argument("--walls", metavar="MATERIAL", help="give the scene's walls copies of it with the dirt over it")
     parser.add_argument("--no-scene", action="store_true", help="do not import scene.glb")
     own = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
     options = parser.parse_args(own)
@@ -264,11 +359,14 @@ def main():
         raise ValueError("this bake was not made with --target blender")
     if (bake / "scene.glb").is_file() and not options.no_scene:
         import_scene(bake)
-    group = make_group(bake, manifest)
-    for name in options.over:
+    group, walls = make_group(bake, manifest), make_wall_group(bake, manifest)
+    for name in [*options.over, *filter(None, [options.walls])]:
         if name not in bpy.data.materials:
             raise ValueError(f"there is no material {name}; there are {', '.join(bpy.data.materials.keys())}")
+    for name in options.over:
         lay_over(bpy.data.materials[name], group)
+    if options.walls and walls:
+        dress_walls(bake, bpy.data.materials[options.walls], walls)
     print(f"{group.name} is ready: Add > Group in a material's shader editor")
 
 

@@ -8,5 +8,7 @@
 // 1 - exp(-density). Masks of several tiles add up.
 float2 uv = (World.xy - Place.xy) / Place.zw;
 float2 inside = step(0.0, uv) * step(uv, 1.0);
-float4 masks = float4(Texture2DSample(Mask, MaskSampler, uv).rgb, Texture2DSample(Wear, WearSampler, uv).g);
+// One sampler for the textures of all tiles: a material has 16.
+SamplerState clamped = GetMaterialSharedSampler(MaskSampler, View.MaterialTextureBilinearClampedSampler);
+float4 masks = float4(Texture2DSample(Mask, clamped, uv).rgb, Texture2DSample(Wear, clamped, uv).g);
 return masks * (inside.x * inside.y);

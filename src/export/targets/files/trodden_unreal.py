@@ -9,6 +9,10 @@ full size, clamped. MF_TroddenDirt there takes your floor's BaseColor and Roughn
 them, in world space: put it in front of the outputs of your own floor material. It expects the plan's lower-left corner
 at the world's origin, where scene.glb comes to lie; move both together with the input Offset.
 
+MF_TroddenWallDirt does the same for the walls of scene.glb: give its inputs Mask and Splash Texture Object Parameters in
+front of your own wall material, and make an instance of it with the textures of each sheet, the mesh walls_N gets that of
+sheet N.
+
 Run it again after another bake to the same folder: textures are replaced, and the function gets new nodes inside, so
 that materials keep their links to it.
 """
@@ -24,8 +28,11 @@ BAKE = Path(__file__).resolve().parent.parent
 NAME = re.sub(r"\W", "_", BAKE.name)
 FOLDER = f"/Game/Trodden/{NAME}"
 
+COLOURS = ("basecolor", "clean", "dirt")
 COMPRESSION = {
     "basecolor": unreal.TextureCompressionSettings.TC_DEFAULT,
+    "clean": unreal.TextureCompressionSettings.TC_DEFAULT,
+    "dirt": unreal.TextureCompressionSettings.TC_DEFAULT,
     "mask": unreal.TextureCompressionSettings.TC_MASKS,
     "passes": unreal.TextureCompressionSettings.TC_GRAYSCALE,
     "splash": unreal.TextureCompressionSettings.TC_GRAYSCALE,
@@ -55,7 +62,7 @@ def import_texture(file, kind):
     texture = unreal.load_asset(f"{FOLDER}/{name}")
     if texture is None:
         raise RuntimeError(f"{file} could not be imported")
-    texture.set_editor_property("srgb", kind == "basecolor")
+    texture.set_editor_property("srgb", kind in COLOURS)
     texture.set_editor_property("compression_settings", COMPRESSION[kind])
     texture.set_editor_property("max_texture_size", 0)
     texture.set_editor_property("virtual_texture_streaming", False)
@@ -70,7 +77,7 @@ def import_all(entry):
     import_texture(entry["basecolor"], "basecolor")
     import_texture(entry["orm"], "orm")
     others = {}
-    for lone in ("passes", "splash", "rub", "wear", "normal"):
+    for lone in ("passes", "splash", "rub", "wear", "normal", "clean", "dirt"):
         if lone in entry:
             others[lone] = import_texture(entry[lone], lone)
     layers = entry.get("layers", [])
@@ -124,11 +131,18 @@ class Function:
             node.set_editor_property(name, value)
         return node
 
-    def input(self, name, kind, preview):
+    def input(self, name, kind, preview=(0.0, 0.0, 0.0, 0.0)):
         kind = getattr(unreal.FunctionInputType, f"FUNCTION_INPUT_{kind}")
         return self.pin(
             unreal.MaterialExpressionFunctionInput, name, -900, input_name=name, input_type=kind,
             preview_value=unreal.Vector4f(*preview), use_preview_value_as_default=True)
+
+    def texture_input(self, name, image, sampler):
+        """An input for a texture, which is `image` where nothing is linked to it."""
+        node = self.input(name, "TEXTURE2D")
+        shown = self.node(unreal.MaterialExpressionTextureObject, -1100, texture=image, sampler_type=sampler)
+        self.connect(shown, node, "Preview")
+        return node
 
     def custom(self, file, x, inputs, channels):
         """A Custom node with the code of a file beside this script; `inputs` are names and nodes."""
@@ -197,6 +211,24 @@ def make_function(tiles):
     function.save()
 
 
+def make_wall_function(mask, splash):
+    """MF_TroddenWallDirt; mask and splash of a sheet are shown where a material gives none."""
+    function = Function("MF_TroddenWallDirt")
+    types = unreal.MaterialSamplerType
+    inputs = {
+        "UV": function.node(unreal.MaterialExpressionTextureCoordinate, -900),
+        "Mask": function.texture_input("Mask", mask, types.SAMPLERTYPE_MASKS),
+        "Splash": function.texture_input("Splash", splash, types.SAMPLERTYPE_LINEAR_GRAYSCALE),
+        "Amount": function.input("Amount", "VECTOR4", (1.0, 1.0, 1.0, 1.0)),
+        "WallColour": function.input("BaseColor", "VECTOR3", (0.5, 0.5, 0.5, 0.0)),
+        "WallRoughness": function.input("Roughness", "SCALAR", (0.5, 0.0, 0.0, 0.0)),
+    }
+    mixed = function.custom("trodden_wall.hlsl", 100, inputs, 4)
+    function.output("BaseColor", mixed, "rgb")
+    function.output("Roughness", mixed, "a")
+    function.save()
+
+
 def main():
     manifest = json.loads((BAKE / "manifest.json").read_text(encoding="utf-8"))
     entries = manifest["floor"]["tiles"]
@@ -208,12 +240,16 @@ def main():
             task.enter_progress_frame(1)
             mask, others = import_all(entry)
             tiles.append((entry, mask, others["wear"]))
+        walls = []
         for sheet in sheets:
             task.enter_progress_frame(1)
-            import_all(sheet)
+            mask, others = import_all(sheet)
+            walls.append((mask, others["splash"]))
     make_function(tiles)
+    if walls:
+        make_wall_function(*walls[0])
     unreal.log(f"{len(tiles)} tiles and {len(sheets)} sheets are in {FOLDER}")
-    unreal.log("Put MF_TroddenDirt into your floor material")
+    unreal.log("Put MF_TroddenDirt into your floor material, MF_TroddenWallDirt into your wall material")
 
 
 main()
