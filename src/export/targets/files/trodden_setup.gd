@@ -32,7 +32,7 @@ func make(bake: String, manifest: Dictionary) -> void:
 	if walls:
 		for n in walls["sheets"].size():
 			var sheet: Dictionary = walls["sheets"][n]
-			var sheet_m: float = sheet["width_px"] / float(walls["texels_per_metre"])
+			var sheet_m := Vector2(sheet["width_px"], sheet["height_px"]) / float(walls["texels_per_metre"])
 			_material("wall", "walls_%d" % n, sheet, ["mask", "splash"], {"sheet_m": sheet_m})
 
 
