@@ -49,6 +49,11 @@ pub(super) fn is_saturated([r, g, b]: [u8; 3]) -> bool {
     chroma >= LEAST_CHROMA && f32::from(chroma) >= LEAST_SATURATION * f32::from(most)
 }
 
+/// Whether a pixel has the pale blue in which panes are filled.
+pub(super) fn is_pane([r, g, b]: [u8; 3]) -> bool {
+    b >= 190 && g >= r && b >= g && b - r >= 25
+}
+
 /// Computes luma (ITU-R BT.601), 0 to 255.
 pub(super) fn luma([r, g, b]: [u8; 3]) -> u8 {
     ((299 * u32::from(r) + 587 * u32::from(g) + 114 * u32::from(b) + 500) / 1000) as u8

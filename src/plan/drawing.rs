@@ -5,7 +5,7 @@ use std::ops::Range;
 use image::{DynamicImage, GenericImageView};
 use rayon::prelude::*;
 
-use super::colour::{Colour, is_saturated, lightness_against, luma};
+use super::colour::{Colour, is_pane, is_saturated, lightness_against, luma};
 use super::ink::{self, Ink};
 use super::ros_map::{Cell, Greys};
 use super::tones::USUAL_THRESHOLD;
@@ -14,8 +14,9 @@ use super::{PlanOptions, TransparentPolicy, UnknownPolicy, paving, shadow, sheet
 /// Greys of unknown and of free cells as mappers write them.
 const MAP_UNKNOWN: u8 = 205;
 const MAP_FREE: u8 = 254;
-/// Lightness below which a pixel may be of a fine line.
+/// Lightness below which a pixel may be of a fine line, and on clean paper.
 const FAINT: u8 = 180;
+const FAINTEST: u8 = 225;
 
 /// The pixels of a plan image by lightness, wall and colour.
 pub(super) struct Drawing {
@@ -27,6 +28,12 @@ pub(super) struct Drawing {
     pub(super) dark: Vec<u8>,
     /// 1 for pixels of saturated colour; empty if there are none.
     pub(super) coloured: Vec<u8>,
+    /// 1 for pixels of dark saturated colour; empty if there are none.
+    pub(super) dark_colour: Vec<u8>,
+    /// 1 for pixels of the pale blue of panes; empty if there are none.
+    pub(super) pane: Vec<u8>,
+    /// Whether paper and floors are even, without grain or texture: faint strokes show.
+    pub(super) clean: bool,
     /// Threshold between wall and floor, in the image's own lightness.
     pub(super) threshold: u8,
     /// Whether it is a robot's map, measured rather than drawn: without text, doors or dashes.
@@ -64,6 +71,9 @@ pub(super) fn of_map(image: DynamicImage, greys: &Greys, options: &PlanOptions) 
         lightness,
         dark,
         coloured: Vec::new(),
+        dark_colour: Vec::new(),
+        pane: Vec::new(),
+        clean: false,
         threshold: USUAL_THRESHOLD,
         scanned: true,
         looks_like_map: false,
@@ -114,6 +124,14 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
     } else if share > 0 {
         lightness = map_pixels(&image, |pixel| lightness_of(pixel, options));
     }
+    let of_colour = |is_it: fn([u8; 3]) -> bool| {
+        let has_colour = image.color().has_color() && sheet.is_none();
+        let found = if has_colour { map_pixels(&image, |pixel| u8::from(is_it(on_paper(pixel)))) } else { Vec::new() };
+        if found.contains(&1) { found } else { Vec::new() }
+    };
+    let pane = of_colour(is_pane);
+    let is_dark_colour = |pixel| is_saturated(pixel) && luma(pixel) < USUAL_THRESHOLD;
+    let dark_colour = if coloured.is_empty() { Vec::new() } else { of_colour(is_dark_colour) };
     // Of large plans it is the most memory.
     drop(image);
     let threshold = match options.threshold {
@@ -128,6 +146,9 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
         lightness: Vec::new(),
         dark: Vec::new(),
         coloured,
+        dark_colour,
+        pane,
+        clean: false,
         threshold,
         scanned: looks_like_map,
         looks_like_map,
@@ -139,28 +160,71 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
     }
     settle_tones(&mut drawing, &mut lightness, options, &mut warnings);
     let mut dark: Vec<u8> = lightness.iter().map(|&l| u8::from(l < drawing.threshold)).collect();
+    drawing.clean = is_clean(&lightness);
     stretch(width, &mut lightness, &dark);
     close_thin_lines(width, &lightness, &mut dark);
+    shadow::even_floors(width, &mut lightness, &dark);
     (drawing.lightness, drawing.dark) = (lightness, dark);
     drop_paving(&mut drawing);
     (drawing, warnings)
 }
 
-/// Takes the lines of floor coverings off.
+/// Whether nearly all light pixels are as light as the one before.
+fn is_clean(lightness: &[u8]) -> bool {
+    const CLEAN: f64 = 0.86;
+    let light = lightness.array_windows().filter(|[_, l]| *l >= FAINT);
+    let (all, even) =
+        light.fold((0usize, 0usize), |(all, even), [before, l]| (all + 1, even + usize::from(before == l)));
+    even as f64 >= CLEAN * all as f64
+}
+
+/// Takes the lines of floor coverings off. Among what is left of them, faint strokes are no strokes.
 fn drop_paving(drawing: &mut Drawing) {
-    let dark = (0..drawing.dark.len()).map(|at| {
-        let lightness = drawing.lightness[at];
-        let is_coloured = drawing.coloured.get(at).is_some_and(|&c| c != 0);
-        let is_ink = drawing.dark[at] != 0 || lightness < FAINT || is_coloured;
-        if is_ink { (255 - lightness).max(255 - FAINT) } else { 0 }
-    });
-    let ink = paving::Ink { dark: dark.collect(), width: drawing.width };
-    for at in paving::lines(&ink) {
-        drawing.dark[at] = 0;
-        drawing.lightness[at] = 255;
-        if let Some(coloured) = drawing.coloured.get_mut(at) {
-            *coloured = 0;
+    for faint in [Vec::new(), drawing.faint_strokes()] {
+        let is_on = |mask: &[u8], at: usize| mask.get(at).is_some_and(|&on| on != 0);
+        let is_stroke =
+            |at: usize, lightness: u8| lightness < FAINT || drawing.dark[at] != 0 || is_on(&drawing.coloured, at);
+        let dark = drawing.lightness.iter().enumerate().map(|(at, &lightness)| match () {
+            () if is_stroke(at, lightness) => (255 - lightness).max(255 - FAINT),
+            () if is_on(&faint, at) => 255 - lightness,
+            () => 0,
+        });
+        let ink = paving::Ink { dark: dark.collect(), width: drawing.width };
+        let lines = paving::lines(&ink);
+        drawing.clean &= lines.is_empty();
+        for at in lines {
+            drawing.dark[at] = 0;
+            drawing.lightness[at] = 255;
+            if let Some(coloured) = drawing.coloured.get_mut(at) {
+                *coloured = 0;
+            }
         }
+        if !drawing.clean {
+            break;
+        }
+    }
+}
+
+impl Drawing {
+    /// 1 for strokes on clean paper that are lighter than others, as grey lines of a pixel or less are; empty if paper is not
+    /// clean. Anti-aliased flanks of darker strokes are none, but where a faint one ends there.
+    pub(super) fn faint_strokes(&self) -> Vec<u8> {
+        if !self.clean {
+            return Vec::new();
+        }
+        let width = self.width;
+        let around = |at: usize| {
+            let rows = [at.wrapping_sub(width), at, at + width];
+            rows.into_iter().flat_map(|row| [row.wrapping_sub(1), row, row + 1])
+        };
+        let is_faint = |at: usize| (FAINT..FAINTEST).contains(&self.lightness[at]);
+        let is_ink = |at: usize| self.lightness.get(at).is_some_and(|&l| l < FAINT);
+        let apart = |at: usize| u8::from(is_faint(at) && !around(at).any(is_ink));
+        let apart: Vec<u8> = (0..self.lightness.len()).into_par_iter().map(apart).collect();
+        let ends = |at: usize| {
+            u8::from(is_faint(at) && around(at).any(|near| apart.get(near).is_some_and(|&apart| apart != 0)))
+        };
+        (0..apart.len()).into_par_iter().map(ends).collect()
     }
 }
 

@@ -8,7 +8,7 @@ use super::components::{Component, Components, Neighbours};
 use super::cracks::trace;
 use super::drawing::Drawing;
 use super::likely::{Likelihood, Usual};
-use super::scale::{PlanScale, ScaleSource};
+use super::scale::{self, PlanScale, ScaleSource, rounded};
 use super::symbols::{FEWEST_STROKES, groups};
 use super::{ASSUMED_M_PER_PX, understand};
 use crate::math::{ln, sin_cos};
@@ -36,9 +36,11 @@ const DOOR_RANGE_M: [f64; 2] = [0.68, 1.15];
 /// Least weight of leaves and doorways that decide a scale.
 const FEWEST_LEAVES: f64 = 2.0;
 const FEWEST_DOORS: f64 = 4.0;
+/// Of gaps in a drawing with lettering, which no robot maps.
+const FEWEST_DOORS_LETTERED: f64 = 3.5;
 /// Lightness below which a pixel may be of an arc thinner than a pixel.
 const FINE: u8 = 180;
-/// Range of the width of a door in thicknesses of a wall that is drawn thick.
+/// Width of a door in thicknesses of a wall that is drawn thick.
 const DOOR_IN_WALLS: [f64; 2] = [1.5, 14.0];
 /// Range of the width of a door as a share of the building's larger side.
 const DOOR_IN_BUILDING: [f64; 2] = [0.008, 0.25];
@@ -98,8 +100,8 @@ pub(super) fn of_width(drawing: &Drawing, width_m: f64) -> Option<f64> {
 /// Guesses the metres per pixel. `dots_per_inch` is what the file says of its print.
 pub(super) fn guess(drawing: &Drawing, dots_per_inch: Option<f64>) -> (f64, PlanScale) {
     if drawing.scanned {
-        let (range, evidence) = ([0.01, 0.1], "the usual scale of robots' maps".to_owned());
-        return (ASSUMED_M_PER_PX, PlanScale { source: ScaleSource::Assumed, sureness: 0.5, range, evidence });
+        let evidence = "the usual scale of robots' maps".to_owned();
+        return scale::found(ASSUMED_M_PER_PX, ScaleSource::Assumed, 0.5, [0.01, 0.1], evidence);
     }
     let mut measures = Measures::of(drawing);
     let dots = dots_per_inch.filter(|dots| MEANINGLESS_DPI.iter().all(|m| (m - dots).abs() > 0.6));
@@ -109,9 +111,6 @@ pub(super) fn guess(drawing: &Drawing, dots_per_inch: Option<f64>) -> (f64, Plan
         let each = PRINTED.iter().map(|&scale| (scale, rounded(0.0254 / dots * scale)));
         let (scale, value) = each.into_iter().find(|&(_, value)| (low..=high).contains(&value))?;
         Some((value, format!("; at 1:{scale}, as the file's {dots:.0} dots per inch allow")))
-    };
-    let scale = |value: f64, source: ScaleSource, sureness: f64, range: [f64; 2], evidence: String| {
-        (value, PlanScale { source, sureness, range, evidence })
     };
     let mut likely = measures.likelihood().guess();
     if measures.wall.is_some() && measures.doors(likely.value).is_none() {
@@ -133,20 +132,23 @@ pub(super) fn guess(drawing: &Drawing, dots_per_inch: Option<f64>) -> (f64, Plan
             format!("{count:.0} doors about {width:.0} pixels wide, taken for {:.2} m", width * likely.value);
         let [low, high] = likely.range;
         if likely.sureness < UNSURE && (low..=high).contains(&ASSUMED_M_PER_PX) {
-            return scale(ASSUMED_M_PER_PX, ScaleSource::Assumed, likely.sureness, likely.range, evidence);
+            return scale::found(ASSUMED_M_PER_PX, ScaleSource::Assumed, likely.sureness, likely.range, evidence);
         }
         let near = [1.0 - PRINTED_REACH, 1.0 + PRINTED_REACH].map(|share| likely.value * share);
         if let Some((value, print)) = printed(near) {
             let range = [value * 0.97, value * 1.03];
-            return scale(value, ScaleSource::Guessed, likely.sureness.max(0.9), range, evidence + &print);
+            return scale::found(value, ScaleSource::Guessed, likely.sureness.max(0.9), range, evidence + &print);
         }
         let is_usual = (likely.value / ASSUMED_M_PER_PX - 1.0).abs() <= USUAL_REACH;
         let value = if is_usual { ASSUMED_M_PER_PX } else { rounded(likely.value) };
-        return scale(value, ScaleSource::Guessed, likely.sureness, likely.range, evidence);
+        return scale::found(value, ScaleSource::Guessed, likely.sureness, likely.range, evidence);
+    }
+    if let Some(of_cells) = scale::of_cells(drawing.width, &drawing.lightness) {
+        return of_cells;
     }
     let evidence = measures.wall.map_or(String::new(), |wall| format!("walls about {wall:.0} pixels thick"));
     if let Some((value, print)) = printed(likely.range).filter(|_| measures.wall.is_some()) {
-        return scale(value, ScaleSource::Guessed, likely.sureness.max(0.4), likely.range, evidence + &print);
+        return scale::found(value, ScaleSource::Guessed, likely.sureness.max(0.4), likely.range, evidence + &print);
     }
     let [low, high] = likely.range;
     let range = [low.min(ASSUMED_M_PER_PX * 0.4), high.max(ASSUMED_M_PER_PX * 2.0)];
@@ -155,14 +157,9 @@ pub(super) fn guess(drawing: &Drawing, dots_per_inch: Option<f64>) -> (f64, Plan
     let longest_px = measures.bounds.map_or(0, |[min, end]| (end[0] - min[0]).max(end[1] - min[1]));
     let is_usual = USUAL_BUILDING_M.contains(&(f64::from(longest_px) * ASSUMED_M_PER_PX));
     if is_possible || is_usual || measures.wall.is_none() {
-        return scale(ASSUMED_M_PER_PX, ScaleSource::Assumed, likely.sureness.min(0.2), range, evidence);
+        return scale::found(ASSUMED_M_PER_PX, ScaleSource::Assumed, likely.sureness.min(0.2), range, evidence);
     }
-    scale(rounded(likely.value), ScaleSource::Guessed, likely.sureness, likely.range, evidence)
-}
-
-/// Three significant digits: a guess knows no more.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.2e}").parse().unwrap_or(value)
+    scale::found(rounded(likely.value), ScaleSource::Guessed, likely.sureness, likely.range, evidence)
 }
 
 /// Walls of a drawing without strokes that are thinner, without what is too short, without frames.
@@ -318,7 +315,8 @@ impl Measures {
         let all: f64 = self.leaves.iter().map(|leaf| leaf.1).sum();
         // Quarter circles of any size are the grain of a scan.
         let are_doors = leaves >= FEWEST_LEAVES && leaves * 5.0 >= all * 2.0;
-        (are_doors || gaps >= FEWEST_DOORS).then(|| (leaves + gaps, (leaf_sum + gap_sum) / (leaves + gaps)))
+        let fewest = if self.letter.is_some() { FEWEST_DOORS_LETTERED } else { FEWEST_DOORS };
+        (are_doors || gaps >= fewest).then(|| (leaves + gaps, (leaf_sum + gap_sum) / (leaves + gaps)))
     }
 
     /// Leaves out widths that are none of doors: beside the walls' thickness and the building's size.

@@ -68,6 +68,34 @@ impl PlanScale {
     }
 }
 
+/// A scale that was found, metres per pixel, and how.
+pub(super) fn found(
+    value: f64,
+    source: ScaleSource,
+    sureness: f64,
+    range: [f64; 2],
+    evidence: String,
+) -> (f64, PlanScale) {
+    (value, PlanScale { source, sureness, range, evidence })
+}
+
+/// Three significant digits: a guess knows no more.
+pub(super) fn rounded(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}
+
+/// The scale of a game's map that has a pixel a cell: a small picture of two tones.
+pub(super) fn of_cells(width: usize, lightness: &[u8]) -> Option<(f64, PlanScale)> {
+    const MOST_CELLS: usize = 160;
+    const CELL_M: f64 = 1.0;
+    let is_small = width.max(lightness.len() / width.max(1)) <= MOST_CELLS;
+    if !is_small || lightness.iter().any(|&l| l != 0 && l != 255) {
+        return None;
+    }
+    let evidence = "so small a picture of two tones, in which a pixel is a cell of a game's map".to_owned();
+    Some(found(CELL_M, ScaleSource::Assumed, 0.2, [0.5 * CELL_M, 2.0 * CELL_M], evidence))
+}
+
 /// Returns the metres per pixel that options or the map give. Options override the map.
 pub(super) fn given(options: &PlanOptions, from_map: Option<f64>) -> Result<Option<(f64, PlanScale)>, PlanError> {
     let asked = [options.metres_per_pixel.is_some(), options.scale.is_some(), options.width_m.is_some()];

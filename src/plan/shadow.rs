@@ -1,4 +1,5 @@
-//! Evens out the light of a scan or a photograph: each pixel is divided by the paper's lightness around it.
+//! Evens out the light of a scan or a photograph, and the tones of floors: each pixel is divided by the lightness of the paper,
+//! or of the floor, around it.
 
 use rayon::prelude::*;
 
@@ -34,6 +35,35 @@ pub(super) fn even_out(width: usize, lightness: &mut [u8]) -> Option<[u8; 2]> {
     Some(range)
 }
 
+/// Tones of floors: darker ones may be walls or furniture, in lighter ones nothing is lost.
+const FLOOR_TONES: std::ops::Range<u8> = 130..250;
+
+/// Tones of a floor, as shares of the one that a quarter of it is lighter than, and how near it is, cells.
+const SAME_TONE: std::ops::Range<f32> = 0.8..1.08;
+const NEARBY: [isize; 2] = [INK_RADIUS as isize / 2, INK_RADIUS as isize];
+
+/// Makes floors of wood, tile, or a tint as light as paper, so that what is drawn on them is as dark as on paper.
+///
+/// `dark` pixels stay as they are.
+pub(super) fn even_floors(width: usize, lightness: &mut [u8], dark: &[u8]) {
+    let ground = Coarse::paper(width, lightness);
+    if !ground.tones.iter().any(|tone| FLOOR_TONES.contains(tone)) {
+        return;
+    }
+    let rows = lightness.par_chunks_mut(width).zip(dark.par_chunks(width));
+    rows.enumerate().for_each(|(y, (row, dark))| {
+        for (x, (l, _)) in row.iter_mut().zip(dark).enumerate().filter(|(_, (l, dark))| **dark == 0 && **l < 255) {
+            let (column, line) = (x / ground.side, y / ground.side);
+            let tone = ground.tones[line * ground.width + column];
+            if ground.has_floor_near([column, line], *l) {
+                *l = 255;
+            } else if FLOOR_TONES.contains(&tone) {
+                *l = (u32::from(*l) * 255 / u32::from(tone)).min(255) as u8;
+            }
+        }
+    });
+}
+
 /// A coarse picture of the paper's lightness.
 struct Coarse<T> {
     side: usize,
@@ -61,6 +91,17 @@ impl Coarse<u8> {
         coarse.sweep(u8::max);
         coarse.sweep(u8::min);
         coarse
+    }
+
+    /// Whether a floor near a cell has a tone: in a door lies the floor of one of two rooms.
+    fn has_floor_near(&self, [column, line]: [usize; 2], tone: u8) -> bool {
+        let at = |k: usize, step: isize, end: usize| k.checked_add_signed(step).filter(|&k| k < end);
+        let is_floor = |[dx, dy]: [isize; 2]| {
+            let (Some(x), Some(y)) = (at(column, dx, self.width), at(line, dy, self.height)) else { return false };
+            let floor = self.tones[y * self.width + x];
+            FLOOR_TONES.contains(&floor) && SAME_TONE.contains(&(f32::from(tone) / f32::from(floor)))
+        };
+        NEARBY.into_iter().any(|reach| [[reach, 0], [-reach, 0], [0, reach], [0, -reach]].into_iter().any(is_floor))
     }
 
     /// Replaces each tone by the greatest or least within the radius, across and down.

@@ -10,6 +10,8 @@ use super::components::{Component, Components, Neighbours};
 
 /// Longer side of the small picture in which the sheet is looked for, pixels.
 const SMALL_PX: usize = 400;
+/// Least side of a photograph, pixels: maps of games have a pixel a cell.
+const LEAST_PHOTO_PX: usize = 200;
 /// How far from the desk's colour to the paper's the sheet begins: several are tried, because of shadows.
 const LEVELS: [f64; 5] = [0.2, 0.3, 0.4, 0.5, 0.62];
 /// Least difference between desk and paper, of 255.
@@ -49,7 +51,7 @@ pub(super) fn find(image: &DynamicImage) -> Option<Sheet> {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let cell = width.max(height).div_ceil(SMALL_PX).max(1);
     let small = Small::of(image, cell);
-    if small.width < 16 || small.height < 16 {
+    if width.min(height) < LEAST_PHOTO_PX || small.width < 16 || small.height < 16 {
         return None;
     }
     let by_level = LEVELS.iter().map(|&level| small.paperness.iter().map(|&p| u8::from(p >= level)).collect());

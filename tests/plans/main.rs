@@ -5,6 +5,7 @@
 mod buildings;
 mod canvas;
 mod cropped;
+mod floors;
 mod measure;
 mod notes;
 mod openings;

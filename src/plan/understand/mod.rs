@@ -37,6 +37,9 @@ const RING_PX: usize = 2;
 const CONNECTED: f64 = 0.6;
 /// Greatest thickness of walls with doors, metres.
 const THICKEST_WALL_M: f64 = 0.9;
+/// Greatest thickness of a stroke of colour and of a pane that is filled, metres.
+const STROKE_M: f64 = 0.1;
+const PANE_M: f64 = 0.55;
 /// Largest letter, metres.
 const LARGEST_LETTER_M: f64 = 0.9;
 
@@ -113,6 +116,8 @@ fn reduced(drawing: &Drawing, factor: usize) -> Drawing {
         lightness: fold(&drawing.lightness, 255, u8::min),
         dark: fold(&drawing.dark, 0, u8::max),
         coloured: fold(&drawing.coloured, 0, u8::max),
+        dark_colour: fold(&drawing.dark_colour, 0, u8::max),
+        pane: fold(&drawing.pane, 0, u8::max),
         ..*drawing
     }
 }
@@ -145,7 +150,8 @@ fn understand_all(drawing: &Drawing, metres_per_pixel: f64) -> Option<Understood
             (kind, leaf)
         })
         .collect();
-    let furniture = pieces::furniture(&ink, &drawing.dark, &net, width, metres_per_pixel, &mut classes);
+    let strokes = pieces::Strokes { ink: &ink, dark: &drawing.dark, dark_colour: &drawing.dark_colour };
+    let furniture = pieces::furniture(&strokes, &net, width, metres_per_pixel, &mut classes);
     name_strokes(&ink, &net, width, metres_per_pixel, &mut classes);
     let Net { wall, doors, windows, inside, .. } = net;
     let with_kind = |(gap, (kind, leaf))| FoundDoor(gap, kind, leaf);
@@ -169,19 +175,26 @@ fn understand_all(drawing: &Drawing, metres_per_pixel: f64) -> Option<Understood
     Some(Understood { classes, outside, doors, windows, furniture, factor: 1 })
 }
 
-/// What is drawn at all, and the walls in it.
+/// What is drawn at all, faint or not, and the walls in it.
 fn ink_and_net(drawing: &Drawing, metres_per_pixel: f64) -> Option<(Vec<u8>, Net)> {
     let pixels = drawing.dark.len();
     if drawing.scanned {
         return None;
     }
-    let coloured = thin_colour(drawing, metres_per_pixel);
+    let coloured = thin(&drawing.coloured, drawing.width, STROKE_M / metres_per_pixel);
+    // Panes are as thick as walls.
+    let panes = thin(&drawing.pane, drawing.width, PANE_M / metres_per_pixel);
+    let is_on = |mask: &[u8], at: usize| mask.get(at).is_some_and(|&on| on != 0);
     let is_ink = |at: usize| {
-        u8::from(drawing.dark[at] != 0 || drawing.lightness[at] < FAINT || coloured.get(at).is_some_and(|&c| c != 0))
+        let is_thin = is_on(&coloured, at) || is_on(&panes, at);
+        u8::from(drawing.dark[at] != 0 || drawing.lightness[at] < FAINT || is_thin)
     };
     let ink: Vec<u8> = (0..pixels).map(is_ink).collect();
-    let net = find_net(drawing, &ink, metres_per_pixel)?;
-    Some((ink, net))
+    let faint = thin(&drawing.faint_strokes(), drawing.width, STROKE_M / metres_per_pixel);
+    let mut all_ink = ink.clone();
+    all_ink.iter_mut().zip(faint).for_each(|(ink, faint)| *ink |= faint);
+    let net = find_net(drawing, &ink, &all_ink, metres_per_pixel)?;
+    Some((all_ink, net))
 }
 
 /// How far from the floor of rooms walls of the building reach at most, metres.
@@ -240,7 +253,9 @@ pub(super) fn leaf_lengths(drawing: &Drawing, metres_per_pixel: f64) -> Vec<f64>
 }
 
 /// Finds the walls: thick ones, else outlines, else hatched ones, else both, else single lines.
-fn find_net(drawing: &Drawing, ink: &[u8], metres_per_pixel: f64) -> Option<Net> {
+///
+/// Partitions between thick walls may be drawn in fainter ink than walls: `all_ink`.
+fn find_net(drawing: &Drawing, ink: &[u8], all_ink: &[u8], metres_per_pixel: f64) -> Option<Net> {
     let (dark, width) = (&drawing.dark, drawing.width);
     let strokes = without_lettering(ink, width, metres_per_pixel);
     let is_dark = |at: usize| dark.get(at).is_some_and(|&d| d != 0);
@@ -254,14 +269,16 @@ fn find_net(drawing: &Drawing, ink: &[u8], metres_per_pixel: f64) -> Option<Net>
     let surely =
         |at: usize| strokes[at] & u8::from(drawing.lightness[at] < SURELY_DARK && (is_dark(at) || is_ring(at)));
     let core: Vec<u8> = (0..dark.len()).map(surely).collect();
-    let net_of = |core: &[u8], filled: &[u8], thickest: usize| {
+    let net_in = |ink: &[u8], core: &[u8], filled: &[u8], thickest: usize| {
         Net::find(core, filled, dark, ink, width, metres_per_pixel, thickest).filter(Net::is_building)
     };
+    let net_of = |core: &[u8], filled: &[u8], thickest: usize| net_in(ink, core, filled, thickest);
     let thickest = ((THICKEST_WALL_M / metres_per_pixel).round() as usize).max(4);
     let net = |core: &[u8], filled: &[u8]| net_of(core, filled, thickest);
     if let Some(net) = net(&core, dark) {
-        let search = |core: &[u8], thickest: usize| net_of(core, core, thickest);
-        return Some(partitions::added(net, &strokes, ink, width, metres_per_pixel, search));
+        let search = |core: &[u8], thickest: usize| net_in(all_ink, core, core, thickest);
+        let strokes = without_lettering(all_ink, width, metres_per_pixel);
+        return Some(partitions::added(net, &strokes, all_ink, width, metres_per_pixel, search));
     }
     let strokes = hollow::fill_teeth(&strokes, width, metres_per_pixel);
     let outlined = hollow::fill_outlines(&strokes, width, metres_per_pixel);
@@ -328,14 +345,13 @@ fn is_connected(classes: &[PlanClass], inside: &[u8], width: usize) -> bool {
     largest as f64 >= CONNECTED * all as f64
 }
 
-/// Strokes of saturated colour; broad areas are highlights.
-fn thin_colour(drawing: &Drawing, metres_per_pixel: f64) -> Vec<u8> {
-    if drawing.coloured.is_empty() {
+/// What of a mask is thinner than some pixels: strokes of saturated colour; broad areas are highlights.
+fn thin(mask: &[u8], width: usize, thickest_px: f64) -> Vec<u8> {
+    if mask.is_empty() {
         return Vec::new();
     }
-    let side = ((0.1 / metres_per_pixel).round() as usize).max(3);
-    let broad = thick::open(&drawing.coloured, drawing.width, side);
-    drawing.coloured.iter().zip(&broad).map(|(&c, &b)| c & (1 - b)).collect()
+    let broad = thick::open(mask, width, (thickest_px.round() as usize).max(3));
+    mask.iter().zip(&broad).map(|(&c, &b)| c & (1 - b)).collect()
 }
 
 /// Names strokes that are neither wall nor furniture: door symbols, lettering, frames, lines.

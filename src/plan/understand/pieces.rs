@@ -26,6 +26,14 @@ pub(super) struct Evidence {
 /// Largest field of a piece of furniture, square metres, and its greatest depth, metres.
 const LARGEST_FIELD_M2: f64 = 7.0;
 const DEEPEST_FIELD_M: f64 = 2.6;
+/// Greatest depth and area of a row of shelves, and least share of its outline that is drawn and of its box that it fills,
+/// metres and square metres.
+const DEEPEST_ROW_M: f64 = 1.4;
+const LARGEST_ROW_M2: f64 = 30.0;
+const ROW_STROKES: f64 = 0.9;
+const ROW_FILL: f64 = 0.9;
+/// Least area of furniture that is filled with a dark colour, square metres: symbols are smaller.
+const LEAST_FILLED_M2: f64 = 1.2;
 /// Depth from which a field between walls is a part of the room, metres.
 const DEEP_M: f64 = 0.75;
 /// Least side and area of a piece of furniture, metres and square metres.
@@ -44,10 +52,17 @@ const SOLID: u8 = 2;
 const DOOR: u8 = 3;
 const PAPER: u8 = 4;
 
-/// Finds furniture among the strokes (1 in `ink`) inside a net, and paints it into `classes`.
+/// What is drawn beside walls: strokes, dark pixels, and those of dark colour, 1 each.
+pub(super) struct Strokes<'a> {
+    pub(super) ink: &'a [u8],
+    pub(super) dark: &'a [u8],
+    /// Empty if there are none.
+    pub(super) dark_colour: &'a [u8],
+}
+
+/// Finds furniture among the strokes inside a net, and paints it into `classes`.
 pub(super) fn furniture(
-    ink: &[u8],
-    dark: &[u8],
+    Strokes { ink, dark, dark_colour }: &Strokes,
     net: &Net,
     width: usize,
     metres_per_pixel: f64,
@@ -77,13 +92,18 @@ pub(super) fn furniture(
     for field in &fields.all {
         let [w, h] = field.size().map(|side| f64::from(side) * metres_per_pixel);
         let depth = w.min(h);
-        if field.area as f64 * m2 > LARGEST_FIELD_M2 || depth > DEEPEST_FIELD_M {
+        let is_row = depth <= DEEPEST_ROW_M && field.area as f64 * m2 <= LARGEST_ROW_M2;
+        if field.area as f64 * m2 > LARGEST_FIELD_M2 && !is_row || depth > DEEPEST_FIELD_M {
             continue;
         }
         let beside = beside(&what, width, &fields, field);
         let all: usize = beside.iter().sum();
         let share = beside[usize::from(STROKE)] as f64 / all.max(1) as f64;
-        let least = if depth > DEEP_M { 0.48 } else { 0.35 };
+        let least = match () {
+            () if field.area as f64 * m2 > LARGEST_FIELD_M2 => ROW_STROKES,
+            () if depth > DEEP_M => 0.48,
+            () => 0.35,
+        };
         let at_door = beside[usize::from(DOOR)] as f64 * metres_per_pixel > 0.1;
         if share >= least && !at_door && beside[usize::from(PAPER)] == 0 {
             fields.paint(field, &mut solid, width, 1);
@@ -95,6 +115,12 @@ pub(super) fn furniture(
     for at in 0..solid.len() {
         solid[at] |= u8::from(what[at] == STROKE && near[at] != 0 && net.inside[at] != 0);
     }
+    if !dark_colour.is_empty() {
+        paint_filled(dark_colour, LEAST_FILLED_M2, &what, width, metres_per_pixel, &mut solid);
+    }
+    let strokes: Vec<u8> = what.iter().map(|&what| u8::from(what == STROKE)).collect();
+    let filled = open(&strokes, width, ((LEAST_SIDE_M / metres_per_pixel).round() as usize).max(3));
+    paint_filled(&filled, LEAST_AREA_M2, &what, width, metres_per_pixel, &mut solid);
     let objects = Components::of(&solid, width, 1, Neighbours::Eight);
     let mut found = Vec::new();
     for object in &objects.all {
@@ -102,9 +128,10 @@ pub(super) fn furniture(
         let sides = [w, h].map(|side| f64::from(side) * metres_per_pixel);
         let area = object.area as f64 * m2;
         let fill = object.area as f64 / (f64::from(w) * f64::from(h));
-        if sides[0].min(sides[1]) < LEAST_SIDE_M || !(LEAST_AREA_M2..=LARGEST_AREA_M2).contains(&area) {
+        if sides[0].min(sides[1]) < LEAST_SIDE_M || area < LEAST_AREA_M2 {
             continue;
         }
+        let is_row = fill >= ROW_FILL && sides[0].min(sides[1]) <= DEEPEST_FIELD_M && area <= 2.0 * LARGEST_ROW_M2;
         let is_corner = fill < LEAST_FILL;
         if is_corner && !goes_round(&objects, object, metres_per_pixel) {
             continue;
@@ -137,10 +164,29 @@ pub(super) fn furniture(
             class: PlanClass::Table,
         };
         piece.class = if is_corner { PlanClass::Counter } else { class(&piece, sides) };
+        let is_flight = piece.class == PlanClass::Stairs && fill >= ROW_FILL && area <= 2.0 * LARGEST_ROW_M2;
+        if area > LARGEST_AREA_M2 && !is_row && !is_flight {
+            continue;
+        }
         objects.paint(object, classes, width, piece.class);
         found.push(piece);
     }
     found
+}
+
+/// Paints filled rectangles in a room, of at least so many square metres: furniture. Arrows and symbols are no rectangles, or
+/// small.
+fn paint_filled(filled: &[u8], least_m2: f64, what: &[u8], width: usize, metres_per_pixel: f64, solid: &mut [u8]) {
+    let pieces = Components::of(filled, width, 1, Neighbours::Eight);
+    for piece in &pieces.all {
+        let [w, h] = piece.size().map(|side| f64::from(side) * metres_per_pixel);
+        let area = piece.area as f64 * metres_per_pixel * metres_per_pixel;
+        let is_size = (least_m2..=2.0 * LARGEST_ROW_M2).contains(&area) && w.min(h) <= DEEPEST_FIELD_M;
+        let is_inside = |range: std::ops::Range<usize>| what[range].iter().all(|&what| what == 0 || what == STROKE);
+        if is_size && area >= ROW_FILL * w * h && pieces.ranges(piece, width).all(is_inside) {
+            pieces.paint(piece, solid, width, 1);
+        }
+    }
 }
 
 /// Whether a piece goes round a corner and is everywhere about as deep as counters, as in a kitchen.

@@ -1,0 +1,158 @@
+//! Drawings whose floors have tones, whose furniture is filled or faint, and whose cells are pixels.
+
+use image::{GrayImage, Luma, Rgb, RgbImage};
+use trodden::plan::{FloorPlan, PlanOptions, read};
+
+use super::canvas::{Canvas, Point, Polygon, outline, rectangle};
+
+const BLACK: [u8; 3] = [50, 50, 50];
+
+fn walls(lines: &[[f64; 4]], thick: f64) -> Vec<Polygon> {
+    let half = 0.5 * thick;
+    lines.iter().map(|&[x0, y0, x1, y1]| rectangle([x0 - half, y0 - half], [x1 + half, y1 + half])).collect()
+}
+
+/// Reads a canvas as a picture. `None` guesses the scale.
+fn read_canvas(canvas: &Canvas, metres_per_pixel: Option<f64>) -> FloorPlan {
+    let pixel =
+        |x: u32, y: u32| Rgb(canvas.pixels[y as usize * canvas.width + x as usize].map(|value| value.round() as u8));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("plan.png");
+    RgbImage::from_fn(canvas.width as u32, canvas.height as u32, pixel).save(&path).unwrap();
+    read(&path, &PlanOptions { metres_per_pixel, ..PlanOptions::default() }).unwrap()
+}
+
+/// Share of a rectangle that is floor, metres of the drawing.
+fn floor_in(plan: &FloorPlan, canvas: &Canvas, [min, max]: [Point; 2]) -> f64 {
+    let ([x0, y0], [x1, y1]) = (canvas.px(min), canvas.px(max));
+    let (mut all, mut floor) = (0usize, 0usize);
+    for y in y0.ceil() as usize..y1 as usize {
+        for x in x0.ceil() as usize..x1 as usize {
+            all += 1;
+            floor += usize::from(plan.floor[y * plan.width_px as usize + x]);
+        }
+    }
+    floor as f64 / all as f64
+}
+
+/// Rows of shelves in fine grey lines, racks filled with a dark colour: people walked through both.
+#[test]
+fn shelves_and_racks_stand_in_the_way() {
+    let mut canvas = Canvas::new([42.0, 28.0], [-1.0, -1.0], 20.0, 0.0, [255; 3]);
+    let lines = [
+        [0.0, 0.0, 40.0, 0.0],
+        [0.0, 26.0, 18.0, 26.0],
+        [21.0, 26.0, 40.0, 26.0],
+        [0.0, 0.0, 0.0, 26.0],
+        [40.0, 0.0, 40.0, 26.0],
+    ];
+    canvas.fill(&walls(&lines, 0.3), BLACK);
+    let shelf = |k: f64| [[3.0 + k * 4.03, 4.0], [4.2 + k * 4.03, 18.0]];
+    let rack = |k: f64| [[24.0 + k * 5.5, 4.0], [26.2 + k * 5.5, 22.0]];
+    for k in (0..5).map(f64::from) {
+        let [min, max] = shelf(k);
+        canvas.fill(&[rectangle(min, max)], [235; 3]);
+        canvas.fill(&outline(&rectangle(min, max), 0.04), [90; 3]);
+        canvas.fill(&outline(&rectangle(min, [min[0] + 0.6, max[1]]), 0.03), [90; 3]);
+    }
+    for k in (0..3).map(f64::from) {
+        let [min, max] = rack(k);
+        canvas.fill(&[rectangle(min, max)], [40, 70, 140]);
+    }
+    let plan = read_canvas(&canvas, Some(0.05));
+    for k in (0..5).map(f64::from) {
+        let [min, max] = shelf(k);
+        let (on, beside) = (floor_in(&plan, &canvas, [min, max]), [[max[0] + 0.3, 4.0], [max[0] + 2.2, 18.0]]);
+        assert!(on < 0.03, "{on} of shelf {k} is floor");
+        assert!(floor_in(&plan, &canvas, beside) > 0.97, "beside shelf {k}");
+    }
+    for k in (0..3).map(f64::from) {
+        let on = floor_in(&plan, &canvas, rack(k));
+        assert!(on < 0.03, "{on} of rack {k} is floor");
+    }
+}
+
+/// Wood is darker than paper: its planks and all that stands on it were strokes, and people came through pale blue windows.
+#[test]
+fn a_flat_with_floors_of_wood_and_tile_is_as_on_paper() {
+    let (wood, pane) = ([205u8, 170, 125], [190, 215, 235]);
+    let mut canvas = Canvas::new([12.2, 9.2], [-0.6, -0.6], 70.0, 0.0, [255; 3]);
+    for (row, y) in (0..54).map(|k| (k, 0.15 * f64::from(k))) {
+        for (k, x) in (0..11).map(|k| (k, f64::from(k))) {
+            let shade = ((row * 7 + k * 5) % 9) as i16 * 3 - 12;
+            let tone = wood.map(|v| (i16::from(v) + shade) as u8);
+            let end = [(x + 1.0).min(11.0), (y + 0.15).min(8.0)];
+            canvas.fill(&[rectangle([x, y], end)], tone);
+            canvas.fill(&[rectangle([x, y], [end[0], y + 0.008])], tone.map(|v| v - 18));
+        }
+    }
+    canvas.fill(&[rectangle([6.2, 4.0], [11.0, 8.0])], [234, 230, 220]);
+    for (min, max, colour) in [
+        ([0.4, 0.3], [2.6, 1.2], [120u8, 130, 150]),
+        ([3.6, 0.4], [5.2, 2.4], [245, 245, 245]),
+        ([8.0, 5.0], [9.6, 6.0], [170, 120, 80]),
+    ] {
+        canvas.fill(&[rectangle(min, max)], colour);
+        canvas.fill(&outline(&rectangle(min, max), 0.015), [90; 3]);
+    }
+    let mut lines = walls(
+        &[
+            [0.0, 0.0, 11.0, 0.0],
+            [0.0, 8.0, 11.0, 8.0],
+            [0.0, 0.0, 0.0, 8.0],
+            [11.0, 0.0, 11.0, 8.0],
+            [6.2, 0.0, 6.2, 8.0],
+        ],
+        0.22,
+    );
+    lines.extend(walls(&[[0.0, 5.0, 6.2, 5.0], [3.2, 5.0, 3.2, 8.0], [6.2, 4.0, 11.0, 4.0]], 0.22));
+    canvas.fill(&lines, BLACK);
+    let doors = [
+        ([6.08, 3.0], [6.32, 3.85]),
+        ([1.0, 4.88], [1.85, 5.12]),
+        ([4.0, 4.88], [4.85, 5.12]),
+        ([7.0, 3.88], [7.9, 4.12]),
+    ];
+    for (min, max) in doors.into_iter().chain([([1.6, 7.88], [2.5, 8.12])]) {
+        canvas.fill(&[rectangle(min, max)], wood);
+    }
+    let windows = [([1.0, -0.11], [3.0, 0.11]), ([8.0, -0.11], [9.6, 0.11]), ([8.5, 7.89], [10.0, 8.11])];
+    for (min, max) in windows {
+        canvas.fill(&[rectangle(min, max)], pane);
+    }
+    let plan = read_canvas(&canvas, None);
+    let scale = plan.metres_per_pixel * 70.0;
+    assert!((0.88..1.14).contains(&scale), "the scale is {scale} times the true one");
+    assert_eq!([plan.doors.len(), plan.windows.len()], [5, 3]);
+    let rooms = [
+        [[0.4, 3.0], [5.8, 4.6]],
+        [[6.6, 2.6], [10.6, 3.6]],
+        [[6.6, 6.3], [10.6, 7.6]],
+        [[0.4, 5.4], [2.8, 7.6]],
+        [[3.6, 5.4], [5.8, 7.6]],
+    ];
+    for room in rooms {
+        let floor = floor_in(&plan, &canvas, room);
+        assert!(floor > 0.97, "{floor} of the room at {room:?} is floor");
+    }
+    for furniture in [[[0.5, 0.4], [2.5, 1.1]], [[3.7, 0.5], [5.1, 2.3]], [[8.1, 5.1], [9.5, 5.9]]] {
+        let floor = floor_in(&plan, &canvas, furniture);
+        assert!(floor < 0.03, "{floor} of the furniture at {furniture:?} is floor");
+    }
+}
+
+/// A picture of 64 x 40 pixels was a photograph of a sheet of paper.
+#[test]
+fn a_game_map_has_a_pixel_a_cell() {
+    let mut map = GrayImage::new(64, 40);
+    for [x0, y0, x1, y1] in [[2, 2, 12, 9], [20, 3, 34, 10], [42, 2, 60, 12], [12, 5, 20, 6], [34, 6, 42, 7]] {
+        (y0..y1).for_each(|y| (x0..x1).for_each(|x| map.put_pixel(x, y, Luma([255]))));
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("map.png");
+    map.save(&path).unwrap();
+    let plan = read(&path, &PlanOptions::default()).unwrap();
+    assert_eq!((plan.width_px, plan.metres_per_pixel), (64, 1.0));
+    // All rooms and the corridors of one cell between them.
+    assert_eq!(plan.floor.iter().filter(|&&floor| floor != 0).count(), 70 + 98 + 180 + 16);
+}
