@@ -1,7 +1,5 @@
 //! Converts pixels of any format to lightness, and finds wall pixels.
 
-use std::ops::Range;
-
 use image::{DynamicImage, GenericImageView};
 use rayon::prelude::*;
 
@@ -9,7 +7,7 @@ use super::colour::{Colour, is_pane, is_saturated, lightness_against, luma};
 use super::ink::{self, Ink};
 use super::ros_map::{Cell, Greys};
 use super::tones::USUAL_THRESHOLD;
-use super::{PlanOptions, TransparentPolicy, UnknownPolicy, paving, shadow, sheet, tones};
+use super::{PlanOptions, TransparentPolicy, UnknownPolicy, paving, shadow, sheet, thin_lines, tones};
 
 /// Greys of unknown and of free cells as mappers write them.
 const MAP_UNKNOWN: u8 = 205;
@@ -162,8 +160,9 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
     let mut dark: Vec<u8> = lightness.iter().map(|&l| u8::from(l < drawing.threshold)).collect();
     drawing.clean = is_clean(&lightness);
     stretch(width, &mut lightness, &dark);
-    close_thin_lines(width, &lightness, &mut dark);
+    thin_lines::close(width, &lightness, &mut dark);
     shadow::even_floors(width, &mut lightness, &dark);
+    thin_lines::even(width, &mut lightness, &mut dark);
     (drawing.lightness, drawing.dark) = (lightness, dark);
     drop_paving(&mut drawing);
     (drawing, warnings)
@@ -207,7 +206,7 @@ fn drop_paving(drawing: &mut Drawing) {
 
 impl Drawing {
     /// 1 for strokes on clean paper that are lighter than others, as grey lines of a pixel or less are; empty if paper is not
-    /// clean. Anti-aliased flanks of darker strokes are none, but where a faint one ends there.
+    /// clean. Anti-aliased flanks of darker strokes are none, but where a faint one ends there or joins two.
     pub(super) fn faint_strokes(&self) -> Vec<u8> {
         if !self.clean {
             return Vec::new();
@@ -221,10 +220,10 @@ impl Drawing {
         let is_ink = |at: usize| self.lightness.get(at).is_some_and(|&l| l < FAINT);
         let apart = |at: usize| u8::from(is_faint(at) && !around(at).any(is_ink));
         let apart: Vec<u8> = (0..self.lightness.len()).into_par_iter().map(apart).collect();
-        let ends = |at: usize| {
-            u8::from(is_faint(at) && around(at).any(|near| apart.get(near).is_some_and(|&apart| apart != 0)))
-        };
-        (0..apart.len()).into_par_iter().map(ends).collect()
+        let ends = |at: usize| around(at).any(|near| apart.get(near).is_some_and(|&apart| apart != 0));
+        // Where a stroke is just a little lighter for a pixel, it goes on.
+        let joins = |at: usize| [1, width].into_iter().any(|by| is_ink(at.wrapping_sub(by)) && is_ink(at + by));
+        (0..apart.len()).into_par_iter().map(|at| u8::from(is_faint(at) && (ends(at) || joins(at)))).collect()
     }
 }
 
@@ -398,76 +397,6 @@ fn stretch(width: usize, lightness: &mut [u8], dark: &[u8]) {
     }
 }
 
-/// Darkness of the first pixel of a torn pair, of 255.
-const PARTLY_DARK: Range<u32> = 64..204;
-
-/// Closes the gaps that a threshold tears into anti-aliased lines one pixel wide.
-///
-/// Where such a line moves from one row of pixels to the next, both pixels are half covered and may both be lighter
-/// than the threshold. The darker of the two becomes wall if the line continues on both sides.
-fn close_thin_lines(width: usize, lightness: &[u8], dark: &mut [u8]) {
-    let height = lightness.len() / width;
-    // Most rows and columns of most plans are black and white, and have no such pair.
-    let (mut rows, mut columns) = (vec![false; height], vec![false; width]);
-    let pixels = lightness.chunks_exact(width).zip(dark.chunks_exact(width));
-    for (in_row, (lightness, dark)) in rows.iter_mut().zip(pixels) {
-        for ((in_column, &l), &d) in columns.iter_mut().zip(lightness).zip(dark) {
-            let may_be_torn = d == 0 && PARTLY_DARK.contains(&(255 - u32::from(l)));
-            *in_column |= may_be_torn;
-            *in_row |= may_be_torn;
-        }
-    }
-    // Lines that are nearer to x, then those nearer to y: `at(along, across)` is a pixel.
-    let mut closed = torn_pairs(width, &rows, |x, y| y * width + x, lightness, dark);
-    closed.extend(torn_pairs(height, &columns, |y, x| y * width + x, lightness, dark));
-    for pixel in closed {
-        dark[pixel] = 1;
-    }
-}
-
-/// What closes the gaps of thin lines that run along the first coordinate of `at`. `may_be_torn` says of each second
-/// coordinate whether a pair may begin there.
-fn torn_pairs(
-    length: usize,
-    may_be_torn: &[bool],
-    at: impl Fn(usize, usize) -> usize + Sync,
-    lightness: &[u8],
-    dark: &[u8],
-) -> Vec<usize> {
-    let darkness = |a: usize, c: usize| 255 - u32::from(lightness[at(a, c)]);
-    let is_torn = |a: usize, c: usize| {
-        let (first, second) = (darkness(a, c), darkness(a, c + 1));
-        // Each partly dark, together nearly one pixel, and nothing else beside them.
-        PARTLY_DARK.contains(&first)
-            && second >= 64
-            && first + second >= 204
-            && dark[at(a, c)] == 0
-            && dark[at(a, c + 1)] == 0
-            && darkness(a, c - 1) < 64
-            && darkness(a, c + 2) < 64
-    };
-    let closed_in = |c: usize| {
-        let mut closed = Vec::new();
-        let goes_on = |a: usize| (c - 1..=c + 2).any(|c| dark[at(a, c)] != 0);
-        let mut a = 0;
-        while a < length {
-            let gap = (a..length).take_while(|&a| is_torn(a, c)).count();
-            // Lines continue beyond the image.
-            let (before, after) = (a == 0 || goes_on(a - 1), a + gap == length || goes_on(a + gap));
-            if (1..length).contains(&gap) && before && after {
-                closed.extend((a..a + gap).map(|a| {
-                    let (first, second) = (at(a, c), at(a, c + 1));
-                    if lightness[second] < lightness[first] { second } else { first }
-                }));
-            }
-            a += gap + 1;
-        }
-        closed
-    };
-    let last = may_be_torn.len().saturating_sub(2);
-    (1..last).into_par_iter().filter(|&c| may_be_torn[c]).flat_map_iter(closed_in).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -537,19 +466,5 @@ mod tests {
         let drawing = of_image(image.clone(), &PlanOptions::default()).0;
         assert!(drawing.looks_like_map);
         assert_eq!(drawing.dark.iter().filter(|&&d| d == 1).count(), 40);
-    }
-
-    #[test]
-    fn a_thin_line_that_changes_rows_stays_whole() {
-        // Darkness of a line one pixel wide that descends from row 1 to row 2; in the middle both are just too light.
-        let mut pixels = vec![255u8; 7 * 5];
-        for (x, share) in [0.0, 0.2, 0.35, 0.5, 0.65, 0.8, 1.0].into_iter().enumerate() {
-            pixels[7 + x] = (255.0 * share + 1.0f64).min(255.0) as u8;
-            pixels[14 + x] = (255.0 * (1.0 - share) + 1.0f64).min(255.0) as u8;
-        }
-        assert!(pixels[10] >= 128 && pixels[17] >= 128);
-        let image = DynamicImage::ImageLuma8(GrayImage::from_vec(7, 5, pixels).unwrap());
-        let dark = of_image(image.clone(), &PlanOptions::default()).0.dark;
-        assert!((0..7).all(|x| dark[7 + x] + dark[14 + x] > 0));
     }
 }

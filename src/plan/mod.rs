@@ -43,6 +43,7 @@ mod sheet;
 mod similar;
 mod spaces;
 mod symbols;
+mod thin_lines;
 mod tones;
 mod understand;
 mod vector;

@@ -11,6 +11,8 @@ use crate::plan::FloorPlan;
 const DOOR_M: [f64; 2] = [0.6, 8.0];
 /// Distance from an opening's edge at which its room is looked up, metres.
 const INSIDE_M: [f64; 3] = [0.1, 0.4, 1.0];
+/// Least area of the outside that a door leads to, square metres.
+const LEAST_OUTSIDE_M2: f64 = 1.0;
 /// Most entrances: the widest.
 const MOST: usize = 12;
 
@@ -65,14 +67,12 @@ pub(super) fn find(plan: &FloorPlan, grid: &Grid, room: &[u16]) -> Vec<Entrance>
     entrances
 }
 
-/// Gaps through which floor meets the outside: middle, width, room and first cell.
-fn doors(grid: &Grid, room: &[u16]) -> Vec<(Vec2, f64, usize, usize)> {
-    let is_out = |cell: usize| grid.has(cell, OUTSIDE) && grid.has(cell, BLOCKED) && !grid.has(cell, WALL);
-    let is_edge = |cell: usize| room[cell] != NONE && grid.beside(cell).any(is_out);
+/// Groups of cells that touch, row by row by their first cells.
+fn connected(grid: &Grid, is_member: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
     let mut seen = vec![false; grid.len()];
-    let mut doors = Vec::new();
+    let mut groups = Vec::new();
     for first in 0..grid.len() {
-        if seen[first] || !is_edge(first) {
+        if seen[first] || !is_member(first) {
             continue;
         }
         seen[first] = true;
@@ -80,9 +80,27 @@ fn doors(grid: &Grid, room: &[u16]) -> Vec<(Vec2, f64, usize, usize)> {
         while let Some(&cell) = members.get(next) {
             next += 1;
             let joined: Vec<usize> =
-                grid.around(cell, 1).filter(|&b| is_edge(b) && !std::mem::replace(&mut seen[b], true)).collect();
+                grid.around(cell, 1).filter(|&b| is_member(b) && !std::mem::replace(&mut seen[b], true)).collect();
             members.extend(joined);
         }
+        groups.push(members);
+    }
+    groups
+}
+
+/// Gaps through which floor meets the outside: middle, width, room and first cell.
+fn doors(grid: &Grid, room: &[u16]) -> Vec<(Vec2, f64, usize, usize)> {
+    let may_be_out = |cell: usize| grid.has(cell, OUTSIDE) && grid.has(cell, BLOCKED) && !grid.has(cell, WALL);
+    // Specks in the door between two rooms are no outside.
+    let mut is_out = vec![false; grid.len()];
+    let least = (LEAST_OUTSIDE_M2 / (grid.cell_m * grid.cell_m)) as usize;
+    for members in connected(grid, may_be_out).into_iter().filter(|members| members.len() >= least) {
+        members.into_iter().for_each(|cell| is_out[cell] = true);
+    }
+    let is_edge = |cell: usize| room[cell] != NONE && grid.beside(cell).any(|beside| is_out[beside]);
+    let mut doors = Vec::new();
+    for members in connected(grid, is_edge) {
+        let first = members[0];
         let mut bounds = Rect::around(grid.centre(first), grid.centre(first));
         for &cell in &members {
             let p = grid.centre(cell);

@@ -156,3 +156,31 @@ fn a_game_map_has_a_pixel_a_cell() {
     // All rooms and the corridors of one cell between them.
     assert_eq!(plan.floor.iter().filter(|&&floor| floor != 0).count(), 70 + 98 + 180 + 16);
 }
+
+/// Rooms along a corridor that is open at both ends were closed, the corridor was outside, and windows were doors.
+#[test]
+fn a_corridor_that_is_open_at_its_ends_joins_its_rooms() {
+    let mut canvas = Canvas::new([50.0, 24.0], [-1.0, -1.0], 20.0, 0.0, [255; 3]);
+    let outer = [[0.0, 0.0, 48.0, 0.0], [0.0, 22.0, 48.0, 22.0]];
+    let ends = [[0.0, 0.0, 0.0, 9.4], [0.0, 12.6, 0.0, 22.0], [48.0, 0.0, 48.0, 9.4], [48.0, 12.6, 48.0, 22.0]];
+    let mut lines = walls(&outer, 0.36);
+    lines.extend(walls(&ends, 0.36));
+    for x in (0..6).map(|k| 8.0 * f64::from(k)) {
+        for (y, end) in [(9.4, 0.0), (12.6, 22.0)] {
+            let cross = [x, f64::min(y, end), x, f64::max(y, end)];
+            lines.extend(walls(&[cross, [x, y, x + 0.6, y], [x + 1.8, y, x + 8.0, y]], 0.2));
+        }
+    }
+    canvas.fill(&lines, BLACK);
+    for x in (0..6).map(|k| 8.0 * f64::from(k) + 2.0) {
+        for y in [0.0, 22.0] {
+            canvas.fill(&[rectangle([x, y - 0.18], [x + 4.0, y + 0.18])], [255; 3]);
+            let pane = |off: f64| rectangle([x, y + off - 0.025], [x + 4.0, y + off + 0.025]);
+            canvas.fill(&[-0.155, 0.0, 0.155].map(pane), BLACK);
+        }
+    }
+    let plan = read_canvas(&canvas, Some(0.05));
+    assert_eq!([plan.doors.len(), plan.windows.len()], [14, 12]);
+    let corridor = floor_in(&plan, &canvas, [[0.5, 9.7], [47.5, 12.3]]);
+    assert!(corridor > 0.97, "{corridor} of the corridor is floor");
+}

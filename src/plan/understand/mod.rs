@@ -14,7 +14,7 @@ mod rooms;
 mod thick;
 
 use self::gaps::Gap;
-use self::net::Net;
+use self::net::{Net, WIDEST_DOOR_M, WIDEST_ENTRANCE_M};
 use self::pieces::Evidence;
 use self::rooms::Rooms;
 use super::components::{Component, Components, Neighbours};
@@ -269,14 +269,22 @@ fn find_net(drawing: &Drawing, ink: &[u8], all_ink: &[u8], metres_per_pixel: f64
     let surely =
         |at: usize| strokes[at] & u8::from(drawing.lightness[at] < SURELY_DARK && (is_dark(at) || is_ring(at)));
     let core: Vec<u8> = (0..dark.len()).map(surely).collect();
-    let net_in = |ink: &[u8], core: &[u8], filled: &[u8], thickest: usize| {
-        Net::find(core, filled, dark, ink, width, metres_per_pixel, thickest).filter(Net::is_building)
+    let net_in = |ink: &[u8], core: &[u8], filled: &[u8], thickest: usize, widest_m: f64| {
+        Net::find(core, filled, dark, ink, width, metres_per_pixel, (thickest, widest_m)).filter(Net::is_building)
     };
-    let net_of = |core: &[u8], filled: &[u8], thickest: usize| net_in(ink, core, filled, thickest);
+    let net_of = |core: &[u8], filled: &[u8], thickest: usize| net_in(ink, core, filled, thickest, WIDEST_DOOR_M);
     let thickest = ((THICKEST_WALL_M / metres_per_pixel).round() as usize).max(4);
     let net = |core: &[u8], filled: &[u8]| net_of(core, filled, thickest);
-    if let Some(net) = net(&core, dark) {
-        let search = |core: &[u8], thickest: usize| net_in(all_ink, core, core, thickest);
+    let wide = || net_in(ink, &core, dark, thickest, WIDEST_ENTRANCE_M);
+    if let Some(mut net) = net(&core, dark) {
+        // Rooms that nothing joins lie along a corridor that is open at its ends.
+        let joined = net.joined(width);
+        if joined < CONNECTED
+            && let Some(wide) = wide().filter(|wide| wide.joined(width) > joined)
+        {
+            net = wide;
+        }
+        let search = |core: &[u8], thickest: usize| net_in(all_ink, core, core, thickest, WIDEST_DOOR_M);
         let strokes = without_lettering(all_ink, width, metres_per_pixel);
         return Some(partitions::added(net, &strokes, all_ink, width, metres_per_pixel, search));
     }
@@ -297,6 +305,9 @@ fn find_net(drawing: &Drawing, ink: &[u8], all_ink: &[u8], metres_per_pixel: f64
         && both != hatched
         && let Some(net) = net(&both, &both)
     {
+        return Some(net);
+    }
+    if let Some(net) = wide() {
         return Some(net);
     }
     drop((outlined, hatched, both));

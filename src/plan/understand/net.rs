@@ -11,8 +11,9 @@ use crate::math::sin_cos;
 
 /// Least share of the least box around a building that is enclosed by its walls.
 const ENCLOSED_SHARE: f64 = 0.45;
-/// Greatest width of a door, metres.
-const WIDEST_DOOR_M: f64 = 2.6;
+/// Greatest width of a door, metres; of an opening to the outside, without which the walls enclose no building.
+pub(super) const WIDEST_DOOR_M: f64 = 2.6;
+pub(super) const WIDEST_ENTRANCE_M: f64 = 6.5;
 /// Narrowest door across the end of a corridor, metres: between pieces of furniture are narrower gaps.
 const NARROWEST_END_M: f64 = 0.7;
 /// Greatest width of a gap that only a line closes and that is a door, metres.
@@ -51,7 +52,7 @@ impl Net {
     /// Finds the net among what is surely dark in `core`; `dark` adds its edges.
     ///
     /// `raw` is what is dark in the drawing, before hollow walls were filled; `ink` has lighter strokes as well. Gaps are
-    /// up to `thickest` pixels deep.
+    /// up to `thickest` pixels deep; doors within are up to [`WIDEST_DOOR_M`] wide, those to the outside up to `widest_m`.
     pub(super) fn find(
         core: &[u8],
         dark: &[u8],
@@ -59,7 +60,7 @@ impl Net {
         ink: &[u8],
         width: usize,
         metres_per_pixel: f64,
-        thickest: usize,
+        (thickest, widest_m): (usize, f64),
     ) -> Option<Net> {
         let mut core = core.to_vec();
         drop_frame(&mut core, ink, width, metres_per_pixel);
@@ -89,7 +90,10 @@ impl Net {
         };
         let is_door =
             |gap: &Gap| (gap.length() <= px(WIDEST_DOOR_M) || is_entrance(gap)) && (!gap.at_end || is_hung(gap));
-        let mut doors: Vec<Gap> = doors.into_iter().filter(is_door).collect();
+        // Without them the walls may enclose no building: wide openings, and the ends of corridors.
+        let may_lead_out = |gap: &Gap| widest_m > WIDEST_DOOR_M && gap.length() <= px(widest_m);
+        let mut doors: Vec<Gap> = doors.into_iter().filter(|gap| is_door(gap) || may_lead_out(gap)).collect();
+        let unusual: Vec<[usize; 2]> = doors.iter().filter(|gap| !is_door(gap)).map(|gap| gap.ends).collect();
         let is_bare = |gap: &Gap| gap.strokes == 0 && !has_leaf(gap);
         drop_thicker_than_walls(&mut doors, &windows, has_leaf);
         drop_beside_furniture(&mut doors, &windows, &wall, width, px(COLUMN_M), is_bare);
@@ -113,10 +117,26 @@ impl Net {
             }
         }
         trim(&mut wall, raw, ink, width);
-        let inside = enclosed(&wall, &doors, &windows, width);
+        let mut inside = enclosed(&wall, &doors, &windows, width);
+        doors.retain(|gap| {
+            let is_kept = !unusual.contains(&gap.ends) || leads_out(gap, &inside);
+            if !is_kept {
+                gap.pixels().into_iter().for_each(|at| inside[at] = 1);
+            }
+            is_kept
+        });
         let area = inside.iter().filter(|&&i| i != 0).count() as f64;
         let enclosed = area / least_box(&wall, width, kept).max(1.0);
         Some(Net { wall, doors, windows, inside, enclosed })
+    }
+
+    /// Share of the inside that its doors join.
+    pub(super) fn joined(&self, width: usize) -> f64 {
+        let mut free = self.inside.clone();
+        self.doors.iter().flat_map(Gap::pixels).for_each(|at| free[at] = 1);
+        let spaces = Components::of(&free, width, 1, Neighbours::Four);
+        let areas = spaces.all.iter().map(|space| space.area);
+        areas.clone().max().unwrap_or(0) as f64 / areas.sum::<usize>().max(1) as f64
     }
 
     /// Whether the net encloses rooms as a building does.
@@ -370,6 +390,15 @@ fn frame_sides(mask: &[u8], width: usize, [x0, y0, x1, y1]: [u32; 4]) -> bool {
         && side(x1 - x0, &|k| dark(x0 + k, y1 - 1) || dark(x0 + k, y1.max(2) - 2))
         && side(y1 - y0, &|k| dark(x0, y0 + k) || dark(x0 + 1, y0 + k))
         && side(y1 - y0, &|k| dark(x1 - 1, y0 + k) || dark(x1.max(2) - 2, y0 + k))
+}
+
+/// Whether a gap has inside on one of its sides at most.
+fn leads_out(gap: &Gap, inside: &[u8]) -> bool {
+    const BEYOND_PX: f64 = 3.0;
+    let ([from, to], across) = gap.middle();
+    let beyond = 0.5 * gap.thickness() + BEYOND_PX;
+    let is_inside = |side: f64| gap.pixel(0.5 * (from + to), across + side * beyond).is_some_and(|at| inside[at] != 0);
+    !(is_inside(-1.0) && is_inside(1.0))
 }
 
 /// Marks what neither walls nor doors nor windows are and what the image's sides do not reach.
