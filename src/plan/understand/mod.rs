@@ -274,16 +274,15 @@ fn find_net(drawing: &Drawing, ink: &[u8], all_ink: &[u8], metres_per_pixel: f64
     };
     let net_of = |core: &[u8], filled: &[u8], thickest: usize| net_in(ink, core, filled, thickest, WIDEST_DOOR_M);
     let thickest = ((THICKEST_WALL_M / metres_per_pixel).round() as usize).max(4);
-    let net = |core: &[u8], filled: &[u8]| net_of(core, filled, thickest);
-    let wide = || net_in(ink, &core, dark, thickest, WIDEST_ENTRANCE_M);
-    if let Some(mut net) = net(&core, dark) {
-        // Rooms that nothing joins lie along a corridor that is open at its ends.
-        let joined = net.joined(width);
-        if joined < CONNECTED
-            && let Some(wide) = wide().filter(|wide| wide.joined(width) > joined)
-        {
-            net = wide;
-        }
+    let wide = |core: &[u8], filled: &[u8]| net_in(ink, core, filled, thickest, WIDEST_ENTRANCE_M);
+    // Rooms that nothing joins lie along a corridor that is open at its ends.
+    let net = |core: &[u8], filled: &[u8]| {
+        let found = net_of(core, filled, thickest)?;
+        let joined = found.joined(width);
+        let wide = if joined < CONNECTED { wide(core, filled) } else { None };
+        Some(wide.filter(|wide| wide.joined(width) > joined).unwrap_or(found))
+    };
+    if let Some(net) = net(&core, dark) {
         let search = |core: &[u8], thickest: usize| net_in(all_ink, core, core, thickest, WIDEST_DOOR_M);
         let strokes = without_lettering(all_ink, width, metres_per_pixel);
         return Some(partitions::added(net, &strokes, all_ink, width, metres_per_pixel, search));
@@ -307,7 +306,7 @@ fn find_net(drawing: &Drawing, ink: &[u8], all_ink: &[u8], metres_per_pixel: f64
     {
         return Some(net);
     }
-    if let Some(net) = wide() {
+    if let Some(net) = wide(&core, dark) {
         return Some(net);
     }
     drop((outlined, hatched, both));
