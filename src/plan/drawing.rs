@@ -179,13 +179,18 @@ fn is_clean(lightness: &[u8]) -> bool {
 
 /// Takes the lines of floor coverings off. Among what is left of them, faint strokes are no strokes.
 fn drop_paving(drawing: &mut Drawing) {
-    for faint in [Vec::new(), drawing.faint_strokes()] {
+    /// One pixel of so many is one of a covering in faint lines at least.
+    const FEWEST: usize = 1000;
+    let all = drawing.faint_strokes();
+    let has_faint = all.iter().filter(|&&faint| faint != 0).count() * FEWEST >= drawing.dark.len();
+    let passes: &[&[u8]] = if has_faint { &[&[], &all] } else { &[&[]] };
+    for faint in passes {
         let is_on = |mask: &[u8], at: usize| mask.get(at).is_some_and(|&on| on != 0);
         let is_stroke =
             |at: usize, lightness: u8| lightness < FAINT || drawing.dark[at] != 0 || is_on(&drawing.coloured, at);
         let dark = drawing.lightness.iter().enumerate().map(|(at, &lightness)| match () {
             () if is_stroke(at, lightness) => (255 - lightness).max(255 - FAINT),
-            () if is_on(&faint, at) => 255 - lightness,
+            () if is_on(faint, at) => 255 - lightness,
             () => 0,
         });
         let ink = paving::Ink { dark: dark.collect(), width: drawing.width };

@@ -38,6 +38,8 @@ pub(super) fn even_out(width: usize, lightness: &mut [u8]) -> Option<[u8; 2]> {
 /// Tones of floors: darker ones may be walls or furniture, in lighter ones nothing is lost.
 const FLOOR_TONES: std::ops::Range<u8> = 130..250;
 
+/// One pixel of so many has to have such a tone.
+const FEWEST_FLOOR: usize = 100;
 /// Tones of a floor, as shares of the one that a quarter of it is lighter than, and how near it is, cells.
 const SAME_TONE: std::ops::Range<f32> = 0.8..1.08;
 const NEARBY: [isize; 2] = [INK_RADIUS as isize / 2, INK_RADIUS as isize];
@@ -46,6 +48,10 @@ const NEARBY: [isize; 2] = [INK_RADIUS as isize / 2, INK_RADIUS as isize];
 ///
 /// `dark` pixels stay as they are.
 pub(super) fn even_floors(width: usize, lightness: &mut [u8], dark: &[u8]) {
+    // Edges of lines have such tones too, but are few.
+    if lightness.iter().filter(|l| FLOOR_TONES.contains(l)).count() * FEWEST_FLOOR < lightness.len() {
+        return;
+    }
     let ground = Coarse::paper(width, lightness);
     if !ground.tones.iter().any(|tone| FLOOR_TONES.contains(tone)) {
         return;
