@@ -40,7 +40,7 @@ const FEWEST_DOORS: f64 = 4.0;
 const FEWEST_DOORS_LETTERED: f64 = 3.5;
 /// Lightness below which a pixel may be of an arc thinner than a pixel.
 const FINE: u8 = 180;
-/// Width of a door in thicknesses of a wall that is drawn thick.
+/// Range of the width of a door in thicknesses of a wall that is drawn thick.
 const DOOR_IN_WALLS: [f64; 2] = [1.5, 14.0];
 /// Range of the width of a door as a share of the building's larger side.
 const DOOR_IN_BUILDING: [f64; 2] = [0.008, 0.25];

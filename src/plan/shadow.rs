@@ -37,7 +37,6 @@ pub(super) fn even_out(width: usize, lightness: &mut [u8]) -> Option<[u8; 2]> {
 
 /// Tones of floors: darker ones may be walls or furniture, in lighter ones nothing is lost.
 const FLOOR_TONES: std::ops::Range<u8> = 130..250;
-
 /// One pixel of so many has to have such a tone.
 const FEWEST_FLOOR: usize = 100;
 /// Tones of a floor, as shares of the one that a quarter of it is lighter than, and how near it is, cells.

@@ -67,39 +67,19 @@ pub(super) fn find(plan: &FloorPlan, grid: &Grid, room: &[u16]) -> Vec<Entrance>
     entrances
 }
 
-/// Groups of cells that touch, row by row by their first cells.
-fn connected(grid: &Grid, is_member: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
-    let mut seen = vec![false; grid.len()];
-    let mut groups = Vec::new();
-    for first in 0..grid.len() {
-        if seen[first] || !is_member(first) {
-            continue;
-        }
-        seen[first] = true;
-        let (mut members, mut next) = (vec![first], 0);
-        while let Some(&cell) = members.get(next) {
-            next += 1;
-            let joined: Vec<usize> =
-                grid.around(cell, 1).filter(|&b| is_member(b) && !std::mem::replace(&mut seen[b], true)).collect();
-            members.extend(joined);
-        }
-        groups.push(members);
-    }
-    groups
-}
-
 /// Gaps through which floor meets the outside: middle, width, room and first cell.
 fn doors(grid: &Grid, room: &[u16]) -> Vec<(Vec2, f64, usize, usize)> {
     let may_be_out = |cell: usize| grid.has(cell, OUTSIDE) && grid.has(cell, BLOCKED) && !grid.has(cell, WALL);
+    let around = |cell: usize| grid.around(cell, 1);
     // Specks in the door between two rooms are no outside.
     let mut is_out = vec![false; grid.len()];
     let least = (LEAST_OUTSIDE_M2 / (grid.cell_m * grid.cell_m)) as usize;
-    for members in connected(grid, may_be_out).into_iter().filter(|members| members.len() >= least) {
+    for members in grid.groups(may_be_out, around).into_iter().filter(|members| members.len() >= least) {
         members.into_iter().for_each(|cell| is_out[cell] = true);
     }
     let is_edge = |cell: usize| room[cell] != NONE && grid.beside(cell).any(|beside| is_out[beside]);
     let mut doors = Vec::new();
-    for members in connected(grid, is_edge) {
+    for members in grid.groups(is_edge, around) {
         let first = members[0];
         let mut bounds = Rect::around(grid.centre(first), grid.centre(first));
         for &cell in &members {

@@ -139,22 +139,9 @@ impl Rooms {
     pub(crate) fn wide_part(&self, clear_m: f64) -> Vec<bool> {
         let is_wide =
             |cell: usize| self.room[cell] != NONE && f64::from(self.clearance[cell]) * self.grid.cell_m >= clear_m;
-        let mut seen = vec![false; self.grid.len()];
-        let mut largest: Vec<usize> = Vec::new();
-        for first in 0..self.grid.len() {
-            if seen[first] || !is_wide(first) {
-                continue;
-            }
-            seen[first] = true;
-            let (mut part, mut next) = (vec![first], 0);
-            while let Some(&cell) = part.get(next) {
-                next += 1;
-                part.extend(self.grid.beside(cell).filter(|&b| is_wide(b) && !std::mem::replace(&mut seen[b], true)));
-            }
-            if part.len() > largest.len() {
-                largest = part;
-            }
-        }
+        let parts = self.grid.groups(is_wide, |cell| self.grid.beside(cell));
+        // Of equally large ones, the first.
+        let largest = parts.into_iter().rev().max_by_key(Vec::len).unwrap_or_default();
         let mut wide = vec![false; self.grid.len()];
         largest.into_iter().for_each(|cell| wide[cell] = true);
         wide

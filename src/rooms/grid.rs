@@ -100,6 +100,29 @@ impl Grid {
         rows.flat_map(move |row| columns.clone().map(move |column| row * across + column))
     }
 
+    /// Groups of the cells that are members and that `near` joins: first cells row by row.
+    pub(super) fn groups<I: Iterator<Item = usize>>(
+        &self,
+        is_member: impl Fn(usize) -> bool,
+        near: impl Fn(usize) -> I,
+    ) -> Vec<Vec<usize>> {
+        let mut seen = vec![false; self.len()];
+        let mut groups = Vec::new();
+        for first in 0..self.len() {
+            if seen[first] || !is_member(first) {
+                continue;
+            }
+            seen[first] = true;
+            let (mut members, mut next) = (vec![first], 0);
+            while let Some(&cell) = members.get(next) {
+                next += 1;
+                members.extend(near(cell).filter(|&b| is_member(b) && !std::mem::replace(&mut seen[b], true)));
+            }
+            groups.push(members);
+        }
+        groups
+    }
+
     /// Cells on the straight line between two points.
     pub(super) fn line(&self, a: Vec2, b: Vec2) -> impl Iterator<Item = usize> {
         let steps = (a.distance(b) / (0.25 * self.cell_m)).ceil().max(1.0) as usize;

@@ -284,7 +284,7 @@ fn find_net(drawing: &Drawing, ink: &[u8], all_ink: &[u8], metres_per_pixel: f64
     };
     if let Some(net) = net(&core, dark) {
         let search = |core: &[u8], thickest: usize| net_in(all_ink, core, core, thickest, WIDEST_DOOR_M);
-        let strokes = without_lettering(all_ink, width, metres_per_pixel);
+        let strokes = if all_ink == ink { strokes } else { without_lettering(all_ink, width, metres_per_pixel) };
         return Some(partitions::added(net, &strokes, all_ink, width, metres_per_pixel, search));
     }
     let strokes = hollow::fill_teeth(&strokes, width, metres_per_pixel);
@@ -346,13 +346,7 @@ fn is_connected(classes: &[PlanClass], inside: &[u8], width: usize) -> bool {
     let free =
         |(class, &inside): (&PlanClass, &u8)| u8::from(*class == PlanClass::Door || (inside != 0 && !class.is_solid()));
     let free: Vec<u8> = classes.iter().zip(inside).map(free).collect();
-    let spaces = Components::of(&free, width, 1, Neighbours::Four);
-    let (mut all, mut largest) = (0, 0);
-    for space in &spaces.all {
-        all += space.area;
-        largest = largest.max(space.area);
-    }
-    largest as f64 >= CONNECTED * all as f64
+    Components::of(&free, width, 1, Neighbours::Four).largest_share() >= CONNECTED
 }
 
 /// What of a mask is thinner than some pixels: strokes of saturated colour; broad areas are highlights.

@@ -134,9 +134,7 @@ impl Net {
     pub(super) fn joined(&self, width: usize) -> f64 {
         let mut free = self.inside.clone();
         self.doors.iter().flat_map(Gap::pixels).for_each(|at| free[at] = 1);
-        let spaces = Components::of(&free, width, 1, Neighbours::Four);
-        let areas = spaces.all.iter().map(|space| space.area);
-        areas.clone().max().unwrap_or(0) as f64 / areas.sum::<usize>().max(1) as f64
+        Components::of(&free, width, 1, Neighbours::Four).largest_share()
     }
 
     /// Whether the net encloses rooms as a building does.

@@ -26,10 +26,11 @@ pub(super) struct Evidence {
 /// Largest field of a piece of furniture, square metres, and its greatest depth, metres.
 const LARGEST_FIELD_M2: f64 = 7.0;
 const DEEPEST_FIELD_M: f64 = 2.6;
-/// Greatest depth and area of a row of shelves, and least share of its outline that is drawn and of its box that it fills,
-/// metres and square metres.
+/// Greatest depth and area of a row of shelves, area of rows back to back and of flights of stairs, and least share of its outline
+/// that is drawn and of its box that it fills, metres and square metres.
 const DEEPEST_ROW_M: f64 = 1.4;
 const LARGEST_ROW_M2: f64 = 30.0;
+const LARGEST_ROWS_M2: f64 = 60.0;
 const ROW_STROKES: f64 = 0.9;
 const ROW_FILL: f64 = 0.9;
 /// Least area of furniture that is filled with a dark colour, square metres: symbols are smaller.
@@ -131,7 +132,6 @@ pub(super) fn furniture(
         if sides[0].min(sides[1]) < LEAST_SIDE_M || area < LEAST_AREA_M2 {
             continue;
         }
-        let is_row = fill >= ROW_FILL && sides[0].min(sides[1]) <= DEEPEST_FIELD_M && area <= 2.0 * LARGEST_ROW_M2;
         let is_corner = fill < LEAST_FILL;
         if is_corner && !goes_round(&objects, object, metres_per_pixel) {
             continue;
@@ -164,8 +164,8 @@ pub(super) fn furniture(
             class: PlanClass::Table,
         };
         piece.class = if is_corner { PlanClass::Counter } else { class(&piece, sides) };
-        let is_flight = piece.class == PlanClass::Stairs && fill >= ROW_FILL && area <= 2.0 * LARGEST_ROW_M2;
-        if area > LARGEST_AREA_M2 && !is_row && !is_flight {
+        let is_row = piece.class == PlanClass::Stairs || sides[0].min(sides[1]) <= DEEPEST_FIELD_M;
+        if area > LARGEST_AREA_M2 && !(is_row && fill >= ROW_FILL && area <= LARGEST_ROWS_M2) {
             continue;
         }
         objects.paint(object, classes, width, piece.class);
@@ -181,7 +181,7 @@ fn paint_filled(filled: &[u8], least_m2: f64, what: &[u8], width: usize, metres_
     for piece in &pieces.all {
         let [w, h] = piece.size().map(|side| f64::from(side) * metres_per_pixel);
         let area = piece.area as f64 * metres_per_pixel * metres_per_pixel;
-        let is_size = (least_m2..=2.0 * LARGEST_ROW_M2).contains(&area) && w.min(h) <= DEEPEST_FIELD_M;
+        let is_size = (least_m2..=LARGEST_ROWS_M2).contains(&area) && w.min(h) <= DEEPEST_FIELD_M;
         let is_inside = |range: std::ops::Range<usize>| what[range].iter().all(|&what| what == 0 || what == STROKE);
         if is_size && area >= ROW_FILL * w * h && pieces.ranges(piece, width).all(is_inside) {
             pieces.paint(piece, solid, width, 1);

@@ -320,20 +320,19 @@ def dress_walls(bake, material, group):
         if copy is None:
             copy = material.copy()
             copy.name = name
-        lay_over(copy, group)
-        next(node for node in copy.node_tree.nodes if node.type == "GROUP" and node.node_tree == group).inputs[
-            "Sheet"].default_value = int(place[1])
+        lay_over(copy, group).inputs["Sheet"].default_value = int(place[1])
         thing.data.materials[0] = copy
 
 
 def lay_over(material, group):
-    """Puts the group between what feeds a material's Principled BSDF and the BSDF."""
+    """Puts the group between what feeds a material's Principled BSDF and the BSDF; gives its node."""
     tree = material.node_tree
     bsdf = next((node for node in tree.nodes if node.type == "BSDF_PRINCIPLED"), None)
     if bsdf is None:
         raise ValueError(f"the material {material.name} has no Principled BSDF")
-    if any(node.type == "GROUP" and node.node_tree == group for node in tree.nodes):
-        return
+    there = next((node for node in tree.nodes if node.type == "GROUP" and node.node_tree == group), None)
+    if there is not None:
+        return there
     node = tree.nodes.new("ShaderNodeGroup")
     node.node_tree = group
     node.location = (bsdf.location.x - 220, bsdf.location.y)
@@ -344,6 +343,7 @@ def lay_over(material, group):
         else:
             node.inputs[pin].default_value = target.default_value
         tree.links.new(node.outputs[pin], target)
+    return node
 
 
 def main():

@@ -12,12 +12,12 @@ var _bake: String
 
 
 func _run() -> void:
-	_bake = (get_script() as Script).resource_path.get_base_dir().get_base_dir()
-	var manifest = JSON.parse_string(FileAccess.get_file_as_string(_bake.path_join("manifest.json")))
+	var bake: String = (get_script() as Script).resource_path.get_base_dir().get_base_dir()
+	var manifest = JSON.parse_string(FileAccess.get_file_as_string(bake.path_join("manifest.json")))
 	if manifest == null:
-		push_error("There is no manifest.json in %s" % _bake)
+		push_error("There is no manifest.json in %s" % bake)
 		return
-	make(_bake, manifest)
+	make(bake, manifest)
 	EditorInterface.get_resource_filesystem().scan()
 
 
