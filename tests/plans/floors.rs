@@ -3,7 +3,9 @@
 use image::{GrayImage, Luma, Rgb, RgbImage};
 use trodden::plan::{FloorPlan, PlanOptions, read};
 
-use super::canvas::{Canvas, Point, Polygon, outline, rectangle};
+use std::f64::consts::FRAC_PI_2;
+
+use super::canvas::{Canvas, Point, Polygon, arc, line, lines, outline, rectangle};
 
 const BLACK: [u8; 3] = [50, 50, 50];
 
@@ -183,4 +185,56 @@ fn a_corridor_that_is_open_at_its_ends_joins_its_rooms() {
     assert_eq!([plan.doors.len(), plan.windows.len()], [14, 12]);
     let corridor = floor_in(&plan, &canvas, [[0.5, 9.7], [47.5, 12.3]]);
     assert!(corridor > 0.97, "{corridor} of the corridor is floor");
+}
+
+/// Outer walls are thicker than inner ones with their leaves: the bare entrance in one was dropped, and with it all rooms.
+#[test]
+fn grey_walls_with_outlines_and_filled_swings_have_an_entrance() {
+    let mut canvas = Canvas::new([32.0, 20.0], [-1.0, -1.0], 26.0, 0.0, [255; 3]);
+    let outer = [
+        [0.0, 0.0, 30.0, 0.0],
+        [0.0, 18.0, 13.0, 18.0],
+        [15.0, 18.0, 30.0, 18.0],
+        [0.0, 0.0, 0.0, 18.0],
+        [30.0, 0.0, 30.0, 18.0],
+    ];
+    let mut inner = vec![
+        [10.0, 10.0, 10.0, 18.0],
+        [0.0, 10.0, 4.0, 10.0],
+        [5.0, 10.0, 10.0, 10.0],
+        [20.0, 10.0, 20.0, 18.0],
+        [20.0, 10.0, 24.0, 10.0],
+        [25.0, 10.0, 30.0, 10.0],
+    ];
+    let offices = || (0..5).map(|k| 6.0 * f64::from(k));
+    for x in offices() {
+        inner.extend([[x, 7.0, x + 1.2, 7.0], [x + 2.2, 7.0, x + 6.0, 7.0], [x, 0.0, x, 7.0]]);
+    }
+    for (fill, rim) in [([0; 3], 0.06), ([178; 3], -0.06)] {
+        canvas.fill(&walls(&outer, 0.4 + rim), fill);
+        canvas.fill(&walls(&inner, 0.2 + rim), fill);
+    }
+    for hinge in offices().map(|x| [x + 1.2, 6.9]) {
+        let swing = arc(hinge, 1.0, -FRAC_PI_2, 0.0);
+        canvas.fill(&[[&[hinge], swing.as_slice()].concat()], [232; 3]);
+        canvas.fill(&lines(&swing, 0.04), [120; 3]);
+        canvas.fill(&[line(hinge, [hinge[0], 5.9], 0.05)], BLACK);
+    }
+    let desk = |x: f64| rectangle([x + 2.6, 2.0], [x + 4.4, 2.9]);
+    for x in offices() {
+        canvas.fill(&[desk(x)], [245; 3]);
+        canvas.fill(&outline(&desk(x), 0.03), [90; 3]);
+    }
+    let plan = read_canvas(&canvas, None);
+    let scale = plan.metres_per_pixel * 26.0;
+    assert!((0.85..1.15).contains(&scale), "the scale is {scale} times the true one");
+    assert_eq!(plan.doors.len(), 8);
+    let entrance = plan.doors.iter().filter(|door| door.from_m.y.max(door.to_m.y) < 2.0).count();
+    assert_eq!(entrance, 1);
+    for x in offices() {
+        let room = floor_in(&plan, &canvas, [[x + 0.4, 3.5], [x + 5.6, 5.7]]);
+        assert!(room > 0.97, "{room} of the office at {x} m is floor");
+        let on = floor_in(&plan, &canvas, [[x + 2.7, 2.1], [x + 4.3, 2.8]]);
+        assert!(on < 0.03, "{on} of the desk at {x} m is floor");
+    }
 }

@@ -95,7 +95,7 @@ impl Net {
         let mut doors: Vec<Gap> = doors.into_iter().filter(|gap| is_door(gap) || may_lead_out(gap)).collect();
         let unusual: Vec<[usize; 2]> = doors.iter().filter(|gap| !is_door(gap)).map(|gap| gap.ends).collect();
         let is_bare = |gap: &Gap| gap.strokes == 0 && !has_leaf(gap);
-        drop_thicker_than_walls(&mut doors, &windows, has_leaf);
+        drop_thicker_than_walls(&mut doors, &windows, has_leaf, |doors| enclosed(&wall, doors, &windows, width));
         drop_beside_furniture(&mut doors, &windows, &wall, width, px(COLUMN_M), is_bare);
         drop(strokes);
         let mut windows = windows;
@@ -189,8 +189,14 @@ fn drop_leaves(
 }
 
 /// Takes off doors without a leaf that are thicker than the walls in which windows and leaves are: baths and desks that are
-/// drawn as outline walls are do not end walls.
-fn drop_thicker_than_walls(doors: &mut Vec<Gap>, windows: &[Gap], has_leaf: impl Fn(&Gap) -> bool) {
+/// drawn as outline walls are do not end walls. Outer walls are thicker than all others: what leads to the outside stays;
+/// `enclosed` marks what is inside with some doors closed.
+fn drop_thicker_than_walls(
+    doors: &mut Vec<Gap>,
+    windows: &[Gap],
+    has_leaf: impl Fn(&Gap) -> bool,
+    enclosed: impl Fn(&[Gap]) -> Vec<u8>,
+) {
     /// Fewest gaps of walls that say how thick walls are, and how much thicker a wall may be.
     const FEWEST: usize = 3;
     const THICKER: f64 = 1.25;
@@ -198,8 +204,12 @@ fn drop_thicker_than_walls(doors: &mut Vec<Gap>, windows: &[Gap], has_leaf: impl
     let of_leaves = doors.iter().zip(&hung).filter(|(_, hung)| **hung).map(|(gap, _)| gap);
     let thick: Vec<f64> = of_leaves.chain(windows).map(Gap::thickness).collect();
     let most = thick.iter().copied().fold(0.0, f64::max) * THICKER + 1.0;
+    if thick.len() < FEWEST || doors.iter().all(|gap| gap.thickness() <= most) {
+        return;
+    }
+    let inside = enclosed(doors);
     let mut hung = hung.into_iter();
-    doors.retain(|gap| hung.next() == Some(true) || thick.len() < FEWEST || gap.thickness() <= most);
+    doors.retain(|gap| hung.next() == Some(true) || gap.thickness() <= most || leads_out(gap, &inside));
 }
 
 /// Takes off bare doors that end at a small piece of wall, up to `largest` pixels, without another gap straight on behind
