@@ -5,7 +5,7 @@ use trodden::plan::{FloorPlan, PlanOptions, read};
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::canvas::{Canvas, Point, Polygon, arc, line, lines, outline, rectangle};
+use super::canvas::{Canvas, Point, Polygon, arc, line, lines, outline, rectangle, text};
 
 const BLACK: [u8; 3] = [50, 50, 50];
 
@@ -237,4 +237,47 @@ fn grey_walls_with_outlines_and_filled_swings_have_an_entrance() {
         let on = floor_in(&plan, &canvas, [[x + 2.7, 2.1], [x + 4.3, 2.8]]);
         assert!(on < 0.03, "{on} of the desk at {x} m is floor");
     }
+}
+
+/// A scan lies askew, the scanner's lid leaves its shadow at the sides, and round letters are as large as stools.
+#[test]
+fn an_office_that_was_scanned_askew_has_windows_and_no_stools() {
+    let mut canvas = Canvas::new([36.0, 24.0], [-3.0, -3.0], 34.0, f64::to_radians(-1.7), [228; 3]);
+    let outer = [
+        [0.0, 0.0, 30.0, 0.0],
+        [0.0, 18.0, 13.0, 18.0],
+        [15.0, 18.0, 30.0, 18.0],
+        [0.0, 0.0, 0.0, 18.0],
+        [30.0, 0.0, 30.0, 18.0],
+    ];
+    let mut inner = vec![
+        [10.0, 10.0, 10.0, 18.0],
+        [0.0, 10.0, 4.0, 10.0],
+        [4.9, 10.0, 10.0, 10.0],
+        [20.0, 10.0, 20.0, 18.0],
+        [20.0, 10.0, 24.0, 10.0],
+        [24.9, 10.0, 30.0, 10.0],
+    ];
+    let offices = || (0..5).map(|k| 6.0 * f64::from(k));
+    for x in offices() {
+        inner.extend([[x, 7.0, x + 1.2, 7.0], [x + 2.1, 7.0, x + 6.0, 7.0], [x, 0.0, x, 7.0]]);
+    }
+    canvas.fill(&walls(&outer, 0.35), BLACK);
+    canvas.fill(&walls(&inner, 0.15), BLACK);
+    for x in offices() {
+        canvas.fill(&[rectangle([x + 2.0, -0.18], [x + 4.5, 0.18])], [228; 3]);
+        let pane = |off: f64| line([x + 2.0, off], [x + 4.5, off], 0.045);
+        canvas.fill(&[-0.15, 0.0, 0.15].map(pane), BLACK);
+        let swing = arc([x + 1.2, 6.93], 0.9, -FRAC_PI_2, 0.0);
+        canvas.fill(&lines(&[&[[x + 1.2, 6.93]], swing.as_slice()].concat(), 0.045), BLACK);
+        canvas.fill(&text("OFFICE", [x + 3.2, 4.0], 0.45, 0.05), BLACK);
+    }
+    let (width, height) = (canvas.width, canvas.height);
+    for at in (0..width * height).filter(|at| at % width < 14 || at / width >= height - 10) {
+        canvas.pixels[at] = [60.0; 3];
+    }
+    let plan = read_canvas(&canvas, None);
+    let scale = plan.metres_per_pixel * 34.0;
+    assert!((0.85..1.15).contains(&scale), "the scale is {scale} times the true one");
+    assert_eq!([plan.doors.len(), plan.windows.len(), plan.furniture.len()], [8, 5, 0]);
 }

@@ -7,7 +7,8 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::super::cracks::trace;
-use crate::math::{atan2, sin_cos};
+use super::directions;
+use crate::math::sin_cos;
 
 /// How much thicker than a gap the wall at one of its ends may be, and that at both ends of an entrance; of the gap's depth.
 const ONE_END: f64 = 0.5;
@@ -186,9 +187,19 @@ pub(super) struct Limits {
 
 /// Finds the gaps of a wall mask, in walls of all directions; strokes are counted in `ink`, both non-zero.
 pub(super) fn find(wall: &[u8], ink: &[u8], width: usize, limits: &Limits) -> Vec<Gap> {
-    let upright = Frame::upright([width, wall.len() / width]);
-    let turned = directions(wall, width, limits).into_iter().map(|angle| Frame::turned(upright.image, angle));
-    let frames: Vec<Frame> = std::iter::once(upright).chain(turned).collect();
+    let image = [width, wall.len() / width];
+    let outline = trace(wall, width);
+    let slanted = directions::slanted(&outline, limits.shortest, limits.thinnest);
+    let frames: Vec<Frame> = match directions::skew(&outline, image) {
+        Some(skew) => {
+            let others = slanted.into_iter().filter(|angle| !directions::is_same(*angle, skew));
+            std::iter::once(skew).chain(others).map(|angle| Frame::turned(image, angle)).collect()
+        }
+        None => {
+            let turned = slanted.into_iter().map(|angle| Frame::turned(image, angle));
+            std::iter::once(Frame::upright(image)).chain(turned).collect()
+        }
+    };
     let seen = frames.into_par_iter().flat_map_iter(|frame| {
         let view = |mask, is_fine| match frame.is_upright() {
             true => Cow::Borrowed(mask),
@@ -280,54 +291,6 @@ fn is_within(gap: &Gap, other: &Gap) -> bool {
             let (along, across) = (dx * ax + dy * ay, dy * ax - dx * ay);
             (-thickness..=length + thickness).contains(&along) && across.abs() <= thickness
         })
-}
-
-/// The directions of slanted walls, radians between 0 and a right angle: those of the long straight parts of the wall's
-/// outline. Walls at right angles to them are of the same direction.
-fn directions(wall: &[u8], width: usize, limits: &Limits) -> Vec<f64> {
-    const BINS: usize = 45;
-    const MOST: usize = 5;
-    const LEAST_SHARE: f64 = 0.01;
-    /// Directions nearer than this to upright ones or to each other are the same, bins.
-    const SAME: usize = 2;
-    const STEP: usize = 4;
-    let chord = (2 * limits.thinnest).max(12) & !1;
-    let (mut lengths, mut sums) = ([0.0f64; BINS], [0.0f64; BINS]);
-    for boundary in trace(wall, width).iter().filter(|boundary| boundary.len() >= 2 * chord) {
-        let n = boundary.len();
-        let at = |k: usize| {
-            // The mean of some edges is smoother than their ends.
-            let sum = (0..4).map(|j| boundary[(k + j) % n]).fold([0, 0], |s, p| [s[0] + p[0], s[1] + p[1]]);
-            sum.map(|v| f64::from(v) * 0.25)
-        };
-        for k in (0..n).step_by(STEP) {
-            let [a, m, b] = [k, k + chord / 2, k + chord].map(at);
-            let ([dx, dy], [mx, my]) = ([b[0] - a[0], b[1] - a[1]], [m[0] - a[0], m[1] - a[1]]);
-            let length = (dx * dx + dy * dy).sqrt();
-            if length < chord as f64 * 0.5 || (dx * my - dy * mx).abs() > 0.7 * length {
-                continue;
-            }
-            let quarter = std::f64::consts::FRAC_PI_2;
-            let angle = atan2(dy, dx);
-            let angle = angle - (angle / quarter).floor() * quarter;
-            let bin = ((angle / quarter * BINS as f64) as usize).min(BINS - 1);
-            let passed = STEP as f64 * length / chord as f64;
-            lengths[bin] += passed;
-            sums[bin] += passed * angle;
-        }
-    }
-    let least = (3 * limits.shortest) as f64;
-    let least = least.max(LEAST_SHARE * lengths.iter().sum::<f64>());
-    let around = |k: usize| lengths[k - 1] + lengths[k] + lengths[k + 1];
-    let mut bins: Vec<usize> = (SAME..BINS - SAME).filter(|&k| around(k) >= least).collect();
-    bins.sort_by(|&a, &b| around(b).total_cmp(&around(a)).then(a.cmp(&b)));
-    let mut found: Vec<usize> = Vec::new();
-    for bin in bins {
-        if found.len() < MOST && found.iter().all(|&other| bin.abs_diff(other) > SAME) {
-            found.push(bin);
-        }
-    }
-    found.into_iter().map(|k| (sums[k - 1] + sums[k] + sums[k + 1]) / around(k)).collect()
 }
 
 fn transposed(mask: &[u8], width: usize) -> Vec<u8> {

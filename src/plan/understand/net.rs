@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::super::components::{Component, Components, Neighbours};
 use super::super::doors::bend;
+use super::directions::SHADOW_SHARE;
 use super::gaps::{self, Gap, Limits};
 use super::leaves;
 use super::thick::{THINNEST_M, grow, open, wall_square};
@@ -31,6 +32,8 @@ const LEAST_COLUMN_M: f64 = 0.15;
 const LEAST_COLUMN_PX: f64 = 5.0;
 /// Greatest thickness of a sheet's frame that has little within, metres.
 const FINE_FRAME_M: f64 = 0.12;
+/// How much of the shadow of a scanner's lid lies at the image's sides at least.
+const SHADOW_IN_RIM: f64 = 0.97;
 /// Share of its box above which a piece encloses no rooms.
 const MASS_FILL: f64 = 0.7;
 /// Least share of a column that is ink.
@@ -319,6 +322,17 @@ fn keep_building(wall: &mut [u8], raw: &[u8], width: usize, doors: &[Gap], windo
     order.sort_by_key(|&k| (is_mass(k), std::cmp::Reverse(area[k]), k));
     let main = *order.first()?;
     let box_of = around[main];
+    // The shadow of a scanner's lid lies along the image's sides, and no door joins it to the building.
+    let height = wall.len() / width;
+    let rim = (SHADOW_SHARE * width.max(height) as f64) as usize;
+    let is_shadow = |piece: &Component| {
+        let along = pieces.runs(piece).iter().map(|run| {
+            let (y, [from, to]) = (run.y as usize, [run.from, run.to].map(|x| x as usize));
+            let beside = rim.clamp(from, to) - from + to - (width - rim).clamp(from, to);
+            if y < rim || y >= height - rim { to - from } else { beside }
+        });
+        along.sum::<usize>() as f64 >= SHADOW_IN_RIM * piece.area as f64
+    };
     let inside = |p: &Component| {
         p.min[0] >= box_of[0] && p.min[1] >= box_of[1] && p.end[0] <= box_of[2] && p.end[1] <= box_of[3]
     };
@@ -330,7 +344,7 @@ fn keep_building(wall: &mut [u8], raw: &[u8], width: usize, doors: &[Gap], windo
             };
             pieces.runs(piece).iter().map(dark).sum::<usize>() as f64
         };
-        let other_building = area[top] * 5 >= area[main] && !is_mass(top);
+        let other_building = area[top] * 5 >= area[main] && !is_mass(top) && !is_shadow(piece);
         let column = inside(piece) && ink() >= COLUMN_INK * piece.area as f64;
         if top != main && !other_building && !column {
             pieces.paint(piece, wall, width, 0);

@@ -2,6 +2,8 @@
 
 use super::super::PlanClass;
 use super::super::components::{Component, Components, Neighbours};
+use super::super::symbols::{FEWEST_STROKES, groups};
+use super::LARGEST_LETTER_M;
 use super::net::Net;
 use super::thick::{grow, open};
 
@@ -87,6 +89,7 @@ pub(super) fn furniture(
     for at in net.doors.iter().flat_map(|gap| gap.pixels()) {
         what[at] = DOOR;
     }
+    leave_out_words(&mut what, width, metres_per_pixel);
     let fields = Components::of(&what, width, 0, Neighbours::Four);
     let mut solid = vec![0u8; ink.len()];
     let mut field_of = Vec::new();
@@ -172,6 +175,64 @@ pub(super) fn furniture(
         found.push(piece);
     }
     found
+}
+
+/// Takes the strokes of words off: round letters enclose fields as seats do. In words others stand beside them that enclose
+/// nothing; chairs in a row are all alike.
+fn leave_out_words(what: &mut [u8], width: usize, metres_per_pixel: f64) {
+    /// Least share of the letters of a word that enclose nothing; greatest height of its line, in that of its tallest letter;
+    /// of letters that enclose something, in that of those which do not; and of its tallest letter, in the median's.
+    const OPEN: f64 = 0.4;
+    const IN_LINE: f64 = 1.6;
+    const ALIKE: f64 = 1.35;
+    const TALLEST: f64 = 2.2;
+    let strokes: Vec<u8> = what.iter().map(|&what| u8::from(what == STROKE)).collect();
+    let pieces = Components::of(&strokes, width, 1, Neighbours::Eight);
+    let is_letter = |p: &&Component| f64::from(p.larger_side()) * metres_per_pixel <= LARGEST_LETTER_M;
+    let letters: Vec<&Component> = pieces.all.iter().filter(is_letter).collect();
+    for word in groups(&letters).into_iter().filter(|word| word.len() >= FEWEST_STROKES) {
+        let extent = [0, 1].map(|axis| {
+            let of = |pick: fn(u32, u32) -> u32, corner: fn(&Component) -> [u32; 2]| {
+                word.iter().map(|p| corner(p)[axis]).reduce(pick).unwrap_or(0)
+            };
+            f64::from(of(u32::max, |p| p.end) - of(u32::min, |p| p.min))
+        });
+        let line = usize::from(extent[1] > extent[0]);
+        let tallest_of = |letters: &[&Component]| letters.iter().map(|p| p.larger_side()).max().unwrap_or(0);
+        let tallest = tallest_of(&word);
+        // Dots and accents stand above others.
+        let mut letters: Vec<[u32; 2]> =
+            word.iter().filter(|p| p.larger_side() * 2 > tallest).map(|p| [p.min[line], p.end[line]]).collect();
+        letters.sort_unstable();
+        // The seat and the back of a chair, or chairs on both sides of a table, do not.
+        let are_side_by_side = letters.array_windows().all(|[[from, to], [next, end]]| {
+            let common = to.min(end).saturating_sub(*next);
+            common * 2 <= (to - from).min(end - next)
+        });
+        // The leaf of a door is longer than letters beside it are tall.
+        let mut sides: Vec<u32> = word.iter().map(|p| p.larger_side()).collect();
+        sides.sort_unstable();
+        let are_even = f64::from(tallest) <= TALLEST * f64::from(sides[(sides.len() - 1) / 2]);
+        let is_line = are_side_by_side && are_even && extent[1 - line] <= IN_LINE * f64::from(tallest);
+        let (closed, open): (Vec<&Component>, Vec<&Component>) = word.iter().partition(|p| encloses(&pieces, p));
+        // A table is larger than the chairs around it.
+        let are_alike = f64::from(tallest_of(&closed)) <= ALIKE * f64::from(tallest_of(&open));
+        if is_line && !closed.is_empty() && are_alike && open.len() as f64 >= OPEN * word.len() as f64 {
+            word.iter().for_each(|letter| pieces.paint(letter, what, width, 0));
+        }
+    }
+}
+
+/// Whether a stroke encloses a field.
+fn encloses(pieces: &Components, piece: &Component) -> bool {
+    let [w, h] = piece.size().map(|side| side as usize + 2);
+    let mut free = vec![1u8; w * h];
+    for run in pieces.runs(piece) {
+        let row = (run.y - piece.min[1]) as usize + 1;
+        let [from, to] = [run.from, run.to].map(|x| (x - piece.min[0]) as usize + 1);
+        free[row * w + from..row * w + to].fill(0);
+    }
+    Components::of(&free, w, 1, Neighbours::Four).all.len() > 1
 }
 
 /// Paints filled rectangles in a room, of at least so many square metres: furniture. Arrows and symbols are no rectangles, or
