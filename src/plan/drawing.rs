@@ -7,7 +7,7 @@ use super::colour::{Colour, is_pane, is_saturated, lightness_against, luma};
 use super::ink::{self, Ink};
 use super::ros_map::{Cell, Greys};
 use super::tones::USUAL_THRESHOLD;
-use super::{PlanOptions, TransparentPolicy, UnknownPolicy, paving, shadow, sheet, thin_lines, tones};
+use super::{PlanOptions, TransparentPolicy, UnknownPolicy, colour_areas, paving, shadow, sheet, thin_lines, tones};
 
 /// Greys of unknown and of free cells as mappers write them.
 const MAP_UNKNOWN: u8 = 205;
@@ -108,6 +108,14 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
         None => image,
     };
     let (width, height) = (image.width() as usize, image.height() as usize);
+    if is_unasked && sheet.is_none() && !looks_like_map && options.wall_colours.is_empty() {
+        let pixel = |at: usize| on_paper(image.get_pixel((at % width) as u32, (at / width) as u32).0);
+        if let Some(walls) = colour_areas::walls(width, height, pixel) {
+            warnings.push(AREAS.to_owned());
+            let lightness = map_pixels(&image, |pixel| luma(on_paper(pixel)));
+            return (of_areas(width, &walls, lightness), warnings);
+        }
+    }
     let may_be_inked = is_unasked && share > 0 && sheet.is_none() && options.wall_colours.is_empty();
     let inked = may_be_inked.then(|| ink_of(&image, &coloured)).flatten();
     // Coloured pens are ink on a photograph, as are the lines of a blueprint.
@@ -166,6 +174,33 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
     (drawing.lightness, drawing.dark) = (lightness, dark);
     drop_paving(&mut drawing);
     (drawing, warnings)
+}
+
+const AREAS: &str = "no walls are drawn: the light lines between areas of colour were taken for walls; \
+                     `[plan] threshold` takes what is dark instead";
+
+/// Walls between areas of colour, and the lettering in these.
+fn of_areas(width: usize, walls: &[u8], mut lightness: Vec<u8>) -> Drawing {
+    for (lightness, &wall) in lightness.iter_mut().zip(walls) {
+        *lightness = match *lightness {
+            _ if wall != 0 => 0,
+            ink if ink < USUAL_THRESHOLD => ink,
+            _ => 255,
+        };
+    }
+    Drawing {
+        width,
+        height: walls.len() / width,
+        dark: lightness.iter().map(|&l| u8::from(l < USUAL_THRESHOLD)).collect(),
+        lightness,
+        coloured: Vec::new(),
+        dark_colour: Vec::new(),
+        pane: Vec::new(),
+        clean: false,
+        threshold: USUAL_THRESHOLD,
+        scanned: false,
+        looks_like_map: false,
+    }
 }
 
 /// Whether nearly all light pixels are as light as the one before.

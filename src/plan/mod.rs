@@ -9,6 +9,7 @@ mod arcs;
 mod class;
 mod clearance;
 mod colour;
+mod colour_areas;
 mod guess;
 mod components;
 mod corrections;

@@ -101,6 +101,11 @@ pub(super) fn walls_are_coloured(width: usize, luma: &[u8], coloured: &[u8]) -> 
     plain.cells() * 2 <= all.cells() && all.is_large(width, height) && all.enclosed() >= ENCLOSED_SHARE
 }
 
+/// Whether long pieces of a mask spread over a good part of the image, as walls do.
+pub(super) fn has_lines(mask: &[u8], width: usize) -> bool {
+    Net::of(mask, width).is_large(width, mask.len() / width)
+}
+
 fn is_plain(coloured: &[u8], at: usize) -> bool {
     coloured.is_empty() || coloured[at] == 0
 }

@@ -281,3 +281,40 @@ fn an_office_that_was_scanned_askew_has_windows_and_no_stools() {
     assert!((0.85..1.15).contains(&scale), "the scale is {scale} times the true one");
     assert_eq!([plan.doors.len(), plan.windows.len(), plan.furniture.len()], [8, 5, 0]);
 }
+
+/// A visitors' map has areas of colour and no walls: the paper around was floor, the numbers were walls.
+#[test]
+fn light_lines_between_areas_of_colour_are_walls() {
+    let mut canvas = Canvas::new([40.0, 26.0], [-3.0, -3.0], 20.0, 0.0, [255; 3]);
+    let tones = [[248, 210, 160], [190, 215, 235], [205, 230, 190], [235, 200, 220]];
+    let rooms = [
+        [[0.0, 0.0], [10.0, 9.0]],
+        [[10.4, 0.0], [22.0, 9.0]],
+        [[22.4, 0.0], [34.0, 9.0]],
+        [[0.0, 9.4], [16.0, 20.0]],
+        [[16.4, 9.4], [34.0, 20.0]],
+    ];
+    for (k, [min, max]) in rooms.into_iter().enumerate() {
+        canvas.fill(&[rectangle(min, max)], tones[k % tones.len()]);
+        canvas.fill(&text(&format!("{}", k + 1), [min[0] + 4.0, min[1] + 4.5], 1.0, 0.15), [90; 3]);
+    }
+    let doors = [
+        [[9.9, 3.0], [10.5, 5.0]],
+        [[21.9, 3.0], [22.5, 5.0]],
+        [[4.0, 8.9], [6.0, 9.5]],
+        [[26.0, 8.9], [28.0, 9.5]],
+        [[15.9, 13.0], [16.5, 15.0]],
+    ];
+    for [min, max] in doors {
+        canvas.fill(&[rectangle(min, max)], tones[0]);
+    }
+    canvas.fill(&text("LEVEL 1", [17.0, -1.6], 0.8, 0.12), [90; 3]);
+    let plan = read_canvas(&canvas, Some(0.05));
+    assert_eq!(plan.doors.len(), doors.len());
+    for [min, max] in rooms {
+        let floor = floor_in(&plan, &canvas, [[min[0] + 0.1, min[1] + 0.1], [max[0] - 0.1, max[1] - 0.1]]);
+        assert!(floor > 0.99, "{floor} of the room at {min:?} is floor");
+    }
+    let around = floor_in(&plan, &canvas, [[-2.9, -2.9], [36.9, -0.5]]);
+    assert!(around < 0.01, "{around} of the paper is floor");
+}

@@ -16,7 +16,7 @@ mod thick;
 
 use self::gaps::Gap;
 use self::net::{Net, WIDEST_DOOR_M, WIDEST_ENTRANCE_M};
-use self::pieces::Evidence;
+use self::pieces::{Evidence, LARGEST_LETTER_M};
 use self::rooms::Rooms;
 use super::components::{Component, Components, Neighbours};
 use super::drawing::Drawing;
@@ -41,8 +41,6 @@ const THICKEST_WALL_M: f64 = 0.9;
 /// Greatest thickness of a stroke of colour and of a pane that is filled, metres.
 const STROKE_M: f64 = 0.1;
 const PANE_M: f64 = 0.55;
-/// Largest letter, metres.
-const LARGEST_LETTER_M: f64 = 0.9;
 
 /// A door's gap, how it is drawn, and its open leaf, pixels of the image.
 struct FoundDoor(Gap, DoorKind, Option<[[f64; 2]; 2]>);

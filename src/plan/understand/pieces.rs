@@ -3,7 +3,6 @@
 use super::super::PlanClass;
 use super::super::components::{Component, Components, Neighbours};
 use super::super::symbols::{FEWEST_STROKES, groups};
-use super::LARGEST_LETTER_M;
 use super::net::Net;
 use super::thick::{grow, open};
 
@@ -48,6 +47,9 @@ const COUNTER_DEPTH_M: [f64; 2] = [0.4, 0.85];
 const LEAST_TURN_M: f64 = 1.2;
 /// Least share of its box that a piece of furniture fills, unless it goes round a corner.
 const LEAST_FILL: f64 = 0.5;
+
+/// Largest letter, metres.
+pub(super) const LARGEST_LETTER_M: f64 = 0.9;
 
 /// What lies at a pixel.
 const STROKE: u8 = 1;

@@ -1,0 +1,129 @@
+//! Maps without drawn walls: rooms are areas of colour on light paper, and the light lines between them are the walls.
+
+use super::clearance::{dilate, erode};
+use super::colour::luma;
+use super::components::{Components, Neighbours};
+use super::tones;
+
+/// Tones that differ less from paper than this are paper.
+const PAPER_SPREAD: u8 = 10;
+/// Least lightness of paper and of areas; what is darker is lettering.
+const LIGHTEST_INK: u8 = 128;
+const DARKEST_PAPER: u8 = 200;
+/// Least share of the image's rim that is paper.
+const PAPER_AT_RIM: f64 = 0.8;
+/// Least and greatest share of the image that areas cover, and least share of that which is light and in broad areas.
+const COVERED: [f64; 2] = [0.12, 0.9];
+const LIGHT: f64 = 0.9;
+const BROAD: f64 = 0.75;
+/// Radius of a circle that fits into broad areas, and greatest thickness of walls; shares of the image's longer side.
+const BROAD_SHARE: f64 = 0.015;
+const THICKEST: f64 = 0.03;
+/// Least share of all areas that one has: others are keys of the map.
+const LEAST_AREA: f64 = 0.01;
+/// Least length of the light lines between areas, as a share of the image's longer side.
+const LEAST_LINES: f64 = 0.3;
+/// Pixels that a first look takes.
+const SAMPLES: usize = 10_007;
+
+/// The walls between areas of colour, and around them as thick: 1 for wall. `None` for all other drawings.
+///
+/// `pixel` gives a colour on paper. Lettering is a part of the area around it.
+pub(super) fn walls(width: usize, height: usize, pixel: impl Fn(usize) -> [u8; 3]) -> Option<Vec<u8>> {
+    let longer = width.max(height);
+    let paper = paper(width, height, &pixel)?;
+    let is_area = |at: usize| !is_paper(pixel(at), paper);
+    let is_dark = |at: usize| luma(pixel(at)) < LIGHTEST_INK;
+    // Most drawings are not of this kind: a look at some of the pixels tells.
+    let may_be = |step: usize| {
+        let some = || (0..width * height).step_by(step);
+        let covered = some().filter(|&at| is_area(at)).count() as f64;
+        let dark = some().filter(|&at| is_dark(at)).count() as f64;
+        (COVERED[0]..=COVERED[1]).contains(&(covered / some().count() as f64)) && dark <= (1.0 - LIGHT) * covered
+    };
+    if !may_be((width * height).div_ceil(SAMPLES)) || !may_be(1) {
+        return None;
+    }
+    let mask = |is_it: &dyn Fn(usize) -> bool| (0..width * height).map(|at| u8::from(is_it(at))).collect::<Vec<u8>>();
+    if tones::has_lines(&mask(&is_dark), width) {
+        return None;
+    }
+    let mut areas = mask(&is_area);
+    let count = |mask: &[u8]| mask.iter().filter(|&&m| m != 0).count() as f64;
+    let covered = count(&areas);
+    let radius = (BROAD_SHARE * longer as f64).max(2.0);
+    if count(&dilate(&erode(&areas, width, radius), width, radius)) < BROAD * covered {
+        return None;
+    }
+    let pieces = Components::of(&areas, width, 1, Neighbours::Eight);
+    for piece in pieces.all.iter().filter(|piece| (piece.area as f64) < LEAST_AREA * covered) {
+        pieces.paint(piece, &mut areas, width, 0);
+    }
+    let thickness =
+        between(&areas, width, (THICKEST * longer as f64) as usize, (LEAST_LINES * longer as f64) as usize)?;
+    let near = dilate(&areas, width, thickness as f64);
+    Some(near.iter().zip(&areas).map(|(&near, &area)| near & (1 - area)).collect())
+}
+
+fn is_paper(colour: [u8; 3], paper: [u8; 3]) -> bool {
+    colour.iter().zip(paper).all(|(&v, paper)| v.abs_diff(paper) <= PAPER_SPREAD)
+}
+
+/// The commonest colour at the image's rim, if it is light and nearly all is of it.
+fn paper(width: usize, height: usize, pixel: impl Fn(usize) -> [u8; 3]) -> Option<[u8; 3]> {
+    let sides = (0..width).flat_map(|x| [x, (height - 1) * width + x]);
+    let mut rim: Vec<[u8; 3]> =
+        sides.chain((0..height).flat_map(|y| [y * width, y * width + width - 1])).map(pixel).collect();
+    rim.sort_unstable();
+    let paper = rim[rim.len() / 2];
+    let share = rim.iter().filter(|&&colour| is_paper(colour, paper)).count() as f64 / rim.len() as f64;
+    (luma(paper) >= DARKEST_PAPER && share >= PAPER_AT_RIM).then_some(paper)
+}
+
+/// Thickness of the light lines between areas, pixels: the median along rows and columns, if there are `fewest` such places.
+fn between(areas: &[u8], width: usize, thickest: usize, fewest: usize) -> Option<usize> {
+    let height = areas.len() / width;
+    let mut found = Vec::new();
+    let mut collect = |length: usize, at: &dyn Fn(usize) -> usize| {
+        let mut last = None;
+        for k in (0..length).filter(|&k| areas[at(k)] != 0) {
+            found.extend(last.map(|last: usize| k - last - 1).filter(|gap| (1..=thickest).contains(gap)));
+            last = Some(k);
+        }
+    };
+    (0..height).for_each(|y| collect(width, &|x| y * width + x));
+    (0..width).for_each(|x| collect(height, &|y| y * width + x));
+    found.sort_unstable();
+    (found.len() >= fewest).then(|| found[found.len() / 2])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two rooms of colour with a light line of 4 pixels between them that has a gap of 10, and a key in the corner.
+    fn map(line: [u8; 3]) -> impl Fn(usize) -> [u8; 3] {
+        move |at| match (at % 200, at / 200) {
+            (96..100, y) if (20..100).contains(&y) && !(50..60).contains(&y) => line,
+            (x, y) if (20..180).contains(&x) && (20..100).contains(&y) => [250, 220 - u8::from(x < 98) * 30, 170],
+            (2..6, 110..114) => [120, 200, 120],
+            _ => [255; 3],
+        }
+    }
+
+    #[test]
+    fn light_lines_between_areas_are_walls() {
+        let walls = walls(200, 120, map([255; 3])).unwrap();
+        let at = |x: usize, y: usize| walls[y * 200 + x] != 0;
+        assert!(at(97, 30) && !at(97, 55) && !at(60, 55) && at(18, 60) && !at(14, 60) && !at(3, 112));
+        let count = walls.iter().filter(|&&wall| wall != 0).count();
+        // The corners are round.
+        assert!((4 * 70 + 160 * 8 + 80 * 8..=4 * 70 + 168 * 88 - 160 * 80).contains(&count), "{count}");
+    }
+
+    #[test]
+    fn drawings_with_dark_walls_are_none_of_these() {
+        assert_eq!(walls(200, 120, map([90; 3])), None);
+        assert_eq!(walls(200, 120, |_| [255; 3]), None);
+    }
+}
