@@ -253,7 +253,11 @@ fn told_windows(plan: &FloorPlan) -> Option<String> {
 fn told_furniture(plan: &FloorPlan) -> Option<String> {
     let mut counts = BTreeMap::new();
     plan.furniture.iter().for_each(|piece| *counts.entry(piece.class).or_insert(0usize) += 1);
-    let height = |class: PlanClass| class.height_m().map_or("to the ceiling".to_string(), |m| format!("{m} m high"));
+    let height = |class: PlanClass| match class.height_m() {
+        Some(height) => format!("{height} m high"),
+        None if class == PlanClass::Stairs => "walked on".to_owned(),
+        None => "to the ceiling".to_owned(),
+    };
     let told = |(&class, count): (&PlanClass, &usize)| format!("{count} {} ({})", name(class), height(class));
     let told: Vec<String> = counts.iter().map(told).collect();
     (!told.is_empty()).then(|| format!("furniture {}", told.join(", ")))

@@ -94,13 +94,6 @@ impl Components {
         self.ranges(component, width).for_each(|range| pixels[range].fill(value));
     }
 
-    /// Share of all pixels that the largest component has; 1 where there is none.
-    pub(super) fn largest_share(&self) -> f64 {
-        let areas = self.all.iter().map(|component| component.area);
-        let all: usize = areas.clone().sum();
-        if all == 0 { 1.0 } else { areas.max().unwrap_or(0) as f64 / all as f64 }
-    }
-
     /// Whether the mask has a 1 under a component.
     pub(super) fn touches(&self, component: &Component, mask: &[u8], width: usize) -> bool {
         self.ranges(component, width).any(|range| mask[range].contains(&1))

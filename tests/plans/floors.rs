@@ -1,7 +1,7 @@
 //! Drawings whose floors have tones, whose furniture is filled or faint, and whose cells are pixels.
 
 use image::{GrayImage, Luma, Rgb, RgbImage};
-use trodden::plan::{FloorPlan, PlanOptions, read};
+use trodden::plan::{FloorPlan, PlanClass, PlanOptions, read};
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -317,4 +317,48 @@ fn light_lines_between_areas_of_colour_are_walls() {
     }
     let around = floor_in(&plan, &canvas, [[-2.9, -2.9], [36.9, -0.5]]);
     assert!(around < 0.01, "{around} of the paper is floor");
+}
+
+/// Two floors on one sheet are no rooms that nothing joins; the line on which one walks halves the treads of stairs.
+#[test]
+fn two_floors_on_one_sheet_have_doors_windows_and_stairs() {
+    let mut canvas = Canvas::new([47.0, 15.0], [-1.5, -1.5], 30.0, 0.0, [255; 3]);
+    let flight = |x: f64| [[x + 17.9, 7.4], [x + 19.7, 10.2]];
+    for (x, has_entrance) in [(0.0, true), (24.0, false)] {
+        let outer = [[0.0, 0.0, 20.0, 0.0], [10.2, 12.0, 20.0, 12.0], [0.0, 0.0, 0.0, 12.0], [20.0, 0.0, 20.0, 12.0]];
+        let inner = [
+            [7.0, 0.0, 7.0, 2.0],
+            [7.0, 2.9, 7.0, 5.0],
+            [13.0, 0.0, 13.0, 5.0],
+            [0.0, 5.0, 3.0, 5.0],
+            [3.9, 5.0, 16.0, 5.0],
+            [16.9, 5.0, 20.0, 5.0],
+        ];
+        let moved = |lines: &[[f64; 4]]| lines.iter().map(|l| [l[0] + x, l[1], l[2] + x, l[3]]).collect::<Vec<_>>();
+        let front = if has_entrance { [x, 12.0, x + 9.0, 12.0] } else { [x, 12.0, x + 20.0, 12.0] };
+        canvas.fill(&walls(&moved(&outer), 0.3), BLACK);
+        canvas.fill(&walls(&[front], 0.3), BLACK);
+        canvas.fill(&walls(&moved(&inner), 0.14), BLACK);
+        for (hinge, along) in [([x + 7.0, 2.0], 0.0), ([x + 3.0, 5.0], -FRAC_PI_2), ([x + 16.0, 5.0], -FRAC_PI_2)] {
+            let swing = arc(hinge, 0.9, along, along + FRAC_PI_2);
+            canvas.fill(&lines(&[&[hinge], swing.as_slice()].concat(), 0.04), BLACK);
+        }
+        for window in [x + 2.0, x + 9.0, x + 15.0] {
+            canvas.fill(&[rectangle([window, -0.15], [window + 2.0, 0.15])], [255; 3]);
+            let pane = |off: f64| line([window, off], [window + 2.0, off], 0.04);
+            canvas.fill(&[-0.13, 0.0, 0.13].map(pane), BLACK);
+        }
+        let [min, max] = flight(x);
+        let middle = 0.5 * (min[0] + max[0]);
+        for tread in (0..=10).map(|k| min[1] + 0.28 * f64::from(k)) {
+            canvas.fill(&[line([min[0], tread], [max[0], tread], 0.04)], BLACK);
+        }
+        canvas.fill(&outline(&rectangle(min, max), 0.04), BLACK);
+        canvas.fill(&[line([middle, min[1]], [middle, max[1]], 0.04)], BLACK);
+    }
+    let plan = read_canvas(&canvas, Some(1.0 / 30.0));
+    assert_eq!([plan.doors.len(), plan.windows.len()], [7, 6]);
+    let stairs = plan.classes.iter().filter(|&&class| class == PlanClass::Stairs).count() as f64 / 900.0;
+    // Nobody reaches those of the upper floor.
+    assert!((0.8 * 5.04..1.15 * 5.04).contains(&stairs), "{stairs} m2 of stairs");
 }

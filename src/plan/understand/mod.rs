@@ -345,7 +345,11 @@ fn is_connected(classes: &[PlanClass], inside: &[u8], width: usize) -> bool {
     let free =
         |(class, &inside): (&PlanClass, &u8)| u8::from(*class == PlanClass::Door || (inside != 0 && !class.is_solid()));
     let free: Vec<u8> = classes.iter().zip(inside).map(free).collect();
-    Components::of(&free, width, 1, Neighbours::Four).largest_share() >= CONNECTED
+    let is_built = |(class, &inside): (&PlanClass, &u8)| {
+        u8::from(inside != 0 || matches!(class, PlanClass::Wall | PlanClass::Window | PlanClass::Door))
+    };
+    let built: Vec<u8> = classes.iter().zip(inside).map(is_built).collect();
+    net::joined(&free, &built, width) >= CONNECTED
 }
 
 /// What of a mask is thinner than some pixels: strokes of saturated colour; broad areas are highlights.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::super::components::{Component, Components, Neighbours};
+use super::super::components::{Component, Components, Neighbours, Run};
 use super::super::doors::bend;
 use super::directions::SHADOW_SHARE;
 use super::gaps::{self, Gap, Limits};
@@ -137,13 +137,41 @@ impl Net {
     pub(super) fn joined(&self, width: usize) -> f64 {
         let mut free = self.inside.clone();
         self.doors.iter().flat_map(Gap::pixels).for_each(|at| free[at] = 1);
-        Components::of(&free, width, 1, Neighbours::Four).largest_share()
+        let mut built: Vec<u8> = free.iter().zip(&self.wall).map(|(&free, &wall)| free | wall).collect();
+        self.windows.iter().flat_map(Gap::pixels).for_each(|at| built[at] = 1);
+        joined(&free, &built, width)
     }
 
     /// Whether the net encloses rooms as a building does.
     pub(super) fn is_building(&self) -> bool {
         self.enclosed >= ENCLOSED_SHARE
     }
+}
+
+/// Share of what is `free` that is connected, 1 each; of buildings that stand apart, as floors on one sheet do, within each.
+/// `built` marks walls and all within.
+pub(super) fn joined(free: &[u8], built: &[u8], width: usize) -> f64 {
+    /// Least share of all that a building has.
+    const LEAST: f64 = 0.2;
+    let place = |run: &Run| run.y as usize * width + run.from as usize;
+    let buildings = Components::of(built, width, 1, Neighbours::Eight);
+    let mut building_from: Vec<(usize, usize)> = (buildings.all.iter().enumerate())
+        .flat_map(|(k, building)| buildings.runs(building).iter().map(move |run| (place(run), k)))
+        .collect();
+    building_from.sort_unstable();
+    let pieces = Components::of(free, width, 1, Neighbours::Four);
+    // All of a building, and its largest piece.
+    let mut areas = vec![[0usize; 2]; buildings.all.len()];
+    for piece in &pieces.all {
+        let runs = pieces.runs(piece);
+        let before = building_from.partition_point(|&(from, _)| from <= place(&runs[0]));
+        let Some(&(_, building)) = before.checked_sub(1).and_then(|k| building_from.get(k)) else { continue };
+        let [all, largest] = &mut areas[building];
+        (*all, *largest) = (*all + piece.area, piece.area.max(*largest));
+    }
+    let all = areas.iter().map(|[all, _]| all).sum::<usize>() as f64;
+    let large = areas.iter().filter(|[of_building, _]| *of_building as f64 >= LEAST * all);
+    if all > 0.0 { large.map(|[_, largest]| largest).sum::<usize>() as f64 / all } else { 1.0 }
 }
 
 /// What is drawn beside walls.
@@ -338,7 +366,7 @@ fn keep_building(wall: &mut [u8], raw: &[u8], width: usize, doors: &[Gap], windo
     };
     for (piece, &top) in pieces.all.iter().zip(&tops) {
         let ink = || {
-            let dark = |r: &super::super::components::Run| {
+            let dark = |r: &Run| {
                 let row = r.y as usize * width;
                 raw[row + r.from as usize..row + r.to as usize].iter().filter(|&&d| d != 0).count()
             };

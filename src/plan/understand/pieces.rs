@@ -48,6 +48,9 @@ const LEAST_TURN_M: f64 = 1.2;
 /// Least share of its box that a piece of furniture fills, unless it goes round a corner.
 const LEAST_FILL: f64 = 0.5;
 
+/// Least length of a tread, and of half of one, metres.
+const TREAD_M: f64 = 0.7;
+const HALF_TREAD_M: f64 = 0.35;
 /// Largest letter, metres.
 pub(super) const LARGEST_LETTER_M: f64 = 0.9;
 
@@ -148,9 +151,9 @@ pub(super) fn furniture(
                 && f.end[1] <= object.end[1]
         };
         let parts: Vec<&Component> = field_of.iter().copied().filter(within).collect();
-        let is_tread = |f: &&&Component| {
+        let is_tread = |f: &Component, least_m: f64| {
             let [w, h] = f.size().map(|side| f64::from(side) * metres_per_pixel);
-            (0.18..=0.42).contains(&w.min(h)) && w.max(h) >= 0.7
+            (0.18..=0.42).contains(&w.min(h)) && w.max(h) >= least_m
         };
         let alike = |a: &&&Component| {
             parts
@@ -158,13 +161,16 @@ pub(super) fn furniture(
                 .filter(|b| b.size()[0].abs_diff(a.size()[0]) <= 3 && b.size()[1].abs_diff(a.size()[1]) <= 3)
                 .count()
         };
+        let most_alike =
+            |least_m: f64| parts.iter().filter(|p| is_tread(p, least_m)).map(|p| alike(&p)).max().unwrap_or(0);
         let at_wall = at_wall(&what, width, &objects, object, stroke + 1);
         let mut piece = Evidence {
             around: [object.min[0], object.min[1], object.end[0], object.end[1]],
             area: object.area,
             at_wall,
             fields: parts.len(),
-            alike: parts.iter().filter(is_tread).map(|p| alike(&p)).max().unwrap_or(0),
+            // The line on which one walks halves treads.
+            alike: most_alike(TREAD_M).max(most_alike(HALF_TREAD_M) / 2),
             fill,
             class: PlanClass::Table,
         };
@@ -182,10 +188,9 @@ pub(super) fn furniture(
 /// Takes the strokes of words off: round letters enclose fields as seats do. In words others stand beside them that enclose
 /// nothing; chairs in a row are all alike.
 fn leave_out_words(what: &mut [u8], width: usize, metres_per_pixel: f64) {
-    /// Least share of the letters of a word that enclose nothing; greatest height of its line, in that of its tallest letter;
-    /// of letters that enclose something, in that of those which do not; and of its tallest letter, in the median's.
+    /// Least share of the letters of a word that enclose nothing; greatest height of letters that enclose something, in that of
+    /// those which do not; and of the tallest letter, in the median's.
     const OPEN: f64 = 0.4;
-    const IN_LINE: f64 = 1.6;
     const ALIKE: f64 = 1.35;
     const TALLEST: f64 = 2.2;
     let strokes: Vec<u8> = what.iter().map(|&what| u8::from(what == STROKE)).collect();
@@ -193,36 +198,47 @@ fn leave_out_words(what: &mut [u8], width: usize, metres_per_pixel: f64) {
     let is_letter = |p: &&Component| f64::from(p.larger_side()) * metres_per_pixel <= LARGEST_LETTER_M;
     let letters: Vec<&Component> = pieces.all.iter().filter(is_letter).collect();
     for word in groups(&letters).into_iter().filter(|word| word.len() >= FEWEST_STROKES) {
-        let extent = [0, 1].map(|axis| {
-            let of = |pick: fn(u32, u32) -> u32, corner: fn(&Component) -> [u32; 2]| {
-                word.iter().map(|p| corner(p)[axis]).reduce(pick).unwrap_or(0)
-            };
-            f64::from(of(u32::max, |p| p.end) - of(u32::min, |p| p.min))
-        });
-        let line = usize::from(extent[1] > extent[0]);
         let tallest_of = |letters: &[&Component]| letters.iter().map(|p| p.larger_side()).max().unwrap_or(0);
-        let tallest = tallest_of(&word);
-        // Dots and accents stand above others.
-        let mut letters: Vec<[u32; 2]> =
-            word.iter().filter(|p| p.larger_side() * 2 > tallest).map(|p| [p.min[line], p.end[line]]).collect();
-        letters.sort_unstable();
-        // The seat and the back of a chair, or chairs on both sides of a table, do not.
-        let are_side_by_side = letters.array_windows().all(|[[from, to], [next, end]]| {
-            let common = to.min(end).saturating_sub(*next);
-            common * 2 <= (to - from).min(end - next)
-        });
+        let tallest = f64::from(tallest_of(&word));
         // The leaf of a door is longer than letters beside it are tall.
         let mut sides: Vec<u32> = word.iter().map(|p| p.larger_side()).collect();
         sides.sort_unstable();
-        let are_even = f64::from(tallest) <= TALLEST * f64::from(sides[(sides.len() - 1) / 2]);
-        let is_line = are_side_by_side && are_even && extent[1 - line] <= IN_LINE * f64::from(tallest);
+        let are_even = tallest <= TALLEST * f64::from(sides[(sides.len() - 1) / 2]);
         let (closed, open): (Vec<&Component>, Vec<&Component>) = word.iter().partition(|p| encloses(&pieces, p));
-        // A table is larger than the chairs around it.
-        let are_alike = f64::from(tallest_of(&closed)) <= ALIKE * f64::from(tallest_of(&open));
-        if is_line && !closed.is_empty() && are_alike && open.len() as f64 >= OPEN * word.len() as f64 {
+        // A table is larger than the chairs around it. Letters that touch are as tall as others.
+        let of_closed = closed.iter().map(|p| p.size()[0].min(p.size()[1])).max().unwrap_or(0);
+        let are_alike = f64::from(of_closed) <= ALIKE * f64::from(tallest_of(&open));
+        let is_word = are_even && are_alike && !closed.is_empty() && open.len() as f64 >= OPEN * word.len() as f64;
+        if is_word && are_in_line(&word, tallest) {
             word.iter().for_each(|letter| pieces.paint(letter, what, width, 0));
         }
     }
+}
+
+/// Whether letters stand side by side on a line of any direction. The seat and the back of a chair, or chairs on both sides of
+/// a table, do not.
+fn are_in_line(word: &[&Component], tallest: f64) -> bool {
+    /// How far the middles of letters are off a line at most, and how far apart along it at least, in the tallest one.
+    const OFF: f64 = 0.35;
+    const APART: f64 = 0.18;
+    // Dots and accents stand above others.
+    let letters = word.iter().filter(|p| f64::from(p.larger_side()) * 2.0 > tallest);
+    let mut middles: Vec<[f64; 2]> =
+        letters.map(|p| [0, 1].map(|axis| 0.5 * f64::from(p.min[axis] + p.end[axis]))).collect();
+    let size = [0, 1].map(|axis| {
+        let along = || middles.iter().map(|middle| middle[axis]);
+        along().fold(f64::NEG_INFINITY, f64::max) - along().fold(f64::INFINITY, f64::min)
+    });
+    let axis = usize::from(size[1] > size[0]);
+    middles.sort_unstable_by(|a, b| a[axis].total_cmp(&b[axis]));
+    let ([Some(first), Some(last)], count) = ([middles.first(), middles.last()], middles.len()) else { return false };
+    let length = ((last[0] - first[0]) * (last[0] - first[0]) + (last[1] - first[1]) * (last[1] - first[1])).sqrt();
+    let [x, y] = [0, 1].map(|axis| (last[axis] - first[axis]) / length.max(1.0));
+    let mean = [0, 1].map(|axis| middles.iter().map(|middle| middle[axis]).sum::<f64>() / count as f64);
+    let off = |middle: &[f64; 2]| ((middle[0] - mean[0]) * y - (middle[1] - mean[1]) * x).abs();
+    let along = |middle: &[f64; 2]| middle[0] * x + middle[1] * y;
+    middles.iter().all(|middle| off(middle) <= OFF * tallest)
+        && middles.array_windows().all(|[a, b]| along(b) - along(a) >= APART * tallest)
 }
 
 /// Whether a stroke encloses a field.
