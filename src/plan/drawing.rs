@@ -7,7 +7,9 @@ use super::colour::{Colour, is_pane, is_saturated, lightness_against, luma};
 use super::ink::{self, Ink};
 use super::ros_map::{Cell, Greys};
 use super::tones::USUAL_THRESHOLD;
-use super::{PlanOptions, TransparentPolicy, UnknownPolicy, colour_areas, paving, shadow, sheet, thin_lines, tones};
+use super::{
+    PlanOptions, TransparentPolicy, UnknownPolicy, colour_areas, hatching, paving, shadow, sheet, thin_lines, tones,
+};
 
 /// Greys of unknown and of free cells as mappers write them.
 const MAP_UNKNOWN: u8 = 205;
@@ -228,8 +230,11 @@ fn drop_paving(drawing: &mut Drawing) {
             () if is_on(faint, at) => 255 - lightness,
             () => 0,
         });
-        let ink = paving::Ink { dark: dark.collect(), width: drawing.width };
-        let lines = paving::lines(&ink);
+        let mut ink = paving::Ink { dark: dark.collect(), width: drawing.width };
+        let mut lines = paving::lines(&ink);
+        // Of planks and tiles there is nothing left then.
+        lines.iter().for_each(|&at| ink.dark[at] = 0);
+        lines.extend(hatching::lines(&ink));
         drawing.clean &= lines.is_empty();
         for at in lines {
             drawing.dark[at] = 0;

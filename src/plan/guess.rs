@@ -2,6 +2,8 @@
 
 use std::ops::RangeInclusive;
 
+use nalgebra::{Matrix3, Vector3};
+
 use super::arcs::{Arc, Search};
 use super::clearance::{dilate, erode};
 use super::components::{Component, Components, Neighbours};
@@ -10,6 +12,7 @@ use super::drawing::Drawing;
 use super::likely::{Likelihood, Usual};
 use super::scale::{self, PlanScale, ScaleSource, rounded};
 use super::symbols::{FEWEST_STROKES, groups};
+use super::thick;
 use super::{ASSUMED_M_PER_PX, understand};
 use crate::math::{ln, sin_cos};
 
@@ -38,6 +41,9 @@ const FEWEST_LEAVES: f64 = 2.0;
 const FEWEST_DOORS: f64 = 4.0;
 /// Of gaps in a drawing with lettering, which no robot maps.
 const FEWEST_DOORS_LETTERED: f64 = 3.5;
+/// Greatest thickness of a stroke of colour, pixels, and in the thickness of walls that are drawn thick.
+const COLOURED_STROKE_PX: f64 = 4.0;
+const STROKE_IN_WALLS: f64 = 0.4;
 /// Lightness below which a pixel may be of an arc thinner than a pixel.
 const FINE: u8 = 180;
 /// Range of the width of a door in thicknesses of a wall that is drawn thick.
@@ -269,10 +275,18 @@ fn wall_thickness(drawing: &Drawing) -> Option<f64> {
 impl Measures {
     fn of(drawing: &Drawing) -> Measures {
         let walls = Walls::of(drawing);
+        // Panes and leaves may be drawn in a colour.
+        let thickest = walls.thickness.map_or(COLOURED_STROKE_PX, |wall| wall * STROKE_IN_WALLS);
+        let of_colour = thick::strokes(&drawing.coloured, drawing.width, thickest);
+        let is_of_colour = |at: usize| of_colour.get(at).is_some_and(|&c| c != 0);
+        let is_ink = |x: usize, y: usize| {
+            let at = y * drawing.width + x;
+            drawing.dark[at] != 0 || is_of_colour(at)
+        };
         // Between thin lines there are gaps of all kinds.
-        let mut doorways_px = doorways(&walls.mask, drawing.width, |x, y| drawing.dark[y * drawing.width + x] != 0);
+        let mut doorways_px = doorways(&walls.mask, drawing.width, is_ink);
         let turned = turned(&walls.mask, drawing.width);
-        doorways_px.extend(doorways(&turned, drawing.height, |y, x| drawing.dark[y * drawing.width + x] != 0));
+        doorways_px.extend(doorways(&turned, drawing.height, |y, x| is_ink(x, y)));
         drop(turned);
         if walls.thickness.is_none() {
             doorways_px.clear();
@@ -280,7 +294,8 @@ impl Measures {
         let (dark, letter) = without_letters(&drawing.dark, drawing.width);
         let mut leaves = leaves_of(&dark, drawing.width);
         if (leaves.len() as f64) < FEWEST_LEAVES && !drawing.scanned {
-            let fine: Vec<u8> = drawing.lightness.iter().map(|&l| u8::from(l < FINE)).collect();
+            let is_fine = |(at, &lightness): (usize, &u8)| u8::from(lightness < FINE || is_of_colour(at));
+            let fine: Vec<u8> = drawing.lightness.iter().enumerate().map(is_fine).collect();
             leaves = leaves_of(&without_letters(&fine, drawing.width).0, drawing.width);
         }
         Measures { wall: walls.thickness, doorways: doorways_px, leaves, bounds: walls.bounds, letter }.restricted()
@@ -527,31 +542,17 @@ fn circle(points: &[[f64; 2]], near: [f64; 2], radius: f64) -> Option<f64> {
     }
     let (mut centre, mut r) = (near, radius);
     for _ in 0..12 {
-        let mut m = [[0.0; 4]; 3];
+        let (mut normal, mut off) = (Matrix3::zeros(), Vector3::zeros());
         for p in points {
             let [x, y] = [p[0] - centre[0], p[1] - centre[1]];
             let way = (x * x + y * y).sqrt().max(1e-9);
-            let row = [x / way, y / way, 1.0];
-            for (i, line) in m.iter_mut().enumerate() {
-                (0..3).for_each(|k| line[k] += row[i] * row[k]);
-                line[3] += row[i] * (way - r);
-            }
+            let row = Vector3::new(x / way, y / way, 1.0);
+            normal += row * row.transpose();
+            off += row * (way - r);
         }
-        // Gauss and Jordan; the matrix is positive.
-        for i in 0..3 {
-            let pivot = m[i][i];
-            if pivot.abs() < 1e-9 {
-                return None;
-            }
-            m[i].iter_mut().for_each(|v| *v /= pivot);
-            let row = m[i];
-            for (_, line) in m.iter_mut().enumerate().filter(|&(k, _)| k != i) {
-                let share = line[i];
-                line.iter_mut().zip(row).for_each(|(v, r)| *v -= share * r);
-            }
-        }
-        centre = [centre[0] + m[0][3], centre[1] + m[1][3]];
-        r += m[2][3];
+        let step = normal.cholesky()?.solve(&off);
+        centre = [centre[0] + step[0], centre[1] + step[1]];
+        r += step[2];
     }
     Some(r)
 }

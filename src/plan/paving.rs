@@ -17,7 +17,7 @@ const GREATEST_SIDE: f64 = 0.2;
 const THICKEST_PX: usize = 6;
 const THICKEST: f64 = 0.34;
 /// How many times one line of a covering may be as dark, across it, as another, and as what crosses it.
-const DARKER: f64 = 1.6;
+pub(super) const DARKER: f64 = 1.6;
 const CROSSING: f64 = 2.2;
 /// Least agreement of the lines of a covering on two directions, 0 to 1, and how far a line may be off them, radians.
 const AGREED: f64 = 0.8;
@@ -79,17 +79,17 @@ pub(super) struct Ink {
 }
 
 impl Ink {
-    fn height(&self) -> usize {
+    pub fn height(&self) -> usize {
         self.dark.len() / self.width.max(1)
     }
 
     /// Ink of some pixels, in black ones.
-    fn sum(&self, pixels: impl IntoIterator<Item = usize>) -> f64 {
+    pub fn sum(&self, pixels: impl IntoIterator<Item = usize>) -> f64 {
         pixels.into_iter().map(|at| f64::from(self.dark[at])).sum::<f64>() / 255.0
     }
 
     /// The pixel at a place, pixels.
-    fn pixel(&self, [x, y]: [f64; 2]) -> Option<usize> {
+    pub fn pixel(&self, [x, y]: [f64; 2]) -> Option<usize> {
         let (x, y) = (x.round(), y.round());
         let inside = x >= 0.0 && y >= 0.0 && x < self.width as f64 && y < self.height() as f64;
         inside.then(|| y as usize * self.width + x as usize)
@@ -321,16 +321,17 @@ fn usual<'a>(cells: &'a [Cell], group: &[usize]) -> &'a Cell {
 }
 
 /// The straight line through some pixels.
-struct Straight {
-    middle: [f64; 2],
-    way: [f64; 2],
+pub(super) struct Straight {
+    pub middle: [f64; 2],
+    /// Its direction, of length 1.
+    pub way: [f64; 2],
     /// How far the pixels reach along the line and across it, pixels.
-    length: f64,
+    pub length: f64,
     breadth: f64,
 }
 
 impl Straight {
-    fn of(line: &[usize], width: usize) -> Straight {
+    pub fn of(line: &[usize], width: usize) -> Straight {
         let places = || line.iter().map(|&at| [(at % width) as f64, (at / width) as f64]);
         let n = line.len().max(1) as f64;
         let middle = [0, 1].map(|k| places().map(|p| p[k]).sum::<f64>() / n);
@@ -346,7 +347,7 @@ impl Straight {
         Straight { middle, way, length: reach(way), breadth: reach([-way[1], way[0]]) }
     }
 
-    fn is_straight(&self) -> bool {
+    pub fn is_straight(&self) -> bool {
         self.breadth <= (0.2 * self.length).max(2.5).min(THICKEST_PX as f64 + 1.0)
     }
 }

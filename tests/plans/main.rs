@@ -4,6 +4,7 @@
 
 mod buildings;
 mod canvas;
+mod coloured;
 mod cropped;
 mod floors;
 mod measure;

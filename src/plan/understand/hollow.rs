@@ -1,7 +1,7 @@
 //! Fills walls that are drawn as outlines or by hatches.
 
 use super::super::components::{Component, Components, Neighbours, Run};
-use super::thick::{grow, open};
+use super::super::thick::{grow, open};
 use crate::math::vec2;
 
 /// Greatest distance between the lines of a hatch, metres.

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::super::components::{Component, Components, Neighbours, Run};
-use super::thick::grow;
+use super::super::thick::grow;
 
 /// Least length of a line, metres.
 const SHORTEST_M: f64 = 0.4;

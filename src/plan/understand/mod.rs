@@ -12,7 +12,6 @@ mod net;
 mod partitions;
 mod pieces;
 mod rooms;
-mod thick;
 
 use self::gaps::Gap;
 use self::net::{Net, WIDEST_DOOR_M, WIDEST_ENTRANCE_M};
@@ -21,6 +20,7 @@ use self::rooms::Rooms;
 use super::components::{Component, Components, Neighbours};
 use super::drawing::Drawing;
 use super::symbols::{FEWEST_STROKES, groups};
+use super::thick;
 use super::{DoorKind, FloorPlan, FurniturePiece, PlanClass, PlanDoor, PlanWindow};
 
 /// Largest drawing that is understood as it is, pixels; above, the cost in memory is felt.
@@ -180,16 +180,16 @@ fn ink_and_net(drawing: &Drawing, metres_per_pixel: f64) -> Option<(Vec<u8>, Net
     if drawing.scanned {
         return None;
     }
-    let coloured = thin(&drawing.coloured, drawing.width, STROKE_M / metres_per_pixel);
+    let coloured = thick::strokes(&drawing.coloured, drawing.width, STROKE_M / metres_per_pixel);
     // Panes are as thick as walls.
-    let panes = thin(&drawing.pane, drawing.width, PANE_M / metres_per_pixel);
+    let panes = thick::strokes(&drawing.pane, drawing.width, PANE_M / metres_per_pixel);
     let is_on = |mask: &[u8], at: usize| mask.get(at).is_some_and(|&on| on != 0);
     let is_ink = |at: usize| {
         let is_thin = is_on(&coloured, at) || is_on(&panes, at);
         u8::from(drawing.dark[at] != 0 || drawing.lightness[at] < FAINT || is_thin)
     };
     let ink: Vec<u8> = (0..pixels).map(is_ink).collect();
-    let faint = thin(&drawing.faint_strokes(), drawing.width, STROKE_M / metres_per_pixel);
+    let faint = thick::strokes(&drawing.faint_strokes(), drawing.width, STROKE_M / metres_per_pixel);
     let mut all_ink = ink.clone();
     all_ink.iter_mut().zip(faint).for_each(|(ink, faint)| *ink |= faint);
     let net = find_net(drawing, &ink, &all_ink, metres_per_pixel)?;
@@ -350,15 +350,6 @@ fn is_connected(classes: &[PlanClass], inside: &[u8], width: usize) -> bool {
     };
     let built: Vec<u8> = classes.iter().zip(inside).map(is_built).collect();
     net::joined(&free, &built, width) >= CONNECTED
-}
-
-/// What of a mask is thinner than some pixels: strokes of saturated colour; broad areas are highlights.
-fn thin(mask: &[u8], width: usize, thickest_px: f64) -> Vec<u8> {
-    if mask.is_empty() {
-        return Vec::new();
-    }
-    let broad = thick::open(mask, width, (thickest_px.round() as usize).max(3));
-    mask.iter().zip(&broad).map(|(&c, &b)| c & (1 - b)).collect()
 }
 
 /// Names strokes that are neither wall nor furniture: door symbols, lettering, frames, lines.

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use super::super::components::{Component, Components, Neighbours, Run};
 use super::super::doors::bend;
+use super::super::thick::{THINNEST_M, grow, open, wall_square};
 use super::directions::SHADOW_SHARE;
 use super::gaps::{self, Gap, Limits};
 use super::leaves;
-use super::thick::{THINNEST_M, grow, open, wall_square};
 use crate::math::sin_cos;
 
 /// Least share of the least box around a building that is enclosed by its walls.

@@ -1,11 +1,11 @@
 //! Partitions that are drawn as single lines between thick walls.
 
 use super::super::components::{Component, Components, Neighbours};
+use super::super::thick::grow;
 use super::gaps::Gap;
 use super::leaves;
 use super::lines;
 use super::net::Net;
-use super::thick::grow;
 
 /// Least length of the leaf of a door with one leaf, as a share of the gap.
 const ONE_LEAF: f64 = 0.8;

@@ -3,8 +3,8 @@
 use super::super::PlanClass;
 use super::super::components::{Component, Components, Neighbours};
 use super::super::symbols::{FEWEST_STROKES, groups};
+use super::super::thick::{grow, open};
 use super::net::Net;
-use super::thick::{grow, open};
 
 /// What is known of a piece of ink or of furniture.
 #[derive(Clone, Copy, Debug)]

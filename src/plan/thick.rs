@@ -1,6 +1,6 @@
 //! Thickness of strokes: what remains of a drawing under openings by squares.
 
-use super::super::components::{Components, Neighbours};
+use super::components::{Components, Neighbours};
 
 /// Keeps the pixels that a square of `side` pixels of non-zero pixels covers.
 pub(super) fn open(mask: &[u8], width: usize, side: usize) -> Vec<u8> {
@@ -40,6 +40,15 @@ pub(super) fn open(mask: &[u8], width: usize, side: usize) -> Vec<u8> {
         }
     }
     kept
+}
+
+/// What of a mask is thinner than some pixels: strokes of saturated colour; broad areas are highlights.
+pub(super) fn strokes(mask: &[u8], width: usize, thickest_px: f64) -> Vec<u8> {
+    if mask.is_empty() {
+        return Vec::new();
+    }
+    let broad = open(mask, width, (thickest_px.round() as usize).max(3));
+    mask.iter().zip(&broad).map(|(&c, &b)| c & (1 - b)).collect()
 }
 
 /// Marks the pixels within `reach` pixels of a non-zero pixel along both axes.

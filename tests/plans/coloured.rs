@@ -1,0 +1,161 @@
+//! Small buildings whose strokes have the colours of layers, and whose floors are filled by lines.
+
+use std::f64::consts::FRAC_PI_2;
+
+use image::{Rgb, RgbImage};
+use trodden::plan::{FloorPlan, PlanClass, PlanOptions, read};
+
+use super::canvas::{Canvas, Point, arc, line, lines, outline, rectangle};
+
+/// Colours of the paper, walls, doors, windows and furniture.
+struct Layers {
+    paper: [u8; 3],
+    wall: [u8; 3],
+    door: [u8; 3],
+    window: [u8; 3],
+    furniture: [u8; 3],
+}
+
+const PLAIN: Layers = Layers { paper: [255; 3], wall: [0; 3], door: [60; 3], window: [60; 3], furniture: [60; 3] };
+const PX_PER_M: f64 = 36.0;
+/// Thickness of strokes.
+const FINE_M: f64 = 0.03;
+/// Rooms above a corridor of the whole length: least and greatest corner, inside.
+const ROOMS: [[Point; 2]; 3] = [[[0.1, 0.1], [5.9, 5.9]], [[6.1, 0.1], [11.9, 5.9]], [[12.1, 0.1], [17.9, 5.9]]];
+const CORRIDOR: [Point; 2] = [[0.1, 6.1], [17.9, 8.9]];
+
+/// Draws three rooms with a door, a window, a desk and a seat each, and a corridor with an entrance. `is_outline` draws
+/// walls as outlines; floors named by `hatched` are filled with lines `pitch` metres apart, `turn` radians off the level.
+fn draw(layers: &Layers, is_outline: bool, hatched: &[[Point; 2]], pitch: f64, turn: f64) -> Canvas {
+    let mut canvas = Canvas::new([24.0, 15.0], [-3.0, -3.0], PX_PER_M, 0.0, layers.paper);
+    for &[min, max] in hatched {
+        let (sine, cosine) = turn.sin_cos();
+        let middle = [0, 1].map(|k| 0.5 * (min[k] + max[k]));
+        let count = (20.0 / pitch) as i32;
+        for off in (-count..=count).map(|k| f64::from(k) * pitch) {
+            let at = [middle[0] - sine * off, middle[1] + cosine * off];
+            let end = |sign: f64| [at[0] + sign * 20.0 * cosine, at[1] + sign * 20.0 * sine];
+            if let Some([a, b]) = clipped([end(-1.0), end(1.0)], min, max) {
+                canvas.fill(&[line(a, b, FINE_M)], [110; 3]);
+            }
+        }
+    }
+    let half = 0.15;
+    let outer = [
+        [-half, -half, 18.0 + half, half],
+        [-half, 9.0 - half, 8.0, 9.0 + half],
+        [9.6, 9.0 - half, 18.0 + half, 9.0 + half],
+        [-half, half, half, 9.0 - half],
+        [18.0 - half, half, 18.0 + half, 9.0 - half],
+    ];
+    let mut inner = vec![[6.0 - 0.07, half, 6.0 + 0.07, 5.93], [12.0 - 0.07, half, 12.0 + 0.07, 5.93]];
+    for x in [0.0, 6.0, 12.0] {
+        let [from, to] = [if x == 0.0 { half } else { x }, if x == 12.0 { 18.0 - half } else { x + 6.0 }];
+        inner.extend([[from, 5.93, x + 3.0, 6.07], [x + 3.9, 5.93, to, 6.07]]);
+    }
+    for [x0, y0, x1, y1] in outer.into_iter().chain(inner) {
+        let wall = rectangle([x0, y0], [x1, y1]);
+        match is_outline {
+            true => canvas.fill(&outline(&wall, FINE_M), layers.wall),
+            false => canvas.fill(&[wall], layers.wall),
+        }
+    }
+    for x in [0.0, 6.0, 12.0] {
+        canvas.fill(&[rectangle([x + 2.0, -half - 0.02], [x + 3.8, half + 0.02])], layers.paper);
+        for end in [x + 2.0, x + 3.8] {
+            canvas.fill(&[line([end, -half], [end, half], FINE_M)], layers.wall);
+        }
+        canvas.fill(&[-half, 0.0, half].map(|y| line([x + 2.0, y], [x + 3.8, y], FINE_M)), layers.window);
+        let swing = arc([x + 3.0, 5.93], 0.9, -FRAC_PI_2, 0.0);
+        canvas.fill(&lines(&[&[[x + 3.0, 5.93]], swing.as_slice()].concat(), FINE_M), layers.door);
+        for piece in [rectangle([x + 2.2, 1.2], [x + 3.8, 2.0]), rectangle([x + 2.8, 2.2], [x + 3.25, 2.65])] {
+            canvas.fill(std::slice::from_ref(&piece), layers.paper);
+            canvas.fill(&outline(&piece, FINE_M), layers.furniture);
+        }
+    }
+    canvas
+}
+
+/// The part of a line within a rectangle.
+fn clipped([a, b]: [Point; 2], min: Point, max: Point) -> Option<[Point; 2]> {
+    let (mut from, mut to) = (0.0f64, 1.0f64);
+    for k in 0..2 {
+        let way = b[k] - a[k];
+        if way.abs() < 1e-9 {
+            if a[k] < min[k] || a[k] > max[k] {
+                return None;
+            }
+            continue;
+        }
+        let [s, t] = [(min[k] - a[k]) / way, (max[k] - a[k]) / way];
+        (from, to) = (from.max(s.min(t)), to.min(s.max(t)));
+    }
+    let at = |share: f64| [0, 1].map(|k| a[k] + share * (b[k] - a[k]));
+    (from < to).then(|| [at(from), at(to)])
+}
+
+fn read_canvas(canvas: &Canvas) -> FloorPlan {
+    let pixel =
+        |x: u32, y: u32| Rgb(canvas.pixels[y as usize * canvas.width + x as usize].map(|value| value.round() as u8));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("plan.png");
+    RgbImage::from_fn(canvas.width as u32, canvas.height as u32, pixel).save(&path).unwrap();
+    read(&path, &PlanOptions::default()).unwrap()
+}
+
+fn check(canvas: &Canvas, what: &str) {
+    let plan = read_canvas(canvas);
+    let scale = plan.metres_per_pixel * PX_PER_M;
+    assert!((0.88..1.12).contains(&scale), "{what}: the scale is {scale} times the true one");
+    assert_eq!([plan.doors.len(), plan.windows.len()], [4, 3], "{what}: doors and windows");
+    let standing = plan.furniture.iter().map(|piece| piece.area_m2 / (scale * scale)).sum::<f64>();
+    let drawn = 3.0 * (1.6 * 0.8 + 0.45 * 0.45);
+    assert!((0.8 * drawn..1.35 * drawn).contains(&standing), "{what}: {standing} m2 of furniture");
+    let is_free = |at: usize| plan.floor[at] != 0 || plan.classes[at].is_furniture();
+    for [min, max] in ROOMS.into_iter().chain([CORRIDOR]) {
+        let ([x0, y0], [x1, y1]) = (canvas.px(min), canvas.px(max));
+        let rows = y0.ceil() as usize..y1 as usize;
+        let within = rows.flat_map(|y| (x0.ceil() as usize..x1 as usize).map(move |x| y * canvas.width + x));
+        let free = within.clone().filter(|&at| is_free(at)).count() as f64 / within.count() as f64;
+        assert!(free > 0.95, "{what}: {free} of the room at {min:?} is floor or furniture");
+    }
+    assert!(plan.classes.iter().all(|&class| class != PlanClass::Stairs), "{what}: no stairs are drawn");
+}
+
+/// Doors in yellow and windows in cyan did not count for the scale: walls and gaps of windows were guessed by.
+#[test]
+fn drawings_with_a_colour_for_each_layer_have_a_scale() {
+    let dark = Layers {
+        paper: [33, 40, 48],
+        wall: [255; 3],
+        door: [255, 255, 0],
+        window: [0, 255, 255],
+        furniture: [0, 200, 0],
+    };
+    let light =
+        Layers { paper: [255; 3], wall: [0; 3], door: [0, 0, 255], window: [0, 160, 160], furniture: [0, 140, 0] };
+    let red = Layers { wall: [170, 60, 45], door: [60, 90, 150], window: [60, 90, 150], ..light };
+    for (layers, is_outline, what) in [
+        (&dark, true, "outlines on dark"),
+        (&dark, false, "filled walls on dark"),
+        (&light, false, "filled walls on white"),
+        (&red, false, "red walls"),
+    ] {
+        check(&draw(layers, is_outline, &[], 1.0, 0.0), what);
+    }
+}
+
+/// Rooms that a hatch marks, and planks without joints, were desks, stairs and closed rooms.
+#[test]
+fn floors_that_are_filled_by_lines_are_floors() {
+    let turn = |degrees: f64| degrees.to_radians();
+    for (hatched, pitch, degrees, what) in [
+        (&ROOMS[..1], 0.25, 45.0, "a hatched room"),
+        (&[CORRIDOR][..], 0.18, -45.0, "a hatched corridor"),
+        (&ROOMS[1..], 0.3, 30.0, "two rooms hatched at 30 degrees"),
+        (&ROOMS[..], 0.14, 0.0, "level planks"),
+        (&ROOMS[..2], 0.16, 90.0, "upright planks"),
+    ] {
+        check(&draw(&PLAIN, false, hatched, pitch, turn(degrees)), what);
+    }
+}
