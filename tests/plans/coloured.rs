@@ -159,3 +159,23 @@ fn floors_that_are_filled_by_lines_are_floors() {
         check(&draw(&PLAIN, false, hatched, pitch, turn(degrees)), what);
     }
 }
+
+/// Pairs of desks were beds. A bed has a field for its pillow.
+#[test]
+fn pairs_of_desks_are_tables_and_beds_are_none() {
+    let mut canvas = draw(&PLAIN, false, &[], 1.0, 0.0);
+    let mut lay = |min: Point, max: Point, across: [Point; 2]| {
+        canvas.fill(&outline(&rectangle(min, max), FINE_M), PLAIN.furniture);
+        canvas.fill(&[line(across[0], across[1], FINE_M)], PLAIN.furniture);
+    };
+    lay([7.0, 3.2], [8.6, 4.8], [[7.0, 4.0], [8.6, 4.0]]);
+    lay([9.6, 3.2], [11.2, 4.8], [[10.4, 3.2], [10.4, 4.8]]);
+    lay([15.4, 3.6], [17.4, 4.5], [[15.85, 3.6], [15.85, 4.5]]);
+    let plan = read_canvas(&canvas);
+    for (place, class) in
+        [([7.8, 3.6], PlanClass::Table), ([10.0, 4.2], PlanClass::Table), ([16.4, 4.2], PlanClass::Seat)]
+    {
+        let [x, y] = canvas.px(place).map(|px| px as usize);
+        assert_eq!(plan.classes[y * canvas.width + x], class, "at {place:?}");
+    }
+}

@@ -1,5 +1,7 @@
 //! Furniture, lettering and lines: what is drawn within and around a building.
 
+use std::ops::RangeInclusive;
+
 use super::super::PlanClass;
 use super::super::components::{Component, Components, Neighbours};
 use super::super::symbols::{FEWEST_STROKES, groups};
@@ -19,6 +21,8 @@ pub(super) struct Evidence {
     pub(super) fields: usize,
     /// Greatest number of fields of about the same size and of that of treads.
     pub(super) alike: usize,
+    /// Share of it that fields in pairs of the size of desks have.
+    pub(super) desks: f64,
     /// Share of its box that it fills.
     pub(super) fill: f64,
     pub(super) class: PlanClass,
@@ -27,6 +31,12 @@ pub(super) struct Evidence {
 /// Largest field of a piece of furniture, square metres, and its greatest depth, metres.
 const LARGEST_FIELD_M2: f64 = 7.0;
 const DEEPEST_FIELD_M: f64 = 2.6;
+/// Depth and length of desks, metres, least length in depths, and least share of a piece that they have: pairs of desks, not a
+/// bed with its pillows.
+const DESK_DEPTH_M: RangeInclusive<f64> = 0.5..=1.0;
+const DESK_LENGTH_M: RangeInclusive<f64> = 1.0..=2.2;
+const DESK_SLENDER: f64 = 1.3;
+const DESKS: f64 = 0.6;
 /// Greatest depth and area of a row of shelves, area of rows back to back and of flights of stairs, and least share of its outline
 /// that is drawn and of its box that it fills, metres and square metres.
 const DEEPEST_ROW_M: f64 = 1.4;
@@ -155,6 +165,10 @@ pub(super) fn furniture(
             let [w, h] = f.size().map(|side| f64::from(side) * metres_per_pixel);
             (0.18..=0.42).contains(&w.min(h)) && w.max(h) >= least_m
         };
+        let is_desk = |f: &Component| {
+            let [w, h] = f.size().map(|side| f64::from(side) * metres_per_pixel);
+            DESK_DEPTH_M.contains(&w.min(h)) && DESK_LENGTH_M.contains(&w.max(h)) && w.max(h) >= DESK_SLENDER * w.min(h)
+        };
         let alike = |a: &&&Component| {
             parts
                 .iter()
@@ -171,6 +185,8 @@ pub(super) fn furniture(
             fields: parts.len(),
             // The line on which one walks halves treads.
             alike: most_alike(TREAD_M).max(most_alike(HALF_TREAD_M) / 2),
+            desks: parts.iter().filter(|p| is_desk(p) && alike(p) >= 2).map(|p| p.area as f64).sum::<f64>()
+                / object.area as f64,
             fill,
             class: PlanClass::Table,
         };
@@ -338,7 +354,7 @@ fn class(piece: &Evidence, sides: [f64; 2]) -> PlanClass {
         // Sinks and hobs divide it into many fields.
         () if is_at_wall && depth <= 0.7 && length >= 1.8 => PlanClass::Counter,
         () if length <= 0.85 => PlanClass::Seat,
-        () if depth >= 0.6 && length >= 1.4 && piece.fields >= 2 => PlanClass::Seat,
+        () if depth >= 0.6 && length >= 1.4 && piece.fields >= 2 && piece.desks < DESKS => PlanClass::Seat,
         () => PlanClass::Table,
     }
 }
