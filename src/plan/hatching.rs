@@ -4,7 +4,7 @@
 //! They are known by repetition: many thin lines at one distance, over an area that is broader than walls and stairs.
 
 use super::components::{Components, Neighbours};
-use super::paving::{DARKER, Ink, Straight};
+use super::paving::{DARKER, Ink, LARGEST_PX, Straight};
 use super::thick::{grow, open};
 
 /// Greatest thickness of a line, pixels, and as a share of the distance between two.
@@ -41,41 +41,66 @@ struct Kind {
 const KINDS: [Kind; 2] =
     [Kind { slanting: true, most: 7, breadth: 0.05 }, Kind { slanting: false, most: 20, breadth: 0.08 }];
 
-/// Pixels of the lines that fill floors.
-pub(super) fn lines(ink: &Ink) -> Vec<usize> {
-    KINDS.iter().flat_map(|kind| of_kind(ink, kind)).collect()
+/// The lines of a drawing that follow each other.
+struct Marks {
+    /// How far each pixel of a line is from the next line, pixels, 0 for others, and whether it is within its row of lines; for
+    /// lines along rows and along columns.
+    ways: [Vec<(u8, bool)>; 2],
+    /// 1 for pixels of either.
+    marked: Vec<u8>,
+    /// How many follow each other there.
+    count: Vec<u8>,
+    /// The greatest distance between two.
+    largest: usize,
 }
 
-fn of_kind(ink: &Ink, kind: &Kind) -> Vec<usize> {
-    let (width, pixels) = (ink.width, ink.dark.len());
-    let height = ink.height();
-    let larger = width.max(height) as f64;
-    let greatest = ((larger * GREATEST_PITCH) as usize).min(usize::from(u8::MAX));
-    let rows: Vec<_> = (0..height).map(|y| (y * width, 1, width)).collect();
-    let columns: Vec<_> = (0..width).map(|x| (x, width, height)).collect();
-    let (mut marked, mut strong) = (vec![0u8; pixels], vec![0u8; pixels]);
-    let mut largest = 0;
-    // Along rows, the upper and lower edges of furniture join no lines, and along columns the others.
-    let both = [rows, columns].map(|ways| {
-        let mut marks = vec![(0u8, false); pixels];
-        for way in ways {
-            mark(ink, way, greatest, |mark| {
-                marks[mark.at] = (mark.apart, mark.within);
-                marked[mark.at] = 1;
-                strong[mark.at] |= u8::from(mark.count >= kind.most);
-                largest = largest.max(usize::from(mark.apart));
-            });
-        }
-        marks
-    });
-    if largest == 0 {
+impl Marks {
+    fn of(ink: &Ink) -> Marks {
+        let (width, height, pixels) = (ink.width, ink.height(), ink.dark.len());
+        let greatest = ((width.max(height) as f64 * GREATEST_PITCH) as usize).min(usize::from(u8::MAX));
+        let (mut marked, mut count) = (vec![0u8; pixels], vec![0u8; pixels]);
+        let mut largest = 0;
+        let rows: Vec<_> = (0..height).map(|y| (y * width, 1, width)).collect();
+        let columns: Vec<_> = (0..width).map(|x| (x, width, height)).collect();
+        let ways = [rows, columns].map(|ways| {
+            let mut marks = vec![(0u8, false); pixels];
+            for way in ways {
+                mark(ink, way, greatest, |mark| {
+                    marks[mark.at] = (mark.apart, mark.within);
+                    marked[mark.at] = 1;
+                    count[mark.at] = count[mark.at].max(mark.count.min(255) as u8);
+                    largest = largest.max(usize::from(mark.apart));
+                });
+            }
+            marks
+        });
+        Marks { ways, marked, count, largest }
+    }
+}
+
+/// Pixels of the lines that fill floors.
+pub(super) fn lines(ink: &Ink) -> Vec<usize> {
+    if ink.dark.len() > LARGEST_PX {
         return Vec::new();
     }
-    let (reach, broad) = (largest / 2 + 1, (larger * kind.breadth) as usize);
-    let mut filled = open(&grow(&marked, width, reach), width, broad + 2 * reach);
+    let marks = Marks::of(ink);
+    if marks.largest == 0 {
+        return Vec::new();
+    }
+    KINDS.iter().flat_map(|kind| of_kind(ink, &marks, kind)).collect()
+}
+
+fn of_kind(ink: &Ink, marks: &Marks, kind: &Kind) -> Vec<usize> {
+    let width = ink.width;
+    let (reach, broad) = (marks.largest / 2 + 1, (width.max(ink.height()) as f64 * kind.breadth) as usize);
+    let mut filled = open(&grow(&marks.marked, width, reach), width, broad + 2 * reach);
     let areas = Components::of(&filled, width, 1, Neighbours::Four);
-    for area in areas.all.iter().filter(|area| !areas.touches(area, &strong, width)) {
+    let is_row = |at: usize| usize::from(marks.count[at]) >= kind.most;
+    for area in areas.all.iter().filter(|area| !areas.ranges(area, width).flatten().any(is_row)) {
         areas.paint(area, &mut filled, width, 0);
+    }
+    if !filled.contains(&1) {
+        return Vec::new();
     }
     // Corners of a room are narrower.
     let around = grow(&filled, width, NEAR * broad);
@@ -83,7 +108,8 @@ fn of_kind(ink: &Ink, kind: &Kind) -> Vec<usize> {
     let strokes = if kind.slanting { level_and_upright(ink) } else { Vec::new() };
     let is_free = |at: usize| strokes.get(at).is_none_or(|&stroke| stroke == 0);
     let mut found = Vec::new();
-    for marks in both {
+    // Along rows, the upper and lower edges of furniture join no lines, and along columns the others.
+    for marks in &marks.ways {
         let marked: Vec<u8> = marks.iter().map(|&(apart, _)| u8::from(apart != 0)).collect();
         let pieces = Components::of(&marked, width, 1, Neighbours::Eight);
         for piece in &pieces.all {

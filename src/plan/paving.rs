@@ -9,7 +9,7 @@ use super::components::{Component, Components, Neighbours};
 use crate::math::{atan2, sin_cos};
 
 /// Largest drawing that is searched, pixels.
-const LARGEST_PX: usize = 40_000_000;
+pub(super) const LARGEST_PX: usize = 40_000_000;
 /// Least side of a cell, pixels, and greatest, as a share of the drawing's larger side.
 const LEAST_SIDE_PX: u32 = 2;
 const GREATEST_SIDE: f64 = 0.2;
