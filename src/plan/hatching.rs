@@ -3,9 +3,11 @@
 //!
 //! They are known by repetition: many thin lines at one distance, over an area that is broader than walls and stairs.
 
+use std::ops::Range;
+
 use super::components::{Components, Neighbours};
 use super::paving::{DARKER, Ink, LARGEST_PX, Straight};
-use super::thick::{grow, open};
+use super::thick::{grow, long_runs, open, runs};
 
 /// Greatest thickness of a line, pixels, and as a share of the distance between two.
 const THICKEST_PX: usize = 6;
@@ -27,6 +29,8 @@ const THICKER_PX: usize = 1;
 const LONG: f64 = 3.0;
 /// How far a slanting line is off the image's rows and columns at least: the lesser share of its way.
 const SLANT: f64 = 0.25;
+/// Least length of level and upright strokes, pixels: slanting lines have shorter runs in rows and columns.
+const STROKE_PX: usize = 12;
 
 /// Which lines are looked for.
 struct Kind {
@@ -46,16 +50,16 @@ struct Marks {
     /// How far each pixel of a line is from the next line, pixels, 0 for others, and whether it is within its row of lines; for
     /// lines along rows and along columns.
     ways: [Vec<(u8, bool)>; 2],
-    /// 1 for pixels of either.
-    marked: Vec<u8>,
+    /// 1 for pixels of either, and as far around as half the greatest distance between two.
+    filled: Vec<u8>,
     /// How many follow each other there.
     count: Vec<u8>,
-    /// The greatest distance between two.
-    largest: usize,
+    /// How far that is, pixels.
+    reach: usize,
 }
 
 impl Marks {
-    fn of(ink: &Ink) -> Marks {
+    fn of(ink: &Ink) -> Option<Marks> {
         let (width, height, pixels) = (ink.width, ink.height(), ink.dark.len());
         let greatest = ((width.max(height) as f64 * GREATEST_PITCH) as usize).min(usize::from(u8::MAX));
         let (mut marked, mut count) = (vec![0u8; pixels], vec![0u8; pixels]);
@@ -74,7 +78,8 @@ impl Marks {
             }
             marks
         });
-        Marks { ways, marked, count, largest }
+        let reach = largest / 2 + 1;
+        (largest > 0).then(|| Marks { ways, filled: grow(&marked, width, reach), count, reach })
     }
 }
 
@@ -83,17 +88,14 @@ pub(super) fn lines(ink: &Ink) -> Vec<usize> {
     if ink.dark.len() > LARGEST_PX {
         return Vec::new();
     }
-    let marks = Marks::of(ink);
-    if marks.largest == 0 {
-        return Vec::new();
-    }
+    let Some(marks) = Marks::of(ink) else { return Vec::new() };
     KINDS.iter().flat_map(|kind| of_kind(ink, &marks, kind)).collect()
 }
 
 fn of_kind(ink: &Ink, marks: &Marks, kind: &Kind) -> Vec<usize> {
     let width = ink.width;
-    let (reach, broad) = (marks.largest / 2 + 1, (width.max(ink.height()) as f64 * kind.breadth) as usize);
-    let mut filled = open(&grow(&marks.marked, width, reach), width, broad + 2 * reach);
+    let broad = (width.max(ink.height()) as f64 * kind.breadth) as usize;
+    let mut filled = open(&marks.filled, width, broad + 2 * marks.reach);
     let areas = Components::of(&filled, width, 1, Neighbours::Four);
     let is_row = |at: usize| usize::from(marks.count[at]) >= kind.most;
     for area in areas.all.iter().filter(|area| !areas.ranges(area, width).flatten().any(is_row)) {
@@ -105,8 +107,8 @@ fn of_kind(ink: &Ink, marks: &Marks, kind: &Kind) -> Vec<usize> {
     // Corners of a room are narrower.
     let around = grow(&filled, width, NEAR * broad);
     // Level and upright strokes stay whole where slanting lines cross them.
-    let strokes = if kind.slanting { level_and_upright(ink) } else { Vec::new() };
-    let is_free = |at: usize| strokes.get(at).is_none_or(|&stroke| stroke == 0);
+    let strokes = kind.slanting.then(|| [1, width].map(|stride| long_runs(&ink.dark, width, stride, STROKE_PX)));
+    let is_free = |at: usize| strokes.iter().flatten().all(|strokes| strokes[at] == 0);
     let mut found = Vec::new();
     // Along rows, the upper and lower edges of furniture join no lines, and along columns the others.
     for marks in &marks.ways {
@@ -134,32 +136,6 @@ fn of_kind(ink: &Ink, marks: &Marks, kind: &Kind) -> Vec<usize> {
         }
     }
     found
-}
-
-/// Marks runs of ink in rows and columns that are longer than those of slanting lines.
-fn level_and_upright(ink: &Ink) -> Vec<u8> {
-    const LEAST_PX: usize = 12;
-    let (width, height) = (ink.width, ink.height());
-    let mut marked = vec![0; ink.dark.len()];
-    let rows = (0..height).map(|y| (y * width, 1, width));
-    for (start, step, count) in rows.chain((0..width).map(|x| (x, width, height))) {
-        for [from, to] in runs(ink, (start, step, count)).into_iter().filter(|[from, to]| to - from >= LEAST_PX) {
-            (from..to).for_each(|k| marked[start + k * step] = 1);
-        }
-    }
-    marked
-}
-
-/// Runs of ink in a row or column, which begins at `start`.
-fn runs(ink: &Ink, (start, step, count): (usize, usize, usize)) -> Vec<[usize; 2]> {
-    let mut runs: Vec<[usize; 2]> = Vec::new();
-    for k in (0..count).filter(|&k| ink.dark[start + k * step] != 0) {
-        match runs.last_mut() {
-            Some(run) if run[1] == k => run[1] += 1,
-            _ => runs.push([k, k + 1]),
-        }
-    }
-    runs
 }
 
 /// Follows a line from its middle, over thin strokes that cross it, up to a wall, its end, or that of the area around.
@@ -225,11 +201,11 @@ struct Mark {
 
 /// Finds in a row or column, which begins at `start`, the pixels of thin lines at even distances.
 fn mark(ink: &Ink, (start, step, count): (usize, usize, usize), greatest: usize, mut found: impl FnMut(Mark)) {
-    let runs = runs(ink, (start, step, count));
-    let thick = |k: usize| runs[k][1] - runs[k][0];
+    let runs: Vec<Range<usize>> = runs(count, 0, |k| ink.dark[start + k * step] != 0).collect();
+    let thick = |k: usize| runs[k].len();
     let is_thicker = |k: usize, than: usize| thick(k) > THICKER * thick(than) + THICKER_PX;
     let is_next = |k: usize| {
-        let (apart, thickest) = (runs[k][0] - runs[k - 1][0], thick(k).max(thick(k - 1)));
+        let (apart, thickest) = (runs[k].start - runs[k - 1].start, thick(k).max(thick(k - 1)));
         (LEAST_PITCH_PX..=greatest).contains(&apart)
             && thickest <= THICKEST_PX
             && thickest as f64 <= THICKEST * apart as f64
@@ -240,23 +216,23 @@ fn mark(ink: &Ink, (start, step, count): (usize, usize, usize), greatest: usize,
     while first < runs.len() {
         let mut end = first + 1;
         while end < runs.len() && is_next(end) {
-            let mean = (runs[end - 1][0] - runs[first][0]) as f64 / (end - 1 - first).max(1) as f64;
-            let off = (runs[end][0] - runs[end - 1][0]) as f64 - mean;
+            let mean = (runs[end - 1].start - runs[first].start) as f64 / (end - 1 - first).max(1) as f64;
+            let off = (runs[end].start - runs[end - 1].start) as f64 - mean;
             if end - 1 > first && off.abs() > UNEVEN_PX + UNEVEN * mean {
                 break;
             }
             end += 1;
         }
         if end - first >= FEWEST {
-            let apart = (runs[end - 1][0] - runs[first][0]) / (end - 1 - first);
+            let apart = (runs[end - 1].start - runs[first].start) / (end - 1 - first);
             let is_wall = |k: usize, line: usize| {
-                let gap = if k < line { runs[line][0] - runs[k][1] } else { runs[k][0] - runs[line][1] };
+                let gap = if k < line { runs[line].start - runs[k].end } else { runs[k].start - runs[line].end };
                 is_thicker(k, line) && gap <= apart + 1
             };
-            for (k, &[from, to]) in runs.iter().enumerate().take(end).skip(first) {
+            for (k, run) in runs.iter().enumerate().take(end).skip(first) {
                 let is_free = k == first && !(k > 0 && is_wall(k - 1, k))
                     || k + 1 == end && !(end < runs.len() && is_wall(end, k));
-                for place in from..to {
+                for place in run.clone() {
                     let at = start + place * step;
                     found(Mark { at, apart: apart as u8, count: end - first, within: !is_free });
                 }

@@ -1,5 +1,7 @@
 //! Thickness of strokes: what remains of a drawing under openings by squares.
 
+use std::ops::Range;
+
 use super::components::{Components, Neighbours};
 
 /// Keeps the pixels that a square of `side` pixels of non-zero pixels covers.
@@ -49,6 +51,38 @@ pub(super) fn strokes(mask: &[u8], width: usize, thickest_px: f64) -> Vec<u8> {
     }
     let broad = open(mask, width, (thickest_px.round() as usize).max(3));
     mask.iter().zip(&broad).map(|(&c, &b)| c & (1 - b)).collect()
+}
+
+/// Stretches below `length` that are on, with breaks of up to `longest` places within.
+pub(super) fn runs(length: usize, longest: usize, is_on: impl Fn(usize) -> bool) -> impl Iterator<Item = Range<usize>> {
+    let mut all: Vec<Range<usize>> = Vec::new();
+    for k in (0..length).filter(|&k| is_on(k)) {
+        match all.last_mut() {
+            Some(run) if k - run.end <= longest => run.end = k + 1,
+            _ => all.push(k..k + 1),
+        }
+    }
+    all.into_iter()
+}
+
+/// Keeps the pixels of runs of a least length; `stride` is 1 along rows and the width along columns.
+pub(super) fn long_runs(mask: &[u8], width: usize, stride: usize, least: usize) -> Vec<u8> {
+    let (lines, length) = if stride == 1 { (mask.len() / width, width) } else { (width, mask.len() / width) };
+    let start = if stride == 1 { width } else { 1 };
+    let mut kept = vec![0u8; mask.len()];
+    for line in 0..lines {
+        let mut from = 0;
+        for k in 0..=length {
+            let is_on = k < length && mask[line * start + k * stride] != 0;
+            if !is_on {
+                if k - from >= least {
+                    (from..k).for_each(|k| kept[line * start + k * stride] = 1);
+                }
+                from = k + 1;
+            }
+        }
+    }
+    kept
 }
 
 /// Marks the pixels within `reach` pixels of a non-zero pixel along both axes.

@@ -2,6 +2,9 @@
 
 use std::ops::Range;
 
+use image::{Rgb, RgbImage};
+use trodden::plan::{FloorPlan, PlanOptions, read};
+
 /// A point in metres, x right, y down.
 pub type Point = [f64; 2];
 
@@ -74,6 +77,16 @@ impl Canvas {
         for (pixel, &bits) in self.pixels.iter_mut().zip(samples).filter(|(_, bits)| **bits != 0) {
             lay(pixel, bits, colour);
         }
+    }
+
+    /// Reads the picture as a plan. `None` guesses the scale.
+    pub fn read(&self, metres_per_pixel: Option<f64>) -> FloorPlan {
+        let pixel =
+            |x: u32, y: u32| Rgb(self.pixels[y as usize * self.width + x as usize].map(|value| value.round() as u8));
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("plan.png");
+        RgbImage::from_fn(self.width as u32, self.height as u32, pixel).save(&path).unwrap();
+        read(&path, &PlanOptions { metres_per_pixel, ..PlanOptions::default() }).unwrap()
     }
 
     /// Lays a colour on polygons; looks only at the rows that they reach.

@@ -2,8 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use image::{Rgb, RgbImage};
-use trodden::plan::{FloorPlan, PlanClass, PlanOptions, read};
+use trodden::plan::PlanClass;
 
 use super::canvas::{Canvas, Point, arc, line, lines, outline, rectangle};
 
@@ -94,17 +93,8 @@ fn clipped([a, b]: [Point; 2], min: Point, max: Point) -> Option<[Point; 2]> {
     (from < to).then(|| [at(from), at(to)])
 }
 
-fn read_canvas(canvas: &Canvas) -> FloorPlan {
-    let pixel =
-        |x: u32, y: u32| Rgb(canvas.pixels[y as usize * canvas.width + x as usize].map(|value| value.round() as u8));
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("plan.png");
-    RgbImage::from_fn(canvas.width as u32, canvas.height as u32, pixel).save(&path).unwrap();
-    read(&path, &PlanOptions::default()).unwrap()
-}
-
 fn check(canvas: &Canvas, what: &str) {
-    let plan = read_canvas(canvas);
+    let plan = canvas.read(None);
     let scale = plan.metres_per_pixel * PX_PER_M;
     assert!((0.88..1.12).contains(&scale), "{what}: the scale is {scale} times the true one");
     assert_eq!([plan.doors.len(), plan.windows.len()], [4, 3], "{what}: doors and windows");
@@ -171,7 +161,7 @@ fn pairs_of_desks_are_tables_and_beds_are_none() {
     lay([7.0, 3.2], [8.6, 4.8], [[7.0, 4.0], [8.6, 4.0]]);
     lay([9.6, 3.2], [11.2, 4.8], [[10.4, 3.2], [10.4, 4.8]]);
     lay([15.4, 3.6], [17.4, 4.5], [[15.85, 3.6], [15.85, 4.5]]);
-    let plan = read_canvas(&canvas);
+    let plan = canvas.read(None);
     for (place, class) in
         [([7.8, 3.6], PlanClass::Table), ([10.0, 4.2], PlanClass::Table), ([16.4, 4.2], PlanClass::Seat)]
     {

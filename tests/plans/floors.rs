@@ -1,6 +1,6 @@
 //! Drawings whose floors have tones, whose furniture is filled or faint, and whose cells are pixels.
 
-use image::{GrayImage, Luma, Rgb, RgbImage};
+use image::{GrayImage, Luma};
 use trodden::plan::{FloorPlan, PlanClass, PlanOptions, read};
 
 use std::f64::consts::FRAC_PI_2;
@@ -12,16 +12,6 @@ const BLACK: [u8; 3] = [50, 50, 50];
 fn walls(lines: &[[f64; 4]], thick: f64) -> Vec<Polygon> {
     let half = 0.5 * thick;
     lines.iter().map(|&[x0, y0, x1, y1]| rectangle([x0 - half, y0 - half], [x1 + half, y1 + half])).collect()
-}
-
-/// Reads a canvas as a picture. `None` guesses the scale.
-fn read_canvas(canvas: &Canvas, metres_per_pixel: Option<f64>) -> FloorPlan {
-    let pixel =
-        |x: u32, y: u32| Rgb(canvas.pixels[y as usize * canvas.width + x as usize].map(|value| value.round() as u8));
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("plan.png");
-    RgbImage::from_fn(canvas.width as u32, canvas.height as u32, pixel).save(&path).unwrap();
-    read(&path, &PlanOptions { metres_per_pixel, ..PlanOptions::default() }).unwrap()
 }
 
 /// Share of a rectangle that is floor, metres of the drawing.
@@ -61,7 +51,7 @@ fn shelves_and_racks_stand_in_the_way() {
         let [min, max] = rack(k);
         canvas.fill(&[rectangle(min, max)], [40, 70, 140]);
     }
-    let plan = read_canvas(&canvas, Some(0.05));
+    let plan = canvas.read(Some(0.05));
     for k in (0..5).map(f64::from) {
         let [min, max] = shelf(k);
         let (on, beside) = (floor_in(&plan, &canvas, [min, max]), [[max[0] + 0.3, 4.0], [max[0] + 2.2, 18.0]]);
@@ -122,7 +112,7 @@ fn a_flat_with_floors_of_wood_and_tile_is_as_on_paper() {
     for (min, max) in windows {
         canvas.fill(&[rectangle(min, max)], pane);
     }
-    let plan = read_canvas(&canvas, None);
+    let plan = canvas.read(None);
     let scale = plan.metres_per_pixel * 70.0;
     assert!((0.88..1.14).contains(&scale), "the scale is {scale} times the true one");
     assert_eq!([plan.doors.len(), plan.windows.len()], [5, 3]);
@@ -181,7 +171,7 @@ fn a_corridor_that_is_open_at_its_ends_joins_its_rooms() {
             canvas.fill(&[-0.155, 0.0, 0.155].map(pane), BLACK);
         }
     }
-    let plan = read_canvas(&canvas, Some(0.05));
+    let plan = canvas.read(Some(0.05));
     assert_eq!([plan.doors.len(), plan.windows.len()], [14, 12]);
     let corridor = floor_in(&plan, &canvas, [[0.5, 9.7], [47.5, 12.3]]);
     assert!(corridor > 0.97, "{corridor} of the corridor is floor");
@@ -225,7 +215,7 @@ fn grey_walls_with_outlines_and_filled_swings_have_an_entrance() {
         canvas.fill(&[desk(x)], [245; 3]);
         canvas.fill(&outline(&desk(x), 0.03), [90; 3]);
     }
-    let plan = read_canvas(&canvas, None);
+    let plan = canvas.read(None);
     let scale = plan.metres_per_pixel * 26.0;
     assert!((0.85..1.15).contains(&scale), "the scale is {scale} times the true one");
     assert_eq!(plan.doors.len(), 8);
@@ -276,7 +266,7 @@ fn an_office_that_was_scanned_askew_has_windows_and_no_stools() {
     for at in (0..width * height).filter(|at| at % width < 14 || at / width >= height - 10) {
         canvas.pixels[at] = [60.0; 3];
     }
-    let plan = read_canvas(&canvas, None);
+    let plan = canvas.read(None);
     let scale = plan.metres_per_pixel * 34.0;
     assert!((0.85..1.15).contains(&scale), "the scale is {scale} times the true one");
     assert_eq!([plan.doors.len(), plan.windows.len(), plan.furniture.len()], [8, 5, 0]);
@@ -309,7 +299,7 @@ fn light_lines_between_areas_of_colour_are_walls() {
         canvas.fill(&[rectangle(min, max)], tones[0]);
     }
     canvas.fill(&text("LEVEL 1", [17.0, -1.6], 0.8, 0.12), [90; 3]);
-    let plan = read_canvas(&canvas, Some(0.05));
+    let plan = canvas.read(Some(0.05));
     assert_eq!(plan.doors.len(), doors.len());
     for [min, max] in rooms {
         let floor = floor_in(&plan, &canvas, [[min[0] + 0.1, min[1] + 0.1], [max[0] - 0.1, max[1] - 0.1]]);
@@ -356,7 +346,7 @@ fn two_floors_on_one_sheet_have_doors_windows_and_stairs() {
         canvas.fill(&outline(&rectangle(min, max), 0.04), BLACK);
         canvas.fill(&[line([middle, min[1]], [middle, max[1]], 0.04)], BLACK);
     }
-    let plan = read_canvas(&canvas, Some(1.0 / 30.0));
+    let plan = canvas.read(Some(1.0 / 30.0));
     assert_eq!([plan.doors.len(), plan.windows.len()], [7, 6]);
     let stairs = plan.classes.iter().filter(|&&class| class == PlanClass::Stairs).count() as f64 / 900.0;
     // Nobody reaches those of the upper floor.

@@ -7,6 +7,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::super::cracks::trace;
+use super::super::thick::runs;
 use super::directions;
 use crate::math::sin_cos;
 
@@ -541,16 +542,4 @@ fn slides(ink: &[u8], width: usize, gap: &Gap) -> bool {
         leaves.for_each(|leaf| covered[leaf].fill(true));
     }
     covered.iter().filter(|&&covered| covered).count() as f64 >= COVERED * length as f64
-}
-
-/// Stretches below `length` that are on, with breaks of up to `longest` places within.
-fn runs(length: usize, longest: usize, is_on: impl Fn(usize) -> bool) -> impl Iterator<Item = Range<usize>> {
-    let mut all: Vec<Range<usize>> = Vec::new();
-    for k in (0..length).filter(|&k| is_on(k)) {
-        match all.last_mut() {
-            Some(run) if k - run.end <= longest => run.end = k + 1,
-            _ => all.push(k..k + 1),
-        }
-    }
-    all.into_iter()
 }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::super::components::{Component, Components, Neighbours, Run};
-use super::super::thick::grow;
+use super::super::thick::{grow, long_runs};
 
 /// Least length of a line, metres.
 const SHORTEST_M: f64 = 0.4;
@@ -403,26 +403,6 @@ fn drop_frame(level: &mut [u8], upright: &mut [u8], width: usize) {
         pieces.paint(frame, level, width, 0);
         pieces.paint(frame, upright, width, 0);
     }
-}
-
-/// Keeps the pixels of runs of a least length; `stride` is 1 along rows and the width along columns.
-fn long_runs(mask: &[u8], width: usize, stride: usize, least: usize) -> Vec<u8> {
-    let (lines, length) = if stride == 1 { (mask.len() / width, width) } else { (width, mask.len() / width) };
-    let start = if stride == 1 { width } else { 1 };
-    let mut kept = vec![0u8; mask.len()];
-    for line in 0..lines {
-        let mut from = 0;
-        for k in 0..=length {
-            let is_on = k < length && mask[line * start + k * stride] != 0;
-            if !is_on {
-                if k - from >= least {
-                    (from..k).for_each(|k| kept[line * start + k * stride] = 1);
-                }
-                from = k + 1;
-            }
-        }
-    }
-    kept
 }
 
 /// Marks the white fields of a drawing of lines that are smaller than this, pixels.
