@@ -37,6 +37,16 @@ pub(super) fn signed(key: u32, i: i32, j: i32) -> f32 {
     hash(key, i, j) as i32 as f32 / 2_147_483_648.0
 }
 
+/// Spacing of lattices from which noise is turned, metres: smaller squares do not show.
+const TURNED_FROM_M: f64 = 0.1;
+/// Cosine and sine of the turn, and how far the lattice is bent, in its spacings.
+const TURN: [f64; 2] = [0.8, 0.6];
+const BEND: f64 = 0.8;
+/// Values of turned noise per spacing, their spots' size in it, and their root mean square.
+const FINER: f64 = 4.0;
+const TURNED_SIZE: f64 = 1.0;
+const TURNED_RMS: f32 = 0.31;
+
 /// Purpose of a noise; each has a separate pattern.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
@@ -93,13 +103,21 @@ pub(super) struct Noise {
     /// Lattice spacing along x and y, metres.
     spacing_m: [f64; 2],
     sd: f32,
+    /// Whether its lattice is turned and bent.
+    turned: bool,
 }
 
 impl Noise {
     /// Creates noise of deviation `sd`; `size_m`: the autocorrelation's width at half height, per axis.
     pub fn new(seed: u64, channel: Channel, size_m: [f64; 2], sd: f32) -> Noise {
         // The autocorrelation is a quintic B-spline: its full width at half maximum is 1.67 spacings.
-        Noise { key: key(seed, channel), spacing_m: size_m.map(|size| size / 1.67), sd }
+        Noise { key: key(seed, channel), spacing_m: size_m.map(|size| size / 1.67), sd, turned: false }
+    }
+
+    /// Turns and bends the lattice, if its squares are large enough to show: along the rows and columns of walls, joints
+    /// and mops they would.
+    pub fn turned(self) -> Noise {
+        Noise { turned: self.spacing_m.into_iter().all(|spacing_m| spacing_m >= TURNED_FROM_M), ..self }
     }
 
     pub fn is_flat(&self) -> bool {
@@ -120,6 +138,10 @@ impl Noise {
     /// Lays the noise out over a window.
     pub fn over(&self, window: &TexelWindow) -> NoiseField {
         let [x, y] = self.spacing_m.map(|spacing_m| spacing_m * window.texels_per_metre);
+        if self.turned && x.max(y) > 1.0 {
+            let gain = self.sd_of_texels(window.texels_per_metre) / TURNED_RMS;
+            return NoiseField::Lattice(Box::new(turned(window, self.key, [x, y], gain)));
+        }
         self.laid_out(window, self.key, [x, y], None)
     }
 
@@ -158,6 +180,34 @@ impl Noise {
         }
         NoiseField::Lattice(Box::new(SplineLattice::new(x, y, values)))
     }
+}
+
+/// Lays out noise with spots of `x` by `y` texels on a lattice that is turned against the floor's axes and bent.
+fn turned(window: &TexelWindow, key: u32, [x, y]: [f64; 2], gain: f32) -> SplineLattice {
+    let axes = [(window.i0, window.width, x), (window.j0, window.height, y)];
+    let [across, up] = axes.map(|(first, count, spacing)| SplineAxis::new(first, count, spacing / FINER, 0.0));
+    let mut values = Vec::with_capacity(across.len * up.len);
+    for j in (up.first..).take(up.len) {
+        for i in (across.first..).take(across.len) {
+            let (u, v) = (TURNED_SIZE * i as f64 / FINER, TURNED_SIZE * j as f64 / FINER);
+            let (u, v) = (TURN[0] * u - TURN[1] * v, TURN[1] * u + TURN[0] * v);
+            let bend = |word: u32| BEND * f64::from(spline(key ^ word, u, v));
+            let (u, v) = (u + bend(0x5bd1), v + bend(0xe995));
+            values.push(gain * spline(key, u, v));
+        }
+    }
+    SplineLattice::new(across, up, values)
+}
+
+/// The B-spline of hashed values, a spot per unit.
+fn spline(key: u32, x: f64, y: f64) -> f32 {
+    let [(i, across), (j, up)] = [x, y].map(|at| {
+        let middle = (at + 0.5).floor();
+        let f = (at - middle) as f32;
+        (middle as i64 as i32, [0.5 * (0.5 - f) * (0.5 - f), 0.75 - f * f, 0.5 * (0.5 + f) * (0.5 + f)])
+    });
+    let row = |j: i32| (i - 1..).zip(across).map(|(i, weight)| weight * signed(key, i, j)).sum::<f32>();
+    (j - 1..).zip(up).map(|(j, weight)| weight * row(j)).sum()
 }
 
 /// Noise over a window, read row by row.
@@ -230,14 +280,18 @@ mod tests {
     #[test]
     fn spots_have_the_size_asked_for() {
         let side = 800;
-        let values = field(&Noise::new(3, Channel::Middle, [0.15, 0.15], 1.0), 100.0, side);
-        let correlation = |lag: usize| {
-            let pairs = values.chunks_exact(side).flat_map(|row| row.iter().zip(&row[lag..]));
-            pairs.map(|(a, b)| a * b).sum::<f32>() / (side * (side - lag)) as f32
-        };
-        let half = correlation(7) / correlation(0);
-        assert!((0.4..0.6).contains(&half), "correlation at half the size is {half}");
-        assert!((correlation(40) / correlation(0)).abs() < 0.1);
+        for (channel, size_m, density) in [(Channel::Middle, 0.15, 100.0), (Channel::Coarse, 1.2, 12.5)] {
+            let values = field(&Noise::new(3, channel, [size_m; 2], 1.0).turned(), density, side);
+            let (_, sd) = mean_and_sd(&values);
+            assert!((sd - 1.0).abs() < 0.05, "deviation at {size_m} m is {sd}");
+            let correlation = |lag: usize| {
+                let pairs = values.chunks_exact(side).flat_map(|row| row.iter().zip(&row[lag..]));
+                pairs.map(|(a, b)| a * b).sum::<f32>() / (side * (side - lag)) as f32
+            };
+            let half = correlation(7) / correlation(0);
+            assert!((0.4..0.6).contains(&half), "correlation at half of {size_m} m is {half}");
+            assert!((correlation(40) / correlation(0)).abs() < 0.1);
+        }
     }
 
     #[test]

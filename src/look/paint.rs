@@ -186,7 +186,7 @@ impl<'a> FloorPainter<'a> {
 /// in spots 0.4 times as large. The grain has grain of its own, where texels show it.
 fn film_noise(look: &Look, texels_per_metre: f64) -> Vec<Noise> {
     let noise = |channel, octave: Octave, size: f64, variance: f32| {
-        Noise::new(look.seed, channel, [size * octave.size_m; 2], variance.sqrt() * octave.sd)
+        Noise::new(look.seed, channel, [size * octave.size_m; 2], variance.sqrt() * octave.sd).turned()
     };
     let NoiseLook { fine, middle, coarse } = look.noise;
     let all = [

@@ -159,7 +159,7 @@ options! {
         /// Stains and trails of drips.
         stains_per_m2: f32 = 0.12, in 0.0..=20.0, unit "1/m2";
         /// Faint rubs of soles along the way where 1000 have passed; they grow with the square root of passes.
-        rubs_per_m2: f32 = 24.0, in 0.0..=60.0, unit "1/m2";
+        rubs_per_m2: f32 = 24.0, in 0.0..=90.0, unit "1/m2";
         /// Grit, twice that on lanes.
         grit_per_m2: f32 = 14.0, in 0.0..=60.0, unit "1/m2";
         /// Trodden chewing gum where 1000 have passed; it grows with the square root of passes.

@@ -22,6 +22,8 @@ const FULL_PASSES: f32 = 1000.0;
 const FULL_SECONDS: f32 = 1000.0;
 /// Share of the lines of all wheels that soles and mops have not worn off.
 const LINES_LEFT: f32 = 0.4;
+/// Limit on the factor on single wheels: the mop takes old lines, so that those of a long history are no darker.
+const MOST_SINGLE_WHEELS: f32 = 5.5;
 /// The mask of passes is full at 10 000: ln(1 + 300) / ln(1 + 30) e-folds with the film's usual rate.
 const MASK_PER_TRODDEN: f32 = 0.6;
 
@@ -42,6 +44,8 @@ pub(super) struct FloorShader {
     /// Film per e-fold of standing time, and its rate per second of the simulated people.
     dwell: f32,
     per_second: f32,
+    /// Factor on the deviation of single wheels from their mean.
+    single_wheels: f32,
     /// Film of many wheels, and the share that each adds.
     wheels: f32,
     per_wheel: f32,
@@ -186,6 +190,7 @@ impl FloorShader {
             low_film: properties.low_film,
             dwell: look.dwell.density * properties.film / ln_f32(1.0 + FULL_SECONDS * look.dwell.per_second).max(1e-6),
             per_second: weight * look.dwell.per_second,
+            single_wheels: residual.min(MOST_SINGLE_WHEELS),
             wheels: look.wheels.density * properties.film,
             per_wheel: look.wheels.per_wheel,
             age: look.age.density * properties.film.max(0.5),
@@ -276,7 +281,7 @@ impl FloorShader {
             return;
         }
         each2(wheels, &known.rolled, &known.wheels, |expected, counted| {
-            let rolled = LINES_LEFT * self.weight * expected + self.residual * (counted - expected);
+            let rolled = LINES_LEFT * self.weight * expected + self.single_wheels * (counted - expected);
             self.wheels * (1.0 - exp_f32(-self.per_wheel * rolled.max(0.0)))
         });
         wheels.iter_mut().zip(uneven).zip(&known.left).for_each(|((wheels, uneven), left)| *wheels *= uneven * left);

@@ -82,6 +82,9 @@ const BUILT_IN: &[(&str, &[u8])] = built_in![
     "shoe_sole_edge.png",
     "shoe_sole_ball.png",
     "shoe_sole_tread.png",
+    "heel_smear.png",
+    "heel_pivot.png",
+    "toe_drag.png",
 ];
 
 /// The pattern library: coverage images by cause, with their shares.
@@ -94,7 +97,7 @@ pub struct PatternLibrary {
 impl PatternLibrary {
     /// Returns the built-in library.
     ///
-    /// It has ten soles, eight heel marks and at least six stains of each wall cause, drawn by
+    /// It has ten soles, eleven heel marks and at least six stains of each wall cause, drawn by
     /// `examples/draw_patterns`.
     pub fn built_in() -> PatternLibrary {
         let open = |file: &str| {
@@ -216,7 +219,7 @@ mod tests {
     fn the_built_in_library_holds_patterns_of_every_cause() {
         let library = PatternLibrary::built_in();
         let counts = Cause::ALL.map(|cause| library.patterns.iter().filter(|pattern| pattern.cause == cause).count());
-        assert_eq!(counts, [10, 8, 14, 7, 7, 10, 10]);
+        assert_eq!(counts, [10, 11, 14, 7, 7, 10, 10]);
         assert_eq!(library.patterns.len(), BUILT_IN.len(), "an image is compiled in but not listed");
         for pattern in &library.patterns {
             assert_eq!(f64::from(pattern.width_px), pattern.length_cm * 10.0, "{}", pattern.name);

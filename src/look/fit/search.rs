@@ -245,7 +245,7 @@ impl<'a> Search<'a> {
     fn age_with_marks(&self, by: f32) -> AgeLook {
         let age = &self.look.age;
         AgeLook {
-            rubs_per_m2: (by * age.rubs_per_m2).min(60.0),
+            rubs_per_m2: (by * age.rubs_per_m2).min(90.0),
             grit_per_m2: (by * age.grit_per_m2).min(60.0),
             gum_per_m2: (by * age.gum_per_m2).min(20.0),
             ..age.clone()
