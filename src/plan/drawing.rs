@@ -8,7 +8,8 @@ use super::ink::{self, Ink};
 use super::ros_map::{Cell, Greys};
 use super::tones::USUAL_THRESHOLD;
 use super::{
-    PlanOptions, TransparentPolicy, UnknownPolicy, colour_areas, hatching, paving, shadow, sheet, thin_lines, tones,
+    PlanOptions, TransparentPolicy, UnknownPolicy, colour_areas, hatching, level_map, paving, shadow, sheet,
+    thin_lines, tones,
 };
 
 /// Greys of unknown and of free cells as mappers write them.
@@ -118,6 +119,10 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
             return (of_areas(width, &walls, lightness), warnings);
         }
     }
+    let (image, inverted) = match is_unasked && share > 0 && sheet.is_none() && options.wall_colours.is_empty() {
+        true => of_lines_on_black(image, &mut coloured, options, &mut warnings),
+        false => (image, false),
+    };
     let may_be_inked = is_unasked && share > 0 && sheet.is_none() && options.wall_colours.is_empty();
     let inked = may_be_inked.then(|| ink_of(&image, &coloured)).flatten();
     // Coloured pens are ink on a photograph, as are the lines of a blueprint.
@@ -166,7 +171,11 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
         drawing.lightness = drawing.dark.iter().map(|&d| (1 - d) * 255).collect();
         return (drawing, warnings);
     }
-    settle_tones(&mut drawing, &mut lightness, options, &mut warnings);
+    if is_unasked && sheet.is_none() && level_map::join_cells(width, &mut lightness) {
+        warnings.push(CELLS.to_owned());
+    } else if !inverted {
+        settle_tones(&mut drawing, &mut lightness, options, &mut warnings);
+    }
     let mut dark: Vec<u8> = lightness.iter().map(|&l| u8::from(l < drawing.threshold)).collect();
     drawing.clean = is_clean(&lightness);
     stretch(width, &mut lightness, &dark);
@@ -176,6 +185,31 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
     (drawing.lightness, drawing.dark) = (lightness, dark);
     drop_paving(&mut drawing);
     (drawing, warnings)
+}
+
+const CELLS: &str = "the lines between tiles or cells of a map on dark ground were left out: light was taken for floor; \
+                     `[plan] threshold` takes them for walls";
+
+/// A map of coloured lines on black becomes a drawing on paper: black is white, and the lines are dark.
+fn of_lines_on_black(
+    image: DynamicImage,
+    coloured: &mut Vec<u8>,
+    options: &PlanOptions,
+    warnings: &mut Vec<String>,
+) -> (DynamicImage, bool) {
+    let lightness = map_pixels(&image, |pixel| lightness_of(pixel, options));
+    if !level_map::is_coloured_on_black(image.width() as usize, &lightness, coloured) {
+        return (image, false);
+    }
+    let mut negative = image.to_rgba8();
+    negative.pixels_mut().for_each(|pixel| {
+        let [r, g, b] = level_map::negative(on_paper(pixel.0));
+        pixel.0 = [r, g, b, 255];
+    });
+    let negative = DynamicImage::ImageRgba8(negative);
+    *coloured = map_pixels(&negative, |pixel| u8::from(is_annotation(pixel, options)));
+    warnings.push("walls are coloured lines on black: black was taken for floor".to_owned());
+    (negative, true)
 }
 
 const AREAS: &str = "no walls are drawn: the light lines between areas of colour were taken for walls; \
@@ -282,6 +316,7 @@ fn settle_tones(drawing: &mut Drawing, lightness: &mut [u8], options: &PlanOptio
         plain.for_each(|(_, l)| *l = 255 - *l);
         if options.invert.is_none() {
             warnings.push("walls are light on a dark ground: light was taken for wall; `[plan] invert = false` keeps dark as wall".to_owned());
+            fill_void(width, lightness, coloured);
         }
     }
     if options.threshold.is_some() {
@@ -299,6 +334,17 @@ fn settle_tones(drawing: &mut Drawing, lightness: &mut [u8], options: &PlanOptio
             "walls are grey or faint: tones below {} of 255 were taken for wall; `[plan] threshold` sets another",
             drawing.threshold
         ));
+    }
+}
+
+/// Around a level seen from above lies nothing: of a ground of two tones the darker one becomes wall. Lightness is that of
+/// the negative, on which the ground is light.
+fn fill_void(width: usize, lightness: &mut [u8], coloured: &[u8]) {
+    let positive: Vec<u8> = lightness.iter().map(|&l| 255 - l).collect();
+    let split = tones::light_from(&positive, coloured);
+    let Some(void) = level_map::void(width, &positive, |at| positive[at] >= split) else { return };
+    for ((l, positive), void) in lightness.iter_mut().zip(positive).zip(void) {
+        *l = if void != 0 || positive >= split { 0 } else { 255 };
     }
 }
 

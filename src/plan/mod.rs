@@ -24,6 +24,7 @@ mod error;
 mod image_file;
 mod ink;
 mod layer;
+mod level_map;
 mod likely;
 mod limits;
 mod mask;

@@ -42,15 +42,11 @@ pub(super) fn histogram(lightness: &[u8], coloured: &[u8]) -> [usize; 256] {
 pub(super) fn is_inverted(width: usize, lightness: &[u8], coloured: &[u8]) -> bool {
     let counts = histogram(lightness, coloured);
     let total: usize = counts.iter().sum();
-    let below = |t: usize| counts[..t].iter().sum::<usize>();
-    let usual = usize::from(USUAL_THRESHOLD);
-    // All tones of a dim drawing may lie on one side of the usual threshold.
-    let has_both = |t: usize| below(t) * 200 >= total && (total - below(t)) * 200 >= total;
-    let split = if has_both(usual) { usual } else { between(&counts) };
-    if total == 0 || below(split) * 2 < total || !has_both(split) {
+    let split = usual_split(&counts);
+    let below = counts[..usize::from(split)].iter().sum::<usize>();
+    if total == 0 || below * 2 < total || !has_both(&counts, split) {
         return false;
     }
-    let split = split as u8;
     let height = lightness.len() / width;
     let rim = (0..width).flat_map(|x| [x, (height - 1) * width + x]);
     let rim = rim.chain((0..height).flat_map(|y| [y * width, y * width + width - 1]));
@@ -221,6 +217,28 @@ fn quantile(counts: &[usize], share: f64) -> Option<usize> {
         seen += count;
         seen > 0 && seen as f64 >= share * total as f64
     })
+}
+
+/// Whether each side of a lightness has some of the pixels.
+fn has_both(counts: &[usize; 256], split: u8) -> bool {
+    let total: usize = counts.iter().sum();
+    let below: usize = counts[..usize::from(split)].iter().sum();
+    below * 200 >= total && (total - below) * 200 >= total
+}
+
+/// The usual threshold, or another: all tones of a dim drawing may lie on one side of it.
+fn usual_split(counts: &[usize; 256]) -> u8 {
+    if has_both(counts, USUAL_THRESHOLD) { USUAL_THRESHOLD } else { between(counts) as u8 }
+}
+
+/// The lightness from which walls on a dark ground are light.
+pub(super) fn light_from(lightness: &[u8], coloured: &[u8]) -> u8 {
+    usual_split(&histogram(lightness, coloured))
+}
+
+/// The lightness that tells two classes of plain pixels best apart.
+pub(super) fn split(lightness: &[u8], coloured: &[u8]) -> u8 {
+    between(&histogram(lightness, coloured)) as u8
 }
 
 /// The threshold that tells two classes of tones best apart (Otsu).
