@@ -1,4 +1,5 @@
-//! Maps without drawn walls: rooms are areas of colour on light paper, and the light lines between them are the walls.
+//! Maps without dark walls: rooms are areas of colour on light paper, or floors seen from above, and the light lines between
+//! them are the walls.
 
 use super::clearance::{dilate, erode};
 use super::colour::luma;
@@ -23,17 +24,89 @@ const THICKEST: f64 = 0.03;
 const LEAST_AREA: f64 = 0.01;
 /// Least length of the light lines between areas, as a share of the image's longer side.
 const LEAST_LINES: f64 = 0.3;
+/// Least share of pixels on floors seen from above that differ from the one before, and their darkest shade: what is darker
+/// is ink.
+const UNEVEN: f64 = 0.5;
+const DARKEST_SHADE: u8 = 64;
 /// Pixels that a first look takes.
 const SAMPLES: usize = 10_007;
 
-/// The walls between areas of colour, and around them as thick: 1 for wall. `None` for all other drawings.
+/// What lies between areas.
+pub(super) struct Walls {
+    /// 1 for wall.
+    pub(super) mask: Vec<u8>,
+    /// Whether the areas are floors as they look from above, with shadows and furniture, and not colours of a map.
+    pub(super) rendered: bool,
+}
+
+/// The walls between areas of colour, and around them as thick. `None` for all other drawings.
 ///
 /// `pixel` gives a colour on paper. Lettering is a part of the area around it.
-pub(super) fn walls(width: usize, height: usize, pixel: impl Fn(usize) -> [u8; 3]) -> Option<Vec<u8>> {
-    let longer = width.max(height);
+pub(super) fn walls(width: usize, height: usize, pixel: impl Fn(usize) -> [u8; 3]) -> Option<Walls> {
     let paper = paper(width, height, &pixel)?;
     let is_area = |at: usize| !is_paper(pixel(at), paper);
     let is_dark = |at: usize| luma(pixel(at)) < LIGHTEST_INK;
+    if let Some(Between { mask, .. }) = walls_between(width, height, is_area, is_dark) {
+        return Some(Walls { mask, rendered: false });
+    }
+    let mut samples =
+        (0..width * height).step_by((width * height).div_ceil(SAMPLES)).filter(|&at| at > 0 && is_area(at));
+    let (mut uneven, mut all) = (0usize, 0usize);
+    samples.by_ref().for_each(|at| {
+        all += 1;
+        uneven += usize::from(pixel(at) != pixel(at - 1));
+    });
+    if (uneven as f64) < UNEVEN * all as f64 {
+        return None;
+    }
+    let lightness: Vec<u8> = (0..width * height).map(|at| luma(pixel(at))).collect();
+    let lightest = lightest_floor(&lightness);
+    let is_shade = |at: usize| lightness[at] < DARKEST_SHADE;
+    let Between { mut mask, mut areas, thickness } =
+        walls_between(width, height, |at| lightness[at] < lightest, is_shade)?;
+    // White furniture is thicker than walls, and stands alone.
+    let light: Vec<u8> = areas.iter().map(|&area| 1 - area).collect();
+    let thick = erode(&light, width, 0.75 * thickness as f64);
+    let pieces = Components::of(&light, width, 1, Neighbours::Eight);
+    let at_rim = |min: [u32; 2], end: [u32; 2]| min.contains(&0) || end == [width as u32, height as u32];
+    for piece in pieces.all.iter().filter(|piece| !at_rim(piece.min, piece.end)) {
+        if pieces.touches(piece, &thick, width) {
+            pieces.paint(piece, &mut mask, width, 0);
+            pieces.paint(piece, &mut areas, width, 1);
+        }
+    }
+    // Walls that are darker than paper have gaps where paper shows.
+    let is_white = |at: usize| pixel(at).iter().zip(paper).all(|(&v, paper)| v.abs_diff(paper) <= PAPER_SPREAD / 2);
+    let walls = mask.iter().filter(|&&wall| wall != 0).count();
+    let white = (0..mask.len()).filter(|&at| mask[at] != 0 && is_white(at)).count();
+    if white * 3 < walls {
+        (0..mask.len()).filter(|&at| is_white(at)).for_each(|at| mask[at] = 0);
+    }
+    Some(Walls { mask, rendered: true })
+}
+
+/// The tone in the emptiest part of the histogram between floors and white walls.
+fn lightest_floor(lightness: &[u8]) -> u8 {
+    let mut counts = [0usize; 256];
+    lightness.iter().for_each(|&l| counts[usize::from(l)] += 1);
+    let around = |l: usize| counts[l - 4..=l + 4].iter().sum::<usize>();
+    (160..240).min_by_key(|&l| (around(l), 255 - l)).unwrap_or(200) as u8
+}
+
+/// Walls between areas, the areas, and the walls' thickness in pixels.
+struct Between {
+    mask: Vec<u8>,
+    areas: Vec<u8>,
+    thickness: usize,
+}
+
+fn walls_between(
+    width: usize,
+    height: usize,
+    is_area: impl Fn(usize) -> bool,
+    is_dark: impl Fn(usize) -> bool,
+) -> Option<Between> {
+    let longer = width.max(height);
     // Most drawings are not of this kind: a look at some of the pixels tells.
     let may_be = |step: usize| {
         let some = || (0..width * height).step_by(step);
@@ -62,7 +135,8 @@ pub(super) fn walls(width: usize, height: usize, pixel: impl Fn(usize) -> [u8; 3
     let thickness =
         between(&areas, width, (THICKEST * longer as f64) as usize, (LEAST_LINES * longer as f64) as usize)?;
     let near = dilate(&areas, width, thickness as f64);
-    Some(near.iter().zip(&areas).map(|(&near, &area)| near & (1 - area)).collect())
+    let mask = near.iter().zip(&areas).map(|(&near, &area)| near & (1 - area)).collect();
+    Some(Between { mask, areas, thickness })
 }
 
 fn is_paper(colour: [u8; 3], paper: [u8; 3]) -> bool {
@@ -113,7 +187,7 @@ mod tests {
 
     #[test]
     fn light_lines_between_areas_are_walls() {
-        let walls = walls(200, 120, map([255; 3])).unwrap();
+        let walls = walls(200, 120, map([255; 3])).unwrap().mask;
         let at = |x: usize, y: usize| walls[y * 200 + x] != 0;
         assert!(at(97, 30) && !at(97, 55) && !at(60, 55) && at(18, 60) && !at(14, 60) && !at(3, 112));
         let count = walls.iter().filter(|&&wall| wall != 0).count();
@@ -123,7 +197,7 @@ mod tests {
 
     #[test]
     fn drawings_with_dark_walls_are_none_of_these() {
-        assert_eq!(walls(200, 120, map([90; 3])), None);
-        assert_eq!(walls(200, 120, |_| [255; 3]), None);
+        assert!(walls(200, 120, map([90; 3])).is_none());
+        assert!(walls(200, 120, |_| [255; 3]).is_none());
     }
 }

@@ -115,8 +115,12 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
         let pixel = |at: usize| on_paper(image.get_pixel((at % width) as u32, (at / width) as u32).0);
         if let Some(walls) = colour_areas::walls(width, height, pixel) {
             warnings.push(AREAS.to_owned());
-            let lightness = map_pixels(&image, |pixel| luma(on_paper(pixel)));
-            return (of_areas(width, &walls, lightness), warnings);
+            // Shadows and furniture on floors are no lettering.
+            let lightness = match walls.rendered {
+                true => vec![255; walls.mask.len()],
+                false => map_pixels(&image, |pixel| luma(on_paper(pixel))),
+            };
+            return (of_areas(width, &walls.mask, lightness), warnings);
         }
     }
     let (image, inverted) = match is_unasked && share > 0 && sheet.is_none() && options.wall_colours.is_empty() {

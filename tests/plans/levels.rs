@@ -101,3 +101,75 @@ fn the_void_around_light_walls_is_solid() {
     canvas.fill(&outline(&rectangle([20.0, 5.0], [21.0, 6.0]), 0.2), [205, 206, 210]);
     is_read("boxes", &canvas, &canvas.read(Some(0.05)));
 }
+
+/// As brochures show a flat: floors of wood and tiles from above, white walls and white furniture with their shadows, on white.
+#[test]
+fn white_walls_between_floors_seen_from_above_are_walls() {
+    const WALL: f64 = 0.18;
+    let mut canvas = Canvas::new([12.0, 10.0], [-1.0, -1.0], 50.0, 0.0, [255; 3]);
+    let mut rng = SplitMix64::new(7);
+    for (row, y) in (0..80).map(|row| (row, 0.1 * f64::from(row))) {
+        let tone = f64::from(rng.normal()) * 8.0 - if row % 2 == 0 { 6.0 } else { 0.0 };
+        let colour = [186.0, 146.0, 104.0].map(|v| (v + tone) as u8);
+        canvas.fill(&[rectangle([0.0, y], [10.0, y + 0.1])], colour);
+    }
+    canvas.fill(&[rectangle([4.0, 0.0], [7.0, 3.5])], [198, 194, 184]);
+    canvas.fill(&[rectangle([7.0, 5.0], [10.0, 8.0])], [150, 176, 190]);
+    let wall_lines = [
+        [0.0, 0.0, 10.0, 0.0],
+        [0.0, 8.0, 10.0, 8.0],
+        [0.0, 0.0, 0.0, 4.0],
+        [0.0, 5.0, 0.0, 8.0],
+        [10.0, 0.0, 10.0, 8.0],
+        [4.0, 0.0, 4.0, 3.5],
+        [7.0, 0.0, 7.0, 3.5],
+        [0.0, 3.5, 2.0, 3.5],
+        [2.9, 3.5, 5.0, 3.5],
+        [5.9, 3.5, 8.0, 3.5],
+        [8.9, 3.5, 10.0, 3.5],
+        [4.5, 5.0, 4.5, 8.0],
+        [0.0, 5.0, 2.0, 5.0],
+        [2.9, 5.0, 5.0, 5.0],
+        [5.9, 5.0, 8.0, 5.0],
+        [8.9, 5.0, 10.0, 5.0],
+        [7.0, 5.0, 7.0, 8.0],
+    ];
+    let walls = |by: f64| -> Vec<Polygon> {
+        let half = 0.5 * WALL;
+        let wall =
+            |[x0, y0, x1, y1]: [f64; 4]| rectangle([x0 - half + by, y0 - half + by], [x1 + half + by, y1 + half + by]);
+        wall_lines.map(wall).to_vec()
+    };
+    let shade = canvas.mask(&walls(0.1));
+    let inside = canvas.mask(&[rectangle([0.0, 0.0], [10.0, 8.0])]);
+    for ((pixel, shade), inside) in canvas.pixels.iter_mut().zip(shade).zip(inside) {
+        if shade != 0 && inside != 0 {
+            *pixel = pixel.map(|v| 0.6 * v);
+        }
+    }
+    canvas.fill(&[rectangle([0.8, 6.0], [2.6, 7.6]), rectangle([8.0, 6.2], [9.2, 7.4])], [236, 232, 228]);
+    canvas.fill(&[rectangle([1.0, 1.0], [2.4, 2.0])], [96, 62, 42]);
+    canvas.fill(&walls(0.0), [240, 240, 238]);
+    for pixel in &mut canvas.pixels {
+        let grain = 2.0 * rng.normal();
+        *pixel = pixel.map(|v| if v == 255.0 { v } else { (v + grain).clamp(0.0, 255.0) });
+    }
+    let plan = canvas.read(Some(0.02));
+    // The share of floor in a square of 8 cm to the right of and below a place.
+    let share = |at: Point| {
+        let [x, y] = canvas.px(at).map(|v| v as usize);
+        let near = (0..16).map(|k| (y + k / 4) * plan.width_px as usize + x + k % 4);
+        near.filter(|&at| plan.floor[at] != 0).count() as f64 / 16.0
+    };
+    for [x0, y0, x1, y1] in wall_lines {
+        let middle = [0.5 * (x0 + x1) - 0.04, 0.5 * (y0 + y1) - 0.04];
+        assert!(share(middle) == 0.0, "wall at {middle:?}");
+    }
+    // Rooms, doors, the entrance, shadows, and where furniture stands.
+    let rooms = [[2.8, 2.5], [5.0, 2.0], [8.5, 1.0], [3.4, 4.1], [3.4, 6.5], [5.5, 6.5], [7.3, 5.3], [4.12, 2.0]];
+    let doors = [[2.4, 3.5], [5.4, 3.5], [8.4, 3.5], [2.4, 5.0], [5.4, 5.0], [8.4, 5.0], [0.0, 4.5]];
+    for at in rooms.into_iter().chain(doors).chain([[1.5, 1.5], [1.5, 6.5], [8.5, 6.8]]) {
+        assert!(share(at) > 0.99, "floor at {at:?}");
+    }
+    assert!(share([-0.6, 2.0]) == 0.0 && share([10.3, 7.0]) == 0.0, "paper around the flat");
+}
