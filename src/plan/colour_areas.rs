@@ -49,30 +49,24 @@ pub(super) fn walls(width: usize, height: usize, pixel: impl Fn(usize) -> [u8; 3
     if let Some(Between { mask, .. }) = walls_between(width, height, is_area, is_dark) {
         return Some(Walls { mask, rendered: false });
     }
-    let mut samples =
-        (0..width * height).step_by((width * height).div_ceil(SAMPLES)).filter(|&at| at > 0 && is_area(at));
-    let (mut uneven, mut all) = (0usize, 0usize);
-    samples.by_ref().for_each(|at| {
-        all += 1;
-        uneven += usize::from(pixel(at) != pixel(at - 1));
-    });
-    if (uneven as f64) < UNEVEN * all as f64 {
+    let samples = || (1..width * height).step_by((width * height).div_ceil(SAMPLES)).filter(|&at| is_area(at));
+    let uneven = samples().filter(|&at| pixel(at) != pixel(at - 1)).count();
+    if (uneven as f64) < UNEVEN * samples().count() as f64 {
         return None;
     }
     let lightness: Vec<u8> = (0..width * height).map(|at| luma(pixel(at))).collect();
     let lightest = lightest_floor(&lightness);
     let is_shade = |at: usize| lightness[at] < DARKEST_SHADE;
-    let Between { mut mask, mut areas, thickness } =
-        walls_between(width, height, |at| lightness[at] < lightest, is_shade)?;
+    let Between { mut mask, areas, thickness } = walls_between(width, height, |at| lightness[at] < lightest, is_shade)?;
     // White furniture is thicker than walls, and stands alone.
     let light: Vec<u8> = areas.iter().map(|&area| 1 - area).collect();
     let thick = erode(&light, width, 0.75 * thickness as f64);
     let pieces = Components::of(&light, width, 1, Neighbours::Eight);
-    let at_rim = |min: [u32; 2], end: [u32; 2]| min.contains(&0) || end == [width as u32, height as u32];
+    let at_rim =
+        |min: [u32; 2], end: [u32; 2]| min.contains(&0) || end[0] as usize == width || end[1] as usize == height;
     for piece in pieces.all.iter().filter(|piece| !at_rim(piece.min, piece.end)) {
         if pieces.touches(piece, &thick, width) {
             pieces.paint(piece, &mut mask, width, 0);
-            pieces.paint(piece, &mut areas, width, 1);
         }
     }
     // Walls that are darker than paper have gaps where paper shows.
