@@ -71,6 +71,11 @@ pub(super) struct SplineAxis {
     weights: [Vec<f32>; 3],
 }
 
+/// Weights of the values before, at and after the nearest one, `f` from it, -0.5 to 0.5.
+pub(super) fn spline_weights(f: f32) -> [f32; 3] {
+    [0.5 * (0.5 - f) * (0.5 - f), 0.75 - f * f, 0.5 * (0.5 + f) * (0.5 + f)]
+}
+
 /// Texels `start..end` use the lattice values `base..base + 3`.
 #[derive(Clone, Copy, Debug)]
 struct SplineRun {
@@ -94,10 +99,8 @@ impl SplineAxis {
                 Some(run) => run.end += 1,
                 None => runs.push(SplineRun { base, start: k as u32, end: k as u32 + 1 }),
             }
-            let f = (u - middle) as f32;
-            weights[0].push(0.5 * (0.5 - f) * (0.5 - f));
-            weights[1].push(0.75 - f * f);
-            weights[2].push(0.5 * (0.5 + f) * (0.5 + f));
+            let of_values = spline_weights((u - middle) as f32);
+            weights.iter_mut().zip(of_values).for_each(|(weights, weight)| weights.push(weight));
         }
         let len = runs.last().map_or(0, |run| run.base as usize + 3);
         SplineAxis { first, len, runs, weights }

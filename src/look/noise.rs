@@ -1,7 +1,7 @@
 //! Noise in plan space: hashed values on a lattice, interpolated by B-splines. It has the same value at a place for any
 //! texel density, tile or rectangle, without storage.
 
-use super::lattice::{SplineAxis, SplineLattice, TexelWindow};
+use super::lattice::{SplineAxis, SplineLattice, TexelWindow, spline_weights};
 
 /// Mixes the bits of a 32-bit word (Wellons' `lowbias32`).
 #[inline]
@@ -42,9 +42,8 @@ const TURNED_FROM_M: f64 = 0.1;
 /// Cosine and sine of the turn, and how far the lattice is bent, in its spacings.
 const TURN: [f64; 2] = [0.8, 0.6];
 const BEND: f64 = 0.8;
-/// Values of turned noise per spacing, their spots' size in it, and their root mean square.
+/// Values of turned noise per spacing, and their root mean square.
 const FINER: f64 = 4.0;
-const TURNED_SIZE: f64 = 1.0;
 const TURNED_RMS: f32 = 0.31;
 
 /// Purpose of a noise; each has a separate pattern.
@@ -189,7 +188,7 @@ fn turned(window: &TexelWindow, key: u32, [x, y]: [f64; 2], gain: f32) -> Spline
     let mut values = Vec::with_capacity(across.len * up.len);
     for j in (up.first..).take(up.len) {
         for i in (across.first..).take(across.len) {
-            let (u, v) = (TURNED_SIZE * i as f64 / FINER, TURNED_SIZE * j as f64 / FINER);
+            let (u, v) = (i as f64 / FINER, j as f64 / FINER);
             let (u, v) = (TURN[0] * u - TURN[1] * v, TURN[1] * u + TURN[0] * v);
             let bend = |word: u32| BEND * f64::from(spline(key ^ word, u, v));
             let (u, v) = (u + bend(0x5bd1), v + bend(0xe995));
@@ -203,8 +202,7 @@ fn turned(window: &TexelWindow, key: u32, [x, y]: [f64; 2], gain: f32) -> Spline
 fn spline(key: u32, x: f64, y: f64) -> f32 {
     let [(i, across), (j, up)] = [x, y].map(|at| {
         let middle = (at + 0.5).floor();
-        let f = (at - middle) as f32;
-        (middle as i64 as i32, [0.5 * (0.5 - f) * (0.5 - f), 0.75 - f * f, 0.5 * (0.5 + f) * (0.5 + f)])
+        (middle as i64 as i32, spline_weights((at - middle) as f32))
     });
     let row = |j: i32| (i - 1..).zip(across).map(|(i, weight)| weight * signed(key, i, j)).sum::<f32>();
     (j - 1..).zip(up).map(|(j, weight)| weight * row(j)).sum()

@@ -139,9 +139,7 @@ fn is_paper(colour: [u8; 3], paper: [u8; 3]) -> bool {
 
 /// The commonest colour at the image's rim, if it is light and nearly all is of it.
 fn paper(width: usize, height: usize, pixel: impl Fn(usize) -> [u8; 3]) -> Option<[u8; 3]> {
-    let sides = (0..width).flat_map(|x| [x, (height - 1) * width + x]);
-    let mut rim: Vec<[u8; 3]> =
-        sides.chain((0..height).flat_map(|y| [y * width, y * width + width - 1])).map(pixel).collect();
+    let mut rim: Vec<[u8; 3]> = tones::rim(width, height).map(pixel).collect();
     rim.sort_unstable();
     let paper = rim[rim.len() / 2];
     let share = rim.iter().filter(|&&colour| is_paper(colour, paper)).count() as f64 / rim.len() as f64;

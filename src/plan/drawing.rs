@@ -123,11 +123,11 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
             return (of_areas(width, &walls.mask, lightness), warnings);
         }
     }
-    let (image, inverted) = match is_unasked && share > 0 && sheet.is_none() && options.wall_colours.is_empty() {
+    let may_be_inked = is_unasked && share > 0 && sheet.is_none() && options.wall_colours.is_empty();
+    let (image, inverted) = match may_be_inked {
         true => of_lines_on_black(image, &mut coloured, options, &mut warnings),
         false => (image, false),
     };
-    let may_be_inked = is_unasked && share > 0 && sheet.is_none() && options.wall_colours.is_empty();
     let inked = may_be_inked.then(|| ink_of(&image, &coloured)).flatten();
     // Coloured pens are ink on a photograph, as are the lines of a blueprint.
     if sheet.is_some() || share * COLOURED_PAPER > coloured.len() || inked == Some(Ink::OnTintedPaper) {
@@ -201,8 +201,9 @@ fn of_lines_on_black(
     options: &PlanOptions,
     warnings: &mut Vec<String>,
 ) -> (DynamicImage, bool) {
-    let lightness = map_pixels(&image, |pixel| lightness_of(pixel, options));
-    if !level_map::is_coloured_on_black(image.width() as usize, &lightness, coloured) {
+    let width = image.width();
+    let lightness = |at: usize| lightness_of(image.get_pixel(at as u32 % width, at as u32 / width).0, options);
+    if !level_map::is_coloured_on_black(width as usize, coloured, lightness) {
         return (image, false);
     }
     let mut negative = image.to_rgba8();

@@ -1,9 +1,9 @@
 //! Maps of games and views of levels from above, which are no drawings on paper: coloured lines on black, floors of many
 //! cells in a dark mass, light walls between a floor and a darker void.
 
-use super::clearance::{dilate, erode};
+use super::clearance::{closed, dilate, erode};
 use super::components::{Components, Neighbours};
-use super::tones;
+use super::tones::{self, rim};
 
 /// Lightness up to which ground is black, and least share of the image's rim that it has.
 const BLACK: u8 = 48;
@@ -27,22 +27,17 @@ const LEAST_SHARE: f64 = 0.08;
 /// Least share of the image that a piece of floor or void has: smaller ones are holes in walls.
 const LEAST_PIECE: f64 = 0.001;
 
-/// The indices of the pixels at the image's sides.
-fn rim(width: usize, height: usize) -> impl Iterator<Item = usize> {
-    let ends = (0..width).flat_map(move |x| [x, (height - 1) * width + x]);
-    ends.chain((0..height).flat_map(move |y| [y * width, y * width + width - 1]))
-}
-
 /// Whether a map has coloured lines on black and no others: as paper, black is white and the lines are dark then.
 ///
-/// `lightness` has 255 where `coloured` is 1.
-pub(super) fn is_coloured_on_black(width: usize, lightness: &[u8], coloured: &[u8]) -> bool {
+/// `lightness` is of pixels that are not coloured.
+pub(super) fn is_coloured_on_black(width: usize, coloured: &[u8], lightness: impl Fn(usize) -> u8) -> bool {
+    let height = coloured.len() / width;
     let count = |is_it: &dyn Fn(usize) -> bool| (0..coloured.len()).filter(|&at| is_it(at)).count() as f64;
+    let is_black = |&at: &usize| coloured[at] == 0 && lightness(at) <= BLACK;
     let all = coloured.len() as f64;
-    let black = rim(width, coloured.len() / width).filter(|&at| coloured[at] == 0 && lightness[at] <= BLACK).count();
-    black as f64 >= BLACK_RIM * rim(width, coloured.len() / width).count() as f64
+    rim(width, height).filter(is_black).count() as f64 >= BLACK_RIM * rim(width, height).count() as f64
         && count(&|at| coloured[at] != 0) >= LEAST_LINES * all
-        && count(&|at| coloured[at] == 0 && lightness[at] > BLACK) <= MOST_PLAIN * all
+        && count(&|at| coloured[at] == 0 && !is_black(&at)) <= MOST_PLAIN * all
         && tones::has_lines(coloured, width)
 }
 
@@ -62,48 +57,31 @@ pub(super) fn join_cells(width: usize, lightness: &mut [u8]) -> bool {
     if (rim_dark as f64) < 0.8 * rim(width, height).count() as f64 {
         return false;
     }
-    let cells_of = |lightness: &[u8], split: u8| {
-        let light: Vec<u8> = lightness.iter().map(|&l| u8::from(l >= split)).collect();
-        let pieces = Components::of(&light, width, 1, Neighbours::Four).all;
+    let light_of = |lightness: &[u8], split: u8| lightness.iter().map(|&l| u8::from(l >= split)).collect::<Vec<u8>>();
+    let cells_of = |light: &[u8]| {
+        let pieces = Components::of(light, width, 1, Neighbours::Four).all;
         let is_cell = |area: usize, side: u32| area >= 12 && f64::from(side) <= longest;
         let cells: Vec<usize> = pieces.iter().filter(|p| is_cell(p.area, p.larger_side())).map(|p| p.area).collect();
         let floor: usize = pieces.iter().map(|p| p.area).sum();
         (cells.len(), cells.iter().sum::<usize>() as f64 / floor.max(1) as f64)
     };
-    let (cells, share) = cells_of(lightness, split);
+    let (cells, share) = cells_of(&light_of(lightness, split));
     if cells < LEAST_CELLS || share < CELLED {
         return false;
     }
-    for breadth in (3..=WIDEST_LINE).step_by(2) {
-        let closed = closed(width, lightness, breadth);
-        let split = tones::split(&closed, &[]);
-        let (left, _) = cells_of(&closed, split);
+    for reach in 1..=WIDEST_LINE / 2 {
+        let closed = closed(lightness, width, reach);
+        let light = light_of(&closed, tones::split(&closed, &[]));
+        let (left, _) = cells_of(&light);
         if left as f64 <= LEFT_APART * cells as f64 {
             // Grains of walls that are as light as floor are no part of it.
-            let light: Vec<u8> = closed.iter().map(|&l| u8::from(l >= split)).collect();
-            let floor = dilate(&erode(&light, width, breadth as f64), width, breadth as f64);
+            let grain = (2 * reach + 1) as f64;
+            let floor = dilate(&erode(&light, width, grain), width, grain);
             lightness.iter_mut().zip(floor).for_each(|(l, floor)| *l = 255 * floor);
             return true;
         }
     }
     false
-}
-
-/// Closes what is dark and narrower than a square of an odd breadth: the lightest of a square, then the darkest of those.
-fn closed(width: usize, lightness: &[u8], breadth: usize) -> Vec<u8> {
-    let reach = breadth / 2;
-    let height = lightness.len() / width;
-    let along = |from: &[u8], stride: usize, of: fn(u8, u8) -> u8| -> Vec<u8> {
-        let size = if stride == 1 { width } else { height };
-        let best = |at: usize| {
-            let place = if stride == 1 { at % width } else { at / width };
-            let (before, after) = (reach.min(place), reach.min(size - 1 - place));
-            (at - before * stride..=at + after * stride).step_by(stride).map(|near| from[near]).reduce(of).unwrap_or(0)
-        };
-        (0..from.len()).map(best).collect()
-    };
-    let light = along(&along(lightness, 1, u8::max), width, u8::max);
-    along(&along(&light, 1, u8::min), width, u8::min)
 }
 
 /// Tells a floor from the void around a level, where light walls divide a ground of two tones: returns 1 for void, which
@@ -117,17 +95,14 @@ pub(super) fn void(width: usize, lightness: &[u8], is_wall: impl Fn(usize) -> bo
     let walls: Vec<u8> = ground.iter().map(|&ground| 1 - ground).collect();
     let split = tones::split(lightness, &walls);
     let pieces = Components::of(&ground, width, 1, Neighbours::Four);
-    let mut tones_of = Vec::with_capacity(pieces.all.len());
+    let mut solid = vec![0; lightness.len()];
+    // Area, and the sum of its pieces' tones.
+    let (mut floors, mut voids) = ((0usize, 0usize), (0usize, 0usize));
     for piece in &pieces.all {
         let mut tones: Vec<u8> =
             pieces.ranges(piece, width).flat_map(|range| lightness[range].iter().copied()).collect();
         let middle = tones.len() / 2;
-        tones_of.push(*tones.select_nth_unstable(middle).1);
-    }
-    let mut solid = vec![0; lightness.len()];
-    // Lightness that is commonest, the share of the image, and how much of the rim is of it.
-    let (mut floors, mut voids) = ((0usize, 0usize), (0usize, 0usize));
-    for (piece, &tone) in pieces.all.iter().zip(&tones_of) {
+        let tone = *tones.select_nth_unstable(middle).1;
         let kind = if tone < split { &mut voids } else { &mut floors };
         kind.0 += piece.area;
         kind.1 += piece.area * usize::from(tone);

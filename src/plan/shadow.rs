@@ -3,6 +3,8 @@
 
 use rayon::prelude::*;
 
+use super::clearance::closed;
+
 /// Cells of the coarse picture along the image's longer side.
 const CELLS: usize = 256;
 /// Share of a cell's pixels that are darker than the cell's paper.
@@ -82,7 +84,7 @@ impl Coarse<u8> {
         let height = lightness.len() / width;
         let side = width.max(height).div_ceil(CELLS).max(2);
         let (across, down) = (width.div_ceil(side), height.div_ceil(side));
-        let tones = (0..across * down)
+        let tones: Vec<u8> = (0..across * down)
             .into_par_iter()
             .map(|cell| {
                 let (left, top) = (cell % across * side, cell / across * side);
@@ -92,10 +94,7 @@ impl Coarse<u8> {
                 *tones.select_nth_unstable(at).1
             })
             .collect();
-        let mut coarse = Coarse { side, width: across, height: down, tones };
-        coarse.sweep(u8::max);
-        coarse.sweep(u8::min);
-        coarse
+        Coarse { side, width: across, height: down, tones: closed(&tones, across, INK_RADIUS) }
     }
 
     /// Whether a floor near a cell has a tone: in a door lies the floor of one of two rooms.
@@ -107,24 +106,6 @@ impl Coarse<u8> {
             FLOOR_TONES.contains(&floor) && SAME_TONE.contains(&(f32::from(tone) / f32::from(floor)))
         };
         NEARBY.into_iter().any(|reach| [[reach, 0], [-reach, 0], [0, reach], [0, -reach]].into_iter().any(is_floor))
-    }
-
-    /// Replaces each tone by the greatest or least within the radius, across and down.
-    fn sweep(&mut self, pick: fn(u8, u8) -> u8) {
-        let (width, height) = (self.width, self.height);
-        let around = |k: usize, end: usize| k.saturating_sub(INK_RADIUS)..(k + INK_RADIUS + 1).min(end);
-        let fold = |tones: &[u8], places: &mut dyn Iterator<Item = usize>| {
-            places.map(|at| tones[at]).reduce(pick).unwrap_or_default()
-        };
-        let each = |at: usize| (at % width, at / width);
-        let across: Vec<u8> = (0..self.tones.len())
-            .map(each)
-            .map(|(x, y)| fold(&self.tones, &mut around(x, width).map(|x| y * width + x)))
-            .collect();
-        self.tones = (0..across.len())
-            .map(each)
-            .map(|(x, y)| fold(&across, &mut around(y, height).map(|y| y * width + x)))
-            .collect();
     }
 
     /// The range of the paper's tones, if they vary widely and smoothly.

@@ -25,6 +25,12 @@ const PEAK: usize = 5;
 /// Least difference between paper and ink.
 const LEAST_CONTRAST: u8 = 24;
 
+/// The indices of the pixels at the image's sides.
+pub(super) fn rim(width: usize, height: usize) -> impl Iterator<Item = usize> {
+    let ends = (0..width).flat_map(move |x| [x, (height - 1) * width + x]);
+    ends.chain((0..height).flat_map(move |y| [y * width, y * width + width - 1]))
+}
+
 /// Pixels per lightness; coloured pixels do not count.
 pub(super) fn histogram(lightness: &[u8], coloured: &[u8]) -> [usize; 256] {
     let mut counts = [0; 256];
@@ -48,14 +54,8 @@ pub(super) fn is_inverted(width: usize, lightness: &[u8], coloured: &[u8]) -> bo
         return false;
     }
     let height = lightness.len() / width;
-    let rim = (0..width).flat_map(|x| [x, (height - 1) * width + x]);
-    let rim = rim.chain((0..height).flat_map(|y| [y * width, y * width + width - 1]));
-    let (mut dark, mut all) = (0usize, 0usize);
-    for at in rim {
-        dark += usize::from(lightness[at] < split);
-        all += 1;
-    }
-    if dark * 20 < all * 17 {
+    let dark = rim(width, height).filter(|&at| lightness[at] < split).count();
+    if dark * 20 < rim(width, height).count() * 17 {
         return false;
     }
     let is_light = |l: u8| l >= split;

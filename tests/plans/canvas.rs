@@ -89,6 +89,19 @@ impl Canvas {
         read(&path, &PlanOptions { metres_per_pixel, ..PlanOptions::default() }).unwrap()
     }
 
+    /// Share of a rectangle that is floor in the plan that was read, as far as it lies in the drawing; metres.
+    pub fn floor_in(&self, plan: &FloorPlan, [min, max]: [Point; 2]) -> f64 {
+        let ([x0, y0], [x1, y1]) = (self.px(min).map(|v| v.max(0.0)), self.px(max));
+        let (mut all, mut floor) = (0usize, 0usize);
+        for y in y0.ceil() as usize..y1 as usize {
+            for x in x0.ceil() as usize..x1 as usize {
+                all += 1;
+                floor += usize::from(plan.floor[y * plan.width_px as usize + x]);
+            }
+        }
+        floor as f64 / all as f64
+    }
+
     /// Lays a colour on polygons; looks only at the rows that they reach.
     pub fn fill(&mut self, polygons: &[Polygon], colour: [u8; 3]) {
         let rows = polygons.iter().flatten().map(|&p| self.px(p)[1]);

@@ -1,30 +1,17 @@
 //! Drawings whose floors have tones, whose furniture is filled or faint, and whose cells are pixels.
 
 use image::{GrayImage, Luma};
-use trodden::plan::{FloorPlan, PlanClass, PlanOptions, read};
+use trodden::plan::{PlanClass, PlanOptions, read};
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::canvas::{Canvas, Point, Polygon, arc, line, lines, outline, rectangle, text};
+use super::canvas::{Canvas, Polygon, arc, line, lines, outline, rectangle, text};
 
 const BLACK: [u8; 3] = [50, 50, 50];
 
-fn walls(lines: &[[f64; 4]], thick: f64) -> Vec<Polygon> {
+pub fn walls(lines: &[[f64; 4]], thick: f64) -> Vec<Polygon> {
     let half = 0.5 * thick;
     lines.iter().map(|&[x0, y0, x1, y1]| rectangle([x0 - half, y0 - half], [x1 + half, y1 + half])).collect()
-}
-
-/// Share of a rectangle that is floor, metres of the drawing.
-fn floor_in(plan: &FloorPlan, canvas: &Canvas, [min, max]: [Point; 2]) -> f64 {
-    let ([x0, y0], [x1, y1]) = (canvas.px(min), canvas.px(max));
-    let (mut all, mut floor) = (0usize, 0usize);
-    for y in y0.ceil() as usize..y1 as usize {
-        for x in x0.ceil() as usize..x1 as usize {
-            all += 1;
-            floor += usize::from(plan.floor[y * plan.width_px as usize + x]);
-        }
-    }
-    floor as f64 / all as f64
 }
 
 /// Rows of shelves in fine grey lines, racks filled with a dark colour: people walked through both.
@@ -54,12 +41,12 @@ fn shelves_and_racks_stand_in_the_way() {
     let plan = canvas.read(Some(0.05));
     for k in (0..5).map(f64::from) {
         let [min, max] = shelf(k);
-        let (on, beside) = (floor_in(&plan, &canvas, [min, max]), [[max[0] + 0.3, 4.0], [max[0] + 2.2, 18.0]]);
+        let (on, beside) = (canvas.floor_in(&plan, [min, max]), [[max[0] + 0.3, 4.0], [max[0] + 2.2, 18.0]]);
         assert!(on < 0.03, "{on} of shelf {k} is floor");
-        assert!(floor_in(&plan, &canvas, beside) > 0.97, "beside shelf {k}");
+        assert!(canvas.floor_in(&plan, beside) > 0.97, "beside shelf {k}");
     }
     for k in (0..3).map(f64::from) {
-        let on = floor_in(&plan, &canvas, rack(k));
+        let on = canvas.floor_in(&plan, rack(k));
         assert!(on < 0.03, "{on} of rack {k} is floor");
     }
 }
@@ -124,11 +111,11 @@ fn a_flat_with_floors_of_wood_and_tile_is_as_on_paper() {
         [[3.6, 5.4], [5.8, 7.6]],
     ];
     for room in rooms {
-        let floor = floor_in(&plan, &canvas, room);
+        let floor = canvas.floor_in(&plan, room);
         assert!(floor > 0.97, "{floor} of the room at {room:?} is floor");
     }
     for furniture in [[[0.5, 0.4], [2.5, 1.1]], [[3.7, 0.5], [5.1, 2.3]], [[8.1, 5.1], [9.5, 5.9]]] {
-        let floor = floor_in(&plan, &canvas, furniture);
+        let floor = canvas.floor_in(&plan, furniture);
         assert!(floor < 0.03, "{floor} of the furniture at {furniture:?} is floor");
     }
 }
@@ -173,7 +160,7 @@ fn a_corridor_that_is_open_at_its_ends_joins_its_rooms() {
     }
     let plan = canvas.read(Some(0.05));
     assert_eq!([plan.doors.len(), plan.windows.len()], [14, 12]);
-    let corridor = floor_in(&plan, &canvas, [[0.5, 9.7], [47.5, 12.3]]);
+    let corridor = canvas.floor_in(&plan, [[0.5, 9.7], [47.5, 12.3]]);
     assert!(corridor > 0.97, "{corridor} of the corridor is floor");
 }
 
@@ -222,9 +209,9 @@ fn grey_walls_with_outlines_and_filled_swings_have_an_entrance() {
     let entrance = plan.doors.iter().filter(|door| door.from_m.y.max(door.to_m.y) < 2.0).count();
     assert_eq!(entrance, 1);
     for x in offices() {
-        let room = floor_in(&plan, &canvas, [[x + 0.4, 3.5], [x + 5.6, 5.7]]);
+        let room = canvas.floor_in(&plan, [[x + 0.4, 3.5], [x + 5.6, 5.7]]);
         assert!(room > 0.97, "{room} of the office at {x} m is floor");
-        let on = floor_in(&plan, &canvas, [[x + 2.7, 2.1], [x + 4.3, 2.8]]);
+        let on = canvas.floor_in(&plan, [[x + 2.7, 2.1], [x + 4.3, 2.8]]);
         assert!(on < 0.03, "{on} of the desk at {x} m is floor");
     }
 }
@@ -302,10 +289,10 @@ fn light_lines_between_areas_of_colour_are_walls() {
     let plan = canvas.read(Some(0.05));
     assert_eq!(plan.doors.len(), doors.len());
     for [min, max] in rooms {
-        let floor = floor_in(&plan, &canvas, [[min[0] + 0.1, min[1] + 0.1], [max[0] - 0.1, max[1] - 0.1]]);
+        let floor = canvas.floor_in(&plan, [[min[0] + 0.1, min[1] + 0.1], [max[0] - 0.1, max[1] - 0.1]]);
         assert!(floor > 0.99, "{floor} of the room at {min:?} is floor");
     }
-    let around = floor_in(&plan, &canvas, [[-2.9, -2.9], [36.9, -0.5]]);
+    let around = canvas.floor_in(&plan, [[-2.9, -2.9], [36.9, -0.5]]);
     assert!(around < 0.01, "{around} of the paper is floor");
 }
 

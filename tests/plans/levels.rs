@@ -4,6 +4,7 @@ use trodden::math::SplitMix64;
 use trodden::plan::FloorPlan;
 
 use super::canvas::{Canvas, Point, Polygon, line, outline, rectangle};
+use super::floors::walls;
 
 const SIZE_M: Point = [30.0, 20.0];
 /// Three rooms, and the corridors that lead in and from one to the next.
@@ -16,23 +17,15 @@ fn floors() -> Vec<Polygon> {
     ROOMS.into_iter().chain(CORRIDORS).map(|[min, max]| rectangle(min, max)).collect()
 }
 
-fn grown([min, max]: [Point; 2], by: f64) -> Polygon {
-    rectangle(min.map(|v| v - by), max.map(|v| v + by))
+/// Walls around all of them, as the ground that floors are laid on.
+fn walls_around(thick: f64) -> Vec<Polygon> {
+    let grown = |[min, max]: [Point; 2]| rectangle(min.map(|v| v - thick), max.map(|v| v + thick));
+    ROOMS.into_iter().chain(CORRIDORS).map(grown).collect()
 }
 
 /// Rooms and corridors are floor, one piece that people enter from the west; what lies between them is none.
 fn is_read(name: &str, canvas: &Canvas, plan: &FloorPlan) {
-    let share = |[min, max]: [Point; 2]| {
-        let ([x0, y0], [x1, y1]) = (canvas.px(min), canvas.px(max));
-        let (mut all, mut floor) = (0usize, 0usize);
-        for y in y0.max(0.0) as usize..y1 as usize {
-            for x in x0.max(0.0) as usize..x1 as usize {
-                all += 1;
-                floor += usize::from(plan.floor[y * plan.width_px as usize + x]);
-            }
-        }
-        floor as f64 / all as f64
-    };
+    let share = |place| canvas.floor_in(plan, place);
     let rooms = ROOMS.map(|[min, max]| share([min.map(|v| v + 0.2), max.map(|v| v - 0.2)]));
     let corridors = CORRIDORS.map(|[min, max]| share([min.map(|v| v + 0.25), max.map(|v| v - 0.25)]));
     let solid = SOLID.map(share);
@@ -45,8 +38,7 @@ fn is_read(name: &str, canvas: &Canvas, plan: &FloorPlan) {
 #[test]
 fn coloured_lines_on_black_are_walls() {
     let mut canvas = Canvas::new(SIZE_M, [0.0; 2], 20.0, 0.0, [0; 3]);
-    let all = ROOMS.into_iter().chain(CORRIDORS);
-    canvas.fill(&all.map(|place| grown(place, 0.05)).collect::<Vec<_>>(), [252, 0, 0]);
+    canvas.fill(&walls_around(0.05), [252, 0, 0]);
     canvas.fill(&floors(), [0; 3]);
     for door in [[[11.0, 4.0], [11.0, 5.5]], [[15.0, 4.0], [15.0, 5.5]], [[6.0, 9.0], [7.5, 9.0]]] {
         canvas.fill(&[line(door[0], door[1], 0.05)], [252, 252, 0]);
@@ -58,8 +50,7 @@ fn coloured_lines_on_black_are_walls() {
 #[test]
 fn stones_of_a_floor_in_the_dark_are_one_floor() {
     let mut canvas = Canvas::new(SIZE_M, [0.0; 2], 32.0, 0.0, [36, 33, 30]);
-    let all = ROOMS.into_iter().chain(CORRIDORS);
-    canvas.fill(&all.map(|place| grown(place, 0.15)).collect::<Vec<_>>(), [92, 84, 76]);
+    canvas.fill(&walls_around(0.15), [92, 84, 76]);
     canvas.fill(&floors(), [70, 66, 60]);
     let mut rng = SplitMix64::new(3);
     for [min, max] in ROOMS.into_iter().chain(CORRIDORS) {
@@ -83,8 +74,7 @@ fn stones_of_a_floor_in_the_dark_are_one_floor() {
 #[test]
 fn the_void_around_light_walls_is_solid() {
     let mut canvas = Canvas::new(SIZE_M, [0.0; 2], 20.0, 0.0, [58, 60, 64]);
-    let all = ROOMS.into_iter().chain(CORRIDORS);
-    canvas.fill(&all.map(|place| grown(place, 0.2)).collect::<Vec<_>>(), [205, 206, 210]);
+    canvas.fill(&walls_around(0.2), [205, 206, 210]);
     canvas.fill(&floors(), [122, 124, 128]);
     for [min, max] in ROOMS {
         for k in 1..(max[0] - min[0]) as usize {
@@ -134,13 +124,7 @@ fn white_walls_between_floors_seen_from_above_are_walls() {
         [8.9, 5.0, 10.0, 5.0],
         [7.0, 5.0, 7.0, 8.0],
     ];
-    let walls = |by: f64| -> Vec<Polygon> {
-        let half = 0.5 * WALL;
-        let wall =
-            |[x0, y0, x1, y1]: [f64; 4]| rectangle([x0 - half + by, y0 - half + by], [x1 + half + by, y1 + half + by]);
-        wall_lines.map(wall).to_vec()
-    };
-    let shade = canvas.mask(&walls(0.1));
+    let shade = canvas.mask(&walls(&wall_lines.map(|line| line.map(|v| v + 0.1)), WALL));
     let inside = canvas.mask(&[rectangle([0.0, 0.0], [10.0, 8.0])]);
     for ((pixel, shade), inside) in canvas.pixels.iter_mut().zip(shade).zip(inside) {
         if shade != 0 && inside != 0 {
@@ -149,18 +133,14 @@ fn white_walls_between_floors_seen_from_above_are_walls() {
     }
     canvas.fill(&[rectangle([0.8, 6.0], [2.6, 7.6]), rectangle([8.0, 6.2], [9.2, 7.4])], [236, 232, 228]);
     canvas.fill(&[rectangle([1.0, 1.0], [2.4, 2.0])], [96, 62, 42]);
-    canvas.fill(&walls(0.0), [240, 240, 238]);
+    canvas.fill(&walls(&wall_lines, WALL), [240, 240, 238]);
     for pixel in &mut canvas.pixels {
         let grain = 2.0 * rng.normal();
         *pixel = pixel.map(|v| if v == 255.0 { v } else { (v + grain).clamp(0.0, 255.0) });
     }
     let plan = canvas.read(Some(0.02));
     // The share of floor in a square of 8 cm to the right of and below a place.
-    let share = |at: Point| {
-        let [x, y] = canvas.px(at).map(|v| v as usize);
-        let near = (0..16).map(|k| (y + k / 4) * plan.width_px as usize + x + k % 4);
-        near.filter(|&at| plan.floor[at] != 0).count() as f64 / 16.0
-    };
+    let share = |at: Point| canvas.floor_in(&plan, [at, at.map(|v| v + 0.08)]);
     for [x0, y0, x1, y1] in wall_lines {
         let middle = [0.5 * (x0 + x1) - 0.04, 0.5 * (y0 + y1) - 0.04];
         assert!(share(middle) == 0.0, "wall at {middle:?}");
