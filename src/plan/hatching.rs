@@ -201,7 +201,7 @@ struct Mark {
 
 /// Finds in a row or column, which begins at `start`, the pixels of thin lines at even distances.
 fn mark(ink: &Ink, (start, step, count): (usize, usize, usize), greatest: usize, mut found: impl FnMut(Mark)) {
-    let runs: Vec<Range<usize>> = runs(count, 0, |k| ink.dark[start + k * step] != 0).collect();
+    let runs: Vec<Range<usize>> = runs((0..count).filter(|k| ink.dark[start + k * step] != 0), 0).collect();
     let thick = |k: usize| runs[k].len();
     let is_thicker = |k: usize, than: usize| thick(k) > THICKER * thick(than) + THICKER_PX;
     let is_next = |k: usize| {

@@ -6,42 +6,87 @@ use super::components::{Components, Neighbours};
 
 /// Keeps the pixels that a square of `side` pixels of non-zero pixels covers.
 pub(super) fn open(mask: &[u8], width: usize, side: usize) -> Vec<u8> {
-    let mut kept = mask.to_vec();
     if side < 2 {
-        return kept;
+        return mask.to_vec();
     }
-    let height = mask.len() / width;
+    let mut kept = ones(mask);
     // Upper left corners of squares, ...
-    for row in kept.chunks_exact_mut(width) {
-        let mut count = 0;
-        for pixel in row.iter_mut().rev() {
-            count = if *pixel != 0 { count + 1 } else { 0 };
-            *pixel = u8::from(count >= side);
-        }
-    }
-    let mut counts = vec![0usize; width];
-    for y in (0..height).rev() {
-        for (pixel, count) in kept[y * width..(y + 1) * width].iter_mut().zip(&mut counts) {
-            *count = if *pixel != 0 { *count + 1 } else { 0 };
-            *pixel = u8::from(*count >= side);
-        }
-    }
+    along_rows(&mut kept, width, side, false, |pixel, next| pixel & next);
+    across_rows(&mut kept, width, side, false, |pixel, next| pixel & next);
     // ... and all that the squares cover.
-    counts.fill(0);
-    for row in kept.chunks_exact_mut(width) {
-        for (pixel, count) in row.iter_mut().zip(&mut counts) {
-            *count = if *pixel != 0 { side } else { count.saturating_sub(1) };
-            *pixel = u8::from(*count > 0);
-        }
-    }
-    for row in kept.chunks_exact_mut(width) {
-        let mut count = 0usize;
-        for pixel in row {
-            count = if *pixel != 0 { side } else { count.saturating_sub(1) };
-            *pixel = u8::from(count > 0);
-        }
-    }
+    along_rows(&mut kept, width, side, true, |pixel, next| pixel | next);
+    across_rows(&mut kept, width, side, true, |pixel, next| pixel | next);
     kept
+}
+
+fn ones(mask: &[u8]) -> Vec<u8> {
+    mask.iter().map(|&pixel| u8::from(pixel != 0)).collect()
+}
+
+/// Distances at which a row of pixels has to be joined with itself, one after the other, so that each pixel has been joined
+/// with `side - 1` neighbours: they double, as the neighbours have been joined as well.
+fn distances(side: usize) -> impl Iterator<Item = usize> {
+    let mut joined = 1;
+    std::iter::from_fn(move || {
+        let step = joined.min(side - joined);
+        joined += step;
+        (step > 0).then_some(step)
+    })
+}
+
+/// Joins eight pixels at once.
+fn join_all(pixels: &mut [u8], others: &[u8], join: impl Fn(u64, u64) -> u64) {
+    let ((pixels, rest), (others, others_rest)) = (pixels.as_chunks_mut(), others.as_chunks());
+    for (pixels, &others) in pixels.iter_mut().zip(others) {
+        *pixels = join(u64::from_ne_bytes(*pixels), u64::from_ne_bytes(others)).to_ne_bytes();
+    }
+    for (pixel, &other) in rest.iter_mut().zip(others_rest) {
+        *pixel = join(u64::from(*pixel), u64::from(other)) as u8;
+    }
+}
+
+/// Joins each pixel with the `side - 1` pixels that follow in its row, or come before it; beyond the rim are zeros.
+fn along_rows(mask: &mut [u8], width: usize, side: usize, before: bool, join: impl Fn(u64, u64) -> u64) {
+    let mut earlier = vec![0; width];
+    for row in mask.chunks_exact_mut(width) {
+        for step in distances(side.min(width + 1)) {
+            let inner = width - step;
+            earlier.copy_from_slice(row);
+            let (with, others, rim) = if before {
+                let (rim, with) = row.split_at_mut(step);
+                (with, &earlier[..inner], rim)
+            } else {
+                let (with, rim) = row.split_at_mut(inner);
+                (with, &earlier[step..], rim)
+            };
+            join_all(with, others, &join);
+            rim.iter_mut().for_each(|pixel| *pixel = join(u64::from(*pixel), 0) as u8);
+        }
+    }
+}
+
+/// The same within columns.
+fn across_rows(mask: &mut [u8], width: usize, side: usize, before: bool, join: impl Fn(u64, u64) -> u64) {
+    let height = mask.len() / width.max(1);
+    for step in distances(side.min(height + 1)) {
+        // In the order in which the neighbour is still as it was.
+        for k in 0..height {
+            let y = if before { height - 1 - k } else { k };
+            let own = y * width..(y + 1) * width;
+            if k + step >= height {
+                mask[own].iter_mut().for_each(|pixel| *pixel = join(u64::from(*pixel), 0) as u8);
+                continue;
+            }
+            let (row, other) = if before {
+                let (above, below) = mask.split_at_mut(own.start);
+                (&mut below[..width], &above[(y - step) * width..][..width])
+            } else {
+                let (above, below) = mask.split_at_mut((y + step) * width);
+                (&mut above[own], &below[..width])
+            };
+            join_all(row, other, &join);
+        }
+    }
 }
 
 /// What of a mask is thinner than some pixels: strokes of saturated colour; broad areas are highlights.
@@ -53,10 +98,21 @@ pub(super) fn strokes(mask: &[u8], width: usize, thickest_px: f64) -> Vec<u8> {
     mask.iter().zip(&broad).map(|(&c, &b)| c & (1 - b)).collect()
 }
 
-/// Stretches below `length` that are on, with breaks of up to `longest` places within.
-pub(super) fn runs(length: usize, longest: usize, is_on: impl Fn(usize) -> bool) -> impl Iterator<Item = Range<usize>> {
+/// The places of a row that are not zero.
+pub(super) fn places(row: &[u8]) -> impl Iterator<Item = usize> {
+    // Drawings are mostly empty: many pixels at once are looked at.
+    const TOGETHER: usize = 32;
+    let chunks =
+        row.chunks(TOGETHER).enumerate().filter(|(_, chunk)| chunk.iter().fold(0, |all, pixel| all | pixel) != 0);
+    chunks.flat_map(|(k, chunk)| {
+        chunk.iter().enumerate().filter(|(_, pixel)| **pixel != 0).map(move |(at, _)| k * TOGETHER + at)
+    })
+}
+
+/// The stretches of ascending places, with breaks of up to `longest` within.
+pub(super) fn runs(places: impl Iterator<Item = usize>, longest: usize) -> impl Iterator<Item = Range<usize>> {
     let mut all: Vec<Range<usize>> = Vec::new();
-    for k in (0..length).filter(|&k| is_on(k)) {
+    for k in places {
         match all.last_mut() {
             Some(run) if k - run.end <= longest => run.end = k + 1,
             _ => all.push(k..k + 1),
@@ -87,34 +143,11 @@ pub(super) fn long_runs(mask: &[u8], width: usize, stride: usize, least: usize) 
 
 /// Marks the pixels within `reach` pixels of a non-zero pixel along both axes.
 pub(super) fn grow(mask: &[u8], width: usize, reach: usize) -> Vec<u8> {
-    let mut grown = mask.to_vec();
-    for row in grown.chunks_exact_mut(width) {
-        for backwards in [false, true] {
-            let mut count = 0usize;
-            for k in 0..width {
-                let pixel = &mut row[if backwards { width - 1 - k } else { k }];
-                count = if *pixel == 1 { reach + 1 } else { count.saturating_sub(1) };
-                if count > 0 && *pixel == 0 {
-                    *pixel = 2;
-                }
-            }
-        }
-        row.iter_mut().for_each(|pixel| *pixel = u8::from(*pixel != 0));
+    let mut grown = ones(mask);
+    for before in [false, true] {
+        along_rows(&mut grown, width, reach + 1, before, |pixel, next| pixel | next);
+        across_rows(&mut grown, width, reach + 1, before, |pixel, next| pixel | next);
     }
-    let height = mask.len() / width;
-    for backwards in [false, true] {
-        let mut counts = vec![0usize; width];
-        for k in 0..height {
-            let y = if backwards { height - 1 - k } else { k };
-            for (pixel, count) in grown[y * width..(y + 1) * width].iter_mut().zip(&mut counts) {
-                *count = if *pixel == 1 { reach + 1 } else { count.saturating_sub(1) };
-                if *count > 0 && *pixel == 0 {
-                    *pixel = 2;
-                }
-            }
-        }
-    }
-    grown.iter_mut().for_each(|pixel| *pixel = u8::from(*pixel != 0));
     grown
 }
 

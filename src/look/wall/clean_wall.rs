@@ -88,6 +88,7 @@ pub(super) struct CleanWallRow {
     /// Share of skirting board in the row.
     pub board: f32,
     fine: Vec<f32>,
+    spots: Vec<f32>,
 }
 
 impl CleanWallRow {
@@ -115,9 +116,9 @@ impl CleanWall {
         // Length along the wall and height of spots, metres, and deviation; the last is for the tint.
         let [fine, middle, coarse, tint] = match wall.material {
             // Stipple of the roller, orange peel, overlapping strokes.
-            WallMaterial::Matt => [[0.004, 0.0045, 0.015], [0.018, 0.024, 0.008], [0.24, 0.8, 0.011], [1.0, 1.0, 0.0]],
-            WallMaterial::Gloss => [[0.005, 0.006, 0.010], [0.018, 0.024, 0.006], [0.24, 0.8, 0.008], [1.0, 1.0, 0.0]],
-            WallMaterial::Brick => [[0.006, 0.005, 0.055], [0.05, 0.03, 0.03], [1.4, 0.9, 0.035], [0.6, 0.4, 0.006]],
+            WallMaterial::Matt => [[0.004, 0.0045, 0.015], [0.018, 0.024, 0.008], [0.24, 0.8, 0.005], [1.0, 1.0, 0.0]],
+            WallMaterial::Gloss => [[0.005, 0.006, 0.010], [0.018, 0.024, 0.006], [0.24, 0.8, 0.004], [1.0, 1.0, 0.0]],
+            WallMaterial::Brick => [[0.006, 0.005, 0.055], [0.022, 0.018, 0.03], [1.4, 0.9, 0.035], [0.6, 0.4, 0.006]],
             WallMaterial::Tile => [[0.05, 0.05, 0.004], [0.4, 0.4, 0.004], [1.5, 1.2, 0.006], [1.0, 1.0, 0.0]],
             // Grain, blotches, clouds.
             WallMaterial::Concrete => {
@@ -243,7 +244,7 @@ impl CleanWallWindow<'_> {
     }
 
     fn read_wall(&self, j: i64, out: &mut CleanWallRow) {
-        let CleanWallRow { rgb, rough, height, fine, .. } = out;
+        let CleanWallRow { rgb, rough, height, fine, spots, .. } = out;
         if let Some(image) = &self.plaster.image {
             image.read_row(self.window.i0, j, rgb);
             return;
@@ -291,7 +292,10 @@ impl CleanWallWindow<'_> {
         if let Some(masonry) = &self.plaster.masonry {
             rough.clear();
             rough.resize(self.window.width, 0.0);
-            masonry.lay((&self.window, &self.strip), j, fine, (rgb, rough, height));
+            spots.clear();
+            spots.resize(self.window.width, 0.0);
+            self.tone.iter().skip(1).take(1).for_each(|field| field.add_to(0, spots));
+            masonry.lay((&self.window, &self.strip), j, (fine, spots), (rgb, rough, height));
         }
     }
 }

@@ -17,6 +17,9 @@ const PAINT_MM: f32 = 8.0;
 /// Roughness of mortar and of joints between tiles.
 const JOINT_ROUGHNESS: f32 = 0.93;
 
+/// Width of the darker rim of a brick, metres.
+const RIM_M: f32 = 0.01;
+
 /// Pieces of one kind, laid in rows.
 pub(super) struct Masonry {
     key: u32,
@@ -31,8 +34,12 @@ pub(super) struct Masonry {
     /// Deviation of the tone and of the tint between pieces.
     tone_sd: f32,
     tint_sd: f32,
-    /// How much edges of pieces wander, metres.
+    /// How much edges of pieces wander, and radius of their corners, metres.
     ragged_m: f32,
+    corner_m: f32,
+    /// Deviation of the tone from end to end of a piece, as of the kiln, and how much darker its rim is.
+    fired_sd: f32,
+    rim: f32,
     roughness: f32,
     /// How far joints lie back, and deviation of the height between pieces, millimetres.
     joint_mm: f32,
@@ -49,10 +56,13 @@ impl Masonry {
             piece_m: [0.250, 0.0833],
             joint_m: 0.011,
             bond: 0.5,
-            joint: light_of([173, 165, 153]),
+            joint: light_of([161, 153, 141]),
             tone_sd: 0.13,
             tint_sd: 0.045,
             ragged_m: 0.0011,
+            corner_m: 0.005,
+            fired_sd: 0.08,
+            rim: 0.14,
             roughness: 0.84,
             joint_mm: 4.0,
             height_sd_mm: 0.7,
@@ -68,6 +78,9 @@ impl Masonry {
                 tone_sd: 0.012,
                 tint_sd: 0.004,
                 ragged_m: 0.0,
+                corner_m: 0.001,
+                fired_sd: 0.0,
+                rim: 0.0,
                 roughness: 0.16,
                 joint_mm: 0.8,
                 height_sd_mm: 0.15,
@@ -79,12 +92,12 @@ impl Masonry {
     }
 
     /// Lays the pieces over row `j`: changes the base colour, and adds to the roughness and the height. `fine` is grain in
-    /// the row, which makes edges ragged.
+    /// the row, `spots` are those of the size by which edges wander.
     pub fn lay(
         &self,
         (window, strip): (&TexelWindow, &FaceStrip),
         j: i64,
-        fine: &[f32],
+        (fine, spots): (&[f32], &[f32]),
         (rgb, rough, height): (&mut [Vec<f32>; 3], &mut [f32], &mut [f32]),
     ) {
         let texel_m = 1.0 / window.texels_per_metre;
@@ -104,29 +117,34 @@ impl Masonry {
         let width_m = if strip.closed { length_m / around } else { self.piece_m[0] };
         let height_m = self.piece_m[1];
         let course = (up / height_m).floor();
-        let from_level = (up - course * height_m).min((course + 1.0) * height_m - up) as f32;
+        let from_middle = (up - (course + 0.5) * height_m) as f32;
+        let half = [width_m, height_m].map(|side| 0.5 * (side as f32 - self.joint_m) - self.corner_m);
         let shift = if course.rem_euclid(2.0) < 1.0 { 0.0 } else { self.bond * width_m };
-        let texel = texel_m as f32;
+        let soft = 0.5 * texel_m as f32 + 0.0006;
         for k in 0..window.width {
             let along = ((window.i0 + k as i64) as f64 + 0.5) * texel_m + shift;
             let number = (along / width_m).floor();
-            let from_side = (along - number * width_m).min((number + 1.0) * width_m - along) as f32;
+            let across = (along - (number + 0.5) * width_m) as f32;
             let number = if strip.closed { number.rem_euclid(around) } else { number };
-            let fine = fine.get(k).copied().unwrap_or(0.0);
-            // Share of the texel that is joint: its edge may be ragged.
-            let edge = 0.5 * self.joint_m + self.ragged_m * (25.0 * fine).clamp(-1.5, 1.5);
-            let soft = 0.5 * texel + 0.0006;
-            let joint = smoothstep_f32((edge + soft - from_level.min(from_side)) / (2.0 * soft)) * self.gain.min(1.0);
+            let of = |row: &[f32]| row.get(k).copied().unwrap_or(0.0);
+            let (fine, spot) = (of(fine), of(spots));
+            // How far the texel lies beyond the edge of a piece with round corners.
+            let [x, y] = [across.abs() - half[0], from_middle.abs() - half[1]];
+            let beyond = (x.max(0.0) * x.max(0.0) + y.max(0.0) * y.max(0.0)).sqrt() + x.max(y).min(0.0) - self.corner_m
+                + self.ragged_m * (28.0 * spot + 6.0 * fine).clamp(-1.5, 1.5);
+            let joint = smoothstep_f32((beyond + soft) / (2.0 * soft)) * self.gain.min(1.0);
             let draw = |n: u32| {
                 let word = noise::mix(n.wrapping_mul(0x9e37_79b9));
                 1.73 * noise::signed(self.key ^ strip.salt ^ word, number as i32, course as i32)
             };
-            let tone = (1.0 + self.gain * (self.tone_sd * draw(1) + fine)).max(0.2);
+            let fired = self.fired_sd * draw(4) * across / half[0];
+            let rim = self.rim * smoothstep_f32(1.0 + beyond / RIM_M);
+            let tone = (1.0 + self.gain * (self.tone_sd * draw(1) + fired + fine - rim)).max(0.2);
             let tint = self.gain * self.tint_sd * draw(2);
             let piece = [tone * (1.0 + tint), tone, tone * (1.0 - tint)];
             for ((plane, piece), mortar) in rgb.iter_mut().zip(piece).zip(self.joint) {
                 let value = plane[k] * piece;
-                plane[k] = value + joint * (mortar * (1.0 + 2.0 * fine) - value);
+                plane[k] = value + joint * (mortar * (1.0 + 2.0 * fine + 3.0 * spot) - value);
             }
             height[k] += self.gain * self.height_sd_mm * draw(3) * (1.0 - joint) - self.joint_mm * joint;
             rough[k] = joint * (JOINT_ROUGHNESS - self.roughness) + 0.5 * fine;

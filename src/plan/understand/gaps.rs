@@ -7,7 +7,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::super::cracks::trace;
-use super::super::thick::runs;
+use super::super::thick::{places, runs};
 use super::directions;
 use crate::math::sin_cos;
 
@@ -151,31 +151,47 @@ impl Frame {
         inside.then(|| y as usize * self.image[0] + x as usize)
     }
 
-    /// What the grid shows of a mask; of fine strokes, all that lies around a place.
-    fn view(&self, mask: &[u8], is_fine: bool) -> Vec<u8> {
+    /// What the grid shows of a mask: the pixel at each place, moved by a part of a pixel.
+    fn view(&self, mask: &[u8], moved: f64) -> Vec<u8> {
         const ONE: f64 = 65536.0;
         let [width, height] = self.image;
         let [right, down] = [self.along[0] * ONE, self.along[1] * ONE].map(|step| step.round() as i64);
-        let half = if is_fine { 0.0 } else { 0.5 };
         let mut seen = vec![0; self.size[0] * self.size[1]];
         seen.par_chunks_mut(self.size[0].max(1)).enumerate().for_each(|(v, row)| {
-            let [x, y] = self.place([0.5, v as f64 + 0.5]);
-            let (mut x, mut y) = (((x - 0.5 + half) * ONE) as i64, ((y - 0.5 + half) * ONE) as i64);
-            for seen in row {
-                let (column, line) = (x >> 16, y >> 16);
-                if column >= 0 && line >= 0 && (column as usize) < width - 1 && (line as usize) < height - 1 {
-                    let at = line as usize * width + column as usize;
-                    *seen = mask[at];
-                    if is_fine {
-                        *seen |= mask[at + 1] | mask[at + width] | mask[at + width + 1];
-                    }
-                }
+            let start = self.place([0.5, v as f64 + 0.5]).map(|at| ((at - 0.5 + moved) * ONE) as i64);
+            let [in_columns, in_lines] = [
+                steps_inside(start[0], right, (width as i64 - 1) << 16),
+                steps_inside(start[1], down, (height as i64 - 1) << 16),
+            ];
+            let first = in_columns.start.max(in_lines.start).min(row.len() as i64);
+            let end = in_columns.end.min(in_lines.end).clamp(first, row.len() as i64);
+            let (mut x, mut y) = (start[0] + first * right, start[1] + first * down);
+            for seen in &mut row[first as usize..end as usize] {
+                *seen = mask[(y >> 16) as usize * width + (x >> 16) as usize];
                 x += right;
                 y += down;
             }
         });
         seen
     }
+}
+
+/// After how many steps a place lies in `0..end`.
+fn steps_inside(start: i64, step: i64, end: i64) -> Range<i64> {
+    let first = |at: i64| (at - start + step - 1).div_euclid(step).max(0);
+    match step {
+        // Going down is going up from the other end.
+        ..0 => steps_inside(end - 1 - start, -step, end),
+        0 if (0..end).contains(&start) => 0..i64::MAX,
+        0 => 0..0,
+        _ => first(0)..first(end),
+    }
+}
+
+/// Each pixel of a mask with those to its right and below: of fine strokes, all that lies around a place between four pixels.
+fn around(mask: &[u8], width: usize) -> Vec<u8> {
+    let beside: Vec<u8> = mask.iter().zip(mask[1..].iter().chain([&0])).map(|(a, b)| a | b).collect();
+    beside.iter().zip(beside[width..].iter().chain(std::iter::repeat(&0))).map(|(a, b)| a | b).collect()
 }
 
 /// What gaps may be, pixels.
@@ -201,12 +217,14 @@ pub(super) fn find(wall: &[u8], ink: &[u8], width: usize, limits: &Limits) -> Ve
             std::iter::once(Frame::upright(image)).chain(turned).collect()
         }
     };
+    let ink_around = frames.iter().any(|frame| !frame.is_upright()).then(|| around(ink, width));
     let seen = frames.into_par_iter().flat_map_iter(|frame| {
-        let view = |mask, is_fine| match frame.is_upright() {
-            true => Cow::Borrowed(mask),
-            false => Cow::Owned(frame.view(mask, is_fine)),
+        let (wall, ink) = match &ink_around {
+            Some(ink_around) if !frame.is_upright() => {
+                (Cow::Owned(frame.view(wall, 0.5)), Cow::Owned(frame.view(ink_around, 0.0)))
+            }
+            _ => (Cow::Borrowed(wall), Cow::Borrowed(ink)),
         };
-        let (wall, ink) = (view(wall, false), view(ink, true));
         let columns = transposed(&wall, frame.size[0]);
         let in_columns = in_grid(frame.transposed(), columns, &transposed(&ink, frame.size[0]), limits);
         in_grid(frame, wall.into_owned(), &ink, limits).into_iter().chain(in_columns)
@@ -298,11 +316,7 @@ fn transposed(mask: &[u8], width: usize) -> Vec<u8> {
     let height = mask.len() / width;
     let mut turned = vec![0; mask.len()];
     for (y, row) in mask.chunks_exact(width).enumerate() {
-        for (x, &pixel) in row.iter().enumerate() {
-            if pixel != 0 {
-                turned[x * height + y] = pixel;
-            }
-        }
+        places(row).for_each(|x| turned[x * height + y] = row[x]);
     }
     turned
 }
@@ -398,8 +412,7 @@ fn at_ends(wall: &[u8], width: usize, gap: &Gap, limits: &Limits) -> impl Iterat
 fn met_by_walls(mut wall: Vec<u8>, ink: &[u8], limits: &Limits, frame: Frame, plain: &[Gap]) -> Vec<Gap> {
     let width = frame.size[0];
     for row in wall.chunks_exact_mut(width.max(1)) {
-        let thin: Vec<Range<usize>> =
-            runs(width, 1, |x| row[x] != 0).filter(|run| run.len() <= 2 * limits.thinnest).collect();
+        let thin: Vec<Range<usize>> = runs(places(row), 1).filter(|run| run.len() <= 2 * limits.thinnest).collect();
         thin.into_iter().for_each(|run| row[run].fill(0));
     }
     let mut found = along_rows(&wall, ink, limits, frame);
@@ -421,15 +434,13 @@ fn overlaps(a: &Gap, b: &Gap) -> bool {
 fn gaps_of(row: &[u8], limits: &Limits) -> Vec<[usize; 2]> {
     let mut gaps = Vec::new();
     let mut last_wall = None;
-    for (x, &pixel) in row.iter().enumerate() {
-        if pixel != 0 {
-            if let Some(last) = last_wall
-                && (limits.shortest..=limits.longest).contains(&(x - last - 1))
-            {
-                gaps.push([last + 1, x]);
-            }
-            last_wall = Some(x);
+    for x in places(row) {
+        if let Some(last) = last_wall
+            && (limits.shortest..=limits.longest).contains(&(x - last - 1))
+        {
+            gaps.push([last + 1, x]);
         }
+        last_wall = Some(x);
     }
     gaps
 }
@@ -535,11 +546,33 @@ fn slides(ink: &[u8], width: usize, gap: &Gap) -> bool {
     let mut covered = vec![false; length];
     for y in gap.first.saturating_sub(margin)..(gap.first + thick + margin).min(height) {
         let is_ink = |k: usize, rows: usize| (y..(y + rows).min(height)).any(|y| ink[y * width + from + k] != 0);
-        if runs(length, BREAK_PX, |k| is_ink(k, rows)).any(|run| run.len() as f64 >= THROUGH * length as f64) {
+        if runs((0..length).filter(|&k| is_ink(k, rows)), BREAK_PX)
+            .any(|run| run.len() as f64 >= THROUGH * length as f64)
+        {
             return false;
         }
-        let leaves = runs(length, 0, |k| is_ink(k, 1)).filter(|run| run.len() as f64 >= LEAF * length as f64);
+        let leaves =
+            runs((0..length).filter(|&k| is_ink(k, 1)), 0).filter(|run| run.len() as f64 >= LEAF * length as f64);
         leaves.for_each(|leaf| covered[leaf].fill(true));
     }
     covered.iter().filter(|&&covered| covered).count() as f64 >= COVERED * length as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_counted_both_ways() {
+        for (start, step, end) in
+            [(-7, 3, 20), (25, -4, 20), (5, 2, 11), (19, -1, 20), (-5, 1, 0), (3, 0, 4), (4, 0, 4)]
+        {
+            let inside = |k: &i64| (0..end).contains(&(start + k * step));
+            let found = steps_inside(start, step, end);
+            assert!(
+                (0..100).filter(inside).eq((0..100).filter(|k| found.contains(k))),
+                "{start} {step} {end}: {found:?}"
+            );
+        }
+    }
 }
