@@ -144,9 +144,9 @@ fn place(columns: &[(i32, [i32; 2])], reach: i32) -> f64 {
     }
 }
 
-/// Lengths of scale bars: what stands at their far ends, metres, and pixels. A bar runs below or above its numbers, from the
+/// Scale bars: the numbers at their far ends, and their lengths, pixels. A bar runs below or above its numbers, from the
 /// one that is 0 to another.
-pub(super) fn bars(page: &Page, numbers: &[Number]) -> Vec<(f64, f64)> {
+pub(super) fn bars<'a>(page: &Page, numbers: &'a [Number]) -> Vec<(&'a Number, f64)> {
     let wide = page.wide();
     let mut found = Vec::new();
     for zero in numbers.iter().filter(|number| number.value == 0.0) {
@@ -163,7 +163,7 @@ pub(super) fn bars(page: &Page, numbers: &[Number]) -> Vec<(f64, f64)> {
         };
         let bar = wide.iter().filter(is_bar).find_map(|bar| Some((bar, numbers.iter().find(|end| at_end(bar, end))?)));
         // The ends of a ruled line are in the middle of its strokes: to a pixel that is the same.
-        found.extend(bar.map(|(bar, end)| (end.value, f64::from(bar.width()))));
+        found.extend(bar.map(|(bar, end)| (end, f64::from(bar.width()))));
     }
     found
 }

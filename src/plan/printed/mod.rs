@@ -20,8 +20,9 @@ const AGREE: f64 = 1.04;
 /// Least number of measures that agree, and their least share of all measures.
 const FEWEST: usize = 3;
 const LEAST_SHARE: f64 = 0.4;
-/// Votes of a scale bar: both of its ends stand below numbers.
+/// Votes of a scale bar, both ends of which have numbers; of one that says its unit too, which is enough by itself.
 const BAR_VOTES: usize = 2;
+const BAR_WITH_UNIT_VOTES: usize = FEWEST;
 /// How far a printed scale may lie from the one that doors say.
 const FAR: f64 = 1.5;
 /// How sure a printed scale is where few and where many measures agree, and how far it may be off.
@@ -49,6 +50,7 @@ struct Measure {
     kind: Kind,
     metres: f64,
     pixels: f64,
+    votes: usize,
 }
 
 impl Measure {
@@ -71,7 +73,7 @@ pub(super) fn scale(drawing: &Drawing, guess: f64, possible: [f64; 2]) -> Option
         return Some(found);
     }
     // Rooms take longer to find.
-    let votes: usize = measures.iter().map(|m| if m.kind == Kind::Bar { BAR_VOTES } else { 1 }).sum();
+    let votes: usize = measures.iter().map(|m| m.votes).sum();
     if in_rooms.is_empty() || in_rooms.len() + votes < FEWEST {
         return None;
     }
@@ -88,9 +90,10 @@ fn read(drawing: &Drawing) -> (Vec<Measure>, Vec<RoomNumber>) {
     for is_turned in [false, true] {
         let page = Page::of(&ink, is_turned);
         let numbers = words::numbers(&page, &alphabet);
-        for (metres, pixels) in lines::bars(&page, &numbers) {
+        for (end, pixels) in lines::bars(&page, &numbers) {
             count += 1;
-            measures.push(Measure { number: count, kind: Kind::Bar, metres, pixels });
+            let votes = if end.unit == Unit::Length { BAR_WITH_UNIT_VOTES } else { BAR_VOTES };
+            measures.push(Measure { number: count, kind: Kind::Bar, metres: end.value, pixels, votes });
         }
         for number in numbers {
             count += 1;
@@ -102,7 +105,7 @@ fn read(drawing: &Drawing) -> (Vec<Measure>, Vec<RoomNumber>) {
             let pixels = lines::dimensions(&page, &number.area);
             let each = metres(&number).into_iter().flat_map(|metres| pixels.iter().map(move |&px| (metres, px)));
             let kind = Kind::Dimension;
-            measures.extend(each.map(|(metres, pixels)| Measure { number: count, kind, metres, pixels }));
+            measures.extend(each.map(|(metres, pixels)| Measure { number: count, kind, metres, pixels, votes: 1 }));
         }
     }
     (measures, in_rooms)
@@ -130,7 +133,7 @@ fn measured_rooms(drawing: &Drawing, guess: f64, numbers: &[RoomNumber]) -> Vec<
         let (area, [w, h]) = rooms.area_and_size(room);
         // The numbers of pages begin at 1.
         let mut add = |kind: Kind, metres: f64, pixels: f64| {
-            found.push(Measure { number: usize::MAX - k, kind, metres, pixels });
+            found.push(Measure { number: usize::MAX - k, kind, metres, pixels, votes: 1 });
         };
         match &number.times {
             None if is_alone && (AREAS_M2[0]..=AREAS_M2[1]).contains(&number.value) => {
@@ -160,8 +163,7 @@ fn vote(measures: &[Measure], guess: f64, sane: [f64; 2]) -> Option<(f64, PlanSc
     let mut all: Vec<Measure> = measures.iter().copied().filter(|m| (sane[0]..=sane[1]).contains(&m.scale())).collect();
     all.sort_by(|a, b| a.scale().total_cmp(&b.scale()));
     let votes = |some: &[Measure]| {
-        let votes = |m: &Measure| if m.kind == Kind::Bar { BAR_VOTES } else { 1 };
-        let mut numbers: Vec<(usize, usize)> = some.iter().map(|m| (m.number, votes(m))).collect();
+        let mut numbers: Vec<(usize, usize)> = some.iter().map(|m| (m.number, m.votes)).collect();
         numbers.sort_unstable();
         numbers.dedup();
         numbers.iter().map(|(_, votes)| votes).sum::<usize>()
@@ -215,7 +217,8 @@ mod tests {
     use super::*;
 
     fn found(scales: &[f64]) -> Option<f64> {
-        let measure = |(number, scale)| Measure { number, kind: Kind::Dimension, metres: 100.0 * scale, pixels: 100.0 };
+        let measure =
+            |(number, scale)| Measure { number, kind: Kind::Dimension, metres: 100.0 * scale, pixels: 100.0, votes: 1 };
         let measures: Vec<Measure> = scales.iter().copied().enumerate().map(measure).collect();
         vote(&measures, 0.02, [0.015, 0.03]).map(|(value, _)| value)
     }
@@ -231,8 +234,9 @@ mod tests {
 
     #[test]
     fn numbers_without_a_unit_take_the_one_nearer_to_the_guess() {
-        let measure =
-            |number| [6.0, 60.0].map(|metres| Measure { number, kind: Kind::Dimension, metres, pixels: 300.0 });
+        let measure = |number| {
+            [6.0, 60.0].map(|metres| Measure { number, kind: Kind::Dimension, metres, pixels: 300.0, votes: 1 })
+        };
         let measures: Vec<Measure> = (0..3).flat_map(measure).collect();
         let found = |guess| vote(&measures, guess, [0.005, 0.5]).map(|(value, _)| value);
         assert_eq!((found(0.05), found(0.15)), (Some(0.02), Some(0.2)));
@@ -240,7 +244,7 @@ mod tests {
 
     #[test]
     fn one_number_is_one_vote() {
-        let twice = Measure { number: 1, kind: Kind::Dimension, metres: 2.0, pixels: 100.0 };
+        let twice = Measure { number: 1, kind: Kind::Dimension, metres: 2.0, pixels: 100.0, votes: 1 };
         assert!(vote(&[twice; 5], 0.02, [0.01, 0.03]).is_none());
     }
 }

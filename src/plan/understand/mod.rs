@@ -36,8 +36,11 @@ const FAINT: u8 = 180;
 const RING_PX: usize = 2;
 /// Least share of a building's floor that its doors connect.
 const CONNECTED: f64 = 0.6;
-/// Greatest thickness of walls with doors, metres.
+/// Greatest thickness of walls with doors, metres; of those of churches and castles.
 const THICKEST_WALL_M: f64 = 0.9;
+const MASSIVE_WALL_M: f64 = 2.5;
+/// Greatest width of a door in them, metres: buttresses are further apart.
+const WIDEST_PORTAL_M: f64 = 4.0;
 /// Greatest thickness of a stroke of colour and of a pane that is filled, metres.
 const STROKE_M: f64 = 0.1;
 const PANE_M: f64 = 0.55;
@@ -251,7 +254,7 @@ pub(super) fn leaf_lengths(drawing: &Drawing, metres_per_pixel: f64) -> Vec<f64>
     lengths.map(|length| length * factor as f64).collect()
 }
 
-/// Finds the walls: thick ones, else outlines, else hatched ones, else both, else single lines.
+/// Finds the walls: thick ones, else outlines, else hatched ones, else both, else massive ones, else single lines.
 ///
 /// Partitions between thick walls may be drawn in fainter ink than walls: `all_ink`.
 fn find_net(drawing: &Drawing, ink: &[u8], all_ink: &[u8], metres_per_pixel: f64) -> Option<Net> {
@@ -272,7 +275,8 @@ fn find_net(drawing: &Drawing, ink: &[u8], all_ink: &[u8], metres_per_pixel: f64
         Net::find(core, filled, dark, ink, width, metres_per_pixel, (thickest, widest_m)).filter(Net::is_building)
     };
     let net_of = |core: &[u8], filled: &[u8], thickest: usize| net_in(ink, core, filled, thickest, WIDEST_DOOR_M);
-    let thickest = ((THICKEST_WALL_M / metres_per_pixel).round() as usize).max(4);
+    let px = |metres: f64| ((metres / metres_per_pixel).round() as usize).max(4);
+    let thickest = px(THICKEST_WALL_M);
     let wide = |core: &[u8], filled: &[u8]| net_in(ink, core, filled, thickest, WIDEST_ENTRANCE_M);
     // Rooms that nothing joins lie along a corridor that is open at its ends.
     let net = |core: &[u8], filled: &[u8]| {
@@ -306,6 +310,9 @@ fn find_net(drawing: &Drawing, ink: &[u8], all_ink: &[u8], metres_per_pixel: f64
         return Some(net);
     }
     if let Some(net) = wide(&core, dark) {
+        return Some(net);
+    }
+    if let Some(net) = net_in(ink, &core, dark, px(MASSIVE_WALL_M), WIDEST_PORTAL_M) {
         return Some(net);
     }
     drop((outlined, hatched, both));

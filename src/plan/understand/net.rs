@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::super::components::{Component, Components, Neighbours, Run};
 use super::super::doors::bend;
-use super::super::thick::{THINNEST_M, grow, open, wall_square};
+use super::super::thick::{LEAST_MASSIVE_M, THINNEST_M, grow, open, wall_square};
 use super::directions::SHADOW_SHARE;
 use super::gaps::{self, Gap, Limits};
 use super::leaves;
@@ -25,6 +25,9 @@ const THICKEST_LEAF_M: f64 = 0.3;
 const LEAF_IN_WALLS: f64 = 0.75;
 /// Greatest width of a window that is a single line, metres.
 const WIDEST_PANE_M: f64 = 3.2;
+/// Greatest side of a column between massive walls, metres, and its greatest length in its thickness.
+const LONGEST_COLUMN_M: f64 = 2.5;
+const COLUMN_SLENDER: f64 = 1.8;
 /// Largest column or piece of furniture that is drawn as thick as walls, metres.
 const COLUMN_M: f64 = 0.75;
 /// Least side of a column, metres and pixels.
@@ -67,7 +70,7 @@ impl Net {
     ) -> Option<Net> {
         let mut core = core.to_vec();
         drop_frame(&mut core, ink, width, metres_per_pixel);
-        let (side, thinnest) = wall_square(&core, width, metres_per_pixel)?;
+        let (side, thinnest) = wall_square(&core, width, metres_per_pixel, thickest)?;
         let px = |metres: f64| (metres / metres_per_pixel).round() as usize;
         let mut wall = open(&core, width, side);
         drop(core);
@@ -77,7 +80,12 @@ impl Net {
         let is_entrance = |gap: &Gap| gap.slides && (px(ENTRANCE_M[0])..=px(ENTRANCE_M[1])).contains(&gap.length());
         drop_leaves(&mut wall, ink, width, &limits, [ENTRANCE_M[1], THICKEST_LEAF_M].map(px), is_entrance);
         let strokes = strokes_of(ink, &wall);
-        let found = gaps::find(&wall, &strokes, width, &limits);
+        let mut found = gaps::find(&wall, &strokes, width, &limits);
+        if thickest as f64 * metres_per_pixel > LEAST_MASSIVE_M {
+            // Columns are as thick as massive walls; what is drawn between them is no window.
+            let columns = columns(&wall, width, LONGEST_COLUMN_M / metres_per_pixel);
+            found.retain(|gap| gap.ends.iter().all(|&at| columns[at] == 0));
+        }
         // A door may be closed by lines along both faces of the wall; its leaf tells it from a window.
         let has_leaf =
             |gap: &Gap| gap.length() <= px(WIDEST_DOOR_M) && !leaves::hung(gap, &strokes, metres_per_pixel).is_empty();
@@ -391,6 +399,18 @@ fn trim(wall: &mut [u8], raw: &[u8], ink: &[u8], width: usize) {
     for at in rim {
         wall[at] = 0;
     }
+}
+
+/// The pieces of a wall mask that stand alone and are about as long as thick, up to `longest` pixels.
+fn columns(wall: &[u8], width: usize, longest: f64) -> Vec<u8> {
+    let pieces = Components::of(wall, width, 1, Neighbours::Eight);
+    let mut columns = vec![0; wall.len()];
+    let is_column = |piece: &&Component| {
+        let [w, h] = piece.size().map(f64::from);
+        w.max(h) <= longest && w.max(h) <= COLUMN_SLENDER * w.min(h)
+    };
+    pieces.all.iter().filter(is_column).for_each(|piece| pieces.paint(piece, &mut columns, width, 1));
+    columns
 }
 
 /// Takes off what is smaller than a square of `side`: crossings of strokes.

@@ -44,6 +44,10 @@ const LARGEST_ROW_M2: f64 = 30.0;
 const LARGEST_ROWS_M2: f64 = 60.0;
 const ROW_STROKES: f64 = 0.9;
 const ROW_FILL: f64 = 0.9;
+/// Least length of a rack, in its depths, and fewest of them that are alike: rows of shelves in a shop, of which the scale may be
+/// unknown.
+const RACK_SLENDER: f64 = 5.0;
+const FEWEST_RACKS: usize = 3;
 /// Least area of furniture that is filled with a dark colour, square metres: symbols are smaller.
 const LEAST_FILLED_M2: f64 = 1.2;
 /// Depth from which a field between walls is a part of the room, metres.
@@ -108,10 +112,20 @@ pub(super) fn furniture(
     let fields = Components::of(&what, width, 0, Neighbours::Four);
     let mut solid = vec![0u8; ink.len()];
     let mut field_of = Vec::new();
+    let in_metres = |field: &Component| field.size().map(|side| f64::from(side) * metres_per_pixel);
+    let is_slender = |field: &&Component| {
+        let [w, h] = in_metres(field);
+        w.min(h) <= DEEPEST_FIELD_M && w.max(h) >= RACK_SLENDER * w.min(h) && w * h <= LARGEST_ROWS_M2
+    };
+    let slender: Vec<&Component> = fields.all.iter().filter(is_slender).collect();
+    let is_rack = |field: &Component| {
+        is_slender(&field) && slender.iter().filter(|other| is_alike(field, other)).count() >= FEWEST_RACKS
+    };
     for field in &fields.all {
-        let [w, h] = field.size().map(|side| f64::from(side) * metres_per_pixel);
+        let [w, h] = in_metres(field);
         let depth = w.min(h);
-        let is_row = depth <= DEEPEST_ROW_M && field.area as f64 * m2 <= LARGEST_ROW_M2;
+        let is_row = depth <= DEEPEST_ROW_M && field.area as f64 * m2 <= LARGEST_ROW_M2
+            || field.area as f64 * m2 > LARGEST_FIELD_M2 && is_rack(field);
         if field.area as f64 * m2 > LARGEST_FIELD_M2 && !is_row || depth > DEEPEST_FIELD_M {
             continue;
         }
@@ -162,19 +176,14 @@ pub(super) fn furniture(
         };
         let parts: Vec<&Component> = field_of.iter().copied().filter(within).collect();
         let is_tread = |f: &Component, least_m: f64| {
-            let [w, h] = f.size().map(|side| f64::from(side) * metres_per_pixel);
+            let [w, h] = in_metres(f);
             (0.18..=0.42).contains(&w.min(h)) && w.max(h) >= least_m
         };
         let is_desk = |f: &Component| {
-            let [w, h] = f.size().map(|side| f64::from(side) * metres_per_pixel);
+            let [w, h] = in_metres(f);
             DESK_DEPTH_M.contains(&w.min(h)) && DESK_LENGTH_M.contains(&w.max(h)) && w.max(h) >= DESK_SLENDER * w.min(h)
         };
-        let alike = |a: &&&Component| {
-            parts
-                .iter()
-                .filter(|b| b.size()[0].abs_diff(a.size()[0]) <= 3 && b.size()[1].abs_diff(a.size()[1]) <= 3)
-                .count()
-        };
+        let alike = |a: &&&Component| parts.iter().filter(|b| is_alike(a, b)).count();
         let most_alike =
             |least_m: f64| parts.iter().filter(|p| is_tread(p, least_m)).map(|p| alike(&p)).max().unwrap_or(0);
         let at_wall = at_wall(&what, width, &objects, object, stroke + 1);
@@ -199,6 +208,11 @@ pub(super) fn furniture(
         found.push(piece);
     }
     found
+}
+
+/// Whether two pieces have about the same size.
+fn is_alike(a: &Component, b: &Component) -> bool {
+    (0..2).all(|axis| b.size()[axis].abs_diff(a.size()[axis]) <= 3)
 }
 
 /// Takes the strokes of words off: round letters enclose fields as seats do. In words others stand beside them that enclose
@@ -354,6 +368,7 @@ fn class(piece: &Evidence, sides: [f64; 2]) -> PlanClass {
         // Sinks and hobs divide it into many fields.
         () if is_at_wall && depth <= 0.7 && length >= 1.8 => PlanClass::Counter,
         () if length <= 0.85 => PlanClass::Seat,
+        () if depth * length > LARGEST_AREA_M2 => PlanClass::Counter,
         () if depth >= 0.6 && length >= 1.4 && piece.fields >= 2 && piece.desks < DESKS => PlanClass::Seat,
         () => PlanClass::Table,
     }

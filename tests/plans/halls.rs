@@ -1,0 +1,90 @@
+//! Large single rooms: a church with massive walls and a scale bar, a shop with racks and no scale at all.
+
+use super::canvas::{Canvas, Point, ellipse, line, lines, outline, rectangle, text};
+
+const INK: [u8; 3] = [0; 3];
+
+fn grown([min, max]: [Point; 2], by: f64) -> [Point; 2] {
+    [min.map(|v| v - by), max.map(|v| v + by)]
+}
+
+/// Walls of 1.2 m filled with grey, buttresses, windows and a portal in them, columns, pews, an apse; the only scale is a bar.
+#[test]
+fn a_church_has_one_portal_and_windows_only_in_its_walls() {
+    const WALL: f64 = 1.2;
+    const GREY: [u8; 3] = [90; 3];
+    let mut canvas = Canvas::new([52.0, 31.0], [-4.0, -5.0], 25.0, 0.0, [255; 3]);
+    let mut mass = |polygon: &Vec<Point>| {
+        canvas.fill(std::slice::from_ref(polygon), GREY);
+        canvas.fill(&outline(polygon, 0.08), INK);
+    };
+    let bays = (0..7).map(|k| 4.0 + 5.2 * f64::from(k));
+    bays.clone().for_each(|x| mass(&rectangle([x, -1.0], [x + 1.2, 17.0])));
+    mass(&ellipse([36.0, 8.0], [8.0, 8.0]));
+    mass(&rectangle([0.0, 0.0], [36.0, 16.0]));
+    canvas.fill(&[ellipse([36.0, 8.0], [6.8, 6.8]), rectangle([WALL, WALL], [36.2, 16.0 - WALL])], [255; 3]);
+    let nave = [[1.5, 1.5], [35.0, 14.5]];
+    let windows: Vec<[Point; 2]> =
+        bays.take(6).flat_map(|x| [0.0, 16.0 - WALL].map(|y| [[x + 2.4, y], [x + 4.0, y + WALL]])).collect();
+    for &[min, max] in &windows {
+        canvas.fill(&[rectangle([min[0], min[1] - 0.05], [max[0], max[1] + 0.05])], [255; 3]);
+        canvas.fill(&outline(&rectangle(min, max), 0.08), INK);
+        [0.4, 0.8].map(|y| canvas.fill(&[line([min[0], min[1] + y], [max[0], min[1] + y], 0.05)], INK));
+    }
+    canvas.fill(&[rectangle([-0.1, 6.9], [WALL + 0.1, 9.1])], [255; 3]);
+    let columns: Vec<Point> = (0..6).flat_map(|k| [4.8, 11.2].map(|y| [6.0 + 5.2 * f64::from(k), y])).collect();
+    for &at in &columns {
+        canvas.fill(&[ellipse(at, [0.55, 0.55])], GREY);
+    }
+    for k in 0..20 {
+        let x = 7.2 + 1.1 * f64::from(k);
+        [5.6, 8.6].map(|y| canvas.fill(&outline(&rectangle([x, y], [x + 0.5, y + 1.8]), 0.05), INK));
+    }
+    canvas.fill(&text("ST MARY", [20.0, 20.0], 0.8, 0.1), INK);
+    canvas.fill(&lines(&[[1.2, 22.8], [11.2, 22.8]], 0.08), INK);
+    for (x, number) in [(1.2, "0"), (6.2, "5"), (11.2, "10")] {
+        canvas.fill(&[line([x, 22.5], [x, 23.1], 0.08)], INK);
+        canvas.fill(&text(number, [x, 23.7], 0.5, 0.08), INK);
+    }
+    canvas.fill(&text("m", [12.2, 23.7], 0.5, 0.08), INK);
+    let plan = canvas.read(None);
+    let scale = plan.metres_per_pixel;
+    assert!((scale * 25.0 - 1.0).abs() < 0.02, "{scale} m per pixel");
+    let portal = plan.openings.iter().collect::<Vec<_>>();
+    assert_eq!(portal.len(), 1, "{portal:?}");
+    let share = |place| canvas.floor_in(&plan, place);
+    assert!(share(nave) > 0.85, "{} of the nave", share(nave));
+    let closed = windows.iter().map(|&place| share(grown(place, -0.2))).fold(0.0, f64::max);
+    assert!(closed < 0.01, "{closed} of a window is floor");
+    // Between the columns across the nave, where the aisle between the pews is.
+    let aisle = share([[5.5, 7.6], [32.5, 8.4]]);
+    assert!(aisle > 0.99, "{aisle} of the aisle");
+    assert!(share([[2.0, 17.3], [40.0, 25.0]]) < 0.01, "paper is floor");
+}
+
+/// Pale racks of 14 m in a row, checkouts, no door with a leaf: whatever the scale is taken for, people go round the racks.
+#[test]
+fn racks_of_a_shop_are_no_floor() {
+    let mut canvas = Canvas::new([44.0, 30.0], [-3.0, -4.0], 30.0, 0.0, [255; 3]);
+    canvas.fill(&[rectangle([0.0, 0.0], [38.0, 24.0])], [245, 245, 240]);
+    canvas.fill(&outline(&rectangle([0.0, 0.0], [38.0, 24.0]), 0.3), [60; 3]);
+    [4.0, 30.0].map(|x| canvas.fill(&[rectangle([x, 23.5], [x + 3.0, 24.5])], [255; 3]));
+    let colours = [[200, 225, 190], [250, 220, 180], [190, 215, 240], [240, 200, 200]];
+    let racks: Vec<[Point; 2]> =
+        (0..8).map(|k| 3.4 + 3.0 * f64::from(k)).map(|x| [[x, 3.0], [x + 1.3, 17.0]]).collect();
+    for (k, &[min, max]) in racks.iter().enumerate() {
+        canvas.fill(&[rectangle(min, max)], colours[k % 4]);
+        canvas.fill(&outline(&rectangle(min, max), 0.04), [120; 3]);
+        canvas.fill(&text(&(k + 1).to_string(), [min[0] + 0.65, 10.0], 0.6, 0.08), [60; 3]);
+        let checkout = rectangle([min[0] + 2.0, 19.5], [min[0] + 2.9, 22.0]);
+        canvas.fill(std::slice::from_ref(&checkout), [220; 3]);
+        canvas.fill(&outline(&checkout, 0.04), [120; 3]);
+    }
+    let plan = canvas.read(None);
+    let share = |place| canvas.floor_in(&plan, place);
+    for (k, &[min, max]) in racks.iter().enumerate() {
+        let (rack, aisle) = (share(grown([min, max], -0.1)), share([[max[0] + 0.2, 3.0], [max[0] + 1.5, 17.0]]));
+        assert!(rack < 0.01 && aisle > 0.99, "rack {k}: {rack} is floor, {aisle} beside it");
+    }
+    assert_eq!(plan.openings.len(), 2, "{:?}", plan.openings);
+}
