@@ -1,6 +1,7 @@
-//! Large single rooms: a church with massive walls and a scale bar, a shop with racks and no scale at all.
+//! Large single rooms: a church with massive walls and a scale bar, a shop with racks and no scale at all, a hall with the lines of a
+//! court, a bent bar.
 
-use super::canvas::{Canvas, Point, ellipse, line, lines, outline, rectangle, text};
+use super::canvas::{Canvas, Point, arc, ellipse, line, lines, outline, rectangle, text};
 
 const INK: [u8; 3] = [0; 3];
 
@@ -29,7 +30,9 @@ fn a_church_has_one_portal_and_windows_only_in_its_walls() {
     for &[min, max] in &windows {
         canvas.fill(&[rectangle([min[0], min[1] - 0.05], [max[0], max[1] + 0.05])], [255; 3]);
         canvas.fill(&outline(&rectangle(min, max), 0.08), INK);
-        [0.4, 0.8].map(|y| canvas.fill(&[line([min[0], min[1] + y], [max[0], min[1] + y], 0.05)], INK));
+        for y in [0.4, 0.8].map(|y| min[1] + y) {
+            canvas.fill(&[line([min[0], y], [max[0], y], 0.05)], INK);
+        }
     }
     canvas.fill(&[rectangle([-0.1, 6.9], [WALL + 0.1, 9.1])], [255; 3]);
     let columns: Vec<Point> = (0..6).flat_map(|k| [4.8, 11.2].map(|y| [6.0 + 5.2 * f64::from(k), y])).collect();
@@ -38,7 +41,9 @@ fn a_church_has_one_portal_and_windows_only_in_its_walls() {
     }
     for k in 0..20 {
         let x = 7.2 + 1.1 * f64::from(k);
-        [5.6, 8.6].map(|y| canvas.fill(&outline(&rectangle([x, y], [x + 0.5, y + 1.8]), 0.05), INK));
+        for y in [5.6, 8.6] {
+            canvas.fill(&outline(&rectangle([x, y], [x + 0.5, y + 1.8]), 0.05), INK);
+        }
     }
     canvas.fill(&text("ST MARY", [20.0, 20.0], 0.8, 0.1), INK);
     canvas.fill(&lines(&[[1.2, 22.8], [11.2, 22.8]], 0.08), INK);
@@ -50,8 +55,7 @@ fn a_church_has_one_portal_and_windows_only_in_its_walls() {
     let plan = canvas.read(None);
     let scale = plan.metres_per_pixel;
     assert!((scale * 25.0 - 1.0).abs() < 0.02, "{scale} m per pixel");
-    let portal = plan.openings.iter().collect::<Vec<_>>();
-    assert_eq!(portal.len(), 1, "{portal:?}");
+    assert_eq!((plan.doors.len(), plan.windows.len()), (1, 12), "{:?}", plan.doors);
     let share = |place| canvas.floor_in(&plan, place);
     assert!(share(nave) > 0.85, "{} of the nave", share(nave));
     let closed = windows.iter().map(|&place| share(grown(place, -0.2))).fold(0.0, f64::max);
@@ -68,7 +72,9 @@ fn racks_of_a_shop_are_no_floor() {
     let mut canvas = Canvas::new([44.0, 30.0], [-3.0, -4.0], 30.0, 0.0, [255; 3]);
     canvas.fill(&[rectangle([0.0, 0.0], [38.0, 24.0])], [245, 245, 240]);
     canvas.fill(&outline(&rectangle([0.0, 0.0], [38.0, 24.0]), 0.3), [60; 3]);
-    [4.0, 30.0].map(|x| canvas.fill(&[rectangle([x, 23.5], [x + 3.0, 24.5])], [255; 3]));
+    for x in [4.0, 30.0] {
+        canvas.fill(&[rectangle([x, 23.5], [x + 3.0, 24.5])], [255; 3]);
+    }
     let colours = [[200, 225, 190], [250, 220, 180], [190, 215, 240], [240, 200, 200]];
     let racks: Vec<[Point; 2]> =
         (0..8).map(|k| 3.4 + 3.0 * f64::from(k)).map(|x| [[x, 3.0], [x + 1.3, 17.0]]).collect();
@@ -86,5 +92,29 @@ fn racks_of_a_shop_are_no_floor() {
         let (rack, aisle) = (share(grown([min, max], -0.1)), share([[max[0] + 0.2, 3.0], [max[0] + 1.5, 17.0]]));
         assert!(rack < 0.01 && aisle > 0.99, "rack {k}: {rack} is floor, {aisle} beside it");
     }
-    assert_eq!(plan.openings.len(), 2, "{:?}", plan.openings);
+}
+
+/// The circle in the middle of a court is painted on the floor, a bar of the same depth all along its bend stands on it.
+#[test]
+fn lines_of_a_court_are_floor_and_a_bent_bar_is_none() {
+    let mut canvas = Canvas::new([46.0, 26.0], [-3.0, -3.0], 30.0, 0.0, [255; 3]);
+    canvas.fill(&outline(&rectangle([0.0, 0.0], [40.0, 20.0]), 0.3), INK);
+    canvas.fill(&[rectangle([18.0, 19.0], [20.0, 21.0])], [255; 3]);
+    let thin = 0.04;
+    canvas.fill(&outline(&rectangle([2.0, 2.0], [26.0, 16.0]), thin), INK);
+    canvas.fill(&[line([14.0, 2.0], [14.0, 16.0], thin)], INK);
+    canvas.fill(&outline(&ellipse([14.0, 9.0], [1.8, 1.8]), thin), INK);
+    let (corner, turn) = ([36.0, 16.0], std::f64::consts::PI);
+    let mut bar = arc(corner, 3.0, turn, 1.5 * turn);
+    bar.extend(arc(corner, 2.45, turn, 1.5 * turn).into_iter().rev());
+    canvas.fill(&outline(&bar, thin), INK);
+    let plan = canvas.read(Some(1.0 / 30.0));
+    let share = |place| canvas.floor_in(&plan, place);
+    let circle = share([[12.5, 7.5], [15.5, 10.5]]);
+    assert!(circle > 0.99, "{circle} of the circle");
+    for at in arc(corner, 2.72, 1.05 * turn, 1.45 * turn) {
+        let of_bar = share([at.map(|v| v - 0.1), at.map(|v| v + 0.1)]);
+        assert!(of_bar < 0.01, "{of_bar} of the bar at {at:?}");
+    }
+    assert!(share([[34.8, 14.8], [37.0, 17.0]]) > 0.99, "behind the bar");
 }

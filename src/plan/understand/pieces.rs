@@ -57,7 +57,7 @@ const LEAST_SIDE_M: f64 = 0.3;
 const LEAST_AREA_M2: f64 = 0.085;
 const LARGEST_AREA_M2: f64 = 16.0;
 /// Least and greatest depth of a counter that goes round a corner, and least side of the box around it, metres.
-const COUNTER_DEPTH_M: [f64; 2] = [0.4, 0.85];
+const COUNTER_DEPTH_M: [f64; 2] = [0.35, 0.85];
 const LEAST_TURN_M: f64 = 1.2;
 /// Least share of its box that a piece of furniture fills, unless it goes round a corner.
 const LEAST_FILL: f64 = 0.5;
@@ -126,7 +126,11 @@ pub(super) fn furniture(
         let depth = w.min(h);
         let is_row = depth <= DEEPEST_ROW_M && field.area as f64 * m2 <= LARGEST_ROW_M2
             || field.area as f64 * m2 > LARGEST_FIELD_M2 && is_rack(field);
-        if field.area as f64 * m2 > LARGEST_FIELD_M2 && !is_row || depth > DEEPEST_FIELD_M {
+        if field.area as f64 * m2 > LARGEST_FIELD_M2 && !is_row {
+            continue;
+        }
+        // A bar that is bent.
+        if depth > DEEPEST_FIELD_M && !goes_round(&fields, field, metres_per_pixel) {
             continue;
         }
         let beside = beside(&what, width, &fields, field);
@@ -165,7 +169,7 @@ pub(super) fn furniture(
             continue;
         }
         let is_corner = fill < LEAST_FILL;
-        if is_corner && !goes_round(&objects, object, metres_per_pixel) {
+        if is_corner && !goes_round(&objects, object, metres_per_pixel) || is_marking(&what, width, object, sides) {
             continue;
         }
         let within = |f: &&Component| {
@@ -296,6 +300,30 @@ fn paint_filled(filled: &[u8], least_m2: f64, what: &[u8], width: usize, metres_
             pieces.paint(piece, solid, width, 1);
         }
     }
+}
+
+/// Whether a large circle lies on a line that goes on as far on both sides: of a court, painted on the floor.
+fn is_marking(what: &[u8], width: usize, piece: &Component, sides: [f64; 2]) -> bool {
+    /// Least diameter, metres, and least share of the line that is drawn.
+    const LEAST_M: f64 = 2.4;
+    const DRAWN: f64 = 0.9;
+    /// How far the line may be from the circle's middle, pixels.
+    const OFF_PX: i32 = 2;
+    let [w, h] = piece.size().map(|side| side as usize);
+    let fill = piece.area as f64 / (w * h) as f64;
+    if sides[0].min(sides[1]) < LEAST_M || w.abs_diff(h) * 20 > w || !(0.74..=0.84).contains(&fill) {
+        return false;
+    }
+    let [x, y] = [0, 1].map(|axis| ((piece.min[axis] + piece.end[axis]) / 2) as i32);
+    let is_stroke = |x: i32, y: i32| {
+        x >= 0 && y >= 0 && (x as usize) < width && what.get(y as usize * width + x as usize) == Some(&STROKE)
+    };
+    let goes_on = |[dx, dy]: [i32; 2]| {
+        let beyond = w as i32 / 2 + 1..w as i32 / 2 + 1 + w as i32;
+        let is_drawn = |k: &i32| (-OFF_PX..=OFF_PX).any(|off| is_stroke(x + k * dx + off * dy, y + k * dy + off * dx));
+        beyond.filter(is_drawn).count() as f64 >= DRAWN * w as f64
+    };
+    [[1, 0], [0, 1]].into_iter().any(|way| goes_on(way) && goes_on(way.map(|step: i32| -step)))
 }
 
 /// Whether a piece goes round a corner and is everywhere about as deep as counters, as in a kitchen.
