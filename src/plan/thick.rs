@@ -151,27 +151,22 @@ pub(super) fn grow(mask: &[u8], width: usize, reach: usize) -> Vec<u8> {
     grown
 }
 
-/// Least thickness of a wall, metres; and where walls are massive, which they are if gaps may be so deep.
+/// Least thickness of a wall, metres, and the greatest that is measured; both of massive walls.
 pub(super) const THINNEST_M: f64 = 0.06;
-const THINNEST_MASSIVE_M: f64 = 0.2;
-pub(super) const LEAST_MASSIVE_M: f64 = 1.5;
+const THICKEST_M: f64 = 0.8;
+const MASSIVE_M: [f64; 2] = [0.2, 2.1];
 
 /// Side of the square that tells walls from strokes, pixels, and the thickness of the thinnest walls; `None` where nothing
 /// is as thick as a wall.
 ///
 /// Walls are at least 6 cm and two pixels thick. The thinnest walls are those of the least thickness up to which an eighth
 /// of the length of all that is so thick lies; the square is six tenths of that. Length counts, because thin walls have
-/// little area beside thick ones; slanted and blurred ones have several thicknesses. `thickest` is the greatest depth of
-/// gaps, pixels: massive walls are sought where it is large.
-pub(super) fn wall_square(mask: &[u8], width: usize, metres_per_pixel: f64, thickest: usize) -> Option<(usize, f64)> {
-    const THICKEST_M: f64 = 0.8;
-    const IN_DEPTH: f64 = 0.85;
+/// little area beside thick ones; slanted and blurred ones have several thicknesses.
+pub(super) fn wall_square(mask: &[u8], width: usize, metres_per_pixel: f64, is_massive: bool) -> Option<(usize, f64)> {
     const LEAST_WALL_M: f64 = 1.0;
     const SHARE: f64 = 0.12;
+    let [thinnest_m, thickest_m] = if is_massive { MASSIVE_M } else { [THINNEST_M, THICKEST_M] };
     let area = |mask: &[u8]| mask.iter().filter(|&&m| m != 0).count() as f64;
-    let end = (IN_DEPTH * thickest as f64).max(THICKEST_M / metres_per_pixel);
-    let is_massive = thickest as f64 * metres_per_pixel > LEAST_MASSIVE_M;
-    let thinnest_m = if is_massive { THINNEST_MASSIVE_M } else { THINNEST_M };
     let first = ((thinnest_m / metres_per_pixel).ceil() as usize).max(2);
     let mut kept = open(mask, width, first);
     // Letters and ticks are no measure.
@@ -182,7 +177,7 @@ pub(super) fn wall_square(mask: &[u8], width: usize, metres_per_pixel: f64, thic
     drop(pieces);
     let (mut side, mut before) = (first, area(&kept));
     let mut lengths = Vec::new();
-    while before > 0.0 && (side as f64) < end {
+    while before > 0.0 && (side as f64) * metres_per_pixel < thickest_m {
         let next = (side * 5 / 4).max(side + 1);
         kept = open(&kept, width, next);
         let left = area(&kept);

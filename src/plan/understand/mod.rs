@@ -14,7 +14,7 @@ mod pieces;
 mod rooms;
 
 use self::gaps::Gap;
-use self::net::{Net, WIDEST_DOOR_M, WIDEST_ENTRANCE_M};
+use self::net::{Net, Sought, WIDEST_DOOR_M, WIDEST_ENTRANCE_M};
 use self::pieces::{Evidence, LARGEST_LETTER_M};
 use self::rooms::Rooms;
 use super::components::{Component, Components, Neighbours};
@@ -271,13 +271,16 @@ fn find_net(drawing: &Drawing, ink: &[u8], all_ink: &[u8], metres_per_pixel: f64
     let surely =
         |at: usize| strokes[at] & u8::from(drawing.lightness[at] < SURELY_DARK && (is_dark(at) || is_ring(at)));
     let core: Vec<u8> = (0..dark.len()).map(surely).collect();
-    let net_in = |ink: &[u8], core: &[u8], filled: &[u8], thickest: usize, widest_m: f64| {
-        Net::find(core, filled, dark, ink, width, metres_per_pixel, (thickest, widest_m)).filter(Net::is_building)
+    let usual = |thickest: usize| Sought { thickest, widest_m: WIDEST_DOOR_M, is_massive: false };
+    let net_in = |ink: &[u8], core: &[u8], filled: &[u8], sought: &Sought| {
+        Net::find(core, filled, dark, ink, width, metres_per_pixel, sought).filter(Net::is_building)
     };
-    let net_of = |core: &[u8], filled: &[u8], thickest: usize| net_in(ink, core, filled, thickest, WIDEST_DOOR_M);
+    let net_of = |core: &[u8], filled: &[u8], thickest: usize| net_in(ink, core, filled, &usual(thickest));
     let px = |metres: f64| ((metres / metres_per_pixel).round() as usize).max(4);
     let thickest = px(THICKEST_WALL_M);
-    let wide = |core: &[u8], filled: &[u8]| net_in(ink, core, filled, thickest, WIDEST_ENTRANCE_M);
+    let wide = |core: &[u8], filled: &[u8]| {
+        net_in(ink, core, filled, &Sought { widest_m: WIDEST_ENTRANCE_M, ..usual(thickest) })
+    };
     // Rooms that nothing joins lie along a corridor that is open at its ends.
     let net = |core: &[u8], filled: &[u8]| {
         let found = net_of(core, filled, thickest)?;
@@ -286,7 +289,7 @@ fn find_net(drawing: &Drawing, ink: &[u8], all_ink: &[u8], metres_per_pixel: f64
         Some(wide.filter(|wide| wide.joined(width) > joined).unwrap_or(found))
     };
     if let Some(net) = net(&core, dark) {
-        let search = |core: &[u8], thickest: usize| net_in(all_ink, core, core, thickest, WIDEST_DOOR_M);
+        let search = |core: &[u8], thickest: usize| net_in(all_ink, core, core, &usual(thickest));
         let strokes = if all_ink == ink { strokes } else { without_lettering(all_ink, width, metres_per_pixel) };
         return Some(partitions::added(net, &strokes, all_ink, width, metres_per_pixel, search));
     }
@@ -312,7 +315,8 @@ fn find_net(drawing: &Drawing, ink: &[u8], all_ink: &[u8], metres_per_pixel: f64
     if let Some(net) = wide(&core, dark) {
         return Some(net);
     }
-    if let Some(net) = net_in(ink, &core, dark, px(MASSIVE_WALL_M), WIDEST_PORTAL_M) {
+    let massive = Sought { thickest: px(MASSIVE_WALL_M), widest_m: WIDEST_PORTAL_M, is_massive: true };
+    if let Some(net) = net_in(ink, &core, dark, &massive) {
         return Some(net);
     }
     drop((outlined, hatched, both));

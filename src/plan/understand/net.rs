@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::super::components::{Component, Components, Neighbours, Run};
 use super::super::doors::bend;
-use super::super::thick::{LEAST_MASSIVE_M, THINNEST_M, grow, open, wall_square};
+use super::super::thick::{THINNEST_M, grow, open, wall_square};
 use super::directions::SHADOW_SHARE;
 use super::gaps::{self, Gap, Limits};
 use super::leaves;
@@ -54,11 +54,20 @@ pub(super) struct Net {
     pub(super) enclosed: f64,
 }
 
+/// What walls and doors are sought.
+pub(super) struct Sought {
+    /// Greatest depth of gaps, pixels.
+    pub(super) thickest: usize,
+    /// Greatest width of doors to the outside, metres; within they are up to [`WIDEST_DOOR_M`] wide.
+    pub(super) widest_m: f64,
+    /// Whether walls are as thick as those of churches.
+    pub(super) is_massive: bool,
+}
+
 impl Net {
     /// Finds the net among what is surely dark in `core`; `dark` adds its edges.
     ///
-    /// `raw` is what is dark in the drawing, before hollow walls were filled; `ink` has lighter strokes as well. Gaps are
-    /// up to `thickest` pixels deep; doors within are up to [`WIDEST_DOOR_M`] wide, those to the outside up to `widest_m`.
+    /// `raw` is what is dark in the drawing, before hollow walls were filled; `ink` has lighter strokes as well.
     pub(super) fn find(
         core: &[u8],
         dark: &[u8],
@@ -66,11 +75,11 @@ impl Net {
         ink: &[u8],
         width: usize,
         metres_per_pixel: f64,
-        (thickest, widest_m): (usize, f64),
+        &Sought { thickest, widest_m, is_massive }: &Sought,
     ) -> Option<Net> {
         let mut core = core.to_vec();
         drop_frame(&mut core, ink, width, metres_per_pixel);
-        let (side, thinnest) = wall_square(&core, width, metres_per_pixel, thickest)?;
+        let (side, thinnest) = wall_square(&core, width, metres_per_pixel, is_massive)?;
         let px = |metres: f64| (metres / metres_per_pixel).round() as usize;
         let mut wall = open(&core, width, side);
         drop(core);
@@ -81,7 +90,7 @@ impl Net {
         drop_leaves(&mut wall, ink, width, &limits, [ENTRANCE_M[1], THICKEST_LEAF_M].map(px), is_entrance);
         let strokes = strokes_of(ink, &wall);
         let mut found = gaps::find(&wall, &strokes, width, &limits);
-        if thickest as f64 * metres_per_pixel > LEAST_MASSIVE_M {
+        if is_massive {
             // Columns are as thick as massive walls; what is drawn between them is no window.
             let columns = columns(&wall, width, LONGEST_COLUMN_M / metres_per_pixel);
             found.retain(|gap| gap.ends.iter().all(|&at| columns[at] == 0));
