@@ -10,17 +10,25 @@ pub(super) fn open(mask: &[u8], width: usize, side: usize) -> Vec<u8> {
         return mask.to_vec();
     }
     let mut kept = ones(mask);
-    // Upper left corners of squares, ...
-    along_rows(&mut kept, width, side, false, |pixel, next| pixel & next);
-    across_rows(&mut kept, width, side, false, |pixel, next| pixel & next);
-    // ... and all that the squares cover.
-    along_rows(&mut kept, width, side, true, |pixel, next| pixel | next);
-    across_rows(&mut kept, width, side, true, |pixel, next| pixel | next);
+    // Upper left corners of squares, and all that the squares cover.
+    join_square(&mut kept, width, side, false, |pixel, next| pixel & next);
+    spread(&mut kept, width, side, true);
     kept
 }
 
 fn ones(mask: &[u8]) -> Vec<u8> {
     mask.iter().map(|&pixel| u8::from(pixel != 0)).collect()
+}
+
+/// Makes each pixel 1 that has a 1 in the square of `side` pixels to its right and below, or to its left and above: `before`.
+pub(super) fn spread(mask: &mut [u8], width: usize, side: usize, before: bool) {
+    join_square(mask, width, side, before, |pixel, next| pixel | next);
+}
+
+/// Joins each pixel with all others of the square of `side` pixels that begins or ends there; beyond the rim are zeros.
+fn join_square(mask: &mut [u8], width: usize, side: usize, before: bool, join: impl Fn(u64, u64) -> u64) {
+    along_rows(mask, width, side, before, &join);
+    across_rows(mask, width, side, before, &join);
 }
 
 /// Distances at which a row of pixels has to be joined with itself, one after the other, so that each pixel has been joined
@@ -144,10 +152,7 @@ pub(super) fn long_runs(mask: &[u8], width: usize, stride: usize, least: usize) 
 /// Marks the pixels within `reach` pixels of a non-zero pixel along both axes.
 pub(super) fn grow(mask: &[u8], width: usize, reach: usize) -> Vec<u8> {
     let mut grown = ones(mask);
-    for before in [false, true] {
-        along_rows(&mut grown, width, reach + 1, before, |pixel, next| pixel | next);
-        across_rows(&mut grown, width, reach + 1, before, |pixel, next| pixel | next);
-    }
+    [false, true].into_iter().for_each(|before| spread(&mut grown, width, reach + 1, before));
     grown
 }
 

@@ -250,12 +250,21 @@ impl CleanWallWindow<'_> {
             return;
         }
         let [tone, _, tint] = &mut *rgb;
-        if let Some((first, others)) = self.tone.split_first() {
+        let mut fields = self.tone.iter();
+        if let Some(first) = fields.next() {
             fine.clear();
             fine.resize(self.window.width, 0.0);
             first.add_to(0, fine);
             tone.copy_from_slice(fine);
-            others.iter().for_each(|field| field.add_to(0, tone));
+            if self.plaster.masonry.is_some()
+                && let Some(middle) = fields.next()
+            {
+                spots.clear();
+                spots.resize(self.window.width, 0.0);
+                middle.add_to(0, spots);
+                tone.iter_mut().zip(&*spots).for_each(|(tone, spot)| *tone += spot);
+            }
+            fields.for_each(|field| field.add_to(0, tone));
             height.iter_mut().zip(&*fine).for_each(|(height, fine)| *height = self.plaster.grain_mm * fine);
             if self.plaster.rough_gain > 0.0 {
                 rough.extend(fine.iter().map(|fine| self.plaster.rough_gain * fine));
@@ -292,9 +301,6 @@ impl CleanWallWindow<'_> {
         if let Some(masonry) = &self.plaster.masonry {
             rough.clear();
             rough.resize(self.window.width, 0.0);
-            spots.clear();
-            spots.resize(self.window.width, 0.0);
-            self.tone.iter().skip(1).take(1).for_each(|field| field.add_to(0, spots));
             masonry.lay((&self.window, &self.strip), j, (fine, spots), (rgb, rough, height));
         }
     }

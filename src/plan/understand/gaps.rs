@@ -7,7 +7,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::super::cracks::trace;
-use super::super::thick::{places, runs};
+use super::super::thick::{places, runs, spread};
 use super::directions;
 use crate::math::sin_cos;
 
@@ -188,12 +188,6 @@ fn steps_inside(start: i64, step: i64, end: i64) -> Range<i64> {
     }
 }
 
-/// Each pixel of a mask with those to its right and below: of fine strokes, all that lies around a place between four pixels.
-fn around(mask: &[u8], width: usize) -> Vec<u8> {
-    let beside: Vec<u8> = mask.iter().zip(mask[1..].iter().chain([&0])).map(|(a, b)| a | b).collect();
-    beside.iter().zip(beside[width..].iter().chain(std::iter::repeat(&0))).map(|(a, b)| a | b).collect()
-}
-
 /// What gaps may be, pixels.
 pub(super) struct Limits {
     pub(super) shortest: usize,
@@ -217,13 +211,16 @@ pub(super) fn find(wall: &[u8], ink: &[u8], width: usize, limits: &Limits) -> Ve
             std::iter::once(Frame::upright(image)).chain(turned).collect()
         }
     };
-    let ink_around = frames.iter().any(|frame| !frame.is_upright()).then(|| around(ink, width));
+    // Of fine strokes, a turned grid shows all that lies around a place between four pixels.
+    let mut ink_around = Vec::new();
+    if !frames.iter().all(Frame::is_upright) {
+        ink_around.extend_from_slice(ink);
+        spread(&mut ink_around, width, 2, false);
+    }
     let seen = frames.into_par_iter().flat_map_iter(|frame| {
-        let (wall, ink) = match &ink_around {
-            Some(ink_around) if !frame.is_upright() => {
-                (Cow::Owned(frame.view(wall, 0.5)), Cow::Owned(frame.view(ink_around, 0.0)))
-            }
-            _ => (Cow::Borrowed(wall), Cow::Borrowed(ink)),
+        let (wall, ink) = match frame.is_upright() {
+            true => (Cow::Borrowed(wall), Cow::Borrowed(ink)),
+            false => (Cow::Owned(frame.view(wall, 0.5)), Cow::Owned(frame.view(&ink_around, 0.0))),
         };
         let columns = transposed(&wall, frame.size[0]);
         let in_columns = in_grid(frame.transposed(), columns, &transposed(&ink, frame.size[0]), limits);
@@ -546,13 +543,11 @@ fn slides(ink: &[u8], width: usize, gap: &Gap) -> bool {
     let mut covered = vec![false; length];
     for y in gap.first.saturating_sub(margin)..(gap.first + thick + margin).min(height) {
         let is_ink = |k: usize, rows: usize| (y..(y + rows).min(height)).any(|y| ink[y * width + from + k] != 0);
-        if runs((0..length).filter(|&k| is_ink(k, rows)), BREAK_PX)
-            .any(|run| run.len() as f64 >= THROUGH * length as f64)
-        {
+        let inked = |rows: usize| (0..length).filter(move |&k| is_ink(k, rows));
+        if runs(inked(rows), BREAK_PX).any(|run| run.len() as f64 >= THROUGH * length as f64) {
             return false;
         }
-        let leaves =
-            runs((0..length).filter(|&k| is_ink(k, 1)), 0).filter(|run| run.len() as f64 >= LEAF * length as f64);
+        let leaves = runs(inked(1), 0).filter(|run| run.len() as f64 >= LEAF * length as f64);
         leaves.for_each(|leaf| covered[leaf].fill(true));
     }
     covered.iter().filter(|&&covered| covered).count() as f64 >= COVERED * length as f64

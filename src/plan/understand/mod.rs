@@ -312,6 +312,7 @@ fn find_net(drawing: &Drawing, ink: &[u8], all_ink: &[u8], metres_per_pixel: f64
     {
         return Some(net);
     }
+    drop((outlined, hatched, both));
     if let Some(net) = wide(&core, dark) {
         return Some(net);
     }
@@ -319,7 +320,6 @@ fn find_net(drawing: &Drawing, ink: &[u8], all_ink: &[u8], metres_per_pixel: f64
     if let Some(net) = net_in(ink, &core, dark, &massive) {
         return Some(net);
     }
-    drop((outlined, hatched, both));
     let (lines, reach) = lines::thickened(&strokes, ink, width, metres_per_pixel);
     // Of lines a gap is as deep as they grew; a stub of wall across its end is no deeper end.
     let mut net = net_of(&lines, &lines, 3 * (2 * reach + 1))?;

@@ -123,10 +123,9 @@ pub(super) fn furniture(
     };
     for field in &fields.all {
         let [w, h] = in_metres(field);
-        let depth = w.min(h);
-        let is_row = depth <= DEEPEST_ROW_M && field.area as f64 * m2 <= LARGEST_ROW_M2
-            || field.area as f64 * m2 > LARGEST_FIELD_M2 && is_rack(field);
-        if field.area as f64 * m2 > LARGEST_FIELD_M2 && !is_row {
+        let (depth, area) = (w.min(h), field.area as f64 * m2);
+        let is_large = area > LARGEST_FIELD_M2;
+        if is_large && !(depth <= DEEPEST_ROW_M && area <= LARGEST_ROW_M2 || is_rack(field)) {
             continue;
         }
         // A bar that is bent.
@@ -137,7 +136,7 @@ pub(super) fn furniture(
         let all: usize = beside.iter().sum();
         let share = beside[usize::from(STROKE)] as f64 / all.max(1) as f64;
         let least = match () {
-            () if field.area as f64 * m2 > LARGEST_FIELD_M2 => ROW_STROKES,
+            () if is_large => ROW_STROKES,
             () if depth > DEEP_M => 0.48,
             () => 0.35,
         };
