@@ -188,6 +188,8 @@ fn is_kept(file: &str) -> bool {
 pub struct ResolveOptions {
     /// New look.
     pub look: Option<Look>,
+    /// Without it, another preset for the bake's look, see [`Look::with_preset`].
+    pub preset: Option<String>,
     /// New target program of the textures.
     pub target: Option<Target>,
     /// Whether `scene.glb` embeds its textures.
@@ -214,6 +216,17 @@ pub struct ResolveOptions {
     pub force: bool,
 }
 
+impl ResolveOptions {
+    /// The look that the bake of a manifest gets.
+    fn look_of(&self, manifest: &Manifest, bake: &Path) -> Result<Look, Error> {
+        if let Some(look) = &self.look {
+            return Ok(look.clone());
+        }
+        let look = manifest.look(bake)?;
+        Ok(self.preset.as_ref().map_or(Ok(look.clone()), |preset| look.with_preset(preset))?)
+    }
+}
+
 /// Rewrites a finished bake with another look or for another target, without simulating; or writes it so elsewhere.
 ///
 /// The exact sums are resolved to textures and previews again. Sums and all other files stay unchanged.
@@ -230,7 +243,7 @@ pub fn resolve(bake: &Path, options: &ResolveOptions, progress: &dyn Progress) -
         None => OutputFolder::begin(bake, true)?,
     };
     let manifest = Manifest::read(bake)?;
-    let look = &options.look.clone().map_or_else(|| manifest.look(bake), Ok)?;
+    let look = &options.look_of(&manifest, bake)?;
     look.check()?;
     look.check_images()?;
     let mut textures = manifest.texture_options();

@@ -24,10 +24,7 @@ pub fn resolve_series(
     folder: &Path,
     progress: &dyn Progress,
 ) -> Result<Vec<Report>, Error> {
-    let look = match &options.look {
-        Some(look) => look.clone(),
-        None => export::settled(&[bake], || Manifest::read(bake))?.look(bake)?,
-    };
+    let look = options.look_of(&export::settled(&[bake], || Manifest::read(bake))?, bake)?;
     let looks = passes.iter().map(|&total_passes| aged(&look, total_passes)).collect::<Result<Vec<_>, _>>()?;
     let folders: Vec<PathBuf> =
         passes.iter().map(|total_passes| folder.join(format!("passes_{total_passes}"))).collect();

@@ -75,7 +75,7 @@ impl BatchCommand {
             layers: self.layers.then_some(true),
             ..self.scenario.overrides()
         })?;
-        let looks = self.looks.iter().map(|look| read_look(look)).collect::<Result<Vec<_>, Error>>()?;
+        let looks = self.looks.iter().map(|look| read_look(look, &scenario.look)).collect::<Result<Vec<_>, Error>>()?;
         let wanted = Batch {
             seeds: self.seeds.clone().map_or_else(Vec::new, |seeds| seeds.0),
             looks,
@@ -99,12 +99,12 @@ impl BatchCommand {
     }
 }
 
-/// A look with its name: that of a preset, or of the file.
-fn read_look(look: &Path) -> Result<(String, Look), Error> {
+/// A look with its name: that of a preset, over which the scenario's changes lie, or of the file.
+fn read_look(look: &Path, scenario: &Look) -> Result<(String, Look), Error> {
     let name = look.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let preset = Preset::ALL.into_iter().find(|preset| Path::new(preset.name()) == look);
-    match preset.and_then(|preset| Look::preset(preset.name())) {
-        Some(preset) => Ok((name, preset)),
+    match preset {
+        Some(preset) => Ok((name, scenario.with_preset(preset.name())?)),
         None => Ok((name, Look::read(look)?)),
     }
 }

@@ -31,7 +31,7 @@ pub struct Resolve {
     /// A look file: TOML with the keys of a scenario's [look]
     #[arg(long, value_name = "FILE", required_unless_present_any = ["preset", "target", "embed", "lamps", "ceiling", "usd", "sdf", "layers", "bits", "dirt", "png", "output", "passes"])]
     look: Option<PathBuf>,
-    /// Or the look of a preset
+    /// Or another preset for the bake's look; what its scenario changed from the preset stays, such as materials
     #[arg(long, value_name = "NAME", value_parser = arguments::preset(), conflicts_with = "look")]
     preset: Option<Preset>,
     /// The program that the textures are for: names, packing, axes, shaders [default: as before]
@@ -77,12 +77,9 @@ pub struct Resolve {
 
 impl Resolve {
     pub fn run(&self, common: &Common) -> anyhow::Result<ExitCode> {
-        let look = match (&self.look, self.preset) {
-            (Some(file), _) => Some(Look::read(file).map_err(Error::from)?),
-            (None, preset) => preset.and_then(|preset| Look::preset(preset.name())),
-        };
         let options = ResolveOptions {
-            look,
+            look: self.look.as_deref().map(Look::read).transpose().map_err(Error::from)?,
+            preset: self.preset.map(|preset| preset.name().to_string()),
             target: self.target,
             embed: self.embed.then_some(true),
             lamps: self.lamps.then_some(true),

@@ -51,6 +51,27 @@ impl Look {
         Ok(look)
     }
 
+    /// Another preset, with what this look changes from its own one: the floor's material, the people who have walked.
+    /// A scenario's look becomes what it would be with `preset` in place of its own.
+    ///
+    /// # Errors
+    /// There is no preset of that name.
+    pub fn with_preset(&self, name: &str) -> Result<Look, LookError> {
+        let preset = |name: &str| {
+            Look::preset(name).ok_or_else(|| LookError::UnknownPreset { name: name.to_string(), place: None })
+        };
+        let (mut look, own) = (preset(name)?, preset(&self.preset)?);
+        let text = changed(self.table(), &own.table()).to_string();
+        let laid = DeTable::parse(&text)
+            .map_err(|error| Mistake::syntax(&error))
+            .and_then(|table| look.lay(&Spanned::new(table.span(), DeValue::Table(table.into_inner()))));
+        laid.map_err(|mistake| {
+            let (message, hint) = mistake.explain(&text);
+            LookError::Syntax { place: place(&text, Path::new("look"), mistake.span.start), message, hint }
+        })?;
+        Ok(look)
+    }
+
     /// Checks that the images of floor and walls can be read, before any long computation.
     ///
     /// # Errors
@@ -90,6 +111,18 @@ impl Look {
         let text = toml::Table::try_from(settings).map_err(|error| error.to_string())?.to_string();
         options::parse(&text).map_err(|mistake| mistake.explain(&text).0)
     }
+}
+
+/// The keys whose values differ from those of `own`.
+fn changed(table: toml::Table, own: &toml::Table) -> toml::Table {
+    let differs = |(key, value): (String, toml::Value)| match (value, own.get(&key)) {
+        (toml::Value::Table(part), Some(toml::Value::Table(own))) => {
+            let part = changed(part, own);
+            (!part.is_empty()).then_some((key, toml::Value::Table(part)))
+        }
+        (value, own) => (own != Some(&value)).then_some((key, value)),
+    };
+    table.into_iter().filter_map(differs).collect()
 }
 
 fn place(text: &str, path: &Path, offset: usize) -> FilePlace {

@@ -48,7 +48,8 @@ fn heavy() -> Look {
 fn wet() -> Look {
     let look = Look::default();
     Look {
-        film: FilmLook { colour: SOIL_WET, ..look.film },
+        // Rain brings in more than dry days do.
+        film: FilmLook { density: 0.9, colour: SOIL_WET, ..look.film },
         age: AgeLook { stains_per_m2: 0.6, ..look.age },
         // Rain lays the dust.
         prints: PrintsLook { soil: 2.0, colour: SOIL_WET, ..look.prints },

@@ -1,5 +1,7 @@
 //! Finds quarter circles in a boundary, the arcs of drawn doors.
 
+use nalgebra::{Matrix3, Vector3};
+
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::cracks::CrackLoop;
@@ -137,4 +139,51 @@ fn circle_through(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Option<([f64; 2], f6
     let (b2, c2) = (bx * bx + by * by, cx * cx + cy * cy);
     let [x, y] = [(cy * b2 - by * c2) / d, (bx * c2 - cx * b2) / d];
     Some(([a[0] + x, a[1] + y], (x * x + y * y).sqrt()))
+}
+
+/// Radius of the circle through the middle of an arc's stroke, pixels: an arc that was followed begins in its leaf.
+pub(super) fn fitted_radius(white: &[u8], width: usize, arc: &Arc) -> f64 {
+    const PLACES: usize = 32;
+    let height = white.len() / width;
+    let is_dark = |[x, y]: [f64; 2]| {
+        let inside = x >= 0.0 && y >= 0.0 && x < width as f64 && y < height as f64;
+        inside && white[y as usize * width + x as usize] == 0
+    };
+    let reach = (arc.radius * 0.2 * 2.0) as i32;
+    let mut points: Vec<[f64; 2]> = Vec::new();
+    for k in 0..PLACES {
+        let angle = arc.from + (arc.to - arc.from) * (0.05 + 0.9 * (k as f64 + 0.5) / PLACES as f64);
+        let ways = (-reach..=reach).map(|d| arc.radius + f64::from(d) * 0.5);
+        let dark: Vec<f64> = ways.filter(|&way| is_dark(arc.place(way, angle))).collect();
+        // Where the leaf is met too, the stroke is not told from it.
+        if let (Some(first), Some(last)) = (dark.first(), dark.last())
+            && last - first <= 4.0 + 0.05 * arc.radius
+        {
+            points.push(arc.place((first + last) * 0.5, angle));
+        }
+    }
+    circle(&points, arc.centre, arc.radius).filter(|r| (0.6..1.4).contains(&(r / arc.radius))).unwrap_or(arc.radius)
+}
+
+/// Radius of the circle that fits points best, by least squares of the distances (Gauss and Newton): of short arcs, fits of
+/// squared distances are too small.
+fn circle(points: &[[f64; 2]], near: [f64; 2], radius: f64) -> Option<f64> {
+    if points.len() < 8 {
+        return None;
+    }
+    let (mut centre, mut r) = (near, radius);
+    for _ in 0..12 {
+        let (mut normal, mut off) = (Matrix3::zeros(), Vector3::zeros());
+        for p in points {
+            let [x, y] = [p[0] - centre[0], p[1] - centre[1]];
+            let way = (x * x + y * y).sqrt().max(1e-9);
+            let row = Vector3::new(x / way, y / way, 1.0);
+            normal += row * row.transpose();
+            off += row * (way - r);
+        }
+        let step = normal.cholesky()?.solve(&off);
+        centre = [centre[0] + step[0], centre[1] + step[1]];
+        r += step[2];
+    }
+    Some(r)
 }

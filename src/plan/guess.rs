@@ -2,9 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use nalgebra::{Matrix3, Vector3};
-
-use super::arcs::{Arc, Search};
+use super::arcs::{Arc, Search, fitted_radius};
 use super::clearance::{dilate, erode};
 use super::components::{Component, Components, Neighbours};
 use super::cracks::trace;
@@ -34,6 +32,8 @@ const BUILDING: Usual = Usual { metres: 22.0, spread: 0.8, wrong: 0.1 };
 const LETTER: Usual = Usual { metres: 0.27, spread: 0.5, wrong: 0.3 };
 /// Largest letter, as a share of the image's longer side.
 const LETTER_SHARE: f64 = 0.03;
+/// As how many leaves one counts that hangs in a gap, where other gaps have none.
+const HUNG_WEIGHT: f64 = 4.0;
 /// Widths of doors that a scale explains, metres.
 const DOOR_RANGE_M: [f64; 2] = [0.68, 1.15];
 /// Least weight of leaves and doorways that decide a scale.
@@ -119,10 +119,13 @@ pub(super) fn guess(drawing: &Drawing, dots_per_inch: Option<f64>) -> (f64, Plan
         Some((value, format!("; at 1:{scale}, as the file's {dots:.0} dots per inch allow")))
     };
     let mut likely = measures.likelihood().guess();
-    if measures.wall.is_some() && measures.doors(likely.value).is_none() {
+    let has_doors = measures.doors(likely.value).is_some();
+    // Where no leaf fits, gaps may be gates: the largest leaf tells another scale.
+    let other = if has_doors { measures.misfit(likely.value).map(|px| LEAF.metres / px) } else { Some(likely.value) };
+    if let Some(scale) = other.filter(|_| measures.wall.is_some()) {
         // Leaves that hang in gaps of walls are told from other arcs.
-        let hung = understand::leaf_lengths(drawing, likely.value);
-        measures.leaves.extend(hung.into_iter().map(|length| (length, 1.0)));
+        let hung = understand::leaf_lengths(drawing, scale);
+        measures.leaves.extend(hung.into_iter().map(|length| (length, if has_doors { HUNG_WEIGHT } else { 1.0 })));
         likely = measures.likelihood().guess();
     }
     if let Some((count, width)) = measures.doors(likely.value) {
@@ -334,6 +337,13 @@ impl Measures {
         (are_doors || gaps >= fewest).then(|| (leaves + gaps, (leaf_sum + gap_sum) / (leaves + gaps)))
     }
 
+    /// The largest leaf, pixels, if none is of a door by a scale.
+    fn misfit(&self, scale: f64) -> Option<f64> {
+        let fits = |px: f64| (DOOR_RANGE_M[0]..=DOOR_RANGE_M[1]).contains(&(px * scale));
+        let largest = self.leaves.iter().map(|leaf| leaf.0).reduce(f64::max);
+        largest.filter(|_| !self.leaves.iter().any(|leaf| fits(leaf.0)))
+    }
+
     /// Leaves out widths that are none of doors: beside the walls' thickness and the building's size.
     fn restricted(mut self) -> Measures {
         let building =
@@ -508,53 +518,6 @@ fn leaves_of(dark: &[u8], full: usize) -> Vec<(f64, f64)> {
         }
     }
     found.iter().map(|arc| (fitted_radius(&white, width, arc) * factor as f64, 1.0)).collect()
-}
-
-/// Radius of the circle through the middle of an arc's stroke, pixels: an arc that was followed begins in its leaf.
-fn fitted_radius(white: &[u8], width: usize, arc: &Arc) -> f64 {
-    const PLACES: usize = 32;
-    let height = white.len() / width;
-    let is_dark = |[x, y]: [f64; 2]| {
-        let inside = x >= 0.0 && y >= 0.0 && x < width as f64 && y < height as f64;
-        inside && white[y as usize * width + x as usize] == 0
-    };
-    let reach = (arc.radius * 0.2 * 2.0) as i32;
-    let mut points: Vec<[f64; 2]> = Vec::new();
-    for k in 0..PLACES {
-        let angle = arc.from + (arc.to - arc.from) * (0.05 + 0.9 * (k as f64 + 0.5) / PLACES as f64);
-        let ways = (-reach..=reach).map(|d| arc.radius + f64::from(d) * 0.5);
-        let dark: Vec<f64> = ways.filter(|&way| is_dark(arc.place(way, angle))).collect();
-        // Where the leaf is met too, the stroke is not told from it.
-        if let (Some(first), Some(last)) = (dark.first(), dark.last())
-            && last - first <= 4.0 + 0.05 * arc.radius
-        {
-            points.push(arc.place((first + last) * 0.5, angle));
-        }
-    }
-    circle(&points, arc.centre, arc.radius).filter(|r| (0.6..1.4).contains(&(r / arc.radius))).unwrap_or(arc.radius)
-}
-
-/// Radius of the circle that fits points best, by least squares of the distances (Gauss and Newton): of short arcs, fits of
-/// squared distances are too small.
-fn circle(points: &[[f64; 2]], near: [f64; 2], radius: f64) -> Option<f64> {
-    if points.len() < 8 {
-        return None;
-    }
-    let (mut centre, mut r) = (near, radius);
-    for _ in 0..12 {
-        let (mut normal, mut off) = (Matrix3::zeros(), Vector3::zeros());
-        for p in points {
-            let [x, y] = [p[0] - centre[0], p[1] - centre[1]];
-            let way = (x * x + y * y).sqrt().max(1e-9);
-            let row = Vector3::new(x / way, y / way, 1.0);
-            normal += row * row.transpose();
-            off += row * (way - r);
-        }
-        let step = normal.cholesky()?.solve(&off);
-        centre = [centre[0] + step[0], centre[1] + step[1]];
-        r += step[2];
-    }
-    Some(r)
 }
 
 /// Whether a straight stroke goes from the arc's centre to about one of its ends.

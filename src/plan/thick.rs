@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::components::{Components, Neighbours};
+use super::components::{Component, Components, Neighbours};
 
 /// Keeps the pixels that a square of `side` pixels of non-zero pixels covers.
 pub(super) fn open(mask: &[u8], width: usize, side: usize) -> Vec<u8> {
@@ -104,6 +104,23 @@ pub(super) fn strokes(mask: &[u8], width: usize, thickest_px: f64) -> Vec<u8> {
     }
     let broad = open(mask, width, (thickest_px.round() as usize).max(3));
     mask.iter().zip(&broad).map(|(&c, &b)| c & (1 - b)).collect()
+}
+
+/// The pieces of a mask that are thinner than some pixels everywhere: panes, where broad areas of their colour are floors, and
+/// so is what the leaf of a door cuts off from them.
+pub(super) fn slim(mask: &[u8], width: usize, thickest_px: f64) -> Vec<u8> {
+    /// Share of the box around it that a slanting pane fills at most.
+    const FILLED: f64 = 0.35;
+    let mut slim = strokes(mask, width, thickest_px);
+    let pieces = Components::of(mask, width, 1, Neighbours::Four);
+    let is_broad = |piece: &&Component| {
+        let [w, h] = piece.size().map(f64::from);
+        let is_box = w.min(h) > thickest_px && piece.area as f64 > FILLED * w * h;
+        is_box || pieces.ranges(piece, width).flatten().any(|at| slim[at] == 0)
+    };
+    let broad: Vec<&Component> = pieces.all.iter().filter(is_broad).collect();
+    broad.into_iter().for_each(|piece| pieces.paint(piece, &mut slim, width, 0));
+    slim
 }
 
 /// The places of a row that are not zero.

@@ -62,6 +62,28 @@ fn every_bake_of_a_batch_is_that_of_its_own_and_an_interrupted_batch_goes_on() {
     run(&sandbox, &all).fails(1, &["another batch", "looks[1].look.floor.material"]);
 }
 
+/// With another preset, a bake resolved again and a bake of a batch are what a bake of the scenario with it is: its wood stays.
+#[test]
+fn another_preset_keeps_what_the_scenario_changes() {
+    let sandbox = Sandbox::new();
+    sandbox.plan();
+    sandbox.write("plan.toml", format!("{SCENARIO}[look]\ntotal_passes = 3000\nfloor = {{ material = \"wood\" }}\n"));
+    let bake = |folder: &str, more: &[&str]| {
+        let all = ["-q", "bake", "plan.toml", "--texels-per-metre", "12", "-o", folder];
+        sandbox.run(&[&all[..], more].concat()).succeeds();
+    };
+    bake("dry", &[]);
+    bake("heavy", &["--preset", "heavy"]);
+    sandbox.run(&["resolve", "dry", "--preset", "heavy", "-o", "again", "-q"]).succeeds();
+    run(&sandbox, &["--look", "heavy"]).succeeds();
+    let colours = |folder: &str| {
+        ["floor/floor", "walls/wall"]
+            .map(|name| fs::read(sandbox.path(&format!("{folder}/{name}_basecolor.1001.png"))).unwrap())
+    };
+    let heavy = colours("heavy");
+    assert!(heavy == colours("again") && heavy == colours("many/00001") && heavy != colours("dry"));
+}
+
 #[test]
 fn what_makes_no_batch_is_refused_before_any_bake() {
     let sandbox = Sandbox::new();

@@ -169,3 +169,33 @@ fn pairs_of_desks_are_tables_and_beds_are_none() {
         assert_eq!(plan.classes[y * canvas.width + x], class, "at {place:?}");
     }
 }
+
+/// The pale blue of a bath's floor is that of panes elsewhere. A leaf swings over it and cuts a part off.
+#[test]
+fn a_bath_with_a_pale_blue_floor_is_walked() {
+    const BLUE: [u8; 3] = [230, 245, 255];
+    let mut canvas = Canvas::new([12.0, 8.0], [-2.0, -2.0], 60.0, 0.0, [255; 3]);
+    let grey = [111; 3];
+    let rooms = [[[0.0, 0.0], [4.0, 4.0]], [[4.0, 0.0], [5.8, 4.0]], [[5.8, 0.0], [8.0, 4.0]]];
+    for ([min, max], floor) in rooms.into_iter().zip([[255; 3], BLUE, [251, 247, 230]]) {
+        canvas.fill(&[rectangle(min, max)], floor);
+        canvas.fill(&outline(&rectangle(min, max), 0.2), grey);
+    }
+    for ([x, y], width) in [([4.0, 0.9], 0.9), ([5.8, 0.6], 0.8), ([0.0, 1.5], 1.0)] {
+        canvas.fill(&[rectangle([x - 0.13, y], [x + 0.13, y + width])], [255; 3]);
+        let swing = arc([x, y], width, 0.0, FRAC_PI_2);
+        canvas.fill(&lines(&[&[[x, y]], &*swing].concat(), 0.025), grey);
+    }
+    for (min, max) in [([4.25, 2.9], [4.7, 3.6]), ([4.85, 2.9], [5.68, 3.75])] {
+        canvas.fill(&[rectangle(min, max)], [255; 3]);
+        canvas.fill(&outline(&rectangle(min, max), 0.025), grey);
+    }
+    let plan = canvas.read(None);
+    assert!((plan.metres_per_pixel * 60.0 - 1.0).abs() < 0.1, "{}", plan.metres_per_pixel);
+    assert_eq!((plan.doors.len(), plan.windows.len()), (3, 0));
+    // Under the leaf too.
+    for place in [[[4.15, 0.15], [5.65, 2.7]], [[5.95, 0.15], [7.85, 3.85]], [[0.15, 0.15], [3.85, 3.85]]] {
+        let share = canvas.floor_in(&plan, place);
+        assert!(share > 0.97, "{share} of {place:?}");
+    }
+}

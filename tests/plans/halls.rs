@@ -1,6 +1,8 @@
 //! Large single rooms: a church with massive walls and a scale bar, a shop with racks and no scale at all, a hall with the lines of a
 //! court, a bent bar.
 
+use std::f64::consts::{FRAC_PI_2, PI};
+
 use super::canvas::{Canvas, Point, arc, ellipse, line, lines, outline, rectangle, text};
 
 const INK: [u8; 3] = [0; 3];
@@ -117,4 +119,42 @@ fn lines_of_a_court_are_floor_and_a_bent_bar_is_none() {
         assert!(of_bar < 0.01, "{of_bar} of the bar at {at:?}");
     }
     assert!(share([[34.8, 14.8], [37.0, 17.0]]) > 0.99, "behind the bar");
+}
+
+/// Six gates that are closed by a single line each, racks, and one door with a leaf, which is told to be a door by it.
+#[test]
+fn one_leaf_tells_the_gates_of_a_store_from_doors() {
+    const PX_PER_M: f64 = 16.0;
+    let mut canvas = Canvas::new([78.0, 52.0], [-4.0, -4.0], PX_PER_M, 0.0, [255; 3]);
+    let wall = 0.38;
+    canvas.fill(&outline(&rectangle([0.0, 0.0], [70.0, 44.0]), wall), INK);
+    let gates: Vec<[Point; 2]> =
+        (0..6).map(|k| 6.0 + 9.0 * f64::from(k)).map(|x| [[x, 44.0 - wall], [x + 3.0, 44.0 + wall]]).collect();
+    for &[min, max] in &gates {
+        canvas.fill(&[rectangle(min, max)], [255; 3]);
+        canvas.fill(&[line([min[0], 44.0], [max[0], 44.0], 0.06)], INK);
+    }
+    let racks: Vec<[Point; 2]> =
+        (0..9).map(|k| 6.0 + 6.0 * f64::from(k)).map(|x| [[x, 4.0], [x + 2.2, 30.0]]).collect();
+    for &[min, max] in &racks {
+        canvas.fill(&outline(&rectangle(min, max), 0.06), INK);
+        canvas.fill(&[line([min[0] + 1.1, 4.0], [min[0] + 1.1, 30.0], 0.06)], INK);
+        for y in (1..10).map(|k| 4.0 + 2.6 * f64::from(k)) {
+            canvas.fill(&[line([min[0], y], [max[0], y], 0.06)], INK);
+        }
+    }
+    canvas.fill(&[rectangle([58.0, 32.0], [58.25, 44.0]), rectangle([58.0, 32.0], [70.0, 32.25])], INK);
+    canvas.fill(&[rectangle([57.9, 36.0], [58.3, 36.9])], [255; 3]);
+    let swing = arc([58.0, 36.0], 0.9, FRAC_PI_2, PI);
+    canvas.fill(&lines(&[&*swing, &[[58.0, 36.0]]].concat(), 0.06), INK);
+    let plan = canvas.read(None);
+    let scale = plan.metres_per_pixel * PX_PER_M;
+    assert!((0.85..1.15).contains(&scale), "{scale} of the true scale");
+    let wide = plan.doors.iter().filter(|door| door.width_m() > 2.0).count();
+    assert_eq!((wide, plan.doors.len(), plan.windows.len()), (6, 7, 0));
+    for (k, &[min, max]) in racks.iter().enumerate() {
+        let share = |place| canvas.floor_in(&plan, place);
+        let (rack, aisle) = (share(grown([min, max], -0.2)), share([[max[0] + 0.4, 4.0], [max[0] + 3.4, 30.0]]));
+        assert!(rack < 0.01 && aisle > 0.99, "rack {k}: {rack} is floor, {aisle} beside it");
+    }
 }

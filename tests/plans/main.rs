@@ -157,6 +157,27 @@ fn lines_may_part_long_rows_of_rooms() {
     assert!(m.wall_iou >= 0.95 && m.furniture >= 0.95, "{what}");
 }
 
+/// Beside solid outer walls, lines part the rooms of a flat. A counter below a window is no room.
+#[test]
+fn lines_may_part_the_rooms_of_a_flat() {
+    let style = styles::named(LINES_WITHIN);
+    let m = measure(&styles::Case { style, building: buildings::flat, seed: 0 });
+    check(&m);
+    assert_eq!((m.divided, m.false_rooms), (8, 0), "{}", row(&m));
+}
+
+/// The two lines of a bed's frame are as far apart as those of a wall, and lie opposite a wall as a jamb does.
+#[test]
+fn outlines_of_beds_are_no_walls() {
+    for name in ["outline walls", "grey outlines"] {
+        let m = measure(&styles::Case { style: styles::named(name), building: buildings::inn, seed: 0 });
+        let what = row(&m);
+        check(&m);
+        assert_eq!((m.divided, m.false_rooms, m.false_doors), (9, 0, 0), "{what}");
+        assert!(m.furniture >= 0.95 && m.notes_as_wall_m2 < 0.1, "{what}");
+    }
+}
+
 /// Small rooms, a corridor and doors of which every side has other furniture near. The office is measured in all styles.
 #[test]
 fn tiles_and_planks_are_no_furniture() {

@@ -23,14 +23,22 @@ const DASHED: Range<f64> = 0.4..0.97;
 const LEAF_M: f64 = 0.06;
 /// Largest tick of a dimension line, and how near to the line's end it is, metres.
 const TICK_M: f64 = 0.4;
+/// Shortest line with a tick at both ends that is a dimension for sure, metres: letters lie at the ends of a chair's.
+const NOTE_M: f64 = 1.5;
 /// By how much the two ticks of a line differ at most, pixels.
 const ALIKE_PX: u32 = 2;
 
 /// Finds lines that may be walls among strokes without lettering, and makes them thick. Returns how far they grew too,
 /// pixels.
 ///
-/// `ink` is all that is drawn.
-pub(super) fn thickened(strokes: &[u8], ink: &[u8], width: usize, metres_per_pixel: f64) -> (Vec<u8>, usize) {
+/// `ink` is all that is drawn, `panes` what closes the walls in `strokes` to the outside.
+pub(super) fn thickened(
+    strokes: &[u8],
+    ink: &[u8],
+    panes: &[u8],
+    width: usize,
+    metres_per_pixel: f64,
+) -> (Vec<u8>, usize) {
     let px = |metres: f64| (metres / metres_per_pixel).round() as usize;
     let least = px(SHORTEST_M).max(6);
     let mut level = long_runs(strokes, width, 1, least);
@@ -49,7 +57,7 @@ pub(super) fn thickened(strokes: &[u8], ink: &[u8], width: usize, metres_per_pix
         let lines = Components::of(mask, width, 1, Neighbours::Eight);
         for line in lines.all.iter().filter(|line| ticks.end(line, along) || heads.end(line, along)) {
             lines.paint(line, mask, width, 0);
-            has_notes = true;
+            has_notes = has_notes || line.size()[along] as usize >= px(NOTE_M);
         }
     }
     drop((ticks, heads));
@@ -61,7 +69,9 @@ pub(super) fn thickened(strokes: &[u8], ink: &[u8], width: usize, metres_per_pix
         prune(&mut level, &mut upright, &between, width, metres_per_pixel);
     }
     let lines: Vec<u8> = level.iter().zip(&upright).map(|(&a, &b)| a | b).collect();
-    let fields = small_fields(&lines, width, LARGEST_FIELD_M2 / (metres_per_pixel * metres_per_pixel));
+    let mut closed = lines.clone();
+    closed.iter_mut().zip(panes).for_each(|(line, pane)| *line |= pane);
+    let fields = small_fields(&closed, width, LARGEST_FIELD_M2 / (metres_per_pixel * metres_per_pixel));
     let mut walls = vec![0u8; strokes.len()];
     for (mask, along) in [(&level, 0), (&upright, 1)] {
         let pieces = Components::of(mask, width, 1, Neighbours::Eight);

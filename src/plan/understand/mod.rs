@@ -185,7 +185,7 @@ fn ink_and_net(drawing: &Drawing, metres_per_pixel: f64) -> Option<(Vec<u8>, Net
     }
     let coloured = thick::strokes(&drawing.coloured, drawing.width, STROKE_M / metres_per_pixel);
     // Panes are as thick as walls.
-    let panes = thick::strokes(&drawing.pane, drawing.width, PANE_M / metres_per_pixel);
+    let panes = thick::slim(&drawing.pane, drawing.width, PANE_M / metres_per_pixel);
     let is_on = |mask: &[u8], at: usize| mask.get(at).is_some_and(|&on| on != 0);
     let is_ink = |at: usize| {
         let is_thin = is_on(&coloured, at) || is_on(&panes, at);
@@ -320,7 +320,7 @@ fn find_net(drawing: &Drawing, ink: &[u8], all_ink: &[u8], metres_per_pixel: f64
     if let Some(net) = net_in(ink, &core, dark, &massive) {
         return Some(net);
     }
-    let (lines, reach) = lines::thickened(&strokes, ink, width, metres_per_pixel);
+    let (lines, reach) = lines::thickened(&strokes, ink, &[], width, metres_per_pixel);
     // Of lines a gap is as deep as they grew; a stub of wall across its end is no deeper end.
     let mut net = net_of(&lines, &lines, 3 * (2 * reach + 1))?;
     // The lines themselves are the walls.

@@ -25,11 +25,18 @@ const THICKEST_LEAF_M: f64 = 0.3;
 const LEAF_IN_WALLS: f64 = 0.75;
 /// Greatest width of a window that is a single line, metres.
 const WIDEST_PANE_M: f64 = 3.2;
+/// Least width of a gate that is a single line, metres.
+const NARROWEST_GATE_M: f64 = 2.3;
 /// Greatest side of a column between massive walls, metres, and its greatest length in its thickness.
 const LONGEST_COLUMN_M: f64 = 2.5;
 const COLUMN_SLENDER: f64 = 1.8;
 /// Largest column or piece of furniture that is drawn as thick as walls, metres.
 const COLUMN_M: f64 = 0.75;
+/// The same for outlines as far apart as those of walls, and the greatest share of them that is dark.
+const OUTLINED_M: f64 = 2.5;
+const OUTLINED_INK: f64 = 0.6;
+/// Fewest doors with leaves, and at least half of all, of which it is said that doors have leaves.
+const FEWEST_HUNG: usize = 3;
 /// Least side of a column, metres and pixels.
 const LEAST_COLUMN_M: f64 = 0.15;
 const LEAST_COLUMN_PX: f64 = 5.0;
@@ -114,9 +121,8 @@ impl Net {
         let may_lead_out = |gap: &Gap| widest_m > WIDEST_DOOR_M && gap.length() <= px(widest_m);
         let mut doors: Vec<Gap> = doors.into_iter().filter(|gap| is_door(gap) || may_lead_out(gap)).collect();
         let unusual: Vec<[usize; 2]> = doors.iter().filter(|gap| !is_door(gap)).map(|gap| gap.ends).collect();
-        let is_bare = |gap: &Gap| gap.strokes == 0 && !has_leaf(gap);
         drop_thicker_than_walls(&mut doors, &windows, has_leaf, |doors| enclosed(&wall, doors, &windows, width));
-        drop_beside_furniture(&mut doors, &windows, &wall, width, px(COLUMN_M), is_bare);
+        drop_beside_furniture(&mut doors, &windows, (&wall, raw), width, [COLUMN_M, OUTLINED_M].map(px), has_leaf);
         drop(strokes);
         let mut windows = windows;
         let kept = keep_building(&mut wall, raw, width, &doors, &windows)?;
@@ -145,6 +151,13 @@ impl Net {
             }
             is_kept
         });
+        // Gates of a hall that has no other way in, not the windows of a house.
+        let is_single = |gap: &Gap| gap.strokes == 1;
+        let is_gate = |gap: &Gap| is_single(gap) && gap.length() >= px(NARROWEST_GATE_M);
+        let only_gates = windows.iter().filter(|gap| is_single(gap)).all(is_gate);
+        if only_gates && !doors.iter().any(|gap| leads_out(gap, &inside)) {
+            doors.extend(windows.extract_if(.., |gap| is_gate(gap)));
+        }
         let area = inside.iter().filter(|&&i| i != 0).count() as f64;
         let enclosed = area / least_box(&wall, width, kept).max(1.0);
         Some(Net { wall, doors, windows, inside, enclosed })
@@ -261,37 +274,58 @@ fn drop_thicker_than_walls(
 }
 
 /// Takes off bare doors that end at a small piece of wall, up to `largest` pixels, without another gap straight on behind
-/// it, as a pier between two doors has: columns and dark furniture are no jambs.
+/// it, as a pier between two doors has: columns, dark furniture and the outlines of beds are no jambs. Outlines are larger,
+/// and have neither windows nor leaves beside them; where most doors have leaves, a line in the gap makes it no door.
 fn drop_beside_furniture(
     doors: &mut Vec<Gap>,
     windows: &[Gap],
-    wall: &[u8],
+    (wall, raw): (&[u8], &[u8]),
     width: usize,
-    largest: usize,
-    is_bare: impl Fn(&Gap) -> bool,
+    [largest, largest_outlined]: [usize; 2],
+    has_leaf: impl Fn(&Gap) -> bool,
 ) {
+    let hung: Vec<bool> = doors.iter().map(has_leaf).collect();
+    let most_hung = hung.iter().filter(|&&hung| hung).count() * 2 >= doors.len().max(FEWEST_HUNG * 2);
+    let is_bare = |k: usize| doors[k].strokes == 0 && !hung[k];
     let pieces = Components::of(wall, width, 1, Neighbours::Eight);
+    let is_door = |k: &usize| if most_hung { hung[*k] } else { !is_bare(*k) };
+    let built = (0..doors.len()).filter(is_door).map(|k| &doors[k]).chain(windows);
+    let jambs: Vec<usize> = built.flat_map(|gap| gap.ends).collect();
+    let is_small = |piece: &Component| {
+        let side = piece.larger_side() as usize;
+        let ranges = || pieces.ranges(piece, width);
+        let dark = || ranges().flatten().filter(|&at| raw[at] != 0).count() as f64;
+        side <= largest
+            || side <= largest_outlined
+                && dark() <= OUTLINED_INK * piece.area as f64
+                && !ranges().any(|range| jambs.iter().any(|jamb| range.contains(jamb)))
+    };
     let mut small = wall.to_vec();
-    for piece in pieces.all.iter().filter(|piece| piece.larger_side() as usize > largest) {
+    for piece in pieces.all.iter().filter(|piece| !is_small(piece)) {
         pieces.paint(piece, &mut small, width, 0);
     }
     let small = Components::of(&small, width, 1, Neighbours::Eight);
-    let piece_at = |at: usize| {
-        let (x, y) = ((at % width) as u32, (at / width) as u32);
-        small.all.iter().position(|piece| small.runs(piece).iter().any(|r| r.y == y && (r.from..r.to).contains(&x)))
-    };
-    let at_pieces = |gap: &Gap| (gap.ends.map(piece_at), gap.along());
+    let piece_at = |at: usize| small.all.iter().position(|piece| small.ranges(piece, width).any(|r| r.contains(&at)));
+    let at_pieces = |gap: &Gap| (gap.ends.map(piece_at), gap.along(), gap.middle().1, gap.thickness());
     let gaps: Vec<_> = doors.iter().chain(windows).map(at_pieces).collect();
-    let bare: Vec<bool> = doors.iter().map(is_bare).collect();
     let mut kept = vec![true; gaps.len()];
     loop {
         let goes_on = |k: usize, end: usize| {
-            let (pieces, along) = &gaps[k];
-            let is_next = |j: &usize| kept[*j] && gaps[*j].1 == *along && gaps[*j].0[1 - end] == pieces[end];
-            pieces[end].is_none() || (0..gaps.len()).any(|j| is_next(&j))
+            let (pieces, along, across, thickness) = &gaps[k];
+            let is_next = |(j, gap): (usize, &([Option<usize>; 2], [f64; 2], f64, f64))| {
+                let straight_on = (gap.2 - across).abs() <= 0.5 * (gap.3 + thickness);
+                kept[j] && gap.1 == *along && gap.0[1 - end] == pieces[end] && straight_on
+            };
+            pieces[end].is_none() || gaps.iter().enumerate().any(is_next)
         };
-        let gone: Vec<usize> =
-            (0..doors.len()).filter(|&k| kept[k] && bare[k] && !(goes_on(k, 0) && goes_on(k, 1))).collect();
+        let is_outlined = |piece: Option<usize>| {
+            piece.is_some_and(|piece| most_hung && small.all[piece].larger_side() as usize > largest)
+        };
+        let is_none = |&k: &usize| {
+            let ends_there = |end: usize| !goes_on(k, end) && (is_bare(k) || is_outlined(gaps[k].0[end]));
+            kept[k] && !hung[k] && (ends_there(0) || ends_there(1))
+        };
+        let gone: Vec<usize> = (0..doors.len()).filter(is_none).collect();
         if gone.is_empty() {
             break;
         }

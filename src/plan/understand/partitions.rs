@@ -36,7 +36,11 @@ pub(super) fn added(
     for at in net.doors.iter().flat_map(|gap| leaves::symbol(gap, &free, metres_per_pixel)) {
         strokes[at] = 0;
     }
-    let (lines, reach) = lines::thickened(&strokes, ink, width, metres_per_pixel);
+    // What stands below a window is closed by it.
+    let mut panes = vec![0u8; ink.len()];
+    net.windows.iter().flat_map(Gap::pixels).for_each(|at| panes[at] = 1);
+    let panes = grow(&panes, width, 1);
+    let (lines, reach) = lines::thickened(&strokes, ink, &panes, width, metres_per_pixel);
     let mut lines: Vec<u8> = lines.iter().zip(&net.inside).map(|(&line, &inside)| line & inside).collect();
     let thickest = gaps().map(Gap::thickness).fold(0.0, f64::max) as usize + 2;
     // The gaps of thick walls are known: closed, they cannot be taken for others beside so thin walls.
