@@ -312,11 +312,11 @@ fn drop_beside_furniture(
     loop {
         let goes_on = |k: usize, end: usize| {
             let (pieces, along, across, thickness) = &gaps[k];
-            let is_next = |(j, gap): (usize, &([Option<usize>; 2], [f64; 2], f64, f64))| {
-                let straight_on = (gap.2 - across).abs() <= 0.5 * (gap.3 + thickness);
-                kept[j] && gap.1 == *along && gap.0[1 - end] == pieces[end] && straight_on
-            };
-            pieces[end].is_none() || gaps.iter().enumerate().any(is_next)
+            pieces[end].is_none()
+                || gaps.iter().zip(&kept).any(|((other, way, at, thick), &kept)| {
+                    let is_straight_on = (at - across).abs() <= 0.5 * (thick + thickness);
+                    kept && way == along && other[1 - end] == pieces[end] && is_straight_on
+                })
         };
         let is_outlined = |piece: Option<usize>| {
             piece.is_some_and(|piece| most_hung && small.all[piece].larger_side() as usize > largest)
