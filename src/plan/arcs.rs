@@ -1,8 +1,8 @@
 //! Finds quarter circles in a boundary, the arcs of drawn doors.
 
-use nalgebra::{Matrix3, Vector3};
-
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use nalgebra::{Matrix3, Vector3};
 
 use super::cracks::CrackLoop;
 use crate::math::{atan2, sin_cos};
