@@ -219,11 +219,11 @@ pub struct ResolveOptions {
 impl ResolveOptions {
     /// The look that the bake of a manifest gets.
     fn look_of(&self, manifest: &Manifest, bake: &Path) -> Result<Look, Error> {
-        if let Some(look) = &self.look {
-            return Ok(look.clone());
-        }
-        let look = manifest.look(bake)?;
-        Ok(self.preset.as_ref().map_or(Ok(look.clone()), |preset| look.with_preset(preset))?)
+        Ok(match (&self.look, &self.preset) {
+            (Some(look), _) => look.clone(),
+            (None, Some(preset)) => manifest.look(bake)?.with_preset(preset)?,
+            (None, None) => manifest.look(bake)?,
+        })
     }
 }
 

@@ -27,10 +27,7 @@ impl Look {
     /// # Errors
     /// As [`Look::read`].
     pub fn parse(text: &str, path: &Path) -> Result<Look, LookError> {
-        let wrong = |mistake: Mistake| {
-            let (message, hint) = mistake.explain(text);
-            LookError::Syntax { place: place(text, path, mistake.span.start), message, hint }
-        };
+        let wrong = |mistake: Mistake| wrong(&mistake, text, path);
         let table = DeTable::parse(text).map_err(|error| wrong(Mistake::syntax(&error)))?;
         // The keys may stand in a section of their own, as in a scenario.
         let whole = table.get_ref();
@@ -39,8 +36,7 @@ impl Look {
         let place_of = |key: &str| value_at(keys, key).map(|value| place(text, path, value.span().start));
 
         let preset = keys.get("preset").and_then(|value| value.get_ref().as_str()).unwrap_or("commuters");
-        let mut look = Look::preset(preset)
-            .ok_or_else(|| LookError::UnknownPreset { name: preset.to_string(), place: place_of("preset") })?;
+        let mut look = preset_named(preset, || place_of("preset"))?;
         look.lay(&Spanned::new(table.span(), DeValue::Table(keys.clone()))).map_err(wrong)?;
         look.check_ranges().map_err(|error| LookError::Option { place: place_of(error.key()), error })?;
         if let Some(folder) = path.parent() {
@@ -57,18 +53,12 @@ impl Look {
     /// # Errors
     /// There is no preset of that name.
     pub fn with_preset(&self, name: &str) -> Result<Look, LookError> {
-        let preset = |name: &str| {
-            Look::preset(name).ok_or_else(|| LookError::UnknownPreset { name: name.to_string(), place: None })
-        };
-        let (mut look, own) = (preset(name)?, preset(&self.preset)?);
+        let (mut look, own) = (preset_named(name, || None)?, preset_named(&self.preset, || None)?);
         let text = changed(self.table(), &own.table()).to_string();
         let laid = DeTable::parse(&text)
             .map_err(|error| Mistake::syntax(&error))
             .and_then(|table| look.lay(&Spanned::new(table.span(), DeValue::Table(table.into_inner()))));
-        laid.map_err(|mistake| {
-            let (message, hint) = mistake.explain(&text);
-            LookError::Syntax { place: place(&text, Path::new("look"), mistake.span.start), message, hint }
-        })?;
+        laid.map_err(|mistake| wrong(&mistake, &text, Path::new("look")))?;
         Ok(look)
     }
 
@@ -111,6 +101,15 @@ impl Look {
         let text = toml::Table::try_from(settings).map_err(|error| error.to_string())?.to_string();
         options::parse(&text).map_err(|mistake| mistake.explain(&text).0)
     }
+}
+
+fn preset_named(name: &str, place: impl FnOnce() -> Option<FilePlace>) -> Result<Look, LookError> {
+    Look::preset(name).ok_or_else(|| LookError::UnknownPreset { name: name.to_string(), place: place() })
+}
+
+fn wrong(mistake: &Mistake, text: &str, path: &Path) -> LookError {
+    let (message, hint) = mistake.explain(text);
+    LookError::Syntax { place: place(text, path, mistake.span.start), message, hint }
 }
 
 /// The keys whose values differ from those of `own`.

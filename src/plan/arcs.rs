@@ -141,14 +141,16 @@ fn circle_through(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Option<([f64; 2], f6
     Some(([a[0] + x, a[1] + y], (x * x + y * y).sqrt()))
 }
 
+/// The pixel of a mask at a place, if that lies in the image.
+pub(super) fn pixel(mask: &[u8], width: usize, [x, y]: [f64; 2]) -> Option<u8> {
+    let inside = x >= 0.0 && y >= 0.0 && x < width as f64 && y < (mask.len() / width) as f64;
+    inside.then(|| mask[y as usize * width + x as usize])
+}
+
 /// Radius of the circle through the middle of an arc's stroke, pixels: an arc that was followed begins in its leaf.
 pub(super) fn fitted_radius(white: &[u8], width: usize, arc: &Arc) -> f64 {
     const PLACES: usize = 32;
-    let height = white.len() / width;
-    let is_dark = |[x, y]: [f64; 2]| {
-        let inside = x >= 0.0 && y >= 0.0 && x < width as f64 && y < height as f64;
-        inside && white[y as usize * width + x as usize] == 0
-    };
+    let is_dark = |place| pixel(white, width, place) == Some(0);
     let reach = (arc.radius * 0.2 * 2.0) as i32;
     let mut points: Vec<[f64; 2]> = Vec::new();
     for k in 0..PLACES {

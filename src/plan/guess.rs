@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use super::arcs::{Arc, Search, fitted_radius};
+use super::arcs::{Arc, Search, fitted_radius, pixel};
 use super::clearance::{dilate, erode};
 use super::components::{Component, Components, Neighbours};
 use super::cracks::trace;
@@ -325,7 +325,7 @@ impl Measures {
 
     /// Number of the doors that a scale explains and their mean width, pixels; `None` for too few.
     fn doors(&self, scale: f64) -> Option<(f64, f64)> {
-        let fits = |&&(px, _): &&(f64, f64)| (DOOR_RANGE_M[0]..=DOOR_RANGE_M[1]).contains(&(px * scale));
+        let fits = |door: &&(f64, f64)| is_door_width(door.0, scale);
         let sum = |doors: &[(f64, f64)]| {
             doors.iter().filter(fits).fold([0.0, 0.0], |[n, sum], &(px, weight)| [n + weight, sum + px * weight])
         };
@@ -339,9 +339,8 @@ impl Measures {
 
     /// The largest leaf, pixels, if none is of a door by a scale.
     fn misfit(&self, scale: f64) -> Option<f64> {
-        let fits = |px: f64| (DOOR_RANGE_M[0]..=DOOR_RANGE_M[1]).contains(&(px * scale));
         let largest = self.leaves.iter().map(|leaf| leaf.0).reduce(f64::max);
-        largest.filter(|_| !self.leaves.iter().any(|leaf| fits(leaf.0)))
+        largest.filter(|_| !self.leaves.iter().any(|leaf| is_door_width(leaf.0, scale)))
     }
 
     /// Leaves out widths that are none of doors: beside the walls' thickness and the building's size.
@@ -357,6 +356,11 @@ impl Measures {
         self.doorways.retain(is_door);
         self
     }
+}
+
+/// Whether a width in pixels is that of a door by a scale.
+fn is_door_width(px: f64, scale: f64) -> bool {
+    (DOOR_RANGE_M[0]..=DOOR_RANGE_M[1]).contains(&(px * scale))
 }
 
 /// Takes lettering out of a drawing: groups of small strokes. Returns the height of letters too, pixels.
@@ -524,11 +528,7 @@ fn leaves_of(dark: &[u8], full: usize) -> Vec<(f64, f64)> {
 fn has_leaf(white: &[u8], width: usize, arc: &Arc) -> bool {
     const TURNS: i32 = 8;
     const PLACES: usize = 16;
-    let height = white.len() / width;
-    let is_dark = |[x, y]: [f64; 2]| {
-        let inside = x >= 0.0 && y >= 0.0 && x < width as f64 && y < height as f64;
-        inside && white[y as usize * width + x as usize] == 0
-    };
+    let is_dark = |place| pixel(white, width, place) == Some(0);
     let beside = (0.08 * arc.radius).max(1.5);
     let is_leaf = |angle: f64, aside: f64| {
         let dark = (0..PLACES).filter(|&k| {
@@ -547,11 +547,7 @@ fn has_leaf(white: &[u8], width: usize, arc: &Arc) -> bool {
 /// Whether an arc is a thin stroke with white on both sides.
 fn is_stroke(white: &[u8], width: usize, arc: &Arc) -> bool {
     const PLACES: usize = 12;
-    let height = white.len() / width;
-    let is_white = |[x, y]: [f64; 2]| {
-        let inside = x >= 0.0 && y >= 0.0 && x < width as f64 && y < height as f64;
-        inside && white[y as usize * width + x as usize] != 0
-    };
+    let is_white = |place| pixel(white, width, place).is_some_and(|white| white != 0);
     let away = (0.12 * arc.radius).max(3.0);
     let on = (0..PLACES).filter(|&k| {
         let angle = arc.from + (arc.to - arc.from) * (k as f64 + 0.5) / PLACES as f64;

@@ -1,5 +1,5 @@
 //! Large single rooms: a church with massive walls and a scale bar, a shop with racks and no scale at all, a hall with the lines of a
-//! court, a bent bar.
+//! court, a bent bar, a store with gates.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -101,6 +101,13 @@ impl Gap {
     }
 }
 
+/// A mask of an image of so many pixels: 1 in the gaps.
+pub(super) fn mask<'g>(gaps: impl IntoIterator<Item = &'g Gap>, pixels: usize) -> Vec<u8> {
+    let mut mask = vec![0; pixels];
+    gaps.into_iter().flat_map(Gap::pixels).for_each(|at| mask[at] = 1);
+    mask
+}
+
 /// A grid on the image, of any direction.
 #[derive(Clone, Copy, Debug)]
 struct Frame {

@@ -374,11 +374,7 @@ fn name_strokes(ink: &[u8], net: &Net, width: usize, metres_per_pixel: f64, clas
         }
     }
     let strokes = Components::of(&rest, width, 1, Neighbours::Eight);
-    let mut beside_door = vec![0u8; ink.len()];
-    for at in net.doors.iter().flat_map(|gap| gap.pixels()) {
-        beside_door[at] = 1;
-    }
-    let beside_door = thick::grow(&beside_door, width, 2);
+    let beside_door = thick::grow(&gaps::mask(&net.doors, ink.len()), width, 2);
     let metres = |px: u32| f64::from(px) * metres_per_pixel;
     let image = [width as u32, (ink.len() / width) as u32];
     let mut letters = Vec::new();

@@ -300,12 +300,8 @@ fn drop_beside_furniture(
                 && dark() <= OUTLINED_INK * piece.area as f64
                 && !ranges().any(|range| jambs.iter().any(|jamb| range.contains(jamb)))
     };
-    let mut small = wall.to_vec();
-    for piece in pieces.all.iter().filter(|piece| !is_small(piece)) {
-        pieces.paint(piece, &mut small, width, 0);
-    }
-    let small = Components::of(&small, width, 1, Neighbours::Eight);
-    let piece_at = |at: usize| small.all.iter().position(|piece| small.ranges(piece, width).any(|r| r.contains(&at)));
+    let small: Vec<&Component> = pieces.all.iter().filter(|piece| is_small(piece)).collect();
+    let piece_at = |at: usize| small.iter().position(|piece| pieces.ranges(piece, width).any(|r| r.contains(&at)));
     let at_pieces = |gap: &Gap| (gap.ends.map(piece_at), gap.along(), gap.middle().1, gap.thickness());
     let gaps: Vec<_> = doors.iter().chain(windows).map(at_pieces).collect();
     let mut kept = vec![true; gaps.len()];
@@ -319,7 +315,7 @@ fn drop_beside_furniture(
                 })
         };
         let is_outlined = |piece: Option<usize>| {
-            piece.is_some_and(|piece| most_hung && small.all[piece].larger_side() as usize > largest)
+            piece.is_some_and(|piece| most_hung && small[piece].larger_side() as usize > largest)
         };
         let is_none = |&k: &usize| {
             let ends_there = |end: usize| !goes_on(k, end) && (is_bare(k) || is_outlined(gaps[k].0[end]));

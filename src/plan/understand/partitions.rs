@@ -2,7 +2,7 @@
 
 use super::super::components::{Component, Components, Neighbours};
 use super::super::thick::grow;
-use super::gaps::Gap;
+use super::gaps::{self, Gap};
 use super::leaves;
 use super::lines;
 use super::net::Net;
@@ -29,17 +29,14 @@ pub(super) fn added(
     let free: Vec<u8> = ink.iter().zip(&net.wall).map(|(&i, &w)| i & (1 - w)).collect();
     // The panes of windows and the leaves of doors in thick walls are no partitions.
     let mut strokes = strokes.to_vec();
-    let mut in_gaps = vec![0u8; ink.len()];
     let gaps = || net.doors.iter().chain(&net.windows);
-    gaps().flat_map(Gap::pixels).for_each(|at| in_gaps[at] = 1);
+    let in_gaps = gaps::mask(gaps(), ink.len());
     strokes.iter_mut().zip(grow(&in_gaps, width, 1)).for_each(|(stroke, near)| *stroke &= 1 - near);
     for at in net.doors.iter().flat_map(|gap| leaves::symbol(gap, &free, metres_per_pixel)) {
         strokes[at] = 0;
     }
     // What stands below a window is closed by it.
-    let mut panes = vec![0u8; ink.len()];
-    net.windows.iter().flat_map(Gap::pixels).for_each(|at| panes[at] = 1);
-    let panes = grow(&panes, width, 1);
+    let panes = grow(&gaps::mask(&net.windows, ink.len()), width, 1);
     let (lines, reach) = lines::thickened(&strokes, ink, &panes, width, metres_per_pixel);
     let mut lines: Vec<u8> = lines.iter().zip(&net.inside).map(|(&line, &inside)| line & inside).collect();
     let thickest = gaps().map(Gap::thickness).fold(0.0, f64::max) as usize + 2;
