@@ -46,8 +46,9 @@ const COLOURED_STROKE_PX: f64 = 4.0;
 const STROKE_IN_WALLS: f64 = 0.4;
 /// Lightness below which a pixel may be of an arc thinner than a pixel.
 const FINE: u8 = 180;
-/// Range of the width of a door in thicknesses of a wall that is drawn thick.
+/// Range of the width of a door in thicknesses of a wall that is drawn thick, by its leaf and as a gap.
 const DOOR_IN_WALLS: [f64; 2] = [1.5, 14.0];
+const WIDEST_GAP_IN_WALLS: f64 = 20.0;
 /// Range of the width of a door as a share of the building's larger side.
 const DOOR_IN_BUILDING: [f64; 2] = [0.008, 0.25];
 /// A guess from few gaps that is less sure than this gives way to the usual scale of indoor maps.
@@ -292,7 +293,7 @@ impl Measures {
         doorways_px.extend(doorways(&turned, drawing.height, |y, x| is_ink(x, y)));
         drop(turned);
         if walls.thickness.is_none() {
-            doorways_px.clear();
+            doorways_px = coloured_doors(drawing);
         }
         let (dark, letter) = without_letters(&drawing.dark, drawing.width);
         let mut leaves = leaves_of(&dark, drawing.width);
@@ -348,12 +349,11 @@ impl Measures {
         let building =
             self.larger_side().map_or(0.0..=f64::INFINITY, |px| px * DOOR_IN_BUILDING[0]..=px * DOOR_IN_BUILDING[1]);
         let in_walls =
-            |px: f64| self.wall.is_none_or(|wall| (DOOR_IN_WALLS[0]..=DOOR_IN_WALLS[1]).contains(&(px / wall)));
-        let is_door = |&(px, _): &(f64, f64)| building.contains(&px) && in_walls(px);
-        self.leaves.retain(is_door);
+            |px: f64, most: f64| self.wall.is_none_or(|wall| (DOOR_IN_WALLS[0]..=most).contains(&(px / wall)));
+        self.leaves.retain(|&(px, _)| building.contains(&px) && in_walls(px, DOOR_IN_WALLS[1]));
+        self.doorways.retain(|&(px, _)| building.contains(&px) && in_walls(px, WIDEST_GAP_IN_WALLS));
         // Arcs of a few pixels are in any clutter.
         self.leaves.iter_mut().for_each(|leaf| leaf.1 *= ((leaf.0 - 8.0) / 14.0).clamp(0.1, 1.0));
-        self.doorways.retain(is_door);
         self
     }
 }
@@ -485,6 +485,40 @@ fn doorway(walls: &[u8], width: usize, gap: &Gap, is_ink: impl Fn(usize, usize) 
         (false, true, false) | (false, false, true) => 0.5,
         _ => 0.0,
     }
+}
+
+/// Lengths of the bars of colour over the gaps of thin lines, with their weights. Those in the blue of panes are windows.
+fn coloured_doors(drawing: &Drawing) -> Vec<(f64, f64)> {
+    const THICKEST_PX: u32 = 12;
+    const SLENDER: u32 = 3;
+    const FILLED: f64 = 0.8;
+    /// How far beyond its ends the wall goes on, pixels: edges are soft.
+    const BEYOND_PX: usize = 3;
+    let width = drawing.width;
+    let is_pane = |at: usize| drawing.pane.get(at).is_some_and(|&pane| pane != 0);
+    let bars: Vec<u8> = drawing.coloured.iter().enumerate().map(|(at, &c)| c & u8::from(!is_pane(at))).collect();
+    let pieces = Components::of(&bars, width, 1, Neighbours::Eight);
+    let length = |bar: &Component| {
+        let [w, h] = bar.size();
+        let (length, thick) = (w.max(h), w.min(h));
+        let is_bar = thick <= THICKEST_PX && length >= SLENDER * thick && bar.area as f64 >= FILLED * f64::from(w * h);
+        let along = usize::from(h > w);
+        let step = [1, width][along];
+        let middle = [0, 1].map(|axis| (bar.min[axis] + bar.end[axis]) as usize / 2);
+        let place =
+            |at: u32| if along == 0 { middle[1] * width + at as usize } else { at as usize * width + middle[0] };
+        let is_wall = |at: Option<usize>| at.is_some_and(|at| drawing.dark.get(at) == Some(&1));
+        let run = |at: &dyn Fn(usize) -> Option<usize>| {
+            let first = (0..BEYOND_PX).find(|&k| is_wall(at(k)))?;
+            Some((first..).take_while(|&k| is_wall(at(k))).count())
+        };
+        let before = run(&|k| place(bar.min[along]).checked_sub((k + 1) * step));
+        let after = run(&|k| Some(place(bar.end[along]) + k * step));
+        // One end may lie in a corner.
+        let goes_on = before.zip(after).is_some_and(|(a, b)| a.max(b) >= (SLENDER * thick) as usize);
+        (is_bar && goes_on).then_some((f64::from(length), 1.0))
+    };
+    pieces.all.iter().filter_map(length).collect()
 }
 
 /// Radii of the quarter circles of door leaves, with their weights.

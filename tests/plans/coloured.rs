@@ -199,3 +199,70 @@ fn a_bath_with_a_pale_blue_floor_is_walked() {
         assert!(share > 0.97, "{share} of {place:?}");
     }
 }
+
+/// Rooms as rectangles of thin lines, with bars of brown and blue over them for doors and windows, as programs that write SVG
+/// draw them: bars were walls, and their soft edges too. The scale was assumed, and the round corners of furniture took
+/// its sides for dimensions.
+#[test]
+fn bars_of_colour_over_thin_lines_are_doors_and_windows() {
+    const WALL: [u8; 3] = [51; 3];
+    let rooms: [([f64; 4], [u8; 3]); 6] = [
+        ([0.0, 0.0, 5.0, 4.4], [253, 243, 225]),
+        ([5.0, 0.0, 8.2, 2.8], [227, 242, 253]),
+        ([8.2, 0.0, 11.0, 2.8], [224, 247, 250]),
+        ([5.0, 2.8, 11.0, 4.4], [245; 3]),
+        ([0.0, 4.4, 5.4, 8.0], [243, 229, 245]),
+        ([5.4, 4.4, 11.0, 8.0], [232, 245, 233]),
+    ];
+    // Where bars begin, whether they run upward, and how long they are.
+    let doors = [([5.0, 3.1], true, 0.9), ([6.2, 2.8], false, 0.9), ([9.0, 2.8], false, 0.8)];
+    let doors = [&doors[..], &[([2.2, 4.4], false, 0.9), ([7.0, 4.4], false, 0.9), ([11.0, 3.1], true, 1.0)]].concat();
+    let windows =
+        [([1.4, 0.0], false, 2.0), ([5.8, 0.0], false, 1.4), ([11.0, 0.8], true, 1.2), ([0.0, 1.2], true, 2.0)];
+    let windows = [&windows[..], &[([1.6, 8.0], false, 1.8), ([7.4, 8.0], false, 1.8)]].concat();
+    let furniture = [[0.5, 0.6, 1.3, 2.4], [2.2, 1.2, 3.4, 2.0], [5.2, 0.15, 7.9, 0.75], [6.6, 6.1, 8.2, 7.8]];
+    for px_per_m in [60.0, 80.0, 110.0] {
+        let mut canvas = Canvas::new([15.0, 12.0], [-2.0, -2.0], px_per_m, 0.0, [255; 3]);
+        for (room, floor) in rooms {
+            let shape = rectangle([room[0], room[1]], [room[2], room[3]]);
+            canvas.fill(std::slice::from_ref(&shape), floor);
+        }
+        for (room, _) in rooms {
+            canvas.fill(&outline(&rectangle([room[0], room[1]], [room[2], room[3]]), 0.05), WALL);
+        }
+        for [x0, y0, x1, y1] in furniture {
+            // Corners of 8 cm.
+            let corners =
+                [[x1 - 0.08, y1 - 0.08], [x0 + 0.08, y1 - 0.08], [x0 + 0.08, y0 + 0.08], [x1 - 0.08, y0 + 0.08]];
+            let turns = [0.0, 1.0, 2.0, 3.0].map(|k| k * FRAC_PI_2);
+            let round: Vec<Point> =
+                corners.into_iter().zip(turns).flat_map(|(at, turn)| arc(at, 0.08, turn, turn + FRAC_PI_2)).collect();
+            canvas.fill(std::slice::from_ref(&round), [215, 204, 200]);
+            canvas.fill(&outline(&round, 0.02), [136; 3]);
+        }
+        for (bars, colour, thick) in [(&doors, [139, 69, 19], 0.08), (&windows, [79, 195, 247], 0.08)] {
+            for &([x, y], is_upright, length) in bars {
+                let end = if is_upright { [x, y + length] } else { [x + length, y] };
+                canvas.fill(&[line([x, y], end, thick)], colour);
+            }
+        }
+        let plan = canvas.read(None);
+        let scale = plan.metres_per_pixel * px_per_m;
+        assert!((0.88..1.12).contains(&scale), "{px_per_m} px/m: the scale is {scale} times the true one");
+        assert_eq!([plan.doors.len(), plan.windows.len()], [doors.len(), windows.len()], "{px_per_m} px/m");
+        let standing = plan.furniture.iter().map(|piece| piece.area_m2 / (scale * scale)).sum::<f64>();
+        let drawn: f64 = furniture.iter().map(|[x0, y0, x1, y1]| (x1 - x0) * (y1 - y0)).sum();
+        assert!((0.8 * drawn..1.2 * drawn).contains(&standing), "{px_per_m} px/m: {standing} of {drawn} m2 stand");
+        for ([x0, y0, x1, y1], _) in rooms {
+            let taken: f64 = (furniture.iter().filter(|f| f[0] > x0 && f[2] < x1 && f[1] > y0 && f[3] < y1))
+                .map(|[a, b, c, d]| (c - a) * (d - b))
+                .sum();
+            let share = canvas.floor_in(&plan, [[x0 + 0.1, y0 + 0.1], [x1 - 0.1, y1 - 0.1]]);
+            let free = 1.0 - taken / ((x1 - x0 - 0.2) * (y1 - y0 - 0.2));
+            assert!(
+                (share - free).abs() < 0.08,
+                "{px_per_m} px/m: {share}, not {free}, of the room at {x0} {y0} is floor"
+            );
+        }
+    }
+}

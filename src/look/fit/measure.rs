@@ -194,6 +194,16 @@ pub(super) struct Measured {
 }
 
 impl Measured {
+    /// Colours and the line at the wall alone.
+    pub fn of_colours(floor: &FloorPicture, parts: &Parts) -> Measured {
+        Measured {
+            margin: colour(floor, &parts.margin),
+            lane: colour(floor, &parts.lane),
+            edge: if parts.has_walls { edge(&floor.tone(), parts) } else { [0.0; 2] },
+            ..Measured::default()
+        }
+    }
+
     pub fn of(floor: &FloorPicture, parts: &Parts) -> Measured {
         let t = floor.texels_per_metre;
         let tone = floor.tone();
@@ -203,11 +213,9 @@ impl Measured {
         };
         let [small, large] = BLOTCHES_M.map(|sd_m| evened(&tone, sd_m, t));
         Measured {
-            margin: colour(floor, &parts.margin),
-            lane: colour(floor, &parts.lane),
             grain: uneven(&difference(&tone, &evened(&tone, GRAIN_M, t))),
             blotches: uneven(&difference(&small, &large)),
-            edge: if parts.has_walls { edge(&tone, parts) } else { [0.0; 2] },
+            ..Measured::of_colours(floor, parts)
         }
     }
 

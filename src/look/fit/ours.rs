@@ -72,8 +72,8 @@ impl OurFloor {
         self.sums.grid().texels_per_metre
     }
 
-    /// The floor with a look, and without its dirt.
-    pub fn resolved(&self, look: &Look) -> Result<[FloorPicture; 2], LookError> {
+    /// The floor with a look, and without its dirt if that is asked for.
+    pub fn resolved(&self, look: &Look, with_bare: bool) -> Result<(FloorPicture, Option<FloorPicture>), LookError> {
         let texels_per_metre = self.texels_per_metre();
         let simulated = look.total_passes.min(u64::from(u32::MAX)) as u32;
         let resolver = FloorResolver::new(&self.sums, &self.walls, look, simulated)?;
@@ -85,7 +85,7 @@ impl OurFloor {
         };
         let mut shown = picture(&|at, c| srgb::light(block.base_color[at][c]));
         shown.rgb.iter_mut().for_each(|plane| blurred(plane, self.blur));
-        Ok([shown, picture(&|at, c| f32::from(block.clean[at][c]) / 65_535.0)])
+        Ok((shown, with_bare.then(|| picture(&|at, c| f32::from(block.clean[at][c]) / 65_535.0))))
     }
 }
 

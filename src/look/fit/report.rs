@@ -64,7 +64,7 @@ const KEPT: [[&str; 2]; 10] = [
 
 pub(super) fn report(search: Search<'_>, options: &FitOptions, photo: &FloorPicture) -> Result<FittedLook, LookError> {
     let (target, target_marks) = (search.target, search.target_marks);
-    let [shown, _] = search.shown(&search.look)?;
+    let shown = search.shown()?;
     let (ours, our_marks) = search.measured_with_marks()?;
     let marks = [target_marks, our_marks];
     let texels_per_metre = photo.texels_per_metre;

@@ -92,19 +92,27 @@ impl<'a> Search<'a> {
         self.colours(ROUNDS[1])
     }
 
-    /// Our floor, and the same place without dirt.
-    pub fn shown(&self, look: &Look) -> Result<[FloorPicture; 2], LookError> {
-        self.ours.resolved(look)
+    /// Our floor with the look.
+    pub fn shown(&self) -> Result<FloorPicture, LookError> {
+        Ok(self.ours.resolved(&self.look, false)?.0)
     }
 
-    /// Measures of our floor in the mean over seeds, and of the margin's linear colour without dirt.
-    fn measured(&self, look: &Look, seeds: u64) -> Result<(Measured, [f64; 3]), LookError> {
-        let of = |shown: &FloorPicture, bare: &FloorPicture| {
-            (Measured::of(shown, self.parts), colour(bare, &self.parts.margin))
+    /// Colours and the line at the wall of our floor in the mean over seeds, and, where the photograph shows a part without
+    /// dirt, the margin's linear colour without dirt.
+    fn coloured(&self, seeds: u64) -> Result<(Measured, Option<[f64; 3]>), LookError> {
+        let of = |shown: &FloorPicture, bare: Option<&FloorPicture>| {
+            (Measured::of_colours(shown, self.parts), bare.map(|bare| colour(bare, &self.parts.margin)))
         };
-        let (measured, bare): (Vec<_>, Vec<_>) = self.over_seeds(look, seeds, of)?.into_iter().unzip();
-        let bare = [0, 1, 2].map(|k| bare.iter().map(|bare: &[f64; 3]| bare[k]).sum::<f64>() / bare.len() as f64);
-        Ok((Measured::mean(&measured), bare))
+        let (measured, bare): (Vec<_>, Vec<_>) = self.over_seeds(&self.look, seeds, of)?.into_iter().unzip();
+        let bare: Option<Vec<[f64; 3]>> = bare.into_iter().collect();
+        let mean =
+            |bare: Vec<[f64; 3]>| [0, 1, 2].map(|k| bare.iter().map(|bare| bare[k]).sum::<f64>() / bare.len() as f64);
+        Ok((Measured::mean(&measured), bare.map(mean)))
+    }
+
+    /// Measures of our floor in the mean over seeds.
+    fn measured(&self, look: &Look) -> Result<Measured, LookError> {
+        Ok(Measured::mean(&self.over_seeds(look, SEEDS, |shown, _| Measured::of(shown, self.parts))?))
     }
 
     /// Marks of our floor in the mean over seeds.
@@ -115,22 +123,23 @@ impl<'a> Search<'a> {
 
     /// Measures of our floor and its marks, in the mean over seeds.
     pub fn measured_with_marks(&self) -> Result<(Measured, f64), LookError> {
-        let of =
-            |shown: &FloorPicture, _: &FloorPicture| (Measured::of(shown, self.parts), marks_per_m2(shown, self.parts));
+        let of = |shown: &FloorPicture, _: Option<&FloorPicture>| {
+            (Measured::of(shown, self.parts), marks_per_m2(shown, self.parts))
+        };
         let (measured, marks): (Vec<_>, Vec<_>) = self.over_seeds(&self.look, SEEDS, of)?.into_iter().unzip();
         Ok((Measured::mean(&measured), marks.iter().sum::<f64>() / SEEDS as f64))
     }
 
-    /// What `measure` finds on our floor, and on the same place without dirt, with each of so many seeds.
+    /// What `measure` finds on our floor, and on the same place without dirt if that is needed, with each of so many seeds.
     fn over_seeds<T: Send>(
         &self,
         look: &Look,
         seeds: u64,
-        measure: impl Fn(&FloorPicture, &FloorPicture) -> T + Sync,
+        measure: impl Fn(&FloorPicture, Option<&FloorPicture>) -> T + Sync,
     ) -> Result<Vec<T>, LookError> {
         let of = |seed: u64| {
-            let [shown, bare] = self.shown(&Look { seed, ..look.clone() })?;
-            Ok(measure(&shown, &bare))
+            let (shown, bare) = self.ours.resolved(&Look { seed, ..look.clone() }, self.clean.is_some())?;
+            Ok(measure(&shown, bare.as_ref()))
         };
         (1..=seeds).into_par_iter().map(of).collect()
     }
@@ -146,18 +155,15 @@ impl<'a> Search<'a> {
             self.look.film.colour = rounded(self.soil);
             // The way there needs no mean.
             let seeds = if round + ROUNDS[1] < rounds { 1 } else { SEEDS };
-            let (ours, bare) = self.measured(&self.look, seeds)?;
+            let (ours, bare) = self.coloured(seeds)?;
             let target = self.target;
             let soil = self.soil_light;
             // The part without dirt is the floor's own colour; otherwise the margin has the age that the look has.
-            let (wanted, has) = match self.clean {
-                Some(clean) => (clean, bare),
-                None => (target.margin, ours.margin),
-            };
+            let (wanted, has) = self.clean.zip(bare).unwrap_or((target.margin, ours.margin));
             for ((floor, wanted), has) in self.floor.iter_mut().zip(wanted).zip(has) {
                 *floor = (*floor * wanted / has.max(1e-4)).clamp(0.001, 0.98);
             }
-            if let Some(clean) = self.clean {
+            if let Some((clean, bare)) = self.clean.zip(bare) {
                 let lies = |clean: [f64; 3], margin: [f64; 3]| density(soil, luminance(clean), luminance(margin));
                 let more = lies(clean, target.margin) - lies(bare, ours.margin);
                 self.look.age.density = (f64::from(self.look.age.density) + more).clamp(0.0, 3.0) as f32;
@@ -202,7 +208,7 @@ impl<'a> Search<'a> {
         flat.noise.fine.sd = 0.0;
         flat.noise.middle.sd = 0.0;
         flat.mop.unevenness = 0.0;
-        let ((without, _), (with, _)) = (self.measured(&flat, SEEDS)?, self.measured(&self.look, SEEDS)?);
+        let (without, with) = (self.measured(&flat)?, self.measured(&self.look)?);
         let factor = |target: Uneven, without: Uneven, with: Uneven| {
             let [wanted, has] = [target, with].map(|uneven| uneven.beyond - without.beyond);
             let is_told = has > 0.0 && wanted > LEAST_FILM_SHARE * target.lane;

@@ -12,6 +12,8 @@ const THICK_M: f64 = 0.1;
 /// Sides of the box around the arc of a door, metres, and how far from a square it may be.
 const ARC_M: [f64; 2] = [0.45, 1.5];
 const SQUARE: f64 = 0.75;
+/// Largest piece between a level and an upright line that rounds a corner, metres.
+const CORNER_M: f64 = 0.25;
 /// Largest field that furniture encloses, square metres.
 const LARGEST_FIELD_M2: f64 = 7.0;
 /// Share of a line with such a field beside it from which it is furniture.
@@ -55,12 +57,20 @@ pub(super) fn thickened(
     let mut has_notes = false;
     for (mask, along) in [(&mut level, 0), (&mut upright, 1)] {
         let lines = Components::of(mask, width, 1, Neighbours::Eight);
-        for line in lines.all.iter().filter(|line| ticks.end(line, along) || heads.end(line, along)) {
-            lines.paint(line, mask, width, 0);
-            has_notes = has_notes || line.size()[along] as usize >= px(NOTE_M);
+        for line in &lines.all {
+            let crossed = ticks.end(line, along).or_else(|| heads.end(line, along).then_some(true));
+            if let Some(is_note) = crossed {
+                lines.paint(line, mask, width, 0);
+                has_notes = has_notes || is_note && line.size()[along] as usize >= px(NOTE_M);
+            }
         }
     }
     drop((ticks, heads));
+    let mut closed = panes.to_vec();
+    closed.resize(strokes.len(), 0);
+    for corner in pieces.all.iter().filter(|piece| piece.larger_side() as usize <= px(CORNER_M)) {
+        pieces.paint(corner, &mut closed, width, 1);
+    }
     drop(pieces);
     // Without dimensions and axes a line that ends freely may well be a wall: mazes have such.
     if has_notes || has_axes {
@@ -69,8 +79,7 @@ pub(super) fn thickened(
         prune(&mut level, &mut upright, &between, width, metres_per_pixel);
     }
     let lines: Vec<u8> = level.iter().zip(&upright).map(|(&a, &b)| a | b).collect();
-    let mut closed = lines.clone();
-    closed.iter_mut().zip(panes).for_each(|(line, pane)| *line |= pane);
+    closed.iter_mut().zip(&lines).for_each(|(closed, line)| *closed |= line);
     let fields = small_fields(&closed, width, LARGEST_FIELD_M2 / (metres_per_pixel * metres_per_pixel));
     let mut walls = vec![0u8; strokes.len()];
     for (mask, along) in [(&level, 0), (&upright, 1)] {
@@ -156,20 +165,27 @@ impl Ticks<'_> {
         Ticks { all: pieces.all.iter().filter(is_tick).collect(), near_px: (TICK_M / metres_per_pixel).round() }
     }
 
-    /// Whether a line has one at both ends, of one size, as letters that lie on a line are not.
-    fn end(&self, line: &Component, along: usize) -> bool {
+    /// Whether those at both ends of a line cross it, if there are such of one size, as letters that lie on a line are not. The
+    /// line parts what crosses it: half lies on either side, while the round corners of furniture lie on one.
+    fn end(&self, line: &Component, along: usize) -> Option<bool> {
         let across = 1 - along;
         let centre = |piece: &Component, axis: usize| f64::from(piece.min[axis] + piece.end[axis]) * 0.5;
-        let at_end = |end: u32| {
-            let is_near = move |tick: &&&Component| {
-                (centre(tick, along) - f64::from(end)).abs() <= self.near_px
-                    && (centre(tick, across) - centre(line, across)).abs() <= self.near_px * 0.5
+        let off = |tick: &Component| centre(tick, across) - centre(line, across);
+        let at_end = |end: u32| -> Vec<&Component> {
+            let is_near = |tick: &&&Component| {
+                (centre(tick, along) - f64::from(end)).abs() <= self.near_px && off(tick).abs() <= self.near_px * 0.5
             };
-            self.all.iter().filter(is_near)
+            self.all.iter().filter(is_near).copied().collect()
+        };
+        let crosses = |ticks: &[&Component], tick: &Component| {
+            let is_over = tick.min[across] < line.min[across] && tick.end[across] > line.end[across];
+            is_over || ticks.iter().any(|other| off(other) * off(tick) < 0.0)
         };
         let is_alike =
             |a: &Component, b: &Component| (0..2).all(|axis| a.size()[axis].abs_diff(b.size()[axis]) <= ALIKE_PX);
-        at_end(line.min[along]).any(|first| at_end(line.end[along]).any(|last| is_alike(first, last)))
+        let [first, last] = [line.min[along], line.end[along]].map(at_end);
+        let alike = first.iter().flat_map(|a| last.iter().map(move |b| (*a, *b))).filter(|(a, b)| is_alike(a, b));
+        alike.map(|(a, b)| crosses(&first, a) && crosses(&last, b)).max()
     }
 }
 

@@ -13,8 +13,10 @@ mod partitions;
 mod pieces;
 mod rooms;
 
+use std::cell::Cell;
+
 use self::gaps::Gap;
-use self::net::{Net, Sought, WIDEST_DOOR_M, WIDEST_ENTRANCE_M};
+use self::net::{Colours, Net, Sought, WIDEST_DOOR_M, WIDEST_ENTRANCE_M};
 use self::pieces::{Evidence, LARGEST_LETTER_M};
 use self::rooms::Rooms;
 use super::components::{Component, Components, Neighbours};
@@ -184,9 +186,14 @@ fn ink_and_net(drawing: &Drawing, metres_per_pixel: f64) -> Option<(Vec<u8>, Net
         return None;
     }
     let coloured = thick::strokes(&drawing.coloured, drawing.width, STROKE_M / metres_per_pixel);
-    // Panes are as thick as walls.
-    let panes = thick::slim(&drawing.pane, drawing.width, PANE_M / metres_per_pixel);
+    // Panes are as thick as walls, and may be a stronger blue beside a pale blue floor.
+    let mut panes = thick::slim(&drawing.pane, drawing.width, PANE_M / metres_per_pixel);
+    for ((pane, stroke), of_pane) in panes.iter_mut().zip(&coloured).zip(&drawing.pane) {
+        *pane |= stroke & of_pane;
+    }
     let is_on = |mask: &[u8], at: usize| mask.get(at).is_some_and(|&on| on != 0);
+    let bars: Vec<u8> =
+        coloured.iter().enumerate().map(|(at, &stroke)| stroke & u8::from(!is_on(&drawing.pane, at))).collect();
     let is_ink = |at: usize| {
         let is_thin = is_on(&coloured, at) || is_on(&panes, at);
         u8::from(drawing.dark[at] != 0 || drawing.lightness[at] < FAINT || is_thin)
@@ -195,7 +202,7 @@ fn ink_and_net(drawing: &Drawing, metres_per_pixel: f64) -> Option<(Vec<u8>, Net
     let faint = thick::strokes(&drawing.faint_strokes(), drawing.width, STROKE_M / metres_per_pixel);
     let mut all_ink = ink.clone();
     all_ink.iter_mut().zip(faint).for_each(|(ink, faint)| *ink |= faint);
-    let net = find_net(drawing, &ink, &all_ink, metres_per_pixel)?;
+    let net = find_net(drawing, [&ink, &all_ink], Colours { panes: &panes, bars: &bars }, metres_per_pixel)?;
     Some((all_ink, net))
 }
 
@@ -254,10 +261,29 @@ pub(super) fn leaf_lengths(drawing: &Drawing, metres_per_pixel: f64) -> Vec<f64>
     lengths.map(|length| length * factor as f64).collect()
 }
 
-/// Finds the walls: thick ones, else outlines, else hatched ones, else both, else massive ones, else single lines.
+/// Finds the walls: a building whose rooms nothing joins only if there is no other.
 ///
-/// Partitions between thick walls may be drawn in fainter ink than walls: `all_ink`.
-fn find_net(drawing: &Drawing, ink: &[u8], all_ink: &[u8], metres_per_pixel: f64) -> Option<Net> {
+/// The second of `inks` has fainter strokes too, as partitions between thick walls may be.
+fn find_net(drawing: &Drawing, inks: [&[u8]; 2], colours: Colours, metres_per_pixel: f64) -> Option<Net> {
+    let was_sealed = Cell::new(false);
+    let is_open = |net: &Net| {
+        let is_sealed = net.doors.is_empty() && net.joined(drawing.width) < CONNECTED;
+        was_sealed.set(was_sealed.get() || is_sealed);
+        !is_sealed
+    };
+    let sought = |is_it: &dyn Fn(&Net) -> bool| net_of_walls(drawing, inks, colours, metres_per_pixel, is_it);
+    sought(&is_open).or_else(|| was_sealed.get().then(|| sought(&|_| true)).flatten())
+}
+
+/// Finds the walls, as `is_it` says: thick ones, else outlines, else hatched ones, else both, else massive ones, else single
+/// lines.
+fn net_of_walls(
+    drawing: &Drawing,
+    [ink, all_ink]: [&[u8]; 2],
+    colours: Colours,
+    metres_per_pixel: f64,
+    is_it: &dyn Fn(&Net) -> bool,
+) -> Option<Net> {
     let (dark, width) = (&drawing.dark, drawing.width);
     let strokes = without_lettering(ink, width, metres_per_pixel);
     let is_dark = |at: usize| dark.get(at).is_some_and(|&d| d != 0);
@@ -271,9 +297,10 @@ fn find_net(drawing: &Drawing, ink: &[u8], all_ink: &[u8], metres_per_pixel: f64
     let surely =
         |at: usize| strokes[at] & u8::from(drawing.lightness[at] < SURELY_DARK && (is_dark(at) || is_ring(at)));
     let core: Vec<u8> = (0..dark.len()).map(surely).collect();
-    let usual = |thickest: usize| Sought { thickest, widest_m: WIDEST_DOOR_M, is_massive: false };
+    let usual = |thickest: usize| Sought { thickest, widest_m: WIDEST_DOOR_M, is_massive: false, colours };
     let net_in = |ink: &[u8], core: &[u8], filled: &[u8], sought: &Sought| {
-        Net::find(core, filled, dark, ink, width, metres_per_pixel, sought).filter(Net::is_building)
+        let net = Net::find(core, filled, dark, ink, width, metres_per_pixel, sought)?;
+        (net.is_building() && is_it(&net)).then_some(net)
     };
     let net_of = |core: &[u8], filled: &[u8], thickest: usize| net_in(ink, core, filled, &usual(thickest));
     let px = |metres: f64| ((metres / metres_per_pixel).round() as usize).max(4);
@@ -316,23 +343,37 @@ fn find_net(drawing: &Drawing, ink: &[u8], all_ink: &[u8], metres_per_pixel: f64
     if let Some(net) = wide(&core, dark) {
         return Some(net);
     }
-    let massive = Sought { thickest: px(MASSIVE_WALL_M), widest_m: WIDEST_PORTAL_M, is_massive: true };
+    let massive = Sought { thickest: px(MASSIVE_WALL_M), widest_m: WIDEST_PORTAL_M, is_massive: true, colours };
     if let Some(net) = net_in(ink, &core, dark, &massive) {
         return Some(net);
     }
-    let (lines, reach) = lines::thickened(&strokes, ink, &[], width, metres_per_pixel);
-    // Of lines a gap is as deep as they grew; a stub of wall across its end is no deeper end.
-    let mut net = net_of(&lines, &lines, 3 * (2 * reach + 1))?;
-    // The lines themselves are the walls.
-    let near = thick::grow(&net.inside, width, reach);
-    for at in 0..ink.len() {
-        net.wall[at] &= ink[at];
-        net.inside[at] = near[at] & (1 - net.wall[at]);
+    // Doors and windows may be strokes of another colour over the walls' lines, with soft edges that look like lines.
+    let is_coloured = |at: usize| [&drawing.coloured, &drawing.pane].iter().any(|mask| mask.get(at) == Some(&1));
+    let coloured: Vec<u8> = (0..strokes.len()).map(|at| strokes[at] & u8::from(is_coloured(at))).collect();
+    let soft = thick::grow(&coloured, width, 1);
+    let is_plain = |at: usize| coloured[at] == 0 && (soft[at] == 0 || core[at] != 0);
+    let plain: Vec<u8> = (0..strokes.len()).map(|at| strokes[at] & u8::from(is_plain(at))).collect();
+    let of_lines = |strokes: &[u8], drawn: &[u8]| {
+        let (lines, reach) = lines::thickened(strokes, ink, &[], width, metres_per_pixel);
+        // Of lines a gap is as deep as they grew; a stub of wall across its end is no deeper end.
+        let mut net = net_of(&lines, &lines, 3 * (2 * reach + 1))?;
+        // The lines themselves are the walls.
+        let near = thick::grow(&net.inside, width, reach);
+        for at in 0..ink.len() {
+            net.wall[at] &= drawn[at];
+            net.inside[at] = near[at] & (1 - net.wall[at]);
+        }
+        for at in net.doors.iter().chain(&net.windows).flat_map(Gap::pixels) {
+            net.inside[at] = 0;
+        }
+        Some(net)
+    };
+    if coloured.contains(&1)
+        && let Some(net) = of_lines(&plain, &plain).filter(|net| net.joined(width) >= CONNECTED)
+    {
+        return Some(net);
     }
-    for at in net.doors.iter().chain(&net.windows).flat_map(Gap::pixels) {
-        net.inside[at] = 0;
-    }
-    Some(net)
+    of_lines(&strokes, ink)
 }
 
 /// Strokes without groups of letters.

@@ -25,6 +25,9 @@ const THICKEST_LEAF_M: f64 = 0.3;
 const LEAF_IN_WALLS: f64 = 0.75;
 /// Greatest width of a window that is a single line, metres.
 const WIDEST_PANE_M: f64 = 3.2;
+/// Least share of a gap that a single line in the blue of panes fills, and that a bar of another colour does.
+const PANE_SHARE: f64 = 0.3;
+const BAR_SHARE: f64 = 0.4;
 /// Least width of a gate that is a single line, metres.
 const NARROWEST_GATE_M: f64 = 2.3;
 /// Greatest side of a column between massive walls, metres, and its greatest length in its thickness.
@@ -61,14 +64,24 @@ pub(super) struct Net {
     pub(super) enclosed: f64,
 }
 
+/// What is drawn in colour, 1 each; empty without any.
+#[derive(Clone, Copy)]
+pub(super) struct Colours<'a> {
+    /// Strokes in the blue of panes.
+    pub(super) panes: &'a [u8],
+    /// Strokes in other colours.
+    pub(super) bars: &'a [u8],
+}
+
 /// What walls and doors are sought.
-pub(super) struct Sought {
+pub(super) struct Sought<'a> {
     /// Greatest depth of gaps, pixels.
     pub(super) thickest: usize,
     /// Greatest width of doors to the outside, metres; within they are up to [`WIDEST_DOOR_M`] wide.
     pub(super) widest_m: f64,
     /// Whether walls are as thick as those of churches.
     pub(super) is_massive: bool,
+    pub(super) colours: Colours<'a>,
 }
 
 impl Net {
@@ -82,7 +95,7 @@ impl Net {
         ink: &[u8],
         width: usize,
         metres_per_pixel: f64,
-        &Sought { thickest, widest_m, is_massive }: &Sought,
+        &Sought { thickest, widest_m, is_massive, colours }: &Sought,
     ) -> Option<Net> {
         let mut core = core.to_vec();
         drop_frame(&mut core, ink, width, metres_per_pixel);
@@ -105,9 +118,18 @@ impl Net {
         // A door may be closed by lines along both faces of the wall; its leaf tells it from a window.
         let has_leaf =
             |gap: &Gap| gap.length() <= px(WIDEST_DOOR_M) && !leaves::hung(gap, &strokes, metres_per_pixel).is_empty();
+        let share = |gap: &Gap, mask: &[u8]| {
+            let pixels = gap.pixels();
+            let on = pixels.iter().filter(|&&at| mask.get(at) == Some(&1)).count();
+            on as f64 / pixels.len().max(1) as f64
+        };
+        // A bar of colour is a single line, however thick.
+        let strokes_of = |gap: &Gap| if share(gap, colours.bars) >= BAR_SHARE { 1 } else { gap.strokes };
         let is_window = |gap: &Gap| {
-            (gap.strokes >= 2
-                || gap.strokes == 1 && gap.length() > px(WIDEST_CLOSED_DOOR_M) && gap.length() <= px(WIDEST_PANE_M))
+            let strokes = strokes_of(gap);
+            (strokes >= 2
+                || strokes == 1 && share(gap, colours.panes) >= PANE_SHARE
+                || strokes == 1 && gap.length() > px(WIDEST_CLOSED_DOOR_M) && gap.length() <= px(WIDEST_PANE_M))
                 && !is_entrance(gap)
                 && !has_leaf(gap)
         };

@@ -16,6 +16,8 @@ const GAIN: [f64; 2] = [0.5, 3.0];
 const BOUNCE: [f64; 2] = [0.34, 0.36];
 /// Light of lamps on the floor under an endless raster of them.
 const LAMPS: f64 = 0.66;
+/// Light of a panel on a wall, so that walls are as bright as floors in the mean.
+const PANEL_ON_WALL: f64 = 0.83;
 /// Darkening of the floor along walls: share, and the distance in which it fades, metres.
 const CONTACT: [f64; 2] = [0.34, 0.16];
 /// Daylight that comes in through an opening: factor on the part of the sky that it shows, and how far it is followed,
@@ -375,8 +377,9 @@ impl WallLight<'_> {
         // A panel is no point: close to it light does not grow beyond measure.
         let squared = way.length_squared() + below * below + 0.5;
         let fade = 1.0 - smoothstep((way.length() - 4.0) / (REACH_M - 4.0));
-        // Louvres: the light of a lamp falls steeply.
-        fade * height_m * height_m * facing * below * (below + 0.1) / (squared * squared * squared.sqrt())
+        // Louvres keep some of the light below the lamp, so that it falls more steeply than from a bare pane.
+        let fall = squared * squared * squared.sqrt().sqrt() / (height_m * height_m.sqrt());
+        PANEL_ON_WALL * fade * facing * below * (below + 0.4) / fall
     }
 }
 

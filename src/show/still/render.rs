@@ -31,6 +31,9 @@ const PLACES: [[f64; 2]; RAYS] = [
     [0.9375, 0.5625],
 ];
 
+/// Neighbours in a row for which what a floor mirrors is looked up once: it is blurred to both sides over more.
+const MIRRORED_TOGETHER: usize = 4;
+
 /// Rays of the light meter across and down a picture.
 const METERED: usize = 20;
 /// Where three quarters of what is seen are lit less than this, the exposure is as always; brighter pictures get less.
@@ -214,16 +217,20 @@ impl<'a> Renderer<'a> {
             let mut lit = vec![vec![Lit::default(); width]; skins.len()];
             let mut seen = vec![Lit::default(); skins.len()];
             let mut edges = row.edges.iter().peekable();
+            let mut neighbour = None;
             for (x, hit) in row.hits.iter().enumerate() {
+                if x % MIRRORED_TOGETHER == 0 {
+                    neighbour = None;
+                }
                 if let Some((_, hits)) = edges.next_if(|(column, _)| *column as usize == x) {
                     for hit in hits {
-                        shader.shade(hit, skins, &mut seen);
+                        shader.shade(hit, skins, &mut neighbour, &mut seen);
                         for (lit, seen) in lit.iter_mut().zip(&seen) {
                             add_share(&mut lit[x], seen);
                         }
                     }
                 } else {
-                    shader.shade(hit, skins, &mut seen);
+                    shader.shade(hit, skins, &mut neighbour, &mut seen);
                     for (lit, seen) in lit.iter_mut().zip(&seen) {
                         lit[x] = *seen;
                     }

@@ -40,6 +40,14 @@ impl Lit {
     }
 }
 
+/// What a smooth floor mirrors at a place.
+pub(super) struct Reflection {
+    /// Way of the ray to that place, metres.
+    way_m: f32,
+    mirror: Mirror,
+    things: Things,
+}
+
 /// Geometry of the reflection in a smooth floor.
 struct Mirror {
     wall_m: f64,
@@ -66,6 +74,8 @@ struct Things {
 const MIRRORED_FRAME_M: f32 = 2.2;
 /// Floors that are looked at more steeply mirror too little for things to be seen: sine.
 const STEEP: f32 = 0.5;
+/// Relative difference of two ways up to which floor mirrors the same.
+const SAME_WAY: f32 = 0.02;
 
 /// Where the light of a face of a fitting is found on the floor: a little before its sides.
 pub(super) fn lit_at(fittings: &Fittings, hit: &RayHit, number: u32, face: u8) -> [f32; 2] {
@@ -79,10 +89,10 @@ pub(super) fn lit_at(fittings: &Fittings, hit: &RayHit, number: u32, face: u8) -
 }
 
 impl Shader<'_> {
-    /// The light of a hit in each skin.
-    pub fn shade(&self, hit: &RayHit, skins: &[SurfaceSampler], out: &mut [Lit]) {
+    /// The light of a hit in each skin. Floor as far away as a neighbour's mirrors what that one did.
+    pub fn shade(&self, hit: &RayHit, skins: &[SurfaceSampler], neighbour: &mut Option<Reflection>, out: &mut [Lit]) {
         match hit.surface {
-            HitSurface::Floor => self.floor(hit, skins, out),
+            HitSurface::Floor => self.floor(hit, skins, neighbour, out),
             HitSurface::Wall(piece) => self.wall(hit, piece, skins, out),
             HitSurface::Lintel(piece) => self.lintel(hit, piece, skins, out),
             HitSurface::Furniture => {
@@ -133,23 +143,25 @@ impl Shader<'_> {
         }
     }
 
-    fn floor(&self, hit: &RayHit, skins: &[SurfaceSampler], out: &mut [Lit]) {
+    fn floor(&self, hit: &RayHit, skins: &[SurfaceSampler], neighbour: &mut Option<Reflection>, out: &mut [Lit]) {
         let light = self.light.floor(hit.point[0], hit.point[1]);
         let p = vec2(f64::from(hit.point[0]), f64::from(hit.point[1]));
         let shade = light.shade * self.space.fittings.beside_feet(self.space.shades_at(p), p) as f32;
         let tinted = self.tinted(light.full * shade);
         let cosine = hit.toward[2].abs();
         let sources = &self.light.light.sources;
-        let mirror = (!matches!(sources, LightSources::Above(_))).then(|| self.mirror(hit));
-        let things = mirror.as_ref().map_or(Things::default(), |mirror| self.mirrored_things(hit, mirror));
+        let is_same = |near: &Reflection| (near.way_m - hit.way_m).abs() < SAME_WAY * hit.way_m;
+        if neighbour.as_ref().is_none_or(|near| !is_same(near)) {
+            *neighbour = (!matches!(sources, LightSources::Above(_))).then(|| self.reflection(hit));
+        }
         for (skin, out) in skins.iter().zip(out) {
             let paint = skin.floor(self.space, hit, self.pixel);
             let fresnel = fresnel(cosine, paint.roughness);
             let gain = fresnel * (FLOOR_SHINE[0] + FLOOR_SHINE[1] * light.open) * (0.4 + 0.6 * shade);
             let colour = std::array::from_fn(|c| paint.colour[c] * tinted[c] * (1.0 - fresnel));
-            *out = match &mirror {
+            *out = match neighbour {
                 None => Lit::of(colour.map(|value| value + SKY_SHINE * gain)),
-                Some(mirror) => {
+                Some(Reflection { mirror, things, .. }) => {
                     let wall_m = mirror.wall_m + (things.way_m - mirror.wall_m) * f64::from(things.share);
                     let away = wall_m * mirror.stretch;
                     let slope = lobe_slope(paint.roughness) * away / (f64::from(hit.way_m) + away).max(0.1);
@@ -328,6 +340,11 @@ impl Shader<'_> {
         let x = (block.min.x - p.x).max(p.x - block.max.x).max(0.0);
         let y = (block.min.y - p.y).max(p.y - block.max.y).max(0.0);
         (x * x + y * y).sqrt()
+    }
+
+    fn reflection(&self, hit: &RayHit) -> Reflection {
+        let mirror = self.mirror(hit);
+        Reflection { way_m: hit.way_m, things: self.mirrored_things(hit, &mirror), mirror }
     }
 
     fn mirror(&self, hit: &RayHit) -> Mirror {
