@@ -20,6 +20,8 @@ const LINES_SHARE: f64 = 0.02;
 const ENCLOSED_SHARE: f64 = 0.55;
 /// Cells along the image's longer side in which long pieces are counted.
 const CELLS: usize = 48;
+/// Share of a grey beside dark pixels from which it is their soft edge.
+const RIM_SHARE: f64 = 0.75;
 /// Half the width of a tone's peak in the histogram.
 const PEAK: usize = 5;
 /// Least difference between paper and ink.
@@ -139,6 +141,16 @@ pub(super) fn wall_threshold(width: usize, lightness: &[u8], coloured: &[u8]) ->
     let is_dark = |l: u8| l < USUAL_THRESHOLD;
     let dark_net = net_of(&is_dark);
     let dark_lines = thickness(width, lightness, |at| is_dark(lightness[at]), is_dark);
+    // The soft edges of dark lines are no grey walls.
+    let is_rim_of_dark = |is_grey: &dyn Fn(u8) -> bool| {
+        let (mut count, mut at_dark) = (0usize, 0usize);
+        for at in (0..lightness.len()).filter(|&at| is_plain(coloured, at) && is_grey(lightness[at])) {
+            let beside = [at.wrapping_sub(1), at + 1, at.wrapping_sub(width), at + width];
+            count += 1;
+            at_dark += usize::from(beside.iter().any(|&b| lightness.get(b).is_some_and(|&l| is_dark(l))));
+        }
+        at_dark as f64 > RIM_SHARE * count as f64
+    };
     for grey in peaks {
         let threshold = ((grey + paper).div_ceil(2)) as u8;
         let is_wall = |l: u8| l < threshold;
@@ -147,7 +159,7 @@ pub(super) fn wall_threshold(width: usize, lightness: &[u8], coloured: &[u8]) ->
         else {
             continue;
         };
-        if lines > thickest {
+        if lines > thickest || is_rim_of_dark(&near) {
             continue;
         }
         // Dark pieces are letters and the like, or lines thinner than the grey ones.

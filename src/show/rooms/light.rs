@@ -17,7 +17,9 @@ const BOUNCE: [f64; 2] = [0.34, 0.36];
 /// Light of lamps on the floor under an endless raster of them.
 const LAMPS: f64 = 0.66;
 /// Light of a panel on a wall, so that walls are as bright as floors in the mean.
-const PANEL_ON_WALL: f64 = 0.83;
+const PANEL_ON_WALL: f64 = 1.11;
+/// Square of a panel's size as a wall sees it, with what the ceiling around it throws back, square metres.
+const PANEL_WIDE_M2: f64 = 1.5;
 /// Darkening of the floor along walls: share, and the distance in which it fades, metres.
 const CONTACT: [f64; 2] = [0.34, 0.16];
 /// Daylight that comes in through an opening: factor on the part of the sky that it shows, and how far it is followed,
@@ -375,7 +377,7 @@ impl WallLight<'_> {
         let height_m = self.light.space.height_m;
         let facing = way.dot(self.normal).max(0.0);
         // A panel is no point: close to it light does not grow beyond measure.
-        let squared = way.length_squared() + below * below + 0.5;
+        let squared = way.length_squared() + below * below + PANEL_WIDE_M2;
         let fade = 1.0 - smoothstep((way.length() - 4.0) / (REACH_M - 4.0));
         // Louvres keep some of the light below the lamp, so that it falls more steeply than from a bare pane.
         let fall = squared * squared * squared.sqrt().sqrt() / (height_m * height_m.sqrt());
