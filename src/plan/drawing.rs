@@ -43,6 +43,11 @@ pub(super) struct Drawing {
     pub(super) looks_like_map: bool,
 }
 
+/// Whether a mask has a pixel; an empty one has none.
+pub(super) fn is_on(mask: &[u8], at: usize) -> bool {
+    mask.get(at).is_some_and(|&on| on != 0)
+}
+
 /// Reads an image by the greys of a ROS map.
 pub(super) fn of_map(image: DynamicImage, greys: &Greys, options: &PlanOptions) -> Drawing {
     let (width, height) = (image.width() as usize, image.height() as usize);
@@ -261,7 +266,6 @@ fn drop_paving(drawing: &mut Drawing) {
     let has_faint = all.iter().filter(|&&faint| faint != 0).count() * FEWEST >= drawing.dark.len();
     let passes: &[&[u8]] = if has_faint { &[&[], &all] } else { &[&[]] };
     for faint in passes {
-        let is_on = |mask: &[u8], at: usize| mask.get(at).is_some_and(|&on| on != 0);
         let is_stroke =
             |at: usize, lightness: u8| lightness < FAINT || drawing.dark[at] != 0 || is_on(&drawing.coloured, at);
         let dark = drawing.lightness.iter().enumerate().map(|(at, &lightness)| match () {
@@ -289,6 +293,11 @@ fn drop_paving(drawing: &mut Drawing) {
 }
 
 impl Drawing {
+    /// What of a mask has not the pale blue of panes.
+    pub(super) fn without_panes(&self, mask: &[u8]) -> Vec<u8> {
+        mask.iter().enumerate().map(|(at, &on)| on & u8::from(!is_on(&self.pane, at))).collect()
+    }
+
     /// 1 for strokes on clean paper that are lighter than others, as grey lines of a pixel or less are; empty if paper is not
     /// clean. Anti-aliased flanks of darker strokes are none, but where a faint one ends there or joins two.
     pub(super) fn faint_strokes(&self) -> Vec<u8> {

@@ -6,7 +6,7 @@ use super::arcs::{Arc, Search, fitted_radius, pixel};
 use super::clearance::{dilate, erode};
 use super::components::{Component, Components, Neighbours};
 use super::cracks::trace;
-use super::drawing::Drawing;
+use super::drawing::{Drawing, is_on};
 use super::likely::{Likelihood, Usual};
 use super::scale::{self, PlanScale, ScaleSource, rounded};
 use super::symbols::{FEWEST_STROKES, groups};
@@ -282,19 +282,21 @@ impl Measures {
         // Panes and leaves may be drawn in a colour.
         let thickest = walls.thickness.map_or(COLOURED_STROKE_PX, |wall| wall * STROKE_IN_WALLS);
         let of_colour = thick::strokes(&drawing.coloured, drawing.width, thickest);
-        let is_of_colour = |at: usize| of_colour.get(at).is_some_and(|&c| c != 0);
+        let is_of_colour = |at: usize| is_on(&of_colour, at);
         let is_ink = |x: usize, y: usize| {
             let at = y * drawing.width + x;
             drawing.dark[at] != 0 || is_of_colour(at)
         };
         // Between thin lines there are gaps of all kinds.
-        let mut doorways_px = doorways(&walls.mask, drawing.width, is_ink);
-        let turned = turned(&walls.mask, drawing.width);
-        doorways_px.extend(doorways(&turned, drawing.height, |y, x| is_ink(x, y)));
-        drop(turned);
-        if walls.thickness.is_none() {
-            doorways_px = coloured_doors(drawing);
-        }
+        let doorways_px = match walls.thickness {
+            None => coloured_doors(drawing),
+            Some(_) => {
+                let upright = doorways(&turned(&walls.mask, drawing.width), drawing.height, |y, x| is_ink(x, y));
+                let mut all = doorways(&walls.mask, drawing.width, is_ink);
+                all.extend(upright);
+                all
+            }
+        };
         let (dark, letter) = without_letters(&drawing.dark, drawing.width);
         let mut leaves = leaves_of(&dark, drawing.width);
         if (leaves.len() as f64) < FEWEST_LEAVES && !drawing.scanned {
@@ -495,9 +497,7 @@ fn coloured_doors(drawing: &Drawing) -> Vec<(f64, f64)> {
     /// How far beyond its ends the wall goes on, pixels: edges are soft.
     const BEYOND_PX: usize = 3;
     let width = drawing.width;
-    let is_pane = |at: usize| drawing.pane.get(at).is_some_and(|&pane| pane != 0);
-    let bars: Vec<u8> = drawing.coloured.iter().enumerate().map(|(at, &c)| c & u8::from(!is_pane(at))).collect();
-    let pieces = Components::of(&bars, width, 1, Neighbours::Eight);
+    let pieces = Components::of(&drawing.without_panes(&drawing.coloured), width, 1, Neighbours::Eight);
     let length = |bar: &Component| {
         let [w, h] = bar.size();
         let (length, thick) = (w.max(h), w.min(h));

@@ -196,10 +196,15 @@ pub(super) struct Measured {
 impl Measured {
     /// Colours and the line at the wall alone.
     pub fn of_colours(floor: &FloorPicture, parts: &Parts) -> Measured {
+        let tone = parts.has_walls.then(|| floor.tone());
+        Measured::without_unevenness(floor, tone.as_ref(), parts)
+    }
+
+    fn without_unevenness(floor: &FloorPicture, tone: Option<&PixelRaster>, parts: &Parts) -> Measured {
         Measured {
             margin: colour(floor, &parts.margin),
             lane: colour(floor, &parts.lane),
-            edge: if parts.has_walls { edge(&floor.tone(), parts) } else { [0.0; 2] },
+            edge: tone.filter(|_| parts.has_walls).map_or([0.0; 2], |tone| edge(tone, parts)),
             ..Measured::default()
         }
     }
@@ -215,7 +220,7 @@ impl Measured {
         Measured {
             grain: uneven(&difference(&tone, &evened(&tone, GRAIN_M, t))),
             blotches: uneven(&difference(&small, &large)),
-            ..Measured::of_colours(floor, parts)
+            ..Measured::without_unevenness(floor, Some(&tone), parts)
         }
     }
 

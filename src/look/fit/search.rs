@@ -99,7 +99,7 @@ impl<'a> Search<'a> {
 
     /// Colours and the line at the wall of our floor in the mean over seeds, and, where the photograph shows a part without
     /// dirt, the margin's linear colour without dirt.
-    fn coloured(&self, seeds: u64) -> Result<(Measured, Option<[f64; 3]>), LookError> {
+    fn measured_colours(&self, seeds: u64) -> Result<(Measured, Option<[f64; 3]>), LookError> {
         let of = |shown: &FloorPicture, bare: Option<&FloorPicture>| {
             (Measured::of_colours(shown, self.parts), bare.map(|bare| colour(bare, &self.parts.margin)))
         };
@@ -155,7 +155,7 @@ impl<'a> Search<'a> {
             self.look.film.colour = rounded(self.soil);
             // The way there needs no mean.
             let seeds = if round + ROUNDS[1] < rounds { 1 } else { SEEDS };
-            let (ours, bare) = self.coloured(seeds)?;
+            let (ours, bare) = self.measured_colours(seeds)?;
             let target = self.target;
             let soil = self.soil_light;
             // The part without dirt is the floor's own colour; otherwise the margin has the age that the look has.

@@ -1,7 +1,7 @@
 //! The ink of a drawing as text is read on it: upright, or turned by a quarter as along vertical dimension lines.
 
 use super::super::components::{Component, Components, Neighbours};
-use super::super::drawing::Drawing;
+use super::super::drawing::{Drawing, is_on};
 
 /// Lightness below which a pixel belongs to a letter: strokes of small letters are grey.
 const FAINT: u8 = 180;
@@ -53,9 +53,7 @@ pub(super) struct Ink<'a> {
 
 impl<'a> Ink<'a> {
     pub(super) fn of(drawing: &'a Drawing) -> Ink<'a> {
-        let is_ink = |at: usize| {
-            u8::from(drawing.lightness[at] < FAINT || drawing.coloured.get(at).is_some_and(|&coloured| coloured != 0))
-        };
+        let is_ink = |at: usize| u8::from(drawing.lightness[at] < FAINT || is_on(&drawing.coloured, at));
         let mask: Vec<u8> = (0..drawing.lightness.len()).map(is_ink).collect();
         Ink { drawing, pieces: Components::of(&mask, drawing.width, 1, Neighbours::Eight) }
     }
@@ -107,7 +105,7 @@ impl<'a> Page<'a> {
             return 0;
         }
         let at = y as usize * drawing.width + x as usize;
-        if drawing.coloured.get(at).is_some_and(|&coloured| coloured != 0) { 255 } else { 255 - drawing.lightness[at] }
+        if is_on(&drawing.coloured, at) { 255 } else { 255 - drawing.lightness[at] }
     }
 
     pub(super) fn is_ink(&self, x: i32, y: i32) -> bool {

@@ -20,7 +20,7 @@ use self::net::{Colours, Net, Sought, WIDEST_DOOR_M, WIDEST_ENTRANCE_M};
 use self::pieces::{Evidence, LARGEST_LETTER_M};
 use self::rooms::Rooms;
 use super::components::{Component, Components, Neighbours};
-use super::drawing::Drawing;
+use super::drawing::{Drawing, is_on};
 use super::symbols::{FEWEST_STROKES, groups};
 use super::thick;
 use super::{DoorKind, FloorPlan, FurniturePiece, PlanClass, PlanDoor, PlanWindow};
@@ -191,9 +191,7 @@ fn ink_and_net(drawing: &Drawing, metres_per_pixel: f64) -> Option<(Vec<u8>, Net
     for ((pane, stroke), of_pane) in panes.iter_mut().zip(&coloured).zip(&drawing.pane) {
         *pane |= stroke & of_pane;
     }
-    let is_on = |mask: &[u8], at: usize| mask.get(at).is_some_and(|&on| on != 0);
-    let bars: Vec<u8> =
-        coloured.iter().enumerate().map(|(at, &stroke)| stroke & u8::from(!is_on(&drawing.pane, at))).collect();
+    let bars = drawing.without_panes(&coloured);
     let is_ink = |at: usize| {
         let is_thin = is_on(&coloured, at) || is_on(&panes, at);
         u8::from(drawing.dark[at] != 0 || drawing.lightness[at] < FAINT || is_thin)
@@ -286,7 +284,7 @@ fn net_of_walls(
 ) -> Option<Net> {
     let (dark, width) = (&drawing.dark, drawing.width);
     let strokes = without_lettering(ink, width, metres_per_pixel);
-    let is_dark = |at: usize| dark.get(at).is_some_and(|&d| d != 0);
+    let is_dark = |at: usize| is_on(dark, at);
     // Fills of grey walls ring beside black outlines, and are a little lighter than the threshold there. Treads and rails of
     // stairs that are as light have dark on one side at most.
     let is_ring = |at: usize| {
@@ -348,7 +346,7 @@ fn net_of_walls(
         return Some(net);
     }
     // Doors and windows may be strokes of another colour over the walls' lines, with soft edges that look like lines.
-    let is_coloured = |at: usize| [&drawing.coloured, &drawing.pane].iter().any(|mask| mask.get(at) == Some(&1));
+    let is_coloured = |at: usize| is_on(&drawing.coloured, at) || is_on(&drawing.pane, at);
     let coloured: Vec<u8> = (0..strokes.len()).map(|at| strokes[at] & u8::from(is_coloured(at))).collect();
     let soft = thick::grow(&coloured, width, 1);
     let is_plain = |at: usize| coloured[at] == 0 && (soft[at] == 0 || core[at] != 0);

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::super::components::{Component, Components, Neighbours, Run};
 use super::super::doors::bend;
+use super::super::drawing::is_on;
 use super::super::thick::{THINNEST_M, grow, open, wall_square};
 use super::directions::SHADOW_SHARE;
 use super::gaps::{self, Gap, Limits};
@@ -120,16 +121,15 @@ impl Net {
             |gap: &Gap| gap.length() <= px(WIDEST_DOOR_M) && !leaves::hung(gap, &strokes, metres_per_pixel).is_empty();
         let share = |gap: &Gap, mask: &[u8]| {
             let pixels = gap.pixels();
-            let on = pixels.iter().filter(|&&at| mask.get(at) == Some(&1)).count();
+            let on = pixels.iter().filter(|&&at| is_on(mask, at)).count();
             on as f64 / pixels.len().max(1) as f64
         };
         // A bar of colour is a single line, however thick.
-        let strokes_of = |gap: &Gap| if share(gap, colours.bars) >= BAR_SHARE { 1 } else { gap.strokes };
+        found.iter_mut().filter(|gap| share(gap, colours.bars) >= BAR_SHARE).for_each(|gap| gap.strokes = 1);
         let is_window = |gap: &Gap| {
-            let strokes = strokes_of(gap);
-            (strokes >= 2
-                || strokes == 1 && share(gap, colours.panes) >= PANE_SHARE
-                || strokes == 1 && gap.length() > px(WIDEST_CLOSED_DOOR_M) && gap.length() <= px(WIDEST_PANE_M))
+            (gap.strokes >= 2
+                || gap.strokes == 1 && share(gap, colours.panes) >= PANE_SHARE
+                || gap.strokes == 1 && gap.length() > px(WIDEST_CLOSED_DOOR_M) && gap.length() <= px(WIDEST_PANE_M))
                 && !is_entrance(gap)
                 && !has_leaf(gap)
         };

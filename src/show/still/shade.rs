@@ -151,7 +151,7 @@ impl Shader<'_> {
         let cosine = hit.toward[2].abs();
         let sources = &self.light.light.sources;
         let is_same = |near: &Reflection| (near.way_m - hit.way_m).abs() < SAME_WAY * hit.way_m;
-        if neighbour.as_ref().is_none_or(|near| !is_same(near)) {
+        if !neighbour.as_ref().is_some_and(is_same) {
             *neighbour = (!matches!(sources, LightSources::Above(_))).then(|| self.reflection(hit));
         }
         for (skin, out) in skins.iter().zip(out) {
