@@ -138,7 +138,7 @@ fn room(walls: &Walls, place: Vec2) -> Option<(Shape, Rect)> {
     let cell_m = (1.0 / CELLS_PER_M).max(bounds.max.x.max(bounds.max.y) / MOST_CELLS);
     let [columns, rows] = [bounds.max.x, bounds.max.y].map(|metres| (metres / cell_m).ceil().max(1.0) as usize);
     let mut share = vec![0.0; columns * rows];
-    walls.coverage(1.0 / cell_m, 0, 0, columns, rows, &mut share);
+    walls.cleared_coverage(1.0 / cell_m, [0, 0], [columns, rows], &mut share);
     for doorway in walls.doorways() {
         // A bar across the threshold, longer than the opening and thick enough that no diagonal passes.
         let [a, b] = doorway.jambs_m;

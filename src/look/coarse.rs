@@ -25,7 +25,7 @@ impl CoarseFloor {
     pub fn of(walls: &Walls, texels_per_metre: f64, width: u32, height: u32) -> CoarseFloor {
         let [width, height] = [width, height].map(|texels| i64::from(texels).div_euclid(SIDE) + 1);
         let mut share = vec![0.0; (width * height) as usize];
-        walls.coverage(texels_per_metre / SIDE as f64, 0, 0, width as usize, height as usize, &mut share);
+        walls.cleared_coverage(texels_per_metre / SIDE as f64, [0, 0], [width as usize, height as usize], &mut share);
         let shares = share.into_iter().map(|share| match share {
             0.0 => CoarseShare::Nothing,
             1.0 => CoarseShare::All,

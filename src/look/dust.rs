@@ -26,7 +26,7 @@ pub(super) fn over(window: &TexelWindow, walls: &Walls, dust: &DustLook) -> Opti
     let reach_m = f64::from(dust.reach_m);
     let (x_end, y_end) = (x.first + x.len as i64, y.first + y.len as i64);
     let mut near = Vec::new();
-    walls.segments_near(square([x.first, y.first], [x_end, y_end]).grown(END * reach_m), &mut near);
+    walls.segments_to_floor(square([x.first, y.first], [x_end, y_end]).grown(END * reach_m), &mut near);
     if near.is_empty() {
         return None;
     }

@@ -13,6 +13,8 @@ pub(super) struct PassesField {
     weighted: SplineLattice,
     /// `None` if all cells are floor.
     share: Option<SplineLattice>,
+    /// Half the share of floor, that under furniture counted too; `None` away from furniture.
+    beneath: Option<SplineLattice>,
 }
 
 impl PassesField {
@@ -39,19 +41,35 @@ impl PassesField {
         for (value, share) in weighted.iter_mut().zip(&share) {
             *value *= share;
         }
+        // Feet reach a little under furniture, and no farther.
+        let beneath = walls.has_furniture().then(|| {
+            let mut cleared = vec![0.0; around.texels()];
+            walls.cleared_coverage(
+                cells_per_metre,
+                [around.i0, around.j0],
+                [around.width, around.height],
+                &mut cleared,
+            );
+            cleared
+        });
+        let beneath = beneath.filter(|cleared| *cleared != share).map(|cleared| {
+            let half: Vec<f32> = cleared.into_iter().map(|share| 0.5 * share).collect();
+            let half = if reach > 0 { blurred(&half, &around, &kernel) } else { half };
+            SplineLattice::new(x.clone(), y.clone(), half)
+        });
         if reach > 0 {
             weighted = blurred(&weighted, &around, &kernel);
             share = blurred(&share, &around, &kernel);
         }
         let all_floor = share.iter().all(|&share| share == 1.0);
         let share = (!all_floor).then(|| SplineLattice::new(x.clone(), y.clone(), share));
-        Some(PassesField { weighted: SplineLattice::new(x, y, weighted), share })
+        Some(PassesField { weighted: SplineLattice::new(x, y, weighted), share, beneath })
     }
 
     pub fn begin_row(&mut self, row: usize) {
         self.weighted.begin_row(row);
-        if let Some(share) = &mut self.share {
-            share.begin_row(row);
+        for lattice in self.share.iter_mut().chain(&mut self.beneath) {
+            lattice.begin_row(row);
         }
     }
 
@@ -63,9 +81,13 @@ impl PassesField {
             scratch.clear();
             scratch.resize(out.len(), 0.0);
             share.add_to(start, scratch);
-            for (value, share) in out.iter_mut().zip(scratch.iter()) {
-                *value /= share.max(1e-3);
+            scratch.iter_mut().for_each(|share| *share = share.max(1e-3));
+            if let Some(beneath) = &self.beneath {
+                let mut least = vec![0.0; out.len()];
+                beneath.add_to(start, &mut least);
+                scratch.iter_mut().zip(least).for_each(|(share, least)| *share = share.max(least));
             }
+            out.iter_mut().zip(scratch.iter()).for_each(|(value, share)| *value /= share);
         }
     }
 }

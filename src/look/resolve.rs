@@ -115,12 +115,10 @@ impl<'a> FloorResolver<'a> {
     fn with_padding(&self, rect: TexelWindow, block: &mut ResolvedBlock) {
         let around = rect.grown(PADDING);
         let mut share = vec![0.0; around.texels()];
-        self.painter.walls.coverage(
+        self.painter.walls.cleared_coverage(
             around.texels_per_metre,
-            around.i0,
-            around.j0,
-            around.width,
-            around.height,
+            [around.i0, around.j0],
+            [around.width, around.height],
             &mut share,
         );
         let floor: Vec<bool> = share.iter().map(|&share| share > 0.0).collect();

@@ -253,7 +253,10 @@ impl FloorShader {
         }
         each1(laid, trodden, |trodden| self.film * trodden);
         if self.dwell > 0.0 && known.dwell.iter().any(|&seconds| seconds > 0.0) {
-            add1(laid, &known.dwell, |seconds| self.dwell * ln_f32(1.0 + self.per_second * seconds.max(0.0)));
+            for ((laid, seconds), uneven) in laid.iter_mut().zip(&known.dwell).zip(&*uneven) {
+                let shuffled = uneven * uneven * uneven * uneven;
+                *laid += self.dwell * ln_f32(1.0 + self.per_second * shuffled * seconds.max(0.0));
+            }
         }
         each3(film, laid, uneven, &known.left, |laid, uneven, left| {
             (laid * uneven + self.age * (2.0 * uneven - 1.0).max(0.2)) * left
@@ -284,7 +287,11 @@ impl FloorShader {
             let rolled = LINES_LEFT * self.weight * expected + self.single_wheels * (counted - expected);
             self.wheels * (1.0 - exp_f32(-self.per_wheel * rolled.max(0.0)))
         });
-        wheels.iter_mut().zip(uneven).zip(&known.left).for_each(|((wheels, uneven), left)| *wheels *= uneven * left);
+        wheels
+            .iter_mut()
+            .zip(uneven)
+            .zip(&known.left)
+            .for_each(|((wheels, uneven), left)| *wheels *= (uneven * uneven * uneven).min(2.0) * left);
     }
 
     fn roughness(&self, known: &ShadeInput, out: &mut ShadeOutput) {

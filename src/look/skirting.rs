@@ -56,7 +56,7 @@ impl<'a> Skirting<'a> {
         let felt_m = f64::from(self.reach_m.max(2.0 * self.edge.corner_radius_m));
         let mut near = Vec::new();
         if self.edge.density > 0.0 {
-            self.walls.segments_near(window.area_m().grown(felt_m), &mut near);
+            self.walls.segments_to_floor(window.area_m().grown(felt_m), &mut near);
         }
         if near.is_empty() {
             return false;
@@ -76,7 +76,18 @@ impl<'a> Skirting<'a> {
                 }
             }
         }
+        if self.walls.has_furniture() {
+            self.clear_beneath(window, density);
+        }
         true
+    }
+
+    /// Takes the line away where furniture stands: it lies in front of it.
+    fn clear_beneath(&self, window: &TexelWindow, density: &mut [f32]) {
+        let mut share = vec![0.0; window.texels()];
+        let TexelWindow { texels_per_metre, i0, j0, width, height } = *window;
+        self.walls.coverage(texels_per_metre, i0, j0, width, height, &mut share);
+        density.iter_mut().zip(share).filter(|(_, share)| *share == 0.0).for_each(|(density, _)| *density = 0.0);
     }
 
     fn surroundings(&self, square: &TexelWindow, near: &[Segment], felt_m: f64) -> Option<NearbyWalls> {

@@ -8,7 +8,7 @@ use crate::patterns::{Cause, PatternLibrary};
 use crate::plan::FloorPlan;
 use crate::stamps::{StampOptions, Stamper, TexelGrid};
 use crate::sums::FloorSums;
-use crate::walls::{Walls, WallsOptions};
+use crate::walls::{Outline, Walls, WallsOptions};
 use std::sync::LazyLock;
 
 /// Texel density of all test floors, texels per metre.
@@ -404,6 +404,29 @@ fn the_floor_goes_on_16_texels_beyond_its_edge() {
     assert!(resolver.resolve(0, 0, 64, 30).empty);
     assert!(resolver.resolve(-500, -500, 256, 256).empty);
     assert!(!resolver.resolve(0, 20, 64, 30).empty);
+}
+
+/// The corridor with a table of 2 x 1 m in its middle: who puts furniture of his own there sees a floor, hardly trodden.
+#[test]
+fn the_floor_goes_on_under_a_table() {
+    let with_table = |height_m| {
+        let points_m = [[5.0, 2.0], [7.0, 2.0], [7.0, 3.0], [5.0, 3.0]].map(|[x, y]| vec2(x, y)).to_vec();
+        let table = Outline { points_m, openings: Vec::new(), furniture_m: Some(height_m), windows_m: Vec::new() };
+        let walls = Walls::from_outlines([CORRIDOR.walls.outlines(), &[table]].concat()).unwrap();
+        let library = PatternLibrary::built_in();
+        let mut sums = FloorSums::new(CORRIDOR.sums.grid());
+        let stamper = Stamper::new(&library, sums.grid(), &StampOptions::default()).unwrap();
+        sums.add(&stamper, &walls, &people(&library));
+        resolved(&SummedFloor { walls, sums }, &look("commuters", Material::Vinyl))
+    };
+    let [table, counter] = [0.75, 1.0].map(with_table);
+    let beneath = table.cut(&table.lightness, 560..640, 235..265);
+    println!("clean {:.1}, under a table {:.1}, sd {:.2}", table.clean, mean(beneath.clone()), sd(&beneath));
+    assert!((table.clean - mean(beneath.clone())).abs() < 3.0 && sd(&beneath) > 0.3);
+    // Dirt gathers along what stands on the floor, and not below the edge of a board on legs.
+    let along = |floor: &Resolved| mean(floor.cut(&floor.lightness, 510..690, 196..200));
+    println!("along a counter {:.1}, along a table {:.1}", along(&counter), along(&table));
+    assert!(along(&counter) < along(&table) - 3.0);
 }
 
 #[test]

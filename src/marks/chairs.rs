@@ -13,6 +13,8 @@ const SITS_AFTER_S: f64 = 3.0;
 /// Distance from the seat within which people sit, and that ends a stay when it has been walked, metres.
 const AT_SEAT_M: f64 = 0.6;
 const AWAY_M: f64 = 0.25;
+/// Longest way round a chair, metres: nobody draws a bed, a sofa or a bench.
+const LARGEST_CHAIR_M: f64 = 3.4;
 /// Distance between the legs of a chair, and breadth of their lines, metres.
 const LEGS_M: [f32; 2] = [0.36, 0.42];
 const BREADTH_M: [f32; 2] = [0.006, 0.014];
@@ -75,8 +77,9 @@ impl Seat {
     /// The seat at which somebody sits.
     fn at(place_m: Vec2, walls: &Walls) -> Option<Seat> {
         let near = walls.nearest(place_m, AT_SEAT_M)?;
-        let is_seat = walls.faces[near.face?].furniture_m == PlanClass::Seat.height_m();
-        let out = (place_m - near.point_m).normalized().filter(|_| is_seat)?;
+        let face = &walls.faces[near.face?];
+        let is_chair = face.furniture_m == PlanClass::Seat.height_m() && face.length_m() <= LARGEST_CHAIR_M;
+        let out = (place_m - near.point_m).normalized().filter(|_| is_chair)?;
         Some(Seat { edge_m: near.point_m, out })
     }
 

@@ -17,6 +17,8 @@ const MAP_UNKNOWN: u8 = 205;
 const MAP_FREE: u8 = 254;
 /// Lightness below which a pixel may be of a fine line, and on clean paper.
 const FAINT: u8 = 180;
+/// Lightness below which a pixel is surely dark.
+pub(super) const SURELY_DARK: u8 = 100;
 const FAINTEST: u8 = 225;
 
 /// The pixels of a plan image by lightness, wall and colour.
@@ -37,6 +39,8 @@ pub(super) struct Drawing {
     pub(super) clean: bool,
     /// Threshold between wall and floor, in the image's own lightness.
     pub(super) threshold: u8,
+    /// Lightness below which a pixel is surely of a wall or a stroke.
+    pub(super) surely_dark: u8,
     /// Whether it is a robot's map, measured rather than drawn: without text, doors or dashes.
     pub(super) scanned: bool,
     /// Whether it is a plain image with the greys of a robot's map.
@@ -81,6 +85,7 @@ pub(super) fn of_map(image: DynamicImage, greys: &Greys, options: &PlanOptions) 
         pane: Vec::new(),
         clean: false,
         threshold: USUAL_THRESHOLD,
+        surely_dark: SURELY_DARK,
         scanned: true,
         looks_like_map: false,
     }
@@ -172,6 +177,7 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
         pane,
         clean: false,
         threshold,
+        surely_dark: SURELY_DARK,
         scanned: looks_like_map,
         looks_like_map,
     };
@@ -187,7 +193,7 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
     }
     let mut dark: Vec<u8> = lightness.iter().map(|&l| u8::from(l < drawing.threshold)).collect();
     drawing.clean = is_clean(&lightness);
-    stretch(width, &mut lightness, &dark);
+    drawing.surely_dark = stretch(width, &mut lightness, &dark);
     thin_lines::close(width, &lightness, &mut dark);
     shadow::even_floors(width, &mut lightness, &dark);
     thin_lines::even(width, &mut lightness, &mut dark);
@@ -244,6 +250,7 @@ fn of_areas(width: usize, walls: &[u8], mut lightness: Vec<u8>) -> Drawing {
         pane: Vec::new(),
         clean: false,
         threshold: USUAL_THRESHOLD,
+        surely_dark: SURELY_DARK,
         scanned: false,
         looks_like_map: false,
     }
@@ -459,7 +466,14 @@ fn has_map_greys(lightness: &[u8]) -> bool {
 /// Values in between then give the share of a pixel that an anti-aliased edge covers. The floor's tone is the most
 /// frequent one. The walls' tone is the most frequent one inside walls or, where all lines are thin, the 5 % quantile
 /// of wall pixels.
-fn stretch(width: usize, lightness: &mut [u8], dark: &[u8]) {
+///
+/// Returns the lightness below which a pixel is surely dark: beside grey walls, black strokes would be thicker otherwise.
+fn stretch(width: usize, lightness: &mut [u8], dark: &[u8]) -> u8 {
+    /// Least share of ink that is darker than the walls, by how much it is, and how much lighter than the walls their soft
+    /// edges may be.
+    const DARKER: usize = 50;
+    const DARKER_BY: usize = 24;
+    const SOFT: usize = 32;
     let (mut wall, mut amid, mut floor) = ([0usize; 256], [0usize; 256], [0usize; 256]);
     for (at, (&value, &is_dark)) in lightness.iter().zip(dark).enumerate() {
         let tone = usize::from(value);
@@ -491,7 +505,7 @@ fn stretch(width: usize, lightness: &mut [u8], dark: &[u8]) {
     };
     let floor_tone = commonest(&floor);
     if floor_tone < wall_tone + 32 {
-        return;
+        return SURELY_DARK;
     }
     let span = floor_tone - wall_tone;
     let table: Vec<u8> = (0..256usize)
@@ -500,6 +514,9 @@ fn stretch(width: usize, lightness: &mut [u8], dark: &[u8]) {
     for value in lightness {
         *value = table[usize::from(*value)];
     }
+    let darker: usize = wall[..wall_tone.saturating_sub(DARKER_BY)].iter().sum();
+    let limit = (wall_tone + SOFT).max(usize::from(SURELY_DARK));
+    if darker * DARKER >= total { table[limit].min(SURELY_DARK) } else { SURELY_DARK }
 }
 
 #[cfg(test)]

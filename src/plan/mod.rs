@@ -10,6 +10,7 @@ mod class;
 mod clearance;
 mod colour;
 mod colour_areas;
+mod furnished;
 mod guess;
 mod hatching;
 mod components;

@@ -130,6 +130,7 @@ fn of_layers(layers: Layers, options: &PlanOptions, warnings: Vec<String>) -> Re
             *class = PlanClass::Outside;
         }
     }
+    plan.set_furniture_free();
     if layer.is_some() || !options.doors.is_empty() {
         corrections::apply(&mut plan, white, layer.as_ref(), &options.doors, options.narrowest_m, &seeds);
     }

@@ -158,6 +158,7 @@ mod tests {
             pane: Vec::new(),
             clean: false,
             threshold: 128,
+            surely_dark: 100,
             scanned: false,
             looks_like_map: false,
         }

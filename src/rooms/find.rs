@@ -113,6 +113,7 @@ impl Rooms {
         let rooms = (0..count).filter_map(|index| {
             let (deepest, measures) = (deepest[index]?, &mut measures[index]);
             measures.width_m = 4.0 * clear_m[index] / measures.free_m2;
+            measures.widest_m = 2.0 * f64::from(clearance[deepest]) * grid.cell_m;
             let bounds_m =
                 bounds[index].map_or(Rect { min: Vec2::ZERO, max: Vec2::ZERO }, |b| b.grown(0.5 * grid.cell_m));
             measures.box_m = [bounds_m.max.x - bounds_m.min.x, bounds_m.max.y - bounds_m.min.y];

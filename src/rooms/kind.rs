@@ -29,6 +29,8 @@ pub(super) struct Measures {
     pub(super) free_m2: f64,
     /// Four times the mean distance from walls: of a long corridor its width, of a square two thirds of its side.
     pub(super) width_m: f64,
+    /// Twice the greatest distance from walls and furniture.
+    pub(super) widest_m: f64,
     /// Sides of the box around it.
     pub(super) box_m: [f64; 2],
     pub(super) doors: usize,
@@ -45,6 +47,10 @@ const CORRIDOR_M: f64 = 4.5;
 const CORRIDOR_SQUARES: [f64; 2] = [4.5, 3.4];
 /// Least share of its box that a room fills whose furniture alone makes its ways narrow.
 const FILLS_BOX: f64 = 0.6;
+/// Least width of a place in a room, metres, and least area of furniture, square metres, with which people live in it: an
+/// open living room goes on into the hall.
+const LIVED_IN_M: f64 = 2.6;
+const LIVED_IN_M2: f64 = 2.5;
 /// Doors of a room that many pass through.
 const MANY_DOORS: usize = 4;
 /// Least area of a hall, square metres.
@@ -54,16 +60,17 @@ const STAIRS_SHARE: f64 = 0.3;
 
 impl RoomKind {
     pub(super) fn of(measures: &Measures) -> RoomKind {
-        let Measures { area_m2, free_m2, width_m, box_m: [w, h], doors, fixtures_m2, stairs_m2 } = *measures;
+        let Measures { area_m2, free_m2, width_m, widest_m, box_m: [w, h], doors, fixtures_m2, stairs_m2 } = *measures;
         let squares = free_m2 / (width_m * width_m).max(0.01);
         let long =
             squares >= CORRIDOR_SQUARES[0] && doors >= 2 || squares >= CORRIDOR_SQUARES[1] && doors >= MANY_DOORS;
+        let is_lived_in = widest_m >= LIVED_IN_M && area_m2 - free_m2 >= LIVED_IN_M2;
         let is_wide = w.min(h) > CORRIDOR_M && area_m2 >= FILLS_BOX * w * h;
         if stairs_m2 >= STAIRS_SHARE * area_m2 && stairs_m2 > 0.0 {
             RoomKind::Stairs
         } else if fixtures_m2 >= FIXTURE_M2 && area_m2 <= TOILET_M2[1] {
             RoomKind::Toilet
-        } else if width_m <= CORRIDOR_M && long && !is_wide {
+        } else if width_m <= CORRIDOR_M && long && !is_wide && !is_lived_in {
             RoomKind::Corridor
         } else if area_m2 <= TOILET_M2[0] && doors <= 1 {
             RoomKind::Toilet
@@ -104,5 +111,17 @@ mod tests {
         assert_eq!(RoomKind::of(&dining), RoomKind::Hall);
         let ring = Measures { area_m2: 80.0, free_m2: 80.0, width_m: 2.0, box_m: [12.0; 2], ..dining };
         assert_eq!(RoomKind::of(&ring), RoomKind::Corridor);
+        // A living room with a table, a sofa and a kitchen, and the hall that it goes on into; the same with two shelves.
+        let flat = Measures {
+            area_m2: 48.0,
+            free_m2: 41.0,
+            width_m: 2.6,
+            widest_m: 3.4,
+            doors: 5,
+            box_m: [12.0, 9.0],
+            ..dining
+        };
+        assert_eq!(RoomKind::of(&flat), RoomKind::Room);
+        assert_eq!(RoomKind::of(&Measures { free_m2: 47.0, ..flat }), RoomKind::Corridor);
     }
 }

@@ -33,8 +33,8 @@ struct BandEdge {
 }
 
 impl Edges {
-    pub(super) fn new(outlines: &[Outline]) -> Edges {
-        let points = || outlines.iter().flat_map(|o| &o.points_m);
+    pub(super) fn new<'a>(outlines: impl Iterator<Item = &'a Outline> + Clone) -> Edges {
+        let points = || outlines.clone().flat_map(|o| &o.points_m);
         let bottom_m = points().map(|p| p.y).fold(f64::INFINITY, f64::min);
         let top_m = points().map(|p| p.y).fold(f64::NEG_INFINITY, f64::max);
         if bottom_m > top_m {
@@ -43,7 +43,7 @@ impl Edges {
         let bands = ((top_m - bottom_m) / BAND_M) as usize + 1;
         let band_of = |y: f64| (((y - bottom_m) / BAND_M) as usize).min(bands - 1);
         let mut by_band: Vec<(usize, BandEdge)> = Vec::new();
-        for outline in outlines {
+        for outline in outlines.clone() {
             for k in 0..outline.points_m.len() {
                 let [a, b] = outline.edge(k);
                 if a.y != b.y {

@@ -20,6 +20,8 @@ pub struct Face {
     pub furniture_m: Option<f64>,
 }
 
+/// Lower furniture stands on legs, metres: tables and seats.
+pub(crate) const TABLES_M: f64 = 0.8;
 /// Furniture of this height and higher is a counter, metres.
 pub(crate) const COUNTER_M: f64 = 0.95;
 /// A counter that is narrower is a gate's cabinet, metres.
@@ -29,6 +31,11 @@ impl Face {
     /// Whether it is of a counter or a gate.
     pub(crate) fn is_counter(&self) -> bool {
         self.furniture_m.is_some_and(|top_m| top_m >= COUNTER_M)
+    }
+
+    /// Whether it is of furniture on legs: the floor goes on beneath.
+    pub(crate) fn is_on_legs(&self) -> bool {
+        self.furniture_m.is_some_and(|top_m| top_m < TABLES_M)
     }
 
     /// Whether it is of a gate's cabinet: a narrow counter.

@@ -30,8 +30,8 @@ mod untangle;
 mod truth_tests;
 
 pub use error::WallsError;
-pub(crate) use face::COUNTER_M;
 pub(crate) use face::{APRON_M, Segment};
+pub(crate) use face::{COUNTER_M, TABLES_M};
 pub use face::{Face, Nearest};
 pub(crate) use index::closest_on;
 pub use outline::Outline;
@@ -56,6 +56,8 @@ pub struct Walls {
     bounds: Rect,
     index: index::Index,
     floor_edges: coverage::Edges,
+    /// Edges of the floor as if no furniture stood on it; `None` without furniture.
+    cleared_edges: Option<coverage::Edges>,
 }
 
 impl Walls {
@@ -104,10 +106,13 @@ impl Walls {
         let faces = outline::faces(&outlines);
         let segments = outline::wall_segments(&faces, &outlines);
         let walked = outline::walked_loops(&outlines);
+        let has_furniture = outlines.iter().any(|outline| outline.furniture_m.is_some());
+        let cleared = || outlines.iter().filter(|outline| outline.furniture_m.is_none());
         Walls {
             bounds: outline::bounds(&outlines),
             index: index::Index::new(segments, &walked),
-            floor_edges: coverage::Edges::new(&outlines),
+            floor_edges: coverage::Edges::new(outlines.iter()),
+            cleared_edges: has_furniture.then(|| coverage::Edges::new(cleared())),
             faces,
             outlines,
         }
@@ -143,12 +148,35 @@ impl Walls {
         self.index.segments_near(area, out);
     }
 
+    /// As [`Walls::segments_near`], without furniture on legs, along which no dirt gathers.
+    pub(crate) fn segments_to_floor(&self, area: Rect, out: &mut Vec<Segment>) {
+        self.segments_near(area, out);
+        out.retain(|segment| segment.face.is_none_or(|face| !self.faces[face].is_on_legs()));
+    }
+
     /// Computes the exact share of floor in each texel, 0..=1; aprons do not count.
     ///
     /// Texel (i, j) covers `[i, i+1)/t x [j, j+1)/t` metres of the plan frame; `out` is row-major and its row 0 is
     /// `j0`, the southernmost. A texel's value does not depend on the requested rectangle.
     pub fn coverage(&self, texels_per_metre: f64, i0: i64, j0: i64, width: usize, height: usize, out: &mut [f32]) {
         self.floor_edges.coverage(texels_per_metre, i0, j0, width, height, out);
+    }
+
+    /// The same as if no furniture stood on the floor.
+    pub(crate) fn cleared_coverage(
+        &self,
+        texels_per_metre: f64,
+        [i0, j0]: [i64; 2],
+        [width, height]: [usize; 2],
+        out: &mut [f32],
+    ) {
+        let edges = self.cleared_edges.as_ref().unwrap_or(&self.floor_edges);
+        edges.coverage(texels_per_metre, i0, j0, width, height, out);
+    }
+
+    /// Whether furniture stands on the floor.
+    pub(crate) fn has_furniture(&self) -> bool {
+        self.cleared_edges.is_some()
     }
 }
 
@@ -210,6 +238,41 @@ mod tests {
         let mut wrong = walls.outlines().to_vec();
         wrong[1].furniture_m = Some(f64::NAN);
         assert!(matches!(Walls::from_outlines(wrong), Err(WallsError::Furniture { outline: 1, .. })));
+    }
+
+    /// A room of 8 x 5 m whose bed stands at two walls, with a niche of 0.2 m behind its head, beside a closed room with a
+    /// bed of its own.
+    #[test]
+    fn a_bed_at_a_wall_is_an_island_of_its_own_height() {
+        let pixels = || (0..27u32).flat_map(|y| (0..62u32).map(move |x| (x, y)));
+        let bed = |x: u32, y: u32| (1..11).contains(&x) && (2..11).contains(&y) || x > 50 && x < 61 && y > 10 && y < 20;
+        let niche = |x: u32, y: u32| (1..11).contains(&x) && y == 1;
+        let inside = |x: u32, y: u32| (1..41).contains(&x) && (1..26).contains(&y);
+        let closed = |x: u32, y: u32| (42..61).contains(&x) && (1..26).contains(&y);
+        let floor = pixels().map(|(x, y)| u8::from(inside(x, y) && !bed(x, y) && !niche(x, y))).collect();
+        let mut plan = FloorPlan::from_mask(62, 27, 0.2, floor);
+        for (k, (x, y)) in pixels().enumerate() {
+            let class = if bed(x, y) { PlanClass::Seat } else { PlanClass::Outside };
+            if bed(x, y) || niche(x, y) || closed(x, y) {
+                plan.classes[k] = class;
+                plan.lightness[k] = if bed(x, y) { 0 } else { 255 };
+            }
+        }
+        plan.set_furniture_free();
+        let walls = Walls::trace(&plan, &WallsOptions::default());
+        let faces: Vec<_> =
+            walls.faces.iter().map(|face| (face.furniture_m, (face.length_m() * 10.0).round())).collect();
+        // The wall goes all round the room; a pixel is free between bed and wall.
+        assert_eq!(faces, [(None, 260.0), (Some(0.45), 72.0)]);
+        let area_m2 = |cleared: bool| {
+            let mut share = vec![0.0; 62 * 27];
+            match cleared {
+                true => walls.cleared_coverage(5.0, [0, 0], [62, 27], &mut share),
+                false => walls.coverage(5.0, 0, 0, 62, 27, &mut share),
+            }
+            share.iter().sum::<f32>() * 0.04
+        };
+        assert!((area_m2(true) - 40.0).abs() < 1e-4 && (area_m2(false) - 36.76).abs() < 1e-4, "{}", area_m2(false));
     }
 
     #[test]

@@ -240,7 +240,8 @@ pub(super) fn find(wall: &[u8], ink: &[u8], width: usize, limits: &Limits) -> Ve
         if all.iter().any(|other| other.strokes >= 2 && is_within(&gap, other)) {
             continue;
         }
-        if all.iter().any(|other| is_same(&gap, other) && other.length() <= gap.length()) {
+        let is_shorter = |other: &Gap| other.length() <= gap.length() || has_straight_jambs(other);
+        if all.iter().any(|other| is_same(&gap, other) && is_shorter(other)) {
             continue;
         }
         gap.ends = ends;
@@ -453,6 +454,18 @@ fn gaps_of(row: &[u8], limits: &Limits) -> Vec<[usize; 2]> {
 fn is_square(gap: &Gap) -> bool {
     let (first, last) = (gap.rows[0], gap.rows[gap.rows.len() - 1]);
     (0..2).all(|k| first[k].abs_diff(last[k]) * 4 <= gap.rows.len() + 4)
+}
+
+/// Whether both jambs of a gap are so straight across it that no other direction shows it better.
+fn has_straight_jambs(gap: &Gap) -> bool {
+    /// Fewest rows that tell, and for how many of them a jamb may be a pixel off.
+    const FEWEST: usize = 8;
+    const PER_PIXEL: usize = 12;
+    let off = |k: usize| {
+        let ends = || gap.rows.iter().map(|row| row[k]);
+        ends().max().unwrap_or(0) - ends().min().unwrap_or(0)
+    };
+    gap.rows.len() >= FEWEST && (0..2).all(|k| off(k) * PER_PIXEL <= gap.rows.len())
 }
 
 /// Whether both sides of a gap lead on, and its ends are ends of a wall at least on one side.

@@ -31,8 +31,7 @@ const LARGEST_PX: usize = 20_000_000;
 const COARSEST_M_PER_PX: f64 = 0.03;
 /// Least number of pixels of strokes that make a drawing more than walls.
 const FEWEST_STROKE_PX: usize = 40;
-/// Lightness below which a pixel is surely dark, and below which it may be a fine stroke.
-const SURELY_DARK: u8 = 100;
+/// Lightness below which a pixel may be of a fine stroke.
 const FAINT: u8 = 180;
 /// How far from a ring in the fill of a wall dark pixels are at most, on both of its sides.
 const RING_PX: usize = 2;
@@ -293,7 +292,7 @@ fn net_of_walls(
         [1, width].into_iter().any(|step| is_near(usize::wrapping_sub, step) && is_near(usize::wrapping_add, step))
     };
     let surely =
-        |at: usize| strokes[at] & u8::from(drawing.lightness[at] < SURELY_DARK && (is_dark(at) || is_ring(at)));
+        |at: usize| strokes[at] & u8::from(drawing.lightness[at] < drawing.surely_dark && (is_dark(at) || is_ring(at)));
     let core: Vec<u8> = (0..dark.len()).map(surely).collect();
     let usual = |thickest: usize| Sought { thickest, widest_m: WIDEST_DOOR_M, is_massive: false, colours };
     let net_in = |ink: &[u8], core: &[u8], filled: &[u8], sought: &Sought| {

@@ -58,7 +58,10 @@ const LEAST_AREA_M2: f64 = 0.085;
 const LARGEST_AREA_M2: f64 = 16.0;
 /// Least and greatest depth of a counter that goes round a corner, and least side of the box around it, metres.
 const COUNTER_DEPTH_M: [f64; 2] = [0.35, 0.85];
-const LEAST_TURN_M: f64 = 1.2;
+const LEAST_TURN_M: f64 = 1.0;
+/// Greatest share of its box that a counter along two walls fills, and least share of its outline at walls.
+const BENT_FILL: f64 = 0.8;
+const BENT_AT_WALL: f64 = 0.35;
 /// Least share of its box that a piece of furniture fills, unless it goes round a corner.
 const LEAST_FILL: f64 = 0.5;
 
@@ -167,10 +170,6 @@ pub(super) fn furniture(
         if sides[0].min(sides[1]) < LEAST_SIDE_M || area < LEAST_AREA_M2 {
             continue;
         }
-        let is_corner = fill < LEAST_FILL;
-        if is_corner && !goes_round(&objects, object, metres_per_pixel) || is_marking(&what, width, object, sides) {
-            continue;
-        }
         let within = |f: &&Component| {
             f.min[0] >= object.min[0]
                 && f.min[1] >= object.min[1]
@@ -178,6 +177,11 @@ pub(super) fn furniture(
                 && f.end[1] <= object.end[1]
         };
         let parts: Vec<&Component> = field_of.iter().copied().filter(within).collect();
+        let set = table_with_chairs(&parts, fill, metres_per_pixel);
+        let is_corner = fill < LEAST_FILL && set.is_none();
+        if is_corner && !goes_round(&objects, object, metres_per_pixel) || is_marking(&what, width, object, sides) {
+            continue;
+        }
         let is_tread = |f: &Component, least_m: f64| {
             let [w, h] = in_metres(f);
             (0.18..=0.42).contains(&w.min(h)) && w.max(h) >= least_m
@@ -202,15 +206,87 @@ pub(super) fn furniture(
             fill,
             class: PlanClass::Table,
         };
-        piece.class = if is_corner { PlanClass::Counter } else { class(&piece, sides) };
+        let is_bent = fill < BENT_FILL && at_wall >= BENT_AT_WALL && goes_round(&objects, object, metres_per_pixel);
+        piece.class = if is_corner || is_bent { PlanClass::Counter } else { class(&piece, sides) };
         let is_row = piece.class == PlanClass::Stairs || sides[0].min(sides[1]) <= DEEPEST_FIELD_M;
         if area > LARGEST_AREA_M2 && !(is_row && fill >= ROW_FILL && area <= LARGEST_ROWS_M2) {
+            continue;
+        }
+        if let Some((tables, chairs)) = set {
+            objects.paint(object, classes, width, PlanClass::Seat);
+            tables.iter().for_each(|table| paint_around(&fields, table, stroke, (&solid, classes), width));
+            let of_class = |field: &Component, class: PlanClass| Evidence {
+                around: [field.min[0], field.min[1], field.end[0], field.end[1]],
+                area: field.area,
+                at_wall: 0.0,
+                class,
+                ..piece
+            };
+            found.extend(tables.into_iter().map(|table| of_class(table, PlanClass::Table)));
+            found.extend(chairs.into_iter().map(|chair| of_class(chair, PlanClass::Seat)));
             continue;
         }
         objects.paint(object, classes, width, piece.class);
         found.push(piece);
     }
     found
+}
+
+/// The fields of a table, or of several that touch, and those of the chairs around them; `None` if a piece is none of these.
+/// Chairs stand outside the tables' box, or their circle, and on opposite sides: the pillows of a bed lie within its rectangle.
+fn table_with_chairs<'f>(
+    parts: &[&'f Component],
+    fill: f64,
+    metres_per_pixel: f64,
+) -> Option<(Vec<&'f Component>, Vec<&'f Component>)> {
+    /// Greatest share of its box that a table with chairs fills, and of a round table's that its field does.
+    const FILL: f64 = 0.92;
+    const ROUND: f64 = 0.87;
+    /// Least sides of the fields of chairs, and greatest, metres; most of the largest table's area that one has.
+    const CHAIR_M: [f64; 3] = [0.15, 0.28, 0.75];
+    const SMALLER: f64 = 0.5;
+    let largest = parts.iter().map(|part| part.area).max().filter(|_| fill < FILL)?;
+    let [shortest, least, most] = CHAIR_M;
+    let is_chair = |part: &&Component| {
+        let [w, h] = part.size().map(|side| f64::from(side) * metres_per_pixel);
+        w.min(h) >= shortest && (least..=most).contains(&w.max(h)) && part.area as f64 <= SMALLER * largest as f64
+    };
+    let (chairs, tables): (Vec<&Component>, Vec<&Component>) = parts.iter().partition(|part| is_chair(part));
+    let min = [0, 1].map(|axis| tables.iter().map(|table| table.min[axis]).min().unwrap_or(0));
+    let end = [0, 1].map(|axis| tables.iter().map(|table| table.end[axis]).max().unwrap_or(0));
+    let box_px = f64::from(end[0] - min[0]) * f64::from(end[1] - min[1]);
+    let is_round = (largest as f64) < ROUND * box_px && tables.len() == 1;
+    // In half lengths of the tables' box.
+    let off = |chair: &Component| {
+        [0, 1].map(|axis| {
+            let half = 0.5 * f64::from(end[axis] - min[axis]);
+            (0.5 * f64::from(chair.min[axis] + chair.end[axis]) - f64::from(min[axis]) - half) / half
+        })
+    };
+    let offs: Vec<[f64; 2]> = chairs.iter().map(|chair| off(chair)).collect();
+    let is_outside = |[x, y]: &[f64; 2]| x.abs() > 1.0 || y.abs() > 1.0 || is_round && x * x + y * y > 1.1;
+    let is_opposite = |[ax, ay]: &[f64; 2]| offs.iter().any(|[bx, by]| ax * bx + ay * by < -1.0);
+    (offs.iter().all(is_outside) && offs.iter().any(is_opposite)).then_some((tables, chairs))
+}
+
+/// Paints a field and what is solid within `reach` pixels around it as a table.
+fn paint_around(
+    fields: &Components,
+    field: &Component,
+    reach: usize,
+    (solid, classes): (&[u8], &mut [PlanClass]),
+    width: usize,
+) {
+    for range in fields.ranges(field, width) {
+        let (row, from, to) = (range.start / width, range.start % width, range.end - range.start / width * width);
+        for y in row.saturating_sub(reach)..=(row + reach).min(classes.len() / width - 1) {
+            for x in from.saturating_sub(reach)..(to + reach).min(width) {
+                if solid[y * width + x] != 0 {
+                    classes[y * width + x] = PlanClass::Table;
+                }
+            }
+        }
+    }
 }
 
 /// Whether two pieces have about the same size.

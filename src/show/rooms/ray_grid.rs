@@ -429,23 +429,6 @@ impl RayGrid {
         self.middles.iter().enumerate().filter(floor).map(|(cell, _)| self.middle(cell))
     }
 
-    /// The place itself on the floor; under furniture its mirror image beside it: nothing is known of the floor there.
-    pub fn floor_beside(&self, [x, y]: [f32; 2]) -> [f32; 2] {
-        let p = vec2(f64::from(x), f64::from(y));
-        if self.shades_at(p).is_empty() || self.is_floor(p) {
-            return [x, y];
-        }
-        let Some(over) = self.furniture.iter().find(|top| top.contains(p)) else { return [x, y] };
-        let edges = over.outline.iter().zip(over.outline.iter().cycle().skip(1));
-        let nearest = edges.map(|(&a, &b)| {
-            let along = b - a;
-            a + along * ((p - a).dot(along) / along.length_squared().max(1e-12)).clamp(0.0, 1.0)
-        });
-        let edge = nearest.min_by(|a, b| a.distance(p).total_cmp(&b.distance(p))).unwrap_or(p);
-        let mirrored = edge * 2.0 - p;
-        if self.is_floor(mirrored) { [mirrored.x as f32, mirrored.y as f32] } else { [edge.x as f32, edge.y as f32] }
-    }
-
     /// Numbers of what darkens the floor around a place.
     pub fn shades_at(&self, p: Vec2) -> &[u32] {
         self.cell_of(p)

@@ -79,7 +79,7 @@ impl<'a> SurfaceSampler<'a> {
     pub fn needs(&self, space: &RayGrid, hit: &RayHit, pixel: f32, needs: &mut SamplerNeeds) {
         match hit.surface {
             HitSurface::Floor => {
-                let footprint = on_floor(space, hit, pixel);
+                let footprint = on_floor(hit, pixel);
                 match enough(&self.small, &footprint) {
                     Some(small) => small.needs(&footprint, 1.0, &mut needs.small),
                     None => self.fine.needs(&footprint, 1.0, &mut needs.fine),
@@ -108,8 +108,8 @@ impl<'a> SurfaceSampler<'a> {
         }
     }
 
-    pub fn floor(&self, space: &RayGrid, hit: &RayHit, pixel: f32) -> SampledMaterial {
-        let footprint = on_floor(space, hit, pixel);
+    pub fn floor(&self, hit: &RayHit, pixel: f32) -> SampledMaterial {
+        let footprint = on_floor(hit, pixel);
         paint(enough(&self.small, &footprint).unwrap_or(&self.fine).sample(&footprint, 1.0))
     }
 
@@ -128,17 +128,12 @@ fn paint([red, green, blue, roughness]: [f32; 4]) -> SampledMaterial {
     SampledMaterial { colour: [red, green, blue], roughness }
 }
 
-fn on_floor(space: &RayGrid, hit: &RayHit, pixel: f32) -> Footprint {
+fn on_floor(hit: &RayHit, pixel: f32) -> Footprint {
     let [x, y, z] = hit.toward;
     let width = hit.way_m * pixel * SHARPER;
     let across = (x * x + y * y).sqrt().max(1e-6);
     let half = 0.5 * width / z.abs().max(1.0 / MOST_STRETCH);
-    Footprint {
-        layer: 0,
-        middle: space.floor_beside([hit.point[0], hit.point[1]]),
-        axis: [x / across * half, y / across * half],
-        width,
-    }
+    Footprint { layer: 0, middle: [hit.point[0], hit.point[1]], axis: [x / across * half, y / across * half], width }
 }
 
 fn on_wall(piece: &WallQuad, hit: &RayHit, pixel: f32) -> Footprint {

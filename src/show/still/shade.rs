@@ -155,7 +155,7 @@ impl Shader<'_> {
             *neighbour = (!matches!(sources, LightSources::Above(_))).then(|| self.reflection(hit));
         }
         for (skin, out) in skins.iter().zip(out) {
-            let paint = skin.floor(self.space, hit, self.pixel);
+            let paint = skin.floor(hit, self.pixel);
             let fresnel = fresnel(cosine, paint.roughness);
             let gain = fresnel * (FLOOR_SHINE[0] + FLOOR_SHINE[1] * light.open) * (0.4 + 0.6 * shade);
             let colour = std::array::from_fn(|c| paint.colour[c] * tinted[c] * (1.0 - fresnel));

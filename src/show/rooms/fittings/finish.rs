@@ -1,11 +1,10 @@
 //! Materials of furniture, doors and windows.
 
 use crate::math::srgb::Srgb8;
-use crate::walls::COUNTER_M;
+use crate::walls::{COUNTER_M, TABLES_M};
 
-/// Heights up to which furniture is a seat and a table, metres: others are fixtures, up to counters and gates.
+/// Lower furniture is a seat, metres; others are tables, fixtures, counters and gates.
 pub(super) const SEATS_M: f64 = 0.6;
-pub(super) const TABLES_M: f64 = 0.8;
 
 /// What a fitting is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,10 +1,10 @@
 //! Furniture as boards on legs and upholstered blocks, by height and size.
 
-use super::finish::{Finish, SEATS_M, TABLES_M};
+use super::finish::{Finish, SEATS_M};
 use super::prism::Fitting;
 use super::shape::{Block, area_m2, bounds, hull, shrunk, smallest_block};
 use crate::math::Vec2;
-use crate::walls::{COUNTER_M, Face, Walls};
+use crate::walls::{COUNTER_M, Face, TABLES_M, Walls};
 
 /// Least share of its hull that furniture with a top of its own fills: others stay as they are drawn.
 const CONVEX: f64 = 0.92;
