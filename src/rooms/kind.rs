@@ -47,10 +47,10 @@ const CORRIDOR_M: f64 = 4.5;
 const CORRIDOR_SQUARES: [f64; 2] = [4.5, 3.4];
 /// Least share of its box that a room fills whose furniture alone makes its ways narrow.
 const FILLS_BOX: f64 = 0.6;
-/// Least width of a place in a room, metres, and least area of furniture, square metres, with which people live in it: an
-/// open living room goes on into the hall.
+/// Least area of furniture with which people live in a room, and largest area of one that few doors lead to, square metres;
+/// least width of a place in others, metres: an open living room goes on into the hall.
+const LIVED_IN_M2: [f64; 2] = [2.5, 40.0];
 const LIVED_IN_M: f64 = 2.6;
-const LIVED_IN_M2: f64 = 2.5;
 /// Doors of a room that many pass through.
 const MANY_DOORS: usize = 4;
 /// Least area of a hall, square metres.
@@ -64,7 +64,8 @@ impl RoomKind {
         let squares = free_m2 / (width_m * width_m).max(0.01);
         let long =
             squares >= CORRIDOR_SQUARES[0] && doors >= 2 || squares >= CORRIDOR_SQUARES[1] && doors >= MANY_DOORS;
-        let is_lived_in = widest_m >= LIVED_IN_M && area_m2 - free_m2 >= LIVED_IN_M2;
+        let is_own = doors <= 2 && area_m2 <= LIVED_IN_M2[1];
+        let is_lived_in = area_m2 - free_m2 >= LIVED_IN_M2[0] && (widest_m >= LIVED_IN_M || is_own);
         let is_wide = w.min(h) > CORRIDOR_M && area_m2 >= FILLS_BOX * w * h;
         if stairs_m2 >= STAIRS_SHARE * area_m2 && stairs_m2 > 0.0 {
             RoomKind::Stairs
@@ -123,5 +124,16 @@ mod tests {
         };
         assert_eq!(RoomKind::of(&flat), RoomKind::Room);
         assert_eq!(RoomKind::of(&Measures { free_m2: 47.0, ..flat }), RoomKind::Corridor);
+        // A hotel's room goes round its bath.
+        let hotel = Measures {
+            area_m2: 18.3,
+            free_m2: 14.6,
+            width_m: 1.6,
+            widest_m: 2.0,
+            doors: 2,
+            box_m: [3.8, 6.2],
+            ..dining
+        };
+        assert_eq!(RoomKind::of(&hotel), RoomKind::Room);
     }
 }

@@ -240,7 +240,9 @@ pub(super) fn find(wall: &[u8], ink: &[u8], width: usize, limits: &Limits) -> Ve
         if all.iter().any(|other| other.strokes >= 2 && is_within(&gap, other)) {
             continue;
         }
-        let is_shorter = |other: &Gap| other.length() <= gap.length() || has_straight_jambs(other);
+        let is_shorter = |other: &Gap| {
+            other.length() <= gap.length() || other.length() * 7 <= gap.length() * 8 && has_straight_jambs(other)
+        };
         if all.iter().any(|other| is_same(&gap, other) && is_shorter(other)) {
             continue;
         }
