@@ -27,6 +27,8 @@ use crate::walls::Walls;
 /// Buffers that a thread reuses between windows: touching fresh memory costs as much as painting.
 #[derive(Default)]
 struct FloorBuffers {
+    /// Share of each texel on which no furniture stands; empty without furniture.
+    free: Vec<f32>,
     edge: Vec<f32>,
     passes: Vec<u32>,
     soil: Vec<u32>,
@@ -61,6 +63,9 @@ const STANDING_SPREAD_M: f64 = 0.1;
 
 /// The same for wheels: those who were not simulated rolled beside.
 const ROLLING_SPREAD_M: f64 = 0.25;
+
+/// What a mop leaves under furniture, relative to the mean.
+const UNCLEANED: f32 = 1.6;
 
 /// Occlusion at the foot of a wall, and in a joint.
 const CORNER_SHADE: f32 = 0.45;
@@ -162,6 +167,12 @@ impl<'a> FloorPainter<'a> {
             dust: dust::over(&window, self.walls, &self.look.dust),
             wet: self.wet.as_ref().and_then(|wet| wet.over(&window, self.sums, self.walls)),
         };
+        buffers.free.clear();
+        if self.walls.has_furniture() {
+            let TexelWindow { texels_per_metre, i0, j0, width, height } = window;
+            buffers.free.resize(window.texels(), 0.0);
+            self.walls.coverage(texels_per_metre, i0, j0, width, height, &mut buffers.free);
+        }
         self.skirting.lay_out(&window, wanted, &mut buffers.edge);
         passes::read(self.sums, Quantity::Passes, &window, &mut buffers.passes);
         passes::read(self.sums, Quantity::Soil, &window, &mut buffers.soil);
@@ -231,7 +242,7 @@ impl FloorLayout {
     /// Collects the shader's inputs for a run of the current row.
     fn gather(&self, painter: &FloorPainter<'_>, window: &TexelWindow, run: RowRun, buffers: &mut FloorBuffers) {
         let FloorPainter { look, properties, .. } = painter;
-        let FloorBuffers { edge, passes, soil, scuff, wheels, surface, spots, known, row, .. } = buffers;
+        let FloorBuffers { free, edge, passes, soil, scuff, wheels, surface, spots, known, row, .. } = buffers;
         known.clear(run.len);
         let from = run.row * window.width + run.start;
         let scaled = |sums: &[u32], quantity: Quantity, factor: f32, out: &mut [f32]| {
@@ -278,6 +289,10 @@ impl FloorLayout {
             }
             _ => known.left.fill(1.0),
         }
+        for (k, _) in free.iter().skip(from).take(run.len).enumerate().filter(|(_, free)| **free == 0.0) {
+            // Nobody cleans under furniture; dirt along its foot lies before it.
+            (known.edge[k], known.dust[k], known.left[k]) = (0.0, 1.0, UNCLEANED);
+        }
         let ShadeInput { ground, .. } = known;
         let above = in_surface(run, window);
         let [red, green, blue] = &mut ground.rgb;
@@ -297,7 +312,7 @@ fn in_surface(run: RowRun, window: &TexelWindow) -> usize {
 }
 
 fn write(dither: u32, window: &TexelWindow, run: RowRun, buffers: &mut FloorBuffers, block: &mut ResolvedBlock) {
-    let FloorBuffers { surface, known, shaded, .. } = buffers;
+    let FloorBuffers { free, surface, known, shaded, .. } = buffers;
     let from = run.row * window.width + run.start;
     let texels = from..from + run.len;
     let (i, j) = (window.i0 + run.start as i64, window.j0 + run.row as i64);
@@ -307,9 +322,10 @@ fn write(dither: u32, window: &TexelWindow, run: RowRun, buffers: &mut FloorBuff
         orm: &mut block.orm[texels.clone()],
     };
     shaded.write(dither, i, j, &mut bytes);
-    // Corners at walls and joints see less of the room.
-    for (orm, (dust, joint)) in bytes.orm.iter_mut().zip(known.dust.iter().zip(&known.ground.joint)) {
-        let corner = dust.max(0.0);
+    // Corners at walls and joints see less of the room. Furniture may be taken away.
+    for (k, (orm, joint)) in bytes.orm.iter_mut().zip(&known.ground.joint).enumerate() {
+        let is_beneath = free.get(from + k) == Some(&0.0);
+        let corner = if is_beneath { 0.0 } else { known.dust[k].max(0.0) };
         orm[0] = (255.0 * (1.0 - CORNER_SHADE * corner * corner) * (1.0 - JOINT_SHADE * joint) + 0.5) as u8;
     }
     let (above, stride) = (in_surface(run, window), window.width + 1);

@@ -76,18 +76,7 @@ impl<'a> Skirting<'a> {
                 }
             }
         }
-        if self.walls.has_furniture() {
-            self.clear_beneath(window, density);
-        }
         true
-    }
-
-    /// Takes the line away where furniture stands: it lies in front of it.
-    fn clear_beneath(&self, window: &TexelWindow, density: &mut [f32]) {
-        let mut share = vec![0.0; window.texels()];
-        let TexelWindow { texels_per_metre, i0, j0, width, height } = *window;
-        self.walls.coverage(texels_per_metre, i0, j0, width, height, &mut share);
-        density.iter_mut().zip(share).filter(|(_, share)| *share == 0.0).for_each(|(density, _)| *density = 0.0);
     }
 
     fn surroundings(&self, square: &TexelWindow, near: &[Segment], felt_m: f64) -> Option<NearbyWalls> {

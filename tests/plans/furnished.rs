@@ -44,7 +44,7 @@ fn draw(canvas: &mut Canvas, piece: &Polygon) {
 }
 
 /// A bed with its head at the northern wall and a kitchen round a corner; a round and a square table with chairs that touch
-/// them; a pair of desks with a chair each.
+/// them; a pair of desks with a chair each, and one at a wall.
 fn furnish(canvas: &mut Canvas) {
     let piece = |min: Point, max: Point| rectangle(min, max);
     draw(canvas, &piece([1.8, 3.75], [3.4, 5.85]));
@@ -65,6 +65,8 @@ fn furnish(canvas: &mut Canvas) {
         draw(canvas, &piece([12.4, y], [12.9, y + 0.45]));
     }
     [3.0, 3.8].into_iter().for_each(|y| draw(canvas, &piece([11.9, y], [13.5, y + 0.8])));
+    draw(canvas, &piece([10.07, 0.4], [10.57, 1.7]));
+    draw(canvas, &piece([10.7, 0.8], [11.15, 1.25]));
 }
 
 /// Number of faces of each height: walls, seats, tables, counters.
@@ -85,8 +87,8 @@ fn each_piece_stands_by_itself_at_its_own_height() {
         let scale = plan.metres_per_pixel * PX_PER_M;
         assert!((0.88..1.12).contains(&scale), "{what}: the scale is {scale} times the true one");
         assert_eq!([plan.doors.len(), plan.windows.len()], [3, 3], "{what}: doors and windows");
-        // One wall goes round all rooms; a bed, eight chairs, two at desks; two tables and a pair of desks; a kitchen.
-        assert_eq!(faces(&plan), [1, 11, 3, 1], "{what}: walls, seats, tables, counters");
+        // One wall goes round all rooms; a bed, eight chairs, three at desks; two tables, a pair of desks, a desk; a kitchen.
+        assert_eq!(faces(&plan), [1, 12, 4, 1], "{what}: walls, seats, tables, counters");
         for x in [0.0, 5.0, 10.0] {
             let free = canvas.floor_in(&plan, [[x + 0.2, 2.0], [x + 1.4, 5.7]]);
             assert!(free > 0.97, "{what}: {free} of the room at {x} is floor");

@@ -229,7 +229,38 @@ pub(super) fn furniture(
         objects.paint(object, classes, width, piece.class);
         found.push(piece);
     }
+    lower_desks(&mut found, width, metres_per_pixel, classes);
     found
+}
+
+/// Makes tables of shelves with a chair before them: desks at a wall.
+fn lower_desks(found: &mut [Evidence], width: usize, metres_per_pixel: f64, classes: &mut [PlanClass]) {
+    /// Least depth of a desk, largest chair, and how far the chair may be off, metres.
+    const DEPTH_M: f64 = 0.38;
+    const CHAIR_M: f64 = 0.75;
+    const OFF_M: f64 = 0.4;
+    let px = |metres: f64| (metres / metres_per_pixel).round() as u32;
+    let sides = |[x0, y0, x1, y1]: [u32; 4]| [x1 - x0, y1 - y0];
+    let is_chair = |piece: &&Evidence| {
+        piece.class == PlanClass::Seat && sides(piece.around).into_iter().all(|side| side <= px(CHAIR_M))
+    };
+    let chairs: Vec<[u32; 4]> = found.iter().filter(is_chair).map(|piece| piece.around).collect();
+    for piece in found.iter_mut().filter(|piece| piece.class == PlanClass::Shelf) {
+        let [x0, y0, x1, y1] = piece.around;
+        let is_before = |[a0, b0, a1, b1]: &[u32; 4]| {
+            let off = |from: u32, to: u32, low: u32, high: u32| low.saturating_sub(to).max(from.saturating_sub(high));
+            off(x0, x1, *a0, *a1).max(off(y0, y1, *b0, *b1)) <= px(OFF_M)
+        };
+        let [w, h] = sides(piece.around);
+        if w.min(h) < px(DEPTH_M) || !chairs.iter().any(is_before) {
+            continue;
+        }
+        piece.class = PlanClass::Table;
+        for y in y0..y1 {
+            let row = &mut classes[y as usize * width..][x0 as usize..x1 as usize];
+            row.iter_mut().filter(|class| **class == PlanClass::Shelf).for_each(|class| *class = PlanClass::Table);
+        }
+    }
 }
 
 /// The fields of a table, or of several that touch, and those of the chairs around them; `None` if a piece is none of these.
