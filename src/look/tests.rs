@@ -422,7 +422,7 @@ fn the_floor_goes_on_under_a_table() {
     let [table, counter] = [0.75, 1.0].map(with_table);
     let beneath = table.cut(&table.lightness, 560..640, 235..265);
     println!("clean {:.1}, under a table {:.1}, sd {:.2}", table.clean, mean(beneath.clone()), sd(&beneath));
-    assert!((table.clean - mean(beneath.clone())).abs() < 3.0 && sd(&beneath) > 0.3);
+    assert!((table.clean - mean(beneath.clone())).abs() < 4.0 && sd(&beneath) > 0.3);
     // Dirt gathers along what stands on the floor, and not below the edge of a board on legs.
     let along = |floor: &Resolved| mean(floor.cut(&floor.lightness, 510..690, 196..200));
     println!("along a counter {:.1}, along a table {:.1}", along(&counter), along(&table));
