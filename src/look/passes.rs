@@ -79,15 +79,15 @@ impl PassesField {
         self.weighted.add_to(start, out);
         if let Some(share) = &self.share {
             scratch.clear();
-            scratch.resize(out.len(), 0.0);
-            share.add_to(start, scratch);
-            scratch.iter_mut().for_each(|share| *share = share.max(1e-3));
+            scratch.resize(2 * out.len(), 0.0);
+            let (shares, least) = scratch.split_at_mut(out.len());
+            share.add_to(start, shares);
             if let Some(beneath) = &self.beneath {
-                let mut least = vec![0.0; out.len()];
-                beneath.add_to(start, &mut least);
-                scratch.iter_mut().zip(least).for_each(|(share, least)| *share = share.max(least));
+                beneath.add_to(start, least);
             }
-            out.iter_mut().zip(scratch.iter()).for_each(|(value, share)| *value /= share);
+            for ((value, share), least) in out.iter_mut().zip(shares).zip(least) {
+                *value /= share.max(*least).max(1e-3);
+            }
         }
     }
 }

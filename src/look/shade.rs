@@ -24,6 +24,8 @@ const FULL_SECONDS: f32 = 1000.0;
 const LINES_LEFT: f32 = 0.4;
 /// Limit on the factor on single wheels: the mop takes old lines, so that those of a long history are no darker.
 const MOST_SINGLE_WHEELS: f32 = 5.5;
+/// Limit on the factor by which the film's noise, to the third power, breaks a line.
+const MOST_UNEVEN_LINES: f32 = 2.0;
 /// The mask of passes is full at 10 000: ln(1 + 300) / ln(1 + 30) e-folds with the film's usual rate.
 const MASK_PER_TRODDEN: f32 = 0.6;
 
@@ -254,6 +256,7 @@ impl FloorShader {
         each1(laid, trodden, |trodden| self.film * trodden);
         if self.dwell > 0.0 && known.dwell.iter().any(|&seconds| seconds > 0.0) {
             for ((laid, seconds), uneven) in laid.iter_mut().zip(&known.dwell).zip(&*uneven) {
+                // Feet shuffle: evened out alone, the places where people stood are clouds.
                 let shuffled = uneven * uneven * uneven * uneven;
                 *laid += self.dwell * ln_f32(1.0 + self.per_second * shuffled * seconds.max(0.0));
             }
@@ -291,7 +294,7 @@ impl FloorShader {
             .iter_mut()
             .zip(uneven)
             .zip(&known.left)
-            .for_each(|((wheels, uneven), left)| *wheels *= (uneven * uneven * uneven).min(2.0) * left);
+            .for_each(|((wheels, uneven), left)| *wheels *= (uneven * uneven * uneven).min(MOST_UNEVEN_LINES) * left);
     }
 
     fn roughness(&self, known: &ShadeInput, out: &mut ShadeOutput) {

@@ -26,7 +26,23 @@ pub(super) struct Component {
     runs: Range<usize>,
 }
 
+/// How far apart two ranges of pixels are; 0 if they meet.
+pub(super) fn apart([a, a_end]: [u32; 2], [b, b_end]: [u32; 2]) -> u32 {
+    b.saturating_sub(a_end).max(a.saturating_sub(b_end))
+}
+
+/// A pixel and those beside it, row by row. Above the first row and below the last one the places are those of no pixel.
+pub(super) fn around(at: usize, width: usize) -> impl Iterator<Item = usize> {
+    let rows = [at.wrapping_sub(width), at, at + width];
+    rows.into_iter().flat_map(|row| [row.wrapping_sub(1), row, row.wrapping_add(1)])
+}
+
 impl Component {
+    /// Its box: least x and y, one beyond the greatest.
+    pub(super) fn around(&self) -> [u32; 4] {
+        [self.min[0], self.min[1], self.end[0], self.end[1]]
+    }
+
     pub(super) fn size(&self) -> [u32; 2] {
         [self.end[0] - self.min[0], self.end[1] - self.min[1]]
     }

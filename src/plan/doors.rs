@@ -213,6 +213,7 @@ fn strokes(drawing: &Drawing, arc: &Arc, sizes: &Sizes, thick: &[u8]) -> Vec<usi
 
 #[cfg(test)]
 mod tests {
+    use super::super::drawing::SURELY_DARK;
     use super::*;
 
     /// Draws walls 4 pixels thick with a doorway of 18 pixels (0.05 m each) and a door symbol.
@@ -240,7 +241,7 @@ mod tests {
             pane: Vec::new(),
             clean: false,
             threshold: 128,
-            surely_dark: 100,
+            surely_dark: SURELY_DARK,
             scanned: false,
             looks_like_map: false,
         }

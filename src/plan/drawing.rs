@@ -4,6 +4,7 @@ use image::{DynamicImage, GenericImageView};
 use rayon::prelude::*;
 
 use super::colour::{Colour, is_pane, is_saturated, lightness_against, luma};
+use super::components::around;
 use super::ink::{self, Ink};
 use super::ros_map::{Cell, Greys};
 use super::tones::USUAL_THRESHOLD;
@@ -17,9 +18,9 @@ const MAP_UNKNOWN: u8 = 205;
 const MAP_FREE: u8 = 254;
 /// Lightness below which a pixel may be of a fine line, and on clean paper.
 const FAINT: u8 = 180;
-/// Lightness below which a pixel is surely dark.
-pub(super) const SURELY_DARK: u8 = 100;
 const FAINTEST: u8 = 225;
+/// Lightness below which a pixel is surely dark, unless walls are grey.
+pub(super) const SURELY_DARK: u8 = 100;
 
 /// The pixels of a plan image by lightness, wall and colour.
 pub(super) struct Drawing {
@@ -312,15 +313,11 @@ impl Drawing {
             return Vec::new();
         }
         let width = self.width;
-        let around = |at: usize| {
-            let rows = [at.wrapping_sub(width), at, at + width];
-            rows.into_iter().flat_map(|row| [row.wrapping_sub(1), row, row + 1])
-        };
         let is_faint = |at: usize| (FAINT..FAINTEST).contains(&self.lightness[at]);
         let is_ink = |at: usize| self.lightness.get(at).is_some_and(|&l| l < FAINT);
-        let apart = |at: usize| u8::from(is_faint(at) && !around(at).any(is_ink));
+        let apart = |at: usize| u8::from(is_faint(at) && !around(at, width).any(is_ink));
         let apart: Vec<u8> = (0..self.lightness.len()).into_par_iter().map(apart).collect();
-        let ends = |at: usize| around(at).any(|near| apart.get(near).is_some_and(|&apart| apart != 0));
+        let ends = |at: usize| around(at, width).any(|near| apart.get(near).is_some_and(|&apart| apart != 0));
         // Where a stroke is just a little lighter for a pixel, it goes on.
         let joins = |at: usize| [1, width].into_iter().any(|by| is_ink(at.wrapping_sub(by)) && is_ink(at + by));
         (0..apart.len()).into_par_iter().map(|at| u8::from(is_faint(at) && (ends(at) || joins(at)))).collect()
@@ -469,8 +466,8 @@ fn has_map_greys(lightness: &[u8]) -> bool {
 ///
 /// Returns the lightness below which a pixel is surely dark: beside grey walls, black strokes would be thicker otherwise.
 fn stretch(width: usize, lightness: &mut [u8], dark: &[u8]) -> u8 {
-    /// Least share of ink that is darker than the walls, by how much it is, and how much lighter than the walls their soft
-    /// edges may be.
+    /// One in so many pixels of ink is darker than the walls, by so much; and how much lighter than the walls their soft edges
+    /// may be.
     const DARKER: usize = 50;
     const DARKER_BY: usize = 24;
     const SOFT: usize = 32;

@@ -1,6 +1,6 @@
 //! Furniture that stands at a wall is told from the wall.
 
-use super::components::{Components, Neighbours};
+use super::components::{Components, Neighbours, around};
 use super::{FloorPlan, PlanClass, thick};
 
 /// Largest place beside furniture that nobody reaches and that is floor all the same, square metres: others are rooms.
@@ -25,7 +25,8 @@ impl FloorPlan {
         }
         let is_white = |at: usize| self.lightness[at] >= self.threshold && !self.classes[at].is_solid();
         let white = mask(&|at| self.floor[at] == 0 && is_white(at));
-        let largest = LARGEST_NICHE_M2 / (self.metres_per_pixel * self.metres_per_pixel);
+        let pixel_m2 = self.metres_per_pixel * self.metres_per_pixel;
+        let largest = LARGEST_NICHE_M2 / pixel_m2;
         // Furniture that people reach, with the niches beside it.
         let mut standing = furniture.clone();
         let beside_furniture = thick::grow(&furniture, width, 1);
@@ -47,8 +48,7 @@ impl FloorPlan {
         let is_beside_taller = |at: usize| {
             let height_m = self.classes[at].height_m();
             let taller = |at: usize| furniture.get(at) == Some(&1) && self.classes[at].height_m() > height_m;
-            let rows = [at.wrapping_sub(width), at, at + width];
-            rows.into_iter().any(|row| [row.wrapping_sub(1), row, row + 1].into_iter().any(taller))
+            around(at, width).any(taller)
         };
         let is_gap = |at: usize| furniture[at] == 0 || by_wall[at] != 0 || is_beside_taller(at);
         let freed: Vec<usize> = (0..standing.len()).filter(|&at| standing[at] != 0 && is_gap(at)).collect();
@@ -58,7 +58,7 @@ impl FloorPlan {
             left[at] = 0;
             free(at);
         }
-        let least = LEAST_PIECE_M2 / (self.metres_per_pixel * self.metres_per_pixel);
+        let least = LEAST_PIECE_M2 / pixel_m2;
         let pieces = Components::of(&left, width, 1, Neighbours::Four);
         let crumbs = pieces.all.iter().filter(|piece| (piece.area as f64) < least);
         crumbs.flat_map(|piece| pieces.ranges(piece, width)).flatten().for_each(free);
@@ -75,14 +75,7 @@ mod tests {
         // A room of 5 x 4 m with a table of 2 x 1 m at its northern wall, 5 cm to a pixel.
         let table = |x: u32, y: u32| (40..80).contains(&x) && (2..22).contains(&y);
         let inside = |x: u32, y: u32| (2..102).contains(&x) && (2..82).contains(&y);
-        let pixels = || (0..84).flat_map(|y| (0..104).map(move |x| (x, y)));
-        let floor = pixels().map(|(x, y)| u8::from(inside(x, y) && !table(x, y))).collect();
-        let mut plan = FloorPlan::from_mask(104, 84, 0.05, floor);
-        for (class, (x, y)) in plan.classes.iter_mut().zip(pixels()) {
-            if table(x, y) {
-                *class = PlanClass::Table;
-            }
-        }
+        let mut plan = FloorPlan::with_furniture([104, 84], 0.05, inside, (PlanClass::Table, table));
         plan.set_furniture_free();
         let walls = Walls::trace(&plan, &WallsOptions::default());
         let found: Vec<_> = walls.faces.iter().map(|face| (face.furniture_m, face.length_m())).collect();

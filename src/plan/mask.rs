@@ -37,4 +37,19 @@ impl FloorPlan {
         plan.openings = openings::find(&plan);
         plan
     }
+
+    /// A plan of what is `inside`, by column and row, with furniture of a class where `is_piece` says so.
+    #[cfg(test)]
+    pub(crate) fn with_furniture(
+        [width_px, height_px]: [u32; 2],
+        metres_per_pixel: f64,
+        inside: impl Fn(u32, u32) -> bool,
+        (class, is_piece): (super::PlanClass, impl Fn(u32, u32) -> bool),
+    ) -> FloorPlan {
+        let pixels = || (0..height_px).flat_map(|y| (0..width_px).map(move |x| (x, y)));
+        let floor = pixels().map(|(x, y)| u8::from(inside(x, y) && !is_piece(x, y))).collect();
+        let mut plan = FloorPlan::from_mask(width_px, height_px, metres_per_pixel, floor);
+        plan.classes.iter_mut().zip(pixels()).filter(|(_, (x, y))| is_piece(*x, *y)).for_each(|(of, _)| *of = class);
+        plan
+    }
 }

@@ -1,6 +1,6 @@
 //! Removes dark symbols that are not walls: specks, lettering, dashed lines, outlined dots.
 
-use super::components::{Component, Components, Neighbours};
+use super::components::{Component, Components, Neighbours, apart};
 use super::drawing::Drawing;
 
 /// Greatest length of a letter or a dash, metres.
@@ -134,16 +134,14 @@ pub(super) fn groups<'a>(strokes: &[&'a Component]) -> Vec<Vec<&'a Component>> {
 }
 
 fn are_close(a: &Component, b: &Component) -> bool {
-    let gap = |axis: usize| {
-        let apart = |p: &Component, q: &Component| q.min[axis].saturating_sub(p.end[axis]);
-        apart(a, b).max(apart(b, a))
-    };
+    let gap = |axis: usize| apart([a.min[axis], a.end[axis]], [b.min[axis], b.end[axis]]);
     let longer = a.larger_side().max(b.larger_side());
     f64::from(gap(0).max(gap(1))) <= GAP_SHARE * f64::from(longer)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::drawing::SURELY_DARK;
     use super::*;
 
     fn drawing(rows: &[&str]) -> Drawing {
@@ -158,7 +156,7 @@ mod tests {
             pane: Vec::new(),
             clean: false,
             threshold: 128,
-            surely_dark: 100,
+            surely_dark: SURELY_DARK,
             scanned: false,
             looks_like_map: false,
         }

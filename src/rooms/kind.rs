@@ -113,27 +113,20 @@ mod tests {
         let ring = Measures { area_m2: 80.0, free_m2: 80.0, width_m: 2.0, box_m: [12.0; 2], ..dining };
         assert_eq!(RoomKind::of(&ring), RoomKind::Corridor);
         // A living room with a table, a sofa and a kitchen, and the hall that it goes on into; the same with two shelves.
-        let flat = Measures {
-            area_m2: 48.0,
-            free_m2: 41.0,
-            width_m: 2.6,
-            widest_m: 3.4,
-            doors: 5,
-            box_m: [12.0, 9.0],
-            ..dining
+        let with = |[area_m2, free_m2, width_m, widest_m]: [f64; 4], doors: usize, box_m: [f64; 2]| Measures {
+            area_m2,
+            free_m2,
+            width_m,
+            widest_m,
+            doors,
+            box_m,
+            ..Measures::default()
         };
+        let flat = with([48.0, 41.0, 2.6, 3.4], 5, [12.0, 9.0]);
         assert_eq!(RoomKind::of(&flat), RoomKind::Room);
         assert_eq!(RoomKind::of(&Measures { free_m2: 47.0, ..flat }), RoomKind::Corridor);
         // A hotel's room goes round its bath.
-        let hotel = Measures {
-            area_m2: 18.3,
-            free_m2: 14.6,
-            width_m: 1.6,
-            widest_m: 2.0,
-            doors: 2,
-            box_m: [3.8, 6.2],
-            ..dining
-        };
+        let hotel = with([18.3, 14.6, 1.6, 2.0], 2, [3.8, 6.2]);
         assert_eq!(RoomKind::of(&hotel), RoomKind::Room);
     }
 }

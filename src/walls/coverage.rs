@@ -43,7 +43,7 @@ impl Edges {
         let bands = ((top_m - bottom_m) / BAND_M) as usize + 1;
         let band_of = |y: f64| (((y - bottom_m) / BAND_M) as usize).min(bands - 1);
         let mut by_band: Vec<(usize, BandEdge)> = Vec::new();
-        for outline in outlines.clone() {
+        for outline in outlines {
             for k in 0..outline.points_m.len() {
                 let [a, b] = outline.edge(k);
                 if a.y != b.y {

@@ -30,8 +30,7 @@ mod untangle;
 mod truth_tests;
 
 pub use error::WallsError;
-pub(crate) use face::{APRON_M, Segment};
-pub(crate) use face::{COUNTER_M, TABLES_M};
+pub(crate) use face::{APRON_M, COUNTER_M, Segment, TABLES_M};
 pub use face::{Face, Nearest};
 pub(crate) use index::closest_on;
 pub use outline::Outline;
@@ -217,15 +216,7 @@ mod tests {
     fn two_tables() -> FloorPlan {
         let table = |x: u32, y: u32| (3..22).contains(&y) && ((12..18).contains(&x) || (24..30).contains(&x));
         let inside = |x: u32, y: u32| (1..41).contains(&x) && (1..26).contains(&y);
-        let pixels = || (0..27).flat_map(|y| (0..42).map(move |x| (x, y)));
-        let floor = pixels().map(|(x, y)| u8::from(inside(x, y) && !table(x, y))).collect();
-        let mut plan = FloorPlan::from_mask(42, 27, 0.2, floor);
-        for (class, (x, y)) in plan.classes.iter_mut().zip(pixels()) {
-            if table(x, y) {
-                *class = PlanClass::Table;
-            }
-        }
-        plan
+        FloorPlan::with_furniture([42, 27], 0.2, inside, (PlanClass::Table, table))
     }
 
     #[test]

@@ -505,7 +505,7 @@ fn drop_frame(core: &mut [u8], ink: &[u8], width: usize, metres_per_pixel: f64) 
         }
         let mut mask = vec![0u8; core.len()];
         pieces.paint(piece, &mut mask, width, 1);
-        if frame_sides(&mask, width, [piece.min[0], piece.min[1], piece.end[0], piece.end[1]]) {
+        if frame_sides(&mask, width, piece.around()) {
             pieces.paint(piece, core, width, 0);
         }
     }

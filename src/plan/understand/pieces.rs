@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use super::super::PlanClass;
-use super::super::components::{Component, Components, Neighbours};
+use super::super::components::{Component, Components, Neighbours, apart};
 use super::super::symbols::{FEWEST_STROKES, groups};
 use super::super::thick::{grow, open};
 use super::net::Net;
@@ -179,7 +179,8 @@ pub(super) fn furniture(
         let parts: Vec<&Component> = field_of.iter().copied().filter(within).collect();
         let set = table_with_chairs(&parts, fill, metres_per_pixel);
         let is_corner = fill < LEAST_FILL && set.is_none();
-        if is_corner && !goes_round(&objects, object, metres_per_pixel) || is_marking(&what, width, object, sides) {
+        let is_bent = fill < BENT_FILL && goes_round(&objects, object, metres_per_pixel);
+        if is_corner && !is_bent || is_marking(&what, width, object, sides) {
             continue;
         }
         let is_tread = |f: &Component, least_m: f64| {
@@ -195,7 +196,7 @@ pub(super) fn furniture(
             |least_m: f64| parts.iter().filter(|p| is_tread(p, least_m)).map(|p| alike(&p)).max().unwrap_or(0);
         let at_wall = at_wall(&what, width, &objects, object, stroke + 1);
         let mut piece = Evidence {
-            around: [object.min[0], object.min[1], object.end[0], object.end[1]],
+            around: object.around(),
             area: object.area,
             at_wall,
             fields: parts.len(),
@@ -206,8 +207,8 @@ pub(super) fn furniture(
             fill,
             class: PlanClass::Table,
         };
-        let is_bent = fill < BENT_FILL && at_wall >= BENT_AT_WALL && goes_round(&objects, object, metres_per_pixel);
-        piece.class = if is_corner || is_bent { PlanClass::Counter } else { class(&piece, sides) };
+        piece.class =
+            if is_corner || is_bent && at_wall >= BENT_AT_WALL { PlanClass::Counter } else { class(&piece, sides) };
         let is_row = piece.class == PlanClass::Stairs || sides[0].min(sides[1]) <= DEEPEST_FIELD_M;
         if area > LARGEST_AREA_M2 && !(is_row && fill >= ROW_FILL && area <= LARGEST_ROWS_M2) {
             continue;
@@ -216,7 +217,7 @@ pub(super) fn furniture(
             objects.paint(object, classes, width, PlanClass::Seat);
             tables.iter().for_each(|table| paint_around(&fields, table, stroke, (&solid, classes), width));
             let of_class = |field: &Component, class: PlanClass| Evidence {
-                around: [field.min[0], field.min[1], field.end[0], field.end[1]],
+                around: field.around(),
                 area: field.area,
                 at_wall: 0.0,
                 class,
@@ -247,10 +248,8 @@ fn lower_desks(found: &mut [Evidence], width: usize, metres_per_pixel: f64, clas
     let chairs: Vec<[u32; 4]> = found.iter().filter(is_chair).map(|piece| piece.around).collect();
     for piece in found.iter_mut().filter(|piece| piece.class == PlanClass::Shelf) {
         let [x0, y0, x1, y1] = piece.around;
-        let is_before = |[a0, b0, a1, b1]: &[u32; 4]| {
-            let off = |from: u32, to: u32, low: u32, high: u32| low.saturating_sub(to).max(from.saturating_sub(high));
-            off(x0, x1, *a0, *a1).max(off(y0, y1, *b0, *b1)) <= px(OFF_M)
-        };
+        let is_before =
+            |[a0, b0, a1, b1]: &[u32; 4]| apart([x0, x1], [*a0, *a1]).max(apart([y0, y1], [*b0, *b1])) <= px(OFF_M);
         let [w, h] = sides(piece.around);
         if w.min(h) < px(DEPTH_M) || !chairs.iter().any(is_before) {
             continue;

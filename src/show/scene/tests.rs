@@ -461,14 +461,7 @@ proptest! {
 fn room_with_table() -> Walls {
     let table = |x: u32, y: u32| (20..40).contains(&x) && (16..26).contains(&y);
     let inside = |x: u32, y: u32| (1..61).contains(&x) && (1..41).contains(&y);
-    let pixels = || (0..42).flat_map(|y| (0..62).map(move |x| (x, y)));
-    let mut plan =
-        FloorPlan::from_mask(62, 42, 0.1, pixels().map(|(x, y)| u8::from(inside(x, y) && !table(x, y))).collect());
-    for (class, (x, y)) in plan.classes.iter_mut().zip(pixels()) {
-        if table(x, y) {
-            *class = PlanClass::Table;
-        }
-    }
+    let plan = FloorPlan::with_furniture([62, 42], 0.1, inside, (PlanClass::Table, table));
     Walls::trace(&plan, &WallsOptions::default())
 }
 

@@ -222,3 +222,21 @@ fn a_timetable_that_is_another_file_is_told_by_its_first_line() {
     fs::write(sandbox.path("times.csv"), "time [s], people\n0, 2\n").unwrap();
     sandbox.run(&["inspect", "arrivals.toml"]).succeeds();
 }
+
+/// Where overflow is checked, a faint stroke that ends in a plan's upper right corner was looked at beside its last pixel.
+#[test]
+fn a_faint_stroke_in_the_upper_right_corner_is_read() {
+    let sandbox = Sandbox::new();
+    let is_wall = |x: u32, y: u32| {
+        (20..180).contains(&x) && (20..130).contains(&y) && !((26..174).contains(&x) && (26..124).contains(&y))
+    };
+    let plan = image::GrayImage::from_fn(200, 150, |x, y| match (x, y) {
+        (199, 0) => image::Luma([200]),
+        (60..90, 20..26) => image::Luma([255]),
+        _ if is_wall(x, y) => image::Luma([0]),
+        _ => image::Luma([255]),
+    });
+    plan.save(sandbox.path("plan.png")).unwrap();
+    let found = watched(&sandbox, &["inspect", "plan.png", "--metres-per-pixel", "0.03"], 60);
+    assert_eq!(found.code, Some(0), "{}", found.err);
+}
