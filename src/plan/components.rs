@@ -105,6 +105,12 @@ impl Components {
         self.runs(component).iter().map(range)
     }
 
+    /// The first pixel of a component.
+    pub(super) fn first(&self, component: &Component, width: usize) -> usize {
+        let first = self.runs(component)[0];
+        first.y as usize * width + first.from as usize
+    }
+
     /// Sets the pixels of a component to `value`.
     pub(super) fn paint<T: Copy>(&self, component: &Component, pixels: &mut [T], width: usize, value: T) {
         self.ranges(component, width).for_each(|range| pixels[range].fill(value));

@@ -213,7 +213,7 @@ fn strokes(drawing: &Drawing, arc: &Arc, sizes: &Sizes, thick: &[u8]) -> Vec<usi
 
 #[cfg(test)]
 mod tests {
-    use super::super::drawing::SURELY_DARK;
+    use super::super::tones::SURELY_DARK;
     use super::*;
 
     /// Draws walls 4 pixels thick with a doorway of 18 pixels (0.05 m each) and a door symbol.

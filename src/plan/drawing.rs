@@ -7,7 +7,7 @@ use super::colour::{Colour, is_pane, is_saturated, lightness_against, luma};
 use super::components::around;
 use super::ink::{self, Ink};
 use super::ros_map::{Cell, Greys};
-use super::tones::USUAL_THRESHOLD;
+use super::tones::{SURELY_DARK, USUAL_THRESHOLD};
 use super::{
     PlanOptions, TransparentPolicy, UnknownPolicy, colour_areas, hatching, level_map, paving, shadow, sheet,
     thin_lines, tones,
@@ -19,8 +19,6 @@ const MAP_FREE: u8 = 254;
 /// Lightness below which a pixel may be of a fine line, and on clean paper.
 const FAINT: u8 = 180;
 const FAINTEST: u8 = 225;
-/// Lightness below which a pixel is surely dark, unless walls are grey.
-pub(super) const SURELY_DARK: u8 = 100;
 
 /// The pixels of a plan image by lightness, wall and colour.
 pub(super) struct Drawing {
@@ -352,6 +350,7 @@ fn settle_tones(drawing: &mut Drawing, lightness: &mut [u8], options: &PlanOptio
             "walls are grey or faint: tones below {} of 255 were taken for wall; `[plan] threshold` sets another",
             drawing.threshold
         ));
+        tones::lighten_rims(width, lightness, drawing.threshold);
     }
 }
 

@@ -273,7 +273,8 @@ fn wall_thickness(drawing: &Drawing) -> Option<f64> {
         return None;
     }
     runs.retain(|&run| run * 2 >= much);
-    Some(at(&runs, 0.5) as f64)
+    // Beside a few thin walls, most of the ink is in strokes.
+    Some(at(&runs, 0.5)).filter(|&wall| wall > 2).map(|wall| wall as f64)
 }
 
 impl Measures {

@@ -141,7 +141,7 @@ fn are_close(a: &Component, b: &Component) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::drawing::SURELY_DARK;
+    use super::super::tones::SURELY_DARK;
     use super::*;
 
     fn drawing(rows: &[&str]) -> Drawing {

@@ -2,10 +2,12 @@
 //!
 //! The usual threshold stays wherever it finds lines that could be walls, so that clean drawings read as they always did.
 
-use super::components::{Components, Neighbours};
+use super::components::{Components, Neighbours, around};
 
 /// Default lightness at which wall ends and floor begins.
 pub(super) const USUAL_THRESHOLD: u8 = 128;
+/// Lightness below which a pixel is surely dark, unless walls are grey.
+pub(super) const SURELY_DARK: u8 = 100;
 /// Most pixels that a measure looks at.
 const MOST_SAMPLES: usize = 4096;
 /// Least length of a piece that may be wall, as a share of the image's longer side.
@@ -187,6 +189,29 @@ pub(super) fn wall_threshold(width: usize, lightness: &[u8], coloured: &[u8]) ->
     match faint.map(|ink| (ink + paper).div_ceil(2) as u8) {
         Some(threshold) if net_of(&|l| l < threshold).is_large(width, height) => threshold,
         _ => USUAL_THRESHOLD,
+    }
+}
+
+/// Lightens the soft edges of black strokes on paper that a threshold for grey walls would take for wall: the strokes would be
+/// thicker than they are.
+pub(super) fn lighten_rims(width: usize, lightness: &mut [u8], threshold: u8) {
+    if threshold <= USUAL_THRESHOLD {
+        return;
+    }
+    let is_soft = |at: &usize| {
+        let near = |is_it: &dyn Fn(u8) -> bool| {
+            around(*at, width).any(|beside| lightness.get(beside).is_some_and(|&l| is_it(l)))
+        };
+        (SURELY_DARK..threshold).contains(&lightness[*at]) && near(&|l| l < SURELY_DARK) && near(&|l| l >= threshold)
+    };
+    let soft: Vec<usize> = (0..lightness.len()).filter(is_soft).collect();
+    // The usual threshold becomes the other one.
+    let span = 255 - u32::from(USUAL_THRESHOLD);
+    for at in soft {
+        lightness[at] = match lightness[at].checked_sub(USUAL_THRESHOLD) {
+            Some(above) => threshold + (u32::from(255 - threshold) * u32::from(above) / span) as u8,
+            None => threshold - 1,
+        };
     }
 }
 

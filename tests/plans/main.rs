@@ -10,6 +10,7 @@ mod floors;
 mod furnished;
 mod halls;
 mod levels;
+mod mixed_walls;
 mod measure;
 mod notes;
 mod openings;

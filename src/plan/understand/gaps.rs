@@ -78,6 +78,11 @@ impl Gap {
         to - from
     }
 
+    /// The way in which the wall runs is that of the image's rows or columns.
+    pub(super) fn is_upright(&self) -> bool {
+        self.frame.is_upright()
+    }
+
     /// All its pixels, as indices.
     pub(super) fn pixels(&self) -> Vec<usize> {
         let mut all = Vec::new();

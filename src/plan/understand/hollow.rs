@@ -1,5 +1,7 @@
 //! Fills walls that are drawn as outlines or by hatches.
 
+use std::ops::Range;
+
 use super::super::components::{Component, Components, Neighbours, Run};
 use super::super::thick::{grow, open};
 use crate::math::vec2;
@@ -8,6 +10,10 @@ use crate::math::vec2;
 const HATCH_M: f64 = 0.12;
 /// Least length of a hatched wall, metres.
 const HATCHED_M: f64 = 0.9;
+/// Fewest spaces between the lines of a hatch.
+const FEWEST_SPACES: usize = 6;
+/// Least length of the bars between the lines of a window, in their thicknesses.
+const BAR_SLENDER: f64 = 6.0;
 /// Share of its box that a field between an outline and the zigzag of an insulation fills: it is a triangle, or two with a
 /// blunt tip at an end.
 const TOOTH: [f64; 2] = [0.3, 0.72];
@@ -38,16 +44,48 @@ fn inverted(mask: &[u8]) -> Vec<u8> {
     mask.iter().map(|&value| u8::from(value == 0)).collect()
 }
 
+/// Greatest thickness of the strokes around what was filled, with a soft edge, pixels; 0 if nothing was filled. Furniture is
+/// drawn by the like, and is no wall.
+pub(super) fn stroke_px(strokes: &[u8], fills: &[u8], width: usize) -> usize {
+    /// Share of the strokes beside what was filled that may be thicker: massive walls end there.
+    const THICKER: f64 = 0.3;
+    let beside = grow(fills, width, 1);
+    let count =
+        |strokes: &[u8]| strokes.iter().zip(&beside).filter(|&(&stroke, &near)| stroke & near != 0).count() as f64;
+    let all = count(strokes);
+    if all == 0.0 {
+        return 0;
+    }
+    (1..).find(|&px| count(&open(strokes, width, px + 1)) <= THICKER * all).map_or(0, |px| px + 1)
+}
+
 /// Fills what is too narrow for anything but the space between the lines of a hatch, where many such spaces lie together.
 pub(super) fn fill_hatches(dark: &[u8], width: usize, metres_per_pixel: f64) -> Vec<u8> {
     let side = ((HATCH_M / metres_per_pixel).round() as usize).max(2);
     let white = inverted(dark);
     let wide = open(&white, width, side);
-    let narrow: Vec<u8> = white.iter().zip(&wide).map(|(&white, &wide)| white & (1 - wide)).collect();
+    let mut narrow: Vec<u8> = white.iter().zip(&wide).map(|(&white, &wide)| white & (1 - wide)).collect();
+    // Between the lines of a window are bars.
+    let spaces = Components::of(&narrow, width, 1, Neighbours::Four);
+    let is_bar = |space: &&Component| {
+        let [w, h] = space.size().map(f64::from);
+        w.max(h) >= BAR_SLENDER * w.min(h) && space.area as f64 >= FULL * w * h
+    };
+    spaces.all.iter().filter(is_bar).for_each(|bar| spaces.paint(bar, &mut narrow, width, 0));
     let mut near = grow(&narrow, width, ((0.03 / metres_per_pixel) as usize).max(1));
     let places = Components::of(&near, width, 1, Neighbours::Eight);
-    for place in places.all.iter().filter(|p| f64::from(p.larger_side()) * metres_per_pixel < HATCHED_M) {
-        places.paint(place, &mut near, width, 0);
+    let spaces = Components::of(&narrow, width, 1, Neighbours::Four);
+    let mut starts: Vec<usize> = spaces.all.iter().map(|space| spaces.first(space, width)).collect();
+    starts.sort_unstable();
+    for place in &places.all {
+        let within = |range: Range<usize>| {
+            let before = |at: usize| starts.partition_point(|&start| start < at);
+            before(range.end) - before(range.start)
+        };
+        let count: usize = places.ranges(place, width).map(within).sum();
+        if count < FEWEST_SPACES || f64::from(place.larger_side()) * metres_per_pixel < HATCHED_M {
+            places.paint(place, &mut near, width, 0);
+        }
     }
     (0..dark.len()).map(|at| dark[at] | (narrow[at] & near[at])).collect()
 }
@@ -65,8 +103,7 @@ pub(super) fn fill_teeth(dark: &[u8], width: usize, metres_per_pixel: f64) -> Ve
             let is_triangle = w.min(h) >= 2.0 && (TOOTH[0]..=TOOTH[1]).contains(&(field.area as f64 / (w * h)));
             if is_triangle && is_lopsided(&fields, field) && w.max(h) * metres_per_pixel <= LARGEST_TOOTH_M {
                 fields.paint(field, &mut teeth, width, 1);
-                let first = fields.runs(field)[0];
-                starts[first.y as usize * width + first.from as usize] = 1;
+                starts[fields.first(field, width)] = 1;
             }
         }
     }

@@ -4,6 +4,7 @@
 //! All other strokes are told by where they lie and what they enclose.
 
 mod directions;
+mod filled;
 mod gaps;
 mod hollow;
 mod leaves;
@@ -294,7 +295,8 @@ fn net_of_walls(
     let surely =
         |at: usize| strokes[at] & u8::from(drawing.lightness[at] < drawing.surely_dark && (is_dark(at) || is_ring(at)));
     let core: Vec<u8> = (0..dark.len()).map(surely).collect();
-    let usual = |thickest: usize| Sought { thickest, widest_m: WIDEST_DOOR_M, is_massive: false, colours };
+    let usual =
+        |thickest: usize| Sought { thickest, widest_m: WIDEST_DOOR_M, is_massive: false, stroke_px: 0, colours };
     let net_in = |ink: &[u8], core: &[u8], filled: &[u8], sought: &Sought| {
         let net = Net::find(core, filled, dark, ink, width, metres_per_pixel, sought)?;
         (net.is_building() && is_it(&net)).then_some(net)
@@ -302,45 +304,33 @@ fn net_of_walls(
     let net_of = |core: &[u8], filled: &[u8], thickest: usize| net_in(ink, core, filled, &usual(thickest));
     let px = |metres: f64| ((metres / metres_per_pixel).round() as usize).max(4);
     let thickest = px(THICKEST_WALL_M);
-    let wide = |core: &[u8], filled: &[u8]| {
-        net_in(ink, core, filled, &Sought { widest_m: WIDEST_ENTRANCE_M, ..usual(thickest) })
+    let wide = |core: &[u8], filled: &[u8], sought: &Sought| {
+        net_in(ink, core, filled, &Sought { widest_m: WIDEST_ENTRANCE_M, ..*sought })
     };
     // Rooms that nothing joins lie along a corridor that is open at its ends.
-    let net = |core: &[u8], filled: &[u8]| {
-        let found = net_of(core, filled, thickest)?;
+    let find = |core: &[u8], filled: &[u8], stroke_px: usize| {
+        let sought = Sought { stroke_px, ..usual(thickest) };
+        let found = net_in(ink, core, filled, &sought)?;
         let joined = found.joined(width);
-        let wide = if joined < CONNECTED { wide(core, filled) } else { None };
+        let wide = if joined < CONNECTED { wide(core, filled, &sought) } else { None };
         Some(wide.filter(|wide| wide.joined(width) > joined).unwrap_or(found))
     };
-    if let Some(net) = net(&core, dark) {
+    let filled = || filled::net([&strokes, &core], width, metres_per_pixel, find);
+    if let Some(net) = find(&core, dark, 0) {
+        // Of hollow walls beside massive ones, the outlines alone were found.
+        let of_filled = if net.joined(width) < CONNECTED { filled() } else { None };
+        let net = of_filled.filter(|net| net.joined(width) >= CONNECTED).unwrap_or(net);
         let search = |core: &[u8], thickest: usize| net_in(all_ink, core, core, &usual(thickest));
         let strokes = if all_ink == ink { strokes } else { without_lettering(all_ink, width, metres_per_pixel) };
         return Some(partitions::added(net, &strokes, all_ink, width, metres_per_pixel, search));
     }
-    let strokes = hollow::fill_teeth(&strokes, width, metres_per_pixel);
-    let outlined = hollow::fill_outlines(&strokes, width, metres_per_pixel);
-    if let Some(net) = net(&outlined, &outlined) {
+    if let Some(net) = filled() {
         return Some(net);
     }
-    let hatched = hollow::fill_hatches(&strokes, width, metres_per_pixel);
-    let both = hollow::fill_outlines(&hatched, width, metres_per_pixel);
-    // Where there is nothing to fill, the search ends as before.
-    if hatched != outlined
-        && let Some(net) = net(&hatched, &hatched)
-    {
+    if let Some(net) = wide(&core, dark, &usual(thickest)) {
         return Some(net);
     }
-    if both != outlined
-        && both != hatched
-        && let Some(net) = net(&both, &both)
-    {
-        return Some(net);
-    }
-    drop((outlined, hatched, both));
-    if let Some(net) = wide(&core, dark) {
-        return Some(net);
-    }
-    let massive = Sought { thickest: px(MASSIVE_WALL_M), widest_m: WIDEST_PORTAL_M, is_massive: true, colours };
+    let massive = Sought { widest_m: WIDEST_PORTAL_M, is_massive: true, ..usual(px(MASSIVE_WALL_M)) };
     if let Some(net) = net_in(ink, &core, dark, &massive) {
         return Some(net);
     }

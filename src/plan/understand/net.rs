@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::super::components::{Component, Components, Neighbours, Run};
 use super::super::doors::bend;
 use super::super::drawing::is_on;
-use super::super::thick::{THINNEST_M, grow, open, wall_square};
+use super::super::thick::{THINNEST_M, Thickness, grow, open, wall_thickness};
 use super::directions::SHADOW_SHARE;
 use super::gaps::{self, Gap, Limits};
 use super::leaves;
@@ -53,6 +53,14 @@ const MASS_FILL: f64 = 0.7;
 /// Least share of a column that is ink.
 const COLUMN_INK: f64 = 0.85;
 
+/// How many times as thick as thin walls most walls are where thin ones are kept from their windows, and the square that tells
+/// them, as a share of their thickness.
+const MUCH_THICKER: f64 = 1.8;
+const WALL_SQUARE: f64 = 0.6;
+/// Shares of a row of a window that are neither a line nor the pane, and share of its rows that may be so.
+const CROSSED: [f64; 2] = [0.06, 0.8];
+const MOST_CROSSED: f64 = 0.25;
+
 /// Walls, and what closes them to a building.
 pub(super) struct Net {
     /// 1 for wall.
@@ -82,6 +90,8 @@ pub(super) struct Sought<'a> {
     pub(super) widest_m: f64,
     /// Whether walls are as thick as those of churches.
     pub(super) is_massive: bool,
+    /// Thickness of strokes that are no walls, pixels.
+    pub(super) stroke_px: usize,
     pub(super) colours: Colours<'a>,
 }
 
@@ -96,11 +106,12 @@ impl Net {
         ink: &[u8],
         width: usize,
         metres_per_pixel: f64,
-        &Sought { thickest, widest_m, is_massive, colours }: &Sought,
+        &Sought { thickest, widest_m, is_massive, stroke_px, colours }: &Sought,
     ) -> Option<Net> {
         let mut core = core.to_vec();
         drop_frame(&mut core, ink, width, metres_per_pixel);
-        let (side, thinnest) = wall_square(&core, width, metres_per_pixel, is_massive)?;
+        let Thickness { square: side, thinnest, usual } =
+            wall_thickness(&core, width, metres_per_pixel, is_massive, stroke_px)?;
         let px = |metres: f64| (metres / metres_per_pixel).round() as usize;
         let mut wall = open(&core, width, side);
         drop(core);
@@ -108,6 +119,9 @@ impl Net {
         let limits =
             Limits { shortest: px(0.5), longest: px(16.0), thinnest: ((thinnest * 0.75) as usize).max(2), thickest };
         let is_entrance = |gap: &Gap| gap.slides && (px(ENTRANCE_M[0])..=px(ENTRANCE_M[1])).contains(&gap.length());
+        if usual >= MUCH_THICKER * thinnest {
+            clear_windows(&mut wall, ink, width, &limits, ((usual * WALL_SQUARE) as usize).max(side + 1));
+        }
         drop_leaves(&mut wall, ink, width, &limits, [ENTRANCE_M[1], THICKEST_LEAF_M].map(px), is_entrance);
         let strokes = strokes_of(ink, &wall);
         let mut found = gaps::find(&wall, &strokes, width, &limits);
@@ -229,6 +243,29 @@ pub(super) fn joined(free: &[u8], built: &[u8], width: usize) -> f64 {
 /// What is drawn beside walls.
 fn strokes_of(ink: &[u8], wall: &[u8]) -> Vec<u8> {
     ink.iter().zip(wall).map(|(&i, &w)| u8::from(i != 0 && w == 0)).collect()
+}
+
+/// Takes off a wall mask what lies along a side of the windows of walls that are as thick as a square: a line of a window and
+/// the edge of a bed or counter before it are together as thick as thin walls.
+fn clear_windows(wall: &mut [u8], ink: &[u8], width: usize, limits: &Limits, square: usize) {
+    let thick = open(wall, width, square);
+    let limits = Limits { thinnest: square, ..*limits };
+    let windows = gaps::find(&thick, &strokes_of(ink, &thick), width, &limits);
+    // Thin walls go on in the middle of thick ones; lines of a paving cross there.
+    let is_free = |gap: &&Gap| {
+        let ([from, to], across) = gap.middle();
+        let share = |mask: &[u8], across: f64| {
+            let on = (from as usize..to as usize).filter_map(|at| gap.pixel(at as f64 + 0.5, across));
+            on.filter(|&at| mask[at] != 0).count() as f64 / (to - from)
+        };
+        let rows = gap.thickness();
+        let is_crossed = |row: &f64| (CROSSED[0]..CROSSED[1]).contains(&share(ink, across - 0.5 * rows + row + 0.5));
+        let crossed = (0..rows as usize).map(|row| row as f64).filter(is_crossed).count() as f64;
+        share(wall, across) == 0.0 && crossed <= MOST_CROSSED * rows
+    };
+    let windows = windows.iter().filter(|gap| gap.strokes >= 2 && gap.is_upright()).filter(is_free);
+    let cleared: Vec<usize> = windows.flat_map(Gap::pixels).filter(|&at| thick[at] == 0).collect();
+    cleared.into_iter().for_each(|at| wall[at] = 0);
 }
 
 /// Takes the leaves of sliding entrances off a wall mask: bars that stand alone in a gap of a thicker wall. They are
