@@ -128,8 +128,10 @@ pub(super) fn fill_teeth(dark: &[u8], width: usize, metres_per_pixel: f64) -> Ve
         }
     };
     // The heads of thin walls' fields, which open into a tooth.
-    let broad = open(&inverted(dark), width, ((HATCH_M / metres_per_pixel).round() as usize).max(3));
-    fill_beside(&broad, LARGEST_TOOTH_M, &mut filled);
+    let [least, most] = [0.5 * HATCH_M, HATCH_M].map(|m| ((m / metres_per_pixel).round() as usize).max(3));
+    for px in least..=most {
+        fill_beside(&open(&inverted(dark), width, px), LARGEST_TOOTH_M, &mut filled);
+    }
     let mut filled: Vec<u8> = dark.iter().zip(grow(&filled, width, 1)).map(|(&dark, filled)| dark | filled).collect();
     // Crumbs at the tips.
     fill_beside(&inverted(&filled), HATCH_M, &mut filled);
