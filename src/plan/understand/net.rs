@@ -190,7 +190,11 @@ impl Net {
         // Between columns within a hall stand rails, steps and benches.
         let columns = columns(&wall, width, LONGEST_COLUMN_M / metres_per_pixel);
         let is_within = |gap: &Gap| gap.ends.iter().all(|&at| columns[at] != 0) && !leads_out(gap, &inside);
-        let within: Vec<Gap> = windows.extract_if(.., |gap| is_within(gap)).collect();
+        let within: Vec<Gap> = [&mut doors, &mut windows]
+            .map(|gaps| gaps.extract_if(.., |gap| is_within(gap)))
+            .into_iter()
+            .flatten()
+            .collect();
         within.iter().flat_map(Gap::pixels).for_each(|at| inside[at] = 1 - wall[at]);
         // Gates of a hall that has no other way in, not the windows of a house.
         let is_single = |gap: &Gap| gap.strokes == 1;
