@@ -22,7 +22,7 @@ pub(super) fn net(
     // The soft edges of leaves and furniture are as thick as thin walls together with them.
     let sought = |filled: &[u8]| {
         let fills: Vec<u8> = strokes.iter().zip(filled).map(|(&stroke, &filled)| filled & (1 - stroke)).collect();
-        let stroke_px = hollow::stroke_px(strokes, &fills, width);
+        let stroke_px = hollow::stroke_px(strokes, &fills, width, metres_per_pixel);
         if stroke_px == 0 {
             return search(filled, filled, 0);
         }
@@ -30,11 +30,11 @@ pub(super) fn net(
         let sure: Vec<u8> = (0..near.len()).map(|at| filled[at] & (near[at] | core[at])).collect();
         search(&sure, filled, stroke_px)
     };
-    let closed = |net: &Option<Net>| net.as_ref().map_or(0.0, |net| net.enclosed * net.joined(width));
+    let share_closed = |net: &Option<Net>| net.as_ref().map_or(0.0, |net| net.enclosed * net.joined(width));
     let toothed = hollow::fill_teeth(strokes, width, metres_per_pixel);
     let outlined = hollow::fill_outlines(&toothed, width, metres_per_pixel);
     let mut best = sought(&outlined);
-    if closed(&best) >= WELL_CLOSED {
+    if share_closed(&best) >= WELL_CLOSED {
         return best;
     }
     let hatched = hollow::fill_hatches(&toothed, width, metres_per_pixel);
@@ -45,7 +45,7 @@ pub(super) fn net(
             continue;
         }
         let found = sought(filled);
-        if closed(&found) > closed(&best) + BETTER {
+        if share_closed(&found) > share_closed(&best) + BETTER {
             best = found;
         }
     }

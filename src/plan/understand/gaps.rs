@@ -78,7 +78,7 @@ impl Gap {
         to - from
     }
 
-    /// The way in which the wall runs is that of the image's rows or columns.
+    /// Whether the wall runs as the image's rows or columns do.
     pub(super) fn is_upright(&self) -> bool {
         self.frame.is_upright()
     }

@@ -44,9 +44,9 @@ fn inverted(mask: &[u8]) -> Vec<u8> {
     mask.iter().map(|&value| u8::from(value == 0)).collect()
 }
 
-/// Greatest thickness of the strokes around what was filled, with a soft edge, pixels; 0 if nothing was filled. Furniture is
-/// drawn by the like, and is no wall.
-pub(super) fn stroke_px(strokes: &[u8], fills: &[u8], width: usize) -> usize {
+/// Greatest thickness of the strokes around what was filled, with a soft edge, pixels; 0 if nothing was filled, or all is
+/// thicker than a stroke. Furniture is drawn by the like, and is no wall.
+pub(super) fn stroke_px(strokes: &[u8], fills: &[u8], width: usize, metres_per_pixel: f64) -> usize {
     /// Share of the strokes beside what was filled that may be thicker: massive walls end there.
     const THICKER: f64 = 0.3;
     let beside = grow(fills, width, 1);
@@ -56,7 +56,8 @@ pub(super) fn stroke_px(strokes: &[u8], fills: &[u8], width: usize) -> usize {
     if all == 0.0 {
         return 0;
     }
-    (1..).find(|&px| count(&open(strokes, width, px + 1)) <= THICKER * all).map_or(0, |px| px + 1)
+    let most = ((HATCH_M / metres_per_pixel) as usize).max(2);
+    (1..=most).find(|&px| count(&open(strokes, width, px + 1)) <= THICKER * all).map_or(0, |px| px + 1)
 }
 
 /// Fills what is too narrow for anything but the space between the lines of a hatch, where many such spaces lie together.
@@ -117,6 +118,9 @@ pub(super) fn fill_teeth(dark: &[u8], width: usize, metres_per_pixel: f64) -> Ve
         if count < FEWEST_TEETH || f64::from(row.larger_side()) * metres_per_pixel < HATCHED_M {
             rows.paint(row, &mut near, width, 0);
         }
+    }
+    if !near.contains(&1) {
+        return dark.to_vec();
     }
     let mut filled: Vec<u8> = teeth.iter().zip(&near).map(|(&tooth, &near)| tooth & near).collect();
     let fill_beside = |white: &[u8], most_m: f64, filled: &mut Vec<u8>| {
