@@ -188,65 +188,67 @@ pub(super) struct Thickness {
     pub(super) usual: f64,
 }
 
-/// Measures how thick the walls of a mask are; `None` where nothing is as thick as a wall.
-///
-/// Walls are at least 6 cm and two pixels thick, and thicker than strokes. The thinnest walls are those of the least thickness
-/// up to which an eighth of the length of all that is so thick lies; the square is six tenths of that. Length counts, because
-/// thin walls have little area beside thick ones; slanted and blurred ones have several thicknesses.
-pub(super) fn wall_thickness(
-    mask: &[u8],
-    width: usize,
-    metres_per_pixel: f64,
-    is_massive: bool,
-    stroke_px: usize,
-) -> Option<Thickness> {
-    const LEAST_WALL_M: f64 = 1.0;
-    /// Least length of a door's leaf, and share of its box that it fills.
-    const SHORTEST_LEAF_M: f64 = 0.55;
-    const LEAF_FILL: f64 = 0.8;
-    const SHARE: f64 = 0.12;
-    const SQUARE: f64 = 0.6;
-    let [thinnest_m, thickest_m] = if is_massive { MASSIVE_M } else { [THINNEST_M, THICKEST_M] };
-    let area = |mask: &[u8]| mask.iter().filter(|&&m| m != 0).count() as f64;
-    let first = ((thinnest_m / metres_per_pixel).ceil() as usize).max(stroke_px + 1).max(2);
-    // Letters, ticks and the leaves of doors are no measure.
-    let is_short = |piece: &Component| f64::from(piece.larger_side()) * metres_per_pixel < LEAST_WALL_M;
-    let is_leaf = |piece: &Component| {
-        let [w, h] = piece.size().map(f64::from);
-        is_short(piece) && w.max(h) * metres_per_pixel >= SHORTEST_LEAF_M && piece.area as f64 >= LEAF_FILL * w * h
-    };
-    let drop = |mask: &mut [u8], is_none: &dyn Fn(&Component) -> bool| {
-        let pieces = Components::of(mask, width, 1, Neighbours::Eight);
-        pieces.all.iter().filter(|piece| is_none(piece)).for_each(|piece| pieces.paint(piece, mask, width, 0));
-    };
-    let mut kept = open(mask, width, first);
-    drop(&mut kept, &is_short);
-    let (mut side, mut left) = (first, area(&kept));
-    let mut lengths = Vec::new();
-    while left > 0.0 && (side as f64) * metres_per_pixel < thickest_m {
-        let next = (side * 5 / 4).max(side + 1);
-        let opened = open(&kept, width, next);
-        kept.iter_mut().zip(&opened).for_each(|(kept, opened)| *kept &= 1 - opened);
-        drop(&mut kept, &is_leaf);
-        let thickness = side.midpoint(next - 1) as f64;
-        lengths.push((thickness, area(&kept) / thickness));
-        kept = opened;
-        (side, left) = (next, area(&kept));
+impl Thickness {
+    /// Measures how thick the walls of a mask are; `None` where nothing is as thick as a wall.
+    ///
+    /// Walls are at least 6 cm and two pixels thick, and thicker than strokes. The thinnest walls are those of the least thickness
+    /// up to which an eighth of the length of all that is so thick lies; the square is six tenths of that. Length counts, because
+    /// thin walls have little area beside thick ones; slanted and blurred ones have several thicknesses.
+    pub(super) fn of(
+        mask: &[u8],
+        width: usize,
+        metres_per_pixel: f64,
+        is_massive: bool,
+        stroke_px: usize,
+    ) -> Option<Thickness> {
+        const LEAST_WALL_M: f64 = 1.0;
+        /// Least length of a door's leaf, and share of its box that it fills.
+        const SHORTEST_LEAF_M: f64 = 0.55;
+        const LEAF_FILL: f64 = 0.8;
+        const SHARE: f64 = 0.12;
+        const SQUARE: f64 = 0.6;
+        let [thinnest_m, thickest_m] = if is_massive { MASSIVE_M } else { [THINNEST_M, THICKEST_M] };
+        let area = |mask: &[u8]| mask.iter().filter(|&&m| m != 0).count() as f64;
+        let first = ((thinnest_m / metres_per_pixel).ceil() as usize).max(stroke_px + 1).max(2);
+        // Letters, ticks and the leaves of doors are no measure.
+        let is_short = |piece: &Component| f64::from(piece.larger_side()) * metres_per_pixel < LEAST_WALL_M;
+        let is_leaf = |piece: &Component| {
+            let [w, h] = piece.size().map(f64::from);
+            is_short(piece) && w.max(h) * metres_per_pixel >= SHORTEST_LEAF_M && piece.area as f64 >= LEAF_FILL * w * h
+        };
+        let erase = |mask: &mut [u8], is_none: &dyn Fn(&Component) -> bool| {
+            let pieces = Components::of(mask, width, 1, Neighbours::Eight);
+            pieces.all.iter().filter(|piece| is_none(piece)).for_each(|piece| pieces.paint(piece, mask, width, 0));
+        };
+        let mut kept = open(mask, width, first);
+        erase(&mut kept, &is_short);
+        let (mut side, mut left) = (first, area(&kept));
+        let mut lengths = Vec::new();
+        while left > 0.0 && (side as f64) * metres_per_pixel < thickest_m {
+            let next = (side * 5 / 4).max(side + 1);
+            let opened = open(&kept, width, next);
+            kept.iter_mut().zip(&opened).for_each(|(kept, opened)| *kept &= 1 - opened);
+            erase(&mut kept, &is_leaf);
+            let thickness = side.midpoint(next - 1) as f64;
+            lengths.push((thickness, area(&kept) / thickness));
+            kept = opened;
+            (side, left) = (next, area(&kept));
+        }
+        // The least thickness up to which a share of all lies.
+        let up_to = |share: f64, of: fn(&(f64, f64)) -> f64| {
+            let all: f64 = lengths.iter().map(of).sum();
+            let mut seen = 0.0;
+            let found = lengths.iter().find(|each| {
+                seen += of(each);
+                seen >= share * all && seen > 0.0
+            });
+            found.map(|(thickness, _)| *thickness)
+        };
+        let thinnest = up_to(SHARE, |(_, length)| *length)?;
+        let usual = up_to(0.5, |(thickness, length)| thickness * length)?;
+        let square = ((thinnest * SQUARE).ceil() as usize).max(stroke_px + 1).max(2);
+        Some(Thickness { square, thinnest, usual })
     }
-    // The least thickness up to which a share of all lies.
-    let up_to = |share: f64, of: fn(&(f64, f64)) -> f64| {
-        let all: f64 = lengths.iter().map(of).sum();
-        let mut seen = 0.0;
-        let found = lengths.iter().find(|each| {
-            seen += of(each);
-            seen >= share * all && seen > 0.0
-        });
-        found.map(|(thickness, _)| *thickness)
-    };
-    let thinnest = up_to(SHARE, |(_, length)| *length)?;
-    let usual = up_to(0.5, |(thickness, length)| thickness * length)?;
-    let square = ((thinnest * SQUARE).ceil() as usize).max(stroke_px + 1).max(2);
-    Some(Thickness { square, thinnest, usual })
 }
 
 #[cfg(test)]

@@ -113,6 +113,14 @@ impl Canvas {
         }
     }
 
+    /// A window in a wall along the rows: its frame and a pane in its middle, in strokes of a thickness, black on white.
+    pub fn window(&mut self, min: Point, max: Point, thick: f64) {
+        let (frame, middle) = (rectangle(min, max), (min[1] + max[1]) * 0.5);
+        self.fill(std::slice::from_ref(&frame), [255; 3]);
+        self.fill(&outline(&frame, thick), [0; 3]);
+        self.fill(&[line([min[0], middle], [max[0], middle], thick)], [0; 3]);
+    }
+
     /// 1 where more than half of a pixel is covered.
     pub fn mask(&self, polygons: &[Polygon]) -> Vec<u8> {
         self.samples(polygons).iter().map(|bits| u8::from(bits.count_ones() > 8)).collect()

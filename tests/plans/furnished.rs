@@ -31,9 +31,7 @@ fn rooms(tone: [u8; 3]) -> Canvas {
         canvas.fill(&lines(&[swing.as_slice(), &[hinge]].concat(), FINE_M), [0; 3]);
     }
     for x in [0.0, 5.0, 10.0] {
-        canvas.fill(&[rectangle([x + 1.5, 5.85], [x + 3.5, 6.15])], [255; 3]);
-        canvas.fill(&outline(&rectangle([x + 1.5, 5.85], [x + 3.5, 6.15]), FINE_M), [0; 3]);
-        canvas.fill(&[line([x + 1.5, 6.0], [x + 3.5, 6.0], FINE_M)], [0; 3]);
+        canvas.window([x + 1.5, 5.85], [x + 3.5, 6.15], FINE_M);
     }
     canvas
 }

@@ -81,9 +81,7 @@ fn steps_between_columns_are_no_windows() {
         canvas.fill(&[rectangle(min, max)], INK);
     }
     for x in [3.0, 9.0, 15.0] {
-        canvas.fill(&[rectangle([x, 10.0], [x + 2.0, 10.5])], [255; 3]);
-        canvas.fill(&outline(&rectangle([x, 10.0], [x + 2.0, 10.5]), 0.05), INK);
-        canvas.fill(&[line([x, 10.25], [x + 2.0, 10.25], 0.05)], INK);
+        canvas.window([x, 10.0], [x + 2.0, 10.5], 0.05);
     }
     canvas.fill(&[rectangle([5.0, -0.55], [5.9, 0.05])], [255; 3]);
     canvas.fill(&lines(&[arc([5.0, 0.0], 0.9, 0.0, FRAC_PI_2).as_slice(), &[[5.0, 0.0]]].concat(), 0.05), INK);

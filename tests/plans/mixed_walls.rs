@@ -66,10 +66,7 @@ fn six_rooms(fill: Fill) -> Canvas {
         canvas.fill(&[line(hinge, tip, 0.06)], black);
     }
     for (x, y) in [(1.0, 0.0), (9.2, 0.0), (1.0, h), (5.2, h), (9.2, h)] {
-        let frame = rectangle([x, y - OUTER_M * 0.5], [x + 1.8, y + OUTER_M * 0.5]);
-        canvas.fill(std::slice::from_ref(&frame), white);
-        canvas.fill(&outline(&frame, STROKE_M), black);
-        canvas.fill(&[line([x, y], [x + 1.8, y], STROKE_M)], black);
+        canvas.window([x, y - OUTER_M * 0.5], [x + 1.8, y + OUTER_M * 0.5], STROKE_M);
     }
     for (min, max) in [([0.8, 5.9], [2.6, 7.84]), ([4.6, 7.2], [6.8, 7.83]), ([9.6, 0.17], [11.8, 0.8])] {
         canvas.fill(&outline(&rectangle(min, max), STROKE_M), black);
@@ -91,7 +88,7 @@ fn outer_walls_may_be_drawn_otherwise_than_partitions() {
             let free = canvas.floor_in(&plan, [[x + 0.3, y + 1.0], [x + 3.7, y + 1.7]]);
             assert!(free > 0.97, "{fill:?}: {free} of the room at {x}, {y} is floor");
         }
-        let wall = canvas.floor_in(&plan, [[0.0 - 0.05, 0.0 - 0.05], [0.05, 8.05]]);
+        let wall = canvas.floor_in(&plan, [[-0.05, -0.05], [0.05, 8.05]]);
         assert!(wall < 0.02, "{fill:?}: {wall} of the western wall is floor");
     }
 }

@@ -66,18 +66,18 @@ pub(super) fn fill_hatches(dark: &[u8], width: usize, metres_per_pixel: f64) -> 
     let white = inverted(dark);
     let wide = open(&white, width, side);
     let mut narrow: Vec<u8> = white.iter().zip(&wide).map(|(&white, &wide)| white & (1 - wide)).collect();
-    // Between the lines of a window are bars.
     let spaces = Components::of(&narrow, width, 1, Neighbours::Four);
+    // Between the lines of a window are bars.
     let is_bar = |space: &&Component| {
         let [w, h] = space.size().map(f64::from);
         w.max(h) >= BAR_SLENDER * w.min(h) && space.area as f64 >= FULL * w * h
     };
-    spaces.all.iter().filter(is_bar).for_each(|bar| spaces.paint(bar, &mut narrow, width, 0));
+    let (bars, spaces_of_hatch): (Vec<&Component>, Vec<&Component>) = spaces.all.iter().partition(is_bar);
+    bars.into_iter().for_each(|bar| spaces.paint(bar, &mut narrow, width, 0));
+    let mut starts: Vec<usize> = spaces_of_hatch.into_iter().map(|space| spaces.first(space, width)).collect();
+    starts.sort_unstable();
     let mut near = grow(&narrow, width, ((0.03 / metres_per_pixel) as usize).max(1));
     let places = Components::of(&near, width, 1, Neighbours::Eight);
-    let spaces = Components::of(&narrow, width, 1, Neighbours::Four);
-    let mut starts: Vec<usize> = spaces.all.iter().map(|space| spaces.first(space, width)).collect();
-    starts.sort_unstable();
     for place in &places.all {
         let within = |range: Range<usize>| {
             let before = |at: usize| starts.partition_point(|&start| start < at);

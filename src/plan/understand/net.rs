@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::super::components::{Component, Components, Neighbours, Run};
 use super::super::doors::bend;
 use super::super::drawing::is_on;
-use super::super::thick::{THINNEST_M, Thickness, grow, open, wall_thickness};
+use super::super::thick::{THINNEST_M, Thickness, grow, open};
 use super::directions::SHADOW_SHARE;
 use super::gaps::{self, Gap, Limits};
 use super::leaves;
@@ -111,7 +111,7 @@ impl Net {
         let mut core = core.to_vec();
         drop_frame(&mut core, ink, width, metres_per_pixel);
         let Thickness { square: side, thinnest, usual } =
-            wall_thickness(&core, width, metres_per_pixel, is_massive, stroke_px)?;
+            Thickness::of(&core, width, metres_per_pixel, is_massive, stroke_px)?;
         let px = |metres: f64| (metres / metres_per_pixel).round() as usize;
         let mut wall = open(&core, width, side);
         drop(core);
