@@ -5,7 +5,7 @@ use std::path::Path;
 
 use trodden::Silent;
 use trodden::bake::{OutputOptions, bake};
-use trodden::math::{Vec2, vec2};
+use trodden::math::{Rect, Vec2, vec2};
 use trodden::scenario::{Overrides, Scenario};
 use usvg::roxmltree::{Document, Node};
 
@@ -19,6 +19,7 @@ const METRES_PER_PIXEL: f64 = 0.05;
 struct Solid {
     name: String,
     outline: Vec<Vec2>,
+    around: Rect,
     span_m: [f64; 2],
 }
 
@@ -39,17 +40,23 @@ impl Solid {
             let half = [size[0] * 0.5, size[1] * 0.5];
             let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
             let outline = corners.map(|[x, y]| place(vec2(x * half[0], y * half[1]), pose)).to_vec();
-            return Some(Solid { name, outline, span_m: [pose[2] - size[2] * 0.5, pose[2] + size[2] * 0.5] });
+            return Some(Solid::new(name, outline, [pose[2] - size[2] * 0.5, pose[2] + size[2] * 0.5]));
         }
         let [pose] = &numbers("pose")[..] else { return None };
         let outline = numbers("point").iter().map(|p| place(vec2(p[0], p[1]), pose)).collect();
-        Some(Solid { name, outline, span_m: [pose[2], pose[2] + numbers("height")[0][0]] })
+        Some(Solid::new(name, outline, [pose[2], pose[2] + numbers("height")[0][0]]))
+    }
+
+    fn new(name: String, outline: Vec<Vec2>, span_m: [f64; 2]) -> Solid {
+        let of = |axis: fn(&Vec2) -> f64, pick: fn(f64, f64) -> f64| outline.iter().map(axis).reduce(pick).unwrap();
+        let corner = |pick| vec2(of(|p| p.x, pick), of(|p| p.y, pick));
+        Solid { around: Rect { min: corner(f64::min), max: corner(f64::max) }, name, outline, span_m }
     }
 
     /// Whether a place lies within the outline, which is convex and goes counter-clockwise.
     fn covers(&self, p: Vec2) -> bool {
         let edges = self.outline.iter().zip(self.outline.iter().cycle().skip(1));
-        edges.into_iter().all(|(&a, &b)| (b - a).cross(p - a) >= 0.0)
+        self.around.contains(p) && edges.into_iter().all(|(&a, &b)| (b - a).cross(p - a) >= 0.0)
     }
 }
 

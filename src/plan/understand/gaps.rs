@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::super::cracks::trace;
 use super::super::thick::{places, runs, spread};
 use super::directions;
-use crate::math::sin_cos;
+use super::frame::Frame;
 
 /// How much thicker than a gap the wall at one of its ends may be, and that at both ends of an entrance; of the gap's depth.
 const ONE_END: f64 = 0.5;
@@ -78,11 +78,6 @@ impl Gap {
         to - from
     }
 
-    /// Whether the wall runs as the image's rows or columns do.
-    pub(super) fn is_upright(&self) -> bool {
-        self.frame.is_upright()
-    }
-
     /// All its pixels, as indices.
     pub(super) fn pixels(&self) -> Vec<usize> {
         let mut all = Vec::new();
@@ -113,93 +108,6 @@ pub(super) fn mask<'g>(gaps: impl IntoIterator<Item = &'g Gap>, pixels: usize) -
     mask
 }
 
-/// A grid on the image, of any direction.
-#[derive(Clone, Copy, Debug)]
-struct Frame {
-    /// Size of the image and of the grid, pixels.
-    image: [usize; 2],
-    size: [usize; 2],
-    /// Where the grid's corner is in the image, and how one goes along and across its rows.
-    corner: [f64; 2],
-    along: [f64; 2],
-    across: [f64; 2],
-}
-
-impl Frame {
-    fn upright(image: [usize; 2]) -> Frame {
-        Frame { image, size: image, corner: [0.0; 2], along: [1.0, 0.0], across: [0.0, 1.0] }
-    }
-
-    /// A grid around the image whose rows run at an angle, radians.
-    fn turned(image: [usize; 2], angle: f64) -> Frame {
-        let (sine, cosine) = sin_cos(angle);
-        let (along, across) = ([cosine, sine], [-sine, cosine]);
-        let [w, h] = image.map(|side| side as f64);
-        let range = |way: [f64; 2]| {
-            let at = [[0.0, 0.0], [w, 0.0], [0.0, h], [w, h]].map(|[x, y]| x * way[0] + y * way[1]);
-            (at.iter().copied().fold(f64::INFINITY, f64::min), at.iter().copied().fold(f64::NEG_INFINITY, f64::max))
-        };
-        let ((u, u1), (v, v1)) = (range(along), range(across));
-        let corner = [u * along[0] + v * across[0], u * along[1] + v * across[1]];
-        Frame { image, size: [(u1 - u).ceil() as usize, (v1 - v).ceil() as usize], corner, along, across }
-    }
-
-    /// The same with rows and columns exchanged.
-    fn transposed(self) -> Frame {
-        Frame { size: [self.size[1], self.size[0]], along: self.across, across: self.along, ..self }
-    }
-
-    fn is_upright(&self) -> bool {
-        self.along[0] == 0.0 || self.along[1] == 0.0
-    }
-
-    fn place(&self, [u, v]: [f64; 2]) -> [f64; 2] {
-        [0, 1].map(|k| self.corner[k] + u * self.along[k] + v * self.across[k])
-    }
-
-    fn pixel(&self, at: [f64; 2]) -> Option<usize> {
-        let [x, y] = self.place(at);
-        let inside = x >= 0.0 && y >= 0.0 && x < self.image[0] as f64 && y < self.image[1] as f64;
-        inside.then(|| y as usize * self.image[0] + x as usize)
-    }
-
-    /// What the grid shows of a mask: the pixel at each place, moved by a part of a pixel.
-    fn view(&self, mask: &[u8], moved: f64) -> Vec<u8> {
-        const ONE: f64 = 65536.0;
-        let [width, height] = self.image;
-        let [right, down] = [self.along[0] * ONE, self.along[1] * ONE].map(|step| step.round() as i64);
-        let mut seen = vec![0; self.size[0] * self.size[1]];
-        seen.par_chunks_mut(self.size[0].max(1)).enumerate().for_each(|(v, row)| {
-            let start = self.place([0.5, v as f64 + 0.5]).map(|at| ((at - 0.5 + moved) * ONE) as i64);
-            let [in_columns, in_lines] = [
-                steps_inside(start[0], right, (width as i64 - 1) << 16),
-                steps_inside(start[1], down, (height as i64 - 1) << 16),
-            ];
-            let first = in_columns.start.max(in_lines.start).min(row.len() as i64);
-            let end = in_columns.end.min(in_lines.end).clamp(first, row.len() as i64);
-            let (mut x, mut y) = (start[0] + first * right, start[1] + first * down);
-            for seen in &mut row[first as usize..end as usize] {
-                *seen = mask[(y >> 16) as usize * width + (x >> 16) as usize];
-                x += right;
-                y += down;
-            }
-        });
-        seen
-    }
-}
-
-/// After how many steps a place lies in `0..end`.
-fn steps_inside(start: i64, step: i64, end: i64) -> Range<i64> {
-    let first = |at: i64| (at - start + step - 1).div_euclid(step).max(0);
-    match step {
-        // Going down is going up from the other end.
-        ..0 => steps_inside(end - 1 - start, -step, end),
-        0 if (0..end).contains(&start) => 0..i64::MAX,
-        0 => 0..0,
-        _ => first(0)..first(end),
-    }
-}
-
 /// What gaps may be, pixels.
 pub(super) struct Limits {
     pub(super) shortest: usize,
@@ -213,16 +121,23 @@ pub(super) fn find(wall: &[u8], ink: &[u8], width: usize, limits: &Limits) -> Ve
     let image = [width, wall.len() / width];
     let outline = trace(wall, width);
     let slanted = directions::slanted(&outline, limits.shortest, limits.thinnest);
+    let turned = |angle| Frame::turned(image, angle);
     let frames: Vec<Frame> = match directions::skew(&outline, image) {
         Some(skew) => {
             let others = slanted.into_iter().filter(|angle| !directions::is_same(*angle, skew));
-            std::iter::once(skew).chain(others).map(|angle| Frame::turned(image, angle)).collect()
+            std::iter::once(skew).chain(others).map(turned).collect()
         }
-        None => {
-            let turned = slanted.into_iter().map(|angle| Frame::turned(image, angle));
-            std::iter::once(Frame::upright(image)).chain(turned).collect()
-        }
+        None => std::iter::once(Frame::upright(image)).chain(slanted.into_iter().map(turned)).collect(),
     };
+    in_frames(frames, wall, ink, width, limits)
+}
+
+/// The same in walls that run as the image's rows or columns do.
+pub(super) fn find_upright(wall: &[u8], ink: &[u8], width: usize, limits: &Limits) -> Vec<Gap> {
+    in_frames(vec![Frame::upright([width, wall.len() / width])], wall, ink, width, limits)
+}
+
+fn in_frames(frames: Vec<Frame>, wall: &[u8], ink: &[u8], width: usize, limits: &Limits) -> Vec<Gap> {
     // Of fine strokes, a turned grid shows all that lies around a place between four pixels.
     let mut ink_around = Vec::new();
     if !frames.iter().all(Frame::is_upright) {
@@ -578,23 +493,4 @@ fn slides(ink: &[u8], width: usize, gap: &Gap) -> bool {
         leaves.for_each(|leaf| covered[leaf].fill(true));
     }
     covered.iter().filter(|&&covered| covered).count() as f64 >= COVERED * length as f64
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn steps_are_counted_both_ways() {
-        for (start, step, end) in
-            [(-7, 3, 20), (25, -4, 20), (5, 2, 11), (19, -1, 20), (-5, 1, 0), (3, 0, 4), (4, 0, 4)]
-        {
-            let inside = |k: &i64| (0..end).contains(&(start + k * step));
-            let found = steps_inside(start, step, end);
-            assert!(
-                (0..100).filter(inside).eq((0..100).filter(|k| found.contains(k))),
-                "{start} {step} {end}: {found:?}"
-            );
-        }
-    }
 }

@@ -5,6 +5,7 @@
 
 mod directions;
 mod filled;
+mod frame;
 mod gaps;
 mod hollow;
 mod leaves;

@@ -259,7 +259,7 @@ fn strokes_of(ink: &[u8], wall: &[u8]) -> Vec<u8> {
 fn clear_windows(wall: &mut [u8], ink: &[u8], width: usize, limits: &Limits, square: usize) {
     let thick = open(wall, width, square);
     let limits = Limits { thinnest: square, ..*limits };
-    let windows = gaps::find(&thick, &strokes_of(ink, &thick), width, &limits);
+    let windows = gaps::find_upright(&thick, &strokes_of(ink, &thick), width, &limits);
     // Thin walls go on in the middle of thick ones; lines of a paving cross there.
     let is_free = |gap: &&Gap| {
         let ([from, to], across) = gap.middle();
@@ -272,7 +272,7 @@ fn clear_windows(wall: &mut [u8], ink: &[u8], width: usize, limits: &Limits, squ
         let crossed = (0..rows as usize).map(|row| row as f64).filter(is_crossed).count() as f64;
         share(wall, across) == 0.0 && crossed <= MOST_CROSSED * rows
     };
-    let windows = windows.iter().filter(|gap| gap.strokes >= 2 && gap.is_upright()).filter(is_free);
+    let windows = windows.iter().filter(|gap| gap.strokes >= 2).filter(is_free);
     let cleared: Vec<usize> = windows.flat_map(Gap::pixels).filter(|&at| thick[at] == 0).collect();
     cleared.into_iter().for_each(|at| wall[at] = 0);
 }
