@@ -1,13 +1,14 @@
 //! Parts of the floor with a material of their own.
 
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::sync::Arc;
 
 use super::block::{FLAT_FINELY, LAYERS, ResolvedBlock};
 use super::error::LookError;
 use super::lattice::TexelWindow;
+use super::material::Material;
 use super::paint::FloorPainter;
-use super::settings::{AreaLook, Look};
+use super::settings::{AreaLook, FloorLook, Look};
 use crate::math::{Rect, Vec2, vec2};
 use crate::sums::FloorSums;
 use crate::walls::Walls;
@@ -15,6 +16,8 @@ use crate::walls::Walls;
 /// Cells in which a room is found, per metre, and how many at most along a side of the plan.
 const CELLS_PER_M: f64 = 20.0;
 const MOST_CELLS: f64 = 4096.0;
+/// How much larger than a room its floor may be: where more is reached without a doorway, nobody can tell where it ends.
+const MOST_LARGER: f64 = 1.25;
 
 impl Look {
     /// Checks, before any long computation, that the rooms of its areas are on the floor.
@@ -22,37 +25,71 @@ impl Look {
     /// # Errors
     /// [`LookError::NotInRoom`].
     pub(crate) fn check_areas(&self, walls: &Walls) -> Result<(), LookError> {
-        (1..).zip(&self.area).try_for_each(|area| shape(area, walls).map(drop))
+        shapes(self, walls).map(drop)
+    }
+
+    /// Lays floors: of each room a place in it, its area in square metres, and the material. What covers most becomes the
+    /// look's floor, others become areas. Rooms that no door parts from the next keep the look's floor.
+    pub(crate) fn lay_floors(&mut self, rooms: &[(Vec2, f64, Material)], walls: &Walls) {
+        let mut covered: Vec<(Material, f64)> = Vec::new();
+        for &(_, area_m2, material) in rooms {
+            match covered.iter_mut().find(|(known, _)| *known == material) {
+                Some((_, sum)) => *sum += area_m2,
+                None => covered.push((material, area_m2)),
+            }
+        }
+        // Of equals, the first.
+        let Some((most, _)) = covered.iter().copied().rev().max_by(|(_, a), (_, b)| a.total_cmp(b)) else { return };
+        self.floor.material = most;
+        let raster = RoomRaster::of(walls);
+        for (material, _) in covered.into_iter().filter(|(material, _)| *material != most) {
+            let of_material = rooms.iter().filter(|(.., of)| *of == material);
+            let closed = of_material.filter(|(place, area_m2, _)| {
+                raster.room(*place).is_some_and(|room| room.area_m2 <= MOST_LARGER * area_m2)
+            });
+            self.area.extend(closed.map(|(place, ..)| AreaLook {
+                room: Some([place.x, place.y]),
+                floor: FloorLook { material, ..FloorLook::default() },
+                ..AreaLook::default()
+            }));
+        }
     }
 }
 
-/// A part of the floor, and the painter of its material.
+/// Parts of the floor of one material, and its painter.
 pub(super) struct FloorArea<'a> {
-    shape: Shape,
-    bounds: Rect,
+    shapes: Vec<Shape>,
     painter: FloorPainter<'a>,
 }
 
 /// Where a part of the floor lies.
-enum Shape {
+struct Shape {
+    bounds: Rect,
+    form: Form,
+}
+
+enum Form {
     /// Corners in a row.
     Outline(Vec<Vec2>),
-    /// Cells of a raster of `columns` that belong to a room; the first is at the plan's origin.
-    Room { cell_m: f64, columns: usize, cells: Vec<bool> },
+    /// Cells of a raster that belong to a room, row by row.
+    Room { cell_m: f64, first: [usize; 2], columns: usize, cells: Vec<bool> },
 }
 
 impl<'a> FloorArea<'a> {
-    /// Prepares area `number`, from 1.
-    pub fn new(
-        (number, area): (usize, &AreaLook),
+    /// Prepares the areas of a look, in their order. Those of the same floor that follow each other have one painter.
+    pub fn all(
         sums: (&'a FloorSums, &Arc<FloorSums>),
         walls: &'a Walls,
         look: &Look,
         simulated_people: u32,
-    ) -> Result<FloorArea<'a>, LookError> {
-        let (shape, bounds) = shape((number, area), walls)?;
-        let look = Look { floor: area.floor.clone(), area: Vec::new(), ..look.clone() };
-        Ok(FloorArea { shape, bounds, painter: FloorPainter::new(sums, walls, &look, simulated_people)? })
+    ) -> Result<Vec<FloorArea<'a>>, LookError> {
+        let mut shapes = shapes(look, walls)?.into_iter();
+        let of_floor = |areas: &[AreaLook]| {
+            let own = Look { floor: areas[0].floor.clone(), area: Vec::new(), ..look.clone() };
+            let shapes = shapes.by_ref().take(areas.len()).collect();
+            Ok(FloorArea { shapes, painter: FloorPainter::new(sums, walls, &own, simulated_people)? })
+        };
+        look.area.chunk_by(|a, b| a.floor == b.floor).map(of_floor).collect()
     }
 
     /// Paints those of the `wanted` texels of a window that lie in it.
@@ -60,13 +97,16 @@ impl<'a> FloorArea<'a> {
         let texel_m = 1.0 / window.texels_per_metre;
         let corner = vec2(window.i0 as f64, window.j0 as f64) * texel_m;
         let size = vec2(window.width as f64, window.height as f64) * texel_m;
-        if !self.bounds.overlaps(Rect { min: corner, max: corner + size }) {
+        let seen = Rect { min: corner, max: corner + size };
+        let shapes: Vec<&Shape> = self.shapes.iter().filter(|shape| shape.bounds.overlaps(seen)).collect();
+        if shapes.is_empty() {
             return;
         }
         let inside: Vec<bool> = (0..window.texels())
             .map(|n| {
                 let (column, row) = ((n % window.width) as f64 + 0.5, (n / window.width) as f64 + 0.5);
-                wanted.is_none_or(|wanted| wanted[n]) && self.contains(corner + vec2(column, row) * texel_m)
+                let place = corner + vec2(column, row) * texel_m;
+                wanted.is_none_or(|wanted| wanted[n]) && shapes.iter().any(|shape| shape.contains(place))
             })
             .collect();
         if inside.iter().all(|inside| !inside) {
@@ -86,18 +126,53 @@ impl<'a> FloorArea<'a> {
             }
         });
     }
+}
+
+thread_local! {
+    /// Texels of a part before they are copied.
+    static PAINTED: RefCell<ResolvedBlock> = RefCell::default();
+}
+
+/// Where the areas of a look lie.
+fn shapes(look: &Look, walls: &Walls) -> Result<Vec<Shape>, LookError> {
+    let raster = OnceCell::new();
+    let shape = |(number, area): (usize, &AreaLook)| {
+        Ok(match (area.room, &area.outline[..]) {
+            (Some(place_m), _) => {
+                let raster = raster.get_or_init(|| RoomRaster::of(walls));
+                let room = raster.room(Vec2::from(place_m));
+                room.ok_or(LookError::NotInRoom { number, place_m })?.shape
+            }
+            (None, &[a, b]) => Shape::of_outline(&[a, [b[0], a[1]], b, [a[0], b[1]]]),
+            (None, corners) => Shape::of_outline(corners),
+        })
+    };
+    (1..).zip(&look.area).map(shape).collect()
+}
+
+impl Shape {
+    fn of_outline(corners: &[[f64; 2]]) -> Shape {
+        let corners: Vec<Vec2> = corners.iter().map(|&[x, y]| vec2(x, y)).collect();
+        let first = corners.first().copied().unwrap_or(Vec2::ZERO);
+        let bounds = corners.iter().fold(Rect { min: first, max: first }, |bounds, p| Rect {
+            min: vec2(bounds.min.x.min(p.x), bounds.min.y.min(p.y)),
+            max: vec2(bounds.max.x.max(p.x), bounds.max.y.max(p.y)),
+        });
+        Shape { bounds, form: Form::Outline(corners) }
+    }
 
     fn contains(&self, p: Vec2) -> bool {
-        match &self.shape {
-            Shape::Outline(corners) => {
+        match &self.form {
+            Form::Outline(corners) => {
                 let edges = corners.iter().zip(corners.iter().cycle().skip(1));
                 let crossed = |(a, b): &(&Vec2, &Vec2)| {
                     (a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)
                 };
                 edges.filter(crossed).count() % 2 == 1
             }
-            Shape::Room { cell_m, columns, cells } => {
-                let [i, j] = [p.x, p.y].map(|metres| (metres / cell_m).floor());
+            Form::Room { cell_m, first, columns, cells } => {
+                let i = (p.x / cell_m).floor() - first[0] as f64;
+                let j = (p.y / cell_m).floor() - first[1] as f64;
                 if i < 0.0 || j < 0.0 || i >= *columns as f64 {
                     return false;
                 }
@@ -107,91 +182,95 @@ impl<'a> FloorArea<'a> {
     }
 }
 
-thread_local! {
-    /// Texels of a part before they are copied.
-    static PAINTED: RefCell<ResolvedBlock> = RefCell::default();
+/// The floor in cells, without the thresholds of doors.
+struct RoomRaster {
+    cell_m: f64,
+    columns: usize,
+    rows: usize,
+    is_floor: Vec<bool>,
 }
 
-/// Where area `number` lies, and its bounds.
-fn shape((number, area): (usize, &AreaLook), walls: &Walls) -> Result<(Shape, Rect), LookError> {
-    Ok(match (area.room, &area.outline[..]) {
-        (Some([x, y]), _) => room(walls, vec2(x, y)).ok_or(LookError::NotInRoom { number, place_m: [x, y] })?,
-        (None, &[a, b]) => outline(&[a, [b[0], a[1]], b, [a[0], b[1]]]),
-        (None, corners) => outline(corners),
-    })
+/// A room, and the area of its cells.
+struct FoundRoom {
+    shape: Shape,
+    area_m2: f64,
 }
 
-fn outline(corners: &[[f64; 2]]) -> (Shape, Rect) {
-    let corners: Vec<Vec2> = corners.iter().map(|&[x, y]| vec2(x, y)).collect();
-    let first = corners.first().copied().unwrap_or(Vec2::ZERO);
-    let bounds = corners.iter().fold(Rect { min: first, max: first }, |bounds, p| Rect {
-        min: vec2(bounds.min.x.min(p.x), bounds.min.y.min(p.y)),
-        max: vec2(bounds.max.x.max(p.x), bounds.max.y.max(p.y)),
-    });
-    (Shape::Outline(corners), bounds)
-}
-
-/// The room around a place: the floor that is reached from there without passing a doorway, and the floor within half a
-/// wall's thickness of it.
-fn room(walls: &Walls, place: Vec2) -> Option<(Shape, Rect)> {
-    let bounds = walls.bounds_m();
-    let cell_m = (1.0 / CELLS_PER_M).max(bounds.max.x.max(bounds.max.y) / MOST_CELLS);
-    let [columns, rows] = [bounds.max.x, bounds.max.y].map(|metres| (metres / cell_m).ceil().max(1.0) as usize);
-    let mut share = vec![0.0; columns * rows];
-    walls.cleared_coverage(1.0 / cell_m, [0, 0], [columns, rows], &mut share);
-    for doorway in walls.doorways() {
-        // A bar across the threshold, longer than the opening and thick enough that no diagonal passes.
-        let [a, b] = doorway.jambs_m;
-        let steps = (2.0 * a.distance(b) / cell_m).ceil() as usize + 4;
-        for k in 0..=steps {
-            let p = a + (b - a) * (k as f64 / steps as f64 * 1.2 - 0.1);
-            for q in [p, p + doorway.through * (0.5 * cell_m)] {
-                let [i, j] = [q.x, q.y].map(|metres| (metres / cell_m).floor());
-                if i >= 0.0 && j >= 0.0 && i < columns as f64 && j < rows as f64 {
-                    share[j as usize * columns + i as usize] = 0.0;
+impl RoomRaster {
+    fn of(walls: &Walls) -> RoomRaster {
+        let bounds = walls.bounds_m();
+        let cell_m = (1.0 / CELLS_PER_M).max(bounds.max.x.max(bounds.max.y) / MOST_CELLS);
+        let [columns, rows] = [bounds.max.x, bounds.max.y].map(|metres| (metres / cell_m).ceil().max(1.0) as usize);
+        let mut share = vec![0.0; columns * rows];
+        walls.cleared_coverage(1.0 / cell_m, [0, 0], [columns, rows], &mut share);
+        let is_floor = share.into_iter().map(|share| share > 0.5).collect();
+        let mut raster = RoomRaster { cell_m, columns, rows, is_floor };
+        for doorway in walls.doorways() {
+            // A bar across the threshold, longer than the opening and thick enough that no diagonal passes.
+            let [a, b] = doorway.jambs_m;
+            let steps = (2.0 * a.distance(b) / cell_m).ceil() as usize + 4;
+            for k in 0..=steps {
+                let p = a + (b - a) * (k as f64 / steps as f64 * 1.2 - 0.1);
+                for q in [p, p + doorway.through * (0.5 * cell_m)] {
+                    if let Some(cell) = raster.cell(q) {
+                        raster.is_floor[cell] = false;
+                    }
                 }
             }
         }
+        raster
     }
-    let [i, j] = [place.x, place.y].map(|metres| (metres / cell_m).floor());
-    let is_in = i >= 0.0 && j >= 0.0 && i < columns as f64 && j < rows as f64;
-    let first = is_in.then(|| j as usize * columns + i as usize).filter(|&cell| share[cell] > 0.5)?;
-    let mut cells = vec![false; share.len()];
-    let mut next = vec![first];
-    cells[first] = true;
-    let (mut low, mut high) = ([i, j], [i, j]);
-    while let Some(cell) = next.pop() {
-        let (column, row) = (cell % columns, cell / columns);
-        for (k, at) in [column, row].into_iter().enumerate() {
-            (low[k], high[k]) = (low[k].min(at as f64), high[k].max(at as f64));
-        }
-        let beside = [
-            (column > 0).then(|| cell - 1),
-            (column + 1 < columns).then(|| cell + 1),
-            (row > 0).then(|| cell - columns),
-            (row + 1 < rows).then(|| cell + columns),
-        ];
-        for cell in beside.into_iter().flatten() {
-            if share[cell] > 0.5 && !cells[cell] {
-                cells[cell] = true;
-                next.push(cell);
+
+    fn cell(&self, p: Vec2) -> Option<usize> {
+        let [i, j] = [p.x, p.y].map(|metres| (metres / self.cell_m).floor());
+        let is_in = i >= 0.0 && j >= 0.0 && i < self.columns as f64 && j < self.rows as f64;
+        is_in.then(|| j as usize * self.columns + i as usize)
+    }
+
+    /// The room around a place: the floor that is reached from there without passing a doorway, and the floor within half a
+    /// wall's thickness of it.
+    fn room(&self, place: Vec2) -> Option<FoundRoom> {
+        let &RoomRaster { cell_m, columns, rows, .. } = self;
+        let first = self.cell(place).filter(|&cell| self.is_floor[cell])?;
+        let mut reached = vec![false; self.is_floor.len()];
+        let mut next = vec![first];
+        reached[first] = true;
+        let (mut low, mut high) = ([columns, rows], [0, 0]);
+        let mut count = 0;
+        while let Some(cell) = next.pop() {
+            let (column, row) = (cell % columns, cell / columns);
+            for (k, at) in [column, row].into_iter().enumerate() {
+                (low[k], high[k]) = (low[k].min(at), high[k].max(at));
+            }
+            count += 1;
+            let beside = [
+                (column > 0).then(|| cell - 1),
+                (column + 1 < columns).then(|| cell + 1),
+                (row > 0).then(|| cell - columns),
+                (row + 1 < rows).then(|| cell + columns),
+            ];
+            for cell in beside.into_iter().flatten() {
+                if self.is_floor[cell] && !reached[cell] {
+                    reached[cell] = true;
+                    next.push(cell);
+                }
             }
         }
-    }
-    // Cells that a wall cuts, and the near half of thresholds.
-    let reached = cells.clone();
-    for (cell, inside) in cells.iter_mut().enumerate() {
-        let (column, row) = (cell % columns, cell / columns);
-        let near = |di: i64, dj: i64| {
-            let (i, j) = (column as i64 + di, row as i64 + dj);
-            (0..columns as i64).contains(&i)
-                && (0..rows as i64).contains(&j)
-                && reached[(j * columns as i64 + i) as usize]
+        // With cells that a wall cuts, and the near half of thresholds.
+        let around = |at: usize, count: usize| at.saturating_sub(1)..(at + 2).min(count);
+        let is_near = |i, j| around(j, rows).any(|j| around(i, columns).any(|i| reached[j * columns + i]));
+        let across = around(low[0], columns).start..around(high[0], columns).end;
+        let down = around(low[1], rows).start..around(high[1], rows).end;
+        let corner = |[i, j]: [usize; 2], by: f64| vec2(i as f64 + by, j as f64 + by) * cell_m;
+        let form = Form::Room {
+            cell_m,
+            first: [across.start, down.start],
+            columns: across.len(),
+            cells: down.flat_map(|j| across.clone().map(move |i| (i, j))).map(|(i, j)| is_near(i, j)).collect(),
         };
-        *inside |= (-1..=1).any(|dj| (-1..=1).any(|di| near(di, dj)));
+        let shape = Shape { bounds: Rect { min: corner(low, -1.0), max: corner(high, 2.0) }, form };
+        Some(FoundRoom { shape, area_m2: f64::from(count) * cell_m * cell_m })
     }
-    let corner = |[i, j]: [f64; 2], by: f64| vec2(i + by, j + by) * cell_m;
-    Some((Shape::Room { cell_m, columns, cells }, Rect { min: corner(low, -1.0), max: corner(high, 2.0) }))
 }
 
 #[cfg(test)]
@@ -248,6 +327,20 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn rooms_have_floors_and_one_without_a_door_that_of_most() {
+        let walls = rooms();
+        let [left, right] = [(vec2(1.0, 1.0), 9.0), (vec2(5.0, 1.0), 9.3)];
+        let laid = |left: (Vec2, f64), right: (Vec2, f64)| {
+            let mut look = Look::default();
+            look.lay_floors(&[(left.0, left.1, Material::Tile), (right.0, right.1, Material::Wood)], &walls);
+            (look.floor.material, look.area.iter().map(|area| area.floor.material).collect::<Vec<_>>())
+        };
+        assert_eq!(laid(left, right), (Material::Wood, vec![Material::Tile]));
+        // Half of the left room: what parts it from the other half is no door.
+        assert_eq!(laid((left.0, 4.5), right), (Material::Wood, Vec::new()));
     }
 
     #[test]

@@ -60,10 +60,7 @@ impl<'a> FloorResolver<'a> {
         let rolled = Arc::new(coarse(sums, Quantity::Wheels, 1.0));
         Ok(FloorResolver {
             painter: FloorPainter::new((sums, &rolled), walls, look, simulated_people)?,
-            areas: (1..)
-                .zip(&look.area)
-                .map(|area| FloorArea::new(area, (sums, &rolled), walls, look, simulated_people))
-                .collect::<Result<_, _>>()?,
+            areas: FloorArea::all((sums, &rolled), walls, look, simulated_people)?,
             coarse: CoarseFloor::of(walls, grid.texels_per_metre, grid.width, grid.height),
             finely: false,
         })

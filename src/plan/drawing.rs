@@ -478,11 +478,7 @@ fn stretch(width: usize, lightness: &mut [u8], dark: &[u8]) -> u8 {
             continue;
         }
         wall[tone] += 1;
-        let is_amid = at > width
-            && at + width + 1 < dark.len()
-            && [at - width - 1, at - width, at - width + 1, at - 1, at + 1, at + width - 1, at + width, at + width + 1]
-                .iter()
-                .all(|&near| dark[near] != 0);
+        let is_amid = around(at, width).all(|near| dark.get(near).is_some_and(|&near| near != 0));
         amid[tone] += usize::from(is_amid);
     }
     let total: usize = wall.iter().sum();

@@ -40,8 +40,9 @@ pub(super) struct Measures {
 
 /// Largest area of a room that is a toilet by its size alone, and of one with fixtures, square metres.
 const TOILET_M2: [f64; 2] = [5.0, 16.0];
-/// Least area of fixtures in a toilet: a WC or a basin, square metres.
+/// Least area of fixtures in a toilet: a WC or a basin, square metres; and their least share of a larger one, with a row of them.
 const FIXTURE_M2: f64 = 0.12;
+const FIXTURES_SHARE: f64 = 0.035;
 /// Widest corridor, metres, and its least area in squares of its width: by its shape alone, and with many doors.
 const CORRIDOR_M: f64 = 4.5;
 const CORRIDOR_SQUARES: [f64; 2] = [4.5, 3.4];
@@ -69,7 +70,7 @@ impl RoomKind {
         let is_wide = w.min(h) > CORRIDOR_M && area_m2 >= FILLS_BOX * w * h;
         if stairs_m2 >= STAIRS_SHARE * area_m2 && stairs_m2 > 0.0 {
             RoomKind::Stairs
-        } else if fixtures_m2 >= FIXTURE_M2 && area_m2 <= TOILET_M2[1] {
+        } else if fixtures_m2 >= FIXTURE_M2 && (area_m2 <= TOILET_M2[1] || fixtures_m2 >= FIXTURES_SHARE * area_m2) {
             RoomKind::Toilet
         } else if width_m <= CORRIDOR_M && long && !is_wide && !is_lived_in {
             RoomKind::Corridor
@@ -97,6 +98,15 @@ impl RoomKind {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_large_room_with_a_row_of_fixtures_is_a_toilet() {
+        // Three WCs in 17 square metres, and one basin in an office of that size.
+        let wcs =
+            Measures { area_m2: 17.0, free_m2: 16.0, width_m: 3.0, doors: 1, fixtures_m2: 0.8, ..Measures::default() };
+        assert_eq!(RoomKind::of(&wcs), RoomKind::Toilet);
+        assert_eq!(RoomKind::of(&Measures { fixtures_m2: 0.2, ..wcs }), RoomKind::Room);
+    }
 
     #[test]
     fn tables_make_no_corridor_of_a_wide_room() {

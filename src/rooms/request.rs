@@ -14,6 +14,8 @@ options! {
         share: f64 = 0.0, in 0.0..=1.0;
         /// Factor on all lengths of stays.
         stay: f64 = 1.0, in 0.0..=100.0;
+        /// Whether rooms have the floors that are usual in such a building, where the look has no floor of its own.
+        floors: bool = true;
     } with {
         /// How many people there will be: with few, each visits more rooms, so that all are used.
         people: u32 = 1000;

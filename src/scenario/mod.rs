@@ -7,6 +7,7 @@
 mod check;
 mod document;
 mod error;
+mod floors;
 mod inputs;
 mod keys;
 mod model;

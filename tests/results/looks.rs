@@ -1,4 +1,4 @@
-//! Looks over a finished bake: an artist's own images, and a floor at several ages.
+//! Looks over a finished bake: an artist's own images, a floor at several ages, floors by what rooms are.
 
 use std::fs;
 use std::path::Path;
@@ -112,4 +112,71 @@ fn an_artists_images_and_ages_over_one_bake() {
     let book = fs::read(ages.join("floor.png")).unwrap();
     let reader = png::Decoder::new(std::io::Cursor::new(book)).read_info().unwrap();
     assert_eq!(reader.info().animation_control().unwrap().num_frames, 3);
+}
+
+/// A home of four rooms and a WC of 1.8 x 2.2 m at a corridor, with a front door: 0.05 m per pixel, outer walls of 0.3 m.
+fn home(folder: &Path) {
+    let mut plan = GrayImage::from_pixel(300, 240, Luma([255]));
+    let mut fill = |[x0, y0, x1, y1]: [u32; 4], tone| {
+        (y0..y1).for_each(|y| (x0..x1).for_each(|x| plan.put_pixel(x, y, Luma([tone]))));
+    };
+    fill([20, 20, 280, 220], 0);
+    // Rooms above and below the corridor, the WC at the lower right.
+    for space in [
+        [26, 26, 130, 100],
+        [134, 26, 274, 100],
+        [26, 104, 274, 132],
+        [26, 136, 110, 214],
+        [114, 136, 226, 214],
+        [230, 136, 274, 180],
+        [230, 184, 274, 214],
+    ] {
+        fill(space, 255);
+    }
+    for door in
+        [[70, 100, 88, 104], [190, 100, 208, 104], [60, 132, 78, 136], [160, 132, 178, 136], [244, 132, 262, 136]]
+    {
+        fill(door, 255);
+    }
+    fill([20, 108, 26, 127], 255);
+    plan.save(folder.join("home.png")).unwrap();
+}
+
+/// b* of a mean colour: how yellow it is.
+fn yellow(bake: &Path, area: [f64; 4]) -> f64 {
+    let [r, g, b] = mean(bake, "basecolor", area).map(|value| f64::from(light(value.round() as u8)));
+    let (y, z) = (0.2126 * r + 0.7152 * g + 0.0722 * b, (0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.0888);
+    200.0 * (libm::cbrt(y) - libm::cbrt(z))
+}
+
+#[test]
+fn a_home_has_wooden_rooms_and_a_tiled_wc_unless_the_scenario_says_otherwise() {
+    let folder = tempfile::tempdir().unwrap();
+    home(folder.path());
+    // Corners of two rooms, the corridor's end, the WC.
+    let places = [[1.6, 10.2, 2.4, 10.6], [6.1, 1.6, 6.9, 2.0], [12.9, 5.6, 13.6, 6.0], [11.7, 3.2, 12.4, 3.6]];
+    let baked = |name: &str, more: &str| {
+        let scenario = format!(
+            "[plan]\nimage = \"home.png\"\nmetres_per_pixel = 0.05\n[crowd]\npeople = 40\n\
+             [texture]\nfloor_texels_per_metre = 32\nwalls = false\n{more}"
+        );
+        let path = folder.path().join(name).with_extension("toml");
+        fs::write(&path, scenario).unwrap();
+        let scenario = Scenario::open(&path, &Overrides::default()).unwrap();
+        let out = folder.path().join(name);
+        bake(&scenario, &OutputOptions { folder: out.clone(), force: false }, &Silent).unwrap();
+        places.map(|place| yellow(&out, place))
+    };
+    let [rooms @ .., wc] = baked("plain", "");
+    assert!(rooms.iter().all(|room| room - wc > 12.0), "b* of rooms {rooms:.1?}, of the WC {wc:.1}");
+    for (name, more) in [("one", "[life]\nfloors = false\n"), ("own", "[look.floor]\nmaterial = \"concrete\"\n")] {
+        let [rooms @ .., wc] = baked(name, more);
+        assert!(rooms.iter().all(|room| (room - wc).abs() < 6.0), "{name}: b* of rooms {rooms:.1?}, of the WC {wc:.1}");
+    }
+    // `resolve` keeps the floors.
+    let (out, again) = (folder.path().join("plain"), folder.path().join("again"));
+    let elsewhere = ResolveOptions { folder: Some(again.clone()), ..ResolveOptions::default() };
+    resolve(&out, &elsewhere, &Silent).unwrap();
+    let bytes = |bake: &Path| fs::read(bake.join("floor/floor_basecolor.1001.png")).unwrap();
+    assert!(bytes(&out) == bytes(&again));
 }
