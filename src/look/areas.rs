@@ -6,7 +6,6 @@ use std::sync::Arc;
 use super::block::{FLAT_FINELY, LAYERS, ResolvedBlock};
 use super::error::LookError;
 use super::lattice::TexelWindow;
-use super::material::Material;
 use super::paint::FloorPainter;
 use super::settings::{AreaLook, FloorLook, Look};
 use crate::math::{Rect, Vec2, vec2};
@@ -28,28 +27,28 @@ impl Look {
         shapes(self, walls).map(drop)
     }
 
-    /// Lays floors: of each room a place in it, its area in square metres, and the material. What covers most becomes the
+    /// Lays floors: of each room a place in it, its area in square metres, and the floor. What covers most becomes the
     /// look's floor, others become areas. Rooms that no door parts from the next keep the look's floor.
-    pub(crate) fn lay_floors(&mut self, rooms: &[(Vec2, f64, Material)], walls: &Walls) {
-        let mut covered: Vec<(Material, f64)> = Vec::new();
-        for &(_, area_m2, material) in rooms {
-            match covered.iter_mut().find(|(known, _)| *known == material) {
+    pub(crate) fn lay_floors(&mut self, rooms: &[(Vec2, f64, FloorLook)], walls: &Walls) {
+        let mut covered: Vec<(&FloorLook, f64)> = Vec::new();
+        for (_, area_m2, floor) in rooms {
+            match covered.iter_mut().find(|(known, _)| *known == floor) {
                 Some((_, sum)) => *sum += area_m2,
-                None => covered.push((material, area_m2)),
+                None => covered.push((floor, *area_m2)),
             }
         }
         // Of equals, the first.
         let Some((most, _)) = covered.iter().copied().rev().max_by(|(_, a), (_, b)| a.total_cmp(b)) else { return };
-        self.floor.material = most;
+        self.floor = most.clone();
         let raster = RoomRaster::of(walls);
-        for (material, _) in covered.into_iter().filter(|(material, _)| *material != most) {
-            let of_material = rooms.iter().filter(|(.., of)| *of == material);
-            let closed = of_material.filter(|(place, area_m2, _)| {
+        for (floor, _) in covered.into_iter().filter(|(floor, _)| *floor != most) {
+            let of_floor = rooms.iter().filter(|(.., of)| of == floor);
+            let closed = of_floor.filter(|(place, area_m2, _)| {
                 raster.room(*place).is_some_and(|room| room.area_m2 <= MOST_LARGER * area_m2)
             });
             self.area.extend(closed.map(|(place, ..)| AreaLook {
                 room: Some([place.x, place.y]),
-                floor: FloorLook { material, ..FloorLook::default() },
+                floor: floor.clone(),
                 ..AreaLook::default()
             }));
         }
@@ -335,7 +334,11 @@ mod tests {
         let [left, right] = [(vec2(1.0, 1.0), 9.0), (vec2(5.0, 1.0), 9.3)];
         let laid = |left: (Vec2, f64), right: (Vec2, f64)| {
             let mut look = Look::default();
-            look.lay_floors(&[(left.0, left.1, Material::Tile), (right.0, right.1, Material::Wood)], &walls);
+            let floor = |material| FloorLook { material, ..FloorLook::default() };
+            look.lay_floors(
+                &[(left.0, left.1, floor(Material::Tile)), (right.0, right.1, floor(Material::Wood))],
+                &walls,
+            );
             (look.floor.material, look.area.iter().map(|area| area.floor.material).collect::<Vec<_>>())
         };
         assert_eq!(laid(left, right), (Material::Wood, vec![Material::Tile]));

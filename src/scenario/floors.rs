@@ -2,13 +2,16 @@
 
 use super::model::Scenario;
 use super::preset::Preset;
-use crate::look::{FloorLook, Material};
+use crate::look::{FloorLook, Material, Srgb8};
 use crate::rooms::{Life, RoomKind, Use};
 use crate::walls::Walls;
 
+/// Offices have lighter carpets than others: dirt shows on them.
+const OFFICE_CARPET: Srgb8 = [150, 152, 154];
+
 /// The floor that a room of a kind mostly has in such a building.
-fn usual(building: Use, kind: RoomKind) -> Material {
-    match (building, kind) {
+fn usual(building: Use, kind: RoomKind) -> FloorLook {
+    let material = match (building, kind) {
         (_, RoomKind::Toilet) => Material::Tile,
         (Use::Home, _) | (Use::Museum, RoomKind::Room) => Material::Wood,
         (Use::Museum, _) => Material::Stone,
@@ -17,7 +20,8 @@ fn usual(building: Use, kind: RoomKind) -> Material {
         (Use::School, RoomKind::Corridor | RoomKind::Hall) | (_, RoomKind::Stairs) => Material::Terrazzo,
         (Use::Shop, RoomKind::Room | RoomKind::Corridor) => Material::Concrete,
         _ => Material::Vinyl,
-    }
+    };
+    FloorLook { material, colour: (material == Material::Carpet).then_some(OFFICE_CARPET), ..FloorLook::default() }
 }
 
 impl Scenario {
