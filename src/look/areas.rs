@@ -40,6 +40,9 @@ impl Look {
         // Of equals, the first.
         let Some((most, _)) = covered.iter().copied().rev().max_by(|(_, a), (_, b)| a.total_cmp(b)) else { return };
         self.floor = most.clone();
+        if covered.len() == 1 {
+            return;
+        }
         let raster = RoomRaster::of(walls);
         for (floor, _) in covered.into_iter().filter(|(floor, _)| *floor != most) {
             let of_floor = rooms.iter().filter(|(.., of)| of == floor);

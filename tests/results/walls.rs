@@ -1,13 +1,12 @@
 //! Walls of whole bakes: how dirty the plain wall is, where dirt gathers, at which heights, and in which colours.
 
 use std::path::Path;
-use std::sync::LazyLock;
 
 use trodden::Silent;
 use trodden::bake::{OutputOptions, bake};
 use trodden::export::{Manifest, read_sums, read_wall_sums};
 use trodden::look::{Look, ResolvedBlock, WallResolver};
-use trodden::math::{Vec2, vec2};
+use trodden::math::{Vec2, srgb::light, vec2};
 use trodden::scenario::{Overrides, Scenario};
 use trodden::sums::{FloorSums, Quantity};
 use trodden::walls::{Doorway, Walls};
@@ -70,17 +69,9 @@ fn baked(name: &str) -> Baked {
     Baked { walls, faces, rows, doorways: manifest.doors.unwrap_or_default(), floor }
 }
 
-/// Linear light of each sRGB value.
-static LIGHT: LazyLock<[f64; 256]> = LazyLock::new(|| {
-    std::array::from_fn(|byte| {
-        let value = byte as f64 / 255.0;
-        if value <= 0.04045 { value / 12.92 } else { libm::pow((value + 0.055) / 1.055, 2.4) }
-    })
-});
-
 /// CIE L*a*b* of an sRGB colour (D65).
 fn lab(colour: [u8; 3]) -> [f64; 3] {
-    let [r, g, b] = colour.map(|byte| LIGHT[usize::from(byte)]);
+    let [r, g, b] = colour.map(|byte| f64::from(light(byte)));
     let f = |t: f64| if t > 0.008_856 { t.cbrt() } else { 7.787 * t + 16.0 / 116.0 };
     let x = f((0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.950_47);
     let y = f(0.2126 * r + 0.7152 * g + 0.0722 * b);
