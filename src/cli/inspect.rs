@@ -1,4 +1,5 @@
 use std::collections::BTreeMap;
+use std::fmt::Debug;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -6,6 +7,7 @@ use std::sync::Arc;
 use clap::Args;
 use serde::Serialize;
 use trodden::Error;
+use trodden::look::Material;
 use trodden::math::Vec2;
 use trodden::plan::PlanClass::{self, Floor, Outside, Wall};
 use trodden::plan::{self, FloorPlan, FurniturePiece, Opening, Paint, PlanScale, PlanWindow, Region, RegionRole};
@@ -55,6 +57,14 @@ pub struct Understood {
     pub life: Option<Arc<Life>>,
 }
 
+/// A room, and its floor.
+#[derive(Serialize)]
+struct RoomWithFloor<'a> {
+    #[serde(flatten)]
+    room: &'a Room,
+    floor: Material,
+}
+
 /// A door, by its middle.
 #[derive(Serialize)]
 struct Door {
@@ -78,7 +88,7 @@ struct Json<'a> {
     doors: Vec<Door>,
     windows: &'a [PlanWindow],
     furniture: &'a [FurniturePiece],
-    rooms: &'a [Room],
+    rooms: &'a [RoomWithFloor<'a>],
     entrances: &'a [Entrance],
     #[serde(rename = "use")]
     building: Option<Use>,
@@ -120,6 +130,11 @@ impl Inspect {
                 &found
             }
         };
+        let look = scenario.lived_in(life.as_deref(), walls).look;
+        let places: Vec<Vec2> = rooms.rooms.iter().map(|room| room.inside_m).collect();
+        let floors = look.floors_at(&places, walls).map_err(Error::from)?.into_iter().map(|floor| floor.material);
+        let rooms_with_floors: Vec<RoomWithFloor> =
+            rooms.rooms.iter().zip(floors).map(|(room, floor)| RoomWithFloor { room, floor }).collect();
         if self.json {
             print::line(serde_json::to_string_pretty(&Json {
                 width_px: plan.width_px,
@@ -136,13 +151,13 @@ impl Inspect {
                 doors: doors(plan),
                 windows: &plan.windows,
                 furniture: &plan.furniture,
-                rooms: &rooms.rooms,
+                rooms: &rooms_with_floors,
                 entrances: &rooms.entrances,
                 building: life.as_ref().map(|life| life.r#use),
                 warnings: &plan.warnings,
             })?)?;
         } else if !common.quiet {
-            self.tell(&understood, rooms)?;
+            self.tell(&understood, &rooms_with_floors, &rooms.entrances)?;
         }
         if let (Some(path), Some(file)) = (&self.picture, picture) {
             print::save_picture(&draw_plan(plan, walls, routes), file)?;
@@ -159,7 +174,12 @@ impl Inspect {
         Ok(ExitCode::SUCCESS)
     }
 
-    fn tell(&self, Understood { plan, walls, routes, life }: &Understood, rooms: &Rooms) -> anyhow::Result<()> {
+    fn tell(
+        &self,
+        Understood { plan, walls, routes, life }: &Understood,
+        rooms: &[RoomWithFloor],
+        entrances: &[Entrance],
+    ) -> anyhow::Result<()> {
         print::line(format!(
             "size      {:.2} x {:.2} m: {} x {} px at {} m per pixel",
             plan.width_m(),
@@ -193,7 +213,7 @@ impl Inspect {
                 centre.y
             ))?;
         }
-        tell_rooms(rooms)?;
+        tell_rooms(rooms, entrances)?;
         if let Some(life) = life {
             let how = if life.guessed { ", as far as the rooms tell" } else { "" };
             print::line(format!("use       {}{how}", life.r#use.name()))?;
@@ -211,22 +231,25 @@ impl Inspect {
     }
 }
 
-/// Lists the rooms with area, kind and doors, and the doors to the outside.
-fn tell_rooms(rooms: &Rooms) -> anyhow::Result<()> {
-    let doors = rooms.entrances.iter().filter(|entrance| entrance.opening.is_none());
+/// Lists the rooms with area, kind, floor and doors, and the doors to the outside.
+fn tell_rooms(rooms: &[RoomWithFloor], entrances: &[Entrance]) -> anyhow::Result<()> {
+    let doors = entrances.iter().filter(|entrance| entrance.opening.is_none());
     for (index, door) in doors.enumerate() {
         let head = if index == 0 { "entrances" } else { "" };
         let at = door.at_m;
         print::line(format!("{head:<9} {:<12} {:6.2} m wide, at [{:.2}, {:.2}]", door.name, door.width_m, at.x, at.y))?;
     }
-    for (index, room) in rooms.rooms.iter().enumerate() {
+    for (index, RoomWithFloor { room, floor }) in rooms.iter().enumerate() {
         let head = if index == 0 { "rooms" } else { "" };
         let (area_m2, kind, doors, at) = (room.area_m2, room.kind.name(), room.doors, room.inside_m);
         let plural = if doors == 1 { "" } else { "s" };
         let door = format!("{doors} door{plural}");
         print::line(format!(
-            "{head:<9} {:<12} {area_m2:6.1} m2, {kind:<8}  {door:<8}  around [{:.2}, {:.2}]",
-            room.name, at.x, at.y
+            "{head:<9} {:<12} {area_m2:6.1} m2, {kind:<8}  {:<8}  {door:<8}  around [{:.2}, {:.2}]",
+            room.name,
+            name(floor),
+            at.x,
+            at.y
         ))?;
     }
     Ok(())
@@ -283,8 +306,8 @@ fn scale(scale: &PlanScale) -> String {
     format!("{source}{evidence}: {:.0} % sure, {low:.4} to {high:.4} m per pixel are possible", scale.sureness * 100.0)
 }
 
-fn name(class: PlanClass) -> String {
-    format!("{class:?}").to_lowercase()
+fn name(value: impl Debug) -> String {
+    format!("{value:?}").to_lowercase()
 }
 
 /// Square metres of each class of the plan that there is.

@@ -27,8 +27,22 @@ impl Look {
         shapes(self, walls).map(drop)
     }
 
+    /// The floors at places, metres in the plan frame: of areas that overlap, the last one's.
+    ///
+    /// # Errors
+    /// [`LookError::NotInRoom`] for an area of this look whose room is not on the floor.
+    pub fn floors_at(&self, places_m: &[Vec2], walls: &Walls) -> Result<Vec<&FloorLook>, LookError> {
+        let shapes = shapes(self, walls)?;
+        let at = |&place: &Vec2| {
+            let last = shapes.iter().zip(&self.area).rfind(|(shape, _)| shape.contains(place));
+            last.map_or(&self.floor, |(_, area)| &area.floor)
+        };
+        Ok(places_m.iter().map(at).collect())
+    }
+
     /// Lays floors: of each room a place in it, its area in square metres, and the floor. What covers most becomes the
-    /// look's floor, others become areas. Rooms that no door parts from the next keep the look's floor.
+    /// look's floor, others become areas below those that the look has. Rooms that no door parts from the next keep the
+    /// look's floor.
     pub(crate) fn lay_floors(&mut self, rooms: &[(Vec2, f64, FloorLook)], walls: &Walls) {
         let mut covered: Vec<(&FloorLook, f64)> = Vec::new();
         for (_, area_m2, floor) in rooms {
@@ -44,6 +58,7 @@ impl Look {
             return;
         }
         let raster = RoomRaster::of(walls);
+        let own = std::mem::take(&mut self.area);
         for (floor, _) in covered.into_iter().filter(|(floor, _)| *floor != most) {
             let of_floor = rooms.iter().filter(|(.., of)| of == floor);
             let closed = of_floor.filter(|(place, area_m2, _)| {
@@ -55,6 +70,7 @@ impl Look {
                 ..AreaLook::default()
             }));
         }
+        self.area.extend(own);
     }
 }
 

@@ -29,7 +29,7 @@ impl Life {
     ) -> Result<Life, UnfitRoom> {
         let mut rooms = Rooms::find(plan, walls);
         rooms.say(plan, requests)?;
-        let r#use = options.r#use.unwrap_or_else(|| Use::guess(&rooms));
+        let r#use = options.r#use.unwrap_or_else(|| Use::guess(&rooms, &plan.furniture));
         Ok(Life { rooms, r#use, guessed: options.r#use.is_none() })
     }
 

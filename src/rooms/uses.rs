@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::find::Rooms;
 use super::kind::RoomKind;
 use crate::options::names;
+use crate::plan::{FurniturePiece, PlanClass};
 
 /// What a building is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -227,11 +228,12 @@ impl Use {
         }
     }
 
-    /// What a building with such rooms is for, as far as they tell.
+    /// What a building with such rooms and furniture is for, as far as they tell.
     ///
-    /// Few small rooms are a home; many at corridors an office, a school (large ones) or a hospital (very many); large
-    /// rooms that lead into each other a museum; one large room with small ones a shop, or with wide openings a station.
-    pub(crate) fn guess(rooms: &Rooms) -> Use {
+    /// Few small rooms are a home, and so are many without a corridor: flats; many at corridors an office, a school (large
+    /// ones, or tables side by side) or a hospital (very many); large rooms that lead into each other a museum; one large
+    /// room with small ones a shop, a hall if it is very large or full of seats, or with wide openings a station.
+    pub(crate) fn guess(rooms: &Rooms, furniture: &[FurniturePiece]) -> Use {
         let of = |kind: RoomKind| rooms.rooms.iter().filter(move |room| room.kind == kind);
         let area_m2 = |kind: RoomKind| of(kind).map(|room| room.area_m2).sum::<f64>();
         let total_m2: f64 = rooms.rooms.iter().map(|room| room.area_m2).sum();
@@ -241,15 +243,21 @@ impl Use {
         let largest_m2 = areas.last().copied().unwrap_or(0.0);
         let wide = rooms.entrances.iter().filter(|entrance| entrance.width_m >= 2.5).count();
         let corridor_share = area_m2(RoomKind::Corridor) / total_m2.max(0.01);
+        // A desk and its chairs may be one piece.
+        let pieces = |class| furniture.iter().filter(|piece| piece.class == class).count() as f64;
+        let (seats, tables) = (pieces(PlanClass::Seat), pieces(PlanClass::Table));
+        let places_per_m2 = seats.max(tables) / areas.iter().sum::<f64>().max(0.01);
+        let is_one_flat = total_m2 < 220.0 && median_m2 < 30.0 && largest_m2 < 80.0 && corridor_share < 0.35;
+        let are_flats = corridor_share < 0.08 && median_m2 < 22.0 && largest_m2 < 45.0;
         if wide >= 3 && (area_m2(RoomKind::Hall) + area_m2(RoomKind::Corridor)) >= 0.5 * total_m2 {
             Use::Station
-        } else if total_m2 < 220.0 && median_m2 < 30.0 && largest_m2 < 80.0 {
+        } else if is_one_flat || are_flats {
             Use::Home
         } else if areas.len() <= 4 && largest_m2 >= 0.5 * total_m2 {
-            if total_m2 >= 600.0 { Use::Hall } else { Use::Shop }
+            if total_m2 >= 600.0 || places_per_m2 >= 0.5 { Use::Hall } else { Use::Shop }
         } else if corridor_share >= 0.08 {
             match areas.len() {
-                _ if median_m2 >= 45.0 => Use::School,
+                _ if median_m2 >= 45.0 || median_m2 >= 30.0 && places_per_m2 >= 0.18 => Use::School,
                 40.. if median_m2 < 25.0 => Use::Hospital,
                 _ => Use::Office,
             }

@@ -1,7 +1,6 @@
 //! Which floor lies in which room, where a scenario leaves that open.
 
 use super::model::Scenario;
-use super::preset::Preset;
 use crate::look::{FloorLook, Material, Srgb8};
 use crate::rooms::{Life, RoomKind, Use};
 use crate::walls::Walls;
@@ -25,20 +24,15 @@ fn usual(building: Use, kind: RoomKind) -> FloorLook {
 }
 
 impl Scenario {
-    /// The scenario with the floors of the building's rooms: where people live in them, and neither the look nor the
-    /// preset says what the floor is.
-    pub(crate) fn with_floors(mut self, life: Option<&Life>, walls: &Walls) -> Scenario {
-        let is_open = self.routes.life.floors && self.preset != Preset::Paper;
-        let look = &mut self.look;
-        if let Some(life) = life
-            && is_open
-            && look.area.is_empty()
-            && look.floor == FloorLook::default()
-        {
-            let floor = |kind| usual(life.r#use, kind);
-            let rooms = life.rooms.rooms.iter().map(|room| (room.inside_m, room.area_m2, floor(room.kind)));
-            look.lay_floors(&rooms.collect::<Vec<_>>(), walls);
+    /// Gives rooms the floors that are usual in such a building, where the look does not name the floor. Areas that the
+    /// look has lie over them.
+    pub(super) fn lay_usual_floors(&mut self, life: &Life, walls: &Walls) {
+        if !self.routes.life.floors || self.look.floor != FloorLook::default() {
+            return;
         }
-        self
+        let floor = |kind| usual(life.r#use, kind);
+        let rooms: Vec<_> =
+            life.rooms.rooms.iter().map(|room| (room.inside_m, room.area_m2, floor(room.kind))).collect();
+        self.look.lay_floors(&rooms, walls);
     }
 }

@@ -19,7 +19,7 @@ floor     24.0 m2 in 1 region
 walls     16.0 m: 2 open and 0 closed faces
 openings  west           3.00 m wide, around [0.00, 2.00]
           east           3.00 m wide, around [8.00, 2.00]
-rooms     room 1         24.0 m2, room      2 doors   around [0.05, 2.05]
+rooms     room 1         24.0 m2, room      vinyl     2 doors   around [0.05, 2.05]
 routes    west to east                   13.4 m, 50 % of the people
           east to west                   13.5 m, 50 % of the people
 

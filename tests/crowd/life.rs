@@ -8,7 +8,7 @@ use trodden::marks::{Footfalls, MarksOptions, Origin};
 use trodden::math::{Vec2, vec2};
 use trodden::motion::{BodyOptions, Frame, Motion, People};
 use trodden::patterns::{Cause, PatternLibrary};
-use trodden::plan::{self, FloorPlan, PlanOptions};
+use trodden::plan::{self, FloorPlan, FurniturePiece, PlanClass, PlanOptions};
 use trodden::rooms::{LifeOptions, RoomKind, RoomRequest, Rooms, Use};
 use trodden::routes::{Navigation, Place, PlaceRequest, Route, RouteRequest, RoutesOptions};
 use trodden::scenario::{Overrides, Scenario};
@@ -329,6 +329,70 @@ fn people_come_into_a_single_room_by_its_door_and_stay() {
     lived.check_rooms(LEAST_TRODDEN);
 }
 
+/// What furniture and the lack of a corridor tell: desks side by side, flats beside each other, rows of seats.
+#[test]
+fn buildings_are_told_by_what_stands_in_them() {
+    let guessed = |plan: &FloorPlan| {
+        let (_, ways) =
+            Navigation::find(plan, &Walls::trace(plan, &WallsOptions::default()), &Default::default()).unwrap();
+        ways.life().unwrap().r#use
+    };
+    // Pieces of 0.6 x 0.6 m in a grid, from the lower left.
+    let furnish = |plan: &mut FloorPlan, class: PlanClass, from: Vec2, [columns, rows]: [u32; 2], every_m: f64| {
+        plan.furniture.extend((0..columns * rows).map(|k| {
+            let min_m = from + vec2(f64::from(k % columns), f64::from(k / columns)) * every_m;
+            let max_m = min_m + vec2(0.6, 0.6);
+            FurniturePiece { class, min_m, max_m, area_m2: 0.36, height_m: class.height_m(), at_wall: 0.0 }
+        }));
+    };
+    let mut rooms = office();
+    assert_eq!(guessed(&rooms), Use::Office);
+    // Two desks in each of its rooms of 37 square metres, and then twelve.
+    (0..12).for_each(|k| {
+        furnish(
+            &mut rooms,
+            PlanClass::Table,
+            vec2(5.0 * f64::from(k % 6) + 1.0, 10.3 * f64::from(k / 6) + 1.0),
+            [2, 1],
+            1.5,
+        )
+    });
+    assert_eq!(guessed(&rooms), Use::Office);
+    (0..12).for_each(|k| {
+        furnish(
+            &mut rooms,
+            PlanClass::Table,
+            vec2(5.0 * f64::from(k % 6) + 1.0, 10.3 * f64::from(k / 6) + 1.0),
+            [3, 4],
+            1.2,
+        )
+    });
+    assert_eq!(guessed(&rooms), Use::School);
+
+    // Four flats of four rooms, 260 square metres.
+    let flat = |p: Vec2| {
+        let (x, y) = (p.x % 8.0, p.y % 8.0);
+        let wall = x < 0.2 || y < 0.2 || p.x > 15.8 || p.y > 15.8 || (x - 4.0).abs() < 0.1 || (y - 4.0).abs() < 0.1;
+        let door = |x: f64, y: f64| (x - 4.0).abs() < 0.15 && (y - 2.0).abs() < 0.45;
+        let own = door(x, y) || door(x, y - 4.0) || door(y, x);
+        // Their entrances.
+        let entrance = (x - 2.0).abs() < 0.45 && (p.y < 0.25 || p.y > 15.75);
+        !wall || own || entrance
+    };
+    let middle = |k: u32| vec2(f64::from(k % 320) + 0.5, 320.0 - f64::from(k / 320) - 0.5) * 0.05;
+    assert_eq!(
+        guessed(&FloorPlan::from_mask(320, 320, 0.05, (0..320 * 320).map(|k| u8::from(flat(middle(k)))).collect())),
+        Use::Home
+    );
+
+    // A room with a counter sells; one with 150 seats is a theatre.
+    let mut room = on_paper([22.0, 18.0], &[(space([20.0, 16.0], &[(vec2(10.0, 0.15), 1.0)]), vec2(1.0, 1.0))]);
+    furnish(&mut room, PlanClass::Counter, vec2(8.0, 14.0), [1, 1], 1.0);
+    assert_eq!(guessed(&room), Use::Shop);
+    furnish(&mut room, PlanClass::Seat, vec2(2.0, 4.0), [15, 10], 1.0);
+    assert_eq!(guessed(&room), Use::Hall);
+}
+
 /// A plan that looks like a station: its gates are no obstacle to those who stay in the hall or go to its rooms.
 #[test]
 fn people_wait_in_a_guessed_station_and_use_its_rooms() {
@@ -378,7 +442,7 @@ fn each_use_has_people_and_cleaning_of_its_own() {
         let overrides = Overrides { metres_per_pixel: Some(0.05), r#use: Some(r#use), ..Overrides::default() };
         let scenario = Scenario::from_plan(&path, &overrides).unwrap();
         let (routes, ways) = Navigation::find(&office, &walls, &scenario.routes).unwrap();
-        let lived = scenario.lived_in(ways.life().map(|life| &**life));
+        let lived = scenario.lived_in(ways.life().map(|life| &**life), &walls);
         let stops = routes.iter().map(|route| route.share * route.stops.len() as f64).sum::<f64>();
         let length_m = routes.iter().map(|route| route.share * route.length_m).sum::<f64>();
         let groups = lived.crowd.groups.shares;
@@ -399,7 +463,7 @@ fn each_use_has_people_and_cleaning_of_its_own() {
         Scenario::from_plan(&path, &Overrides { metres_per_pixel: Some(0.05), ..Overrides::default() }).unwrap();
     own.look.mop.takes = 0.1;
     let (_, ways) = Navigation::find(&office, &walls, &own.routes).unwrap();
-    assert_eq!(own.lived_in(ways.life().map(|life| &**life)).look.mop.takes, 0.1);
+    assert_eq!(own.lived_in(ways.life().map(|life| &**life), &walls).look.mop.takes, 0.1);
 }
 
 /// The office on a sheet of paper: its only way in is a door in the outer wall.
