@@ -1,13 +1,19 @@
 //! Parts of the floor with a material of their own.
 
 use std::cell::{OnceCell, RefCell};
+use std::collections::BTreeMap;
+use std::ops::Range;
 use std::sync::Arc;
+
+use image::{GrayImage, ImageBuffer, Luma};
+use imageproc::region_labelling::{Connectivity, connected_components};
 
 use super::block::{FLAT_FINELY, LAYERS, ResolvedBlock};
 use super::error::LookError;
 use super::lattice::TexelWindow;
 use super::paint::FloorPainter;
 use super::settings::{AreaLook, FloorLook, Look};
+use crate::math::srgb::Srgb8;
 use crate::math::{Rect, Vec2, vec2};
 use crate::sums::FloorSums;
 use crate::walls::Walls;
@@ -17,6 +23,22 @@ const CELLS_PER_M: f64 = 20.0;
 const MOST_CELLS: f64 = 4096.0;
 /// How much larger than a room its floor may be: where more is reached without a doorway, nobody can tell where it ends.
 const MOST_LARGER: f64 = 1.25;
+/// Least share of its box that a room fills whose floor is a rectangle, and how far that reaches into the walls, metres.
+const FILLS_BOX: f64 = 0.9;
+const HALF_WALL_M: f64 = 0.05;
+/// Width of the metal strip in a doorway in which two floors meet, metres, and its colour.
+const STRIP_M: f64 = 0.04;
+const STRIP_COLOUR: Srgb8 = [146, 143, 137];
+
+/// A room, and what floor lies there.
+pub(crate) struct RoomFloor {
+    /// A place in it, metres.
+    pub inside_m: Vec2,
+    pub bounds_m: Rect,
+    /// With furniture.
+    pub area_m2: f64,
+    pub floor: FloorLook,
+}
 
 impl Look {
     /// Checks, before any long computation, that the rooms of its areas are on the floor.
@@ -40,12 +62,12 @@ impl Look {
         Ok(places_m.iter().map(at).collect())
     }
 
-    /// Lays floors: of each room a place in it, its area in square metres, and the floor. What covers most becomes the
-    /// look's floor, others become areas below those that the look has. Rooms that no door parts from the next keep the
-    /// look's floor.
-    pub(crate) fn lay_floors(&mut self, rooms: &[(Vec2, f64, FloorLook)], walls: &Walls) {
+    /// Lays the floors of rooms. What covers most becomes the look's floor, others become areas below those that the look has,
+    /// with strips of metal where two meet in a doorway. Rooms that no door parts from the next keep the look's floor, unless
+    /// they fill a rectangle.
+    pub(crate) fn lay_floors(&mut self, rooms: &[RoomFloor], walls: &Walls) {
         let mut covered: Vec<(&FloorLook, f64)> = Vec::new();
-        for (_, area_m2, floor) in rooms {
+        for RoomFloor { area_m2, floor, .. } in rooms {
             match covered.iter_mut().find(|(known, _)| *known == floor) {
                 Some((_, sum)) => *sum += area_m2,
                 None => covered.push((floor, *area_m2)),
@@ -57,19 +79,38 @@ impl Look {
         if covered.len() == 1 {
             return;
         }
+        let strip = FloorLook { colour: Some(STRIP_COLOUR), texture: 0.0, ..FloorLook::default() };
         let raster = RoomRaster::of(walls);
         let own = std::mem::take(&mut self.area);
+        let mut laid = BTreeMap::new();
         for (floor, _) in covered.into_iter().filter(|(floor, _)| *floor != most) {
-            let of_floor = rooms.iter().filter(|(.., of)| of == floor);
-            let closed = of_floor.filter(|(place, area_m2, _)| {
-                raster.room(*place).is_some_and(|room| room.area_m2 <= MOST_LARGER * area_m2)
-            });
-            self.area.extend(closed.map(|(place, ..)| AreaLook {
-                room: Some([place.x, place.y]),
-                floor: floor.clone(),
-                ..AreaLook::default()
-            }));
+            for room in rooms.iter().filter(|room| room.floor == *floor) {
+                let place = room.inside_m;
+                let closed = raster.at(place).filter(|&found| raster.area_m2(found) <= MOST_LARGER * room.area_m2);
+                let Rect { min, max } = room.bounds_m.grown(HALF_WALL_M);
+                let mut area = AreaLook { floor: floor.clone(), ..AreaLook::default() };
+                if let Some(found) = closed {
+                    laid.insert(found, floor);
+                    area.room = Some([place.x, place.y]);
+                } else if room.area_m2 >= FILLS_BOX * room.bounds_m.width() * room.bounds_m.height() {
+                    area.outline = vec![[min.x, min.y], [max.x, max.y]];
+                } else {
+                    continue;
+                }
+                self.area.push(area);
+            }
         }
+        let strips = walls.doorways().into_iter().filter(|doorway| {
+            let middle = doorway.jambs_m[0].lerp(doorway.jambs_m[1], 0.5);
+            let beyond = doorway.through * (0.5 * doorway.depth_m + 0.2);
+            let [a, b] = [middle - beyond, middle + beyond].map(|p| raster.at(p));
+            a.is_some() && b.is_some() && a.map(|room| laid.get(&room)) != b.map(|room| laid.get(&room))
+        });
+        self.area.extend(strips.map(|doorway| {
+            let ([a, b], half) = (doorway.jambs_m, doorway.through * (0.5 * STRIP_M));
+            let outline = [a - half, b - half, b + half, a + half].map(|p| [p.x, p.y]).to_vec();
+            AreaLook { outline, floor: strip.clone(), ..AreaLook::default() }
+        }));
         self.area.extend(own);
     }
 }
@@ -158,8 +199,8 @@ fn shapes(look: &Look, walls: &Walls) -> Result<Vec<Shape>, LookError> {
         Ok(match (area.room, &area.outline[..]) {
             (Some(place_m), _) => {
                 let raster = raster.get_or_init(|| RoomRaster::of(walls));
-                let room = raster.room(Vec2::from(place_m));
-                room.ok_or(LookError::NotInRoom { number, place_m })?.shape
+                let room = raster.at(Vec2::from(place_m)).ok_or(LookError::NotInRoom { number, place_m })?;
+                raster.shape(room)
             }
             (None, &[a, b]) => Shape::of_outline(&[a, [b[0], a[1]], b, [a[0], b[1]]]),
             (None, corners) => Shape::of_outline(corners),
@@ -200,29 +241,24 @@ impl Shape {
     }
 }
 
-/// The floor in cells, without the thresholds of doors.
+/// The floor in cells, in rooms that the thresholds of doors divide.
 struct RoomRaster {
     cell_m: f64,
-    columns: usize,
-    rows: usize,
-    is_floor: Vec<bool>,
-}
-
-/// A room, and the area of its cells.
-struct FoundRoom {
-    shape: Shape,
-    area_m2: f64,
+    /// Number of the room of each cell; 0: none.
+    room: ImageBuffer<Luma<u32>, Vec<u32>>,
+    /// By number: columns and rows from the first up to, without, the last; cells.
+    found: Vec<([Range<u32>; 2], usize)>,
 }
 
 impl RoomRaster {
     fn of(walls: &Walls) -> RoomRaster {
         let bounds = walls.bounds_m();
         let cell_m = (1.0 / CELLS_PER_M).max(bounds.max.x.max(bounds.max.y) / MOST_CELLS);
-        let [columns, rows] = [bounds.max.x, bounds.max.y].map(|metres| (metres / cell_m).ceil().max(1.0) as usize);
-        let mut share = vec![0.0; columns * rows];
-        walls.cleared_coverage(1.0 / cell_m, [0, 0], [columns, rows], &mut share);
-        let is_floor = share.into_iter().map(|share| share > 0.5).collect();
-        let mut raster = RoomRaster { cell_m, columns, rows, is_floor };
+        let [columns, rows] = [bounds.max.x, bounds.max.y].map(|metres| (metres / cell_m).ceil().max(1.0) as u32);
+        let mut share = vec![0.0; columns as usize * rows as usize];
+        walls.cleared_coverage(1.0 / cell_m, [0, 0], [columns as usize, rows as usize], &mut share);
+        let mut floor =
+            GrayImage::from_fn(columns, rows, |i, j| Luma([u8::from(share[(j * columns + i) as usize] > 0.5)]));
         for doorway in walls.doorways() {
             // A bar across the threshold, longer than the opening and thick enough that no diagonal passes.
             let [a, b] = doorway.jambs_m;
@@ -230,65 +266,66 @@ impl RoomRaster {
             for k in 0..=steps {
                 let p = a + (b - a) * (k as f64 / steps as f64 * 1.2 - 0.1);
                 for q in [p, p + doorway.through * (0.5 * cell_m)] {
-                    if let Some(cell) = raster.cell(q) {
-                        raster.is_floor[cell] = false;
+                    if let Some(cell) = cell_at(q, cell_m).and_then(|[i, j]| floor.get_pixel_mut_checked(i, j)) {
+                        cell.0 = [0];
                     }
                 }
             }
         }
-        raster
-    }
-
-    fn cell(&self, p: Vec2) -> Option<usize> {
-        let [i, j] = [p.x, p.y].map(|metres| (metres / self.cell_m).floor());
-        let is_in = i >= 0.0 && j >= 0.0 && i < self.columns as f64 && j < self.rows as f64;
-        is_in.then(|| j as usize * self.columns + i as usize)
-    }
-
-    /// The room around a place: the floor that is reached from there without passing a doorway, and the floor within half a
-    /// wall's thickness of it.
-    fn room(&self, place: Vec2) -> Option<FoundRoom> {
-        let &RoomRaster { cell_m, columns, rows, .. } = self;
-        let first = self.cell(place).filter(|&cell| self.is_floor[cell])?;
-        let mut reached = vec![false; self.is_floor.len()];
-        let mut next = vec![first];
-        reached[first] = true;
-        let (mut low, mut high) = ([columns, rows], [0, 0]);
-        let mut count = 0;
-        while let Some(cell) = next.pop() {
-            let (column, row) = (cell % columns, cell / columns);
-            for (k, at) in [column, row].into_iter().enumerate() {
-                (low[k], high[k]) = (low[k].min(at), high[k].max(at));
+        let room = connected_components(&floor, Connectivity::Four, Luma([0]));
+        let mut found = Vec::new();
+        for (i, j, Luma([number])) in room.enumerate_pixels() {
+            let number = *number as usize;
+            if found.len() <= number {
+                found.resize(number + 1, ([i..i + 1, j..j + 1], 0));
             }
-            count += 1;
-            let beside = [
-                (column > 0).then(|| cell - 1),
-                (column + 1 < columns).then(|| cell + 1),
-                (row > 0).then(|| cell - columns),
-                (row + 1 < rows).then(|| cell + columns),
-            ];
-            for cell in beside.into_iter().flatten() {
-                if self.is_floor[cell] && !reached[cell] {
-                    reached[cell] = true;
-                    next.push(cell);
-                }
+            let (bounds, count) = &mut found[number];
+            for (range, at) in bounds.iter_mut().zip([i, j]) {
+                *range = range.start.min(at)..range.end.max(at + 1);
             }
+            *count += 1;
         }
+        RoomRaster { cell_m, room, found }
+    }
+
+    /// Number of the room around a place: the floor that is reached from there without passing a doorway.
+    fn at(&self, place: Vec2) -> Option<u32> {
+        let [i, j] = cell_at(place, self.cell_m)?;
+        self.room.get_pixel_checked(i, j).map(|number| number.0[0]).filter(|&number| number != 0)
+    }
+
+    fn area_m2(&self, number: u32) -> f64 {
+        self.found[number as usize].1 as f64 * self.cell_m * self.cell_m
+    }
+
+    /// A room, and the floor within half a wall's thickness of it.
+    fn shape(&self, number: u32) -> Shape {
+        let cell_m = self.cell_m;
         // With cells that a wall cuts, and the near half of thresholds.
-        let around = |at: usize, count: usize| at.saturating_sub(1)..(at + 2).min(count);
-        let is_near = |i, j| around(j, rows).any(|j| around(i, columns).any(|i| reached[j * columns + i]));
-        let across = around(low[0], columns).start..around(high[0], columns).end;
-        let down = around(low[1], rows).start..around(high[1], rows).end;
-        let corner = |[i, j]: [usize; 2], by: f64| vec2(i as f64 + by, j as f64 + by) * cell_m;
+        let around = |range: &Range<u32>, count: u32| range.start.saturating_sub(1)..(range.end + 1).min(count);
+        let (columns, rows) = self.room.dimensions();
+        let [across, down] = &self.found[number as usize].0;
+        let is_near = |i: u32, j: u32| {
+            let mut beside = around(&(j..j + 1), rows).flat_map(|j| around(&(i..i + 1), columns).map(move |i| (i, j)));
+            beside.any(|(i, j)| self.room.get_pixel(i, j).0 == [number])
+        };
+        let corner = |i: u32, j: u32, by: f64| vec2(f64::from(i) + by, f64::from(j) + by) * cell_m;
+        let bounds = Rect { min: corner(across.start, down.start, -1.0), max: corner(across.end, down.end, 1.0) };
+        let (across, down) = (around(across, columns), around(down, rows));
         let form = Form::Room {
             cell_m,
-            first: [across.start, down.start],
+            first: [across.start as usize, down.start as usize],
             columns: across.len(),
             cells: down.flat_map(|j| across.clone().map(move |i| (i, j))).map(|(i, j)| is_near(i, j)).collect(),
         };
-        let shape = Shape { bounds: Rect { min: corner(low, -1.0), max: corner(high, 2.0) }, form };
-        Some(FoundRoom { shape, area_m2: f64::from(count) * cell_m * cell_m })
+        Shape { bounds, form }
     }
+}
+
+/// Column and row of the cell at a place.
+fn cell_at(place: Vec2, cell_m: f64) -> Option<[u32; 2]> {
+    let [i, j] = [place.x, place.y].map(|metres| (metres / cell_m).floor());
+    (i >= 0.0 && j >= 0.0).then_some([i as u32, j as u32])
 }
 
 #[cfg(test)]
@@ -348,21 +385,28 @@ mod tests {
     }
 
     #[test]
-    fn rooms_have_floors_and_one_without_a_door_that_of_most() {
+    fn rooms_have_floors_with_a_strip_between_and_one_without_a_door_that_of_most() {
         let walls = rooms();
-        let [left, right] = [(vec2(1.0, 1.0), 9.0), (vec2(5.0, 1.0), 9.3)];
-        let laid = |left: (Vec2, f64), right: (Vec2, f64)| {
-            let mut look = Look::default();
-            let floor = |material| FloorLook { material, ..FloorLook::default() };
-            look.lay_floors(
-                &[(left.0, left.1, floor(Material::Tile)), (right.0, right.1, floor(Material::Wood))],
-                &walls,
-            );
-            (look.floor.material, look.area.iter().map(|area| area.floor.material).collect::<Vec<_>>())
+        let room = |x: f64, area_m2: f64, material: Material| RoomFloor {
+            inside_m: vec2(x, 1.0),
+            bounds_m: Rect { min: vec2(x - 1.0, 0.1), max: vec2(x + 2.0, 3.1) },
+            area_m2,
+            floor: FloorLook { material, ..FloorLook::default() },
         };
-        assert_eq!(laid(left, right), (Material::Wood, vec![Material::Tile]));
+        let laid = |left_m2: f64| {
+            let mut look = Look::default();
+            look.lay_floors(&[room(1.0, left_m2, Material::Tile), room(5.0, 9.3, Material::Wood)], &walls);
+            let places = [1.0, 3.14, 3.16, 5.0].map(|x| vec2(x, 1.5));
+            let at: Vec<FloorLook> = look.floors_at(&places, &walls).unwrap().into_iter().cloned().collect();
+            let materials = at.iter().map(|floor| floor.material).collect::<Vec<_>>();
+            (materials, at.iter().map(|floor| floor.colour == Some(STRIP_COLOUR)).collect::<Vec<_>>())
+        };
+        // The middle of the doorway is at 3.15 m.
+        let (materials, is_strip) = laid(9.0);
+        assert_eq!([materials[0], materials[3]], [Material::Tile, Material::Wood]);
+        assert_eq!(is_strip, [false, true, true, false]);
         // Half of the left room: what parts it from the other half is no door.
-        assert_eq!(laid((left.0, 4.5), right), (Material::Wood, Vec::new()));
+        assert_eq!(laid(4.5), (vec![Material::Wood; 4], vec![false; 4]));
     }
 
     #[test]

@@ -50,6 +50,7 @@ mod wet;
 mod tests;
 
 pub use crate::math::srgb::Srgb8;
+pub(crate) use areas::RoomFloor;
 pub use block::{Background, LAYERS, Layer, ResolvedBlock};
 pub(crate) use block::{FLAT, FLAT_FINELY};
 pub(crate) use colours::absorption;

@@ -232,7 +232,8 @@ impl Use {
     ///
     /// Few small rooms are a home, and so are many without a corridor: flats; many at corridors an office, a school (large
     /// ones, or tables side by side) or a hospital (very many); large rooms that lead into each other a museum; one large
-    /// room with small ones a shop, a hall if it is very large or full of seats, or with wide openings a station.
+    /// room with small ones a shop, an office if it has desks, a hall if it is very large or full of seats, or with wide
+    /// openings a station.
     pub(crate) fn guess(rooms: &Rooms, furniture: &[FurniturePiece]) -> Use {
         let of = |kind: RoomKind| rooms.rooms.iter().filter(move |room| room.kind == kind);
         let area_m2 = |kind: RoomKind| of(kind).map(|room| room.area_m2).sum::<f64>();
@@ -247,14 +248,21 @@ impl Use {
         let pieces = |class| furniture.iter().filter(|piece| piece.class == class).count() as f64;
         let (seats, tables) = (pieces(PlanClass::Seat), pieces(PlanClass::Table));
         let places_per_m2 = seats.max(tables) / areas.iter().sum::<f64>().max(0.01);
-        let is_one_flat = total_m2 < 220.0 && median_m2 < 30.0 && largest_m2 < 80.0 && corridor_share < 0.35;
+        let has_small_rooms = median_m2 < 30.0 || areas.len() >= 3 && total_m2 < 140.0;
+        let is_one_flat = total_m2 < 220.0 && has_small_rooms && largest_m2 < 80.0 && corridor_share < 0.35;
         let are_flats = corridor_share < 0.08 && median_m2 < 22.0 && largest_m2 < 45.0;
         if wide >= 3 && (area_m2(RoomKind::Hall) + area_m2(RoomKind::Corridor)) >= 0.5 * total_m2 {
             Use::Station
         } else if is_one_flat || are_flats {
             Use::Home
         } else if areas.len() <= 4 && largest_m2 >= 0.5 * total_m2 {
-            if total_m2 >= 600.0 || places_per_m2 >= 0.5 { Use::Hall } else { Use::Shop }
+            // Guests sit around tables, clerks at desks.
+            let are_desks = seats >= 10.0 && seats < 3.0 * tables;
+            match () {
+                () if total_m2 >= 600.0 || places_per_m2 >= 0.5 => Use::Hall,
+                () if are_desks => Use::Office,
+                () => Use::Shop,
+            }
         } else if corridor_share >= 0.08 {
             match areas.len() {
                 _ if median_m2 >= 45.0 || median_m2 >= 30.0 && places_per_m2 >= 0.18 => Use::School,

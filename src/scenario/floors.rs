@@ -1,17 +1,21 @@
 //! Which floor lies in which room, where a scenario leaves that open.
 
 use super::model::Scenario;
-use crate::look::{FloorLook, Material, Srgb8};
-use crate::rooms::{Life, RoomKind, Use};
+use crate::look::{FloorLook, Material, RoomFloor, Srgb8};
+use crate::rooms::{Life, Room, RoomKind, Use};
 use crate::walls::Walls;
 
 /// Offices have lighter carpets than others: dirt shows on them.
 const OFFICE_CARPET: Srgb8 = [150, 152, 154];
 
-/// The floor that a room of a kind mostly has in such a building.
-fn usual(building: Use, kind: RoomKind) -> FloorLook {
-    let material = match (building, kind) {
+/// Largest room of a home that is a bath, if it has one door: square metres.
+const BATH_M2: f64 = 8.5;
+
+/// The floor that such a room mostly has.
+fn usual(building: Use, room: &Room) -> FloorLook {
+    let material = match (building, room.kind) {
         (_, RoomKind::Toilet) => Material::Tile,
+        (Use::Home, RoomKind::Room) if room.area_m2 <= BATH_M2 && room.doors == 1 => Material::Tile,
         (Use::Home, _) | (Use::Museum, RoomKind::Room) => Material::Wood,
         (Use::Museum, _) => Material::Stone,
         (Use::Office, RoomKind::Room | RoomKind::Hall) => Material::Carpet,
@@ -30,9 +34,12 @@ impl Scenario {
         if !self.routes.life.floors || self.look.floor != FloorLook::default() {
             return;
         }
-        let floor = |kind| usual(life.r#use, kind);
-        let rooms: Vec<_> =
-            life.rooms.rooms.iter().map(|room| (room.inside_m, room.area_m2, floor(room.kind))).collect();
-        self.look.lay_floors(&rooms, walls);
+        let floor = |room: &Room| RoomFloor {
+            inside_m: room.inside_m,
+            bounds_m: room.bounds_m,
+            area_m2: room.area_m2,
+            floor: usual(life.r#use, room),
+        };
+        self.look.lay_floors(&life.rooms.rooms.iter().map(floor).collect::<Vec<_>>(), walls);
     }
 }

@@ -168,6 +168,17 @@ fn lines_may_part_the_rooms_of_a_flat() {
     assert_eq!((m.divided, m.false_rooms), (8, 0), "{}", row(&m));
 }
 
+/// A counter with a sink is none of the hollow walls that it stands at, also where walls are insulated.
+#[test]
+fn counters_are_no_hollow_walls() {
+    for name in ["outline walls", "insulation"] {
+        let m = measure(&styles::Case { style: styles::named(name), building: buildings::flat, seed: 0 });
+        let what = row(&m);
+        assert_eq!(m.rooms[0], m.rooms[1], "{what}");
+        assert!(m.wall_iou >= 0.98 && m.furniture >= 0.95 && m.notes_as_wall_m2 < 0.1, "{what}");
+    }
+}
+
 /// The two lines of a bed's frame are as far apart as those of a wall, and lie opposite a wall as a jamb does.
 #[test]
 fn outlines_of_beds_are_no_walls() {

@@ -36,8 +36,10 @@ const NET_M: f64 = 3.0;
 /// Least larger side of the box of a few hollow walls that meet, metres, and greatest share of it that they fill.
 const SMALL_NET_M: f64 = 2.2;
 const SMALL_NET_FILL: f64 = 0.4;
+/// Greatest share of its box that a net of hollow walls fills; what fills more is one bar.
+const NET_FILL: f64 = 0.6;
 /// Least side of the box of a hollow wall with a corner, metres.
-const BENT_M: f64 = 1.2;
+const BENT_M: f64 = 1.0;
 
 /// 1 where a mask is 0.
 fn inverted(mask: &[u8]) -> Vec<u8> {
@@ -179,11 +181,13 @@ pub(super) fn fill_outlines(dark: &[u8], width: usize, metres_per_pixel: f64) ->
         let is_bar = field.area as f64 >= FULL * w * h || is_bent;
         let reach = w.max(h) * metres_per_pixel;
         let is_net = reach >= NET_M || (reach >= SMALL_NET_M && field.area as f64 <= SMALL_NET_FILL * w * h);
-        let is_thin = thick * metres_per_pixel <= THICKEST_BAR_M;
+        // A sink in a counter makes its outline longer, and so the rectangle thinner.
+        let is_full = field.area as f64 > NET_FILL * w * h;
+        let is_thin = if is_full { w.min(h) } else { thick } * metres_per_pixel <= THICKEST_BAR_M;
         thick * metres_per_pixel >= 0.02
             && length >= SLENDER * thick
             && length * metres_per_pixel >= SHORTEST_M
-            && if is_thin { is_net || is_bar } else { is_net && !is_bar }
+            && if is_thin { is_net || is_bar } else { is_net && !is_full }
     };
     let walls: Vec<&Component> = fields.all.iter().filter(is_wall).collect();
     let stroke = ((0.05 / metres_per_pixel).round() as u32).max(3);

@@ -16,7 +16,9 @@ const SQUARE: f64 = 0.75;
 const CORNER_M: f64 = 0.25;
 /// Largest field that furniture encloses, square metres.
 const LARGEST_FIELD_M2: f64 = 7.0;
-/// Share of a line with such a field beside it from which it is furniture.
+/// Greatest thickness of the field between the two lines of a glass wall and its least length, metres: it is no furniture.
+const PANE_M: [f64; 2] = [0.15, 1.5];
+/// Share of a line with a field of furniture beside it from which it is furniture.
 const FURNITURE_SHARE: f64 = 0.8;
 /// How far from its wall's line the arc of a door may be, metres, and share of the gap that the dashes of an axis fill.
 const BESIDE_M: f64 = 0.25;
@@ -80,7 +82,7 @@ pub(super) fn thickened(
     }
     let lines: Vec<u8> = level.iter().zip(&upright).map(|(&a, &b)| a | b).collect();
     closed.iter_mut().zip(&lines).for_each(|(closed, line)| *closed |= line);
-    let fields = small_fields(&closed, width, LARGEST_FIELD_M2 / (metres_per_pixel * metres_per_pixel));
+    let fields = small_fields(&closed, width, metres_per_pixel);
     let mut walls = vec![0u8; strokes.len()];
     for (mask, along) in [(&level, 0), (&upright, 1)] {
         let pieces = Components::of(mask, width, 1, Neighbours::Eight);
@@ -432,11 +434,15 @@ fn drop_frame(level: &mut [u8], upright: &mut [u8], width: usize) {
 }
 
 /// Marks the white fields of a drawing of lines that are smaller than this, pixels.
-fn small_fields(lines: &[u8], width: usize, largest: f64) -> Vec<u8> {
+fn small_fields(lines: &[u8], width: usize, metres_per_pixel: f64) -> Vec<u8> {
     let white = Components::of(lines, width, 0, Neighbours::Four);
     let mut small = vec![0u8; lines.len()];
-    for field in white.all.iter().filter(|field| (field.area as f64) < largest) {
-        white.paint(field, &mut small, width, 1);
+    for field in &white.all {
+        let [w, h] = field.size().map(|side| f64::from(side) * metres_per_pixel);
+        let is_pane = w.min(h) <= PANE_M[0] && w.max(h) >= PANE_M[1];
+        if !is_pane && field.area as f64 * metres_per_pixel * metres_per_pixel < LARGEST_FIELD_M2 {
+            white.paint(field, &mut small, width, 1);
+        }
     }
     small
 }

@@ -60,9 +60,9 @@ pub(super) fn added(
         let is_room = |space: &&Component| space.area as f64 * metres_per_pixel * metres_per_pixel >= LEAST_ROOM_M2;
         spaces.all.iter().filter(is_room).count()
     };
-    // Doors lead to rooms: what looks like leaves among the lines of beds and stairs does not. Where most doors are in thick
-    // walls, partitions are thick.
-    if hung.len() < FEWEST_DOORS.max(net.doors.len()) || rooms(&found) < rooms(&net) + hung.len() / 2 {
+    // Doors lead to rooms: what looks like leaves among the lines of beds and stairs does not. Where nearly all doors are in
+    // thick walls, partitions are thick.
+    if hung.len() < FEWEST_DOORS.max(net.doors.len() / 2) || rooms(&found) < rooms(&net) + hung.len() / 2 {
         return net;
     }
     let ends: Vec<usize> = hung.into_iter().flat_map(|gap| gap.ends).filter(|&at| lines[at] != 0).collect();
