@@ -23,9 +23,6 @@ const CELLS_PER_M: f64 = 20.0;
 const MOST_CELLS: f64 = 4096.0;
 /// How much larger than a room its floor may be: where more is reached without a doorway, nobody can tell where it ends.
 const MOST_LARGER: f64 = 1.25;
-/// Least share of its box that a room fills whose floor is a rectangle, and how far that reaches into the walls, metres.
-const FILLS_BOX: f64 = 0.9;
-const HALF_WALL_M: f64 = 0.05;
 /// Width of the metal strip in a doorway in which two floors meet, metres, and its colour.
 const STRIP_M: f64 = 0.04;
 const STRIP_COLOUR: Srgb8 = [146, 143, 137];
@@ -34,7 +31,6 @@ const STRIP_COLOUR: Srgb8 = [146, 143, 137];
 pub(crate) struct RoomFloor {
     /// A place in it, metres.
     pub inside_m: Vec2,
-    pub bounds_m: Rect,
     /// With furniture.
     pub area_m2: f64,
     pub floor: FloorLook,
@@ -63,8 +59,7 @@ impl Look {
     }
 
     /// Lays the floors of rooms. What covers most becomes the look's floor, others become areas below those that the look has,
-    /// with strips of metal where two meet in a doorway. Rooms that no door parts from the next keep the look's floor, unless
-    /// they fill a rectangle.
+    /// with strips of metal where two meet in a doorway. Rooms that no door parts from the next keep the look's floor.
     pub(crate) fn lay_floors(&mut self, rooms: &[RoomFloor], walls: &Walls) {
         let mut covered: Vec<(&FloorLook, f64)> = Vec::new();
         for RoomFloor { area_m2, floor, .. } in rooms {
@@ -84,20 +79,12 @@ impl Look {
         let own = std::mem::take(&mut self.area);
         let mut laid = BTreeMap::new();
         for (floor, _) in covered.into_iter().filter(|(floor, _)| *floor != most) {
-            for room in rooms.iter().filter(|room| room.floor == *floor) {
-                let place = room.inside_m;
-                let closed = raster.at(place).filter(|&found| raster.area_m2(found) <= MOST_LARGER * room.area_m2);
-                let Rect { min, max } = room.bounds_m.grown(HALF_WALL_M);
-                let mut area = AreaLook { floor: floor.clone(), ..AreaLook::default() };
-                if let Some(found) = closed {
-                    laid.insert(found, floor);
-                    area.room = Some([place.x, place.y]);
-                } else if room.area_m2 >= FILLS_BOX * room.bounds_m.width() * room.bounds_m.height() {
-                    area.outline = vec![[min.x, min.y], [max.x, max.y]];
-                } else {
-                    continue;
-                }
-                self.area.push(area);
+            for RoomFloor { inside_m, area_m2, .. } in rooms.iter().filter(|room| room.floor == *floor) {
+                let closed = raster.at(*inside_m).filter(|&room| raster.area_m2(room) <= MOST_LARGER * area_m2);
+                let Some(room) = closed else { continue };
+                laid.insert(room, floor);
+                let place = Some([inside_m.x, inside_m.y]);
+                self.area.push(AreaLook { room: place, floor: floor.clone(), ..AreaLook::default() });
             }
         }
         let strips = walls.doorways().into_iter().filter(|doorway| {
@@ -389,7 +376,6 @@ mod tests {
         let walls = rooms();
         let room = |x: f64, area_m2: f64, material: Material| RoomFloor {
             inside_m: vec2(x, 1.0),
-            bounds_m: Rect { min: vec2(x - 1.0, 0.1), max: vec2(x + 2.0, 3.1) },
             area_m2,
             floor: FloorLook { material, ..FloorLook::default() },
         };

@@ -34,12 +34,8 @@ impl Scenario {
         if !self.routes.life.floors || self.look.floor != FloorLook::default() {
             return;
         }
-        let floor = |room: &Room| RoomFloor {
-            inside_m: room.inside_m,
-            bounds_m: room.bounds_m,
-            area_m2: room.area_m2,
-            floor: usual(life.r#use, room),
-        };
+        let floor =
+            |room: &Room| RoomFloor { inside_m: room.inside_m, area_m2: room.area_m2, floor: usual(life.r#use, room) };
         self.look.lay_floors(&life.rooms.rooms.iter().map(floor).collect::<Vec<_>>(), walls);
     }
 }
