@@ -128,7 +128,7 @@ pub fn walk(scenario: &Scenario, outputs: &WalkOutputs, progress: &dyn Progress)
     let (plan, walls) = (&ground.plan, &ground.walls);
     let (routes, ways) =
         watch.busy(Stage::Routes, || Navigation::find_watched(plan, walls, &scenario.routes, progress))?;
-    let scenario = &scenario.lived_in(ways.life().map(|life| &**life), walls);
+    let scenario = &scenario.lived_in(ways.life().map(|life| &**life));
     let people = scenario.people_of_day(0);
     let mut crowd = watch.busy(Stage::Crowd, || {
         Simulation::with_spots(plan, walls, &routes, ways, &people, &scenario.crowd, &scenario.spots())

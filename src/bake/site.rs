@@ -82,7 +82,7 @@ impl Site {
         };
         let (routes, ways) = found.map_or((Vec::new(), None), |(routes, ways)| (routes, Some(ways)));
         let life = ways.as_ref().and_then(Navigation::life).cloned();
-        let scenario = scenario.lived_in(life.as_deref(), walls);
+        let scenario = scenario.lived_in(life.as_deref()).with_floors(life.as_deref(), walls);
         let places = ContactPlaces::of_walls(walls)
             .with_doors(plan, walls, &scenario.doors)?
             .with_fixtures(plan, walls, &scenario.fixtures)?
@@ -99,7 +99,8 @@ impl Site {
     /// Takes the look of another scenario, which differs from this one in nothing else.
     pub fn look_as(&mut self, scenario: &Scenario) -> Result<(), Error> {
         scenario.look.check_areas(&self.ground.walls)?;
-        self.scenario = scenario.lived_in(self.life.as_deref(), &self.ground.walls);
+        let life = self.life.as_deref();
+        self.scenario = scenario.lived_in(life).with_floors(life, &self.ground.walls);
         Ok(())
     }
 

@@ -130,7 +130,7 @@ impl Inspect {
                 &found
             }
         };
-        let look = scenario.lived_in(life.as_deref(), walls).look;
+        let look = scenario.clone().with_floors(life.as_deref(), walls).look;
         let places: Vec<Vec2> = rooms.rooms.iter().map(|room| room.inside_m).collect();
         let floors = look.floors_at(&places, walls).map_err(Error::from)?.into_iter().map(|floor| floor.material);
         let rooms_with_floors: Vec<RoomWithFloor> =

@@ -91,7 +91,7 @@ impl Look {
             let middle = doorway.jambs_m[0].lerp(doorway.jambs_m[1], 0.5);
             let beyond = doorway.through * (0.5 * doorway.depth_m + 0.2);
             let [a, b] = [middle - beyond, middle + beyond].map(|p| raster.at(p));
-            a.is_some() && b.is_some() && a.map(|room| laid.get(&room)) != b.map(|room| laid.get(&room))
+            a.zip(b).is_some_and(|(a, b)| laid.get(&a) != laid.get(&b))
         });
         self.area.extend(strips.map(|doorway| {
             let ([a, b], half) = (doorway.jambs_m, doorway.through * (0.5 * STRIP_M));

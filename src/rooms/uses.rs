@@ -258,10 +258,12 @@ impl Use {
         } else if areas.len() <= 4 && largest_m2 >= 0.5 * total_m2 {
             // Guests sit around tables, clerks at desks.
             let are_desks = seats >= 10.0 && seats < 3.0 * tables;
-            match () {
-                () if total_m2 >= 600.0 || places_per_m2 >= 0.5 => Use::Hall,
-                () if are_desks => Use::Office,
-                () => Use::Shop,
+            if total_m2 >= 600.0 || places_per_m2 >= 0.5 {
+                Use::Hall
+            } else if are_desks {
+                Use::Office
+            } else {
+                Use::Shop
             }
         } else if corridor_share >= 0.08 {
             match areas.len() {

@@ -1,6 +1,7 @@
 //! Which floor lies in which room, where a scenario leaves that open.
 
 use super::model::Scenario;
+use super::preset::Preset;
 use crate::look::{FloorLook, Material, RoomFloor, Srgb8};
 use crate::rooms::{Life, Room, RoomKind, Use};
 use crate::walls::Walls;
@@ -28,14 +29,15 @@ fn usual(building: Use, room: &Room) -> FloorLook {
 }
 
 impl Scenario {
-    /// Gives rooms the floors that are usual in such a building, where the look does not name the floor. Areas that the
-    /// look has lie over them.
-    pub(super) fn lay_usual_floors(&mut self, life: &Life, walls: &Walls) {
-        if !self.routes.life.floors || self.look.floor != FloorLook::default() {
-            return;
-        }
+    /// The scenario with the floors that are usual in the rooms of such a building, where neither the look nor the preset
+    /// says what the floor is. Areas that the look has lie over them.
+    pub fn with_floors(mut self, life: Option<&Life>, walls: &Walls) -> Scenario {
+        let is_open =
+            self.routes.life.floors && self.preset != Preset::Paper && self.look.floor == FloorLook::default();
+        let Some(life) = life.filter(|_| is_open) else { return self };
         let floor =
             |room: &Room| RoomFloor { inside_m: room.inside_m, area_m2: room.area_m2, floor: usual(life.r#use, room) };
         self.look.lay_floors(&life.rooms.rooms.iter().map(floor).collect::<Vec<_>>(), walls);
+        self
     }
 }

@@ -17,7 +17,7 @@ use crate::rooms::{Life, Use};
 use crate::routes::{PlaceRequest, RoutesOptions, Timetable, ViaRequest};
 use crate::show::Ceiling;
 use crate::stamps::StampOptions;
-use crate::walls::{Walls, WallsOptions};
+use crate::walls::WallsOptions;
 
 /// Everything that a bake needs to know.
 #[derive(Clone, Debug, PartialEq)]
@@ -248,15 +248,16 @@ impl Scenario {
         options
     }
 
-    /// The scenario with the people and the floors of the building's use: where it has the defaults of bags, wheels,
-    /// children, groups, cleaning and floor, such a building has others. Between several days the floor is mopped.
-    pub fn lived_in(&self, life: Option<&Life>, walls: &Walls) -> Scenario {
+    /// The scenario with the people of the building's use: where it has the defaults of bags, wheels, children, groups and
+    /// cleaning, such a building has others. Between several days the floor is mopped.
+    pub fn lived_in(&self, life: Option<&Life>) -> Scenario {
         let mut scenario = self.clone();
         if self.days > 1 && self.motion_file.is_none() && self.look.mop.every == MopLook::default().every {
             scenario.look.mop.every = self.crowd.people as f32;
         }
-        let Some(life) = life.filter(|_| self.preset != Preset::Paper) else { return scenario };
-        let habits = life.r#use.habits();
+        let Some(habits) = life.filter(|_| self.preset != Preset::Paper).map(|life| life.r#use.habits()) else {
+            return scenario;
+        };
         let (bodies, groups) = (BodyOptions::default(), CrowdOptions::default().groups);
         if self.bodies.bags == bodies.bags {
             scenario.bodies.bags = habits.bags;
@@ -273,7 +274,6 @@ impl Scenario {
         if self.look.mop.takes == MopLook::default().takes {
             scenario.look.mop.takes = habits.mop;
         }
-        scenario.lay_usual_floors(life, walls);
         scenario
     }
 

@@ -347,27 +347,16 @@ fn buildings_are_told_by_what_stands_in_them() {
     };
     let mut rooms = office();
     assert_eq!(guessed(&rooms), Use::Office);
-    // Two desks in each of its rooms of 37 square metres, and then twelve.
-    (0..12).for_each(|k| {
-        furnish(
-            &mut rooms,
-            PlanClass::Table,
-            vec2(5.0 * f64::from(k % 6) + 1.0, 10.3 * f64::from(k / 6) + 1.0),
-            [2, 1],
-            1.5,
-        )
-    });
-    assert_eq!(guessed(&rooms), Use::Office);
-    (0..12).for_each(|k| {
-        furnish(
-            &mut rooms,
-            PlanClass::Table,
-            vec2(5.0 * f64::from(k % 6) + 1.0, 10.3 * f64::from(k / 6) + 1.0),
-            [3, 4],
-            1.2,
-        )
-    });
-    assert_eq!(guessed(&rooms), Use::School);
+    // Two desks in each of its rooms of 37 square metres, and then twelve more.
+    let mut desks = |grid: [u32; 2], every_m: f64| {
+        for k in 0..12 {
+            let from = vec2(5.0 * f64::from(k % 6) + 1.0, 10.3 * f64::from(k / 6) + 1.0);
+            furnish(&mut rooms, PlanClass::Table, from, grid, every_m);
+        }
+        guessed(&rooms)
+    };
+    assert_eq!(desks([2, 1], 1.5), Use::Office);
+    assert_eq!(desks([3, 4], 1.2), Use::School);
 
     // Four flats of four rooms, 260 square metres.
     let flat = |p: Vec2| {
@@ -442,7 +431,7 @@ fn each_use_has_people_and_cleaning_of_its_own() {
         let overrides = Overrides { metres_per_pixel: Some(0.05), r#use: Some(r#use), ..Overrides::default() };
         let scenario = Scenario::from_plan(&path, &overrides).unwrap();
         let (routes, ways) = Navigation::find(&office, &walls, &scenario.routes).unwrap();
-        let lived = scenario.lived_in(ways.life().map(|life| &**life), &walls);
+        let lived = scenario.lived_in(ways.life().map(|life| &**life));
         let stops = routes.iter().map(|route| route.share * route.stops.len() as f64).sum::<f64>();
         let length_m = routes.iter().map(|route| route.share * route.length_m).sum::<f64>();
         let groups = lived.crowd.groups.shares;
@@ -463,7 +452,7 @@ fn each_use_has_people_and_cleaning_of_its_own() {
         Scenario::from_plan(&path, &Overrides { metres_per_pixel: Some(0.05), ..Overrides::default() }).unwrap();
     own.look.mop.takes = 0.1;
     let (_, ways) = Navigation::find(&office, &walls, &own.routes).unwrap();
-    assert_eq!(own.lived_in(ways.life().map(|life| &**life), &walls).look.mop.takes, 0.1);
+    assert_eq!(own.lived_in(ways.life().map(|life| &**life)).look.mop.takes, 0.1);
 }
 
 /// The office on a sheet of paper: its only way in is a door in the outer wall.

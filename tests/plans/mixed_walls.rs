@@ -27,6 +27,11 @@ fn wall([a, b]: [Point; 2], thick: f64) -> Polygon {
     rectangle(a.map(|v| v - half), b.map(|v| v + half))
 }
 
+/// The four sides of a building, from place to place.
+fn sides([w, h]: Point) -> [[Point; 2]; 4] {
+    [[[0.0, 0.0], [w, 0.0]], [[0.0, h], [w, h]], [[0.0, 0.0], [0.0, h]], [[w, 0.0], [w, h]]]
+}
+
 /// A door with its leaf: its hinge, the ways of the closed leaf and of the open one, the thickness of the wall.
 fn hang(canvas: &mut Canvas, (hinge, closed, open, thick): (Point, f64, f64, f64)) {
     let (white, black) = ([255; 3], [0; 3]);
@@ -46,7 +51,7 @@ fn six_rooms(fill: Fill) -> Canvas {
     let (white, black) = ([255; 3], [0; 3]);
     let mut canvas = Canvas::new([SIZE_M[0] + 4.0, SIZE_M[1] + 4.0], [-2.0, -2.0], PX_PER_M, 0.0, white);
     let [w, h] = SIZE_M;
-    let sides = [[[0.0, 0.0], [w, 0.0]], [[0.0, h], [w, h]], [[0.0, 0.0], [0.0, h]], [[w, 0.0], [w, h]]];
+    let sides = sides(SIZE_M);
     canvas.fill(&sides.map(|side| wall(side, OUTER_M)), black);
     let within = canvas.samples(&sides.map(|side| wall(side, OUTER_M - 2.0 * STROKE_M)));
     canvas.paint(&within, if matches!(fill, Fill::Grey) { [153; 3] } else { white });
@@ -125,7 +130,7 @@ fn behind_glass(is_hollow: bool) -> Canvas {
     let (white, black, blue) = ([255; 3], [0; 3], [91, 141, 184]);
     let mut canvas = Canvas::new([16.0, 9.0], [-2.0, -2.0], PX_PER_M, 0.0, white);
     let [w, h] = [12.0, 5.0];
-    let walls = [[[0.0, 0.0], [w, 0.0]], [[0.0, h], [w, h]], [[0.0, 0.0], [0.0, h]], [[w, 0.0], [w, h]]];
+    let walls = sides([w, h]);
     let partition = [[4.0, 0.0], [4.0, h]];
     for (grown, colour) in [(0.0, black), (-2.0 * STROKE_M, if is_hollow { white } else { black })] {
         canvas.fill(&walls.map(|side| wall(side, OUTER_M + grown)), colour);

@@ -433,7 +433,7 @@ fn drop_frame(level: &mut [u8], upright: &mut [u8], width: usize) {
     }
 }
 
-/// Marks the white fields of a drawing of lines that are smaller than this, pixels.
+/// Marks the white fields of a drawing of lines that are as small as what furniture encloses.
 fn small_fields(lines: &[u8], width: usize, metres_per_pixel: f64) -> Vec<u8> {
     let white = Components::of(lines, width, 0, Neighbours::Four);
     let mut small = vec![0u8; lines.len()];
