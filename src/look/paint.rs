@@ -124,7 +124,7 @@ impl<'a> FloorPainter<'a> {
             sums,
             rolled: Arc::clone(rolled),
             walls,
-            law: FloorShader::new(look, &properties, simulated_people, &noise, texels_per_metre),
+            law: FloorShader::new(look, &properties, ground.mean(), simulated_people, &noise, texels_per_metre),
             noise,
             spread_m: look.film.spread_m.max(properties.least_spread_m),
             background: Background {

@@ -3,7 +3,7 @@
 //! Works on runs of texels, with a plane per quantity and a loop per step, for vectorisation.
 
 use super::bytes::{Bytes, Rounding, ShadedPlanes};
-use super::dirt::{self, Dirt};
+use super::dirt::{Beneath, Dirt};
 use super::material::Properties;
 use super::noise::Noise;
 use super::planes::{add1, add2, each1, each2, each3};
@@ -66,7 +66,7 @@ pub(super) struct FloorShader {
     roughness: [f32; 2],
     /// Kinds of dirt: film, prints, scuffs, edge, dust, wheels.
     kinds: [Dirt; 6],
-    darkest: f32,
+    beneath: Beneath,
 }
 
 /// The clean floor along a run of texels, as in [`SurfacePlanes`](super::surface::SurfacePlanes).
@@ -128,8 +128,8 @@ pub(super) struct ShadeOutput {
     uneven: Vec<f32>,
     /// Transmittance of film; of prints; of edge and dust; of scuffs.
     through: [Vec<f32>; 4],
-    /// Sum of densities: a buffer.
-    total: Vec<f32>,
+    /// Sum of densities of each channel: buffers.
+    totals: [Vec<f32>; 3],
     roughness: Vec<f32>,
     rgb: [Vec<f32>; 3],
     /// Linear colour of the floor without dirt.
@@ -167,6 +167,7 @@ impl FloorShader {
     pub fn new(
         look: &Look,
         properties: &Properties,
+        clean: [f32; 3],
         simulated_people: u32,
         noise: &[Noise],
         density: f64,
@@ -206,7 +207,7 @@ impl FloorShader {
             mean_log: noise.iter().map(|noise| noise.sd_of_texels(density)).map(|sd| 0.5 * sd * sd).sum(),
             roughness: properties.roughness,
             kinds: colours.map(|colour| Dirt::of(srgb::light_of(colour))),
-            darkest: srgb::decode(f64::from(look.darkest) / 255.0) as f32,
+            beneath: Beneath::of(look, clean),
         }
     }
 
@@ -221,12 +222,12 @@ impl FloorShader {
                 plane.iter_mut().zip(&out.worn).for_each(|(light, worn)| *light *= 1.0 + change * worn);
             }
         }
-        let ShadeOutput { film, soil, dust, wheels, rgb, bare, total, .. } = out;
+        let ShadeOutput { film, soil, dust, wheels, rgb, bare, totals, .. } = out;
         for (bare, floor) in bare.iter_mut().zip(&known.ground.rgb) {
             bare.copy_from_slice(floor);
         }
         let dirt = [&*film, &*soil, &known.scuff, &known.edge, &*dust, &*wheels];
-        self.colour(dirt, &known.ground.rgb, total, rgb);
+        self.colour(dirt, &known.ground.rgb, totals, rgb);
         if let Some(joint) = joint.filter(|_| known.ground.joint.iter().any(|&share| share > 0.0)) {
             self.fill_joints(known, joint, out);
         }
@@ -298,7 +299,8 @@ impl FloorShader {
     }
 
     fn roughness(&self, known: &ShadeInput, out: &mut ShadeOutput) {
-        let ShadeOutput { roughness, wearing, uneven, through: [_, prints, edge, scuffs], total: loose, .. } = out;
+        let ShadeOutput { roughness, wearing, uneven, through: [_, prints, edge, scuffs], totals: [loose, ..], .. } =
+            out;
         each3(loose, prints, edge, scuffs, |prints, edge, scuffs| 1.0 - prints * edge * scuffs);
         let [smooth, worn] = self.roughness;
         each3(roughness, wearing, uneven, loose, |passes, uneven, loose| {
@@ -314,18 +316,18 @@ impl FloorShader {
         }
     }
 
-    /// Computes the colour of dirt over a floor. `total` is a buffer.
-    fn colour(&self, dirt: [&Vec<f32>; 6], floor: &[Vec<f32>; 3], total: &mut [f32], rgb: &mut [Vec<f32>; 3]) {
+    /// Computes the colour of dirt over a floor. `totals` is a buffer.
+    fn colour(&self, dirt: [&Vec<f32>; 6], floor: &[Vec<f32>; 3], totals: &mut [Vec<f32>; 3], rgb: &mut [Vec<f32>; 3]) {
         // Most runs lack some kinds.
         let lies = dirt.map(|density| density.iter().any(|&density| density != 0.0));
-        for (n, (plane, floor)) in rgb.iter_mut().zip(floor).enumerate() {
+        for (n, (plane, total)) in rgb.iter_mut().zip(&mut *totals).enumerate() {
             total.fill(0.0);
             plane.fill(0.0);
             for ((density, kind), _) in dirt.into_iter().zip(&self.kinds).zip(lies).filter(|(_, lies)| *lies) {
                 kind.add_to(n, density, total, plane);
             }
-            dirt::cover(floor, total, plane, self.darkest);
         }
+        self.beneath.cover(floor, totals, rgb);
     }
 
     /// Blends joints, with their film, into the share of each texel that they cover.
@@ -337,7 +339,7 @@ impl FloorShader {
         });
         let floor = joint.map(|light| vec![light; film.len()]);
         let dirt = [&film, &out.soil, &known.scuff, &known.edge, &out.dust, &out.wheels];
-        self.colour(dirt, &floor, &mut out.total, &mut out.joint);
+        self.colour(dirt, &floor, &mut out.totals, &mut out.joint);
         let [a, b, c, d] = &out.through;
         for ((plane, joint), bare) in out.rgb.iter_mut().zip(&out.joint).zip(&mut out.bare) {
             for (k, value) in plane.iter_mut().enumerate() {
@@ -365,15 +367,15 @@ impl ShadeOutput {
             busy,
             uneven,
             through,
-            total,
+            totals,
             roughness,
             rgb,
             bare,
             joint,
             rounding: _,
         } = self;
-        let single = [film, wheels, soil, dust, history, trodden, laid, wearing, worn, busy, uneven, total, roughness];
-        for plane in single.into_iter().chain(through).chain(rgb).chain(bare).chain(joint) {
+        let single = [film, wheels, soil, dust, history, trodden, laid, wearing, worn, busy, uneven, roughness];
+        for plane in single.into_iter().chain(through).chain(totals).chain(rgb).chain(bare).chain(joint) {
             plane.resize(len, 0.0);
         }
     }

@@ -300,10 +300,13 @@ fn nothing_is_black() {
 
 #[test]
 fn a_dark_floor_is_lighter_in_the_lane() {
-    let floor = resolved(&CORRIDOR, &look("commuters", Material::Dark));
-    let lane = median(floor.lane().concat()) - floor.clean;
-    println!("dark: lane {lane:+.1}");
-    assert!((4.0..=8.0).contains(&lane), "{lane}");
+    // Dust over black rubber is light and grey: brown dirt alone would make 7.7 of the heavy look.
+    for (preset, lighter) in [("commuters", 4.0..=8.0), ("heavy", 10.0..=16.0)] {
+        let floor = resolved(&CORRIDOR, &look(preset, Material::Dark));
+        let lane = median(floor.lane().concat()) - floor.clean;
+        println!("dark, {preset}: lane {lane:+.1}");
+        assert!(lighter.contains(&lane), "{preset}: {lane}");
+    }
 }
 
 #[test]

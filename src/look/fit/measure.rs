@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::photo::FloorPicture;
+use crate::look::dirt::shown_over;
 use crate::math::srgb::{self, lightness, luminance};
 use crate::math::{ln, sin_cos, smoothstep_f32};
 use crate::patterns::{PixelRaster, quantile};
@@ -37,6 +38,7 @@ const BANDS_M: [[f64; 2]; 3] = [[0.0, 0.04], [0.04, 0.1], [0.18, 0.3]];
 
 /// Optical density of soil that turns one luminance into another.
 pub(super) fn density(soil: f64, clean: f64, shown: f64) -> f64 {
+    let soil = f64::from(shown_over(clean as f32, soil as f32));
     -ln(((shown - soil) / (clean - soil)).clamp(0.02, 1.5))
 }
 

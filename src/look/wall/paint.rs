@@ -75,7 +75,7 @@ impl<'a> WallPainter<'a> {
         let (wall, texels_per_metre) = (&look.wall, sums.grid().texels_per_metre);
         let plaster = CleanWall::new(wall, look.seed, texels_per_metre)?;
         let noise = dirt_noise(look);
-        let law = WallShader::new(look, &wall.material.properties(), simulated_people, &noise, texels_per_metre);
+        let law = WallShader::new(look, plaster.mean(), simulated_people, &noise, texels_per_metre);
         // Bricks have no paint.
         let chipped = if wall.material == WallMaterial::Brick { 0.0 } else { wall.chips };
         let history = (wall.total_passes as f64 / f64::from(simulated_people)) as f32;

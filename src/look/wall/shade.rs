@@ -3,10 +3,9 @@
 //! Causes without stains in a window are skipped: most of a wall is clean.
 
 use super::clean_wall::CleanWallRow;
-use super::material::WallProperties;
 use super::settings::{StainLook, WallLook};
 use crate::look::bytes::{Bytes, Rounding, ShadedPlanes};
-use crate::look::dirt::{self, Dirt};
+use crate::look::dirt::{Beneath, Dirt};
 use crate::look::noise::Noise;
 use crate::look::planes::{add2, each1, each2, each3};
 use crate::look::settings::Look;
@@ -68,7 +67,7 @@ pub(super) struct WallShader {
     board_m: f32,
     texel_m: f32,
     kinds: [Dirt; KINDS],
-    darkest: f32,
+    beneath: Beneath,
     mean_log: f32,
     roughness: f32,
     grime_roughness: f32,
@@ -122,8 +121,8 @@ impl WallShadeInput {
 }
 
 impl WallShader {
-    pub fn new(look: &Look, properties: &WallProperties, simulated_people: u32, noise: &[Noise], density: f64) -> Self {
-        let wall = &look.wall;
+    pub fn new(look: &Look, clean: [f32; 3], simulated_people: u32, noise: &[Noise], density: f64) -> Self {
+        let (wall, properties) = (&look.wall, look.wall.material.properties());
         let weight = properties.history * (wall.total_passes as f64 / f64::from(simulated_people)) as f32;
         let stains = stains(wall);
         let kinds = std::array::from_fn(|kind| {
@@ -146,7 +145,7 @@ impl WallShader {
             board_m: wall.skirting.height_m,
             texel_m: (1.0 / density) as f32,
             kinds,
-            darkest: srgb::decode(f64::from(look.darkest) / 255.0) as f32,
+            beneath: Beneath::of(look, clean),
             mean_log: noise.iter().map(|noise| noise.sd_of_texels(density)).map(|sd| 0.5 * sd * sd).sum(),
             roughness: wall.roughness.unwrap_or(properties.roughness),
             grime_roughness: properties.grime_roughness,
@@ -287,9 +286,7 @@ impl WallShader {
                 *value = exp_f32(-*value);
             }
         }
-        for ((plane, total), wall) in rgb.iter_mut().zip(totals).zip(wall) {
-            dirt::cover(wall, total, plane, self.darkest);
-        }
+        self.beneath.cover(wall, totals, rgb);
     }
 
     fn roughness(&self, plaster: &CleanWallRow, out: &mut WallShadeOutput) {

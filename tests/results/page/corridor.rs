@@ -229,13 +229,28 @@ fn srgb(light: f64) -> u8 {
     (255.0 * value.clamp(0.0, 1.0)).round() as u8
 }
 
-/// The look's law.
+/// The look's law, of docs/look.md.
 pub fn covered(clean: Srgb8, dirt: &[(f64, Srgb8)]) -> Srgb8 {
-    let sum: f64 = dirt.iter().map(|(density, _)| density).sum();
-    let through = math::exp(-sum);
+    let seen = |light: [f64; 3]| 0.2126 * light[0] + 0.7152 * light[1] + 0.0722 * light[2];
+    let (mut total, mut shines) = ([0.0; 3], [0.0; 3]);
+    for (density, colour) in dirt {
+        let colour = colour.map(linear);
+        let depths = colour.map(|light| -math::ln(light));
+        for n in 0..3 {
+            let absorbed = density * depths[n] / seen(depths);
+            total[n] += absorbed;
+            shines[n] += absorbed * colour[n];
+        }
+    }
+    let clean = clean.map(linear);
+    let dark = 3.0 * (0.8 - seen(clean) * seen(total) / seen(shines).max(1e-9));
+    let dark = dark.clamp(0.0, 1.0);
+    let dust = [150, 142, 128].map(linear);
     std::array::from_fn(|n| {
-        let colour = dirt.iter().map(|(density, colour)| density * linear(colour[n])).sum::<f64>() / sum.max(1e-9);
-        srgb(linear(clean[n]) * through + colour * (1.0 - through))
+        let through = math::exp(-(total[n] + dark * (seen(total) - total[n])));
+        let colour = shines[n] / total[n].max(1e-9);
+        let colour = colour + 0.3 * dark * (dust[n] - colour);
+        srgb(clean[n] * through + colour * (1.0 - through))
     })
 }
 

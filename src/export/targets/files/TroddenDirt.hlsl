@@ -10,18 +10,30 @@
 #ifndef TRODDEN_DIRT_INCLUDED
 #define TRODDEN_DIRT_INCLUDED
 
-// Colour and smoothness under dirt of four linear colours. Masks hold 1 - exp(-density).
+// Colour and smoothness under dirt of four linear colours. Masks hold 1 - exp(-density). Each kind of dirt absorbs red,
+// green and blue by its own, 1 in the mean that eyes see; over a surface darker than itself it covers all colours alike,
+// and is lighter and greyer.
 void TroddenMix(
     float4 Masks, float4 Amount, float4x3 Colours, float3 Clean, float CleanSmoothness,
     out float3 Colour, out float Smoothness)
 {
     const float dirtSmoothness = 0.45;
+    const float3 seen = float3(0.2126, 0.7152, 0.0722);
+    const float3 dust = float3(0.304987, 0.270498, 0.215861);
     float4 density = -log(max(1.0 - Masks, 0.002)) * Amount;
-    float total = density.r + density.g + density.b + density.a;
-    float through = exp(-total);
-    float3 dirt = mul(density, Colours) / max(total, 1e-6);
-    Colour = lerp(dirt, Clean, through);
-    Smoothness = lerp(dirtSmoothness, CleanSmoothness, through);
+    float3 each = 0.0;
+    float3 light = 0.0;
+    for (int n = 0; n < 4; n++)
+    {
+        float3 absorbed = log(Colours[n]) / dot(log(Colours[n]), seen) * density[n];
+        each += absorbed;
+        light += absorbed * Colours[n];
+    }
+    float bright = dot(light, seen);
+    float dark = saturate(3.0 * (0.8 * bright - dot(Clean, seen) * dot(each, seen)) / max(bright, 1e-6));
+    float3 dirt = lerp(light / max(each, 1e-6), dust, 0.3 * dark);
+    Colour = lerp(dirt, Clean, exp(-lerp(each, dot(each, seen), dark)));
+    Smoothness = lerp(dirtSmoothness, CleanSmoothness, exp(-dot(each, seen)));
 }
 
 // `Amount` scales each kind of dirt: (1, 1, 1, 1) is what was baked: film, prints, edge and dust, and, as the green of

@@ -21,6 +21,8 @@ updated in its place, and your own changes of materials and of objects' places s
 import argparse
 import functools
 import json
+import math
+import operator
 import re
 import sys
 from pathlib import Path
@@ -33,6 +35,10 @@ RUBBER = (0.019382, 0.020289, 0.024158)
 SKIN = (0.191202, 0.135633, 0.068478)
 CLOTH = (0.162029, 0.144128, 0.124772)
 SPLASH = (0.080220, 0.059511, 0.034340)
+# What dirt shows of over a darker surface.
+DUST = (0.304987, 0.270498, 0.215861)
+# Weights of red, green and blue for the eye.
+SEEN = (0.2126, 0.7152, 0.0722)
 DIRT_ROUGHNESS = 0.55
 AMOUNTS = ("Film", "Prints", "Edge", "Marks")
 COLOURS = (SOIL, SOIL, SOIL, RUBBER)
@@ -92,6 +98,13 @@ class Nodes:
         self.put(node.inputs[0], vector)
         self.put(node.inputs["Scale"], factor)
         return node.outputs["Vector"]
+
+    def seen(self, colour):
+        """The mean of red, green and blue that eyes see."""
+        node = self.add("ShaderNodeVectorMath", operation="DOT_PRODUCT")
+        self.put(node.inputs[0], colour)
+        self.put(node.inputs[1], SEEN)
+        return node.outputs["Value"]
 
     def mix(self, factor, a, b, kind):
         """`a` where the factor is 0, `b` where it is 1."""
@@ -262,19 +275,36 @@ def make_tree(name, amounts, others):
 
 
 def mix_dirt(nodes, given, masks, amounts, colours):
-    """Lays dirt over the group's Color and Roughness. Masks hold 1 - exp(-density)."""
-    total, dirt = None, None
+    """Lays dirt over the group's Color and Roughness. Masks hold 1 - exp(-density).
+
+    Each kind of dirt absorbs red, green and blue by its own, 1 in the mean that eyes see; over a surface darker than itself
+    it covers all colours alike, and is lighter and greyer.
+    """
+    each, light = None, None
     for mask, amount, colour in zip(masks, amounts, colours):
         left = nodes.math("MAXIMUM", nodes.math("SUBTRACT", 1.0, mask), 0.002)
         negative = nodes.math("LOGARITHM", left, 2.718281828)
         density = nodes.math("MULTIPLY", negative, nodes.math("MULTIPLY", given[amount], -1.0))
-        part = nodes.scale(colour, density)
-        total = density if total is None else nodes.math("ADD", total, density)
-        dirt = part if dirt is None else nodes.vector("ADD", dirt, part)
-    through = nodes.math("EXPONENT", nodes.math("MULTIPLY", total, -1.0))
-    dirt = nodes.scale(dirt, nodes.math("DIVIDE", 1.0, nodes.math("MAXIMUM", total, 1e-6)))
+        depths = [math.log(channel) for channel in colour]
+        absorbs = [depth / sum(map(operator.mul, SEEN, depths)) for depth in depths]
+        absorbed = nodes.scale(absorbs, density)
+        lit = nodes.vector("MULTIPLY", absorbed, colour)
+        each = absorbed if each is None else nodes.vector("ADD", each, absorbed)
+        light = lit if light is None else nodes.vector("ADD", light, lit)
+    clean = given["Color"]
+    mean, bright = nodes.seen(each), nodes.seen(light)
+    lighter = nodes.math("SUBTRACT", nodes.math("MULTIPLY", bright, 0.8), nodes.math("MULTIPLY", nodes.seen(clean), mean))
+    dark = nodes.math("DIVIDE", nodes.math("MULTIPLY", lighter, 3.0), nodes.math("MAXIMUM", bright, 1e-6))
+    dark = nodes.math("MINIMUM", nodes.math("MAXIMUM", dark, 0.0), 1.0)
+    dirt = nodes.vector("DIVIDE", light, nodes.vector("MAXIMUM", each, (1e-6,) * 3))
+    dirt = nodes.mix(nodes.math("MULTIPLY", dark, 0.3), dirt, DUST, "VECTOR")
+    through = nodes.add("ShaderNodeCombineXYZ")
+    for axis, density in split(nodes, nodes.mix(dark, each, nodes.scale((1.0,) * 3, mean), "VECTOR")).items():
+        nodes.put(through.inputs[axis], nodes.math("EXPONENT", nodes.math("MULTIPLY", density, -1.0)))
+    left = nodes.vector("MULTIPLY", nodes.vector("SUBTRACT", clean, dirt), through.outputs[0])
     result = nodes.add("NodeGroupOutput").inputs
-    nodes.put(result["Color"], nodes.mix(through, dirt, given["Color"], "RGBA"))
+    nodes.put(result["Color"], nodes.vector("ADD", dirt, left))
+    through = nodes.math("EXPONENT", nodes.math("MULTIPLY", mean, -1.0))
     nodes.put(result["Roughness"], nodes.mix(through, DIRT_ROUGHNESS, given["Roughness"], "FLOAT"))
 
 

@@ -34,13 +34,18 @@ uniform vec4 u_light_heights;
 uniform vec4 u_lamps_place;
 
 {{light}}
+const vec3 SEEN = vec3(0.2126, 0.7152, 0.0722);
+const vec3 DUST = vec3(0.304987, 0.270498, 0.215861);  // linear
+const float DUST_OVER_DARK = 0.3;
+
 // Base colour in linear light, and roughness.
 struct Material {
   vec3 colour;
   float roughness;
 };
 
-// The look's law, channel by channel: C = clean T + sum(D c) / sum(D) (1 - T), T = exp(-sum D), in linear light.
+// The look's law (src/look/dirt.rs), channel by channel in linear light: C = clean T + sum(D c) / sum(D) (1 - T),
+// T = exp(-sum D). Over a floor darker than itself dirt covers all channels alike, and is lighter and greyer.
 Material material() {
   if (!u_textured) return Material(u_clean_colour, u_clean_roughness);
   vec4 baked = -log(1.0 - min(texture(u_dirt, v_uv), vec4(0.998)));
@@ -52,9 +57,14 @@ Material material() {
     each += densities[n] * u_absorbs[n];
     dirt += densities[n] * u_absorbs[n] * u_colours[n];
   }
-  vec3 through = exp(-each);
+  vec3 clean = texture(u_clean, v_uv).rgb;
+  float light = dot(dirt, SEEN);
+  vec3 around = textureLod(u_clean, v_uv, 5.0).rgb;  // without the floor's flecks
+  float dark = clamp(3.0 * (0.8 * light - dot(around, SEEN) * dot(each, SEEN)) / max(light, 1e-6), 0.0, 1.0);
+  vec3 through = exp(-mix(each, vec3(dot(each, SEEN)), dark));
   dirt /= max(each, vec3(1e-6));
-  vec3 colour = texture(u_clean, v_uv).rgb * through + dirt * (1.0 - through);
+  dirt = mix(dirt, DUST, DUST_OVER_DARK * dark);
+  vec3 colour = clean * through + dirt * (1.0 - through);
   float baked_sum = dot(baked, vec4(1.0));
   float share = min(sum / max(baked_sum, 1e-4), 1.25);
   float roughness = u_clean_roughness + (texture(u_rough, v_uv).r - u_clean_roughness) * share;
