@@ -70,6 +70,8 @@ const fn habits(draws: f64, stay_s: f64, spots: usize) -> RoomHabits {
 
 /// A corridor draws nobody by itself: a few stop at a board or wait at a door.
 const PASSED: RoomHabits = habits(0.15, 2.0, 1);
+/// From so many rooms with a toilet of their own on, a building is a hospital.
+const LEAST_PATIENTS_ROOMS: usize = 6;
 /// Stairs are passed: people go up, and others come down.
 const CLIMBED: RoomHabits = habits(1.0, 2.0, 1);
 
@@ -230,8 +232,8 @@ impl Use {
 
     /// What a building with such rooms and furniture is for, as far as they tell.
     ///
-    /// Few small rooms are a home, and so are many without a corridor: flats; many at corridors an office, a school (large
-    /// ones, or tables side by side) or a hospital (very many); large rooms that lead into each other a museum; one large
+    /// Rooms that mostly have a toilet each are a hospital's. Few small rooms are a home, and so are many without a corridor:
+    /// flats; many at corridors an office, a school (large ones, or tables side by side) or a hospital (very many); large rooms that lead into each other a museum; one large
     /// room with small ones a shop, an office if it has desks, a hall if it is very large or full of seats, or with wide
     /// openings a station.
     pub(crate) fn guess(rooms: &Rooms, furniture: &[FurniturePiece]) -> Use {
@@ -251,7 +253,17 @@ impl Use {
         let has_small_rooms = median_m2 < 30.0 || areas.len() >= 3 && total_m2 < 140.0;
         let is_one_flat = total_m2 < 220.0 && has_small_rooms && largest_m2 < 80.0 && corridor_share < 0.35;
         let are_flats = corridor_share < 0.08 && median_m2 < 22.0 && largest_m2 < 45.0;
-        if wide >= 3 && (area_m2(RoomKind::Hall) + area_m2(RoomKind::Corridor)) >= 0.5 * total_m2 {
+        let kind = |room: usize| rooms.rooms[room].kind;
+        // Doors between a room and a toilet of its own.
+        let own_toilets = rooms.doors.iter().filter(|(_, ends)| {
+            let toilet = ends.iter().find(|&&end| kind(end) == RoomKind::Toilet);
+            toilet.is_some_and(|&end| rooms.rooms[end].doors == 1)
+                && ends.iter().any(|&end| kind(end) == RoomKind::Room)
+        });
+        let own_toilets = own_toilets.count();
+        if own_toilets >= LEAST_PATIENTS_ROOMS && 2 * own_toilets >= areas.len() {
+            Use::Hospital
+        } else if wide >= 3 && (area_m2(RoomKind::Hall) + area_m2(RoomKind::Corridor)) >= 0.5 * total_m2 {
             Use::Station
         } else if is_one_flat || are_flats {
             Use::Home
@@ -289,5 +301,33 @@ impl Habits {
             RoomKind::Toilet => self.toilet,
             RoomKind::Stairs => self.stairs,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::FloorPlan;
+    use crate::walls::{Walls, WallsOptions};
+
+    /// Seven rooms of 4 x 5 m at a corridor; with toilets, each has a cell of 1.6 x 1.9 m beside its door. 0.1 m per pixel.
+    fn ward(with_toilets: bool) -> Use {
+        let is_floor = |x: u32, y: u32| {
+            let in_room = x % 41;
+            let is_door = in_room > 25 && in_room < 36 && y == 51;
+            let is_room = (1..51).contains(&y) && in_room != 0;
+            let is_cell_wall = in_room == 17 && y > 31 || y == 31 && in_room <= 17;
+            let is_cell_door = in_room == 17 && (36..45).contains(&y);
+            let is_corridor = (52..74).contains(&y) && x > 0 || (58..68).contains(&y);
+            is_room && (!with_toilets || !is_cell_wall || is_cell_door) && x < 287 || is_door || is_corridor && x < 287
+        };
+        let mask = (0..76 * 288).map(|k: u32| u8::from(is_floor(k % 288, k / 288))).collect();
+        let plan = FloorPlan::from_mask(288, 76, 0.1, mask);
+        Use::guess(&Rooms::find(&plan, &Walls::trace(&plan, &WallsOptions::default())), &[])
+    }
+
+    #[test]
+    fn rooms_with_a_toilet_each_are_a_hospitals() {
+        assert_eq!([ward(true), ward(false)], [Use::Hospital, Use::Home]);
     }
 }
