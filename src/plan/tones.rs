@@ -20,6 +20,9 @@ const THICKEST_BESIDE_LINES: f64 = 0.08;
 const LINES_SHARE: f64 = 0.02;
 /// Least share of the places between lines with lines on three sides of them.
 const ENCLOSED_SHARE: f64 = 0.55;
+/// The same of grey that is as many times as thick as dark lines.
+const FILL_IN_LINES: f64 = 6.0;
+const ENCLOSED_BY_FILL: f64 = 0.3;
 /// Cells along the image's longer side in which long pieces are counted.
 const CELLS: usize = 48;
 /// Share of a grey beside dark pixels from which it is their soft edge.
@@ -171,11 +174,13 @@ pub(super) fn wall_threshold(width: usize, lightness: &[u8], coloured: &[u8]) ->
         let grey_alone = || net_of(&|l| (usize::from(l) + 3 * PEAK >= grey) && l < threshold);
         let is_thicker = || {
             let net = grey_alone();
+            // The fill of outlines ends at windows and doors, and those far from each other enclose less.
+            let is_fill = dark_lines.is_some_and(|dark| lines >= FILL_IN_LINES * dark.max(1.0));
             lines >= 3.0
                 && dark_lines.is_some_and(|dark| lines >= 1.8 * dark.max(1.0))
                 && net.cells() * 2 >= dark_net.cells()
                 && net.is_large(width, height)
-                && net.enclosed() >= ENCLOSED_SHARE
+                && net.enclosed() >= if is_fill { ENCLOSED_BY_FILL } else { ENCLOSED_SHARE }
         };
         if all.is_large(width, height) && all.enclosed() >= ENCLOSED_SHARE && (replaces || is_thicker()) {
             return threshold;
