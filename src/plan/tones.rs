@@ -178,7 +178,7 @@ pub(super) fn wall_threshold(width: usize, lightness: &[u8], coloured: &[u8]) ->
             let is_fill = dark_lines.is_some_and(|dark| lines >= FILL_IN_LINES * dark.max(1.0));
             lines >= 3.0
                 && dark_lines.is_some_and(|dark| lines >= 1.8 * dark.max(1.0))
-                && net.cells() * 2 >= dark_net.cells()
+                && net.cells() * if is_fill { 3 } else { 2 } >= dark_net.cells()
                 && net.is_large(width, height)
                 && net.enclosed() >= if is_fill { ENCLOSED_BY_FILL } else { ENCLOSED_SHARE }
         };
@@ -437,6 +437,36 @@ mod tests {
             fill(x..x + 14, 110..115, paper);
         }
         drawing
+    }
+
+    /// Three rows of walls, filled with grey between black outlines as far as windows of two lines leave it.
+    fn filled_outlines(grey: u8) -> Vec<u8> {
+        let mut drawing = vec![255; WIDTH * 200];
+        let mut fill = |[x0, y0, x1, y1]: [usize; 4], tone: u8| {
+            (y0..y1).for_each(|y| drawing[y * WIDTH + x0..y * WIDTH + x1].fill(tone));
+        };
+        // Windows first: walls lie over their ends.
+        for at in [20, 96, 172] {
+            [at, at + 7].into_iter().for_each(|y| fill([20, y, 280, y + 1], 0));
+        }
+        for at in [20, 104, 188, 272] {
+            [at, at + 7].into_iter().for_each(|x| fill([x, 20, x + 1, 180], 0));
+        }
+        for y in [20, 96, 172] {
+            for x in [20, 104, 188, 272] {
+                let ends =
+                    [[x.max(46) - 26, y, (x + 34).min(280), y + 8], [x, y.max(46) - 26, x + 8, (y + 34).min(180)]];
+                ends.into_iter().for_each(|end| fill(end, 0));
+                ends.into_iter().for_each(|[x0, y0, x1, y1]| fill([x0 + 1, y0 + 1, x1 - 1, y1 - 1], grey));
+            }
+        }
+        drawing
+    }
+
+    #[test]
+    fn fills_that_windows_interrupt_are_wall() {
+        let threshold = wall_threshold(WIDTH, &filled_outlines(179), &[]);
+        assert!((180..=240).contains(&threshold), "{threshold}");
     }
 
     #[test]
