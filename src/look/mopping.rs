@@ -18,6 +18,8 @@ const LOOK_M: f64 = 8.0;
 const MISSED_M: [f32; 2] = [0.05, 0.18];
 /// Length of a swing along the pass, metres.
 const SWING_M: f64 = 0.27;
+/// Share of a pass's width, on either side of its border, in which it blends into the next.
+const OVERLAP: f32 = 0.22;
 /// Spacing of the lattice on which the pattern is laid out, metres.
 const SPACING_M: f64 = 0.025;
 /// Weights of the last cleaning and of the one before.
@@ -142,21 +144,34 @@ impl Mopping {
     fn left(&self, u: f64, v: f64, key: u32) -> f32 {
         let wobble = 0.10 * f64::from(smooth(key, 0.35 * u, 0.5 * v));
         let across = v / self.width_m + wobble;
-        let strip = across.floor();
-        let (f, strip) = ((across - strip) as f32, strip as i64 as i32);
-        let own = 2.0 * unit(key ^ 1, strip, 0) - 1.0;
-        let pressed = smooth_along(key ^ 2, 0.6 * u, strip);
-        // Dirty water dries at the border of a pass, now and then.
-        let border = 1.0 - rise(f.min(1.0 - f) * self.width_m as f32, 0.0, 0.025);
-        let wet = || rise(smooth(key ^ 3, 0.5 * u, f64::from(strip) + 0.5), 0.0, 0.6);
+        let pass = across.floor();
+        let (f, pass) = ((across - pass) as f32, pass as i64 as i32);
+        // Passes overlap: none ends at an edge, but for the line where dirty water dries, now and then.
+        let from_border = f.min(1.0 - f);
+        let beside = if f < 0.5 { -1 } else { 1 };
+        let shared = 0.5 * (1.0 - rise(from_border, 0.0, OVERLAP));
+        let mut left = (1.0 - shared) * pass_leaves(u, f, pass, key);
+        if shared > 0.0 {
+            left += shared * pass_leaves(u, f - beside as f32, pass.wrapping_add(beside), key);
+        }
+        let border = 1.0 - rise(from_border * self.width_m as f32, 0.0, 0.025);
+        let wet = || rise(smooth(key ^ 3, 0.5 * u, f64::from(pass) + 0.5), 0.0, 0.6);
         let line = if border > 0.0 { border * wet() } else { 0.0 };
-        // Swings: arcs that open towards where the cleaner came from.
-        let bow = 4.0 * (f - 0.5) * (f - 0.5);
-        // Nobody swings to a beat.
-        let turn = 1.3 * f64::from(smooth_along(key ^ 4, 1.3 * u, strip));
-        let swing = u / SWING_M + f64::from(bow) * 0.9 + turn + f64::from(unit(key ^ 5, strip, 1));
-        let swing = (swing - swing.floor()) as f32;
-        let arc = rise(swing, 0.0, 0.8) * (1.0 - rise(swing, 0.86, 1.0)) - 0.45;
-        0.55 * own + 0.45 * pressed + 0.9 * line + 0.55 * arc
+        left + 0.9 * line
     }
+}
+
+/// What one pass leaves at a place along it, and across it from 0 to 1.
+fn pass_leaves(u: f64, f: f32, pass: i32, key: u32) -> f32 {
+    let own = 2.0 * unit(key ^ 1, pass, 0) - 1.0;
+    let pressed = smooth_along(key ^ 2, 0.6 * u, pass);
+    // Swings: arcs that open towards where the cleaner came from.
+    let bow = 4.0 * (f - 0.5) * (f - 0.5);
+    // Nobody swings to a beat, nor leaves every swing's arc.
+    let turn = 1.9 * f64::from(smooth_along(key ^ 4, 0.9 * u, pass));
+    let swing = u / SWING_M + f64::from(bow) * 0.9 + turn + f64::from(unit(key ^ 5, pass, 1));
+    let swing = (swing - swing.floor()) as f32;
+    let arc = rise(swing, 0.0, 0.8) * (1.0 - rise(swing, 0.86, 1.0)) - 0.45;
+    let shows = rise(smooth_along(key ^ 6, 0.45 * u, pass), -0.5, 0.5);
+    0.4 * own + 0.55 * pressed + 0.8 * shows * arc
 }

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::cracks::CrackLoop;
+use super::cracks::{CrackLoop, trace};
 use crate::math::{atan2, sin_cos};
 
 /// Range of the angle of a door's arc that can be followed, radians: 60 to 112 degrees.
@@ -17,6 +17,9 @@ const ROUNDNESS_PX: f64 = 0.7;
 const LEAST_RADIUS_PX: f64 = 10.0;
 /// Angle by which an arc may continue beyond each of its blurred ends, radians.
 const END_MARGIN: f64 = 0.1;
+
+/// Most pixels a side of the picture in which door leaves are looked for.
+const MOST_PX: usize = 1800;
 
 /// An arc of a circle in the image, pixels and radians (y down).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -188,4 +191,74 @@ fn circle(points: &[[f64; 2]], near: [f64; 2], radius: f64) -> Option<f64> {
         r += step[2];
     }
     Some(r)
+}
+
+/// Radii of the quarter circles of door leaves, with their weights.
+pub(super) fn leaves(dark: &[u8], full: usize) -> Vec<(f64, f64)> {
+    let height = dark.len() / full;
+    let factor = full.max(height).div_ceil(MOST_PX).max(1);
+    let width = full.div_ceil(factor);
+    // A pixel of the small picture is white unless one of its pixels is dark.
+    let mut white = vec![1u8; width * height.div_ceil(factor)];
+    for (y, row) in dark.chunks_exact(full).enumerate() {
+        for (x, _) in row.iter().enumerate().filter(|(_, d)| **d != 0) {
+            white[y / factor * width + x / factor] = 0;
+        }
+    }
+    let most = width.max(white.len() / width) as f64 / 8.0;
+    let mut arcs: Vec<Arc> = Vec::new();
+    for boundary in trace(&white, width).iter().filter(|boundary| boundary.len() >= 20) {
+        let mut least = 10.0;
+        while least < most {
+            let search = Search { radii: [least, (least * 3.0).min(most)], step: ((least * 0.1) as usize).max(2) };
+            search.find(boundary, &mut arcs);
+            least *= 3.0;
+        }
+    }
+    // Both edges of a stroke are found: an arc counts once.
+    let mut found: Vec<Arc> = Vec::new();
+    for arc in arcs {
+        let is_same = |other: &Arc| {
+            let [dx, dy] = [0, 1].map(|k| arc.centre[k] - other.centre[k]);
+            let near = 0.15 * arc.radius + 2.0;
+            dx * dx + dy * dy < near * near && (arc.radius - other.radius).abs() < near
+        };
+        if is_stroke(&white, width, &arc) && has_leaf(&white, width, &arc) && !found.iter().any(is_same) {
+            found.push(arc);
+        }
+    }
+    found.iter().map(|arc| (fitted_radius(&white, width, arc) * factor as f64, 1.0)).collect()
+}
+
+/// Whether a straight stroke goes from the arc's centre to about one of its ends.
+fn has_leaf(white: &[u8], width: usize, arc: &Arc) -> bool {
+    const TURNS: i32 = 8;
+    const PLACES: usize = 16;
+    let is_dark = |place| pixel(white, width, place) == Some(0);
+    let beside = (0.08 * arc.radius).max(1.5);
+    let is_leaf = |angle: f64, aside: f64| {
+        let dark = (0..PLACES).filter(|&k| {
+            let [x, y] = arc.place(arc.radius * (0.2 + 0.7 * (k as f64 + 0.5) / PLACES as f64), angle);
+            let (sine, cosine) = sin_cos(angle);
+            [-0.7, 0.0, 0.7].iter().any(|&d| is_dark([x - (aside + d) * sine, y + (aside + d) * cosine]))
+        });
+        dark.count() * 10 >= PLACES * 8
+    };
+    [arc.from, arc.to].iter().any(|&end| {
+        let turns = (-TURNS..=TURNS).map(|turn| end + arc.missing() * f64::from(turn) / f64::from(TURNS));
+        turns.into_iter().any(|angle| [-1.0, -0.5, 0.0, 0.5, 1.0].iter().any(|&aside| is_leaf(angle, aside * beside)))
+    })
+}
+
+/// Whether an arc is a thin stroke with white on both sides.
+fn is_stroke(white: &[u8], width: usize, arc: &Arc) -> bool {
+    const PLACES: usize = 12;
+    let is_white = |place| pixel(white, width, place).is_some_and(|white| white != 0);
+    let away = (0.12 * arc.radius).max(3.0);
+    let on = (0..PLACES).filter(|&k| {
+        let angle = arc.from + (arc.to - arc.from) * (k as f64 + 0.5) / PLACES as f64;
+        let near = [-1.5, -0.5, 0.5, 1.5].iter().any(|&d| !is_white(arc.place(arc.radius + d, angle)));
+        near && is_white(arc.place(arc.radius - away, angle)) && is_white(arc.place(arc.radius + away, angle))
+    });
+    on.count() * 10 >= PLACES * 7
 }

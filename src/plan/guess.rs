@@ -2,17 +2,16 @@
 
 use std::ops::RangeInclusive;
 
-use super::arcs::{Arc, Search, fitted_radius, pixel};
+use super::arcs;
 use super::clearance::{dilate, erode};
 use super::components::{Component, Components, Neighbours};
-use super::cracks::trace;
 use super::drawing::{Drawing, is_on};
 use super::likely::{Likelihood, Usual};
 use super::scale::{self, PlanScale, ScaleSource, rounded};
 use super::symbols::{FEWEST_STROKES, groups};
 use super::thick;
 use super::{ASSUMED_M_PER_PX, understand};
-use crate::math::{ln, sin_cos};
+use crate::math::ln;
 
 /// How far one scale may be from another to be the same, and how many are tried: a sheet may be 2.5 times as wide as its
 /// building.
@@ -41,6 +40,12 @@ const FEWEST_LEAVES: f64 = 2.0;
 const FEWEST_DOORS: f64 = 4.0;
 /// Of gaps in a drawing with lettering, which no robot maps.
 const FEWEST_DOORS_LETTERED: f64 = 3.5;
+/// Larger sides of buildings at which doors are sought where fewer leaves than so many fit, metres.
+const BUILDINGS_M: [f64; 4] = [8.0, 13.0, 21.0, 34.0];
+const FEW_FITTING: f64 = 3.0;
+/// How many times as many leaves and gaps decide together, and beside how many times as many gaps leaves are few.
+const BOTH: f64 = 1.5;
+const FEW_LEAVES: f64 = 4.0;
 /// Greatest thickness of a stroke of colour, pixels, and in the thickness of walls that are drawn thick.
 const COLOURED_STROKE_PX: f64 = 4.0;
 const STROKE_IN_WALLS: f64 = 0.4;
@@ -66,8 +71,6 @@ const PRINTED: [f64; 9] = [100.0, 50.0, 200.0, 75.0, 25.0, 250.0, 20.0, 500.0, 1
 const PRINTED_REACH: f64 = 0.14;
 /// Resolutions that programs write without meaning them, dots per inch.
 const MEANINGLESS_DPI: [f64; 3] = [72.0, 90.0, 96.0];
-/// Most pixels a side of the picture in which arcs are looked for.
-const MOST_ARC_PX: usize = 1800;
 
 /// What is measured in a drawing, pixels.
 struct Measures {
@@ -121,8 +124,18 @@ pub(super) fn guess(drawing: &Drawing, dots_per_inch: Option<f64>) -> (f64, Plan
     };
     let mut likely = measures.likelihood().guess();
     let has_doors = measures.doors(likely.value).is_some();
-    // Where no leaf fits, gaps may be gates: the largest leaf tells another scale.
-    let other = if has_doors { measures.misfit(likely.value).map(|px| LEAF.metres / px) } else { Some(likely.value) };
+    // Where no leaf fits, gaps may be gates: the largest leaf tells another scale. Few leaves may be the corners of showers
+    // and bathtubs.
+    let other = match measures.misfit(likely.value) {
+        _ if !has_doors || measures.has_few_leaves() => Some(likely.value),
+        largest => largest.map(|px| LEAF.metres / px),
+    };
+    if measures.wall.is_none() && measures.fitting(likely.value) < FEW_FITTING {
+        // Arcs that are drawn by hand are told by the gaps of walls alone.
+        let hung = measures.larger_side().map_or(Vec::new(), |px| hung_leaves(drawing, px));
+        measures.leaves.extend(hung.into_iter().map(|length| (length, HUNG_WEIGHT)));
+        likely = measures.likelihood().guess();
+    }
     if let Some(scale) = other.filter(|_| measures.wall.is_some()) {
         // Leaves that hang in gaps of walls are told from other arcs.
         let hung = understand::leaf_lengths(drawing, scale);
@@ -132,14 +145,14 @@ pub(super) fn guess(drawing: &Drawing, dots_per_inch: Option<f64>) -> (f64, Plan
     if let Some((count, width)) = measures.doors(likely.value) {
         // Where most gaps are none of doors, as in scans, some of a width say little.
         let share = count / measures.candidates().max(1e-9);
+        let number = measures.number(likely.value);
         // So do few gaps without leaves.
         let gaps_only = if measures.leaves.is_empty() { count / (count + FEWEST_DOORS) } else { 1.0 };
         likely.sureness *= (0.4 + 0.6 * share) * gaps_only;
         if share < 0.5 || gaps_only < 0.6 {
             likely.range = [likely.range[0].min(likely.value * 0.6), likely.range[1].max(likely.value * 1.6)];
         }
-        let evidence =
-            format!("{count:.0} doors about {width:.0} pixels wide, taken for {:.2} m", width * likely.value);
+        let evidence = format!("{number} doors about {width:.0} pixels wide, taken for {:.2} m", width * likely.value);
         let [low, high] = likely.range;
         if likely.sureness < UNSURE && (low..=high).contains(&ASSUMED_M_PER_PX) {
             return scale::found(ASSUMED_M_PER_PX, ScaleSource::Assumed, likely.sureness, likely.range, evidence);
@@ -170,6 +183,19 @@ pub(super) fn guess(drawing: &Drawing, dots_per_inch: Option<f64>) -> (f64, Plan
         return scale::found(ASSUMED_M_PER_PX, ScaleSource::Assumed, likely.sureness.min(0.2), range, evidence);
     }
     scale::found(rounded(likely.value), ScaleSource::Guessed, likely.sureness, likely.range, evidence)
+}
+
+/// Lengths of the leaves that hang in the gaps of walls, pixels, by the size of a building at which most of them are doors.
+fn hung_leaves(drawing: &Drawing, building_px: f64) -> Vec<f64> {
+    let doors = |building_m: f64| -> Vec<f64> {
+        let scale = building_m / building_px;
+        let mut hung = understand::leaf_lengths(drawing, scale);
+        hung.retain(|&px| is_door_width(px, scale));
+        hung
+    };
+    let mut found: Vec<Vec<f64>> = BUILDINGS_M.into_iter().map(doors).collect();
+    found.sort_by_key(Vec::len);
+    found.pop().filter(|hung| hung.len() as f64 >= FEWEST_LEAVES).unwrap_or_default()
 }
 
 /// Walls of a drawing without strokes that are thinner, without what is too short, without frames.
@@ -299,11 +325,11 @@ impl Measures {
             }
         };
         let (dark, letter) = without_letters(&drawing.dark, drawing.width);
-        let mut leaves = leaves_of(&dark, drawing.width);
+        let mut leaves = arcs::leaves(&dark, drawing.width);
         if (leaves.len() as f64) < FEWEST_LEAVES && !drawing.scanned {
             let is_fine = |(at, &lightness): (usize, &u8)| u8::from(lightness < FINE || is_of_colour(at));
             let fine: Vec<u8> = drawing.lightness.iter().enumerate().map(is_fine).collect();
-            leaves = leaves_of(&without_letters(&fine, drawing.width).0, drawing.width);
+            leaves = arcs::leaves(&without_letters(&fine, drawing.width).0, drawing.width);
         }
         Measures { wall: walls.thickness, doorways: doorways_px, leaves, bounds: walls.bounds, letter }.restricted()
     }
@@ -338,7 +364,25 @@ impl Measures {
         // Quarter circles of any size are the grain of a scan.
         let are_doors = leaves >= FEWEST_LEAVES && leaves * 5.0 >= all * 2.0;
         let fewest = if self.letter.is_some() { FEWEST_DOORS_LETTERED } else { FEWEST_DOORS };
-        (are_doors || gaps >= fewest).then(|| (leaves + gaps, (leaf_sum + gap_sum) / (leaves + gaps)))
+        let are_both = leaves >= FEWEST_LEAVES && leaves + gaps >= BOTH * fewest;
+        (are_doors || gaps >= fewest || are_both).then(|| (leaves + gaps, (leaf_sum + gap_sum) / (leaves + gaps)))
+    }
+
+    /// Number of the leaves or doorways that are doors by a scale, of which there are more.
+    fn number(&self, scale: f64) -> usize {
+        let number = |doors: &[(f64, f64)]| doors.iter().filter(|door| is_door_width(door.0, scale)).count();
+        number(&self.leaves).max(number(&self.doorways))
+    }
+
+    /// Weight of the leaves that are doors by a scale.
+    fn fitting(&self, scale: f64) -> f64 {
+        self.leaves.iter().filter(|leaf| is_door_width(leaf.0, scale)).map(|leaf| leaf.1).sum()
+    }
+
+    /// Whether there are few leaves, at all or for so many gaps.
+    fn has_few_leaves(&self) -> bool {
+        let [leaves, gaps] = [&self.leaves, &self.doorways].map(|all| all.iter().map(|door| door.1).sum::<f64>());
+        leaves <= FEW_FITTING || leaves * FEW_LEAVES <= gaps
     }
 
     /// The largest leaf, pixels, if none is of a door by a scale.
@@ -520,74 +564,4 @@ fn coloured_doors(drawing: &Drawing) -> Vec<(f64, f64)> {
         (is_bar && goes_on).then_some((f64::from(length), 1.0))
     };
     pieces.all.iter().filter_map(length).collect()
-}
-
-/// Radii of the quarter circles of door leaves, with their weights.
-fn leaves_of(dark: &[u8], full: usize) -> Vec<(f64, f64)> {
-    let height = dark.len() / full;
-    let factor = full.max(height).div_ceil(MOST_ARC_PX).max(1);
-    let width = full.div_ceil(factor);
-    // A pixel of the small picture is white unless one of its pixels is dark.
-    let mut white = vec![1u8; width * height.div_ceil(factor)];
-    for (y, row) in dark.chunks_exact(full).enumerate() {
-        for (x, _) in row.iter().enumerate().filter(|(_, d)| **d != 0) {
-            white[y / factor * width + x / factor] = 0;
-        }
-    }
-    let most = width.max(white.len() / width) as f64 / 8.0;
-    let mut arcs: Vec<Arc> = Vec::new();
-    for boundary in trace(&white, width).iter().filter(|boundary| boundary.len() >= 20) {
-        let mut least = 10.0;
-        while least < most {
-            let search = Search { radii: [least, (least * 3.0).min(most)], step: ((least * 0.1) as usize).max(2) };
-            search.find(boundary, &mut arcs);
-            least *= 3.0;
-        }
-    }
-    // Both edges of a stroke are found: an arc counts once.
-    let mut found: Vec<Arc> = Vec::new();
-    for arc in arcs {
-        let is_same = |other: &Arc| {
-            let [dx, dy] = [0, 1].map(|k| arc.centre[k] - other.centre[k]);
-            let near = 0.15 * arc.radius + 2.0;
-            dx * dx + dy * dy < near * near && (arc.radius - other.radius).abs() < near
-        };
-        if is_stroke(&white, width, &arc) && has_leaf(&white, width, &arc) && !found.iter().any(is_same) {
-            found.push(arc);
-        }
-    }
-    found.iter().map(|arc| (fitted_radius(&white, width, arc) * factor as f64, 1.0)).collect()
-}
-
-/// Whether a straight stroke goes from the arc's centre to about one of its ends.
-fn has_leaf(white: &[u8], width: usize, arc: &Arc) -> bool {
-    const TURNS: i32 = 8;
-    const PLACES: usize = 16;
-    let is_dark = |place| pixel(white, width, place) == Some(0);
-    let beside = (0.08 * arc.radius).max(1.5);
-    let is_leaf = |angle: f64, aside: f64| {
-        let dark = (0..PLACES).filter(|&k| {
-            let [x, y] = arc.place(arc.radius * (0.2 + 0.7 * (k as f64 + 0.5) / PLACES as f64), angle);
-            let (sine, cosine) = sin_cos(angle);
-            [-0.7, 0.0, 0.7].iter().any(|&d| is_dark([x - (aside + d) * sine, y + (aside + d) * cosine]))
-        });
-        dark.count() * 10 >= PLACES * 8
-    };
-    [arc.from, arc.to].iter().any(|&end| {
-        let turns = (-TURNS..=TURNS).map(|turn| end + arc.missing() * f64::from(turn) / f64::from(TURNS));
-        turns.into_iter().any(|angle| [-1.0, -0.5, 0.0, 0.5, 1.0].iter().any(|&aside| is_leaf(angle, aside * beside)))
-    })
-}
-
-/// Whether an arc is a thin stroke with white on both sides.
-fn is_stroke(white: &[u8], width: usize, arc: &Arc) -> bool {
-    const PLACES: usize = 12;
-    let is_white = |place| pixel(white, width, place).is_some_and(|white| white != 0);
-    let away = (0.12 * arc.radius).max(3.0);
-    let on = (0..PLACES).filter(|&k| {
-        let angle = arc.from + (arc.to - arc.from) * (k as f64 + 0.5) / PLACES as f64;
-        let near = [-1.5, -0.5, 0.5, 1.5].iter().any(|&d| !is_white(arc.place(arc.radius + d, angle)));
-        near && is_white(arc.place(arc.radius - away, angle)) && is_white(arc.place(arc.radius + away, angle))
-    });
-    on.count() * 10 >= PLACES * 7
 }

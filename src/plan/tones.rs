@@ -20,6 +20,10 @@ const THICKEST_BESIDE_LINES: f64 = 0.08;
 const LINES_SHARE: f64 = 0.02;
 /// Least share of the places between lines with lines on three sides of them.
 const ENCLOSED_SHARE: f64 = 0.55;
+/// Least lightness of white paper.
+const WHITE: u8 = 230;
+/// As how much of coloured ink black ink is little: one in so many pixels.
+const LITTLE_INK: usize = 12;
 /// The same of grey that is as many times as thick as dark lines.
 const FILL_IN_LINES: f64 = 6.0;
 const ENCLOSED_BY_FILL: f64 = 0.3;
@@ -81,8 +85,8 @@ pub(super) fn is_inverted(width: usize, lightness: &[u8], coloured: &[u8]) -> bo
     net.is_large(width, height) && net.enclosed() >= ENCLOSED_SHARE
 }
 
-/// Whether walls are of saturated colour: what is dark and coloured is as thin as walls, encloses places, and covers more
-/// of the image than what is dark and grey. `luma` is of the colours as they are.
+/// Whether walls are of saturated colour: what is dark and coloured is as thin as walls and covers more of the image than
+/// what is dark and grey; if there is much of that, it encloses places too. `luma` is of the colours as they are.
 pub(super) fn walls_are_coloured(width: usize, luma: &[u8], coloured: &[u8]) -> bool {
     let is_dark = |l: u8| l < USUAL_THRESHOLD;
     let is_ink = |at: usize| is_dark(luma[at]) && coloured[at] != 0;
@@ -101,7 +105,16 @@ pub(super) fn walls_are_coloured(width: usize, luma: &[u8], coloured: &[u8]) -> 
     };
     let plain = net_of(&|at| is_dark(luma[at]) && coloured[at] == 0);
     let all = net_of(&|at| is_dark(luma[at]));
-    plain.cells() * 2 <= all.cells() && all.is_large(width, height) && all.enclosed() >= ENCLOSED_SHARE
+    // On white paper with hardly any black ink, there is no other.
+    let is_only_ink = || {
+        let plain = |is_it: &dyn Fn(u8) -> bool| {
+            luma.iter().zip(coloured).filter(|&(&l, &coloured)| coloured == 0 && is_it(l)).count()
+        };
+        plain(&is_dark) * LITTLE_INK <= count && plain(&|l| l >= WHITE) * 2 >= luma.len()
+    };
+    plain.cells() * 2 <= all.cells()
+        && all.is_large(width, height)
+        && (all.enclosed() >= ENCLOSED_SHARE || is_only_ink())
 }
 
 /// Whether long pieces of a mask spread over a good part of the image, as walls do.

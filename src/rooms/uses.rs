@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::find::Rooms;
+use super::find::{Room, Rooms};
 use super::kind::RoomKind;
+use crate::math::vec2;
 use crate::options::names;
 use crate::plan::{FurniturePiece, PlanClass};
 
@@ -72,6 +73,15 @@ const fn habits(draws: f64, stay_s: f64, spots: usize) -> RoomHabits {
 const PASSED: RoomHabits = habits(0.15, 2.0, 1);
 /// From so many rooms with a toilet of their own on, a building is a hospital.
 const LEAST_PATIENTS_ROOMS: usize = 6;
+/// From so many racks between aisles on, of so many square metres each, a building is a shop.
+const LEAST_RACKS: usize = 6;
+const LEAST_RACK_M2: f64 = 3.0;
+/// From so many classrooms on a building is a school, and what a classroom is: its area, and tables or seats in it.
+const LEAST_CLASSROOMS: usize = 3;
+const LEAST_CLASSROOM_M2: f64 = 35.0;
+const PUPILS_PER_M2: f64 = 0.2;
+/// How far from a piece of furniture people are at it, metres.
+const BESIDE_M: f64 = 0.15;
 /// Stairs are passed: people go up, and others come down.
 const CLIMBED: RoomHabits = habits(1.0, 2.0, 1);
 
@@ -232,7 +242,7 @@ impl Use {
 
     /// What a building with such rooms and furniture is for, as far as they tell.
     ///
-    /// Rooms that mostly have a toilet each are a hospital's. Few small rooms are a home, and so are many without a corridor:
+    /// Rooms that mostly have a toilet each are a hospital's, rows of racks a shop's, rooms full of desks a school's. Few small rooms are a home, and so are many without a corridor:
     /// flats; many at corridors an office, a school (large ones, or tables side by side) or a hospital (very many); large rooms that lead into each other a museum; one large
     /// room with small ones a shop, an office if it has desks, a hall if it is very large or full of seats, or with wide
     /// openings a station.
@@ -261,8 +271,35 @@ impl Use {
                 && ends.iter().any(|&end| kind(end) == RoomKind::Room)
         });
         let own_toilets = own_toilets.count();
+        let is_rack = |piece: &&FurniturePiece| {
+            piece.class == PlanClass::Counter && piece.at_wall < 0.5 && piece.area_m2 >= LEAST_RACK_M2
+        };
+        let racks = furniture.iter().filter(is_rack).count();
+        // Tables or seats side by side, more than an office has.
+        let mut places = vec![[0.0_f64; 2]; rooms.rooms.len()];
+        for piece in furniture {
+            // Where people stand at it.
+            let (low, high) = (piece.min_m - vec2(BESIDE_M, BESIDE_M), piece.max_m + vec2(BESIDE_M, BESIDE_M));
+            let beside = [low, high, vec2(low.x, high.y), vec2(high.x, low.y)];
+            let k = match piece.class {
+                PlanClass::Seat => 0,
+                PlanClass::Table => 1,
+                _ => continue,
+            };
+            if let Some(room) = beside.into_iter().find_map(|place| rooms.at(place)) {
+                places[room][k] += 1.0;
+            }
+        }
+        let is_class = |(room, places): &(&Room, &[f64; 2])| {
+            room.area_m2 >= LEAST_CLASSROOM_M2 && places[0].max(places[1]) >= PUPILS_PER_M2 * room.area_m2
+        };
+        let classrooms = rooms.rooms.iter().zip(&places).filter(is_class).count();
         if own_toilets >= LEAST_PATIENTS_ROOMS && 2 * own_toilets >= areas.len() {
             Use::Hospital
+        } else if racks >= LEAST_RACKS {
+            Use::Shop
+        } else if classrooms >= LEAST_CLASSROOMS && 4 * classrooms >= areas.len() {
+            Use::School
         } else if wide >= 3 && (area_m2(RoomKind::Hall) + area_m2(RoomKind::Corridor)) >= 0.5 * total_m2 {
             Use::Station
         } else if is_one_flat || are_flats {

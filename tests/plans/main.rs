@@ -7,6 +7,7 @@ mod canvas;
 mod coloured;
 mod cropped;
 mod floors;
+mod fronts;
 mod furnished;
 mod halls;
 mod levels;

@@ -23,8 +23,12 @@ const LEAST_SHARE: f64 = 0.4;
 /// Votes of a scale bar, both ends of which have numbers; of one that says its unit too, which is enough by itself.
 const BAR_VOTES: usize = 2;
 const BAR_WITH_UNIT_VOTES: usize = FEWEST;
-/// How far a printed scale may lie from the one that doors say.
+/// How far a printed scale may lie from the one that doors say; where so many measures agree, and at least this share of
+/// all, doors were misread. Millimetres and centimetres are never both so near.
 const FAR: f64 = 1.5;
+const VERY_FAR: f64 = 3.0;
+const MANY_AGREE: usize = 6;
+const MOST_SHARE: f64 = 0.6;
 /// How sure a printed scale is where few and where many measures agree, and how far it may be off.
 const SURENESS: [f64; 2] = [0.9, 0.99];
 const MANY: f64 = 10.0;
@@ -69,7 +73,7 @@ struct RoomNumber {
 pub(super) fn scale(drawing: &Drawing, guess: f64, possible: [f64; 2]) -> Option<(f64, PlanScale)> {
     let sane = [possible[0].min(guess / FAR), possible[1].max(guess * FAR)];
     let (mut measures, in_rooms) = read(drawing);
-    if let Some(found) = vote(&measures, guess, sane) {
+    if let Some(found) = found_in(&measures, guess, sane) {
         return Some(found);
     }
     // Rooms take longer to find.
@@ -78,7 +82,14 @@ pub(super) fn scale(drawing: &Drawing, guess: f64, possible: [f64; 2]) -> Option
         return None;
     }
     measures.extend(measured_rooms(drawing, guess, &in_rooms));
-    vote(&measures, guess, sane)
+    found_in(&measures, guess, sane)
+}
+
+/// What measures agree on within a range, or many of them beyond it.
+fn found_in(measures: &[Measure], guess: f64, sane: [f64; 2]) -> Option<(f64, PlanScale)> {
+    let misread = [guess / VERY_FAR, guess * VERY_FAR];
+    let surely = || vote(measures, guess, misread, (MANY_AGREE, MOST_SHARE));
+    vote(measures, guess, sane, (FEWEST, LEAST_SHARE)).or_else(surely)
 }
 
 /// Reads both pages of a drawing, upright and turned: lengths, and numbers about rooms.
@@ -157,9 +168,9 @@ fn measured_rooms(drawing: &Drawing, guess: f64, numbers: &[RoomNumber]) -> Vec<
     found
 }
 
-/// The scale that most measures agree on, if those are enough. Of two, as of millimetres and centimetres, the nearer to the
-/// guess.
-fn vote(measures: &[Measure], guess: f64, sane: [f64; 2]) -> Option<(f64, PlanScale)> {
+/// The scale that most measures agree on, if those are `enough`: their number, and their share of all. Of two, as of
+/// millimetres and centimetres, the nearer to the guess.
+fn vote(measures: &[Measure], guess: f64, sane: [f64; 2], enough: (usize, f64)) -> Option<(f64, PlanScale)> {
     let mut all: Vec<Measure> = measures.iter().copied().filter(|m| (sane[0]..=sane[1]).contains(&m.scale())).collect();
     all.sort_by(|a, b| a.scale().total_cmp(&b.scale()));
     let votes = |some: &[Measure]| {
@@ -176,7 +187,8 @@ fn vote(measures: &[Measure], guess: f64, sane: [f64; 2]) -> Option<(f64, PlanSc
     let windows = (0..all.len()).map(window);
     let best = windows.max_by(|a, b| votes(a).cmp(&votes(b)).then(nearness(a).total_cmp(&nearness(b))))?;
     let count = votes(best);
-    if count < FEWEST || (count as f64) < LEAST_SHARE * votes(&all) as f64 {
+    let (fewest, least_share) = enough;
+    if count < fewest || (count as f64) < least_share * votes(&all) as f64 {
         return None;
     }
     // Long measures are surer.
@@ -220,7 +232,7 @@ mod tests {
         let measure =
             |(number, scale)| Measure { number, kind: Kind::Dimension, metres: 100.0 * scale, pixels: 100.0, votes: 1 };
         let measures: Vec<Measure> = scales.iter().copied().enumerate().map(measure).collect();
-        vote(&measures, 0.02, [0.015, 0.03]).map(|(value, _)| value)
+        vote(&measures, 0.02, [0.015, 0.03], (FEWEST, LEAST_SHARE)).map(|(value, _)| value)
     }
 
     #[test]
@@ -233,18 +245,29 @@ mod tests {
     }
 
     #[test]
+    fn where_many_agree_doors_were_misread() {
+        let found = |count: usize, scale: f64| {
+            let measure =
+                |number| Measure { number, kind: Kind::Dimension, metres: 100.0 * scale, pixels: 100.0, votes: 1 };
+            let measures: Vec<Measure> = (0..count).map(measure).collect();
+            found_in(&measures, 0.02, [0.015, 0.03]).map(|(value, _)| value)
+        };
+        assert_eq!((found(9, 0.05), found(3, 0.05), found(9, 0.2)), (Some(0.05), None, None));
+    }
+
+    #[test]
     fn numbers_without_a_unit_take_the_one_nearer_to_the_guess() {
         let measure = |number| {
             [6.0, 60.0].map(|metres| Measure { number, kind: Kind::Dimension, metres, pixels: 300.0, votes: 1 })
         };
         let measures: Vec<Measure> = (0..3).flat_map(measure).collect();
-        let found = |guess| vote(&measures, guess, [0.005, 0.5]).map(|(value, _)| value);
+        let found = |guess| vote(&measures, guess, [0.005, 0.5], (FEWEST, LEAST_SHARE)).map(|(value, _)| value);
         assert_eq!((found(0.05), found(0.15)), (Some(0.02), Some(0.2)));
     }
 
     #[test]
     fn one_number_is_one_vote() {
         let twice = Measure { number: 1, kind: Kind::Dimension, metres: 2.0, pixels: 100.0, votes: 1 };
-        assert!(vote(&[twice; 5], 0.02, [0.01, 0.03]).is_none());
+        assert!(vote(&[twice; 5], 0.02, [0.01, 0.03], (FEWEST, LEAST_SHARE)).is_none());
     }
 }

@@ -47,6 +47,12 @@ impl Gap {
         Gap { rows, ..self.clone() }
     }
 
+    /// The same gap with its jambs moved together by some pixels each.
+    pub(super) fn narrowed(&self, [first, last]: [usize; 2]) -> Gap {
+        let rows = self.rows.iter().map(|[from, to]| [from + first, (to - last).max(from + first)]).collect();
+        Gap { rows, ..self.clone() }
+    }
+
     /// Thickness of the wall, pixels.
     pub(super) fn thickness(&self) -> f64 {
         self.rows.len() as f64
@@ -227,15 +233,16 @@ fn is_same(a: &Gap, b: &Gap) -> bool {
     (ax - bx) * (ax - bx) + (ay - by) * (ay - by) <= near * near
 }
 
-/// Whether both jambs of a gap lie in another one of another direction.
+/// Whether both jambs of a gap lie in another one of another direction, or beside it if more strokes run through the other.
 fn is_within(gap: &Gap, other: &Gap) -> bool {
     let ([ax, ay], [from, _]) = (other.frame.along, other.jambs());
     let (length, thickness) = (other.length() as f64, other.thickness());
+    let beside = if other.strokes > gap.strokes { 0.5 * thickness + gap.thickness() } else { thickness };
     gap.frame.along != other.frame.along
         && gap.jambs().into_iter().all(|[x, y]| {
             let (dx, dy) = (x - from[0], y - from[1]);
             let (along, across) = (dx * ax + dy * ay, dy * ax - dx * ay);
-            (-thickness..=length + thickness).contains(&along) && across.abs() <= thickness
+            (-thickness..=length + thickness).contains(&along) && across.abs() <= beside
         })
 }
 
@@ -482,11 +489,15 @@ fn slides(ink: &[u8], width: usize, gap: &Gap) -> bool {
     let length = to - from;
     // Lines that run aslant to the grid go over from row to row.
     let rows = if gap.frame.is_upright() { 1 } else { 2 };
+    let all_rows = gap.first.saturating_sub(margin)..(gap.first + thick + margin).min(height);
+    // Two leaves that meet in the middle leave a slit there, however narrow.
+    let is_slit = |k: usize| all_rows.clone().all(|y| ink[y * width + from + k] == 0);
+    let longest_break = if (length * 2 / 5..length * 3 / 5).any(is_slit) { 0 } else { BREAK_PX };
     let mut covered = vec![false; length];
-    for y in gap.first.saturating_sub(margin)..(gap.first + thick + margin).min(height) {
+    for y in all_rows.clone() {
         let is_ink = |k: usize, rows: usize| (y..(y + rows).min(height)).any(|y| ink[y * width + from + k] != 0);
         let inked = |rows: usize| (0..length).filter(move |&k| is_ink(k, rows));
-        if runs(inked(rows), BREAK_PX).any(|run| run.len() as f64 >= THROUGH * length as f64) {
+        if runs(inked(rows), longest_break).any(|run| run.len() as f64 >= THROUGH * length as f64) {
             return false;
         }
         let leaves = runs(inked(1), 0).filter(|run| run.len() as f64 >= LEAF * length as f64);

@@ -12,6 +12,9 @@ const HATCH_M: f64 = 0.12;
 const HATCHED_M: f64 = 0.9;
 /// Fewest spaces between the lines of a hatch.
 const FEWEST_SPACES: usize = 6;
+/// The same of piers and columns, where walls are hatched.
+const PIER_M: f64 = 0.35;
+const FEWEST_IN_PIER: usize = 3;
 /// Least length of the bars between the lines of a window, in their thicknesses.
 const BAR_SLENDER: f64 = 6.0;
 /// Share of its box that a field between an outline and the zigzag of an insulation fills: it is a triangle, or two with a
@@ -80,15 +83,19 @@ pub(super) fn fill_hatches(dark: &[u8], width: usize, metres_per_pixel: f64) -> 
     starts.sort_unstable();
     let mut near = grow(&narrow, width, ((0.03 / metres_per_pixel) as usize).max(1));
     let places = Components::of(&near, width, 1, Neighbours::Eight);
-    for place in &places.all {
+    let is_hatched = |place: &Component, [fewest, shortest_m]: [f64; 2]| {
         let within = |range: Range<usize>| {
             let before = |at: usize| starts.partition_point(|&start| start < at);
             before(range.end) - before(range.start)
         };
         let count: usize = places.ranges(place, width).map(within).sum();
-        if count < FEWEST_SPACES || f64::from(place.larger_side()) * metres_per_pixel < HATCHED_M {
-            places.paint(place, &mut near, width, 0);
-        }
+        count as f64 >= fewest && f64::from(place.larger_side()) * metres_per_pixel >= shortest_m
+    };
+    let wall = [FEWEST_SPACES as f64, HATCHED_M];
+    let walls: Vec<bool> = places.all.iter().map(|place| is_hatched(place, wall)).collect();
+    let least = if walls.contains(&true) { [FEWEST_IN_PIER as f64, PIER_M] } else { wall };
+    for place in places.all.iter().zip(walls).filter(|(place, is_wall)| !is_wall && !is_hatched(place, least)) {
+        places.paint(place.0, &mut near, width, 0);
     }
     (0..dark.len()).map(|at| dark[at] | (narrow[at] & near[at])).collect()
 }
@@ -170,10 +177,8 @@ pub(super) fn fill_outlines(dark: &[u8], width: usize, metres_per_pixel: f64) ->
             return false;
         }
         let [w, h] = field.size().map(f64::from);
-        // Thickness and length of the rectangle of the same area and outline.
-        let half = outline(&white, width, &fields, field) as f64 * 0.5;
-        let thick = (half - (half * half - 4.0 * field.area as f64).max(0.0).sqrt()) * 0.5;
-        let length = half - thick;
+        let thick = thickness(dark, width, &fields, field);
+        let length = field.area as f64 / thick;
         let is_bent = length >= 4.0 * thick
             && w.max(h) * metres_per_pixel >= BENT_M
             && thick * metres_per_pixel >= 0.05
@@ -212,11 +217,19 @@ pub(super) fn fill_outlines(dark: &[u8], width: usize, metres_per_pixel: f64) ->
 /// Whether a field has straight sides and is about as thick everywhere, as walls with corners are; triangles and tables
 /// with lettering are not.
 fn is_even(fields: &Components, field: &Component, thick: f64) -> bool {
+    /// Within so many rows a line that is drawn by hand is off by so much.
+    const WOBBLE_ROWS: usize = 6;
+    const WOBBLE_PX: u32 = 1;
     let runs = fields.runs(field);
-    // Rows may have several runs, as where walls meet at a corner: a side has a step where a run goes on differently.
-    let goes_on = |run: &Run, rows: &[Run]| rows.iter().any(|next| (next.from, next.to) == (run.from, run.to));
+    // Rows may have several runs, as where walls meet at a corner: a side has a step where a run goes on differently. Lines
+    // that are drawn by hand come back, the sides of triangles do not.
     let rows: Vec<&[Run]> = runs.chunk_by(|a, b| a.y == b.y).collect();
-    let steps = rows.windows(2).filter(|pair| !pair[0].iter().all(|run| goes_on(run, pair[1])));
+    let goes_on = |k: usize, later: usize, off: u32| {
+        let next = rows[(k + later).min(rows.len() - 1)];
+        let is_same = |a: &Run, b: &Run| a.from.abs_diff(b.from) <= off && a.to.abs_diff(b.to) <= off;
+        rows[k].iter().all(|run| next.iter().any(|other| is_same(run, other)))
+    };
+    let steps = (0..rows.len()).filter(|&k| !goes_on(k, 1, 0) && !goes_on(k, WOBBLE_ROWS, WOBBLE_PX));
     let [w, h] = field.size().map(|side| side as usize);
     if steps.count() > 6 + h / 12 {
         return false;
@@ -233,16 +246,22 @@ fn is_even(fields: &Components, field: &Component, thick: f64) -> bool {
     share(0.75) >= 0.6 && share(1.9) <= 0.3
 }
 
-/// Length of a component's outline, pixel edges.
-fn outline(white: &[u8], width: usize, pieces: &Components, piece: &Component) -> usize {
-    let height = white.len() / width;
+/// Thickness of the rectangle with the area and outline of a white field of a drawing, pixels.
+pub(super) fn thickness(dark: &[u8], width: usize, fields: &Components, field: &Component) -> f64 {
+    let half = outline(dark, width, fields, field) as f64 * 0.5;
+    (half - (half * half - 4.0 * field.area as f64).max(0.0).sqrt()) * 0.5
+}
+
+/// Length of a white field's outline, pixel edges.
+fn outline(dark: &[u8], width: usize, fields: &Components, field: &Component) -> usize {
+    let height = dark.len() / width;
     let mut edges = 0;
-    for run in pieces.runs(piece) {
+    for run in fields.runs(field) {
         let (y, from, to) = (run.y as usize, run.from as usize, run.to as usize);
         edges += 2;
         for row in [y.checked_sub(1), Some(y + 1).filter(|&y| y < height)] {
             edges += match row {
-                Some(row) => white[row * width + from..row * width + to].iter().filter(|&&w| w == 0).count(),
+                Some(row) => dark[row * width + from..row * width + to].iter().filter(|&&d| d != 0).count(),
                 None => to - from,
             };
         }

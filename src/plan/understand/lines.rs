@@ -3,7 +3,9 @@
 use std::ops::Range;
 
 use super::super::components::{Component, Components, Neighbours, Run};
+use super::super::drawing::is_on;
 use super::super::thick::{grow, long_runs};
+use super::hollow;
 
 /// Least length of a line, metres.
 const SHORTEST_M: f64 = 0.4;
@@ -18,6 +20,8 @@ const CORNER_M: f64 = 0.25;
 const LARGEST_FIELD_M2: f64 = 7.0;
 /// Greatest thickness of the field between the two lines of a glass wall and its least length, metres: it is no furniture.
 const PANE_M: [f64; 2] = [0.15, 1.5];
+/// The same thickness where the glass wall has corners: the backs of sofas are thicker.
+const BENT_PANE_M: f64 = 0.09;
 /// Share of a line with a field of furniture beside it from which it is furniture.
 const FURNITURE_SHARE: f64 = 0.8;
 /// How far from its wall's line the arc of a door may be, metres, and share of the gap that the dashes of an axis fill.
@@ -78,7 +82,7 @@ pub(super) fn thickened(
     if has_notes || has_axes {
         let mut between = ink.to_vec();
         in_doors.into_iter().for_each(|at| between[at] = 0);
-        prune(&mut level, &mut upright, &between, width, metres_per_pixel);
+        prune(&mut level, &mut upright, [&between, panes], width, metres_per_pixel);
     }
     let lines: Vec<u8> = level.iter().zip(&upright).map(|(&a, &b)| a | b).collect();
     closed.iter_mut().zip(&lines).for_each(|(closed, line)| *closed |= line);
@@ -296,7 +300,8 @@ struct Line {
 
 /// Takes off dashes of axes, and what goes on beyond the last wall that a line meets: axes and the extension lines of
 /// dimensions end freely. A wall that ends at a door goes on behind it; where an axis goes on, `between` shows its dashes.
-fn prune(level: &mut [u8], upright: &mut [u8], between: &[u8], width: usize, metres_per_pixel: f64) {
+/// One that ends at `panes` ends there.
+fn prune(level: &mut [u8], upright: &mut [u8], [between, panes]: [&[u8]; 2], width: usize, metres_per_pixel: f64) {
     /// Longest dash, and narrowest and widest door or opening behind which a wall goes on, metres.
     const DASH_M: f64 = 1.2;
     const GAP_M: Range<f64> = 0.5..2.2;
@@ -328,6 +333,14 @@ fn prune(level: &mut [u8], upright: &mut [u8], between: &[u8], width: usize, met
         let within = from + NEAR..to - NEAR;
         is_gap(to - from) && (within.clone().filter(|&k| dark(k)).count() as f64) < DASHES * within.count() as f64
     };
+    let at_pane = |axis: usize, line: &Line, end: i64| {
+        let mut near = (end - NEAR..=end + NEAR).flat_map(|k| (line.across[0]..=line.across[1]).map(move |a| [k, a]));
+        near.any(|[along, across]| {
+            let [x, y] = if axis == 0 { [along, across] } else { [across, along] };
+            let in_row = (0..width as i64).contains(&x) && y >= 0;
+            in_row && is_on(panes, y as usize * width + x as usize)
+        })
+    };
     for _ in 0..20 {
         let before = lines.clone();
         for axis in 0..2 {
@@ -339,7 +352,7 @@ fn prune(level: &mut [u8], upright: &mut [u8], between: &[u8], width: usize, met
                     |other: &Line| other.along[0] - NEAR <= line.across[1] && other.along[1] + NEAR >= line.across[0];
                 let others = cross.iter().filter(|other| other.along[0] <= other.along[1] && covers(other));
                 let (mut first, mut last) = (i64::MAX, i64::MIN);
-                let mut goes_on = [false; 2];
+                let mut goes_on = [from, to].map(|end| at_pane(axis, line, end));
                 for other in others {
                     if other.across[1] + NEAR >= from && other.across[0] - NEAR <= to {
                         first = first.min(other.across[0]);
@@ -439,7 +452,8 @@ fn small_fields(lines: &[u8], width: usize, metres_per_pixel: f64) -> Vec<u8> {
     let mut small = vec![0u8; lines.len()];
     for field in &white.all {
         let [w, h] = field.size().map(|side| f64::from(side) * metres_per_pixel);
-        let is_pane = w.min(h) <= PANE_M[0] && w.max(h) >= PANE_M[1];
+        let thin = || hollow::thickness(lines, width, &white, field) * metres_per_pixel <= BENT_PANE_M;
+        let is_pane = w.max(h) >= PANE_M[1] && (w.min(h) <= PANE_M[0] || thin());
         if !is_pane && field.area as f64 * metres_per_pixel * metres_per_pixel < LARGEST_FIELD_M2 {
             white.paint(field, &mut small, width, 1);
         }

@@ -3,6 +3,7 @@
 //! Walls are the strokes that are thick, or hollow and filled, and that gaps of doors and windows join to a building.
 //! All other strokes are told by where they lie and what they enclose.
 
+mod border;
 mod directions;
 mod filled;
 mod frame;

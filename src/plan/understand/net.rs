@@ -1,11 +1,10 @@
 //! The net of walls in a drawing: thick strokes, and hollow or hatched ones once filled.
 
-use std::collections::BTreeMap;
-
 use super::super::components::{Component, Components, Neighbours, Run};
 use super::super::doors::bend;
 use super::super::drawing::is_on;
-use super::super::thick::{THINNEST_M, Thickness, grow, open};
+use super::super::thick::{Thickness, grow, open};
+use super::border;
 use super::directions::SHADOW_SHARE;
 use super::gaps::{self, Gap, Limits};
 use super::leaves;
@@ -44,10 +43,12 @@ const FEWEST_HUNG: usize = 3;
 /// Least side of a column, metres and pixels.
 const LEAST_COLUMN_M: f64 = 0.15;
 const LEAST_COLUMN_PX: f64 = 5.0;
-/// Greatest thickness of a sheet's frame that has little within, metres.
-const FINE_FRAME_M: f64 = 0.12;
 /// How much of the shadow of a scanner's lid lies at the image's sides at least.
 const SHADOW_IN_RIM: f64 = 0.97;
+/// How far before the panes of a window a partition may end, pixels, and how far it leads away from them, in the window's
+/// thicknesses.
+const BESIDE_PANE_PX: usize = 3;
+const PARTITION_SLENDER: f64 = 4.0;
 /// Share of its box above which a piece encloses no rooms.
 const MASS_FILL: f64 = 0.7;
 /// Least share of a column that is ink.
@@ -109,7 +110,7 @@ impl Net {
         &Sought { thickest, widest_m, is_massive, stroke_px, colours }: &Sought,
     ) -> Option<Net> {
         let mut core = core.to_vec();
-        drop_frame(&mut core, ink, width, metres_per_pixel);
+        border::drop(&mut core, ink, width, metres_per_pixel);
         let Thickness { square: side, thinnest, usual } =
             Thickness::of(&core, width, metres_per_pixel, is_massive, stroke_px)?;
         let px = |metres: f64| (metres / metres_per_pixel).round() as usize;
@@ -425,16 +426,14 @@ fn least_box(wall: &[u8], width: usize, [x0, y0, x1, y1]: [u32; 4]) -> f64 {
 /// columns among them, and other buildings. Returns the box around the main one.
 fn keep_building(wall: &mut [u8], raw: &[u8], width: usize, doors: &[Gap], windows: &[Gap]) -> Option<[u32; 4]> {
     let pieces = Components::of(wall, width, 1, Neighbours::Eight);
-    let mut ends: Vec<usize> = doors.iter().chain(windows).flat_map(|gap| gap.ends).collect();
-    ends.sort_unstable();
-    let mut piece_at = BTreeMap::new();
-    for (k, piece) in pieces.all.iter().enumerate() {
-        for run in pieces.runs(piece) {
-            let [from, to] = [run.from, run.to].map(|x| run.y as usize * width + x as usize);
-            let within = &ends[ends.partition_point(|&at| at < from)..ends.partition_point(|&at| at < to)];
-            piece_at.extend(within.iter().map(|&at| (at, k)));
-        }
-    }
+    let runs_of = |(k, piece)| pieces.ranges(piece, width).map(move |range| (range.start, range.end, k));
+    let mut runs: Vec<(usize, usize, usize)> = pieces.all.iter().enumerate().flat_map(runs_of).collect();
+    runs.sort_unstable();
+    let piece_at = |at: usize| {
+        let before = runs.partition_point(|&(from, ..)| from <= at).checked_sub(1)?;
+        let (_, end, k) = runs[before];
+        (at < end).then_some(k)
+    };
     let mut group: Vec<usize> = (0..pieces.all.len()).collect();
     fn top(group: &[usize], mut k: usize) -> usize {
         while group[k] != k {
@@ -442,11 +441,34 @@ fn keep_building(wall: &mut [u8], raw: &[u8], width: usize, doors: &[Gap], windo
         }
         k
     }
+    let mut join = |a: usize, b: usize| {
+        let [a, b] = [a, b].map(|k| top(&group, k));
+        group[a.max(b)] = a.min(b);
+    };
     for gap in doors.iter().chain(windows) {
-        if let [Some(&a), Some(&b)] = gap.ends.map(|at| piece_at.get(&at)) {
-            let [a, b] = [a, b].map(|k| top(&group, k));
-            group[a.max(b)] = a.min(b);
+        if let [Some(a), Some(b)] = gap.ends.map(piece_at) {
+            join(a, b);
         }
+    }
+    // A partition may end a little before the panes of a glass front.
+    for window in windows {
+        let is_level = window.along()[0].abs() > window.along()[1].abs();
+        let is_partition = |&k: &usize| {
+            let [w, h] = pieces.all[k].size().map(f64::from);
+            let across = if is_level { h } else { w };
+            across >= PARTITION_SLENDER * window.thickness()
+                && pieces.all[k].area as f64 <= (w + h) * window.thickness()
+        };
+        let beside = [BESIDE_PANE_PX, BESIDE_PANE_PX * width];
+        let near = |at: usize| beside.into_iter().flat_map(move |by| [at.wrapping_sub(by), at + by]);
+        let Some(jamb) = piece_at(window.ends[0]) else { continue };
+        window
+            .pixels()
+            .into_iter()
+            .flat_map(near)
+            .filter_map(piece_at)
+            .filter(is_partition)
+            .for_each(|k| join(jamb, k));
     }
     let tops: Vec<usize> = (0..group.len()).map(|k| top(&group, k)).collect();
     let mut area = vec![0usize; group.len()];
@@ -526,47 +548,6 @@ fn drop_crumbs(wall: &mut [u8], width: usize, side: f64) {
     for piece in pieces.all.iter().filter(|p| (p.area as f64) < side * side) {
         pieces.paint(piece, wall, width, 0);
     }
-}
-
-/// Takes off the frame of a sheet: strokes around all others that have less area than those within.
-fn drop_frame(core: &mut [u8], ink: &[u8], width: usize, metres_per_pixel: f64) {
-    let thick = open(core, width, ((THINNEST_M / metres_per_pixel).ceil() as usize).max(2));
-    let pieces = Components::of(&thick, width, 1, Neighbours::Eight);
-    let mut largest: Vec<&Component> = pieces.all.iter().collect();
-    largest.sort_by_key(|p| std::cmp::Reverse(u64::from(p.size()[0]) * u64::from(p.size()[1])));
-    for piece in largest.into_iter().take(3) {
-        let within = |p: &&Component| (0..2).all(|axis| p.min[axis] > piece.min[axis] && p.end[axis] < piece.end[axis]);
-        let inner: usize = pieces.all.iter().filter(within).map(|p| p.area).sum();
-        let [w, h] = piece.size().map(f64::from);
-        let stroke = piece.area as f64 / (2.0 * (w + h));
-        let is_fine = stroke <= (FINE_FRAME_M / metres_per_pixel).max(3.6);
-        let strokes = || {
-            let rows = piece.min[1] as usize + 4..(piece.end[1] as usize).saturating_sub(4);
-            let columns =
-                piece.min[0] as usize + 4..(piece.end[0] as usize).saturating_sub(4).max(piece.min[0] as usize + 4);
-            rows.map(|y| ink[y * width..][columns.clone()].iter().filter(|&&i| i != 0).count()).sum::<usize>()
-        };
-        if inner <= piece.area && !(is_fine && strokes() * 10 >= piece.area * 3) {
-            continue;
-        }
-        let mut mask = vec![0u8; core.len()];
-        pieces.paint(piece, &mut mask, width, 1);
-        if frame_sides(&mask, width, piece.around()) {
-            pieces.paint(piece, core, width, 0);
-        }
-    }
-}
-
-/// Whether a piece covers all four sides of its box without a gap.
-fn frame_sides(mask: &[u8], width: usize, [x0, y0, x1, y1]: [u32; 4]) -> bool {
-    let dark = |x: u32, y: u32| mask[y as usize * width + x as usize] != 0;
-    let side = |length: u32, at: &dyn Fn(u32) -> bool| {
-        (0..length).filter(|&k| at(k)).count() as f64 >= 0.97 * f64::from(length)
-    };
-    side(x1 - x0, &|k| dark(x0 + k, y0 + 1) || dark(x0 + k, y0))
-        && side(x1 - x0, &|k| dark(x0 + k, y1 - 1) || dark(x0 + k, y1.max(2) - 2))
-        && side(y1 - y0, &|k| dark(x0, y0 + k) || dark(x0 + 1, y0 + k))
-        && side(y1 - y0, &|k| dark(x1 - 1, y0 + k) || dark(x1.max(2) - 2, y0 + k))
 }
 
 /// Whether a gap has inside on one of its sides at most.

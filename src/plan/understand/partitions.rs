@@ -7,8 +7,10 @@ use super::leaves;
 use super::lines;
 use super::net::Net;
 
-/// Least length of the leaf of a door with one leaf, as a share of the gap.
-const ONE_LEAF: f64 = 0.8;
+/// Least length of the leaves of a door, as a share of the gap.
+const LEAVES: f64 = 0.8;
+/// Longest piece of a partition that is too short for a line, between a door and a wall, metres.
+const JAMB_M: f64 = 0.4;
 
 /// Fewest doors by which partitions are known, and least area of a room that one leads to, square metres.
 const FEWEST_DOORS: usize = 2;
@@ -49,9 +51,15 @@ pub(super) fn added(
     let Some(mut found) = with(&lines) else { return net };
     // Lines of a floor have leaves of all kinds.
     let is_single = |gap: &&Gap| {
-        let is_long = |leaf: f64| leaf >= ONE_LEAF * gap.length() as f64;
-        let leaves = |by: usize| leaves::hung(&gap.widened(by), &free, metres_per_pixel);
-        [0, reach, reach + 1].into_iter().any(|by| leaves(by).into_iter().any(is_long))
+        let is_hung = |gap: &Gap| {
+            let leaves: f64 = leaves::hung(gap, &free, metres_per_pixel).into_iter().sum();
+            leaves >= LEAVES * gap.length() as f64
+        };
+        // A short jamb is no line: the gap reaches to the wall behind it.
+        let most = ((JAMB_M / metres_per_pixel) as usize).min(gap.length() / 2);
+        let jambs = || (1..=most).flat_map(|by| [[by, 0], [0, by]]);
+        [0, reach, reach + 1].into_iter().any(|by| is_hung(&gap.widened(by)))
+            || jambs().any(|by| is_hung(&gap.widened(reach).narrowed(by)))
     };
     let is_of_lines = |door: &&Gap| door.ends.iter().any(|&end| lines[end] != 0);
     let hung: Vec<&Gap> = found.doors.iter().filter(is_of_lines).filter(is_single).collect();

@@ -503,7 +503,7 @@ fn class(piece: &Evidence, sides: [f64; 2]) -> PlanClass {
         () if length <= 0.85 => PlanClass::Seat,
         () if depth * length > LARGEST_AREA_M2 => PlanClass::Counter,
         // A rack between the aisles of a shop.
-        () if depth >= 0.7 && length >= 5.0 && length >= 7.0 * depth => PlanClass::Counter,
+        () if depth >= 0.7 && length >= 4.0 && length >= 4.5 * depth => PlanClass::Counter,
         () if depth >= 0.6 && length >= 1.4 && piece.fields >= 2 && piece.desks < DESKS => PlanClass::Seat,
         () => PlanClass::Table,
     }
