@@ -126,9 +126,9 @@ pub(super) fn guess(drawing: &Drawing, dots_per_inch: Option<f64>) -> (f64, Plan
     let has_doors = measures.doors(likely.value).is_some();
     // Where no leaf fits, gaps may be gates: the largest leaf tells another scale. Few leaves may be the corners of showers
     // and bathtubs.
-    let other = match measures.misfit(likely.value) {
-        _ if !has_doors || measures.has_few_leaves() => Some(likely.value),
-        largest => largest.map(|px| LEAF.metres / px),
+    let other = match measures.misfit(likely.value).filter(|_| has_doors) {
+        Some(largest) => Some(LEAF.metres / largest),
+        None => (!has_doors || measures.has_few_leaves()).then_some(likely.value),
     };
     if measures.wall.is_none() && measures.fitting(likely.value) < FEW_FITTING {
         // Arcs that are drawn by hand are told by the gaps of walls alone.

@@ -44,7 +44,7 @@ fn leaf(canvas: &mut Canvas, hinge: Point, width: f64, ink: [u8; 3]) {
 }
 
 /// Four lines from pier to pier.
-fn panes(canvas: &mut Canvas, [min, max]: [Point; 2]) {
+fn panes(canvas: &mut Canvas, [min, max]: [Point; 2], thick: f64) {
     let is_level = max[0] - min[0] > max[1] - min[1];
     for share in [0.0, 0.4, 0.6, 1.0] {
         let across = |axis: usize| min[axis] + share * (max[axis] - min[axis]);
@@ -53,7 +53,7 @@ fn panes(canvas: &mut Canvas, [min, max]: [Point; 2]) {
         } else {
             [[across(0), min[1]], [across(0), max[1]]]
         };
-        canvas.fill(&[line(ends[0], ends[1], 0.018)], INK);
+        canvas.fill(&[line(ends[0], ends[1], thick)], INK);
     }
 }
 
@@ -82,7 +82,7 @@ fn rooms_of_glass_end_at_a_front_of_glass() {
     canvas.fill(&[rectangle([0.0; 2], [w, h])], [255; 3]);
     for &[min, max] in &windows {
         canvas.fill(&[rectangle(min, max)], [255; 3]);
-        panes(&mut canvas, [min, max]);
+        panes(&mut canvas, [min, max], 0.018);
     }
     // The core has two rooms of 4 by 4 m.
     canvas.fill(&[rectangle([10.0, 8.0], [18.75, 12.5])], INK);
@@ -128,8 +128,9 @@ fn rooms_of_glass_end_at_a_front_of_glass() {
         assert!(has_door(&plan, &canvas, place), "no door at {place:?}");
     }
     let areas = rooms_m2(&plan);
-    let like = |m2: f64| areas.iter().filter(|area| (*area / m2 - 1.0).abs() < 0.08).count();
-    assert_eq!((areas.len(), like(16.0), like(17.9), like(28.6)), (7, 2, 3, 1), "{areas:?}");
+    let (small, large) = areas.split_at(5);
+    let is_room = |area: &f64| (15.0..18.0).contains(area);
+    assert!(small.iter().all(is_room) && large.len() == 2 && (27.0..29.0).contains(&large[0]), "{areas:?}");
 }
 
 /// A hall of 30 by 20 m with hatched walls: piers of 60 cm between windows of 4 m, a sliding entrance of two leaves with a slit
@@ -158,19 +159,18 @@ fn leaves_that_meet_are_an_entrance_between_hatched_piers() {
     pieces.extend(ends.chunks_exact(2).map(|pair| [[pair[0], h], [pair[1], h + WALL]]));
     let walls: Vec<_> = pieces.iter().map(|&[min, max]| rectangle(min, max)).collect();
     let within = canvas.samples(&walls);
-    let hatch: Vec<_> = (0..420)
-        .map(|k| f64::from(k) * 0.13 - 24.0)
-        .map(|x| line([x, h + 2.0], [x + 24.0, -4.0 + 2.0], 0.02))
-        .collect();
+    let hatch: Vec<_> =
+        (0..420).map(|k| f64::from(k) * 0.13 - 24.0).map(|x| line([x, h + 2.0], [x + 24.0, h - 22.0], 0.03)).collect();
     let hatch = canvas.samples(&hatch);
     canvas.paint(&within.iter().zip(&hatch).map(|(a, b)| a & b).collect(), [0; 3]);
     for wall in &walls {
         canvas.fill(&outline(wall, 0.04), [0; 3]);
     }
     for &window in &windows {
-        panes(&mut canvas, window);
+        panes(&mut canvas, window, 0.03);
     }
-    let slit = 1.0 / PX_PER_M;
+    // Two pixels between the strokes of the leaves.
+    let slit = 1.3 / PX_PER_M + 0.015;
     for [from, to] in [[16.04, 17.3 - slit], [17.3 + slit, 18.56]] {
         canvas.fill(&outline(&rectangle([from, h + 0.12], [to, h + 0.2]), 0.03), [0; 3]);
     }
