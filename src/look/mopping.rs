@@ -167,11 +167,12 @@ fn pass_leaves(u: f64, f: f32, pass: i32, key: u32) -> f32 {
     let pressed = smooth_along(key ^ 2, 0.6 * u, pass);
     // Swings: arcs that open towards where the cleaner came from.
     let bow = 4.0 * (f - 0.5) * (f - 0.5);
-    // Nobody swings to a beat, nor leaves every swing's arc.
+    // Nobody swings to a beat, nor presses alike in every swing.
     let turn = 1.9 * f64::from(smooth_along(key ^ 4, 0.9 * u, pass));
     let swing = u / SWING_M + f64::from(bow) * 0.9 + turn + f64::from(unit(key ^ 5, pass, 1));
-    let swing = (swing - swing.floor()) as f32;
-    let arc = rise(swing, 0.0, 0.8) * (1.0 - rise(swing, 0.86, 1.0)) - 0.45;
+    let number = swing.floor();
+    let swing = (swing - number) as f32;
+    let arc = rise(swing, 0.0, 0.8) * (1.0 - rise(swing, 0.86, 1.0)) * unit(key ^ 7, pass, number as i64 as i32) - 0.25;
     let shows = rise(smooth_along(key ^ 6, 0.45 * u, pass), -0.5, 0.5);
-    0.4 * own + 0.55 * pressed + 0.8 * shows * arc
+    0.4 * own + 0.55 * pressed + 0.7 * shows * arc
 }
