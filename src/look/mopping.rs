@@ -172,7 +172,7 @@ fn pass_leaves(u: f64, f: f32, pass: i32, key: u32) -> f32 {
     let swing = u / SWING_M + f64::from(bow) * 0.9 + turn + f64::from(unit(key ^ 5, pass, 1));
     let number = swing.floor();
     let swing = (swing - number) as f32;
-    let arc = rise(swing, 0.0, 0.8) * (1.0 - rise(swing, 0.86, 1.0)) * unit(key ^ 7, pass, number as i64 as i32) - 0.25;
+    let arc = rise(swing, 0.0, 0.8) * (1.0 - rise(swing, 0.86, 1.0)) * unit(key ^ 7, pass, number as i64 as i32) - 0.14;
     let shows = rise(smooth_along(key ^ 6, 0.45 * u, pass), -0.5, 0.5);
     0.4 * own + 0.55 * pressed + 0.7 * shows * arc
 }
