@@ -130,28 +130,28 @@ pub(super) fn guess(drawing: &Drawing, dots_per_inch: Option<f64>) -> (f64, Plan
         Some(largest) => Some(LEAF.metres / largest),
         None => (!has_doors || measures.has_few_leaves()).then_some(likely.value),
     };
-    if measures.wall.is_none() && measures.fitting(likely.value) < FEW_FITTING {
-        // Arcs that are drawn by hand are told by the gaps of walls alone.
-        let hung = measures.larger_side().map_or(Vec::new(), |px| hung_leaves(drawing, px));
-        measures.leaves.extend(hung.into_iter().map(|length| (length, HUNG_WEIGHT)));
-        likely = measures.likelihood().guess();
-    }
-    if let Some(scale) = other.filter(|_| measures.wall.is_some()) {
-        // Leaves that hang in gaps of walls are told from other arcs.
-        let hung = understand::leaf_lengths(drawing, scale);
-        measures.leaves.extend(hung.into_iter().map(|length| (length, if has_doors { HUNG_WEIGHT } else { 1.0 })));
+    // Leaves that hang in gaps of walls are told from other arcs; arcs that are drawn by hand are told by the gaps alone.
+    let (hung, weight) = match (measures.wall, other) {
+        (Some(_), Some(scale)) => (understand::leaf_lengths(drawing, scale), if has_doors { HUNG_WEIGHT } else { 1.0 }),
+        (None, _) if measures.fitting(likely.value) < FEW_FITTING => {
+            (measures.larger_side().map_or(Vec::new(), |px| hung_leaves(drawing, px)), HUNG_WEIGHT)
+        }
+        _ => (Vec::new(), 1.0),
+    };
+    if !hung.is_empty() {
+        measures.leaves.extend(hung.into_iter().map(|length| (length, weight)));
         likely = measures.likelihood().guess();
     }
     if let Some((count, width)) = measures.doors(likely.value) {
         // Where most gaps are none of doors, as in scans, some of a width say little.
         let share = count / measures.candidates().max(1e-9);
-        let number = measures.number(likely.value);
         // So do few gaps without leaves.
         let gaps_only = if measures.leaves.is_empty() { count / (count + FEWEST_DOORS) } else { 1.0 };
         likely.sureness *= (0.4 + 0.6 * share) * gaps_only;
         if share < 0.5 || gaps_only < 0.6 {
             likely.range = [likely.range[0].min(likely.value * 0.6), likely.range[1].max(likely.value * 1.6)];
         }
+        let number = measures.number(likely.value);
         let evidence = format!("{number} doors about {width:.0} pixels wide, taken for {:.2} m", width * likely.value);
         let [low, high] = likely.range;
         if likely.sureness < UNSURE && (low..=high).contains(&ASSUMED_M_PER_PX) {

@@ -20,13 +20,13 @@ const THICKEST_BESIDE_LINES: f64 = 0.08;
 const LINES_SHARE: f64 = 0.02;
 /// Least share of the places between lines with lines on three sides of them.
 const ENCLOSED_SHARE: f64 = 0.55;
+/// The same of grey that is as many times as thick as dark lines.
+const FILL_IN_LINES: f64 = 6.0;
+const ENCLOSED_BY_FILL: f64 = 0.3;
 /// Least lightness of white paper.
 const WHITE: u8 = 230;
 /// As how much of coloured ink black ink is little: one in so many pixels.
 const LITTLE_INK: usize = 12;
-/// The same of grey that is as many times as thick as dark lines.
-const FILL_IN_LINES: f64 = 6.0;
-const ENCLOSED_BY_FILL: f64 = 0.3;
 /// Cells along the image's longer side in which long pieces are counted.
 const CELLS: usize = 48;
 /// Share of a grey beside dark pixels from which it is their soft edge.

@@ -242,10 +242,11 @@ impl Use {
 
     /// What a building with such rooms and furniture is for, as far as they tell.
     ///
-    /// Rooms that mostly have a toilet each are a hospital's, rows of racks a shop's, rooms full of desks a school's. Few small rooms are a home, and so are many without a corridor:
-    /// flats; many at corridors an office, a school (large ones, or tables side by side) or a hospital (very many); large rooms that lead into each other a museum; one large
-    /// room with small ones a shop, an office if it has desks, a hall if it is very large or full of seats, or with wide
-    /// openings a station.
+    /// Rooms that mostly have a toilet each are a hospital's, rows of racks a shop's, rooms full of desks a school's. Few
+    /// small rooms are a home, and so are many without a corridor: flats; many at corridors an office, a school (large ones,
+    /// or tables side by side) or a hospital (very many); large rooms that lead into each other a museum; one large room
+    /// with small ones a shop, an office if it has desks, a hall if it is very large or full of seats, or with wide openings
+    /// a station.
     pub(crate) fn guess(rooms: &Rooms, furniture: &[FurniturePiece]) -> Use {
         let of = |kind: RoomKind| rooms.rooms.iter().filter(move |room| room.kind == kind);
         let area_m2 = |kind: RoomKind| of(kind).map(|room| room.area_m2).sum::<f64>();
@@ -278,14 +279,14 @@ impl Use {
         // Tables or seats side by side, more than an office has.
         let mut places = vec![[0.0_f64; 2]; rooms.rooms.len()];
         for piece in furniture {
-            // Where people stand at it.
-            let (low, high) = (piece.min_m - vec2(BESIDE_M, BESIDE_M), piece.max_m + vec2(BESIDE_M, BESIDE_M));
-            let beside = [low, high, vec2(low.x, high.y), vec2(high.x, low.y)];
             let k = match piece.class {
                 PlanClass::Seat => 0,
                 PlanClass::Table => 1,
                 _ => continue,
             };
+            // Where people stand at it.
+            let (low, high) = (piece.min_m - vec2(BESIDE_M, BESIDE_M), piece.max_m + vec2(BESIDE_M, BESIDE_M));
+            let beside = [low, high, vec2(low.x, high.y), vec2(high.x, low.y)];
             if let Some(room) = beside.into_iter().find_map(|place| rooms.at(place)) {
                 places[room][k] += 1.0;
             }

@@ -19,12 +19,16 @@ fn rooms_m2(plan: &FloorPlan) -> Vec<f64> {
     areas
 }
 
+fn middle([min, max]: [Point; 2]) -> Point {
+    [(min[0] + max[0]) * 0.5, (min[1] + max[1]) * 0.5]
+}
+
 /// Whether one of some gaps has its middle at a place, metres from the drawing's upper left corner.
-fn is_at(plan: &FloorPlan, gaps: impl Iterator<Item = [Point; 2]>, canvas: &Canvas, place: Point) -> bool {
+fn is_at(plan: &FloorPlan, mut gaps: impl Iterator<Item = [Point; 2]>, canvas: &Canvas, place: Point) -> bool {
     let [x, y] = canvas.px(place);
     let scale = plan.metres_per_pixel;
     let at = [x * scale, (canvas.height as f64 - y) * scale];
-    gaps.into_iter().any(|[a, b]| (0..2).all(|k| ((a[k] + b[k]) * 0.5 - at[k]).abs() < 0.4))
+    gaps.any(|[a, b]| (0..2).all(|k| (middle([a, b])[k] - at[k]).abs() < 0.4))
 }
 
 fn has_door(plan: &FloorPlan, canvas: &Canvas, place: Point) -> bool {
@@ -120,7 +124,6 @@ fn rooms_of_glass_end_at_a_front_of_glass() {
         canvas.fill(&outline(&rectangle([x, 14.2], [x + 1.6, 15.0]), 0.02), INK);
     }
     let plan = canvas.read(Some(1.0 / 56.0));
-    let middle = |[min, max]: [Point; 2]| [(min[0] + max[0]) * 0.5, (min[1] + max[1]) * 0.5];
     let missing: Vec<Point> =
         windows.iter().copied().map(middle).filter(|&place| !has_window(&plan, &canvas, place)).collect();
     assert!(missing.is_empty() && plan.windows.len() == 16, "windows missing at {missing:?} of {}", plan.windows.len());
@@ -181,7 +184,6 @@ fn leaves_that_meet_are_an_entrance_between_hatched_piers() {
         canvas.fill(&[line([x + 0.5, 5.0], [x + 0.5, 11.0], 0.02)], [0; 3]);
     }
     let plan = canvas.read(Some(1.0 / PX_PER_M));
-    let middle = |[min, max]: [Point; 2]| [(min[0] + max[0]) * 0.5, (min[1] + max[1]) * 0.5];
     for window in windows {
         assert!(has_window(&plan, &canvas, middle(window)), "no window at {:?}: {:?}", middle(window), plan.windows);
     }

@@ -322,25 +322,21 @@ fn prune(level: &mut [u8], upright: &mut [u8], [between, panes]: [&[u8]; 2], wid
         return;
     }
     let is_gap = |px_wide: i64| (px(GAP_M.start)..=px(GAP_M.end)).contains(&px_wide);
+    // Whether a mask has a pixel on a line or straight on from it.
+    let is_met = |mask: &[u8], axis: usize, line: &Line, along: i64| {
+        (line.across[0]..=line.across[1]).any(|across| {
+            let [x, y] = if axis == 0 { [along, across] } else { [across, along] };
+            (0..width as i64).contains(&x) && y >= 0 && is_on(mask, y as usize * width + x as usize)
+        })
+    };
     // Whether a gap in the line of a wall, beyond one of its ends, is free of dashes.
     let is_open = |axis: usize, line: &Line, [from, to]: [i64; 2]| {
-        let dark = |along: i64| {
-            (line.across[0]..=line.across[1]).any(|across| {
-                let [x, y] = if axis == 0 { [along, across] } else { [across, along] };
-                between.get(y as usize * width + x as usize).is_some_and(|&ink| ink != 0)
-            })
-        };
+        let dark = |along: i64| is_met(between, axis, line, along);
         let within = from + NEAR..to - NEAR;
         is_gap(to - from) && (within.clone().filter(|&k| dark(k)).count() as f64) < DASHES * within.count() as f64
     };
-    let at_pane = |axis: usize, line: &Line, end: i64| {
-        let mut near = (end - NEAR..=end + NEAR).flat_map(|k| (line.across[0]..=line.across[1]).map(move |a| [k, a]));
-        near.any(|[along, across]| {
-            let [x, y] = if axis == 0 { [along, across] } else { [across, along] };
-            let in_row = (0..width as i64).contains(&x) && y >= 0;
-            in_row && is_on(panes, y as usize * width + x as usize)
-        })
-    };
+    let at_pane =
+        |axis: usize, line: &Line, end: i64| (end - NEAR..=end + NEAR).any(|along| is_met(panes, axis, line, along));
     for _ in 0..20 {
         let before = lines.clone();
         for axis in 0..2 {

@@ -50,19 +50,19 @@ pub(super) fn added(
     };
     let Some(mut found) = with(&lines) else { return net };
     // Lines of a floor have leaves of all kinds.
-    let is_single = |gap: &&Gap| {
-        let is_hung = |gap: &Gap| {
+    let is_hung = |gap: &&Gap| {
+        let is_filled = |gap: &Gap| {
             let leaves: f64 = leaves::hung(gap, &free, metres_per_pixel).into_iter().sum();
             leaves >= LEAVES * gap.length() as f64
         };
         // A short jamb is no line: the gap reaches to the wall behind it.
         let most = ((JAMB_M / metres_per_pixel) as usize).min(gap.length() / 2);
         let jambs = || (1..=most).flat_map(|by| [[by, 0], [0, by]]);
-        [0, reach, reach + 1].into_iter().any(|by| is_hung(&gap.widened(by)))
-            || jambs().any(|by| is_hung(&gap.widened(reach).narrowed(by)))
+        [0, reach, reach + 1].into_iter().any(|by| is_filled(&gap.widened(by)))
+            || jambs().any(|by| is_filled(&gap.widened(reach).narrowed(by)))
     };
     let is_of_lines = |door: &&Gap| door.ends.iter().any(|&end| lines[end] != 0);
-    let hung: Vec<&Gap> = found.doors.iter().filter(is_of_lines).filter(is_single).collect();
+    let hung: Vec<&Gap> = found.doors.iter().filter(is_of_lines).filter(is_hung).collect();
     let rooms = |net: &Net| {
         let spaces = Components::of(&net.inside, width, 1, Neighbours::Four);
         let is_room = |space: &&Component| space.area as f64 * metres_per_pixel * metres_per_pixel >= LEAST_ROOM_M2;
