@@ -9,7 +9,7 @@ use super::ink::{self, Ink};
 use super::ros_map::{Cell, Greys};
 use super::tones::{SURELY_DARK, USUAL_THRESHOLD};
 use super::{
-    PlanOptions, TransparentPolicy, UnknownPolicy, colour_areas, hatching, level_map, paving, shadow, sheet,
+    PlanOptions, TransparentPolicy, UnknownPolicy, colour_areas, hatching, level_map, paving, shadow, sheet, skew,
     thin_lines, tones,
 };
 
@@ -96,8 +96,13 @@ const COLOURED_PAPER: usize = 3;
 /// Reads a plain image: white is floor, black is wall, saturated colour is annotation. Returns warnings about what was
 /// put right too.
 ///
-/// Sheets in photographs are straightened, uneven light is evened out, light walls on a dark ground are inverted.
+/// Sheets in photographs are straightened, scans that lie askew are turned, uneven light is evened out, light walls on a
+/// dark ground are inverted.
 pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, Vec<String>) {
+    of_sheet(image, options, true)
+}
+
+fn of_sheet(image: DynamicImage, options: &PlanOptions, may_be_askew: bool) -> (Drawing, Vec<String>) {
     let mut warnings = Vec::new();
     let (mut lightness, mut coloured) = (Vec::new(), Vec::new());
     if image.color().has_color() {
@@ -111,6 +116,13 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
     let is_unasked = options.threshold.is_none() && options.invert.is_none();
     let looks_like_map = is_unasked && coloured.is_empty() && has_map_greys(&lightness);
     let sheet = if looks_like_map { None } else { sheet::find(&image) };
+    let askew = if looks_like_map || sheet.is_some() || !may_be_askew { None } else { skew::find(&image) };
+    if let Some((turned, angle_deg)) = askew {
+        let straight = sheet::straightened(&image, &turned);
+        let told = skew::told(angle_deg, straight.dimensions());
+        let (drawing, more) = of_sheet(DynamicImage::ImageRgb8(straight), options, false);
+        return (drawing, std::iter::once(told).chain(more).collect());
+    }
     let image = match &sheet {
         Some(found) => {
             let straight = sheet::straightened(&image, found);

@@ -45,6 +45,7 @@ mod scale;
 mod shadow;
 mod sheet;
 mod similar;
+mod skew;
 mod spaces;
 mod symbols;
 mod thick;

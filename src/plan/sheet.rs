@@ -43,7 +43,7 @@ type Point = [f64; 2];
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sheet {
     pub(super) corners: [Point; 4],
-    aspect: f64,
+    pub(super) aspect: f64,
 }
 
 /// Finds the sheet in a photograph. `None` for what is no photograph of a sheet.
@@ -81,7 +81,8 @@ struct Candidate {
     score: f64,
 }
 
-fn colour_at(image: &DynamicImage, x: usize, y: usize) -> [u8; 3] {
+/// The colour of a pixel on white paper.
+pub(super) fn colour_at(image: &DynamicImage, x: usize, y: usize) -> [u8; 3] {
     use image::GenericImageView;
     let at = |width: u32, x: usize, y: usize| (y * width as usize + x) * 3;
     match image {

@@ -73,9 +73,15 @@ const fn habits(draws: f64, stay_s: f64, spots: usize) -> RoomHabits {
 const PASSED: RoomHabits = habits(0.15, 2.0, 1);
 /// From so many rooms with a toilet of their own on, a building is a hospital.
 const LEAST_PATIENTS_ROOMS: usize = 6;
-/// From so many racks between aisles on, of so many square metres each, a building is a shop.
+/// From so many racks between aisles on, of so many square metres each, a building is a shop, if they take this share of
+/// its largest room.
 const LEAST_RACKS: usize = 6;
 const LEAST_RACK_M2: f64 = 3.0;
+const RACKS_SHARE: f64 = 0.08;
+/// A room of this area and share of all is a hall for sports, fairs or machines, if it has fewer tables or seats.
+const EMPTY_HALL_M2: f64 = 400.0;
+const EMPTY_HALL_SHARE: f64 = 0.4;
+const EMPTY_HALL_PLACES_PER_M2: f64 = 0.02;
 /// From so many classrooms on a building is a school, and what a classroom is: its area, and tables or seats in it.
 const LEAST_CLASSROOMS: usize = 3;
 const LEAST_CLASSROOM_M2: f64 = 35.0;
@@ -275,7 +281,8 @@ impl Use {
         let is_rack = |piece: &&FurniturePiece| {
             piece.class == PlanClass::Counter && piece.at_wall < 0.5 && piece.area_m2 >= LEAST_RACK_M2
         };
-        let racks = furniture.iter().filter(is_rack).count();
+        let racks: Vec<f64> = furniture.iter().filter(is_rack).map(|piece| piece.area_m2).collect();
+        let has_racks = racks.len() >= LEAST_RACKS && racks.iter().sum::<f64>() >= RACKS_SHARE * largest_m2;
         // Tables or seats side by side, more than an office has.
         let mut places = vec![[0.0_f64; 2]; rooms.rooms.len()];
         for piece in furniture {
@@ -294,15 +301,22 @@ impl Use {
         let is_class = |(room, places): &(&Room, &[f64; 2])| {
             room.area_m2 >= LEAST_CLASSROOM_M2 && places[0].max(places[1]) >= PUPILS_PER_M2 * room.area_m2
         };
+        let is_empty_hall = |(room, places): (&Room, &[f64; 2])| {
+            room.area_m2 >= EMPTY_HALL_M2.max(EMPTY_HALL_SHARE * total_m2)
+                && places[0].max(places[1]) < EMPTY_HALL_PLACES_PER_M2 * room.area_m2
+        };
+        let is_hall = rooms.rooms.iter().zip(&places).any(is_empty_hall);
         let classrooms = rooms.rooms.iter().zip(&places).filter(is_class).count();
         if own_toilets >= LEAST_PATIENTS_ROOMS && 2 * own_toilets >= areas.len() {
             Use::Hospital
-        } else if racks >= LEAST_RACKS {
+        } else if has_racks {
             Use::Shop
         } else if classrooms >= LEAST_CLASSROOMS && 4 * classrooms >= areas.len() {
             Use::School
         } else if wide >= 3 && (area_m2(RoomKind::Hall) + area_m2(RoomKind::Corridor)) >= 0.5 * total_m2 {
             Use::Station
+        } else if is_hall && areas.len() > 4 {
+            Use::Hall
         } else if is_one_flat || are_flats {
             Use::Home
         } else if areas.len() <= 4 && largest_m2 >= 0.5 * total_m2 {

@@ -23,6 +23,8 @@ const LEAST_SHARE: f64 = 0.4;
 /// Votes of a scale bar, both ends of which have numbers; of one that says its unit too, which is enough by itself.
 const BAR_VOTES: usize = 2;
 const BAR_WITH_UNIT_VOTES: usize = FEWEST;
+/// Votes of a room's size: both numbers fit.
+const SIZE_VOTES: usize = 2;
 /// How far a printed scale may lie from the one that doors say; where so many measures agree, and at least this share of
 /// all, doors were misread. Millimetres and centimetres are never both so near.
 const FAR: f64 = 1.5;
@@ -78,7 +80,7 @@ pub(super) fn scale(drawing: &Drawing, guess: f64, possible: [f64; 2]) -> Option
     }
     // Rooms take longer to find.
     let votes: usize = measures.iter().map(|m| m.votes).sum();
-    if in_rooms.is_empty() || in_rooms.len() + votes < FEWEST {
+    if in_rooms.is_empty() || SIZE_VOTES * in_rooms.len() + votes < FEWEST {
         return None;
     }
     measures.extend(measured_rooms(drawing, guess, &in_rooms));
@@ -144,7 +146,8 @@ fn measured_rooms(drawing: &Drawing, guess: f64, numbers: &[RoomNumber]) -> Vec<
         let (area, [w, h]) = rooms.area_and_size(room);
         // The numbers of pages begin at 1.
         let mut add = |kind: Kind, metres: f64, pixels: f64| {
-            found.push(Measure { number: usize::MAX - k, kind, metres, pixels, votes: 1 });
+            let votes = if kind == Kind::Size { SIZE_VOTES } else { 1 };
+            found.push(Measure { number: usize::MAX - k, kind, metres, pixels, votes });
         };
         match &number.times {
             None if is_alone && (AREAS_M2[0]..=AREAS_M2[1]).contains(&number.value) => {

@@ -1,48 +1,73 @@
 //! The border of a sheet, which is no wall.
 
 use super::super::components::{Component, Components, Neighbours};
-use super::super::thick::{THINNEST_M, open};
+use super::super::thick::{THINNEST_M, grow, open};
 
 /// Greatest thickness of a sheet's frame that has little within, metres.
 const FINE_FRAME_M: f64 = 0.12;
+/// Greatest gap that noise leaves in a frame, pixels, and the least share of each of its sides that is drawn.
+const BROKEN_PX: usize = 2;
+const LEAST_DRAWN: f64 = 0.95;
+/// Steepest slope of the sides of a scanned sheet's frame.
+const TILT: f64 = 0.04;
 
-/// Takes off the frame of a sheet: strokes around all others that have less area than those within.
+/// Takes off the frames of a sheet: strokes around all others that have less area than those within.
 pub(super) fn drop(core: &mut [u8], ink: &[u8], width: usize, metres_per_pixel: f64) {
     let thick = open(core, width, ((THINNEST_M / metres_per_pixel).ceil() as usize).max(2));
-    let pieces = Components::of(&thick, width, 1, Neighbours::Eight);
+    let joined = grow(&thick, width, BROKEN_PX);
+    let pieces = Components::of(&joined, width, 1, Neighbours::Eight);
+    let area_of = |p: &Component| {
+        let drawn = pieces.ranges(p, width).map(|run| thick[run].iter().filter(|&&on| on != 0).count());
+        drawn.sum::<usize>()
+    };
     let mut largest: Vec<&Component> = pieces.all.iter().collect();
     largest.sort_by_key(|p| std::cmp::Reverse(u64::from(p.size()[0]) * u64::from(p.size()[1])));
     for piece in largest.into_iter().take(3) {
         let within = |p: &&Component| (0..2).all(|axis| p.min[axis] > piece.min[axis] && p.end[axis] < piece.end[axis]);
-        let inner: usize = pieces.all.iter().filter(within).map(|p| p.area).sum();
+        let inner: usize = pieces.all.iter().filter(within).map(area_of).sum();
         let [w, h] = piece.size().map(f64::from);
-        let stroke = piece.area as f64 / (2.0 * (w + h));
-        let is_fine = stroke <= (FINE_FRAME_M / metres_per_pixel).max(3.6);
+        let area = area_of(piece);
+        let is_fine = area as f64 / (2.0 * (w + h)) <= (FINE_FRAME_M / metres_per_pixel).max(3.6);
         let strokes = || {
-            let rows = piece.min[1] as usize + 4..(piece.end[1] as usize).saturating_sub(4);
-            let columns =
-                piece.min[0] as usize + 4..(piece.end[0] as usize).saturating_sub(4).max(piece.min[0] as usize + 4);
+            let inset = BROKEN_PX as u32 + 4;
+            let [rows, columns] = [1, 0].map(|axis| {
+                let from = (piece.min[axis] + inset) as usize;
+                from..(piece.end[axis].saturating_sub(inset) as usize).max(from)
+            });
             rows.map(|y| ink[y * width..][columns.clone()].iter().filter(|&&i| i != 0).count()).sum::<usize>()
         };
-        if inner <= piece.area && !(is_fine && strokes() * 10 >= piece.area * 3) {
+        if inner <= area && !(is_fine && strokes() * 10 >= area * 3) {
             continue;
         }
         let mut mask = vec![0u8; core.len()];
         pieces.paint(piece, &mut mask, width, 1);
-        if has_four_sides(&mask, width, piece.around()) {
+        if has_four_sides(&pieces, piece, &mask, width) {
             pieces.paint(piece, core, width, 0);
         }
     }
 }
 
-/// Whether a piece covers all four sides of its box without a gap.
-fn has_four_sides(mask: &[u8], width: usize, [x0, y0, x1, y1]: [u32; 4]) -> bool {
-    let dark = |x: u32, y: u32| mask[y as usize * width + x as usize] != 0;
-    let side = |length: u32, at: &dyn Fn(u32) -> bool| {
-        (0..length).filter(|&k| at(k)).count() as f64 >= 0.97 * f64::from(length)
+/// Whether a piece covers the four lines between its corners, and those are almost upright and level.
+fn has_four_sides(pieces: &Components, piece: &Component, mask: &[u8], width: usize) -> bool {
+    let ends = || {
+        let runs = pieces.runs(piece).iter();
+        runs.flat_map(|run| [[run.from, run.y], [run.to - 1, run.y]].map(|corner| corner.map(f64::from)))
     };
-    side(x1 - x0, &|k| dark(x0 + k, y0 + 1) || dark(x0 + k, y0))
-        && side(x1 - x0, &|k| dark(x0 + k, y1 - 1) || dark(x0 + k, y1.max(2) - 2))
-        && side(y1 - y0, &|k| dark(x0, y0 + k) || dark(x0 + 1, y0 + k))
-        && side(y1 - y0, &|k| dark(x1 - 1, y0 + k) || dark(x1.max(2) - 2, y0 + k))
+    let farthest = |x: f64, y: f64| {
+        let along = |p: &[f64; 2]| p[0] * x + p[1] * y;
+        ends().max_by(|a, b| along(a).total_cmp(&along(b))).unwrap_or_default()
+    };
+    let corners = [farthest(-1.0, -1.0), farthest(1.0, -1.0), farthest(1.0, 1.0), farthest(-1.0, 1.0)];
+    (0..4).all(|k| {
+        let [[x0, y0], [x1, y1]] = [corners[k], corners[(k + 1) % 4]];
+        let [dx, dy] = [x1 - x0, y1 - y0];
+        let length = dx.abs().max(dy.abs());
+        let steps = (length as usize).max(1);
+        let drawn = (0..=steps).filter(|&step| {
+            let share = step as f64 / steps as f64;
+            let [x, y] = [x0 + dx * share, y0 + dy * share].map(|px| px.round() as usize);
+            mask[y * width + x] != 0
+        });
+        dx.abs().min(dy.abs()) <= TILT * length && drawn.count() as f64 >= LEAST_DRAWN * (steps + 1) as f64
+    })
 }

@@ -84,6 +84,17 @@ impl Gap {
         to - from
     }
 
+    /// How far the longer of its two jambs stands out from other walls, up to `most`, pixels.
+    pub(super) fn jamb(&self, wall: &[u8], most: usize) -> usize {
+        let ([from, to], across) = self.middle();
+        let beside = 0.5 * self.thickness() + 1.5;
+        let is_wall = |along: f64, off: f64| self.pixel(along, across + off).is_some_and(|at| wall[at] != 0);
+        let is_out = |along: f64| is_wall(along, 0.0) && !is_wall(along, -beside) && !is_wall(along, beside);
+        let ways = [(from - 0.5, -1.0), (to + 0.5, 1.0)];
+        let lengths = ways.map(|(end, way)| (0..most).take_while(|&k| is_out(end + way * k as f64)).count());
+        lengths[0].max(lengths[1])
+    }
+
     /// All its pixels, as indices.
     pub(super) fn pixels(&self) -> Vec<usize> {
         let mut all = Vec::new();

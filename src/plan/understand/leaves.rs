@@ -137,3 +137,60 @@ pub(super) fn symbol(gap: &Gap, ink: &[u8], metres_per_pixel: f64) -> Vec<usize>
     }
     found
 }
+
+/// Whether three or four wings turn about the middle of a gap, between the two shells of a drum.
+pub(super) fn revolves(gap: &Gap, ink: &[u8]) -> bool {
+    /// Degrees between directions that are looked at; how wide a wing is at most, and how uneven wings stand.
+    const STEP: usize = 2;
+    const WIDEST: usize = 24;
+    const UNEVEN: usize = 12;
+    /// Radii at which wings are crossed, and between which the drum lies, as shares of half the gap.
+    const CROSSED: [f64; 2] = [0.35, 0.6];
+    const DRUM: [f64; 2] = [0.75, 1.35];
+    /// Directions off the wall in which a shell is looked for, degrees; its least share, and greatest ratio of its radii.
+    const SHELL: [i32; 4] = [25, 30, 35, 40];
+    const SHELL_DRAWN: f64 = 0.75;
+    const ROUND: f64 = 1.1;
+    let ([from, to], across) = gap.middle();
+    let half = 0.5 * (to - from);
+    let is_ink = |[x, y]: [f64; 2], degrees: f64, radius: f64| {
+        let (sine, cosine) = sin_cos(degrees.to_radians());
+        gap.pixel(x + radius * cosine, y + radius * sine).is_some_and(|at| ink[at] != 0)
+    };
+    // Directions of the wings that a circle crosses, degrees.
+    let wings = |middle: [f64; 2], share: f64| -> Option<Vec<usize>> {
+        let on: Vec<usize> = (0..360).step_by(STEP).filter(|&k| is_ink(middle, k as f64, share * half)).collect();
+        let starts = on.iter().copied().filter(|&k| !on.contains(&((k + 360 - STEP) % 360)));
+        let wing = |start: usize| {
+            let width = (0..360).step_by(STEP).find(|k| !on.contains(&((start + k) % 360)))?;
+            (width <= WIDEST).then_some((start + width / 2) % 360)
+        };
+        let mut found: Vec<usize> = starts.map(wing).collect::<Option<_>>()?;
+        found.sort_unstable();
+        let count = found.len();
+        let apart = |k: usize| (found[(k + 1) % count] + 360 - found[k]) % 360;
+        let is_even = (3..=4).contains(&count) && (0..count).all(|k| apart(k).abs_diff(360 / count) <= UNEVEN);
+        is_even.then_some(found)
+    };
+    let has_drum = |middle: [f64; 2], wings: &[usize]| {
+        let directions = SHELL.into_iter().flat_map(|k| [k, -k, 180 + k, 180 - k]).map(|k| k.rem_euclid(360) as usize);
+        let is_free = |k: &usize| wings.iter().all(|wing| wing.abs_diff(*k) > WIDEST / 2);
+        let free: Vec<usize> = directions.filter(is_free).collect();
+        let shell = |k: &usize| {
+            let mut radii =
+                (0..).map(|step| DRUM[0] * half + f64::from(step) * 0.5).take_while(|r| *r <= DRUM[1] * half);
+            radii.find(|&radius| is_ink(middle, *k as f64, radius))
+        };
+        let radii: Vec<f64> = free.iter().filter_map(shell).collect();
+        let (least, most) = radii.iter().fold((f64::MAX, 0.0_f64), |(a, b), &r| (a.min(r), b.max(r)));
+        radii.len() as f64 >= SHELL_DRAWN * free.len() as f64 && !radii.is_empty() && most <= ROUND * least
+    };
+    // The gap may be cut off beside the drum.
+    (-3..=3).flat_map(|x| (-3..=3).map(move |y| [x, y])).any(|[x, y]| {
+        let middle = [from + half + f64::from(x) * 0.06 * half, across + f64::from(y) * 0.06 * half];
+        let Some(inner) = wings(middle, CROSSED[0]) else { return false };
+        let Some(outer) = wings(middle, CROSSED[1]) else { return false };
+        let is_straight = inner.len() == outer.len() && inner.iter().zip(&outer).all(|(a, b)| a.abs_diff(*b) <= UNEVEN);
+        is_straight && has_drum(middle, &inner)
+    })
+}

@@ -21,6 +21,8 @@ const NARROWEST_END_M: f64 = 0.7;
 const WIDEST_CLOSED_DOOR_M: f64 = 1.6;
 /// Least and greatest width of a sliding entrance, metres, and greatest thickness of its leaves, metres and walls.
 const ENTRANCE_M: [f64; 2] = [1.2, 6.0];
+/// How far a jamb of a door without a leaf stands out from other walls at least, metres.
+const LEAST_JAMB_M: f64 = 0.15;
 const THICKEST_LEAF_M: f64 = 0.3;
 const LEAF_IN_WALLS: f64 = 0.75;
 /// Greatest width of a window that is a single line, metres.
@@ -119,7 +121,8 @@ impl Net {
         drop_crumbs(&mut wall, width, (thinnest * 0.8).max(LEAST_COLUMN_M / metres_per_pixel).max(LEAST_COLUMN_PX));
         let limits =
             Limits { shortest: px(0.5), longest: px(16.0), thinnest: ((thinnest * 0.75) as usize).max(2), thickest };
-        let is_entrance = |gap: &Gap| gap.slides && (px(ENTRANCE_M[0])..=px(ENTRANCE_M[1])).contains(&gap.length());
+        let is_wide = |gap: &Gap| (px(ENTRANCE_M[0])..=px(ENTRANCE_M[1])).contains(&gap.length());
+        let is_entrance = |gap: &Gap| gap.slides && is_wide(gap);
         if usual >= MUCH_THICKER * thinnest {
             clear_windows(&mut wall, ink, width, &limits, ((usual * WALL_SQUARE) as usize).max(side + 1));
         }
@@ -131,9 +134,13 @@ impl Net {
             let columns = columns(&wall, width, LONGEST_COLUMN_M / metres_per_pixel);
             found.retain(|gap| gap.ends.iter().all(|&at| columns[at] == 0));
         }
+        let revolves = |gap: &Gap| is_wide(gap) && leaves::revolves(gap, ink);
+        found.iter_mut().filter(|gap| revolves(gap)).for_each(|gap| gap.slides = true);
         // A door may be closed by lines along both faces of the wall; its leaf tells it from a window.
-        let has_leaf =
-            |gap: &Gap| gap.length() <= px(WIDEST_DOOR_M) && !leaves::hung(gap, &strokes, metres_per_pixel).is_empty();
+        let has_leaf = |gap: &Gap| {
+            let hung = || leaves::hung(gap, &strokes, metres_per_pixel);
+            gap.length() <= px(WIDEST_DOOR_M) && !hung().is_empty() || revolves(gap)
+        };
         let share = |gap: &Gap, mask: &[u8]| {
             let pixels = gap.pixels();
             let on = pixels.iter().filter(|&&at| is_on(mask, at)).count();
@@ -152,8 +159,12 @@ impl Net {
         let is_hung = |gap: &Gap| {
             gap.length() >= px(NARROWEST_END_M) && !leaves::symbol(gap, &strokes, metres_per_pixel).is_empty()
         };
-        let is_door =
-            |gap: &Gap| (gap.length() <= px(WIDEST_DOOR_M) || is_entrance(gap)) && (!gap.at_end || is_hung(gap));
+        // Between a wall and a basin before it, or a pier that hardly stands out, there is no wall for a door.
+        let has_jamb =
+            |gap: &Gap| gap.strokes > 0 || gap.slides || gap.jamb(&wall, px(LEAST_JAMB_M)) >= px(LEAST_JAMB_M);
+        let is_door = |gap: &Gap| {
+            (gap.length() <= px(WIDEST_DOOR_M) || is_entrance(gap)) && (!gap.at_end && has_jamb(gap) || is_hung(gap))
+        };
         // Without them the walls may enclose no building: wide openings, and the ends of corridors.
         let may_lead_out = |gap: &Gap| widest_m > WIDEST_DOOR_M && gap.length() <= px(widest_m);
         let mut doors: Vec<Gap> = doors.into_iter().filter(|gap| is_door(gap) || may_lead_out(gap)).collect();

@@ -45,7 +45,7 @@ pub(crate) const MIRRORED_WALL: LinearRgb = [0.66, 0.64, 0.60];
 /// Light on mirrored walls: `[0] + [1] * height / ceiling`.
 pub(crate) const MIRRORED_WALL_LIGHT: [f32; 2] = [0.62, 0.20];
 /// Radiance of lamps as floors mirror them: film shows lamps darker than they are. And that of daylight, by its own.
-pub(crate) const MIRRORED_LAMP: LinearRgb = [13.0, 12.7, 12.0];
+pub(crate) const MIRRORED_LAMP: LinearRgb = [9.0, 8.8, 8.3];
 pub(crate) const MIRRORED_DAY: f32 = 1.2;
 /// Light on the mirrored ceiling.
 pub(crate) const MIRRORED_CEILING_LIGHT: f32 = 0.42;
@@ -136,6 +136,12 @@ pub(crate) fn fresnel(cosine: f32, roughness: f32) -> f32 {
 /// Slope within which half of a rough surface's mirrored light lies (Walter et al. 2007, Microfacet models for refraction).
 pub(crate) fn lobe_slope(roughness: f32) -> f64 {
     f64::from(LOBE_WIDTH * roughness * roughness).max(0.002)
+}
+
+/// Factor on a floor's reflection: smooth places show lamps brighter than dull ones, so that lanes, film and swirls of the
+/// mop are seen in the gloss.
+pub(crate) fn gloss(roughness: f32) -> f32 {
+    (0.3 / roughness.max(0.05)).clamp(0.5, 1.6)
 }
 
 /// Light left on a wall near the floor and near the ceiling, 0 to 1.

@@ -9,7 +9,7 @@ use crate::show::rooms::{
     CEILING, CEILING_LIGHT, DAYLIGHT, FLOOR_SHINE, Finish, Fittings, HAZE_M, HitSurface, Irradiance, JOINT, LAMP, LOBE,
     LightSources, LinearRgb, MIRROR_REACH_M, MIRRORED_CEILING_LIGHT, MIRRORED_DAY, MIRRORED_LAMP, MIRRORED_WALL,
     MIRRORED_WALL_LIGHT, Panels, QuadKind, RayGrid, RayHit, SKY_SHINE, SOFFIT, TABLE, TILE_M, TOP, WALL_SHINE,
-    ceiling_tint, clouded, day_behind, fitting_light, fresnel, joint, lobe_slope, mix, noise, rise, scaled, sky,
+    ceiling_tint, clouded, day_behind, fitting_light, fresnel, gloss, joint, lobe_slope, mix, noise, rise, scaled, sky,
     tinted, unevenness, wall_tint,
 };
 use crate::walls::COUNTER_M;
@@ -157,7 +157,8 @@ impl Shader<'_> {
         for (skin, out) in skins.iter().zip(out) {
             let paint = skin.floor(hit, self.pixel);
             let fresnel = fresnel(cosine, paint.roughness);
-            let gain = fresnel * (FLOOR_SHINE[0] + FLOOR_SHINE[1] * light.open) * (0.4 + 0.6 * shade);
+            let gain =
+                fresnel * gloss(paint.roughness) * (FLOOR_SHINE[0] + FLOOR_SHINE[1] * light.open) * (0.4 + 0.6 * shade);
             let colour = std::array::from_fn(|c| paint.colour[c] * tinted[c] * (1.0 - fresnel));
             *out = match neighbour {
                 None => Lit::of(colour.map(|value| value + SKY_SHINE * gain)),

@@ -8,6 +8,10 @@ float lobe_slope(float roughness) {
   return max(LOBE_WIDTH * roughness * roughness, 0.002);
 }
 
+float gloss(float roughness) {
+  return clamp(0.3 / max(roughness, 0.05), 0.5, 1.6);
+}
+
 float wall_edges(float z, float height) {
   return (1.0 - FOOT.x * exp(-z / FOOT.y)) * (1.0 - HEAD.x * exp(-(height - z) / HEAD.y));
 }

@@ -133,7 +133,7 @@ vec3 lit_floor(Material surface, vec3 view) {
   vec3 light = light_at(v_place.xy);
   float share = fresnel(view.z, surface.roughness);
   vec3 shine = u_inside ? mirrored(vec3(-view.xy, view.z), surface.roughness) : vec3(SKY_SHINE);
-  return surface.colour * lamplight(light.x) * (1.0 - share) + shine * share * (FLOOR_SHINE.x + FLOOR_SHINE.y * light.y);
+  return surface.colour * lamplight(light.x) * (1.0 - share) + shine * share * gloss(surface.roughness) * (FLOOR_SHINE.x + FLOOR_SHINE.y * light.y);
 }
 
 vec3 lit_wall(Material surface, vec3 view) {
