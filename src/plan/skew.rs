@@ -129,7 +129,7 @@ mod tests {
     fn a_scan_that_lies_askew_is_told_from_an_upright_plan() {
         for askew_deg in [-2.6, -0.7, 0.5, 1.2] {
             let (sheet, angle_deg) = find(&scan(askew_deg)).unwrap();
-            assert!((angle_deg - askew_deg).abs() < 0.06, "{askew_deg} degrees were read as {angle_deg}");
+            assert!((angle_deg - askew_deg).abs() < 0.1, "{askew_deg} degrees were read as {angle_deg}");
             let straight = super::super::sheet::straightened(&scan(askew_deg), &sheet);
             assert_eq!(find(&DynamicImage::ImageRgb8(straight)).map(|(_, angle_deg)| angle_deg), None);
         }

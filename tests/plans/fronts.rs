@@ -12,7 +12,7 @@ const INK: [u8; 3] = [58; 3];
 const GLASS: [u8; 3] = [40, 60, 80];
 
 /// Areas of the rooms, square metres, from the smallest.
-fn rooms_m2(plan: &FloorPlan) -> Vec<f64> {
+pub fn rooms_m2(plan: &FloorPlan) -> Vec<f64> {
     let rooms = Rooms::find(plan, &Walls::trace(plan, &WallsOptions::default()));
     let mut areas: Vec<f64> = rooms.rooms.iter().map(|room| room.area_m2).collect();
     areas.sort_by(f64::total_cmp);
@@ -31,12 +31,12 @@ fn is_at(plan: &FloorPlan, mut gaps: impl Iterator<Item = [Point; 2]>, canvas: &
     gaps.any(|[a, b]| (0..2).all(|k| (middle([a, b])[k] - at[k]).abs() < 0.4))
 }
 
-fn has_door(plan: &FloorPlan, canvas: &Canvas, place: Point) -> bool {
+pub fn has_door(plan: &FloorPlan, canvas: &Canvas, place: Point) -> bool {
     let gaps = plan.doors.iter().map(|door| [door.from_m, door.to_m].map(|p| [p.x, p.y]));
     is_at(plan, gaps, canvas, place)
 }
 
-fn has_window(plan: &FloorPlan, canvas: &Canvas, place: Point) -> bool {
+pub fn has_window(plan: &FloorPlan, canvas: &Canvas, place: Point) -> bool {
     let gaps = plan.windows.iter().map(|window| [window.from_m, window.to_m].map(|p| [p.x, p.y]));
     is_at(plan, gaps, canvas, place)
 }

@@ -11,6 +11,7 @@ mod fronts;
 mod furnished;
 mod halls;
 mod levels;
+mod lobby;
 mod measure;
 mod mixed_walls;
 mod notes;

@@ -117,9 +117,10 @@ impl<'a> Page<'a> {
         self.is_lighter(x, y, FAINT)
     }
 
-    /// Whether a rectangle holds no ink, not even a faint point.
-    pub(super) fn is_blank(&self, x: [i32; 2], y: [i32; 2]) -> bool {
-        self.is_lighter(x, y, FAINTEST)
+    /// Whether a rectangle beside a text holds no ink, not even a faint point, or the line alone in whose gap the text stands.
+    pub(super) fn is_beside(&self, x: [i32; 2], y: [i32; 2]) -> bool {
+        let [above, below] = [-1, 1].map(|way| (y[0] + y[1]) / 2 + way * (y[1] - y[0]) / 5);
+        self.is_lighter(x, [y[0], above], FAINTEST) && self.is_lighter(x, [below, y[1]], FAINTEST)
     }
 
     fn is_lighter(&self, [x0, x1]: [i32; 2], [y0, y1]: [i32; 2], least: u8) -> bool {

@@ -77,7 +77,7 @@ impl Reader<'_> {
             let [apart, along] = [bar.middle()[1] - area.middle()[1], bar.x[0] - area.middle()[0]].map(i32::abs);
             apart <= 3 * height && along <= height
         };
-        self.page.is_blank([area.x[0] - reach, area.x[0] - 1], area.y)
+        self.page.is_beside([area.x[0] - reach, area.x[0] - 1], area.y)
             && (self.next(k, &area, SPACE).is_some() || self.wide.iter().any(at_bar))
     }
 
@@ -192,7 +192,7 @@ impl Reader<'_> {
         let is_length = text.starts_with('M') && !text.starts_with("M2");
         let text = if is_length { String::new() } else { text.to_lowercase() };
         let unit = UNITS.into_iter().find(|unit| text.starts_with(unit));
-        if unit.is_none() && !self.page.is_empty([end, end + clear], line.y) {
+        if unit.is_none() && !self.page.is_beside([end, end + clear], line.y) {
             return (None, read);
         }
         (Some(unit.unwrap_or("")), if unit.is_some() { read } else { Vec::new() })

@@ -11,6 +11,9 @@ const LEAST_DRAWN: f64 = 0.95;
 /// Steepest slope of the sides of a scanned sheet's frame.
 const TILT: f64 = 0.04;
 
+/// Greatest share of a frame that lies off its sides, as a title block does.
+const MOST_AT_FRAME: f64 = 0.3;
+
 /// Takes off the frames of a sheet: strokes around all others that have less area than those within.
 pub(super) fn drop(core: &mut [u8], ink: &[u8], width: usize, metres_per_pixel: f64) {
     let thick = open(core, width, ((THINNEST_M / metres_per_pixel).ceil() as usize).max(2));
@@ -39,6 +42,18 @@ pub(super) fn drop(core: &mut [u8], ink: &[u8], width: usize, metres_per_pixel: 
         if inner <= area && !(is_fine && strokes() * 10 >= area * 3) {
             continue;
         }
+        // Other walls begin at outer walls, a title block at most at a frame.
+        let band = (TILT * w.max(h)) as usize + 2 * BROKEN_PX;
+        let [[left, top], [right, bottom]] = [piece.min, piece.end].map(|corner| corner.map(|px| px as usize));
+        let is_off = |at: &usize| {
+            let [x, y] = [at % width, at / width];
+            (left + band..right.saturating_sub(band)).contains(&x)
+                && (top + band..bottom.saturating_sub(band)).contains(&y)
+        };
+        let off = pieces.ranges(piece, width).flatten().filter(|at| thick[*at] != 0 && is_off(at)).count();
+        if off as f64 > MOST_AT_FRAME * area as f64 {
+            continue;
+        }
         let mut mask = vec![0u8; core.len()];
         pieces.paint(piece, &mut mask, width, 1);
         if has_four_sides(&pieces, piece, &mask, width) {
@@ -53,9 +68,12 @@ fn has_four_sides(pieces: &Components, piece: &Component, mask: &[u8], width: us
         let runs = pieces.runs(piece).iter();
         runs.flat_map(|run| [[run.from, run.y], [run.to - 1, run.y]].map(|corner| corner.map(f64::from)))
     };
+    // Within the strokes: their edges are ragged.
+    let inset = BROKEN_PX as f64 + 1.0;
     let farthest = |x: f64, y: f64| {
         let along = |p: &[f64; 2]| p[0] * x + p[1] * y;
-        ends().max_by(|a, b| along(a).total_cmp(&along(b))).unwrap_or_default()
+        let [u, v] = ends().max_by(|a, b| along(a).total_cmp(&along(b))).unwrap_or_default();
+        [(u - x * inset).max(0.0), (v - y * inset).max(0.0)]
     };
     let corners = [farthest(-1.0, -1.0), farthest(1.0, -1.0), farthest(1.0, 1.0), farthest(-1.0, 1.0)];
     (0..4).all(|k| {

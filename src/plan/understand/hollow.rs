@@ -188,11 +188,7 @@ pub(super) fn fill_outlines(dark: &[u8], width: usize, metres_per_pixel: f64) ->
         let is_net = reach >= NET_M || (reach >= SMALL_NET_M && field.area as f64 <= SMALL_NET_FILL * w * h);
         // A sink in a counter makes its outline longer, and so the rectangle thinner.
         let is_full = field.area as f64 > NET_FILL * w * h;
-        let is_narrow = || share_of_squares(&fields, field, THICKEST_BAR_M / metres_per_pixel + 1.0) == 0.0;
-        let is_thin = match is_full {
-            true => w.min(h) * metres_per_pixel <= THICKEST_BAR_M || is_bent && is_narrow(),
-            false => thick * metres_per_pixel <= THICKEST_BAR_M,
-        };
+        let is_thin = if is_full { w.min(h) } else { thick } * metres_per_pixel <= THICKEST_BAR_M;
         thick * metres_per_pixel >= 0.02
             && length >= SLENDER * thick
             && length * metres_per_pixel >= SHORTEST_M
@@ -234,22 +230,20 @@ fn is_even(fields: &Components, field: &Component, thick: f64) -> bool {
         rows[k].iter().all(|run| next.iter().any(|other| is_same(run, other)))
     };
     let steps = (0..rows.len()).filter(|&k| !goes_on(k, 1, 0) && !goes_on(k, WOBBLE_ROWS, WOBBLE_PX));
-    if steps.count() > 6 + field.size()[1] as usize / 6 {
+    let [w, h] = field.size().map(|side| side as usize);
+    if steps.count() > 6 + h / 12 {
         return false;
     }
-    share_of_squares(fields, field, thick * 0.75) >= 0.6 && share_of_squares(fields, field, thick * 1.9) <= 0.3
-}
-
-/// Share of a field that squares with a side of so many pixels cover.
-fn share_of_squares(fields: &Components, field: &Component, side: f64) -> f64 {
-    let [w, h] = field.size().map(|side| side as usize);
     let mut mask = vec![0u8; w * h];
-    for run in fields.runs(field) {
+    for run in runs {
         let row = (run.y - field.min[1]) as usize * w;
         mask[row + (run.from - field.min[0]) as usize..row + (run.to - field.min[0]) as usize].fill(1);
     }
-    let kept = open(&mask, w, (side as usize).max(1));
-    kept.iter().filter(|&&k| k != 0).count() as f64 / field.area as f64
+    let share = |of: f64| {
+        let kept = open(&mask, w, ((thick * of) as usize).max(1));
+        kept.iter().filter(|&&k| k != 0).count() as f64 / field.area as f64
+    };
+    share(0.75) >= 0.6 && share(1.9) <= 0.3
 }
 
 /// Thickness of the rectangle with the area and outline of a white field of a drawing, pixels.

@@ -285,7 +285,9 @@ fn net_of_walls(
     is_it: &dyn Fn(&Net) -> bool,
 ) -> Option<Net> {
     let (dark, width) = (&drawing.dark, drawing.width);
-    let strokes = without_lettering(ink, width, metres_per_pixel);
+    let mut strokes = without_lettering(ink, width, metres_per_pixel);
+    // The two lines of a frame are no hollow wall.
+    border::drop(&mut strokes, ink, width, metres_per_pixel);
     let is_dark = |at: usize| is_on(dark, at);
     // Fills of grey walls ring beside black outlines, and are a little lighter than the threshold there. Treads and rails of
     // stairs that are as light have dark on one side at most.
