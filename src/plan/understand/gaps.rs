@@ -89,7 +89,7 @@ impl Gap {
         let ([from, to], across) = self.middle();
         let beside = 0.5 * self.thickness() + 1.5;
         let is_wall = |along: f64, off: f64| self.pixel(along, across + off).is_some_and(|at| wall[at] != 0);
-        let is_out = |along: f64| is_wall(along, 0.0) && !is_wall(along, -beside) && !is_wall(along, beside);
+        let is_out = |along: f64| is_wall(along, 0.0) && !(is_wall(along, -beside) && is_wall(along, beside));
         let ways = [(from - 0.5, -1.0), (to + 0.5, 1.0)];
         let lengths = ways.map(|(end, way)| (0..most).take_while(|&k| is_out(end + way * k as f64)).count());
         lengths[0].max(lengths[1])
