@@ -4,6 +4,7 @@
 //! many (projection profiles: Postl 1986, "Detection of linear oblique structures and skew scan in digitized documents").
 
 use image::DynamicImage;
+use rayon::prelude::*;
 
 use super::sheet::{Sheet, colour_at};
 use crate::math::sin_cos;
@@ -62,7 +63,7 @@ fn edges(image: &DynamicImage) -> [Vec<[f64; 2]>; 2] {
         let pixels = (top..top + cell).flat_map(|y| (left..left + cell).map(move |x| colour_at(image, x, y)));
         pixels.map(|[r, g, b]| f64::from(r) + f64::from(g) + f64::from(b)).sum::<f64>() / (3 * cell * cell) as f64
     };
-    let tones: Vec<f64> = (0..width * height).map(tone).collect();
+    let tones: Vec<f64> = (0..width * height).into_par_iter().map(tone).collect();
     let found = |step: usize, is_row: bool| {
         let steps: Vec<f64> = tones.iter().zip(tones.iter().skip(step)).map(|(a, b)| (a - b).abs()).collect();
         let least = EDGE.max(EDGE_SHARE * steps.iter().copied().fold(0.0, f64::max));

@@ -10,7 +10,6 @@ const BROKEN_PX: usize = 2;
 const LEAST_DRAWN: f64 = 0.95;
 /// Steepest slope of the sides of a scanned sheet's frame.
 const TILT: f64 = 0.04;
-
 /// Greatest share of a frame that lies off its sides, as a title block does.
 const MOST_AT_FRAME: f64 = 0.3;
 
@@ -84,7 +83,7 @@ fn has_four_sides(pieces: &Components, piece: &Component, mask: &[u8], width: us
         let drawn = (0..=steps).filter(|&step| {
             let share = step as f64 / steps as f64;
             let [x, y] = [x0 + dx * share, y0 + dy * share].map(|px| px.round() as usize);
-            mask[y * width + x] != 0
+            x < width && mask.get(y * width + x).is_some_and(|&on| on != 0)
         });
         dx.abs().min(dy.abs()) <= TILT * length && drawn.count() as f64 >= LEAST_DRAWN * (steps + 1) as f64
     })

@@ -144,6 +144,9 @@ pub(super) fn revolves(gap: &Gap, ink: &[u8]) -> bool {
     const STEP: usize = 2;
     const WIDEST: usize = 24;
     const UNEVEN: usize = 12;
+    /// How far off the gap's middle wings meet at most, as a share of half the gap, and in which steps places are tried.
+    const MEET: f64 = 0.2;
+    const STEPS: i32 = 3;
     /// Radii at which wings are crossed, and between which the drum lies, as shares of half the gap.
     const CROSSED: [f64; 2] = [0.35, 0.6];
     const DRUM: [f64; 2] = [0.75, 1.35];
@@ -153,13 +156,21 @@ pub(super) fn revolves(gap: &Gap, ink: &[u8]) -> bool {
     const ROUND: f64 = 1.1;
     let ([from, to], across) = gap.middle();
     let half = 0.5 * (to - from);
-    let is_ink = |[x, y]: [f64; 2], degrees: f64, radius: f64| {
-        let (sine, cosine) = sin_cos(degrees.to_radians());
-        gap.pixel(x + radius * cosine, y + radius * sine).is_some_and(|at| ink[at] != 0)
+    let is_drawn = |along: f64, across: f64| gap.pixel(along, across).is_some_and(|at| ink[at] != 0);
+    // Wings meet in the middle: most doors are empty there.
+    let reach = (MEET * half).ceil() as i32;
+    let near = |x: i32, y: i32| is_drawn(from + half + f64::from(x), across + f64::from(y));
+    if !(-reach..=reach).any(|y| (-reach..=reach).any(|x| near(x, y))) {
+        return false;
+    }
+    let directions: Vec<(f64, f64)> = (0..360).map(|degrees| sin_cos(f64::from(degrees).to_radians())).collect();
+    let is_ink = |[x, y]: [f64; 2], degrees: usize, radius: f64| {
+        let (sine, cosine) = directions[degrees];
+        is_drawn(x + radius * cosine, y + radius * sine)
     };
     // Directions of the wings that a circle crosses, degrees.
     let wings = |middle: [f64; 2], share: f64| -> Option<Vec<usize>> {
-        let on: Vec<usize> = (0..360).step_by(STEP).filter(|&k| is_ink(middle, k as f64, share * half)).collect();
+        let on: Vec<usize> = (0..360).step_by(STEP).filter(|&k| is_ink(middle, k, share * half)).collect();
         let starts = on.iter().copied().filter(|&k| !on.contains(&((k + 360 - STEP) % 360)));
         let wing = |start: usize| {
             let width = (0..360).step_by(STEP).find(|k| !on.contains(&((start + k) % 360)))?;
@@ -173,21 +184,22 @@ pub(super) fn revolves(gap: &Gap, ink: &[u8]) -> bool {
         is_even.then_some(found)
     };
     let has_drum = |middle: [f64; 2], wings: &[usize]| {
-        let directions = SHELL.into_iter().flat_map(|k| [k, -k, 180 + k, 180 - k]).map(|k| k.rem_euclid(360) as usize);
+        let sides = SHELL.into_iter().flat_map(|k| [k, -k, 180 + k, 180 - k]).map(|k| k.rem_euclid(360) as usize);
         let is_free = |k: &usize| wings.iter().all(|wing| wing.abs_diff(*k) > WIDEST / 2);
-        let free: Vec<usize> = directions.filter(is_free).collect();
+        let free: Vec<usize> = sides.filter(is_free).collect();
         let shell = |k: &usize| {
             let mut radii =
                 (0..).map(|step| DRUM[0] * half + f64::from(step) * 0.5).take_while(|r| *r <= DRUM[1] * half);
-            radii.find(|&radius| is_ink(middle, *k as f64, radius))
+            radii.find(|&radius| is_ink(middle, *k, radius))
         };
         let radii: Vec<f64> = free.iter().filter_map(shell).collect();
         let (least, most) = radii.iter().fold((f64::MAX, 0.0_f64), |(a, b), &r| (a.min(r), b.max(r)));
         radii.len() as f64 >= SHELL_DRAWN * free.len() as f64 && !radii.is_empty() && most <= ROUND * least
     };
     // The gap may be cut off beside the drum.
-    (-3..=3).flat_map(|x| (-3..=3).map(move |y| [x, y])).any(|[x, y]| {
-        let middle = [from + half + f64::from(x) * 0.06 * half, across + f64::from(y) * 0.06 * half];
+    (-STEPS..=STEPS).flat_map(|x| (-STEPS..=STEPS).map(move |y| [x, y])).any(|off| {
+        let [x, y] = off.map(|step| f64::from(step) / f64::from(STEPS) * MEET * half);
+        let middle = [from + half + x, across + y];
         let Some(inner) = wings(middle, CROSSED[0]) else { return false };
         let Some(outer) = wings(middle, CROSSED[1]) else { return false };
         let is_straight = inner.len() == outer.len() && inner.iter().zip(&outer).all(|(a, b)| a.abs_diff(*b) <= UNEVEN);
