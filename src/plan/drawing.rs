@@ -99,37 +99,26 @@ const COLOURED_PAPER: usize = 3;
 /// Sheets in photographs are straightened, scans that lie askew are turned, uneven light is evened out, light walls on a
 /// dark ground are inverted.
 pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, Vec<String>) {
-    of_sheet(image, options, true)
-}
-
-fn of_sheet(image: DynamicImage, options: &PlanOptions, may_be_askew: bool) -> (Drawing, Vec<String>) {
     let mut warnings = Vec::new();
-    let (mut lightness, mut coloured) = (Vec::new(), Vec::new());
-    if image.color().has_color() {
-        coloured = map_pixels(&image, |pixel| u8::from(is_annotation(pixel, options)));
-    }
-    let share = coloured.iter().filter(|&&c| c != 0).count();
-    if share == 0 {
-        coloured = Vec::new();
-        lightness = map_pixels(&image, |pixel| lightness_of(pixel, options));
-    }
+    let (mut coloured, mut share, mut lightness) = masks(&image, options);
     let is_unasked = options.threshold.is_none() && options.invert.is_none();
     let looks_like_map = is_unasked && coloured.is_empty() && has_map_greys(&lightness);
     let sheet = if looks_like_map { None } else { sheet::find(&image) };
-    let askew = if looks_like_map || sheet.is_some() || !may_be_askew { None } else { skew::find(&image) };
-    if let Some((turned, angle_deg)) = askew {
-        let straight = sheet::straightened(&image, &turned);
-        let told = skew::told(angle_deg, straight.dimensions());
-        let (drawing, more) = of_sheet(DynamicImage::ImageRgb8(straight), options, false);
-        return (drawing, std::iter::once(told).chain(more).collect());
-    }
-    let image = match &sheet {
-        Some(found) => {
+    let askew = if looks_like_map || sheet.is_some() { None } else { skew::find(&image) };
+    let image = match (&sheet, &askew) {
+        (Some(found), _) => {
             let straight = sheet::straightened(&image, found);
             warnings.push(told_sheet(found, straight.dimensions()));
             DynamicImage::ImageRgb8(straight)
         }
-        None => image,
+        (None, Some((turned, angle_deg))) => {
+            let straight = sheet::straightened(&image, turned);
+            warnings.push(skew::told(*angle_deg, straight.dimensions()));
+            let straight = DynamicImage::ImageRgb8(straight);
+            (coloured, share, lightness) = masks(&straight, options);
+            straight
+        }
+        (None, None) => image,
     };
     let (width, height) = (image.width() as usize, image.height() as usize);
     if is_unasked && sheet.is_none() && !looks_like_map && options.wall_colours.is_empty() {
@@ -388,6 +377,17 @@ fn ink_of(image: &DynamicImage, coloured: &[u8]) -> Option<Ink> {
 fn told_colour(colour: Colour) -> String {
     let name = String::from(colour);
     format!("walls are coloured: {name} was taken for wall; `[plan] wall_colours` names other colours")
+}
+
+/// Where annotation is, and its number of pixels; where there is none, the lightness of all instead.
+fn masks(image: &DynamicImage, options: &PlanOptions) -> (Vec<u8>, usize, Vec<u8>) {
+    let has_colour = image.color().has_color();
+    let is_coloured = || map_pixels(image, |pixel| u8::from(is_annotation(pixel, options)));
+    let coloured = if has_colour { is_coloured() } else { Vec::new() };
+    match coloured.iter().filter(|&&c| c != 0).count() {
+        0 => (Vec::new(), 0, map_pixels(image, |pixel| lightness_of(pixel, options))),
+        share => (coloured, share, Vec::new()),
+    }
 }
 
 fn told_sheet(sheet: &sheet::Sheet, (width, height): (u32, u32)) -> String {

@@ -252,7 +252,7 @@ impl Use {
     /// small rooms are a home, and so are many without a corridor: flats; many at corridors an office, a school (large ones,
     /// or tables side by side) or a hospital (very many); large rooms that lead into each other a museum; one large room
     /// with small ones a shop, an office if it has desks, a hall if it is very large or full of seats, or with wide openings
-    /// a station.
+    /// a station. A large room with few tables or seats is a hall beside others too.
     pub(crate) fn guess(rooms: &Rooms, furniture: &[FurniturePiece]) -> Use {
         let of = |kind: RoomKind| rooms.rooms.iter().filter(move |room| room.kind == kind);
         let area_m2 = |kind: RoomKind| of(kind).map(|room| room.area_m2).sum::<f64>();

@@ -28,6 +28,8 @@ pub(super) struct Gap {
     pub(super) strokes: usize,
     /// Whether bars lie in it along the wall, none of which reaches from jamb to jamb: the leaves of a sliding door.
     pub(super) slides: bool,
+    /// Whether the wings of a revolving door turn in it.
+    pub(super) turns: bool,
     /// Whether it lies across the end of a corridor of its width, where a mouth without a door looks the same.
     pub(super) at_end: bool,
     /// A pixel of each wall end.
@@ -294,6 +296,7 @@ fn along_rows(wall: &[u8], ink: &[u8], limits: &Limits, frame: Frame) -> Vec<Gap
             rows: vec![g],
             strokes: 0,
             slides: false,
+            turns: false,
             at_end: false,
             ends: [0; 2],
         }));
@@ -346,6 +349,7 @@ fn at_ends(wall: &[u8], width: usize, gap: &Gap, limits: &Limits) -> impl Iterat
         rows: gap.rows[rows].to_vec(),
         strokes: 0,
         slides: false,
+        turns: false,
         at_end: true,
         ends: [0; 2],
     };

@@ -150,7 +150,7 @@ fn understand_all(drawing: &Drawing, metres_per_pixel: f64) -> Option<Understood
             }
             let kind = match () {
                 () if !symbol.is_empty() => DoorKind::Leaf,
-                () if gap.strokes > 0 || gap.slides => DoorKind::Line,
+                () if gap.strokes > 0 || gap.slides || gap.turns => DoorKind::Line,
                 () => DoorKind::Open,
             };
             (kind, leaf)

@@ -122,7 +122,7 @@ impl Net {
         let limits =
             Limits { shortest: px(0.5), longest: px(16.0), thinnest: ((thinnest * 0.75) as usize).max(2), thickest };
         let is_wide = |gap: &Gap| (px(ENTRANCE_M[0])..=px(ENTRANCE_M[1])).contains(&gap.length());
-        let is_entrance = |gap: &Gap| gap.slides && is_wide(gap);
+        let is_entrance = |gap: &Gap| gap.turns || gap.slides && is_wide(gap);
         if usual >= MUCH_THICKER * thinnest {
             clear_windows(&mut wall, ink, width, &limits, ((usual * WALL_SQUARE) as usize).max(side + 1));
         }
@@ -134,12 +134,11 @@ impl Net {
             let columns = columns(&wall, width, LONGEST_COLUMN_M / metres_per_pixel);
             found.retain(|gap| gap.ends.iter().all(|&at| columns[at] == 0));
         }
-        let revolves = |gap: &Gap| is_wide(gap) && leaves::revolves(gap, ink);
-        found.iter_mut().filter(|gap| revolves(gap)).for_each(|gap| gap.slides = true);
+        found.iter_mut().for_each(|gap| gap.turns = is_wide(gap) && leaves::revolves(gap, ink));
         // A door may be closed by lines along both faces of the wall; its leaf tells it from a window.
         let has_leaf = |gap: &Gap| {
             let hung = || leaves::hung(gap, &strokes, metres_per_pixel);
-            gap.length() <= px(WIDEST_DOOR_M) && !hung().is_empty() || revolves(gap)
+            gap.length() <= px(WIDEST_DOOR_M) && !hung().is_empty() || gap.turns
         };
         let share = |gap: &Gap, mask: &[u8]| {
             let pixels = gap.pixels();
@@ -160,8 +159,9 @@ impl Net {
             gap.length() >= px(NARROWEST_END_M) && !leaves::symbol(gap, &strokes, metres_per_pixel).is_empty()
         };
         // Between a wall and a basin before it, or a pier that hardly stands out, there is no wall for a door.
-        let has_jamb =
-            |gap: &Gap| gap.strokes > 0 || gap.slides || gap.jamb(&wall, px(LEAST_JAMB_M)) >= px(LEAST_JAMB_M);
+        let has_jamb = |gap: &Gap| {
+            gap.strokes > 0 || gap.slides || gap.turns || gap.jamb(&wall, px(LEAST_JAMB_M)) >= px(LEAST_JAMB_M)
+        };
         let is_door = |gap: &Gap| {
             (gap.length() <= px(WIDEST_DOOR_M) || is_entrance(gap)) && (!gap.at_end && has_jamb(gap) || is_hung(gap))
         };

@@ -51,6 +51,8 @@ pub(crate) const MIRRORED_DAY: f32 = 1.2;
 pub(crate) const MIRRORED_CEILING_LIGHT: f32 = 0.42;
 /// Distance up to which walls are searched for a reflection, metres.
 pub(crate) const MIRROR_REACH_M: f32 = 90.0;
+/// Factor on a floor's reflection by its roughness: where it is 1, least and greatest.
+const GLOSS: [f32; 3] = [0.3, 0.5, 1.6];
 /// Slope to either side within which a usual floor's reflection gathers half of its light.
 pub(crate) const LOBE: f32 = 0.11;
 /// Darkening of walls toward the floor and toward the ceiling: share, and the distance in which it fades, metres.
@@ -76,7 +78,7 @@ const STRAIGHT: f32 = 0.50;
 
 /// The constants as GLSL declarations.
 pub(crate) fn glsl() -> String {
-    let constants: [(&str, &[f32]); 37] = [
+    let constants: [(&str, &[f32]); 38] = [
         ("LAMP", &LAMP),
         ("DAYLIGHT", &DAYLIGHT),
         ("CEILING", &CEILING),
@@ -98,6 +100,7 @@ pub(crate) fn glsl() -> String {
         ("MIRRORED_DAY", &[MIRRORED_DAY]),
         ("MIRRORED_CEILING_LIGHT", &[MIRRORED_CEILING_LIGHT]),
         ("MIRROR_REACH_M", &[MIRROR_REACH_M]),
+        ("GLOSS", &GLOSS),
         ("LOBE", &[LOBE]),
         ("LOBE_WIDTH", &[LOBE_WIDTH]),
         ("FOOT", &FOOT),
@@ -141,7 +144,8 @@ pub(crate) fn lobe_slope(roughness: f32) -> f64 {
 /// Factor on a floor's reflection: smooth places show lamps brighter than dull ones, so that lanes, film and swirls of the
 /// mop are seen in the gloss.
 pub(crate) fn gloss(roughness: f32) -> f32 {
-    (0.3 / roughness.max(0.05)).clamp(0.5, 1.6)
+    let [usual, least, most] = GLOSS;
+    (usual / roughness.max(1e-3)).clamp(least, most)
 }
 
 /// Light left on a wall near the floor and near the ceiling, 0 to 1.

@@ -9,7 +9,7 @@ float lobe_slope(float roughness) {
 }
 
 float gloss(float roughness) {
-  return clamp(0.3 / max(roughness, 0.05), 0.5, 1.6);
+  return clamp(GLOSS.x / max(roughness, 1e-3), GLOSS.y, GLOSS.z);
 }
 
 float wall_edges(float z, float height) {
