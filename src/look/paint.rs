@@ -58,6 +58,9 @@ struct FloorLayout {
 /// What the optical density of heel marks, gum and rubs tends to where many lie on each other.
 const MOST_MARKS: f32 = 0.5;
 
+/// What the optical density of dry prints tends to: a sole leaves what it carries, and even a muddy one no black hole.
+const MOST_SOIL: f32 = 0.7;
+
 /// Standard deviation of the Gaussian that evens out where people stood, metres: the simulated ones stand for many.
 const STANDING_SPREAD_M: f64 = 0.1;
 
@@ -261,6 +264,7 @@ impl FloorLayout {
         scaled(passes, Quantity::Passes, 1.0, &mut known.passes);
         scaled(wheels, Quantity::Wheels, 1.0, &mut known.wheels);
         scaled(soil, Quantity::Soil, look.prints.soil * properties.prints, &mut known.soil);
+        each_mut(&mut known.soil, |density| MOST_SOIL * (1.0 - exp_f32(-density / MOST_SOIL)));
         scaled(scuff, Quantity::Scuff, look.scuffs.strength * properties.scuffs, &mut known.scuff);
         for (out, edge) in known.edge.iter_mut().zip(edge.get(from..).unwrap_or_default()) {
             *out = edge * properties.edge;

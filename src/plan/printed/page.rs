@@ -10,6 +10,11 @@ const FAINTEST: u8 = 215;
 /// Least height of a glyph that can be read, and greatest side of one, pixels.
 const LEAST_PX: i32 = 7;
 const MOST_PX: i32 = 72;
+/// Small digits run into each other: pieces at least so many heights wide are cut into parts of such widths, where the
+/// columns between hold at most this share of the ink of a mean column.
+const RUN_TOGETHER: f64 = 1.3;
+const PART_WIDTHS: [f64; 2] = [0.5, 0.95];
+const BETWEEN: f64 = 0.62;
 
 /// A box on a page, pixels: least x and y, then one beyond the greatest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,9 +77,44 @@ impl<'a> Page<'a> {
         let mut page = Page { ink, is_turned, marks: Vec::new() };
         let is_small = |piece: &Component| piece.larger_side() <= MOST_PX as u32;
         let small = ink.pieces.all.iter().enumerate().filter(|(_, piece)| is_small(piece));
-        page.marks = small.map(|(k, piece)| Mark { area: page.area(piece), piece: k }).collect();
+        page.marks = small.flat_map(|(k, piece)| page.parts(Mark { area: page.area(piece), piece: k })).collect();
         page.marks.sort_by_key(|mark| (mark.area.x, mark.area.y));
         page
+    }
+
+    /// A mark, or the letters that run together in it.
+    fn parts(&self, mark: Mark) -> Vec<Mark> {
+        let [width, height] = [mark.area.width(), mark.area.height()].map(f64::from);
+        if height < f64::from(LEAST_PX) || width < RUN_TOGETHER * height {
+            return vec![mark];
+        }
+        let (own, across) = (self.darkness_of(&mark), mark.area.width() as usize);
+        let column = |x: usize| own.iter().skip(x).step_by(across).map(|&dark| f64::from(dark)).sum::<f64>();
+        let columns: Vec<f64> = (0..across).map(column).collect();
+        let mean = columns.iter().sum::<f64>() / width;
+        // Digits are all as wide as each other: the cuts lie evenly, to a pixel.
+        let cuts = |count: usize| -> Vec<usize> {
+            let near = |k: usize| {
+                let middle = k * across / count;
+                (middle - 1..=middle + 1).min_by(|a, b| columns[*a].total_cmp(&columns[*b])).unwrap_or(middle)
+            };
+            (1..count).map(near).collect()
+        };
+        let ink = |cuts: &[usize]| cuts.iter().map(|&x| columns[x]).fold(0.0, f64::max);
+        let [most, least] = PART_WIDTHS.map(|share| (width / (share * height)).floor() as usize);
+        let tried = (least.max(1) + 1..=most).map(cuts);
+        let Some(cuts) = tried.min_by(|a, b| ink(a).total_cmp(&ink(b))).filter(|cuts| ink(cuts) <= BETWEEN * mean) else {
+            return vec![mark];
+        };
+        let ends: Vec<usize> = [0].into_iter().chain(cuts).chain([across]).collect();
+        let part = |pair: &[usize]| {
+            let is_inked = |y: &i32| (pair[0]..pair[1]).any(|x| own[*y as usize * across + x] > 0);
+            let rows: Vec<i32> = (0..mark.area.height()).filter(is_inked).collect();
+            let y = [*rows.first()?, rows.last()? + 1].map(|y| mark.area.y[0] + y);
+            let x = [pair[0], pair[1]].map(|x| mark.area.x[0] + x as i32);
+            Some(Mark { area: Area { x, y }, piece: mark.piece })
+        };
+        ends.windows(2).filter_map(part).collect()
     }
 
     /// Boxes of the pieces that are too wide for letters.
@@ -127,7 +167,7 @@ impl<'a> Page<'a> {
         (y0..y1).all(|y| (x0..x1).all(|x| self.darkness([x, y]) <= 255 - least))
     }
 
-    /// The darkness of a mark's own pixels, row by row in its box.
+    /// The darkness of a mark's own pixels in its box, row by row.
     pub(super) fn darkness_of(&self, mark: &Mark) -> Vec<u8> {
         let area = &mark.area;
         let mut own = vec![0u8; (area.width() * area.height()) as usize];
@@ -136,7 +176,9 @@ impl<'a> Page<'a> {
             for x in run.from..run.to {
                 let [px, py] = [x as i32, run.y as i32];
                 let [x, y] = if self.is_turned { [self.ink.drawing.height as i32 - 1 - py, px] } else { [px, py] };
-                own[((y - area.y[0]) * area.width() + x - area.x[0]) as usize] = self.darkness([x, y]);
+                if (area.x[0]..area.x[1]).contains(&x) && (area.y[0]..area.y[1]).contains(&y) {
+                    own[((y - area.y[0]) * area.width() + x - area.x[0]) as usize] = self.darkness([x, y]);
+                }
             }
         }
         own

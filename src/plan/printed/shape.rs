@@ -19,6 +19,8 @@ const HOLE: f32 = 0.05;
 /// Greatest distance of a glyph from its letter in heights, and how much nearer that is than any other.
 const NEAR: f32 = 0.085;
 const NEARER: f32 = 1.25;
+/// Greatest distance of a glyph from a letter that it may be, even if it is like others too.
+const ABOUT: f32 = 0.13;
 
 /// How far letters lean, as a share of their height: upright and sloped lettering.
 const LEANS: [f32; 2] = [0.0, 0.22];
@@ -102,6 +104,14 @@ impl Alphabet {
             }
         }
         found.filter(|_| count >= 2)
+    }
+
+    /// The letter among some that a glyph is most like.
+    pub(super) fn likeliest(&self, darkness: &[u8], width: usize, among: &str) -> Option<char> {
+        let shapes: Vec<Shape> = STROKES.iter().filter_map(|&share| Shape::of(darkness, width, share)).collect();
+        let known = self.0.iter().filter(|(letter, _)| among.contains(*letter));
+        let each = known.flat_map(|(letter, known)| shapes.iter().map(move |shape| (shape.apart(known, ABOUT), *letter)));
+        each.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|best| best.0 <= ABOUT).map(|best| best.1)
     }
 
     fn one(&self, shape: &Shape, among: &str) -> Option<char> {

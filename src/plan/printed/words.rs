@@ -12,6 +12,8 @@ const UNIT_LETTERS: usize = 6;
 const GAP: f64 = 0.6;
 const WIDE_GAP: f64 = 0.85;
 const SPACE: f64 = 1.4;
+/// After so many digits others change little: the likeliest ones will do.
+const SURE_DIGITS: usize = 2;
 
 /// The unit that follows a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,7 +110,8 @@ impl Reader<'_> {
         text.extend(self.digit(first));
         let mut gaps: Vec<i32> = Vec::new();
         while let Some(next) = self.next(last, &line, WIDE_GAP) {
-            let Some(letter) = self.part(next, &line) else { break };
+            let is_minor = text.chars().filter(char::is_ascii_digit).count() >= SURE_DIGITS;
+            let Some(letter) = self.part(next, &line, is_minor) else { break };
             let gap = self.page.marks[next].area.x[0] - self.page.marks[last].area.x[1];
             let narrow = |letter: Option<char>| letter.is_some_and(|letter| !"023456789".contains(letter));
             if !narrow(text.chars().last()) && !narrow(Some(letter)) {
@@ -153,15 +156,21 @@ impl Reader<'_> {
         (Some(number), read)
     }
 
-    /// A digit, point, dash or sign for feet on a line of digits.
-    fn part(&self, k: usize, line: &Area) -> Option<char> {
+    /// A digit, point, dash or sign for feet on a line of digits; the likeliest digit if it `is_minor`.
+    fn part(&self, k: usize, line: &Area, is_minor: bool) -> Option<char> {
         let area = self.page.marks[k].area;
         let height = f64::from(line.height());
         let [w, h] = [area.width(), area.height()].map(f64::from);
         let [above, below] = [area.y[0] - line.y[0], area.y[1] - line.y[1]].map(f64::from);
         let near = |a: f64, share: f64| a.abs() <= share * height + 1.0;
         match () {
-            () if near(h - height, 0.12) && near(below, 0.1) => self.digit(k),
+            () if near(h - height, 0.12) && near(below, 0.1) => {
+                let likeliest = || {
+                    let mark = &self.page.marks[k];
+                    self.alphabet.likeliest(&self.page.darkness_of(mark), mark.area.width() as usize, DIGITS)
+                };
+                self.digit(k).or_else(|| likeliest().filter(|_| is_minor))
+            }
             () if w <= 0.3 * height + 1.0 && h <= 0.3 * height + 1.0 && near(below, 0.1) => Some('.'),
             () if w <= 0.4 * height && h <= 0.5 * height && below > 0.0 && above >= 0.65 * height => Some('.'),
             () if w <= 0.3 * height + 1.0 && h >= 0.2 * height && h <= 0.5 * height && near(above, 0.2) => Some('\''),
