@@ -13,9 +13,19 @@ const TILT: f64 = 0.04;
 /// Greatest share of a frame that lies off its sides, as a title block does.
 const MOST_AT_FRAME: f64 = 0.3;
 
-/// Takes off the frames of a sheet: strokes around all others that have less area than those within.
+/// Takes off the frames of a sheet: strokes around all others that have less area than those within, as thick as thin walls.
 pub(super) fn drop(core: &mut [u8], ink: &[u8], width: usize, metres_per_pixel: f64) {
-    let thick = open(core, width, ((THINNEST_M / metres_per_pixel).ceil() as usize).max(2));
+    let square = ((THINNEST_M / metres_per_pixel).ceil() as usize).max(2);
+    drop_thicker(core, ink, width, metres_per_pixel, square);
+}
+
+/// Takes off frames however fine. The outline of a building is joined to others at its doors and windows.
+pub(super) fn drop_fine(strokes: &mut [u8], ink: &[u8], width: usize, metres_per_pixel: f64) {
+    drop_thicker(strokes, ink, width, metres_per_pixel, 1);
+}
+
+fn drop_thicker(core: &mut [u8], ink: &[u8], width: usize, metres_per_pixel: f64, square: usize) {
+    let thick = open(core, width, square);
     let joined = grow(&thick, width, BROKEN_PX);
     let pieces = Components::of(&joined, width, 1, Neighbours::Eight);
     let area_of = |p: &Component| {

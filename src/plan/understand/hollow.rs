@@ -41,6 +41,8 @@ const SMALL_NET_M: f64 = 2.2;
 const SMALL_NET_FILL: f64 = 0.4;
 /// Greatest share of its box that a net of hollow walls fills; what fills more is one bar.
 const NET_FILL: f64 = 0.6;
+/// Least share of its box that a bar fills; what fills less has a corner.
+const BAR_FILL: f64 = 0.72;
 /// Least side of the box of a hollow wall with a corner, metres.
 const BENT_M: f64 = 1.0;
 
@@ -187,8 +189,9 @@ pub(super) fn fill_outlines(dark: &[u8], width: usize, metres_per_pixel: f64) ->
         let reach = w.max(h) * metres_per_pixel;
         let is_net = reach >= NET_M || (reach >= SMALL_NET_M && field.area as f64 <= SMALL_NET_FILL * w * h);
         // A sink in a counter makes its outline longer, and so the rectangle thinner.
-        let is_full = field.area as f64 > NET_FILL * w * h;
-        let is_thin = if is_full { w.min(h) } else { thick } * metres_per_pixel <= THICKEST_BAR_M;
+        let share = field.area as f64 / (w * h);
+        let is_full = share > NET_FILL;
+        let is_thin = if share > BAR_FILL { w.min(h) } else { thick } * metres_per_pixel <= THICKEST_BAR_M;
         thick * metres_per_pixel >= 0.02
             && length >= SLENDER * thick
             && length * metres_per_pixel >= SHORTEST_M

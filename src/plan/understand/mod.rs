@@ -288,6 +288,7 @@ fn net_of_walls(
     let mut strokes = without_lettering(ink, width, metres_per_pixel);
     // The two lines of a frame are no hollow wall.
     border::drop(&mut strokes, ink, width, metres_per_pixel);
+    border::drop_fine(&mut strokes, ink, width, metres_per_pixel);
     let is_dark = |at: usize| is_on(dark, at);
     // Fills of grey walls ring beside black outlines, and are a little lighter than the threshold there. Treads and rails of
     // stairs that are as light have dark on one side at most.
@@ -319,7 +320,18 @@ fn net_of_walls(
         let wide = if joined < CONNECTED { wide(core, filled, &sought) } else { None };
         Some(wide.filter(|wide| wide.joined(width) > joined).unwrap_or(found))
     };
-    let filled = || filled::net([&strokes, &core], width, metres_per_pixel, find);
+    let without = |coloured: &[u8]| -> Vec<u8> {
+        let coloured: Vec<u8> = strokes.iter().zip(coloured).map(|(stroke, coloured)| stroke & coloured).collect();
+        let soft = thick::grow(&coloured, width, 1);
+        let is_plain = |at: usize| coloured[at] == 0 && (soft[at] == 0 || core[at] != 0);
+        (0..strokes.len()).map(|at| strokes[at] & u8::from(is_plain(at))).collect()
+    };
+    let filled = || {
+        let of = |strokes: &[u8]| filled::net([strokes, &core], width, metres_per_pixel, find);
+        // Furniture and doors of another colour than walls are no walls, however they are outlined.
+        let of_plain = if colours.bars.contains(&1) { of(&without(colours.bars)) } else { None };
+        of_plain.filter(|net| net.joined(width) >= CONNECTED).or_else(|| of(&strokes))
+    };
     if let Some(net) = find(&core, dark, 0) {
         // Of hollow walls beside massive ones, the outlines alone were found.
         let of_filled = if net.joined(width) < CONNECTED { filled() } else { None };
@@ -340,10 +352,7 @@ fn net_of_walls(
     }
     // Doors and windows may be strokes of another colour over the walls' lines, with soft edges that look like lines.
     let is_coloured = |at: usize| is_on(&drawing.coloured, at) || is_on(&drawing.pane, at);
-    let coloured: Vec<u8> = (0..strokes.len()).map(|at| strokes[at] & u8::from(is_coloured(at))).collect();
-    let soft = thick::grow(&coloured, width, 1);
-    let is_plain = |at: usize| coloured[at] == 0 && (soft[at] == 0 || core[at] != 0);
-    let plain: Vec<u8> = (0..strokes.len()).map(|at| strokes[at] & u8::from(is_plain(at))).collect();
+    let coloured: Vec<u8> = (0..strokes.len()).map(|at| u8::from(is_coloured(at))).collect();
     let of_lines = |strokes: &[u8], drawn: &[u8]| {
         let (lines, reach) = lines::thickened(strokes, ink, &[], width, metres_per_pixel);
         // Of lines a gap is as deep as they grew; a stub of wall across its end is no deeper end.
@@ -359,10 +368,11 @@ fn net_of_walls(
         }
         Some(net)
     };
-    if coloured.contains(&1)
-        && let Some(net) = of_lines(&plain, &plain).filter(|net| net.joined(width) >= CONNECTED)
-    {
-        return Some(net);
+    if coloured.contains(&1) {
+        let plain = without(&coloured);
+        if let Some(net) = of_lines(&plain, &plain).filter(|net| net.joined(width) >= CONNECTED) {
+            return Some(net);
+        }
     }
     of_lines(&strokes, ink)
 }

@@ -190,7 +190,7 @@ impl Net {
                 pieces.paint(piece, &mut wall, width, 1);
             }
         }
-        trim(&mut wall, raw, ink, width);
+        trim(&mut wall, raw, ink, width, &doors, &windows);
         let mut inside = enclosed(&wall, &doors, &windows, width);
         doors.retain(|gap| {
             let is_kept = !unusual.contains(&gap.ends) || leads_out(gap, &inside);
@@ -529,11 +529,18 @@ fn keep_building(wall: &mut [u8], raw: &[u8], width: usize, doors: &[Gap], windo
     Some(box_of)
 }
 
-/// Takes off the rim of filled walls where it is ink but not dark: less than half of such a pixel is wall.
-fn trim(wall: &mut [u8], raw: &[u8], ink: &[u8], width: usize) {
+/// Takes off the rim of filled walls where it is ink but not dark: less than half of such a pixel is wall. At gaps it stays:
+/// a jamb of another colour leaves no slit.
+fn trim(wall: &mut [u8], raw: &[u8], ink: &[u8], width: usize, doors: &[Gap], windows: &[Gap]) {
+    let mut at_gap = vec![0; wall.len()];
+    doors.iter().chain(windows).flat_map(Gap::pixels).for_each(|at| at_gap[at] = 1);
+    let beside = |at: usize| [at.wrapping_sub(1), at + 1, at.wrapping_sub(width), at + width].into_iter();
     let is_rim = |at: usize| {
-        let beside = [at.wrapping_sub(1), at + 1, at.wrapping_sub(width), at + width];
-        wall[at] != 0 && raw[at] == 0 && ink[at] != 0 && beside.iter().any(|&b| wall.get(b).is_some_and(|&w| w == 0))
+        wall[at] != 0
+            && raw[at] == 0
+            && ink[at] != 0
+            && beside(at).any(|b| wall.get(b).is_some_and(|&w| w == 0))
+            && !beside(at).any(|b| is_on(&at_gap, b))
     };
     let rim: Vec<usize> = (0..wall.len()).filter(|&at| is_rim(at)).collect();
     for at in rim {
