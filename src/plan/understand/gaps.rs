@@ -86,15 +86,14 @@ impl Gap {
         to - from
     }
 
-    /// How far the longer of its two jambs stands out from other walls, up to `most`, pixels.
-    pub(super) fn jamb(&self, wall: &[u8], most: usize) -> usize {
+    /// How far each of its two jambs stands out from other walls, up to `most`, pixels.
+    pub(super) fn jamb_lengths(&self, wall: &[u8], most: usize) -> [usize; 2] {
         let ([from, to], across) = self.middle();
         let beside = 0.5 * self.thickness() + 1.5;
         let is_wall = |along: f64, off: f64| self.pixel(along, across + off).is_some_and(|at| wall[at] != 0);
         let is_out = |along: f64| is_wall(along, 0.0) && !(is_wall(along, -beside) && is_wall(along, beside));
         let ways = [(from - 0.5, -1.0), (to + 0.5, 1.0)];
-        let lengths = ways.map(|(end, way)| (0..most).take_while(|&k| is_out(end + way * k as f64)).count());
-        lengths[0].max(lengths[1])
+        ways.map(|(end, way)| (0..most).take_while(|&k| is_out(end + way * k as f64)).count())
     }
 
     /// All its pixels, as indices.
@@ -458,8 +457,12 @@ fn is_end(wall: &[u8], width: usize, gap: &Gap, forwards: bool, slack: f64) -> b
     (up + down) as f64 <= (1.0 + slack) * thick as f64 + 1.0 && is_level && !is_stub
 }
 
-/// Number of strokes that run through the gap: the second least of seven cuts across.
+/// Number of strokes that run through the gap: the second least of seven cuts across. A dashed line is an axis, or a beam
+/// above an opening.
 fn strokes(ink: &[u8], width: usize, gap: &Gap) -> usize {
+    /// Least break between two dashes, pixels, and how many of them are as long as the gap at most.
+    const LEAST_BREAK_PX: usize = 4;
+    const LEAST_BREAK: usize = 40;
     let height = ink.len() / width;
     let thick = gap.rows.len();
     let margin = (thick / 6).max(1);
@@ -485,7 +488,13 @@ fn strokes(ink: &[u8], width: usize, gap: &Gap) -> usize {
         })
         .collect();
     counts.sort_unstable();
-    counts[1]
+    let is_dashed = || {
+        let rows = gap.first.saturating_sub(margin)..(gap.first + thick + margin).min(height);
+        let is_blank = |x: &usize| rows.clone().all(|y| ink[y * width + x] == 0);
+        let breaks = runs((from + margin..to.saturating_sub(margin)).filter(is_blank), 0);
+        breaks.filter(|run| run.len() >= LEAST_BREAK_PX && run.len() * LEAST_BREAK >= to - from).count() > 0
+    };
+    if counts[1] == 1 && is_dashed() { 0 } else { counts[1] }
 }
 
 /// Whether bars along the wall cover much of a gap, and none of them all of it: sliding doors have leaves beside each other

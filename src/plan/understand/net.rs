@@ -21,8 +21,9 @@ const NARROWEST_END_M: f64 = 0.7;
 const WIDEST_CLOSED_DOOR_M: f64 = 1.6;
 /// Least and greatest width of a sliding entrance, metres, and greatest thickness of its leaves, metres and walls.
 const ENTRANCE_M: [f64; 2] = [1.2, 6.0];
-/// How far a jamb of a door without a leaf stands out from other walls at least, metres.
+/// How far a jamb of a door without a leaf stands out from other walls at least, metres and door widths.
 const LEAST_JAMB_M: f64 = 0.15;
+const LEAST_JAMB: f64 = 0.15;
 const THICKEST_LEAF_M: f64 = 0.3;
 const LEAF_IN_WALLS: f64 = 0.75;
 /// Greatest width of a window that is a single line, metres.
@@ -158,9 +159,13 @@ impl Net {
         let is_hung = |gap: &Gap| {
             gap.length() >= px(NARROWEST_END_M) && !leaves::symbol(gap, &strokes, metres_per_pixel).is_empty()
         };
-        // Between a wall and a basin before it, or a pier that hardly stands out, there is no wall for a door.
+        // Between a wall and a basin or column before it, or a pier that hardly stands out, there is no wall for a door.
+        let pillars = columns(&wall, width, COLUMN_M / metres_per_pixel);
         let has_jamb = |gap: &Gap| {
-            gap.strokes > 0 || gap.slides || gap.turns || gap.jamb(&wall, px(LEAST_JAMB_M)) >= px(LEAST_JAMB_M)
+            let least = px(LEAST_JAMB_M).max((LEAST_JAMB * gap.length() as f64) as usize);
+            let is_jamb = |(length, end): (usize, usize)| length >= least && pillars[end] == 0;
+            let stands_out = || gap.jamb_lengths(&wall, least).into_iter().zip(gap.ends).any(is_jamb);
+            gap.strokes > 0 || gap.slides || gap.turns || stands_out()
         };
         let is_door = |gap: &Gap| {
             (gap.length() <= px(WIDEST_DOOR_M) || is_entrance(gap)) && (!gap.at_end && has_jamb(gap) || is_hung(gap))
