@@ -15,6 +15,8 @@ const MOST_PX: i32 = 72;
 const RUN_TOGETHER: f64 = 1.3;
 const PART_WIDTHS: [f64; 2] = [0.5, 0.95];
 const BETWEEN: f64 = 0.62;
+/// How much taller a digit is than a small letter behind it.
+const TALLER: f64 = 1.12;
 
 /// A box on a page, pixels: least x and y, then one beyond the greatest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,15 +79,30 @@ impl<'a> Page<'a> {
         let mut page = Page { ink, is_turned, marks: Vec::new() };
         let is_small = |piece: &Component| piece.larger_side() <= MOST_PX as u32;
         let small = ink.pieces.all.iter().enumerate().filter(|(_, piece)| is_small(piece));
-        page.marks = small.flat_map(|(k, piece)| page.parts(Mark { area: page.area(piece), piece: k })).collect();
-        page.marks.sort_by_key(|mark| (mark.area.x, mark.area.y));
+        let mut marks: Vec<Mark> = small.map(|(k, piece)| Mark { area: page.area(piece), piece: k }).collect();
+        let (wide, narrow): (Vec<Mark>, Vec<Mark>) = marks.drain(..).partition(Page::may_run_together);
+        marks.extend(wide.into_iter().flat_map(|mark| page.parts(mark, &narrow)));
+        marks.extend(narrow);
+        marks.sort_by_key(|mark| (mark.area.x, mark.area.y));
+        page.marks = marks;
         page
     }
 
-    /// A mark, or the letters that run together in it.
-    fn parts(&self, mark: Mark) -> Vec<Mark> {
+    fn may_run_together(mark: &Mark) -> bool {
+        let [width, height] = [mark.area.width(), mark.area.height()];
+        height >= LEAST_PX && f64::from(width) >= RUN_TOGETHER * f64::from(height)
+    }
+
+    /// A mark, or the digits that run together in it. What is lower than the digit before it is an m.
+    fn parts(&self, mark: Mark, others: &[Mark]) -> Vec<Mark> {
         let [width, height] = [mark.area.width(), mark.area.height()].map(f64::from);
-        if height < f64::from(LEAST_PX) || width < RUN_TOGETHER * height {
+        let is_digit_before = |other: &Mark| {
+            let near = mark.area.x[0] - 2 * mark.area.height()..=mark.area.x[0];
+            near.contains(&other.area.x[1])
+                && other.area.y[1].abs_diff(mark.area.y[1]) <= 1
+                && f64::from(other.area.height()) >= TALLER * height
+        };
+        if others.iter().any(is_digit_before) {
             return vec![mark];
         }
         let (own, across) = (self.darkness_of(&mark), mark.area.width() as usize);
