@@ -31,6 +31,9 @@ const FAR: f64 = 1.5;
 const VERY_FAR: f64 = 3.0;
 const MANY_AGREE: usize = 6;
 const MOST_SHARE: f64 = 0.6;
+/// So near to the scale that doors say, a few measures are enough.
+const NEAR: f64 = 1.12;
+const FEW_AGREE: usize = 2;
 /// How sure a printed scale is where few and where many measures agree, and how far it may be off.
 const SURENESS: [f64; 2] = [0.9, 0.99];
 const MANY: f64 = 10.0;
@@ -91,7 +94,8 @@ pub(super) fn scale(drawing: &Drawing, guess: f64, possible: [f64; 2]) -> Option
 fn found_in(measures: &[Measure], guess: f64, sane: [f64; 2]) -> Option<(f64, PlanScale)> {
     let misread = [guess / VERY_FAR, guess * VERY_FAR];
     let surely = || vote(measures, guess, misread, (MANY_AGREE, MOST_SHARE));
-    vote(measures, guess, sane, (FEWEST, LEAST_SHARE)).or_else(surely)
+    let nearly = || vote(measures, guess, [guess / NEAR, guess * NEAR], (FEW_AGREE, MOST_SHARE));
+    vote(measures, guess, sane, (FEWEST, LEAST_SHARE)).or_else(surely).or_else(nearly)
 }
 
 /// Reads both pages of a drawing, upright and turned: lengths, and numbers about rooms.
@@ -204,7 +208,7 @@ fn vote(measures: &[Measure], guess: f64, sane: [f64; 2], enough: (usize, f64)) 
     // Four significant digits: text and lines are measured to a pixel.
     let value = format!("{:.3e}", middle.scale()).parse().unwrap_or(middle.scale());
     let range = [value * (1.0 - OFF), value * (1.0 + OFF)];
-    let share = ((count - FEWEST) as f64 / (MANY - FEWEST as f64)).min(1.0);
+    let share = (count.saturating_sub(FEWEST) as f64 / (MANY - FEWEST as f64)).min(1.0);
     let sureness = SURENESS[0] + (SURENESS[1] - SURENESS[0]) * share;
     Some((value, PlanScale { source: ScaleSource::Printed, sureness, range, evidence: told(best) }))
 }

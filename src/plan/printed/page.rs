@@ -120,7 +120,8 @@ impl<'a> Page<'a> {
         let ink = |cuts: &[usize]| cuts.iter().map(|&x| columns[x]).fold(0.0, f64::max);
         let [most, least] = PART_WIDTHS.map(|share| (width / (share * height)).floor() as usize);
         let tried = (least.max(1) + 1..=most).map(cuts);
-        let Some(cuts) = tried.min_by(|a, b| ink(a).total_cmp(&ink(b))).filter(|cuts| ink(cuts) <= BETWEEN * mean) else {
+        let Some(cuts) = tried.min_by(|a, b| ink(a).total_cmp(&ink(b))).filter(|cuts| ink(cuts) <= BETWEEN * mean)
+        else {
             return vec![mark];
         };
         let ends: Vec<usize> = [0].into_iter().chain(cuts).chain([across]).collect();

@@ -110,7 +110,8 @@ impl Alphabet {
     pub(super) fn likeliest(&self, darkness: &[u8], width: usize, among: &str) -> Option<char> {
         let shapes: Vec<Shape> = STROKES.iter().filter_map(|&share| Shape::of(darkness, width, share)).collect();
         let known = self.0.iter().filter(|(letter, _)| among.contains(*letter));
-        let each = known.flat_map(|(letter, known)| shapes.iter().map(move |shape| (shape.apart(known, ABOUT), *letter)));
+        let each =
+            known.flat_map(|(letter, known)| shapes.iter().map(move |shape| (shape.apart(known, ABOUT), *letter)));
         each.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|best| best.0 <= ABOUT).map(|best| best.1)
     }
 

@@ -96,6 +96,19 @@ impl Gap {
         ways.map(|(end, way)| (0..most).take_while(|&k| is_out(end + way * k as f64)).count())
     }
 
+    /// A pixel on each of its sides, if it is in the image.
+    pub(super) fn sides(&self) -> [Option<usize>; 2] {
+        const BEYOND_PX: f64 = 3.0;
+        let ([from, to], across) = self.middle();
+        let beyond = 0.5 * self.thickness() + BEYOND_PX;
+        [-1.0, 1.0].map(|side| self.pixel(0.5 * (from + to), across + side * beyond))
+    }
+
+    /// Whether it has inside on one of its sides at most.
+    pub(super) fn leads_out(&self, inside: &[u8]) -> bool {
+        !self.sides().into_iter().all(|side| side.is_some_and(|at| inside[at] != 0))
+    }
+
     /// All its pixels, as indices.
     pub(super) fn pixels(&self) -> Vec<usize> {
         let mut all = Vec::new();

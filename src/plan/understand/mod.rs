@@ -5,6 +5,7 @@
 
 mod border;
 mod directions;
+mod doubtful;
 mod filled;
 mod frame;
 mod gaps;

@@ -6,6 +6,7 @@ use super::super::drawing::is_on;
 use super::super::thick::{Thickness, grow, open};
 use super::border;
 use super::directions::SHADOW_SHARE;
+use super::doubtful;
 use super::gaps::{self, Gap, Limits};
 use super::leaves;
 use crate::math::sin_cos;
@@ -31,6 +32,8 @@ const WIDEST_PANE_M: f64 = 3.2;
 /// Least share of a gap that a single line in the blue of panes fills, and that a bar of another colour does.
 const PANE_SHARE: f64 = 0.3;
 const BAR_SHARE: f64 = 0.4;
+/// Least area of a room that has a door, square metres.
+const LEAST_ROOM_M2: f64 = 2.0;
 /// Least width of a gate that is a single line, metres.
 const NARROWEST_GATE_M: f64 = 2.3;
 /// Greatest side of a column between massive walls, metres, and its greatest length in its thickness.
@@ -38,11 +41,8 @@ const LONGEST_COLUMN_M: f64 = 2.5;
 const COLUMN_SLENDER: f64 = 1.8;
 /// Largest column or piece of furniture that is drawn as thick as walls, metres.
 const COLUMN_M: f64 = 0.75;
-/// The same for outlines as far apart as those of walls, and the greatest share of them that is dark.
+/// The same for outlines as far apart as those of walls.
 const OUTLINED_M: f64 = 2.5;
-const OUTLINED_INK: f64 = 0.6;
-/// Fewest doors with leaves, and at least half of all, of which it is said that doors have leaves.
-const FEWEST_HUNG: usize = 3;
 /// Least side of a column, metres and pixels.
 const LEAST_COLUMN_M: f64 = 0.15;
 const LEAST_COLUMN_PX: f64 = 5.0;
@@ -174,8 +174,11 @@ impl Net {
         let may_lead_out = |gap: &Gap| widest_m > WIDEST_DOOR_M && gap.length() <= px(widest_m);
         let mut doors: Vec<Gap> = doors.into_iter().filter(|gap| is_door(gap) || may_lead_out(gap)).collect();
         let unusual: Vec<[usize; 2]> = doors.iter().filter(|gap| !is_door(gap)).map(|gap| gap.ends).collect();
-        drop_thicker_than_walls(&mut doors, &windows, has_leaf, |doors| enclosed(&wall, doors, &windows, width));
-        drop_beside_furniture(&mut doors, &windows, (&wall, raw), width, [COLUMN_M, OUTLINED_M].map(px), has_leaf);
+        doubtful::drop_thicker_than_walls(&mut doors, &windows, has_leaf, |doors| {
+            enclosed(&wall, doors, &windows, width)
+        });
+        let largest = [COLUMN_M, OUTLINED_M].map(px);
+        doubtful::drop_beside_furniture(&mut doors, &windows, (&wall, raw), width, largest, has_leaf);
         drop(strokes);
         let mut windows = windows;
         let kept = keep_building(&mut wall, raw, width, &doors, &windows)?;
@@ -198,7 +201,7 @@ impl Net {
         trim(&mut wall, raw, ink, width, &doors, &windows);
         let mut inside = enclosed(&wall, &doors, &windows, width);
         doors.retain(|gap| {
-            let is_kept = !unusual.contains(&gap.ends) || leads_out(gap, &inside);
+            let is_kept = !unusual.contains(&gap.ends) || gap.leads_out(&inside);
             if !is_kept {
                 gap.pixels().into_iter().for_each(|at| inside[at] = 1);
             }
@@ -206,7 +209,7 @@ impl Net {
         });
         // Between columns within a hall stand rails, steps and benches.
         let columns = columns(&wall, width, LONGEST_COLUMN_M / metres_per_pixel);
-        let is_within = |gap: &Gap| gap.ends.iter().all(|&at| columns[at] != 0) && !leads_out(gap, &inside);
+        let is_within = |gap: &Gap| gap.ends.iter().all(|&at| columns[at] != 0) && !gap.leads_out(&inside);
         let within: Vec<Gap> = [&mut doors, &mut windows]
             .map(|gaps| gaps.extract_if(.., |gap| is_within(gap)))
             .into_iter()
@@ -217,9 +220,18 @@ impl Net {
         let is_single = |gap: &Gap| gap.strokes == 1;
         let is_gate = |gap: &Gap| is_single(gap) && gap.length() >= px(NARROWEST_GATE_M);
         let only_gates = windows.iter().filter(|gap| is_single(gap)).all(is_gate);
-        if only_gates && !doors.iter().any(|gap| leads_out(gap, &inside)) {
+        if only_gates && !doors.iter().any(|gap| gap.leads_out(&inside)) {
             doors.extend(windows.extract_if(.., |gap| is_gate(gap)));
         }
+        let may_open = |gap: &Gap| is_single(gap) && share(gap, colours.panes) < PANE_SHARE;
+        doubtful::open_closed_rooms(
+            &mut doors,
+            &mut windows,
+            &inside,
+            width,
+            LEAST_ROOM_M2 / (metres_per_pixel * metres_per_pixel),
+            may_open,
+        );
         let area = inside.iter().filter(|&&i| i != 0).count() as f64;
         let enclosed = area / least_box(&wall, width, kept).max(1.0);
         Some(Net { wall, doors, windows, inside, enclosed })
@@ -332,88 +344,6 @@ fn drop_leaves(
             }
         }
     }
-}
-
-/// Takes off doors without a leaf that are thicker than the walls in which windows and leaves are: baths and desks that are
-/// drawn as outline walls are do not end walls. Outer walls are thicker than all others: what leads to the outside stays;
-/// `enclosed` marks what is inside with some doors closed.
-fn drop_thicker_than_walls(
-    doors: &mut Vec<Gap>,
-    windows: &[Gap],
-    has_leaf: impl Fn(&Gap) -> bool,
-    enclosed: impl Fn(&[Gap]) -> Vec<u8>,
-) {
-    /// Fewest gaps of walls that say how thick walls are, and how much thicker a wall may be.
-    const FEWEST: usize = 3;
-    const THICKER: f64 = 1.25;
-    let hung: Vec<bool> = doors.iter().map(has_leaf).collect();
-    let of_leaves = doors.iter().zip(&hung).filter(|(_, hung)| **hung).map(|(gap, _)| gap);
-    let thick: Vec<f64> = of_leaves.chain(windows).map(Gap::thickness).collect();
-    let most = thick.iter().copied().fold(0.0, f64::max) * THICKER + 1.0;
-    if thick.len() < FEWEST || doors.iter().all(|gap| gap.thickness() <= most) {
-        return;
-    }
-    let inside = enclosed(doors);
-    let mut hung = hung.into_iter();
-    doors.retain(|gap| hung.next() == Some(true) || gap.thickness() <= most || leads_out(gap, &inside));
-}
-
-/// Takes off bare doors that end at a small piece of wall, up to `largest` pixels, without another gap straight on behind
-/// it, as a pier between two doors has: columns, dark furniture and the outlines of beds are no jambs. Outlines are larger,
-/// and have neither windows nor leaves beside them; where most doors have leaves, a line in the gap makes it no door.
-fn drop_beside_furniture(
-    doors: &mut Vec<Gap>,
-    windows: &[Gap],
-    (wall, raw): (&[u8], &[u8]),
-    width: usize,
-    [largest, largest_outlined]: [usize; 2],
-    has_leaf: impl Fn(&Gap) -> bool,
-) {
-    let hung: Vec<bool> = doors.iter().map(has_leaf).collect();
-    let most_hung = hung.iter().filter(|&&hung| hung).count() * 2 >= doors.len().max(FEWEST_HUNG * 2);
-    let is_bare = |k: usize| doors[k].strokes == 0 && !hung[k];
-    let pieces = Components::of(wall, width, 1, Neighbours::Eight);
-    let is_door = |k: &usize| if most_hung { hung[*k] } else { !is_bare(*k) };
-    let built = (0..doors.len()).filter(is_door).map(|k| &doors[k]).chain(windows);
-    let jambs: Vec<usize> = built.flat_map(|gap| gap.ends).collect();
-    let is_small = |piece: &Component| {
-        let side = piece.larger_side() as usize;
-        let ranges = || pieces.ranges(piece, width);
-        let dark = || ranges().flatten().filter(|&at| raw[at] != 0).count() as f64;
-        side <= largest
-            || side <= largest_outlined
-                && dark() <= OUTLINED_INK * piece.area as f64
-                && !ranges().any(|range| jambs.iter().any(|jamb| range.contains(jamb)))
-    };
-    let small: Vec<&Component> = pieces.all.iter().filter(|piece| is_small(piece)).collect();
-    let piece_at = |at: usize| small.iter().position(|piece| pieces.ranges(piece, width).any(|r| r.contains(&at)));
-    let at_pieces = |gap: &Gap| (gap.ends.map(piece_at), gap.along(), gap.middle().1, gap.thickness());
-    let gaps: Vec<_> = doors.iter().chain(windows).map(at_pieces).collect();
-    let mut kept = vec![true; gaps.len()];
-    loop {
-        let goes_on = |k: usize, end: usize| {
-            let (pieces, along, across, thickness) = &gaps[k];
-            pieces[end].is_none()
-                || gaps.iter().zip(&kept).any(|((other, way, at, thick), &kept)| {
-                    let is_straight_on = (at - across).abs() <= 0.5 * (thick + thickness);
-                    kept && way == along && other[1 - end] == pieces[end] && is_straight_on
-                })
-        };
-        let is_outlined = |piece: Option<usize>| {
-            piece.is_some_and(|piece| most_hung && small[piece].larger_side() as usize > largest)
-        };
-        let is_none = |&k: &usize| {
-            let ends_there = |end: usize| !goes_on(k, end) && (is_bare(k) || is_outlined(gaps[k].0[end]));
-            kept[k] && !hung[k] && (ends_there(0) || ends_there(1))
-        };
-        let gone: Vec<usize> = (0..doors.len()).filter(is_none).collect();
-        if gone.is_empty() {
-            break;
-        }
-        gone.into_iter().for_each(|k| kept[k] = false);
-    }
-    let mut kept = kept.into_iter();
-    doors.retain(|_| kept.next().unwrap_or(true));
 }
 
 /// Area of the least rectangle of any direction around the walls within a box, square pixels.
@@ -571,15 +501,6 @@ fn drop_crumbs(wall: &mut [u8], width: usize, side: f64) {
     for piece in pieces.all.iter().filter(|p| (p.area as f64) < side * side) {
         pieces.paint(piece, wall, width, 0);
     }
-}
-
-/// Whether a gap has inside on one of its sides at most.
-fn leads_out(gap: &Gap, inside: &[u8]) -> bool {
-    const BEYOND_PX: f64 = 3.0;
-    let ([from, to], across) = gap.middle();
-    let beyond = 0.5 * gap.thickness() + BEYOND_PX;
-    let is_inside = |side: f64| gap.pixel(0.5 * (from + to), across + side * beyond).is_some_and(|at| inside[at] != 0);
-    !(is_inside(-1.0) && is_inside(1.0))
 }
 
 /// Marks what neither walls nor doors nor windows are and what the image's sides do not reach.
