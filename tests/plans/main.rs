@@ -25,7 +25,8 @@ use self::measure::{HEAD, Measured, measure, row};
 /// What styles begin with whose walls have no thickness, below axes and dimension lines: there is no area to compare.
 const THIN: &str = "walls of one pixel";
 /// Styles whose walls are hollow: some furniture at walls is taken for wall.
-const HOLLOW: [&str; 5] = ["outline walls", "hatched walls", "light poche", "grey outlines", INSULATED];
+const HOLLOW: [&str; 6] =
+    ["outline walls", "hatched walls", "light poche", "grey outlines", styles::LAYERED_OUTLINES, INSULATED];
 /// Outlines with the zigzag of an insulation between them, which hides two doors beside it.
 const INSULATED: &str = "insulation";
 /// The style whose walls are slanted: furniture that stands aslant is often left as lines, and some doors are missed.

@@ -85,9 +85,11 @@ pub fn sheet(building: &Building, ends: Ends, size: Point, origin: Point, thin: 
     }
     all.extend(text("0", [origin[0] + 2.0, below - 1.85], 0.24, thin));
     all.extend(text("5 m", [origin[0] + 7.0, below - 1.85], 0.24, thin));
-    // The frame and the title block.
-    let frame = rectangle([origin[0] + 0.5, origin[1] + 0.5], [right - 0.5, below - 0.5]);
-    all.extend(outline(&frame, thin * 3.0));
+    // The frame, the edge along which the sheet is cut, and the title block.
+    for (inset, thick) in [(0.5, thin * 3.0), (0.15, thin)] {
+        let frame = rectangle([origin[0] + inset, origin[1] + inset], [right - inset, below - inset]);
+        all.extend(outline(&frame, thick));
+    }
     let (corner, end) = ([right - 7.5, below - 3.2], [right - 0.5, below - 0.5]);
     all.extend(outline(&rectangle(corner, end), thin * 2.0));
     all.push(line([corner[0], corner[1] + 0.9], [end[0], corner[1] + 0.9], thin));

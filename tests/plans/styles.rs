@@ -38,6 +38,8 @@ pub enum Doors {
 pub enum Tones {
     Black,
     Layers,
+    /// The same as on a screen: white walls on black.
+    LayersOnBlack,
     Brochure,
     Grey,
     Dark,
@@ -123,8 +125,11 @@ const CAD: Style = Style {
 /// Walls, windows and doors alone.
 const PLAIN: Style = Style { name: "plain", doors: Doors::Open, sheet: false, names: false, furniture: false, ..CAD };
 
+/// Outline walls in the colours of a screen.
+pub const LAYERED_OUTLINES: &str = "outlines in colours on black";
+
 /// All styles.
-pub const STYLES: [Style; 32] = [
+pub const STYLES: [Style; 33] = [
     PLAIN,
     CAD,
     Style { name: "outline walls", walls: Walls::Outline, ..CAD },
@@ -137,6 +142,7 @@ pub const STYLES: [Style; 32] = [
     Style { name: "118 px/m", px_per_m: 118.0, ..CAD },
     Style { name: "transparent", file: File::Transparent, ..CAD },
     Style { name: "layer colours", tones: Tones::Layers, ..CAD },
+    Style { name: LAYERED_OUTLINES, walls: Walls::Outline, tones: Tones::LayersOnBlack, px_per_m: 42.0, ..CAD },
     Style { name: "JPEG", file: File::Jpeg, px_per_m: 0.0, clean: false, ..CAD },
     Style { name: "doors closed by a line", doors: Doors::ClosedLine, sheet: false, ..CAD },
     Style { name: "doors with leaf and arc", doors: Doors::LeafAndArc, ..PLAIN },
@@ -278,6 +284,14 @@ fn palette(tones: Tones) -> Palette {
             words: [220, 0, 0],
             notes: [0, 90, 220],
             ..all([255; 3], [0; 3])
+        },
+        Tones::LayersOnBlack => Palette {
+            window: [0, 255, 255],
+            door: [255, 255, 0],
+            furniture: [0, 160, 0],
+            words: [255, 0, 255],
+            notes: [255, 40, 40],
+            ..all([0; 3], [255; 3])
         },
         Tones::Brochure => Palette {
             wall: [0x38; 3],

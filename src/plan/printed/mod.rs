@@ -31,9 +31,10 @@ const FAR: f64 = 1.5;
 const VERY_FAR: f64 = 3.0;
 const MANY_AGREE: usize = 6;
 const MOST_SHARE: f64 = 0.6;
-/// So near to the scale that doors say, a few measures are enough.
-const NEAR: f64 = 1.12;
+/// So near to the scale that doors say, a few measures are enough that lie so near to each other.
+const NEAR: f64 = 1.08;
 const FEW_AGREE: usize = 2;
+const AGREE_WELL: f64 = 1.006;
 /// How sure a printed scale is where few and where many measures agree, and how far it may be off.
 const SURENESS: [f64; 2] = [0.9, 0.99];
 const MANY: f64 = 10.0;
@@ -93,9 +94,9 @@ pub(super) fn scale(drawing: &Drawing, guess: f64, possible: [f64; 2]) -> Option
 /// What measures agree on within a range, or many of them beyond it.
 fn found_in(measures: &[Measure], guess: f64, sane: [f64; 2]) -> Option<(f64, PlanScale)> {
     let misread = [guess / VERY_FAR, guess * VERY_FAR];
-    let surely = || vote(measures, guess, misread, (MANY_AGREE, MOST_SHARE));
-    let nearly = || vote(measures, guess, [guess / NEAR, guess * NEAR], (FEW_AGREE, MOST_SHARE));
-    vote(measures, guess, sane, (FEWEST, LEAST_SHARE)).or_else(surely).or_else(nearly)
+    let surely = || vote(measures, guess, misread, (MANY_AGREE, MOST_SHARE, AGREE));
+    let nearly = || vote(measures, guess, [guess / NEAR, guess * NEAR], (FEW_AGREE, MOST_SHARE, AGREE_WELL));
+    vote(measures, guess, sane, (FEWEST, LEAST_SHARE, AGREE)).or_else(surely).or_else(nearly)
 }
 
 /// Reads both pages of a drawing, upright and turned: lengths, and numbers about rooms.
@@ -175,9 +176,10 @@ fn measured_rooms(drawing: &Drawing, guess: f64, numbers: &[RoomNumber]) -> Vec<
     found
 }
 
-/// The scale that most measures agree on, if those are `enough`: their number, and their share of all. Of two, as of
-/// millimetres and centimetres, the nearer to the guess.
-fn vote(measures: &[Measure], guess: f64, sane: [f64; 2], enough: (usize, f64)) -> Option<(f64, PlanScale)> {
+/// The scale that most measures agree on, if those are `enough`: their number, their share of all, and the ratio within which
+/// they agree. Of two, as of millimetres and centimetres, the nearer to the guess.
+fn vote(measures: &[Measure], guess: f64, sane: [f64; 2], enough: (usize, f64, f64)) -> Option<(f64, PlanScale)> {
+    let (fewest, least_share, agree) = enough;
     let mut all: Vec<Measure> = measures.iter().copied().filter(|m| (sane[0]..=sane[1]).contains(&m.scale())).collect();
     all.sort_by(|a, b| a.scale().total_cmp(&b.scale()));
     let votes = |some: &[Measure]| {
@@ -187,14 +189,13 @@ fn vote(measures: &[Measure], guess: f64, sane: [f64; 2], enough: (usize, f64)) 
         numbers.iter().map(|(_, votes)| votes).sum::<usize>()
     };
     let window = |first: usize| {
-        let end = all.partition_point(|m| m.scale() <= all[first].scale() * AGREE);
+        let end = all.partition_point(|m| m.scale() <= all[first].scale() * agree);
         &all[first..end]
     };
     let nearness = |some: &[Measure]| some.first().map_or(0.0, |m| -ln(m.scale() / guess).abs());
     let windows = (0..all.len()).map(window);
     let best = windows.max_by(|a, b| votes(a).cmp(&votes(b)).then(nearness(a).total_cmp(&nearness(b))))?;
     let count = votes(best);
-    let (fewest, least_share) = enough;
     if count < fewest || (count as f64) < least_share * votes(&all) as f64 {
         return None;
     }
@@ -239,7 +240,7 @@ mod tests {
         let measure =
             |(number, scale)| Measure { number, kind: Kind::Dimension, metres: 100.0 * scale, pixels: 100.0, votes: 1 };
         let measures: Vec<Measure> = scales.iter().copied().enumerate().map(measure).collect();
-        vote(&measures, 0.02, [0.015, 0.03], (FEWEST, LEAST_SHARE)).map(|(value, _)| value)
+        vote(&measures, 0.02, [0.015, 0.03], (FEWEST, LEAST_SHARE, AGREE)).map(|(value, _)| value)
     }
 
     #[test]
@@ -268,13 +269,13 @@ mod tests {
             [6.0, 60.0].map(|metres| Measure { number, kind: Kind::Dimension, metres, pixels: 300.0, votes: 1 })
         };
         let measures: Vec<Measure> = (0..3).flat_map(measure).collect();
-        let found = |guess| vote(&measures, guess, [0.005, 0.5], (FEWEST, LEAST_SHARE)).map(|(value, _)| value);
+        let found = |guess| vote(&measures, guess, [0.005, 0.5], (FEWEST, LEAST_SHARE, AGREE)).map(|(value, _)| value);
         assert_eq!((found(0.05), found(0.15)), (Some(0.02), Some(0.2)));
     }
 
     #[test]
     fn one_number_is_one_vote() {
         let twice = Measure { number: 1, kind: Kind::Dimension, metres: 2.0, pixels: 100.0, votes: 1 };
-        assert!(vote(&[twice; 5], 0.02, [0.01, 0.03], (FEWEST, LEAST_SHARE)).is_none());
+        assert!(vote(&[twice; 5], 0.02, [0.01, 0.03], (FEWEST, LEAST_SHARE, AGREE)).is_none());
     }
 }

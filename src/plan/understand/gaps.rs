@@ -503,9 +503,10 @@ fn strokes(ink: &[u8], width: usize, gap: &Gap) -> usize {
     counts.sort_unstable();
     let is_dashed = || {
         let rows = gap.first.saturating_sub(margin)..(gap.first + thick + margin).min(height);
-        let is_blank = |x: &usize| rows.clone().all(|y| ink[y * width + x] == 0);
-        let breaks = runs((from + margin..to.saturating_sub(margin)).filter(is_blank), 0);
-        breaks.filter(|run| run.len() >= LEAST_BREAK_PX && run.len() * LEAST_BREAK >= to - from).count() > 0
+        let is_inked = |x: &usize| rows.clone().any(|y| ink[y * width + x] != 0);
+        let dashes: Vec<usize> = (from..to).filter(is_inked).collect();
+        let is_break = |pair: &[usize; 2]| pair[1] - pair[0] > LEAST_BREAK_PX.max((to - from) / LEAST_BREAK);
+        dashes.array_windows().any(is_break)
     };
     if counts[1] == 1 && is_dashed() { 0 } else { counts[1] }
 }
