@@ -37,6 +37,10 @@ const COARSEST_M_PER_PX: f64 = 0.03;
 const FEWEST_STROKE_PX: usize = 40;
 /// Lightness below which a pixel may be of a fine stroke.
 const FAINT: u8 = 180;
+/// How far a line goes on below one of another colour, pixels.
+const CROSSED_PX: usize = 3;
+/// Share of a building that walls without colours enclose at least, of what all strokes do.
+const AS_CLOSED: f64 = 0.9;
 /// How far from a ring in the fill of a wall dark pixels are at most, on both of its sides.
 const RING_PX: usize = 2;
 /// Least share of a building's floor that its doors connect.
@@ -325,13 +329,28 @@ fn net_of_walls(
         let coloured: Vec<u8> = strokes.iter().zip(coloured).map(|(stroke, coloured)| stroke & coloured).collect();
         let soft = thick::grow(&coloured, width, 1);
         let is_plain = |at: usize| coloured[at] == 0 && (soft[at] == 0 || core[at] != 0);
-        (0..strokes.len()).map(|at| strokes[at] & u8::from(is_plain(at))).collect()
+        let plain: Vec<u8> = (0..strokes.len()).map(|at| strokes[at] & u8::from(is_plain(at))).collect();
+        // Lines go on where one of another colour crosses them.
+        let is_crossed = |at: usize| {
+            let goes_on = |step: usize| {
+                let near =
+                    |beside: fn(usize, usize) -> usize| (1..=CROSSED_PX).any(|k| is_on(&plain, beside(at, k * step)));
+                near(usize::wrapping_sub) && near(usize::wrapping_add)
+            };
+            strokes[at] != 0 && [1, width].into_iter().any(goes_on)
+        };
+        (0..strokes.len()).map(|at| plain[at] | u8::from(is_crossed(at))).collect()
     };
     let filled = || {
         let of = |strokes: &[u8]| filled::net([strokes, &core], width, metres_per_pixel, find);
+        let of_all = of(&strokes);
+        if !colours.bars.contains(&1) {
+            return of_all;
+        }
         // Furniture and doors of another colour than walls are no walls, however they are outlined.
-        let of_plain = if colours.bars.contains(&1) { of(&without(colours.bars)) } else { None };
-        of_plain.filter(|net| net.joined(width) >= CONNECTED).or_else(|| of(&strokes))
+        let of_plain = of(&without(colours.bars));
+        let closed = |net: &Option<Net>| net.as_ref().map_or(0.0, |net| net.inside_px() * net.joined(width));
+        if closed(&of_plain) >= AS_CLOSED * closed(&of_all) { of_plain } else { of_all }
     };
     if let Some(net) = find(&core, dark, 0) {
         // Of hollow walls beside massive ones, the outlines alone were found.

@@ -232,9 +232,9 @@ impl Net {
             LEAST_ROOM_M2 / (metres_per_pixel * metres_per_pixel),
             may_open,
         );
-        let area = inside.iter().filter(|&&i| i != 0).count() as f64;
-        let enclosed = area / least_box(&wall, width, kept).max(1.0);
-        Some(Net { wall, doors, windows, inside, enclosed })
+        let mut net = Net { wall, doors, windows, inside, enclosed: 0.0 };
+        net.enclosed = net.inside_px() / least_box(&net.wall, width, kept).max(1.0);
+        Some(net)
     }
 
     /// Share of the inside that its doors join.
@@ -244,6 +244,11 @@ impl Net {
         let mut built: Vec<u8> = free.iter().zip(&self.wall).map(|(&free, &wall)| free | wall).collect();
         self.windows.iter().flat_map(Gap::pixels).for_each(|at| built[at] = 1);
         joined(&free, &built, width)
+    }
+
+    /// Area of the inside, pixels.
+    pub(super) fn inside_px(&self) -> f64 {
+        self.inside.iter().filter(|&&inside| inside != 0).count() as f64
     }
 
     /// Whether the net encloses rooms as a building does.
