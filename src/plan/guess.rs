@@ -90,17 +90,18 @@ struct Measures {
 ///
 /// What is building shows once the scale is known: the first scale counts at which the building is as wide as it is.
 /// Dimension lines and the sheet's frame make it too wide at first.
-pub(super) fn of_width(drawing: &Drawing, width_m: f64) -> Option<f64> {
+/// `guess` is what doors or printed numbers say.
+pub(super) fn of_width(drawing: &Drawing, width_m: f64, guess: f64) -> Option<f64> {
     let [min, end] = Walls::of(drawing).bounds?;
     let rough = width_m / f64::from(end[0] - min[0]);
     let of_building = |scale: f64| {
         let [min, end] = understand::extent(drawing, scale)?;
         Some(width_m / f64::from(end[0] - min[0]))
     };
-    // Those near to what doors say come first: a sheet's frame with its title block looks like a building too.
-    let guess = Measures::of(drawing).likelihood().guess().value;
+    // Those near to the guess come first: a sheet's frame with its title block looks like a building too.
     let mut tries: Vec<f64> =
         std::iter::successors(Some(rough), |tried| Some(tried * (1.0 + SAME_SCALE))).take(TRIES).collect();
+    tries.push(guess);
     tries.sort_by(|a, b| ln(a / guess).abs().total_cmp(&ln(b / guess).abs()));
     let is_same = |scale: &f64, tried: f64| (scale / tried - 1.0).abs() <= SAME_SCALE;
     let found = tries.into_iter().find_map(|tried| of_building(tried).filter(|scale| is_same(scale, tried)));

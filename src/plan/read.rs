@@ -338,18 +338,18 @@ fn found_scale(
     (file, dots_per_inch): (&Path, Option<f64>),
     warnings: &mut Vec<String>,
 ) -> Result<(f64, PlanScale), PlanError> {
+    let (guess, by_guess) = guess::guess(drawing, dots_per_inch);
+    let printed = if drawing.scanned { None } else { printed::scale(drawing, guess, by_guess.range) };
+    let (guess, by_guess) = printed.unwrap_or((guess, by_guess));
     let (value, scale) = match options.width_m {
         Some(width_m) => {
             let (pixels, threshold) = (drawing.dark.len(), drawing.threshold);
-            let value = guess::of_width(drawing, width_m).ok_or(PlanError::NoWalls { pixels, threshold })?;
+            let value = guess::of_width(drawing, width_m, guess).ok_or(PlanError::NoWalls { pixels, threshold })?;
             (value, PlanScale::known(ScaleSource::Width, value))
         }
         None => {
-            let (guess, by_guess) = guess::guess(drawing, dots_per_inch);
-            let printed = if drawing.scanned { None } else { printed::scale(drawing, guess, by_guess.range) };
-            let (value, scale) = printed.unwrap_or((guess, by_guess));
-            warnings.push(told_guess(file, value, &scale));
-            (value, scale)
+            warnings.push(told_guess(file, guess, &by_guess));
+            (guess, by_guess)
         }
     };
     scale::check(scale.source, value)?;

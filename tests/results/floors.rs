@@ -422,30 +422,71 @@ fn single_wheels_leave_lines_that_fade_into_busy_ways() {
 /// Opacity from which a mark is seen: 5 L* on vinyl.
 const SEEN: u8 = 40;
 
+/// Texels that lie together: their bounds and number.
+struct Spot {
+    low: [usize; 2],
+    high: [usize; 2],
+    texels: usize,
+}
+
+/// The spots of a mask.
+fn spots(mut mask: Vec<bool>, columns: usize) -> Vec<Spot> {
+    let rows = mask.len() / columns;
+    let (mut found, mut next) = (Vec::new(), Vec::new());
+    for first in 0..mask.len() {
+        let mut spot = Spot { low: [usize::MAX; 2], high: [0; 2], texels: 0 };
+        next.push(first);
+        while let Some(texel) = next.pop() {
+            if !std::mem::take(&mut mask[texel]) {
+                continue;
+            }
+            let at = [texel % columns, texel / columns];
+            (0..2).for_each(|axis| spot.low[axis] = spot.low[axis].min(at[axis]));
+            (0..2).for_each(|axis| spot.high[axis] = spot.high[axis].max(at[axis]));
+            spot.texels += 1;
+            let beside = (-1..=1).flat_map(|dj| (-1..=1).map(move |di| (at[0] as i64 + di, at[1] as i64 + dj)));
+            let inside = |&(i, j): &(i64, i64)| i >= 0 && j >= 0 && i < columns as i64 && j < rows as i64;
+            next.extend(beside.filter(inside).map(|(i, j)| j as usize * columns + i as usize));
+        }
+        found.extend((spot.texels > 0).then_some(spot));
+    }
+    found
+}
+
 /// Marks of rubber that are seen, 2 cm long and more, per square metre of a piece of floor.
 fn black_marks_per_m2(look: &Look, [x, y, width, height]: [f64; 4]) -> f64 {
     let resolver = FloorResolver::new(&STATION.sums, &STATION.walls, look, STATION.people).unwrap();
     let texels = |metres: f64| (metres * TEXELS_PER_M as f64) as usize;
     let (columns, rows) = (texels(width), texels(height));
     let block = resolver.resolve(texels(x) as i64, texels(y) as i64, columns, rows);
-    let mut dark: Vec<bool> = block.relief.iter().map(|relief| relief[1] > SEEN).collect();
-    let (mut count, mut next) = (0, Vec::new());
-    for first in 0..dark.len() {
-        let (mut low, mut high) = ([usize::MAX; 2], [0; 2]);
-        next.push(first);
-        while let Some(texel) = next.pop() {
-            if !std::mem::take(&mut dark[texel]) {
-                continue;
-            }
-            let at = [texel % columns, texel / columns];
-            (0..2).for_each(|axis| (low[axis], high[axis]) = (low[axis].min(at[axis]), high[axis].max(at[axis])));
-            let beside = (-1..=1).flat_map(|dj| (-1..=1).map(move |di| (at[0] as i64 + di, at[1] as i64 + dj)));
-            let inside = |&(i, j): &(i64, i64)| i >= 0 && j >= 0 && i < columns as i64 && j < rows as i64;
-            next.extend(beside.filter(inside).map(|(i, j)| j as usize * columns + i as usize));
-        }
-        count += usize::from((0..2).any(|axis| high[axis].saturating_sub(low[axis]) >= 2 && low[axis] < usize::MAX));
-    }
+    let dark: Vec<bool> = block.relief.iter().map(|relief| relief[1] > SEEN).collect();
+    let is_long = |spot: &&Spot| (0..2).any(|axis| spot.high[axis] - spot.low[axis] >= 2);
+    let count = spots(dark, columns).iter().filter(is_long).count();
     count as f64 / (width * height)
+}
+
+/// Prints that can be read per square metre of a piece of floor: 40 cm2 and more that are 2 L* darker than the floor.
+fn readable_prints_per_m2(place: [f64; 4]) -> f64 {
+    let look = &STATION.look;
+    let mut without = look.clone();
+    without.prints.soil = 0.0;
+    let [with, without] = [look, &without].map(|look| resolved(&STATION, look, place));
+    let seen = without.lightness.iter().zip(&with.lightness).map(|(floor, print)| floor - print >= 2.0);
+    let prints = spots(seen.collect(), with.width).iter().filter(|spot| spot.texels >= 40).count();
+    prints as f64 / (place[2] * place[3])
+}
+
+/// The soil that shoes bring in from the street is gone after some steps.
+#[test]
+fn a_few_prints_can_be_read_most_of_them_at_entrances() {
+    let entrances = [[14.2, 0.5, 5.6, 5.0], [0.5, 10.2, 5.0, 4.6]].map(readable_prints_per_m2);
+    let inside = readable_prints_per_m2([22.0, 8.0, 12.0, 9.0]);
+    println!("{entrances:.2?} per m2 at entrances, {inside:.2} inside");
+    for entrance in entrances {
+        assert!((0.7..3.5).contains(&entrance), "{entrance} per m2 at an entrance");
+        assert!(entrance >= 5.0 * inside, "{entrance} per m2 at an entrance, {inside} inside");
+    }
+    assert!((0.01..0.5).contains(&inside), "{inside} per m2 inside");
 }
 
 /// In front of the ticket gates.

@@ -343,14 +343,14 @@ fn net_of_walls(
     };
     let filled = || {
         let of = |strokes: &[u8]| filled::net([strokes, &core], width, metres_per_pixel, find);
-        let of_all = of(&strokes);
+        let of_all = of(&strokes)?;
         if !colours.bars.contains(&1) {
-            return of_all;
+            return Some(of_all);
         }
         // Furniture and doors of another colour than walls are no walls, however they are outlined.
-        let of_plain = of(&without(colours.bars));
-        let closed = |net: &Option<Net>| net.as_ref().map_or(0.0, |net| net.inside_px() * net.joined(width));
-        if closed(&of_plain) >= AS_CLOSED * closed(&of_all) { of_plain } else { of_all }
+        let closed = |net: &Net| net.inside_px() * net.joined(width);
+        let of_plain = of(&without(colours.bars)).filter(|net| closed(net) >= AS_CLOSED * closed(&of_all));
+        Some(of_plain.unwrap_or(of_all))
     };
     if let Some(net) = find(&core, dark, 0) {
         // Of hollow walls beside massive ones, the outlines alone were found.
