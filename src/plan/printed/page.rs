@@ -79,10 +79,11 @@ impl<'a> Page<'a> {
         let mut page = Page { ink, is_turned, marks: Vec::new() };
         let is_small = |piece: &Component| piece.larger_side() <= MOST_PX as u32;
         let small = ink.pieces.all.iter().enumerate().filter(|(_, piece)| is_small(piece));
-        let mut marks: Vec<Mark> = small.map(|(k, piece)| Mark { area: page.area(piece), piece: k }).collect();
-        let (wide, narrow): (Vec<Mark>, Vec<Mark>) = marks.drain(..).partition(Page::may_run_together);
-        marks.extend(wide.into_iter().flat_map(|mark| page.parts(mark, &narrow)));
-        marks.extend(narrow);
+        let all = small.map(|(k, piece)| Mark { area: page.area(piece), piece: k });
+        let (wide, mut marks): (Vec<Mark>, Vec<Mark>) = all.partition(Page::may_run_together);
+        marks.sort_by_key(|mark| mark.area.x[1]);
+        let parts: Vec<Mark> = wide.into_iter().flat_map(|mark| page.parts(mark, &marks)).collect();
+        marks.extend(parts);
         marks.sort_by_key(|mark| (mark.area.x, mark.area.y));
         page.marks = marks;
         page
@@ -93,16 +94,16 @@ impl<'a> Page<'a> {
         height >= LEAST_PX && f64::from(width) >= RUN_TOGETHER * f64::from(height)
     }
 
-    /// A mark, or the digits that run together in it. What is lower than the digit before it is an m.
+    /// A mark, or the digits that run together in it. What is lower than the digit before it is an m; the others come in the
+    /// order of their right sides.
     fn parts(&self, mark: Mark, others: &[Mark]) -> Vec<Mark> {
         let [width, height] = [mark.area.width(), mark.area.height()].map(f64::from);
-        let is_digit_before = |other: &Mark| {
-            let near = mark.area.x[0] - 2 * mark.area.height()..=mark.area.x[0];
-            near.contains(&other.area.x[1])
-                && other.area.y[1].abs_diff(mark.area.y[1]) <= 1
-                && f64::from(other.area.height()) >= TALLER * height
+        let from = others.partition_point(|other| other.area.x[1] < mark.area.x[0] - 2 * mark.area.height());
+        let mut before = others[from..].iter().take_while(|other| other.area.x[1] <= mark.area.x[0]);
+        let is_digit = |other: &Mark| {
+            other.area.y[1].abs_diff(mark.area.y[1]) <= 1 && f64::from(other.area.height()) >= TALLER * height
         };
-        if others.iter().any(is_digit_before) {
+        if before.any(is_digit) {
             return vec![mark];
         }
         let (own, across) = (self.darkness_of(&mark), mark.area.width() as usize);

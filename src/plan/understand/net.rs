@@ -112,6 +112,7 @@ impl Net {
         metres_per_pixel: f64,
         &Sought { thickest, widest_m, is_massive, stroke_px, colours }: &Sought,
     ) -> Option<Net> {
+        // Fills join the strokes of frames that stand apart.
         let mut core = core.to_vec();
         border::drop(&mut core, ink, width, metres_per_pixel);
         let Thickness { square: side, thinnest, usual } =
