@@ -53,7 +53,7 @@ fn dimensions(building: &Building, ends: Ends, thin: f64) -> Vec<Polygon> {
 }
 
 /// Dimension lines, axes, north arrow, title block and frame.
-pub fn sheet(building: &Building, ends: Ends, size: Point, origin: Point, thin: f64) -> Vec<Polygon> {
+pub fn sheet(building: &Building, ends: Ends, size: Point, origin: Point, thin: f64, has_edge: bool) -> Vec<Polygon> {
     let h = building.size[1];
     let mut all = if ends == Ends::None { Vec::new() } else { dimensions(building, ends, thin) };
     // Axes: dash and dot across the building, with a balloon.
@@ -85,8 +85,8 @@ pub fn sheet(building: &Building, ends: Ends, size: Point, origin: Point, thin: 
     }
     all.extend(text("0", [origin[0] + 2.0, below - 1.85], 0.24, thin));
     all.extend(text("5 m", [origin[0] + 7.0, below - 1.85], 0.24, thin));
-    // The frame, the edge along which the sheet is cut, and the title block.
-    for (inset, thick) in [(0.5, thin * 3.0), (0.15, thin)] {
+    // The frame, the edge along which the sheet may be cut, and the title block.
+    for (inset, thick) in [(0.5, thin * 3.0), (0.15, thin)].into_iter().take(if has_edge { 2 } else { 1 }) {
         let frame = rectangle([origin[0] + inset, origin[1] + inset], [right - inset, below - inset]);
         all.extend(outline(&frame, thick));
     }

@@ -359,7 +359,8 @@ pub fn draw(case: &Case) -> Drawn {
         canvas.fill(&words, tones.words);
     }
     if style.sheet {
-        let notes = sheet(&building, style.ends, size, [-margin[0], -margin[1]], thin);
+        let notes =
+            sheet(&building, style.ends, size, [-margin[0], -margin[1]], thin, style.tones == Tones::LayersOnBlack);
         add(&mut truth.notes, &canvas.mask(&notes));
         canvas.fill(&notes, tones.notes);
     }

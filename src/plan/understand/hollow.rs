@@ -41,7 +41,7 @@ const SMALL_NET_M: f64 = 2.2;
 const SMALL_NET_FILL: f64 = 0.4;
 /// Greatest share of its box that a net of hollow walls fills; what fills more is one bar.
 const NET_FILL: f64 = 0.6;
-/// Least share of its box that a bar fills; what fills less has a corner.
+/// Greatest share of its box that a wall with a corner fills.
 const BAR_FILL: f64 = 0.72;
 /// Least side of the box of a hollow wall with a corner, metres.
 const BENT_M: f64 = 1.0;
@@ -191,7 +191,8 @@ pub(super) fn fill_outlines(dark: &[u8], width: usize, metres_per_pixel: f64) ->
         // A sink in a counter makes its outline longer, and so the rectangle thinner.
         let share = field.area as f64 / (w * h);
         let is_full = share > NET_FILL;
-        let is_thin = if share > BAR_FILL { w.min(h) } else { thick } * metres_per_pixel <= THICKEST_BAR_M;
+        let is_one_bar = share > BAR_FILL || is_full && !is_bent;
+        let is_thin = if is_one_bar { w.min(h) } else { thick } * metres_per_pixel <= THICKEST_BAR_M;
         thick * metres_per_pixel >= 0.02
             && length >= SLENDER * thick
             && length * metres_per_pixel >= SHORTEST_M
