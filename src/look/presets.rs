@@ -52,7 +52,7 @@ fn wet() -> Look {
         film: FilmLook { density: 0.9, colour: SOIL_WET, ..look.film },
         age: AgeLook { stains_per_m2: 0.6, ..look.age },
         // Rain lays the dust.
-        prints: PrintsLook { soil: 5.0, colour: SOIL_WET, ..look.prints },
+        prints: PrintsLook { soil: 4.0, colour: SOIL_WET, ..look.prints },
         wet: WetLook { tracks: 3.0, water: 0.9, puddles: 0.3 },
         noise: NoiseLook { middle: Octave { sd: 0.1, ..look.noise.middle }, ..look.noise },
         // Wet floors are mopped more often.

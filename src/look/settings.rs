@@ -197,7 +197,7 @@ options! {
     /// Readable prints.
     pub struct PrintsLook {
         /// Factor on the soil of fresh prints.
-        soil: f32 = 12.0, in 0.0..=50.0;
+        soil: f32 = 9.0, in 0.0..=50.0;
         /// Optical density that every print paints: the paper's way.
         every_pass: f32 = 0.0, in 0.0..=3.0;
         /// Colour, sRGB.
