@@ -51,7 +51,7 @@ pub(super) fn slanted(outlines: &[CrackLoop], shortest: usize, thinnest: usize) 
     let least = (3 * shortest) as f64;
     let least = least.max(LEAST_SHARE * lengths.iter().sum::<f64>());
     let around = |k: usize| lengths[k - 1] + lengths[k] + lengths[k + 1];
-    let mut bins: Vec<usize> = (SAME..BINS - SAME).filter(|&k| around(k) >= least).collect();
+    let mut bins: Vec<usize> = (SAME..BINS - SAME).filter(|&k| around(k) > 0.0 && around(k) >= least).collect();
     bins.sort_by(|&a, &b| around(b).total_cmp(&around(a)).then(a.cmp(&b)));
     let mut found: Vec<usize> = Vec::new();
     for bin in bins {
@@ -111,6 +111,11 @@ mod tests {
         };
         let turned = |[x, y]: [f64; 2]| [400.0 + x * cosine - y * sine, 400.0 + x * sine + y * cosine];
         (0..1200).map(|k| turned(side(k)).map(|v| v as i32)).collect()
+    }
+
+    #[test]
+    fn nothing_has_no_direction() {
+        assert_eq!(slanted(&[], 0, 2), Vec::<f64>::new());
     }
 
     #[test]
