@@ -105,6 +105,18 @@ impl Components {
         self.runs(component).iter().map(range)
     }
 
+    /// Tells at which component a pixel is.
+    pub(super) fn index(&self, width: usize) -> impl Fn(usize) -> Option<usize> {
+        let of = |(k, piece)| self.ranges(piece, width).map(move |range| (range.start, range.end, k));
+        let mut runs: Vec<(usize, usize, usize)> = self.all.iter().enumerate().flat_map(of).collect();
+        runs.sort_unstable();
+        move |at| {
+            let before = runs.partition_point(|&(from, ..)| from <= at).checked_sub(1)?;
+            let (_, end, k) = runs[before];
+            (at < end).then_some(k)
+        }
+    }
+
     /// The first pixel of a component.
     pub(super) fn first(&self, component: &Component, width: usize) -> usize {
         let first = self.runs(component)[0];

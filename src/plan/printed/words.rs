@@ -165,11 +165,10 @@ impl Reader<'_> {
         let near = |a: f64, share: f64| a.abs() <= share * height + 1.0;
         match () {
             () if near(h - height, 0.12) && near(below, 0.1) => {
-                let likeliest = || {
-                    let mark = &self.page.marks[k];
-                    self.alphabet.likeliest(&self.page.darkness_of(mark), mark.area.width() as usize, DIGITS)
-                };
-                self.digit(k).or_else(|| likeliest().filter(|_| is_minor))
+                let mark = &self.page.marks[k];
+                let likeliest =
+                    || self.alphabet.likeliest(&self.page.darkness_of(mark), mark.area.width() as usize, DIGITS);
+                self.digit(k).or_else(|| if is_minor { likeliest() } else { None })
             }
             () if w <= 0.3 * height + 1.0 && h <= 0.3 * height + 1.0 && near(below, 0.1) => Some('.'),
             () if w <= 0.4 * height && h <= 0.5 * height && below > 0.0 && above >= 0.65 * height => Some('.'),

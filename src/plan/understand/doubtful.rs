@@ -106,9 +106,8 @@ pub(super) fn open_closed_rooms(
         return;
     }
     let rooms = Components::of(inside, width, 1, Neighbours::Four);
-    let room_at =
-        |at: usize| rooms.all.iter().position(|room| rooms.ranges(room, width).any(|range| range.contains(&at)));
-    let beside = |gap: &Gap| gap.sides().into_iter().flatten().filter_map(room_at).collect::<Vec<usize>>();
+    let room_at = rooms.index(width);
+    let beside = |gap: &Gap| gap.sides().into_iter().flatten().filter_map(&room_at).collect::<Vec<usize>>();
     let has_door: Vec<usize> = doors.iter().flat_map(beside).collect();
     let ways: Vec<Vec<usize>> =
         windows.iter().map(|gap| if may_open(gap) { beside(gap) } else { Vec::new() }).collect();

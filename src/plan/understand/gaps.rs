@@ -480,12 +480,12 @@ fn strokes(ink: &[u8], width: usize, gap: &Gap) -> usize {
     let thick = gap.rows.len();
     let margin = (thick / 6).max(1);
     let [from, to] = gap.rows[thick / 2];
+    let rows = gap.first.saturating_sub(margin)..(gap.first + thick + margin).min(height);
     let mut counts: Vec<usize> = (1..=7)
         .map(|k| {
             let x = from + (to - from) * k / 8;
-            let rows = gap.first.saturating_sub(margin)..(gap.first + thick + margin).min(height);
             let (mut count, mut run) = (0, 0);
-            for y in rows {
+            for y in rows.clone() {
                 if ink[y * width + x] != 0 {
                     run += 1;
                     count += usize::from(run == 1);
@@ -502,7 +502,6 @@ fn strokes(ink: &[u8], width: usize, gap: &Gap) -> usize {
         .collect();
     counts.sort_unstable();
     let is_dashed = || {
-        let rows = gap.first.saturating_sub(margin)..(gap.first + thick + margin).min(height);
         let is_inked = |x: &usize| rows.clone().any(|y| ink[y * width + x] != 0);
         let dashes: Vec<usize> = (from..to).filter(is_inked).collect();
         let is_break = |pair: &[usize; 2]| pair[1] - pair[0] > LEAST_BREAK_PX.max((to - from) / LEAST_BREAK);

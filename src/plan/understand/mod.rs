@@ -297,11 +297,7 @@ fn net_of_walls(
     let is_dark = |at: usize| is_on(dark, at);
     // Fills of grey walls ring beside black outlines, and are a little lighter than the threshold there. Treads and rails of
     // stairs that are as light have dark on one side at most.
-    let is_ring = |at: usize| {
-        let is_near =
-            |beside: fn(usize, usize) -> usize, step: usize| (1..=RING_PX).any(|k| is_dark(beside(at, k * step)));
-        [1, width].into_iter().any(|step| is_near(usize::wrapping_sub, step) && is_near(usize::wrapping_add, step))
-    };
+    let is_ring = |at: usize| lies_between(dark, width, at, RING_PX);
     let surely =
         |at: usize| strokes[at] & u8::from(drawing.lightness[at] < drawing.surely_dark && (is_dark(at) || is_ring(at)));
     let core: Vec<u8> = (0..dark.len()).map(surely).collect();
@@ -331,14 +327,7 @@ fn net_of_walls(
         let is_plain = |at: usize| coloured[at] == 0 && (soft[at] == 0 || core[at] != 0);
         let plain: Vec<u8> = (0..strokes.len()).map(|at| strokes[at] & u8::from(is_plain(at))).collect();
         // Lines go on where one of another colour crosses them.
-        let is_crossed = |at: usize| {
-            let goes_on = |step: usize| {
-                let near =
-                    |beside: fn(usize, usize) -> usize| (1..=CROSSED_PX).any(|k| is_on(&plain, beside(at, k * step)));
-                near(usize::wrapping_sub) && near(usize::wrapping_add)
-            };
-            strokes[at] != 0 && [1, width].into_iter().any(goes_on)
-        };
+        let is_crossed = |at: usize| strokes[at] != 0 && lies_between(&plain, width, at, CROSSED_PX);
         (0..strokes.len()).map(|at| plain[at] | u8::from(is_crossed(at))).collect()
     };
     let filled = || {
@@ -395,6 +384,13 @@ fn net_of_walls(
         }
     }
     of_lines(&strokes, ink)
+}
+
+/// Whether a mask is on within `reach` pixels on both sides of a place, along its row or its column.
+fn lies_between(mask: &[u8], width: usize, at: usize, reach: usize) -> bool {
+    let is_near =
+        |beside: fn(usize, usize) -> usize, step: usize| (1..=reach).any(|k| is_on(mask, beside(at, k * step)));
+    [1, width].into_iter().any(|step| is_near(usize::wrapping_sub, step) && is_near(usize::wrapping_add, step))
 }
 
 /// Strokes without groups of letters.

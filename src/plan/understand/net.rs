@@ -32,8 +32,8 @@ const WIDEST_PANE_M: f64 = 3.2;
 /// Least share of a gap that a single line in the blue of panes fills, and that a bar of another colour does.
 const PANE_SHARE: f64 = 0.3;
 const BAR_SHARE: f64 = 0.4;
-/// Least area of a room that has a door, square metres.
-const LEAST_ROOM_M2: f64 = 2.0;
+/// Least area of a room that a door leads to, square metres.
+pub(super) const LEAST_ROOM_M2: f64 = 2.0;
 /// Least width of a gate that is a single line, metres.
 const NARROWEST_GATE_M: f64 = 2.3;
 /// Greatest side of a column between massive walls, metres, and its greatest length in its thickness.
@@ -263,19 +263,13 @@ impl Net {
 pub(super) fn joined(free: &[u8], built: &[u8], width: usize) -> f64 {
     /// Least share of all that a building has.
     const LEAST: f64 = 0.2;
-    let place = |run: &Run| run.y as usize * width + run.from as usize;
     let buildings = Components::of(built, width, 1, Neighbours::Eight);
-    let mut building_from: Vec<(usize, usize)> = (buildings.all.iter().enumerate())
-        .flat_map(|(k, building)| buildings.runs(building).iter().map(move |run| (place(run), k)))
-        .collect();
-    building_from.sort_unstable();
+    let building_at = buildings.index(width);
     let pieces = Components::of(free, width, 1, Neighbours::Four);
     // All of a building, and its largest piece.
     let mut areas = vec![[0usize; 2]; buildings.all.len()];
     for piece in &pieces.all {
-        let runs = pieces.runs(piece);
-        let before = building_from.partition_point(|&(from, _)| from <= place(&runs[0]));
-        let Some(&(_, building)) = before.checked_sub(1).and_then(|k| building_from.get(k)) else { continue };
+        let Some(building) = building_at(pieces.first(piece, width)) else { continue };
         let [all, largest] = &mut areas[building];
         (*all, *largest) = (*all + piece.area, piece.area.max(*largest));
     }
@@ -378,14 +372,7 @@ fn least_box(wall: &[u8], width: usize, [x0, y0, x1, y1]: [u32; 4]) -> f64 {
 /// columns among them, and other buildings. Returns the box around the main one.
 fn keep_building(wall: &mut [u8], raw: &[u8], width: usize, doors: &[Gap], windows: &[Gap]) -> Option<[u32; 4]> {
     let pieces = Components::of(wall, width, 1, Neighbours::Eight);
-    let runs_of = |(k, piece)| pieces.ranges(piece, width).map(move |range| (range.start, range.end, k));
-    let mut runs: Vec<(usize, usize, usize)> = pieces.all.iter().enumerate().flat_map(runs_of).collect();
-    runs.sort_unstable();
-    let piece_at = |at: usize| {
-        let before = runs.partition_point(|&(from, ..)| from <= at).checked_sub(1)?;
-        let (_, end, k) = runs[before];
-        (at < end).then_some(k)
-    };
+    let piece_at = pieces.index(width);
     let mut group: Vec<usize> = (0..pieces.all.len()).collect();
     fn top(group: &[usize], mut k: usize) -> usize {
         while group[k] != k {
@@ -398,7 +385,7 @@ fn keep_building(wall: &mut [u8], raw: &[u8], width: usize, doors: &[Gap], windo
         group[a.max(b)] = a.min(b);
     };
     for gap in doors.iter().chain(windows) {
-        if let [Some(a), Some(b)] = gap.ends.map(piece_at) {
+        if let [Some(a), Some(b)] = gap.ends.map(&piece_at) {
             join(a, b);
         }
     }
@@ -418,7 +405,7 @@ fn keep_building(wall: &mut [u8], raw: &[u8], width: usize, doors: &[Gap], windo
             .pixels()
             .into_iter()
             .flat_map(near)
-            .filter_map(piece_at)
+            .filter_map(&piece_at)
             .filter(is_partition)
             .for_each(|k| join(jamb, k));
     }
@@ -473,8 +460,7 @@ fn keep_building(wall: &mut [u8], raw: &[u8], width: usize, doors: &[Gap], windo
 /// Takes off the rim of filled walls where it is ink but not dark: less than half of such a pixel is wall. At gaps it stays:
 /// a jamb of another colour leaves no slit.
 fn trim(wall: &mut [u8], raw: &[u8], ink: &[u8], width: usize, doors: &[Gap], windows: &[Gap]) {
-    let mut at_gap = vec![0; wall.len()];
-    doors.iter().chain(windows).flat_map(Gap::pixels).for_each(|at| at_gap[at] = 1);
+    let at_gap = gaps::mask(doors.iter().chain(windows), wall.len());
     let beside = |at: usize| [at.wrapping_sub(1), at + 1, at.wrapping_sub(width), at + width].into_iter();
     let is_rim = |at: usize| {
         wall[at] != 0

@@ -5,16 +5,15 @@ use super::super::thick::grow;
 use super::gaps::{self, Gap};
 use super::leaves;
 use super::lines;
-use super::net::Net;
+use super::net::{LEAST_ROOM_M2, Net};
 
 /// Least length of the leaves of a door, as a share of the gap.
 const LEAVES: f64 = 0.8;
 /// Longest piece of a partition that is too short for a line, between a door and a wall, metres.
 const JAMB_M: f64 = 0.4;
 
-/// Fewest doors by which partitions are known, and least area of a room that one leads to, square metres.
+/// Fewest doors by which partitions are known.
 const FEWEST_DOORS: usize = 2;
-const LEAST_ROOM_M2: f64 = 2.0;
 
 /// Adds the partitions to a net of thick walls, if there are any: lines that end at a gap in which the leaf of a door hangs,
 /// and all that they join.
