@@ -40,18 +40,8 @@ fn cost(clearance_m: f64) -> f64 {
 }
 
 impl Field {
-    /// Computes distances to the nearest cell of `goal`.
-    pub(crate) fn to(ground: &Ground, goal: &[usize]) -> Field {
-        let seeds = goal.iter().map(|&cell| (cell, 0.0)).collect();
-        Field::spread(ground, seeds, |_, _| true)
-    }
-
-    /// Like [`Field::to`], but stops when `progress` is interrupted.
-    pub(super) fn to_unless_interrupted(
-        ground: &Ground,
-        goal: &[usize],
-        progress: &dyn Progress,
-    ) -> Result<Field, Interrupted> {
+    /// Computes distances to the nearest cell of `goal`, unless `progress` is interrupted.
+    pub(super) fn to(ground: &Ground, goal: &[usize], progress: &dyn Progress) -> Result<Field, Interrupted> {
         let seeds = goal.iter().map(|&cell| (cell, 0.0)).collect();
         let field = Field::spread(ground, seeds, |_, _| !progress.interrupted());
         progress.keep_on().map(|()| field)
@@ -210,6 +200,10 @@ mod tests {
         Ground::new(&plan, &walls, Fineness::attempts(&plan)[0])
     }
 
+    fn to(ground: &Ground, goal: &[usize]) -> Field {
+        Field::to(ground, goal, &crate::Silent).expect("not interrupted")
+    }
+
     #[test]
     fn distance_in_the_open_is_the_straight_one_in_every_direction() {
         let rows: Vec<String> =
@@ -219,7 +213,7 @@ mod tests {
         // The goal is a disc: a point would add the first-order scheme's error at the source.
         let goal: Vec<usize> =
             (0..ground.lattice.len()).filter(|&c| ground.lattice.centre(c).distance(centre) < 2.0).collect();
-        let field = Field::to(&ground, &goal);
+        let field = to(&ground, &goal);
         for k in 0..36 {
             let (sin, cos) = crate::math::sin_cos(f64::from(k) * 10f64.to_radians());
             let p = centre + vec2(cos, sin) * 10.0;
@@ -234,7 +228,7 @@ mod tests {
     fn the_way_leads_round_walls_and_through_a_door() {
         let ground = ground(&["#######", "#..#..#", "#..#..#", "#..#..#", "#.....#", "#######"], 1.0);
         let goal = ground.lattice.cell_at(vec2(5.0, 4.5)).expect("floor");
-        let field = Field::to(&ground, &[goal]);
+        let field = to(&ground, &[goal]);
         let start = vec2(2.0, 4.5);
         let d = field.at(&ground, start);
         assert!(d > 7.0 && d < 13.0, "{d}");
@@ -249,6 +243,6 @@ mod tests {
         }
         let closed = self::tests::ground(&["#######", "#..#..#", "#..#..#", "#######"], 1.0);
         let goal = closed.lattice.cell_at(vec2(5.0, 2.0)).expect("floor");
-        assert!(Field::to(&closed, &[goal]).at(&closed, vec2(2.0, 2.0)).is_infinite());
+        assert!(to(&closed, &[goal]).at(&closed, vec2(2.0, 2.0)).is_infinite());
     }
 }

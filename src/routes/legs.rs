@@ -32,6 +32,26 @@ pub(super) fn leg_ends(via: impl Iterator<Item = Place>, goal: Place) -> impl It
     via.map(|place| LegEnd { place, last: false }).chain([LegEnd { place: goal, last: true }])
 }
 
+/// Cells and legs of a route, for the crowd.
+#[derive(Clone, Debug)]
+pub(crate) struct RouteLegs {
+    /// Cells where people appear.
+    pub(crate) start_cells: Vec<usize>,
+    /// Cells of the goal.
+    pub(crate) goal_cells: Vec<usize>,
+    /// Legs to each via place, and to the goal.
+    pub(crate) legs: Vec<Leg>,
+}
+
+/// A leg: the path from one place of a route to the next.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Leg {
+    /// Index of the distance field to its end.
+    pub(crate) field: usize,
+    /// Index of the flow to its end; people of default life follow the field.
+    pub(crate) flow: Option<usize>,
+}
+
 /// Distance fields of leg ends, each computed once.
 pub(super) struct FieldStore<'p> {
     fields: Vec<(LegEnd, Arc<Field>)>,
@@ -50,7 +70,7 @@ impl FieldStore<'_> {
 
     /// The field to some cells, which is not kept.
     pub(super) fn measure(&self, ground: &Ground, goal: &[usize]) -> Result<Field, Interrupted> {
-        Field::to_unless_interrupted(ground, goal, self.progress)
+        Field::to(ground, goal, self.progress)
     }
 
     /// Computes the missing fields in parallel.
@@ -82,6 +102,10 @@ impl FieldStore<'_> {
 
     pub(super) fn of_index(&self, index: usize) -> &Field {
         &self.fields[index].1
+    }
+
+    pub(super) fn shared(&self, index: usize) -> Arc<Field> {
+        self.fields[index].1.clone()
     }
 
     pub(super) fn into_fields(self) -> Vec<Arc<Field>> {

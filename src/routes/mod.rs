@@ -25,6 +25,7 @@ mod route;
 mod sheet;
 mod solve;
 mod stop;
+mod stop_ways;
 mod targets;
 #[cfg(test)]
 mod tests;
@@ -42,6 +43,7 @@ pub(crate) use field::Field;
 pub(crate) use flow::Flow;
 pub(crate) use ground::Ground;
 pub(crate) use lattice::Lattice;
+pub(crate) use legs::{Leg, RouteLegs};
 pub(crate) use narrow::{Narrow, NarrowPlaces};
-pub(crate) use navigation::{Leg, RouteLegs};
 pub(crate) use route::USUAL_M_S;
+pub(crate) use stop_ways::StopWay;

@@ -8,7 +8,8 @@ use rustc_hash::FxHashMap;
 use super::field::Field;
 use super::flow::Flow;
 use super::ground::{CLEARANCE_LIMIT_M, Ground};
-use super::navigation::{Leg, Navigation};
+use super::legs::Leg;
+use super::navigation::Navigation;
 use super::{Gate, Route};
 use crate::math::{Vec2, vec2};
 

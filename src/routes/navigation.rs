@@ -7,9 +7,10 @@ use super::draft::RouteDraft;
 use super::field::Field;
 use super::flow::Flow;
 use super::ground::{Fineness, Ground};
-use super::legs::{FieldStore, LegEnd, leg_ends};
+use super::legs::{FieldStore, Leg, LegEnd, RouteLegs, leg_ends};
 use super::ribbon::RibbonEnd;
 use super::stop::{RouteStop, Stop};
+use super::stop_ways::{self, StopWay};
 use super::targets::{self, PlaceUsage};
 use super::{
     FloorPoint, Gap, Place, PlaceRequest, Route, RouteRequest, RoutesError, RoutesOptions, Via, ViaRequest, defaults,
@@ -28,7 +29,8 @@ const MOST_ROUTES: usize = 1000;
 /// Radius within which people pass a via place in the open, metres.
 const VIA_REACH_M: f64 = 2.5;
 
-/// Navigation data of a plan and its routes: ground, distance fields, flows. Routes to the same place share a field.
+/// Navigation data of a plan and its routes: ground, distance fields, flows. Routes to the same place share a field. Copies
+/// share all of it.
 #[derive(Clone, Debug)]
 pub struct Navigation {
     pub(crate) ground: Arc<Ground>,
@@ -36,27 +38,9 @@ pub struct Navigation {
     pub(crate) flows: Vec<Arc<Flow>>,
     /// One per route, in order.
     pub(crate) ways: Vec<RouteLegs>,
+    /// One per stop, in the order of [`Route::each_stop`].
+    pub(crate) stop_ways: Vec<StopWay>,
     life: Option<Arc<Life>>,
-}
-
-/// Cells and legs of a route, for the crowd.
-#[derive(Clone, Debug)]
-pub(crate) struct RouteLegs {
-    /// Cells where people appear.
-    pub(crate) start_cells: Vec<usize>,
-    /// Cells of the goal.
-    pub(crate) goal_cells: Vec<usize>,
-    /// Legs to each via place, and to the goal.
-    pub(crate) legs: Vec<Leg>,
-}
-
-/// A leg: the path from one place of a route to the next.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Leg {
-    /// Index of the distance field to its end.
-    pub(crate) field: usize,
-    /// Index of the flow to its end; people of default life follow the field.
-    pub(crate) flow: Option<usize>,
 }
 
 /// Finds the requested routes, or the default ones.
@@ -199,15 +183,21 @@ impl Navigation {
     ) -> Result<Navigation, RoutesError> {
         fields.fill(plan, &ground, routes.iter().flat_map(route_legs))?;
         let mut pairs: Vec<LegEnds> = Vec::new();
-        let ways =
-            routes.iter().map(|route| way(plan, &ground, &fields, route, &mut pairs)).collect::<Result<_, _>>()?;
+        let ways = routes
+            .iter()
+            .map(|route| way(plan, &ground, &fields, route, &mut pairs))
+            .collect::<Result<Vec<RouteLegs>, _>>()?;
         let flow = |pair: &LegEnds| {
             fields.keep_on()?;
             let starts = pair.from.cells(plan, &ground);
             Ok(Arc::new(Flow::new(&ground, &starts, fields.get(pair.to))))
         };
-        let flows = pairs.par_iter().map(flow).collect::<Result<_, RoutesError>>()?;
-        Ok(Navigation { ground: Arc::new(ground), fields: fields.into_fields(), flows, ways, life: None })
+        let (flows, stop_ways) = rayon::join(
+            || pairs.par_iter().map(flow).collect::<Result<_, RoutesError>>(),
+            || stop_ways::find(&ground, routes, &ways, &fields),
+        );
+        let (flows, stop_ways) = (flows?, stop_ways?);
+        Ok(Navigation { ground: Arc::new(ground), fields: fields.into_fields(), flows, ways, stop_ways, life: None })
     }
 }
 

@@ -54,7 +54,7 @@ impl Stops {
         let straight = target.mode != ApproachMode::Come
             && (distance_m < STRAIGHT_M || perception.environment.sight(p, target.spot_m()));
         let left_m = match stop {
-            Some(stop) if !straight => stop.field.at(perception.environment.ground(), p),
+            Some(stop) if !straight => stop.way.field.at(perception.environment.ground(), p),
             _ => distance_m,
         };
         // Legs ahead count for more than any plan is long; see the walk along routes.
@@ -67,9 +67,9 @@ impl Stops {
             Some(stop) if !straight => {
                 let ground = perception.environment.ground();
                 let at_a_loss = time_s - walk.improved_s > AT_A_LOSS_S;
-                let flow = stop.flow.as_ref().filter(|_| !at_a_loss);
+                let flow = stop.way.flow.as_ref().filter(|_| !at_a_loss);
                 let spread = flow.and_then(|flow| along(|at| flow.at(ground, at), perception, p));
-                let ahead = spread.or_else(|| along(|at| stop.field.downhill(ground, at), perception, p));
+                let ahead = spread.or_else(|| along(|at| stop.way.field.downhill(ground, at), perception, p));
                 let open = f64::from(body.clearance_m) > OPEN_M;
                 let slope = if open { own_curve(traits, left_m) } else { 0.0 };
                 ahead.and_then(|ahead| (ahead + ahead.left() * slope).normalized())

@@ -1,15 +1,14 @@
 use std::collections::BTreeMap;
 
 use super::queue::{self, Queue};
-use super::stop_state::{self, Service, StopState, WayThere};
+use super::stop_state::{self, Service, StopState};
 use super::target::VisitTarget;
 use super::update::StopsUpdate;
 use super::visit::{StopTally, Visit};
 use super::visitor::{StopOnRoute, VisitState, Visitor};
 use crate::crowd::agents::Agents;
 use crate::crowd::environment::Environment;
-use crate::math::Rect;
-use crate::routes::{Field, Place, Stop, StopKind};
+use crate::routes::{Field, Stop, StopKind};
 
 /// Interval at which stops are updated, seconds.
 const UPDATE_S: f64 = 0.2;
@@ -55,19 +54,13 @@ impl Stops {
     /// The stops of the routes; stops of one name are one. People stand at least `keep_m` off walls where there is room.
     pub(in crate::crowd) fn new(environment: &Environment<'_>, keep_m: f64) -> Stops {
         let mut stops = Stops::default();
-        for (number, route) in environment.routes.iter().enumerate() {
+        for route in environment.routes {
             let mut of_route = Vec::new();
             for on_route in &route.stops {
                 let known = stops.states.iter().position(|state| state.stop.name == on_route.stop.name);
                 let stop = known.unwrap_or(stops.states.len());
                 if known.is_none() {
-                    let way = match (on_route.stop.spots.is_empty(), on_route.after_via.checked_sub(1)) {
-                        (false, Some(leg)) => {
-                            let leg = environment.navigation.ways[number].legs[leg];
-                            WayThere::Field(environment.navigation.fields[leg.field].clone())
-                        }
-                        _ => WayThere::From(starts_of(environment, &on_route.stop.name)),
-                    };
+                    let way = environment.navigation.stop_ways[stop].clone();
                     stops.states.push(StopState::new(environment, &on_route.stop, way, keep_m));
                 }
                 of_route.push(StopOnRoute {
@@ -194,7 +187,7 @@ impl Stops {
                 }
             }
             VisitState::Coming { queue } => {
-                let far_m = state.field.at(update.environment.ground(), p);
+                let far_m = state.way.field.at(update.environment.ground(), p);
                 if far_m > NEAR_M + state.reach_m() {
                     return;
                 }
@@ -318,7 +311,7 @@ impl Stops {
         let now = visitor.plan.last().map_or(0, |planned| stops[planned.stop].after_via);
         let next = visitor.plan.iter().rev().nth(1).map(|planned| stops[planned.stop]);
         if let Some(next) = next.filter(|next| next.after_via == now) {
-            return &self.states[next.stop].field;
+            return &self.states[next.stop].way.field;
         }
         let legs = &update.environment.navigation.ways[visitor.route].legs;
         &update.environment.navigation.fields[legs[now.min(legs.len() - 1)].field]
@@ -409,25 +402,6 @@ fn let_nearest_go(queues: &mut [Queue], update: &StopsUpdate<'_>) {
             queues[lane].order.push_front(id);
         }
     }
-}
-
-/// The cells that people come from to a stop: starts of routes, and places that they passed before.
-fn starts_of(environment: &Environment<'_>, name: &str) -> Vec<usize> {
-    let lattice = &environment.ground().lattice;
-    let mut cells = Vec::new();
-    for (route, way) in environment.routes.iter().zip(&environment.navigation.ways) {
-        for on_route in route.stops.iter().filter(|on_route| on_route.stop.name == name) {
-            let before = on_route.after_via.checked_sub(1).and_then(|via| route.via.get(via));
-            match before.map(|via| via.place) {
-                Some(Place::Area([min, max])) => cells.extend(lattice.cells_within(Rect { min, max })),
-                _ => cells.extend(&way.start_cells),
-            }
-        }
-    }
-    cells.retain(|&cell| environment.ground().is_walkable(cell));
-    cells.sort_unstable();
-    cells.dedup();
-    cells
 }
 
 /// A visitor who has reached the tail of a queue.

@@ -1,11 +1,9 @@
-use std::sync::Arc;
-
 use super::queue::Queue;
 use super::standing::{self, StandingArea};
 use super::visit::StopTally;
 use crate::crowd::environment::Environment;
 use crate::math::Vec2;
-use crate::routes::{Field, Flow, Stop, StopKind};
+use crate::routes::{Field, Stop, StopKind, StopWay};
 
 /// Distance to the side, and back, over which people leave a counter, metres.
 const ASIDE_M: f64 = 0.95;
@@ -20,22 +18,11 @@ const DETOUR_M: f64 = 2.0;
 /// Walking distance to the middle of a room, beyond half its size, from which people go to their spot, metres.
 const ROOM_MARGIN_M: f64 = 0.5;
 
-/// How people come to a stop.
-pub(super) enum WayThere {
-    /// From these cells.
-    From(Vec<usize>),
-    /// Into a room, along the route's field to its middle.
-    Field(Arc<Field>),
-}
-
 /// A stop with the people at it.
 #[derive(Debug)]
 pub(super) struct StopState {
     pub(super) stop: Stop,
-    /// Walking distance to it.
-    pub(super) field: Arc<Field>,
-    /// Flow that spreads people over the ways there; routes lead into rooms by themselves.
-    pub(super) flow: Option<Flow>,
+    pub(super) way: StopWay,
     pub(super) kind: Service,
     pub(super) tally: StopTally,
 }
@@ -51,7 +38,7 @@ pub(super) enum Service {
 
 impl StopState {
     /// A stop that people come to on this way.
-    pub(super) fn new(environment: &Environment<'_>, stop: &Stop, way: WayThere, keep_m: f64) -> StopState {
+    pub(super) fn new(environment: &Environment<'_>, stop: &Stop, way: StopWay, keep_m: f64) -> StopState {
         let place = |&p: &Vec2| {
             let place_m = standing::off_walls(environment, p, keep_m);
             (place_m, stop.facing_from(place_m))
@@ -66,20 +53,9 @@ impl StopState {
                 Service::Queues(stop.places_m.iter().map(lane).collect())
             }
         };
-        let ground = environment.ground();
-        let to_stop = || Arc::new(Field::to(ground, &stop.cells(ground)));
-        let (field, flow) = match way {
-            WayThere::Field(field) => (field, None),
-            WayThere::From(starts) => {
-                let field = to_stop();
-                let flow = Flow::new(ground, &starts, &field);
-                (field, Some(flow))
-            }
-        };
         StopState {
             stop: stop.clone(),
-            flow,
-            field,
+            way,
             kind,
             tally: StopTally { name: stop.name.clone(), in_line: stop.kind.has_line(), ..StopTally::default() },
         }
@@ -96,7 +72,7 @@ impl StopState {
     /// Whether a person at `p` has come into the room that the stop is.
     pub(super) fn is_entered(&self, environment: &Environment<'_>, p: Vec2) -> bool {
         let is_room = !self.stop.spots.is_empty();
-        is_room && self.field.at(environment.ground(), p) < self.reach_m() + ROOM_MARGIN_M
+        is_room && self.way.field.at(environment.ground(), p) < self.reach_m() + ROOM_MARGIN_M
     }
 
     /// Removes a person who has left the crowd.
