@@ -24,6 +24,9 @@ const THICKEST: f64 = 0.03;
 const LEAST_AREA: f64 = 0.01;
 /// Least length of the light lines between areas, as a share of the image's longer side.
 const LEAST_LINES: f64 = 0.3;
+/// By how much grey walls are darker than paper at least, and the greatest share of them that is thicker than walls.
+const GREY_CONTRAST: u8 = 60;
+const MOST_THICK: f64 = 0.2;
 /// Least share of pixels on floors seen from above that differ from the one before, and their darkest shade: what is darker
 /// is ink.
 const UNEVEN: f64 = 0.5;
@@ -47,7 +50,7 @@ pub(super) fn walls(width: usize, height: usize, pixel: impl Fn(usize) -> [u8; 3
     let is_area = |at: usize| !is_paper(pixel(at), paper);
     let is_dark = |at: usize| luma(pixel(at)) < LIGHTEST_INK;
     if let Some(Between { mask, .. }) = walls_between(width, height, is_area, is_dark) {
-        return Some(Walls { mask, rendered: false });
+        return (!has_grey_walls(width, height, &pixel, paper)).then_some(Walls { mask, rendered: false });
     }
     let samples = || (1..width * height).step_by((width * height).div_ceil(SAMPLES)).filter(|&at| is_area(at));
     let uneven = samples().filter(|&at| pixel(at) != pixel(at - 1)).count();
@@ -77,6 +80,20 @@ pub(super) fn walls(width: usize, height: usize, pixel: impl Fn(usize) -> [u8; 3
         (0..mask.len()).filter(|&at| is_white(at)).for_each(|at| mask[at] = 0);
     }
     Some(Walls { mask, rendered: true })
+}
+
+/// Whether what is grey and darker than paper runs between the areas as walls do: thin, long and round places.
+fn has_grey_walls(width: usize, height: usize, pixel: impl Fn(usize) -> [u8; 3], paper: [u8; 3]) -> bool {
+    let darkest_area = luma(paper).saturating_sub(GREY_CONTRAST);
+    let is_grey = |colour: [u8; 3]| {
+        let (most, least) = (colour.into_iter().max().unwrap_or(0), colour.into_iter().min().unwrap_or(0));
+        most - least <= PAPER_SPREAD && luma(colour) <= darkest_area
+    };
+    let grey: Vec<u8> = (0..width * height).map(|at| u8::from(is_grey(pixel(at)))).collect();
+    let radius = 0.5 * THICKEST * width.max(height) as f64;
+    let thick = dilate(&erode(&grey, width, radius), width, radius);
+    let count = |mask: &[u8]| mask.iter().filter(|&&m| m != 0).count() as f64;
+    count(&thick) <= MOST_THICK * count(&grey) && tones::encloses(&grey, width)
 }
 
 /// The tone in the emptiest part of the histogram between floors and white walls.
@@ -190,6 +207,13 @@ mod tests {
     #[test]
     fn drawings_with_dark_walls_are_none_of_these() {
         assert!(walls(200, 120, map([90; 3])).is_none());
+        // Walls of mid grey around rooms of colour, as on maps of museums.
+        let room = map([255; 3]);
+        let grey = |at: usize| match (at % 200, at / 200) {
+            (16..184, 16..104) if room(at) == [255; 3] => [140, 141, 144],
+            _ => room(at),
+        };
+        assert!(walls(200, 120, grey).is_none());
         assert!(walls(200, 120, |_| [255; 3]).is_none());
     }
 }

@@ -44,6 +44,8 @@ pub(super) struct Drawing {
     pub(super) scanned: bool,
     /// Whether it is a plain image with the greys of a robot's map.
     pub(super) looks_like_map: bool,
+    /// Side of the squares of a grid over all floors, pixels.
+    pub(super) square_px: Option<f64>,
 }
 
 /// Whether a mask has a pixel; an empty one has none.
@@ -87,6 +89,7 @@ pub(super) fn of_map(image: DynamicImage, greys: &Greys, options: &PlanOptions) 
         surely_dark: SURELY_DARK,
         scanned: true,
         looks_like_map: false,
+        square_px: None,
     }
 }
 
@@ -180,6 +183,7 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
         surely_dark: SURELY_DARK,
         scanned: looks_like_map,
         looks_like_map,
+        square_px: None,
     };
     if looks_like_map {
         drawing.dark = lightness.iter().map(|&l| u8::from(l < threshold)).collect();
@@ -253,6 +257,7 @@ fn of_areas(width: usize, walls: &[u8], mut lightness: Vec<u8>) -> Drawing {
         surely_dark: SURELY_DARK,
         scanned: false,
         looks_like_map: false,
+        square_px: None,
     }
 }
 
@@ -281,7 +286,9 @@ fn drop_paving(drawing: &mut Drawing) {
             () => 0,
         });
         let mut ink = paving::Ink { dark: dark.collect(), width: drawing.width };
-        let mut lines = paving::lines(&ink);
+        let paving = paving::find(&ink);
+        drawing.square_px = drawing.square_px.or(paving.square_px);
+        let mut lines = paving.lines;
         // Of planks and tiles there is nothing left then.
         lines.iter().for_each(|&at| ink.dark[at] = 0);
         lines.extend(hatching::lines(&ink));

@@ -10,7 +10,7 @@ use super::likely::{Likelihood, Usual};
 use super::scale::{self, PlanScale, ScaleSource, rounded};
 use super::symbols::{FEWEST_STROKES, groups};
 use super::thick;
-use super::{ASSUMED_M_PER_PX, understand};
+use super::{ASSUMED_M_PER_PX, gap_widths, understand};
 use crate::math::ln;
 
 /// How far one scale may be from another to be the same, and how many are tried: a sheet may be 2.5 times as wide as its
@@ -46,6 +46,15 @@ const FEW_FITTING: f64 = 3.0;
 /// How many times as many leaves and gaps decide together, and beside how many times as many gaps leaves are few.
 const BOTH: f64 = 1.5;
 const FEW_LEAVES: f64 = 4.0;
+/// Radius of the rounded corners of chairs and tables at most, pixels, where doors are drawn as finely.
+const CHAIR_PX: f64 = 22.0;
+/// Widths of gaps that nobody passes, metres, which show that the scale is wrong if there are so many of them, and how sure
+/// the other one is.
+const NARROWEST_M: [f64; 2] = [0.3, 0.6];
+const FEWEST_NARROW: usize = 3;
+const BY_PASSAGES: f64 = 0.6;
+/// Width of narrow passages without doors, metres.
+const PASSAGE_M: f64 = 1.05;
 /// Greatest thickness of a stroke of colour, pixels, and in the thickness of walls that are drawn thick.
 const COLOURED_STROKE_PX: f64 = 4.0;
 const STROKE_IN_WALLS: f64 = 0.4;
@@ -131,17 +140,28 @@ pub(super) fn guess(drawing: &Drawing, dots_per_inch: Option<f64>) -> (f64, Plan
         Some(largest) => Some(LEAF.metres / largest),
         None => (!has_doors || measures.has_few_leaves()).then_some(likely.value),
     };
+    // The rounded corners of many chairs outnumber doors that are drawn as finely.
+    let are_small = measures.are_small(likely.value);
     // Leaves that hang in gaps of walls are told from other arcs; arcs that are drawn by hand are told by the gaps alone.
     let (hung, weight) = match (measures.wall, other) {
         (Some(_), Some(scale)) => (understand::leaf_lengths(drawing, scale), if has_doors { HUNG_WEIGHT } else { 1.0 }),
-        (None, _) if measures.fitting(likely.value) < FEW_FITTING => {
-            (measures.larger_side().map_or(Vec::new(), |px| hung_leaves(drawing, px)), HUNG_WEIGHT)
+        (None, _) if measures.fitting(likely.value) < FEW_FITTING || are_small => {
+            (measures.larger_side().map_or(Vec::new(), |px| hung_leaves(drawing, px, likely.value)), HUNG_WEIGHT)
         }
         _ => (Vec::new(), 1.0),
     };
     if !hung.is_empty() {
+        if are_small {
+            measures.leaves.clear();
+        }
         measures.leaves.extend(hung.into_iter().map(|length| (length, weight)));
         likely = measures.likelihood().guess();
+    }
+    let by_passages = measures.by_passages(likely.value);
+    if let Some(scale) = by_passages {
+        likely.range[1] = likely.range[1].max(scale / BY_PASSAGES);
+        likely.range[0] = scale * BY_PASSAGES;
+        (likely.value, likely.sureness) = (scale, likely.sureness * BY_PASSAGES);
     }
     if let Some((count, width)) = measures.doors(likely.value) {
         // Where most gaps are none of doors, as in scans, some of a width say little.
@@ -155,7 +175,8 @@ pub(super) fn guess(drawing: &Drawing, dots_per_inch: Option<f64>) -> (f64, Plan
         let number = measures.number(likely.value);
         let evidence = format!("{number} doors about {width:.0} pixels wide, taken for {:.2} m", width * likely.value);
         let [low, high] = likely.range;
-        if likely.sureness < UNSURE && (low..=high).contains(&ASSUMED_M_PER_PX) {
+        let is_unsure = likely.sureness < UNSURE && by_passages.is_none();
+        if is_unsure && (low..=high).contains(&ASSUMED_M_PER_PX) {
             return scale::found(ASSUMED_M_PER_PX, ScaleSource::Assumed, likely.sureness, likely.range, evidence);
         }
         let near = [1.0 - PRINTED_REACH, 1.0 + PRINTED_REACH].map(|share| likely.value * share);
@@ -167,8 +188,9 @@ pub(super) fn guess(drawing: &Drawing, dots_per_inch: Option<f64>) -> (f64, Plan
         let value = if is_usual { ASSUMED_M_PER_PX } else { rounded(likely.value) };
         return scale::found(value, ScaleSource::Guessed, likely.sureness, likely.range, evidence);
     }
-    if let Some(of_cells) = scale::of_cells(drawing.width, &drawing.lightness) {
-        return of_cells;
+    let of_cells = || scale::of_cells(drawing.width, &drawing.lightness);
+    if let Some(of_map) = scale::of_squares(drawing.square_px).or_else(of_cells) {
+        return of_map;
     }
     let evidence = measures.wall.map_or(String::new(), |wall| format!("walls about {wall:.0} pixels thick"));
     if let Some((value, print)) = printed(likely.range).filter(|_| measures.wall.is_some()) {
@@ -186,15 +208,15 @@ pub(super) fn guess(drawing: &Drawing, dots_per_inch: Option<f64>) -> (f64, Plan
     scale::found(rounded(likely.value), ScaleSource::Guessed, likely.sureness, likely.range, evidence)
 }
 
-/// Lengths of the leaves that hang in the gaps of walls, pixels, by the size of a building at which most of them are doors.
-fn hung_leaves(drawing: &Drawing, building_px: f64) -> Vec<f64> {
-    let doors = |building_m: f64| -> Vec<f64> {
-        let scale = building_m / building_px;
+/// Lengths of the leaves that hang in the gaps of walls, pixels, by the size of a building, or the scale, at which most of them are doors.
+fn hung_leaves(drawing: &Drawing, building_px: f64, likely: f64) -> Vec<f64> {
+    let doors = |scale: f64| -> Vec<f64> {
         let mut hung = understand::leaf_lengths(drawing, scale);
         hung.retain(|&px| is_door_width(px, scale));
         hung
     };
-    let mut found: Vec<Vec<f64>> = BUILDINGS_M.into_iter().map(doors).collect();
+    let mut found: Vec<Vec<f64>> =
+        BUILDINGS_M.into_iter().map(|metres| metres / building_px).chain([likely]).map(doors).collect();
     found.sort_by_key(Vec::len);
     found.pop().filter(|hung| hung.len() as f64 >= FEWEST_LEAVES).unwrap_or_default()
 }
@@ -317,10 +339,13 @@ impl Measures {
         };
         // Between thin lines there are gaps of all kinds.
         let doorways_px = match walls.thickness {
-            None => coloured_doors(drawing),
+            None => gap_widths::coloured_doors(drawing),
             Some(_) => {
-                let upright = doorways(&turned(&walls.mask, drawing.width), drawing.height, |y, x| is_ink(x, y));
-                let mut all = doorways(&walls.mask, drawing.width, is_ink);
+                let upright =
+                    gap_widths::doorways(&gap_widths::turned(&walls.mask, drawing.width), drawing.height, |y, x| {
+                        is_ink(x, y)
+                    });
+                let mut all = gap_widths::doorways(&walls.mask, drawing.width, is_ink);
                 all.extend(upright);
                 all
             }
@@ -380,6 +405,22 @@ impl Measures {
         self.leaves.iter().filter(|leaf| is_door_width(leaf.0, scale)).map(|leaf| leaf.1).sum()
     }
 
+    /// Whether the leaves that are doors by a scale are no larger than the corners of chairs.
+    fn are_small(&self, scale: f64) -> bool {
+        self.leaves.iter().filter(|leaf| is_door_width(leaf.0, scale)).all(|leaf| leaf.0 < CHAIR_PX)
+    }
+
+    /// A larger scale, where nobody could pass several gaps between walls by this one: the narrowest are doors, and the others
+    /// openings without any, as on maps of museums. `None` where leaves are drawn.
+    fn by_passages(&self, scale: f64) -> Option<f64> {
+        let is_narrow = |px: f64| (NARROWEST_M[0]..NARROWEST_M[1]).contains(&(px * scale));
+        let mut narrow: Vec<f64> =
+            self.doorways.iter().filter(|&&(px, weight)| weight >= 1.0 && is_narrow(px)).map(|gap| gap.0).collect();
+        narrow.sort_by(f64::total_cmp);
+        let is_found = self.leaves.is_empty() && narrow.len() >= FEWEST_NARROW;
+        is_found.then(|| PASSAGE_M / narrow[narrow.len() / 2])
+    }
+
     /// Whether there are few leaves, at all or for so many gaps.
     fn has_few_leaves(&self) -> bool {
         let [leaves, gaps] = [&self.leaves, &self.doorways].map(|all| all.iter().map(|door| door.1).sum::<f64>());
@@ -429,140 +470,4 @@ fn without_letters(dark: &[u8], width: usize) -> (Vec<u8>, Option<f64>) {
     heights.sort_unstable();
     let height = heights.get(heights.len() / 2).filter(|_| heights.len() >= 2 * FEWEST_STROKES).map(|&h| f64::from(h));
     (rest, height)
-}
-
-/// The picture with x and y exchanged.
-fn turned(mask: &[u8], width: usize) -> Vec<u8> {
-    let height = mask.len() / width;
-    let mut turned = vec![0; mask.len()];
-    for (y, row) in mask.chunks_exact(width).enumerate() {
-        row.iter().enumerate().filter(|(_, m)| **m != 0).for_each(|(x, &m)| turned[x * height + y] = m);
-    }
-    turned
-}
-
-/// A stretch of white between two walls in rows that follow each other.
-struct Gap {
-    from: usize,
-    to: usize,
-    first: usize,
-    last: usize,
-}
-
-/// Widths of the gaps in walls that run along the rows, with their weights. `is_ink` is of the drawing with its strokes.
-fn doorways(walls: &[u8], width: usize, is_ink: impl Fn(usize, usize) -> bool) -> Vec<(f64, f64)> {
-    const LEAST_PX: usize = 6;
-    let height = walls.len() / width;
-    let most = width / 4;
-    let mut doors = Vec::new();
-    let mut open: Vec<Gap> = Vec::new();
-    let mut close = |gap: Gap| {
-        let weight = doorway(walls, width, &gap, &is_ink);
-        if weight > 0.0 {
-            doors.push(((gap.to - gap.from) as f64, weight));
-        }
-    };
-    for y in 0..height {
-        let row = &walls[y * width..(y + 1) * width];
-        let mut next: Vec<Gap> = Vec::new();
-        let mut x = row.iter().position(|&m| m != 0).unwrap_or(width);
-        while x < width {
-            let Some(from) = row[x..].iter().position(|&m| m == 0).map(|k| x + k) else { break };
-            let Some(to) = row[from..].iter().position(|&m| m != 0).map(|k| from + k) else { break };
-            if (LEAST_PX..=most).contains(&(to - from)) {
-                let same = |gap: &Gap| gap.from.abs_diff(from) <= 1 && gap.to.abs_diff(to) <= 1;
-                match open.iter().position(same) {
-                    Some(k) => {
-                        let gap = open.swap_remove(k);
-                        next.push(Gap { from: gap.from.max(from), to: gap.to.min(to), last: y, ..gap });
-                    }
-                    None => next.push(Gap { from, to, first: y, last: y }),
-                }
-            }
-            x = to;
-        }
-        open.drain(..).for_each(&mut close);
-        open = next;
-        open.sort_by_key(|gap| gap.from);
-    }
-    open.into_iter().for_each(close);
-    doors
-}
-
-/// The weight of a gap as a door: 1 between two ends of walls, 1/2 between an end and a wall, 0 for what is no door.
-fn doorway(walls: &[u8], width: usize, gap: &Gap, is_ink: impl Fn(usize, usize) -> bool) -> f64 {
-    const BEYOND: usize = 3;
-    let height = walls.len() / width;
-    let (across, deep) = (gap.to - gap.from, gap.last - gap.first + 1);
-    if deep * 5 > across * 4 || gap.first < BEYOND || gap.last + BEYOND >= height {
-        return 0.0;
-    }
-    let free = |x: usize, y: usize| walls[y * width + x] == 0;
-    let reach = (deep / 2).max(2);
-    let (above, below) = (gap.first - BEYOND, gap.last + BEYOND);
-    let is_end = |columns: std::ops::Range<usize>| columns.into_iter().all(|x| free(x, above) && free(x, below));
-    let left = gap.from > reach && is_end(gap.from - reach - 1..gap.from - 1);
-    let right = gap.to + reach < width && is_end(gap.to + 1..gap.to + reach + 1);
-    // Walls run on from the gap: what has only corners there are slanting lines and the grain of scans.
-    let runs_on = |right: bool| {
-        (gap.first.saturating_sub(1)..=gap.last + 1).any(|y| {
-            let row = &walls[y * width..(y + 1) * width];
-            let run = match right {
-                true => row[gap.to..].iter().take_while(|&&m| m != 0).count(),
-                false => row[..gap.from].iter().rev().take_while(|&&m| m != 0).count(),
-            };
-            run * 10 >= across * 3 && run >= deep
-        })
-    };
-    let (left, right) = (left && runs_on(false), right && runs_on(true));
-    // It must lead somewhere on both sides.
-    let middle = (gap.from + gap.to) / 2;
-    if !free(middle, above) || !free(middle, below) {
-        return 0.0;
-    }
-    // Lines along the wall from end to end are a window; a single one is a threshold.
-    let is_line = |y: usize| {
-        let dark = (gap.from + 1..gap.to - 1).filter(|&x| is_ink(x, y)).count();
-        dark * 10 >= (across - 2) * 9
-    };
-    let rows = (gap.first.saturating_sub(1)..=gap.last + 1).map(is_line).collect::<Vec<_>>();
-    let lines = rows.iter().enumerate().filter(|&(k, &line)| line && (k == 0 || !rows[k - 1])).count();
-    let filled = rows.iter().filter(|&&line| line).count() * 2 > rows.len();
-    match (lines >= 2 || filled, left, right) {
-        (false, true, true) => 1.0,
-        (false, true, false) | (false, false, true) => 0.5,
-        _ => 0.0,
-    }
-}
-
-/// Lengths of the bars of colour over the gaps of thin lines, with their weights. Those in the blue of panes are windows.
-fn coloured_doors(drawing: &Drawing) -> Vec<(f64, f64)> {
-    const THICKEST_PX: u32 = 12;
-    const SLENDER: u32 = 3;
-    const FILLED: f64 = 0.8;
-    /// How far beyond its ends the wall goes on, pixels: edges are soft.
-    const BEYOND_PX: usize = 3;
-    let width = drawing.width;
-    let pieces = Components::of(&drawing.without_panes(&drawing.coloured), width, 1, Neighbours::Eight);
-    let length = |bar: &Component| {
-        let [w, h] = bar.size();
-        let (length, thick) = (w.max(h), w.min(h));
-        let is_bar = thick <= THICKEST_PX && length >= SLENDER * thick && bar.area as f64 >= FILLED * f64::from(w * h);
-        let along = usize::from(h > w);
-        let step = [1, width][along];
-        let middle = [0, 1].map(|axis| (bar.min[axis] + bar.end[axis]) as usize / 2);
-        let place =
-            |at: u32| if along == 0 { middle[1] * width + at as usize } else { at as usize * width + middle[0] };
-        let is_wall = |at: Option<usize>| at.is_some_and(|at| drawing.dark.get(at) == Some(&1));
-        let run = |at: &dyn Fn(usize) -> Option<usize>| {
-            let first = (0..BEYOND_PX).find(|&k| is_wall(at(k)))?;
-            Some((first..).take_while(|&k| is_wall(at(k))).count())
-        };
-        let before = run(&|k| place(bar.min[along]).checked_sub((k + 1) * step));
-        let after = run(&|k| Some(place(bar.end[along]) + k * step));
-        // One end may lie in a corner.
-        let goes_on = before.zip(after).is_some_and(|(a, b)| a.max(b) >= (SLENDER * thick) as usize);
-        (is_bar && goes_on).then_some((f64::from(length), 1.0))
-    };
-    pieces.all.iter().filter_map(length).collect()
 }

@@ -6,11 +6,13 @@
 use crate::math::{Vec2, sin_cos, vec2};
 
 mod arcs;
+mod box_doors;
 mod class;
 mod clearance;
 mod colour;
 mod colour_areas;
 mod furnished;
+mod gap_widths;
 mod guess;
 mod hatching;
 mod components;

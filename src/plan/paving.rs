@@ -33,6 +33,10 @@ const FEWEST_AROUND: usize = 4;
 const FEWEST_MIDDLES: usize = 6;
 /// Fewest cells of a covering that another room has as well.
 const FEWEST_IN_SMALL_ROOM: usize = 3;
+/// Least side of the squares of a grid, pixels; the fewest, and fewest lines between two of them; how well they agree on where it lies, 0 to 1.
+const LEAST_SQUARE_PX: f64 = 14.0;
+const FEWEST_SQUARES: usize = 24;
+const ON_GRID: f64 = 0.8;
 /// How far lines are followed from between two whole cells to what cuts the covering, in longer sides of a cell.
 const FOLLOWED: f64 = 3.0;
 /// Stretch of a line before its end that is left, pixels: it may be the outline of what stands there.
@@ -47,6 +51,8 @@ struct Cell {
     sides: [f64; 2],
     /// Whether it lies along the image's rows rather than its columns.
     lies: bool,
+    /// Its first column and row.
+    min: [u32; 2],
 }
 
 impl Cell {
@@ -96,12 +102,21 @@ impl Ink {
     }
 }
 
-/// Pixels of the lines of floor coverings.
-pub(super) fn lines(ink: &Ink) -> Vec<usize> {
+/// Floor coverings of a drawing.
+#[derive(Default)]
+pub(super) struct Paving {
+    /// Pixels of their lines.
+    pub lines: Vec<usize>,
+    /// Side of the squares of a grid over all floors, with the line between two, pixels.
+    pub square_px: Option<f64>,
+}
+
+/// Finds the floor coverings.
+pub(super) fn find(ink: &Ink) -> Paving {
     if ink.dark.len() > LARGEST_PX {
-        return Vec::new();
+        return Paving::default();
     }
-    let Some((cells, label)) = cells(ink) else { return Vec::new() };
+    let Some((cells, label)) = cells(ink) else { return Paving::default() };
     let between = between(&label, ink, &cells);
     let covering = coverings(&cells, &between);
     let straight: BTreeMap<[usize; 2], Straight> = between
@@ -144,7 +159,38 @@ pub(super) fn lines(ink: &Ink) -> Vec<usize> {
             }
         }
     }
-    found
+    Paving { lines: found, square_px: square(&cells, &between) }
+}
+
+/// The side of the squares of a grid over all floors and of the line between two, if there is one.
+fn square(cells: &[Cell], between: &BTreeMap<[usize; 2], Line>) -> Option<f64> {
+    let is_square = |cell: &Cell| {
+        let [a, b] = cell.sides;
+        a >= LEAST_SQUARE_PX && b - a <= 0.5 * ALIKE * b + 1.0 && cell.area >= (1.0 - ALIKE) * a * b
+    };
+    let mut squares: Vec<usize> = (0..cells.len()).filter(|&k| is_square(&cells[k])).collect();
+    squares.sort_by(|&a, &b| cells[a].sides[1].total_cmp(&cells[b].sides[1]).then(a.cmp(&b)));
+    let alike = |k: usize| {
+        let most = cells[squares[k]].sides[1] * (1.0 + 0.5 * ALIKE) + 1.0;
+        squares[k..].partition_point(|&other| cells[other].sides[1] <= most)
+    };
+    let first = (0..squares.len()).max_by_key(|&k| (alike(k), k))?;
+    let squares = &squares[first..first + alike(first)];
+    let are_squares = |pair: &[usize; 2]| pair.iter().all(|k| squares.contains(k));
+    let lines: Vec<&Line> = between.iter().filter(|(pair, _)| are_squares(pair)).map(|(_, line)| line).collect();
+    if squares.len().min(lines.len()) < FEWEST_SQUARES {
+        return None;
+    }
+    let (pixels, crossed) = lines.iter().fold((0, 0), |sum, line| (sum.0 + line.pixels.len(), sum.1 + line.crossed));
+    let mean = squares.iter().map(|&k| cells[k].area.sqrt()).sum::<f64>() / squares.len() as f64;
+    let side = mean + pixels as f64 / crossed.max(1) as f64;
+    // All rooms have one grid.
+    let is_on_grid = |axis: usize| {
+        let turn = |k: &usize| sin_cos(std::f64::consts::TAU * f64::from(cells[*k].min[axis]) / side);
+        let sum = squares.iter().map(turn).fold([0.0; 2], |[a, b], (sine, cosine)| [a + sine, b + cosine]);
+        (sum[0] * sum[0] + sum[1] * sum[1]).sqrt() >= ON_GRID * squares.len() as f64
+    };
+    (is_on_grid(0) && is_on_grid(1)).then_some(side)
 }
 
 /// The two directions at right angles of the lines of each covering, where they have such.
@@ -197,7 +243,7 @@ fn cells(ink: &Ink) -> Option<(Vec<Cell>, Vec<u32>)> {
             let area = piece.area as f64;
             // Planks of two rooms that meet in a door make one cell with a step in it.
             let lesser = if w.max(h) >= LONG * w.min(h) { area / w.max(h) } else { w.min(h) };
-            cells.push(Cell { area, sides: [lesser, w.max(h)], lies: w > h });
+            cells.push(Cell { area, sides: [lesser, w.max(h)], lies: w > h, min: piece.min });
         }
         for run in all.runs(piece) {
             let row = run.y as usize * ink.width;

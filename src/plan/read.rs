@@ -11,8 +11,8 @@ use super::scale::{PlanScale, ScaleSource};
 use super::tones::USUAL_THRESHOLD;
 use super::vector::{self, Layers, Vector};
 use super::{
-    Drawn, FloorPlan, PlanClass, PlanError, PlanOptions, Pose, corrections, crop, doors, doubts, guess, image_file,
-    openings, printed, regions, ros_map, scale, symbols, understand,
+    Drawn, FloorPlan, PlanClass, PlanError, PlanOptions, Pose, box_doors, corrections, crop, doors, doubts, guess,
+    image_file, openings, printed, regions, ros_map, scale, symbols, understand,
 };
 use crate::math::vec2;
 
@@ -215,6 +215,7 @@ fn find_floor(
         symbols::drop_specks(&mut drawing, metres_per_pixel, options.speck_m);
         if options.drop_annotation && !drawing.scanned {
             drawing.coloured = Vec::new();
+            box_doors::open(&mut drawing);
             doors::drop_doors(&mut drawing, metres_per_pixel);
         }
     }

@@ -96,6 +96,15 @@ pub(super) fn of_cells(width: usize, lightness: &[u8]) -> Option<(f64, PlanScale
     Some(found(CELL_M, ScaleSource::Assumed, 0.2, [0.5 * CELL_M, 2.0 * CELL_M], evidence))
 }
 
+/// The scale of a map for games at the table, whose floor is of squares of five feet.
+pub(super) fn of_squares(square_px: Option<f64>) -> Option<(f64, PlanScale)> {
+    const SQUARE_M: f64 = 1.524;
+    let px = square_px?;
+    let value = rounded(SQUARE_M / px);
+    let evidence = format!("squares of {px:.0} pixels on the floor, taken for 5 feet as on maps of games");
+    Some(found(value, ScaleSource::Guessed, 0.6, [0.6 * value, 1.05 * value], evidence))
+}
+
 /// Returns the metres per pixel that options or the map give. Options override the map.
 pub(super) fn given(options: &PlanOptions, from_map: Option<f64>) -> Result<Option<(f64, PlanScale)>, PlanError> {
     let asked = [options.metres_per_pixel.is_some(), options.scale.is_some(), options.width_m.is_some()];

@@ -112,6 +112,9 @@ impl Coarse<u8> {
     fn uneven_range(&self) -> Option<[u8; 2]> {
         let mut sorted = self.tones.clone();
         sorted.sort_unstable();
+        // Masses of black are no paper in the shade.
+        let darkest = (f32::from(sorted[(sorted.len() - 1) * 98 / 100]) * DARKEST_SHARE) as u8;
+        sorted.drain(..sorted.partition_point(|&tone| tone < darkest));
         let at = |share: f64| sorted[((sorted.len() - 1) as f64 * share) as usize];
         let range = [at(0.02), at(0.98)];
         if range[1] - range[0] < LEAST_RANGE {
@@ -123,7 +126,11 @@ impl Coarse<u8> {
                 let tone = self.tones[y * self.width + x];
                 for (dx, dy) in [(STEP, 0), (0, STEP)] {
                     if x + dx < self.width && y + dy < self.height {
-                        let step = tone.abs_diff(self.tones[(y + dy) * self.width + x + dx]);
+                        let other = self.tones[(y + dy) * self.width + x + dx];
+                        if tone.min(other) < darkest {
+                            continue;
+                        }
+                        let step = tone.abs_diff(other);
                         all += 1;
                         changing += usize::from(step > 0);
                         smooth += usize::from((1..=SMOOTH_STEP).contains(&step));

@@ -159,6 +159,7 @@ mod tests {
             surely_dark: SURELY_DARK,
             scanned: false,
             looks_like_map: false,
+            square_px: None,
         }
     }
 

@@ -29,8 +29,9 @@ const WHITE: u8 = 230;
 const LITTLE_INK: usize = 12;
 /// Cells along the image's longer side in which long pieces are counted.
 const CELLS: usize = 48;
-/// Share of a grey beside dark pixels from which it is their soft edge.
+/// Share of a grey beside darker pixels from which it is their soft edge, and by how much those are darker at least.
 const RIM_SHARE: f64 = 0.75;
+const EDGE_CONTRAST: u8 = 60;
 /// Half the width of a tone's peak in the histogram.
 const PEAK: usize = 5;
 /// Least difference between paper and ink.
@@ -81,8 +82,7 @@ pub(super) fn is_inverted(width: usize, lightness: &[u8], coloured: &[u8]) -> bo
     }
     let mask: Vec<u8> =
         lightness.iter().enumerate().map(|(at, &l)| u8::from(is_plain(coloured, at) && is_light(l))).collect();
-    let net = Net::of(&mask, width);
-    net.is_large(width, height) && net.enclosed() >= ENCLOSED_SHARE
+    encloses(&mask, width)
 }
 
 /// Whether walls are of saturated colour: what is dark and coloured is as thin as walls and covers more of the image than
@@ -122,6 +122,12 @@ pub(super) fn has_lines(mask: &[u8], width: usize) -> bool {
     Net::of(mask, width).is_large(width, mask.len() / width)
 }
 
+/// The same where they are round places too.
+pub(super) fn encloses(mask: &[u8], width: usize) -> bool {
+    let net = Net::of(mask, width);
+    net.is_large(width, mask.len() / width) && net.enclosed() >= ENCLOSED_SHARE
+}
+
 fn is_plain(coloured: &[u8], at: usize) -> bool {
     coloured.is_empty() || coloured[at] == 0
 }
@@ -159,15 +165,17 @@ pub(super) fn wall_threshold(width: usize, lightness: &[u8], coloured: &[u8]) ->
     let is_dark = |l: u8| l < USUAL_THRESHOLD;
     let dark_net = net_of(&is_dark);
     let dark_lines = thickness(width, lightness, |at| is_dark(lightness[at]), is_dark);
-    // The soft edges of dark lines are no grey walls.
-    let is_rim_of_dark = |is_grey: &dyn Fn(u8) -> bool| {
-        let (mut count, mut at_dark) = (0usize, 0usize);
+    // The soft edges of darker lines are no grey walls.
+    let is_rim = |is_grey: &dyn Fn(u8) -> bool| {
+        let (mut count, mut at_line) = (0usize, 0usize);
         for at in (0..lightness.len()).filter(|&at| is_plain(coloured, at) && is_grey(lightness[at])) {
             let beside = [at.wrapping_sub(1), at + 1, at.wrapping_sub(width), at + width];
             count += 1;
-            at_dark += usize::from(beside.iter().any(|&b| lightness.get(b).is_some_and(|&l| is_dark(l))));
+            let darker = lightness[at].saturating_sub(EDGE_CONTRAST);
+            let is_line = |l: u8| is_dark(l) || l < darker;
+            at_line += usize::from(beside.iter().any(|&b| lightness.get(b).is_some_and(|&l| is_line(l))));
         }
-        at_dark as f64 > RIM_SHARE * count as f64
+        at_line as f64 > RIM_SHARE * count as f64
     };
     for grey in peaks {
         let threshold = ((grey + paper).div_ceil(2)) as u8;
@@ -177,7 +185,7 @@ pub(super) fn wall_threshold(width: usize, lightness: &[u8], coloured: &[u8]) ->
         else {
             continue;
         };
-        if lines > thickest || is_rim_of_dark(&near) {
+        if lines > thickest || is_rim(&near) {
             continue;
         }
         // Dark pieces are letters and the like, or lines thinner than the grey ones.

@@ -266,3 +266,56 @@ fn bars_of_colour_over_thin_lines_are_doors_and_windows() {
         }
     }
 }
+
+/// As a museum's map: rooms in pale colours between walls of mid grey, openings without doors, a hall behind a wide entrance.
+#[test]
+fn grey_walls_between_coloured_rooms_are_walls_and_narrow_openings_tell_the_scale() {
+    const PX_PER_M: f64 = 30.0;
+    const WALL: [u8; 3] = [140, 141, 144];
+    let mut canvas = Canvas::new([42.0, 30.0], [-3.0, -3.0], PX_PER_M, 0.0, [250, 250, 248]);
+    // Three galleries above, two beside the hall, a shop and three small rooms.
+    let rooms: [([Point; 2], [u8; 3]); 10] = [
+        ([[0.0, 0.0], [12.0, 8.0]], [213, 232, 245]),
+        ([[12.0, 0.0], [24.0, 8.0]], [224, 242, 216]),
+        ([[24.0, 0.0], [36.0, 8.0]], [250, 218, 222]),
+        ([[0.0, 8.0], [12.0, 16.0]], [252, 226, 202]),
+        ([[12.0, 8.0], [24.0, 24.0]], [242, 240, 235]),
+        ([[24.0, 8.0], [36.0, 16.0]], [254, 242, 196]),
+        ([[0.0, 16.0], [12.0, 24.0]], [240, 228, 214]),
+        ([[24.0, 16.0], [28.0, 24.0]], [232, 240, 224]),
+        ([[28.0, 16.0], [32.0, 24.0]], [224, 232, 242]),
+        ([[32.0, 16.0], [36.0, 24.0]], [230, 230, 230]),
+    ];
+    for ([min, max], colour) in rooms {
+        canvas.fill(&[rectangle(min, max)], colour);
+    }
+    for ([min, max], _) in rooms {
+        canvas.fill(&outline(&rectangle(min, max), 0.5), WALL);
+    }
+    // Middle, half the width, and whether the wall runs along the rows; the entrance last.
+    let openings = [
+        ([12.0, 4.0], 1.2, false),
+        ([24.0, 4.0], 1.2, false),
+        ([6.0, 8.0], 1.2, true),
+        ([18.0, 8.0], 1.2, true),
+        ([30.0, 8.0], 1.2, true),
+        ([12.0, 12.0], 1.2, false),
+        ([24.0, 12.0], 1.2, false),
+        ([12.0, 20.0], 1.2, false),
+        ([24.0, 20.0], 0.55, false),
+        ([30.0, 16.0], 0.55, true),
+        ([34.0, 16.0], 0.55, true),
+        ([32.0, 22.0], 0.55, false),
+        ([18.0, 24.0], 2.2, true),
+    ];
+    for ([x, y], half, is_level) in openings {
+        let reach = if is_level { [half, 0.26] } else { [0.26, half] };
+        canvas.fill(&[rectangle([x - reach[0], y - reach[1]], [x + reach[0], y + reach[1]])], [242, 240, 235]);
+    }
+    let plan = canvas.read(None);
+    let scale = plan.metres_per_pixel * PX_PER_M;
+    assert!((0.75..1.3).contains(&scale), "{scale:.3} times the scale: {}", plan.scale.evidence);
+    let shares = rooms.map(|([min, max], _)| canvas.floor_in(&plan, [min.map(|v| v + 0.6), max.map(|v| v - 0.6)]));
+    assert!(shares.iter().all(|&share| share > 0.95), "floor reached: {shares:.2?}");
+    assert!(plan.doors.len() >= openings.len() - 1, "{} doors", plan.doors.len());
+}

@@ -153,3 +153,51 @@ fn white_walls_between_floors_seen_from_above_are_walls() {
     }
     assert!(share([-0.6, 2.0]) == 0.0 && share([10.3, 7.0]) == 0.0, "paper around the flat");
 }
+
+/// As a map for games at the table: rooms cut out of black rock, a grid of squares of five feet, doors as white boxes.
+#[test]
+fn boxes_in_the_rock_of_a_dungeon_are_doors_and_its_squares_are_five_feet() {
+    const SQUARE_M: f64 = 1.524;
+    const PX_PER_M: f64 = 24.0;
+    // Column and row of the corners, in squares.
+    let rooms = [[2, 2, 8, 8], [11, 3, 17, 8], [3, 11, 9, 15], [13, 11, 18, 16], [2, 9, 3, 10]];
+    let corridors = [[8, 4, 11, 5], [9, 12, 13, 13], [14, 8, 15, 11], [5, 8, 6, 11]];
+    // Middle of a door, and whether people pass it along the rows.
+    let doors = [[8.15, 4.5, 1.0], [10.85, 4.5, 1.0], [9.15, 12.5, 1.0], [14.5, 10.85, 0.0], [5.5, 10.85, 0.0]];
+    let area = |[x0, y0, x1, y1]: [i32; 4]| {
+        let at = |x: i32, y: i32| [f64::from(x) * SQUARE_M, f64::from(y) * SQUARE_M];
+        [at(x0, y0), at(x1, y1)]
+    };
+    let mut canvas = Canvas::new([32.0, 28.0], [0.0; 2], PX_PER_M, 0.0, [236, 226, 205]);
+    canvas.fill(&[rectangle([2.0, 2.0], [29.0, 26.0])], [12; 3]);
+    let floors: Vec<[Point; 2]> = rooms[..4].iter().chain(&corridors).map(|&room| area(room)).collect();
+    canvas.fill(&floors.iter().map(|&[min, max]| rectangle(min, max)).collect::<Vec<_>>(), [247, 241, 224]);
+    for [min, max] in &floors {
+        for axis in 0..2 {
+            let count = ((max[axis] - min[axis]) / SQUARE_M).round() as usize;
+            for k in 1..count {
+                let (mut from, mut to) = (*min, *max);
+                from[axis] = min[axis] + k as f64 * SQUARE_M;
+                to[axis] = from[axis];
+                canvas.fill(&[line(from, to, 0.05)], [176, 164, 140]);
+            }
+        }
+    }
+    for [x, y, along] in doors {
+        let (at, half) = ([x * SQUARE_M, y * SQUARE_M], if along > 0.5 { [0.23, 0.76] } else { [0.76, 0.23] });
+        let door = rectangle([at[0] - half[0], at[1] - half[1]], [at[0] + half[0], at[1] + half[1]]);
+        canvas.fill(std::slice::from_ref(&door), [255; 3]);
+        canvas.fill(&outline(&door, 0.07), [12; 3]);
+    }
+    // A tomb has rock on no side.
+    let tomb = rectangle([6.0, 18.5], [7.0, 20.0]);
+    canvas.fill(&outline(&tomb, 0.07), [12; 3]);
+    let plan = canvas.read(None);
+    let scale = plan.metres_per_pixel * PX_PER_M;
+    assert!((scale - 1.0).abs() < 0.03, "{scale:.3} times the scale: {}", plan.scale.evidence);
+    let share = |[min, max]: [Point; 2]| canvas.floor_in(&plan, [min.map(|v| v + 0.25), max.map(|v| v - 0.25)]);
+    let shares: Vec<f64> = floors.into_iter().map(share).collect();
+    assert!(shares.iter().all(|&share| share > 0.9), "floor reached: {shares:.2?}");
+    let solid = share(area(rooms[4]));
+    assert!(solid < 0.01, "{solid:.3} of solid rock is floor");
+}

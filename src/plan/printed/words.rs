@@ -12,6 +12,9 @@ const UNIT_LETTERS: usize = 6;
 const GAP: f64 = 0.6;
 const WIDE_GAP: f64 = 0.85;
 const SPACE: f64 = 1.4;
+/// Greatest gap between a bracket and a digit, and how much taller it is at least, in heights of the digit.
+const BRACKET_GAP: f64 = 0.4;
+const TALLER: f64 = 1.15;
 /// After so many digits others change little: the likeliest ones will do.
 const SURE_DIGITS: usize = 2;
 
@@ -79,8 +82,20 @@ impl Reader<'_> {
             let [apart, along] = [bar.middle()[1] - area.middle()[1], bar.x[0] - area.middle()[0]].map(i32::abs);
             apart <= 3 * height && along <= height
         };
-        self.page.is_beside([area.x[0] - reach, area.x[0] - 1], area.y)
+        let start = self.bracket_before(&area).unwrap_or(area.x[0]);
+        self.page.is_beside([start - reach, start - 1], area.y)
             && (self.next(k, &area, SPACE).is_some() || self.wide.iter().any(at_bar))
+    }
+
+    /// Where a bracket begins that opens before a digit.
+    fn bracket_before(&self, digit: &Area) -> Option<i32> {
+        let height = f64::from(digit.height());
+        let is_bracket = |area: &Area| {
+            let [w, h] = [area.width(), area.height()].map(f64::from);
+            let is_near = area.x[1] <= digit.x[0] && f64::from(digit.x[0] - area.x[1]) <= BRACKET_GAP * height;
+            is_near && h >= TALLER * height && w <= 0.5 * height && area.y[0] <= digit.y[0] && area.y[1] >= digit.y[1]
+        };
+        self.page.marks.iter().find(|mark| is_bracket(&mark.area)).map(|mark| mark.area.x[0])
     }
 
     /// The mark that follows another on a line of digits.
@@ -256,7 +271,8 @@ fn value(text: &str) -> Option<(f64, bool)> {
         return text.parse().ok().filter(|_| is_number && is_plain).map(|value| (value, false));
     };
     let inches = inches.trim_start_matches('-');
-    let inches = match inches.strip_suffix("''") {
+    // Both strokes of the sign for inches may run together.
+    let inches = match inches.strip_suffix("''").or_else(|| inches.strip_suffix('\'')) {
         Some(inches) => inches.parse::<f64>().ok().filter(|inches| (0.0..12.0).contains(inches))?,
         None if inches.is_empty() => 0.0,
         None => return None,

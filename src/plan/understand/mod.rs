@@ -43,6 +43,11 @@ const CROSSED_PX: usize = 3;
 const AS_CLOSED: f64 = 0.9;
 /// How far from a ring in the fill of a wall dark pixels are at most, on both of its sides.
 const RING_PX: usize = 2;
+/// So many doors that lead outside may lead into a hall behind a wide entrance: then at least so many fewer lead outside, and
+/// the inside is so many times as large.
+const MANY_WAYS_OUT: usize = 4;
+const FEWER_WAYS_OUT: usize = 2;
+const HALL_SHARE: f64 = 1.15;
 /// Least share of a building's floor that its doors connect.
 const CONNECTED: f64 = 0.6;
 /// Greatest thickness of walls with doors, metres; of those of churches and castles.
@@ -317,9 +322,17 @@ fn net_of_walls(
     let find = |core: &[u8], filled: &[u8], stroke_px: usize| {
         let sought = Sought { stroke_px, ..usual(thickest) };
         let found = net_in(ink, core, filled, &sought)?;
-        let joined = found.joined(width);
-        let wide = if joined < CONNECTED { wide(core, filled, &sought) } else { None };
-        Some(wide.filter(|wide| wide.joined(width) > joined).unwrap_or(found))
+        let (joined, ways_out) = (found.joined(width), found.ways_out());
+        let may_be_open = joined < CONNECTED || ways_out >= MANY_WAYS_OUT;
+        let wide = if may_be_open { wide(core, filled, &sought) } else { None };
+        // Where many doors lead into a place that only a wide entrance leaves open, it is a hall.
+        let has_hall = |wide: &Net| {
+            ways_out >= MANY_WAYS_OUT
+                && wide.ways_out() + FEWER_WAYS_OUT <= ways_out
+                && wide.inside_px() >= HALL_SHARE * found.inside_px()
+        };
+        let is_better = |wide: &Net| (joined < CONNECTED && wide.joined(width) > joined) || has_hall(wide);
+        Some(wide.filter(is_better).unwrap_or(found))
     };
     let without = |coloured: &[u8]| -> Vec<u8> {
         let coloured: Vec<u8> = strokes.iter().zip(coloured).map(|(stroke, coloured)| stroke & coloured).collect();

@@ -252,6 +252,11 @@ impl Net {
         self.inside.iter().filter(|&&inside| inside != 0).count() as f64
     }
 
+    /// Number of the doors that lead outside.
+    pub(super) fn ways_out(&self) -> usize {
+        self.doors.iter().filter(|gap| gap.leads_out(&self.inside)).count()
+    }
+
     /// Whether the net encloses rooms as a building does.
     pub(super) fn is_building(&self) -> bool {
         self.enclosed >= ENCLOSED_SHARE
