@@ -213,7 +213,6 @@ fn strokes(drawing: &Drawing, arc: &Arc, sizes: &Sizes, thick: &[u8]) -> Vec<usi
 
 #[cfg(test)]
 mod tests {
-    use super::super::tones::SURELY_DARK;
     use super::*;
 
     /// Draws walls 4 pixels thick with a doorway of 18 pixels (0.05 m each) and a door symbol.
@@ -231,21 +230,7 @@ mod tests {
             }
         }
         let lightness = dark.iter().map(|&d| (1 - d) * 255).collect();
-        Drawing {
-            width: w,
-            height: h,
-            lightness,
-            dark,
-            coloured: Vec::new(),
-            dark_colour: Vec::new(),
-            pane: Vec::new(),
-            clean: false,
-            threshold: 128,
-            surely_dark: SURELY_DARK,
-            scanned: false,
-            looks_like_map: false,
-            square_px: None,
-        }
+        Drawing::of(w, lightness, dark)
     }
 
     #[test]

@@ -55,7 +55,7 @@ pub(super) fn is_on(mask: &[u8], at: usize) -> bool {
 
 /// Reads an image by the greys of a ROS map.
 pub(super) fn of_map(image: DynamicImage, greys: &Greys, options: &PlanOptions) -> Drawing {
-    let (width, height) = (image.width() as usize, image.height() as usize);
+    let width = image.width() as usize;
     let policy = match options.transparent {
         TransparentPolicy::Auto => None,
         TransparentPolicy::Paper | TransparentPolicy::Floor => Some(Cell::Free),
@@ -76,21 +76,7 @@ pub(super) fn of_map(image: DynamicImage, greys: &Greys, options: &PlanOptions) 
     let dark: Vec<u8> = map_pixels(&image, |pixel| u8::from(is_dark(pixel)));
     drop(image);
     let lightness = dark.iter().map(|&d| (1 - d) * 255).collect();
-    Drawing {
-        width,
-        height,
-        lightness,
-        dark,
-        coloured: Vec::new(),
-        dark_colour: Vec::new(),
-        pane: Vec::new(),
-        clean: false,
-        threshold: USUAL_THRESHOLD,
-        surely_dark: SURELY_DARK,
-        scanned: true,
-        looks_like_map: false,
-        square_px: None,
-    }
+    Drawing { scanned: true, ..Drawing::of(width, lightness, dark) }
 }
 
 /// Least share of coloured pixels with which colour is the paper's own, not annotation.
@@ -171,19 +157,14 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
         None => USUAL_THRESHOLD,
     };
     let mut drawing = Drawing {
-        width,
         height,
-        lightness: Vec::new(),
-        dark: Vec::new(),
         coloured,
         dark_colour,
         pane,
-        clean: false,
         threshold,
-        surely_dark: SURELY_DARK,
         scanned: looks_like_map,
         looks_like_map,
-        square_px: None,
+        ..Drawing::of(width, Vec::new(), Vec::new())
     };
     if looks_like_map {
         drawing.dark = lightness.iter().map(|&l| u8::from(l < threshold)).collect();
@@ -244,21 +225,8 @@ fn of_areas(width: usize, walls: &[u8], mut lightness: Vec<u8>) -> Drawing {
             _ => 255,
         };
     }
-    Drawing {
-        width,
-        height: walls.len() / width,
-        dark: lightness.iter().map(|&l| u8::from(l < USUAL_THRESHOLD)).collect(),
-        lightness,
-        coloured: Vec::new(),
-        dark_colour: Vec::new(),
-        pane: Vec::new(),
-        clean: false,
-        threshold: USUAL_THRESHOLD,
-        surely_dark: SURELY_DARK,
-        scanned: false,
-        looks_like_map: false,
-        square_px: None,
-    }
+    let dark = lightness.iter().map(|&l| u8::from(l < USUAL_THRESHOLD)).collect();
+    Drawing::of(width, lightness, dark)
 }
 
 /// Whether nearly all light pixels are as light as the one before.
@@ -307,6 +275,25 @@ fn drop_paving(drawing: &mut Drawing) {
 }
 
 impl Drawing {
+    /// A drawing without colours, at the usual threshold.
+    pub(super) fn of(width: usize, lightness: Vec<u8>, dark: Vec<u8>) -> Drawing {
+        Drawing {
+            width,
+            height: dark.len() / width,
+            lightness,
+            dark,
+            coloured: Vec::new(),
+            dark_colour: Vec::new(),
+            pane: Vec::new(),
+            clean: false,
+            threshold: USUAL_THRESHOLD,
+            surely_dark: SURELY_DARK,
+            scanned: false,
+            looks_like_map: false,
+            square_px: None,
+        }
+    }
+
     /// What of a mask has not the pale blue of panes.
     pub(super) fn without_panes(&self, mask: &[u8]) -> Vec<u8> {
         mask.iter().enumerate().map(|(at, &on)| on & u8::from(!is_on(&self.pane, at))).collect()

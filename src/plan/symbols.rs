@@ -141,26 +141,14 @@ fn are_close(a: &Component, b: &Component) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tones::SURELY_DARK;
     use super::*;
 
     fn drawing(rows: &[&str]) -> Drawing {
         let pixels = || rows.iter().flat_map(|r| r.bytes());
-        Drawing {
-            width: rows[0].len(),
-            height: rows.len(),
-            lightness: pixels().map(|b| if b == b'#' { 0 } else { 255 }).collect(),
-            dark: pixels().map(|b| u8::from(b == b'#')).collect(),
-            coloured: pixels().map(|b| u8::from(b == b'o')).collect(),
-            dark_colour: Vec::new(),
-            pane: Vec::new(),
-            clean: false,
-            threshold: 128,
-            surely_dark: SURELY_DARK,
-            scanned: false,
-            looks_like_map: false,
-            square_px: None,
-        }
+        let lightness = pixels().map(|b| if b == b'#' { 0 } else { 255 }).collect();
+        let dark = pixels().map(|b| u8::from(b == b'#')).collect();
+        let coloured = pixels().map(|b| u8::from(b == b'o')).collect();
+        Drawing { coloured, ..Drawing::of(rows[0].len(), lightness, dark) }
     }
 
     fn dark(drawing: &Drawing) -> usize {
