@@ -15,6 +15,8 @@ const FEWEST_SPACES: usize = 6;
 /// The same of piers and columns, where walls are hatched.
 const PIER_M: f64 = 0.35;
 const FEWEST_IN_PIER: usize = 3;
+/// Least share of its box that a pier fills.
+const PIER_FILL: f64 = 0.75;
 /// Least length of the bars between the lines of a window, in their thicknesses.
 const BAR_SLENDER: f64 = 6.0;
 /// Share of its box that a field between an outline and the zigzag of an insulation fills: it is a triangle, or two with a
@@ -96,8 +98,17 @@ pub(super) fn fill_hatches(dark: &[u8], width: usize, metres_per_pixel: f64) -> 
     let wall = [FEWEST_SPACES as f64, HATCHED_M];
     let walls: Vec<bool> = places.all.iter().map(|place| is_hatched(place, wall)).collect();
     let least = if walls.contains(&true) { [FEWEST_IN_PIER as f64, PIER_M] } else { wall };
-    for place in places.all.iter().zip(walls).filter(|(place, is_wall)| !is_wall && !is_hatched(place, least)) {
-        places.paint(place.0, &mut near, width, 0);
+    // Letters over furniture have narrow spaces too, but fill no box.
+    let is_solid = |place: &Component| {
+        let rows = (place.min[1] as usize..place.end[1] as usize).map(|y| y * width);
+        let within = rows.flat_map(|row| row + place.min[0] as usize..row + place.end[0] as usize);
+        let solid = within.filter(|&at| dark[at] | narrow[at] != 0).count() as f64;
+        let [w, h] = place.size().map(f64::from);
+        solid >= PIER_FILL * w * h
+    };
+    let is_pier = |place: &Component| is_hatched(place, least) && is_solid(place);
+    for (place, _) in places.all.iter().zip(walls).filter(|(place, is_wall)| !is_wall && !is_pier(place)) {
+        places.paint(place, &mut near, width, 0);
     }
     (0..dark.len()).map(|at| dark[at] | (narrow[at] & near[at])).collect()
 }
@@ -222,7 +233,7 @@ pub(super) fn fill_outlines(dark: &[u8], width: usize, metres_per_pixel: f64) ->
 /// with lettering are not.
 fn is_even(fields: &Components, field: &Component, thick: f64) -> bool {
     /// Within so many rows a line that is drawn by hand is off by so much.
-    const WOBBLE_ROWS: usize = 6;
+    const WOBBLE_ROWS: usize = 10;
     const WOBBLE_PX: u32 = 1;
     let runs = fields.runs(field);
     // Rows may have several runs, as where walls meet at a corner: a side has a step where a run goes on differently. Lines
