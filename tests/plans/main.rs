@@ -194,6 +194,23 @@ fn outlines_of_beds_are_no_walls() {
     }
 }
 
+/// Half a crossed cupboard is as narrow as a hollow wall; letters over furniture have spaces as narrow as a hatch.
+#[test]
+fn crossed_cupboards_and_letters_over_furniture_are_no_walls() {
+    for name in ["outline walls", "grey outlines", "hatched walls"] {
+        let m = measure(&styles::Case { style: styles::named(name), building: buildings::school, seed: 0 });
+        let what = row(&m);
+        assert_eq!((m.divided, m.false_rooms, m.false_doors), (20, 0, 0), "{what}");
+        assert!(m.furniture >= 0.95 && m.notes_as_wall_m2 < 1.0, "{what}");
+    }
+    // A door or two lie beside the zigzag.
+    let m = measure(&styles::Case { style: styles::named("insulation"), building: buildings::school, seed: 0 });
+    assert!(m.divided >= 18 && m.wall_iou >= 0.95 && m.furniture >= 0.9, "{}", row(&m));
+    let m = measure(&styles::Case { style: styles::named("hatched walls"), building: buildings::flat, seed: 0 });
+    assert_eq!((m.rooms[0], m.false_doors), (8, 0), "{}", row(&m));
+    assert!(m.wall_iou >= 0.97 && m.furniture >= 0.95, "{}", row(&m));
+}
+
 /// Small rooms, a corridor and doors of which every side has other furniture near. The office is measured in all styles.
 #[test]
 fn tiles_and_planks_are_no_furniture() {

@@ -233,12 +233,15 @@ pub(super) fn fill_outlines(dark: &[u8], width: usize, metres_per_pixel: f64) ->
 /// with lettering are not.
 fn is_even(fields: &Components, field: &Component, thick: f64) -> bool {
     /// Within so many rows a line that is drawn by hand is off by so much.
-    const WOBBLE_ROWS: usize = 10;
+    const WOBBLE_ROWS: usize = 6;
     const WOBBLE_PX: u32 = 1;
     let runs = fields.runs(field);
     // Rows may have several runs, as where walls meet at a corner: a side has a step where a run goes on differently. Lines
     // that are drawn by hand come back, the sides of triangles do not.
     let rows: Vec<&[Run]> = runs.chunk_by(|a, b| a.y == b.y).collect();
+    if is_wedge(&rows) {
+        return false;
+    }
     let goes_on = |k: usize, later: usize, off: u32| {
         let next = rows[(k + later).min(rows.len() - 1)];
         let is_same = |a: &Run, b: &Run| a.from.abs_diff(b.from) <= off && a.to.abs_diff(b.to) <= off;
@@ -259,6 +262,18 @@ fn is_even(fields: &Components, field: &Component, thick: f64) -> bool {
         kept.iter().filter(|&&k| k != 0).count() as f64 / field.area as f64
     };
     share(0.75) >= 0.6 && share(1.9) <= 0.3
+}
+
+/// Whether the rows of a field grow or shrink from one end to the other without a step, as in half a crossed cupboard.
+fn is_wedge(rows: &[&[Run]]) -> bool {
+    const TAPERS: f64 = 0.7;
+    const STEP: f64 = 0.25;
+    let widths: Vec<f64> = rows.iter().map(|row| row.iter().map(|run| f64::from(run.to - run.from)).sum()).collect();
+    let most = widths.iter().copied().fold(0.0, f64::max);
+    let has_step = widths.array_windows().any(|[a, b]| (a - b).abs() > (STEP * most).max(2.0));
+    let tapers =
+        |from: Option<&f64>, to: Option<&f64>| from.zip(to).is_some_and(|(a, b)| (a - b).abs() >= TAPERS * most);
+    rows.iter().all(|row| row.len() == 1) && !has_step && tapers(widths.first(), widths.last())
 }
 
 /// Thickness of the rectangle with the area and outline of a white field of a drawing, pixels.

@@ -322,17 +322,18 @@ fn net_of_walls(
     let find = |core: &[u8], filled: &[u8], stroke_px: usize| {
         let sought = Sought { stroke_px, ..usual(thickest) };
         let found = net_in(ink, core, filled, &sought)?;
-        let (joined, ways_out) = (found.joined(width), found.ways_out());
-        let may_be_open = joined < CONNECTED || ways_out >= MANY_WAYS_OUT;
-        let wide = if may_be_open { wide(core, filled, &sought) } else { None };
-        // Where many doors lead into a place that only a wide entrance leaves open, it is a hall.
+        let joined = found.joined(width);
+        let wide = if joined < CONNECTED { wide(core, filled, &sought) } else { None };
+        Some(wide.filter(|wide| wide.joined(width) > joined).unwrap_or(found))
+    };
+    // Where many doors lead into a place that only a wide entrance leaves open, it is a hall.
+    let with_hall = |found: Net| {
+        let ways_out = found.ways_out();
+        let wide = if ways_out >= MANY_WAYS_OUT { wide(&core, dark, &usual(thickest)) } else { None };
         let has_hall = |wide: &Net| {
-            ways_out >= MANY_WAYS_OUT
-                && wide.ways_out() + FEWER_WAYS_OUT <= ways_out
-                && wide.inside_px() >= HALL_SHARE * found.inside_px()
+            wide.ways_out() + FEWER_WAYS_OUT <= ways_out && wide.inside_px() >= HALL_SHARE * found.inside_px()
         };
-        let is_better = |wide: &Net| (joined < CONNECTED && wide.joined(width) > joined) || has_hall(wide);
-        Some(wide.filter(is_better).unwrap_or(found))
+        wide.filter(has_hall).unwrap_or(found)
     };
     let without = |coloured: &[u8]| -> Vec<u8> {
         let coloured: Vec<u8> = strokes.iter().zip(coloured).map(|(stroke, coloured)| stroke & coloured).collect();
@@ -354,7 +355,7 @@ fn net_of_walls(
         let of_plain = of(&without(colours.bars)).filter(|net| closed(net) >= AS_CLOSED * closed(&of_all));
         Some(of_plain.unwrap_or(of_all))
     };
-    if let Some(net) = find(&core, dark, 0) {
+    if let Some(net) = find(&core, dark, 0).map(with_hall) {
         // Of hollow walls beside massive ones, the outlines alone were found.
         let of_filled = if net.joined(width) < CONNECTED { filled() } else { None };
         let net = of_filled.filter(|net| net.joined(width) >= CONNECTED).unwrap_or(net);
