@@ -23,13 +23,7 @@ const FEWEST: usize = 2;
 pub(super) fn open(drawing: &mut Drawing) {
     let (width, height) = (drawing.width, drawing.height);
     let light = Components::of(&drawing.dark, width, 0, Neighbours::Four);
-    let mut piece_of = vec![0u32; drawing.dark.len()];
-    for (k, piece) in light.all.iter().enumerate() {
-        light.runs(piece).iter().for_each(|run| {
-            piece_of[run.y as usize * width + run.from as usize..run.y as usize * width + run.to as usize]
-                .fill(k as u32 + 1);
-        });
-    }
+    let piece_at = light.index(width);
     let greatest = GREATEST_SIDE * width.max(height) as f64;
     let is_box = |piece: &Component| {
         let [w, h] = piece.size();
@@ -50,13 +44,13 @@ pub(super) fn open(drawing: &mut Drawing) {
                     false => (piece.min[axis] as usize).checked_sub(k + 1)?,
                 };
                 let [x, y] = if axis == 0 { [across, along] } else { [along, across] };
-                (x < width && y < height).then(|| piece_of[y * width + x])
+                (x < width && y < height).then(|| piece_at(y * width + x))
             };
             let mut far = 0;
-            while let Some(0) = step(far) {
+            while let Some(None) = step(far) {
                 far += 1;
             }
-            (far, step(far).map(|k| &light.all[k as usize - 1]))
+            (far, step(far).flatten().map(|k| &light.all[k]))
         };
         let sampled = |axis: usize, is_after: bool| {
             let (from, to) = (piece.min[1 - axis] as usize, piece.end[1 - axis] as usize);

@@ -208,7 +208,8 @@ pub(super) fn guess(drawing: &Drawing, dots_per_inch: Option<f64>) -> (f64, Plan
     scale::found(rounded(likely.value), ScaleSource::Guessed, likely.sureness, likely.range, evidence)
 }
 
-/// Lengths of the leaves that hang in the gaps of walls, pixels, by the size of a building, or the scale, at which most of them are doors.
+/// Lengths of the leaves that hang in the gaps of walls, pixels, by the size of a building, or the `likely` scale, at which most
+/// of them are doors.
 fn hung_leaves(drawing: &Drawing, building_px: f64, likely: f64) -> Vec<f64> {
     let doors = |scale: f64| -> Vec<f64> {
         let mut hung = understand::leaf_lengths(drawing, scale);
@@ -405,9 +406,10 @@ impl Measures {
         self.leaves.iter().filter(|leaf| is_door_width(leaf.0, scale)).map(|leaf| leaf.1).sum()
     }
 
-    /// Whether the leaves that are doors by a scale are no larger than the corners of chairs.
+    /// Whether the leaves that are doors by a scale are no larger than the corners of chairs, where walls are lines.
     fn are_small(&self, scale: f64) -> bool {
-        self.leaves.iter().filter(|leaf| is_door_width(leaf.0, scale)).all(|leaf| leaf.0 < CHAIR_PX)
+        let mut fitting = self.leaves.iter().map(|leaf| leaf.0).filter(|&px| is_door_width(px, scale)).peekable();
+        self.wall.is_none() && fitting.peek().is_some() && fitting.all(|px| px < CHAIR_PX)
     }
 
     /// A larger scale, where nobody could pass several gaps between walls by this one: the narrowest are doors, and the others

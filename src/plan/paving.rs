@@ -33,7 +33,8 @@ const FEWEST_AROUND: usize = 4;
 const FEWEST_MIDDLES: usize = 6;
 /// Fewest cells of a covering that another room has as well.
 const FEWEST_IN_SMALL_ROOM: usize = 3;
-/// Least side of the squares of a grid, pixels; the fewest, and fewest lines between two of them; how well they agree on where it lies, 0 to 1.
+/// Least side of the squares of a grid, pixels; the fewest, and fewest lines between two of them; how well they agree on where
+/// it lies, 0 to 1.
 const LEAST_SQUARE_PX: f64 = 14.0;
 const FEWEST_SQUARES: usize = 24;
 const ON_GRID: f64 = 0.8;
@@ -176,7 +177,9 @@ fn square(cells: &[Cell], between: &BTreeMap<[usize; 2], Line>) -> Option<f64> {
     };
     let first = (0..squares.len()).max_by_key(|&k| (alike(k), k))?;
     let squares = &squares[first..first + alike(first)];
-    let are_squares = |pair: &[usize; 2]| pair.iter().all(|k| squares.contains(k));
+    let mut is_alike = vec![false; cells.len()];
+    squares.iter().for_each(|&k| is_alike[k] = true);
+    let are_squares = |pair: &[usize; 2]| pair.iter().all(|&k| is_alike[k]);
     let lines: Vec<&Line> = between.iter().filter(|(pair, _)| are_squares(pair)).map(|(_, line)| line).collect();
     if squares.len().min(lines.len()) < FEWEST_SQUARES {
         return None;
