@@ -1,14 +1,14 @@
 //! Pictures that are cropped near the walls, of buildings with wide doors.
 
 use image::RgbImage;
-use trodden::plan::{PlanOptions, read};
+use trodden::plan::{FloorPlan, PlanError, PlanOptions, read};
 
 use super::canvas::{Canvas, Point, Polygon, rectangle};
 
 const PX_PER_M: f64 = 20.0;
 
-/// The floor that is read, square metres, of black shapes on a picture of the given size.
-fn floor_m2(name: &str, size_m: Point, origin: Point, shapes: &[Polygon]) -> f64 {
+/// What is read of black shapes on a picture of the given size.
+fn read_shapes(name: &str, size_m: Point, origin: Point, shapes: &[Polygon]) -> Result<FloorPlan, PlanError> {
     let mut canvas = Canvas::new(size_m, origin, PX_PER_M, 0.0, [255; 3]);
     canvas.fill(shapes, [0; 3]);
     let path = std::env::temp_dir().join(format!("trodden-cropped-{}-{name}.png", std::process::id()));
@@ -17,6 +17,12 @@ fn floor_m2(name: &str, size_m: Point, origin: Point, shapes: &[Polygon]) -> f64
     let options = PlanOptions { metres_per_pixel: Some(1.0 / PX_PER_M), ..PlanOptions::default() };
     let plan = read(&path, &options);
     let _ = std::fs::remove_file(&path);
+    plan
+}
+
+/// The floor that is read, square metres.
+fn floor_m2(name: &str, size_m: Point, origin: Point, shapes: &[Polygon]) -> f64 {
+    let plan = read_shapes(name, size_m, origin, shapes);
     plan.unwrap().floor.iter().filter(|&&floor| floor != 0).count() as f64 / (PX_PER_M * PX_PER_M)
 }
 
@@ -50,4 +56,15 @@ fn a_place_between_pillars_stays_floor_to_the_sides_of_the_picture() {
         (0..40).map(|k| rectangle(pillar(k), [pillar(k)[0] + 0.6, pillar(k)[1] + 0.6])).collect();
     let floor = floor_m2("pillars", [28.0, 17.5], [0.0; 2], &pillars);
     assert!(floor > 0.98 * (28.0 * 17.5 - 40.0 * 0.36), "{floor} m2");
+}
+
+/// Strips that are narrower than the rim in which shadows of scanners lie have little to read, but end with an answer.
+#[test]
+fn slender_strips_of_a_building_are_read_or_refused() {
+    for width_m in [0.2, 0.4, 0.6, 1.0] {
+        for at in (-2..31).map(f64::from) {
+            let strip = read_shapes("strip", [width_m, 22.0], [at * 1.01, -1.0], &hall(1.4));
+            assert!(strip.is_ok() || strip.is_err_and(|error| error.hint().is_some()), "{width_m} m at {at} m");
+        }
+    }
 }

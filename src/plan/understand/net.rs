@@ -433,7 +433,7 @@ fn keep_building(wall: &mut [u8], raw: &[u8], width: usize, doors: &[Gap], windo
     let box_of = around[main];
     // The shadow of a scanner's lid lies along the image's sides, and no door joins it to the building.
     let height = wall.len() / width;
-    let rim = (SHADOW_SHARE * width.max(height) as f64) as usize;
+    let rim = ((SHADOW_SHARE * width.max(height) as f64) as usize).min(width.min(height) / 2);
     let is_shadow = |piece: &Component| {
         let along = pieces.runs(piece).iter().map(|run| {
             let (y, [from, to]) = (run.y as usize, [run.from, run.to].map(|x| x as usize));
