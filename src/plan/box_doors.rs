@@ -31,13 +31,9 @@ pub(super) fn open(drawing: &mut Drawing) {
             && f64::from(w.max(h)) <= greatest
             && piece.area as f64 >= FILLED * f64::from(w) * f64::from(h)
     };
-    let is_outside =
-        |piece: &Component| piece.min.contains(&0) || piece.end[0] as usize == width || piece.end[1] as usize == height;
-    let mut opened: Vec<[[usize; 2]; 2]> = Vec::new();
-    for piece in light.all.iter().filter(|piece| is_box(piece)) {
-        let thickest = THICKEST_PX.max((THICKEST * f64::from(piece.size()[0].min(piece.size()[1]))) as usize);
-        // The dark run beyond a side at a place along it, and the piece behind.
-        let beyond = |axis: usize, is_after: bool, along: usize| {
+    // The dark run beyond the middle of a side, pixels, and the piece behind: of three places along it, the median.
+    let beyond = |piece: &Component, axis: usize, is_after: bool| {
+        let run = |along: usize| {
             let step = |k: usize| {
                 let across = match is_after {
                     true => piece.end[axis] as usize + k,
@@ -46,51 +42,40 @@ pub(super) fn open(drawing: &mut Drawing) {
                 let [x, y] = if axis == 0 { [across, along] } else { [along, across] };
                 (x < width && y < height).then(|| piece_at(y * width + x))
             };
-            let mut far = 0;
-            while let Some(None) = step(far) {
-                far += 1;
-            }
+            let far = (0..).find(|&k| step(k) != Some(None)).unwrap_or(0);
             (far, step(far).flatten().map(|k| &light.all[k]))
         };
-        let sampled = |axis: usize, is_after: bool| {
-            let (from, to) = (piece.min[1 - axis] as usize, piece.end[1 - axis] as usize);
-            let mut found: Vec<_> = [1, 2, 3].map(|k| beyond(axis, is_after, from + (to - from) * k / 4)).into();
-            found.sort_by_key(|(far, _)| *far);
-            found[1]
+        let [from, to] = [piece.min, piece.end].map(|corner| corner[1 - axis] as usize);
+        let mut runs = [1, 2, 3].map(|k| run(from + (to - from) * k / 4));
+        runs.sort_by_key(|(far, _)| *far);
+        runs[1]
+    };
+    let door = |piece: &Component| {
+        let lesser_side = piece.size().into_iter().min().map_or(0.0, f64::from);
+        let thickest = THICKEST_PX.max((THICKEST * lesser_side) as usize);
+        let sides = [0, 1].map(|axis| [false, true].map(|is_after| beyond(piece, axis, is_after)));
+        let is_place = |behind: &Component| behind.area >= PLACES * piece.area && !behind.is_at_side(width, height);
+        let is_face =
+            |(far, behind): &(usize, Option<&Component>)| (1..=thickest).contains(far) && behind.is_some_and(is_place);
+        // Of a door with two leaves there are two boxes side by side.
+        let is_end = |(far, behind): &(usize, Option<&Component>)| {
+            *far >= ENDS * thickest || *far <= thickest && behind.is_some_and(is_box)
         };
-        for axis in 0..2 {
-            let faces = [sampled(axis, false), sampled(axis, true)];
-            let is_face = |(far, behind): &(usize, Option<&Component>)| {
-                (1..=thickest).contains(far)
-                    && behind.is_some_and(|behind| behind.area >= PLACES * piece.area && !is_outside(behind))
-            };
-            let ends = [sampled(1 - axis, false), sampled(1 - axis, true)];
-            // Of a door with two leaves there are two boxes side by side.
-            let is_end = |(far, behind): &(usize, Option<&Component>)| {
-                *far >= ENDS * thickest || behind.is_some_and(|behind| is_box(behind) && *far <= thickest)
-            };
-            if faces.iter().all(is_face) && ends.iter().all(is_end) {
-                let mut area = [piece.min, piece.end].map(|corner| corner.map(|v| v as usize));
-                area[0][axis] -= faces[0].0;
-                area[1][axis] += faces[1].0;
-                for (side, end) in ends.iter().enumerate().filter(|(_, end)| end.0 <= thickest) {
-                    match side {
-                        0 => area[0][1 - axis] -= end.0,
-                        _ => area[1][1 - axis] += end.0,
-                    }
-                }
-                opened.push(area);
-                break;
-            }
-        }
-    }
+        let is_door = (0..2).any(|axis| sides[axis].iter().all(is_face) && sides[1 - axis].iter().all(is_end));
+        // With the outlines, and without the rock at its ends.
+        let outline = |axis: usize, side: usize| Some(sides[axis][side].0).filter(|far| *far <= thickest).unwrap_or(0);
+        is_door.then(|| {
+            [0, 1].map(|axis| piece.min[axis] as usize - outline(axis, 0)..piece.end[axis] as usize + outline(axis, 1))
+        })
+    };
+    let opened: Vec<_> = light.all.iter().filter(|piece| is_box(piece)).filter_map(door).collect();
     if opened.len() < FEWEST {
         return;
     }
-    for [[x0, y0], [x1, y1]] in opened {
-        for y in y0..y1 {
-            drawing.dark[y * width + x0..y * width + x1].fill(0);
-            drawing.lightness[y * width + x0..y * width + x1].fill(255);
+    for [columns, rows] in opened {
+        for row in rows.map(|y| y * width) {
+            drawing.dark[row + columns.start..row + columns.end].fill(0);
+            drawing.lightness[row + columns.start..row + columns.end].fill(255);
         }
     }
 }

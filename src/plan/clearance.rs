@@ -18,6 +18,11 @@ pub(super) fn dilate(mask: &[u8], width: usize, radius: f64) -> Vec<u8> {
     within(mask, width, radius, |pixel| pixel != 0, false)
 }
 
+/// Keeps what discs of a radius cover that lie within a mask.
+pub(super) fn opened(mask: &[u8], width: usize, radius: f64) -> Vec<u8> {
+    dilate(&erode(mask, width, radius), width, radius)
+}
+
 /// Closes what is dark and narrower than a square that reaches so far to each side: the greatest tone in a square, then the
 /// least of those. imageproc's takes time by the square's area, this by its side.
 pub(super) fn closed(tones: &[u8], width: usize, reach: usize) -> Vec<u8> {

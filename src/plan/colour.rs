@@ -40,12 +40,17 @@ impl From<Colour> for String {
     }
 }
 
+/// Chroma of a colour: the largest minus the smallest channel.
+pub(super) fn chroma([r, g, b]: [u8; 3]) -> u8 {
+    r.max(g).max(b) - r.min(g).min(b)
+}
+
 /// Whether a colour is saturated enough for annotation: lanes, dots, highlights.
 ///
-/// Chroma is the largest minus the smallest channel: at least 48 of 255, and at least 35 % of the largest channel.
-pub(super) fn is_saturated([r, g, b]: [u8; 3]) -> bool {
-    let most = r.max(g).max(b);
-    let chroma = most - r.min(g).min(b);
+/// Chroma is at least 48 of 255, and at least 35 % of the largest channel.
+pub(super) fn is_saturated(colour: [u8; 3]) -> bool {
+    let [r, g, b] = colour;
+    let (most, chroma) = (r.max(g).max(b), chroma(colour));
     chroma >= LEAST_CHROMA && f32::from(chroma) >= LEAST_SATURATION * f32::from(most)
 }
 

@@ -1,8 +1,8 @@
 //! Maps without dark walls: rooms are areas of colour on light paper, or floors seen from above, and the light lines between
 //! them are the walls.
 
-use super::clearance::{dilate, erode};
-use super::colour::luma;
+use super::clearance::{dilate, erode, opened};
+use super::colour::{chroma, luma};
 use super::components::{Components, Neighbours};
 use super::tones;
 
@@ -65,9 +65,7 @@ pub(super) fn walls(width: usize, height: usize, pixel: impl Fn(usize) -> [u8; 3
     let light: Vec<u8> = areas.iter().map(|&area| 1 - area).collect();
     let thick = erode(&light, width, 0.75 * thickness as f64);
     let pieces = Components::of(&light, width, 1, Neighbours::Eight);
-    let at_rim =
-        |min: [u32; 2], end: [u32; 2]| min.contains(&0) || end[0] as usize == width || end[1] as usize == height;
-    for piece in pieces.all.iter().filter(|piece| !at_rim(piece.min, piece.end)) {
+    for piece in pieces.all.iter().filter(|piece| !piece.is_at_side(width, height)) {
         if pieces.touches(piece, &thick, width) {
             pieces.paint(piece, &mut mask, width, 0);
         }
@@ -85,13 +83,10 @@ pub(super) fn walls(width: usize, height: usize, pixel: impl Fn(usize) -> [u8; 3
 /// Whether what is grey and darker than paper runs between the areas as walls do: thin, long and round places.
 fn has_grey_walls(width: usize, height: usize, pixel: impl Fn(usize) -> [u8; 3], paper: [u8; 3]) -> bool {
     let darkest_area = luma(paper).saturating_sub(GREY_CONTRAST);
-    let is_grey = |colour: [u8; 3]| {
-        let (most, least) = (colour.into_iter().max().unwrap_or(0), colour.into_iter().min().unwrap_or(0));
-        most - least <= PAPER_SPREAD && luma(colour) <= darkest_area
-    };
+    let is_grey = |colour: [u8; 3]| chroma(colour) <= PAPER_SPREAD && luma(colour) <= darkest_area;
     let grey: Vec<u8> = (0..width * height).map(|at| u8::from(is_grey(pixel(at)))).collect();
     let radius = 0.5 * THICKEST * width.max(height) as f64;
-    let thick = dilate(&erode(&grey, width, radius), width, radius);
+    let thick = opened(&grey, width, radius);
     let count = |mask: &[u8]| mask.iter().filter(|&&m| m != 0).count() as f64;
     count(&thick) <= MOST_THICK * count(&grey) && tones::encloses(&grey, width)
 }
@@ -136,7 +131,7 @@ fn walls_between(
     let count = |mask: &[u8]| mask.iter().filter(|&&m| m != 0).count() as f64;
     let covered = count(&areas);
     let radius = (BROAD_SHARE * longer as f64).max(2.0);
-    if count(&dilate(&erode(&areas, width, radius), width, radius)) < BROAD * covered {
+    if count(&opened(&areas, width, radius)) < BROAD * covered {
         return None;
     }
     let pieces = Components::of(&areas, width, 1, Neighbours::Eight);

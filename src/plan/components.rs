@@ -51,6 +51,11 @@ impl Component {
         let [width, height] = self.size();
         width.max(height)
     }
+
+    /// Whether it reaches to a side of the image.
+    pub(super) fn is_at_side(&self, width: usize, height: usize) -> bool {
+        self.min.contains(&0) || self.end[0] as usize == width || self.end[1] as usize == height
+    }
 }
 
 /// The components of an image, ordered by their first pixel in reading order.

@@ -4,7 +4,7 @@
 //! hinge to one end of it. The arc, the leaf and the line of the threshold are removed.
 
 use super::arcs::{Arc, Search};
-use super::clearance::{dilate, erode};
+use super::clearance::opened;
 use super::components::{Components, Neighbours, Run};
 use super::cracks::trace;
 use super::drawing::Drawing;
@@ -40,7 +40,7 @@ pub(super) fn drop_doors(drawing: &mut Drawing, metres_per_pixel: f64) {
     doors.retain(|arc| is_door(drawing, arc, &sizes));
     // Walls are thicker than strokes; they stay.
     let radius = (sizes.stroke + 1.0) * 0.5;
-    let thick = dilate(&erode(&drawing.dark, drawing.width, radius), drawing.width, radius);
+    let thick = opened(&drawing.dark, drawing.width, radius);
     let found: Vec<usize> = doors.iter().flat_map(|arc| strokes(drawing, arc, &sizes, &thick)).collect();
     for at in found {
         drawing.dark[at] = 0;

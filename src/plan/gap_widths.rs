@@ -3,16 +3,6 @@
 use super::components::{Component, Components, Neighbours};
 use super::drawing::Drawing;
 
-/// The picture with x and y exchanged.
-pub(super) fn turned(mask: &[u8], width: usize) -> Vec<u8> {
-    let height = mask.len() / width;
-    let mut turned = vec![0; mask.len()];
-    for (y, row) in mask.chunks_exact(width).enumerate() {
-        row.iter().enumerate().filter(|(_, m)| **m != 0).for_each(|(x, &m)| turned[x * height + y] = m);
-    }
-    turned
-}
-
 /// A stretch of white between two walls in rows that follow each other.
 struct Gap {
     from: usize,

@@ -3,14 +3,15 @@
 use std::ops::RangeInclusive;
 
 use super::arcs;
-use super::clearance::{dilate, erode};
+use super::clearance::opened;
 use super::components::{Component, Components, Neighbours};
 use super::drawing::{Drawing, is_on};
+use super::gap_widths::{coloured_doors, doorways};
 use super::likely::{Likelihood, Usual};
 use super::scale::{self, PlanScale, ScaleSource, rounded};
 use super::symbols::{FEWEST_STROKES, groups};
-use super::thick;
-use super::{ASSUMED_M_PER_PX, gap_widths, understand};
+use super::thick::{self, transposed};
+use super::{ASSUMED_M_PER_PX, understand};
 use crate::math::ln;
 
 /// How far one scale may be from another to be the same, and how many are tried: a sheet may be 2.5 times as wide as its
@@ -234,10 +235,7 @@ impl Walls {
         let width = drawing.width;
         let thickness = wall_thickness(drawing);
         let solid = match thickness {
-            Some(wall) => {
-                let radius = (wall * 0.12).max(1.0);
-                dilate(&erode(&drawing.dark, width, radius), width, radius)
-            }
+            Some(wall) => opened(&drawing.dark, width, (wall * 0.12).max(1.0)),
             None => drawing.dark.clone(),
         };
         let pieces = Components::of(&solid, width, 1, Neighbours::Eight);
@@ -340,13 +338,10 @@ impl Measures {
         };
         // Between thin lines there are gaps of all kinds.
         let doorways_px = match walls.thickness {
-            None => gap_widths::coloured_doors(drawing),
+            None => coloured_doors(drawing),
             Some(_) => {
-                let upright =
-                    gap_widths::doorways(&gap_widths::turned(&walls.mask, drawing.width), drawing.height, |y, x| {
-                        is_ink(x, y)
-                    });
-                let mut all = gap_widths::doorways(&walls.mask, drawing.width, is_ink);
+                let upright = doorways(&transposed(&walls.mask, drawing.width), drawing.height, |y, x| is_ink(x, y));
+                let mut all = doorways(&walls.mask, drawing.width, is_ink);
                 all.extend(upright);
                 all
             }

@@ -1,7 +1,7 @@
 //! Maps of games and views of levels from above, which are no drawings on paper: coloured lines on black, floors of many
 //! cells in a dark mass, light walls between a floor and a darker void.
 
-use super::clearance::{closed, dilate, erode};
+use super::clearance::{closed, opened};
 use super::components::{Components, Neighbours};
 use super::tones::{self, rim};
 
@@ -76,7 +76,7 @@ pub(super) fn join_cells(width: usize, lightness: &mut [u8]) -> bool {
         if left as f64 <= LEFT_APART * cells as f64 {
             // Grains of walls that are as light as floor are no part of it.
             let grain = (2 * reach + 1) as f64;
-            let floor = dilate(&erode(&light, width, grain), width, grain);
+            let floor = opened(&light, width, grain);
             lightness.iter_mut().zip(floor).for_each(|(l, floor)| *l = 255 * floor);
             return true;
         }

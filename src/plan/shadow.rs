@@ -113,10 +113,10 @@ impl Coarse<u8> {
         let mut sorted = self.tones.clone();
         sorted.sort_unstable();
         // Masses of black are no paper in the shade.
-        let darkest = (f32::from(sorted[(sorted.len() - 1) * 98 / 100]) * DARKEST_SHARE) as u8;
-        sorted.drain(..sorted.partition_point(|&tone| tone < darkest));
-        let at = |share: f64| sorted[((sorted.len() - 1) as f64 * share) as usize];
-        let range = [at(0.02), at(0.98)];
+        let at = |tones: &[u8], share: f64| tones[((tones.len() - 1) as f64 * share) as usize];
+        let darkest = (f32::from(at(&sorted, 0.98)) * DARKEST_SHARE) as u8;
+        let lit = &sorted[sorted.partition_point(|&tone| tone < darkest)..];
+        let range = [at(lit, 0.02), at(lit, 0.98)];
         if range[1] - range[0] < LEAST_RANGE {
             return None;
         }

@@ -134,6 +134,16 @@ pub(super) fn places(row: &[u8]) -> impl Iterator<Item = usize> {
     })
 }
 
+/// A mask with its rows and columns exchanged.
+pub(super) fn transposed(mask: &[u8], width: usize) -> Vec<u8> {
+    let height = mask.len() / width;
+    let mut turned = vec![0; mask.len()];
+    for (y, row) in mask.chunks_exact(width).enumerate() {
+        places(row).for_each(|x| turned[x * height + y] = row[x]);
+    }
+    turned
+}
+
 /// The stretches of ascending places, with breaks of up to `longest` within.
 pub(super) fn runs(places: impl Iterator<Item = usize>, longest: usize) -> impl Iterator<Item = Range<usize>> {
     let mut all: Vec<Range<usize>> = Vec::new();

@@ -56,10 +56,17 @@ impl Route {
 
     /// Stops of all routes, each once, in order of the routes.
     pub fn each_stop(routes: &[Route]) -> Vec<&Stop> {
-        let mut each: Vec<&Stop> = Vec::new();
-        for stop in routes.iter().flat_map(|route| &route.stops).map(|stop| &stop.stop) {
-            if !each.iter().any(|known| known.name == stop.name) {
-                each.push(stop);
+        Route::first_of_each_stop(routes).into_iter().map(|(_, first)| &first.stop).collect()
+    }
+
+    /// The same, as the first route has each that stops there, with the number of that route.
+    pub(super) fn first_of_each_stop(routes: &[Route]) -> Vec<(usize, &RouteStop)> {
+        let mut each: Vec<(usize, &RouteStop)> = Vec::new();
+        for (number, route) in routes.iter().enumerate() {
+            for on_route in &route.stops {
+                if !each.iter().any(|(_, known)| known.stop.name == on_route.stop.name) {
+                    each.push((number, on_route));
+                }
             }
         }
         each

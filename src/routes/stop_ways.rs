@@ -28,14 +28,6 @@ pub(super) fn find(
     ways: &[RouteLegs],
     fields: &FieldStore<'_>,
 ) -> Result<Vec<StopWay>, Interrupted> {
-    let mut stops: Vec<(usize, &RouteStop)> = Vec::new();
-    for (number, route) in routes.iter().enumerate() {
-        for on_route in &route.stops {
-            if stops.iter().all(|(_, known)| known.stop.name != on_route.stop.name) {
-                stops.push((number, on_route));
-            }
-        }
-    }
     let way = |&(number, on_route): &(usize, &RouteStop)| {
         let into_room = on_route.after_via.checked_sub(1).filter(|_| !on_route.stop.spots.is_empty());
         if let Some(leg) = into_room {
@@ -46,7 +38,7 @@ pub(super) fn find(
         let flow = Flow::new(ground, &starts(ground, routes, ways, &on_route.stop.name), &field);
         Ok(StopWay { field: Arc::new(field), flow: Some(Arc::new(flow)) })
     };
-    stops.par_iter().map(way).collect()
+    Route::first_of_each_stop(routes).par_iter().map(way).collect()
 }
 
 /// Cells from which people come to a stop: of the place before it on each of its routes.

@@ -7,7 +7,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::super::cracks::trace;
-use super::super::thick::{places, runs, spread};
+use super::super::thick::{places, runs, spread, transposed};
 use super::directions;
 use super::frame::Frame;
 
@@ -269,15 +269,6 @@ fn is_within(gap: &Gap, other: &Gap) -> bool {
             let (along, across) = (dx * ax + dy * ay, dy * ax - dx * ay);
             (-thickness..=length + thickness).contains(&along) && across.abs() <= beside
         })
-}
-
-fn transposed(mask: &[u8], width: usize) -> Vec<u8> {
-    let height = mask.len() / width;
-    let mut turned = vec![0; mask.len()];
-    for (y, row) in mask.chunks_exact(width).enumerate() {
-        places(row).for_each(|x| turned[x * height + y] = row[x]);
-    }
-    turned
 }
 
 fn along_rows(wall: &[u8], ink: &[u8], limits: &Limits, frame: Frame) -> Vec<Gap> {

@@ -185,8 +185,7 @@ pub(super) fn fill_outlines(dark: &[u8], width: usize, metres_per_pixel: f64) ->
     let fields = Components::of(&white, width, 1, Neighbours::Four);
     let is_wall = |field: &&Component| {
         let is_wide = fields.touches(field, &wide, width);
-        let at_side = field.min.contains(&0) || field.end[0] as usize == width || field.end[1] as usize == height;
-        if is_wide || at_side {
+        if is_wide || field.is_at_side(width, height) {
             return false;
         }
         let [w, h] = field.size().map(f64::from);

@@ -509,8 +509,7 @@ fn enclosed(wall: &[u8], doors: &[Gap], windows: &[Gap], width: usize) -> Vec<u8
     }
     let pieces = Components::of(&free, width, 1, Neighbours::Four);
     for piece in &pieces.all {
-        let at_side = piece.min.contains(&0) || piece.end[0] as usize == width || piece.end[1] as usize == height;
-        if at_side {
+        if piece.is_at_side(width, height) {
             pieces.paint(piece, &mut free, width, 0);
         }
     }
