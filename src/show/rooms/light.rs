@@ -276,7 +276,7 @@ impl<'a> Light<'a> {
 
     /// The panels that a place sees: way to each in the plan, its length, and the panel.
     fn panels_in_sight<'p>(&'p self, panels: &'p Panels, p: Vec2) -> impl Iterator<Item = (Vec2, f64, Panel)> + 'p {
-        panels.around(p, 2).filter_map(move |panel| {
+        panels.around(p, REACH_M).filter_map(move |panel| {
             let way = panel.centre - p;
             let distance = way.length();
             let near = distance < REACH_M;

@@ -23,7 +23,7 @@ pub(crate) const JOINT: f32 = 0.28;
 /// Half the width of a joint, metres.
 pub(crate) const JOINT_HALF_M: f32 = 0.005;
 /// The block that rooms are cut into, as seen from above.
-pub(crate) const TOP: LinearRgb = [0.052, 0.052, 0.058];
+pub(crate) const TOP: LinearRgb = [0.20, 0.198, 0.195];
 /// The table under the block, lit.
 pub(crate) const TABLE: LinearRgb = [0.532, 0.527_25, 0.513];
 /// Light on the underside of a lintel.
@@ -51,6 +51,8 @@ pub(crate) const MIRRORED_DAY: f32 = 1.2;
 pub(crate) const MIRRORED_CEILING_LIGHT: f32 = 0.42;
 /// Distance up to which walls are searched for a reflection, metres.
 pub(crate) const MIRROR_REACH_M: f32 = 90.0;
+/// How far a lamp is blurred along the ray, at most, to either side on the ceiling: metres.
+pub(crate) const LONGEST_STREAK_M: f32 = 5.0;
 /// Factor on a floor's reflection by its roughness: where it is 1, least and greatest.
 const GLOSS: [f32; 3] = [0.3, 0.5, 1.6];
 /// Slope to either side within which a usual floor's reflection gathers half of its light.
@@ -78,7 +80,7 @@ const STRAIGHT: f32 = 0.50;
 
 /// The constants as GLSL declarations.
 pub(crate) fn glsl() -> String {
-    let constants: [(&str, &[f32]); 38] = [
+    let constants: [(&str, &[f32]); 39] = [
         ("LAMP", &LAMP),
         ("DAYLIGHT", &DAYLIGHT),
         ("CEILING", &CEILING),
@@ -100,6 +102,7 @@ pub(crate) fn glsl() -> String {
         ("MIRRORED_DAY", &[MIRRORED_DAY]),
         ("MIRRORED_CEILING_LIGHT", &[MIRRORED_CEILING_LIGHT]),
         ("MIRROR_REACH_M", &[MIRROR_REACH_M]),
+        ("LONGEST_STREAK_M", &[LONGEST_STREAK_M]),
         ("GLOSS", &GLOSS),
         ("LOBE", &[LOBE]),
         ("LOBE_WIDTH", &[LOBE_WIDTH]),
@@ -127,7 +130,7 @@ pub(crate) fn glsl() -> String {
 }
 
 /// Width of a floor's lobe by its roughness squared: coats of wax and lacquer are smoother than what lies under them.
-const LOBE_WIDTH: f32 = 0.6;
+const LOBE_WIDTH: f32 = 0.75;
 
 /// Share of light that is thrown back (Schlick 1994, Computer Graphics Forum 13(3); rough surfaces as Lagarde 2011).
 pub(crate) fn fresnel(cosine: f32, roughness: f32) -> f32 {
@@ -136,9 +139,12 @@ pub(crate) fn fresnel(cosine: f32, roughness: f32) -> f32 {
     F0 + ((1.0 - roughness).max(F0) - F0) * c2 * c2 * c
 }
 
-/// Slope within which half of a rough surface's mirrored light lies (Walter et al. 2007, Microfacet models for refraction).
-pub(crate) fn lobe_slope(roughness: f32) -> f64 {
-    f64::from(LOBE_WIDTH * roughness * roughness).max(0.002)
+/// Slopes, to either side and upward, within which half of the light lies that a rough floor mirrors along a ray of this
+/// slope. Half of the facets lean by less than the roughness squared (GGX: Walter et al. 2007, Microfacet models for
+/// refraction). One that leans to a side turns a flat ray less than one that leans along it: lamps are mirrored as streaks.
+pub(crate) fn lobe(roughness: f32, slope: f64) -> [f64; 2] {
+    let upward = f64::from(2.0 * LOBE_WIDTH * roughness * roughness).max(0.002);
+    [upward * slope / (1.0 + slope * slope).sqrt(), upward]
 }
 
 /// Factor on a floor's reflection: smooth places show lamps brighter than dull ones, so that lanes, film and swirls of the

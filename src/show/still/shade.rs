@@ -7,9 +7,9 @@ use crate::math::srgb::light_of;
 use crate::math::{Vec2, exp_f32, vec2};
 use crate::show::rooms::{
     CEILING, CEILING_LIGHT, DAYLIGHT, FLOOR_SHINE, Finish, Fittings, HAZE_M, HitSurface, Irradiance, JOINT, LAMP, LOBE,
-    LightSources, LinearRgb, MIRROR_REACH_M, MIRRORED_CEILING_LIGHT, MIRRORED_DAY, MIRRORED_LAMP, MIRRORED_WALL,
+    LONGEST_STREAK_M, LightSources, LinearRgb, MIRROR_REACH_M, MIRRORED_CEILING_LIGHT, MIRRORED_DAY, MIRRORED_LAMP, MIRRORED_WALL,
     MIRRORED_WALL_LIGHT, Panels, QuadKind, RayGrid, RayHit, SKY_SHINE, SOFFIT, TABLE, TILE_M, TOP, WALL_SHINE,
-    ceiling_tint, clouded, day_behind, fitting_light, fresnel, gloss, joint, lobe_slope, mix, noise, rise, scaled, sky,
+    ceiling_tint, clouded, day_behind, fitting_light, fresnel, gloss, joint, lobe, mix, noise, rise, scaled, sky,
     tinted, unevenness, wall_tint,
 };
 use crate::walls::COUNTER_M;
@@ -165,7 +165,8 @@ impl Shader<'_> {
                 Some(Reflection { mirror, things, .. }) => {
                     let wall_m = mirror.wall_m + (things.way_m - mirror.wall_m) * f64::from(things.share);
                     let away = wall_m * mirror.stretch;
-                    let slope = lobe_slope(paint.roughness) * away / (f64::from(hit.way_m) + away).max(0.1);
+                    let [aside, _] = lobe(paint.roughness, mirror.slope);
+                    let slope = aside * away / (f64::from(hit.way_m) + away).max(0.1);
                     let room = self.shine(mirror, self.light.light.panels(), paint.roughness);
                     let shine = mix(room, things.colour, things.share);
                     Lit { colour, shine, gain, blur_px: slope as f32 / self.pixel }
@@ -307,8 +308,8 @@ impl Shader<'_> {
         let Some(panel) = panels.near(p, [0, 0]) else { return [tile, [0.0; 3]] };
         let away = panel.centre - p;
         let rim = vec2(0.03, 0.03);
-        let frame = covered(away, panel.half + rim, blur) as f32;
-        let lamp = covered(away, panel.half, blur) as f32;
+        let seen = |half: Vec2| (covered(away.x, half.x, blur[0]) * covered(away.y, half.y, blur[1])) as f32;
+        let (frame, lamp) = (seen(panel.half + rim), seen(panel.half));
         // Two tubes behind the pane.
         let across = if panel.half.x < panel.half.y { away.x / panel.half.x } else { away.y / panel.half.y };
         let tubes = 1.0 - 0.45 * ((across.abs() - 0.45).abs() as f32 / 0.55).min(1.0);
@@ -461,9 +462,9 @@ impl Shader<'_> {
 
     /// The mirrored room, as blurred as the floor is rough.
     fn shine(&self, mirror: &Mirror, panels: Option<&Panels>, roughness: f32) -> LinearRgb {
-        let alpha = lobe_slope(roughness);
+        let [aside, upward] = lobe(roughness, mirror.slope);
         let height = self.space.height_m;
-        let blur_wall = alpha * mirror.wall_m * mirror.stretch + 0.02;
+        let blur_wall = upward * mirror.wall_m * mirror.stretch + 0.02;
         let over = rise((mirror.wall_z - height) / blur_wall) as f32;
         let share = (mirror.wall_z / height).clamp(0.0, 1.0) as f32;
         let wall = scaled(MIRRORED_WALL, MIRRORED_WALL_LIGHT[0] + MIRRORED_WALL_LIGHT[1] * share);
@@ -472,24 +473,24 @@ impl Shader<'_> {
         };
         let distance = mirror.ceiling_m.min(mirror.wall_m) * mirror.stretch;
         // The lobe is cut by the ceiling at a flat angle: long the way that one looks.
-        let across = 0.7 * alpha * distance;
-        let along = (across * mirror.stretch / mirror.slope).min(6.0);
-        let spread = |along_axis: f64, across_axis: f64| {
-            ((along * along_axis) * (along * along_axis) + (across * across_axis) * (across * across_axis))
-                .sqrt()
-                .clamp(0.02, 3.0)
-        };
-        let blur = [spread(mirror.toward.x, mirror.toward.y), spread(mirror.toward.y, mirror.toward.x)];
-        let reach = if blur[0].max(blur[1]) > 0.5 { 2 } else { 1 };
-        let lamps =
-            panels.around(mirror.ceiling, reach).map(|panel| covered(panel.centre - mirror.ceiling, panel.half, blur));
+        let across = (aside * distance).max(0.02);
+        let along = (upward * distance * mirror.stretch / mirror.slope).min(f64::from(LONGEST_STREAK_M));
+        let lamps = panels.around(mirror.ceiling, 1.5 * along).map(|panel| {
+            let (away, half) = (panel.centre - mirror.ceiling, panel.half);
+            // The panel's box along the ray and across it, of the same area.
+            let [x, y] = [mirror.toward.x.abs(), mirror.toward.y.abs()];
+            let [long, wide] = [half.x * x + half.y * y, half.x * y + half.y * x];
+            let share = half.x * half.y / (long * wide);
+            let away = [mirror.toward.dot(away), mirror.toward.cross(away)];
+            share * covered(away[0], long, along) * covered(away[1], wide, across)
+        });
         let ceiling = mix(scaled(CEILING, MIRRORED_CEILING_LIGHT), MIRRORED_LAMP, (lamps.sum::<f64>() as f32).min(1.0));
         mix(mix(wall, ceiling, over), scaled(DAYLIGHT, MIRRORED_DAY), mirror.daylight)
     }
 }
 
-/// Share of a rectangle in a blurred look at a place; `blur` are half widths in x and y, metres.
-fn covered(away: Vec2, half: Vec2, [x, y]: [f64; 2]) -> f64 {
-    let along = |away: f64, half: f64, blur: f64| rise((half - away) / blur) - rise((-half - away) / blur);
-    along(away.x, half.x, x.max(1e-4)) * along(away.y, half.y, y.max(1e-4))
+/// Share of a stretch, `half` to either side of a place `away`, in a look that is blurred over `blur`, metres.
+fn covered(away: f64, half: f64, blur: f64) -> f64 {
+    let blur = blur.max(1e-4);
+    rise((half - away) / blur) - rise((-half - away) / blur)
 }

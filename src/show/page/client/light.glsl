@@ -4,8 +4,9 @@ float fresnel(float cosine, float roughness) {
   return F0 + (max(1.0 - roughness, F0) - F0) * pow(1.0 - clamp(cosine, 0.0, 1.0), 5.0);
 }
 
-float lobe_slope(float roughness) {
-  return max(LOBE_WIDTH * roughness * roughness, 0.002);
+vec2 lobe(float roughness, float slope) {
+  float upward = max(2.0 * LOBE_WIDTH * roughness * roughness, 0.002);
+  return vec2(upward * slope / sqrt(1.0 + slope * slope), upward);
 }
 
 float gloss(float roughness) {

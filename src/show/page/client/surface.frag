@@ -107,15 +107,15 @@ vec3 mirrored(vec3 ray, float roughness) {
   }
   wall_m = min(wall_m, reach);
   float wall_z = wall_m * slope;
-  float alpha = lobe_slope(roughness);
-  float over = rise((wall_z - u_height) / (alpha * wall_m * stretch + 0.02));
+  vec2 blur = lobe(roughness, slope);
+  float over = rise((wall_z - u_height) / (blur.y * wall_m * stretch + 0.02));
   vec3 wall = MIRRORED_WALL * (MIRRORED_WALL_LIGHT.x + MIRRORED_WALL_LIGHT.y * clamp(wall_z / u_height, 0.0, 1.0));
   // The ceiling and its lamps, blurred along the ray more than across.
   float gone = min(ceiling_m, wall_m);
   vec2 above = v_place.xy + along * gone;
-  float blur = 1.4 * alpha * gone * stretch;
-  vec2 ahead = along * min(blur * stretch / slope, 12.0);
-  vec2 aside = vec2(-along.y, along.x) * blur;
+  blur *= 2.0 * gone * stretch;
+  vec2 ahead = along * min(blur.y * stretch / slope, 2.0 * LONGEST_STREAK_M);
+  vec2 aside = vec2(-along.y, along.x) * blur.x;
   float lamps = textureGrad(u_lamps, (above - u_lamps_place.xy) * u_lamps_place.zw, ahead * u_lamps_place.zw, aside * u_lamps_place.zw).r;
   vec3 ceiling = mix(CEILING * MIRRORED_CEILING_LIGHT, MIRRORED_LAMP, lamps);
   float day = textureLod(u_field, (v_place.xy + along * (wall_m + 0.1) - u_field_place.xy) * u_field_place.zw, 0.0).g;
