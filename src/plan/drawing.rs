@@ -10,7 +10,7 @@ use super::ros_map::{Cell, Greys};
 use super::tones::{SURELY_DARK, USUAL_THRESHOLD};
 use super::{
     PlanOptions, TransparentPolicy, UnknownPolicy, colour_areas, hatching, level_map, paving, shadow, sheet, skew,
-    thin_lines, tones,
+    squared, thin_lines, tones,
 };
 
 /// Greys of unknown and of free cells as mappers write them.
@@ -334,11 +334,13 @@ fn settle_tones(drawing: &mut Drawing, lightness: &mut [u8], options: &PlanOptio
         return;
     }
     if let Some([low, high]) = shadow::even_out(width, lightness) {
+        squared::lighten(width, lightness);
         drawing.threshold = tones::ink_threshold(lightness);
         warnings
             .push(format!("the light is uneven: the paper's tone goes from {low} to {high} of 255 and was evened out"));
         return;
     }
+    squared::lighten(width, lightness);
     drawing.threshold = tones::wall_threshold(width, lightness, coloured);
     if drawing.threshold != USUAL_THRESHOLD {
         warnings.push(format!(

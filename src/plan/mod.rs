@@ -49,6 +49,7 @@ mod sheet;
 mod similar;
 mod skew;
 mod spaces;
+mod squared;
 mod symbols;
 mod thick;
 mod thin_lines;

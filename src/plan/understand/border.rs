@@ -1,6 +1,7 @@
 //! The border of a sheet, which is no wall.
 
 use super::super::components::{Component, Components, Neighbours};
+use super::super::drawing::is_on;
 use super::super::thick::{THINNEST_M, grow, open};
 
 /// Greatest thickness of a sheet's frame that has little within, metres.
@@ -10,6 +11,10 @@ const BROKEN_PX: usize = 2;
 const LEAST_DRAWN: f64 = 0.95;
 /// Steepest slope of the sides of a scanned sheet's frame.
 const TILT: f64 = 0.04;
+/// How far a frame's thickness is off its median, as a share and pixels, and how much of its length is so at least.
+const UNEVEN: f64 = 0.4;
+const UNEVEN_PX: f64 = 2.0;
+const LEAST_ALIKE: f64 = 0.8;
 /// Greatest share of a frame that lies off its sides, as a title block does.
 const MOST_AT_FRAME: f64 = 0.3;
 
@@ -65,14 +70,15 @@ fn drop_thicker(core: &mut [u8], ink: &[u8], width: usize, metres_per_pixel: f64
         }
         let mut mask = vec![0u8; core.len()];
         pieces.paint(piece, &mut mask, width, 1);
-        if has_four_sides(&pieces, piece, &mask, width) {
+        if has_four_sides(&pieces, piece, [&mask, &thick], width) {
             pieces.paint(piece, core, width, 0);
         }
     }
 }
 
-/// Whether a piece covers the four lines between its corners, and those are almost upright and level.
-fn has_four_sides(pieces: &Components, piece: &Component, mask: &[u8], width: usize) -> bool {
+/// Whether a piece covers the four lines between its corners, those are almost upright and level, and all are drawn alike:
+/// an outer wall is thinner in its windows. Of the masks, the second has the strokes as thick as they are.
+fn has_four_sides(pieces: &Components, piece: &Component, [mask, strokes]: [&[u8]; 2], width: usize) -> bool {
     let ends = || {
         let runs = pieces.runs(piece).iter();
         runs.flat_map(|run| [[run.from, run.y], [run.to - 1, run.y]].map(|corner| corner.map(f64::from)))
@@ -85,16 +91,38 @@ fn has_four_sides(pieces: &Components, piece: &Component, mask: &[u8], width: us
         [(u - x * inset).max(0.0), (v - y * inset).max(0.0)]
     };
     let corners = [farthest(-1.0, -1.0), farthest(1.0, -1.0), farthest(1.0, 1.0), farthest(-1.0, 1.0)];
-    (0..4).all(|k| {
+    let mut thicknesses = Vec::new();
+    let has_all = (0..4).all(|k| {
         let [[x0, y0], [x1, y1]] = [corners[k], corners[(k + 1) % 4]];
         let [dx, dy] = [x1 - x0, y1 - y0];
         let length = dx.abs().max(dy.abs());
         let steps = (length as usize).max(1);
+        let across = if dx.abs() > dy.abs() { width } else { 1 };
         let drawn = (0..=steps).filter(|&step| {
             let share = step as f64 / steps as f64;
             let [x, y] = [x0 + dx * share, y0 + dy * share].map(|px| px.round() as usize);
-            x < width && mask.get(y * width + x).is_some_and(|&on| on != 0)
+            let is_drawn = x < width && mask.get(y * width + x).is_some_and(|&on| on != 0);
+            thicknesses.extend(is_drawn.then(|| thickness(strokes, y * width + x, across)));
+            is_drawn
         });
-        dx.abs().min(dy.abs()) <= TILT * length && drawn.count() as f64 >= LEAST_DRAWN * (steps + 1) as f64
-    })
+        drawn.count() as f64 >= LEAST_DRAWN * (steps + 1) as f64 && dx.abs().min(dy.abs()) <= TILT * length
+    });
+    has_all && are_alike(&mut thicknesses)
+}
+
+/// Thickness of the stroke at a place, across it, pixels.
+fn thickness(strokes: &[u8], at: usize, across: usize) -> usize {
+    let is_on = |at: usize| is_on(strokes, at);
+    let on = (1..).take_while(|k| is_on(at + k * across)).count();
+    let back = (1..).take_while(|k| at.checked_sub(k * across).is_some_and(is_on)).count();
+    on + back + 1
+}
+
+/// Whether nearly all thicknesses are about their median.
+fn are_alike(thicknesses: &mut [usize]) -> bool {
+    thicknesses.sort_unstable();
+    let median = thicknesses[thicknesses.len() / 2] as f64;
+    let off = (UNEVEN * median).max(UNEVEN_PX);
+    let alike = thicknesses.iter().filter(|&&px| (px as f64 - median).abs() <= off).count();
+    alike as f64 >= LEAST_ALIKE * thicknesses.len() as f64
 }

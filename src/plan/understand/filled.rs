@@ -12,11 +12,12 @@ const BETTER: f64 = 0.05;
 /// Finds the net of walls that are drawn as outlines or by hatches, or as both.
 ///
 /// `core` has the strokes that are surely dark. `search` finds a net in a mask of what is surely wall, and one with its edges;
-/// up to so many pixels are strokes.
+/// up to so many pixels are strokes. Whether the paper is clean, `is_clean` says.
 pub(super) fn net(
     [strokes, core]: [&[u8]; 2],
     width: usize,
     metres_per_pixel: f64,
+    is_clean: bool,
     search: impl Fn(&[u8], &[u8], usize) -> Option<Net>,
 ) -> Option<Net> {
     // The soft edges of leaves and furniture are as thick as thin walls together with them.
@@ -39,9 +40,11 @@ pub(super) fn net(
     }
     let hatched = hollow::fill_hatches(&toothed, width, metres_per_pixel);
     let both = hollow::fill_outlines(&hatched, width, metres_per_pixel);
+    // On clean paper strokes are drawn by a machine, and meet.
+    let paired = if is_clean { outlined.clone() } else { hollow::fill_pairs(&toothed, width, metres_per_pixel) };
     // Where there is nothing to fill, the search ends as before.
-    for (k, filled) in [&hatched, &both].into_iter().enumerate() {
-        if *filled == outlined || k > 0 && *filled == hatched {
+    for (k, filled) in [&hatched, &both, &paired].into_iter().enumerate() {
+        if *filled == outlined || k > 0 && *filled == hatched || share_closed(&best) >= WELL_CLOSED {
             continue;
         }
         let found = sought(filled);

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::super::components::{Component, Components, Neighbours, Run};
-use super::super::thick::{grow, open};
+use super::super::thick::{grow, long_runs, open};
 use crate::math::vec2;
 
 /// Greatest distance between the lines of a hatch, metres.
@@ -67,6 +67,43 @@ pub(super) fn stroke_px(strokes: &[u8], fills: &[u8], width: usize, metres_per_p
     }
     let most = ((HATCH_M / metres_per_pixel) as usize).max(2);
     (1..=most).find(|&px| count(&open(strokes, width, px + 1)) <= THICKER * all).map_or(0, |px| px + 1)
+}
+
+/// Fills what lies between two strokes along half a metre, as far apart as the faces of a wall: the outlines of walls that
+/// are drawn by hand are open where strokes miss each other.
+pub(super) fn fill_pairs(strokes: &[u8], width: usize, metres_per_pixel: f64) -> Vec<u8> {
+    const APART_M: Range<f64> = 0.05..0.45;
+    const LEAST_M: f64 = 0.5;
+    const SLIT_M: f64 = 0.08;
+    let [nearest, farthest, least] =
+        [APART_M.start, APART_M.end, LEAST_M].map(|m| (m / metres_per_pixel).round() as usize);
+    let height = strokes.len() / width;
+    let mut filled = strokes.to_vec();
+    for (lines, length, step, stride) in [(height, width, 1, width), (width, height, width, 1)] {
+        let mut between = vec![0u8; strokes.len()];
+        for line in 0..lines {
+            let mut last = None;
+            for k in 0..length {
+                let at = line * stride + k * step;
+                if strokes[at] == 0 {
+                    continue;
+                }
+                if let Some(from) = last.replace(k + 1).filter(|from| (nearest..=farthest).contains(&(k - from))) {
+                    (from..k).for_each(|k| between[line * stride + k * step] = 1);
+                }
+            }
+        }
+        let long = long_runs(&between, width, stride, least);
+        filled.iter_mut().zip(&long).for_each(|(filled, long)| *filled |= long);
+    }
+    // Where strokes wobble, slits are left, and a square where two walls meet.
+    let slit = ((SLIT_M / metres_per_pixel).round() as usize).max(2);
+    let mut filled = inverted(&open(&inverted(&filled), width, slit));
+    let fields = Components::of(&filled, width, 0, Neighbours::Four);
+    for field in fields.all.iter().filter(|field| field.larger_side() as usize <= farthest) {
+        fields.paint(field, &mut filled, width, 1);
+    }
+    filled
 }
 
 /// Fills what is too narrow for anything but the space between the lines of a hatch, where many such spaces lie together.

@@ -33,6 +33,9 @@ const LEAF_M: f64 = 0.06;
 const TICK_M: f64 = 0.4;
 /// Shortest line with a tick at both ends that is a dimension for sure, metres: letters lie at the ends of a chair's.
 const NOTE_M: f64 = 1.5;
+/// How far apart the two lines of a glass wall are at most, metres, and share of one that the other lies beside.
+const PAIR_M: f64 = 0.2;
+const IN_PAIR: f64 = 0.8;
 /// By how much the two ticks of a line differ at most, pixels.
 const ALIKE_PX: u32 = 2;
 
@@ -65,6 +68,7 @@ pub(super) fn thickened(
         let lines = Components::of(mask, width, 1, Neighbours::Eight);
         for line in &lines.all {
             let crossed = ticks.end(line, along).or_else(|| heads.end(line, along).then_some(true));
+            let crossed = crossed.filter(|_| !lines.all.iter().any(|other| is_pair(line, other, along, px(PAIR_M))));
             if let Some(is_note) = crossed {
                 lines.paint(line, mask, width, 0);
                 has_notes = has_notes || is_note && line.size()[along] as usize >= px(NOTE_M);
@@ -91,13 +95,26 @@ pub(super) fn thickened(
     for (mask, along) in [(&level, 0), (&upright, 1)] {
         let pieces = Components::of(mask, width, 1, Neighbours::Eight);
         for line in &pieces.all {
-            if !is_furniture(line, along, &fields, &lines, width) {
+            // Mullions part the field of a glass wall.
+            let is_long = line.size()[along] as usize >= px(PANE_M[1]);
+            let is_glass = || is_long && pieces.all.iter().any(|other| is_pair(line, other, along, px(PANE_M[0])));
+            if !is_furniture(line, along, &fields, &lines, width) || is_glass() {
                 pieces.paint(line, &mut walls, width, 1);
             }
         }
     }
     let reach = px(THICK_M * 0.5).max(1);
     (grow(&walls, width, reach), reach)
+}
+
+/// Whether another line lies close along most of a line: glass walls are drawn by two, with mullions across.
+fn is_pair(line: &Component, other: &Component, along: usize, farthest: usize) -> bool {
+    let across = 1 - along;
+    let from = line.min[along].max(other.min[along]);
+    let both = line.end[along].min(other.end[along]).saturating_sub(from);
+    let apart = [other.min[across].checked_sub(line.end[across]), line.min[across].checked_sub(other.end[across])];
+    let is_beside = apart.into_iter().flatten().any(|px| px > 0 && px as usize <= farthest);
+    is_beside && f64::from(both) >= IN_PAIR * f64::from(line.size()[along])
 }
 
 /// Takes the leaves of doors off level and upright lines, and the dashes of axes that fill the gaps beside their arcs.

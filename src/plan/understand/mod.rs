@@ -306,8 +306,14 @@ fn net_of_walls(
     let surely =
         |at: usize| strokes[at] & u8::from(drawing.lightness[at] < drawing.surely_dark && (is_dark(at) || is_ring(at)));
     let core: Vec<u8> = (0..dark.len()).map(surely).collect();
-    let usual =
-        |thickest: usize| Sought { thickest, widest_m: WIDEST_DOOR_M, is_massive: false, stroke_px: 0, colours };
+    let usual = |thickest: usize| Sought {
+        thickest,
+        widest_m: WIDEST_DOOR_M,
+        is_massive: false,
+        stroke_px: 0,
+        is_framed: true,
+        colours,
+    };
     let net_in = |ink: &[u8], core: &[u8], filled: &[u8], sought: &Sought| {
         let net = Net::find(core, filled, dark, ink, width, metres_per_pixel, sought)?;
         (net.is_building() && is_it(&net)).then_some(net)
@@ -345,7 +351,7 @@ fn net_of_walls(
         (0..strokes.len()).map(|at| plain[at] | u8::from(is_crossed(at))).collect()
     };
     let filled = || {
-        let of = |strokes: &[u8]| filled::net([strokes, &core], width, metres_per_pixel, find);
+        let of = |strokes: &[u8]| filled::net([strokes, &core], width, metres_per_pixel, drawing.clean, find);
         let of_all = of(&strokes)?;
         if !colours.bars.contains(&1) {
             return Some(of_all);
@@ -359,7 +365,8 @@ fn net_of_walls(
         // Of hollow walls beside massive ones, the outlines alone were found.
         let of_filled = if net.joined(width) < CONNECTED { filled() } else { None };
         let net = of_filled.filter(|net| net.joined(width) >= CONNECTED).unwrap_or(net);
-        let search = |core: &[u8], thickest: usize| net_in(all_ink, core, core, &usual(thickest));
+        let search =
+            |core: &[u8], thickest: usize| net_in(all_ink, core, core, &Sought { is_framed: false, ..usual(thickest) });
         let strokes = if all_ink == ink { strokes } else { without_lettering(all_ink, width, metres_per_pixel) };
         return Some(partitions::added(net, &strokes, all_ink, width, metres_per_pixel, search));
     }

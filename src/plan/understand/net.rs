@@ -96,6 +96,8 @@ pub(super) struct Sought<'a> {
     pub(super) is_massive: bool,
     /// Thickness of strokes that are no walls, pixels.
     pub(super) stroke_px: usize,
+    /// Whether a sheet's frame may be around them.
+    pub(super) is_framed: bool,
     pub(super) colours: Colours<'a>,
 }
 
@@ -110,11 +112,13 @@ impl Net {
         ink: &[u8],
         width: usize,
         metres_per_pixel: f64,
-        &Sought { thickest, widest_m, is_massive, stroke_px, colours }: &Sought,
+        &Sought { thickest, widest_m, is_massive, stroke_px, is_framed, colours }: &Sought,
     ) -> Option<Net> {
         // Fills join the strokes of frames that stand apart.
         let mut core = core.to_vec();
-        border::drop(&mut core, ink, width, metres_per_pixel);
+        if is_framed {
+            border::drop(&mut core, ink, width, metres_per_pixel);
+        }
         let Thickness { square: side, thinnest, usual } =
             Thickness::of(&core, width, metres_per_pixel, is_massive, stroke_px)?;
         let px = |metres: f64| (metres / metres_per_pixel).round() as usize;

@@ -7,10 +7,10 @@ use crate::math::srgb::light_of;
 use crate::math::{Vec2, exp_f32, vec2};
 use crate::show::rooms::{
     CEILING, CEILING_LIGHT, DAYLIGHT, FLOOR_SHINE, Finish, Fittings, HAZE_M, HitSurface, Irradiance, JOINT, LAMP, LOBE,
-    LONGEST_STREAK_M, LightSources, LinearRgb, MIRROR_REACH_M, MIRRORED_CEILING_LIGHT, MIRRORED_DAY, MIRRORED_LAMP, MIRRORED_WALL,
-    MIRRORED_WALL_LIGHT, Panels, QuadKind, RayGrid, RayHit, SKY_SHINE, SOFFIT, TABLE, TILE_M, TOP, WALL_SHINE,
-    ceiling_tint, clouded, day_behind, fitting_light, fresnel, gloss, joint, lobe, mix, noise, rise, scaled, sky,
-    tinted, unevenness, wall_tint,
+    LONGEST_STREAK_M, LightSources, LinearRgb, MIRROR_REACH_M, MIRRORED_CEILING_LIGHT, MIRRORED_DAY, MIRRORED_LAMP,
+    MIRRORED_WALL, MIRRORED_WALL_LIGHT, Panels, QuadKind, RayGrid, RayHit, SKY_SHINE, SOFFIT, TABLE, TILE_M, TOP,
+    WALL_SHINE, ceiling_tint, clouded, day_behind, fitting_light, fresnel, gloss, joint, lobe, mix, noise, rise,
+    scaled, sky, tinted, unevenness, wall_tint,
 };
 use crate::walls::COUNTER_M;
 
