@@ -159,3 +159,84 @@ fn behind_glass(is_hollow: bool) -> Canvas {
     }
     canvas
 }
+
+/// An office whose outer walls are mostly window, with rooms behind glass in two corners and a core of lifts in the middle: the
+/// ring of its outer walls was taken for the frame of the sheet, and nothing was left.
+fn office_around_a_core() -> Canvas {
+    let (white, black, glass) = ([255; 3], [70; 3], [60, 110, 120]);
+    let [w, h] = [24.0, 14.0];
+    let mut canvas = Canvas::new([w + 6.0, h + 6.0], [-3.0, -3.0], PX_PER_M, 0.0, white);
+    canvas.fill(&sides([w, h]).map(|side| wall(side, OUTER_M)), black);
+    let mut pane = |[min, max]: [Point; 2]| {
+        let is_level = max[0] - min[0] > max[1] - min[1];
+        let middle = if is_level { [min[0], 0.5 * (min[1] + max[1])] } else { [0.5 * (min[0] + max[0]), min[1]] };
+        let end = if is_level { [max[0], middle[1]] } else { [middle[0], max[1]] };
+        let frame = rectangle(min, max);
+        canvas.fill(std::slice::from_ref(&frame), white);
+        canvas.fill(&outline(&frame, STROKE_M), black);
+        canvas.fill(&[line(middle, end, STROKE_M)], black);
+    };
+    let half = OUTER_M * 0.5;
+    for x in [0.8, 5.0, 9.2, 13.4, 17.6, 21.0] {
+        let to = if x > 20.0 { x + 2.0 } else { x + 3.2 };
+        [0.0, h].into_iter().for_each(|y| pane([[x, y - half], [to, y + half]]));
+    }
+    for y in [1.0, 5.4, 9.8] {
+        [0.0, w].into_iter().for_each(|x| pane([[x - half, y], [x + half, y + 3.2]]));
+    }
+    // The core has a door and no window.
+    canvas.fill(&[rectangle([9.0, 5.5], [14.0, 8.5])], black);
+    canvas.fill(&[rectangle([9.3, 5.8], [13.7, 8.2])], white);
+    hang(&mut canvas, ([11.0, 5.65], 0.0, -PI * 0.5, OUTER_M));
+    // Glass walls are two lines, with a mullion across every metre.
+    let glazed = [
+        ([half, 4.0], [2.4, 4.0]),
+        ([3.3, 4.0], [4.0, 4.0]),
+        ([4.0, half], [4.0, 4.05]),
+        ([20.0, half], [20.0, 4.05]),
+        ([20.0, 4.0], [20.7, 4.0]),
+        ([21.6, 4.0], [w - half, 4.0]),
+    ];
+    for (from, to) in glazed {
+        let is_level = to[0] - from[0] > to[1] - from[1];
+        let beside = |p: Point, by: f64| if is_level { [p[0], p[1] + by] } else { [p[0] + by, p[1]] };
+        canvas.fill(&[-0.06, 0.06].map(|by| line(beside(from, by), beside(to, by), 0.03)), glass);
+        let length = (to[0] - from[0]).max(to[1] - from[1]);
+        for k in 0..=length.round() as usize {
+            let at = (k as f64).min(length);
+            let p = if is_level { [from[0] + at, from[1]] } else { [from[0], from[1] + at] };
+            canvas.fill(&[line(beside(p, -0.12), beside(p, 0.12), 0.03)], glass);
+        }
+    }
+    for (hinge, closed) in [([2.4, 4.0], 0.0), ([21.6, 4.0], PI)] {
+        let tip = [hinge[0], hinge[1] - 0.9];
+        canvas.fill(&lines(&arc(hinge, 0.9, -PI * 0.5, if closed == 0.0 { 0.0 } else { -PI }), 0.03), glass);
+        canvas.fill(&[line(hinge, tip, 0.05)], glass);
+    }
+    for (x, y) in [(1.0, 6.0), (1.0, 9.0), (16.0, 6.0), (16.0, 9.0), (6.0, 11.0), (12.0, 11.0), (7.0, 1.6), (13.0, 1.6)]
+    {
+        canvas.fill(&outline(&rectangle([x, y], [x + 3.2, y + 1.6]), STROKE_M), black);
+        canvas.fill(
+            &[line([x, y + 0.8], [x + 3.2, y + 0.8], STROKE_M), line([x + 1.6, y], [x + 1.6, y + 1.6], STROKE_M)],
+            black,
+        );
+    }
+    canvas
+}
+
+#[test]
+fn windows_all_around_are_no_frame_and_glass_divides_rooms() {
+    let canvas = office_around_a_core();
+    let plan = canvas.read(Some(1.0 / PX_PER_M));
+    assert_eq!(plan.windows.len(), 18, "windows");
+    let hall = canvas.floor_in(&plan, [[5.0, 3.4], [19.0, 5.2]]);
+    assert!(hall > 0.95, "{hall} of the hall is floor");
+    for (name, room) in [("west", [[0.5, 0.5], [3.5, 3.0]]), ("east", [[20.5, 0.5], [23.5, 3.0]])] {
+        let floor = canvas.floor_in(&plan, room);
+        assert!(floor > 0.95, "{floor} of the room in the {name} is floor");
+    }
+    let outside = canvas.floor_in(&plan, [[-2.8, -2.8], [26.8, -0.4]]);
+    assert!(outside < 0.01, "{outside} of the paper is floor");
+    let rooms = Rooms::find(&plan, &Walls::trace(&plan, &WallsOptions::default()));
+    assert_eq!(rooms.rooms.len(), 4, "two rooms behind glass, the core, the hall: {:?}", rooms.rooms);
+}

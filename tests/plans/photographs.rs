@@ -5,6 +5,7 @@ use image::{DynamicImage, RgbImage};
 use trodden::plan::{FloorPlan, PlanClass, PlanOptions, read};
 
 use super::buildings::{Building, flat, office, school};
+use super::canvas::{Canvas, Point, arc, lines};
 use super::styles::{Drawn, hand_drawing};
 
 type Light = fn(f64, f64) -> f64;
@@ -173,4 +174,89 @@ fn sheets_in_photographs_are_straightened() {
             }
         }
     }
+}
+
+/// Blue lines of an exercise book, forty squares across, and the red one at its margin.
+fn squared(drawn: &Drawn, light: Light, [u, v]: [f64; 2]) -> [f64; 3] {
+    const SQUARES: f64 = 40.0;
+    let image = drawn.image.as_rgb8().unwrap();
+    let [width, height] = [image.width(), image.height()].map(f64::from);
+    let side = width / SQUARES;
+    let is_line = |px: f64| (px / side + 0.5).fract() * side < 3.0;
+    let blue = if is_line(u * width) || is_line(v * height) { [0.58, 0.68, 0.80] } else { [1.0; 3] };
+    let red = if (u - 0.955).abs() * width < 1.5 { [0.9, 0.6, 0.6] } else { [1.0; 3] };
+    let paper = paper(drawn, light, [u, v]);
+    std::array::from_fn(|c| paper[c] * blue[c] * red[c])
+}
+
+#[test]
+fn squares_of_an_exercise_book_are_no_strokes() {
+    for building in BUILDINGS {
+        let drawn = hand_drawing(building);
+        let name = building().name;
+        let (width, height) = (drawn.image.width(), drawn.image.height());
+        let (_folder, plan) =
+            saved(&format!("squared-{name}"), width, height, |u, v| squared(&drawn, LIGHTS[1].1, [u, v]));
+        let agreed = agreement(&plan, &drawn, 0.0);
+        println!("squared {name}: {agreed:.3}");
+        assert!(agreed >= 0.85, "{name}: {agreed:.3}");
+    }
+}
+
+/// Three rooms and a corridor in a pencil's double lines, which sway and miss each other at corners and jambs.
+#[test]
+fn outlines_that_miss_each_other_are_walls() {
+    const PX_PER_M: f64 = 80.0;
+    let mut canvas = Canvas::new([13.0, 10.0], [-1.5, -1.5], PX_PER_M, 0.0, [236, 233, 224]);
+    let mut noise = Noise(3);
+    let mut stroke = |canvas: &mut Canvas, a: Point, b: Point| {
+        let way = [b[0] - a[0], b[1] - a[1]];
+        let length = way[0].hypot(way[1]);
+        // It ends some centimetres early or late, and sways by one.
+        let ends = [noise.draw(), noise.draw()].map(|by| (0.05 * by).clamp(-0.07, 0.07));
+        let sways = [noise.draw(), noise.draw()].map(|by| 0.012 * by);
+        let point = |t: f64| {
+            let along = ends[0] + t * (length - ends[0] + ends[1]);
+            let aside = sways[0] * (t * 6.0).sin() + sways[1] * (t * 11.0).sin();
+            [a[0] + (way[0] * along - way[1] * aside) / length, a[1] + (way[1] * along + way[0] * aside) / length]
+        };
+        let points: Vec<Point> = (0..=40).map(|k| point(f64::from(k) / 40.0)).collect();
+        canvas.fill(&lines(&points, 0.03), [96; 3]);
+    };
+    // Walls as boxes between doors: four strokes each.
+    let walls = [
+        [[0.0, 0.0], [10.0, 0.25]],
+        [[0.0, 6.75], [4.0, 7.0]],
+        [[4.9, 6.75], [10.0, 7.0]],
+        [[0.0, 0.25], [0.25, 6.75]],
+        [[9.75, 0.25], [10.0, 6.75]],
+        [[0.25, 4.5], [1.5, 4.62]],
+        [[2.4, 4.5], [5.6, 4.62]],
+        [[6.5, 4.5], [9.75, 4.62]],
+        [[4.4, 0.25], [4.52, 4.5]],
+    ];
+    for [[x0, y0], [x1, y1]] in walls {
+        let corners = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
+        (0..4).for_each(|k| stroke(&mut canvas, corners[k], corners[(k + 1) % 4]));
+    }
+    for (hinge, closed, open) in [([4.0, 6.75], 0.0, -0.5), ([1.5, 4.5], 0.0, -0.5), ([6.5, 4.5], 1.0, 1.5)] {
+        let [closed, open] = [closed, open].map(|turn: f64| turn * std::f64::consts::PI);
+        let tip = [hinge[0] + 0.9 * open.cos(), hinge[1] + 0.9 * open.sin()];
+        stroke(&mut canvas, hinge, tip);
+        canvas.fill(&lines(&arc(hinge, 0.9, closed, open), 0.025), [110; 3]);
+    }
+    let colour = |u: f64, v: f64| {
+        let at = (v * canvas.height as f64) as usize * canvas.width + (u * canvas.width as f64) as usize;
+        canvas.pixels[at].map(f64::from)
+    };
+    let (_folder, plan) = saved("missed", canvas.width as u32, canvas.height as u32, colour);
+    let scale = plan.metres_per_pixel * PX_PER_M;
+    assert!((0.85..1.15).contains(&scale), "the scale is {scale} times the true one");
+    assert_eq!(plan.doors.len(), 3, "doors");
+    for room in [[[0.6, 0.6], [4.0, 3.4]], [[4.9, 0.6], [9.4, 3.4]], [[0.6, 5.0], [9.4, 5.8]]] {
+        let floor = canvas.floor_in(&plan, room);
+        assert!(floor > 0.95, "{floor} of the room at {room:?} is floor");
+    }
+    let wall = canvas.floor_in(&plan, [[0.3, 0.05], [9.7, 0.2]]);
+    assert!(wall < 0.1, "{wall} of the northern wall is floor");
 }

@@ -33,7 +33,7 @@ const LEAF_M: f64 = 0.06;
 const TICK_M: f64 = 0.4;
 /// Shortest line with a tick at both ends that is a dimension for sure, metres: letters lie at the ends of a chair's.
 const NOTE_M: f64 = 1.5;
-/// How far apart the two lines of a glass wall are at most, metres, and share of one that the other lies beside.
+/// How far apart the two lines of a glass wall are at most, metres, and along which share of the longer both run at least.
 const PAIR_M: f64 = 0.2;
 const IN_PAIR: f64 = 0.8;
 /// By how much the two ticks of a line differ at most, pixels.
@@ -68,7 +68,8 @@ pub(super) fn thickened(
         let lines = Components::of(mask, width, 1, Neighbours::Eight);
         for line in &lines.all {
             let crossed = ticks.end(line, along).or_else(|| heads.end(line, along).then_some(true));
-            let crossed = crossed.filter(|_| !lines.all.iter().any(|other| is_pair(line, other, along, px(PAIR_M))));
+            let crossed = crossed
+                .filter(|_| panes.is_empty() || !lines.all.iter().any(|other| is_pair(line, other, along, px(PAIR_M))));
             if let Some(is_note) = crossed {
                 lines.paint(line, mask, width, 0);
                 has_notes = has_notes || is_note && line.size()[along] as usize >= px(NOTE_M);
@@ -95,8 +96,8 @@ pub(super) fn thickened(
     for (mask, along) in [(&level, 0), (&upright, 1)] {
         let pieces = Components::of(mask, width, 1, Neighbours::Eight);
         for line in &pieces.all {
-            // Mullions part the field of a glass wall.
-            let is_long = line.size()[along] as usize >= px(PANE_M[1]);
+            // Mullions part the field of a glass wall. Where windows are not known, they are drawn so too.
+            let is_long = !panes.is_empty() && line.size()[along] as usize >= px(PANE_M[1]);
             let is_glass = || is_long && pieces.all.iter().any(|other| is_pair(line, other, along, px(PANE_M[0])));
             if !is_furniture(line, along, &fields, &lines, width) || is_glass() {
                 pieces.paint(line, &mut walls, width, 1);
@@ -107,14 +108,15 @@ pub(super) fn thickened(
     (grow(&walls, width, reach), reach)
 }
 
-/// Whether another line lies close along most of a line: glass walls are drawn by two, with mullions across.
+/// Whether another line of about the same length lies close beside a line: glass walls are drawn by two, with mullions across.
+/// The edge of a desk is shorter than the wall that it stands at.
 fn is_pair(line: &Component, other: &Component, along: usize, farthest: usize) -> bool {
     let across = 1 - along;
-    let from = line.min[along].max(other.min[along]);
-    let both = line.end[along].min(other.end[along]).saturating_sub(from);
     let apart = [other.min[across].checked_sub(line.end[across]), line.min[across].checked_sub(other.end[across])];
     let is_beside = apart.into_iter().flatten().any(|px| px > 0 && px as usize <= farthest);
-    is_beside && f64::from(both) >= IN_PAIR * f64::from(line.size()[along])
+    let from = line.min[along].max(other.min[along]);
+    let both = line.end[along].min(other.end[along]).saturating_sub(from);
+    is_beside && f64::from(both) >= IN_PAIR * f64::from(line.size()[along].max(other.size()[along]))
 }
 
 /// Takes the leaves of doors off level and upright lines, and the dashes of axes that fill the gaps beside their arcs.
