@@ -62,7 +62,7 @@ impl Panels {
         self.squares.iter().flatten()
     }
 
-    /// The panels of all squares that come nearer to a place than `reach_m`, and some beyond.
+    /// All panels whose centres are nearer to a place than `reach_m`, and some beyond.
     pub fn around(&self, p: Vec2, reach_m: f64) -> impl Iterator<Item = Panel> {
         let reach = (reach_m / SQUARE_M).ceil() as i64;
         (-reach..=reach).flat_map(move |dy| (-reach..=reach).filter_map(move |dx| self.near(p, [dx, dy])))

@@ -45,7 +45,7 @@ pub(crate) const MIRRORED_WALL: LinearRgb = [0.66, 0.64, 0.60];
 /// Light on mirrored walls: `[0] + [1] * height / ceiling`.
 pub(crate) const MIRRORED_WALL_LIGHT: [f32; 2] = [0.62, 0.20];
 /// Radiance of lamps as floors mirror them: film shows lamps darker than they are. And that of daylight, by its own.
-pub(crate) const MIRRORED_LAMP: LinearRgb = [9.0, 8.8, 8.3];
+pub(crate) const MIRRORED_LAMP: LinearRgb = [13.5, 13.2, 12.5];
 pub(crate) const MIRRORED_DAY: f32 = 1.2;
 /// Light on the mirrored ceiling.
 pub(crate) const MIRRORED_CEILING_LIGHT: f32 = 0.42;

@@ -475,7 +475,7 @@ impl Shader<'_> {
         // The lobe is cut by the ceiling at a flat angle: long the way that one looks.
         let across = (aside * distance).max(0.02);
         let along = (upward * distance * mirror.stretch / mirror.slope).min(f64::from(LONGEST_STREAK_M));
-        let lamps = panels.around(mirror.ceiling, 1.5 * along).map(|panel| {
+        let lamps = panels.around(mirror.ceiling, 1.5 * along + TILE_M).map(|panel| {
             let (away, half) = (panel.centre - mirror.ceiling, panel.half);
             // The panel's box along the ray and across it, of the same area.
             let [x, y] = [mirror.toward.x.abs(), mirror.toward.y.abs()];
