@@ -105,12 +105,12 @@ impl Grid {
         for along in band.clone() {
             let of = |place: usize| lightness[self.at(place, along, is_level)];
             let mut last = None;
-            for place in beside..places.saturating_sub(beside) {
+            for (place, dark) in dark.iter_mut().enumerate().take(places.saturating_sub(beside)).skip(beside) {
                 let darker = of(place - beside).min(of(place + beside)).saturating_sub(of(place));
                 if darker < DARKER {
                     continue;
                 }
-                dark[place] += u32::from(darker);
+                *dark += u32::from(darker);
                 // A wavy line counts once where it moves aside by a pixel.
                 let from = (place - 1).max(last.map_or(0, |last| last + 1));
                 (from..=place + 1).for_each(|near| counts[near] += 1);
