@@ -2,10 +2,11 @@
 
 use std::f64::consts::PI;
 
+use trodden::plan::PlanClass;
 use trodden::rooms::Rooms;
 use trodden::walls::{Walls, WallsOptions};
 
-use super::canvas::{Canvas, Point, Polygon, arc, line, lines, outline, rectangle};
+use super::canvas::{Canvas, Point, Polygon, arc, ellipse, line, lines, outline, rectangle};
 
 const PX_PER_M: f64 = 48.0;
 const STROKE_M: f64 = 0.04;
@@ -160,6 +161,10 @@ fn behind_glass(is_hollow: bool) -> Canvas {
     canvas
 }
 
+/// Corners of desks of 3.2 x 1.6 m in the hall of the office below.
+const DESKS: [(f64, f64); 8] =
+    [(1.0, 6.0), (1.0, 9.0), (16.0, 6.0), (16.0, 9.0), (6.0, 11.0), (12.0, 11.0), (7.0, 1.6), (13.0, 1.6)];
+
 /// An office whose outer walls are mostly window, with rooms behind glass in two corners and a core of lifts in the middle: the
 /// ring of its outer walls was taken for the frame of the sheet, and nothing was left.
 fn office_around_a_core() -> Canvas {
@@ -213,13 +218,20 @@ fn office_around_a_core() -> Canvas {
         canvas.fill(&lines(&arc(hinge, 0.9, -PI * 0.5, if closed == 0.0 { 0.0 } else { -PI }), 0.03), glass);
         canvas.fill(&[line(hinge, tip, 0.05)], glass);
     }
-    for (x, y) in [(1.0, 6.0), (1.0, 9.0), (16.0, 6.0), (16.0, 9.0), (6.0, 11.0), (12.0, 11.0), (7.0, 1.6), (13.0, 1.6)]
-    {
+    for (x, y) in DESKS {
         canvas.fill(&outline(&rectangle([x, y], [x + 3.2, y + 1.6]), STROKE_M), black);
         canvas.fill(
             &[line([x, y + 0.8], [x + 3.2, y + 0.8], STROKE_M), line([x + 1.6, y], [x + 1.6, y + 1.6], STROKE_M)],
             black,
         );
+    }
+    // Round chairs with a back, two before each desk.
+    for (x, y) in DESKS {
+        for (dy, back) in [(-0.4, -0.12), (2.0, 0.12)] {
+            let seat = [x + 1.6, y + dy];
+            canvas.fill(&outline(&ellipse(seat, [0.26, 0.26]), STROKE_M), black);
+            canvas.fill(&[line([seat[0] - 0.22, seat[1] + back], [seat[0] + 0.22, seat[1] + back], STROKE_M)], black);
+        }
     }
     canvas
 }
@@ -235,6 +247,9 @@ fn windows_all_around_are_no_frame_and_glass_divides_rooms() {
         let floor = canvas.floor_in(&plan, room);
         assert!(floor > 0.95, "{floor} of the room in the {name} is floor");
     }
+    let count = |class: PlanClass| plan.furniture.iter().filter(|piece| piece.class == class).count();
+    let [seats, fixtures] = [PlanClass::Seat, PlanClass::Fixture].map(count);
+    assert!(seats >= 15 && fixtures == 0, "16 round chairs: {seats} seats, {fixtures} basins");
     let outside = canvas.floor_in(&plan, [[-2.8, -2.8], [26.8, -0.4]]);
     assert!(outside < 0.01, "{outside} of the paper is floor");
     let rooms = Rooms::find(&plan, &Walls::trace(&plan, &WallsOptions::default()));

@@ -230,8 +230,40 @@ pub(super) fn furniture(
         objects.paint(object, classes, width, piece.class);
         found.push(piece);
     }
+    seat_round_chairs(&mut found, width, metres_per_pixel, classes);
     lower_desks(&mut found, width, metres_per_pixel, classes);
     found
+}
+
+/// Makes seats of round pieces of two fields, seat and back, that stand free before tables: basins and toilets stand at walls.
+fn seat_round_chairs(found: &mut [Evidence], width: usize, metres_per_pixel: f64, classes: &mut [PlanClass]) {
+    /// How far a chair may be off its table, metres, and the fewest of them.
+    const OFF_M: f64 = 0.4;
+    const FEWEST: usize = 3;
+    let most = (OFF_M / metres_per_pixel).round() as u32;
+    let tables: Vec<[u32; 4]> =
+        found.iter().filter(|piece| piece.class == PlanClass::Table).map(|piece| piece.around).collect();
+    let is_before = |[x0, y0, x1, y1]: [u32; 4]| {
+        tables.iter().any(|[a0, b0, a1, b1]| apart([x0, x1], [*a0, *a1]).max(apart([y0, y1], [*b0, *b1])) <= most)
+    };
+    let is_chair =
+        |piece: &&mut Evidence| piece.class == PlanClass::Fixture && piece.at_wall == 0.0 && is_before(piece.around);
+    let chairs: Vec<&mut Evidence> = found.iter_mut().filter(is_chair).collect();
+    if chairs.len() < FEWEST {
+        return;
+    }
+    for chair in chairs {
+        chair.class = PlanClass::Seat;
+        repaint(classes, width, chair.around, [PlanClass::Fixture, PlanClass::Seat]);
+    }
+}
+
+/// Gives a class to what has another one within a box.
+fn repaint(classes: &mut [PlanClass], width: usize, [x0, y0, x1, y1]: [u32; 4], [from, to]: [PlanClass; 2]) {
+    for y in y0..y1 {
+        let row = &mut classes[y as usize * width..][x0 as usize..x1 as usize];
+        row.iter_mut().filter(|class| **class == from).for_each(|class| *class = to);
+    }
 }
 
 /// Makes tables of shelves with a chair before them: desks at a wall.
@@ -255,10 +287,7 @@ fn lower_desks(found: &mut [Evidence], width: usize, metres_per_pixel: f64, clas
             continue;
         }
         piece.class = PlanClass::Table;
-        for y in y0..y1 {
-            let row = &mut classes[y as usize * width..][x0 as usize..x1 as usize];
-            row.iter_mut().filter(|class| **class == PlanClass::Shelf).for_each(|class| *class = PlanClass::Table);
-        }
+        repaint(classes, width, piece.around, [PlanClass::Shelf, PlanClass::Table]);
     }
 }
 
