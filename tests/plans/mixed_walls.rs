@@ -190,9 +190,9 @@ fn office_around_a_core() -> Canvas {
         [0.0, w].into_iter().for_each(|x| pane([[x - half, y], [x + half, y + 3.2]]));
     }
     // The core has a door and no window.
-    canvas.fill(&[rectangle([9.0, 5.5], [14.0, 8.5])], black);
-    canvas.fill(&[rectangle([9.3, 5.8], [13.7, 8.2])], white);
-    hang(&mut canvas, ([11.0, 5.65], 0.0, -PI * 0.5, OUTER_M));
+    canvas.fill(&[rectangle([9.0, 5.2], [14.5, 9.2])], black);
+    canvas.fill(&[rectangle([9.6, 5.8], [13.9, 8.6])], white);
+    hang(&mut canvas, ([11.0, 5.5], 0.0, -PI * 0.5, 0.6));
     // Glass walls are two lines, with a mullion across every metre.
     let glazed = [
         ([half, 4.0], [2.4, 4.0]),
