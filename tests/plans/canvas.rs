@@ -113,12 +113,17 @@ impl Canvas {
         }
     }
 
-    /// A window in a wall along the rows: its frame and a pane in its middle, in strokes of a thickness, black on white.
+    /// A window in a wall along the rows or columns: its frame and a pane in its middle, in strokes of a thickness, black on white.
     pub fn window(&mut self, min: Point, max: Point, thick: f64) {
-        let (frame, middle) = (rectangle(min, max), (min[1] + max[1]) * 0.5);
+        let (frame, across) = (rectangle(min, max), usize::from(max[0] - min[0] >= max[1] - min[1]));
+        let middle = (min[across] + max[across]) * 0.5;
+        let pane = [min, max].map(|mut end| {
+            end[across] = middle;
+            end
+        });
         self.fill(std::slice::from_ref(&frame), [255; 3]);
         self.fill(&outline(&frame, thick), [0; 3]);
-        self.fill(&[line([min[0], middle], [max[0], middle], thick)], [0; 3]);
+        self.fill(&[line(pane[0], pane[1], thick)], [0; 3]);
     }
 
     /// 1 where more than half of a pixel is covered.

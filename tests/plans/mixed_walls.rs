@@ -172,22 +172,13 @@ fn office_around_a_core() -> Canvas {
     let [w, h] = [24.0, 14.0];
     let mut canvas = Canvas::new([w + 6.0, h + 6.0], [-3.0, -3.0], PX_PER_M, 0.0, white);
     canvas.fill(&sides([w, h]).map(|side| wall(side, OUTER_M)), black);
-    let mut pane = |[min, max]: [Point; 2]| {
-        let is_level = max[0] - min[0] > max[1] - min[1];
-        let middle = if is_level { [min[0], 0.5 * (min[1] + max[1])] } else { [0.5 * (min[0] + max[0]), min[1]] };
-        let end = if is_level { [max[0], middle[1]] } else { [middle[0], max[1]] };
-        let frame = rectangle(min, max);
-        canvas.fill(std::slice::from_ref(&frame), white);
-        canvas.fill(&outline(&frame, STROKE_M), black);
-        canvas.fill(&[line(middle, end, STROKE_M)], black);
-    };
     let half = OUTER_M * 0.5;
     for x in [0.8, 5.0, 9.2, 13.4, 17.6, 21.0] {
         let to = if x > 20.0 { x + 2.0 } else { x + 3.2 };
-        [0.0, h].into_iter().for_each(|y| pane([[x, y - half], [to, y + half]]));
+        [0.0, h].into_iter().for_each(|y| canvas.window([x, y - half], [to, y + half], STROKE_M));
     }
     for y in [1.0, 5.4, 9.8] {
-        [0.0, w].into_iter().for_each(|x| pane([[x - half, y], [x + half, y + 3.2]]));
+        [0.0, w].into_iter().for_each(|x| canvas.window([x - half, y], [x + half, y + 3.2], STROKE_M));
     }
     // The core has a door and no window.
     canvas.fill(&[rectangle([9.0, 5.2], [14.5, 9.2])], black);

@@ -5,7 +5,7 @@ use image::{DynamicImage, RgbImage};
 use trodden::plan::{FloorPlan, PlanClass, PlanOptions, read};
 
 use super::buildings::{Building, flat, office, school};
-use super::canvas::{Canvas, Point, arc, lines};
+use super::canvas::{Canvas, Point, arc, lines, rectangle};
 use super::styles::{Drawn, hand_drawing};
 
 type Light = fn(f64, f64) -> f64;
@@ -235,8 +235,8 @@ fn outlines_that_miss_each_other_are_walls() {
         [[6.5, 4.5], [9.75, 4.62]],
         [[4.4, 0.25], [4.52, 4.5]],
     ];
-    for [[x0, y0], [x1, y1]] in walls {
-        let corners = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
+    for [min, max] in walls {
+        let corners = rectangle(min, max);
         (0..4).for_each(|k| stroke(&mut canvas, corners[k], corners[(k + 1) % 4]));
     }
     for (hinge, closed, open) in [([4.0, 6.75], 0.0, -0.5), ([1.5, 4.5], 0.0, -0.5), ([6.5, 4.5], 1.0, 1.5)] {

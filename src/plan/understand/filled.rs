@@ -34,23 +34,26 @@ pub(super) fn net(
     let share_closed = |net: &Option<Net>| net.as_ref().map_or(0.0, |net| net.enclosed * net.joined(width));
     let toothed = hollow::fill_teeth(strokes, width, metres_per_pixel);
     let outlined = hollow::fill_outlines(&toothed, width, metres_per_pixel);
-    let mut best = sought(&outlined);
-    if share_closed(&best) >= WELL_CLOSED {
+    let best = sought(&outlined);
+    let is_well_closed = |net: &Option<Net>| share_closed(net) >= WELL_CLOSED;
+    if is_well_closed(&best) {
         return best;
     }
+    // Where there is nothing more to fill, the search ends as before.
+    let better = |best: Option<Net>, filled: &[u8], tried: &[&[u8]]| {
+        let found = if tried.contains(&filled) { None } else { sought(filled) };
+        if share_closed(&found) > share_closed(&best) + BETTER { found } else { best }
+    };
     let hatched = hollow::fill_hatches(&toothed, width, metres_per_pixel);
-    let both = hollow::fill_outlines(&hatched, width, metres_per_pixel);
-    // On clean paper strokes are drawn by a machine, and meet.
-    let paired = if is_clean { outlined.clone() } else { hollow::fill_pairs(&toothed, width, metres_per_pixel) };
-    // Where there is nothing to fill, the search ends as before.
-    for (k, filled) in [&hatched, &both, &paired].into_iter().enumerate() {
-        if *filled == outlined || k > 0 && *filled == hatched || share_closed(&best) >= WELL_CLOSED {
-            continue;
-        }
-        let found = sought(filled);
-        if share_closed(&found) > share_closed(&best) + BETTER {
-            best = found;
-        }
+    let best = better(best, &hatched, &[&outlined]);
+    if is_well_closed(&best) {
+        return best;
     }
-    best
+    let both = hollow::fill_outlines(&hatched, width, metres_per_pixel);
+    let best = better(best, &both, &[&outlined, &hatched]);
+    // On clean paper strokes are drawn by a machine, and meet.
+    if is_clean || is_well_closed(&best) {
+        return best;
+    }
+    better(best, &hollow::fill_pairs(&toothed, width, metres_per_pixel), &[&outlined, &hatched])
 }

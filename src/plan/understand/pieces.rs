@@ -65,6 +65,8 @@ const BENT_AT_WALL: f64 = 0.35;
 /// Least share of its box that a piece of furniture fills, unless it goes round a corner.
 const LEAST_FILL: f64 = 0.5;
 
+/// How far a chair may be off its table, metres.
+const CHAIR_OFF_M: f64 = 0.4;
 /// Least length of a tread, and of half of one, metres.
 const TREAD_M: f64 = 0.7;
 const HALF_TREAD_M: f64 = 0.35;
@@ -237,17 +239,16 @@ pub(super) fn furniture(
 
 /// Makes seats of round pieces of two fields, seat and back, that stand free before tables: basins and toilets stand at walls.
 fn seat_round_chairs(found: &mut [Evidence], width: usize, metres_per_pixel: f64, classes: &mut [PlanClass]) {
-    /// How far a chair may be off its table, metres, and the fewest of them.
-    const OFF_M: f64 = 0.4;
+    /// The fewest of them.
     const FEWEST: usize = 3;
-    let most = (OFF_M / metres_per_pixel).round() as u32;
+    let most = (CHAIR_OFF_M / metres_per_pixel).round() as u32;
     let tables: Vec<[u32; 4]> =
         found.iter().filter(|piece| piece.class == PlanClass::Table).map(|piece| piece.around).collect();
-    let is_before = |[x0, y0, x1, y1]: [u32; 4]| {
-        tables.iter().any(|[a0, b0, a1, b1]| apart([x0, x1], [*a0, *a1]).max(apart([y0, y1], [*b0, *b1])) <= most)
+    let is_chair = |piece: &&mut Evidence| {
+        piece.class == PlanClass::Fixture
+            && piece.at_wall == 0.0
+            && tables.iter().any(|&table| are_near(piece.around, table, most))
     };
-    let is_chair =
-        |piece: &&mut Evidence| piece.class == PlanClass::Fixture && piece.at_wall == 0.0 && is_before(piece.around);
     let chairs: Vec<&mut Evidence> = found.iter_mut().filter(is_chair).collect();
     if chairs.len() < FEWEST {
         return;
@@ -256,6 +257,11 @@ fn seat_round_chairs(found: &mut [Evidence], width: usize, metres_per_pixel: f64
         chair.class = PlanClass::Seat;
         repaint(classes, width, chair.around, [PlanClass::Fixture, PlanClass::Seat]);
     }
+}
+
+/// Whether two boxes are up to so many pixels apart along both axes.
+fn are_near([x0, y0, x1, y1]: [u32; 4], [a0, b0, a1, b1]: [u32; 4], most: u32) -> bool {
+    apart([x0, x1], [a0, a1]).max(apart([y0, y1], [b0, b1])) <= most
 }
 
 /// Gives a class to what has another one within a box.
@@ -268,10 +274,9 @@ fn repaint(classes: &mut [PlanClass], width: usize, [x0, y0, x1, y1]: [u32; 4], 
 
 /// Makes tables of shelves with a chair before them: desks at a wall.
 fn lower_desks(found: &mut [Evidence], width: usize, metres_per_pixel: f64, classes: &mut [PlanClass]) {
-    /// Least depth of a desk, largest chair, and how far the chair may be off, metres.
+    /// Least depth of a desk, and largest chair, metres.
     const DEPTH_M: f64 = 0.38;
     const CHAIR_M: f64 = 0.75;
-    const OFF_M: f64 = 0.4;
     let px = |metres: f64| (metres / metres_per_pixel).round() as u32;
     let sides = |[x0, y0, x1, y1]: [u32; 4]| [x1 - x0, y1 - y0];
     let is_chair = |piece: &&Evidence| {
@@ -279,11 +284,8 @@ fn lower_desks(found: &mut [Evidence], width: usize, metres_per_pixel: f64, clas
     };
     let chairs: Vec<[u32; 4]> = found.iter().filter(is_chair).map(|piece| piece.around).collect();
     for piece in found.iter_mut().filter(|piece| piece.class == PlanClass::Shelf) {
-        let [x0, y0, x1, y1] = piece.around;
-        let is_before =
-            |[a0, b0, a1, b1]: &[u32; 4]| apart([x0, x1], [*a0, *a1]).max(apart([y0, y1], [*b0, *b1])) <= px(OFF_M);
         let [w, h] = sides(piece.around);
-        if w.min(h) < px(DEPTH_M) || !chairs.iter().any(is_before) {
+        if w.min(h) < px(DEPTH_M) || !chairs.iter().any(|&chair| are_near(piece.around, chair, px(CHAIR_OFF_M))) {
             continue;
         }
         piece.class = PlanClass::Table;
