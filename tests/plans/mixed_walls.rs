@@ -105,6 +105,51 @@ fn outer_walls_may_be_drawn_otherwise_than_partitions() {
     }
 }
 
+/// A hall with three offices in a corner: its walls are hatched, theirs hollow; all outlines are three pixels thick, desks and
+/// leaves are fine.
+fn offices_in_a_hall() -> Canvas {
+    let (white, black) = ([255; 3], [0; 3]);
+    let (px_per_m, thick, outline_m) = (42.0, 0.18, 0.07);
+    let size = [24.0, 16.0];
+    let mut canvas = Canvas::new([size[0] + 4.0, size[1] + 4.0], [-2.0, -2.0], px_per_m, 0.0, white);
+    let partitions = [
+        [[12.0, 6.0], [24.0, 6.0]],
+        [[12.0, 0.0], [12.0, 6.0]],
+        [[16.0, 0.0], [16.0, 6.0]],
+        [[20.0, 0.0], [20.0, 6.0]],
+    ];
+    canvas.fill(&partitions.map(|ends| wall(ends, thick)), black);
+    canvas.fill(&partitions.map(|ends| wall(ends, thick - 2.0 * outline_m)), white);
+    let sides = sides(size);
+    canvas.fill(&sides.map(|side| wall(side, OUTER_M)), black);
+    let within = canvas.samples(&sides.map(|side| wall(side, OUTER_M - 2.0 * outline_m)));
+    canvas.paint(&within, white);
+    let hatch: Vec<Polygon> =
+        (0..400).map(|k| f64::from(k) * 0.12 - 1.0).map(|x| line([x, -1.0], [x - 18.0, 17.0], 0.024)).collect();
+    let hatch = canvas.samples(&hatch);
+    canvas.paint(&within.iter().zip(&hatch).map(|(a, b)| a & b).collect(), black);
+    for x in [12.0, 16.0, 20.0] {
+        hang(&mut canvas, ([x + 1.5, 6.0], 0.0, PI * 0.5, thick));
+        canvas.fill(&outline(&rectangle([x + 0.8, 1.2], [x + 2.4, 2.0]), 0.024), black);
+    }
+    hang(&mut canvas, ([4.0, 0.0], 0.0, PI * 0.5, OUTER_M));
+    canvas
+}
+
+/// Outlines as thick as thin walls were the walls: two of the three offices were outside.
+#[test]
+fn outlines_as_thick_as_thin_walls_are_filled() {
+    let canvas = offices_in_a_hall();
+    let plan = canvas.read(Some(1.0 / 42.0));
+    assert_eq!(plan.doors.len(), 4, "doors");
+    for x in [12.0, 16.0, 20.0] {
+        let free = canvas.floor_in(&plan, [[x + 0.4, 2.5], [x + 3.6, 5.6]]);
+        assert!(free > 0.97, "{free} of the office at {x} is floor");
+        let wall = canvas.floor_in(&plan, [[x - 0.04, 0.5], [x + 0.04, 5.5]]);
+        assert!(wall < 0.02, "{wall} of the wall at {x} is floor");
+    }
+}
+
 /// A hollow corner between a window and a door, with arms of 1.1 m, was none, and the room there was outside; a counter with a
 /// sink along a hollow wall was wall.
 #[test]

@@ -69,6 +69,17 @@ pub(super) fn stroke_px(strokes: &[u8], fills: &[u8], width: usize, metres_per_p
     (1..=most).find(|&px| count(&open(strokes, width, px + 1)) <= THICKER * all).map_or(0, |px| px + 1)
 }
 
+/// Whether what was taken for walls is the outlines of hollow ones: much of it lies beside what outlines enclose.
+pub(super) fn are_outlines(wall: &[u8], strokes: &[u8], width: usize, metres_per_pixel: f64) -> bool {
+    const BESIDE: f64 = 0.1;
+    let filled = fill_outlines(strokes, width, metres_per_pixel);
+    let fills: Vec<u8> = filled.iter().zip(strokes).map(|(&filled, &stroke)| filled & (1 - stroke)).collect();
+    let near = grow(&fills, width, 1);
+    let all = wall.iter().filter(|&&wall| wall != 0).count() as f64;
+    let beside = wall.iter().zip(&near).filter(|&(&wall, &near)| wall & near != 0).count() as f64;
+    beside >= BESIDE * all
+}
+
 /// Fills what lies between two strokes along half a metre, as far apart as the faces of a wall: the outlines of walls that
 /// are drawn by hand are open where strokes miss each other.
 pub(super) fn fill_pairs(strokes: &[u8], width: usize, metres_per_pixel: f64) -> Vec<u8> {

@@ -350,6 +350,7 @@ fn net_of_walls(
         let is_crossed = |at: usize| strokes[at] != 0 && lies_between(&plain, width, at, CROSSED_PX);
         (0..strokes.len()).map(|at| plain[at] | u8::from(is_crossed(at))).collect()
     };
+    let closed = |net: &Net| net.inside_px() * net.joined(width);
     let filled = || {
         let of = |strokes: &[u8]| filled::net([strokes, &core], width, metres_per_pixel, drawing.clean, find);
         let of_all = of(&strokes)?;
@@ -357,14 +358,19 @@ fn net_of_walls(
             return Some(of_all);
         }
         // Furniture and doors of another colour than walls are no walls, however they are outlined.
-        let closed = |net: &Net| net.inside_px() * net.joined(width);
         let of_plain = of(&without(colours.bars)).filter(|net| closed(net) >= AS_CLOSED * closed(&of_all));
         Some(of_plain.unwrap_or(of_all))
     };
     if let Some(net) = find(&core, dark, 0).map(with_hall) {
         // Of hollow walls beside massive ones, the outlines alone were found.
-        let of_filled = if net.joined(width) < CONNECTED { filled() } else { None };
-        let net = of_filled.filter(|net| net.joined(width) >= CONNECTED).unwrap_or(net);
+        let of_filled = if net.joined(width) < CONNECTED {
+            filled().filter(|filled| filled.joined(width) >= CONNECTED)
+        } else if hollow::are_outlines(&net.wall, &strokes, width, metres_per_pixel) {
+            filled().filter(|filled| closed(filled) >= closed(&net))
+        } else {
+            None
+        };
+        let net = of_filled.unwrap_or(net);
         let search =
             |core: &[u8], thickest: usize| net_in(all_ink, core, core, &Sought { is_framed: false, ..usual(thickest) });
         let strokes = if all_ink == ink { strokes } else { without_lettering(all_ink, width, metres_per_pixel) };
