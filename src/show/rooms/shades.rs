@@ -66,7 +66,7 @@ const SKY: [LinearRgb; 2] = [[0.86, 0.97, 1.10], [0.17, 0.36, 0.78]];
 const TINT_INSIDE: [LinearRgb; 2] = [[0.975, 0.995, 1.03], [1.02, 1.0, 0.965]];
 const TINT_OUTSIDE: [LinearRgb; 2] = [[0.84, 0.98, 1.20], [1.06, 1.0, 0.90]];
 /// Share of the light on a wall at its foot, on one at the ceiling, and on the ceiling that the floor throws back in its colour.
-const BOUNCED: [f32; 3] = [0.40, 0.20, 0.65];
+const BOUNCED: [f32; 3] = [0.28, 0.12, 0.50];
 /// Haze: way in which what lies beyond an opening fades to daylight, metres, in rooms and outdoors.
 pub(crate) const HAZE_M: [f32; 2] = [3.0, 140.0];
 /// How bright an irradiance of 1 is shown: in rooms, from above, outdoors.

@@ -165,9 +165,9 @@ impl Shader<'_> {
                 Some(Reflection { mirror, things, .. }) => {
                     let wall_m = mirror.wall_m + (things.way_m - mirror.wall_m) * f64::from(things.share);
                     let away = wall_m * mirror.stretch;
-                    let [aside, _] = lobe(paint.roughness, mirror.slope);
-                    let slope = aside * away / (f64::from(hit.way_m) + away).max(0.1);
-                    let room = self.shine(mirror, self.light.light.panels(), paint.roughness);
+                    let blur = lobe(paint.roughness, mirror.slope);
+                    let slope = blur[0] * away / (f64::from(hit.way_m) + away).max(0.1);
+                    let room = self.shine(mirror, self.light.light.panels(), blur);
                     let shine = mix(room, things.colour, things.share);
                     Lit { colour, shine, gain, blur_px: slope as f32 / self.pixel }
                 }
@@ -460,9 +460,8 @@ impl Shader<'_> {
         self.space.cast(from, way / distance.max(1e-9), distance - 0.02, |piece, _| piece.is_wall()).is_none()
     }
 
-    /// The mirrored room, as blurred as the floor is rough.
-    fn shine(&self, mirror: &Mirror, panels: Option<&Panels>, roughness: f32) -> LinearRgb {
-        let [aside, upward] = lobe(roughness, mirror.slope);
+    /// The mirrored room, blurred by the slopes of a floor's [`lobe`].
+    fn shine(&self, mirror: &Mirror, panels: Option<&Panels>, [aside, upward]: [f64; 2]) -> LinearRgb {
         let height = self.space.height_m;
         let blur_wall = upward * mirror.wall_m * mirror.stretch + 0.02;
         let over = rise((mirror.wall_z - height) / blur_wall) as f32;
