@@ -8,7 +8,7 @@ use trodden::walls::{Walls, WallsOptions};
 
 use super::canvas::{Canvas, Point, Polygon, arc, ellipse, line, lines, outline, rectangle};
 
-const PX_PER_M: f64 = 48.0;
+pub const PX_PER_M: f64 = 48.0;
 const STROKE_M: f64 = 0.04;
 /// Thickness of outer walls and of partitions.
 const OUTER_M: f64 = 0.3;
@@ -16,9 +16,10 @@ const PARTITION_M: f64 = 0.12;
 const SIZE_M: Point = [12.0, 8.0];
 
 #[derive(Clone, Copy, Debug)]
-enum Fill {
+pub enum Fill {
     None,
-    Hatch,
+    /// Lines so many metres apart along a wall.
+    Hatch(f64),
     Grey,
 }
 
@@ -48,7 +49,7 @@ fn hang(canvas: &mut Canvas, (hinge, closed, open, thick): (Point, f64, f64, f64
 
 /// Six rooms of 4 x 4 m, two rows of three, with a door between each two that lie side by side, one between the rows and one
 /// to the outside; windows to the north and the south, a bed and counters close before some of them.
-fn six_rooms(fill: Fill) -> Canvas {
+pub fn six_rooms(fill: Fill) -> Canvas {
     let (white, black) = ([255; 3], [0; 3]);
     let mut canvas = Canvas::new([SIZE_M[0] + 4.0, SIZE_M[1] + 4.0], [-2.0, -2.0], PX_PER_M, 0.0, white);
     let [w, h] = SIZE_M;
@@ -56,10 +57,10 @@ fn six_rooms(fill: Fill) -> Canvas {
     canvas.fill(&sides.map(|side| wall(side, OUTER_M)), black);
     let within = canvas.samples(&sides.map(|side| wall(side, OUTER_M - 2.0 * STROKE_M)));
     canvas.paint(&within, if matches!(fill, Fill::Grey) { [153; 3] } else { white });
-    if matches!(fill, Fill::Hatch) {
+    if let Fill::Hatch(apart) = fill {
         let hatch: Vec<Polygon> = (0..200)
             .map(|k| {
-                let x = f64::from(k) * 0.12 - 1.0;
+                let x = f64::from(k) * apart - 1.0;
                 line([x, -1.0], [x - h - 2.0, h + 1.0], 0.025)
             })
             .collect();
@@ -90,19 +91,32 @@ fn six_rooms(fill: Fill) -> Canvas {
 /// times the true one; grey ones had neither doors nor windows.
 #[test]
 fn outer_walls_may_be_drawn_otherwise_than_partitions() {
-    for fill in [Fill::None, Fill::Hatch, Fill::Grey] {
-        let canvas = six_rooms(fill);
-        let plan = canvas.read(None);
-        let scale = plan.metres_per_pixel * PX_PER_M;
-        assert!((0.88..1.12).contains(&scale), "{fill:?}: the scale is {scale} times the true one");
-        assert_eq!([plan.doors.len(), plan.windows.len()], [6, 5], "{fill:?}: doors and windows");
-        for (x, y) in [(0.0, 0.0), (4.0, 0.0), (8.0, 0.0), (0.0, 4.0), (4.0, 4.0), (8.0, 4.0)] {
-            let free = canvas.floor_in(&plan, [[x + 0.3, y + 1.0], [x + 3.7, y + 1.7]]);
-            assert!(free > 0.97, "{fill:?}: {free} of the room at {x}, {y} is floor");
-        }
-        let wall = canvas.floor_in(&plan, [[-0.05, -0.05], [0.05, 8.05]]);
-        assert!(wall < 0.02, "{fill:?}: {wall} of the western wall is floor");
+    for fill in [Fill::None, Fill::Hatch(0.12), Fill::Grey] {
+        check_six_rooms(fill, None);
     }
+}
+
+/// Lines of a hatch that are 26 cm apart and more were none: doors and windows were missed.
+#[test]
+fn walls_with_a_wide_hatch_are_walls() {
+    for apart in [0.26, 0.32] {
+        check_six_rooms(Fill::Hatch(apart), Some(1.0 / PX_PER_M));
+    }
+}
+
+/// Checks that six rooms are read, with all doors and windows.
+fn check_six_rooms(fill: Fill, metres_per_pixel: Option<f64>) {
+    let canvas = six_rooms(fill);
+    let plan = canvas.read(metres_per_pixel);
+    let scale = plan.metres_per_pixel * PX_PER_M;
+    assert!((0.88..1.12).contains(&scale), "{fill:?}: the scale is {scale} times the true one");
+    assert_eq!([plan.doors.len(), plan.windows.len()], [6, 5], "{fill:?}: doors and windows");
+    for (x, y) in [(0.0, 0.0), (4.0, 0.0), (8.0, 0.0), (0.0, 4.0), (4.0, 4.0), (8.0, 4.0)] {
+        let free = canvas.floor_in(&plan, [[x + 0.3, y + 1.0], [x + 3.7, y + 1.7]]);
+        assert!(free > 0.97, "{fill:?}: {free} of the room at {x}, {y} is floor");
+    }
+    let wall = canvas.floor_in(&plan, [[-0.05, -0.05], [0.05, 8.05]]);
+    assert!(wall < 0.02, "{fill:?}: {wall} of the western wall is floor");
 }
 
 /// A hall with three offices in a corner: its walls are hatched, theirs hollow; all outlines are three pixels thick, desks and

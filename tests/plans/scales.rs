@@ -3,6 +3,8 @@
 use trodden::plan::{PlanOptions, ScaleSource, read};
 
 use super::buildings::{flat, office};
+use super::canvas::{line, lines, outline, rectangle, text};
+use super::mixed_walls::{Fill, PX_PER_M, six_rooms};
 use super::styles::{Case, STYLES, Style, draw};
 
 /// Drawings without a scale of their own; the finest take long.
@@ -102,4 +104,33 @@ fn the_buildings_width_gives_the_scale() {
     }
     println!("{near} of {all} within 2 %");
     assert!(near * 20 >= all * 19, "{near} of {all} within 2 %:\n{}", missed.join("\n"));
+}
+
+/// Scale bars of rooms twice as large as their doors say, below and beside them: numbers along a bar of boxes, nine pixels high,
+/// and a length alone at a line. The scale was that of the doors.
+#[test]
+fn scale_bars_are_believed_against_doors() {
+    const LARGER: f64 = 2.0;
+    let black = [0; 3];
+    for is_ruled in [false, true] {
+        let mut canvas = six_rooms(Fill::None);
+        let (x, y, metre) = (0.5, 9.2, 1.0 / LARGER);
+        if is_ruled {
+            let ends = [x, x + 10.0 * metre];
+            canvas.fill(&lines(&ends.map(|x| [x, y]), 0.04), black);
+            canvas.fill(&ends.map(|x| line([x, y - 0.1], [x, y + 0.1], 0.04)), black);
+            canvas.fill(&text("10 m", [x + 5.0 * metre, y - 0.25], 0.22, 0.035), black);
+        } else {
+            for (k, number) in [(0.0, "0"), (5.0, "5"), (10.0, "10"), (20.0, "20 m")] {
+                let middle = if k == 20.0 { 0.15 } else { 0.0 };
+                canvas.fill(&text(number, [x + k * metre + middle, y - 0.25], 0.19, 0.03), black);
+            }
+            canvas.fill(&outline(&rectangle([x, y], [x + 20.0 * metre, y + 0.2]), 0.03), black);
+            canvas.fill(&[0.0, 10.0].map(|k| rectangle([x + k * metre, y], [x + (k + 5.0) * metre, y + 0.2])), black);
+        }
+        let plan = canvas.read(None);
+        let off = plan.metres_per_pixel * PX_PER_M / LARGER - 1.0;
+        assert!(off.abs() < 0.02, "ruled: {is_ruled}: {off}, by {}", plan.scale.evidence);
+        assert_eq!((plan.scale.source, plan.doors.len()), (ScaleSource::Printed, 6), "ruled: {is_ruled}");
+    }
 }

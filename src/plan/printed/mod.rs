@@ -7,7 +7,7 @@ mod page;
 mod shape;
 mod words;
 
-use self::page::{Ink, Page};
+use self::page::{Area, Ink, Page};
 use self::shape::Alphabet;
 use self::words::{Number, Unit};
 use super::drawing::Drawing;
@@ -23,6 +23,8 @@ const LEAST_SHARE: f64 = 0.4;
 /// Votes of a scale bar, both ends of which have numbers; of one that says its unit too, which is enough by itself.
 const BAR_VOTES: usize = 2;
 const BAR_WITH_UNIT_VOTES: usize = FEWEST;
+/// Lengths that stand alone at a line are those of scale bars, metres.
+const BARS_M: [f64; 7] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
 /// Votes of a room's size: both numbers fit.
 const SIZE_VOTES: usize = 2;
 /// How far a printed scale may lie from the one that doors say; where so many measures agree, and at least this share of
@@ -91,12 +93,14 @@ pub(super) fn scale(drawing: &Drawing, guess: f64, possible: [f64; 2]) -> Option
     found_in(&measures, guess, sane)
 }
 
-/// What measures agree on within a range, or many of them beyond it.
+/// What measures agree on within a range, or many of them or a scale bar beyond it.
 fn found_in(measures: &[Measure], guess: f64, sane: [f64; 2]) -> Option<(f64, PlanScale)> {
     let misread = [guess / VERY_FAR, guess * VERY_FAR];
     let surely = || vote(measures, guess, misread, (MANY_AGREE, MOST_SHARE, AGREE));
     let nearly = || vote(measures, guess, [guess / NEAR, guess * NEAR], (FEW_AGREE, MOST_SHARE, AGREE_WELL));
-    vote(measures, guess, sane, (FEWEST, LEAST_SHARE, AGREE)).or_else(surely).or_else(nearly)
+    let bars: Vec<Measure> = measures.iter().copied().filter(|measure| measure.kind == Kind::Bar).collect();
+    let by_bar = || vote(&bars, guess, misread, (BAR_WITH_UNIT_VOTES, MOST_SHARE, AGREE));
+    vote(measures, guess, sane, (FEWEST, LEAST_SHARE, AGREE)).or_else(surely).or_else(nearly).or_else(by_bar)
 }
 
 /// Reads both pages of a drawing, upright and turned: lengths, and numbers about rooms.
@@ -108,12 +112,14 @@ fn read(drawing: &Drawing) -> (Vec<Measure>, Vec<RoomNumber>) {
     for is_turned in [false, true] {
         let page = Page::of(&ink, is_turned);
         let numbers = words::numbers(&page, &alphabet);
-        for (end, pixels) in lines::bars(&page, &numbers) {
+        let bars = lines::bars(&page, &numbers);
+        for (end, pixels) in &bars {
             count += 1;
             let votes = if end.unit == Unit::Length { BAR_WITH_UNIT_VOTES } else { BAR_VOTES };
-            measures.push(Measure { number: count, kind: Kind::Bar, metres: end.value, pixels, votes });
+            measures.push(Measure { number: count, kind: Kind::Bar, metres: end.value, pixels: *pixels, votes });
         }
-        for number in numbers {
+        let ends: Vec<Area> = bars.iter().map(|(end, _)| end.area).collect();
+        for number in numbers.into_iter().filter(|number| !ends.contains(&number.area)) {
             count += 1;
             let [x, y] = page.pixel(number.area.middle()).map(|place| place.max(0) as usize);
             if number.unit == Unit::Area || number.times.is_some() {
@@ -122,8 +128,10 @@ fn read(drawing: &Drawing) -> (Vec<Measure>, Vec<RoomNumber>) {
             }
             let pixels = lines::dimensions(&page, &number.area);
             let each = metres(&number).into_iter().flat_map(|metres| pixels.iter().map(move |&px| (metres, px)));
-            let kind = Kind::Dimension;
-            measures.extend(each.map(|(metres, pixels)| Measure { number: count, kind, metres, pixels, votes: 1 }));
+            let is_length = number.unit == Unit::Length && !number.is_decimal;
+            let is_bar = is_length && BARS_M.contains(&number.value) && pixels.len() == 1;
+            let (kind, votes) = if is_bar { (Kind::Bar, BAR_WITH_UNIT_VOTES) } else { (Kind::Dimension, 1) };
+            measures.extend(each.map(|(metres, pixels)| Measure { number: count, kind, metres, pixels, votes }));
         }
     }
     (measures, in_rooms)

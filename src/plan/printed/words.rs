@@ -87,6 +87,16 @@ impl Reader<'_> {
             && (self.next(k, &area, SPACE).is_some() || self.wide.iter().any(at_bar))
     }
 
+    /// Whether a number that begins with this digit stands at the far end of a scale bar.
+    fn ends_bar(&self, first: &Area) -> bool {
+        let height = first.height();
+        let at_end = |bar: &Area| {
+            let [apart, along] = [bar.middle()[1] - first.middle()[1], bar.x[1] - first.x[1]].map(i32::abs);
+            apart <= 3 * height && along <= 2 * height
+        };
+        self.wide.iter().any(at_end)
+    }
+
     /// Where a bracket begins that opens before a digit.
     fn bracket_before(&self, digit: &Area) -> Option<i32> {
         let height = f64::from(digit.height());
@@ -124,9 +134,12 @@ impl Reader<'_> {
         let (mut text, mut read, mut last) = (String::new(), vec![first], first);
         text.extend(self.digit(first));
         let mut gaps: Vec<i32> = Vec::new();
+        // The numbers of scale bars are round.
+        let round = if self.ends_bar(&line) { "0" } else { "" };
         while let Some(next) = self.next(last, &line, WIDE_GAP) {
             let is_minor = text.chars().filter(char::is_ascii_digit).count() >= SURE_DIGITS;
-            let Some(letter) = self.part(next, &line, is_minor) else { break };
+            let likely = if is_minor { DIGITS } else { round };
+            let Some(letter) = self.part(next, &line, likely) else { break };
             let gap = self.page.marks[next].area.x[0] - self.page.marks[last].area.x[1];
             let narrow = |letter: Option<char>| letter.is_some_and(|letter| !"023456789".contains(letter));
             if !narrow(text.chars().last()) && !narrow(Some(letter)) {
@@ -171,8 +184,8 @@ impl Reader<'_> {
         (Some(number), read)
     }
 
-    /// A digit, point, dash or sign for feet on a line of digits; the likeliest digit if it `is_minor`.
-    fn part(&self, k: usize, line: &Area, is_minor: bool) -> Option<char> {
+    /// A digit, point, dash or sign for feet on a line of digits; the likeliest digit if that is one of `likely`.
+    fn part(&self, k: usize, line: &Area, likely: &str) -> Option<char> {
         let area = self.page.marks[k].area;
         let height = f64::from(line.height());
         let [w, h] = [area.width(), area.height()].map(f64::from);
@@ -183,7 +196,7 @@ impl Reader<'_> {
                 let mark = &self.page.marks[k];
                 let likeliest =
                     || self.alphabet.likeliest(&self.page.darkness_of(mark), mark.area.width() as usize, DIGITS);
-                self.digit(k).or_else(|| if is_minor { likeliest() } else { None })
+                self.digit(k).or_else(|| likeliest().filter(|digit| likely.contains(*digit)))
             }
             () if w <= 0.3 * height + 1.0 && h <= 0.3 * height + 1.0 && near(below, 0.1) => Some('.'),
             () if w <= 0.4 * height && h <= 0.5 * height && below > 0.0 && above >= 0.65 * height => Some('.'),

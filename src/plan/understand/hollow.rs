@@ -28,6 +28,13 @@ const LOPSIDED: f64 = 0.09;
 const FEWEST_TEETH: usize = 6;
 /// Larger side of such a field, metres; halves of crossed wardrobes are larger.
 const LARGEST_TOOTH_M: f64 = 0.45;
+/// Larger side of a field between two slanted lines of a hatch, metres, and share of its box that it fills at most.
+const LARGEST_SLANTED_M: f64 = 0.75;
+const SLANTED_FILL: f64 = 0.72;
+/// How far it leans at least: correlation of the x and y of its pixels. Rectangles have none.
+const LEANS: f64 = 0.25;
+/// Greatest thickness of a hatch's lines, metres; outlines are thicker.
+const THIN_M: f64 = 0.02;
 /// Greatest thickness of a hollow wall, metres.
 const THICKEST_M: f64 = 0.62;
 /// Least length of a hollow wall, in its thicknesses and in metres.
@@ -117,7 +124,8 @@ pub(super) fn fill_pairs(strokes: &[u8], width: usize, metres_per_pixel: f64) ->
     filled
 }
 
-/// Fills what is too narrow for anything but the space between the lines of a hatch, where many such spaces lie together.
+/// Fills what is too narrow for anything but the space between the lines of a hatch, or lies between slanted lines, where many
+/// such spaces lie together.
 pub(super) fn fill_hatches(dark: &[u8], width: usize, metres_per_pixel: f64) -> Vec<u8> {
     let side = ((HATCH_M / metres_per_pixel).round() as usize).max(2);
     let white = inverted(dark);
@@ -132,6 +140,22 @@ pub(super) fn fill_hatches(dark: &[u8], width: usize, metres_per_pixel: f64) -> 
     let (bars, spaces_of_hatch): (Vec<&Component>, Vec<&Component>) = spaces.all.iter().partition(is_bar);
     bars.into_iter().for_each(|bar| spaces.paint(bar, &mut narrow, width, 0));
     let mut starts: Vec<usize> = spaces_of_hatch.into_iter().map(|space| spaces.first(space, width)).collect();
+    let fields = Components::of(&white, width, 1, Neighbours::Four);
+    let is_slanted = |field: &&Component| {
+        let [w, h] = field.size().map(f64::from);
+        let may_be = w.min(h) >= 2.0 && w.max(h) * metres_per_pixel <= LARGEST_SLANTED_M;
+        may_be && field.area as f64 <= SLANTED_FILL * w * h && leans(&fields, field)
+    };
+    let mut slanted = vec![0u8; dark.len()];
+    for field in fields.all.iter().filter(is_slanted) {
+        // Triangles are the ends of a hatch, but halves of crossed cupboards too.
+        let is_end = is_lopsided(&fields, field);
+        if !is_end && !fields.touches(field, &narrow, width) {
+            starts.push(fields.first(field, width));
+        }
+        fields.paint(field, &mut narrow, width, 1);
+        fields.paint(field, &mut slanted, width, u8::from(!is_end));
+    }
     starts.sort_unstable();
     let mut near = grow(&narrow, width, ((0.03 / metres_per_pixel) as usize).max(1));
     let places = Components::of(&near, width, 1, Neighbours::Eight);
@@ -158,7 +182,21 @@ pub(super) fn fill_hatches(dark: &[u8], width: usize, metres_per_pixel: f64) -> 
     for (place, _) in places.all.iter().zip(walls).filter(|(place, is_wall)| !is_wall && !is_pier(place)) {
         places.paint(place, &mut near, width, 0);
     }
-    (0..dark.len()).map(|at| dark[at] | (narrow[at] & near[at])).collect()
+    let hatched: Vec<u8> = narrow.iter().zip(&near).map(|(&narrow, &near)| narrow & near).collect();
+    // What is left at the ends of walls, in their corners, and where they run along the hatch, behind its thin lines.
+    slanted.iter_mut().zip(&near).for_each(|(slanted, near)| *slanted &= near);
+    let beside = grow(&slanted, width, ((THIN_M / metres_per_pixel).round() as usize).max(2));
+    let solid: Vec<u8> = dark.iter().zip(&hatched).map(|(&dark, &hatched)| dark | hatched).collect();
+    let rests = Components::of(&inverted(&solid), width, 1, Neighbours::Four);
+    let mut filled = solid.clone();
+    for rest in rests.all.iter().filter(|rest| rests.touches(rest, &beside, width)) {
+        let is_small = f64::from(rest.larger_side()) * metres_per_pixel <= LARGEST_TOOTH_M;
+        let is_thin = || thickness(&solid, width, &rests, rest) * metres_per_pixel <= THICKEST_BAR_M;
+        if is_small || leans(&rests, rest) && is_thin() {
+            rests.paint(rest, &mut filled, width, 1);
+        }
+    }
+    filled
 }
 
 /// Fills the fields between the outlines of a wall and the zigzag of its insulation: many triangles in a row, and what is
@@ -222,6 +260,25 @@ fn is_lopsided(fields: &Components, field: &Component) -> bool {
     }
     let off = |sum: f64, axis: usize| sum / field.area as f64 - 0.5 * f64::from(field.min[axis] + field.end[axis]);
     vec2(off(x, 0), off(y, 1)).length() >= LOPSIDED * f64::from(field.larger_side())
+}
+
+/// Whether a field leans, as those between slanted lines do.
+fn leans(fields: &Components, field: &Component) -> bool {
+    let (mut sum, mut squares, mut product) = ([0.0; 2], [0.0; 2], 0.0);
+    for run in fields.runs(field) {
+        let y = f64::from(run.y - field.min[1]);
+        for x in run.from - field.min[0]..run.to - field.min[0] {
+            let x = f64::from(x);
+            product += x * y;
+            for (k, at) in [x, y].into_iter().enumerate() {
+                sum[k] += at;
+                squares[k] += at * at;
+            }
+        }
+    }
+    let count = field.area as f64;
+    let spread = |k: usize| squares[k] * count - sum[k] * sum[k];
+    (product * count - sum[0] * sum[1]).abs() >= LEANS * (spread(0) * spread(1)).sqrt()
 }
 
 /// Fills long narrow fields between two lines. Fields in pairs beside each other are windows and stay.
