@@ -218,7 +218,12 @@ impl Thickness {
         const SHARE: f64 = 0.12;
         const SQUARE: f64 = 0.6;
         let [thinnest_m, thickest_m] = if is_massive { MASSIVE_M } else { [THINNEST_M, THICKEST_M] };
-        let area = |mask: &[u8]| mask.iter().filter(|&&m| m != 0).count() as f64;
+        // Of zeros and ones, eight at once.
+        let area = |mask: &[u8]| {
+            let (eights, rest) = mask.as_chunks();
+            let of_eights: u64 = eights.iter().map(|&eight| u64::from(u64::from_ne_bytes(eight).count_ones())).sum();
+            (of_eights + rest.iter().map(|&one| u64::from(one)).sum::<u64>()) as f64
+        };
         let first = ((thinnest_m / metres_per_pixel).ceil() as usize).max(stroke_px + 1).max(2);
         // Letters, ticks and the leaves of doors are no measure.
         let is_short = |piece: &Component| f64::from(piece.larger_side()) * metres_per_pixel < LEAST_WALL_M;
@@ -237,7 +242,7 @@ impl Thickness {
         while left > 0.0 && (side as f64) * metres_per_pixel < thickest_m {
             let next = (side * 5 / 4).max(side + 1);
             let opened = open(&kept, width, next);
-            kept.iter_mut().zip(&opened).for_each(|(kept, opened)| *kept &= 1 - opened);
+            kept.iter_mut().zip(&opened).for_each(|(kept, opened)| *kept &= opened ^ 1);
             erase(&mut kept, &is_leaf);
             let thickness = side.midpoint(next - 1) as f64;
             lengths.push((thickness, area(&kept) / thickness));

@@ -185,7 +185,7 @@ pub(super) fn fill_hatches(dark: &[u8], width: usize, metres_per_pixel: f64) -> 
     let hatched: Vec<u8> = narrow.iter().zip(&near).map(|(&narrow, &near)| narrow & near).collect();
     // What is left at the ends of walls, in their corners, and where they run along the hatch, behind its thin lines.
     slanted.iter_mut().zip(&near).for_each(|(slanted, near)| *slanted &= near);
-    let beside = grow(&slanted, width, ((THIN_M / metres_per_pixel).round() as usize).max(2));
+    let beside = grow(&slanted, width, ((THIN_M / metres_per_pixel).round() as usize).max(1));
     let solid: Vec<u8> = dark.iter().zip(&hatched).map(|(&dark, &hatched)| dark | hatched).collect();
     let rests = Components::of(&inverted(&solid), width, 1, Neighbours::Four);
     let mut filled = solid.clone();

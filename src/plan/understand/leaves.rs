@@ -33,30 +33,37 @@ fn arcs(gap: &Gap, ink: &[u8], metres_per_pixel: f64) -> Vec<Arc> {
     let ([from, to], middle) = gap.middle();
     let (length, thick) = (to - from, gap.thickness());
     let slack = slack(metres_per_pixel);
+    let directions: [(f64, f64); PLACES] =
+        std::array::from_fn(|k| sin_cos(std::f64::consts::FRAC_PI_2 * (k as f64 + 0.5) / PLACES as f64));
     let mut found = Vec::new();
     for (hinge, way) in [(from, 1.0), (to, -1.0)] {
         for side in [-1.0, 1.0] {
-            let drawn = |across: f64, radius: f64| {
-                let (mut seen, mut inked) = (0usize, 0usize);
-                for k in 0..PLACES {
-                    let (sine, cosine) = sin_cos(std::f64::consts::FRAC_PI_2 * (k as f64 + 0.5) / PLACES as f64);
-                    if side * (across - middle) + radius * sine < 0.5 * thick {
-                        continue;
-                    }
-                    seen += 1;
-                    inked += usize::from((-3..=3).any(|step| {
+            // Share of an arc that is drawn; 0 as soon as that is no more than `most` or too little.
+            let drawn = |across: f64, radius: f64, most: f64| {
+                let is_beyond = |&&(sine, _): &&(f64, f64)| side * (across - middle) + radius * sine >= 0.5 * thick;
+                let seen = directions.iter().filter(is_beyond).count();
+                if 2 * seen < PLACES {
+                    return 0.0;
+                }
+                let mut left = seen;
+                for &(sine, cosine) in directions.iter().filter(is_beyond) {
+                    left -= usize::from(!(-3..=3).any(|step| {
                         let r = radius + slack * f64::from(step) / 3.0;
                         gap.pixel(hinge + way * r * cosine, across + side * r * sine).is_some_and(|at| ink[at] != 0)
                     }));
+                    let share = left as f64 / seen as f64;
+                    if share <= most || share < DRAWN {
+                        return 0.0;
+                    }
                 }
-                if 2 * seen < PLACES { 0.0 } else { inked as f64 / seen as f64 }
+                left as f64 / seen as f64
             };
             let mut best = Arc { hinge: [hinge, middle], ways: [way, side], radius: 0.0, drawn: 0.0 };
             // The hinge may be at either face of the wall or between: what lies in the wall is not drawn.
             for face in [0.5, 0.0, 0.25, -0.25, -0.5] {
                 for radius in RADII.map(|share| length * share) {
                     let across = middle + side * thick * face;
-                    let share = drawn(across, radius);
+                    let share = drawn(across, radius, best.drawn);
                     if share > best.drawn {
                         best = Arc { hinge: [hinge, across], radius, drawn: share, ..best };
                     }
