@@ -10,6 +10,8 @@ use crate::walls::{COUNTER_M, Face, TABLES_M, Walls};
 const CONVEX: f64 = 0.92;
 /// Least share of its smallest rectangle that a rectangular piece fills.
 const SQUARE: f64 = 0.93;
+/// Length beyond which what is as low and broad as a bed is a platform, as shops and museums have them, metres.
+const LONGEST_BED_M: f64 = 2.4;
 /// Shares of a gate's half length between which each of its card readers lies.
 const READER: [f64; 2] = [0.66, 0.86];
 
@@ -88,7 +90,7 @@ impl Piece {
         parts
     }
 
-    /// A chair, a bench, a sofa or a bed, by its size.
+    /// A chair, a bench, a sofa, a bed or a platform, by its size.
     fn seat(&self, walls: &Walls, tables: &[Vec2]) -> Vec<Fitting> {
         let [long, broad] = self.block.half.map(|half| 2.0 * half);
         let top_m = self.top_m;
@@ -101,6 +103,9 @@ impl Piece {
         }
         if long <= 0.8 {
             return self.chair(tables);
+        }
+        if broad >= 0.75 && long > LONGEST_BED_M {
+            return vec![self.prism(0.96, [0.0, 0.08], Finish::Steel), self.prism(1.0, [0.08, top_m], Finish::Wood)];
         }
         if broad >= 0.75 && long >= 1.7 {
             return self.bed(walls);
