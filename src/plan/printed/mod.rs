@@ -98,8 +98,10 @@ fn found_in(measures: &[Measure], guess: f64, sane: [f64; 2]) -> Option<(f64, Pl
     let misread = [guess / VERY_FAR, guess * VERY_FAR];
     let surely = || vote(measures, guess, misread, (MANY_AGREE, MOST_SHARE, AGREE));
     let nearly = || vote(measures, guess, [guess / NEAR, guess * NEAR], (FEW_AGREE, MOST_SHARE, AGREE_WELL));
-    let bars: Vec<Measure> = measures.iter().copied().filter(|measure| measure.kind == Kind::Bar).collect();
-    let by_bar = || vote(&bars, guess, misread, (BAR_WITH_UNIT_VOTES, MOST_SHARE, AGREE));
+    let by_bar = || {
+        let bars: Vec<Measure> = measures.iter().copied().filter(|measure| measure.kind == Kind::Bar).collect();
+        vote(&bars, guess, misread, (BAR_WITH_UNIT_VOTES, MOST_SHARE, AGREE))
+    };
     vote(measures, guess, sane, (FEWEST, LEAST_SHARE, AGREE)).or_else(surely).or_else(nearly).or_else(by_bar)
 }
 

@@ -78,23 +78,15 @@ impl Reader<'_> {
         let area = self.page.marks[k].area;
         let height = area.height();
         let reach = (f64::from(height) * WIDE_GAP) as i32;
-        let at_bar = |bar: &Area| {
-            let [apart, along] = [bar.middle()[1] - area.middle()[1], bar.x[0] - area.middle()[0]].map(i32::abs);
-            apart <= 3 * height && along <= height
-        };
         let start = self.bracket_before(&area).unwrap_or(area.x[0]);
         self.page.is_beside([start - reach, start - 1], area.y)
-            && (self.next(k, &area, SPACE).is_some() || self.wide.iter().any(at_bar))
+            && (self.next(k, &area, SPACE).is_some() || self.is_at_bar(&area, 0, [area.middle()[0], height]))
     }
 
-    /// Whether a number that begins with this digit stands at the far end of a scale bar.
-    fn ends_bar(&self, first: &Area) -> bool {
-        let height = first.height();
-        let at_end = |bar: &Area| {
-            let [apart, along] = [bar.middle()[1] - first.middle()[1], bar.x[1] - first.x[1]].map(i32::abs);
-            apart <= 3 * height && along <= 2 * height
-        };
-        self.wide.iter().any(at_end)
+    /// Whether a digit stands at one end of a scale bar, 0 or 1: a place of it, along the line, is at most so far from there.
+    fn is_at_bar(&self, digit: &Area, end: usize, [x, most]: [i32; 2]) -> bool {
+        let apart = |bar: &Area| (bar.middle()[1] - digit.middle()[1]).abs();
+        self.wide.iter().any(|bar| apart(bar) <= 3 * digit.height() && (bar.x[end] - x).abs() <= most)
     }
 
     /// Where a bracket begins that opens before a digit.
@@ -135,7 +127,7 @@ impl Reader<'_> {
         text.extend(self.digit(first));
         let mut gaps: Vec<i32> = Vec::new();
         // The numbers of scale bars are round.
-        let round = if self.ends_bar(&line) { "0" } else { "" };
+        let round = if self.is_at_bar(&line, 1, [line.x[1], 2 * line.height()]) { "0" } else { "" };
         while let Some(next) = self.next(last, &line, WIDE_GAP) {
             let is_minor = text.chars().filter(char::is_ascii_digit).count() >= SURE_DIGITS;
             let likely = if is_minor { DIGITS } else { round };

@@ -182,11 +182,13 @@ pub(super) fn fill_hatches(dark: &[u8], width: usize, metres_per_pixel: f64) -> 
     for (place, _) in places.all.iter().zip(walls).filter(|(place, is_wall)| !is_wall && !is_pier(place)) {
         places.paint(place, &mut near, width, 0);
     }
-    let hatched: Vec<u8> = narrow.iter().zip(&near).map(|(&narrow, &near)| narrow & near).collect();
-    // What is left at the ends of walls, in their corners, and where they run along the hatch, behind its thin lines.
+    let solid: Vec<u8> = (0..dark.len()).map(|at| dark[at] | (narrow[at] & near[at])).collect();
     slanted.iter_mut().zip(&near).for_each(|(slanted, near)| *slanted &= near);
+    if !slanted.contains(&1) {
+        return solid;
+    }
+    // What is left at the ends of walls, in their corners, and where they run along the hatch, behind its thin lines.
     let beside = grow(&slanted, width, ((THIN_M / metres_per_pixel).round() as usize).max(1));
-    let solid: Vec<u8> = dark.iter().zip(&hatched).map(|(&dark, &hatched)| dark | hatched).collect();
     let rests = Components::of(&inverted(&solid), width, 1, Neighbours::Four);
     let mut filled = solid.clone();
     for rest in rests.all.iter().filter(|rest| rests.touches(rest, &beside, width)) {

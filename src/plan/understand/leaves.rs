@@ -38,12 +38,12 @@ fn arcs(gap: &Gap, ink: &[u8], metres_per_pixel: f64) -> Vec<Arc> {
     let mut found = Vec::new();
     for (hinge, way) in [(from, 1.0), (to, -1.0)] {
         for side in [-1.0, 1.0] {
-            // Share of an arc that is drawn; 0 as soon as that is no more than `most` or too little.
+            // Share of an arc that is drawn, if that is enough and more than `most`.
             let drawn = |across: f64, radius: f64, most: f64| {
                 let is_beyond = |&&(sine, _): &&(f64, f64)| side * (across - middle) + radius * sine >= 0.5 * thick;
                 let seen = directions.iter().filter(is_beyond).count();
                 if 2 * seen < PLACES {
-                    return 0.0;
+                    return None;
                 }
                 let mut left = seen;
                 for &(sine, cosine) in directions.iter().filter(is_beyond) {
@@ -53,25 +53,23 @@ fn arcs(gap: &Gap, ink: &[u8], metres_per_pixel: f64) -> Vec<Arc> {
                     }));
                     let share = left as f64 / seen as f64;
                     if share <= most || share < DRAWN {
-                        return 0.0;
+                        return None;
                     }
                 }
-                left as f64 / seen as f64
+                Some(left as f64 / seen as f64)
             };
-            let mut best = Arc { hinge: [hinge, middle], ways: [way, side], radius: 0.0, drawn: 0.0 };
+            let mut best: Option<Arc> = None;
             // The hinge may be at either face of the wall or between: what lies in the wall is not drawn.
             for face in [0.5, 0.0, 0.25, -0.25, -0.5] {
                 for radius in RADII.map(|share| length * share) {
                     let across = middle + side * thick * face;
-                    let share = drawn(across, radius, best.drawn);
-                    if share > best.drawn {
-                        best = Arc { hinge: [hinge, across], radius, drawn: share, ..best };
+                    let most = best.as_ref().map_or(0.0, |best| best.drawn);
+                    if let Some(drawn) = drawn(across, radius, most) {
+                        best = Some(Arc { hinge: [hinge, across], ways: [way, side], radius, drawn });
                     }
                 }
             }
-            if best.drawn >= DRAWN {
-                found.push(best);
-            }
+            found.extend(best);
         }
     }
     found

@@ -104,11 +104,10 @@ impl Piece {
         if long <= 0.8 {
             return self.chair(tables);
         }
-        if broad >= 0.75 && long > LONGEST_BED_M {
-            return vec![self.prism(0.96, [0.0, 0.08], Finish::Steel), self.prism(1.0, [0.08, top_m], Finish::Wood)];
-        }
         if broad >= 0.75 && long >= 1.7 {
-            return self.bed(walls);
+            let platform =
+                || vec![self.prism(0.96, [0.0, 0.08], Finish::Steel), self.prism(1.0, [0.08, top_m], Finish::Wood)];
+            return if long > LONGEST_BED_M { platform() } else { self.bed(walls) };
         }
         if broad < 0.6 {
             let mut parts = vec![self.prism(1.0, [top_m - 0.05, top_m], Finish::Wood)];
