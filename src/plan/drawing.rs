@@ -3,14 +3,16 @@
 use image::{DynamicImage, GenericImageView};
 use rayon::prelude::*;
 
-use super::colour::{Colour, is_pane, is_saturated, lightness_against, luma};
+use super::colour::{Colour, is_pane, is_saturated, luma};
 use super::components::around;
 use super::ink::{self, Ink};
+use super::lightness::{is_annotation, lightness_of, map_pixels, on_paper};
 use super::ros_map::{Cell, Greys};
 use super::tones::{SURELY_DARK, USUAL_THRESHOLD};
+use super::wall_tops::Tops;
 use super::{
     PlanOptions, TransparentPolicy, UnknownPolicy, colour_areas, hatching, level_map, paving, shadow, sheet, skew,
-    squared, thin_lines, tones,
+    squared, thin_lines, tones, wall_tops,
 };
 
 /// Greys of unknown and of free cells as mappers write them.
@@ -92,6 +94,11 @@ pub(super) fn of_image(image: DynamicImage, options: &PlanOptions) -> (Drawing, 
     let (mut coloured, mut share, mut lightness) = masks(&image, options);
     let is_unasked = options.threshold.is_none() && options.invert.is_none();
     let looks_like_map = is_unasked && coloured.is_empty() && has_map_greys(&lightness);
+    let may_be_rendered = is_unasked && !looks_like_map && options.wall_colours.is_empty();
+    if let Some(drawing) = may_be_rendered.then(|| of_tops(&image)).flatten() {
+        warnings.push(TOPS.to_owned());
+        return (drawing, warnings);
+    }
     let sheet = if looks_like_map { None } else { sheet::find(&image) };
     let askew = if looks_like_map || sheet.is_some() { None } else { skew::find(&image) };
     let image = match (&sheet, &askew) {
@@ -215,6 +222,41 @@ fn of_lines_on_black(
 
 const AREAS: &str = "no walls are drawn: the light lines between areas of colour were taken for walls; \
                      `[plan] threshold` takes what is dark instead";
+
+const TOPS: &str = "floors are drawn as they look from above: even tones between them were taken for walls; \
+                    `[plan] threshold` takes what is dark instead";
+
+/// Greatest breadth of shadows around a building, as a share of the image's longer side.
+const SHADOW_SHARE: f64 = 0.015;
+
+/// A floor as it looks from above: the tops of walls are dark, panes have outlines, and furniture on floors is left out.
+/// Around the building, ink is as it is.
+fn of_tops(image: &DynamicImage) -> Option<Drawing> {
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    let pixel = |at: usize| on_paper(image.get_pixel((at % width) as u32, (at / width) as u32).0);
+    let Tops { walls, glass } = wall_tops::find(width, height, pixel)?;
+    let rim: Vec<usize> = tones::rim(width, height).collect();
+    let is_paper = rim.iter().filter(|&&at| luma(pixel(at)) >= USUAL_THRESHOLD).count() * 2 > rim.len();
+    // Sides and shadows of walls lie beside them.
+    let beside = (SHADOW_SHARE * width.max(height) as f64) as usize;
+    let mut building = [width, height, 0, 0];
+    for at in (0..walls.len()).filter(|&at| walls[at] != 0) {
+        let [x, y] = [at % width, at / width];
+        building = [building[0].min(x), building[1].min(y), building[2].max(x), building[3].max(y)];
+    }
+    let is_around = |at: usize| {
+        let [x, y] = [at % width, at / width];
+        x + beside < building[0] || y + beside < building[1] || x > building[2] + beside || y > building[3] + beside
+    };
+    let lightness = |at: usize| match () {
+        () if walls[at] != 0 => 0,
+        () if is_paper && is_around(at) => luma(pixel(at)),
+        () => 255,
+    };
+    let lightness: Vec<u8> = (0..walls.len()).map(lightness).collect();
+    let dark = lightness.iter().map(|&l| u8::from(l < USUAL_THRESHOLD)).collect();
+    Some(Drawing { pane: glass, ..Drawing::of(width, lightness, dark) })
+}
 
 /// Walls between areas of colour, and the lettering in these.
 fn of_areas(width: usize, walls: &[u8], mut lightness: Vec<u8>) -> Drawing {
@@ -393,67 +435,6 @@ fn told_sheet(sheet: &sheet::Sheet, (width, height): (u32, u32)) -> String {
         "a sheet of paper was found in a photograph, with corners at {corners}: it was straightened to {width} x {height} \
          pixels, in which places in pixels count from now on; what lies around it was left out"
     )
-}
-
-/// One byte per pixel; grey images are not blown up to colour first.
-fn map_pixels(image: &DynamicImage, of: impl Fn([u8; 4]) -> u8 + Sync) -> Vec<u8> {
-    match image {
-        DynamicImage::ImageLuma8(grey) => {
-            let table: Vec<u8> = (0..=255).map(|v| of([v, v, v, 255])).collect();
-            grey.as_raw().par_iter().map(|&v| table[usize::from(v)]).collect()
-        }
-        DynamicImage::ImageRgb8(rgb) => map_colours(rgb.as_raw(), |[r, g, b]| of([r, g, b, 255])),
-        DynamicImage::ImageRgba8(rgba) => map_colours(rgba.as_raw(), of),
-        other => map_colours(other.to_rgba8().as_raw(), of),
-    }
-}
-
-/// One byte per pixel of `N` bytes. Most pixels are as the one before, and are not worked out again.
-fn map_colours<const N: usize>(bytes: &[u8], of: impl Fn([u8; N]) -> u8 + Sync) -> Vec<u8> {
-    const TOGETHER: usize = 1 << 16;
-    let mut mapped = vec![0; bytes.len() / N];
-    mapped.par_chunks_mut(TOGETHER).zip(bytes.par_chunks(TOGETHER * N)).for_each(|(mapped, bytes)| {
-        let mut last = ([0; N], of([0; N]));
-        for (mapped, pixel) in mapped.iter_mut().zip(bytes.as_chunks().0) {
-            if *pixel != last.0 {
-                last = (*pixel, of(*pixel));
-            }
-            // What is 0 already takes no memory until it is written.
-            if last.1 != 0 {
-                *mapped = last.1;
-            }
-        }
-    });
-    mapped
-}
-
-/// A pixel laid on white paper.
-fn on_paper([r, g, b, a]: [u8; 4]) -> [u8; 3] {
-    let alpha = u32::from(a);
-    [r, g, b].map(|v| ((u32::from(v) * alpha + 255 * (255 - alpha) + 127) / 255) as u8)
-}
-
-fn wall_colour_lightness(pixel: [u8; 3], colours: &[Colour]) -> Option<u8> {
-    colours.iter().filter_map(|&c| lightness_against(c, pixel)).min()
-}
-
-fn is_annotation(pixel: [u8; 4], options: &PlanOptions) -> bool {
-    let pixel = on_paper(pixel);
-    is_saturated(pixel) && wall_colour_lightness(pixel, &options.wall_colours).is_none()
-}
-
-fn lightness_of(pixel: [u8; 4], options: &PlanOptions) -> u8 {
-    match options.transparent {
-        TransparentPolicy::Wall if pixel[3] < 128 => return 0,
-        TransparentPolicy::Floor if pixel[3] < 128 => return 255,
-        _ => {}
-    }
-    let pixel = on_paper(pixel);
-    if let Some(lightness) = wall_colour_lightness(pixel, &options.wall_colours) {
-        // Black is wall for any list of wall colours.
-        return if is_saturated(pixel) { lightness } else { lightness.min(luma(pixel)) };
-    }
-    if is_saturated(pixel) { 255 } else { luma(pixel) }
 }
 
 /// Whether a grey image has a robot's greys: 254 for free and 205 for unknown.

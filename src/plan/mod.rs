@@ -28,6 +28,7 @@ mod image_file;
 mod ink;
 mod layer;
 mod level_map;
+mod lightness;
 mod likely;
 mod limits;
 mod mask;
@@ -54,6 +55,7 @@ mod symbols;
 mod thick;
 mod thin_lines;
 mod tones;
+mod wall_tops;
 mod understand;
 mod vector;
 

@@ -341,7 +341,12 @@ fn median(runs: &[[usize; 2]]) -> Option<f64> {
 
 /// The shorter and the longer of the runs across and down at chosen pixels of the class that `is_in` describes, pixels;
 /// the shortest first.
-fn runs(width: usize, lightness: &[u8], chosen: impl Fn(usize) -> bool, is_in: impl Fn(u8) -> bool) -> Vec<[usize; 2]> {
+pub(super) fn runs(
+    width: usize,
+    lightness: &[u8],
+    chosen: impl Fn(usize) -> bool,
+    is_in: impl Fn(u8) -> bool,
+) -> Vec<[usize; 2]> {
     let places: Vec<usize> = (0..lightness.len()).filter(|&at| chosen(at)).collect();
     let height = lightness.len() / width;
     let limit = width.max(height) / 4 + 1;

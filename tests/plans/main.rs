@@ -17,6 +17,7 @@ mod mixed_walls;
 mod notes;
 mod openings;
 mod photographs;
+mod rendered;
 mod scales;
 mod styles;
 
