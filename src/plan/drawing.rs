@@ -11,8 +11,8 @@ use super::ros_map::{Cell, Greys};
 use super::tones::{SURELY_DARK, USUAL_THRESHOLD};
 use super::wall_tops::Tops;
 use super::{
-    PlanOptions, TransparentPolicy, UnknownPolicy, colour_areas, hatching, level_map, paving, shadow, sheet, skew,
-    squared, thin_lines, tones, wall_tops,
+    PlanOptions, TransparentPolicy, UnknownPolicy, colour_areas, floor_pieces, hatching, level_map, paving, shadow,
+    sheet, skew, squared, thin_lines, tones, wall_tops,
 };
 
 /// Greys of unknown and of free cells as mappers write them.
@@ -36,6 +36,8 @@ pub(super) struct Drawing {
     pub(super) dark_colour: Vec<u8>,
     /// 1 for pixels of the pale blue of panes; empty if there are none.
     pub(super) pane: Vec<u8>,
+    /// 1 for outlines of furniture on a floor as it looks from above; empty for other drawings.
+    pub(super) pieces: Vec<u8>,
     /// Whether paper and floors are even, without grain or texture: faint strokes show.
     pub(super) clean: bool,
     /// Threshold between wall and floor, in the image's own lightness.
@@ -229,8 +231,8 @@ const TOPS: &str = "floors are drawn as they look from above: even tones between
 /// Greatest breadth of shadows around a building, as a share of the image's longer side.
 const SHADOW_SHARE: f64 = 0.015;
 
-/// A floor as it looks from above: the tops of walls are dark, panes have outlines, and furniture on floors is left out.
-/// Around the building, ink is as it is.
+/// A floor as it looks from above: the tops of walls are dark, and furniture on floors has outlines. Around the
+/// building, ink is as it is.
 fn of_tops(image: &DynamicImage) -> Option<Drawing> {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let pixel = |at: usize| on_paper(image.get_pixel((at % width) as u32, (at / width) as u32).0);
@@ -248,6 +250,9 @@ fn of_tops(image: &DynamicImage) -> Option<Drawing> {
         let [x, y] = [at % width, at / width];
         x + beside < building[0] || y + beside < building[1] || x > building[2] + beside || y > building[3] + beside
     };
+    let colours: Vec<[u8; 3]> = (0..walls.len()).map(pixel).collect();
+    let solid: Vec<u8> = walls.iter().zip(&glass).map(|(wall, glass)| wall | glass).collect();
+    let pieces = floor_pieces::find(&colours, &solid, width);
     let lightness = |at: usize| match () {
         () if walls[at] != 0 => 0,
         () if is_paper && is_around(at) => luma(pixel(at)),
@@ -255,7 +260,7 @@ fn of_tops(image: &DynamicImage) -> Option<Drawing> {
     };
     let lightness: Vec<u8> = (0..walls.len()).map(lightness).collect();
     let dark = lightness.iter().map(|&l| u8::from(l < USUAL_THRESHOLD)).collect();
-    Some(Drawing { pane: glass, ..Drawing::of(width, lightness, dark) })
+    Some(Drawing { pane: glass, pieces, ..Drawing::of(width, lightness, dark) })
 }
 
 /// Walls between areas of colour, and the lettering in these.
@@ -327,6 +332,7 @@ impl Drawing {
             coloured: Vec::new(),
             dark_colour: Vec::new(),
             pane: Vec::new(),
+            pieces: Vec::new(),
             clean: false,
             threshold: USUAL_THRESHOLD,
             surely_dark: SURELY_DARK,

@@ -11,6 +11,7 @@ mod class;
 mod clearance;
 mod colour;
 mod colour_areas;
+mod floor_pieces;
 mod furnished;
 mod gap_widths;
 mod guess;

@@ -1,5 +1,7 @@
 //! Floors rendered from above, with textures, shadows and furniture: walls are what is even, slender and of one tone there.
 
+use rayon::prelude::*;
+
 use super::clearance::{dilate, erode};
 use super::colour::{chroma, is_pane, luma};
 use super::components::{Component, Components, Neighbours};
@@ -18,6 +20,8 @@ const SPREAD: u8 = 13;
 const BITS: u32 = 4;
 const MOST_TONES: usize = 16;
 const LEAST_TONE: f64 = 0.003;
+/// Least share of the image that walls cover.
+const LEAST_WALLS: f64 = 0.01;
 /// Least length and greatest thickness of walls, as shares of the image's longer side, and least length for a thickness.
 const SHORTEST: f64 = 0.02;
 const THICKEST: f64 = 0.03;
@@ -28,9 +32,10 @@ const HALF_A_GAP: [f64; 3] = [0.035, 0.05, 0.08];
 const LEAST_ROOM: f64 = 0.002;
 const FEWEST_ROOMS: usize = 3;
 const AS_MANY_ROOMS: f64 = 0.5;
-/// Least share of the floor with another hue than most of it: paper has less. By how much a hue differs, as a share of the
+/// Least share of the floor with another hue than most of it, and the same of the image: paper has less. By how much a hue differs, as a share of the
 /// lightness, and the darkest floor that has one.
 const OTHER_FLOORS: f64 = 0.15;
+const OTHER_COLOURS: f64 = 0.05;
 const OTHER_HUE: f32 = 0.15;
 const DARKEST_FLOOR: u8 = 40;
 /// Shares of the walls' length of which the greatest thickness is that of thin and of thick walls, and the least thickness
@@ -66,7 +71,8 @@ pub(super) fn find(width: usize, height: usize, pixel: impl Fn(usize) -> [u8; 3]
     }
     let places = || (1..width * height).step_by((width * height).div_ceil(SAMPLES));
     let uneven = places().filter(|&at| pixel(at) != pixel(at - 1)).count();
-    if (uneven as f64) < UNEVEN * places().count() as f64 {
+    let some: Vec<[u8; 3]> = places().map(&pixel).collect();
+    if (uneven as f64) < UNEVEN * some.len() as f64 || has_one_hue(&some, OTHER_COLOURS) {
         return None;
     }
     let colours: Vec<[u8; 3]> = (0..width * height).map(pixel).collect();
@@ -77,23 +83,23 @@ pub(super) fn find(width: usize, height: usize, pixel: impl Fn(usize) -> [u8; 3]
         beside.iter().all(|&near| lightness.get(near).is_none_or(|&l| l.abs_diff(lightness[at]) <= EVEN))
     };
     let even: Vec<u8> = (0..colours.len()).map(|at| u8::from(is_even(at))).collect();
-    let mut found: Vec<(usize, u8, Vec<u8>)> = Vec::new();
-    for tone in tones_of(&colours, &even) {
+    let walls_of = |&tone: &[u8; 3]| {
         let of_tone: Vec<u8> =
             colours.iter().zip(&even).map(|(&colour, even)| even & u8::from(is_near(colour, tone))).collect();
         let slender = slender(&of_tone, width);
-        if !tones::encloses(&slender, width) {
-            continue;
+        let count = slender.iter().filter(|&&slender| slender != 0).count();
+        if (count as f64) < LEAST_WALLS * slender.len() as f64 || !tones::encloses(&slender, width) {
+            return None;
         }
         let mask = dilate(&slender, width, EDGE_PX);
         let leaf_px = LEAST_OF_THIN * thickness(&mask, width, THIN_SHARE);
         let mask = thick::open(&mask, width, leaf_px as usize);
         let rooms = rooms(&mask, width);
         let floor: Vec<[u8; 3]> = rooms.iter().flatten().map(|&at| colours[at]).collect();
-        if rooms.len() >= FEWEST_ROOMS && !has_one_hue(&floor) {
-            found.push((rooms.len(), luma(tone).abs_diff(128), mask));
-        }
-    }
+        let is_it = rooms.len() >= FEWEST_ROOMS && !has_one_hue(&floor, OTHER_FLOORS);
+        is_it.then(|| (rooms.len(), luma(tone).abs_diff(128), mask))
+    };
+    let mut found: Vec<(usize, u8, Vec<u8>)> = tones_of(&colours, &even).par_iter().filter_map(walls_of).collect();
     let most = found.iter().map(|(rooms, ..)| *rooms).max()?;
     found.retain(|(rooms, ..)| *rooms as f64 >= AS_MANY_ROOMS * most as f64);
     found.into_iter().max_by_key(|&(_, contrast, _)| contrast).map(|(.., walls)| with_windows(walls, &colours, width))
@@ -224,8 +230,9 @@ fn rooms(walls: &[u8], width: usize) -> Vec<Vec<usize>> {
     HALF_A_GAP.map(within).into_iter().max_by_key(Vec::len).unwrap_or_default()
 }
 
-/// Whether nearly all of some colours have the hue of their median, however light they are: paper has, under any light.
-fn has_one_hue(colours: &[[u8; 3]]) -> bool {
+/// Whether less than a share of some colours has another hue than their median, however light they are: so it is with paper,
+/// under any light.
+fn has_one_hue(colours: &[[u8; 3]], least: f64) -> bool {
     let hues: Vec<[f32; 2]> = colours
         .iter()
         .filter(|&&colour| luma(colour) >= DARKEST_FLOOR)
@@ -240,5 +247,5 @@ fn has_one_hue(colours: &[[u8; 3]]) -> bool {
         all.get(all.len() / 2).copied().unwrap_or(0.0)
     });
     let is_other = |hue: &&[f32; 2]| hue.iter().zip(middle).any(|(hue, middle)| (hue - middle).abs() > OTHER_HUE);
-    (hues.iter().filter(is_other).count() as f64) < OTHER_FLOORS * hues.len() as f64
+    (hues.iter().filter(is_other).count() as f64) < least * hues.len() as f64
 }

@@ -1,4 +1,4 @@
-//! Floors as brochures render them: textures, shadows and furniture from above, walls of one tone between them.
+//! Floors as brochures render them, with textures, shadows and furniture from above, and walls of one tone between them.
 
 use trodden::math::SplitMix64;
 
@@ -8,6 +8,15 @@ const PX_PER_M: f64 = 90.0;
 const OUTER_M: f64 = 0.3;
 const PARTITION_M: f64 = 0.12;
 const SIZE_M: Point = [12.0, 8.0];
+
+/// Corners and colours of beds, tables and a shelf.
+const FURNITURE: [(Point, Point, [u8; 3]); 5] = [
+    ([0.4, 1.0], [2.2, 2.8], [96, 128, 166]),
+    ([5.0, 5.2], [6.4, 6.0], [122, 78, 44]),
+    ([9.0, 1.2], [10.4, 2.4], [238, 232, 222]),
+    ([0.5, 4.6], [2.3, 6.4], [176, 72, 70]),
+    ([10.9, 5.0], [11.7, 7.4], [70, 66, 62]),
+];
 
 /// What the walls look like.
 #[derive(Clone, Copy, Debug)]
@@ -89,15 +98,7 @@ fn six_rooms(tops: Tops) -> Canvas {
             *pixel = pixel.map(|v| (v + grain).clamp(0.0, 255.0));
         }
     }
-    // Beds, tables and shelves, with their shadows.
-    let pieces = [
-        ([0.4, 1.0], [2.2, 2.8], [96, 128, 166]),
-        ([5.0, 5.2], [6.4, 6.0], [122, 78, 44]),
-        ([9.0, 1.2], [10.4, 2.4], [238, 232, 222]),
-        ([0.5, 4.6], [2.3, 6.4], [176, 72, 70]),
-        ([10.9, 5.0], [11.7, 7.4], [70, 66, 62]),
-    ];
-    for (min, max, colour) in pieces {
+    for (min, max, colour) in FURNITURE {
         canvas.fill(&[rectangle(min.map(|v| v + 0.05), max.map(|v| v + 0.05))], [78, 70, 64]);
         canvas.fill(&[rectangle(min, max)], colour);
         canvas.fill(&outline(&rectangle(min.map(|v| v + 0.1), max.map(|v| v - 0.1)), 0.02), colour.map(|v| v / 2 + 40));
@@ -144,8 +145,15 @@ fn walls_between_textured_floors_are_known_by_their_tone() {
         assert!((0.85..1.15).contains(&scale), "{tops:?}: the scale is {scale} times the true one");
         assert_eq!([plan.doors.len(), plan.windows.len()], [6, 5], "{tops:?}: doors and windows");
         for (x, y) in [(0.0, 0.0), (4.0, 0.0), (8.0, 0.0), (0.0, 4.0), (4.0, 4.0), (8.0, 4.0)] {
-            let free = canvas.floor_in(&plan, [[x + 0.3, y + 0.3], [x + 3.7, y + 3.7]]);
-            assert!(free > 0.97, "{tops:?}: {free} of the room at {x}, {y} is floor");
+            for [min, max] in [[[2.5, 0.4], [3.6, 0.9]], [[0.4, 3.1], [2.0, 3.6]]] {
+                let free = canvas.floor_in(&plan, [[x + min[0], y + min[1]], [x + max[0], y + max[1]]]);
+                assert!(free > 0.97, "{tops:?}: {free} of the room at {x}, {y} is floor");
+            }
+        }
+        assert_eq!(plan.furniture.len(), FURNITURE.len(), "{tops:?}: {:?}", plan.furniture);
+        for (min, max, _) in FURNITURE {
+            let free = canvas.floor_in(&plan, [min.map(|v| v + 0.15), max.map(|v| v - 0.15)]);
+            assert!(free < 0.02, "{tops:?}: {free} of the furniture at {min:?} is floor");
         }
         let wall = canvas.floor_in(&plan, [[-0.05, -0.05], [0.05, 8.05]]);
         assert!(wall < 0.02, "{tops:?}: {wall} of the western wall is floor");

@@ -134,6 +134,7 @@ fn reduced(drawing: &Drawing, factor: usize) -> Drawing {
         coloured: fold(&drawing.coloured, 0, u8::max),
         dark_colour: fold(&drawing.dark_colour, 0, u8::max),
         pane: fold(&drawing.pane, 0, u8::max),
+        pieces: fold(&drawing.pieces, 0, u8::max),
         ..*drawing
     }
 }
@@ -144,7 +145,8 @@ fn understand_all(drawing: &Drawing, metres_per_pixel: f64) -> Option<Understood
     for (ink, &wall) in ink.iter_mut().zip(&net.wall) {
         *ink &= 1 - wall;
     }
-    if ink.iter().filter(|&&i| i != 0).count() < FEWEST_STROKE_PX {
+    let pieces = without_mats(&drawing.pieces, &net, width, metres_per_pixel);
+    if ink.iter().chain(&pieces).filter(|&&i| i != 0).count() < FEWEST_STROKE_PX {
         return None;
     }
     let mut classes = vec![PlanClass::Floor; pixels];
@@ -166,6 +168,7 @@ fn understand_all(drawing: &Drawing, metres_per_pixel: f64) -> Option<Understood
             (kind, leaf)
         })
         .collect();
+    ink.iter_mut().zip(pieces).for_each(|(ink, piece)| *ink |= piece);
     let strokes = pieces::Strokes { ink: &ink, dark: &drawing.dark, dark_colour: &drawing.dark_colour };
     let furniture = pieces::furniture(&strokes, &net, width, metres_per_pixel, &mut classes);
     name_strokes(&ink, &net, width, metres_per_pixel, &mut classes);
@@ -189,6 +192,22 @@ fn understand_all(drawing: &Drawing, metres_per_pixel: f64) -> Option<Understood
     let is_outside = |at: usize| u8::from(inside[at] == 0 && !classes[at].is_solid() && classes[at] != PlanClass::Door);
     let outside = (0..pixels).map(is_outside).collect();
     Some(Understood { classes, outside, doors, windows, furniture, factor: 1 })
+}
+
+/// Outlines of furniture without those in front of doors: mats lie there.
+fn without_mats(pieces: &[u8], net: &Net, width: usize, metres_per_pixel: f64) -> Vec<u8> {
+    let mut kept = pieces.to_vec();
+    if kept.is_empty() {
+        return kept;
+    }
+    let all = Components::of(pieces, width, 1, Neighbours::Eight);
+    for (leads_out, reach) in [(false, BEFORE_DOORS_M[0]), (true, BEFORE_DOORS_M[1])] {
+        let doors = net.doors.iter().filter(|gap| gap.leads_out(&net.inside) == leads_out);
+        let near = thick::grow(&gaps::mask(doors, kept.len()), width, (reach / metres_per_pixel) as usize);
+        let mats = all.all.iter().filter(|piece| all.touches(piece, &near, width));
+        mats.for_each(|piece| all.paint(piece, &mut kept, width, 0));
+    }
+    kept
 }
 
 /// What is drawn at all, faint or not, and the walls in it.
@@ -216,6 +235,8 @@ fn ink_and_net(drawing: &Drawing, metres_per_pixel: f64) -> Option<(Vec<u8>, Net
     Some((all_ink, net))
 }
 
+/// How far before doors within a building nothing stands, and before those that lead out, metres.
+const BEFORE_DOORS_M: [f64; 2] = [0.3, 1.0];
 /// How far from the floor of rooms walls of the building reach at most, metres.
 const BESIDE_ROOMS_M: f64 = 0.1;
 
