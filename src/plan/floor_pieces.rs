@@ -11,13 +11,15 @@ const HALF_A_DOOR: [f64; 4] = [0.02, 0.03, 0.04, 0.05];
 const LEAST_CONTRAST: f64 = 26.0;
 const SPREADS: f64 = 3.5;
 /// Radius of a disc that fits into pieces, as a share of the longer side: shadows and leaves are narrower.
-const SLIMMEST: f64 = 0.006;
+const SLIMMEST: f64 = 0.008;
 /// Least and greatest area of a piece as shares of the image's, and greatest share of its room.
 const AREA: [f64; 2] = [0.0004, 0.03];
 const OF_ROOM: f64 = 0.4;
+/// Greatest area of a mat as a share of the image's.
+const LARGEST_MAT: f64 = 0.006;
 /// Half of a person's breadth for half of a door's width, and least share of a room that furniture may not part from the rest.
 const SHOULDER: f64 = 0.5;
-const LEAST_PART: f64 = 0.02;
+const LEAST_PART: f64 = 0.05;
 /// Thickness of outlines.
 const OUTLINE_PX: f64 = 2.0;
 
@@ -53,12 +55,13 @@ pub(super) fn find(colours: &[[u8; 3]], walls: &[u8], width: usize) -> Vec<u8> {
         let mut free = vec![0; w * h];
         room.iter().for_each(|&k| free[k] = 1);
         found.all.iter().filter(is_piece).for_each(|piece| found.paint(piece, &mut free, w, 0));
-        // What people cannot go round is a mat.
+        // What is small and people cannot go round is a mat.
         let parts = |free: &[u8]| {
             let passable = Components::of(&erode(free, w, SHOULDER * half_a_door), w, 1, Neighbours::Four);
             passable.all.iter().filter(|part| part.area as f64 >= LEAST_PART * room.len() as f64).count()
         };
-        for piece in found.all.iter().filter(is_piece) {
+        let may_be_mat = |piece: &&Component| piece.area as f64 <= LARGEST_MAT * (w * h) as f64;
+        for piece in found.all.iter().filter(is_piece).filter(may_be_mat) {
             let before = parts(&free);
             found.paint(piece, &mut free, w, 1);
             if parts(&free) >= before {
