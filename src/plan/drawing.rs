@@ -558,6 +558,16 @@ mod tests {
     }
 
     #[test]
+    fn strips_of_a_few_pixels_are_read() {
+        for (width, height) in [(3, 5000), (5000, 3), (1, 700)] {
+            let noise = |x: u32, y: u32| image::Rgb([7919, 5003, 3001].map(|k| ((x * k + y * 104_729) % 251) as u8));
+            let image = DynamicImage::ImageRgb8(RgbImage::from_fn(width, height, noise));
+            let drawing = of_image(image, &PlanOptions::default()).0;
+            assert_eq!([drawing.width, drawing.height], [width, height].map(|px| px as usize));
+        }
+    }
+
+    #[test]
     fn tones_are_stretched_to_black_and_white() {
         // A thick wall of 110 with an anti-aliased edge of 182 on paper of 254.
         let mut lightness = [[110, 110, 110, 182, 254, 254, 255]; 4].concat();

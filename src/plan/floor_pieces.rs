@@ -29,6 +29,9 @@ pub(super) fn find(colours: &[[u8; 3]], walls: &[u8], width: usize) -> Vec<u8> {
     let longer = width.max(height);
     let side = longer.div_ceil(REDUCED_PX);
     let (w, h) = (width / side, height / side);
+    if w * h == 0 {
+        return vec![0; walls.len()];
+    }
     let block = |k: usize| {
         let (x, y) = (k % w * side, k / w * side);
         (y..y + side).flat_map(move |y| (x..x + side).map(move |x| y * width + x))

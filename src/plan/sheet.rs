@@ -50,10 +50,10 @@ pub(super) struct Sheet {
 pub(super) fn find(image: &DynamicImage) -> Option<Sheet> {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let cell = width.max(height).div_ceil(SMALL_PX).max(1);
-    let small = Small::of(image, cell);
-    if width.min(height) < LEAST_PHOTO_PX || small.width < 16 || small.height < 16 {
+    if width.min(height) < LEAST_PHOTO_PX.max(16 * cell) {
         return None;
     }
+    let small = Small::of(image, cell);
     let by_level = LEVELS.iter().map(|&level| small.paperness.iter().map(|&p| u8::from(p >= level)).collect());
     let masks: Vec<Vec<u8>> = by_level.chain([small.beyond_desk()]).collect();
     let found = masks.iter().filter_map(|mask| small.quadrilateral(mask));
