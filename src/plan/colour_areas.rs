@@ -3,7 +3,7 @@
 
 use super::clearance::{dilate, erode, opened};
 use super::colour::{chroma, luma};
-use super::components::{Components, Neighbours};
+use super::components::{Components, Neighbours, spaces};
 use super::tones;
 
 /// Tones that differ less from paper than this are paper.
@@ -160,17 +160,8 @@ fn paper(width: usize, height: usize, pixel: impl Fn(usize) -> [u8; 3]) -> Optio
 
 /// Thickness of the light lines between areas, pixels: the median along rows and columns, if there are `fewest` such places.
 fn between(areas: &[u8], width: usize, thickest: usize, fewest: usize) -> Option<usize> {
-    let height = areas.len() / width;
-    let mut found = Vec::new();
-    let mut collect = |length: usize, at: &dyn Fn(usize) -> usize| {
-        let mut last = None;
-        for k in (0..length).filter(|&k| areas[at(k)] != 0) {
-            found.extend(last.map(|last: usize| k - last - 1).filter(|gap| (1..=thickest).contains(gap)));
-            last = Some(k);
-        }
-    };
-    (0..height).for_each(|y| collect(width, &|x| y * width + x));
-    (0..width).for_each(|x| collect(height, &|y| y * width + x));
+    let all = [0, 1].into_iter().flat_map(|along| spaces(areas, width, along));
+    let mut found: Vec<usize> = all.map(|(.., count)| count).filter(|count| (1..=thickest).contains(count)).collect();
     found.sort_unstable();
     (found.len() >= fewest).then(|| found[found.len() / 2])
 }

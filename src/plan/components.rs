@@ -37,6 +37,23 @@ pub(super) fn around(at: usize, width: usize) -> impl Iterator<Item = usize> {
     rows.into_iter().flat_map(|row| [row.wrapping_sub(1), row, row.wrapping_add(1)])
 }
 
+/// What lies between two pixels of a mask that follow each other in one row, or in one column if `along` is 1: its first pixel,
+/// the step to the next, and how many there are.
+pub(super) fn spaces(mask: &[u8], width: usize, along: usize) -> Vec<(usize, usize, usize)> {
+    let height = mask.len() / width;
+    let ([length, lines], [step, between]) =
+        if along == 0 { ([width, height], [1, width]) } else { ([height, width], [width, 1]) };
+    let mut found = Vec::new();
+    for line in 0..lines {
+        let mut last = None;
+        for k in (0..length).filter(|k| mask[line * between + k * step] != 0) {
+            found.extend(last.map(|last| (line * between + (last + 1) * step, step, k - last - 1)));
+            last = Some(k);
+        }
+    }
+    found
+}
+
 impl Component {
     /// Its box: least x and y, one beyond the greatest.
     pub(super) fn around(&self) -> [u32; 4] {

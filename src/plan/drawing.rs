@@ -236,9 +236,9 @@ const SHADOW_SHARE: f64 = 0.015;
 fn of_tops(image: &DynamicImage) -> Option<Drawing> {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let pixel = |at: usize| on_paper(image.get_pixel((at % width) as u32, (at / width) as u32).0);
-    let Tops { walls, glass } = wall_tops::find(width, height, pixel)?;
+    let Tops { colours, walls, glass } = wall_tops::find(width, height, pixel)?;
     let rim: Vec<usize> = tones::rim(width, height).collect();
-    let is_paper = rim.iter().filter(|&&at| luma(pixel(at)) >= USUAL_THRESHOLD).count() * 2 > rim.len();
+    let is_paper = rim.iter().filter(|&&at| luma(colours[at]) >= USUAL_THRESHOLD).count() * 2 > rim.len();
     // Sides and shadows of walls lie beside them.
     let beside = (SHADOW_SHARE * width.max(height) as f64) as usize;
     let mut building = [width, height, 0, 0];
@@ -250,12 +250,11 @@ fn of_tops(image: &DynamicImage) -> Option<Drawing> {
         let [x, y] = [at % width, at / width];
         x + beside < building[0] || y + beside < building[1] || x > building[2] + beside || y > building[3] + beside
     };
-    let colours: Vec<[u8; 3]> = (0..walls.len()).map(pixel).collect();
     let solid: Vec<u8> = walls.iter().zip(&glass).map(|(wall, glass)| wall | glass).collect();
     let pieces = floor_pieces::find(&colours, &solid, width);
     let lightness = |at: usize| match () {
         () if walls[at] != 0 => 0,
-        () if is_paper && is_around(at) => luma(pixel(at)),
+        () if is_paper && is_around(at) => luma(colours[at]),
         () => 255,
     };
     let lightness: Vec<u8> = (0..walls.len()).map(lightness).collect();

@@ -64,11 +64,12 @@ pub(super) fn find(colours: &[[u8; 3]], walls: &[u8], width: usize) -> Vec<u8> {
             passable.all.iter().filter(|part| part.area as f64 >= LEAST_PART * room.len() as f64).count()
         };
         let may_be_mat = |piece: &&Component| piece.area as f64 <= LARGEST_MAT * (w * h) as f64;
+        let mut fewest = parts(&free);
         for piece in found.all.iter().filter(is_piece).filter(may_be_mat) {
-            let before = parts(&free);
             found.paint(piece, &mut free, w, 1);
-            if parts(&free) >= before {
-                found.paint(piece, &mut free, w, 0);
+            match parts(&free) {
+                fewer if fewer < fewest => fewest = fewer,
+                _ => found.paint(piece, &mut free, w, 0),
             }
         }
         room.iter().for_each(|&k| pieces[k] = 1 - free[k]);

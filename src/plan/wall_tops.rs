@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::clearance::{dilate, erode};
 use super::colour::{chroma, is_pane, luma};
-use super::components::{Component, Components, Neighbours};
+use super::components::{Component, Components, Neighbours, spaces};
 use super::{thick, tones};
 
 /// Pixels of the largest image that is looked at: others cost much memory, and are scans.
@@ -56,8 +56,9 @@ const WHITE_SHARE: [f64; 2] = [0.6, 0.97];
 /// Pixels at the edges of tops that are not even.
 const EDGE_PX: f64 = 2.0;
 
-/// Walls of a floor from above, and glass in the middle of these; 1 for each.
+/// The colours of a floor from above; 1 for its walls, and for glass in the middle of these.
 pub(super) struct Tops {
+    pub(super) colours: Vec<[u8; 3]>,
     pub(super) walls: Vec<u8>,
     pub(super) glass: Vec<u8>,
 }
@@ -102,7 +103,8 @@ pub(super) fn find(width: usize, height: usize, pixel: impl Fn(usize) -> [u8; 3]
     let mut found: Vec<(usize, u8, Vec<u8>)> = tones_of(&colours, &even).par_iter().filter_map(walls_of).collect();
     let most = found.iter().map(|(rooms, ..)| *rooms).max()?;
     found.retain(|(rooms, ..)| *rooms as f64 >= AS_MANY_ROOMS * most as f64);
-    found.into_iter().max_by_key(|&(_, contrast, _)| contrast).map(|(.., walls)| with_windows(walls, &colours, width))
+    let (.., walls) = found.into_iter().max_by_key(|&(_, contrast, _)| contrast)?;
+    Some(with_windows(walls, colours, width))
 }
 
 /// The commonest tones of even pixels, commonest first.
@@ -157,7 +159,7 @@ fn thickness(walls: &[u8], width: usize, share: f64) -> f64 {
 }
 
 /// Makes a strip of glass of each window: what frames or panes bridge between ends of thick walls beside what lies outside.
-fn with_windows(mut walls: Vec<u8>, colours: &[[u8; 3]], width: usize) -> Tops {
+fn with_windows(mut walls: Vec<u8>, colours: Vec<[u8; 3]>, width: usize) -> Tops {
     let is_white = |colour: [u8; 3]| luma(colour) >= WHITE && chroma(colour) <= MOST_CHROMA;
     let height = walls.len() / width;
     let thick_px = thickness(&walls, width, THICK_SHARE);
@@ -166,7 +168,11 @@ fn with_windows(mut walls: Vec<u8>, colours: &[[u8; 3]], width: usize) -> Tops {
     let mut closed = walls.clone();
     let mut gaps: Vec<(usize, Component, Vec<usize>)> = Vec::new();
     for along in [0, 1] {
-        let pieces = Components::of(&bridges(&thick, width, along, longest), width, 1, Neighbours::Four);
+        let mut bridges = vec![0; walls.len()];
+        for (first, step, count) in spaces(&thick, width, along).into_iter().filter(|&(.., count)| count < longest) {
+            (0..count).for_each(|k| bridges[first + k * step] = 1);
+        }
+        let pieces = Components::of(&bridges, width, 1, Neighbours::Four);
         let is_gap = |piece: &&Component| f64::from(piece.size()[1 - along]) <= WIDEST_OF_THICK * thick_px;
         for piece in pieces.all.iter().filter(is_gap) {
             pieces.paint(piece, &mut closed, width, 1);
@@ -179,7 +185,7 @@ fn with_windows(mut walls: Vec<u8>, colours: &[[u8; 3]], width: usize) -> Tops {
     free.all.iter().filter(is_outside).for_each(|piece| free.paint(piece, &mut outside, width, 1));
     let in_walls = thick::grow(&outside, width, (WIDEST_OF_THICK * thick_px) as usize);
     let mut glass: Vec<u8> =
-        in_walls.iter().zip(colours).map(|(near, &colour)| near & u8::from(is_pane(colour))).collect();
+        in_walls.iter().zip(&colours).map(|(near, &colour)| near & u8::from(is_pane(colour))).collect();
     let outside = thick::grow(&outside, width, 2);
     for (along, piece, pixels) in gaps {
         let place = |at: usize, axis: usize| [at % width, at / width][axis] - piece.min[axis] as usize;
@@ -197,24 +203,7 @@ fn with_windows(mut walls: Vec<u8>, colours: &[[u8; 3]], width: usize) -> Tops {
             }
         }
     }
-    Tops { walls, glass }
-}
-
-/// What lies between pixels of a mask in one row or one column, not farther apart than `longest`.
-fn bridges(mask: &[u8], width: usize, along: usize, longest: usize) -> Vec<u8> {
-    let [step, length] = [[1, width], [width, mask.len() / width]][along];
-    let mut found = vec![0; mask.len()];
-    for line in 0..mask.len() / length {
-        let at = |k: usize| line * [width, 1][along] + k * step;
-        let mut last = None;
-        for k in (0..length).filter(|&k| mask[at(k)] != 0) {
-            if let Some(last) = last.filter(|last| k - last <= longest) {
-                (last + 1..k).for_each(|k| found[at(k)] = 1);
-            }
-            last = Some(k);
-        }
-    }
-    found
+    Tops { colours, walls, glass }
 }
 
 /// The pixels of each place that walls part from others but for doors and windows, as wide as there are most places.

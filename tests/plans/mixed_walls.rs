@@ -11,9 +11,9 @@ use super::canvas::{Canvas, Point, Polygon, arc, ellipse, line, lines, outline, 
 pub const PX_PER_M: f64 = 48.0;
 const STROKE_M: f64 = 0.04;
 /// Thickness of outer walls and of partitions.
-const OUTER_M: f64 = 0.3;
-const PARTITION_M: f64 = 0.12;
-const SIZE_M: Point = [12.0, 8.0];
+pub const OUTER_M: f64 = 0.3;
+pub const PARTITION_M: f64 = 0.12;
+pub const SIZE_M: Point = [12.0, 8.0];
 
 #[derive(Clone, Copy, Debug)]
 pub enum Fill {
@@ -24,7 +24,7 @@ pub enum Fill {
 }
 
 /// A wall from place to place.
-fn wall([a, b]: [Point; 2], thick: f64) -> Polygon {
+pub fn wall([a, b]: [Point; 2], thick: f64) -> Polygon {
     let half = thick * 0.5;
     rectangle(a.map(|v| v - half), b.map(|v| v + half))
 }

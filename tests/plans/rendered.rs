@@ -3,11 +3,9 @@
 use trodden::math::SplitMix64;
 
 use super::canvas::{Canvas, Point, Polygon, line, outline, rectangle};
+use super::mixed_walls::{OUTER_M, PARTITION_M, SIZE_M, wall};
 
 const PX_PER_M: f64 = 90.0;
-const OUTER_M: f64 = 0.3;
-const PARTITION_M: f64 = 0.12;
-const SIZE_M: Point = [12.0, 8.0];
 
 /// Corners and colours of beds, tables and a shelf.
 const FURNITURE: [(Point, Point, [u8; 3]); 5] = [
@@ -39,12 +37,11 @@ impl Tops {
     }
 }
 
-/// Walls from place to place without the doors in them, and these doors.
-fn walls() -> (Vec<Polygon>, Vec<[Point; 2]>) {
+/// Walls from place to place without the doors in them, and the hinges of these doors.
+fn walls() -> (Vec<Polygon>, [Point; 6]) {
     let [w, h] = SIZE_M;
-    let wall = |a: Point, b: Point, thick: f64| rectangle(a.map(|v| v - 0.5 * thick), b.map(|v| v + 0.5 * thick));
-    let part = |a: Point, b: Point| wall(a, b, PARTITION_M);
-    let outer = |a: Point, b: Point| wall(a, b, OUTER_M);
+    let part = |a: Point, b: Point| wall([a, b], PARTITION_M);
+    let outer = |a: Point, b: Point| wall([a, b], OUTER_M);
     let walls = vec![
         outer([0.0, 0.0], [5.35, 0.0]),
         outer([6.65, 0.0], [w, 0.0]),
@@ -60,20 +57,13 @@ fn walls() -> (Vec<Polygon>, Vec<[Point; 2]>) {
         part([0.0, 4.0], [6.45, 4.0]),
         part([7.45, 4.0], [w, 4.0]),
     ];
-    let doors = vec![
-        [[5.55, 0.0], [6.45, 0.0]],
-        [[4.0, 2.5], [4.0, 3.3]],
-        [[4.0, 5.7], [4.0, 6.5]],
-        [[8.0, 2.5], [8.0, 3.3]],
-        [[8.0, 5.7], [8.0, 6.5]],
-        [[6.55, 4.0], [7.35, 4.0]],
-    ];
-    (walls, doors)
+    let hinges = [[5.55, 0.0], [4.0, 2.5], [4.0, 5.7], [8.0, 2.5], [8.0, 5.7], [6.55, 4.0]];
+    (walls, hinges)
 }
 
 /// Six rooms of 4 x 4 m on planks, carpet and tiles.
 fn six_rooms(tops: Tops) -> Canvas {
-    let (ground, wall) = tops.colours();
+    let (ground, tone) = tops.colours();
     let mut canvas = Canvas::new([14.0, 10.0], [-1.0, -1.0], PX_PER_M, 0.0, ground);
     let mut rng = SplitMix64::new(11);
     let tinted = |colour: [f64; 3], by: f64| colour.map(|v| (v + by).clamp(0.0, 255.0) as u8);
@@ -103,21 +93,21 @@ fn six_rooms(tops: Tops) -> Canvas {
         canvas.fill(&[rectangle(min, max)], colour);
         canvas.fill(&outline(&rectangle(min.map(|v| v + 0.1), max.map(|v| v - 0.1)), 0.02), colour.map(|v| v / 2 + 40));
     }
-    let (walls, doors) = walls();
+    let (walls, hinges) = walls();
     if matches!(tops, Tops::White) {
         let side =
             |by: f64| walls.iter().map(|wall| wall.iter().map(|p| p.map(|v| v + by)).collect()).collect::<Vec<_>>();
         canvas.fill(&side(0.12), [96, 97, 102]);
         canvas.fill(&side(0.06), [96, 97, 102]);
     }
-    canvas.fill(&walls, wall);
+    canvas.fill(&walls, tone);
     for wall in &walls {
         canvas.fill(&outline(wall, 0.015), [150, 150, 150]);
     }
     // Corners have no outlines.
     let inner: Vec<Polygon> =
         walls.iter().map(|wall| rectangle(wall[0].map(|v| v + 0.02), wall[2].map(|v| v - 0.02))).collect();
-    canvas.fill(&inner, wall);
+    canvas.fill(&inner, tone);
     let [_, h] = SIZE_M;
     for (x, y) in [(1.0, 0.0), (9.2, 0.0), (1.0, h), (5.2, h), (9.2, h)] {
         let [min, max] = [[x, y - 0.5 * OUTER_M], [x + 1.6, y + 0.5 * OUTER_M]];
@@ -127,7 +117,7 @@ fn six_rooms(tops: Tops) -> Canvas {
         }
         canvas.fill(&[0, 1].map(|k| line([x, [min, max][k][1]], [x + 1.6, [min, max][k][1]], 0.015)), [150, 160, 170]);
     }
-    for [hinge, _] in doors {
+    for hinge in hinges {
         let tip = [hinge[0] + 0.3, hinge[1] + 0.75];
         canvas.fill(&[line(hinge, tip, 0.04)], [112, 74, 42]);
     }
