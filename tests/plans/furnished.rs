@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use trodden::plan::{FloorPlan, PlanClass};
 use trodden::walls::Walls;
 
-use super::canvas::{Canvas, Point, Polygon, arc, ellipse, line, lines, outline, rectangle};
+use super::canvas::{Canvas, Point, Polygon, arc, ellipse, line, lines, outline, rectangle, text};
 
 const PX_PER_M: f64 = 50.0;
 const FINE_M: f64 = 0.03;
@@ -116,4 +116,44 @@ fn doors_in_straight_walls_are_straight() {
         let off = dx.min(dy);
         assert!(off < 0.5 * plan.metres_per_pixel, "{door:?} is {off} m askew");
     }
+}
+
+/// Tags before doors and in rooms were seats that closed the doors; rows of chairs under the edge of a table were stairs; windows
+/// with a narrow pier between them were an entrance with sliding doors.
+#[test]
+fn tags_chairs_under_a_table_and_windows_between_piers() {
+    let mut canvas = rooms([0; 3]);
+    let tag = |canvas: &mut Canvas, words: &str, middle: Point, is_round: bool| {
+        let half = [0.33, 0.16];
+        let [x, y] = middle;
+        let ends = [(x + half[0] - half[1], -0.5 * PI), (x - half[0] + half[1], 0.5 * PI)];
+        let round = ends.map(|(x, from)| arc([x, y], half[1], from, from + PI)).concat();
+        let square = rectangle([x - half[0], y - half[1]], [x + half[0], y + half[1]]);
+        canvas.fill(&outline(if is_round { &round } else { &square }, 0.02), [0; 3]);
+        canvas.fill(&text(words, middle, 0.16, 0.02), [0; 3]);
+    };
+    for (words, middle) in [("D01", [1.2, 0.5]), ("D02", [5.42, 3.9]), ("D13", [9.58, 3.9]), ("D24", [1.2, -0.5])] {
+        tag(&mut canvas, words, middle, true);
+    }
+    for (words, middle) in [("101", [2.5, 2.5]), ("102", [7.5, 2.5]), ("103", [12.5, 1.0]), ("104", [9.0, 1.0])] {
+        tag(&mut canvas, words, middle, false);
+    }
+    canvas.fill(&outline(&rectangle([11.0, 2.4], [14.2, 3.6]), FINE_M), [0; 3]);
+    for (x, y) in [11.3, 12.0, 12.7, 13.4].into_iter().flat_map(|x| [(x, 2.1), (x, 3.45)]) {
+        canvas.fill(&outline(&rectangle([x, y], [x + 0.44, y + 0.45]), FINE_M), [0; 3]);
+    }
+    canvas.fill(&[rectangle([10.2, 5.85], [14.8, 6.15])], [0; 3]);
+    for x in [10.7, 12.1, 13.5] {
+        canvas.window([x, 5.85], [x + 1.2, 6.15], FINE_M);
+    }
+    let plan = canvas.read(None);
+    assert_eq!(plan.doors.len(), 3, "doors");
+    assert!(plan.windows.len() >= 3, "{} windows", plan.windows.len());
+    assert_eq!(faces(&plan), [1, 8, 1, 0], "walls, seats, tables, counters");
+    for [x, y] in [[1.2, 0.5], [5.42, 3.9], [9.58, 3.9], [2.5, 2.5], [7.5, 2.5], [12.5, 1.0], [9.0, 1.0]] {
+        let free = canvas.floor_in(&plan, [[x - 0.4, y - 0.2], [x + 0.4, y + 0.2]]);
+        assert!(free > 0.99, "{free} of the floor at {x}, {y} is free");
+    }
+    let stairs = plan.classes.iter().filter(|class| **class == PlanClass::Stairs).count();
+    assert_eq!(stairs, 0, "pixels of stairs");
 }

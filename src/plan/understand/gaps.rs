@@ -374,6 +374,8 @@ fn met_by_walls(mut wall: Vec<u8>, ink: &[u8], limits: &Limits, frame: Frame, pl
         // A piece too short for a gap of its own would let the room out.
         gap.strokes >= 2 && pieces.iter().all(|piece| piece.strokes >= 2) && known < gap.length()
     });
+    // Panes between piers are no leaves.
+    found.iter_mut().for_each(|gap| gap.slides = false);
     found
 }
 

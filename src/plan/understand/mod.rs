@@ -16,6 +16,7 @@ mod net;
 mod partitions;
 mod pieces;
 mod rooms;
+mod tags;
 
 use std::cell::Cell;
 
@@ -227,10 +228,11 @@ fn ink_and_net(drawing: &Drawing, metres_per_pixel: f64) -> Option<(Vec<u8>, Net
         let is_thin = is_on(&coloured, at) || is_on(&panes, at);
         u8::from(drawing.dark[at] != 0 || drawing.lightness[at] < FAINT || is_thin)
     };
-    let ink: Vec<u8> = (0..pixels).map(is_ink).collect();
+    let mut ink: Vec<u8> = (0..pixels).map(is_ink).collect();
     let faint = thick::strokes(&drawing.faint_strokes(), drawing.width, STROKE_M / metres_per_pixel);
     let mut all_ink = ink.clone();
     all_ink.iter_mut().zip(faint).for_each(|(ink, faint)| *ink |= faint);
+    tags::drop([&mut ink, &mut all_ink], drawing.width, metres_per_pixel);
     let net = find_net(drawing, [&ink, &all_ink], Colours { panes: &panes, bars: &bars }, metres_per_pixel)?;
     Some((all_ink, net))
 }

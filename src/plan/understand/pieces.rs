@@ -194,8 +194,17 @@ pub(super) fn furniture(
             DESK_DEPTH_M.contains(&w.min(h)) && DESK_LENGTH_M.contains(&w.max(h)) && w.max(h) >= DESK_SLENDER * w.min(h)
         };
         let alike = |a: &&&Component| parts.iter().filter(|b| is_alike(a, b)).count();
-        let most_alike =
-            |least_m: f64| parts.iter().filter(|p| is_tread(p, least_m)).map(|p| alike(&p)).max().unwrap_or(0);
+        // Treads follow each other; chairs stand along both sides of a table.
+        let follows = |a: &Component, b: &Component| {
+            let along = usize::from(a.size()[1] > a.size()[0]);
+            let apart = |axis: usize| apart([a.min[axis], a.end[axis]], [b.min[axis], b.end[axis]]);
+            a != b && apart(along) == 0 && apart(1 - along) <= 2 * stroke as u32 && is_alike(a, b)
+        };
+        let most_alike = |least_m: f64| {
+            let treads = parts.iter().filter(|p| is_tread(p, least_m));
+            let treads = treads.filter(|a| parts.iter().any(|b| follows(a, b)));
+            treads.map(|p| alike(&p)).max().unwrap_or(0)
+        };
         let at_wall = at_wall(&what, width, &objects, object, stroke + 1);
         let mut piece = Evidence {
             around: object.around(),
@@ -387,7 +396,7 @@ fn leave_out_words(what: &mut [u8], width: usize, metres_per_pixel: f64) {
 
 /// Whether letters stand side by side on a line of any direction. The seat and the back of a chair, or chairs on both sides of
 /// a table, do not.
-fn are_in_line(word: &[&Component], tallest: f64) -> bool {
+pub(super) fn are_in_line(word: &[&Component], tallest: f64) -> bool {
     /// How far the middles of letters are off a line at most, and how far apart along it at least, in the tallest one.
     const OFF: f64 = 0.35;
     const APART: f64 = 0.18;
@@ -412,7 +421,7 @@ fn are_in_line(word: &[&Component], tallest: f64) -> bool {
 }
 
 /// Whether a stroke encloses a field.
-fn encloses(pieces: &Components, piece: &Component) -> bool {
+pub(super) fn encloses(pieces: &Components, piece: &Component) -> bool {
     let [w, h] = piece.size().map(|side| side as usize + 2);
     let mut free = vec![1u8; w * h];
     for run in pieces.runs(piece) {
